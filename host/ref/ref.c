@@ -1,0 +1,85 @@
+/* The reference engine from scene to picture. */
+#include "ref_internal.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_SIDE 16384 /* of picture and atlas: products of two sides fit every size_t and int64_t */
+#define MIN_TILE 8     /* A2 */
+
+static const char *check_limits(const scene *s, const ref_options *options)
+{
+    const int atlas = options->atlas_size;
+    if (options->width < 1 || options->height < 1 || options->width > MAX_SIDE || options->height > MAX_SIDE)
+        return "picture size out of range 1 to 16384";
+    if (atlas < 2 * MIN_TILE || atlas > MAX_SIDE || (atlas & (atlas - 1)) != 0)
+        return "atlas size is not a power of two from 16 to 16384";
+    if (s->n_lights > REF_MAX_LIGHTS) return "more than 8 lights";
+    return NULL;
+}
+
+static bool allocate(ref_frame *frame)
+{
+    ref_picture *p = frame->picture;
+    const size_t n = (size_t)p->width * (size_t)p->height;
+    p->rgb = calloc(3 * n, sizeof *p->rgb);
+    p->depth = calloc(n, sizeof *p->depth);
+    p->normal = calloc(3 * n, sizeof *p->normal);
+    p->triangle = calloc(n, sizeof *p->triangle);
+    frame->hits = calloc(n, sizeof *frame->hits);
+    bool ok = p->rgb && p->depth && p->normal && p->triangle && frame->hits;
+    for (size_t l = 0; l < p->n_lights; l++) {
+        p->shadow[l] = calloc(n, sizeof *p->shadow[l]);
+        p->ndotl[l] = calloc(n, sizeof *p->ndotl[l]);
+        ok = ok && p->shadow[l] && p->ndotl[l];
+    }
+    return ok;
+}
+
+static const char *run_stages(ref_frame *frame)
+{
+    const char *fault;
+    if (!allocate(frame)) return "out of memory for the picture";
+    if ((fault = ref_transform_objects(frame)) != NULL) return fault;
+    if ((fault = ref_fit_lights(frame)) != NULL) return fault;
+    if ((fault = ref_render_atlas(frame)) != NULL) return fault;
+    ref_find_surfaces(frame);
+    ref_light_pixels(frame);
+    ref_encode_pixels(frame);
+    return NULL;
+}
+
+int ref_render(ref_picture *out, const scene *s, const ref_options *options, char *error, size_t error_bytes)
+{
+    memset(out, 0, sizeof *out);
+    const char *fault = check_limits(s, options);
+    if (!fault) {
+        out->width = options->width;
+        out->height = options->height;
+        out->n_lights = s->n_lights;
+        ref_frame frame = {.s = s, .options = options, .picture = out};
+        frame.camera = ref_make_camera(&s->camera, options->width, options->height);
+        fault = run_stages(&frame);
+        ref_free_instances(&frame);
+        free(frame.hits);
+    }
+    if (!fault) return 0;
+    ref_free(out);
+    if (error && error_bytes > 0) snprintf(error, error_bytes, "reference engine: %s", fault);
+    return -1;
+}
+
+void ref_free(ref_picture *p)
+{
+    free(p->rgb);
+    free(p->depth);
+    free(p->normal);
+    free(p->triangle);
+    for (size_t l = 0; l < REF_MAX_LIGHTS; l++) {
+        free(p->shadow[l]);
+        free(p->ndotl[l]);
+        free(p->view[l].depth);
+    }
+    memset(p, 0, sizeof *p);
+}

@@ -1,0 +1,100 @@
+/* Surface attributes at the hit points (DESIGN 1.2), light and shadow (DESIGN 1.3, 1.6). */
+#include "ref_internal.h"
+
+typedef struct {
+    const scene_object *object;
+    vec3 world;
+    vec3 interpolated; /* N, turned towards the viewer */
+    vec3 normal;       /* n */
+    vec3 albedo;
+    double view_depth;
+} surface;
+
+static vec3 interpolated_normal(const ref_instance *instance, const uint32_t idx[3], const ref_hit *hit)
+{
+    vec3 n = {0.0, 0.0, 0.0};
+    if (instance->normal)
+        n = vec3_mix(hit->bary, instance->normal[idx[0]], instance->normal[idx[1]], instance->normal[idx[2]]);
+    if (!(vec3_dot(n, n) > 0.0)) { /* no normals, or they cancel: the face's */
+        const vec3 p0 = instance->world[idx[0]];
+        n = vec3_unit(vec3_cross(vec3_sub(instance->world[idx[1]], p0), vec3_sub(instance->world[idx[2]], p0)));
+    }
+    return hit->behind ? vec3_scale(n, -1.0) : n;
+}
+
+static vec3 surface_albedo(const scene_object *object, const scene_mesh *mesh, const uint32_t idx[3], const ref_hit *hit)
+{
+    const vec3 albedo = vec3_load(object->albedo);
+    if (!mesh->rgb) return albedo;
+    const vec3 c = vec3_mix(hit->bary, vec3_load(mesh->rgb + 3 * (size_t)idx[0]), vec3_load(mesh->rgb + 3 * (size_t)idx[1]),
+                            vec3_load(mesh->rgb + 3 * (size_t)idx[2]));
+    return (vec3){albedo.x * c.x, albedo.y * c.y, albedo.z * c.z};
+}
+
+static surface surface_at(const ref_frame *frame, size_t pixel)
+{
+    const int64_t id = frame->picture->triangle[pixel];
+    const size_t o = (size_t)(id >> 32), triangle = (size_t)(id & 0xffffffff);
+    const scene_object *object = &frame->s->objects[o];
+    const scene_mesh *mesh = &frame->s->meshes[object->mesh_idx];
+    const ref_instance *instance = &frame->instances[o];
+    const ref_hit *hit = &frame->hits[pixel];
+    const uint32_t *idx = mesh->idx + 3 * triangle;
+    const vec3 n = interpolated_normal(instance, idx, hit);
+    return (surface){
+        .object = object,
+        .world = vec3_mix(hit->bary, instance->world[idx[0]], instance->world[idx[1]], instance->world[idx[2]]),
+        .interpolated = n,
+        .normal = vec3_unit(n),
+        .albedo = surface_albedo(object, mesh, idx, hit),
+        .view_depth = frame->picture->depth[pixel],
+    };
+}
+
+/* g of DESIGN 1.3 (D5) */
+static double distance_strength(const scene_shadow *shadow, double view_depth)
+{
+    return clamp((1.0 - view_depth / shadow->max_distance) / fmax(shadow->distance_fade, 0.001), 0.0, 1.0);
+}
+
+/* shadow_l of DESIGN 1.3 for a surface that faces the light. */
+static double shadow_factor(const ref_frame *frame, const surface *at, size_t l)
+{
+    const ref_light_view *view = &frame->picture->view[l];
+    const scene_light *light = &frame->s->lights[l];
+    const scene_shadow *shadow = &frame->s->shadow;
+    const double strength = light->strength * distance_strength(shadow, at->view_depth);
+    if (!view->active || !at->object->receives || at->object->unlit || !(strength > 0.0)) return 1.0;
+    const double offset = light->bias_normal * sqrt(2.0) * (ref_filter_index(shadow->filter) + 1) * view->texel;
+    const vec3 p = ref_to_light(view, vec3_add(at->world, vec3_scale(at->interpolated, offset)));
+    return 1.0 + strength * (ref_attenuation(view, shadow->filter, p.x, p.y, p.z) - 1.0);
+}
+
+static vec3 light_surface(ref_frame *frame, const surface *at, size_t pixel)
+{
+    vec3 irradiance = vec3_load(frame->s->ambient);
+    for (size_t l = 0; l < frame->s->n_lights; l++) {
+        const scene_light *light = &frame->s->lights[l];
+        const double ndotl = -vec3_dot(at->normal, vec3_load(light->direction));
+        const double shadow = ndotl > 0.0 ? shadow_factor(frame, at, l) : 0.0;
+        frame->picture->ndotl[l][pixel] = ndotl;
+        frame->picture->shadow[l][pixel] = shadow;
+        irradiance = vec3_add(irradiance, vec3_scale(vec3_load(light->colour), fmax(0.0, ndotl) * shadow));
+    }
+    if (at->object->unlit) return at->albedo;
+    return (vec3){at->albedo.x * irradiance.x, at->albedo.y * irradiance.y, at->albedo.z * irradiance.z};
+}
+
+void ref_light_pixels(ref_frame *frame)
+{
+    const size_t n_pixels = (size_t)frame->picture->width * (size_t)frame->picture->height;
+    for (size_t i = 0; i < n_pixels; i++) {
+        vec3 radiance = vec3_load(frame->s->background);
+        if (frame->picture->triangle[i] >= 0) {
+            const surface at = surface_at(frame, i);
+            radiance = light_surface(frame, &at, i);
+            vec3_store(frame->picture->normal + 3 * i, at.normal);
+        }
+        vec3_store(frame->picture->rgb + 3 * i, radiance);
+    }
+}

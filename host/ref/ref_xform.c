@@ -1,0 +1,83 @@
+/* Object space to world to view (DESIGN 1.1), normals by the inverse transpose (DESIGN 1.2). */
+#include "ref_internal.h"
+
+#include <stdlib.h>
+
+static vec3 column(const scene_affine *a, int c) { return (vec3){a->m[0][c], a->m[1][c], a->m[2][c]}; }
+
+static vec3 transform_point(const scene_affine *a, vec3 p)
+{
+    return (vec3){a->m[0][0] * p.x + a->m[0][1] * p.y + a->m[0][2] * p.z + a->m[0][3],
+                  a->m[1][0] * p.x + a->m[1][1] * p.y + a->m[1][2] * p.z + a->m[1][3],
+                  a->m[2][0] * p.x + a->m[2][1] * p.y + a->m[2][2] * p.z + a->m[2][3]};
+}
+
+ref_camera ref_make_camera(const scene_camera *camera, int width, int height)
+{
+    return (ref_camera){
+        .position = column(&camera->to_world, 3),
+        .right = column(&camera->to_world, 0),
+        .up = column(&camera->to_world, 1),
+        .forward = vec3_scale(column(&camera->to_world, 2), -1.0),
+        .half_width_px = width / 2.0,
+        .half_height_px = height / 2.0,
+        .focal_px = camera->focal * (height / 2.0),
+        .near = camera->near,
+    };
+}
+
+static vec3 to_view(const ref_camera *camera, vec3 world)
+{
+    const vec3 p = vec3_sub(world, camera->position);
+    return (vec3){vec3_dot(p, camera->right), vec3_dot(p, camera->up), vec3_dot(p, camera->forward)};
+}
+
+/* Inverse transpose = cofactors / determinant. Only the determinant's sign survives the renormalisation, and a flattened object
+ * (determinant 0) keeps the normals of the plane it lies in. */
+static vec3 transform_normal(const scene_affine *a, vec3 n)
+{
+    const vec3 c0 = column(a, 0), c1 = column(a, 1), c2 = column(a, 2);
+    const vec3 k0 = vec3_cross(c1, c2), k1 = vec3_cross(c2, c0), k2 = vec3_cross(c0, c1);
+    const double sign = vec3_dot(c0, k0) < 0.0 ? -1.0 : 1.0;
+    const double f[3] = {sign * n.x, sign * n.y, sign * n.z};
+    return vec3_unit(vec3_mix(f, k0, k1, k2));
+}
+
+static bool transform_object(ref_instance *out, const scene_object *object, const scene_mesh *mesh, const ref_camera *camera)
+{
+    const size_t n = mesh->n_vertices;
+    out->world = calloc(n + 1, sizeof *out->world);
+    out->view = calloc(n + 1, sizeof *out->view);
+    out->normal = mesh->nrm ? calloc(n + 1, sizeof *out->normal) : NULL;
+    if (!out->world || !out->view || (mesh->nrm && !out->normal)) return false;
+    for (size_t i = 0; i < n; i++) {
+        out->world[i] = transform_point(&object->to_world, vec3_load(mesh->pos + 3 * i));
+        out->view[i] = to_view(camera, out->world[i]);
+        if (mesh->nrm) out->normal[i] = transform_normal(&object->to_world, vec3_load(mesh->nrm + 3 * i));
+    }
+    return true;
+}
+
+const char *ref_transform_objects(ref_frame *frame)
+{
+    const scene *s = frame->s;
+    frame->instances = calloc(s->n_objects + 1, sizeof *frame->instances);
+    if (!frame->instances) return "out of memory for the objects";
+    for (size_t i = 0; i < s->n_objects; i++) {
+        const scene_object *object = &s->objects[i];
+        if (!transform_object(&frame->instances[i], object, &s->meshes[object->mesh_idx], &frame->camera))
+            return "out of memory for the transformed vertices";
+    }
+    return NULL;
+}
+
+void ref_free_instances(ref_frame *frame)
+{
+    for (size_t i = 0; frame->instances && i < frame->s->n_objects; i++) {
+        free(frame->instances[i].world);
+        free(frame->instances[i].view);
+        free(frame->instances[i].normal);
+    }
+    free(frame->instances);
+    frame->instances = NULL;
+}

@@ -1,0 +1,176 @@
+/* What a file lacks: ground, camera, light, and the picture's settings. */
+#include "loader.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "vec.h"
+
+static const double camera_azimuth_deg = 30;     /* from +Z towards +X */
+static const double camera_elevation_deg = 25;
+static const double camera_fov_deg = 40;
+static const double camera_fill = 0.7;           /* of the smaller picture dimension */
+static const double light_azimuth_deg = -60;     /* from the camera's: to its left */
+static const double light_elevation_deg = 45;
+static const double light_intensity = 0.85;
+static const double ground_albedo = 0.55;
+static const double ground_half_size_radii = 8;
+static const double shadow_reach_radii = 1.6;    /* beyond the object's centre */
+static const double shadow_fade = 0.1;
+
+/* Of all world vertices: box, and the sphere around the box's centre. */
+typedef struct {
+    double low[3], high[3], centre[3], radius;
+} bounds;
+
+static bool grow_box(loader *l, const scene_object *object, bounds *b)
+{
+    const scene_mesh *mesh = &l->s->meshes[object->mesh_idx];
+    for (size_t i = 0; i < mesh->n_vertices; i++) {
+        double p[3];
+        affine_point(p, &object->to_world, mesh->pos + 3 * i);
+        for (int k = 0; k < 3; k++) {
+            if (!(fabs(p[k]) <= LOADER_MAX_COORDINATE)) {
+                return loader_fail(l, "%s: object '%s', vertex %zu: world coordinate %g is out of range", l->path, object->name, i, p[k]);
+            }
+            b->low[k] = fmin(b->low[k], p[k]);
+            b->high[k] = fmax(b->high[k], p[k]);
+        }
+    }
+    return true;
+}
+
+static void grow_sphere(const scene *s, const scene_object *object, bounds *b)
+{
+    const scene_mesh *mesh = &s->meshes[object->mesh_idx];
+    for (size_t i = 0; i < mesh->n_vertices; i++) {
+        double p[3];
+        affine_point(p, &object->to_world, mesh->pos + 3 * i);
+        vec_sub(p, p, b->centre);
+        b->radius = fmax(b->radius, sqrt(vec_dot(p, p)));
+    }
+}
+
+static bool find_bounds(loader *l, bounds *b)
+{
+    *b = (bounds){ .low = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, .high = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } };
+    for (size_t i = 0; i < l->s->n_objects; i++) {
+        if (!grow_box(l, &l->s->objects[i], b)) return false;
+    }
+    double magnitude = 0;
+    for (int k = 0; k < 3; k++) {
+        b->centre[k] = b->low[k] / 2 + b->high[k] / 2;
+        magnitude = fmax(magnitude, fabs(b->centre[k]));
+    }
+    for (size_t i = 0; i < l->s->n_objects; i++) grow_sphere(l->s, &l->s->objects[i], b);
+    /* A scene that is a single point still needs a camera that stands off it, by more than rounding. */
+    b->radius = fmax(b->radius, 1e-9 * magnitude);
+    if (!(b->radius > 1e-30)) b->radius = 1;
+    return true;
+}
+
+static bool add_ground(loader *l, const bounds *b)
+{
+    double half = ground_half_size_radii * b->radius;
+    double x = b->centre[0], z = b->centre[2];
+    double pos[12] = { x - half, b->low[1], z - half, x - half, b->low[1], z + half,
+                       x + half, b->low[1], z + half, x + half, b->low[1], z - half };
+    uint32_t idx[6] = { 0, 1, 2, 0, 2, 3 };
+    char name[] = "ground";
+    scene_mesh quad = { .name = name, .n_vertices = 4, .n_triangles = 2, .pos = pos, .idx = idx };
+    scene_object object = { .name = name, .to_world = affine_identity(), .receives = true,
+                            .albedo = { ground_albedo, ground_albedo, ground_albedo } };
+    mesh_splitter splitter;
+    size_t first, n_meshes;
+    return mesh_splitter_init(&splitter, l, &quad) && mesh_split(&splitter, name, idx, 2, false, &first, &n_meshes) &&
+           loader_add_objects(l, &object, first, n_meshes);
+}
+
+static void direction_of(double azimuth, double elevation, double *out)
+{
+    out[0] = cos(elevation) * sin(azimuth);
+    out[1] = sin(elevation);
+    out[2] = cos(elevation) * cos(azimuth);
+}
+
+/* Distance from the centre at which every vertex projects into the middle `fill` of the smaller picture dimension. */
+static double fit_distance(const scene *s, const bounds *b, const scene_affine *camera, double focal_over_half)
+{
+    double distance = 1.25 * b->radius; /* at least outside the sphere */
+    for (size_t i = 0; i < s->n_objects; i++) {
+        const scene_mesh *mesh = &s->meshes[s->objects[i].mesh_idx];
+        for (size_t v = 0; v < mesh->n_vertices; v++) {
+            double p[3], axis[3], local[3];
+            affine_point(p, &s->objects[i].to_world, mesh->pos + 3 * v);
+            vec_sub(p, p, b->centre);
+            for (int k = 0; k < 3; k++) {
+                affine_column(axis, camera, k);
+                local[k] = vec_dot(p, axis);
+            }
+            distance = fmax(distance, fmax(fabs(local[0]), fabs(local[1])) * focal_over_half + local[2]);
+        }
+    }
+    return distance;
+}
+
+/* Frames what is there before the ground is added. */
+static void make_camera(loader *l, const bounds *b)
+{
+    scene_camera *camera = &l->s->camera;
+    const scene_options *options = l->options;
+    double azimuth = camera_azimuth_deg * VEC_PI / 180, elevation = camera_elevation_deg * VEC_PI / 180;
+    double right[3] = { cos(azimuth), 0, -sin(azimuth) }, up[3], back[3];
+    direction_of(azimuth, elevation, back);
+    vec_cross(up, back, right);
+    for (int i = 0; i < 3; i++) {
+        camera->to_world.m[i][0] = right[i];
+        camera->to_world.m[i][1] = up[i];
+        camera->to_world.m[i][2] = back[i];
+    }
+    camera->focal = 1 / tan(camera_fov_deg * VEC_PI / 360);
+    double smaller = fmin(options->width, options->height);
+    double distance = fit_distance(l->s, b, &camera->to_world, camera->focal * options->height / (camera_fill * smaller));
+    for (int i = 0; i < 3; i++) camera->to_world.m[i][3] = b->centre[i] + distance * back[i];
+    /* The ground at the bottom of the picture is at least 0.56 distances away: the camera is distance * sin(elevation) or
+     * more above it, and looks down by at most elevation + fov / 2. */
+    camera->far = distance + sqrt(2) * ground_half_size_radii * b->radius;
+    camera->near = fmax(0.5 * (distance - b->radius), camera->far / 1000);
+    l->s->shadow.max_distance = fmax(distance + shadow_reach_radii * b->radius, (distance + b->radius) / (1 - shadow_fade));
+}
+
+/* From the upper left of the camera: what it sees is lit, and the shadow falls to the side. */
+static bool make_light(loader *l)
+{
+    const scene_affine *camera = &l->s->camera.to_world;
+    double back[3], towards[3];
+    affine_column(back, camera, 2);
+    if (hypot(back[0], back[2]) < 1e-9) affine_column(back, camera, 1); /* looking straight up or down */
+    double azimuth = atan2(back[0], back[2]) + light_azimuth_deg * VEC_PI / 180;
+    direction_of(azimuth, light_elevation_deg * VEC_PI / 180, towards);
+    scene_light *light = loader_add_light(l, "default");
+    if (!light) return false;
+    light->shadow = true;
+    light->strength = 1;
+    light->bias_normal = 1;
+    for (int i = 0; i < 3; i++) {
+        light->direction[i] = -towards[i];
+        light->colour[i] = light_intensity;
+    }
+    return true;
+}
+
+bool loader_add_defaults(loader *l)
+{
+    static const double ambient[3] = { 0.18, 0.18, 0.18 }, background[3] = { 0.35, 0.45, 0.6 };
+    scene *s = l->s;
+    bounds b;
+    if (s->n_objects == 0) return loader_fail(l, "%s: the scene has no triangles", l->path);
+    if (!find_bounds(l, &b)) return false;
+    memcpy(s->ambient, ambient, sizeof ambient);
+    memcpy(s->background, background, sizeof background);
+    s->shadow = (scene_shadow){ .max_distance = fmin(100, s->camera.far), .distance_fade = shadow_fade, .cascade_fade = 0.1,
+                                .filter = SCENE_FILTER_3X3 };
+    if (!l->has_camera) make_camera(l, &b);
+    if (s->n_lights == 0 && !make_light(l)) return false;
+    return !l->wants_ground || add_ground(l, &b);
+}

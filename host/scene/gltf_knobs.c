@@ -1,0 +1,142 @@
+/* extras.gnomon in a glTF file: settings of the scene, knobs of lights, mesh nodes and materials. */
+#include "gltf.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_LIST = 64 };
+
+static bool find_knobs(gltf *g, const json_value *owner, const json_value **out)
+{
+    const json_value *extras = json_get(owner, "extras"); /* extras may be of any type; only an object can have ours */
+    *out = NULL;
+    return gltf_get(g, extras, "gnomon", JSON_OBJECT, out);
+}
+
+static bool is_one_of(const char *key, const char *const *keys)
+{
+    for (; *keys; keys++) {
+        if (strcmp(key, *keys) == 0) return true;
+    }
+    return false;
+}
+
+static const char *const light_keys[] = { "shadow", "strength", "bias_constant", "bias_slope", "bias_normal", "near_offset", NULL };
+static const char *const surface_keys[] = { "casts", "receives", "unlit", NULL };
+
+static bool check_keys(gltf *g, const json_value *knobs, bool light, bool surface)
+{
+    for (size_t i = 0; knobs && i < knobs->n_children; i++) {
+        const json_value *knob = knobs->children[i];
+        if (light && is_one_of(knob->key, light_keys)) continue;
+        if (surface && is_one_of(knob->key, surface_keys)) continue;
+        return gltf_fail(g, knob, "unknown knob '%s'%s", knob->key, light || surface ? "" : " (the node has neither a mesh nor a light)");
+    }
+    return true;
+}
+
+bool gltf_check_node_knobs(gltf *g, const json_value *node, bool has_light, bool has_mesh)
+{
+    const json_value *knobs;
+    return find_knobs(g, node, &knobs) && check_keys(g, knobs, has_light, has_mesh);
+}
+
+/* true, false, 1 or 0: editors write booleans either way. */
+static bool get_switch(gltf *g, const json_value *knobs, const char *key, bool *out)
+{
+    const json_value *value = json_get(knobs, key);
+    if (!value) return true;
+    bool is_number = value->type == JSON_NUMBER && (value->number <= 0 || value->number >= 1) && value->number >= 0 && value->number <= 1;
+    if (value->type != JSON_BOOL && !is_number) return gltf_fail(g, value, "true or false is expected");
+    *out = value->number > 0;
+    return true;
+}
+
+static bool get_range(gltf *g, const json_value *knobs, const char *key, double largest, double *out)
+{
+    if (!gltf_get_number(g, knobs, key, out)) return false;
+    const json_value *value = json_get(knobs, key);
+    if (value && !(*out >= 0 && *out <= largest)) return gltf_fail(g, value, "%g is not in 0..%g", *out, largest);
+    return true;
+}
+
+bool gltf_light_knobs(gltf *g, const json_value *owner, scene_light *light)
+{
+    const json_value *k;
+    if (!find_knobs(g, owner, &k)) return false;
+    /* A node may also carry a mesh, and its keys; gltf_check_node_knobs has seen to those. */
+    if (owner->parent != g->nodes && !check_keys(g, k, true, false)) return false;
+    return get_switch(g, k, "shadow", &light->shadow) && get_range(g, k, "strength", 1, &light->strength) &&
+           get_range(g, k, "bias_constant", LOADER_MAX_COORDINATE, &light->bias_constant) &&
+           get_range(g, k, "bias_slope", LOADER_MAX_COORDINATE, &light->bias_slope) &&
+           get_range(g, k, "bias_normal", LOADER_MAX_COORDINATE, &light->bias_normal) &&
+           get_range(g, k, "near_offset", LOADER_MAX_COORDINATE, &light->near_offset);
+}
+
+bool gltf_material_knobs(gltf *g, const json_value *owner, gltf_material *material)
+{
+    const json_value *k;
+    if (!find_knobs(g, owner, &k)) return false;
+    if (owner->parent != g->nodes && !check_keys(g, k, false, true)) return false;
+    return get_switch(g, k, "casts", &material->casts) && get_switch(g, k, "receives", &material->receives) &&
+           get_switch(g, k, "unlit", &material->unlit);
+}
+
+/* The shortest form that reads back as the same number. */
+static void format_number(char *out, size_t out_bytes, double number)
+{
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(out, out_bytes, "%.*g", digits, number);
+        double back = strtod(out, NULL);
+        if (!(back < number || back > number)) return;
+    }
+}
+
+/* NULL: failed. */
+static const char *scalar_text(gltf *g, const json_value *value)
+{
+    char number[32];
+    switch (value->type) {
+    case JSON_BOOL: return value->number > 0 ? "1" : "0";
+    case JSON_STRING: return value->string;
+    case JSON_NUMBER:
+        format_number(number, sizeof number, value->number);
+        return loader_format(g->l, "%s", number);
+    default:
+        gltf_fail(g, value, "a number, boolean, string or array of these is expected");
+        return NULL;
+    }
+}
+
+static const char *setting_text(gltf *g, const json_value *value)
+{
+    if (value->type != JSON_ARRAY) return scalar_text(g, value);
+    if (value->n_children > MAX_LIST) {
+        gltf_fail(g, value, "at most %d elements are expected", MAX_LIST);
+        return NULL;
+    }
+    const char *joined = "";
+    for (size_t i = 0; joined && i < value->n_children; i++) {
+        const char *text = scalar_text(g, value->children[i]);
+        joined = text ? loader_format(g->l, "%s%s%s", joined, i ? "," : "", text) : NULL;
+    }
+    return joined;
+}
+
+bool gltf_scene_knobs(gltf *g, const json_value *used_scene)
+{
+    const json_value *knobs;
+    if (!find_knobs(g, used_scene, &knobs)) return false;
+    for (size_t i = 0; knobs && i < knobs->n_children; i++) {
+        const json_value *knob = knobs->children[i];
+        if (strcmp(knob->key, "fps") == 0) {
+            if (!gltf_get_number(g, knobs, "fps", &g->fps)) return false;
+            if (!(g->fps > 0)) return gltf_fail(g, knob, "fps must be positive");
+            continue;
+        }
+        const char *text = setting_text(g, knob);
+        if (!text || !loader_add_setting(g->l, knob->key, text)) return false;
+    }
+    return true;
+}

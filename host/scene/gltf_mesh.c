@@ -1,0 +1,192 @@
+/* glTF primitives -> scene meshes, and mesh nodes -> scene objects.
+ *
+ * Nodes that instance a mesh share its scene meshes, one per primitive (more if it is too large for 16-bit indices). glTF
+ * reverses the winding where a node's transform mirrors (negative determinant). The engines cull by the winding on the
+ * screen, after the transform, and know nothing of determinants: so a mirroring instance gets a copy of the mesh whose index
+ * order is reversed beforehand. Vertex normals need nothing: the inverse transpose keeps them outward. */
+#include "gltf.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "vec.h"
+
+enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
+
+/* Reads attribute `name` if the primitive has it; what other sizes than n_vertices mean is an error (0: any). */
+static bool read_attribute(gltf *g, const json_value *attributes, const char *name, size_t n_vertices, gltf_array *out)
+{
+    size_t accessor = GLTF_NONE;
+    *out = (gltf_array){ 0 };
+    if (!gltf_get_ref(g, attributes, name, g->accessors, &accessor)) return false;
+    if (accessor == GLTF_NONE) return true;
+    if (!gltf_read_accessor(g, accessor, out)) return false;
+    if (n_vertices != 0 && out->count != n_vertices) {
+        return gltf_fail(g, json_get(attributes, name), "%zu elements, but POSITION has %zu", out->count, n_vertices);
+    }
+    return true;
+}
+
+static bool is_float_or_normalized(const gltf_array *a)
+{
+    return a->component_type == GLTF_FLOAT || a->normalized;
+}
+
+static bool read_position(gltf *g, const json_value *attributes, scene_mesh *out)
+{
+    gltf_array a;
+    if (!read_attribute(g, attributes, "POSITION", 0, &a)) return false;
+    const json_value *where = json_get(attributes, "POSITION");
+    if (a.n_components != 3 || a.component_type == GLTF_UINT) return gltf_fail(g, where, "VEC3 of float, byte or short is expected");
+    for (size_t i = 0; i < 3 * a.count; i++) {
+        if (fabs(a.values[i]) > LOADER_MAX_COORDINATE) return gltf_fail(g, where, "vertex %zu: coordinate %g is out of range", i / 3, a.values[i]);
+    }
+    out->n_vertices = a.count;
+    out->pos = a.values;
+    return true;
+}
+
+static bool read_normal(gltf *g, const json_value *attributes, scene_mesh *out)
+{
+    gltf_array a;
+    if (!read_attribute(g, attributes, "NORMAL", out->n_vertices, &a)) return false;
+    if (a.values && (a.n_components != 3 || !is_float_or_normalized(&a))) {
+        return gltf_fail(g, json_get(attributes, "NORMAL"), "VEC3 of float or normalized integers is expected");
+    }
+    out->nrm = a.values;
+    return true;
+}
+
+static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out)
+{
+    gltf_array a;
+    if (!read_attribute(g, attributes, "COLOR_0", out->n_vertices, &a)) return false;
+    if (!a.values) return true;
+    if (a.n_components < 3 || !is_float_or_normalized(&a)) {
+        return gltf_fail(g, json_get(attributes, "COLOR_0"), "VEC3 or VEC4 of float or normalized integers is expected");
+    }
+    out->rgb = a.values;
+    for (size_t i = 1; a.n_components == 4 && i < a.count; i++) memmove(a.values + 3 * i, a.values + 4 * i, 3 * sizeof *a.values);
+    if (loader_clamp_colour(out->rgb, 3 * a.count)) return true;
+    return loader_note(g->l, "vertex colours of '%s' outside 0..1 are clamped", out->name);
+}
+
+/* The list of vertices that the mode walks over: the indices, or 0, 1, 2 ... */
+static bool read_indices(gltf *g, const json_value *primitive, size_t n_vertices, uint32_t **out, size_t *n)
+{
+    size_t accessor = GLTF_NONE;
+    gltf_array a = { .count = n_vertices };
+    const json_value *where = json_get(primitive, "indices");
+    if (!gltf_get_ref(g, primitive, "indices", g->accessors, &accessor)) return false;
+    if (where && !gltf_read_accessor(g, accessor, &a)) return false;
+    bool is_index = a.component_type == GLTF_UBYTE || a.component_type == GLTF_USHORT || a.component_type == GLTF_UINT;
+    if (where && (a.n_components != 1 || a.normalized || !is_index)) return gltf_fail(g, where, "SCALAR of unsigned integers is expected");
+    *n = a.count;
+    *out = loader_alloc(g->l, a.count, sizeof **out);
+    if (!*out) return false;
+    for (size_t i = 0; i < a.count; i++) {
+        double index = where ? a.values[i] : (double)i;
+        if (index >= (double)n_vertices) return gltf_fail(g, where, "index %zu is %.0f, there are %zu vertices", i, index, n_vertices);
+        (*out)[i] = (uint32_t)index;
+    }
+    return true;
+}
+
+/* Corner k of triangle i among the walked vertices. Strips: every other triangle is turned round, so all wind alike. */
+static size_t corner_of(size_t mode, size_t i, size_t k)
+{
+    if (mode == MODE_TRIANGLES) return 3 * i + k;
+    if (mode == MODE_FAN) return k == 0 ? 0 : i + k;
+    return k == 0 ? i : i + (i % 2 == 0 ? k : 3 - k);
+}
+
+static bool assemble(gltf *g, const json_value *primitive, size_t mode, scene_mesh *out)
+{
+    uint32_t *walk = NULL;
+    size_t n = 0;
+    if (!read_indices(g, primitive, out->n_vertices, &walk, &n)) return false;
+    out->n_triangles = mode == MODE_TRIANGLES ? n / 3 : n < 3 ? 0 : n - 2;
+    if (mode == MODE_TRIANGLES && n % 3 != 0 && !loader_note(g->l, "the last %zu corners of '%s' make no triangle", n % 3, out->name)) return false;
+    out->idx = loader_alloc(g->l, out->n_triangles, 3 * sizeof *out->idx);
+    if (!out->idx) return false;
+    for (size_t i = 0; i < out->n_triangles; i++) {
+        for (size_t k = 0; k < 3; k++) out->idx[3 * i + k] = walk[corner_of(mode, i, k)];
+    }
+    return true;
+}
+
+/* n_triangles stays 0 for what is skipped, with a note. */
+bool gltf_read_primitive(gltf *g, const json_value *primitive, const char *name, scene_mesh *out)
+{
+    const json_value *attributes = NULL;
+    size_t mode = MODE_TRIANGLES;
+    *out = (scene_mesh){ .name = loader_format(g->l, "%s", name) };
+    if (!out->name) return false;
+    if (!gltf_get_size(g, primitive, "mode", &mode) || !gltf_get(g, primitive, "attributes", JSON_OBJECT, &attributes)) return false;
+    if (!attributes) return gltf_fail(g, primitive, "attributes is missing");
+    if (mode > MODE_FAN) return gltf_fail(g, json_get(primitive, "mode"), "mode %zu is unknown", mode);
+    if (mode < MODE_TRIANGLES) return loader_note(g->l, "points and lines of mesh '%s' ignored: only triangles are drawn", name);
+    if (!json_get(attributes, "POSITION")) return loader_note(g->l, "primitive of mesh '%s' ignored: it has no POSITION", name);
+    if (json_get(primitive, "targets") && !loader_note(g->l, "morph targets of mesh '%s' ignored: they are not supported", name)) return false;
+    return read_position(g, attributes, out) && read_normal(g, attributes, out) && read_colour(g, attributes, out) &&
+           assemble(g, primitive, mode, out) && (out->n_triangles == 0 || mesh_prepare_normals(g->l, out));
+}
+
+static bool load_primitive(gltf *g, const json_value *json, const char *name, bool flip, gltf_primitive *out)
+{
+    scene_mesh mesh;
+    mesh_splitter splitter;
+    if (out->loaded[flip]) return true;
+    out->loaded[flip] = true;
+    arena_block *mark = g->l->memory.blocks;
+    bool ok = gltf_read_primitive(g, json, name, &mesh);
+    if (ok && mesh.n_triangles > 0) {
+        ok = mesh_splitter_init(&splitter, g->l, &mesh) &&
+             mesh_split(&splitter, name, mesh.idx, mesh.n_triangles, flip, &out->first_mesh[flip], &out->n_meshes[flip]);
+    }
+    arena_release(&g->l->memory, mark); /* many primitives may share one large vertex buffer */
+    return ok;
+}
+
+static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *json, const char *mesh_name, gltf_primitive *primitive)
+{
+    bool flip = affine_mirrors(&node->world);
+    gltf_material material;
+    if (!load_primitive(g, json, mesh_name, flip, primitive)) return false;
+    if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
+    if (!gltf_read_material(g, json, &material) || !gltf_material_knobs(g, node->json, &material)) return false;
+    scene_object object = { .to_world = node->world, .unlit = material.unlit, .two_sided = material.two_sided,
+                            .casts = material.casts, .receives = material.receives };
+    memcpy(object.albedo, material.albedo, sizeof object.albedo);
+    const char *name = gltf_name(g, node->json, "node");
+    object.name = name ? loader_format(g->l, "%s", name) : NULL;
+    return object.name && loader_add_objects(g->l, &object, primitive->first_mesh[flip], primitive->n_meshes[flip]);
+}
+
+static bool mesh_primitives(gltf *g, size_t mesh_idx, const json_value **out)
+{
+    const json_value *mesh = g->meshes->children[mesh_idx];
+    if (!gltf_get(g, mesh, "primitives", JSON_ARRAY, out)) return false;
+    if (!*out || (*out)->n_children == 0) return gltf_fail(g, mesh, "primitives are missing");
+    if (g->primitive[mesh_idx]) return true;
+    g->primitive[mesh_idx] = loader_alloc(g->l, (*out)->n_children, sizeof **g->primitive);
+    return g->primitive[mesh_idx] != NULL;
+}
+
+bool gltf_emit_mesh(gltf *g, size_t node_idx)
+{
+    const gltf_node *node = &g->node[node_idx];
+    const json_value *primitives = NULL;
+    size_t mesh_idx = GLTF_NONE;
+    if (!gltf_get_ref(g, node->json, "mesh", g->meshes, &mesh_idx)) return false;
+    if (mesh_idx == GLTF_NONE) return true;
+    const char *name = gltf_name(g, g->meshes->children[mesh_idx], "mesh");
+    if (!name || !mesh_primitives(g, mesh_idx, &primitives)) return false;
+    if (json_get(node->json, "skin") && !loader_note(g->l, "skin of mesh '%s' ignored: it is shown in its rest pose", name)) return false;
+    for (size_t i = 0; i < primitives->n_children; i++) {
+        const json_value *json = primitives->children[i];
+        if (json->type != JSON_OBJECT) return gltf_fail(g, json, "an object is expected");
+        if (!emit_primitive(g, node, json, name, &g->primitive[mesh_idx][i])) return false;
+    }
+    return true;
+}

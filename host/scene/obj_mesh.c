@@ -1,0 +1,130 @@
+/* OBJ corners -> vertices -> meshes. */
+#include "obj.h"
+
+#include <string.h>
+
+#include "vec.h"
+
+/* Corners with the same position and normal share a vertex. In a file that has normals, a corner without one takes its face's,
+ * and shares with nobody: key vn is then OBJ_NO_NORMAL and tag tells the triangle. */
+typedef struct {
+    uint32_t v, vn, tag;
+    uint32_t vertex_idx;
+    bool used;
+} vertex_slot;
+
+typedef struct {
+    const obj_file *o;
+    scene_mesh mesh;
+    vertex_slot *slot;      /* open addressing, a power of two, at most half full */
+    size_t n_slots;
+} vertex_table;
+
+static bool table_init(vertex_table *table, const obj_file *o)
+{
+    size_t n_corners = 3 * o->n_triangles;
+    *table = (vertex_table){ .o = o, .n_slots = 16 };
+    while (table->n_slots < 2 * n_corners) table->n_slots *= 2;
+    table->slot = loader_alloc(o->l, table->n_slots, sizeof *table->slot);
+    table->mesh.name = loader_format(o->l, "%s", o->l->path);
+    table->mesh.n_triangles = o->n_triangles;
+    table->mesh.idx = loader_alloc(o->l, n_corners, sizeof *table->mesh.idx);
+    table->mesh.pos = loader_alloc(o->l, n_corners, 3 * sizeof *table->mesh.pos);
+    if (o->has_vn) table->mesh.nrm = loader_alloc(o->l, n_corners, 3 * sizeof *table->mesh.nrm);
+    if (o->has_rgb) table->mesh.rgb = loader_alloc(o->l, n_corners, 3 * sizeof *table->mesh.rgb);
+    return table->slot && table->mesh.name && table->mesh.idx && table->mesh.pos && (!o->has_vn || table->mesh.nrm) &&
+           (!o->has_rgb || table->mesh.rgb);
+}
+
+static vertex_slot *find_slot(vertex_table *table, uint32_t v, uint32_t vn, uint32_t tag)
+{
+    uint64_t hash = (v * UINT64_C(0x9E3779B97F4A7C15)) ^ (vn * UINT64_C(0xC2B2AE3D27D4EB4F)) ^ (tag * UINT64_C(0x165667B19E3779F9));
+    for (size_t at = (size_t)(hash >> 20);; at++) {
+        vertex_slot *slot = &table->slot[at & (table->n_slots - 1)];
+        if (!slot->used || (slot->v == v && slot->vn == vn && slot->tag == tag)) return slot;
+    }
+}
+
+static void corner_face_normal(const obj_file *o, size_t triangle, double *normal)
+{
+    const obj_corner *c = o->corner + 3 * triangle;
+    double u[3], v[3];
+    vec_sub(u, o->v + 3 * (size_t)c[1].v, o->v + 3 * (size_t)c[0].v);
+    vec_sub(v, o->v + 3 * (size_t)c[2].v, o->v + 3 * (size_t)c[0].v);
+    vec_normalise(u);
+    vec_normalise(v);
+    vec_cross(normal, u, v);
+    if (!vec_normalise(normal)) memcpy(normal, (const double[3]){ 0, 1, 0 }, 3 * sizeof *normal);
+}
+
+static void add_vertex(vertex_table *table, const obj_corner *corner, size_t triangle)
+{
+    const obj_file *o = table->o;
+    scene_mesh *mesh = &table->mesh;
+    size_t i = mesh->n_vertices++;
+    memcpy(mesh->pos + 3 * i, o->v + 3 * (size_t)corner->v, 3 * sizeof *mesh->pos);
+    if (mesh->rgb) memcpy(mesh->rgb + 3 * i, o->rgb + 3 * (size_t)corner->v, 3 * sizeof *mesh->rgb);
+    if (!mesh->nrm) return;
+    if (corner->vn == OBJ_NO_NORMAL) corner_face_normal(o, triangle, mesh->nrm + 3 * i);
+    else memcpy(mesh->nrm + 3 * i, o->vn + 3 * (size_t)corner->vn, 3 * sizeof *mesh->nrm);
+}
+
+static void join_corners(vertex_table *table)
+{
+    const obj_file *o = table->o;
+    for (size_t i = 0; i < 3 * o->n_triangles; i++) {
+        const obj_corner *corner = &o->corner[i];
+        uint32_t tag = o->has_vn && corner->vn == OBJ_NO_NORMAL ? (uint32_t)(i / 3) : 0;
+        vertex_slot *slot = find_slot(table, corner->v, corner->vn, tag);
+        if (!slot->used) {
+            *slot = (vertex_slot){ corner->v, corner->vn, tag, (uint32_t)table->mesh.n_vertices, true };
+            add_vertex(table, corner, i / 3);
+        }
+        table->mesh.idx[i] = slot->vertex_idx;
+    }
+}
+
+static bool emit_material(obj_file *o, mesh_splitter *splitter, const obj_material *material, const uint32_t *idx, size_t n_triangles)
+{
+    size_t first, n_meshes;
+    scene_object object = { .to_world = affine_identity(), .casts = true, .receives = true };
+    memcpy(object.albedo, material->albedo, sizeof object.albedo);
+    object.name = loader_format(o->l, "%s", material->name);
+    return object.name && mesh_split(splitter, object.name, idx, n_triangles, false, &first, &n_meshes) &&
+           loader_add_objects(o->l, &object, first, n_meshes);
+}
+
+/* start[m]: first triangle of material m after sorting by material, in file order within one (a counting sort). */
+static uint32_t *sort_by_material(obj_file *o, const scene_mesh *mesh, size_t *start)
+{
+    uint32_t *sorted = loader_alloc(o->l, 3 * mesh->n_triangles, sizeof *sorted);
+    size_t *next = loader_alloc(o->l, o->n_materials, sizeof *next);
+    if (!sorted || !next) return NULL;
+    for (size_t i = 0; i < mesh->n_triangles; i++) start[o->material_of[i] + 1]++;
+    for (size_t m = 0; m < o->n_materials; m++) {
+        start[m + 1] += start[m];
+        next[m] = start[m];
+    }
+    for (size_t i = 0; i < mesh->n_triangles; i++) {
+        memcpy(sorted + 3 * next[o->material_of[i]]++, mesh->idx + 3 * i, 3 * sizeof *sorted);
+    }
+    return sorted;
+}
+
+bool obj_emit(obj_file *o)
+{
+    vertex_table table;
+    mesh_splitter splitter;
+    if (!table_init(&table, o)) return false;
+    join_corners(&table);
+    /* Before the split by material, so that smooth normals have no seam between materials. */
+    if (!mesh_prepare_normals(o->l, &table.mesh) || !mesh_splitter_init(&splitter, o->l, &table.mesh)) return false;
+    size_t *start = loader_alloc(o->l, o->n_materials + 1, sizeof *start);
+    uint32_t *sorted = start ? sort_by_material(o, &table.mesh, start) : NULL;
+    if (!sorted) return false;
+    for (size_t m = 0; m < o->n_materials; m++) {
+        size_t n = start[m + 1] - start[m];
+        if (n > 0 && !emit_material(o, &splitter, &o->material[m], sorted + 3 * start[m], n)) return false;
+    }
+    return true;
+}

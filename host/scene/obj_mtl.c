@@ -1,0 +1,106 @@
+/* OBJ materials: Kd, taken as linear light as it stands (the format does not say, and exporters differ). */
+#include "obj.h"
+
+#include <string.h>
+
+bool obj_find_material(obj_file *o, const char *name, uint32_t *out)
+{
+    for (size_t i = 0; i < o->n_materials; i++) {
+        *out = (uint32_t)i;
+        if (strcmp(o->material[i].name, name) == 0) return true;
+    }
+    obj_material *grown = loader_grow(o->l, o->material, o->n_materials, sizeof *grown);
+    if (!grown) return false;
+    o->material = grown;
+    *out = (uint32_t)o->n_materials;
+    o->material[o->n_materials] = (obj_material){ .name = loader_format(o->l, "%s", name), .albedo = { 0.8, 0.8, 0.8 } };
+    return o->material[o->n_materials++].name != NULL;
+}
+
+static bool read_kd(obj_text *t, obj_material *material)
+{
+    double rgb[3];
+    size_t n;
+    char *rest = obj_rest(t);
+    if (strncmp(rest, "spectral", 8) == 0 || strncmp(rest, "xyz", 3) == 0) return obj_note(t, "Kd of material '%s' ignored: not RGB", material->name);
+    t->at = rest;
+    if (!obj_numbers(t, rgb, 3, &n)) return false;
+    if (n != 1 && n != 3) return obj_fail(t, "Kd takes 3 numbers");
+    if (n == 1) rgb[1] = rgb[2] = rgb[0];
+    memcpy(material->albedo, rgb, sizeof rgb);
+    return loader_clamp_colour(material->albedo, 3) || obj_note(t, "Kd of material '%s' outside 0..1 is clamped", material->name);
+}
+
+static bool read_transparency(obj_text *t, const obj_material *material, const char *word, double opaque)
+{
+    double value;
+    size_t n;
+    char *rest = obj_rest(t);
+    t->at = rest + (strncmp(rest, "-halo", 5) == 0 ? 5 : 0);
+    if (!obj_numbers(t, &value, 1, &n)) return false;
+    if (n != 1) return obj_fail(t, "%s takes a number", word);
+    if (value >= opaque && value <= opaque) return true;
+    return loader_note(t->l, "transparency of material '%s' ignored: drawn opaque", material->name);
+}
+
+static bool read_statement(obj_file *o, obj_text *t, const char *word, uint32_t *current)
+{
+    if (strcmp(word, "newmtl") == 0) {
+        const char *name = obj_rest(t);
+        if (!*name) return obj_fail(t, "newmtl without a name");
+        if (!obj_find_material(o, name, current)) return false;
+        o->material[*current].defined = true;
+        return true;
+    }
+    obj_material *material = *current ? &o->material[*current] : NULL;
+    bool kd = strcmp(word, "Kd") == 0, d = strcmp(word, "d") == 0, tr = strcmp(word, "Tr") == 0;
+    bool map = strcmp(word, "map_Kd") == 0, map_d = strcmp(word, "map_d") == 0;
+    if (!(kd || d || tr || map || map_d)) return true; /* gloss and the like: nothing here could show it */
+    if (!material) return obj_fail(t, "%s before any newmtl", word);
+    if (kd) return read_kd(t, material);
+    if (d || tr) return read_transparency(t, material, word, d ? 1 : 0);
+    return loader_note(t->l, "%s texture of material '%s' ignored: textures are not supported", map ? "colour" : "opacity", material->name);
+}
+
+/* A missing library is a note: the shape is worth showing without its colours. */
+static bool read_library(obj_file *o, const char *name, bool *opened)
+{
+    uint8_t *bytes = NULL;
+    size_t n_bytes = 0;
+    uint32_t current = 0;
+    obj_text t;
+    const char *path = loader_relative_path(o->l, name);
+    if (!path || !loader_try_file(o->l, path, &bytes, &n_bytes, opened)) return false;
+    if (!*opened) return true;
+    if (!obj_open(&t, o->l, path, bytes, n_bytes)) return false;
+    while (obj_next_line(&t)) {
+        if (!read_statement(o, &t, obj_next_word(&t), &current)) return false;
+    }
+    return true;
+}
+
+/* The rest of the line is one name, which may hold blanks; if there is no such file, it is a list of names. */
+bool obj_read_libraries(obj_file *o, obj_text *t)
+{
+    bool opened;
+    char *rest = obj_rest(t);
+    if (!*rest) return obj_fail(t, "mtllib without a name");
+    if (!read_library(o, rest, &opened)) return false;
+    if (opened) return true;
+    t->at = rest;
+    for (const char *name = obj_next_word(t); name; name = obj_next_word(t)) {
+        if (!read_library(o, name, &opened)) return false;
+        if (!opened && !obj_note(t, "material library '%s' cannot be opened: its colours are missing", name)) return false;
+    }
+    return true;
+}
+
+/* After the last line: a library may come after the first use. */
+bool obj_note_undefined_materials(obj_file *o)
+{
+    for (size_t i = 1; i < o->n_materials; i++) {
+        if (o->material[i].defined) continue;
+        if (!loader_note(o->l, "material '%s' is not defined: it is drawn grey", o->material[i].name)) return false;
+    }
+    return true;
+}

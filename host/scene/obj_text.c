@@ -1,0 +1,108 @@
+/* Lines, words and numbers of OBJ and MTL files. */
+#include "obj.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool obj_fail(obj_text *t, const char *format, ...)
+{
+    char what[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    return loader_fail(t->l, "%s:%zu: %s", t->path, t->line, what);
+}
+
+bool obj_note(obj_text *t, const char *format, ...)
+{
+    char what[400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    return loader_note(t->l, "line %zu: %s", t->line, what);
+}
+
+bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes)
+{
+    *t = (obj_text){ .l = l, .path = path, .next = (char *)bytes, .end = (char *)bytes + n_bytes };
+    const char *zero = memchr(bytes, 0, n_bytes);
+    if (!zero) return true;
+    for (const char *c = t->next; c < zero; c++) t->line += *c == '\n';
+    t->line++;
+    return obj_fail(t, "not a text file: it holds a zero byte");
+}
+
+/* Terminates the physical line at t->next and steps behind it; true if a backslash (blanked out) joins the next one. */
+static bool take_physical_line(obj_text *t)
+{
+    char *start = t->next, *stop = memchr(start, '\n', (size_t)(t->end - start));
+    t->next = stop ? stop + 1 : t->end;
+    if (!stop) stop = t->end;
+    t->n_lines++;
+    *stop = ' ';
+    while (stop > start && stop[-1] == '\r') *--stop = ' ';
+    bool joins = stop > start && stop[-1] == '\\' && t->next < t->end;
+    if (joins) stop[-1] = ' ';
+    return joins;
+}
+
+bool obj_next_line(obj_text *t)
+{
+    while (t->next < t->end) {
+        t->at = t->next;
+        t->line = t->n_lines + 1;
+        while (take_physical_line(t)) { }
+        /* The terminator takes the place of the line feed, or of the zero behind the file. */
+        if (t->next == t->end && t->end[0] == ' ') *t->end = '\0';
+        else t->next[-1] = '\0';
+        char *comment = strchr(t->at, '#');
+        if (comment) *comment = '\0';
+        t->at += strspn(t->at, " \t\v\f\r");
+        if (*t->at) return true;
+    }
+    return false;
+}
+
+char *obj_next_word(obj_text *t)
+{
+    t->at += strspn(t->at, " \t\v\f\r");
+    if (!*t->at) return NULL;
+    char *word = t->at;
+    t->at += strcspn(t->at, " \t\v\f\r");
+    if (*t->at) *t->at++ = '\0';
+    return word;
+}
+
+char *obj_rest(obj_text *t)
+{
+    char *rest = t->at + strspn(t->at, " \t\v\f\r");
+    size_t n = strlen(rest);
+    while (n > 0 && strchr(" \t\v\f\r", rest[n - 1])) rest[--n] = '\0';
+    t->at = rest + n;
+    return rest;
+}
+
+/* strtod alone would also take nan, inf and hexadecimal. */
+static bool to_number(obj_text *t, const char *word, double *out)
+{
+    char *end;
+    *out = strtod(word, &end);
+    if (*end || strspn(word, "+-.0123456789eE") != strlen(word)) return obj_fail(t, "'%.40s' is not a number", word);
+    return fabs(*out) <= LOADER_MAX_COORDINATE || obj_fail(t, "%.40s is out of range", word);
+}
+
+bool obj_numbers(obj_text *t, double *out, size_t n_max, size_t *n)
+{
+    *n = 0;
+    for (char *word = obj_next_word(t); word; word = obj_next_word(t)) {
+        if (*n >= n_max) return obj_fail(t, "more than %zu numbers", n_max);
+        if (!to_number(t, word, &out[*n])) return false;
+        ++*n;
+    }
+    return true;
+}

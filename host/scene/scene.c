@@ -1,0 +1,68 @@
+/* Loading a scene by its file's ending, and freeing it. */
+#include "scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "loader.h"
+
+static bool ends_with(const char *path, const char *ending)
+{
+    size_t n = strlen(path), n_ending = strlen(ending);
+    if (n < n_ending) return false;
+    for (size_t i = 0; i < n_ending; i++) {
+        char c = path[n - n_ending + i];
+        if (c >= 'A' && c <= 'Z') c = (char)(c - 'A' + 'a');
+        if (c != ending[i]) return false;
+    }
+    return true;
+}
+
+static bool load_any(loader *l)
+{
+    if (l->options->width <= 0 || l->options->height <= 0) {
+        return loader_fail(l, "%s: the picture size %dx%d is not positive", l->path, l->options->width, l->options->height);
+    }
+    if (ends_with(l->path, ".obj")) return loader_load_obj(l);
+    if (ends_with(l->path, ".gltf")) return loader_load_gltf(l);
+    if (ends_with(l->path, ".glb")) return loader_load_glb(l);
+    return loader_fail(l, "%s: not a scene: .obj, .gltf and .glb are known", l->path);
+}
+
+int scene_load(scene *s, const char *path, const scene_options *options, char *error, size_t error_bytes)
+{
+    loader l = { .s = s, .options = options, .path = path, .error = error, .error_bytes = error_bytes };
+    *s = (scene){ 0 };
+    if (error_bytes > 0) error[0] = '\0';
+    bool ok = load_any(&l) && loader_add_defaults(&l);
+    arena_release(&l.memory, NULL);
+    if (!ok) scene_free(s);
+    return ok ? 0 : -1;
+}
+
+static void free_mesh(scene_mesh *mesh)
+{
+    free(mesh->name);
+    free(mesh->pos);
+    free(mesh->nrm);
+    free(mesh->rgb);
+    free(mesh->idx);
+}
+
+void scene_free(scene *s)
+{
+    for (size_t i = 0; i < s->n_meshes; i++) free_mesh(&s->meshes[i]);
+    for (size_t i = 0; i < s->n_objects; i++) free(s->objects[i].name);
+    for (size_t i = 0; i < s->n_lights; i++) free(s->lights[i].name);
+    for (size_t i = 0; i < s->n_settings; i++) {
+        free(s->settings[i].key);
+        free(s->settings[i].value);
+    }
+    for (size_t i = 0; i < s->n_notes; i++) free(s->notes[i]);
+    free(s->meshes);
+    free(s->objects);
+    free(s->lights);
+    free(s->settings);
+    free(s->notes);
+    *s = (scene){ 0 };
+}

@@ -1,0 +1,35 @@
+/* What the commands draw with: a picture by the library (fixed) or by the reference, in one shape. */
+#ifndef GNOMON_ENGINE_H
+#define GNOMON_ENGINE_H
+
+#include "../ref/ref.h"
+#include "../scene/scene.h"
+#include "settings.h"
+
+#define ENGINE_LIGHTS_MAX 8
+
+typedef struct {
+    int width, height;
+    uint8_t *rgb8;         /* 3 per pixel */
+    uint16_t *rgb565;
+    double *depth;         /* world units; INFINITY: no surface */
+    double *normal;        /* 3 per pixel */
+    int64_t *triangle;     /* object << 32 | triangle; -1: no surface */
+    size_t n_lights;
+    double *shadow[ENGINE_LIGHTS_MAX]; /* 0..1 */
+    double *ndotl[ENGINE_LIGHTS_MAX];  /* reference only, NULL from the library */
+    int atlas_texels[ENGINE_LIGHTS_MAX];
+    double *atlas[ENGINE_LIGHTS_MAX];  /* light depth 0..1 of each light's tile, 1 = empty */
+    gn_stats stats;        /* fixed only */
+} engine_picture;
+
+/* What to fill besides the colours. */
+enum { ENGINE_COLOUR_ONLY = 0, ENGINE_ALL = 1 };
+
+int engine_fixed(engine_picture *out, const scene *s, const settings *set, int width, int height, int what, char *error,
+                 size_t error_bytes);
+int engine_reference(engine_picture *out, const scene *s, const settings *set, int width, int height, char *error,
+                     size_t error_bytes);
+void engine_free(engine_picture *p);
+
+#endif

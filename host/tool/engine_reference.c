@@ -1,0 +1,61 @@
+/* Pictures by the reference, quantised to the same outputs. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine.h"
+
+static unsigned level(double v, double levels)
+{
+    return (unsigned)floor(v * levels + 0.5);
+}
+
+/* Takes the arrays that both pictures have in the same shape. */
+static void take(engine_picture *out, ref_picture *ref)
+{
+    out->depth = ref->depth;
+    out->normal = ref->normal;
+    out->triangle = ref->triangle;
+    ref->depth = ref->normal = NULL;
+    ref->triangle = NULL;
+    for (size_t l = 0; l < ref->n_lights && l < ENGINE_LIGHTS_MAX; l++) {
+        out->shadow[l] = ref->shadow[l];
+        out->ndotl[l] = ref->ndotl[l];
+        ref->shadow[l] = ref->ndotl[l] = NULL;
+        const ref_light_view *view = &ref->view[l];
+        if (!view->active) continue;
+        size_t n = (size_t)view->tile_texels * (size_t)view->tile_texels;
+        out->atlas_texels[l] = view->tile_texels;
+        out->atlas[l] = view->depth;
+        for (size_t i = 0; i < n; i++) out->atlas[l][i] /= view->depth_range;
+        ref->view[l].depth = NULL;
+    }
+}
+
+int engine_reference(engine_picture *out, const scene *s, const settings *set, int width, int height, char *error,
+                     size_t error_bytes)
+{
+    ref_picture ref;
+    ref_options options = {width, height, set->quality.atlas_size, set->quality.srgb != 0};
+    memset(out, 0, sizeof *out);
+    if (ref_render(&ref, s, &options, error, error_bytes)) return -1;
+    size_t n = (size_t)width * (size_t)height;
+    out->width = width;
+    out->height = height;
+    out->n_lights = ref.n_lights;
+    out->rgb8 = malloc(3 * n);
+    out->rgb565 = malloc(2 * n);
+    if (!out->rgb8 || !out->rgb565) {
+        ref_free(&ref);
+        engine_free(out);
+        return -1;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const double *c = ref.rgb + 3 * i;
+        for (size_t k = 0; k < 3; k++) out->rgb8[3 * i + k] = (uint8_t)level(c[k], 255);
+        out->rgb565[i] = (uint16_t)(level(c[0], 31) << 11 | level(c[1], 63) << 5 | level(c[2], 31));
+    }
+    take(out, &ref);
+    ref_free(&ref);
+    return 0;
+}

@@ -1,0 +1,21 @@
+/* A scene in double precision to the library's fixed-point scene. */
+#ifndef GNOMON_QUANTISE_H
+#define GNOMON_QUANTISE_H
+
+#include "../../lib/gnomon.h"
+#include "../scene/scene.h"
+
+typedef struct {
+    gn_scene scene;
+    int world_exp;      /* library units = world units * 2^world_exp */
+    gn_mesh *meshes;
+    gn_object *objects;
+    gn_light *lights;
+} fixed_scene;
+
+/* Chooses the power of two that puts the scene into the upper range of Q15.16 and converts everything with rounding to
+ * nearest. 0, or -1 with one line in error that names what does not fit. */
+int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_bytes);
+void quantise_free(fixed_scene *f);
+
+#endif

@@ -1,0 +1,254 @@
+/* Every knob by one name. */
+#include "settings.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    const char *name;
+    int lo, hi;
+    size_t offset; /* in settings */
+    const char *meaning, *cost;
+    int preset[SETTINGS_PRESETS];
+} knob;
+
+#define KNOB_QUALITY_(name, MACRO, lo, hi, meaning, cost)                                                              \
+    {#name, lo, hi, offsetof(settings, quality.name), meaning, cost, {GN_PRESETS_##MACRO}},
+#define KNOB_CAPACITY_(name, MACRO, lo, hi, meaning, cost)                                                             \
+    {#name, lo, hi, offsetof(settings, capacity.name), meaning, cost, {0}},
+#define KNOB_FEATURE_(name, MACRO, lo, hi, meaning, cost)                                                              \
+    {#name, lo, hi, offsetof(settings, feature.name), meaning, cost, {0}},
+
+static const knob quality_knobs[] = {GN_QUALITY_KNOBS(KNOB_QUALITY_)};
+static const knob capacity_knobs[] = {GN_CAPACITY_KNOBS(KNOB_CAPACITY_)};
+static const knob feature_knobs[] = {GN_FEATURE_KNOBS(KNOB_FEATURE_)};
+
+static const struct {
+    const knob *knobs;
+    size_t n;
+    const char *title;
+} groups[] = {
+    {quality_knobs, sizeof quality_knobs / sizeof *quality_knobs, "Quality"},
+    {capacity_knobs, sizeof capacity_knobs / sizeof *capacity_knobs, "Capacity"},
+    {feature_knobs, sizeof feature_knobs / sizeof *feature_knobs, "Feature"},
+};
+#define N_GROUPS (sizeof groups / sizeof *groups)
+
+const char *const settings_preset_name[SETTINGS_PRESETS] = {"tiny", "balanced", "accurate"};
+
+/* Scene settings: numbers that belong to the scene or to all its lights. */
+typedef enum { OF_SHADOW, OF_LIGHTS, OF_COLOUR } scene_place;
+static const struct {
+    const char *name;
+    scene_place place;
+    size_t offset;
+    double lo, hi;
+    const char *meaning;
+} scene_knobs[] = {
+    {"max_distance", OF_SHADOW, offsetof(scene_shadow, max_distance), 0.004, 8192, "no shadow beyond this view depth (D5)"},
+    {"distance_fade", OF_SHADOW, offsetof(scene_shadow, distance_fade), 0.001, 1, "share of it over which shadows fade (D5)"},
+    {"cascade_fade", OF_SHADOW, offsetof(scene_shadow, cascade_fade), 0.001, 1, "margin of the bounding sphere (D3)"},
+    {"strength", OF_LIGHTS, offsetof(scene_light, strength), 0, 1, "shadow strength of every light (M4)"},
+    {"bias_constant", OF_LIGHTS, offsetof(scene_light, bias_constant), 0, 64, "caster bias in texels (B1)"},
+    {"bias_slope", OF_LIGHTS, offsetof(scene_light, bias_slope), 0, 64, "caster bias per slope (B1)"},
+    {"bias_normal", OF_LIGHTS, offsetof(scene_light, bias_normal), 0, 8, "receiver offset along the normal (B2)"},
+    {"near_offset", OF_LIGHTS, offsetof(scene_light, near_offset), 0, 8192, "pulls the light's near plane back (D9)"},
+    {"ambient", OF_COLOUR, offsetof(scene, ambient), 0, 255, "ambient light: one number or R,G,B"},
+    {"background", OF_COLOUR, offsetof(scene, background), 0, 1, "background colour: one number or R,G,B"},
+};
+
+static const char *const filter_names[] = {"hard", "2x2", "3x3", "5x5", "7x7"};
+
+static int *field(settings *s, const knob *k)
+{
+    return (int *)(void *)((char *)s + k->offset);
+}
+
+void settings_preset(settings *out, int preset)
+{
+    for (size_t i = 0; i < groups[0].n; i++) *field(out, &quality_knobs[i]) = quality_knobs[i].preset[preset];
+}
+
+void settings_init(settings *out)
+{
+    static const settings defaults = {
+        .capacity = {320, 240, 500, 1500, 4, 32},
+        .feature = {1, 4, 1, 1, 0, 0},
+    };
+    *out = defaults;
+    settings_preset(out, SETTINGS_BALANCED);
+}
+
+static int fail(char *error, size_t bytes, const char *key, const char *value, const char *expected)
+{
+    snprintf(error, bytes, "setting '%s': '%s' is not %s", key, value, expected);
+    return -1;
+}
+
+static int parse_number(const char *text, double *out, const char **end)
+{
+    char *stop;
+    errno = 0;
+    *out = strtod(text, &stop);
+    if (end) *end = stop;
+    return stop != text && (end || *stop == 0) && isfinite(*out) ? 0 : -1;
+}
+
+int settings_load_option(scene_options *options, const char *key, const char *value, char *error, size_t error_bytes)
+{
+    int on = strcmp(value, "1") == 0, off = strcmp(value, "0") == 0;
+    if (strcmp(key, "ground") == 0) {
+        if (!on && !off) return fail(error, error_bytes, key, value, "0 or 1");
+        options->ground = on;
+        return 1;
+    }
+    if (strcmp(key, "normals") == 0) {
+        if (strcmp(value, "face") != 0 && strcmp(value, "smooth") != 0)
+            return fail(error, error_bytes, key, value, "face or smooth");
+        options->smooth = value[0] == 's';
+        return 1;
+    }
+    return 0;
+}
+
+static int apply_knob(settings *out, const knob *k, const char *value, char *error, size_t bytes)
+{
+    double v;
+    char range[48];
+    int previous = *field(out, k);
+    snprintf(range, sizeof range, "a whole number from %d to %d", k->lo, k->hi);
+    if (parse_number(value, &v, NULL) || floor(v) != v || v < k->lo || v > k->hi) return fail(error, bytes, k->name, value, range);
+    *field(out, k) = (int)v;
+    const char *wrong = NULL;
+    int n = (int)v;
+    if (field(out, k) == &out->quality.persp_step && n != 1 && n != 4 && n != 8 && n != 16) wrong = "1, 4, 8 or 16";
+    if (field(out, k) == &out->quality.atten_bits && n != 8 && n != 16) wrong = "8 or 16";
+    if (field(out, k) == &out->quality.atlas_size && (n & (n - 1))) wrong = "a power of two";
+    if (field(out, k) == &out->quality.tile_width && n % 4) wrong = "a multiple of 4";
+    if (field(out, k) == &out->capacity.vertex_cache && (n & (n - 1))) wrong = "a power of two";
+    if (!wrong) return 0;
+    *field(out, k) = previous;
+    return fail(error, bytes, k->name, value, wrong);
+}
+
+static int apply_scene_number(scene *s, size_t i, const char *value, char *error, size_t bytes)
+{
+    double v[3];
+    const char *end = value;
+    char range[64];
+    int n = 0, want = scene_knobs[i].place == OF_COLOUR ? 3 : 1;
+    snprintf(range, sizeof range, "%s from %g to %g", want == 3 ? "one or three numbers" : "a number", scene_knobs[i].lo,
+             scene_knobs[i].hi);
+    for (;;) {
+        if (n == want || parse_number(end, &v[n], &end) || v[n] < scene_knobs[i].lo || v[n] > scene_knobs[i].hi)
+            return fail(error, bytes, scene_knobs[i].name, value, range);
+        n++;
+        if (*end != ',') break;
+        end++;
+    }
+    if (*end || (n != 1 && n != 3)) return fail(error, bytes, scene_knobs[i].name, value, range);
+    if (n == 1) v[1] = v[2] = v[0];
+    if (scene_knobs[i].place == OF_COLOUR) memcpy((char *)s + scene_knobs[i].offset, v, sizeof v);
+    else if (scene_knobs[i].place == OF_SHADOW) memcpy((char *)&s->shadow + scene_knobs[i].offset, v, sizeof *v);
+    else
+        for (size_t l = 0; l < s->n_lights; l++) memcpy((char *)&s->lights[l] + scene_knobs[i].offset, v, sizeof *v);
+    return 0;
+}
+
+static int apply_word(settings *out, scene *s, const char *key, const char *value, char *error, size_t bytes)
+{
+    if (strcmp(key, "preset") == 0) {
+        for (int i = 0; i < SETTINGS_PRESETS; i++) {
+            if (strcmp(value, settings_preset_name[i]) != 0) continue;
+            settings_preset(out, i);
+            return 1;
+        }
+        return fail(error, bytes, key, value, "tiny, balanced or accurate");
+    }
+    if (strcmp(key, "filter") == 0) {
+        for (int i = 0; i < 5; i++) {
+            if (strcmp(value, filter_names[i]) != 0) continue;
+            s->shadow.filter = (scene_filter)i;
+            return 1;
+        }
+        return fail(error, bytes, key, value, "hard, 2x2, 3x3, 5x5 or 7x7");
+    }
+    return 0;
+}
+
+int settings_apply(settings *out, scene *s, const char *key, const char *value, char *error, size_t error_bytes)
+{
+    scene_options ignored;
+    int taken = settings_load_option(&ignored, key, value, error, error_bytes);
+    if (taken) return taken < 0 ? -1 : 0; /* done while loading */
+    taken = apply_word(out, s, key, value, error, error_bytes);
+    if (taken) return taken < 0 ? -1 : 0;
+    for (size_t g = 0; g < N_GROUPS; g++)
+        for (size_t i = 0; i < groups[g].n; i++)
+            if (strcmp(key, groups[g].knobs[i].name) == 0) return apply_knob(out, &groups[g].knobs[i], value, error, error_bytes);
+    for (size_t i = 0; i < sizeof scene_knobs / sizeof *scene_knobs; i++)
+        if (strcmp(key, scene_knobs[i].name) == 0) return apply_scene_number(s, i, value, error, error_bytes);
+    snprintf(error, error_bytes, "unknown setting '%s' ('gnomon knobs' lists them)", key);
+    return -1;
+}
+
+int settings_apply_all(settings *out, scene *s, char *const *sets, int n, char *error, size_t error_bytes)
+{
+    for (size_t i = 0; i < s->n_settings; i++)
+        if (settings_apply(out, s, s->settings[i].key, s->settings[i].value, error, error_bytes)) return -1;
+    for (int i = 0; i < n; i++) {
+        char key[64];
+        const char *equals = strchr(sets[i], '=');
+        size_t length = equals ? (size_t)(equals - sets[i]) : 0;
+        if (!equals || length == 0 || length >= sizeof key) {
+            snprintf(error, error_bytes, "'%s' is not KEY=VALUE", sets[i]);
+            return -1;
+        }
+        memcpy(key, sets[i], length);
+        key[length] = 0;
+        if (settings_apply(out, s, key, equals + 1, error, error_bytes)) return -1;
+    }
+    return 0;
+}
+
+/* Mirrors lib/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against sizeof(gn_renderer). */
+settings_ram_parts settings_ram(const settings *s)
+{
+    settings_ram_parts r;
+    long tile_w = s->quality.tile_width, tile_h = s->quality.tile_height;
+    long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);
+    r.atlas = s->feature.shadows ? 2L * s->quality.atlas_size * s->quality.atlas_size : 0;
+    r.triangles = (s->quality.subpixel_bits > 4 ? 44L : 32L) * s->capacity.max_triangles;
+    r.tile_refs = 2L * s->capacity.max_tile_refs;
+    r.tiles = (s->capacity.max_tile_refs > 65535 ? 4L : 2L) * (tiles + 1);
+    r.cells = 4 * tile_w * tile_h;
+    r.pixels = 4 * (tile_w * tile_h * (s->feature.raw_views ? 4 : 3) / 4);
+    r.rest = 16L * s->capacity.vertex_cache + 28L * s->capacity.max_lights;
+    r.total = r.atlas + r.triangles + r.tile_refs + r.tiles + r.cells + r.pixels + r.rest;
+    return r;
+}
+
+void settings_print_table(void)
+{
+    for (size_t g = 0; g < N_GROUPS; g++) {
+        printf("\n### %s knobs\n\n", groups[g].title);
+        printf(g == 0 ? "| knob | range | tiny | balanced | accurate | meaning | cost |\n|---|---|---|---|---|---|---|\n"
+                      : "| knob | range | meaning | cost |\n|---|---|---|---|\n");
+        for (size_t i = 0; i < groups[g].n; i++) {
+            const knob *k = &groups[g].knobs[i];
+            printf("| `%s` | %d…%d |", k->name, k->lo, k->hi);
+            if (g == 0) printf(" %d | %d | %d |", k->preset[0], k->preset[1], k->preset[2]);
+            printf(" %s | %s |\n", k->meaning, k->cost);
+        }
+    }
+    printf("\n### Scene settings\n\n| setting | range | meaning |\n|---|---|---|\n");
+    for (size_t i = 0; i < sizeof scene_knobs / sizeof *scene_knobs; i++)
+        printf("| `%s` | %g…%g | %s |\n", scene_knobs[i].name, scene_knobs[i].lo, scene_knobs[i].hi, scene_knobs[i].meaning);
+    printf("| `filter` | hard, 2x2, 3x3, 5x5, 7x7 | shadow filter (F1-F3) |\n");
+    printf("| `preset` | tiny, balanced, accurate | all quality knobs together |\n");
+    printf("| `ground` | 0, 1 | add a ground plane to a glTF file (an OBJ always gets one) |\n");
+    printf("| `normals` | face, smooth | for meshes without normals |\n");
+}

@@ -1,0 +1,50 @@
+/* Counting sort of triangles into screen tiles, in triangle order. */
+#include "gn_bin.h"
+#include "gn_q.h"
+#include "gn_scene.h"
+
+gn_rect gn_bin_tile_rect(const gn_frame *frame, uint32_t tile_idx)
+{
+    int32_t w = GN_K(frame, tile_width), h = GN_K(frame, tile_height);
+    gn_rect r;
+    r.x0 = (int32_t)(tile_idx % frame->tiles_x) * w;
+    r.y0 = (int32_t)(tile_idx / frame->tiles_x) * h;
+    r.x1 = gn_min32(r.x0 + w, frame->picture.width);
+    r.y1 = gn_min32(r.y0 + h, frame->picture.height);
+    return r;
+}
+
+/* The tiles that the triangle's bounding box touches, as a rectangle of tiles. */
+static gn_rect tiles_of(const gn_frame *frame, const gn_tri *tri)
+{
+    int32_t w = GN_K(frame, tile_width), h = GN_K(frame, tile_height);
+    gn_rect px = gn_setup_bounds(frame, tri);
+    gn_rect r = {px.x0 / w, px.y0 / h, (px.x1 - 1) / w + 1, (px.y1 - 1) / h + 1};
+    return r;
+}
+
+gn_status gn_bin_triangles(gn_frame *frame)
+{
+    uint32_t n_tiles = (uint32_t)frame->tiles_x * frame->tiles_y, n_refs = 0;
+    for (uint32_t t = 0; t < frame->stats.n_triangles; t++) {
+        gn_rect r = tiles_of(frame, &frame->tri[t]);
+        n_refs += (uint32_t)((r.x1 - r.x0) * (r.y1 - r.y0));
+    }
+    frame->stats.n_tile_refs = n_refs;
+    if (n_refs > GN_MAX_TILE_REFS) return gn_fail_capacity(frame, GN_ERR_TILE_REFS_FULL, n_refs, GN_MAX_TILE_REFS);
+    gn_ref_offset *first = frame->tile_first;
+    for (uint32_t i = 0; i <= n_tiles; i++) first[i] = 0;
+    for (uint32_t t = 0; t < frame->stats.n_triangles; t++) {
+        gn_rect r = tiles_of(frame, &frame->tri[t]);
+        for (int32_t y = r.y0; y < r.y1; y++)
+            for (int32_t x = r.x0; x < r.x1; x++) first[y * frame->tiles_x + x]++;
+    }
+    /* to the end of each bin, then filled backwards so that each bin starts where it should, in triangle order */
+    for (uint32_t i = 1; i <= n_tiles; i++) first[i] = (gn_ref_offset)(first[i] + first[i - 1]);
+    for (uint32_t t = frame->stats.n_triangles; t-- > 0;) {
+        gn_rect r = tiles_of(frame, &frame->tri[t]);
+        for (int32_t y = r.y0; y < r.y1; y++)
+            for (int32_t x = r.x0; x < r.x1; x++) frame->tile_ref[--first[y * frame->tiles_x + x]] = (uint16_t)t;
+    }
+    return GN_OK;
+}

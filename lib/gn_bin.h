@@ -1,0 +1,12 @@
+/* Bins visible triangles to screen tiles (R1): frame->tile_first[t] .. tile_first[t + 1] index tile_ref. */
+#ifndef GN_BIN_H
+#define GN_BIN_H
+
+#include "gn_setup.h"
+
+gn_status gn_bin_triangles(gn_frame *frame);
+
+/* Pixels of a screen tile. */
+gn_rect gn_bin_tile_rect(const gn_frame *frame, uint32_t tile_idx);
+
+#endif

@@ -1,0 +1,216 @@
+/* Directional light views. */
+#include "gn_cascade.h"
+#include "gn_math.h"
+#include "gn_q.h"
+#include "gn_scene.h"
+
+#define GN_SHADOWED_LIGHTS_MAX 4U /* D1 */
+
+#if GN_SHADOWS
+
+static gn_bfloat bf_of(gn_bf_state s)
+{
+    gn_bfloat out = {s.mant, s.exp};
+    return out;
+}
+
+static gn_bf_state state_of(gn_bfloat b)
+{
+    gn_bf_state out = {b.mant, b.exp};
+    return out;
+}
+
+/* k^2 = (W^2 + H^2) / (H focal)^2, Q24, clamped to 2^14 (half-diagonal of 89.5 degrees). */
+static int64_t tan_diagonal_squared_q24(const gn_frame *frame)
+{
+    const int64_t limit = (int64_t)1 << 38;
+    int64_t w = frame->picture.width, h = frame->picture.height, focal = frame->scene->camera.focal_q24;
+    int64_t k2 = gn_clamp64((((w * w + h * h) << 24) + h * h / 2) / (h * h), 0, limit); /* 2^23 * 2^24 */
+    k2 = gn_clamp64(((k2 << 24) + focal / 2) / focal, 0, limit);                        /* 2^62 */
+    return gn_clamp64(((k2 << 24) + focal / 2) / focal, 0, limit);
+}
+
+void gn_cascade_sphere(const gn_frame *frame, int64_t *centre_q24, int64_t *radius_q24)
+{
+    const int64_t one = (int64_t)1 << 24;
+    const gn_shadow_settings *shadow = &frame->scene->shadow;
+    int64_t k2 = tan_diagonal_squared_q24(frame);
+    int64_t q = 65536 - (int64_t)shadow->cascade_fade_uq16;
+    if (q < 8192) q = 8192; /* 1/8: see DESIGN 1.4 */
+    int64_t q2 = (q * q) >> 8;
+    int64_t n = ((int64_t)frame->scene->camera.near_q16 << 24) / shadow->max_distance_q16; /* < 1 */
+    int64_t n2 = gn_shr64(n * n, 24);
+    int64_t a = one - q2, b = n - q2;
+    int64_t big_c = gn_shr64((one + k2) * (q2 - n2), 24); /* 2^38 * 2^24 */
+    int64_t under = b * b + a * big_c;                                       /* 2^48 + 2^24 * 2^38 */
+    int64_t c = one;
+    if (under >= 0 && big_c > 0) {
+        int64_t s = gn_isqrt64((uint64_t)under);
+        c = gn_clamp64((big_c << 24) / (s - b), 0, one); /* s > |b| since a * C > 0 */
+    }
+    int64_t far2 = gn_shr64((one - c) * (one - c), 24) + k2;
+    int64_t near2 = ((c - n) * (c - n) + k2 * n2) / q2; /* 2^48 + 2^62 */
+    int64_t r2 = far2 > near2 ? far2 : near2;           /* <= (1 + 2^14) * 64 in Q24: 2^44 at the extreme, 2^38 else */
+    *centre_q24 = c;
+    *radius_q24 = r2 < (int64_t)1 << 38 ? gn_isqrt64((uint64_t)r2 << 24) : (int64_t)gn_isqrt64((uint64_t)r2) << 12;
+}
+
+int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_t p_q16[3])
+{
+    /* |p| <= 2^30 per component times a unit axis: below sqrt(3) * 2^60 */
+    return gn_bf_apply(gn_dot64(p_q16, view->axis_q30[axis_idx]), bf_of(view->inv_texel), 16 - 46);
+}
+
+/* DESIGN 1.4: u, v, w from the direction of travel. */
+static void light_axes(gn_light_view *view, const int32_t w_q30[3])
+{
+    int32_t(*axis)[3] = view->axis_q30;
+    const uint32_t limit = 15U << 26; /* 15/16 */
+    for (int i = 0; i < 3; i++) axis[2][i] = w_q30[i];
+    int64_t along_y[3] = {w_q30[2], 0, -(int64_t)w_q30[0]}; /* (0, 1, 0) x w */
+    int64_t along_x[3] = {0, -(int64_t)w_q30[2], w_q30[1]}; /* (1, 0, 0) x w */
+    gn_normalise_q30(axis[0], gn_abs32(w_q30[1]) < limit ? along_y : along_x);
+    gn_cross_q30(axis[1], axis[2], axis[0]);
+}
+
+/* Texel size from the sphere: ceil8 of (1 - 2^-20) * 2 r / D. Returns its reciprocal. */
+static gn_bfloat inverse_texel(gn_frame *frame, const gn_light *light, uint32_t tile_texels, uint32_t filter_idx,
+                               int64_t radius_q24)
+{
+    int64_t t_q16 = (int64_t)tile_texels << 16;
+    int64_t offset_q16 = gn_mul_shr(light->bias_normal_q16, 92682, 16); /* sqrt(2) in Q16; <= 8 * 1.42 */
+    int64_t sphere_q16 = t_q16 - 2 * (int64_t)(filter_idx + 1) * (65536 + offset_q16) - 65536;
+    if (sphere_q16 < t_q16 / 4) {
+        sphere_q16 = t_q16 / 4;
+        frame->stats.n_reach_clamped++;
+    }
+    /* 2 r m: Q24 * Q16 as a block float in world units */
+    gn_bfloat texel = gn_bf_from_u64((uint64_t)radius_q24 * (uint64_t)frame->scene->shadow.max_distance_q16);
+    texel = gn_bf_mul(texel, gn_bf_recip(gn_bf_from_u64((uint64_t)sphere_q16)));
+    texel.exp += 1 - 40 + 16;
+    texel.mant -= texel.mant >> 20;
+    uint32_t top = (uint32_t)(((uint64_t)texel.mant + 0xFFFFFFU) >> 24); /* 128..256 */
+    if (texel.mant < 0x80000000U) top = 128; /* the slack crossed a power of two */
+    texel.mant = top == 256 ? 0x80000000U : top << 24;
+    if (top == 256) texel.exp++;
+    return gn_bf_recip(texel);
+}
+
+/* The planes from which light coordinates along a pixel's ray follow: see gn_ray_plane. */
+static void ray_planes(const gn_frame *frame, gn_light_view *view)
+{
+    const gn_cam *cam = &frame->cam;
+    gn_bfloat inv_texel = bf_of(view->inv_texel);
+    gn_bfloat per_px = gn_bf_mul(inv_texel, gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16)));
+    per_px.exp += 16;
+    /* |a0 + ax px + ay py| <= |ray| / texel, |ray|^2 = 1 + k^2 */
+    uint64_t ray2_q24 = ((uint64_t)1 << 24) + (uint64_t)tan_diagonal_squared_q24(frame);
+    int32_t ray_log2 = (64 - gn_clz64(ray2_q24) - 24 + 1) / 2;
+    view->ray_shift = 30 - (inv_texel.exp + 32) - ray_log2;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *axis = view->axis_q30[i];
+        gn_ray_plane *ray = &view->ray[i];
+        ray->a0 = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[2], axis), inv_texel, view->ray_shift - 60));
+        ray->ax = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[0], axis), per_px, view->ray_shift - 60));
+        ray->ay = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[1], axis), per_px, view->ray_shift - 60));
+        ray->d_q16 = gn_light_coord_q16(view, i, cam->eye_q16) - ((int64_t)view->origin[i] << 16);
+    }
+}
+
+/* Whole-texel origins around the sphere's centre; the depth range grows by the near offset. */
+static void place_tile(const gn_frame *frame, gn_light_view *view, const gn_light *light, int64_t centre_depth_q24)
+{
+    const gn_cam *cam = &frame->cam;
+    int32_t centre[3];
+    int64_t depth_q16 = gn_shr64(centre_depth_q24 * frame->scene->shadow.max_distance_q16, 24);
+    for (int i = 0; i < 3; i++)
+        centre[i] = cam->eye_q16[i] + (int32_t)gn_shr64(depth_q16 * cam->axis_q30[2][i], 30); /* |.| <= 2^30 */
+    for (int i = 0; i < 3; i++) {
+        int64_t c = gn_light_coord_q16(view, i, centre);
+        view->origin[i] = (int32_t)gn_clamp64((c + 32768) >> 16, -(1 << 30), 1 << 30) - view->tile_texels / 2;
+    }
+    int64_t pull_q16 = gn_bf_apply(light->near_offset_q16, bf_of(view->inv_texel), 0);
+    int64_t pull = gn_clamp64((pull_q16 + 65535) >> 16, 0, (int64_t)view->tile_texels << 10);
+    view->origin[2] -= (int32_t)pull;
+    view->depth_log2 = 0;
+    while (((int64_t)view->tile_texels << view->depth_log2) < view->tile_texels + pull) view->depth_log2++;
+}
+
+static void fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light)
+{
+    int32_t filter = (int32_t)frame->scene->shadow.filter;
+    uint32_t filter_idx = filter > GN_FILTER_2X2 ? (uint32_t)(filter - GN_FILTER_2X2) : 0;
+    int64_t centre_q24, radius_q24;
+    gn_cascade_sphere(frame, &centre_q24, &radius_q24);
+    int64_t direction[3] = {light->direction[0], light->direction[1], light->direction[2]};
+    int32_t w[3];
+    gn_normalise_q30(w, direction);
+    light_axes(view, w);
+    view->inv_texel = state_of(inverse_texel(frame, light, view->tile_texels, filter_idx, radius_q24));
+    place_tile(frame, view, light, centre_q24);
+    ray_planes(frame, view);
+    view->filter = (uint8_t)filter;
+    view->strength_uq16 = light->shadow_strength_uq16;
+    view->bias_constant_q16 = light->bias_constant_q16;
+    view->bias_slope_q16 = light->bias_slope_q16;
+    view->offset_q16 = gn_mul_shr(light->bias_normal_q16, 92682 * (int32_t)(filter_idx + 1), 16);
+    view->tile_done = 0;
+}
+
+/* Hands out the atlas: one light has all of it, two to four a quarter each (A2). */
+static gn_status reserve_tiles(gn_frame *frame)
+{
+    const gn_scene *scene = frame->scene;
+    uint32_t wanted = 0;
+    for (uint32_t i = 0; i < scene->n_lights; i++) wanted += scene->lights[i].shadow_strength_uq16 > 0;
+    if (wanted > GN_SHADOWED_LIGHTS_MAX) wanted = GN_SHADOWED_LIGHTS_MAX;
+    int32_t size = GN_K(frame, atlas_size);
+    int32_t tile = wanted > 1 ? size / 2 : size;
+    if (wanted && tile < 8) return gn_fail(frame, GN_ERR_SHADOW_TILE, 0);
+    frame->n_views = 0;
+    for (uint32_t i = 0; i < scene->n_lights && frame->n_views < wanted; i++) {
+        if (!scene->lights[i].shadow_strength_uq16) continue;
+        gn_light_view *view = &frame->view[frame->n_views];
+        view->tile_texels = (uint16_t)tile;
+        view->tile_log2 = (uint8_t)(31 - gn_clz32((uint32_t)tile));
+        view->light_idx = (uint16_t)i;
+        view->depth = frame->atlas + (size_t)frame->n_views * (size_t)tile * (size_t)tile;
+        fit_view(frame, view, &scene->lights[i]);
+        frame->light[i].view_idx = frame->n_views++;
+    }
+    frame->stats.n_shadow_tiles = frame->n_views;
+    return GN_OK;
+}
+
+/* D5: strength 1 up to max distance * (1 - fade), then linear to 0 at max distance. */
+static void distance_fade(gn_frame *frame)
+{
+    const gn_shadow_settings *shadow = &frame->scene->shadow;
+    uint64_t width_q32 = (uint64_t)(uint32_t)shadow->max_distance_q16 * shadow->distance_fade_uq16;
+    frame->fade_start_q16 = (uint32_t)shadow->max_distance_q16 - (uint32_t)(width_q32 >> 16);
+    frame->fade_scale = state_of(gn_bf_recip(gn_bf_from_u64(width_q32)));
+}
+
+#endif
+
+gn_status gn_cascade_setup(gn_frame *frame)
+{
+    const gn_scene *scene = frame->scene;
+    for (uint32_t i = 0; i < scene->n_lights; i++) {
+        const gn_light *light = &scene->lights[i];
+        gn_light_state *state = &frame->light[i];
+        int64_t towards[3];
+        for (int k = 0; k < 3; k++) {
+            towards[k] = -(int64_t)light->direction[k];
+            state->colour_uq16[k] = light->colour_uq16[k];
+        }
+        gn_normalise_q30(state->to_light_q30, towards);
+        state->view_idx = -1;
+    }
+#if GN_SHADOWS
+    distance_fade(frame);
+    return reserve_tiles(frame);
+#else
+    return GN_OK;
+#endif
+}

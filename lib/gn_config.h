@@ -1,0 +1,112 @@
+/* Every knob's default. Override any of them in one file of your own, named by -DGN_USER_CONFIG='"my_config.h"', or with -D.
+ *
+ * GN_PRESET picks the defaults of the quality knobs together. Ranges are checked at compile time in gn_check.h; what each
+ * knob means, its range and what it costs is listed once, in gn_knobs.h, from which docs/CONFIG.md is generated.
+ */
+#ifndef GN_CONFIG_H
+#define GN_CONFIG_H
+
+#define GN_PRESET_TINY 0
+#define GN_PRESET_BALANCED 1
+#define GN_PRESET_ACCURATE 2
+
+#ifdef GN_USER_CONFIG
+#include GN_USER_CONFIG
+#endif
+
+#ifndef GN_PRESET
+#define GN_PRESET GN_PRESET_BALANCED
+#endif
+
+#define GN_PICK_(tiny, balanced, accurate)                                                                             \
+    (GN_PRESET == GN_PRESET_TINY ? (tiny) : GN_PRESET == GN_PRESET_BALANCED ? (balanced) : (accurate))
+#define GN_PICK(...) GN_PICK_(__VA_ARGS__)
+
+/* Quality: tiny, balanced, accurate. */
+#define GN_PRESETS_SUBPIXEL_BITS 4, 4, 8
+#define GN_PRESETS_PERSP_STEP 16, 8, 1
+#define GN_PRESETS_NEWTON_STEPS 1, 1, 2
+#define GN_PRESETS_SHADOW_SUBPIXEL_BITS 8, 8, 12
+#define GN_PRESETS_SHADOW_DEPTH_FRAC 0, 0, 4
+#define GN_PRESETS_WEIGHT_BITS 6, 8, 12
+#define GN_PRESETS_ATTEN_BITS 8, 8, 16
+#define GN_PRESETS_ATLAS_SIZE 64, 128, 256
+#define GN_PRESETS_TILE_WIDTH 64, 64, 64
+#define GN_PRESETS_TILE_HEIGHT 8, 16, 16
+#define GN_PRESETS_SRGB 1, 1, 1
+
+#ifndef GN_SUBPIXEL_BITS
+#define GN_SUBPIXEL_BITS GN_PICK(GN_PRESETS_SUBPIXEL_BITS)
+#endif
+#ifndef GN_PERSP_STEP
+#define GN_PERSP_STEP GN_PICK(GN_PRESETS_PERSP_STEP)
+#endif
+#ifndef GN_NEWTON_STEPS
+#define GN_NEWTON_STEPS GN_PICK(GN_PRESETS_NEWTON_STEPS)
+#endif
+#ifndef GN_SHADOW_SUBPIXEL_BITS
+#define GN_SHADOW_SUBPIXEL_BITS GN_PICK(GN_PRESETS_SHADOW_SUBPIXEL_BITS)
+#endif
+#ifndef GN_SHADOW_DEPTH_FRAC
+#define GN_SHADOW_DEPTH_FRAC GN_PICK(GN_PRESETS_SHADOW_DEPTH_FRAC)
+#endif
+#ifndef GN_WEIGHT_BITS
+#define GN_WEIGHT_BITS GN_PICK(GN_PRESETS_WEIGHT_BITS)
+#endif
+#ifndef GN_ATTEN_BITS
+#define GN_ATTEN_BITS GN_PICK(GN_PRESETS_ATTEN_BITS)
+#endif
+#ifndef GN_ATLAS_SIZE
+#define GN_ATLAS_SIZE GN_PICK(GN_PRESETS_ATLAS_SIZE)
+#endif
+#ifndef GN_TILE_WIDTH
+#define GN_TILE_WIDTH GN_PICK(GN_PRESETS_TILE_WIDTH)
+#endif
+#ifndef GN_TILE_HEIGHT
+#define GN_TILE_HEIGHT GN_PICK(GN_PRESETS_TILE_HEIGHT)
+#endif
+#ifndef GN_SRGB
+#define GN_SRGB GN_PICK(GN_PRESETS_SRGB)
+#endif
+
+/* Capacities. */
+#ifndef GN_MAX_WIDTH
+#define GN_MAX_WIDTH 320
+#endif
+#ifndef GN_MAX_HEIGHT
+#define GN_MAX_HEIGHT 240
+#endif
+#ifndef GN_MAX_TRIANGLES
+#define GN_MAX_TRIANGLES 500
+#endif
+#ifndef GN_MAX_TILE_REFS
+#define GN_MAX_TILE_REFS 1500
+#endif
+#ifndef GN_MAX_LIGHTS
+#define GN_MAX_LIGHTS 4
+#endif
+#ifndef GN_VERTEX_CACHE
+#define GN_VERTEX_CACHE 32
+#endif
+
+/* Features: 0 means absent from the image. */
+#ifndef GN_SHADOWS
+#define GN_SHADOWS 1
+#endif
+#ifndef GN_FILTER_MAX
+#define GN_FILTER_MAX 4
+#endif
+#ifndef GN_VERTEX_NORMALS
+#define GN_VERTEX_NORMALS 1
+#endif
+#ifndef GN_VERTEX_COLOURS
+#define GN_VERTEX_COLOURS 1
+#endif
+#ifndef GN_RAW_VIEWS
+#define GN_RAW_VIEWS 0
+#endif
+#ifndef GN_RUNTIME_KNOBS
+#define GN_RUNTIME_KNOBS 0
+#endif
+
+#endif

@@ -1,0 +1,194 @@
+/* A frame, stage by stage. Read this file first: it is the table of contents of the library.
+ *
+ *   gn_begin        gn_scene    validate what the caller describes
+ *                   gn_xform    camera
+ *                   gn_cascade  which light gets a shadow tile, and where it lies
+ *   gn_shadow_tile  gn_atlas    casters, as depth seen from the light
+ *   gn_prepare      gn_setup    visible triangles: transform, cull, clip (gn_clip), project, depth plane (gn_plane)
+ *                   gn_bin      triangles to screen tiles
+ *   gn_screen_tile  gn_raster   visible surfaces: depth and triangle per pixel, by exact edge walkers (gn_walk)
+ *                   gn_shade    runs of pixels of one surface (gn_surface): light (gn_light, gn_filter), encode (gn_pixel)
+ *                   flush
+ */
+#include <string.h>
+
+#include "gn_atlas.h"
+#include "gn_bin.h"
+#include "gn_cascade.h"
+#include "gn_check.h"
+#include "gn_q.h"
+#include "gn_raster.h"
+#include "gn_scene.h"
+#include "gn_setup.h"
+#include "gn_shade.h"
+#include "gn_xform.h"
+#include "gnomon.h"
+
+enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED };
+
+#if GN_RUNTIME_KNOBS
+#define GN_KNOB_DEFAULT_(name, MACRO, lo, hi, meaning, cost) frame->knobs.name = GN_##MACRO;
+#define GN_KNOB_IN_RANGE_(name, MACRO, lo, hi, meaning, cost) ok = ok && frame->knobs.name >= (lo) && frame->knobs.name <= (hi);
+
+/* What gn_check.h asserts at compile time, at run time; sizes must also fit what was compiled in. */
+static int knobs_ok(const gn_frame *frame)
+{
+    int ok = 1;
+    GN_QUALITY_KNOBS(GN_KNOB_IN_RANGE_)
+    const gn_knobs *k = &frame->knobs;
+    ok = ok && (k->persp_step == 1 || k->persp_step == 4 || k->persp_step == 8 || k->persp_step == 16);
+    ok = ok && (k->atten_bits == 8 || k->atten_bits == 16) && k->atlas_size <= GN_ATLAS_SIZE;
+    ok = ok && (k->atlas_size & (k->atlas_size - 1)) == 0 && k->tile_width % 4 == 0;
+    return ok && k->tile_width * k->tile_height <= GN_TILE_PIXELS_MAX;
+}
+#endif
+
+static int picture_format_ok(const gn_picture *picture)
+{
+    if (picture->format == GN_FORMAT_RAW32)
+        return GN_RAW_VIEWS && (int)picture->view >= GN_VIEW_COLOUR + 1 && (int)picture->view <= GN_VIEW_TRIANGLE;
+    return picture->view == GN_VIEW_COLOUR && (picture->format == GN_FORMAT_RGB565 || picture->format == GN_FORMAT_RGB888);
+}
+
+gn_status gn_init(gn_renderer *r, const gn_picture *picture)
+{
+    if (!r || !picture) return GN_ERR_NULL;
+    memset(r, 0, sizeof *r);
+    gn_frame *frame = &r->frame;
+#if GN_RUNTIME_KNOBS
+    GN_QUALITY_KNOBS(GN_KNOB_DEFAULT_)
+#endif
+    if (!picture->width || !picture->height || picture->width > GN_MAX_WIDTH || picture->height > GN_MAX_HEIGHT)
+        return gn_fail(frame, GN_ERR_PICTURE_SIZE, 0);
+    if (!picture_format_ok(picture)) return gn_fail(frame, GN_ERR_FORMAT, 0);
+    frame->picture = *picture;
+    frame->stage = GN_STAGE_INIT;
+    return GN_OK;
+}
+
+gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
+{
+    if (!r) return GN_ERR_NULL;
+    gn_frame *frame = &r->frame;
+    if (frame->stage == GN_STAGE_NONE) return gn_fail(frame, GN_ERR_ORDER, 0);
+    frame->stage = GN_STAGE_INIT;
+    if (!scene) return gn_fail(frame, GN_ERR_NULL, 0);
+#if GN_RUNTIME_KNOBS
+    if (!knobs_ok(frame)) return gn_fail(frame, GN_ERR_KNOB, 0);
+#endif
+    memset(&frame->stats, 0, sizeof frame->stats);
+    memset(&frame->detail, 0, sizeof frame->detail);
+    frame->tiles_x = (uint16_t)((frame->picture.width + GN_K(frame, tile_width) - 1) / GN_K(frame, tile_width));
+    frame->tiles_y = (uint16_t)((frame->picture.height + GN_K(frame, tile_height) - 1) / GN_K(frame, tile_height));
+    if ((uint32_t)frame->tiles_x * frame->tiles_y > GN_TILES_MAX) return gn_fail(frame, GN_ERR_KNOB, 0);
+    gn_status status = gn_scene_validate(frame, scene);
+    if (status) return status;
+    frame->scene = scene;
+    gn_cam_setup(frame);
+    status = gn_cascade_setup(frame);
+    if (status) return status;
+    frame->stage = GN_STAGE_BEGUN;
+    return GN_OK;
+}
+
+uint32_t gn_shadow_tile_count(const gn_renderer *r)
+{
+    return r ? r->frame.n_views : 0;
+}
+
+gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx)
+{
+    if (!r) return GN_ERR_NULL;
+    gn_frame *frame = &r->frame;
+    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, GN_ERR_ORDER, 0);
+    if (tile_idx >= frame->n_views) return gn_fail(frame, GN_ERR_INDEX, tile_idx);
+#if GN_SHADOWS
+    return gn_atlas_render_tile(frame, &frame->view[tile_idx]);
+#else
+    return GN_OK;
+#endif
+}
+
+gn_status gn_prepare(gn_renderer *r)
+{
+    if (!r) return GN_ERR_NULL;
+    gn_frame *frame = &r->frame;
+    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, GN_ERR_ORDER, 0);
+#if GN_SHADOWS
+    for (uint32_t i = 0; i < frame->n_views; i++)
+        if (!frame->view[i].tile_done) return gn_fail(frame, GN_ERR_ORDER, i);
+#endif
+    gn_status status = gn_setup_triangles(frame, r->scratch.vertex);
+    if (status) return status;
+    /* cells hold triangle + 1; what the identity leaves is depth */
+    frame->id_bits = frame->stats.n_triangles ? (uint8_t)(32 - gn_clz32(frame->stats.n_triangles)) : 1;
+    status = gn_bin_triangles(frame);
+    if (status) return status;
+    frame->stage = GN_STAGE_PREPARED;
+    return GN_OK;
+}
+
+uint32_t gn_screen_tile_count(const gn_renderer *r)
+{
+    return r ? (uint32_t)r->frame.tiles_x * r->frame.tiles_y : 0;
+}
+
+gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
+{
+    if (!frame || !scratch || !flush) return GN_ERR_NULL;
+    if (frame->stage != GN_STAGE_PREPARED) return GN_ERR_ORDER;
+    if (tile_idx >= (uint32_t)frame->tiles_x * frame->tiles_y) return GN_ERR_INDEX;
+    gn_raster_tile(frame, scratch, tile_idx);
+    gn_shade_tile(frame, scratch, tile_idx);
+    gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
+    flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel);
+    return GN_OK;
+}
+
+gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user)
+{
+    if (!r || !flush) return GN_ERR_NULL;
+    gn_status status = gn_begin(r, scene);
+    for (uint32_t i = 0; !status && i < gn_shadow_tile_count(r); i++) status = gn_shadow_tile(r, i);
+    if (!status) status = gn_prepare(r);
+    for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++)
+        status = gn_screen_tile(&r->frame, &r->scratch, i, flush, user);
+    return status;
+}
+
+const gn_stats *gn_get_stats(const gn_renderer *r)
+{
+    return r ? &r->frame.stats : NULL;
+}
+
+const gn_detail *gn_get_detail(const gn_renderer *r)
+{
+    return r ? &r->frame.detail : NULL;
+}
+
+uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, const uint16_t **depth)
+{
+#if GN_SHADOWS
+    for (uint32_t i = 0; r && depth && i < r->frame.n_views; i++) {
+        if (r->frame.view[i].light_idx != light_idx) continue;
+        *depth = r->frame.view[i].depth;
+        return r->frame.view[i].tile_texels;
+    }
+#else
+    (void)r;
+    (void)light_idx;
+    (void)depth;
+#endif
+    return 0;
+}
+
+const char *gn_status_text(gn_status status)
+{
+    switch (status) {
+#define GN_STATUS_CASE_(name, text)                                                                                    \
+    case name: return text;
+        GN_STATUS_LIST(GN_STATUS_CASE_)
+    case GN_STATUS_COUNT: break;
+    }
+    return "unknown status";
+}

@@ -1,0 +1,55 @@
+/* Lighting of one surface point. */
+#include "gn_light.h"
+#include "gn_filter.h"
+#include "gn_q.h"
+
+#if GN_SHADOWS
+/* D5: 65536 up to the start of the fade, 0 from the max distance on. */
+static uint32_t distance_fade(const gn_frame *frame, int32_t z_q16)
+{
+    if ((uint32_t)z_q16 <= frame->fade_start_q16) return 65536;
+    gn_bfloat scale = {frame->fade_scale.mant, frame->fade_scale.exp};
+    int64_t left_q16 = (int64_t)frame->scene->shadow.max_distance_q16 - z_q16;
+    if (left_q16 <= 0) return 0;
+    return (uint32_t)gn_clamp64(gn_bf_apply(left_q16, scale, 32), 0, 65536);
+}
+#endif
+
+uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t light_idx)
+{
+    const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * light_idx];
+    if (value[0] <= 0) return 0;
+#if GN_SHADOWS
+    int32_t view_idx = frame->light[light_idx].view_idx;
+    if (view_idx < 0 || !(surface->object->flags & GN_OBJECT_RECEIVES)) return 65536;
+    const gn_light_view *view = &frame->view[view_idx];
+    uint32_t strength = gn_mul_uq16(view->strength_uq16, distance_fade(frame, sample->value[GN_VALUE_Z]));
+    if (!strength) return 65536;
+    uint32_t attenuation = gn_filter_attenuation(frame, view, value[1], value[2], value[3]);
+    return 65536 - gn_mul_uq16(strength, 65536 - attenuation); /* M4 */
+#else
+    (void)frame;
+    (void)surface;
+    return 65536;
+#endif
+}
+
+void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t radiance_q20[3])
+{
+    uint64_t light_q20[3]; /* <= 8 * 2^28 + 2^28 */
+    int unlit = (surface->object->flags & GN_OBJECT_UNLIT) != 0;
+    for (int c = 0; c < 3; c++) light_q20[c] = unlit ? 1U << 20 : (uint64_t)frame->scene->ambient_uq16[c] << 4;
+    for (uint32_t l = 0; !unlit && l < frame->scene->n_lights; l++) {
+        uint32_t shadow = gn_light_shadow(frame, surface, sample, l);
+        if (!shadow) continue;
+        int32_t cosine_q24 = sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l];
+        uint64_t diffuse_q24 = gn_mul_uq16((uint32_t)cosine_q24, shadow);
+        for (int c = 0; c < 3; c++) /* 2^24 * 2^24 */
+            light_q20[c] += (frame->light[l].colour_uq16[c] * diffuse_q24 + (1U << 19)) >> 20;
+    }
+    for (int c = 0; c < 3; c++) {
+        uint64_t r = (light_q20[c] * surface->object->albedo_uq16[c] + 0x8000U) >> 16;
+        if (surface->coloured) r = (r * (uint32_t)gn_max32(sample->value[GN_VALUE_RGB + c], 0) + 0x8000U) >> 16;
+        radiance_q20[c] = r > UINT32_MAX ? UINT32_MAX : (uint32_t)r;
+    }
+}

@@ -1,0 +1,170 @@
+/* Number core. Every step states the range that keeps it from overflowing. */
+#include "gn_math.h"
+#include "gn_q.h"
+#include "gn_tables.h"
+#include "gnomon.h"
+
+gn_bfloat gn_bf_from_u64(uint64_t v)
+{
+    int32_t clz = gn_clz64(v);
+    gn_bfloat out = {(uint32_t)((v << clz) >> 32), 32 - clz};
+    return out;
+}
+
+uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
+{
+    /* x = m / 2^32 in [1/2, 1); y ~ 1/x in Q1.31. Newton y(2 - xy) never exceeds 1/x <= 2, so only x = 1/2 reaches 2^32. */
+    uint64_t y = (uint64_t)gn_recip_table[(m >> 23) & 255U] << 16;
+    for (int32_t i = 0; i < newton_steps; i++) {
+        uint32_t two_minus_xy = 0U - (uint32_t)((m * y) >> 32); /* Q1.31, near 1: xy is within 2^-8 of 1 */
+        y = (y * two_minus_xy) >> 31;
+        if (y > UINT32_MAX) y = UINT32_MAX;
+    }
+    return (uint32_t)y;
+}
+
+uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
+{
+    /* x = m / 2^32 in [1/4, 1); y ~ 1/sqrt(x) in Q1.31; y(3 - xy^2)/2 */
+    uint64_t y = (uint64_t)gn_rsqrt_table[(m >> 24) - 64U] << 16;
+    for (int32_t i = 0; i < newton_steps; i++) {
+        uint32_t yy = (uint32_t)((y * y) >> 32);                     /* Q2.30, <= 4 (table entries are < 2 in Q1.15) */
+        uint64_t xyy = ((uint64_t)m * yy) >> 32;                     /* Q2.30, near 1 */
+        y = (y * (((uint64_t)3 << 30) - xyy)) >> 31;                 /* 32 bits * 32 bits */
+        if (y > UINT32_MAX) y = UINT32_MAX;
+    }
+    return (uint32_t)y;
+}
+
+gn_bfloat gn_bf_recip(gn_bfloat a)
+{
+    gn_bfloat out = {gn_recip_norm(a.mant, 2), -a.exp - 63};
+    return out;
+}
+
+gn_bfloat gn_bf_mul(gn_bfloat a, gn_bfloat b)
+{
+    gn_bfloat out = gn_bf_from_u64((uint64_t)a.mant * b.mant);
+    out.exp += a.exp + b.exp;
+    return out;
+}
+
+int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift)
+{
+    if (a == 0) return 0;
+    uint64_t ua = gn_abs64(a);
+    int32_t s = b.exp + shift;
+    uint64_t r;
+    if (ua >> 32) {
+        /* the 96-bit product without its low 32 bits: (hi * 2^32 + lo) * mant / 2^32 */
+        uint64_t lo = (ua & UINT32_MAX) * b.mant;
+        r = (ua >> 32) * b.mant + ((lo + 0x80000000U) >> 32);
+        s += 32;
+    } else {
+        r = ua * b.mant;
+    }
+    if (s >= 0) {
+        r = (s > 62 || (r && gn_clz64(r) <= s)) ? (uint64_t)INT64_MAX : r << s;
+    } else {
+        /* truncate, then round by the last bit dropped: no addition that could carry out */
+        r = s < -64 ? 0 : s == -64 ? r >> 63 : (r >> -s) + ((r >> (-s - 1)) & 1U);
+        if (r > (uint64_t)INT64_MAX) r = (uint64_t)INT64_MAX;
+    }
+    return a < 0 ? -(int64_t)r : (int64_t)r;
+}
+
+uint32_t gn_isqrt64(uint64_t v)
+{
+    uint64_t root = 0;
+    for (uint64_t bit = (uint64_t)1 << 62; bit; bit >>= 2) {
+        if (v >= root + bit) {
+            v -= root + bit;
+            root = (root >> 1) + bit;
+        } else {
+            root >>= 1;
+        }
+    }
+    return (uint32_t)root;
+}
+
+int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
+{
+    uint64_t any = gn_abs64(a[0]) | gn_abs64(a[1]) | gn_abs64(a[2]);
+    if (!any) {
+        out[0] = out[1] = out[2] = 0;
+        return 0;
+    }
+    int32_t e = 34 - gn_clz64(any); /* bits above 30 */
+    for (int i = 0; i < 3; i++) {
+        int64_t v = e > 0 ? gn_scale64(a[i], e) : gn_shl64(a[i], -e);
+        out[i] = (int32_t)gn_clamp64(v, -((1 << 30) - 1), (1 << 30) - 1); /* rounding may reach 2^30 */
+    }
+    return e;
+}
+
+int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
+{
+    int32_t n[3];
+    gn_norm_vec(n, a);
+    /* squares sum below 3 * 2^60; the largest component is at least 2^29 */
+    uint64_t sum = (uint64_t)gn_dot64(n, n);
+    if (!sum) return 0;
+    int32_t s = gn_clz64(sum) & ~1;                              /* even shift to [2^62, 2^64) */
+    uint32_t r = gn_rsqrt_norm((uint32_t)((sum << s) >> 32), 2); /* 2^47 / sqrt(sum << s >> 32) = 2^63 / sqrt(sum << s) */
+    for (int i = 0; i < 3; i++) {
+        /* n / sqrt(sum) = n * r * 2^(s/2 - 63); n < 2^30, r < 2^32 */
+        int64_t p = gn_shr64((int64_t)n[i] * (int64_t)r, 33 - s / 2);
+        out_q30[i] = (int32_t)gn_clamp64(p, -(1 << 30), 1 << 30);
+    }
+    return 1;
+}
+
+void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3])
+{
+    out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
+    out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];
+    out[2] = (int64_t)a[0] * b[1] - (int64_t)a[1] * b[0];
+}
+
+int64_t gn_dot64(const int32_t a[3], const int32_t b[3])
+{
+    return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
+}
+
+void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q30[3])
+{
+    int64_t c[3];
+    gn_cross64(c, a_q30, b_q30);
+    for (int i = 0; i < 3; i++) out_q30[i] = (int32_t)gn_shr64(c[i], 30);
+}
+
+int32_t gn_sin_q30(uint16_t angle_turn)
+{
+    /* fold to the first quarter, then sin(A + b) with A on a grid of 1/256 turn and |b| <= 1/512 turn = 0.0123 rad */
+    uint32_t a = angle_turn & 0x7FFFU;
+    if (a > 0x4000U) a = 0x8000U - a;
+    uint32_t i = (a + 128U) >> 8;
+    int32_t b_turn = (int32_t)a - (int32_t)(i << 8);
+    int32_t b = (int32_t)gn_shr64((int64_t)b_turn * 105414358, 10); /* radians, Q30: 2 pi * 2^40 / 2^16 = 105414357.9 */
+    int32_t b2 = gn_mul_q30(b, b);
+    int32_t sin_b = b - gn_mul_q30(gn_mul_q30(b2, b), 178956971);                           /* 2^30 / 6 */
+    int32_t cos_b = (1 << 30) - (b2 >> 1) + gn_mul_q30(gn_mul_q30(b2, b2), 44739243);       /* 2^30 / 24 */
+    int64_t s = (int64_t)gn_sin_table_q30[i] * cos_b + (int64_t)gn_sin_table_q30[64U - i] * sin_b;
+    int32_t v = gn_min32((int32_t)gn_shr64(s, 30), 1 << 30);
+    return angle_turn & 0x8000U ? -v : v;
+}
+
+int32_t gn_cos_q30(uint16_t angle_turn)
+{
+    return gn_sin_q30((uint16_t)(angle_turn + 0x4000U));
+}
+
+uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn)
+{
+    /* 1 / tan(a / 2) = (1 + cos a) / sin a needs no half angle */
+    int32_t s = gn_sin_q30(vertical_fov_turn);
+    if (s <= 0) return vertical_fov_turn ? 0 : UINT32_MAX;
+    int64_t numerator = ((int64_t)(1 << 30) + gn_cos_q30(vertical_fov_turn)) << 24;
+    int64_t q = (numerator + s / 2) / s;
+    return q > (int64_t)UINT32_MAX ? UINT32_MAX : (uint32_t)q;
+}

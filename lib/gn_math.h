@@ -1,0 +1,44 @@
+/* Number core: reciprocals, roots, sine, vectors. Formats, ranges and errors are proved in docs/NUMERICS.md section 2. */
+#ifndef GN_MATH_H
+#define GN_MATH_H
+
+#include <stdint.h>
+
+/* A positive number as mantissa * 2^exp, mantissa in [2^31, 2^32). */
+typedef struct {
+    uint32_t mant;
+    int32_t exp;
+} gn_bfloat;
+
+/* Nearest below: v truncated to 32 significant bits; v > 0. Relative error < 2^-31. */
+gn_bfloat gn_bf_from_u64(uint64_t v);
+
+/* 2^63 / m for a normalised m in [2^31, 2^32), within (2^31, 2^32); newton_steps 1: relative error < 2^-17, 2: < 2^-29. */
+uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps);
+
+/* 2^47 / sqrt(m) for m in [2^30, 2^32), within (2^31, 2^32); newton_steps 1: relative error < 2^-15, 2: < 2^-28. */
+uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps);
+
+gn_bfloat gn_bf_recip(gn_bfloat a);              /* relative error < 2^-29 */
+gn_bfloat gn_bf_mul(gn_bfloat a, gn_bfloat b);   /* relative error < 2^-31 */
+
+/* round(a * b.mant * 2^(b.exp + shift)), saturating at +-2^63. Error at most 1 LSB or 2^-31 of the result, the larger. */
+int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift);
+
+uint32_t gn_isqrt64(uint64_t v); /* floor(sqrt(v)) */
+
+/* round(a * 2^q30 / |a|); a any length but zero. Each component errs by at most 3 LSB of Q1.30. Returns 0 if a is zero. */
+int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3]);
+
+/* Exact; |components| < 2^30 so that the result fits. */
+void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3]);
+int64_t gn_dot64(const int32_t a[3], const int32_t b[3]); /* exact; |sum| < 2^63 */
+
+/* Round Q1.30 cross product of unit vectors. */
+void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q30[3]);
+
+/* Shifts a vector so that its largest component has its top bit at bit 29: |out| < 2^30. Returns e with a = out * 2^e (rounded
+ * when e > 0, exact when e <= 0). A zero vector gives zero and e = 0. */
+int32_t gn_norm_vec(int32_t out[3], const int64_t a[3]);
+
+#endif

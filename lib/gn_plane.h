@@ -1,0 +1,28 @@
+/* The projective plane of a triangle: what is linear in screen space, from unsnapped view-space vertices (NUMERICS 4.3).
+ *
+ * Rays through pixel centres are (px, py, 2F) with px = 2x + 1 - W, py = H - 1 - 2y. For a linear form c in view space,
+ * c . ray is linear on the screen. With n = (v1 - v0) x (v2 - v0) and det = n . v0: view depth Z = det * 2F / (n . ray).
+ */
+#ifndef GN_PLANE_H
+#define GN_PLANE_H
+
+#include "gn_math.h"
+#include "gnomon.h"
+
+typedef struct {
+    int32_t n[3];  /* face normal, away from the viewer for a front face, |n| < 2^30, power-of-two scale n_exp */
+    int32_t n_exp;
+    int64_t det;   /* n . v0, positive after gn_plane_setup; 0: edge on or degenerate */
+    int32_t back;  /* 1: seen from behind (n has been negated) */
+} gn_plane;
+
+/* v0, v1, v2 in view space, |v| < 2^30. */
+void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3]);
+
+/* c . ray at a pixel, Q16 relative to c's own scale. |c| < 2^30, |px|, |py| < 2^13: below 2^63 */
+static inline int64_t gn_plane_at(const int32_t c[3], int32_t px, int32_t py, uint32_t focal2_px_q16)
+{
+    return ((int64_t)c[0] * px + (int64_t)c[1] * py) * 65536 + (int64_t)c[2] * (int64_t)focal2_px_q16;
+}
+
+#endif

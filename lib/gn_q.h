@@ -1,0 +1,105 @@
+/* Rounding, saturation and shifts: the only place where they are written out.
+ *
+ * Rounding is to nearest, halves upwards, unless a name says otherwise. Signed right shifts are arithmetic (asserted below:
+ * implementation-defined in C99, and so on every compiler we build with); signed left shifts go through multiplication or unsigned.
+ */
+#ifndef GN_Q_H
+#define GN_Q_H
+
+#include <stdint.h>
+
+typedef char gn_assert_arithmetic_shift[((-5) >> 1) == -3 ? 1 : -1];
+
+/* Leading zeros; v != 0. */
+static inline int32_t gn_clz32(uint32_t v)
+{
+#if defined(__GNUC__)
+    return (int32_t)__builtin_clz((unsigned int)v) - (int32_t)(sizeof(unsigned int) * 8U - 32U);
+#else
+    int32_t n = 0;
+    while (!(v & 0x80000000U)) {
+        v <<= 1;
+        n++;
+    }
+    return n;
+#endif
+}
+
+static inline int32_t gn_clz64(uint64_t v)
+{
+    uint32_t hi = (uint32_t)(v >> 32);
+    return hi ? gn_clz32(hi) : 32 + gn_clz32((uint32_t)v);
+}
+
+static inline int32_t gn_min32(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+static inline int32_t gn_max32(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
+}
+
+static inline int64_t gn_clamp64(int64_t v, int64_t lo, int64_t hi)
+{
+    return v < lo ? lo : v > hi ? hi : v;
+}
+
+static inline int32_t gn_sat32(int64_t v)
+{
+    return (int32_t)gn_clamp64(v, INT32_MIN, INT32_MAX);
+}
+
+/* |v| as unsigned: defined for the most negative value too. */
+static inline uint32_t gn_abs32(int32_t v)
+{
+    return v < 0 ? 0U - (uint32_t)v : (uint32_t)v;
+}
+
+static inline uint64_t gn_abs64(int64_t v)
+{
+    return v < 0 ? 0U - (uint64_t)v : (uint64_t)v;
+}
+
+/* v * 2^s; 0 <= s <= 62 and the result fits. */
+static inline int64_t gn_shl64(int64_t v, int32_t s)
+{
+    return (int64_t)((uint64_t)v << s);
+}
+
+/* round(v / 2^s); 0 <= s <= 62, |v| <= 2^62. */
+static inline int64_t gn_shr64(int64_t v, int32_t s)
+{
+    return s ? (v + ((int64_t)1 << (s - 1))) >> s : v;
+}
+
+/* round(v * 2^-s) for any s of either sign; saturates. */
+static inline int64_t gn_scale64(int64_t v, int32_t s)
+{
+    if (s > 62) return 0;
+    if (s >= 0) return (v + ((((int64_t)1 << s) >> 1))) >> s;
+    if (v == 0) return 0;
+    if (gn_clz64(gn_abs64(v)) - 1 < -s) return v < 0 ? -INT64_MAX : INT64_MAX;
+    return gn_shl64(v, -s);
+}
+
+/* round(a * b / 2^s); 1 <= s <= 62, |a * b| <= 2^62. */
+static inline int32_t gn_mul_shr(int32_t a, int32_t b, int32_t s)
+{
+    return (int32_t)(((int64_t)a * b + ((int64_t)1 << (s - 1))) >> s);
+}
+
+/* round(a * b / 2^30) for Q1.30 factors whose product fits Q1.30. */
+static inline int32_t gn_mul_q30(int32_t a, int32_t b)
+{
+    return gn_mul_shr(a, b, 30);
+}
+
+/* round(a * b / 2^16) of unsigned fractions; the result fits. */
+static inline uint32_t gn_mul_uq16(uint32_t a, uint32_t b)
+{
+    return (uint32_t)(((uint64_t)a * b + 0x8000U) >> 16);
+}
+
+#endif

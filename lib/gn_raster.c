@@ -1,0 +1,67 @@
+/* Visible surfaces of a screen tile. */
+#include "gn_raster.h"
+#include "gn_q.h"
+
+int gn_raster_walk(const gn_frame *frame, gn_walk *walk, const gn_tri *tri, const gn_rect *rect)
+{
+    int32_t x[3] = {tri->x[0], tri->x[1], tri->x[2]}, y[3] = {tri->y[0], tri->y[1], tri->y[2]};
+    return gn_walk_begin(walk, x, y, GN_K(frame, subpixel_bits), rect->y0, rect->y1);
+}
+
+/* Depth is linear over a row; inside the triangle it stays within [lo, hi]. A snapped edge can reach past the unsnapped plane
+ * by a fraction of a pixel, so a value outside is brought back to the nearer end (modulo 2^32). */
+static uint32_t clamp_depth(uint32_t v, uint32_t lo, uint32_t hi)
+{
+    if (v - lo <= hi - lo) return v;
+    return lo - v < v - hi ? lo : hi;
+}
+
+static void raster_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t iz_dx, uint32_t id, uint32_t id_mask)
+{
+    for (int32_t i = 0; i < n; i++) {
+        uint32_t candidate = (iz & ~id_mask) | id;
+        if (candidate > cell[i]) cell[i] = candidate;
+        iz += iz_dx;
+    }
+}
+
+static void raster_span_clamped(uint32_t *cell, int32_t n, uint32_t iz, const gn_tri *tri, uint32_t id, uint32_t id_mask)
+{
+    uint32_t lo = (uint32_t)tri->iz_min << 16, hi = (uint32_t)tri->iz_max << 16 | 0xFFFFU;
+    for (int32_t i = 0; i < n; i++) {
+        uint32_t candidate = (clamp_depth(iz, lo, hi) & ~id_mask) | id;
+        if (candidate > cell[i]) cell[i] = candidate;
+        iz += (uint32_t)tri->iz_dx;
+    }
+}
+
+static void raster_triangle(const gn_frame *frame, gn_scratch *scratch, const gn_rect *rect, uint32_t tri_idx)
+{
+    const gn_tri *tri = &frame->tri[tri_idx];
+    gn_walk walk;
+    if (!gn_raster_walk(frame, &walk, tri, rect)) return;
+    int32_t bits = GN_K(frame, subpixel_bits), stride = rect->x1 - rect->x0;
+    uint32_t id = tri_idx + 1, id_mask = (1U << frame->id_bits) - 1;
+    uint32_t lo = (uint32_t)tri->iz_min << 16, hi = (uint32_t)tri->iz_max << 16 | 0xFFFFU;
+    int32_t x_ref = tri->x[0] >> bits, y_ref = tri->y[0] >> bits;
+    int32_t y, xa, xb;
+    while (gn_walk_row(&walk, &y, &xa, &xb)) {
+        xa = gn_max32(xa, rect->x0);
+        xb = gn_min32(xb, rect->x1);
+        if (xa >= xb) continue;
+        uint32_t iz = tri->iz_ref + (uint32_t)(xa - x_ref) * (uint32_t)tri->iz_dx + (uint32_t)(y - y_ref) * (uint32_t)tri->iz_dy;
+        uint32_t iz_last = iz + (uint32_t)(xb - 1 - xa) * (uint32_t)tri->iz_dx;
+        uint32_t *cell = scratch->cell + (y - rect->y0) * stride + (xa - rect->x0);
+        if (iz - lo <= hi - lo && iz_last - lo <= hi - lo) raster_span(cell, xb - xa, iz, (uint32_t)tri->iz_dx, id, id_mask);
+        else raster_span_clamped(cell, xb - xa, iz, tri, id, id_mask);
+    }
+}
+
+void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
+{
+    gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
+    int32_t n = (rect.x1 - rect.x0) * (rect.y1 - rect.y0);
+    for (int32_t i = 0; i < n; i++) scratch->cell[i] = 0;
+    for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++)
+        raster_triangle(frame, scratch, &rect, frame->tile_ref[i]);
+}

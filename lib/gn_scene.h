@@ -1,0 +1,14 @@
+/* Validation of what the caller describes. */
+#ifndef GN_SCENE_H
+#define GN_SCENE_H
+
+#include "gnomon.h"
+
+/* GN_OK, or the first thing that is wrong, with frame->detail filled. Vertex positions are checked when they are transformed. */
+gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene);
+
+/* Records a failure and returns its status. */
+gn_status gn_fail(gn_frame *frame, gn_status status, uint32_t index);
+gn_status gn_fail_capacity(gn_frame *frame, gn_status status, uint32_t needed, uint32_t available);
+
+#endif

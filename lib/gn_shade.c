@@ -1,0 +1,147 @@
+/* Shading of a screen tile. */
+#include "gn_shade.h"
+#include "gn_light.h"
+#include "gn_pixel.h"
+#include "gn_q.h"
+#include "gn_raster.h"
+
+typedef struct {
+    const gn_frame *frame;
+    gn_scratch *scratch;
+    gn_rect rect;
+    gn_surface_cache cache;
+    gn_surface surface;
+    const gn_tri *tri;
+} shading;
+
+#if GN_RAW_VIEWS
+/* Q1.30 to 10 bits, offset 512 */
+static uint32_t pack_axis(int64_t v_q30)
+{
+    return (uint32_t)(512 + gn_clamp64(gn_shr64(v_q30 * 511, 30), -511, 511));
+}
+
+static uint32_t raw_normal(const shading *s, int32_t x, int32_t y)
+{
+    int32_t n[3], unit[3];
+    gn_surface_normal(s->frame, &s->surface, x, y, n);
+    int64_t wide[3] = {n[0], n[1], n[2]};
+    if (!gn_normalise_q30(unit, wide)) return 512U << 20 | 512U << 10 | 512U;
+    return pack_axis(unit[0]) << 20 | pack_axis(unit[1]) << 10 | pack_axis(unit[2]);
+}
+
+static uint32_t raw_value(const shading *s, const gn_sample *sample, int32_t x, int32_t y)
+{
+    const gn_picture *picture = &s->frame->picture;
+    switch (picture->view) {
+    case GN_VIEW_SHADOW:
+        if (s->surface.object->flags & GN_OBJECT_UNLIT || picture->view_light >= s->frame->scene->n_lights) return 65536;
+        return gn_light_shadow(s->frame, &s->surface, sample, picture->view_light);
+    case GN_VIEW_DEPTH: return (uint32_t)sample->value[GN_VALUE_Z];
+    case GN_VIEW_NORMAL: return raw_normal(s, x, y);
+    default: return (uint32_t)s->tri->object_idx << 16 | s->tri->triangle_idx;
+    }
+}
+#endif
+
+static void shade_pixel(const shading *s, const gn_sample *sample, int32_t x, int32_t y)
+{
+    int32_t i = (y - s->rect.y0) * (s->rect.x1 - s->rect.x0) + x - s->rect.x0;
+#if GN_RAW_VIEWS
+    if (s->frame->picture.format == GN_FORMAT_RAW32) {
+        s->scratch->pixel[i] = raw_value(s, sample, x, y);
+        return;
+    }
+#endif
+    uint32_t radiance_q20[3];
+    gn_light_radiance(s->frame, &s->surface, sample, radiance_q20);
+    gn_pixel_store(s->frame, s->scratch->pixel, i, radiance_q20);
+}
+
+/* Steps per pixel from sample a to sample b, `n` pixels apart; the differences of a chunk fit 32 bits by saturation. */
+static void step_between(gn_sample *step, const gn_sample *a, const gn_sample *b, int32_t n_values, int32_t n)
+{
+    for (int32_t i = 0; i < n_values; i++) step->value[i] = gn_sat32((int64_t)b->value[i] - a->value[i]) / n;
+}
+
+/* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at every persp_step-th pixel and at both ends of the
+ * run, linear between: 1/w is never extrapolated past the triangle. */
+static void shade_run(const shading *s, int32_t y, int32_t x_begin, int32_t x_end)
+{
+    int32_t step_px = GN_K(s->frame, persp_step), n_values = s->surface.n_values;
+    gn_sample here, next, step;
+    gn_surface_sample(s->frame, &s->surface, x_begin, y, &here);
+    shade_pixel(s, &here, x_begin, y);
+    for (int32_t x = x_begin; x < x_end - 1;) {
+        int32_t n = gn_min32(step_px, x_end - 1 - x);
+        gn_surface_sample(s->frame, &s->surface, x + n, y, &next);
+        if (n > 1) {
+            step_between(&step, &here, &next, n_values, n);
+            for (int32_t k = 1; k < n; k++) {
+                for (int32_t i = 0; i < n_values; i++) here.value[i] += step.value[i];
+                shade_pixel(s, &here, x + k, y);
+            }
+        }
+        here = next;
+        x += n;
+        shade_pixel(s, &here, x, y);
+    }
+}
+
+static void shade_triangle(shading *s, uint32_t tri_idx)
+{
+    const gn_frame *frame = s->frame;
+    const gn_rect *rect = &s->rect;
+    gn_walk walk;
+    s->tri = &frame->tri[tri_idx];
+    if (!gn_raster_walk(frame, &walk, s->tri, rect)) return;
+    uint32_t id = tri_idx + 1, id_mask = (1U << frame->id_bits) - 1;
+    int begun = 0;
+    int32_t y, xa, xb;
+    while (gn_walk_row(&walk, &y, &xa, &xb)) {
+        xb = gn_min32(xb, rect->x1);
+        const uint32_t *cell = s->scratch->cell + (y - rect->y0) * (rect->x1 - rect->x0) - rect->x0;
+        for (int32_t x = gn_max32(xa, rect->x0); x < xb;) {
+            if ((cell[x] & id_mask) != id) {
+                x++;
+                continue;
+            }
+            int32_t run_end = x + 1;
+            while (run_end < xb && (cell[run_end] & id_mask) == id) run_end++;
+            if (!begun++) gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
+            shade_run(s, y, x, run_end);
+            x = run_end;
+        }
+    }
+}
+
+static void clear_background(const shading *s)
+{
+    const gn_frame *frame = s->frame;
+    int32_t n = (s->rect.x1 - s->rect.x0) * (s->rect.y1 - s->rect.y0);
+    uint32_t background_q20[3];
+    for (int c = 0; c < 3; c++) background_q20[c] = frame->scene->background_uq16[c] << 4;
+    for (int32_t i = 0; i < n; i++) {
+        if (s->scratch->cell[i]) continue;
+#if GN_RAW_VIEWS
+        if (frame->picture.format == GN_FORMAT_RAW32) {
+            s->scratch->pixel[i] = UINT32_MAX;
+            continue;
+        }
+#endif
+        gn_pixel_store(frame, s->scratch->pixel, i, background_q20);
+    }
+}
+
+void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
+{
+    shading s;
+    s.frame = frame;
+    s.scratch = scratch;
+    s.rect = gn_bin_tile_rect(frame, tile_idx);
+    s.cache.object = NULL;
+    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
+    clear_background(&s);
+    for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++)
+        shade_triangle(&s, frame->tile_ref[i]);
+}

@@ -1,0 +1,50 @@
+/* A visible triangle as a surface: everything that shading interpolates over it (R4). */
+#ifndef GN_SURFACE_H
+#define GN_SURFACE_H
+
+#include "gn_math.h"
+#include "gn_plane.h"
+#include "gnomon.h"
+
+/* Values sampled at a pixel and stepped linearly between samples. */
+enum {
+    GN_VALUE_Z,          /* view depth, Q16 */
+    GN_VALUE_RGB,        /* 3: interpolated vertex colour, Q16 */
+    GN_VALUE_LIGHT = 4,  /* per light: n . L in Q24, then tile coordinates U, V, D in Q16 texels */
+    GN_VALUES_PER_LIGHT = 4,
+    GN_VALUE_COUNT = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * GN_MAX_LIGHTS
+};
+
+typedef struct {
+    int32_t value[GN_VALUE_COUNT];
+} gn_sample;
+
+typedef struct {
+    const gn_object *object;
+    gn_plane plane;
+    gn_bfloat depth_scale;      /* det * 2F: Z = depth_scale / (n . ray) */
+    int32_t z_min_q16, z_max_q16;
+    int32_t bary[2][3];         /* b1, b2 = (bary . ray) / (n . ray) * 2^bary_exp */
+    int32_t bary_exp[2];
+    int32_t normal_q30[3][3];   /* vertex 0, then differences of vertices 1 and 2 to it; flat: the face normal and zeros */
+    int32_t rgb_q16[3][3];      /* likewise for vertex colours */
+    uint8_t has_bary, smooth, coloured;
+    int32_t n_values;
+} gn_surface;
+
+/* Keeps what neighbouring triangles of a screen tile share: the current object's transforms. */
+typedef struct {
+    const gn_object *object;
+    gn_xform to_view;
+    int32_t normal_matrix[3][3];
+} gn_surface_cache;
+
+void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface, const gn_tri *tri);
+
+/* Everything at the centre of pixel (x, y), exactly (R4): the perspective divide happens here. */
+void gn_surface_sample(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, gn_sample *sample);
+
+/* Interpolated normal, not renormalised, Q1.30, towards the viewer's side; at the pixel's centre. */
+void gn_surface_normal(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, int32_t normal_q30[3]);
+
+#endif

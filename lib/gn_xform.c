@@ -1,0 +1,98 @@
+/* Transforms of the frame. */
+#include "gn_xform.h"
+#include "gn_math.h"
+#include "gn_q.h"
+
+/* Largest distance in pixels that a clipped vertex keeps outside the picture. With pictures up to 1024 pixels the guard band
+ * [-1000, 2024] at 4 subpixel bits stays inside int16; see NUMERICS.md 4. */
+#define GN_GUARD_PX 1000
+
+/* Half the picture plus `extra_px`, over the focal length: Q16, rounded up. */
+static int32_t half_extent_q16(uint32_t size_px, uint32_t extra_px, uint32_t focal2_px_q16)
+{
+    uint64_t numerator = (uint64_t)(size_px + 2 * extra_px) << 32;
+    return gn_sat32((int64_t)((numerator + focal2_px_q16 - 1) / focal2_px_q16));
+}
+
+void gn_cam_setup(gn_frame *frame)
+{
+    const gn_camera *camera = &frame->scene->camera;
+    gn_cam *cam = &frame->cam;
+    for (int i = 0; i < 3; i++) {
+        /* columns of the rotation are the axes; the camera looks along -Z */
+        cam->axis_q30[0][i] = camera->to_world.m_q30[i][0];
+        cam->axis_q30[1][i] = camera->to_world.m_q30[i][1];
+        cam->axis_q30[2][i] = -camera->to_world.m_q30[i][2];
+        cam->eye_q16[i] = camera->to_world.t_q16[i];
+    }
+    cam->near_q16 = camera->near_q16;
+    /* 2F = focal * H: Q8.24 * up to 2048 < 2^43, Q16 needs it >> 8, saturated by validation of focal * H < 2^15 */
+    cam->focal2_px_q16 = (uint32_t)(((uint64_t)camera->focal_q24 * frame->picture.height + 128U) >> 8);
+    gn_bfloat near = gn_bf_from_u64((uint64_t)(uint32_t)cam->near_q16);
+    gn_bfloat ratio = gn_bf_mul(near, gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16)));
+    cam->near_over_focal2.mant = ratio.mant;
+    cam->near_over_focal2.exp = ratio.exp;
+    uint32_t size[2] = {frame->picture.width, frame->picture.height};
+    for (int i = 0; i < 2; i++) {
+        cam->guard_q16[i] = half_extent_q16(size[i], GN_GUARD_PX, cam->focal2_px_q16);
+        cam->tan_q16[i] = half_extent_q16(size[i], 0, cam->focal2_px_q16);
+    }
+}
+
+void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t origin_q16[3], const gn_object *object)
+{
+    const gn_affine *a = &object->to_world;
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) {
+            int32_t column[3] = {a->m_q30[0][c], a->m_q30[1][c], a->m_q30[2][c]};
+            /* |axis| = 1, |column| <= sqrt(3): the sum is below 2^61, the result below 2^31 */
+            out->m[r][c] = gn_sat32(gn_shr64(gn_dot64(axis_q30[r], column), 30));
+        }
+        int64_t t = 0; /* |difference| <= 2^30 each, times 2^30, three of them with a unit row: below 2^62 */
+        for (int c = 0; c < 3; c++) t += ((int64_t)a->t_q16[c] - origin_q16[c]) * axis_q30[r][c];
+        out->t_q16[r] = gn_shr64(t, 30);
+    }
+    /* m has 30 - exp fraction bits, positions pos_frac_bits; the result 16. 0 <= shift <= 44 by validation. */
+    out->shift = 30 - a->exp + object->mesh->pos_frac_bits - 16;
+}
+
+void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
+{
+    const int32_t *p = mesh->pos + 3 * (size_t)vertex_idx;
+    for (int r = 0; r < 3; r++) {
+        /* |row| <= sqrt(3) * 2^30, |p| <= sqrt(3) * 2^30: below 3 * 2^60 */
+        out_q16[r] = gn_shr64(gn_dot64(xform->m[r], p), xform->shift) + xform->t_q16[r];
+    }
+}
+
+void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object)
+{
+    /* The cofactors are the inverse transpose times the determinant: only their direction and the determinant's sign matter. */
+    const int32_t(*m)[3] = object->to_world.m_q30;
+    int64_t cofactor[3][3], det = 0;
+    uint64_t any = 1;
+    for (int r = 0; r < 3; r++) {
+        int r1 = (r + 1) % 3, r2 = (r + 2) % 3;
+        for (int c = 0; c < 3; c++) {
+            int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+            cofactor[r][c] = (int64_t)m[r1][c1] * m[r2][c2] - (int64_t)m[r1][c2] * m[r2][c1]; /* <= 2^61 */
+            any |= gn_abs64(cofactor[r][c]);
+        }
+    }
+    for (int c = 0; c < 3; c++) det += gn_shr64(cofactor[0][c], 31) * m[0][c]; /* 3 * 2^30 * 2^30 */
+    int32_t e = 34 - gn_clz64(any);
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) {
+            int64_t v = gn_clamp64(gn_scale64(cofactor[r][c], e), -(1 << 30), 1 << 30);
+            out[r][c] = (int32_t)(det < 0 ? -v : v);
+        }
+    }
+}
+
+void gn_xform_normal(int32_t out_q30[3], const int32_t matrix[3][3], const int16_t nrm_q15[3])
+{
+    int64_t n[3]; /* 3 * 2^30 * 2^15 */
+    for (int r = 0; r < 3; r++)
+        n[r] = (int64_t)matrix[r][0] * nrm_q15[0] + (int64_t)matrix[r][1] * nrm_q15[1] + (int64_t)matrix[r][2] * nrm_q15[2];
+    if (!gn_normalise_q30(out_q30, n)) out_q30[0] = out_q30[1] = out_q30[2] = 0;
+}

@@ -1,0 +1,240 @@
+/* Gnomon: lit 3D scenes with real shadows, in fixed point, in static memory, one screen tile at a time.
+ *
+ * The only public header. Conventions:
+ * - right-handed world, +Y up; a camera looks along its local -Z; row-major 3x4 transforms, column vectors
+ * - lengths and coordinates are Q15.16 (`_q16`); unit quantities Q1.30 (`_q30`); fractions 0..1 are 0..65536 (`_uq16`)
+ * - angles are in turns, Q0.16 unsigned (`_turn`): they wrap
+ * - pixel (0, 0) is the top left one, its centre at (1/2, 1/2); top-left fill rule; counter-clockwise faces are front faces
+ * - colours are linear light; the output is sRGB-encoded unless GN_SRGB is 0
+ * - every call returns a status; gn_status_text() says it in words, gn_detail names what and where
+ *
+ * A frame: describe a gn_scene, call gn_render() with a flush callback. Nothing is allocated, nothing is global: all state is
+ * in gn_renderer (one static object, about 60 KB as configured by default), so several can run in one program.
+ */
+#ifndef GNOMON_H
+#define GNOMON_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "gn_config.h"
+#include "gn_knobs.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Constants in user code: folded at compile time, round to nearest. */
+#define GN_FIX_(x, one) ((x) * (one) + ((x) < 0 ? -0.5 : 0.5))
+#define GN_Q16(x) ((int32_t)GN_FIX_(x, 65536.0))        /* -32768 .. 32767.99 */
+#define GN_Q30(x) ((int32_t)GN_FIX_(x, 1073741824.0))   /* -2 .. 1.99 */
+#define GN_Q24(x) ((uint32_t)GN_FIX_(x, 16777216.0))    /* 0 .. 255.99 */
+#define GN_UQ16(x) ((uint32_t)GN_FIX_(x, 65536.0))
+#define GN_TURN(degrees) ((uint16_t)(int32_t)GN_FIX_((degrees) / 360.0, 65536.0))
+
+/* ---- Status ------------------------------------------------------------------------------------------------------- */
+
+#define GN_STATUS_LIST(X)                                                                                              \
+    X(GN_OK, "ok")                                                                                                     \
+    X(GN_ERR_NULL, "a required pointer is null")                                                                       \
+    X(GN_ERR_PICTURE_SIZE, "picture width or height is 0 or above GN_MAX_WIDTH x GN_MAX_HEIGHT")                       \
+    X(GN_ERR_FORMAT, "unknown pixel format or view, or one that is not built in")                                      \
+    X(GN_ERR_KNOB, "a run-time knob is out of its range")                                                              \
+    X(GN_ERR_ORDER, "call out of order: begin, shadow tiles, prepare, screen tiles")                                   \
+    X(GN_ERR_INDEX, "no such tile or light")                                                                           \
+    X(GN_ERR_CAMERA_FOCAL, "camera focal length outside 1/32 .. 255.99")                                               \
+    X(GN_ERR_CAMERA_DEPTH, "camera near plane outside 1/256 .. 8192, or far not beyond near")                          \
+    X(GN_ERR_CAMERA_TRANSFORM, "camera transform is not a rotation with a position inside +-8192")                     \
+    X(GN_ERR_OBJECT_TRANSFORM, "object transform has exponent outside 0..14, an entry above 1.0, a position outside +-8192, " \
+                               "or no inverse")                                                                        \
+    X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, or more than 30 fraction bits")                  \
+    X(GN_ERR_MESH_INDEX, "mesh index is not below its vertex count")                                                   \
+    X(GN_ERR_VERTEX_RANGE, "vertex lies beyond +-16384 units from the camera")                                         \
+    X(GN_ERR_COLOUR, "colour, albedo or ambient out of range")                                                         \
+    X(GN_ERR_TOO_MANY_OBJECTS, "more than 65535 objects")                                                              \
+    X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                        \
+    X(GN_ERR_LIGHT_KIND, "unknown kind of light")                                                                      \
+    X(GN_ERR_LIGHT_DIRECTION, "light direction is zero")                                                               \
+    X(GN_ERR_LIGHT_BIAS, "light strength, bias or near offset out of range")                                           \
+    X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 or not beyond the camera's near plane")           \
+    X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                          \
+    X(GN_ERR_SHADOW_FILTER, "unknown shadow filter, or one above GN_FILTER_MAX")                                       \
+    X(GN_ERR_SHADOW_TILE, "shadow tile would be smaller than 8 texels")                                                \
+    X(GN_ERR_TRIANGLES_FULL, "more visible triangles than GN_MAX_TRIANGLES")                                           \
+    X(GN_ERR_TILE_REFS_FULL, "more tile references than GN_MAX_TILE_REFS")
+
+#define GN_STATUS_ENUM_(name, text) name,
+typedef enum { GN_STATUS_LIST(GN_STATUS_ENUM_) GN_STATUS_COUNT } gn_status;
+
+/* What the last failing call was about. */
+typedef struct {
+    gn_status status;
+    uint32_t index;     /* of the object, light, triangle or tile it concerns; 0 where there is only one */
+    uint32_t needed;    /* capacity errors: how much would have been enough; otherwise 0 */
+    uint32_t available; /* capacity errors: how much there is */
+} gn_detail;
+
+const char *gn_status_text(gn_status status);
+
+/* ---- Transforms --------------------------------------------------------------------------------------------------- */
+
+/* p' = m * 2^(exp - 30) * p + t. Entries |m| <= 2^30 (1.0); the shared exponent 0..14 carries scales up to 16384. */
+typedef struct {
+    int32_t m_q30[3][3];
+    int32_t t_q16[3];
+    int32_t exp;
+} gn_affine;
+
+/* Rotations are exact to 2 units of Q1.30. Results are rounded to nearest; translations saturate at the Q15.16 range. */
+void gn_affine_identity(gn_affine *out);
+void gn_affine_rotation(gn_affine *out, uint16_t yaw_turn, uint16_t pitch_turn, uint16_t roll_turn); /* Y, then X, then Z */
+void gn_affine_scale(gn_affine *inout, int32_t scale_q16);                    /* object space, 2^-16 < scale < 8192 */
+void gn_affine_mul(gn_affine *out, const gn_affine *a, const gn_affine *b);   /* out = a * b; out may be a or b */
+void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t target_q16[3]); /* +Y up */
+uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn);                   /* 1 / tan(fov / 2), Q8.24, saturates */
+int32_t gn_sin_q30(uint16_t angle_turn);                                      /* |error| <= 2 LSB */
+int32_t gn_cos_q30(uint16_t angle_turn);
+
+/* ---- Scene: described by the caller, read only during a call ------------------------------------------------------ */
+
+typedef struct {
+    const int32_t *pos;      /* 3 per vertex, |pos| <= 2^30, `pos_frac_bits` fraction bits */
+    const int16_t *nrm_q15;  /* 3 per vertex, a direction (its length does not matter), or NULL: face normals */
+    const uint16_t *rgb_uq16; /* 3 per vertex, linear, 65535 = 1, or NULL: white */
+    const uint16_t *idx;     /* 3 per triangle */
+    uint16_t n_vertices;
+    uint16_t n_triangles;
+    uint8_t pos_frac_bits;   /* 0..30; 16 for positions written with GN_Q16 */
+} gn_mesh;
+
+enum { /* gn_object.flags */
+    GN_OBJECT_CASTS = 1,
+    GN_OBJECT_RECEIVES = 2,
+    GN_OBJECT_TWO_SIDED = 4,
+    GN_OBJECT_UNLIT = 8,
+    GN_OBJECT_DEFAULT = GN_OBJECT_CASTS | GN_OBJECT_RECEIVES
+};
+
+typedef struct {
+    const gn_mesh *mesh;
+    gn_affine to_world;
+    uint32_t albedo_uq16[3]; /* linear, 0..65536 */
+    uint32_t flags;
+} gn_object;
+
+typedef enum { GN_LIGHT_DIRECTIONAL } gn_light_kind;
+
+typedef struct {
+    gn_light_kind kind;
+    int32_t direction[3];       /* of travel, any length but zero */
+    uint32_t colour_uq16[3];    /* linear colour * intensity, 0..255.99 */
+    uint32_t shadow_strength_uq16; /* 0: casts no shadow and costs nothing; 65536: full */
+    int32_t bias_constant_q16;  /* B1, texels, 0..64 */
+    int32_t bias_slope_q16;     /* B1, 0..64 */
+    int32_t bias_normal_q16;    /* B2, 0..8; 1.0 is a good value */
+    int32_t near_offset_q16;    /* D9: pulls the light's near plane back, world units, 0..8192 */
+} gn_light;
+
+typedef struct {
+    gn_affine to_world;  /* a rotation (exp 0) and a position; looks along its local -Z */
+    uint32_t focal_q24;  /* 1 / tan(vertical fov / 2), 1/32 .. 255.99 */
+    int32_t near_q16;    /* surfaces nearer than this are clipped */
+    int32_t far_q16;     /* only bounds what may be asked of shadows */
+} gn_camera;
+
+typedef enum { GN_FILTER_HARD, GN_FILTER_2X2, GN_FILTER_3X3, GN_FILTER_5X5, GN_FILTER_7X7 } gn_filter;
+
+typedef struct {
+    int32_t max_distance_q16;    /* D5 */
+    uint32_t distance_fade_uq16; /* D5, 66 (0.001) .. 65536 */
+    uint32_t cascade_fade_uq16;  /* D3, 66 .. 65536 */
+    gn_filter filter;
+} gn_shadow_settings;
+
+typedef struct {
+    const gn_object *objects;
+    const gn_light *lights;
+    uint32_t n_objects; /* up to 65535 */
+    uint32_t n_lights;
+    gn_camera camera;
+    uint32_t ambient_uq16[3];    /* 0..255.99 */
+    uint32_t background_uq16[3]; /* 0..65536 */
+    gn_shadow_settings shadow;
+} gn_scene;
+
+/* ---- Rendering ---------------------------------------------------------------------------------------------------- */
+
+typedef enum {
+    GN_FORMAT_RGB565, /* uint16_t per pixel, native byte order, red in the high bits */
+    GN_FORMAT_RGB888, /* 3 bytes per pixel: red, green, blue */
+    GN_FORMAT_RAW32   /* with GN_RAW_VIEWS: uint32_t per pixel, see gn_view; all ones where there is no surface */
+} gn_format;
+
+typedef enum {
+    GN_VIEW_COLOUR,
+    GN_VIEW_SHADOW,  /* raw: shadow factor of light `view_light`, 0..65536, 0 where the surface faces away */
+    GN_VIEW_DEPTH,   /* raw: view depth, Q15.16 */
+    GN_VIEW_NORMAL,  /* raw: shading normal, 10 bits per axis (x high), offset 512, 511 = 1 */
+    GN_VIEW_TRIANGLE /* raw: object index << 16 | triangle index */
+} gn_view;
+
+typedef struct {
+    uint16_t width, height;
+    gn_format format;
+    gn_view view;        /* anything but colour needs GN_FORMAT_RAW32 */
+    uint8_t view_light;
+} gn_picture;
+
+/* A finished screen tile: w * h pixels, rows of w, top left at (x, y). The buffer is reused after the call returns. */
+typedef void (*gn_flush_fn)(void *user, int x, int y, int w, int h, const void *pixels);
+
+typedef struct {
+    uint32_t n_triangles;       /* visible, after culling and clipping */
+    uint32_t n_tile_refs;
+    uint32_t n_clipped;         /* triangles that met the near plane or the guard band */
+    uint32_t n_shadow_tiles;
+    uint32_t n_caster_triangles; /* drawn into shadow tiles */
+    uint32_t n_reach_clamped;   /* lights whose filter reach does not fit their tile: taps are clamped at its border */
+} gn_stats;
+
+#if GN_RUNTIME_KNOBS
+#define GN_KNOB_FIELD_(name, MACRO, lo, hi, meaning, cost) int32_t name;
+typedef struct {
+    GN_QUALITY_KNOBS(GN_KNOB_FIELD_)
+} gn_knobs;
+#endif
+
+/* The layout of the state is private; it stands here so that the caller can make it static. */
+#include "gn_state.h"
+
+typedef struct gn_renderer {
+    gn_frame frame;
+    gn_scratch scratch;
+} gn_renderer;
+
+/* Clears the renderer and sets what it draws. Must be the first call. */
+gn_status gn_init(gn_renderer *r, const gn_picture *picture);
+
+/* One frame: begin, all shadow tiles, prepare, all screen tiles. Nothing is flushed if it fails. */
+gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user);
+
+/* The same in steps, for time slicing and several cores. The scene must stay unchanged until the last screen tile. */
+gn_status gn_begin(gn_renderer *r, const gn_scene *scene);        /* validates; fits the lights' views */
+uint32_t gn_shadow_tile_count(const gn_renderer *r);
+gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx);      /* each once, any order */
+gn_status gn_prepare(gn_renderer *r);                             /* visible triangles, binned */
+uint32_t gn_screen_tile_count(const gn_renderer *r);
+/* After gn_prepare the frame is read only: cores may draw different tiles at once, each with its own scratch. */
+gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user);
+
+const gn_stats *gn_get_stats(const gn_renderer *r);
+const gn_detail *gn_get_detail(const gn_renderer *r);
+
+/* The shadow tile of light `light_idx`: texels per side (0: none), its depths row by row, 65535 = empty. */
+uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, const uint16_t **depth);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

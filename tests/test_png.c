@@ -1,0 +1,316 @@
+/* PNG: what is written reads back; what others write reads; what is damaged is refused. Run from the project's folder. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "../host/scene/png.h"
+#include "../host/scene/zlib_stream.h"
+#include "check.h"
+
+static const char *const tmp_path = "build/tmp/test_png.png";
+static char error[300];
+
+static uint32_t random_state = 1;
+static uint32_t random_u32(void)
+{
+    random_state ^= random_state << 13;
+    random_state ^= random_state >> 17;
+    random_state ^= random_state << 5;
+    return random_state;
+}
+
+static void write_bytes(const uint8_t *bytes, size_t n)
+{
+    FILE *file = fopen(tmp_path, "wb");
+    if (!CHECK(file != NULL)) exit(check_report());
+    CHECK(fwrite(bytes, 1, n, file) == n);
+    fclose(file);
+}
+
+static uint8_t *read_bytes(size_t *n)
+{
+    static uint8_t bytes[1 << 20];
+    FILE *file = fopen(tmp_path, "rb");
+    *n = file ? fread(bytes, 1, sizeof bytes, file) : 0;
+    if (file) fclose(file);
+    return bytes;
+}
+
+/* kind 0: flat, 1: noise, 2: gradient, 3: few colours in blocks */
+static void paint(uint8_t *rgb, int w, int h, int kind)
+{
+    for (int i = 0; i < w * h * 3; i++) {
+        int x = i / 3 % w, y = i / 3 / w;
+        rgb[i] = (uint8_t)(kind == 0 ? 77 : kind == 1 ? (int)(random_u32() >> 24) : kind == 2 ? x + 2 * y : (x / 7 + y / 5) % 3 * 100);
+    }
+}
+
+static size_t round_trip(int w, int h, int kind)
+{
+    uint8_t *rgb = malloc((size_t)(w * h * 3));
+    size_t n = 0;
+    int w_read, h_read;
+    if (!CHECK(rgb != NULL)) exit(check_report());
+    paint(rgb, w, h, kind);
+    if (CHECK(png_write_rgb8(tmp_path, w, h, rgb, error, sizeof error) == 0)) {
+        uint8_t *back = png_read_rgb8(tmp_path, &w_read, &h_read, error, sizeof error);
+        CHECK(back && w_read == w && h_read == h && memcmp(back, rgb, (size_t)(w * h * 3)) == 0);
+        free(back);
+        read_bytes(&n);
+    }
+    free(rgb);
+    return n;
+}
+
+static void test_round_trips(void)
+{
+    static const int sizes[][2] = { { 1, 1 }, { 1, 9 }, { 9, 1 }, { 2, 2 }, { 3, 5 }, { 17, 13 }, { 64, 48 }, { 200, 150 } };
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        for (int kind = 0; kind < 4; kind++) round_trip(sizes[i][0], sizes[i][1], kind);
+    }
+    for (int i = 0; i < 200; i++) round_trip(1 + (int)(random_u32() % 40), 1 + (int)(random_u32() % 40), (int)(random_u32() % 4));
+    CHECK(round_trip(320, 240, 0) < 2500);
+    CHECK(round_trip(320, 240, 2) < 5000);
+    CHECK(round_trip(240, 240, 1) < 240 * 240 * 3 * 17 / 16);
+}
+
+static void test_write_errors(void)
+{
+    const uint8_t pixel[3] = { 1, 2, 3 };
+    CHECK(png_write_rgb8("build/no/such/folder/x.png", 1, 1, pixel, error, sizeof error) == -1);
+    CHECK(strstr(error, "cannot be written"));
+    CHECK(png_write_rgb8(tmp_path, 0, 1, pixel, error, sizeof error) == -1);
+    CHECK(strstr(error, "not a picture size"));
+    CHECK(png_write_rgb8("/dev/full", 1, 1, pixel, error, sizeof error) == -1);
+}
+
+/* Assembles files by hand, so that reading is not only tested against our own writing. */
+static uint8_t made[4096];
+static size_t n_made;
+
+static void put_word(uint8_t *out, uint32_t v)
+{
+    for (int i = 0; i < 4; i++) out[i] = (uint8_t)(v >> (24 - 8 * i));
+}
+
+static void put_chunk(const char *type, const void *bytes, size_t n)
+{
+    uint8_t *at = made + n_made;
+    put_word(at, (uint32_t)n);
+    memcpy(at + 4, type, 4);
+    if (n) memcpy(at + 8, bytes, n);
+    put_word(at + 8 + n, zlib_crc32(0, at + 4, n + 4));
+    n_made += n + 12;
+}
+
+static void start_file(uint32_t w, uint32_t h, uint8_t depth, uint8_t colour, uint8_t interlace)
+{
+    uint8_t header[13] = { [8] = depth, [9] = colour, [12] = interlace };
+    put_word(header, w);
+    put_word(header + 4, h);
+    memcpy(made, "\x89PNG\r\n\x1A\n", 8);
+    n_made = 8;
+    put_chunk("IHDR", header, sizeof header);
+}
+
+static void put_pixels(const uint8_t *raw, size_t n)
+{
+    size_t n_packed = 0;
+    uint8_t *packed = zlib_compress(raw, n, &n_packed);
+    if (CHECK(packed != NULL)) {
+        put_chunk("IDAT", packed, n_packed / 2); /* in two chunks */
+        put_chunk("IDAT", packed + n_packed / 2, n_packed - n_packed / 2);
+    }
+    free(packed);
+}
+
+static uint8_t *read_made(void)
+{
+    int w, h;
+    write_bytes(made, n_made);
+    error[0] = '\0';
+    return png_read_rgb8(tmp_path, &w, &h, error, sizeof error);
+}
+
+static bool refused(const char *why)
+{
+    uint8_t *rgb = read_made();
+    bool ok = !rgb && strstr(error, why) && strncmp(error, tmp_path, strlen(tmp_path)) == 0;
+    if (!ok) printf("  expected '%s', got '%s'\n", why, error);
+    free(rgb);
+    return ok;
+}
+
+static void check_colour(uint8_t colour, const uint8_t *raw, size_t n_raw, const uint8_t *expected)
+{
+    static const uint8_t palette[6] = { 10, 20, 30, 40, 50, 60 };
+    start_file(2, 1, 8, colour, 0);
+    if (colour == 3) put_chunk("PLTE", palette, sizeof palette);
+    put_chunk("teXt", "ancillary", 9);
+    put_pixels(raw, n_raw);
+    put_chunk("IEND", NULL, 0);
+    uint8_t *rgb = read_made();
+    CHECK(rgb && memcmp(rgb, expected, 6) == 0);
+    free(rgb);
+}
+
+static void test_colour_types(void)
+{
+    check_colour(0, (const uint8_t[]){ 0, 5, 9 }, 3, (const uint8_t[]){ 5, 5, 5, 9, 9, 9 });
+    check_colour(2, (const uint8_t[]){ 1, 5, 6, 7, 1, 1, 1 }, 7, (const uint8_t[]){ 5, 6, 7, 6, 7, 8 });
+    check_colour(3, (const uint8_t[]){ 0, 1, 0 }, 3, (const uint8_t[]){ 40, 50, 60, 10, 20, 30 });
+    check_colour(4, (const uint8_t[]){ 0, 5, 255, 9, 0 }, 5, (const uint8_t[]){ 5, 5, 5, 9, 9, 9 });
+    check_colour(6, (const uint8_t[]){ 2, 1, 2, 3, 4, 5, 6, 7, 8 }, 9, (const uint8_t[]){ 1, 2, 3, 5, 6, 7 });
+}
+
+static void test_header_errors(void)
+{
+    static const struct { uint32_t w, h; uint8_t depth, colour, interlace; const char *why; } cases[] = {
+        { 0, 1, 8, 2, 0, "size is out of range" }, { 1, 0, 8, 2, 0, "size is out of range" },
+        { 0xFFFFFFFF, 1, 8, 2, 0, "size is out of range" }, { 1, 1, 16, 2, 0, "8 bits" }, { 1, 1, 1, 0, 0, "8 bits" },
+        { 1, 1, 8, 5, 0, "colour type" }, { 1, 1, 8, 200, 0, "colour type" }, { 1, 1, 8, 2, 1, "interlaced" },
+        { 65536, 65536, 8, 6, 0, "too short" }, { 2, 1, 8, 3, 0, "PLTE is missing" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        start_file(cases[i].w, cases[i].h, cases[i].depth, cases[i].colour, cases[i].interlace);
+        put_pixels((const uint8_t[]){ 0, 1, 2, 3 }, 4);
+        put_chunk("IEND", NULL, 0);
+        CHECK(refused(cases[i].why));
+    }
+}
+
+static void test_chunk_errors(void)
+{
+    n_made = 0;
+    CHECK(refused("not a PNG file"));
+    start_file(1, 1, 8, 2, 0);
+    CHECK(refused("cut off"));
+    put_chunk("CRIT", NULL, 0);
+    CHECK(refused("critical chunk"));
+    start_file(1, 1, 8, 2, 0);
+    put_chunk("IHDR", NULL, 0);
+    CHECK(refused("second IHDR"));
+    start_file(1, 1, 8, 3, 0);
+    put_chunk("PLTE", "1234", 4);
+    CHECK(refused("PLTE has the wrong length"));
+    start_file(1, 1, 8, 2, 0);
+    n_made = 8;
+    put_chunk("IEND", NULL, 0);
+    CHECK(refused("not IHDR"));
+    start_file(1, 1, 8, 2, 0);
+    made[20] ^= 1;
+    CHECK(refused("checksum"));
+    start_file(1, 1, 8, 3, 0);
+    put_chunk("PLTE", "123", 3);
+    put_pixels((const uint8_t[]){ 0, 1 }, 2);
+    put_chunk("IEND", NULL, 0);
+    CHECK(refused("palette index"));
+    start_file(1, 1, 8, 0, 0);
+    put_pixels((const uint8_t[]){ 5, 1 }, 2);
+    put_chunk("IEND", NULL, 0);
+    CHECK(refused("row filter"));
+}
+
+/* Streams with their bytes written out. */
+static void test_inflate(void)
+{
+    static const uint8_t stored[] = { 0x78, 0x01, 0x01, 0x03, 0x00, 0xFC, 0xFF, 'a', 'b', 'c', 0x02, 0x4D, 0x01, 0x27 };
+    static const struct { uint8_t bytes[16]; size_t n; const char *why; } cases[] = {
+        { { 0x78, 0x01, 0x07 }, 16, "block type" }, { { 0x79, 0x01 }, 16, "not a zlib" }, { { 0x78, 0x02 }, 16, "not a zlib" },
+        { { 0x78, 0x01, 0x01, 3, 0, 0xFC, 0xFE }, 16, "stored block" }, { { 0x78, 0x01, 0x01, 3, 0, 0xFC, 0xFF }, 7, "cut off" },
+        { { 0x78, 0x01, 0x01, 99, 0, 0x9C, 0xFF }, 16, "cut off" }, { { 0x78, 0x01, 0x01, 4, 0, 0xFB, 0xFF }, 16, "too long" },
+        { { 0x78, 0x01, 0x03, 0x00 }, 16, "too short" }, { { 0x78 }, 1, "cut off" },
+        { { 0x78, 0x01, 0xFD, 0xFF, 0xFF, 0xFF, 0xFF }, 16, "too many" },
+        { { 0x78, 0x01, 0x03, 0x02, 0x00 }, 16, "before the start" },
+    };
+    uint8_t out[3], damaged[sizeof stored];
+    CHECK(zlib_expand(stored, sizeof stored, out, 3) == NULL && memcmp(out, "abc", 3) == 0);
+    for (size_t n = 0; n < sizeof stored; n++) CHECK(zlib_expand(stored, n, out, 3) != NULL);
+    memcpy(damaged, stored, sizeof stored);
+    damaged[13] ^= 1;
+    CHECK(strstr(zlib_expand(damaged, sizeof damaged, out, 3), "checksum"));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *problem = zlib_expand(cases[i].bytes, cases[i].n, out, 3);
+        if (!CHECK(problem && strstr(problem, cases[i].why))) printf("  case %zu: %s\n", i, problem ? problem : "accepted");
+    }
+}
+
+/* Kept in tests/data: 16 x 16 RGB with a dynamic Huffman code, channels x * 16, y * 16, (x ^ y) * 16. */
+static void test_foreign_file(void)
+{
+    int w, h;
+    uint8_t *rgb = png_read_rgb8("tests/data/dynamic.png", &w, &h, error, sizeof error);
+    if (!CHECK(rgb != NULL)) return;
+    CHECK_EQ_INT(w, 16);
+    CHECK_EQ_INT(h, 16);
+    for (int i = 0; i < 256; i++) {
+        int x = i % 16, y = i / 16;
+        CHECK(rgb[3 * i] == x * 16 && rgb[3 * i + 1] == y * 16 && rgb[3 * i + 2] == (x ^ y) * 16);
+    }
+    free(rgb);
+    CHECK(png_read_rgb8("tests/data/no_such_file.png", &w, &h, error, sizeof error) == NULL);
+    CHECK(strstr(error, "cannot be opened"));
+    CHECK(png_read_rgb8("tests/data", &w, &h, error, sizeof error) == NULL);
+}
+
+/* Chunk checksums catch nearly every flipped byte: mended afterwards, so that the damage gets through to what lies behind. */
+static void mend_checksums(uint8_t *bytes, size_t n_bytes)
+{
+    for (size_t at = 8; n_bytes - at >= 12;) {
+        size_t n = (size_t)bytes[at] << 24 | (size_t)bytes[at + 1] << 16 | (size_t)bytes[at + 2] << 8 | bytes[at + 3];
+        if (n > n_bytes - at - 12) return;
+        put_word(bytes + at + 8 + n, zlib_crc32(0, bytes + at + 4, n + 4));
+        at += n + 12;
+    }
+}
+
+static void fuzz(const uint8_t *valid, size_t n)
+{
+    static uint8_t bytes[1 << 16];
+    int w, h;
+    for (size_t cut = 0; cut < n; cut++) {
+        write_bytes(valid, cut);
+        CHECK(png_read_rgb8(tmp_path, &w, &h, error, sizeof error) == NULL);
+    }
+    for (int i = 0; i < 10000; i++) {
+        memcpy(bytes, valid, n);
+        for (uint32_t k = random_u32() % 3; k < 3; k++) bytes[random_u32() % n] = (uint8_t)(random_u32() >> 24);
+        if (i % 8 != 0) mend_checksums(bytes, n);
+        write_bytes(bytes, n);
+        free(png_read_rgb8(tmp_path, &w, &h, error, sizeof error));
+    }
+}
+
+static void test_damage(void)
+{
+    static uint8_t valid[1 << 16];
+    size_t n;
+    round_trip(12, 9, 3);
+    const uint8_t *bytes = read_bytes(&n);
+    memcpy(valid, bytes, n);
+    fuzz(valid, n);
+    FILE *file = fopen("tests/data/dynamic.png", "rb");
+    if (!CHECK(file != NULL)) return;
+    n = fread(valid, 1, sizeof valid, file);
+    fclose(file);
+    fuzz(valid, n);
+}
+
+int main(void)
+{
+    mkdir("build", 0777);
+    mkdir("build/tmp", 0777);
+    test_round_trips();
+    test_write_errors();
+    test_colour_types();
+    test_header_errors();
+    test_chunk_errors();
+    test_inflate();
+    test_foreign_file();
+    test_damage();
+    return check_report();
+}

@@ -1,0 +1,1051 @@
+/* The reference engine against closed forms. It is the oracle of the other tests, so nothing here compares it with another engine:
+ * every expectation is computed from the scene by hand. Scenes are built here, without the loaders.
+ */
+#include "check.h"
+#include "../host/ref/ref.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+#define MAX_PARTS 4
+
+typedef struct {
+    scene s;
+    scene_mesh meshes[MAX_PARTS];
+    scene_object objects[MAX_PARTS];
+    scene_light lights[REF_MAX_LIGHTS + 1];
+} fixture;
+
+static const double origin[3] = {0, 0, 0};
+static char no_name[] = "";
+
+/* ---- scenes ---- */
+
+static scene_affine identity(void) { return (scene_affine){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}; }
+
+static void cross(double out[3], const double a[3], const double b[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static void normalise(double a[3])
+{
+    const double length = sqrt(dot(a, a));
+    for (int i = 0; i < 3; i++) a[i] /= length;
+}
+
+static void look(fixture *f, const double from[3], const double at[3], const double up_hint[3])
+{
+    double forward[3], right[3], up[3];
+    for (int i = 0; i < 3; i++) forward[i] = at[i] - from[i];
+    normalise(forward);
+    cross(right, forward, up_hint);
+    normalise(right);
+    cross(up, right, forward);
+    for (int i = 0; i < 3; i++) {
+        double *row = f->s.camera.to_world.m[i];
+        row[0] = right[i];
+        row[1] = up[i];
+        row[2] = -forward[i];
+        row[3] = from[i];
+    }
+}
+
+/* Camera at the origin looking along -Z, white ambient 0, hard filter, no lights. */
+static void begin(fixture *f)
+{
+    memset(f, 0, sizeof *f);
+    f->s.meshes = f->meshes;
+    f->s.objects = f->objects;
+    f->s.lights = f->lights;
+    f->s.camera = (scene_camera){.to_world = identity(), .focal = 1.0, .near = 0.1, .far = HUGE_VAL};
+    f->s.shadow = (scene_shadow){.max_distance = 100, .distance_fade = 0.1, .cascade_fade = 0.1, .filter = SCENE_FILTER_HARD};
+}
+
+static void end(fixture *f)
+{
+    for (size_t i = 0; i < f->s.n_meshes; i++) {
+        free(f->meshes[i].pos);
+        free(f->meshes[i].nrm);
+        free(f->meshes[i].rgb);
+        free(f->meshes[i].idx);
+    }
+}
+
+/* A mesh and a white object that casts and receives. */
+static scene_mesh *add_mesh(fixture *f, size_t n_vertices, const double *pos, size_t n_triangles, const uint32_t *idx)
+{
+    scene_mesh *mesh = &f->meshes[f->s.n_meshes];
+    *mesh = (scene_mesh){.name = no_name, .n_vertices = n_vertices, .n_triangles = n_triangles};
+    mesh->pos = malloc(3 * n_vertices * sizeof *mesh->pos);
+    mesh->idx = malloc(3 * n_triangles * sizeof *mesh->idx);
+    if (!mesh->pos || !mesh->idx) abort();
+    memcpy(mesh->pos, pos, 3 * n_vertices * sizeof *mesh->pos);
+    memcpy(mesh->idx, idx, 3 * n_triangles * sizeof *mesh->idx);
+    f->objects[f->s.n_objects++] = (scene_object){.name = no_name, .mesh_idx = f->s.n_meshes++, .to_world = identity(),
+                                                  .albedo = {1, 1, 1}, .casts = true, .receives = true};
+    return mesh;
+}
+
+/* Corners in counter-clockwise order. */
+static scene_mesh *add_quad(fixture *f, const double corners[12])
+{
+    static const uint32_t idx[6] = {0, 1, 2, 0, 2, 3};
+    return add_mesh(f, 4, corners, 2, idx);
+}
+
+/* y = height, facing up. */
+static scene_mesh *add_floor(fixture *f, double half, double height)
+{
+    const double corners[12] = {-half, height, half, half, height, half, half, height, -half, -half, height, -half};
+    return add_quad(f, corners);
+}
+
+static void add_box(fixture *f, const double low[3], const double high[3])
+{
+    static const uint32_t idx[36] = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
+                                     2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
+    double pos[24];
+    for (int i = 0; i < 8; i++)
+        for (int k = 0; k < 3; k++) pos[3 * i + k] = (i >> k) & 1 ? high[k] : low[k];
+    add_mesh(f, 8, pos, 12, idx);
+}
+
+static scene_light *add_light(fixture *f, double x, double y, double z)
+{
+    scene_light *light = &f->lights[f->s.n_lights++];
+    *light = (scene_light){.name = no_name, .direction = {x, y, z}, .colour = {1, 1, 1}, .shadow = true, .strength = 1,
+                           .bias_normal = 1};
+    normalise(light->direction);
+    return light;
+}
+
+static ref_picture render(const fixture *f, int width, int height, int atlas_size)
+{
+    ref_picture p;
+    char error[200] = "";
+    const ref_options options = {.width = width, .height = height, .atlas_size = atlas_size, .srgb = false};
+    const int status = ref_render(&p, &f->s, &options, error, sizeof error);
+    if (status) fprintf(stderr, "%s\n", error);
+    CHECK_EQ_INT(status, 0);
+    if (status) abort();
+    return p;
+}
+
+/* The world point that a pixel shows, from its depth. */
+static void world_at(double out[3], const fixture *f, const ref_picture *p, int i, int j)
+{
+    const double focal_px = f->s.camera.focal * p->height / 2.0, z = p->depth[j * p->width + i];
+    const double x = (i + 0.5 - p->width / 2.0) * z / focal_px, y = (p->height / 2.0 - j - 0.5) * z / focal_px;
+    for (int k = 0; k < 3; k++) {
+        const double *row = f->s.camera.to_world.m[k];
+        out[k] = row[0] * x + row[1] * y - row[2] * z + row[3];
+    }
+}
+
+/* Uniform in 0..1, xorshift64*. */
+static double random_unit(void)
+{
+    static uint64_t state = 88172645463325252u;
+    state ^= state >> 12;
+    state ^= state << 25;
+    state ^= state >> 27;
+    return (double)((state * 2685821657736338717u) >> 11) / 9007199254740992.0;
+}
+
+/* ---- visibility ---- */
+
+/* 32x32, F = 16: at depth 16 a world unit is a pixel, and the quad's edges run through pixel centres: left and top columns are in,
+ * right and bottom ones are out. */
+static void test_quad_coverage(void)
+{
+    static const uint32_t diagonals[2][6] = {{0, 1, 2, 0, 2, 3}, {0, 1, 3, 1, 2, 3}};
+    const double corners[12] = {-3.5, -2.5, -16, 4.5, -2.5, -16, 4.5, 3.5, -16, -3.5, 3.5, -16};
+    for (int d = 0; d < 2; d++) {
+        fixture f;
+        begin(&f);
+        add_mesh(&f, 4, corners, 2, diagonals[d]);
+        ref_picture p = render(&f, 32, 32, 64);
+        int n_wrong = 0, n_covered = 0;
+        for (int j = 0; j < 32; j++)
+            for (int i = 0; i < 32; i++) {
+                const bool expected = i >= 12 && i < 20 && j >= 12 && j < 18, covered = p.triangle[j * 32 + i] >= 0;
+                n_wrong += covered != expected || (covered && fabs(p.depth[j * 32 + i] - 16) > 1e-12);
+                n_wrong += !covered && !isinf(p.depth[j * 32 + i]);
+                n_covered += covered;
+            }
+        CHECK_EQ_INT(n_wrong, 0);
+        CHECK_EQ_INT(n_covered, 48);
+        ref_free(&p);
+        end(&f);
+    }
+}
+
+/* A tilted plane y = -1 + x/4 + z/8: depth at each pixel = where the ray meets it. */
+static void test_plane_depth(void)
+{
+    fixture f;
+    begin(&f);
+    double corners[12] = {-40, 0, 20, 40, 0, 20, 40, 0, -60, -40, 0, -60};
+    for (int k = 0; k < 4; k++) corners[3 * k + 1] = -1 + corners[3 * k] / 4 + corners[3 * k + 2] / 8;
+    add_quad(&f, corners);
+    ref_picture p = render(&f, 40, 30, 64);
+    double worst = 0;
+    int n_missing = 0;
+    for (int j = 0; j < 30; j++)
+        for (int i = 0; i < 40; i++) {
+            const double x = (i + 0.5 - 20) / 15, y = (15 - j - 0.5) / 15;
+            const double z = -1 / (y - x / 4 + 1.0 / 8); /* y z = -1 + x z / 4 - z / 8 */
+            if (!(z > 0.1 && z < 60 && fabs(x * z) < 40)) continue;
+            n_missing += p.triangle[j * 40 + i] < 0;
+            if (p.triangle[j * 40 + i] >= 0) worst = fmax(worst, fabs(p.depth[j * 40 + i] / z - 1));
+        }
+    CHECK_EQ_INT(n_missing, 0);
+    CHECK_NEAR(worst, 0, 1e-12);
+    ref_free(&p);
+    end(&f);
+}
+
+enum { GRID = 7, GRID_VERTICES = (GRID + 1) * (GRID + 1), GRID_TRIANGLES = 2 * GRID * GRID };
+
+static void grid_indices(uint32_t idx[3 * GRID_TRIANGLES])
+{
+    for (uint32_t y = 0; y < GRID; y++)
+        for (uint32_t x = 0; x < GRID; x++) {
+            const uint32_t a = y * (GRID + 1) + x, b = a + 1, c = a + GRID + 1, d = c + 1;
+            const uint32_t either[2][6] = {{a, c, b, b, c, d}, {a, c, d, a, d, b}};
+            memcpy(idx + 6 * (y * GRID + x), either[(x + y) & 1], sizeof either[0]);
+        }
+}
+
+/* How often each pixel of a 40x40 picture is covered when the triangles are drawn one by one. */
+static void count_coverage(int count[1600], const double *pos, size_t n_vertices, const uint32_t *idx, size_t n_triangles)
+{
+    memset(count, 0, 1600 * sizeof *count);
+    for (size_t t = 0; t < n_triangles; t++) {
+        fixture f;
+        begin(&f);
+        add_mesh(&f, n_vertices, pos, 1, idx + 3 * t);
+        ref_picture p = render(&f, 40, 40, 64);
+        for (int i = 0; i < 1600; i++) count[i] += p.triangle[i] >= 0;
+        ref_free(&p);
+        end(&f);
+    }
+}
+
+/* Grids that fill the picture, jittered in the picture, with random depths per vertex. snap: vertices on pixel centres and edges
+ * through them, at depths that keep the products exact. */
+static void test_exactly_once_grid(void)
+{
+    uint32_t idx[3 * GRID_TRIANGLES];
+    double pos[3 * GRID_VERTICES];
+    int count[1600];
+    grid_indices(idx);
+    for (int round = 0; round < 12; round++) {
+        const bool snap = round & 1;
+        for (int y = 0; y <= GRID; y++)
+            for (int x = 0; x <= GRID; x++) {
+                double sx = -2 + 44.0 * x / GRID + 2 * random_unit(), sy = -2 + 44.0 * y / GRID + 2 * random_unit();
+                if (snap) sx = floor(sx) + 0.5, sy = floor(sy) + 0.5;
+                if (x == 0) sx = -9;
+                if (x == GRID) sx = 49;
+                if (y == 0) sy = -9;
+                if (y == GRID) sy = 49;
+                const double z = snap ? ldexp(20, (int)(3 * random_unit())) : 1 + 30 * random_unit();
+                double *v = pos + 3 * (y * (GRID + 1) + x);
+                v[0] = (sx - 20) * z / 20;
+                v[1] = (20 - sy) * z / 20;
+                v[2] = -z;
+            }
+        count_coverage(count, pos, GRID_VERTICES, idx, GRID_TRIANGLES);
+        int n_wrong = 0;
+        for (int i = 0; i < 1600; i++) n_wrong += count[i] != 1;
+        CHECK_EQ_INT(n_wrong, 0);
+    }
+}
+
+/* A fan around a pixel centre, with a rim far outside and in part behind the camera. */
+static void test_exactly_once_fan(void)
+{
+    enum { SPOKES = 23 };
+    double pos[3 * (SPOKES + 1)] = {0.5, -0.5, -20}; /* the centre of pixel (20, 20) */
+    uint32_t idx[3 * SPOKES];
+    int count[1600], n_wrong = 0;
+    for (uint32_t k = 0; k < SPOKES; k++) {
+        const double angle = 2 * PI * k / SPOKES;
+        double *v = pos + 3 * (k + 1);
+        v[0] = 300 * cos(angle);
+        v[1] = 300 * sin(angle);
+        v[2] = -20 + 25 * sin(angle); /* one plane, which leaves the picture before it passes the camera */
+        idx[3 * k] = 0;
+        idx[3 * k + 1] = k + 1;
+        idx[3 * k + 2] = (k + 1) % SPOKES + 1;
+    }
+    count_coverage(count, pos, SPOKES + 1, idx, SPOKES);
+    for (int i = 0; i < 1600; i++) n_wrong += count[i] != 1;
+    CHECK_EQ_INT(n_wrong, 0);
+}
+
+/* A ground plane from far behind the camera: every pixel whose ray meets it at near or beyond is covered, and no other. */
+static void test_near_plane(void)
+{
+    const double ats[4][3] = {{0, 1, -10}, {0, -3, -10}, {3, -9, -2}, {0.1, -5, 0.3}}, up[3] = {0, 1, 0}, from[3] = {0, 1, 0};
+    for (int c = 0; c < 4; c++) {
+        fixture f;
+        begin(&f);
+        add_floor(&f, 1e5, 0);
+        f.s.camera.near = 1.02; /* further than the ground right below */
+        look(&f, from, ats[c], up);
+        ref_picture p = render(&f, 64, 48, 64);
+        int n_wrong = 0, n_covered = 0;
+        for (int j = 0; j < 48; j++)
+            for (int i = 0; i < 64; i++) {
+                const double x = (i + 0.5 - 32) / 24, y = (24 - j - 0.5) / 24, *row = f.s.camera.to_world.m[1];
+                const double fall = -(row[0] * x + row[1] * y - row[2]); /* per unit of view depth; the camera is at height 1 */
+                const bool expected = fall > 1e-4 && 1 / fall >= 1.02, covered = p.triangle[j * 64 + i] >= 0;
+                n_wrong += fall > 1e-4 && fabs(1 / fall - 1.02) > 1e-9 && covered != expected;
+                n_wrong += covered && fabs(p.depth[j * 64 + i] * fall - 1) > 1e-9;
+                n_covered += covered;
+            }
+        CHECK_EQ_INT(n_wrong, 0);
+        CHECK(n_covered > 0);
+        ref_free(&p);
+        end(&f);
+    }
+}
+
+static void test_depth_order(void)
+{
+    const double near_quad[12] = {-9, -9, -4, 9, -9, -4, 9, 9, -4, -9, 9, -4};
+    const double far_quad[12] = {-9, -9, -5, 9, -9, -5, 9, 9, -5, -9, 9, -5};
+    fixture f;
+    begin(&f);
+    add_quad(&f, far_quad);
+    add_quad(&f, near_quad);
+    add_quad(&f, near_quad);
+    ref_picture p = render(&f, 8, 8, 64);
+    int n_wrong = 0;
+    for (int i = 0; i < 64; i++) n_wrong += p.triangle[i] >> 32 != 1 || (p.triangle[i] & 0xffffffff) > 1;
+    CHECK_EQ_INT(n_wrong, 0); /* nearest, and the first of the two equal ones */
+    ref_free(&p);
+    end(&f);
+}
+
+/* ---- surface and light ---- */
+
+static void test_two_sided_surface(void)
+{
+    const double away[12] = {-9, -9, -4, -9, 9, -4, 9, 9, -4, 9, -9, -4}; /* clockwise from the camera */
+    fixture f;
+    begin(&f);
+    add_quad(&f, away);
+    scene_light *light = add_light(&f, 0, 0, -1);
+    light->shadow = false;
+    ref_picture p = render(&f, 8, 8, 64);
+    CHECK_EQ_INT(p.triangle[27], -1);
+    ref_free(&p);
+    f.objects[0].two_sided = true;
+    p = render(&f, 8, 8, 64);
+    CHECK_EQ_INT(p.triangle[27] >> 32, 0);
+    CHECK_NEAR(p.normal[3 * 27 + 2], 1, 1e-15); /* turned towards the camera */
+    CHECK_NEAR(p.ndotl[0][27], 1, 1e-15);
+    ref_free(&p);
+    end(&f);
+}
+
+static void test_shading(void)
+{
+    const double quad[12] = {-9, -9, -4, 9, -9, -4, 9, 9, -4, -9, 9, -4};
+    fixture f;
+    begin(&f);
+    scene_mesh *mesh = add_quad(&f, quad);
+    f.objects[0].albedo[0] = 0.5;
+    f.s.ambient[1] = 0.125;
+    f.s.background[2] = 0.75;
+    scene_light *light = add_light(&f, 0, -3, -4); /* n.L = 0.8 */
+    light->shadow = false;
+    light->colour[0] = 0.25;
+    ref_picture p = render(&f, 8, 8, 64);
+    const double *rgb = p.rgb + 3 * 27;
+    CHECK_NEAR(rgb[0], 0.5 * 0.25 * 0.8, 1e-14);
+    CHECK_NEAR(rgb[1], 0.925, 1e-14);
+    CHECK_NEAR(p.shadow[0][27], 1, 0); /* no tile, facing */
+    ref_free(&p);
+
+    mesh->rgb = malloc(12 * sizeof *mesh->rgb);
+    if (!mesh->rgb) abort();
+    for (int k = 0; k < 12; k++) mesh->rgb[k] = k % 3 == 0 ? (quad[k] + 9) / 18 : 0.5; /* red runs with x */
+    f.objects[0].unlit = true;
+    p = render(&f, 8, 8, 64);
+    const double x = (3.5 - 4) * 4 / 4; /* pixel 27 = (3, 3), F = 4, depth 4 */
+    CHECK_NEAR(p.rgb[3 * 27], 0.5 * (x + 9) / 18, 1e-14);
+    CHECK_NEAR(p.rgb[3 * 27 + 1], 0.5, 1e-14);
+    CHECK_NEAR(p.shadow[0][27], 1, 0);
+    ref_free(&p);
+
+    f.objects[0].to_world.m[2][3] = 100; /* behind the camera */
+    p = render(&f, 8, 8, 64);
+    CHECK_NEAR(p.rgb[3 * 27 + 2], 0.75, 0);
+    CHECK_NEAR(p.shadow[0][27], 0, 0);
+    ref_free(&p);
+    end(&f);
+}
+
+/* Normals of a mirrored, sheared, unevenly scaled object stay perpendicular to its faces; vertex normals that cancel fall back. */
+static void test_normals(void)
+{
+    const double quad[12] = {-9, -9, 0, 9, -9, 0, 9, 9, 0, -9, 9, 0};
+    const double straight[12] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, none[12] = {0};
+    for (int c = 0; c < 2; c++) {
+        fixture f;
+        begin(&f);
+        scene_mesh *mesh = add_quad(&f, quad);
+        mesh->nrm = malloc(sizeof straight);
+        if (!mesh->nrm) abort();
+        memcpy(mesh->nrm, c == 0 ? straight : none, sizeof straight);
+        f.objects[0].to_world = (scene_affine){{{-2, 0.5, 0, 0}, {0, 1, 0, 0}, {0.25, 0.125, 3, -8}}};
+        for (int t = 0; t < 2; t++) { /* as the loader does for a negative determinant */
+            const uint32_t swap = mesh->idx[3 * t + 1];
+            mesh->idx[3 * t + 1] = mesh->idx[3 * t + 2];
+            mesh->idx[3 * t + 2] = swap;
+        }
+        ref_picture p = render(&f, 8, 8, 64);
+        const double edge_x[3] = {-2, 0, 0.25}, edge_y[3] = {0.5, 1, 0.125}, *n = p.normal + 3 * 27;
+        CHECK(p.triangle[27] >= 0);
+        CHECK_NEAR(dot(n, n), 1, 1e-14);
+        CHECK_NEAR(dot(n, edge_x), 0, 1e-14);
+        CHECK_NEAR(dot(n, edge_y), 0, 1e-14);
+        CHECK(n[2] > 0);
+        ref_free(&p);
+        end(&f);
+    }
+}
+
+static void test_srgb(void)
+{
+    CHECK_NEAR(ref_srgb_encode(0), 0, 0);
+    CHECK_NEAR(ref_srgb_encode(1), 1, 1e-15);
+    CHECK_NEAR(ref_srgb_encode(0.0031308), 0.04045, 1e-6);
+    CHECK_NEAR(ref_srgb_encode(0.5), 0.7353569830524495, 1e-12);
+    CHECK_NEAR(ref_srgb_encode(0.21404114048223255), 0.5, 1e-12);
+    CHECK_NEAR(ref_srgb_encode(0.0010), 0.01292, 1e-12);
+    for (int level = 0; level < 256; level++) { /* the inverse of the standard's decoding */
+        const double v = level / 255.0, linear = v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+        CHECK_NEAR(ref_srgb_encode(linear), v, 1e-7);
+    }
+}
+
+/* ---- filters ---- */
+
+/* Simpson's rule on each piece of the tent that lies in the texel is exact for its linear pieces. */
+static double tent_by_quadrature(double h, double centre, int texel)
+{
+    const double cuts[5] = {texel, centre - h, centre, centre + h, texel + 1.0};
+    double sum = 0, at = texel;
+    for (int k = 1; k < 5; k++) {
+        const double to = fmin(fmax(cuts[k], at), texel + 1.0);
+        const double m = fmax(0, h - fabs((at + to) / 2 - centre));
+        const double a = fmax(0, h - fabs(at - centre)), b = fmax(0, h - fabs(to - centre));
+        sum += (to - at) * (a + 4 * m + b) / 6;
+        at = to;
+    }
+    return sum / (h * h);
+}
+
+static void test_tent(void)
+{
+    for (int size = 3; size <= 7; size += 2)
+        for (int step = -40; step <= 40; step++) {
+            const double centre = step / 16.0;
+            double sum = 0;
+            for (int i = -12; i < 12; i++) {
+                const double weight = ref_tent_weight(size, centre, i);
+                CHECK_NEAR(weight, tent_by_quadrature(size / 2.0, centre, i), 1e-14);
+                sum += weight;
+            }
+            CHECK_NEAR(sum, 1, 1e-14);
+        }
+    CHECK_NEAR(ref_tent_weight(3, 0.5, 0), 5.0 / 9, 1e-15); /* centred: 2/9, 5/9, 2/9 */
+    CHECK_NEAR(ref_tent_weight(3, 0.5, 1), 2.0 / 9, 1e-15);
+    CHECK_NEAR(ref_tent_weight(7, 0, 0), 12.0 / 49, 1e-15); /* between texels: 2 4 ... 4 2 doubled / 49 */
+}
+
+/* A map that is closed for u < 4: across the step, attenuation is the integral of the filter's kernel. */
+static void test_attenuation_step(void)
+{
+    double depth[64];
+    for (int i = 0; i < 64; i++) depth[i] = i % 8 < 4 ? 1 : 8;
+    const ref_light_view view = {.active = true, .tile_texels = 8, .texel = 1, .depth_range = 8, .depth = depth};
+    const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5, SCENE_FILTER_7X7};
+    for (int k = 0; k < 5; k++)
+        for (int step = -32; step < 160; step++) {
+            const double u = step / 16.0;
+            double open = u < 4 ? 0 : 1;
+            if (k == 1) open = fmin(fmax(u - 3.5, 0), 1);
+            for (int i = 4; k >= 2 && u < 4 && i < 20; i++) open += ref_tent_weight(2 * k - 1, u, i);
+            for (int i = -20; k >= 2 && u >= 4 && i < 4; i++) open -= ref_tent_weight(2 * k - 1, u, i);
+            CHECK_NEAR(ref_attenuation(&view, filters[k], u, 3.3, 2), open, 1e-13);
+        }
+    for (int k = 0; k < 5; k++) {
+        CHECK_NEAR(ref_attenuation(&view, filters[k], 7.6, 3, 8), 1, 1e-13); /* equal depth is lit */
+        CHECK_NEAR(ref_attenuation(&view, filters[k], 7.6, 3, 8.001), 0, 0);
+        CHECK_NEAR(ref_attenuation(&view, filters[k], -1e300, 1e300, 2), 0, 0); /* taps clamped to the tile */
+        CHECK_NEAR(ref_attenuation(&view, filters[k], 1e300, -1e300, 2), 1, 1e-13);
+    }
+}
+
+/* Taps are clamped to the border texels, not dropped and not wrapped: closed borders darken everything beyond them. */
+static void test_attenuation_border(void)
+{
+    const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5, SCENE_FILTER_7X7};
+    for (int side = 0; side < 4; side++) {
+        double depth[64];
+        for (int i = 0; i < 64; i++) {
+            const int at[4] = {i % 8, 7 - i % 8, i / 8, 7 - i / 8};
+            depth[i] = at[side] == 0 ? 1 : 8;
+        }
+        const ref_light_view view = {.active = true, .tile_texels = 8, .texel = 1, .depth_range = 8, .depth = depth};
+        const double u[4] = {-4, 12, 4, 4}, v[4] = {4, 4, -4, 12};
+        for (int k = 0; k < 5; k++) {
+            CHECK_NEAR(ref_attenuation(&view, filters[k], u[side], v[side], 2), 0, 1e-13);
+            CHECK_NEAR(ref_attenuation(&view, filters[k], 4, 4, 2), 1, k < 4 ? 1e-13 : 1.0 / 97); /* 7x7 reaches the border: 1/98 */
+        }
+    }
+}
+
+/* One texel closed: 2x2 gives its bilinear weight. */
+static void test_attenuation_bilinear(void)
+{
+    double depth[64];
+    for (int i = 0; i < 64; i++) depth[i] = i == 3 * 8 + 5 ? 1 : 8; /* v 3, u 5 */
+    const ref_light_view view = {.active = true, .tile_texels = 8, .texel = 1, .depth_range = 8, .depth = depth};
+    for (int step = 0; step < 1000; step++) {
+        const double u = 8 * random_unit(), v = 8 * random_unit();
+        const double weight = fmax(0, 1 - fabs(u - 5.5)) * fmax(0, 1 - fabs(v - 3.5));
+        CHECK_NEAR(ref_attenuation(&view, SCENE_FILTER_2X2, u, v, 2), 1 - weight, 1e-14);
+        const bool hit = floor(u) > 4.5 && floor(u) < 5.5 && floor(v) > 2.5 && floor(v) < 3.5;
+        CHECK_NEAR(ref_attenuation(&view, SCENE_FILTER_HARD, u, v, 2), hit ? 0 : 1, 0);
+    }
+}
+
+/* ---- light fit ---- */
+
+/* r^2 of the smallest sphere that is allowed to be centred at depth c. */
+static double radius2_at(double c, double n, double m, double k, double q)
+{
+    return fmax((m - c) * (m - c) + k * k * m * m, ((c - n) * (c - n) + k * k * n * n) / (q * q));
+}
+
+/* The eight corners are inside, the near ones within q r; no other centre up to the far plane does better. */
+static void check_sphere(const fixture *f, const ref_light_view *view, int width, int height)
+{
+    const double n = f->s.camera.near, m = f->s.shadow.max_distance, r = view->sphere_radius;
+    const double q = fmax(1 - f->s.shadow.cascade_fade, 0.125);
+    int n_outside = 0;
+    for (int corner = 0; corner < 8; corner++) {
+        const double z = corner & 4 ? m : n, y = (corner & 2 ? z : -z) / f->s.camera.focal;
+        const double x = (corner & 1 ? 1 : -1) * fabs(y) * width / height;
+        double d[3];
+        for (int k = 0; k < 3; k++) {
+            const double *row = f->s.camera.to_world.m[k];
+            d[k] = row[0] * x + row[1] * y - row[2] * z + row[3] - view->sphere_centre[k];
+        }
+        n_outside += sqrt(dot(d, d)) > (corner & 4 ? r : q * r) * (1 + 1e-12);
+    }
+    CHECK_EQ_INT(n_outside, 0);
+    double best2 = HUGE_VAL;
+    const double k = hypot(width, height) / (height * f->s.camera.focal);
+    for (int step = 0; step <= 20000; step++) best2 = fmin(best2, radius2_at(m * step / 20000, n, m, k, q));
+    if (n < q * m) CHECK(r * r <= best2 * (1 + 1e-9)); /* a slice that is hardly deeper than near takes what is simple */
+}
+
+static void test_fit_sphere(void)
+{
+    const double focals[4] = {0.3, 1, 2.5, 12}, distances[4] = {0.105, 2, 30, 1000}, fades[4] = {0.001, 0.1, 0.5, 1};
+    const double from[3] = {3, 4, 5}, at[3] = {-1, 2, -7}, up[3] = {0, 1, 0};
+    for (int c = 0; c < 64; c++) {
+        fixture f;
+        begin(&f);
+        look(&f, from, at, up);
+        f.s.camera.focal = focals[c % 4];
+        f.s.shadow.max_distance = distances[c / 4 % 4];
+        f.s.shadow.cascade_fade = fades[c / 16];
+        const scene_light *light = add_light(&f, 0.3, -1, 0.2);
+        ref_light_view view = {0};
+        CHECK_EQ_INT(ref_fit_light(&view, &f.s, light, 320, 240, 256), 0);
+        check_sphere(&f, &view, 320, 240);
+        int exponent;
+        const double mantissa = 256 * frexp(view.texel, &exponent);
+        CHECK_NEAR(mantissa, floor(mantissa), 0); /* 8 significant digits, rounded up by less than one of them */
+        const double diameter = 256 - 2 * (1 + sqrt(2.0)) - 1;
+        CHECK(view.texel * diameter >= 2 * view.sphere_radius * (1 - ldexp(1, -20)) * (1 - 1e-12));
+        CHECK(view.texel * diameter < 2 * view.sphere_radius * (1 + 1.0 / 128));
+    }
+}
+
+static void test_fit_axes(void)
+{
+    const double directions[4][3] = {{0, -1, 0}, {0, 1, 0}, {0.6, -0.7, 0.2}, {0.05, -0.99, -0.05}};
+    for (int c = 0; c < 4; c++) {
+        fixture f;
+        begin(&f);
+        const scene_light *light = add_light(&f, directions[c][0], directions[c][1], directions[c][2]);
+        ref_light_view view = {0};
+        CHECK_EQ_INT(ref_fit_light(&view, &f.s, light, 320, 240, 256), 0);
+        double w[3];
+        cross(w, view.axis[0], view.axis[1]);
+        for (int k = 0; k < 3; k++) {
+            CHECK_NEAR(w[k], light->direction[k], 1e-14);
+            CHECK_NEAR(view.axis[2][k], light->direction[k], 0);
+            CHECK_NEAR(dot(view.axis[k], view.axis[k]), 1, 1e-14);
+        }
+    }
+}
+
+/* Moving and turning the camera changes neither the texel nor the grid; the near offset only adds depth. */
+static void test_fit_stability(void)
+{
+    const double up[3] = {0, 1, 0};
+    ref_light_view first = {0};
+    for (int step = 0; step < 200; step++) {
+        fixture f;
+        begin(&f);
+        const double from[3] = {0.01 * step, 1, 0.003 * step}, at[3] = {5 * random_unit(), 0, -3};
+        look(&f, from, step == 0 ? origin : at, up);
+        f.s.shadow.max_distance = 20;
+        scene_light *light = add_light(&f, 0.3, -1, 0.2);
+        ref_light_view view = {0};
+        CHECK_EQ_INT(ref_fit_light(&view, &f.s, light, 320, 240, 256), 0);
+        if (step == 0) first = view;
+        CHECK_NEAR(view.texel, first.texel, 0);
+        CHECK_NEAR(view.depth_range, 256, 0);
+        for (int k = 0; k < 3; k++) {
+            CHECK_NEAR(view.origin[k], floor(view.origin[k]), 0);
+            const double centre = dot(view.sphere_centre, view.axis[k]) / view.texel - view.origin[k];
+            CHECK(fabs(centre - 128) <= 0.5 + 1e-9);
+        }
+        light->near_offset = 3.5 * view.texel;
+        ref_light_view pulled = {0};
+        CHECK_EQ_INT(ref_fit_light(&pulled, &f.s, light, 320, 240, 256), 0);
+        CHECK_NEAR(pulled.origin[2], view.origin[2] - 4, 0);
+        CHECK_NEAR(pulled.depth_range, 512, 0);
+    }
+}
+
+/* The stored depths of a static scene move with the grid by whole texels when the camera moves. */
+static void test_map_stability(void)
+{
+    const double low[3] = {-1, 0, -5}, high[3] = {0.3, 1.7, -4}, up[3] = {0, 1, 0};
+    fixture f;
+    begin(&f);
+    add_box(&f, low, high);
+    add_light(&f, 0.3, -1, 0.2);
+    f.s.shadow.max_distance = 8;
+    ref_picture first = {0};
+    for (int step = 0; step < 8; step++) {
+        const double from[3] = {0.13 * step, 1, 2 + 0.03 * step}, at[3] = {0.13 * step + 0.1, 0.5, -3};
+        look(&f, from, at, up);
+        ref_picture p = render(&f, 16, 12, 128);
+        if (step == 0) {
+            first = p;
+            continue;
+        }
+        const ref_light_view *a = &first.view[0], *b = &p.view[0];
+        const int du = (int)(b->origin[0] - a->origin[0]), dv = (int)(b->origin[1] - a->origin[1]);
+        int n_wrong = 0, n_stored = 0;
+        for (int v = 20; v < 108; v++)
+            for (int u = 20; u < 108; u++) {
+                const double da = a->depth[v * 128 + u], db = b->depth[(v - dv) * 128 + u - du];
+                const bool empty_a = da >= a->depth_range, empty_b = db >= b->depth_range;
+                n_wrong += empty_a != empty_b || (!empty_a && fabs(da + a->origin[2] - db - b->origin[2]) > 1e-9);
+                n_stored += !empty_a;
+            }
+        CHECK_EQ_INT(n_wrong, 0);
+        CHECK(n_stored > 10);
+        ref_free(&p);
+    }
+    ref_free(&first);
+    end(&f);
+}
+
+static void test_tiles(void)
+{
+    fixture f;
+    begin(&f);
+    add_floor(&f, 5, -1);
+    for (int l = 0; l < 7; l++) add_light(&f, 0.1 * l, -1, 0);
+    f.lights[1].strength = 0;
+    f.lights[2].shadow = false;
+    ref_picture p = render(&f, 8, 8, 64);
+    const bool active[7] = {true, false, false, true, true, true, false}; /* the first four that want one */
+    for (int l = 0; l < 7; l++) {
+        CHECK_EQ_INT(p.view[l].active, active[l]);
+        CHECK_EQ_INT(p.view[l].depth != NULL, active[l]);
+        if (active[l]) CHECK_EQ_INT(p.view[l].tile_texels, 32);
+    }
+    ref_free(&p);
+    f.s.n_lights = 4;
+    p = render(&f, 8, 8, 64);
+    CHECK_EQ_INT(p.view[3].tile_texels, 32);
+    ref_free(&p);
+    f.s.n_lights = 3;
+    p = render(&f, 8, 8, 64);
+    CHECK_EQ_INT(p.view[0].tile_texels, 64);
+    ref_free(&p);
+    end(&f);
+}
+
+/* ---- shadow maps ---- */
+
+/* A point from light coordinates; its inverse is DESIGN 1.4. */
+static void from_light(double out[3], const ref_light_view *view, double u, double v, double d)
+{
+    const double t[3] = {u + view->origin[0], v + view->origin[1], d + view->origin[2]};
+    for (int k = 0; k < 3; k++)
+        out[k] = view->texel * (t[0] * view->axis[0][k] + t[1] * view->axis[1][k] + t[2] * view->axis[2][k]);
+}
+
+/* One triangle given in light coordinates, rendered into a 64-texel map. Axis-aligned light: texels and axes are exact. */
+static ref_picture cast_one(const double uvd[9], bool two_sided, double bias_constant, double bias_slope)
+{
+    static const uint32_t idx[3] = {0, 1, 2};
+    fixture f;
+    begin(&f);
+    f.s.shadow.max_distance = 20;
+    scene_light *light = add_light(&f, 0, -1, 0);
+    light->bias_constant = bias_constant;
+    light->bias_slope = bias_slope;
+    ref_light_view view = {0};
+    CHECK_EQ_INT(ref_fit_light(&view, &f.s, light, 8, 8, 64), 0);
+    double pos[9];
+    for (int k = 0; k < 3; k++) from_light(pos + 3 * k, &view, uvd[3 * k], uvd[3 * k + 1], uvd[3 * k + 2]);
+    add_mesh(&f, 3, pos, 1, idx);
+    f.objects[0].two_sided = two_sided;
+    ref_picture p = render(&f, 8, 8, 64);
+    end(&f);
+    return p;
+}
+
+static int count_stored(const ref_picture *p)
+{
+    int n = 0;
+    for (int i = 0; i < 64 * 64; i++) n += p->view[0].depth[i] < p->view[0].depth_range;
+    return n;
+}
+
+static void swap_vertices(double uvd[9])
+{
+    for (int k = 0; k < 3; k++) {
+        const double t = uvd[k];
+        uvd[k] = uvd[3 + k];
+        uvd[3 + k] = t;
+    }
+}
+
+/* A right triangle through texel centres: left and top edges in, the diagonal (right) out: 8 + 7 + ... + 1 texels. */
+static void test_cast_rule(void)
+{
+    double uvd[9] = {10.5, 10.5, 4, 10.5, 18.5, 4, 18.5, 10.5, 4}; /* clockwise about w: faces the light */
+    ref_picture p = cast_one(uvd, false, 0, 0);
+    CHECK_EQ_INT(count_stored(&p), 36);
+    CHECK_NEAR(p.view[0].depth[10 * 64 + 10], 4, 1e-12);
+    CHECK_NEAR(p.view[0].depth[10 * 64 + 17], 4, 1e-12);
+    CHECK_NEAR(p.view[0].depth[10 * 64 + 18], p.view[0].depth_range, 0);
+    ref_free(&p);
+    swap_vertices(uvd);
+    p = cast_one(uvd, false, 0, 0); /* faces away */
+    CHECK_EQ_INT(count_stored(&p), 0);
+    ref_free(&p);
+    p = cast_one(uvd, true, 0, 0);
+    CHECK_EQ_INT(count_stored(&p), 36);
+    ref_free(&p);
+}
+
+/* D = 2 + U/2 - V/4: plane depths, slope bias, flattening where it passes the near plane, cut where it passes the far end. */
+static void test_cast_depth(void)
+{
+    for (int c = 0; c < 3; c++) {
+        const double base = c == 0 ? 20 : c == 1 ? -16 : 40;
+        double uvd[9] = {2, 2, 0, 2, 62, 0, 62, 2, 0};
+        for (int k = 0; k < 3; k++) uvd[3 * k + 2] = base + uvd[3 * k] / 2 - uvd[3 * k + 1] / 4;
+        ref_picture p = cast_one(uvd, false, -3, 3);
+        int n_wrong = 0;
+        for (int v = 3; v < 60; v++)
+            for (int u = 3; u + v < 62; u++) {
+                const double d = base + (u + 0.5) / 2 - (v + 0.5) / 4, range = p.view[0].depth_range;
+                const double expected = d >= range ? range : fmin(range, fmax(0, d) - 3 + 3 * 0.5);
+                n_wrong += fabs(p.view[0].depth[v * 64 + u] - expected) > 1e-9;
+            }
+        CHECK_EQ_INT(n_wrong, 0);
+        ref_free(&p);
+    }
+}
+
+/* Slivers: whatever is stored lies within the triangle's own depths. */
+static void test_cast_slivers(void)
+{
+    int n_wrong = 0, n_stored = 0;
+    for (int round = 0; round < 300; round++) {
+        const double u = 10 + 40 * random_unit(), v = 0.5 + floor(10 + 40 * random_unit());
+        const double thin = ldexp(1, -(int)(50 * random_unit()));
+        const double uvd[9] = {u, v, 5, u + 10, v, 60, u + 5, v + (round & 1 ? thin : -thin), 30};
+        ref_picture p = cast_one(uvd, true, 0, 0);
+        for (int i = 0; i < 64 * 64; i++) {
+            const double d = p.view[0].depth[i];
+            n_wrong += !(d >= 5 - 1e-9 && (d <= 60 + 1e-9 || d >= p.view[0].depth_range));
+        }
+        n_stored += count_stored(&p);
+        ref_free(&p);
+    }
+    CHECK_EQ_INT(n_wrong, 0);
+    CHECK(n_stored > 0);
+}
+
+/* A jittered grid over the map, vertices on texel centres in every other round: each texel is covered once. */
+static void test_cast_exactly_once(void)
+{
+    uint32_t idx[3 * GRID_TRIANGLES];
+    double uv[2 * GRID_VERTICES];
+    grid_indices(idx); /* counter-clockwise with rows downwards = clockwise in (U, V) */
+    for (int round = 0; round < 4; round++) {
+        int count[64 * 64] = {0}, n_wrong = 0;
+        for (int y = 0; y <= GRID; y++)
+            for (int x = 0; x <= GRID; x++) {
+                double *p = uv + 2 * (y * (GRID + 1) + x);
+                p[0] = x == 0 ? -5 : x == GRID ? 69 : 64.0 * x / GRID + 3 * random_unit();
+                p[1] = y == 0 ? -5 : y == GRID ? 69 : 64.0 * y / GRID + 3 * random_unit();
+                if (round & 1) p[0] = floor(p[0]) + 0.5, p[1] = floor(p[1]) + 0.5;
+            }
+        for (int t = 0; t < GRID_TRIANGLES; t++) {
+            double uvd[9];
+            for (int k = 0; k < 3; k++) {
+                uvd[3 * k] = uv[2 * idx[3 * t + k]];
+                uvd[3 * k + 1] = uv[2 * idx[3 * t + k] + 1];
+                uvd[3 * k + 2] = 9;
+            }
+            ref_picture p = cast_one(uvd, false, 0, 0);
+            for (int i = 0; i < 64 * 64; i++) count[i] += p.view[0].depth[i] < p.view[0].depth_range;
+            ref_free(&p);
+        }
+        for (int i = 0; i < 64 * 64; i++) n_wrong += count[i] != 1;
+        CHECK_EQ_INT(n_wrong, 0);
+    }
+}
+
+/* ---- shadows in pictures ---- */
+
+/* A box above a floor that does not cast, light at 45 degrees: the shadow is the rectangle x 0..3, z -1..1. Without biases the
+ * edge lies where the texel of the map says, so pixels further than a texel from the true edge must agree with it. lift: how far
+ * the box and with it the shadow's x are raised, to pull the box through the near plane of the map and beyond. */
+static void check_box_shadow(double lift, double near_offset, double normal_bias)
+{
+    const double low[3] = {-1 - lift, 1 + lift, -1}, high[3] = {1 - lift, 2 + lift, 1};
+    const double from[3] = {1.5, 9, 0}, at[3] = {1.5, 0, 0}, up[3] = {0, 0, -1};
+    fixture f;
+    begin(&f);
+    add_box(&f, low, high);
+    add_floor(&f, 8, 0);
+    f.objects[1].casts = false;
+    look(&f, from, at, up);
+    f.s.shadow.max_distance = 30;
+    scene_light *light = add_light(&f, 1, -1, 0);
+    light->near_offset = near_offset;
+    light->bias_normal = normal_bias;
+    ref_picture p = render(&f, 96, 72, 512);
+    const double texel = p.view[0].texel, margin = (1 + sqrt(2.0) * normal_bias) * texel;
+    int n_wrong = 0, n_dark = 0;
+    for (int j = 0; j < 72; j++)
+        for (int i = 0; i < 96; i++) {
+            if (p.triangle[j * 96 + i] >> 32 != 1) continue;
+            double at_world[3];
+            world_at(at_world, &f, &p, i, j);
+            const double outside = fmax(fmax(-at_world[0], at_world[0] - 3), fabs(at_world[2]) - 1);
+            const double shadow = p.shadow[0][j * 96 + i];
+            n_wrong += fabs(outside) > margin && fabs(shadow - (outside < 0 ? 0 : 1)) > 1e-12;
+            n_dark += shadow < 0.5;
+        }
+    CHECK_EQ_INT(n_wrong, 0);
+    CHECK(n_dark > 50);
+    ref_free(&p);
+    end(&f);
+}
+
+static void test_box_shadow(void)
+{
+    check_box_shadow(0, 0, 0);
+    check_box_shadow(0, 0, 1);
+    check_box_shadow(0, 12.5, 0);
+    check_box_shadow(20, 0, 0);   /* through or before the near plane: pancaked */
+    check_box_shadow(5000, 0, 0); /* far before it */
+}
+
+/* A roof over everything in view: shadow = 1 - strength * g everywhere on the floor, g from the depth alone. */
+static void test_strength_and_fade(void)
+{
+    const double strengths[3] = {1, 0.25, 0}, from[3] = {0, 2, 0}, at[3] = {0, 1, -10}, up[3] = {0, 1, 0};
+    for (int c = 0; c < 3; c++) {
+        fixture f;
+        begin(&f);
+        add_floor(&f, 100, 0);
+        add_floor(&f, 100, 5); /* its upper side faces the light, its lower one away from the camera */
+        look(&f, from, at, up);
+        f.s.shadow.max_distance = 20;
+        f.s.shadow.distance_fade = 0.4;
+        add_light(&f, 0.1, -1, 0.1)->strength = strengths[c];
+        ref_picture p = render(&f, 32, 64, 256);
+        int n_wrong = 0, n_seen[3] = {0};
+        for (int i = 0; i < 32 * 64; i++) {
+            if (p.triangle[i] >> 32 != 0) continue;
+            const double g = fmin(fmax((1 - p.depth[i] / 20) / 0.4, 0), 1);
+            n_wrong += fabs(p.shadow[0][i] - (1 - strengths[c] * g)) > 1e-12;
+            n_wrong += fabs(p.rgb[3 * i] - p.shadow[0][i] * p.ndotl[0][i]) > 1e-12;
+            n_seen[g >= 1 ? 0 : g > 0 ? 1 : 2]++;
+        }
+        CHECK_EQ_INT(n_wrong, 0);
+        CHECK(n_seen[0] > 0 && n_seen[1] > 0 && n_seen[2] > 0); /* full, fading, beyond */
+        CHECK_EQ_INT(p.view[0].active, strengths[c] > 0);
+        ref_free(&p);
+        end(&f);
+    }
+}
+
+static void test_receivers(void)
+{
+    const double from[3] = {0, 2, 0}, at[3] = {0, 0, -3}, up[3] = {0, 1, 0};
+    for (int c = 0; c < 4; c++) {
+        fixture f;
+        begin(&f);
+        add_floor(&f, 100, 0);
+        add_floor(&f, 100, 5);
+        f.s.shadow.max_distance = 10; /* texels smaller than the roof is high: the normal offset stays below it */
+        look(&f, from, at, up);
+        add_light(&f, 0, c == 3 ? 1 : -1, 0); /* c = 3: from below, the floor faces away */
+        f.objects[0].receives = c != 1;
+        f.objects[0].unlit = c == 2;
+        ref_picture p = render(&f, 16, 16, 256);
+        const double expected[4] = {0, 1, 1, 0};
+        CHECK_EQ_INT(p.triangle[200] >> 32, 0);
+        CHECK_NEAR(p.shadow[0][200], expected[c], 1e-12);
+        ref_free(&p);
+        end(&f);
+    }
+}
+
+/* A roof whose front looks down shades the floor only if it is two-sided. */
+static void test_two_sided_caster(void)
+{
+    const double from[3] = {0, 2, 0}, at[3] = {0, 0, -3}, up[3] = {0, 1, 0};
+    for (int two_sided = 0; two_sided < 2; two_sided++) {
+        fixture f;
+        begin(&f);
+        add_floor(&f, 100, 0);
+        scene_mesh *roof = add_floor(&f, 100, 5);
+        for (int t = 0; t < 2; t++) {
+            const uint32_t swap = roof->idx[3 * t + 1];
+            roof->idx[3 * t + 1] = roof->idx[3 * t + 2];
+            roof->idx[3 * t + 2] = swap;
+        }
+        f.objects[1].two_sided = two_sided;
+        f.s.shadow.max_distance = 10; /* texels smaller than the roof is high: the normal offset stays below it */
+        look(&f, from, at, up);
+        add_light(&f, 0, -1, 0);
+        ref_picture p = render(&f, 16, 16, 256);
+        CHECK_EQ_INT(p.triangle[200] >> 32, 0);
+        CHECK_NEAR(p.shadow[0][200], two_sided ? 0 : 1, 1e-12);
+        ref_free(&p);
+        end(&f);
+    }
+}
+
+/* A floor that casts on itself, with the default normal bias alone: no pixel may darken, whatever the filter and the light's
+ * angle from the normal. */
+static void test_no_acne(void)
+{
+    const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5, SCENE_FILTER_7X7};
+    const double angles[9] = {0, 5, 20, 45, 60, 75, 85, 89, 89.9};
+    const double from[3] = {0, 2, 0}, at[3] = {1, 0, -3}, up[3] = {0, 1, 0};
+    for (int k = 0; k < 5; k++)
+        for (int a = 0; a < 9; a++)
+            for (int turn = 0; turn < 5; turn++) {
+                fixture f;
+                begin(&f);
+                add_floor(&f, 300, 0);
+                look(&f, from, at, up);
+                f.s.shadow.max_distance = 25;
+                f.s.shadow.filter = filters[k];
+                const double tilt = angles[a] * PI / 180, azimuth = 0.1 + turn * 1.1;
+                add_light(&f, sin(tilt) * cos(azimuth), -cos(tilt), sin(tilt) * sin(azimuth));
+                ref_picture p = render(&f, 48, 36, 128);
+                int n_acne = 0;
+                for (int i = 0; i < 48 * 36; i++) n_acne += p.triangle[i] >= 0 && p.shadow[0][i] < 1 - 1e-9;
+                if (n_acne) fprintf(stderr, "acne: filter %d, %g degrees, azimuth %g: %d pixels\n", k, angles[a], azimuth, n_acne);
+                CHECK_EQ_INT(n_acne, 0);
+                ref_free(&p);
+                end(&f);
+            }
+}
+
+/* ---- limits ---- */
+
+static void test_errors(void)
+{
+    fixture f;
+    begin(&f);
+    add_light(&f, 0, -1, 0);
+    ref_picture p;
+    char error[100] = "";
+    ref_options options = {.width = 8, .height = 8, .atlas_size = 48};
+    CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);
+    CHECK(strlen(error) > 0 && !strchr(error, '\n'));
+    options.atlas_size = 64;
+    options.width = 0;
+    CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);
+    options.width = 8;
+    f.s.shadow.max_distance = HUGE_VAL;
+    CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);
+    f.s.shadow.max_distance = 100;
+    f.s.n_lights = REF_MAX_LIGHTS + 1;
+    CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);
+    CHECK(p.rgb == NULL);
+}
+
+int main(void)
+{
+    test_quad_coverage();
+    test_plane_depth();
+    test_exactly_once_grid();
+    test_exactly_once_fan();
+    test_near_plane();
+    test_depth_order();
+    test_two_sided_surface();
+    test_shading();
+    test_normals();
+    test_srgb();
+    test_tent();
+    test_attenuation_step();
+    test_attenuation_border();
+    test_attenuation_bilinear();
+    test_fit_sphere();
+    test_fit_axes();
+    test_fit_stability();
+    test_map_stability();
+    test_tiles();
+    test_cast_rule();
+    test_cast_depth();
+    test_cast_slivers();
+    test_cast_exactly_once();
+    test_box_shadow();
+    test_strength_and_fade();
+    test_receivers();
+    test_two_sided_caster();
+    test_no_acne();
+    test_errors();
+    return check_report();
+}

@@ -1,0 +1,758 @@
+/* Scene loaders: what a file means, what it lacks, and that no file, however damaged, does harm. Run from the project's folder. */
+#define _POSIX_C_SOURCE 200809L
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "../host/scene/json.h"
+#include "../host/scene/scene.h"
+#include "check.h"
+#include "data/scene_cases.h"
+
+#define TMP "build/tmp/test_scene"
+static const scene_options plain = { .frame = 0, .width = 320, .height = 240 };
+static char error[400];
+static scene s;
+
+static uint32_t random_state = 1;
+static uint32_t random_u32(void)
+{
+    random_state ^= random_state << 13;
+    random_state ^= random_state >> 17;
+    random_state ^= random_state << 5;
+    return random_state;
+}
+
+static void write_file(const char *path, const void *bytes, size_t n)
+{
+    FILE *file = fopen(path, "wb");
+    if (!CHECK(file != NULL)) exit(check_report());
+    CHECK(fwrite(bytes, 1, n, file) == n);
+    fclose(file);
+}
+
+static int load(const char *path, const scene_options *options)
+{
+    memset(&s, 0xFF, sizeof s); /* scene_load must not look at what was there */
+    return scene_load(&s, path, options, error, sizeof error);
+}
+
+static int load_text(const char *path, const char *text)
+{
+    write_file(path, text, strlen(text));
+    return load(path, &plain);
+}
+
+static int has_note(const char *part)
+{
+    for (size_t i = 0; i < s.n_notes; i++) {
+        if (strstr(s.notes[i], part)) return 1;
+    }
+    return 0;
+}
+
+static int is_empty(void)
+{
+    return !s.meshes && !s.objects && !s.lights && !s.settings && !s.notes && s.n_meshes + s.n_objects + s.n_lights + s.n_notes == 0;
+}
+
+/* The load failed, for the reason expected, in one line. */
+static int refused(int result, const char *why)
+{
+    int ok = result == -1 && is_empty() && strstr(error, why) && !strchr(error, '\n');
+    if (!ok) printf("  expected '%s', got '%s'\n", why, result ? error : "no error");
+    if (result == 0) scene_free(&s);
+    return ok;
+}
+
+/* What the engines may rely on, whatever the file was. */
+static void check_invariants(void)
+{
+    int ok = s.n_objects > 0 && s.n_lights > 0 && s.camera.near > 0 && s.camera.far > s.camera.near && s.camera.focal > 0;
+    for (size_t i = 0; i < s.n_meshes; i++) {
+        const scene_mesh *m = &s.meshes[i];
+        ok = ok && m->n_triangles > 0 && m->n_triangles <= 65535 && m->n_vertices <= 65535 && m->name;
+        for (size_t k = 0; ok && k < 3 * m->n_triangles; k++) ok = m->idx[k] < m->n_vertices;
+        for (size_t k = 0; ok && k < 3 * m->n_vertices; k++) {
+            ok = isfinite(m->pos[k]) && (!m->rgb || (m->rgb[k] >= 0 && m->rgb[k] <= 1));
+            if (m->nrm && k % 3 == 0) ok = ok && fabs(hypot(hypot(m->nrm[k], m->nrm[k + 1]), m->nrm[k + 2]) - 1) < 1e-9;
+        }
+    }
+    for (size_t i = 0; i < s.n_objects; i++) ok = ok && s.objects[i].mesh_idx < s.n_meshes && s.objects[i].name;
+    for (size_t i = 0; i < s.n_lights; i++) {
+        const double *d = s.lights[i].direction;
+        ok = ok && fabs(hypot(hypot(d[0], d[1]), d[2]) - 1) < 1e-9 && isfinite(s.lights[i].colour[0]);
+    }
+    CHECK(ok);
+}
+
+/* --- JSON ------------------------------------------------------------------------------------------------------------ */
+
+static void test_json_errors(void)
+{
+    for (size_t i = 0; i < sizeof json_errors / sizeof *json_errors; i++) {
+        json_doc doc;
+        int result = json_parse(&doc, json_errors[i].text, strlen(json_errors[i].text), error, sizeof error);
+        if (!CHECK(result == -1 && strstr(error, json_errors[i].why))) printf("  case %zu: %s\n", i, result ? error : "accepted");
+        if (result == 0) json_free(&doc);
+    }
+}
+
+static void test_json_depth(void)
+{
+    char text[2 * JSON_MAX_DEPTH + 4];
+    for (int extra = 0; extra < 2; extra++) {
+        json_doc doc;
+        size_t depth = JSON_MAX_DEPTH + (size_t)extra;
+        memset(text, '[', depth);
+        memset(text + depth, ']', depth);
+        CHECK_EQ_INT(json_parse(&doc, text, 2 * depth, error, sizeof error), -extra);
+        if (!extra) json_free(&doc);
+        else CHECK(strstr(error, "too deeply"));
+    }
+}
+
+static void test_json_values(void)
+{
+    static const char text[] = " {\"a\": [1, -2.5e1, true, null, \"\\u00e9\\ud83d\\ude00\\n\xC3\xA9\"], \"b/c~\": {\"d\": [[0]]}} ";
+    json_doc doc;
+    char path[64];
+    if (!CHECK_EQ_INT(json_parse(&doc, text, sizeof text - 1, error, sizeof error), 0)) return;
+    const json_value *a = json_get(doc.root, "a");
+    CHECK_EQ_INT(a->n_children, 5);
+    CHECK_NEAR(json_at(a, 1)->number, -25, 0);
+    CHECK_EQ_INT(json_at(a, 2)->type, JSON_BOOL);
+    CHECK_EQ_INT(json_at(a, 3)->type, JSON_NULL);
+    CHECK(strcmp(json_at(a, 4)->string, "\xC3\xA9\xF0\x9F\x98\x80\n\xC3\xA9") == 0);
+    CHECK(!json_at(a, 5) && !json_get(doc.root, "x") && !json_get(a, "a") && !json_at(doc.root, 0) && !json_get(NULL, "a"));
+    json_path(json_at(json_at(json_get(json_get(doc.root, "b/c~"), "d"), 0), 0), path, sizeof path);
+    CHECK(strcmp(path, "/b~1c~0/d/0/0") == 0);
+    json_path(json_at(a, 4), path, 4);
+    CHECK(strcmp(path, "/a/") == 0);
+    json_path(doc.root, path, sizeof path);
+    CHECK(strcmp(path, "/") == 0);
+    json_free(&doc);
+}
+
+/* --- glTF ------------------------------------------------------------------------------------------------------------ */
+
+/* A quad in the xy plane with everything on it. Sizes and offsets of the buffer's parts stand in base_json. */
+static uint8_t base_bin[328];
+
+static void put_floats(size_t offset, const float *values, size_t n) { memcpy(base_bin + offset, values, n * sizeof *values); }
+
+static void make_base_bin(void)
+{
+    static const float pos[12] = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 }, nrm[12] = { 0, 0, 2, 0, 0, 1, 0, 0, 1, 0, 0, 1 };
+    static const uint16_t idx[6] = { 0, 1, 2, 2, 1, 3 };
+    static const uint8_t rgba[16] = { 255, 0, 0, 9, 0, 255, 0, 9, 0, 0, 255, 9, 51, 102, 153, 9 };
+    static const float times[3] = { 1, 2, 4 };
+    static const float moves[27] = { 0, 0, 0, 1, 0, 0, 0, 4, 0, 0, 0, 8, 2, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0 };
+    static const float turns[12] = { 0, 0, 0, 1, 0, 0, -0.70710678f, -0.70710678f, 0, 0, 1, 0 };
+    static const float scales[9] = { 1, 1, 1, 2, 2, 2, 3, 3, 3 };
+    put_floats(0, pos, 12);
+    memcpy(base_bin + 48, idx, sizeof idx);
+    put_floats(60, nrm, 12);
+    memcpy(base_bin + 108, rgba, sizeof rgba);
+    put_floats(124, times, 3);
+    put_floats(136, moves, 27);
+    put_floats(244, turns, 12);
+    put_floats(292, scales, 9);
+}
+
+/* text with the first `find` replaced; in static storage. */
+static const char *replaced(const char *text, const char *find, const char *put)
+{
+    static char out[2][16384];
+    static int turn;
+    const char *at = strstr(text, find);
+    if (!CHECK(at != NULL)) printf("  no '%s'\n", find);
+    if (!at) return text;
+    char *to = out[turn = !turn];
+    snprintf(to, sizeof out[0], "%.*s%s%s", (int)(at - text), text, put, at + strlen(find));
+    return to;
+}
+
+static int load_changed(const char *find, const char *put) { return load_text(TMP ".gltf", replaced(base_json, find, put)); }
+
+static const char *without_animation(const char *text)
+{
+    const char *at = strstr(text, "\"animations\":");
+    return replaced(text, at ? "\"animations\":" : "", "\"unused\":");
+}
+
+static void check_rows(const scene_affine *a, const double expected[12])
+{
+    for (int i = 0; i < 12; i++) CHECK_NEAR(a->m[i / 4][i % 4], expected[i], 1e-7);
+}
+
+static void check_base_surface(void)
+{
+    const scene_mesh *m = &s.meshes[0];
+    const scene_object *o = &s.objects[0];
+    CHECK(strcmp(m->name, "quad") == 0 && strcmp(o->name, "inner") == 0);
+    CHECK(m->n_vertices == 4 && m->n_triangles == 2 && m->idx[3] == 2 && m->idx[4] == 1 && m->idx[5] == 3);
+    CHECK_NEAR(m->pos[3], 1, 0);
+    CHECK_NEAR(m->nrm[2], 1, 0);
+    CHECK_NEAR(m->rgb[3 * 3 + 1], 0.4, 1e-15);
+    CHECK(o->two_sided && !o->casts && !o->receives && !o->unlit);
+    CHECK_NEAR(o->albedo[1], 0.25, 0);
+    check_rows(&o->to_world, (const double[12]){ 0, -2, 0, 10, 2, 0, 0, 0, 0, 0, 2, 0 });
+}
+
+static void test_gltf_base(void)
+{
+    if (!CHECK_EQ_INT(load_text(TMP ".gltf", without_animation(base_json)), 0)) return (void)puts(error);
+    check_invariants();
+    CHECK(s.n_objects == 1 && s.n_meshes == 1 && s.n_lights == 1 && s.n_notes == 0);
+    check_base_surface();
+    CHECK_NEAR(s.camera.focal, 1, 1e-12);
+    CHECK_NEAR(s.camera.near, 0.5, 0);
+    CHECK_NEAR(s.camera.to_world.m[2][3], 50, 0);
+    CHECK_NEAR(s.shadow.max_distance, 80, 0);
+    const scene_light *light = &s.lights[0];
+    CHECK_NEAR(light->direction[1], -1, 1e-12);
+    CHECK_NEAR(light->colour[0], 2, 1e-12);
+    CHECK_NEAR(light->colour[2], 0.5, 1e-12);
+    CHECK(light->shadow);
+    CHECK_NEAR(light->strength, 0.5, 0); /* the node's wins over the light's */
+    CHECK_NEAR(light->bias_slope, 2, 0);
+    CHECK_NEAR(light->bias_normal, 1, 0);
+    CHECK_NEAR(light->near_offset, 3, 0);
+    static const char *const settings[][2] = { { "filter", "5x5" }, { "srgb", "1" }, { "max_distance", "0.1" }, { "ratios", "0.25,1,0" } };
+    if (CHECK_EQ_INT(s.n_settings, 4)) {
+        for (int i = 0; i < 4; i++) CHECK(!strcmp(s.settings[i].key, settings[i][0]) && !strcmp(s.settings[i].value, settings[i][1]));
+    }
+    scene_free(&s);
+    CHECK(is_empty());
+}
+
+static void test_gltf_errors(void)
+{
+    for (size_t i = 0; i < sizeof gltf_errors / sizeof *gltf_errors; i++) {
+        const change *c = &gltf_errors[i];
+        if (!CHECK(refused(load_changed(c->find, c->put), c->expected))) printf("  case %zu: %s\n", i, c->put);
+        CHECK(strncmp(error, TMP ".gltf:", sizeof TMP + 5) == 0);
+    }
+    CHECK(refused(load_text(TMP ".gltf", "[]"), "an object"));
+    CHECK(refused(load(TMP "_missing.gltf", &plain), "cannot be opened"));
+    CHECK(refused(load("build/tmp", &plain), "not a scene"));
+    CHECK(refused(load_text(TMP ".txt", "x"), "not a scene"));
+    CHECK(refused(load(TMP ".gltf", &(scene_options){ .width = 0, .height = 1 }), "picture size"));
+    mkdir("build/tmp/folder.gltf", 0777);
+    CHECK(refused(load("build/tmp/folder.gltf", &plain), "cannot be read"));
+}
+
+static void test_gltf_notes(void)
+{
+    for (size_t i = 0; i < sizeof gltf_notes / sizeof *gltf_notes; i++) {
+        if (!CHECK_EQ_INT(load_changed(gltf_notes[i].find, gltf_notes[i].put), 0)) { puts(error); continue; }
+        if (!CHECK(has_note(gltf_notes[i].expected))) printf("  case %zu: %s\n", i, gltf_notes[i].expected);
+        check_invariants();
+        scene_free(&s);
+    }
+}
+
+static void check_frame(int frame, double x, double turn_deg, double scale)
+{
+    const scene_options at = { .frame = frame, .width = 320, .height = 240 };
+    write_file(TMP ".gltf", base_json, sizeof base_json - 1);
+    if (!CHECK_EQ_INT(load(TMP ".gltf", &at), 0)) return;
+    double a = turn_deg * 3.14159265358979 / 180, c = scale * cos(a), n = scale * sin(a);
+    check_rows(&s.objects[0].to_world, (const double[12]){ c, -n, 0, x, n, c, 0, s.objects[0].to_world.m[1][3], 0, 0, scale, 0 });
+    scene_free(&s);
+}
+
+/* fps 2; keys at 1, 2 and 4 s. Cubic x: 1, 2, 3 with flat tangents; the shorter way round from 0 to 90 degrees, then to 180. */
+static void test_animation(void)
+{
+    check_frame(0, 1, 0, 1);
+    check_frame(2, 1, 0, 1);
+    check_frame(3, 1.5, 45, 1);
+    check_frame(4, 2, 90, 2);
+    check_frame(5, 2 + 0.15625, 90 + 22.5, 2);
+    check_frame(8, 3, 180, 3);
+    check_frame(1000000, 3, 180, 3);
+    check_frame(-5, 1, 0, 1);
+    /* y at 1.5 s: tangents 4 out of the first key, 8 into the second: (1/8)(4) - (1/8)(8) */
+    load(TMP ".gltf", &(scene_options){ .frame = 3, .width = 320, .height = 240 });
+    if (CHECK(s.n_objects == 1)) CHECK_NEAR(s.objects[0].to_world.m[1][3], 0.5 - 1, 1e-12);
+    scene_free(&s);
+}
+
+static size_t put_base64(char *out, const uint8_t *bytes, size_t n)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    size_t n_out = 0;
+    for (size_t i = 0; i < n; i += 3) {
+        uint32_t bits = (uint32_t)bytes[i] << 16 | (i + 1 < n ? (uint32_t)bytes[i + 1] << 8 : 0) | (i + 2 < n ? bytes[i + 2] : 0);
+        for (int k = 0; k < 4; k++) out[n_out++] = i + (size_t)k > n ? '=' : digits[bits >> (18 - 6 * k) & 63];
+    }
+    out[n_out] = '\0';
+    return n_out;
+}
+
+/* The bytes as a one-mesh file: attributes and accessors as given, one buffer view per accessor offset by the caller. */
+static int load_bytes(const char *attributes, const char *accessors, const char *views, const void *bytes, size_t n)
+{
+    char text[4096], base64[2048];
+    put_base64(base64, bytes, n);
+    snprintf(text, sizeof text, "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{%s}]}],\"accessors\":[%s],"
+             "\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data:application/octet-stream;base64,%s\"}]}",
+             attributes, accessors, views, n, base64);
+    return load_text(TMP ".gltf", text);
+}
+
+static void check_position_type(int type, const char *normalized, const void *bytes, size_t n, double first, double second, double third)
+{
+    char accessor[200], view[100];
+    snprintf(accessor, sizeof accessor, "{\"bufferView\":0,\"componentType\":%d,%s\"count\":3,\"type\":\"VEC3\"}", type, normalized);
+    snprintf(view, sizeof view, "{\"buffer\":0,\"byteLength\":%zu,\"byteStride\":%zu}", n, n / 3);
+    if (!CHECK_EQ_INT(load_bytes("\"attributes\":{\"POSITION\":0}", accessor, view, bytes, n), 0)) return (void)puts(error);
+    check_invariants();
+    CHECK_NEAR(s.meshes[0].pos[0], first, 1e-15);
+    CHECK_NEAR(s.meshes[0].pos[4], second, 1e-15);
+    CHECK_NEAR(s.meshes[0].pos[8], third, 1e-15);
+    scene_free(&s);
+}
+
+static void test_accessor_types(void)
+{
+    static const int8_t b[12] = { -128, 0, 0, 0, 0, 127, 0, 0, 0, 0, -1 };
+    static const uint8_t ub[12] = { 255, 0, 0, 0, 0, 51, 0, 0, 0, 0, 128 };
+    static const int16_t h[12] = { -32768, 0, 0, 0, 0, 32767, 0, 0, 0, 0, -1 };
+    static const uint16_t uh[12] = { 65535, 0, 0, 0, 0, 13107, 0, 0, 0, 0, 32768 };
+    static const float f[9] = { 1.5f, 0, 0, 0, -0.25f, 0, 0, 0, 1e18f };
+    static const char yes[] = "\"normalized\":true,";
+    check_position_type(5120, "", b, sizeof b, -128, 127, -1);
+    check_position_type(5120, yes, b, sizeof b, -1, 1, -1 / 127.0);
+    check_position_type(5121, "", ub, sizeof ub, 255, 51, 128);
+    check_position_type(5121, yes, ub, sizeof ub, 1, 0.2, 128 / 255.0);
+    check_position_type(5122, "", h, sizeof h, -32768, 32767, -1);
+    check_position_type(5122, yes, h, sizeof h, -1, 1, -1 / 32767.0);
+    check_position_type(5123, "", uh, sizeof uh, 65535, 13107, 32768);
+    check_position_type(5123, yes, uh, sizeof uh, 1, 0.2, 32768 / 65535.0);
+    check_position_type(5126, "", f, sizeof f, 1.5, -0.25, (double)1e18f);
+}
+
+static const char *const six_points = "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\",\"sparse\":{\"count\":2,"
+    "\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0,\"byteOffset\":4,\"componentType\":5126}}}";
+static const char *const view_28 = "{\"buffer\":0,\"byteLength\":28}";
+
+static void test_sparse(void)
+{
+    static const change cases[] = { { "\"count\":2", "\"count\":7", "exceeds" }, { "\"count\":2", "\"count\":0", "are needed" },
+        { "5121", "5120", "5121, 5123 or 5125" }, { "5121", "5123", "accessor has 6" }, { "\"byteOffset\":4", "\"byteOffset\":5", "reach beyond" },
+        { "\"count\":6", "\"count\":4", "index 1 is 4" } };
+    uint8_t bytes[28] = { 1, 4 };
+    const float points[6] = { 1, 2, 3, 4, 5, 6 };
+    memcpy(bytes + 4, points, sizeof points);
+    if (CHECK_EQ_INT(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes), 0)) {
+        const double expected[18] = { [3] = 1, 2, 3, [12] = 4, 5, 6 };
+        CHECK(s.meshes[0].n_vertices == 6 && memcmp(s.meshes[0].pos, expected, sizeof expected) == 0);
+        scene_free(&s);
+    }
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *accessor = replaced(six_points, cases[i].find, cases[i].put);
+        CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", accessor, view_28, bytes, sizeof bytes), cases[i].expected));
+    }
+    bytes[1] = 1;
+    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes), "does not increase"));
+    bytes[1] = 4;
+    memcpy(bytes + 4, &(float){ NAN }, sizeof(float));
+    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes), "element 0 is not finite"));
+    memcpy(bytes + 4, &(float){ 2e18f }, sizeof(float));
+    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes), "vertex 1: coordinate 2e+18"));
+}
+
+static void check_mode(int mode, int index_type, const void *idx, size_t index_bytes, const uint32_t *expected, size_t n_triangles)
+{
+    char attributes[100], accessors[300];
+    uint8_t bytes[28] = { 0 };
+    memcpy(bytes, idx, index_bytes);
+    snprintf(attributes, sizeof attributes, "\"mode\":%d,\"attributes\":{\"POSITION\":0}%s", mode, index_type ? ",\"indices\":1" : "");
+    snprintf(accessors, sizeof accessors, "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},"
+             "{\"bufferView\":0,\"componentType\":%d,\"count\":6,\"type\":\"SCALAR\"}", index_type);
+    if (!CHECK_EQ_INT(load_bytes(attributes, accessors, view_28, bytes, sizeof bytes), 0)) return (void)puts(error);
+    CHECK_EQ_INT(s.meshes[0].n_triangles, n_triangles);
+    CHECK(s.meshes[0].n_triangles == n_triangles && memcmp(s.meshes[0].idx, expected, n_triangles * 3 * sizeof *expected) == 0);
+    scene_free(&s);
+}
+
+/* Vertices are numbered anew in order of first use. */
+static void test_modes(void)
+{
+    static const uint32_t list[] = { 0, 1, 2, 3, 4, 5 }, strip[] = { 0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 5, 4 };
+    static const uint32_t fan[] = { 0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5 };
+    check_mode(4, 0, "", 0, list, 2);
+    check_mode(5, 0, "", 0, strip, 4);
+    check_mode(6, 0, "", 0, fan, 4);
+    check_mode(4, 5121, (const uint8_t[]){ 5, 4, 3, 2, 1, 0 }, 6, list, 2);
+    check_mode(4, 5123, (const uint16_t[]){ 5, 4, 3, 2, 1, 0 }, 12, list, 2);
+    check_mode(4, 5125, (const uint32_t[]){ 5, 4, 3, 2, 1, 0 }, 24, list, 2);
+    check_mode(6, 5121, (const uint8_t[]){ 3, 1, 5, 0, 2, 4 }, 6, fan, 4);
+    static const char accessors[] = "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},{\"bufferView\":0,\"componentType\":5125,\"count\":3,\"type\":\"SCALAR\"}";
+    const uint32_t idx[7] = { 0, 6, 1 };
+    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0},\"indices\":1", accessors, view_28, idx, sizeof idx), "indices: index 1 is 6, there are 6"));
+}
+
+/* Two plain instances share a mesh; the mirroring one has a copy that winds the other way. */
+static void test_instances(void)
+{
+    const char *text = replaced(without_animation(base_json), "\"nodes\":[0,2,3]", "\"nodes\":[0,2,3,4,5]");
+    text = replaced(text, "{\"strength\":0.5,\"near_offset\":3}}}]", "{}}},{\"mesh\":0},{\"mesh\":0,\"scale\":[-1,1,1]}]");
+    if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
+    if (CHECK(s.n_objects == 3 && s.n_meshes == 2)) {
+        const uint32_t *a = s.meshes[0].idx, *b = s.meshes[1].idx;
+        CHECK(s.objects[0].mesh_idx == 0 && s.objects[1].mesh_idx == 0 && s.objects[2].mesh_idx == 1);
+        CHECK(b[0] == a[0] && b[1] == a[2] && b[2] == a[1]);
+        CHECK(strcmp(s.objects[2].name, "node 5") == 0);
+    }
+    scene_free(&s);
+}
+
+static void test_gltf_options(void)
+{
+    scene_options with = plain;
+    with.ground = true;
+    write_file(TMP ".gltf", base_json, sizeof base_json - 1);
+    if (CHECK_EQ_INT(load(TMP ".gltf", &with), 0)) {
+        CHECK(s.n_objects == 2 && strcmp(s.objects[1].name, "ground") == 0 && !s.objects[1].casts && s.objects[1].receives);
+        scene_free(&s);
+    }
+    const char *no_material = replaced(base_json, ",\"material\":0", ",\"extensions\":{}");
+    no_material = replaced(no_material, "{\"casts\":0}", "{\"casts\":true,\"unlit\":1}");
+    if (CHECK_EQ_INT(load_text(TMP ".gltf", no_material), 0)) {
+        CHECK(s.objects[0].casts && s.objects[0].receives && s.objects[0].unlit && !s.objects[0].two_sided);
+        CHECK_NEAR(s.objects[0].albedo[0], 1, 0);
+        scene_free(&s);
+    }
+    if (CHECK_EQ_INT(load_changed("\"doubleSided\":true", "\"extensions\":{\"KHR_materials_unlit\":{}}"), 0)) {
+        CHECK(s.objects[0].unlit);
+        scene_free(&s);
+    }
+    CHECK(refused(load_changed("\"scale\":[2,2,2]", "\"scale\":[2,2,2],\"matrix\":[1e200,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]"), "cannot be animated"));
+    const char *huge = replaced(without_animation(base_json), "\"scale\":[2,2,2]", "\"scale\":[1e19,2,2]");
+    CHECK(refused(load_text(TMP ".gltf", huge), "object 'inner', vertex 2: world coordinate -1e+19"));
+    huge = replaced(without_animation(base_json), "\"name\":\"inner\"", "\"scale\":[1e308,1,1],\"translation\":[1e308,0,0]");
+    CHECK(refused(load_text(TMP ".gltf", huge), "/nodes/1: the transform is too large"));
+}
+
+/* --- GLB ------------------------------------------------------------------------------------------------------------- */
+
+static uint8_t glb[16384];
+static size_t n_glb;
+
+static void put_le(size_t at, size_t v)
+{
+    for (int i = 0; i < 4; i++) glb[at + (size_t)i] = (uint8_t)(v >> 8 * i);
+}
+
+static void make_glb(void)
+{
+    const char *json = replaced(base_json, ",\"uri\":\"test%5Fscene.bin\"", "");
+    size_t n = strlen(json), n_json = (n + 3) / 4 * 4;
+    n_glb = 20 + n_json + 8 + sizeof base_bin;
+    memcpy(glb, "glTF", 4);
+    put_le(4, 2);
+    put_le(8, n_glb);
+    put_le(12, n_json);
+    memcpy(glb + 16, "JSON", 4);
+    memset(glb + 20, ' ', n_json);
+    memcpy(glb + 20, json, n);
+    put_le(20 + n_json, sizeof base_bin);
+    memcpy(glb + 24 + n_json, "BIN", 4);
+    memcpy(glb + 28 + n_json, base_bin, sizeof base_bin);
+}
+
+static int load_glb(size_t n)
+{
+    write_file(TMP ".glb", glb, n);
+    return load(TMP ".glb", &plain);
+}
+
+static int load_patched(size_t at, size_t value)
+{
+    make_glb();
+    put_le(at, value);
+    return load_glb(n_glb);
+}
+
+static void test_glb(void)
+{
+    make_glb();
+    if (!CHECK_EQ_INT(load_glb(n_glb), 0)) return (void)puts(error);
+    check_invariants();
+    CHECK_EQ_INT(s.meshes[0].n_triangles, 2);
+    scene_free(&s);
+    CHECK(refused(load_patched(0, 0), "not a .glb"));
+    CHECK(refused(load_patched(4, 1), "version 1"));
+    CHECK(refused(load_patched(8, n_glb + 1), "the header announces"));
+    CHECK(refused(load_patched(8, 11), "the header announces"));
+    CHECK(refused(load_patched(8, 16), "byte 12: a chunk header is cut off"));
+    CHECK(refused(load_patched(8, 20), "reaches beyond"));
+    CHECK(refused(load_patched(12, 13), "not a multiple of 4"));
+    CHECK(refused(load_patched(12, 0xFFFFFFFC), "reaches beyond"));
+    CHECK(refused(load_patched(16, 0), "first chunk is not JSON"));
+    CHECK(refused(load_patched(n_glb - sizeof base_bin - 4, 0), "buffer 0 has no data"));
+    CHECK(refused(load_patched(n_glb - sizeof base_bin - 8, 8), "byte"));
+    make_glb();
+    for (size_t n = 0; n < n_glb; n++) CHECK(refused(load_glb(n), TMP ".glb"));
+    for (size_t n = 0; n < n_glb; n++) {
+        put_le(8, n); /* cut, and the header says so */
+        CHECK(refused(load_glb(n), TMP ".glb"));
+    }
+}
+
+/* --- OBJ ------------------------------------------------------------------------------------------------------------- */
+
+static const char obj_text[] =
+    "# a comment\r\nmtllib test_scene.mtl\r\nv 0 0 0 1 0 0\r\nv 2 0 0 0 1 0 # blue\r\nv 2 2 0\nv 0 2 0\nv 0 0 1\n"
+    "vt 0 0\nvn 0 0 1\nvn 0 0 5\no thing\ng part\ns off\nusemtl red paint\n"
+    "f 1/1/1 2/1/1 3/1/-2 \\\n 4/1/1\nusemtl grey\nf -1 -3 1\nf 5//1 1//1 4//2\nl 1 2\n";
+static const char mtl_text[] = "newmtl red paint\nNs 3\nKd 0.5 0.1 0\nd 0.5\nmap_Kd x.png\n";
+
+static void write_obj(void)
+{
+    write_file(TMP ".mtl", mtl_text, sizeof mtl_text - 1);
+    write_file(TMP ".obj", obj_text, sizeof obj_text - 1);
+}
+
+static void test_obj(void)
+{
+    write_obj();
+    if (!CHECK_EQ_INT(load(TMP ".obj", &plain), 0)) return (void)puts(error);
+    check_invariants();
+    if (CHECK(s.n_objects == 3 && s.n_meshes == 3)) {
+        const scene_mesh *red = &s.meshes[0], *grey = &s.meshes[1];
+        CHECK(strcmp(s.objects[0].name, "red paint") == 0 && strcmp(s.objects[2].name, "ground") == 0);
+        CHECK(red->n_vertices == 4 && red->n_triangles == 2 && grey->n_triangles == 2 && grey->n_vertices == 6);
+        CHECK(red->idx[3] == 0 && red->idx[4] == 2 && red->idx[5] == 3);
+        CHECK_NEAR(red->rgb[4], 1, 0);
+        CHECK_NEAR(red->rgb[8], 1, 0);
+        CHECK_NEAR(red->nrm[2], 1, 0);
+        CHECK_NEAR(grey->nrm[0], sqrt(0.5), 1e-12); /* a corner without a normal has its face's */
+        CHECK_NEAR(s.objects[0].albedo[1], 0.1, 0);
+        CHECK_NEAR(s.objects[1].albedo[1], 0.8, 0);
+        CHECK_NEAR(s.meshes[2].pos[1], 0, 0);
+    }
+    CHECK(has_note("'l' statements") && has_note("material 'grey' is not defined") && has_note("transparency of material 'red paint'") &&
+          has_note("colour texture of material 'red paint'"));
+    CHECK_EQ_INT(s.n_notes, 4);
+    scene_free(&s);
+}
+
+static void test_obj_errors(void)
+{
+    char text[300];
+    for (size_t i = 0; i < sizeof obj_errors / sizeof *obj_errors; i++) {
+        if (!CHECK(refused(load_text(TMP ".obj", obj_errors[i].text), obj_errors[i].why))) printf("  case %zu\n", i);
+        CHECK(strncmp(error, TMP ".obj:", sizeof TMP + 4) == 0);
+    }
+    for (size_t i = 0; i < sizeof mtl_errors / sizeof *mtl_errors; i++) {
+        write_file(TMP ".mtl", mtl_errors[i].text, strlen(mtl_errors[i].text));
+        if (!CHECK(refused(load_text(TMP ".obj", "mtllib test_scene.mtl\n"), mtl_errors[i].why))) printf("  case %zu\n", i);
+    }
+    snprintf(text, sizeof text, "mtllib a.mtl b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 0\nf 2 3 4 1\nf 1 2 3");
+    if (CHECK_EQ_INT(load_text(TMP ".obj", text), 0)) {
+        CHECK(has_note("'a.mtl' cannot be opened") && has_note("'b.mtl'") && has_note("line 6: a concave polygon"));
+        CHECK(!s.meshes[0].nrm && !s.meshes[0].rgb);
+        scene_free(&s);
+    }
+    write_file(TMP ".obj", "v 0\n\0v", 6);
+    CHECK(refused(load(TMP ".obj", &plain), ":2: not a text file"));
+    CHECK(refused(load(TMP "_missing.obj", &plain), "cannot be opened"));
+    for (size_t n = 0; n < sizeof obj_text; n++) { /* any cut is either whole lines or an error: never harm */
+        write_file(TMP ".obj", obj_text, n);
+        if (load(TMP ".obj", &plain) == 0) {
+            check_invariants();
+            scene_free(&s);
+        }
+    }
+}
+
+/* --- meshes and defaults --------------------------------------------------------------------------------------------- */
+
+static void test_normals(void)
+{
+    static const char roof[] = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 1 0\nv 1 1 0\nf 1 4 3\nf 1 3 2\nf 1 2 6 5\n";
+    scene_options smooth = plain;
+    smooth.smooth = true;
+    write_file(TMP ".obj", roof, sizeof roof - 1);
+    if (CHECK_EQ_INT(load(TMP ".obj", &smooth), 0)) {
+        const double half = sqrt(0.5); /* the fold between up and +z: each side counts by its right angle */
+        check_invariants();
+        CHECK_NEAR(s.meshes[0].nrm[1], half, 1e-12);
+        CHECK_NEAR(s.meshes[0].nrm[2], half, 1e-12);
+        scene_free(&s);
+    }
+    static const char zero[] = "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 9 9 9\nvn 0 0 0\nvn 0 0 1\nf 1//1 2//1 3//2\nf 4//1 4//1 4//1\nf 1//2 2 3\n";
+    if (CHECK_EQ_INT(load_text(TMP ".obj", zero), 0)) {
+        check_invariants();
+        CHECK(has_note("3 normals of"));
+        CHECK_NEAR(s.meshes[0].nrm[1], 1, 0);
+        CHECK_NEAR(s.meshes[0].nrm[8], 1, 0);
+        scene_free(&s);
+    }
+}
+
+/* A strip of 70000 triangles, more than one mesh can index. */
+static void test_split(void)
+{
+    enum { N = 70000 };
+    FILE *file = fopen(TMP ".obj", "wb");
+    if (!CHECK(file != NULL)) return;
+    for (int i = 0; i < N + 2; i++) fprintf(file, "v %d %d 0\n", i / 2, i % 2);
+    for (int i = 0; i < N; i++) fprintf(file, "f %d %d %d\n", i + 1, i + 2, i + 3);
+    fclose(file);
+    if (!CHECK_EQ_INT(load(TMP ".obj", &plain), 0)) return;
+    check_invariants();
+    if (CHECK(s.n_meshes == 3 && s.n_objects == 3)) {
+        CHECK_EQ_INT(s.meshes[0].n_triangles + s.meshes[1].n_triangles, N);
+        CHECK(s.objects[1].mesh_idx == 1 && strcmp(s.objects[0].name, s.objects[1].name) == 0);
+        const scene_mesh *last = &s.meshes[1];
+        CHECK_NEAR(last->pos[3 * last->idx[3 * last->n_triangles - 1]], (N + 1) / 2, 0);
+    }
+    scene_free(&s);
+}
+
+/* Largest extent of the objects but the last (the ground) in the picture, as a share of its smaller side. */
+static double picture_share(int w, int h)
+{
+    const scene_camera *c = &s.camera;
+    double largest = 0;
+    for (size_t i = 0; i + 1 < s.n_objects; i++) {
+        const scene_mesh *m = &s.meshes[s.objects[i].mesh_idx];
+        for (size_t v = 0; v < m->n_vertices; v++) {
+            double local[3] = { 0, 0, 0 };
+            for (int k = 0; k < 3; k++) {
+                for (int j = 0; j < 3; j++) local[k] += (m->pos[3 * v + (size_t)j] - c->to_world.m[j][3]) * c->to_world.m[j][k];
+            }
+            CHECK(-local[2] > c->near && -local[2] < s.shadow.max_distance * (1 - s.shadow.distance_fade));
+            double pixels = fmax(fabs(local[0]), fabs(local[1])) / -local[2] * c->focal * h;
+            largest = fmax(largest, pixels / fmin(w, h));
+        }
+    }
+    return largest;
+}
+
+static void check_defaults(int w, int h, double size)
+{
+    char text[300];
+    snprintf(text, sizeof text, "v 0 0 0\nv %g 0 0\nv 0 %g 0\nv 0 0 %g\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", size, size, size);
+    write_file(TMP ".obj", text, strlen(text));
+    if (!CHECK_EQ_INT(load(TMP ".obj", &(scene_options){ .width = w, .height = h }), 0)) return;
+    check_invariants();
+    CHECK_NEAR(picture_share(w, h), 0.7, 0.01);
+    CHECK(s.camera.near >= s.camera.far / 1000);
+    CHECK(s.lights[0].shadow && s.lights[0].direction[1] < -0.5);
+    CHECK_NEAR(s.lights[0].colour[0], 0.85, 0);
+    CHECK_NEAR(s.ambient[1], 0.18, 0);
+    CHECK_NEAR(s.background[2], 0.6, 0);
+    CHECK_NEAR(s.shadow.distance_fade, 0.1, 0);
+    CHECK(s.shadow.filter == SCENE_FILTER_3X3);
+    double facing = 0; /* the camera sees the lit side */
+    for (int i = 0; i < 3; i++) facing -= s.lights[0].direction[i] * s.camera.to_world.m[i][2];
+    CHECK(facing > 0.3);
+    scene_free(&s);
+}
+
+static void test_defaults(void)
+{
+    check_defaults(320, 240, 1);
+    check_defaults(240, 320, 1000);
+    check_defaults(128, 64, 1e-3);
+    check_defaults(1, 1, 1e15);
+    CHECK_EQ_INT(load_text(TMP ".obj", "v 5 5 5\nf 1 1 1\n"), 0); /* a single point is a scene, too */
+    check_invariants();
+    scene_free(&s);
+    CHECK_EQ_INT(load_text(TMP ".gltf", replaced(without_animation(base_json), "\"zfar\":80", "\"x\":0")), 0);
+    CHECK(isinf(s.camera.far));
+    CHECK_NEAR(s.shadow.max_distance, 100, 0);
+    scene_free(&s);
+}
+
+/* --- damage ---------------------------------------------------------------------------------------------------------- */
+
+/* Bytes that matter to the grammars come up more often than chance would have them. */
+static uint8_t random_byte(void)
+{
+    static const char telling[] = "0123456789-+.eE{}[],:\"\\/ \nfvn#";
+    uint32_t r = random_u32();
+    return r & 1 ? (uint8_t)telling[(r >> 8) % (sizeof telling - 1)] : (uint8_t)(r >> 8);
+}
+
+static void fuzz(const char *path, const void *valid, size_t n, int n_rounds)
+{
+    static uint8_t bytes[16384];
+    for (int i = 0; i < n_rounds; i++) {
+        memcpy(bytes, valid, n);
+        for (uint32_t k = random_u32() % 4; k < 4; k++) bytes[random_u32() % n] = random_byte();
+        write_file(path, bytes, n);
+        const scene_options options = { .frame = (int)(random_u32() % 9), .width = 64, .height = 48, .ground = i & 1, .smooth = (i & 2) != 0 };
+        if (load(path, &options) == 0) {
+            check_invariants();
+            scene_free(&s);
+        } else CHECK(is_empty() && error[0]);
+    }
+}
+
+static void test_damage(void)
+{
+    for (size_t n = 0; n < sizeof base_json - 2; n++) {
+        write_file(TMP ".gltf", base_json, n);
+        CHECK(refused(load(TMP ".gltf", &plain), TMP ".gltf:"));
+    }
+    fuzz(TMP ".gltf", base_json, sizeof base_json - 1, 7000);
+    make_glb();
+    fuzz(TMP ".glb", glb, n_glb, 7000);
+    write_obj();
+    fuzz(TMP ".obj", obj_text, sizeof obj_text - 1, 7000);
+    write_obj();
+    for (int i = 0; i < 200; i++) {
+        fuzz(TMP ".mtl.obj", mtl_text, sizeof mtl_text - 1, 1);
+        rename(TMP ".mtl.obj", TMP ".mtl");
+        if (load(TMP ".obj", &plain) == 0) scene_free(&s);
+    }
+    for (int i = 0; i < 2000; i++) {
+        uint8_t bytes[sizeof base_bin];
+        memcpy(bytes, base_bin, sizeof bytes);
+        bytes[random_u32() % sizeof bytes] = (uint8_t)random_u32();
+        write_file("build/tmp/test_scene.bin", bytes, sizeof bytes);
+        write_file(TMP ".gltf", base_json, sizeof base_json - 1);
+        if (load(TMP ".gltf", &(scene_options){ .frame = i % 9, .width = 9, .height = 9 }) == 0) {
+            check_invariants();
+            scene_free(&s);
+        }
+    }
+}
+
+int main(void)
+{
+    mkdir("build", 0777);
+    mkdir("build/tmp", 0777);
+    make_base_bin();
+    write_file("build/tmp/test_scene.bin", base_bin, sizeof base_bin);
+    test_json_errors();
+    test_json_depth();
+    test_json_values();
+    test_gltf_base();
+    test_gltf_errors();
+    test_gltf_notes();
+    test_animation();
+    test_accessor_types();
+    test_sparse();
+    test_modes();
+    test_instances();
+    test_gltf_options();
+    test_glb();
+    test_obj();
+    test_obj_errors();
+    test_normals();
+    test_split();
+    test_defaults();
+    test_damage();
+    return check_report();
+}
