@@ -25,6 +25,7 @@ static uint32_t random_u32(void)
 
 static void write_bytes(const uint8_t *bytes, size_t n)
 {
+    remove(tmp_path); /* cheaper than to empty it: some file systems then wait for the disk */
     FILE *file = fopen(tmp_path, "wb");
     if (!CHECK(file != NULL)) exit(check_report());
     CHECK(fwrite(bytes, 1, n, file) == n);

@@ -108,25 +108,34 @@ static bool place_node(gltf *g, gltf_node *node)
 
 /* Parents before children, without recursion: a chain of nodes may be as long as the file. Every node has at most one parent,
  * so a node that no root reaches is on a cycle or below one. */
-bool gltf_place_nodes(gltf *g, const json_value *used_scene)
+static bool order_nodes(gltf *g, size_t *order, size_t n)
 {
-    size_t n = g->nodes ? g->nodes->n_children : 0, n_reached = 0, n_placed = 0;
-    size_t *order = loader_alloc(g->l, n + 1, sizeof *order);
+    size_t n_reached = 0;
     bool *reached = loader_alloc(g->l, n + 1, sizeof *reached);
-    if (!order || !reached || !mark_roots(g, used_scene)) return false;
+    if (!reached) return false;
     for (size_t i = 0; i < n; i++) {
-        if (!used_scene && g->node[i].parent == GLTF_NONE) g->node[i].in_scene = true;
         if (g->node[i].parent == GLTF_NONE) order[n_reached++] = i;
     }
-    while (n_placed < n_reached) {
-        size_t at = order[n_placed++];
-        reached[at] = true;
-        if (!place_node(g, &g->node[at])) return false;
-        const json_value *children = json_get(g->node[at].json, "children");
-        for (size_t i = 0; children && i < children->n_children; i++) order[n_reached++] = (size_t)children->children[i]->number;
+    for (size_t i = 0; i < n_reached; i++) {
+        const json_value *children = json_get(g->node[order[i]].json, "children");
+        reached[order[i]] = true;
+        for (size_t k = 0; children && k < children->n_children; k++) order[n_reached++] = (size_t)children->children[k]->number;
     }
     for (size_t i = 0; i < n; i++) {
         if (!reached[i]) return gltf_fail(g, g->node[i].json, "the hierarchy has a cycle");
+    }
+    return true;
+}
+
+bool gltf_place_nodes(gltf *g, const json_value *used_scene)
+{
+    size_t n = g->nodes ? g->nodes->n_children : 0;
+    size_t *order = loader_alloc(g->l, n + 1, sizeof *order);
+    if (!order || !order_nodes(g, order, n) || !mark_roots(g, used_scene)) return false;
+    for (size_t i = 0; i < n; i++) {
+        gltf_node *node = &g->node[order[i]];
+        if (!used_scene && node->parent == GLTF_NONE) node->in_scene = true;
+        if (!place_node(g, node)) return false;
     }
     return true;
 }

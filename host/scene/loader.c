@@ -103,7 +103,7 @@ char *loader_format(loader *l, const char *format, ...)
 /* Read to the end rather than by a size asked for beforehand: pipes have none, and a folder opens but does not read. */
 static bool read_stream(loader *l, FILE *file, const char *path, uint8_t **bytes, size_t *n_bytes)
 {
-    size_t capacity = 1 << 16;
+    size_t capacity = 1 << 13;
     uint8_t *buffer = loader_alloc(l, capacity + 1, 1);
     *n_bytes = 0;
     while (buffer) {

@@ -136,7 +136,7 @@ static const struct { const char *text, *why; } obj_errors[] = {
     { "vn 1 2 3 4\n", "more than 3" }, { "v 0 0 0\nf 1 1\n", ":2: a face needs 3 corners" }, { "f 1 2 3\n", "vertex index 1 is out of range, there are 0" },
     { "v 0 0 0\nf 1 1 2\n", "vertex index 2" }, { "v 0 0 0\nf 1 1 0\n", "vertex index 0" }, { "v 0 0 0\nf 1 1 -2\n", "vertex index -2" },
     { "v 0 0 0\nf 1 1 99999999999999999999\n", "vertex index 9" }, { "v 0 0 0\nf 1 1 -99999999999999999999\n", "vertex index -9" },
-    { "v 0 0 0\nf 1 1 x\n", "index of a vertex is missing" }, { "v 0 0 0\nf 1 1 1/\\\n2/3/4 1\n", ":2: normal index 3" },
+    { "v 0 0 0\nf 1 1 x\n", "index of a vertex is missing" }, { "v 0 0 0\nf 1 1 \\\n 1/2/3\n", ":2: normal index 3" },
     { "v 0 0 0\nf 1 1 1//1\n", "normal index 1" }, { "v 0 0 0\nf 1 1 1//\n", "index of a normal" }, { "v 0 0 0\nf 1 1 1/1/1/1\n", "normal index" },
     { "v 0 0 0\nvn 1 0 0\nf 1 1 1//1/1\n", "not a corner" }, { "v 0 0 0\nf 1 1 1x\n", "not a corner" }, { "v 0 0 0\nf 1 1 +\n", "out of range" },
     { "usemtl\n", "usemtl without" }, { "mtllib # x\n", "mtllib without" },

@@ -1,0 +1,42 @@
+/* gnomon render: one picture. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../scene/png.h"
+#include "tool.h"
+
+int tool_render(const tool_options *o)
+{
+    char error[TOOL_ERROR_BYTES] = "out of memory";
+    scene s;
+    settings set;
+    if (!o->out_path) {
+        fprintf(stderr, "gnomon: render: -o OUT.png is missing\n");
+        return TOOL_USAGE;
+    }
+    if (tool_load(o, &s, &set)) return TOOL_FAILED;
+    engine_picture p;
+    int failed = strcmp(o->engine, "fixed") == 0
+                     ? engine_fixed(&p, &s, &set, o->width, o->height, o->view != VIEW_COLOUR, error, sizeof error)
+                     : engine_reference(&p, &s, &set, o->width, o->height, error, sizeof error);
+    scene_free(&s);
+    if (failed) return tool_fail(o->scene_path, error);
+    int w, h;
+    uint8_t *rgb = view_draw(&p, (view_kind)o->view, o->light, &w, &h, error, sizeof error);
+    engine_free(&p);
+    const char *about = o->scene_path;
+    failed = !rgb;
+    if (!failed) {
+        failed = png_write_rgb8(o->out_path, w, h, rgb, error, sizeof error);
+        about = o->out_path;
+    }
+    free(rgb);
+    if (failed) return tool_fail(about, error);
+    if (o->json) {
+        printf("{\"out\": ");
+        tool_json_string(o->out_path);
+        printf(", \"width\": %d, \"height\": %d}\n", w, h);
+    }
+    return TOOL_OK;
+}

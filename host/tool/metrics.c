@@ -1,0 +1,101 @@
+/* Accuracy metrics. */
+#include "metrics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int steps565(uint16_t a, uint16_t b)
+{
+    int r = abs((a >> 11) - (b >> 11)), g = abs((a >> 5 & 63) - (b >> 5 & 63)), blue = abs((a & 31) - (b & 31));
+    return r > g ? (r > blue ? r : blue) : (g > blue ? g : blue);
+}
+
+static int comparable(const engine_picture *fixed, const engine_picture *other, size_t light, size_t i)
+{
+    return fixed->triangle[i] >= 0 && fixed->triangle[i] == other->triangle[i] && other->ndotl[light][i] > 0;
+}
+
+static void attenuation(metrics *m, const engine_picture *fixed, const engine_picture *other)
+{
+    double sum_all = 0;
+    long wrong_all = 0, n_all = 0;
+    for (size_t l = 0; l < m->n_lights; l++) {
+        light_metrics *lm = &m->light[l];
+        double sum = 0;
+        long wrong = 0;
+        for (size_t i = 0; i < (size_t)m->pixels; i++) {
+            if (!comparable(fixed, other, l, i)) continue;
+            double d = fabs(fixed->shadow[l][i] - other->shadow[l][i]);
+            sum += d * d;
+            wrong += d > 1.0 / 16;
+            lm->atten_max = fmax(lm->atten_max, d);
+            lm->pixels++;
+        }
+        if (lm->pixels) {
+            lm->atten_rms = sqrt(sum / (double)lm->pixels);
+            lm->shadow_mismatch = (double)wrong / (double)lm->pixels;
+        }
+        sum_all += sum;
+        wrong_all += wrong;
+        n_all += lm->pixels;
+        m->atten_max = fmax(m->atten_max, lm->atten_max);
+    }
+    if (n_all) {
+        m->atten_rms = sqrt(sum_all / (double)n_all);
+        m->shadow_mismatch = (double)wrong_all / (double)n_all;
+    }
+}
+
+static const char *cause_of(const metrics *m, const engine_picture *fixed, const engine_picture *other, size_t i)
+{
+    if (fixed->triangle[i] != other->triangle[i]) return "coverage";
+    for (size_t l = 0; l < m->n_lights; l++)
+        if (fabs(fixed->shadow[l][i] - other->shadow[l][i]) > 1.0 / 256) return "shadow";
+    return "rounding";
+}
+
+static int worst_channel(const engine_picture *a, const engine_picture *b, size_t i, double *squares)
+{
+    int worst = 0;
+    for (size_t k = 0; k < 3; k++) {
+        int d = abs(a->rgb8[3 * i + k] - b->rgb8[3 * i + k]);
+        *squares += (double)d * d;
+        worst = d > worst ? d : worst;
+    }
+    return worst;
+}
+
+void metrics_compute(metrics *m, const engine_picture *fixed, const engine_picture *other)
+{
+    memset(m, 0, sizeof *m);
+    m->pixels = (long)fixed->width * fixed->height;
+    m->n_lights = fixed->n_lights < other->n_lights ? fixed->n_lights : other->n_lights;
+    m->worst_cause = "none";
+    long same = 0, near = 0, other_triangle = 0;
+    double squares = 0;
+    for (size_t i = 0; i < (size_t)m->pixels; i++) {
+        int steps = steps565(fixed->rgb565[i], other->rgb565[i]), worst = worst_channel(fixed, other, i, &squares);
+        same += steps == 0;
+        near += steps <= 1;
+        other_triangle += fixed->triangle[i] != other->triangle[i];
+        if (!steps && worst <= m->max_error) continue;
+        const char *cause = cause_of(m, fixed, other, i);
+        if (steps) {
+            if (cause[0] == 'c') m->by_coverage++;
+            else if (cause[0] == 's') m->by_shadow++;
+            else m->by_rounding++;
+        }
+        if (worst > m->max_error) {
+            m->max_error = worst;
+            m->worst_x = (int)(i % (size_t)fixed->width);
+            m->worst_y = (int)(i / (size_t)fixed->width);
+            m->worst_cause = cause;
+        }
+    }
+    m->identical = (double)same / (double)m->pixels;
+    m->within1 = (double)near / (double)m->pixels;
+    m->coverage_mismatch = (double)other_triangle / (double)m->pixels;
+    m->psnr_db = squares > 0 ? 10 * log10(255.0 * 255.0 * 3.0 * (double)m->pixels / squares) : INFINITY;
+    attenuation(m, fixed, other);
+}

@@ -1,0 +1,42 @@
+/* The commands of the gnomon tool and what they share. */
+#ifndef GNOMON_TOOL_H
+#define GNOMON_TOOL_H
+
+#include "engine.h"
+#include "views.h"
+
+#define TOOL_SETS_MAX 64
+#define TOOL_ERROR_BYTES 512
+
+/* The command line, parsed. */
+typedef struct {
+    const char *scene_path;
+    const char *out_path;
+    const char *engine;   /* fixed, reference */
+    const char *with;     /* compare: reference */
+    int width, height;
+    int view;
+    size_t light;
+    int frame;
+    int json;
+    char *sets[TOOL_SETS_MAX];
+    int n_sets;
+} tool_options;
+
+/* Exit codes: failures of the work itself, and of the command line. */
+enum { TOOL_OK = 0, TOOL_FAILED = 1, TOOL_USAGE = 2 };
+
+int tool_render(const tool_options *o);
+int tool_compare(const tool_options *o);
+int tool_info(const tool_options *o);
+
+/* Loads the scene with all settings applied. Prints the error and returns -1 if it fails. */
+int tool_load(const tool_options *o, scene *s, settings *set);
+
+/* Prints "gnomon: path: message" to stderr; returns TOOL_FAILED. */
+int tool_fail(const char *path, const char *message);
+
+/* Prints a JSON string with its quotes. */
+void tool_json_string(const char *text);
+
+#endif

@@ -1,0 +1,98 @@
+/* Pictures for people. */
+#include "views.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const view_names[] = {"colour", "shadow", "depth", "normal", "atlas"};
+
+int view_from_name(const char *name)
+{
+    for (int i = 0; i < (int)(sizeof view_names / sizeof *view_names); i++)
+        if (strcmp(name, view_names[i]) == 0) return i;
+    return -1;
+}
+
+static uint8_t level(double v)
+{
+    return (uint8_t)floor(fmax(0, fmin(1, v)) * 255 + 0.5);
+}
+
+static void grey(uint8_t *out, double v)
+{
+    out[0] = out[1] = out[2] = level(v);
+}
+
+/* Pure blue marks pixels without a surface. */
+static void nothing(uint8_t *out)
+{
+    out[0] = out[1] = 0;
+    out[2] = 255;
+}
+
+static void draw_depth(const engine_picture *p, uint8_t *out, size_t n)
+{
+    double lo = INFINITY, hi = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (isinf(p->depth[i])) continue;
+        lo = fmin(lo, p->depth[i]);
+        hi = fmax(hi, p->depth[i]);
+    }
+    for (size_t i = 0; i < n; i++) {
+        /* near is white; reciprocal, as depth is seen */
+        if (isinf(p->depth[i])) nothing(out + 3 * i);
+        else grey(out + 3 * i, hi > lo ? (1 / p->depth[i] - 1 / hi) / (1 / lo - 1 / hi) : 1);
+    }
+}
+
+static uint8_t *draw_atlas(const engine_picture *p, size_t light, int *w, int *h, char *error, size_t error_bytes)
+{
+    int t = p->atlas_texels[light];
+    if (!t) {
+        snprintf(error, error_bytes, "light %d has no shadow tile", (int)light);
+        return NULL;
+    }
+    size_t n = (size_t)t * (size_t)t;
+    uint8_t *out = malloc(3 * n);
+    *w = *h = t;
+    for (size_t i = 0; out && i < n; i++) grey(out + 3 * i, p->atlas[light][i]);
+    return out;
+}
+
+uint8_t *view_draw(const engine_picture *p, view_kind view, size_t light, int *w, int *h, char *error, size_t error_bytes)
+{
+    size_t n = (size_t)p->width * (size_t)p->height;
+    if ((view == VIEW_SHADOW || view == VIEW_ATLAS) && light >= p->n_lights) {
+        snprintf(error, error_bytes, "there is no light %d: the scene has %d", (int)light, (int)p->n_lights);
+        return NULL;
+    }
+    if (view == VIEW_ATLAS) return draw_atlas(p, light, w, h, error, error_bytes);
+    uint8_t *out = malloc(3 * n);
+    *w = p->width;
+    *h = p->height;
+    if (!out) return NULL;
+    if (view == VIEW_COLOUR) memcpy(out, p->rgb8, 3 * n);
+    if (view == VIEW_DEPTH) draw_depth(p, out, n);
+    for (size_t i = 0; i < n; i++) {
+        uint8_t *pixel = out + 3 * i;
+        if (view != VIEW_SHADOW && view != VIEW_NORMAL) break;
+        if (p->triangle[i] < 0) nothing(pixel);
+        else if (view == VIEW_SHADOW) grey(pixel, p->shadow[light][i]);
+        else
+            for (size_t k = 0; k < 3; k++) pixel[k] = level(0.5 + 0.5 * p->normal[3 * i + k]);
+    }
+    return out;
+}
+
+uint8_t *view_error(const engine_picture *a, const engine_picture *b)
+{
+    size_t n = 3 * (size_t)a->width * (size_t)a->height;
+    uint8_t *out = malloc(n);
+    for (size_t i = 0; out && i < n; i++) {
+        int d = 8 * abs(a->rgb8[i] - b->rgb8[i]);
+        out[i] = (uint8_t)(d > 255 ? 255 : d);
+    }
+    return out;
+}

@@ -1,0 +1,18 @@
+/* Pictures for people: one view of an engine's picture as 8-bit RGB. */
+#ifndef GNOMON_VIEWS_H
+#define GNOMON_VIEWS_H
+
+#include "engine.h"
+
+typedef enum { VIEW_COLOUR, VIEW_SHADOW, VIEW_DEPTH, VIEW_NORMAL, VIEW_ATLAS } view_kind;
+
+/* -1 if there is no such view. */
+int view_from_name(const char *name);
+
+/* A new RGB picture of *w x *h, or NULL with one line in error. */
+uint8_t *view_draw(const engine_picture *p, view_kind view, size_t light, int *w, int *h, char *error, size_t error_bytes);
+
+/* |a - b| per channel, eight times as strong. */
+uint8_t *view_error(const engine_picture *a, const engine_picture *b);
+
+#endif
