@@ -1,0 +1,87 @@
+# Gnomon. `make help` lists what there is.
+#
+# The library itself needs no build system: compile lib/*.c with -Ilib. This file builds the host tool and runs the tests.
+
+CC ?= gcc
+BUILD ?= build
+OPT ?= -O2
+SAN ?=
+SIZE ?= 320x240
+SCENES ?=
+OWN_SCENES := host/scenes/sundial.gltf host/scenes/avenue.gltf
+
+WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef -Werror
+# The host build of the library: every knob at run time, room for any scene. The pixels are the target's, bit for bit.
+HOST_KNOBS := -DGN_RUNTIME_KNOBS=1 -DGN_RAW_VIEWS=1 -DGN_ATLAS_SIZE=1024 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 \
+  -DGN_MAX_TRIANGLES=65534 -DGN_MAX_TILE_REFS=1000000 -DGN_MAX_LIGHTS=8 -DGN_VERTEX_CACHE=1024
+LIB_CFLAGS := -std=c99 -pedantic $(OPT) -g $(WARN) $(SAN) -Ilib
+HOST_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(OPT) -g $(WARN) $(SAN) -Ilib $(HOST_KNOBS)
+
+LIB_SRC := $(wildcard lib/*.c)
+HOST_SRC := $(wildcard host/ref/*.c host/scene/*.c) $(filter-out host/tool/main.c host/tool/gen_%.c, $(wildcard host/tool/*.c))
+SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/scenes/*.c))
+TESTS := $(basename $(notdir $(wildcard tests/test_*.c)))
+
+LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/obj/%.o)
+HOST_OBJ := $(HOST_SRC:%.c=$(BUILD)/obj/%.o)
+SCENE_OBJ := $(SCENE_SRC:%.c=$(BUILD)/obj/%.o)
+
+all: $(BUILD)/gnomon ## build the host tool, build/gnomon (default)
+
+help: ## list the targets
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 18
+	@echo
+	@echo "  make run SCENES='a.obj b.glb' SIZE=480x320    renders these too, at this size"
+
+run: $(BUILD)/gnomon ## render and compare the main scenes (and SCENES=...); pictures under build/run/
+	@sh host/run.sh $(BUILD)/gnomon $(SIZE) $(BUILD)/run $(OWN_SCENES) $(SCENES)
+
+test: ## run every test; installs what is missing (needs root or sudo)
+	@sh tests/run.sh
+
+soak: ## the longer campaigns: minutes to hours
+	@SOAK=1 sh tests/run.sh
+
+bench: ## count instructions of the workload with callgrind and compare with the committed baseline
+	@sh tests/bench.sh
+
+docs: $(BUILD)/gnomon ## regenerate the generated parts of docs/
+	@sh docs/generate.sh $(BUILD)/gnomon
+
+tables: $(BUILD)/gen_tables ## regenerate lib/gn_tables.c
+	$(BUILD)/gen_tables > lib/gn_tables.c
+
+scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf
+	$(BUILD)/make_scenes host/scenes
+
+clean: ## remove build/
+	rm -rf build
+
+$(BUILD)/gnomon: $(BUILD)/obj/host/tool/main.o $(HOST_OBJ) $(LIB_OBJ)
+	$(CC) $(OPT) $(SAN) -o $@ $^ -lm
+
+$(BUILD)/gen_tables: host/tool/gen_tables.c
+	@mkdir -p $(@D)
+	$(CC) $(HOST_CFLAGS) -o $@ $< -lm
+
+$(BUILD)/make_scenes: $(BUILD)/obj/host/scenes/make_scenes.o $(SCENE_OBJ) $(HOST_OBJ)
+	$(CC) $(OPT) $(SAN) -o $@ $^ -lm
+
+# Test programs of one variant: make test-programs BUILD=build/gcc-O0 CC=gcc OPT=-O0 SAN=-fsanitize=address,undefined
+test-programs: $(TESTS:%=$(BUILD)/%) $(BUILD)/gnomon
+
+$(BUILD)/test_%: $(BUILD)/obj/tests/test_%.o $(HOST_OBJ) $(SCENE_OBJ) $(LIB_OBJ)
+	$(CC) $(OPT) $(SAN) -o $@ $^ -lm
+
+$(BUILD)/obj/lib/%.o: lib/%.c
+	@mkdir -p $(@D)
+	$(CC) $(LIB_CFLAGS) $(HOST_KNOBS) -MMD -MP -c -o $@ $<
+
+$(BUILD)/obj/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(HOST_CFLAGS) -MMD -MP -c -o $@ $<
+
+-include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
+
+.PHONY: all help run test soak bench docs tables scenes clean test-programs
+.SECONDARY:

@@ -1,0 +1,114 @@
+/* What test_scene.c stands on: files in build/tmp, loading them, and what holds for every scene. */
+#ifndef GNOMON_TESTS_SCENE_FIXTURE_H
+#define GNOMON_TESTS_SCENE_FIXTURE_H
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../host/scene/scene.h"
+#include "../check.h"
+
+#define TMP "build/tmp/test_scene"
+static const scene_options plain = { .frame = 0, .width = 320, .height = 240 };
+static char error[400];
+static scene s;
+
+static uint32_t random_state = 1;
+static uint32_t random_u32(void)
+{
+    random_state ^= random_state << 13;
+    random_state ^= random_state >> 17;
+    random_state ^= random_state << 5;
+    return random_state;
+}
+
+static void write_file(const char *path, const void *bytes, size_t n)
+{
+    remove(path); /* cheaper than to empty it: some file systems then wait for the disk */
+    FILE *file = fopen(path, "wb");
+    if (!CHECK(file != NULL)) exit(check_report());
+    CHECK(fwrite(bytes, 1, n, file) == n);
+    fclose(file);
+}
+
+static int load(const char *path, const scene_options *options)
+{
+    memset(&s, 0xFF, sizeof s); /* scene_load must not look at what was there */
+    return scene_load(&s, path, options, error, sizeof error);
+}
+
+static int load_text(const char *path, const char *text)
+{
+    write_file(path, text, strlen(text));
+    return load(path, &plain);
+}
+
+static int has_note(const char *part)
+{
+    for (size_t i = 0; i < s.n_notes; i++) {
+        if (strstr(s.notes[i], part)) return 1;
+    }
+    return 0;
+}
+
+static int is_empty(void)
+{
+    return !s.meshes && !s.objects && !s.lights && !s.settings && !s.notes && s.n_meshes + s.n_objects + s.n_lights + s.n_notes == 0;
+}
+
+/* The load failed, for the reason expected, in one line. */
+static int refused(int result, const char *why)
+{
+    int ok = result == -1 && is_empty() && strstr(error, why) && !strchr(error, '\n');
+    if (!ok) printf("  expected '%s', got '%s'\n", why, result ? error : "no error");
+    if (result == 0) scene_free(&s);
+    return ok;
+}
+
+/* What the engines may rely on, whatever the file was. */
+static void check_invariants(void)
+{
+    int ok = s.n_objects > 0 && s.n_lights > 0 && s.camera.near > 0 && s.camera.far > s.camera.near && s.camera.focal > 0;
+    for (size_t i = 0; i < s.n_meshes; i++) {
+        const scene_mesh *m = &s.meshes[i];
+        ok = ok && m->n_triangles > 0 && m->n_triangles <= 65535 && m->n_vertices <= 65535 && m->name;
+        for (size_t k = 0; ok && k < 3 * m->n_triangles; k++) ok = m->idx[k] < m->n_vertices;
+        for (size_t k = 0; ok && k < 3 * m->n_vertices; k++) {
+            ok = isfinite(m->pos[k]) && (!m->rgb || (m->rgb[k] >= 0 && m->rgb[k] <= 1));
+            if (m->nrm && k % 3 == 0) ok = ok && fabs(hypot(hypot(m->nrm[k], m->nrm[k + 1]), m->nrm[k + 2]) - 1) < 1e-9;
+        }
+    }
+    for (size_t i = 0; i < s.n_objects; i++) ok = ok && s.objects[i].mesh_idx < s.n_meshes && s.objects[i].name;
+    for (size_t i = 0; i < s.n_lights; i++) {
+        const double *d = s.lights[i].direction;
+        ok = ok && fabs(hypot(hypot(d[0], d[1]), d[2]) - 1) < 1e-9 && isfinite(s.lights[i].colour[0]);
+    }
+    CHECK(ok);
+}
+
+/* A quad in the xy plane with everything on it. Sizes and offsets of the buffer's parts stand in base_json. */
+static uint8_t base_bin[328];
+
+static void put_floats(size_t offset, const float *values, size_t n) { memcpy(base_bin + offset, values, n * sizeof *values); }
+
+static void make_base_bin(void)
+{
+    static const float pos[12] = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 }, nrm[12] = { 0, 0, 2, 0, 0, 1, 0, 0, 1, 0, 0, 1 };
+    static const uint16_t idx[6] = { 0, 1, 2, 2, 1, 3 };
+    static const uint8_t rgba[16] = { 255, 0, 0, 9, 0, 255, 0, 9, 0, 0, 255, 9, 51, 102, 153, 9 };
+    static const float times[3] = { 1, 2, 4 };
+    static const float moves[27] = { 0, 0, 0, 1, 0, 0, 0, 4, 0, 0, 8, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0 };
+    static const float turns[12] = { 0, 0, 0, 1, 0, 0, -0.70710678f, -0.70710678f, 0, 0, 1, 0 };
+    static const float scales[9] = { 1, 1, 1, 2, 2, 2, 3, 3, 3 };
+    put_floats(0, pos, 12);
+    memcpy(base_bin + 48, idx, sizeof idx);
+    put_floats(60, nrm, 12);
+    memcpy(base_bin + 108, rgba, sizeof rgba);
+    put_floats(124, times, 3);
+    put_floats(136, moves, 27);
+    put_floats(244, turns, 12);
+    put_floats(292, scales, 9);
+}
+
+#endif
