@@ -45,7 +45,7 @@ soak: ## the longer campaigns: minutes to hours
 bench: ## count instructions of the workload with callgrind and compare with the committed baseline
 	@sh tests/bench.sh
 
-docs: $(BUILD)/gnomon ## regenerate the generated parts of docs/
+docs: $(BUILD)/gnomon $(BUILD)/test_stages ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
 
 tables: $(BUILD)/gen_tables ## regenerate lib/gn_tables.c
@@ -58,28 +58,45 @@ clean: ## remove build/
 	rm -rf build
 
 $(BUILD)/gnomon: $(BUILD)/obj/host/tool/main.o $(HOST_OBJ) $(LIB_OBJ)
-	$(CC) $(OPT) $(SAN) -o $@ $^ -lm
+	@echo '  LD $@'
+	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
 
 $(BUILD)/gen_tables: host/tool/gen_tables.c
 	@mkdir -p $(@D)
 	$(CC) $(HOST_CFLAGS) -o $@ $< -lm
 
 $(BUILD)/make_scenes: $(BUILD)/obj/host/scenes/make_scenes.o $(SCENE_OBJ) $(HOST_OBJ)
-	$(CC) $(OPT) $(SAN) -o $@ $^ -lm
+	@echo '  LD $@'
+	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
 
 # Test programs of one variant: make test-programs BUILD=build/gcc-O0 CC=gcc OPT=-O0 SAN=-fsanitize=address,undefined
 test-programs: $(TESTS:%=$(BUILD)/%) $(BUILD)/gnomon
 
-$(BUILD)/test_%: $(BUILD)/obj/tests/test_%.o $(HOST_OBJ) $(SCENE_OBJ) $(LIB_OBJ)
-	$(CC) $(OPT) $(SAN) -o $@ $^ -lm
+$(BUILD)/test_scenes: $(SCENE_OBJ)
+
+$(BUILD)/test_%: $(BUILD)/obj/tests/test_%.o $(HOST_OBJ) $(LIB_OBJ)
+	@echo '  LD $@'
+	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
+
+# OpenImageIO judges our PNG files: a C test over a small C++ shim.
+$(BUILD)/test_oiio: $(BUILD)/obj/tests/oiio/test_oiio.o $(BUILD)/obj/tests/oiio/oiio_shim.o $(HOST_OBJ) $(LIB_OBJ)
+	@echo '  LD $@'
+	@$(CXX) -o $@ $^ $$(pkg-config --libs OpenImageIO) -lm
+
+$(BUILD)/obj/tests/oiio/oiio_shim.o: tests/oiio/oiio_shim.cpp tests/oiio/oiio_shim.h
+	@mkdir -p $(@D)
+	@echo '  CXX $<'
+	@$(CXX) -std=c++17 -O1 -w $$(pkg-config --cflags OpenImageIO) -c -o $@ $<
 
 $(BUILD)/obj/lib/%.o: lib/%.c
 	@mkdir -p $(@D)
-	$(CC) $(LIB_CFLAGS) $(HOST_KNOBS) -MMD -MP -c -o $@ $<
+	@echo '  CC $<'
+	@$(CC) $(LIB_CFLAGS) $(HOST_KNOBS) -MMD -MP -c -o $@ $<
 
 $(BUILD)/obj/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(HOST_CFLAGS) -MMD -MP -c -o $@ $<
+	@echo '  CC $<'
+	@$(CC) $(HOST_CFLAGS) -MMD -MP -c -o $@ $<
 
 -include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
 

@@ -77,8 +77,9 @@ static inline int64_t gn_shr64(int64_t v, int32_t s)
 /* round(v * 2^-s) for any s of either sign; saturates. */
 static inline int64_t gn_scale64(int64_t v, int32_t s)
 {
-    if (s > 62) return 0;
-    if (s >= 0) return (v + ((((int64_t)1 << s) >> 1))) >> s;
+    if (s > 63) return 0;
+    if (s > 0) return (v >> s) + ((v >> (s - 1)) & 1); /* no addition that could overflow */
+    if (s == 0) return v;
     if (v == 0) return 0;
     if (gn_clz64(gn_abs64(v)) - 1 < -s) return v < 0 ? -INT64_MAX : INT64_MAX;
     return gn_shl64(v, -s);

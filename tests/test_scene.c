@@ -180,6 +180,10 @@ static void test_animation(void)
     load(TMP ".gltf", &(scene_options){ .frame = 3, .width = 320, .height = 240 });
     if (CHECK(s.n_objects == 1)) CHECK_NEAR(s.objects[0].to_world.m[1][3], 0.5 - 1, 1e-12);
     scene_free(&s);
+    /* y at 2.5 s: tangent 8 out of the second key, a quarter of the way through 2 s: (9/64)(2)(8) */
+    load(TMP ".gltf", &(scene_options){ .frame = 5, .width = 320, .height = 240 });
+    if (CHECK(s.n_objects == 1)) CHECK_NEAR(s.objects[0].to_world.m[1][3], 2.25, 1e-12);
+    scene_free(&s);
 }
 
 static size_t put_base64(char *out, const uint8_t *bytes, size_t n)
@@ -530,7 +534,7 @@ static double picture_share(int w, int h)
             for (int k = 0; k < 3; k++) {
                 for (int j = 0; j < 3; j++) local[k] += (m->pos[3 * v + (size_t)j] - c->to_world.m[j][3]) * c->to_world.m[j][k];
             }
-            CHECK(-local[2] > c->near && -local[2] < s.shadow.max_distance * (1 - s.shadow.distance_fade));
+            CHECK(-local[2] > c->near && -local[2] <= s.shadow.max_distance * (1 - s.shadow.distance_fade) * (1 + 1e-9));
             double pixels = fmax(fabs(local[0]), fabs(local[1])) / -local[2] * c->focal * h;
             largest = fmax(largest, pixels / fmin(w, h));
         }
@@ -553,6 +557,11 @@ static void check_defaults(int w, int h, double size)
     CHECK_NEAR(s.background[2], 0.6, 0);
     CHECK_NEAR(s.shadow.distance_fade, 0.1, 0);
     CHECK(s.shadow.filter == SCENE_FILTER_3X3);
+    /* The shadow of the top vertex on the ground is in front of where shadows start to fade. */
+    const double *light = s.lights[0].direction, tip[3] = { -size * light[0] / light[1], 0, -size * light[2] / light[1] };
+    double depth = 0;
+    for (int i = 0; i < 3; i++) depth -= (tip[i] - s.camera.to_world.m[i][3]) * s.camera.to_world.m[i][2];
+    CHECK(depth <= s.shadow.max_distance * (1 - s.shadow.distance_fade) * (1 + 1e-9));
     double facing = 0; /* the camera sees the lit side */
     for (int i = 0; i < 3; i++) facing -= s.lights[0].direction[i] * s.camera.to_world.m[i][2];
     CHECK(facing > 0.3);

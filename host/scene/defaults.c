@@ -15,7 +15,7 @@ static const double light_elevation_deg = 45;
 static const double light_intensity = 0.85;
 static const double ground_albedo = 0.55;
 static const double ground_half_size_radii = 8;
-static const double shadow_reach_radii = 1.6;    /* beyond the object's centre */
+static const double shadow_reach_radii = 3;      /* behind the object's centre, at most: a low sun casts without end */
 static const double shadow_fade = 0.1;
 
 /* Of all world vertices: box, and the sphere around the box's centre. */
@@ -31,7 +31,8 @@ static bool grow_box(loader *l, const scene_object *object, bounds *b)
         affine_point(p, &object->to_world, mesh->pos + 3 * i);
         for (int k = 0; k < 3; k++) {
             if (!(fabs(p[k]) <= LOADER_MAX_COORDINATE)) {
-                return loader_fail(l, "%s: object '%s', vertex %zu: world coordinate %g is out of range", l->path, object->name, i, p[k]);
+                return loader_fail(l, "%s: object '%s', vertex %zu: world coordinate %g is out of range", l->path,
+                                   object->name, i, p[k]);
             }
             b->low[k] = fmin(b->low[k], p[k]);
             b->high[k] = fmax(b->high[k], p[k]);
@@ -135,7 +136,31 @@ static void make_camera(loader *l, const bounds *b)
      * more above it, and looks down by at most elevation + fov / 2. */
     camera->far = distance + sqrt(2) * ground_half_size_radii * b->radius;
     camera->near = fmax(0.5 * (distance - b->radius), camera->far / 1000);
-    l->s->shadow.max_distance = fmax(distance + shadow_reach_radii * b->radius, (distance + b->radius) / (1 - shadow_fade));
+}
+
+/* For the default camera: the depth up to which objects, and their shadows on the ground if there is one, are to be seen whole.
+ * The fade starts behind it. No farther: the texels of the shadow map spread over this distance. */
+static double find_shadow_distance(const loader *l, const bounds *b)
+{
+    const scene *s = l->s;
+    const scene_affine *camera = &s->camera.to_world;
+    const double *light = s->lights[0].direction;
+    double deepest = 0, farthest = shadow_reach_radii * b->radius, back[3], eye[3];
+    affine_column(back, camera, 2);
+    affine_column(eye, camera, 3);
+    for (size_t i = 0; i < s->n_objects; i++) {
+        const scene_mesh *mesh = &s->meshes[s->objects[i].mesh_idx];
+        for (size_t v = 0; v < mesh->n_vertices; v++) {
+            double p[3];
+            affine_point(p, &s->objects[i].to_world, mesh->pos + 3 * v);
+            double fall = l->wants_ground && light[1] < 0 ? (b->low[1] - p[1]) / light[1] : 0;
+            vec_sub(p, p, b->centre);
+            double depth = -vec_dot(p, back);
+            deepest = fmax(deepest, fmax(depth, fmin(depth - fall * vec_dot(light, back), farthest)));
+        }
+    }
+    vec_sub(eye, eye, b->centre);
+    return (vec_dot(eye, back) + deepest) / (1 - shadow_fade);
 }
 
 /* From the upper left of the camera: what it sees is lit, and the shadow falls to the side. */
@@ -172,5 +197,6 @@ bool loader_add_defaults(loader *l)
                                 .filter = SCENE_FILTER_3X3 };
     if (!l->has_camera) make_camera(l, &b);
     if (s->n_lights == 0 && !make_light(l)) return false;
+    if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b);
     return !l->wants_ground || add_ground(l, &b);
 }

@@ -56,7 +56,8 @@ static bool locate(gltf *g, const json_value *owner, size_t element_bytes, size_
 {
     size_t view = GLTF_NONE, offset = 0;
     gltf_bytes bytes;
-    if (!gltf_get_ref(g, owner, "bufferView", g->buffer_views, &view) || !gltf_get_size(g, owner, "byteOffset", &offset)) return false;
+    if (!gltf_get_ref(g, owner, "bufferView", g->buffer_views, &view) ||
+        !gltf_get_size(g, owner, "byteOffset", &offset)) return false;
     if (view == GLTF_NONE) return gltf_fail(g, owner, "bufferView is missing");
     if (!gltf_view_bytes(g, g->buffer_views->children[view], &bytes, &out->stride)) return false;
     if (out->stride == 0) out->stride = element_bytes;
@@ -94,7 +95,8 @@ static bool read_dense(gltf *g, const json_value *accessor, gltf_array *out)
 
 static bool read_zeros(gltf *g, const json_value *accessor, gltf_array *out)
 {
-    if (out->count > MAX_ZEROS) return gltf_fail(g, accessor, "%zu elements without a bufferView (limit %d)", out->count, MAX_ZEROS);
+    if (out->count > MAX_ZEROS)
+        return gltf_fail(g, accessor, "%zu elements without a bufferView (limit %d)", out->count, MAX_ZEROS);
     out->values = loader_alloc(g->l, out->count * out->n_components, sizeof *out->values);
     return out->values != NULL;
 }
@@ -123,8 +125,10 @@ static bool read_sparse(gltf *g, const json_value *sparse, gltf_array *out)
     for (size_t i = 0, next = 0; i < count; i++) {
         size_t target = little_endian(index_run.bytes + i * index_run.stride, component_bytes(index_type));
         if (target < next) return gltf_fail(g, indices, "index %zu does not increase", i);
-        if (target >= out->count) return gltf_fail(g, indices, "index %zu is %zu, the accessor has %zu elements", i, target, out->count);
-        if (!read_element(g, values, out, value_run.bytes + i * value_run.stride, i, out->values + target * out->n_components)) return false;
+        if (target >= out->count)
+            return gltf_fail(g, indices, "index %zu is %zu, the accessor has %zu elements", i, target, out->count);
+        double *to = out->values + target * out->n_components;
+        if (!read_element(g, values, out, value_run.bytes + i * value_run.stride, i, to)) return false;
         next = target + 1;
     }
     return true;
@@ -136,7 +140,8 @@ static bool read_type(gltf *g, const json_value *accessor, gltf_array *out)
     const char *type = "";
     if (!gltf_get_size(g, accessor, "componentType", &out->component_type) || !gltf_get_string(g, accessor, "type", &type) ||
         !gltf_get_bool(g, accessor, "normalized", &out->normalized)) return false;
-    if (component_bytes(out->component_type) == 0) return gltf_fail(g, accessor, "componentType %zu is unknown", out->component_type);
+    if (component_bytes(out->component_type) == 0)
+        return gltf_fail(g, accessor, "componentType %zu is unknown", out->component_type);
     if (out->normalized && component_bytes(out->component_type) == 4) {
         return gltf_fail(g, accessor, "componentType %zu cannot be normalized", out->component_type);
     }

@@ -148,7 +148,8 @@ static bool read_channel(gltf *g, const json_value *json, const json_value *samp
     size_t sampler_idx = GLTF_NONE;
     *out = (channel){ 0 };
     if (json->type != JSON_OBJECT) return gltf_fail(g, json, "an object is expected");
-    if (!gltf_get_ref(g, json, "sampler", samplers, &sampler_idx) || !gltf_get(g, json, "target", JSON_OBJECT, &target)) return false;
+    if (!gltf_get_ref(g, json, "sampler", samplers, &sampler_idx) ||
+        !gltf_get(g, json, "target", JSON_OBJECT, &target)) return false;
     if (sampler_idx == GLTF_NONE || !target) return gltf_fail(g, json, "sampler and target are needed");
     out->sampler = samplers->children[sampler_idx];
     return read_target(g, target, out);
@@ -172,7 +173,8 @@ static bool play_animation(gltf *g, const json_value *json, unsigned char *moved
 {
     const json_value *channels = NULL, *samplers = NULL;
     const char *name = gltf_name(g, json, "animation");
-    if (!name || !gltf_get(g, json, "channels", JSON_ARRAY, &channels) || !gltf_get(g, json, "samplers", JSON_ARRAY, &samplers)) return false;
+    if (!name || !gltf_get(g, json, "channels", JSON_ARRAY, &channels) ||
+        !gltf_get(g, json, "samplers", JSON_ARRAY, &samplers)) return false;
     for (size_t i = 0; channels && i < channels->n_children; i++) {
         channel c;
         if (!read_channel(g, channels->children[i], samplers, &c)) return false;

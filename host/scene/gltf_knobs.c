@@ -31,7 +31,8 @@ static bool check_keys(gltf *g, const json_value *knobs, bool light, bool surfac
         const json_value *knob = knobs->children[i];
         if (light && is_one_of(knob->key, light_keys)) continue;
         if (surface && is_one_of(knob->key, surface_keys)) continue;
-        return gltf_fail(g, knob, "unknown knob '%s'%s", knob->key, light || surface ? "" : " (the node has neither a mesh nor a light)");
+        return gltf_fail(g, knob, "unknown knob '%s'%s", knob->key,
+                         light || surface ? "" : " (the node has neither a mesh nor a light)");
     }
     return true;
 }
@@ -47,7 +48,8 @@ static bool get_switch(gltf *g, const json_value *knobs, const char *key, bool *
 {
     const json_value *value = json_get(knobs, key);
     if (!value) return true;
-    bool is_number = value->type == JSON_NUMBER && (value->number <= 0 || value->number >= 1) && value->number >= 0 && value->number <= 1;
+    bool is_zero = value->number >= 0 && value->number <= 0, is_one = value->number >= 1 && value->number <= 1;
+    bool is_number = value->type == JSON_NUMBER && (is_zero || is_one);
     if (value->type != JSON_BOOL && !is_number) return gltf_fail(g, value, "true or false is expected");
     *out = value->number > 0;
     return true;

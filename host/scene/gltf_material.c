@@ -16,7 +16,8 @@ static bool read_surface(gltf *g, const json_value *json, const char *name, gltf
     if (!gltf_get(g, json, "pbrMetallicRoughness", JSON_OBJECT, &pbr)) return false;
     if (!gltf_get_numbers(g, pbr, "baseColorFactor", factor, 4)) return false;
     memcpy(out->albedo, factor, sizeof out->albedo);
-    if (!loader_clamp_colour(out->albedo, 3) && !loader_note(g->l, "base colour of material '%s' outside 0..1 is clamped", name)) return false;
+    if (!loader_clamp_colour(out->albedo, 3) &&
+        !loader_note(g->l, "base colour of material '%s' outside 0..1 is clamped", name)) return false;
     return note_texture(g, pbr, "baseColorTexture", "base colour", name) &&
            note_texture(g, pbr, "metallicRoughnessTexture", "metallic-roughness", name) &&
            note_texture(g, json, "normalTexture", "normal", name) && note_texture(g, json, "occlusionTexture", "occlusion", name) &&
@@ -27,7 +28,8 @@ static bool note_rest(gltf *g, const json_value *json, const char *name)
 {
     const char *alpha_mode = "OPAQUE";
     double emissive[3] = { 0, 0, 0 };
-    if (!gltf_get_string(g, json, "alphaMode", &alpha_mode) || !gltf_get_numbers(g, json, "emissiveFactor", emissive, 3)) return false;
+    if (!gltf_get_string(g, json, "alphaMode", &alpha_mode) ||
+        !gltf_get_numbers(g, json, "emissiveFactor", emissive, 3)) return false;
     if (strcmp(alpha_mode, "OPAQUE") != 0 &&
         !loader_note(g->l, "alphaMode %s of material '%s' ignored: drawn opaque", alpha_mode, name)) return false;
     if (emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0) {

@@ -37,9 +37,11 @@ static bool read_position(gltf *g, const json_value *attributes, scene_mesh *out
     gltf_array a;
     if (!read_attribute(g, attributes, "POSITION", 0, &a)) return false;
     const json_value *where = json_get(attributes, "POSITION");
-    if (a.n_components != 3 || a.component_type == GLTF_UINT) return gltf_fail(g, where, "VEC3 of float, byte or short is expected");
+    if (a.n_components != 3 || a.component_type == GLTF_UINT)
+        return gltf_fail(g, where, "VEC3 of float, byte or short is expected");
     for (size_t i = 0; i < 3 * a.count; i++) {
-        if (fabs(a.values[i]) > LOADER_MAX_COORDINATE) return gltf_fail(g, where, "vertex %zu: coordinate %g is out of range", i / 3, a.values[i]);
+        if (fabs(a.values[i]) > LOADER_MAX_COORDINATE)
+            return gltf_fail(g, where, "vertex %zu: coordinate %g is out of range", i / 3, a.values[i]);
     }
     out->n_vertices = a.count;
     out->pos = a.values;
@@ -80,13 +82,15 @@ static bool read_indices(gltf *g, const json_value *primitive, size_t n_vertices
     if (!gltf_get_ref(g, primitive, "indices", g->accessors, &accessor)) return false;
     if (where && !gltf_read_accessor(g, accessor, &a)) return false;
     bool is_index = a.component_type == GLTF_UBYTE || a.component_type == GLTF_USHORT || a.component_type == GLTF_UINT;
-    if (where && (a.n_components != 1 || a.normalized || !is_index)) return gltf_fail(g, where, "SCALAR of unsigned integers is expected");
+    if (where && (a.n_components != 1 || a.normalized || !is_index))
+        return gltf_fail(g, where, "SCALAR of unsigned integers is expected");
     *n = a.count;
     *out = loader_alloc(g->l, a.count, sizeof **out);
     if (!*out) return false;
     for (size_t i = 0; i < a.count; i++) {
         double index = where ? a.values[i] : (double)i;
-        if (index >= (double)n_vertices) return gltf_fail(g, where, "index %zu is %.0f, there are %zu vertices", i, index, n_vertices);
+        if (index >= (double)n_vertices)
+            return gltf_fail(g, where, "index %zu is %.0f, there are %zu vertices", i, index, n_vertices);
         (*out)[i] = (uint32_t)index;
     }
     return true;
@@ -106,7 +110,8 @@ static bool assemble(gltf *g, const json_value *primitive, size_t mode, scene_me
     size_t n = 0;
     if (!read_indices(g, primitive, out->n_vertices, &walk, &n)) return false;
     out->n_triangles = mode == MODE_TRIANGLES ? n / 3 : n < 3 ? 0 : n - 2;
-    if (mode == MODE_TRIANGLES && n % 3 != 0 && !loader_note(g->l, "the last %zu corners of '%s' make no triangle", n % 3, out->name)) return false;
+    if (mode == MODE_TRIANGLES && n % 3 != 0 &&
+        !loader_note(g->l, "the last %zu corners of '%s' make no triangle", n % 3, out->name)) return false;
     out->idx = loader_alloc(g->l, out->n_triangles, 3 * sizeof *out->idx);
     if (!out->idx) return false;
     for (size_t i = 0; i < out->n_triangles; i++) {
@@ -122,12 +127,14 @@ bool gltf_read_primitive(gltf *g, const json_value *primitive, const char *name,
     size_t mode = MODE_TRIANGLES;
     *out = (scene_mesh){ .name = loader_format(g->l, "%s", name) };
     if (!out->name) return false;
-    if (!gltf_get_size(g, primitive, "mode", &mode) || !gltf_get(g, primitive, "attributes", JSON_OBJECT, &attributes)) return false;
+    if (!gltf_get_size(g, primitive, "mode", &mode) ||
+        !gltf_get(g, primitive, "attributes", JSON_OBJECT, &attributes)) return false;
     if (!attributes) return gltf_fail(g, primitive, "attributes is missing");
     if (mode > MODE_FAN) return gltf_fail(g, json_get(primitive, "mode"), "mode %zu is unknown", mode);
     if (mode < MODE_TRIANGLES) return loader_note(g->l, "points and lines of mesh '%s' ignored: only triangles are drawn", name);
     if (!json_get(attributes, "POSITION")) return loader_note(g->l, "primitive of mesh '%s' ignored: it has no POSITION", name);
-    if (json_get(primitive, "targets") && !loader_note(g->l, "morph targets of mesh '%s' ignored: they are not supported", name)) return false;
+    if (json_get(primitive, "targets") &&
+        !loader_note(g->l, "morph targets of mesh '%s' ignored: they are not supported", name)) return false;
     return read_position(g, attributes, out) && read_normal(g, attributes, out) && read_colour(g, attributes, out) &&
            assemble(g, primitive, mode, out) && (out->n_triangles == 0 || mesh_prepare_normals(g->l, out));
 }
@@ -182,7 +189,8 @@ bool gltf_emit_mesh(gltf *g, size_t node_idx)
     if (mesh_idx == GLTF_NONE) return true;
     const char *name = gltf_name(g, g->meshes->children[mesh_idx], "mesh");
     if (!name || !mesh_primitives(g, mesh_idx, &primitives)) return false;
-    if (json_get(node->json, "skin") && !loader_note(g->l, "skin of mesh '%s' ignored: it is shown in its rest pose", name)) return false;
+    if (json_get(node->json, "skin") &&
+        !loader_note(g->l, "skin of mesh '%s' ignored: it is shown in its rest pose", name)) return false;
     for (size_t i = 0; i < primitives->n_children; i++) {
         const json_value *json = primitives->children[i];
         if (json->type != JSON_OBJECT) return gltf_fail(g, json, "an object is expected");

@@ -167,7 +167,8 @@ static bool read_perspective(gltf *g, const json_value *perspective, scene_camer
         !gltf_get_number(g, perspective, "zfar", &far_distance)) return false;
     if (!(fov > 1e-6 && fov < VEC_PI - 1e-6)) return gltf_fail(g, perspective, "yfov %g is not between 0 and pi", fov);
     if (!(near_distance > 0)) return gltf_fail(g, perspective, "znear %g is not positive", near_distance);
-    if (!(far_distance > near_distance)) return gltf_fail(g, perspective, "zfar %g is not beyond znear %g", far_distance, near_distance);
+    if (!(far_distance > near_distance))
+        return gltf_fail(g, perspective, "zfar %g is not beyond znear %g", far_distance, near_distance);
     out->focal = 1 / tan(fov / 2);
     out->near = near_distance;
     out->far = far_distance;
@@ -185,7 +186,8 @@ bool gltf_emit_camera(gltf *g, size_t node_idx)
     const char *name = gltf_name(g, camera, "camera"), *type = "";
     if (!name || !gltf_get_string(g, camera, "type", &type) ||
         !gltf_get(g, camera, "perspective", JSON_OBJECT, &perspective)) return false;
-    if (strcmp(type, "orthographic") == 0) return loader_note(g->l, "camera '%s' ignored: orthographic cameras are not supported", name);
+    if (strcmp(type, "orthographic") == 0)
+        return loader_note(g->l, "camera '%s' ignored: orthographic cameras are not supported", name);
     if (strcmp(type, "perspective") != 0) return gltf_fail(g, camera, "type '%s' is unknown", type);
     if (!perspective) return gltf_fail(g, camera, "perspective is missing");
     if (g->l->has_camera) return loader_note(g->l, "camera '%s' ignored: the first camera is used", name);

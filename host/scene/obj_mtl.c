@@ -22,7 +22,8 @@ static bool read_kd(obj_text *t, obj_material *material)
     double rgb[3];
     size_t n;
     char *rest = obj_rest(t);
-    if (strncmp(rest, "spectral", 8) == 0 || strncmp(rest, "xyz", 3) == 0) return obj_note(t, "Kd of material '%s' ignored: not RGB", material->name);
+    if (strncmp(rest, "spectral", 8) == 0 || strncmp(rest, "xyz", 3) == 0)
+        return obj_note(t, "Kd of material '%s' ignored: not RGB", material->name);
     t->at = rest;
     if (!obj_numbers(t, rgb, 3, &n)) return false;
     if (n != 1 && n != 3) return obj_fail(t, "Kd takes 3 numbers");
@@ -59,7 +60,8 @@ static bool read_statement(obj_file *o, obj_text *t, const char *word, uint32_t 
     if (!material) return obj_fail(t, "%s before any newmtl", word);
     if (kd) return read_kd(t, material);
     if (d || tr) return read_transparency(t, material, word, d ? 1 : 0);
-    return loader_note(t->l, "%s texture of material '%s' ignored: textures are not supported", map ? "colour" : "opacity", material->name);
+    return loader_note(t->l, "%s texture of material '%s' ignored: textures are not supported", map ? "colour" : "opacity",
+                       material->name);
 }
 
 /* A missing library is a note: the shape is worth showing without its colours. */

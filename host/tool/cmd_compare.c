@@ -91,6 +91,7 @@ int tool_compare(const tool_options *o)
     }
     scene_free(&s);
     if (failed) return tool_fail(o->scene_path, error);
+    settings_fit(&set, o->width, o->height, fixed.n_lights, &fixed.stats);
     metrics m;
     metrics_compute(&m, &fixed, &other);
     if (o->out_path && write_pictures(o->out_path, &fixed, &other, error, sizeof error)) failed = tool_fail(o->out_path, error);

@@ -24,17 +24,13 @@ static void count(const scene *s, counts *c)
     for (size_t i = 0; i < s->n_lights; i++) c->shadow_lights += s->lights[i].shadow && s->lights[i].strength > 0;
 }
 
-/* RAM per preset with capacities for just this scene at this picture size. */
+/* RAM per preset with capacities for just this scene at this picture size, where they were not set. */
 static void preset_ram(const settings *set, const gn_stats *stats, const tool_options *o, const scene *s, settings_ram_parts *ram)
 {
     for (int i = 0; i < SETTINGS_PRESETS; i++) {
         settings needed = *set;
         settings_preset(&needed, i);
-        needed.capacity.max_width = o->width;
-        needed.capacity.max_height = o->height;
-        needed.capacity.max_triangles = stats->n_triangles ? (int)stats->n_triangles : 1;
-        needed.capacity.max_tile_refs = stats->n_tile_refs ? (int)stats->n_tile_refs : 1;
-        needed.capacity.max_lights = s->n_lights ? (int)s->n_lights : 1;
+        settings_fit(&needed, o->width, o->height, s->n_lights, stats);
         ram[i] = settings_ram(&needed);
     }
 }
@@ -83,8 +79,7 @@ int tool_info(const tool_options *o)
     settings set, unlimited;
     if (tool_load(o, &s, &set)) return TOOL_FAILED;
     unlimited = set;
-    unlimited.capacity.max_triangles = unlimited.capacity.max_tile_refs = 100000000;
-    unlimited.capacity.max_lights = ENGINE_LIGHTS_MAX;
+    unlimited.capacity.max_triangles = unlimited.capacity.max_tile_refs = unlimited.capacity.max_lights = 0;
     engine_picture p;
     int failed = engine_fixed(&p, &s, &unlimited, o->width, o->height, ENGINE_COLOUR_ONLY, error, sizeof error);
     if (!failed) {

@@ -47,7 +47,7 @@ static int explain(const job *j, gn_status status)
 
 static int over_capacity(const job *j, const char *what, const char *knob, uint32_t needed, int available)
 {
-    if (needed <= (uint32_t)available) return 0;
+    if (!available || needed <= (uint32_t)available) return 0;
     snprintf(j->error, j->error_bytes, "%s: %u needed, %s is %d", what, needed, knob, available);
     return -1;
 }
@@ -80,7 +80,7 @@ static int draw_views(const job *j, gn_picture picture, engine_picture *out, uin
 {
     size_t n = (size_t)out->width * (size_t)out->height;
     if (draw_raw(j, picture, GN_VIEW_DEPTH, 0, raw)) return -1;
-    for (size_t i = 0; i < n; i++) out->depth[i] = raw[i] == UINT32_MAX ? INFINITY : ldexp(raw[i], -16 - j->fixed->world_exp);
+    for (size_t i = 0; i < n; i++) out->depth[i] = raw[i] == UINT32_MAX ? (double)INFINITY : ldexp(raw[i], -16 - j->fixed->world_exp);
     if (draw_raw(j, picture, GN_VIEW_NORMAL, 0, raw)) return -1;
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < 3; k++) out->normal[3 * i + k] = unpack_axis(raw[i] >> (20 - 10 * k));

@@ -96,6 +96,6 @@ void metrics_compute(metrics *m, const engine_picture *fixed, const engine_pictu
     m->identical = (double)same / (double)m->pixels;
     m->within1 = (double)near / (double)m->pixels;
     m->coverage_mismatch = (double)other_triangle / (double)m->pixels;
-    m->psnr_db = squares > 0 ? 10 * log10(255.0 * 255.0 * 3.0 * (double)m->pixels / squares) : INFINITY;
+    m->psnr_db = squares > 0 ? 10 * log10(255.0 * 255.0 * 3.0 * (double)m->pixels / squares) : (double)INFINITY;
     attenuation(m, fixed, other);
 }

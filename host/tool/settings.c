@@ -74,12 +74,23 @@ void settings_preset(settings *out, int preset)
 
 void settings_init(settings *out)
 {
-    static const settings defaults = {
-        .capacity = {320, 240, 500, 1500, 4, 32},
-        .feature = {1, 4, 1, 1, 0, 0},
-    };
+    static const settings defaults = {.capacity.vertex_cache = 32, .feature = {1, 4, 1, 1, 0, 0}};
     *out = defaults;
     settings_preset(out, SETTINGS_BALANCED);
+}
+
+static void fit(int *capacity, long needed)
+{
+    if (!*capacity) *capacity = needed > 0 ? (int)needed : 1;
+}
+
+void settings_fit(settings *s, int width, int height, size_t n_lights, const gn_stats *stats)
+{
+    fit(&s->capacity.max_width, width);
+    fit(&s->capacity.max_height, height);
+    fit(&s->capacity.max_triangles, stats->n_triangles);
+    fit(&s->capacity.max_tile_refs, stats->n_tile_refs);
+    fit(&s->capacity.max_lights, (long)n_lights);
 }
 
 static int fail(char *error, size_t bytes, const char *key, const char *value, const char *expected)

@@ -16,7 +16,10 @@ enum { SETTINGS_TINY, SETTINGS_BALANCED, SETTINGS_ACCURATE, SETTINGS_PRESETS };
 extern const char *const settings_preset_name[SETTINGS_PRESETS];
 
 void settings_preset(settings *out, int preset); /* quality knobs of a preset; the rest unchanged */
-void settings_init(settings *out);               /* balanced, and every capacity and feature at the library's default */
+void settings_init(settings *out);               /* balanced, every feature; capacities 0: as much as the scene needs */
+
+/* Gives every capacity that is still 0 what a rendered picture needed. */
+void settings_fit(settings *s, int width, int height, size_t n_lights, const gn_stats *stats);
 
 /* Settings that a loader must know before it reads the file. 1: taken; 0: not one of them; -1: bad value. */
 int settings_load_option(scene_options *options, const char *key, const char *value, char *error, size_t error_bytes);

@@ -34,7 +34,7 @@ static void nothing(uint8_t *out)
 
 static void draw_depth(const engine_picture *p, uint8_t *out, size_t n)
 {
-    double lo = INFINITY, hi = 0;
+    double lo = (double)INFINITY, hi = 0;
     for (size_t i = 0; i < n; i++) {
         if (isinf(p->depth[i])) continue;
         lo = fmin(lo, p->depth[i]);

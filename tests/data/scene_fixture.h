@@ -98,7 +98,7 @@ static void make_base_bin(void)
     static const uint16_t idx[6] = { 0, 1, 2, 2, 1, 3 };
     static const uint8_t rgba[16] = { 255, 0, 0, 9, 0, 255, 0, 9, 0, 0, 255, 9, 51, 102, 153, 9 };
     static const float times[3] = { 1, 2, 4 };
-    static const float moves[27] = { 0, 0, 0, 1, 0, 0, 0, 4, 0, 0, 8, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0 };
+    static const float moves[27] = { 0, 0, 0, 1, 0, 0, 0, 4, 0, 0, 8, 0, 2, 0, 0, 0, 8, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0 };
     static const float turns[12] = { 0, 0, 0, 1, 0, 0, -0.70710678f, -0.70710678f, 0, 0, 1, 0 };
     static const float scales[9] = { 1, 1, 1, 2, 2, 2, 3, 3, 3 };
     put_floats(0, pos, 12);

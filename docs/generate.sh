@@ -1,0 +1,22 @@
+#!/bin/sh
+# Regenerates the parts of docs/ between "<!-- generated: NAME -->" and "<!-- end -->". usage: generate.sh TOOL [OUT_DIR]
+# With OUT_DIR the documents are written there instead of in place: the test compares the two.
+set -e
+tool=$1 out=${2:-docs}
+build=$(dirname "$tool")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+replace() { # replace DOCUMENT NAME FILE
+    awk -v name="$2" -v file="$3" '
+        $0 == "<!-- generated: " name " -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
+        $0 == "<!-- end -->" { skip = 0 }
+        !skip { print }' "$out/$1" >"$work/next"
+    cp "$work/next" "$out/$1"
+}
+
+[ "$out" = docs ] || cp docs/*.md "$out/"
+"$tool" knobs >"$work/knobs"
+replace CONFIG.md knobs "$work/knobs"
+"$build/test_stages" --table >"$work/stages"
+replace NUMERICS.md stages "$work/stages"

@@ -1,0 +1,79 @@
+/* Writes glTF 2.0 as one readable JSON file, the buffer inside as base64.
+ *
+ * A document is filled from the leaves up: materials, meshes, nodes, and last the scene. Everything that is added is turned into
+ * text at once; indices are counted here. Nothing is allocated. What does not fit sets `overflow`, and gltf_write refuses. */
+#ifndef GNOMON_HOST_GLTF_WRITER_H
+#define GNOMON_HOST_GLTF_WRITER_H
+
+#include <stdio.h>
+
+#include "mesh_builder.h"
+
+#if defined(__GNUC__)
+#define GLTF_WRITER_PRINTF(format_idx, first_idx) __attribute__((format(printf, format_idx, first_idx)))
+#else
+#define GLTF_WRITER_PRINTF(format_idx, first_idx)
+#endif
+
+enum { GLTF_TEXT_BYTES = 48 * 1024, GLTF_BUFFER_BYTES = 192 * 1024, GLTF_MAX_NODES = 128 };
+
+typedef struct {
+    size_t n_items, n_chars;
+    char chars[GLTF_TEXT_BYTES];
+} gltf_list;
+
+typedef struct {
+    bool overflow;
+    bool is_root[GLTF_MAX_NODES];
+    gltf_list materials, meshes, nodes, cameras, lights, animations, views, accessors;
+    size_t n_bytes;
+    uint8_t bytes[GLTF_BUFFER_BYTES];
+} gltf_document;
+
+typedef struct {
+    const mesh_builder *mesh;
+    size_t material_idx;
+} gltf_surface;
+
+typedef struct { double x, y, z, w; } gltf_rotation; /* unit quaternion */
+
+typedef struct {
+    double fov_deg, near_distance, far_distance; /* vertical field of view */
+    mesh_point target;
+    double distance;         /* from the target */
+    double yaw_deg;          /* 0 looks along -Z, 90 along -X */
+    double pitch_deg;        /* upwards */
+} gltf_camera;
+
+typedef struct {
+    const char *comment;   /* asset.extras.comment */
+    const char *settings;  /* members of the scene's extras.gnomon, as JSON */
+} gltf_scene_text;
+
+void gltf_begin(gltf_document *d);
+
+/* knobs: members of extras.gnomon, as JSON, or NULL. */
+size_t gltf_add_material(gltf_document *d, const char *name, const double *rgb, const char *knobs);
+
+/* One primitive per surface. */
+size_t gltf_add_mesh(gltf_document *d, const char *name, const gltf_surface *surfaces, size_t n);
+
+/* The camera and its node. */
+void gltf_add_camera(gltf_document *d, const gltf_camera *camera);
+
+size_t gltf_add_directional_light(gltf_document *d, const char *name, const double *rgb, double lux, const char *knobs);
+
+/* The node's other members, as JSON. A node that is named in "children" of a later one must be given to gltf_mark_child too. */
+size_t gltf_add_node(gltf_document *d, const char *name, const char *format, ...) GLTF_WRITER_PRINTF(3, 4);
+void gltf_mark_child(gltf_document *d, size_t node_idx);
+
+/* Rotates a node: one key per second from time 0, LINEAR. */
+void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx, const gltf_rotation *keys, size_t n);
+
+/* 0, or -1: the document overflowed or the file could not be written. */
+int gltf_write(const gltf_document *d, const gltf_scene_text *scene, FILE *file);
+
+gltf_rotation gltf_turn(mesh_point unit_axis, double degrees);
+gltf_rotation gltf_multiply(gltf_rotation a, gltf_rotation b); /* first b, then a */
+
+#endif

@@ -1,0 +1,20 @@
+/* OpenImageIO, as far as the tests need it, from C. */
+#ifndef GNOMON_TESTS_OIIO_SHIM_H
+#define GNOMON_TESTS_OIIO_SHIM_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Reads the first three channels as 8 bits. Returns new[]-ed pixels (free with oiio_free), or NULL with a message. */
+unsigned char *oiio_read_rgb8(const char *path, int *w, int *h, char *error, int error_bytes);
+void oiio_free(unsigned char *pixels);
+
+/* Mean, RMS and largest difference of two picture files over values 0..1. 0, or -1. */
+int oiio_compare(const char *a, const char *b, double *mean, double *rms, double *largest);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,104 @@
+#!/bin/sh
+# Runs every test and ends with "N passed, N failed". Installs what is missing first.
+cd "$(dirname "$0")/.." || exit 1
+passed=0 failed=0
+log=build/test.log
+mkdir -p build/tmp
+: >"$log"
+
+# ---- What the tests need: command or file, and the Debian package that has it ----------------------------------------------
+
+missing_packages() {
+    while read -r probe package; do
+        case $probe in
+        /*) ls $probe >/dev/null 2>&1 || echo "$package" ;;
+        *) command -v "$probe" >/dev/null 2>&1 || echo "$package" ;;
+        esac
+    done <<'NEEDS'
+gcc gcc
+g++ g++
+make make
+clang clang
+/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-x86_64.a libclang-rt-dev
+valgrind valgrind
+pkg-config pkg-config
+/usr/include/OpenImageIO/imageio.h libopenimageio-dev
+/usr/include/stdio.h libc6-dev
+NEEDS
+}
+
+install_missing() {
+    packages=$(missing_packages | sort -u | tr '\n' ' ')
+    [ -n "$packages" ] || return 0
+    echo "installing what the tests need: $packages"
+    root=
+    if [ "$(id -u)" != 0 ]; then
+        if command -v sudo >/dev/null 2>&1; then root=sudo; else
+            echo "not root and no sudo: please install: $packages"
+            echo "0 passed, 1 failed"
+            exit 1
+        fi
+    fi
+    { $root apt-get -o DPkg::Lock::Timeout=500 update &&
+        $root env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=500 install -y --no-install-recommends $packages; } >>"$log" 2>&1
+    packages=$(missing_packages | sort -u | tr '\n' ' ')
+    if [ -n "$packages" ]; then
+        tail -n 5 "$log"
+        echo "could not install: $packages"
+        echo "0 passed, 1 failed"
+        exit 1
+    fi
+}
+
+# ---- Running -----------------------------------------------------------------------------------------------------------
+
+# run NAME COMMAND...: adds up its closing line; a program that ends without one, or with an exit status that contradicts it, failed.
+run() {
+    name=$1
+    shift
+    out=build/tmp/output
+    start=$(date +%s)
+    "$@" >"$out" 2>&1
+    status=$?
+    cat "$out" >>"$log"
+    line=$(tail -n 1 "$out" | grep -E '^[0-9]+ passed, [0-9]+ failed$')
+    p=$(echo "${line:-0}" | cut -d' ' -f1) f=$(echo "${line:-0 passed, 1 failed}" | cut -d' ' -f3)
+    [ "$status" = 0 ] || [ "$f" -gt 0 ] || f=1
+    passed=$((passed + p)) failed=$((failed + f))
+    printf '%-44s %8d passed %4d failed %4ds\n' "$name" "$p" "$f" $(($(date +%s) - start))
+    [ "$f" = 0 ] || grep -v '^[0-9]* passed' "$out" | head -n 20
+}
+
+# build TARGET...: a build that fails is a failed test
+build() {
+    if ! make -s -j2 "$@" >build/tmp/make 2>&1; then
+        grep -v '^  [A-Z]* ' build/tmp/make | head -n 20
+        echo "make $* failed"
+        failed=$((failed + 1))
+    fi
+    cat build/tmp/make >>"$log"
+}
+
+variant() { # variant COMPILER OPTIMISATION
+    dir=build/test/$1$2
+    build test-programs BUILD="$dir" CC="$1" OPT="$2" SAN="-fsanitize=address,undefined -fno-sanitize-recover=all"
+    for program in tests/test_*.c; do
+        name=$(basename "$program" .c)
+        run "$name, $1 $2" "$dir/$name"
+    done
+}
+
+install_missing
+build all
+build build/test_oiio build/test_stages build/test_accuracy build/gen_tables
+for compiler in gcc clang; do
+    variant $compiler -O0
+    variant $compiler -O2
+done
+run "test_oiio" build/test_oiio
+for script in tests/test_*.sh; do
+    run "$(basename "$script" .sh)" sh "$script" build/gnomon
+done
+run "make run" sh -c 'make -s run >build/tmp/run.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/run.log; exit 1; }'
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]

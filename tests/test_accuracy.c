@@ -1,0 +1,121 @@
+/* The library against the reference on the own scenes: their own cameras, and views from around with roll. "--table" prints
+ * docs/ACCURACY.md's table. Floors are the project's promises, not what happened to come out. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../host/tool/metrics.h"
+#include "check.h"
+
+#define N_VIEWS 20
+
+typedef struct { double identical, within1, psnr_db, shadow_mismatch; } floors;
+static const floors floor_of[SETTINGS_PRESETS] = {{0, 0, 0, 1}, {0.97, 0.995, 40, 0.006}, {0.99, 0.999, 44, 0.003}};
+
+static int compare_scene(metrics *m, const scene *s, settings *set)
+{
+    char error[512] = "";
+    engine_picture fixed, reference;
+    if (engine_fixed(&fixed, s, set, 320, 240, ENGINE_ALL, error, sizeof error)) {
+        printf("%s\n", error);
+        return -1;
+    }
+    if (engine_reference(&reference, s, set, 320, 240, error, sizeof error)) {
+        engine_free(&fixed);
+        return -1;
+    }
+    metrics_compute(m, &fixed, &reference);
+    engine_free(&fixed);
+    engine_free(&reference);
+    return 0;
+}
+
+static void multiply(double out[3][3], double a[3][3], double b[3][3])
+{
+    double r[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) r[i][k] = a[i][0] * b[0][k] + a[i][1] * b[1][k] + a[i][2] * b[2][k];
+    memcpy(out, r, sizeof r);
+}
+
+/* View n: the scene's camera swung round the point it looks at, and rolled. */
+static void swing(scene *s, int n, const scene_camera *original)
+{
+    double yaw = 0.9 * sin(2.4 * n), roll = 0.8 * sin(1.7 * n + 0.5), distance = s->shadow.max_distance * 0.5;
+    double turn[3][3] = {{cos(yaw), 0, sin(yaw)}, {0, 1, 0}, {-sin(yaw), 0, cos(yaw)}};
+    double tilt[3][3] = {{cos(roll), -sin(roll), 0}, {sin(roll), cos(roll), 0}, {0, 0, 1}}, m[3][3];
+    s->camera = *original;
+    double target[3], back[3];
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) m[i][k] = original->to_world.m[i][k];
+        target[i] = original->to_world.m[i][3] - distance * m[i][2];
+    }
+    multiply(m, turn, m);
+    for (int i = 0; i < 3; i++) back[i] = m[i][2];
+    multiply(m, m, tilt);
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) s->camera.to_world.m[i][k] = m[i][k];
+        s->camera.to_world.m[i][3] = target[i] + distance * back[i];
+    }
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+static void check_floors(const metrics *m, int preset, const char *what)
+{
+    const floors *f = &floor_of[preset];
+    int ok = m->identical >= f->identical && m->within1 >= f->within1 && m->psnr_db >= f->psnr_db && m->shadow_mismatch <= f->shadow_mismatch;
+    if (!CHECK(ok))
+        printf("  %s, %s: identical %g within1 %g psnr %g shadow_mismatch %g\n", what, settings_preset_name[preset], m->identical, m->within1,
+               m->psnr_db, m->shadow_mismatch);
+}
+
+static void run(const char *path, int preset, int table)
+{
+    char error[512] = "";
+    scene s;
+    settings set;
+    metrics m;
+    double identical[N_VIEWS], psnr[N_VIEWS], within1 = 1, mismatch = 0;
+    scene_options options = {.frame = 48, .width = 320, .height = 240};
+    if (!CHECK_EQ_INT(scene_load(&s, path, &options, error, sizeof error), 0)) {
+        printf("  %s\n", error);
+        return;
+    }
+    settings_init(&set);
+    settings_preset(&set, preset);
+    CHECK_EQ_INT(settings_apply_all(&set, &s, NULL, 0, error, sizeof error), 0);
+    scene_camera original = s.camera;
+    for (int n = 0; n < N_VIEWS; n++) {
+        if (n) swing(&s, n, &original);
+        if (!CHECK_EQ_INT(compare_scene(&m, &s, &set), 0)) continue;
+        check_floors(&m, preset, path);
+        identical[n] = m.identical;
+        psnr[n] = m.psnr_db;
+        within1 = fmin(within1, m.within1);
+        mismatch = fmax(mismatch, m.shadow_mismatch);
+        if (n == 0 && table)
+            printf("| %s | %s | %.5f | %.2f | %ld, %ld, %ld |", strrchr(path, '/') + 1, settings_preset_name[preset], m.identical, m.psnr_db,
+                   m.by_coverage, m.by_shadow, m.by_rounding);
+    }
+    qsort(identical, N_VIEWS, sizeof *identical, ascending);
+    qsort(psnr, N_VIEWS, sizeof *psnr, ascending);
+    if (table) printf(" %.5f | %.5f | %.5f | %.2f | %.2f | %.5f |\n", identical[N_VIEWS / 2], identical[0], within1, psnr[N_VIEWS / 2], psnr[0], mismatch);
+    scene_free(&s);
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const scenes[] = {"host/scenes/sundial.gltf", "host/scenes/avenue.gltf"};
+    int table = argc > 1 && strcmp(argv[1], "--table") == 0;
+    if (table)
+        printf("\n| scene | preset | identical | PSNR dB | differing: coverage, shadow, rounding | identical, median of %d views | worst view | within1, worst "
+               "| PSNR, median | worst | shadow mismatch, worst |\n|---|---|---|---|---|---|---|---|---|---|---|\n", N_VIEWS);
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+        for (int preset = SETTINGS_ACCURATE; preset >= SETTINGS_BALANCED; preset--) run(scenes[i], preset, table);
+    return table ? 0 : check_report();
+}

@@ -1,0 +1,72 @@
+/* Golden frames: the library's pictures of the own scenes, as CRC-32 of their bytes, are the same with every compiler and
+ * optimisation level. "--write" prints the file anew: a deliberate change of pixels changes tests/golden.txt in the same commit. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "../host/tool/engine.h"
+#include "check.h"
+
+#define GOLDEN "tests/golden.txt"
+
+static const struct { const char *scene; int frame; } frames[] = {
+    {"sundial", 24}, {"sundial", 72}, {"sundial", 132}, {"avenue", 0},
+};
+
+static uint32_t crc32_of(const void *data, size_t n)
+{
+    const uint8_t *p = data;
+    uint32_t crc = ~0U;
+    for (size_t i = 0; i < n; i++) {
+        crc ^= p[i];
+        for (int bit = 0; bit < 8; bit++) crc = crc >> 1 ^ (crc & 1U ? 0xEDB88320U : 0);
+    }
+    return ~crc;
+}
+
+/* The line of golden.txt for one frame and preset. */
+static int line_of(char *line, size_t bytes, const char *scene_name, int frame, int preset)
+{
+    char path[256], error[512] = "";
+    scene s;
+    settings set;
+    engine_picture p;
+    scene_options options = {.frame = frame, .width = 320, .height = 240};
+    snprintf(path, sizeof path, "host/scenes/%s.gltf", scene_name);
+    settings_init(&set);
+    settings_preset(&set, preset);
+    int failed = scene_load(&s, path, &options, error, sizeof error);
+    if (!failed) {
+        failed = settings_apply_all(&set, &s, NULL, 0, error, sizeof error) ||
+                 engine_fixed(&p, &s, &set, 320, 240, ENGINE_ALL, error, sizeof error);
+        scene_free(&s);
+    }
+    if (failed) {
+        printf("%s: %s\n", path, error);
+        return -1;
+    }
+    snprintf(line, bytes, "%s frame %d %s: RGB565 %08x RGB888 %08x\n", scene_name, frame, settings_preset_name[preset],
+             crc32_of(p.rgb565, 2 * 320 * 240), crc32_of(p.rgb8, 3 * 320 * 240));
+    engine_free(&p);
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    int writing = argc > 1 && strcmp(argv[1], "--write") == 0;
+    FILE *golden = writing ? NULL : fopen(GOLDEN, "r");
+    if (!writing && !CHECK(golden != NULL)) return check_report();
+    for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
+        for (int preset = 0; preset < SETTINGS_PRESETS; preset++) {
+            char line[160] = "", expected[160] = "";
+            if (line_of(line, sizeof line, frames[i].scene, frames[i].frame, preset)) CHECK(!"renders");
+            if (writing) {
+                fputs(line, stdout);
+                continue;
+            }
+            CHECK(fgets(expected, sizeof expected, golden) != NULL);
+            if (!CHECK(strcmp(line, expected) == 0)) printf("  got %s  expected %s", line, expected);
+        }
+    }
+    if (golden) fclose(golden);
+    return writing ? 0 : check_report();
+}

@@ -1,0 +1,411 @@
+/* Each stage of the library against the formula it stands for, in double, from the same quantised inputs: the error must stay
+ * within the bound that docs/NUMERICS.md derives for the case at hand. With "--table": the largest error seen, per stage. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../lib/gn_cascade.h"
+#include "../lib/gn_light.h"
+#include "../lib/gn_plane.h"
+#include "../lib/gn_q.h"
+#include "../lib/gn_raster.h"
+#include "../lib/gn_surface.h"
+#include "../lib/gn_xform.h"
+#include "../lib/gnomon.h"
+#include "check.h"
+
+#define LSB16 (1.0 / 65536)
+#define N_SCENES 300
+#define WIDTH 160
+#define HEIGHT 120
+
+enum { STAGE_VIEW, STAGE_SCREEN, STAGE_DEPTH, STAGE_Z, STAGE_COSINE, STAGE_LIGHT_UV, STAGE_LIGHT_DEPTH, STAGE_COUNT };
+static const char *const stage_name[STAGE_COUNT] = {
+    "transform to view space, LSB of Q15.16",       "projection, LSB of the subpixel grid",
+    "near / Z at a covered centre, LSB of Q0.32",   "view depth of a sample, LSB of Q15.16",
+    "n . L of a sample, LSB of Q24",                "light coordinates of a sample, LSB of Q16 texels",
+    "stored caster depth, LSB of the 16-bit depth",
+};
+static struct { double error, share; long n; } seen[STAGE_COUNT]; /* largest error in LSB, largest share of its bound */
+static long violations[STAGE_COUNT];
+
+static void record(int stage, double error, double bound, double lsb)
+{
+    seen[stage].n++;
+    seen[stage].error = fmax(seen[stage].error, error / lsb);
+    seen[stage].share = fmax(seen[stage].share, error / bound);
+    if (!(error <= bound) && violations[stage]++ == 0)
+        printf("%s: error %.6g LSB, bound %.6g LSB\n", stage_name[stage], error / lsb, bound / lsb);
+}
+
+static uint32_t state = 1;
+static double uniform(double lo, double hi)
+{
+    state = state * 1664525U + 1013904223U;
+    return lo + (hi - lo) * (state >> 8) / 16777216.0;
+}
+
+/* ---- A random scene: a few triangles around the origin, a rolled camera, one light ------------------------------------ */
+
+#define N_TRIANGLES 12
+static int32_t pos[9 * N_TRIANGLES];
+static int16_t nrm[9 * N_TRIANGLES];
+static uint16_t idx[3 * N_TRIANGLES];
+static gn_mesh mesh = {.pos = pos, .nrm_q15 = nrm, .idx = idx, .n_vertices = 3 * N_TRIANGLES, .n_triangles = N_TRIANGLES, .pos_frac_bits = 24};
+static gn_object object;
+static gn_light light;
+static gn_scene scene;
+static gn_renderer renderer;
+
+static void random_mesh(double radius)
+{
+    for (int i = 0; i < 3 * N_TRIANGLES; i++) {
+        double corner[3], n[3], length = 0;
+        for (int k = 0; k < 3; k++) {
+            static double centre[3];
+            if (i % 3 == 0) centre[k] = uniform(-radius, radius);
+            corner[k] = centre[k] + uniform(-0.4, 0.4) * radius;
+            n[k] = uniform(-1, 1) + 0.2;
+            length += n[k] * n[k];
+            pos[3 * i + k] = (int32_t)floor(ldexp(corner[k], 24) + 0.5);
+        }
+        for (int k = 0; k < 3; k++) nrm[3 * i + k] = (int16_t)floor(n[k] / sqrt(length) * 32767 + 0.5);
+        idx[i] = (uint16_t)i;
+    }
+}
+
+static void random_scene(void)
+{
+    double radius = uniform(0.5, 8);
+    random_mesh(radius);
+    memset(&object, 0, sizeof object);
+    gn_affine_rotation(&object.to_world, (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535));
+    gn_affine_scale(&object.to_world, (int32_t)uniform(20000, 400000));
+    for (int k = 0; k < 3; k++) {
+        object.to_world.t_q16[k] = (int32_t)(uniform(-20, 20) * 65536);
+        object.albedo_uq16[k] = 60000;
+    }
+    object.mesh = &mesh;
+    object.flags = GN_OBJECT_DEFAULT | GN_OBJECT_TWO_SIDED;
+    gn_affine_rotation(&scene.camera.to_world, (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535));
+    double away = radius * uniform(4, 20);
+    for (int k = 0; k < 3; k++) /* behind the object as the camera sees it */
+        scene.camera.to_world.t_q16[k] = object.to_world.t_q16[k] + (int32_t)(away * scene.camera.to_world.m_q30[k][2] / 16384.0);
+    scene.camera.focal_q24 = (uint32_t)(uniform(0.8, 4) * 16777216);
+    scene.camera.near_q16 = (int32_t)(away * 0.05 * 65536);
+    scene.camera.far_q16 = INT32_MAX;
+    for (int k = 0; k < 3; k++) light.direction[k] = (int32_t)uniform(-1e9, 1e9);
+    for (int k = 0; k < 3; k++) light.colour_uq16[k] = 65536;
+    light.shadow_strength_uq16 = 65536;
+    light.bias_normal_q16 = 65536;
+    scene.shadow.max_distance_q16 = (int32_t)(away * 2 * 65536);
+    scene.shadow.distance_fade_uq16 = scene.shadow.cascade_fade_uq16 = 6554;
+    scene.shadow.filter = GN_FILTER_3X3;
+    scene.objects = &object;
+    scene.lights = &light;
+    scene.n_objects = scene.n_lights = 1;
+}
+
+/* ---- The stages ------------------------------------------------------------------------------------------------------ */
+
+typedef struct { double v[3]; } vec;
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void axis_of(const int32_t q30[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) out[i] = ldexp(q30[i], -30);
+}
+
+static void world_vertex(int i, double out[3])
+{
+    double scale = ldexp(1, object.to_world.exp - 30 - 24);
+    for (int r = 0; r < 3; r++) {
+        out[r] = object.to_world.t_q16[r] * LSB16;
+        for (int c = 0; c < 3; c++) out[r] += scale * object.to_world.m_q30[r][c] * (double)pos[3 * i + c];
+    }
+}
+
+/* NUMERICS 4.1 */
+static void check_view(const gn_frame *frame, int32_t view[][3])
+{
+    gn_xform xform;
+    gn_xform_compose(&xform, frame->cam.axis_q30, frame->cam.eye_q16, &object);
+    for (int i = 0; i < 3 * N_TRIANGLES; i++) {
+        double world[3], reach = 0;
+        int64_t got[3];
+        world_vertex(i, world);
+        gn_xform_vertex(got, &xform, &mesh, (uint32_t)i);
+        for (int k = 0; k < 3; k++) {
+            reach += fabs(ldexp(pos[3 * i + k], object.to_world.exp - 24));
+            world[k] -= frame->cam.eye_q16[k] * LSB16;
+        }
+        for (int k = 0; k < 3; k++) {
+            double axis[3];
+            axis_of(frame->cam.axis_q30[k], axis);
+            double want = dot(world, axis);
+            view[i][k] = (int32_t)got[k];
+            record(STAGE_VIEW, fabs((double)got[k] * LSB16 - want), LSB16 + ldexp(reach, -31), LSB16);
+        }
+    }
+}
+
+/* NUMERICS 4.2: unclipped triangles, from the library's own view coordinates */
+static void check_screen(const gn_frame *frame, int32_t view[][3])
+{
+    double focal2 = renderer.frame.cam.focal2_px_q16 * LSB16, unit = ldexp(1, -frame->knobs.subpixel_bits);
+    for (uint32_t t = 0; frame->stats.n_clipped == 0 && t < frame->stats.n_triangles; t++) {
+        const gn_tri *tri = &frame->tri[t];
+        for (int i = 0; i < 3; i++) {
+            double best = 1e9; /* two-sided triangles are stored turned round: the nearest of the three */
+            for (int k = 0; k < 3; k++) {
+                const int32_t *v = view[3 * tri->triangle_idx + k];
+                double x = WIDTH / 2.0 + focal2 / 2 * v[0] / v[2], y = HEIGHT / 2.0 - focal2 / 2 * v[1] / v[2];
+                best = fmin(best, fmax(fabs(tri->x[i] * unit - x), fabs(tri->y[i] * unit - y)));
+            }
+            record(STAGE_SCREEN, best, (0.5 + 1.0 / 64) * unit, unit);
+        }
+    }
+}
+
+/* The plane of a source triangle in double, from the library's view coordinates. */
+typedef struct {
+    double n[3], det, kappa0, v[3][3];
+} plane;
+
+static void plane_of(plane *p, int32_t view[][3], int triangle)
+{
+    double e[2][3];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) p->v[i][k] = view[3 * triangle + i][k] * LSB16;
+    for (int k = 0; k < 3; k++) {
+        e[0][k] = p->v[1][k] - p->v[0][k];
+        e[1][k] = p->v[2][k] - p->v[0][k];
+    }
+    for (int k = 0; k < 3; k++) p->n[k] = e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3];
+    p->det = dot(p->n, p->v[0]);
+    p->kappa0 = sqrt(dot(p->n, p->n) * dot(p->v[0], p->v[0])) / fabs(p->det);
+}
+
+typedef struct {
+    double ray[3], z, kappa, b[2], kappa_b;
+    int inside;
+} crossing;
+
+static void cross_at(crossing *c, const plane *p, int x, int y)
+{
+    double focal2 = renderer.frame.cam.focal2_px_q16 * LSB16, point[3], bary[2][3], e[2][3];
+    c->ray[0] = (2 * x + 1 - WIDTH) / focal2;
+    c->ray[1] = (HEIGHT - 1 - 2 * y) / focal2;
+    c->ray[2] = 1;
+    double w = dot(p->n, c->ray), length = sqrt(dot(c->ray, c->ray));
+    c->z = p->det / w;
+    c->kappa = sqrt(dot(p->n, p->n)) * length / fabs(w);
+    c->kappa_b = 0;
+    for (int k = 0; k < 3; k++) {
+        point[k] = c->z * c->ray[k];
+        e[0][k] = p->v[1][k] - p->v[0][k];
+        e[1][k] = p->v[2][k] - p->v[0][k];
+    }
+    for (int k = 0; k < 3; k++) {
+        int a = (k + 1) % 3, b = (k + 2) % 3;
+        bary[0][k] = e[1][a] * p->v[0][b] - e[1][b] * p->v[0][a];
+        bary[1][k] = p->v[0][a] * e[0][b] - p->v[0][b] * e[0][a];
+    }
+    for (int i = 0; i < 2; i++) {
+        c->b[i] = dot(bary[i], point) / p->det;
+        c->kappa_b = fmax(c->kappa_b, sqrt(dot(bary[i], bary[i])) * length / fabs(w));
+    }
+    c->inside = c->b[0] > 0 && c->b[1] > 0 && c->b[0] + c->b[1] < 1;
+}
+
+/* NUMERICS 4.3 */
+static void check_depth(const gn_frame *frame, const gn_tri *tri, const plane *p, const crossing *c, int x, int y)
+{
+    int bits = frame->knobs.subpixel_bits;
+    int dx = x - (tri->x[0] >> bits), dy = y - (tri->y[0] >> bits);
+    uint32_t got = tri->iz_ref + (uint32_t)dx * (uint32_t)tri->iz_dx + (uint32_t)dy * (uint32_t)tri->iz_dy;
+    double want = ldexp(scene.camera.near_q16 * LSB16 / c->z, 32);
+    double bound = 1 + 0.5 * (abs(dx) + abs(dy)) + want * (ldexp(c->kappa + p->kappa0, -29) + ldexp(1, -27));
+    record(STAGE_DEPTH, fabs((double)got - want), bound, 1);
+}
+
+static double depth_bound(const gn_frame *frame, const plane *p, const crossing *c)
+{
+    double divide = frame->knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -28);
+    return 0.5 * LSB16 + c->z * (ldexp(c->kappa + p->kappa0, -29) + divide);
+}
+
+/* NUMERICS 4.5 */
+static void check_cosine(const gn_frame *frame, const gn_surface *s, const gn_sample *sample, const crossing *c)
+{
+    double n[3], to_light[3], change = 0;
+    axis_of(frame->light[0].to_light_q30, to_light);
+    for (int k = 0; k < 3; k++) {
+        n[k] = ldexp(s->normal_q30[0][k] + c->b[0] * s->normal_q30[1][k] + c->b[1] * s->normal_q30[2][k], -30);
+        change = fmax(change, ldexp(abs(s->normal_q30[1][k]) + abs(s->normal_q30[2][k]), -30));
+    }
+    double length = sqrt(dot(n, n)), steps = frame->knobs.newton_steps == 1 ? ldexp(1, -15) : ldexp(1, -28);
+    double divide = frame->knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -29);
+    double db = ldexp(c->kappa_b + c->kappa, -29) + divide + ldexp(1, -29);
+    double dn = sqrt(3.0) * (change * db + ldexp(2, -30));
+    double got = ldexp(sample->value[GN_VALUE_LIGHT], -24);
+    record(STAGE_COSINE, fabs(got - dot(n, to_light) / length), ldexp(1, -24) + steps + 2 * dn / length, ldexp(1, -24));
+}
+
+/* NUMERICS 4.4 */
+static void check_light_coords(const gn_frame *frame, const gn_surface *s, const gn_sample *sample, const plane *p,
+                               const crossing *c)
+{
+    const gn_light_view *view = &frame->view[0];
+    double texel = 1 / ldexp(view->inv_texel.mant, view->inv_texel.exp), n[3], z_got = sample->value[GN_VALUE_Z] * LSB16;
+    int px = (int)floor(c->ray[0] * renderer.frame.cam.focal2_px_q16 * LSB16 + 0.5);
+    int py = (int)floor(c->ray[1] * renderer.frame.cam.focal2_px_q16 * LSB16 + 0.5);
+    (void)p;
+    for (int k = 0; k < 3; k++)
+        n[k] = ldexp(s->normal_q30[0][k] + c->b[0] * s->normal_q30[1][k] + c->b[1] * s->normal_q30[2][k], -30);
+    for (int i = 0; i < 3; i++) {
+        double axis[3], eye = 0, along = 0, point = 0;
+        axis_of(view->axis_q30[i], axis);
+        for (int k = 0; k < 3; k++) {
+            double cam_axis[3];
+            axis_of(frame->cam.axis_q30[k], cam_axis);
+            along += c->ray[k] * dot(cam_axis, axis);
+            eye += frame->cam.eye_q16[k] * LSB16 * axis[k];
+            point += n[k] * axis[k];
+        }
+        double want = (z_got * along + eye) / texel - view->origin[i] + point * view->offset_q16 * LSB16;
+        double bound = 3 * LSB16 + z_got * ldexp(1 + 0.5 * (abs(px) + abs(py)), -view->ray_shift) +
+                       ldexp(fabs(z_got * along / texel) + fabs(eye / texel) + fabs((double)view->origin[i]), -27) +
+                       view->offset_q16 * LSB16 * (ldexp(c->kappa_b + c->kappa, -27) + (frame->knobs.newton_steps == 1 ? ldexp(1, -14) : ldexp(1, -26)));
+        record(STAGE_LIGHT_UV, fabs(sample->value[GN_VALUE_LIGHT + 1 + i] * LSB16 - want), bound, LSB16);
+    }
+}
+
+static void check_samples(const gn_frame *frame, int32_t view[][3])
+{
+    gn_surface_cache cache = {.object = NULL};
+    gn_scratch *scratch = &renderer.scratch;
+    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
+    for (uint32_t t = 0; t < frame->stats.n_triangles; t++) {
+        const gn_tri *tri = &frame->tri[t];
+        plane p;
+        gn_surface surface;
+        plane_of(&p, view, tri->triangle_idx);
+        gn_surface_begin(frame, scratch, &cache, &surface, tri);
+        gn_rect r = gn_setup_bounds(frame, tri);
+        for (int y = r.y0; y < r.y1; y += 3) {
+            for (int x = r.x0; x < r.x1; x += 5) {
+                crossing c;
+                gn_sample sample;
+                cross_at(&c, &p, x, y);
+                /* edge-on planes are stood for by their nearest point (NUMERICS 4.3): not part of the bound */
+                if (!c.inside || !(c.kappa < 1000) || !(p.kappa0 < 1000)) continue;
+                gn_surface_sample(frame, &surface, x, y, &sample);
+                check_depth(frame, tri, &p, &c, x, y);
+                record(STAGE_Z, fabs(sample.value[GN_VALUE_Z] * LSB16 - c.z), depth_bound(frame, &p, &c), LSB16);
+                check_cosine(frame, &surface, &sample, &c);
+                check_light_coords(frame, &surface, &sample, &p, &c);
+            }
+        }
+    }
+}
+
+/* NUMERICS 4.6: a single large caster plane that fills the tile, so that every texel has one exact depth */
+static void check_caster_depth(const gn_frame *frame)
+{
+    const gn_light_view *view = &frame->view[0];
+    double texel = 1 / ldexp(view->inv_texel.mant, view->inv_texel.exp), p[3][3], e[2][3], n[3];
+    double step = ldexp(1, view->tile_log2 + view->depth_log2 - 16);
+    for (int i = 0; i < 3; i++) {
+        double world[3];
+        world_vertex(i, world);
+        for (int k = 0; k < 3; k++) {
+            double axis[3];
+            axis_of(view->axis_q30[k], axis);
+            p[i][k] = dot(world, axis) / texel - view->origin[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        e[0][k] = p[1][k] - p[0][k];
+        e[1][k] = p[2][k] - p[0][k];
+    }
+    for (int k = 0; k < 3; k++) n[k] = e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3];
+    double gu = -n[0] / n[2], gv = -n[1] / n[2], size = sqrt(dot(n, n)) / fabs(n[2]);
+    double reach = 0; /* how far the vertices lie from the tile: the normal's rounding is seen over that distance */
+    for (int i = 0; i < 3; i++) reach = fmax(reach, fabs(p[i][0]) + fabs(p[i][1]) + view->tile_texels);
+    if (!(size < 64)) return;
+    for (int v = 0; v < view->tile_texels; v += 7) {
+        for (int u = 0; u < view->tile_texels; u += 5) {
+            double want = p[0][2] + gu * (u + 0.5 - p[0][0]) + gv * (v + 0.5 - p[0][1]);
+            unsigned got = view->depth[v * view->tile_texels + u];
+            if (want < 0 || got == 65535 || want > ldexp(view->tile_texels, view->depth_log2)) continue;
+            double vertex = 2 * LSB16 + ldexp(reach, -27);
+            double bound = 0.5 * step + step / 64 + vertex * (1 + fabs(gu) + fabs(gv)) + reach * size * ldexp(1, -26);
+            record(STAGE_LIGHT_DEPTH, fabs(got * step - want), bound, step);
+        }
+    }
+}
+
+static void ignore(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    (void)user, (void)x, (void)y, (void)w, (void)h, (void)pixels;
+}
+
+static void run_scene(const gn_knobs *knobs)
+{
+    gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    static int32_t view[3 * N_TRIANGLES][3];
+    random_scene();
+    gn_init(&renderer, &picture);
+    renderer.frame.knobs = *knobs;
+    gn_status status = gn_render(&renderer, &scene, ignore, NULL);
+    if (status) {
+        CHECK_EQ_INT(status, GN_OK);
+        return;
+    }
+    check_view(&renderer.frame, view);
+    check_screen(&renderer.frame, view);
+    check_samples(&renderer.frame, view);
+}
+
+static void run_caster_plane(const gn_knobs *knobs)
+{
+    gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    random_scene();
+    mesh.n_triangles = 1;
+    for (int i = 0; i < 3; i++) { /* one triangle, 30 units wide in object space, round the origin */
+        double turn = 2.0943951 * i + uniform(-0.3, 0.3);
+        pos[3 * i] = (int32_t)(ldexp(60 * cos(turn), 24));
+        pos[3 * i + 1] = (int32_t)(ldexp(60 * sin(turn), 24));
+        pos[3 * i + 2] = (int32_t)(ldexp(uniform(-5, 5), 24));
+    }
+    gn_init(&renderer, &picture);
+    renderer.frame.knobs = *knobs;
+    if (gn_render(&renderer, &scene, ignore, NULL) == GN_OK) check_caster_depth(&renderer.frame);
+    mesh.n_triangles = N_TRIANGLES;
+}
+
+int main(int argc, char **argv)
+{
+    static const gn_knobs balanced = {4, 8, 1, 8, 0, 8, 8, 128, 64, 16, 1}, accurate = {8, 1, 2, 12, 4, 12, 16, 256, 64, 16, 1};
+    int table = argc > 1 && strcmp(argv[1], "--table") == 0;
+    for (int preset = 0; preset < 2; preset++) {
+        memset(seen, 0, sizeof seen);
+        for (int i = 0; i < N_SCENES; i++) {
+            run_scene(preset ? &accurate : &balanced);
+            run_caster_plane(preset ? &accurate : &balanced);
+        }
+        if (table) printf("\n**%s**\n\n| stage | cases | largest error | largest share of its bound |\n|---|---|---|---|\n", preset ? "accurate" : "balanced");
+        for (int s = 0; s < STAGE_COUNT; s++) {
+            if (table) printf("| %s | %ld | %.3g | %.2f |\n", stage_name[s], seen[s].n, seen[s].error, seen[s].share);
+            CHECK(seen[s].n > 100);
+            CHECK_EQ_INT(violations[s], 0);
+        }
+    }
+    return table ? 0 : check_report();
+}
