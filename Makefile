@@ -42,10 +42,10 @@ test: ## run every test; installs what is missing (needs root or sudo)
 soak: ## the longer campaigns: minutes to hours
 	@SOAK=1 sh tests/run.sh
 
-bench: ## count instructions of the workload with callgrind and compare with the committed baseline
-	@sh tests/bench.sh
+bench: ## count instructions of the workload with callgrind against the committed baseline; WRITE=1 renews it
+	@sh tests/bench.sh $(if $(WRITE),--write)
 
-docs: $(BUILD)/gnomon $(BUILD)/test_stages ## regenerate the generated parts of docs/
+docs: $(BUILD)/gnomon $(BUILD)/test_stages $(BUILD)/test_accuracy ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
 
 tables: $(BUILD)/gen_tables ## regenerate lib/gn_tables.c

@@ -20,3 +20,5 @@ replace() { # replace DOCUMENT NAME FILE
 replace CONFIG.md knobs "$work/knobs"
 "$build/test_stages" --table >"$work/stages"
 replace NUMERICS.md stages "$work/stages"
+"$build/test_accuracy" --table >"$work/accuracy"
+replace ACCURACY.md accuracy "$work/accuracy"

@@ -1,5 +1,6 @@
 /* Shadow tiles. Depth is counted in steps of T * 2^J / 65536 texels, with 16 more fraction bits while interpolating. */
 #include "gn_atlas.h"
+#include "gn_blocks.h"
 #include "gn_cascade.h"
 #include "gn_math.h"
 #include "gn_q.h"
@@ -220,6 +221,9 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_light_view *view)
             caster_triangle(frame, view, p, (object->flags & GN_OBJECT_TWO_SIDED) != 0);
         }
     }
+#if GN_DEPTH_BLOCKS
+    gn_blocks_build(view);
+#endif
     view->tile_done = 1;
     return GN_OK;
 }

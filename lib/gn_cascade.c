@@ -175,6 +175,9 @@ static gn_status reserve_tiles(gn_frame *frame)
         view->tile_log2 = (uint8_t)(31 - gn_clz32((uint32_t)tile));
         view->light_idx = (uint16_t)i;
         view->depth = frame->atlas + (size_t)frame->n_views * (size_t)tile * (size_t)tile;
+#if GN_DEPTH_BLOCKS
+        view->block = frame->block + (size_t)frame->n_views * (size_t)tile * (size_t)tile / 64;
+#endif
         fit_view(frame, view, &scene->lights[i]);
         frame->light[i].view_idx = frame->n_views++;
     }

@@ -93,6 +93,9 @@
 #ifndef GN_SHADOWS
 #define GN_SHADOWS 1
 #endif
+#ifndef GN_DEPTH_BLOCKS
+#define GN_DEPTH_BLOCKS 1
+#endif
 #ifndef GN_FILTER_MAX
 #define GN_FILTER_MAX 4
 #endif

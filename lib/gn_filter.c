@@ -1,5 +1,6 @@
 /* Percentage-closer filtering. Compares come first, weights are exact integers, one division by multiplication ends it. */
 #include "gn_filter.h"
+#include "gn_blocks.h"
 #include "gn_q.h"
 
 #if GN_SHADOWS
@@ -64,6 +65,11 @@ static uint32_t tent(const receiver *r, int32_t k, int32_t u_q16, int32_t v_q16,
     uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
     int32_t cu = u_q16 + 32768, cv = v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
+#if GN_DEPTH_BLOCKS
+    const gn_depth_block *bounds = gn_blocks_at(r->view, u0, v0);
+    if (r->depth <= (int32_t)((uint32_t)bounds->lo << r->depth_frac)) return 65536;
+    if (r->depth > (int32_t)((uint32_t)bounds->hi << r->depth_frac)) return 0;
+#endif
     gn_tent_weights(wu, k, fraction(cu, bits), bits);
     gn_tent_weights(wv, k, fraction(cv, bits), bits);
     uint64_t sum = 0; /* <= (2k + 1)^4 F^4 <= 2401 * 2^48 */

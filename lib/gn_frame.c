@@ -3,7 +3,7 @@
  *   gn_begin        gn_scene    validate what the caller describes
  *                   gn_xform    camera
  *                   gn_cascade  which light gets a shadow tile, and where it lies
- *   gn_shadow_tile  gn_atlas    casters, as depth seen from the light
+ *   gn_shadow_tile  gn_atlas    casters, as depth seen from the light; bounds of depth per block (gn_blocks)
  *   gn_prepare      gn_setup    visible triangles: transform, cull, clip (gn_clip), project, depth plane (gn_plane)
  *                   gn_bin      triangles to screen tiles
  *   gn_screen_tile  gn_raster   visible surfaces: depth and triangle per pixel, by exact edge walkers (gn_walk)

@@ -37,6 +37,10 @@ typedef struct {
 } gn_ray_plane;
 
 typedef struct {
+    uint16_t lo, hi;
+} gn_depth_block; /* see gn_blocks.h */
+
+typedef struct {
     int32_t axis_q30[3][3];  /* u, v, w in the world */
     gn_bf_state inv_texel;   /* texels per world unit */
     int32_t origin[3];       /* whole texels */
@@ -52,6 +56,9 @@ typedef struct {
     uint8_t tile_done;
     uint16_t light_idx;
     uint16_t *depth;         /* T * T, row by row, inside the atlas */
+#if GN_DEPTH_BLOCKS
+    gn_depth_block *block;   /* (T / 8) * (T / 8) */
+#endif
 } gn_light_view;
 #endif
 
@@ -119,6 +126,9 @@ typedef struct gn_frame {
 #if GN_SHADOWS
     gn_light_view view[4];
     uint16_t atlas[GN_ATLAS_SIZE * GN_ATLAS_SIZE];
+#if GN_DEPTH_BLOCKS
+    gn_depth_block block[GN_ATLAS_SIZE * GN_ATLAS_SIZE / 64];
+#endif
 #endif
 } gn_frame;
 

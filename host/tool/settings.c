@@ -74,7 +74,7 @@ void settings_preset(settings *out, int preset)
 
 void settings_init(settings *out)
 {
-    static const settings defaults = {.capacity.vertex_cache = 32, .feature = {1, 4, 1, 1, 0, 0}};
+    static const settings defaults = {.capacity.vertex_cache = 32, .feature = {1, 1, 4, 1, 1, 0, 0}};
     *out = defaults;
     settings_preset(out, SETTINGS_BALANCED);
 }
@@ -232,6 +232,7 @@ settings_ram_parts settings_ram(const settings *s)
     long tile_w = s->quality.tile_width, tile_h = s->quality.tile_height;
     long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);
     r.atlas = s->feature.shadows ? 2L * s->quality.atlas_size * s->quality.atlas_size : 0;
+    if (s->feature.depth_blocks) r.atlas += r.atlas / 32;
     r.triangles = (s->quality.subpixel_bits > 4 ? 44L : 32L) * s->capacity.max_triangles;
     r.tile_refs = 2L * s->capacity.max_tile_refs;
     r.tiles = (s->capacity.max_tile_refs > 65535 ? 4L : 2L) * (tiles + 1);

@@ -1,0 +1,990 @@
+/* The public interface: every status, call order, the same bytes whatever the tiles, two renderers, extreme and random scenes.
+ * Capacity errors of a small build are in test_config.sh. Run under sanitizers this is also the search for undefined behaviour. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "demo_scene.h"
+
+typedef struct {
+    uint8_t *pixels, *times; /* bytes of the picture; how often each pixel was flushed */
+    int width, height;
+    size_t pixel_bytes;
+    long n_calls, n_outside;
+} canvas;
+
+static gn_renderer one, two;
+static demo_scene demo;
+
+static void canvas_begin(canvas *c, int width, int height, gn_format format)
+{
+    size_t n = (size_t)width * (size_t)height;
+    memset(c, 0, sizeof *c);
+    c->width = width;
+    c->height = height;
+    c->pixel_bytes = format == GN_FORMAT_RGB565 ? 2 : format == GN_FORMAT_RGB888 ? 3 : 4;
+    c->pixels = calloc(n, c->pixel_bytes);
+    c->times = calloc(n, 1);
+    if (!c->pixels || !c->times) abort();
+}
+
+static void canvas_end(canvas *c)
+{
+    free(c->pixels);
+    free(c->times);
+}
+
+static uint32_t canvas_crc(const canvas *c)
+{
+    return demo_crc32(0, c->pixels, (size_t)c->width * (size_t)c->height * c->pixel_bytes);
+}
+
+static void flush(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    canvas *c = user;
+    c->n_calls++;
+    if (x < 0 || y < 0 || w < 1 || h < 1 || x + w > c->width || y + h > c->height) {
+        c->n_outside++;
+        return;
+    }
+    for (int row = 0; row < h; row++) {
+        size_t at = (size_t)(y + row) * (size_t)c->width + (size_t)x;
+        memcpy(c->pixels + at * c->pixel_bytes, (const uint8_t *)pixels + (size_t)row * (size_t)w * c->pixel_bytes,
+               (size_t)w * c->pixel_bytes);
+        for (int i = 0; i < w; i++) c->times[at + (size_t)i]++;
+    }
+}
+
+static int each_pixel_once(const canvas *c)
+{
+    for (size_t i = 0; i < (size_t)c->width * (size_t)c->height; i++)
+        if (c->times[i] != 1) return 0;
+    return c->n_outside == 0;
+}
+
+static gn_picture picture_of(int width, int height, gn_format format)
+{
+    gn_picture p = {.width = (uint16_t)width, .height = (uint16_t)height, .format = format, .view = GN_VIEW_COLOUR};
+    return p;
+}
+
+/* Renders with one renderer from scratch; 0 if it fails. */
+static uint32_t crc_of(gn_renderer *r, const gn_scene *s, int width, int height, gn_format format)
+{
+    gn_picture p = picture_of(width, height, format);
+    canvas c;
+    canvas_begin(&c, width, height, format);
+    int ok = gn_init(r, &p) == GN_OK && gn_render(r, s, flush, &c) == GN_OK && each_pixel_once(&c);
+    uint32_t crc = canvas_crc(&c);
+    canvas_end(&c);
+    return ok ? crc : 0;
+}
+
+/* ---- Every status ------------------------------------------------------------------------------------------------- */
+
+
+static uint16_t many_idx[3 * 40000];
+static gn_mesh many_mesh;
+static gn_object many_objects[2];
+
+/* `n` triangles in front of the camera, each with a bounding box that fills the picture, inside the guard band. */
+static void fill_picture(gn_scene *s, uint16_t n)
+{
+    static const int32_t pos[12] = {GN_Q16(-1.2), GN_Q16(-1.2), GN_Q16(-1), GN_Q16(1.2), GN_Q16(-1.2), GN_Q16(-1),
+                                    GN_Q16(1.2), GN_Q16(1.2), GN_Q16(-1), GN_Q16(-1.2), GN_Q16(1.2), GN_Q16(-1)};
+    for (uint32_t i = 0; i < 3U * n; i++) many_idx[i] = demo_ground_idx[i % 6];
+    gn_mesh mesh = {.pos = pos, .idx = many_idx, .n_vertices = 4, .n_triangles = n, .pos_frac_bits = 16};
+    many_mesh = mesh;
+    for (int i = 0; i < 2; i++) {
+        many_objects[i] = demo.object[0];
+        many_objects[i].mesh = &many_mesh;
+        many_objects[i].to_world = s->camera.to_world;
+        many_objects[i].flags = GN_OBJECT_UNLIT;
+    }
+    s->objects = many_objects;
+    s->n_objects = 1;
+    s->n_lights = 0;
+}
+
+static void no_objects(gn_scene *s) { s->objects = NULL; }
+static void no_lights(gn_scene *s) { s->lights = NULL; }
+static void no_mesh(gn_scene *s) { (void)s, demo.object[2].mesh = NULL; }
+static void focal_small(gn_scene *s) { s->camera.focal_q24 = GN_Q24(1.0 / 32) - 1; }
+static void focal_zero(gn_scene *s) { s->camera.focal_q24 = 0; }
+static void near_small(gn_scene *s) { s->camera.near_q16 = 255; }
+static void near_negative(gn_scene *s) { s->camera.near_q16 = INT32_MIN; }
+static void near_large(gn_scene *s) { s->camera.near_q16 = GN_Q16(8192) + 1, s->camera.far_q16 = GN_Q16(9000); }
+static void far_is_near(gn_scene *s) { s->camera.far_q16 = s->camera.near_q16; }
+static void camera_scaled(gn_scene *s) { s->camera.to_world.exp = 1; }
+static void camera_skewed(gn_scene *s) { s->camera.to_world.m_q30[0][0] /= 2; }
+static void camera_wild(gn_scene *s) { s->camera.to_world.m_q30[1][2] = INT32_MIN; }
+static void camera_far_out(gn_scene *s) { s->camera.to_world.t_q16[2] = GN_Q16(8192) + 1; }
+static void object_exp_high(gn_scene *s) { (void)s, demo.object[1].to_world.exp = 15; }
+static void object_exp_low(gn_scene *s) { (void)s, demo.object[1].to_world.exp = -1; }
+static void object_entry(gn_scene *s) { (void)s, demo.object[1].to_world.m_q30[2][2] = (1 << 30) + 1; }
+static void object_far_out(gn_scene *s) { (void)s, demo.object[1].to_world.t_q16[0] = INT32_MIN; }
+static void object_flat(gn_scene *s) { (void)s, memset(demo.object[1].to_world.m_q30[2], 0, sizeof demo.object[1].to_world.m_q30[2]); }
+static void mesh_no_pos(gn_scene *s) { (void)s, demo.ball.pos = NULL; }
+static void mesh_no_idx(gn_scene *s) { (void)s, demo.ball.idx = NULL; }
+static void mesh_no_vertices(gn_scene *s) { (void)s, demo.ball.n_vertices = 0; }
+static void mesh_no_triangles(gn_scene *s) { (void)s, demo.ball.n_triangles = 0; }
+static void mesh_bits(gn_scene *s) { (void)s, demo.ball.pos_frac_bits = 31; }
+static void mesh_index(gn_scene *s) { (void)s, demo.ball_idx[7] = DEMO_BALL_VERTICES; }
+static void mesh_index_no_shadow(gn_scene *s) { s->n_lights = 0, demo.ball_idx[7] = 65535; }
+static void vertex_far(gn_scene *s) { (void)s, demo.object[1].to_world.exp = 14, demo.ball.pos_frac_bits = 29; }
+static void vertex_far_coarse(gn_scene *s) { (void)s, demo.object[1].to_world.exp = 14, demo.ball.pos_frac_bits = 0; }
+static void matrix_full(gn_scene *s);
+static void vertex_over_2_30(gn_scene *s) { matrix_full(s); for (int i = 0; i < 30; i++) demo.ball_pos[i] = i % 3 ? INT32_MAX : INT32_MIN; }
+static void vertex_over_2_30_no_shadow(gn_scene *s) { s->n_lights = 0, demo.ball_pos[4] = (1 << 30) + 1; }
+static void albedo(gn_scene *s) { (void)s, demo.object[1].albedo_uq16[2] = 65537; }
+static void ambient(gn_scene *s) { s->ambient_uq16[1] = 1 << 24; }
+static void background(gn_scene *s) { s->background_uq16[0] = 65537; }
+static void light_colour(gn_scene *s) { (void)s, demo.light[0].colour_uq16[0] = UINT32_MAX; }
+static void objects_65536(gn_scene *s) { s->n_objects = 65536; }
+static void lights_9(gn_scene *s) { s->n_lights = GN_MAX_LIGHTS + 1; }
+static void lights_all(gn_scene *s) { s->n_lights = UINT32_MAX; }
+static void light_kind(gn_scene *s) { (void)s, demo.light[0].kind = (gn_light_kind)99; }
+static void light_zero(gn_scene *s) { (void)s, memset(demo.light[0].direction, 0, sizeof demo.light[0].direction); }
+static void light_strength(gn_scene *s) { (void)s, demo.light[0].shadow_strength_uq16 = 65537; }
+static void light_constant(gn_scene *s) { (void)s, demo.light[0].bias_constant_q16 = GN_Q16(64) + 1; }
+static void light_slope(gn_scene *s) { (void)s, demo.light[0].bias_slope_q16 = -1; }
+static void light_normal(gn_scene *s) { (void)s, demo.light[0].bias_normal_q16 = GN_Q16(8) + 1; }
+static void light_offset(gn_scene *s) { (void)s, demo.light[0].near_offset_q16 = GN_Q16(8192) + 1; }
+static void shadow_near(gn_scene *s) { s->shadow.max_distance_q16 = s->camera.near_q16; }
+static void shadow_far(gn_scene *s) { s->shadow.max_distance_q16 = GN_Q16(8192) + 1; }
+static void shadow_fade(gn_scene *s) { s->shadow.distance_fade_uq16 = 65; }
+static void shadow_fade_high(gn_scene *s) { s->shadow.distance_fade_uq16 = 65537; }
+static void cascade_fade(gn_scene *s) { s->shadow.cascade_fade_uq16 = 65; }
+static void shadow_filter(gn_scene *s) { s->shadow.filter = (gn_filter)(GN_FILTER_MAX + 1); }
+static void shadow_filter_wild(gn_scene *s) { s->shadow.filter = (gn_filter)-1; }
+static void triangles_80000(gn_scene *s) { fill_picture(s, 40000), s->n_objects = 2; }
+
+static const struct {
+    void (*spoil)(gn_scene *);
+    const char *name;
+    gn_status status;
+    uint32_t index, needed, available;
+} refused[] = {
+#define REFUSED(spoil, status, ...) {spoil, #spoil, status, __VA_ARGS__}
+    REFUSED(no_objects, GN_ERR_NULL, 0, 0, 0),
+    REFUSED(no_lights, GN_ERR_NULL, 0, 0, 0),
+    REFUSED(no_mesh, GN_ERR_NULL, 2, 0, 0),
+    REFUSED(focal_small, GN_ERR_CAMERA_FOCAL, 0, 0, 0),
+    REFUSED(focal_zero, GN_ERR_CAMERA_FOCAL, 0, 0, 0),
+    REFUSED(near_small, GN_ERR_CAMERA_DEPTH, 0, 0, 0),
+    REFUSED(near_negative, GN_ERR_CAMERA_DEPTH, 0, 0, 0),
+    REFUSED(near_large, GN_ERR_CAMERA_DEPTH, 0, 0, 0),
+    REFUSED(far_is_near, GN_ERR_CAMERA_DEPTH, 0, 0, 0),
+    REFUSED(camera_scaled, GN_ERR_CAMERA_TRANSFORM, 0, 0, 0),
+    REFUSED(camera_skewed, GN_ERR_CAMERA_TRANSFORM, 0, 0, 0),
+    REFUSED(camera_wild, GN_ERR_CAMERA_TRANSFORM, 0, 0, 0),
+    REFUSED(camera_far_out, GN_ERR_CAMERA_TRANSFORM, 0, 0, 0),
+    REFUSED(object_exp_high, GN_ERR_OBJECT_TRANSFORM, 1, 0, 0),
+    REFUSED(object_exp_low, GN_ERR_OBJECT_TRANSFORM, 1, 0, 0),
+    REFUSED(object_entry, GN_ERR_OBJECT_TRANSFORM, 1, 0, 0),
+    REFUSED(object_far_out, GN_ERR_OBJECT_TRANSFORM, 1, 0, 0),
+    REFUSED(object_flat, GN_ERR_OBJECT_TRANSFORM, 1, 0, 0),
+    REFUSED(mesh_no_pos, GN_ERR_MESH, 1, 0, 0),
+    REFUSED(mesh_no_idx, GN_ERR_MESH, 1, 0, 0),
+    REFUSED(mesh_no_vertices, GN_ERR_MESH, 1, 0, 0),
+    REFUSED(mesh_no_triangles, GN_ERR_MESH, 1, 0, 0),
+    REFUSED(mesh_bits, GN_ERR_MESH, 1, 0, 0),
+    REFUSED(mesh_index, GN_ERR_MESH_INDEX, 1, 0, 0),
+    REFUSED(mesh_index_no_shadow, GN_ERR_MESH_INDEX, 1, 0, 0),
+    REFUSED(vertex_far, GN_ERR_VERTEX_RANGE, 1, 0, 0),
+    REFUSED(vertex_far_coarse, GN_ERR_VERTEX_RANGE, 1, 0, 0),
+    REFUSED(vertex_over_2_30, GN_ERR_VERTEX_RANGE, 1, 0, 0),
+    REFUSED(vertex_over_2_30_no_shadow, GN_ERR_VERTEX_RANGE, 1, 0, 0),
+    REFUSED(albedo, GN_ERR_COLOUR, 1, 0, 0),
+    REFUSED(ambient, GN_ERR_COLOUR, 0, 0, 0),
+    REFUSED(background, GN_ERR_COLOUR, 0, 0, 0),
+    REFUSED(light_colour, GN_ERR_COLOUR, 0, 0, 0),
+    REFUSED(objects_65536, GN_ERR_TOO_MANY_OBJECTS, 0, 65536, 65535),
+    REFUSED(lights_9, GN_ERR_TOO_MANY_LIGHTS, 0, GN_MAX_LIGHTS + 1, GN_MAX_LIGHTS),
+    REFUSED(lights_all, GN_ERR_TOO_MANY_LIGHTS, 0, UINT32_MAX, GN_MAX_LIGHTS),
+    REFUSED(light_kind, GN_ERR_LIGHT_KIND, 0, 0, 0),
+    REFUSED(light_zero, GN_ERR_LIGHT_DIRECTION, 0, 0, 0),
+    REFUSED(light_strength, GN_ERR_LIGHT_BIAS, 0, 0, 0),
+    REFUSED(light_constant, GN_ERR_LIGHT_BIAS, 0, 0, 0),
+    REFUSED(light_slope, GN_ERR_LIGHT_BIAS, 0, 0, 0),
+    REFUSED(light_normal, GN_ERR_LIGHT_BIAS, 0, 0, 0),
+    REFUSED(light_offset, GN_ERR_LIGHT_BIAS, 0, 0, 0),
+    REFUSED(shadow_near, GN_ERR_SHADOW_DISTANCE, 0, 0, 0),
+    REFUSED(shadow_far, GN_ERR_SHADOW_DISTANCE, 0, 0, 0),
+    REFUSED(shadow_fade, GN_ERR_SHADOW_FADE, 0, 0, 0),
+    REFUSED(shadow_fade_high, GN_ERR_SHADOW_FADE, 0, 0, 0),
+    REFUSED(cascade_fade, GN_ERR_SHADOW_FADE, 0, 0, 0),
+    REFUSED(shadow_filter, GN_ERR_SHADOW_FILTER, 0, 0, 0),
+    REFUSED(shadow_filter_wild, GN_ERR_SHADOW_FILTER, 0, 0, 0),
+    REFUSED(triangles_80000, GN_ERR_TRIANGLES_FULL, 0, 80000, GN_MAX_TRIANGLES),
+};
+
+static int provoked[GN_STATUS_COUNT];
+
+static gn_status note(gn_status status)
+{
+    if (CHECK((int)status >= 0 && status < GN_STATUS_COUNT)) provoked[status] = 1;
+    return status;
+}
+
+/* A call on `one` that must fail with this status, and say what it was about. */
+static int fails(gn_status got, gn_status expected, uint32_t index, uint32_t needed, uint32_t available, const char *name)
+{
+    const gn_detail *d = gn_get_detail(&one);
+    note(got);
+    if (got == expected && d->status == got && d->index == index && d->needed == needed && d->available == available)
+        return CHECK(1);
+    printf("%s: status %d, detail %d, index %u, needed %u, available %u\n", name, (int)got, (int)d->status, d->index, d->needed,
+           d->available);
+    return CHECK(!"refused with the right status and detail");
+}
+
+static void test_refused_scenes(void)
+{
+    gn_picture p = picture_of(48, 32, GN_FORMAT_RGB565);
+    CHECK(gn_init(&one, &p) == GN_OK);
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        canvas c;
+        canvas_begin(&c, 48, 32, GN_FORMAT_RGB565);
+        demo_scene_make(&demo, 0);
+        refused[i].spoil(&demo.scene);
+        gn_status status = gn_render(&one, &demo.scene, flush, &c);
+        fails(status, refused[i].status, refused[i].index, refused[i].needed, refused[i].available, refused[i].name);
+        CHECK_EQ_INT(c.n_calls, 0); /* nothing is flushed if it fails */
+        demo_scene_make(&demo, 0);
+        CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK); /* and the next frame is unharmed */
+        CHECK(each_pixel_once(&c));
+        CHECK_EQ_INT(gn_get_detail(&one)->status, GN_OK);
+        canvas_end(&c);
+    }
+}
+
+static void test_refused_pictures(void)
+{
+    static const struct { int w, h, format, view, status; } cases[] = {
+        {0, 1, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE},
+        {1, 0, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE},
+        {GN_MAX_WIDTH + 1, 1, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE},
+        {1, GN_MAX_HEIGHT + 1, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE},
+        {8, 8, 99, GN_VIEW_COLOUR, GN_ERR_FORMAT},
+        {8, 8, -1, GN_VIEW_COLOUR, GN_ERR_FORMAT},
+        {8, 8, GN_FORMAT_RGB565, GN_VIEW_DEPTH, GN_ERR_FORMAT},
+        {8, 8, GN_FORMAT_RAW32, GN_VIEW_COLOUR, GN_ERR_FORMAT},
+        {8, 8, GN_FORMAT_RAW32, GN_VIEW_TRIANGLE + 1, GN_ERR_FORMAT},
+        {8, 8, GN_FORMAT_RAW32, -1, GN_ERR_FORMAT},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        gn_picture p = picture_of(cases[i].w, cases[i].h, (gn_format)cases[i].format);
+        p.view = (gn_view)cases[i].view;
+        fails(gn_init(&one, &p), (gn_status)cases[i].status, 0, 0, 0, "gn_init");
+        fails(gn_begin(&one, &demo.scene), GN_ERR_ORDER, 0, 0, 0, "gn_begin after a failed gn_init");
+    }
+    gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
+    for (int format = GN_FORMAT_RGB565; format <= GN_FORMAT_RAW32; format++) {
+        for (int view = GN_VIEW_COLOUR; view <= GN_VIEW_TRIANGLE; view++) {
+            p.format = (gn_format)format;
+            p.view = (gn_view)view;
+            CHECK_EQ_INT(gn_init(&one, &p) == GN_OK, (format == GN_FORMAT_RAW32) == (view != GN_VIEW_COLOUR));
+        }
+    }
+}
+
+/* Each of 62 triangles covers each of 16384 screen tiles. */
+static void test_tile_refs_full(void)
+{
+    gn_picture p = picture_of(2048, 2048, GN_FORMAT_RGB565);
+    canvas c;
+    canvas_begin(&c, 8, 8, GN_FORMAT_RGB565);
+    demo_scene_make(&demo, 0);
+    fill_picture(&demo.scene, 62);
+    CHECK(gn_init(&one, &p) == GN_OK);
+    one.frame.knobs.tile_width = one.frame.knobs.tile_height = 16;
+    gn_status status = gn_render(&one, &demo.scene, flush, &c);
+    fails(status, GN_ERR_TILE_REFS_FULL, 0, 62 * 16384, GN_MAX_TILE_REFS, "62 triangles over 16384 tiles");
+    CHECK_EQ_INT(c.n_calls, 0);
+    canvas_end(&c);
+}
+
+/* Each quality knob beyond both ends of its range, and values in it that are not allowed. */
+static void test_knobs(void)
+{
+    gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
+    static const struct { size_t offset; int32_t lo, hi; const char *name; } knobs[] = {
+#define KNOB_(name, MACRO, lo, hi, meaning, cost) {offsetof(gn_knobs, name), lo, hi, #name},
+        GN_QUALITY_KNOBS(KNOB_)};
+    demo_scene_make(&demo, 0);
+    for (size_t i = 0; i < sizeof knobs / sizeof *knobs; i++) {
+        const int32_t bad[] = {knobs[i].lo - 1, knobs[i].hi + 1, INT32_MIN, INT32_MAX};
+        for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+            gn_init(&one, &p);
+            memcpy((char *)&one.frame.knobs + knobs[i].offset, &bad[k], sizeof *bad);
+            fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, knobs[i].name);
+        }
+    }
+    static const struct { int32_t persp_step, atten_bits, atlas_size, tile_width, tile_height; } odd[] = {
+        {2, 8, 128, 64, 16}, {8, 9, 128, 64, 16}, {8, 8, 96, 64, 16}, {8, 8, 128, 65, 16}, {8, 8, 128, 2048, 33}};
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        gn_init(&one, &p);
+        one.frame.knobs.persp_step = odd[i].persp_step;
+        one.frame.knobs.atten_bits = odd[i].atten_bits;
+        one.frame.knobs.atlas_size = odd[i].atlas_size;
+        one.frame.knobs.tile_width = odd[i].tile_width;
+        one.frame.knobs.tile_height = odd[i].tile_height;
+        fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "a knob's value that its range does not exclude");
+    }
+    p = picture_of(2048, 2048, GN_FORMAT_RGB565);
+    gn_init(&one, &p);
+    one.frame.knobs.tile_width = 8;
+    one.frame.knobs.tile_height = 1;
+    fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, "more screen tiles than are built");
+}
+
+static void test_status_texts(void)
+{
+#define TEXT_(name, text) #name,
+    static const char *const names[] = {GN_STATUS_LIST(TEXT_)};
+    for (int i = 0; i < GN_STATUS_COUNT; i++) {
+        const char *text = gn_status_text((gn_status)i);
+        CHECK(text && text[0]);
+        for (int k = 0; k < i; k++) CHECK(strcmp(text, gn_status_text((gn_status)k)) != 0);
+    }
+    CHECK(strcmp(gn_status_text(GN_STATUS_COUNT), "unknown status") == 0);
+    CHECK(strcmp(gn_status_text((gn_status)-1), "unknown status") == 0);
+    /* Unreachable: the smallest atlas is 16 texels, and at most four lights share it, so no tile is below 8. */
+    provoked[GN_OK] = provoked[GN_ERR_SHADOW_TILE] = 1;
+    for (int i = 0; i < GN_STATUS_COUNT; i++)
+        if (!CHECK(provoked[i])) printf("%s was not provoked\n", names[i]);
+}
+
+/* ---- Null pointers, order ----------------------------------------------------------------------------------------- */
+
+static void test_nulls(void)
+{
+    gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
+    const uint16_t *depth = NULL;
+    canvas c;
+    canvas_begin(&c, 8, 8, GN_FORMAT_RGB565);
+    demo_scene_make(&demo, 0);
+    CHECK(note(gn_init(NULL, &p)) == GN_ERR_NULL);
+    CHECK(gn_begin(NULL, &demo.scene) == GN_ERR_NULL && gn_shadow_tile(NULL, 0) == GN_ERR_NULL && gn_prepare(NULL) == GN_ERR_NULL);
+    CHECK(gn_shadow_tile_count(NULL) == 0 && gn_screen_tile_count(NULL) == 0);
+    CHECK(gn_screen_tile(NULL, &one.scratch, 0, flush, &c) == GN_ERR_NULL);
+    CHECK(gn_render(NULL, &demo.scene, flush, &c) == GN_ERR_NULL);
+    CHECK(!gn_get_stats(NULL) && !gn_get_detail(NULL) && gn_get_shadow_tile(NULL, 0, &depth) == 0);
+    CHECK(gn_init(&one, &p) == GN_OK);
+    CHECK(gn_get_shadow_tile(&one, 0, &depth) == 0); /* before the first frame */
+    fails(gn_begin(&one, NULL), GN_ERR_NULL, 0, 0, 0, "gn_begin without a scene");
+    CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
+    CHECK(gn_screen_tile(&one.frame, NULL, 0, flush, &c) == GN_ERR_NULL);
+    CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, NULL, &c) == GN_ERR_NULL);
+    CHECK(gn_get_shadow_tile(&one, 0, NULL) == 0);
+    CHECK_EQ_INT(gn_get_shadow_tile(&one, 0, &depth), GN_ATLAS_SIZE);
+    CHECK(depth != NULL);
+    CHECK(gn_get_shadow_tile(&one, 1, &depth) == 0 && gn_get_shadow_tile(&one, UINT32_MAX, &depth) == 0);
+    fails(gn_render(&one, &demo.scene, NULL, &c), GN_ERR_NULL, 0, 0, 0, "gn_render without a flush");
+    CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
+    fails(gn_init(&one, NULL), GN_ERR_NULL, 0, 0, 0, "gn_init without a picture");
+    CHECK(gn_init(&one, &p) == GN_OK);
+    fails(gn_render(&one, NULL, flush, &c), GN_ERR_NULL, 0, 0, 0, "gn_render without a scene");
+    CHECK_EQ_INT(c.n_calls, 2);
+    canvas_end(&c);
+}
+
+static void test_order(void)
+{
+    gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
+    canvas c;
+    canvas_begin(&c, 48, 32, GN_FORMAT_RGB888);
+    demo_scene_make(&demo, 0);
+    gn_light lights[2] = {demo.light[0], demo.light[0]};
+    demo.scene.lights = lights;
+    demo.scene.n_lights = 2;
+    memset(&one, 0, sizeof one);
+    fails(gn_begin(&one, &demo.scene), GN_ERR_ORDER, 0, 0, 0, "begin before init");
+    gn_init(&one, &p);
+    fails(gn_shadow_tile(&one, 0), GN_ERR_ORDER, 0, 0, 0, "shadow tile before begin");
+    fails(gn_prepare(&one), GN_ERR_ORDER, 0, 0, 0, "prepare before begin");
+    CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, flush, &c) == GN_ERR_ORDER);
+    CHECK(gn_begin(&one, &demo.scene) == GN_OK);
+    CHECK_EQ_INT(gn_shadow_tile_count(&one), 2);
+    CHECK_EQ_INT(gn_screen_tile_count(&one), 2);
+    fails(gn_shadow_tile(&one, 2), GN_ERR_INDEX, 2, 0, 0, "no such shadow tile");
+    CHECK(gn_shadow_tile(&one, 0) == GN_OK);
+    fails(gn_prepare(&one), GN_ERR_ORDER, 1, 0, 0, "prepare before the second shadow tile");
+    CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, flush, &c) == GN_ERR_ORDER);
+    CHECK(gn_shadow_tile(&one, 1) == GN_OK && gn_prepare(&one) == GN_OK);
+    fails(gn_shadow_tile(&one, 0), GN_ERR_ORDER, 0, 0, 0, "shadow tile after prepare");
+    fails(gn_prepare(&one), GN_ERR_ORDER, 0, 0, 0, "prepare twice");
+    CHECK(gn_screen_tile(&one.frame, &one.scratch, 2, flush, &c) == GN_ERR_INDEX);
+    CHECK(gn_screen_tile(&one.frame, &one.scratch, UINT32_MAX, flush, &c) == GN_ERR_INDEX);
+    CHECK_EQ_INT(c.n_calls, 0);
+    CHECK(gn_begin(&one, &demo.scene) == GN_OK); /* a frame may be abandoned */
+    fails(gn_prepare(&one), GN_ERR_ORDER, 0, 0, 0, "the abandoned frame's shadow tiles do not count");
+    CHECK(gn_begin(&one, NULL) == GN_ERR_NULL); /* a failed begin ends the frame */
+    fails(gn_shadow_tile(&one, 0), GN_ERR_ORDER, 0, 0, 0, "shadow tile after a failed begin");
+    CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, flush, &c) == GN_ERR_ORDER);
+    CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
+    canvas_end(&c);
+}
+
+/* ---- The same bytes ----------------------------------------------------------------------------------------------- */
+
+static void test_same_again(void)
+{
+    uint32_t first[3];
+    for (uint32_t f = 0; f < 3; f++) {
+        demo_scene_make(&demo, f);
+        first[f] = crc_of(&one, &demo.scene, 160, 120, GN_FORMAT_RGB888);
+        CHECK(first[f] != 0);
+        for (uint32_t k = 0; k < f; k++) CHECK(first[f] != first[k]); /* the frames differ: the comparison means something */
+    }
+    gn_picture p = picture_of(160, 120, GN_FORMAT_RGB888);
+    canvas c;
+    canvas_begin(&c, 160, 120, GN_FORMAT_RGB888);
+    CHECK(gn_init(&one, &p) == GN_OK);
+    for (uint32_t k = 0; k < 12; k++) { /* whatever was drawn before */
+        demo_scene_make(&demo, k * 5 % 3);
+        CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
+        CHECK_EQ_INT(canvas_crc(&c), first[k * 5 % 3]);
+    }
+    memset(&one, 0xA5, sizeof one); /* and whatever the memory held */
+    demo_scene_make(&demo, 1);
+    CHECK_EQ_INT(crc_of(&one, &demo.scene, 160, 120, GN_FORMAT_RGB888), first[1]);
+    canvas_end(&c);
+}
+
+/* One step of a frame: begin, each shadow tile, prepare, each screen tile. Returns 0 when it is done. */
+static int step(gn_renderer *r, const gn_scene *s, canvas *c, uint32_t n)
+{
+    if (n == 0) return CHECK(gn_begin(r, s) == GN_OK);
+    uint32_t shadows = gn_shadow_tile_count(r);
+    if (n <= shadows) return CHECK(gn_shadow_tile(r, n - 1) == GN_OK);
+    if (n == shadows + 1) return CHECK(gn_prepare(r) == GN_OK);
+    n -= shadows + 2;
+    if (n >= gn_screen_tile_count(r)) return 0;
+    return CHECK(gn_screen_tile(&r->frame, &r->scratch, n, flush, c) == GN_OK);
+}
+
+static void test_two_renderers(void)
+{
+    static demo_scene other;
+    canvas ca, cb;
+    gn_picture pa = picture_of(160, 120, GN_FORMAT_RGB888), pb = picture_of(95, 71, GN_FORMAT_RGB565);
+    demo_scene_make(&demo, 0);
+    demo_scene_make(&other, 2);
+    other.scene.shadow.filter = GN_FILTER_7X7;
+    uint32_t alone_a = crc_of(&one, &demo.scene, 160, 120, GN_FORMAT_RGB888);
+    uint32_t alone_b = crc_of(&one, &other.scene, 95, 71, GN_FORMAT_RGB565);
+    canvas_begin(&ca, 160, 120, GN_FORMAT_RGB888);
+    canvas_begin(&cb, 95, 71, GN_FORMAT_RGB565);
+    gn_init(&one, &pa);
+    gn_init(&two, &pb);
+    int more_a = 1, more_b = 1;
+    for (uint32_t n = 0; more_a || more_b; n++) {
+        more_a = more_a && step(&one, &demo.scene, &ca, n);
+        more_b = more_b && step(&two, &other.scene, &cb, n);
+    }
+    CHECK(each_pixel_once(&ca) && each_pixel_once(&cb));
+    CHECK_EQ_INT(canvas_crc(&ca), alone_a);
+    CHECK_EQ_INT(canvas_crc(&cb), alone_b);
+    canvas_end(&ca);
+    canvas_end(&cb);
+}
+
+/* R7: any order, each tile with whichever scratch, and the frame stays as it was. */
+static void test_tile_order(void)
+{
+    static gn_scratch scratch[3];
+    gn_picture p = picture_of(160, 120, GN_FORMAT_RGB888);
+    demo_scene_make(&demo, 0);
+    uint32_t expected = crc_of(&one, &demo.scene, 160, 120, GN_FORMAT_RGB888);
+    uint32_t frame_crc = demo_crc32(0, &one.frame, sizeof one.frame);
+    uint32_t n = gn_screen_tile_count(&one);
+    static const uint32_t stride[] = {1, 7, 5, 11}; /* coprime to the number of tiles */
+    CHECK_EQ_INT(n, 24);
+    for (size_t k = 0; k < sizeof stride / sizeof *stride; k++) {
+        canvas c;
+        canvas_begin(&c, p.width, p.height, p.format);
+        memset(scratch, 0x5A, sizeof scratch);
+        for (uint32_t i = 0; i < n; i++)
+            CHECK(gn_screen_tile(&one.frame, &scratch[i % 3], (n - 1 - i) * stride[k] % n, flush, &c) == GN_OK);
+        CHECK(each_pixel_once(&c));
+        CHECK_EQ_INT(canvas_crc(&c), expected);
+        canvas_end(&c);
+    }
+    CHECK(demo_crc32(0, &one.frame, sizeof one.frame) == frame_crc);
+}
+
+static void test_shadow_tile_order(void)
+{
+    gn_light lights[4];
+    gn_picture p = picture_of(95, 71, GN_FORMAT_RGB565);
+    demo_scene_make(&demo, 0);
+    for (int i = 0; i < 4; i++) {
+        lights[i] = demo.light[0];
+        lights[i].direction[0] = (i - 1) * GN_Q16(0.4);
+        for (int k = 0; k < 3; k++) lights[i].colour_uq16[k] = 15000;
+    }
+    demo.scene.lights = lights;
+    demo.scene.n_lights = 4;
+    uint32_t expected = crc_of(&one, &demo.scene, 95, 71, GN_FORMAT_RGB565);
+    canvas c;
+    canvas_begin(&c, p.width, p.height, p.format);
+    gn_init(&one, &p);
+    CHECK(gn_begin(&one, &demo.scene) == GN_OK && gn_shadow_tile_count(&one) == 4);
+    for (uint32_t i = 4; i-- > 0;) CHECK(gn_shadow_tile(&one, i) == GN_OK);
+    CHECK(gn_shadow_tile(&one, 2) == GN_OK); /* again: no harm */
+    CHECK(gn_prepare(&one) == GN_OK);
+    for (uint32_t i = 0; i < gn_screen_tile_count(&one); i++) gn_screen_tile(&one.frame, &one.scratch, i, flush, &c);
+    CHECK_EQ_INT(canvas_crc(&c), expected);
+    canvas_end(&c);
+}
+
+/* Largest difference of a byte */
+static int difference(const canvas *a, const canvas *b)
+{
+    int largest = 0;
+    for (size_t i = 0; i < (size_t)a->width * (size_t)a->height * a->pixel_bytes; i++) {
+        int d = abs(a->pixels[i] - b->pixels[i]);
+        largest = d > largest ? d : largest;
+    }
+    return largest;
+}
+
+/* The tile's height never matters. Its width does not with a divide at every pixel, nor to what is visible; with longer steps a
+ * run of pixels ends at the tile's border, and the linear part in between differs by what the step costs. */
+static void test_tile_sizes(void)
+{
+    static const int32_t sizes[][2] = {{64, 16}, {64, 1}, {64, 7}, {64, 200}, {64, 1024}, {8, 1}, {8, 8}, {160, 1}, {32, 120},
+                                       {160, 120}, {256, 256}, {12, 7}, {2048, 32}};
+    static const struct { gn_format format; gn_view view; } kinds[] = {
+        {GN_FORMAT_RGB565, GN_VIEW_COLOUR}, {GN_FORMAT_RGB888, GN_VIEW_COLOUR}, {GN_FORMAT_RAW32, GN_VIEW_TRIANGLE}};
+    demo_scene_make(&demo, 1);
+    for (int n = 0; n < 6; n++) {
+        int32_t persp_step = n < 3 ? 1 : 8;
+        gn_picture p = picture_of(159, 119, kinds[n % 3].format);
+        p.view = kinds[n % 3].view;
+        canvas first, c;
+        canvas_begin(&first, p.width, p.height, p.format);
+        for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+            canvas_begin(&c, p.width, p.height, p.format);
+            gn_init(&one, &p);
+            one.frame.knobs.tile_width = sizes[i][0];
+            one.frame.knobs.tile_height = sizes[i][1];
+            one.frame.knobs.persp_step = persp_step;
+            CHECK(gn_render(&one, &demo.scene, flush, i ? &c : &first) == GN_OK);
+            CHECK(each_pixel_once(i ? &c : &first));
+            int same = persp_step == 1 || sizes[i][0] == 64 || p.format == GN_FORMAT_RAW32;
+            int d = i ? difference(&first, &c) : 0;
+            if (p.format == GN_FORMAT_RGB565 && !same) d = 0; /* its bytes are no levels */
+            if (!CHECK(d <= (same ? 0 : 24)))
+                printf("tiles of %dx%d, format %d, persp_step %d: %d\n", (int)sizes[i][0], (int)sizes[i][1], (int)p.format, (int)persp_step, d);
+            canvas_end(&c);
+        }
+        canvas_end(&first);
+    }
+}
+
+static void test_picture_sizes(void)
+{
+    static const int sizes[][2] = {{1, 1}, {3, 2}, {319, 239}, {2048, 2048}, {2048, 1}, {1, 2048}, {64, 16}, {65, 17}, {63, 15}};
+    demo_scene_make(&demo, 0);
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        for (int f = GN_FORMAT_RGB565; f <= GN_FORMAT_RGB888; f++)
+            if (!CHECK(crc_of(&one, &demo.scene, sizes[i][0], sizes[i][1], (gn_format)f) != 0))
+                printf("%dx%d: %s\n", sizes[i][0], sizes[i][1], gn_status_text(gn_get_detail(&one)->status));
+}
+
+/* ---- Extremes ----------------------------------------------------------------------------------------------------- */
+
+static void limit_focal_low(gn_scene *s) { s->camera.focal_q24 = GN_Q24(1.0 / 32); }
+static void limit_focal_high(gn_scene *s) { s->camera.focal_q24 = GN_Q24(255.99); }
+static void limit_near_low(gn_scene *s) { s->camera.near_q16 = 256; }
+static void limit_near_high(gn_scene *s) { s->camera.near_q16 = GN_Q16(8191), s->camera.far_q16 = INT32_MAX, s->shadow.max_distance_q16 = GN_Q16(8192); }
+static void near_through_ball(gn_scene *s) { s->camera.near_q16 = GN_Q16(6.3); }
+static void near_through_all(gn_scene *s) { s->camera.near_q16 = GN_Q16(4); }
+static void shadow_next_to_near(gn_scene *s) { s->camera.near_q16 = 256, s->shadow.max_distance_q16 = 257; }
+static void shadow_all_the_way(gn_scene *s) { s->shadow.max_distance_q16 = GN_Q16(8192); }
+static void fades_small(gn_scene *s) { s->shadow.distance_fade_uq16 = s->shadow.cascade_fade_uq16 = 66; }
+static void fades_full(gn_scene *s) { s->shadow.distance_fade_uq16 = s->shadow.cascade_fade_uq16 = 65536; }
+static void camera_in_ball(gn_scene *s) { memcpy(s->camera.to_world.t_q16, demo.object[1].to_world.t_q16, sizeof s->camera.to_world.t_q16); }
+static void camera_in_box(gn_scene *s) { memcpy(s->camera.to_world.t_q16, demo.object[0].to_world.t_q16, sizeof s->camera.to_world.t_q16); }
+static void camera_on_ground(gn_scene *s) { s->camera.to_world.t_q16[1] = 0; }
+static void camera_up(gn_scene *s) { const int32_t up[3] = {0, GN_Q16(99), 0}, at[3] = {0, 0, 0}; gn_camera_look_at(&s->camera.to_world, at, up); }
+static void camera_down(gn_scene *s) { const int32_t up[3] = {0, GN_Q16(9), 0}, at[3] = {0, 0, 0}; gn_camera_look_at(&s->camera.to_world, up, at); }
+static void camera_nowhere(gn_scene *s) { const int32_t at[3] = {1, 2, 3}; gn_camera_look_at(&s->camera.to_world, at, at); }
+
+static void everything_far_out(gn_scene *s)
+{
+    for (int k = 0; k < 3; k++) {
+        s->camera.to_world.t_q16[k] = GN_Q16(8192);
+        for (int i = 0; i < DEMO_OBJECTS; i++) demo.object[i].to_world.t_q16[k] = GN_Q16(8192);
+    }
+}
+
+static void opposite_corners(gn_scene *s)
+{
+    for (int k = 0; k < 3; k++) {
+        s->camera.to_world.t_q16[k] = GN_Q16(8190);
+        for (int i = 0; i < DEMO_OBJECTS; i++) demo.object[i].to_world.t_q16[k] = GN_Q16(2000);
+    }
+    demo.object[1].to_world.exp = 10;
+    s->camera.to_world.t_q16[0] = GN_Q16(-8192);
+}
+
+static void exp_14(gn_scene *s)
+{
+    (void)s;
+    demo.object[2].to_world.exp = 14; /* a ground of 6 * 16384 units does not fit; of 6 * 2^-14 * 2^14 it does */
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) demo.object[2].to_world.m_q30[r][c] = r == c ? 1 << 26 : 0;
+}
+
+static void scale_tiny(gn_scene *s)
+{
+    (void)s;
+    for (int i = 0; i < DEMO_OBJECTS; i++) gn_affine_scale(&demo.object[i].to_world, 2); /* 2^-15 */
+}
+
+static void scale_huge(gn_scene *s)
+{
+    (void)s;
+    for (int i = 0; i < 2; i++) gn_affine_scale(&demo.object[i].to_world, GN_Q16(8000));
+}
+
+static void scale_one_axis(gn_scene *s)
+{
+    (void)s;
+    for (int r = 0; r < 3; r++) demo.object[1].to_world.m_q30[r][1] = r == 1 ? 1 : 0;
+}
+
+static void scale_mirrored(gn_scene *s)
+{
+    (void)s;
+    for (int r = 0; r < 3; r++) demo.object[1].to_world.m_q30[r][0] *= -1;
+}
+
+/* All entries at their limit: three times as long as a rotation's, and almost singular. */
+static void matrix_full(gn_scene *s)
+{
+    (void)s;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) demo.object[1].to_world.m_q30[r][c] = r == c && r ? -(1 << 30) : 1 << 30;
+    demo.object[1].to_world.exp = 11;
+}
+
+static void light_up(gn_scene *s) { (void)s, memset(demo.light[0].direction, 0, 12), demo.light[0].direction[1] = 1; }
+static void light_down(gn_scene *s) { (void)s, memset(demo.light[0].direction, 0, 12), demo.light[0].direction[1] = INT32_MIN; }
+static void light_along_ground(gn_scene *s) { (void)s, memset(demo.light[0].direction, 0, 12), demo.light[0].direction[0] = INT32_MAX; }
+static void light_diagonal(gn_scene *s) { (void)s, demo.light[0].direction[0] = demo.light[0].direction[1] = demo.light[0].direction[2] = INT32_MIN; }
+static void light_grazing(gn_scene *s) { (void)s, demo.light[0].direction[0] = INT32_MAX, demo.light[0].direction[1] = -1, demo.light[0].direction[2] = 0; }
+static void light_bright(gn_scene *s) { (void)s; for (int k = 0; k < 3; k++) s->ambient_uq16[k] = demo.light[0].colour_uq16[k] = 0xFFFFFF; }
+static void light_black(gn_scene *s) { (void)s; for (int k = 0; k < 3; k++) s->ambient_uq16[k] = demo.light[0].colour_uq16[k] = 0; }
+
+static void biases_full(gn_scene *s)
+{
+    (void)s;
+    demo.light[0].bias_constant_q16 = demo.light[0].bias_slope_q16 = GN_Q16(64);
+    demo.light[0].bias_normal_q16 = GN_Q16(8);
+    demo.light[0].near_offset_q16 = GN_Q16(8192);
+}
+
+static void offset_full_tiny_tile(gn_scene *s)
+{
+    biases_full(s);
+    s->shadow.max_distance_q16 = 257;
+    s->camera.near_q16 = 256;
+    s->camera.focal_q24 = GN_Q24(255.99);
+}
+
+static void all_lights(gn_scene *s)
+{
+    static gn_light lights[GN_MAX_LIGHTS];
+    for (int i = 0; i < GN_MAX_LIGHTS; i++) {
+        lights[i] = demo.light[0];
+        lights[i].direction[0] = (i - 4) * 1000;
+        for (int k = 0; k < 3; k++) lights[i].colour_uq16[k] = 0xFFFFFF;
+    }
+    s->lights = lights;
+    s->n_lights = GN_MAX_LIGHTS;
+}
+
+static void triangles_degenerate(gn_scene *s)
+{
+    (void)s;
+    for (int i = 0; i < DEMO_BALL_TRIANGLES; i += 2) demo.ball_idx[3 * i + 2] = demo.ball_idx[3 * i + 1];
+    for (int i = 0; i < 24; i++) demo.box_pos[i] = (i % 3) * (i / 3) * 1000; /* all in a line */
+}
+
+static void vertices_equal(gn_scene *s) { (void)s, memset(demo.ball_pos, 0, sizeof demo.ball_pos); }
+static void normals_zero(gn_scene *s) { (void)s, memset(demo.ball_nrm, 0, sizeof demo.ball_nrm); }
+static void normals_opposite(gn_scene *s) { (void)s; for (int i = 0; i < DEMO_BALL_VERTICES; i++) demo.ball_nrm[3 * i] = i % 2 ? INT16_MIN : INT16_MAX; }
+static void positions_at_limit(gn_scene *s) { (void)s; for (int i = 0; i < DEMO_BALL_VERTICES * 3; i++) demo.ball_pos[i] = demo.ball_pos[i] < 0 ? -(1 << 30) : 1 << 30; }
+static void nothing_at_all(gn_scene *s) { s->n_objects = s->n_lights = 0, s->objects = NULL, s->lights = NULL; }
+static void two_sided(gn_scene *s) { (void)s; for (int i = 0; i < DEMO_OBJECTS; i++) demo.object[i].flags |= GN_OBJECT_TWO_SIDED; }
+static void all_flags(gn_scene *s) { (void)s; for (int i = 0; i < DEMO_OBJECTS; i++) demo.object[i].flags = UINT32_MAX << i; }
+
+/* A quad and a needle that reach the edge of what a vertex may be. */
+static void huge_triangles(gn_scene *s)
+{
+    static const int32_t pos[12] = {-(1 << 30), 0, -(1 << 30), -(1 << 30), 0, 1 << 30, 1 << 30, 1, 1 << 30, 1 << 30, 0, -(1 << 30)};
+    (void)s;
+    demo.ground.pos = pos;
+    demo.ground.pos_frac_bits = 17;
+}
+
+static const struct {
+    void (*set)(gn_scene *);
+    const char *name;
+} extreme[] = {
+#define EXTREME(set) {set, #set}
+    EXTREME(limit_focal_low), EXTREME(limit_focal_high), EXTREME(limit_near_low), EXTREME(limit_near_high),
+    EXTREME(near_through_ball), EXTREME(near_through_all), EXTREME(shadow_next_to_near), EXTREME(shadow_all_the_way),
+    EXTREME(fades_small), EXTREME(fades_full), EXTREME(camera_in_ball), EXTREME(camera_in_box), EXTREME(camera_on_ground),
+    EXTREME(camera_up), EXTREME(camera_down), EXTREME(camera_nowhere), EXTREME(everything_far_out), EXTREME(opposite_corners),
+    EXTREME(exp_14), EXTREME(scale_tiny), EXTREME(scale_huge), EXTREME(scale_one_axis), EXTREME(scale_mirrored),
+    EXTREME(matrix_full), EXTREME(light_up), EXTREME(light_down), EXTREME(light_along_ground), EXTREME(light_diagonal),
+    EXTREME(light_grazing), EXTREME(light_bright), EXTREME(light_black), EXTREME(biases_full), EXTREME(offset_full_tiny_tile),
+    EXTREME(all_lights), EXTREME(triangles_degenerate), EXTREME(vertices_equal), EXTREME(normals_zero),
+    EXTREME(normals_opposite), EXTREME(positions_at_limit), EXTREME(nothing_at_all), EXTREME(two_sided), EXTREME(all_flags),
+    EXTREME(huge_triangles),
+};
+
+static void set_preset_knobs(gn_knobs *k, int preset)
+{
+#define PRESET_(name, MACRO, lo, hi, meaning, cost) {static const int32_t v[3] = {GN_PRESETS_##MACRO}; k->name = v[preset];}
+    GN_QUALITY_KNOBS(PRESET_)
+}
+
+static void test_extremes(void)
+{
+    for (size_t i = 0; i < sizeof extreme / sizeof *extreme; i++) {
+        for (int k = 0; k < 15; k++) { /* presets x filters */
+            gn_picture p = picture_of(96, 64, GN_FORMAT_RGB888);
+            canvas c;
+            canvas_begin(&c, 96, 64, p.format);
+            demo_scene_make(&demo, 0);
+            demo.scene.shadow.filter = (gn_filter)(k % 5);
+            extreme[i].set(&demo.scene);
+            gn_init(&one, &p);
+            set_preset_knobs(&one.frame.knobs, k / 5);
+            gn_status status = gn_render(&one, &demo.scene, flush, &c);
+            if (!CHECK(status == GN_OK)) printf("%s: %s\n", extreme[i].name, gn_status_text(status));
+            CHECK(each_pixel_once(&c));
+            canvas_end(&c);
+        }
+    }
+}
+
+/* ---- Random scenes ------------------------------------------------------------------------------------------------ */
+
+static uint64_t random_state = 1;
+
+static uint32_t rnd(void)
+{
+    random_state = random_state * 6364136223846793005U + 1442695040888963407U;
+    uint32_t x = (uint32_t)(random_state >> 32);
+    return x ^ (x >> 15) ^ (uint32_t)random_state;
+}
+
+static int one_in(uint32_t n)
+{
+    return rnd() % n == 0;
+}
+
+/* lo..hi: any size of number is as likely as another, and so are the ends. */
+static int32_t pick(int32_t lo, int32_t hi)
+{
+    if (one_in(8)) return one_in(2) ? lo : hi;
+    int64_t range = (int64_t)hi - lo, v = (int64_t)((uint64_t)rnd() * (uint64_t)(range + 1) >> 32);
+    if (one_in(3)) v >>= rnd() % 32;
+    if (lo < 0 && one_in(2)) return (int32_t)(one_in(2) ? v % ((int64_t)hi + 1) : -(v % (-(int64_t)lo + 1)));
+    return (int32_t)(lo + v);
+}
+
+enum { GARBAGE_VERTICES = 9, GARBAGE_TRIANGLES = 14, GARBAGE_OBJECTS = 4 };
+
+typedef struct {
+    int32_t pos[GARBAGE_VERTICES * 3];
+    int16_t nrm[GARBAGE_VERTICES * 3];
+    uint16_t rgb[GARBAGE_VERTICES * 3], idx[GARBAGE_TRIANGLES * 3];
+    gn_mesh mesh;
+    gn_object object[GARBAGE_OBJECTS];
+    gn_light light[GN_MAX_LIGHTS];
+    gn_scene scene;
+} garbage;
+
+static void random_bytes(void *out, size_t n)
+{
+    for (uint8_t *p = out; n > 0; n--) *p++ = (uint8_t)rnd();
+}
+
+/* Spoils some 32-bit words of an object at random. */
+static void spoil_words(void *object, size_t n_bytes, size_t first_byte)
+{
+    do {
+        size_t at = first_byte + rnd() % ((n_bytes - first_byte) / 4) * 4;
+        random_bytes((char *)object + at, 4);
+    } while (one_in(2));
+}
+
+static void random_mesh(garbage *g)
+{
+    int32_t bits = pick(one_in(10) ? 0 : 16, one_in(50) ? 255 : 30), log2_size = bits + pick(-4, 6); /* a few units mostly */
+    int32_t size = 1 << (one_in(8) ? rnd() % 31 : (uint32_t)(log2_size < 0 ? 0 : log2_size > 30 ? 30 : log2_size));
+    for (int i = 0; i < GARBAGE_VERTICES * 3; i++) {
+        g->pos[i] = pick(-size, size);
+        g->nrm[i] = (int16_t)pick(INT16_MIN, INT16_MAX);
+        g->rgb[i] = (uint16_t)pick(0, 65535);
+    }
+    for (int i = 0; i < GARBAGE_TRIANGLES * 3; i++) g->idx[i] = (uint16_t)(rnd() % GARBAGE_VERTICES);
+    if (one_in(100)) g->idx[rnd() % (GARBAGE_TRIANGLES * 3)] = (uint16_t)rnd();
+    if (one_in(50)) g->pos[rnd() % (GARBAGE_VERTICES * 3)] = (int32_t)rnd();
+    gn_mesh mesh = {.pos = g->pos, .nrm_q15 = one_in(2) ? g->nrm : NULL, .rgb_uq16 = one_in(2) ? g->rgb : NULL, .idx = g->idx,
+                    .n_vertices = GARBAGE_VERTICES, .n_triangles = GARBAGE_TRIANGLES};
+    mesh.pos_frac_bits = (uint8_t)bits;
+    g->mesh = mesh;
+}
+
+static void random_objects(garbage *g, const gn_affine *camera)
+{
+    for (int i = 0; i < GARBAGE_OBJECTS; i++) {
+        gn_object *o = &g->object[i];
+        gn_affine_rotation(&o->to_world, (uint16_t)rnd(), (uint16_t)rnd(), (uint16_t)rnd());
+        if (one_in(4)) gn_affine_scale(&o->to_world, pick(1, one_in(4) ? (8192 << 16) - 1 : 4 << 16));
+        if (one_in(8))
+            for (int k = 0; k < 9; k++) o->to_world.m_q30[k / 3][k % 3] = pick(-(1 << 30), 1 << 30);
+        if (one_in(8)) o->to_world.exp = pick(0, 14);
+        int64_t ahead_q16 = pick(0, 20 << 16);
+        for (int k = 0; k < 3; k++) {
+            int64_t near_camera = camera->t_q16[k] - ahead_q16 * camera->m_q30[k][2] / (1 << 30) + pick(-(2 << 16), 2 << 16);
+            o->to_world.t_q16[k] = one_in(8) || near_camera > 8192 << 16 || near_camera < -(8192 << 16)
+                                       ? pick(-(8192 << 16), 8192 << 16)
+                                       : (int32_t)near_camera;
+            o->albedo_uq16[k] = (uint32_t)pick(0, 65536);
+        }
+        o->flags = rnd();
+        if (one_in(100)) spoil_words(o, sizeof *o, offsetof(gn_object, to_world));
+        o->mesh = &g->mesh;
+    }
+}
+
+static void random_lights(garbage *g)
+{
+    for (int i = 0; i < GN_MAX_LIGHTS; i++) {
+        gn_light *l = &g->light[i];
+        l->kind = GN_LIGHT_DIRECTIONAL;
+        for (int k = 0; k < 3; k++) {
+            l->direction[k] = pick(INT32_MIN, INT32_MAX);
+            l->colour_uq16[k] = (uint32_t)pick(0, 0xFFFFFF);
+        }
+        l->shadow_strength_uq16 = (uint32_t)pick(0, 65536);
+        l->bias_constant_q16 = pick(0, 64 << 16);
+        l->bias_slope_q16 = pick(0, 64 << 16);
+        l->bias_normal_q16 = pick(0, 8 << 16);
+        l->near_offset_q16 = pick(0, 8192 << 16);
+        if (one_in(200)) spoil_words(l, sizeof *l, 0);
+    }
+}
+
+static void random_scene(garbage *g)
+{
+    gn_scene *s = &g->scene;
+    gn_camera *camera = &s->camera;
+    gn_affine_rotation(&camera->to_world, (uint16_t)rnd(), (uint16_t)rnd(), (uint16_t)rnd());
+    for (int k = 0; k < 3; k++) {
+        camera->to_world.t_q16[k] = pick(-(8192 << 16), 8192 << 16);
+        s->ambient_uq16[k] = (uint32_t)pick(0, 0xFFFFFF);
+        s->background_uq16[k] = (uint32_t)pick(0, 65536);
+    }
+    camera->focal_q24 = (uint32_t)pick(1 << 19, one_in(4) ? INT32_MAX : 1 << 26) << one_in(8);
+    camera->near_q16 = pick(256, one_in(8) ? 8192 << 16 : 1 << 16);
+    camera->far_q16 = one_in(50) ? (int32_t)rnd() : INT32_MAX;
+    s->n_objects = rnd() % (GARBAGE_OBJECTS + 1);
+    s->n_lights = rnd() % (GN_MAX_LIGHTS + 1);
+    s->shadow.max_distance_q16 = pick(camera->near_q16 < 8192 << 16 ? camera->near_q16 + 1 : 0, 8192 << 16);
+    s->shadow.distance_fade_uq16 = (uint32_t)pick(66, 65536);
+    s->shadow.cascade_fade_uq16 = (uint32_t)pick(66, 65536);
+    s->shadow.filter = (gn_filter)(rnd() % 5);
+    if (one_in(50)) spoil_words(s, sizeof *s, offsetof(gn_scene, camera));
+    if (one_in(50)) random_bytes(camera, sizeof *camera);
+    s->objects = g->object;
+    s->lights = g->light;
+    random_mesh(g);
+    random_objects(g, &camera->to_world);
+    random_lights(g);
+}
+
+static void random_knobs(gn_knobs *k)
+{
+    static const int32_t persp_steps[] = {1, 4, 8, 16};
+    k->subpixel_bits = 2 + (int32_t)(rnd() % 7);
+    k->persp_step = persp_steps[rnd() % 4];
+    k->newton_steps = 1 + (int32_t)(rnd() % 2);
+    k->shadow_subpixel_bits = 4 + (int32_t)(rnd() % 9);
+    k->shadow_depth_frac = (int32_t)(rnd() % 5);
+    k->weight_bits = 4 + (int32_t)(rnd() % 9);
+    k->atten_bits = one_in(2) ? 8 : 16;
+    k->atlas_size = 16 << rnd() % 4;
+    k->tile_width = 8 + 4 * (int32_t)(rnd() % 16);
+    k->tile_height = 1 + (int32_t)(rnd() % 40);
+    k->srgb = one_in(2);
+    if (one_in(100)) spoil_words(k, sizeof *k, 0);
+}
+
+static void test_random_scenes(long n_scenes)
+{
+    static garbage g;
+    static long count[GN_STATUS_COUNT];
+    canvas c;
+    canvas_begin(&c, 48, 32, GN_FORMAT_RAW32);
+    long wrong = 0, drawn = 0;
+    for (long i = 0; i < n_scenes; i++) {
+        if (i % 256 == 0) { /* a format or a raw view */
+            int kind = (int)(i / 256 % 6);
+            gn_picture p = picture_of(48, 32, kind < 2 ? (gn_format)kind : GN_FORMAT_RAW32);
+            p.view = kind < 2 ? GN_VIEW_COLOUR : (gn_view)(kind - 1);
+            p.view_light = (uint8_t)rnd();
+            CHECK(gn_init(&one, &p) == GN_OK);
+            c.pixel_bytes = p.format == GN_FORMAT_RGB565 ? 2 : p.format == GN_FORMAT_RGB888 ? 3 : 4;
+        }
+        random_knobs(&one.frame.knobs);
+        random_scene(&g);
+        memset(c.times, 0, 48 * 32);
+        c.n_calls = 0;
+        gn_status status = gn_render(&one, &g.scene, flush, &c);
+        if ((int)status < 0 || status >= GN_STATUS_COUNT) wrong++;
+        else count[status]++;
+        if (status == GN_OK ? !each_pixel_once(&c) : c.n_calls != 0) wrong++;
+        drawn += status == GN_OK && gn_get_stats(&one)->n_triangles && gn_get_stats(&one)->n_caster_triangles;
+    }
+    CHECK_EQ_INT(wrong, 0);
+    CHECK(drawn > n_scenes / 4); /* enough of them are drawn with shadows, and many kinds of refusal occur */
+    int kinds = 0;
+    for (int i = 1; i < GN_STATUS_COUNT; i++) kinds += count[i] > 0;
+    CHECK(kinds >= 9);
+    if (getenv("VERBOSE")) printf("%ld drawn\n", drawn);
+    if (getenv("VERBOSE"))
+        for (int i = 0; i < GN_STATUS_COUNT; i++) printf("%7ld %s\n", count[i], gn_status_text((gn_status)i));
+    canvas_end(&c);
+}
+
+int main(void)
+{
+    test_refused_scenes();
+    test_refused_pictures();
+    test_tile_refs_full();
+    test_knobs();
+    test_nulls();
+    test_order();
+    test_status_texts();
+    test_same_again();
+    test_two_renderers();
+    test_tile_order();
+    test_shadow_tile_order();
+    test_tile_sizes();
+    test_picture_sizes();
+    test_extremes();
+    test_random_scenes(getenv("SOAK") ? 2000000 : 20000);
+    return check_report();
+}
