@@ -65,7 +65,7 @@ $(BUILD)/gen_tables: host/tool/gen_tables.c
 	@mkdir -p $(@D)
 	$(CC) $(HOST_CFLAGS) -o $@ $< -lm
 
-$(BUILD)/make_scenes: $(BUILD)/obj/host/scenes/make_scenes.o $(SCENE_OBJ) $(HOST_OBJ)
+$(BUILD)/make_scenes: $(BUILD)/obj/host/scenes/make_scenes.o $(SCENE_OBJ)
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
 

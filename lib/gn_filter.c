@@ -25,6 +25,21 @@ static const uint16_t *row_at(const receiver *r, int32_t v)
     return r->view->depth + ((size_t)(uint32_t)v << r->view->tile_log2);
 }
 
+/* Whether the bounds of the texels from (u, v) on answer for all of them. */
+static int decided(const receiver *r, int32_t u, int32_t v, uint32_t *answer)
+{
+#if GN_DEPTH_BLOCKS
+    const gn_depth_block *bounds = gn_blocks_at(r->view, u, v);
+    *answer = 65536;
+    if (r->depth <= (int32_t)((uint32_t)bounds->lo << r->depth_frac)) return 1;
+    *answer = 0;
+    return r->depth > (int32_t)((uint32_t)bounds->hi << r->depth_frac);
+#else
+    (void)r, (void)u, (void)v, (void)answer;
+    return 0;
+#endif
+}
+
 /* round to weight_bits; F itself is allowed: the weights are continuous there */
 static uint32_t fraction(int32_t c_q16, int32_t weight_bits)
 {
@@ -37,6 +52,8 @@ static uint32_t bilinear(const receiver *r, int32_t u_q16, int32_t v_q16, int32_
     int32_t cu = u_q16 + 32768, cv = v_q16 + 32768;
     int32_t u = (cu >> 16) - 1, v = (cv >> 16) - 1;
     uint32_t wu = fraction(cu, bits), wv = fraction(cv, bits), one = 1U << bits;
+    uint32_t answer;
+    if (decided(r, u, v, &answer)) return answer;
     const uint16_t *top = row_at(r, v), *bottom = row_at(r, v + 1);
     uint32_t upper = (one - wu) * lit(r, top, u) + wu * lit(r, top, u + 1);
     uint32_t lower = (one - wu) * lit(r, bottom, u) + wu * lit(r, bottom, u + 1);
@@ -65,11 +82,8 @@ static uint32_t tent(const receiver *r, int32_t k, int32_t u_q16, int32_t v_q16,
     uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
     int32_t cu = u_q16 + 32768, cv = v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
-#if GN_DEPTH_BLOCKS
-    const gn_depth_block *bounds = gn_blocks_at(r->view, u0, v0);
-    if (r->depth <= (int32_t)((uint32_t)bounds->lo << r->depth_frac)) return 65536;
-    if (r->depth > (int32_t)((uint32_t)bounds->hi << r->depth_frac)) return 0;
-#endif
+    uint32_t answer;
+    if (decided(r, u0, v0, &answer)) return answer;
     gn_tent_weights(wu, k, fraction(cu, bits), bits);
     gn_tent_weights(wv, k, fraction(cv, bits), bits);
     uint64_t sum = 0; /* <= (2k + 1)^4 F^4 <= 2401 * 2^48 */
@@ -88,14 +102,23 @@ static uint32_t tent(const receiver *r, int32_t k, int32_t u_q16, int32_t v_q16,
 }
 #endif
 
+/* Texels, Q16, to depth steps of T * 2^J / 65536 texels with depth_frac fraction bits, limited to the far end. */
+static int32_t receiver_depth(const gn_light_view *view, int32_t d_q16, int32_t depth_frac)
+{
+    int32_t shift = view->tile_log2 + view->depth_log2 - depth_frac; /* -1 .. 20 */
+    if (d_q16 <= 0) return 0; /* nothing is stored nearer than 0 */
+    int32_t far = 65535 << depth_frac;
+    if (shift <= 0) return d_q16 > far >> -shift ? far : d_q16 << -shift;
+    return gn_min32((int32_t)(((uint32_t)d_q16 + ((1U << shift) >> 1)) >> shift), far);
+}
+
 uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, int32_t u_q16, int32_t v_q16, int32_t d_q16)
 {
     receiver r = {view, 0, GN_K(frame, shadow_depth_frac)};
     /* coordinates may lie far outside after a steep offset: the border's answer holds there */
-    u_q16 = (int32_t)gn_clamp64(u_q16, -(64 << 16), (1088 << 16));
-    v_q16 = (int32_t)gn_clamp64(v_q16, -(64 << 16), (1088 << 16));
-    int32_t to_steps = view->tile_log2 + view->depth_log2 - r.depth_frac;
-    r.depth = (int32_t)gn_clamp64(gn_scale64(d_q16, to_steps), -1, (int64_t)65535 << r.depth_frac);
+    u_q16 = gn_max32(-(64 << 16), gn_min32(u_q16, 1088 << 16));
+    v_q16 = gn_max32(-(64 << 16), gn_min32(v_q16, 1088 << 16));
+    r.depth = receiver_depth(view, d_q16, r.depth_frac);
     int32_t bits = GN_K(frame, weight_bits);
     uint32_t attenuation;
     switch (view->filter) {

@@ -26,6 +26,7 @@ uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const
     uint32_t strength = gn_mul_uq16(view->strength_uq16, distance_fade(frame, sample->value[GN_VALUE_Z]));
     if (!strength) return 65536;
     uint32_t attenuation = gn_filter_attenuation(frame, view, value[1], value[2], value[3]);
+    if (attenuation == 65536) return 65536;
     return 65536 - gn_mul_uq16(strength, 65536 - attenuation); /* M4 */
 #else
     (void)frame;
@@ -36,20 +37,20 @@ uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const
 
 void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t radiance_q20[3])
 {
-    uint64_t light_q20[3]; /* <= 8 * 2^28 + 2^28 */
-    int unlit = (surface->object->flags & GN_OBJECT_UNLIT) != 0;
-    for (int c = 0; c < 3; c++) light_q20[c] = unlit ? 1U << 20 : (uint64_t)frame->scene->ambient_uq16[c] << 4;
-    for (uint32_t l = 0; !unlit && l < frame->scene->n_lights; l++) {
+    uint64_t sum[3] = {surface->base_q20[0], surface->base_q20[1], surface->base_q20[2]}; /* <= 9 * 2^28 */
+    uint32_t n_lights = surface->object->flags & GN_OBJECT_UNLIT ? 0 : frame->scene->n_lights;
+    for (uint32_t l = 0; l < n_lights; l++) {
         uint32_t shadow = gn_light_shadow(frame, surface, sample, l);
         if (!shadow) continue;
-        int32_t cosine_q24 = sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l];
-        uint64_t diffuse_q24 = gn_mul_uq16((uint32_t)cosine_q24, shadow);
-        for (int c = 0; c < 3; c++) /* 2^24 * 2^24 */
-            light_q20[c] += (frame->light[l].colour_uq16[c] * diffuse_q24 + (1U << 19)) >> 20;
+        uint32_t diffuse_q24 = (uint32_t)sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l];
+        if (shadow != 65536) diffuse_q24 = gn_mul_uq16(diffuse_q24, shadow);
+        const uint32_t *light = surface->light_uq16[l];
+        sum[0] += ((uint64_t)light[0] * diffuse_q24 + (1U << 19)) >> 20; /* 2^24 * 2^24 */
+        sum[1] += ((uint64_t)light[1] * diffuse_q24 + (1U << 19)) >> 20;
+        sum[2] += ((uint64_t)light[2] * diffuse_q24 + (1U << 19)) >> 20;
     }
     for (int c = 0; c < 3; c++) {
-        uint64_t r = (light_q20[c] * surface->object->albedo_uq16[c] + 0x8000U) >> 16;
-        if (surface->coloured) r = (r * (uint32_t)gn_max32(sample->value[GN_VALUE_RGB + c], 0) + 0x8000U) >> 16;
-        radiance_q20[c] = r > UINT32_MAX ? UINT32_MAX : (uint32_t)r;
+        if (surface->coloured) sum[c] = (sum[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_RGB + c], 0) + 0x8000U) >> 16;
+        radiance_q20[c] = sum[c] > UINT32_MAX ? UINT32_MAX : (uint32_t)sum[c];
     }
 }

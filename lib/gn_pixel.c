@@ -23,17 +23,28 @@ static uint32_t quantise(uint32_t v, uint32_t levels)
     return (v * levels + 32767U) / 65535U;
 }
 
-void gn_pixel_store(const gn_frame *frame, uint32_t *buffer, int32_t i, const uint32_t linear_q20[3])
+uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
 {
     uint32_t v[3];
     for (int c = 0; c < 3; c++) {
         if (GN_K(frame, srgb)) v[c] = gn_srgb_encode(linear_q20[c]);
         else v[c] = (uint32_t)(((uint64_t)(linear_q20[c] < GN_ONE_Q20 ? linear_q20[c] : GN_ONE_Q20) * 65535U + (1U << 19)) >> 20);
     }
+    if (frame->picture.format == GN_FORMAT_RGB565) return quantise(v[0], 31) << 11 | quantise(v[1], 63) << 5 | quantise(v[2], 31);
+    return quantise(v[0], 255) | quantise(v[1], 255) << 8 | quantise(v[2], 255) << 16;
+}
+
+void gn_pixel_fill(const gn_frame *frame, uint32_t *buffer, int32_t i, int32_t n, uint32_t packed)
+{
     if (frame->picture.format == GN_FORMAT_RGB565) {
-        ((uint16_t *)buffer)[i] = (uint16_t)(quantise(v[0], 31) << 11 | quantise(v[1], 63) << 5 | quantise(v[2], 31));
-    } else {
-        uint8_t *out = (uint8_t *)buffer + 3 * (size_t)(uint32_t)i;
-        for (int c = 0; c < 3; c++) out[c] = (uint8_t)quantise(v[c], 255);
+        uint16_t *out = (uint16_t *)buffer + i;
+        while (n-- > 0) *out++ = (uint16_t)packed;
+        return;
+    }
+    uint8_t *out = (uint8_t *)buffer + 3 * (size_t)(uint32_t)i;
+    while (n-- > 0) {
+        *out++ = (uint8_t)packed;
+        *out++ = (uint8_t)(packed >> 8);
+        *out++ = (uint8_t)(packed >> 16);
     }
 }

@@ -137,12 +137,14 @@ static void emit(gn_frame *frame, const depth_setup *depth, const int32_t x[3], 
 static void setup_triangle(gn_frame *frame, const int32_t *const v[3], uint32_t object_idx, uint32_t triangle_idx)
 {
     const gn_cam *cam = &frame->cam;
-    uint32_t all = ~0U, any_guard = 0;
+    uint32_t all = ~0U, any = 0, any_guard = 0;
     for (int i = 0; i < 3; i++) {
-        all &= gn_outcode(v[i], cam->near_q16, cam->tan_q16);
-        any_guard |= gn_outcode(v[i], cam->near_q16, cam->guard_q16);
+        uint32_t out = gn_outcode(v[i], cam->near_q16, cam->tan_q16);
+        all &= out;
+        any |= out;
     }
     if (all) return;
+    for (int i = 0; any && i < 3; i++) any_guard |= gn_outcode(v[i], cam->near_q16, cam->guard_q16);
     gn_polygon polygon = {.n = 3};
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) polygon.v_q16[i][k] = v[i][k];

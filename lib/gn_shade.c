@@ -12,6 +12,8 @@ typedef struct {
     gn_surface_cache cache;
     gn_surface surface;
     const gn_tri *tri;
+    uint32_t last_q20[3]; /* the last radiance and its pixel: neighbours are often equal */
+    uint32_t last_pixel;
 } shading;
 
 #if GN_RAW_VIEWS
@@ -44,9 +46,26 @@ static uint32_t raw_value(const shading *s, const gn_sample *sample, int32_t x, 
 }
 #endif
 
-static void shade_pixel(const shading *s, const gn_sample *sample, int32_t x, int32_t y)
+static uint32_t pack(shading *s, const uint32_t q20[3])
 {
-    int32_t i = (y - s->rect.y0) * (s->rect.x1 - s->rect.x0) + x - s->rect.x0;
+    uint32_t *last = s->last_q20;
+    if (q20[0] != last[0] || q20[1] != last[1] || q20[2] != last[2]) {
+        last[0] = q20[0];
+        last[1] = q20[1];
+        last[2] = q20[2];
+        s->last_pixel = gn_pixel_pack(s->frame, q20);
+    }
+    return s->last_pixel;
+}
+
+static int32_t pixel_idx(const shading *s, int32_t x, int32_t y)
+{
+    return (y - s->rect.y0) * (s->rect.x1 - s->rect.x0) + x - s->rect.x0;
+}
+
+static void shade_pixel(shading *s, const gn_sample *sample, int32_t x, int32_t y)
+{
+    int32_t i = pixel_idx(s, x, y);
 #if GN_RAW_VIEWS
     if (s->frame->picture.format == GN_FORMAT_RAW32) {
         s->scratch->pixel[i] = raw_value(s, sample, x, y);
@@ -55,7 +74,7 @@ static void shade_pixel(const shading *s, const gn_sample *sample, int32_t x, in
 #endif
     uint32_t radiance_q20[3];
     gn_light_radiance(s->frame, &s->surface, sample, radiance_q20);
-    gn_pixel_store(s->frame, s->scratch->pixel, i, radiance_q20);
+    gn_pixel_fill(s->frame, s->scratch->pixel, i, 1, pack(s, radiance_q20));
 }
 
 /* Steps per pixel from sample a to sample b, `n` pixels apart; the differences of a chunk fit 32 bits by saturation. */
@@ -66,26 +85,39 @@ static void step_between(gn_sample *step, const gn_sample *a, const gn_sample *b
 
 /* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at every persp_step-th pixel and at both ends of the
  * run, linear between: 1/w is never extrapolated past the triangle. */
-static void shade_run(const shading *s, int32_t y, int32_t x_begin, int32_t x_end)
+static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     int32_t step_px = GN_K(s->frame, persp_step), n_values = s->surface.n_values;
-    gn_sample here, next, step;
-    gn_surface_sample(s->frame, &s->surface, x_begin, y, &here);
-    shade_pixel(s, &here, x_begin, y);
+    gn_sample samples[2], step, *here = &samples[0], *next = &samples[1];
+    gn_surface_sample(s->frame, &s->surface, x_begin, y, here);
+    shade_pixel(s, here, x_begin, y);
     for (int32_t x = x_begin; x < x_end - 1;) {
         int32_t n = gn_min32(step_px, x_end - 1 - x);
-        gn_surface_sample(s->frame, &s->surface, x + n, y, &next);
+        gn_surface_sample(s->frame, &s->surface, x + n, y, next);
         if (n > 1) {
-            step_between(&step, &here, &next, n_values, n);
+            step_between(&step, here, next, n_values, n);
             for (int32_t k = 1; k < n; k++) {
-                for (int32_t i = 0; i < n_values; i++) here.value[i] += step.value[i];
-                shade_pixel(s, &here, x + k, y);
+                for (int32_t i = 0; i < n_values; i++) here->value[i] += step.value[i];
+                shade_pixel(s, here, x + k, y);
             }
         }
+        gn_sample *swap = here;
         here = next;
+        next = swap;
         x += n;
-        shade_pixel(s, &here, x, y);
+        shade_pixel(s, here, x, y);
     }
+}
+
+/* A run of a surface that looks the same all over. */
+static void fill_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
+{
+    gn_sample sample;
+    uint32_t radiance_q20[3];
+    for (uint32_t l = 0; l < s->frame->scene->n_lights; l++)
+        sample.value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l] = s->surface.flat_cosine_q24[l];
+    gn_light_radiance(s->frame, &s->surface, &sample, radiance_q20);
+    gn_pixel_fill(s->frame, s->scratch->pixel, pixel_idx(s, x_begin, y), x_end - x_begin, pack(s, radiance_q20));
 }
 
 static void shade_triangle(shading *s, uint32_t tri_idx)
@@ -109,28 +141,28 @@ static void shade_triangle(shading *s, uint32_t tri_idx)
             int32_t run_end = x + 1;
             while (run_end < xb && (cell[run_end] & id_mask) == id) run_end++;
             if (!begun++) gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
-            shade_run(s, y, x, run_end);
+            if (gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32) fill_run(s, y, x, run_end);
+            else shade_run(s, y, x, run_end);
             x = run_end;
         }
     }
 }
 
-static void clear_background(const shading *s)
+static void clear_background(shading *s)
 {
     const gn_frame *frame = s->frame;
     int32_t n = (s->rect.x1 - s->rect.x0) * (s->rect.y1 - s->rect.y0);
     uint32_t background_q20[3];
     for (int c = 0; c < 3; c++) background_q20[c] = frame->scene->background_uq16[c] << 4;
-    for (int32_t i = 0; i < n; i++) {
-        if (s->scratch->cell[i]) continue;
+    uint32_t pixel = s->last_pixel = gn_pixel_pack(frame, background_q20);
+    for (int c = 0; c < 3; c++) s->last_q20[c] = background_q20[c];
 #if GN_RAW_VIEWS
-        if (frame->picture.format == GN_FORMAT_RAW32) {
-            s->scratch->pixel[i] = UINT32_MAX;
-            continue;
-        }
-#endif
-        gn_pixel_store(frame, s->scratch->pixel, i, background_q20);
+    if (frame->picture.format == GN_FORMAT_RAW32) {
+        for (int32_t i = 0; i < n; i++) s->scratch->pixel[i] = UINT32_MAX;
+        return;
     }
+#endif
+    gn_pixel_fill(frame, s->scratch->pixel, 0, n, pixel);
 }
 
 void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)

@@ -42,8 +42,10 @@ static void face_normal(const gn_frame *frame, const gn_surface *s, int32_t out_
 static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
-    for (int k = 1; k < 3; k++)
+    for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++) s->normal_q30[k][i] = 0;
+    s->smooth = 0;
+    if (s->object->flags & GN_OBJECT_UNLIT && !GN_RAW_VIEWS) return;
     s->smooth = GN_VERTEX_NORMALS && mesh->nrm_q15;
     if (!s->smooth) {
         face_normal(frame, s, s->normal_q30[0]);
@@ -87,27 +89,6 @@ static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_
     cache->object = object;
     gn_xform_compose(&cache->to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
     if (GN_VERTEX_NORMALS && object->mesh->nrm_q15) gn_xform_normal_matrix(cache->normal_matrix, object);
-}
-
-void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s, const gn_tri *tri)
-{
-    s->object = &frame->scene->objects[tri->object_idx];
-    use_object(frame, cache, s->object);
-    const gn_mesh *mesh = s->object->mesh;
-    const uint16_t *idx = mesh->idx + 3 * (size_t)tri->triangle_idx;
-    int32_t v[3][3];
-    for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &cache->to_view, mesh, tri->object_idx, idx[i]);
-    gn_plane_setup(&s->plane, v[0], v[1], v[2]);
-    s->z_min_q16 = gn_max32(gn_min32(v[0][2], gn_min32(v[1][2], v[2][2])), frame->cam.near_q16);
-    s->z_max_q16 = gn_max32(v[0][2], gn_max32(v[1][2], v[2][2]));
-    if (s->plane.det > 0)
-        s->depth_scale = gn_bf_mul(gn_bf_from_u64((uint64_t)s->plane.det), gn_bf_from_u64(frame->cam.focal2_px_q16));
-    normals(frame, cache, s, idx);
-    colours(s, idx);
-    s->has_bary = s->smooth || s->coloured;
-    if (s->has_bary) barycentric_planes(s, v);
-    s->n_values = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * (int32_t)frame->scene->n_lights;
-    if (s->object->flags & GN_OBJECT_UNLIT) s->n_values = GN_VALUE_LIGHT;
 }
 
 typedef struct {
@@ -157,22 +138,8 @@ static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
     }
 }
 
-#if GN_SHADOWS
-/* Tile coordinates of the surface point, moved along the normal (B2). */
-static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16, const int32_t n_q30[3], int32_t *out)
-{
-    for (int i = 0; i < 3; i++) {
-        const gn_ray_plane *ray = &view->ray[i];
-        int64_t a = ray->a0 + (int64_t)ray->ax * px + (int64_t)ray->ay * py; /* < 2^31 by the choice of ray_shift */
-        int64_t c = gn_shr64(z_q16 * a, view->ray_shift) + ray->d_q16;
-        int64_t along_q30 = gn_shr64(gn_dot64(n_q30, view->axis_q30[i]), 30); /* |n| <= 1 */
-        out[i] = gn_sat32(c + gn_shr64(along_q30 * view->offset_q16, 30));
-    }
-}
-#endif
-
-/* n . L of the renormalised normal, Q24 */
-static void light_cosines(const gn_frame *frame, const int32_t n_q30[3], gn_sample *sample)
+/* n . L per light of the renormalised normal, Q24 */
+static void light_cosines(const gn_frame *frame, const int32_t n_q30[3], int32_t *cosine_q24, int32_t stride)
 {
     uint64_t nn = (uint64_t)gn_dot64(n_q30, n_q30); /* Q60, at most 1 + rounding */
     int32_t shift = nn ? gn_clz64(nn) & ~1 : 0;
@@ -181,9 +148,45 @@ static void light_cosines(const gn_frame *frame, const int32_t n_q30[3], gn_samp
         /* dot / 2^30 / sqrt(nn), sqrt(nn) = 2^(63 - shift / 2) / root */
         int64_t dot_q30 = gn_shr64(gn_dot64(n_q30, frame->light[l].to_light_q30), 30);
         int64_t cosine = gn_scale64(dot_q30 * (int64_t)root, 63 - 24 - shift / 2);
-        sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l] = (int32_t)gn_clamp64(cosine, -(1 << 24), 1 << 24);
+        cosine_q24[(int32_t)l * stride] = (int32_t)gn_clamp64(cosine, -(1 << 24), 1 << 24);
     }
 }
+
+#if GN_SHADOWS
+/* How far the receiver is moved along its normal (B2), in texels of the light's axes, Q16 */
+static int64_t receiver_offset(const gn_light_view *view, int axis_idx, const int32_t n_q30[3])
+{
+    int64_t along_q30 = gn_shr64(gn_dot64(n_q30, view->axis_q30[axis_idx]), 30); /* |n| <= 1 */
+    return gn_shr64(along_q30 * view->offset_q16, 30);
+}
+
+/* Tile coordinates of the point at depth z on a pixel's ray; d_q16 holds the constant part. */
+static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16, const int64_t d_q16[3], int32_t *out)
+{
+    for (int i = 0; i < 3; i++) {
+        const gn_ray_plane *ray = &view->ray[i];
+        int64_t a = ray->a0 + (int64_t)ray->ax * px + (int64_t)ray->ay * py; /* < 2^31 by the choice of ray_shift */
+        out[i] = gn_sat32(gn_shr64(z_q16 * a, view->ray_shift) + d_q16[i]);
+    }
+}
+
+static void shadow_coords(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, const int32_t n_q30[3], gn_sample *sample)
+{
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l + 1];
+        out[0] = out[1] = out[2] = 0;
+        if (frame->light[l].view_idx < 0) continue;
+        const gn_light_view *view = &frame->view[frame->light[l].view_idx];
+        int64_t moved[3];
+        const int64_t *d = s->light_d_q16[l];
+        for (int i = 0; s->smooth && i < 3; i++) {
+            moved[i] = d[i] + receiver_offset(view, i, n_q30);
+            if (i == 2) d = moved;
+        }
+        light_coords(view, px, py, sample->value[GN_VALUE_Z], d, out);
+    }
+}
+#endif
 
 void gn_surface_sample(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
 {
@@ -196,14 +199,60 @@ void gn_surface_sample(const gn_frame *frame, const gn_surface *s, int32_t x, in
     if (s->object->flags & GN_OBJECT_UNLIT) return;
     int32_t n[3];
     normal_at(s, &h, n);
-    light_cosines(frame, n, sample);
-#if GN_SHADOWS
-    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
-        int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l + 1];
-        if (frame->light[l].view_idx < 0) out[0] = out[1] = out[2] = 0;
-        else light_coords(&frame->view[frame->light[l].view_idx], px, py, h.z_q16, n, out);
+    if (s->smooth) {
+        light_cosines(frame, n, &sample->value[GN_VALUE_LIGHT], GN_VALUES_PER_LIGHT);
+    } else {
+        for (uint32_t l = 0; l < frame->scene->n_lights; l++)
+            sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l] = s->flat_cosine_q24[l];
     }
+#if GN_SHADOWS
+    shadow_coords(frame, s, px, py, n, sample);
 #endif
+}
+
+/* Albedo times ambient and light colours; what shadows and a constant normal allow to know beforehand. */
+static void begin_lighting(const gn_frame *frame, gn_surface *s)
+{
+    const gn_scene *scene = frame->scene;
+    int unlit = (s->object->flags & GN_OBJECT_UNLIT) != 0;
+    const uint32_t *albedo = s->object->albedo_uq16;
+    for (int c = 0; c < 3; c++) /* 2^17 * 2^24 */
+        s->base_q20[c] = unlit ? albedo[c] << 4 : (uint32_t)(((uint64_t)albedo[c] * scene->ambient_uq16[c] + (1U << 11)) >> 12);
+    s->shadowed = 0;
+    s->n_values = GN_VALUE_LIGHT;
+    if (unlit) return;
+    s->n_values += GN_VALUES_PER_LIGHT * (int32_t)scene->n_lights;
+    if (!s->smooth) light_cosines(frame, s->normal_q30[0], s->flat_cosine_q24, 1);
+    for (uint32_t l = 0; l < scene->n_lights; l++) {
+        for (int c = 0; c < 3; c++) s->light_uq16[l][c] = gn_mul_uq16(frame->light[l].colour_uq16[c], albedo[c]);
+#if GN_SHADOWS
+        if (frame->light[l].view_idx < 0) continue;
+        const gn_light_view *view = &frame->view[frame->light[l].view_idx];
+        for (int i = 0; i < 3; i++)
+            s->light_d_q16[l][i] = view->ray[i].d_q16 + (s->smooth ? 0 : receiver_offset(view, i, s->normal_q30[0]));
+        s->shadowed |= (s->object->flags & GN_OBJECT_RECEIVES) && (s->smooth || s->flat_cosine_q24[l] > 0);
+#endif
+    }
+}
+
+void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s, const gn_tri *tri)
+{
+    s->object = &frame->scene->objects[tri->object_idx];
+    use_object(frame, cache, s->object);
+    const gn_mesh *mesh = s->object->mesh;
+    const uint16_t *idx = mesh->idx + 3 * (size_t)tri->triangle_idx;
+    int32_t v[3][3];
+    for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &cache->to_view, mesh, tri->object_idx, idx[i]);
+    gn_plane_setup(&s->plane, v[0], v[1], v[2]);
+    s->z_min_q16 = gn_max32(gn_min32(v[0][2], gn_min32(v[1][2], v[2][2])), frame->cam.near_q16);
+    s->z_max_q16 = gn_max32(v[0][2], gn_max32(v[1][2], v[2][2]));
+    if (s->plane.det > 0)
+        s->depth_scale = gn_bf_mul(gn_bf_from_u64((uint64_t)s->plane.det), gn_bf_from_u64(frame->cam.focal2_px_q16));
+    normals(frame, cache, s, idx);
+    colours(s, idx);
+    s->has_bary = s->smooth || s->coloured;
+    if (s->has_bary) barycentric_planes(s, v);
+    begin_lighting(frame, s);
 }
 
 void gn_surface_normal(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, int32_t normal_q30[3])

@@ -29,7 +29,16 @@ typedef struct {
     int32_t normal_q30[3][3];   /* vertex 0, then differences of vertices 1 and 2 to it; flat: the face normal and zeros */
     int32_t rgb_q16[3][3];      /* likewise for vertex colours */
     uint8_t has_bary, smooth, coloured;
+    uint8_t shadowed;           /* some light's shadow may fall on it */
     int32_t n_values;
+    /* albedo times ambient (Q20) and times each light's colour (Q16): radiance is their sum, weighted */
+    uint32_t base_q20[3];
+    uint32_t light_uq16[GN_MAX_LIGHTS][3];
+    /* where the normal is constant: n . L per light, and the receiver's offset folded into the light coordinates' constant */
+    int32_t flat_cosine_q24[GN_MAX_LIGHTS];
+#if GN_SHADOWS
+    int64_t light_d_q16[GN_MAX_LIGHTS][3];
+#endif
 } gn_surface;
 
 /* Keeps what neighbouring triangles of a screen tile share: the current object's transforms. */
@@ -40,6 +49,12 @@ typedef struct {
 } gn_surface_cache;
 
 void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface, const gn_tri *tri);
+
+/* 1: one radiance all over, no need to sample it. */
+static inline int gn_surface_is_constant(const gn_surface *surface)
+{
+    return !surface->smooth && !surface->coloured && !surface->shadowed;
+}
 
 /* Everything at the centre of pixel (x, y), exactly (R4): the perspective divide happens here. */
 void gn_surface_sample(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, gn_sample *sample);

@@ -133,7 +133,7 @@ static void add_trees(gltf_document *d)
     make_tree(&trunk, &crown);
     size_t mesh = gltf_add_mesh(d, "tree", (gltf_surface[]){ { &trunk, bark }, { &crown, leaves } }, 2);
     for (unsigned i = 0; i < 2 * N_TREES_PER_ROW; i++) {
-        double scale = 0.9 + 0.2 * scatter(i + 900), x = i % 2 ? row_x : -row_x, z = -tree_spacing * (i / 2);
+        double scale = 0.9 + 0.2 * scatter(i + 900), x = i % 2 ? row_x : -row_x, z = 0 - tree_spacing * (i / 2); /* not -0 */
         gltf_rotation q = gltf_turn((mesh_point){ 0, 1, 0 }, 360 * scatter(i + 700));
         gltf_add_node(d, i % 2 ? "right tree" : "left tree", "\"mesh\": %zu, \"translation\": [%g, %g, %g], \"rotation\": "
                       "[0, %.6g, 0, %.6g], \"scale\": [%.4g, %.4g, %.4g]", mesh, x, verge_height, z, q.y, q.w, scale, scale, scale);

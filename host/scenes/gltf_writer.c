@@ -79,7 +79,8 @@ static size_t add_view(gltf_document *d, size_t start, int target)
 }
 
 /* low, high: n_components values each, or NULL. */
-static size_t add_accessor(gltf_document *d, size_t view, int component, size_t count, const char *type, const float *low, const float *high)
+static size_t add_accessor(gltf_document *d, size_t view, int component, size_t count, const char *type, const float *low,
+                           const float *high)
 {
     gltf_list *list = &d->accessors;
     size_t idx = next_item(d, list), n = type[0] == 'S' ? 1 : 3;

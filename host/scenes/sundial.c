@@ -187,7 +187,8 @@ static void make_gnomon(mesh_builder *m)
     enum { N_CURVE = 6, N_OUTLINE = N_CURVE + 2 };
     const double sunk = 0.025, foot = SUNDIAL_STYLE_FOOT_NORTH, top = SUNDIAL_PLATE_TOP;
     const double north = cos(SUNDIAL_LATITUDE_DEG * RAD), up = sin(SUNDIAL_LATITUDE_DEG * RAD);
-    const plan base = { foot + 0.63, top - sunk }, hollow = { foot + 0.4, top + 0.22 }, tip = { foot + style_length * north, top + style_length * up };
+    const plan base = { foot + 0.63, top - sunk }, hollow = { foot + 0.4, top + 0.22 };
+    const plan tip = { foot + style_length * north, top + style_length * up };
     plan outline[N_OUTLINE + 1] = { { foot - sunk * north / up, top - sunk } }; /* counter-clockwise seen from the east */
     for (int i = 0; i <= N_CURVE; i++) outline[i + 1] = on_curve(base, hollow, tip, (double)i / N_CURVE);
     outline[N_OUTLINE] = outline[0];
@@ -239,7 +240,8 @@ static void make_paving(mesh_builder *m)
     mesh_begin(m, MESH_COLOURS);
     for (size_t ring = 0; ring < 3; ring++) {
         for (size_t k = 0; k < N_SLABS; k++) {
-            double shade = ring == 0 ? 0.8 : 0.84 + 0.02 * (double)((k * 5 + ring * 3 + k * k) % 9), warm = (k + ring) % 2 ? 0.02 : 0;
+            double shade = ring == 0 ? 0.8 : 0.84 + 0.02 * (double)((k * 5 + ring * 3 + k * k) % 9);
+            double warm = (k + ring) % 2 ? 0.02 : 0;
             mesh_profile low = profile[ring], high = profile[ring + 1];
             mesh_paint(m, shade, shade - warm / 2, shade - warm);
             mesh_quad(m, mesh_ring_point(low.r, low.y, k, N_SLABS), mesh_ring_point(high.r, high.y, k, N_SLABS),
@@ -252,7 +254,8 @@ static void make_lawn(mesh_builder *m)
 {
     const double half = 16;
     mesh_begin(m, MESH_FACE_NORMALS);
-    mesh_quad(m, (mesh_point){ -half, 0, -half }, (mesh_point){ -half, 0, half }, (mesh_point){ half, 0, half }, (mesh_point){ half, 0, -half });
+    mesh_quad(m, (mesh_point){ -half, 0, -half }, (mesh_point){ -half, 0, half }, (mesh_point){ half, 0, half },
+              (mesh_point){ half, 0, -half });
 }
 
 static void add_node_with_mesh(gltf_document *d, const char *name, const gltf_surface *surfaces, size_t n)
