@@ -20,5 +20,9 @@ GN_STATIC_ASSERT(atten_bits_not_8_or_16, GN_ATTEN_BITS == 8 || GN_ATTEN_BITS == 
 GN_STATIC_ASSERT(atlas_size_not_power_of_two, GN_IS_POWER_OF_TWO(GN_ATLAS_SIZE));
 GN_STATIC_ASSERT(vertex_cache_not_power_of_two, GN_IS_POWER_OF_TWO(GN_VERTEX_CACHE));
 GN_STATIC_ASSERT(tile_width_not_multiple_of_4, GN_TILE_WIDTH % 4 == 0);
+/* with 16-bit screen coordinates a guard band of at least 8 pixels must be left around the picture: gn_xform.c */
+GN_STATIC_ASSERT(picture_too_large_for_subpixel_bits,
+                 GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 6 ||
+                     (GN_MAX_WIDTH <= 2 * ((32767 >> GN_SUBPIXEL_BITS) - 10) && GN_MAX_HEIGHT <= 2 * ((32767 >> GN_SUBPIXEL_BITS) - 10)));
 
 #endif

@@ -11,8 +11,8 @@
 
 #define GN_QUALITY_KNOBS(X)                                                                                            \
     X(subpixel_bits, SUBPIXEL_BITS, 2, 8, "fraction bits of screen coordinates",                                       \
-      "above 4: 12 more bytes per triangle and 64-bit edge starts")                                                    \
-    X(persp_step, PERSP_STEP, 1, 16, "pixels between perspective divides (1, 4, 8 or 16), linear between",             \
+      "above 6: 12 more bytes per triangle and 64-bit edge starts")                                                    \
+    X(persp_step, PERSP_STEP, 1, 16, "most pixels between perspective divides (1, 4, 8 or 16), linear between",        \
       "1: a divide and all attributes per pixel")                                                                      \
     X(newton_steps, NEWTON_STEPS, 1, 2, "Newton steps of per-pixel reciprocals: 2^-17 or 2^-30 relative",              \
       "two multiplications per divide")                                                                                \
@@ -31,7 +31,7 @@
     X(max_width, MAX_WIDTH, 1, 2048, "largest picture width in pixels", "2 bytes per screen tile")                     \
     X(max_height, MAX_HEIGHT, 1, 2048, "largest picture height in pixels", "2 bytes per screen tile")                  \
     X(max_triangles, MAX_TRIANGLES, 1, 65534, "visible triangles per frame, after culling and clipping",               \
-      "36 bytes each (48 above 4 subpixel bits)")                                                                      \
+      "32 bytes each (44 above 6 subpixel bits)")                                                                      \
     X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")           \
     X(max_lights, MAX_LIGHTS, 1, 8, "lights in a scene", "about 200 bytes each")                                       \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two",                 \

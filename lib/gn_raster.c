@@ -4,7 +4,8 @@
 
 int gn_raster_walk(const gn_frame *frame, gn_walk *walk, const gn_tri *tri, const gn_rect *rect)
 {
-    int32_t x[3] = {tri->x[0], tri->x[1], tri->x[2]}, y[3] = {tri->y[0], tri->y[1], tri->y[2]};
+    int32_t x[3], y[3];
+    gn_setup_corners(frame, tri, x, y);
     return gn_walk_begin(walk, x, y, GN_K(frame, subpixel_bits), rect->y0, rect->y1);
 }
 
@@ -43,7 +44,9 @@ static void raster_triangle(const gn_frame *frame, gn_scratch *scratch, const gn
     int32_t bits = GN_K(frame, subpixel_bits), stride = rect->x1 - rect->x0;
     uint32_t id = tri_idx + 1, id_mask = (1U << frame->id_bits) - 1;
     uint32_t lo = (uint32_t)tri->iz_min << 16, hi = (uint32_t)tri->iz_max << 16 | 0xFFFFU;
-    int32_t x_ref = tri->x[0] >> bits, y_ref = tri->y[0] >> bits;
+    int32_t sx[3], sy[3];
+    gn_setup_corners(frame, tri, sx, sy);
+    int32_t x_ref = sx[0] >> bits, y_ref = sy[0] >> bits;
     int32_t y, xa, xb;
     while (gn_walk_row(&walk, &y, &xa, &xb)) {
         xa = gn_max32(xa, rect->x0);

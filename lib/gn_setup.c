@@ -5,6 +5,7 @@
 #include "gn_plane.h"
 #include "gn_q.h"
 #include "gn_scene.h"
+#include "gn_walk.h"
 #include "gn_xform.h"
 
 int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
@@ -26,7 +27,7 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *
     return 1;
 }
 
-/* Screen position with subpixel_bits fraction bits, rounded to nearest; v is inside the guard band and not nearer than near. */
+/* Screen position from the picture's centre with subpixel_bits fraction bits, rounded to nearest; v is inside the guard band and not nearer than near. */
 static void project(const gn_frame *frame, const int32_t v_q16[3], int32_t *x, int32_t *y)
 {
     int32_t bits = GN_K(frame, subpixel_bits);
@@ -38,8 +39,8 @@ static void project(const gn_frame *frame, const int32_t v_q16[3], int32_t *x, i
         int64_t ratio_q28 = gn_shr64((int64_t)v_q16[i] * (int64_t)recip, 35 - clz);
         screen[i] = gn_shr64(ratio_q28 * (int64_t)frame->cam.focal2_px_q16, 45 - bits);
     }
-    *x = (int32_t)screen[0] + ((frame->picture.width << bits) >> 1);
-    *y = ((frame->picture.height << bits) >> 1) - (int32_t)screen[1];
+    *x = (int32_t)screen[0];
+    *y = -(int32_t)screen[1];
 }
 
 /* near / Z, Q0.32, saturated below 1 */
@@ -92,18 +93,25 @@ static uint32_t depth_at(const gn_frame *frame, const depth_setup *depth, int32_
     return (uint32_t)gn_bf_apply(w, depth->scale, 32); /* modulo 2^32: the pixel may lie just outside the triangle */
 }
 
-gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
+void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3])
 {
     int32_t bits = GN_K(frame, subpixel_bits);
-    int32_t x_min = gn_min32(tri->x[0], gn_min32(tri->x[1], tri->x[2]));
-    int32_t x_max = gn_max32(tri->x[0], gn_max32(tri->x[1], tri->x[2]));
-    int32_t y_min = gn_min32(tri->y[0], gn_min32(tri->y[1], tri->y[2]));
-    int32_t y_max = gn_max32(tri->y[0], gn_max32(tri->y[1], tri->y[2]));
+    int32_t centre_x = (frame->picture.width << bits) >> 1, centre_y = (frame->picture.height << bits) >> 1;
+    for (int i = 0; i < 3; i++) {
+        x[i] = tri->x[i] + centre_x;
+        y[i] = tri->y[i] + centre_y;
+    }
+}
+
+gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
+{
+    int32_t bits = GN_K(frame, subpixel_bits), x[3], y[3];
+    gn_setup_corners(frame, tri, x, y);
     gn_rect r;
-    r.x0 = gn_max32((x_min + ((1 << bits) >> 1) - 1) >> bits, 0);
-    r.y0 = gn_max32((y_min + ((1 << bits) >> 1) - 1) >> bits, 0);
-    r.x1 = gn_min32((x_max + ((1 << bits) >> 1) - 1) >> bits, frame->picture.width);
-    r.y1 = gn_min32((y_max + ((1 << bits) >> 1) - 1) >> bits, frame->picture.height);
+    r.x0 = gn_max32(gn_first_px(gn_min32(x[0], gn_min32(x[1], x[2])), bits), 0);
+    r.y0 = gn_max32(gn_first_px(gn_min32(y[0], gn_min32(y[1], y[2])), bits), 0);
+    r.x1 = gn_min32(gn_first_px(gn_max32(x[0], gn_max32(x[1], x[2])), bits), frame->picture.width);
+    r.y1 = gn_min32(gn_first_px(gn_max32(y[0], gn_max32(y[1], y[2])), bits), frame->picture.height);
     return r;
 }
 
@@ -123,8 +131,9 @@ static void emit(gn_frame *frame, const depth_setup *depth, const int32_t x[3], 
     gn_rect bounds = gn_setup_bounds(frame, &tri);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
     if (frame->stats.n_triangles++ >= GN_MAX_TRIANGLES) return; /* counted on, to say how many would have been enough */
-    int32_t bits = GN_K(frame, subpixel_bits);
-    tri.iz_ref = depth_at(frame, depth, tri.x[0] >> bits, tri.y[0] >> bits);
+    int32_t bits = GN_K(frame, subpixel_bits), sx[3], sy[3];
+    gn_setup_corners(frame, &tri, sx, sy);
+    tri.iz_ref = depth_at(frame, depth, sx[0] >> bits, sy[0] >> bits);
     tri.iz_dx = depth->dx;
     tri.iz_dy = depth->dy;
     tri.iz_min = depth->iz_min;

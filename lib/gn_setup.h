@@ -15,6 +15,9 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *
 typedef struct {
     int32_t x0, y0, x1, y1;
 } gn_rect;
+/* Screen coordinates of the corners from the picture's top left corner, subpixel_bits fraction bits. */
+void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3]);
+
 gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri);
 
 #endif

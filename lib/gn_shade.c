@@ -83,8 +83,26 @@ static void step_between(gn_sample *step, const gn_sample *a, const gn_sample *b
     for (int32_t i = 0; i < n_values; i++) step->value[i] = gn_sat32((int64_t)b->value[i] - a->value[i]) / n;
 }
 
-/* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at every persp_step-th pixel and at both ends of the
- * run, linear between: 1/w is never extrapolated past the triangle. */
+/* Whether linear steps between two samples stay close to what lies between. Over a change of depth from z to z + dz a value
+ * that changes by dv bends away from its chord by at most dv * dz / (4 z) (NUMERICS 4.4). Shadow coordinates may be off by 1/32
+ * texel; colours and n . L, whose range is 1, by 1/128. */
+static int chord_holds(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b)
+{
+    uint32_t za = (uint32_t)a->value[GN_VALUE_Z], zb = (uint32_t)b->value[GN_VALUE_Z];
+    uint64_t near4 = (uint64_t)(za < zb ? za : zb) * 4, dz = za < zb ? zb - za : za - zb;
+    if ((surface->smooth || surface->coloured) && dz * 128 > near4) return 0;
+    for (uint32_t l = 0; surface->shadowed && l < frame->scene->n_lights; l++) {
+        for (uint32_t i = 1; i < GN_VALUES_PER_LIGHT; i++) {
+            uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l + i;
+            int64_t dv_q16 = (int64_t)b->value[at] - a->value[at];
+            if (gn_abs64(dv_q16) * dz > near4 * 2048) return 0; /* 2^32 * 2^30 */
+        }
+    }
+    return 1;
+}
+
+/* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every persp_step
+ * pixels, linear between where that is close enough: 1/w is never extrapolated past the triangle. */
 static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     int32_t step_px = GN_K(s->frame, persp_step), n_values = s->surface.n_values;
@@ -94,6 +112,10 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
     for (int32_t x = x_begin; x < x_end - 1;) {
         int32_t n = gn_min32(step_px, x_end - 1 - x);
         gn_surface_sample(s->frame, &s->surface, x + n, y, next);
+        while (n > 1 && !chord_holds(s->frame, &s->surface, here, next)) {
+            n >>= 1;
+            gn_surface_sample(s->frame, &s->surface, x + n, y, next);
+        }
         if (n > 1) {
             step_between(&step, here, next, n_values, n);
             for (int32_t k = 1; k < n; k++) {

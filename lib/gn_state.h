@@ -68,13 +68,14 @@ typedef struct {
     int32_t view_idx;        /* of its gn_light_view, -1: no shadow */
 } gn_light_state;
 
-#if GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 4
+#if GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 6
 typedef int32_t gn_coord;
 #else
 typedef int16_t gn_coord;
 #endif
 
-/* A visible triangle on the screen, ready to be walked. Screen coordinates have subpixel_bits fraction bits. */
+/* A visible triangle on the screen, ready to be walked. Coordinates are from the picture's centre (y down), with subpixel_bits
+ * fraction bits: up to 6 of them fit 16 bits, as the guard band sees to. */
 typedef struct {
     gn_coord x[3], y[3];     /* counter-clockwise in the world, so that its signed area on the screen (y down) is negative */
     uint32_t iz_ref;         /* near / Z at the centre of the pixel that holds vertex 0, Q0.32, modulo 2^32 */

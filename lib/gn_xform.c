@@ -3,15 +3,20 @@
 #include "gn_math.h"
 #include "gn_q.h"
 
-/* Largest distance in pixels that a clipped vertex keeps outside the picture. With pictures up to 1024 pixels the guard band
- * [-1000, 2024] at 4 subpixel bits stays inside int16; see NUMERICS.md 4. */
-#define GN_GUARD_PX 1000
-
-/* Half the picture plus `extra_px`, over the focal length: Q16, rounded up. */
-static int32_t half_extent_q16(uint32_t size_px, uint32_t extra_px, uint32_t focal2_px_q16)
+/* How far from the picture's centre a clipped vertex may lie, in pixels. Up to 6 subpixel bits it must fit 16 bits where the
+ * picture allows (NUMERICS 4.2); otherwise 1000 pixels around the picture. The choice does not depend on the type that stores
+ * it, so that every build clips alike. */
+static int32_t guard_px(int32_t subpixel_bits, int32_t size_px)
 {
-    uint64_t numerator = (uint64_t)(size_px + 2 * extra_px) << 32;
-    return gn_sat32((int64_t)((numerator + focal2_px_q16 - 1) / focal2_px_q16));
+    int32_t fits_16_bits = (32767 >> subpixel_bits) - 2;
+    if (subpixel_bits <= 6 && size_px <= 2 * (fits_16_bits - 8)) return gn_min32(fits_16_bits, size_px / 2 + 1000);
+    return size_px / 2 + 1000;
+}
+
+/* Pixels from the centre over the focal length: Q16, rounded down so that a clipped vertex stays within. */
+static int32_t slope_q16(uint32_t twice_px, uint32_t focal2_px_q16)
+{
+    return gn_sat32((int64_t)(((uint64_t)twice_px << 32) / focal2_px_q16));
 }
 
 void gn_cam_setup(gn_frame *frame)
@@ -32,10 +37,11 @@ void gn_cam_setup(gn_frame *frame)
     gn_bfloat ratio = gn_bf_mul(near, gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16)));
     cam->near_over_focal2.mant = ratio.mant;
     cam->near_over_focal2.exp = ratio.exp;
-    uint32_t size[2] = {frame->picture.width, frame->picture.height};
+    int32_t size[2] = {frame->picture.width, frame->picture.height};
     for (int i = 0; i < 2; i++) {
-        cam->guard_q16[i] = half_extent_q16(size[i], GN_GUARD_PX, cam->focal2_px_q16);
-        cam->tan_q16[i] = half_extent_q16(size[i], 0, cam->focal2_px_q16);
+        int32_t guard = guard_px(GN_K(frame, subpixel_bits), size[i]);
+        cam->guard_q16[i] = slope_q16(2 * (uint32_t)guard, cam->focal2_px_q16);
+        cam->tan_q16[i] = gn_sat32((int64_t)slope_q16((uint32_t)size[i], cam->focal2_px_q16) + 1); /* rounded up: only for rejection */
     }
 }
 

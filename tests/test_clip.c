@@ -169,7 +169,7 @@ static void test_triangles(void)
     tally inside = {0}, steps = {0}, shape = {0};
     worst w = {0};
     int most = 0;
-    for (uint32_t i = 0; i < 400000; i++) {
+    for (uint32_t i = 0; i < 200000; i++) {
         frustum f = random_frustum();
         gn_polygon triangle = {.n = 3}, p, q;
         uint32_t bits = 3 + rng_below(&random_state, 28);
@@ -227,7 +227,7 @@ static int has_vertex(const gn_polygon *p, const int32_t v[3])
 static void test_shared_edge(void)
 {
     tally t = {0};
-    for (uint32_t i = 0; i < 400000; i++) {
+    for (uint32_t i = 0; i < 200000; i++) {
         frustum f = random_frustum();
         int32_t v[4][3];
         uint32_t bits = 3 + rng_below(&random_state, 28);

@@ -56,26 +56,17 @@ static uint32_t encoded(uint32_t linear_q20)
     return frame.knobs.srgb ? gn_srgb_encode(linear_q20) : (uint32_t)((2 * clamped * 65535 + ONE_Q20) / (2 * ONE_Q20));
 }
 
-/* One pixel in the middle of a guarded buffer; what stands around it must stay. */
-static int stored_ok(const uint32_t q20[3], int32_t i)
+static int packed_ok(const uint32_t q20[3])
 {
-    uint32_t buffer[8], expected[8];
-    uint16_t wide;
-    memset(buffer, 0xA5, sizeof buffer);
-    memset(expected, 0xA5, sizeof expected);
-    gn_pixel_store(&frame, buffer, i, q20);
-    uint8_t *bytes = (uint8_t *)expected;
-    if (frame.picture.format == GN_FORMAT_RGB565) {
-        wide = (uint16_t)(nearest(encoded(q20[0]), 31) * 2048 + nearest(encoded(q20[1]), 63) * 32 + nearest(encoded(q20[2]), 31));
-        memcpy(bytes + 2 * (size_t)(unsigned)i, &wide, sizeof wide);
-    } else {
-        for (int c = 0; c < 3; c++) bytes[3 * i + c] = (uint8_t)nearest(encoded(q20[c]), 255);
-    }
-    return !memcmp(buffer, expected, sizeof buffer);
+    uint32_t packed = gn_pixel_pack(&frame, q20);
+    if (frame.picture.format == GN_FORMAT_RGB565)
+        return packed ==
+               nearest(encoded(q20[0]), 31) * 2048 + nearest(encoded(q20[1]), 63) * 32 + nearest(encoded(q20[2]), 31);
+    return packed == nearest(encoded(q20[0]), 255) + nearest(encoded(q20[1]), 255) * 256 + nearest(encoded(q20[2]), 255) * 65536;
 }
 
 /* Without the curve every 16-bit value occurs; each passes through every channel. */
-static void test_store(void)
+static void test_pack(void)
 {
     tally t = {0};
     for (int format = 0; format < 2; format++)
@@ -84,11 +75,35 @@ static void test_store(void)
             frame.knobs.srgb = curve;
             for (uint32_t i = 0; i <= ONE_Q20 + 64; i += 4) {
                 uint32_t q20[3] = {i, (i * 5 + 1) & (ONE_Q20 - 1), rng_u32(&random_state) >> rng_below(&random_state, 13)};
-                HOLDS(&t, stored_ok(q20, (int32_t)(i >> 2) & 7), "format %d, curve %d: %u %u %u", format, curve,
+                HOLDS(&t, packed_ok(q20), "format %d, curve %d: %u %u %u", format, curve,
                       (unsigned)q20[0], (unsigned)q20[1], (unsigned)q20[2]);
             }
         }
     CHECK_TALLY(t, "pixels are the nearest levels");
+}
+
+/* n pixels from pixel i on; what stands around them must stay. */
+static void test_fill(void)
+{
+    enum { PIXELS = 20 };
+    tally t = {0};
+    for (uint32_t k = 0; k < 4 * PIXELS * PIXELS; k++) {
+        uint32_t buffer[PIXELS], packed = rng_u32(&random_state) & 0xFFFFFFU;
+        uint8_t expected[sizeof buffer];
+        int32_t i = (int32_t)(k / 2 % PIXELS), n = rng_range(&random_state, 0, PIXELS - i);
+        frame.picture.format = k & 1 ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565;
+        memset(buffer, 0xA5, sizeof buffer);
+        memset(expected, 0xA5, sizeof expected);
+        gn_pixel_fill(&frame, buffer, i, n, packed);
+        for (int32_t p = i; p < i + n; p++) {
+            uint16_t narrow = (uint16_t)packed;
+            if (frame.picture.format == GN_FORMAT_RGB565) memcpy(expected + 2 * p, &narrow, sizeof narrow);
+            else
+                for (int c = 0; c < 3; c++) expected[3 * p + c] = (uint8_t)(packed >> 8 * c);
+        }
+        HOLDS(&t, !memcmp(buffer, expected, sizeof buffer), "%d pixels from %d", (int)n, (int)i);
+    }
+    CHECK_TALLY(t, "pixels go where they should");
 }
 
 /* Every level is reached, and white and black are exact. */
@@ -99,11 +114,9 @@ static void test_levels(void)
     frame.picture.format = GN_FORMAT_RGB888;
     frame.knobs.srgb = 1;
     for (uint32_t i = 0; i <= ONE_Q20; i += 16) {
-        uint32_t q20[3] = {i, 0, ONE_Q20}, pixel = 0;
-        gn_pixel_store(&frame, &pixel, 0, q20);
-        const uint8_t *bytes = (const uint8_t *)&pixel;
-        n += !seen[bytes[0]]++;
-        if (bytes[1] != 0 || bytes[2] != 255) n = -1000;
+        uint32_t q20[3] = {i, 0, ONE_Q20}, pixel = gn_pixel_pack(&frame, q20);
+        n += !seen[pixel & 255U]++;
+        if (pixel >> 8 != 0xFF00U) n = -1000; /* green 0, blue 255 */
     }
     CHECK_EQ_INT(n, 256);
 }
@@ -111,7 +124,8 @@ static void test_levels(void)
 int main(void)
 {
     test_encode();
-    test_store();
+    test_pack();
+    test_fill();
     test_levels();
     return check_report();
 }

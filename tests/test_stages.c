@@ -164,7 +164,7 @@ static void check_screen(const gn_frame *frame, int32_t view[][3])
             double best = 1e9; /* two-sided triangles are stored turned round: the nearest of the three */
             for (int k = 0; k < 3; k++) {
                 const int32_t *v = view[3 * tri->triangle_idx + k];
-                double x = WIDTH / 2.0 + focal2 / 2 * v[0] / v[2], y = HEIGHT / 2.0 - focal2 / 2 * v[1] / v[2];
+                double x = focal2 / 2 * v[0] / v[2], y = -focal2 / 2 * v[1] / v[2];
                 best = fmin(best, fmax(fabs(tri->x[i] * unit - x), fabs(tri->y[i] * unit - y)));
             }
             record(STAGE_SCREEN, best, (0.5 + 1.0 / 64) * unit, unit);
@@ -227,7 +227,9 @@ static void cross_at(crossing *c, const plane *p, int x, int y)
 static void check_depth(const gn_frame *frame, const gn_tri *tri, const plane *p, const crossing *c, int x, int y)
 {
     int bits = frame->knobs.subpixel_bits;
-    int dx = x - (tri->x[0] >> bits), dy = y - (tri->y[0] >> bits);
+    int32_t sx[3], sy[3];
+    gn_setup_corners(frame, tri, sx, sy);
+    int dx = x - (sx[0] >> bits), dy = y - (sy[0] >> bits);
     uint32_t got = tri->iz_ref + (uint32_t)dx * (uint32_t)tri->iz_dx + (uint32_t)dy * (uint32_t)tri->iz_dy;
     double want = ldexp(scene.camera.near_q16 * LSB16 / c->z, 32);
     double bound = 1 + 0.5 * (abs(dx) + abs(dy)) + want * (ldexp(c->kappa + p->kappa0, -29) + ldexp(1, -27));
@@ -392,7 +394,7 @@ static void run_caster_plane(const gn_knobs *knobs)
 
 int main(int argc, char **argv)
 {
-    static const gn_knobs balanced = {4, 8, 1, 8, 0, 8, 8, 128, 64, 16, 1}, accurate = {8, 1, 2, 12, 4, 12, 16, 256, 64, 16, 1};
+    static const gn_knobs balanced = {6, 8, 1, 8, 0, 8, 8, 128, 64, 16, 1}, accurate = {8, 1, 2, 12, 4, 12, 16, 256, 64, 16, 1};
     int table = argc > 1 && strcmp(argv[1], "--table") == 0;
     for (int preset = 0; preset < 2; preset++) {
         memset(seen, 0, sizeof seen);

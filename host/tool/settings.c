@@ -231,15 +231,23 @@ settings_ram_parts settings_ram(const settings *s)
     settings_ram_parts r;
     long tile_w = s->quality.tile_width, tile_h = s->quality.tile_height;
     long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);
+    long wide_refs = s->capacity.max_tile_refs > 65535;
+    int blocks = s->feature.shadows && s->feature.depth_blocks;
     r.atlas = s->feature.shadows ? 2L * s->quality.atlas_size * s->quality.atlas_size : 0;
-    if (s->feature.depth_blocks) r.atlas += r.atlas / 32;
+    if (blocks) r.atlas += r.atlas / 32;
     r.triangles = (s->quality.subpixel_bits > 4 ? 44L : 32L) * s->capacity.max_triangles;
     r.tile_refs = 2L * s->capacity.max_tile_refs;
-    r.tiles = (s->capacity.max_tile_refs > 65535 ? 4L : 2L) * (tiles + 1);
+    r.tiles = (wide_refs ? 4L : 2L) * (tiles + 1);
     r.cells = 4 * tile_w * tile_h;
     r.pixels = 4 * (tile_w * tile_h * (s->feature.raw_views ? 4 : 3) / 4);
-    r.rest = 16L * s->capacity.vertex_cache + 28L * s->capacity.max_lights;
-    r.total = r.atlas + r.triangles + r.tile_refs + r.tiles + r.cells + r.pixels + r.rest;
+    /* picture to tiles_y without the lights: 160 bytes; then the arrays, padded; then four light views of 160 or 168 */
+    long fixed = 160 + 28L * s->capacity.max_lights;
+    long arrays = fixed + r.triangles + r.tiles + r.tile_refs;
+    long frame = (arrays + 3) & ~3L;
+    if (s->feature.shadows) frame = (((arrays + 7) & ~7L) + 4 * (blocks ? 168L : 160L) + r.atlas + 7) & ~7L;
+    r.total = frame + r.cells + r.pixels + 16L * s->capacity.vertex_cache;
+    if (s->feature.shadows) r.total = (r.total + 7) & ~7L; /* 64-bit members align the whole */
+    r.rest = r.total - r.atlas - r.triangles - r.tile_refs - r.tiles - r.cells - r.pixels;
     return r;
 }
 
