@@ -113,7 +113,7 @@ static void ray_planes(const gn_frame *frame, gn_light_view *view)
         ray->a0 = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[2], axis), inv_texel, view->ray_shift - 60));
         ray->ax = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[0], axis), per_px, view->ray_shift - 60));
         ray->ay = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[1], axis), per_px, view->ray_shift - 60));
-        ray->d_q16 = gn_light_coord_q16(view, i, cam->eye_q16) - ((int64_t)view->origin[i] << 16);
+        ray->d_q16 = gn_light_coord_q16(view, i, cam->eye_q16) - (int64_t)view->origin[i] * 65536;
     }
 }
 

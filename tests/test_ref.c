@@ -495,7 +495,8 @@ static void test_attenuation_step(void)
         }
     for (int k = 0; k < 5; k++) {
         CHECK_NEAR(ref_attenuation(&view, filters[k], 7.6, 3, 8), 1, 1e-13); /* equal depth is lit */
-        CHECK_NEAR(ref_attenuation(&view, filters[k], 7.6, 3, 8.001), 0, 0);
+        CHECK_NEAR(ref_attenuation(&view, filters[k], 7.6, 3, 8.001), 1, 1e-13); /* beyond the far end an empty texel lets it be lit */
+        CHECK_NEAR(ref_attenuation(&view, filters[k], 0.4, 3, 8.001), 0, 0);
         CHECK_NEAR(ref_attenuation(&view, filters[k], -1e300, 1e300, 2), 0, 0); /* taps clamped to the tile */
         CHECK_NEAR(ref_attenuation(&view, filters[k], 1e300, -1e300, 2), 1, 1e-13);
     }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "exact.h"
+#include "gn_setup.h"
 #include "gn_walk.h"
 #include "gnomon.h"
 #include "rng.h"
@@ -292,6 +293,13 @@ static gn_status render(const gn_affine *camera, uint32_t focal_q24, int32_t nea
     return gn_render(&renderer, &scene, flush, NULL);
 }
 
+static int tri_covers(const gn_tri *tri, int px, int py)
+{
+    int32_t x[3], y[3];
+    gn_setup_corners(&renderer.frame, tri, x, y);
+    return exact_covers(x, y, renderer.frame.knobs.subpixel_bits, px, py);
+}
+
 /* The surface of every pixel is one whose snapped triangle covers its centre. */
 static void check_owners(tally *t, uint32_t scene_idx)
 {
@@ -307,7 +315,7 @@ static void check_owners(tally *t, uint32_t scene_idx)
             if (owner == UINT32_MAX) continue;
             int found = 0;
             for (uint32_t k = owner < N_TRIANGLES ? first[owner] : 0; owner < N_TRIANGLES && k < first[owner + 1]; k++)
-                found = found || exact_covers(frame->tri[k].x, frame->tri[k].y, frame->knobs.subpixel_bits, px, py);
+                found = found || tri_covers(&frame->tri[k], px, py);
             HOLDS(t, found, "scene %u at (%d, %d): triangle %#x", (unsigned)scene_idx, px, py, (unsigned)owner);
         }
 }

@@ -235,7 +235,7 @@ settings_ram_parts settings_ram(const settings *s)
     int blocks = s->feature.shadows && s->feature.depth_blocks;
     r.atlas = s->feature.shadows ? 2L * s->quality.atlas_size * s->quality.atlas_size : 0;
     if (blocks) r.atlas += r.atlas / 32;
-    r.triangles = (s->quality.subpixel_bits > 4 ? 44L : 32L) * s->capacity.max_triangles;
+    r.triangles = (s->quality.subpixel_bits > 6 ? 44L : 32L) * s->capacity.max_triangles;
     r.tile_refs = 2L * s->capacity.max_tile_refs;
     r.tiles = (wide_refs ? 4L : 2L) * (tiles + 1);
     r.cells = 4 * tile_w * tile_h;

@@ -3,23 +3,27 @@
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imagecache.h>
+#include <OpenImageIO/imageio.h>
 #include <cstdio>
 
 using namespace OIIO;
 
+// Files are opened one by one, not through the image cache: tests write the same name again.
 extern "C" unsigned char *oiio_read_rgb8(const char *path, int *w, int *h, char *error, int error_bytes)
 {
-    ImageBuf image(path);
-    if (!image.read(0, 0, true, TypeDesc::UINT8) || image.nchannels() < 3) {
-        std::snprintf(error, error_bytes, "%s", image.geterror().c_str());
+    auto in = ImageInput::open(path);
+    if (!in || in->spec().nchannels != 3) {
+        std::snprintf(error, error_bytes, "%s", in ? "not three channels" : geterror().c_str());
         return nullptr;
     }
-    *w = image.spec().width;
-    *h = image.spec().height;
+    *w = in->spec().width;
+    *h = in->spec().height;
     unsigned char *pixels = new unsigned char[3 * size_t(*w) * size_t(*h)];
-    ROI roi(0, *w, 0, *h, 0, 1, 0, 3);
-    image.get_pixels(roi, TypeDesc::UINT8, pixels);
-    return pixels;
+    if (in->read_image(0, 0, 0, 3, TypeDesc::UINT8, pixels)) return pixels;
+    std::snprintf(error, error_bytes, "%s", in->geterror().c_str());
+    delete[] pixels;
+    return nullptr;
 }
 
 extern "C" void oiio_free(unsigned char *pixels)
@@ -29,9 +33,10 @@ extern "C" void oiio_free(unsigned char *pixels)
 
 extern "C" int oiio_compare(const char *a, const char *b, double *mean, double *rms, double *largest)
 {
+    ImageCache::create(true)->invalidate_all(true);
     ImageBuf left(a), right(b);
     if (!left.read(0, 0, true, TypeDesc::FLOAT) || !right.read(0, 0, true, TypeDesc::FLOAT)) return -1;
-    ImageBufAlgo::CompareResults result = ImageBufAlgo::compare(left, right, 0.0f, 0.0f);
+    ImageBufAlgo::CompareResults result = ImageBufAlgo::compare(left, right, 10.0f, 10.0f);
     *mean = result.meanerror;
     *rms = result.rms_error;
     *largest = result.maxerror;
