@@ -52,11 +52,11 @@ static uint32_t bilinear(const receiver *r, int32_t u_q16, int32_t v_q16, int32_
     int32_t cu = u_q16 + 32768, cv = v_q16 + 32768;
     int32_t u = (cu >> 16) - 1, v = (cv >> 16) - 1;
     uint32_t wu = fraction(cu, bits), wv = fraction(cv, bits), one = 1U << bits;
-    uint32_t answer;
-    if (decided(r, u, v, &answer)) return answer;
     const uint16_t *top = row_at(r, v), *bottom = row_at(r, v + 1);
-    uint32_t upper = (one - wu) * lit(r, top, u) + wu * lit(r, top, u + 1);
-    uint32_t lower = (one - wu) * lit(r, bottom, u) + wu * lit(r, bottom, u + 1);
+    uint32_t l00 = lit(r, top, u), l01 = lit(r, top, u + 1), l10 = lit(r, bottom, u), l11 = lit(r, bottom, u + 1);
+    if (l00 + l01 + l10 + l11 == 4) return 65536;
+    if (l00 + l01 + l10 + l11 == 0) return 0;
+    uint32_t upper = (one - wu) * l00 + wu * l01, lower = (one - wu) * l10 + wu * l11;
     uint32_t sum = (one - wv) * upper + wv * lower; /* <= F^2 <= 2^24 */
     return bits <= 8 ? sum << (16 - 2 * bits) : (sum + ((1U << (2 * bits - 16)) >> 1)) >> (2 * bits - 16);
 }

@@ -5,7 +5,7 @@
 
 #define GN_ONE_Q20 (1U << 20)
 
-uint32_t gn_srgb_encode(uint32_t linear_q20)
+static inline uint32_t srgb_encode(uint32_t linear_q20)
 {
     if (linear_q20 >= GN_ONE_Q20) return 65535;
     /* below 2^-9 the curve is its linear part: 12.92 * 65535 / 2^20 = 0.807494 = 52920 / 2^16 */
@@ -17,21 +17,32 @@ uint32_t gn_srgb_encode(uint32_t linear_q20)
     return entry[0] + (((uint32_t)(entry[1] - entry[0]) * rest + ((1U << shift) >> 1)) >> shift); /* 2^11 * 2^14 */
 }
 
-/* round(levels * v / 65535) */
-static uint32_t quantise(uint32_t v, uint32_t levels)
+/* round(levels * v / 65535): x / 65535 is (x + 1 + (x >> 16)) >> 16 below 2^32 - 2^16 */
+static inline uint32_t quantise(uint32_t v, uint32_t levels)
 {
-    return (v * levels + 32767U) / 65535U;
+    uint32_t x = v * levels + 32767U;
+    return (x + 1 + (x >> 16)) >> 16;
+}
+
+uint32_t gn_srgb_encode(uint32_t linear_q20)
+{
+    return srgb_encode(linear_q20);
+}
+
+static uint32_t linear_encode(uint32_t linear_q20)
+{
+    uint32_t limited = linear_q20 < GN_ONE_Q20 ? linear_q20 : GN_ONE_Q20;
+    return (uint32_t)(((uint64_t)limited * 65535U + (1U << 19)) >> 20);
 }
 
 uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
 {
-    uint32_t v[3];
-    for (int c = 0; c < 3; c++) {
-        if (GN_K(frame, srgb)) v[c] = gn_srgb_encode(linear_q20[c]);
-        else v[c] = (uint32_t)(((uint64_t)(linear_q20[c] < GN_ONE_Q20 ? linear_q20[c] : GN_ONE_Q20) * 65535U + (1U << 19)) >> 20);
-    }
-    if (frame->picture.format == GN_FORMAT_RGB565) return quantise(v[0], 31) << 11 | quantise(v[1], 63) << 5 | quantise(v[2], 31);
-    return quantise(v[0], 255) | quantise(v[1], 255) << 8 | quantise(v[2], 255) << 16;
+    int srgb = GN_K(frame, srgb) != 0;
+    uint32_t r = srgb ? srgb_encode(linear_q20[0]) : linear_encode(linear_q20[0]);
+    uint32_t g = srgb ? srgb_encode(linear_q20[1]) : linear_encode(linear_q20[1]);
+    uint32_t b = srgb ? srgb_encode(linear_q20[2]) : linear_encode(linear_q20[2]);
+    if (frame->picture.format == GN_FORMAT_RGB565) return quantise(r, 31) << 11 | quantise(g, 63) << 5 | quantise(b, 31);
+    return quantise(r, 255) | quantise(g, 255) << 8 | quantise(b, 255) << 16;
 }
 
 void gn_pixel_fill(const gn_frame *frame, uint32_t *buffer, int32_t i, int32_t n, uint32_t packed)

@@ -77,9 +77,17 @@ static void shade_pixel(shading *s, const gn_sample *sample, int32_t x, int32_t 
     gn_pixel_fill(s->frame, s->scratch->pixel, i, 1, pack(s, radiance_q20));
 }
 
-/* Steps per pixel from sample a to sample b, `n` pixels apart; the differences of a chunk fit 32 bits by saturation. */
+/* Steps per pixel from sample a to sample b, `n` pixels apart, rounded towards zero; differences saturate. */
 static void step_between(gn_sample *step, const gn_sample *a, const gn_sample *b, int32_t n_values, int32_t n)
 {
+    if ((n & (n - 1)) == 0) {
+        int32_t shift = 31 - gn_clz32((uint32_t)n);
+        for (int32_t i = 0; i < n_values; i++) {
+            int32_t d = gn_sat32((int64_t)b->value[i] - a->value[i]);
+            step->value[i] = (d + ((d >> 31) & (n - 1))) >> shift;
+        }
+        return;
+    }
     for (int32_t i = 0; i < n_values; i++) step->value[i] = gn_sat32((int64_t)b->value[i] - a->value[i]) / n;
 }
 

@@ -241,6 +241,12 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
     use_object(frame, cache, s->object);
     const gn_mesh *mesh = s->object->mesh;
     const uint16_t *idx = mesh->idx + 3 * (size_t)tri->triangle_idx;
+    s->smooth = s->has_bary = 0;
+    colours(s, idx);
+    if (s->object->flags & GN_OBJECT_UNLIT && !s->coloured && !GN_RAW_VIEWS) { /* one colour: nothing to interpolate */
+        begin_lighting(frame, s);
+        return;
+    }
     int32_t v[3][3];
     for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &cache->to_view, mesh, tri->object_idx, idx[i]);
     gn_plane_setup(&s->plane, v[0], v[1], v[2]);
@@ -249,7 +255,6 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
     if (s->plane.det > 0)
         s->depth_scale = gn_bf_mul(gn_bf_from_u64((uint64_t)s->plane.det), gn_bf_from_u64(frame->cam.focal2_px_q16));
     normals(frame, cache, s, idx);
-    colours(s, idx);
     s->has_bary = s->smooth || s->coloured;
     if (s->has_bary) barycentric_planes(s, v);
     begin_lighting(frame, s);

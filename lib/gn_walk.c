@@ -2,12 +2,6 @@
 #include "gn_walk.h"
 #include "gn_q.h"
 
-int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
-{
-    int32_t half = (1 << subpixel_bits) >> 1;
-    return (coord + half - 1) >> subpixel_bits; /* ceil((c - half) / 2^s), as 2^s - 1 - half = half - 1 */
-}
-
 /* Quotient and remainder rounded towards minus infinity; b > 0 */
 static void floor_div(int64_t a, int32_t b, int32_t *q, int32_t *r)
 {
@@ -40,16 +34,6 @@ static void edge_begin(gn_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_
     edge->dy = dy;
 }
 
-static void edge_step(gn_edge *edge)
-{
-    edge->q += edge->dq;
-    edge->r += edge->dr;
-    if (edge->r >= edge->dy) {
-        edge->r -= edge->dy;
-        edge->q++;
-    }
-}
-
 int gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo, int32_t y_hi)
 {
     int top = y[1] < y[0] ? 1 : 0;
@@ -70,22 +54,13 @@ int gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t
     if (y0 < walk->y_mid) {
         edge_begin(&walk->edge[1], x[top], y[top], x[mid], y[mid], subpixel_bits, y0);
     } else {
-        walk->y_mid = y0; /* the lower edge begins at once, by gn_walk_row */
+        walk->y_mid = y0; /* gn_walk_row begins the lower edge at once */
     }
     return 1;
 }
 
-int gn_walk_row(gn_walk *walk, int32_t *y, int32_t *x_begin, int32_t *x_end)
+void gn_walk_lower_edge(gn_walk *walk)
 {
-    if (walk->y >= walk->y_end) return 0;
-    if (walk->y == walk->y_mid) {
-        const int32_t *e = walk->lower;
-        edge_begin(&walk->edge[1], e[0], e[1], e[2], e[3], walk->subpixel_bits, walk->y);
-    }
-    *y = walk->y++;
-    *x_begin = walk->edge[!walk->long_edge_left].q;
-    *x_end = walk->edge[walk->long_edge_left].q;
-    edge_step(&walk->edge[0]);
-    edge_step(&walk->edge[1]);
-    return 1;
+    const int32_t *e = walk->lower;
+    edge_begin(&walk->edge[1], e[0], e[1], e[2], e[3], walk->subpixel_bits, walk->y);
 }

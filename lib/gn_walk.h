@@ -26,12 +26,38 @@ typedef struct {
 } gn_walk;
 
 /* First row or column whose pixel centre is at or after a coordinate: ceil(c - 1/2). */
-int32_t gn_first_px(int32_t coord, int32_t subpixel_bits);
+static inline int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
+{
+    return (coord + ((1 << subpixel_bits) >> 1) - 1) >> subpixel_bits; /* ceil((c - half) / 2^s), as 2^s - 1 - half = half - 1 */
+}
 
 /* Prepares rows y_lo <= y < y_hi of a triangle of any orientation. Returns 0 if there are none. */
 int gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo, int32_t y_hi);
 
+/* The second of the two shorter edges takes over at row y_mid. */
+void gn_walk_lower_edge(gn_walk *walk);
+
+static inline void gn_edge_step(gn_edge *edge)
+{
+    edge->q += edge->dq;
+    edge->r += edge->dr;
+    if (edge->r >= edge->dy) {
+        edge->r -= edge->dy;
+        edge->q++;
+    }
+}
+
 /* The span x_begin <= x < x_end (possibly empty) of row *y; steps to the next row. Returns 0 after the last row. */
-int gn_walk_row(gn_walk *walk, int32_t *y, int32_t *x_begin, int32_t *x_end);
+static inline int gn_walk_row(gn_walk *walk, int32_t *y, int32_t *x_begin, int32_t *x_end)
+{
+    if (walk->y >= walk->y_end) return 0;
+    if (walk->y == walk->y_mid) gn_walk_lower_edge(walk);
+    *y = walk->y++;
+    *x_begin = walk->edge[!walk->long_edge_left].q;
+    *x_end = walk->edge[walk->long_edge_left].q;
+    gn_edge_step(&walk->edge[0]);
+    gn_edge_step(&walk->edge[1]);
+    return 1;
+}
 
 #endif

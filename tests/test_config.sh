@@ -32,7 +32,7 @@ objects() {
 
 builds() {
     while read -r line; do
-        name=$(echo "$line" | tr -c 'A-Za-z0-9\n' _)
+        name=variant$(echo "$line" | tr -c 'A-Za-z0-9\n' _)
         if objects "$name" -O1 -ffreestanding $line; then echo ok; else
             echo "does not build: ${line:-(defaults)}"
             grep -m 2 -E 'error|warning' "$tmp/$name.log"
@@ -66,7 +66,10 @@ for macro in $(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_]*, \([A-Z_]*\), 0, 1,.
     echo "-DGN_$macro=0"
 done >>"$tmp/wanted"
 echo "-DGN_DEPTH_BLOCKS=0 -DGN_FILTER_MAX=1" >>"$tmp/wanted"
-awk 'NR % 2' "$tmp/wanted" | builds >"$tmp/built1" &
+(
+    trap - EXIT # it is not this subshell that cleans up
+    awk 'NR % 2' "$tmp/wanted" | builds >"$tmp/built1"
+) &
 awk 'NR % 2 == 0' "$tmp/wanted" | builds >"$tmp/built2"
 wait
 passed=$((passed + $(cat "$tmp"/built? | grep -c '^ok$')))
@@ -77,7 +80,7 @@ grep -hv '^ok$' "$tmp"/built?
 
 # refused NAME FLAG: the build stops and its message names the knob
 refused() {
-    if gcc -std=c99 -Ilib "$2" -fsyntax-only lib/gn_frame.c >"$tmp/message" 2>&1; then fail "builds with $2"
+    if gcc -std=c99 -Ilib $2 -fsyntax-only lib/gn_frame.c >"$tmp/message" 2>&1; then fail "builds with $2"
     elif grep -q "error.*$1" "$tmp/message"; then pass
     else fail "$2: the message does not name $1: $(grep -m 1 error "$tmp/message")"
     fi
@@ -96,7 +99,8 @@ refused atten_bits -DGN_ATTEN_BITS=12
 refused atlas_size -DGN_ATLAS_SIZE=96
 refused vertex_cache -DGN_VERTEX_CACHE=33
 refused tile_width -DGN_TILE_WIDTH=66
-refused picture_too_large -DGN_MAX_WIDTH=1025 # 16-bit screen coordinates at 4 subpixel bits
+refused picture_too_large "-DGN_SUBPIXEL_BITS=6 -DGN_MAX_WIDTH=1024" # beyond 16-bit screen coordinates
+refused picture_too_large "-DGN_SUBPIXEL_BITS=6 -DGN_MAX_HEIGHT=1024"
 
 # ---- The user's own header; C++ --------------------------------------------------------------------------------------------
 
@@ -217,12 +221,14 @@ same() {
     esac
 }
 
-program host $host_knobs &
-(program wide -DGN_MAX_WIDTH=1024 && program tiny -DGN_PRESET=0) &
-program balanced -DGN_PRESET=1
-program accurate -DGN_PRESET=2
+(
+    trap - EXIT
+    program host $host_knobs
+    program wide -DGN_MAX_WIDTH=2048 -DGN_PRESET=0
+) &
+for preset in tiny balanced accurate; do program $preset -DGN_PRESET=GN_PRESET_$(echo $preset | tr a-z A-Z); done
 wait
-for name in host wide tiny; do
+for name in host wide tiny balanced accurate; do
     if [ -x "$tmp/$name.run" ]; then pass; else fail "no program '$name': $(grep -m 1 error "$tmp/$name.log")"; fi
 done
 preset=0
@@ -235,7 +241,7 @@ for name in tiny balanced accurate; do
     preset=$((preset + 1))
 done
 # screen coordinates of a wide picture: the guard band reaches beyond it
-for frame in 0 1 2 3 4; do same wide "1024 80 1 - $frame" host "1024 80 1 - $frame" "1024 pixels wide at compile time against run time"; done
+for frame in 0 1 2 3 4; do same wide "2048 80 1 - $frame" host "2048 80 1 - $frame 0" "2048 pixels wide at compile time against run time"; done
 if [ "$("$tmp/host.run" 160 120 0 - 0)" = "$("$tmp/host.run" 160 120 0 - 1)" ]; then fail "the demo's frames do not differ"; else pass; fi
 
 program plain -DGN_DEPTH_BLOCKS=0 && for filter in 0 1 2 3 4; do

@@ -42,8 +42,8 @@ static void test_weights(void)
                 gn_tent_weights(w, k, u, bits);
                 for (int32_t i = 0; i < n; i++) {
                     int64_t exact = exact_weight(k, i, u, f);
-                    HOLDS(&weight, w[i] == exact, "k %d, F 2^%d, u %u, texel %d: %u, not %lld", (int)k, (int)bits, (unsigned)u,
-                          (int)i, (unsigned)w[i], (long long)exact);
+                    HOLDS(&weight, w[i] == exact, "k %d, F 2^%d, u %u, texel %d: %u, not %lld", (int)k, (int)bits,
+                          (unsigned)u, (int)i, (unsigned)w[i], (long long)exact);
                     total += w[i];
                 }
                 HOLDS(&sum, total == (2 * k + 1) * (2 * k + 1) * f * f && w[n] == 0xDEADBEEFU, "k %d, F 2^%d, u %u: %lld",
@@ -131,7 +131,8 @@ static void random_view(uint16_t *texels, uint32_t i)
     view.depth_log2 = (uint8_t)rng_below(&random_state, 6);
     view.depth = texels;
     uint16_t levels[3] = {20000, (uint16_t)rng_u32(&random_state), 65535};
-    uint32_t noise = rng_below(&random_state, 3), size = view.tile_texels; /* 0: two flat halves, 1: texels of few levels, 2: of any */
+    uint32_t noise = rng_below(&random_state, 3),
+             size = view.tile_texels; /* 0: two flat halves, 1: texels of few levels, 2: of any */
     uint32_t edge_u = rng_below(&random_state, size), edge_v = rng_below(&random_state, size);
     for (uint32_t t = 0; t < size * size; t++) {
         if (noise == 0) texels[t] = levels[t % size > edge_u && t / size > edge_v];
@@ -177,11 +178,13 @@ static void try_point(verdict *result, int32_t u, int32_t v, int32_t d)
     int eight = frame.knobs.atten_bits == 8;
     /* within half an LSB and a little; 8 bits: half a step of 256 more, and a multiple of it */
     HOLDS(&result->error, error <= (eight ? 128.52L : 0.52L) && (!eight || a % 256 == 0),
-          "filter %d, T %d, F 2^%d, depth fraction %d: (%d, %d) at %d: errs by %.4Lf", (int)view.filter, (int)view.tile_texels,
-          (int)frame.knobs.weight_bits, (int)frame.knobs.shadow_depth_frac, (int)u, (int)v, (int)d, error);
+          "filter %d, T %d, F 2^%d, depth fraction %d: (%d, %d) at %d: errs by %.4Lf", (int)view.filter,
+          (int)view.tile_texels, (int)frame.knobs.weight_bits, (int)frame.knobs.shadow_depth_frac, (int)u, (int)v, (int)d,
+          error);
     if (!eight) WORST(&result->w, error, "filter %d, F 2^%d", (int)view.filter, (int)frame.knobs.weight_bits);
     if (numerator == 0) HOLDS(&result->ends, a == 0, "filter %d: shadowed is %u", (int)view.filter, (unsigned)a);
-    if (numerator == 65536 * denominator) HOLDS(&result->ends, a == 65536, "filter %d: lit is %u", (int)view.filter, (unsigned)a);
+    if (numerator == 65536 * denominator)
+        HOLDS(&result->ends, a == 65536, "filter %d: lit is %u", (int)view.filter, (unsigned)a);
 }
 
 /* Tiles in memory of exactly their size, so that a sanitizer sees a tap that leaves them. */
@@ -254,11 +257,13 @@ static void test_lit_and_shadowed(void)
                 int32_t u = random_position(), v = random_position();
                 memset(texels, 0xFF, sizeof texels);
                 build_blocks();
-                HOLDS(&t, gn_filter_attenuation(&frame, &view, u, v, INT32_MAX) == 65536, "empty tile, filter %u", (unsigned)filter);
+                HOLDS(&t, gn_filter_attenuation(&frame, &view, u, v, INT32_MAX) == 65536, "empty tile, filter %u",
+                      (unsigned)filter);
                 memset(texels, 0, sizeof texels);
                 build_blocks();
                 HOLDS(&t, gn_filter_attenuation(&frame, &view, u, v, 65536) == 0, "full tile, filter %u", (unsigned)filter);
-                HOLDS(&t, gn_filter_attenuation(&frame, &view, u, v, INT32_MIN) == 65536, "before the light, filter %u", (unsigned)filter);
+                HOLDS(&t, gn_filter_attenuation(&frame, &view, u, v, INT32_MIN) == 65536, "before the light, filter %u",
+                      (unsigned)filter);
             }
     CHECK_TALLY(t, "empty and full tiles");
 }

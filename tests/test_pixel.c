@@ -62,7 +62,8 @@ static int packed_ok(const uint32_t q20[3])
     if (frame.picture.format == GN_FORMAT_RGB565)
         return packed ==
                nearest(encoded(q20[0]), 31) * 2048 + nearest(encoded(q20[1]), 63) * 32 + nearest(encoded(q20[2]), 31);
-    return packed == nearest(encoded(q20[0]), 255) + nearest(encoded(q20[1]), 255) * 256 + nearest(encoded(q20[2]), 255) * 65536;
+    return packed ==
+           nearest(encoded(q20[0]), 255) + nearest(encoded(q20[1]), 255) * 256 + nearest(encoded(q20[2]), 255) * 65536;
 }
 
 /* Without the curve every 16-bit value occurs; each passes through every channel. */
@@ -75,8 +76,8 @@ static void test_pack(void)
             frame.knobs.srgb = curve;
             for (uint32_t i = 0; i <= ONE_Q20 + 64; i += 4) {
                 uint32_t q20[3] = {i, (i * 5 + 1) & (ONE_Q20 - 1), rng_u32(&random_state) >> rng_below(&random_state, 13)};
-                HOLDS(&t, packed_ok(q20), "format %d, curve %d: %u %u %u", format, curve,
-                      (unsigned)q20[0], (unsigned)q20[1], (unsigned)q20[2]);
+                HOLDS(&t, packed_ok(q20), "format %d, curve %d: %u %u %u", format, curve, (unsigned)q20[0], (unsigned)q20[1],
+                      (unsigned)q20[2]);
             }
         }
     CHECK_TALLY(t, "pixels are the nearest levels");

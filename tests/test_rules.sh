@@ -93,33 +93,39 @@ grep -h -E '^ *#include "gn' lib/*.[ch] | sed 's/.*"\(.*\)".*/\1/' | sort -u | w
 done >"$tmp/found"
 none "lib/ includes a header that it does not have" "$tmp/found"
 
-# The stages in the order of gn_frame.c's table of contents; what a line names in passing serves the stage that it names first,
-# so it counts as earlier.
+# gn_frame.c's table of contents, as "name rank kind": its lines are in the order of the stages; what stands in parentheses is a
+# service, which ranks as the stage that it is first named for. Nobody includes a stage of a later rank.
 awk 'FNR > 1 && /\*\// { exit } /^ \*   / {
-    n = 0
     line = $0
-    while (match(line, /gn_[a-z_]+/)) { word = substr(line, RSTART, RLENGTH); line = substr(line, RSTART + RLENGTH); w[++n] = word }
-    first = 1
-    if (w[1] ~ /^gn_(begin|shadow_tile|prepare|screen_tile)$/) first = 2
-    for (i = first + 1; i <= n; i++) print w[i]
-    if (n >= first) print w[first]
+    depth = 0
+    while (match(line, /[()]|gn_[a-z_]+/)) {
+        word = substr(line, RSTART, RLENGTH)
+        line = substr(line, RSTART + RLENGTH)
+        if (word == "(") depth++
+        else if (word == ")") depth--
+        else if (!seen[word]++ && word !~ /^gn_(begin|shadow_tile|prepare|screen_tile)$/) print word, FNR, depth ? "service" : "stage"
+    }
 }' lib/gn_frame.c >"$tmp/order"
-for stage in gn_scene gn_xform gn_cascade gn_atlas gn_setup gn_bin gn_raster gn_shade gn_pixel; do
-    grep -x -q $stage "$tmp/order" && pass || fail "lib/gn_frame.c's table of contents does not name $stage"
+for stage in gn_scene gn_xform gn_cascade gn_atlas gn_setup gn_bin gn_raster gn_shade; do
+    grep -q "^$stage [0-9]* stage$" "$tmp/order" && pass || fail "lib/gn_frame.c's table of contents has no stage $stage"
 done
-while read -r stage; do
-    [ -f "lib/$stage.c" ] || fail "lib/gn_frame.c's table of contents names $stage, and there is no such file"
-    sed -n "/^$stage\$/,\$p" "$tmp/order" | sed 1d >"$tmp/later"
-    for file in "lib/$stage.c" "lib/$stage.h"; do
+while read -r name rank kind; do
+    [ -f "lib/$name.c" ] || echo "$name is named in lib/gn_frame.c, and there is no such file"
+    for file in "lib/$name.c" "lib/$name.h"; do
         [ -f "$file" ] || continue
-        # a shared service of two stages (gn_walk, gn_plane) stands at its first mention
-        sed -n 's/^#include "\(gn_[a-z]*\)\.h"/\1/p' "$file" | while read -r header; do
-            [ "$(grep -n -x -m 1 "$header" "$tmp/order" | cut -d: -f1)0" -gt "$(grep -n -x -m 1 "$stage" "$tmp/order" | cut -d: -f1)0" ] &&
-                echo "$file includes $header.h"
+        for header in $(sed -n 's/^#include "\(gn_[a-z]*\)\.h"/\1/p' "$file"); do
+            awk -v header="$header" -v rank="$rank" -v file="$file" \
+                '$1 == header && $2 > rank && $3 == "stage" { print file " includes " header ".h" }' "$tmp/order"
         done
     done
 done <"$tmp/order" >"$tmp/found"
 none "a stage includes a later one" "$tmp/found"
+for file in lib/*.c; do # and nobody below the frame includes it, nor is left out of the table of contents
+    name=$(basename "$file" .c)
+    case $name in gn_frame | gn_affine | gn_math | gn_tables) continue ;; esac
+    grep -q "^$name " "$tmp/order" || echo "$name"
+done >"$tmp/found"
+none "not named in lib/gn_frame.c's table of contents" "$tmp/found"
 
 grep -H -E '#[[:space:]]*include[^"<]*["<][^">]*(lib/|gnomon\.h|gn_)' host/ref/*.[ch] >"$tmp/found"
 none "host/ref/ includes from lib/" "$tmp/found"
@@ -127,7 +133,7 @@ grep -H -E '\<(gn|GN)_[A-Za-z]' host/ref/*.[ch] | while IFS= read -r line; do
     code "${line%%:*}" | grep -E '\<(gn|GN)_[A-Za-z]'
 done | sort -u >"$tmp/found"
 none "host/ref/ uses the library" "$tmp/found"
-find lib host port -name '*.[ch]' 2>/dev/null | xargs grep -H -E '#[[:space:]]*include.*(tests/|boards/|check\.h)' >"$tmp/found"
+find lib host port -name '*.[ch]' 2>/dev/null | xargs grep -H -E '#[[:space:]]*include.*(tests/|boards/|"(\.\./)*check\.h)' >"$tmp/found"
 none "product code includes tests/ or boards/" "$tmp/found"
 if [ -d port ]; then
     find port -name '*.[ch]' | xargs grep -H -E '#[[:space:]]*include.*"(\.\./)*(lib/)?gn_' | grep -v '"gn_port' >"$tmp/found"

@@ -176,7 +176,8 @@ static void test_grid(void)
     tally once = {0}, folded = {0};
     for (uint32_t i = 0; i < 400; i++) {
         static canvas c;
-        int32_t bits = tried_bits[i & 3], one = 1 << bits, cell = rng_range(&random_state, one, 7 * one - 1), x[GRID][GRID], y[GRID][GRID];
+        int32_t bits = tried_bits[i & 3], one = 1 << bits, cell = rng_range(&random_state, one, 7 * one - 1), x[GRID][GRID],
+                y[GRID][GRID];
         int32_t left = random_coord(-4, 2, bits), top = random_coord(-4, 2, bits), shake = i & 4 ? 2 * cell : (cell - 1) / 4;
         memset(&c, 0, sizeof c);
         for (int v = 0; v < GRID; v++)
@@ -186,9 +187,11 @@ static void test_grid(void)
                 y[v][u] = top + v * cell + (inner ? rng_range(&random_state, -shake, shake) : 0);
             }
         for (int k = 0; k < (GRID - 1) * (GRID - 1); k++) {
-            int v = k / (GRID - 1), u = k % (GRID - 1), d = (int)rng_below(&random_state, 2), first = (int)rng_below(&random_state, 3);
+            int v = k / (GRID - 1), u = k % (GRID - 1), d = (int)rng_below(&random_state, 2),
+                first = (int)rng_below(&random_state, 3);
             /* the four corners in turn, cut by one diagonal or the other, each triangle from any of its vertices */
-            int32_t cx[4] = {x[v][u], x[v][u + 1], x[v + 1][u + 1], x[v + 1][u]}, cy[4] = {y[v][u], y[v][u + 1], y[v + 1][u + 1], y[v + 1][u]};
+            int32_t cx[4] = {x[v][u], x[v][u + 1], x[v + 1][u + 1], x[v + 1][u]},
+                    cy[4] = {y[v][u], y[v][u + 1], y[v + 1][u + 1], y[v + 1][u]};
             for (int half = 0; half < 2; half++) {
                 int32_t tx[3], ty[3];
                 for (int j = 0; j < 3; j++) {
@@ -203,8 +206,11 @@ static void test_grid(void)
         for (int32_t py = 0; py < CANVAS; py++)
             for (int32_t px = 0; px < CANVAS; px++) {
                 int inside = px >= x0 && px < x1 && py >= y0 && py < y1;
-                if (!(i & 4)) HOLDS(&once, c.once[py][px] == inside, "mesh %u at (%d, %d): %d", (unsigned)i, (int)px, (int)py, c.once[py][px]);
-                HOLDS(&folded, c.winding[py][px] == inside, "mesh %u at (%d, %d): %d", (unsigned)i, (int)px, (int)py, c.winding[py][px]);
+                if (!(i & 4))
+                    HOLDS(&once, c.once[py][px] == inside, "mesh %u at (%d, %d): %d", (unsigned)i, (int)px, (int)py,
+                          c.once[py][px]);
+                HOLDS(&folded, c.winding[py][px] == inside, "mesh %u at (%d, %d): %d", (unsigned)i, (int)px, (int)py,
+                      c.winding[py][px]);
             }
     }
     CHECK_TALLY(once, "a grid covers each pixel once");
@@ -220,7 +226,8 @@ static void test_fan(void)
         int32_t cx = random_coord(28, 36, bits), cy = random_coord(28, 36, bits);
         memset(&c, 0, sizeof c);
         for (int32_t k = 0; k < n; k++) {
-            long double angle = (long double)k * EXACT_TAU / (long double)n, radius = (long double)rng_range(&random_state, 14 * one, 26 * one);
+            long double angle = (long double)k * EXACT_TAU / (long double)n,
+                        radius = (long double)rng_range(&random_state, 14 * one, 26 * one);
             x[k] = cx + (int32_t)(radius * cosl(angle));
             y[k] = cy + (int32_t)(radius * sinl(angle));
         }
@@ -233,7 +240,8 @@ static void test_fan(void)
             for (int32_t px = 0; px < CANVAS; px++) {
                 int64_t dx = px * one + one / 2 - cx, dy = py * one + one / 2 - cy, near = 11 * one;
                 int n_here = c.once[py][px], inside = dx * dx + dy * dy < near * near;
-                HOLDS(&t, inside ? n_here == 1 : n_here <= 1, "fan %u at (%d, %d): %d", (unsigned)i, (int)px, (int)py, n_here);
+                HOLDS(&t, inside ? n_here == 1 : n_here <= 1, "fan %u at (%d, %d): %d", (unsigned)i, (int)px, (int)py,
+                      n_here);
             }
     }
     CHECK_TALLY(t, "a fan covers each pixel once");
@@ -354,9 +362,12 @@ static void test_sheet(void)
 /* World direction of the ray through a pixel centre, scaled to view depth 1. */
 static void pixel_ray(long double ray[3], const gn_affine *camera, long double focal, int px, int py)
 {
-    long double x = ((long double)px + 0.5L - WIDTH / 2) / (focal * (HEIGHT / 2)), y = (HEIGHT / 2 - (long double)py - 0.5L) / (focal * (HEIGHT / 2));
+    long double x = ((long double)px + 0.5L - WIDTH / 2) / (focal * (HEIGHT / 2)),
+                y = (HEIGHT / 2 - (long double)py - 0.5L) / (focal * (HEIGHT / 2));
     for (int k = 0; k < 3; k++)
-        ray[k] = ((long double)camera->m_q30[k][0] * x + (long double)camera->m_q30[k][1] * y - (long double)camera->m_q30[k][2]) / 1073741824.0L;
+        ray[k] = ((long double)camera->m_q30[k][0] * x + (long double)camera->m_q30[k][1] * y -
+                  (long double)camera->m_q30[k][2]) /
+                 1073741824.0L;
 }
 
 /* A ground plane under a camera that stands on it: it passes through the near plane and to the horizon. */
@@ -365,7 +376,8 @@ static void test_ground(void)
     tally t = {0}, owner = {0};
     for (uint32_t i = 0; i < 60; i++) {
         gn_affine camera, to_world;
-        int32_t reach = GN_Q16(1) * rng_range(&random_state, 20, 4000), cell = 2 * reach / (SIDE - 1), near = rng_range(&random_state, 1 << 12, 1 << 17);
+        int32_t reach = GN_Q16(1) * rng_range(&random_state, 20, 4000), cell = 2 * reach / (SIDE - 1),
+                near = rng_range(&random_state, 1 << 12, 1 << 17);
         for (int v = 0; v < SIDE; v++)
             for (int u = 0; u < SIDE; u++) {
                 int inner = u && v && u < SIDE - 1 && v < SIDE - 1;

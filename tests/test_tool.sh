@@ -1,0 +1,273 @@
+#!/bin/sh
+# The command line: exit codes, one clear line per error, JSON, pictures of every view, every knob. usage: test_tool.sh [TOOL]
+cd "$(dirname "$0")/.." || exit 1
+tool=${1:-build/gnomon}
+mkdir -p build/tmp
+tmp=$(mktemp -d build/tmp/test_tool.XXXXXX) || exit 1
+trap 'chmod -R u+rwx "$tmp"; rm -rf "$tmp"' EXIT
+trap 'exit 1' HUP INT TERM
+passed=0 failed=0
+
+pass() { passed=$((passed + 1)); }
+fail() {
+    failed=$((failed + 1))
+    echo "$*"
+}
+
+run() { timeout 60 "$tool" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null; }
+
+# good ARGUMENTS...: exit 0, nothing on stderr
+good() {
+    run "$@"
+    status=$?
+    if [ $status != 0 ]; then fail "'$*' exits with $status: $(head -n 1 "$tmp/err")"
+    elif [ -s "$tmp/err" ]; then fail "'$*' succeeds and complains: $(head -n 1 "$tmp/err")"
+    else pass; fi
+}
+
+# bad STATUS WORD ARGUMENTS...: that exit status, nothing on stdout, one line on stderr with that word (a regular expression); a usage
+# error may add the line that names 'gnomon help'
+bad() {
+    expected=$1 word=$2
+    shift 2
+    run "$@"
+    status=$?
+    lines=$(grep -v -c "^'gnomon help'" "$tmp/err")
+    if [ $status != "$expected" ]; then fail "'$*' exits with $status, not $expected: $(head -n 1 "$tmp/err")"
+    elif [ "$lines" != 1 ]; then fail "'$*' complains in $lines lines: $(head -n 2 "$tmp/err" | tr '\n' ';')"
+    elif ! head -n 1 "$tmp/err" | grep -q '^gnomon: '; then fail "'$*' does not say who complains: $(head -n 1 "$tmp/err")"
+    elif ! head -n 1 "$tmp/err" | grep -q -e "$word"; then fail "'$*' does not name '$word': $(head -n 1 "$tmp/err")"
+    elif [ -s "$tmp/out" ]; then fail "'$*' fails and prints: $(head -n 1 "$tmp/out")"
+    elif [ "$expected" = 1 ] && [ "$(wc -l <"$tmp/err")" != 1 ]; then fail "'$*' adds a usage hint to a failure of the work"
+    else pass; fi
+}
+
+# ---- Scenes of the test's own ------------------------------------------------------------------------------------------------
+
+cat >"$tmp/cube.obj" <<'OBJ'
+v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 3 4 8 7
+f 2 3 7 6
+f 1 5 8 4
+OBJ
+cube=$tmp/cube.obj
+json='{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36}]}'
+while [ $((${#json} % 4)) != 0 ]; do json="$json "; done
+word() { # little endian, 4 bytes
+    printf "\\$(printf %o $(($1 % 256)))\\$(printf %o $(($1 / 256 % 256)))\\$(printf %o $(($1 / 65536)))\\000"
+}
+{
+    printf glTF && word 2 && word $((12 + 8 + ${#json} + 8 + 36))
+    word ${#json} && printf 'JSON%s' "$json"
+    word 36 && printf 'BIN\000'
+    printf '\000\000\000\000\000\000\000\000\000\000\000\000'           # 0 0 0
+    printf '\000\000\200\077\000\000\000\000\000\000\000\000'           # 1 0 0
+    printf '\000\000\000\000\000\000\200\077\000\000\000\000'           # 0 1 0
+} >"$tmp/triangle.glb"
+glb=$tmp/triangle.glb
+
+# ---- What works --------------------------------------------------------------------------------------------------------------
+
+good help
+grep -q '^usage: gnomon' "$tmp/out" && pass || fail "help does not say how it is used"
+good --help
+good knobs
+cp "$tmp/out" "$tmp/knobs"
+good info "$cube" --size 32x24
+good info "$glb" --size 32x24
+good compare "$cube" --size 32x24
+good render "$glb" -o "$tmp/a.png" --size 32x24
+[ -s "$tmp/out" ] && fail "render prints: $(head -n 1 "$tmp/out")" || pass
+
+# png_size FILE: "WIDTHxHEIGHT" from its header, after checking the signature
+png_size() {
+    od -A n -t u1 -N 24 "$1" 2>/dev/null | tr -s ' \n' '  ' | awk '{
+        if ($0 !~ /^ ?137 80 78 71 13 10 26 10 0 0 0 13 73 72 68 82 /) { print "no PNG"; exit }
+        print (($17 * 256 + $18) * 256 + $19) * 256 + $20 "x" (($21 * 256 + $22) * 256 + $23) * 256 + $24 }'
+}
+is_png() { # is_png FILE SIZE WHAT
+    size=$(png_size "$1")
+    if [ "$size" = "$2" ]; then pass; else fail "$3: $1 is ${size:-missing}, not $2"; fi
+    rm -f "$1"
+}
+
+for engine in fixed reference; do
+    for view in colour shadow depth normal atlas; do
+        size=33x21
+        [ $view = atlas ] && size=64x64
+        good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view $view --set atlas_size=64
+        is_png "$tmp/view.png" $size "--engine $engine --view $view"
+    done
+done
+good render "$cube" -o "$tmp/one.png" --size 1x1
+is_png "$tmp/one.png" 1x1 "--size 1x1"
+good compare "$cube" -o "$tmp/new" --size 33x21
+for name in fixed reference error; do is_png "$tmp/new/$name.png" 33x21 "compare -o"; done
+good compare "$cube" -o "$tmp/new" --size 16x16 # into a folder that exists
+for name in fixed reference error; do is_png "$tmp/new/$name.png" 16x16 "compare -o"; done
+
+# ---- JSON --------------------------------------------------------------------------------------------------------------------
+
+cat >"$tmp/json.c" <<'EOF_C'
+/* json KEY...: stdin is one JSON object on one line, with these keys. */
+#include <stdio.h>
+#include "host/scene/json.h"
+int main(int argc, char **argv)
+{
+    static char text[1 << 20];
+    size_t n = fread(text, 1, sizeof text, stdin);
+    json_doc doc;
+    char error[200];
+    if (json_parse(&doc, text, n, error, sizeof error)) {
+        printf("%s", error);
+        return 1;
+    }
+    if (doc.root->type != JSON_OBJECT) return printf("no object"), 1;
+    for (int i = 1; i < argc; i++)
+        if (!json_get(doc.root, argv[i])) return printf("no %s", argv[i]), 1;
+    json_free(&doc);
+    return 0;
+}
+EOF_C
+if ${CC:-gcc} -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -I. -o "$tmp/json" "$tmp/json.c" host/scene/json.c host/scene/arena.c -lm >"$tmp/log" 2>&1; then pass
+else fail "the JSON checker does not build: $(grep -m 1 error "$tmp/log")"; fi
+valid_json() { # valid_json KEYS...: of the last command's output
+    if message=$("$tmp/json" "$@" <"$tmp/out") && [ "$(wc -l <"$tmp/out")" = 1 ]; then pass
+    else fail "JSON: ${message:-more than one line}: $(head -c 100 "$tmp/out")"; fi
+}
+odd="$tmp/odd \"name\" \\ é.obj"
+cp "$cube" "$odd"
+for scene in "$cube" "$odd"; do
+    good render "$scene" -o "$tmp/a.png" --size 32x24 --json
+    valid_json out width height
+    good compare "$scene" --size 32x24 --json
+    valid_json identical within1 max_error atten_rms atten_max shadow_mismatch coverage_mismatch ram_bytes
+    good info "$scene" --size 32x24 --json
+    valid_json objects triangles lights ram_bytes notes
+done
+: >"$tmp/empty"
+"$tmp/json" <"$tmp/empty" >/dev/null && fail "the JSON checker takes nothing for JSON" || pass
+
+# ---- The command line is wrong: exit 2 ---------------------------------------------------------------------------------------
+
+bad 2 command
+bad 2 paint paint "$cube"
+bad 2 RENDER RENDER "$cube"
+bad 2 scene render
+bad 2 scene info --json
+bad 2 '-o' render "$cube"
+bad 2 '-o' render "$cube" -o
+bad 2 '--frobnicate' render "$cube" -o "$tmp/a.png" --frobnicate
+bad 2 '-x' info "$cube" -x
+bad 2 other.obj info "$cube" other.obj
+bad 2 gpu render "$cube" -o "$tmp/a.png" --engine gpu
+bad 2 fixed compare "$cube" --with fixed
+bad 2 xray render "$cube" -o "$tmp/a.png" --view xray
+bad 2 knobs knobs "$cube"
+for size in 0x0 99999x1 1x99999 -1x5 5x-1 1e3x4 '' x 10 10x 10x10x10 10X10 10.5x10 2049x1 1x2049 99999999999999999999x1 ' 5x5' '5x 5' +5x5; do
+    bad 2 '--size' info "$cube" --size "$size"
+done
+for frame in -1 1.5 '' x 1e3 99999999999999999999; do bad 2 '--frame' info "$cube" --frame "$frame"; done
+for light in -1 8 '' one 0.5; do bad 2 '--light' info "$cube" --light "$light"; done
+set --
+while [ $# -lt 130 ]; do set -- "$@" --set strength=1; done
+bad 2 '--set' info "$cube" "$@"
+
+# ---- The work fails: exit 1 --------------------------------------------------------------------------------------------------
+
+bad 1 missing.obj info "$tmp/missing.obj"
+bad 1 missing.gltf render "$tmp/missing.gltf" -o "$tmp/a.png"
+bad 1 'scene.xyz' info "$tmp/scene.xyz"
+bad 1 "$tmp" info "$tmp"
+mkdir "$tmp/folder.obj" "$tmp/folder.glb" "$tmp/folder.gltf"
+for kind in obj glb gltf; do bad 1 "folder.$kind" info "$tmp/folder.$kind"; done
+cp "$cube" "$tmp/secret.obj"
+chmod 000 "$tmp/secret.obj"
+if [ -r "$tmp/secret.obj" ]; then : # root may read anything
+else bad 1 secret.obj info "$tmp/secret.obj"; fi
+for kind in obj glb gltf; do
+    : >"$tmp/empty.$kind"
+    bad 1 "empty.$kind" info "$tmp/empty.$kind"
+done
+total=$(wc -c <"$glb")
+for bytes in 1 4 11 12 16 19 20 100 $((total - 37)) $((total - 36)) $((total - 1)); do # inside each part of the file
+    head -c "$bytes" "$glb" >"$tmp/cut.glb"
+    bad 1 cut.glb info "$tmp/cut.glb"
+done
+printf '{"asset": {"version": "2.0"},\n "nodes": [1, }\n' >"$tmp/broken.gltf"
+bad 1 'broken.gltf.*2:' info "$tmp/broken.gltf"
+printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[7]}],"nodes":[]}' >"$tmp/broken.gltf"
+bad 1 'broken.gltf.*/scenes/0' info "$tmp/broken.gltf"
+printf '{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":3}]}' >"$tmp/broken.gltf"
+bad 1 'broken.gltf.*/nodes/0/mesh' info "$tmp/broken.gltf"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 x\nf 1 2 3\n' >"$tmp/broken.obj"
+bad 1 'broken.obj:3' info "$tmp/broken.obj"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >"$tmp/broken.obj"
+bad 1 'broken.obj:4' info "$tmp/broken.obj"
+cp "$cube" "$tmp/noise.glb"
+bad 1 noise.glb info "$tmp/noise.glb"
+bad 1 'no/such' render "$cube" -o "$tmp/no/such/a.png" --size 8x8
+bad 1 "$tmp/new" render "$cube" -o "$tmp/new" --size 8x8
+bad 1 'cube.obj' compare "$cube" -o "$cube" --size 8x8
+bad 1 'no/such' compare "$cube" -o "$tmp/no/such" --size 8x8
+if [ -w /dev/full ]; then bad 1 /dev/full render "$cube" -o /dev/full --size 8x8; fi
+bad 1 light render "$cube" -o "$tmp/a.png" --size 8x8 --view atlas --light 3
+bad 1 light render "$cube" -o "$tmp/a.png" --size 8x8 --view shadow --light 7
+bad 1 shadow render "$cube" -o "$tmp/a.png" --size 8x8 --view atlas --set strength=0
+[ -e "$tmp/a.png" ] && rm -f "$tmp/a.png"
+bad 1 strength render "$cube" -o "$tmp/a.png" --size 8x8 --set strength=2
+[ -e "$tmp/a.png" ] && fail "a failed render leaves a picture" || pass
+
+for value in nan inf -inf 1e999 '' ' ' x 1x -1 0 9000 1,2,3; do bad 1 max_distance info "$cube" --size 8x8 --set "max_distance=$value"; done
+for value in nan '' 1,2 1,2,3,4 1,,2 -1 red 256; do bad 1 ambient info "$cube" --size 8x8 --set "ambient=$value"; done
+for value in 4.5 '' nan 1e999 x 3; do bad 1 atlas_size info "$cube" --size 8x8 --set "atlas_size=$value"; done
+bad 1 'max_distance' info "$cube" --set max_distance
+bad 1 '=1' info "$cube" --set '=1'
+bad 1 KEY=VALUE info "$cube" --set ''
+bad 1 nonsense info "$cube" --set nonsense=1
+bad 1 preset info "$cube" --set preset=huge
+bad 1 filter info "$cube" --set filter=9x9
+bad 1 ground info "$cube" --set ground=2
+bad 1 normals info "$cube" --set normals=round
+bad 1 'KEY=VALUE' info "$cube" --set "$(printf '%0100d' 0)=1"
+bad 1 triangles render "$cube" -o "$tmp/a.png" --size 32x24 --set max_triangles=1
+bad 1 references render "$cube" -o "$tmp/a.png" --size 32x24 --set max_tile_refs=1
+
+# ---- Every knob at both ends -------------------------------------------------------------------------------------------------
+
+# "| `name` | low…high |"
+sed -n 's/^| `\([a-z_]*\)` | \([0-9.e-]*\)…\([0-9.e-]*\) |.*/\1 \2 \3/p' "$tmp/knobs" >"$tmp/ranges"
+[ "$(wc -l <"$tmp/ranges")" -ge 30 ] && pass || fail "'gnomon knobs' lists only $(wc -l <"$tmp/ranges") knobs with a range"
+while read -r name low high; do
+    for value in "$low" "$high"; do
+        run render "$cube" -o "$tmp/knob.png" --size 16x12 --set "$name=$value"
+        status=$?
+        case $status in
+        0) [ -s "$tmp/err" ] && fail "$name=$value: $(head -n 1 "$tmp/err")" || pass ;;
+        1) # a capacity that is too small for the scene, or a feature that it needs: said in one line
+            if [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q '^gnomon: ' "$tmp/err"; then pass
+            else fail "$name=$value is refused without a clear line: $(head -n 1 "$tmp/err")"; fi
+            case $name in max_* | shadows | filter_max | vertex_* | persp_step | tile_*) ;;
+            *) fail "$name=$value, an end of its range, is refused: $(head -n 1 "$tmp/err")" ;; esac ;;
+        *) fail "$name=$value exits with $status" ;;
+        esac
+    done
+    case $low in *[.e]*) below=-1 ;; *) below=$((low - 1)) ;; esac
+    bad 1 "$name" info "$cube" --set "$name=$below"
+    bad 1 "$name" info "$cube" --set "$name=$((${high%%.*} + 1))"
+done <"$tmp/ranges"
+for preset in tiny balanced accurate; do good info "$cube" --size 16x12 --set preset=$preset; done
+for filter in hard 2x2 3x3 5x5 7x7; do good info "$cube" --size 16x12 --set filter=$filter; done
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
