@@ -71,10 +71,36 @@ void gn_affine_mul(gn_affine *out, const gn_affine *a, const gn_affine *b)
     for (int r = 0; r < 3; r++) out->t_q16[r] = t[r];
 }
 
+/* Columns x, z x x, z of unit vectors at right angles. */
+static void set_axes(gn_affine *out, const int32_t x_q30[3], const int32_t z_q30[3])
+{
+    int32_t y[3];
+    gn_cross_q30(y, z_q30, x_q30);
+    for (int i = 0; i < 3; i++) {
+        out->m_q30[i][0] = x_q30[i];
+        out->m_q30[i][1] = gn_max32(-GN_ONE_Q30, gn_min32(GN_ONE_Q30, y[i]));
+        out->m_q30[i][2] = z_q30[i];
+    }
+}
+
+void gn_affine_orthonormalise(gn_affine *inout)
+{
+    int64_t back[3], right[3];
+    int32_t z[3], y[3], x[3];
+    for (int i = 0; i < 3; i++) {
+        back[i] = inout->m_q30[i][2];
+        y[i] = inout->m_q30[i][1];
+    }
+    if (!gn_normalise_q30(z, back)) return;
+    gn_cross64(right, y, z);
+    if (!gn_normalise_q30(x, right)) return;
+    set_axes(inout, x, z);
+}
+
 void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t target_q16[3])
 {
     int64_t back[3], right[3];
-    int32_t z[3], x[3], y[3];
+    int32_t z[3], x[3];
     for (int i = 0; i < 3; i++) back[i] = (int64_t)eye_q16[i] - target_q16[i];
     gn_affine_identity(out);
     for (int i = 0; i < 3; i++) out->t_q16[i] = eye_q16[i];
@@ -83,10 +109,5 @@ void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t t
     right[1] = 0;
     right[2] = -(int64_t)z[0];
     if (!gn_normalise_q30(x, right)) x[0] = GN_ONE_Q30, x[1] = x[2] = 0; /* straight up or down */
-    gn_cross_q30(y, z, x);
-    for (int i = 0; i < 3; i++) {
-        out->m_q30[i][0] = x[i];
-        out->m_q30[i][1] = gn_max32(-GN_ONE_Q30, gn_min32(GN_ONE_Q30, y[i]));
-        out->m_q30[i][2] = z[i];
-    }
+    set_axes(out, x, z);
 }

@@ -216,6 +216,7 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_light_view *view)
             for (uint32_t i = 0; i < 3; i++) {
                 uint32_t vertex_idx = mesh->idx[3 * (size_t)t + i];
                 if (vertex_idx >= mesh->n_vertices) return gn_fail(frame, GN_ERR_MESH_INDEX, o);
+                if (!gn_xform_position_ok(mesh, vertex_idx)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, o);
                 transform(&p[i], &xform, mesh, vertex_idx);
             }
             caster_triangle(frame, view, p, (object->flags & GN_OBJECT_TWO_SIDED) != 0);

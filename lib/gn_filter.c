@@ -25,28 +25,13 @@ static const uint16_t *row_at(const receiver *r, int32_t v)
     return r->view->depth + ((size_t)(uint32_t)v << r->view->tile_log2);
 }
 
-/* Whether the bounds of the texels from (u, v) on answer for all of them. */
-static int decided(const receiver *r, int32_t u, int32_t v, uint32_t *answer)
-{
-#if GN_DEPTH_BLOCKS
-    const gn_depth_block *bounds = gn_blocks_at(r->view, u, v);
-    *answer = 65536;
-    if (r->depth <= (int32_t)((uint32_t)bounds->lo << r->depth_frac)) return 1;
-    *answer = 0;
-    return r->depth > (int32_t)((uint32_t)bounds->hi << r->depth_frac);
-#else
-    (void)r, (void)u, (void)v, (void)answer;
-    return 0;
-#endif
-}
-
+#if GN_FILTER_MAX >= 1
 /* round to weight_bits; F itself is allowed: the weights are continuous there */
 static uint32_t fraction(int32_t c_q16, int32_t weight_bits)
 {
     return (((uint32_t)c_q16 & 0xFFFFU) + (0x8000U >> weight_bits)) >> (16 - weight_bits);
 }
 
-#if GN_FILTER_MAX >= 1
 static uint32_t bilinear(const receiver *r, int32_t u_q16, int32_t v_q16, int32_t bits)
 {
     int32_t cu = u_q16 + 32768, cv = v_q16 + 32768;
@@ -75,6 +60,21 @@ void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
         w[i] = (uint32_t)(4 * i + 2) * ff - uf4 - (i == k ? m * m : 0);
         w[n - 1 - i] = (uint32_t)(4 * i - 2) * ff + uf4 - (i == k ? p * p : 0);
     }
+}
+
+/* Whether the bounds of the texels from (u, v) on answer for all of them. */
+static int decided(const receiver *r, int32_t u, int32_t v, uint32_t *answer)
+{
+#if GN_DEPTH_BLOCKS
+    const gn_depth_block *bounds = gn_blocks_at(r->view, u, v);
+    *answer = 65536;
+    if (r->depth <= (int32_t)((uint32_t)bounds->lo << r->depth_frac)) return 1;
+    *answer = 0;
+    return r->depth > (int32_t)((uint32_t)bounds->hi << r->depth_frac);
+#else
+    (void)r, (void)u, (void)v, (void)answer;
+    return 0;
+#endif
 }
 
 static uint32_t tent(const receiver *r, int32_t k, int32_t u_q16, int32_t v_q16, int32_t bits)
@@ -119,8 +119,10 @@ uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view,
     u_q16 = gn_max32(-(64 << 16), gn_min32(u_q16, 1088 << 16));
     v_q16 = gn_max32(-(64 << 16), gn_min32(v_q16, 1088 << 16));
     r.depth = receiver_depth(view, d_q16, r.depth_frac);
-    int32_t bits = GN_K(frame, weight_bits);
     uint32_t attenuation;
+#if GN_FILTER_MAX >= 1
+    int32_t bits = GN_K(frame, weight_bits);
+#endif
     switch (view->filter) {
 #if GN_FILTER_MAX >= 1
     case GN_FILTER_2X2: attenuation = bilinear(&r, u_q16, v_q16, bits); break;

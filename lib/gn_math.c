@@ -13,7 +13,7 @@ gn_bfloat gn_bf_from_u64(uint64_t v)
 
 uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
 {
-    /* x = m / 2^32 in [1/2, 1); y ~ 1/x in Q1.31. Newton y(2 - xy) never exceeds 1/x <= 2, so only x = 1/2 reaches 2^32. */
+    /* x = m / 2^32 in [1/2, 1); y ~ 1/x in Q1.31. Newton y(2 - xy) exceeds 1/x only by truncation, so only x near 1/2 reaches 2^32. */
     uint64_t y = (uint64_t)gn_recip_table[(m >> 23) & 255U] << 16;
     for (int32_t i = 0; i < newton_steps; i++) {
         uint32_t two_minus_xy = 0U - (uint32_t)((m * y) >> 32); /* Q1.31, near 1: xy is within 2^-8 of 1 */
@@ -102,6 +102,20 @@ int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
     return e;
 }
 
+int gn_det_sign(const int32_t m[3][3])
+{
+    int32_t row[3][3], n[3];
+    int64_t wide[3];
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) wide[c] = m[r][c];
+        gn_norm_vec(row[r], wide);
+    }
+    gn_cross64(wide, row[1], row[2]);
+    gn_norm_vec(n, wide);
+    int64_t det = gn_dot64(row[0], n); /* rows and n have a component of at least 2^29, so the angle's sine is det / 2^60 */
+    return det > (int64_t)1 << 32 ? 1 : det < -((int64_t)1 << 32) ? -1 : 0;
+}
+
 int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
 {
     int32_t n[3];
@@ -148,7 +162,7 @@ int32_t gn_sin_q30(uint16_t angle_turn)
     int32_t b = (int32_t)gn_shr64((int64_t)b_turn * 105414358, 10); /* radians, Q30: 2 pi * 2^40 / 2^16 = 105414357.9 */
     int32_t b2 = gn_mul_q30(b, b);
     int32_t sin_b = b - gn_mul_q30(gn_mul_q30(b2, b), 178956971);                           /* 2^30 / 6 */
-    int32_t cos_b = (1 << 30) - (b2 >> 1) + gn_mul_q30(gn_mul_q30(b2, b2), 44739243);       /* 2^30 / 24 */
+    int32_t cos_b = (1 << 30) - (int32_t)gn_shr64(b2, 1) + gn_mul_q30(gn_mul_q30(b2, b2), 44739243);       /* 2^30 / 24 */
     int64_t s = (int64_t)gn_sin_table_q30[i] * cos_b + (int64_t)gn_sin_table_q30[64U - i] * sin_b;
     int32_t v = gn_min32((int32_t)gn_shr64(s, 30), 1 << 30);
     return angle_turn & 0x8000U ? -v : v;

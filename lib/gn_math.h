@@ -13,10 +13,10 @@ typedef struct {
 /* Nearest below: v truncated to 32 significant bits; v > 0. Relative error < 2^-31. */
 gn_bfloat gn_bf_from_u64(uint64_t v);
 
-/* 2^63 / m for a normalised m in [2^31, 2^32), within (2^31, 2^32); newton_steps 1: relative error < 2^-17, 2: < 2^-29. */
+/* 2^63 / m for a normalised m in [2^31, 2^32). newton_steps 1: relative error < 2^-17, 2: < 2^-29, and then within [2^31, 2^32). */
 uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps);
 
-/* 2^47 / sqrt(m) for m in [2^30, 2^32), within (2^31, 2^32); newton_steps 1: relative error < 2^-15, 2: < 2^-28. */
+/* 2^47 / sqrt(m) for m in [2^30, 2^32). newton_steps 1: relative error < 2^-15, 2: < 2^-28, and then within [2^31, 2^32). */
 uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps);
 
 gn_bfloat gn_bf_recip(gn_bfloat a);              /* relative error < 2^-29 */
@@ -36,6 +36,9 @@ int64_t gn_dot64(const int32_t a[3], const int32_t b[3]); /* exact; |sum| < 2^63
 
 /* Round Q1.30 cross product of unit vectors. */
 void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q30[3]);
+
+/* Sign of the determinant of three rows, exact but for rows within 2^-28 of a common plane, which count as 0. */
+int gn_det_sign(const int32_t m[3][3]);
 
 /* Shifts a vector so that its largest component has its top bit at bit 29: |out| < 2^30. Returns e with a = out * 2^e (rounded
  * when e > 0, exact when e <= 0). A zero vector gives zero and e = 0. */

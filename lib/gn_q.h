@@ -68,7 +68,7 @@ static inline int64_t gn_shl64(int64_t v, int32_t s)
     return (int64_t)((uint64_t)v << s);
 }
 
-/* round(v / 2^s); 0 <= s <= 62, |v| <= 2^62. */
+/* round(v / 2^s); 0 <= s <= 62, |v| < 2^63 - 2^(s - 1). */
 static inline int64_t gn_shr64(int64_t v, int32_t s)
 {
     return s ? (v + ((int64_t)1 << (s - 1))) >> s : v;

@@ -33,7 +33,7 @@ static int position_ok(const gn_affine *a)
     return 1;
 }
 
-/* Rows of unit length and at right angles within 2^-20: what products of rounded rotations keep for millions of frames. */
+/* Rows of unit length and at right angles within 2^-20: some hundred products of rotations without gn_affine_orthonormalise. */
 static int is_rotation(const gn_affine *a)
 {
     if (a->exp != 0) return 0;
@@ -51,14 +51,10 @@ static int is_rotation(const gn_affine *a)
 static int object_transform_ok(const gn_affine *a)
 {
     if (a->exp < 0 || a->exp > 14 || !position_ok(a)) return 0;
-    int64_t det = 0;
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
             if (gn_abs32(a->m_q30[r][c]) > 1U << 30) return 0;
-    int64_t cross[3];
-    gn_cross64(cross, a->m_q30[1], a->m_q30[2]);
-    for (int c = 0; c < 3; c++) det += gn_shr64(cross[c], 31) * a->m_q30[0][c];
-    return det != 0;
+    return gn_det_sign(a->m_q30) != 0;
 }
 
 static gn_status check_camera(gn_frame *frame, const gn_camera *camera)

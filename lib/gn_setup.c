@@ -15,6 +15,7 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *
     uint32_t tag = (object_idx << 16 | vertex_idx) + 1U;
     if (entry->tag != tag) {
         int64_t v[3];
+        if (!gn_xform_position_ok(mesh, vertex_idx)) return 0;
         gn_xform_vertex(v, xform, mesh, vertex_idx);
         entry->tag = 0;
         for (int i = 0; i < 3; i++) {
@@ -39,8 +40,9 @@ static void project(const gn_frame *frame, const int32_t v_q16[3], int32_t *x, i
         int64_t ratio_q28 = gn_shr64((int64_t)v_q16[i] * (int64_t)recip, 35 - clz);
         screen[i] = gn_shr64(ratio_q28 * (int64_t)frame->cam.focal2_px_q16, 45 - bits);
     }
-    *x = (int32_t)screen[0];
-    *y = -(int32_t)screen[1];
+    /* a cut vertex may miss the guard band by a rounding of view space, which a long focal length magnifies */
+    *x = (int32_t)gn_clamp64(screen[0], -frame->cam.coord_max, frame->cam.coord_max);
+    *y = -(int32_t)gn_clamp64(screen[1], -frame->cam.coord_max, frame->cam.coord_max);
 }
 
 /* near / Z, Q0.32, saturated below 1 */
@@ -158,7 +160,7 @@ static void setup_triangle(gn_frame *frame, const int32_t *const v[3], uint32_t 
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) polygon.v_q16[i][k] = v[i][k];
     if (any_guard) {
-        gn_clip(&polygon, any_guard, cam->near_q16, cam->guard_q16);
+        gn_clip(&polygon, GN_OUT_ALL, cam->near_q16, cam->guard_q16);
         frame->stats.n_clipped++;
     }
     int32_t x[GN_CLIP_VERTICES_MAX], y[GN_CLIP_VERTICES_MAX];

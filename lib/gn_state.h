@@ -26,6 +26,7 @@ typedef struct {
     uint32_t focal2_px_q16; /* 2F, twice the focal length in pixels: rays are (2x + 1 - W, H - 1 - 2y, 2F) */
     gn_bf_state near_over_focal2; /* near / 2F */
     int32_t guard_q16[2];   /* |X| <= guard[0] * Z and |Y| <= guard[1] * Z hold after clipping to the guard band */
+    int32_t coord_max;      /* of screen coordinates from the picture's centre */
     int32_t tan_q16[2];     /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
 } gn_cam;
 

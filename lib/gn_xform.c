@@ -6,11 +6,15 @@
 /* How far from the picture's centre a clipped vertex may lie, in pixels. Up to 6 subpixel bits it must fit 16 bits where the
  * picture allows (NUMERICS 4.2); otherwise 1000 pixels around the picture. The choice does not depend on the type that stores
  * it, so that every build clips alike. */
+static int fits_16_bits(int32_t subpixel_bits, int32_t size_px)
+{
+    return subpixel_bits <= 6 && size_px <= 2 * ((32767 >> subpixel_bits) - 10);
+}
+
 static int32_t guard_px(int32_t subpixel_bits, int32_t size_px)
 {
-    int32_t fits_16_bits = (32767 >> subpixel_bits) - 2;
-    if (subpixel_bits <= 6 && size_px <= 2 * (fits_16_bits - 8)) return gn_min32(fits_16_bits, size_px / 2 + 1000);
-    return size_px / 2 + 1000;
+    int32_t wide = size_px / 2 + 1000;
+    return fits_16_bits(subpixel_bits, size_px) ? gn_min32((32767 >> subpixel_bits) - 2, wide) : wide;
 }
 
 /* Pixels from the centre over the focal length: Q16, rounded down so that a clipped vertex stays within. */
@@ -37,9 +41,10 @@ void gn_cam_setup(gn_frame *frame)
     gn_bfloat ratio = gn_bf_mul(near, gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16)));
     cam->near_over_focal2.mant = ratio.mant;
     cam->near_over_focal2.exp = ratio.exp;
-    int32_t size[2] = {frame->picture.width, frame->picture.height};
+    int32_t size[2] = {frame->picture.width, frame->picture.height}, bits = GN_K(frame, subpixel_bits);
+    cam->coord_max = fits_16_bits(bits, gn_max32(size[0], size[1])) ? 32767 : 1 << 20;
     for (int i = 0; i < 2; i++) {
-        int32_t guard = guard_px(GN_K(frame, subpixel_bits), size[i]);
+        int32_t guard = guard_px(bits, gn_max32(size[0], size[1]));
         cam->guard_q16[i] = slope_q16(2 * (uint32_t)guard, cam->focal2_px_q16);
         cam->tan_q16[i] = gn_sat32((int64_t)slope_q16((uint32_t)size[i], cam->focal2_px_q16) + 1); /* rounded up: only for rejection */
     }
@@ -62,6 +67,12 @@ void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t
     out->shift = 30 - a->exp + object->mesh->pos_frac_bits - 16;
 }
 
+int gn_xform_position_ok(const gn_mesh *mesh, uint32_t vertex_idx)
+{
+    const int32_t *p = mesh->pos + 3 * (size_t)vertex_idx;
+    return gn_abs32(p[0]) <= 1U << 30 && gn_abs32(p[1]) <= 1U << 30 && gn_abs32(p[2]) <= 1U << 30;
+}
+
 void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
 {
     const int32_t *p = mesh->pos + 3 * (size_t)vertex_idx;
@@ -75,7 +86,7 @@ void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object)
 {
     /* The cofactors are the inverse transpose times the determinant: only their direction and the determinant's sign matter. */
     const int32_t(*m)[3] = object->to_world.m_q30;
-    int64_t cofactor[3][3], det = 0;
+    int64_t cofactor[3][3];
     uint64_t any = 1;
     for (int r = 0; r < 3; r++) {
         int r1 = (r + 1) % 3, r2 = (r + 2) % 3;
@@ -85,12 +96,12 @@ void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object)
             any |= gn_abs64(cofactor[r][c]);
         }
     }
-    for (int c = 0; c < 3; c++) det += gn_shr64(cofactor[0][c], 31) * m[0][c]; /* 3 * 2^30 * 2^30 */
+    int mirrored = gn_det_sign(m) < 0;
     int32_t e = 34 - gn_clz64(any);
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) {
             int64_t v = gn_clamp64(gn_scale64(cofactor[r][c], e), -(1 << 30), 1 << 30);
-            out[r][c] = (int32_t)(det < 0 ? -v : v);
+            out[r][c] = (int32_t)(mirrored ? -v : v);
         }
     }
 }

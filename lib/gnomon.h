@@ -49,7 +49,7 @@ extern "C" {
                                "or no inverse")                                                                        \
     X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, or more than 30 fraction bits")                  \
     X(GN_ERR_MESH_INDEX, "mesh index is not below its vertex count")                                                   \
-    X(GN_ERR_VERTEX_RANGE, "vertex lies beyond +-16384 units from the camera")                                         \
+    X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera")                                         \
     X(GN_ERR_COLOUR, "colour, albedo or ambient out of range")                                                         \
     X(GN_ERR_TOO_MANY_OBJECTS, "more than 65535 objects")                                                              \
     X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                        \
@@ -85,11 +85,13 @@ typedef struct {
     int32_t exp;
 } gn_affine;
 
-/* Rotations are exact to 2 units of Q1.30. Results are rounded to nearest; translations saturate at the Q15.16 range. */
+/* Rotations are exact to 8 units of Q1.30. Results are rounded to nearest; translations saturate at the Q15.16 range.
+ * Products of many rotations drift by about one unit each: turn by absolute angles, or orthonormalise now and then. */
 void gn_affine_identity(gn_affine *out);
 void gn_affine_rotation(gn_affine *out, uint16_t yaw_turn, uint16_t pitch_turn, uint16_t roll_turn); /* Y, then X, then Z */
 void gn_affine_scale(gn_affine *inout, int32_t scale_q16);                    /* object space, 2^-16 < scale < 8192 */
 void gn_affine_mul(gn_affine *out, const gn_affine *a, const gn_affine *b);   /* out = a * b; out may be a or b */
+void gn_affine_orthonormalise(gn_affine *inout); /* a rotation (exp 0) back to right angles; the third axis keeps its direction */
 void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t target_q16[3]); /* +Y up */
 uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn);                   /* 1 / tan(fov / 2), Q8.24, saturates */
 int32_t gn_sin_q30(uint16_t angle_turn);                                      /* |error| <= 2 LSB */

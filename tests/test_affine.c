@@ -329,6 +329,22 @@ static void test_no_drift(void)
     CHECK_TALLY(t, "rotation by angle over a million frames");
 }
 
+/* With gn_affine_orthonormalise every 64 products a camera turned step by step is never refused. */
+static void test_orthonormalise(void)
+{
+    gn_affine turn, step;
+    long double worst = 0;
+    gn_affine_rotation(&step, 335, 185, 17);
+    gn_affine_identity(&turn);
+    for (uint32_t n = 1; n <= 100000; n++) {
+        gn_affine_mul(&turn, &turn, &step);
+        if (n % 64 == 0) gn_affine_orthonormalise(&turn);
+        worst = gram_error(&turn) > worst ? gram_error(&turn) : worst;
+        if (turn.exp != 0) worst = 1e9L;
+    }
+    CHECK(worst < 1024.0L); /* LSB of Q1.30: 2^-20 */
+}
+
 int main(void)
 {
     test_rotation();
@@ -338,5 +354,6 @@ int main(void)
     test_look_at();
     test_drift();
     test_no_drift();
+    test_orthonormalise();
     return check_report();
 }

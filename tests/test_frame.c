@@ -505,7 +505,10 @@ static void test_tile_order(void)
 {
     static gn_scratch scratch[3];
     gn_picture p = picture_of(160, 120, GN_FORMAT_RGB888);
+    static demo_scene other;
     demo_scene_make(&demo, 0);
+    demo_scene_make(&other, 2);
+    CHECK(crc_of(&two, &other.scene, 160, 120, GN_FORMAT_RGB888) != 0);
     uint32_t expected = crc_of(&one, &demo.scene, 160, 120, GN_FORMAT_RGB888);
     uint32_t frame_crc = demo_crc32(0, &one.frame, sizeof one.frame);
     uint32_t n = gn_screen_tile_count(&one);
@@ -515,6 +518,9 @@ static void test_tile_order(void)
         canvas c;
         canvas_begin(&c, p.width, p.height, p.format);
         memset(scratch, 0x5A, sizeof scratch);
+        if (k % 2) /* or what another frame left in them */
+            for (uint32_t i = 0; i < n; i++) gn_screen_tile(&two.frame, &scratch[i % 3], i, flush, &c);
+        memset(c.times, 0, (size_t)p.width * p.height);
         for (uint32_t i = 0; i < n; i++)
             CHECK(gn_screen_tile(&one.frame, &scratch[i % 3], (n - 1 - i) * stride[k] % n, flush, &c) == GN_OK);
         CHECK(each_pixel_once(&c));

@@ -12,26 +12,12 @@ static rng random_state = {1};
 
 /* ---- gn_q.h ------------------------------------------------------------------------------------------------------- */
 
-static const int64_t edges[] = {0,
-                                1,
-                                -1,
-                                2,
-                                -2,
-                                3,
-                                INT32_MAX,
-                                INT32_MIN,
-                                0x3FFFFFFF,
-                                0x40000000,
-                                -0x40000000,
-                                UINT32_MAX,
-                                (int64_t)1 << 32,
-                                INT64_MAX,
-                                INT64_MAX - 1,
-                                INT64_MIN,
-                                INT64_MIN + 1,
-                                (int64_t)1 << 62,
-                                -((int64_t)1 << 62),
-                                ((int64_t)1 << 62) - 1};
+static const int64_t edges[] = {
+    /* clang-format off */
+    0, 1, -1, 2, -2, 3, INT32_MAX, INT32_MIN, UINT32_MAX, (int64_t)1 << 32, 0x3FFFFFFF, 0x40000000, -0x40000000, INT64_MAX,
+    INT64_MAX - 1, INT64_MIN, INT64_MIN + 1, (int64_t)1 << 62, -((int64_t)1 << 62), ((int64_t)1 << 62) - 1,
+    /* clang-format on */
+};
 enum { N_EDGES = sizeof edges / sizeof edges[0] };
 
 /* Every edge value first, then random ones of every width. */

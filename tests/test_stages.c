@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../host/ref/ref.h"
 #include "../lib/gn_cascade.h"
 #include "../lib/gn_light.h"
 #include "../lib/gn_plane.h"
@@ -55,7 +56,7 @@ static uint16_t idx[3 * N_TRIANGLES];
 static gn_mesh mesh = {.pos = pos, .nrm_q15 = nrm, .idx = idx, .n_vertices = 3 * N_TRIANGLES, .n_triangles = N_TRIANGLES, .pos_frac_bits = 24};
 static gn_object object;
 static gn_light light;
-static gn_scene scene;
+static gn_scene fixed;
 static gn_renderer renderer;
 
 static void random_mesh(double radius)
@@ -88,23 +89,23 @@ static void random_scene(void)
     }
     object.mesh = &mesh;
     object.flags = GN_OBJECT_DEFAULT | GN_OBJECT_TWO_SIDED;
-    gn_affine_rotation(&scene.camera.to_world, (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535));
+    gn_affine_rotation(&fixed.camera.to_world, (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535));
     double away = radius * uniform(4, 20);
     for (int k = 0; k < 3; k++) /* behind the object as the camera sees it */
-        scene.camera.to_world.t_q16[k] = object.to_world.t_q16[k] + (int32_t)(away * scene.camera.to_world.m_q30[k][2] / 16384.0);
-    scene.camera.focal_q24 = (uint32_t)(uniform(0.8, 4) * 16777216);
-    scene.camera.near_q16 = (int32_t)(away * 0.05 * 65536);
-    scene.camera.far_q16 = INT32_MAX;
+        fixed.camera.to_world.t_q16[k] = object.to_world.t_q16[k] + (int32_t)(away * fixed.camera.to_world.m_q30[k][2] / 16384.0);
+    fixed.camera.focal_q24 = (uint32_t)(uniform(0.8, 4) * 16777216);
+    fixed.camera.near_q16 = (int32_t)(away * 0.05 * 65536);
+    fixed.camera.far_q16 = INT32_MAX;
     for (int k = 0; k < 3; k++) light.direction[k] = (int32_t)uniform(-1e9, 1e9);
     for (int k = 0; k < 3; k++) light.colour_uq16[k] = 65536;
     light.shadow_strength_uq16 = 65536;
     light.bias_normal_q16 = 65536;
-    scene.shadow.max_distance_q16 = (int32_t)(away * 2 * 65536);
-    scene.shadow.distance_fade_uq16 = scene.shadow.cascade_fade_uq16 = 6554;
-    scene.shadow.filter = GN_FILTER_3X3;
-    scene.objects = &object;
-    scene.lights = &light;
-    scene.n_objects = scene.n_lights = 1;
+    fixed.shadow.max_distance_q16 = (int32_t)(away * 2 * 65536);
+    fixed.shadow.distance_fade_uq16 = fixed.shadow.cascade_fade_uq16 = 6554;
+    fixed.shadow.filter = GN_FILTER_3X3;
+    fixed.objects = &object;
+    fixed.lights = &light;
+    fixed.n_objects = fixed.n_lights = 1;
 }
 
 /* ---- The stages ------------------------------------------------------------------------------------------------------ */
@@ -231,7 +232,7 @@ static void check_depth(const gn_frame *frame, const gn_tri *tri, const plane *p
     gn_setup_corners(frame, tri, sx, sy);
     int dx = x - (sx[0] >> bits), dy = y - (sy[0] >> bits);
     uint32_t got = tri->iz_ref + (uint32_t)dx * (uint32_t)tri->iz_dx + (uint32_t)dy * (uint32_t)tri->iz_dy;
-    double want = ldexp(scene.camera.near_q16 * LSB16 / c->z, 32);
+    double want = ldexp(fixed.camera.near_q16 * LSB16 / c->z, 32);
     double bound = 1 + 0.5 * (abs(dx) + abs(dy)) + want * (ldexp(c->kappa + p->kappa0, -29) + ldexp(1, -27));
     record(STAGE_DEPTH, fabs((double)got - want), bound, 1);
 }
@@ -353,6 +354,41 @@ static void check_caster_depth(const gn_frame *frame)
     }
 }
 
+/* The light's view against the reference's fit (DESIGN 1.4): the same texel to the last bit, the same axes, and the same grid, of
+ * which the two may take windows that differ by a texel where the sphere's centre lies next to a rounding threshold. */
+static long fits, shifted_fits;
+
+static void check_fit(const gn_frame *frame)
+{
+    const gn_light_view *view = &frame->view[0];
+    scene_light ref_light = {.shadow = true, .strength = 1, .bias_normal = 1};
+    scene s = {.n_lights = 1, .lights = &ref_light};
+    ref_light_view ref;
+    double length = 0;
+    memset(&ref, 0, sizeof ref);
+    for (int k = 0; k < 3; k++) length += (double)light.direction[k] * light.direction[k];
+    for (int k = 0; k < 3; k++) ref_light.direction[k] = light.direction[k] / sqrt(length);
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) s.camera.to_world.m[r][c] = ldexp(fixed.camera.to_world.m_q30[r][c], -30);
+        s.camera.to_world.m[r][3] = fixed.camera.to_world.t_q16[r] * LSB16;
+    }
+    s.camera.focal = ldexp(fixed.camera.focal_q24, -24);
+    s.camera.near = fixed.camera.near_q16 * LSB16;
+    s.camera.far = 1e9;
+    s.shadow.max_distance = fixed.shadow.max_distance_q16 * LSB16;
+    s.shadow.distance_fade = s.shadow.cascade_fade = fixed.shadow.cascade_fade_uq16 * LSB16;
+    s.shadow.filter = SCENE_FILTER_3X3;
+    CHECK_EQ_INT(ref_fit_light(&ref, &s, &ref_light, WIDTH, HEIGHT, view->tile_texels), 0);
+    double texel = 1 / ldexp(view->inv_texel.mant, view->inv_texel.exp);
+    CHECK(fabs(texel / ref.texel - 1) < ldexp(1, -28));
+    fits++;
+    for (int i = 0; i < 3; i++) {
+        CHECK(fabs(view->origin[i] - ref.origin[i]) <= 1);
+        shifted_fits += view->origin[i] != (int32_t)ref.origin[i];
+        for (int k = 0; k < 3; k++) CHECK_NEAR(ldexp(view->axis_q30[i][k], -30), ref.axis[i][k], ldexp(6, -30));
+    }
+}
+
 static void ignore(void *user, int x, int y, int w, int h, const void *pixels)
 {
     (void)user, (void)x, (void)y, (void)w, (void)h, (void)pixels;
@@ -365,11 +401,12 @@ static void run_scene(const gn_knobs *knobs)
     random_scene();
     gn_init(&renderer, &picture);
     renderer.frame.knobs = *knobs;
-    gn_status status = gn_render(&renderer, &scene, ignore, NULL);
+    gn_status status = gn_render(&renderer, &fixed, ignore, NULL);
     if (status) {
         CHECK_EQ_INT(status, GN_OK);
         return;
     }
+    check_fit(&renderer.frame);
     check_view(&renderer.frame, view);
     check_screen(&renderer.frame, view);
     check_samples(&renderer.frame, view);
@@ -388,8 +425,39 @@ static void run_caster_plane(const gn_knobs *knobs)
     }
     gn_init(&renderer, &picture);
     renderer.frame.knobs = *knobs;
-    if (gn_render(&renderer, &scene, ignore, NULL) == GN_OK) check_caster_depth(&renderer.frame);
+    if (gn_render(&renderer, &fixed, ignore, NULL) == GN_OK) check_caster_depth(&renderer.frame);
     mesh.n_triangles = N_TRIANGLES;
+}
+
+/* A camera that moves and turns by less than a texel a frame: the grid stays where it is in the world (D2). What a world point's tile
+ * coordinates are modulo whole texels does not change, so edges of static shadows cannot crawl. */
+static void test_grid_does_not_crawl(const gn_knobs *knobs)
+{
+    gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    const int32_t point[3] = {GN_Q16(1.37), GN_Q16(-0.6), GN_Q16(2.9)};
+    int64_t first[3] = {0, 0, 0};
+    long moved = 0, origins_changed = 0;
+    int32_t origin[3] = {0, 0, 0};
+    random_scene();
+    gn_affine_rotation(&fixed.camera.to_world, 0, 0, 0);
+    for (int i = 0; i < 2000; i++) {
+        int32_t position[3] = {GN_Q16(3) + 37 * i, GN_Q16(2) + 11 * i, GN_Q16(9) - 23 * i};
+        gn_affine_rotation(&fixed.camera.to_world, (uint16_t)(3 * i), (uint16_t)(60000 + i), (uint16_t)(2 * i));
+        memcpy(fixed.camera.to_world.t_q16, position, sizeof position);
+        gn_init(&renderer, &picture);
+        renderer.frame.knobs = *knobs;
+        CHECK_EQ_INT(gn_begin(&renderer, &fixed), GN_OK);
+        const gn_light_view *view = &renderer.frame.view[0];
+        for (int k = 0; k < 3; k++) {
+            int64_t c = gn_light_coord_q16(view, k, point);
+            if (i == 0) first[k] = c;
+            moved += c != first[k];
+            origins_changed += i > 0 && view->origin[k] != origin[k];
+            origin[k] = view->origin[k];
+        }
+    }
+    CHECK_EQ_INT(moved, 0);
+    CHECK(origins_changed > 10); /* by whole texels: the window does follow the camera */
 }
 
 int main(int argc, char **argv)
@@ -409,5 +477,7 @@ int main(int argc, char **argv)
             CHECK_EQ_INT(violations[s], 0);
         }
     }
+    test_grid_does_not_crawl(&accurate);
+    CHECK(shifted_fits * 50 < fits);
     return table ? 0 : check_report();
 }
