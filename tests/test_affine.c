@@ -333,16 +333,16 @@ static void test_no_drift(void)
 static void test_orthonormalise(void)
 {
     gn_affine turn, step;
-    long double worst = 0;
+    long double loss = 0;
     gn_affine_rotation(&step, 335, 185, 17);
     gn_affine_identity(&turn);
     for (uint32_t n = 1; n <= 100000; n++) {
         gn_affine_mul(&turn, &turn, &step);
         if (n % 64 == 0) gn_affine_orthonormalise(&turn);
-        worst = gram_error(&turn) > worst ? gram_error(&turn) : worst;
-        if (turn.exp != 0) worst = 1e9L;
+        loss = gram_error(&turn) > loss ? gram_error(&turn) : loss;
+        if (turn.exp != 0) loss = 1e9L;
     }
-    CHECK(worst < 1024.0L); /* LSB of Q1.30: 2^-20 */
+    CHECK(loss < 1024.0L); /* LSB of Q1.30: 2^-20 */
 }
 
 int main(void)

@@ -245,7 +245,7 @@ static int fails(gn_status got, gn_status expected, uint32_t index, uint32_t nee
         return CHECK(1);
     printf("%s: status %d, detail %d, index %u, needed %u, available %u\n", name, (int)got, (int)d->status, d->index, d->needed,
            d->available);
-    return CHECK(!"refused with the right status and detail");
+    return check_note(0, __FILE__, __LINE__, "refused with the right status and detail");
 }
 
 static void test_refused_scenes(void)
