@@ -52,9 +52,10 @@ static int picture_format_ok(const gn_picture *picture)
 
 gn_status gn_init(gn_renderer *r, const gn_picture *picture)
 {
-    if (!r || !picture) return GN_ERR_NULL;
+    if (!r) return GN_ERR_NULL;
     memset(r, 0, sizeof *r);
     gn_frame *frame = &r->frame;
+    if (!picture) return gn_fail(frame, GN_ERR_NULL, 0);
 #if GN_RUNTIME_KNOBS
     GN_QUALITY_KNOBS(GN_KNOB_DEFAULT_)
 #endif
@@ -147,7 +148,8 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
 
 gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user)
 {
-    if (!r || !flush) return GN_ERR_NULL;
+    if (!r) return GN_ERR_NULL;
+    if (!flush) return gn_fail(&r->frame, GN_ERR_NULL, 0);
     gn_status status = gn_begin(r, scene);
     for (uint32_t i = 0; !status && i < gn_shadow_tile_count(r); i++) status = gn_shadow_tile(r, i);
     if (!status) status = gn_prepare(r);

@@ -592,7 +592,7 @@ static void test_tile_sizes(void)
             int same = persp_step == 1 || sizes[i][0] == 64 || p.format == GN_FORMAT_RAW32;
             int d = i ? difference(&first, &c) : 0;
             if (p.format == GN_FORMAT_RGB565 && !same) d = 0; /* its bytes are no levels */
-            if (!CHECK(d <= (same ? 0 : 24)))
+            if (!CHECK(d <= (same ? 0 : 2)))
                 printf("tiles of %dx%d, format %d, persp_step %d: %d\n", (int)sizes[i][0], (int)sizes[i][1], (int)p.format, (int)persp_step, d);
             canvas_end(&c);
         }

@@ -240,8 +240,8 @@ settings_ram_parts settings_ram(const settings *s)
     r.tiles = (wide_refs ? 4L : 2L) * (tiles + 1);
     r.cells = 4 * tile_w * tile_h;
     r.pixels = 4 * (tile_w * tile_h * (s->feature.raw_views ? 4 : 3) / 4);
-    /* picture to tiles_y without the lights: 160 bytes; then the arrays, padded; then four light views of 160 or 168 */
-    long fixed = 160 + 28L * s->capacity.max_lights;
+    /* picture to tiles_y without the lights: 164 bytes; then the arrays, padded; then four light views of 160 or 168 */
+    long fixed = 164 + 28L * s->capacity.max_lights;
     long arrays = fixed + r.triangles + r.tiles + r.tile_refs;
     long frame = (arrays + 3) & ~3L;
     if (s->feature.shadows) frame = (((arrays + 7) & ~7L) + 4 * (blocks ? 168L : 160L) + r.atlas + 7) & ~7L;
