@@ -45,7 +45,9 @@ static void transform(light_point *out, const gn_xform *xform, const gn_mesh *me
 {
     const int32_t *p = mesh->pos + 3 * (size_t)vertex_idx;
     for (int r = 0; r < 3; r++) {
-        int64_t v = gn_scale64(gn_dot64(xform->m[r], p), xform->shift) + xform->t_q16[r];
+        /* both terms below 2^60 */
+        const int64_t limit = (int64_t)1 << 60;
+        int64_t v = gn_clamp64(gn_scale64(gn_dot64(xform->m[r], p), xform->shift), -limit, limit) + xform->t_q16[r];
         out->c[r] = gn_clamp64(v, -((int64_t)1 << 46), (int64_t)1 << 46);
     }
 }
@@ -225,7 +227,6 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_light_view *view)
 #if GN_DEPTH_BLOCKS
     gn_blocks_build(view);
 #endif
-    view->tile_done = 1;
     return GN_OK;
 }
 

@@ -19,7 +19,7 @@ GN_STATIC_ASSERT(persp_step_not_1_4_8_16,
 GN_STATIC_ASSERT(atten_bits_not_8_or_16, GN_ATTEN_BITS == 8 || GN_ATTEN_BITS == 16);
 GN_STATIC_ASSERT(atlas_size_not_power_of_two, GN_IS_POWER_OF_TWO(GN_ATLAS_SIZE));
 GN_STATIC_ASSERT(vertex_cache_not_power_of_two, GN_IS_POWER_OF_TWO(GN_VERTEX_CACHE));
-GN_STATIC_ASSERT(tile_width_not_multiple_of_4, GN_TILE_WIDTH % 4 == 0);
+GN_STATIC_ASSERT(tile_width_not_multiple_of_8, GN_TILE_WIDTH % 8 == 0);
 /* with 16-bit screen coordinates a guard band of at least 8 pixels must be left around the picture: gn_xform.c */
 GN_STATIC_ASSERT(picture_too_large_for_subpixel_bits,
                  GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 6 ||

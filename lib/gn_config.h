@@ -85,6 +85,9 @@
 #ifndef GN_MAX_LIGHTS
 #define GN_MAX_LIGHTS 4
 #endif
+#ifndef GN_MAX_SHADOW_TILES
+#define GN_MAX_SHADOW_TILES 4
+#endif
 #ifndef GN_VERTEX_CACHE
 #define GN_VERTEX_CACHE 32
 #endif
@@ -95,6 +98,9 @@
 #endif
 #ifndef GN_DEPTH_BLOCKS
 #define GN_DEPTH_BLOCKS 1
+#endif
+#ifndef GN_BLENDED_CASCADES
+#define GN_BLENDED_CASCADES 1
 #endif
 #ifndef GN_FILTER_MAX
 #define GN_FILTER_MAX 4

@@ -38,7 +38,7 @@ static int knobs_ok(const gn_frame *frame)
     const gn_knobs *k = &frame->knobs;
     ok = ok && (k->persp_step == 1 || k->persp_step == 4 || k->persp_step == 8 || k->persp_step == 16);
     ok = ok && (k->atten_bits == 8 || k->atten_bits == 16) && k->atlas_size <= GN_ATLAS_SIZE;
-    ok = ok && (k->atlas_size & (k->atlas_size - 1)) == 0 && k->tile_width % 4 == 0;
+    ok = ok && (k->atlas_size & (k->atlas_size - 1)) == 0 && k->tile_width % 8 == 0;
     return ok && k->tile_width * k->tile_height <= GN_TILE_PIXELS_MAX;
 }
 #endif
@@ -47,7 +47,7 @@ static int picture_format_ok(const gn_picture *picture)
 {
     if (picture->format == GN_FORMAT_RAW32)
         return GN_RAW_VIEWS && (int)picture->view >= GN_VIEW_COLOUR + 1 && (int)picture->view <= GN_VIEW_TRIANGLE;
-    return picture->view == GN_VIEW_COLOUR && (picture->format == GN_FORMAT_RGB565 || picture->format == GN_FORMAT_RGB888);
+    return picture->view == GN_VIEW_COLOUR && (int)picture->format >= GN_FORMAT_RGB565 && (int)picture->format <= GN_FORMAT_MONO1;
 }
 
 gn_status gn_init(gn_renderer *r, const gn_picture *picture)
@@ -104,7 +104,8 @@ gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx)
     if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, GN_ERR_ORDER, 0);
     if (tile_idx >= frame->n_views) return gn_fail(frame, GN_ERR_INDEX, tile_idx);
 #if GN_SHADOWS
-    return gn_atlas_render_tile(frame, &frame->view[tile_idx]);
+    frame->view[tile_idx].tile_done = 1;
+    return frame->view[tile_idx].empty ? GN_OK : gn_atlas_render_tile(frame, &frame->view[tile_idx]);
 #else
     return GN_OK;
 #endif
@@ -168,20 +169,19 @@ const gn_detail *gn_get_detail(const gn_renderer *r)
     return r ? &r->frame.detail : NULL;
 }
 
-uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, const uint16_t **depth)
+uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t cascade_idx, const uint16_t **depth)
 {
 #if GN_SHADOWS
-    for (uint32_t i = 0; r && depth && i < r->frame.n_views; i++) {
-        if (r->frame.view[i].light_idx != light_idx) continue;
-        *depth = r->frame.view[i].depth;
-        return r->frame.view[i].tile_texels;
-    }
+    if (!r || !depth || light_idx >= GN_MAX_LIGHTS || cascade_idx >= r->frame.n_cascades) return 0;
+    int32_t first = r->frame.n_views ? r->frame.light[light_idx].view_idx : -1;
+    if (first < 0) return 0;
+    const gn_light_view *view = &r->frame.view[(uint32_t)first + cascade_idx];
+    *depth = view->depth;
+    return view->empty ? 0 : view->tile_texels;
 #else
-    (void)r;
-    (void)light_idx;
-    (void)depth;
-#endif
+    (void)r, (void)light_idx, (void)cascade_idx, (void)depth;
     return 0;
+#endif
 }
 
 const char *gn_status_text(gn_status status)

@@ -23,7 +23,7 @@
     X(atten_bits, ATTEN_BITS, 8, 16, "bits of attenuation (8 or 16)", "none")                                          \
     X(atlas_size, ATLAS_SIZE, 16, 1024, "texels per side of the directional atlas, a power of two",                    \
       "2 bytes per texel of RAM, and the time to fill them")                                                           \
-    X(tile_width, TILE_WIDTH, 8, 2048, "screen tile width in pixels, a multiple of 4", "RAM: 8 bytes per tile pixel")  \
+    X(tile_width, TILE_WIDTH, 8, 2048, "screen tile width in pixels, a multiple of 8", "RAM: 8 bytes per tile pixel")  \
     X(tile_height, TILE_HEIGHT, 1, 2048, "screen tile height in pixels", "RAM: 8 bytes per tile pixel")                \
     X(srgb, SRGB, 0, 1, "encode the output with the sRGB curve", "1154 bytes of flash, 10 instructions per channel")
 
@@ -34,6 +34,7 @@
       "32 bytes each (44 above 6 subpixel bits)")                                                                      \
     X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")           \
     X(max_lights, MAX_LIGHTS, 1, 8, "lights in a scene", "about 200 bytes each")                                       \
+    X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "shadow tiles: directional lights times cascades", "168 bytes each")   \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two",                 \
       "40 bytes each")
 
@@ -41,6 +42,8 @@
     X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \
     X(depth_blocks, DEPTH_BLOCKS, 0, 1, "bounds of shadow depth per 8x8 texels decide most lookups at once",            \
       "4 bytes of RAM per 64 texels; the same picture with and without")                                               \
+    X(blended_cascades, BLENDED_CASCADES, 0, 1, "soft and dithered blending between cascades (D7)",                          \
+      "three more values per light and sample")                                                                        \
     X(filter_max, FILTER_MAX, 0, 4, "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7", "flash")               \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")   \

@@ -35,27 +35,77 @@ static uint32_t linear_encode(uint32_t linear_q20)
     return (uint32_t)(((uint64_t)limited * 65535U + (1U << 19)) >> 20);
 }
 
-uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
+static uint32_t encode(const gn_frame *frame, uint32_t linear_q20)
 {
-    int srgb = GN_K(frame, srgb) != 0;
-    uint32_t r = srgb ? srgb_encode(linear_q20[0]) : linear_encode(linear_q20[0]);
-    uint32_t g = srgb ? srgb_encode(linear_q20[1]) : linear_encode(linear_q20[1]);
-    uint32_t b = srgb ? srgb_encode(linear_q20[2]) : linear_encode(linear_q20[2]);
-    if (frame->picture.format == GN_FORMAT_RGB565) return quantise(r, 31) << 11 | quantise(g, 63) << 5 | quantise(b, 31);
-    return quantise(r, 255) | quantise(g, 255) << 8 | quantise(b, 255) << 16;
+    return GN_K(frame, srgb) ? srgb_encode(linear_q20) : linear_encode(linear_q20);
 }
 
-void gn_pixel_fill(const gn_frame *frame, uint32_t *buffer, int32_t i, int32_t n, uint32_t packed)
+/* Rec. 709 weights in Q16; they sum to 65536. Channels are limited first, so that one cannot outshine the others. */
+static uint32_t luminance_q20(const uint32_t c[3])
 {
-    if (frame->picture.format == GN_FORMAT_RGB565) {
-        uint16_t *out = (uint16_t *)buffer + i;
-        while (n-- > 0) *out++ = (uint16_t)packed;
-        return;
+    uint32_t r = c[0] < GN_ONE_Q20 ? c[0] : GN_ONE_Q20, g = c[1] < GN_ONE_Q20 ? c[1] : GN_ONE_Q20, b = c[2] < GN_ONE_Q20 ? c[2] : GN_ONE_Q20;
+    return (uint32_t)(((uint64_t)r * 13933U + (uint64_t)g * 46871U + (uint64_t)b * 4732U + 0x8000U) >> 16);
+}
+
+uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
+{
+    uint32_t r = linear_q20[0], g = linear_q20[1], b = linear_q20[2], v;
+    switch (frame->picture.format) {
+    case GN_FORMAT_RGB565:
+    case GN_FORMAT_RGB565_SWAPPED:
+        v = quantise(encode(frame, r), 31) << 11 | quantise(encode(frame, g), 63) << 5 | quantise(encode(frame, b), 31);
+        return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
+    case GN_FORMAT_GREY8: return quantise(encode(frame, luminance_q20(linear_q20)), 255);
+    case GN_FORMAT_GREY4: return quantise(encode(frame, luminance_q20(linear_q20)), 15);
+    case GN_FORMAT_MONO1: return linear_encode(luminance_q20(linear_q20));
+    default: return quantise(encode(frame, r), 255) | quantise(encode(frame, g), 255) << 8 | quantise(encode(frame, b), 255) << 16;
     }
-    uint8_t *out = (uint8_t *)buffer + 3 * (size_t)(uint32_t)i;
-    while (n-- > 0) {
-        *out++ = (uint8_t)packed;
-        *out++ = (uint8_t)(packed >> 8);
-        *out++ = (uint8_t)(packed >> 16);
+}
+
+/* The threshold of an 8x8 ordered dither at a pixel, 1..127 of 128: the bits of x ^ y and y, interleaved and reversed. */
+static uint32_t threshold(int32_t x, int32_t y)
+{
+    uint32_t a = (uint32_t)(x ^ y), b = (uint32_t)y;
+    uint32_t rank = (a & 1U) << 5 | (b & 1U) << 4 | (a & 2U) << 2 | (b & 2U) << 1 | (a & 4U) >> 1 | (b & 4U) >> 2;
+    return 2 * rank + 1;
+}
+
+static void fill_mono(uint8_t *row, int32_t at, int32_t x, int32_t y, int32_t n, uint32_t luminance)
+{
+    for (int32_t i = 0; i < n; i++) {
+        uint8_t bit = (uint8_t)(0x80U >> ((at + i) & 7));
+        if (luminance * 128U > threshold(x + i, y) * 65535U) row[(at + i) >> 3] |= bit;
+        else row[(at + i) >> 3] &= (uint8_t)~bit;
+    }
+}
+
+static void fill_grey4(uint8_t *row, int32_t at, int32_t n, uint32_t level)
+{
+    for (int32_t i = at; i < at + n; i++) {
+        uint8_t *out = &row[i >> 1];
+        *out = i & 1 ? (uint8_t)((*out & 0xF0U) | level) : (uint8_t)((*out & 0x0FU) | level << 4);
+    }
+}
+
+void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed)
+{
+    int32_t at = x - rows->x0, row = y - rows->y0, i = row * rows->width + at;
+    uint8_t *bytes = (uint8_t *)rows->buffer;
+    if (frame->picture.format == GN_FORMAT_RGB565 || frame->picture.format == GN_FORMAT_RGB565_SWAPPED) {
+        uint16_t *out = (uint16_t *)rows->buffer + i;
+        while (n-- > 0) *out++ = (uint16_t)packed;
+    } else if (frame->picture.format == GN_FORMAT_GREY8) {
+        while (n-- > 0) bytes[i++] = (uint8_t)packed;
+    } else if (frame->picture.format == GN_FORMAT_GREY4) {
+        fill_grey4(bytes + row * ((rows->width + 1) >> 1), at, n, packed);
+    } else if (frame->picture.format == GN_FORMAT_MONO1) {
+        fill_mono(bytes + row * ((rows->width + 7) >> 3), at, x, y, n, packed);
+    } else {
+        uint8_t *out = bytes + 3 * (size_t)(uint32_t)i;
+        while (n-- > 0) {
+            *out++ = (uint8_t)packed;
+            *out++ = (uint8_t)(packed >> 8);
+            *out++ = (uint8_t)(packed >> 16);
+        }
     }
 }

@@ -7,10 +7,18 @@
 /* 65535 * srgb(x), x in Q20 clamped to 1; error below 1.5 LSB. */
 uint32_t gn_srgb_encode(uint32_t linear_q20);
 
-/* Encodes a colour as one pixel of the picture's format: RGB565, or red | green << 8 | blue << 16. */
+/* Encodes a colour for the picture's format: RGB565 as stored; red | green << 8 | blue << 16; grey as 8 or 4 bits; for MONO1 the
+ * luminance in linear light, 0..65535, which the dither compares. Greys are of the luminance 0.2126 R + 0.7152 G + 0.0722 B. */
 uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3]);
 
-/* Stores a packed pixel n times from pixel index i of the buffer on. */
-void gn_pixel_fill(const gn_frame *frame, uint32_t *buffer, int32_t i, int32_t n, uint32_t packed);
+/* Where a screen tile's pixels are stored. */
+typedef struct {
+    uint32_t *buffer;
+    int32_t width;     /* pixels per row of the tile */
+    int32_t x0, y0;    /* of the tile in the picture: the dither's pattern stands still in the picture */
+} gn_pixel_rows;
+
+/* Stores a packed pixel n times from (x, y) of the picture on, within one row. */
+void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
 
 #endif

@@ -103,6 +103,18 @@ static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t id
     return GN_OK;
 }
 
+static int cascades_ok(const gn_shadow_settings *shadow)
+{
+    if (shadow->n_cascades > 4) return 0;
+    if ((int)shadow->blend < GN_BLEND_HARD || (int)shadow->blend > (GN_BLENDED_CASCADES ? GN_BLEND_DITHER : GN_BLEND_HARD)) return 0;
+    uint32_t previous = 0;
+    for (uint32_t i = 0; i + 1 < shadow->n_cascades; i++) {
+        if (shadow->cascade_ratio_uq16[i] < previous || shadow->cascade_ratio_uq16[i] > 65536) return 0;
+        previous = shadow->cascade_ratio_uq16[i];
+    }
+    return 1;
+}
+
 static gn_status check_shadow(gn_frame *frame, const gn_scene *scene)
 {
     const gn_shadow_settings *shadow = &scene->shadow;
@@ -111,6 +123,9 @@ static gn_status check_shadow(gn_frame *frame, const gn_scene *scene)
     if (shadow->distance_fade_uq16 < GN_FADE_MIN_UQ16 || shadow->distance_fade_uq16 > 65536 ||
         shadow->cascade_fade_uq16 < GN_FADE_MIN_UQ16 || shadow->cascade_fade_uq16 > 65536)
         return gn_fail(frame, GN_ERR_SHADOW_FADE, 0);
+    if ((int)shadow->distance_mode < GN_DISTANCE_DEPTH || (int)shadow->distance_mode > GN_DISTANCE_RADIUS)
+        return gn_fail(frame, GN_ERR_SHADOW_DISTANCE, 0);
+    if (!cascades_ok(shadow)) return gn_fail(frame, GN_ERR_SHADOW_CASCADES, 0);
     if ((int)shadow->filter < GN_FILTER_HARD || (int)shadow->filter > GN_FILTER_MAX)
         return gn_fail(frame, GN_ERR_SHADOW_FILTER, 0);
     return GN_OK;

@@ -9,6 +9,7 @@ typedef struct {
     const gn_frame *frame;
     gn_scratch *scratch;
     gn_rect rect;
+    gn_pixel_rows rows;
     gn_surface_cache cache;
     gn_surface surface;
     const gn_tri *tri;
@@ -40,6 +41,7 @@ static uint32_t raw_value(const shading *s, const gn_sample *sample, int32_t x, 
         if (s->surface.object->flags & GN_OBJECT_UNLIT || picture->view_light >= s->frame->scene->n_lights) return 65536;
         return gn_light_shadow(s->frame, &s->surface, sample, picture->view_light);
     case GN_VIEW_DEPTH: return (uint32_t)sample->value[GN_VALUE_Z];
+    case GN_VIEW_CASCADE: return gn_surface_cascade(s->frame, &s->surface, x, y);
     case GN_VIEW_NORMAL: return raw_normal(s, x, y);
     default: return (uint32_t)s->tri->object_idx << 16 | s->tri->triangle_idx;
     }
@@ -58,23 +60,19 @@ static uint32_t pack(shading *s, const uint32_t q20[3])
     return s->last_pixel;
 }
 
-static int32_t pixel_idx(const shading *s, int32_t x, int32_t y)
+static void shade_pixel(shading *s, gn_sample *sample, int32_t x, int32_t y)
 {
-    return (y - s->rect.y0) * (s->rect.x1 - s->rect.x0) + x - s->rect.x0;
-}
-
-static void shade_pixel(shading *s, const gn_sample *sample, int32_t x, int32_t y)
-{
-    int32_t i = pixel_idx(s, x, y);
+    sample->x = x;
+    sample->y = y;
 #if GN_RAW_VIEWS
     if (s->frame->picture.format == GN_FORMAT_RAW32) {
-        s->scratch->pixel[i] = raw_value(s, sample, x, y);
+        s->scratch->pixel[(y - s->rect.y0) * s->rows.width + x - s->rect.x0] = raw_value(s, sample, x, y);
         return;
     }
 #endif
     uint32_t radiance_q20[3];
     gn_light_radiance(s->frame, &s->surface, sample, radiance_q20);
-    gn_pixel_fill(s->frame, s->scratch->pixel, i, 1, pack(s, radiance_q20));
+    gn_pixel_fill(s->frame, &s->rows, x, y, 1, pack(s, radiance_q20));
 }
 
 /* Steps per pixel from sample a to sample b, `n` pixels apart, rounded towards zero; differences saturate. */
@@ -98,6 +96,7 @@ static int chord_holds(const gn_frame *frame, const gn_surface *surface, const g
 {
     uint32_t za = (uint32_t)a->value[GN_VALUE_Z], zb = (uint32_t)b->value[GN_VALUE_Z];
     uint64_t near4 = (uint64_t)(za < zb ? za : zb) * 4, dz = za < zb ? zb - za : za - zb;
+    if (a->cascade != b->cascade) return 0;
     if ((surface->smooth || surface->coloured) && dz * 128 > near4) return 0;
     for (uint32_t l = 0; surface->shadowed && l < frame->scene->n_lights; l++) {
         for (uint32_t i = 1; i < GN_VALUES_PER_LIGHT; i++) {
@@ -144,10 +143,11 @@ static void fill_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     gn_sample sample;
     uint32_t radiance_q20[3];
+    sample.cascade = GN_CASCADE_NONE;
     for (uint32_t l = 0; l < s->frame->scene->n_lights; l++)
         sample.value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l] = s->surface.flat_cosine_q24[l];
     gn_light_radiance(s->frame, &s->surface, &sample, radiance_q20);
-    gn_pixel_fill(s->frame, s->scratch->pixel, pixel_idx(s, x_begin, y), x_end - x_begin, pack(s, radiance_q20));
+    gn_pixel_fill(s->frame, &s->rows, x_begin, y, x_end - x_begin, pack(s, radiance_q20));
 }
 
 static void shade_triangle(shading *s, uint32_t tri_idx)
@@ -181,18 +181,16 @@ static void shade_triangle(shading *s, uint32_t tri_idx)
 static void clear_background(shading *s)
 {
     const gn_frame *frame = s->frame;
-    int32_t n = (s->rect.x1 - s->rect.x0) * (s->rect.y1 - s->rect.y0);
-    uint32_t background_q20[3];
-    for (int c = 0; c < 3; c++) background_q20[c] = frame->scene->background_uq16[c] << 4;
-    uint32_t pixel = s->last_pixel = gn_pixel_pack(frame, background_q20);
-    for (int c = 0; c < 3; c++) s->last_q20[c] = background_q20[c];
+    for (int c = 0; c < 3; c++) s->last_q20[c] = frame->scene->background_uq16[c] << 4;
+    s->last_pixel = gn_pixel_pack(frame, s->last_q20);
 #if GN_RAW_VIEWS
     if (frame->picture.format == GN_FORMAT_RAW32) {
+        int32_t n = s->rows.width * (s->rect.y1 - s->rect.y0);
         for (int32_t i = 0; i < n; i++) s->scratch->pixel[i] = UINT32_MAX;
         return;
     }
 #endif
-    gn_pixel_fill(frame, s->scratch->pixel, 0, n, pixel);
+    for (int32_t y = s->rect.y0; y < s->rect.y1; y++) gn_pixel_fill(frame, &s->rows, s->rect.x0, y, s->rows.width, s->last_pixel);
 }
 
 void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
@@ -201,6 +199,10 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     s.frame = frame;
     s.scratch = scratch;
     s.rect = gn_bin_tile_rect(frame, tile_idx);
+    s.rows.buffer = scratch->pixel;
+    s.rows.width = s.rect.x1 - s.rect.x0;
+    s.rows.x0 = s.rect.x0;
+    s.rows.y0 = s.rect.y0;
     s.cache.object = NULL;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
     clear_background(&s);

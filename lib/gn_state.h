@@ -25,6 +25,7 @@ typedef struct {
     int32_t near_q16;
     uint32_t focal2_px_q16; /* 2F, twice the focal length in pixels: rays are (2x + 1 - W, H - 1 - 2y, 2F) */
     gn_bf_state near_over_focal2; /* near / 2F */
+    gn_bf_state inv_focal2;       /* 1 / 2F, 2F in Q16 */
     int32_t guard_q16[2];   /* |X| <= guard[0] * Z and |Y| <= guard[1] * Z hold after clipping to the guard band */
     int32_t coord_max;      /* of screen coordinates from the picture's centre */
     int32_t tan_q16[2];     /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
@@ -55,6 +56,7 @@ typedef struct {
     uint8_t depth_log2;      /* J: the depth range is T * 2^J texels */
     uint8_t filter;
     uint8_t tile_done;
+    uint8_t empty;           /* its cascade has no slice: never drawn, never selected */
     uint16_t light_idx;
     uint16_t *depth;         /* T * T, row by row, inside the atlas */
 #if GN_DEPTH_BLOCKS
@@ -63,10 +65,20 @@ typedef struct {
 } gn_light_view;
 #endif
 
+#if GN_SHADOWS
+/* The bounding sphere of a cascade's slice: on the view axis, shared by all lights (D3). */
+typedef struct {
+    int32_t centre_q16;      /* view depth */
+    uint64_t radius2_q32;    /* 0: empty */
+    gn_bf_state fade_scale;  /* D6: factor = (radius2 - dist2) * fade_scale */
+    int32_t next;            /* the next cascade that is not empty */
+} gn_cascade_state;
+#endif
+
 typedef struct {
     int32_t to_light_q30[3]; /* unit, surface towards the light */
     uint32_t colour_uq16[3];
-    int32_t view_idx;        /* of its gn_light_view, -1: no shadow */
+    int32_t view_idx;        /* of its first gn_light_view, -1: no shadow */
 } gn_light_state;
 
 #if GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 6
@@ -126,7 +138,10 @@ typedef struct gn_frame {
     gn_ref_offset tile_first[GN_TILES_MAX + 1];
     uint16_t tile_ref[GN_MAX_TILE_REFS];
 #if GN_SHADOWS
-    gn_light_view view[4];
+    gn_cascade_state cascade[4];
+    uint8_t n_cascades;
+    uint8_t last_cascade;    /* the last that is not empty */
+    gn_light_view view[GN_MAX_SHADOW_TILES]; /* light by light, cascade by cascade */
     uint16_t atlas[GN_ATLAS_SIZE * GN_ATLAS_SIZE];
 #if GN_DEPTH_BLOCKS
     gn_depth_block block[GN_ATLAS_SIZE * GN_ATLAS_SIZE / 64];

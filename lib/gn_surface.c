@@ -153,20 +153,44 @@ static void light_cosines(const gn_frame *frame, const int32_t n_q30[3], int32_t
 }
 
 #if GN_SHADOWS
-/* How far the receiver is moved along its normal (B2), in texels of the light's axes, Q16 */
-static int64_t receiver_offset(const gn_light_view *view, int axis_idx, const int32_t n_q30[3])
+/* How far the receiver is moved along its normal (B2), in texels of the light's axes, Q16; the same in every cascade */
+static void receiver_offset(const gn_light_view *view, const int32_t n_q30[3], int32_t out_q16[3])
 {
-    int64_t along_q30 = gn_shr64(gn_dot64(n_q30, view->axis_q30[axis_idx]), 30); /* |n| <= 1 */
-    return gn_shr64(along_q30 * view->offset_q16, 30);
+    for (int i = 0; i < 3; i++) {
+        int64_t along_q30 = gn_shr64(gn_dot64(n_q30, view->axis_q30[i]), 30); /* |n| <= 1 */
+        out_q16[i] = (int32_t)gn_shr64(along_q30 * view->offset_q16, 30);
+    }
 }
 
-/* Tile coordinates of the point at depth z on a pixel's ray; d_q16 holds the constant part. */
-static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16, const int64_t d_q16[3], int32_t *out)
+/* Tile coordinates of the point at depth z on a pixel's ray. */
+static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16, const int32_t offset_q16[3], int32_t *out)
 {
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *ray = &view->ray[i];
         int64_t a = ray->a0 + (int64_t)ray->ax * px + (int64_t)ray->ay * py; /* < 2^31 by the choice of ray_shift */
-        out[i] = gn_sat32(gn_shr64(z_q16 * a, view->ray_shift) + d_q16[i]);
+        out[i] = gn_sat32(gn_shr64(z_q16 * a, view->ray_shift) + ray->d_q16 + offset_q16[i]);
+    }
+}
+
+/* D4, D6, D11: the cascade of the surface point and its fade factor. */
+static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+{
+    gn_bfloat per_px = {frame->cam.inv_focal2.mant, frame->cam.inv_focal2.exp};
+    int64_t z = sample->value[GN_VALUE_Z], x = gn_bf_apply(z * px, per_px, 16), y = gn_bf_apply(z * py, per_px, 16);
+    uint64_t across = (uint64_t)(x * x) + (uint64_t)(y * y); /* a point of a triangle: within 2^30 each */
+    sample->cascade = GN_CASCADE_NONE;
+    sample->value[GN_VALUE_FADE] = 0;
+    int64_t m = frame->scene->shadow.max_distance_q16;
+    if (frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS && across + (uint64_t)(z * z) > (uint64_t)(m * m)) return;
+    for (int32_t i = 0; i < frame->n_cascades; i++) {
+        const gn_cascade_state *cascade = &frame->cascade[i];
+        int64_t dz = z - cascade->centre_q16;
+        uint64_t dist2 = across + (uint64_t)(dz * dz);
+        if (dist2 >= cascade->radius2_q32) continue;
+        gn_bfloat scale = {cascade->fade_scale.mant, cascade->fade_scale.exp};
+        sample->cascade = i;
+        sample->value[GN_VALUE_FADE] = (int32_t)gn_clamp64(gn_bf_apply((int64_t)(cascade->radius2_q32 - dist2), scale, 48), 0, 65536);
+        return;
     }
 }
 
@@ -174,16 +198,19 @@ static void shadow_coords(const gn_frame *frame, const gn_surface *s, int32_t px
 {
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l + 1];
-        out[0] = out[1] = out[2] = 0;
-        if (frame->light[l].view_idx < 0) continue;
-        const gn_light_view *view = &frame->view[frame->light[l].view_idx];
-        int64_t moved[3];
-        const int64_t *d = s->light_d_q16[l];
-        for (int i = 0; s->smooth && i < 3; i++) {
-            moved[i] = d[i] + receiver_offset(view, i, n_q30);
-            if (i == 2) d = moved;
+        for (int i = 0; i < GN_VALUES_PER_LIGHT - 1; i++) out[i] = 0;
+        if (frame->light[l].view_idx < 0 || sample->cascade == GN_CASCADE_NONE) continue;
+        const gn_light_view *view = &frame->view[frame->light[l].view_idx + sample->cascade];
+        int32_t moved[3];
+        const int32_t *offset = s->flat_offset_q16[l];
+        if (s->smooth) {
+            receiver_offset(view, n_q30, moved);
+            offset = moved;
         }
-        light_coords(view, px, py, sample->value[GN_VALUE_Z], d, out);
+        light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out);
+        if (!GN_BLENDED_CASCADES || frame->scene->shadow.blend == GN_BLEND_HARD || sample->cascade == frame->last_cascade) continue;
+        view += frame->cascade[sample->cascade].next - sample->cascade;
+        light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
     }
 }
 #endif
@@ -194,6 +221,8 @@ void gn_surface_sample(const gn_frame *frame, const gn_surface *s, int32_t x, in
     hit h;
     intersect(frame, s, px, py, &h);
     sample->value[GN_VALUE_Z] = h.z_q16;
+    sample->value[GN_VALUE_FADE] = 0;
+    sample->cascade = GN_CASCADE_NONE;
     for (int i = 0; i < 3; i++)
         sample->value[GN_VALUE_RGB + i] = s->coloured ? interpolate(&h, s->rgb_q16[0][i], s->rgb_q16[1][i], s->rgb_q16[2][i]) : 0;
     if (s->object->flags & GN_OBJECT_UNLIT) return;
@@ -206,6 +235,8 @@ void gn_surface_sample(const gn_frame *frame, const gn_surface *s, int32_t x, in
             sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l] = s->flat_cosine_q24[l];
     }
 #if GN_SHADOWS
+    if (!s->shadowed) return;
+    select_cascade(frame, px, py, sample);
     shadow_coords(frame, s, px, py, n, sample);
 #endif
 }
@@ -227,9 +258,7 @@ static void begin_lighting(const gn_frame *frame, gn_surface *s)
         for (int c = 0; c < 3; c++) s->light_uq16[l][c] = gn_mul_uq16(frame->light[l].colour_uq16[c], albedo[c]);
 #if GN_SHADOWS
         if (frame->light[l].view_idx < 0) continue;
-        const gn_light_view *view = &frame->view[frame->light[l].view_idx];
-        for (int i = 0; i < 3; i++)
-            s->light_d_q16[l][i] = view->ray[i].d_q16 + (s->smooth ? 0 : receiver_offset(view, i, s->normal_q30[0]));
+        if (!s->smooth) receiver_offset(&frame->view[frame->light[l].view_idx + frame->last_cascade], s->normal_q30[0], s->flat_offset_q16[l]);
         s->shadowed |= (s->object->flags & GN_OBJECT_RECEIVES) && (s->smooth || s->flat_cosine_q24[l] > 0);
 #endif
     }
@@ -258,6 +287,22 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
     s->has_bary = s->smooth || s->coloured;
     if (s->has_bary) barycentric_planes(s, v);
     begin_lighting(frame, s);
+}
+
+uint32_t gn_surface_cascade(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
+{
+#if GN_SHADOWS
+    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    hit h;
+    gn_sample sample;
+    intersect(frame, s, px, py, &h);
+    sample.value[GN_VALUE_Z] = h.z_q16;
+    select_cascade(frame, px, py, &sample);
+    return (uint32_t)sample.cascade;
+#else
+    (void)frame, (void)s, (void)x, (void)y;
+    return GN_CASCADE_NONE;
+#endif
 }
 
 void gn_surface_normal(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, int32_t normal_q30[3])

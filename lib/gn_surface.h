@@ -9,14 +9,19 @@
 /* Values sampled at a pixel and stepped linearly between samples. */
 enum {
     GN_VALUE_Z,          /* view depth, Q16 */
+    GN_VALUE_FADE,       /* D6 factor of the cascade, Q16 */
     GN_VALUE_RGB,        /* 3: interpolated vertex colour, Q16 */
-    GN_VALUE_LIGHT = 4,  /* per light: n . L in Q24, then tile coordinates U, V, D in Q16 texels */
-    GN_VALUES_PER_LIGHT = 4,
+    GN_VALUE_LIGHT = 5,  /* per light: n . L in Q24, tile coordinates U, V, D in Q16 texels, and those of the next cascade */
+    GN_VALUES_PER_LIGHT = GN_BLENDED_CASCADES ? 7 : 4,
     GN_VALUE_COUNT = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * GN_MAX_LIGHTS
 };
 
+#define GN_CASCADE_NONE 4
+
 typedef struct {
     int32_t value[GN_VALUE_COUNT];
+    int32_t cascade; /* of the surface point, GN_CASCADE_NONE: lit by every light */
+    int32_t x, y;    /* the pixel */
 } gn_sample;
 
 typedef struct {
@@ -34,11 +39,9 @@ typedef struct {
     /* albedo times ambient (Q20) and times each light's colour (Q16): radiance is their sum, weighted */
     uint32_t base_q20[3];
     uint32_t light_uq16[GN_MAX_LIGHTS][3];
-    /* where the normal is constant: n . L per light, and the receiver's offset folded into the light coordinates' constant */
+    /* where the normal is constant: n . L per light, and the receiver's offset in texels */
     int32_t flat_cosine_q24[GN_MAX_LIGHTS];
-#if GN_SHADOWS
-    int64_t light_d_q16[GN_MAX_LIGHTS][3];
-#endif
+    int32_t flat_offset_q16[GN_MAX_LIGHTS][3];
 } gn_surface;
 
 /* Keeps what neighbouring triangles of a screen tile share: the current object's transforms. */
@@ -58,6 +61,9 @@ static inline int gn_surface_is_constant(const gn_surface *surface)
 
 /* Everything at the centre of pixel (x, y), exactly (R4): the perspective divide happens here. */
 void gn_surface_sample(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, gn_sample *sample);
+
+/* The cascade of the surface point at a pixel's centre, GN_CASCADE_NONE: none. */
+uint32_t gn_surface_cascade(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y);
 
 /* Interpolated normal, not renormalised, Q1.30, towards the viewer's side; at the pixel's centre. */
 void gn_surface_normal(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, int32_t normal_q30[3]);

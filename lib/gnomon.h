@@ -59,6 +59,8 @@ extern "C" {
     X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 or not beyond the camera's near plane")           \
     X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                          \
     X(GN_ERR_SHADOW_FILTER, "unknown shadow filter, or one above GN_FILTER_MAX")                                       \
+    X(GN_ERR_SHADOW_CASCADES, "more than 4 cascades, ratios above 1 or not ascending, or a blend that is not built in")       \
+    X(GN_ERR_SHADOW_TILES_FULL, "more shadow tiles (lights x cascades) than GN_MAX_SHADOW_TILES")                      \
     X(GN_ERR_SHADOW_TILE, "shadow tile would be smaller than 8 texels")                                                \
     X(GN_ERR_TRIANGLES_FULL, "more visible triangles than GN_MAX_TRIANGLES")                                           \
     X(GN_ERR_TILE_REFS_FULL, "more tile references than GN_MAX_TILE_REFS")
@@ -146,11 +148,18 @@ typedef struct {
 
 typedef enum { GN_FILTER_HARD, GN_FILTER_2X2, GN_FILTER_3X3, GN_FILTER_5X5, GN_FILTER_7X7 } gn_filter;
 
+typedef enum { GN_BLEND_HARD, GN_BLEND_SOFT, GN_BLEND_DITHER } gn_blend;      /* D7 */
+typedef enum { GN_DISTANCE_DEPTH, GN_DISTANCE_RADIUS } gn_distance_mode;    /* D5, D11 */
+
 typedef struct {
     int32_t max_distance_q16;    /* D5 */
     uint32_t distance_fade_uq16; /* D5, 66 (0.001) .. 65536 */
-    uint32_t cascade_fade_uq16;  /* D3, 66 .. 65536 */
+    uint32_t cascade_fade_uq16;  /* D3, D6, 66 .. 65536 */
     gn_filter filter;
+    uint32_t n_cascades;         /* 0 (as 1) .. 4; each takes a tile of the atlas */
+    uint32_t cascade_ratio_uq16[3]; /* where cascades 0, 1, 2 end, as shares of the max distance, ascending; the last ends there */
+    gn_blend blend;              /* anything but hard needs GN_BLENDED_CASCADES */
+    gn_distance_mode distance_mode;
 } gn_shadow_settings;
 
 typedef struct {
@@ -167,15 +176,20 @@ typedef struct {
 /* ---- Rendering ---------------------------------------------------------------------------------------------------- */
 
 typedef enum {
-    GN_FORMAT_RGB565, /* uint16_t per pixel, native byte order, red in the high bits */
-    GN_FORMAT_RGB888, /* 3 bytes per pixel: red, green, blue */
-    GN_FORMAT_RAW32   /* with GN_RAW_VIEWS: uint32_t per pixel, see gn_view; all ones where there is no surface */
+    GN_FORMAT_RGB565,         /* uint16_t per pixel, native byte order, red in the high bits */
+    GN_FORMAT_RGB888,         /* 3 bytes per pixel: red, green, blue */
+    GN_FORMAT_RGB565_SWAPPED, /* RGB565 with its two bytes exchanged, as many panels want it */
+    GN_FORMAT_GREY8,          /* a byte per pixel */
+    GN_FORMAT_GREY4,          /* two pixels per byte, the left one in the high bits; rows begin on a byte */
+    GN_FORMAT_MONO1,          /* eight pixels per byte, the left one in the highest bit, 1 = light; rows begin on a byte; ordered dither */
+    GN_FORMAT_RAW32           /* with GN_RAW_VIEWS: uint32_t per pixel, see gn_view; all ones where there is no surface */
 } gn_format;
 
 typedef enum {
     GN_VIEW_COLOUR,
     GN_VIEW_SHADOW,  /* raw: shadow factor of light `view_light`, 0..65536, 0 where the surface faces away */
     GN_VIEW_DEPTH,   /* raw: view depth, Q15.16 */
+    GN_VIEW_CASCADE, /* raw: cascade of the surface point, 4: none */
     GN_VIEW_NORMAL,  /* raw: shading normal, 10 bits per axis (x high), offset 512, 511 = 1 */
     GN_VIEW_TRIANGLE /* raw: object index << 16 | triangle index */
 } gn_view;
@@ -187,7 +201,8 @@ typedef struct {
     uint8_t view_light;
 } gn_picture;
 
-/* A finished screen tile: w * h pixels, rows of w, top left at (x, y). The buffer is reused after the call returns. */
+/* A finished screen tile: w * h pixels, row after row without gaps (GREY4 and MONO1: rows of whole bytes), top left at (x, y), x a
+ * multiple of the tile's width. The buffer is reused after the call returns. */
 typedef void (*gn_flush_fn)(void *user, int x, int y, int w, int h, const void *pixels);
 
 typedef struct {
@@ -232,8 +247,8 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
 const gn_stats *gn_get_stats(const gn_renderer *r);
 const gn_detail *gn_get_detail(const gn_renderer *r);
 
-/* The shadow tile of light `light_idx`: texels per side (0: none), its depths row by row, 65535 = empty. */
-uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, const uint16_t **depth);
+/* The shadow tile of a light's cascade: texels per side (0: none), its depths row by row, 65535 = empty. */
+uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t cascade_idx, const uint16_t **depth);
 
 #ifdef __cplusplus
 }

@@ -114,6 +114,11 @@ static inline void demo_scene_make(demo_scene *d, uint32_t frame)
     s->shadow.max_distance_q16 = GN_Q16(20);
     s->shadow.distance_fade_uq16 = GN_UQ16(0.1);
     s->shadow.cascade_fade_uq16 = GN_UQ16(0.1);
+    s->shadow.n_cascades = frame ? 4 : 1;
+    s->shadow.cascade_ratio_uq16[0] = GN_UQ16(0.3);
+    s->shadow.cascade_ratio_uq16[1] = GN_UQ16(0.4);
+    s->shadow.cascade_ratio_uq16[2] = GN_UQ16(0.55);
+    s->shadow.blend = GN_BLENDED_CASCADES ? GN_BLEND_SOFT : GN_BLEND_HARD;
     s->shadow.filter = GN_FILTER_MAX >= 2 ? GN_FILTER_3X3 : (gn_filter)GN_FILTER_MAX;
 }
 

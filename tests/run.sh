@@ -96,6 +96,8 @@ for compiler in gcc clang; do
     variant $compiler -O2
 done
 run "test_oiio" build/test_oiio
+build build/test/threads/test_cores BUILD=build/test/threads SAN=-fsanitize=thread
+run "test_cores, ThreadSanitizer" build/test/threads/test_cores
 for script in tests/test_*.sh; do
     run "$(basename "$script" .sh)" sh "$script" build/gnomon
 done

@@ -98,7 +98,7 @@ refused persp_step -DGN_PERSP_STEP=2
 refused atten_bits -DGN_ATTEN_BITS=12
 refused atlas_size -DGN_ATLAS_SIZE=96
 refused vertex_cache -DGN_VERTEX_CACHE=33
-refused tile_width -DGN_TILE_WIDTH=66
+refused tile_width -DGN_TILE_WIDTH=68
 refused picture_too_large "-DGN_SUBPIXEL_BITS=6 -DGN_MAX_WIDTH=1024" # beyond 16-bit screen coordinates
 refused picture_too_large "-DGN_SUBPIXEL_BITS=6 -DGN_MAX_HEIGHT=1024"
 
@@ -255,19 +255,22 @@ program tent -DGN_FILTER_MAX=2 && same tent "160 120 1 2 0" balanced "160 120 1 
 # status name -> number, from the order of the list
 number() { sed -n 's/^ *X(\(GN_[A-Z_]*\),.*/\1/p' lib/gnomon.h | awk -v name="$1" '$1 == name { print NR - 1 }'; }
 
-# full NAME STATUS MACRO OTHER-FLAGS: too few; as many as are needed; one less
+# full NAME STATUS MACRO OTHER-FLAGS [FRAME]: too few; as many as are needed; one less
 full() {
-    program "$1" "-D$3=3" $4 || return
-    set -- "$@" $("$tmp/$1.run" 160 120 0 - 0)
-    if [ "$5 $7" = "$(number "$2") 3" ] && [ "${6:-0}" -gt 3 ]; then pass; else fail "$3=3: status ${5:-?}, needed ${6:-?}, available ${7:-?}"; return; fi
-    program "$1" "-D$3=$6" $4 || return
-    same "$1" "160 120 0 - 0" balanced "160 120 0 - 0" "$3=$6, as needed"
-    program "$1" "-D$3=$(($6 - 1))" $4 || return
-    if [ "$("$tmp/$1.run" 160 120 0 - 0)" = "$(number "$2") $6 $(($6 - 1))" ]; then pass; else fail "$3=$(($6 - 1)): it needs $6"; fi
+    frame=${5:-0} status=$2 macro=$3 flags=$4 name=$1
+    program "$name" "-D$macro=3" $flags || return
+    set -- $("$tmp/$name.run" 160 120 "$frame" - 0)
+    if [ "$1 $3" = "$(number "$status") 3" ] && [ "${2:-0}" -gt 3 ]; then pass; else fail "$macro=3: status ${1:-?}, needed ${2:-?}, available ${3:-?}"; return; fi
+    needed=$2
+    program "$name" "-D$macro=$needed" $flags || return
+    same "$name" "160 120 $frame - 0" balanced "160 120 $frame - 0" "$macro=$needed, as needed"
+    program "$name" "-D$macro=$((needed - 1))" $flags || return
+    if [ "$("$tmp/$name.run" 160 120 "$frame" - 0)" = "$(number "$status") $needed $((needed - 1))" ]; then pass; else fail "$macro=$((needed - 1)): it needs $needed"; fi
 }
 
 full triangles GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES ""
 full refs GN_ERR_TILE_REFS_FULL GN_MAX_TILE_REFS ""
+full tiles GN_ERR_SHADOW_TILES_FULL GN_MAX_SHADOW_TILES "" 1
 
 # ---- Memory ----------------------------------------------------------------------------------------------------------------
 
@@ -340,7 +343,7 @@ if [ -n "$target" ]; then
         predicted $preset depth_blocks=0
         predicted $preset max_width=333 max_height=17 max_triangles=7 max_tile_refs=9 max_lights=3 vertex_cache=64
         predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
-        predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=12 tile_height=1 shadows=0
+        predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
     done
 fi
 if size_is '<= 65536' -DGN_PRESET=GN_PRESET_BALANCED -DGN_MAX_WIDTH=320 -DGN_MAX_HEIGHT=240 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=500; then pass

@@ -3,6 +3,8 @@
 #include <string.h>
 
 #include "exact.h"
+#include <stdlib.h>
+
 #include "gn_pixel.h"
 #include "gnomon.h"
 #include "rng.h"
@@ -95,7 +97,8 @@ static void test_fill(void)
         frame.picture.format = k & 1 ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565;
         memset(buffer, 0xA5, sizeof buffer);
         memset(expected, 0xA5, sizeof expected);
-        gn_pixel_fill(&frame, buffer, i, n, packed);
+        const gn_pixel_rows rows = {buffer, PIXELS, 40, 30};
+        gn_pixel_fill(&frame, &rows, 40 + i, 30, n, packed);
         for (int32_t p = i; p < i + n; p++) {
             uint16_t narrow = (uint16_t)packed;
             if (frame.picture.format == GN_FORMAT_RGB565) memcpy(expected + 2 * p, &narrow, sizeof narrow);
@@ -105,6 +108,72 @@ static void test_fill(void)
         HOLDS(&t, !memcmp(buffer, expected, sizeof buffer), "%d pixels from %d", (int)n, (int)i);
     }
     CHECK_TALLY(t, "pixels go where they should");
+}
+
+static double curve(double x)
+{
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
+}
+
+/* Greys are the encoded luminance rounded to the nearest level, and byte-swapped RGB565 is RGB565. */
+static void test_greys(void)
+{
+    tally grey = {0}, swapped = {0};
+    frame.knobs.srgb = 1;
+    for (uint32_t k = 0; k < 300000; k++) {
+        uint32_t q20[3];
+        double y = 0;
+        static const double weight[3] = {0.2126, 0.7152, 0.0722};
+        for (int c = 0; c < 3; c++) {
+            q20[c] = rng_u32(&random_state) % (ONE_Q20 + ONE_Q20 / 4);
+            y += weight[c] * fmin(1, q20[c] / (double)ONE_Q20);
+        }
+        for (int bits = 4; bits <= 8; bits += 4) {
+            double level = curve(y) * (bits == 4 ? 15 : 255);
+            frame.picture.format = bits == 4 ? GN_FORMAT_GREY4 : GN_FORMAT_GREY8;
+            /* half a level, the weights' 16 bits (2^-17 each, steepened by the curve) and the encoding's 1.5 of 65535 */
+            HOLDS(&grey, fabs(gn_pixel_pack(&frame, q20) - level) <= 0.5 + 255 * (1.5 / 65535 + 12.92 * 3 / 131072.0), "%u bits", (unsigned)bits);
+        }
+        frame.picture.format = GN_FORMAT_RGB565;
+        uint32_t straight = gn_pixel_pack(&frame, q20);
+        frame.picture.format = GN_FORMAT_RGB565_SWAPPED;
+        HOLDS(&swapped, gn_pixel_pack(&frame, q20) == (straight >> 8 | (straight & 255U) << 8), "%06x", (unsigned)straight);
+    }
+    CHECK_TALLY(grey, "grey levels");
+    CHECK_TALLY(swapped, "byte order of RGB565");
+}
+
+/* Packed rows: each pixel in its own bits, rows on bytes, nothing else touched; the dither lights the share of pixels that the
+ * luminance says, in every 8x8 block, wherever the block lies. */
+static void test_packed_rows(void)
+{
+    uint32_t buffer[64];
+    uint8_t *bytes = (uint8_t *)buffer;
+    tally t = {0}, share = {0};
+    frame.picture.format = GN_FORMAT_GREY4;
+    for (int32_t width = 1; width <= 11; width++) {
+        for (int32_t i = 0; i < 3 * width; i++) {
+            const gn_pixel_rows rows = {buffer, width, 0, 0};
+            memset(buffer, 0x5A, sizeof buffer);
+            gn_pixel_fill(&frame, &rows, i % width, i / width, 1, 0xC);
+            for (int32_t p = 0; p < 3 * ((width + 1) / 2); p++) {
+                int32_t at = i / width * ((width + 1) / 2) + i % width / 2;
+                unsigned want = p != at ? 0x5AU : i % width & 1 ? 0x5CU : 0xCAU;
+                HOLDS(&t, bytes[p] == want, "width %d pixel %d", (int)width, (int)i);
+            }
+        }
+    }
+    CHECK_TALLY(t, "4-bit rows");
+    frame.picture.format = GN_FORMAT_MONO1;
+    for (uint32_t luminance = 0; luminance <= 65535; luminance += 13) {
+        const gn_pixel_rows rows = {buffer, 16, 24, 40};
+        int lit = 0;
+        for (int32_t y = 0; y < 8; y++) gn_pixel_fill(&frame, &rows, 24, 40 + y, 16, luminance);
+        for (int32_t p = 0; p < 16; p++)
+            for (int bit = 0; bit < 8; bit++) lit += bytes[p] >> bit & 1;
+        HOLDS(&share, abs(lit - (int)lround(luminance * 128 / 65535.0)) <= 1, "%u of 65535: %d of 128", (unsigned)luminance, lit);
+    }
+    CHECK_TALLY(share, "share of lit pixels");
 }
 
 /* Every level is reached, and white and black are exact. */
@@ -128,5 +197,7 @@ int main(void)
     test_pack();
     test_fill();
     test_levels();
+    test_greys();
+    test_packed_rows();
     return check_report();
 }

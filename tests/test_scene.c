@@ -542,6 +542,19 @@ static double picture_share(int w, int h)
     return largest;
 }
 
+static void check_cascades(int n_cascades)
+{
+    static const double ratios[5][3] = { { 0 }, { 1, 1, 1 }, { 0.25, 1, 1 }, { 0.1, 0.25, 1 }, { 0.1, 0.25, 0.5 } };
+    CHECK_EQ_INT(s.shadow.n_cascades, n_cascades);
+    CHECK(s.shadow.blend == SCENE_BLEND_HARD && s.shadow.distance_mode == SCENE_DISTANCE_DEPTH);
+    for (int n = n_cascades; n <= 4; n++) {
+        for (int i = 0; i < 3; i++) CHECK_NEAR(s.shadow.cascade_ratio[i], ratios[n][i], 0);
+        if (n == 4) break;
+        s.shadow.n_cascades = n + 1;
+        scene_default_ratios(&s.shadow);
+    }
+}
+
 static void check_defaults(int w, int h, double size)
 {
     char text[300];
@@ -557,6 +570,7 @@ static void check_defaults(int w, int h, double size)
     CHECK_NEAR(s.background[2], 0.6, 0);
     CHECK_NEAR(s.shadow.distance_fade, 0.1, 0);
     CHECK(s.shadow.filter == SCENE_FILTER_3X3);
+    check_cascades(1);
     /* The shadow of the top vertex on the ground is in front of where shadows start to fade. */
     const double *light = s.lights[0].direction, tip[3] = { -size * light[0] / light[1], 0, -size * light[2] / light[1] };
     double depth = 0;
@@ -580,6 +594,7 @@ static void test_defaults(void)
     CHECK_EQ_INT(load_text(TMP ".gltf", replaced(without_animation(base_json), "\"zfar\":80", "\"x\":0")), 0);
     CHECK(isinf(s.camera.far));
     CHECK_NEAR(s.shadow.max_distance, 100, 0);
+    check_cascades(4);
     scene_free(&s);
 }
 

@@ -102,12 +102,16 @@ is_png() { # is_png FILE SIZE WHAT
 }
 
 for engine in fixed reference; do
-    for view in colour shadow depth normal atlas; do
+    for view in colour shadow depth normal cascade atlas; do
         size=33x21
         [ $view = atlas ] && size=64x64
         good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view $view --set atlas_size=64
         is_png "$tmp/view.png" $size "--engine $engine --view $view"
     done
+done
+for engine in fixed reference; do # three of four tiles in a row
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --set atlas_size=64 --set cascades=3
+    is_png "$tmp/view.png" 96x32 "--engine $engine --view atlas, three cascades"
 done
 good render "$cube" -o "$tmp/one.png" --size 1x1
 is_png "$tmp/one.png" 1x1 "--size 1x1"
@@ -237,6 +241,15 @@ bad 1 KEY=VALUE info "$cube" --set ''
 bad 1 nonsense info "$cube" --set nonsense=1
 bad 1 preset info "$cube" --set preset=huge
 bad 1 filter info "$cube" --set filter=9x9
+bad 1 cascade_blend info "$cube" --set cascade_blend=mild
+bad 1 distance_mode info "$cube" --set distance_mode=far
+bad 1 'cascades first' info "$cube" --set cascades=1 --set cascade_ratios=0.5
+for value in '' 0.1,0.2 0.1,0.2,0.3,0.4 0.1,0.2,1.5 -0.1,0.2,0.3 0.1,,0.3 0.1,0.2,0.3, nan,1,1; do
+    bad 1 '3 numbers' info "$cube" --size 8x8 --set cascades=4 --set "cascade_ratios=$value"
+done
+bad 1 ascending info "$cube" --size 8x8 --set cascades=4 --set cascade_ratios=0.2,0.1,0.3
+bad 1 '2 numbers' info "$cube" --size 8x8 --set cascades=3 --set cascade_ratios=0.5
+bad 1 '1 number ' info "$cube" --size 8x8 --set cascades=2 --set cascade_ratios=0.1,0.2
 bad 1 ground info "$cube" --set ground=2
 bad 1 normals info "$cube" --set normals=round
 bad 1 'KEY=VALUE' info "$cube" --set "$(printf '%0100d' 0)=1"
@@ -267,6 +280,9 @@ while read -r name low high; do
     bad 1 "$name" info "$cube" --set "$name=$((${high%%.*} + 1))"
 done <"$tmp/ranges"
 for preset in tiny balanced accurate; do good info "$cube" --size 16x12 --set preset=$preset; done
+for ratios in 0,0,0 1,1,1 0.2,0.2,0.9; do good info "$cube" --size 16x12 --set cascades=4 --set cascade_ratios=$ratios; done
+for blend in hard soft dither; do good info "$cube" --size 16x12 --set cascades=4 --set cascade_blend=$blend; done
+for mode in depth radius; do good info "$cube" --size 16x12 --set distance_mode=$mode; done
 for filter in hard 2x2 3x3 5x5 7x7; do good info "$cube" --size 16x12 --set filter=$filter; done
 
 echo "$passed passed, $failed failed"

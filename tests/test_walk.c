@@ -295,7 +295,7 @@ static gn_status render(const gn_affine *camera, uint32_t focal_q24, int32_t nea
     gn_knobs *knobs = &renderer.frame.knobs;
     knobs->subpixel_bits = rng_range(&random_state, 2, 8);
     knobs->persp_step = steps[rng_below(&random_state, 4)];
-    knobs->tile_width = 4 * rng_range(&random_state, 4, 24);
+    knobs->tile_width = 8 * rng_range(&random_state, 2, 12);
     knobs->tile_height = rng_range(&random_state, 12, 72);
     memset(picture, 0xA5, sizeof picture);
     return gn_render(&renderer, &scene, flush, NULL);

@@ -6,17 +6,18 @@
 #include <string.h>
 
 #define MAX_SIDE 16384 /* of picture and atlas: products of two sides fit every size_t and int64_t */
-#define MIN_TILE 8     /* A2 */
+#define MIN_ATLAS 16   /* A1 */
 
 static const char *check_limits(const scene *s, const ref_options *options)
 {
     const int atlas = options->atlas_size;
     if (options->width < 1 || options->height < 1 || options->width > MAX_SIDE || options->height > MAX_SIDE)
         return "picture size out of range 1 to 16384";
-    if (atlas < 2 * MIN_TILE || atlas > MAX_SIDE || (atlas & (atlas - 1)) != 0)
+    if (atlas < MIN_ATLAS || atlas > MAX_SIDE || (atlas & (atlas - 1)) != 0)
         return "atlas size is not a power of two from 16 to 16384";
     if (s->n_lights > REF_MAX_LIGHTS) return "more than 8 lights";
-    return NULL;
+    if (s->shadow.n_cascades < 1 || s->shadow.n_cascades > REF_MAX_CASCADES) return "cascades out of range 1 to 4";
+    return ref_ratios_ascend(&s->shadow) ? NULL : "cascade ratios are not ascending numbers from 0 to 1";
 }
 
 static bool allocate(ref_frame *frame)
@@ -27,8 +28,9 @@ static bool allocate(ref_frame *frame)
     p->depth = calloc(n, sizeof *p->depth);
     p->normal = calloc(3 * n, sizeof *p->normal);
     p->triangle = calloc(n, sizeof *p->triangle);
+    p->cascade = calloc(n, sizeof *p->cascade);
     frame->hits = calloc(n, sizeof *frame->hits);
-    bool ok = p->rgb && p->depth && p->normal && p->triangle && frame->hits;
+    bool ok = p->rgb && p->depth && p->normal && p->triangle && p->cascade && frame->hits;
     for (size_t l = 0; l < p->n_lights; l++) {
         p->shadow[l] = calloc(n, sizeof *p->shadow[l]);
         p->ndotl[l] = calloc(n, sizeof *p->ndotl[l]);
@@ -76,10 +78,11 @@ void ref_free(ref_picture *p)
     free(p->depth);
     free(p->normal);
     free(p->triangle);
+    free(p->cascade);
     for (size_t l = 0; l < REF_MAX_LIGHTS; l++) {
         free(p->shadow[l]);
         free(p->ndotl[l]);
-        free(p->view[l].depth);
+        for (int c = 0; c < REF_MAX_CASCADES; c++) free(p->view[l][c].depth);
     }
     memset(p, 0, sizeof *p);
 }

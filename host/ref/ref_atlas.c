@@ -75,17 +75,23 @@ static void cast_object(ref_light_view *view, const ref_frame *frame, size_t obj
     }
 }
 
+static bool render_tile(ref_light_view *view, const ref_frame *frame, const scene_light *light)
+{
+    const size_t n_texels = (size_t)view->tile_texels * (size_t)view->tile_texels;
+    view->depth = malloc(n_texels * sizeof *view->depth);
+    if (!view->depth) return false;
+    for (size_t i = 0; i < n_texels; i++) view->depth[i] = view->depth_range;
+    for (size_t i = 0; i < frame->s->n_objects; i++)
+        if (frame->s->objects[i].casts) cast_object(view, frame, i, light);
+    return true;
+}
+
 const char *ref_render_atlas(ref_frame *frame)
 {
-    for (size_t l = 0; l < frame->s->n_lights; l++) {
-        ref_light_view *view = &frame->picture->view[l];
-        if (!view->active) continue;
-        const size_t n_texels = (size_t)view->tile_texels * (size_t)view->tile_texels;
-        view->depth = malloc(n_texels * sizeof *view->depth);
-        if (!view->depth) return "out of memory for the shadow map";
-        for (size_t i = 0; i < n_texels; i++) view->depth[i] = view->depth_range;
-        for (size_t i = 0; i < frame->s->n_objects; i++)
-            if (frame->s->objects[i].casts) cast_object(view, frame, i, &frame->s->lights[l]);
-    }
+    for (size_t l = 0; l < frame->s->n_lights; l++)
+        for (int c = 0; c < frame->s->shadow.n_cascades; c++) {
+            ref_light_view *view = &frame->picture->view[l][c];
+            if (view->active && !render_tile(view, frame, &frame->s->lights[l])) return "out of memory for the shadow map";
+        }
     return NULL;
 }

@@ -1,7 +1,9 @@
-/* Which light has a shadow tile, and the fit of its view to the camera's frustum (DESIGN 1.4). */
+/* Cascades: their spheres in the camera's frustum, which lights have tiles and how their views fit, which cascade a point is looked
+ * up in (DESIGN 1.4). */
 #include "ref_internal.h"
 
-#define MAX_TILES 4
+#define MAX_TILED_LIGHTS 4 /* D1 */
+#define MIN_TILE 8         /* A2 */
 
 int ref_filter_index(scene_filter filter)
 {
@@ -24,10 +26,29 @@ static double ceil8(double x)
     return ldexp(ceil(f * 256.0), e - 8);
 }
 
-/* The sphere of the slice of the frustum between near and the max distance: centre depth c and radius r of DESIGN 1.4. */
-static void fit_sphere(ref_light_view *view, const scene *s, int width, int height)
+/* m_i of DESIGN 1.4 */
+static double cascade_end(const scene_shadow *shadow, int cascade)
 {
-    const double m = s->shadow.max_distance, n = s->camera.near;
+    return shadow->max_distance * (cascade < shadow->n_cascades - 1 ? shadow->cascade_ratio[cascade] : 1.0);
+}
+
+bool ref_ratios_ascend(const scene_shadow *shadow)
+{
+    double previous = 0.0;
+    for (int i = 0; i < shadow->n_cascades - 1; i++) {
+        const double ratio = shadow->cascade_ratio[i];
+        if (!(ratio >= previous && ratio <= 1.0)) return false;
+        previous = ratio;
+    }
+    return true;
+}
+
+/* The sphere of the slice of the frustum from depth n to m: centre depth c and radius r of DESIGN 1.4. */
+static ref_sphere fit_sphere(const scene *s, int cascade, int width, int height)
+{
+    const double m = cascade_end(&s->shadow, cascade);
+    const double n = cascade > 0 ? fmax(s->camera.near, cascade_end(&s->shadow, cascade - 1)) : s->camera.near;
+    if (!(m > n)) return (ref_sphere){.empty = true};
     const double q = fmax(1.0 - s->shadow.cascade_fade, 1.0 / 8.0);
     const double k = sqrt((double)width * width + (double)height * height) / (height * s->camera.focal);
     const double a = 1.0 - q * q;
@@ -40,10 +61,10 @@ static void fit_sphere(ref_light_view *view, const scene *s, int width, int heig
     }
     const double far_corner = (m - c) * (m - c) + k * k * m * m;
     const double near_corner = ((c - n) * (c - n) + k * k * n * n) / (q * q);
-    view->sphere_radius = sqrt(fmax(far_corner, near_corner));
 
     const ref_camera camera = ref_make_camera(&s->camera, width, height);
-    vec3_store(view->sphere_centre, vec3_add(camera.position, vec3_scale(camera.forward, c)));
+    return (ref_sphere){.centre = vec3_add(camera.position, vec3_scale(camera.forward, c)),
+                        .radius = sqrt(fmax(far_corner, near_corner))};
 }
 
 static void fit_axes(ref_light_view *view, vec3 w)
@@ -70,12 +91,16 @@ static void fit_grid(ref_light_view *view, double near_offset)
 
 /* Leaves view->depth alone: the atlas stage owns it. -1 if no finite texel covers the sphere. The factor just below 1 keeps the
  * texel of a radius that is a round number off the edge between two of ceil8's steps. */
-int ref_fit_light(ref_light_view *view, const scene *s, const scene_light *light, int width, int height, int tile_texels)
+int ref_fit_light(ref_light_view *view, const scene *s, const scene_light *light, int cascade, int width, int height, int tile_texels)
 {
     const double reach = 2.0 * (ref_filter_index(s->shadow.filter) + 1) * (1.0 + sqrt(2.0) * light->bias_normal);
-    view->tile_texels = tile_texels;
-    fit_sphere(view, s, width, height);
     const double sphere_texels = fmax(tile_texels - reach - 1.0, tile_texels / 4.0);
+    const ref_sphere sphere = fit_sphere(s, cascade, width, height);
+    view->active = false;
+    if (sphere.empty) return 0;
+    view->tile_texels = tile_texels;
+    vec3_store(view->sphere_centre, sphere.centre);
+    view->sphere_radius = sphere.radius;
     view->texel = ceil8((1.0 - ldexp(1.0, -20)) * 2.0 * view->sphere_radius / sphere_texels);
     if (!isfinite(view->texel) || !(view->texel > 0.0) || !isfinite(light->near_offset)) return -1;
     fit_axes(view, vec3_load(light->direction));
@@ -86,19 +111,54 @@ int ref_fit_light(ref_light_view *view, const scene *s, const scene_light *light
 
 static bool wants_tile(const scene_light *light) { return light->shadow && light->strength > 0.0; }
 
+/* The atlas is split into 1, 4 or 16 equal tiles (A2); those of empty cascades count. */
+static int tile_side(int atlas_texels, int n_tiles)
+{
+    return n_tiles > 4 ? atlas_texels / 4 : n_tiles > 1 ? atlas_texels / 2 : atlas_texels;
+}
+
 const char *ref_fit_lights(ref_frame *frame)
 {
     const scene *s = frame->s;
-    int n_wanted = 0, n_taken = 0;
-    for (size_t l = 0; l < s->n_lights; l++) n_wanted += wants_tile(&s->lights[l]);
-    const int tile_texels = n_wanted > 1 ? frame->options->atlas_size / 2 : frame->options->atlas_size;
-    for (size_t l = 0; l < s->n_lights && n_taken < MAX_TILES; l++) {
+    const int n_cascades = s->shadow.n_cascades, width = frame->picture->width, height = frame->picture->height;
+    int n_lights = 0, n_taken = 0;
+    for (size_t l = 0; l < s->n_lights; l++) n_lights += wants_tile(&s->lights[l]) && n_lights < MAX_TILED_LIGHTS;
+    const int tile_texels = tile_side(frame->options->atlas_size, n_lights * n_cascades);
+    if (tile_texels < MIN_TILE) return "shadow tiles of less than 8 texels a side: too many cascades and lights for the atlas";
+    for (int c = 0; c < n_cascades; c++) frame->sphere[c] = fit_sphere(s, c, width, height);
+    for (size_t l = 0; l < s->n_lights && n_taken < n_lights; l++) {
         if (!wants_tile(&s->lights[l])) continue;
         n_taken++;
-        if (ref_fit_light(&frame->picture->view[l], s, &s->lights[l], frame->picture->width, frame->picture->height, tile_texels))
-            return "no light view fits: max distance, near offset or cascade fade out of range";
+        for (int c = 0; c < n_cascades; c++)
+            if (ref_fit_light(&frame->picture->view[l][c], s, &s->lights[l], c, width, height, tile_texels))
+                return "no light view fits: max distance, near offset or cascade fade out of range";
     }
     return NULL;
+}
+
+double ref_fade_factor(double t, double cascade_fade)
+{
+    const double inner = 1.0 - fmax(cascade_fade, 0.001);
+    return clamp((1.0 - t) / (1.0 - inner * inner), 0.0, 1.0);
+}
+
+ref_selection ref_select_cascade(const ref_frame *frame, vec3 world)
+{
+    ref_selection selected = {.here = -1, .next = -1};
+    for (int c = 0; c < frame->s->shadow.n_cascades; c++) {
+        const ref_sphere *sphere = &frame->sphere[c];
+        if (sphere->empty) continue;
+        if (selected.here >= 0) {
+            selected.next = c;
+            break;
+        }
+        const vec3 d = vec3_sub(world, sphere->centre);
+        const double t = vec3_dot(d, d) / (sphere->radius * sphere->radius);
+        if (!(t < 1.0)) continue;
+        selected.here = c;
+        selected.fade = ref_fade_factor(t, frame->s->shadow.cascade_fade);
+    }
+    return selected;
 }
 
 vec3 ref_to_light(const ref_light_view *view, vec3 world)

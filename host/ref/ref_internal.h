@@ -28,12 +28,27 @@ typedef struct {
     bool behind;    /* the surface is seen from its back (two-sided objects only) */
 } ref_hit;
 
+/* The bounding sphere of a cascade's slice of the frustum; all lights share it. */
+typedef struct {
+    bool empty; /* the slice is: never selected */
+    vec3 centre;
+    double radius;
+} ref_sphere;
+
+/* Which cascade a surface point is looked up in, and how far it is from leaving it. */
+typedef struct {
+    int here;    /* -1: none */
+    int next;    /* the next one that is not empty; -1: here is the last */
+    double fade; /* F of here, 0..1 */
+} ref_selection;
+
 typedef struct {
     const scene *s;
     const ref_options *options;
     ref_picture *picture;
     ref_camera camera;
     ref_instance *instances; /* one per object */
+    ref_sphere sphere[REF_MAX_CASCADES];
     ref_hit *hits;           /* one per pixel; meaningful where picture->triangle >= 0 */
 } ref_frame;
 
@@ -47,7 +62,9 @@ void ref_free_instances(ref_frame *frame);
 
 /* ref_cascade.c */
 int ref_filter_index(scene_filter filter); /* k_f of DESIGN 1.4 */
-const char *ref_fit_lights(ref_frame *frame);
+bool ref_ratios_ascend(const scene_shadow *shadow);
+const char *ref_fit_lights(ref_frame *frame); /* and the spheres */
+ref_selection ref_select_cascade(const ref_frame *frame, vec3 world);
 vec3 ref_to_light(const ref_light_view *view, vec3 world); /* (U, V, D), texels */
 
 /* ref_atlas.c */

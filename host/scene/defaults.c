@@ -184,6 +184,12 @@ static bool make_light(loader *l)
     return true;
 }
 
+void scene_default_ratios(scene_shadow *shadow)
+{
+    static const double ratios[4][3] = { { 1, 1, 1 }, { 0.25, 1, 1 }, { 0.1, 0.25, 1 }, { 0.1, 0.25, 0.5 } };
+    memcpy(shadow->cascade_ratio, ratios[shadow->n_cascades - 1], sizeof ratios[0]);
+}
+
 bool loader_add_defaults(loader *l)
 {
     static const double ambient[3] = { 0.18, 0.18, 0.18 }, background[3] = { 0.35, 0.45, 0.6 };
@@ -194,7 +200,9 @@ bool loader_add_defaults(loader *l)
     memcpy(s->ambient, ambient, sizeof ambient);
     memcpy(s->background, background, sizeof background);
     s->shadow = (scene_shadow){ .max_distance = fmin(100, s->camera.far), .distance_fade = shadow_fade, .cascade_fade = 0.1,
-                                .filter = SCENE_FILTER_3X3 };
+                                .filter = SCENE_FILTER_3X3, .n_cascades = l->has_camera ? 4 : 1, .blend = SCENE_BLEND_HARD,
+                                .distance_mode = SCENE_DISTANCE_DEPTH };
+    scene_default_ratios(&s->shadow);
     if (!l->has_camera) make_camera(l, &b);
     if (s->n_lights == 0 && !make_light(l)) return false;
     if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b);

@@ -57,11 +57,18 @@ typedef struct {
 
 typedef enum { SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5, SCENE_FILTER_7X7 } scene_filter;
 
+typedef enum { SCENE_BLEND_HARD, SCENE_BLEND_SOFT, SCENE_BLEND_DITHER } scene_blend;
+typedef enum { SCENE_DISTANCE_DEPTH, SCENE_DISTANCE_RADIUS } scene_distance_mode;
+
 typedef struct {
     double max_distance;   /* D5: default min(100, camera far) */
     double distance_fade;  /* D5: 0.001..1, default 0.1 */
     double cascade_fade;   /* D3, D6: 0.001..1, default 0.1 */
     scene_filter filter;
+    int n_cascades;            /* 1..4; default 1 with the default camera, else 4 */
+    double cascade_ratio[3];   /* of the max distance, ascending; the last cascade always reaches it, and what is not used is 1 */
+    scene_blend blend;         /* D7, default hard */
+    scene_distance_mode distance_mode; /* D5 or D11, default depth */
 } scene_shadow;
 
 typedef struct { char *key, *value; } scene_setting;
@@ -87,6 +94,9 @@ typedef struct {
     bool ground;           /* add a ground plane to a glTF file too (an OBJ always gets one) */
     bool smooth;           /* meshes without normals: smooth vertex normals instead of face normals */
 } scene_options;
+
+/* The ratios that go with n_cascades: 0.1, 0.25, 0.5 for 4; 0.1, 0.25 for 3; 0.25 for 2. */
+void scene_default_ratios(scene_shadow *shadow);
 
 /* Loads .obj, .gltf or .glb by the file's ending. Returns 0; on failure returns -1 with one line in error (what, and where:
  * file, line or JSON path) and leaves *s empty. */

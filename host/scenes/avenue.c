@@ -165,8 +165,8 @@ int avenue_write(FILE *file)
     static gltf_document d;
     static const gltf_scene_text text = {
         .comment = "A long avenue under a low sun: shadows from a few steps to beyond the shadow distance. No animation.",
-        .settings = "\"max_distance\": 60, \"distance_fade\": 0.2, \"filter\": \"3x3\", \"ambient\": [0.2, 0.22, 0.28], "
-                    "\"background\": [0.42, 0.58, 0.82]",
+        .settings = "\"max_distance\": 60, \"distance_fade\": 0.2, \"filter\": \"3x3\", \"cascades\": 4, \"cascade_blend\": \"soft\", "
+                    "\"ambient\": [0.2, 0.22, 0.28], \"background\": [0.42, 0.58, 0.82]",
     };
     gltf_begin(&d);
     add_ground(&d);

@@ -323,7 +323,7 @@ int sundial_write(FILE *file)
     static const gltf_scene_text text = {
         .comment = "A sundial at 48 degrees north on the day of the summer solstice. Frame N is 06:00 + 5 N minutes, solar time: "
                    "frame 0 06:00, 72 noon, 144 18:00.",
-        .settings = "\"fps\": 12, \"max_distance\": 5.8, \"distance_fade\": 0.1, \"filter\": \"3x3\", "
+        .settings = "\"fps\": 12, \"max_distance\": 5.8, \"distance_fade\": 0.1, \"filter\": \"3x3\", \"cascades\": 1, "
                     "\"ambient\": [0.2, 0.21, 0.25], \"background\": [0.35, 0.5, 0.75]",
     };
     gltf_begin(&d);

@@ -18,8 +18,10 @@ typedef struct {
     size_t n_lights;
     double *shadow[ENGINE_LIGHTS_MAX]; /* 0..1 */
     double *ndotl[ENGINE_LIGHTS_MAX];  /* reference only, NULL from the library */
-    int atlas_texels[ENGINE_LIGHTS_MAX];
-    double *atlas[ENGINE_LIGHTS_MAX];  /* light depth 0..1 of each light's tile, 1 = empty */
+    int8_t *cascade;       /* of the surface point; -1: none, or no surface */
+    int n_cascades;
+    int atlas_texels[ENGINE_LIGHTS_MAX]; /* per side of each of the light's tiles; 0: it has none */
+    double *atlas[ENGINE_LIGHTS_MAX][REF_MAX_CASCADES]; /* light depth 0..1 of each tile, 1 = empty; NULL: no tile, or an empty slice */
     gn_stats stats;        /* fixed only */
 } engine_picture;
 

@@ -87,6 +87,8 @@ static int draw_views(const job *j, gn_picture picture, engine_picture *out, uin
     if (draw_raw(j, picture, GN_VIEW_TRIANGLE, 0, raw)) return -1;
     for (size_t i = 0; i < n; i++)
         out->triangle[i] = raw[i] == UINT32_MAX ? -1 : (int64_t)(raw[i] >> 16) << 32 | (int64_t)(raw[i] & 65535U);
+    if (draw_raw(j, picture, GN_VIEW_CASCADE, 0, raw)) return -1;
+    for (size_t i = 0; i < n; i++) out->cascade[i] = raw[i] < 4 ? (int8_t)raw[i] : -1;
     for (size_t l = 0; l < out->n_lights; l++) {
         if (draw_raw(j, picture, GN_VIEW_SHADOW, l, raw)) return -1;
         for (size_t i = 0; i < n; i++) out->shadow[l][i] = raw[i] == UINT32_MAX ? 0 : raw[i] / 65536.0;
@@ -94,17 +96,26 @@ static int draw_views(const job *j, gn_picture picture, engine_picture *out, uin
     return 0;
 }
 
+static int copy_tile(const job *j, engine_picture *out, size_t light, size_t cascade)
+{
+    const uint16_t *depth;
+    size_t t = gn_get_shadow_tile(j->renderer, (uint32_t)light, (uint32_t)cascade, &depth);
+    if (!t) return 0;
+    double *tile = malloc(t * t * sizeof *tile);
+    out->atlas_texels[light] = (int)t;
+    out->atlas[light][cascade] = tile;
+    for (size_t i = 0; tile && i < t * t; i++) tile[i] = depth[i] / 65535.0;
+    return tile ? 0 : -1;
+}
+
 static int copy_atlas(const job *j, engine_picture *out)
 {
-    for (size_t l = 0; l < out->n_lights; l++) {
-        const uint16_t *depth;
-        size_t t = gn_get_shadow_tile(j->renderer, (uint32_t)l, &depth);
-        out->atlas_texels[l] = (int)t;
-        if (!t) continue;
-        out->atlas[l] = malloc(t * t * sizeof(double));
-        if (!out->atlas[l]) return -1;
-        for (size_t i = 0; i < t * t; i++) out->atlas[l][i] = depth[i] / 65535.0;
-    }
+    for (size_t l = 0; l < out->n_lights; l++)
+        for (size_t c = 0; c < (size_t)out->n_cascades; c++)
+            if (copy_tile(j, out, l, c)) {
+                snprintf(j->error, j->error_bytes, "out of memory");
+                return -1;
+            }
     return 0;
 }
 
@@ -120,9 +131,11 @@ static int allocate(engine_picture *out, const scene *s, int width, int height)
     out->depth = malloc(n * sizeof(double));
     out->normal = malloc(3 * n * sizeof(double));
     out->triangle = malloc(n * sizeof(int64_t));
+    out->n_cascades = s->shadow.n_cascades;
+    out->cascade = malloc(n);
     for (size_t l = 0; l < out->n_lights; l++)
         if (!(out->shadow[l] = malloc(n * sizeof(double)))) return -1;
-    return out->rgb8 && out->rgb565 && out->depth && out->normal && out->triangle ? 0 : -1;
+    return out->rgb8 && out->rgb565 && out->depth && out->normal && out->triangle && out->cascade ? 0 : -1;
 }
 
 int engine_fixed(engine_picture *out, const scene *s, const settings *set, int width, int height, int what, char *error,
@@ -160,10 +173,11 @@ void engine_free(engine_picture *p)
     free(p->depth);
     free(p->normal);
     free(p->triangle);
+    free(p->cascade);
     for (size_t l = 0; l < ENGINE_LIGHTS_MAX; l++) {
         free(p->shadow[l]);
         free(p->ndotl[l]);
-        free(p->atlas[l]);
+        for (size_t c = 0; c < REF_MAX_CASCADES; c++) free(p->atlas[l][c]);
     }
     memset(p, 0, sizeof *p);
 }

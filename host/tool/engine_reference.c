@@ -10,6 +10,16 @@ static unsigned level(double v, double levels)
     return (unsigned)floor(v * levels + 0.5);
 }
 
+/* Takes a tile's depths, as shares of its range. */
+static double *take_tile(ref_light_view *view)
+{
+    double *depth = view->depth;
+    size_t n = (size_t)view->tile_texels * (size_t)view->tile_texels;
+    for (size_t i = 0; i < n; i++) depth[i] /= view->depth_range;
+    view->depth = NULL;
+    return depth;
+}
+
 /* Takes the arrays that both pictures have in the same shape. */
 static void take(engine_picture *out, ref_picture *ref)
 {
@@ -17,18 +27,19 @@ static void take(engine_picture *out, ref_picture *ref)
     out->normal = ref->normal;
     out->triangle = ref->triangle;
     ref->depth = ref->normal = NULL;
+    out->cascade = ref->cascade;
     ref->triangle = NULL;
+    ref->cascade = NULL;
     for (size_t l = 0; l < ref->n_lights && l < ENGINE_LIGHTS_MAX; l++) {
         out->shadow[l] = ref->shadow[l];
         out->ndotl[l] = ref->ndotl[l];
         ref->shadow[l] = ref->ndotl[l] = NULL;
-        const ref_light_view *view = &ref->view[l];
-        if (!view->active) continue;
-        size_t n = (size_t)view->tile_texels * (size_t)view->tile_texels;
-        out->atlas_texels[l] = view->tile_texels;
-        out->atlas[l] = view->depth;
-        for (size_t i = 0; i < n; i++) out->atlas[l][i] /= view->depth_range;
-        ref->view[l].depth = NULL;
+        for (int c = 0; c < out->n_cascades; c++) {
+            ref_light_view *view = &ref->view[l][c];
+            if (!view->active) continue;
+            out->atlas_texels[l] = view->tile_texels;
+            out->atlas[l][c] = take_tile(view);
+        }
     }
 }
 
@@ -43,6 +54,7 @@ int engine_reference(engine_picture *out, const scene *s, const settings *set, i
     out->width = width;
     out->height = height;
     out->n_lights = ref.n_lights;
+    out->n_cascades = s->shadow.n_cascades;
     out->rgb8 = malloc(3 * n);
     out->rgb565 = malloc(2 * n);
     if (!out->rgb8 || !out->rgb565) {

@@ -17,7 +17,7 @@ static const char usage_text[] =
     "  --engine fixed|reference  render: which engine draws (fixed)\n"
     "  --with reference          compare: against what (reference)\n"
     "  --size WxH                picture size (320x240)\n"
-    "  --view colour|shadow|depth|normal|atlas\n"
+    "  --view colour|shadow|depth|normal|atlas|cascade\n"
     "  --light K                 the light of --view shadow and atlas (0)\n"
     "  --frame N                 animation frame (0)\n"
     "  --set KEY=VALUE           any knob or setting, in order; preset=tiny|balanced|accurate sets many\n"
@@ -35,7 +35,7 @@ static int parse_int(const char *text, int lo, int hi, int *out)
     char *end;
     errno = 0;
     long v = strtol(text, &end, 10);
-    if (end == text || *end || errno || v < lo || v > hi) return -1;
+    if ((text[0] != '-' && (text[0] < '0' || text[0] > '9')) || end == text || *end || errno || v < lo || v > hi) return -1;
     *out = (int)v;
     return 0;
 }

@@ -9,6 +9,10 @@
 /* Everything must stay within +-8192 units of the origin and 16384 of the camera; half of that leaves room for both. */
 #define WORLD_REACH 4096.0
 
+_Static_assert((int)GN_FILTER_7X7 == (int)SCENE_FILTER_7X7 && (int)GN_BLEND_DITHER == (int)SCENE_BLEND_DITHER &&
+                   (int)GN_BLEND_SOFT == (int)SCENE_BLEND_SOFT && (int)GN_DISTANCE_RADIUS == (int)SCENE_DISTANCE_RADIUS,
+               "the scene's enumerations are the library's");
+
 static int64_t fixed(double v, int bits)
 {
     double scaled = floor(ldexp(v, bits) + 0.5);
@@ -44,6 +48,7 @@ static int choose_world_exp(const scene *s)
     double reach = fmax(s->shadow.max_distance, s->camera.near);
     for (size_t i = 0; i < s->n_objects; i++) reach = fmax(reach, reach_of_object(s, &s->objects[i]));
     for (int r = 0; r < 3; r++) reach = fmax(reach, fabs(s->camera.to_world.m[r][3]));
+    for (size_t i = 0; i < s->n_lights; i++) reach = fmax(reach, s->lights[i].near_offset);
     int e;
     frexp(reach / WORLD_REACH, &e);
     return -e;
@@ -146,6 +151,10 @@ static void quantise_view(gn_scene *out, const scene *s, int world_exp)
     out->shadow.distance_fade_uq16 = (uint32_t)fixed(s->shadow.distance_fade, 16);
     out->shadow.cascade_fade_uq16 = (uint32_t)fixed(s->shadow.cascade_fade, 16);
     out->shadow.filter = (gn_filter)s->shadow.filter;
+    out->shadow.n_cascades = (uint32_t)s->shadow.n_cascades;
+    for (int i = 0; i < 3; i++) out->shadow.cascade_ratio_uq16[i] = (uint32_t)fixed(s->shadow.cascade_ratio[i], 16);
+    out->shadow.blend = (gn_blend)s->shadow.blend;
+    out->shadow.distance_mode = (gn_distance_mode)s->shadow.distance_mode;
 }
 
 int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_bytes)

@@ -37,7 +37,7 @@ static const struct {
 };
 #define N_GROUPS (sizeof groups / sizeof *groups)
 
-const char *const settings_preset_name[SETTINGS_PRESETS] = {"tiny", "balanced", "accurate"};
+const char *const settings_preset_name[SETTINGS_PRESETS + 1] = {"tiny", "balanced", "accurate", NULL};
 
 /* Scene settings: numbers that belong to the scene or to all its lights. */
 typedef enum { OF_SHADOW, OF_LIGHTS, OF_COLOUR } scene_place;
@@ -60,7 +60,9 @@ static const struct {
     {"background", OF_COLOUR, offsetof(scene, background), 0, 1, "background colour: one number or R,G,B"},
 };
 
-static const char *const filter_names[] = {"hard", "2x2", "3x3", "5x5", "7x7"};
+static const char *const filter_names[] = {"hard", "2x2", "3x3", "5x5", "7x7", NULL};
+static const char *const blend_names[] = {"hard", "soft", "dither", NULL};
+static const char *const distance_names[] = {"depth", "radius", NULL};
 
 static int *field(settings *s, const knob *k)
 {
@@ -74,7 +76,7 @@ void settings_preset(settings *out, int preset)
 
 void settings_init(settings *out)
 {
-    static const settings defaults = {.capacity.vertex_cache = 32, .feature = {1, 1, 4, 1, 1, 0, 0}};
+    static const settings defaults = {.capacity.vertex_cache = 32, .feature = {1, 1, 1, 4, 1, 1, 0, 0}};
     *out = defaults;
     settings_preset(out, SETTINGS_BALANCED);
 }
@@ -91,6 +93,7 @@ void settings_fit(settings *s, int width, int height, size_t n_lights, const gn_
     fit(&s->capacity.max_triangles, stats->n_triangles);
     fit(&s->capacity.max_tile_refs, stats->n_tile_refs);
     fit(&s->capacity.max_lights, (long)n_lights);
+    fit(&s->capacity.max_shadow_tiles, stats->n_shadow_tiles);
 }
 
 static int fail(char *error, size_t bytes, const char *key, const char *value, const char *expected)
@@ -138,7 +141,7 @@ static int apply_knob(settings *out, const knob *k, const char *value, char *err
     if (field(out, k) == &out->quality.persp_step && n != 1 && n != 4 && n != 8 && n != 16) wrong = "1, 4, 8 or 16";
     if (field(out, k) == &out->quality.atten_bits && n != 8 && n != 16) wrong = "8 or 16";
     if (field(out, k) == &out->quality.atlas_size && (n & (n - 1))) wrong = "a power of two";
-    if (field(out, k) == &out->quality.tile_width && n % 4) wrong = "a multiple of 4";
+    if (field(out, k) == &out->quality.tile_width && n % 8) wrong = "a multiple of 8";
     if (field(out, k) == &out->capacity.vertex_cache && (n & (n - 1))) wrong = "a power of two";
     if (!wrong) return 0;
     *field(out, k) = previous;
@@ -169,25 +172,66 @@ static int apply_scene_number(scene *s, size_t i, const char *value, char *error
     return 0;
 }
 
-static int apply_word(settings *out, scene *s, const char *key, const char *value, char *error, size_t bytes)
+/* The place of a word in a list that ends with NULL; -1: none. */
+static int find_word(const char *word, const char *const *words)
 {
-    if (strcmp(key, "preset") == 0) {
-        for (int i = 0; i < SETTINGS_PRESETS; i++) {
-            if (strcmp(value, settings_preset_name[i]) != 0) continue;
-            settings_preset(out, i);
-            return 1;
-        }
-        return fail(error, bytes, key, value, "tiny, balanced or accurate");
-    }
-    if (strcmp(key, "filter") == 0) {
-        for (int i = 0; i < 5; i++) {
-            if (strcmp(value, filter_names[i]) != 0) continue;
-            s->shadow.filter = (scene_filter)i;
-            return 1;
-        }
-        return fail(error, bytes, key, value, "hard, 2x2, 3x3, 5x5 or 7x7");
-    }
+    for (int i = 0; words[i]; i++)
+        if (strcmp(word, words[i]) == 0) return i;
+    return -1;
+}
+
+static int apply_cascades(scene_shadow *shadow, const char *value, char *error, size_t bytes)
+{
+    double n;
+    if (parse_number(value, &n, NULL) || floor(n) != n || n < 1 || n > 4)
+        return fail(error, bytes, "cascades", value, "a whole number from 1 to 4");
+    shadow->n_cascades = (int)n;
+    scene_default_ratios(shadow);
     return 0;
+}
+
+static int apply_ratios(scene_shadow *shadow, const char *value, char *error, size_t bytes)
+{
+    const char *end = value;
+    char expected[96];
+    double ratio[3];
+    int n = 0, want = shadow->n_cascades - 1;
+    if (want == 0) return fail(error, bytes, "cascade_ratios", value, "possible: the only cascade covers everything; set cascades first");
+    snprintf(expected, sizeof expected, "%d number%s from 0 to 1, which %d cascades take", want, want > 1 ? "s" : "", want + 1);
+    for (;;) {
+        if (n == want || parse_number(end, &ratio[n], &end) || ratio[n] < 0 || ratio[n] > 1)
+            return fail(error, bytes, "cascade_ratios", value, expected);
+        n++;
+        if (*end != ',') break;
+        end++;
+    }
+    if (*end || n != want) return fail(error, bytes, "cascade_ratios", value, expected);
+    for (int i = 1; i < n; i++)
+        if (ratio[i] < ratio[i - 1]) return fail(error, bytes, "cascade_ratios", value, "in ascending order");
+    memcpy(shadow->cascade_ratio, ratio, (size_t)n * sizeof *ratio);
+    return 0;
+}
+
+/* Settings whose values are words. 1: taken; 0: not one of them; -1: bad value. */
+static int apply_word(settings *out, scene_shadow *shadow, const char *key, const char *value, char *error, size_t bytes)
+{
+    int i;
+    if (strcmp(key, "preset") == 0) {
+        if ((i = find_word(value, settings_preset_name)) < 0) return fail(error, bytes, key, value, "tiny, balanced or accurate");
+        settings_preset(out, i);
+    } else if (strcmp(key, "filter") == 0) {
+        if ((i = find_word(value, filter_names)) < 0) return fail(error, bytes, key, value, "hard, 2x2, 3x3, 5x5 or 7x7");
+        shadow->filter = (scene_filter)i;
+    } else if (strcmp(key, "cascade_blend") == 0) {
+        if ((i = find_word(value, blend_names)) < 0) return fail(error, bytes, key, value, "hard, soft or dither");
+        shadow->blend = (scene_blend)i;
+    } else if (strcmp(key, "distance_mode") == 0) {
+        if ((i = find_word(value, distance_names)) < 0) return fail(error, bytes, key, value, "depth or radius");
+        shadow->distance_mode = (scene_distance_mode)i;
+    } else {
+        return 0;
+    }
+    return 1;
 }
 
 int settings_apply(settings *out, scene *s, const char *key, const char *value, char *error, size_t error_bytes)
@@ -195,8 +239,10 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     scene_options ignored;
     int taken = settings_load_option(&ignored, key, value, error, error_bytes);
     if (taken) return taken < 0 ? -1 : 0; /* done while loading */
-    taken = apply_word(out, s, key, value, error, error_bytes);
+    taken = apply_word(out, &s->shadow, key, value, error, error_bytes);
     if (taken) return taken < 0 ? -1 : 0;
+    if (strcmp(key, "cascades") == 0) return apply_cascades(&s->shadow, value, error, error_bytes);
+    if (strcmp(key, "cascade_ratios") == 0) return apply_ratios(&s->shadow, value, error, error_bytes);
     for (size_t g = 0; g < N_GROUPS; g++)
         for (size_t i = 0; i < groups[g].n; i++)
             if (strcmp(key, groups[g].knobs[i].name) == 0) return apply_knob(out, &groups[g].knobs[i], value, error, error_bytes);
@@ -240,11 +286,12 @@ settings_ram_parts settings_ram(const settings *s)
     r.tiles = (wide_refs ? 4L : 2L) * (tiles + 1);
     r.cells = 4 * tile_w * tile_h;
     r.pixels = 4 * (tile_w * tile_h * (s->feature.raw_views ? 4 : 3) / 4);
-    /* picture to tiles_y without the lights: 164 bytes; then the arrays, padded; then four light views of 160 or 168 */
-    long fixed = 164 + 28L * s->capacity.max_lights;
+    /* picture to tiles_y without the lights: 172 bytes; then the arrays, padded; four cascades, and light views of 160 or 168 */
+    long fixed = 172 + 28L * s->capacity.max_lights;
     long arrays = fixed + r.triangles + r.tiles + r.tile_refs;
     long frame = (arrays + 3) & ~3L;
-    if (s->feature.shadows) frame = (((arrays + 7) & ~7L) + 4 * (blocks ? 168L : 160L) + r.atlas + 7) & ~7L;
+    if (s->feature.shadows)
+        frame = (((arrays + 7) & ~7L) + 136 + s->capacity.max_shadow_tiles * (blocks ? 168L : 160L) + r.atlas + 7) & ~7L;
     r.total = frame + r.cells + r.pixels + 16L * s->capacity.vertex_cache;
     if (s->feature.shadows) r.total = (r.total + 7) & ~7L; /* 64-bit members align the whole */
     r.rest = r.total - r.atlas - r.triangles - r.tile_refs - r.tiles - r.cells - r.pixels;
@@ -268,6 +315,11 @@ void settings_print_table(void)
     for (size_t i = 0; i < sizeof scene_knobs / sizeof *scene_knobs; i++)
         printf("| `%s` | %g…%g | %s |\n", scene_knobs[i].name, scene_knobs[i].lo, scene_knobs[i].hi, scene_knobs[i].meaning);
     printf("| `filter` | hard, 2x2, 3x3, 5x5, 7x7 | shadow filter (F1-F3) |\n");
+    printf("| `cascades` | 1…4 | cascades of every directional light; sets the default ratios (D3) |\n");
+    printf("| `cascade_ratios` | one less than cascades, comma-separated | shares of max_distance where they end, 0 to 1, ascending; after "
+           "cascades (D3) |\n");
+    printf("| `cascade_blend` | hard, soft, dither | from one cascade to the next (D7) |\n");
+    printf("| `distance_mode` | depth, radius | shadows fade with view depth, or are cut at that distance from the camera (D5, D11) |\n");
     printf("| `preset` | tiny, balanced, accurate | all quality knobs together |\n");
     printf("| `ground` | 0, 1 | add a ground plane to a glTF file (an OBJ always gets one) |\n");
     printf("| `normals` | face, smooth | for meshes without normals |\n");

@@ -13,7 +13,7 @@ typedef struct {
 } settings;
 
 enum { SETTINGS_TINY, SETTINGS_BALANCED, SETTINGS_ACCURATE, SETTINGS_PRESETS };
-extern const char *const settings_preset_name[SETTINGS_PRESETS];
+extern const char *const settings_preset_name[SETTINGS_PRESETS + 1]; /* the last is NULL */
 
 void settings_preset(settings *out, int preset); /* quality knobs of a preset; the rest unchanged */
 void settings_init(settings *out);               /* balanced, every feature; capacities 0: as much as the scene needs */
@@ -24,7 +24,8 @@ void settings_fit(settings *s, int width, int height, size_t n_lights, const gn_
 /* Settings that a loader must know before it reads the file. 1: taken; 0: not one of them; -1: bad value. */
 int settings_load_option(scene_options *options, const char *key, const char *value, char *error, size_t error_bytes);
 
-/* Applies one setting to the configuration or the scene. 0, or -1 with one line in error. */
+/* Applies one setting to the configuration or the scene. 0, or -1 with one line in error. In order: cascades sets the default
+ * ratios, cascade_ratios then as many of its own. */
 int settings_apply(settings *out, scene *s, const char *key, const char *value, char *error, size_t error_bytes);
 
 /* Applies the scene file's own settings, then n "KEY=VALUE" strings of the command line. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const view_names[] = {"colour", "shadow", "depth", "normal", "atlas"};
+static const char *const view_names[] = {"colour", "shadow", "depth", "normal", "atlas", "cascade"};
 
 int view_from_name(const char *name)
 {
@@ -47,6 +47,15 @@ static void draw_depth(const engine_picture *p, uint8_t *out, size_t n)
     }
 }
 
+/* Red, green, magenta, yellow; grey: none. Pure blue is taken. */
+static void colour_of_cascade(uint8_t *out, int cascade)
+{
+    static const uint8_t colours[][3] = {{230, 50, 40}, {60, 190, 60}, {200, 70, 220}, {250, 210, 50}};
+    if (cascade < 0) grey(out, 0.5);
+    else memcpy(out, colours[cascade], 3);
+}
+
+/* The light's cascades side by side; those of empty slices stay blank. */
 static uint8_t *draw_atlas(const engine_picture *p, size_t light, int *w, int *h, char *error, size_t error_bytes)
 {
     int t = p->atlas_texels[light];
@@ -54,10 +63,16 @@ static uint8_t *draw_atlas(const engine_picture *p, size_t light, int *w, int *h
         snprintf(error, error_bytes, "light %d has no shadow tile", (int)light);
         return NULL;
     }
-    size_t n = (size_t)t * (size_t)t;
+    size_t n_cascades = (size_t)p->n_cascades, width = (size_t)t * n_cascades, n = (size_t)t * width;
     uint8_t *out = malloc(3 * n);
-    *w = *h = t;
-    for (size_t i = 0; out && i < n; i++) grey(out + 3 * i, p->atlas[light][i]);
+    *w = (int)width;
+    *h = t;
+    for (size_t i = 0; out && i < n; i++) {
+        size_t x = i % width, row = i / width * (size_t)t;
+        const double *tile = p->atlas[light][x / (size_t)t];
+        if (tile) grey(out + 3 * i, tile[row + x % (size_t)t]);
+        else nothing(out + 3 * i);
+    }
     return out;
 }
 
@@ -77,8 +92,9 @@ uint8_t *view_draw(const engine_picture *p, view_kind view, size_t light, int *w
     if (view == VIEW_DEPTH) draw_depth(p, out, n);
     for (size_t i = 0; i < n; i++) {
         uint8_t *pixel = out + 3 * i;
-        if (view != VIEW_SHADOW && view != VIEW_NORMAL) break;
+        if (view != VIEW_SHADOW && view != VIEW_NORMAL && view != VIEW_CASCADE) break;
         if (p->triangle[i] < 0) nothing(pixel);
+        else if (view == VIEW_CASCADE) colour_of_cascade(pixel, p->cascade[i]);
         else if (view == VIEW_SHADOW) grey(pixel, p->shadow[light][i]);
         else
             for (size_t k = 0; k < 3; k++) pixel[k] = level(0.5 + 0.5 * p->normal[3 * i + k]);

@@ -4,7 +4,7 @@
 
 #include "engine.h"
 
-typedef enum { VIEW_COLOUR, VIEW_SHADOW, VIEW_DEPTH, VIEW_NORMAL, VIEW_ATLAS } view_kind;
+typedef enum { VIEW_COLOUR, VIEW_SHADOW, VIEW_DEPTH, VIEW_NORMAL, VIEW_ATLAS, VIEW_CASCADE } view_kind;
 
 /* -1 if there is no such view. */
 int view_from_name(const char *name);
