@@ -25,13 +25,15 @@ static gn_rect tiles_of(const gn_frame *frame, const gn_tri *tri)
 
 gn_status gn_bin_triangles(gn_frame *frame)
 {
-    uint32_t n_tiles = (uint32_t)frame->tiles_x * frame->tiles_y, n_refs = 0;
+    uint32_t n_tiles = (uint32_t)frame->tiles_x * frame->tiles_y;
+    uint64_t n_refs = 0;
     for (uint32_t t = 0; t < frame->stats.n_triangles; t++) {
         gn_rect r = tiles_of(frame, &frame->tri[t]);
         n_refs += (uint32_t)((r.x1 - r.x0) * (r.y1 - r.y0));
     }
-    frame->stats.n_tile_refs = n_refs;
-    if (n_refs > GN_MAX_TILE_REFS) return gn_fail_capacity(frame, GN_ERR_TILE_REFS_FULL, n_refs, GN_MAX_TILE_REFS);
+    frame->stats.n_tile_refs = n_refs > UINT32_MAX ? UINT32_MAX : (uint32_t)n_refs;
+    if (n_refs > GN_MAX_TILE_REFS)
+        return gn_fail_capacity(frame, GN_ERR_TILE_REFS_FULL, frame->stats.n_tile_refs, GN_MAX_TILE_REFS);
     gn_ref_offset *first = frame->tile_first;
     for (uint32_t i = 0; i <= n_tiles; i++) first[i] = 0;
     for (uint32_t t = 0; t < frame->stats.n_triangles; t++) {

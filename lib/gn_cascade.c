@@ -8,18 +8,6 @@
 
 #if GN_SHADOWS
 
-static gn_bfloat bf_of(gn_bf_state s)
-{
-    gn_bfloat out = {s.mant, s.exp};
-    return out;
-}
-
-static gn_bf_state state_of(gn_bfloat b)
-{
-    gn_bf_state out = {b.mant, b.exp};
-    return out;
-}
-
 /* k^2 = (W^2 + H^2) / (H focal)^2, Q24, clamped to 2^14 (half-diagonal of 89.5 degrees). */
 static int64_t tan_diagonal_squared_q24(const gn_frame *frame)
 {
@@ -84,7 +72,7 @@ static void setup_spheres(gn_frame *frame)
         cascade->radius2_q32 = radius_q16 * radius_q16;
         /* r^2 (1 - (1 - fade)^2) */
         gn_bfloat width = gn_bf_mul(gn_bf_from_u64(cascade->radius2_q32), gn_bf_from_u64(((uint64_t)1 << 32) - keep_q32));
-        cascade->fade_scale = state_of(gn_bf_recip(width));
+        cascade->fade_scale = gn_bf_recip(width);
         frame->cascade[frame->last_cascade].next = (int32_t)i;
         frame->last_cascade = (uint8_t)i;
     }
@@ -93,7 +81,7 @@ static void setup_spheres(gn_frame *frame)
 int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_t p_q16[3])
 {
     /* |p| <= 2^30 per component times a unit axis: below sqrt(3) * 2^60 */
-    return gn_bf_apply(gn_dot64(p_q16, view->axis_q30[axis_idx]), bf_of(view->inv_texel), 16 - 46);
+    return gn_bf_apply(gn_dot64(p_q16, view->axis_q30[axis_idx]), view->inv_texel, 16 - 46);
 }
 
 /* DESIGN 1.4: u, v, w from the direction of travel. */
@@ -135,7 +123,7 @@ static gn_bfloat inverse_texel(gn_frame *frame, const gn_light *light, uint32_t 
 static void ray_planes(const gn_frame *frame, gn_light_view *view)
 {
     const gn_cam *cam = &frame->cam;
-    gn_bfloat inv_texel = bf_of(view->inv_texel);
+    gn_bfloat inv_texel = view->inv_texel;
     gn_bfloat per_px = gn_bf_mul(inv_texel, gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16)));
     per_px.exp += 16;
     /* |a0 + ax px + ay py| <= |ray| / texel, |ray|^2 = 1 + k^2 */
@@ -163,7 +151,7 @@ static void place_tile(const gn_frame *frame, gn_light_view *view, const gn_ligh
         int64_t c = gn_light_coord_q16(view, i, centre);
         view->origin[i] = (int32_t)gn_clamp64((c + 32768) >> 16, -(1 << 30), 1 << 30) - view->tile_texels / 2;
     }
-    int64_t pull_q16 = gn_bf_apply(light->near_offset_q16, bf_of(view->inv_texel), 0);
+    int64_t pull_q16 = gn_bf_apply(light->near_offset_q16, view->inv_texel, 0);
     int64_t pull = gn_clamp64((pull_q16 + 65535) >> 16, 0, (int64_t)view->tile_texels << 10);
     view->origin[2] -= (int32_t)pull;
     view->depth_log2 = 0;
@@ -184,7 +172,7 @@ static void fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light
     int32_t w[3];
     gn_normalise_q30(w, direction);
     light_axes(view, w);
-    view->inv_texel = state_of(inverse_texel(frame, light, view->tile_texels, filter_idx, radius_q24, far_q16));
+    view->inv_texel = inverse_texel(frame, light, view->tile_texels, filter_idx, radius_q24, far_q16);
     place_tile(frame, view, light, frame->cascade[cascade_idx].centre_q16);
     ray_planes(frame, view);
     view->filter = (uint8_t)filter;
@@ -238,7 +226,7 @@ static void distance_fade(gn_frame *frame)
     const gn_shadow_settings *shadow = &frame->scene->shadow;
     uint64_t width_q32 = (uint64_t)(uint32_t)shadow->max_distance_q16 * shadow->distance_fade_uq16;
     frame->fade_start_q16 = (uint32_t)shadow->max_distance_q16 - (uint32_t)(width_q32 >> 16);
-    frame->fade_scale = state_of(gn_bf_recip(gn_bf_from_u64(width_q32)));
+    frame->fade_scale = gn_bf_recip(gn_bf_from_u64(width_q32));
 }
 
 #endif

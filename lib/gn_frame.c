@@ -73,6 +73,7 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
     gn_frame *frame = &r->frame;
     if (frame->stage == GN_STAGE_NONE) return gn_fail(frame, GN_ERR_ORDER, 0);
     frame->stage = GN_STAGE_INIT;
+    frame->n_views = 0;
     if (!scene) return gn_fail(frame, GN_ERR_NULL, 0);
 #if GN_RUNTIME_KNOBS
     if (!knobs_ok(frame)) return gn_fail(frame, GN_ERR_KNOB, 0);
@@ -143,7 +144,7 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
     gn_raster_tile(frame, scratch, tile_idx);
     gn_shade_tile(frame, scratch, tile_idx);
     gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
-    flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel);
+    flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
     return GN_OK;
 }
 

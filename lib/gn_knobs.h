@@ -23,8 +23,8 @@
     X(atten_bits, ATTEN_BITS, 8, 16, "bits of attenuation (8 or 16)", "none")                                          \
     X(atlas_size, ATLAS_SIZE, 16, 1024, "texels per side of the directional atlas, a power of two",                    \
       "2 bytes per texel of RAM, and the time to fill them")                                                           \
-    X(tile_width, TILE_WIDTH, 8, 2048, "screen tile width in pixels, a multiple of 8", "RAM: 8 bytes per tile pixel")  \
-    X(tile_height, TILE_HEIGHT, 1, 2048, "screen tile height in pixels", "RAM: 8 bytes per tile pixel")                \
+    X(tile_width, TILE_WIDTH, 8, 2048, "screen tile width in pixels, a multiple of 8", "RAM: 7 bytes per tile pixel")  \
+    X(tile_height, TILE_HEIGHT, 1, 2048, "screen tile height in pixels", "RAM: 7 bytes per tile pixel")                \
     X(srgb, SRGB, 0, 1, "encode the output with the sRGB curve", "1154 bytes of flash, 10 instructions per channel")
 
 #define GN_CAPACITY_KNOBS(X)                                                                                           \
@@ -33,10 +33,10 @@
     X(max_triangles, MAX_TRIANGLES, 1, 65534, "visible triangles per frame, after culling and clipping",               \
       "32 bytes each (44 above 6 subpixel bits)")                                                                      \
     X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")           \
-    X(max_lights, MAX_LIGHTS, 1, 8, "lights in a scene", "about 200 bytes each")                                       \
+    X(max_lights, MAX_LIGHTS, 1, 8, "lights in a scene", "28 bytes each")                                       \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "shadow tiles: directional lights times cascades", "168 bytes each")   \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two",                 \
-      "40 bytes each")
+      "16 bytes each")
 
 #define GN_FEATURE_KNOBS(X)                                                                                            \
     X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \

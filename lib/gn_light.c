@@ -8,10 +8,9 @@
 static uint32_t distance_fade(const gn_frame *frame, int32_t z_q16)
 {
     if ((uint32_t)z_q16 <= frame->fade_start_q16) return 65536;
-    gn_bfloat scale = {frame->fade_scale.mant, frame->fade_scale.exp};
     int64_t left_q16 = (int64_t)frame->scene->shadow.max_distance_q16 - z_q16;
     if (left_q16 <= 0) return 0;
-    return (uint32_t)gn_clamp64(gn_bf_apply(left_q16, scale, 32), 0, 65536);
+    return (uint32_t)gn_clamp64(gn_bf_apply(left_q16, frame->fade_scale, 32), 0, 65536);
 }
 #endif
 

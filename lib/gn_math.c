@@ -140,11 +140,6 @@ void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3])
     out[2] = (int64_t)a[0] * b[1] - (int64_t)a[1] * b[0];
 }
 
-int64_t gn_dot64(const int32_t a[3], const int32_t b[3])
-{
-    return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
-}
-
 void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q30[3])
 {
     int64_t c[3];

@@ -4,11 +4,7 @@
 
 #include <stdint.h>
 
-/* A positive number as mantissa * 2^exp, mantissa in [2^31, 2^32). */
-typedef struct {
-    uint32_t mant;
-    int32_t exp;
-} gn_bfloat;
+#include "gnomon.h"
 
 /* Nearest below: v truncated to 32 significant bits; v > 0. Relative error < 2^-31. */
 gn_bfloat gn_bf_from_u64(uint64_t v);
@@ -32,7 +28,11 @@ int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3]);
 
 /* Exact; |components| < 2^30 so that the result fits. */
 void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3]);
-int64_t gn_dot64(const int32_t a[3], const int32_t b[3]); /* exact; |sum| < 2^63 */
+/* Exact; |sum| < 2^63 */
+static inline int64_t gn_dot64(const int32_t a[3], const int32_t b[3])
+{
+    return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
+}
 
 /* Round Q1.30 cross product of unit vectors. */
 void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q30[3]);

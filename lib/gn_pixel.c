@@ -90,9 +90,9 @@ static void fill_grey4(uint8_t *row, int32_t at, int32_t n, uint32_t level)
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed)
 {
     int32_t at = x - rows->x0, row = y - rows->y0, i = row * rows->width + at;
-    uint8_t *bytes = (uint8_t *)rows->buffer;
+    uint8_t *bytes = rows->pixels->bytes;
     if (frame->picture.format == GN_FORMAT_RGB565 || frame->picture.format == GN_FORMAT_RGB565_SWAPPED) {
-        uint16_t *out = (uint16_t *)rows->buffer + i;
+        uint16_t *out = rows->pixels->rgb565 + i;
         while (n-- > 0) *out++ = (uint16_t)packed;
     } else if (frame->picture.format == GN_FORMAT_GREY8) {
         while (n-- > 0) bytes[i++] = (uint8_t)packed;

@@ -42,7 +42,7 @@ static void raster_triangle(const gn_frame *frame, gn_scratch *scratch, const gn
     gn_walk walk;
     if (!gn_raster_walk(frame, &walk, tri, rect)) return;
     int32_t bits = GN_K(frame, subpixel_bits), stride = rect->x1 - rect->x0;
-    uint32_t id = tri_idx + 1, id_mask = (1U << frame->id_bits) - 1;
+    uint32_t id = gn_raster_id(frame, tri_idx), id_mask = (1U << frame->id_bits) - 1;
     uint32_t lo = (uint32_t)tri->iz_min << 16, hi = (uint32_t)tri->iz_max << 16 | 0xFFFFU;
     int32_t sx[3], sy[3];
     gn_setup_corners(frame, tri, sx, sy);

@@ -5,9 +5,15 @@
 #include "gn_bin.h"
 #include "gn_walk.h"
 
-/* Fills scratch->cell, rows of rect.x1 - rect.x0. A cell is near / Z in its high bits and triangle + 1 in its low id_bits; the
- * larger cell wins, so the result does not depend on the order of triangles. */
+/* Fills scratch->cell, rows of rect.x1 - rect.x0. A cell is near / Z in its high bits and the triangle's identity in its low
+ * id_bits; the larger cell wins, whatever the order of drawing. */
 void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx);
+
+/* A triangle's identity in a cell: 1 .. n_triangles, larger for earlier triangles, which thereby win where depths are equal. */
+static inline uint32_t gn_raster_id(const gn_frame *frame, uint32_t tri_idx)
+{
+    return frame->stats.n_triangles - tri_idx;
+}
 
 /* Starts walking a triangle's rows inside the rectangle. */
 int gn_raster_walk(const gn_frame *frame, gn_walk *walk, const gn_tri *tri, const gn_rect *rect);

@@ -74,8 +74,7 @@ static void depth_begin(const gn_frame *frame, depth_setup *depth, const int32_t
     depth->flat = iz_max;
     depth->dx = depth->dy = 0;
     if (depth->plane.det > 0) {
-        gn_bfloat ratio = {frame->cam.near_over_focal2.mant, frame->cam.near_over_focal2.exp};
-        depth->scale = gn_bf_mul(ratio, gn_bf_recip(gn_bf_from_u64((uint64_t)depth->plane.det)));
+        depth->scale = gn_bf_mul(frame->cam.near_over_focal2, gn_bf_recip(gn_bf_from_u64((uint64_t)depth->plane.det)));
         int64_t dx = gn_bf_apply(depth->plane.n[0], depth->scale, 49);
         int64_t dy = -gn_bf_apply(depth->plane.n[1], depth->scale, 49);
         if (dx == (int32_t)dx && dy == (int32_t)dy) {

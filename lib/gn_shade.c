@@ -66,7 +66,7 @@ static void shade_pixel(shading *s, gn_sample *sample, int32_t x, int32_t y)
     sample->y = y;
 #if GN_RAW_VIEWS
     if (s->frame->picture.format == GN_FORMAT_RAW32) {
-        s->scratch->pixel[(y - s->rect.y0) * s->rows.width + x - s->rect.x0] = raw_value(s, sample, x, y);
+        s->scratch->pixel.raw[(y - s->rect.y0) * s->rows.width + x - s->rect.x0] = raw_value(s, sample, x, y);
         return;
     }
 #endif
@@ -89,15 +89,28 @@ static void step_between(gn_sample *step, const gn_sample *a, const gn_sample *b
     for (int32_t i = 0; i < n_values; i++) step->value[i] = gn_sat32((int64_t)b->value[i] - a->value[i]) / n;
 }
 
+/* Between two normals at an angle t the cosine to a light bends away from its chord by at most t^2 / 8: 1/512 is allowed. */
+static int turned_too_far(const int32_t a_q15[3], const int32_t b_q15[3])
+{
+    uint32_t aa = 0, apart = 0; /* components within 2^15: halved differences within 2^15, sums below 2^32 */
+    for (int i = 0; i < 3; i++) {
+        int32_t d = (b_q15[i] - a_q15[i]) >> 1;
+        aa += (uint32_t)(a_q15[i] * a_q15[i]) >> 2;
+        apart += (uint32_t)(d * d);
+    }
+    return apart > aa >> 6;
+}
+
 /* Whether linear steps between two samples stay close to what lies between. Over a change of depth from z to z + dz a value
  * that changes by dv bends away from its chord by at most dv * dz / (4 z) (NUMERICS 4.4). Shadow coordinates may be off by 1/32
- * texel; colours and n . L, whose range is 1, by 1/128. */
+ * texel; colours and the interpolated normal, whose range is 1, by 1/128. */
 static int chord_holds(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b)
 {
     uint32_t za = (uint32_t)a->value[GN_VALUE_Z], zb = (uint32_t)b->value[GN_VALUE_Z];
     uint64_t near4 = (uint64_t)(za < zb ? za : zb) * 4, dz = za < zb ? zb - za : za - zb;
     if (a->cascade != b->cascade) return 0;
     if ((surface->smooth || surface->coloured) && dz * 128 > near4) return 0;
+    if (surface->smooth && turned_too_far(a->normal_q15, b->normal_q15)) return 0;
     for (uint32_t l = 0; surface->shadowed && l < frame->scene->n_lights; l++) {
         for (uint32_t i = 1; i < GN_VALUES_PER_LIGHT; i++) {
             uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l + i;
@@ -157,7 +170,7 @@ static void shade_triangle(shading *s, uint32_t tri_idx)
     gn_walk walk;
     s->tri = &frame->tri[tri_idx];
     if (!gn_raster_walk(frame, &walk, s->tri, rect)) return;
-    uint32_t id = tri_idx + 1, id_mask = (1U << frame->id_bits) - 1;
+    uint32_t id = gn_raster_id(frame, tri_idx), id_mask = (1U << frame->id_bits) - 1;
     int begun = 0;
     int32_t y, xa, xb;
     while (gn_walk_row(&walk, &y, &xa, &xb)) {
@@ -186,7 +199,7 @@ static void clear_background(shading *s)
 #if GN_RAW_VIEWS
     if (frame->picture.format == GN_FORMAT_RAW32) {
         int32_t n = s->rows.width * (s->rect.y1 - s->rect.y0);
-        for (int32_t i = 0; i < n; i++) s->scratch->pixel[i] = UINT32_MAX;
+        for (int32_t i = 0; i < n; i++) s->scratch->pixel.raw[i] = UINT32_MAX;
         return;
     }
 #endif
@@ -199,7 +212,7 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     s.frame = frame;
     s.scratch = scratch;
     s.rect = gn_bin_tile_rect(frame, tile_idx);
-    s.rows.buffer = scratch->pixel;
+    s.rows.pixels = &scratch->pixel;
     s.rows.width = s.rect.x1 - s.rect.x0;
     s.rows.x0 = s.rect.x0;
     s.rows.y0 = s.rect.y0;

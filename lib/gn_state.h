@@ -13,19 +13,19 @@ typedef struct {
     int32_t shift;
 } gn_xform;
 
-/* value * 2^exp, value in [2^31, 2^32): see gn_math.h */
+/* A block float: a positive number mant * 2^exp, mant in [2^31, 2^32). See gn_math.h. */
 typedef struct {
     uint32_t mant;
     int32_t exp;
-} gn_bf_state;
+} gn_bfloat;
 
 typedef struct {
     int32_t axis_q30[3][3]; /* right, up, forward in the world */
     int32_t eye_q16[3];
     int32_t near_q16;
     uint32_t focal2_px_q16; /* 2F, twice the focal length in pixels: rays are (2x + 1 - W, H - 1 - 2y, 2F) */
-    gn_bf_state near_over_focal2; /* near / 2F */
-    gn_bf_state inv_focal2;       /* 1 / 2F, 2F in Q16 */
+    gn_bfloat near_over_focal2; /* near / 2F */
+    gn_bfloat inv_focal2;       /* 1 / 2F, 2F in Q16 */
     int32_t guard_q16[2];   /* |X| <= guard[0] * Z and |Y| <= guard[1] * Z hold after clipping to the guard band */
     int32_t coord_max;      /* of screen coordinates from the picture's centre */
     int32_t tan_q16[2];     /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
@@ -44,7 +44,7 @@ typedef struct {
 
 typedef struct {
     int32_t axis_q30[3][3];  /* u, v, w in the world */
-    gn_bf_state inv_texel;   /* texels per world unit */
+    gn_bfloat inv_texel;   /* texels per world unit */
     int32_t origin[3];       /* whole texels */
     gn_ray_plane ray[3];
     int32_t ray_shift;       /* fraction bits of a0, ax, ay */
@@ -70,7 +70,7 @@ typedef struct {
 typedef struct {
     int32_t centre_q16;      /* view depth */
     uint64_t radius2_q32;    /* 0: empty */
-    gn_bf_state fade_scale;  /* D6: factor = (radius2 - dist2) * fade_scale */
+    gn_bfloat fade_scale;  /* D6: factor = (radius2 - dist2) * fade_scale */
     int32_t next;            /* the next cascade that is not empty */
 } gn_cascade_state;
 #endif
@@ -132,7 +132,7 @@ typedef struct gn_frame {
     gn_cam cam;
     gn_light_state light[GN_MAX_LIGHTS];
     uint32_t fade_start_q16; /* D5: strength = (max_distance - z) * fade_scale */
-    gn_bf_state fade_scale;
+    gn_bfloat fade_scale;
     uint16_t tiles_x, tiles_y;
     gn_tri tri[GN_MAX_TRIANGLES];
     gn_ref_offset tile_first[GN_TILES_MAX + 1];
@@ -149,9 +149,15 @@ typedef struct gn_frame {
 #endif
 } gn_frame;
 
+typedef union {
+    uint8_t bytes[GN_TILE_PIXELS_MAX * (GN_RAW_VIEWS ? 4 : 3)];
+    uint16_t rgb565[GN_TILE_PIXELS_MAX];
+    uint32_t raw[GN_TILE_PIXELS_MAX * (GN_RAW_VIEWS ? 4 : 3) / 4];
+} gn_tile_pixels;
+
 typedef struct gn_scratch {
-    uint32_t cell[GN_TILE_PIXELS_MAX]; /* nearest surface: near / Z in the high bits, triangle + 1 in the low id_bits; 0: none */
-    uint32_t pixel[GN_TILE_PIXELS_MAX * (GN_RAW_VIEWS ? 4 : 3) / 4]; /* finished pixels in the picture's format */
+    uint32_t cell[GN_TILE_PIXELS_MAX]; /* nearest surface: near / Z in the high bits, the triangle in the low id_bits; 0: none */
+    gn_tile_pixels pixel;              /* finished pixels in the picture's format */
     gn_vcache_entry vertex[GN_VERTEX_CACHE];
 } gn_scratch;
 

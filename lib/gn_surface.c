@@ -175,7 +175,7 @@ static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int3
 /* D4, D6, D11: the cascade of the surface point and its fade factor. */
 static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
 {
-    gn_bfloat per_px = {frame->cam.inv_focal2.mant, frame->cam.inv_focal2.exp};
+    gn_bfloat per_px = frame->cam.inv_focal2;
     int64_t z = sample->value[GN_VALUE_Z], x = gn_bf_apply(z * px, per_px, 16), y = gn_bf_apply(z * py, per_px, 16);
     uint64_t across = (uint64_t)(x * x) + (uint64_t)(y * y); /* a point of a triangle: within 2^30 each */
     sample->cascade = GN_CASCADE_NONE;
@@ -187,9 +187,8 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
         int64_t dz = z - cascade->centre_q16;
         uint64_t dist2 = across + (uint64_t)(dz * dz);
         if (dist2 >= cascade->radius2_q32) continue;
-        gn_bfloat scale = {cascade->fade_scale.mant, cascade->fade_scale.exp};
         sample->cascade = i;
-        sample->value[GN_VALUE_FADE] = (int32_t)gn_clamp64(gn_bf_apply((int64_t)(cascade->radius2_q32 - dist2), scale, 48), 0, 65536);
+        sample->value[GN_VALUE_FADE] = (int32_t)gn_clamp64(gn_bf_apply((int64_t)(cascade->radius2_q32 - dist2), cascade->fade_scale, 48), 0, 65536);
         return;
     }
 }
@@ -229,6 +228,7 @@ void gn_surface_sample(const gn_frame *frame, const gn_surface *s, int32_t x, in
     int32_t n[3];
     normal_at(s, &h, n);
     if (s->smooth) {
+        for (int i = 0; i < 3; i++) sample->normal_q15[i] = n[i] >> 15;
         light_cosines(frame, n, &sample->value[GN_VALUE_LIGHT], GN_VALUES_PER_LIGHT);
     } else {
         for (uint32_t l = 0; l < frame->scene->n_lights; l++)

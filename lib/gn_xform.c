@@ -39,10 +39,8 @@ void gn_cam_setup(gn_frame *frame)
     cam->focal2_px_q16 = (uint32_t)(((uint64_t)camera->focal_q24 * frame->picture.height + 128U) >> 8);
     gn_bfloat near = gn_bf_from_u64((uint64_t)(uint32_t)cam->near_q16);
     gn_bfloat inverse = gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16)), ratio = gn_bf_mul(near, inverse);
-    cam->inv_focal2.mant = inverse.mant;
-    cam->inv_focal2.exp = inverse.exp;
-    cam->near_over_focal2.mant = ratio.mant;
-    cam->near_over_focal2.exp = ratio.exp;
+    cam->inv_focal2 = inverse;
+    cam->near_over_focal2 = ratio;
     int32_t size[2] = {frame->picture.width, frame->picture.height}, bits = GN_K(frame, subpixel_bits);
     cam->coord_max = fits_16_bits(bits, gn_max32(size[0], size[1])) ? 32767 : 1 << 20;
     for (int i = 0; i < 2; i++) {

@@ -43,7 +43,7 @@ extern "C" {
     X(GN_ERR_ORDER, "call out of order: begin, shadow tiles, prepare, screen tiles")                                   \
     X(GN_ERR_INDEX, "no such tile or light")                                                                           \
     X(GN_ERR_CAMERA_FOCAL, "camera focal length outside 1/32 .. 255.99")                                               \
-    X(GN_ERR_CAMERA_DEPTH, "camera near plane outside 1/256 .. 8192, or far not beyond near")                          \
+    X(GN_ERR_CAMERA_DEPTH, "camera near plane outside 1/256 .. 8192 units, or far not beyond near")                          \
     X(GN_ERR_CAMERA_TRANSFORM, "camera transform is not a rotation with a position inside +-8192")                     \
     X(GN_ERR_OBJECT_TRANSFORM, "object transform has exponent outside 0..14, an entry above 1.0, a position outside +-8192, " \
                                "or no inverse")                                                                        \
@@ -56,7 +56,7 @@ extern "C" {
     X(GN_ERR_LIGHT_KIND, "unknown kind of light")                                                                      \
     X(GN_ERR_LIGHT_DIRECTION, "light direction is zero")                                                               \
     X(GN_ERR_LIGHT_BIAS, "light strength, bias or near offset out of range")                                           \
-    X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 or not beyond the camera's near plane")           \
+    X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 units, or not beyond the camera's near plane")           \
     X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                          \
     X(GN_ERR_SHADOW_FILTER, "unknown shadow filter, or one above GN_FILTER_MAX")                                       \
     X(GN_ERR_SHADOW_CASCADES, "more than 4 cascades, ratios above 1 or not ascending, or a blend that is not built in")       \

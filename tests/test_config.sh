@@ -259,13 +259,13 @@ number() { sed -n 's/^ *X(\(GN_[A-Z_]*\),.*/\1/p' lib/gnomon.h | awk -v name="$1
 full() {
     frame=${5:-0} status=$2 macro=$3 flags=$4 name=$1
     program "$name" "-D$macro=3" $flags || return
-    set -- $("$tmp/$name.run" 160 120 "$frame" - 0)
+    set -- $("$tmp/$name.run" 160 120 0 - "$frame")
     if [ "$1 $3" = "$(number "$status") 3" ] && [ "${2:-0}" -gt 3 ]; then pass; else fail "$macro=3: status ${1:-?}, needed ${2:-?}, available ${3:-?}"; return; fi
     needed=$2
     program "$name" "-D$macro=$needed" $flags || return
-    same "$name" "160 120 $frame - 0" balanced "160 120 $frame - 0" "$macro=$needed, as needed"
+    same "$name" "160 120 0 - $frame" balanced "160 120 0 - $frame" "$macro=$needed, as needed"
     program "$name" "-D$macro=$((needed - 1))" $flags || return
-    if [ "$("$tmp/$name.run" 160 120 "$frame" - 0)" = "$(number "$status") $needed $((needed - 1))" ]; then pass; else fail "$macro=$((needed - 1)): it needs $needed"; fi
+    if [ "$("$tmp/$name.run" 160 120 0 - "$frame")" = "$(number "$status") $needed $((needed - 1))" ]; then pass; else fail "$macro=$((needed - 1)): it needs $needed"; fi
 }
 
 full triangles GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES ""
@@ -296,7 +296,7 @@ int main(int argc, char **argv)
     return 0;
 }
 EOF_C
-if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 $warn -Ilib -I. $host_knobs -o "$tmp/ram" "$tmp/ram.c" host/tool/settings.c -lm >"$tmp/ram.log" 2>&1; then
+if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 $warn -Ilib -I. $host_knobs -o "$tmp/ram" "$tmp/ram.c" host/tool/settings.c host/scene/cascades.c -lm >"$tmp/ram.log" 2>&1; then
     pass
 else
     fail "settings_ram: $(grep -m 1 -E 'error|undefined' "$tmp/ram.log")"
@@ -326,7 +326,7 @@ predicted() {
     preset=$1
     shift
     flags="-DGN_PRESET=$preset" sets=
-    for key in max_width max_height max_triangles max_tile_refs max_lights vertex_cache; do
+    for key in max_width max_height max_triangles max_tile_refs max_lights max_shadow_tiles vertex_cache; do
         macro=GN_$(echo $key | tr a-z A-Z)
         sets="$sets $key=$(sed -n "s/^#define $macro \([0-9]*\)$/\1/p" lib/gn_config.h)"
     done
@@ -341,7 +341,7 @@ if [ -n "$target" ]; then
         predicted $preset shadows=0
         predicted $preset raw_views=1
         predicted $preset depth_blocks=0
-        predicted $preset max_width=333 max_height=17 max_triangles=7 max_tile_refs=9 max_lights=3 vertex_cache=64
+        predicted $preset max_width=333 max_height=17 max_triangles=7 max_tile_refs=9 max_lights=3 max_shadow_tiles=16 vertex_cache=64
         predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
         predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
     done

@@ -85,19 +85,22 @@ static void test_pack(void)
     CHECK_TALLY(t, "pixels are the nearest levels");
 }
 
+static gn_tile_pixels tile;
+
 /* n pixels from pixel i on; what stands around them must stay. */
 static void test_fill(void)
 {
     enum { PIXELS = 20 };
     tally t = {0};
     for (uint32_t k = 0; k < 4 * PIXELS * PIXELS; k++) {
-        uint32_t buffer[PIXELS], packed = rng_u32(&random_state) & 0xFFFFFFU;
-        uint8_t expected[sizeof buffer];
+        uint8_t *buffer = tile.bytes;
+        uint32_t packed = rng_u32(&random_state) & 0xFFFFFFU;
+        uint8_t expected[4 * PIXELS];
         int32_t i = (int32_t)(k / 2 % PIXELS), n = rng_range(&random_state, 0, PIXELS - i);
         frame.picture.format = k & 1 ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565;
-        memset(buffer, 0xA5, sizeof buffer);
+        memset(buffer, 0xA5, sizeof expected);
         memset(expected, 0xA5, sizeof expected);
-        const gn_pixel_rows rows = {buffer, PIXELS, 40, 30};
+        const gn_pixel_rows rows = {&tile, PIXELS, 40, 30};
         gn_pixel_fill(&frame, &rows, 40 + i, 30, n, packed);
         for (int32_t p = i; p < i + n; p++) {
             uint16_t narrow = (uint16_t)packed;
@@ -105,7 +108,7 @@ static void test_fill(void)
             else
                 for (int c = 0; c < 3; c++) expected[3 * p + c] = (uint8_t)(packed >> 8 * c);
         }
-        HOLDS(&t, !memcmp(buffer, expected, sizeof buffer), "%d pixels from %d", (int)n, (int)i);
+        HOLDS(&t, !memcmp(buffer, expected, sizeof expected), "%d pixels from %d", (int)n, (int)i);
     }
     CHECK_TALLY(t, "pixels go where they should");
 }
@@ -147,14 +150,13 @@ static void test_greys(void)
  * luminance says, in every 8x8 block, wherever the block lies. */
 static void test_packed_rows(void)
 {
-    uint32_t buffer[64];
-    uint8_t *bytes = (uint8_t *)buffer;
+    uint8_t *bytes = tile.bytes;
     tally t = {0}, share = {0};
     frame.picture.format = GN_FORMAT_GREY4;
     for (int32_t width = 1; width <= 11; width++) {
         for (int32_t i = 0; i < 3 * width; i++) {
-            const gn_pixel_rows rows = {buffer, width, 0, 0};
-            memset(buffer, 0x5A, sizeof buffer);
+            const gn_pixel_rows rows = {&tile, width, 0, 0};
+            memset(bytes, 0x5A, 256);
             gn_pixel_fill(&frame, &rows, i % width, i / width, 1, 0xC);
             for (int32_t p = 0; p < 3 * ((width + 1) / 2); p++) {
                 int32_t at = i / width * ((width + 1) / 2) + i % width / 2;
@@ -166,7 +168,7 @@ static void test_packed_rows(void)
     CHECK_TALLY(t, "4-bit rows");
     frame.picture.format = GN_FORMAT_MONO1;
     for (uint32_t luminance = 0; luminance <= 65535; luminance += 13) {
-        const gn_pixel_rows rows = {buffer, 16, 24, 40};
+        const gn_pixel_rows rows = {&tile, 16, 24, 40};
         int lit = 0;
         for (int32_t y = 0; y < 8; y++) gn_pixel_fill(&frame, &rows, 24, 40 + y, 16, luminance);
         for (int32_t p = 0; p < 16; p++)

@@ -182,7 +182,18 @@ for size in 0x0 99999x1 1x99999 -1x5 5x-1 1e3x4 '' x 10 10x 10x10x10 10X10 10.5x
     bad 2 '--size' info "$cube" --size "$size"
 done
 for frame in -1 1.5 '' x 1e3 99999999999999999999; do bad 2 '--frame' info "$cube" --frame "$frame"; done
-for light in -1 8 '' one 0.5; do bad 2 '--light' info "$cube" --light "$light"; done
+for light in -1 8 '' one 0.5 - 0x1; do bad 2 "^gnomon: --light: bad value '$light'" render "$cube" -o "$tmp/a.png" --light "$light"; done
+bad 2 "^gnomon: --size: bad value 'abc', not WxH" info "$cube" --size abc
+bad 2 "bad value 'a?b'" info "$cube" --size "$(printf 'a\nb')" # still one line
+bad 2 "bad value ''" render "$cube" -o ''
+# what a command does not use
+for option in '--view colour' '--light 0' '--engine fixed'; do
+    for command in compare info; do bad 2 "$command does not use ${option% *}" $command "$cube" $option; done
+done
+bad 2 'render does not use --with' render "$cube" -o "$tmp/a.png" --with reference
+bad 2 'info does not use --with' info "$cube" --with reference
+bad 2 'info does not use -o' info "$cube" -o "$tmp/a.png"
+good compare "$cube" --with reference --size 8x8
 set --
 while [ $# -lt 130 ]; do set -- "$@" --set strength=1; done
 bad 2 '--set' info "$cube" "$@"
@@ -232,9 +243,9 @@ bad 1 shadow render "$cube" -o "$tmp/a.png" --size 8x8 --view atlas --set streng
 bad 1 strength render "$cube" -o "$tmp/a.png" --size 8x8 --set strength=2
 [ -e "$tmp/a.png" ] && fail "a failed render leaves a picture" || pass
 
-for value in nan inf -inf 1e999 '' ' ' x 1x -1 0 9000 1,2,3; do bad 1 max_distance info "$cube" --size 8x8 --set "max_distance=$value"; done
-for value in nan '' 1,2 1,2,3,4 1,,2 -1 red 256; do bad 1 ambient info "$cube" --size 8x8 --set "ambient=$value"; done
-for value in 4.5 '' nan 1e999 x 3; do bad 1 atlas_size info "$cube" --size 8x8 --set "atlas_size=$value"; done
+for value in nan inf -inf infinity 1e999 '' ' ' x 1x -1 0 9000 1,2,3 ' 1' '1 ' 0x10 0x1p3 "$(printf '\t5')"; do bad 1 max_distance info "$cube" --size 8x8 --set "max_distance=$value"; done
+for value in nan '' 1,2 1,2,3,4 1,,2 -1 red 256 0x1,1,1 1,0x1,1 '1, 2,3' inf,1,1; do bad 1 ambient info "$cube" --size 8x8 --set "ambient=$value"; done
+for value in 4.5 '' nan 1e999 x 3 0x40 ' 64'; do bad 1 atlas_size info "$cube" --size 8x8 --set "atlas_size=$value"; done
 bad 1 'max_distance' info "$cube" --set max_distance
 bad 1 '=1' info "$cube" --set '=1'
 bad 1 KEY=VALUE info "$cube" --set ''
@@ -244,7 +255,7 @@ bad 1 filter info "$cube" --set filter=9x9
 bad 1 cascade_blend info "$cube" --set cascade_blend=mild
 bad 1 distance_mode info "$cube" --set distance_mode=far
 bad 1 'cascades first' info "$cube" --set cascades=1 --set cascade_ratios=0.5
-for value in '' 0.1,0.2 0.1,0.2,0.3,0.4 0.1,0.2,1.5 -0.1,0.2,0.3 0.1,,0.3 0.1,0.2,0.3, nan,1,1; do
+for value in '' 0.1,0.2 0.1,0.2,0.3,0.4 0.1,0.2,1.5 -0.1,0.2,0.3 0.1,,0.3 0.1,0.2,0.3, nan,1,1 0,0x0,1 '0.1, 0.2,0.3'; do
     bad 1 '3 numbers' info "$cube" --size 8x8 --set cascades=4 --set "cascade_ratios=$value"
 done
 bad 1 ascending info "$cube" --size 8x8 --set cascades=4 --set cascade_ratios=0.2,0.1,0.3
@@ -255,6 +266,118 @@ bad 1 normals info "$cube" --set normals=round
 bad 1 'KEY=VALUE' info "$cube" --set "$(printf '%0100d' 0)=1"
 bad 1 triangles render "$cube" -o "$tmp/a.png" --size 32x24 --set max_triangles=1
 bad 1 references render "$cube" -o "$tmp/a.png" --size 32x24 --set max_tile_refs=1
+
+for value in 1e1 +5 5. .5e1 05; do good info "$cube" --size 8x8 --set "max_distance=$value"; done
+
+# ---- Output that cannot be written, names that are no UTF-8 --------------------------------------------------------------------
+
+if [ -w /dev/full ]; then
+    for command in help knobs "info $cube --size 8x8 --json" "compare $cube --size 8x8" "render $cube -o $tmp/a.png --size 8x8 --json"; do
+        timeout 60 "$tool" $command >/dev/full 2>"$tmp/err" </dev/null
+        status=$?
+        if [ $status = 1 ] && [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q '^gnomon: the output' "$tmp/err"; then pass
+        else fail "'$command' into a full device exits with $status: $(head -n 1 "$tmp/err")"; fi
+    done
+fi
+wrong=$(printf 'a\377\303\050\355\240\200b') # a stray byte, half a letter, a surrogate
+if cp "$cube" "$tmp/$wrong.obj" 2>/dev/null; then
+    good info "$tmp/$wrong.obj" --size 8x8 --json
+    valid_json objects
+    grep -q 'a\\ufffd\\ufffd(\\ufffd\\ufffd\\ufffdb\.obj' "$tmp/out" && pass || fail "no U+FFFD: $(head -c 200 "$tmp/out")"
+fi
+bad 1 '/a??(???b-é\.obj: cannot be opened$' info "$tmp/$wrong-é.obj"
+[ "$(grep -c "$tmp.*$tmp" "$tmp/err")" = 0 ] && pass || fail "the path stands twice: $(head -n 1 "$tmp/err")"
+bad 1 'a??(???b' render "$cube" -o "$tmp/no/$wrong.png" --size 8x8
+bad 1 "unknown setting 'a?" info "$cube" --set "$(printf 'a\377')=1"
+
+# ---- What the configuration lacks, both engines lack ---------------------------------------------------------------------------
+
+# value NAME: of the last command's JSON, before its lights
+value() { sed 's/"lights".*//' "$tmp/out" | sed -n "s/.*\"$1\": *\([-0-9.e+null]*\).*/\1/p"; }
+is() { if [ "$(value "$1")" = "$2" ]; then pass; else fail "$3: $1 is $(value "$1"), not $2"; fi; }
+differ() { # differ SCENE A B: with these settings, in both engines
+    for engine in fixed reference; do
+        good render "$1" -o "$tmp/a.png" --size 64x48 --engine $engine --set "$2"
+        good render "$1" -o "$tmp/b.png" --size 64x48 --engine $engine --set "$3"
+        cmp -s "$tmp/a.png" "$tmp/b.png" && fail "$engine draws $1 alike with $2 and $3" || pass
+    done
+}
+cat >"$tmp/bright.obj" <<'OBJ'
+v -1 0 -1 1 0 0
+v 1 0 -1 0 1 0
+v 0 0 1 0 0 1
+v 0 2 0 1 1 1
+f 1 2 3
+f 1 4 2
+f 2 4 3
+f 3 4 1
+OBJ
+differ "$cube" shadows=0 shadows=1
+differ "$cube" shadows=1 strength=0
+good compare "$cube" --size 64x48 --set shadows=0 --json
+is shadow_mismatch 0 'shadows=0'
+is atten_max 0 'shadows=0'
+for engine in fixed reference; do # no shadows is what lights without a shadow draw
+    good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine --set shadows=0
+    good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine --set strength=0
+    cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$engine: shadows=0 is not strength=0"
+done
+bad 1 shadow render "$cube" -o "$tmp/a.png" --size 8x8 --view atlas --set shadows=0
+differ "$tmp/bright.obj" vertex_colours=0 vertex_colours=1
+good compare "$tmp/bright.obj" --size 64x48 --set vertex_colours=0 --json
+case $(value within1) in 1 | 0.99*) pass ;; *) fail "vertex_colours=0: within1 is $(value within1)" ;; esac
+for engine in fixed reference; do # smooth normals that are not built are face normals
+    good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine --set normals=smooth --set vertex_normals=0
+    good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine --set normals=face
+    cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$engine: vertex_normals=0 does not draw face normals"
+    good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine --set normals=smooth
+    cmp -s "$tmp/a.png" "$tmp/b.png" && fail "$engine: vertex_normals=0 changes nothing" || pass
+done
+for command in info compare; do
+    bad 1 "filter_max.*3x3" $command "$cube" --size 8x8 --set filter=3x3 --set filter_max=1
+    bad 1 "blended_cascades.*soft" $command "$cube" --size 8x8 --set cascades=2 --set cascade_blend=soft --set blended_cascades=0
+    bad 1 "max_width.*8" $command "$cube" --size 8x6 --set max_width=7
+    bad 1 "max_height.*6" $command "$cube" --size 8x6 --set max_height=5
+    bad 1 "max_shadow_tiles.*4" $command "$cube" --size 8x8 --set cascades=4 --set max_shadow_tiles=3
+done
+good info "$cube" --size 8x6 --set max_width=8 --set max_height=6 --set cascades=4 --set max_shadow_tiles=4 --set filter=3x3 --set filter_max=2
+good info "$cube" --size 8x6 --set cascades=4 --set cascade_blend=hard --set blended_cascades=0
+good info "$cube" --size 8x6 --set filter=7x7 --set filter_max=0 --set cascades=4 --set max_shadow_tiles=1 --set shadows=0 # no filter, no tiles
+for knob in raw_views runtime_knobs depth_blocks; do
+    for on in 0 1; do
+        good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=1
+        [ $on = 0 ] && mv "$tmp/b.png" "$tmp/a.png"
+    done
+    cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$knob changes the picture"
+done
+rm -f "$tmp/a.png" "$tmp/b.png"
+sed 's/{"attributes"/{"material":0,"attributes"/; s/"accessors"/"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]}}],"accessors"/; s/{"byteLength":36}\]/{"byteLength":36,"uri":"black.bin"}]/' >"$tmp/black.gltf" <<EOF_JSON
+$json
+EOF_JSON
+tail -c 36 "$glb" >"$tmp/black.bin"
+good compare "$tmp/black.gltf" --size 16x12 --set background=0 --json # black on black: no error, no PSNR
+valid_json psnr_db
+is psnr_db null 'equal pictures'
+is max_error 0 'equal pictures'
+
+# ---- host/run.sh ---------------------------------------------------------------------------------------------------------------
+
+mkdir "$tmp/one" "$tmp/my scenes"
+cp "$cube" "$tmp/one/a b.obj"
+cp "$cube" "$tmp/my scenes/a b.obj"
+sh host/run.sh "$tool" 16x12 "$tmp/run out" "$tmp/one/a b.obj" "$tmp/my scenes/a b.obj" >"$tmp/out" 2>"$tmp/err"
+status=$?
+[ $status = 0 ] && [ ! -s "$tmp/err" ] && pass || fail "run.sh exits with $status: $(head -n 1 "$tmp/err")"
+[ "$(grep -c '^a b\.obj  *\(accurate\|balanced\)  *[0-9]' "$tmp/out")" = 2 ] && pass || fail "run.sh: no rows of 'a b.obj'"
+[ "$(grep -c '^a b\.obj-2  *\(accurate\|balanced\)  *[0-9]' "$tmp/out")" = 2 ] && pass || fail "run.sh: no rows of the second 'a b.obj'"
+for name in 'a b.obj' 'a b.obj-2'; do
+    for preset in accurate balanced; do is_png "$tmp/run out/$name/$preset/fixed.png" 16x12 run.sh; done
+done
+sh host/run.sh "$tool" 16x12 "$tmp/run out" "$tmp/missing.obj" "$cube" >"$tmp/out" 2>"$tmp/err"
+status=$?
+[ $status = 1 ] && pass || fail "run.sh with a missing scene exits with $status"
+[ "$(grep -c missing.obj "$tmp/err")" = 1 ] && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "run.sh names the missing scene in $(wc -l <"$tmp/err") lines"
+[ "$(grep -c '^cube\.obj ' "$tmp/out")" = 2 ] && pass || fail "run.sh stops at a missing scene"
 
 # ---- Every knob at both ends -------------------------------------------------------------------------------------------------
 

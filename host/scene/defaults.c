@@ -184,12 +184,6 @@ static bool make_light(loader *l)
     return true;
 }
 
-void scene_default_ratios(scene_shadow *shadow)
-{
-    static const double ratios[4][3] = { { 1, 1, 1 }, { 0.25, 1, 1 }, { 0.1, 0.25, 1 }, { 0.1, 0.25, 0.5 } };
-    memcpy(shadow->cascade_ratio, ratios[shadow->n_cascades - 1], sizeof ratios[0]);
-}
-
 bool loader_add_defaults(loader *l)
 {
     static const double ambient[3] = { 0.18, 0.18, 0.18 }, background[3] = { 0.35, 0.45, 0.6 };

@@ -1,5 +1,6 @@
 /* JSON parser: recursive descent over a byte range; every value lives in the document's arena. */
 #include "json.h"
+#include "utf8.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -95,22 +96,6 @@ static bool parse_number(parser *p, json_value *value)
     value->type = JSON_NUMBER;
     value->number = strtod(copy, NULL);
     return isfinite(value->number) || fail_at(p, start, "the number is too large");
-}
-
-/* Length of the well-formed UTF-8 sequence at s (no overlong forms, no surrogates, at most U+10FFFF), or 0. */
-static size_t utf8_length(const unsigned char *s, size_t n)
-{
-    if (s[0] < 0x80) return 1;
-    size_t length = s[0] >= 0xC2 && s[0] < 0xE0 ? 2 : (s[0] & 0xF0) == 0xE0 ? 3 : s[0] >= 0xF0 && s[0] <= 0xF4 ? 4 : 0;
-    if (length == 0 || length > n) return 0;
-    for (size_t i = 1; i < length; i++) {
-        if ((s[i] & 0xC0) != 0x80) return 0;
-    }
-    if (s[0] == 0xE0 && s[1] < 0xA0) return 0;
-    if (s[0] == 0xED && s[1] > 0x9F) return 0;
-    if (s[0] == 0xF0 && s[1] < 0x90) return 0;
-    if (s[0] == 0xF4 && s[1] > 0x8F) return 0;
-    return length;
 }
 
 static size_t utf8_encode(char *out, uint32_t code)

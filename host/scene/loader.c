@@ -1,5 +1,6 @@
 /* What the loaders share: errors, notes, files, and growing the scene. */
 #include "loader.h"
+#include "utf8.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -10,20 +11,13 @@
 enum { MAX_NOTES = 100, MAX_NOTE_BYTES = 500 };
 static const size_t max_file_bytes = (size_t)1 << 30;
 
-static void replace_controls(char *text)
-{
-    for (; *text; text++) {
-        if ((unsigned char)*text < 0x20 || *text == 0x7F) *text = '?';
-    }
-}
-
 bool loader_fail(loader *l, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
     if (l->error_bytes > 0) {
         vsnprintf(l->error, l->error_bytes, format, arguments);
-        replace_controls(l->error);
+        utf8_clean(l->error);
     }
     va_end(arguments);
     return false;
@@ -57,7 +51,7 @@ bool loader_note(loader *l, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    replace_controls(text);
+    utf8_clean(text);
     for (size_t i = 0; i < s->n_notes; i++) {
         if (strcmp(s->notes[i], text) == 0) return true;
     }

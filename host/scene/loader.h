@@ -31,7 +31,7 @@ typedef struct {
     bool wants_ground;
 } loader;
 
-/* Both write one line; control characters are replaced. A note that is there already is not repeated. */
+/* Both write one line, cleaned as utf8.h does. A note that is there already is not repeated. */
 bool loader_fail(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
 bool loader_note(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
 

@@ -12,7 +12,7 @@ int tool_render(const tool_options *o)
     scene s;
     settings set;
     if (!o->out_path) {
-        fprintf(stderr, "gnomon: render: -o OUT.png is missing\n");
+        tool_error("render: -o OUT.png is missing");
         return TOOL_USAGE;
     }
     if (tool_load(o, &s, &set)) return TOOL_FAILED;

@@ -30,17 +30,29 @@ typedef struct {
     size_t error_bytes;
 } job;
 
+/* Ranges are the library's; here in the scene's own units, with what made them so. */
+static void explain_range(const job *j, gn_status status)
+{
+    double unit = ldexp(1, -j->fixed->world_exp);
+    snprintf(j->error, j->error_bytes,
+             "%s (in the library's units: one is %g of the scene's, as everything within %g of the origin, camera and shadow distance must fit)",
+             gn_status_text(status), unit, 4096 * unit);
+}
+
 /* Names what the status is about as the scene file does. */
 static int explain(const job *j, gn_status status)
 {
     const gn_detail *d = gn_get_detail(j->renderer);
     const scene *s = j->scene;
+    int object = status == GN_ERR_OBJECT_TRANSFORM || status == GN_ERR_VERTEX_RANGE || status == GN_ERR_MESH;
+    int light = status == GN_ERR_LIGHT_BIAS || status == GN_ERR_LIGHT_DIRECTION;
     if (d->needed)
         snprintf(j->error, j->error_bytes, "%s: %u needed, %u available", gn_status_text(status), d->needed, d->available);
-    else if ((status == GN_ERR_OBJECT_TRANSFORM || status == GN_ERR_VERTEX_RANGE || status == GN_ERR_MESH) && d->index < s->n_objects)
+    else if (object && d->index < s->n_objects)
         snprintf(j->error, j->error_bytes, "object '%s': %s", s->objects[d->index].name, gn_status_text(status));
-    else if ((status == GN_ERR_LIGHT_BIAS || status == GN_ERR_LIGHT_DIRECTION) && d->index < s->n_lights)
+    else if (light && d->index < s->n_lights)
         snprintf(j->error, j->error_bytes, "light '%s': %s", s->lights[d->index].name, gn_status_text(status));
+    else if (status == GN_ERR_CAMERA_DEPTH || status == GN_ERR_SHADOW_DISTANCE) explain_range(j, status);
     else snprintf(j->error, j->error_bytes, "%s", gn_status_text(status));
     return -1;
 }

@@ -17,25 +17,53 @@ static const char usage_text[] =
     "  --engine fixed|reference  render: which engine draws (fixed)\n"
     "  --with reference          compare: against what (reference)\n"
     "  --size WxH                picture size (320x240)\n"
-    "  --view colour|shadow|depth|normal|atlas|cascade\n"
-    "  --light K                 the light of --view shadow and atlas (0)\n"
+    "  --view NAME               render: colour, shadow, depth, normal, atlas or cascade (colour)\n"
+    "  --light K                 render: the light of --view shadow and atlas (0)\n"
     "  --frame N                 animation frame (0)\n"
     "  --set KEY=VALUE           any knob or setting, in order; preset=tiny|balanced|accurate sets many\n"
     "  --json                    one JSON object on stdout and nothing else\n";
 
-static int usage(const char *message, const char *what)
+enum { BY_RENDER = 1, BY_COMPARE = 2, BY_INFO = 4, BY_ALL = BY_RENDER | BY_COMPARE | BY_INFO };
+
+/* Which commands use an option, and what its value is; NULL: it has none. */
+typedef struct {
+    const char *name;
+    int commands;
+    const char *value;
+} option;
+
+static const option options[] = {
+    {"-o", BY_RENDER | BY_COMPARE, "a path"},
+    {"--engine", BY_RENDER, "fixed or reference"},
+    {"--with", BY_COMPARE, "reference"},
+    {"--size", BY_ALL, "WxH, up to 2048x2048"},
+    {"--view", BY_RENDER, "colour, shadow, depth, normal, atlas or cascade"},
+    {"--light", BY_RENDER, "a light from 0 to 7"},
+    {"--frame", BY_ALL, "a frame from 0 to 100000000"},
+    {"--set", BY_ALL, "KEY=VALUE, at most 64 times"},
+    {"--json", BY_ALL, NULL},
+};
+_Static_assert(GN_MAX_WIDTH == 2048 && GN_MAX_HEIGHT == 2048 && GN_MAX_LIGHTS == 8 && TOOL_SETS_MAX == 64, "as said above");
+
+static int usage_error(void)
 {
-    fprintf(stderr, "gnomon: %s%s%s\n", message, what ? " " : "", what ? what : "");
     fprintf(stderr, "'gnomon help' says how it is used\n");
     return TOOL_USAGE;
 }
 
+static int usage(const char *message, const char *what)
+{
+    tool_error("%s%s%s", message, what ? " " : "", what ? what : "");
+    return usage_error();
+}
+
 static int parse_int(const char *text, int lo, int hi, int *out)
 {
-    char *end;
+    const char *digits = text + (text[0] == '-');
+    if (!*digits || digits[strspn(digits, "0123456789")]) return -1;
     errno = 0;
-    long v = strtol(text, &end, 10);
-    if ((text[0] != '-' && (text[0] < '0' || text[0] > '9')) || end == text || *end || errno || v < lo || v > hi) return -1;
+    long v = strtol(text, NULL, 10);
+    if (errno || v < lo || v > hi) return -1;
     *out = (int)v;
     return 0;
 }
@@ -55,9 +83,9 @@ static int parse_size(const char *text, tool_options *o)
 static int take_value(tool_options *o, const char *name, char *value)
 {
     int light = 0, failed = 0;
-    if (strcmp(name, "-o") == 0) o->out_path = value;
-    else if (strcmp(name, "--engine") == 0) o->engine = value;
-    else if (strcmp(name, "--with") == 0) o->with = value;
+    if (strcmp(name, "-o") == 0) failed = !*(o->out_path = value);
+    else if (strcmp(name, "--engine") == 0) failed = strcmp(o->engine = value, "fixed") != 0 && strcmp(value, "reference") != 0;
+    else if (strcmp(name, "--with") == 0) failed = strcmp(value, "reference") != 0;
     else if (strcmp(name, "--size") == 0) failed = parse_size(value, o);
     else if (strcmp(name, "--view") == 0) failed = (o->view = view_from_name(value)) < 0;
     else if (strcmp(name, "--frame") == 0) failed = parse_int(value, 0, 100000000, &o->frame);
@@ -71,57 +99,70 @@ static int take_value(tool_options *o, const char *name, char *value)
     return failed ? -1 : 0;
 }
 
-static int has_value(const char *name)
+static const option *find_option(const char *name)
 {
-    static const char *const names[] = {"-o", "--engine", "--with", "--size", "--view", "--frame", "--light", "--set"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strcmp(name, names[i]) == 0) return 1;
-    return 0;
+    for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+        if (strcmp(name, options[i].name) == 0) return &options[i];
+    return NULL;
 }
 
-static int parse(tool_options *o, int argc, char **argv)
+/* argv from 2 on, for the command argv[1] of that bit. */
+static int parse(tool_options *o, int command, int argc, char **argv)
 {
     for (int i = 2; i < argc; i++) {
-        if (strcmp(argv[i], "--json") == 0) {
-            o->json = 1;
-        } else if (has_value(argv[i])) {
-            if (i + 1 >= argc) return usage("a value is missing after", argv[i]);
-            if (take_value(o, argv[i], argv[i + 1])) {
-                fprintf(stderr, "gnomon: %s: ", argv[i]);
-                return usage("bad value", argv[i + 1]);
-            }
-            i++;
-        } else if (argv[i][0] == '-') {
-            return usage("unknown option", argv[i]);
-        } else if (o->scene_path) {
-            return usage("one scene at a time, not also", argv[i]);
-        } else {
+        const option *found = find_option(argv[i]);
+        if (!found && argv[i][0] == '-') return usage("unknown option", argv[i]);
+        if (!found) {
+            if (o->scene_path) return usage("one scene at a time, not also", argv[i]);
             o->scene_path = argv[i];
+            continue;
+        }
+        if (!(found->commands & command)) {
+            tool_error("%s does not use %s", argv[1], argv[i]);
+            return usage_error();
+        }
+        if (!found->value) {
+            o->json = 1;
+            continue;
+        }
+        if (++i >= argc) return usage("a value is missing after", found->name);
+        if (take_value(o, found->name, argv[i])) {
+            tool_error("%s: bad value '%s', not %s", found->name, argv[i], found->value);
+            return usage_error();
         }
     }
-    if (strcmp(o->engine, "fixed") != 0 && strcmp(o->engine, "reference") != 0) return usage("unknown engine", o->engine);
-    if (strcmp(o->with, "reference") != 0) return usage("cannot compare with", o->with);
     return o->scene_path ? TOOL_OK : usage("a scene is missing", NULL);
 }
 
-int main(int argc, char **argv)
+static int run(int argc, char **argv)
 {
-    static const struct { const char *name; int (*run)(const tool_options *); } commands[] = {
-        {"render", tool_render}, {"compare", tool_compare}, {"info", tool_info}};
-    tool_options o = {.engine = "fixed", .with = "reference", .width = 320, .height = 240};
+    static const struct { const char *name; int bit; int (*run)(const tool_options *); } commands[] = {
+        {"render", BY_RENDER, tool_render}, {"compare", BY_COMPARE, tool_compare}, {"info", BY_INFO, tool_info}};
+    tool_options o = {.engine = "fixed", .width = 320, .height = 240};
     if (argc < 2) return usage("a command is missing", NULL);
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0) {
         fputs(usage_text, stdout);
         return TOOL_OK;
     }
-    if (strcmp(argv[1], "knobs") == 0 && argc == 2) {
+    if (strcmp(argv[1], "knobs") == 0) {
+        if (argc > 2) return usage("knobs is alone, without", argv[2]);
         settings_print_table();
         return TOOL_OK;
     }
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
         if (strcmp(argv[1], commands[i].name) != 0) continue;
-        int status = parse(&o, argc, argv);
+        int status = parse(&o, commands[i].bit, argc, argv);
         return status ? status : commands[i].run(&o);
     }
     return usage("unknown command", argv[1]);
+}
+
+int main(int argc, char **argv)
+{
+    int status = run(argc, argv);
+    if (status == TOOL_OK && (fflush(stdout) || ferror(stdout))) {
+        tool_error("the output cannot be written");
+        status = TOOL_FAILED;
+    }
+    return status;
 }

@@ -1,7 +1,6 @@
 /* Every knob by one name. */
 #include "settings.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -102,13 +101,14 @@ static int fail(char *error, size_t bytes, const char *key, const char *value, c
     return -1;
 }
 
+/* Decimal numbers only: strtod alone would also take leading blanks, hexadecimal, inf and nan. */
 static int parse_number(const char *text, double *out, const char **end)
 {
     char *stop;
-    errno = 0;
     *out = strtod(text, &stop);
     if (end) *end = stop;
-    return stop != text && (end || *stop == 0) && isfinite(*out) ? 0 : -1;
+    if (stop == text || (!end && *stop) || !isfinite(*out)) return -1;
+    return strspn(text, "+-.0123456789eE") >= (size_t)(stop - text) ? 0 : -1;
 }
 
 int settings_load_option(scene_options *options, const char *key, const char *value, char *error, size_t error_bytes)
@@ -271,6 +271,50 @@ int settings_apply_all(settings *out, scene *s, char *const *sets, int n, char *
     return 0;
 }
 
+static void drop(double **array)
+{
+    free(*array);
+    *array = NULL;
+}
+
+static int over(char *error, size_t bytes, const char *capacity, int available, const char *what, size_t needed)
+{
+    if (!available || needed <= (size_t)available) return 0;
+    snprintf(error, bytes, "setting '%s': %d is too small, %s is %zu", capacity, available, what, needed);
+    return -1;
+}
+
+/* The scene's shadows need what the build has. */
+static int enforce_shadows(const settings *set, const scene *s, char *error, size_t bytes)
+{
+    size_t n_lights = 0, n_cascades = s->shadow.n_cascades > 1 ? (size_t)s->shadow.n_cascades : 1;
+    if ((int)s->shadow.filter > set->feature.filter_max) {
+        snprintf(error, bytes, "setting 'filter_max': %d is too small, filter %s needs %d", (int)set->feature.filter_max,
+                 filter_names[s->shadow.filter], (int)s->shadow.filter);
+        return -1;
+    }
+    if (s->shadow.blend != SCENE_BLEND_HARD && !set->feature.blended_cascades) {
+        snprintf(error, bytes, "setting 'blended_cascades': 0, and cascade_blend %s needs 1", blend_names[s->shadow.blend]);
+        return -1;
+    }
+    for (size_t i = 0; i < s->n_lights; i++) n_lights += s->lights[i].shadow && s->lights[i].strength > 0;
+    if (n_lights > 4) n_lights = 4; /* A2: further lights cast no shadow */
+    return over(error, bytes, "max_shadow_tiles", set->capacity.max_shadow_tiles, "what the lights and cascades need", n_lights * n_cascades);
+}
+
+int settings_enforce(const settings *set, scene *s, int width, int height, char *error, size_t error_bytes)
+{
+    for (size_t i = 0; i < s->n_meshes; i++) {
+        if (!set->feature.vertex_normals) drop(&s->meshes[i].nrm);
+        if (!set->feature.vertex_colours) drop(&s->meshes[i].rgb);
+    }
+    for (size_t i = 0; i < s->n_lights && !set->feature.shadows; i++) s->lights[i].shadow = false;
+    if (over(error, error_bytes, "max_width", set->capacity.max_width, "the picture's width", (size_t)width) ||
+        over(error, error_bytes, "max_height", set->capacity.max_height, "the picture's height", (size_t)height))
+        return -1;
+    return set->feature.shadows ? enforce_shadows(set, s, error, error_bytes) : 0;
+}
+
 /* Mirrors lib/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against sizeof(gn_renderer). */
 settings_ram_parts settings_ram(const settings *s)
 {
@@ -286,12 +330,12 @@ settings_ram_parts settings_ram(const settings *s)
     r.tiles = (wide_refs ? 4L : 2L) * (tiles + 1);
     r.cells = 4 * tile_w * tile_h;
     r.pixels = 4 * (tile_w * tile_h * (s->feature.raw_views ? 4 : 3) / 4);
-    /* picture to tiles_y without the lights: 172 bytes; then the arrays, padded; four cascades, and light views of 160 or 168 */
+    /* picture to tiles_y without the lights: 172 bytes; then the arrays, padded; four cascades, and light views of 168 */
     long fixed = 172 + 28L * s->capacity.max_lights;
     long arrays = fixed + r.triangles + r.tiles + r.tile_refs;
     long frame = (arrays + 3) & ~3L;
     if (s->feature.shadows)
-        frame = (((arrays + 7) & ~7L) + 136 + s->capacity.max_shadow_tiles * (blocks ? 168L : 160L) + r.atlas + 7) & ~7L;
+        frame = (((arrays + 7) & ~7L) + 136 + s->capacity.max_shadow_tiles * 168L + r.atlas + 7) & ~7L;
     r.total = frame + r.cells + r.pixels + 16L * s->capacity.vertex_cache;
     if (s->feature.shadows) r.total = (r.total + 7) & ~7L; /* 64-bit members align the whole */
     r.rest = r.total - r.atlas - r.triangles - r.tile_refs - r.tiles - r.cells - r.pixels;

@@ -31,6 +31,12 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
 /* Applies the scene file's own settings, then n "KEY=VALUE" strings of the command line. */
 int settings_apply_all(settings *out, scene *s, char *const *sets, int n, char *error, size_t error_bytes);
 
+/* Makes the scene what a build with these features and capacities draws, for both engines alike: shadows, vertex normals and vertex
+ * colours that are not built go. What a build would refuse (a filter or blend that it lacks, a picture or shadow tiles that do
+ * not fit) is refused: -1 with one line in error. depth_blocks changes no picture; raw_views and runtime_knobs are the host
+ * tool's own, and count for the RAM only. Triangles, tile references and lights are counted by engine_fixed. */
+int settings_enforce(const settings *set, scene *s, int width, int height, char *error, size_t error_bytes);
+
 /* RAM of the library (gn_renderer) under this configuration on a 32-bit target, by part and in all. */
 typedef struct { long atlas, triangles, tile_refs, tiles, cells, pixels, rest, total; } settings_ram_parts;
 settings_ram_parts settings_ram(const settings *s);

@@ -1,15 +1,33 @@
 /* What the commands share. */
 #include "tool.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "../scene/utf8.h"
+
+enum { LINE_BYTES = 8192 };
+
+void tool_error(const char *format, ...)
+{
+    char line[LINE_BYTES];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    utf8_clean(line);
+    fprintf(stderr, "gnomon: %s\n", line);
+}
+
 int tool_fail(const char *path, const char *message)
 {
-    /* loaders begin their messages with the path, and the line or place in it */
-    size_t n = strlen(path);
-    if (strncmp(message, path, n) == 0) fprintf(stderr, "gnomon: %s\n", message);
-    else fprintf(stderr, "gnomon: %s: %s\n", path, message);
+    /* loaders begin their messages with the path, cleaned, and the line or place in it */
+    char clean[LINE_BYTES];
+    snprintf(clean, sizeof clean, "%s", path);
+    utf8_clean(clean);
+    if (strncmp(message, clean, strlen(clean)) == 0) tool_error("%s", message);
+    else tool_error("%s: %s", path, message);
     return TOOL_FAILED;
 }
 
@@ -28,7 +46,8 @@ int tool_load(const tool_options *o, scene *s, settings *set)
     }
     if (scene_load(s, o->scene_path, &options, error, sizeof error)) return tool_fail(o->scene_path, error);
     settings_init(set);
-    if (settings_apply_all(set, s, o->sets, o->n_sets, error, sizeof error)) {
+    if (settings_apply_all(set, s, o->sets, o->n_sets, error, sizeof error) ||
+        settings_enforce(set, s, o->width, o->height, error, sizeof error)) {
         scene_free(s);
         return tool_fail(o->scene_path, error);
     }
@@ -38,11 +57,14 @@ int tool_load(const tool_options *o, scene *s, settings *set)
 void tool_json_string(const char *text)
 {
     putchar('"');
-    for (; *text; text++) {
+    while (*text) {
         unsigned char c = (unsigned char)*text;
-        if (c == '"' || c == '\\') printf("\\%c", c);
+        size_t length = utf8_length((const unsigned char *)text, 4); /* the terminating zero continues no sequence */
+        if (length == 0) printf("\\ufffd");
+        else if (c == '"' || c == '\\') printf("\\%c", c);
         else if (c < 32) printf("\\u%04x", c);
-        else putchar(c);
+        else fwrite(text, 1, length, stdout);
+        text += length ? length : 1;
     }
     putchar('"');
 }

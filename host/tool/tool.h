@@ -12,8 +12,7 @@
 typedef struct {
     const char *scene_path;
     const char *out_path;
-    const char *engine;   /* fixed, reference */
-    const char *with;     /* compare: reference */
+    const char *engine;   /* render: fixed, reference */
     int width, height;
     int view;
     size_t light;
@@ -33,10 +32,16 @@ int tool_info(const tool_options *o);
 /* Loads the scene with all settings applied. Prints the error and returns -1 if it fails. */
 int tool_load(const tool_options *o, scene *s, settings *set);
 
+/* Prints "gnomon: " and one line to stderr, whatever bytes went into it. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 1, 2)))
+#endif
+void tool_error(const char *format, ...);
+
 /* Prints "gnomon: path: message" to stderr; returns TOOL_FAILED. */
 int tool_fail(const char *path, const char *message);
 
-/* Prints a JSON string with its quotes. */
+/* Prints a JSON string with its quotes; bytes that are no UTF-8 become U+FFFD. */
 void tool_json_string(const char *text);
 
 #endif
