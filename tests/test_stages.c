@@ -250,7 +250,7 @@ static void check_cosine(const gn_frame *frame, const gn_surface *s, const gn_sa
     axis_of(frame->light[0].to_light_q30, to_light);
     for (int k = 0; k < 3; k++) {
         n[k] = ldexp(s->normal_q30[0][k] + c->b[0] * s->normal_q30[1][k] + c->b[1] * s->normal_q30[2][k], -30);
-        change = fmax(change, ldexp(abs(s->normal_q30[1][k]) + abs(s->normal_q30[2][k]), -30));
+        change = fmax(change, ldexp(fabs((double)s->normal_q30[1][k]) + fabs((double)s->normal_q30[2][k]), -30));
     }
     double length = sqrt(dot(n, n)), steps = frame->knobs.newton_steps == 1 ? ldexp(1, -15) : ldexp(1, -28);
     double divide = frame->knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -29);

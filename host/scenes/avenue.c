@@ -53,7 +53,7 @@ static void make_kerb(mesh_builder *m)
 /* Upright, about 6.5 high. The crown is a stack of uneven rings with flat facets. */
 static void make_tree(mesh_builder *trunk, mesh_builder *crown)
 {
-    static const mesh_profile trunk_profile[] = { { 0, -0.1 }, { 0.34, -0.1 }, { 0.2, 2.6 }, { 0, 2.6 } };
+    static const mesh_profile trunk_profile[] = { { 0, -0.1 }, { 0.45, -0.1 }, { 0.3, 2.6 }, { 0, 2.6 } };
     static const mesh_profile crown_profile[] = { { 0, 1.9 }, { 1.35, 2.5 }, { 1.75, 3.7 }, { 1.25, 5.2 }, { 0, 6.4 } };
     enum { N_RINGS = sizeof crown_profile / sizeof *crown_profile };
     mesh_point p[N_RINGS][N_CROWN + 1];
@@ -155,7 +155,7 @@ static void add_sun(gltf_document *d)
     const double yaw_deg = -68, elevation_deg = 30;
     gltf_rotation q = gltf_multiply(gltf_turn(y_axis, yaw_deg), gltf_turn(x_axis, -elevation_deg));
     size_t light = gltf_add_directional_light(d, "sun", (double[]){ 1, 0.9, 0.74 }, 3.2,
-                                              "\"bias_normal\": 0.2, \"bias_slope\": 2.5, \"bias_constant\": 0.5");
+                                              "\"bias_normal\": 0.2, \"bias_slope\": 1, \"bias_constant\": 1");
     gltf_add_node(d, "sun", "\"rotation\": [%.6g, %.6g, %.6g, %.6g], \"extensions\": {\"KHR_lights_punctual\": {\"light\": %zu}}",
                   q.x, q.y, q.z, q.w, light);
 }
@@ -165,7 +165,8 @@ int avenue_write(FILE *file)
     static gltf_document d;
     static const gltf_scene_text text = {
         .comment = "A long avenue under a low sun: shadows from a few steps to beyond the shadow distance. No animation.",
-        .settings = "\"max_distance\": 60, \"distance_fade\": 0.2, \"filter\": \"3x3\", \"cascades\": 4, \"cascade_blend\": \"soft\", "
+        .settings = "\"max_distance\": 46, \"distance_fade\": 0.25, \"filter\": \"3x3\", \"atlas_size\": 256, \"cascades\": 4, "
+                    "\"cascade_ratios\": [0.22, 0.4, 0.6], \"cascade_blend\": \"soft\", "
                     "\"ambient\": [0.2, 0.22, 0.28], \"background\": [0.42, 0.58, 0.82]",
     };
     gltf_begin(&d);

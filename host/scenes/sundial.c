@@ -9,7 +9,7 @@
 
 enum { N_SEGMENTS = 32, N_SLABS = 24, N_LINES = 6, N_SOUTH = 9, N_EAST = 1 + 3 * N_LINES, N_CIRCLE = 2 * N_EAST + N_SOUTH };
 
-static const double plate_bottom = 0.31, drum_top = 0.33, plate_radius = 1.0, band_outer = 0.965, band_inner = 0.83;
+static const double plate_bottom = 0.341, drum_top = 0.345, plate_radius = 1.045, band_outer = 0.965, band_inner = 0.83;
 static const double line_width = 0.03, style_length = 1.0;
 
 typedef struct { double e, n; } plan;
@@ -217,18 +217,18 @@ static void add_stud(mesh_builder *m, mesh_point at, plan along, double half_len
 static void make_studs(mesh_builder *m)
 {
     static const plan cardinal[4] = { { 0, 1 }, { 1, 0 }, { 0, -1 }, { -1, 0 } };
-    const double ring = 1.07, noon = (band_inner + band_outer) / 2;
+    const double ring = 1.085, noon = (band_inner + band_outer) / 2;
     mesh_begin(m, MESH_FACE_NORMALS);
     for (int i = 0; i < 4; i++) {
         mesh_point at = { ring * cardinal[i].e, drum_top, -ring * cardinal[i].n };
-        add_stud(m, at, cardinal[i], i == 0 ? 0.06 : 0.045, i == 0 ? 0.045 : 0.03, 0.035);
+        add_stud(m, at, cardinal[i], i == 0 ? 0.05 : 0.04, i == 0 ? 0.045 : 0.03, 0.035);
     }
     add_stud(m, on_plate((plan){ 0, noon }), cardinal[0], 0.055, SUNDIAL_STYLE_HALF_WIDTH, 0.02);
 }
 
 static void make_drum(mesh_builder *m)
 {
-    static const mesh_profile profile[] = { { 0, -0.02 }, { 1.2, -0.02 }, { 1.2, 0.27 }, { 1.14, drum_top }, { 0, drum_top } };
+    static const mesh_profile profile[] = { { 0, -0.02 }, { 1.2, -0.02 }, { 1.2, drum_top }, { 0, drum_top } };
     mesh_begin(m, MESH_NORMALS);
     mesh_lathe(m, profile, sizeof profile / sizeof *profile, N_SEGMENTS);
 }
@@ -306,7 +306,7 @@ static void add_sun(gltf_document *d)
     gltf_rotation keys[N_KEYS];
     for (int i = 0; i < N_KEYS; i++) keys[i] = gltf_turn(y_axis, 15.0 * (12 - SUNDIAL_FIRST_HOUR - i));
     size_t light = gltf_add_directional_light(d, "sun", (double[]){ 1, 0.95, 0.86 }, 2.9,
-                                              "\"bias_normal\": 0.2, \"bias_slope\": 2.5, \"bias_constant\": 0.5");
+                                              "\"bias_normal\": 0.3, \"bias_slope\": 1, \"bias_constant\": 0.5");
     gltf_rotation tilt = gltf_turn(x_axis, -SUNDIAL_DECLINATION_DEG), mount = gltf_turn(x_axis, SUNDIAL_LATITUDE_DEG - 90);
     size_t sun = gltf_add_node(d, "sun", "\"rotation\": [%.6g, 0, 0, %.6g], \"extensions\": {\"KHR_lights_punctual\": {\"light\": %zu}}",
                                tilt.x, tilt.w, light);
