@@ -11,7 +11,7 @@
 #if GN_SHADOWS
 
 #define GN_TILE_REACH_Q16 ((int64_t)16384 << 16) /* casters are cut at this distance in texels: keeps gn_walk in range */
-#define GN_GRADIENT_MAX ((int64_t)1 << 33)       /* twice the whole depth range per texel */
+#define GN_GRADIENT_MAX   ((int64_t)1 << 33)     /* twice the whole depth range per texel */
 
 typedef struct {
     int64_t c[3]; /* U, V, D in texels, Q16 */

@@ -68,7 +68,8 @@ static void setup_spheres(gn_frame *frame)
         gn_cascade_sphere(frame, near_q16, far_q16, &centre_q24, &radius_q24);
         cascade->centre_q16 = (int32_t)gn_shr64(centre_q24 * far_q16, 24);
         /* radius < 2^30 in Q16: a sphere that wide holds all that view coordinates can reach */
-        uint64_t radius_q16 = (uint64_t)gn_clamp64(gn_bf_apply(radius_q24, gn_bf_from_u64((uint64_t)(uint32_t)far_q16), -24), 1, (1 << 30) - 1);
+        uint64_t radius_q16 =
+            (uint64_t)gn_clamp64(gn_bf_apply(radius_q24, gn_bf_from_u64((uint64_t)(uint32_t)far_q16), -24), 1, (1 << 30) - 1);
         cascade->radius2_q32 = radius_q16 * radius_q16;
         /* r^2 (1 - (1 - fade)^2) */
         gn_bfloat width = gn_bf_mul(gn_bf_from_u64(cascade->radius2_q32), gn_bf_from_u64(((uint64_t)1 << 32) - keep_q32));
@@ -113,7 +114,7 @@ static gn_bfloat inverse_texel(gn_frame *frame, const gn_light *light, uint32_t 
     texel.exp += 1 - 40 + 16;
     texel.mant -= texel.mant >> 20;
     uint32_t top = (uint32_t)(((uint64_t)texel.mant + 0xFFFFFFU) >> 24); /* 128..256 */
-    if (texel.mant < 0x80000000U) top = 128; /* the slack crossed a power of two */
+    if (texel.mant < 0x80000000U) top = 128;                             /* the slack crossed a power of two */
     texel.mant = top == 256 ? 0x80000000U : top << 24;
     if (top == 256) texel.exp++;
     return gn_bf_recip(texel);

@@ -5,24 +5,23 @@
 #include "gn_knobs.h"
 
 #define GN_STATIC_ASSERT(name, condition) typedef char gn_assert_##name[(condition) ? 1 : -1]
-#define GN_IS_POWER_OF_TWO(n) (((n) & ((n)-1)) == 0)
+#define GN_IS_POWER_OF_TWO(n)             (((n) & ((n)-1)) == 0)
 
-#define GN_CHECK_RANGE_(name, MACRO, lo, hi, meaning, cost)                                                            \
+#define GN_CHECK_RANGE_(name, MACRO, lo, hi, meaning, cost)                                                                        \
     GN_STATIC_ASSERT(name##_out_of_range, GN_##MACRO >= (lo) && GN_##MACRO <= (hi));
 GN_QUALITY_KNOBS(GN_CHECK_RANGE_)
 GN_CAPACITY_KNOBS(GN_CHECK_RANGE_)
 GN_FEATURE_KNOBS(GN_CHECK_RANGE_)
 
 GN_STATIC_ASSERT(preset_unknown, GN_PRESET >= GN_PRESET_TINY && GN_PRESET <= GN_PRESET_ACCURATE);
-GN_STATIC_ASSERT(persp_step_not_1_4_8_16,
-                 GN_PERSP_STEP == 1 || GN_PERSP_STEP == 4 || GN_PERSP_STEP == 8 || GN_PERSP_STEP == 16);
+GN_STATIC_ASSERT(persp_step_not_1_4_8_16, GN_PERSP_STEP == 1 || GN_PERSP_STEP == 4 || GN_PERSP_STEP == 8 || GN_PERSP_STEP == 16);
 GN_STATIC_ASSERT(atten_bits_not_8_or_16, GN_ATTEN_BITS == 8 || GN_ATTEN_BITS == 16);
 GN_STATIC_ASSERT(atlas_size_not_power_of_two, GN_IS_POWER_OF_TWO(GN_ATLAS_SIZE));
 GN_STATIC_ASSERT(vertex_cache_not_power_of_two, GN_IS_POWER_OF_TWO(GN_VERTEX_CACHE));
 GN_STATIC_ASSERT(tile_width_not_multiple_of_8, GN_TILE_WIDTH % 8 == 0);
 /* with 16-bit screen coordinates a guard band of at least 8 pixels must be left around the picture: gn_xform.c */
-GN_STATIC_ASSERT(picture_too_large_for_subpixel_bits,
-                 GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 6 ||
-                     (GN_MAX_WIDTH <= 2 * ((32767 >> GN_SUBPIXEL_BITS) - 10) && GN_MAX_HEIGHT <= 2 * ((32767 >> GN_SUBPIXEL_BITS) - 10)));
+GN_STATIC_ASSERT(picture_too_large_for_subpixel_bits, GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 6 ||
+                                                          (GN_MAX_WIDTH <= 2 * ((32767 >> GN_SUBPIXEL_BITS) - 10) &&
+                                                           GN_MAX_HEIGHT <= 2 * ((32767 >> GN_SUBPIXEL_BITS) - 10)));
 
 #endif

@@ -7,11 +7,16 @@
 static int64_t distance(const int32_t v[3], uint32_t plane, int32_t near_q16, const int32_t side_q16[2])
 {
     switch (plane) {
-    case GN_OUT_NEAR: return (int64_t)v[2] - near_q16;
-    case GN_OUT_LEFT: return (int64_t)v[2] * side_q16[0] + (int64_t)v[0] * 65536;
-    case GN_OUT_RIGHT: return (int64_t)v[2] * side_q16[0] - (int64_t)v[0] * 65536;
-    case GN_OUT_BOTTOM: return (int64_t)v[2] * side_q16[1] + (int64_t)v[1] * 65536;
-    default: return (int64_t)v[2] * side_q16[1] - (int64_t)v[1] * 65536;
+    case GN_OUT_NEAR:
+        return (int64_t)v[2] - near_q16;
+    case GN_OUT_LEFT:
+        return (int64_t)v[2] * side_q16[0] + (int64_t)v[0] * 65536;
+    case GN_OUT_RIGHT:
+        return (int64_t)v[2] * side_q16[0] - (int64_t)v[0] * 65536;
+    case GN_OUT_BOTTOM:
+        return (int64_t)v[2] * side_q16[1] + (int64_t)v[1] * 65536;
+    default:
+        return (int64_t)v[2] * side_q16[1] - (int64_t)v[1] * 65536;
     }
 }
 

@@ -6,7 +6,7 @@
 #ifndef GN_CONFIG_H
 #define GN_CONFIG_H
 
-#define GN_PRESET_TINY 0
+#define GN_PRESET_TINY     0
 #define GN_PRESET_BALANCED 1
 #define GN_PRESET_ACCURATE 2
 
@@ -18,22 +18,22 @@
 #define GN_PRESET GN_PRESET_BALANCED
 #endif
 
-#define GN_PICK_(tiny, balanced, accurate)                                                                             \
+#define GN_PICK_(tiny, balanced, accurate)                                                                                         \
     (GN_PRESET == GN_PRESET_TINY ? (tiny) : GN_PRESET == GN_PRESET_BALANCED ? (balanced) : (accurate))
 #define GN_PICK(...) GN_PICK_(__VA_ARGS__)
 
 /* Quality: tiny, balanced, accurate. */
-#define GN_PRESETS_SUBPIXEL_BITS 4, 6, 8
-#define GN_PRESETS_PERSP_STEP 16, 8, 1
-#define GN_PRESETS_NEWTON_STEPS 1, 1, 2
+#define GN_PRESETS_SUBPIXEL_BITS        4, 6, 8
+#define GN_PRESETS_PERSP_STEP           16, 8, 1
+#define GN_PRESETS_NEWTON_STEPS         1, 1, 2
 #define GN_PRESETS_SHADOW_SUBPIXEL_BITS 8, 8, 12
-#define GN_PRESETS_SHADOW_DEPTH_FRAC 0, 0, 4
-#define GN_PRESETS_WEIGHT_BITS 6, 8, 12
-#define GN_PRESETS_ATTEN_BITS 8, 8, 16
-#define GN_PRESETS_ATLAS_SIZE 64, 128, 256
-#define GN_PRESETS_TILE_WIDTH 64, 64, 64
-#define GN_PRESETS_TILE_HEIGHT 8, 16, 16
-#define GN_PRESETS_SRGB 1, 1, 1
+#define GN_PRESETS_SHADOW_DEPTH_FRAC    0, 0, 4
+#define GN_PRESETS_WEIGHT_BITS          6, 8, 12
+#define GN_PRESETS_ATTEN_BITS           8, 8, 16
+#define GN_PRESETS_ATLAS_SIZE           64, 128, 256
+#define GN_PRESETS_TILE_WIDTH           64, 64, 64
+#define GN_PRESETS_TILE_HEIGHT          8, 16, 16
+#define GN_PRESETS_SRGB                 1, 1, 1
 
 #ifndef GN_SUBPIXEL_BITS
 #define GN_SUBPIXEL_BITS GN_PICK(GN_PRESETS_SUBPIXEL_BITS)

@@ -7,7 +7,7 @@
 
 typedef struct {
     const gn_light_view *view;
-    int32_t depth;      /* the receiver's, in depth steps with depth_frac fraction bits */
+    int32_t depth; /* the receiver's, in depth steps with depth_frac fraction bits */
     int32_t depth_frac;
 } receiver;
 
@@ -106,7 +106,7 @@ static uint32_t tent(const receiver *r, int32_t k, int32_t u_q16, int32_t v_q16,
 static int32_t receiver_depth(const gn_light_view *view, int32_t d_q16, int32_t depth_frac)
 {
     int32_t shift = view->tile_log2 + view->depth_log2 - depth_frac; /* -1 .. 20 */
-    if (d_q16 <= 0) return 0; /* nothing is stored nearer than 0 */
+    if (d_q16 <= 0) return 0;                                        /* nothing is stored nearer than 0 */
     int32_t far = 65535 << depth_frac;
     if (shift <= 0) return d_q16 > far >> -shift ? far : d_q16 << -shift;
     return gn_min32((int32_t)(((uint32_t)d_q16 + ((1U << shift) >> 1)) >> shift), far);
@@ -125,18 +125,28 @@ uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view,
 #endif
     switch (view->filter) {
 #if GN_FILTER_MAX >= 1
-    case GN_FILTER_2X2: attenuation = bilinear(&r, u_q16, v_q16, bits); break;
+    case GN_FILTER_2X2:
+        attenuation = bilinear(&r, u_q16, v_q16, bits);
+        break;
 #endif
 #if GN_FILTER_MAX >= 2
-    case GN_FILTER_3X3: attenuation = tent(&r, 1, u_q16, v_q16, bits); break;
+    case GN_FILTER_3X3:
+        attenuation = tent(&r, 1, u_q16, v_q16, bits);
+        break;
 #endif
 #if GN_FILTER_MAX >= 3
-    case GN_FILTER_5X5: attenuation = tent(&r, 2, u_q16, v_q16, bits); break;
+    case GN_FILTER_5X5:
+        attenuation = tent(&r, 2, u_q16, v_q16, bits);
+        break;
 #endif
 #if GN_FILTER_MAX >= 4
-    case GN_FILTER_7X7: attenuation = tent(&r, 3, u_q16, v_q16, bits); break;
+    case GN_FILTER_7X7:
+        attenuation = tent(&r, 3, u_q16, v_q16, bits);
+        break;
 #endif
-    default: attenuation = lit(&r, row_at(&r, v_q16 >> 16), u_q16 >> 16) << 16; break;
+    default:
+        attenuation = lit(&r, row_at(&r, v_q16 >> 16), u_q16 >> 16) << 16;
+        break;
     }
     return GN_K(frame, atten_bits) == 8 ? (attenuation + 128) & ~255U : attenuation;
 }

@@ -27,7 +27,7 @@
 enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED };
 
 #if GN_RUNTIME_KNOBS
-#define GN_KNOB_DEFAULT_(name, MACRO, lo, hi, meaning, cost) frame->knobs.name = GN_##MACRO;
+#define GN_KNOB_DEFAULT_(name, MACRO, lo, hi, meaning, cost)  frame->knobs.name = GN_##MACRO;
 #define GN_KNOB_IN_RANGE_(name, MACRO, lo, hi, meaning, cost) ok = ok && frame->knobs.name >= (lo) && frame->knobs.name <= (hi);
 
 /* What gn_check.h asserts at compile time, at run time; sizes must also fit what was compiled in. */
@@ -188,10 +188,12 @@ uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t c
 const char *gn_status_text(gn_status status)
 {
     switch (status) {
-#define GN_STATUS_CASE_(name, text)                                                                                    \
-    case name: return text;
+#define GN_STATUS_CASE_(name, text)                                                                                                \
+    case name:                                                                                                                     \
+        return text;
         GN_STATUS_LIST(GN_STATUS_CASE_)
-    case GN_STATUS_COUNT: break;
+    case GN_STATUS_COUNT:
+        break;
     }
     return "unknown status";
 }

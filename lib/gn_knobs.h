@@ -9,45 +9,43 @@
 
 #include "gn_config.h"
 
-#define GN_QUALITY_KNOBS(X)                                                                                            \
-    X(subpixel_bits, SUBPIXEL_BITS, 2, 8, "fraction bits of screen coordinates",                                       \
-      "above 6: 12 more bytes per triangle and 64-bit edge starts")                                                    \
-    X(persp_step, PERSP_STEP, 1, 16, "most pixels between perspective divides (1, 4, 8 or 16), linear between",        \
-      "1: a divide and all attributes per pixel")                                                                      \
-    X(newton_steps, NEWTON_STEPS, 1, 2, "Newton steps of per-pixel reciprocals: 2^-17 or 2^-30 relative",              \
-      "two multiplications per divide")                                                                                \
-    X(shadow_subpixel_bits, SHADOW_SUBPIXEL_BITS, 4, 12, "fraction bits of caster coordinates in texels", "none")      \
-    X(shadow_depth_frac, SHADOW_DEPTH_FRAC, 0, 4, "fraction bits of the receiver's depth below one depth step",        \
-      "none")                                                                                                          \
-    X(weight_bits, WEIGHT_BITS, 4, 12, "fraction bits of filter positions", "none")                                    \
-    X(atten_bits, ATTEN_BITS, 8, 16, "bits of attenuation (8 or 16)", "none")                                          \
-    X(atlas_size, ATLAS_SIZE, 16, 1024, "texels per side of the directional atlas, a power of two",                    \
-      "2 bytes per texel of RAM, and the time to fill them")                                                           \
-    X(tile_width, TILE_WIDTH, 8, 2048, "screen tile width in pixels, a multiple of 8", "RAM: 7 bytes per tile pixel")  \
-    X(tile_height, TILE_HEIGHT, 1, 2048, "screen tile height in pixels", "RAM: 7 bytes per tile pixel")                \
+#define GN_QUALITY_KNOBS(X)                                                                                                        \
+    X(subpixel_bits, SUBPIXEL_BITS, 2, 8, "fraction bits of screen coordinates",                                                   \
+      "above 6: 12 more bytes per triangle and 64-bit edge starts")                                                                \
+    X(persp_step, PERSP_STEP, 1, 16, "most pixels between perspective divides (1, 4, 8 or 16), linear between",                    \
+      "1: a divide and all attributes per pixel")                                                                                  \
+    X(newton_steps, NEWTON_STEPS, 1, 2, "Newton steps of per-pixel reciprocals: 2^-17 or 2^-30 relative",                          \
+      "two multiplications per divide")                                                                                            \
+    X(shadow_subpixel_bits, SHADOW_SUBPIXEL_BITS, 4, 12, "fraction bits of caster coordinates in texels", "none")                  \
+    X(shadow_depth_frac, SHADOW_DEPTH_FRAC, 0, 4, "fraction bits of the receiver's depth below one depth step", "none")            \
+    X(weight_bits, WEIGHT_BITS, 4, 12, "fraction bits of filter positions", "none")                                                \
+    X(atten_bits, ATTEN_BITS, 8, 16, "bits of attenuation (8 or 16)", "none")                                                      \
+    X(atlas_size, ATLAS_SIZE, 16, 1024, "texels per side of the directional atlas, a power of two",                                \
+      "2 bytes per texel of RAM, and the time to fill them")                                                                       \
+    X(tile_width, TILE_WIDTH, 8, 2048, "screen tile width in pixels, a multiple of 8", "RAM: 7 bytes per tile pixel")              \
+    X(tile_height, TILE_HEIGHT, 1, 2048, "screen tile height in pixels", "RAM: 7 bytes per tile pixel")                            \
     X(srgb, SRGB, 0, 1, "encode the output with the sRGB curve", "1154 bytes of flash, 10 instructions per channel")
 
-#define GN_CAPACITY_KNOBS(X)                                                                                           \
-    X(max_width, MAX_WIDTH, 1, 2048, "largest picture width in pixels", "2 bytes per screen tile")                     \
-    X(max_height, MAX_HEIGHT, 1, 2048, "largest picture height in pixels", "2 bytes per screen tile")                  \
-    X(max_triangles, MAX_TRIANGLES, 1, 65534, "visible triangles per frame, after culling and clipping",               \
-      "32 bytes each (44 above 6 subpixel bits)")                                                                      \
-    X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")           \
-    X(max_lights, MAX_LIGHTS, 1, 8, "lights in a scene", "28 bytes each")                                       \
-    X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "shadow tiles: directional lights times cascades", "168 bytes each")   \
-    X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two",                 \
-      "16 bytes each")
+#define GN_CAPACITY_KNOBS(X)                                                                                                       \
+    X(max_width, MAX_WIDTH, 1, 2048, "largest picture width in pixels", "2 bytes per screen tile")                                 \
+    X(max_height, MAX_HEIGHT, 1, 2048, "largest picture height in pixels", "2 bytes per screen tile")                              \
+    X(max_triangles, MAX_TRIANGLES, 1, 65534, "visible triangles per frame, after culling and clipping",                           \
+      "32 bytes each (44 above 6 subpixel bits)")                                                                                  \
+    X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")                       \
+    X(max_lights, MAX_LIGHTS, 1, 8, "lights in a scene", "28 bytes each")                                                          \
+    X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "shadow tiles: directional lights times cascades", "168 bytes each")              \
+    X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
 
-#define GN_FEATURE_KNOBS(X)                                                                                            \
-    X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \
-    X(depth_blocks, DEPTH_BLOCKS, 0, 1, "bounds of shadow depth per 8x8 texels decide most lookups at once",            \
-      "4 bytes of RAM per 64 texels; the same picture with and without")                                               \
-    X(blended_cascades, BLENDED_CASCADES, 0, 1, "soft and dithered blending between cascades (D7)",                          \
-      "three more values per light and sample")                                                                        \
-    X(filter_max, FILTER_MAX, 0, 4, "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7", "flash")               \
-    X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
-    X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")   \
-    X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")       \
+#define GN_FEATURE_KNOBS(X)                                                                                                        \
+    X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                                      \
+    X(depth_blocks, DEPTH_BLOCKS, 0, 1, "bounds of shadow depth per 8x8 texels decide most lookups at once",                       \
+      "4 bytes of RAM per 64 texels; the same picture with and without")                                                           \
+    X(blended_cascades, BLENDED_CASCADES, 0, 1, "soft and dithered blending between cascades (D7)",                                \
+      "three more values per light and sample")                                                                                    \
+    X(filter_max, FILTER_MAX, 0, 4, "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7", "flash")                           \
+    X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")                  \
+    X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")               \
+    X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")                   \
     X(runtime_knobs, RUNTIME_KNOBS, 0, 1, "quality knobs as data (host tools)", "everything is built")
 
 #if GN_RUNTIME_KNOBS
@@ -55,7 +53,7 @@
 #else
 #define GN_KNOB_CONSTANT_(name, MACRO, lo, hi, meaning, cost) gn_knob_##name = GN_##MACRO,
 enum { GN_QUALITY_KNOBS(GN_KNOB_CONSTANT_) gn_knob_end };
-#define GN_K(frame, name) ((void)(frame), (int32_t)gn_knob_##name)
+#define GN_K(frame, name)                                     ((void)(frame), (int32_t)gn_knob_##name)
 #endif
 
 #endif

@@ -28,9 +28,9 @@ uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
     /* x = m / 2^32 in [1/4, 1); y ~ 1/sqrt(x) in Q1.31; y(3 - xy^2)/2 */
     uint64_t y = (uint64_t)gn_rsqrt_table[(m >> 24) - 64U] << 16;
     for (int32_t i = 0; i < newton_steps; i++) {
-        uint32_t yy = (uint32_t)((y * y) >> 32);                     /* Q2.30, <= 4 (table entries are < 2 in Q1.15) */
-        uint64_t xyy = ((uint64_t)m * yy) >> 32;                     /* Q2.30, near 1 */
-        y = (y * (((uint64_t)3 << 30) - xyy)) >> 31;                 /* 32 bits * 32 bits */
+        uint32_t yy = (uint32_t)((y * y) >> 32);     /* Q2.30, <= 4 (table entries are < 2 in Q1.15) */
+        uint64_t xyy = ((uint64_t)m * yy) >> 32;     /* Q2.30, near 1 */
+        y = (y * (((uint64_t)3 << 30) - xyy)) >> 31; /* 32 bits * 32 bits */
         if (y > UINT32_MAX) y = UINT32_MAX;
     }
     return (uint32_t)y;
@@ -156,8 +156,8 @@ int32_t gn_sin_q30(uint16_t angle_turn)
     int32_t b_turn = (int32_t)a - (int32_t)(i << 8);
     int32_t b = (int32_t)gn_shr64((int64_t)b_turn * 105414358, 10); /* radians, Q30: 2 pi * 2^40 / 2^16 = 105414357.9 */
     int32_t b2 = gn_mul_q30(b, b);
-    int32_t sin_b = b - gn_mul_q30(gn_mul_q30(b2, b), 178956971);                           /* 2^30 / 6 */
-    int32_t cos_b = (1 << 30) - (int32_t)gn_shr64(b2, 1) + gn_mul_q30(gn_mul_q30(b2, b2), 44739243);       /* 2^30 / 24 */
+    int32_t sin_b = b - gn_mul_q30(gn_mul_q30(b2, b), 178956971);                                    /* 2^30 / 6 */
+    int32_t cos_b = (1 << 30) - (int32_t)gn_shr64(b2, 1) + gn_mul_q30(gn_mul_q30(b2, b2), 44739243); /* 2^30 / 24 */
     int64_t s = (int64_t)gn_sin_table_q30[i] * cos_b + (int64_t)gn_sin_table_q30[64U - i] * sin_b;
     int32_t v = gn_min32((int32_t)gn_shr64(s, 30), 1 << 30);
     return angle_turn & 0x8000U ? -v : v;

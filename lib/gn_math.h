@@ -15,8 +15,8 @@ uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps);
 /* 2^47 / sqrt(m) for m in [2^30, 2^32). newton_steps 1: relative error < 2^-15, 2: < 2^-28, and then within [2^31, 2^32). */
 uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps);
 
-gn_bfloat gn_bf_recip(gn_bfloat a);              /* relative error < 2^-29 */
-gn_bfloat gn_bf_mul(gn_bfloat a, gn_bfloat b);   /* relative error < 2^-31 */
+gn_bfloat gn_bf_recip(gn_bfloat a);            /* relative error < 2^-29 */
+gn_bfloat gn_bf_mul(gn_bfloat a, gn_bfloat b); /* relative error < 2^-31 */
 
 /* round(a * b.mant * 2^(b.exp + shift)), saturating at +-2^63. Error at most 1 LSB or 2^-31 of the result, the larger. */
 int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift);

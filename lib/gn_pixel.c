@@ -43,7 +43,8 @@ static uint32_t encode(const gn_frame *frame, uint32_t linear_q20)
 /* Rec. 709 weights in Q16; they sum to 65536. Channels are limited first, so that one cannot outshine the others. */
 static uint32_t luminance_q20(const uint32_t c[3])
 {
-    uint32_t r = c[0] < GN_ONE_Q20 ? c[0] : GN_ONE_Q20, g = c[1] < GN_ONE_Q20 ? c[1] : GN_ONE_Q20, b = c[2] < GN_ONE_Q20 ? c[2] : GN_ONE_Q20;
+    uint32_t r = c[0] < GN_ONE_Q20 ? c[0] : GN_ONE_Q20, g = c[1] < GN_ONE_Q20 ? c[1] : GN_ONE_Q20,
+             b = c[2] < GN_ONE_Q20 ? c[2] : GN_ONE_Q20;
     return (uint32_t)(((uint64_t)r * 13933U + (uint64_t)g * 46871U + (uint64_t)b * 4732U + 0x8000U) >> 16);
 }
 
@@ -55,10 +56,14 @@ uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
     case GN_FORMAT_RGB565_SWAPPED:
         v = quantise(encode(frame, r), 31) << 11 | quantise(encode(frame, g), 63) << 5 | quantise(encode(frame, b), 31);
         return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
-    case GN_FORMAT_GREY8: return quantise(encode(frame, luminance_q20(linear_q20)), 255);
-    case GN_FORMAT_GREY4: return quantise(encode(frame, luminance_q20(linear_q20)), 15);
-    case GN_FORMAT_MONO1: return linear_encode(luminance_q20(linear_q20));
-    default: return quantise(encode(frame, r), 255) | quantise(encode(frame, g), 255) << 8 | quantise(encode(frame, b), 255) << 16;
+    case GN_FORMAT_GREY8:
+        return quantise(encode(frame, luminance_q20(linear_q20)), 255);
+    case GN_FORMAT_GREY4:
+        return quantise(encode(frame, luminance_q20(linear_q20)), 15);
+    case GN_FORMAT_MONO1:
+        return linear_encode(luminance_q20(linear_q20));
+    default:
+        return quantise(encode(frame, r), 255) | quantise(encode(frame, g), 255) << 8 | quantise(encode(frame, b), 255) << 16;
     }
 }
 

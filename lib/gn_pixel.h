@@ -14,8 +14,8 @@ uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3]);
 /* Where a screen tile's pixels are stored. */
 typedef struct {
     gn_tile_pixels *pixels;
-    int32_t width;     /* pixels per row of the tile */
-    int32_t x0, y0;    /* of the tile in the picture: the dither's pattern stands still in the picture */
+    int32_t width;  /* pixels per row of the tile */
+    int32_t x0, y0; /* of the tile in the picture: the dither's pattern stands still in the picture */
 } gn_pixel_rows;
 
 /* Stores a packed pixel n times from (x, y) of the picture on, within one row. */

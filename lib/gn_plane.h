@@ -10,10 +10,10 @@
 #include "gnomon.h"
 
 typedef struct {
-    int32_t n[3];  /* face normal, away from the viewer for a front face, |n| < 2^30, power-of-two scale n_exp */
+    int32_t n[3]; /* face normal, away from the viewer for a front face, |n| < 2^30, power-of-two scale n_exp */
     int32_t n_exp;
-    int64_t det;   /* n . v0, positive after gn_plane_setup; 0: edge on or degenerate */
-    int32_t back;  /* 1: seen from behind (n has been negated) */
+    int64_t det;  /* n . v0, positive after gn_plane_setup; 0: edge on or degenerate */
+    int32_t back; /* 1: seen from behind (n has been negated) */
 } gn_plane;
 
 /* v0, v1, v2 in view space, |v| < 2^30. */

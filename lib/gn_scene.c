@@ -4,8 +4,8 @@
 #include "gn_q.h"
 
 #define GN_POSITION_LIMIT_Q16 (8192 << 16)
-#define GN_COLOUR_LIMIT_UQ16 0xFFFFFFU /* 255.99 */
-#define GN_FADE_MIN_UQ16 66U           /* 0.001 */
+#define GN_COLOUR_LIMIT_UQ16  0xFFFFFFU /* 255.99 */
+#define GN_FADE_MIN_UQ16      66U       /* 0.001 */
 
 gn_status gn_fail(gn_frame *frame, gn_status status, uint32_t index)
 {
@@ -59,8 +59,7 @@ static int object_transform_ok(const gn_affine *a)
 
 static gn_status check_camera(gn_frame *frame, const gn_camera *camera)
 {
-    if (!is_rotation(&camera->to_world) || !position_ok(&camera->to_world))
-        return gn_fail(frame, GN_ERR_CAMERA_TRANSFORM, 0);
+    if (!is_rotation(&camera->to_world) || !position_ok(&camera->to_world)) return gn_fail(frame, GN_ERR_CAMERA_TRANSFORM, 0);
     /* the focal length in pixels must also fit: focal * height / 2 < 2^15 */
     if (camera->focal_q24 < 1U << 19 || (uint64_t)camera->focal_q24 * frame->picture.height >= (uint64_t)1 << 40)
         return gn_fail(frame, GN_ERR_CAMERA_FOCAL, 0);
@@ -91,14 +90,12 @@ static gn_status check_object(gn_frame *frame, const gn_object *object, uint32_t
 static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t idx)
 {
     if (light->kind != GN_LIGHT_DIRECTIONAL) return gn_fail(frame, GN_ERR_LIGHT_KIND, idx);
-    if (!light->direction[0] && !light->direction[1] && !light->direction[2])
-        return gn_fail(frame, GN_ERR_LIGHT_DIRECTION, idx);
+    if (!light->direction[0] && !light->direction[1] && !light->direction[2]) return gn_fail(frame, GN_ERR_LIGHT_DIRECTION, idx);
     if (above(light->colour_uq16, GN_COLOUR_LIMIT_UQ16)) return gn_fail(frame, GN_ERR_COLOUR, idx);
     int32_t lo = gn_min32(gn_min32(light->bias_constant_q16, light->bias_slope_q16),
                           gn_min32(light->bias_normal_q16, light->near_offset_q16));
-    if (lo < 0 || light->shadow_strength_uq16 > 65536 || light->bias_constant_q16 > 64 << 16 ||
-        light->bias_slope_q16 > 64 << 16 || light->bias_normal_q16 > 8 << 16 ||
-        light->near_offset_q16 > GN_POSITION_LIMIT_Q16)
+    if (lo < 0 || light->shadow_strength_uq16 > 65536 || light->bias_constant_q16 > 64 << 16 || light->bias_slope_q16 > 64 << 16 ||
+        light->bias_normal_q16 > 8 << 16 || light->near_offset_q16 > GN_POSITION_LIMIT_Q16)
         return gn_fail(frame, GN_ERR_LIGHT_BIAS, idx);
     return GN_OK;
 }
@@ -106,7 +103,8 @@ static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t id
 static int cascades_ok(const gn_shadow_settings *shadow)
 {
     if (shadow->n_cascades > 4) return 0;
-    if ((int)shadow->blend < GN_BLEND_HARD || (int)shadow->blend > (GN_BLENDED_CASCADES ? GN_BLEND_DITHER : GN_BLEND_HARD)) return 0;
+    if ((int)shadow->blend < GN_BLEND_HARD || (int)shadow->blend > (GN_BLENDED_CASCADES ? GN_BLEND_DITHER : GN_BLEND_HARD))
+        return 0;
     uint32_t previous = 0;
     for (uint32_t i = 0; i + 1 < shadow->n_cascades; i++) {
         if (shadow->cascade_ratio_uq16[i] < previous || shadow->cascade_ratio_uq16[i] > 65536) return 0;
@@ -126,8 +124,7 @@ static gn_status check_shadow(gn_frame *frame, const gn_scene *scene)
     if ((int)shadow->distance_mode < GN_DISTANCE_DEPTH || (int)shadow->distance_mode > GN_DISTANCE_RADIUS)
         return gn_fail(frame, GN_ERR_SHADOW_DISTANCE, 0);
     if (!cascades_ok(shadow)) return gn_fail(frame, GN_ERR_SHADOW_CASCADES, 0);
-    if ((int)shadow->filter < GN_FILTER_HARD || (int)shadow->filter > GN_FILTER_MAX)
-        return gn_fail(frame, GN_ERR_SHADOW_FILTER, 0);
+    if ((int)shadow->filter < GN_FILTER_HARD || (int)shadow->filter > GN_FILTER_MAX) return gn_fail(frame, GN_ERR_SHADOW_FILTER, 0);
     return GN_OK;
 }
 
@@ -135,11 +132,9 @@ gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene)
 {
     gn_status status = check_camera(frame, &scene->camera);
     if (status) return status;
-    if ((scene->n_objects && !scene->objects) || (scene->n_lights && !scene->lights))
-        return gn_fail(frame, GN_ERR_NULL, 0);
+    if ((scene->n_objects && !scene->objects) || (scene->n_lights && !scene->lights)) return gn_fail(frame, GN_ERR_NULL, 0);
     if (scene->n_objects > 65535) return gn_fail_capacity(frame, GN_ERR_TOO_MANY_OBJECTS, scene->n_objects, 65535);
-    if (scene->n_lights > GN_MAX_LIGHTS)
-        return gn_fail_capacity(frame, GN_ERR_TOO_MANY_LIGHTS, scene->n_lights, GN_MAX_LIGHTS);
+    if (scene->n_lights > GN_MAX_LIGHTS) return gn_fail_capacity(frame, GN_ERR_TOO_MANY_LIGHTS, scene->n_lights, GN_MAX_LIGHTS);
     if (above(scene->ambient_uq16, GN_COLOUR_LIMIT_UQ16) || above(scene->background_uq16, 65536))
         return gn_fail(frame, GN_ERR_COLOUR, 0);
     for (uint32_t i = 0; i < scene->n_lights; i++)

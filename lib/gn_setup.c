@@ -8,8 +8,8 @@
 #include "gn_walk.h"
 #include "gn_xform.h"
 
-int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
-                    uint32_t object_idx, uint32_t vertex_idx)
+int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *xform, const gn_mesh *mesh, uint32_t object_idx,
+                    uint32_t vertex_idx)
 {
     gn_vcache_entry *entry = &cache[vertex_idx & (GN_VERTEX_CACHE - 1)];
     uint32_t tag = (object_idx << 16 | vertex_idx) + 1U;
@@ -54,9 +54,9 @@ static uint32_t inverse_depth_q32(const gn_frame *frame, int32_t z_q16)
 
 typedef struct {
     gn_plane plane;
-    gn_bfloat scale;            /* near / (2F det): turns c . ray into near / Z */
+    gn_bfloat scale; /* near / (2F det): turns c . ray into near / Z */
     int32_t dx, dy;
-    uint32_t flat;              /* near / Z for triangles without a usable plane */
+    uint32_t flat; /* near / Z for triangles without a usable plane */
     uint16_t iz_min, iz_max;
 } depth_setup;
 

@@ -9,8 +9,8 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_vcache_entry *cache);
 
 /* View position of an object's vertex through the cache. Returns 0 if it is beyond +-16384 units, or
  * its position beyond +-2^30. */
-int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
-                    uint32_t object_idx, uint32_t vertex_idx);
+int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *xform, const gn_mesh *mesh, uint32_t object_idx,
+                    uint32_t vertex_idx);
 
 /* Pixels whose centres lie in the triangle's bounding box, cut to the picture: x0 <= x < x1, y0 <= y < y1. */
 typedef struct {

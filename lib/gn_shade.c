@@ -40,10 +40,14 @@ static uint32_t raw_value(const shading *s, const gn_sample *sample, int32_t x, 
     case GN_VIEW_SHADOW:
         if (s->surface.object->flags & GN_OBJECT_UNLIT || picture->view_light >= s->frame->scene->n_lights) return 65536;
         return gn_light_shadow(s->frame, &s->surface, sample, picture->view_light);
-    case GN_VIEW_DEPTH: return (uint32_t)sample->value[GN_VALUE_Z];
-    case GN_VIEW_CASCADE: return gn_surface_cascade(s->frame, &s->surface, x, y);
-    case GN_VIEW_NORMAL: return raw_normal(s, x, y);
-    default: return (uint32_t)s->tri->object_idx << 16 | s->tri->triangle_idx;
+    case GN_VIEW_DEPTH:
+        return (uint32_t)sample->value[GN_VALUE_Z];
+    case GN_VIEW_CASCADE:
+        return gn_surface_cascade(s->frame, &s->surface, x, y);
+    case GN_VIEW_NORMAL:
+        return raw_normal(s, x, y);
+    default:
+        return (uint32_t)s->tri->object_idx << 16 | s->tri->triangle_idx;
     }
 }
 #endif
@@ -219,6 +223,5 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     s.cache.object = NULL;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
     clear_background(&s);
-    for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++)
-        shade_triangle(&s, frame->tile_ref[i]);
+    for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++) shade_triangle(&s, frame->tile_ref[i]);
 }

@@ -23,12 +23,12 @@ typedef struct {
     int32_t axis_q30[3][3]; /* right, up, forward in the world */
     int32_t eye_q16[3];
     int32_t near_q16;
-    uint32_t focal2_px_q16; /* 2F, twice the focal length in pixels: rays are (2x + 1 - W, H - 1 - 2y, 2F) */
+    uint32_t focal2_px_q16;     /* 2F, twice the focal length in pixels: rays are (2x + 1 - W, H - 1 - 2y, 2F) */
     gn_bfloat near_over_focal2; /* near / 2F */
     gn_bfloat inv_focal2;       /* 1 / 2F, 2F in Q16 */
-    int32_t guard_q16[2];   /* |X| <= guard[0] * Z and |Y| <= guard[1] * Z hold after clipping to the guard band */
-    int32_t coord_max;      /* of screen coordinates from the picture's centre */
-    int32_t tan_q16[2];     /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
+    int32_t guard_q16[2];       /* |X| <= guard[0] * Z and |Y| <= guard[1] * Z hold after clipping to the guard band */
+    int32_t coord_max;          /* of screen coordinates from the picture's centre */
+    int32_t tan_q16[2];         /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
 } gn_cam;
 
 #if GN_SHADOWS
@@ -43,24 +43,24 @@ typedef struct {
 } gn_depth_block; /* see gn_blocks.h */
 
 typedef struct {
-    int32_t axis_q30[3][3];  /* u, v, w in the world */
-    gn_bfloat inv_texel;   /* texels per world unit */
-    int32_t origin[3];       /* whole texels */
+    int32_t axis_q30[3][3]; /* u, v, w in the world */
+    gn_bfloat inv_texel;    /* texels per world unit */
+    int32_t origin[3];      /* whole texels */
     gn_ray_plane ray[3];
-    int32_t ray_shift;       /* fraction bits of a0, ax, ay */
-    int32_t offset_q16;      /* B2 receiver offset along the normal, texels */
+    int32_t ray_shift;  /* fraction bits of a0, ax, ay */
+    int32_t offset_q16; /* B2 receiver offset along the normal, texels */
     int32_t bias_constant_q16, bias_slope_q16;
     uint32_t strength_uq16;
-    uint16_t tile_texels;    /* T; 0: this light has no tile */
-    uint8_t tile_log2;       /* T = 2^tile_log2 */
-    uint8_t depth_log2;      /* J: the depth range is T * 2^J texels */
+    uint16_t tile_texels; /* T; 0: this light has no tile */
+    uint8_t tile_log2;    /* T = 2^tile_log2 */
+    uint8_t depth_log2;   /* J: the depth range is T * 2^J texels */
     uint8_t filter;
     uint8_t tile_done;
-    uint8_t empty;           /* its cascade has no slice: never drawn, never selected */
+    uint8_t empty; /* its cascade has no slice: never drawn, never selected */
     uint16_t light_idx;
-    uint16_t *depth;         /* T * T, row by row, inside the atlas */
+    uint16_t *depth; /* T * T, row by row, inside the atlas */
 #if GN_DEPTH_BLOCKS
-    gn_depth_block *block;   /* (T / 8) * (T / 8) */
+    gn_depth_block *block; /* (T / 8) * (T / 8) */
 #endif
 } gn_light_view;
 #endif
@@ -68,17 +68,17 @@ typedef struct {
 #if GN_SHADOWS
 /* The bounding sphere of a cascade's slice: on the view axis, shared by all lights (D3). */
 typedef struct {
-    int32_t centre_q16;      /* view depth */
-    uint64_t radius2_q32;    /* 0: empty */
-    gn_bfloat fade_scale;  /* D6: factor = (radius2 - dist2) * fade_scale */
-    int32_t next;            /* the next cascade that is not empty */
+    int32_t centre_q16;   /* view depth */
+    uint64_t radius2_q32; /* 0: empty */
+    gn_bfloat fade_scale; /* D6: factor = (radius2 - dist2) * fade_scale */
+    int32_t next;         /* the next cascade that is not empty */
 } gn_cascade_state;
 #endif
 
 typedef struct {
     int32_t to_light_q30[3]; /* unit, surface towards the light */
     uint32_t colour_uq16[3];
-    int32_t view_idx;        /* of its first gn_light_view, -1: no shadow */
+    int32_t view_idx; /* of its first gn_light_view, -1: no shadow */
 } gn_light_state;
 
 #if GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 6
@@ -106,10 +106,10 @@ typedef struct {
 #define GN_TILES_X_MAX ((GN_MAX_WIDTH + GN_TILE_WIDTH - 1) / GN_TILE_WIDTH)
 #define GN_TILES_Y_MAX ((GN_MAX_HEIGHT + GN_TILE_HEIGHT - 1) / GN_TILE_HEIGHT)
 #if GN_RUNTIME_KNOBS
-#define GN_TILES_MAX 16384
+#define GN_TILES_MAX       16384
 #define GN_TILE_PIXELS_MAX 65536
 #else
-#define GN_TILES_MAX (GN_TILES_X_MAX * GN_TILES_Y_MAX)
+#define GN_TILES_MAX       (GN_TILES_X_MAX * GN_TILES_Y_MAX)
 #define GN_TILE_PIXELS_MAX (GN_TILE_WIDTH * GN_TILE_HEIGHT)
 #endif
 #if GN_MAX_TILE_REFS > 65535
@@ -126,8 +126,8 @@ typedef struct gn_frame {
     const gn_scene *scene;
     gn_stats stats;
     gn_detail detail;
-    uint8_t stage;           /* gn_stage in gn_frame.c */
-    uint8_t id_bits;         /* of a visibility cell: enough for n_triangles + 1 */
+    uint8_t stage;   /* gn_stage in gn_frame.c */
+    uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 1 */
     uint16_t n_views;
     gn_cam cam;
     gn_light_state light[GN_MAX_LIGHTS];
@@ -140,7 +140,7 @@ typedef struct gn_frame {
 #if GN_SHADOWS
     gn_cascade_state cascade[4];
     uint8_t n_cascades;
-    uint8_t last_cascade;    /* the last that is not empty */
+    uint8_t last_cascade;                    /* the last that is not empty */
     gn_light_view view[GN_MAX_SHADOW_TILES]; /* light by light, cascade by cascade */
     uint16_t atlas[GN_ATLAS_SIZE * GN_ATLAS_SIZE];
 #if GN_DEPTH_BLOCKS

@@ -163,7 +163,8 @@ static void receiver_offset(const gn_light_view *view, const int32_t n_q30[3], i
 }
 
 /* Tile coordinates of the point at depth z on a pixel's ray. */
-static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16, const int32_t offset_q16[3], int32_t *out)
+static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16, const int32_t offset_q16[3],
+                         int32_t *out)
 {
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *ray = &view->ray[i];
@@ -188,12 +189,14 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
         uint64_t dist2 = across + (uint64_t)(dz * dz);
         if (dist2 >= cascade->radius2_q32) continue;
         sample->cascade = i;
-        sample->value[GN_VALUE_FADE] = (int32_t)gn_clamp64(gn_bf_apply((int64_t)(cascade->radius2_q32 - dist2), cascade->fade_scale, 48), 0, 65536);
+        sample->value[GN_VALUE_FADE] =
+            (int32_t)gn_clamp64(gn_bf_apply((int64_t)(cascade->radius2_q32 - dist2), cascade->fade_scale, 48), 0, 65536);
         return;
     }
 }
 
-static void shadow_coords(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, const int32_t n_q30[3], gn_sample *sample)
+static void shadow_coords(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, const int32_t n_q30[3],
+                          gn_sample *sample)
 {
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l + 1];
@@ -259,7 +262,8 @@ static void begin_lighting(const gn_frame *frame, gn_surface *s)
         for (int c = 0; c < 3; c++) s->light_uq16[l][c] = gn_mul_uq16(frame->light[l].colour_uq16[c], albedo[c]);
 #if GN_SHADOWS
         if (frame->light[l].view_idx < 0) continue;
-        if (!s->smooth) receiver_offset(&frame->view[frame->light[l].view_idx + frame->last_cascade], s->normal_q30[0], s->flat_offset_q16[l]);
+        if (!s->smooth)
+            receiver_offset(&frame->view[frame->light[l].view_idx + frame->last_cascade], s->normal_q30[0], s->flat_offset_q16[l]);
         s->shadowed |= (s->object->flags & GN_OBJECT_RECEIVES) && (s->smooth || s->flat_cosine_q24[l] > 0);
 #endif
     }

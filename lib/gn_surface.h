@@ -8,10 +8,10 @@
 
 /* Values sampled at a pixel and stepped linearly between samples. */
 enum {
-    GN_VALUE_Z,          /* view depth, Q16 */
-    GN_VALUE_FADE,       /* D6 factor of the cascade, Q16 */
-    GN_VALUE_RGB,        /* 3: interpolated vertex colour, Q16 */
-    GN_VALUE_LIGHT = 5,  /* per light: n . L in Q24, tile coordinates U, V, D in Q16 texels, and those of the next cascade */
+    GN_VALUE_Z,         /* view depth, Q16 */
+    GN_VALUE_FADE,      /* D6 factor of the cascade, Q16 */
+    GN_VALUE_RGB,       /* 3: interpolated vertex colour, Q16 */
+    GN_VALUE_LIGHT = 5, /* per light: n . L in Q24, tile coordinates U, V, D in Q16 texels, and those of the next cascade */
     GN_VALUES_PER_LIGHT = GN_BLENDED_CASCADES ? 7 : 4,
     GN_VALUE_COUNT = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * GN_MAX_LIGHTS
 };
@@ -21,21 +21,21 @@ enum {
 typedef struct {
     int32_t value[GN_VALUE_COUNT];
     int32_t normal_q15[3]; /* interpolated, not renormalised; smooth surfaces only */
-    int32_t cascade; /* of the surface point, GN_CASCADE_NONE: lit by every light */
-    int32_t x, y;    /* the pixel */
+    int32_t cascade;       /* of the surface point, GN_CASCADE_NONE: lit by every light */
+    int32_t x, y;          /* the pixel */
 } gn_sample;
 
 typedef struct {
     const gn_object *object;
     gn_plane plane;
-    gn_bfloat depth_scale;      /* det * 2F: Z = depth_scale / (n . ray) */
+    gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
     int32_t z_min_q16, z_max_q16;
-    int32_t bary[2][3];         /* b1, b2 = (bary . ray) / (n . ray) * 2^bary_exp */
+    int32_t bary[2][3]; /* b1, b2 = (bary . ray) / (n . ray) * 2^bary_exp */
     int32_t bary_exp[2];
-    int32_t normal_q30[3][3];   /* vertex 0, then differences of vertices 1 and 2 to it; flat: the face normal and zeros */
-    int32_t rgb_q16[3][3];      /* likewise for vertex colours */
+    int32_t normal_q30[3][3]; /* vertex 0, then differences of vertices 1 and 2 to it; flat: the face normal and zeros */
+    int32_t rgb_q16[3][3];    /* likewise for vertex colours */
     uint8_t has_bary, smooth, coloured;
-    uint8_t shadowed;           /* some light's shadow may fall on it */
+    uint8_t shadowed; /* some light's shadow may fall on it */
     int32_t n_values;
     /* albedo times ambient (Q20) and times each light's colour (Q16): radiance is their sum, weighted */
     uint32_t base_q20[3];

@@ -18,9 +18,9 @@ typedef struct {
 } gn_edge;
 
 typedef struct {
-    gn_edge edge[2];       /* the edge over all rows, and the current one of the other two */
+    gn_edge edge[2]; /* the edge over all rows, and the current one of the other two */
     int32_t y, y_mid, y_end;
-    int32_t lower[4];      /* end points of the edge that takes over at y_mid: x0 y0 x1 y1 */
+    int32_t lower[4]; /* end points of the edge that takes over at y_mid: x0 y0 x1 y1 */
     int32_t subpixel_bits;
     int32_t long_edge_left; /* 1: edge[0] is the left border */
 } gn_walk;

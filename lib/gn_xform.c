@@ -46,7 +46,8 @@ void gn_cam_setup(gn_frame *frame)
     for (int i = 0; i < 2; i++) {
         int32_t guard = guard_px(bits, gn_max32(size[0], size[1]));
         cam->guard_q16[i] = slope_q16(2 * (uint32_t)guard, cam->focal2_px_q16);
-        cam->tan_q16[i] = gn_sat32((int64_t)slope_q16((uint32_t)size[i], cam->focal2_px_q16) + 1); /* rounded up: only for rejection */
+        cam->tan_q16[i] =
+            gn_sat32((int64_t)slope_q16((uint32_t)size[i], cam->focal2_px_q16) + 1); /* rounded up: only for rejection */
     }
 }
 

@@ -25,44 +25,44 @@ extern "C" {
 #endif
 
 /* Constants in user code: folded at compile time, round to nearest. */
-#define GN_FIX_(x, one) ((x) * (one) + ((x) < 0 ? -0.5 : 0.5))
-#define GN_Q16(x) ((int32_t)GN_FIX_(x, 65536.0))        /* -32768 .. 32767.99 */
-#define GN_Q30(x) ((int32_t)GN_FIX_(x, 1073741824.0))   /* -2 .. 1.99 */
-#define GN_Q24(x) ((uint32_t)GN_FIX_(x, 16777216.0))    /* 0 .. 255.99 */
-#define GN_UQ16(x) ((uint32_t)GN_FIX_(x, 65536.0))
+#define GN_FIX_(x, one)  ((x) * (one) + ((x) < 0 ? -0.5 : 0.5))
+#define GN_Q16(x)        ((int32_t)GN_FIX_(x, 65536.0))      /* -32768 .. 32767.99 */
+#define GN_Q30(x)        ((int32_t)GN_FIX_(x, 1073741824.0)) /* -2 .. 1.99 */
+#define GN_Q24(x)        ((uint32_t)GN_FIX_(x, 16777216.0))  /* 0 .. 255.99 */
+#define GN_UQ16(x)       ((uint32_t)GN_FIX_(x, 65536.0))
 #define GN_TURN(degrees) ((uint16_t)(int32_t)GN_FIX_((degrees) / 360.0, 65536.0))
 
 /* ---- Status ------------------------------------------------------------------------------------------------------- */
 
-#define GN_STATUS_LIST(X)                                                                                              \
-    X(GN_OK, "ok")                                                                                                     \
-    X(GN_ERR_NULL, "a required pointer is null")                                                                       \
-    X(GN_ERR_PICTURE_SIZE, "picture width or height is 0 or above GN_MAX_WIDTH x GN_MAX_HEIGHT")                       \
-    X(GN_ERR_FORMAT, "unknown pixel format or view, or one that is not built in")                                      \
-    X(GN_ERR_KNOB, "a run-time knob is out of its range")                                                              \
-    X(GN_ERR_ORDER, "call out of order: begin, shadow tiles, prepare, screen tiles")                                   \
-    X(GN_ERR_INDEX, "no such tile or light")                                                                           \
-    X(GN_ERR_CAMERA_FOCAL, "camera focal length outside 1/32 .. 255.99")                                               \
-    X(GN_ERR_CAMERA_DEPTH, "camera near plane outside 1/256 .. 8192 units, or far not beyond near")                          \
-    X(GN_ERR_CAMERA_TRANSFORM, "camera transform is not a rotation with a position inside +-8192")                     \
-    X(GN_ERR_OBJECT_TRANSFORM, "object transform has exponent outside 0..14, an entry above 1.0, a position outside +-8192, " \
-                               "or no inverse")                                                                        \
-    X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, or more than 30 fraction bits")                  \
-    X(GN_ERR_MESH_INDEX, "mesh index is not below its vertex count")                                                   \
-    X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera")                                         \
-    X(GN_ERR_COLOUR, "colour, albedo or ambient out of range")                                                         \
-    X(GN_ERR_TOO_MANY_OBJECTS, "more than 65535 objects")                                                              \
-    X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                        \
-    X(GN_ERR_LIGHT_KIND, "unknown kind of light")                                                                      \
-    X(GN_ERR_LIGHT_DIRECTION, "light direction is zero")                                                               \
-    X(GN_ERR_LIGHT_BIAS, "light strength, bias or near offset out of range")                                           \
-    X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 units, or not beyond the camera's near plane")           \
-    X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                          \
-    X(GN_ERR_SHADOW_FILTER, "unknown shadow filter, or one above GN_FILTER_MAX")                                       \
-    X(GN_ERR_SHADOW_CASCADES, "more than 4 cascades, ratios above 1 or not ascending, or a blend that is not built in")       \
-    X(GN_ERR_SHADOW_TILES_FULL, "more shadow tiles (lights x cascades) than GN_MAX_SHADOW_TILES")                      \
-    X(GN_ERR_SHADOW_TILE, "shadow tile would be smaller than 8 texels")                                                \
-    X(GN_ERR_TRIANGLES_FULL, "more visible triangles than GN_MAX_TRIANGLES")                                           \
+#define GN_STATUS_LIST(X)                                                                                                          \
+    X(GN_OK, "ok")                                                                                                                 \
+    X(GN_ERR_NULL, "a required pointer is null")                                                                                   \
+    X(GN_ERR_PICTURE_SIZE, "picture width or height is 0 or above GN_MAX_WIDTH x GN_MAX_HEIGHT")                                   \
+    X(GN_ERR_FORMAT, "unknown pixel format or view, or one that is not built in")                                                  \
+    X(GN_ERR_KNOB, "a run-time knob is out of its range")                                                                          \
+    X(GN_ERR_ORDER, "call out of order: begin, shadow tiles, prepare, screen tiles")                                               \
+    X(GN_ERR_INDEX, "no such tile or light")                                                                                       \
+    X(GN_ERR_CAMERA_FOCAL, "camera focal length outside 1/32 .. 255.99")                                                           \
+    X(GN_ERR_CAMERA_DEPTH, "camera near plane outside 1/256 .. 8192 units, or far not beyond near")                                \
+    X(GN_ERR_CAMERA_TRANSFORM, "camera transform is not a rotation with a position inside +-8192")                                 \
+    X(GN_ERR_OBJECT_TRANSFORM, "object transform has exponent outside 0..14, an entry above 1.0, a position outside +-8192, "      \
+                               "or no inverse")                                                                                    \
+    X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, or more than 30 fraction bits")                              \
+    X(GN_ERR_MESH_INDEX, "mesh index is not below its vertex count")                                                               \
+    X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera")                                   \
+    X(GN_ERR_COLOUR, "colour, albedo or ambient out of range")                                                                     \
+    X(GN_ERR_TOO_MANY_OBJECTS, "more than 65535 objects")                                                                          \
+    X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                                    \
+    X(GN_ERR_LIGHT_KIND, "unknown kind of light")                                                                                  \
+    X(GN_ERR_LIGHT_DIRECTION, "light direction is zero")                                                                           \
+    X(GN_ERR_LIGHT_BIAS, "light strength, bias or near offset out of range")                                                       \
+    X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 units, or not beyond the camera's near plane")                \
+    X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                                      \
+    X(GN_ERR_SHADOW_FILTER, "unknown shadow filter, or one above GN_FILTER_MAX")                                                   \
+    X(GN_ERR_SHADOW_CASCADES, "more than 4 cascades, ratios above 1 or not ascending, or a blend that is not built in")            \
+    X(GN_ERR_SHADOW_TILES_FULL, "more shadow tiles (lights x cascades) than GN_MAX_SHADOW_TILES")                                  \
+    X(GN_ERR_SHADOW_TILE, "shadow tile would be smaller than 8 texels")                                                            \
+    X(GN_ERR_TRIANGLES_FULL, "more visible triangles than GN_MAX_TRIANGLES")                                                       \
     X(GN_ERR_TILE_REFS_FULL, "more tile references than GN_MAX_TILE_REFS")
 
 #define GN_STATUS_ENUM_(name, text) name,
@@ -91,32 +91,32 @@ typedef struct {
  * Products of many rotations drift by about one unit each: turn by absolute angles, or orthonormalise now and then. */
 void gn_affine_identity(gn_affine *out);
 void gn_affine_rotation(gn_affine *out, uint16_t yaw_turn, uint16_t pitch_turn, uint16_t roll_turn); /* Y, then X, then Z */
-void gn_affine_scale(gn_affine *inout, int32_t scale_q16);                    /* object space, 2^-16 < scale < 8192 */
-void gn_affine_mul(gn_affine *out, const gn_affine *a, const gn_affine *b);   /* out = a * b; out may be a or b */
+void gn_affine_scale(gn_affine *inout, int32_t scale_q16);                  /* object space, 2^-16 < scale < 8192 */
+void gn_affine_mul(gn_affine *out, const gn_affine *a, const gn_affine *b); /* out = a * b; out may be a or b */
 void gn_affine_orthonormalise(gn_affine *inout); /* a rotation (exp 0) back to right angles; the third axis keeps its direction */
 void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t target_q16[3]); /* +Y up */
-uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn);                   /* 1 / tan(fov / 2), Q8.24, saturates */
-int32_t gn_sin_q30(uint16_t angle_turn);                                      /* |error| <= 2 LSB */
+uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn); /* 1 / tan(fov / 2), Q8.24, saturates */
+int32_t gn_sin_q30(uint16_t angle_turn);                    /* |error| <= 2 LSB */
 int32_t gn_cos_q30(uint16_t angle_turn);
 
 /* ---- Scene: described by the caller, read only during a call ------------------------------------------------------ */
 
 typedef struct {
-    const int32_t *pos;      /* 3 per vertex, |pos| <= 2^30, `pos_frac_bits` fraction bits */
-    const int16_t *nrm_q15;  /* 3 per vertex, a direction (its length does not matter), or NULL: face normals */
+    const int32_t *pos;       /* 3 per vertex, |pos| <= 2^30, `pos_frac_bits` fraction bits */
+    const int16_t *nrm_q15;   /* 3 per vertex, a direction (its length does not matter), or NULL: face normals */
     const uint16_t *rgb_uq16; /* 3 per vertex, linear, 65535 = 1, or NULL: white */
-    const uint16_t *idx;     /* 3 per triangle */
+    const uint16_t *idx;      /* 3 per triangle */
     uint16_t n_vertices;
     uint16_t n_triangles;
-    uint8_t pos_frac_bits;   /* 0..30; 16 for positions written with GN_Q16 */
+    uint8_t pos_frac_bits; /* 0..30; 16 for positions written with GN_Q16 */
 } gn_mesh;
 
 enum { /* gn_object.flags */
-    GN_OBJECT_CASTS = 1,
-    GN_OBJECT_RECEIVES = 2,
-    GN_OBJECT_TWO_SIDED = 4,
-    GN_OBJECT_UNLIT = 8,
-    GN_OBJECT_DEFAULT = GN_OBJECT_CASTS | GN_OBJECT_RECEIVES
+       GN_OBJECT_CASTS = 1,
+       GN_OBJECT_RECEIVES = 2,
+       GN_OBJECT_TWO_SIDED = 4,
+       GN_OBJECT_UNLIT = 8,
+       GN_OBJECT_DEFAULT = GN_OBJECT_CASTS | GN_OBJECT_RECEIVES
 };
 
 typedef struct {
@@ -130,35 +130,35 @@ typedef enum { GN_LIGHT_DIRECTIONAL } gn_light_kind;
 
 typedef struct {
     gn_light_kind kind;
-    int32_t direction[3];       /* of travel, any length but zero */
-    uint32_t colour_uq16[3];    /* linear colour * intensity, 0..255.99 */
+    int32_t direction[3];          /* of travel, any length but zero */
+    uint32_t colour_uq16[3];       /* linear colour * intensity, 0..255.99 */
     uint32_t shadow_strength_uq16; /* 0: casts no shadow and costs nothing; 65536: full */
-    int32_t bias_constant_q16;  /* B1, texels, 0..64 */
-    int32_t bias_slope_q16;     /* B1, 0..64 */
-    int32_t bias_normal_q16;    /* B2, 0..8; 1.0 is a good value */
-    int32_t near_offset_q16;    /* D9: pulls the light's near plane back, world units, 0..8192 */
+    int32_t bias_constant_q16;     /* B1, texels, 0..64 */
+    int32_t bias_slope_q16;        /* B1, 0..64 */
+    int32_t bias_normal_q16;       /* B2, 0..8; 1.0 is a good value */
+    int32_t near_offset_q16;       /* D9: pulls the light's near plane back, world units, 0..8192 */
 } gn_light;
 
 typedef struct {
-    gn_affine to_world;  /* a rotation (exp 0) and a position; looks along its local -Z */
-    uint32_t focal_q24;  /* 1 / tan(vertical fov / 2), 1/32 .. 255.99 */
-    int32_t near_q16;    /* surfaces nearer than this are clipped */
-    int32_t far_q16;     /* only bounds what may be asked of shadows */
+    gn_affine to_world; /* a rotation (exp 0) and a position; looks along its local -Z */
+    uint32_t focal_q24; /* 1 / tan(vertical fov / 2), 1/32 .. 255.99 */
+    int32_t near_q16;   /* surfaces nearer than this are clipped */
+    int32_t far_q16;    /* only bounds what may be asked of shadows */
 } gn_camera;
 
 typedef enum { GN_FILTER_HARD, GN_FILTER_2X2, GN_FILTER_3X3, GN_FILTER_5X5, GN_FILTER_7X7 } gn_filter;
 
-typedef enum { GN_BLEND_HARD, GN_BLEND_SOFT, GN_BLEND_DITHER } gn_blend;      /* D7 */
-typedef enum { GN_DISTANCE_DEPTH, GN_DISTANCE_RADIUS } gn_distance_mode;    /* D5, D11 */
+typedef enum { GN_BLEND_HARD, GN_BLEND_SOFT, GN_BLEND_DITHER } gn_blend; /* D7 */
+typedef enum { GN_DISTANCE_DEPTH, GN_DISTANCE_RADIUS } gn_distance_mode; /* D5, D11 */
 
 typedef struct {
     int32_t max_distance_q16;    /* D5 */
     uint32_t distance_fade_uq16; /* D5, 66 (0.001) .. 65536 */
     uint32_t cascade_fade_uq16;  /* D3, D6, 66 .. 65536 */
     gn_filter filter;
-    uint32_t n_cascades;         /* 0 (as 1) .. 4; each takes a tile of the atlas */
+    uint32_t n_cascades;            /* 0 (as 1) .. 4; each takes a tile of the atlas */
     uint32_t cascade_ratio_uq16[3]; /* where cascades 0, 1, 2 end, as shares of the max distance, ascending; the last ends there */
-    gn_blend blend;              /* anything but hard needs GN_BLENDED_CASCADES */
+    gn_blend blend;                 /* anything but hard needs GN_BLENDED_CASCADES */
     gn_distance_mode distance_mode;
 } gn_shadow_settings;
 
@@ -181,8 +181,8 @@ typedef enum {
     GN_FORMAT_RGB565_SWAPPED, /* RGB565 with its two bytes exchanged, as many panels want it */
     GN_FORMAT_GREY8,          /* a byte per pixel */
     GN_FORMAT_GREY4,          /* two pixels per byte, the left one in the high bits; rows begin on a byte */
-    GN_FORMAT_MONO1,          /* eight pixels per byte, the left one in the highest bit, 1 = light; rows begin on a byte; ordered dither */
-    GN_FORMAT_RAW32           /* with GN_RAW_VIEWS: uint32_t per pixel, see gn_view; all ones where there is no surface */
+    GN_FORMAT_MONO1, /* eight pixels per byte, the left one in the highest bit, 1 = light; rows begin on a byte; ordered dither */
+    GN_FORMAT_RAW32  /* with GN_RAW_VIEWS: uint32_t per pixel, see gn_view; all ones where there is no surface */
 } gn_format;
 
 typedef enum {
@@ -197,7 +197,7 @@ typedef enum {
 typedef struct {
     uint16_t width, height;
     gn_format format;
-    gn_view view;        /* anything but colour needs GN_FORMAT_RAW32 */
+    gn_view view; /* anything but colour needs GN_FORMAT_RAW32 */
     uint8_t view_light;
 } gn_picture;
 
@@ -206,12 +206,12 @@ typedef struct {
 typedef void (*gn_flush_fn)(void *user, int x, int y, int w, int h, const void *pixels);
 
 typedef struct {
-    uint32_t n_triangles;       /* visible, after culling and clipping */
+    uint32_t n_triangles; /* visible, after culling and clipping */
     uint32_t n_tile_refs;
-    uint32_t n_clipped;         /* triangles that met the near plane or the guard band */
+    uint32_t n_clipped; /* triangles that met the near plane or the guard band */
     uint32_t n_shadow_tiles;
     uint32_t n_caster_triangles; /* drawn into shadow tiles */
-    uint32_t n_reach_clamped;   /* lights whose filter reach does not fit their tile: taps are clamped at its border */
+    uint32_t n_reach_clamped;    /* lights whose filter reach does not fit their tile: taps are clamped at its border */
 } gn_stats;
 
 #if GN_RUNTIME_KNOBS
@@ -236,10 +236,10 @@ gn_status gn_init(gn_renderer *r, const gn_picture *picture);
 gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user);
 
 /* The same in steps, for time slicing and several cores. The scene must stay unchanged until the last screen tile. */
-gn_status gn_begin(gn_renderer *r, const gn_scene *scene);        /* validates; fits the lights' views */
+gn_status gn_begin(gn_renderer *r, const gn_scene *scene); /* validates; fits the lights' views */
 uint32_t gn_shadow_tile_count(const gn_renderer *r);
-gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx);      /* each once, any order */
-gn_status gn_prepare(gn_renderer *r);                             /* visible triangles, binned */
+gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx); /* each once, any order */
+gn_status gn_prepare(gn_renderer *r);                        /* visible triangles, binned */
 uint32_t gn_screen_tile_count(const gn_renderer *r);
 /* After gn_prepare the frame is read only: cores may draw different tiles at once, each with its own scratch. */
 gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user);

@@ -18,12 +18,11 @@ enum { N_TRIANGLES_MAX = BENCH_N_SMALL };
 
 typedef struct {
     const char *name;
-    int coloured;  /* vertex colours, and vertex normals where light falls */
-    int shadowed;  /* one light; otherwise the object is unlit */
+    int coloured; /* vertex colours, and vertex normals where light falls */
+    int shadowed; /* one light; otherwise the object is unlit */
 } bench_case;
 
-static const bench_case cases[] = {
-    {"flat", 0, 0}, {"gouraud", 1, 0}, {"flat-shadow", 0, 1}, {"gouraud-shadow", 1, 1}};
+static const bench_case cases[] = {{"flat", 0, 0}, {"gouraud", 1, 0}, {"flat-shadow", 0, 1}, {"gouraud-shadow", 1, 1}};
 
 typedef struct {
     const char *name;

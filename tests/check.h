@@ -32,8 +32,8 @@ static inline int check_near(double a, double b, double tolerance, const char *f
 }
 
 /* Each is 1 if it held, so that a test can stop where going on makes no sense. */
-#define CHECK(condition) check_note(!!(condition), __FILE__, __LINE__, #condition)
-#define CHECK_EQ_INT(a, b) check_int((long long)(a), (long long)(b), __FILE__, __LINE__, #a)
+#define CHECK(condition)            check_note(!!(condition), __FILE__, __LINE__, #condition)
+#define CHECK_EQ_INT(a, b)          check_int((long long)(a), (long long)(b), __FILE__, __LINE__, #a)
 #define CHECK_NEAR(a, b, tolerance) check_near(a, b, tolerance, __FILE__, __LINE__, #a)
 
 /* The exit status of the program. */

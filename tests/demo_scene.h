@@ -21,8 +21,8 @@ typedef struct {
     gn_scene scene;
 } demo_scene;
 
-static const int32_t demo_ground_pos[4 * 3] = {
-    GN_Q16(-6), 0, GN_Q16(-6), GN_Q16(-6), 0, GN_Q16(6), GN_Q16(6), 0, GN_Q16(6), GN_Q16(6), 0, GN_Q16(-6)};
+static const int32_t demo_ground_pos[4 * 3] = {GN_Q16(-6), 0, GN_Q16(-6), GN_Q16(-6), 0, GN_Q16(6),
+                                               GN_Q16(6),  0, GN_Q16(6),  GN_Q16(6),  0, GN_Q16(-6)};
 static const uint16_t demo_ground_idx[2 * 3] = {0, 1, 2, 0, 2, 3};
 static const uint16_t demo_box_idx[12 * 3] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                                               2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
@@ -35,8 +35,8 @@ static inline void demo_box(demo_scene *d)
             d->box_rgb[3 * i + k] = i >> k & 1 ? 65535 : 9000;
         }
     }
-    gn_mesh mesh = {.pos = d->box_pos, .rgb_uq16 = d->box_rgb, .idx = demo_box_idx, .n_vertices = 8, .n_triangles = 12,
-                    .pos_frac_bits = 16};
+    gn_mesh mesh = {
+        .pos = d->box_pos, .rgb_uq16 = d->box_rgb, .idx = demo_box_idx, .n_vertices = 8, .n_triangles = 12, .pos_frac_bits = 16};
     d->box = mesh;
 }
 
@@ -61,8 +61,13 @@ static inline void demo_ball(demo_scene *d)
             for (int k = 0; k < 6; k++) *idx++ = quad[k < 3 ? k : k == 3 ? 0 : k - 2];
         }
     }
-    gn_mesh mesh = {.pos = d->ball_pos, .nrm_q15 = d->ball_nrm, .rgb_uq16 = d->ball_rgb, .idx = d->ball_idx,
-                    .n_vertices = DEMO_BALL_VERTICES, .n_triangles = DEMO_BALL_TRIANGLES, .pos_frac_bits = 30};
+    gn_mesh mesh = {.pos = d->ball_pos,
+                    .nrm_q15 = d->ball_nrm,
+                    .rgb_uq16 = d->ball_rgb,
+                    .idx = d->ball_idx,
+                    .n_vertices = DEMO_BALL_VERTICES,
+                    .n_triangles = DEMO_BALL_TRIANGLES,
+                    .pos_frac_bits = 30};
     d->ball = mesh;
 }
 
@@ -93,8 +98,10 @@ static inline void demo_scene_make(demo_scene *d, uint32_t frame)
     demo_box(d);
     demo_ball(d);
     demo_objects(d, frame);
-    gn_light light = {.kind = GN_LIGHT_DIRECTIONAL, .direction = {GN_Q16(0.5), GN_Q16(-1), GN_Q16(-0.3)},
-                      .colour_uq16 = {GN_UQ16(0.9), GN_UQ16(0.85), GN_UQ16(0.7)}, .shadow_strength_uq16 = 65536,
+    gn_light light = {.kind = GN_LIGHT_DIRECTIONAL,
+                      .direction = {GN_Q16(0.5), GN_Q16(-1), GN_Q16(-0.3)},
+                      .colour_uq16 = {GN_UQ16(0.9), GN_UQ16(0.85), GN_UQ16(0.7)},
+                      .shadow_strength_uq16 = 65536,
                       .bias_normal_q16 = GN_Q16(1)};
     light.direction[0] += (int32_t)frame * GN_Q16(0.2);
     d->light[0] = light;

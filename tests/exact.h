@@ -62,10 +62,10 @@ typedef struct {
     char first[300];
 } tally;
 
-#define HOLDS(t, condition, ...)                                                                                            \
-    do {                                                                                                                    \
-        (t)->n++;                                                                                                           \
-        if (!(condition) && !(t)->n_bad++) snprintf((t)->first, sizeof(t)->first, __VA_ARGS__);                             \
+#define HOLDS(t, condition, ...)                                                                                                   \
+    do {                                                                                                                           \
+        (t)->n++;                                                                                                                  \
+        if (!(condition) && !(t)->n_bad++) snprintf((t)->first, sizeof(t)->first, __VA_ARGS__);                                    \
     } while (0)
 
 static inline int tally_check(const tally *t, const char *what, const char *file, int line)
@@ -83,13 +83,13 @@ typedef struct {
     char at[200];
 } worst;
 
-#define WORST(w, e, ...)                                                                                                    \
-    do {                                                                                                                    \
-        long double worst_error_ = (e);                                                                                     \
-        if (worst_error_ > (w)->error) {                                                                                    \
-            (w)->error = worst_error_;                                                                                      \
-            snprintf((w)->at, sizeof(w)->at, __VA_ARGS__);                                                                  \
-        }                                                                                                                   \
+#define WORST(w, e, ...)                                                                                                           \
+    do {                                                                                                                           \
+        long double worst_error_ = (e);                                                                                            \
+        if (worst_error_ > (w)->error) {                                                                                           \
+            (w)->error = worst_error_;                                                                                             \
+            snprintf((w)->at, sizeof(w)->at, __VA_ARGS__);                                                                         \
+        }                                                                                                                          \
     } while (0)
 
 #endif

@@ -38,11 +38,16 @@ static inline uint64_t rng_wide_u64(rng *r, uint32_t max_bits)
 {
     uint64_t top = (uint64_t)1 << rng_below(r, max_bits), below = top - 1;
     switch (rng_below(r, 8)) {
-    case 0: return top;
-    case 1: return top | 1U;
-    case 2: return top | below;
-    case 3: return top | (below & ~(uint64_t)1);
-    default: return top | (rng_u64(r) & below);
+    case 0:
+        return top;
+    case 1:
+        return top | 1U;
+    case 2:
+        return top | below;
+    case 3:
+        return top | (below & ~(uint64_t)1);
+    default:
+        return top | (rng_u64(r) & below);
     }
 }
 

@@ -101,6 +101,7 @@ run "test_cores, ThreadSanitizer" build/test/threads/test_cores
 for script in tests/test_*.sh; do
     run "$(basename "$script" .sh)" sh "$script" build/gnomon
 done
+run "make bench" sh -c 'sh tests/bench.sh >build/tmp/bench.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/bench.log; exit 1; }'
 run "make run" sh -c 'make -s run >build/tmp/run.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/run.log; exit 1; }'
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

@@ -9,7 +9,9 @@
 
 #define N_VIEWS 20
 
-typedef struct { double identical, within1, psnr_db, shadow_mismatch; } floors;
+typedef struct {
+    double identical, within1, psnr_db, shadow_mismatch;
+} floors;
 static const floors floor_of[SETTINGS_PRESETS] = {{0, 0, 0, 1}, {0.97, 0.995, 40, 0.006}, {0.99, 0.999, 44, 0.003}};
 
 static int compare_scene(metrics *m, const scene *s, settings *set)
@@ -68,10 +70,11 @@ static int ascending(const void *a, const void *b)
 static void check_floors(const metrics *m, int preset, const char *what)
 {
     const floors *f = &floor_of[preset];
-    int ok = m->identical >= f->identical && m->within1 >= f->within1 && m->psnr_db >= f->psnr_db && m->shadow_mismatch <= f->shadow_mismatch;
+    int ok = m->identical >= f->identical && m->within1 >= f->within1 && m->psnr_db >= f->psnr_db &&
+             m->shadow_mismatch <= f->shadow_mismatch;
     if (!CHECK(ok))
-        printf("  %s, %s: identical %g within1 %g psnr %g shadow_mismatch %g\n", what, settings_preset_name[preset], m->identical, m->within1,
-               m->psnr_db, m->shadow_mismatch);
+        printf("  %s, %s: identical %g within1 %g psnr %g shadow_mismatch %g\n", what, settings_preset_name[preset], m->identical,
+               m->within1, m->psnr_db, m->shadow_mismatch);
 }
 
 static void run(const char *path, int preset, int table)
@@ -99,12 +102,14 @@ static void run(const char *path, int preset, int table)
         within1 = fmin(within1, m.within1);
         mismatch = fmax(mismatch, m.shadow_mismatch);
         if (n == 0 && table)
-            printf("| %s | %s | %.5f | %.2f | %ld, %ld, %ld |", strrchr(path, '/') + 1, settings_preset_name[preset], m.identical, m.psnr_db,
-                   m.by_coverage, m.by_shadow, m.by_rounding);
+            printf("| %s | %s | %.5f | %.2f | %ld, %ld, %ld |", strrchr(path, '/') + 1, settings_preset_name[preset], m.identical,
+                   m.psnr_db, m.by_coverage, m.by_shadow, m.by_rounding);
     }
     qsort(identical, N_VIEWS, sizeof *identical, ascending);
     qsort(psnr, N_VIEWS, sizeof *psnr, ascending);
-    if (table) printf(" %.5f | %.5f | %.5f | %.2f | %.2f | %.5f |\n", identical[N_VIEWS / 2], identical[0], within1, psnr[N_VIEWS / 2], psnr[0], mismatch);
+    if (table)
+        printf(" %.5f | %.5f | %.5f | %.2f | %.2f | %.5f |\n", identical[N_VIEWS / 2], identical[0], within1, psnr[N_VIEWS / 2],
+               psnr[0], mismatch);
     scene_free(&s);
 }
 
@@ -113,8 +118,10 @@ int main(int argc, char **argv)
     static const char *const scenes[] = {"host/scenes/sundial.gltf", "host/scenes/avenue.gltf"};
     int table = argc > 1 && strcmp(argv[1], "--table") == 0;
     if (table)
-        printf("\n| scene | preset | identical | PSNR dB | differing: coverage, shadow, rounding | identical, median of %d views | worst view | within1, worst "
-               "| PSNR, median | worst | shadow mismatch, worst |\n|---|---|---|---|---|---|---|---|---|---|---|\n", N_VIEWS);
+        printf("\n| scene | preset | identical | PSNR dB | differing: coverage, shadow, rounding | identical, median of %d views | "
+               "worst view | within1, worst "
+               "| PSNR, median | worst | shadow mismatch, worst |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+               N_VIEWS);
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
         for (int preset = SETTINGS_ACCURATE; preset >= SETTINGS_BALANCED; preset--) run(scenes[i], preset, table);
     return table ? 0 : check_report();

@@ -73,8 +73,8 @@ static void test_rotation(void)
             for (int c = 0; c < 3; c++) {
                 long double e = fabsl((long double)a.m_q30[r][c] - ONE * m[r][c]);
                 WORST(&w, e, "%u %u %u [%d][%d]", (unsigned)yaw, (unsigned)pitch, (unsigned)roll, r, c);
-                HOLDS(&error, e <= ROTATION_LSB && a.exp == 0 && a.t_q16[r] == 0, "%u %u %u [%d][%d] errs by %.3Lf",
-                      (unsigned)yaw, (unsigned)pitch, (unsigned)roll, r, c, e);
+                HOLDS(&error, e <= ROTATION_LSB && a.exp == 0 && a.t_q16[r] == 0, "%u %u %u [%d][%d] errs by %.3Lf", (unsigned)yaw,
+                      (unsigned)pitch, (unsigned)roll, r, c, e);
             }
         long double g = gram_error(&a);
         WORST(&worst_gram, g, "%u %u %u", (unsigned)yaw, (unsigned)pitch, (unsigned)roll);
@@ -152,8 +152,7 @@ static void test_mul(void)
         HOLDS(&matrix, matrix_ok(&out, m, 30), "case %u: exponent %d", (unsigned)i, (int)out.exp);
         for (int r = 0; r < 3; r++) {
             i128 exact = i128_clamp(i128_round_shr(t[r], 30), INT32_MIN, INT32_MAX);
-            HOLDS(&translation, i128_abs(out.t_q16[r] - exact) <= 1, "case %u: t[%d] = %d", (unsigned)i, r,
-                  (int)out.t_q16[r]);
+            HOLDS(&translation, i128_abs(out.t_q16[r] - exact) <= 1, "case %u: t[%d] = %d", (unsigned)i, r, (int)out.t_q16[r]);
         }
         same = a;
         gn_affine_mul(&same, &same, &b);
@@ -199,8 +198,7 @@ static void test_composition(void)
     tally t = {0};
     for (uint32_t i = 0; i < 20000; i++) {
         gn_affine a = random_rotation(), b = random_rotation(), ab;
-        for (int r = 0; r < 3; r++)
-            a.t_q16[r] = rng_wide_i32(&random_state, 26), b.t_q16[r] = rng_wide_i32(&random_state, 26);
+        for (int r = 0; r < 3; r++) a.t_q16[r] = rng_wide_i32(&random_state, 26), b.t_q16[r] = rng_wide_i32(&random_state, 26);
         gn_affine_scale(&b, rng_range(&random_state, 1 << 14, 1 << 18));
         gn_affine_mul(&ab, &a, &b);
         long double p[3], q[3], lsb = ldexpl(1.0L, ab.exp - 30);
@@ -210,8 +208,7 @@ static void test_composition(void)
         for (int r = 0; r < 3; r++) {
             long double once =
                 entry(&ab, r, 0) * p[0] + entry(&ab, r, 1) * p[1] + entry(&ab, r, 2) * p[2] + (long double)ab.t_q16[r];
-            long double twice =
-                entry(&a, r, 0) * q[0] + entry(&a, r, 1) * q[1] + entry(&a, r, 2) * q[2] + (long double)a.t_q16[r];
+            long double twice = entry(&a, r, 0) * q[0] + entry(&a, r, 1) * q[1] + entry(&a, r, 2) * q[2] + (long double)a.t_q16[r];
             HOLDS(&t, fabsl(once - twice) <= lsb * (fabsl(p[0]) + fabsl(p[1]) + fabsl(p[2])) + 1.0L, "case %u: %Lf, not %Lf",
                   (unsigned)i, once, twice);
         }
@@ -293,8 +290,7 @@ static void test_drift(void)
         WORST(&worst_same, gram_error(&a), "step %u %u 17, camera refused after %u", (unsigned)yaw, (unsigned)pitch,
               (unsigned)refused);
     }
-    printf("10^4 products with the same rotation: rows off orthonormal by %.1Lf LSB (%s)\n", worst_same.error,
-           worst_same.at);
+    printf("10^4 products with the same rotation: rows off orthonormal by %.1Lf LSB (%s)\n", worst_same.error, worst_same.at);
     CHECK(worst_same.error <= 10000 * 16.0L);
     gn_affine a;
     uint32_t refused = 0;

@@ -26,11 +26,10 @@ static frustum random_frustum(void)
 {
     static const int32_t hard_side[4] = {1, 65536, INT32_MAX, 1 << 20}, hard_near[2] = {256, 8192 << 16};
     frustum f;
-    f.near = rng_below(&random_state, 4) ? (int32_t)(rng_wide_u64(&random_state, 22) + 256)
-                                         : hard_near[rng_below(&random_state, 2)];
+    f.near =
+        rng_below(&random_state, 4) ? (int32_t)(rng_wide_u64(&random_state, 22) + 256) : hard_near[rng_below(&random_state, 2)];
     for (int i = 0; i < 2; i++)
-        f.side[i] =
-            rng_below(&random_state, 4) ? (int32_t)rng_wide_u64(&random_state, 22) : hard_side[rng_below(&random_state, 4)];
+        f.side[i] = rng_below(&random_state, 4) ? (int32_t)rng_wide_u64(&random_state, 22) : hard_side[rng_below(&random_state, 4)];
     return f;
 }
 
@@ -42,14 +41,17 @@ static void random_point(int32_t v[3], uint32_t bits, const frustum *f)
     case 0:
         for (int k = 0; k < 3; k++) v[k] = rng_below(&random_state, 2) ? LIMIT : -LIMIT;
         break;
-    case 1: v[2] = f->near + rng_range(&random_state, -2, 2); break;
+    case 1:
+        v[2] = f->near + rng_range(&random_state, -2, 2);
+        break;
     case 2: { /* on a side plane, or beside it */
         int axis = (int)rng_below(&random_state, 2);
         int64_t x = (int64_t)v[2] * f->side[axis] / 65536;
         if (x > -LIMIT + 2 && x < LIMIT - 2) v[axis] = (int32_t)(v[2] < 0 ? x : -x) + rng_range(&random_state, -2, 2);
         break;
     }
-    default: break;
+    default:
+        break;
     }
 }
 
@@ -60,8 +62,8 @@ static void tight_triangle(gn_polygon *p, const frustum *f)
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 2; k++) {
             int64_t reach = (int64_t)near * f->side[k] / 65536 * 4;
-            p->v_q16[i][k] = rng_range(&random_state, -(int32_t)(reach < LIMIT ? reach : LIMIT),
-                                       (int32_t)(reach < LIMIT ? reach : LIMIT));
+            p->v_q16[i][k] =
+                rng_range(&random_state, -(int32_t)(reach < LIMIT ? reach : LIMIT), (int32_t)(reach < LIMIT ? reach : LIMIT));
         }
         p->v_q16[i][2] = rng_range(&random_state, -2 * near, 4 * near);
     }
@@ -194,11 +196,10 @@ static void test_triangles(void)
             for (uint32_t plane = GN_OUT_NEAR; plane <= GN_OUT_TOP; plane <<= 1) {
                 long double e = overshoot(p.v_q16[k], plane, &f);
                 WORST(&w, e, "case %u, plane %u", (unsigned)i, (unsigned)plane);
-                HOLDS(&inside, e <= (plane == GN_OUT_NEAR ? NEAR_LSB : CUT_LSB),
-                      "case %u: vertex %d outside plane %u by %.3Lf LSB", (unsigned)i, k, (unsigned)plane, e);
+                HOLDS(&inside, e <= (plane == GN_OUT_NEAR ? NEAR_LSB : CUT_LSB), "case %u: vertex %d outside plane %u by %.3Lf LSB",
+                      (unsigned)i, k, (unsigned)plane, e);
             }
-            for (int c = 0; c < 3; c++)
-                HOLDS(&inside, i128_abs(p.v_q16[k][c]) <= LIMIT, "case %u: beyond the limit", (unsigned)i);
+            for (int c = 0; c < 3; c++) HOLDS(&inside, i128_abs(p.v_q16[k][c]) <= LIMIT, "case %u: beyond the limit", (unsigned)i);
         }
         HOLDS(&shape, flat_and_convex(&p, &triangle), "case %u", (unsigned)i);
     }
@@ -242,8 +243,8 @@ static void test_shared_edge(void)
         gn_polygon left = clipped(v[0], v[1], v[2], rng_below(&random_state, 3), &f);
         gn_polygon right = clipped(v[3], v[2], v[1], rng_below(&random_state, 3), &f);
         for (int k = 0; k < alone.n; k++)
-            HOLDS(&t, has_vertex(&left, alone.v_q16[k]) && has_vertex(&right, alone.v_q16[k]), "case %u: (%d, %d, %d)",
-                  (unsigned)i, (int)alone.v_q16[k][0], (int)alone.v_q16[k][1], (int)alone.v_q16[k][2]);
+            HOLDS(&t, has_vertex(&left, alone.v_q16[k]) && has_vertex(&right, alone.v_q16[k]), "case %u: (%d, %d, %d)", (unsigned)i,
+                  (int)alone.v_q16[k][0], (int)alone.v_q16[k][1], (int)alone.v_q16[k][2]);
     }
     CHECK_TALLY(t, "both triangles get the same vertices on their edge");
 }
@@ -329,10 +330,10 @@ static void check_coverage(tally *t, unsigned long *n_folded, const camera *c, i
     static canvas out;
     exact_triangle exact[2] = {exact_of(v[0], v[1], v[2]), exact_of(v[3], v[2], v[1])};
     for (int i = 0; i < 2; i++)
-        if (face_of(&(gn_polygon){.v_q16 = {{v[3 * i][0], v[3 * i][1], v[3 * i][2]},
-                                            {v[1][0], v[1][1], v[1][2]},
-                                            {v[2][0], v[2][1], v[2][2]}},
-                                  .n = 3})
+        if (face_of(
+                &(gn_polygon){
+                    .v_q16 = {{v[3 * i][0], v[3 * i][1], v[3 * i][2]}, {v[1][0], v[1][1], v[1][2]}, {v[2][0], v[2][1], v[2][2]}},
+                    .n = 3})
                 .height < 64)
             return;
     gn_polygon left = clipped(v[0], v[1], v[2], rng_below(&random_state, 3), &c->f);

@@ -7,8 +7,8 @@
 #include "check.h"
 #include "demo_scene.h"
 
-#define WIDTH 320
-#define HEIGHT 240
+#define WIDTH       320
+#define HEIGHT      240
 #define THREADS_MAX 8
 
 static gn_renderer renderer;

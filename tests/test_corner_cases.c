@@ -6,10 +6,10 @@
 #include "../host/tool/engine.h"
 #include "check.h"
 
-#define WIDTH 64
-#define HEIGHT 48
-#define FOCAL 1.5                     /* 1 / tan(half the vertical field of view) */
-#define FOCAL_PX (FOCAL * HEIGHT / 2)
+#define WIDTH     64
+#define HEIGHT    48
+#define FOCAL     1.5 /* 1 / tan(half the vertical field of view) */
+#define FOCAL_PX  (FOCAL * HEIGHT / 2)
 #define MAX_PARTS 2
 
 typedef struct {
@@ -34,7 +34,8 @@ static void begin(void)
     f.s.n_lights = 1;
     f.light = (scene_light){.name = no_name, .direction = {0, -1, 0}, .colour = {1, 1, 1}, .shadow = true, .strength = 1};
     f.s.camera = (scene_camera){.to_world = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, .focal = FOCAL, .near = 0.9, .far = 100};
-    f.s.shadow = (scene_shadow){.max_distance = 20, .distance_fade = 0.1, .cascade_fade = 0.1, .n_cascades = 1, .cascade_ratio = {1, 1, 1}};
+    f.s.shadow =
+        (scene_shadow){.max_distance = 20, .distance_fade = 0.1, .cascade_fade = 0.1, .n_cascades = 1, .cascade_ratio = {1, 1, 1}};
     settings_init(&f.set);
     settings_preset(&f.set, SETTINGS_ACCURATE);
     f.set.quality.atlas_size = 64;
@@ -47,9 +48,14 @@ static scene_object *add(int n_corners, const double *corners)
     size_t i = f.s.n_objects++;
     f.s.n_meshes++;
     memcpy(f.pos[i], corners, (size_t)n_corners * 3 * sizeof *corners);
-    f.mesh[i] = (scene_mesh){.name = no_name, .n_vertices = (size_t)n_corners, .n_triangles = (size_t)n_corners - 2, .pos = f.pos[i], .idx = idx};
-    f.object[i] = (scene_object){.name = no_name, .mesh_idx = i, .to_world = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
-                                 .albedo = {0.8, 0.8, 0.8}, .casts = true, .receives = true};
+    f.mesh[i] = (scene_mesh){
+        .name = no_name, .n_vertices = (size_t)n_corners, .n_triangles = (size_t)n_corners - 2, .pos = f.pos[i], .idx = idx};
+    f.object[i] = (scene_object){.name = no_name,
+                                 .mesh_idx = i,
+                                 .to_world = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
+                                 .albedo = {0.8, 0.8, 0.8},
+                                 .casts = true,
+                                 .receives = true};
     return &f.object[i];
 }
 
@@ -77,7 +83,9 @@ static engine_picture draw_reference(void)
 
 /* ---- Shadow tiles ---------------------------------------------------------------------------------------------------- */
 
-typedef struct { long cast, coverage, depth; } tile_difference;
+typedef struct {
+    long cast, coverage, depth;
+} tile_difference;
 
 /* Texels that hold a caster in the reference, that only one of both has covered, and whose depths differ by more than two steps. */
 static tile_difference compare_tiles(void)
@@ -258,7 +266,8 @@ static void compare_pictures(const engine_picture *a, const engine_picture *b, l
 /* A mirroring matrix turns a triangle's winding but not its normals: the picture is that of the mesh which needs no mirror. */
 static void test_mirrored(void)
 {
-    static const double scales[][3] = {{-1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {-1, -1, -1}, {-0.5, 2, 1.5}, {3, 0.25, -2}, {-1, -1, 1}};
+    static const double scales[][3] = {{-1, 1, 1},     {1, -1, 1},    {1, 1, -1}, {-1, -1, -1},
+                                       {-0.5, 2, 1.5}, {3, 0.25, -2}, {-1, -1, 1}};
     static const double plain[3] = {1, 1, 1};
     for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
         engine_picture p[3];

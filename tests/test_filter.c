@@ -42,12 +42,12 @@ static void test_weights(void)
                 gn_tent_weights(w, k, u, bits);
                 for (int32_t i = 0; i < n; i++) {
                     int64_t exact = exact_weight(k, i, u, f);
-                    HOLDS(&weight, w[i] == exact, "k %d, F 2^%d, u %u, texel %d: %u, not %lld", (int)k, (int)bits,
-                          (unsigned)u, (int)i, (unsigned)w[i], (long long)exact);
+                    HOLDS(&weight, w[i] == exact, "k %d, F 2^%d, u %u, texel %d: %u, not %lld", (int)k, (int)bits, (unsigned)u,
+                          (int)i, (unsigned)w[i], (long long)exact);
                     total += w[i];
                 }
-                HOLDS(&sum, total == (2 * k + 1) * (2 * k + 1) * f * f && w[n] == 0xDEADBEEFU, "k %d, F 2^%d, u %u: %lld",
-                      (int)k, (int)bits, (unsigned)u, (long long)total);
+                HOLDS(&sum, total == (2 * k + 1) * (2 * k + 1) * f * f && w[n] == 0xDEADBEEFU, "k %d, F 2^%d, u %u: %lld", (int)k,
+                      (int)bits, (unsigned)u, (long long)total);
             }
     CHECK_TALLY(weight, "tent weights are the integral");
     CHECK_TALLY(sum, "tent weights sum to the whole and end where they should");
@@ -146,12 +146,18 @@ static int32_t random_position(void)
 {
     int32_t size = view.tile_texels * 65536;
     switch (rng_below(&random_state, 8)) {
-    case 0: return rng_range(&random_state, -5 * 65536, 5 * 65536);
-    case 1: return size + rng_range(&random_state, -5 * 65536, 5 * 65536);
-    case 2: return rng_range(&random_state, -1, view.tile_texels) * 32768;
-    case 3: return rng_range(&random_state, -1, view.tile_texels) * 32768 + rng_range(&random_state, -40, 40);
-    case 4: return rng_below(&random_state, 16) ? rng_range(&random_state, 0, size) : rng_wide_i32(&random_state, 31);
-    default: return rng_range(&random_state, 0, size);
+    case 0:
+        return rng_range(&random_state, -5 * 65536, 5 * 65536);
+    case 1:
+        return size + rng_range(&random_state, -5 * 65536, 5 * 65536);
+    case 2:
+        return rng_range(&random_state, -1, view.tile_texels) * 32768;
+    case 3:
+        return rng_range(&random_state, -1, view.tile_texels) * 32768 + rng_range(&random_state, -40, 40);
+    case 4:
+        return rng_below(&random_state, 16) ? rng_range(&random_state, 0, size) : rng_wide_i32(&random_state, 31);
+    default:
+        return rng_range(&random_state, 0, size);
     }
 }
 
@@ -178,13 +184,11 @@ static void try_point(verdict *result, int32_t u, int32_t v, int32_t d)
     int eight = frame.knobs.atten_bits == 8;
     /* within half an LSB and a little; 8 bits: half a step of 256 more, and a multiple of it */
     HOLDS(&result->error, error <= (eight ? 128.52L : 0.52L) && (!eight || a % 256 == 0),
-          "filter %d, T %d, F 2^%d, depth fraction %d: (%d, %d) at %d: errs by %.4Lf", (int)view.filter,
-          (int)view.tile_texels, (int)frame.knobs.weight_bits, (int)frame.knobs.shadow_depth_frac, (int)u, (int)v, (int)d,
-          error);
+          "filter %d, T %d, F 2^%d, depth fraction %d: (%d, %d) at %d: errs by %.4Lf", (int)view.filter, (int)view.tile_texels,
+          (int)frame.knobs.weight_bits, (int)frame.knobs.shadow_depth_frac, (int)u, (int)v, (int)d, error);
     if (!eight) WORST(&result->w, error, "filter %d, F 2^%d", (int)view.filter, (int)frame.knobs.weight_bits);
     if (numerator == 0) HOLDS(&result->ends, a == 0, "filter %d: shadowed is %u", (int)view.filter, (unsigned)a);
-    if (numerator == 65536 * denominator)
-        HOLDS(&result->ends, a == 65536, "filter %d: lit is %u", (int)view.filter, (unsigned)a);
+    if (numerator == 65536 * denominator) HOLDS(&result->ends, a == 65536, "filter %d: lit is %u", (int)view.filter, (unsigned)a);
 }
 
 /* Tiles in memory of exactly their size, so that a sanitizer sees a tap that leaves them. */

@@ -82,7 +82,6 @@ static uint32_t crc_of(gn_renderer *r, const gn_scene *s, int width, int height,
 
 /* ---- Every status ------------------------------------------------------------------------------------------------- */
 
-
 static uint16_t many_idx[3 * 40000];
 static gn_mesh many_mesh;
 static gn_object many_objects[2];
@@ -90,8 +89,8 @@ static gn_object many_objects[2];
 /* `n` triangles in front of the camera, each with a bounding box that fills the picture, inside the guard band. */
 static void fill_picture(gn_scene *s, uint16_t n)
 {
-    static const int32_t pos[12] = {GN_Q16(-1.2), GN_Q16(-1.2), GN_Q16(-1), GN_Q16(1.2), GN_Q16(-1.2), GN_Q16(-1),
-                                    GN_Q16(1.2), GN_Q16(1.2), GN_Q16(-1), GN_Q16(-1.2), GN_Q16(1.2), GN_Q16(-1)};
+    static const int32_t pos[12] = {GN_Q16(-1.2), GN_Q16(-1.2), GN_Q16(-1), GN_Q16(1.2),  GN_Q16(-1.2), GN_Q16(-1),
+                                    GN_Q16(1.2),  GN_Q16(1.2),  GN_Q16(-1), GN_Q16(-1.2), GN_Q16(1.2),  GN_Q16(-1)};
     for (uint32_t i = 0; i < 3U * n; i++) many_idx[i] = demo_ground_idx[i % 6];
     gn_mesh mesh = {.pos = pos, .idx = many_idx, .n_vertices = 4, .n_triangles = n, .pos_frac_bits = 16};
     many_mesh = mesh;
@@ -106,33 +105,114 @@ static void fill_picture(gn_scene *s, uint16_t n)
     s->n_lights = 0;
 }
 
-static void no_objects(gn_scene *s) { s->objects = NULL; }
-static void no_lights(gn_scene *s) { s->lights = NULL; }
-static void no_mesh(gn_scene *s) { (void)s, demo.object[2].mesh = NULL; }
-static void focal_small(gn_scene *s) { s->camera.focal_q24 = GN_Q24(1.0 / 32) - 1; }
-static void focal_zero(gn_scene *s) { s->camera.focal_q24 = 0; }
-static void near_small(gn_scene *s) { s->camera.near_q16 = 255; }
-static void near_negative(gn_scene *s) { s->camera.near_q16 = INT32_MIN; }
-static void near_large(gn_scene *s) { s->camera.near_q16 = GN_Q16(8192) + 1, s->camera.far_q16 = GN_Q16(9000); }
-static void far_is_near(gn_scene *s) { s->camera.far_q16 = s->camera.near_q16; }
-static void camera_scaled(gn_scene *s) { s->camera.to_world.exp = 1; }
-static void camera_skewed(gn_scene *s) { s->camera.to_world.m_q30[0][0] /= 2; }
-static void camera_wild(gn_scene *s) { s->camera.to_world.m_q30[1][2] = INT32_MIN; }
-static void camera_far_out(gn_scene *s) { s->camera.to_world.t_q16[2] = GN_Q16(8192) + 1; }
-static void object_exp_high(gn_scene *s) { (void)s, demo.object[1].to_world.exp = 15; }
-static void object_exp_low(gn_scene *s) { (void)s, demo.object[1].to_world.exp = -1; }
-static void object_entry(gn_scene *s) { (void)s, demo.object[1].to_world.m_q30[2][2] = (1 << 30) + 1; }
-static void object_far_out(gn_scene *s) { (void)s, demo.object[1].to_world.t_q16[0] = INT32_MIN; }
-static void object_flat(gn_scene *s) { (void)s, memset(demo.object[1].to_world.m_q30[2], 0, sizeof demo.object[1].to_world.m_q30[2]); }
-static void mesh_no_pos(gn_scene *s) { (void)s, demo.ball.pos = NULL; }
-static void mesh_no_idx(gn_scene *s) { (void)s, demo.ball.idx = NULL; }
-static void mesh_no_vertices(gn_scene *s) { (void)s, demo.ball.n_vertices = 0; }
-static void mesh_no_triangles(gn_scene *s) { (void)s, demo.ball.n_triangles = 0; }
-static void mesh_bits(gn_scene *s) { (void)s, demo.ball.pos_frac_bits = 31; }
-static void mesh_index(gn_scene *s) { (void)s, demo.ball_idx[7] = DEMO_BALL_VERTICES; }
-static void mesh_index_no_shadow(gn_scene *s) { s->n_lights = 0, demo.ball_idx[7] = 65535; }
-static void vertex_far(gn_scene *s) { (void)s, demo.object[1].to_world.exp = 14, demo.ball.pos_frac_bits = 29; }
-static void vertex_far_coarse(gn_scene *s) { (void)s, demo.object[1].to_world.exp = 14, demo.ball.pos_frac_bits = 0; }
+static void no_objects(gn_scene *s)
+{
+    s->objects = NULL;
+}
+static void no_lights(gn_scene *s)
+{
+    s->lights = NULL;
+}
+static void no_mesh(gn_scene *s)
+{
+    (void)s, demo.object[2].mesh = NULL;
+}
+static void focal_small(gn_scene *s)
+{
+    s->camera.focal_q24 = GN_Q24(1.0 / 32) - 1;
+}
+static void focal_zero(gn_scene *s)
+{
+    s->camera.focal_q24 = 0;
+}
+static void near_small(gn_scene *s)
+{
+    s->camera.near_q16 = 255;
+}
+static void near_negative(gn_scene *s)
+{
+    s->camera.near_q16 = INT32_MIN;
+}
+static void near_large(gn_scene *s)
+{
+    s->camera.near_q16 = GN_Q16(8192) + 1, s->camera.far_q16 = GN_Q16(9000);
+}
+static void far_is_near(gn_scene *s)
+{
+    s->camera.far_q16 = s->camera.near_q16;
+}
+static void camera_scaled(gn_scene *s)
+{
+    s->camera.to_world.exp = 1;
+}
+static void camera_skewed(gn_scene *s)
+{
+    s->camera.to_world.m_q30[0][0] /= 2;
+}
+static void camera_wild(gn_scene *s)
+{
+    s->camera.to_world.m_q30[1][2] = INT32_MIN;
+}
+static void camera_far_out(gn_scene *s)
+{
+    s->camera.to_world.t_q16[2] = GN_Q16(8192) + 1;
+}
+static void object_exp_high(gn_scene *s)
+{
+    (void)s, demo.object[1].to_world.exp = 15;
+}
+static void object_exp_low(gn_scene *s)
+{
+    (void)s, demo.object[1].to_world.exp = -1;
+}
+static void object_entry(gn_scene *s)
+{
+    (void)s, demo.object[1].to_world.m_q30[2][2] = (1 << 30) + 1;
+}
+static void object_far_out(gn_scene *s)
+{
+    (void)s, demo.object[1].to_world.t_q16[0] = INT32_MIN;
+}
+static void object_flat(gn_scene *s)
+{
+    (void)s, memset(demo.object[1].to_world.m_q30[2], 0, sizeof demo.object[1].to_world.m_q30[2]);
+}
+static void mesh_no_pos(gn_scene *s)
+{
+    (void)s, demo.ball.pos = NULL;
+}
+static void mesh_no_idx(gn_scene *s)
+{
+    (void)s, demo.ball.idx = NULL;
+}
+static void mesh_no_vertices(gn_scene *s)
+{
+    (void)s, demo.ball.n_vertices = 0;
+}
+static void mesh_no_triangles(gn_scene *s)
+{
+    (void)s, demo.ball.n_triangles = 0;
+}
+static void mesh_bits(gn_scene *s)
+{
+    (void)s, demo.ball.pos_frac_bits = 31;
+}
+static void mesh_index(gn_scene *s)
+{
+    (void)s, demo.ball_idx[7] = DEMO_BALL_VERTICES;
+}
+static void mesh_index_no_shadow(gn_scene *s)
+{
+    s->n_lights = 0, demo.ball_idx[7] = 65535;
+}
+static void vertex_far(gn_scene *s)
+{
+    (void)s, demo.object[1].to_world.exp = 14, demo.ball.pos_frac_bits = 29;
+}
+static void vertex_far_coarse(gn_scene *s)
+{
+    (void)s, demo.object[1].to_world.exp = 14, demo.ball.pos_frac_bits = 0;
+}
 /* Far over the limit, under a matrix and a light direction that add up all its products. */
 static void vertex_over_2_30(gn_scene *s)
 {
@@ -144,34 +224,118 @@ static void vertex_over_2_30(gn_scene *s)
     for (int i = 0; i < 30; i++) demo.ball_pos[i] = INT32_MIN;
 }
 
-static void vertex_over_2_30_no_shadow(gn_scene *s) { s->n_lights = 0, demo.ball_pos[4] = (1 << 30) + 1; }
-static void albedo(gn_scene *s) { (void)s, demo.object[1].albedo_uq16[2] = 65537; }
-static void ambient(gn_scene *s) { s->ambient_uq16[1] = 1 << 24; }
-static void background(gn_scene *s) { s->background_uq16[0] = 65537; }
-static void light_colour(gn_scene *s) { (void)s, demo.light[0].colour_uq16[0] = UINT32_MAX; }
-static void objects_65536(gn_scene *s) { s->n_objects = 65536; }
-static void lights_9(gn_scene *s) { s->n_lights = GN_MAX_LIGHTS + 1; }
-static void lights_all(gn_scene *s) { s->n_lights = UINT32_MAX; }
-static void light_kind(gn_scene *s) { (void)s, demo.light[0].kind = (gn_light_kind)99; }
-static void light_zero(gn_scene *s) { (void)s, memset(demo.light[0].direction, 0, sizeof demo.light[0].direction); }
-static void light_strength(gn_scene *s) { (void)s, demo.light[0].shadow_strength_uq16 = 65537; }
-static void light_constant(gn_scene *s) { (void)s, demo.light[0].bias_constant_q16 = GN_Q16(64) + 1; }
-static void light_slope(gn_scene *s) { (void)s, demo.light[0].bias_slope_q16 = -1; }
-static void light_normal(gn_scene *s) { (void)s, demo.light[0].bias_normal_q16 = GN_Q16(8) + 1; }
-static void light_offset(gn_scene *s) { (void)s, demo.light[0].near_offset_q16 = GN_Q16(8192) + 1; }
-static void shadow_near(gn_scene *s) { s->shadow.max_distance_q16 = s->camera.near_q16; }
-static void shadow_far(gn_scene *s) { s->shadow.max_distance_q16 = GN_Q16(8192) + 1; }
-static void shadow_fade(gn_scene *s) { s->shadow.distance_fade_uq16 = 65; }
-static void shadow_fade_high(gn_scene *s) { s->shadow.distance_fade_uq16 = 65537; }
-static void cascade_fade(gn_scene *s) { s->shadow.cascade_fade_uq16 = 65; }
-static void shadow_filter(gn_scene *s) { s->shadow.filter = (gn_filter)(GN_FILTER_MAX + 1); }
-static void shadow_filter_wild(gn_scene *s) { s->shadow.filter = (gn_filter)-1; }
-static void cascades_5(gn_scene *s) { s->shadow.n_cascades = 5; }
-static void ratio_falls(gn_scene *s) { s->shadow.n_cascades = 4, s->shadow.cascade_ratio_uq16[1] = s->shadow.cascade_ratio_uq16[0] - 1; }
-static void ratio_above_1(gn_scene *s) { s->shadow.n_cascades = 4, s->shadow.cascade_ratio_uq16[2] = 65537; }
-static void blend_wild(gn_scene *s) { s->shadow.blend = (gn_blend)3; }
-static void distance_wild(gn_scene *s) { s->shadow.distance_mode = (gn_distance_mode)2; }
-static void triangles_80000(gn_scene *s) { fill_picture(s, 40000), s->n_objects = 2; }
+static void vertex_over_2_30_no_shadow(gn_scene *s)
+{
+    s->n_lights = 0, demo.ball_pos[4] = (1 << 30) + 1;
+}
+static void albedo(gn_scene *s)
+{
+    (void)s, demo.object[1].albedo_uq16[2] = 65537;
+}
+static void ambient(gn_scene *s)
+{
+    s->ambient_uq16[1] = 1 << 24;
+}
+static void background(gn_scene *s)
+{
+    s->background_uq16[0] = 65537;
+}
+static void light_colour(gn_scene *s)
+{
+    (void)s, demo.light[0].colour_uq16[0] = UINT32_MAX;
+}
+static void objects_65536(gn_scene *s)
+{
+    s->n_objects = 65536;
+}
+static void lights_9(gn_scene *s)
+{
+    s->n_lights = GN_MAX_LIGHTS + 1;
+}
+static void lights_all(gn_scene *s)
+{
+    s->n_lights = UINT32_MAX;
+}
+static void light_kind(gn_scene *s)
+{
+    (void)s, demo.light[0].kind = (gn_light_kind)99;
+}
+static void light_zero(gn_scene *s)
+{
+    (void)s, memset(demo.light[0].direction, 0, sizeof demo.light[0].direction);
+}
+static void light_strength(gn_scene *s)
+{
+    (void)s, demo.light[0].shadow_strength_uq16 = 65537;
+}
+static void light_constant(gn_scene *s)
+{
+    (void)s, demo.light[0].bias_constant_q16 = GN_Q16(64) + 1;
+}
+static void light_slope(gn_scene *s)
+{
+    (void)s, demo.light[0].bias_slope_q16 = -1;
+}
+static void light_normal(gn_scene *s)
+{
+    (void)s, demo.light[0].bias_normal_q16 = GN_Q16(8) + 1;
+}
+static void light_offset(gn_scene *s)
+{
+    (void)s, demo.light[0].near_offset_q16 = GN_Q16(8192) + 1;
+}
+static void shadow_near(gn_scene *s)
+{
+    s->shadow.max_distance_q16 = s->camera.near_q16;
+}
+static void shadow_far(gn_scene *s)
+{
+    s->shadow.max_distance_q16 = GN_Q16(8192) + 1;
+}
+static void shadow_fade(gn_scene *s)
+{
+    s->shadow.distance_fade_uq16 = 65;
+}
+static void shadow_fade_high(gn_scene *s)
+{
+    s->shadow.distance_fade_uq16 = 65537;
+}
+static void cascade_fade(gn_scene *s)
+{
+    s->shadow.cascade_fade_uq16 = 65;
+}
+static void shadow_filter(gn_scene *s)
+{
+    s->shadow.filter = (gn_filter)(GN_FILTER_MAX + 1);
+}
+static void shadow_filter_wild(gn_scene *s)
+{
+    s->shadow.filter = (gn_filter)-1;
+}
+static void cascades_5(gn_scene *s)
+{
+    s->shadow.n_cascades = 5;
+}
+static void ratio_falls(gn_scene *s)
+{
+    s->shadow.n_cascades = 4, s->shadow.cascade_ratio_uq16[1] = s->shadow.cascade_ratio_uq16[0] - 1;
+}
+static void ratio_above_1(gn_scene *s)
+{
+    s->shadow.n_cascades = 4, s->shadow.cascade_ratio_uq16[2] = 65537;
+}
+static void blend_wild(gn_scene *s)
+{
+    s->shadow.blend = (gn_blend)3;
+}
+static void distance_wild(gn_scene *s)
+{
+    s->shadow.distance_mode = (gn_distance_mode)2;
+}
+static void triangles_80000(gn_scene *s)
+{
+    fill_picture(s, 40000), s->n_objects = 2;
+}
 
 static const struct {
     void (*spoil)(gn_scene *);
@@ -179,7 +343,10 @@ static const struct {
     gn_status status;
     uint32_t index, needed, available;
 } refused[] = {
-#define REFUSED(spoil, status, ...) {spoil, #spoil, status, __VA_ARGS__}
+#define REFUSED(spoil, status, ...)                                                                                                \
+    {                                                                                                                              \
+        spoil, #spoil, status, __VA_ARGS__                                                                                         \
+    }
     REFUSED(no_objects, GN_ERR_NULL, 0, 0, 0),
     REFUSED(no_lights, GN_ERR_NULL, 0, 0, 0),
     REFUSED(no_mesh, GN_ERR_NULL, 2, 0, 0),
@@ -280,7 +447,9 @@ static void test_refused_scenes(void)
 
 static void test_refused_pictures(void)
 {
-    static const struct { int w, h, format, view, status; } cases[] = {
+    static const struct {
+        int w, h, format, view, status;
+    } cases[] = {
         {0, 1, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE},
         {1, 0, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE},
         {GN_MAX_WIDTH + 1, 1, GN_FORMAT_RGB565, GN_VIEW_COLOUR, GN_ERR_PICTURE_SIZE},
@@ -328,7 +497,11 @@ static void test_tile_refs_full(void)
 static void test_knobs(void)
 {
     gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
-    static const struct { size_t offset; int32_t lo, hi; const char *name; } knobs[] = {
+    static const struct {
+        size_t offset;
+        int32_t lo, hi;
+        const char *name;
+    } knobs[] = {
 #define KNOB_(name, MACRO, lo, hi, meaning, cost) {offsetof(gn_knobs, name), lo, hi, #name},
         GN_QUALITY_KNOBS(KNOB_)};
     demo_scene_make(&demo, 0);
@@ -340,8 +513,9 @@ static void test_knobs(void)
             fails(gn_begin(&one, &demo.scene), GN_ERR_KNOB, 0, 0, 0, knobs[i].name);
         }
     }
-    static const struct { int32_t persp_step, atten_bits, atlas_size, tile_width, tile_height; } odd[] = {
-        {2, 8, 128, 64, 16}, {8, 9, 128, 64, 16}, {8, 8, 96, 64, 16}, {8, 8, 128, 65, 16}, {8, 8, 128, 2048, 33}};
+    static const struct {
+        int32_t persp_step, atten_bits, atlas_size, tile_width, tile_height;
+    } odd[] = {{2, 8, 128, 64, 16}, {8, 9, 128, 64, 16}, {8, 8, 96, 64, 16}, {8, 8, 128, 65, 16}, {8, 8, 128, 2048, 33}};
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
         gn_init(&one, &p);
         one.frame.knobs.persp_step = odd[i].persp_step;
@@ -589,10 +763,12 @@ static int difference(const canvas *a, const canvas *b)
  * run of pixels ends at the tile's border, and the linear part in between differs by what the step costs. */
 static void test_tile_sizes(void)
 {
-    static const int32_t sizes[][2] = {{64, 16}, {64, 1}, {64, 7}, {64, 200}, {64, 1024}, {8, 1}, {8, 8}, {160, 1}, {32, 120},
-                                       {160, 120}, {256, 256}, {24, 7}, {2048, 32}};
-    static const struct { gn_format format; gn_view view; } kinds[] = {
-        {GN_FORMAT_RGB565, GN_VIEW_COLOUR}, {GN_FORMAT_RGB888, GN_VIEW_COLOUR}, {GN_FORMAT_RAW32, GN_VIEW_TRIANGLE}};
+    static const int32_t sizes[][2] = {{64, 16}, {64, 1},   {64, 7},    {64, 200},  {64, 1024}, {8, 1},    {8, 8},
+                                       {160, 1}, {32, 120}, {160, 120}, {256, 256}, {24, 7},    {2048, 32}};
+    static const struct {
+        gn_format format;
+        gn_view view;
+    } kinds[] = {{GN_FORMAT_RGB565, GN_VIEW_COLOUR}, {GN_FORMAT_RGB888, GN_VIEW_COLOUR}, {GN_FORMAT_RAW32, GN_VIEW_TRIANGLE}};
     demo_scene_make(&demo, 1);
     for (int n = 0; n < 6; n++) {
         int32_t persp_step = n < 3 ? 1 : 8;
@@ -612,7 +788,8 @@ static void test_tile_sizes(void)
             int d = i ? difference(&first, &c) : 0;
             if (p.format == GN_FORMAT_RGB565 && !same) d = 0; /* its bytes are no levels */
             if (!CHECK(d <= (same ? 0 : 2)))
-                printf("tiles of %dx%d, format %d, persp_step %d: %d\n", (int)sizes[i][0], (int)sizes[i][1], (int)p.format, (int)persp_step, d);
+                printf("tiles of %dx%d, format %d, persp_step %d: %d\n", (int)sizes[i][0], (int)sizes[i][1], (int)p.format,
+                       (int)persp_step, d);
             canvas_end(&c);
         }
         canvas_end(&first);
@@ -631,22 +808,73 @@ static void test_picture_sizes(void)
 
 /* ---- Extremes ----------------------------------------------------------------------------------------------------- */
 
-static void limit_focal_low(gn_scene *s) { s->camera.focal_q24 = GN_Q24(1.0 / 32); }
-static void limit_focal_high(gn_scene *s) { s->camera.focal_q24 = GN_Q24(255.99); }
-static void limit_near_low(gn_scene *s) { s->camera.near_q16 = 256; }
-static void limit_near_high(gn_scene *s) { s->camera.near_q16 = GN_Q16(8191), s->camera.far_q16 = INT32_MAX, s->shadow.max_distance_q16 = GN_Q16(8192); }
-static void near_through_ball(gn_scene *s) { s->camera.near_q16 = GN_Q16(6.3); }
-static void near_through_all(gn_scene *s) { s->camera.near_q16 = GN_Q16(4); }
-static void shadow_next_to_near(gn_scene *s) { s->camera.near_q16 = 256, s->shadow.max_distance_q16 = 257; }
-static void shadow_all_the_way(gn_scene *s) { s->shadow.max_distance_q16 = GN_Q16(8192); }
-static void fades_small(gn_scene *s) { s->shadow.distance_fade_uq16 = s->shadow.cascade_fade_uq16 = 66; }
-static void fades_full(gn_scene *s) { s->shadow.distance_fade_uq16 = s->shadow.cascade_fade_uq16 = 65536; }
-static void camera_in_ball(gn_scene *s) { memcpy(s->camera.to_world.t_q16, demo.object[1].to_world.t_q16, sizeof s->camera.to_world.t_q16); }
-static void camera_in_box(gn_scene *s) { memcpy(s->camera.to_world.t_q16, demo.object[0].to_world.t_q16, sizeof s->camera.to_world.t_q16); }
-static void camera_on_ground(gn_scene *s) { s->camera.to_world.t_q16[1] = 0; }
-static void camera_up(gn_scene *s) { const int32_t up[3] = {0, GN_Q16(99), 0}, at[3] = {0, 0, 0}; gn_camera_look_at(&s->camera.to_world, at, up); }
-static void camera_down(gn_scene *s) { const int32_t up[3] = {0, GN_Q16(9), 0}, at[3] = {0, 0, 0}; gn_camera_look_at(&s->camera.to_world, up, at); }
-static void camera_nowhere(gn_scene *s) { const int32_t at[3] = {1, 2, 3}; gn_camera_look_at(&s->camera.to_world, at, at); }
+static void limit_focal_low(gn_scene *s)
+{
+    s->camera.focal_q24 = GN_Q24(1.0 / 32);
+}
+static void limit_focal_high(gn_scene *s)
+{
+    s->camera.focal_q24 = GN_Q24(255.99);
+}
+static void limit_near_low(gn_scene *s)
+{
+    s->camera.near_q16 = 256;
+}
+static void limit_near_high(gn_scene *s)
+{
+    s->camera.near_q16 = GN_Q16(8191), s->camera.far_q16 = INT32_MAX, s->shadow.max_distance_q16 = GN_Q16(8192);
+}
+static void near_through_ball(gn_scene *s)
+{
+    s->camera.near_q16 = GN_Q16(6.3);
+}
+static void near_through_all(gn_scene *s)
+{
+    s->camera.near_q16 = GN_Q16(4);
+}
+static void shadow_next_to_near(gn_scene *s)
+{
+    s->camera.near_q16 = 256, s->shadow.max_distance_q16 = 257;
+}
+static void shadow_all_the_way(gn_scene *s)
+{
+    s->shadow.max_distance_q16 = GN_Q16(8192);
+}
+static void fades_small(gn_scene *s)
+{
+    s->shadow.distance_fade_uq16 = s->shadow.cascade_fade_uq16 = 66;
+}
+static void fades_full(gn_scene *s)
+{
+    s->shadow.distance_fade_uq16 = s->shadow.cascade_fade_uq16 = 65536;
+}
+static void camera_in_ball(gn_scene *s)
+{
+    memcpy(s->camera.to_world.t_q16, demo.object[1].to_world.t_q16, sizeof s->camera.to_world.t_q16);
+}
+static void camera_in_box(gn_scene *s)
+{
+    memcpy(s->camera.to_world.t_q16, demo.object[0].to_world.t_q16, sizeof s->camera.to_world.t_q16);
+}
+static void camera_on_ground(gn_scene *s)
+{
+    s->camera.to_world.t_q16[1] = 0;
+}
+static void camera_up(gn_scene *s)
+{
+    const int32_t up[3] = {0, GN_Q16(99), 0}, at[3] = {0, 0, 0};
+    gn_camera_look_at(&s->camera.to_world, at, up);
+}
+static void camera_down(gn_scene *s)
+{
+    const int32_t up[3] = {0, GN_Q16(9), 0}, at[3] = {0, 0, 0};
+    gn_camera_look_at(&s->camera.to_world, up, at);
+}
+static void camera_nowhere(gn_scene *s)
+{
+    const int32_t at[3] = {1, 2, 3};
+    gn_camera_look_at(&s->camera.to_world, at, at);
+}
 
 static void everything_far_out(gn_scene *s)
 {
@@ -707,13 +935,36 @@ static void matrix_full(gn_scene *s)
     demo.object[1].to_world.exp = 11;
 }
 
-static void light_up(gn_scene *s) { (void)s, memset(demo.light[0].direction, 0, 12), demo.light[0].direction[1] = 1; }
-static void light_down(gn_scene *s) { (void)s, memset(demo.light[0].direction, 0, 12), demo.light[0].direction[1] = INT32_MIN; }
-static void light_along_ground(gn_scene *s) { (void)s, memset(demo.light[0].direction, 0, 12), demo.light[0].direction[0] = INT32_MAX; }
-static void light_diagonal(gn_scene *s) { (void)s, demo.light[0].direction[0] = demo.light[0].direction[1] = demo.light[0].direction[2] = INT32_MIN; }
-static void light_grazing(gn_scene *s) { (void)s, demo.light[0].direction[0] = INT32_MAX, demo.light[0].direction[1] = -1, demo.light[0].direction[2] = 0; }
-static void light_bright(gn_scene *s) { (void)s; for (int k = 0; k < 3; k++) s->ambient_uq16[k] = demo.light[0].colour_uq16[k] = 0xFFFFFF; }
-static void light_black(gn_scene *s) { (void)s; for (int k = 0; k < 3; k++) s->ambient_uq16[k] = demo.light[0].colour_uq16[k] = 0; }
+static void light_up(gn_scene *s)
+{
+    (void)s, memset(demo.light[0].direction, 0, 12), demo.light[0].direction[1] = 1;
+}
+static void light_down(gn_scene *s)
+{
+    (void)s, memset(demo.light[0].direction, 0, 12), demo.light[0].direction[1] = INT32_MIN;
+}
+static void light_along_ground(gn_scene *s)
+{
+    (void)s, memset(demo.light[0].direction, 0, 12), demo.light[0].direction[0] = INT32_MAX;
+}
+static void light_diagonal(gn_scene *s)
+{
+    (void)s, demo.light[0].direction[0] = demo.light[0].direction[1] = demo.light[0].direction[2] = INT32_MIN;
+}
+static void light_grazing(gn_scene *s)
+{
+    (void)s, demo.light[0].direction[0] = INT32_MAX, demo.light[0].direction[1] = -1, demo.light[0].direction[2] = 0;
+}
+static void light_bright(gn_scene *s)
+{
+    (void)s;
+    for (int k = 0; k < 3; k++) s->ambient_uq16[k] = demo.light[0].colour_uq16[k] = 0xFFFFFF;
+}
+static void light_black(gn_scene *s)
+{
+    (void)s;
+    for (int k = 0; k < 3; k++) s->ambient_uq16[k] = demo.light[0].colour_uq16[k] = 0;
+}
 
 static void biases_full(gn_scene *s)
 {
@@ -750,13 +1001,38 @@ static void triangles_degenerate(gn_scene *s)
     for (int i = 0; i < 24; i++) demo.box_pos[i] = (i % 3) * (i / 3) * 1000; /* all in a line */
 }
 
-static void vertices_equal(gn_scene *s) { (void)s, memset(demo.ball_pos, 0, sizeof demo.ball_pos); }
-static void normals_zero(gn_scene *s) { (void)s, memset(demo.ball_nrm, 0, sizeof demo.ball_nrm); }
-static void normals_opposite(gn_scene *s) { (void)s; for (int i = 0; i < DEMO_BALL_VERTICES; i++) demo.ball_nrm[3 * i] = i % 2 ? INT16_MIN : INT16_MAX; }
-static void positions_at_limit(gn_scene *s) { (void)s; for (int i = 0; i < DEMO_BALL_VERTICES * 3; i++) demo.ball_pos[i] = demo.ball_pos[i] < 0 ? -(1 << 30) : 1 << 30; }
-static void nothing_at_all(gn_scene *s) { s->n_objects = s->n_lights = 0, s->objects = NULL, s->lights = NULL; }
-static void two_sided(gn_scene *s) { (void)s; for (int i = 0; i < DEMO_OBJECTS; i++) demo.object[i].flags |= GN_OBJECT_TWO_SIDED; }
-static void all_flags(gn_scene *s) { (void)s; for (int i = 0; i < DEMO_OBJECTS; i++) demo.object[i].flags = UINT32_MAX << i; }
+static void vertices_equal(gn_scene *s)
+{
+    (void)s, memset(demo.ball_pos, 0, sizeof demo.ball_pos);
+}
+static void normals_zero(gn_scene *s)
+{
+    (void)s, memset(demo.ball_nrm, 0, sizeof demo.ball_nrm);
+}
+static void normals_opposite(gn_scene *s)
+{
+    (void)s;
+    for (int i = 0; i < DEMO_BALL_VERTICES; i++) demo.ball_nrm[3 * i] = i % 2 ? INT16_MIN : INT16_MAX;
+}
+static void positions_at_limit(gn_scene *s)
+{
+    (void)s;
+    for (int i = 0; i < DEMO_BALL_VERTICES * 3; i++) demo.ball_pos[i] = demo.ball_pos[i] < 0 ? -(1 << 30) : 1 << 30;
+}
+static void nothing_at_all(gn_scene *s)
+{
+    s->n_objects = s->n_lights = 0, s->objects = NULL, s->lights = NULL;
+}
+static void two_sided(gn_scene *s)
+{
+    (void)s;
+    for (int i = 0; i < DEMO_OBJECTS; i++) demo.object[i].flags |= GN_OBJECT_TWO_SIDED;
+}
+static void all_flags(gn_scene *s)
+{
+    (void)s;
+    for (int i = 0; i < DEMO_OBJECTS; i++) demo.object[i].flags = UINT32_MAX << i;
+}
 
 /* A quad and a needle that reach the edge of what a vertex may be. */
 static void huge_triangles(gn_scene *s)
@@ -771,22 +1047,62 @@ static const struct {
     void (*set)(gn_scene *);
     const char *name;
 } extreme[] = {
-#define EXTREME(set) {set, #set}
-    EXTREME(limit_focal_low), EXTREME(limit_focal_high), EXTREME(limit_near_low), EXTREME(limit_near_high),
-    EXTREME(near_through_ball), EXTREME(near_through_all), EXTREME(shadow_next_to_near), EXTREME(shadow_all_the_way),
-    EXTREME(fades_small), EXTREME(fades_full), EXTREME(camera_in_ball), EXTREME(camera_in_box), EXTREME(camera_on_ground),
-    EXTREME(camera_up), EXTREME(camera_down), EXTREME(camera_nowhere), EXTREME(everything_far_out), EXTREME(opposite_corners),
-    EXTREME(exp_14), EXTREME(scale_tiny), EXTREME(scale_huge), EXTREME(scale_one_axis), EXTREME(scale_mirrored),
-    EXTREME(matrix_full), EXTREME(light_up), EXTREME(light_down), EXTREME(light_along_ground), EXTREME(light_diagonal),
-    EXTREME(light_grazing), EXTREME(light_bright), EXTREME(light_black), EXTREME(biases_full), EXTREME(offset_full_tiny_tile),
-    EXTREME(all_lights), EXTREME(triangles_degenerate), EXTREME(vertices_equal), EXTREME(normals_zero),
-    EXTREME(normals_opposite), EXTREME(positions_at_limit), EXTREME(nothing_at_all), EXTREME(two_sided), EXTREME(all_flags),
+#define EXTREME(set)                                                                                                               \
+    {                                                                                                                              \
+        set, #set                                                                                                                  \
+    }
+    EXTREME(limit_focal_low),
+    EXTREME(limit_focal_high),
+    EXTREME(limit_near_low),
+    EXTREME(limit_near_high),
+    EXTREME(near_through_ball),
+    EXTREME(near_through_all),
+    EXTREME(shadow_next_to_near),
+    EXTREME(shadow_all_the_way),
+    EXTREME(fades_small),
+    EXTREME(fades_full),
+    EXTREME(camera_in_ball),
+    EXTREME(camera_in_box),
+    EXTREME(camera_on_ground),
+    EXTREME(camera_up),
+    EXTREME(camera_down),
+    EXTREME(camera_nowhere),
+    EXTREME(everything_far_out),
+    EXTREME(opposite_corners),
+    EXTREME(exp_14),
+    EXTREME(scale_tiny),
+    EXTREME(scale_huge),
+    EXTREME(scale_one_axis),
+    EXTREME(scale_mirrored),
+    EXTREME(matrix_full),
+    EXTREME(light_up),
+    EXTREME(light_down),
+    EXTREME(light_along_ground),
+    EXTREME(light_diagonal),
+    EXTREME(light_grazing),
+    EXTREME(light_bright),
+    EXTREME(light_black),
+    EXTREME(biases_full),
+    EXTREME(offset_full_tiny_tile),
+    EXTREME(all_lights),
+    EXTREME(triangles_degenerate),
+    EXTREME(vertices_equal),
+    EXTREME(normals_zero),
+    EXTREME(normals_opposite),
+    EXTREME(positions_at_limit),
+    EXTREME(nothing_at_all),
+    EXTREME(two_sided),
+    EXTREME(all_flags),
     EXTREME(huge_triangles),
 };
 
 static void set_preset_knobs(gn_knobs *k, int preset)
 {
-#define PRESET_(name, MACRO, lo, hi, meaning, cost) {static const int32_t v[3] = {GN_PRESETS_##MACRO}; k->name = v[preset];}
+#define PRESET_(name, MACRO, lo, hi, meaning, cost)                                                                                \
+    {                                                                                                                              \
+        static const int32_t v[3] = {GN_PRESETS_##MACRO};                                                                          \
+        k->name = v[preset];                                                                                                       \
+    }
     GN_QUALITY_KNOBS(PRESET_)
 }
 
@@ -874,8 +1190,12 @@ static void random_mesh(garbage *g)
     for (int i = 0; i < GARBAGE_TRIANGLES * 3; i++) g->idx[i] = (uint16_t)(rnd() % GARBAGE_VERTICES);
     if (one_in(100)) g->idx[rnd() % (GARBAGE_TRIANGLES * 3)] = (uint16_t)rnd();
     if (one_in(50)) g->pos[rnd() % (GARBAGE_VERTICES * 3)] = (int32_t)rnd();
-    gn_mesh mesh = {.pos = g->pos, .nrm_q15 = one_in(2) ? g->nrm : NULL, .rgb_uq16 = one_in(2) ? g->rgb : NULL, .idx = g->idx,
-                    .n_vertices = GARBAGE_VERTICES, .n_triangles = GARBAGE_TRIANGLES};
+    gn_mesh mesh = {.pos = g->pos,
+                    .nrm_q15 = one_in(2) ? g->nrm : NULL,
+                    .rgb_uq16 = one_in(2) ? g->rgb : NULL,
+                    .idx = g->idx,
+                    .n_vertices = GARBAGE_VERTICES,
+                    .n_triangles = GARBAGE_TRIANGLES};
     mesh.pos_frac_bits = (uint8_t)bits;
     g->mesh = mesh;
 }
@@ -943,7 +1263,8 @@ static void random_scene(garbage *g)
     s->shadow.n_cascades = rnd() % 5;
     for (int i = 0; i < 3; i++) {
         uint32_t previous = i ? s->shadow.cascade_ratio_uq16[i - 1] : 0;
-        s->shadow.cascade_ratio_uq16[i] = one_in(60) ? rnd() : previous + (one_in(5) ? 0 : rnd() % (65537 - (previous <= 65536 ? previous : 0)));
+        s->shadow.cascade_ratio_uq16[i] =
+            one_in(60) ? rnd() : previous + (one_in(5) ? 0 : rnd() % (65537 - (previous <= 65536 ? previous : 0)));
     }
     s->shadow.blend = (gn_blend)(rnd() % 3);
     s->shadow.distance_mode = (gn_distance_mode)(rnd() % 2);

@@ -8,8 +8,14 @@
 
 #define GOLDEN "tests/golden.txt"
 
-static const struct { const char *scene; int frame; } frames[] = {
-    {"sundial", 24}, {"sundial", 72}, {"sundial", 132}, {"avenue", 0},
+static const struct {
+    const char *scene;
+    int frame;
+} frames[] = {
+    {"sundial", 24},
+    {"sundial", 72},
+    {"sundial", 132},
+    {"avenue", 0},
 };
 
 static uint32_t crc32_of(const void *data, size_t n)

@@ -68,8 +68,7 @@ static void test_shifts(void)
         int64_t v = operand(i);
         for (int32_t s = 0; s <= 62; s++) {
             i128 up = (i128)v * ((i128)1 << s);
-            if (up >= INT64_MIN && up <= INT64_MAX)
-                HOLDS(&shl, gn_shl64(v, s) == up, "gn_shl64(%lld, %d)", (long long)v, (int)s);
+            if (up >= INT64_MIN && up <= INT64_MAX) HOLDS(&shl, gn_shl64(v, s) == up, "gn_shl64(%lld, %d)", (long long)v, (int)s);
             if (gn_abs64(v) <= (uint64_t)1 << 62)
                 HOLDS(&shr, gn_shr64(v, s) == i128_round_shr(v, s), "gn_shr64(%lld, %d)", (long long)v, (int)s);
         }
@@ -97,8 +96,7 @@ static void test_products(void)
         uint32_t ua = (uint32_t)rng_wide_u64(&random_state, 32), ub = (uint32_t)rng_wide_u64(&random_state, 32);
         if (i == 0) ua = UINT32_MAX, ub = 65536;
         exact = i128_round_shr((i128)ua * ub, 16);
-        if (exact <= UINT32_MAX)
-            HOLDS(&mul, gn_mul_uq16(ua, ub) == exact, "gn_mul_uq16(%u, %u)", (unsigned)ua, (unsigned)ub);
+        if (exact <= UINT32_MAX) HOLDS(&mul, gn_mul_uq16(ua, ub) == exact, "gn_mul_uq16(%u, %u)", (unsigned)ua, (unsigned)ub);
     }
     CHECK_TALLY(mul, "products");
 }
@@ -132,8 +130,7 @@ static void try_rsqrt(newton *t, uint32_t m)
     for (int k = 0; k < 2; k++) {
         uint64_t y = gn_rsqrt_norm(m, k + 1), grid = (uint64_t)1 << bits[k];
         u128 square = (u128)(y * y) * m, one = (u128)1 << 94;
-        u128 lo = (u128)((grid - 1) * (grid - 1)) << (94 - 2 * bits[k]), hi = (u128)((grid + 1) * (grid + 1))
-                                                                              << (94 - 2 * bits[k]);
+        u128 lo = (u128)((grid - 1) * (grid - 1)) << (94 - 2 * bits[k]), hi = (u128)((grid + 1) * (grid + 1)) << (94 - 2 * bits[k]);
         HOLDS(&t->bound[k], square > lo && square < hi, "m = %u, %d steps: %u", (unsigned)m, k + 1, (unsigned)y);
         if (k == 1) HOLDS(&t->range, y >= (uint64_t)1 << 31, "m = %u, %d steps: %u", (unsigned)m, k + 1, (unsigned)y);
         if (square < one && one - square > t->below[k]) t->below[k] = one - square, t->m_below[k] = m;
@@ -237,8 +234,8 @@ static void test_bf_apply(void)
         HOLDS(&t, apply_ok(result, a, b.mant, s), "%lld * %u * 2^%d: %lld", (long long)a, (unsigned)b.mant, (int)s,
               (long long)result);
         if (s >= 0 && a && (s > 31 || i128_abs((i128)a * b.mant) >> (63 - s)))
-            HOLDS(&saturated, result == (a < 0 ? -INT64_MAX : INT64_MAX), "%lld * %u * 2^%d: %lld", (long long)a,
-                  (unsigned)b.mant, (int)s, (long long)result);
+            HOLDS(&saturated, result == (a < 0 ? -INT64_MAX : INT64_MAX), "%lld * %u * 2^%d: %lld", (long long)a, (unsigned)b.mant,
+                  (int)s, (long long)result);
     }
     CHECK_TALLY(t, "gn_bf_apply");
     CHECK_TALLY(saturated, "gn_bf_apply saturates");
@@ -298,8 +295,7 @@ static void test_normalise(void)
         l = 1073741824.0L / sqrtl(l);
         for (int k = 0; k < 3; k++) {
             long double e = fabsl((long double)out[k] - (long double)a[k] * l);
-            HOLDS(&t, e <= 3.0L, "%lld %lld %lld: [%d] errs by %.3Lf", (long long)a[0], (long long)a[1], (long long)a[2], k,
-                  e);
+            HOLDS(&t, e <= 3.0L, "%lld %lld %lld: [%d] errs by %.3Lf", (long long)a[0], (long long)a[1], (long long)a[2], k, e);
             WORST(&w, e, "%lld %lld %lld", (long long)a[0], (long long)a[1], (long long)a[2]);
         }
     }
@@ -334,8 +330,8 @@ static void test_norm_vec(void)
         random_vector(a, i);
         int32_t e = gn_norm_vec(out, a);
         int ok = a[0] || a[1] || a[2] ? norm_vec_ok(out, a, e) : !e && !out[0] && !out[1] && !out[2];
-        HOLDS(&t, ok, "%lld %lld %lld: %d %d %d, %d", (long long)a[0], (long long)a[1], (long long)a[2], (int)out[0],
-              (int)out[1], (int)out[2], (int)e);
+        HOLDS(&t, ok, "%lld %lld %lld: %d %d %d, %d", (long long)a[0], (long long)a[1], (long long)a[2], (int)out[0], (int)out[1],
+              (int)out[2], (int)e);
     }
     int64_t null[3] = {0, 0, 0};
     int32_t out[3] = {1, 1, 1};
@@ -412,8 +408,7 @@ static void test_focal(void)
         HOLDS(&t, relative <= allowed, "%u: %u errs by %Lg", (unsigned)i, (unsigned)focal, relative);
     }
     HOLDS(&t, gn_focal_from_fov_q24(0) == UINT32_MAX, "no angle saturates");
-    for (uint32_t i = 32768; i < 65536; i++)
-        HOLDS(&t, gn_focal_from_fov_q24((uint16_t)i) == 0, "%u: no focal length", (unsigned)i);
+    for (uint32_t i = 32768; i < 65536; i++) HOLDS(&t, gn_focal_from_fov_q24((uint16_t)i) == 0, "%u: no focal length", (unsigned)i);
     CHECK_TALLY(t, "gn_focal_from_fov_q24");
     printf("gn_focal_from_fov_q24: relative 2^%.2Lf at %s\n", log2l(w.error), w.at);
 }

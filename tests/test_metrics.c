@@ -177,9 +177,13 @@ static void test_attenuation(void)
 /* Shadows count where both show the same triangle and it faces the light, and nowhere else. */
 static void test_comparable(void)
 {
-    static const struct { int64_t fixed, other; double ndotl; int counts; } cases[] = {
-        {7, 7, 1, 1},  {0, 0, 1, 1},   {7, 7, 1e-9, 1}, {7, 8, 1, 0},  {7, (int64_t)1 << 32 | 7, 1, 0},
-        {7, 7, 0, 0},  {7, 7, -1, 0},  {-1, -1, 1, 0},  {-1, 7, 1, 0}, {7, -1, 1, 0},
+    static const struct {
+        int64_t fixed, other;
+        double ndotl;
+        int counts;
+    } cases[] = {
+        {7, 7, 1, 1}, {0, 0, 1, 1},  {7, 7, 1e-9, 1}, {7, 8, 1, 0},  {7, (int64_t)1 << 32 | 7, 1, 0},
+        {7, 7, 0, 0}, {7, 7, -1, 0}, {-1, -1, 1, 0},  {-1, 7, 1, 0}, {7, -1, 1, 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         begin(3, 1, 1);
@@ -201,10 +205,10 @@ static void test_causes(void)
 {
     begin(2, 2, 2);
     for (int i = 0; i < 4; i++) fixed.rgb565[i]++;
-    fixed.triangle[0] = 8;                          /* another triangle, whatever its shadow */
+    fixed.triangle[0] = 8; /* another triangle, whatever its shadow */
     fixed.shadow[0][0] = 0;
-    other.shadow[1][1] += 1.0 / 256 + 1.0 / 65536;  /* of the second light */
-    fixed.shadow[0][2] += 1.0 / 256;                /* not more than the limit */
+    other.shadow[1][1] += 1.0 / 256 + 1.0 / 65536; /* of the second light */
+    fixed.shadow[0][2] += 1.0 / 256;               /* not more than the limit */
     compute();
     CHECK_EQ_INT(m.by_coverage, 1);
     CHECK_EQ_INT(m.by_shadow, 1);

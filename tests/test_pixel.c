@@ -62,10 +62,8 @@ static int packed_ok(const uint32_t q20[3])
 {
     uint32_t packed = gn_pixel_pack(&frame, q20);
     if (frame.picture.format == GN_FORMAT_RGB565)
-        return packed ==
-               nearest(encoded(q20[0]), 31) * 2048 + nearest(encoded(q20[1]), 63) * 32 + nearest(encoded(q20[2]), 31);
-    return packed ==
-           nearest(encoded(q20[0]), 255) + nearest(encoded(q20[1]), 255) * 256 + nearest(encoded(q20[2]), 255) * 65536;
+        return packed == nearest(encoded(q20[0]), 31) * 2048 + nearest(encoded(q20[1]), 63) * 32 + nearest(encoded(q20[2]), 31);
+    return packed == nearest(encoded(q20[0]), 255) + nearest(encoded(q20[1]), 255) * 256 + nearest(encoded(q20[2]), 255) * 65536;
 }
 
 /* Without the curve every 16-bit value occurs; each passes through every channel. */
@@ -135,7 +133,8 @@ static void test_greys(void)
             double level = curve(y) * (bits == 4 ? 15 : 255);
             frame.picture.format = bits == 4 ? GN_FORMAT_GREY4 : GN_FORMAT_GREY8;
             /* half a level, the weights' 16 bits (2^-17 each, steepened by the curve) and the encoding's 1.5 of 65535 */
-            HOLDS(&grey, fabs(gn_pixel_pack(&frame, q20) - level) <= 0.5 + 255 * (1.5 / 65535 + 12.92 * 3 / 131072.0), "%u bits", (unsigned)bits);
+            HOLDS(&grey, fabs(gn_pixel_pack(&frame, q20) - level) <= 0.5 + 255 * (1.5 / 65535 + 12.92 * 3 / 131072.0), "%u bits",
+                  (unsigned)bits);
         }
         frame.picture.format = GN_FORMAT_RGB565;
         uint32_t straight = gn_pixel_pack(&frame, q20);

@@ -46,7 +46,10 @@ static void paint(uint8_t *rgb, int w, int h, int kind)
 {
     for (int i = 0; i < w * h * 3; i++) {
         int x = i / 3 % w, y = i / 3 / w;
-        rgb[i] = (uint8_t)(kind == 0 ? 77 : kind == 1 ? (int)(random_u32() >> 24) : kind == 2 ? x + 2 * y : (x / 7 + y / 5) % 3 * 100);
+        rgb[i] = (uint8_t)(kind == 0   ? 77
+                           : kind == 1 ? (int)(random_u32() >> 24)
+                           : kind == 2 ? x + 2 * y
+                                       : (x / 7 + y / 5) % 3 * 100);
     }
 }
 
@@ -69,7 +72,7 @@ static size_t round_trip(int w, int h, int kind)
 
 static void test_round_trips(void)
 {
-    static const int sizes[][2] = { { 1, 1 }, { 1, 9 }, { 9, 1 }, { 2, 2 }, { 3, 5 }, { 17, 13 }, { 64, 48 }, { 200, 150 } };
+    static const int sizes[][2] = {{1, 1}, {1, 9}, {9, 1}, {2, 2}, {3, 5}, {17, 13}, {64, 48}, {200, 150}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         for (int kind = 0; kind < 4; kind++) round_trip(sizes[i][0], sizes[i][1], kind);
     }
@@ -81,7 +84,7 @@ static void test_round_trips(void)
 
 static void test_write_errors(void)
 {
-    const uint8_t pixel[3] = { 1, 2, 3 };
+    const uint8_t pixel[3] = {1, 2, 3};
     CHECK(png_write_rgb8("build/no/such/folder/x.png", 1, 1, pixel, error, sizeof error) == -1);
     CHECK(strstr(error, "cannot be written"));
     CHECK(png_write_rgb8(tmp_path, 0, 1, pixel, error, sizeof error) == -1);
@@ -110,7 +113,7 @@ static void put_chunk(const char *type, const void *bytes, size_t n)
 
 static void start_file(uint32_t w, uint32_t h, uint8_t depth, uint8_t colour, uint8_t interlace)
 {
-    uint8_t header[13] = { [8] = depth, [9] = colour, [12] = interlace };
+    uint8_t header[13] = {[8] = depth, [9] = colour, [12] = interlace};
     put_word(header, w);
     put_word(header + 4, h);
     memcpy(made, "\x89PNG\r\n\x1A\n", 8);
@@ -148,7 +151,7 @@ static bool refused(const char *why)
 
 static void check_colour(uint8_t colour, const uint8_t *raw, size_t n_raw, const uint8_t *expected)
 {
-    static const uint8_t palette[6] = { 10, 20, 30, 40, 50, 60 };
+    static const uint8_t palette[6] = {10, 20, 30, 40, 50, 60};
     start_file(2, 1, 8, colour, 0);
     if (colour == 3) put_chunk("PLTE", palette, sizeof palette);
     put_chunk("teXt", "ancillary", 9);
@@ -161,24 +164,34 @@ static void check_colour(uint8_t colour, const uint8_t *raw, size_t n_raw, const
 
 static void test_colour_types(void)
 {
-    check_colour(0, (const uint8_t[]){ 0, 5, 9 }, 3, (const uint8_t[]){ 5, 5, 5, 9, 9, 9 });
-    check_colour(2, (const uint8_t[]){ 1, 5, 6, 7, 1, 1, 1 }, 7, (const uint8_t[]){ 5, 6, 7, 6, 7, 8 });
-    check_colour(3, (const uint8_t[]){ 0, 1, 0 }, 3, (const uint8_t[]){ 40, 50, 60, 10, 20, 30 });
-    check_colour(4, (const uint8_t[]){ 0, 5, 255, 9, 0 }, 5, (const uint8_t[]){ 5, 5, 5, 9, 9, 9 });
-    check_colour(6, (const uint8_t[]){ 2, 1, 2, 3, 4, 5, 6, 7, 8 }, 9, (const uint8_t[]){ 1, 2, 3, 5, 6, 7 });
+    check_colour(0, (const uint8_t[]){0, 5, 9}, 3, (const uint8_t[]){5, 5, 5, 9, 9, 9});
+    check_colour(2, (const uint8_t[]){1, 5, 6, 7, 1, 1, 1}, 7, (const uint8_t[]){5, 6, 7, 6, 7, 8});
+    check_colour(3, (const uint8_t[]){0, 1, 0}, 3, (const uint8_t[]){40, 50, 60, 10, 20, 30});
+    check_colour(4, (const uint8_t[]){0, 5, 255, 9, 0}, 5, (const uint8_t[]){5, 5, 5, 9, 9, 9});
+    check_colour(6, (const uint8_t[]){2, 1, 2, 3, 4, 5, 6, 7, 8}, 9, (const uint8_t[]){1, 2, 3, 5, 6, 7});
 }
 
 static void test_header_errors(void)
 {
-    static const struct { uint32_t w, h; uint8_t depth, colour, interlace; const char *why; } cases[] = {
-        { 0, 1, 8, 2, 0, "size is out of range" }, { 1, 0, 8, 2, 0, "size is out of range" },
-        { 0xFFFFFFFF, 1, 8, 2, 0, "size is out of range" }, { 1, 1, 16, 2, 0, "8 bits" }, { 1, 1, 1, 0, 0, "8 bits" },
-        { 1, 1, 8, 5, 0, "colour type" }, { 1, 1, 8, 200, 0, "colour type" }, { 1, 1, 8, 2, 1, "interlaced" },
-        { 65536, 65536, 8, 6, 0, "too short" }, { 2, 1, 8, 3, 0, "PLTE is missing" },
+    static const struct {
+        uint32_t w, h;
+        uint8_t depth, colour, interlace;
+        const char *why;
+    } cases[] = {
+        {0, 1, 8, 2, 0, "size is out of range"},
+        {1, 0, 8, 2, 0, "size is out of range"},
+        {0xFFFFFFFF, 1, 8, 2, 0, "size is out of range"},
+        {1, 1, 16, 2, 0, "8 bits"},
+        {1, 1, 1, 0, 0, "8 bits"},
+        {1, 1, 8, 5, 0, "colour type"},
+        {1, 1, 8, 200, 0, "colour type"},
+        {1, 1, 8, 2, 1, "interlaced"},
+        {65536, 65536, 8, 6, 0, "too short"},
+        {2, 1, 8, 3, 0, "PLTE is missing"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         start_file(cases[i].w, cases[i].h, cases[i].depth, cases[i].colour, cases[i].interlace);
-        put_pixels((const uint8_t[]){ 0, 1, 2, 3 }, 4);
+        put_pixels((const uint8_t[]){0, 1, 2, 3}, 4);
         put_chunk("IEND", NULL, 0);
         CHECK(refused(cases[i].why));
     }
@@ -207,11 +220,11 @@ static void test_chunk_errors(void)
     CHECK(refused("checksum"));
     start_file(1, 1, 8, 3, 0);
     put_chunk("PLTE", "123", 3);
-    put_pixels((const uint8_t[]){ 0, 1 }, 2);
+    put_pixels((const uint8_t[]){0, 1}, 2);
     put_chunk("IEND", NULL, 0);
     CHECK(refused("palette index"));
     start_file(1, 1, 8, 0, 0);
-    put_pixels((const uint8_t[]){ 5, 1 }, 2);
+    put_pixels((const uint8_t[]){5, 1}, 2);
     put_chunk("IEND", NULL, 0);
     CHECK(refused("row filter"));
 }
@@ -219,14 +232,23 @@ static void test_chunk_errors(void)
 /* Streams with their bytes written out. */
 static void test_inflate(void)
 {
-    static const uint8_t stored[] = { 0x78, 0x01, 0x01, 0x03, 0x00, 0xFC, 0xFF, 'a', 'b', 'c', 0x02, 0x4D, 0x01, 0x27 };
-    static const struct { uint8_t bytes[16]; size_t n; const char *why; } cases[] = {
-        { { 0x78, 0x01, 0x07 }, 16, "block type" }, { { 0x79, 0x01 }, 16, "not a zlib" }, { { 0x78, 0x02 }, 16, "not a zlib" },
-        { { 0x78, 0x01, 0x01, 3, 0, 0xFC, 0xFE }, 16, "stored block" }, { { 0x78, 0x01, 0x01, 3, 0, 0xFC, 0xFF }, 7, "cut off" },
-        { { 0x78, 0x01, 0x01, 99, 0, 0x9C, 0xFF }, 16, "cut off" }, { { 0x78, 0x01, 0x01, 4, 0, 0xFB, 0xFF }, 16, "too long" },
-        { { 0x78, 0x01, 0x03, 0x00 }, 16, "too short" }, { { 0x78 }, 1, "cut off" },
-        { { 0x78, 0x01, 0xFD, 0xFF, 0xFF, 0xFF, 0xFF }, 16, "too many" },
-        { { 0x78, 0x01, 0x03, 0x02, 0x00 }, 16, "before the start" },
+    static const uint8_t stored[] = {0x78, 0x01, 0x01, 0x03, 0x00, 0xFC, 0xFF, 'a', 'b', 'c', 0x02, 0x4D, 0x01, 0x27};
+    static const struct {
+        uint8_t bytes[16];
+        size_t n;
+        const char *why;
+    } cases[] = {
+        {{0x78, 0x01, 0x07}, 16, "block type"},
+        {{0x79, 0x01}, 16, "not a zlib"},
+        {{0x78, 0x02}, 16, "not a zlib"},
+        {{0x78, 0x01, 0x01, 3, 0, 0xFC, 0xFE}, 16, "stored block"},
+        {{0x78, 0x01, 0x01, 3, 0, 0xFC, 0xFF}, 7, "cut off"},
+        {{0x78, 0x01, 0x01, 99, 0, 0x9C, 0xFF}, 16, "cut off"},
+        {{0x78, 0x01, 0x01, 4, 0, 0xFB, 0xFF}, 16, "too long"},
+        {{0x78, 0x01, 0x03, 0x00}, 16, "too short"},
+        {{0x78}, 1, "cut off"},
+        {{0x78, 0x01, 0xFD, 0xFF, 0xFF, 0xFF, 0xFF}, 16, "too many"},
+        {{0x78, 0x01, 0x03, 0x02, 0x00}, 16, "before the start"},
     };
     uint8_t out[3], damaged[sizeof stored];
     CHECK(zlib_expand(stored, sizeof stored, out, 3) == NULL && memcmp(out, "abc", 3) == 0);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
+#define PI        3.14159265358979323846
 #define MAX_PARTS 4
 
 typedef struct {
@@ -24,7 +24,10 @@ static char no_name[] = "";
 
 /* ---- scenes ---- */
 
-static scene_affine identity(void) { return (scene_affine){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}; }
+static scene_affine identity(void)
+{
+    return (scene_affine){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+}
 
 static void cross(double out[3], const double a[3], const double b[3])
 {
@@ -33,7 +36,10 @@ static void cross(double out[3], const double a[3], const double b[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 static void normalise(double a[3])
 {
@@ -66,8 +72,12 @@ static void begin(fixture *f)
     f->s.objects = f->objects;
     f->s.lights = f->lights;
     f->s.camera = (scene_camera){.to_world = identity(), .focal = 1.0, .near = 0.1, .far = HUGE_VAL};
-    f->s.shadow = (scene_shadow){.max_distance = 100, .distance_fade = 0.1, .cascade_fade = 0.1, .filter = SCENE_FILTER_HARD,
-                                .n_cascades = 1, .cascade_ratio = {1, 1, 1}};
+    f->s.shadow = (scene_shadow){.max_distance = 100,
+                                 .distance_fade = 0.1,
+                                 .cascade_fade = 0.1,
+                                 .filter = SCENE_FILTER_HARD,
+                                 .n_cascades = 1,
+                                 .cascade_ratio = {1, 1, 1}};
 }
 
 static void end(fixture *f)
@@ -90,8 +100,8 @@ static scene_mesh *add_mesh(fixture *f, size_t n_vertices, const double *pos, si
     if (!mesh->pos || !mesh->idx) abort();
     memcpy(mesh->pos, pos, 3 * n_vertices * sizeof *mesh->pos);
     memcpy(mesh->idx, idx, 3 * n_triangles * sizeof *mesh->idx);
-    f->objects[f->s.n_objects++] = (scene_object){.name = no_name, .mesh_idx = f->s.n_meshes++, .to_world = identity(),
-                                                  .albedo = {1, 1, 1}, .casts = true, .receives = true};
+    f->objects[f->s.n_objects++] = (scene_object){
+        .name = no_name, .mesh_idx = f->s.n_meshes++, .to_world = identity(), .albedo = {1, 1, 1}, .casts = true, .receives = true};
     return mesh;
 }
 
@@ -122,8 +132,8 @@ static void add_box(fixture *f, const double low[3], const double high[3])
 static scene_light *add_light(fixture *f, double x, double y, double z)
 {
     scene_light *light = &f->lights[f->s.n_lights++];
-    *light = (scene_light){.name = no_name, .direction = {x, y, z}, .colour = {1, 1, 1}, .shadow = true, .strength = 1,
-                           .bias_normal = 1};
+    *light = (scene_light){
+        .name = no_name, .direction = {x, y, z}, .colour = {1, 1, 1}, .shadow = true, .strength = 1, .bias_normal = 1};
     normalise(light->direction);
     return light;
 }
@@ -496,7 +506,8 @@ static void test_attenuation_step(void)
         }
     for (int k = 0; k < 5; k++) {
         CHECK_NEAR(ref_attenuation(&view, filters[k], 7.6, 3, 8), 1, 1e-13); /* equal depth is lit */
-        CHECK_NEAR(ref_attenuation(&view, filters[k], 7.6, 3, 8.001), 1, 1e-13); /* beyond the far end an empty texel lets it be lit */
+        CHECK_NEAR(ref_attenuation(&view, filters[k], 7.6, 3, 8.001), 1,
+                   1e-13); /* beyond the far end an empty texel lets it be lit */
         CHECK_NEAR(ref_attenuation(&view, filters[k], 0.4, 3, 8.001), 0, 0);
         CHECK_NEAR(ref_attenuation(&view, filters[k], -1e300, 1e300, 2), 0, 0); /* taps clamped to the tile */
         CHECK_NEAR(ref_attenuation(&view, filters[k], 1e300, -1e300, 2), 1, 1e-13);
@@ -557,7 +568,10 @@ static double distance_to_centre(const fixture *f, const ref_light_view *view, d
     return sqrt(dot(d, d));
 }
 
-static double inner_share(const fixture *f) { return fmax(1 - f->s.shadow.cascade_fade, 0.125); } /* q */
+static double inner_share(const fixture *f)
+{
+    return fmax(1 - f->s.shadow.cascade_fade, 0.125);
+} /* q */
 
 /* The eight corners of the slice from depth n to m are inside, the near ones within q r. */
 static int corners_outside(const fixture *f, const ref_light_view *view, double aspect, double n, double m)
@@ -733,16 +747,25 @@ static void test_tiles(void)
 
 /* ---- cascades ---- */
 
-static double random_between(double low, double high) { return low + (high - low) * random_unit(); }
+static double random_between(double low, double high)
+{
+    return low + (high - low) * random_unit();
+}
 
-static double random_log(double low, double high) { return low * pow(high / low, random_unit()); }
+static double random_log(double low, double high)
+{
+    return low * pow(high / low, random_unit());
+}
 
 /* 0 and 1, equal ones, and any. */
 static void random_ratios(scene_shadow *shadow)
 {
     for (int i = 0; i < 3; i++) {
         const double low = i ? shadow->cascade_ratio[i - 1] : 0, kind = random_unit();
-        shadow->cascade_ratio[i] = kind < 0.15 ? low : kind < 0.2 ? 1 : kind < 0.6 ? random_between(low, 1) : fmax(low, random_log(1e-3, 1));
+        shadow->cascade_ratio[i] = kind < 0.15  ? low
+                                   : kind < 0.2 ? 1
+                                   : kind < 0.6 ? random_between(low, 1)
+                                                : fmax(low, random_log(1e-3, 1));
     }
 }
 
@@ -804,7 +827,8 @@ static void test_no_hole(void)
         for (int c = 0; c < 4; c++) n_active += view[c].active;
         for (int i = 0; i < 200; i++) {
             double x = random_between(-1, 1), y = random_between(-1, 1);
-            double z = i & 1 ? random_log(f.s.camera.near, shadow->max_distance) : random_between(f.s.camera.near, shadow->max_distance);
+            double z =
+                i & 1 ? random_log(f.s.camera.near, shadow->max_distance) : random_between(f.s.camera.near, shadow->max_distance);
             const int end_of = (int)(4 * random_unit());
             if (random_unit() < 0.4) x = x < 0 ? -1 : 1;
             if (random_unit() < 0.4) y = y < 0 ? -1 : 1;
@@ -1061,7 +1085,11 @@ static void check_same_picture(const ref_picture *a, const ref_picture *b, const
 /* Empty cascades before, between and after change nothing but the count: what is last and what is next passes over them. */
 static void test_empty_cascades(void)
 {
-    const struct { int n; double ratio[3]; int cascade[2]; } with_empty[4] = {
+    const struct {
+        int n;
+        double ratio[3];
+        int cascade[2];
+    } with_empty[4] = {
         {3, {0.25, 1, 1}, {0, 1}}, {4, {0, 0.25, 0.25}, {1, 3}}, {4, {0.001, 0.25, 1}, {1, 2}}, {3, {0.25, 0.25, 1}, {0, 2}}};
     for (int blend = 0; blend < 3; blend++)
         for (int c = 0; c < 4; c++) {
@@ -1316,7 +1344,7 @@ static void test_strength_and_fade(void)
         int n_wrong = 0, n_seen[3] = {0};
         for (int i = 0; i < 32 * 64; i++) {
             if (p.triangle[i] >> 32 != 0) continue;
-            double g = fmin(fmax((1 - p.depth[i] / 20) / 0.4, 0), 1); /* D5 */
+            double g = fmin(fmax((1 - p.depth[i] / 20) / 0.4, 0), 1);      /* D5 */
             if (strengths[c] > 0) g *= fade_at(&f, &p, i % 32, i / 32, 0); /* D6 */
             n_wrong += fabs(p.shadow[0][i] - (1 - strengths[c] * g)) > 1e-12;
             n_wrong += fabs(p.rgb[3 * i] - p.shadow[0][i] * p.ndotl[0][i]) > 1e-12;

@@ -75,7 +75,10 @@ static const char *replaced(const char *text, const char *find, const char *put)
     return to;
 }
 
-static int load_changed(const char *find, const char *put) { return load_text(TMP ".gltf", replaced(base_json, find, put)); }
+static int load_changed(const char *find, const char *put)
+{
+    return load_text(TMP ".gltf", replaced(base_json, find, put));
+}
 
 static const char *without_animation(const char *text)
 {
@@ -99,7 +102,7 @@ static void check_base_surface(void)
     CHECK_NEAR(m->rgb[3 * 3 + 1], 0.4, 1e-15);
     CHECK(o->two_sided && !o->casts && !o->receives && !o->unlit);
     CHECK_NEAR(o->albedo[1], 0.25, 0);
-    check_rows(&o->to_world, (const double[12]){ 0, -2, 0, 10, 2, 0, 0, 0, 0, 0, 2, 0 });
+    check_rows(&o->to_world, (const double[12]){0, -2, 0, 10, 2, 0, 0, 0, 0, 0, 2, 0});
 }
 
 static void test_gltf_base(void)
@@ -121,9 +124,10 @@ static void test_gltf_base(void)
     CHECK_NEAR(light->bias_slope, 2, 0);
     CHECK_NEAR(light->bias_normal, 1, 0);
     CHECK_NEAR(light->near_offset, 3, 0);
-    static const char *const settings[][2] = { { "filter", "5x5" }, { "srgb", "1" }, { "max_distance", "0.1" }, { "ratios", "0.25,1,0" } };
+    static const char *const settings[][2] = {{"filter", "5x5"}, {"srgb", "1"}, {"max_distance", "0.1"}, {"ratios", "0.25,1,0"}};
     if (CHECK_EQ_INT(s.n_settings, 4)) {
-        for (int i = 0; i < 4; i++) CHECK(!strcmp(s.settings[i].key, settings[i][0]) && !strcmp(s.settings[i].value, settings[i][1]));
+        for (int i = 0; i < 4; i++)
+            CHECK(!strcmp(s.settings[i].key, settings[i][0]) && !strcmp(s.settings[i].value, settings[i][1]));
     }
     scene_free(&s);
     CHECK(is_empty());
@@ -140,7 +144,7 @@ static void test_gltf_errors(void)
     CHECK(refused(load(TMP "_missing.gltf", &plain), "cannot be opened"));
     CHECK(refused(load("build/tmp", &plain), "not a scene"));
     CHECK(refused(load_text(TMP ".txt", "x"), "not a scene"));
-    CHECK(refused(load(TMP ".gltf", &(scene_options){ .width = 0, .height = 1 }), "picture size"));
+    CHECK(refused(load(TMP ".gltf", &(scene_options){.width = 0, .height = 1}), "picture size"));
     mkdir("build/tmp/folder.gltf", 0777);
     CHECK(refused(load("build/tmp/folder.gltf", &plain), "cannot be read"));
 }
@@ -148,7 +152,10 @@ static void test_gltf_errors(void)
 static void test_gltf_notes(void)
 {
     for (size_t i = 0; i < sizeof gltf_notes / sizeof *gltf_notes; i++) {
-        if (!CHECK_EQ_INT(load_changed(gltf_notes[i].find, gltf_notes[i].put), 0)) { puts(error); continue; }
+        if (!CHECK_EQ_INT(load_changed(gltf_notes[i].find, gltf_notes[i].put), 0)) {
+            puts(error);
+            continue;
+        }
         if (!CHECK(has_note(gltf_notes[i].expected))) printf("  case %zu: %s\n", i, gltf_notes[i].expected);
         check_invariants();
         scene_free(&s);
@@ -157,11 +164,11 @@ static void test_gltf_notes(void)
 
 static void check_frame(int frame, double x, double turn_deg, double scale)
 {
-    const scene_options at = { .frame = frame, .width = 320, .height = 240 };
+    const scene_options at = {.frame = frame, .width = 320, .height = 240};
     write_file(TMP ".gltf", base_json, sizeof base_json - 1);
     if (!CHECK_EQ_INT(load(TMP ".gltf", &at), 0)) return;
     double a = turn_deg * 3.14159265358979 / 180, c = scale * cos(a), n = scale * sin(a);
-    check_rows(&s.objects[0].to_world, (const double[12]){ c, -n, 0, x, n, c, 0, s.objects[0].to_world.m[1][3], 0, 0, scale, 0 });
+    check_rows(&s.objects[0].to_world, (const double[12]){c, -n, 0, x, n, c, 0, s.objects[0].to_world.m[1][3], 0, 0, scale, 0});
     scene_free(&s);
 }
 
@@ -177,11 +184,11 @@ static void test_animation(void)
     check_frame(1000000, 3, 180, 3);
     check_frame(-5, 1, 0, 1);
     /* y at 1.5 s: tangents 4 out of the first key, 8 into the second: (1/8)(4) - (1/8)(8) */
-    load(TMP ".gltf", &(scene_options){ .frame = 3, .width = 320, .height = 240 });
+    load(TMP ".gltf", &(scene_options){.frame = 3, .width = 320, .height = 240});
     if (CHECK(s.n_objects == 1)) CHECK_NEAR(s.objects[0].to_world.m[1][3], 0.5 - 1, 1e-12);
     scene_free(&s);
     /* y at 2.5 s: tangent 8 out of the second key, a quarter of the way through 2 s: (9/64)(2)(8) */
-    load(TMP ".gltf", &(scene_options){ .frame = 5, .width = 320, .height = 240 });
+    load(TMP ".gltf", &(scene_options){.frame = 5, .width = 320, .height = 240});
     if (CHECK(s.n_objects == 1)) CHECK_NEAR(s.objects[0].to_world.m[1][3], 2.25, 1e-12);
     scene_free(&s);
 }
@@ -203,16 +210,19 @@ static int load_bytes(const char *attributes, const char *accessors, const char 
 {
     char text[4096], base64[2048];
     put_base64(base64, bytes, n);
-    snprintf(text, sizeof text, "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{%s}]}],\"accessors\":[%s],"
+    snprintf(text, sizeof text,
+             "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{%s}]}],\"accessors\":[%s],"
              "\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data:application/octet-stream;base64,%s\"}]}",
              attributes, accessors, views, n, base64);
     return load_text(TMP ".gltf", text);
 }
 
-static void check_position_type(int type, const char *normalized, const void *bytes, size_t n, double first, double second, double third)
+static void check_position_type(int type, const char *normalized, const void *bytes, size_t n, double first, double second,
+                                double third)
 {
     char accessor[200], view[100];
-    snprintf(accessor, sizeof accessor, "{\"bufferView\":0,\"componentType\":%d,%s\"count\":3,\"type\":\"VEC3\"}", type, normalized);
+    snprintf(accessor, sizeof accessor, "{\"bufferView\":0,\"componentType\":%d,%s\"count\":3,\"type\":\"VEC3\"}", type,
+             normalized);
     snprintf(view, sizeof view, "{\"buffer\":0,\"byteLength\":%zu,\"byteStride\":%zu}", n, n / 3);
     if (!CHECK_EQ_INT(load_bytes("\"attributes\":{\"POSITION\":0}", accessor, view, bytes, n), 0)) return (void)puts(error);
     check_invariants();
@@ -224,11 +234,11 @@ static void check_position_type(int type, const char *normalized, const void *by
 
 static void test_accessor_types(void)
 {
-    static const int8_t b[12] = { -128, 0, 0, 0, 0, 127, 0, 0, 0, 0, -1 };
-    static const uint8_t ub[12] = { 255, 0, 0, 0, 0, 51, 0, 0, 0, 0, 128 };
-    static const int16_t h[12] = { -32768, 0, 0, 0, 0, 32767, 0, 0, 0, 0, -1 };
-    static const uint16_t uh[12] = { 65535, 0, 0, 0, 0, 13107, 0, 0, 0, 0, 32768 };
-    static const float f[9] = { 1.5f, 0, 0, 0, -0.25f, 0, 0, 0, 1e18f };
+    static const int8_t b[12] = {-128, 0, 0, 0, 0, 127, 0, 0, 0, 0, -1};
+    static const uint8_t ub[12] = {255, 0, 0, 0, 0, 51, 0, 0, 0, 0, 128};
+    static const int16_t h[12] = {-32768, 0, 0, 0, 0, 32767, 0, 0, 0, 0, -1};
+    static const uint16_t uh[12] = {65535, 0, 0, 0, 0, 13107, 0, 0, 0, 0, 32768};
+    static const float f[9] = {1.5f, 0, 0, 0, -0.25f, 0, 0, 0, 1e18f};
     static const char yes[] = "\"normalized\":true,";
     check_position_type(5120, "", b, sizeof b, -128, 127, -1);
     check_position_type(5120, yes, b, sizeof b, -1, 1, -1 / 127.0);
@@ -241,20 +251,24 @@ static void test_accessor_types(void)
     check_position_type(5126, "", f, sizeof f, 1.5, -0.25, (double)1e18f);
 }
 
-static const char *const six_points = "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\",\"sparse\":{\"count\":2,"
+static const char *const six_points =
+    "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\",\"sparse\":{\"count\":2,"
     "\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0,\"byteOffset\":4,\"componentType\":5126}}}";
 static const char *const view_28 = "{\"buffer\":0,\"byteLength\":28}";
 
 static void test_sparse(void)
 {
-    static const change cases[] = { { "\"count\":2", "\"count\":7", "exceeds" }, { "\"count\":2", "\"count\":0", "are needed" },
-        { "5121", "5120", "5121, 5123 or 5125" }, { "5121", "5123", "accessor has 6" }, { "\"byteOffset\":4", "\"byteOffset\":5", "reach beyond" },
-        { "\"count\":6", "\"count\":4", "index 1 is 4" } };
-    uint8_t bytes[28] = { 1, 4 };
-    const float points[6] = { 1, 2, 3, 4, 5, 6 };
+    static const change cases[] = {{"\"count\":2", "\"count\":7", "exceeds"},
+                                   {"\"count\":2", "\"count\":0", "are needed"},
+                                   {"5121", "5120", "5121, 5123 or 5125"},
+                                   {"5121", "5123", "accessor has 6"},
+                                   {"\"byteOffset\":4", "\"byteOffset\":5", "reach beyond"},
+                                   {"\"count\":6", "\"count\":4", "index 1 is 4"}};
+    uint8_t bytes[28] = {1, 4};
+    const float points[6] = {1, 2, 3, 4, 5, 6};
     memcpy(bytes + 4, points, sizeof points);
     if (CHECK_EQ_INT(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes), 0)) {
-        const double expected[18] = { [3] = 1, 2, 3, [12] = 4, 5, 6 };
+        const double expected[18] = {[3] = 1, 2, 3, [12] = 4, 5, 6};
         CHECK(s.meshes[0].n_vertices == 6 && memcmp(s.meshes[0].pos, expected, sizeof expected) == 0);
         scene_free(&s);
     }
@@ -265,20 +279,25 @@ static void test_sparse(void)
     bytes[1] = 1;
     CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes), "does not increase"));
     bytes[1] = 4;
-    memcpy(bytes + 4, &(float){ NAN }, sizeof(float));
-    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes), "element 0 is not finite"));
-    memcpy(bytes + 4, &(float){ 2e18f }, sizeof(float));
-    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes), "vertex 1: coordinate 2e+18"));
+    memcpy(bytes + 4, &(float){NAN}, sizeof(float));
+    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes),
+                  "element 0 is not finite"));
+    memcpy(bytes + 4, &(float){2e18f}, sizeof(float));
+    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes),
+                  "vertex 1: coordinate 2e+18"));
 }
 
 static void check_mode(int mode, int index_type, const void *idx, size_t index_bytes, const uint32_t *expected, size_t n_triangles)
 {
     char attributes[100], accessors[300];
-    uint8_t bytes[28] = { 0 };
+    uint8_t bytes[28] = {0};
     memcpy(bytes, idx, index_bytes);
-    snprintf(attributes, sizeof attributes, "\"mode\":%d,\"attributes\":{\"POSITION\":0}%s", mode, index_type ? ",\"indices\":1" : "");
-    snprintf(accessors, sizeof accessors, "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},"
-             "{\"bufferView\":0,\"componentType\":%d,\"count\":6,\"type\":\"SCALAR\"}", index_type);
+    snprintf(attributes, sizeof attributes, "\"mode\":%d,\"attributes\":{\"POSITION\":0}%s", mode,
+             index_type ? ",\"indices\":1" : "");
+    snprintf(accessors, sizeof accessors,
+             "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},"
+             "{\"bufferView\":0,\"componentType\":%d,\"count\":6,\"type\":\"SCALAR\"}",
+             index_type);
     if (!CHECK_EQ_INT(load_bytes(attributes, accessors, view_28, bytes, sizeof bytes), 0)) return (void)puts(error);
     CHECK_EQ_INT(s.meshes[0].n_triangles, n_triangles);
     CHECK(s.meshes[0].n_triangles == n_triangles && memcmp(s.meshes[0].idx, expected, n_triangles * 3 * sizeof *expected) == 0);
@@ -288,18 +307,20 @@ static void check_mode(int mode, int index_type, const void *idx, size_t index_b
 /* Vertices are numbered anew in order of first use. */
 static void test_modes(void)
 {
-    static const uint32_t list[] = { 0, 1, 2, 3, 4, 5 }, strip[] = { 0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 5, 4 };
-    static const uint32_t fan[] = { 0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5 };
+    static const uint32_t list[] = {0, 1, 2, 3, 4, 5}, strip[] = {0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 5, 4};
+    static const uint32_t fan[] = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5};
     check_mode(4, 0, "", 0, list, 2);
     check_mode(5, 0, "", 0, strip, 4);
     check_mode(6, 0, "", 0, fan, 4);
-    check_mode(4, 5121, (const uint8_t[]){ 5, 4, 3, 2, 1, 0 }, 6, list, 2);
-    check_mode(4, 5123, (const uint16_t[]){ 5, 4, 3, 2, 1, 0 }, 12, list, 2);
-    check_mode(4, 5125, (const uint32_t[]){ 5, 4, 3, 2, 1, 0 }, 24, list, 2);
-    check_mode(6, 5121, (const uint8_t[]){ 3, 1, 5, 0, 2, 4 }, 6, fan, 4);
-    static const char accessors[] = "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},{\"bufferView\":0,\"componentType\":5125,\"count\":3,\"type\":\"SCALAR\"}";
-    const uint32_t idx[7] = { 0, 6, 1 };
-    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0},\"indices\":1", accessors, view_28, idx, sizeof idx), "indices: index 1 is 6, there are 6"));
+    check_mode(4, 5121, (const uint8_t[]){5, 4, 3, 2, 1, 0}, 6, list, 2);
+    check_mode(4, 5123, (const uint16_t[]){5, 4, 3, 2, 1, 0}, 12, list, 2);
+    check_mode(4, 5125, (const uint32_t[]){5, 4, 3, 2, 1, 0}, 24, list, 2);
+    check_mode(6, 5121, (const uint8_t[]){3, 1, 5, 0, 2, 4}, 6, fan, 4);
+    static const char accessors[] = "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},{\"bufferView\":0,\"componentType\":"
+                                    "5125,\"count\":3,\"type\":\"SCALAR\"}";
+    const uint32_t idx[7] = {0, 6, 1};
+    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0},\"indices\":1", accessors, view_28, idx, sizeof idx),
+                  "indices: index 1 is 6, there are 6"));
 }
 
 /* Two plain instances share a mesh; the mirroring one has a copy that winds the other way. */
@@ -337,7 +358,8 @@ static void test_gltf_options(void)
         CHECK(s.objects[0].unlit);
         scene_free(&s);
     }
-    CHECK(refused(load_changed("\"scale\":[2,2,2]", "\"scale\":[2,2,2],\"matrix\":[1e200,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]"), "cannot be animated"));
+    CHECK(refused(load_changed("\"scale\":[2,2,2]", "\"scale\":[2,2,2],\"matrix\":[1e200,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]"),
+                  "cannot be animated"));
     const char *huge = replaced(without_animation(base_json), "\"scale\":[2,2,2]", "\"scale\":[1e19,2,2]");
     CHECK(refused(load_text(TMP ".gltf", huge), "object 'inner', vertex 2: world coordinate -1e+19"));
     huge = replaced(without_animation(base_json), "\"name\":\"inner\"", "\"scale\":[1e308,1,1],\"translation\":[1e308,0,0]");
@@ -442,8 +464,8 @@ static void test_obj(void)
         CHECK_NEAR(s.objects[1].albedo[1], 0.8, 0);
         CHECK_NEAR(s.meshes[2].pos[1], 0, 0);
     }
-    CHECK(has_note("'l' statements") && has_note("material 'grey' is not defined") && has_note("transparency of material 'red paint'") &&
-          has_note("colour texture of material 'red paint'"));
+    CHECK(has_note("'l' statements") && has_note("material 'grey' is not defined") &&
+          has_note("transparency of material 'red paint'") && has_note("colour texture of material 'red paint'"));
     CHECK_EQ_INT(s.n_notes, 4);
     scene_free(&s);
 }
@@ -492,7 +514,8 @@ static void test_normals(void)
         CHECK_NEAR(s.meshes[0].nrm[2], half, 1e-12);
         scene_free(&s);
     }
-    static const char zero[] = "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 9 9 9\nvn 0 0 0\nvn 0 0 1\nf 1//1 2//1 3//2\nf 4//1 4//1 4//1\nf 1//2 2 3\n";
+    static const char zero[] =
+        "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 9 9 9\nvn 0 0 0\nvn 0 0 1\nf 1//1 2//1 3//2\nf 4//1 4//1 4//1\nf 1//2 2 3\n";
     if (CHECK_EQ_INT(load_text(TMP ".obj", zero), 0)) {
         check_invariants();
         CHECK(has_note("3 normals of"));
@@ -530,7 +553,7 @@ static double picture_share(int w, int h)
     for (size_t i = 0; i + 1 < s.n_objects; i++) {
         const scene_mesh *m = &s.meshes[s.objects[i].mesh_idx];
         for (size_t v = 0; v < m->n_vertices; v++) {
-            double local[3] = { 0, 0, 0 };
+            double local[3] = {0, 0, 0};
             for (int k = 0; k < 3; k++) {
                 for (int j = 0; j < 3; j++) local[k] += (m->pos[3 * v + (size_t)j] - c->to_world.m[j][3]) * c->to_world.m[j][k];
             }
@@ -544,7 +567,7 @@ static double picture_share(int w, int h)
 
 static void check_cascades(int n_cascades)
 {
-    static const double ratios[5][3] = { { 0 }, { 1, 1, 1 }, { 0.25, 1, 1 }, { 0.1, 0.25, 1 }, { 0.1, 0.25, 0.5 } };
+    static const double ratios[5][3] = {{0}, {1, 1, 1}, {0.25, 1, 1}, {0.1, 0.25, 1}, {0.1, 0.25, 0.5}};
     CHECK_EQ_INT(s.shadow.n_cascades, n_cascades);
     CHECK(s.shadow.blend == SCENE_BLEND_HARD && s.shadow.distance_mode == SCENE_DISTANCE_DEPTH);
     for (int n = n_cascades; n <= 4; n++) {
@@ -560,7 +583,7 @@ static void check_defaults(int w, int h, double size)
     char text[300];
     snprintf(text, sizeof text, "v 0 0 0\nv %g 0 0\nv 0 %g 0\nv 0 0 %g\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", size, size, size);
     write_file(TMP ".obj", text, strlen(text));
-    if (!CHECK_EQ_INT(load(TMP ".obj", &(scene_options){ .width = w, .height = h }), 0)) return;
+    if (!CHECK_EQ_INT(load(TMP ".obj", &(scene_options){.width = w, .height = h}), 0)) return;
     check_invariants();
     CHECK_NEAR(picture_share(w, h), 0.7, 0.01);
     CHECK(s.camera.near >= s.camera.far / 1000);
@@ -572,7 +595,7 @@ static void check_defaults(int w, int h, double size)
     CHECK(s.shadow.filter == SCENE_FILTER_3X3);
     check_cascades(1);
     /* The shadow of the top vertex on the ground is in front of where shadows start to fade. */
-    const double *light = s.lights[0].direction, tip[3] = { -size * light[0] / light[1], 0, -size * light[2] / light[1] };
+    const double *light = s.lights[0].direction, tip[3] = {-size * light[0] / light[1], 0, -size * light[2] / light[1]};
     double depth = 0;
     for (int i = 0; i < 3; i++) depth -= (tip[i] - s.camera.to_world.m[i][3]) * s.camera.to_world.m[i][2];
     CHECK(depth <= s.shadow.max_distance * (1 - s.shadow.distance_fade) * (1 + 1e-9));
@@ -615,7 +638,8 @@ static void fuzz(const char *path, const void *valid, size_t n, int n_rounds)
         memcpy(bytes, valid, n);
         for (uint32_t k = random_u32() % 4; k < 4; k++) bytes[random_u32() % n] = random_byte();
         write_file(path, bytes, n);
-        const scene_options options = { .frame = (int)(random_u32() % 9), .width = 64, .height = 48, .ground = i & 1, .smooth = (i & 2) != 0 };
+        const scene_options options = {
+            .frame = (int)(random_u32() % 9), .width = 64, .height = 48, .ground = i & 1, .smooth = (i & 2) != 0};
         if (load(path, &options) == 0) {
             check_invariants();
             scene_free(&s);
@@ -646,7 +670,7 @@ static void test_damage(void)
         bytes[random_u32() % sizeof bytes] = (uint8_t)random_u32();
         write_file("build/tmp/test_scene.bin", bytes, sizeof bytes);
         write_file(TMP ".gltf", base_json, sizeof base_json - 1);
-        if (load(TMP ".gltf", &(scene_options){ .frame = i % 9, .width = 9, .height = 9 }) == 0) {
+        if (load(TMP ".gltf", &(scene_options){.frame = i % 9, .width = 9, .height = 9}) == 0) {
             check_invariants();
             scene_free(&s);
         }

@@ -14,7 +14,7 @@ static const char sundial_path[] = "host/scenes/sundial.gltf", avenue_path[] = "
 static int load(scene *s, const char *path, int frame)
 {
     char error[300];
-    const scene_options options = { .frame = frame, .width = 320, .height = 240 };
+    const scene_options options = {.frame = frame, .width = 320, .height = 240};
     int ok = CHECK_EQ_INT(scene_load(s, path, &options, error, sizeof error), 0);
     if (!ok) printf("  %s\n", error);
     return ok;
@@ -114,7 +114,9 @@ static void test_budget(const char *path, size_t n_most, size_t n_most_visible)
 
 /* --- Closed casters -------------------------------------------------------------------------------------------------- */
 
-typedef struct { double from[3], to[3]; } directed_edge;
+typedef struct {
+    double from[3], to[3];
+} directed_edge;
 
 static int compare_edges(const void *a, const void *b)
 {
@@ -167,7 +169,9 @@ static void test_closed_casters(const char *path)
 
 /* --- The hour -------------------------------------------------------------------------------------------------------- */
 
-typedef struct { double east, north; } plan;
+typedef struct {
+    double east, north;
+} plan;
 
 static const scene_object *find_object(const scene *s, const char *name, size_t nth)
 {
@@ -181,7 +185,7 @@ static const scene_object *find_object(const scene *s, const char *name, size_t 
 static plan cast(const double *p, const double *light)
 {
     double t = (SUNDIAL_PLATE_TOP - p[1]) / light[1];
-    return (plan){ p[0] + t * light[0], -(p[2] + t * light[2]) };
+    return (plan){p[0] + t * light[0], -(p[2] + t * light[2])};
 }
 
 /* The shadows of the two ends of the style's edge on one side of the gnomon: its tip, and its foot, the southernmost corner. */
@@ -222,9 +226,10 @@ static double angle_to_drawn_line(const scene *s, plan foot, plan tip, plan corn
 static void check_frame(int frame)
 {
     scene s;
-    double hour_angle = (SUNDIAL_FIRST_HOUR + (double)frame / SUNDIAL_FRAMES_PER_HOUR - 12) * 15 * PI / 180, side = hour_angle < 0 ? -1 : 1;
+    double hour_angle = (SUNDIAL_FIRST_HOUR + (double)frame / SUNDIAL_FRAMES_PER_HOUR - 12) * 15 * PI / 180,
+           side = hour_angle < 0 ? -1 : 1;
     double expected = atan2(sin(SUNDIAL_LATITUDE_DEG * PI / 180) * sin(hour_angle), cos(hour_angle)) * 180 / PI;
-    plan foot, tip, corner = { side * SUNDIAL_STYLE_HALF_WIDTH, SUNDIAL_STYLE_FOOT_NORTH };
+    plan foot, tip, corner = {side * SUNDIAL_STYLE_HALF_WIDTH, SUNDIAL_STYLE_FOOT_NORTH};
     if (!load(&s, sundial_path, frame)) return;
     if (CHECK(find_object(&s, "gnomon", 0) && find_object(&s, "plate", 3)) && CHECK(s.lights[0].direction[1] < -0.25)) {
         cast_style(&s, side, &foot, &tip);

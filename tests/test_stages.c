@@ -16,19 +16,25 @@
 #include "../lib/gnomon.h"
 #include "check.h"
 
-#define LSB16 (1.0 / 65536)
+#define LSB16    (1.0 / 65536)
 #define N_SCENES 300
-#define WIDTH 160
-#define HEIGHT 120
+#define WIDTH    160
+#define HEIGHT   120
 
 enum { STAGE_VIEW, STAGE_SCREEN, STAGE_DEPTH, STAGE_Z, STAGE_COSINE, STAGE_LIGHT_UV, STAGE_LIGHT_DEPTH, STAGE_COUNT };
 static const char *const stage_name[STAGE_COUNT] = {
-    "transform to view space, LSB of Q15.16",       "projection, LSB of the subpixel grid",
-    "near / Z at a covered centre, LSB of Q0.32",   "view depth of a sample, LSB of Q15.16",
-    "n . L of a sample, LSB of Q24",                "light coordinates of a sample, LSB of Q16 texels",
+    "transform to view space, LSB of Q15.16",
+    "projection, LSB of the subpixel grid",
+    "near / Z at a covered centre, LSB of Q0.32",
+    "view depth of a sample, LSB of Q15.16",
+    "n . L of a sample, LSB of Q24",
+    "light coordinates of a sample, LSB of Q16 texels",
     "stored caster depth, LSB of the 16-bit depth",
 };
-static struct { double error, share; long n; } seen[STAGE_COUNT]; /* largest error in LSB, largest share of its bound */
+static struct {
+    double error, share;
+    long n;
+} seen[STAGE_COUNT]; /* largest error in LSB, largest share of its bound */
 static long violations[STAGE_COUNT];
 
 static void record(int stage, double error, double bound, double lsb)
@@ -53,7 +59,8 @@ static double uniform(double lo, double hi)
 static int32_t pos[9 * N_TRIANGLES];
 static int16_t nrm[9 * N_TRIANGLES];
 static uint16_t idx[3 * N_TRIANGLES];
-static gn_mesh mesh = {.pos = pos, .nrm_q15 = nrm, .idx = idx, .n_vertices = 3 * N_TRIANGLES, .n_triangles = N_TRIANGLES, .pos_frac_bits = 24};
+static gn_mesh mesh = {
+    .pos = pos, .nrm_q15 = nrm, .idx = idx, .n_vertices = 3 * N_TRIANGLES, .n_triangles = N_TRIANGLES, .pos_frac_bits = 24};
 static gn_object object;
 static gn_light light;
 static gn_scene fixed;
@@ -89,7 +96,8 @@ static void random_scene(void)
     }
     object.mesh = &mesh;
     object.flags = GN_OBJECT_DEFAULT | GN_OBJECT_TWO_SIDED;
-    gn_affine_rotation(&fixed.camera.to_world, (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535));
+    gn_affine_rotation(&fixed.camera.to_world, (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535),
+                       (uint16_t)uniform(0, 65535));
     double away = radius * uniform(4, 20);
     for (int k = 0; k < 3; k++) /* behind the object as the camera sees it */
         fixed.camera.to_world.t_q16[k] = object.to_world.t_q16[k] + (int32_t)(away * fixed.camera.to_world.m_q30[k][2] / 16384.0);
@@ -110,7 +118,9 @@ static void random_scene(void)
 
 /* ---- The stages ------------------------------------------------------------------------------------------------------ */
 
-typedef struct { double v[3]; } vec;
+typedef struct {
+    double v[3];
+} vec;
 
 static double dot(const double *a, const double *b)
 {
@@ -283,7 +293,8 @@ static void check_light_coords(const gn_frame *frame, const gn_surface *s, const
         double want = (z_got * along + eye) / texel - view->origin[i] + point * view->offset_q16 * LSB16;
         double bound = 3 * LSB16 + z_got * ldexp(1 + 0.5 * (abs(px) + abs(py)), -view->ray_shift) +
                        ldexp(fabs(z_got * along / texel) + fabs(eye / texel) + fabs((double)view->origin[i]), -27) +
-                       view->offset_q16 * LSB16 * (ldexp(c->kappa_b + c->kappa, -27) + (frame->knobs.newton_steps == 1 ? ldexp(1, -14) : ldexp(1, -26)));
+                       view->offset_q16 * LSB16 *
+                           (ldexp(c->kappa_b + c->kappa, -27) + (frame->knobs.newton_steps == 1 ? ldexp(1, -14) : ldexp(1, -26)));
         record(STAGE_LIGHT_UV, fabs(sample->value[GN_VALUE_LIGHT + 1 + i] * LSB16 - want), bound, LSB16);
     }
 }
@@ -470,7 +481,9 @@ int main(int argc, char **argv)
             run_scene(preset ? &accurate : &balanced);
             run_caster_plane(preset ? &accurate : &balanced);
         }
-        if (table) printf("\n**%s**\n\n| stage | cases | largest error | largest share of its bound |\n|---|---|---|---|\n", preset ? "accurate" : "balanced");
+        if (table)
+            printf("\n**%s**\n\n| stage | cases | largest error | largest share of its bound |\n|---|---|---|---|\n",
+                   preset ? "accurate" : "balanced");
         for (int s = 0; s < STAGE_COUNT; s++) {
             if (table) printf("| %s | %ld | %.3g | %.2f |\n", stage_name[s], seen[s].n, seen[s].error, seen[s].share);
             CHECK(seen[s].n > 100);

@@ -19,10 +19,14 @@ static int32_t random_coord(int32_t lo_px, int32_t hi_px, int32_t bits)
 {
     int32_t one = 1 << bits, base = rng_range(&random_state, lo_px, hi_px) * one;
     switch (rng_below(&random_state, 8)) {
-    case 0: return base + one / 2;
-    case 1: return base;
-    case 2: return base + one / 2 + rng_range(&random_state, -1, 1);
-    default: return base + (int32_t)rng_below(&random_state, (uint32_t)one);
+    case 0:
+        return base + one / 2;
+    case 1:
+        return base;
+    case 2:
+        return base + one / 2 + rng_range(&random_state, -1, 1);
+    default:
+        return base + (int32_t)rng_below(&random_state, (uint32_t)one);
     }
 }
 
@@ -31,14 +35,29 @@ static void make_awkward(int32_t x[3], int32_t y[3])
 {
     uint32_t a = rng_below(&random_state, 3), b = (a + 1) % 3, c = (a + 2) % 3;
     switch (rng_below(&random_state, 12)) {
-    case 0: y[a] = y[b]; break;
-    case 1: x[a] = x[b]; break;
-    case 2: x[a] = x[b], y[a] = y[b]; break;
-    case 3: x[c] = 2 * x[b] - x[a], y[c] = 2 * y[b] - y[a]; break; /* collinear, maybe on pixel centres */
-    case 4: x[c] = x[b] + rng_range(&random_state, -2, 2), y[c] = y[b] + rng_range(&random_state, -2, 2); break; /* sliver */
-    case 5: x[a] = x[b] = x[c], y[a] = y[b] = y[c]; break;
-    case 6: x[a] = x[b], y[a] = y[c]; break; /* two sides along the axes */
-    default: break;
+    case 0:
+        y[a] = y[b];
+        break;
+    case 1:
+        x[a] = x[b];
+        break;
+    case 2:
+        x[a] = x[b], y[a] = y[b];
+        break;
+    case 3:
+        x[c] = 2 * x[b] - x[a], y[c] = 2 * y[b] - y[a];
+        break; /* collinear, maybe on pixel centres */
+    case 4:
+        x[c] = x[b] + rng_range(&random_state, -2, 2), y[c] = y[b] + rng_range(&random_state, -2, 2);
+        break; /* sliver */
+    case 5:
+        x[a] = x[b] = x[c], y[a] = y[b] = y[c];
+        break;
+    case 6:
+        x[a] = x[b], y[a] = y[c];
+        break; /* two sides along the axes */
+    default:
+        break;
     }
 }
 
@@ -129,8 +148,8 @@ static void test_tile_borders(void)
                     ok = ok && row == expected++ && row < hi && xa == span[row][0] && xb == span[row][1];
                 }
             for (; expected < hi; expected++) ok = ok && span[expected][0] >= span[expected][1];
-            HOLDS(&t, ok, "bits %d, rows %d..%d: (%d, %d) (%d, %d) (%d, %d)", (int)bits, (int)lo, (int)hi, (int)x[0],
-                  (int)y[0], (int)x[1], (int)y[1], (int)x[2], (int)y[2]);
+            HOLDS(&t, ok, "bits %d, rows %d..%d: (%d, %d) (%d, %d) (%d, %d)", (int)bits, (int)lo, (int)hi, (int)x[0], (int)y[0],
+                  (int)x[1], (int)y[1], (int)x[2], (int)y[2]);
         }
     }
     CHECK_TALLY(t, "walks cut at tile borders");
@@ -240,8 +259,7 @@ static void test_fan(void)
             for (int32_t px = 0; px < CANVAS; px++) {
                 int64_t dx = px * one + one / 2 - cx, dy = py * one + one / 2 - cy, near = 11 * one;
                 int n_here = c.once[py][px], inside = dx * dx + dy * dy < near * near;
-                HOLDS(&t, inside ? n_here == 1 : n_here <= 1, "fan %u at (%d, %d): %d", (unsigned)i, (int)px, (int)py,
-                      n_here);
+                HOLDS(&t, inside ? n_here == 1 : n_here <= 1, "fan %u at (%d, %d): %d", (unsigned)i, (int)px, (int)py, n_here);
             }
     }
     CHECK_TALLY(t, "a fan covers each pixel once");
@@ -365,8 +383,7 @@ static void pixel_ray(long double ray[3], const gn_affine *camera, long double f
     long double x = ((long double)px + 0.5L - WIDTH / 2) / (focal * (HEIGHT / 2)),
                 y = (HEIGHT / 2 - (long double)py - 0.5L) / (focal * (HEIGHT / 2));
     for (int k = 0; k < 3; k++)
-        ray[k] = ((long double)camera->m_q30[k][0] * x + (long double)camera->m_q30[k][1] * y -
-                  (long double)camera->m_q30[k][2]) /
+        ray[k] = ((long double)camera->m_q30[k][0] * x + (long double)camera->m_q30[k][1] * y - (long double)camera->m_q30[k][2]) /
                  1073741824.0L;
 }
 

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_SIDE 16384 /* of picture and atlas: products of two sides fit every size_t and int64_t */
-#define MIN_ATLAS 16   /* A1 */
+#define MAX_SIDE  16384 /* of picture and atlas: products of two sides fit every size_t and int64_t */
+#define MIN_ATLAS 16    /* A1 */
 
 static const char *check_limits(const scene *s, const ref_options *options)
 {

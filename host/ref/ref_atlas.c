@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 typedef struct {
-    vec3 p[3];    /* (U, V, D), texels */
-    double bias;  /* constant + slope * max gradient */
+    vec3 p[3];   /* (U, V, D), texels */
+    double bias; /* constant + slope * max gradient */
     bool two_sided;
 } caster_triangle;
 

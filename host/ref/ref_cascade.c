@@ -3,16 +3,20 @@
 #include "ref_internal.h"
 
 #define MAX_TILED_LIGHTS 4 /* D1 */
-#define MIN_TILE 8         /* A2 */
+#define MIN_TILE         8 /* A2 */
 
 int ref_filter_index(scene_filter filter)
 {
     switch (filter) {
-    case SCENE_FILTER_3X3: return 1;
-    case SCENE_FILTER_5X5: return 2;
-    case SCENE_FILTER_7X7: return 3;
+    case SCENE_FILTER_3X3:
+        return 1;
+    case SCENE_FILTER_5X5:
+        return 2;
+    case SCENE_FILTER_7X7:
+        return 3;
     case SCENE_FILTER_HARD:
-    case SCENE_FILTER_2X2: break;
+    case SCENE_FILTER_2X2:
+        break;
     }
     return 0;
 }
@@ -82,8 +86,7 @@ static void fit_grid(ref_light_view *view, double near_offset)
     const double half = view->tile_texels / 2.0;
     const double pull = ceil(near_offset / view->texel);
     const vec3 centre = vec3_load(view->sphere_centre);
-    for (int i = 0; i < 3; i++)
-        view->origin[i] = floor(vec3_dot(centre, vec3_load(view->axis[i])) / view->texel + 0.5) - half;
+    for (int i = 0; i < 3; i++) view->origin[i] = floor(vec3_dot(centre, vec3_load(view->axis[i])) / view->texel + 0.5) - half;
     view->origin[2] -= pull;
     view->depth_range = view->tile_texels;
     while (view->depth_range < view->tile_texels + pull) view->depth_range *= 2.0;
@@ -91,7 +94,8 @@ static void fit_grid(ref_light_view *view, double near_offset)
 
 /* Leaves view->depth alone: the atlas stage owns it. -1 if no finite texel covers the sphere. The factor just below 1 keeps the
  * texel of a radius that is a round number off the edge between two of ceil8's steps. */
-int ref_fit_light(ref_light_view *view, const scene *s, const scene_light *light, int cascade, int width, int height, int tile_texels)
+int ref_fit_light(ref_light_view *view, const scene *s, const scene_light *light, int cascade, int width, int height,
+                  int tile_texels)
 {
     const double reach = 2.0 * (ref_filter_index(s->shadow.filter) + 1) * (1.0 + sqrt(2.0) * light->bias_normal);
     const double sphere_texels = fmax(tile_texels - reach - 1.0, tile_texels / 4.0);
@@ -109,7 +113,10 @@ int ref_fit_light(ref_light_view *view, const scene *s, const scene_light *light
     return 0;
 }
 
-static bool wants_tile(const scene_light *light) { return light->shadow && light->strength > 0.0; }
+static bool wants_tile(const scene_light *light)
+{
+    return light->shadow && light->strength > 0.0;
+}
 
 /* The atlas is split into 1, 4 or 16 equal tiles (A2); those of empty cascades count. */
 static int tile_side(int atlas_texels, int n_tiles)

@@ -19,11 +19,16 @@ double ref_tent_weight(int filter_size, double centre, int texel)
 static double axis_weight(scene_filter filter, double x, int i)
 {
     switch (filter) {
-    case SCENE_FILTER_HARD: return (int)floor(x) == i ? 1.0 : 0.0;
-    case SCENE_FILTER_2X2: return fmax(0.0, 1.0 - fabs(i + 0.5 - x));
-    case SCENE_FILTER_3X3: return ref_tent_weight(3, x, i);
-    case SCENE_FILTER_5X5: return ref_tent_weight(5, x, i);
-    case SCENE_FILTER_7X7: return ref_tent_weight(7, x, i);
+    case SCENE_FILTER_HARD:
+        return (int)floor(x) == i ? 1.0 : 0.0;
+    case SCENE_FILTER_2X2:
+        return fmax(0.0, 1.0 - fabs(i + 0.5 - x));
+    case SCENE_FILTER_3X3:
+        return ref_tent_weight(3, x, i);
+    case SCENE_FILTER_5X5:
+        return ref_tent_weight(5, x, i);
+    case SCENE_FILTER_7X7:
+        return ref_tent_weight(7, x, i);
     }
     return 0.0;
 }

@@ -49,11 +49,13 @@ typedef struct {
     ref_camera camera;
     ref_instance *instances; /* one per object */
     ref_sphere sphere[REF_MAX_CASCADES];
-    ref_hit *hits;           /* one per pixel; meaningful where picture->triangle >= 0 */
+    ref_hit *hits; /* one per pixel; meaningful where picture->triangle >= 0 */
 } ref_frame;
 
 /* Inclusive sample indices; empty if x1 < x0 or y1 < y0. */
-typedef struct { int x0, y0, x1, y1; } ref_box;
+typedef struct {
+    int x0, y0, x1, y1;
+} ref_box;
 
 /* ref_xform.c */
 ref_camera ref_make_camera(const scene_camera *camera, int width, int height);

@@ -15,8 +15,7 @@ typedef struct {
 static vec3 interpolated_normal(const ref_instance *instance, const uint32_t idx[3], const ref_hit *hit)
 {
     vec3 n = {0.0, 0.0, 0.0};
-    if (instance->normal)
-        n = vec3_mix(hit->bary, instance->normal[idx[0]], instance->normal[idx[1]], instance->normal[idx[2]]);
+    if (instance->normal) n = vec3_mix(hit->bary, instance->normal[idx[0]], instance->normal[idx[1]], instance->normal[idx[2]]);
     if (!(vec3_dot(n, n) > 0.0)) { /* no normals, or they cancel: the face's */
         const vec3 p0 = instance->world[idx[0]];
         n = vec3_unit(vec3_cross(vec3_sub(instance->world[idx[1]], p0), vec3_sub(instance->world[idx[2]], p0)));
@@ -57,7 +56,10 @@ static surface surface_at(const ref_frame *frame, size_t pixel)
     };
 }
 
-static double frac(double x) { return x - floor(x); }
+static double frac(double x)
+{
+    return x - floor(x);
+}
 
 double ref_dither_noise(int x, int y)
 {

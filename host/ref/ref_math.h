@@ -4,15 +4,39 @@
 
 #include <math.h>
 
-typedef struct { double x, y; } vec2;
-typedef struct { double x, y, z; } vec3;
+typedef struct {
+    double x, y;
+} vec2;
+typedef struct {
+    double x, y, z;
+} vec3;
 
-static inline vec3 vec3_load(const double *p) { return (vec3){p[0], p[1], p[2]}; }
-static inline void vec3_store(double *p, vec3 a) { p[0] = a.x; p[1] = a.y; p[2] = a.z; }
-static inline vec3 vec3_add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
-static inline vec3 vec3_sub(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
-static inline vec3 vec3_scale(vec3 a, double f) { return (vec3){a.x * f, a.y * f, a.z * f}; }
-static inline double vec3_dot(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline vec3 vec3_load(const double *p)
+{
+    return (vec3){p[0], p[1], p[2]};
+}
+static inline void vec3_store(double *p, vec3 a)
+{
+    p[0] = a.x;
+    p[1] = a.y;
+    p[2] = a.z;
+}
+static inline vec3 vec3_add(vec3 a, vec3 b)
+{
+    return (vec3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+static inline vec3 vec3_sub(vec3 a, vec3 b)
+{
+    return (vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static inline vec3 vec3_scale(vec3 a, double f)
+{
+    return (vec3){a.x * f, a.y * f, a.z * f};
+}
+static inline double vec3_dot(vec3 a, vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 static inline vec3 vec3_cross(vec3 a, vec3 b)
 {
@@ -35,7 +59,10 @@ static inline vec3 vec3_mix(const double f[3], vec3 a0, vec3 a1, vec3 a2)
     return vec3_add(vec3_scale(a0, f[0]), vec3_add(vec3_scale(a1, f[1]), vec3_scale(a2, f[2])));
 }
 
-static inline double clamp(double x, double low, double high) { return fmin(fmax(x, low), high); }
+static inline double clamp(double x, double low, double high)
+{
+    return fmin(fmax(x, low), high);
+}
 
 /* a x b in the plane. The operands are ordered first, so that cross2(b, a) is bit for bit -cross2(a, b) even where the compiler
  * fuses multiply and add: two triangles that share an edge then always disagree about the side of a point. */

@@ -75,8 +75,7 @@ static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i
     if (!(fabs(sum) > 0.0)) return;
     ref_hit hit = {.behind = facing < 0};
     for (int k = 0; k < 3; k++) hit.bary[k] = weight[k] / sum;
-    const double depth =
-        hit.bary[0] * triangle->p[0].z + hit.bary[1] * triangle->p[1].z + hit.bary[2] * triangle->p[2].z;
+    const double depth = hit.bary[0] * triangle->p[0].z + hit.bary[1] * triangle->p[1].z + hit.bary[2] * triangle->p[2].z;
     const size_t pixel = (size_t)j * (size_t)frame->picture->width + (size_t)i;
     if (!(depth >= camera->near) || !(depth < frame->picture->depth[pixel])) return;
     frame->picture->depth[pixel] = depth;

@@ -3,7 +3,10 @@
 
 #include <stdlib.h>
 
-static vec3 column(const scene_affine *a, int c) { return (vec3){a->m[0][c], a->m[1][c], a->m[2][c]}; }
+static vec3 column(const scene_affine *a, int c)
+{
+    return (vec3){a->m[0][c], a->m[1][c], a->m[2][c]};
+}
 
 static vec3 transform_point(const scene_affine *a, vec3 p)
 {

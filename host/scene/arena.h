@@ -5,7 +5,9 @@
 #include <stddef.h>
 
 typedef struct arena_block arena_block;
-typedef struct { arena_block *blocks; } arena;
+typedef struct {
+    arena_block *blocks;
+} arena;
 
 /* n x size zeroed bytes, aligned for any type; NULL when memory runs out or the product overflows. */
 void *arena_alloc(arena *a, size_t n, size_t size);

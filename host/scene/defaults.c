@@ -6,16 +6,16 @@
 
 #include "vec.h"
 
-static const double camera_azimuth_deg = 30;     /* from +Z towards +X */
+static const double camera_azimuth_deg = 30; /* from +Z towards +X */
 static const double camera_elevation_deg = 25;
 static const double camera_fov_deg = 40;
-static const double camera_fill = 0.7;           /* of the smaller picture dimension */
-static const double light_azimuth_deg = -60;     /* from the camera's: to its left */
+static const double camera_fill = 0.7;       /* of the smaller picture dimension */
+static const double light_azimuth_deg = -60; /* from the camera's: to its left */
 static const double light_elevation_deg = 45;
 static const double light_intensity = 0.85;
 static const double ground_albedo = 0.55;
 static const double ground_half_size_radii = 8;
-static const double shadow_reach_radii = 3;      /* behind the object's centre, at most: a low sun casts without end */
+static const double shadow_reach_radii = 3; /* behind the object's centre, at most: a low sun casts without end */
 static const double shadow_fade = 0.1;
 
 /* Of all world vertices: box, and the sphere around the box's centre. */
@@ -31,8 +31,8 @@ static bool grow_box(loader *l, const scene_object *object, bounds *b)
         affine_point(p, &object->to_world, mesh->pos + 3 * i);
         for (int k = 0; k < 3; k++) {
             if (!(fabs(p[k]) <= LOADER_MAX_COORDINATE)) {
-                return loader_fail(l, "%s: object '%s', vertex %zu: world coordinate %g is out of range", l->path,
-                                   object->name, i, p[k]);
+                return loader_fail(l, "%s: object '%s', vertex %zu: world coordinate %g is out of range", l->path, object->name, i,
+                                   p[k]);
             }
             b->low[k] = fmin(b->low[k], p[k]);
             b->high[k] = fmax(b->high[k], p[k]);
@@ -54,7 +54,7 @@ static void grow_sphere(const scene *s, const scene_object *object, bounds *b)
 
 static bool find_bounds(loader *l, bounds *b)
 {
-    *b = (bounds){ .low = { HUGE_VAL, HUGE_VAL, HUGE_VAL }, .high = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL } };
+    *b = (bounds){.low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, .high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
     for (size_t i = 0; i < l->s->n_objects; i++) {
         if (!grow_box(l, &l->s->objects[i], b)) return false;
     }
@@ -74,13 +74,13 @@ static bool add_ground(loader *l, const bounds *b)
 {
     double half = ground_half_size_radii * b->radius;
     double x = b->centre[0], z = b->centre[2];
-    double pos[12] = { x - half, b->low[1], z - half, x - half, b->low[1], z + half,
-                       x + half, b->low[1], z + half, x + half, b->low[1], z - half };
-    uint32_t idx[6] = { 0, 1, 2, 0, 2, 3 };
+    double pos[12] = {x - half, b->low[1], z - half, x - half, b->low[1], z + half,
+                      x + half, b->low[1], z + half, x + half, b->low[1], z - half};
+    uint32_t idx[6] = {0, 1, 2, 0, 2, 3};
     char name[] = "ground";
-    scene_mesh quad = { .name = name, .n_vertices = 4, .n_triangles = 2, .pos = pos, .idx = idx };
-    scene_object object = { .name = name, .to_world = affine_identity(), .receives = true,
-                            .albedo = { ground_albedo, ground_albedo, ground_albedo } };
+    scene_mesh quad = {.name = name, .n_vertices = 4, .n_triangles = 2, .pos = pos, .idx = idx};
+    scene_object object = {
+        .name = name, .to_world = affine_identity(), .receives = true, .albedo = {ground_albedo, ground_albedo, ground_albedo}};
     mesh_splitter splitter;
     size_t first, n_meshes;
     return mesh_splitter_init(&splitter, l, &quad) && mesh_split(&splitter, name, idx, 2, false, &first, &n_meshes) &&
@@ -120,7 +120,7 @@ static void make_camera(loader *l, const bounds *b)
     scene_camera *camera = &l->s->camera;
     const scene_options *options = l->options;
     double azimuth = camera_azimuth_deg * VEC_PI / 180, elevation = camera_elevation_deg * VEC_PI / 180;
-    double right[3] = { cos(azimuth), 0, -sin(azimuth) }, up[3], back[3];
+    double right[3] = {cos(azimuth), 0, -sin(azimuth)}, up[3], back[3];
     direction_of(azimuth, elevation, back);
     vec_cross(up, back, right);
     for (int i = 0; i < 3; i++) {
@@ -186,16 +186,20 @@ static bool make_light(loader *l)
 
 bool loader_add_defaults(loader *l)
 {
-    static const double ambient[3] = { 0.18, 0.18, 0.18 }, background[3] = { 0.35, 0.45, 0.6 };
+    static const double ambient[3] = {0.18, 0.18, 0.18}, background[3] = {0.35, 0.45, 0.6};
     scene *s = l->s;
     bounds b;
     if (s->n_objects == 0) return loader_fail(l, "%s: the scene has no triangles", l->path);
     if (!find_bounds(l, &b)) return false;
     memcpy(s->ambient, ambient, sizeof ambient);
     memcpy(s->background, background, sizeof background);
-    s->shadow = (scene_shadow){ .max_distance = fmin(100, s->camera.far), .distance_fade = shadow_fade, .cascade_fade = 0.1,
-                                .filter = SCENE_FILTER_3X3, .n_cascades = l->has_camera ? 4 : 1, .blend = SCENE_BLEND_HARD,
-                                .distance_mode = SCENE_DISTANCE_DEPTH };
+    s->shadow = (scene_shadow){.max_distance = fmin(100, s->camera.far),
+                               .distance_fade = shadow_fade,
+                               .cascade_fade = 0.1,
+                               .filter = SCENE_FILTER_3X3,
+                               .n_cascades = l->has_camera ? 4 : 1,
+                               .blend = SCENE_BLEND_HARD,
+                               .distance_mode = SCENE_DISTANCE_DEPTH};
     scene_default_ratios(&s->shadow);
     if (!l->has_camera) make_camera(l, &b);
     if (s->n_lights == 0 && !make_light(l)) return false;

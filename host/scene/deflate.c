@@ -10,7 +10,7 @@ enum { HASH_BITS = 15, MAX_CHAIN = 64, END_OF_BLOCK = 256 };
 typedef struct {
     uint8_t *out;
     size_t n_out;
-    uint64_t bits;        /* not yet written, low bits first */
+    uint64_t bits; /* not yet written, low bits first */
     unsigned n_bits;
 } bit_writer;
 
@@ -129,7 +129,7 @@ uint8_t *zlib_compress(const uint8_t *bytes, size_t n_bytes, size_t *n_out)
     /* A literal takes at most 9 bits, a match of 3 bytes at most 8 + 5 + 5 + 13 = 31 bits; header, end and checksum 16 bytes. */
     if (n_bytes > SIZE_MAX / 2 - 16) return NULL;
     size_t worst_case = n_bytes + n_bytes / 3 + 16;
-    bit_writer w = { .out = malloc(worst_case) };
+    bit_writer w = {.out = malloc(worst_case)};
     match_finder *f = calloc(1, sizeof *f);
     if (w.out && f) {
         uint32_t adler = zlib_adler32(bytes, n_bytes);

@@ -7,7 +7,7 @@ enum { GLB_HEADER_BYTES = 12, GLB_CHUNK_HEADER_BYTES = 8, DEFAULT_FPS = 24 };
 
 static bool is_supported(const char *extension)
 {
-    static const char *const names[] = { "KHR_lights_punctual", "KHR_materials_unlit", "KHR_mesh_quantization" };
+    static const char *const names[] = {"KHR_lights_punctual", "KHR_materials_unlit", "KHR_mesh_quantization"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(extension, names[i]) == 0) return true;
     }
@@ -90,7 +90,7 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
     json_doc doc;
     char error[200];
     if (json_parse(&doc, text, n_bytes, error, sizeof error) != 0) return loader_fail(l, "%s:%s", l->path, error);
-    gltf g = { .l = l, .root = doc.root, .glb = glb, .fps = DEFAULT_FPS };
+    gltf g = {.l = l, .root = doc.root, .glb = glb, .fps = DEFAULT_FPS};
     const json_value *used_scene;
     bool ok = check_asset(&g) && find_arrays(&g) && gltf_load_buffers(&g) && find_scene(&g, &used_scene) &&
               gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) && gltf_animate(&g) && gltf_place_nodes(&g, used_scene) &&
@@ -104,7 +104,7 @@ bool loader_load_gltf(loader *l)
 {
     uint8_t *bytes;
     size_t n_bytes;
-    return loader_read_file(l, l->path, &bytes, &n_bytes) && load_json(l, (const char *)bytes, n_bytes, (gltf_bytes){ 0 });
+    return loader_read_file(l, l->path, &bytes, &n_bytes) && load_json(l, (const char *)bytes, n_bytes, (gltf_bytes){0});
 }
 
 static size_t word_at(const uint8_t *bytes)
@@ -118,7 +118,7 @@ static bool read_chunk(loader *l, const uint8_t *file, size_t n_bytes, size_t *a
     if (n_bytes - *at < GLB_CHUNK_HEADER_BYTES) return loader_fail(l, "%s: byte %zu: a chunk header is cut off", l->path, *at);
     size_t length = word_at(file + *at);
     *type = word_at(file + *at + 4);
-    *out = (gltf_bytes){ file + *at + GLB_CHUNK_HEADER_BYTES, length };
+    *out = (gltf_bytes){file + *at + GLB_CHUNK_HEADER_BYTES, length};
     if (length % 4 != 0) return loader_fail(l, "%s: byte %zu: chunk length %zu is not a multiple of 4", l->path, *at, length);
     if (length > n_bytes - *at - GLB_CHUNK_HEADER_BYTES) {
         return loader_fail(l, "%s: byte %zu: a chunk of %zu bytes reaches beyond the end", l->path, *at, length);
@@ -144,9 +144,10 @@ bool loader_load_glb(loader *l)
     static const size_t type_json = 0x4E4F534A, type_bin = 0x004E4942;
     uint8_t *file;
     size_t n_file, n_bytes = 0, at = GLB_HEADER_BYTES, type;
-    gltf_bytes text, chunk, binary = { 0 };
+    gltf_bytes text, chunk, binary = {0};
     if (!loader_read_file(l, l->path, &file, &n_file) || !check_glb_header(l, file, n_file, &n_bytes) ||
-        !read_chunk(l, file, n_bytes, &at, &type, &text)) return false;
+        !read_chunk(l, file, n_bytes, &at, &type, &text))
+        return false;
     if (type != type_json) return loader_fail(l, "%s: the first chunk is not JSON", l->path);
     while (at < n_bytes) {
         if (!read_chunk(l, file, n_bytes, &at, &type, &chunk)) return false;

@@ -16,18 +16,18 @@ typedef struct {
 
 typedef struct {
     const json_value *json;
-    size_t parent;          /* GLTF_NONE: a root */
+    size_t parent; /* GLTF_NONE: a root */
     bool in_scene;
     bool has_matrix;
-    scene_affine matrix;    /* used if has_matrix */
+    scene_affine matrix; /* used if has_matrix */
     double translation[3];
-    double rotation[4];     /* quaternion x y z w */
+    double rotation[4]; /* quaternion x y z w */
     double scale[3];
     scene_affine world;
 } gltf_node;
 
 typedef struct {
-    bool loaded[2];         /* [1]: with reversed winding, for mirroring instances */
+    bool loaded[2]; /* [1]: with reversed winding, for mirroring instances */
     size_t first_mesh[2], n_meshes[2];
 } gltf_primitive;
 
@@ -39,7 +39,7 @@ typedef struct {
 typedef struct {
     loader *l;
     const json_value *root;
-    gltf_bytes glb;         /* BIN chunk of a .glb */
+    gltf_bytes glb; /* BIN chunk of a .glb */
     /* Top-level arrays of objects, NULL where absent. */
     const json_value *accessors, *animations, *buffers, *buffer_views, *cameras, *lights, *materials, *meshes, *nodes, *scenes;
     gltf_bytes *buffer;
@@ -75,7 +75,7 @@ typedef struct {
     size_t count, n_components;
     size_t component_type;
     bool normalized;
-    double *values;         /* count * n_components, normalised ones in -1..1 or 0..1; finite */
+    double *values; /* count * n_components, normalised ones in -1..1 or 0..1; finite */
 } gltf_array;
 bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out);
 

@@ -10,10 +10,17 @@ enum { MAX_ZEROS = 1 << 20 };
 static size_t component_bytes(size_t type)
 {
     switch (type) {
-    case GLTF_BYTE: case GLTF_UBYTE: return 1;
-    case GLTF_SHORT: case GLTF_USHORT: return 2;
-    case GLTF_UINT: case GLTF_FLOAT: return 4;
-    default: return 0;
+    case GLTF_BYTE:
+    case GLTF_UBYTE:
+        return 1;
+    case GLTF_SHORT:
+    case GLTF_USHORT:
+        return 2;
+    case GLTF_UINT:
+    case GLTF_FLOAT:
+        return 4;
+    default:
+        return 0;
     }
 }
 
@@ -37,9 +44,12 @@ static double read_component(const uint8_t *bytes, size_t type, bool normalized)
         double value = bits < 0x8000 ? (double)bits : (double)bits - 0x10000;
         return normalized ? fmax(value / 32767, -1) : value;
     }
-    case GLTF_UBYTE: return normalized ? bits / 255.0 : bits;
-    case GLTF_USHORT: return normalized ? bits / 65535.0 : bits;
-    case GLTF_UINT: return bits;
+    case GLTF_UBYTE:
+        return normalized ? bits / 255.0 : bits;
+    case GLTF_USHORT:
+        return normalized ? bits / 65535.0 : bits;
+    case GLTF_UINT:
+        return bits;
     default:
         memcpy(&real, &bits, sizeof real);
         return (double)real;
@@ -56,8 +66,8 @@ static bool locate(gltf *g, const json_value *owner, size_t element_bytes, size_
 {
     size_t view = GLTF_NONE, offset = 0;
     gltf_bytes bytes;
-    if (!gltf_get_ref(g, owner, "bufferView", g->buffer_views, &view) ||
-        !gltf_get_size(g, owner, "byteOffset", &offset)) return false;
+    if (!gltf_get_ref(g, owner, "bufferView", g->buffer_views, &view) || !gltf_get_size(g, owner, "byteOffset", &offset))
+        return false;
     if (view == GLTF_NONE) return gltf_fail(g, owner, "bufferView is missing");
     if (!gltf_view_bytes(g, g->buffer_views->children[view], &bytes, &out->stride)) return false;
     if (out->stride == 0) out->stride = element_bytes;
@@ -105,7 +115,8 @@ static bool sparse_parts(gltf *g, const json_value *sparse, const json_value **i
                          size_t *index_type)
 {
     if (!gltf_get_size(g, sparse, "count", count) || !gltf_get(g, sparse, "indices", JSON_OBJECT, indices) ||
-        !gltf_get(g, sparse, "values", JSON_OBJECT, values) || !gltf_get_size(g, *indices, "componentType", index_type)) return false;
+        !gltf_get(g, sparse, "values", JSON_OBJECT, values) || !gltf_get_size(g, *indices, "componentType", index_type))
+        return false;
     if (*count == 0 || !*indices || !*values) return gltf_fail(g, sparse, "count, indices and values are needed");
     if (*index_type != GLTF_UBYTE && *index_type != GLTF_USHORT && *index_type != GLTF_UINT) {
         return gltf_fail(g, *indices, "componentType must be 5121, 5123 or 5125");
@@ -136,10 +147,11 @@ static bool read_sparse(gltf *g, const json_value *sparse, gltf_array *out)
 
 static bool read_type(gltf *g, const json_value *accessor, gltf_array *out)
 {
-    static const char *const names[] = { "SCALAR", "VEC2", "VEC3", "VEC4" };
+    static const char *const names[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     const char *type = "";
     if (!gltf_get_size(g, accessor, "componentType", &out->component_type) || !gltf_get_string(g, accessor, "type", &type) ||
-        !gltf_get_bool(g, accessor, "normalized", &out->normalized)) return false;
+        !gltf_get_bool(g, accessor, "normalized", &out->normalized))
+        return false;
     if (component_bytes(out->component_type) == 0)
         return gltf_fail(g, accessor, "componentType %zu is unknown", out->component_type);
     if (out->normalized && component_bytes(out->component_type) == 4) {
@@ -154,9 +166,10 @@ static bool read_type(gltf *g, const json_value *accessor, gltf_array *out)
 bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out)
 {
     const json_value *accessor = g->accessors->children[accessor_idx], *sparse = NULL;
-    *out = (gltf_array){ 0 };
+    *out = (gltf_array){0};
     if (!read_type(g, accessor, out) || !gltf_get_size(g, accessor, "count", &out->count) ||
-        !gltf_get(g, accessor, "sparse", JSON_OBJECT, &sparse)) return false;
+        !gltf_get(g, accessor, "sparse", JSON_OBJECT, &sparse))
+        return false;
     if (out->count == 0) return gltf_fail(g, accessor, "count must be at least 1");
     bool dense = json_get(accessor, "bufferView") != NULL;
     if (!(dense ? read_dense(g, accessor, out) : read_zeros(g, accessor, out))) return false;

@@ -10,7 +10,7 @@ typedef enum { LERP_LINEAR, LERP_STEP, LERP_CUBIC } lerp_kind;
 typedef struct {
     lerp_kind kind;
     gltf_array times, values;
-    size_t width;           /* components of the property */
+    size_t width; /* components of the property */
 } sampler;
 
 /* Where the time falls: between keys idx and idx + 1, u of the way; span in seconds. */
@@ -22,14 +22,15 @@ typedef struct {
 static key_position find_key(const gltf_array *times, double time)
 {
     size_t last = times->count - 1, low = 0, high = last;
-    if (time <= times->values[0]) return (key_position){ 0, 0, 0, 0 };
-    if (time >= times->values[last]) return (key_position){ last, last, 0, 0 };
+    if (time <= times->values[0]) return (key_position){0, 0, 0, 0};
+    if (time >= times->values[last]) return (key_position){last, last, 0, 0};
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
-        if (times->values[middle] <= time) low = middle; else high = middle;
+        if (times->values[middle] <= time) low = middle;
+        else high = middle;
     }
     double span = times->values[high] - times->values[low];
-    return (key_position){ low, high, (time - times->values[low]) / span, span };
+    return (key_position){low, high, (time - times->values[low]) / span, span};
 }
 
 static bool normalise_quaternion(double *q)
@@ -107,7 +108,8 @@ static bool read_sampler(gltf *g, const json_value *json, sampler *out)
     size_t input = GLTF_NONE, output = GLTF_NONE;
     const char *kind = "LINEAR";
     if (!gltf_get_ref(g, json, "input", g->accessors, &input) || !gltf_get_ref(g, json, "output", g->accessors, &output) ||
-        !gltf_get_string(g, json, "interpolation", &kind)) return false;
+        !gltf_get_string(g, json, "interpolation", &kind))
+        return false;
     if (input == GLTF_NONE || output == GLTF_NONE) return gltf_fail(g, json, "input and output are needed");
     if (strcmp(kind, "LINEAR") == 0) out->kind = LERP_LINEAR;
     else if (strcmp(kind, "STEP") == 0) out->kind = LERP_STEP;
@@ -120,9 +122,9 @@ static bool read_sampler(gltf *g, const json_value *json, sampler *out)
 typedef struct {
     const json_value *sampler;
     gltf_node *node;
-    double *property;       /* in the node; NULL: skipped, with a note */
+    double *property; /* in the node; NULL: skipped, with a note */
     size_t width;
-    unsigned bit;           /* of the property, for the first-wins rule */
+    unsigned bit; /* of the property, for the first-wins rule */
 } channel;
 
 static bool read_target(gltf *g, const json_value *target, channel *out)
@@ -146,10 +148,10 @@ static bool read_channel(gltf *g, const json_value *json, const json_value *samp
 {
     const json_value *target = NULL;
     size_t sampler_idx = GLTF_NONE;
-    *out = (channel){ 0 };
+    *out = (channel){0};
     if (json->type != JSON_OBJECT) return gltf_fail(g, json, "an object is expected");
-    if (!gltf_get_ref(g, json, "sampler", samplers, &sampler_idx) ||
-        !gltf_get(g, json, "target", JSON_OBJECT, &target)) return false;
+    if (!gltf_get_ref(g, json, "sampler", samplers, &sampler_idx) || !gltf_get(g, json, "target", JSON_OBJECT, &target))
+        return false;
     if (sampler_idx == GLTF_NONE || !target) return gltf_fail(g, json, "sampler and target are needed");
     out->sampler = samplers->children[sampler_idx];
     return read_target(g, target, out);
@@ -157,7 +159,7 @@ static bool read_channel(gltf *g, const json_value *json, const json_value *samp
 
 static bool play_channel(gltf *g, const channel *c, const char *animation, unsigned char *moved)
 {
-    sampler s = { .width = c->width };
+    sampler s = {.width = c->width};
     if (*moved & c->bit) {
         return loader_note(g->l, "animation '%s': a channel is ignored, an earlier one moves the same property", animation);
     }
@@ -173,8 +175,8 @@ static bool play_animation(gltf *g, const json_value *json, unsigned char *moved
 {
     const json_value *channels = NULL, *samplers = NULL;
     const char *name = gltf_name(g, json, "animation");
-    if (!name || !gltf_get(g, json, "channels", JSON_ARRAY, &channels) ||
-        !gltf_get(g, json, "samplers", JSON_ARRAY, &samplers)) return false;
+    if (!name || !gltf_get(g, json, "channels", JSON_ARRAY, &channels) || !gltf_get(g, json, "samplers", JSON_ARRAY, &samplers))
+        return false;
     for (size_t i = 0; channels && i < channels->n_children; i++) {
         channel c;
         if (!read_channel(g, channels->children[i], samplers, &c)) return false;

@@ -29,7 +29,7 @@ static bool decode_base64(gltf *g, const json_value *where, const char *text, gl
         bytes[n_bytes++] = (uint8_t)(bits >> 8);
         bytes[n_bytes++] = (uint8_t)bits;
     }
-    *out = (gltf_bytes){ bytes, n_bytes - n_pad };
+    *out = (gltf_bytes){bytes, n_bytes - n_pad};
     return true;
 }
 
@@ -113,7 +113,8 @@ bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *s
     size_t buffer = GLTF_NONE, offset = 0, n_bytes = GLTF_NONE;
     *stride = 0;
     if (!gltf_get_ref(g, view, "buffer", g->buffers, &buffer) || !gltf_get_size(g, view, "byteOffset", &offset) ||
-        !gltf_get_size(g, view, "byteLength", &n_bytes) || !gltf_get_size(g, view, "byteStride", stride)) return false;
+        !gltf_get_size(g, view, "byteLength", &n_bytes) || !gltf_get_size(g, view, "byteStride", stride))
+        return false;
     if (buffer == GLTF_NONE) return gltf_fail(g, view, "buffer is missing");
     if (n_bytes == GLTF_NONE) return gltf_fail(g, view, "byteLength is missing");
     if (json_get(view, "byteStride") && (*stride < 4 || *stride > 252 || *stride % 4 != 0)) {
@@ -125,6 +126,6 @@ bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *s
         return gltf_fail(g, view, "bytes %zu to %zu lie outside buffer %zu of %zu bytes", offset, offset + n_bytes, buffer,
                          source->n_bytes);
     }
-    *out = (gltf_bytes){ source->bytes + offset, n_bytes };
+    *out = (gltf_bytes){source->bytes + offset, n_bytes};
     return true;
 }

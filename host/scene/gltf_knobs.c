@@ -22,8 +22,8 @@ static bool is_one_of(const char *key, const char *const *keys)
     return false;
 }
 
-static const char *const light_keys[] = { "shadow", "strength", "bias_constant", "bias_slope", "bias_normal", "near_offset", NULL };
-static const char *const surface_keys[] = { "casts", "receives", "unlit", NULL };
+static const char *const light_keys[] = {"shadow", "strength", "bias_constant", "bias_slope", "bias_normal", "near_offset", NULL};
+static const char *const surface_keys[] = {"casts", "receives", "unlit", NULL};
 
 static bool check_keys(gltf *g, const json_value *knobs, bool light, bool surface)
 {
@@ -100,8 +100,10 @@ static const char *scalar_text(gltf *g, const json_value *value)
 {
     char number[32];
     switch (value->type) {
-    case JSON_BOOL: return value->number > 0 ? "1" : "0";
-    case JSON_STRING: return value->string;
+    case JSON_BOOL:
+        return value->number > 0 ? "1" : "0";
+    case JSON_STRING:
+        return value->string;
     case JSON_NUMBER:
         format_number(number, sizeof number, value->number);
         return loader_format(g->l, "%s", number);

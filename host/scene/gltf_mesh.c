@@ -17,7 +17,7 @@ enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 static bool read_attribute(gltf *g, const json_value *attributes, const char *name, size_t n_vertices, gltf_array *out)
 {
     size_t accessor = GLTF_NONE;
-    *out = (gltf_array){ 0 };
+    *out = (gltf_array){0};
     if (!gltf_get_ref(g, attributes, name, g->accessors, &accessor)) return false;
     if (accessor == GLTF_NONE) return true;
     if (!gltf_read_accessor(g, accessor, out)) return false;
@@ -77,7 +77,7 @@ static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out)
 static bool read_indices(gltf *g, const json_value *primitive, size_t n_vertices, uint32_t **out, size_t *n)
 {
     size_t accessor = GLTF_NONE;
-    gltf_array a = { .count = n_vertices };
+    gltf_array a = {.count = n_vertices};
     const json_value *where = json_get(primitive, "indices");
     if (!gltf_get_ref(g, primitive, "indices", g->accessors, &accessor)) return false;
     if (where && !gltf_read_accessor(g, accessor, &a)) return false;
@@ -111,7 +111,8 @@ static bool assemble(gltf *g, const json_value *primitive, size_t mode, scene_me
     if (!read_indices(g, primitive, out->n_vertices, &walk, &n)) return false;
     out->n_triangles = mode == MODE_TRIANGLES ? n / 3 : n < 3 ? 0 : n - 2;
     if (mode == MODE_TRIANGLES && n % 3 != 0 &&
-        !loader_note(g->l, "the last %zu corners of '%s' make no triangle", n % 3, out->name)) return false;
+        !loader_note(g->l, "the last %zu corners of '%s' make no triangle", n % 3, out->name))
+        return false;
     out->idx = loader_alloc(g->l, out->n_triangles, 3 * sizeof *out->idx);
     if (!out->idx) return false;
     for (size_t i = 0; i < out->n_triangles; i++) {
@@ -125,16 +126,16 @@ bool gltf_read_primitive(gltf *g, const json_value *primitive, const char *name,
 {
     const json_value *attributes = NULL;
     size_t mode = MODE_TRIANGLES;
-    *out = (scene_mesh){ .name = loader_format(g->l, "%s", name) };
+    *out = (scene_mesh){.name = loader_format(g->l, "%s", name)};
     if (!out->name) return false;
-    if (!gltf_get_size(g, primitive, "mode", &mode) ||
-        !gltf_get(g, primitive, "attributes", JSON_OBJECT, &attributes)) return false;
+    if (!gltf_get_size(g, primitive, "mode", &mode) || !gltf_get(g, primitive, "attributes", JSON_OBJECT, &attributes))
+        return false;
     if (!attributes) return gltf_fail(g, primitive, "attributes is missing");
     if (mode > MODE_FAN) return gltf_fail(g, json_get(primitive, "mode"), "mode %zu is unknown", mode);
     if (mode < MODE_TRIANGLES) return loader_note(g->l, "points and lines of mesh '%s' ignored: only triangles are drawn", name);
     if (!json_get(attributes, "POSITION")) return loader_note(g->l, "primitive of mesh '%s' ignored: it has no POSITION", name);
-    if (json_get(primitive, "targets") &&
-        !loader_note(g->l, "morph targets of mesh '%s' ignored: they are not supported", name)) return false;
+    if (json_get(primitive, "targets") && !loader_note(g->l, "morph targets of mesh '%s' ignored: they are not supported", name))
+        return false;
     return read_position(g, attributes, out) && read_normal(g, attributes, out) && read_colour(g, attributes, out) &&
            assemble(g, primitive, mode, out) && (out->n_triangles == 0 || mesh_prepare_normals(g->l, out));
 }
@@ -162,8 +163,11 @@ static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *jso
     if (!load_primitive(g, json, mesh_name, flip, primitive)) return false;
     if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
     if (!gltf_read_material(g, json, &material) || !gltf_material_knobs(g, node->json, &material)) return false;
-    scene_object object = { .to_world = node->world, .unlit = material.unlit, .two_sided = material.two_sided,
-                            .casts = material.casts, .receives = material.receives };
+    scene_object object = {.to_world = node->world,
+                           .unlit = material.unlit,
+                           .two_sided = material.two_sided,
+                           .casts = material.casts,
+                           .receives = material.receives};
     memcpy(object.albedo, material.albedo, sizeof object.albedo);
     const char *name = gltf_name(g, node->json, "node");
     object.name = name ? loader_format(g->l, "%s", name) : NULL;
@@ -189,8 +193,8 @@ bool gltf_emit_mesh(gltf *g, size_t node_idx)
     if (mesh_idx == GLTF_NONE) return true;
     const char *name = gltf_name(g, g->meshes->children[mesh_idx], "mesh");
     if (!name || !mesh_primitives(g, mesh_idx, &primitives)) return false;
-    if (json_get(node->json, "skin") &&
-        !loader_note(g->l, "skin of mesh '%s' ignored: it is shown in its rest pose", name)) return false;
+    if (json_get(node->json, "skin") && !loader_note(g->l, "skin of mesh '%s' ignored: it is shown in its rest pose", name))
+        return false;
     for (size_t i = 0; i < primitives->n_children; i++) {
         const json_value *json = primitives->children[i];
         if (json->type != JSON_OBJECT) return gltf_fail(g, json, "an object is expected");

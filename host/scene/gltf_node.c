@@ -23,7 +23,7 @@ static bool read_matrix(gltf *g, gltf_node *node)
 
 static bool read_node(gltf *g, const json_value *json, gltf_node *node)
 {
-    *node = (gltf_node){ .json = json, .parent = GLTF_NONE, .rotation = { 0, 0, 0, 1 }, .scale = { 1, 1, 1 } };
+    *node = (gltf_node){.json = json, .parent = GLTF_NONE, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
     return read_matrix(g, node) && gltf_get_numbers(g, json, "translation", node->translation, 3) &&
            gltf_get_numbers(g, json, "rotation", node->rotation, 4) && gltf_get_numbers(g, json, "scale", node->scale, 3);
 }
@@ -69,9 +69,9 @@ static bool local_transform(gltf *g, const gltf_node *node, scene_affine *out)
     for (int i = 0; i < 4; i++) q[i] = node->rotation[i] / length;
     length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
-    const double r[3][3] = { { 1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w) },
-                             { 2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w) },
-                             { 2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y) } };
+    const double r[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                            {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                            {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) out->m[i][j] = r[i][j] * node->scale[j];
         out->m[i][3] = node->translation[i];
@@ -164,7 +164,8 @@ static bool read_perspective(gltf *g, const json_value *perspective, scene_camer
 {
     double fov = 0, near_distance = 0, far_distance = HUGE_VAL;
     if (!gltf_get_number(g, perspective, "yfov", &fov) || !gltf_get_number(g, perspective, "znear", &near_distance) ||
-        !gltf_get_number(g, perspective, "zfar", &far_distance)) return false;
+        !gltf_get_number(g, perspective, "zfar", &far_distance))
+        return false;
     if (!(fov > 1e-6 && fov < VEC_PI - 1e-6)) return gltf_fail(g, perspective, "yfov %g is not between 0 and pi", fov);
     if (!(near_distance > 0)) return gltf_fail(g, perspective, "znear %g is not positive", near_distance);
     if (!(far_distance > near_distance))
@@ -184,8 +185,8 @@ bool gltf_emit_camera(gltf *g, size_t node_idx)
     if (idx == GLTF_NONE) return true;
     const json_value *camera = g->cameras->children[idx];
     const char *name = gltf_name(g, camera, "camera"), *type = "";
-    if (!name || !gltf_get_string(g, camera, "type", &type) ||
-        !gltf_get(g, camera, "perspective", JSON_OBJECT, &perspective)) return false;
+    if (!name || !gltf_get_string(g, camera, "type", &type) || !gltf_get(g, camera, "perspective", JSON_OBJECT, &perspective))
+        return false;
     if (strcmp(type, "orthographic") == 0)
         return loader_note(g->l, "camera '%s' ignored: orthographic cameras are not supported", name);
     if (strcmp(type, "perspective") != 0) return gltf_fail(g, camera, "type '%s' is unknown", type);
@@ -197,7 +198,7 @@ bool gltf_emit_camera(gltf *g, size_t node_idx)
 
 static bool read_light(gltf *g, const json_value *json, const gltf_node *node, scene_light *out)
 {
-    double colour[3] = { 1, 1, 1 }, intensity = 1;
+    double colour[3] = {1, 1, 1}, intensity = 1;
     if (!gltf_get_numbers(g, json, "color", colour, 3) || !gltf_get_number(g, json, "intensity", &intensity)) return false;
     for (int i = 0; i < 3; i++) {
         out->colour[i] = colour[i] * intensity / VEC_PI;

@@ -12,7 +12,7 @@ typedef struct {
     unsigned n_bits;
     uint8_t *out;
     size_t n_out, filled;
-    const char *problem;   /* the first one; reads give zeros from then on */
+    const char *problem; /* the first one; reads give zeros from then on */
 } inflater;
 
 /* Canonical Huffman code: how many codes have each length, and the symbols in the order of their codes. */
@@ -47,7 +47,7 @@ static uint32_t take_bits(inflater *z, unsigned n)
 /* Over-subscribed codes are refused. Incomplete ones only matter if a missing code turns up. */
 static bool build_code(inflater *z, huffman *h, const uint8_t *lengths, size_t n)
 {
-    uint16_t first[MAX_CODE_BITS + 2] = { 0 };
+    uint16_t first[MAX_CODE_BITS + 2] = {0};
     int room = 1;
     memset(h, 0, sizeof *h);
     for (size_t i = 0; i < n; i++) h->count[lengths[i]]++;
@@ -156,8 +156,8 @@ static bool take_lengths(inflater *z, const huffman *code, uint8_t *lengths, siz
 
 static bool dynamic_codes(inflater *z, huffman *literals, huffman *distances)
 {
-    static const uint8_t order[N_CODE_LENGTHS] = { 16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15 };
-    uint8_t lengths[N_LITERALS + N_DISTANCES] = { 0 };
+    static const uint8_t order[N_CODE_LENGTHS] = {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15};
+    uint8_t lengths[N_LITERALS + N_DISTANCES] = {0};
     huffman code;
     size_t n_literals = 257 + take_bits(z, 5), n_distances = 1 + take_bits(z, 5), n_code = 4 + take_bits(z, 4);
     for (size_t i = 0; i < n_code; i++) lengths[order[i]] = (uint8_t)take_bits(z, 3);
@@ -182,7 +182,7 @@ static bool expand_block(inflater *z, bool *last)
 
 const char *zlib_expand(const uint8_t *bytes, size_t n_bytes, uint8_t *out, size_t n_out)
 {
-    inflater z = { .bytes = bytes, .n_bytes = n_bytes, .at = 2, .out = out, .n_out = n_out };
+    inflater z = {.bytes = bytes, .n_bytes = n_bytes, .at = 2, .out = out, .n_out = n_out};
     if (n_bytes < 6) return "compressed data is cut off";
     if ((bytes[0] & 0x0F) != 8 || (bytes[0] * 256 + bytes[1]) % 31 != 0 || (bytes[1] & 0x20) != 0) return "not a zlib stream";
     for (bool last = false; !last;) {

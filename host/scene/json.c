@@ -24,13 +24,19 @@ static bool fail_at(parser *p, size_t offset, const char *what)
 {
     size_t line = 1, column = 1;
     for (size_t i = 0; i < offset; i++) {
-        if (p->text[i] == '\n') { line++; column = 1; } else column++;
+        if (p->text[i] == '\n') {
+            line++;
+            column = 1;
+        } else column++;
     }
     snprintf(p->error, p->error_bytes, "%zu:%zu: %s", line, column, what);
     return false;
 }
 
-static bool fail(parser *p, const char *what) { return fail_at(p, p->at, what); }
+static bool fail(parser *p, const char *what)
+{
+    return fail_at(p, p->at, what);
+}
 
 /* The end of the text reads as -1, which no case of the grammar matches. */
 static int peek(const parser *p)
@@ -47,7 +53,10 @@ static void skip_space(parser *p)
     }
 }
 
-static bool is_digit(int c) { return c >= '0' && c <= '9'; }
+static bool is_digit(int c)
+{
+    return c >= '0' && c <= '9';
+}
 
 static bool parse_literal(parser *p, json_value *value, const char *word, json_type type, double number)
 {
@@ -100,7 +109,7 @@ static bool parse_number(parser *p, json_value *value)
 
 static size_t utf8_encode(char *out, uint32_t code)
 {
-    static const unsigned char lead[5] = { 0, 0, 0xC0, 0xE0, 0xF0 };
+    static const unsigned char lead[5] = {0, 0, 0xC0, 0xE0, 0xF0};
     if (code < 0x80) {
         out[0] = (char)code;
         return 1;
@@ -272,17 +281,33 @@ static bool parse_container(parser *p, json_value *value, json_type type, char e
 static bool parse_value(parser *p, json_value *value)
 {
     switch (peek(p)) {
-    case '{': return parse_container(p, value, JSON_OBJECT, '}');
-    case '[': return parse_container(p, value, JSON_ARRAY, ']');
+    case '{':
+        return parse_container(p, value, JSON_OBJECT, '}');
+    case '[':
+        return parse_container(p, value, JSON_ARRAY, ']');
     case '"':
         value->type = JSON_STRING;
         return parse_string(p, &value->string);
-    case 't': return parse_literal(p, value, "true", JSON_BOOL, 1);
-    case 'f': return parse_literal(p, value, "false", JSON_BOOL, 0);
-    case 'n': return parse_literal(p, value, "null", JSON_NULL, 0);
-    case '-': case '0': case '1': case '2': case '3': case '4': case '5': case '6': case '7': case '8': case '9':
+    case 't':
+        return parse_literal(p, value, "true", JSON_BOOL, 1);
+    case 'f':
+        return parse_literal(p, value, "false", JSON_BOOL, 0);
+    case 'n':
+        return parse_literal(p, value, "null", JSON_NULL, 0);
+    case '-':
+    case '0':
+    case '1':
+    case '2':
+    case '3':
+    case '4':
+    case '5':
+    case '6':
+    case '7':
+    case '8':
+    case '9':
         return parse_number(p, value);
-    default: return fail(p, "a value is expected");
+    default:
+        return fail(p, "a value is expected");
     }
 }
 
@@ -299,8 +324,8 @@ static bool parse_document(parser *p)
 
 int json_parse(json_doc *doc, const char *text, size_t n_bytes, char *error, size_t error_bytes)
 {
-    *doc = (json_doc){ 0 };
-    parser p = { .doc = doc, .text = text, .n_bytes = n_bytes, .error = error, .error_bytes = error_bytes };
+    *doc = (json_doc){0};
+    parser p = {.doc = doc, .text = text, .n_bytes = n_bytes, .error = error, .error_bytes = error_bytes};
     if (parse_document(&p)) return 0;
     json_free(doc);
     return -1;
@@ -362,6 +387,6 @@ void json_path(const json_value *value, char *out, size_t out_bytes)
 
 const char *json_type_name(json_type type)
 {
-    static const char *const names[] = { "null", "a boolean", "a number", "a string", "an array", "an object" };
+    static const char *const names[] = {"null", "a boolean", "a number", "a string", "an array", "an object"};
     return names[type];
 }

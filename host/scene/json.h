@@ -14,14 +14,14 @@ typedef enum { JSON_NULL, JSON_BOOL, JSON_NUMBER, JSON_STRING, JSON_ARRAY, JSON_
 typedef struct json_value json_value;
 struct json_value {
     json_type type;
-    double number;            /* numbers; booleans as 0 or 1 */
+    double number; /* numbers; booleans as 0 or 1 */
     const char *string;
     size_t n_children;
-    json_value **children;    /* of arrays and objects, in file order */
-    const char *key;          /* within the parent, if that is an object */
+    json_value **children; /* of arrays and objects, in file order */
+    const char *key;       /* within the parent, if that is an object */
     const json_value *parent;
-    size_t child_idx;         /* within the parent */
-    size_t offset;            /* of the value (of its key, if it has one) in the text */
+    size_t child_idx; /* within the parent */
+    size_t offset;    /* of the value (of its key, if it has one) in the text */
 };
 
 typedef struct {

@@ -150,7 +150,7 @@ scene_mesh *loader_add_mesh(loader *l, const char *name)
     s->meshes = array;
     char *copy = grown ? duplicate(l, name) : NULL;
     if (!copy) return NULL;
-    s->meshes[s->n_meshes] = (scene_mesh){ .name = copy };
+    s->meshes[s->n_meshes] = (scene_mesh){.name = copy};
     return &s->meshes[s->n_meshes++];
 }
 
@@ -162,7 +162,7 @@ scene_object *loader_add_object(loader *l, const char *name)
     s->objects = array;
     char *copy = grown ? duplicate(l, name) : NULL;
     if (!copy) return NULL;
-    s->objects[s->n_objects] = (scene_object){ .name = copy };
+    s->objects[s->n_objects] = (scene_object){.name = copy};
     return &s->objects[s->n_objects++];
 }
 
@@ -174,7 +174,7 @@ scene_light *loader_add_light(loader *l, const char *name)
     s->lights = array;
     char *copy = grown ? duplicate(l, name) : NULL;
     if (!copy) return NULL;
-    s->lights[s->n_lights] = (scene_light){ .name = copy };
+    s->lights[s->n_lights] = (scene_light){.name = copy};
     return &s->lights[s->n_lights++];
 }
 
@@ -186,7 +186,7 @@ bool loader_add_setting(loader *l, const char *key, const char *value)
     s->settings = array;
     if (!grown) return false;
     scene_setting *setting = &s->settings[s->n_settings];
-    *setting = (scene_setting){ duplicate(l, key), duplicate(l, value) };
+    *setting = (scene_setting){duplicate(l, key), duplicate(l, value)};
     s->n_settings++;
     return setting->key && setting->value;
 }

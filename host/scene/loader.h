@@ -26,8 +26,8 @@ typedef struct {
     char *error;
     size_t error_bytes;
     arena memory;
-    size_t n_triangles;  /* in s, all meshes */
-    bool has_camera;     /* the file brought one */
+    size_t n_triangles; /* in s, all meshes */
+    bool has_camera;    /* the file brought one */
     bool wants_ground;
 } loader;
 
@@ -70,9 +70,9 @@ bool mesh_prepare_normals(loader *l, scene_mesh *input);
 typedef struct {
     loader *l;
     const scene_mesh *input;
-    uint32_t *local;   /* vertex of the input -> vertex of the mesh being filled, if seen[] says so */
-    uint32_t *seen;    /* number of the mesh that last used the vertex */
-    uint32_t *source;  /* vertex of the mesh being filled -> vertex of the input */
+    uint32_t *local;  /* vertex of the input -> vertex of the mesh being filled, if seen[] says so */
+    uint32_t *seen;   /* number of the mesh that last used the vertex */
+    uint32_t *source; /* vertex of the mesh being filled -> vertex of the input */
     uint32_t serial;
 } mesh_splitter;
 
@@ -80,8 +80,8 @@ bool mesh_splitter_init(mesh_splitter *splitter, loader *l, const scene_mesh *in
 
 /* Adds triangles (3 * n_triangles indices of the input, all in range) as the meshes *first ... *first + *n_meshes - 1. With flip their
  * winding is reversed: for instances whose transform mirrors (see gltf_mesh.c). */
-bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip,
-                size_t *first, size_t *n_meshes);
+bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip, size_t *first,
+                size_t *n_meshes);
 
 /* defaults.c: completes what the file lacks; the last step of a load. */
 bool loader_add_defaults(loader *l);

@@ -134,7 +134,7 @@ bool mesh_prepare_normals(loader *l, scene_mesh *input)
 
 bool mesh_splitter_init(mesh_splitter *splitter, loader *l, const scene_mesh *input)
 {
-    *splitter = (mesh_splitter){ .l = l, .input = input };
+    *splitter = (mesh_splitter){.l = l, .input = input};
     splitter->local = loader_alloc(l, input->n_vertices, sizeof *splitter->local);
     splitter->seen = loader_alloc(l, input->n_vertices, sizeof *splitter->seen);
     splitter->source = loader_alloc(l, LOADER_MAX_MESH, sizeof *splitter->source);
@@ -186,8 +186,8 @@ static bool add_taken(mesh_splitter *sp, const char *name, const uint32_t *idx, 
            gather(sp, sp->input->rgb, n_vertices, &mesh->rgb);
 }
 
-bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip,
-                size_t *first, size_t *n_meshes)
+bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip, size_t *first,
+                size_t *n_meshes)
 {
     loader *l = splitter->l;
     *first = l->s->n_meshes;

@@ -96,7 +96,7 @@ static void fan_normal(const obj_file *o, const obj_corner *corners, size_t i, d
 /* A fan is wrong where one of its triangles turns against the sum of all. */
 static bool fan_folds(const obj_file *o, const obj_corner *corners, size_t n)
 {
-    double sum[3] = { 0, 0, 0 }, normal[3];
+    double sum[3] = {0, 0, 0}, normal[3];
     for (size_t i = 1; i + 1 < n; i++) {
         fan_normal(o, corners, i, normal);
         for (int k = 0; k < 3; k++) sum[k] += normal[k];
@@ -133,7 +133,7 @@ static bool use_material(obj_file *o, obj_text *t)
 
 static bool read_statement(obj_file *o, obj_text *t)
 {
-    static const char *const silent[] = { "vt", "g", "o", "s" };
+    static const char *const silent[] = {"vt", "g", "o", "s"};
     const char *word = obj_next_word(t);
     if (strcmp(word, "v") == 0) return read_vertex(o, t);
     if (strcmp(word, "vn") == 0) return read_normal(o, t);
@@ -148,7 +148,7 @@ static bool read_statement(obj_file *o, obj_text *t)
 
 bool loader_load_obj(loader *l)
 {
-    obj_file o = { .l = l };
+    obj_file o = {.l = l};
     obj_text t;
     uint8_t *bytes;
     size_t n_bytes;

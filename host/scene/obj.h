@@ -8,11 +8,11 @@
 typedef struct {
     loader *l;
     const char *path;
-    char *next;      /* behind the current line */
+    char *next; /* behind the current line */
     char *end;
-    char *at;        /* within the current line, which is zero-terminated */
-    size_t line;     /* number of its first line */
-    size_t n_lines;  /* lines read so far */
+    char *at;       /* within the current line, which is zero-terminated */
+    size_t line;    /* number of its first line */
+    size_t n_lines; /* lines read so far */
 } obj_text;
 
 bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes);
@@ -30,13 +30,13 @@ bool obj_note(obj_text *t, const char *format, ...) LOADER_PRINTF(2, 3);
 typedef struct {
     const char *name;
     double albedo[3];
-    bool defined;           /* by a material library */
+    bool defined; /* by a material library */
 } obj_material;
 
 #define OBJ_NO_NORMAL UINT32_MAX
 
 typedef struct {
-    uint32_t v, vn;         /* indices; vn OBJ_NO_NORMAL where the corner has none */
+    uint32_t v, vn; /* indices; vn OBJ_NO_NORMAL where the corner has none */
 } obj_corner;
 
 typedef struct {

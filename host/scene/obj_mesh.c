@@ -16,14 +16,14 @@ typedef struct {
 typedef struct {
     const obj_file *o;
     scene_mesh mesh;
-    vertex_slot *slot;      /* open addressing, a power of two, at most half full */
+    vertex_slot *slot; /* open addressing, a power of two, at most half full */
     size_t n_slots;
 } vertex_table;
 
 static bool table_init(vertex_table *table, const obj_file *o)
 {
     size_t n_corners = 3 * o->n_triangles;
-    *table = (vertex_table){ .o = o, .n_slots = 16 };
+    *table = (vertex_table){.o = o, .n_slots = 16};
     while (table->n_slots < 2 * n_corners) table->n_slots *= 2;
     table->slot = loader_alloc(o->l, table->n_slots, sizeof *table->slot);
     table->mesh.name = loader_format(o->l, "%s", o->l->path);
@@ -54,7 +54,7 @@ static void corner_face_normal(const obj_file *o, size_t triangle, double *norma
     vec_normalise(u);
     vec_normalise(v);
     vec_cross(normal, u, v);
-    if (!vec_normalise(normal)) memcpy(normal, (const double[3]){ 0, 1, 0 }, 3 * sizeof *normal);
+    if (!vec_normalise(normal)) memcpy(normal, (const double[3]){0, 1, 0}, 3 * sizeof *normal);
 }
 
 static void add_vertex(vertex_table *table, const obj_corner *corner, size_t triangle)
@@ -77,17 +77,18 @@ static void join_corners(vertex_table *table)
         uint32_t tag = o->has_vn && corner->vn == OBJ_NO_NORMAL ? (uint32_t)(i / 3) : 0;
         vertex_slot *slot = find_slot(table, corner->v, corner->vn, tag);
         if (!slot->used) {
-            *slot = (vertex_slot){ corner->v, corner->vn, tag, (uint32_t)table->mesh.n_vertices, true };
+            *slot = (vertex_slot){corner->v, corner->vn, tag, (uint32_t)table->mesh.n_vertices, true};
             add_vertex(table, corner, i / 3);
         }
         table->mesh.idx[i] = slot->vertex_idx;
     }
 }
 
-static bool emit_material(obj_file *o, mesh_splitter *splitter, const obj_material *material, const uint32_t *idx, size_t n_triangles)
+static bool emit_material(obj_file *o, mesh_splitter *splitter, const obj_material *material, const uint32_t *idx,
+                          size_t n_triangles)
 {
     size_t first, n_meshes;
-    scene_object object = { .to_world = affine_identity(), .casts = true, .receives = true };
+    scene_object object = {.to_world = affine_identity(), .casts = true, .receives = true};
     memcpy(object.albedo, material->albedo, sizeof object.albedo);
     object.name = loader_format(o->l, "%s", material->name);
     return object.name && mesh_split(splitter, object.name, idx, n_triangles, false, &first, &n_meshes) &&

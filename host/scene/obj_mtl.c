@@ -13,7 +13,7 @@ bool obj_find_material(obj_file *o, const char *name, uint32_t *out)
     if (!grown) return false;
     o->material = grown;
     *out = (uint32_t)o->n_materials;
-    o->material[o->n_materials] = (obj_material){ .name = loader_format(o->l, "%s", name), .albedo = { 0.8, 0.8, 0.8 } };
+    o->material[o->n_materials] = (obj_material){.name = loader_format(o->l, "%s", name), .albedo = {0.8, 0.8, 0.8}};
     return o->material[o->n_materials++].name != NULL;
 }
 

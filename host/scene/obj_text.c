@@ -29,7 +29,7 @@ bool obj_note(obj_text *t, const char *format, ...)
 
 bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes)
 {
-    *t = (obj_text){ .l = l, .path = path, .next = (char *)bytes, .end = (char *)bytes + n_bytes };
+    *t = (obj_text){.l = l, .path = path, .next = (char *)bytes, .end = (char *)bytes + n_bytes};
     const char *zero = memchr(bytes, 0, n_bytes);
     if (!zero) return true;
     for (const char *c = t->next; c < zero; c++) t->line += *c == '\n';
@@ -56,7 +56,7 @@ bool obj_next_line(obj_text *t)
     while (t->next < t->end) {
         t->at = t->next;
         t->line = t->n_lines + 1;
-        while (take_physical_line(t)) { }
+        while (take_physical_line(t)) {}
         /* The terminator takes the place of the line feed, or of the zero behind the file. */
         if (t->next == t->end && t->end[0] == ' ') *t->end = '\0';
         else t->next[-1] = '\0';

@@ -20,11 +20,11 @@ typedef struct {
     uint8_t *bytes;
     size_t n_bytes;
     uint32_t w, h;
-    int colour;            /* one of the kinds above */
-    size_t pixel_bytes;    /* in the file */
+    int colour;         /* one of the kinds above */
+    size_t pixel_bytes; /* in the file */
     const uint8_t *palette;
     size_t n_palette;
-    uint8_t *idat;         /* all IDAT chunks in a row */
+    uint8_t *idat; /* all IDAT chunks in a row */
     size_t n_idat;
 } reader;
 
@@ -65,7 +65,7 @@ static uint32_t word_at(const uint8_t *b)
 
 static bool read_header(reader *r, const uint8_t *b, size_t n)
 {
-    static const uint8_t pixel_bytes[7] = { [GREY] = 1, [RGB] = 3, [PALETTE] = 1, [GREY_ALPHA] = 2, [RGB_ALPHA] = 4 };
+    static const uint8_t pixel_bytes[7] = {[GREY] = 1, [RGB] = 3, [PALETTE] = 1, [GREY_ALPHA] = 2, [RGB_ALPHA] = 4};
     if (n != IHDR_BYTES) return fail(r, "IHDR has the wrong length");
     r->w = word_at(b);
     r->h = word_at(b + 4);
@@ -134,12 +134,22 @@ static bool unfilter_row(uint8_t *row, const uint8_t *previous, size_t n, size_t
         int a = i >= pixel_bytes ? row[i - pixel_bytes] : 0, b = previous ? previous[i] : 0;
         int c = previous && i >= pixel_bytes ? previous[i - pixel_bytes] : 0;
         switch (filter) {
-        case 0: return true;
-        case 1: row[i] = (uint8_t)(row[i] + a); break;
-        case 2: row[i] = (uint8_t)(row[i] + b); break;
-        case 3: row[i] = (uint8_t)(row[i] + (a + b) / 2); break;
-        case 4: row[i] = (uint8_t)(row[i] + paeth(a, b, c)); break;
-        default: return false;
+        case 0:
+            return true;
+        case 1:
+            row[i] = (uint8_t)(row[i] + a);
+            break;
+        case 2:
+            row[i] = (uint8_t)(row[i] + b);
+            break;
+        case 3:
+            row[i] = (uint8_t)(row[i] + (a + b) / 2);
+            break;
+        case 4:
+            row[i] = (uint8_t)(row[i] + paeth(a, b, c));
+            break;
+        default:
+            return false;
         }
     }
     return true;
@@ -149,7 +159,7 @@ static bool row_to_rgb(reader *r, const uint8_t *row, uint8_t *out)
 {
     for (size_t x = 0; x < r->w; x++, row += r->pixel_bytes, out += 3) {
         const uint8_t *rgb = row;
-        const uint8_t grey[3] = { row[0], row[0], row[0] };
+        const uint8_t grey[3] = {row[0], row[0], row[0]};
         if (r->colour == GREY || r->colour == GREY_ALPHA) rgb = grey;
         if (r->colour == PALETTE) {
             if (row[0] >= r->n_palette) return fail(r, "a palette index is out of range");
@@ -196,7 +206,7 @@ static uint8_t *read_picture(reader *r)
 
 uint8_t *png_read_rgb8(const char *path, int *w, int *h, char *error, size_t error_bytes)
 {
-    reader r = { .path = path, .error = error, .error_bytes = error_bytes };
+    reader r = {.path = path, .error = error, .error_bytes = error_bytes};
     uint8_t *out = read_picture(&r);
     *w = (int)r.w;
     *h = (int)r.h;

@@ -22,7 +22,7 @@ static unsigned long filter_row(int filter, const uint8_t *row, const uint8_t *p
     unsigned long sum = 0;
     for (size_t i = 0; i < n; i++) {
         int a = i >= PIXEL_BYTES ? row[i - PIXEL_BYTES] : 0, b = previous[i], c = i >= PIXEL_BYTES ? previous[i - PIXEL_BYTES] : 0;
-        const int prediction[N_FILTERS] = { 0, a, b, (a + b) / 2, paeth(a, b, c) };
+        const int prediction[N_FILTERS] = {0, a, b, (a + b) / 2, paeth(a, b, c)};
         out[i] = (uint8_t)(row[i] - prediction[filter]);
         sum += out[i] < 128 ? out[i] : 256UL - out[i];
     }
@@ -73,7 +73,7 @@ static void write_chunk(FILE *file, const char *type, const uint8_t *bytes, size
 
 static bool write_file(const char *path, int w, int h, const uint8_t *packed, size_t n_packed)
 {
-    uint8_t header[13] = { [8] = 8, [9] = 2 }; /* bits per channel, RGB */
+    uint8_t header[13] = {[8] = 8, [9] = 2}; /* bits per channel, RGB */
     FILE *file = fopen(path, "wb");
     if (!file) return false;
     put_word(header, (uint32_t)w);

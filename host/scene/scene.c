@@ -31,8 +31,8 @@ static bool load_any(loader *l)
 
 int scene_load(scene *s, const char *path, const scene_options *options, char *error, size_t error_bytes)
 {
-    loader l = { .s = s, .options = options, .path = path, .error = error, .error_bytes = error_bytes };
-    *s = (scene){ 0 };
+    loader l = {.s = s, .options = options, .path = path, .error = error, .error_bytes = error_bytes};
+    *s = (scene){0};
     if (error_bytes > 0) error[0] = '\0';
     bool ok = load_any(&l) && loader_add_defaults(&l);
     arena_release(&l.memory, NULL);
@@ -64,5 +64,5 @@ void scene_free(scene *s)
     free(s->lights);
     free(s->settings);
     free(s->notes);
-    *s = (scene){ 0 };
+    *s = (scene){0};
 }

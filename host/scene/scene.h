@@ -10,23 +10,25 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef struct { double m[3][4]; } scene_affine; /* p' = m[.][0..2] * p + m[.][3] */
+typedef struct {
+    double m[3][4];
+} scene_affine; /* p' = m[.][0..2] * p + m[.][3] */
 
 typedef struct {
-    char *name;           /* for messages; never NULL */
+    char *name; /* for messages; never NULL */
     size_t n_vertices;
     size_t n_triangles;
-    double *pos;          /* 3 * n_vertices, object space */
-    double *nrm;          /* 3 * n_vertices, unit length, or NULL: face normals */
-    double *rgb;          /* 3 * n_vertices, linear 0..1, or NULL: white */
-    uint32_t *idx;        /* 3 * n_triangles, counter-clockwise seen from outside */
+    double *pos;   /* 3 * n_vertices, object space */
+    double *nrm;   /* 3 * n_vertices, unit length, or NULL: face normals */
+    double *rgb;   /* 3 * n_vertices, linear 0..1, or NULL: white */
+    uint32_t *idx; /* 3 * n_triangles, counter-clockwise seen from outside */
 } scene_mesh;
 
 typedef struct {
     char *name;
     size_t mesh_idx;
     scene_affine to_world;
-    double albedo[3];     /* linear 0..1 */
+    double albedo[3]; /* linear 0..1 */
     bool unlit;
     bool two_sided;
     bool casts;
@@ -61,17 +63,19 @@ typedef enum { SCENE_BLEND_HARD, SCENE_BLEND_SOFT, SCENE_BLEND_DITHER } scene_bl
 typedef enum { SCENE_DISTANCE_DEPTH, SCENE_DISTANCE_RADIUS } scene_distance_mode;
 
 typedef struct {
-    double max_distance;   /* D5: default min(100, camera far) */
-    double distance_fade;  /* D5: 0.001..1, default 0.1 */
-    double cascade_fade;   /* D3, D6: 0.001..1, default 0.1 */
+    double max_distance;  /* D5: default min(100, camera far) */
+    double distance_fade; /* D5: 0.001..1, default 0.1 */
+    double cascade_fade;  /* D3, D6: 0.001..1, default 0.1 */
     scene_filter filter;
-    int n_cascades;            /* 1..4; default 1 with the default camera, else 4 */
-    double cascade_ratio[3];   /* of the max distance, ascending; the last cascade always reaches it, and what is not used is 1 */
-    scene_blend blend;         /* D7, default hard */
+    int n_cascades;          /* 1..4; default 1 with the default camera, else 4 */
+    double cascade_ratio[3]; /* of the max distance, ascending; the last cascade always reaches it, and what is not used is 1 */
+    scene_blend blend;       /* D7, default hard */
     scene_distance_mode distance_mode; /* D5 or D11, default depth */
 } scene_shadow;
 
-typedef struct { char *key, *value; } scene_setting;
+typedef struct {
+    char *key, *value;
+} scene_setting;
 
 typedef struct {
     size_t n_meshes, n_objects, n_lights;
@@ -82,17 +86,17 @@ typedef struct {
     double ambient[3];
     double background[3];
     scene_shadow shadow;
-    size_t n_settings;     /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */
+    size_t n_settings; /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */
     scene_setting *settings;
     size_t n_notes;
-    char **notes;          /* one line each: what the file has and Gnomon ignores, and why */
+    char **notes; /* one line each: what the file has and Gnomon ignores, and why */
 } scene;
 
 typedef struct {
-    int frame;             /* animation frame; time = frame / fps (extras.gnomon.fps, default 24) */
-    int width, height;     /* of the picture: the default camera frames the scene for it */
-    bool ground;           /* add a ground plane to a glTF file too (an OBJ always gets one) */
-    bool smooth;           /* meshes without normals: smooth vertex normals instead of face normals */
+    int frame;         /* animation frame; time = frame / fps (extras.gnomon.fps, default 24) */
+    int width, height; /* of the picture: the default camera frames the scene for it */
+    bool ground;       /* add a ground plane to a glTF file too (an OBJ always gets one) */
+    bool smooth;       /* meshes without normals: smooth vertex normals instead of face normals */
 } scene_options;
 
 /* The ratios that go with n_cascades: 0.1, 0.25, 0.5 for 4; 0.1, 0.25 for 3; 0.25 for 2. */

@@ -9,7 +9,10 @@
 
 #define VEC_PI 3.14159265358979323846
 
-static inline double vec_dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static inline double vec_dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 static inline void vec_sub(double *out, const double *a, const double *b)
 {
@@ -30,7 +33,7 @@ static inline bool vec_normalise(double *v)
 {
     double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
     if (!(largest > 0) || !isfinite(v[0]) || !isfinite(v[1]) || !isfinite(v[2])) return false;
-    double scaled[3] = { v[0] / largest, v[1] / largest, v[2] / largest };
+    double scaled[3] = {v[0] / largest, v[1] / largest, v[2] / largest};
     double length = sqrt(vec_dot(scaled, scaled));
     for (int i = 0; i < 3; i++) v[i] = scaled[i] / length;
     return true;
@@ -48,7 +51,7 @@ static inline void affine_column(double *out, const scene_affine *a, int column)
 
 static inline scene_affine affine_identity(void)
 {
-    return (scene_affine){ { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 } } };
+    return (scene_affine){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 }
 
 /* a after b */
@@ -56,9 +59,7 @@ static inline scene_affine affine_multiply(const scene_affine *a, const scene_af
 {
     scene_affine out;
     for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 4; j++) {
-            out.m[i][j] = a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j];
-        }
+        for (int j = 0; j < 4; j++) { out.m[i][j] = a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j]; }
         out.m[i][3] += a->m[i][3];
     }
     return out;

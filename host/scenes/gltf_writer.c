@@ -44,8 +44,10 @@ static void add_knobs(gltf_document *d, gltf_list *list, const char *knobs)
 size_t gltf_add_material(gltf_document *d, const char *name, const double *rgb, const char *knobs)
 {
     size_t idx = next_item(d, &d->materials);
-    add_text(d, &d->materials, "{\"name\": \"%s\", \"pbrMetallicRoughness\": {\"baseColorFactor\": [%g, %g, %g, 1], "
-             "\"metallicFactor\": 0}", name, rgb[0], rgb[1], rgb[2]);
+    add_text(d, &d->materials,
+             "{\"name\": \"%s\", \"pbrMetallicRoughness\": {\"baseColorFactor\": [%g, %g, %g, 1], "
+             "\"metallicFactor\": 0}",
+             name, rgb[0], rgb[1], rgb[2]);
     add_knobs(d, &d->materials, knobs);
     add_text(d, &d->materials, "}");
     return idx;
@@ -84,7 +86,8 @@ static size_t add_accessor(gltf_document *d, size_t view, int component, size_t 
 {
     gltf_list *list = &d->accessors;
     size_t idx = next_item(d, list), n = type[0] == 'S' ? 1 : 3;
-    add_text(d, list, "{\"bufferView\": %zu, \"componentType\": %d, \"count\": %zu, \"type\": \"%s\"", view, component, count, type);
+    add_text(d, list, "{\"bufferView\": %zu, \"componentType\": %d, \"count\": %zu, \"type\": \"%s\"", view, component, count,
+             type);
     for (int side = 0; low && side < 2; side++) {
         add_text(d, list, ", \"%s\": [", side ? "max" : "min");
         for (size_t i = 0; i < n; i++) add_text(d, list, "%s%.9g", i ? ", " : "", (double)(side ? high : low)[i]);
@@ -97,7 +100,7 @@ static size_t add_accessor(gltf_document *d, size_t view, int component, size_t 
 /* An attribute by its offset in mesh_vertex. */
 static size_t add_attribute(gltf_document *d, const mesh_builder *m, size_t offset, bool with_bounds)
 {
-    float low[3] = { 0, 0, 0 }, high[3] = { 0, 0, 0 };
+    float low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
     size_t start = d->n_bytes;
     for (size_t i = 0; i < m->n_vertices; i++) {
         float v[3];
@@ -126,8 +129,10 @@ static void add_surface(gltf_document *d, const gltf_surface *s)
     const mesh_builder *m = s->mesh;
     if (m->overflow) d->overflow = true;
     add_text(d, list, "{\"attributes\": {\"POSITION\": %zu", add_attribute(d, m, offsetof(mesh_vertex, pos), true));
-    if (m->attributes & MESH_NORMALS) add_text(d, list, ", \"NORMAL\": %zu", add_attribute(d, m, offsetof(mesh_vertex, nrm), false));
-    if (m->attributes & MESH_COLOURS) add_text(d, list, ", \"COLOR_0\": %zu", add_attribute(d, m, offsetof(mesh_vertex, rgb), false));
+    if (m->attributes & MESH_NORMALS)
+        add_text(d, list, ", \"NORMAL\": %zu", add_attribute(d, m, offsetof(mesh_vertex, nrm), false));
+    if (m->attributes & MESH_COLOURS)
+        add_text(d, list, ", \"COLOR_0\": %zu", add_attribute(d, m, offsetof(mesh_vertex, rgb), false));
     add_text(d, list, "}, \"indices\": %zu, \"material\": %zu}", add_indices(d, m), s->material_idx);
 }
 
@@ -145,13 +150,15 @@ size_t gltf_add_mesh(gltf_document *d, const char *name, const gltf_surface *sur
 
 void gltf_add_camera(gltf_document *d, const gltf_camera *c)
 {
-    static const mesh_point x_axis = { 1, 0, 0 }, y_axis = { 0, 1, 0 };
+    static const mesh_point x_axis = {1, 0, 0}, y_axis = {0, 1, 0};
     const double yaw = c->yaw_deg * MESH_PI / 180, pitch = c->pitch_deg * MESH_PI / 180, flat = c->distance * cos(pitch);
-    const mesh_point p = { c->target.x + flat * sin(yaw), c->target.y - c->distance * sin(pitch), c->target.z + flat * cos(yaw) };
+    const mesh_point p = {c->target.x + flat * sin(yaw), c->target.y - c->distance * sin(pitch), c->target.z + flat * cos(yaw)};
     gltf_rotation q = gltf_multiply(gltf_turn(y_axis, c->yaw_deg), gltf_turn(x_axis, c->pitch_deg));
     size_t idx = next_item(d, &d->cameras);
-    add_text(d, &d->cameras, "{\"type\": \"perspective\", \"perspective\": {\"yfov\": %.6g, \"aspectRatio\": 1.33333, \"znear\": %g, "
-             "\"zfar\": %g}}", c->fov_deg * MESH_PI / 180, c->near_distance, c->far_distance);
+    add_text(d, &d->cameras,
+             "{\"type\": \"perspective\", \"perspective\": {\"yfov\": %.6g, \"aspectRatio\": 1.33333, \"znear\": %g, "
+             "\"zfar\": %g}}",
+             c->fov_deg * MESH_PI / 180, c->near_distance, c->far_distance);
     gltf_add_node(d, "camera", "\"camera\": %zu, \"translation\": [%.6g, %.6g, %.6g], \"rotation\": [%.6g, %.6g, %.6g, %.6g]", idx,
                   p.x, p.y, p.z, q.x, q.y, q.z, q.w);
 }
@@ -159,8 +166,8 @@ void gltf_add_camera(gltf_document *d, const gltf_camera *c)
 size_t gltf_add_directional_light(gltf_document *d, const char *name, const double *rgb, double lux, const char *knobs)
 {
     size_t idx = next_item(d, &d->lights);
-    add_text(d, &d->lights, "{\"name\": \"%s\", \"type\": \"directional\", \"color\": [%g, %g, %g], \"intensity\": %g", name, rgb[0],
-             rgb[1], rgb[2], lux);
+    add_text(d, &d->lights, "{\"name\": \"%s\", \"type\": \"directional\", \"color\": [%g, %g, %g], \"intensity\": %g", name,
+             rgb[0], rgb[1], rgb[2], lux);
     add_knobs(d, &d->lights, knobs);
     add_text(d, &d->lights, "}");
     return idx;
@@ -200,9 +207,10 @@ void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx,
     }
     size_t values = add_accessor(d, add_view(d, start, 0), FLOAT_COMPONENT, n, "VEC4", NULL, NULL);
     next_item(d, &d->animations);
-    add_text(d, &d->animations, "{\"name\": \"%s\",\n      \"channels\": [{\"sampler\": 0, \"target\": {\"node\": %zu, \"path\": "
-             "\"rotation\"}}],\n      \"samplers\": [{\"input\": %zu, \"output\": %zu, \"interpolation\": \"LINEAR\"}]}", name, node_idx,
-             times, values);
+    add_text(d, &d->animations,
+             "{\"name\": \"%s\",\n      \"channels\": [{\"sampler\": 0, \"target\": {\"node\": %zu, \"path\": "
+             "\"rotation\"}}],\n      \"samplers\": [{\"input\": %zu, \"output\": %zu, \"interpolation\": \"LINEAR\"}]}",
+             name, node_idx, times, values);
 }
 
 static void write_list(FILE *file, const char *key, const gltf_list *list)
@@ -236,8 +244,10 @@ static void write_scene(FILE *file, const gltf_document *d, const char *settings
 int gltf_write(const gltf_document *d, const gltf_scene_text *scene, FILE *file)
 {
     if (d->overflow) return -1;
-    fprintf(file, "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"host/scenes/make_scenes.c\",\n    \"extras\": {\"comment\": "
-            "\"%s\"}},\n  \"extensionsUsed\": [\"KHR_lights_punctual\"],\n", scene->comment);
+    fprintf(file,
+            "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"host/scenes/make_scenes.c\",\n    \"extras\": {\"comment\": "
+            "\"%s\"}},\n  \"extensionsUsed\": [\"KHR_lights_punctual\"],\n",
+            scene->comment);
     write_scene(file, d, scene->settings);
     write_list(file, "nodes", &d->nodes);
     write_list(file, "cameras", &d->cameras);
@@ -256,11 +266,11 @@ int gltf_write(const gltf_document *d, const gltf_scene_text *scene, FILE *file)
 gltf_rotation gltf_turn(mesh_point unit_axis, double degrees)
 {
     double half = degrees * MESH_PI / 360, s = sin(half);
-    return (gltf_rotation){ unit_axis.x * s, unit_axis.y * s, unit_axis.z * s, cos(half) };
+    return (gltf_rotation){unit_axis.x * s, unit_axis.y * s, unit_axis.z * s, cos(half)};
 }
 
 gltf_rotation gltf_multiply(gltf_rotation a, gltf_rotation b)
 {
-    return (gltf_rotation){ a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-                            a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z };
+    return (gltf_rotation){a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+                           a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }

@@ -35,19 +35,21 @@ typedef struct {
     size_t material_idx;
 } gltf_surface;
 
-typedef struct { double x, y, z, w; } gltf_rotation; /* unit quaternion */
+typedef struct {
+    double x, y, z, w;
+} gltf_rotation; /* unit quaternion */
 
 typedef struct {
     double fov_deg, near_distance, far_distance; /* vertical field of view */
     mesh_point target;
-    double distance;         /* from the target */
-    double yaw_deg;          /* 0 looks along -Z, 90 along -X */
-    double pitch_deg;        /* upwards */
+    double distance;  /* from the target */
+    double yaw_deg;   /* 0 looks along -Z, 90 along -X */
+    double pitch_deg; /* upwards */
 } gltf_camera;
 
 typedef struct {
-    const char *comment;   /* asset.extras.comment */
-    const char *settings;  /* members of the scene's extras.gnomon, as JSON */
+    const char *comment;  /* asset.extras.comment */
+    const char *settings; /* members of the scene's extras.gnomon, as JSON */
 } gltf_scene_text;
 
 void gltf_begin(gltf_document *d);

@@ -67,7 +67,7 @@ static void add_triangle(mesh_builder *m, uint16_t a, uint16_t b, uint16_t c)
 
 void mesh_polygon(mesh_builder *m, const mesh_point *p, size_t n)
 {
-    const mesh_point none = { 0, 0, 0 };
+    const mesh_point none = {0, 0, 0};
     uint16_t first = add_vertex(m, p[0], none), last = add_vertex(m, p[1], none);
     for (size_t i = 2; i < n; i++) {
         uint16_t next = add_vertex(m, p[i], none);
@@ -78,18 +78,18 @@ void mesh_polygon(mesh_builder *m, const mesh_point *p, size_t n)
 
 void mesh_triangle(mesh_builder *m, mesh_point a, mesh_point b, mesh_point c)
 {
-    mesh_polygon(m, (mesh_point[]){ a, b, c }, 3);
+    mesh_polygon(m, (mesh_point[]){a, b, c}, 3);
 }
 
 void mesh_quad(mesh_builder *m, mesh_point a, mesh_point b, mesh_point c, mesh_point d)
 {
-    mesh_polygon(m, (mesh_point[]){ a, b, c, d }, 4);
+    mesh_polygon(m, (mesh_point[]){a, b, c, d}, 4);
 }
 
 mesh_point mesh_ring_point(double r, double y, size_t k, size_t n_segments)
 {
     double angle = 2 * MESH_PI * (double)(k % n_segments) / (double)n_segments;
-    return (mesh_point){ r * cos(angle), y, r * sin(angle) };
+    return (mesh_point){r * cos(angle), y, r * sin(angle)};
 }
 
 /* One section of the profile. (dr, dy) runs upwards on the outside, so (dy, -dr) points outwards. */
@@ -117,7 +117,7 @@ void mesh_lathe(mesh_builder *m, const mesh_profile *profile, size_t n, size_t n
 void mesh_box(mesh_builder *m, mesh_point low, mesh_point high)
 {
     mesh_point p[8];
-    for (int i = 0; i < 8; i++) p[i] = (mesh_point){ i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z };
+    for (int i = 0; i < 8; i++) p[i] = (mesh_point){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
     mesh_quad(m, p[0], p[4], p[6], p[2]);
     mesh_quad(m, p[1], p[3], p[7], p[5]);
     mesh_quad(m, p[0], p[1], p[5], p[4]);

@@ -10,12 +10,16 @@
 #include <stdint.h>
 
 #define MESH_GRID (1.0 / 65536)
-#define MESH_PI 3.14159265358979323846
+#define MESH_PI   3.14159265358979323846
 
 enum { MESH_MAX_VERTICES = 1024, MESH_MAX_CORNERS = 3072 };
 
-typedef struct { double x, y, z; } mesh_point;
-typedef struct { double r, y; } mesh_profile; /* of a solid of revolution about +Y */
+typedef struct {
+    double x, y, z;
+} mesh_point;
+typedef struct {
+    double r, y;
+} mesh_profile; /* of a solid of revolution about +Y */
 
 typedef enum { MESH_FACE_NORMALS = 0, MESH_NORMALS = 1, MESH_COLOURS = 2 } mesh_attributes;
 
@@ -24,9 +28,9 @@ typedef struct {
 } mesh_vertex;
 
 typedef struct {
-    unsigned attributes;   /* MESH_NORMALS | MESH_COLOURS */
-    bool overflow;         /* something did not fit: the mesh is no good */
-    float paint[3];        /* COLOR_0 of what is added next */
+    unsigned attributes; /* MESH_NORMALS | MESH_COLOURS */
+    bool overflow;       /* something did not fit: the mesh is no good */
+    float paint[3];      /* COLOR_0 of what is added next */
     size_t n_vertices, n_corners;
     mesh_vertex vertex[MESH_MAX_VERTICES];
     uint16_t idx[MESH_MAX_CORNERS];

@@ -43,8 +43,8 @@ static void print_json(const tool_options *o, const scene *s, const counts *c, c
            s->n_objects, s->n_meshes, c->triangles, c->vertices, s->n_lights, c->shadow_lights);
     printf(", \"features\": {\"vertex_normals\": %d, \"vertex_colours\": %d, \"two_sided\": %d, \"unlit\": %d}", c->smooth,
            c->coloured, c->two_sided, c->unlit);
-    printf(", \"visible_triangles\": %u, \"tile_refs\": %u, \"clipped_triangles\": %u, \"caster_triangles\": %u", stats->n_triangles,
-           stats->n_tile_refs, stats->n_clipped, stats->n_caster_triangles);
+    printf(", \"visible_triangles\": %u, \"tile_refs\": %u, \"clipped_triangles\": %u, \"caster_triangles\": %u",
+           stats->n_triangles, stats->n_tile_refs, stats->n_clipped, stats->n_caster_triangles);
     printf(", \"ram_bytes\": {");
     for (int i = 0; i < SETTINGS_PRESETS; i++) printf("%s\"%s\": %ld", i ? ", " : "", settings_preset_name[i], ram[i].total);
     printf("}, \"notes\": [");
@@ -62,8 +62,8 @@ static void print_text(const tool_options *o, const scene *s, const counts *c, c
     printf("  %zu lights, %d with a shadow\n", s->n_lights, c->shadow_lights);
     printf("  needs: %s%s%s%s%s\n", c->shadow_lights ? "shadows " : "", c->smooth ? "vertex_normals " : "",
            c->coloured ? "vertex_colours " : "", c->two_sided ? "two-sided " : "", c->unlit ? "unlit" : "");
-    printf("  at %dx%d, frame %d: %u visible triangles (%u clipped), %u tile references, %u caster triangles\n", o->width, o->height,
-           o->frame, stats->n_triangles, stats->n_clipped, stats->n_tile_refs, stats->n_caster_triangles);
+    printf("  at %dx%d, frame %d: %u visible triangles (%u clipped), %u tile references, %u caster triangles\n", o->width,
+           o->height, o->frame, stats->n_triangles, stats->n_clipped, stats->n_tile_refs, stats->n_caster_triangles);
     printf("  RAM with capacities for just that:\n");
     for (int i = 0; i < SETTINGS_PRESETS; i++)
         printf("    %-9s %7ld bytes: atlas %ld, triangles %ld, tile references %ld, screen tile %ld, rest %ld\n",

@@ -10,19 +10,20 @@
 
 typedef struct {
     int width, height;
-    uint8_t *rgb8;         /* 3 per pixel */
+    uint8_t *rgb8; /* 3 per pixel */
     uint16_t *rgb565;
-    double *depth;         /* world units; INFINITY: no surface */
-    double *normal;        /* 3 per pixel */
-    int64_t *triangle;     /* object << 32 | triangle; -1: no surface */
+    double *depth;     /* world units; INFINITY: no surface */
+    double *normal;    /* 3 per pixel */
+    int64_t *triangle; /* object << 32 | triangle; -1: no surface */
     size_t n_lights;
     double *shadow[ENGINE_LIGHTS_MAX]; /* 0..1 */
     double *ndotl[ENGINE_LIGHTS_MAX];  /* reference only, NULL from the library */
-    int8_t *cascade;       /* of the surface point; -1: none, or no surface */
+    int8_t *cascade;                   /* of the surface point; -1: none, or no surface */
     int n_cascades;
     int atlas_texels[ENGINE_LIGHTS_MAX]; /* per side of each of the light's tiles; 0: it has none */
-    double *atlas[ENGINE_LIGHTS_MAX][REF_MAX_CASCADES]; /* light depth 0..1 of each tile, 1 = empty; NULL: no tile, or an empty slice */
-    gn_stats stats;        /* fixed only */
+    double *atlas[ENGINE_LIGHTS_MAX]
+                 [REF_MAX_CASCADES]; /* light depth 0..1 of each tile, 1 = empty; NULL: no tile, or an empty slice */
+    gn_stats stats;                  /* fixed only */
 } engine_picture;
 
 /* What to fill besides the colours. */

@@ -35,7 +35,8 @@ static void explain_range(const job *j, gn_status status)
 {
     double unit = ldexp(1, -j->fixed->world_exp);
     snprintf(j->error, j->error_bytes,
-             "%s (in the library's units: one is %g of the scene's, as everything within %g of the origin, camera and shadow distance must fit)",
+             "%s (in the library's units: one is %g of the scene's, as everything within %g of the origin, camera and shadow "
+             "distance must fit)",
              gn_status_text(status), unit, 4096 * unit);
 }
 
@@ -92,7 +93,8 @@ static int draw_views(const job *j, gn_picture picture, engine_picture *out, uin
 {
     size_t n = (size_t)out->width * (size_t)out->height;
     if (draw_raw(j, picture, GN_VIEW_DEPTH, 0, raw)) return -1;
-    for (size_t i = 0; i < n; i++) out->depth[i] = raw[i] == UINT32_MAX ? (double)INFINITY : ldexp(raw[i], -16 - j->fixed->world_exp);
+    for (size_t i = 0; i < n; i++)
+        out->depth[i] = raw[i] == UINT32_MAX ? (double)INFINITY : ldexp(raw[i], -16 - j->fixed->world_exp);
     if (draw_raw(j, picture, GN_VIEW_NORMAL, 0, raw)) return -1;
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < 3; k++) out->normal[3 * i + k] = unpack_axis(raw[i] >> (20 - 10 * k));
@@ -166,8 +168,7 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
         out->stats = *gn_get_stats(renderer);
         failed = over_capacity(&j, "visible triangles", "max_triangles", out->stats.n_triangles, set->capacity.max_triangles) ||
                  over_capacity(&j, "tile references", "max_tile_refs", out->stats.n_tile_refs, set->capacity.max_tile_refs) ||
-                 over_capacity(&j, "lights", "max_lights", (uint32_t)s->n_lights, set->capacity.max_lights) ||
-                 copy_atlas(&j, out);
+                 over_capacity(&j, "lights", "max_lights", (uint32_t)s->n_lights, set->capacity.max_lights) || copy_atlas(&j, out);
     }
     picture.format = GN_FORMAT_RGB565;
     if (!failed && what == ENGINE_ALL) failed = draw(&j, picture, out->rgb565) || draw_views(&j, picture, out, raw);

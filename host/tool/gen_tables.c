@@ -33,8 +33,7 @@ int main(void)
     }
     print_u16("gn_rsqrt_table", v, 192);
     printf("\nconst int32_t gn_sin_table_q30[65] = {");
-    for (int i = 0; i <= 64; i++)
-        printf("%s%ld,", i % 8 ? " " : "\n    ", lround(1073741824.0 * sin(turn * i / 256.0)));
+    for (int i = 0; i <= 64; i++) printf("%s%ld,", i % 8 ? " " : "\n    ", lround(1073741824.0 * sin(turn * i / 256.0)));
     printf("\n};\n");
     for (int i = 0; i <= 576; i++) v[i] = 65535.0 * srgb(ldexp(1.0 + (i % 64) / 64.0, i / 64 - 9));
     print_u16("gn_srgb_table", v, 577);

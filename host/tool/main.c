@@ -136,8 +136,11 @@ static int parse(tool_options *o, int command, int argc, char **argv)
 
 static int run(int argc, char **argv)
 {
-    static const struct { const char *name; int bit; int (*run)(const tool_options *); } commands[] = {
-        {"render", BY_RENDER, tool_render}, {"compare", BY_COMPARE, tool_compare}, {"info", BY_INFO, tool_info}};
+    static const struct {
+        const char *name;
+        int bit;
+        int (*run)(const tool_options *);
+    } commands[] = {{"render", BY_RENDER, tool_render}, {"compare", BY_COMPARE, tool_compare}, {"info", BY_INFO, tool_info}};
     tool_options o = {.engine = "fixed", .width = 320, .height = 240};
     if (argc < 2) return usage("a command is missing", NULL);
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0) {

@@ -11,17 +11,17 @@ typedef struct {
 
 typedef struct {
     long pixels;
-    double identical, within1; /* RGB565 */
-    double psnr_db;            /* 8-bit RGB; INFINITY if equal */
-    int max_error;             /* 8-bit levels */
+    double identical, within1;                    /* RGB565 */
+    double psnr_db;                               /* 8-bit RGB; INFINITY if equal */
+    int max_error;                                /* 8-bit levels */
     double atten_rms, atten_max, shadow_mismatch; /* over all lights */
     double coverage_mismatch;
     size_t n_lights;
     light_metrics light[ENGINE_LIGHTS_MAX];
     /* pixels that are not identical, by cause */
-    long by_coverage; /* another triangle is visible */
-    long by_shadow;   /* the shadow factor of some light differs by more than 1/256 */
-    long by_rounding; /* neither: the colour lies next to a rounding threshold */
+    long by_coverage;     /* another triangle is visible */
+    long by_shadow;       /* the shadow factor of some light differs by more than 1/256 */
+    long by_rounding;     /* neither: the colour lies next to a rounding threshold */
     int worst_x, worst_y; /* a pixel with max_error */
     const char *worst_cause;
 } metrics;

@@ -94,8 +94,8 @@ static int quantise_mesh(gn_mesh *out, const scene_mesh *mesh, int bits, char *e
 }
 
 /* Matrix entries become a Q1.30 mantissa under one exponent. A mesh's fraction bits beyond 0..30 move into that exponent. */
-static int quantise_object(gn_object *out, const scene_object *o, const gn_mesh *mesh, int mesh_bits, int world_exp,
-                           char *error, size_t error_bytes)
+static int quantise_object(gn_object *out, const scene_object *o, const gn_mesh *mesh, int mesh_bits, int world_exp, char *error,
+                           size_t error_bytes)
 {
     double largest = 0;
     int e;
@@ -176,7 +176,8 @@ int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_b
     }
     for (size_t i = 0; !failed && i < s->n_objects; i++) {
         size_t mesh = s->objects[i].mesh_idx;
-        failed = quantise_object(&out->objects[i], &s->objects[i], &out->meshes[mesh], bits[mesh], out->world_exp, error, error_bytes);
+        failed =
+            quantise_object(&out->objects[i], &s->objects[i], &out->meshes[mesh], bits[mesh], out->world_exp, error, error_bytes);
     }
     if (!failed) {
         for (size_t i = 0; i < s->n_lights; i++) quantise_light(&out->lights[i], &s->lights[i], out->world_exp);

@@ -7,7 +7,7 @@
 
 typedef struct {
     gn_scene scene;
-    int world_exp;      /* library units = world units * 2^world_exp */
+    int world_exp; /* library units = world units * 2^world_exp */
     gn_mesh *meshes;
     gn_object *objects;
     gn_light *lights;

@@ -14,12 +14,10 @@ typedef struct {
     int preset[SETTINGS_PRESETS];
 } knob;
 
-#define KNOB_QUALITY_(name, MACRO, lo, hi, meaning, cost)                                                              \
+#define KNOB_QUALITY_(name, MACRO, lo, hi, meaning, cost)                                                                          \
     {#name, lo, hi, offsetof(settings, quality.name), meaning, cost, {GN_PRESETS_##MACRO}},
-#define KNOB_CAPACITY_(name, MACRO, lo, hi, meaning, cost)                                                             \
-    {#name, lo, hi, offsetof(settings, capacity.name), meaning, cost, {0}},
-#define KNOB_FEATURE_(name, MACRO, lo, hi, meaning, cost)                                                              \
-    {#name, lo, hi, offsetof(settings, feature.name), meaning, cost, {0}},
+#define KNOB_CAPACITY_(name, MACRO, lo, hi, meaning, cost) {#name, lo, hi, offsetof(settings, capacity.name), meaning, cost, {0}},
+#define KNOB_FEATURE_(name, MACRO, lo, hi, meaning, cost)  {#name, lo, hi, offsetof(settings, feature.name), meaning, cost, {0}},
 
 static const knob quality_knobs[] = {GN_QUALITY_KNOBS(KNOB_QUALITY_)};
 static const knob capacity_knobs[] = {GN_CAPACITY_KNOBS(KNOB_CAPACITY_)};
@@ -196,7 +194,8 @@ static int apply_ratios(scene_shadow *shadow, const char *value, char *error, si
     char expected[96];
     double ratio[3];
     int n = 0, want = shadow->n_cascades - 1;
-    if (want == 0) return fail(error, bytes, "cascade_ratios", value, "possible: the only cascade covers everything; set cascades first");
+    if (want == 0)
+        return fail(error, bytes, "cascade_ratios", value, "possible: the only cascade covers everything; set cascades first");
     snprintf(expected, sizeof expected, "%d number%s from 0 to 1, which %d cascades take", want, want > 1 ? "s" : "", want + 1);
     for (;;) {
         if (n == want || parse_number(end, &ratio[n], &end) || ratio[n] < 0 || ratio[n] > 1)
@@ -299,7 +298,8 @@ static int enforce_shadows(const settings *set, const scene *s, char *error, siz
     }
     for (size_t i = 0; i < s->n_lights; i++) n_lights += s->lights[i].shadow && s->lights[i].strength > 0;
     if (n_lights > 4) n_lights = 4; /* A2: further lights cast no shadow */
-    return over(error, bytes, "max_shadow_tiles", set->capacity.max_shadow_tiles, "what the lights and cascades need", n_lights * n_cascades);
+    return over(error, bytes, "max_shadow_tiles", set->capacity.max_shadow_tiles, "what the lights and cascades need",
+                n_lights * n_cascades);
 }
 
 int settings_enforce(const settings *set, scene *s, int width, int height, char *error, size_t error_bytes)
@@ -334,8 +334,7 @@ settings_ram_parts settings_ram(const settings *s)
     long fixed = 172 + 28L * s->capacity.max_lights;
     long arrays = fixed + r.triangles + r.tiles + r.tile_refs;
     long frame = (arrays + 3) & ~3L;
-    if (s->feature.shadows)
-        frame = (((arrays + 7) & ~7L) + 136 + s->capacity.max_shadow_tiles * 168L + r.atlas + 7) & ~7L;
+    if (s->feature.shadows) frame = (((arrays + 7) & ~7L) + 136 + s->capacity.max_shadow_tiles * 168L + r.atlas + 7) & ~7L;
     r.total = frame + r.cells + r.pixels + 16L * s->capacity.vertex_cache;
     if (s->feature.shadows) r.total = (r.total + 7) & ~7L; /* 64-bit members align the whole */
     r.rest = r.total - r.atlas - r.triangles - r.tile_refs - r.tiles - r.cells - r.pixels;
@@ -360,10 +359,12 @@ void settings_print_table(void)
         printf("| `%s` | %g…%g | %s |\n", scene_knobs[i].name, scene_knobs[i].lo, scene_knobs[i].hi, scene_knobs[i].meaning);
     printf("| `filter` | hard, 2x2, 3x3, 5x5, 7x7 | shadow filter (F1-F3) |\n");
     printf("| `cascades` | 1…4 | cascades of every directional light; sets the default ratios (D3) |\n");
-    printf("| `cascade_ratios` | one less than cascades, comma-separated | shares of max_distance where they end, 0 to 1, ascending; after "
+    printf("| `cascade_ratios` | one less than cascades, comma-separated | shares of max_distance where they end, 0 to 1, "
+           "ascending; after "
            "cascades (D3) |\n");
     printf("| `cascade_blend` | hard, soft, dither | from one cascade to the next (D7) |\n");
-    printf("| `distance_mode` | depth, radius | shadows fade with view depth, or are cut at that distance from the camera (D5, D11) |\n");
+    printf("| `distance_mode` | depth, radius | shadows fade with view depth, or are cut at that distance from the camera (D5, "
+           "D11) |\n");
     printf("| `preset` | tiny, balanced, accurate | all quality knobs together |\n");
     printf("| `ground` | 0, 1 | add a ground plane to a glTF file (an OBJ always gets one) |\n");
     printf("| `normals` | face, smooth | for meshes without normals |\n");

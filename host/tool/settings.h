@@ -8,8 +8,12 @@
 #define SETTINGS_FIELD_(name, MACRO, lo, hi, meaning, cost) int32_t name;
 typedef struct {
     gn_knobs quality;
-    struct { GN_CAPACITY_KNOBS(SETTINGS_FIELD_) } capacity;
-    struct { GN_FEATURE_KNOBS(SETTINGS_FIELD_) } feature;
+    struct {
+        GN_CAPACITY_KNOBS(SETTINGS_FIELD_)
+    } capacity;
+    struct {
+        GN_FEATURE_KNOBS(SETTINGS_FIELD_)
+    } feature;
 } settings;
 
 enum { SETTINGS_TINY, SETTINGS_BALANCED, SETTINGS_ACCURATE, SETTINGS_PRESETS };
@@ -38,7 +42,9 @@ int settings_apply_all(settings *out, scene *s, char *const *sets, int n, char *
 int settings_enforce(const settings *set, scene *s, int width, int height, char *error, size_t error_bytes);
 
 /* RAM of the library (gn_renderer) under this configuration on a 32-bit target, by part and in all. */
-typedef struct { long atlas, triangles, tile_refs, tiles, cells, pixels, rest, total; } settings_ram_parts;
+typedef struct {
+    long atlas, triangles, tile_refs, tiles, cells, pixels, rest, total;
+} settings_ram_parts;
 settings_ram_parts settings_ram(const settings *s);
 
 /* Prints the tables of docs/CONFIG.md. */

@@ -5,14 +5,14 @@
 #include "engine.h"
 #include "views.h"
 
-#define TOOL_SETS_MAX 64
+#define TOOL_SETS_MAX    64
 #define TOOL_ERROR_BYTES 512
 
 /* The command line, parsed. */
 typedef struct {
     const char *scene_path;
     const char *out_path;
-    const char *engine;   /* render: fixed, reference */
+    const char *engine; /* render: fixed, reference */
     int width, height;
     int view;
     size_t light;
