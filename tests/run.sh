@@ -101,6 +101,8 @@ run "test_cores, ThreadSanitizer" build/test/threads/test_cores
 for script in tests/test_*.sh; do
     run "$(basename "$script" .sh)" sh "$script" build/gnomon
 done
+build build/test/memory/test_frame BUILD=build/test/memory CC=clang SAN=-fsanitize=memory
+run "test_frame, MemorySanitizer" build/test/memory/test_frame
 run "make bench" sh -c 'sh tests/bench.sh >build/tmp/bench.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/bench.log; exit 1; }'
 run "make run" sh -c 'make -s run >build/tmp/run.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/run.log; exit 1; }'
 echo "$passed passed, $failed failed"

@@ -296,7 +296,7 @@ int main(int argc, char **argv)
     return 0;
 }
 EOF_C
-if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 $warn -Ilib -I. $host_knobs -o "$tmp/ram" "$tmp/ram.c" host/tool/settings.c host/scene/cascades.c -lm >"$tmp/ram.log" 2>&1; then
+if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 $warn -Ilib -I. $host_knobs -o "$tmp/ram" "$tmp/ram.c" host/tool/settings.c host/tool/output.c host/scene/cascades.c -lm >"$tmp/ram.log" 2>&1; then
     pass
 else
     fail "settings_ram: $(grep -m 1 -E 'error|undefined' "$tmp/ram.log")"

@@ -404,6 +404,8 @@ while read -r name low high; do
 done <"$tmp/ranges"
 for preset in tiny balanced accurate; do good info "$cube" --size 16x12 --set preset=$preset; done
 for ratios in 0,0,0 1,1,1 0.2,0.2,0.9; do good info "$cube" --size 16x12 --set cascades=4 --set cascade_ratios=$ratios; done
+for output in rgb888 rgb565 rgb565_swapped grey8 grey4 mono1; do good compare "$cube" --json --size 33x17 --set output=$output; done
+bad 1 output render "$cube" -o "$tmp/x.png" --set output=cmyk
 for blend in hard soft dither; do good info "$cube" --size 16x12 --set cascades=4 --set cascade_blend=$blend; done
 for mode in depth radius; do good info "$cube" --size 16x12 --set distance_mode=$mode; done
 for filter in hard 2x2 3x3 5x5 7x7; do good info "$cube" --size 16x12 --set filter=$filter; done

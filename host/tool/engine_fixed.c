@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "engine.h"
+#include "output.h"
 #include "quantise.h"
 
 typedef struct {
@@ -19,6 +20,19 @@ static void flush(void *user, int x, int y, int w, int h, const void *pixels)
     for (int row = 0; row < h; row++)
         memcpy(c->pixels + ((size_t)(y + row) * (size_t)c->width + (size_t)x) * c->pixel_bytes,
                (const uint8_t *)pixels + (size_t)row * (size_t)w * c->pixel_bytes, (size_t)w * c->pixel_bytes);
+}
+
+/* A picture in any output format, as seen. */
+typedef struct {
+    uint8_t *rgb8;
+    int width;
+    gn_format format;
+} panel;
+
+static void flush_panel(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    panel *p = user;
+    output_decode(p->format, x, y, w, h, pixels, p->rgb8, p->width);
 }
 
 typedef struct {
@@ -66,14 +80,25 @@ static int over_capacity(const job *j, const char *what, const char *knob, uint3
 }
 
 /* One pass of the library over the whole picture. */
-static int draw(const job *j, gn_picture picture, void *pixels)
+static int pass(const job *j, const gn_picture *picture, gn_flush_fn to, void *user)
 {
-    canvas c = {pixels, picture.width, picture.format == GN_FORMAT_RGB565 ? 2 : picture.format == GN_FORMAT_RGB888 ? 3 : 4};
-    gn_status status = gn_init(j->renderer, &picture);
+    gn_status status = gn_init(j->renderer, picture);
     if (status) return explain(j, status);
     j->renderer->frame.knobs = j->set->quality;
-    status = gn_render(j->renderer, &j->fixed->scene, flush, &c);
+    status = gn_render(j->renderer, &j->fixed->scene, to, user);
     return status ? explain(j, status) : 0;
+}
+
+static int draw(const job *j, gn_picture picture, void *pixels)
+{
+    canvas c = {pixels, picture.width, picture.format == GN_FORMAT_RGB565 ? 2 : 4};
+    return pass(j, &picture, flush, &c);
+}
+
+static int draw_panel(const job *j, gn_picture picture, uint8_t *rgb8)
+{
+    panel p = {rgb8, picture.width, picture.format};
+    return pass(j, &picture, flush_panel, &p);
 }
 
 static int draw_raw(const job *j, gn_picture picture, gn_view view, size_t light, uint32_t *raw)
@@ -160,10 +185,10 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
     gn_renderer *renderer = malloc(sizeof *renderer);
     uint32_t *raw = malloc((size_t)width * (size_t)height * sizeof *raw);
     job j = {renderer, set, &fixed, s, error, error_bytes};
-    gn_picture picture = {(uint16_t)width, (uint16_t)height, GN_FORMAT_RGB888, GN_VIEW_COLOUR, 0};
+    gn_picture picture = {(uint16_t)width, (uint16_t)height, set->output, GN_VIEW_COLOUR, 0};
     int failed = allocate(out, s, width, height) || !renderer || !raw;
     if (failed) snprintf(error, error_bytes, "out of memory");
-    else failed = draw(&j, picture, out->rgb8);
+    else failed = draw_panel(&j, picture, out->rgb8);
     if (!failed) {
         out->stats = *gn_get_stats(renderer);
         failed = over_capacity(&j, "visible triangles", "max_triangles", out->stats.n_triangles, set->capacity.max_triangles) ||

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "engine.h"
+#include "output.h"
 
 static unsigned level(double v, double levels)
 {
@@ -64,7 +65,7 @@ int engine_reference(engine_picture *out, const scene *s, const settings *set, i
     }
     for (size_t i = 0; i < n; i++) {
         const double *c = ref.rgb + 3 * i;
-        for (size_t k = 0; k < 3; k++) out->rgb8[3 * i + k] = (uint8_t)level(c[k], 255);
+        output_quantise(set->output, c, set->quality.srgb, (int)(i % (size_t)width), (int)(i / (size_t)width), out->rgb8 + 3 * i);
         out->rgb565[i] = (uint16_t)(level(c[0], 31) << 11 | level(c[1], 63) << 5 | level(c[2], 31));
     }
     take(out, &ref);

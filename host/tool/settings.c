@@ -1,5 +1,6 @@
 /* Every knob by one name. */
 #include "settings.h"
+#include "output.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -73,7 +74,7 @@ void settings_preset(settings *out, int preset)
 
 void settings_init(settings *out)
 {
-    static const settings defaults = {.capacity.vertex_cache = 32, .feature = {1, 1, 1, 4, 1, 1, 0, 0}};
+    static const settings defaults = {.output = GN_FORMAT_RGB888, .capacity.vertex_cache = 32, .feature = {1, 1, 1, 4, 1, 1, 0, 0}};
     *out = defaults;
     settings_preset(out, SETTINGS_BALANCED);
 }
@@ -218,6 +219,10 @@ static int apply_word(settings *out, scene_shadow *shadow, const char *key, cons
     if (strcmp(key, "preset") == 0) {
         if ((i = find_word(value, settings_preset_name)) < 0) return fail(error, bytes, key, value, "tiny, balanced or accurate");
         settings_preset(out, i);
+    } else if (strcmp(key, "output") == 0) {
+        if ((i = find_word(value, output_names)) < 0)
+            return fail(error, bytes, key, value, "rgb565, rgb888, rgb565_swapped, grey8, grey4 or mono1");
+        out->output = (gn_format)i;
     } else if (strcmp(key, "filter") == 0) {
         if ((i = find_word(value, filter_names)) < 0) return fail(error, bytes, key, value, "hard, 2x2, 3x3, 5x5 or 7x7");
         shadow->filter = (scene_filter)i;
@@ -365,6 +370,7 @@ void settings_print_table(void)
     printf("| `cascade_blend` | hard, soft, dither | from one cascade to the next (D7) |\n");
     printf("| `distance_mode` | depth, radius | shadows fade with view depth, or are cut at that distance from the camera (D5, "
            "D11) |\n");
+    printf("| `output` | rgb888, rgb565, rgb565_swapped, grey8, grey4, mono1 | the panel that pictures are made for (R5) |\n");
     printf("| `preset` | tiny, balanced, accurate | all quality knobs together |\n");
     printf("| `ground` | 0, 1 | add a ground plane to a glTF file (an OBJ always gets one) |\n");
     printf("| `normals` | face, smooth | for meshes without normals |\n");

@@ -14,6 +14,7 @@ typedef struct {
     struct {
         GN_FEATURE_KNOBS(SETTINGS_FIELD_)
     } feature;
+    gn_format output; /* of the pictures people see */
 } settings;
 
 enum { SETTINGS_TINY, SETTINGS_BALANCED, SETTINGS_ACCURATE, SETTINGS_PRESETS };

@@ -1,0 +1,15 @@
+/* The library's output formats as people see them: what a panel of that format would show, as 8-bit RGB. */
+#ifndef GNOMON_OUTPUT_H
+#define GNOMON_OUTPUT_H
+
+#include "../../lib/gnomon.h"
+
+extern const char *const output_names[]; /* by gn_format; ends with NULL */
+
+/* One screen tile as flushed, at (x, y) of an RGB picture `width` pixels wide. */
+void output_decode(gn_format format, int x, int y, int w, int h, const void *pixels, uint8_t *rgb8, int width);
+
+/* The reference's way to the same: `encoded` is a colour after the encoding curve, 0..1; (x, y) its pixel. */
+void output_quantise(gn_format format, const double encoded[3], int srgb, int x, int y, uint8_t rgb8[3]);
+
+#endif
