@@ -114,7 +114,8 @@ static int chord_holds(const gn_frame *frame, const gn_surface *surface, const g
     uint64_t near4 = (uint64_t)(za < zb ? za : zb) * 4, dz = za < zb ? zb - za : za - zb;
     if (a->cascade != b->cascade) return 0;
     if ((surface->smooth || surface->coloured) && dz * 128 > near4) return 0;
-    if (surface->smooth && turned_too_far(a->normal_q15, b->normal_q15)) return 0;
+    int lit = surface->n_values > GN_VALUE_LIGHT;
+    if (surface->smooth && lit && turned_too_far(a->normal_q15, b->normal_q15)) return 0;
     for (uint32_t l = 0; surface->shadowed && l < frame->scene->n_lights; l++) {
         for (uint32_t i = 1; i < GN_VALUES_PER_LIGHT; i++) {
             uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l + i;

@@ -225,13 +225,12 @@ void gn_surface_sample(const gn_frame *frame, const gn_surface *s, int32_t x, in
     sample->value[GN_VALUE_Z] = h.z_q16;
     sample->value[GN_VALUE_FADE] = 0;
     sample->cascade = GN_CASCADE_NONE;
-    for (int i = 0; i < 3; i++) sample->normal_q15[i] = 0;
-    for (int32_t i = GN_VALUE_LIGHT; !s->shadowed && i < s->n_values; i++) sample->value[i] = 0; /* no coordinates, but stepped */
     for (int i = 0; i < 3; i++)
         sample->value[GN_VALUE_RGB + i] = s->coloured ? interpolate(&h, s->rgb_q16[0][i], s->rgb_q16[1][i], s->rgb_q16[2][i]) : 0;
     if (s->object->flags & GN_OBJECT_UNLIT) return;
     int32_t n[3];
     normal_at(s, &h, n);
+    for (int32_t i = GN_VALUE_LIGHT; !s->shadowed && i < s->n_values; i++) sample->value[i] = 0; /* no coordinates, but stepped */
     if (s->smooth) {
         for (int i = 0; i < 3; i++) sample->normal_q15[i] = n[i] >> 15;
         light_cosines(frame, n, &sample->value[GN_VALUE_LIGHT], GN_VALUES_PER_LIGHT);

@@ -20,7 +20,7 @@ enum {
 
 typedef struct {
     int32_t value[GN_VALUE_COUNT];
-    int32_t normal_q15[3]; /* interpolated, not renormalised; smooth surfaces only */
+    int32_t normal_q15[3]; /* interpolated, not renormalised; lit smooth surfaces only */
     int32_t cascade;       /* of the surface point, GN_CASCADE_NONE: lit by every light */
     int32_t x, y;          /* the pixel */
 } gn_sample;
