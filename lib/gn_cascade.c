@@ -203,12 +203,20 @@ static void reserve_light(gn_frame *frame, uint32_t light_idx, int32_t tile)
     }
 }
 
+/* D1: without a caster, or without a receiver, no light needs a tile. */
+static int shadows_possible(const gn_scene *scene)
+{
+    uint32_t flags = 0;
+    for (uint32_t i = 0; i < scene->n_objects; i++) flags |= scene->objects[i].flags;
+    return (flags & GN_OBJECT_CASTS) && (flags & GN_OBJECT_RECEIVES);
+}
+
 /* Hands out the atlas: 1, 4 or 16 equal tiles (A2). */
 static gn_status reserve_tiles(gn_frame *frame)
 {
     const gn_scene *scene = frame->scene;
     uint32_t n_lights = 0;
-    for (uint32_t i = 0; i < scene->n_lights; i++) n_lights += scene->lights[i].shadow_strength_uq16 > 0;
+    for (uint32_t i = 0; shadows_possible(scene) && i < scene->n_lights; i++) n_lights += scene->lights[i].shadow_strength_uq16 > 0;
     if (n_lights > GN_SHADOWED_LIGHTS_MAX) n_lights = GN_SHADOWED_LIGHTS_MAX;
     uint32_t n_tiles = n_lights * frame->n_cascades;
     if (n_tiles > GN_MAX_SHADOW_TILES) return gn_fail_capacity(frame, GN_ERR_SHADOW_TILES_FULL, n_tiles, GN_MAX_SHADOW_TILES);

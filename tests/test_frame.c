@@ -723,6 +723,23 @@ static void test_tile_order(void)
     CHECK(demo_crc32(0, &one.frame, sizeof one.frame) == frame_crc);
 }
 
+/* D1: a light takes no tile where nothing casts, nothing receives, or its strength is 0. */
+static void test_no_needless_tiles(void)
+{
+    gn_picture p = picture_of(32, 24, GN_FORMAT_RGB565);
+    for (int kind = 0; kind < 4; kind++) {
+        demo_scene_make(&demo, 0);
+        for (uint32_t i = 0; i < DEMO_OBJECTS; i++) {
+            if (kind == 1) demo.object[i].flags &= ~(uint32_t)GN_OBJECT_CASTS;
+            if (kind == 2) demo.object[i].flags &= ~(uint32_t)GN_OBJECT_RECEIVES;
+        }
+        if (kind == 3) demo.light[0].shadow_strength_uq16 = 0;
+        gn_init(&one, &p);
+        CHECK_EQ_INT(gn_begin(&one, &demo.scene), GN_OK);
+        CHECK_EQ_INT(gn_shadow_tile_count(&one), kind == 0);
+    }
+}
+
 static void test_shadow_tile_order(void)
 {
     gn_light lights[4];
@@ -1344,6 +1361,7 @@ int main(void)
     test_same_again();
     test_two_renderers();
     test_tile_order();
+    test_no_needless_tiles();
     test_shadow_tile_order();
     test_tile_sizes();
     test_picture_sizes();

@@ -1440,6 +1440,8 @@ static void test_errors(void)
 {
     fixture f;
     begin(&f);
+    const double low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
+    add_box(&f, low, high); /* without a caster no light takes a tile */
     add_light(&f, 0, -1, 0);
     ref_picture p;
     char error[100] = "";

@@ -118,6 +118,17 @@ static bool wants_tile(const scene_light *light)
     return light->shadow && light->strength > 0.0;
 }
 
+/* D1: without a caster, or without a receiver, no light needs a tile. */
+static bool shadows_possible(const scene *s)
+{
+    bool casts = false, receives = false;
+    for (size_t i = 0; i < s->n_objects; i++) {
+        casts = casts || s->objects[i].casts;
+        receives = receives || s->objects[i].receives;
+    }
+    return casts && receives;
+}
+
 /* The atlas is split into 1, 4 or 16 equal tiles (A2); those of empty cascades count. */
 static int tile_side(int atlas_texels, int n_tiles)
 {
@@ -129,7 +140,7 @@ const char *ref_fit_lights(ref_frame *frame)
     const scene *s = frame->s;
     const int n_cascades = s->shadow.n_cascades, width = frame->picture->width, height = frame->picture->height;
     int n_lights = 0, n_taken = 0;
-    for (size_t l = 0; l < s->n_lights; l++) n_lights += wants_tile(&s->lights[l]) && n_lights < MAX_TILED_LIGHTS;
+    for (size_t l = 0; shadows_possible(s) && l < s->n_lights; l++) n_lights += wants_tile(&s->lights[l]) && n_lights < MAX_TILED_LIGHTS;
     const int tile_texels = tile_side(frame->options->atlas_size, n_lights * n_cascades);
     if (tile_texels < MIN_TILE) return "shadow tiles of less than 8 texels a side: too many cascades and lights for the atlas";
     for (int c = 0; c < n_cascades; c++) frame->sphere[c] = fit_sphere(s, c, width, height);
