@@ -1,17 +1,7 @@
 #!/bin/sh
 # Every configuration builds without a warning; wrong ones do not, and say why; capacities, presets and memory are as promised.
 cd "$(dirname "$0")/.." || exit 1
-mkdir -p build/tmp
-tmp=$(mktemp -d build/tmp/test_config.XXXXXX) || exit 1
-trap 'rm -rf "$tmp"' EXIT
-trap 'exit 1' HUP INT TERM
-passed=0 failed=0
-
-pass() { passed=$((passed + 1)); }
-fail() {
-    failed=$((failed + 1))
-    echo "$*"
-}
+. tests/check.sh
 
 variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)

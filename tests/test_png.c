@@ -10,17 +10,15 @@
 #include "../host/scene/png.h"
 #include "../host/scene/zlib_stream.h"
 #include "check.h"
+#include "rng.h"
 
 static const char *const tmp_path = "build/tmp/test_png.png";
 static char error[300];
 
-static uint32_t random_state = 1;
+static rng random_state = {1};
 static uint32_t random_u32(void)
 {
-    random_state ^= random_state << 13;
-    random_state ^= random_state >> 17;
-    random_state ^= random_state << 5;
-    return random_state;
+    return rng_u32(&random_state);
 }
 
 static void write_bytes(const uint8_t *bytes, size_t n)

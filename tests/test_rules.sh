@@ -1,17 +1,7 @@
 #!/bin/sh
 # The rules that no compiler checks: no floating point, no hidden state, who may include whom, sizes, and documents in step.
 cd "$(dirname "$0")/.." || exit 1
-mkdir -p build/tmp
-tmp=$(mktemp -d build/tmp/test_rules.XXXXXX) || exit 1
-trap 'rm -rf "$tmp"' EXIT
-trap 'exit 1' HUP INT TERM
-passed=0 failed=0
-
-pass() { passed=$((passed + 1)); }
-fail() {
-    failed=$((failed + 1))
-    echo "$*"
-}
+. tests/check.sh
 # none WHAT FILE: the file must be empty; each of its lines is named
 none() {
     if [ -s "$2" ]; then fail "$1: $(head -n 5 "$2" | tr '\n' ';')"; else pass; fi

@@ -2,17 +2,7 @@
 # The command line: exit codes, one clear line per error, JSON, pictures of every view, every knob. usage: test_tool.sh [TOOL]
 cd "$(dirname "$0")/.." || exit 1
 tool=${1:-build/gnomon}
-mkdir -p build/tmp
-tmp=$(mktemp -d build/tmp/test_tool.XXXXXX) || exit 1
-trap 'chmod -R u+rwx "$tmp"; rm -rf "$tmp"' EXIT
-trap 'exit 1' HUP INT TERM
-passed=0 failed=0
-
-pass() { passed=$((passed + 1)); }
-fail() {
-    failed=$((failed + 1))
-    echo "$*"
-}
+. tests/check.sh
 
 run() { timeout 60 "$tool" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null; }
 

@@ -8,19 +8,17 @@
 
 #include "../../host/scene/scene.h"
 #include "../check.h"
+#include "../rng.h"
 
 #define TMP "build/tmp/test_scene"
 static const scene_options plain = { .frame = 0, .width = 320, .height = 240 };
 static char error[400];
 static scene s;
 
-static uint32_t random_state = 1;
+static rng random_state = {1};
 static uint32_t random_u32(void)
 {
-    random_state ^= random_state << 13;
-    random_state ^= random_state >> 17;
-    random_state ^= random_state << 5;
-    return random_state;
+    return rng_u32(&random_state);
 }
 
 static void write_file(const char *path, const void *bytes, size_t n)
