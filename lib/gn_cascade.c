@@ -74,6 +74,7 @@ static void setup_spheres(gn_frame *frame)
         /* r^2 (1 - (1 - fade)^2) */
         gn_bfloat width = gn_bf_mul(gn_bf_from_u64(cascade->radius2_q32), gn_bf_from_u64(((uint64_t)1 << 32) - keep_q32));
         cascade->fade_scale = gn_bf_recip(width);
+        cascade->inner2_q32 = (cascade->radius2_q32 >> 32) * keep_q32 + (((cascade->radius2_q32 & UINT32_MAX) * keep_q32) >> 32);
         frame->cascade[frame->last_cascade].next = (int32_t)i;
         frame->last_cascade = (uint8_t)i;
     }

@@ -76,7 +76,7 @@ static void shade_pixel(shading *s, gn_sample *sample, int32_t x, int32_t y)
 #endif
     uint32_t radiance_q20[3];
     gn_light_radiance(s->frame, &s->surface, sample, radiance_q20);
-    gn_pixel_fill(s->frame, &s->rows, x, y, 1, pack(s, radiance_q20));
+    gn_pixel_store(s->frame, &s->rows, x, y, pack(s, radiance_q20));
 }
 
 /* Steps per pixel from sample a to sample b, `n` pixels apart, rounded towards zero; differences saturate. */

@@ -70,6 +70,7 @@ typedef struct {
 typedef struct {
     int32_t centre_q16;   /* view depth */
     uint64_t radius2_q32; /* 0: empty */
+    uint64_t inner2_q32;  /* within this distance the D6 factor is 1 */
     gn_bfloat fade_scale; /* D6: factor = (radius2 - dist2) * fade_scale */
     int32_t next;         /* the next cascade that is not empty */
 } gn_cascade_state;

@@ -189,8 +189,11 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
         uint64_t dist2 = across + (uint64_t)(dz * dz);
         if (dist2 >= cascade->radius2_q32) continue;
         sample->cascade = i;
-        sample->value[GN_VALUE_FADE] =
-            (int32_t)gn_clamp64(gn_bf_apply((int64_t)(cascade->radius2_q32 - dist2), cascade->fade_scale, 48), 0, 65536);
+        sample->value[GN_VALUE_FADE] = 65536;
+        if (dist2 > cascade->inner2_q32) {
+            int64_t factor = gn_bf_apply((int64_t)(cascade->radius2_q32 - dist2), cascade->fade_scale, 48);
+            sample->value[GN_VALUE_FADE] = (int32_t)gn_clamp64(factor, 0, 65536);
+        }
         return;
     }
 }

@@ -140,7 +140,8 @@ const char *ref_fit_lights(ref_frame *frame)
     const scene *s = frame->s;
     const int n_cascades = s->shadow.n_cascades, width = frame->picture->width, height = frame->picture->height;
     int n_lights = 0, n_taken = 0;
-    for (size_t l = 0; shadows_possible(s) && l < s->n_lights; l++) n_lights += wants_tile(&s->lights[l]) && n_lights < MAX_TILED_LIGHTS;
+    for (size_t l = 0; shadows_possible(s) && l < s->n_lights; l++)
+        n_lights += wants_tile(&s->lights[l]) && n_lights < MAX_TILED_LIGHTS;
     const int tile_texels = tile_side(frame->options->atlas_size, n_lights * n_cascades);
     if (tile_texels < MIN_TILE) return "shadow tiles of less than 8 texels a side: too many cascades and lights for the atlas";
     for (int c = 0; c < n_cascades; c++) frame->sphere[c] = fit_sphere(s, c, width, height);

@@ -29,10 +29,18 @@ static void decode_pixel(gn_format format, const uint8_t *row, int i, uint8_t rg
         memcpy(&word, row + 2 * i, sizeof word);
         expand565(rgb8, format == GN_FORMAT_RGB565 ? word : (unsigned)(word >> 8 | (word & 255) << 8));
         break;
-    case GN_FORMAT_GREY8: grey(rgb8, row[i]); break;
-    case GN_FORMAT_GREY4: grey(rgb8, (i & 1 ? row[i / 2] & 15U : (unsigned)row[i / 2] >> 4) * 17U); break;
-    case GN_FORMAT_MONO1: grey(rgb8, row[i / 8] >> (7 - i % 8) & 1 ? 255 : 0); break;
-    default: memcpy(rgb8, row + 3 * i, 3); break;
+    case GN_FORMAT_GREY8:
+        grey(rgb8, row[i]);
+        break;
+    case GN_FORMAT_GREY4:
+        grey(rgb8, (i & 1 ? row[i / 2] & 15U : (unsigned)row[i / 2] >> 4) * 17U);
+        break;
+    case GN_FORMAT_MONO1:
+        grey(rgb8, row[i / 8] >> (7 - i % 8) & 1 ? 255 : 0);
+        break;
+    default:
+        memcpy(rgb8, row + 3 * i, 3);
+        break;
     }
 }
 
@@ -87,9 +95,15 @@ void output_quantise(gn_format format, const double encoded[3], int srgb, int x,
     case GN_FORMAT_RGB565_SWAPPED:
         expand565(rgb8, level(encoded[0], 31) << 11 | level(encoded[1], 63) << 5 | level(encoded[2], 31));
         break;
-    case GN_FORMAT_GREY8: grey(rgb8, level(to_encoded(luminance, srgb), 255)); break;
-    case GN_FORMAT_GREY4: grey(rgb8, level(to_encoded(luminance, srgb), 15) * 17); break;
-    case GN_FORMAT_MONO1: grey(rgb8, luminance * 128 > 2 * bayer(x & 7, y & 7, 8) + 1 ? 255 : 0); break;
+    case GN_FORMAT_GREY8:
+        grey(rgb8, level(to_encoded(luminance, srgb), 255));
+        break;
+    case GN_FORMAT_GREY4:
+        grey(rgb8, level(to_encoded(luminance, srgb), 15) * 17);
+        break;
+    case GN_FORMAT_MONO1:
+        grey(rgb8, luminance * 128 > 2 * bayer(x & 7, y & 7, 8) + 1 ? 255 : 0);
+        break;
     default:
         for (int i = 0; i < 3; i++) rgb8[i] = (uint8_t)level(encoded[i], 255);
         break;

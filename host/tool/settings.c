@@ -339,7 +339,7 @@ settings_ram_parts settings_ram(const settings *s)
     long fixed = 172 + 28L * s->capacity.max_lights;
     long arrays = fixed + r.triangles + r.tiles + r.tile_refs;
     long frame = (arrays + 3) & ~3L;
-    if (s->feature.shadows) frame = (((arrays + 7) & ~7L) + 136 + s->capacity.max_shadow_tiles * 168L + r.atlas + 7) & ~7L;
+    if (s->feature.shadows) frame = (((arrays + 7) & ~7L) + 168 + s->capacity.max_shadow_tiles * 168L + r.atlas + 7) & ~7L;
     r.total = frame + r.cells + r.pixels + 16L * s->capacity.vertex_cache;
     if (s->feature.shadows) r.total = (r.total + 7) & ~7L; /* 64-bit members align the whole */
     r.rest = r.total - r.atlas - r.triangles - r.tile_refs - r.tiles - r.cells - r.pixels;

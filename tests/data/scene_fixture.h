@@ -11,7 +11,7 @@
 #include "../rng.h"
 
 #define TMP "build/tmp/test_scene"
-static const scene_options plain = { .frame = 0, .width = 320, .height = 240 };
+static const scene_options plain = {.frame = 0, .width = 320, .height = 240};
 static char error[400];
 static scene s;
 
@@ -52,7 +52,8 @@ static int has_note(const char *part)
 
 static int is_empty(void)
 {
-    return !s.meshes && !s.objects && !s.lights && !s.settings && !s.notes && s.n_meshes + s.n_objects + s.n_lights + s.n_notes == 0;
+    return !s.meshes && !s.objects && !s.lights && !s.settings && !s.notes &&
+           s.n_meshes + s.n_objects + s.n_lights + s.n_notes == 0;
 }
 
 /* The load failed, for the reason expected, in one line. */
@@ -88,17 +89,20 @@ static void check_invariants(void)
 /* A quad in the xy plane with everything on it. Sizes and offsets of the buffer's parts stand in base_json. */
 static uint8_t base_bin[328];
 
-static void put_floats(size_t offset, const float *values, size_t n) { memcpy(base_bin + offset, values, n * sizeof *values); }
+static void put_floats(size_t offset, const float *values, size_t n)
+{
+    memcpy(base_bin + offset, values, n * sizeof *values);
+}
 
 static void make_base_bin(void)
 {
-    static const float pos[12] = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 }, nrm[12] = { 0, 0, 2, 0, 0, 1, 0, 0, 1, 0, 0, 1 };
-    static const uint16_t idx[6] = { 0, 1, 2, 2, 1, 3 };
-    static const uint8_t rgba[16] = { 255, 0, 0, 9, 0, 255, 0, 9, 0, 0, 255, 9, 51, 102, 153, 9 };
-    static const float times[3] = { 1, 2, 4 };
-    static const float moves[27] = { 0, 0, 0, 1, 0, 0, 0, 4, 0, 0, 8, 0, 2, 0, 0, 0, 8, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0 };
-    static const float turns[12] = { 0, 0, 0, 1, 0, 0, -0.70710678f, -0.70710678f, 0, 0, 1, 0 };
-    static const float scales[9] = { 1, 1, 1, 2, 2, 2, 3, 3, 3 };
+    static const float pos[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, nrm[12] = {0, 0, 2, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    static const uint16_t idx[6] = {0, 1, 2, 2, 1, 3};
+    static const uint8_t rgba[16] = {255, 0, 0, 9, 0, 255, 0, 9, 0, 0, 255, 9, 51, 102, 153, 9};
+    static const float times[3] = {1, 2, 4};
+    static const float moves[27] = {0, 0, 0, 1, 0, 0, 0, 4, 0, 0, 8, 0, 2, 0, 0, 0, 8, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0};
+    static const float turns[12] = {0, 0, 0, 1, 0, 0, -0.70710678f, -0.70710678f, 0, 0, 1, 0};
+    static const float scales[9] = {1, 1, 1, 2, 2, 2, 3, 3, 3};
     put_floats(0, pos, 12);
     memcpy(base_bin + 48, idx, sizeof idx);
     put_floats(60, nrm, 12);
