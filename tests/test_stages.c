@@ -83,12 +83,20 @@ static void random_mesh(double radius)
     }
 }
 
+/* One draw after the other: the order in which a call's arguments are evaluated is the compiler's. */
+static void random_rotation(gn_affine *out)
+{
+    uint16_t angle[3];
+    for (int i = 0; i < 3; i++) angle[i] = (uint16_t)uniform(0, 65535);
+    gn_affine_rotation(out, angle[0], angle[1], angle[2]);
+}
+
 static void random_scene(void)
 {
     double radius = uniform(0.5, 8);
     random_mesh(radius);
     memset(&object, 0, sizeof object);
-    gn_affine_rotation(&object.to_world, (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535));
+    random_rotation(&object.to_world);
     gn_affine_scale(&object.to_world, (int32_t)uniform(20000, 400000));
     for (int k = 0; k < 3; k++) {
         object.to_world.t_q16[k] = (int32_t)(uniform(-20, 20) * 65536);
@@ -96,8 +104,7 @@ static void random_scene(void)
     }
     object.mesh = &mesh;
     object.flags = GN_OBJECT_DEFAULT | GN_OBJECT_TWO_SIDED;
-    gn_affine_rotation(&fixed.camera.to_world, (uint16_t)uniform(0, 65535), (uint16_t)uniform(0, 65535),
-                       (uint16_t)uniform(0, 65535));
+    random_rotation(&fixed.camera.to_world);
     double away = radius * uniform(4, 20);
     for (int k = 0; k < 3; k++) /* behind the object as the camera sees it */
         fixed.camera.to_world.t_q16[k] = object.to_world.t_q16[k] + (int32_t)(away * fixed.camera.to_world.m_q30[k][2] / 16384.0);
@@ -318,6 +325,7 @@ static void check_samples(const gn_frame *frame, int32_t view[][3])
                 cross_at(&c, &p, x, y);
                 /* edge-on planes are stood for by their nearest point (NUMERICS 4.3): not part of the bound */
                 if (!c.inside || !(c.kappa < 1000) || !(p.kappa0 < 1000)) continue;
+                if (c.z < fixed.camera.near_q16 * LSB16) continue; /* clipped away */
                 gn_surface_sample(frame, &surface, x, y, &sample);
                 check_depth(frame, tri, &p, &c, x, y);
                 record(STAGE_Z, fabs(sample.value[GN_VALUE_Z] * LSB16 - c.z), depth_bound(frame, &p, &c), LSB16);
