@@ -1,5 +1,6 @@
-/* The number core against exact arithmetic. `test_math soak` tries every operand of the reciprocal and of the root. */
+/* The number core against exact arithmetic. `test_math soak`, or SOAK in the environment, tries every operand of the reciprocal and of the root. */
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "exact.h"
@@ -418,7 +419,7 @@ int main(int argc, char **argv)
     test_bits();
     test_shifts();
     test_products();
-    test_newton(argc > 1 && !strcmp(argv[1], "soak"));
+    test_newton((argc > 1 && !strcmp(argv[1], "soak")) || getenv("SOAK"));
     test_bf();
     test_bf_apply();
     test_isqrt();
