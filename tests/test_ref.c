@@ -1473,7 +1473,6 @@ static void test_errors(void)
     options.atlas_size = 16; /* 8 tiles: 4 texels each */
     CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);
     CHECK(p.rgb == NULL);
-    f.s.n_lights = 1;
     end(&f);
 }
 
