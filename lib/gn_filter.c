@@ -131,17 +131,9 @@ uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view,
 #endif
 #if GN_FILTER_MAX >= 2
     case GN_FILTER_3X3:
-        attenuation = tent(&r, 1, u_q16, v_q16, bits);
-        break;
-#endif
-#if GN_FILTER_MAX >= 3
     case GN_FILTER_5X5:
-        attenuation = tent(&r, 2, u_q16, v_q16, bits);
-        break;
-#endif
-#if GN_FILTER_MAX >= 4
     case GN_FILTER_7X7:
-        attenuation = tent(&r, 3, u_q16, v_q16, bits);
+        attenuation = tent(&r, view->filter - GN_FILTER_2X2, u_q16, v_q16, bits);
         break;
 #endif
     default:

@@ -51,7 +51,7 @@ typedef struct {
     int32_t offset_q16; /* B2 receiver offset along the normal, texels */
     int32_t bias_constant_q16, bias_slope_q16;
     uint32_t strength_uq16;
-    uint16_t tile_texels; /* T; 0: this light has no tile */
+    uint16_t tile_texels; /* T */
     uint8_t tile_log2;    /* T = 2^tile_log2 */
     uint8_t depth_log2;   /* J: the depth range is T * 2^J texels */
     uint8_t filter;

@@ -499,6 +499,7 @@ int main(int argc, char **argv)
         }
     }
     test_grid_does_not_crawl(&accurate);
+    /* two of a hundred axes at most: the centre errs by some 2^-15 texel, so thresholds are met about once in ten thousand */
     CHECK(shifted_fits * 50 < fits);
     return table ? 0 : check_report();
 }

@@ -161,6 +161,7 @@ int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_b
 {
     memset(out, 0, sizeof *out);
     out->world_exp = choose_world_exp(s);
+    out->n_meshes = s->n_meshes;
     out->meshes = calloc(s->n_meshes + 1, sizeof *out->meshes);
     out->objects = calloc(s->n_objects + 1, sizeof *out->objects);
     out->lights = calloc(s->n_lights + 1, sizeof *out->lights);
@@ -192,7 +193,7 @@ int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_b
 
 void quantise_free(fixed_scene *f)
 {
-    for (size_t i = 0; f->meshes && f->meshes[i].idx; i++) { /* the array ends with an empty mesh */
+    for (size_t i = 0; f->meshes && i < f->n_meshes; i++) {
         free((void *)(uintptr_t)f->meshes[i].pos);
         free((void *)(uintptr_t)f->meshes[i].nrm_q15);
         free((void *)(uintptr_t)f->meshes[i].rgb_uq16);

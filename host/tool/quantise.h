@@ -8,6 +8,7 @@
 typedef struct {
     gn_scene scene;
     int world_exp; /* library units = world units * 2^world_exp */
+    size_t n_meshes;
     gn_mesh *meshes;
     gn_object *objects;
     gn_light *lights;
