@@ -17,8 +17,10 @@ typedef struct {
     int64_t c[3]; /* U, V, D in texels, Q16 */
 } light_point;
 
+#define GN_LIGHT_POLYGON_MAX 8 /* a triangle against four sides has 7; rounding may bend it once more */
+
 typedef struct {
-    light_point p[7]; /* a triangle against four sides */
+    light_point p[GN_LIGHT_POLYGON_MAX];
     int n;
 } light_polygon;
 
@@ -60,8 +62,8 @@ static void clip_side(light_polygon *polygon, int axis, int64_t sign)
     for (int i = 0; i < in.n; i++) {
         const light_point *a = &in.p[i], *b = &in.p[(i + 1) % in.n];
         int64_t da = GN_TILE_REACH_Q16 - sign * a->c[axis], db = GN_TILE_REACH_Q16 - sign * b->c[axis];
-        if (da >= 0) polygon->p[polygon->n++] = *a;
-        if ((da >= 0) == (db >= 0)) continue;
+        if (da >= 0 && polygon->n < GN_LIGHT_POLYGON_MAX) polygon->p[polygon->n++] = *a;
+        if ((da >= 0) == (db >= 0) || polygon->n >= GN_LIGHT_POLYGON_MAX) continue;
         if (da < 0) { /* from the inside end, for the sake of shared edges */
             const light_point *swap = a;
             a = b;
