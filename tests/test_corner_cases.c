@@ -54,7 +54,7 @@ static scene_object *add(int n_corners, const double *corners)
                                  .mesh_idx = i,
                                  .to_world = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
                                  .albedo = {0.8, 0.8, 0.8},
-                                 .casts = true,
+                                 .caster = SCENE_CASTER_ON,
                                  .receives = true};
     return &f.object[i];
 }

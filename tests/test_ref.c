@@ -101,7 +101,7 @@ static scene_mesh *add_mesh(fixture *f, size_t n_vertices, const double *pos, si
     memcpy(mesh->pos, pos, 3 * n_vertices * sizeof *mesh->pos);
     memcpy(mesh->idx, idx, 3 * n_triangles * sizeof *mesh->idx);
     f->objects[f->s.n_objects++] = (scene_object){
-        .name = no_name, .mesh_idx = f->s.n_meshes++, .to_world = identity(), .albedo = {1, 1, 1}, .casts = true, .receives = true};
+        .name = no_name, .mesh_idx = f->s.n_meshes++, .to_world = identity(), .albedo = {1, 1, 1}, .caster = SCENE_CASTER_ON, .receives = true};
     return mesh;
 }
 
@@ -1293,7 +1293,7 @@ static void check_box_shadow(double lift, double near_offset, double normal_bias
     begin(&f);
     add_box(&f, low, high);
     add_floor(&f, 8, 0);
-    f.objects[1].casts = false;
+    f.objects[1].caster = SCENE_CASTER_OFF;
     look(&f, from, at, up);
     f.s.shadow.max_distance = 30;
     scene_light *light = add_light(&f, 1, -1, 0);

@@ -100,7 +100,7 @@ static void check_base_surface(void)
     CHECK_NEAR(m->pos[3], 1, 0);
     CHECK_NEAR(m->nrm[2], 1, 0);
     CHECK_NEAR(m->rgb[3 * 3 + 1], 0.4, 1e-15);
-    CHECK(o->two_sided && !o->casts && !o->receives && !o->unlit);
+    CHECK(o->two_sided && o->caster == SCENE_CASTER_OFF && !o->receives && !o->unlit);
     CHECK_NEAR(o->albedo[1], 0.25, 0);
     check_rows(&o->to_world, (const double[12]){0, -2, 0, 10, 2, 0, 0, 0, 0, 0, 2, 0});
 }
@@ -344,13 +344,13 @@ static void test_gltf_options(void)
     with.ground = true;
     write_file(TMP ".gltf", base_json, sizeof base_json - 1);
     if (CHECK_EQ_INT(load(TMP ".gltf", &with), 0)) {
-        CHECK(s.n_objects == 2 && strcmp(s.objects[1].name, "ground") == 0 && !s.objects[1].casts && s.objects[1].receives);
+        CHECK(s.n_objects == 2 && strcmp(s.objects[1].name, "ground") == 0 && s.objects[1].caster == SCENE_CASTER_OFF && s.objects[1].receives);
         scene_free(&s);
     }
     const char *no_material = replaced(base_json, ",\"material\":0", ",\"extensions\":{}");
     no_material = replaced(no_material, "{\"casts\":0}", "{\"casts\":true,\"unlit\":1}");
     if (CHECK_EQ_INT(load_text(TMP ".gltf", no_material), 0)) {
-        CHECK(s.objects[0].casts && s.objects[0].receives && s.objects[0].unlit && !s.objects[0].two_sided);
+        CHECK(s.objects[0].caster == SCENE_CASTER_ON && s.objects[0].receives && s.objects[0].unlit && !s.objects[0].two_sided);
         CHECK_NEAR(s.objects[0].albedo[0], 1, 0);
         scene_free(&s);
     }

@@ -133,7 +133,7 @@ static size_t collect_edges(const scene *s, directed_edge *out)
     size_t n = 0;
     double corner[3][3];
     for (size_t i = 0; i < s->n_objects; i++) {
-        if (!s->objects[i].casts) continue;
+        if (!(s->objects[i].caster != SCENE_CASTER_OFF)) continue;
         for (size_t t = 0; t < s->meshes[s->objects[i].mesh_idx].n_triangles; t++) {
             triangle_corners(s, &s->objects[i], t, corner);
             for (int k = 0; k < 3; k++, n++) {

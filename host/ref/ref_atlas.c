@@ -82,7 +82,7 @@ static bool render_tile(ref_light_view *view, const ref_frame *frame, const scen
     if (!view->depth) return false;
     for (size_t i = 0; i < n_texels; i++) view->depth[i] = view->depth_range;
     for (size_t i = 0; i < frame->s->n_objects; i++)
-        if (frame->s->objects[i].casts) cast_object(view, frame, i, light);
+        if (frame->s->objects[i].caster != SCENE_CASTER_OFF) cast_object(view, frame, i, light);
     return true;
 }
 

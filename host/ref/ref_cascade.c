@@ -12,6 +12,8 @@ int ref_filter_index(scene_filter filter)
         return 1;
     case SCENE_FILTER_5X5:
         return 2;
+    case SCENE_FILTER_DISK:
+        break;
     case SCENE_FILTER_7X7:
         return 3;
     case SCENE_FILTER_HARD:
@@ -123,7 +125,7 @@ static bool shadows_possible(const scene *s)
 {
     bool casts = false, receives = false;
     for (size_t i = 0; i < s->n_objects; i++) {
-        casts = casts || s->objects[i].casts;
+        casts = casts || (s->objects[i].caster != SCENE_CASTER_OFF);
         receives = receives || s->objects[i].receives;
     }
     return casts && receives;

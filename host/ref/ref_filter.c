@@ -27,6 +27,8 @@ static double axis_weight(scene_filter filter, double x, int i)
         return ref_tent_weight(3, x, i);
     case SCENE_FILTER_5X5:
         return ref_tent_weight(5, x, i);
+    case SCENE_FILTER_DISK:
+        break;
     case SCENE_FILTER_7X7:
         return ref_tent_weight(7, x, i);
     }

@@ -166,7 +166,7 @@ static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *jso
     scene_object object = {.to_world = node->world,
                            .unlit = material.unlit,
                            .two_sided = material.two_sided,
-                           .casts = material.casts,
+                           .caster = material.casts ? SCENE_CASTER_ON : SCENE_CASTER_OFF,
                            .receives = material.receives};
     memcpy(object.albedo, material.albedo, sizeof object.albedo);
     const char *name = gltf_name(g, node->json, "node");

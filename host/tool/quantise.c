@@ -115,7 +115,7 @@ static int quantise_object(gn_object *out, const scene_object *o, const gn_mesh 
         out->to_world.t_q16[r] = (int32_t)fixed(o->to_world.m[r][3], 16 + world_exp);
         out->albedo_uq16[r] = (uint32_t)fixed(fmax(0, fmin(1, o->albedo[r])), 16);
     }
-    out->flags = (o->casts ? GN_OBJECT_CASTS : 0U) | (o->receives ? GN_OBJECT_RECEIVES : 0U) |
+    out->flags = (o->caster != SCENE_CASTER_OFF ? GN_OBJECT_CASTS : 0U) | (o->receives ? GN_OBJECT_RECEIVES : 0U) |
                  (o->two_sided ? GN_OBJECT_TWO_SIDED : 0U) | (o->unlit ? GN_OBJECT_UNLIT : 0U);
     return 0;
 }
