@@ -31,6 +31,9 @@
 #define GN_PRESETS_WEIGHT_BITS          6, 8, 12
 #define GN_PRESETS_ATTEN_BITS           8, 8, 16
 #define GN_PRESETS_ATLAS_SIZE           64, 128, 256
+#define GN_PRESETS_OTHER_ATLAS_SIZE     64, 128, 256
+#define GN_PRESETS_DEPTH_BITS           16, 16, 16
+#define GN_PRESETS_OTHER_DEPTH_BITS     16, 16, 16
 #define GN_PRESETS_TILE_WIDTH           64, 64, 64
 #define GN_PRESETS_TILE_HEIGHT          8, 16, 16
 #define GN_PRESETS_SRGB                 1, 1, 1
@@ -59,6 +62,15 @@
 #ifndef GN_ATLAS_SIZE
 #define GN_ATLAS_SIZE GN_PICK(GN_PRESETS_ATLAS_SIZE)
 #endif
+#ifndef GN_OTHER_ATLAS_SIZE
+#define GN_OTHER_ATLAS_SIZE GN_PICK(GN_PRESETS_OTHER_ATLAS_SIZE)
+#endif
+#ifndef GN_DEPTH_BITS
+#define GN_DEPTH_BITS GN_PICK(GN_PRESETS_DEPTH_BITS)
+#endif
+#ifndef GN_OTHER_DEPTH_BITS
+#define GN_OTHER_DEPTH_BITS GN_PICK(GN_PRESETS_OTHER_DEPTH_BITS)
+#endif
 #ifndef GN_TILE_WIDTH
 #define GN_TILE_WIDTH GN_PICK(GN_PRESETS_TILE_WIDTH)
 #endif
@@ -83,10 +95,19 @@
 #define GN_MAX_TILE_REFS 1500
 #endif
 #ifndef GN_MAX_LIGHTS
-#define GN_MAX_LIGHTS 4
+#define GN_MAX_LIGHTS 8
 #endif
 #ifndef GN_MAX_SHADOW_TILES
 #define GN_MAX_SHADOW_TILES 4
+#endif
+#ifndef GN_SURFACE_LIGHTS
+#define GN_SURFACE_LIGHTS 8
+#endif
+#ifndef GN_MAX_OBJECTS
+#define GN_MAX_OBJECTS 64
+#endif
+#ifndef GN_MAX_OTHER_TILES
+#define GN_MAX_OTHER_TILES 8
 #endif
 #ifndef GN_VERTEX_CACHE
 #define GN_VERTEX_CACHE 32
@@ -104,6 +125,57 @@
 #endif
 #ifndef GN_FILTER_MAX
 #define GN_FILTER_MAX 4
+#endif
+#ifndef GN_DISK_FILTER
+#define GN_DISK_FILTER 1
+#endif
+#ifndef GN_LINEAR_KERNELS
+#define GN_LINEAR_KERNELS 1
+#endif
+#ifndef GN_PUNCTUAL_LIGHTS
+#define GN_PUNCTUAL_LIGHTS 1
+#endif
+#ifndef GN_MAIN_LIGHT
+#define GN_MAIN_LIGHT 1
+#endif
+#ifndef GN_TILE_LIGHTS
+#define GN_TILE_LIGHTS 1
+#endif
+#ifndef GN_CASTER_CULLING
+#define GN_CASTER_CULLING 1
+#endif
+#ifndef GN_CASTER_ALPHA
+#define GN_CASTER_ALPHA 1
+#endif
+#ifndef GN_VISIBLE_ALPHA
+#define GN_VISIBLE_ALPHA 1
+#endif
+#ifndef GN_TEXTURES
+#define GN_TEXTURES 1
+#endif
+#ifndef GN_SPECULAR
+#define GN_SPECULAR 1
+#endif
+#ifndef GN_MASKS
+#define GN_MASKS 1
+#endif
+#ifndef GN_BAKED_LIGHT
+#define GN_BAKED_LIGHT 1
+#endif
+#ifndef GN_RECEIVER_BIAS
+#define GN_RECEIVER_BIAS 1
+#endif
+#ifndef GN_CASTER_BIAS
+#define GN_CASTER_BIAS 1
+#endif
+#ifndef GN_RECEIVER_PLANE
+#define GN_RECEIVER_PLANE 1
+#endif
+#ifndef GN_INCREMENTAL
+#define GN_INCREMENTAL 1
+#endif
+#ifndef GN_STATIC_LAYER
+#define GN_STATIC_LAYER 0
 #endif
 #ifndef GN_VERTEX_NORMALS
 #define GN_VERTEX_NORMALS 1

@@ -1,4 +1,4 @@
-/* Percentage-closer filtering (F1-F3, DESIGN 1.6). */
+/* Percentage-closer filtering (F1-F6, B5, DESIGN 1.7). */
 #ifndef GN_FILTER_H
 #define GN_FILTER_H
 
@@ -12,8 +12,19 @@
  * u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
 void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
 
-/* Attenuation 0 (shadowed) .. 65536 (lit) at tile coordinates in texels, Q16. Texels outside the tile repeat its border. */
-uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, int32_t u_q16, int32_t v_q16, int32_t d_q16);
+/* The same for the linear kernels (F6): over 4 F, 12 F, 52 F. */
+void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
+
+/* A surface point as a light view sees it. */
+typedef struct {
+    int32_t u_q16, v_q16;     /* tile coordinates in texels */
+    uint32_t depth_q32;       /* share of the view's depth range */
+    int32_t slope_q28[2];     /* B5: change of that share per texel along u and v, within +-2; 0: compare with depth_q32 everywhere */
+    int32_t pixel_x, pixel_y; /* where it is seen: turns the disk (F4) */
+} gn_receiver;
+
+/* Attenuation 0 (shadowed) .. 65536 (lit). Texels outside the tile repeat its border, or are lit if the view says so (D10). */
+uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver);
 
 #endif
 #endif

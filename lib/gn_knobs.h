@@ -21,7 +21,11 @@
     X(weight_bits, WEIGHT_BITS, 4, 12, "fraction bits of filter positions", "none")                                                \
     X(atten_bits, ATTEN_BITS, 8, 16, "bits of attenuation (8 or 16)", "none")                                                      \
     X(atlas_size, ATLAS_SIZE, 16, 1024, "texels per side of the directional atlas, a power of two",                                \
-      "2 bytes per texel of RAM, and the time to fill them")                                                                       \
+      "depth_bits / 8 bytes per texel of RAM, and the time to fill them")                                                          \
+    X(other_atlas_size, OTHER_ATLAS_SIZE, 16, 1024, "texels per side of the atlas of spot and point lights, a power of two",       \
+      "other_depth_bits / 8 bytes per texel of RAM, and the time to fill them")                                                    \
+    X(depth_bits, DEPTH_BITS, 8, 32, "bits per texel of the directional atlas (8, 16 or 32)", "RAM")                               \
+    X(other_depth_bits, OTHER_DEPTH_BITS, 8, 32, "bits per texel of the other atlas (8, 16 or 32)", "RAM")                         \
     X(tile_width, TILE_WIDTH, 8, 2048, "screen tile width in pixels, a multiple of 8", "RAM: 7 bytes per tile pixel")              \
     X(tile_height, TILE_HEIGHT, 1, 2048, "screen tile height in pixels", "RAM: 7 bytes per tile pixel")                            \
     X(srgb, SRGB, 0, 1, "encode the output with the sRGB curve", "1154 bytes of flash, 10 instructions per channel")
@@ -32,8 +36,11 @@
     X(max_triangles, MAX_TRIANGLES, 1, 65534, "visible triangles per frame, after culling and clipping",                           \
       "32 bytes each (44 above 6 subpixel bits)")                                                                                  \
     X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")                       \
-    X(max_lights, MAX_LIGHTS, 1, 8, "lights in a scene", "28 bytes each")                                                          \
-    X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "shadow tiles: directional lights times cascades", "168 bytes each")              \
+    X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each")                                                        \
+    X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "140 bytes of stack each")                       \
+    X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "40 bytes each")                                                   \
+    X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades", "192 bytes each")        \
+    X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the other atlas: 1 per spot, 6 per point light", "192 bytes each")        \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
 
 #define GN_FEATURE_KNOBS(X)                                                                                                        \
@@ -43,6 +50,24 @@
     X(blended_cascades, BLENDED_CASCADES, 0, 1, "soft and dithered blending between cascades (D7)",                                \
       "three more values per light and sample")                                                                                    \
     X(filter_max, FILTER_MAX, 0, 4, "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7", "flash")                           \
+    X(disk_filter, DISK_FILTER, 0, 1, "rotated disk filter (F4)", "flash; a table of 256 bytes")                                   \
+    X(linear_kernels, LINEAR_KERNELS, 0, 1, "the cheaper linear kernels (F6)", "flash")                                            \
+    X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights (P1-P10)", "flash; the other atlas")                          \
+    X(main_light, MAIN_LIGHT, 0, 1, "a main light beside single tiles (D10)", "flash; the other atlas")                            \
+    X(tile_lights, TILE_LIGHTS, 0, 1, "lists of lights per screen tile (R9)", "flash; the same picture with and without")          \
+    X(caster_culling, CASTER_CULLING, 0, 1, "casters that a smaller cascade shows are not drawn into larger ones (D8)", "flash")   \
+    X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither (M1)", "flash")                                     \
+    X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither (M8)", "flash")                                  \
+    X(textures, TEXTURES, 0, 1, "textures: colour and alpha (M3)", "flash; a table of 512 bytes; a divide per pixel")              \
+    X(specular, SPECULAR, 0, 1, "specular highlights (M3)", "flash; a reciprocal root per light and pixel of such objects")        \
+    X(masks, MASKS, 0, 1, "baked shadow masks and their mixing (M5, M6)", "flash")                                                 \
+    X(baked_light, BAKED_LIGHT, 0, 1, "baked irradiance per vertex (M9)", "flash; three values per sample")                        \
+    X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias (B3)", "flash")                                             \
+    X(caster_bias, CASTER_BIAS, 0, 1, "casters shrunk along their normals (B4)", "flash")                                          \
+    X(receiver_plane, RECEIVER_PLANE, 0, 1, "depth of the receiver's plane per tap (B5)", "flash")                                 \
+    X(incremental, INCREMENTAL, 0, 1, "shadow tiles are kept while nothing in them changes (A5)",                                  \
+      "8 bytes per tile; the same picture with and without")                                                                       \
+    X(static_layer, STATIC_LAYER, 0, 1, "static casters are kept apart from moving ones (A5)", "the atlases' RAM twice")           \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")                  \
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")               \
     X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")                   \

@@ -31,41 +31,114 @@ typedef struct {
     int32_t tan_q16[2];         /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
 } gn_cam;
 
-#if GN_SHADOWS
-/* Light coordinates of a surface point at view depth z on the ray through a pixel: z * (a0 + ax * px + ay * py) + d, per axis. */
+/* A point at view depth z on the ray through a pixel, along some axis: z * (a0 + ax * px + ay * py) + d. */
 typedef struct {
     int32_t a0, ax, ay;
     int64_t d_q16;
 } gn_ray_plane;
 
+#define GN_OBJECT_LIGHTS_MAX 8 /* P9 */
+
+/* What is known of an object before its triangles are looked at. */
 typedef struct {
-    uint16_t lo, hi;
-} gn_depth_block; /* see gn_blocks.h */
+    int32_t centre_q16[3], half_q16[3]; /* its box in the world */
+#if GN_PUNCTUAL_LIGHTS
+    uint8_t n_lights; /* of light[]; GN_OBJECT_LIGHTS_ALL: every light that is on, no list is kept */
+    uint8_t light[GN_OBJECT_LIGHTS_MAX];
+#endif
+} gn_object_state;
+#define GN_OBJECT_LIGHTS_ALL 255U
+
+#if GN_SHADOWS
+#define GN_OTHER_ATLAS (GN_PUNCTUAL_LIGHTS || GN_MAIN_LIGHT) /* whether there is one */
+#define GN_VIEWS_MAX   (GN_MAX_SHADOW_TILES + (GN_OTHER_ATLAS ? GN_MAX_OTHER_TILES : 0))
+
+/* Texels of a tile at the depth_bits of its atlas: it is accessed only as the type that they name. */
+typedef union {
+    uint8_t *d8;
+    uint16_t *d16;
+    uint32_t *d32;
+} gn_texels;
+
+/* Bits of depth: a constant where the configuration leaves no choice. */
+#if !GN_RUNTIME_KNOBS && (!GN_OTHER_ATLAS || GN_DEPTH_BITS == GN_OTHER_DEPTH_BITS)
+#define GN_VIEW_BITS(view) ((void)(view), GN_DEPTH_BITS)
+#else
+#define GN_VIEW_BITS(view) ((view)->depth_bits)
+#endif
+
+typedef struct {
+    uint16_t lo, hi; /* the upper 16 bits of depth, whatever depth_bits */
+} gn_depth_block;    /* see gn_blocks.h */
+
+/* Orthographic: whole texels of a grid that is fixed in the world. */
+typedef struct {
+    gn_bfloat inv_texel; /* texels per world unit */
+    int32_t origin[3];   /* whole texels */
+    gn_ray_plane ray[3];
+    int32_t ray_shift; /* fraction bits of a0, ax, ay */
+} gn_ortho_fit;
+
+/* Perspective: a camera at the light, whose picture is the tile. */
+typedef struct {
+    int32_t eye_q16[3];
+    int32_t near_q16;           /* n: depth is 1 - n / z */
+    uint32_t focal2_q16;        /* T / t: twice the focal length in texels */
+    gn_bfloat near_over_focal2; /* n / (T / t) */
+    int32_t guard_q16[2];       /* |x|, |y| <= guard * z after clipping to the guard band */
+} gn_persp_fit;
 
 typedef struct {
     int32_t axis_q30[3][3]; /* u, v, w in the world */
-    gn_bfloat inv_texel;    /* texels per world unit */
-    int32_t origin[3];      /* whole texels */
-    gn_ray_plane ray[3];
-    int32_t ray_shift;  /* fraction bits of a0, ax, ay */
-    int32_t offset_q16; /* B2 receiver offset along the normal, texels */
+    union {
+        gn_ortho_fit ortho;
+        gn_persp_fit persp;
+    } fit;
+    gn_texels depth;         /* T * T, row by row, inside the atlas */
+    uint32_t first_texel;    /* of the tile in its atlas */
+    int32_t offset_q16;      /* B2 and b_z of B3: receiver offset along the normal, texels */
+    int32_t disk_radius_q16; /* F4, texels */
     int32_t bias_constant_q16, bias_slope_q16;
-    uint32_t strength_uq16;
     uint16_t tile_texels; /* T */
-    uint8_t tile_log2;    /* T = 2^tile_log2 */
-    uint8_t depth_log2;   /* J: the depth range is T * 2^J texels */
-    uint8_t filter;
-    uint8_t tile_done;
-    uint8_t empty; /* its cascade has no slice: never drawn, never selected */
     uint16_t light_idx;
-    uint16_t *depth; /* T * T, row by row, inside the atlas */
+    uint8_t tile_log2;   /* T = 2^tile_log2 */
+    uint8_t depth_log2;  /* J: an orthographic depth range is T * 2^J texels */
+    uint8_t depth_bits;  /* 8, 16 or 32: that of the atlas; see GN_VIEW_BITS */
+    uint8_t filter;      /* gn_filter, resolved (F5) */
+    uint8_t filter_idx;  /* k */
+    uint8_t cascade_idx; /* or face of the cube */
+    uint8_t perspective;
+    uint8_t border_lit; /* texels outside the tile count as lit (D10) */
+    uint8_t in_other;   /* it lies in the other atlas */
+    uint8_t empty;      /* its cascade has no slice: never drawn, never selected */
+    uint8_t tile_done;
 #if GN_DEPTH_BLOCKS
     gn_depth_block *block; /* (T / 8) * (T / 8) */
 #endif
 } gn_light_view;
+
+/* What a view's tile holds from one frame to the next (A5). */
+typedef struct {
+    uint64_t signature;        /* of everything that its texels depend on; 0: nothing is kept */
+    uint64_t static_signature; /* the same for the static layer */
+} gn_tile_memory;
+
+#define GN_ATLAS_BYTES (GN_ATLAS_SIZE * GN_ATLAS_SIZE * ((GN_RUNTIME_KNOBS ? 32 : GN_DEPTH_BITS) / 8))
+typedef union {
+    uint8_t d8[GN_ATLAS_BYTES];
+    uint16_t d16[GN_ATLAS_BYTES / 2];
+    uint32_t d32[GN_ATLAS_BYTES / 4];
+} gn_atlas_texels;
+
+#if GN_OTHER_ATLAS
+#define GN_OTHER_ATLAS_BYTES (GN_OTHER_ATLAS_SIZE * GN_OTHER_ATLAS_SIZE * ((GN_RUNTIME_KNOBS ? 32 : GN_OTHER_DEPTH_BITS) / 8))
+typedef union {
+    uint8_t d8[GN_OTHER_ATLAS_BYTES];
+    uint16_t d16[GN_OTHER_ATLAS_BYTES / 2];
+    uint32_t d32[GN_OTHER_ATLAS_BYTES / 4];
+} gn_other_texels;
 #endif
 
-#if GN_SHADOWS
 /* The bounding sphere of a cascade's slice: on the view axis, shared by all lights (D3). */
 typedef struct {
     int32_t centre_q16;   /* view depth */
@@ -77,11 +150,25 @@ typedef struct {
 #endif
 
 typedef struct {
-    int32_t to_light_q30[3]; /* unit, surface towards the light */
+    int32_t to_light_q30[3]; /* unit; directional: surface towards the light, spot: against its axis */
     uint32_t colour_uq16[3];
-    int32_t view_idx; /* of its first gn_light_view, -1: no shadow */
+    uint8_t kind;         /* gn_light_kind */
+    uint8_t off;          /* baked: contributes nothing at run time */
+    uint8_t shadow_state; /* gn_shadow_state */
+    uint8_t n_views;      /* cascades, 1, or 6 faces */
+    int16_t view_idx;     /* of its first gn_light_view, -1: no shadow */
+#if GN_PUNCTUAL_LIGHTS
+    int32_t position_q16[3];
+    int32_t eye_q16[3];         /* its position in view space */
+    gn_ray_plane from_light[3]; /* surface point minus light, world axes and units */
+    int32_t ray_shift;
+    uint64_t range2_q32;   /* all ones: unlimited */
+    gn_bfloat inv_range2;  /* of range2 in Q32 */
+    int32_t colour_exp;    /* what is left of the colour's exponent, see gn_punctual.c */
+    int32_t cos_outer_q30; /* P3; spot lights only */
+    gn_bfloat angle_scale; /* 1 / (cos inner - cos outer) */
+#endif
 } gn_light_state;
-
 #if GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 6
 typedef int32_t gn_coord;
 #else
@@ -132,6 +219,7 @@ typedef struct gn_frame {
     uint16_t n_views;
     gn_cam cam;
     gn_light_state light[GN_MAX_LIGHTS];
+    gn_object_state object[GN_MAX_OBJECTS];
     uint32_t fade_start_q16; /* D5: strength = (max_distance - z) * fade_scale */
     gn_bfloat fade_scale;
     uint16_t tiles_x, tiles_y;
@@ -141,11 +229,28 @@ typedef struct gn_frame {
 #if GN_SHADOWS
     gn_cascade_state cascade[4];
     uint8_t n_cascades;
-    uint8_t last_cascade;                    /* the last that is not empty */
-    gn_light_view view[GN_MAX_SHADOW_TILES]; /* light by light, cascade by cascade */
-    uint16_t atlas[GN_ATLAS_SIZE * GN_ATLAS_SIZE];
+    uint8_t last_cascade;             /* the last that is not empty */
+    uint8_t has_cascades;             /* some directional light has tiles in the directional atlas: D6 applies */
+    uint32_t frame_count;             /* A5: for the schedule of cascades */
+    gn_light_view view[GN_VIEWS_MAX]; /* light by light, cascade by cascade or face by face */
+#if GN_INCREMENTAL
+    gn_tile_memory memory[GN_VIEWS_MAX];
+#endif
+    gn_atlas_texels atlas;
+#if GN_STATIC_LAYER
+    gn_atlas_texels static_atlas;
+#endif
 #if GN_DEPTH_BLOCKS
     gn_depth_block block[GN_ATLAS_SIZE * GN_ATLAS_SIZE / 64];
+#endif
+#if GN_OTHER_ATLAS
+    gn_other_texels other_atlas;
+#if GN_STATIC_LAYER
+    gn_other_texels static_other_atlas;
+#endif
+#if GN_DEPTH_BLOCKS
+    gn_depth_block other_block[GN_OTHER_ATLAS_SIZE * GN_OTHER_ATLAS_SIZE / 64];
+#endif
 #endif
 #endif
 } gn_frame;

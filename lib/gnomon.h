@@ -51,16 +51,27 @@ extern "C" {
     X(GN_ERR_MESH_INDEX, "mesh index is not below its vertex count")                                                               \
     X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera")                                   \
     X(GN_ERR_COLOUR, "colour, albedo or ambient out of range")                                                                     \
-    X(GN_ERR_TOO_MANY_OBJECTS, "more than 65535 objects")                                                                          \
+    X(GN_ERR_TEXTURE,                                                                                                              \
+      "texture without texels or above 4096 per side, or texture coordinates are missing or have more than 15 fraction bits")      \
+    X(GN_ERR_MATERIAL,                                                                                                             \
+      "alpha, cutoff, specular colour or shininess out of range, or an alpha mode or caster mode that is not built in")            \
+    X(GN_ERR_MASK, "mask image without coordinates, or a mask where masks are not built in")                                       \
+    X(GN_ERR_TOO_MANY_OBJECTS, "more objects than GN_MAX_OBJECTS")                                                                 \
     X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                                    \
-    X(GN_ERR_LIGHT_KIND, "unknown kind of light")                                                                                  \
+    X(GN_ERR_LIGHT_KIND, "unknown kind, mode or softness of light, or one that is not built in")                                   \
     X(GN_ERR_LIGHT_DIRECTION, "light direction is zero")                                                                           \
-    X(GN_ERR_LIGHT_BIAS, "light strength, bias or near offset out of range")                                                       \
+    X(GN_ERR_LIGHT_POSITION, "light position outside +-8192 units")                                                                \
+    X(GN_ERR_LIGHT_RANGE,                                                                                                          \
+      "light range, or distance of its near plane, below 1/256 unit, or near above 8192 units or not below range")                 \
+    X(GN_ERR_LIGHT_ANGLE, "spot angles outside 1 .. 179 degrees, or inner above outer")                                            \
+    X(GN_ERR_LIGHT_BIAS,                                                                                                           \
+      "light strength, bias, near offset, colour exponent or mask channel out of range, or a bias that is not built in")           \
+    X(GN_ERR_SURFACE_LIGHTS, "more lights can reach one surface than GN_SURFACE_LIGHTS")                                           \
     X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 units, or not beyond the camera's near plane")                \
     X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                                      \
-    X(GN_ERR_SHADOW_FILTER, "unknown shadow filter, or one above GN_FILTER_MAX")                                                   \
+    X(GN_ERR_SHADOW_FILTER, "unknown shadow filter or kernel, one that is not built in, or disk samples outside 1..64")            \
+    X(GN_ERR_SHADOW_MODE, "unknown mixing, tile sizes, refresh or list length, or one that is not built in")                       \
     X(GN_ERR_SHADOW_CASCADES, "more than 4 cascades, ratios above 1 or not ascending, or a blend that is not built in")            \
-    X(GN_ERR_SHADOW_TILES_FULL, "more shadow tiles (lights x cascades) than GN_MAX_SHADOW_TILES")                                  \
     X(GN_ERR_SHADOW_TILE, "shadow tile would be smaller than 8 texels")                                                            \
     X(GN_ERR_TRIANGLES_FULL, "more visible triangles than GN_MAX_TRIANGLES")                                                       \
     X(GN_ERR_TILE_REFS_FULL, "more tile references than GN_MAX_TILE_REFS")
@@ -102,41 +113,92 @@ int32_t gn_cos_q30(uint16_t angle_turn);
 /* ---- Scene: described by the caller, read only during a call ------------------------------------------------------ */
 
 typedef struct {
-    const int32_t *pos;       /* 3 per vertex, |pos| <= 2^30, `pos_frac_bits` fraction bits */
-    const int16_t *nrm_q15;   /* 3 per vertex, a direction (its length does not matter), or NULL: face normals */
-    const uint16_t *rgb_uq16; /* 3 per vertex, linear, 65535 = 1, or NULL: white */
-    const uint16_t *idx;      /* 3 per triangle */
+    const int32_t *pos;           /* 3 per vertex, |pos| <= 2^30, `pos_frac_bits` fraction bits */
+    const int16_t *nrm_q15;       /* 3 per vertex, a direction (its length does not matter), or NULL: face normals */
+    const uint16_t *rgb_uq16;     /* 3 per vertex, linear, 65535 = 1, or NULL: white */
+    const int16_t *uv;            /* 2 per vertex, texture coordinates with `uv_frac_bits` fraction bits, v downwards, or NULL */
+    const uint16_t *mask_uv_uq16; /* 2 per vertex, of the mask image, 65535 = 1, or NULL */
+    const uint16_t *idx;          /* 3 per triangle */
     uint16_t n_vertices;
     uint16_t n_triangles;
     uint8_t pos_frac_bits; /* 0..30; 16 for positions written with GN_Q16 */
+    uint8_t uv_frac_bits;  /* 0..15 */
 } gn_mesh;
+
+enum {                         /* gn_texture.flags */
+       GN_TEXTURE_CLAMP_U = 1, /* else it repeats */
+       GN_TEXTURE_CLAMP_V = 2,
+       GN_TEXTURE_BILINEAR = 4 /* else nearest */
+};
+
+typedef struct {
+    const uint8_t *rgba;             /* 4 per texel, rows from the top: sRGB colour, linear alpha */
+    uint8_t width_log2, height_log2; /* 0..12 */
+    uint8_t flags;
+} gn_texture;
 
 enum { /* gn_object.flags */
        GN_OBJECT_CASTS = 1,
        GN_OBJECT_RECEIVES = 2,
        GN_OBJECT_TWO_SIDED = 4,
        GN_OBJECT_UNLIT = 8,
+       GN_OBJECT_HIDDEN = 16,          /* casts, but is not seen */
+       GN_OBJECT_CASTS_TWO_SIDED = 32, /* two-sided as a caster only */
+       GN_OBJECT_MOVING = 64,          /* A5: with GN_STATIC_LAYER its shadow is drawn over that of the others */
        GN_OBJECT_DEFAULT = GN_OBJECT_CASTS | GN_OBJECT_RECEIVES
 };
+
+typedef enum { GN_ALPHA_OPAQUE, GN_ALPHA_CLIP, GN_ALPHA_DITHER } gn_alpha; /* M1, M8 */
 
 typedef struct {
     const gn_mesh *mesh;
     gn_affine to_world;
     uint32_t albedo_uq16[3]; /* linear, 0..65536 */
     uint32_t flags;
+    gn_alpha visible_alpha;       /* M8: clip: no surface where alpha is below the cutoff; dither: where it is below the noise */
+    gn_alpha caster_alpha;        /* M1: the same for its shadow */
+    uint32_t alpha_uq16;          /* 0..65536, times the texture's; matters where an alpha mode does */
+    uint32_t alpha_cutoff_uq16;   /* 0..65536 */
+    uint32_t specular_uq16[3];    /* linear, 0..65536; 0: none */
+    uint8_t shininess_log2;       /* exponent 2^0 .. 2^7 */
+    const gn_texture *texture;    /* or NULL */
+    const gn_texture *mask_image; /* M5: its four channels are shadow masks, looked up at the mesh's mask_uv_uq16, or NULL */
+    const uint8_t *mask_u8;       /* M5: 4 per vertex of the mesh, or NULL */
+    const uint16_t *baked_uq12;   /* M9: 3 per vertex of the mesh, irradiance of the baked lights, 4.12, or NULL */
 } gn_object;
 
-typedef enum { GN_LIGHT_DIRECTIONAL } gn_light_kind;
+typedef enum { GN_LIGHT_DIRECTIONAL, GN_LIGHT_SPOT, GN_LIGHT_POINT } gn_light_kind;
+typedef enum {
+    GN_LIGHT_REALTIME,
+    GN_LIGHT_MIXED,
+    GN_LIGHT_BAKED
+} gn_light_mode; /* M9; mixed is realtime with a mask; baked costs nothing */
+typedef enum {
+    GN_SOFTNESS_DEFAULT,
+    GN_SOFTNESS_HARD,
+    GN_SOFTNESS_SOFT
+} gn_softness; /* F5: the atlas's filter, 2x2, at least 5x5 */
 
 typedef struct {
     gn_light_kind kind;
-    int32_t direction[3];          /* of travel, any length but zero */
-    uint32_t colour_uq16[3];       /* linear colour * intensity, 0..255.99 */
-    uint32_t shadow_strength_uq16; /* 0: casts no shadow and costs nothing; 65536: full */
-    int32_t bias_constant_q16;     /* B1, texels, 0..64 */
-    int32_t bias_slope_q16;        /* B1, 0..64 */
-    int32_t bias_normal_q16;       /* B2, 0..8; 1.0 is a good value */
-    int32_t near_offset_q16;       /* D9: pulls the light's near plane back, world units, 0..8192 */
+    gn_light_mode mode;
+    int32_t direction[3];            /* directional: of travel, spot: of the axis; any length but zero */
+    int32_t position_q16[3];         /* spot, point */
+    uint32_t colour_uq16[3];         /* linear colour * intensity, 0..255.99; spot, point: at distance 1 */
+    int32_t colour_exp;              /* times 2^colour_exp, -100..100: spots and points need a wide range */
+    uint32_t range_q16;              /* spot, point: no light beyond; 0: unlimited */
+    int32_t near_q16;                /* spot, point: nothing nearer than this light-plane distance casts; > 0 */
+    uint16_t inner_turn, outer_turn; /* spot: full light within, none beyond; edge to edge, 1..179 degrees */
+    uint32_t shadow_strength_uq16;   /* 0: casts no shadow and costs nothing; 65536: full */
+    gn_softness softness;
+    int32_t mask_channel;         /* M5: 0..3, -1: none */
+    int32_t bias_constant_q16;    /* B1, texels, 0..64 */
+    int32_t bias_slope_q16;       /* B1, 0..64 */
+    int32_t bias_normal_q16;      /* B2, 0..8; 1.0 is a good value */
+    int32_t bias_receiver_q16[4]; /* B3, 0..8 each */
+    int32_t bias_caster_q16;      /* B4, texels, 0..8 */
+    uint32_t receiver_plane;      /* B5: 1: every tap compares with the depth of the receiver's plane */
+    int32_t near_offset_q16;      /* D9, directional: pulls the light's near plane back, world units, 0..8192 */
 } gn_light;
 
 typedef struct {
@@ -146,7 +208,10 @@ typedef struct {
     int32_t far_q16;    /* only bounds what may be asked of shadows */
 } gn_camera;
 
-typedef enum { GN_FILTER_HARD, GN_FILTER_2X2, GN_FILTER_3X3, GN_FILTER_5X5, GN_FILTER_7X7 } gn_filter;
+typedef enum { GN_FILTER_HARD, GN_FILTER_2X2, GN_FILTER_3X3, GN_FILTER_5X5, GN_FILTER_7X7, GN_FILTER_DISK } gn_filter;
+typedef enum { GN_KERNEL_TENT, GN_KERNEL_LINEAR } gn_kernel;                     /* F3, F6 */
+typedef enum { GN_MIXING_NONE, GN_MIXING_ALWAYS, GN_MIXING_DISTANCE } gn_mixing; /* M6 */
+typedef enum { GN_TILES_EQUAL, GN_TILES_IMPORTANCE } gn_tile_sizes;              /* A2 */
 
 typedef enum { GN_BLEND_HARD, GN_BLEND_SOFT, GN_BLEND_DITHER } gn_blend; /* D7 */
 typedef enum { GN_DISTANCE_DEPTH, GN_DISTANCE_RADIUS } gn_distance_mode; /* D5, D11 */
@@ -155,7 +220,17 @@ typedef struct {
     int32_t max_distance_q16;    /* D5 */
     uint32_t distance_fade_uq16; /* D5, 66 (0.001) .. 65536 */
     uint32_t cascade_fade_uq16;  /* D3, D6, 66 .. 65536 */
-    gn_filter filter;
+    gn_filter filter;            /* of the directional atlas */
+    gn_filter other_filter;      /* of the other atlas */
+    gn_kernel kernel;
+    uint32_t penumbra_uq16; /* F4: directional: radius in 0.02 units; spot, point: in 0.004 of a tile; 0 .. 64.0 */
+    uint32_t disk_samples;  /* F4: 1..64 */
+    gn_mixing mixing;
+    gn_tile_sizes tile_sizes;
+    uint32_t main_light; /* D10: 1: only the brightest directional light has cascades; others take one tile of the other atlas */
+    uint32_t caster_culling;        /* D8: 1: the same pixels, fewer casters */
+    uint32_t object_lights;         /* P9: most spot and point lights per object, 0 (no limit) .. 8 */
+    uint32_t refresh[4];            /* A5: cascade i is drawn anew every refresh[i]th frame; 0 as 1 */
     uint32_t n_cascades;            /* 0 (as 1) .. 4; each takes a tile of the atlas */
     uint32_t cascade_ratio_uq16[3]; /* where cascades 0, 1, 2 end, as shares of the max distance, ascending; the last ends there */
     gn_blend blend;                 /* anything but hard needs GN_BLENDED_CASCADES */
@@ -168,6 +243,7 @@ typedef struct {
     uint32_t n_objects; /* up to 65535 */
     uint32_t n_lights;
     gn_camera camera;
+    int32_t unit_log2; /* one unit of length is 2^-unit_log2 of the model's: scales the 10^-4 of P2 and the 0.02 of F4; -30 .. 30 */
     uint32_t ambient_uq16[3];    /* 0..255.99 */
     uint32_t background_uq16[3]; /* 0..65536 */
     gn_shadow_settings shadow;
@@ -210,8 +286,13 @@ typedef struct {
     uint32_t n_tile_refs;
     uint32_t n_clipped; /* triangles that met the near plane or the guard band */
     uint32_t n_shadow_tiles;
-    uint32_t n_caster_triangles; /* drawn into shadow tiles */
-    uint32_t n_reach_clamped;    /* lights whose filter reach does not fit their tile: taps are clamped at its border */
+    uint32_t n_caster_triangles;    /* drawn into shadow tiles */
+    uint32_t n_reach_clamped;       /* views whose filter reach does not fit their tile: taps are clamped at its border */
+    uint32_t n_lights_without_room; /* A3: lights that wanted a shadow and got no tile */
+    uint32_t n_lights_left_out;     /* P9: over all objects */
+    uint32_t n_tiles_drawn;         /* A5: shadow tiles that were drawn, not kept */
+    uint32_t n_texels_drawn;        /* of those tiles */
+    uint32_t n_casters_culled;      /* D8: objects not drawn into a cascade */
 } gn_stats;
 
 #if GN_RUNTIME_KNOBS
@@ -247,8 +328,30 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
 const gn_stats *gn_get_stats(const gn_renderer *r);
 const gn_detail *gn_get_detail(const gn_renderer *r);
 
-/* The shadow tile of a light's cascade: texels per side (0: none), its depths row by row, 65535 = empty. */
-uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t cascade_idx, const uint16_t **depth);
+/* A3: what became of a light's wish for a shadow in the frame that was begun last. */
+typedef enum { GN_SHADOW_NOT_WANTED, GN_SHADOW_REALTIME, GN_SHADOW_NO_ROOM } gn_shadow_state;
+gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, uint32_t *n_tiles, uint32_t *tile_texels);
+
+/* A6: the shadow tile of a light's cascade or face: texels per side (0: none), its depths row by row, all ones = empty. */
+typedef struct {
+    uint32_t texels;
+    uint32_t depth_bits; /* 8, 16 or 32: uint8_t, uint16_t or uint32_t per texel */
+    const void *depth;
+} gn_tile_info;
+uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info);
+
+/* Forgets what is kept of shadow tiles (A5): call it after changing mesh or texture data in place. */
+void gn_forget_shadows(gn_renderer *r);
+
+/* R6: what a panel shows, as a signature per screen tile. Clear it (memset 0) when the panel's content is unknown. A tile whose
+ * pixels did not change is drawn but not flushed; two different tiles have the same signature with probability 2^-64. */
+typedef struct {
+    uint64_t signature[GN_TILES_MAX];
+} gn_panel;
+gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
+                                    gn_flush_fn flush, void *user, uint32_t *flushed); /* *flushed is 1 or 0; may be NULL */
+gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *panel, gn_flush_fn flush, void *user,
+                            uint32_t *n_flushed);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,37 @@
+/* Texels of shadow maps, at 8, 16 or 32 bits (A4). Depth is a share of the view's range, Q0.32 here; a stored texel holds its upper
+ * bits, rounded to nearest. All ones: empty. */
+#ifndef GN_TEXEL_H
+#define GN_TEXEL_H
+
+#include <stddef.h>
+
+#include "gnomon.h"
+
+#if GN_SHADOWS
+
+#define GN_DEPTH_EMPTY_Q32 0xFFFFFFFFU
+
+static inline gn_texels gn_texels_at(gn_texels texels, int32_t depth_bits, size_t i)
+{
+    if (depth_bits == 8) texels.d8 += i;
+    else if (depth_bits == 16) texels.d16 += i;
+    else texels.d32 += i;
+    return texels;
+}
+
+/* A stored texel, in the upper bits of 32. */
+static inline uint32_t gn_texel_load(gn_texels row, int32_t depth_bits, size_t i)
+{
+    if (depth_bits == 8) return (uint32_t)row.d8[i] << 24;
+    if (depth_bits == 16) return (uint32_t)row.d16[i] << 16;
+    return row.d32[i];
+}
+
+/* The largest value a texel can hold, in the upper bits of 32: what empty texels compare as. */
+static inline uint32_t gn_texel_far(int32_t depth_bits)
+{
+    return (uint32_t)(GN_DEPTH_EMPTY_Q32 << (32 - depth_bits));
+}
+
+#endif
+#endif

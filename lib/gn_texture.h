@@ -1,0 +1,19 @@
+/* Textures: colour in linear light, and single channels as they are stored (M1, M3, M5, M8, DESIGN 1.8). */
+#ifndef GN_TEXTURE_H
+#define GN_TEXTURE_H
+
+#include "gnomon.h"
+
+#if GN_TEXTURES || GN_MASKS || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+enum { GN_CHANNEL_RED, GN_CHANNEL_GREEN, GN_CHANNEL_BLUE, GN_CHANNEL_ALPHA };
+
+/* One channel, not decoded: 0..65536. u and v of any value, v downwards. */
+uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t channel);
+#endif
+
+#if GN_TEXTURES
+/* Red, green, blue in linear light, 0..65536 each: decoded before they are filtered. */
+void gn_texture_colour(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t rgb_uq16[3]);
+#endif
+
+#endif
