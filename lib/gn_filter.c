@@ -60,13 +60,14 @@ static uint32_t rounded_depth(uint32_t depth_q32, int32_t dropped, uint32_t far)
  * changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. |x| < 2^44 + 2^47 for slopes of any value. */
 static void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
 {
+    l->slope_q28[0] = receiver->slope_q28[0];
+    l->slope_q28[1] = receiver->slope_q28[1];
+    l->sloped = (l->slope_q28[0] | l->slope_q28[1]) != 0;
+    if (!l->sloped) return;
     int64_t x_q44 = (int64_t)receiver->depth_q32 * 4096;
     x_q44 += (int64_t)receiver->slope_q28[0] * (0x8000 - (l->u_q16 & 0xFFFF));
     x_q44 += (int64_t)receiver->slope_q28[1] * (0x8000 - (l->v_q16 & 0xFFFF));
     l->least_q32 = ((x_q44 - ((int64_t)1 << (dropped + 11))) >> 12) + 1;
-    l->slope_q28[0] = receiver->slope_q28[0];
-    l->slope_q28[1] = receiver->slope_q28[1];
-    l->sloped = (l->slope_q28[0] | l->slope_q28[1]) != 0;
 }
 
 /* Change of least_q32 from the texel that (u, v) lies in, by at most 18 texels: below 2^40. */
