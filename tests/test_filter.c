@@ -548,6 +548,23 @@ static void test_blocks(void)
             }
         }
     }
+    for (uint32_t i = 0; i < 4000; i++) { /* one texel unlike all others, anywhere in the footprint */
+        random_shape(6);
+        view.depth = at_bytes(texels);
+        memset(texels, 0x77, sizeof texels);
+        int32_t last = view.tile_texels - 1, n = i & 1 ? 18 : rng_range(&random_state, 1, 18);
+        int32_t u = rng_range(&random_state, 0, last), v = rng_range(&random_state, 0, last);
+        int32_t at_u = u + (i & 2 ? n - 1 : rng_range(&random_state, 0, n - 1));
+        int32_t at_v = v + (i & 4 ? n - 1 : rng_range(&random_state, 0, n - 1));
+        uint32_t odd = i & 8 ? 0xFEDCBA98U : 0x01234567U;
+        store((size_t)i128_clamp(at_v, 0, last) * view.tile_texels + (size_t)i128_clamp(at_u, 0, last), odd);
+        build_blocks();
+        gn_depth_block b = gn_blocks_over(&view, u, v, n);
+        odd = stored(at_u, at_v);
+        HOLDS(&holds, (uint32_t)b.lo << 16 <= odd && odd <= gn_block_highest(&b, view.depth_bits),
+              "%d bits, T %d, %d texels from %d, %d, one at %d, %d", (int)view.depth_bits, (int)last + 1, (int)n, (int)u, (int)v,
+              (int)at_u, (int)at_v);
+    }
     CHECK_TALLY(tight, "bounds of blocks");
     CHECK_TALLY(holds, "bounds hold for every texel they answer for");
 }
