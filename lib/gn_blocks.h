@@ -1,9 +1,13 @@
 /* Bounds of shadow depth over blocks of texels, so that most filter lookups are decided without a single compare of texels.
  *
  * For each block of 8x8 texels: the smallest and largest stored depth over that block and its neighbours to the right, below
- * and diagonally, i.e. over 16x16 texels. A filter reads at most 8 texels per axis: whatever block its first texel lies in, that
- * block's bounds hold for all it reads. If the receiver is in front of the smallest, or behind the largest, the answer is
- * exactly 1 or 0: the picture is the same with and without (a test compares). 4 bytes per 64 texels.
+ * and diagonally, i.e. over 16x16 texels. Whatever place in its block a texel has, that block's bounds hold for the 9x9 texels
+ * from it on. A tent reads at most 8 per axis; larger footprints ask several blocks. If the receiver is in front of the
+ * smallest, or behind the largest, the answer is exactly 1 or 0: the picture is the same with and without (a test compares).
+ * 4 bytes per 64 texels.
+ *
+ * Bounds are the upper 16 bits of a depth of 32: lo << 16 .. hi << 16 | 0xFFFF contain every texel of 32 bits, and those of 8 and
+ * 16 bits lie in lo << 16 .. hi << 16, see gn_block_highest().
  */
 #ifndef GN_BLOCKS_H
 #define GN_BLOCKS_H
@@ -12,11 +16,22 @@
 
 #if GN_SHADOWS && GN_DEPTH_BLOCKS
 
+#define GN_BLOCK_REACH 9 /* texels per axis that one block answers for */
+
 /* Rebuilds the bounds of a finished tile. */
 void gn_blocks_build(gn_light_view *view);
 
-/* Bounds over the texels u .. u + 7, v .. v + 7, where texels outside the tile repeat its border. */
+/* Bounds over the texels u .. u + 8, v .. v + 8, where texels outside the tile repeat its border. */
 const gn_depth_block *gn_blocks_at(const gn_light_view *view, int32_t u, int32_t v);
+
+/* The same over n x n texels, n <= 18. */
+gn_depth_block gn_blocks_over(const gn_light_view *view, int32_t u, int32_t v, int32_t n);
+
+/* No texel is above it: in the upper bits of 32, as gn_texel_load() returns them. */
+static inline uint32_t gn_block_highest(const gn_depth_block *block, int32_t depth_bits)
+{
+    return (uint32_t)block->hi << 16 | (depth_bits > 16 ? 0xFFFFU : 0U);
+}
 
 #endif
 #endif

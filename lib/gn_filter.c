@@ -2,28 +2,162 @@
 #include "gn_filter.h"
 #include "gn_blocks.h"
 #include "gn_q.h"
+#include "gn_tables.h"
+#include "gn_texel.h"
 
 #if GN_SHADOWS
 
+/* Whether texels outside the tile are lit (D10). */
+#if GN_MAIN_LIGHT
+#define BORDER_LIT(view) ((view)->border_lit)
+#else
+#define BORDER_LIT(view) ((void)(view), 0)
+#endif
+
+/* A receiver made ready for its taps. A texel, in the upper bits of 32, is lit if it is not below `least`: the receiver's depth
+ * rounded to the bits of the view and depth_frac, at most that of an empty texel. */
 typedef struct {
     const gn_light_view *view;
-    int32_t depth; /* the receiver's, in depth steps with depth_frac fraction bits */
-    int32_t depth_frac;
-} receiver;
+    int32_t u_q16, v_q16;
+    uint32_t least;
+#if GN_RECEIVER_PLANE
+    int32_t sloped;
+    int32_t slope_q28[2];
+    int64_t least_q32; /* at the texel that (u, v) lies in, not limited */
+#endif
+} lookup;
 
-static uint32_t lit(const receiver *r, const uint16_t *row, int32_t u)
+/* Texels of a tap, as the view stores them, are limited to the tile (P8). */
+static uint32_t lit(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
 {
-    int32_t last = r->view->tile_texels - 1;
-    u = u < 0 ? 0 : u > last ? last : u;
-    return (int32_t)((uint32_t)row[u] << r->depth_frac) >= r->depth;
+    int32_t last = view->tile_texels - 1;
+    if (u < 0 || u > last) {
+        if (BORDER_LIT(view)) return 1;
+        u = u < 0 ? 0 : last;
+    }
+    return gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)u) >= least;
 }
 
-static const uint16_t *row_at(const receiver *r, int32_t v)
+/* ---- The receiver's depth ----------------------------------------------------------------------------------------- */
+
+/* Bits of depth_q32 that rounding drops: 0, or at least 12. */
+static int32_t dropped_bits(const gn_frame *frame, const gn_light_view *view)
 {
-    int32_t last = r->view->tile_texels - 1;
-    v = v < 0 ? 0 : v > last ? last : v;
-    return r->view->depth + ((size_t)(uint32_t)v << r->view->tile_log2);
+    (void)frame;
+    return GN_VIEW_BITS(view) == 32 ? 0 : 32 - GN_VIEW_BITS(view) - GN_K(frame, shadow_depth_frac);
 }
+
+/* The far value is a multiple of 2^dropped: nothing below it rounds beyond it. */
+static uint32_t rounded_depth(uint32_t depth_q32, int32_t dropped, uint32_t far)
+{
+    if (depth_q32 >= far) return far;
+    return dropped ? (depth_q32 + (1U << (dropped - 1))) >> dropped << dropped : depth_q32;
+}
+
+#if GN_RECEIVER_PLANE
+/* With x the depth at a tap in Q44, h half a step of rounding, s a texel, hence a whole number of steps: s >= round(x) if and only
+ * if s > x - h, and, s being also a multiple of 2^12, if and only if s >= floor((x - h) / 2^12) + 1. From a texel to the next, x
+ * changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. |x| < 2^44 + 2^47 for slopes of any value. */
+static void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
+{
+    l->slope_q28[0] = receiver->slope_q28[0];
+    l->slope_q28[1] = receiver->slope_q28[1];
+    l->sloped = (l->slope_q28[0] | l->slope_q28[1]) != 0;
+    if (!l->sloped) return;
+    int64_t x_q44 = (int64_t)receiver->depth_q32 * 4096;
+    x_q44 += (int64_t)receiver->slope_q28[0] * (0x8000 - (l->u_q16 & 0xFFFF));
+    x_q44 += (int64_t)receiver->slope_q28[1] * (0x8000 - (l->v_q16 & 0xFFFF));
+    l->least_q32 = ((x_q44 - ((int64_t)1 << (dropped + 11))) >> 12) + 1;
+}
+
+/* Change of least_q32 from the texel that (u, v) lies in, by at most 18 texels: below 2^40. */
+static int64_t rise_u(const lookup *l, int32_t u)
+{
+    return (int64_t)l->slope_q28[0] * (16 * (u - (l->u_q16 >> 16)));
+}
+
+static int64_t rise_v(const lookup *l, int32_t v)
+{
+    return (int64_t)l->slope_q28[1] * (16 * (v - (l->v_q16 >> 16)));
+}
+
+static uint32_t limited(const gn_light_view *view, int64_t least_q32)
+{
+    return (uint32_t)gn_clamp64(least_q32, 0, gn_texel_far(GN_VIEW_BITS(view)));
+}
+
+static uint32_t lit_row_on_plane(const lookup *l, gn_texels row, int32_t u0, int32_t v, int32_t n)
+{
+    int64_t least_q32 = l->least_q32 + rise_u(l, u0) + rise_v(l, v);
+    uint32_t mask = 0;
+    for (int32_t i = 0; i < n; i++) {
+        mask |= lit(l->view, row, u0 + i, limited(l->view, least_q32)) << i;
+        least_q32 += (int64_t)l->slope_q28[0] * 16;
+    }
+    return mask;
+}
+#endif
+
+/* Which of the n <= 8 texels of row v from u0 on let the receiver be lit: bit i tells of texel u0 + i. */
+static uint32_t lit_row(const lookup *l, int32_t u0, int32_t v, int32_t n)
+{
+    const gn_light_view *view = l->view;
+    int32_t last = view->tile_texels - 1, inside = v < 0 ? 0 : v > last ? last : v;
+    if (v != inside && BORDER_LIT(view)) return (1U << n) - 1;
+    gn_texels row = gn_texels_at(view->depth, GN_VIEW_BITS(view), (size_t)(uint32_t)inside << view->tile_log2);
+#if GN_RECEIVER_PLANE
+    if (l->sloped) return lit_row_on_plane(l, row, u0, v, n);
+#endif
+    uint32_t mask = 0;
+    if (u0 >= 0 && u0 + n - 1 <= last) {
+        row = gn_texels_at(row, GN_VIEW_BITS(view), (uint32_t)u0);
+        for (int32_t i = 0; i < n; i++) mask |= (uint32_t)(gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)i) >= l->least) << i;
+    } else {
+        for (int32_t i = 0; i < n; i++) mask |= lit(view, row, u0 + i, l->least) << i;
+    }
+    return mask;
+}
+
+#if GN_FILTER_MAX >= 2 || GN_DISK_FILTER
+#if GN_DEPTH_BLOCKS
+/* The smallest and largest `least` over n x n texels from (u, v) on. */
+static void least_over(const lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *smallest, uint32_t *largest)
+{
+    *smallest = *largest = l->least;
+#if GN_RECEIVER_PLANE
+    if (!l->sloped) return;
+    int64_t left = rise_u(l, u), right = rise_u(l, u + n - 1), top = rise_v(l, v), bottom = rise_v(l, v + n - 1);
+    int64_t low = l->least_q32 + (left < right ? left : right) + (top < bottom ? top : bottom);
+    int64_t high = l->least_q32 + (left < right ? right : left) + (top < bottom ? bottom : top);
+    *smallest = limited(l->view, low);
+    *largest = limited(l->view, high);
+#else
+    (void)u, (void)v, (void)n;
+#endif
+}
+#endif
+
+/* Whether bounds answer for all of the n x n <= 18 x 18 texels from (u, v) on. */
+static int decided(const lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *answer)
+{
+#if GN_DEPTH_BLOCKS
+    const gn_light_view *view = l->view;
+    gn_depth_block bounds = n <= GN_BLOCK_REACH ? *gn_blocks_at(view, u, v) : gn_blocks_over(view, u, v, n);
+    uint32_t smallest, largest;
+    least_over(l, u, v, n, &smallest, &largest);
+    *answer = 65536;
+    if (largest <= (uint32_t)bounds.lo << 16) return 1;
+    *answer = 0;
+    if (smallest <= gn_block_highest(&bounds, GN_VIEW_BITS(view))) return 0;
+    return !BORDER_LIT(view) || (u >= 0 && v >= 0 && u + n <= view->tile_texels && v + n <= view->tile_texels);
+#else
+    (void)l, (void)u, (void)v, (void)n, (void)answer;
+    return 0;
+#endif
+}
+#endif
+
+/* ---- Filters with weights ----------------------------------------------------------------------------------------- */
 
 #if GN_FILTER_MAX >= 1
 /* round to weight_bits; F itself is allowed: the weights are continuous there */
@@ -32,16 +166,15 @@ static uint32_t fraction(int32_t c_q16, int32_t weight_bits)
     return (((uint32_t)c_q16 & 0xFFFFU) + (0x8000U >> weight_bits)) >> (16 - weight_bits);
 }
 
-static uint32_t bilinear(const receiver *r, int32_t u_q16, int32_t v_q16, int32_t bits)
+static uint32_t bilinear(const lookup *l, int32_t bits)
 {
-    int32_t cu = u_q16 + 32768, cv = v_q16 + 32768;
+    int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768;
     int32_t u = (cu >> 16) - 1, v = (cv >> 16) - 1;
+    uint32_t top = lit_row(l, u, v, 2), bottom = lit_row(l, u, v + 1, 2);
+    if ((top & bottom) == 3) return 65536;
+    if ((top | bottom) == 0) return 0;
     uint32_t wu = fraction(cu, bits), wv = fraction(cv, bits), one = 1U << bits;
-    const uint16_t *top = row_at(r, v), *bottom = row_at(r, v + 1);
-    uint32_t l00 = lit(r, top, u), l01 = lit(r, top, u + 1), l10 = lit(r, bottom, u), l11 = lit(r, bottom, u + 1);
-    if (l00 + l01 + l10 + l11 == 4) return 65536;
-    if (l00 + l01 + l10 + l11 == 0) return 0;
-    uint32_t upper = (one - wu) * l00 + wu * l01, lower = (one - wu) * l10 + wu * l11;
+    uint32_t upper = (one - wu) * (top & 1U) + wu * (top >> 1), lower = (one - wu) * (bottom & 1U) + wu * (bottom >> 1);
     uint32_t sum = (one - wv) * upper + wv * lower; /* <= F^2 <= 2^24 */
     return bits <= 8 ? sum << (16 - 2 * bits) : (sum + ((1U << (2 * bits - 16)) >> 1)) >> (2 * bits - 16);
 }
@@ -62,84 +195,149 @@ void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
     }
 }
 
-/* Whether the bounds of the texels from (u, v) on answer for all of them. */
-static int decided(const receiver *r, int32_t u, int32_t v, uint32_t *answer)
+#if GN_LINEAR_KERNELS
+void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 {
-#if GN_DEPTH_BLOCKS
-    const gn_depth_block *bounds = gn_blocks_at(r->view, u, v);
-    *answer = 65536;
-    if (r->depth <= (int32_t)((uint32_t)bounds->lo << r->depth_frac)) return 1;
-    *answer = 0;
-    return r->depth > (int32_t)((uint32_t)bounds->hi << r->depth_frac);
-#else
-    (void)r, (void)u, (void)v, (void)answer;
-    return 0;
+    /* the left half is a F - b u; the right half is its mirror image at F - u */
+    static const uint8_t a[3][4] = {{1, 2, 0, 0}, {1, 3, 4, 0}, {1, 5, 12, 16}};
+    static const uint8_t b[3][4] = {{1, 1, 0, 0}, {1, 2, 1, 0}, {1, 4, 7, 4}};
+    uint32_t f = 1U << weight_bits;
+    for (int32_t i = 0; i <= k; i++) {
+        w[i] = a[k - 1][i] * f - b[k - 1][i] * u;
+        w[2 * k + 1 - i] = a[k - 1][i] * f - b[k - 1][i] * (f - u);
+    }
+}
 #endif
+
+/* Sum of the weights of all lit texels among n x n from (u, v) on. narrow: every product stays below 2^32. */
+static uint64_t weighted(const lookup *l, int32_t u, int32_t v, int32_t n, const uint32_t *wu, const uint32_t *wv, int narrow)
+{
+    uint64_t sum = 0;
+    uint32_t mask_before = 0, across = 0;
+    for (int32_t j = 0; j < n; j++) {
+        uint32_t mask = lit_row(l, u, v + j, n);
+        if (mask != mask_before) { /* neighbouring rows are often alike */
+            mask_before = mask;
+            across = 0;
+            for (const uint32_t *w = wu; mask; w++, mask >>= 1)
+                if (mask & 1U) across += *w;
+        }
+        if (narrow) sum += across * wv[j];
+        else sum += (uint64_t)across * wv[j];
+    }
+    return sum;
 }
 
-static uint32_t tent(const receiver *r, int32_t k, int32_t u_q16, int32_t v_q16, int32_t bits)
+/* sum / (N * 2^scale_bits) in Q16, scale = round(2^32 / N): 20 fraction bits are kept, kept <= N * 2^20 < 2^32. */
+static uint32_t share(uint64_t sum, int32_t scale_bits, uint32_t scale)
 {
-    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
-    int32_t cu = u_q16 + 32768, cv = v_q16 + 32768, n = 2 * (k + 1);
-    int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
-    uint32_t answer;
-    if (decided(r, u0, v0, &answer)) return answer;
-    gn_tent_weights(wu, k, fraction(cu, bits), bits);
-    gn_tent_weights(wv, k, fraction(cv, bits), bits);
-    uint64_t sum = 0; /* <= (2k + 1)^4 F^4 <= 2401 * 2^48 */
-    for (int32_t j = 0; j < n; j++) {
-        const uint16_t *row = row_at(r, v0 + j);
-        uint32_t across = 0; /* <= 49 F^2 < 2^30 */
-        for (int32_t i = 0; i < n; i++)
-            if (lit(r, row, u0 + i)) across += wu[i];
-        sum += (uint64_t)across * wv[j];
-    }
-    /* sum / ((2k+1)^4 F^4) in Q16: 20 fraction bits are kept, then one multiplication by 2^32 / (2k+1)^4 */
-    uint32_t scale = k == 1 ? 53024288U : k == 2 ? 6871948U : 1788824U; /* round(2^32 / 81, 625, 2401) */
-    int32_t drop = 4 * bits - 20;
-    uint64_t kept = drop >= 0 ? sum >> drop : sum << -drop; /* < 2^32 */
+    int32_t drop = scale_bits - 20;
+    uint64_t kept = drop >= 0 ? sum >> drop : sum << -drop;
     return (uint32_t)((kept * scale + ((uint64_t)1 << 35)) >> 36);
 }
+
+/* F3, or F6 if the scene asks for it. Both are done as tents: their reach and their number of texels are the same. */
+static uint32_t tent(const gn_frame *frame, const lookup *l, int32_t k, int32_t bits)
+{
+    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX], answer;
+    int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
+    int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
+    if (decided(l, u0, v0, n, &answer)) return answer;
+#if GN_LINEAR_KERNELS
+    if (frame->scene->shadow.kernel == GN_KERNEL_LINEAR) {
+        gn_linear_weights(wu, k, fraction(cu, bits), bits);
+        gn_linear_weights(wv, k, fraction(cv, bits), bits);
+        /* products <= 52 F * 16 F, their sum <= 52^2 F^2 <= 2704 * 2^24 */
+        uint64_t sum = weighted(l, u0, v0, n, wu, wv, bits <= 11);
+        return share(sum, 2 * bits, k == 1 ? 268435456U : k == 2 ? 29826162U : 1588375U); /* round(2^32 / 16, 144, 2704) */
+    }
+#endif
+    (void)frame;
+    gn_tent_weights(wu, k, fraction(cu, bits), bits);
+    gn_tent_weights(wv, k, fraction(cv, bits), bits);
+    /* along a row <= 49 F^2 < 2^30, all <= (2k + 1)^4 F^4 <= 2401 * 2^48 */
+    uint64_t sum = weighted(l, u0, v0, n, wu, wv, 0);
+    return share(sum, 4 * bits, k == 1 ? 53024288U : k == 2 ? 6871948U : 1788824U); /* round(2^32 / 81, 625, 2401) */
+}
 #endif
 
-/* Texels, Q16, to depth steps of T * 2^J / 65536 texels with depth_frac fraction bits, limited to the far end. */
-static int32_t receiver_depth(const gn_light_view *view, int32_t d_q16, int32_t depth_frac)
+/* ---- Rotated disk ------------------------------------------------------------------------------------------------- */
+
+#if GN_DISK_FILTER
+#define DISK_RADIUS_MAX_Q16 (8 << 16)
+
+static uint16_t rotation_turn(int32_t pixel_x, int32_t pixel_y)
 {
-    int32_t shift = view->tile_log2 + view->depth_log2 - depth_frac; /* -1 .. 20 */
-    if (d_q16 <= 0) return 0;                                        /* nothing is stored nearer than 0 */
-    int32_t far = 65535 << depth_frac;
-    if (shift <= 0) return d_q16 > far >> -shift ? far : d_q16 << -shift;
-    return gn_min32((int32_t)(((uint32_t)d_q16 + ((1U << shift) >> 1)) >> shift), far);
+    uint32_t v = ((uint32_t)pixel_x * 0x8DA6B343U) ^ ((uint32_t)pixel_y * 0xD8163841U);
+    v = (v ^ (v >> 15)) * 0x2C1B3C6DU;
+    v ^= v >> 13;
+    return (uint16_t)(v >> 16);
 }
 
-uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, int32_t u_q16, int32_t v_q16, int32_t d_q16)
+/* Offsets have 27 fraction bits: a radius and a rotation in Q12 (|.| <= 2^15 + 1) times a point in Q15 (|.| <= 2^15 + 1) stay below
+ * 2^30.1, plus a fraction of a texel. They err by at most 2^-12.5 texels by the rotation's rounding and radius * 2^-15.5 by the
+ * table's: below 2^-11 together, by which the footprint is widened before bounds are asked. */
+static uint32_t disk(const gn_frame *frame, const lookup *l, const gn_receiver *receiver)
 {
-    receiver r = {view, 0, GN_K(frame, shadow_depth_frac)};
-    /* coordinates may lie far outside after a steep offset: the border's answer holds there */
-    u_q16 = gn_max32(-(64 << 16), gn_min32(u_q16, 1088 << 16));
-    v_q16 = gn_max32(-(64 << 16), gn_min32(v_q16, 1088 << 16));
-    r.depth = receiver_depth(view, d_q16, r.depth_frac);
-    uint32_t attenuation;
-#if GN_FILTER_MAX >= 1
-    int32_t bits = GN_K(frame, weight_bits);
+    uint32_t n_samples = frame->scene->shadow.disk_samples, n_lit = 0, answer;
+    int32_t radius_q16 = gn_max32(0, gn_min32(l->view->disk_radius_q16, DISK_RADIUS_MAX_Q16)), reach_q16 = radius_q16 + 32;
+    if (decided(l, (l->u_q16 - reach_q16) >> 16, (l->v_q16 - reach_q16) >> 16, (2 * reach_q16 >> 16) + 2, &answer)) return answer;
+    uint16_t turn = rotation_turn(receiver->pixel_x, receiver->pixel_y);
+    int32_t c_q12 = gn_mul_shr(radius_q16, gn_cos_q30(turn), 34), s_q12 = gn_mul_shr(radius_q16, gn_sin_q30(turn), 34);
+    int32_t u = l->u_q16 >> 16, fu_q27 = (l->u_q16 & 0xFFFF) << 11;
+    int32_t v = l->v_q16 >> 16, fv_q27 = (l->v_q16 & 0xFFFF) << 11;
+    const int16_t *point_q15 = gn_disk_table_q15;
+    for (uint32_t i = 0; i < n_samples; i++, point_q15 += 2) {
+        int32_t x = point_q15[0], y = point_q15[1];
+        n_lit += lit_row(l, u + ((fu_q27 + c_q12 * x - s_q12 * y) >> 27), v + ((fv_q27 + s_q12 * x + c_q12 * y) >> 27), 1);
+    }
+    return ((n_lit << 16) + n_samples / 2) / n_samples;
+}
 #endif
-    switch (view->filter) {
+
+/* ---- Any filter --------------------------------------------------------------------------------------------------- */
+
+/* A coordinate may lie far outside after a steep offset: the border's answer holds there, but its fraction still weighs. */
+static int32_t near_tile(int32_t c_q16)
+{
+    return gn_max32(-64, gn_min32(c_q16 >> 16, 1088)) * 65536 + (c_q16 & 0xFFFF);
+}
+
+static uint32_t filtered(const gn_frame *frame, const lookup *l, const gn_receiver *receiver)
+{
+    (void)frame, (void)receiver;
+    switch (l->view->filter) {
 #if GN_FILTER_MAX >= 1
     case GN_FILTER_2X2:
-        attenuation = bilinear(&r, u_q16, v_q16, bits);
-        break;
+        return bilinear(l, GN_K(frame, weight_bits));
 #endif
 #if GN_FILTER_MAX >= 2
     case GN_FILTER_3X3:
     case GN_FILTER_5X5:
     case GN_FILTER_7X7:
-        attenuation = tent(&r, view->filter - GN_FILTER_2X2, u_q16, v_q16, bits);
-        break;
+        return tent(frame, l, l->view->filter - GN_FILTER_2X2, GN_K(frame, weight_bits));
+#endif
+#if GN_DISK_FILTER
+    case GN_FILTER_DISK:
+        return disk(frame, l, receiver);
 #endif
     default:
-        attenuation = lit(&r, row_at(&r, v_q16 >> 16), u_q16 >> 16) << 16;
-        break;
+        return lit_row(l, l->u_q16 >> 16, l->v_q16 >> 16, 1) << 16;
     }
+}
+
+uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver)
+{
+    lookup l;
+    int32_t dropped = dropped_bits(frame, view);
+    l.view = view;
+    l.u_q16 = near_tile(receiver->u_q16);
+    l.v_q16 = near_tile(receiver->v_q16);
+    l.least = rounded_depth(receiver->depth_q32, dropped, gn_texel_far(GN_VIEW_BITS(view)));
+#if GN_RECEIVER_PLANE
+    start_plane(&l, receiver, dropped);
+#endif
+    uint32_t attenuation = filtered(frame, &l, receiver);
     return GN_K(frame, atten_bits) == 8 ? (attenuation + 128) & ~255U : attenuation;
 }
 

@@ -4,9 +4,17 @@
 
 #include <stdint.h>
 
+#include "gn_config.h"
+
 extern const uint16_t gn_recip_table[256]; /* Q1.15: 1/x at the middle of [1/2 + i/512, 1/2 + (i+1)/512) */
 extern const uint16_t gn_rsqrt_table[192]; /* Q1.15: 1/sqrt(x) for x in [1/4 + i/256, 1/4 + (i+1)/256) */
 extern const int32_t gn_sin_table_q30[65]; /* sin(i / 256 turn) */
 extern const uint16_t gn_srgb_table[577];  /* 65535 * srgb(x), x = 2^(k-9) (1 + j/64) at entry 64 k + j; see gn_pixel.c */
+#if GN_SHADOWS && GN_DISK_FILTER
+extern const int16_t gn_disk_table_q15[128]; /* x, y of 64 points of the unit disk (F4, DESIGN 1.7), every prefix well spread */
+#endif
+#if GN_TEXTURES
+extern const uint16_t gn_srgb_decode_table[256]; /* 65535 * linear light of an 8-bit sRGB value */
+#endif
 
 #endif

@@ -17,6 +17,38 @@ static double srgb(double x)
     return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
 }
 
+static double linear(double v)
+{
+    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+}
+
+static uint32_t bit_reversal(uint32_t v)
+{
+    uint32_t r = 0;
+    for (int i = 0; i < 32; i++) r |= (v >> i & 1U) << (31 - i);
+    return r;
+}
+
+static uint32_t second_sobol(uint32_t index)
+{
+    uint32_t direction = 0x80000000U, v = 0;
+    for (; index; index >>= 1, direction ^= direction >> 1)
+        if (index & 1U) v ^= direction;
+    return v;
+}
+
+/* x and y of the samples of the disk filter (DESIGN 1.7) */
+static void print_disk_table(void)
+{
+    printf("\n#if GN_SHADOWS && GN_DISK_FILTER\nconst int16_t gn_disk_table_q15[128] = {");
+    for (uint32_t i = 0; i < 64; i++) {
+        double radius = sqrt(ldexp(bit_reversal(i) ^ 0x9E3779B9U, -32)), angle = turn * ldexp(second_sobol(i) ^ 0x7F4A7C15U, -32);
+        printf("%s%ld, %ld,", i % 8 ? " " : "\n    ", lround(fmin(32768.0 * radius * cos(angle), 32767.0)),
+               lround(fmin(32768.0 * radius * sin(angle), 32767.0)));
+    }
+    printf("\n};\n#endif\n");
+}
+
 int main(void)
 {
     double v[577];
@@ -37,5 +69,10 @@ int main(void)
     printf("\n};\n");
     for (int i = 0; i <= 576; i++) v[i] = 65535.0 * srgb(ldexp(1.0 + (i % 64) / 64.0, i / 64 - 9));
     print_u16("gn_srgb_table", v, 577);
+    print_disk_table();
+    for (int i = 0; i <= 255; i++) v[i] = 65535.0 * linear(i / 255.0);
+    printf("\n#if GN_TEXTURES");
+    print_u16("gn_srgb_decode_table", v, 256);
+    printf("#endif\n");
     return 0;
 }

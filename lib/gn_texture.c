@@ -1,0 +1,99 @@
+/* Textures. Positions are exact: coordinates have 16 fraction bits, and so have texels, the lowest of them zero. Values are 65535 = 1
+ * until the end, so that a product with a weight fits 32 bits: a step to 16 bits after each axis, and one to 65536 = 1. */
+#include "gn_texture.h"
+#include "gn_q.h"
+#include "gn_tables.h"
+
+#if GN_TEXTURES || GN_MASKS || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+
+/* The two texels of an axis and the second one's weight of 65536; nearest: the first alone. */
+typedef struct {
+    uint32_t first, second, weight_uq16;
+} axis_taps;
+
+/* 2^size_log2 <= 4096 texels. */
+static axis_taps find_taps(int32_t c_q16, int32_t size_log2, int clamped, int bilinear)
+{
+    uint32_t last = (1U << size_log2) - 1;
+    int32_t half = bilinear ? 32768 : 0;
+    axis_taps taps;
+    if (clamped) {
+        int32_t at_q16 = gn_max32(0, gn_min32(c_q16, 65536)) * (1 << size_log2) - half; /* <= 2^28 */
+        taps.first = (uint32_t)gn_max32(0, gn_min32(at_q16 >> 16, (int32_t)last));
+        taps.second = (uint32_t)gn_min32((at_q16 >> 16) + 1, (int32_t)last);
+        taps.weight_uq16 = (uint32_t)at_q16 & 0xFFFFU;
+    } else {
+        uint32_t at_q16 = ((uint32_t)c_q16 << size_log2) - (uint32_t)half; /* modulo 2^16 texels, a multiple of the size */
+        taps.first = (at_q16 >> 16) & last;
+        taps.second = (taps.first + 1) & last;
+        taps.weight_uq16 = at_q16 & 0xFFFFU;
+    }
+    return taps;
+}
+
+typedef struct {
+    const uint8_t *texel[4]; /* upper left, upper right, lower left, lower right; nearest: the first */
+    uint32_t right_uq16, down_uq16;
+    int bilinear;
+} footprint;
+
+static void find_texels(footprint *out, const gn_texture *texture, int32_t u_q16, int32_t v_q16)
+{
+    out->bilinear = (texture->flags & GN_TEXTURE_BILINEAR) != 0;
+    axis_taps u = find_taps(u_q16, texture->width_log2, texture->flags & GN_TEXTURE_CLAMP_U, out->bilinear);
+    axis_taps v = find_taps(v_q16, texture->height_log2, texture->flags & GN_TEXTURE_CLAMP_V, out->bilinear);
+    const uint8_t *upper = texture->rgba + 4 * ((size_t)v.first << texture->width_log2);
+    const uint8_t *lower = texture->rgba + 4 * ((size_t)v.second << texture->width_log2);
+    out->texel[0] = upper + 4 * u.first;
+    out->texel[1] = upper + 4 * u.second;
+    out->texel[2] = lower + 4 * u.first;
+    out->texel[3] = lower + 4 * u.second;
+    out->right_uq16 = u.weight_uq16;
+    out->down_uq16 = v.weight_uq16;
+}
+
+/* 65535 * 65536 + 32768 < 2^32; two equal values give themselves. */
+static uint32_t mix(uint32_t a, uint32_t b, uint32_t weight_uq16)
+{
+    return (a * (65536U - weight_uq16) + b * weight_uq16 + 32768U) >> 16;
+}
+
+static uint32_t blend(const footprint *f, const uint32_t value[4])
+{
+    return mix(mix(value[0], value[1], f->right_uq16), mix(value[2], value[3], f->right_uq16), f->down_uq16);
+}
+
+/* round(v * 65536 / 65535) */
+static uint32_t to_uq16(uint32_t v)
+{
+    return v + (v >> 15);
+}
+
+uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t channel)
+{
+    footprint f;
+    uint32_t value[4];
+    find_texels(&f, texture, u_q16, v_q16);
+    if (!f.bilinear) return to_uq16(f.texel[0][channel] * 257U);
+    for (int i = 0; i < 4; i++) value[i] = f.texel[i][channel] * 257U;
+    return to_uq16(blend(&f, value));
+}
+
+#if GN_TEXTURES
+void gn_texture_colour(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t rgb_uq16[3])
+{
+    footprint f;
+    uint32_t value[4];
+    find_texels(&f, texture, u_q16, v_q16);
+    for (int c = 0; c < 3; c++) {
+        if (f.bilinear) {
+            for (int i = 0; i < 4; i++) value[i] = gn_srgb_decode_table[f.texel[i][c]];
+            rgb_uq16[c] = to_uq16(blend(&f, value));
+        } else {
+            rgb_uq16[c] = to_uq16(gn_srgb_decode_table[f.texel[0][c]]);
+        }
+    }
+}
+#endif
+
+#endif
