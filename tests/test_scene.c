@@ -440,8 +440,12 @@ static void test_obj(void)
         CHECK_NEAR(s.meshes[2].pos[1], 0, 0);
     }
     CHECK(has_note("'l' statements") && has_note("material 'grey' is not defined") &&
-          has_note("transparency of material 'red paint'") && has_note("colour texture of material 'red paint'"));
-    CHECK_EQ_INT(s.n_notes, 4);
+          has_note("line 5: texture 'build/tmp/x.png' cannot be opened"));
+    CHECK_EQ_INT(s.n_notes, 3);
+    CHECK_NEAR(s.objects[0].alpha, 0.5, 0);
+    CHECK(s.objects[0].visible_alpha == SCENE_ALPHA_DITHER && s.objects[0].caster == SCENE_CASTER_DITHER);
+    CHECK(s.objects[1].visible_alpha == SCENE_ALPHA_OPAQUE && s.objects[1].caster == SCENE_CASTER_ON);
+    CHECK(s.objects[0].texture_idx == SCENE_NONE && !s.meshes[0].uv);
     scene_free(&s);
 }
 

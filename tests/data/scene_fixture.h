@@ -55,8 +55,8 @@ static inline int has_note(const char *part)
 
 static inline int is_empty(void)
 {
-    return !s.meshes && !s.objects && !s.lights && !s.settings && !s.notes &&
-           s.n_meshes + s.n_objects + s.n_lights + s.n_notes == 0;
+    return !s.meshes && !s.textures && !s.objects && !s.lights && !s.settings && !s.notes &&
+           s.n_meshes + s.n_objects + s.n_lights + s.n_textures + s.n_notes == 0;
 }
 
 /* The load failed, for the reason expected, in one line. */
