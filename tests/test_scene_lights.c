@@ -53,6 +53,7 @@ static void test_cones(void)
 {
     check_cone("", 0, 16384, 0);
     check_cone("\"innerConeAngle\":0.5,\"outerConeAngle\":0.5", 10430, 10430, 0);
+    check_cone("\"innerConeAngle\":0.7,\"outerConeAngle\":0.71", 14603, 14811, 0);
     check_cone("\"outerConeAngle\":1.5707963267948966", 0, 32585, 1);
     check_cone("\"innerConeAngle\":1.57,\"outerConeAngle\":1.5707963267948966", 32585, 32585, 1);
     check_cone("\"outerConeAngle\":0.001", 0, 183, 1);
@@ -229,17 +230,26 @@ static void test_added_lights(void)
     scene_free(&empty);
 }
 
-/* Only what the camera sees is aimed at: the base quad of 2 x 2 around (9, 1, 0), and another behind the camera. */
-static void test_aim(void)
+/* Only what the camera sees is aimed at: the base quad of 2 x 2 around (9, 1, 0); not a copy of 1 x 1 elsewhere. */
+static void check_aim(const char *elsewhere)
 {
+    char put[200];
+    snprintf(put, sizeof put, "\"near_offset\":3}}},{\"mesh\":0,\"translation\":[%s]}]", elsewhere);
     const char *text = replaced(without_animation(base_json), "{\"gnomon\":{\"casts\":0}}", "{}");
-    text = replaced(text, "\"nodes\":[0,2,3]", "\"nodes\":[0,2,3,4]");
-    text = replaced(text, "\"near_offset\":3}}}]", "\"near_offset\":3}}},{\"mesh\":0,\"translation\":[0,0,70]}]");
+    text = replaced(replaced(text, "\"nodes\":[0,2,3]", "\"nodes\":[0,2,3,4]"), "\"near_offset\":3}}}]", put);
     if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
     CHECK_EQ_INT(scene_add_light(&s, SCENE_LIGHT_SPOT, error, sizeof error), 0);
     CHECK_EQ_INT(s.n_objects, 2);
     CHECK_NEAR(arrives(&s.lights[1], (const double[]){9, 1, 0}), 0.8, 1e-9);
     scene_free(&s);
+}
+
+static void test_aim(void)
+{
+    check_aim("0,0,70"); /* behind the camera, which is at z = 50 */
+    check_aim("0,60,0");
+    check_aim("-80,0,0");
+    check_aim("0,0,-40"); /* beyond the shadows, which end 80 before the camera */
 }
 
 static void test_shadow_defaults(void)

@@ -198,6 +198,28 @@ static void test_texture_changes(void)
     scene_free(&s);
 }
 
+static size_t count_textures(const char *textures, const char *images)
+{
+    make_png(2, 2, checks);
+    const char *text = replaced(textured(), "\"textures\":[{\"source\":0},{\"source\":0,\"sampler\":0}]", textures);
+    if (!CHECK_EQ_INT(load_text(TMP ".gltf", replaced(text, "\"images\":[", images)), 0)) return 0;
+    check_invariants();
+    size_t n = s.n_textures;
+    scene_free(&s);
+    return n;
+}
+
+/* One for textures that come to the same. */
+static void test_shared_textures(void)
+{
+    static const char second[] = "\"images\":[{\"uri\":\"test_scene_surfaces.png\"},";
+    make_png(2, 2, checks);
+    write_file(TMP ".png", made, n_made);
+    CHECK_EQ_INT(count_textures("\"textures\":[{\"source\":0},{\"source\":0}]", "\"images\":["), 1);
+    CHECK_EQ_INT(count_textures("\"textures\":[{\"source\":0,\"sampler\":0},{\"source\":0}]", "\"images\":["), 2);
+    CHECK_EQ_INT(count_textures("\"textures\":[{\"source\":0},{\"source\":1}]", second), 2);
+}
+
 /* --- sizes ----------------------------------------------------------------------------------------------------------- */
 
 /* Three texels in a row become four: texel centres at -1/8, 5/8, 11/8 and 17/8 of the old ones. */
@@ -230,6 +252,13 @@ static void test_resampling(void)
     char put[100]; /* a mask image holds plain numbers, and is clamped */
     snprintf(put, sizeof put, "%s\"name\":\"paint\"", mask);
     check_resampled(left, "\"name\":\"paint\"", put, (const uint8_t[]){255, 96, 0, 0}, (const uint8_t[]){255, 96, 0, 0});
+    static const uint8_t upper[15] = {0, 0, 0, 0, 255, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    make_png(1, 3, upper);
+    if (CHECK_EQ_INT(load_text(TMP ".gltf", replaced(textured(), same, clamped)), 0)) { /* in one direction only */
+        CHECK(s.textures[0].width == 1 && s.textures[0].height == 4 && s.textures[0].rgba[3] == 223 &&
+              s.textures[0].rgba[15] == 32);
+        scene_free(&s);
+    }
     static uint8_t wide[5001], huge[8194];
     memset(wide + 1, 77, 5000);
     start_file(5000, 1, 8, 0, 0);
@@ -273,6 +302,15 @@ static void test_surface_knobs(void)
     CHECK(a->mask_texture_idx != a->texture_idx && mask->clamp_u && mask->clamp_v && mask->bilinear && s.n_textures == 3);
     CHECK(s.meshes[0].mask_uv && s.meshes[0].mask_uv[1] >= 1 && s.shadow.mixing == SCENE_MIX_DISTANCE);
     scene_free(&s);
+    const char *bare = replaced(textured(), "\"_GNOMON_MASK\":4", "\"x\":4");
+    if (CHECK_EQ_INT(load_text(TMP ".gltf", bare), 0)) {
+        CHECK(s.shadow.mixing == SCENE_MIX_NONE && !s.objects[0].mask && s.objects[0].baked);
+        scene_free(&s);
+    }
+    if (CHECK_EQ_INT(load_text(TMP ".gltf", replaced(bare, "\"name\":\"paint\"", all)), 0)) {
+        CHECK(s.shadow.mixing == SCENE_MIX_DISTANCE);
+        scene_free(&s);
+    }
     text = replaced(textured(), "\"name\":\"a\"", "\"name\":\"a\",\"extras\":{\"gnomon\":{\"mask_texture\":0}}");
     CHECK(refused(load_text(TMP ".gltf", replaced(text, "\"TEXCOORD_1\":3,\"_G", "\"_G")),
                   "/meshes/0/primitives/0: a mask_texture is looked up"));
@@ -483,6 +521,7 @@ int main(void)
     test_textured();
     test_image_places();
     test_texture_changes();
+    test_shared_textures();
     test_resampling();
     test_surface_knobs();
     test_casting();

@@ -40,10 +40,10 @@ static bool read_placement(gltf *g, const gltf_node *node, scene_light *out)
 
 static bool read_range(gltf *g, const json_value *json, const char *name, scene_light *out)
 {
-    out->range = INFINITY;
+    out->range = HUGE_VAL;
     if (!gltf_get_number(g, json, "range", &out->range)) return false;
     if (!(out->range > 0)) return gltf_fail(g, json, "range %g is not positive", out->range);
-    if (out->range > LOADER_MAX_COORDINATE) out->range = INFINITY;
+    if (out->range > LOADER_MAX_COORDINATE) out->range = HUGE_VAL;
     if (out->range >= LIGHT_MIN_RANGE) return true;
     out->range = LIGHT_MIN_RANGE;
     return loader_note(g->l, "range of light '%s' is raised to %g", name, LIGHT_MIN_RANGE);

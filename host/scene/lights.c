@@ -22,7 +22,7 @@ static const double angle_steps = 65536;
 
 void light_set_defaults(scene_light *light)
 {
-    light->range = INFINITY;
+    light->range = HUGE_VAL;
     light->mask_channel = -1;
     light->shadow = true;
     light->strength = 1;
@@ -68,8 +68,7 @@ static bool is_seen_caster(const scene *s, const scene_object *object, const dou
         local[k] = vec_dot(out, axis);
     }
     double depth = -local[2], half = depth / s->camera.focal;
-    return is_caster(s, object, point) && depth >= s->camera.near && depth <= s->shadow.max_distance &&
-           fabs(local[0]) <= 1.5 * half && fabs(local[1]) <= half;
+    return is_caster(s, object, point) && depth <= s->shadow.max_distance && fabs(local[0]) <= 1.5 * half && fabs(local[1]) <= half;
 }
 
 /* What casts; not the ground, which mostly does not, and is far larger than what stands on it. */
