@@ -55,7 +55,7 @@ static void colour_of_cascade(uint8_t *out, int cascade)
     else memcpy(out, colours[cascade], 3);
 }
 
-/* The light's cascades side by side; those of empty slices stay blank. */
+/* The light's tiles side by side: cascades, of which those of empty slices stay blank, or the six faces of a cube. */
 static uint8_t *draw_atlas(const engine_picture *p, size_t light, int *w, int *h, char *error, size_t error_bytes)
 {
     int t = p->atlas_texels[light];
@@ -63,7 +63,7 @@ static uint8_t *draw_atlas(const engine_picture *p, size_t light, int *w, int *h
         snprintf(error, error_bytes, "light %d has no shadow tile", (int)light);
         return NULL;
     }
-    size_t n_cascades = (size_t)p->n_cascades, width = (size_t)t * n_cascades, n = (size_t)t * width;
+    size_t width = (size_t)t * (size_t)p->n_tiles[light], n = (size_t)t * width;
     uint8_t *out = malloc(3 * n);
     *w = (int)width;
     *h = t;
