@@ -181,6 +181,7 @@ static int copy_atlas(const job *j, engine_picture *out)
         if (out->shadow_state[l] != GN_SHADOW_REALTIME) continue;
         out->n_tiles[l] = (int)n_tiles;
         out->atlas_texels[l] = (int)texels;
+        out->perspective[l] = j->scene->lights[l].kind != SCENE_LIGHT_DIRECTIONAL;
         for (size_t i = 0; i < n_tiles; i++)
             if (copy_tile(j, out, l, i)) {
                 snprintf(j->error, j->error_bytes, "out of memory");

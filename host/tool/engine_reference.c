@@ -22,7 +22,7 @@ static double *take_tile(ref_light_view *view)
 }
 
 /* Takes the arrays that both pictures have in the same shape. */
-static void take(engine_picture *out, ref_picture *ref)
+static void take(engine_picture *out, ref_picture *ref, const scene *s)
 {
     out->depth = ref->depth;
     out->normal = ref->normal;
@@ -35,6 +35,7 @@ static void take(engine_picture *out, ref_picture *ref)
         out->shadow[l] = ref->shadow[l];
         out->ndotl[l] = ref->ndotl[l];
         ref->shadow[l] = ref->ndotl[l] = NULL;
+        out->perspective[l] = s->lights[l].kind != SCENE_LIGHT_DIRECTIONAL;
         out->n_tiles[l] = ref->grant[l].n_tiles;
         out->atlas_texels[l] = out->n_tiles[l] ? ref->grant[l].tile_texels : 0;
         for (int i = 0; i < out->n_tiles[l]; i++)
@@ -77,7 +78,7 @@ int engine_reference(engine_picture *out, const scene *s, const settings *set, i
         output_quantise(set->output, c, set->quality.srgb, (int)(i % (size_t)width), (int)(i / (size_t)width), out->rgb8 + 3 * i);
         out->rgb565[i] = (uint16_t)(level(c[0], 31) << 11 | level(c[1], 63) << 5 | level(c[2], 31));
     }
-    take(out, &ref);
+    take(out, &ref, s);
     ref_free(&ref);
     return 0;
 }
