@@ -9,6 +9,9 @@
  * part stays: path may be a device or a pipe, which must not be removed. */
 int png_write_rgb8(const char *path, int w, int h, const uint8_t *rgb, char *error, size_t error_bytes);
 
+/* The bytes of a file with this picture, 4 * w * h bytes in, to free(); NULL if memory runs out or that is no size. */
+uint8_t *png_pack_rgba8(int w, int h, const uint8_t *rgba, size_t *n_out);
+
 /* 3 * w * h bytes to free(), or NULL with one line in error. */
 uint8_t *png_read_rgb8(const char *path, int *w, int *h, char *error, size_t error_bytes);
 
