@@ -9,7 +9,6 @@
 #include "../host/scene/json.h"
 #include "../host/scene/scene.h"
 #include "check.h"
-#include "data/scene_cases.h"
 #include "data/scene_fixture.h"
 
 /* --- JSON ------------------------------------------------------------------------------------------------------------ */
@@ -61,30 +60,6 @@ static void test_json_values(void)
 }
 
 /* --- glTF ------------------------------------------------------------------------------------------------------------ */
-
-/* text with the first `find` replaced; in static storage. */
-static const char *replaced(const char *text, const char *find, const char *put)
-{
-    static char out[2][16384];
-    static int turn;
-    const char *at = strstr(text, find);
-    if (!CHECK(at != NULL)) printf("  no '%s'\n", find);
-    if (!at) return text;
-    char *to = out[turn = !turn];
-    snprintf(to, sizeof out[0], "%.*s%s%s", (int)(at - text), text, put, at + strlen(find));
-    return to;
-}
-
-static int load_changed(const char *find, const char *put)
-{
-    return load_text(TMP ".gltf", replaced(base_json, find, put));
-}
-
-static const char *without_animation(const char *text)
-{
-    const char *at = strstr(text, "\"animations\":");
-    return replaced(text, at ? "\"animations\":" : "", "\"unused\":");
-}
 
 static void check_rows(const scene_affine *a, const double expected[12])
 {

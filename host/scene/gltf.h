@@ -1,6 +1,6 @@
 /* The glTF loader's inside: gltf.c reads the file and drives, gltf_json.c reads typed members, gltf_buffer.c and gltf_accessor.c turn bytes
- * into numbers, gltf_mesh.c makes meshes, gltf_node.c the hierarchy, camera and lights, gltf_animation.c moves nodes before
- * that, gltf_knobs.c reads extras.gnomon. */
+ * into numbers, gltf_mesh.c makes meshes, gltf_material.c and gltf_light.c what their names say, gltf_node.c the hierarchy and the
+ * camera, gltf_animation.c moves nodes before that, gltf_knobs.c reads extras.gnomon. */
 #ifndef GNOMON_HOST_GLTF_H
 #define GNOMON_HOST_GLTF_H
 
@@ -90,6 +90,8 @@ bool gltf_read_material(gltf *g, const json_value *primitive, gltf_material *out
 bool gltf_read_nodes(gltf *g);
 bool gltf_place_nodes(gltf *g, const json_value *used_scene);
 bool gltf_emit_camera(gltf *g, size_t node_idx);
+
+/* gltf_light.c */
 bool gltf_emit_light(gltf *g, size_t node_idx);
 
 /* gltf_animation.c: writes the frame's translation, rotation and scale into the nodes. */

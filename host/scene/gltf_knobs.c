@@ -1,6 +1,7 @@
 /* extras.gnomon in a glTF file: settings of the scene, knobs of lights, mesh nodes and materials. */
 #include "gltf.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +23,9 @@ static bool is_one_of(const char *key, const char *const *keys)
     return false;
 }
 
-static const char *const light_keys[] = {"shadow", "strength", "bias_constant", "bias_slope", "bias_normal", "near_offset", NULL};
+static const char *const light_keys[] = {"shadow",        "strength",    "bias_constant", "bias_slope", "bias_normal",
+                                         "bias_receiver", "bias_caster", "near_offset",   "near",       "receiver_plane",
+                                         "softness",      "mode",        "mask_channel",  NULL};
 static const char *const surface_keys[] = {"casts", "receives", "unlit", NULL};
 
 static bool check_keys(gltf *g, const json_value *knobs, bool light, bool surface)
@@ -63,6 +66,57 @@ static bool get_range(gltf *g, const json_value *knobs, const char *key, double 
     return true;
 }
 
+/* One of the words, as its index; *out is left alone where the key is absent. */
+static bool get_word(gltf *g, const json_value *knobs, const char *key, const char *const *words, int *out)
+{
+    const char *word = NULL;
+    if (!gltf_get_string(g, knobs, key, &word)) return false;
+    for (int i = 0; word && words[i]; i++) {
+        if (strcmp(word, words[i]) == 0) {
+            *out = i;
+            return true;
+        }
+    }
+    return !word || gltf_fail(g, json_get(knobs, key), "'%s' is not a value of %s", word, key);
+}
+
+static bool get_integer(gltf *g, const json_value *knobs, const char *key, int lowest, int highest, int *out)
+{
+    double number = *out;
+    if (!gltf_get_number(g, knobs, key, &number)) return false;
+    bool fits = number >= lowest && number <= highest && floor(number) >= number;
+    if (!fits) return gltf_fail(g, json_get(knobs, key), "an integer in %d..%d is expected", lowest, highest);
+    *out = (int)number;
+    return true;
+}
+
+static bool get_near(gltf *g, const json_value *knobs, double *out)
+{
+    if (!get_range(g, knobs, "near", LOADER_MAX_COORDINATE, out)) return false;
+    const json_value *value = json_get(knobs, "near");
+    return !value || *out > 0 || gltf_fail(g, value, "near must be positive");
+}
+
+static bool get_light_words(gltf *g, const json_value *knobs, scene_light *light)
+{
+    static const char *const softness_words[] = {"default", "hard", "soft", NULL};
+    static const char *const mode_words[] = {"realtime", "mixed", "baked", NULL};
+    int softness = (int)light->softness, mode = (int)light->mode;
+    if (!get_word(g, knobs, "softness", softness_words, &softness) || !get_word(g, knobs, "mode", mode_words, &mode)) return false;
+    light->softness = (scene_softness)softness;
+    light->mode = (scene_light_mode)mode;
+    return get_integer(g, knobs, "mask_channel", -1, 3, &light->mask_channel);
+}
+
+static bool get_receiver_bias(gltf *g, const json_value *knobs, double *out)
+{
+    if (!gltf_get_numbers(g, knobs, "bias_receiver", out, 4)) return false;
+    for (int i = 0; i < 4; i++) {
+        if (fabs(out[i]) > LOADER_MAX_COORDINATE) return gltf_fail(g, json_get(knobs, "bias_receiver"), "%g is too large", out[i]);
+    }
+    return true;
+}
+
 bool gltf_light_knobs(gltf *g, const json_value *owner, scene_light *light)
 {
     const json_value *k;
@@ -73,7 +127,10 @@ bool gltf_light_knobs(gltf *g, const json_value *owner, scene_light *light)
            get_range(g, k, "bias_constant", LOADER_MAX_COORDINATE, &light->bias_constant) &&
            get_range(g, k, "bias_slope", LOADER_MAX_COORDINATE, &light->bias_slope) &&
            get_range(g, k, "bias_normal", LOADER_MAX_COORDINATE, &light->bias_normal) &&
-           get_range(g, k, "near_offset", LOADER_MAX_COORDINATE, &light->near_offset);
+           get_range(g, k, "bias_caster", LOADER_MAX_COORDINATE, &light->bias_caster) &&
+           get_receiver_bias(g, k, light->bias_receiver) && get_switch(g, k, "receiver_plane", &light->receiver_plane) &&
+           get_range(g, k, "near_offset", LOADER_MAX_COORDINATE, &light->near_offset) && get_near(g, k, &light->near) &&
+           get_light_words(g, k, light);
 }
 
 bool gltf_material_knobs(gltf *g, const json_value *owner, gltf_material *material)

@@ -163,11 +163,12 @@ static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *jso
     if (!load_primitive(g, json, mesh_name, flip, primitive)) return false;
     if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
     if (!gltf_read_material(g, json, &material) || !gltf_material_knobs(g, node->json, &material)) return false;
-    scene_object object = {.to_world = node->world,
-                           .unlit = material.unlit,
-                           .two_sided = material.two_sided,
-                           .caster = material.casts ? SCENE_CASTER_ON : SCENE_CASTER_OFF,
-                           .receives = material.receives};
+    scene_object object = object_defaults();
+    object.to_world = node->world;
+    object.unlit = material.unlit;
+    object.two_sided = material.two_sided;
+    object.caster = material.casts ? SCENE_CASTER_ON : SCENE_CASTER_OFF;
+    object.receives = material.receives;
     memcpy(object.albedo, material.albedo, sizeof object.albedo);
     const char *name = gltf_name(g, node->json, "node");
     object.name = name ? loader_format(g->l, "%s", name) : NULL;

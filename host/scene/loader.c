@@ -1,6 +1,7 @@
 /* What the loaders share: errors, notes, files, and growing the scene. */
 #include "loader.h"
 #include "utf8.h"
+#include "vec.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -189,6 +190,19 @@ bool loader_add_setting(loader *l, const char *key, const char *value)
     *setting = (scene_setting){duplicate(l, key), duplicate(l, value)};
     s->n_settings++;
     return setting->key && setting->value;
+}
+
+scene_object object_defaults(void)
+{
+    return (scene_object){.to_world = affine_identity(),
+                          .albedo = {1, 1, 1},
+                          .alpha = 1,
+                          .alpha_cutoff = 0.5,
+                          .shininess_log2 = 5,
+                          .texture_idx = SCENE_NONE,
+                          .mask_texture_idx = SCENE_NONE,
+                          .caster = SCENE_CASTER_ON,
+                          .receives = true};
 }
 
 bool loader_add_objects(loader *l, const scene_object *pattern, size_t first_mesh, size_t n_meshes)

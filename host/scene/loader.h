@@ -54,6 +54,9 @@ scene_object *loader_add_object(loader *l, const char *name);
 scene_light *loader_add_light(loader *l, const char *name);
 bool loader_add_setting(loader *l, const char *key, const char *value);
 
+/* White, opaque, casts and receives; without name and mesh. */
+scene_object object_defaults(void);
+
 /* One object per mesh of the range, all like the pattern (whose name is copied). */
 bool loader_add_objects(loader *l, const scene_object *pattern, size_t first_mesh, size_t n_meshes);
 
@@ -82,6 +85,14 @@ bool mesh_splitter_init(mesh_splitter *splitter, loader *l, const scene_mesh *in
  * winding is reversed: for instances whose transform mirrors (see gltf_mesh.c). */
 bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip, size_t *first,
                 size_t *n_meshes);
+
+/* lights.c */
+#define LIGHT_MIN_RANGE 0.01
+/* Everything that has a default but the kind and the name; range unlimited, near 0: to be found by lights_set_near. */
+void light_set_defaults(scene_light *light);
+/* Spot and point lights without a near distance get one: of the range, or of how far the box reaches from an unlimited light. */
+void lights_set_near(scene *s, const double *low, const double *high);
+bool lights_add(loader *l, const char *name, scene_light_kind kind);
 
 /* defaults.c: completes what the file lacks; the last step of a load. */
 bool loader_add_defaults(loader *l);

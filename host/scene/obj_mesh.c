@@ -88,7 +88,7 @@ static bool emit_material(obj_file *o, mesh_splitter *splitter, const obj_materi
                           size_t n_triangles)
 {
     size_t first, n_meshes;
-    scene_object object = {.to_world = affine_identity(), .caster = SCENE_CASTER_ON, .receives = true};
+    scene_object object = object_defaults();
     memcpy(object.albedo, material->albedo, sizeof object.albedo);
     object.name = loader_format(o->l, "%s", material->name);
     return object.name && mesh_split(splitter, object.name, idx, n_triangles, false, &first, &n_meshes) &&

@@ -201,7 +201,7 @@ static const change gltf_notes[] = {
     {"\"doubleSided\":true", "\"emissiveFactor\":[1,0,0]", "emissive colour"},
     {"[0.5,0.25,1,1]", "[0.5,0.25,2,1]", "outside 0..1"},
     {"\"type\":\"perspective\"", "\"type\":\"orthographic\"", "orthographic cameras"},
-    {"\"type\":\"directional\"", "\"type\":\"spot\"", "spot light 'sol'"},
+    {"\"strength\":0.9", "\"near\":1", "near of directional light 'sol'"},
     {"\"name\":\"sun\"", "\"camera\":0", "the first camera"},
     {"\"mesh\":0", "\"mesh\":0,\"skin\":0", "skin of mesh 'quad'"},
     {"\"path\":\"scale\"", "\"path\":\"weights\"", "morph weights"},

@@ -1,4 +1,4 @@
-/* What test_scene.c stands on: files in build/tmp, loading them, and what holds for every scene. */
+/* What the tests of the loaders stand on: files in build/tmp, loading them, and what holds for every scene. */
 #ifndef GNOMON_TESTS_SCENE_FIXTURE_H
 #define GNOMON_TESTS_SCENE_FIXTURE_H
 
@@ -9,19 +9,22 @@
 #include "../../host/scene/scene.h"
 #include "../check.h"
 #include "../rng.h"
+#include "scene_cases.h"
 
+#ifndef TMP
 #define TMP "build/tmp/test_scene"
+#endif
 static const scene_options plain = {.frame = 0, .width = 320, .height = 240};
 static char error[400];
 static scene s;
 
 static rng random_state = {1};
-static uint32_t random_u32(void)
+static inline uint32_t random_u32(void)
 {
     return rng_u32(&random_state);
 }
 
-static void write_file(const char *path, const void *bytes, size_t n)
+static inline void write_file(const char *path, const void *bytes, size_t n)
 {
     remove(path); /* cheaper than to empty it: some file systems then wait for the disk */
     FILE *file = fopen(path, "wb");
@@ -30,19 +33,19 @@ static void write_file(const char *path, const void *bytes, size_t n)
     fclose(file);
 }
 
-static int load(const char *path, const scene_options *options)
+static inline int load(const char *path, const scene_options *options)
 {
     memset(&s, 0xFF, sizeof s); /* scene_load must not look at what was there */
     return scene_load(&s, path, options, error, sizeof error);
 }
 
-static int load_text(const char *path, const char *text)
+static inline int load_text(const char *path, const char *text)
 {
     write_file(path, text, strlen(text));
     return load(path, &plain);
 }
 
-static int has_note(const char *part)
+static inline int has_note(const char *part)
 {
     for (size_t i = 0; i < s.n_notes; i++) {
         if (strstr(s.notes[i], part)) return 1;
@@ -50,14 +53,14 @@ static int has_note(const char *part)
     return 0;
 }
 
-static int is_empty(void)
+static inline int is_empty(void)
 {
     return !s.meshes && !s.objects && !s.lights && !s.settings && !s.notes &&
            s.n_meshes + s.n_objects + s.n_lights + s.n_notes == 0;
 }
 
 /* The load failed, for the reason expected, in one line. */
-static int refused(int result, const char *why)
+static inline int refused(int result, const char *why)
 {
     int ok = result == -1 && is_empty() && strstr(error, why) && !strchr(error, '\n');
     if (!ok) printf("  expected '%s', got '%s'\n", why, result ? error : "no error");
@@ -65,8 +68,32 @@ static int refused(int result, const char *why)
     return ok;
 }
 
+/* text with the first `find` replaced; in static storage. */
+static inline const char *replaced(const char *text, const char *find, const char *put)
+{
+    static char out[2][16384];
+    static int turn;
+    const char *at = strstr(text, find);
+    if (!CHECK(at != NULL)) printf("  no '%s'\n", find);
+    if (!at) return text;
+    char work[sizeof out[0]];
+    snprintf(work, sizeof work, "%.*s%s%s", (int)(at - text), text, put, at + strlen(find));
+    return memcpy(out[turn = !turn], work, sizeof work);
+}
+
+static inline int load_changed(const char *find, const char *put)
+{
+    return load_text(TMP ".gltf", replaced(base_json, find, put));
+}
+
+static inline const char *without_animation(const char *text)
+{
+    const char *at = strstr(text, "\"animations\":");
+    return replaced(text, at ? "\"animations\":" : "", "\"unused\":");
+}
+
 /* What the engines may rely on, whatever the file was. */
-static void check_invariants(void)
+static inline void check_invariants(void)
 {
     int ok = s.n_objects > 0 && s.n_lights > 0 && s.camera.near > 0 && s.camera.far > s.camera.near && s.camera.focal > 0;
     for (size_t i = 0; i < s.n_meshes; i++) {
@@ -80,8 +107,15 @@ static void check_invariants(void)
     }
     for (size_t i = 0; i < s.n_objects; i++) ok = ok && s.objects[i].mesh_idx < s.n_meshes && s.objects[i].name;
     for (size_t i = 0; i < s.n_lights; i++) {
-        const double *d = s.lights[i].direction;
-        ok = ok && fabs(hypot(hypot(d[0], d[1]), d[2]) - 1) < 1e-9 && isfinite(s.lights[i].colour[0]);
+        const scene_light *l = &s.lights[i];
+        const double *d = l->direction;
+        ok =
+            ok && fabs(hypot(hypot(d[0], d[1]), d[2]) - 1) < 1e-9 && isfinite(l->colour[0]) && l->strength >= 0 && l->strength <= 1;
+        if (l->kind == SCENE_LIGHT_DIRECTIONAL) continue;
+        ok = ok && l->range >= 0.01 && l->near > 0 && isfinite(l->near) &&
+             isfinite(l->position[0] + l->position[1] + l->position[2]);
+        if (l->kind == SCENE_LIGHT_SPOT)
+            ok = ok && l->inner >= 0 && l->inner <= l->outer && l->outer * 360 >= 1 && l->outer * 360 <= 179;
     }
     CHECK(ok);
 }
@@ -89,12 +123,12 @@ static void check_invariants(void)
 /* A quad in the xy plane with everything on it. Sizes and offsets of the buffer's parts stand in base_json. */
 static uint8_t base_bin[328];
 
-static void put_floats(size_t offset, const float *values, size_t n)
+static inline void put_floats(size_t offset, const float *values, size_t n)
 {
     memcpy(base_bin + offset, values, n * sizeof *values);
 }
 
-static void make_base_bin(void)
+static inline void make_base_bin(void)
 {
     static const float pos[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, nrm[12] = {0, 0, 2, 0, 0, 1, 0, 0, 1, 0, 0, 1};
     static const uint16_t idx[6] = {0, 1, 2, 2, 1, 3};
