@@ -264,6 +264,21 @@ size_t gltf_add_node(gltf_document *d, const char *name, const char *format, ...
     return idx;
 }
 
+size_t gltf_add_object(gltf_document *d, const char *name, const mesh_builder *m, size_t material_idx)
+{
+    size_t mesh = gltf_add_mesh(d, name, &(gltf_surface){m, material_idx}, 1);
+    return gltf_add_node(d, name, "\"mesh\": %zu", mesh);
+}
+
+size_t gltf_add_light_node(gltf_document *d, mesh_point at, gltf_rotation q, const gltf_light_text *light)
+{
+    size_t idx = gltf_add_light(d, light);
+    return gltf_add_node(d, light->name,
+                         "\"translation\": [%.6g, %.6g, %.6g], \"rotation\": [%.6g, %.6g, %.6g, %.6g], "
+                         "\"extensions\": {\"KHR_lights_punctual\": {\"light\": %zu}}",
+                         at.x, at.y, at.z, q.x, q.y, q.z, q.w, idx);
+}
+
 void gltf_mark_child(gltf_document *d, size_t node_idx)
 {
     if (node_idx < GLTF_MAX_NODES) d->is_root[node_idx] = false;
@@ -346,6 +361,13 @@ gltf_rotation gltf_turn(mesh_point unit_axis, double degrees)
 {
     double half = degrees * MESH_PI / 360, s = sin(half);
     return (gltf_rotation){unit_axis.x * s, unit_axis.y * s, unit_axis.z * s, cos(half)};
+}
+
+gltf_rotation gltf_look(mesh_point direction)
+{
+    mesh_point to = mesh_unit(direction);
+    double yaw_deg = atan2(-to.x, -to.z) * 180 / MESH_PI, pitch_deg = asin(to.y) * 180 / MESH_PI;
+    return gltf_multiply(gltf_turn((mesh_point){0, 1, 0}, yaw_deg), gltf_turn((mesh_point){1, 0, 0}, pitch_deg));
 }
 
 gltf_rotation gltf_multiply(gltf_rotation a, gltf_rotation b)

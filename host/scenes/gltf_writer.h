@@ -104,6 +104,9 @@ size_t gltf_add_light(gltf_document *d, const gltf_light_text *light);
 
 /* The node's other members, as JSON. A node that is named in "children" of a later one must be given to gltf_mark_child too. */
 size_t gltf_add_node(gltf_document *d, const char *name, const char *format, ...) GLTF_WRITER_PRINTF(3, 4);
+/* A mesh of one surface and a node that has it as it is. */
+size_t gltf_add_object(gltf_document *d, const char *name, const mesh_builder *m, size_t material_idx);
+size_t gltf_add_light_node(gltf_document *d, mesh_point at, gltf_rotation rotation, const gltf_light_text *light);
 void gltf_mark_child(gltf_document *d, size_t node_idx);
 
 /* Rotates a node: a key every so many seconds from time 0, LINEAR. */
@@ -114,6 +117,7 @@ void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx,
 int gltf_write(const gltf_document *d, const gltf_scene_text *scene, FILE *file);
 
 gltf_rotation gltf_turn(mesh_point unit_axis, double degrees);
+gltf_rotation gltf_look(mesh_point direction);                 /* turns -Z there, and keeps +Y upright */
 gltf_rotation gltf_multiply(gltf_rotation a, gltf_rotation b); /* first b, then a */
 
 #endif

@@ -194,8 +194,7 @@ void mesh_box(mesh_builder *m, mesh_point low, mesh_point high)
     mesh_quad(m, p[4], p[5], p[7], p[6]);
 }
 
-/* Some axes with +Y along the unit vector. */
-static mesh_frame frame_along(mesh_point origin, mesh_point y)
+mesh_frame mesh_frame_along(mesh_point origin, mesh_point y)
 {
     mesh_point aside = fabs(y.y) < 0.9 ? (mesh_point){0, 1, 0} : (mesh_point){0, 0, 1};
     mesh_point x = mesh_unit(mesh_cross(y, aside));
@@ -207,8 +206,25 @@ void mesh_rod(mesh_builder *m, mesh_point a, mesh_point b, double radius, size_t
     const mesh_frame outer = m->place;
     mesh_point axis = mesh_sub(b, a);
     double length = sqrt(mesh_dot(axis, axis));
-    mesh_frame f = frame_along(mesh_add(along_axes(&outer, a), outer.origin), mesh_unit(along_axes(&outer, axis)));
-    m->place = f;
+    m->place = mesh_frame_along(mesh_add(along_axes(&outer, a), outer.origin), mesh_unit(along_axes(&outer, axis)));
     mesh_lathe(m, (mesh_profile[]){{0, 0}, {radius, 0}, {radius, length}, {0, length}}, 4, n_segments);
     m->place = outer;
+}
+
+void mesh_ball(mesh_builder *m, mesh_point centre, double radius, size_t n_rings, size_t n_segments)
+{
+    const mesh_uv no_uv = {0, 0};
+    const bool smooth = (m->attributes & MESH_NORMALS) != 0;
+    for (size_t i = 0; i < n_rings; i++) {
+        for (size_t k = 0; k < n_segments; k++) {
+            uint16_t corner[4]; /* low, high, high and next, low and next */
+            for (size_t c = 0; c < 4; c++) {
+                double angle = MESH_PI * (double)(i + (c == 1 || c == 2)) / (double)n_rings;
+                mesh_point out = mesh_ring_point(sin(angle), -cos(angle), k + c / 2, n_segments);
+                corner[c] = add_vertex(m, mesh_add(centre, mesh_scale(out, radius)), mesh_scale(out, smooth), no_uv);
+            }
+            add_triangle(m, corner[0], corner[1], corner[2]);
+            add_triangle(m, corner[0], corner[2], corner[3]);
+        }
+    }
 }

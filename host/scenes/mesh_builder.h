@@ -64,6 +64,9 @@ void mesh_place(mesh_builder *m, mesh_frame place);
 /* Tipped from +Y towards +Z first, then turned from +Z towards +X. */
 mesh_frame mesh_frame_at(mesh_point origin, double yaw_deg, double tip_deg);
 
+/* +Y along a unit vector, the other axes anyhow. */
+mesh_frame mesh_frame_along(mesh_point origin, mesh_point unit_y);
+
 /* Convex, cut into a fan from its first point. Repeated points are left out. MESH_NORMALS: every corner has the face's normal. */
 void mesh_polygon(mesh_builder *m, const mesh_point *p, size_t n);
 /* uv: of each point, for MESH_UVS. */
@@ -80,6 +83,9 @@ void mesh_lathe(mesh_builder *m, const mesh_profile *profile, size_t n, size_t n
 
 /* All six faces. */
 void mesh_box(mesh_builder *m, mesh_point low, mesh_point high);
+
+/* Smooth with MESH_NORMALS; n_rings sections from pole to pole. */
+void mesh_ball(mesh_builder *m, mesh_point centre, double radius, size_t n_rings, size_t n_segments);
 
 /* A closed cylinder from a to b. */
 void mesh_rod(mesh_builder *m, mesh_point a, mesh_point b, double radius, size_t n_segments);

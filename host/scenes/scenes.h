@@ -16,5 +16,7 @@ enum { SUNDIAL_FIRST_HOUR = 6, SUNDIAL_LAST_HOUR = 18, SUNDIAL_FRAMES_PER_HOUR =
 
 int sundial_write(FILE *file);
 int avenue_write(FILE *file);
+int desk_write(FILE *file);
+int room_write(FILE *file);
 
 #endif
