@@ -24,5 +24,6 @@ int main(int argc, char **argv)
     failed |= make(argv[1], "avenue.gltf", avenue_write);
     failed |= make(argv[1], "desk.gltf", desk_write);
     failed |= make(argv[1], "room.gltf", room_write);
+    failed |= make(argv[1], "fence.gltf", fence_write);
     return failed ? 1 : 0;
 }

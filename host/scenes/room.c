@@ -105,7 +105,7 @@ static void add_chair(gltf_document *d, size_t mesh, mesh_point at, double yaw_d
 static void add_seats(gltf_document *d)
 {
     static mesh_builder table, chair;
-    size_t beech = gltf_add_material(d, "beech", (double[]){0.62, 0.42, 0.24}, NULL);
+    size_t beech = gltf_add_material(d, "beech", (double[]){0.4, 0.26, 0.14}, NULL);
     size_t red = gltf_add_material(d, "red", (double[]){0.52, 0.13, 0.09}, NULL);
     make_table(&table);
     gltf_add_node(d, "table", "\"mesh\": %zu, \"translation\": [0.15, 0, -0.35]",
@@ -251,7 +251,7 @@ static void add_lamp(gltf_document *d)
                                        &(gltf_light_text){.name = "lamp",
                                                           .kind = GLTF_POINT,
                                                           .rgb = {1, 0.88, 0.7},
-                                                          .intensity = 9,
+                                                          .intensity = 7.5,
                                                           .range = 8,
                                                           .knobs = "\"near\": 0.05, \"bias_normal\": 1"});
     gltf_add_node(d, "hanging lamp", "\"mesh\": %zu, \"translation\": [%g, %g, %g], \"children\": [%zu]",

@@ -18,5 +18,6 @@ int sundial_write(FILE *file);
 int avenue_write(FILE *file);
 int desk_write(FILE *file);
 int room_write(FILE *file);
+int fence_write(FILE *file);
 
 #endif
