@@ -25,5 +25,6 @@ int main(int argc, char **argv)
     failed |= make(argv[1], "desk.gltf", desk_write);
     failed |= make(argv[1], "room.gltf", room_write);
     failed |= make(argv[1], "fence.gltf", fence_write);
+    failed |= make(argv[1], "mixed.gltf", mixed_write);
     return failed ? 1 : 0;
 }

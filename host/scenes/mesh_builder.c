@@ -72,6 +72,16 @@ mesh_frame mesh_frame_at(mesh_point origin, double yaw_deg, double tip_deg)
     return (mesh_frame){origin, {cy, 0, -sy}, {sy * st, ct, cy * st}, {sy * ct, -st, cy * ct}};
 }
 
+void mesh_repaint(mesh_builder *m, void (*paint)(mesh_point at, double *rgb))
+{
+    for (size_t i = 0; i < m->n_vertices; i++) {
+        const float *p = m->vertex[i].pos;
+        double rgb[3];
+        paint((mesh_point){(double)p[0], (double)p[1], (double)p[2]}, rgb);
+        for (int k = 0; k < 3; k++) m->vertex[i].rgb[k] = (float)mesh_on_grid(rgb[k]);
+    }
+}
+
 static void store(float *out, mesh_point p)
 {
     out[0] = (float)mesh_on_grid(p.x);

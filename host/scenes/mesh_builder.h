@@ -59,6 +59,9 @@ mesh_point mesh_unit(mesh_point a);
 void mesh_begin(mesh_builder *m, unsigned attributes);
 void mesh_paint(mesh_builder *m, double r, double g, double b);
 
+/* Paints every vertex that is there by its position. */
+void mesh_repaint(mesh_builder *m, void (*paint)(mesh_point at, double *rgb));
+
 /* What is added next stands there; mesh_begin puts it at the origin. */
 void mesh_place(mesh_builder *m, mesh_frame place);
 /* Tipped from +Y towards +Z first, then turned from +Z towards +X. */

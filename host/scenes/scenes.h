@@ -19,5 +19,6 @@ int avenue_write(FILE *file);
 int desk_write(FILE *file);
 int room_write(FILE *file);
 int fence_write(FILE *file);
+int mixed_write(FILE *file);
 
 #endif
