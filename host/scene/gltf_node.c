@@ -102,6 +102,7 @@ static bool place_node(gltf *g, gltf_node *node)
         const gltf_node *parent = &g->node[node->parent];
         node->world = affine_multiply(&parent->world, &local);
         node->in_scene = parent->in_scene;
+        node->moves = node->moves || parent->moves;
     }
     return affine_is_finite(&node->world) || gltf_fail(g, node->json, "the transform is too large");
 }

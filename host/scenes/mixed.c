@@ -9,7 +9,7 @@
 
 enum { MOON_CHANNEL, SPOT_CHANNEL, LANTERN_CHANNEL, N_MIXED };
 
-static const mesh_point to_moon = {-0.56, 0.62, -0.38}; /* not of unit length */
+static const mesh_point to_moon = {-0.52, 0.66, -0.47}; /* not of unit length */
 static const mesh_point spot_at = {1.75, 1.37, -1.25}, spot_aim = {0.5, 0, 0.5}, lantern_at = {-1.15, 0.95, 0.75};
 static const mesh_point mill = {-1.9, 0, -2.6}, hub = {-1.9, 2.75, -1.62};
 static const double light_near = 0.12;
@@ -30,8 +30,8 @@ static void paint_ground(mesh_point at, double *rgb)
 /* A grid, for the masks. */
 static void make_ground(mesh_builder *m)
 {
-    enum { N_X = 15, N_Z = 11 };
-    const double x0 = -6.6, z0 = -7, pitch = 0.9;
+    enum { N_X = 13, N_Z = 9 };
+    const double x0 = -6.6, z0 = -6.8, pitch = 1.05;
     mesh_begin(m, MESH_NORMALS | MESH_COLOURS);
     for (int j = 0; j < N_Z; j++) {
         for (int i = 0; i < N_X; i++) {
@@ -246,13 +246,13 @@ static void add_lights(gltf_document *d)
     gltf_add_light_node(d, (mesh_point){0, 0, 0}, gltf_look(mesh_scale(to_moon, -1)),
                         &(gltf_light_text){.name = "moon",
                                            .rgb = {0.62, 0.76, 1},
-                                           .intensity = 1.9,
+                                           .intensity = 2.2,
                                            .knobs = "\"mode\": \"mixed\", \"mask_channel\": 0, \"bias_normal\": 0.8"});
     gltf_add_light_node(d, spot_at, gltf_look(mesh_sub(spot_aim, spot_at)),
                         &(gltf_light_text){.name = "yard lamp",
                                            .kind = GLTF_SPOT,
                                            .rgb = {1, 0.84, 0.58},
-                                           .intensity = 12,
+                                           .intensity = 8,
                                            .range = 5,
                                            .inner_deg = 26,
                                            .outer_deg = 44,

@@ -55,8 +55,8 @@ static inline int has_note(const char *part)
 
 static inline int is_empty(void)
 {
-    return !s.meshes && !s.objects && !s.lights && !s.settings && !s.notes &&
-           s.n_meshes + s.n_objects + s.n_lights + s.n_notes == 0;
+    return !s.meshes && !s.textures && !s.objects && !s.lights && !s.settings && !s.notes &&
+           s.n_meshes + s.n_objects + s.n_lights + s.n_textures + s.n_notes == 0;
 }
 
 /* The load failed, for the reason expected, in one line. */
@@ -92,6 +92,30 @@ static inline const char *without_animation(const char *text)
     return replaced(text, at ? "\"animations\":" : "", "\"unused\":");
 }
 
+static unsigned last_texels; /* read for the sanitizer's sake */
+
+static inline int texture_is_sound(const scene_texture *t)
+{
+    int w = t->width, h = t->height;
+    int ok = t->name && w >= 1 && w <= 4096 && (w & (w - 1)) == 0 && h >= 1 && h <= 4096 && (h & (h - 1)) == 0 && t->rgba;
+    if (ok) last_texels += t->rgba[(size_t)w * (size_t)h * 4 - 1];
+    return ok;
+}
+
+static inline int object_is_sound(const scene_object *o)
+{
+    if (!o->name || o->mesh_idx >= s.n_meshes) return 0;
+    const scene_mesh *m = &s.meshes[o->mesh_idx];
+    int ok = (o->texture_idx == SCENE_NONE || (o->texture_idx < s.n_textures && m->uv)) &&
+             (o->mask_texture_idx == SCENE_NONE || (o->mask_texture_idx < s.n_textures && m->mask_uv));
+    for (size_t k = 0; k < 2 * m->n_vertices; k++) {
+        ok = ok && (!m->uv || isfinite(m->uv[k])) && (!m->mask_uv || (m->mask_uv[k] >= 0 && m->mask_uv[k] <= 1));
+    }
+    for (size_t k = 0; o->baked && k < 3 * m->n_vertices; k++) ok = ok && o->baked[k] >= 0 && isfinite(o->baked[k]);
+    return ok && o->alpha >= 0 && o->alpha <= 1 && o->alpha_cutoff >= 0 && o->alpha_cutoff <= 1 && o->specular[0] >= 0 &&
+           o->specular[0] <= 1 && o->shininess_log2 >= 0 && o->shininess_log2 <= 7;
+}
+
 /* What the engines may rely on, whatever the file was. */
 static inline void check_invariants(void)
 {
@@ -105,7 +129,8 @@ static inline void check_invariants(void)
             if (m->nrm && k % 3 == 0) ok = ok && fabs(hypot(hypot(m->nrm[k], m->nrm[k + 1]), m->nrm[k + 2]) - 1) < 1e-9;
         }
     }
-    for (size_t i = 0; i < s.n_objects; i++) ok = ok && s.objects[i].mesh_idx < s.n_meshes && s.objects[i].name;
+    for (size_t i = 0; i < s.n_objects; i++) ok = ok && object_is_sound(&s.objects[i]);
+    for (size_t i = 0; i < s.n_textures; i++) ok = ok && texture_is_sound(&s.textures[i]);
     for (size_t i = 0; i < s.n_lights; i++) {
         const scene_light *l = &s.lights[i];
         const double *d = l->direction;
@@ -118,6 +143,42 @@ static inline void check_invariants(void)
             ok = ok && l->inner >= 0 && l->inner <= l->outer && l->outer * 360 >= 1 && l->outer * 360 <= 179;
     }
     CHECK(ok);
+}
+
+static inline size_t put_base64(char *out, const uint8_t *bytes, size_t n)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    size_t n_out = 0;
+    for (size_t i = 0; i < n; i += 3) {
+        uint32_t bits = (uint32_t)bytes[i] << 16 | (i + 1 < n ? (uint32_t)bytes[i + 1] << 8 : 0) | (i + 2 < n ? bytes[i + 2] : 0);
+        for (int k = 0; k < 4; k++) out[n_out++] = i + (size_t)k > n ? '=' : digits[bits >> (18 - 6 * k) & 63];
+    }
+    out[n_out] = '\0';
+    return n_out;
+}
+
+/* Bytes that matter to the grammars come up more often than chance would have them. */
+static inline uint8_t random_byte(void)
+{
+    static const char telling[] = "0123456789-+.eE{}[],:\"\\/ \nfvn#";
+    uint32_t r = random_u32();
+    return r & 1 ? (uint8_t)telling[(r >> 8) % (sizeof telling - 1)] : (uint8_t)(r >> 8);
+}
+
+static inline void fuzz(const char *path, const void *valid, size_t n, int n_rounds)
+{
+    static uint8_t bytes[16384];
+    for (int i = 0; i < n_rounds; i++) {
+        memcpy(bytes, valid, n);
+        for (uint32_t k = random_u32() % 4; k < 4; k++) bytes[random_u32() % n] = random_byte();
+        write_file(path, bytes, n);
+        const scene_options options = {
+            .frame = (int)(random_u32() % 9), .width = 64, .height = 48, .ground = i & 1, .smooth = (i & 2) != 0};
+        if (load(path, &options) == 0) {
+            check_invariants();
+            scene_free(&s);
+        } else CHECK(is_empty() && error[0]);
+    }
 }
 
 /* A quad in the xy plane with everything on it. Sizes and offsets of the buffer's parts stand in base_json. */
