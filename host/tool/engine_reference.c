@@ -48,13 +48,14 @@ int engine_reference(engine_picture *out, const scene *s, const settings *set, i
                      size_t error_bytes)
 {
     ref_picture ref;
-    ref_options options = {width, height, set->quality.atlas_size, set->quality.srgb != 0};
+    ref_options options = {
+        .width = width, .height = height, .atlas_size = set->quality.atlas_size, .srgb = set->quality.srgb != 0};
     memset(out, 0, sizeof *out);
     if (ref_render(&ref, s, &options, error, error_bytes)) return -1;
     size_t n = (size_t)width * (size_t)height;
     out->width = width;
     out->height = height;
-    out->n_lights = ref.n_lights;
+    out->n_lights = ref.n_lights < ENGINE_LIGHTS_MAX ? ref.n_lights : ENGINE_LIGHTS_MAX;
     out->n_cascades = s->shadow.n_cascades;
     out->rgb8 = malloc(3 * n);
     out->rgb565 = malloc(2 * n);
