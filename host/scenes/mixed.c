@@ -30,8 +30,8 @@ static void paint_ground(mesh_point at, double *rgb)
 /* A grid, for the masks. */
 static void make_ground(mesh_builder *m)
 {
-    enum { N_X = 13, N_Z = 9 };
-    const double x0 = -6.6, z0 = -6.8, pitch = 1.05;
+    enum { N_X = 11, N_Z = 8 };
+    const double x0 = -6.6, z0 = -6.8, pitch = 1.3;
     mesh_begin(m, MESH_NORMALS | MESH_COLOURS);
     for (int j = 0; j < N_Z; j++) {
         for (int i = 0; i < N_X; i++) {
@@ -113,7 +113,7 @@ static void make_wall(mesh_builder *m)
 
 static void make_crates(mesh_builder *crates, mesh_builder *barrel)
 {
-    static const mesh_profile staves[] = {{0, 0}, {0.24, 0}, {0.3, 0.36}, {0.24, 0.72}, {0.21, 0.72}, {0.21, 0.68}, {0, 0.68}};
+    static const mesh_profile staves[] = {{0, 0}, {0.24, 0}, {0.3, 0.36}, {0.24, 0.72}, {0, 0.7}};
     mesh_begin(crates, MESH_NORMALS);
     mesh_place(crates, mesh_frame_at((mesh_point){1.3, 0, -0.35}, 20, 0));
     mesh_box(crates, (mesh_point){-0.28, 0, -0.28}, (mesh_point){0.28, 0.5, 0.28});
@@ -174,7 +174,7 @@ static void add_yard(gltf_document *d, const yard *y)
 /* Four arms about +Z, each with a frame of laths to one side. */
 static void make_sails(mesh_builder *m)
 {
-    enum { N_ARMS = 4, N_LATHS = 3 };
+    enum { N_ARMS = 4, N_LATHS = 2 };
     const double length = 1.75, spar = 0.04, width = 0.36, thick = 0.015;
     mesh_begin(m, MESH_NORMALS);
     for (int i = 0; i < N_ARMS; i++) {
@@ -183,8 +183,8 @@ static void make_sails(mesh_builder *m)
         mesh_place(m, (mesh_frame){{0, 0, 0}, out, up, {0, 0, 1}});
         mesh_box(m, (mesh_point){-spar, 0.1, -spar}, (mesh_point){spar, length, spar});
         for (int k = 0; k < N_LATHS; k++) {
-            double low = 0.42 + 0.44 * k;
-            mesh_box(m, (mesh_point){spar, low, -thick}, (mesh_point){width, low + 0.36, thick});
+            double low = 0.42 + 0.67 * k;
+            mesh_box(m, (mesh_point){spar, low, -thick}, (mesh_point){width, low + 0.59, thick});
         }
     }
     mesh_place(m, mesh_frame_at((mesh_point){0, 0, 0}, 0, 0));
@@ -223,10 +223,10 @@ static void add_glows(gltf_document *d)
     size_t amber = gltf_add_material(d, "window", (double[]){1, 0.6, 0.22}, "\"unlit\": 1, \"caster\": \"off\"");
     size_t cold = gltf_add_material(d, "loft", (double[]){0.35, 0.8, 0.75}, "\"unlit\": 1, \"caster\": \"off\"");
     mesh_begin(&lantern, MESH_NORMALS);
-    mesh_ball(&lantern, lantern_at, 0.085, 4, 8);
+    mesh_ball(&lantern, lantern_at, 0.085, 4, 6);
     gltf_add_object(d, "lantern", &lantern, warm);
     mesh_begin(&lamp, MESH_NORMALS);
-    mesh_ball(&lamp, spot_at, 0.06, 4, 6);
+    mesh_ball(&lamp, spot_at, 0.06, 3, 6);
     gltf_add_object(d, "lamp", &lamp, warm);
     mesh_begin(&window, MESH_FACE_NORMALS);
     add_pane(&window, (mesh_point){2.95, 0.95, cottage_z1 + off}, (mesh_point){0.3, 0, 0}, (mesh_point){0, 0.28, 0});
@@ -247,23 +247,25 @@ static void add_lights(gltf_document *d)
                         &(gltf_light_text){.name = "moon",
                                            .rgb = {0.62, 0.76, 1},
                                            .intensity = 2.2,
-                                           .knobs = "\"mode\": \"mixed\", \"mask_channel\": 0, \"bias_normal\": 0.8"});
-    gltf_add_light_node(d, spot_at, gltf_look(mesh_sub(spot_aim, spot_at)),
-                        &(gltf_light_text){.name = "yard lamp",
-                                           .kind = GLTF_SPOT,
-                                           .rgb = {1, 0.84, 0.58},
-                                           .intensity = 8,
-                                           .range = 5,
-                                           .inner_deg = 26,
-                                           .outer_deg = 44,
-                                           .knobs = "\"mode\": \"mixed\", \"mask_channel\": 1, \"near\": 0.12"});
-    gltf_add_light_node(d, lantern_at, upright,
-                        &(gltf_light_text){.name = "lantern",
-                                           .kind = GLTF_POINT,
-                                           .rgb = {1, 0.58, 0.24},
-                                           .intensity = 3.4,
-                                           .range = 2.6,
-                                           .knobs = "\"mode\": \"mixed\", \"mask_channel\": 2, \"near\": 0.12"});
+                                           .knobs = "\"mode\": \"mixed\", \"mask_channel\": 0, \"bias_normal\": 0.6"});
+    gltf_add_light_node(
+        d, spot_at, gltf_look(mesh_sub(spot_aim, spot_at)),
+        &(gltf_light_text){.name = "yard lamp",
+                           .kind = GLTF_SPOT,
+                           .rgb = {1, 0.84, 0.58},
+                           .intensity = 8,
+                           .range = 5,
+                           .inner_deg = 26,
+                           .outer_deg = 44,
+                           .knobs = "\"mode\": \"mixed\", \"mask_channel\": 1, \"near\": 0.12, \"bias_normal\": 0.5"});
+    gltf_add_light_node(
+        d, lantern_at, upright,
+        &(gltf_light_text){.name = "lantern",
+                           .kind = GLTF_POINT,
+                           .rgb = {1, 0.58, 0.24},
+                           .intensity = 3.4,
+                           .range = 2.6,
+                           .knobs = "\"mode\": \"mixed\", \"mask_channel\": 2, \"near\": 0.12, \"bias_normal\": 0.5"});
     gltf_add_light_node(d, (mesh_point){2.95, 0.9, cottage_z1 + 0.35}, upright,
                         &(gltf_light_text){.name = "window glow",
                                            .kind = GLTF_POINT,
@@ -287,8 +289,8 @@ int mixed_write(FILE *file)
     static const gltf_scene_text text = {
         .comment = "A mill at night: a directional light, a spot and a point light with baked masks, two small point lights "
                    "without shadows. The sails make a quarter turn over 48 frames.",
-        .settings = "\"max_distance\": 10.5, \"distance_fade\": 0.3, \"filter\": \"3x3\", \"atlas_size\": 256, "
-                    "\"other_atlas_size\": 256, \"cascades\": 2, \"cascade_ratios\": [0.6], \"mixing\": \"distance\", "
+        .settings = "\"max_distance\": 10.5, \"distance_fade\": 0.3, \"filter\": \"3x3\", \"atlas_size\": 512, "
+                    "\"other_atlas_size\": 512, \"cascades\": 2, \"cascade_ratios\": [0.6], \"mixing\": \"distance\", "
                     "\"ambient\": [0.035, 0.045, 0.075], \"background\": [0.012, 0.02, 0.05]",
     };
     gltf_begin(&d);
@@ -307,7 +309,7 @@ int mixed_write(FILE *file)
                                        .near_distance = 1.5,
                                        .far_distance = 20,
                                        .target = {0.42, 1.0, -1.1},
-                                       .distance = 8,
+                                       .distance = 8.2,
                                        .yaw_deg = 8,
                                        .pitch_deg = -19});
     return gltf_write(&d, &text, file);

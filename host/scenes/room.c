@@ -18,7 +18,7 @@ static void make_wall(mesh_builder *m, mesh_point a, mesh_point b, mesh_point c,
 /* Boards from the front to the back, each its own shade. */
 static void make_floor(mesh_builder *m)
 {
-    enum { N_BOARDS = 11 };
+    enum { N_BOARDS = 9 };
     mesh_begin(m, MESH_COLOURS);
     for (int i = 0; i < N_BOARDS; i++) {
         double x0 = left + (right - left) * i / N_BOARDS, x1 = left + (right - left) * (i + 1) / N_BOARDS;
@@ -122,7 +122,7 @@ static void make_shelf(mesh_builder *m)
     mesh_begin(m, MESH_FACE_NORMALS);
     mesh_box(m, (mesh_point){-x, 0, -z}, (mesh_point){-x + board, top, z});
     mesh_box(m, (mesh_point){x - board, 0, -z}, (mesh_point){x, top, z});
-    mesh_box(m, (mesh_point){-x + board, 0.06, -z}, (mesh_point){x - board, top, -z + board});
+    mesh_box(m, (mesh_point){-x + board, 0.03, -z}, (mesh_point){x - board, top - 0.01, -z + board});
     for (int i = 0; i < 5; i++) {
         double y = 0.06 + (top - 0.06 - board) * i / 4;
         mesh_box(m, (mesh_point){-x + board, y, -z + board}, (mesh_point){x - board, y + board, z});
@@ -138,7 +138,7 @@ static void make_books(mesh_builder *m)
     } block[] = {{0, -0.36, 0.3, 0.3, {0.3, 0.2, 0.12}},    {0, 0.0, 0.2, 0.26, {0.12, 0.22, 0.3}},
                  {1, -0.3, 0.16, 0.28, {0.5, 0.36, 0.12}},  {1, -0.14, 0.24, 0.24, {0.2, 0.3, 0.2}},
                  {2, -0.36, 0.22, 0.25, {0.14, 0.2, 0.36}}, {2, 0.06, 0.26, 0.3, {0.45, 0.12, 0.1}},
-                 {3, -0.2, 0.3, 0.27, {0.28, 0.26, 0.22}},  {3, 0.1, 0.1, 0.22, {0.55, 0.45, 0.2}}};
+                 {3, -0.2, 0.3, 0.27, {0.28, 0.26, 0.22}}};
     const double board = 0.025, top = 1.85, z0 = -0.1, z1 = 0.1;
     mesh_begin(m, MESH_COLOURS);
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) {
@@ -153,11 +153,11 @@ static void make_stand(mesh_builder *m)
 {
     enum { N_ARMS = 4 };
     mesh_begin(m, MESH_NORMALS);
-    mesh_rod(m, (mesh_point){0, 0.04, 0}, (mesh_point){0, 1.75, 0}, 0.02, 6);
+    mesh_rod(m, (mesh_point){0, 0.04, 0}, (mesh_point){0, 1.75, 0}, 0.028, 6);
     for (int i = 0; i < N_ARMS; i++) {
         double angle = 2 * MESH_PI * (i + 0.2) / N_ARMS, c = cos(angle), s = sin(angle);
-        mesh_rod(m, (mesh_point){0, 1.5, 0}, (mesh_point){0.17 * c, 1.66, 0.17 * s}, 0.013, 5);
-        mesh_rod(m, (mesh_point){0, 0.16, 0}, (mesh_point){0.24 * c, 0.014, 0.24 * s}, 0.014, 5);
+        mesh_rod(m, (mesh_point){0, 1.5, 0}, (mesh_point){0.19 * c, 1.66, 0.19 * s}, 0.02, 4);
+        mesh_rod(m, (mesh_point){0, 0.16, 0}, (mesh_point){0.24 * c, 0.02, 0.24 * s}, 0.02, 4);
     }
 }
 
@@ -246,14 +246,14 @@ static void add_lamp(gltf_document *d)
     mesh_lathe(&hood, sheet, sizeof sheet / sizeof *sheet, 12);
     mesh_rod(&hood, (mesh_point){0, 0.15, 0}, (mesh_point){0, height - 0.13 - bulb_at.y, 0}, 0.008, 5);
     mesh_begin(&bulb, MESH_NORMALS);
-    mesh_ball(&bulb, (mesh_point){0, 0, 0}, 0.045, 5, 8);
+    mesh_ball(&bulb, (mesh_point){0, 0, 0}, 0.045, 4, 7);
     size_t light = gltf_add_light_node(d, (mesh_point){0, 0, 0}, (gltf_rotation){0, 0, 0, 1},
                                        &(gltf_light_text){.name = "lamp",
                                                           .kind = GLTF_POINT,
                                                           .rgb = {1, 0.88, 0.7},
                                                           .intensity = 7.5,
                                                           .range = 8,
-                                                          .knobs = "\"near\": 0.05, \"bias_normal\": 1"});
+                                                          .knobs = "\"near\": 0.05, \"bias_normal\": 0.4"});
     gltf_add_node(d, "hanging lamp", "\"mesh\": %zu, \"translation\": [%g, %g, %g], \"children\": [%zu]",
                   gltf_add_mesh(d, "hanging lamp", (gltf_surface[]){{&hood, tin}, {&bulb, glow}}, 2), bulb_at.x, bulb_at.y,
                   bulb_at.z, light);
