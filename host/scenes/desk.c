@@ -113,15 +113,16 @@ static void make_apple(mesh_builder *m)
     mesh_ball(m, (mesh_point){0, 0.036, 0}, 0.036, 6, 10);
 }
 
-/* Four bars, butted, and the picture between them. */
+/* Two posts, two bars that stand back a step, and the picture between them. */
 static void make_picture(mesh_builder *frame, mesh_builder *picture)
 {
-    const double x0 = 0.08, x1 = 0.36, y0 = 0.3, y1 = 0.5, bar = 0.022, z0 = wall_z, z1 = wall_z + 0.022, back = wall_z + 0.006;
+    const double x0 = 0.08, x1 = 0.36, y0 = 0.3, y1 = 0.5, bar = 0.022, z0 = wall_z, z1 = wall_z + 0.022, back = wall_z + 0.006,
+                 step = 0.002;
     mesh_begin(frame, MESH_FACE_NORMALS);
     mesh_box(frame, (mesh_point){x0, y0, z0}, (mesh_point){x0 + bar, y1, z1});
     mesh_box(frame, (mesh_point){x1 - bar, y0, z0}, (mesh_point){x1, y1, z1});
-    mesh_box(frame, (mesh_point){x0 + bar, y0, z0}, (mesh_point){x1 - bar, y0 + bar, z1});
-    mesh_box(frame, (mesh_point){x0 + bar, y1 - bar, z0}, (mesh_point){x1 - bar, y1, z1});
+    mesh_box(frame, (mesh_point){x0 + bar, y0 + step, z0}, (mesh_point){x1 - bar, y0 + bar, z1 - step});
+    mesh_box(frame, (mesh_point){x0 + bar, y1 - bar, z0}, (mesh_point){x1 - bar, y1 - step, z1 - step});
     const double left = x0 + bar, right = x1 - bar, low = y0 + bar, high = y1 - bar, shore = low + 0.07;
     mesh_begin(picture, MESH_COLOURS);
     mesh_paint(picture, 0.12, 0.3, 0.42); /* the sea */
@@ -136,11 +137,12 @@ static void add_still_life(gltf_document *d)
 {
     static mesh_builder books, china, coffee, pot, pencils, apple, paper;
     size_t cloth = gltf_add_material(d, "book", (double[]){1, 1, 1}, NULL);
-    size_t glaze = gltf_add_material(d, "glaze", (double[]){0.78, 0.8, 0.82}, NULL);
+    size_t glaze = gltf_add_material(d, "glaze", (double[]){0.74, 0.76, 0.78}, "\"specular\": [0.25, 0.25, 0.25]");
     size_t brew = gltf_add_material(d, "coffee", (double[]){0.06, 0.03, 0.015}, NULL);
     size_t tin = gltf_add_material(d, "tin", (double[]){0.2, 0.42, 0.42}, NULL);
     size_t lacquer = gltf_add_material(d, "pencil", (double[]){1, 1, 1}, NULL);
-    size_t skin = gltf_add_material(d, "apple", (double[]){0.55, 0.1, 0.05}, NULL);
+    size_t skin =
+        gltf_add_material(d, "apple", (double[]){0.55, 0.1, 0.05}, "\"specular\": [0.15, 0.15, 0.15], \"shininess_log2\": 4");
     size_t sheet = gltf_add_material(d, "paper", (double[]){0.85, 0.84, 0.8}, "\"casts\": 0");
     make_books(&books);
     gltf_add_node(d, "books", "\"mesh\": %zu, \"translation\": [0.42, 0, -0.12]",

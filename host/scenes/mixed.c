@@ -199,7 +199,7 @@ static void add_sails(gltf_document *d)
     const double start_deg = 22;
     const gltf_rotation keys[3] = {gltf_turn(z_axis, start_deg), gltf_turn(z_axis, start_deg + 45),
                                    gltf_turn(z_axis, start_deg + 90)};
-    size_t canvas = gltf_add_material(d, "sails", (double[]){0.62, 0.56, 0.46}, NULL);
+    size_t canvas = gltf_add_material(d, "sails", (double[]){0.62, 0.56, 0.46}, "\"moving\": 1");
     make_sails(&sails);
     size_t node =
         gltf_add_node(d, "sails", "\"mesh\": %zu, \"translation\": [%g, %g, %g], \"rotation\": [0, 0, %.6g, %.6g]",

@@ -89,9 +89,9 @@ static void make_chair(mesh_builder *m)
         double x = side * half;
         mesh_box(m, (mesh_point){x - leg, seat + 0.035, -half - leg}, (mesh_point){x + leg, top, -half + leg});
     }
-    for (int i = 0; i < 3; i++) {
-        double y = 0.58 + 0.13 * i;
-        mesh_box(m, (mesh_point){-half + leg, y, -half - leg / 2}, (mesh_point){half - leg, y + 0.07, -half + leg / 2});
+    for (int i = 0; i < 2; i++) {
+        double y = 0.62 + 0.18 * i;
+        mesh_box(m, (mesh_point){-half + leg, y, -half - leg / 2}, (mesh_point){half - leg, y + 0.1, -half + leg / 2});
     }
 }
 
@@ -136,7 +136,7 @@ static void make_books(mesh_builder *m)
         int level;
         double x, width, height, rgb[3];
     } block[] = {{0, -0.36, 0.3, 0.3, {0.3, 0.2, 0.12}},    {0, 0.0, 0.2, 0.26, {0.12, 0.22, 0.3}},
-                 {1, -0.3, 0.16, 0.28, {0.5, 0.36, 0.12}},  {1, -0.14, 0.24, 0.24, {0.2, 0.3, 0.2}},
+                 {1, -0.3, 0.16, 0.28, {0.5, 0.36, 0.12}},  {1, -0.13, 0.24, 0.24, {0.2, 0.3, 0.2}},
                  {2, -0.36, 0.22, 0.25, {0.14, 0.2, 0.36}}, {2, 0.06, 0.26, 0.3, {0.45, 0.12, 0.1}},
                  {3, -0.2, 0.3, 0.27, {0.28, 0.26, 0.22}}};
     const double board = 0.025, top = 1.85, z0 = -0.1, z1 = 0.1;
@@ -151,13 +151,13 @@ static void make_books(mesh_builder *m)
 /* In the corner, where the seam between two cube faces runs down: pole, arms and feet. */
 static void make_stand(mesh_builder *m)
 {
-    enum { N_ARMS = 4 };
+    enum { N_ARMS = 3 };
     mesh_begin(m, MESH_NORMALS);
     mesh_rod(m, (mesh_point){0, 0.04, 0}, (mesh_point){0, 1.75, 0}, 0.028, 6);
     for (int i = 0; i < N_ARMS; i++) {
         double angle = 2 * MESH_PI * (i + 0.2) / N_ARMS, c = cos(angle), s = sin(angle);
-        mesh_rod(m, (mesh_point){0, 1.5, 0}, (mesh_point){0.19 * c, 1.66, 0.19 * s}, 0.02, 4);
-        mesh_rod(m, (mesh_point){0, 0.16, 0}, (mesh_point){0.24 * c, 0.02, 0.24 * s}, 0.02, 4);
+        mesh_rod(m, (mesh_point){0, 1.5 + 0.01 * i, 0}, (mesh_point){0.19 * c, 1.66, 0.19 * s}, 0.02, 4);
+        mesh_rod(m, (mesh_point){0, 0.16 + 0.01 * i, 0}, (mesh_point){0.24 * c, 0.02, 0.24 * s}, 0.02, 4);
     }
 }
 
@@ -198,17 +198,18 @@ static void add_furniture(gltf_document *d)
                   gltf_add_mesh(d, "vase", &(gltf_surface){&vase, glaze}, 1));
 }
 
-/* Four bars, butted, a cross of two, and the night behind. On the back wall. */
+/* Posts, bars that stand back a step, and the night behind. On the back wall. */
 static void add_window(gltf_document *d)
 {
     static mesh_builder frame, pane;
-    const double x0 = -0.75, x1 = 0.45, y0 = 1.05, y1 = 2.0, bar = 0.06, z = back, z1 = back + 0.05, middle = (x0 + x1) / 2;
+    const double x0 = -0.75, x1 = 0.45, y0 = 1.05, y1 = 2.0, bar = 0.06, z = back, z1 = back + 0.05, middle = (x0 + x1) / 2,
+                 step = 0.004;
     size_t white = gltf_add_material(d, "window", (double[]){0.7, 0.68, 0.62}, NULL);
     size_t night = gltf_add_material(d, "night", (double[]){0.02, 0.03, 0.08}, "\"unlit\": 1, \"casts\": 0");
     mesh_begin(&frame, MESH_FACE_NORMALS);
     mesh_box(&frame, (mesh_point){x0, y0, z}, (mesh_point){x0 + bar, y1, z1});
     mesh_box(&frame, (mesh_point){x1 - bar, y0, z}, (mesh_point){x1, y1, z1});
-    mesh_box(&frame, (mesh_point){x0 + bar, y1 - bar, z}, (mesh_point){x1 - bar, y1, z1});
+    mesh_box(&frame, (mesh_point){x0 + bar, y1 - bar, z}, (mesh_point){x1 - bar, y1 - step, z1 - step});
     mesh_box(&frame, (mesh_point){x0 - 0.04, y0 - 0.04, z}, (mesh_point){x1 + 0.04, y0, z1 + 0.06});
     mesh_box(&frame, (mesh_point){middle - bar / 3, y0, z}, (mesh_point){middle + bar / 3, y1 - bar, z1 - 0.015});
     gltf_add_object(d, "window", &frame, white);
@@ -221,15 +222,15 @@ static void add_window(gltf_document *d)
 static void add_door(gltf_document *d)
 {
     static mesh_builder frame, leaf;
-    const double z0 = -1.15, z1 = -0.25, top = 2.05, bar = 0.08, x = right;
+    const double z0 = -1.15, z1 = -0.25, top = 2.05, bar = 0.08, x = right, step = 0.004;
     size_t wood = gltf_add_material(d, "door frame", (double[]){0.34, 0.22, 0.13}, NULL);
     size_t green = gltf_add_material(d, "door", (double[]){0.2, 0.3, 0.24}, NULL);
     mesh_begin(&frame, MESH_FACE_NORMALS);
     mesh_box(&frame, (mesh_point){x - 0.06, 0, z0}, (mesh_point){x, top, z0 + bar});
     mesh_box(&frame, (mesh_point){x - 0.06, 0, z1 - bar}, (mesh_point){x, top, z1});
-    mesh_box(&frame, (mesh_point){x - 0.06, top - bar, z0 + bar}, (mesh_point){x, top, z1 - bar});
+    mesh_box(&frame, (mesh_point){x - 0.06 + step, top - bar, z0 + bar}, (mesh_point){x, top - step, z1 - bar});
     mesh_begin(&leaf, MESH_FACE_NORMALS);
-    mesh_box(&leaf, (mesh_point){x - 0.02, 0, z0 + bar}, (mesh_point){x, top - bar, z1 - bar});
+    mesh_box(&leaf, (mesh_point){x - 0.02, 0, z0 + bar}, (mesh_point){x, top - bar - step, z1 - bar});
     mesh_box(&leaf, (mesh_point){x - 0.06, 0.98, z1 - bar - 0.12}, (mesh_point){x - 0.02, 1.01, z1 - bar - 0.03});
     gltf_add_object(d, "door frame", &frame, wood);
     gltf_add_object(d, "door", &leaf, green);
