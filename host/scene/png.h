@@ -1,4 +1,4 @@
-/* PNG files: 8-bit RGB out; every kind in. 16 bits are rounded to 8; gamma and colour profiles are ignored: it is all sRGB. */
+/* PNG files: 8-bit RGB and RGBA out; every kind in. 16 bits are rounded to 8; gamma and colour profiles are ignored: it is all sRGB. */
 #ifndef GNOMON_HOST_PNG_H
 #define GNOMON_HOST_PNG_H
 

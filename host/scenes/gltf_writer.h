@@ -1,7 +1,7 @@
 /* Writes glTF 2.0 as one readable JSON file, the buffer inside as base64.
  *
  * A document is filled from the leaves up: materials, meshes, nodes, and last the scene. Everything that is added is turned into
- * text at once; indices are counted here. Nothing is allocated. What does not fit sets `overflow`, and gltf_write refuses. */
+ * text at once; indices are counted here. Nothing stays allocated. What does not fit sets `overflow`, and gltf_write refuses. */
 #ifndef GNOMON_HOST_GLTF_WRITER_H
 #define GNOMON_HOST_GLTF_WRITER_H
 

@@ -217,11 +217,11 @@ static void add_pane(mesh_builder *m, mesh_point middle, mesh_point across, mesh
 /* What glows: bodies of the lamps, which do not cast, and the windows. */
 static void add_glows(gltf_document *d)
 {
-    static mesh_builder lantern, lamp, window, loft;
+    static mesh_builder lantern, lamp, window, hatch;
     const double off = 0.02;
     size_t warm = gltf_add_material(d, "flame", (double[]){1, 0.72, 0.32}, "\"unlit\": 1, \"caster\": \"off\"");
     size_t amber = gltf_add_material(d, "window", (double[]){1, 0.6, 0.22}, "\"unlit\": 1, \"caster\": \"off\"");
-    size_t cold = gltf_add_material(d, "loft", (double[]){0.35, 0.8, 0.75}, "\"unlit\": 1, \"caster\": \"off\"");
+    size_t cold = gltf_add_material(d, "hatch", (double[]){0.35, 0.8, 0.75}, "\"unlit\": 1, \"caster\": \"off\"");
     mesh_begin(&lantern, MESH_NORMALS);
     mesh_ball(&lantern, lantern_at, 0.085, 4, 6);
     gltf_add_object(d, "lantern", &lantern, warm);
@@ -231,13 +231,14 @@ static void add_glows(gltf_document *d)
     mesh_begin(&window, MESH_FACE_NORMALS);
     add_pane(&window, (mesh_point){2.95, 0.95, cottage_z1 + off}, (mesh_point){0.3, 0, 0}, (mesh_point){0, 0.28, 0});
     gltf_add_object(d, "window", &window, amber);
-    mesh_begin(&loft, MESH_FACE_NORMALS);
-    /* In the middle of one of the tower's facets, and tapering with it. */
-    const double angle = 75 * MESH_PI / 180, apothem = 0.9625 * cos(15 * MESH_PI / 180), taper = 0.125 * cos(15 * MESH_PI / 180);
+    mesh_begin(&hatch, MESH_FACE_NORMALS);
+    /* In the middle of one of the tower's facets, tapering with it, and below the sails' reach. */
+    const double y = 0.68, taper = 0.125 * cos(15 * MESH_PI / 180), apothem = 1.1 * cos(15 * MESH_PI / 180) - taper * y;
+    const double angle = 75 * MESH_PI / 180;
     const mesh_point out = {cos(angle), 0, sin(angle)}, across = {0.13 * out.z, 0, -0.13 * out.x};
-    add_pane(&loft, mesh_add((mesh_point){mill.x, 1.1, mill.z}, mesh_scale(out, apothem + off)), across,
+    add_pane(&hatch, mesh_add((mesh_point){mill.x, y, mill.z}, mesh_scale(out, apothem + off)), across,
              (mesh_point){-0.2 * taper * out.x, 0.2, -0.2 * taper * out.z});
-    gltf_add_object(d, "loft", &loft, cold);
+    gltf_add_object(d, "hatch", &hatch, cold);
 }
 
 static void add_lights(gltf_document *d)
@@ -273,8 +274,8 @@ static void add_lights(gltf_document *d)
                                            .intensity = 0.9,
                                            .range = 1.6,
                                            .knobs = "\"shadow\": 0"});
-    gltf_add_light_node(d, (mesh_point){mill.x + 0.36, 1.1, mill.z + 1.25}, upright,
-                        &(gltf_light_text){.name = "loft glow",
+    gltf_add_light_node(d, (mesh_point){mill.x + 0.36, 0.72, mill.z + 1.33}, upright,
+                        &(gltf_light_text){.name = "hatch glow",
                                            .kind = GLTF_POINT,
                                            .rgb = {0.3, 0.85, 0.8},
                                            .intensity = 0.5,
