@@ -423,7 +423,8 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
     if (cascaded) view += sample->cascade;
     int32_t moved[3];
     const int32_t *offset = s->light[slot].flat_offset_q16;
-    if (s->smooth) {
+    int own_offset = GN_DISK_FILTER && view->filter == GN_FILTER_DISK; /* its index, and so its reach, is the cascade's own */
+    if (s->smooth || own_offset) {
         receiver_offset(frame, view, n_q30, moved);
         offset = moved;
     }
@@ -431,6 +432,7 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
     if (!GN_BLENDED_CASCADES || !cascaded || frame->scene->shadow.blend == GN_BLEND_HARD || sample->cascade == frame->last_cascade)
         return;
     view += frame->cascade[sample->cascade].next - sample->cascade;
+    if (own_offset) receiver_offset(frame, view, n_q30, moved);
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
 }
 #endif

@@ -521,16 +521,15 @@ static void test_budget(void)
     } cases[] = {
         {"ssssssssssssssss", "1111111111111111", 16, 32, 0, 1},     /* exactly full */
         {"sssssssssssssssss", "11111111111111110", 16, 1024, 0, 1}, /* the 17th has none */
-        {"sssss", "11110", 16, 16, 0, 1},                           /* tiles of 8 texels at least */
         {"pppss", "66011", 16, 64, 0, 1},                           /* a later smaller one is still served */
         {"ppsssss", "6611110", 16, 64, 0, 1},
         {"pspss", "61000", 16, 64, 7, 1}, /* capacity */
-        {"sps", "101", 16, 16, 0, 1},     /* six or none */
+        {"sps", "101", 16, 16, 4, 1},     /* six or none */
         {"ddddd", "11110", 64, 16, 0, 1},
         {"dddds", "44441", 64, 64, 0, 4}, /* each atlas has its own budget */
         {"ddpd", "3363", 64, 64, 0, 3},
         {"dddds", "44001", 64, 64, 8, 4},
-        {"dd", "40", 16, 16, 0, 4},
+        {"dd", "40", 16, 16, 4, 4},
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         fixture f;
@@ -550,10 +549,30 @@ static void test_budget(void)
     }
 }
 
+/* Tiles of less than 8 texels are an error, whatever the sizes. */
+static void test_tiles_too_small(void)
+{
+    for (int importance = 0; importance < 2; importance++) {
+        fixture f;
+        ref_picture p;
+        char error[200] = "";
+        const ref_options options = {.width = 4, .height = 4, .atlas_size = 16};
+        begin_lights(&f);
+        f.s.shadow.tiles = importance ? SCENE_TILES_IMPORTANCE : SCENE_TILES_EQUAL;
+        add_kinds(&f, "ssss");
+        CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), 0);
+        ref_free(&p);
+        add_kinds(&f, "s");
+        CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);
+        CHECK(strstr(error, "8 texels") != NULL);
+        end(&f);
+    }
+}
+
 /* Who does not ask leaves his place to others. */
 static void test_who_asks(void)
 {
-    const ref_options options = {.width = 4, .height = 4, .atlas_size = 16};
+    const ref_options options = {.width = 4, .height = 4, .atlas_size = 16, .max_other_tiles = 4};
     for (int c = 0; c < 8; c++) {
         fixture f;
         begin_lights(&f);
@@ -860,6 +879,7 @@ int main(void)
     test_no_acne_in_room();
     test_strength_of_punctual();
     test_budget();
+    test_tiles_too_small();
     test_who_asks();
     test_equal_sizes();
     test_importance_sizes();

@@ -132,7 +132,7 @@ static void set_bias(caster_triangle *t, const ref_light_view *view, const scene
     const vec3 normal = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
     const vec2 gradient = ref_depth_gradient(view, normal, p[0]);
     t->bias = light->bias_slope * fmax(fabs(gradient.x), fabs(gradient.y));
-    t->constant = light->bias_constant * view->texel;
+    t->constant = fmin(1.0, light->bias_constant * view->texel);
     if (!view->perspective) t->bias += light->bias_constant;
 }
 
