@@ -75,16 +75,12 @@ static uint32_t limited(const gn_light_view *view, int64_t least_q32)
     return (uint32_t)gn_clamp64(least_q32, 0, gn_texel_far(GN_VIEW_BITS(view)));
 }
 
-/* `least` of any texel. */
-static uint32_t least_at(const lookup *l, int32_t u, int32_t v)
-{
-    return l->sloped ? limited(l->view, l->least_q32 + rise_u(l, u) + rise_v(l, v)) : l->least;
-}
 #define SLOPED(l) ((l)->sloped)
 #else
-#define least_at(l, u, v) ((l)->least)
-#define SLOPED(l)         0
+#define SLOPED(l) 0
 #endif
+
+/* ---- Compares ----------------------------------------------------------------------------------------------------- */
 
 /* Whether n x n texels from (u, v) on lie in the tile and compare with one depth: nothing to look after at each tap. */
 static inline int plain(const lookup *l, int32_t u, int32_t v, int32_t n)
@@ -98,13 +94,40 @@ static inline gn_texels texels_at(const gn_light_view *view, int32_t u, int32_t 
     return gn_texels_at(view->depth, GN_VIEW_BITS(view), ((size_t)(uint32_t)v << view->tile_log2) + (uint32_t)u);
 }
 
-/* Any tap: 0 or 1. Texels are limited to the tile (P8). */
-static uint32_t tap(const lookup *l, int32_t u, int32_t v)
+/* Taps are limited to the tile (P8). */
+static uint32_t lit(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
+{
+    int32_t last = view->tile_texels - 1, in_u = u < 0 ? 0 : u > last ? last : u;
+    if (BORDER_LIT(view) && in_u != u) return 1;
+    return gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)in_u) >= least;
+}
+
+/* Sum of the weights of the texels of row v, n from u on, that let the receiver be lit, wherever they lie. */
+static uint32_t sum_any(const lookup *l, int32_t u, int32_t v, int32_t n, const uint32_t *w)
 {
     const gn_light_view *view = l->view;
-    int32_t last = view->tile_texels - 1, in_u = gn_max32(0, gn_min32(u, last)), in_v = gn_max32(0, gn_min32(v, last));
-    if (BORDER_LIT(view) && (in_u != u || in_v != v)) return 1;
-    return gn_texel_load(texels_at(view, in_u, in_v), GN_VIEW_BITS(view), 0) >= least_at(l, u, v);
+    int32_t last = view->tile_texels - 1, in_v = v < 0 ? 0 : v > last ? last : v, all = BORDER_LIT(view) && in_v != v;
+    gn_texels row = texels_at(view, 0, in_v);
+    uint32_t sum = 0;
+#if GN_RECEIVER_PLANE
+    if (l->sloped) {
+        int64_t least_q32 = l->least_q32 + rise_u(l, u) + rise_v(l, v);
+        for (int32_t i = 0; i < n; i++) {
+            if (all || lit(view, row, u + i, limited(view, least_q32))) sum += w[i];
+            least_q32 += (int64_t)l->slope_q28[0] * 16;
+        }
+        return sum;
+    }
+#endif
+    for (int32_t i = 0; i < n; i++)
+        if (all || lit(view, row, u + i, l->least)) sum += w[i];
+    return sum;
+}
+
+static uint32_t tap(const lookup *l, int32_t u, int32_t v)
+{
+    static const uint32_t one = 1;
+    return sum_any(l, u, v, 1, &one);
 }
 
 /* A tap of the hard filter or the disk: one of few. */
@@ -219,32 +242,25 @@ void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 #endif
 
 /* Sum of the weights of the lit texels among n of a row. */
-static inline uint32_t sum_plain(const lookup *l, gn_texels row, int32_t n, const uint32_t *w)
+static inline uint32_t sum_plain(gn_texels row, int32_t depth_bits, uint32_t least, int32_t n, const uint32_t *w)
 {
     uint32_t sum = 0;
     for (int32_t i = 0; i < n; i++)
-        if (gn_texel_load(row, GN_VIEW_BITS(l->view), (uint32_t)i) >= l->least) sum += w[i];
-    return sum;
-}
-
-static uint32_t sum_any(const lookup *l, int32_t u, int32_t v, int32_t n, const uint32_t *w)
-{
-    uint32_t sum = 0;
-    for (int32_t i = 0; i < n; i++)
-        if (tap(l, u + i, v)) sum += w[i];
+        if (gn_texel_load(row, depth_bits, (uint32_t)i) >= least) sum += w[i];
     return sum;
 }
 
 /* The same for n x n texels from (u, v) on. narrow: products stay below 2^32. */
 static uint64_t weighted(const lookup *l, int32_t u, int32_t v, int32_t n, const uint32_t *wu, const uint32_t *wv, int narrow)
 {
-    uint64_t sum = 0;
     int is_plain = plain(l, u, v, n);
-    gn_texels row = l->view->depth;
-    if (is_plain) row = texels_at(l->view, u, v);
+    gn_texels row = is_plain ? texels_at(l->view, u, v) : l->view->depth;
+    size_t pitch = is_plain ? l->view->tile_texels : 0;
+    uint64_t sum = 0;
     for (int32_t j = 0; j < n; j++) {
-        uint32_t across = is_plain ? sum_plain(l, row, n, wu) : sum_any(l, u, v + j, n, wu);
-        row = gn_texels_at(row, GN_VIEW_BITS(l->view), is_plain ? l->view->tile_texels : 0U);
+        int32_t depth_bits = GN_VIEW_BITS(l->view);
+        uint32_t across = is_plain ? sum_plain(row, depth_bits, l->least, n, wu) : sum_any(l, u, v + j, n, wu);
+        row = gn_texels_at(row, depth_bits, pitch);
         if (narrow) sum += across * wv[j];
         else sum += (uint64_t)across * wv[j];
     }
