@@ -1,233 +1,352 @@
-/* Shadow tiles. Depth is counted in steps of T * 2^J / 65536 texels, with 16 more fraction bits while interpolating. */
+/* Shadow tiles. */
 #include "gn_atlas.h"
 #include "gn_blocks.h"
-#include "gn_cascade.h"
+#include "gn_caster.h"
+#include "gn_cull.h"
 #include "gn_math.h"
+#include "gn_ortho.h"
+#include "gn_persp.h"
 #include "gn_q.h"
 #include "gn_scene.h"
-#include "gn_walk.h"
+#include "gn_signature.h"
+#include "gn_texel.h"
 #include "gn_xform.h"
 
 #if GN_SHADOWS
 
-#define GN_TILE_REACH_Q16 ((int64_t)16384 << 16) /* casters are cut at this distance in texels: keeps gn_walk in range */
-#define GN_GRADIENT_MAX   ((int64_t)1 << 33)     /* twice the whole depth range per texel */
+/* Which casters: with a static layer they are drawn apart. */
+typedef enum { LAYER_ALL, LAYER_STATIC, LAYER_MOVING } layer;
 
+/* One caster and one view. */
 typedef struct {
-    int64_t c[3]; /* U, V, D in texels, Q16 */
-} light_point;
+    gn_frame *frame;
+    const gn_light_view *view;
+    const gn_object *object;
+    uint32_t object_idx;
+    gn_xform to_light;
+    int two_sided;
+#if GN_CASTER_BIAS
+    int32_t shrink_q16; /* B4, texels */
+    int32_t normal_matrix[3][3];
+#endif
+} caster_job;
 
-#define GN_LIGHT_POLYGON_MAX 8 /* a triangle against four sides has 7; rounding may bend it once more */
-
-typedef struct {
-    light_point p[GN_LIGHT_POLYGON_MAX];
-    int n;
-} light_polygon;
-
-/* What is constant over one caster triangle, in depth steps with 16 fraction bits. */
-typedef struct {
-    int64_t dz_du, dz_dv;
-    int64_t bias;
-    int64_t lo, hi; /* depth range of the triangle, pancaked */
-} caster_depth;
-
-/* Object space to tile coordinates: as gn_xform_compose, with 1 / texel folded into the matrix. */
-static void compose(gn_xform *out, const gn_light_view *view, const gn_object *object)
+static int in_layer(const gn_object *object, layer which)
 {
-    const int32_t nowhere[3] = {0, 0, 0};
-    gn_xform_compose(out, view->axis_q30, nowhere, object);
-    for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 3; c++) out->m[r][c] = (int32_t)gn_shr64((int64_t)out->m[r][c] * (int64_t)view->inv_texel.mant, 32);
-        out->t_q16[r] = gn_light_coord_q16(view, r, object->to_world.t_q16) - (int64_t)view->origin[r] * 65536;
-    }
-    out->shift -= view->inv_texel.exp + 32;
+    if (!(object->flags & GN_OBJECT_CASTS)) return 0;
+    int moving = (object->flags & GN_OBJECT_MOVING) != 0;
+    return which == LAYER_ALL || moving == (which == LAYER_MOVING);
 }
 
-static void transform(light_point *out, const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
+/* Whether an object has to be drawn into a view. */
+static int casts_here(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx, layer which, int *culled)
 {
-    const int32_t *p = mesh->pos + 3 * (size_t)vertex_idx;
-    for (int r = 0; r < 3; r++) {
-        /* both terms below 2^60 */
-        const int64_t limit = (int64_t)1 << 60;
-        int64_t v = gn_clamp64(gn_scale64(gn_dot64(xform->m[r], p), xform->shift), -limit, limit) + xform->t_q16[r];
-        out->c[r] = gn_clamp64(v, -((int64_t)1 << 46), (int64_t)1 << 46);
-    }
+    const gn_object *object = &frame->scene->objects[object_idx];
+    *culled = 0;
+    if (!in_layer(object, which) || !gn_cull_sees(frame, view, &frame->object[object_idx])) return 0;
+#if GN_CASTER_CULLING
+    *culled = frame->scene->shadow.caster_culling && !view->perspective && !view->border_lit && view->cascade_idx > 0 &&
+              gn_cull_shown_nearer(frame, view, &frame->object[object_idx]);
+#endif
+    return !*culled;
 }
 
-/* Cuts at sign * c[axis] <= reach. */
-static void clip_side(light_polygon *polygon, int axis, int64_t sign)
-{
-    light_polygon in = *polygon;
-    polygon->n = 0;
-    for (int i = 0; i < in.n; i++) {
-        const light_point *a = &in.p[i], *b = &in.p[(i + 1) % in.n];
-        int64_t da = GN_TILE_REACH_Q16 - sign * a->c[axis], db = GN_TILE_REACH_Q16 - sign * b->c[axis];
-        if (da >= 0 && polygon->n < GN_LIGHT_POLYGON_MAX) polygon->p[polygon->n++] = *a;
-        if ((da >= 0) == (db >= 0) || polygon->n >= GN_LIGHT_POLYGON_MAX) continue;
-        if (da < 0) { /* from the inside end, for the sake of shared edges */
-            const light_point *swap = a;
-            a = b;
-            b = swap;
-            int64_t d = da;
-            da = db;
-            db = d;
-        }
-        gn_bfloat t = gn_bf_recip(gn_bf_from_u64((uint64_t)(da - db)));
-        light_point *cut = &polygon->p[polygon->n++];
-        for (int k = 0; k < 3; k++) {
-            int64_t step = gn_bf_apply(gn_bf_apply(da, t, 31), gn_bf_from_u64(gn_abs64(b->c[k] - a->c[k]) | 1U), -31);
-            cut->c[k] = a->c[k] + (b->c[k] < a->c[k] ? -step : step);
-        }
-    }
-}
+/* ---- Drawing ------------------------------------------------------------------------------------------------------ */
 
-static void clip_to_reach(light_polygon *polygon)
+#if GN_CASTER_BIAS
+/* World normals of a triangle's corners, or of its face. */
+static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3], int32_t out_q30[3][3])
 {
-    for (int axis = 0; axis < 2; axis++) {
-        int64_t lo = 0, hi = 0;
-        for (int i = 0; i < polygon->n; i++) {
-            lo = polygon->p[i].c[axis] < lo ? polygon->p[i].c[axis] : lo;
-            hi = polygon->p[i].c[axis] > hi ? polygon->p[i].c[axis] : hi;
-        }
-        if (hi > GN_TILE_REACH_Q16) clip_side(polygon, axis, 1);
-        if (lo < -GN_TILE_REACH_Q16) clip_side(polygon, axis, -1);
+    const gn_mesh *mesh = job->object->mesh;
+    if (GN_VERTEX_NORMALS && mesh->nrm_q15) {
+        for (int i = 0; i < 3; i++) gn_xform_normal(out_q30[i], job->normal_matrix, mesh->nrm_q15 + 3 * (size_t)idx[i]);
+        return;
     }
-}
-
-/* Plane, bias (B1) and range of a triangle from its unsnapped vertices. Returns 0 if it cannot be seen from the light. */
-static int caster_begin(caster_depth *out, const gn_light_view *view, const light_point p[3], int two_sided)
-{
     int64_t e1[3], e2[3], n[3];
-    int32_t e1n[3], e2n[3], nn[3];
-    for (int i = 0; i < 3; i++) {
-        e1[i] = p[1].c[i] - p[0].c[i];
-        e2[i] = p[2].c[i] - p[0].c[i];
+    int32_t e1n[3], e2n[3], face[3];
+    for (int k = 0; k < 3; k++) {
+        e1[k] = corner[1][k] - corner[0][k];
+        e2[k] = corner[2][k] - corner[0][k];
     }
     gn_norm_vec(e1n, e1);
     gn_norm_vec(e2n, e2);
     gn_cross64(n, e1n, e2n);
-    gn_norm_vec(nn, n);
-    if (nn[2] == 0 || (nn[2] > 0 && !two_sided)) return 0; /* along w: away from the light */
-    int32_t to_steps = 16 - view->tile_log2 - view->depth_log2;
-    gn_bfloat per_n = gn_bf_recip(gn_bf_from_u64(gn_abs32(nn[2])));
-    int64_t flip = nn[2] < 0 ? 1 : -1;
-    int64_t du = gn_bf_apply(flip * nn[0], per_n, 16), dv = gn_bf_apply(flip * nn[1], per_n, 16); /* texels per texel, Q16 */
-    int64_t steepest = gn_clamp64((int64_t)(gn_abs64(du) > gn_abs64(dv) ? gn_abs64(du) : gn_abs64(dv)), 0, (int64_t)1 << 31);
-    int64_t bias = view->bias_constant_q16 + gn_shr64(steepest * view->bias_slope_q16, 16); /* 2^31 * 2^22 */
-    out->bias = gn_scale64(bias, -to_steps);
-    out->dz_du = gn_clamp64(gn_bf_apply(flip * nn[0], per_n, 16 + to_steps), -GN_GRADIENT_MAX, GN_GRADIENT_MAX);
-    out->dz_dv = gn_clamp64(gn_bf_apply(flip * nn[1], per_n, 16 + to_steps), -GN_GRADIENT_MAX, GN_GRADIENT_MAX);
-    int64_t lo = p[0].c[2], hi = lo;
-    for (int i = 1; i < 3; i++) {
-        lo = p[i].c[2] < lo ? p[i].c[2] : lo;
-        hi = p[i].c[2] > hi ? p[i].c[2] : hi;
-    }
-    const int64_t far = (int64_t)1 << 32;
-    out->lo = gn_clamp64(gn_scale64(lo, -to_steps), 0, far); /* D9: pancaking */
-    out->hi = gn_clamp64(gn_scale64(hi, -to_steps), 0, far);
-    return out->lo < far;
-}
-
-static void store(uint16_t *texel, int64_t z)
-{
-    int64_t stored = gn_clamp64((z + 0x8000) >> 16, 0, GN_ATLAS_EMPTY);
-    if ((uint16_t)stored < *texel) *texel = (uint16_t)stored;
-}
-
-static void span(uint16_t *texel, int32_t n, int64_t z, const caster_depth *depth)
-{
-    int64_t last = z + (n - 1) * depth->dz_du;
-    int64_t least = z < last ? z : last, most = z < last ? last : z;
-    if (least >= depth->lo && most <= depth->hi && most + depth->bias + 0x8000 <= (int64_t)UINT32_MAX) {
-        uint32_t v = (uint32_t)(z + depth->bias + 0x8000), dv = (uint32_t)depth->dz_du;
-        for (int32_t i = 0; i < n; i++) {
-            if ((uint16_t)(v >> 16) < texel[i]) texel[i] = (uint16_t)(v >> 16);
-            v += dv;
+    if (!gn_normalise_q30(face, n)) face[0] = face[1] = face[2] = 0;
+    for (int i = 0; i < 3; i++) /* light axes back to the world */
+        for (int k = 0; k < 3; k++) {
+            int64_t sum = 0;
+            for (int r = 0; r < 3; r++) sum += (int64_t)face[r] * job->view->axis_q30[r][k];
+            out_q30[i][k] = (int32_t)gn_shr64(sum, 30);
         }
-        return;
-    }
-    for (int32_t i = 0; i < n; i++) {
-        store(&texel[i], gn_clamp64(z, depth->lo, depth->hi) + depth->bias);
-        z += depth->dz_du;
-    }
 }
 
-/* Depth at the centre of texel (u, v) from the plane through one vertex; within the vertices' box, so below 2^45. */
-static int64_t depth_at(const gn_light_view *view, const caster_depth *depth, const light_point *anchor, int32_t u, int32_t v)
+/* B4: corners move inwards by a share of a texel, which in perspective views grows with distance. */
+static void shrink(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
 {
-    int64_t du_q16 = u * 65536 + 32768 - anchor->c[0], dv_q16 = v * 65536 + 32768 - anchor->c[1]; /* < 2^31 */
-    int64_t z = gn_scale64(anchor->c[2], view->tile_log2 + view->depth_log2 - 16);
-    /* gradient <= 2^33 times 2^31 would not fit: split the offset into whole texels and a fraction */
-    z += depth->dz_du * (du_q16 >> 16) + gn_shr64(depth->dz_du * (du_q16 & 65535), 16);
-    return z + depth->dz_dv * (dv_q16 >> 16) + gn_shr64(depth->dz_dv * (dv_q16 & 65535), 16);
-}
-
-static void draw_triangle(const gn_frame *frame, const gn_light_view *view, const caster_depth *depth,
-                          const light_point *const p[3])
-{
-    int32_t bits = GN_K(frame, shadow_subpixel_bits), size = view->tile_texels;
-    int32_t x[3], y[3];
+    int32_t n[3][3];
+    corner_normals(job, idx, corner, n);
     for (int i = 0; i < 3; i++) {
-        x[i] = (int32_t)gn_shr64(p[i]->c[0], 16 - bits); /* 2^14 texels * 2^12 */
-        y[i] = (int32_t)gn_shr64(p[i]->c[1], 16 - bits);
-    }
-    gn_walk walk;
-    if (!gn_walk_begin(&walk, x, y, bits, 0, size)) return;
-    int32_t u_begin, u_end, v;
-    while (gn_walk_row(&walk, &v, &u_begin, &u_end)) {
-        u_begin = gn_max32(u_begin, 0);
-        u_end = gn_min32(u_end, size);
-        if (u_begin >= u_end) continue;
-        span(view->depth + v * size + u_begin, u_end - u_begin, depth_at(view, depth, p[0], u_begin, v), depth);
-    }
-}
-
-static int misses_tile(const gn_light_view *view, const light_point p[3])
-{
-    int64_t end = (int64_t)view->tile_texels << 16;
-    for (int axis = 0; axis < 2; axis++) {
-        if (p[0].c[axis] < 0 && p[1].c[axis] < 0 && p[2].c[axis] < 0) return 1;
-        if (p[0].c[axis] > end && p[1].c[axis] > end && p[2].c[axis] > end) return 1;
-    }
-    return 0;
-}
-
-static void caster_triangle(gn_frame *frame, const gn_light_view *view, const light_point p[3], int two_sided)
-{
-    caster_depth depth;
-    if (misses_tile(view, p) || !caster_begin(&depth, view, p, two_sided)) return;
-    light_polygon polygon = {{p[0], p[1], p[2]}, 3};
-    clip_to_reach(&polygon);
-    for (int i = 1; i + 1 < polygon.n; i++) {
-        const light_point *corners[3] = {&polygon.p[0], &polygon.p[i], &polygon.p[i + 1]};
-        draw_triangle(frame, view, &depth, corners);
-    }
-    frame->stats.n_caster_triangles++;
-}
-
-gn_status gn_atlas_render_tile(gn_frame *frame, gn_light_view *view)
-{
-    size_t n_texels = (size_t)view->tile_texels * view->tile_texels;
-    for (size_t i = 0; i < n_texels; i++) view->depth[i] = GN_ATLAS_EMPTY;
-    for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
-        const gn_object *object = &frame->scene->objects[o];
-        if (!(object->flags & GN_OBJECT_CASTS)) continue;
-        gn_xform xform;
-        compose(&xform, view, object);
-        const gn_mesh *mesh = object->mesh;
-        for (uint32_t t = 0; t < mesh->n_triangles; t++) {
-            light_point p[3];
-            for (uint32_t i = 0; i < 3; i++) {
-                uint32_t vertex_idx = mesh->idx[3 * (size_t)t + i];
-                if (vertex_idx >= mesh->n_vertices) return gn_fail(frame, GN_ERR_MESH_INDEX, o);
-                if (!gn_xform_position_ok(mesh, vertex_idx)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, o);
-                transform(&p[i], &xform, mesh, vertex_idx);
-            }
-            caster_triangle(frame, view, p, (object->flags & GN_OBJECT_TWO_SIDED) != 0);
+        int64_t by_q16 = job->shrink_q16;
+#if GN_PUNCTUAL_LIGHTS
+        if (job->view->perspective) {
+            const gn_persp_fit *fit = &job->view->fit.persp;
+            int64_t z = gn_clamp64(corner[i][2], fit->near_q16, INT32_MAX);
+            by_q16 = gn_bf_apply(by_q16 * z, fit->texel_per_z, -16); /* 2^19 * 2^31 */
+        }
+#endif
+        for (int k = 0; k < 3; k++) {
+            int64_t along_q30 = gn_shr64(gn_dot64(n[i], job->view->axis_q30[k]), 30);
+            corner[i][k] -= gn_shr64(along_q30 * by_q16, 30);
         }
     }
+}
+#endif
+
+/* Corners as the view sees them: in texels for orthographic views, in world units from the light for perspective ones. */
+static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
+{
+    const gn_mesh *mesh = job->object->mesh;
+    for (int i = 0; i < 3; i++) {
+        if (idx[i] >= mesh->n_vertices) return gn_fail(job->frame, GN_ERR_MESH_INDEX, job->object_idx);
+        if (!job->view->perspective) gn_ortho_vertex(corner[i], &job->to_light, mesh, idx[i]);
+        else gn_xform_vertex(corner[i], &job->to_light, mesh, idx[i]);
+    }
+#if GN_CASTER_BIAS
+    if (job->shrink_q16) shrink(job, idx, corner);
+#endif
+    return GN_OK;
+}
+
+#if GN_PUNCTUAL_LIGHTS
+static int32_t draw_perspective(const caster_job *job, int64_t corner[3][3], gn_caster_alpha *alpha, gn_status *status)
+{
+    int32_t v[3][3];
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            if (corner[i][k] <= -GN_VIEW_LIMIT_Q16 || corner[i][k] >= GN_VIEW_LIMIT_Q16) {
+                *status = gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
+                return -1;
+            }
+            v[i][k] = (int32_t)corner[i][k];
+        }
+    }
+    return gn_persp_triangle(job->frame, job->view, v, job->two_sided, alpha);
+}
+#endif
+
+static gn_status draw_triangle(const caster_job *job, const uint16_t idx[3])
+{
+    int64_t corner[3][3];
+    gn_caster_alpha *with = NULL;
+    gn_status status = transform(job, idx, corner);
+    if (status) return status;
+#if GN_CASTER_ALPHA
+    gn_caster_alpha alpha;
+    if (job->object->caster_alpha != GN_ALPHA_OPAQUE) {
+        gn_alpha_begin(&alpha.test, job->object, job->object->caster_alpha, idx);
+        alpha.needs_plane = alpha.test.textured;
+        with = &alpha;
+    }
+#endif
+    int32_t n_texels;
+#if GN_PUNCTUAL_LIGHTS
+    if (job->view->perspective) n_texels = draw_perspective(job, corner, with, &status);
+    else
+#endif
+        n_texels = gn_ortho_triangle(job->frame, job->view, corner, job->two_sided, with);
+    if (n_texels < 0) return status;
+    job->frame->stats.n_caster_triangles++;
+    job->frame->stats.n_texels_drawn += (uint32_t)n_texels;
+    return GN_OK;
+}
+
+static gn_status draw_object(gn_frame *frame, const gn_light_view *view, uint32_t object_idx)
+{
+    caster_job job;
+    job.frame = frame;
+    job.view = view;
+    job.object = &frame->scene->objects[object_idx];
+    job.object_idx = object_idx;
+    job.two_sided = (job.object->flags & (GN_OBJECT_TWO_SIDED | GN_OBJECT_CASTS_TWO_SIDED)) != 0;
+#if GN_PUNCTUAL_LIGHTS
+    if (view->perspective) gn_xform_compose(&job.to_light, view->axis_q30, view->fit.persp.eye_q16, job.object);
+    else
+#endif
+        gn_ortho_compose(&job.to_light, view, job.object);
+#if GN_CASTER_BIAS
+    job.shrink_q16 = frame->scene->lights[view->light_idx].bias_caster_q16;
+    if (job.shrink_q16 && GN_VERTEX_NORMALS && job.object->mesh->nrm_q15) gn_xform_normal_matrix(job.normal_matrix, job.object);
+#endif
+    const gn_mesh *mesh = job.object->mesh;
+    for (uint32_t t = 0; t < mesh->n_triangles; t++) {
+        gn_status status = draw_triangle(&job, mesh->idx + 3 * (size_t)t);
+        if (status) return status;
+    }
+    return GN_OK;
+}
+
+static gn_status draw_layer(gn_frame *frame, const gn_light_view *view, layer which)
+{
+    for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
+        int culled, drawn = casts_here(frame, view, o, which, &culled);
+        frame->stats.n_casters_culled += (uint32_t)culled;
+        gn_status status = drawn ? draw_object(frame, view, o) : GN_OK;
+        if (status) return status;
+    }
+    return GN_OK;
+}
+
+static void clear(const gn_light_view *view)
+{
+    size_t n = (size_t)view->tile_texels * view->tile_texels;
+    int32_t bits = GN_VIEW_BITS(view);
+    if (bits == 8)
+        for (size_t i = 0; i < n; i++) view->depth.d8[i] = UINT8_MAX;
+    else if (bits == 16)
+        for (size_t i = 0; i < n; i++) view->depth.d16[i] = UINT16_MAX;
+    else
+        for (size_t i = 0; i < n; i++) view->depth.d32[i] = UINT32_MAX;
+}
+
+/* ---- What is kept (A5) -------------------------------------------------------------------------------------------- */
+
+#if GN_INCREMENTAL
+static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
+{
+    const gn_light *light = &frame->scene->lights[view->light_idx];
+    uint64_t s = gn_signature_words(GN_SIGNATURE_SEED, &view->axis_q30[0][0], 9);
+    const int32_t biases[4] = {view->bias_constant_q16, view->bias_slope_q16, light->bias_caster_q16,
+                               GN_K(frame, shadow_subpixel_bits)};
+    s = gn_signature_words(s, biases, 4);
+    s = gn_signature_add(s, (uint64_t)view->first_texel << 8 | (uint64_t)view->in_other << 1 | view->perspective);
+    s = gn_signature_add(s, (uint64_t)view->tile_texels << 32 | (uint64_t)view->depth_log2 << 8 | view->depth_bits);
+    if (view->perspective) {
+        const gn_persp_fit *fit = &view->fit.persp;
+        s = gn_signature_words(s, fit->eye_q16, 3);
+        return gn_signature_add(s, (uint64_t)(uint32_t)fit->near_q16 << 32 | fit->focal2_q16);
+    }
+    const gn_ortho_fit *fit = &view->fit.ortho;
+    s = gn_signature_words(s, fit->origin, 3);
+    return gn_signature_add(s, (uint64_t)fit->inv_texel.mant << 32 | (uint32_t)fit->inv_texel.exp);
+}
+
+static uint64_t object_signature(uint64_t s, const gn_object *object)
+{
+    const gn_mesh *mesh = object->mesh;
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->pos);
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->idx);
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->nrm_q15);
+    s = gn_signature_add(s, (uint64_t)mesh->n_vertices << 32 | (uint64_t)mesh->n_triangles << 16 |
+                                (uint64_t)mesh->pos_frac_bits << 8 | (uint64_t)object->caster_alpha << 4);
+    s = gn_signature_words(s, &object->to_world.m_q30[0][0], 9);
+    s = gn_signature_words(s, object->to_world.t_q16, 3);
+    s = gn_signature_add(s, (uint64_t)(uint32_t)object->to_world.exp << 32 | (object->flags & ~(uint32_t)GN_OBJECT_HIDDEN));
+#if GN_CASTER_ALPHA
+    if (object->caster_alpha == GN_ALPHA_OPAQUE) return s;
+    s = gn_signature_add(s, (uint64_t)object->alpha_uq16 << 32 | object->alpha_cutoff_uq16);
+    if (!object->texture) return s;
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)object->texture->rgba);
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->uv);
+    s = gn_signature_add(s, (uint64_t)object->texture->width_log2 << 24 | (uint64_t)object->texture->height_log2 << 16 |
+                                (uint64_t)object->texture->flags << 8 | mesh->uv_frac_bits);
+#endif
+    return s;
+}
+
+/* Of everything that a layer of the view's tile depends on; never 0. */
+static uint64_t layer_signature(const gn_frame *frame, const gn_light_view *view, layer which)
+{
+    uint64_t s = view_signature(frame, view);
+    for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
+        int culled;
+        if (casts_here(frame, view, o, which, &culled)) s = object_signature(s, &frame->scene->objects[o]);
+    }
+    return s ? s : 1;
+}
+#endif
+
+#if GN_STATIC_LAYER
+/* The view with its texels in the static layer. */
+static gn_light_view static_view(gn_frame *frame, const gn_light_view *view)
+{
+    gn_light_view out = *view;
+    gn_texels texels = {frame->static_atlas.d8};
+    if (view->depth_bits == 16) texels.d16 = frame->static_atlas.d16;
+    if (view->depth_bits == 32) texels.d32 = frame->static_atlas.d32;
+#if GN_OTHER_ATLAS
+    if (view->in_other) {
+        texels.d8 = frame->static_other_atlas.d8;
+        if (view->depth_bits == 16) texels.d16 = frame->static_other_atlas.d16;
+        if (view->depth_bits == 32) texels.d32 = frame->static_other_atlas.d32;
+    }
+#endif
+    out.depth = gn_texels_at(texels, view->depth_bits, view->first_texel);
+    return out;
+}
+
+static void copy_texels(const gn_light_view *to, const gn_light_view *from)
+{
+    size_t n = (size_t)to->tile_texels * to->tile_texels;
+    int32_t bits = GN_VIEW_BITS(to);
+    if (bits == 8)
+        for (size_t i = 0; i < n; i++) to->depth.d8[i] = from->depth.d8[i];
+    else if (bits == 16)
+        for (size_t i = 0; i < n; i++) to->depth.d16[i] = from->depth.d16[i];
+    else
+        for (size_t i = 0; i < n; i++) to->depth.d32[i] = from->depth.d32[i];
+}
+
+/* Static casters into the static layer, unless it holds them already. */
+static gn_status static_layer(gn_frame *frame, const gn_light_view *view, const gn_light_view *below, uint32_t view_idx)
+{
+#if GN_INCREMENTAL
+    uint64_t signature = layer_signature(frame, view, LAYER_STATIC);
+    if (frame->memory[view_idx].static_signature == signature) return GN_OK;
+    frame->memory[view_idx].static_signature = 0;
+#endif
+    clear(below);
+    gn_status status = draw_layer(frame, below, LAYER_STATIC);
+#if GN_INCREMENTAL
+    if (!status) frame->memory[view_idx].static_signature = signature;
+#else
+    (void)view, (void)view_idx;
+#endif
+    return status;
+}
+#endif
+
+static gn_status draw_tile(gn_frame *frame, const gn_light_view *view, uint32_t view_idx)
+{
+    frame->stats.n_tiles_drawn++;
+#if GN_STATIC_LAYER
+    gn_light_view below = static_view(frame, view);
+    gn_status status = static_layer(frame, view, &below, view_idx);
+    if (status) return status;
+    copy_texels(view, &below);
+    return draw_layer(frame, view, LAYER_MOVING);
+#else
+    (void)view_idx;
+    clear(view);
+    return draw_layer(frame, view, LAYER_ALL);
+#endif
+}
+
+gn_status gn_atlas_render_tile(gn_frame *frame, uint32_t view_idx)
+{
+    gn_light_view *view = &frame->view[view_idx];
+    if (view->empty || view->stale) return GN_OK;
+#if GN_INCREMENTAL
+    uint64_t signature = layer_signature(frame, view, LAYER_ALL);
+    if (frame->memory[view_idx].signature == signature) return GN_OK;
+    frame->memory[view_idx].signature = 0;
+#endif
+    gn_status status = draw_tile(frame, view, view_idx);
+    if (status) return status;
 #if GN_DEPTH_BLOCKS
     gn_blocks_build(view);
+#endif
+#if GN_INCREMENTAL
+    frame->memory[view_idx].signature = signature;
 #endif
     return GN_OK;
 }

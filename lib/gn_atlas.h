@@ -1,4 +1,4 @@
-/* Shadow tiles: casters rasterised as depth seen from the light (A2, B1, D9, DESIGN 1.5). */
+/* Shadow tiles: which casters each holds, and what is kept from frame to frame (A5, D8, M1, DESIGN 1.6). */
 #ifndef GN_ATLAS_H
 #define GN_ATLAS_H
 
@@ -6,10 +6,8 @@
 
 #if GN_SHADOWS
 
-#define GN_ATLAS_EMPTY 65535U
-
-/* Clears and draws one light's tile. */
-gn_status gn_atlas_render_tile(gn_frame *frame, gn_light_view *view);
+/* Brings one view's tile up to date: draws it, unless it still holds what would be drawn. */
+gn_status gn_atlas_render_tile(gn_frame *frame, uint32_t view_idx);
 
 #endif
 #endif

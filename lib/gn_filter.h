@@ -17,9 +17,9 @@ void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
 
 /* A surface point as a light view sees it. */
 typedef struct {
-    int32_t u_q16, v_q16;     /* tile coordinates in texels */
-    uint32_t depth_q32;       /* share of the view's depth range */
-    int32_t slope_q28[2];     /* B5: change of that share per texel along u and v, within +-2; 0: compare with depth_q32 everywhere */
+    int32_t u_q16, v_q16; /* tile coordinates in texels */
+    uint32_t depth_q32;   /* share of the view's depth range */
+    int32_t slope_q28[2]; /* B5: change of that share per texel along u and v, within +-2; 0: compare with depth_q32 everywhere */
     int32_t pixel_x, pixel_y; /* where it is seen: turns the disk (F4) */
 } gn_receiver;
 

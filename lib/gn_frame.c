@@ -2,25 +2,30 @@
  *
  *   gn_begin        gn_scene    validate what the caller describes
  *                   gn_xform    camera
- *                   gn_cascade  which light gets a shadow tile, and where it lies
- *   gn_shadow_tile  gn_atlas    casters, as depth seen from the light; bounds of depth per block (gn_blocks)
+ *                   gn_views    lights: which reach which object (gn_object), which get how many shadow tiles (gn_tiles),
+ *                               and how each lies in the world: gn_cascade and gn_ortho, or gn_persp
+ *   gn_shadow_tile  gn_atlas    casters (gn_cull: which) as depth seen from the light (gn_ortho, gn_persp: projection;
+ *                               gn_caster: spans); bounds of depth per block (gn_blocks)
  *   gn_prepare      gn_setup    visible triangles: transform, cull, clip (gn_clip), project, depth plane (gn_plane)
  *                   gn_bin      triangles to screen tiles
  *   gn_screen_tile  gn_raster   visible surfaces: depth and triangle per pixel, by exact edge walkers (gn_walk)
- *                   gn_shade    runs of pixels of one surface (gn_surface): light (gn_light, gn_filter), encode (gn_pixel)
+ *                   gn_shade    runs of pixels of one surface (gn_surface): light (gn_light, gn_punctual), shadow (gn_shadow,
+ *                               gn_filter), encode (gn_pixel)
  *                   flush
  */
 #include <string.h>
 
 #include "gn_atlas.h"
 #include "gn_bin.h"
-#include "gn_cascade.h"
 #include "gn_check.h"
+#include "gn_pixel.h"
 #include "gn_q.h"
 #include "gn_raster.h"
 #include "gn_scene.h"
 #include "gn_setup.h"
 #include "gn_shade.h"
+#include "gn_signature.h"
+#include "gn_views.h"
 #include "gn_xform.h"
 #include "gnomon.h"
 
@@ -39,6 +44,8 @@ static int knobs_ok(const gn_frame *frame)
     ok = ok && (k->persp_step == 1 || k->persp_step == 4 || k->persp_step == 8 || k->persp_step == 16);
     ok = ok && (k->atten_bits == 8 || k->atten_bits == 16) && k->atlas_size <= GN_ATLAS_SIZE;
     ok = ok && (k->atlas_size & (k->atlas_size - 1)) == 0 && k->tile_width % 8 == 0;
+    ok = ok && (k->other_atlas_size & (k->other_atlas_size - 1)) == 0 && k->other_atlas_size <= GN_OTHER_ATLAS_SIZE;
+    ok = ok && (k->depth_bits & (k->depth_bits - 1)) == 0 && (k->other_depth_bits & (k->other_depth_bits - 1)) == 0;
     return ok && k->tile_width * k->tile_height <= GN_TILE_PIXELS_MAX;
 }
 #endif
@@ -87,7 +94,7 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
     if (status) return status;
     frame->scene = scene;
     gn_cam_setup(frame);
-    status = gn_cascade_setup(frame);
+    status = gn_views_setup(frame);
     if (status) return status;
     frame->stage = GN_STAGE_BEGUN;
     return GN_OK;
@@ -106,7 +113,7 @@ gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx)
     if (tile_idx >= frame->n_views) return gn_fail(frame, GN_ERR_INDEX, tile_idx);
 #if GN_SHADOWS
     frame->view[tile_idx].tile_done = 1;
-    return frame->view[tile_idx].empty ? GN_OK : gn_atlas_render_tile(frame, &frame->view[tile_idx]);
+    return gn_atlas_render_tile(frame, tile_idx);
 #else
     return GN_OK;
 #endif
@@ -136,25 +143,85 @@ uint32_t gn_screen_tile_count(const gn_renderer *r)
     return r ? (uint32_t)r->frame.tiles_x * r->frame.tiles_y : 0;
 }
 
-gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
+static gn_status draw_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush)
 {
     if (!frame || !scratch || !flush) return GN_ERR_NULL;
     if (frame->stage != GN_STAGE_PREPARED) return GN_ERR_ORDER;
     if (tile_idx >= (uint32_t)frame->tiles_x * frame->tiles_y) return GN_ERR_INDEX;
     gn_raster_tile(frame, scratch, tile_idx);
     gn_shade_tile(frame, scratch, tile_idx);
+    return GN_OK;
+}
+
+gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
+{
+    gn_status status = draw_tile(frame, scratch, tile_idx, flush);
+    if (status) return status;
     gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
     flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
     return GN_OK;
+}
+
+/* Of a finished tile's bytes. */
+static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch, const gn_rect *rect)
+{
+    uint64_t signature = GN_SIGNATURE_SEED;
+    size_t n = gn_pixel_bytes(frame, rect->x1 - rect->x0, rect->y1 - rect->y0), i = 0;
+    const uint8_t *bytes = scratch->pixel.bytes;
+    for (; i + 4 <= n; i += 4) {
+        uint32_t word;
+        memcpy(&word, bytes + i, 4);
+        signature = gn_signature_add(signature, word);
+    }
+    for (; i < n; i++) signature = gn_signature_add(signature, bytes[i]);
+    return signature ? signature : 1;
+}
+
+gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
+                                    gn_flush_fn flush, void *user, uint32_t *flushed)
+{
+    if (flushed) *flushed = 0;
+    if (!panel) return GN_ERR_NULL;
+    gn_status status = draw_tile(frame, scratch, tile_idx, flush);
+    if (status) return status;
+    gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
+    uint64_t signature = tile_signature(frame, scratch, &rect);
+    if (panel->signature[tile_idx] == signature) return GN_OK;
+    panel->signature[tile_idx] = signature;
+    flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
+    if (flushed) *flushed = 1;
+    return GN_OK;
+}
+
+/* Everything of a frame before its screen tiles. */
+static gn_status prepare_frame(gn_renderer *r, const gn_scene *scene)
+{
+    gn_status status = gn_begin(r, scene);
+    for (uint32_t i = 0; !status && i < gn_shadow_tile_count(r); i++) status = gn_shadow_tile(r, i);
+    return status ? status : gn_prepare(r);
+}
+
+gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *panel, gn_flush_fn flush, void *user,
+                            uint32_t *n_flushed)
+{
+    uint32_t n = 0, one;
+    if (n_flushed) *n_flushed = 0;
+    if (!r) return GN_ERR_NULL;
+    if (!flush || !panel) return gn_fail(&r->frame, GN_ERR_NULL, 0);
+    gn_status status = prepare_frame(r, scene);
+    for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++) {
+        status = gn_screen_tile_if_changed(&r->frame, &r->scratch, i, panel, flush, user, &one);
+        n += one;
+    }
+    if (n_flushed) *n_flushed = n;
+    return status;
 }
 
 gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user)
 {
     if (!r) return GN_ERR_NULL;
     if (!flush) return gn_fail(&r->frame, GN_ERR_NULL, 0);
-    gn_status status = gn_begin(r, scene);
-    for (uint32_t i = 0; !status && i < gn_shadow_tile_count(r); i++) status = gn_shadow_tile(r, i);
-    if (!status) status = gn_prepare(r);
+    gn_status status = prepare_frame(r, scene);
     for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++)
         status = gn_screen_tile(&r->frame, &r->scratch, i, flush, user);
     return status;
@@ -170,18 +237,48 @@ const gn_detail *gn_get_detail(const gn_renderer *r)
     return r ? &r->frame.detail : NULL;
 }
 
-uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t cascade_idx, const uint16_t **depth)
+gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, uint32_t *n_tiles, uint32_t *tile_texels)
+{
+    if (n_tiles) *n_tiles = 0;
+    if (tile_texels) *tile_texels = 0;
+#if GN_SHADOWS
+    if (!r || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.scene->n_lights) return GN_SHADOW_NOT_WANTED;
+    const gn_light_state *light = &r->frame.light[light_idx];
+    if (n_tiles) *n_tiles = light->n_views;
+    if (tile_texels && light->n_views) *tile_texels = r->frame.view[light->view_idx].tile_texels;
+    return (gn_shadow_state)light->shadow_state;
+#else
+    (void)r, (void)light_idx;
+    return GN_SHADOW_NOT_WANTED;
+#endif
+}
+
+uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info)
 {
 #if GN_SHADOWS
-    if (!r || !depth || light_idx >= GN_MAX_LIGHTS || cascade_idx >= r->frame.n_cascades) return 0;
-    int32_t first = r->frame.n_views ? r->frame.light[light_idx].view_idx : -1;
-    if (first < 0) return 0;
-    const gn_light_view *view = &r->frame.view[(uint32_t)first + cascade_idx];
-    *depth = view->depth;
-    return view->empty ? 0 : view->tile_texels;
+    if (!r || !info || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.scene->n_lights) return 0;
+    const gn_light_state *light = &r->frame.light[light_idx];
+    if (view_idx >= light->n_views) return 0;
+    const gn_light_view *view = &r->frame.view[(uint32_t)light->view_idx + view_idx];
+    if (view->empty) return 0;
+    info->texels = view->tile_texels;
+    info->depth_bits = (uint32_t)GN_VIEW_BITS(view);
+    info->depth = info->depth_bits == 8    ? (const void *)view->depth.d8
+                  : info->depth_bits == 16 ? (const void *)view->depth.d16
+                                           : (const void *)view->depth.d32;
+    return info->texels;
 #else
-    (void)r, (void)light_idx, (void)cascade_idx, (void)depth;
+    (void)r, (void)light_idx, (void)view_idx, (void)info;
     return 0;
+#endif
+}
+
+void gn_forget_shadows(gn_renderer *r)
+{
+#if GN_SHADOWS && GN_INCREMENTAL
+    if (r) memset(r->frame.memory, 0, sizeof r->frame.memory);
+#else
+    (void)r;
 #endif
 }
 

@@ -4,7 +4,7 @@
 
 #include "gn_surface.h"
 
-/* Shadow factor of a light at a sample: 0..65536, 65536 where it casts none; 0 where the surface faces away. */
+/* Shadow factor of a light at a sample: 0..65536, 65536 where it casts none; 0 where the surface faces away or no light arrives. */
 uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t light_idx);
 
 /* Radiance towards the viewer, Q20 per channel, not clamped to 1. */

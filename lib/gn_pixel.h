@@ -11,6 +11,9 @@ uint32_t gn_srgb_encode(uint32_t linear_q20);
  * luminance in linear light, 0..65535, which the dither compares. Greys are of the luminance 0.2126 R + 0.7152 G + 0.0722 B. */
 uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3]);
 
+/* Bytes of a tile of finished pixels. */
+size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
+
 /* Where a screen tile's pixels are stored. */
 typedef struct {
     gn_tile_pixels *pixels;

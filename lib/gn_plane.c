@@ -20,3 +20,45 @@ void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v1[3], c
         for (int i = 0; i < 3; i++) plane->n[i] = -plane->n[i];
     }
 }
+
+void gn_bary_setup(gn_bary *bary, const gn_plane *plane, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3])
+{
+    /* b1 = (e2 x v0) . ray / (n . ray), b2 = (v0 x e1) . ray / (n . ray) */
+    int64_t e[2][3];
+    int32_t en[2][3], e_exp[2];
+    for (int i = 0; i < 3; i++) {
+        e[0][i] = (int64_t)v1[i] - v0[i];
+        e[1][i] = (int64_t)v2[i] - v0[i];
+    }
+    for (int k = 0; k < 2; k++) e_exp[k] = gn_norm_vec(en[k], e[k]);
+    for (int k = 0; k < 2; k++) {
+        int64_t c[3];
+        if (k == 0) gn_cross64(c, en[1], v0);
+        else gn_cross64(c, v0, en[0]);
+        bary->exp[k] = gn_norm_vec(bary->form[k], c) + e_exp[1 - k] - plane->n_exp;
+        if (plane->back)
+            for (int i = 0; i < 3; i++) bary->form[k][i] = -bary->form[k][i];
+    }
+}
+
+int gn_plane_recip(gn_ray_recip *out, const gn_plane *plane, int32_t px, int32_t py, uint32_t focal2_px_q16, int32_t newton_steps)
+{
+    int64_t w = plane->det > 0 ? gn_plane_at(plane->n, px, py, focal2_px_q16) : 0;
+    if (w <= 0) return 0;
+    out->clz = gn_clz64((uint64_t)w);
+    out->w_norm = (uint32_t)(((uint64_t)w << out->clz) >> 32);
+    out->recip = gn_recip_norm(out->w_norm, newton_steps);
+    return 1;
+}
+
+void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip, int32_t px, int32_t py, uint32_t focal2_px_q16)
+{
+    const int32_t one = 1 << 30;
+    for (int k = 0; k < 2; k++) {
+        int64_t b = gn_plane_at(bary->form[k], px, py, focal2_px_q16);
+        uint64_t t = (uint64_t)gn_clamp64(gn_scale64(b, 32 - recip->clz - bary->exp[k]), 0, recip->w_norm);
+        b_q30[k] = (int32_t)((t * recip->recip) >> 33); /* 2^64 / 2^33 */
+        b_q30[k] = gn_min32(b_q30[k], one);
+    }
+    if (b_q30[1] > one - b_q30[0]) b_q30[1] = one - b_q30[0];
+}

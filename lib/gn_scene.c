@@ -6,6 +6,8 @@
 #define GN_POSITION_LIMIT_Q16 (8192 << 16)
 #define GN_COLOUR_LIMIT_UQ16  0xFFFFFFU /* 255.99 */
 #define GN_FADE_MIN_UQ16      66U       /* 0.001 */
+#define GN_SPOT_TURN_MIN      182U      /* 1 degree */
+#define GN_SPOT_TURN_MAX      32587U    /* 179 degrees, rounded to nearest */
 
 gn_status gn_fail(gn_frame *frame, gn_status status, uint32_t index)
 {
@@ -75,29 +77,83 @@ static gn_status check_mesh(gn_frame *frame, const gn_mesh *mesh, uint32_t objec
     return GN_OK;
 }
 
+static int texture_ok(const gn_texture *texture)
+{
+    return texture->rgba && texture->width_log2 <= 12 && texture->height_log2 <= 12;
+}
+
+/* What is not built in must not be asked for. */
+static gn_status check_material(gn_frame *frame, const gn_object *object, uint32_t idx)
+{
+    const gn_mesh *mesh = object->mesh;
+    if (above(object->albedo_uq16, 65536)) return gn_fail(frame, GN_ERR_COLOUR, idx);
+    int visible = (int)object->visible_alpha, caster = (int)object->caster_alpha;
+    if (visible < GN_ALPHA_OPAQUE || visible > (GN_VISIBLE_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE) || caster < GN_ALPHA_OPAQUE ||
+        caster > (GN_CASTER_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE))
+        return gn_fail(frame, GN_ERR_MATERIAL, idx);
+    if (object->alpha_uq16 > 65536 || object->alpha_cutoff_uq16 > 65536 || object->shininess_log2 > 7 ||
+        above(object->specular_uq16, GN_SPECULAR ? 65536 : 0))
+        return gn_fail(frame, GN_ERR_MATERIAL, idx);
+    if (object->texture && (!GN_TEXTURES || !mesh->uv || mesh->uv_frac_bits > 15 || !texture_ok(object->texture)))
+        return gn_fail(frame, GN_ERR_TEXTURE, idx);
+    if (object->mask_image && (!GN_MASKS || !mesh->mask_uv_uq16 || !texture_ok(object->mask_image)))
+        return gn_fail(frame, GN_ERR_MASK, idx);
+    if ((object->mask_u8 && !GN_MASKS) || (object->baked_uq12 && !GN_BAKED_LIGHT)) return gn_fail(frame, GN_ERR_MASK, idx);
+    return GN_OK;
+}
+
 static gn_status check_object(gn_frame *frame, const gn_object *object, uint32_t idx)
 {
     if (!object->mesh) return gn_fail(frame, GN_ERR_NULL, idx);
     if (!object_transform_ok(&object->to_world)) return gn_fail(frame, GN_ERR_OBJECT_TRANSFORM, idx);
-    if (above(object->albedo_uq16, 65536)) return gn_fail(frame, GN_ERR_COLOUR, idx);
     gn_status status = check_mesh(frame, object->mesh, idx);
     if (status) return status;
     /* gn_xform: positions with few fraction bits under a large scale would need a left shift */
     if (object->mesh->pos_frac_bits + 14 < object->to_world.exp) return gn_fail(frame, GN_ERR_OBJECT_TRANSFORM, idx);
+    return check_material(frame, object, idx);
+}
+
+static gn_status check_punctual(gn_frame *frame, const gn_light *light, uint32_t idx)
+{
+    for (int i = 0; i < 3; i++)
+        if (gn_abs32(light->position_q16[i]) > GN_POSITION_LIMIT_Q16) return gn_fail(frame, GN_ERR_LIGHT_POSITION, idx);
+    if ((light->range_q16 && light->range_q16 < 256) || light->near_q16 < 1 || light->near_q16 > GN_POSITION_LIMIT_Q16 ||
+        (light->range_q16 && (uint32_t)light->near_q16 >= light->range_q16))
+        return gn_fail(frame, GN_ERR_LIGHT_RANGE, idx);
+    if (light->kind == GN_LIGHT_SPOT &&
+        (light->outer_turn < GN_SPOT_TURN_MIN || light->outer_turn > GN_SPOT_TURN_MAX || light->inner_turn > light->outer_turn))
+        return gn_fail(frame, GN_ERR_LIGHT_ANGLE, idx);
     return GN_OK;
+}
+
+static int biases_ok(const gn_light *light)
+{
+    int32_t lo = gn_min32(gn_min32(light->bias_constant_q16, light->bias_slope_q16),
+                          gn_min32(light->bias_normal_q16, light->near_offset_q16));
+    int ok = light->bias_constant_q16 <= 64 << 16 && light->bias_slope_q16 <= 64 << 16 && light->bias_normal_q16 <= 8 << 16 &&
+             light->near_offset_q16 <= GN_POSITION_LIMIT_Q16;
+    for (int i = 0; i < 4; i++) {
+        lo = gn_min32(lo, light->bias_receiver_q16[i]);
+        ok = ok && light->bias_receiver_q16[i] <= (GN_RECEIVER_BIAS ? 8 << 16 : 0);
+    }
+    lo = gn_min32(lo, light->bias_caster_q16);
+    return ok && lo >= 0 && light->bias_caster_q16 <= (GN_CASTER_BIAS ? 8 << 16 : 0) &&
+           light->receiver_plane <= (GN_RECEIVER_PLANE ? 1U : 0U);
 }
 
 static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t idx)
 {
-    if (light->kind != GN_LIGHT_DIRECTIONAL) return gn_fail(frame, GN_ERR_LIGHT_KIND, idx);
-    if (!light->direction[0] && !light->direction[1] && !light->direction[2]) return gn_fail(frame, GN_ERR_LIGHT_DIRECTION, idx);
+    if ((int)light->kind < GN_LIGHT_DIRECTIONAL ||
+        (int)light->kind > (GN_PUNCTUAL_LIGHTS ? GN_LIGHT_POINT : GN_LIGHT_DIRECTIONAL) || (int)light->mode < GN_LIGHT_REALTIME ||
+        (int)light->mode > GN_LIGHT_BAKED || (int)light->softness < GN_SOFTNESS_DEFAULT || (int)light->softness > GN_SOFTNESS_SOFT)
+        return gn_fail(frame, GN_ERR_LIGHT_KIND, idx);
+    if (light->kind != GN_LIGHT_POINT && !light->direction[0] && !light->direction[1] && !light->direction[2])
+        return gn_fail(frame, GN_ERR_LIGHT_DIRECTION, idx);
     if (above(light->colour_uq16, GN_COLOUR_LIMIT_UQ16)) return gn_fail(frame, GN_ERR_COLOUR, idx);
-    int32_t lo = gn_min32(gn_min32(light->bias_constant_q16, light->bias_slope_q16),
-                          gn_min32(light->bias_normal_q16, light->near_offset_q16));
-    if (lo < 0 || light->shadow_strength_uq16 > 65536 || light->bias_constant_q16 > 64 << 16 || light->bias_slope_q16 > 64 << 16 ||
-        light->bias_normal_q16 > 8 << 16 || light->near_offset_q16 > GN_POSITION_LIMIT_Q16)
+    if (!biases_ok(light) || light->shadow_strength_uq16 > 65536 || light->colour_exp < -100 || light->colour_exp > 100 ||
+        light->mask_channel < -1 || light->mask_channel > 3)
         return gn_fail(frame, GN_ERR_LIGHT_BIAS, idx);
-    return GN_OK;
+    return light->kind == GN_LIGHT_DIRECTIONAL ? GN_OK : check_punctual(frame, light, idx);
 }
 
 static int cascades_ok(const gn_shadow_settings *shadow)
@@ -113,6 +169,26 @@ static int cascades_ok(const gn_shadow_settings *shadow)
     return 1;
 }
 
+static int filter_ok(gn_filter filter)
+{
+    if (filter == GN_FILTER_DISK) return GN_DISK_FILTER;
+    return (int)filter >= GN_FILTER_HARD && (int)filter <= GN_FILTER_MAX;
+}
+
+static gn_status check_filters(gn_frame *frame, const gn_shadow_settings *shadow)
+{
+    int disk = shadow->filter == GN_FILTER_DISK || shadow->other_filter == GN_FILTER_DISK;
+    if (!filter_ok(shadow->filter) || !filter_ok(shadow->other_filter) || (int)shadow->kernel < GN_KERNEL_TENT ||
+        (int)shadow->kernel > (GN_LINEAR_KERNELS ? GN_KERNEL_LINEAR : GN_KERNEL_TENT) || shadow->penumbra_uq16 > 64 << 16 ||
+        (disk && (shadow->disk_samples < 1 || shadow->disk_samples > 64)))
+        return gn_fail(frame, GN_ERR_SHADOW_FILTER, 0);
+    if ((int)shadow->mixing < GN_MIXING_NONE || (int)shadow->mixing > (GN_MASKS ? GN_MIXING_DISTANCE : GN_MIXING_NONE) ||
+        (int)shadow->tile_sizes < GN_TILES_EQUAL || (int)shadow->tile_sizes > GN_TILES_IMPORTANCE ||
+        shadow->main_light > (GN_MAIN_LIGHT ? 1U : 0U))
+        return gn_fail(frame, GN_ERR_SHADOW_MODE, 0);
+    return GN_OK;
+}
+
 static gn_status check_shadow(gn_frame *frame, const gn_scene *scene)
 {
     const gn_shadow_settings *shadow = &scene->shadow;
@@ -124,8 +200,7 @@ static gn_status check_shadow(gn_frame *frame, const gn_scene *scene)
     if ((int)shadow->distance_mode < GN_DISTANCE_DEPTH || (int)shadow->distance_mode > GN_DISTANCE_RADIUS)
         return gn_fail(frame, GN_ERR_SHADOW_DISTANCE, 0);
     if (!cascades_ok(shadow)) return gn_fail(frame, GN_ERR_SHADOW_CASCADES, 0);
-    if ((int)shadow->filter < GN_FILTER_HARD || (int)shadow->filter > GN_FILTER_MAX) return gn_fail(frame, GN_ERR_SHADOW_FILTER, 0);
-    return GN_OK;
+    return check_filters(frame, shadow);
 }
 
 gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene)
@@ -133,8 +208,11 @@ gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene)
     gn_status status = check_camera(frame, &scene->camera);
     if (status) return status;
     if ((scene->n_objects && !scene->objects) || (scene->n_lights && !scene->lights)) return gn_fail(frame, GN_ERR_NULL, 0);
-    if (scene->n_objects > 65535) return gn_fail_capacity(frame, GN_ERR_TOO_MANY_OBJECTS, scene->n_objects, 65535);
+    if (scene->n_objects > GN_MAX_OBJECTS)
+        return gn_fail_capacity(frame, GN_ERR_TOO_MANY_OBJECTS, scene->n_objects, GN_MAX_OBJECTS);
     if (scene->n_lights > GN_MAX_LIGHTS) return gn_fail_capacity(frame, GN_ERR_TOO_MANY_LIGHTS, scene->n_lights, GN_MAX_LIGHTS);
+    if (scene->unit_log2 < -30 || scene->unit_log2 > 30) return gn_fail(frame, GN_ERR_CAMERA_DEPTH, 0);
+    if (scene->shadow.object_lights > GN_OBJECT_LIGHTS_MAX) return gn_fail(frame, GN_ERR_SHADOW_MODE, 0);
     if (above(scene->ambient_uq16, GN_COLOUR_LIMIT_UQ16) || above(scene->background_uq16, 65536))
         return gn_fail(frame, GN_ERR_COLOUR, 0);
     for (uint32_t i = 0; i < scene->n_lights; i++)

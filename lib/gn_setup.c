@@ -178,6 +178,7 @@ static gn_status setup_object(gn_frame *frame, gn_vcache_entry *cache, uint32_t 
     const gn_object *object = &frame->scene->objects[object_idx];
     const gn_mesh *mesh = object->mesh;
     gn_xform xform;
+    if (object->flags & GN_OBJECT_HIDDEN) return GN_OK;
     gn_xform_compose(&xform, cam->axis_q30, cam->eye_q16, object);
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
         int32_t v[3][3];

@@ -2,6 +2,7 @@
 #include "gn_shade.h"
 #include "gn_light.h"
 #include "gn_pixel.h"
+#include "gn_punctual.h"
 #include "gn_q.h"
 #include "gn_raster.h"
 
@@ -38,7 +39,7 @@ static uint32_t raw_value(const shading *s, const gn_sample *sample, int32_t x, 
     const gn_picture *picture = &s->frame->picture;
     switch (picture->view) {
     case GN_VIEW_SHADOW:
-        if (s->surface.object->flags & GN_OBJECT_UNLIT || picture->view_light >= s->frame->scene->n_lights) return 65536;
+        if (s->surface.object->flags & GN_OBJECT_UNLIT) return 65536;
         return gn_light_shadow(s->frame, &s->surface, sample, picture->view_light);
     case GN_VIEW_DEPTH:
         return (uint32_t)sample->value[GN_VALUE_Z];
@@ -80,17 +81,17 @@ static void shade_pixel(shading *s, gn_sample *sample, int32_t x, int32_t y)
 }
 
 /* Steps per pixel from sample a to sample b, `n` pixels apart, rounded towards zero; differences saturate. */
-static void step_between(gn_sample *step, const gn_sample *a, const gn_sample *b, int32_t n_values, int32_t n)
+static void step_between(gn_sample *step, const gn_sample *a, const gn_sample *b, int32_t first, int32_t end, int32_t n)
 {
     if ((n & (n - 1)) == 0) {
         int32_t shift = 31 - gn_clz32((uint32_t)n);
-        for (int32_t i = 0; i < n_values; i++) {
+        for (int32_t i = first; i < end; i++) {
             int32_t d = gn_sat32((int64_t)b->value[i] - a->value[i]);
             step->value[i] = (d + ((d >> 31) & (n - 1))) >> shift;
         }
         return;
     }
-    for (int32_t i = 0; i < n_values; i++) step->value[i] = gn_sat32((int64_t)b->value[i] - a->value[i]) / n;
+    for (int32_t i = first; i < end; i++) step->value[i] = gn_sat32((int64_t)b->value[i] - a->value[i]) / n;
 }
 
 /* Between two normals at an angle t the cosine to a light bends away from its chord by at most t^2 / 8: 1/512 is allowed. */
@@ -105,23 +106,66 @@ static int turned_too_far(const int32_t a_q15[3], const int32_t b_q15[3])
     return apart > aa >> 6;
 }
 
+#if GN_PUNCTUAL_LIGHTS
+/* A point that is off by 1/512 of its distance from the light changes what arrives by less than 1 %. */
+static int punctual_chord_holds(const int32_t *a, const int32_t *b, uint64_t near4, uint64_t dz)
+{
+    uint64_t distance = 0, moved = 0; /* in the largest component */
+    for (int i = GN_LIGHT_POINT_AT; i < GN_LIGHT_POINT_AT + 3; i++) {
+        uint64_t d = gn_abs64((int64_t)b[i] - a[i]);
+        if (gn_abs32(a[i]) > distance) distance = gn_abs32(a[i]);
+        if (d > moved) moved = d;
+    }
+    if (moved * 4 > distance) return 0;           /* the light is no farther than a few pixels */
+    return moved * dz <= (near4 >> 9) * distance; /* 2^32 * 2^30, 2^24 * 2^31 */
+}
+#endif
+
+/* Shadow coordinates of a directional light may be off by 1/32 texel. */
+static int directional_chord_holds(const int32_t *a, const int32_t *b, uint64_t near4, uint64_t dz)
+{
+    for (uint32_t i = 1; i < GN_VALUES_PER_LIGHT; i++)
+        if (gn_abs64((int64_t)b[i] - a[i]) * dz > near4 * 2048) return 0; /* 2^32 * 2^30 */
+    return 1;
+}
+
+#if GN_TEXTURES
+/* Texture coordinates may be off by 1/32 texel. */
+static int texture_chord_holds(const gn_surface *surface, const gn_sample *a, const gn_sample *b, uint64_t near4, uint64_t dz)
+{
+    const gn_texture *texture = surface->object->texture;
+    const uint8_t log2[2] = {texture->width_log2, texture->height_log2};
+    for (int i = 0; i < 2; i++) {
+        uint64_t texels = gn_abs64((int64_t)b->value[GN_VALUE_UV + i] - a->value[GN_VALUE_UV + i]) >> 4; /* 2^28, in 1/4096 */
+        if (texels * dz > near4 * (2048U >> 4) >> log2[i]) return 0;
+    }
+    return 1;
+}
+#endif
+
 /* Whether linear steps between two samples stay close to what lies between. Over a change of depth from z to z + dz a value
- * that changes by dv bends away from its chord by at most dv * dz / (4 z) (NUMERICS 4.4). Shadow coordinates may be off by 1/32
- * texel; colours and the interpolated normal, whose range is 1, by 1/128. */
+ * that changes by dv bends away from its chord by at most dv * dz / (4 z) (NUMERICS 4.4). Colours and the interpolated normal, whose
+ * range is 1, may be off by 1/128. */
 static int chord_holds(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b)
 {
     uint32_t za = (uint32_t)a->value[GN_VALUE_Z], zb = (uint32_t)b->value[GN_VALUE_Z];
     uint64_t near4 = (uint64_t)(za < zb ? za : zb) * 4, dz = za < zb ? zb - za : za - zb;
-    if (a->cascade != b->cascade) return 0;
-    if ((surface->smooth || surface->coloured) && dz * 128 > near4) return 0;
+    if (a->cascade != b->cascade || a->in_reach != b->in_reach) return 0;
+    if ((surface->smooth | surface->coloured | surface->masked | surface->baked) && dz * 128 > near4) return 0;
     int lit = surface->n_values > GN_VALUE_LIGHT;
     if (surface->smooth && lit && turned_too_far(a->normal_q15, b->normal_q15)) return 0;
-    for (uint32_t l = 0; surface->shadowed && l < frame->scene->n_lights; l++) {
-        for (uint32_t i = 1; i < GN_VALUES_PER_LIGHT; i++) {
-            uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l + i;
-            int64_t dv_q16 = (int64_t)b->value[at] - a->value[at];
-            if (gn_abs64(dv_q16) * dz > near4 * 2048) return 0; /* 2^32 * 2^30 */
+#if GN_TEXTURES
+    if (surface->textured && !texture_chord_holds(surface, a, b, near4, dz)) return 0;
+#endif
+    for (uint32_t i = 0; i < surface->n_lights; i++) {
+        uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i;
+        if (frame->light[surface->light_idx[i]].kind == GN_LIGHT_DIRECTIONAL) {
+            if (surface->shadowed && !directional_chord_holds(a->value + at, b->value + at, near4, dz)) return 0;
+            continue;
         }
+#if GN_PUNCTUAL_LIGHTS
+        if (!punctual_chord_holds(a->value + at, b->value + at, near4, dz)) return 0;
+#endif
     }
     return 1;
 }
@@ -130,7 +174,8 @@ static int chord_holds(const gn_frame *frame, const gn_surface *surface, const g
  * pixels, linear between where that is close enough: 1/w is never extrapolated past the triangle. */
 static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
-    int32_t step_px = GN_K(s->frame, persp_step), n_values = s->surface.n_values;
+    int32_t step_px = s->surface.specular ? 1 : GN_K(s->frame, persp_step); /* a highlight is narrower than its n . h */
+    int32_t first = s->surface.first_value, end = s->surface.n_values;
     gn_sample samples[2], step, *here = &samples[0], *next = &samples[1];
     gn_surface_sample(s->frame, &s->surface, x_begin, y, here);
     shade_pixel(s, here, x_begin, y);
@@ -142,9 +187,9 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
             gn_surface_sample(s->frame, &s->surface, x + n, y, next);
         }
         if (n > 1) {
-            step_between(&step, here, next, n_values, n);
+            step_between(&step, here, next, first, end, n);
             for (int32_t k = 1; k < n; k++) {
-                for (int32_t i = 0; i < n_values; i++) here->value[i] += step.value[i];
+                for (int32_t i = first; i < end; i++) here->value[i] += step.value[i];
                 shade_pixel(s, here, x + k, y);
             }
         }
@@ -162,8 +207,8 @@ static void fill_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
     gn_sample sample;
     uint32_t radiance_q20[3];
     sample.cascade = GN_CASCADE_NONE;
-    for (uint32_t l = 0; l < s->frame->scene->n_lights; l++)
-        sample.value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * l] = s->surface.flat_cosine_q24[l];
+    for (uint32_t i = 0; i < s->surface.n_lights; i++)
+        sample.value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i] = s->surface.flat_cosine_q24[i];
     gn_light_radiance(s->frame, &s->surface, &sample, radiance_q20);
     gn_pixel_fill(s->frame, &s->rows, x_begin, y, x_end - x_begin, pack(s, radiance_q20));
 }
@@ -222,6 +267,10 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     s.rows.x0 = s.rect.x0;
     s.rows.y0 = s.rect.y0;
     s.cache.object = NULL;
+    s.cache.lights = UINT64_MAX;
+#if GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS
+    s.cache.lights = gn_punctual_in_tile(frame, &s.rect);
+#endif
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
     clear_background(&s);
     for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++) shade_triangle(&s, frame->tile_ref[i]);

@@ -85,6 +85,7 @@ typedef struct {
     int32_t near_q16;           /* n: depth is 1 - n / z */
     uint32_t focal2_q16;        /* T / t: twice the focal length in texels */
     gn_bfloat near_over_focal2; /* n / (T / t) */
+    gn_bfloat texel_per_z;      /* 2t / T: width of a texel at light-plane distance 1 */
     int32_t guard_q16[2];       /* |x|, |y| <= guard * z after clipping to the guard band */
 } gn_persp_fit;
 
@@ -112,6 +113,7 @@ typedef struct {
     uint8_t in_other;   /* it lies in the other atlas */
     uint8_t empty;      /* its cascade has no slice: never drawn, never selected */
     uint8_t tile_done;
+    uint8_t stale; /* A5: by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
 #if GN_DEPTH_BLOCKS
     gn_depth_block *block; /* (T / 8) * (T / 8) */
 #endif
@@ -218,9 +220,11 @@ typedef struct gn_frame {
     uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 1 */
     uint16_t n_views;
     gn_cam cam;
+    uint64_t min2_q32; /* P2: the least distance^2 of spot and point lights, 10^-4 of the model's */
     gn_light_state light[GN_MAX_LIGHTS];
     gn_object_state object[GN_MAX_OBJECTS];
-    uint32_t fade_start_q16; /* D5: strength = (max_distance - z) * fade_scale */
+    int32_t receivers_q16[2][3]; /* box of all receiving objects: least, largest corner; D8 */
+    uint32_t fade_start_q16;     /* D5: strength = (max_distance - z) * fade_scale */
     gn_bfloat fade_scale;
     uint16_t tiles_x, tiles_y;
     gn_tri tri[GN_MAX_TRIANGLES];
@@ -235,6 +239,7 @@ typedef struct gn_frame {
     gn_light_view view[GN_VIEWS_MAX]; /* light by light, cascade by cascade or face by face */
 #if GN_INCREMENTAL
     gn_tile_memory memory[GN_VIEWS_MAX];
+    uint64_t layout; /* signature of where the tiles lie: what is kept is forgotten when that changes */
 #endif
     gn_atlas_texels atlas;
 #if GN_STATIC_LAYER

@@ -6,23 +6,34 @@
 #include "gn_plane.h"
 #include "gnomon.h"
 
-/* Values sampled at a pixel and stepped linearly between samples. */
+/* Values sampled at a pixel and stepped linearly between samples. The first groups only where a surface has them. */
 enum {
-    GN_VALUE_Z,         /* view depth, Q16 */
-    GN_VALUE_FADE,      /* D6 factor of the cascade, Q16 */
-    GN_VALUE_RGB,       /* 3: interpolated vertex colour, Q16 */
-    GN_VALUE_LIGHT = 5, /* per light: n . L in Q24, tile coordinates U, V, D in Q16 texels, and those of the next cascade */
-    GN_VALUES_PER_LIGHT = GN_BLENDED_CASCADES ? 7 : 4,
-    GN_VALUE_COUNT = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * GN_MAX_LIGHTS
+    GN_VALUE_UV = 0,                                        /* 2: texture coordinates, Q16 */
+    GN_VALUE_MASK = GN_VALUE_UV + (GN_TEXTURES ? 2 : 0),    /* 4: shadow masks, Q16; or 2: coordinates of the mask image */
+    GN_VALUE_BAKED = GN_VALUE_MASK + (GN_MASKS ? 4 : 0),    /* 3: irradiance, Q16 */
+    GN_VALUE_Z = GN_VALUE_BAKED + (GN_BAKED_LIGHT ? 3 : 0), /* view depth, Q16 */
+    GN_VALUE_FADE,                                          /* D6 factor of the cascade, Q16 */
+    GN_VALUE_RGB,                                           /* 3: interpolated vertex colour, Q16 */
+    GN_VALUE_LIGHT = GN_VALUE_RGB + 3,                      /* the lights of the surface's list */
+    GN_VALUES_PER_LIGHT = GN_BLENDED_CASCADES || GN_PUNCTUAL_LIGHTS ? 7 : 4,
+    GN_VALUE_COUNT = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * GN_SURFACE_LIGHTS
 };
+
+/* Values of a light. Directional: n . L in Q24, tile coordinates U, V, D in Q16 texels, and those of the next cascade. Spot and point:
+ * n . (light - point), the point from the light, and the receiver's offset, all in world axes and Q16 units. */
+enum { GN_LIGHT_FACING, GN_LIGHT_POINT_AT, GN_LIGHT_OFFSET = 4 };
 
 #define GN_CASCADE_NONE 4
 
 typedef struct {
     int32_t value[GN_VALUE_COUNT];
     int32_t normal_q15[3]; /* interpolated, not renormalised; lit smooth surfaces only */
-    int32_t cascade;       /* of the surface point, GN_CASCADE_NONE: lit by every light */
+    int32_t cascade;       /* of the surface point, GN_CASCADE_NONE: none */
+    int32_t in_reach;      /* D11: near enough to the camera for shadows */
     int32_t x, y;          /* the pixel */
+#if GN_SPECULAR
+    int32_t normal_q30[3], to_eye_q30[3]; /* unit; surfaces with highlights only */
+#endif
 } gn_sample;
 
 typedef struct {
@@ -30,34 +41,49 @@ typedef struct {
     gn_plane plane;
     gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
     int32_t z_min_q16, z_max_q16;
-    int32_t bary[2][3]; /* b1, b2 = (bary . ray) / (n . ray) * 2^bary_exp */
-    int32_t bary_exp[2];
+    gn_bary bary;
     int32_t normal_q30[3][3]; /* vertex 0, then differences of vertices 1 and 2 to it; flat: the face normal and zeros */
     int32_t rgb_q16[3][3];    /* likewise for vertex colours */
-    uint8_t has_bary, smooth, coloured;
+#if GN_TEXTURES
+    int64_t uv_q16[3][2];
+#endif
+#if GN_MASKS
+    int32_t mask_q16[3][4];
+#endif
+#if GN_BAKED_LIGHT
+    int32_t baked_q16[3][3];
+#endif
+#if GN_RECEIVER_PLANE
+    int32_t face_q30[3]; /* normal of the face in the world; only where some light of the list asks for it */
+#endif
+    uint8_t has_bary, smooth, coloured, textured, masked, baked, specular;
     uint8_t shadowed; /* some light's shadow may fall on it */
-    int32_t n_values;
+    int32_t first_value, n_values;
+    /* the lights that can reach it */
+    uint32_t n_lights, n_punctual;
+    uint8_t light_idx[GN_SURFACE_LIGHTS];
     /* albedo times ambient (Q20) and times each light's colour (Q16): radiance is their sum, weighted */
     uint32_t base_q20[3];
-    uint32_t light_uq16[GN_MAX_LIGHTS][3];
-    /* where the normal is constant: n . L per light, and the receiver's offset in texels */
-    int32_t flat_cosine_q24[GN_MAX_LIGHTS];
-    int32_t flat_offset_q16[GN_MAX_LIGHTS][3];
+    uint32_t light_uq16[GN_SURFACE_LIGHTS][3];
+    /* where the normal is constant: n . L per directional light, and the receiver's offset in texels */
+    int32_t flat_cosine_q24[GN_SURFACE_LIGHTS];
+    int32_t flat_offset_q16[GN_SURFACE_LIGHTS][3];
 } gn_surface;
 
-/* Keeps what neighbouring triangles of a screen tile share: the current object's transforms. */
+/* Keeps what neighbouring triangles of a screen tile share. */
 typedef struct {
     const gn_object *object;
-    gn_xform to_view;
+    gn_xform to_view; /* of the current object */
     int32_t normal_matrix[3][3];
+    uint64_t lights; /* R9: a bit per light that can reach the screen tile */
 } gn_surface_cache;
 
 void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface, const gn_tri *tri);
 
 /* 1: one radiance all over, no need to sample it. */
-static inline int gn_surface_is_constant(const gn_surface *surface)
+static inline int gn_surface_is_constant(const gn_surface *s)
 {
-    return !surface->smooth && !surface->coloured && !surface->shadowed;
+    return !(s->smooth | s->coloured | s->shadowed | s->textured | s->masked | s->baked | s->specular) && !s->n_punctual;
 }
 
 /* Everything at the centre of pixel (x, y), exactly (R4): the perspective divide happens here. */

@@ -286,7 +286,7 @@ int main(int argc, char **argv)
     return 0;
 }
 EOF_C
-if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 $warn -Ilib -I. $host_knobs -o "$tmp/ram" "$tmp/ram.c" host/tool/settings.c host/tool/output.c host/scene/cascades.c -lm >"$tmp/ram.log" 2>&1; then
+if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 $warn -Ilib -I. $host_knobs -o "$tmp/ram" "$tmp/ram.c" host/tool/settings*.c host/tool/output.c host/scene/*.c -lm >"$tmp/ram.log" 2>&1; then
     pass
 else
     fail "settings_ram: $(grep -m 1 -E 'error|undefined' "$tmp/ram.log")"
@@ -316,7 +316,7 @@ predicted() {
     preset=$1
     shift
     flags="-DGN_PRESET=$preset" sets=
-    for key in max_width max_height max_triangles max_tile_refs max_lights max_shadow_tiles vertex_cache; do
+    for key in max_width max_height max_triangles max_tile_refs max_lights surface_lights max_objects max_shadow_tiles max_other_tiles vertex_cache; do
         macro=GN_$(echo $key | tr a-z A-Z)
         sets="$sets $key=$(sed -n "s/^#define $macro \([0-9]*\)$/\1/p" lib/gn_config.h)"
     done
@@ -331,7 +331,17 @@ if [ -n "$target" ]; then
         predicted $preset shadows=0
         predicted $preset raw_views=1
         predicted $preset depth_blocks=0
+        predicted $preset incremental=0
+        predicted $preset static_layer=1
+        predicted $preset static_layer=1 depth_blocks=0 incremental=0
+        predicted $preset punctual_lights=0
+        predicted $preset main_light=0
+        predicted $preset punctual_lights=0 main_light=0
+        predicted $preset punctual_lights=0 main_light=0 shadows=0 max_objects=3 max_lights=1
+        predicted $preset depth_bits=8 other_depth_bits=32 atlas_size=16 other_atlas_size=512
+        predicted $preset depth_bits=32 other_depth_bits=8 atlas_size=32 other_atlas_size=16 static_layer=1
         predicted $preset max_width=333 max_height=17 max_triangles=7 max_tile_refs=9 max_lights=3 max_shadow_tiles=16 vertex_cache=64
+        predicted $preset max_objects=777 max_other_tiles=13 surface_lights=3 max_shadow_tiles=1 max_lights=5
         predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
         predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
     done

@@ -4,7 +4,7 @@
 #include "../host/tool/metrics.h"
 #include "check.h"
 
-enum { MAX_PIXELS = 4, MAX_LIGHTS = 3 };
+enum { MAX_PIXELS = 4, MAX_LIGHTS = ENGINE_LIGHTS_MAX };
 
 typedef struct {
     uint8_t rgb8[3 * MAX_PIXELS];
@@ -274,6 +274,26 @@ static void test_lights(void)
     CHECK_NEAR(m.shadow_mismatch, 0, 0);
 }
 
+/* As many lights as there can be; what a light does not reach (the reference says n.L = -1) does not count for it. */
+static void test_many_lights(void)
+{
+    begin(2, 2, MAX_LIGHTS);
+    for (size_t l = 0; l < MAX_LIGHTS; l++) {
+        other.ndotl[l][l % 4] = -1;
+        fixed.shadow[l][l % 4] = 1;
+    }
+    fixed.shadow[MAX_LIGHTS - 1][0] = 0.25;
+    compute();
+    CHECK_EQ_INT(m.n_lights, MAX_LIGHTS);
+    for (size_t l = 0; l < MAX_LIGHTS; l++) {
+        CHECK_EQ_INT(m.light[l].pixels, 3);
+        CHECK_NEAR(m.light[l].atten_max, l == MAX_LIGHTS - 1 ? 0.25 : 0, 0);
+    }
+    CHECK_NEAR(m.atten_max, 0.25, 0);
+    CHECK_NEAR(m.atten_rms, 0.25 / sqrt(3.0 * MAX_LIGHTS), 1e-15);
+    CHECK_NEAR(m.shadow_mismatch, 1 / (3.0 * MAX_LIGHTS), 1e-15);
+}
+
 int main(void)
 {
     test_equal();
@@ -284,5 +304,6 @@ int main(void)
     test_comparable();
     test_causes();
     test_lights();
+    test_many_lights();
     return check_report();
 }

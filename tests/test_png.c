@@ -10,6 +10,7 @@
 #include "../host/scene/png.h"
 #include "../host/scene/zlib_stream.h"
 #include "check.h"
+#include "data/png_fixture.h"
 #include "rng.h"
 
 static const char *const tmp_path = "build/tmp/test_png.png";
@@ -90,46 +91,6 @@ static void test_write_errors(void)
     CHECK(png_write_rgb8("/dev/full", 1, 1, pixel, error, sizeof error) == -1);
 }
 
-/* Assembles files by hand, so that reading is not only tested against our own writing. */
-static uint8_t made[4096];
-static size_t n_made;
-
-static void put_word(uint8_t *out, uint32_t v)
-{
-    for (int i = 0; i < 4; i++) out[i] = (uint8_t)(v >> (24 - 8 * i));
-}
-
-static void put_chunk(const char *type, const void *bytes, size_t n)
-{
-    uint8_t *at = made + n_made;
-    put_word(at, (uint32_t)n);
-    memcpy(at + 4, type, 4);
-    if (n) memcpy(at + 8, bytes, n);
-    put_word(at + 8 + n, zlib_crc32(0, at + 4, n + 4));
-    n_made += n + 12;
-}
-
-static void start_file(uint32_t w, uint32_t h, uint8_t depth, uint8_t colour, uint8_t interlace)
-{
-    uint8_t header[13] = {[8] = depth, [9] = colour, [12] = interlace};
-    put_word(header, w);
-    put_word(header + 4, h);
-    memcpy(made, "\x89PNG\r\n\x1A\n", 8);
-    n_made = 8;
-    put_chunk("IHDR", header, sizeof header);
-}
-
-static void put_pixels(const uint8_t *raw, size_t n)
-{
-    size_t n_packed = 0;
-    uint8_t *packed = zlib_compress(raw, n, &n_packed);
-    if (CHECK(packed != NULL)) {
-        put_chunk("IDAT", packed, n_packed / 2); /* in two chunks */
-        put_chunk("IDAT", packed + n_packed / 2, n_packed - n_packed / 2);
-    }
-    free(packed);
-}
-
 static uint8_t *read_made(void)
 {
     int w, h;
@@ -169,6 +130,94 @@ static void test_colour_types(void)
     check_colour(6, (const uint8_t[]){2, 1, 2, 3, 4, 5, 6, 7, 8}, 9, (const uint8_t[]){1, 2, 3, 5, 6, 7});
 }
 
+/* w x 1 pixels and their RGBA. */
+static void check_rgba(uint32_t w, uint8_t depth, uint8_t colour, const char *trns, size_t n_trns, const uint8_t *raw, size_t n_raw,
+                       const uint8_t *expected)
+{
+    static const uint8_t palette[12] = {10, 20, 30, 40, 50, 60, 70, 80, 90, 1, 2, 3};
+    png_picture picture;
+    start_file(w, 1, depth, colour, 0);
+    if (colour == 3) put_chunk("PLTE", palette, sizeof palette);
+    if (trns) put_chunk("tRNS", trns, n_trns);
+    put_pixels(raw, n_raw);
+    put_chunk("IEND", NULL, 0);
+    if (!CHECK(png_decode_rgba8(made, n_made, 100, &picture, error, sizeof error))) return (void)puts(error);
+    CHECK(picture.w == (int)w && picture.h == 1 && picture.depth == depth && memcmp(picture.rgba, expected, 4 * (size_t)w) == 0);
+    free(picture.rgba);
+}
+
+static void test_depths_and_alpha(void)
+{
+    check_rgba(1, 8, 6, NULL, 0, (const uint8_t[]){0, 1, 2, 3, 4}, 5, (const uint8_t[]){1, 2, 3, 4});
+    check_rgba(1, 8, 4, NULL, 0, (const uint8_t[]){0, 1, 2}, 3, (const uint8_t[]){1, 1, 1, 2});
+    check_rgba(1, 8, 6, "ignored", 7, (const uint8_t[]){0, 1, 2, 3, 4}, 5, (const uint8_t[]){1, 2, 3, 4});
+    check_rgba(2, 8, 0, "\0\x05", 2, (const uint8_t[]){0, 5, 6}, 3, (const uint8_t[]){5, 5, 5, 0, 6, 6, 6, 255});
+    check_rgba(2, 8, 2, "\0\1\0\2\0\3", 6, (const uint8_t[]){0, 1, 2, 3, 1, 2, 4}, 7, (const uint8_t[]){1, 2, 3, 0, 1, 2, 4, 255});
+    check_rgba(3, 8, 3, "\x07\x08", 2, (const uint8_t[]){0, 1, 2, 0}, 4,
+               (const uint8_t[]){40, 50, 60, 8, 70, 80, 90, 255, 10, 20, 30, 7});
+    check_rgba(3, 1, 0, NULL, 0, (const uint8_t[]){0, 0xA0}, 2,
+               (const uint8_t[]){255, 255, 255, 255, 0, 0, 0, 255, 255, 255, 255, 255});
+    check_rgba(5, 2, 3, "\x09", 1, (const uint8_t[]){0, 0xE4, 0x40}, 3,
+               (const uint8_t[]){1, 2, 3, 255, 70, 80, 90, 255, 40, 50, 60, 255, 10, 20, 30, 9, 40, 50, 60, 255});
+    check_rgba(3, 4, 0, "\0\x0F", 2, (const uint8_t[]){0, 0x1F, 0x30}, 3,
+               (const uint8_t[]){17, 17, 17, 255, 255, 255, 255, 0, 51, 51, 51, 255});
+    /* 16 bits: 0x8000 is 127.5 of 255 and rounds up to 128; the transparent colour is compared in full. */
+    check_rgba(2, 16, 0, "\x80\0", 2, (const uint8_t[]){0, 0x80, 0, 0x80, 1}, 5,
+               (const uint8_t[]){128, 128, 128, 0, 128, 128, 128, 255});
+    check_rgba(1, 16, 2, NULL, 0, (const uint8_t[]){0, 0xFF, 0xFF, 0, 0x80, 0, 0x81}, 7, (const uint8_t[]){255, 0, 1, 255});
+    check_rgba(1, 16, 4, NULL, 0, (const uint8_t[]){0, 1, 1, 2, 2}, 5, (const uint8_t[]){1, 1, 1, 2});
+    check_rgba(1, 16, 6, NULL, 0, (const uint8_t[]){0, 1, 1, 2, 2, 3, 3, 4, 4}, 9, (const uint8_t[]){1, 2, 3, 4});
+}
+
+/* Pixel (x, y) has the value 16 y + x; the passes written as the format describes them: a 8 x 8 tile numbered 1 to 7. */
+static void check_interlaced(uint32_t w, uint32_t h)
+{
+    static const char tile[8][9] = {"16462646", "77777777", "56565656", "77777777", "36463646", "77777777", "56565656", "77777777"};
+    uint8_t raw[400];
+    size_t n = 0;
+    png_picture picture;
+    for (char number = '1'; number <= '7'; number++) {
+        for (uint32_t y = 0; y < h; y++) {
+            bool started = false;
+            for (uint32_t x = 0; x < w; x++) {
+                if (tile[y % 8][x % 8] != number) continue;
+                if (!started) raw[n++] = 0;
+                started = true;
+                raw[n++] = (uint8_t)(16 * y + x);
+            }
+        }
+    }
+    start_file(w, h, 8, 0, 1);
+    put_pixels(raw, n);
+    put_chunk("IEND", NULL, 0);
+    if (!CHECK(png_decode_rgba8(made, n_made, 100, &picture, error, sizeof error))) return (void)puts(error);
+    for (uint32_t i = 0; i < w * h; i++) CHECK(picture.rgba[4 * i + 1] == 16 * (i / w) + i % w && picture.rgba[4 * i + 3] == 255);
+    free(picture.rgba);
+}
+
+static void test_interlaced(void)
+{
+    for (uint32_t w = 1; w <= 10; w++) {
+        for (uint32_t h = 1; h <= 10; h++) check_interlaced(w, h);
+    }
+}
+
+/* Bits that do not fill a byte in any pass: 1-bit grey, interlaced, 3 x 2 all white but (1, 1). */
+static void test_interlaced_bits(void)
+{
+    static const uint8_t raw[] = {0, 0x80, 0, 0x80, 0, 0x80, 0, 0xA0}; /* passes 1, 4, 6 and 7 */
+    png_picture picture;
+    start_file(3, 2, 1, 0, 1);
+    put_pixels(raw, sizeof raw);
+    put_chunk("IEND", NULL, 0);
+    if (!CHECK(png_decode_rgba8(made, n_made, 100, &picture, error, sizeof error))) return (void)puts(error);
+    for (int i = 0; i < 6; i++) CHECK_EQ_INT(picture.rgba[4 * i], i == 4 ? 0 : 255);
+    free(picture.rgba);
+    CHECK(!png_decode_rgba8(made, n_made, 2, &picture, error, sizeof error) && !picture.rgba);
+    CHECK(strcmp(error, "the picture size is out of range") == 0);
+    CHECK(png_is(made, n_made) && !png_is(made, 7) && !png_is(made + 1, n_made - 1));
+}
+
 static void test_header_errors(void)
 {
     static const struct {
@@ -179,11 +228,16 @@ static void test_header_errors(void)
         {0, 1, 8, 2, 0, "size is out of range"},
         {1, 0, 8, 2, 0, "size is out of range"},
         {0xFFFFFFFF, 1, 8, 2, 0, "size is out of range"},
-        {1, 1, 16, 2, 0, "8 bits"},
-        {1, 1, 1, 0, 0, "8 bits"},
+        {1, 1, 3, 0, 0, "bits per channel"},
+        {1, 1, 0, 0, 0, "bits per channel"},
+        {1, 1, 32, 2, 0, "bits per channel"},
+        {1, 1, 4, 2, 0, "bits per channel"},
+        {1, 1, 4, 4, 0, "bits per channel"},
+        {1, 1, 16, 3, 0, "bits per channel"},
         {1, 1, 8, 5, 0, "colour type"},
         {1, 1, 8, 200, 0, "colour type"},
-        {1, 1, 8, 2, 1, "interlaced"},
+        {1, 1, 8, 2, 2, "interlace method"},
+        {2, 2, 8, 2, 1, "too short"},
         {65536, 65536, 8, 6, 0, "too short"},
         {2, 1, 8, 3, 0, "PLTE is missing"},
     };
@@ -209,6 +263,9 @@ static void test_chunk_errors(void)
     start_file(1, 1, 8, 3, 0);
     put_chunk("PLTE", "1234", 4);
     CHECK(refused("PLTE has the wrong length"));
+    start_file(1, 1, 8, 2, 0);
+    put_chunk("tRNS", "1234", 4);
+    CHECK(refused("tRNS has the wrong length"));
     start_file(1, 1, 8, 2, 0);
     n_made = 8;
     put_chunk("IEND", NULL, 0);
@@ -319,6 +376,18 @@ static void test_damage(void)
     n = fread(valid, 1, sizeof valid, file);
     fclose(file);
     fuzz(valid, n);
+    start_file(5, 3, 2, 3, 1);
+    put_chunk("PLTE", "123456789abc", 12);
+    put_chunk("tRNS", "12", 2);
+    static const uint8_t raw[15] = {0};
+    put_pixels(raw, sizeof raw);
+    put_chunk("IEND", NULL, 0);
+    n = n_made;
+    memcpy(valid, made, n);
+    uint8_t *rgb = read_made();
+    CHECK(rgb != NULL);
+    free(rgb);
+    fuzz(valid, n);
 }
 
 int main(void)
@@ -328,6 +397,9 @@ int main(void)
     test_round_trips();
     test_write_errors();
     test_colour_types();
+    test_depths_and_alpha();
+    test_interlaced();
+    test_interlaced_bits();
     test_header_errors();
     test_chunk_errors();
     test_inflate();

@@ -1,175 +1,9 @@
 /* The reference engine against closed forms. It is the oracle of the other tests, so nothing here compares it with another engine:
- * every expectation is computed from the scene by hand. Scenes are built here, without the loaders.
+ * every expectation is computed from the scene by hand.
  */
-#include "check.h"
-#include "../host/ref/ref.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#define PI        3.14159265358979323846
-#define MAX_PARTS 4
-
-typedef struct {
-    scene s;
-    scene_mesh meshes[MAX_PARTS];
-    scene_object objects[MAX_PARTS];
-    scene_light lights[REF_MAX_LIGHTS + 1];
-} fixture;
+#include "ref_fixture.h"
 
 static const double origin[3] = {0, 0, 0};
-static char no_name[] = "";
-
-/* ---- scenes ---- */
-
-static scene_affine identity(void)
-{
-    return (scene_affine){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-}
-
-static void cross(double out[3], const double a[3], const double b[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void normalise(double a[3])
-{
-    const double length = sqrt(dot(a, a));
-    for (int i = 0; i < 3; i++) a[i] /= length;
-}
-
-static void look(fixture *f, const double from[3], const double at[3], const double up_hint[3])
-{
-    double forward[3], right[3], up[3];
-    for (int i = 0; i < 3; i++) forward[i] = at[i] - from[i];
-    normalise(forward);
-    cross(right, forward, up_hint);
-    normalise(right);
-    cross(up, right, forward);
-    for (int i = 0; i < 3; i++) {
-        double *row = f->s.camera.to_world.m[i];
-        row[0] = right[i];
-        row[1] = up[i];
-        row[2] = -forward[i];
-        row[3] = from[i];
-    }
-}
-
-/* Camera at the origin looking along -Z, white ambient 0, hard filter, no lights. */
-static void begin(fixture *f)
-{
-    memset(f, 0, sizeof *f);
-    f->s.meshes = f->meshes;
-    f->s.objects = f->objects;
-    f->s.lights = f->lights;
-    f->s.camera = (scene_camera){.to_world = identity(), .focal = 1.0, .near = 0.1, .far = HUGE_VAL};
-    f->s.shadow = (scene_shadow){.max_distance = 100,
-                                 .distance_fade = 0.1,
-                                 .cascade_fade = 0.1,
-                                 .filter = SCENE_FILTER_HARD,
-                                 .n_cascades = 1,
-                                 .cascade_ratio = {1, 1, 1}};
-}
-
-static void end(fixture *f)
-{
-    for (size_t i = 0; i < f->s.n_meshes; i++) {
-        free(f->meshes[i].pos);
-        free(f->meshes[i].nrm);
-        free(f->meshes[i].rgb);
-        free(f->meshes[i].idx);
-    }
-}
-
-/* A mesh and a white object that casts and receives. */
-static scene_mesh *add_mesh(fixture *f, size_t n_vertices, const double *pos, size_t n_triangles, const uint32_t *idx)
-{
-    scene_mesh *mesh = &f->meshes[f->s.n_meshes];
-    *mesh = (scene_mesh){.name = no_name, .n_vertices = n_vertices, .n_triangles = n_triangles};
-    mesh->pos = malloc(3 * n_vertices * sizeof *mesh->pos);
-    mesh->idx = malloc(3 * n_triangles * sizeof *mesh->idx);
-    if (!mesh->pos || !mesh->idx) abort();
-    memcpy(mesh->pos, pos, 3 * n_vertices * sizeof *mesh->pos);
-    memcpy(mesh->idx, idx, 3 * n_triangles * sizeof *mesh->idx);
-    f->objects[f->s.n_objects++] = (scene_object){
-        .name = no_name, .mesh_idx = f->s.n_meshes++, .to_world = identity(), .albedo = {1, 1, 1}, .caster = SCENE_CASTER_ON, .receives = true};
-    return mesh;
-}
-
-/* Corners in counter-clockwise order. */
-static scene_mesh *add_quad(fixture *f, const double corners[12])
-{
-    static const uint32_t idx[6] = {0, 1, 2, 0, 2, 3};
-    return add_mesh(f, 4, corners, 2, idx);
-}
-
-/* y = height, facing up. */
-static scene_mesh *add_floor(fixture *f, double half, double height)
-{
-    const double corners[12] = {-half, height, half, half, height, half, half, height, -half, -half, height, -half};
-    return add_quad(f, corners);
-}
-
-static void add_box(fixture *f, const double low[3], const double high[3])
-{
-    static const uint32_t idx[36] = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
-                                     2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
-    double pos[24];
-    for (int i = 0; i < 8; i++)
-        for (int k = 0; k < 3; k++) pos[3 * i + k] = (i >> k) & 1 ? high[k] : low[k];
-    add_mesh(f, 8, pos, 12, idx);
-}
-
-static scene_light *add_light(fixture *f, double x, double y, double z)
-{
-    scene_light *light = &f->lights[f->s.n_lights++];
-    *light = (scene_light){
-        .name = no_name, .direction = {x, y, z}, .colour = {1, 1, 1}, .shadow = true, .strength = 1, .bias_normal = 1};
-    normalise(light->direction);
-    return light;
-}
-
-static ref_picture render(const fixture *f, int width, int height, int atlas_size)
-{
-    ref_picture p;
-    char error[200] = "";
-    const ref_options options = {.width = width, .height = height, .atlas_size = atlas_size, .srgb = false};
-    const int status = ref_render(&p, &f->s, &options, error, sizeof error);
-    if (status) fprintf(stderr, "%s\n", error);
-    CHECK_EQ_INT(status, 0);
-    if (status) abort();
-    return p;
-}
-
-/* The world point that a pixel shows, from its depth. */
-static void world_at(double out[3], const fixture *f, const ref_picture *p, int i, int j)
-{
-    const double focal_px = f->s.camera.focal * p->height / 2.0, z = p->depth[j * p->width + i];
-    const double x = (i + 0.5 - p->width / 2.0) * z / focal_px, y = (p->height / 2.0 - j - 0.5) * z / focal_px;
-    for (int k = 0; k < 3; k++) {
-        const double *row = f->s.camera.to_world.m[k];
-        out[k] = row[0] * x + row[1] * y - row[2] * z + row[3];
-    }
-}
-
-/* Uniform in 0..1, xorshift64*. */
-static double random_unit(void)
-{
-    static uint64_t state = 88172645463325252u;
-    state ^= state >> 12;
-    state ^= state << 25;
-    state ^= state >> 27;
-    return (double)((state * 2685821657736338717u) >> 11) / 9007199254740992.0;
-}
 
 /* ---- visibility ---- */
 
@@ -747,16 +581,6 @@ static void test_tiles(void)
 
 /* ---- cascades ---- */
 
-static double random_between(double low, double high)
-{
-    return low + (high - low) * random_unit();
-}
-
-static double random_log(double low, double high)
-{
-    return low * pow(high / low, random_unit());
-}
-
 /* 0 and 1, equal ones, and any. */
 static void random_ratios(scene_shadow *shadow)
 {
@@ -849,14 +673,6 @@ static bool leaves_tile(const ref_light_view *view, scene_filter filter, double 
 {
     const double reach[5] = {0, 0.5, 1.5, 2.5, 3.5};
     return floor(u - reach[filter]) < 0 || ceil(u + reach[filter]) > view->tile_texels;
-}
-
-static void random_direction(double out[3])
-{
-    do {
-        for (int k = 0; k < 3; k++) out[k] = random_between(-1, 1);
-    } while (dot(out, out) > 1 || dot(out, out) < 1e-6);
-    normalise(out);
 }
 
 static void test_samples_stay(void)
@@ -1470,7 +1286,11 @@ static void test_errors(void)
     f.s.shadow.cascade_ratio[0] = 0.5;
     for (int l = 0; l < 4; l++) f.lights[l] = f.lights[0];
     f.s.n_lights = 4;
-    options.atlas_size = 16; /* 8 tiles: 4 texels each */
+    options.atlas_size = 16; /* room for four tiles of 8 texels: the first two lights */
+    CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), 0);
+    for (int l = 0; l < 4; l++) CHECK_EQ_INT(p.grant[l].tile_texels, l < 2 ? 8 : 0);
+    ref_free(&p);
+    options.other_atlas_size = 24;
     CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);
     CHECK(p.rgb == NULL);
     end(&f);

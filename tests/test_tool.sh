@@ -103,6 +103,14 @@ for engine in fixed reference; do # three of four tiles in a row
     good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --set atlas_size=64 --set cascades=3
     is_png "$tmp/view.png" 96x32 "--engine $engine --view atlas, three cascades"
 done
+for engine in fixed reference; do # a spot light has one tile, a point light six
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --light 1 --set other_atlas_size=64 --set lights=directional,spot
+    is_png "$tmp/view.png" 64x64 "--engine $engine --view atlas, spot light"
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --set other_atlas_size=64 --set lights=point
+    is_png "$tmp/view.png" 96x16 "--engine $engine --view atlas, point light"
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view shadow --light 2 --set lights=point,directional,spot
+    is_png "$tmp/view.png" 33x21 "--engine $engine --view shadow, the last of three lights"
+done
 good render "$cube" -o "$tmp/one.png" --size 1x1
 is_png "$tmp/one.png" 1x1 "--size 1x1"
 good compare "$cube" -o "$tmp/new" --size 33x21
@@ -147,7 +155,7 @@ for scene in "$cube" "$odd"; do
     good compare "$scene" --size 32x24 --json
     valid_json identical within1 max_error atten_rms atten_max shadow_mismatch coverage_mismatch ram_bytes
     good info "$scene" --size 32x24 --json
-    valid_json objects triangles lights ram_bytes notes
+    valid_json objects triangles lights light_list textures alpha casters needs surface_lights shadow_tiles other_tiles ram_bytes notes
 done
 : >"$tmp/empty"
 "$tmp/json" <"$tmp/empty" >/dev/null && fail "the JSON checker takes nothing for JSON" || pass
@@ -172,7 +180,7 @@ for size in 0x0 99999x1 1x99999 -1x5 5x-1 1e3x4 '' x 10 10x 10x10x10 10X10 10.5x
     bad 2 '--size' info "$cube" --size "$size"
 done
 for frame in -1 1.5 '' x 1e3 99999999999999999999; do bad 2 '--frame' info "$cube" --frame "$frame"; done
-for light in -1 8 '' one 0.5 - 0x1; do bad 2 "^gnomon: --light: bad value '$light'" render "$cube" -o "$tmp/a.png" --light "$light"; done
+for light in -1 64 '' one 0.5 - 0x1; do bad 2 "^gnomon: --light: bad value '$light'" render "$cube" -o "$tmp/a.png" --light "$light"; done
 bad 2 "^gnomon: --size: bad value 'abc', not WxH" info "$cube" --size abc
 bad 2 "bad value 'a?b'" info "$cube" --size "$(printf 'a\nb')" # still one line
 bad 2 "bad value ''" render "$cube" -o ''
@@ -326,14 +334,28 @@ done
 for command in info compare; do
     bad 1 "filter_max.*3x3" $command "$cube" --size 8x8 --set filter=3x3 --set filter_max=1
     bad 1 "blended_cascades.*soft" $command "$cube" --size 8x8 --set cascades=2 --set cascade_blend=soft --set blended_cascades=0
+    bad 1 "disk_filter.*other_filter" $command "$cube" --size 8x8 --set other_filter=disk --set disk_filter=0
+    bad 1 "linear_kernels.*linear" $command "$cube" --size 8x8 --set kernel=linear --set linear_kernels=0
+    bad 1 "punctual_lights.*spot light" $command "$cube" --size 8x8 --set lights=spot --set punctual_lights=0
+    bad 1 "punctual_lights.*point light" $command "$cube" --size 8x8 --set add_light=point --set punctual_lights=0
+    bad 1 "filter_max.*soft light.*3" $command "$cube" --size 8x8 --set softness=soft --set filter_max=2
+    bad 1 "receiver_bias.*bias_receiver" $command "$cube" --size 8x8 --set bias_receiver=0,0,0,1 --set receiver_bias=0
+    bad 1 "caster_bias.*bias_caster" $command "$cube" --size 8x8 --set bias_caster=1 --set caster_bias=0
+    bad 1 "masks.*mixing" $command "$cube" --size 8x8 --set mixing=always --set masks=0
+    bad 1 "max_other_tiles is 5" $command "$cube" --size 8x8 --set lights=point --set max_other_tiles=5
     bad 1 "max_width.*8" $command "$cube" --size 8x6 --set max_width=7
     bad 1 "max_height.*6" $command "$cube" --size 8x6 --set max_height=5
-    bad 1 "max_shadow_tiles.*4" $command "$cube" --size 8x8 --set cascades=4 --set max_shadow_tiles=3
+    bad 1 "4 needed, max_shadow_tiles is 3" $command "$cube" --size 8x8 --set cascades=4 --set max_shadow_tiles=3
 done
 good info "$cube" --size 8x6 --set max_width=8 --set max_height=6 --set cascades=4 --set max_shadow_tiles=4 --set filter=3x3 --set filter_max=2
 good info "$cube" --size 8x6 --set cascades=4 --set cascade_blend=hard --set blended_cascades=0
 good info "$cube" --size 8x6 --set filter=7x7 --set filter_max=0 --set cascades=4 --set max_shadow_tiles=1 --set shadows=0 # no filter, no tiles
-for knob in raw_views runtime_knobs depth_blocks; do
+bad 1 'max_objects is 1' compare "$cube" --size 8x8 --set max_objects=1
+bad 1 'max_lights is 2' compare "$cube" --size 8x8 --set lights=spot,point,spot --set max_lights=2
+bad 1 'surface_lights is 1' compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=1
+good compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=2 --set max_lights=2 --set max_objects=2
+good info "$cube" --size 8x8 --set receiver_plane=0 --set receiver_plane@0=1 # what one light uses is built
+for knob in raw_views runtime_knobs depth_blocks tile_lights incremental static_layer caster_culling; do
     for on in 0 1; do
         good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=1
         [ $on = 0 ] && mv "$tmp/b.png" "$tmp/a.png"
@@ -349,6 +371,136 @@ good compare "$tmp/black.gltf" --size 16x12 --set background=0 --json # black on
 valid_json psnr_db
 is psnr_db null 'equal pictures'
 is max_error 0 'equal pictures'
+
+# ---- Lights --------------------------------------------------------------------------------------------------------------------
+
+alike() { # alike A B: settings, separated by blanks, that draw the same picture, in both engines
+    for engine in fixed reference; do
+        good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine $(for set in $1; do echo --set "$set"; done)
+        good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine $(for set in $2; do echo --set "$set"; done)
+        cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$engine draws $1 and $2 differently"
+    done
+}
+unlike() { # the same, and the pictures differ
+    for engine in fixed reference; do
+        good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine $(for set in $1; do echo --set "$set"; done)
+        good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine $(for set in $2; do echo --set "$set"; done)
+        cmp -s "$tmp/a.png" "$tmp/b.png" && fail "$engine draws $1 and $2 alike" || pass
+    done
+}
+unlike 'lights=directional' 'lights=spot'
+unlike 'lights=spot' 'lights=point'
+unlike 'lights=spot' 'lights=spot,point'
+alike 'lights=spot add_light=point' 'lights=spot,point'
+alike 'lights=point lights=spot' 'lights=spot'
+alike 'lights=spot,point strength@1=0' 'lights=spot,point strength@point=0'
+alike 'lights=spot,point strength@1=0' 'lights=spot,point shadow@1=0'
+alike 'lights=spot,point strength@0=0 strength@1=0' 'lights=spot,point strength=0'
+alike 'lights=spot,point strength=0 strength@1=1' 'lights=spot,point strength@0=0'
+unlike 'lights=spot,point strength@0=0' 'lights=spot,point strength@1=0'
+unlike 'lights=spot' 'lights=spot shadows=0'
+alike 'lights=spot shadows=0' 'lights=spot shadow=0'
+unlike 'lights=spot' 'lights=spot mode=baked'
+alike 'lights=spot,point mode@1=baked' 'lights=spot'
+unlike 'lights=spot filter=hard' 'lights=spot filter=7x7'
+alike 'lights=spot filter=hard other_filter=7x7' 'lights=spot filter=7x7'    # other_filter alone is the other atlas's,
+alike 'lights=spot other_filter=hard filter=7x7' 'lights=spot filter=7x7'    # filter sets both
+alike 'filter=7x7 other_filter=hard' 'filter=7x7'                            # a directional light is in the directional one
+alike 'softness=soft filter=hard' 'filter=5x5'
+alike 'softness=hard filter=5x5' 'filter=2x2'
+unlike 'filter=5x5 kernel=linear' 'filter=5x5'
+unlike 'filter=disk penumbra=64' 'filter=disk penumbra=0.5'
+unlike 'filter=disk penumbra=64 disk_samples=1' 'filter=disk penumbra=64 disk_samples=64'
+alike 'bias_receiver=0,0,1,0' 'bias_receiver@0=0,0,1,0'
+unlike 'filter=7x7 bias_normal=0 bias_constant=0' 'filter=7x7 bias_normal=0 bias_constant=0 bias_receiver=0,0,8,0'
+unlike 'lights=spot' 'lights=spot range=3'
+unlike 'lights=spot range=0' 'lights=spot range=3'
+unlike 'lights=spot' 'lights=spot near=8192 range=0'
+unlike 'lights=directional,directional cascades=4' 'lights=directional,directional cascades=4 main_light=1'
+unlike 'lights=spot other_atlas_size=32' 'lights=spot other_atlas_size=128'
+alike 'refresh=1' 'refresh=2,3'
+alike 'caster_culling=0 cascades=4' 'caster_culling=1 cascades=4'
+for knob in depth_bits other_depth_bits; do # the reference does not round depths
+    kind=directional
+    [ $knob = other_depth_bits ] && kind=spot
+    for bits in 8 16 32; do good render "$cube" -o "$tmp/view$bits.png" --size 64x48 --view atlas --set lights=$kind --set $knob=$bits; done
+    cmp -s "$tmp/view8.png" "$tmp/view16.png" && fail "$knob=8 stores what 16 does" || pass
+    good render "$cube" -o "$tmp/b.png" --size 64x48 --view atlas --set lights=$kind --set $knob=32 --engine reference
+    is_png "$tmp/b.png" "$(png_size "$tmp/view32.png")" "$knob=32"
+done
+
+set --
+while [ $# -lt 64 ]; do set -- "$@" spot; done
+kinds=$(echo "$@" | tr ' ' ,)
+good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds
+bad 1 'no more than 64' render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds,spot
+bad 1 'no more than 64' render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --set add_light=spot
+for value in '' , spot, ,spot sun spot,sun Spot 'spot, point' directionals; do bad 1 "'lights'.*directional, spot and point" info "$cube" --size 8x8 --set "lights=$value"; done
+for value in '' spot,point lamp; do bad 1 "'add_light'.*directional, spot and point" info "$cube" --size 8x8 --set "add_light=$value"; done
+bad 1 "no light '1', the scene has 1" info "$cube" --size 8x8 --set strength@1=0
+bad 1 "no light 'moon'" info "$cube" --size 8x8 --set strength@moon=0
+bad 1 "no light ''" info "$cube" --size 8x8 --set strength@=0
+bad 1 "no light '99999999999999999999'" info "$cube" --size 8x8 --set strength@99999999999999999999=0
+bad 1 "2 lights are named 'spot'" info "$cube" --size 8x8 --set lights=spot,spot --set strength@spot=0
+bad 1 "'filter' is not a setting of lights" info "$cube" --size 8x8 --set filter@0=hard
+bad 1 "'lights' is not a setting of lights" info "$cube" --size 8x8 --set lights@0=spot
+bad 1 "'atlas_size' is not a setting of lights" info "$cube" --size 8x8 --set atlas_size@0=64
+bad 1 "'nonsense' is not a setting of lights" info "$cube" --size 8x8 --set nonsense@0=1
+bad 1 "'' is not a setting of lights" info "$cube" --size 8x8 --set @0=1
+bad 1 "strength" info "$cube" --size 8x8 --set strength@0=2
+bad 1 "light 'spot'.*near plane.*units" render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=spot --set near=8 --set range=2
+while read -r key says values; do
+    for value in $values; do bad 1 "setting '$key': '$value' is not .*$says" info "$cube" --size 8x8 --set "$key=$value"; done
+done <<'LIST'
+other_filter disk 9x9 soft 1
+kernel linear box 0
+mixing always sometimes 1
+tiles importance 4 big
+softness soft firm 1
+mode baked dead 0
+main_light 1 2 yes
+caster_culling 1 2 -1
+receiver_plane 1 2 0.5
+shadow 1 2 yes
+disk_samples 64 0 65 1.5
+penumbra 64 -1 65 nan
+object_lights 8 -1 9 0.5
+mask_channel 3 -2 4 0.5
+refresh four 0 1,2,3,4,5 1,2.5 1,,2 -1 65536
+bias_receiver four 1,2 1,2,3 1,2,3,4,5 1,2,3,9 -1 1,2,3,x
+bias_caster 8 9 -1
+near 8192 0 -1 8193
+range unlimited 0.001 -1 100001 inf
+depth_bits 8 4 12 24
+depth_bits 32 0 64
+other_depth_bits 8 9 31
+other_atlas_size power 100 17
+LIST
+for set in bias_receiver=1,2,3,4 refresh=1,1,2,4 refresh=3 object_lights=0 mask_channel=-1 range=0.01 range=0 near=0.001 tiles=importance mixing=distance; do
+    good info "$cube" --size 8x8 --set lights=spot --set $set
+done
+
+# what info says of lights
+good info "$cube" --size 16x12 --json --set lights=directional,spot,point,spot --set shadow@3=0 --set other_atlas_size=64 --set atlas_size=64 --set cascades=2
+light() { # light WHAT PATTERN: one entry of the last JSON's light_list
+    grep -q "$2" "$tmp/out" && pass || fail "info of $1: no $2 in $(sed 's/.*"light_list": \(\[[^]]*\]\).*/\1/' "$tmp/out")"
+}
+light 'a directional light' '"kind": "directional", "mode": "realtime", "shadow": "realtime", "tiles": 2, "tile_texels": 32}'
+light 'a spot light' '"kind": "spot", "mode": "realtime", "shadow": "realtime", "tiles": 1, "tile_texels": 16}'
+light 'a point light' '"kind": "point", "mode": "realtime", "shadow": "realtime", "tiles": 6, "tile_texels": 16}'
+light 'a light without a shadow' '"kind": "spot", "mode": "realtime", "shadow": "not_wanted", "tiles": 0, "tile_texels": 0}'
+light 'what it needs' '"needs": {[^}]*"punctual_lights": 1'
+light 'the tiles of each atlas' '"shadow_tiles": 2, "other_tiles": 7'
+good info "$cube" --size 16x12 --json --set lights=spot,point,spot --set mode@2=baked --set other_atlas_size=16
+light 'a spot light before it' '"kind": "spot", "mode": "realtime", "shadow": "realtime", "tiles": 1, "tile_texels": 16}'
+light 'a point light without room' '"kind": "point", "mode": "realtime", "shadow": "no_room", "tiles": 0, "tile_texels": 0}'
+light 'a baked light' '"kind": "spot", "mode": "baked", "shadow": "not_wanted", "tiles": 0, "tile_texels": 0}'
+light 'lights without room' '"lights_without_room": 1'
+good info "$cube" --size 16x12 --set lights=spot,point --set other_atlas_size=16
+grep -q "1 'point': point, no room for its shadow" "$tmp/out" && grep -q "0 'spot': spot, 1 shadow tile of 16x16" "$tmp/out" && pass || fail "info does not say which light got a tile"
+grep -q 'needs:.* punctual_lights' "$tmp/out" && pass || fail "info does not name punctual_lights"
+good info "$cube" --size 16x12
+grep -q 'needs:.* punctual_lights' "$tmp/out" && fail "info names punctual_lights without a need" || pass
 
 # ---- host/run.sh ---------------------------------------------------------------------------------------------------------------
 

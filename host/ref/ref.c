@@ -8,14 +8,19 @@
 #define MAX_SIDE  16384 /* of picture and atlas: products of two sides fit every size_t and int64_t */
 #define MIN_ATLAS 16    /* A1 */
 
+static bool is_atlas_size(int size)
+{
+    return size >= MIN_ATLAS && size <= MAX_SIDE && (size & (size - 1)) == 0;
+}
+
 static const char *check_limits(const scene *s, const ref_options *options)
 {
-    const int atlas = options->atlas_size;
+    const int other = options->other_atlas_size;
     if (options->width < 1 || options->height < 1 || options->width > MAX_SIDE || options->height > MAX_SIDE)
         return "picture size out of range 1 to 16384";
-    if (atlas < MIN_ATLAS || atlas > MAX_SIDE || (atlas & (atlas - 1)) != 0)
+    if (!is_atlas_size(options->atlas_size) || (other != 0 && !is_atlas_size(other)))
         return "atlas size is not a power of two from 16 to 16384";
-    if (s->n_lights > REF_MAX_LIGHTS) return "more than 8 lights";
+    if (s->n_lights > REF_MAX_LIGHTS) return "more than 64 lights";
     if (s->shadow.n_cascades < 1 || s->shadow.n_cascades > REF_MAX_CASCADES) return "cascades out of range 1 to 4";
     return ref_ratios_ascend(&s->shadow) ? NULL : "cascade ratios are not ascending numbers from 0 to 1";
 }
@@ -44,6 +49,8 @@ static const char *run_stages(ref_frame *frame)
     const char *fault;
     if (!allocate(frame)) return "out of memory for the picture";
     if ((fault = ref_transform_objects(frame)) != NULL) return fault;
+    ref_list_lights(frame);
+    if ((fault = ref_assign_tiles(frame)) != NULL) return fault;
     if ((fault = ref_fit_lights(frame)) != NULL) return fault;
     if ((fault = ref_render_atlas(frame)) != NULL) return fault;
     ref_find_surfaces(frame);
@@ -82,7 +89,7 @@ void ref_free(ref_picture *p)
     for (size_t l = 0; l < REF_MAX_LIGHTS; l++) {
         free(p->shadow[l]);
         free(p->ndotl[l]);
-        for (int c = 0; c < REF_MAX_CASCADES; c++) free(p->view[l][c].depth);
+        for (int i = 0; i < REF_MAX_VIEWS; i++) free(p->view[l][i].depth);
     }
     memset(p, 0, sizeof *p);
 }

@@ -8,26 +8,49 @@
 
 #include "../scene/scene.h"
 
-#define REF_MAX_LIGHTS   8
+#define REF_MAX_LIGHTS   64
 #define REF_MAX_CASCADES 4
+#define REF_MAX_VIEWS    6 /* of a light: cascades, or the faces of a cube */
 
 typedef struct {
     int width, height;
-    int atlas_size; /* texels per side of the directional atlas; split 1/2/4 over its tiles (A2) */
-    bool srgb;      /* encode the output with the sRGB curve */
+    int atlas_size;       /* texels per side of the directional atlas (A1) */
+    bool srgb;            /* encode the output with the sRGB curve */
+    int other_atlas_size; /* of the other atlas; 0: the same */
+    int max_tiles;        /* capacity of the directional atlas, 1..16; 0: 16 (A3) */
+    int max_other_tiles;  /* of the other */
+    bool unsnapped;       /* directional texels and origins are not rounded: a map without D2's stability, for comparison */
 } ref_options;
 
-/* One directional light's fitted view, for tests of the fit alone. */
+/* One light view: a cascade, a single directional tile, a spot's cone or a face of a point light's cube. */
 typedef struct {
-    bool active;                            /* this cascade of this light has a shadow tile and is not empty */
+    bool active; /* it has a shadow tile, and its cascade is not empty */
+    bool perspective;
+    bool clear_border;                      /* texels outside the tile are lit (D10), instead of repeating the border (P8) */
+    bool clamped;                           /* point lights: P6 has no solution, t is 2 */
     int tile_texels;                        /* T */
-    double texel;                           /* world units per texel */
+    double texel;                           /* world units per texel; perspective: at distance 1 */
     double axis[3][3];                      /* u, v, w */
-    double origin[3];                       /* o_u, o_v, o_w, texels */
-    double depth_range;                     /* T * 2^J texels */
-    double sphere_centre[3], sphere_radius; /* the cascade's, whatever the light */
-    double *depth;                          /* T*T light depths in texels with bias, row-major [v][u]; empty = depth_range */
+    double origin[3];                       /* directional: o_u, o_v, o_w, texels */
+    double position[3];                     /* perspective: the light's */
+    double t;                               /* perspective: half-width at distance 1 */
+    double near;                            /* perspective: nothing nearer casts */
+    double depth_range;                     /* directional: T * 2^J texels; perspective: 1 */
+    double sphere_centre[3], sphere_radius; /* directional: the cascade's, whatever the light */
+    scene_filter filter;                    /* after the light's own choice (F5) */
+    int filter_index;                       /* k_f */
+    double disk_radius;                     /* R, texels */
+    double *depth; /* T*T depths with bias, row-major [v][u]: directional D in texels, perspective s; empty = depth_range */
 } ref_light_view;
+
+typedef enum { REF_NO_ATLAS, REF_DIRECTIONAL_ATLAS, REF_OTHER_ATLAS } ref_atlas;
+
+/* What a light got (A2, A3). */
+typedef struct {
+    ref_atlas atlas;
+    int n_tiles;
+    int tile_texels;
+} ref_grant;
 
 typedef struct {
     int width, height;
@@ -36,9 +59,11 @@ typedef struct {
     double *normal;    /* 3 per pixel, unit */
     int64_t *triangle; /* object << 32 | triangle, -1 where there is no surface */
     size_t n_lights;
-    double *shadow[REF_MAX_LIGHTS]; /* DESIGN 1.7, per pixel; 0 where there is no surface */
-    double *ndotl[REF_MAX_LIGHTS];  /* n . L, unclamped */
-    ref_light_view view[REF_MAX_LIGHTS][REF_MAX_CASCADES];
+    double *shadow[REF_MAX_LIGHTS]; /* DESIGN 1.10, per pixel; 0 where there is no surface */
+    double
+        *ndotl[REF_MAX_LIGHTS]; /* n . L, unclamped; -1 where a_l = 0, and where the light is baked or not in the object's list */
+    ref_grant grant[REF_MAX_LIGHTS];
+    ref_light_view view[REF_MAX_LIGHTS][REF_MAX_VIEWS];
     int8_t *cascade; /* selected by t_i, before any blending; -1 where there is no surface or no cascade */
 } ref_picture;
 
@@ -46,13 +71,42 @@ typedef struct {
 int ref_render(ref_picture *out, const scene *s, const ref_options *options, char *error, size_t error_bytes);
 void ref_free(ref_picture *p);
 
-/* Stages, exposed for tests. ref_fit_light leaves an empty cascade inactive and returns 0. */
+/* ---- stages, exposed for tests ---- */
+
+#define REF_SINGLE_TILE (-1) /* as a cascade: the one tile beside a main light (D10) */
+
+/* Fits leave view->depth alone and return 0; -1 if no finite view fits. An empty cascade stays inactive. face: 0..5 of a point
+ * light, 0 of a spot. */
 int ref_fit_light(ref_light_view *view, const scene *s, const scene_light *light, int cascade, int width, int height,
                   int tile_texels);
-double ref_tent_weight(int filter_size, double centre, int texel); /* filter_size 3, 5, 7; integral of DESIGN 1.6 */
-double ref_attenuation(const ref_light_view *view, scene_filter filter, double u, double v, double d);
-double ref_fade_factor(double t, double cascade_fade); /* F_i of DESIGN 1.4 from t_i */
-double ref_dither_noise(int x, int y);                 /* of DESIGN 1.4, at the centre of pixel (x, y): 0..1 */
+int ref_fit_punctual(ref_light_view *view, const scene *s, const scene_light *light, int face, int tile_texels);
+int ref_point_face(const double from_light[3]);
+/* t of P6: k_f, nu and T of DESIGN 1.5. */
+double ref_face_half_width(int filter_index, double nu, int tile_texels, bool *clamped);
+
+/* a_l of DESIGN 1.8 at a point; 1 for directional lights. */
+double ref_light_attenuation(const scene_light *light, const double point[3]);
+
+/* How a map is looked up (DESIGN 1.7). */
+typedef struct {
+    scene_filter filter;
+    scene_kernel kernel;
+    int disk_samples;   /* n */
+    int x, y;           /* of the pixel: the disk's rotation */
+    double gradient[2]; /* B5: of the receiver's depth, per texel along U and V; 0: off */
+} ref_lookup;
+
+double ref_filtered(const ref_light_view *view, const ref_lookup *how, double u, double v, double d);
+double ref_attenuation(const ref_light_view *view, scene_filter filter, double u, double v, double d); /* tent, no disk, no B5 */
+double ref_tent_weight(int filter_size, double centre, int texel);   /* filter_size 3, 5, 7 (F3) */
+double ref_linear_weight(int filter_size, double centre, int texel); /* the same for F6 */
+void ref_disk_sample(double out[2], int i, int x, int y);            /* sample i at pixel (x, y), in the unit disk (F4) */
+
+/* shadow_l of DESIGN 1.9 for strength > 0 and a light with a tile: rt attenuation, m mask. */
+double ref_mix(scene_mixing mixing, double strength, double g, double m, double rt);
+void ref_sample_texture(double rgba[4], const scene_texture *texture, double u, double v); /* linear light */
+double ref_fade_factor(double t, double cascade_fade);                                     /* F_i of DESIGN 1.4 from t_i */
+double ref_dither_noise(int x, int y); /* of DESIGN 1.4, at the centre of pixel (x, y): 0..1 */
 double ref_srgb_encode(double linear);
 
 #endif

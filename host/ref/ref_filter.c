@@ -1,5 +1,8 @@
-/* Attenuation: the shadow compare and its filters (DESIGN 1.6, rows F1 to F3). */
+/* Attenuation: the shadow compare and its filters (DESIGN 1.7, rows F1 to F6, B5). */
 #include "ref_internal.h"
+
+#define PI       3.14159265358979323846
+#define MAX_TAPS 16 /* per axis, and more than any separable filter has */
 
 /* Integral of the tent max(0, h - |t|) / h^2 from -h to x: 0 ... 1. */
 static double tent_integral(double x, double h)
@@ -15,50 +18,128 @@ double ref_tent_weight(int filter_size, double centre, int texel)
     return tent_integral(texel + 1 - centre, h) - tent_integral(texel - centre, h);
 }
 
-/* Weight of texel i along one axis around x; every filter of DESIGN 1.6 is separable. */
-static double axis_weight(scene_filter filter, double x, int i)
+double ref_linear_weight(int filter_size, double centre, int texel)
 {
-    switch (filter) {
+    /* Each weight is base + slope f. */
+    static const double base[3][8] = {{1, 2, 1, 0}, {1, 3, 4, 3, 1, 0}, {1, 5, 12, 16, 12, 5, 1, 0}};
+    static const double slope[3][8] = {{-1, -1, 1, 1}, {-1, -2, -1, 1, 2, 1}, {-1, -4, -7, -4, 4, 7, 4, 1}};
+    static const double total[3] = {4, 12, 52};
+    const int k = (filter_size - 1) / 2;
+    const int i = texel - ((int)floor(centre + 0.5) - (k + 1));
+    if (i < 0 || i >= 2 * (k + 1)) return 0.0;
+    return (base[k - 1][i] + slope[k - 1][i] * frac(centre + 0.5)) / total[k - 1];
+}
+
+static double kernel_weight(scene_kernel kernel, int filter_size, double x, int i)
+{
+    return kernel == SCENE_KERNEL_LINEAR ? ref_linear_weight(filter_size, x, i) : ref_tent_weight(filter_size, x, i);
+}
+
+/* Weight of texel i along one axis around x; every filter but the disk is separable. */
+static double axis_weight(const ref_lookup *how, double x, int i)
+{
+    switch (how->filter) {
     case SCENE_FILTER_HARD:
         return (int)floor(x) == i ? 1.0 : 0.0;
     case SCENE_FILTER_2X2:
         return fmax(0.0, 1.0 - fabs(i + 0.5 - x));
     case SCENE_FILTER_3X3:
-        return ref_tent_weight(3, x, i);
+        return kernel_weight(how->kernel, 3, x, i);
     case SCENE_FILTER_5X5:
-        return ref_tent_weight(5, x, i);
+        return kernel_weight(how->kernel, 5, x, i);
+    case SCENE_FILTER_7X7:
+        return kernel_weight(how->kernel, 7, x, i);
     case SCENE_FILTER_DISK:
         break;
-    case SCENE_FILTER_7X7:
-        return ref_tent_weight(7, x, i);
     }
     return 0.0;
 }
 
-/* Indices are clamped to the tile (P8). */
-static double compare(const ref_light_view *view, int i, int j, double d)
+/* The point that is looked up: indices are clamped to the tile (P8), and the receiver's plane (B5) is taken at the texel that is read.
+ * Beyond the far end an empty texel still lets it be lit. */
+static double compare(const ref_light_view *view, const ref_lookup *how, vec3 p, int i, int j)
 {
     const int last = view->tile_texels - 1;
     const int u = i < 0 ? 0 : i > last ? last : i, v = j < 0 ? 0 : j > last ? last : j;
-    return d <= view->depth[(size_t)v * (size_t)view->tile_texels + (size_t)u] ? 1.0 : 0.0;
+    if (view->clear_border && (u != i || v != j)) return 1.0;
+    const double d = p.z + how->gradient[0] * (u + 0.5 - p.x) + how->gradient[1] * (v + 0.5 - p.y);
+    return fmin(d, view->depth_range) <= view->depth[(size_t)v * (size_t)view->tile_texels + (size_t)u] ? 1.0 : 0.0;
+}
+
+static double separable(const ref_light_view *view, const ref_lookup *how, vec3 p)
+{
+    const int reach = ref_filter_index(how->filter, 0.0) + 1, n = 2 * reach + 1;
+    const int i0 = (int)floor(p.x) - reach, j0 = (int)floor(p.y) - reach;
+    double across[MAX_TAPS], sum = 0.0;
+    for (int i = 0; i < n; i++) across[i] = axis_weight(how, p.x, i0 + i);
+    for (int j = 0; j < n; j++) {
+        const double row = axis_weight(how, p.y, j0 + j);
+        if (!(row > 0.0)) continue;
+        for (int i = 0; i < n; i++)
+            if (across[i] > 0.0) sum += row * across[i] * compare(view, how, p, i0 + i, j0 + j);
+    }
+    return fmin(sum, 1.0);
+}
+
+/* ---- disk ---- */
+
+static uint32_t reversed_bits(uint32_t i)
+{
+    uint32_t out = 0;
+    for (int k = 0; k < 32; k++) out |= (i >> k & 1u) << (31 - k);
+    return out;
+}
+
+static uint32_t sobol_second(uint32_t i)
+{
+    uint32_t out = 0, direction = 0x80000000u;
+    for (; i; i >>= 1) {
+        if (i & 1u) out ^= direction;
+        direction ^= direction >> 1;
+    }
+    return out;
+}
+
+/* Turns */
+static double pixel_rotation(int x, int y)
+{
+    uint32_t v = ((uint32_t)x * 0x8DA6B343u) ^ ((uint32_t)y * 0xD8163841u);
+    v = (v ^ (v >> 15)) * 0x2C1B3C6Du;
+    v ^= v >> 13;
+    return (v >> 16) / 65536.0;
+}
+
+void ref_disk_sample(double out[2], int i, int x, int y)
+{
+    const double a = reversed_bits((uint32_t)i) ^ 0x9E3779B9u, b = sobol_second((uint32_t)i) ^ 0x7F4A7C15u;
+    const double rho = sqrt(ldexp(a, -32)), phi = 2.0 * PI * (ldexp(b, -32) + pixel_rotation(x, y));
+    out[0] = rho * cos(phi);
+    out[1] = rho * sin(phi);
+}
+
+static double disk(const ref_light_view *view, const ref_lookup *how, vec3 p)
+{
+    double sum = 0.0;
+    for (int i = 0; i < how->disk_samples; i++) {
+        double at[2];
+        ref_disk_sample(at, i, how->x, how->y);
+        sum += compare(view, how, p, (int)floor(p.x + view->disk_radius * at[0]), (int)floor(p.y + view->disk_radius * at[1]));
+    }
+    return sum / how->disk_samples;
+}
+
+/* Further out than its reach a filter meets the border texel alone: moving the point back along the receiver's plane only keeps the
+ * int in range. */
+double ref_filtered(const ref_light_view *view, const ref_lookup *how, double u, double v, double d)
+{
+    const double margin = 32.0, last = view->tile_texels + margin;
+    const double x = clamp(u, -margin, last), y = clamp(v, -margin, last);
+    const vec3 p = {x, y, d + how->gradient[0] * (x - u) + how->gradient[1] * (y - v)};
+    return how->filter == SCENE_FILTER_DISK ? disk(view, how, p) : separable(view, how, p);
 }
 
 double ref_attenuation(const ref_light_view *view, scene_filter filter, double u, double v, double d)
 {
-    const int reach = ref_filter_index(filter) + 1;
-    /* Further out than its reach a filter meets the border texel alone: clamping there only keeps the int in range. */
-    d = fmin(d, view->depth_range); /* beyond the far end an empty texel still lets it be lit */
-    const double margin = 2.0 * reach;
-    const double x = clamp(u, -margin, view->tile_texels + margin), y = clamp(v, -margin, view->tile_texels + margin);
-    const int i0 = (int)floor(x), j0 = (int)floor(y);
-    double sum = 0.0;
-    for (int j = j0 - reach; j <= j0 + reach; j++) {
-        const double row = axis_weight(filter, y, j);
-        if (!(row > 0.0)) continue;
-        for (int i = i0 - reach; i <= i0 + reach; i++) {
-            const double weight = row * axis_weight(filter, x, i);
-            if (weight > 0.0) sum += weight * compare(view, i, j, d);
-        }
-    }
-    return fmin(sum, 1.0);
+    const ref_lookup how = {.filter = filter};
+    return ref_filtered(view, &how, u, v, d);
 }

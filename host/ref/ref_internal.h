@@ -19,8 +19,11 @@ typedef struct {
 /* One object's vertices after its transform. */
 typedef struct {
     vec3 *world;
-    vec3 *view;   /* X, Y, Z of DESIGN 1.1; Z is the view depth */
-    vec3 *normal; /* unit world normals; NULL: face normals */
+    vec3 *view;               /* X, Y, Z of DESIGN 1.1; Z is the view depth */
+    vec3 *normal;             /* unit world normals; NULL: face normals */
+    vec3 box_centre;          /* the world box of DESIGN 1.6 */
+    vec3 box_half;            /* its half extents */
+    bool lit[REF_MAX_LIGHTS]; /* the object's light list (P9) */
 } ref_instance;
 
 typedef struct {
@@ -48,6 +51,8 @@ typedef struct {
     ref_picture *picture;
     ref_camera camera;
     ref_instance *instances; /* one per object */
+    size_t main_light;       /* D10; SCENE_NONE: every directional light has cascades */
+    bool cascades_in_use;    /* some light has tiles in the directional atlas */
     ref_sphere sphere[REF_MAX_CASCADES];
     ref_hit *hits; /* one per pixel; meaningful where picture->triangle >= 0 */
 } ref_frame;
@@ -57,17 +62,73 @@ typedef struct {
     int x0, y0, x1, y1;
 } ref_box;
 
+/* One triangle of an object. */
+typedef struct {
+    const scene_object *object;
+    const scene_mesh *mesh;
+    const ref_instance *instance;
+    const uint32_t *idx; /* of its three vertices */
+} ref_triangle;
+
+/* What a pixel shows (DESIGN 1.2). */
+typedef struct {
+    ref_triangle triangle;
+    const double *bary;
+    vec3 world;
+    vec3 face;         /* unit normal of the triangle itself */
+    vec3 interpolated; /* N, turned towards the viewer */
+    vec3 normal;       /* n */
+    vec3 albedo;
+    double view_depth;
+    ref_selection selected;
+    int x, y;
+    double noise; /* of the dither */
+} ref_surface;
+
+/* Where a light is from a surface point. */
+typedef struct {
+    vec3 to_light;      /* L */
+    double attenuation; /* a_l */
+} ref_incidence;
+
 /* ref_xform.c */
 ref_camera ref_make_camera(const scene_camera *camera, int width, int height);
-const char *ref_transform_objects(ref_frame *frame);
+const char *ref_transform_objects(ref_frame *frame); /* and their world boxes */
 void ref_free_instances(ref_frame *frame);
+ref_triangle ref_triangle_of(const ref_frame *frame, size_t object_idx, size_t triangle_idx);
+vec3 ref_face_normal(const ref_triangle *triangle); /* unit, world */
+
+/* ref_texture.c */
+double ref_alpha(const scene *s, const ref_triangle *triangle, const double bary[3]);
+vec3 ref_texture_colour(const scene *s, const ref_triangle *triangle, const double bary[3]);
+bool ref_alpha_cuts(scene_alpha mode, double alpha, double cutoff, int x,
+                    int y); /* x, y: of the pixel, or of the texel in its tile */
+double ref_mask(const scene *s, const ref_triangle *triangle, const double bary[3], int channel); /* m of DESIGN 1.9 */
+
+/* ref_punctual.c */
+double ref_distance_factor(const scene_light *light, double distance2);
+ref_incidence ref_light_at(const scene_light *light, vec3 p);
+double ref_box_distance2(const ref_instance *instance, vec3 p);
+bool ref_reaches(const scene_light *light, const ref_instance *instance);
+void ref_list_lights(ref_frame *frame);
+
+/* ref_tiles.c */
+const char *ref_assign_tiles(ref_frame *frame);
+
+/* ref_view.c */
+scene_filter ref_light_filter(const scene_shadow *shadow, const scene_light *light, ref_atlas atlas);
+int ref_filter_index(scene_filter filter, double wanted_radius); /* k_f; wanted_radius: R', for the disk */
+double ref_lateral_reach(const scene_light *light);              /* nu */
+void ref_fit_axes(ref_light_view *view, vec3 w);
+vec3 ref_to_light(const ref_light_view *view, vec3 world);      /* directional: (U, V, D) in texels; perspective: (x, y, z) */
+vec3 ref_project(const ref_light_view *view, vec3 p);           /* of ref_to_light's points, z > 0: (U, V, D) or (U, V, s) */
+double ref_texel_at(const ref_light_view *view, vec3 in_light); /* world units */
+vec2 ref_depth_gradient(const ref_light_view *view, vec3 normal, vec3 on_plane); /* depth per texel; all in ref_to_light's axes */
 
 /* ref_cascade.c */
-int ref_filter_index(scene_filter filter); /* k_f of DESIGN 1.4 */
 bool ref_ratios_ascend(const scene_shadow *shadow);
 const char *ref_fit_lights(ref_frame *frame); /* and the spheres */
 ref_selection ref_select_cascade(const ref_frame *frame, vec3 world);
-vec3 ref_to_light(const ref_light_view *view, vec3 world); /* (U, V, D), texels */
 
 /* ref_atlas.c */
 const char *ref_render_atlas(ref_frame *frame);
@@ -75,6 +136,13 @@ const char *ref_render_atlas(ref_frame *frame);
 /* ref_raster.c */
 ref_box ref_clip_box(vec2 low, vec2 high, int width, int height);
 void ref_find_surfaces(ref_frame *frame);
+
+/* ref_surface.c */
+vec3 ref_mix_vertices(const double *attribute, const uint32_t idx[3], const double bary[3]); /* 3 per vertex */
+ref_surface ref_surface_at(const ref_frame *frame, size_t pixel);
+
+/* ref_shadow.c */
+double ref_shadow(const ref_frame *frame, const ref_surface *at, size_t l, vec3 to_light); /* shadow_l */
 
 /* ref_light.c */
 void ref_light_pixels(ref_frame *frame); /* picture->rgb: linear radiance */

@@ -33,6 +33,10 @@ static inline vec3 vec3_scale(vec3 a, double f)
 {
     return (vec3){a.x * f, a.y * f, a.z * f};
 }
+static inline vec3 vec3_mul(vec3 a, vec3 b)
+{
+    return (vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
 static inline double vec3_dot(vec3 a, vec3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -62,6 +66,16 @@ static inline vec3 vec3_mix(const double f[3], vec3 a0, vec3 a1, vec3 a2)
 static inline double clamp(double x, double low, double high)
 {
     return fmin(fmax(x, low), high);
+}
+
+static inline double lerp(double a, double b, double f)
+{
+    return a + f * (b - a);
+}
+
+static inline double frac(double x)
+{
+    return x - floor(x);
 }
 
 /* a x b in the plane. The operands are ordered first, so that cross2(b, a) is bit for bit -cross2(a, b) even where the compiler

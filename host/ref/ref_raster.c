@@ -11,7 +11,7 @@ typedef struct {
     vec3 p[3];      /* view space */
     vec2 growth[3]; /* of the edge function opposite to p[k], to the right and downwards, over F */
     int64_t id;
-    bool two_sided;
+    ref_triangle source;
 } view_triangle;
 
 /* Indices of the samples at half-integers inside [low, high]; one too many on each side at most. Clamped before the conversion:
@@ -63,14 +63,15 @@ static int pixel_coverage(const view_triangle *triangle, double s, double t, dou
     return sides == 3 ? 1 : sides == -3 ? -1 : 0;
 }
 
-/* The nearest depth wins, the first drawn at equal depths. */
+/* The nearest depth wins, the first drawn at equal depths. Where alpha cuts (M8) there is no surface, and what is behind is seen. */
 static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i, int j)
 {
     const ref_camera *camera = &frame->camera;
     const double s = i + 0.5 - camera->half_width_px, t = camera->half_height_px - (j + 0.5);
     double weight[3];
     const int facing = pixel_coverage(triangle, s, t, camera->focal_px, weight);
-    if (facing == 0 || (facing < 0 && !triangle->two_sided)) return;
+    const scene_object *object = triangle->source.object;
+    if (facing == 0 || (facing < 0 && !object->two_sided)) return;
     const double sum = weight[0] + weight[1] + weight[2];
     if (!(fabs(sum) > 0.0)) return;
     ref_hit hit = {.behind = facing < 0};
@@ -78,6 +79,9 @@ static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i
     const double depth = hit.bary[0] * triangle->p[0].z + hit.bary[1] * triangle->p[1].z + hit.bary[2] * triangle->p[2].z;
     const size_t pixel = (size_t)j * (size_t)frame->picture->width + (size_t)i;
     if (!(depth >= camera->near) || !(depth < frame->picture->depth[pixel])) return;
+    if (object->visible_alpha != SCENE_ALPHA_OPAQUE &&
+        ref_alpha_cuts(object->visible_alpha, ref_alpha(frame->s, &triangle->source, hit.bary), object->alpha_cutoff, i, j))
+        return;
     frame->picture->depth[pixel] = depth;
     frame->picture->triangle[pixel] = triangle->id;
     frame->hits[pixel] = hit;
@@ -105,13 +109,11 @@ void ref_find_surfaces(ref_frame *frame)
     }
     for (size_t o = 0; o < frame->s->n_objects; o++) {
         const scene_object *object = &frame->s->objects[o];
-        const scene_mesh *mesh = &frame->s->meshes[object->mesh_idx];
+        const size_t n_triangles = object->hidden ? 0 : frame->s->meshes[object->mesh_idx].n_triangles;
         const vec3 *view = frame->instances[o].view;
-        for (size_t i = 0; i < mesh->n_triangles; i++) {
-            const uint32_t *idx = mesh->idx + 3 * i;
-            view_triangle triangle = {.p = {view[idx[0]], view[idx[1]], view[idx[2]]},
-                                      .id = (int64_t)(((uint64_t)o << 32) | i),
-                                      .two_sided = object->two_sided};
+        for (size_t i = 0; i < n_triangles; i++) {
+            view_triangle triangle = {.id = (int64_t)(((uint64_t)o << 32) | i), .source = ref_triangle_of(frame, o, i)};
+            for (int k = 0; k < 3; k++) triangle.p[k] = view[triangle.source.idx[k]];
             draw_triangle(frame, &triangle);
         }
     }

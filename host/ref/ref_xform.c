@@ -61,6 +61,24 @@ static bool transform_object(ref_instance *out, const scene_object *object, cons
     return true;
 }
 
+/* DESIGN 1.6: the box of the transformed box, which holds the transformed vertices. */
+static void fit_world_box(ref_instance *out, const scene_object *object, const scene_mesh *mesh)
+{
+    double low[3] = {0.0, 0.0, 0.0}, high[3] = {0.0, 0.0, 0.0}, half[3];
+    for (size_t i = 0; i < 3 * mesh->n_vertices; i++) {
+        low[i % 3] = i < 3 ? mesh->pos[i] : fmin(low[i % 3], mesh->pos[i]);
+        high[i % 3] = i < 3 ? mesh->pos[i] : fmax(high[i % 3], mesh->pos[i]);
+    }
+    const vec3 centre = vec3_scale(vec3_add(vec3_load(low), vec3_load(high)), 0.5);
+    const vec3 extent = vec3_scale(vec3_sub(vec3_load(high), vec3_load(low)), 0.5);
+    for (int r = 0; r < 3; r++) {
+        const double *m = object->to_world.m[r];
+        half[r] = fabs(m[0]) * extent.x + fabs(m[1]) * extent.y + fabs(m[2]) * extent.z;
+    }
+    out->box_centre = transform_point(&object->to_world, centre);
+    out->box_half = vec3_load(half);
+}
+
 const char *ref_transform_objects(ref_frame *frame)
 {
     const scene *s = frame->s;
@@ -70,6 +88,7 @@ const char *ref_transform_objects(ref_frame *frame)
         const scene_object *object = &s->objects[i];
         if (!transform_object(&frame->instances[i], object, &s->meshes[object->mesh_idx], &frame->camera))
             return "out of memory for the transformed vertices";
+        fit_world_box(&frame->instances[i], object, &s->meshes[object->mesh_idx]);
     }
     return NULL;
 }
@@ -83,4 +102,19 @@ void ref_free_instances(ref_frame *frame)
     }
     free(frame->instances);
     frame->instances = NULL;
+}
+
+ref_triangle ref_triangle_of(const ref_frame *frame, size_t object_idx, size_t triangle_idx)
+{
+    const scene_object *object = &frame->s->objects[object_idx];
+    const scene_mesh *mesh = &frame->s->meshes[object->mesh_idx];
+    return (ref_triangle){
+        .object = object, .mesh = mesh, .instance = &frame->instances[object_idx], .idx = mesh->idx + 3 * triangle_idx};
+}
+
+vec3 ref_face_normal(const ref_triangle *triangle)
+{
+    const vec3 *world = triangle->instance->world;
+    const vec3 p0 = world[triangle->idx[0]];
+    return vec3_unit(vec3_cross(vec3_sub(world[triangle->idx[1]], p0), vec3_sub(world[triangle->idx[2]], p0)));
 }

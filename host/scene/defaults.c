@@ -4,70 +4,39 @@
 #include <math.h>
 #include <string.h>
 
+#include "bounds.h"
 #include "vec.h"
 
 static const double camera_azimuth_deg = 30; /* from +Z towards +X */
 static const double camera_elevation_deg = 25;
 static const double camera_fov_deg = 40;
-static const double camera_fill = 0.7;       /* of the smaller picture dimension */
-static const double light_azimuth_deg = -60; /* from the camera's: to its left */
-static const double light_elevation_deg = 45;
-static const double light_intensity = 0.85;
+static const double camera_fill = 0.7; /* of the smaller picture dimension */
 static const double ground_albedo = 0.55;
 static const double ground_half_size_radii = 8;
 static const double shadow_reach_radii = 3; /* behind the object's centre, at most: a low sun casts without end */
 static const double shadow_fade = 0.1;
 
-/* Of all world vertices: box, and the sphere around the box's centre. */
-typedef struct {
-    double low[3], high[3], centre[3], radius;
-} bounds;
-
-static bool grow_box(loader *l, const scene_object *object, bounds *b)
+static bool check_object(loader *l, const scene_object *object)
 {
     const scene_mesh *mesh = &l->s->meshes[object->mesh_idx];
     for (size_t i = 0; i < mesh->n_vertices; i++) {
         double p[3];
         affine_point(p, &object->to_world, mesh->pos + 3 * i);
         for (int k = 0; k < 3; k++) {
-            if (!(fabs(p[k]) <= LOADER_MAX_COORDINATE)) {
-                return loader_fail(l, "%s: object '%s', vertex %zu: world coordinate %g is out of range", l->path, object->name, i,
-                                   p[k]);
-            }
-            b->low[k] = fmin(b->low[k], p[k]);
-            b->high[k] = fmax(b->high[k], p[k]);
+            if (fabs(p[k]) <= LOADER_MAX_COORDINATE) continue;
+            return loader_fail(l, "%s: object '%s', vertex %zu: world coordinate %g is out of range", l->path, object->name, i,
+                               p[k]);
         }
     }
     return true;
 }
 
-static void grow_sphere(const scene *s, const scene_object *object, bounds *b)
-{
-    const scene_mesh *mesh = &s->meshes[object->mesh_idx];
-    for (size_t i = 0; i < mesh->n_vertices; i++) {
-        double p[3];
-        affine_point(p, &object->to_world, mesh->pos + 3 * i);
-        vec_sub(p, p, b->centre);
-        b->radius = fmax(b->radius, sqrt(vec_dot(p, p)));
-    }
-}
-
 static bool find_bounds(loader *l, bounds *b)
 {
-    *b = (bounds){.low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, .high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
     for (size_t i = 0; i < l->s->n_objects; i++) {
-        if (!grow_box(l, &l->s->objects[i], b)) return false;
+        if (!check_object(l, &l->s->objects[i])) return false;
     }
-    double magnitude = 0;
-    for (int k = 0; k < 3; k++) {
-        b->centre[k] = b->low[k] / 2 + b->high[k] / 2;
-        magnitude = fmax(magnitude, fabs(b->centre[k]));
-    }
-    for (size_t i = 0; i < l->s->n_objects; i++) grow_sphere(l->s, &l->s->objects[i], b);
-    /* A scene that is a single point still needs a camera that stands off it, by more than rounding. */
-    b->radius = fmax(b->radius, 1e-9 * magnitude);
-    if (!(b->radius > 1e-30)) b->radius = 1;
-    return true;
+    return bounds_of_scene(b, l->s, NULL) || loader_fail(l, "%s: the scene has no triangles", l->path);
 }
 
 static bool add_ground(loader *l, const bounds *b)
@@ -79,8 +48,10 @@ static bool add_ground(loader *l, const bounds *b)
     uint32_t idx[6] = {0, 1, 2, 0, 2, 3};
     char name[] = "ground";
     scene_mesh quad = {.name = name, .n_vertices = 4, .n_triangles = 2, .pos = pos, .idx = idx};
-    scene_object object = {
-        .name = name, .to_world = affine_identity(), .receives = true, .albedo = {ground_albedo, ground_albedo, ground_albedo}};
+    scene_object object = object_defaults();
+    object.name = name;
+    object.caster = SCENE_CASTER_OFF;
+    for (int i = 0; i < 3; i++) object.albedo[i] = ground_albedo;
     mesh_splitter splitter;
     size_t first, n_meshes;
     return mesh_splitter_init(&splitter, l, &quad) && mesh_split(&splitter, name, idx, 2, false, &first, &n_meshes) &&
@@ -163,25 +134,33 @@ static double find_shadow_distance(const loader *l, const bounds *b)
     return (vec_dot(eye, back) + deepest) / (1 - shadow_fade);
 }
 
-/* From the upper left of the camera: what it sees is lit, and the shadow falls to the side. */
-static bool make_light(loader *l)
+static scene_mixing default_mixing(const scene *s)
 {
-    const scene_affine *camera = &l->s->camera.to_world;
-    double back[3], towards[3];
-    affine_column(back, camera, 2);
-    if (hypot(back[0], back[2]) < 1e-9) affine_column(back, camera, 1); /* looking straight up or down */
-    double azimuth = atan2(back[0], back[2]) + light_azimuth_deg * VEC_PI / 180;
-    direction_of(azimuth, light_elevation_deg * VEC_PI / 180, towards);
-    scene_light *light = loader_add_light(l, "default");
-    if (!light) return false;
-    light->shadow = true;
-    light->strength = 1;
-    light->bias_normal = 1;
-    for (int i = 0; i < 3; i++) {
-        light->direction[i] = -towards[i];
-        light->colour[i] = light_intensity;
+    for (size_t i = 0; i < s->n_objects; i++) {
+        if (s->objects[i].mask || s->objects[i].mask_texture_idx != SCENE_NONE) return SCENE_MIX_DISTANCE;
     }
-    return true;
+    return SCENE_MIX_NONE;
+}
+
+static void default_shadow(const loader *l, scene_shadow *out)
+{
+    *out = (scene_shadow){.max_distance = fmin(100, l->s->camera.far),
+                          .distance_fade = shadow_fade,
+                          .cascade_fade = 0.1,
+                          .filter = SCENE_FILTER_3X3,
+                          .other_filter = SCENE_FILTER_3X3,
+                          .kernel = SCENE_KERNEL_TENT,
+                          .penumbra = 1,
+                          .disk_samples = 16,
+                          .mixing = default_mixing(l->s),
+                          .caster_culling = true,
+                          .tiles = SCENE_TILES_EQUAL,
+                          .refresh = {1, 1, 1, 1},
+                          .object_lights = 8,
+                          .n_cascades = l->has_camera ? 4 : 1,
+                          .blend = SCENE_BLEND_HARD,
+                          .distance_mode = SCENE_DISTANCE_DEPTH};
+    scene_default_ratios(out);
 }
 
 bool loader_add_defaults(loader *l)
@@ -189,20 +168,13 @@ bool loader_add_defaults(loader *l)
     static const double ambient[3] = {0.18, 0.18, 0.18}, background[3] = {0.35, 0.45, 0.6};
     scene *s = l->s;
     bounds b;
-    if (s->n_objects == 0) return loader_fail(l, "%s: the scene has no triangles", l->path);
     if (!find_bounds(l, &b)) return false;
     memcpy(s->ambient, ambient, sizeof ambient);
     memcpy(s->background, background, sizeof background);
-    s->shadow = (scene_shadow){.max_distance = fmin(100, s->camera.far),
-                               .distance_fade = shadow_fade,
-                               .cascade_fade = 0.1,
-                               .filter = SCENE_FILTER_3X3,
-                               .n_cascades = l->has_camera ? 4 : 1,
-                               .blend = SCENE_BLEND_HARD,
-                               .distance_mode = SCENE_DISTANCE_DEPTH};
-    scene_default_ratios(&s->shadow);
+    default_shadow(l, &s->shadow);
     if (!l->has_camera) make_camera(l, &b);
-    if (s->n_lights == 0 && !make_light(l)) return false;
+    if (s->n_lights == 0 && !lights_add(l, "default", SCENE_LIGHT_DIRECTIONAL)) return false;
+    lights_set_near(s, b.low, b.high);
     if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b);
     return !l->wants_ground || add_ground(l, &b);
 }

@@ -54,10 +54,11 @@ static bool find_arrays(gltf *g)
     const json_value *r = g->root, *punctual;
     return get_objects(g, r, "accessors", &g->accessors) && get_objects(g, r, "animations", &g->animations) &&
            get_objects(g, r, "buffers", &g->buffers) && get_objects(g, r, "bufferViews", &g->buffer_views) &&
-           get_objects(g, r, "cameras", &g->cameras) && get_objects(g, r, "materials", &g->materials) &&
-           get_objects(g, r, "meshes", &g->meshes) && get_objects(g, r, "nodes", &g->nodes) &&
-           get_objects(g, r, "scenes", &g->scenes) && gltf_get_extension(g, r, "KHR_lights_punctual", &punctual) &&
-           get_objects(g, punctual, "lights", &g->lights);
+           get_objects(g, r, "cameras", &g->cameras) && get_objects(g, r, "images", &g->images) &&
+           get_objects(g, r, "materials", &g->materials) && get_objects(g, r, "meshes", &g->meshes) &&
+           get_objects(g, r, "nodes", &g->nodes) && get_objects(g, r, "samplers", &g->samplers) &&
+           get_objects(g, r, "scenes", &g->scenes) && get_objects(g, r, "textures", &g->textures) &&
+           gltf_get_extension(g, r, "KHR_lights_punctual", &punctual) && get_objects(g, punctual, "lights", &g->lights);
 }
 
 /* NULL if the file has no scenes: then every root node is shown. */
@@ -76,6 +77,7 @@ static bool find_scene(gltf *g, const json_value **out)
 static bool emit_nodes(gltf *g)
 {
     size_t n_meshes = g->meshes ? g->meshes->n_children : 0, n_nodes = g->nodes ? g->nodes->n_children : 0;
+    g->has_mask_texture = gltf_any_mask_texture(g);
     g->primitive = loader_alloc(g->l, n_meshes + 1, sizeof *g->primitive);
     if (!g->primitive) return false;
     for (size_t i = 0; i < n_nodes; i++) {

@@ -140,6 +140,7 @@ static bool read_target(gltf *g, const json_value *target, channel *out)
     if (out->node->has_matrix) return gltf_fail(g, target, "node %zu has a matrix and cannot be animated", node);
     out->property = translation ? out->node->translation : rotation ? out->node->rotation : out->node->scale;
     out->width = rotation ? 4 : 3;
+    out->node->moves = true;
     out->bit = translation ? 1 : rotation ? 2 : 4;
     return true;
 }

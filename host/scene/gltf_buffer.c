@@ -80,17 +80,20 @@ static bool load_file_uri(gltf *g, const json_value *where, const char *uri, glt
     return true;
 }
 
+bool gltf_load_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out)
+{
+    bool is_data = strncmp(uri, "data:", 5) == 0;
+    return is_data ? load_data_uri(g, where, uri, out) : load_file_uri(g, where, uri, out);
+}
+
 static bool load_buffer(gltf *g, const json_value *json, gltf_bytes *out)
 {
     size_t n_bytes = GLTF_NONE;
     const char *uri = NULL;
     if (!gltf_get_size(g, json, "byteLength", &n_bytes) || !gltf_get_string(g, json, "uri", &uri)) return false;
     if (n_bytes == GLTF_NONE) return gltf_fail(g, json, "byteLength is missing");
-    if (!uri) {
-        if (json->child_idx == 0) *out = g->glb;
-    } else if (strncmp(uri, "data:", 5) == 0) {
-        if (!load_data_uri(g, json_get(json, "uri"), uri, out)) return false;
-    } else if (!load_file_uri(g, json_get(json, "uri"), uri, out)) return false;
+    if (!uri && json->child_idx == 0) *out = g->glb;
+    if (uri && !gltf_load_uri(g, json_get(json, "uri"), uri, out)) return false;
     if (!out->bytes) return true; /* an error only if something reads it */
     if (out->n_bytes < n_bytes) return gltf_fail(g, json, "%zu bytes are announced, %zu are there", n_bytes, out->n_bytes);
     out->n_bytes = n_bytes;

@@ -1,6 +1,7 @@
 /* extras.gnomon in a glTF file: settings of the scene, knobs of lights, mesh nodes and materials. */
 #include "gltf.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,8 +23,12 @@ static bool is_one_of(const char *key, const char *const *keys)
     return false;
 }
 
-static const char *const light_keys[] = {"shadow", "strength", "bias_constant", "bias_slope", "bias_normal", "near_offset", NULL};
-static const char *const surface_keys[] = {"casts", "receives", "unlit", NULL};
+static const char *const light_keys[] = {"shadow",        "strength",    "bias_constant", "bias_slope", "bias_normal",
+                                         "bias_receiver", "bias_caster", "near_offset",   "near",       "receiver_plane",
+                                         "softness",      "mode",        "mask_channel",  NULL};
+static const char *const surface_keys[] = {
+    "casts",         "caster",       "casts_two_sided", "hidden",         "moving",       "receives", "unlit",
+    "visible_alpha", "alpha_cutoff", "specular",        "shininess_log2", "mask_texture", NULL};
 
 static bool check_keys(gltf *g, const json_value *knobs, bool light, bool surface)
 {
@@ -63,6 +68,57 @@ static bool get_range(gltf *g, const json_value *knobs, const char *key, double 
     return true;
 }
 
+/* One of the words, as its index; *out is left alone where the key is absent. */
+static bool get_word(gltf *g, const json_value *knobs, const char *key, const char *const *words, int *out)
+{
+    const char *word = NULL;
+    if (!gltf_get_string(g, knobs, key, &word)) return false;
+    for (int i = 0; word && words[i]; i++) {
+        if (strcmp(word, words[i]) == 0) {
+            *out = i;
+            return true;
+        }
+    }
+    return !word || gltf_fail(g, json_get(knobs, key), "'%s' is not a value of %s", word, key);
+}
+
+static bool get_integer(gltf *g, const json_value *knobs, const char *key, int lowest, int highest, int *out)
+{
+    double number = *out;
+    if (!gltf_get_number(g, knobs, key, &number)) return false;
+    bool fits = number >= lowest && number <= highest && floor(number) >= number;
+    if (!fits) return gltf_fail(g, json_get(knobs, key), "an integer in %d..%d is expected", lowest, highest);
+    *out = (int)number;
+    return true;
+}
+
+static bool get_near(gltf *g, const json_value *knobs, double *out)
+{
+    if (!get_range(g, knobs, "near", LOADER_MAX_COORDINATE, out)) return false;
+    const json_value *value = json_get(knobs, "near");
+    return !value || *out > 0 || gltf_fail(g, value, "near must be positive");
+}
+
+static bool get_light_words(gltf *g, const json_value *knobs, scene_light *light)
+{
+    static const char *const softness_words[] = {"default", "hard", "soft", NULL};
+    static const char *const mode_words[] = {"realtime", "mixed", "baked", NULL};
+    int softness = (int)light->softness, mode = (int)light->mode;
+    if (!get_word(g, knobs, "softness", softness_words, &softness) || !get_word(g, knobs, "mode", mode_words, &mode)) return false;
+    light->softness = (scene_softness)softness;
+    light->mode = (scene_light_mode)mode;
+    return get_integer(g, knobs, "mask_channel", -1, 3, &light->mask_channel);
+}
+
+static bool get_receiver_bias(gltf *g, const json_value *knobs, double *out)
+{
+    if (!gltf_get_numbers(g, knobs, "bias_receiver", out, 4)) return false;
+    for (int i = 0; i < 4; i++) {
+        if (fabs(out[i]) > LOADER_MAX_COORDINATE) return gltf_fail(g, json_get(knobs, "bias_receiver"), "%g is too large", out[i]);
+    }
+    return true;
+}
+
 bool gltf_light_knobs(gltf *g, const json_value *owner, scene_light *light)
 {
     const json_value *k;
@@ -73,16 +129,78 @@ bool gltf_light_knobs(gltf *g, const json_value *owner, scene_light *light)
            get_range(g, k, "bias_constant", LOADER_MAX_COORDINATE, &light->bias_constant) &&
            get_range(g, k, "bias_slope", LOADER_MAX_COORDINATE, &light->bias_slope) &&
            get_range(g, k, "bias_normal", LOADER_MAX_COORDINATE, &light->bias_normal) &&
-           get_range(g, k, "near_offset", LOADER_MAX_COORDINATE, &light->near_offset);
+           get_range(g, k, "bias_caster", LOADER_MAX_COORDINATE, &light->bias_caster) &&
+           get_receiver_bias(g, k, light->bias_receiver) && get_switch(g, k, "receiver_plane", &light->receiver_plane) &&
+           get_range(g, k, "near_offset", LOADER_MAX_COORDINATE, &light->near_offset) && get_near(g, k, &light->near) &&
+           get_light_words(g, k, light);
+}
+
+static bool get_casting(gltf *g, const json_value *knobs, gltf_material *material)
+{
+    static const char *const words[] = {"off", "on", "clip", "dither", NULL}; /* as scene_caster */
+    scene_object *surface = &material->surface;
+    bool casts = surface->caster != SCENE_CASTER_OFF;
+    if (!get_switch(g, knobs, "casts", &casts)) return false;
+    if (json_get(knobs, "casts")) surface->caster = casts ? material->casting : SCENE_CASTER_OFF;
+    int caster = (int)surface->caster;
+    if (!get_word(g, knobs, "caster", words, &caster)) return false;
+    surface->caster = (scene_caster)caster;
+    return get_switch(g, knobs, "casts_two_sided", &surface->casts_two_sided);
+}
+
+static bool get_alpha(gltf *g, const json_value *knobs, scene_object *surface)
+{
+    static const char *const words[] = {"opaque", "clip", "dither", NULL}; /* as scene_alpha */
+    int alpha = (int)surface->visible_alpha;
+    if (!get_word(g, knobs, "visible_alpha", words, &alpha)) return false;
+    surface->visible_alpha = (scene_alpha)alpha;
+    return get_range(g, knobs, "alpha_cutoff", 1, &surface->alpha_cutoff);
+}
+
+/* A number, or one per channel. */
+static bool get_specular(gltf *g, const json_value *knobs, scene_object *surface)
+{
+    const json_value *value = json_get(knobs, "specular");
+    if (value && value->type == JSON_NUMBER) {
+        for (int i = 0; i < 3; i++) surface->specular[i] = value->number;
+    } else if (!gltf_get_numbers(g, knobs, "specular", surface->specular, 3)) return false;
+    for (int i = 0; value && i < 3; i++) {
+        double v = surface->specular[i];
+        if (!(v >= 0 && v <= 1)) return gltf_fail(g, value, "%g is not in 0..1", v);
+    }
+    return get_integer(g, knobs, "shininess_log2", 0, 7, &surface->shininess_log2);
+}
+
+static bool get_mask_texture(gltf *g, const json_value *knobs, scene_object *surface)
+{
+    size_t idx = GLTF_NONE;
+    if (!gltf_get_ref(g, knobs, "mask_texture", g->textures, &idx)) return false;
+    return idx == GLTF_NONE || gltf_load_texture(g, idx, true, &surface->mask_texture_idx);
 }
 
 bool gltf_material_knobs(gltf *g, const json_value *owner, gltf_material *material)
 {
     const json_value *k;
+    scene_object *surface = &material->surface;
     if (!find_knobs(g, owner, &k)) return false;
     if (owner->parent != g->nodes && !check_keys(g, k, false, true)) return false;
-    return get_switch(g, k, "casts", &material->casts) && get_switch(g, k, "receives", &material->receives) &&
-           get_switch(g, k, "unlit", &material->unlit);
+    return get_casting(g, k, material) && get_switch(g, k, "hidden", &surface->hidden) &&
+           get_switch(g, k, "moving", &surface->moving) && get_switch(g, k, "receives", &surface->receives) &&
+           get_switch(g, k, "unlit", &surface->unlit) && get_alpha(g, k, surface) && get_specular(g, k, surface) &&
+           get_mask_texture(g, k, surface);
+}
+
+static bool names_mask_texture(const json_value *owners)
+{
+    for (size_t i = 0; owners && i < owners->n_children; i++) {
+        if (json_get(json_get(json_get(owners->children[i], "extras"), "gnomon"), "mask_texture")) return true;
+    }
+    return false;
+}
+
+bool gltf_any_mask_texture(const gltf *g)
+{
+    return names_mask_texture(g->materials) || names_mask_texture(g->nodes);
 }
 
 /* The shortest form that reads back as the same number. */

@@ -1,4 +1,4 @@
-/* glTF materials: base colour factor, unlit, double-sided; the rest is named in notes. */
+/* glTF materials: base colour and its texture, alpha, unlit, double-sided; the rest is named in notes. */
 #include "gltf.h"
 
 #include <string.h>
@@ -6,50 +6,87 @@
 static bool note_texture(gltf *g, const json_value *owner, const char *key, const char *what, const char *material)
 {
     if (!json_get(owner, key)) return true;
-    return loader_note(g->l, "%s texture of material '%s' ignored: textures are not supported", what, material);
+    return loader_note(g->l, "%s texture of material '%s' ignored: only base colour textures are supported", what, material);
 }
 
-static bool read_surface(gltf *g, const json_value *json, const char *name, gltf_material *out)
+static bool read_texture(gltf *g, const json_value *pbr, const char *name, gltf_material *out)
+{
+    const json_value *info = NULL, *transform;
+    size_t idx = GLTF_NONE, set = 0;
+    if (!gltf_get(g, pbr, "baseColorTexture", JSON_OBJECT, &info)) return false;
+    if (!info) return true;
+    if (!gltf_get_ref(g, info, "index", g->textures, &idx) || !gltf_get_size(g, info, "texCoord", &set) ||
+        !gltf_get_extension(g, info, "KHR_texture_transform", &transform))
+        return false;
+    if (idx == GLTF_NONE) return gltf_fail(g, info, "index is missing");
+    if (transform && !loader_note(g->l, "texture transform of material '%s' ignored: it is not supported", name)) return false;
+    if (set > 1) return loader_note(g->l, "base colour texture of material '%s' ignored: it takes TEXCOORD_%zu", name, set);
+    if (!gltf_load_texture(g, idx, false, &out->surface.texture_idx)) return false;
+    if (out->surface.texture_idx != SCENE_NONE) out->uv_set = set;
+    return true;
+}
+
+static bool read_colour(gltf *g, const json_value *json, const char *name, gltf_material *out)
 {
     const json_value *pbr = NULL;
     double factor[4] = {1, 1, 1, 1};
     if (!gltf_get(g, json, "pbrMetallicRoughness", JSON_OBJECT, &pbr)) return false;
     if (!gltf_get_numbers(g, pbr, "baseColorFactor", factor, 4)) return false;
-    memcpy(out->albedo, factor, sizeof out->albedo);
-    if (!loader_clamp_colour(out->albedo, 3) && !loader_note(g->l, "base colour of material '%s' outside 0..1 is clamped", name))
+    if (!loader_clamp_colour(factor, 4) && !loader_note(g->l, "base colour of material '%s' outside 0..1 is clamped", name))
         return false;
-    return note_texture(g, pbr, "baseColorTexture", "base colour", name) &&
-           note_texture(g, pbr, "metallicRoughnessTexture", "metallic-roughness", name) &&
+    memcpy(out->surface.albedo, factor, sizeof out->surface.albedo);
+    out->surface.alpha = factor[3];
+    return read_texture(g, pbr, name, out) && note_texture(g, pbr, "metallicRoughnessTexture", "metallic-roughness", name) &&
            note_texture(g, json, "normalTexture", "normal", name) && note_texture(g, json, "occlusionTexture", "occlusion", name) &&
            note_texture(g, json, "emissiveTexture", "emissive", name);
 }
 
+/* How a material looks is, unless extras.gnomon say otherwise, how it casts (M1). */
+static bool read_alpha(gltf *g, const json_value *json, const char *name, gltf_material *out)
+{
+    static const struct {
+        const char *mode;
+        scene_alpha alpha;
+        scene_caster caster;
+    } modes[] = {{"OPAQUE", SCENE_ALPHA_OPAQUE, SCENE_CASTER_ON},
+                 {"MASK", SCENE_ALPHA_CLIP, SCENE_CASTER_CLIP},
+                 {"BLEND", SCENE_ALPHA_DITHER, SCENE_CASTER_DITHER}};
+    const char *mode = "OPAQUE";
+    double *cutoff = &out->surface.alpha_cutoff;
+    if (!gltf_get_string(g, json, "alphaMode", &mode) || !gltf_get_number(g, json, "alphaCutoff", cutoff)) return false;
+    if (!loader_clamp_colour(cutoff, 1) && !loader_note(g->l, "alpha cutoff of material '%s' outside 0..1 is clamped", name))
+        return false;
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        if (strcmp(mode, modes[i].mode) != 0) continue;
+        out->surface.visible_alpha = modes[i].alpha;
+        out->surface.caster = out->casting = modes[i].caster;
+        return true;
+    }
+    return gltf_fail(g, json, "alphaMode '%s' is unknown", mode);
+}
+
 static bool note_rest(gltf *g, const json_value *json, const char *name)
 {
-    const char *alpha_mode = "OPAQUE";
     double emissive[3] = {0, 0, 0};
-    if (!gltf_get_string(g, json, "alphaMode", &alpha_mode) || !gltf_get_numbers(g, json, "emissiveFactor", emissive, 3))
-        return false;
-    if (strcmp(alpha_mode, "OPAQUE") != 0 &&
-        !loader_note(g->l, "alphaMode %s of material '%s' ignored: drawn opaque", alpha_mode, name))
-        return false;
+    if (!gltf_get_numbers(g, json, "emissiveFactor", emissive, 3)) return false;
     if (emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0) {
         return loader_note(g->l, "emissive colour of material '%s' ignored: it is not supported", name);
     }
     return true;
 }
 
-bool gltf_read_material(gltf *g, const json_value *primitive, gltf_material *out)
+bool gltf_read_material(gltf *g, const json_value *primitive, bool moves, gltf_material *out)
 {
     size_t idx = GLTF_NONE;
     const json_value *unlit = NULL;
-    *out = (gltf_material){.albedo = {1, 1, 1}, .casts = true, .receives = true};
+    *out = (gltf_material){.surface = object_defaults(), .casting = SCENE_CASTER_ON, .uv_set = GLTF_NONE};
+    out->surface.moving = moves;
     if (!gltf_get_ref(g, primitive, "material", g->materials, &idx)) return false;
     if (idx == GLTF_NONE) return true;
     const json_value *json = g->materials->children[idx];
     const char *name = gltf_name(g, json, "material");
     if (!name || !gltf_get_extension(g, json, "KHR_materials_unlit", &unlit)) return false;
-    out->unlit = unlit != NULL;
-    return read_surface(g, json, name, out) && note_rest(g, json, name) && gltf_get_bool(g, json, "doubleSided", &out->two_sided) &&
-           gltf_material_knobs(g, json, out);
+    out->surface.unlit = unlit != NULL;
+    return read_colour(g, json, name, out) && read_alpha(g, json, name, out) && note_rest(g, json, name) &&
+           gltf_get_bool(g, json, "doubleSided", &out->surface.two_sided) && gltf_material_knobs(g, json, out);
 }

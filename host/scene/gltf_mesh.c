@@ -6,72 +6,9 @@
  * order is reversed beforehand. Vertex normals need nothing: the inverse transpose keeps them outward. */
 #include "gltf.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "vec.h"
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
-
-/* Reads attribute `name` if the primitive has it; what other sizes than n_vertices mean is an error (0: any). */
-static bool read_attribute(gltf *g, const json_value *attributes, const char *name, size_t n_vertices, gltf_array *out)
-{
-    size_t accessor = GLTF_NONE;
-    *out = (gltf_array){0};
-    if (!gltf_get_ref(g, attributes, name, g->accessors, &accessor)) return false;
-    if (accessor == GLTF_NONE) return true;
-    if (!gltf_read_accessor(g, accessor, out)) return false;
-    if (n_vertices != 0 && out->count != n_vertices) {
-        return gltf_fail(g, json_get(attributes, name), "%zu elements, but POSITION has %zu", out->count, n_vertices);
-    }
-    return true;
-}
-
-static bool is_float_or_normalized(const gltf_array *a)
-{
-    return a->component_type == GLTF_FLOAT || a->normalized;
-}
-
-static bool read_position(gltf *g, const json_value *attributes, scene_mesh *out)
-{
-    gltf_array a;
-    if (!read_attribute(g, attributes, "POSITION", 0, &a)) return false;
-    const json_value *where = json_get(attributes, "POSITION");
-    if (a.n_components != 3 || a.component_type == GLTF_UINT)
-        return gltf_fail(g, where, "VEC3 of float, byte or short is expected");
-    for (size_t i = 0; i < 3 * a.count; i++) {
-        if (fabs(a.values[i]) > LOADER_MAX_COORDINATE)
-            return gltf_fail(g, where, "vertex %zu: coordinate %g is out of range", i / 3, a.values[i]);
-    }
-    out->n_vertices = a.count;
-    out->pos = a.values;
-    return true;
-}
-
-static bool read_normal(gltf *g, const json_value *attributes, scene_mesh *out)
-{
-    gltf_array a;
-    if (!read_attribute(g, attributes, "NORMAL", out->n_vertices, &a)) return false;
-    if (a.values && (a.n_components != 3 || !is_float_or_normalized(&a))) {
-        return gltf_fail(g, json_get(attributes, "NORMAL"), "VEC3 of float or normalized integers is expected");
-    }
-    out->nrm = a.values;
-    return true;
-}
-
-static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out)
-{
-    gltf_array a;
-    if (!read_attribute(g, attributes, "COLOR_0", out->n_vertices, &a)) return false;
-    if (!a.values) return true;
-    if (a.n_components < 3 || !is_float_or_normalized(&a)) {
-        return gltf_fail(g, json_get(attributes, "COLOR_0"), "VEC3 or VEC4 of float or normalized integers is expected");
-    }
-    out->rgb = a.values;
-    for (size_t i = 1; a.n_components == 4 && i < a.count; i++) memmove(a.values + 3 * i, a.values + 4 * i, 3 * sizeof *a.values);
-    if (loader_clamp_colour(out->rgb, 3 * a.count)) return true;
-    return loader_note(g->l, "vertex colours of '%s' outside 0..1 are clamped", out->name);
-}
 
 /* The list of vertices that the mode walks over: the indices, or 0, 1, 2 ... */
 static bool read_indices(gltf *g, const json_value *primitive, size_t n_vertices, uint32_t **out, size_t *n)
@@ -122,7 +59,8 @@ static bool assemble(gltf *g, const json_value *primitive, size_t mode, scene_me
 }
 
 /* n_triangles stays 0 for what is skipped, with a note. */
-bool gltf_read_primitive(gltf *g, const json_value *primitive, const char *name, scene_mesh *out)
+static bool read_primitive(gltf *g, const json_value *primitive, const char *name, const gltf_wants *wants, scene_mesh *out,
+                           mesh_light *light)
 {
     const json_value *attributes = NULL;
     size_t mode = MODE_TRIANGLES;
@@ -136,39 +74,50 @@ bool gltf_read_primitive(gltf *g, const json_value *primitive, const char *name,
     if (!json_get(attributes, "POSITION")) return loader_note(g->l, "primitive of mesh '%s' ignored: it has no POSITION", name);
     if (json_get(primitive, "targets") && !loader_note(g->l, "morph targets of mesh '%s' ignored: they are not supported", name))
         return false;
-    return read_position(g, attributes, out) && read_normal(g, attributes, out) && read_colour(g, attributes, out) &&
-           assemble(g, primitive, mode, out) && (out->n_triangles == 0 || mesh_prepare_normals(g->l, out));
+    return gltf_read_attributes(g, attributes, wants, out, light) && assemble(g, primitive, mode, out) &&
+           (out->n_triangles == 0 || mesh_prepare_normals(g->l, out));
 }
 
-static bool load_primitive(gltf *g, const json_value *json, const char *name, bool flip, gltf_primitive *out)
+static bool load_primitive(gltf *g, const json_value *json, const char *name, size_t uv_set, bool flip, gltf_primitive *out)
 {
+    const gltf_wants wants = {.uv_set = uv_set, .mask_uv = g->has_mask_texture};
     scene_mesh mesh;
+    mesh_light light = {0};
     mesh_splitter splitter;
     if (out->loaded[flip]) return true;
     out->loaded[flip] = true;
     arena_block *mark = g->l->memory.blocks;
-    bool ok = gltf_read_primitive(g, json, name, &mesh);
+    bool ok = read_primitive(g, json, name, &wants, &mesh, &light);
     if (ok && mesh.n_triangles > 0) {
-        ok = mesh_splitter_init(&splitter, g->l, &mesh) &&
-             mesh_split(&splitter, name, mesh.idx, mesh.n_triangles, flip, &out->first_mesh[flip], &out->n_meshes[flip]);
+        ok = mesh_splitter_init(&splitter, g->l, &mesh);
+        splitter.light = light;
+        ok = ok && mesh_split(&splitter, name, mesh.idx, mesh.n_triangles, flip, &out->first_mesh[flip], &out->n_meshes[flip]);
     }
     arena_release(&g->l->memory, mark); /* many primitives may share one large vertex buffer */
     return ok;
+}
+
+/* A texture needs coordinates. */
+static bool check_coordinates(gltf *g, const json_value *json, const scene_mesh *mesh, scene_object *object)
+{
+    if (object->mask_texture_idx != SCENE_NONE && !mesh->mask_uv) {
+        return gltf_fail(g, json, "a mask_texture is looked up at TEXCOORD_1, which is missing");
+    }
+    if (object->texture_idx == SCENE_NONE || mesh->uv) return true;
+    object->texture_idx = SCENE_NONE;
+    return loader_note(g->l, "base colour texture of mesh '%s' ignored: it has no texture coordinates", mesh->name);
 }
 
 static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *json, const char *mesh_name, gltf_primitive *primitive)
 {
     bool flip = affine_mirrors(&node->world);
     gltf_material material;
-    if (!load_primitive(g, json, mesh_name, flip, primitive)) return false;
+    if (!gltf_read_material(g, json, node->moves, &material) || !gltf_material_knobs(g, node->json, &material)) return false;
+    if (!load_primitive(g, json, mesh_name, material.uv_set, flip, primitive)) return false;
     if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
-    if (!gltf_read_material(g, json, &material) || !gltf_material_knobs(g, node->json, &material)) return false;
-    scene_object object = {.to_world = node->world,
-                           .unlit = material.unlit,
-                           .two_sided = material.two_sided,
-                           .caster = material.casts ? SCENE_CASTER_ON : SCENE_CASTER_OFF,
-                           .receives = material.receives};
-    memcpy(object.albedo, material.albedo, sizeof object.albedo);
+    scene_object object = material.surface;
+    object.to_world = node->world;
+    if (!check_coordinates(g, json, &g->l->s->meshes[primitive->first_mesh[flip]], &object)) return false;
     const char *name = gltf_name(g, node->json, "node");
     object.name = name ? loader_format(g->l, "%s", name) : NULL;
     return object.name && loader_add_objects(g->l, &object, primitive->first_mesh[flip], primitive->n_meshes[flip]);

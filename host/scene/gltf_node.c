@@ -1,4 +1,4 @@
-/* The glTF node hierarchy, and what hangs on nodes besides meshes: the camera and the lights. */
+/* The glTF node hierarchy, and the camera. */
 #include "gltf.h"
 
 #include <math.h>
@@ -102,6 +102,7 @@ static bool place_node(gltf *g, gltf_node *node)
         const gltf_node *parent = &g->node[node->parent];
         node->world = affine_multiply(&parent->world, &local);
         node->in_scene = parent->in_scene;
+        node->moves = node->moves || parent->moves;
     }
     return affine_is_finite(&node->world) || gltf_fail(g, node->json, "the transform is too large");
 }
@@ -194,44 +195,4 @@ bool gltf_emit_camera(gltf *g, size_t node_idx)
     if (g->l->has_camera) return loader_note(g->l, "camera '%s' ignored: the first camera is used", name);
     g->l->has_camera = true;
     return camera_axes(g, node, &g->l->s->camera.to_world) && read_perspective(g, perspective, &g->l->s->camera);
-}
-
-static bool read_light(gltf *g, const json_value *json, const gltf_node *node, scene_light *out)
-{
-    double colour[3] = {1, 1, 1}, intensity = 1;
-    if (!gltf_get_numbers(g, json, "color", colour, 3) || !gltf_get_number(g, json, "intensity", &intensity)) return false;
-    for (int i = 0; i < 3; i++) {
-        out->colour[i] = colour[i] * intensity / VEC_PI;
-        if (colour[i] < 0 || intensity < 0) return gltf_fail(g, json, "colour and intensity must not be negative");
-        if (out->colour[i] > LOADER_MAX_COORDINATE) return gltf_fail(g, json, "intensity %g is too large", intensity);
-        out->direction[i] = -node->world.m[i][2];
-    }
-    if (!vec_normalise(out->direction)) return gltf_fail(g, node->json, "the light's transform has no direction");
-    out->kind = SCENE_LIGHT_DIRECTIONAL;
-    out->shadow = true;
-    out->strength = 1;
-    out->bias_normal = 1;
-    return gltf_light_knobs(g, json, out) && gltf_light_knobs(g, node->json, out);
-}
-
-bool gltf_emit_light(gltf *g, size_t node_idx)
-{
-    const gltf_node *node = &g->node[node_idx];
-    const json_value *extension;
-    size_t idx = GLTF_NONE;
-    const char *type = "";
-    if (!gltf_get_extension(g, node->json, "KHR_lights_punctual", &extension)) return false;
-    if (!gltf_get_ref(g, extension, "light", g->lights, &idx)) return false;
-    bool has_light = idx != GLTF_NONE;
-    if (!gltf_check_node_knobs(g, node->json, has_light, json_get(node->json, "mesh") != NULL)) return false;
-    if (!has_light) return true;
-    const json_value *json = g->lights->children[idx];
-    const char *name = gltf_name(g, json, "light");
-    if (!name || !gltf_get_string(g, json, "type", &type)) return false;
-    if (strcmp(type, "spot") == 0 || strcmp(type, "point") == 0) {
-        return loader_note(g->l, "%s light '%s' ignored: only directional lights are supported yet", type, name);
-    }
-    if (strcmp(type, "directional") != 0) return gltf_fail(g, json, "light type '%s' is unknown", type);
-    scene_light *light = loader_add_light(g->l, name);
-    return light && read_light(g, json, node, light);
 }

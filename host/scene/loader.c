@@ -1,6 +1,7 @@
 /* What the loaders share: errors, notes, files, and growing the scene. */
 #include "loader.h"
 #include "utf8.h"
+#include "vec.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -145,11 +146,14 @@ char *loader_relative_path(loader *l, const char *name)
 scene_mesh *loader_add_mesh(loader *l, const char *name)
 {
     scene *s = l->s;
-    void *array = s->meshes;
+    void *array = s->meshes, *lights = l->light_of_mesh;
     bool grown = scene_grow(l, &array, s->n_meshes, sizeof *s->meshes);
     s->meshes = array;
+    grown = grown && scene_grow(l, &lights, s->n_meshes, sizeof *l->light_of_mesh);
+    l->light_of_mesh = lights;
     char *copy = grown ? duplicate(l, name) : NULL;
     if (!copy) return NULL;
+    l->light_of_mesh[s->n_meshes] = (mesh_light){0};
     s->meshes[s->n_meshes] = (scene_mesh){.name = copy};
     return &s->meshes[s->n_meshes++];
 }
@@ -178,6 +182,18 @@ scene_light *loader_add_light(loader *l, const char *name)
     return &s->lights[s->n_lights++];
 }
 
+scene_texture *loader_add_texture(loader *l, const char *name)
+{
+    scene *s = l->s;
+    void *array = s->textures;
+    bool grown = scene_grow(l, &array, s->n_textures, sizeof *s->textures);
+    s->textures = array;
+    char *copy = grown ? duplicate(l, name) : NULL;
+    if (!copy) return NULL;
+    s->textures[s->n_textures] = (scene_texture){.name = copy};
+    return &s->textures[s->n_textures++];
+}
+
 bool loader_add_setting(loader *l, const char *key, const char *value)
 {
     scene *s = l->s;
@@ -191,6 +207,41 @@ bool loader_add_setting(loader *l, const char *key, const char *value)
     return setting->key && setting->value;
 }
 
+scene_object object_defaults(void)
+{
+    return (scene_object){.to_world = affine_identity(),
+                          .albedo = {1, 1, 1},
+                          .alpha = 1,
+                          .alpha_cutoff = 0.5,
+                          .shininess_log2 = 5,
+                          .texture_idx = SCENE_NONE,
+                          .mask_texture_idx = SCENE_NONE,
+                          .caster = SCENE_CASTER_ON,
+                          .receives = true};
+}
+
+static bool copy_mesh_light(loader *l, scene_object *object)
+{
+    const mesh_light *light = &l->light_of_mesh[object->mesh_idx];
+    size_t n = l->s->meshes[object->mesh_idx].n_vertices;
+    if (light->mask) object->mask = malloc(n * 4);
+    if (light->baked) object->baked = malloc(n * 3 * sizeof *object->baked);
+    if (object->mask) memcpy(object->mask, light->mask, n * 4);
+    if (object->baked) memcpy(object->baked, light->baked, n * 3 * sizeof *object->baked);
+    bool ok = (!light->mask || object->mask) && (!light->baked || object->baked);
+    return ok || loader_fail(l, "%s: out of memory", l->path);
+}
+
+void loader_free_mesh_light(loader *l)
+{
+    for (size_t i = 0; i < l->s->n_meshes; i++) {
+        free(l->light_of_mesh[i].mask);
+        free(l->light_of_mesh[i].baked);
+    }
+    free(l->light_of_mesh);
+    l->light_of_mesh = NULL;
+}
+
 bool loader_add_objects(loader *l, const scene_object *pattern, size_t first_mesh, size_t n_meshes)
 {
     for (size_t i = 0; i < n_meshes; i++) {
@@ -200,6 +251,7 @@ bool loader_add_objects(loader *l, const scene_object *pattern, size_t first_mes
         *object = *pattern;
         object->name = name;
         object->mesh_idx = first_mesh + i;
+        if (!copy_mesh_light(l, object)) return false;
     }
     return true;
 }

@@ -6,6 +6,7 @@
 #define GNOMON_HOST_LOADER_H
 
 #include "arena.h"
+#include "png.h"
 #include "scene.h"
 
 #if defined(__GNUC__)
@@ -19,6 +20,12 @@
 /* The engines index 16 bits wide. */
 enum { LOADER_MAX_MESH = 65535, LOADER_MAX_SCENE_TRIANGLES = 1 << 24 };
 
+/* Baked light per vertex, of which every object of the mesh gets a copy; NULL: none. */
+typedef struct {
+    uint8_t *mask; /* 4 per vertex */
+    double *baked; /* 3 per vertex */
+} mesh_light;
+
 typedef struct {
     scene *s;
     const scene_options *options;
@@ -26,8 +33,9 @@ typedef struct {
     char *error;
     size_t error_bytes;
     arena memory;
-    size_t n_triangles; /* in s, all meshes */
-    bool has_camera;    /* the file brought one */
+    mesh_light *light_of_mesh; /* beside s->meshes */
+    size_t n_triangles;        /* in s, all meshes */
+    bool has_camera;           /* the file brought one */
     bool wants_ground;
 } loader;
 
@@ -52,13 +60,29 @@ char *loader_relative_path(loader *l, const char *name);
 scene_mesh *loader_add_mesh(loader *l, const char *name);
 scene_object *loader_add_object(loader *l, const char *name);
 scene_light *loader_add_light(loader *l, const char *name);
+scene_texture *loader_add_texture(loader *l, const char *name);
 bool loader_add_setting(loader *l, const char *key, const char *value);
 
-/* One object per mesh of the range, all like the pattern (whose name is copied). */
+/* White, opaque, casts and receives; without name and mesh. */
+scene_object object_defaults(void);
+
+/* One object per mesh of the range, all like the pattern (whose name is copied), with the mesh's baked light. */
 bool loader_add_objects(loader *l, const scene_object *pattern, size_t first_mesh, size_t n_meshes);
 
 /* Clamps to 0..1; false if that changed anything. */
 bool loader_clamp_colour(double *rgb, size_t n);
+
+/* Of light_of_mesh; scene_load does it. */
+void loader_free_mesh_light(loader *l);
+
+/* texture.c */
+enum { TEXTURE_MAX_PICTURE = 8192 };
+typedef struct {
+    bool clamp_u, clamp_v, bilinear;
+    bool is_data; /* a mask image: plain numbers, not sRGB */
+} texture_use;
+/* Adds the picture, resampled if its sides need it; the picture's pixels are taken or freed in any case. */
+bool texture_add(loader *l, const char *name, png_picture *picture, const texture_use *use, size_t *out);
 
 /* mesh.c. The input's arrays are temporary ones of the loader. */
 
@@ -70,6 +94,7 @@ bool mesh_prepare_normals(loader *l, scene_mesh *input);
 typedef struct {
     loader *l;
     const scene_mesh *input;
+    mesh_light light; /* of the input; set behind mesh_splitter_init */
     uint32_t *local;  /* vertex of the input -> vertex of the mesh being filled, if seen[] says so */
     uint32_t *seen;   /* number of the mesh that last used the vertex */
     uint32_t *source; /* vertex of the mesh being filled -> vertex of the input */
@@ -82,6 +107,14 @@ bool mesh_splitter_init(mesh_splitter *splitter, loader *l, const scene_mesh *in
  * winding is reversed: for instances whose transform mirrors (see gltf_mesh.c). */
 bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip, size_t *first,
                 size_t *n_meshes);
+
+/* lights.c */
+#define LIGHT_MIN_RANGE 0.01
+/* Everything that has a default but the kind and the name; range unlimited, near 0: to be found by lights_set_near. */
+void light_set_defaults(scene_light *light);
+/* Spot and point lights without a near distance get one: of the range, or of how far the box reaches from an unlimited light. */
+void lights_set_near(scene *s, const double *low, const double *high);
+bool lights_add(loader *l, const char *name, scene_light_kind kind);
 
 /* defaults.c: completes what the file lacks; the last step of a load. */
 bool loader_add_defaults(loader *l);

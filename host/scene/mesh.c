@@ -159,14 +159,29 @@ static size_t take_triangles(mesh_splitter *sp, const uint32_t *idx, size_t n_tr
     return taken;
 }
 
-/* out stays NULL where the input has no such attribute. */
-static bool gather(mesh_splitter *sp, const double *from, size_t n_vertices, double **out)
+/* Elements of the mesh being filled, to free(); NULL where the input has no such attribute, or *ok becomes false. */
+static void *gather(const mesh_splitter *sp, const void *from, size_t element_bytes, size_t n_vertices, bool *ok)
 {
-    if (!from) return true;
-    *out = malloc(n_vertices * 3 * sizeof **out);
-    if (!*out) return loader_fail(sp->l, "%s: out of memory", sp->l->path);
-    for (size_t i = 0; i < n_vertices; i++) memcpy(*out + 3 * i, from + 3 * (size_t)sp->source[i], 3 * sizeof **out);
-    return true;
+    if (!from || !*ok) return NULL;
+    uint8_t *out = malloc(n_vertices * element_bytes);
+    *ok = out != NULL;
+    for (size_t i = 0; out && i < n_vertices; i++) {
+        memcpy(out + i * element_bytes, (const uint8_t *)from + sp->source[i] * element_bytes, element_bytes);
+    }
+    return out;
+}
+
+static bool gather_all(mesh_splitter *sp, size_t n_vertices, scene_mesh *mesh, mesh_light *light)
+{
+    bool ok = true;
+    mesh->pos = gather(sp, sp->input->pos, 3 * sizeof *mesh->pos, n_vertices, &ok);
+    mesh->nrm = gather(sp, sp->input->nrm, 3 * sizeof *mesh->nrm, n_vertices, &ok);
+    mesh->rgb = gather(sp, sp->input->rgb, 3 * sizeof *mesh->rgb, n_vertices, &ok);
+    mesh->uv = gather(sp, sp->input->uv, 2 * sizeof *mesh->uv, n_vertices, &ok);
+    mesh->mask_uv = gather(sp, sp->input->mask_uv, 2 * sizeof *mesh->mask_uv, n_vertices, &ok);
+    light->mask = gather(sp, sp->light.mask, 4, n_vertices, &ok);
+    light->baked = gather(sp, sp->light.baked, 3 * sizeof *light->baked, n_vertices, &ok);
+    return ok || loader_fail(sp->l, "%s: out of memory", sp->l->path);
 }
 
 static bool add_taken(mesh_splitter *sp, const char *name, const uint32_t *idx, size_t n_triangles, size_t n_vertices, bool flip)
@@ -182,8 +197,7 @@ static bool add_taken(mesh_splitter *sp, const char *name, const uint32_t *idx, 
         mesh->idx[3 * i + 1] = sp->local[idx[3 * i + (flip ? 2 : 1)]];
         mesh->idx[3 * i + 2] = sp->local[idx[3 * i + (flip ? 1 : 2)]];
     }
-    return gather(sp, sp->input->pos, n_vertices, &mesh->pos) && gather(sp, sp->input->nrm, n_vertices, &mesh->nrm) &&
-           gather(sp, sp->input->rgb, n_vertices, &mesh->rgb);
+    return gather_all(sp, n_vertices, mesh, &sp->l->light_of_mesh[sp->l->s->n_meshes - 1]);
 }
 
 bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip, size_t *first,

@@ -1,5 +1,5 @@
-/* Wavefront OBJ: vertices, normals and faces. Vertex colours (v x y z r g b) are taken as linear light. Texture coordinates are
- * ignored; polygons are cut into fans, which is only right for convex ones (a note tells of others). */
+/* Wavefront OBJ: vertices, texture coordinates, normals and faces. Vertex colours (v x y z r g b) are taken as linear light. Polygons
+ * are cut into fans, which is only right for convex ones (a note tells of others). */
 #include "obj.h"
 
 #include <stdlib.h>
@@ -40,6 +40,19 @@ static bool read_normal(obj_file *o, obj_text *t)
     return o->n_vn < INT32_MAX || obj_fail(t, "too many normals");
 }
 
+static bool read_texture_coordinate(obj_file *o, obj_text *t)
+{
+    double x[3] = {0, 0, 0};
+    size_t n;
+    if (!obj_numbers(t, x, 3, &n)) return false;
+    if (n < 1) return obj_fail(t, "vt takes 2 numbers");
+    double *vt = loader_grow(o->l, o->vt, o->n_vt, 2 * sizeof *vt);
+    if (!vt) return false;
+    o->vt = vt;
+    memcpy(vt + 2 * o->n_vt++, x, 2 * sizeof *vt);
+    return o->n_vt < INT32_MAX || obj_fail(t, "too many texture coordinates");
+}
+
 /* One index of a corner: 1 is the first element, -1 the last one so far. */
 static bool read_index(obj_text *t, const char *word, char **end, size_t n, const char *what, uint32_t *out)
 {
@@ -57,11 +70,11 @@ static bool read_index(obj_text *t, const char *word, char **end, size_t n, cons
 static bool read_corner(obj_file *o, obj_text *t, char *word, obj_corner *out)
 {
     char *at = word;
-    out->vn = OBJ_NO_NORMAL;
+    out->vt = out->vn = OBJ_NONE;
     if (!read_index(t, word, &at, o->n_v, "vertex", &out->v)) return false;
     if (*at == '/') {
         at++;
-        at += strspn(at, "+-0123456789"); /* the texture coordinate */
+        if (*at && *at != '/' && !read_index(t, at, &at, o->n_vt, "texture", &out->vt)) return false;
         if (*at == '/') {
             if (!read_index(t, at + 1, &at, o->n_vn, "normal", &out->vn)) return false;
             o->has_vn = true;
@@ -133,17 +146,18 @@ static bool use_material(obj_file *o, obj_text *t)
 
 static bool read_statement(obj_file *o, obj_text *t)
 {
-    static const char *const silent[] = {"vt", "g", "o", "s"};
+    static const char *const silent[] = {"g", "o", "s"};
     const char *word = obj_next_word(t);
     if (strcmp(word, "v") == 0) return read_vertex(o, t);
     if (strcmp(word, "vn") == 0) return read_normal(o, t);
+    if (strcmp(word, "vt") == 0) return read_texture_coordinate(o, t);
     if (strcmp(word, "f") == 0) return read_face(o, t);
     if (strcmp(word, "usemtl") == 0) return use_material(o, t);
     if (strcmp(word, "mtllib") == 0) return obj_read_libraries(o, t);
     for (size_t i = 0; i < sizeof silent / sizeof *silent; i++) {
         if (strcmp(word, silent[i]) == 0) return true;
     }
-    return loader_note(o->l, "'%.40s' statements ignored: only v, vn, f, usemtl and mtllib count", word);
+    return loader_note(o->l, "'%.40s' statements ignored: only v, vt, vn, f, usemtl and mtllib count", word);
 }
 
 bool loader_load_obj(loader *l)

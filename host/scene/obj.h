@@ -29,24 +29,25 @@ bool obj_note(obj_text *t, const char *format, ...) LOADER_PRINTF(2, 3);
 
 typedef struct {
     const char *name;
-    double albedo[3];
-    bool defined; /* by a material library */
+    double albedo[3], alpha;
+    size_t texture_idx; /* of the scene, or SCENE_NONE */
+    bool defined;       /* by a material library */
 } obj_material;
 
-#define OBJ_NO_NORMAL UINT32_MAX
+#define OBJ_NONE UINT32_MAX
 
 typedef struct {
-    uint32_t v, vn; /* indices; vn OBJ_NO_NORMAL where the corner has none */
+    uint32_t v, vt, vn; /* indices; vt, vn OBJ_NONE where the corner has none */
 } obj_corner;
 
 typedef struct {
     loader *l;
-    size_t n_v, n_vn, n_triangles, n_materials;
-    double *v, *rgb, *vn;   /* rgb: per v, white where a vertex has no colour */
-    bool has_rgb, has_vn;   /* a vertex has a colour; a corner has a normal */
-    obj_corner *corner;     /* 3 * n_triangles */
-    uint32_t *material_of;  /* per triangle */
-    obj_material *material; /* in order of first use or definition; [0]: triangles before any usemtl */
+    size_t n_v, n_vt, n_vn, n_triangles, n_materials;
+    double *v, *vt, *rgb, *vn; /* vt: 2 each, v upwards as in the file; rgb: per v, white where a vertex has no colour */
+    bool has_rgb, has_vn;      /* a vertex has a colour; a corner has a normal */
+    obj_corner *corner;        /* 3 * n_triangles */
+    uint32_t *material_of;     /* per triangle */
+    obj_material *material;    /* in order of first use or definition; [0]: triangles before any usemtl */
     uint32_t current_material;
 } obj_file;
 

@@ -1,6 +1,7 @@
-/* OBJ materials: Kd, taken as linear light as it stands (the format does not say, and exporters differ). */
+/* OBJ materials: Kd, taken as linear light as it stands (the format does not say, and exporters differ), its texture, and opacity. */
 #include "obj.h"
 
+#include <stdio.h>
 #include <string.h>
 
 bool obj_find_material(obj_file *o, const char *name, uint32_t *out)
@@ -13,7 +14,8 @@ bool obj_find_material(obj_file *o, const char *name, uint32_t *out)
     if (!grown) return false;
     o->material = grown;
     *out = (uint32_t)o->n_materials;
-    o->material[o->n_materials] = (obj_material){.name = loader_format(o->l, "%s", name), .albedo = {0.8, 0.8, 0.8}};
+    o->material[o->n_materials] =
+        (obj_material){.name = loader_format(o->l, "%s", name), .albedo = {0.8, 0.8, 0.8}, .alpha = 1, .texture_idx = SCENE_NONE};
     return o->material[o->n_materials++].name != NULL;
 }
 
@@ -32,7 +34,8 @@ static bool read_kd(obj_text *t, obj_material *material)
     return loader_clamp_colour(material->albedo, 3) || obj_note(t, "Kd of material '%s' outside 0..1 is clamped", material->name);
 }
 
-static bool read_transparency(obj_text *t, const obj_material *material, const char *word, double opaque)
+/* d is opacity, Tr is what lacks of it. */
+static bool read_opacity(obj_text *t, obj_material *material, const char *word)
 {
     double value;
     size_t n;
@@ -40,8 +43,80 @@ static bool read_transparency(obj_text *t, const obj_material *material, const c
     t->at = rest + (strncmp(rest, "-halo", 5) == 0 ? 5 : 0);
     if (!obj_numbers(t, &value, 1, &n)) return false;
     if (n != 1) return obj_fail(t, "%s takes a number", word);
-    if (value >= opaque && value <= opaque) return true;
-    return loader_note(t->l, "transparency of material '%s' ignored: drawn opaque", material->name);
+    material->alpha = strcmp(word, "d") == 0 ? value : 1 - value;
+    return loader_clamp_colour(&material->alpha, 1) ||
+           obj_note(t, "%s of material '%s' outside 0..1 is clamped", word, material->name);
+}
+
+static bool is_number(const char *word)
+{
+    return *word && strspn(word, "+-.0123456789eE") == strlen(word);
+}
+
+/* The word at t->at, without taking it. */
+static size_t peek_word(obj_text *t, char *out, size_t out_bytes)
+{
+    t->at += strspn(t->at, " \t\v\f\r");
+    size_t n = strcspn(t->at, " \t\v\f\r");
+    snprintf(out, out_bytes, "%.*s", n < out_bytes ? (int)n : 0, t->at);
+    return n;
+}
+
+/* Steps over options such as -clamp on or -s 2 2; what is left of the line is the file's name. */
+static bool read_map_options(obj_text *t, const obj_material *material, texture_use *out)
+{
+    char word[64];
+    bool other = false;
+    for (size_t n = peek_word(t, word, sizeof word); word[0] == '-'; n = peek_word(t, word, sizeof word)) {
+        bool clamp = strcmp(word, "-clamp") == 0, vector = strlen(word) == 2 && strchr("ost", word[1]);
+        size_t most = vector ? 3 : strcmp(word, "-mm") == 0 ? 2 : 1;
+        t->at += n;
+        for (size_t i = 0; i < most; i++) {
+            n = peek_word(t, word, sizeof word);
+            if (vector && !is_number(word)) break;
+            if (clamp) out->clamp_u = out->clamp_v = strcmp(word, "on") == 0;
+            t->at += n;
+        }
+        other = other || !clamp;
+    }
+    return !other || obj_note(t, "options of map_Kd of material '%s' ignored: only -clamp counts", material->name);
+}
+
+static bool load_texture(obj_file *o, obj_text *t, const char *path, const texture_use *use, size_t *out)
+{
+    uint8_t *bytes = NULL;
+    size_t n_bytes = 0;
+    bool opened;
+    png_picture picture;
+    char problem[200];
+    if (!loader_try_file(o->l, path, &bytes, &n_bytes, &opened)) return false;
+    if (!opened) return obj_note(t, "texture '%s' cannot be opened: its colours are missing", path);
+    if (!png_is(bytes, n_bytes)) return obj_note(t, "texture '%s' ignored: only PNG images are supported", path);
+    if (!png_decode_rgba8(bytes, n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
+        return loader_fail(o->l, "%s: %s", path, problem);
+    return texture_add(o->l, path, &picture, use, out);
+}
+
+static size_t find_loaded(const scene *s, const char *path, const texture_use *use)
+{
+    for (size_t i = 0; i < s->n_textures; i++) {
+        const scene_texture *texture = &s->textures[i];
+        if (strcmp(texture->name, path) == 0 && texture->clamp_u == use->clamp_u) return i;
+    }
+    return SCENE_NONE;
+}
+
+static bool read_map(obj_file *o, obj_text *t, obj_material *material)
+{
+    texture_use use = {.bilinear = true};
+    if (!read_map_options(t, material, &use)) return false;
+    char *name = obj_rest(t);
+    if (!*name) return obj_fail(t, "map_Kd without a name");
+    for (char *c = name; *c; c++) *c = *c == '\\' ? '/' : *c; /* as written on Windows */
+    const char *path = loader_relative_path(o->l, name);
+    if (!path) return false;
+    material->texture_idx = find_loaded(o->l->s, path, &use);
+    return material->texture_idx != SCENE_NONE || load_texture(o, t, path, &use, &material->texture_idx);
 }
 
 static bool read_statement(obj_file *o, obj_text *t, const char *word, uint32_t *current)
@@ -59,9 +134,9 @@ static bool read_statement(obj_file *o, obj_text *t, const char *word, uint32_t 
     if (!(kd || d || tr || map || map_d)) return true; /* gloss and the like: nothing here could show it */
     if (!material) return obj_fail(t, "%s before any newmtl", word);
     if (kd) return read_kd(t, material);
-    if (d || tr) return read_transparency(t, material, word, d ? 1 : 0);
-    return loader_note(t->l, "%s texture of material '%s' ignored: textures are not supported", map ? "colour" : "opacity",
-                       material->name);
+    if (d || tr) return read_opacity(t, material, word);
+    if (map) return read_map(o, t, material);
+    return loader_note(t->l, "opacity texture of material '%s' ignored: it is not supported", material->name);
 }
 
 /* A missing library is a note: the shape is worth showing without its colours. */

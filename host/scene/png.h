@@ -1,7 +1,8 @@
-/* PNG files: 8-bit RGB out; 8-bit grey, grey + alpha, palette, RGB and RGBA, not interlaced, in. Alpha is dropped. */
+/* PNG files: 8-bit RGB out; every kind in. 16 bits are rounded to 8; gamma and colour profiles are ignored: it is all sRGB. */
 #ifndef GNOMON_HOST_PNG_H
 #define GNOMON_HOST_PNG_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -9,7 +10,19 @@
  * part stays: path may be a device or a pipe, which must not be removed. */
 int png_write_rgb8(const char *path, int w, int h, const uint8_t *rgb, char *error, size_t error_bytes);
 
-/* 3 * w * h bytes to free(), or NULL with one line in error. */
+/* Without alpha. 3 * w * h bytes to free(), or NULL with one line in error. */
 uint8_t *png_read_rgb8(const char *path, int *w, int *h, char *error, size_t error_bytes);
+
+typedef struct {
+    int w, h;
+    int depth;     /* bits per channel in the file */
+    uint8_t *rgba; /* 4 * w * h bytes to free(), rows from the top */
+} png_picture;
+
+/* False, with out->rgba NULL and one line in error (without a place), if the bytes are no valid PNG file or a side is longer. */
+bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error, size_t error_bytes);
+
+/* Whether the bytes begin like a PNG file. */
+bool png_is(const uint8_t *bytes, size_t n_bytes);
 
 #endif

@@ -35,6 +35,7 @@ int scene_load(scene *s, const char *path, const scene_options *options, char *e
     *s = (scene){0};
     if (error_bytes > 0) error[0] = '\0';
     bool ok = load_any(&l) && loader_add_defaults(&l);
+    loader_free_mesh_light(&l);
     arena_release(&l.memory, NULL);
     if (!ok) scene_free(s);
     return ok ? 0 : -1;
@@ -46,14 +47,27 @@ static void free_mesh(scene_mesh *mesh)
     free(mesh->pos);
     free(mesh->nrm);
     free(mesh->rgb);
+    free(mesh->uv);
+    free(mesh->mask_uv);
     free(mesh->idx);
+}
+
+static void free_object(scene_object *object)
+{
+    free(object->name);
+    free(object->mask);
+    free(object->baked);
 }
 
 void scene_free(scene *s)
 {
     for (size_t i = 0; i < s->n_meshes; i++) free_mesh(&s->meshes[i]);
-    for (size_t i = 0; i < s->n_objects; i++) free(s->objects[i].name);
-    for (size_t i = 0; i < s->n_lights; i++) free(s->lights[i].name);
+    for (size_t i = 0; i < s->n_objects; i++) free_object(&s->objects[i]);
+    for (size_t i = 0; i < s->n_textures; i++) {
+        free(s->textures[i].name);
+        free(s->textures[i].rgba);
+    }
+    scene_remove_lights(s);
     for (size_t i = 0; i < s->n_settings; i++) {
         free(s->settings[i].key);
         free(s->settings[i].value);
@@ -61,7 +75,7 @@ void scene_free(scene *s)
     for (size_t i = 0; i < s->n_notes; i++) free(s->notes[i]);
     free(s->meshes);
     free(s->objects);
-    free(s->lights);
+    free(s->textures);
     free(s->settings);
     free(s->notes);
     *s = (scene){0};

@@ -89,9 +89,10 @@ int tool_compare(const tool_options *o)
         engine_free(&fixed);
         failed = 1;
     }
+    settings_trim(&set, &s);
     scene_free(&s);
     if (failed) return tool_fail(o->scene_path, error);
-    settings_fit(&set, o->width, o->height, fixed.n_lights, &fixed.stats);
+    settings_fit(&set, &fixed.demand);
     metrics m;
     metrics_compute(&m, &fixed, &other);
     if (o->out_path && write_pictures(o->out_path, &fixed, &other, error, sizeof error)) failed = tool_fail(o->out_path, error);

@@ -6,7 +6,8 @@
 #include "../scene/scene.h"
 #include "settings.h"
 
-#define ENGINE_LIGHTS_MAX 8
+#define ENGINE_LIGHTS_MAX 64
+#define ENGINE_TILES_MAX  6
 
 typedef struct {
     int width, height;
@@ -16,15 +17,22 @@ typedef struct {
     double *normal;    /* 3 per pixel */
     int64_t *triangle; /* object << 32 | triangle; -1: no surface */
     size_t n_lights;
-    double *shadow[ENGINE_LIGHTS_MAX]; /* 0..1 */
-    double *ndotl[ENGINE_LIGHTS_MAX];  /* reference only, NULL from the library */
-    int8_t *cascade;                   /* of the surface point; -1: none, or no surface */
-    int n_cascades;
-    int atlas_texels[ENGINE_LIGHTS_MAX]; /* per side of each of the light's tiles; 0: it has none */
+    double *shadow[ENGINE_LIGHTS_MAX];   /* 0..1 */
+    double *ndotl[ENGINE_LIGHTS_MAX];    /* reference only, NULL from the library */
+    int8_t *cascade;                     /* of the surface point; -1: none, or no surface */
+    int n_tiles[ENGINE_LIGHTS_MAX];      /* of each light: cascades, 1, or six faces; 0: it has none */
+    int atlas_texels[ENGINE_LIGHTS_MAX]; /* per side of each of its tiles */
+    bool perspective[ENGINE_LIGHTS_MAX]; /* spot and point lights: depth is 1 - near / distance */
     double *atlas[ENGINE_LIGHTS_MAX]
-                 [REF_MAX_CASCADES]; /* light depth 0..1 of each tile, 1 = empty; NULL: no tile, or an empty slice */
-    gn_stats stats;                  /* fixed only */
+                 [ENGINE_TILES_MAX]; /* light depth 0..1 of each tile, 1 = empty; NULL: no tile, or an empty slice */
+    /* of the library only */
+    gn_shadow_state shadow_state[ENGINE_LIGHTS_MAX];
+    gn_stats stats;
+    settings_demand demand;
 } engine_picture;
+
+_Static_assert(ENGINE_LIGHTS_MAX == GN_MAX_LIGHTS && ENGINE_LIGHTS_MAX == REF_MAX_LIGHTS && ENGINE_TILES_MAX == REF_MAX_VIEWS,
+               "the same limits everywhere");
 
 /* What to fill besides the colours. */
 enum { ENGINE_COLOUR_ONLY = 0, ENGINE_ALL = 1 };

@@ -44,14 +44,40 @@ typedef struct {
     size_t error_bytes;
 } job;
 
-/* Ranges are the library's; here in the scene's own units, with what made them so. */
-static void explain_range(const job *j, gn_status status)
+/* Ranges are the library's: what one of its units is in the scene's own, and what made it so. */
+static void add_units(const job *j)
 {
+    size_t used = strlen(j->error);
     double unit = ldexp(1, -j->fixed->world_exp);
-    snprintf(j->error, j->error_bytes,
-             "%s (in the library's units: one is %g of the scene's, as everything within %g of the origin, camera and shadow "
+    snprintf(j->error + used, j->error_bytes - used,
+             " (in the library's units: one is %g of the scene's, as everything within %g of the origin, lights, camera and shadow "
              "distance must fit)",
-             gn_status_text(status), unit, 4096 * unit);
+             unit, 4096 * unit);
+}
+
+/* What the index of a status counts. */
+typedef enum { ABOUT_NOTHING, ABOUT_OBJECT, ABOUT_LIGHT } subject;
+
+static subject subject_of(gn_status status)
+{
+    switch (status) {
+    case GN_ERR_OBJECT_TRANSFORM:
+    case GN_ERR_MESH:
+    case GN_ERR_VERTEX_RANGE:
+    case GN_ERR_TEXTURE:
+    case GN_ERR_MATERIAL:
+    case GN_ERR_MASK:
+        return ABOUT_OBJECT;
+    case GN_ERR_LIGHT_KIND:
+    case GN_ERR_LIGHT_DIRECTION:
+    case GN_ERR_LIGHT_POSITION:
+    case GN_ERR_LIGHT_RANGE:
+    case GN_ERR_LIGHT_ANGLE:
+    case GN_ERR_LIGHT_BIAS:
+        return ABOUT_LIGHT;
+    default:
+        return ABOUT_NOTHING;
+    }
 }
 
 /* Names what the status is about as the scene file does. */
@@ -59,23 +85,17 @@ static int explain(const job *j, gn_status status)
 {
     const gn_detail *d = gn_get_detail(j->renderer);
     const scene *s = j->scene;
-    int object = status == GN_ERR_OBJECT_TRANSFORM || status == GN_ERR_VERTEX_RANGE || status == GN_ERR_MESH;
-    int light = status == GN_ERR_LIGHT_BIAS || status == GN_ERR_LIGHT_DIRECTION;
+    subject about = subject_of(status);
     if (d->needed)
         snprintf(j->error, j->error_bytes, "%s: %u needed, %u available", gn_status_text(status), d->needed, d->available);
-    else if (object && d->index < s->n_objects)
+    else if (about == ABOUT_OBJECT && d->index < s->n_objects)
         snprintf(j->error, j->error_bytes, "object '%s': %s", s->objects[d->index].name, gn_status_text(status));
-    else if (light && d->index < s->n_lights)
+    else if (about == ABOUT_LIGHT && d->index < s->n_lights)
         snprintf(j->error, j->error_bytes, "light '%s': %s", s->lights[d->index].name, gn_status_text(status));
-    else if (status == GN_ERR_CAMERA_DEPTH || status == GN_ERR_SHADOW_DISTANCE) explain_range(j, status);
     else snprintf(j->error, j->error_bytes, "%s", gn_status_text(status));
-    return -1;
-}
-
-static int over_capacity(const job *j, const char *what, const char *knob, uint32_t needed, int available)
-{
-    if (!available || needed <= (uint32_t)available) return 0;
-    snprintf(j->error, j->error_bytes, "%s: %u needed, %s is %d", what, needed, knob, available);
+    if (status == GN_ERR_CAMERA_DEPTH || status == GN_ERR_SHADOW_DISTANCE || status == GN_ERR_LIGHT_RANGE ||
+        status == GN_ERR_LIGHT_POSITION)
+        add_units(j);
     return -1;
 }
 
@@ -135,27 +155,74 @@ static int draw_views(const job *j, gn_picture picture, engine_picture *out, uin
     return 0;
 }
 
-static int copy_tile(const job *j, engine_picture *out, size_t light, size_t cascade)
+static double depth_of(const gn_tile_info *tile, size_t i)
 {
-    const uint16_t *depth;
-    size_t t = gn_get_shadow_tile(j->renderer, (uint32_t)light, (uint32_t)cascade, &depth);
+    if (tile->depth_bits == 8) return ((const uint8_t *)tile->depth)[i] / 255.0;
+    if (tile->depth_bits == 16) return ((const uint16_t *)tile->depth)[i] / 65535.0;
+    return ((const uint32_t *)tile->depth)[i] / 4294967295.0;
+}
+
+static int copy_tile(const job *j, engine_picture *out, size_t light, size_t idx)
+{
+    gn_tile_info info;
+    size_t t = gn_get_shadow_tile(j->renderer, (uint32_t)light, (uint32_t)idx, &info);
     if (!t) return 0;
     double *tile = malloc(t * t * sizeof *tile);
-    out->atlas_texels[light] = (int)t;
-    out->atlas[light][cascade] = tile;
-    for (size_t i = 0; tile && i < t * t; i++) tile[i] = depth[i] / 65535.0;
+    out->atlas[light][idx] = tile;
+    for (size_t i = 0; tile && i < t * t; i++) tile[i] = depth_of(&info, i);
     return tile ? 0 : -1;
 }
 
 static int copy_atlas(const job *j, engine_picture *out)
 {
-    for (size_t l = 0; l < out->n_lights; l++)
-        for (size_t c = 0; c < (size_t)out->n_cascades; c++)
-            if (copy_tile(j, out, l, c)) {
+    for (size_t l = 0; l < out->n_lights; l++) {
+        uint32_t n_tiles = 0, texels = 0;
+        out->shadow_state[l] = gn_get_light_shadow(j->renderer, (uint32_t)l, &n_tiles, &texels);
+        if (out->shadow_state[l] != GN_SHADOW_REALTIME) continue;
+        out->n_tiles[l] = (int)n_tiles;
+        out->atlas_texels[l] = (int)texels;
+        out->perspective[l] = j->scene->lights[l].kind != SCENE_LIGHT_DIRECTIONAL;
+        for (size_t i = 0; i < n_tiles; i++)
+            if (copy_tile(j, out, l, i)) {
                 snprintf(j->error, j->error_bytes, "out of memory");
                 return -1;
             }
+    }
     return 0;
+}
+
+/* The most lights that some object's surfaces take: all directional ones, and those of its list. */
+static size_t surface_lights(const gn_frame *frame)
+{
+    size_t directional = 0, punctual = 0, listed = 0;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        if (frame->light[l].off) continue;
+        if (frame->light[l].kind == GN_LIGHT_DIRECTIONAL) directional++;
+        else punctual++;
+    }
+    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+        size_t n = frame->object[i].n_lights == GN_OBJECT_LIGHTS_ALL ? punctual : frame->object[i].n_lights;
+        listed = n > listed ? n : listed;
+    }
+    return directional + listed;
+}
+
+static void measure_demand(const job *j, engine_picture *out)
+{
+    const gn_frame *frame = &j->renderer->frame;
+    settings_demand *demand = &out->demand;
+    demand->width = out->width;
+    demand->height = out->height;
+    demand->objects = j->scene->n_objects;
+    demand->lights = j->scene->n_lights;
+    demand->surface_lights = surface_lights(frame);
+    demand->triangles = out->stats.n_triangles;
+    demand->tile_refs = out->stats.n_tile_refs;
+    for (size_t l = 0; l < out->n_lights; l++) {
+        if (!out->n_tiles[l]) continue;
+        if (frame->view[frame->light[l].view_idx].in_other) demand->other_tiles += (size_t)out->n_tiles[l];
+        else demand->shadow_tiles += (size_t)out->n_tiles[l];
+    }
 }
 
 static int allocate(engine_picture *out, const scene *s, int width, int height)
@@ -170,7 +237,6 @@ static int allocate(engine_picture *out, const scene *s, int width, int height)
     out->depth = malloc(n * sizeof(double));
     out->normal = malloc(3 * n * sizeof(double));
     out->triangle = malloc(n * sizeof(int64_t));
-    out->n_cascades = s->shadow.n_cascades;
     out->cascade = malloc(n);
     for (size_t l = 0; l < out->n_lights; l++)
         if (!(out->shadow[l] = malloc(n * sizeof(double)))) return -1;
@@ -191,9 +257,11 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
     else failed = draw_panel(&j, picture, out->rgb8);
     if (!failed) {
         out->stats = *gn_get_stats(renderer);
-        failed = over_capacity(&j, "visible triangles", "max_triangles", out->stats.n_triangles, set->capacity.max_triangles) ||
-                 over_capacity(&j, "tile references", "max_tile_refs", out->stats.n_tile_refs, set->capacity.max_tile_refs) ||
-                 over_capacity(&j, "lights", "max_lights", (uint32_t)s->n_lights, set->capacity.max_lights) || copy_atlas(&j, out);
+        failed = copy_atlas(&j, out);
+    }
+    if (!failed) {
+        measure_demand(&j, out);
+        failed = settings_suffice(set, &out->demand, error, error_bytes);
     }
     picture.format = GN_FORMAT_RGB565;
     if (!failed && what == ENGINE_ALL) failed = draw(&j, picture, out->rgb565) || draw_views(&j, picture, out, raw);
@@ -215,7 +283,7 @@ void engine_free(engine_picture *p)
     for (size_t l = 0; l < ENGINE_LIGHTS_MAX; l++) {
         free(p->shadow[l]);
         free(p->ndotl[l]);
-        for (size_t c = 0; c < REF_MAX_CASCADES; c++) free(p->atlas[l][c]);
+        for (size_t i = 0; i < ENGINE_TILES_MAX; i++) free(p->atlas[l][i]);
     }
     memset(p, 0, sizeof *p);
 }

@@ -22,40 +22,50 @@ static double *take_tile(ref_light_view *view)
 }
 
 /* Takes the arrays that both pictures have in the same shape. */
-static void take(engine_picture *out, ref_picture *ref)
+static void take(engine_picture *out, ref_picture *ref, const scene *s)
 {
     out->depth = ref->depth;
     out->normal = ref->normal;
     out->triangle = ref->triangle;
-    ref->depth = ref->normal = NULL;
     out->cascade = ref->cascade;
+    ref->depth = ref->normal = NULL;
     ref->triangle = NULL;
     ref->cascade = NULL;
-    for (size_t l = 0; l < ref->n_lights && l < ENGINE_LIGHTS_MAX; l++) {
+    for (size_t l = 0; l < ref->n_lights; l++) {
         out->shadow[l] = ref->shadow[l];
         out->ndotl[l] = ref->ndotl[l];
         ref->shadow[l] = ref->ndotl[l] = NULL;
-        for (int c = 0; c < out->n_cascades; c++) {
-            ref_light_view *view = &ref->view[l][c];
-            if (!view->active) continue;
-            out->atlas_texels[l] = view->tile_texels;
-            out->atlas[l][c] = take_tile(view);
-        }
+        out->perspective[l] = s->lights[l].kind != SCENE_LIGHT_DIRECTIONAL;
+        out->n_tiles[l] = ref->grant[l].n_tiles;
+        out->atlas_texels[l] = out->n_tiles[l] ? ref->grant[l].tile_texels : 0;
+        for (int i = 0; i < out->n_tiles[l]; i++)
+            if (ref->view[l][i].active) out->atlas[l][i] = take_tile(&ref->view[l][i]);
     }
+}
+
+/* A capacity that is not set is the host build's. */
+static int capacity(int set, int built)
+{
+    return set && set < built ? set : built;
 }
 
 int engine_reference(engine_picture *out, const scene *s, const settings *set, int width, int height, char *error,
                      size_t error_bytes)
 {
     ref_picture ref;
-    ref_options options = {width, height, set->quality.atlas_size, set->quality.srgb != 0};
+    ref_options options = {.width = width,
+                           .height = height,
+                           .atlas_size = set->quality.atlas_size,
+                           .other_atlas_size = set->quality.other_atlas_size,
+                           .max_tiles = capacity(set->capacity.max_shadow_tiles, GN_MAX_SHADOW_TILES),
+                           .max_other_tiles = capacity(set->capacity.max_other_tiles, GN_MAX_OTHER_TILES),
+                           .srgb = set->quality.srgb != 0};
     memset(out, 0, sizeof *out);
     if (ref_render(&ref, s, &options, error, error_bytes)) return -1;
     size_t n = (size_t)width * (size_t)height;
     out->width = width;
     out->height = height;
     out->n_lights = ref.n_lights;
-    out->n_cascades = s->shadow.n_cascades;
     out->rgb8 = malloc(3 * n);
     out->rgb565 = malloc(2 * n);
     if (!out->rgb8 || !out->rgb565) {
@@ -68,7 +78,7 @@ int engine_reference(engine_picture *out, const scene *s, const settings *set, i
         output_quantise(set->output, c, set->quality.srgb, (int)(i % (size_t)width), (int)(i / (size_t)width), out->rgb8 + 3 * i);
         out->rgb565[i] = (uint16_t)(level(c[0], 31) << 11 | level(c[1], 63) << 5 | level(c[2], 31));
     }
-    take(out, &ref);
+    take(out, &ref, s);
     ref_free(&ref);
     return 0;
 }

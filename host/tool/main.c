@@ -20,7 +20,8 @@ static const char usage_text[] =
     "  --view NAME               render: colour, shadow, depth, normal, atlas or cascade (colour)\n"
     "  --light K                 render: the light of --view shadow and atlas (0)\n"
     "  --frame N                 animation frame (0)\n"
-    "  --set KEY=VALUE           any knob or setting, in order; preset=tiny|balanced|accurate sets many\n"
+    "  --set KEY=VALUE           any knob or setting, in order; preset=tiny|balanced|accurate sets many;\n"
+    "                            KEY@LIGHT=VALUE for one light, by its number or name\n"
     "  --json                    one JSON object on stdout and nothing else\n";
 
 enum { BY_RENDER = 1, BY_COMPARE = 2, BY_INFO = 4, BY_ALL = BY_RENDER | BY_COMPARE | BY_INFO };
@@ -38,12 +39,12 @@ static const option options[] = {
     {"--with", BY_COMPARE, "reference"},
     {"--size", BY_ALL, "WxH, up to 2048x2048"},
     {"--view", BY_RENDER, "colour, shadow, depth, normal, atlas or cascade"},
-    {"--light", BY_RENDER, "a light from 0 to 7"},
+    {"--light", BY_RENDER, "a light from 0 to 63"},
     {"--frame", BY_ALL, "a frame from 0 to 100000000"},
     {"--set", BY_ALL, "KEY=VALUE, at most 64 times"},
     {"--json", BY_ALL, NULL},
 };
-_Static_assert(GN_MAX_WIDTH == 2048 && GN_MAX_HEIGHT == 2048 && GN_MAX_LIGHTS == 8 && TOOL_SETS_MAX == 64, "as said above");
+_Static_assert(GN_MAX_WIDTH == 2048 && GN_MAX_HEIGHT == 2048 && GN_MAX_LIGHTS == 64 && TOOL_SETS_MAX == 64, "as said above");
 
 static int usage_error(void)
 {

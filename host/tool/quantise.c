@@ -9,9 +9,35 @@
 /* Everything must stay within +-8192 units of the origin and 16384 of the camera; half of that leaves room for both. */
 #define WORLD_REACH 4096.0
 
-_Static_assert((int)GN_FILTER_7X7 == (int)SCENE_FILTER_7X7 && (int)GN_BLEND_DITHER == (int)SCENE_BLEND_DITHER &&
-                   (int)GN_BLEND_SOFT == (int)SCENE_BLEND_SOFT && (int)GN_DISTANCE_RADIUS == (int)SCENE_DISTANCE_RADIUS,
+/* Of the library: the shortest range and nearest near plane, in units; the widest range. */
+#define LIGHT_NEAREST_Q16  256
+#define LIGHT_FARTHEST_Q16 (65535.0 * 65536.0)
+#define COLOUR_EXP_MAX     100
+#define UNIT_LOG2_MAX      30
+
+_Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7X7 == (int)SCENE_FILTER_7X7 &&
+                   (int)GN_BLEND_DITHER == (int)SCENE_BLEND_DITHER && (int)GN_BLEND_SOFT == (int)SCENE_BLEND_SOFT &&
+                   (int)GN_DISTANCE_RADIUS == (int)SCENE_DISTANCE_RADIUS && (int)GN_KERNEL_LINEAR == (int)SCENE_KERNEL_LINEAR &&
+                   (int)GN_MIXING_ALWAYS == (int)SCENE_MIX_ALWAYS && (int)GN_MIXING_DISTANCE == (int)SCENE_MIX_DISTANCE &&
+                   (int)GN_TILES_IMPORTANCE == (int)SCENE_TILES_IMPORTANCE && (int)GN_LIGHT_SPOT == (int)SCENE_LIGHT_SPOT &&
+                   (int)GN_LIGHT_POINT == (int)SCENE_LIGHT_POINT && (int)GN_LIGHT_MIXED == (int)SCENE_MIXED &&
+                   (int)GN_LIGHT_BAKED == (int)SCENE_BAKED && (int)GN_SOFTNESS_HARD == (int)SCENE_SOFT_HARD &&
+                   (int)GN_SOFTNESS_SOFT == (int)SCENE_SOFT_SOFT && (int)GN_ALPHA_CLIP == (int)SCENE_ALPHA_CLIP &&
+                   (int)GN_ALPHA_DITHER == (int)SCENE_ALPHA_DITHER,
                "the scene's enumerations are the library's");
+
+/* How a mesh is stored. */
+typedef struct {
+    int pos_bits;         /* fraction bits of coordinates; what is outside 0..30 goes to the objects' exponents */
+    int clamped[2];       /* per axis of texture coordinates: some texture on this mesh does not repeat */
+    double uv_periods[2]; /* whole ones, taken off the texture coordinates */
+} mesh_plan;
+
+static int no_memory(char *error, size_t error_bytes)
+{
+    snprintf(error, error_bytes, "out of memory");
+    return -1;
+}
 
 static int64_t fixed(double v, int bits)
 {
@@ -28,6 +54,20 @@ static int32_t fixed_unit(double v, int bits)
     return (int32_t)(f > 1 << 30 ? 1 << 30 : f < -(1 << 30) ? -(1 << 30) : f);
 }
 
+/* A share 0..1 */
+static uint32_t fixed_share(double v)
+{
+    return (uint32_t)fixed(fmax(0, fmin(1, v)), 16);
+}
+
+/* v * scale, rounded and kept within lo..hi */
+static double rounded(double v, double scale, double lo, double hi)
+{
+    return fmax(lo, fmin(hi, floor(v * scale + 0.5)));
+}
+
+/* ---- The unit of length ----------------------------------------------------------------------------------------------- */
+
 static double reach_of_object(const scene *s, const scene_object *o)
 {
     const scene_mesh *mesh = &s->meshes[o->mesh_idx];
@@ -43,16 +83,43 @@ static double reach_of_object(const scene *s, const scene_object *o)
     return reach;
 }
 
+/* Not the range: a light may reach farther than there are surfaces. */
+static double reach_of_light(const scene_light *l)
+{
+    if (l->kind == SCENE_LIGHT_DIRECTIONAL) return l->near_offset;
+    double reach = l->near;
+    for (int r = 0; r < 3; r++) reach = fmax(reach, fabs(l->position[r]));
+    return reach;
+}
+
 static int choose_world_exp(const scene *s)
 {
     double reach = fmax(s->shadow.max_distance, s->camera.near);
     for (size_t i = 0; i < s->n_objects; i++) reach = fmax(reach, reach_of_object(s, &s->objects[i]));
     for (int r = 0; r < 3; r++) reach = fmax(reach, fabs(s->camera.to_world.m[r][3]));
-    for (size_t i = 0; i < s->n_lights; i++) reach = fmax(reach, s->lights[i].near_offset);
+    for (size_t i = 0; i < s->n_lights; i++) reach = fmax(reach, reach_of_light(&s->lights[i]));
     int e;
     frexp(reach / WORLD_REACH, &e);
     return -e;
 }
+
+/* The library takes lengths of the model from the unit in two places: what is near a light, and the disk filter's radius. */
+static int quantise_unit(gn_scene *out, const scene *s, int world_exp, char *error, size_t error_bytes)
+{
+    int needed = s->shadow.filter == SCENE_FILTER_DISK || s->shadow.other_filter == SCENE_FILTER_DISK;
+    for (size_t i = 0; i < s->n_lights; i++) needed |= s->lights[i].kind != SCENE_LIGHT_DIRECTIONAL;
+    int small = world_exp > UNIT_LOG2_MAX, large = world_exp < -UNIT_LOG2_MAX;
+    if (needed && (small || large)) {
+        snprintf(error, error_bytes, "the scene is too %s for spot and point lights and the disk filter: it must reach %s %g units",
+                 small ? "small" : "large", small ? "at least" : "at most",
+                 ldexp(WORLD_REACH, small ? -UNIT_LOG2_MAX - 1 : UNIT_LOG2_MAX));
+        return -1;
+    }
+    out->unit_log2 = small ? UNIT_LOG2_MAX : large ? -UNIT_LOG2_MAX : world_exp;
+    return 0;
+}
+
+/* ---- Meshes and textures ---------------------------------------------------------------------------------------------- */
 
 /* The largest number of fraction bits that keeps every coordinate of the mesh within 2^30. */
 static int position_bits(const scene_mesh *mesh)
@@ -64,75 +131,248 @@ static int position_bits(const scene_mesh *mesh)
     return largest > 0 ? 30 - e : 30;
 }
 
-static int quantise_mesh(gn_mesh *out, const scene_mesh *mesh, int bits, char *error, size_t error_bytes)
+static mesh_plan *plan_meshes(const scene *s)
 {
-    size_t n = 3 * mesh->n_vertices, n_idx = 3 * mesh->n_triangles;
-    if (mesh->n_vertices > 65535 || mesh->n_triangles > 65535) {
+    mesh_plan *plan = calloc(s->n_meshes + 1, sizeof *plan);
+    for (size_t i = 0; plan && i < s->n_meshes; i++) plan[i].pos_bits = position_bits(&s->meshes[i]);
+    for (size_t i = 0; plan && i < s->n_objects; i++) {
+        const scene_object *o = &s->objects[i];
+        if (o->texture_idx >= s->n_textures) continue;
+        plan[o->mesh_idx].clamped[0] |= s->textures[o->texture_idx].clamp_u;
+        plan[o->mesh_idx].clamped[1] |= s->textures[o->texture_idx].clamp_v;
+    }
+    return plan;
+}
+
+/* As many fraction bits as 16-bit texture coordinates can have; less than 0: they do not fit at all. Textures that repeat do not
+ * mind a whole number of periods: without it, coordinates far from 0 keep their fractions. */
+static int plan_texture_coordinates(mesh_plan *plan, const scene_mesh *mesh)
+{
+    double largest = 0;
+    int e;
+    for (int k = 0; k < 2; k++) {
+        double low = mesh->uv[k], high = mesh->uv[k];
+        for (size_t i = 0; i < mesh->n_vertices; i++) {
+            low = fmin(low, mesh->uv[2 * i + (size_t)k]);
+            high = fmax(high, mesh->uv[2 * i + (size_t)k]);
+        }
+        plan->uv_periods[k] = plan->clamped[k] ? 0 : floor(low / 2 + high / 2);
+        largest = fmax(largest, fmax(fabs(low - plan->uv_periods[k]), fabs(high - plan->uv_periods[k])));
+    }
+    frexp(largest, &e);
+    return largest > 0 && e > 0 ? 15 - e : 15;
+}
+
+static int32_t *fixed_positions(const scene_mesh *mesh, int bits)
+{
+    size_t n = 3 * mesh->n_vertices;
+    int32_t *pos = malloc(n * sizeof *pos);
+    for (size_t i = 0; pos && i < n; i++) pos[i] = (int32_t)rounded(ldexp(mesh->pos[i], bits), 1, -1073741824.0, 1073741824.0);
+    return pos;
+}
+
+static int16_t *fixed_normals(const scene_mesh *mesh)
+{
+    size_t n = 3 * mesh->n_vertices;
+    int16_t *nrm = malloc(n * sizeof *nrm);
+    for (size_t i = 0; nrm && i < n; i++) nrm[i] = (int16_t)rounded(mesh->nrm[i], 32767, -32767, 32767);
+    return nrm;
+}
+
+static int16_t *fixed_texture_coordinates(const scene_mesh *mesh, const mesh_plan *plan, int bits)
+{
+    size_t n = 2 * mesh->n_vertices;
+    int16_t *uv = malloc(n * sizeof *uv);
+    for (size_t i = 0; uv && i < n; i++)
+        uv[i] = (int16_t)rounded(mesh->uv[i] - plan->uv_periods[i & 1], ldexp(1, bits), -32768, 32767);
+    return uv;
+}
+
+/* n numbers, 1 as `one`, kept within 0..65535 */
+static uint16_t *fixed_words(const double *v, size_t n, double one)
+{
+    uint16_t *out = malloc(n * sizeof *out);
+    for (size_t i = 0; out && i < n; i++) out[i] = (uint16_t)rounded(v[i], one, 0, 65535);
+    return out;
+}
+
+static uint16_t *fixed_indices(const scene_mesh *mesh)
+{
+    size_t n = 3 * mesh->n_triangles;
+    uint16_t *idx = malloc(n * sizeof *idx);
+    for (size_t i = 0; idx && i < n; i++) idx[i] = (uint16_t)mesh->idx[i];
+    return idx;
+}
+
+static int quantise_mesh(gn_mesh *out, const scene_mesh *mesh, mesh_plan *plan, char *error, size_t error_bytes)
+{
+    size_t n = mesh->n_vertices;
+    if (n > 65535 || mesh->n_triangles > 65535) {
         snprintf(error, error_bytes, "mesh '%s': more than 65535 vertices or triangles", mesh->name);
         return -1;
     }
-    int32_t *pos = malloc(n * sizeof *pos);
-    int16_t *nrm = mesh->nrm ? malloc(n * sizeof *nrm) : NULL;
-    uint16_t *rgb = mesh->rgb ? malloc(n * sizeof *rgb) : NULL, *idx = malloc(n_idx * sizeof *idx);
-    out->pos = pos;
-    out->nrm_q15 = nrm;
-    out->rgb_uq16 = rgb;
-    out->idx = idx;
-    if (!pos || !idx || (mesh->nrm && !nrm) || (mesh->rgb && !rgb)) {
-        snprintf(error, error_bytes, "out of memory");
+    int bits = plan->pos_bits, uv_bits = mesh->uv && n ? plan_texture_coordinates(plan, mesh) : 0;
+    if (uv_bits < 0) {
+        snprintf(error, error_bytes, "mesh '%s': its texture coordinates are farther from 0, or from each other, than 32767",
+                 mesh->name);
         return -1;
     }
-    for (size_t i = 0; i < n; i++) {
-        pos[i] = (int32_t)fmax(-1073741824.0, fmin(1073741824.0, floor(ldexp(mesh->pos[i], bits) + 0.5)));
-        if (nrm) nrm[i] = (int16_t)floor(mesh->nrm[i] * 32767.0 + 0.5);
-        if (rgb) rgb[i] = (uint16_t)floor(fmax(0, fmin(1, mesh->rgb[i])) * 65535.0 + 0.5);
-    }
-    for (size_t i = 0; i < n_idx; i++) idx[i] = (uint16_t)mesh->idx[i];
-    out->n_vertices = (uint16_t)mesh->n_vertices;
+    out->n_vertices = (uint16_t)n;
     out->n_triangles = (uint16_t)mesh->n_triangles;
+    out->pos_frac_bits = (uint8_t)(bits < 0 ? 0 : bits > 30 ? 30 : bits);
+    out->uv_frac_bits = (uint8_t)uv_bits;
+    out->pos = fixed_positions(mesh, bits);
+    out->idx = fixed_indices(mesh);
+    if (mesh->nrm) out->nrm_q15 = fixed_normals(mesh);
+    if (mesh->rgb) out->rgb_uq16 = fixed_words(mesh->rgb, 3 * n, 65535);
+    if (mesh->uv) out->uv = fixed_texture_coordinates(mesh, plan, uv_bits);
+    if (mesh->mask_uv) out->mask_uv_uq16 = fixed_words(mesh->mask_uv, 2 * n, 65535);
+    if (!out->pos || !out->idx || (mesh->nrm && !out->nrm_q15) || (mesh->rgb && !out->rgb_uq16) || (mesh->uv && !out->uv) ||
+        (mesh->mask_uv && !out->mask_uv_uq16))
+        return no_memory(error, error_bytes);
     return 0;
 }
 
+/* -1: not a power of two up to 4096 */
+static int side_log2(int texels)
+{
+    for (int i = 0; i <= 12; i++)
+        if (texels == 1 << i) return i;
+    return -1;
+}
+
+static int quantise_texture(gn_texture *out, const scene_texture *t, char *error, size_t error_bytes)
+{
+    int width = side_log2(t->width), height = side_log2(t->height);
+    if (width < 0 || height < 0) {
+        snprintf(error, error_bytes, "texture '%s': its sides, %d and %d, are not powers of two up to 4096", t->name, t->width,
+                 t->height);
+        return -1;
+    }
+    out->rgba = t->rgba;
+    out->width_log2 = (uint8_t)width;
+    out->height_log2 = (uint8_t)height;
+    out->flags = (uint8_t)((t->clamp_u ? GN_TEXTURE_CLAMP_U : 0) | (t->clamp_v ? GN_TEXTURE_CLAMP_V : 0) |
+                           (t->bilinear ? GN_TEXTURE_BILINEAR : 0));
+    return 0;
+}
+
+/* ---- Objects ---------------------------------------------------------------------------------------------------------- */
+
 /* Matrix entries become a Q1.30 mantissa under one exponent. A mesh's fraction bits beyond 0..30 move into that exponent. */
-static int quantise_object(gn_object *out, const scene_object *o, const gn_mesh *mesh, int mesh_bits, int world_exp, char *error,
-                           size_t error_bytes)
+static int quantise_transform(gn_affine *out, const scene_object *o, int mesh_bits, int stored_bits, int world_exp, char *error,
+                              size_t error_bytes)
 {
     double largest = 0;
     int e;
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) largest = fmax(largest, fabs(o->to_world.m[r][c]));
     frexp(largest, &e);
-    int shift = world_exp + (int)mesh->pos_frac_bits - mesh_bits; /* object space as stored = true * 2^(mesh_bits - pos_frac) */
+    int shift = world_exp + stored_bits - mesh_bits; /* object space as stored = true * 2^(mesh_bits - stored_bits) */
     int exp = e + shift < 0 ? 0 : e + shift;
     if (exp > 14) {
         snprintf(error, error_bytes, "object '%s': scale too large", o->name);
         return -1;
     }
-    out->mesh = mesh;
-    out->to_world.exp = exp;
+    out->exp = exp;
     for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 3; c++) out->to_world.m_q30[r][c] = fixed_unit(o->to_world.m[r][c], 30 + shift - exp);
-        out->to_world.t_q16[r] = (int32_t)fixed(o->to_world.m[r][3], 16 + world_exp);
-        out->albedo_uq16[r] = (uint32_t)fixed(fmax(0, fmin(1, o->albedo[r])), 16);
+        for (int c = 0; c < 3; c++) out->m_q30[r][c] = fixed_unit(o->to_world.m[r][c], 30 + shift - exp);
+        out->t_q16[r] = (int32_t)fixed(o->to_world.m[r][3], 16 + world_exp);
     }
-    out->flags = (o->caster != SCENE_CASTER_OFF ? GN_OBJECT_CASTS : 0U) | (o->receives ? GN_OBJECT_RECEIVES : 0U) |
-                 (o->two_sided ? GN_OBJECT_TWO_SIDED : 0U) | (o->unlit ? GN_OBJECT_UNLIT : 0U);
     return 0;
 }
 
-static void quantise_light(gn_light *out, const scene_light *l, int world_exp)
+static void quantise_material(gn_object *out, const scene_object *o)
 {
-    out->kind = GN_LIGHT_DIRECTIONAL;
-    for (int i = 0; i < 3; i++) {
-        out->direction[i] = (int32_t)fixed(l->direction[i], 30);
-        out->colour_uq16[i] = (uint32_t)fixed(fmin(l->colour[i], 255.99), 16);
+    for (int c = 0; c < 3; c++) {
+        out->albedo_uq16[c] = fixed_share(o->albedo[c]);
+        out->specular_uq16[c] = fixed_share(o->specular[c]);
     }
+    out->alpha_uq16 = fixed_share(o->alpha);
+    out->alpha_cutoff_uq16 = fixed_share(o->alpha_cutoff);
+    out->shininess_log2 = (uint8_t)o->shininess_log2;
+    out->visible_alpha = (gn_alpha)o->visible_alpha;
+    out->caster_alpha = o->caster == SCENE_CASTER_CLIP     ? GN_ALPHA_CLIP
+                        : o->caster == SCENE_CASTER_DITHER ? GN_ALPHA_DITHER
+                                                           : GN_ALPHA_OPAQUE;
+    out->flags = (o->caster != SCENE_CASTER_OFF ? GN_OBJECT_CASTS : 0U) | (o->receives ? GN_OBJECT_RECEIVES : 0U) |
+                 (o->two_sided ? GN_OBJECT_TWO_SIDED : 0U) | (o->unlit ? GN_OBJECT_UNLIT : 0U) |
+                 (o->hidden ? GN_OBJECT_HIDDEN : 0U) | (o->casts_two_sided ? GN_OBJECT_CASTS_TWO_SIDED : 0U) |
+                 (o->moving ? GN_OBJECT_MOVING : 0U);
+}
+
+static int quantise_object(fixed_scene *f, size_t i, const scene *s, const mesh_plan *plan, char *error, size_t error_bytes)
+{
+    const scene_object *o = &s->objects[i];
+    gn_object *out = &f->objects[i];
+    out->mesh = &f->meshes[o->mesh_idx];
+    quantise_material(out, o);
+    out->texture = o->texture_idx < s->n_textures ? &f->textures[o->texture_idx] : NULL;
+    out->mask_image = o->mask_texture_idx < s->n_textures ? &f->textures[o->mask_texture_idx] : NULL;
+    out->mask_u8 = o->mask;
+    if (o->baked) out->baked_uq12 = fixed_words(o->baked, 3 * s->meshes[o->mesh_idx].n_vertices, 4096);
+    if (o->baked && !out->baked_uq12) return no_memory(error, error_bytes);
+    return quantise_transform(&out->to_world, o, plan[o->mesh_idx].pos_bits, out->mesh->pos_frac_bits, f->world_exp, error,
+                              error_bytes);
+}
+
+/* ---- Lights ----------------------------------------------------------------------------------------------------------- */
+
+/* Light falls off with the square of distance, and distances are scaled: so is the intensity at distance 1. */
+static int quantise_colour(gn_light *out, const scene_light *l, int world_exp, char *error, size_t error_bytes)
+{
+    double largest = fmax(l->colour[0], fmax(l->colour[1], l->colour[2]));
+    int e = 0;
+    if (l->kind != SCENE_LIGHT_DIRECTIONAL && largest > 0) {
+        frexp(largest, &e);
+        out->colour_exp = e + 2 * world_exp;
+    }
+    if (out->colour_exp > COLOUR_EXP_MAX) {
+        snprintf(error, error_bytes, "light '%s': its intensity, %g, is too large in a scene of this size", l->name, largest);
+        return -1;
+    }
+    if (out->colour_exp < -COLOUR_EXP_MAX) out->colour_exp = -COLOUR_EXP_MAX; /* black all the same */
+    for (int i = 0; i < 3; i++) out->colour_uq16[i] = (uint32_t)fixed(fmin(ldexp(l->colour[i], -e), 255.99), 16);
+    return 0;
+}
+
+/* Where light ends and where shadows begin: at least as far as the library resolves, and the end behind the beginning if it was. */
+static void quantise_reach(gn_light *out, const scene_light *l, int world_exp)
+{
+    double near = fmax(LIGHT_NEAREST_Q16, floor(ldexp(l->near, 16 + world_exp) + 0.5));
+    double range = isinf(l->range) ? (double)INFINITY : floor(ldexp(l->range, 16 + world_exp) + 0.5);
+    if (l->near < l->range) range = fmax(range, near + 1);
+    range = fmax(range, LIGHT_NEAREST_Q16);
+    out->near_q16 = (int32_t)fmin(near, 2147483647.0);
+    out->range_q16 = range > LIGHT_FARTHEST_Q16 ? 0 : (uint32_t)range;
+}
+
+static int quantise_light(gn_light *out, const scene_light *l, int world_exp, char *error, size_t error_bytes)
+{
+    out->kind = (gn_light_kind)l->kind;
+    out->mode = (gn_light_mode)l->mode;
+    out->softness = (gn_softness)l->softness;
+    out->mask_channel = l->mask_channel;
+    for (int i = 0; i < 3; i++) out->direction[i] = (int32_t)fixed(l->direction[i], 30);
     out->shadow_strength_uq16 = l->shadow ? (uint32_t)fixed(l->strength, 16) : 0;
     out->bias_constant_q16 = (int32_t)fixed(l->bias_constant, 16);
     out->bias_slope_q16 = (int32_t)fixed(l->bias_slope, 16);
     out->bias_normal_q16 = (int32_t)fixed(l->bias_normal, 16);
-    out->near_offset_q16 = (int32_t)fixed(l->near_offset, 16 + world_exp);
+    for (int i = 0; i < 4; i++) out->bias_receiver_q16[i] = (int32_t)fixed(l->bias_receiver[i], 16);
+    out->bias_caster_q16 = (int32_t)fixed(l->bias_caster, 16);
+    out->receiver_plane = l->receiver_plane;
+    if (l->kind == SCENE_LIGHT_DIRECTIONAL) {
+        out->near_offset_q16 = (int32_t)fixed(l->near_offset, 16 + world_exp);
+    } else {
+        for (int i = 0; i < 3; i++) out->position_q16[i] = (int32_t)fixed(l->position[i], 16 + world_exp);
+        out->inner_turn = (uint16_t)fixed(l->inner, 16);
+        out->outer_turn = (uint16_t)fixed(l->outer, 16);
+        quantise_reach(out, l, world_exp);
+    }
+    return quantise_colour(out, l, world_exp, error, error_bytes);
 }
+
+/* ---- The rest of the scene -------------------------------------------------------------------------------------------- */
 
 static void quantise_view(gn_scene *out, const scene *s, int world_exp)
 {
@@ -147,60 +387,85 @@ static void quantise_view(gn_scene *out, const scene *s, int world_exp)
     out->camera.focal_q24 = (uint32_t)fmin(4294967295.0, floor(ldexp(camera->focal, 24) + 0.5));
     out->camera.near_q16 = (int32_t)fixed(camera->near, 16 + world_exp);
     out->camera.far_q16 = isinf(camera->far) ? INT32_MAX : (int32_t)fixed(camera->far, 16 + world_exp);
-    out->shadow.max_distance_q16 = (int32_t)fixed(s->shadow.max_distance, 16 + world_exp);
-    out->shadow.distance_fade_uq16 = (uint32_t)fixed(s->shadow.distance_fade, 16);
-    out->shadow.cascade_fade_uq16 = (uint32_t)fixed(s->shadow.cascade_fade, 16);
-    out->shadow.filter = (gn_filter)s->shadow.filter;
-    out->shadow.n_cascades = (uint32_t)s->shadow.n_cascades;
-    for (int i = 0; i < 3; i++) out->shadow.cascade_ratio_uq16[i] = (uint32_t)fixed(s->shadow.cascade_ratio[i], 16);
-    out->shadow.blend = (gn_blend)s->shadow.blend;
-    out->shadow.distance_mode = (gn_distance_mode)s->shadow.distance_mode;
+}
+
+static void quantise_shadow(gn_shadow_settings *out, const scene_shadow *shadow, int world_exp)
+{
+    out->max_distance_q16 = (int32_t)fixed(shadow->max_distance, 16 + world_exp);
+    out->distance_fade_uq16 = (uint32_t)fixed(shadow->distance_fade, 16);
+    out->cascade_fade_uq16 = (uint32_t)fixed(shadow->cascade_fade, 16);
+    out->filter = (gn_filter)shadow->filter;
+    out->other_filter = (gn_filter)shadow->other_filter;
+    out->kernel = (gn_kernel)shadow->kernel;
+    out->penumbra_uq16 = (uint32_t)fixed(shadow->penumbra, 16);
+    out->disk_samples = (uint32_t)shadow->disk_samples;
+    out->mixing = (gn_mixing)shadow->mixing;
+    out->tile_sizes = (gn_tile_sizes)shadow->tiles;
+    out->main_light = shadow->main_light;
+    out->caster_culling = shadow->caster_culling;
+    out->object_lights = (uint32_t)shadow->object_lights;
+    for (int i = 0; i < 4; i++) out->refresh[i] = (uint32_t)shadow->refresh[i];
+    out->n_cascades = (uint32_t)shadow->n_cascades;
+    for (int i = 0; i < 3; i++) out->cascade_ratio_uq16[i] = (uint32_t)fixed(shadow->cascade_ratio[i], 16);
+    out->blend = (gn_blend)shadow->blend;
+    out->distance_mode = (gn_distance_mode)shadow->distance_mode;
+}
+
+static int allocate(fixed_scene *f, const scene *s)
+{
+    f->meshes = calloc(s->n_meshes + 1, sizeof *f->meshes);
+    f->objects = calloc(s->n_objects + 1, sizeof *f->objects);
+    f->lights = calloc(s->n_lights + 1, sizeof *f->lights);
+    f->textures = calloc(s->n_textures + 1, sizeof *f->textures);
+    f->n_meshes = s->n_meshes;
+    f->scene.objects = f->objects;
+    f->scene.lights = f->lights;
+    f->scene.n_objects = (uint32_t)s->n_objects;
+    f->scene.n_lights = (uint32_t)s->n_lights;
+    return f->meshes && f->objects && f->lights && f->textures ? 0 : -1;
 }
 
 int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_bytes)
 {
     memset(out, 0, sizeof *out);
     out->world_exp = choose_world_exp(s);
-    out->n_meshes = s->n_meshes;
-    out->meshes = calloc(s->n_meshes + 1, sizeof *out->meshes);
-    out->objects = calloc(s->n_objects + 1, sizeof *out->objects);
-    out->lights = calloc(s->n_lights + 1, sizeof *out->lights);
-    int *bits = calloc(s->n_meshes + 1, sizeof *bits);
-    int failed = !out->meshes || !out->objects || !out->lights || !bits;
-    if (failed) snprintf(error, error_bytes, "out of memory");
-    out->scene.n_objects = (uint32_t)s->n_objects;
-    out->scene.n_lights = (uint32_t)s->n_lights;
-    for (size_t i = 0; !failed && i < s->n_meshes; i++) {
-        bits[i] = position_bits(&s->meshes[i]);
-        out->meshes[i].pos_frac_bits = (uint8_t)(bits[i] < 0 ? 0 : bits[i] > 30 ? 30 : bits[i]);
-        failed = quantise_mesh(&out->meshes[i], &s->meshes[i], bits[i], error, error_bytes);
-    }
-    for (size_t i = 0; !failed && i < s->n_objects; i++) {
-        size_t mesh = s->objects[i].mesh_idx;
-        failed =
-            quantise_object(&out->objects[i], &s->objects[i], &out->meshes[mesh], bits[mesh], out->world_exp, error, error_bytes);
-    }
-    if (!failed) {
-        for (size_t i = 0; i < s->n_lights; i++) quantise_light(&out->lights[i], &s->lights[i], out->world_exp);
-        quantise_view(&out->scene, s, out->world_exp);
-        out->scene.objects = out->objects;
-        out->scene.lights = out->lights;
-    }
-    free(bits);
+    mesh_plan *plan = plan_meshes(s);
+    int failed = allocate(out, s) || !plan;
+    if (failed) no_memory(error, error_bytes);
+    else failed = quantise_unit(&out->scene, s, out->world_exp, error, error_bytes);
+    for (size_t i = 0; !failed && i < s->n_textures; i++)
+        failed = quantise_texture(&out->textures[i], &s->textures[i], error, error_bytes);
+    for (size_t i = 0; !failed && i < s->n_meshes; i++)
+        failed = quantise_mesh(&out->meshes[i], &s->meshes[i], &plan[i], error, error_bytes);
+    for (size_t i = 0; !failed && i < s->n_objects; i++) failed = quantise_object(out, i, s, plan, error, error_bytes);
+    for (size_t i = 0; !failed && i < s->n_lights; i++)
+        failed = quantise_light(&out->lights[i], &s->lights[i], out->world_exp, error, error_bytes);
+    quantise_view(&out->scene, s, out->world_exp);
+    quantise_shadow(&out->scene.shadow, &s->shadow, out->world_exp);
+    free(plan);
     if (failed) quantise_free(out);
     return failed ? -1 : 0;
+}
+
+static void release(const void *array)
+{
+    free((void *)(uintptr_t)array);
 }
 
 void quantise_free(fixed_scene *f)
 {
     for (size_t i = 0; f->meshes && i < f->n_meshes; i++) {
-        free((void *)(uintptr_t)f->meshes[i].pos);
-        free((void *)(uintptr_t)f->meshes[i].nrm_q15);
-        free((void *)(uintptr_t)f->meshes[i].rgb_uq16);
-        free((void *)(uintptr_t)f->meshes[i].idx);
+        release(f->meshes[i].pos);
+        release(f->meshes[i].nrm_q15);
+        release(f->meshes[i].rgb_uq16);
+        release(f->meshes[i].uv);
+        release(f->meshes[i].mask_uv_uq16);
+        release(f->meshes[i].idx);
     }
+    for (size_t i = 0; f->objects && i < f->scene.n_objects; i++) release(f->objects[i].baked_uq12);
     free(f->meshes);
     free(f->objects);
     free(f->lights);
+    free(f->textures);
     memset(f, 0, sizeof *f);
 }

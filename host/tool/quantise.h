@@ -5,6 +5,7 @@
 #include "../../lib/gnomon.h"
 #include "../scene/scene.h"
 
+/* Texels and masks stay the scene's: it must live as long. */
 typedef struct {
     gn_scene scene;
     int world_exp; /* library units = world units * 2^world_exp */
@@ -12,6 +13,7 @@ typedef struct {
     gn_mesh *meshes;
     gn_object *objects;
     gn_light *lights;
+    gn_texture *textures;
 } fixed_scene;
 
 /* Chooses the power of two that puts the scene into the upper range of Q15.16 and converts everything with rounding to

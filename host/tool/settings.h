@@ -23,28 +23,58 @@ extern const char *const settings_preset_name[SETTINGS_PRESETS + 1]; /* the last
 void settings_preset(settings *out, int preset); /* quality knobs of a preset; the rest unchanged */
 void settings_init(settings *out);               /* balanced, every feature; capacities 0: as much as the scene needs */
 
-/* Gives every capacity that is still 0 what a rendered picture needed. */
-void settings_fit(settings *s, int width, int height, size_t n_lights, const gn_stats *stats);
+/* What a rendered picture needed. */
+typedef struct {
+    int width, height;
+    size_t objects, lights, surface_lights, triangles, tile_refs, shadow_tiles, other_tiles;
+} settings_demand;
+
+/* Gives every capacity that is still 0 just that. */
+void settings_fit(settings *s, const settings_demand *demand);
+
+/* 0, or -1 with one line in error if a capacity that was set is less. */
+int settings_suffice(const settings *s, const settings_demand *demand, char *error, size_t error_bytes);
 
 /* Settings that a loader must know before it reads the file. 1: taken; 0: not one of them; -1: bad value. */
 int settings_load_option(scene_options *options, const char *key, const char *value, char *error, size_t error_bytes);
 
 /* Applies one setting to the configuration or the scene. 0, or -1 with one line in error. In order: cascades sets the default
- * ratios, cascade_ratios then as many of its own. */
+ * ratios, cascade_ratios then as many of its own; lights replaces the lights that later settings are about. KEY@LIGHT sets a key
+ * of lights for one of them: by its number from 0, or its name. */
 int settings_apply(settings *out, scene *s, const char *key, const char *value, char *error, size_t error_bytes);
 
 /* Applies the scene file's own settings, then n "KEY=VALUE" strings of the command line. */
 int settings_apply_all(settings *out, scene *s, char *const *sets, int n, char *error, size_t error_bytes);
 
+/* A feature that a scene needs: the knob's name, its smallest value, and what needs it. */
+typedef struct {
+    const char *knob;
+    int value;
+    char what[96];
+} settings_need;
+#define SETTINGS_NEEDS_MAX 24
+
+/* Fills `needs` (room for SETTINGS_NEEDS_MAX), one entry per knob; returns how many. Features that only make the same picture
+ * faster are never needed, nor are those without which settings_enforce draws something simpler. shadows: some are drawn. */
+int settings_needs(const scene *s, bool shadows, settings_need *needs);
+
+/* Lights that want a shadow. */
+size_t settings_shadow_lights(const scene *s);
+
+/* Switches off the features that cost RAM where the scene does not need them: shadows, and what makes the other atlas. */
+void settings_trim(settings *set, const scene *s);
+
 /* Makes the scene what a build with these features and capacities draws, for both engines alike: shadows, vertex normals and vertex
- * colours that are not built go. What a build would refuse (a filter or blend that it lacks, a picture or shadow tiles that do
- * not fit) is refused: -1 with one line in error. depth_blocks changes no picture; raw_views and runtime_knobs are the host
- * tool's own, and count for the RAM only. Triangles, tile references and lights are counted by engine_fixed. */
+ * colours that are not built go. What a build would refuse (whatever settings_needs names, a picture that does not fit) is
+ * refused: -1 with one line in error. depth_blocks, tile_lights, incremental and static_layer change no picture; raw_views and
+ * runtime_knobs are the host tool's own. Other capacities are known once a picture is rendered: settings_suffice. */
 int settings_enforce(const settings *set, scene *s, int width, int height, char *error, size_t error_bytes);
 
 /* RAM of the library (gn_renderer) under this configuration on a 32-bit target, by part and in all. */
 typedef struct {
-    long atlas, triangles, tile_refs, tiles, cells, pixels, rest, total;
+    long atlas;       /* directional, with its static layer and depth blocks */
+    long other_atlas; /* the same of the other */
+    long objects, lights, triangles, tile_refs, tiles, cells, pixels, rest, total;
 } settings_ram_parts;
 settings_ram_parts settings_ram(const settings *s);
 

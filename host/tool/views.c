@@ -55,22 +55,44 @@ static void colour_of_cascade(uint8_t *out, int cascade)
     else memcpy(out, colours[cascade], 3);
 }
 
-/* The light's cascades side by side; those of empty slices stay blank. */
+/* The stored depths that are drawn black and nearly white. A perspective depth crowds below 1: there it is what was stored. */
+static void depth_span(const engine_picture *p, size_t light, double *lo, double *hi)
+{
+    size_t t = (size_t)p->atlas_texels[light];
+    *lo = 0;
+    *hi = 1;
+    if (!p->perspective[light]) return;
+    double nearest = 1, farthest = 0;
+    for (int i = 0; i < p->n_tiles[light]; i++) {
+        const double *tile = p->atlas[light][i];
+        for (size_t k = 0; tile && k < t * t; k++) {
+            if (tile[k] >= 1) continue;
+            nearest = fmin(nearest, tile[k]);
+            farthest = fmax(farthest, tile[k]);
+        }
+    }
+    if (nearest >= farthest) return;
+    *lo = nearest;
+    *hi = farthest + 0.1 * (farthest - nearest); /* what is empty stays apart */
+}
+
+/* The light's tiles side by side: cascades, of which those of empty slices stay blank, or the six faces of a cube. */
 static uint8_t *draw_atlas(const engine_picture *p, size_t light, int *w, int *h, char *error, size_t error_bytes)
 {
-    int t = p->atlas_texels[light];
-    if (!t) {
+    size_t t = (size_t)p->atlas_texels[light], width = t * (size_t)p->n_tiles[light], n = t * width;
+    double lo, hi;
+    if (!n) {
         snprintf(error, error_bytes, "light %d has no shadow tile", (int)light);
         return NULL;
     }
-    size_t n_cascades = (size_t)p->n_cascades, width = (size_t)t * n_cascades, n = (size_t)t * width;
     uint8_t *out = malloc(3 * n);
+    depth_span(p, light, &lo, &hi);
     *w = (int)width;
-    *h = t;
+    *h = (int)t;
     for (size_t i = 0; out && i < n; i++) {
-        size_t x = i % width, row = i / width * (size_t)t;
-        const double *tile = p->atlas[light][x / (size_t)t];
-        if (tile) grey(out + 3 * i, tile[row + x % (size_t)t]);
+        size_t x = i % width, row = i / width * t;
+        const double *tile = p->atlas[light][x / t];
+        if (tile) grey(out + 3 * i, (tile[row + x % t] - lo) / (hi - lo));
         else nothing(out + 3 * i);
     }
     return out;

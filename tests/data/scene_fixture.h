@@ -1,4 +1,4 @@
-/* What test_scene.c stands on: files in build/tmp, loading them, and what holds for every scene. */
+/* What the tests of the loaders stand on: files in build/tmp, loading them, and what holds for every scene. */
 #ifndef GNOMON_TESTS_SCENE_FIXTURE_H
 #define GNOMON_TESTS_SCENE_FIXTURE_H
 
@@ -9,19 +9,22 @@
 #include "../../host/scene/scene.h"
 #include "../check.h"
 #include "../rng.h"
+#include "scene_cases.h"
 
+#ifndef TMP
 #define TMP "build/tmp/test_scene"
+#endif
 static const scene_options plain = {.frame = 0, .width = 320, .height = 240};
 static char error[400];
 static scene s;
 
 static rng random_state = {1};
-static uint32_t random_u32(void)
+static inline uint32_t random_u32(void)
 {
     return rng_u32(&random_state);
 }
 
-static void write_file(const char *path, const void *bytes, size_t n)
+static inline void write_file(const char *path, const void *bytes, size_t n)
 {
     remove(path); /* cheaper than to empty it: some file systems then wait for the disk */
     FILE *file = fopen(path, "wb");
@@ -30,19 +33,19 @@ static void write_file(const char *path, const void *bytes, size_t n)
     fclose(file);
 }
 
-static int load(const char *path, const scene_options *options)
+static inline int load(const char *path, const scene_options *options)
 {
     memset(&s, 0xFF, sizeof s); /* scene_load must not look at what was there */
     return scene_load(&s, path, options, error, sizeof error);
 }
 
-static int load_text(const char *path, const char *text)
+static inline int load_text(const char *path, const char *text)
 {
     write_file(path, text, strlen(text));
     return load(path, &plain);
 }
 
-static int has_note(const char *part)
+static inline int has_note(const char *part)
 {
     for (size_t i = 0; i < s.n_notes; i++) {
         if (strstr(s.notes[i], part)) return 1;
@@ -50,14 +53,14 @@ static int has_note(const char *part)
     return 0;
 }
 
-static int is_empty(void)
+static inline int is_empty(void)
 {
-    return !s.meshes && !s.objects && !s.lights && !s.settings && !s.notes &&
-           s.n_meshes + s.n_objects + s.n_lights + s.n_notes == 0;
+    return !s.meshes && !s.textures && !s.objects && !s.lights && !s.settings && !s.notes &&
+           s.n_meshes + s.n_objects + s.n_lights + s.n_textures + s.n_notes == 0;
 }
 
 /* The load failed, for the reason expected, in one line. */
-static int refused(int result, const char *why)
+static inline int refused(int result, const char *why)
 {
     int ok = result == -1 && is_empty() && strstr(error, why) && !strchr(error, '\n');
     if (!ok) printf("  expected '%s', got '%s'\n", why, result ? error : "no error");
@@ -65,8 +68,56 @@ static int refused(int result, const char *why)
     return ok;
 }
 
+/* text with the first `find` replaced; in static storage. */
+static inline const char *replaced(const char *text, const char *find, const char *put)
+{
+    static char out[2][16384];
+    static int turn;
+    const char *at = strstr(text, find);
+    if (!CHECK(at != NULL)) printf("  no '%s'\n", find);
+    if (!at) return text;
+    char work[sizeof out[0]];
+    snprintf(work, sizeof work, "%.*s%s%s", (int)(at - text), text, put, at + strlen(find));
+    return memcpy(out[turn = !turn], work, sizeof work);
+}
+
+static inline int load_changed(const char *find, const char *put)
+{
+    return load_text(TMP ".gltf", replaced(base_json, find, put));
+}
+
+static inline const char *without_animation(const char *text)
+{
+    const char *at = strstr(text, "\"animations\":");
+    return replaced(text, at ? "\"animations\":" : "", "\"unused\":");
+}
+
+static unsigned last_texels; /* read for the sanitizer's sake */
+
+static inline int texture_is_sound(const scene_texture *t)
+{
+    int w = t->width, h = t->height;
+    int ok = t->name && w >= 1 && w <= 4096 && (w & (w - 1)) == 0 && h >= 1 && h <= 4096 && (h & (h - 1)) == 0 && t->rgba;
+    if (ok) last_texels += t->rgba[(size_t)w * (size_t)h * 4 - 1];
+    return ok;
+}
+
+static inline int object_is_sound(const scene_object *o)
+{
+    if (!o->name || o->mesh_idx >= s.n_meshes) return 0;
+    const scene_mesh *m = &s.meshes[o->mesh_idx];
+    int ok = (o->texture_idx == SCENE_NONE || (o->texture_idx < s.n_textures && m->uv)) &&
+             (o->mask_texture_idx == SCENE_NONE || (o->mask_texture_idx < s.n_textures && m->mask_uv));
+    for (size_t k = 0; k < 2 * m->n_vertices; k++) {
+        ok = ok && (!m->uv || isfinite(m->uv[k])) && (!m->mask_uv || (m->mask_uv[k] >= 0 && m->mask_uv[k] <= 1));
+    }
+    for (size_t k = 0; o->baked && k < 3 * m->n_vertices; k++) ok = ok && o->baked[k] >= 0 && isfinite(o->baked[k]);
+    return ok && o->alpha >= 0 && o->alpha <= 1 && o->alpha_cutoff >= 0 && o->alpha_cutoff <= 1 && o->specular[0] >= 0 &&
+           o->specular[0] <= 1 && o->shininess_log2 >= 0 && o->shininess_log2 <= 7;
+}
+
 /* What the engines may rely on, whatever the file was. */
-static void check_invariants(void)
+static inline void check_invariants(void)
 {
     int ok = s.n_objects > 0 && s.n_lights > 0 && s.camera.near > 0 && s.camera.far > s.camera.near && s.camera.focal > 0;
     for (size_t i = 0; i < s.n_meshes; i++) {
@@ -78,23 +129,67 @@ static void check_invariants(void)
             if (m->nrm && k % 3 == 0) ok = ok && fabs(hypot(hypot(m->nrm[k], m->nrm[k + 1]), m->nrm[k + 2]) - 1) < 1e-9;
         }
     }
-    for (size_t i = 0; i < s.n_objects; i++) ok = ok && s.objects[i].mesh_idx < s.n_meshes && s.objects[i].name;
+    for (size_t i = 0; i < s.n_objects; i++) ok = ok && object_is_sound(&s.objects[i]);
+    for (size_t i = 0; i < s.n_textures; i++) ok = ok && texture_is_sound(&s.textures[i]);
     for (size_t i = 0; i < s.n_lights; i++) {
-        const double *d = s.lights[i].direction;
-        ok = ok && fabs(hypot(hypot(d[0], d[1]), d[2]) - 1) < 1e-9 && isfinite(s.lights[i].colour[0]);
+        const scene_light *l = &s.lights[i];
+        const double *d = l->direction;
+        ok =
+            ok && fabs(hypot(hypot(d[0], d[1]), d[2]) - 1) < 1e-9 && isfinite(l->colour[0]) && l->strength >= 0 && l->strength <= 1;
+        if (l->kind == SCENE_LIGHT_DIRECTIONAL) continue;
+        ok = ok && l->range >= 0.01 && l->near > 0 && isfinite(l->near) &&
+             isfinite(l->position[0] + l->position[1] + l->position[2]);
+        if (l->kind == SCENE_LIGHT_SPOT)
+            ok = ok && l->inner >= 0 && l->inner <= l->outer && l->outer * 360 >= 1 && l->outer * 360 <= 179;
     }
     CHECK(ok);
+}
+
+static inline size_t put_base64(char *out, const uint8_t *bytes, size_t n)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    size_t n_out = 0;
+    for (size_t i = 0; i < n; i += 3) {
+        uint32_t bits = (uint32_t)bytes[i] << 16 | (i + 1 < n ? (uint32_t)bytes[i + 1] << 8 : 0) | (i + 2 < n ? bytes[i + 2] : 0);
+        for (int k = 0; k < 4; k++) out[n_out++] = i + (size_t)k > n ? '=' : digits[bits >> (18 - 6 * k) & 63];
+    }
+    out[n_out] = '\0';
+    return n_out;
+}
+
+/* Bytes that matter to the grammars come up more often than chance would have them. */
+static inline uint8_t random_byte(void)
+{
+    static const char telling[] = "0123456789-+.eE{}[],:\"\\/ \nfvn#";
+    uint32_t r = random_u32();
+    return r & 1 ? (uint8_t)telling[(r >> 8) % (sizeof telling - 1)] : (uint8_t)(r >> 8);
+}
+
+static inline void fuzz(const char *path, const void *valid, size_t n, int n_rounds)
+{
+    static uint8_t bytes[16384];
+    for (int i = 0; i < n_rounds; i++) {
+        memcpy(bytes, valid, n);
+        for (uint32_t k = random_u32() % 4; k < 4; k++) bytes[random_u32() % n] = random_byte();
+        write_file(path, bytes, n);
+        const scene_options options = {
+            .frame = (int)(random_u32() % 9), .width = 64, .height = 48, .ground = i & 1, .smooth = (i & 2) != 0};
+        if (load(path, &options) == 0) {
+            check_invariants();
+            scene_free(&s);
+        } else CHECK(is_empty() && error[0]);
+    }
 }
 
 /* A quad in the xy plane with everything on it. Sizes and offsets of the buffer's parts stand in base_json. */
 static uint8_t base_bin[328];
 
-static void put_floats(size_t offset, const float *values, size_t n)
+static inline void put_floats(size_t offset, const float *values, size_t n)
 {
     memcpy(base_bin + offset, values, n * sizeof *values);
 }
 
-static void make_base_bin(void)
+static inline void make_base_bin(void)
 {
     static const float pos[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, nrm[12] = {0, 0, 2, 0, 0, 1, 0, 0, 1, 0, 0, 1};
     static const uint16_t idx[6] = {0, 1, 2, 2, 1, 3};

@@ -1,0 +1,175 @@
+/* Which light gets tiles, of which atlas, and how large (DESIGN 1.6; rows A2, A3, D1, D10). */
+#include "ref_internal.h"
+
+#define MAX_TILES          16
+#define MAX_CASCADE_LIGHTS 4  /* D1 */
+#define LEAST_TILE         8  /* A2 */
+#define WEIGHT_STEPS       64 /* weights are multiples of 1/64 */
+
+/* An atlas while it is handed out. */
+typedef struct {
+    ref_atlas which;
+    int size;     /* S */
+    int capacity; /* tiles */
+    int n_tiles;  /* taken */
+    int n_lights; /* served */
+} budget;
+
+/* ---- who asks ---- */
+
+static bool shadows_something(const ref_frame *frame, const scene_light *light)
+{
+    bool casts = false, receives = false;
+    for (size_t i = 0; i < frame->s->n_objects; i++) {
+        if (!ref_reaches(light, &frame->instances[i])) continue;
+        casts = casts || frame->s->objects[i].caster != SCENE_CASTER_OFF;
+        receives = receives || frame->s->objects[i].receives;
+    }
+    return casts && receives;
+}
+
+static bool asks(const ref_frame *frame, size_t l)
+{
+    const scene_light *light = &frame->s->lights[l];
+    return light->mode != SCENE_BAKED && light->shadow && light->strength > 0.0 && shadows_something(frame, light);
+}
+
+/* D10: the brightest directional light that asks; ties: the first. */
+static size_t find_main_light(const ref_frame *frame)
+{
+    size_t best = SCENE_NONE;
+    double best_colour = 0.0;
+    for (size_t l = 0; frame->s->shadow.main_light && l < frame->s->n_lights; l++) {
+        const scene_light *light = &frame->s->lights[l];
+        if (light->kind != SCENE_LIGHT_DIRECTIONAL || !asks(frame, l)) continue;
+        const double colour = fmax(light->colour[0], fmax(light->colour[1], light->colour[2]));
+        if (best != SCENE_NONE && !(colour > best_colour)) continue;
+        best = l;
+        best_colour = colour;
+    }
+    return best;
+}
+
+static bool has_cascades(const ref_frame *frame, size_t l)
+{
+    if (frame->s->lights[l].kind != SCENE_LIGHT_DIRECTIONAL) return false;
+    return frame->main_light == SCENE_NONE || frame->main_light == l;
+}
+
+static int tiles_wanted(const ref_frame *frame, size_t l)
+{
+    if (has_cascades(frame, l)) return frame->s->shadow.n_cascades;
+    return frame->s->lights[l].kind == SCENE_LIGHT_POINT ? 6 : 1;
+}
+
+/* ---- who gets them ---- */
+
+static void serve(ref_frame *frame, size_t l, budget *b)
+{
+    const int n = b->n_tiles + tiles_wanted(frame, l);
+    const bool places = b->which == REF_OTHER_ATLAS || b->n_lights < MAX_CASCADE_LIGHTS;
+    if (!places || n > b->capacity || (int64_t)LEAST_TILE * LEAST_TILE * n > (int64_t)b->size * b->size) return;
+    frame->picture->grant[l] = (ref_grant){.atlas = b->which, .n_tiles = n - b->n_tiles};
+    b->n_tiles = n;
+    b->n_lights++;
+}
+
+/* ---- how large ---- */
+
+static void size_equally(ref_frame *frame, const budget *b)
+{
+    const int side = b->n_tiles > 4 ? b->size / 4 : b->n_tiles > 1 ? b->size / 2 : b->size;
+    for (size_t l = 0; l < frame->s->n_lights; l++)
+        if (frame->picture->grant[l].atlas == b->which) frame->picture->grant[l].tile_texels = side;
+}
+
+/* w in 1/64 */
+static int weight(const ref_frame *frame, const scene_light *light)
+{
+    if (light->kind == SCENE_LIGHT_DIRECTIONAL || isinf(light->range)) return WEIGHT_STEPS;
+    const vec3 d = vec3_sub(vec3_load(light->position), frame->camera.position);
+    return (int)ceil(WEIGHT_STEPS * fmin(1.0, light->range / sqrt(vec3_dot(d, d))));
+}
+
+static int64_t area(const ref_grant *grant)
+{
+    return (int64_t)grant->n_tiles * grant->tile_texels * grant->tile_texels;
+}
+
+static int64_t area_taken(const ref_frame *frame, const budget *b)
+{
+    int64_t sum = 0;
+    for (size_t l = 0; l < frame->s->n_lights; l++)
+        if (frame->picture->grant[l].atlas == b->which) sum += area(&frame->picture->grant[l]);
+    return sum;
+}
+
+/* The light with the largest T / w that can be halved; ties: the later. */
+static ref_grant *next_to_halve(ref_frame *frame, const budget *b)
+{
+    ref_grant *best = NULL;
+    int best_weight = 1;
+    for (size_t l = 0; l < frame->s->n_lights; l++) {
+        ref_grant *g = &frame->picture->grant[l];
+        if (g->atlas != b->which || g->tile_texels <= LEAST_TILE) continue;
+        const int w = weight(frame, &frame->s->lights[l]);
+        if (best && g->tile_texels * best_weight < best->tile_texels * w) continue;
+        best = g;
+        best_weight = w;
+    }
+    return best;
+}
+
+/* The light with the largest w / T that can be doubled in what is free; ties: the earlier. */
+static ref_grant *next_to_double(ref_frame *frame, const budget *b)
+{
+    const int64_t space = (int64_t)b->size * b->size - area_taken(frame, b);
+    ref_grant *best = NULL;
+    int best_weight = 1;
+    for (size_t l = 0; l < frame->s->n_lights; l++) {
+        ref_grant *g = &frame->picture->grant[l];
+        if (g->atlas != b->which || g->tile_texels >= b->size || 3 * area(g) > space) continue;
+        const int w = weight(frame, &frame->s->lights[l]);
+        if (best && w * best->tile_texels <= best_weight * g->tile_texels) continue;
+        best = g;
+        best_weight = w;
+    }
+    return best;
+}
+
+static void size_by_importance(ref_frame *frame, const budget *b)
+{
+    ref_grant *g;
+    for (size_t l = 0; l < frame->s->n_lights; l++)
+        if (frame->picture->grant[l].atlas == b->which) frame->picture->grant[l].tile_texels = b->size;
+    while (area_taken(frame, b) > (int64_t)b->size * b->size && (g = next_to_halve(frame, b)) != NULL) g->tile_texels /= 2;
+    while ((g = next_to_double(frame, b)) != NULL) g->tile_texels *= 2;
+}
+
+static bool sizes_fit(ref_frame *frame, const budget *b)
+{
+    if (frame->s->shadow.tiles == SCENE_TILES_IMPORTANCE) size_by_importance(frame, b);
+    else size_equally(frame, b);
+    for (size_t l = 0; l < frame->s->n_lights; l++)
+        if (frame->picture->grant[l].atlas == b->which && frame->picture->grant[l].tile_texels < LEAST_TILE) return false;
+    return area_taken(frame, b) <= (int64_t)b->size * b->size;
+}
+
+static int capacity(int option)
+{
+    return option > 0 && option < MAX_TILES ? option : MAX_TILES;
+}
+
+const char *ref_assign_tiles(ref_frame *frame)
+{
+    const ref_options *o = frame->options;
+    budget directional = {.which = REF_DIRECTIONAL_ATLAS, .size = o->atlas_size, .capacity = capacity(o->max_tiles)};
+    budget other = {.which = REF_OTHER_ATLAS,
+                    .size = o->other_atlas_size > 0 ? o->other_atlas_size : o->atlas_size,
+                    .capacity = capacity(o->max_other_tiles)};
+    frame->main_light = find_main_light(frame);
+    for (size_t l = 0; l < frame->s->n_lights; l++)
+        if (asks(frame, l)) serve(frame, l, has_cascades(frame, l) ? &directional : &other);
+    frame->cascades_in_use = directional.n_tiles > 0;
+    return sizes_fit(frame, &directional) && sizes_fit(frame, &other) ? NULL : "shadow tiles of less than 8 texels a side";
+}

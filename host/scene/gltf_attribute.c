@@ -1,0 +1,106 @@
+/* Vertex attributes of a glTF primitive. */
+#include "gltf.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Reads attribute `name` if the primitive has it; what other sizes than n_vertices mean is an error (0: any). */
+static bool read_attribute(gltf *g, const json_value *attributes, const char *name, size_t n_vertices, gltf_array *out)
+{
+    size_t accessor = GLTF_NONE;
+    *out = (gltf_array){0};
+    if (!gltf_get_ref(g, attributes, name, g->accessors, &accessor)) return false;
+    if (accessor == GLTF_NONE) return true;
+    if (!gltf_read_accessor(g, accessor, out)) return false;
+    if (n_vertices != 0 && out->count != n_vertices) {
+        return gltf_fail(g, json_get(attributes, name), "%zu elements, but POSITION has %zu", out->count, n_vertices);
+    }
+    return true;
+}
+
+static bool is_float_or_normalized(const gltf_array *a)
+{
+    return a->component_type == GLTF_FLOAT || a->normalized;
+}
+
+static bool check_range(gltf *g, const json_value *where, const gltf_array *a, const char *what)
+{
+    for (size_t i = 0; i < a->n_components * a->count; i++) {
+        if (fabs(a->values[i]) > LOADER_MAX_COORDINATE)
+            return gltf_fail(g, where, "vertex %zu: %s %g is out of range", i / a->n_components, what, a->values[i]);
+    }
+    return true;
+}
+
+static bool read_position(gltf *g, const json_value *attributes, scene_mesh *out)
+{
+    gltf_array a;
+    if (!read_attribute(g, attributes, "POSITION", 0, &a)) return false;
+    const json_value *where = json_get(attributes, "POSITION");
+    if (a.n_components != 3 || a.component_type == GLTF_UINT)
+        return gltf_fail(g, where, "VEC3 of float, byte or short is expected");
+    out->n_vertices = a.count;
+    out->pos = a.values;
+    return check_range(g, where, &a, "coordinate");
+}
+
+/* Float or normalised, of a fixed number of components. */
+static bool read_real(gltf *g, const json_value *attributes, const char *name, size_t n_components, size_t n_vertices, double **out)
+{
+    gltf_array a;
+    if (!read_attribute(g, attributes, name, n_vertices, &a)) return false;
+    *out = a.values;
+    if (!a.values) return true;
+    if (a.n_components != n_components || !is_float_or_normalized(&a)) {
+        return gltf_fail(g, json_get(attributes, name), "VEC%zu of float or normalized integers is expected", n_components);
+    }
+    return check_range(g, json_get(attributes, name), &a, "value");
+}
+
+static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out)
+{
+    gltf_array a;
+    if (!read_attribute(g, attributes, "COLOR_0", out->n_vertices, &a)) return false;
+    if (!a.values) return true;
+    if (a.n_components < 3 || !is_float_or_normalized(&a)) {
+        return gltf_fail(g, json_get(attributes, "COLOR_0"), "VEC3 or VEC4 of float or normalized integers is expected");
+    }
+    out->rgb = a.values;
+    for (size_t i = 1; a.n_components == 4 && i < a.count; i++) memmove(a.values + 3 * i, a.values + 4 * i, 3 * sizeof *a.values);
+    if (loader_clamp_colour(out->rgb, 3 * a.count)) return true;
+    return loader_note(g->l, "vertex colours of '%s' outside 0..1 are clamped", out->name);
+}
+
+static bool read_texture_coordinates(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out)
+{
+    const char *name = wants->uv_set == 1 ? "TEXCOORD_1" : "TEXCOORD_0";
+    if (wants->uv_set != GLTF_NONE && !read_real(g, attributes, name, 2, out->n_vertices, &out->uv)) return false;
+    if (!wants->mask_uv) return true;
+    if (!read_real(g, attributes, "TEXCOORD_1", 2, out->n_vertices, &out->mask_uv)) return false;
+    if (!out->mask_uv || loader_clamp_colour(out->mask_uv, 2 * out->n_vertices)) return true;
+    return loader_note(g->l, "coordinates in the mask image of '%s' outside 0..1 are clamped", out->name);
+}
+
+static bool read_baked(gltf *g, const json_value *attributes, const scene_mesh *mesh, mesh_light *out)
+{
+    double *mask;
+    size_t n = mesh->n_vertices;
+    if (!read_real(g, attributes, "_GNOMON_MASK", 4, n, &mask) || !read_real(g, attributes, "_GNOMON_BAKED", 3, n, &out->baked))
+        return false;
+    for (size_t i = 0; out->baked && i < 3 * n; i++) {
+        if (out->baked[i] < 0) return gltf_fail(g, json_get(attributes, "_GNOMON_BAKED"), "vertex %zu is negative", i / 3);
+    }
+    if (!mask) return true;
+    if (!loader_clamp_colour(mask, 4 * n) && !loader_note(g->l, "shadow masks of '%s' outside 0..1 are clamped", mesh->name))
+        return false;
+    out->mask = loader_alloc(g->l, n, 4);
+    for (size_t i = 0; out->mask && i < 4 * n; i++) out->mask[i] = (uint8_t)(mask[i] * 255 + 0.5);
+    return out->mask != NULL;
+}
+
+bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out, mesh_light *light)
+{
+    return read_position(g, attributes, out) && read_real(g, attributes, "NORMAL", 3, out->n_vertices, &out->nrm) &&
+           read_colour(g, attributes, out) && read_texture_coordinates(g, attributes, wants, out) &&
+           read_baked(g, attributes, out, light);
+}

@@ -1,0 +1,148 @@
+/* Lights that no file placed, and what files leave open about theirs. */
+#include "loader.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bounds.h"
+#include "vec.h"
+
+static const double first_azimuth_deg = -60; /* from the camera's: to its left, so that shadows fall to the side */
+static const double next_azimuth_deg = 100;  /* another light of the same kind stands elsewhere */
+static const double elevation_deg = 45;
+static const double directional_intensity = 0.85;
+static const double lamp_light = 0.8;           /* of spot and point lights, at the centre of what they light */
+static const double spot_distance_radii = 3;    /* far enough that the cone is not wide ... */
+static const double point_distance_radii = 1.6; /* ... and near enough that shadows spread */
+static const double range_distances = 3;
+static const double spot_inner_margin = 1.15, spot_outer_margin = 1.7; /* times the angle that just covers the casters */
+static const double near_share = 1.0 / 64;
+static const double angle_steps = 65536;
+
+void light_set_defaults(scene_light *light)
+{
+    light->range = HUGE_VAL;
+    light->mask_channel = -1;
+    light->shadow = true;
+    light->strength = 1;
+    light->bias_normal = 1;
+}
+
+static double farthest_corner(const double *from, const double *low, const double *high)
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        double reach = fmax(fabs(low[k] - from[k]), fabs(high[k] - from[k]));
+        sum += reach * reach;
+    }
+    return sqrt(sum);
+}
+
+void lights_set_near(scene *s, const double *low, const double *high)
+{
+    for (size_t i = 0; i < s->n_lights; i++) {
+        scene_light *light = &s->lights[i];
+        if (light->kind == SCENE_LIGHT_DIRECTIONAL || light->near > 0) continue;
+        double reach = isfinite(light->range) ? light->range : farthest_corner(light->position, low, high);
+        light->near = near_share * fmax(reach, LIGHT_MIN_RANGE);
+    }
+}
+
+static bool is_caster(const scene *s, const scene_object *object, const double *point)
+{
+    (void)s;
+    (void)point;
+    return object->caster != SCENE_CASTER_OFF;
+}
+
+/* Whose shadow has a chance to be in the picture. Its sides are not known here: a picture wider than tall is taken. */
+static bool is_seen_caster(const scene *s, const scene_object *object, const double *point)
+{
+    const scene_affine *camera = &s->camera.to_world;
+    double eye[3], axis[3], out[3], local[3];
+    affine_column(eye, camera, 3);
+    vec_sub(out, point, eye);
+    for (int k = 0; k < 3; k++) {
+        affine_column(axis, camera, k);
+        local[k] = vec_dot(out, axis);
+    }
+    double depth = -local[2], half = depth / s->camera.focal;
+    return is_caster(s, object, point) && depth <= s->shadow.max_distance && fabs(local[0]) <= 1.5 * half && fabs(local[1]) <= half;
+}
+
+/* What casts; not the ground, which mostly does not, and is far larger than what stands on it. */
+static void find_subject(const scene *s, bounds *out)
+{
+    if (bounds_of_scene(out, s, is_seen_caster) || bounds_of_scene(out, s, is_caster) || bounds_of_scene(out, s, NULL)) return;
+    *out = (bounds){.radius = 1}; /* an empty scene */
+}
+
+static double azimuth_of(const scene *s, scene_light_kind kind)
+{
+    size_t n_before = 0;
+    for (size_t i = 0; i < s->n_lights; i++) n_before += s->lights[i].kind == kind;
+    double back[3];
+    affine_column(back, &s->camera.to_world, 2);
+    if (hypot(back[0], back[2]) < 1e-9) affine_column(back, &s->camera.to_world, 1); /* looking straight up or down */
+    double turn_deg = fmod(first_azimuth_deg + next_azimuth_deg * (double)n_before, 360);
+    return atan2(back[0], back[2]) + turn_deg * VEC_PI / 180;
+}
+
+static void set_white(scene_light *light, double intensity)
+{
+    for (int i = 0; i < 3; i++) light->colour[i] = intensity;
+}
+
+static double whole_steps(double half_angle)
+{
+    return round(half_angle / VEC_PI * angle_steps) / angle_steps;
+}
+
+static void place_lamp(scene_light *light, const bounds *subject, const double *towards)
+{
+    bool spot = light->kind == SCENE_LIGHT_SPOT;
+    double radii = spot ? spot_distance_radii : point_distance_radii, distance = radii * subject->radius;
+    for (int i = 0; i < 3; i++) light->position[i] = subject->centre[i] + distance * towards[i];
+    light->range = fmax(range_distances * distance, LIGHT_MIN_RANGE);
+    double share = distance * distance / (light->range * light->range), window = 1 - share * share;
+    set_white(light, lamp_light * fmax(distance * distance, 1e-4) / (window * window)); /* DESIGN 1.8, on the axis */
+    light->near = near_share * light->range;
+    if (!spot) return;
+    double covers = asin(1 / radii);
+    light->inner = whole_steps(spot_inner_margin * covers);
+    light->outer = whole_steps(spot_outer_margin * covers);
+}
+
+bool lights_add(loader *l, const char *name, scene_light_kind kind)
+{
+    scene *s = l->s;
+    double azimuth = azimuth_of(s, kind), elevation = elevation_deg * VEC_PI / 180;
+    const double towards[3] = {cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth)};
+    bounds subject;
+    scene_light *light = loader_add_light(l, name);
+    if (!light) return false;
+    light->kind = kind;
+    light_set_defaults(light);
+    for (int i = 0; i < 3; i++) light->direction[i] = -towards[i];
+    set_white(light, directional_intensity);
+    if (kind == SCENE_LIGHT_DIRECTIONAL) return true;
+    find_subject(s, &subject);
+    place_lamp(light, &subject, towards);
+    return true;
+}
+
+int scene_add_light(scene *s, scene_light_kind kind, char *error, size_t error_bytes)
+{
+    static const char *const names[] = {"directional", "spot", "point"};
+    loader l = {.s = s, .path = "added light", .error = error, .error_bytes = error_bytes};
+    return lights_add(&l, names[kind], kind) ? 0 : -1;
+}
+
+void scene_remove_lights(scene *s)
+{
+    for (size_t i = 0; i < s->n_lights; i++) free(s->lights[i].name);
+    free(s->lights);
+    s->lights = NULL;
+    s->n_lights = 0;
+}

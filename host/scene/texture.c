@@ -1,0 +1,120 @@
+/* Pictures -> textures of the scene: sides become powers of two, so that both engines look up the very same texels. */
+#include "loader.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_TEXTURE_SIDE = 4096 };
+
+static double srgb_decode(double v)
+{
+    return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+}
+
+/* The 256 levels in linear light, and the borders between them: border[k] is between k and k + 1. */
+typedef struct {
+    double level[256], border[255];
+} level_table;
+
+static void make_levels(level_table *t, bool linear)
+{
+    for (int i = 0; i < 256; i++) t->level[i] = linear ? i / 255.0 : srgb_decode(i / 255.0);
+    for (int i = 0; i < 255; i++) t->border[i] = linear ? (i + 0.5) / 255 : srgb_decode((i + 0.5) / 255);
+}
+
+static uint8_t to_level(const level_table *t, double v)
+{
+    size_t low = 0, high = 255;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (v >= t->border[middle]) low = middle + 1;
+        else high = middle;
+    }
+    return (uint8_t)low;
+}
+
+static int power_of_two(int n)
+{
+    int power = 1;
+    while (power < n && power < MAX_TEXTURE_SIDE) power *= 2;
+    return power;
+}
+
+/* The two texels of n that texel i of n_out lies between, and how far it is on the way from a to b. */
+typedef struct {
+    size_t a, b;
+    double u;
+} tap;
+
+static tap find_tap(int i, int n_out, int n, bool clamp)
+{
+    double at = (i + 0.5) * n / n_out - 0.5, below = floor(at);
+    int a = (int)below, b = a + 1;
+    if (a < 0) a = clamp ? 0 : n - 1;
+    if (b >= n) b = clamp ? n - 1 : 0;
+    return (tap){(size_t)a, (size_t)b, at - below};
+}
+
+static void resample_texel(const uint8_t *rgba, size_t w, tap x, tap y, const level_table *colour, const level_table *alpha,
+                           uint8_t *out)
+{
+    const uint8_t *aa = rgba + 4 * (y.a * w + x.a), *ab = rgba + 4 * (y.a * w + x.b);
+    const uint8_t *ba = rgba + 4 * (y.b * w + x.a), *bb = rgba + 4 * (y.b * w + x.b);
+    for (int k = 0; k < 4; k++) {
+        const level_table *t = k < 3 ? colour : alpha;
+        double above = (1 - x.u) * t->level[aa[k]] + x.u * t->level[ab[k]],
+               below = (1 - x.u) * t->level[ba[k]] + x.u * t->level[bb[k]];
+        out[k] = to_level(t, (1 - y.u) * above + y.u * below);
+    }
+}
+
+/* Bilinear, in linear light, around the corner where the texture repeats. At most halves a side (of a picture up to
+ * TEXTURE_MAX_PICTURE): no texel is skipped. */
+static void resample(const png_picture *from, const texture_use *use, scene_texture *to)
+{
+    level_table colour, alpha;
+    make_levels(&colour, use->is_data);
+    make_levels(&alpha, true);
+    for (int j = 0; j < to->height; j++) {
+        tap y = find_tap(j, to->height, from->h, to->clamp_v);
+        for (int i = 0; i < to->width; i++) {
+            tap x = find_tap(i, to->width, from->w, to->clamp_u);
+            uint8_t *out = to->rgba + 4 * ((size_t)j * (size_t)to->width + (size_t)i);
+            resample_texel(from->rgba, (size_t)from->w, x, y, &colour, &alpha, out);
+        }
+    }
+}
+
+static bool fit_sides(loader *l, png_picture *picture, const texture_use *use, scene_texture *texture)
+{
+    texture->width = power_of_two(picture->w);
+    texture->height = power_of_two(picture->h);
+    if (texture->width == picture->w && texture->height == picture->h) {
+        texture->rgba = picture->rgba;
+        picture->rgba = NULL;
+        return true;
+    }
+    texture->rgba = malloc((size_t)texture->width * (size_t)texture->height * 4);
+    if (!texture->rgba) return loader_fail(l, "%s: out of memory", l->path);
+    resample(picture, use, texture);
+    return loader_note(l, "texture '%s' of %dx%d is resampled to %dx%d: sides must be powers of two up to %d", texture->name,
+                       picture->w, picture->h, texture->width, texture->height, (int)MAX_TEXTURE_SIDE);
+}
+
+bool texture_add(loader *l, const char *name, png_picture *picture, const texture_use *use, size_t *out)
+{
+    scene_texture *texture = loader_add_texture(l, name);
+    bool ok = texture != NULL;
+    if (ok) {
+        *out = l->s->n_textures - 1;
+        texture->clamp_u = use->clamp_u;
+        texture->clamp_v = use->clamp_v;
+        texture->bilinear = use->bilinear;
+        ok = fit_sides(l, picture, use, texture);
+    }
+    if (ok && picture->depth > 8) ok = loader_note(l, "texture '%s' is rounded from 16 bits to 8", name);
+    free(picture->rgba);
+    picture->rgba = NULL;
+    return ok;
+}

@@ -1,0 +1,158 @@
+/* What a scene needs of a build, and making both engines draw what the build would. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "settings_parse.h"
+
+typedef struct {
+    settings_need *all;
+    int n;
+} need_list;
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+static void
+need(need_list *list, const char *knob, int value, const char *format, ...);
+
+/* Of several that need one knob, the first that needs most is named. */
+static void need(need_list *list, const char *knob, int value, const char *format, ...)
+{
+    settings_need *found = NULL;
+    for (int i = 0; i < list->n; i++)
+        if (strcmp(list->all[i].knob, knob) == 0) found = &list->all[i];
+    if (found && found->value >= value) return;
+    if (!found) found = &list->all[list->n++];
+    found->knob = knob;
+    found->value = value;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(found->what, sizeof found->what, format, arguments);
+    va_end(arguments);
+}
+
+static bool wants_shadow(const scene_light *l)
+{
+    return l->shadow && l->strength > 0 && l->mode != SCENE_BAKED;
+}
+
+size_t settings_shadow_lights(const scene *s)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < s->n_lights; i++) n += wants_shadow(&s->lights[i]);
+    return n;
+}
+
+static void needs_of_filter(need_list *list, const char *setting, scene_filter filter)
+{
+    if (filter == SCENE_FILTER_DISK) need(list, "disk_filter", 1, "%s disk", setting);
+    else if (filter > SCENE_FILTER_HARD) need(list, "filter_max", (int)filter, "%s %s", setting, settings_filter_names[filter]);
+}
+
+static void needs_of_shadows(need_list *list, const scene *s)
+{
+    needs_of_filter(list, "filter", s->shadow.filter);
+    needs_of_filter(list, "other_filter", s->shadow.other_filter);
+    if (s->shadow.kernel == SCENE_KERNEL_LINEAR) need(list, "linear_kernels", 1, "kernel linear");
+    if (s->shadow.blend != SCENE_BLEND_HARD)
+        need(list, "blended_cascades", 1, "cascade_blend %s", settings_blend_names[s->shadow.blend]);
+    if (s->shadow.main_light) need(list, "main_light", 1, "main_light 1");
+    if (s->shadow.mixing != SCENE_MIX_NONE) need(list, "masks", 1, "mixing");
+}
+
+/* F5: soft is at least 5x5, hard is 2x2 where the atlas's filter is not hard itself. */
+static void needs_of_softness(need_list *list, const scene *s, const scene_light *l)
+{
+    bool beside = s->shadow.main_light || l->kind != SCENE_LIGHT_DIRECTIONAL;
+    scene_filter atlas = beside ? s->shadow.other_filter : s->shadow.filter;
+    if (l->softness == SCENE_SOFT_SOFT && atlas != SCENE_FILTER_DISK)
+        need(list, "filter_max", SCENE_FILTER_5X5, "soft light '%s'", l->name);
+    if (l->softness == SCENE_SOFT_HARD && atlas != SCENE_FILTER_HARD)
+        need(list, "filter_max", SCENE_FILTER_2X2, "hard light '%s'", l->name);
+}
+
+static void needs_of_light(need_list *list, const scene *s, const scene_light *l, bool shadows)
+{
+    if (l->kind == SCENE_LIGHT_SPOT) need(list, "punctual_lights", 1, "spot light '%s'", l->name);
+    if (l->kind == SCENE_LIGHT_POINT) need(list, "punctual_lights", 1, "point light '%s'", l->name);
+    if (!shadows || !wants_shadow(l)) return;
+    need(list, "shadows", 1, "the shadow of light '%s'", l->name);
+    needs_of_softness(list, s, l);
+    bool biased = false;
+    for (int i = 0; i < 4; i++) biased |= l->bias_receiver[i] > 0;
+    if (biased) need(list, "receiver_bias", 1, "bias_receiver of light '%s'", l->name);
+    if (l->bias_caster > 0) need(list, "caster_bias", 1, "bias_caster of light '%s'", l->name);
+    if (l->receiver_plane) need(list, "receiver_plane", 1, "receiver_plane of light '%s'", l->name);
+}
+
+static void needs_of_object(need_list *list, const scene_object *o, bool shadows)
+{
+    if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "visible_alpha", 1, "alpha of object '%s'", o->name);
+    if (o->texture_idx != SCENE_NONE) need(list, "textures", 1, "the texture of object '%s'", o->name);
+    if (o->specular[0] > 0 || o->specular[1] > 0 || o->specular[2] > 0)
+        need(list, "specular", 1, "specular of object '%s'", o->name);
+    if (o->baked) need(list, "baked_light", 1, "baked light of object '%s'", o->name);
+    if (!shadows) return;
+    if (o->caster == SCENE_CASTER_CLIP || o->caster == SCENE_CASTER_DITHER)
+        need(list, "caster_alpha", 1, "the shadow of object '%s', cut by alpha,", o->name);
+    if (o->mask || o->mask_texture_idx != SCENE_NONE) need(list, "masks", 1, "the shadow mask of object '%s'", o->name);
+}
+
+int settings_needs(const scene *s, bool shadows, settings_need *needs)
+{
+    need_list list = {needs, 0};
+    if (shadows) needs_of_shadows(&list, s);
+    for (size_t i = 0; i < s->n_lights; i++) needs_of_light(&list, s, &s->lights[i], shadows);
+    for (size_t i = 0; i < s->n_objects; i++) needs_of_object(&list, &s->objects[i], shadows);
+    return list.n;
+}
+
+void settings_trim(settings *set, const scene *s)
+{
+    settings_need needs[SETTINGS_NEEDS_MAX];
+    bool shadows = settings_shadow_lights(s) > 0, punctual = false, main_light = false;
+    int n = settings_needs(s, shadows, needs);
+    for (int i = 0; i < n; i++) {
+        punctual |= strcmp(needs[i].knob, "punctual_lights") == 0;
+        main_light |= strcmp(needs[i].knob, "main_light") == 0;
+    }
+    if (!shadows) set->feature.shadows = 0;
+    if (!punctual) set->feature.punctual_lights = 0;
+    if (!main_light) set->feature.main_light = 0;
+}
+
+static void drop(double **array)
+{
+    free(*array);
+    *array = NULL;
+}
+
+static int over(char *error, size_t bytes, const char *knob, int available, const char *what, int needed)
+{
+    if (!available || needed <= available) return 0;
+    snprintf(error, bytes, "setting '%s': %d is too small, %s is %d", knob, available, what, needed);
+    return -1;
+}
+
+int settings_enforce(const settings *set, scene *s, int width, int height, char *error, size_t error_bytes)
+{
+    settings_need needs[SETTINGS_NEEDS_MAX];
+    for (size_t i = 0; i < s->n_meshes; i++) {
+        if (!set->feature.vertex_normals) drop(&s->meshes[i].nrm);
+        if (!set->feature.vertex_colours) drop(&s->meshes[i].rgb);
+    }
+    for (size_t i = 0; i < s->n_lights && !set->feature.shadows; i++) s->lights[i].shadow = false;
+    if (over(error, error_bytes, "max_width", set->capacity.max_width, "the picture's width", width) ||
+        over(error, error_bytes, "max_height", set->capacity.max_height, "the picture's height", height))
+        return -1;
+    int n = settings_needs(s, set->feature.shadows, needs);
+    for (int i = 0; i < n; i++) {
+        int value = settings_feature(set, needs[i].knob);
+        if (value >= needs[i].value) continue;
+        snprintf(error, error_bytes, "setting '%s': %d, and %s needs %d", needs[i].knob, value, needs[i].what, needs[i].value);
+        return -1;
+    }
+    return 0;
+}

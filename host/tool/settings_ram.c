@@ -1,0 +1,72 @@
+/* RAM of a configuration. */
+#include "settings.h"
+
+/* A structure being laid out as a 32-bit compiler does, with 64-bit integers aligned to 8 bytes. */
+typedef struct {
+    long size, align;
+} layout;
+
+static void pad(layout *l, long align)
+{
+    l->size = (l->size + align - 1) / align * align;
+    if (align > l->align) l->align = align;
+}
+
+/* Appends n members; returns their bytes. */
+static long put(layout *l, long n, long size, long align)
+{
+    pad(l, align);
+    l->size += n * size;
+    return n * size;
+}
+
+/* An atlas with its static layer and depth blocks */
+static long put_atlas(layout *l, const settings *s, long side, long depth_bits)
+{
+    long bytes = 0, layers = s->feature.static_layer ? 2 : 1;
+    for (long i = 0; i < layers; i++) bytes += put(l, side * side * depth_bits / 8, 1, 4);
+    if (s->feature.depth_blocks) bytes += put(l, side * side / 64, 4, 2);
+    return bytes;
+}
+
+/* gn_frame from its cascades on */
+static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
+{
+    int other = s->feature.punctual_lights || s->feature.main_light;
+    long views = s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
+    put(l, 4, 40, 8);                                      /* cascade */
+    put(l, 3, 1, 1);                                       /* n_cascades to has_cascades */
+    put(l, 1, 4, 4);                                       /* frame_count */
+    put(l, views, s->feature.depth_blocks ? 192 : 184, 8); /* view */
+    if (s->feature.incremental) put(l, views, 16, 8);      /* memory */
+    r->atlas = put_atlas(l, s, s->quality.atlas_size, s->quality.depth_bits);
+    if (other) r->other_atlas = put_atlas(l, s, s->quality.other_atlas_size, s->quality.other_depth_bits);
+}
+
+/* Mirrors lib/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against sizeof(gn_renderer). */
+settings_ram_parts settings_ram(const settings *s)
+{
+    settings_ram_parts r = {0};
+    layout frame = {0, 4}, all;
+    long tile_w = s->quality.tile_width, tile_h = s->quality.tile_height;
+    long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);
+    long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
+    int punctual = s->feature.punctual_lights;
+    put(&frame, 1, 176, 4); /* picture to cam */
+    r.lights = put(&frame, s->capacity.max_lights, punctual ? 168 : 32, punctual ? 8 : 4);
+    r.objects = put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4);
+    put(&frame, 1, 16, 4); /* fade_start_q16 to tiles_y */
+    r.triangles = put(&frame, s->capacity.max_triangles, s->quality.subpixel_bits > 6 ? 44 : 32, 4);
+    r.tiles = put(&frame, tiles + 1, offset, offset);
+    r.tile_refs = put(&frame, s->capacity.max_tile_refs, 2, 2);
+    if (s->feature.shadows) put_shadows(&frame, s, &r);
+    pad(&frame, frame.align);
+    all = frame;
+    r.cells = put(&all, tile_w * tile_h, 4, 4);
+    r.pixels = put(&all, tile_w * tile_h, s->feature.raw_views ? 4 : 3, 4);
+    put(&all, s->capacity.vertex_cache, 16, 4);
+    pad(&all, all.align);
+    r.total = all.size;
+    r.rest = r.total - r.atlas - r.other_atlas - r.objects - r.lights - r.triangles - r.tile_refs - r.tiles - r.cells - r.pixels;
+    return r;
+}

@@ -1,0 +1,23 @@
+/* Surfaces and casters that alpha cuts: clip and dither (M1, M8, DESIGN 1.6, 1.8). */
+#ifndef GN_ALPHA_H
+#define GN_ALPHA_H
+
+#include "gnomon.h"
+
+#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+
+/* One triangle of an object. */
+typedef struct {
+    const gn_object *object;
+    gn_alpha mode;
+    int textured;         /* 0: the object's own alpha all over */
+    int64_t uv_q16[3][2]; /* vertex 0, then differences of vertices 1 and 2 to it */
+} gn_alpha_test;
+
+void gn_alpha_begin(gn_alpha_test *test, const gn_object *object, gn_alpha mode, const uint16_t idx[3]);
+
+/* Whether the point with barycentrics b1, b2 is cut; (x, y) picks the noise of the dither. */
+int gn_alpha_cuts(const gn_alpha_test *test, const int32_t b_q30[2], int32_t x, int32_t y);
+
+#endif
+#endif

@@ -1,0 +1,42 @@
+/* Rasterises caster triangles into a shadow tile, whatever its projection (DESIGN 1.6). */
+#ifndef GN_CASTER_H
+#define GN_CASTER_H
+
+#include "gn_alpha.h"
+#include "gn_plane.h"
+#include "gnomon.h"
+
+#if GN_SHADOWS
+
+#define GN_CASTER_GRADIENT_MAX ((int64_t)1 << 33) /* twice the whole depth range per texel */
+
+/* Depth over one triangle, in shares of the view's range, Q32. */
+typedef struct {
+    int64_t z_corner; /* at the centre of texel (0, 0), |.| < 2^62 */
+    int64_t dz_du, dz_dv;
+    int64_t lo, hi; /* range of the triangle, pancaked */
+    int64_t bias;   /* added after limiting to that range */
+} gn_caster;
+
+#if GN_CASTER_ALPHA
+/* For casters cut by alpha: the triangle as seen from the light. */
+typedef struct {
+    gn_alpha_test test;
+    int needs_plane; /* alpha is not the same all over */
+    gn_plane plane;
+    gn_bary bary;
+    uint32_t focal2_q16;
+} gn_caster_alpha;
+
+void gn_caster_alpha_plane(gn_caster_alpha *alpha, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3]);
+#else
+typedef void gn_caster_alpha;
+#endif
+
+/* Corners in texels with shadow_subpixel_bits fraction bits, within 2^26. `alpha` may be NULL. Returns the number of
+ * texels covered. */
+int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, const int32_t x[3],
+                       const int32_t y[3], const gn_caster_alpha *alpha);
+
+#endif
+#endif

@@ -1,0 +1,288 @@
+/* Orthographic light views. */
+#include "gn_ortho.h"
+#include "gn_bias.h"
+#include "gn_cascade.h"
+#include "gn_math.h"
+#include "gn_q.h"
+#include "gn_xform.h"
+
+#if GN_SHADOWS
+
+int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_t p_q16[3])
+{
+    /* |p| <= 2^30 per component times a unit axis: below sqrt(3) * 2^60 */
+    return gn_bf_apply(gn_dot64(p_q16, view->axis_q30[axis_idx]), view->fit.ortho.inv_texel, 16 - 46);
+}
+
+/* Texel size from the sphere: ceil8 of (1 - 2^-20) * 2 r / D. Returns its reciprocal. */
+static gn_bfloat inverse_texel(const gn_light_view *view, const gn_light *light, uint32_t filter_idx, gn_bfloat radius,
+                               int *clamped)
+{
+    int64_t t_q16 = (int64_t)view->tile_texels << 16;
+    int64_t sphere_q16 = t_q16 - 2 * (int64_t)(filter_idx + 1) * (65536 + gn_bias_reach_q16(light)) - 65536;
+    *clamped = sphere_q16 < t_q16 / 4;
+    if (*clamped) sphere_q16 = t_q16 / 4;
+    gn_bfloat texel = gn_bf_mul(radius, gn_bf_recip(gn_bf_from_u64((uint64_t)sphere_q16)));
+    texel.exp += 1 + 16;
+    texel.mant -= texel.mant >> 20;
+    uint32_t top = (uint32_t)(((uint64_t)texel.mant + 0xFFFFFFU) >> 24); /* 128..256 */
+    if (texel.mant < 0x80000000U) top = 128;                             /* the slack crossed a power of two */
+    texel.mant = top == 256 ? 0x80000000U : top << 24;
+    if (top == 256) texel.exp++;
+    return gn_bf_recip(texel);
+}
+
+#if GN_DISK_FILTER
+/* F4: 0.02 * penumbra of the model's units, in texels, Q16. */
+static int64_t disk_radius_q16(const gn_frame *frame, gn_bfloat inv_texel)
+{
+    int64_t world_q48 = (int64_t)frame->scene->shadow.penumbra_uq16 * 85899346; /* 0.02 * 2^32; 2^22 * 2^27 */
+    return gn_clamp64(gn_bf_apply(world_q48, inv_texel, frame->scene->unit_log2 - 32), 0, (int64_t)1 << 30);
+}
+
+/* Filter index of the disk: from the texel that the narrowest filter would have; a wider one only grows the texel. */
+static void disk_index(const gn_frame *frame, gn_light_view *view, const gn_light *light, gn_bfloat radius)
+{
+    int clamped;
+    int64_t texels_q16 = disk_radius_q16(frame, inverse_texel(view, light, 0, radius, &clamped));
+    view->filter_idx = (uint8_t)gn_clamp64((texels_q16 + 65535) >> 16, 1, GN_DISK_INDEX_MAX);
+}
+#endif
+
+/* The planes from which light coordinates along a pixel's ray follow: see gn_ray_plane. */
+void gn_ortho_rays(const gn_frame *frame, gn_light_view *view)
+{
+    const gn_cam *cam = &frame->cam;
+    gn_ortho_fit *fit = &view->fit.ortho;
+    gn_bfloat inv_texel = fit->inv_texel;
+    gn_bfloat per_px = gn_bf_mul(inv_texel, gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16)));
+    per_px.exp += 16;
+    /* |a0 + ax px + ay py| <= |ray| / texel, |ray|^2 = 1 + k^2 */
+    uint64_t ray2_q24 = ((uint64_t)1 << 24) + (uint64_t)gn_cascade_tan2_q24(frame);
+    int32_t ray_log2 = (64 - gn_clz64(ray2_q24) - 24 + 1) / 2;
+    fit->ray_shift = 30 - (inv_texel.exp + 32) - ray_log2;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *axis = view->axis_q30[i];
+        gn_ray_plane *ray = &fit->ray[i];
+        ray->a0 = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[2], axis), inv_texel, fit->ray_shift - 60));
+        ray->ax = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[0], axis), per_px, fit->ray_shift - 60));
+        ray->ay = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[1], axis), per_px, fit->ray_shift - 60));
+        ray->d_q16 = gn_light_coord_q16(view, i, cam->eye_q16) - (int64_t)fit->origin[i] * 65536;
+    }
+}
+
+/* Whole-texel origins around the sphere's centre; the depth range grows by the near offset. */
+static void place_tile(const gn_frame *frame, gn_light_view *view, const gn_light *light, int64_t depth_q16)
+{
+    gn_ortho_fit *fit = &view->fit.ortho;
+    const gn_cam *cam = &frame->cam;
+    int32_t centre[3];
+    for (int i = 0; i < 3; i++)
+        centre[i] = cam->eye_q16[i] + (int32_t)gn_shr64(depth_q16 * cam->axis_q30[2][i], 30); /* |.| <= 2^30 */
+    for (int i = 0; i < 3; i++) {
+        int64_t c = gn_light_coord_q16(view, i, centre);
+        fit->origin[i] = (int32_t)gn_clamp64((c + 32768) >> 16, -(1 << 30), 1 << 30) - view->tile_texels / 2;
+    }
+    int64_t pull_q16 = gn_bf_apply(light->near_offset_q16, fit->inv_texel, 0);
+    int64_t pull = gn_clamp64((pull_q16 + 65535) >> 16, 0, (int64_t)view->tile_texels << 10);
+    fit->origin[2] -= (int32_t)pull;
+    view->depth_log2 = 0;
+    while (((int64_t)view->tile_texels << view->depth_log2) < view->tile_texels + pull) view->depth_log2++;
+}
+
+void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16)
+{
+    gn_bfloat radius;
+    int clamped;
+    int32_t centre_q16 = gn_cascade_fit_sphere(frame, near_q16, far_q16, &radius);
+#if GN_DISK_FILTER
+    if (view->filter == GN_FILTER_DISK) disk_index(frame, view, light, radius);
+#endif
+    view->fit.ortho.inv_texel = inverse_texel(view, light, view->filter_idx, radius, &clamped);
+    frame->stats.n_reach_clamped += (uint32_t)clamped;
+    place_tile(frame, view, light, centre_q16);
+    gn_ortho_rays(frame, view);
+#if GN_DISK_FILTER
+    view->disk_radius_q16 =
+        (int32_t)gn_clamp64(disk_radius_q16(frame, view->fit.ortho.inv_texel), 0, (int64_t)view->filter_idx << 16);
+#endif
+}
+
+/* ---- Casters ------------------------------------------------------------------------------------------------------ */
+
+#define GN_TILE_REACH_Q16 ((int64_t)16384 << 16) /* casters are cut at this distance in texels: keeps gn_walk in range */
+
+typedef struct {
+    int64_t c[3]; /* U, V, D in texels, Q16 */
+} ortho_point;
+
+#define GN_ORTHO_POLYGON_MAX 8 /* a triangle against four sides has 7; rounding may bend it once more */
+
+typedef struct {
+    ortho_point p[GN_ORTHO_POLYGON_MAX];
+    int n;
+} ortho_polygon;
+
+/* Object space to tile coordinates: as gn_xform_compose, with 1 / texel folded into the matrix. */
+void gn_ortho_compose(gn_xform *out, const gn_light_view *view, const gn_object *object)
+{
+    const int32_t nowhere[3] = {0, 0, 0};
+    gn_xform_compose(out, view->axis_q30, nowhere, object);
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++)
+            out->m[r][c] = (int32_t)gn_shr64((int64_t)out->m[r][c] * (int64_t)view->fit.ortho.inv_texel.mant, 32);
+        out->t_q16[r] = gn_light_coord_q16(view, r, object->to_world.t_q16) - (int64_t)view->fit.ortho.origin[r] * 65536;
+    }
+    out->shift -= view->fit.ortho.inv_texel.exp + 32;
+}
+
+void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
+{
+    const int32_t *p = mesh->pos + 3 * (size_t)vertex_idx;
+    for (int r = 0; r < 3; r++) {
+        /* both terms below 2^60 */
+        const int64_t limit = (int64_t)1 << 60;
+        int64_t v = gn_clamp64(gn_scale64(gn_dot64(xform->m[r], p), xform->shift), -limit, limit) + xform->t_q16[r];
+        out[r] = gn_clamp64(v, -((int64_t)1 << 46), (int64_t)1 << 46);
+    }
+}
+
+/* Cuts at sign * c[axis] <= reach. */
+static void clip_side(ortho_polygon *polygon, int axis, int64_t sign)
+{
+    ortho_polygon in = *polygon;
+    polygon->n = 0;
+    for (int i = 0; i < in.n; i++) {
+        const ortho_point *a = &in.p[i], *b = &in.p[(i + 1) % in.n];
+        int64_t da = GN_TILE_REACH_Q16 - sign * a->c[axis], db = GN_TILE_REACH_Q16 - sign * b->c[axis];
+        if (da >= 0 && polygon->n < GN_ORTHO_POLYGON_MAX) polygon->p[polygon->n++] = *a;
+        if ((da >= 0) == (db >= 0) || polygon->n >= GN_ORTHO_POLYGON_MAX) continue;
+        if (da < 0) { /* from the inside end, for the sake of shared edges */
+            const ortho_point *swap = a;
+            a = b;
+            b = swap;
+            int64_t d = da;
+            da = db;
+            db = d;
+        }
+        gn_bfloat t = gn_bf_recip(gn_bf_from_u64((uint64_t)(da - db)));
+        ortho_point *cut = &polygon->p[polygon->n++];
+        for (int k = 0; k < 3; k++) {
+            int64_t step = gn_bf_apply(gn_bf_apply(da, t, 31), gn_bf_from_u64(gn_abs64(b->c[k] - a->c[k]) | 1U), -31);
+            cut->c[k] = a->c[k] + (b->c[k] < a->c[k] ? -step : step);
+        }
+    }
+}
+
+static void clip_to_reach(ortho_polygon *polygon)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        int64_t lo = 0, hi = 0;
+        for (int i = 0; i < polygon->n; i++) {
+            lo = polygon->p[i].c[axis] < lo ? polygon->p[i].c[axis] : lo;
+            hi = polygon->p[i].c[axis] > hi ? polygon->p[i].c[axis] : hi;
+        }
+        if (hi > GN_TILE_REACH_Q16) clip_side(polygon, axis, 1);
+        if (lo < -GN_TILE_REACH_Q16) clip_side(polygon, axis, -1);
+    }
+}
+
+/* Plane, bias (B1) and range of a triangle from its unsnapped vertices. Returns 0 if it cannot be seen from the light. */
+static int caster_begin(gn_caster *out, const gn_light_view *view, const ortho_point p[3], int two_sided)
+{
+    int64_t e1[3], e2[3], n[3];
+    int32_t e1n[3], e2n[3], nn[3];
+    for (int i = 0; i < 3; i++) {
+        e1[i] = p[1].c[i] - p[0].c[i];
+        e2[i] = p[2].c[i] - p[0].c[i];
+    }
+    gn_norm_vec(e1n, e1);
+    gn_norm_vec(e2n, e2);
+    gn_cross64(n, e1n, e2n);
+    gn_norm_vec(nn, n);
+    if (nn[2] == 0 || (nn[2] > 0 && !two_sided)) return 0; /* along w: away from the light */
+    int32_t to_steps = 16 - view->tile_log2 - view->depth_log2;
+    gn_bfloat per_n = gn_bf_recip(gn_bf_from_u64(gn_abs32(nn[2])));
+    int64_t flip = nn[2] < 0 ? 1 : -1;
+    int64_t du = gn_bf_apply(flip * nn[0], per_n, 16), dv = gn_bf_apply(flip * nn[1], per_n, 16); /* texels per texel, Q16 */
+    int64_t steepest = gn_clamp64((int64_t)(gn_abs64(du) > gn_abs64(dv) ? gn_abs64(du) : gn_abs64(dv)), 0, (int64_t)1 << 31);
+    int64_t bias = view->bias_constant_q16 + gn_shr64(steepest * view->bias_slope_q16, 16); /* 2^31 * 2^22 */
+    out->bias = gn_scale64(bias, -to_steps);
+    out->dz_du = gn_clamp64(gn_bf_apply(flip * nn[0], per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
+    out->dz_dv = gn_clamp64(gn_bf_apply(flip * nn[1], per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
+    int64_t lo = p[0].c[2], hi = lo;
+    for (int i = 1; i < 3; i++) {
+        lo = p[i].c[2] < lo ? p[i].c[2] : lo;
+        hi = p[i].c[2] > hi ? p[i].c[2] : hi;
+    }
+    const int64_t far = (int64_t)1 << 32;
+    out->lo = gn_clamp64(gn_scale64(lo, -to_steps), 0, far); /* D9: pancaking */
+    out->hi = gn_clamp64(gn_scale64(hi, -to_steps), 0, far);
+    return out->lo < far;
+}
+
+/* Depth at the centre of texel (0, 0) from the plane through one vertex, which is within reach: below 2^48. */
+static int64_t depth_at_corner(const gn_light_view *view, const gn_caster *caster, const ortho_point *anchor)
+{
+    int64_t du_q16 = 32768 - anchor->c[0], dv_q16 = 32768 - anchor->c[1]; /* <= 2^30 */
+    int64_t z = gn_scale64(anchor->c[2], view->tile_log2 + view->depth_log2 - 16);
+    /* gradient <= 2^33 times 2^31 would not fit: split the offset into whole texels and a fraction */
+    z += caster->dz_du * (du_q16 >> 16) + gn_shr64(caster->dz_du * (du_q16 & 65535), 16);
+    return z + caster->dz_dv * (dv_q16 >> 16) + gn_shr64(caster->dz_dv * (dv_q16 & 65535), 16);
+}
+
+static int misses_tile(const gn_light_view *view, const ortho_point p[3])
+{
+    int64_t end = (int64_t)view->tile_texels << 16;
+    for (int axis = 0; axis < 2; axis++) {
+        if (p[0].c[axis] < 0 && p[1].c[axis] < 0 && p[2].c[axis] < 0) return 1;
+        if (p[0].c[axis] > end && p[1].c[axis] > end && p[2].c[axis] > end) return 1;
+    }
+    return 0;
+}
+
+#if GN_CASTER_ALPHA
+/* Parallel projection as a perspective one: all corners at the same depth, so that barycentrics are affine. */
+static void alpha_plane(const gn_light_view *view, gn_caster_alpha *alpha, const ortho_point p[3])
+{
+    int32_t v[3][3], shift = 0;
+    int64_t centre = (int64_t)view->tile_texels << 15;
+    uint64_t any = 0;
+    for (int i = 0; i < 3; i++) any |= gn_abs64(p[i].c[0] - centre) | gn_abs64(p[i].c[1] - centre);
+    while (any >> shift >= (uint64_t)1 << 29) shift++;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 2; k++) v[i][k] = (int32_t)gn_scale64(p[i].c[k] - centre, shift);
+        v[i][2] = (1 << 23) >> shift; /* shift <= 18 */
+    }
+    alpha->focal2_q16 = 1U << 24; /* x / z = px / 2F: 2F = 256 half texels where z is 128 texels */
+    gn_caster_alpha_plane(alpha, v[0], v[1], v[2]);
+}
+#endif
+
+int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, int64_t corner[3][3], int two_sided,
+                          gn_caster_alpha *alpha)
+{
+    gn_caster caster;
+    ortho_polygon polygon = {.n = 3};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) polygon.p[i].c[k] = corner[i][k];
+    if (misses_tile(view, polygon.p) || !caster_begin(&caster, view, polygon.p, two_sided)) return -1;
+#if GN_CASTER_ALPHA
+    if (alpha && alpha->needs_plane) alpha_plane(view, alpha, polygon.p);
+#endif
+    clip_to_reach(&polygon);
+    if (polygon.n >= 3) caster.z_corner = depth_at_corner(view, &caster, &polygon.p[0]);
+    int32_t bits = GN_K(frame, shadow_subpixel_bits), n_texels = 0;
+    for (int i = 1; i + 1 < polygon.n; i++) {
+        const ortho_point *p[3] = {&polygon.p[0], &polygon.p[i], &polygon.p[i + 1]};
+        int32_t x[3], y[3];
+        for (int k = 0; k < 3; k++) {
+            x[k] = (int32_t)gn_shr64(p[k]->c[0], 16 - bits); /* 2^14 texels * 2^12 */
+            y[k] = (int32_t)gn_shr64(p[k]->c[1], 16 - bits);
+        }
+        n_texels += gn_caster_draw(frame, view, &caster, x, y, alpha);
+    }
+    return n_texels;
+}
+
+#endif

@@ -1,0 +1,21 @@
+/* Which light gets how many shadow tiles, of which size, in which atlas (A2, A3, D1, D10, DESIGN 1.6). */
+#ifndef GN_TILES_H
+#define GN_TILES_H
+
+#include "gnomon.h"
+
+#if GN_SHADOWS
+
+typedef struct {
+    uint8_t n_tiles;  /* 0: none */
+    uint8_t in_other; /* atlas */
+    uint8_t cascaded; /* its tiles are cascades */
+    uint8_t tile_log2;
+    uint8_t weight; /* 1..64, for sizes by importance */
+} gn_tile_plan;
+
+/* One plan per light; sets frame->light[].shadow_state. Needs boxes and light states. */
+gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS]);
+
+#endif
+#endif

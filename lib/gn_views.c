@@ -1,0 +1,232 @@
+/* Lights and their views. */
+#include "gn_views.h"
+#include "gn_bias.h"
+#include "gn_cascade.h"
+#include "gn_cull.h"
+#include "gn_math.h"
+#include "gn_object.h"
+#include "gn_ortho.h"
+#include "gn_persp.h"
+#include "gn_punctual.h"
+#include "gn_q.h"
+#include "gn_scene.h"
+#include "gn_signature.h"
+#include "gn_texel.h"
+#include "gn_tiles.h"
+
+static void setup_light(gn_frame *frame, uint32_t light_idx)
+{
+    const gn_light *light = &frame->scene->lights[light_idx];
+    gn_light_state *state = &frame->light[light_idx];
+    int64_t towards[3];
+    for (int k = 0; k < 3; k++) {
+        towards[k] = -(int64_t)light->direction[k];
+        state->colour_uq16[k] = light->colour_uq16[k];
+    }
+    if (!gn_normalise_q30(state->to_light_q30, towards)) /* only a point light has none */
+        for (int k = 0; k < 3; k++) state->to_light_q30[k] = 0;
+    state->kind = (uint8_t)light->kind;
+    state->off = light->mode == GN_LIGHT_BAKED;
+    state->view_idx = -1;
+    state->n_views = 0;
+    state->shadow_state = GN_SHADOW_NOT_WANTED;
+#if GN_PUNCTUAL_LIGHTS
+    if (light->kind != GN_LIGHT_DIRECTIONAL) gn_punctual_setup(frame, light_idx);
+#endif
+}
+
+#if GN_SHADOWS
+/* DESIGN 1.4: u, v, w from the direction of travel. */
+static void view_axes(gn_light_view *view, const int32_t w_q30[3])
+{
+    int32_t(*axis)[3] = view->axis_q30;
+    const uint32_t limit = 15U << 26; /* 15/16 */
+    for (int i = 0; i < 3; i++) axis[2][i] = w_q30[i];
+    int64_t along_y[3] = {w_q30[2], 0, -(int64_t)w_q30[0]}; /* (0, 1, 0) x w */
+    int64_t along_x[3] = {0, -(int64_t)w_q30[2], w_q30[1]}; /* (1, 0, 0) x w */
+    gn_normalise_q30(axis[0], gn_abs32(w_q30[1]) < limit ? along_y : along_x);
+    gn_cross_q30(axis[1], axis[2], axis[0]);
+}
+
+/* F5 */
+static gn_filter resolve_filter(gn_filter atlas, gn_softness softness)
+{
+    if (softness == GN_SOFTNESS_HARD) return atlas == GN_FILTER_HARD || GN_FILTER_MAX < 1 ? GN_FILTER_HARD : GN_FILTER_2X2;
+    if (softness == GN_SOFTNESS_SOFT && atlas < GN_FILTER_5X5) return GN_FILTER_MAX < 3 ? (gn_filter)GN_FILTER_MAX : GN_FILTER_5X5;
+    return atlas;
+}
+
+static void set_filter(const gn_frame *frame, gn_light_view *view, const gn_light *light)
+{
+    const gn_shadow_settings *shadow = &frame->scene->shadow;
+    gn_filter filter = resolve_filter(view->in_other ? shadow->other_filter : shadow->filter, light->softness);
+    view->filter = (uint8_t)filter;
+    view->filter_idx = filter > GN_FILTER_2X2 ? (uint8_t)(filter - GN_FILTER_2X2) : 0;
+    view->disk_radius_q16 = 0;
+#if GN_DISK_FILTER
+    if (filter != GN_FILTER_DISK) return;
+    /* 0.004 T for views that are a share of their tile; an orthographic fit says otherwise */
+    int64_t radius_q16 = gn_shr64((int64_t)shadow->penumbra_uq16 * view->tile_texels * 17179869, 32); /* 2^22 * 2^10 * 2^25 */
+    view->filter_idx = (uint8_t)gn_clamp64((radius_q16 + 65535) >> 16, 1, GN_DISK_INDEX_MAX);
+    view->disk_radius_q16 = (int32_t)gn_clamp64(radius_q16, 0, (int64_t)view->filter_idx << 16);
+#endif
+}
+
+static void set_texels(gn_frame *frame, gn_light_view *view)
+{
+    size_t first = view->first_texel;
+    view->depth_bits = (uint8_t)GN_K(frame, depth_bits);
+    view->depth.d8 = frame->atlas.d8;
+    if (view->depth_bits == 16) view->depth.d16 = frame->atlas.d16;
+    if (view->depth_bits == 32) view->depth.d32 = frame->atlas.d32;
+#if GN_DEPTH_BLOCKS
+    view->block = frame->block + first / 64;
+#endif
+#if GN_OTHER_ATLAS
+    if (view->in_other) {
+        view->depth_bits = (uint8_t)GN_K(frame, other_depth_bits);
+        view->depth.d8 = frame->other_atlas.d8;
+        if (view->depth_bits == 16) view->depth.d16 = frame->other_atlas.d16;
+        if (view->depth_bits == 32) view->depth.d32 = frame->other_atlas.d32;
+#if GN_DEPTH_BLOCKS
+        view->block = frame->other_block + first / 64;
+#endif
+    }
+#endif
+    view->depth = gn_texels_at(view->depth, view->depth_bits, first);
+}
+
+static void fit_directional(gn_frame *frame, gn_light_view *view, const gn_light *light, int cascaded)
+{
+    int64_t direction[3] = {light->direction[0], light->direction[1], light->direction[2]};
+    int32_t w[3], near_q16 = frame->scene->camera.near_q16, far_q16 = frame->scene->shadow.max_distance_q16;
+    gn_normalise_q30(w, direction);
+    view_axes(view, w);
+    if (cascaded) gn_cascade_slice(frame, view->cascade_idx, &near_q16, &far_q16);
+    gn_ortho_fit_view(frame, view, light, near_q16, far_q16);
+}
+
+static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int cascaded)
+{
+    view->bias_constant_q16 = light->bias_constant_q16;
+    view->bias_slope_q16 = light->bias_slope_q16;
+    view->border_lit = light->kind == GN_LIGHT_DIRECTIONAL && !cascaded;
+    view->perspective = light->kind != GN_LIGHT_DIRECTIONAL;
+    set_filter(frame, view, light);
+    if (!view->perspective) fit_directional(frame, view, light, cascaded);
+#if GN_PUNCTUAL_LIGHTS
+    if (view->perspective) {
+        int32_t w[3];
+        for (int i = 0; i < 3; i++) w[i] = -frame->light[view->light_idx].to_light_q30[i];
+        if (light->kind == GN_LIGHT_POINT) gn_persp_face_axis(w, view->cascade_idx);
+        view_axes(view, w);
+        gn_persp_fit_view(frame, view, light);
+    }
+#endif
+    view->offset_q16 = gn_mul_shr(light->bias_normal_q16, 92682 * (view->filter_idx + 1), 16); /* sqrt(2) in Q16 */
+#if GN_RECEIVER_BIAS
+    view->offset_q16 += (view->filter_idx + 1) * light->bias_receiver_q16[2];
+#endif
+}
+
+#if GN_INCREMENTAL
+/* A5: whether the schedule lets a cascade keep its tile of an earlier frame, which slot `idx` still holds. */
+static int stays(const gn_frame *frame, uint32_t idx, uint32_t light_idx, uint32_t cascade_idx)
+{
+    uint32_t period = frame->scene->shadow.refresh[cascade_idx];
+    const gn_light_view *view = &frame->view[idx];
+    if (period < 2 || frame->frame_count % period == 0 || !frame->memory[idx].signature) return 0;
+    return !view->perspective && !view->empty && view->light_idx == light_idx && view->cascade_idx == cascade_idx;
+}
+
+/* Tiles that move within the atlas would be found overwritten: then nothing is kept. */
+static void check_layout(gn_frame *frame, const gn_tile_plan *plan)
+{
+    uint64_t layout =
+        gn_signature_add(GN_SIGNATURE_SEED, (uint64_t)GN_K(frame, depth_bits) << 8 | (uint64_t)GN_K(frame, atlas_size) << 32);
+#if GN_OTHER_ATLAS
+    layout = gn_signature_add(layout, (uint64_t)GN_K(frame, other_depth_bits) << 8 | (uint64_t)GN_K(frame, other_atlas_size) << 32);
+#endif
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++)
+        layout = gn_signature_add(layout, (uint64_t)plan[l].n_tiles << 32 | (uint64_t)plan[l].in_other << 16 | plan[l].tile_log2);
+    if (layout == frame->layout) return;
+    frame->layout = layout;
+    for (uint32_t i = 0; i < GN_VIEWS_MAX; i++) frame->memory[i].signature = frame->memory[i].static_signature = 0;
+}
+#endif
+
+static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *plan, uint32_t cascade_idx, uint32_t *first_texel)
+{
+    gn_light_view *view = &frame->view[frame->n_views];
+    view->stale = 0;
+#if GN_INCREMENTAL
+    view->stale = (uint8_t)(plan->cascaded && stays(frame, frame->n_views, light_idx, cascade_idx));
+#endif
+    frame->n_views++;
+    view->tile_done = 0;
+    view->light_idx = (uint16_t)light_idx;
+    view->cascade_idx = (uint8_t)cascade_idx;
+    view->in_other = plan->in_other;
+    view->tile_log2 = plan->tile_log2;
+    view->tile_texels = (uint16_t)(1U << plan->tile_log2);
+    view->first_texel = *first_texel;
+    *first_texel += 1U << (2 * plan->tile_log2);
+    set_texels(frame, view);
+    view->empty = plan->cascaded && frame->cascade[cascade_idx].radius2_q32 == 0;
+    if (view->empty) return;
+    if (view->stale) gn_ortho_rays(frame, view);
+    else fit(frame, view, &frame->scene->lights[light_idx], plan->cascaded);
+}
+
+/* Tiles of one atlas lie one behind the other, larger ones first, so that each begins at a multiple of its size. */
+static void add_views(gn_frame *frame, const gn_tile_plan *plan)
+{
+    uint32_t first[GN_MAX_LIGHTS], next[2] = {0, 0};
+    for (int32_t log2 = 10; log2 >= 3; log2--) {
+        for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+            if (!plan[l].n_tiles || plan[l].tile_log2 != log2) continue;
+            first[l] = next[plan[l].in_other];
+            next[plan[l].in_other] += (uint32_t)plan[l].n_tiles << (2 * log2);
+        }
+    }
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        if (!plan[l].n_tiles) continue;
+        frame->light[l].view_idx = (int16_t)frame->n_views;
+        frame->light[l].n_views = plan[l].n_tiles;
+        frame->has_cascades |= plan[l].cascaded;
+        for (uint32_t c = 0; c < plan[l].n_tiles; c++) add_view(frame, l, &plan[l], c, &first[l]);
+    }
+}
+
+static gn_status setup_views(gn_frame *frame)
+{
+    gn_tile_plan plan[GN_MAX_LIGHTS];
+    frame->has_cascades = 0;
+    gn_cascade_setup(frame);
+    gn_status status = gn_tiles_plan(frame, plan);
+    if (status) return status;
+#if GN_INCREMENTAL
+    check_layout(frame, plan);
+#endif
+    add_views(frame, plan);
+    gn_cull_begin(frame);
+    frame->frame_count++;
+    return GN_OK;
+}
+#endif
+
+gn_status gn_views_setup(gn_frame *frame)
+{
+    const gn_scene *scene = frame->scene;
+    frame->n_views = 0;
+    /* 10^-4 of the model's units, squared distances scale by 4^unit_log2; at least one step */
+    int64_t min2 = gn_scale64(429497, -2 * scene->unit_log2);
+    frame->min2_q32 = min2 > 0 ? (uint64_t)min2 : 1;
+    for (uint32_t i = 0; i < scene->n_lights; i++) setup_light(frame, i);
+    gn_status status = gn_object_boxes(frame);
+    if (!status) status = gn_object_lights(frame);
+#if GN_SHADOWS
+    if (!status) status = setup_views(frame);
+#endif
+    return status;
+}
