@@ -23,7 +23,7 @@ typedef struct {
 #if GN_RECEIVER_PLANE
     int32_t sloped;
     int32_t slope_q28[2];
-    int64_t least_q32; /* at the texel that (u, v) lies in, not limited */
+    int64_t least_q32; /* on the plane, at the texel that (u, v) lies in, not limited */
 #endif
 } lookup;
 
@@ -46,28 +46,31 @@ static uint32_t rounded_depth(uint32_t depth_q32, int32_t dropped, uint32_t far)
 #if GN_RECEIVER_PLANE
 /* With x the depth at a tap in Q44, h half a step of rounding, s a texel, hence a whole number of steps: s >= round(x) if and only
  * if s > x - h, and, s being also a multiple of 2^12, if and only if s >= floor((x - h) / 2^12) + 1. From a texel to the next, x
- * changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. |x| < 2^44 + 2^47 for slopes of any value. */
+ * changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. Slopes are below 2^29.1, a receiver is at most
+ * 2^31.1 away from the texel nearest to it, both axes together: |x| < 2^62. */
+static int64_t plane_rise_q44(int32_t slope_q28, int32_t tap_q16, int32_t c_q16)
+{
+    /* to the centre of the texel that tap_q16 lies in */
+    return slope_q28 * ((int64_t)(tap_q16 >> 16) * 65536 + 0x8000 - c_q16);
+}
+
 static void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
 {
-    l->slope_q28[0] = receiver->slope_q28[0];
-    l->slope_q28[1] = receiver->slope_q28[1];
+    int32_t most = 2 << 28;
+    l->slope_q28[0] = gn_max32(-most, gn_min32(receiver->slope_q28[0], most));
+    l->slope_q28[1] = gn_max32(-most, gn_min32(receiver->slope_q28[1], most));
     l->sloped = (l->slope_q28[0] | l->slope_q28[1]) != 0;
     if (!l->sloped) return;
-    int64_t x_q44 = (int64_t)receiver->depth_q32 * 4096;
-    x_q44 += (int64_t)receiver->slope_q28[0] * (0x8000 - (l->u_q16 & 0xFFFF));
-    x_q44 += (int64_t)receiver->slope_q28[1] * (0x8000 - (l->v_q16 & 0xFFFF));
+    int64_t x_q44 = (int64_t)receiver->depth_q32 * 4096 + plane_rise_q44(l->slope_q28[0], l->u_q16, receiver->u_q16) +
+                    plane_rise_q44(l->slope_q28[1], l->v_q16, receiver->v_q16);
     l->least_q32 = ((x_q44 - ((int64_t)1 << (dropped + 11))) >> 12) + 1;
 }
 
-/* Change of least_q32 from the texel that (u, v) lies in, by at most 18 texels: below 2^40. */
-static int64_t rise_u(const lookup *l, int32_t u)
+/* least_q32 at a texel of the tile, at most 64 + 1023 texels away in each axis: 2^50 and twice 2^44. */
+static int64_t least_on_plane(const lookup *l, int32_t u, int32_t v)
 {
-    return (int64_t)l->slope_q28[0] * (16 * (u - (l->u_q16 >> 16)));
-}
-
-static int64_t rise_v(const lookup *l, int32_t v)
-{
-    return (int64_t)l->slope_q28[1] * (16 * (v - (l->v_q16 >> 16)));
+    int32_t du = u - (l->u_q16 >> 16), dv = v - (l->v_q16 >> 16);
+    return l->least_q32 + (int64_t)l->slope_q28[0] * (16 * du) + (int64_t)l->slope_q28[1] * (16 * dv);
 }
 
 static uint32_t limited(const gn_light_view *view, int64_t least_q32)
@@ -111,10 +114,10 @@ static uint32_t sum_any(const lookup *l, int32_t u, int32_t v, int32_t n, const 
     uint32_t sum = 0;
 #if GN_RECEIVER_PLANE
     if (l->sloped) {
-        int64_t least_q32 = l->least_q32 + rise_u(l, u) + rise_v(l, v);
-        for (int32_t i = 0; i < n; i++) {
-            if (all || lit(view, row, u + i, limited(view, least_q32))) sum += w[i];
-            least_q32 += (int64_t)l->slope_q28[0] * 16;
+        int64_t least_q32 = least_on_plane(l, gn_max32(0, gn_min32(u, last)), in_v); /* of the texel that is read */
+        for (int32_t i = 0; i < n; i++, u++) {
+            if (all || lit(view, row, u, limited(view, least_q32))) sum += w[i];
+            if (u >= 0 && u < last) least_q32 += (int64_t)l->slope_q28[0] * 16;
         }
         return sum;
     }
@@ -145,11 +148,12 @@ static void least_over(const lookup *l, int32_t u, int32_t v, int32_t n, uint32_
     *smallest = *largest = l->least;
 #if GN_RECEIVER_PLANE
     if (!l->sloped) return;
-    int64_t left = rise_u(l, u), right = rise_u(l, u + n - 1), top = rise_v(l, v), bottom = rise_v(l, v + n - 1);
-    int64_t low = l->least_q32 + (left < right ? left : right) + (top < bottom ? top : bottom);
-    int64_t high = l->least_q32 + (left < right ? right : left) + (top < bottom ? bottom : top);
-    *smallest = limited(l->view, low);
-    *largest = limited(l->view, high);
+    int32_t last = l->view->tile_texels - 1;
+    int32_t u0 = gn_max32(0, gn_min32(u, last)), u1 = gn_max32(0, gn_min32(u + n - 1, last));
+    int32_t v0 = gn_max32(0, gn_min32(v, last)), v1 = gn_max32(0, gn_min32(v + n - 1, last));
+    int rises_u = l->slope_q28[0] > 0, rises_v = l->slope_q28[1] > 0;
+    *smallest = limited(l->view, least_on_plane(l, rises_u ? u0 : u1, rises_v ? v0 : v1));
+    *largest = limited(l->view, least_on_plane(l, rises_u ? u1 : u0, rises_v ? v1 : v0));
 #else
     (void)u, (void)v, (void)n;
 #endif
