@@ -553,7 +553,7 @@ static void test_status_texts(void)
     CHECK(strcmp(gn_status_text(GN_STATUS_COUNT), "unknown status") == 0);
     CHECK(strcmp(gn_status_text((gn_status)-1), "unknown status") == 0);
     /* Needs a smaller capacity than this build has: test_config.sh provokes it. */
-    provoked[GN_OK] = provoked[GN_ERR_SHADOW_TILES_FULL] = 1;
+    provoked[GN_OK] = provoked[GN_ERR_SURFACE_LIGHTS] = 1;
     for (int i = 0; i < GN_STATUS_COUNT; i++)
         if (!CHECK(provoked[i])) printf("%s was not provoked\n", names[i]);
 }
@@ -563,7 +563,7 @@ static void test_status_texts(void)
 static void test_nulls(void)
 {
     gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
-    const uint16_t *depth = NULL;
+    gn_tile_info depth = {0, 0, NULL};
     canvas c;
     canvas_begin(&c, 8, 8, GN_FORMAT_RGB565);
     demo_scene_make(&demo, 0);
@@ -581,7 +581,7 @@ static void test_nulls(void)
     CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, NULL, &c) == GN_ERR_NULL);
     CHECK(gn_get_shadow_tile(&one, 0, 0, NULL) == 0);
     CHECK_EQ_INT(gn_get_shadow_tile(&one, 0, 0, &depth), GN_ATLAS_SIZE);
-    CHECK(depth != NULL);
+    CHECK(depth.depth != NULL && depth.texels == GN_ATLAS_SIZE && depth.depth_bits == 16);
     CHECK(gn_get_shadow_tile(&one, 1, 0, &depth) == 0 && gn_get_shadow_tile(&one, UINT32_MAX, 0, &depth) == 0);
     fails(gn_render(&one, &demo.scene, NULL, &c), GN_ERR_NULL, 0, 0, 0, "gn_render without a flush");
     CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);

@@ -8,6 +8,7 @@
 #include "../host/ref/ref.h"
 #include "../lib/gn_cascade.h"
 #include "../lib/gn_light.h"
+#include "../lib/gn_ortho.h"
 #include "../lib/gn_plane.h"
 #include "../lib/gn_q.h"
 #include "../lib/gn_raster.h"
@@ -281,7 +282,8 @@ static void check_cosine(const gn_frame *frame, const gn_surface *s, const gn_sa
 static void check_light_coords(const gn_frame *frame, const gn_surface *s, const gn_sample *sample, const crossing *c)
 {
     const gn_light_view *view = &frame->view[0];
-    double texel = 1 / ldexp(view->inv_texel.mant, view->inv_texel.exp), n[3], z_got = sample->value[GN_VALUE_Z] * LSB16;
+    double texel = 1 / ldexp(view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp), n[3],
+           z_got = sample->value[GN_VALUE_Z] * LSB16;
     int px = (int)floor(c->ray[0] * renderer.frame.cam.focal2_px_q16 * LSB16 + 0.5);
     int py = (int)floor(c->ray[1] * renderer.frame.cam.focal2_px_q16 * LSB16 + 0.5);
     if (sample->cascade == GN_CASCADE_NONE) return; /* beyond the shadowed slice: no coordinates */
@@ -297,9 +299,9 @@ static void check_light_coords(const gn_frame *frame, const gn_surface *s, const
             eye += frame->cam.eye_q16[k] * LSB16 * axis[k];
             point += n[k] * axis[k];
         }
-        double want = (z_got * along + eye) / texel - view->origin[i] + point * view->offset_q16 * LSB16;
-        double bound = 3 * LSB16 + z_got * ldexp(1 + 0.5 * (abs(px) + abs(py)), -view->ray_shift) +
-                       ldexp(fabs(z_got * along / texel) + fabs(eye / texel) + fabs((double)view->origin[i]), -27) +
+        double want = (z_got * along + eye) / texel - view->fit.ortho.origin[i] + point * view->offset_q16 * LSB16;
+        double bound = 3 * LSB16 + z_got * ldexp(1 + 0.5 * (abs(px) + abs(py)), -view->fit.ortho.ray_shift) +
+                       ldexp(fabs(z_got * along / texel) + fabs(eye / texel) + fabs((double)view->fit.ortho.origin[i]), -27) +
                        view->offset_q16 * LSB16 *
                            (ldexp(c->kappa_b + c->kappa, -27) + (frame->knobs.newton_steps == 1 ? ldexp(1, -14) : ldexp(1, -26)));
         record(STAGE_LIGHT_UV, fabs(sample->value[GN_VALUE_LIGHT + 1 + i] * LSB16 - want), bound, LSB16);
@@ -340,7 +342,7 @@ static void check_samples(const gn_frame *frame, int32_t view[][3])
 static void check_caster_depth(const gn_frame *frame)
 {
     const gn_light_view *view = &frame->view[0];
-    double texel = 1 / ldexp(view->inv_texel.mant, view->inv_texel.exp), p[3][3], e[2][3], n[3];
+    double texel = 1 / ldexp(view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp), p[3][3], e[2][3], n[3];
     double step = ldexp(1, view->tile_log2 + view->depth_log2 - 16);
     for (int i = 0; i < 3; i++) {
         double world[3];
@@ -348,7 +350,7 @@ static void check_caster_depth(const gn_frame *frame)
         for (int k = 0; k < 3; k++) {
             double axis[3];
             axis_of(view->axis_q30[k], axis);
-            p[i][k] = dot(world, axis) / texel - view->origin[k];
+            p[i][k] = dot(world, axis) / texel - view->fit.ortho.origin[k];
         }
     }
     for (int k = 0; k < 3; k++) {
@@ -363,7 +365,7 @@ static void check_caster_depth(const gn_frame *frame)
     for (int v = 0; v < view->tile_texels; v += 7) {
         for (int u = 0; u < view->tile_texels; u += 5) {
             double want = p[0][2] + gu * (u + 0.5 - p[0][0]) + gv * (v + 0.5 - p[0][1]);
-            unsigned got = view->depth[v * view->tile_texels + u];
+            unsigned got = view->depth.d16[v * view->tile_texels + u];
             if (want < 0 || got == 65535 || want > ldexp(view->tile_texels, view->depth_log2)) continue;
             double vertex = 2 * LSB16 + ldexp(reach, -27);
             double bound = 0.5 * step + step / 64 + vertex * (1 + fabs(gu) + fabs(gv)) + reach * size * ldexp(1, -26);
@@ -398,12 +400,12 @@ static void check_fit(const gn_frame *frame)
     s.shadow.filter = SCENE_FILTER_3X3;
     s.shadow.n_cascades = 1;
     CHECK_EQ_INT(ref_fit_light(&ref, &s, &ref_light, 0, WIDTH, HEIGHT, view->tile_texels), 0);
-    double texel = 1 / ldexp(view->inv_texel.mant, view->inv_texel.exp);
+    double texel = 1 / ldexp(view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp);
     CHECK(fabs(texel / ref.texel - 1) < ldexp(1, -28));
     fits++;
     for (int i = 0; i < 3; i++) {
-        CHECK(fabs(view->origin[i] - ref.origin[i]) <= 1);
-        shifted_fits += view->origin[i] != (int32_t)ref.origin[i];
+        CHECK(fabs(view->fit.ortho.origin[i] - ref.origin[i]) <= 1);
+        shifted_fits += view->fit.ortho.origin[i] != (int32_t)ref.origin[i];
         for (int k = 0; k < 3; k++) CHECK_NEAR(ldexp(view->axis_q30[i][k], -30), ref.axis[i][k], ldexp(6, -30));
     }
 }
@@ -471,8 +473,8 @@ static void test_grid_does_not_crawl(const gn_knobs *knobs)
             int64_t c = gn_light_coord_q16(view, k, point);
             if (i == 0) first[k] = c;
             moved += c != first[k];
-            origins_changed += i > 0 && view->origin[k] != origin[k];
-            origin[k] = view->origin[k];
+            origins_changed += i > 0 && view->fit.ortho.origin[k] != origin[k];
+            origin[k] = view->fit.ortho.origin[k];
         }
     }
     CHECK_EQ_INT(moved, 0);
@@ -481,7 +483,8 @@ static void test_grid_does_not_crawl(const gn_knobs *knobs)
 
 int main(int argc, char **argv)
 {
-    static const gn_knobs balanced = {6, 8, 1, 8, 0, 8, 8, 128, 64, 16, 1}, accurate = {8, 1, 2, 12, 4, 12, 16, 256, 64, 16, 1};
+    static const gn_knobs balanced = {6, 8, 1, 8, 0, 8, 8, 128, 128, 16, 16, 64, 16, 1},
+                          accurate = {8, 1, 2, 12, 4, 12, 16, 256, 256, 16, 16, 64, 16, 1};
     int table = argc > 1 && strcmp(argv[1], "--table") == 0;
     for (int preset = 0; preset < 2; preset++) {
         memset(seen, 0, sizeof seen);

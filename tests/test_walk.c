@@ -298,8 +298,9 @@ static gn_status render(const gn_affine *camera, uint32_t focal_q24, int32_t nea
 {
     static const int32_t steps[4] = {1, 4, 8, 16};
     gn_picture p = {WIDTH, HEIGHT, GN_FORMAT_RAW32, GN_VIEW_TRIANGLE, 0};
-    gn_mesh mesh = {pos, NULL, NULL, idx, N_VERTICES, N_TRIANGLES, 16};
-    gn_object object = {&mesh, *to_world, {65536, 65536, 65536}, GN_OBJECT_TWO_SIDED | GN_OBJECT_UNLIT};
+    gn_mesh mesh = {.pos = pos, .idx = idx, .n_vertices = N_VERTICES, .n_triangles = N_TRIANGLES, .pos_frac_bits = 16};
+    gn_object object = {
+        .mesh = &mesh, .to_world = *to_world, .albedo_uq16 = {65536, 65536, 65536}, .flags = GN_OBJECT_TWO_SIDED | GN_OBJECT_UNLIT};
     gn_scene scene = {0};
     scene.objects = &object;
     scene.n_objects = 1;
