@@ -60,6 +60,7 @@ static void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
     l->slope_q28[0] = gn_max32(-most, gn_min32(receiver->slope_q28[0], most));
     l->slope_q28[1] = gn_max32(-most, gn_min32(receiver->slope_q28[1], most));
     l->sloped = (l->slope_q28[0] | l->slope_q28[1]) != 0;
+    l->least_q32 = 0;
     if (!l->sloped) return;
     int64_t x_q44 = (int64_t)receiver->depth_q32 * 4096 + plane_rise_q44(l->slope_q28[0], l->u_q16, receiver->u_q16) +
                     plane_rise_q44(l->slope_q28[1], l->v_q16, receiver->v_q16);
