@@ -1,5 +1,5 @@
-/* The reference engine's filters and biases against closed forms (DESIGN 1.6, 1.7; rows F3 to F6, B1 to B5, D2 without its stability).
- */
+/* The reference engine's filters and biases against closed forms (DESIGN 1.6, 1.7; rows F3 to F6, B1 to B5, D2 without its
+ * stability). */
 #include "ref_fixture.h"
 
 static const double straight_up[3] = {0, 1, 0};
@@ -132,6 +132,19 @@ static void test_disk_step(void)
             CHECK_NEAR(mean, open, 0.004);
             CHECK(worst < 0.08);
         }
+}
+
+/* Around the corner of a closed quarter. */
+static void test_disk_corner(void)
+{
+    double depth[256], mean = 0;
+    for (int i = 0; i < 256; i++) depth[i] = i % 16 < 8 && i / 16 < 8 ? 1 : 16;
+    const ref_light_view view = {.tile_texels = 16, .depth_range = 16, .depth = depth, .disk_radius = 4};
+    for (int k = 0; k < 400; k++) {
+        const ref_lookup how = {.filter = SCENE_FILTER_DISK, .disk_samples = 64, .x = k % 20, .y = k / 20};
+        mean += ref_filtered(&view, &how, 8, 8, 2) / 400;
+    }
+    CHECK_NEAR(mean, 0.75, 0.004);
 }
 
 /* The penumbra is as wide whatever the map: in world units for directional lights, in shares of the tile for the others. */
@@ -314,8 +327,8 @@ static int count_light(const fixture *f)
     return n;
 }
 
-/* B5: against a plane itself the receiver's plane leaves nothing but rounding, whatever the filter, the angle and the kind of light: a
- * breath of bias decides between light and dark everywhere. Without it the plane is full of acne. */
+/* B5: against a plane itself the receiver's plane leaves nothing but rounding, whatever the filter, the angle and the kind of
+ * light: a breath of bias decides between light and dark everywhere. Without it the plane is full of acne. */
 static void test_receiver_plane(void)
 {
     const double tilts[4] = {5, 40, 70, 82};
@@ -401,8 +414,8 @@ static void check_same_shadow(const fixture *a, const fixture *b, int n_least)
     ref_free(&q);
 }
 
-/* Terms of B3 that are another bias by another name. In directional light a move along L is a constant bias of (k_f + 1) texels, and the
- * one with tan is that times the tangent, up to 50. */
+/* Terms of B3 that are another bias by another name. In directional light a move along L is a constant bias of (k_f + 1) texels,
+ * and the one with tan is that times the tangent, up to 50. */
 static void test_receiver_terms(void)
 {
     for (int c = 0; c < 40; c++) {
@@ -545,6 +558,7 @@ int main(void)
     test_kernel_choice();
     test_disk_samples();
     test_disk_step();
+    test_disk_corner();
     test_disk_radius();
     test_light_filter();
     test_reach_of_bias();
