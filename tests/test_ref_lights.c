@@ -1,6 +1,5 @@
-/* The reference engine's lights against closed forms: attenuation, cube faces and their width, perspective maps, who gets which tiles, light
- * lists (DESIGN 1.4 to 1.8; rows P, A, D10).
- */
+/* The reference engine's lights against closed forms: attenuation, cube faces and their width, perspective maps, who gets which
+ * tiles, light lists (DESIGN 1.4 to 1.8; rows P, A, D10). */
 #include "ref_fixture.h"
 
 static const double straight_up[3] = {0, 1, 0};
@@ -158,8 +157,9 @@ static void test_face_width(void)
     CHECK(clamped);
 }
 
-/* The texels that a filter of index k_f reads around a point lie in the tile, wherever on its face the point is: for normals along the
- * face's diagonal, which P6 is about, exactly; for the worst ones, tan(45 degrees + asin e) instead of (1 + e) / (1 - e) aside. */
+/* The texels that a filter of index k_f reads around a point lie in the tile, wherever on its face the point is: for normals
+ * along the face's diagonal, which P6 is about, exactly; for the worst ones, tan(45 degrees + asin e) instead of (1 + e) / (1 -
+ * e) aside. */
 static void test_faces_hold_samples(void)
 {
     int n_out = 0, n_at_border = 0;
@@ -271,8 +271,8 @@ static void turned(double out[3], const scene_affine *a, double x, double y, dou
     for (int r = 0; r < 3; r++) out[r] = a->m[r][0] * x + a->m[r][1] * y + a->m[r][2] * z;
 }
 
-/* Light in the origin, a quad at y = -1 that is not seen, its shadow on the floor y = -3 across the seam between two faces. Everything
- * turned by `which`. */
+/* Light in the origin, a quad at y = -1 that is not seen, its shadow on the floor y = -3 across the seam between two faces.
+ * Everything turned by `which`. */
 typedef struct {
     int which;
     scene_filter filter;
@@ -355,8 +355,8 @@ static void test_seams(void)
     }
 }
 
-/* Closed boxes: around the light nothing faces it and everything outside is lit; inside out, everything is dark. Beside the light a box
- * shades what is behind it. */
+/* Closed boxes: around the light nothing faces it and everything outside is lit; inside out, everything is dark. Beside the
+ * light a box shades what is behind it. */
 static void test_closed_boxes(void)
 {
     const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5}, from[3] = {9, 9, 9}, at[3] = {0, -3, 0};
@@ -697,8 +697,8 @@ static void test_importance_sizes(void)
     CHECK(n_mixed > 100 && n_full > 30);
 }
 
-/* By hand: three equal lights of an atlas of 64 get 32 each, as another doubling has no room; a fourth fills it. A point light far away
- * yields to a spot. */
+/* By hand: three equal lights of an atlas of 64 get 32 each, as another doubling has no room; a fourth fills it. A point light
+ * far away yields to a spot. */
 static void test_importance_by_hand(void)
 {
     fixture f;

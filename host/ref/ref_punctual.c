@@ -1,5 +1,5 @@
-/* Spot and point lights: attenuation, which objects they reach, light lists, and their perspective views (DESIGN 1.5, 1.8; rows P2 to
- * P6, P9). */
+/* Spot and point lights: attenuation, which objects they reach, light lists, and their perspective views (DESIGN 1.5, 1.8; rows
+ * P2 to P6, P9). */
 #include "ref_internal.h"
 
 #define LEAST_DISTANCE2 1e-4 /* epsilon of P2: keeps the light's own position finite */
