@@ -27,15 +27,17 @@ typedef struct {
 #endif
 } lookup;
 
+static int32_t inside_tile(const gn_light_view *view, int32_t c)
+{
+    return gn_max32(0, gn_min32(c, view->tile_texels - 1));
+}
+
 /* Texels of a tap, as the view stores them, are limited to the tile (P8). */
 static uint32_t lit(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
 {
-    int32_t last = view->tile_texels - 1;
-    if (u < 0 || u > last) {
-        if (BORDER_LIT(view)) return 1;
-        u = u < 0 ? 0 : last;
-    }
-    return gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)u) >= least;
+    int32_t inside = inside_tile(view, u);
+    if (u != inside && BORDER_LIT(view)) return 1;
+    return gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)inside) >= least;
 }
 
 /* ---- The receiver's depth ----------------------------------------------------------------------------------------- */
@@ -55,9 +57,16 @@ static uint32_t rounded_depth(uint32_t depth_q32, int32_t dropped, uint32_t far)
 }
 
 #if GN_RECEIVER_PLANE
+/* From a receiver's coordinate to the centre of the texel that stands for it, see near_tile; two products with slopes fit 64 bits. */
+static int64_t to_texel_q16(int32_t near_q16, int32_t c_q16)
+{
+    const int64_t most = ((int64_t)1 << 31) - (1 << 20);
+    return gn_clamp64((int64_t)near_q16 - (near_q16 & 0xFFFF) + 0x8000 - c_q16, -most, most);
+}
+
 /* With x the depth at a tap in Q44, h half a step of rounding, s a texel, hence a whole number of steps: s >= round(x) if and only
  * if s > x - h, and, s being also a multiple of 2^12, if and only if s >= floor((x - h) / 2^12) + 1. From a texel to the next, x
- * changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. |x| < 2^44 + 2^47 for slopes of any value. */
+ * changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. |x| < 2^63 for slopes of any value. */
 static void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
 {
     l->slope_q28[0] = receiver->slope_q28[0];
@@ -65,12 +74,13 @@ static void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
     l->sloped = (l->slope_q28[0] | l->slope_q28[1]) != 0;
     if (!l->sloped) return;
     int64_t x_q44 = (int64_t)receiver->depth_q32 * 4096;
-    x_q44 += (int64_t)receiver->slope_q28[0] * (0x8000 - (l->u_q16 & 0xFFFF));
-    x_q44 += (int64_t)receiver->slope_q28[1] * (0x8000 - (l->v_q16 & 0xFFFF));
+    x_q44 += (int64_t)receiver->slope_q28[0] * to_texel_q16(l->u_q16, receiver->u_q16);
+    x_q44 += (int64_t)receiver->slope_q28[1] * to_texel_q16(l->v_q16, receiver->v_q16);
     l->least_q32 = ((x_q44 - ((int64_t)1 << (dropped + 11))) >> 12) + 1;
 }
 
-/* Change of least_q32 from the texel that (u, v) lies in, by at most 18 texels: below 2^40. */
+/* Change of least_q32 from the texel that (u, v) lies in to one inside the tile, by less than 2^11 texels: below 2^46;
+ * least_q32 itself stays below 2^51. */
 static int64_t rise_u(const lookup *l, int32_t u)
 {
     return (int64_t)l->slope_q28[0] * (16 * (u - (l->u_q16 >> 16)));
@@ -86,13 +96,15 @@ static uint32_t limited(const gn_light_view *view, int64_t least_q32)
     return (uint32_t)gn_clamp64(least_q32, 0, gn_texel_far(GN_VIEW_BITS(view)));
 }
 
+/* Row v is inside the tile. The plane is taken at the texel that is read: what the border repeats is the border's depth (P8). */
 static uint32_t lit_row_on_plane(const lookup *l, gn_texels row, int32_t u0, int32_t v, int32_t n)
 {
-    int64_t least_q32 = l->least_q32 + rise_u(l, u0) + rise_v(l, v);
+    int32_t last = l->view->tile_texels - 1;
+    int64_t least_q32 = l->least_q32 + rise_u(l, inside_tile(l->view, u0)) + rise_v(l, v);
     uint32_t mask = 0;
-    for (int32_t i = 0; i < n; i++) {
-        mask |= lit(l->view, row, u0 + i, limited(l->view, least_q32)) << i;
-        least_q32 += (int64_t)l->slope_q28[0] * 16;
+    for (int32_t u = u0; u < u0 + n; u++) {
+        mask |= lit(l->view, row, u, limited(l->view, least_q32)) << (u - u0);
+        if (u >= 0 && u < last) least_q32 += (int64_t)l->slope_q28[0] * 16;
     }
     return mask;
 }
@@ -102,11 +114,11 @@ static uint32_t lit_row_on_plane(const lookup *l, gn_texels row, int32_t u0, int
 static uint32_t lit_row(const lookup *l, int32_t u0, int32_t v, int32_t n)
 {
     const gn_light_view *view = l->view;
-    int32_t last = view->tile_texels - 1, inside = v < 0 ? 0 : v > last ? last : v;
+    int32_t last = view->tile_texels - 1, inside = inside_tile(view, v);
     if (v != inside && BORDER_LIT(view)) return (1U << n) - 1;
     gn_texels row = gn_texels_at(view->depth, GN_VIEW_BITS(view), (size_t)(uint32_t)inside << view->tile_log2);
 #if GN_RECEIVER_PLANE
-    if (l->sloped) return lit_row_on_plane(l, row, u0, v, n);
+    if (l->sloped) return lit_row_on_plane(l, row, u0, inside, n);
 #endif
     uint32_t mask = 0;
     if (u0 >= 0 && u0 + n - 1 <= last) {
@@ -126,7 +138,8 @@ static void least_over(const lookup *l, int32_t u, int32_t v, int32_t n, uint32_
     *smallest = *largest = l->least;
 #if GN_RECEIVER_PLANE
     if (!l->sloped) return;
-    int64_t left = rise_u(l, u), right = rise_u(l, u + n - 1), top = rise_v(l, v), bottom = rise_v(l, v + n - 1);
+    int64_t left = rise_u(l, inside_tile(l->view, u)), right = rise_u(l, inside_tile(l->view, u + n - 1));
+    int64_t top = rise_v(l, inside_tile(l->view, v)), bottom = rise_v(l, inside_tile(l->view, v + n - 1));
     int64_t low = l->least_q32 + (left < right ? left : right) + (top < bottom ? top : bottom);
     int64_t high = l->least_q32 + (left < right ? right : left) + (top < bottom ? bottom : top);
     *smallest = limited(l->view, low);
