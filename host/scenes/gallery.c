@@ -116,7 +116,7 @@ int gallery_cones_write(FILE *file)
     gltf_add_object(&d, "wall", &wall, plaster);
     for (int i = 0; i < 3; i++) {
         double x = 1.35 * (i - 1), y = 0.12 + 0.22 * i;
-        const mesh_point at = {x, 1.9, 0.2}, aim = {x, 1.1, -1};
+        const mesh_point at = {x, 1.9, 0.3}, aim = {x, 1.1, -1};
         gltf_add_light_node(&d, at, gltf_look(mesh_sub(aim, at)),
                             &(gltf_light_text){.name = spot_name[i],
                                                .kind = GLTF_SPOT,
@@ -127,7 +127,7 @@ int gallery_cones_write(FILE *file)
                                                .outer_deg = 30,
                                                .knobs = "\"near\": 0.1"});
         add_box(&d, "bar", (mesh_point){x - 0.03, 0.9, -0.7}, (mesh_point){x + 0.03, 1.6, -0.64}, iron);
-        gltf_add_light_node(&d, (mesh_point){x, y, 1}, upright,
+        gltf_add_light_node(&d, (mesh_point){x, y, 0.35}, upright,
                             &(gltf_light_text){.name = lamp_name[i],
                                                .kind = GLTF_POINT,
                                                .rgb = {1, 0.6, 0.3},
@@ -135,13 +135,13 @@ int gallery_cones_write(FILE *file)
                                                .range = 1,
                                                .knobs = "\"near\": 0.02, \"shadow\": 0"});
         mesh_begin(&bulb, MESH_NORMALS);
-        mesh_ball(&bulb, (mesh_point){x, y, 1}, 0.04, 5, 8);
+        mesh_ball(&bulb, (mesh_point){x, y, 0.35}, 0.04, 5, 8);
         gltf_add_object(&d, "bulb", &bulb, glow);
     }
     gltf_add_camera(
         &d,
         &(gltf_camera){
-            .fov_deg = 40, .near_distance = 1, .far_distance = 30, .target = {0, 0.95, -0.4}, .distance = 4.6, .pitch_deg = -15});
+            .fov_deg = 40, .near_distance = 1, .far_distance = 30, .target = {0, 0.85, -0.4}, .distance = 4.4, .pitch_deg = -20});
     return gltf_write(
         &d,
         &(gltf_scene_text){.comment = "Three cones with three inner angles, and three small lamps over a floor. No animation.",
@@ -226,9 +226,11 @@ static void add_upright_quad(gltf_document *d, const char *name, mesh_point low,
     gltf_add_object(d, name, &quad, material);
 }
 
+static const double ball_row = 0.6;
+
 static void rainbow(mesh_point at, double *rgb)
 {
-    double angle = atan2(at.z, at.x);
+    double angle = atan2(at.z - ball_row, at.x);
     for (int k = 0; k < 3; k++) rgb[k] = 0.55 + 0.4 * cos(angle - 2.0944 * k);
 }
 
@@ -248,7 +250,7 @@ int gallery_materials_write(FILE *file)
     static const char *const name[5] = {"smooth", "faceted", "vertex colours", "dull highlight", "sharp highlight"};
     for (int i = 0; i < 5; i++) {
         mesh_begin(&ball, i == 1 ? MESH_FACE_NORMALS : i == 2 ? MESH_NORMALS | MESH_COLOURS : MESH_NORMALS);
-        mesh_ball(&ball, (mesh_point){0.7 * (i - 2), 0.3, 0.6}, 0.3, 8, 12);
+        mesh_ball(&ball, (mesh_point){0.7 * (i - 2), 0.3, ball_row}, 0.3, 8, 12);
         if (i == 2) mesh_repaint(&ball, rainbow);
         gltf_add_object(&d, name[i], &ball, material[i]);
     }
@@ -262,7 +264,7 @@ int gallery_materials_write(FILE *file)
     add_sun(&d, (mesh_point){0.3, -0.7, -0.6}, 3);
     gltf_add_camera(
         &d, &(gltf_camera){
-                .fov_deg = 34, .near_distance = 1, .far_distance = 30, .target = {0, 0.33, 0}, .distance = 5.2, .pitch_deg = -16});
+                .fov_deg = 27, .near_distance = 1, .far_distance = 30, .target = {0, 0.38, 0}, .distance = 5.2, .pitch_deg = -16});
     return gltf_write(
         &d,
         &(gltf_scene_text){.comment = "Balls and panels of every material; the pole above is hidden and casts. No animation.",
@@ -377,5 +379,41 @@ int gallery_baked_write(FILE *file)
                                "A lamp baked into the floor's vertices, with the pillar's shadow, beside a sun. No animation.",
                            .settings = "\"max_distance\": 9, \"filter\": \"3x3\", \"atlas_size\": 128, \"other_atlas_size\": 128, "
                                        "\"cascades\": 1, \"ambient\": 0.03, \"background\": [0.02, 0.02, 0.03]"},
+        file);
+}
+
+/* A post among four coloured suns, and a fifth light without a shadow. */
+int gallery_suns_write(FILE *file)
+{
+    static gltf_document d;
+    static mesh_builder post;
+    static const char *const name[5] = {"east", "north", "west", "south", "fill"};
+    static const double rgb[5][3] = {{1, 0.35, 0.25}, {0.3, 0.9, 0.35}, {0.3, 0.45, 1}, {0.9, 0.8, 0.3}, {0.3, 0.3, 0.3}};
+    static const mesh_point to[5] = {
+        {0.6, -0.75, -0.25}, {0.25, -0.75, 0.6}, {-0.6, -0.75, 0.25}, {-0.25, -0.75, -0.6}, {0, -1, 0}};
+    gltf_begin(&d);
+    add_floor(&d, 4, -4, 4, (double[]){0.6, 0.6, 0.6});
+    mesh_begin(&post, MESH_NORMALS);
+    mesh_rod(&post, (mesh_point){0, 0, 0}, (mesh_point){0, 1, 0}, 0.13, 12);
+    mesh_ball(&post, (mesh_point){0, 1.15, 0}, 0.24, 8, 12);
+    gltf_add_object(&d, "post", &post, gltf_add_material(&d, "post", (double[]){0.7, 0.7, 0.7}, NULL));
+    for (int i = 0; i < 5; i++)
+        gltf_add_light_node(&d, (mesh_point){0, 0, 0}, gltf_look(to[i]),
+                            &(gltf_light_text){.name = name[i],
+                                               .rgb = {rgb[i][0], rgb[i][1], rgb[i][2]},
+                                               .intensity = 1.1,
+                                               .knobs = i == 4 ? "\"shadow\": 0" : NULL});
+    gltf_add_camera(&d, &(gltf_camera){.fov_deg = 34,
+                                       .near_distance = 1,
+                                       .far_distance = 30,
+                                       .target = {0, 0.25, 0},
+                                       .distance = 5.5,
+                                       .yaw_deg = 10,
+                                       .pitch_deg = -40});
+    return gltf_write(
+        &d,
+        &(gltf_scene_text){.comment = "Four directional lights with shadows and one without. No animation.",
+                           .settings = "\"max_distance\": 9, \"filter\": \"3x3\", \"atlas_size\": 256, \"other_atlas_size\": 256, "
+                                       "\"cascades\": 1, \"ambient\": 0.05, \"background\": [0.4, 0.58, 0.82]"},
         file);
 }

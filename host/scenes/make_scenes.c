@@ -33,5 +33,6 @@ int main(int argc, char **argv)
     failed |= make(argv[2], "materials.gltf", gallery_materials_write);
     failed |= make(argv[2], "near.gltf", gallery_near_write);
     failed |= make(argv[2], "baked.gltf", gallery_baked_write);
+    failed |= make(argv[2], "suns.gltf", gallery_suns_write);
     return failed ? 1 : 0;
 }
