@@ -52,8 +52,8 @@ docs: $(BUILD)/gnomon $(BUILD)/test_stages $(BUILD)/test_accuracy ## regenerate 
 tables: $(BUILD)/gen_tables ## regenerate lib/gn_tables.c
 	$(BUILD)/gen_tables > lib/gn_tables.c
 
-scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf
-	$(BUILD)/make_scenes host/scenes
+scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf and docs/scenes/*.gltf
+	$(BUILD)/make_scenes host/scenes docs/scenes
 
 clean: ## remove build/
 	rm -rf build
