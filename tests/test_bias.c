@@ -519,7 +519,7 @@ static void test_reference(void)
 /* A sheet stands on the plane y = 0 along z, `WALL` high, lit from in front at 45 degrees, seen from above. A point behind its foot is
  * lit where the biases take it before the sheet: c texels along the light, c sin 45, in texels on the plane. A shift along the plane's
  * normal leaves a point behind the sheet wherever it was: B2 opens no gap at the foot; its length times tan 45 is what the shadow's
- * far end loses. */
+ * far end loses. B4 moves the sheet itself, and its shadow with it. */
 #define WALL        2.0
 #define WALL_HALF   3.0
 #define WALL_TEXELS 128
@@ -620,7 +620,7 @@ static void test_detachment(void)
         check_detachment(&(bias){.name = "b_y", .receiver = {0, i, 0, 0}}, i * sine, 0);
         check_detachment(&(bias){.name = "b_z", .receiver = {0, 0, i, 0}}, 0, i);
         check_detachment(&(bias){.name = "b_w", .receiver = {0, 0, 0, i}}, 0, i * sine);
-        check_detachment(&(bias){.name = "B4", .caster = i}, i, i);
+        check_detachment(&(bias){.name = "B4", .caster = i}, i, -i);
     }
 }
 
@@ -633,8 +633,9 @@ static void print_cell(const cell *c, const bias *b)
     cell wall = *c;
     wall.texels = WALL_TEXELS;
     const detachment d = detach(&wall, b);
+    const double share = 100.0 * (double)t.acne / (double)t.pixels;
     if (t.acne == 0) printf(" - ");
-    else printf(" %.0f°, %.2g %% ", t.first, 100.0 * (double)t.acne / (double)t.pixels);
+    else printf(share < 10 ? " %.0f°, %.2g %% " : " %.0f°, %.0f %% ", t.first, share);
     printf("/ %.1f, ", d.gap);
     if (d.acne) printf("? |");
     else printf("%.1f |", d.shrink + 0.0 < 0.05 && d.shrink > -0.05 ? 0.0 : d.shrink);
