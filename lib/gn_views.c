@@ -112,8 +112,6 @@ static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int
 {
     view->bias_constant_q16 = light->bias_constant_q16;
     view->bias_slope_q16 = light->bias_slope_q16;
-    view->border_lit = light->kind == GN_LIGHT_DIRECTIONAL && !cascaded;
-    view->perspective = light->kind != GN_LIGHT_DIRECTIONAL;
     set_filter(frame, view, light);
     if (!view->perspective) fit_directional(frame, view, light, cascaded);
 #if GN_PUNCTUAL_LIGHTS
@@ -175,6 +173,9 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
     view->first_texel = *first_texel;
     *first_texel += 1U << (2 * plan->tile_log2);
     set_texels(frame, view);
+    /* also of an empty one: a light's first view says what kind all of them are */
+    view->perspective = frame->light[light_idx].kind != GN_LIGHT_DIRECTIONAL;
+    view->border_lit = !view->perspective && !plan->cascaded;
     view->empty = plan->cascaded && frame->cascade[cascade_idx].radius2_q32 == 0;
     if (view->empty) return;
     if (view->stale) gn_ortho_rays(frame, view);
