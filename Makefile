@@ -66,7 +66,9 @@ $(BUILD)/gen_tables: host/tool/gen_tables.c
 	@mkdir -p $(@D)
 	$(CC) $(HOST_CFLAGS) -o $@ $< -lm
 
-$(BUILD)/make_scenes: $(BUILD)/obj/host/scenes/make_scenes.o $(SCENE_OBJ)
+# Of the host's scene code the generator has the PNG writer alone.
+SCENE_PNG := $(patsubst %,$(BUILD)/obj/host/scene/%.o, png_write deflate zlib_tables)
+$(BUILD)/make_scenes: $(BUILD)/obj/host/scenes/make_scenes.o $(SCENE_OBJ) $(SCENE_PNG)
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
 

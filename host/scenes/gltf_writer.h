@@ -1,7 +1,7 @@
 /* Writes glTF 2.0 as one readable JSON file, the buffer inside as base64.
  *
  * A document is filled from the leaves up: materials, meshes, nodes, and last the scene. Everything that is added is turned into
- * text at once; indices are counted here. Nothing is allocated. What does not fit sets `overflow`, and gltf_write refuses. */
+ * text at once; indices are counted here. Nothing stays allocated. What does not fit sets `overflow`, and gltf_write refuses. */
 #ifndef GNOMON_HOST_GLTF_WRITER_H
 #define GNOMON_HOST_GLTF_WRITER_H
 
@@ -15,7 +15,7 @@
 #define GLTF_WRITER_PRINTF(format_idx, first_idx)
 #endif
 
-enum { GLTF_TEXT_BYTES = 48 * 1024, GLTF_BUFFER_BYTES = 192 * 1024, GLTF_MAX_NODES = 128 };
+enum { GLTF_TEXT_BYTES = 48 * 1024, GLTF_BUFFER_BYTES = 192 * 1024, GLTF_MAX_NODES = 128, GLTF_MAX_TEXTURE_SIDE = 64 };
 
 typedef struct {
     size_t n_items, n_chars;
@@ -25,7 +25,7 @@ typedef struct {
 typedef struct {
     bool overflow;
     bool is_root[GLTF_MAX_NODES];
-    gltf_list materials, meshes, nodes, cameras, lights, animations, views, accessors;
+    gltf_list materials, images, samplers, textures, meshes, nodes, cameras, lights, animations, views, accessors;
     size_t n_bytes;
     uint8_t bytes[GLTF_BUFFER_BYTES];
 } gltf_document;
@@ -34,6 +34,38 @@ typedef struct {
     const mesh_builder *mesh;
     size_t material_idx;
 } gltf_surface;
+
+typedef enum { GLTF_OPAQUE, GLTF_MASK, GLTF_BLEND } gltf_alpha;
+
+typedef struct {
+    const char *name;
+    double rgb[3];
+    gltf_alpha alpha_mode;
+    double alpha;     /* GLTF_BLEND: of the base colour factor, else 1 is written */
+    bool has_texture; /* then texture_idx is the base colour's */
+    size_t texture_idx;
+    bool double_sided;
+    const char *knobs; /* members of extras.gnomon, as JSON, or NULL */
+} gltf_material_text;
+
+typedef struct {
+    const char *name;
+    int side;            /* pixels; square, a power of two, at most GLTF_MAX_TEXTURE_SIDE */
+    const uint8_t *rgba; /* rows from the top */
+    bool nearest, clamp; /* else bilinear, repeated */
+} gltf_image;
+
+typedef enum { GLTF_DIRECTIONAL, GLTF_SPOT, GLTF_POINT } gltf_light_kind;
+
+typedef struct {
+    const char *name;
+    gltf_light_kind kind;
+    double rgb[3];
+    double intensity;            /* directional: lux; spot, point: candela */
+    double range;                /* spot, point; 0: unlimited */
+    double inner_deg, outer_deg; /* spot: from the axis to the edge of the cone */
+    const char *knobs;
+} gltf_light_text;
 
 typedef struct {
     double x, y, z, w;
@@ -57,25 +89,35 @@ void gltf_begin(gltf_document *d);
 /* knobs: members of extras.gnomon, as JSON, or NULL. */
 size_t gltf_add_material(gltf_document *d, const char *name, const double *rgb, const char *knobs);
 
+size_t gltf_add_surface_material(gltf_document *d, const gltf_material_text *material);
+
+/* As PNG, inside the file; the index is the texture's. */
+size_t gltf_add_texture(gltf_document *d, const gltf_image *image);
+
 /* One primitive per surface. */
 size_t gltf_add_mesh(gltf_document *d, const char *name, const gltf_surface *surfaces, size_t n);
 
 /* The camera and its node. */
 void gltf_add_camera(gltf_document *d, const gltf_camera *camera);
 
-size_t gltf_add_directional_light(gltf_document *d, const char *name, const double *rgb, double lux, const char *knobs);
+size_t gltf_add_light(gltf_document *d, const gltf_light_text *light);
 
 /* The node's other members, as JSON. A node that is named in "children" of a later one must be given to gltf_mark_child too. */
 size_t gltf_add_node(gltf_document *d, const char *name, const char *format, ...) GLTF_WRITER_PRINTF(3, 4);
+/* A mesh of one surface and a node that has it as it is. */
+size_t gltf_add_object(gltf_document *d, const char *name, const mesh_builder *m, size_t material_idx);
+size_t gltf_add_light_node(gltf_document *d, mesh_point at, gltf_rotation rotation, const gltf_light_text *light);
 void gltf_mark_child(gltf_document *d, size_t node_idx);
 
-/* Rotates a node: one key per second from time 0, LINEAR. */
-void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx, const gltf_rotation *keys, size_t n);
+/* Rotates a node: a key every so many seconds from time 0, LINEAR. */
+void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx, double seconds, const gltf_rotation *keys,
+                            size_t n);
 
 /* 0, or -1: the document overflowed or the file could not be written. */
 int gltf_write(const gltf_document *d, const gltf_scene_text *scene, FILE *file);
 
 gltf_rotation gltf_turn(mesh_point unit_axis, double degrees);
+gltf_rotation gltf_look(mesh_point direction);                 /* turns -Z there, and keeps +Y upright */
 gltf_rotation gltf_multiply(gltf_rotation a, gltf_rotation b); /* first b, then a */
 
 #endif

@@ -22,5 +22,9 @@ int main(int argc, char **argv)
     }
     int failed = make(argv[1], "sundial.gltf", sundial_write);
     failed |= make(argv[1], "avenue.gltf", avenue_write);
+    failed |= make(argv[1], "desk.gltf", desk_write);
+    failed |= make(argv[1], "room.gltf", room_write);
+    failed |= make(argv[1], "fence.gltf", fence_write);
+    failed |= make(argv[1], "mixed.gltf", mixed_write);
     return failed ? 1 : 0;
 }

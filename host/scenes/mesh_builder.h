@@ -21,28 +21,59 @@ typedef struct {
     double r, y;
 } mesh_profile; /* of a solid of revolution about +Y */
 
-typedef enum { MESH_FACE_NORMALS = 0, MESH_NORMALS = 1, MESH_COLOURS = 2 } mesh_attributes;
+typedef struct {
+    double u, v;
+} mesh_uv; /* v downwards */
+
+/* Where a part stands in its mesh: orthonormal axes, x cross y = z. */
+typedef struct {
+    mesh_point origin, x, y, z;
+} mesh_frame;
+
+typedef enum { MESH_FACE_NORMALS = 0, MESH_NORMALS = 1, MESH_COLOURS = 2, MESH_UVS = 4, MESH_MASKS = 8 } mesh_attributes;
 
 typedef struct {
-    float pos[3], nrm[3], rgb[3]; /* unused attributes stay zero */
+    float pos[3], nrm[3], rgb[3], uv[2]; /* unused attributes stay zero */
 } mesh_vertex;
 
 typedef struct {
-    unsigned attributes; /* MESH_NORMALS | MESH_COLOURS */
+    unsigned attributes; /* a set of mesh_attributes */
     bool overflow;       /* something did not fit: the mesh is no good */
     float paint[3];      /* COLOR_0 of what is added next */
+    mesh_frame place;    /* of what is added next */
     size_t n_vertices, n_corners;
     mesh_vertex vertex[MESH_MAX_VERTICES];
+    uint8_t mask[MESH_MAX_VERTICES][4]; /* with MESH_MASKS: filled by mask_bake when the mesh is done */
     uint16_t idx[MESH_MAX_CORNERS];
 } mesh_builder;
 
 double mesh_on_grid(double v);
 
+mesh_point mesh_add(mesh_point a, mesh_point b);
+mesh_point mesh_sub(mesh_point a, mesh_point b);
+mesh_point mesh_scale(mesh_point a, double s);
+mesh_point mesh_cross(mesh_point a, mesh_point b);
+double mesh_dot(mesh_point a, mesh_point b);
+mesh_point mesh_unit(mesh_point a);
+
 void mesh_begin(mesh_builder *m, unsigned attributes);
 void mesh_paint(mesh_builder *m, double r, double g, double b);
 
-/* Convex, without vertex normals, cut into a fan from its first point. Repeated points are left out. */
+/* Paints every vertex that is there by its position. */
+void mesh_repaint(mesh_builder *m, void (*paint)(mesh_point at, double *rgb));
+
+/* What is added next stands there; mesh_begin puts it at the origin. */
+void mesh_place(mesh_builder *m, mesh_frame place);
+/* Tipped from +Y towards +Z first, then turned from +Z towards +X. */
+mesh_frame mesh_frame_at(mesh_point origin, double yaw_deg, double tip_deg);
+
+/* +Y along a unit vector, the other axes anyhow. */
+mesh_frame mesh_frame_along(mesh_point origin, mesh_point unit_y);
+
+/* Convex, cut into a fan from its first point. Repeated points are left out. MESH_NORMALS: every corner has the face's normal. */
 void mesh_polygon(mesh_builder *m, const mesh_point *p, size_t n);
+/* uv: of each point, for MESH_UVS. */
+void mesh_polygon_uv(mesh_builder *m, const mesh_point *p, const mesh_uv *uv, size_t n);
 void mesh_triangle(mesh_builder *m, mesh_point a, mesh_point b, mesh_point c);
 void mesh_quad(mesh_builder *m, mesh_point a, mesh_point b, mesh_point c, mesh_point d);
 
@@ -55,5 +86,11 @@ void mesh_lathe(mesh_builder *m, const mesh_profile *profile, size_t n, size_t n
 
 /* All six faces. */
 void mesh_box(mesh_builder *m, mesh_point low, mesh_point high);
+
+/* Smooth with MESH_NORMALS; n_rings sections from pole to pole. */
+void mesh_ball(mesh_builder *m, mesh_point centre, double radius, size_t n_rings, size_t n_segments);
+
+/* A closed cylinder from a to b. */
+void mesh_rod(mesh_builder *m, mesh_point a, mesh_point b, double radius, size_t n_segments);
 
 #endif

@@ -319,8 +319,11 @@ static void add_sun(gltf_document *d)
     enum { N_KEYS = SUNDIAL_LAST_HOUR - SUNDIAL_FIRST_HOUR + 1 };
     gltf_rotation keys[N_KEYS];
     for (int i = 0; i < N_KEYS; i++) keys[i] = gltf_turn(y_axis, 15.0 * (12 - SUNDIAL_FIRST_HOUR - i));
-    size_t light = gltf_add_directional_light(d, "sun", (double[]){1, 0.95, 0.86}, 2.9,
-                                              "\"bias_normal\": 0.3, \"bias_slope\": 1, \"bias_constant\": 0.5");
+    size_t light =
+        gltf_add_light(d, &(gltf_light_text){.name = "sun",
+                                             .rgb = {1, 0.95, 0.86},
+                                             .intensity = 2.9,
+                                             .knobs = "\"bias_normal\": 0.3, \"bias_slope\": 1, \"bias_constant\": 0.5"});
     gltf_rotation tilt = gltf_turn(x_axis, -SUNDIAL_DECLINATION_DEG), mount = gltf_turn(x_axis, SUNDIAL_LATITUDE_DEG - 90);
     size_t sun =
         gltf_add_node(d, "sun", "\"rotation\": [%.6g, 0, 0, %.6g], \"extensions\": {\"KHR_lights_punctual\": {\"light\": %zu}}",
@@ -329,7 +332,7 @@ static void add_sun(gltf_document *d)
     gltf_add_node(d, "celestial pole", "\"rotation\": [%.6g, 0, 0, %.6g], \"children\": [%zu]", mount.x, mount.w, clock);
     gltf_mark_child(d, sun);
     gltf_mark_child(d, clock);
-    gltf_add_rotation_keys(d, "day", clock, keys, N_KEYS);
+    gltf_add_rotation_keys(d, "day", clock, 1, keys, N_KEYS);
 }
 
 int sundial_write(FILE *file)
