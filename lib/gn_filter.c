@@ -166,11 +166,36 @@ static uint32_t fraction(int32_t c_q16, int32_t weight_bits)
     return (((uint32_t)c_q16 & 0xFFFFU) + (0x8000U >> weight_bits)) >> (16 - weight_bits);
 }
 
+/* Whether n x n texels from (u, v) on lie in the tile and all compare with the same depth. */
+static int all_inside(const lookup *l, int32_t u, int32_t v, int32_t n)
+{
+#if GN_RECEIVER_PLANE
+    if (l->sloped) return 0;
+#endif
+    uint32_t last = (uint32_t)(l->view->tile_texels - n);
+    return (uint32_t)u <= last && (uint32_t)v <= last;
+}
+
+static uint32_t lit_pair(const lookup *l, size_t at)
+{
+    int32_t bits = GN_VIEW_BITS(l->view);
+    return (uint32_t)(gn_texel_load(l->view->depth, bits, at) >= l->least) |
+           (uint32_t)(gn_texel_load(l->view->depth, bits, at + 1) >= l->least) << 1;
+}
+
 static uint32_t bilinear(const lookup *l, int32_t bits)
 {
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768;
     int32_t u = (cu >> 16) - 1, v = (cv >> 16) - 1;
-    uint32_t top = lit_row(l, u, v, 2), bottom = lit_row(l, u, v + 1, 2);
+    uint32_t top, bottom;
+    if (all_inside(l, u, v, 2)) {
+        size_t at = ((size_t)(uint32_t)v << l->view->tile_log2) + (uint32_t)u;
+        top = lit_pair(l, at);
+        bottom = lit_pair(l, at + l->view->tile_texels);
+    } else {
+        top = lit_row(l, u, v, 2);
+        bottom = lit_row(l, u, v + 1, 2);
+    }
     if ((top & bottom) == 3) return 65536;
     if ((top | bottom) == 0) return 0;
     uint32_t wu = fraction(cu, bits), wv = fraction(cv, bits), one = 1U << bits;

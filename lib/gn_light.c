@@ -19,7 +19,7 @@ typedef struct {
 /* Returns 0 where the surface faces away or no light arrives (P10). */
 static int arrives(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot, arriving *a)
 {
-    a->light = &frame->light[surface->light_idx[slot]];
+    a->light = surface->light[slot].state;
     a->value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
     a->cosine_q24 = a->value[GN_LIGHT_FACING];
     if (a->value[GN_LIGHT_FACING] <= 0) return 0;
@@ -73,7 +73,7 @@ uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const
 {
     arriving a;
     for (uint32_t i = 0; i < surface->n_lights; i++)
-        if (surface->light_idx[i] == light_idx && arrives(frame, surface, sample, i, &a))
+        if (surface->light[i].idx == light_idx && arrives(frame, surface, sample, i, &a))
             return gn_shadow_factor(frame, surface, sample, i, gn_shadow_distance(frame, surface, sample));
     return 0;
 }
@@ -114,7 +114,7 @@ void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const g
         uint32_t shadow = gn_shadow_factor(frame, surface, sample, i, g);
         if (!shadow) continue;
         uint32_t diffuse = diffuse_q24(&a);
-        add(sum, surface->light_uq16[i], shadow == 65536 ? diffuse : gn_mul_uq16(diffuse, shadow));
+        add(sum, surface->light[i].radiance_uq16, shadow == 65536 ? diffuse : gn_mul_uq16(diffuse, shadow));
 #if GN_SPECULAR
         if (surface->specular) {
             uint32_t colour[3];

@@ -146,7 +146,7 @@ static int texture_chord_holds(const gn_surface *surface, const gn_sample *a, co
 /* Whether linear steps between two samples stay close to what lies between. Over a change of depth from z to z + dz a value
  * that changes by dv bends away from its chord by at most dv * dz / (4 z) (NUMERICS 4.4). Colours and the interpolated normal, whose
  * range is 1, may be off by 1/128. */
-static int chord_holds(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b)
+static int chord_holds(const gn_surface *surface, const gn_sample *a, const gn_sample *b)
 {
     uint32_t za = (uint32_t)a->value[GN_VALUE_Z], zb = (uint32_t)b->value[GN_VALUE_Z];
     uint64_t near4 = (uint64_t)(za < zb ? za : zb) * 4, dz = za < zb ? zb - za : za - zb;
@@ -159,7 +159,7 @@ static int chord_holds(const gn_frame *frame, const gn_surface *surface, const g
 #endif
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i;
-        if (frame->light[surface->light_idx[i]].kind == GN_LIGHT_DIRECTIONAL) {
+        if (surface->light[i].state->kind == GN_LIGHT_DIRECTIONAL) {
             if (surface->shadowed && !directional_chord_holds(a->value + at, b->value + at, near4, dz)) return 0;
             continue;
         }
@@ -182,7 +182,7 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
     for (int32_t x = x_begin; x < x_end - 1;) {
         int32_t n = gn_min32(step_px, x_end - 1 - x);
         gn_surface_sample(s->frame, &s->surface, x + n, y, next);
-        while (n > 1 && !chord_holds(s->frame, &s->surface, here, next)) {
+        while (n > 1 && !chord_holds(&s->surface, here, next)) {
             n >>= 1;
             gn_surface_sample(s->frame, &s->surface, x + n, y, next);
         }
@@ -208,7 +208,7 @@ static void fill_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
     uint32_t radiance_q20[3];
     sample.cascade = GN_CASCADE_NONE;
     for (uint32_t i = 0; i < s->surface.n_lights; i++)
-        sample.value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i] = s->surface.flat_cosine_q24[i];
+        sample.value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i] = s->surface.light[i].flat_cosine_q24;
     gn_light_radiance(s->frame, &s->surface, &sample, radiance_q20);
     gn_pixel_fill(s->frame, &s->rows, x_begin, y, x_end - x_begin, pack(s, radiance_q20));
 }

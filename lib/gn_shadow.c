@@ -144,7 +144,7 @@ static uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surfa
 
 static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot)
 {
-    const gn_light_state *light = &frame->light[surface->light_idx[slot]];
+    const gn_light_state *light = surface->light[slot].state;
     const gn_light_view *first = &frame->view[light->view_idx];
     const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
 #if GN_PUNCTUAL_LIGHTS
@@ -179,13 +179,12 @@ static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int3
 
 uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot, uint32_t g_uq16)
 {
-    uint32_t light_idx = surface->light_idx[slot];
-    const gn_light *light = &frame->scene->lights[light_idx];
-    uint32_t strength = light->shadow_strength_uq16;
+    const gn_light_state *light = surface->light[slot].state;
+    uint32_t strength = light->strength_uq16;
     if (!strength || !(surface->shadowed | surface->masked)) return GN_ONE_UQ16;
     uint32_t mask = mask_of(surface, sample, light->mask_channel);
 #if GN_SHADOWS
-    if (frame->light[light_idx].view_idx < 0 || !gn_mul_uq16(strength, g_uq16)) return faded(mask, strength);
+    if (light->view_idx < 0 || !gn_mul_uq16(strength, g_uq16)) return faded(mask, strength);
     uint32_t realtime = attenuation_of(frame, surface, sample, slot);
     switch (frame->scene->shadow.mixing) {
     case GN_MIXING_ALWAYS:

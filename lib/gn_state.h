@@ -154,6 +154,8 @@ typedef struct {
 typedef struct {
     int32_t to_light_q30[3]; /* unit; directional: surface towards the light, spot: against its axis */
     uint32_t colour_uq16[3];
+    uint32_t strength_uq16;
+    int8_t mask_channel;
     uint8_t kind;         /* gn_light_kind */
     uint8_t off;          /* baked: contributes nothing at run time */
     uint8_t shadow_state; /* gn_shadow_state */

@@ -186,6 +186,12 @@ static void receiver_offset(const gn_frame *frame, const gn_light_view *view, co
 }
 #endif
 
+static void add_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
+{
+    s->light[s->n_lights].state = &frame->light[light_idx];
+    s->light[s->n_lights++].idx = light_idx;
+}
+
 #if GN_PUNCTUAL_LIGHTS
 /* Whether a light can reach the triangle: not from behind a flat one, and not from beyond its range. */
 static int reaches(const gn_surface *s, const gn_light_state *light, int32_t v[3][3])
@@ -211,7 +217,7 @@ static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, g
 {
     if (GN_TILE_LIGHTS && !(cache->lights >> light_idx & 1U)) return;
     if (s->n_lights == GN_SURFACE_LIGHTS || !reaches(s, &frame->light[light_idx], v)) return;
-    s->light_idx[s->n_lights++] = (uint8_t)light_idx;
+    add_light(frame, s, light_idx);
     s->n_punctual++;
 }
 
@@ -238,9 +244,9 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
         if (!s->smooth) {
             int32_t cosine = light_cosine_q24(length, s->normal_q30[0], light->to_light_q30);
             if (cosine <= 0) continue;
-            s->flat_cosine_q24[s->n_lights] = cosine;
+            s->light[s->n_lights].flat_cosine_q24 = cosine;
         }
-        s->light_idx[s->n_lights++] = (uint8_t)l;
+        add_light(frame, s, l);
     }
 }
 
@@ -249,14 +255,14 @@ static void shadows(const gn_frame *frame, gn_surface *s)
 {
     if (!(s->object->flags & GN_OBJECT_RECEIVES)) return;
     for (uint32_t i = 0; i < s->n_lights; i++) {
-        const gn_light_state *light = &frame->light[s->light_idx[i]];
+        const gn_light_state *light = s->light[i].state;
         if (light->view_idx < 0) continue;
         s->shadowed = 1;
         uint32_t last = frame->view[light->view_idx].border_lit ? 0 : frame->last_cascade;
         if (!s->smooth && light->kind == GN_LIGHT_DIRECTIONAL)
-            receiver_offset(frame, &frame->view[(uint32_t)light->view_idx + last], s->normal_q30[0], s->flat_offset_q16[i]);
+            receiver_offset(frame, &frame->view[(uint32_t)light->view_idx + last], s->normal_q30[0], s->light[i].flat_offset_q16);
 #if GN_RECEIVER_PLANE
-        if (frame->scene->lights[s->light_idx[i]].receiver_plane) face_normal(frame, s, s->face_q30);
+        if (frame->scene->lights[s->light[i].idx].receiver_plane) face_normal(frame, s, s->face_q30);
 #endif
     }
 }
@@ -282,7 +288,7 @@ static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache,
 #endif
     s->n_values += GN_VALUES_PER_LIGHT * (int32_t)s->n_lights;
     for (uint32_t i = 0; i < s->n_lights; i++)
-        for (int c = 0; c < 3; c++) s->light_uq16[i][c] = gn_mul_uq16(frame->light[s->light_idx[i]].colour_uq16[c], albedo[c]);
+        for (int c = 0; c < 3; c++) s->light[i].radiance_uq16[c] = gn_mul_uq16(s->light[i].state->colour_uq16[c], albedo[c]);
 #if GN_SHADOWS
     shadows(frame, s);
 #endif
@@ -409,14 +415,14 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
 static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
                                const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
 {
-    const gn_light_state *light = &frame->light[s->light_idx[slot]];
+    const gn_light_state *light = s->light[slot].state;
     if (light->view_idx < 0) return;
     const gn_light_view *view = &frame->view[light->view_idx];
     int cascaded = !view->border_lit;
     if (cascaded && sample->cascade == GN_CASCADE_NONE) return;
     if (cascaded) view += sample->cascade;
     int32_t moved[3];
-    const int32_t *offset = s->flat_offset_q16[slot];
+    const int32_t *offset = s->light[slot].flat_offset_q16;
     if (s->smooth) {
         receiver_offset(frame, view, n_q30, moved);
         offset = moved;
@@ -461,7 +467,7 @@ static void punctual_offset(const gn_frame *frame, const gn_light_state *light, 
 static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
                             const int32_t n_q30[3], const int32_t unit_q30[3], const gn_sample *sample, int32_t *out)
 {
-    const gn_light_state *light = &frame->light[s->light_idx[slot]];
+    const gn_light_state *light = s->light[slot].state;
     int64_t at[3];
     point_on_ray(light->from_light, light->ray_shift, px, py, sample->value[GN_VALUE_Z], at);
     for (int i = 0; i < 3; i++) out[GN_LIGHT_POINT_AT + i] = (int32_t)gn_clamp64(at[i], -INT32_MAX, INT32_MAX);
@@ -485,7 +491,7 @@ static void light_values(const gn_frame *frame, const gn_surface *s, int32_t px,
 #endif
     for (uint32_t i = 0; i < s->n_lights; i++) {
         int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
-        const gn_light_state *light = &frame->light[s->light_idx[i]];
+        const gn_light_state *light = s->light[i].state;
         for (int k = 1; k < GN_VALUES_PER_LIGHT; k++) out[k] = 0; /* not always used, but stepped */
 #if GN_PUNCTUAL_LIGHTS
         if (light->kind != GN_LIGHT_DIRECTIONAL) {
@@ -493,7 +499,7 @@ static void light_values(const gn_frame *frame, const gn_surface *s, int32_t px,
             continue;
         }
 #endif
-        out[0] = s->smooth ? light_cosine_q24(length, n_q30, light->to_light_q30) : s->flat_cosine_q24[i];
+        out[0] = s->smooth ? light_cosine_q24(length, n_q30, light->to_light_q30) : s->light[i].flat_cosine_q24;
 #if GN_SHADOWS
         if (s->shadowed) directional_coords(frame, s, i, px, py, n_q30, sample, out + 1);
 #endif

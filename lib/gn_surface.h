@@ -36,6 +36,16 @@ typedef struct {
 #endif
 } gn_sample;
 
+/* A light of the surface's list. */
+typedef struct {
+    const gn_light_state *state;
+    uint32_t idx;
+    uint32_t radiance_uq16[3]; /* albedo times colour */
+    /* where the normal is constant, for directional lights: n . L, and the receiver's offset in texels */
+    int32_t flat_cosine_q24;
+    int32_t flat_offset_q16[3];
+} gn_surface_light;
+
 typedef struct {
     const gn_object *object;
     gn_plane plane;
@@ -59,15 +69,9 @@ typedef struct {
     uint8_t has_bary, smooth, coloured, textured, masked, baked, specular;
     uint8_t shadowed; /* some light's shadow may fall on it */
     int32_t first_value, n_values;
-    /* the lights that can reach it */
+    uint32_t base_q20[3]; /* albedo times ambient: with the lights' radiance_uq16, weighted, it sums up to the radiance */
     uint32_t n_lights, n_punctual;
-    uint8_t light_idx[GN_SURFACE_LIGHTS];
-    /* albedo times ambient (Q20) and times each light's colour (Q16): radiance is their sum, weighted */
-    uint32_t base_q20[3];
-    uint32_t light_uq16[GN_SURFACE_LIGHTS][3];
-    /* where the normal is constant: n . L per directional light, and the receiver's offset in texels */
-    int32_t flat_cosine_q24[GN_SURFACE_LIGHTS];
-    int32_t flat_offset_q16[GN_SURFACE_LIGHTS][3];
+    gn_surface_light light[GN_SURFACE_LIGHTS]; /* those that can reach it */
 } gn_surface;
 
 /* Keeps what neighbouring triangles of a screen tile share. */

@@ -25,6 +25,8 @@ static void setup_light(gn_frame *frame, uint32_t light_idx)
     }
     if (!gn_normalise_q30(state->to_light_q30, towards)) /* only a point light has none */
         for (int k = 0; k < 3; k++) state->to_light_q30[k] = 0;
+    state->strength_uq16 = light->shadow_strength_uq16;
+    state->mask_channel = (int8_t)light->mask_channel;
     state->kind = (uint8_t)light->kind;
     state->off = light->mode == GN_LIGHT_BAKED;
     state->view_idx = -1;

@@ -274,7 +274,7 @@ static void count_texels(const bench_set *set, counts *out)
             for (int k = 0; k < 2; k++) {
                 double along = 0;
                 for (int j = 0; j < 3; j++) along += ldexp((double)view->axis_q30[k][j] * p[j], -30 - BENCH_FRAC_BITS);
-                c[k][i] = ldexp(along * view->inv_texel.mant, view->inv_texel.exp) - view->origin[k];
+                c[k][i] = ldexp(along * view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp) - view->fit.ortho.origin[k];
             }
             o.x[i] = c[0][i];
             o.y[i] = c[1][i];

@@ -9,8 +9,8 @@
 #include "data/png_fixture.h"
 #include "data/scene_fixture.h"
 
-/* A quad with two sets of texture coordinates and baked light; two textures of one image (the second one clamped and nearest), a spot
- * and a point light. %s: the image's base64. */
+/* A quad with two sets of texture coordinates and baked light; two textures of one image (the second one clamped and nearest), a
+ * spot and a point light. %s: the image's base64. */
 static const char textured_json[] =
     "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],\n"
     "\"nodes\":[{\"mesh\":0,\"name\":\"a\"},{\"mesh\":1,\"name\":\"b\",\"scale\":[-1,1,1]},{\"mesh\":0,\"name\":\"c\"},\n"

@@ -114,7 +114,8 @@ static bool get_receiver_bias(gltf *g, const json_value *knobs, double *out)
 {
     if (!gltf_get_numbers(g, knobs, "bias_receiver", out, 4)) return false;
     for (int i = 0; i < 4; i++) {
-        if (fabs(out[i]) > LOADER_MAX_COORDINATE) return gltf_fail(g, json_get(knobs, "bias_receiver"), "%g is too large", out[i]);
+        if (!(out[i] >= 0 && out[i] <= LOADER_MAX_COORDINATE))
+            return gltf_fail(g, json_get(knobs, "bias_receiver"), "%g is not in 0..%g", out[i], LOADER_MAX_COORDINATE);
     }
     return true;
 }

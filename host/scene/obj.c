@@ -1,5 +1,5 @@
-/* Wavefront OBJ: vertices, texture coordinates, normals and faces. Vertex colours (v x y z r g b) are taken as linear light. Polygons
- * are cut into fans, which is only right for convex ones (a note tells of others). */
+/* Wavefront OBJ: vertices, texture coordinates, normals and faces. Vertex colours (v x y z r g b) are taken as linear light.
+ * Polygons are cut into fans, which is only right for convex ones (a note tells of others). */
 #include "obj.h"
 
 #include <stdlib.h>

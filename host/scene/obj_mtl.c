@@ -1,4 +1,5 @@
-/* OBJ materials: Kd, taken as linear light as it stands (the format does not say, and exporters differ), its texture, and opacity. */
+/* OBJ materials: Kd, taken as linear light as it stands (the format does not say, and exporters differ), its
+ * texture, and opacity. */
 #include "obj.h"
 
 #include <stdio.h>

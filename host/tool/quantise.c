@@ -336,14 +336,13 @@ static int quantise_colour(gn_light *out, const scene_light *l, int world_exp, c
     return 0;
 }
 
-/* Where light ends and where shadows begin: at least as far as the library resolves, and the end behind the beginning if it was. */
+/* Where light ends and where shadows begin, as far as the library resolves either. A near plane that is not below the range casts
+ * nothing onto anything lit: one just below it does neither. */
 static void quantise_reach(gn_light *out, const scene_light *l, int world_exp)
 {
     double near = fmax(LIGHT_NEAREST_Q16, floor(ldexp(l->near, 16 + world_exp) + 0.5));
-    double range = isinf(l->range) ? (double)INFINITY : floor(ldexp(l->range, 16 + world_exp) + 0.5);
-    if (l->near < l->range) range = fmax(range, near + 1);
-    range = fmax(range, LIGHT_NEAREST_Q16);
-    out->near_q16 = (int32_t)fmin(near, 2147483647.0);
+    double range = fmax(LIGHT_NEAREST_Q16 + 1, floor(ldexp(l->range, 16 + world_exp) + 0.5)); /* stays infinite */
+    out->near_q16 = (int32_t)fmin(fmin(near, range - 1), 2147483647.0);
     out->range_q16 = range > LIGHT_FARTHEST_Q16 ? 0 : (uint32_t)range;
 }
 

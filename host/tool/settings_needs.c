@@ -75,37 +75,37 @@ static void needs_of_softness(need_list *list, const scene *s, const scene_light
 
 static void needs_of_light(need_list *list, const scene *s, const scene_light *l, bool shadows)
 {
-    if (l->kind == SCENE_LIGHT_SPOT) need(list, "punctual_lights", 1, "spot light '%s'", l->name);
-    if (l->kind == SCENE_LIGHT_POINT) need(list, "punctual_lights", 1, "point light '%s'", l->name);
-    if (!shadows || !wants_shadow(l)) return;
-    need(list, "shadows", 1, "the shadow of light '%s'", l->name);
-    needs_of_softness(list, s, l);
     bool biased = false;
     for (int i = 0; i < 4; i++) biased |= l->bias_receiver[i] > 0;
+    if (l->kind == SCENE_LIGHT_SPOT) need(list, "punctual_lights", 1, "spot light '%s'", l->name);
+    if (l->kind == SCENE_LIGHT_POINT) need(list, "punctual_lights", 1, "point light '%s'", l->name);
     if (biased) need(list, "receiver_bias", 1, "bias_receiver of light '%s'", l->name);
     if (l->bias_caster > 0) need(list, "caster_bias", 1, "bias_caster of light '%s'", l->name);
     if (l->receiver_plane) need(list, "receiver_plane", 1, "receiver_plane of light '%s'", l->name);
+    if (!shadows || !wants_shadow(l)) return;
+    need(list, "shadows", 1, "the shadow of light '%s'", l->name);
+    needs_of_softness(list, s, l);
 }
 
-static void needs_of_object(need_list *list, const scene_object *o, bool shadows)
+static void needs_of_object(need_list *list, const scene_object *o)
 {
     if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "visible_alpha", 1, "alpha of object '%s'", o->name);
     if (o->texture_idx != SCENE_NONE) need(list, "textures", 1, "the texture of object '%s'", o->name);
     if (o->specular[0] > 0 || o->specular[1] > 0 || o->specular[2] > 0)
         need(list, "specular", 1, "specular of object '%s'", o->name);
     if (o->baked) need(list, "baked_light", 1, "baked light of object '%s'", o->name);
-    if (!shadows) return;
     if (o->caster == SCENE_CASTER_CLIP || o->caster == SCENE_CASTER_DITHER)
         need(list, "caster_alpha", 1, "the shadow of object '%s', cut by alpha,", o->name);
     if (o->mask || o->mask_texture_idx != SCENE_NONE) need(list, "masks", 1, "the shadow mask of object '%s'", o->name);
 }
 
+/* A build refuses what it lacks even where nothing comes of it; only what shadows alone are made with it does not look at. */
 int settings_needs(const scene *s, bool shadows, settings_need *needs)
 {
     need_list list = {needs, 0};
     if (shadows) needs_of_shadows(&list, s);
     for (size_t i = 0; i < s->n_lights; i++) needs_of_light(&list, s, &s->lights[i], shadows);
-    for (size_t i = 0; i < s->n_objects; i++) needs_of_object(&list, &s->objects[i], shadows);
+    for (size_t i = 0; i < s->n_objects; i++) needs_of_object(&list, &s->objects[i]);
     return list.n;
 }
 

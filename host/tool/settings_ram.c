@@ -39,6 +39,7 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
     put(l, 1, 4, 4);                                       /* frame_count */
     put(l, views, s->feature.depth_blocks ? 192 : 184, 8); /* view */
     if (s->feature.incremental) put(l, views, 16, 8);      /* memory */
+    if (s->feature.incremental) put(l, 1, 8, 8);           /* layout */
     r->atlas = put_atlas(l, s, s->quality.atlas_size, s->quality.depth_bits);
     if (other) r->other_atlas = put_atlas(l, s, s->quality.other_atlas_size, s->quality.other_depth_bits);
 }
@@ -53,9 +54,10 @@ settings_ram_parts settings_ram(const settings *s)
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
     int punctual = s->feature.punctual_lights;
     put(&frame, 1, 176, 4); /* picture to cam */
+    put(&frame, 1, 8, 8);   /* min2_q32 */
     r.lights = put(&frame, s->capacity.max_lights, punctual ? 168 : 32, punctual ? 8 : 4);
     r.objects = put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4);
-    put(&frame, 1, 16, 4); /* fade_start_q16 to tiles_y */
+    put(&frame, 1, 40, 4); /* receivers_q16 to tiles_y */
     r.triangles = put(&frame, s->capacity.max_triangles, s->quality.subpixel_bits > 6 ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
     r.tile_refs = put(&frame, s->capacity.max_tile_refs, 2, 2);
