@@ -78,7 +78,7 @@ static inline void finish_light(scene_light *light, double colour, double range)
     light->bias_normal = 1;
     for (int k = 0; k < 3; k++) light->colour[k] = colour * (1 - 0.1 * k);
     light->range = range;
-    light->near = light->kind == SCENE_LIGHT_DIRECTIONAL ? 0 : 0.1;
+    light->near = light->kind == SCENE_LIGHT_DIRECTIONAL ? 0 : 0.3;
 }
 
 static inline void add_sun(fixture *f, double x, double y, double z, double colour)
@@ -140,7 +140,7 @@ static inline void yard(fixture *f)
     const double boxes[4][2][3] = {{{-3.6, 0, -4.2}, {-2.2, 2, -2.6}},
                                    {{1.2, 0, -3.4}, {2.4, 1.2, -2.4}},
                                    {{-1, 1.5, -6.5}, {1.5, 1.8, -5}},
-                                   {{2.9, 0, -0.4}, {3.1, 2.6, -0.2}}};
+                                   {{2.93, 0, -0.41}, {3.12, 2.6, -0.2}}};
     const double uv[8] = {-6, 6, 6, 6, 6, -6, -6, -6}, mask_uv[8] = {0, 1, 1, 1, 1, 0, 0, 0};
     start(f);
     scene_mesh *ground = add_floor(f, 14, 0);
