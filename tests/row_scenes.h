@@ -108,6 +108,7 @@ static inline void start(fixture *f)
     f->s.camera.near = 0.2;
     f->s.camera.far = 200;
     f->s.shadow.max_distance = 25;
+    f->s.shadow.distance_fade = f->s.shadow.cascade_fade = scene_share(0.1);
     f->s.shadow.filter = f->s.shadow.other_filter = SCENE_FILTER_2X2;
     f->s.shadow.penumbra = 1;
     f->s.shadow.disk_samples = 16;
