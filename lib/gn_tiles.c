@@ -88,13 +88,10 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
     }
 }
 
-/* A3: in the order given; what does not fit has none, and later lights are still tried. An atlas has room for as many tiles as can be 8
- * texels wide. Returns the number of tiles. */
-static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity, int32_t atlas_log2)
+/* A3: in the order given; what does not fit has none, and later lights are still tried. Returns the number of tiles. */
+static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity)
 {
-    uint32_t n_tiles = 0, n_lights = 0, room = 1U << (2 * (atlas_log2 - 3));
-    uint32_t limit = capacity < GN_ATLAS_TILES_MAX ? capacity : GN_ATLAS_TILES_MAX;
-    if (room < limit) limit = room;
+    uint32_t n_tiles = 0, n_lights = 0, limit = capacity < GN_ATLAS_TILES_MAX ? capacity : GN_ATLAS_TILES_MAX;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         if (!plan[l].n_tiles || plan[l].in_other != in_other) continue;
         if (n_tiles + plan[l].n_tiles > limit || (!in_other && n_lights == GN_CASCADED_LIGHTS_MAX)) {
@@ -160,22 +157,25 @@ static void sizes_by_importance(const gn_frame *frame, gn_tile_plan *plan, uint3
     }
 }
 
-static void plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity, int32_t atlas_size)
+static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity, int32_t atlas_size)
 {
     int32_t atlas_log2 = 31 - gn_clz32((uint32_t)atlas_size);
-    uint32_t n_tiles = serve(frame, plan, in_other, capacity, atlas_log2);
+    uint32_t n_tiles = serve(frame, plan, in_other, capacity);
+    if (n_tiles > 4U << (2 * (atlas_log2 - 4))) return gn_fail(frame, GN_ERR_SHADOW_TILE, 0); /* more than size^2 / 64 */
     if (frame->scene->shadow.tile_sizes == GN_TILES_IMPORTANCE) sizes_by_importance(frame, plan, in_other, atlas_log2);
     else equal_sizes(frame, plan, in_other, n_tiles, atlas_log2);
     frame->stats.n_shadow_tiles += n_tiles;
+    return GN_OK;
 }
 
-void gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS])
+gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS])
 {
     wish(frame, plan);
-    plan_atlas(frame, plan, 0, GN_MAX_SHADOW_TILES, GN_K(frame, atlas_size));
+    gn_status status = plan_atlas(frame, plan, 0, GN_MAX_SHADOW_TILES, GN_K(frame, atlas_size));
 #if GN_OTHER_ATLAS
-    plan_atlas(frame, plan, 1, GN_MAX_OTHER_TILES, GN_K(frame, other_atlas_size));
+    if (!status) status = plan_atlas(frame, plan, 1, GN_MAX_OTHER_TILES, GN_K(frame, other_atlas_size));
 #endif
+    return status;
 }
 
 #endif

@@ -200,18 +200,20 @@ static void add_views(gn_frame *frame, const gn_tile_plan *plan)
     }
 }
 
-static void setup_views(gn_frame *frame)
+static gn_status setup_views(gn_frame *frame)
 {
     gn_tile_plan plan[GN_MAX_LIGHTS];
     frame->has_cascades = 0;
     gn_cascade_setup(frame);
-    gn_tiles_plan(frame, plan);
+    gn_status status = gn_tiles_plan(frame, plan);
+    if (status) return status;
 #if GN_INCREMENTAL
     check_layout(frame, plan);
 #endif
     add_views(frame, plan);
     gn_cull_begin(frame);
     frame->frame_count++;
+    return GN_OK;
 }
 #endif
 
@@ -226,7 +228,7 @@ gn_status gn_views_setup(gn_frame *frame)
     gn_status status = gn_object_boxes(frame);
     if (!status) status = gn_object_lights(frame);
 #if GN_SHADOWS
-    if (!status) setup_views(frame);
+    if (!status) status = setup_views(frame);
 #endif
     return status;
 }

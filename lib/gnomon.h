@@ -72,6 +72,7 @@ extern "C" {
     X(GN_ERR_SHADOW_FILTER, "unknown shadow filter or kernel, one that is not built in, or disk samples outside 1..64")            \
     X(GN_ERR_SHADOW_MODE, "unknown mixing, tile sizes, refresh or list length, or one that is not built in")                       \
     X(GN_ERR_SHADOW_CASCADES, "more than 4 cascades, ratios above 1 or not ascending, or a blend that is not built in")            \
+    X(GN_ERR_SHADOW_TILE, "shadow tile would be smaller than 8 texels")                                                            \
     X(GN_ERR_TRIANGLES_FULL, "more visible triangles than GN_MAX_TRIANGLES")                                                       \
     X(GN_ERR_TILE_REFS_FULL, "more tile references than GN_MAX_TILE_REFS")
 

@@ -528,13 +528,11 @@ static void test_knobs(void)
     static gn_light lights[2];
     lights[0] = lights[1] = demo.light[0];
     gn_init(&one, &p);
-    one.frame.knobs.atlas_size = 16; /* eight tiles of it would be 4 texels wide: room for four */
+    one.frame.knobs.atlas_size = 16; /* eight tiles of it would be 4 texels wide */
     demo.scene.lights = lights;
     demo.scene.n_lights = 2;
     demo.scene.shadow.n_cascades = 4;
-    CHECK_EQ_INT(gn_begin(&one, &demo.scene), GN_OK);
-    CHECK_EQ_INT(gn_get_light_shadow(&one, 0, NULL, NULL), GN_SHADOW_REALTIME);
-    CHECK_EQ_INT(gn_get_light_shadow(&one, 1, NULL, NULL), GN_SHADOW_NO_ROOM);
+    fails(gn_begin(&one, &demo.scene), GN_ERR_SHADOW_TILE, 0, 0, 0, "shadow tiles of 4 texels");
     demo_scene_make(&demo, 0);
     p = picture_of(2048, 2048, GN_FORMAT_RGB565);
     gn_init(&one, &p);
