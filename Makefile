@@ -8,7 +8,7 @@ OPT ?= -O2
 SAN ?=
 SIZE ?= 320x240
 SCENES ?=
-OWN_SCENES := host/scenes/sundial.gltf host/scenes/avenue.gltf
+OWN_SCENES := $(foreach s,sundial avenue desk room fence mixed,host/scenes/$(s).gltf)
 
 WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef -Werror
 # The host build of the library: every knob at run time, room for any scene. The pixels are the target's, bit for bit.
@@ -52,8 +52,8 @@ docs: $(BUILD)/gnomon $(BUILD)/test_stages $(BUILD)/test_accuracy ## regenerate 
 tables: $(BUILD)/gen_tables ## regenerate lib/gn_tables.c
 	$(BUILD)/gen_tables > lib/gn_tables.c
 
-scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf
-	$(BUILD)/make_scenes host/scenes
+scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf and docs/scenes/*.gltf
+	$(BUILD)/make_scenes host/scenes docs/scenes
 
 clean: ## remove build/
 	rm -rf build

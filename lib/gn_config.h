@@ -29,7 +29,7 @@
 #define GN_PRESETS_SHADOW_SUBPIXEL_BITS 8, 8, 12
 #define GN_PRESETS_SHADOW_DEPTH_FRAC    0, 0, 4
 #define GN_PRESETS_WEIGHT_BITS          6, 8, 12
-#define GN_PRESETS_ATTEN_BITS           8, 8, 16
+#define GN_PRESETS_ATTEN_BITS           8, 16, 16
 #define GN_PRESETS_ATLAS_SIZE           64, 128, 256
 #define GN_PRESETS_OTHER_ATLAS_SIZE     64, 128, 256
 #define GN_PRESETS_DEPTH_BITS           16, 16, 16

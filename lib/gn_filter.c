@@ -23,20 +23,9 @@ typedef struct {
 #if GN_RECEIVER_PLANE
     int32_t sloped;
     int32_t slope_q28[2];
-    int64_t least_q32; /* at the texel that (u, v) lies in, not limited */
+    int64_t least_q32; /* on the plane, at the texel that (u, v) lies in, not limited */
 #endif
 } lookup;
-
-/* Texels of a tap, as the view stores them, are limited to the tile (P8). */
-static uint32_t lit(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
-{
-    int32_t last = view->tile_texels - 1;
-    if (u < 0 || u > last) {
-        if (BORDER_LIT(view)) return 1;
-        u = u < 0 ? 0 : last;
-    }
-    return gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)u) >= least;
-}
 
 /* ---- The receiver's depth ----------------------------------------------------------------------------------------- */
 
@@ -57,28 +46,32 @@ static uint32_t rounded_depth(uint32_t depth_q32, int32_t dropped, uint32_t far)
 #if GN_RECEIVER_PLANE
 /* With x the depth at a tap in Q44, h half a step of rounding, s a texel, hence a whole number of steps: s >= round(x) if and only
  * if s > x - h, and, s being also a multiple of 2^12, if and only if s >= floor((x - h) / 2^12) + 1. From a texel to the next, x
- * changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. |x| < 2^44 + 2^47 for slopes of any value. */
+ * changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. Slopes are below 2^29.1, a receiver is at most
+ * 2^31.1 away from the texel nearest to it, both axes together: |x| < 2^62. */
+static int64_t plane_rise_q44(int32_t slope_q28, int32_t tap_q16, int32_t c_q16)
+{
+    /* to the centre of the texel that tap_q16 lies in */
+    return slope_q28 * ((int64_t)(tap_q16 >> 16) * 65536 + 0x8000 - c_q16);
+}
+
 static void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
 {
-    l->slope_q28[0] = receiver->slope_q28[0];
-    l->slope_q28[1] = receiver->slope_q28[1];
+    int32_t most = 2 << 28;
+    l->slope_q28[0] = gn_max32(-most, gn_min32(receiver->slope_q28[0], most));
+    l->slope_q28[1] = gn_max32(-most, gn_min32(receiver->slope_q28[1], most));
     l->sloped = (l->slope_q28[0] | l->slope_q28[1]) != 0;
+    l->least_q32 = 0;
     if (!l->sloped) return;
-    int64_t x_q44 = (int64_t)receiver->depth_q32 * 4096;
-    x_q44 += (int64_t)receiver->slope_q28[0] * (0x8000 - (l->u_q16 & 0xFFFF));
-    x_q44 += (int64_t)receiver->slope_q28[1] * (0x8000 - (l->v_q16 & 0xFFFF));
+    int64_t x_q44 = (int64_t)receiver->depth_q32 * 4096 + plane_rise_q44(l->slope_q28[0], l->u_q16, receiver->u_q16) +
+                    plane_rise_q44(l->slope_q28[1], l->v_q16, receiver->v_q16);
     l->least_q32 = ((x_q44 - ((int64_t)1 << (dropped + 11))) >> 12) + 1;
 }
 
-/* Change of least_q32 from the texel that (u, v) lies in, by at most 18 texels: below 2^40. */
-static int64_t rise_u(const lookup *l, int32_t u)
+/* least_q32 at a texel of the tile, at most 64 + 1023 texels away in each axis: 2^50 and twice 2^44. */
+static int64_t least_on_plane(const lookup *l, int32_t u, int32_t v)
 {
-    return (int64_t)l->slope_q28[0] * (16 * (u - (l->u_q16 >> 16)));
-}
-
-static int64_t rise_v(const lookup *l, int32_t v)
-{
-    return (int64_t)l->slope_q28[1] * (16 * (v - (l->v_q16 >> 16)));
+    int32_t du = u - (l->u_q16 >> 16), dv = v - (l->v_q16 >> 16);
+    return l->least_q32 + (int64_t)l->slope_q28[0] * (16 * du) + (int64_t)l->slope_q28[1] * (16 * dv);
 }
 
 static uint32_t limited(const gn_light_view *view, int64_t least_q32)
@@ -86,36 +79,66 @@ static uint32_t limited(const gn_light_view *view, int64_t least_q32)
     return (uint32_t)gn_clamp64(least_q32, 0, gn_texel_far(GN_VIEW_BITS(view)));
 }
 
-static uint32_t lit_row_on_plane(const lookup *l, gn_texels row, int32_t u0, int32_t v, int32_t n)
-{
-    int64_t least_q32 = l->least_q32 + rise_u(l, u0) + rise_v(l, v);
-    uint32_t mask = 0;
-    for (int32_t i = 0; i < n; i++) {
-        mask |= lit(l->view, row, u0 + i, limited(l->view, least_q32)) << i;
-        least_q32 += (int64_t)l->slope_q28[0] * 16;
-    }
-    return mask;
-}
+#define SLOPED(l) ((l)->sloped)
+#else
+#define SLOPED(l) 0
 #endif
 
-/* Which of the n <= 8 texels of row v from u0 on let the receiver be lit: bit i tells of texel u0 + i. */
-static uint32_t lit_row(const lookup *l, int32_t u0, int32_t v, int32_t n)
+/* ---- Compares ----------------------------------------------------------------------------------------------------- */
+
+/* Whether n x n texels from (u, v) on lie in the tile and compare with one depth: nothing to look after at each tap. */
+static inline int plain(const lookup *l, int32_t u, int32_t v, int32_t n)
+{
+    uint32_t room = (uint32_t)(l->view->tile_texels - n);
+    return !SLOPED(l) && (uint32_t)u <= room && (uint32_t)v <= room;
+}
+
+static inline gn_texels texels_at(const gn_light_view *view, int32_t u, int32_t v)
+{
+    return gn_texels_at(view->depth, GN_VIEW_BITS(view), ((size_t)(uint32_t)v << view->tile_log2) + (uint32_t)u);
+}
+
+/* Taps are limited to the tile (P8). */
+static uint32_t lit(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
+{
+    int32_t last = view->tile_texels - 1, in_u = u < 0 ? 0 : u > last ? last : u;
+    if (BORDER_LIT(view) && in_u != u) return 1;
+    return gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)in_u) >= least;
+}
+
+/* Sum of the weights of the texels of row v, n from u on, that let the receiver be lit, wherever they lie. */
+static uint32_t sum_any(const lookup *l, int32_t u, int32_t v, int32_t n, const uint32_t *w)
 {
     const gn_light_view *view = l->view;
-    int32_t last = view->tile_texels - 1, inside = v < 0 ? 0 : v > last ? last : v;
-    if (v != inside && BORDER_LIT(view)) return (1U << n) - 1;
-    gn_texels row = gn_texels_at(view->depth, GN_VIEW_BITS(view), (size_t)(uint32_t)inside << view->tile_log2);
+    int32_t last = view->tile_texels - 1, in_v = v < 0 ? 0 : v > last ? last : v, all = BORDER_LIT(view) && in_v != v;
+    gn_texels row = texels_at(view, 0, in_v);
+    uint32_t sum = 0;
 #if GN_RECEIVER_PLANE
-    if (l->sloped) return lit_row_on_plane(l, row, u0, v, n);
-#endif
-    uint32_t mask = 0;
-    if (u0 >= 0 && u0 + n - 1 <= last) {
-        row = gn_texels_at(row, GN_VIEW_BITS(view), (uint32_t)u0);
-        for (int32_t i = 0; i < n; i++) mask |= (uint32_t)(gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)i) >= l->least) << i;
-    } else {
-        for (int32_t i = 0; i < n; i++) mask |= lit(view, row, u0 + i, l->least) << i;
+    if (l->sloped) {
+        int64_t least_q32 = least_on_plane(l, gn_max32(0, gn_min32(u, last)), in_v); /* of the texel that is read */
+        for (int32_t i = 0; i < n; i++, u++) {
+            if (all || lit(view, row, u, limited(view, least_q32))) sum += w[i];
+            if (u >= 0 && u < last) least_q32 += (int64_t)l->slope_q28[0] * 16;
+        }
+        return sum;
     }
-    return mask;
+#endif
+    for (int32_t i = 0; i < n; i++)
+        if (all || lit(view, row, u + i, l->least)) sum += w[i];
+    return sum;
+}
+
+static uint32_t tap(const lookup *l, int32_t u, int32_t v)
+{
+    static const uint32_t one = 1;
+    return sum_any(l, u, v, 1, &one);
+}
+
+/* A tap of the hard filter or the disk: one of few. */
+static inline uint32_t lone_tap(const lookup *l, int32_t u, int32_t v)
+{
+    if (!plain(l, u, v, 1)) return tap(l, u, v);
+    return gn_texel_load(texels_at(l->view, u, v), GN_VIEW_BITS(l->view), 0) >= l->least;
 }
 
 #if GN_FILTER_MAX >= 2 || GN_DISK_FILTER
@@ -126,11 +149,12 @@ static void least_over(const lookup *l, int32_t u, int32_t v, int32_t n, uint32_
     *smallest = *largest = l->least;
 #if GN_RECEIVER_PLANE
     if (!l->sloped) return;
-    int64_t left = rise_u(l, u), right = rise_u(l, u + n - 1), top = rise_v(l, v), bottom = rise_v(l, v + n - 1);
-    int64_t low = l->least_q32 + (left < right ? left : right) + (top < bottom ? top : bottom);
-    int64_t high = l->least_q32 + (left < right ? right : left) + (top < bottom ? bottom : top);
-    *smallest = limited(l->view, low);
-    *largest = limited(l->view, high);
+    int32_t last = l->view->tile_texels - 1;
+    int32_t u0 = gn_max32(0, gn_min32(u, last)), u1 = gn_max32(0, gn_min32(u + n - 1, last));
+    int32_t v0 = gn_max32(0, gn_min32(v, last)), v1 = gn_max32(0, gn_min32(v + n - 1, last));
+    int rises_u = l->slope_q28[0] > 0, rises_v = l->slope_q28[1] > 0;
+    *smallest = limited(l->view, least_on_plane(l, rises_u ? u0 : u1, rises_v ? v0 : v1));
+    *largest = limited(l->view, least_on_plane(l, rises_u ? u1 : u0, rises_v ? v1 : v0));
 #else
     (void)u, (void)v, (void)n;
 #endif
@@ -166,40 +190,28 @@ static uint32_t fraction(int32_t c_q16, int32_t weight_bits)
     return (((uint32_t)c_q16 & 0xFFFFU) + (0x8000U >> weight_bits)) >> (16 - weight_bits);
 }
 
-/* Whether n x n texels from (u, v) on lie in the tile and all compare with the same depth. */
-static int all_inside(const lookup *l, int32_t u, int32_t v, int32_t n)
-{
-#if GN_RECEIVER_PLANE
-    if (l->sloped) return 0;
-#endif
-    uint32_t last = (uint32_t)(l->view->tile_texels - n);
-    return (uint32_t)u <= last && (uint32_t)v <= last;
-}
-
-static uint32_t lit_pair(const lookup *l, size_t at)
-{
-    int32_t bits = GN_VIEW_BITS(l->view);
-    return (uint32_t)(gn_texel_load(l->view->depth, bits, at) >= l->least) |
-           (uint32_t)(gn_texel_load(l->view->depth, bits, at + 1) >= l->least) << 1;
-}
-
 static uint32_t bilinear(const lookup *l, int32_t bits)
 {
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768;
     int32_t u = (cu >> 16) - 1, v = (cv >> 16) - 1;
-    uint32_t top, bottom;
-    if (all_inside(l, u, v, 2)) {
-        size_t at = ((size_t)(uint32_t)v << l->view->tile_log2) + (uint32_t)u;
-        top = lit_pair(l, at);
-        bottom = lit_pair(l, at + l->view->tile_texels);
+    uint32_t l00, l01, l10, l11;
+    if (plain(l, u, v, 2)) {
+        int32_t depth_bits = GN_VIEW_BITS(l->view);
+        gn_texels top = texels_at(l->view, u, v), bottom = gn_texels_at(top, depth_bits, l->view->tile_texels);
+        l00 = gn_texel_load(top, depth_bits, 0) >= l->least;
+        l01 = gn_texel_load(top, depth_bits, 1) >= l->least;
+        l10 = gn_texel_load(bottom, depth_bits, 0) >= l->least;
+        l11 = gn_texel_load(bottom, depth_bits, 1) >= l->least;
     } else {
-        top = lit_row(l, u, v, 2);
-        bottom = lit_row(l, u, v + 1, 2);
+        l00 = tap(l, u, v);
+        l01 = tap(l, u + 1, v);
+        l10 = tap(l, u, v + 1);
+        l11 = tap(l, u + 1, v + 1);
     }
-    if ((top & bottom) == 3) return 65536;
-    if ((top | bottom) == 0) return 0;
+    if (l00 + l01 + l10 + l11 == 4) return 65536;
+    if (l00 + l01 + l10 + l11 == 0) return 0;
     uint32_t wu = fraction(cu, bits), wv = fraction(cv, bits), one = 1U << bits;
-    uint32_t upper = (one - wu) * (top & 1U) + wu * (top >> 1), lower = (one - wu) * (bottom & 1U) + wu * (bottom >> 1);
+    uint32_t upper = (one - wu) * l00 + wu * l01, lower = (one - wu) * l10 + wu * l11;
     uint32_t sum = (one - wv) * upper + wv * lower; /* <= F^2 <= 2^24 */
     return bits <= 8 ? sum << (16 - 2 * bits) : (sum + ((1U << (2 * bits - 16)) >> 1)) >> (2 * bits - 16);
 }
@@ -234,19 +246,26 @@ void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 }
 #endif
 
-/* Sum of the weights of all lit texels among n x n from (u, v) on. narrow: every product stays below 2^32. */
+/* Sum of the weights of the lit texels among n of a row. */
+static inline uint32_t sum_plain(gn_texels row, int32_t depth_bits, uint32_t least, int32_t n, const uint32_t *w)
+{
+    uint32_t sum = 0;
+    for (int32_t i = 0; i < n; i++)
+        if (gn_texel_load(row, depth_bits, (uint32_t)i) >= least) sum += w[i];
+    return sum;
+}
+
+/* The same for n x n texels from (u, v) on. narrow: products stay below 2^32. */
 static uint64_t weighted(const lookup *l, int32_t u, int32_t v, int32_t n, const uint32_t *wu, const uint32_t *wv, int narrow)
 {
+    int is_plain = plain(l, u, v, n);
+    gn_texels row = is_plain ? texels_at(l->view, u, v) : l->view->depth;
+    size_t pitch = is_plain ? l->view->tile_texels : 0;
     uint64_t sum = 0;
-    uint32_t mask_before = 0, across = 0;
     for (int32_t j = 0; j < n; j++) {
-        uint32_t mask = lit_row(l, u, v + j, n);
-        if (mask != mask_before) { /* neighbouring rows are often alike */
-            mask_before = mask;
-            across = 0;
-            for (const uint32_t *w = wu; mask; w++, mask >>= 1)
-                if (mask & 1U) across += *w;
-        }
+        int32_t depth_bits = GN_VIEW_BITS(l->view);
+        uint32_t across = is_plain ? sum_plain(row, depth_bits, l->least, n, wu) : sum_any(l, u, v + j, n, wu);
+        row = gn_texels_at(row, depth_bits, pitch);
         if (narrow) sum += across * wv[j];
         else sum += (uint64_t)across * wv[j];
     }
@@ -314,7 +333,7 @@ static uint32_t disk(const gn_frame *frame, const lookup *l, const gn_receiver *
     const int16_t *point_q15 = gn_disk_table_q15;
     for (uint32_t i = 0; i < n_samples; i++, point_q15 += 2) {
         int32_t x = point_q15[0], y = point_q15[1];
-        n_lit += lit_row(l, u + ((fu_q27 + c_q12 * x - s_q12 * y) >> 27), v + ((fv_q27 + s_q12 * x + c_q12 * y) >> 27), 1);
+        n_lit += lone_tap(l, u + ((fu_q27 + c_q12 * x - s_q12 * y) >> 27), v + ((fv_q27 + s_q12 * x + c_q12 * y) >> 27));
     }
     return ((n_lit << 16) + n_samples / 2) / n_samples;
 }
@@ -325,7 +344,8 @@ static uint32_t disk(const gn_frame *frame, const lookup *l, const gn_receiver *
 /* A coordinate may lie far outside after a steep offset: the border's answer holds there, but its fraction still weighs. */
 static int32_t near_tile(int32_t c_q16)
 {
-    return gn_max32(-64, gn_min32(c_q16 >> 16, 1088)) * 65536 + (c_q16 & 0xFFFF);
+    if ((uint32_t)c_q16 + (64U << 16) < 1152U << 16) return c_q16; /* from -64 to 1088: most are */
+    return (c_q16 < 0 ? -64 : 1088) * 65536 + (c_q16 & 0xFFFF);
 }
 
 static uint32_t filtered(const gn_frame *frame, const lookup *l, const gn_receiver *receiver)
@@ -347,7 +367,7 @@ static uint32_t filtered(const gn_frame *frame, const lookup *l, const gn_receiv
         return disk(frame, l, receiver);
 #endif
     default:
-        return lit_row(l, l->u_q16 >> 16, l->v_q16 >> 16, 1) << 16;
+        return lone_tap(l, l->u_q16 >> 16, l->v_q16 >> 16) << 16;
     }
 }
 

@@ -39,7 +39,6 @@ static uint32_t raw_value(const shading *s, const gn_sample *sample, int32_t x, 
     const gn_picture *picture = &s->frame->picture;
     switch (picture->view) {
     case GN_VIEW_SHADOW:
-        if (s->surface.object->flags & GN_OBJECT_UNLIT) return 65536;
         return gn_light_shadow(s->frame, &s->surface, sample, picture->view_light);
     case GN_VIEW_DEPTH:
         return (uint32_t)sample->value[GN_VALUE_Z];

@@ -7,6 +7,13 @@
 
 #define GN_ONE_Q30 (1 << 30)
 
+/* Nothing arrives at an unlit surface; only the shadow view asks which lights it faces. */
+static int without_light(const gn_frame *frame, const gn_surface *s)
+{
+    if (!(s->object->flags & GN_OBJECT_UNLIT)) return 0;
+    return !GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32 || frame->picture.view != GN_VIEW_SHADOW;
+}
+
 /* ---- Once per triangle: attributes ----------------------------------------------------------------------------------- */
 
 /* The face normal in the world, towards the viewer: the plane's n points away from him in view space. */
@@ -85,7 +92,7 @@ static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
 {
     const gn_object *object = s->object;
     s->masked = frame->scene->shadow.mixing != GN_MIXING_NONE && (object->flags & GN_OBJECT_RECEIVES) &&
-                (object->mask_u8 || object->mask_image);
+                !(object->flags & GN_OBJECT_UNLIT) && (object->mask_u8 || object->mask_image);
     if (!s->masked) return;
     for (int i = 0; i < (object->mask_image ? 2 : 4); i++) {
         int32_t m[3];
@@ -253,7 +260,7 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
 #if GN_SHADOWS
 static void shadows(const gn_frame *frame, gn_surface *s)
 {
-    if (!(s->object->flags & GN_OBJECT_RECEIVES)) return;
+    if (!(s->object->flags & GN_OBJECT_RECEIVES) || s->object->flags & GN_OBJECT_UNLIT) return;
     for (uint32_t i = 0; i < s->n_lights; i++) {
         const gn_light_state *light = s->light[i].state;
         if (light->view_idx < 0) continue;
@@ -272,7 +279,7 @@ static void shadows(const gn_frame *frame, gn_surface *s)
 static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
 {
     const gn_scene *scene = frame->scene;
-    int unlit = (s->object->flags & GN_OBJECT_UNLIT) != 0;
+    int unlit = without_light(frame, s);
     const uint32_t *albedo = s->object->albedo_uq16;
     for (int c = 0; c < 3; c++) /* 2^17 * 2^24 */
         s->base_q20[c] = unlit ? albedo[c] << 4 : (uint32_t)(((uint64_t)albedo[c] * scene->ambient_uq16[c] + (1U << 11)) >> 12);
@@ -423,7 +430,8 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
     if (cascaded) view += sample->cascade;
     int32_t moved[3];
     const int32_t *offset = s->light[slot].flat_offset_q16;
-    if (s->smooth) {
+    int own_offset = GN_DISK_FILTER && view->filter == GN_FILTER_DISK; /* its index, and so its reach, is the cascade's own */
+    if (s->smooth || own_offset) {
         receiver_offset(frame, view, n_q30, moved);
         offset = moved;
     }
@@ -431,6 +439,7 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
     if (!GN_BLENDED_CASCADES || !cascaded || frame->scene->shadow.blend == GN_BLEND_HARD || sample->cascade == frame->last_cascade)
         return;
     view += frame->cascade[sample->cascade].next - sample->cascade;
+    if (own_offset) receiver_offset(frame, view, n_q30, moved);
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
 }
 #endif
@@ -553,7 +562,7 @@ void gn_surface_sample(const gn_frame *frame, const gn_surface *s, int32_t x, in
     for (int i = 0; i < 3; i++)
         sample->value[GN_VALUE_RGB + i] = s->coloured ? interpolate(&h, s->rgb_q16[0][i], s->rgb_q16[1][i], s->rgb_q16[2][i]) : 0;
     if (s->first_value < GN_VALUE_Z) extra_values(s, &h, sample->value);
-    if (s->object->flags & GN_OBJECT_UNLIT) return;
+    if (without_light(frame, s)) return;
     int32_t n[3];
     normal_at(s, &h, n);
     for (int i = 0; s->smooth && i < 3; i++) sample->normal_q15[i] = n[i] >> 15;

@@ -157,15 +157,16 @@ static void store(size_t at, uint32_t depth)
     else view.depth.d32[at] = depth;
 }
 
-/* Whether the texel (i, j) lets the receiver be lit: its depth there, rounded to nearest in steps of 2^-(bits + frac), limited to
+/* Whether the texel (i, j) lets the receiver be lit: its depth at the texel that is read, rounded to nearest in steps of 2^-(bits + frac), limited to
  * the far value. */
 static int exact_lit(const gn_receiver *r, int64_t i, int64_t j)
 {
     if (view.border_lit && (outside(i) || outside(j))) return 1;
     int frac = view.depth_bits == 32 ? 0 : (int)frame.knobs.shadow_depth_frac, bits = view.depth_bits;
-    i128 x_q44 = (i128)r->depth_q32 << 12;
-    x_q44 += (i128)r->slope_q28[0] * (65536 * (i128)i + 32768 - r->u_q16);
-    x_q44 += (i128)r->slope_q28[1] * (65536 * (i128)j + 32768 - r->v_q16);
+    i128 x_q44 = (i128)r->depth_q32 << 12, two = 2 << 28;
+    i128 u = i128_clamp(i, 0, view.tile_texels - 1), v = i128_clamp(j, 0, view.tile_texels - 1);
+    x_q44 += i128_clamp(r->slope_q28[0], -two, two) * (65536 * u + 32768 - r->u_q16);
+    x_q44 += i128_clamp(r->slope_q28[1], -two, two) * (65536 * v + 32768 - r->v_q16);
     i128 far = ((i128)1 << bits) - 1, depth = i128_round_shr(x_q44, 44 - bits - frac);
     if (depth > far << frac) depth = far << frac;
     return depth <= (i128)(stored(i, j) >> (32 - bits)) << frac;
@@ -329,12 +330,6 @@ static int32_t random_position(void)
     }
 }
 
-static int32_t random_slope(void)
-{
-    int32_t slope = rng_wide_i32(&random_state, 29);
-    return slope;
-}
-
 /* A depth at, just before and just behind a stored one near the receiver; sometimes anything. */
 static gn_receiver random_receiver(void)
 {
@@ -346,9 +341,10 @@ static gn_receiver random_receiver(void)
     if (kind == 0) r.depth_q32 = rng_u32(&random_state);
     else r.depth_q32 = (uint32_t)i128_clamp(at + rng_wide_i32(&random_state, 4 * kind), 0, UINT32_MAX);
     if (rng_below(&random_state, 2)) {
-        r.slope_q28[0] = rng_below(&random_state, 4) ? random_slope() : 0;
-        r.slope_q28[1] = rng_below(&random_state, 4) ? random_slope() : 0;
+        r.slope_q28[0] = rng_below(&random_state, 4) ? rng_wide_i32(&random_state, 29) : 0;
+        r.slope_q28[1] = rng_below(&random_state, 4) ? rng_wide_i32(&random_state, 29) : 0;
         if (!rng_below(&random_state, 64)) r.slope_q28[0] = rng_below(&random_state, 2) ? INT32_MIN : INT32_MAX;
+        if (!rng_below(&random_state, 64)) r.slope_q28[1] = rng_below(&random_state, 2) ? INT32_MIN : INT32_MAX;
     }
     return r;
 }

@@ -11,11 +11,14 @@
 static const struct {
     const char *scene;
     int frame;
+    char *sets[4]; /* as --set */
 } frames[] = {
-    {"sundial", 24},
-    {"sundial", 72},
-    {"sundial", 132},
-    {"avenue", 0},
+    {"sundial", 24, {NULL}},  {"sundial", 72, {NULL}},
+    {"sundial", 132, {NULL}}, {"avenue", 0, {NULL}},
+    {"desk", 0, {NULL}},      {"desk", 12, {"other_filter=disk", "disk_samples=9", "penumbra=2"}},
+    {"room", 0, {NULL}},      {"room", 0, {"other_depth_bits=32", "other_filter=7x7", "kernel=linear"}},
+    {"fence", 0, {NULL}},     {"fence", 0, {"depth_bits=8", "cascade_blend=dither", "softness=hard"}},
+    {"mixed", 0, {NULL}},     {"mixed", 24, {"mixing=always", "tiles=importance", "main_light=1", "receiver_plane=1"}},
 };
 
 static uint32_t crc32_of(const void *data, size_t n)
@@ -30,7 +33,7 @@ static uint32_t crc32_of(const void *data, size_t n)
 }
 
 /* The line of golden.txt for one frame and preset. */
-static int line_of(char *line, size_t bytes, const char *scene_name, int frame, int preset)
+static int line_of(char *line, size_t bytes, const char *scene_name, int frame, char *const sets[4], int preset)
 {
     char path[256], error[512] = "";
     scene s;
@@ -40,9 +43,11 @@ static int line_of(char *line, size_t bytes, const char *scene_name, int frame, 
     snprintf(path, sizeof path, "host/scenes/%s.gltf", scene_name);
     settings_init(&set);
     settings_preset(&set, preset);
+    int n_sets = 0;
+    while (n_sets < 4 && sets[n_sets]) n_sets++;
     int failed = scene_load(&s, path, &options, error, sizeof error);
     if (!failed) {
-        failed = settings_apply_all(&set, &s, NULL, 0, error, sizeof error) ||
+        failed = settings_apply_all(&set, &s, sets, n_sets, error, sizeof error) ||
                  engine_fixed(&p, &s, &set, 320, 240, ENGINE_ALL, error, sizeof error);
         scene_free(&s);
     }
@@ -50,8 +55,10 @@ static int line_of(char *line, size_t bytes, const char *scene_name, int frame, 
         printf("%s: %s\n", path, error);
         return -1;
     }
-    snprintf(line, bytes, "%s frame %d %s: RGB565 %08x RGB888 %08x\n", scene_name, frame, settings_preset_name[preset],
+    snprintf(line, bytes, "%s frame %d %s: RGB565 %08x RGB888 %08x", scene_name, frame, settings_preset_name[preset],
              crc32_of(p.rgb565, 2 * 320 * 240), crc32_of(p.rgb8, 3 * 320 * 240));
+    for (int i = 0; i < n_sets; i++) snprintf(line + strlen(line), bytes - strlen(line), " %s", sets[i]);
+    snprintf(line + strlen(line), bytes - strlen(line), "\n");
     engine_free(&p);
     return 0;
 }
@@ -63,8 +70,8 @@ int main(int argc, char **argv)
     if (!writing && !CHECK(golden != NULL)) return check_report();
     for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
         for (int preset = 0; preset < SETTINGS_PRESETS; preset++) {
-            char line[160] = "", expected[160] = "";
-            CHECK_EQ_INT(line_of(line, sizeof line, frames[i].scene, frames[i].frame, preset), 0);
+            char line[240] = "", expected[240] = "";
+            CHECK_EQ_INT(line_of(line, sizeof line, frames[i].scene, frames[i].frame, frames[i].sets, preset), 0);
             if (writing) {
                 fputs(line, stdout);
                 continue;

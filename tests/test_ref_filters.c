@@ -1,5 +1,5 @@
-/* The reference engine's filters and biases against closed forms (DESIGN 1.6, 1.7; rows F3 to F6, B1 to B5, D2 without its stability).
- */
+/* The reference engine's filters and biases against closed forms (DESIGN 1.6, 1.7; rows F3 to F6, B1 to B5, D2 without its
+ * stability). */
 #include "ref_fixture.h"
 
 static const double straight_up[3] = {0, 1, 0};
@@ -110,24 +110,41 @@ static void test_disk_samples(void)
 /* Beside a straight edge: the part of the disk that lies beyond it. */
 static void test_disk_step(void)
 {
-    double depth[256];
-    for (int i = 0; i < 256; i++) depth[i] = i % 16 < 8 ? 1 : 16;
-    const double radii[3] = {0.7, 2.5, 5};
-    for (int c = 0; c < 3; c++)
+    double depth[2][256];
+    for (int i = 0; i < 256; i++) {
+        depth[0][i] = i % 16 < 8 ? 1 : 16;
+        depth[1][i] = i / 16 < 8 ? 1 : 16;
+    }
+    const double radii[6] = {0.7, 2.5, 5, 0.7, 2.5, 5};
+    for (int c = 0; c < 6; c++)
         for (int step = -10; step <= 10; step++) {
-            const ref_light_view view = {.tile_texels = 16, .depth_range = 16, .depth = depth, .disk_radius = radii[c]};
+            const ref_light_view view = {.tile_texels = 16, .depth_range = 16, .depth = depth[c / 3], .disk_radius = radii[c]};
             const double h = step / 9.0, inside = fabs(h) >= 1 ? 0 : (acos(h) - h * sqrt(1 - h * h)) / PI;
             const double open = h <= -1 ? 1 : inside; /* the edge is h radii away, on the open side's near side for h < 0 */
             double mean = 0, worst = 0;
             for (int k = 0; k < 400; k++) {
                 const ref_lookup how = {.filter = SCENE_FILTER_DISK, .disk_samples = 64, .x = k % 20, .y = k / 20};
-                const double got = ref_filtered(&view, &how, 8 - h * radii[c], 8.3, 2);
+                const double across = 8 - h * radii[c];
+                const double got = ref_filtered(&view, &how, c < 3 ? across : 8.3, c < 3 ? 8.3 : across, 2);
                 mean += got / 400;
                 worst = fmax(worst, fabs(got - open));
             }
             CHECK_NEAR(mean, open, 0.004);
             CHECK(worst < 0.08);
         }
+}
+
+/* Around the corner of a closed quarter. */
+static void test_disk_corner(void)
+{
+    double depth[256], mean = 0;
+    for (int i = 0; i < 256; i++) depth[i] = i % 16 < 8 && i / 16 < 8 ? 1 : 16;
+    const ref_light_view view = {.tile_texels = 16, .depth_range = 16, .depth = depth, .disk_radius = 4};
+    for (int k = 0; k < 400; k++) {
+        const ref_lookup how = {.filter = SCENE_FILTER_DISK, .disk_samples = 64, .x = k % 20, .y = k / 20};
+        mean += ref_filtered(&view, &how, 8, 8, 2) / 400;
+    }
+    CHECK_NEAR(mean, 0.75, 0.004);
 }
 
 /* The penumbra is as wide whatever the map: in world units for directional lights, in shares of the tile for the others. */
@@ -156,6 +173,12 @@ static void test_disk_radius(void)
             CHECK_NEAR(view.disk_radius, fmin(0.02 * sigmas[c] / view.texel, view.filter_index), 1e-12);
             const double reach = 2 * (view.filter_index + 1) * (1 + sqrt(2)) + 1;
             CHECK(view.texel * fmax(tile - reach, tile / 4.0) >= 2 * view.sphere_radius * (1 - 1e-6));
+            f.s.shadow.filter =
+                SCENE_FILTER_DISK; /* hardly more than a texel of the narrowest reach, less than one of the disk's own */
+            f.s.shadow.penumbra = 1.001 * thin.texel / 0.02;
+            CHECK_EQ_INT(ref_fit_light(&view, &f.s, light, 0, 320, 240, tile), 0);
+            CHECK_EQ_INT(view.filter_index, 2);
+            if (tile <= 64) CHECK(view.disk_radius < 1);
             end(&f);
         }
 }
@@ -188,6 +211,36 @@ static void test_light_filter(void)
                 CHECK_EQ_INT(view.filter_index, index[expected]);
                 end(&f);
             }
+}
+
+/* The views leave room for what moves the receiver sideways, and only for that. */
+static void test_reach_of_bias(void)
+{
+    const double b[4] = {0.5, 0.25, 0.375, 0.125}, nu = sqrt(2) * 0.75 + 0.375 + 0.125;
+    for (int filter = 0; filter < 5; filter++) {
+        const int k_f[5] = {0, 0, 1, 2, 3};
+        fixture f;
+        ref_light_view view = {0};
+        begin(&f);
+        f.s.shadow.filter = f.s.shadow.other_filter = (scene_filter)filter;
+        scene_light *light = add_point(&f, 0, 2, 0);
+        light->bias_normal = 0.75;
+        memcpy(light->bias_receiver, b, sizeof b);
+        bool clamped;
+        CHECK_EQ_INT(ref_fit_punctual(&view, &f.s, light, 3, 128), 0);
+        CHECK_NEAR(view.t, ref_face_half_width(k_f[filter], nu, 128, &clamped), 0);
+        CHECK(!view.clamped && view.t > 128.0 / (128 - 2 * k_f[filter] - 2));
+        light->kind = SCENE_LIGHT_SPOT; /* the cone alone */
+        light->outer = 1.0 / 6;
+        CHECK_EQ_INT(ref_fit_punctual(&view, &f.s, light, 0, 128), 0);
+        CHECK_NEAR(view.t, sqrt(1.0 / 3), 1e-15);
+        CHECK_NEAR(view.texel, 2 * sqrt(1.0 / 3) / 128, 1e-15);
+        light->kind = SCENE_LIGHT_DIRECTIONAL;
+        CHECK_EQ_INT(ref_fit_light(&view, &f.s, light, 0, 320, 240, 128), 0);
+        const double needed = 2 * view.sphere_radius * (1 - 1e-6) / (128 - 2 * (k_f[filter] + 1) * (1 + nu) - 1);
+        CHECK(view.texel >= needed && view.texel < needed * (1 + 1.0 / 100));
+        end(&f);
+    }
 }
 
 /* ---- caster bias ---- */
@@ -264,8 +317,18 @@ static int count_acne(const fixture *f)
     return n;
 }
 
-/* B5: against a plane itself the receiver's plane leaves nothing but rounding, whatever the filter, the angle and the kind of light.
- * Without it the plane is full of acne. */
+/* How many pixels near the camera are not quite dark. */
+static int count_light(const fixture *f)
+{
+    ref_picture p = render(f, 48, 36, 512);
+    int n = 0;
+    for (int i = 0; i < 48 * 36; i++) n += p.ndotl[0][i] > 0 && p.depth[i] < 8 && p.shadow[0][i] > 1e-9;
+    ref_free(&p);
+    return n;
+}
+
+/* B5: against a plane itself the receiver's plane leaves nothing but rounding, whatever the filter, the angle and the kind of
+ * light: a breath of bias decides between light and dark everywhere. Without it the plane is full of acne. */
 static void test_receiver_plane(void)
 {
     const double tilts[4] = {5, 40, 70, 82};
@@ -273,15 +336,39 @@ static void test_receiver_plane(void)
         for (int filter = 0; filter < 6; filter++)
             for (int c = 0; c < 4; c++) {
                 fixture f;
-                begin_acne(&f, kind, tilts[c] * PI / 180, 0.3 + c);
+                begin_acne(&f, kind, tilts[c] * PI / 180, 0.3 + 2 * c);
                 f.s.shadow.filter = f.s.shadow.other_filter = (scene_filter)filter;
                 f.s.shadow.penumbra = 4;
+                f.s.shadow.cascade_fade = 0.001;
                 f.lights[0].bias_constant = 1e-6;
                 CHECK(count_acne(&f) > 100);
                 f.lights[0].receiver_plane = true;
                 CHECK_EQ_INT(count_acne(&f), 0);
+                f.lights[0].bias_constant = -1e-6;
+                if (c < 3) CHECK_EQ_INT(count_light(&f), 0); /* lower lights see past the horizon, where nothing is stored */
                 end(&f);
             }
+}
+
+/* A receiver that its offset moves past the light's near plane is lit, even by a map that is closed everywhere. */
+static void test_moved_past_light(void)
+{
+    for (int c = 0; c < 2; c++) {
+        const double from[3] = {0, 4, 0}, at[3] = {0, 0, 0}, up[3] = {0, 0, -1};
+        fixture f;
+        begin(&f);
+        add_floor(&f, 0.4, 0);
+        look(&f, from, at, up);
+        f.s.camera.focal = 12;
+        scene_light *light = add_point(&f, 0, 0.5, 0);
+        light->bias_constant = -2;
+        light->bias_normal = c ? 6 : 0; /* the face is clamped: a texel is a quarter of the distance */
+        ref_picture p = render(&f, 9, 9, 64);
+        CHECK_EQ_INT(p.triangle[40] >> 32, 0);
+        for (int k = 0; k < 81; k++) CHECK_NEAR(p.shadow[0][k], c, 1e-12);
+        ref_free(&p);
+        end(&f);
+    }
 }
 
 /* The gradient is limited to 16 depth ranges per tile: a plane that is steeper has acne again. */
@@ -327,8 +414,8 @@ static void check_same_shadow(const fixture *a, const fixture *b, int n_least)
     ref_free(&q);
 }
 
-/* Terms of B3 that are another bias by another name. In directional light a move along L is a constant bias of (k_f + 1) texels, and the
- * one with tan is that times the tangent, up to 50. */
+/* Terms of B3 that are another bias by another name. In directional light a move along L is a constant bias of (k_f + 1) texels,
+ * and the one with tan is that times the tangent, up to 50. */
 static void test_receiver_terms(void)
 {
     for (int c = 0; c < 40; c++) {
@@ -471,11 +558,14 @@ int main(void)
     test_kernel_choice();
     test_disk_samples();
     test_disk_step();
+    test_disk_corner();
     test_disk_radius();
     test_light_filter();
+    test_reach_of_bias();
     test_caster_shrinks();
     test_receiver_plane();
     test_receiver_plane_limit();
+    test_moved_past_light();
     test_normal_bias_of_punctual();
     test_receiver_terms();
     test_lookup_again();

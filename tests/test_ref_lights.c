@@ -1,6 +1,5 @@
-/* The reference engine's lights against closed forms: attenuation, cube faces and their width, perspective maps, who gets which tiles, light
- * lists (DESIGN 1.4 to 1.8; rows P, A, D10).
- */
+/* The reference engine's lights against closed forms: attenuation, cube faces and their width, perspective maps, who gets which
+ * tiles, light lists (DESIGN 1.4 to 1.8; rows P, A, D10). */
 #include "ref_fixture.h"
 
 static const double straight_up[3] = {0, 1, 0};
@@ -158,8 +157,9 @@ static void test_face_width(void)
     CHECK(clamped);
 }
 
-/* The texels that a filter of index k_f reads around a point lie in the tile, wherever on its face the point is: for normals along the
- * face's diagonal, which P6 is about, exactly; for the worst ones, tan(45 degrees + asin e) instead of (1 + e) / (1 - e) aside. */
+/* The texels that a filter of index k_f reads around a point lie in the tile, wherever on its face the point is: for normals
+ * along the face's diagonal, which P6 is about, exactly; for the worst ones, tan(45 degrees + asin e) instead of (1 + e) / (1 -
+ * e) aside. */
 static void test_faces_hold_samples(void)
 {
     int n_out = 0, n_at_border = 0;
@@ -271,8 +271,8 @@ static void turned(double out[3], const scene_affine *a, double x, double y, dou
     for (int r = 0; r < 3; r++) out[r] = a->m[r][0] * x + a->m[r][1] * y + a->m[r][2] * z;
 }
 
-/* Light in the origin, a quad at y = -1 that is not seen, its shadow on the floor y = -3 across the seam between two faces. Everything
- * turned by `which`. */
+/* Light in the origin, a quad at y = -1 that is not seen, its shadow on the floor y = -3 across the seam between two faces.
+ * Everything turned by `which`. */
 typedef struct {
     int which;
     scene_filter filter;
@@ -355,8 +355,8 @@ static void test_seams(void)
     }
 }
 
-/* Closed boxes: around the light nothing faces it and everything outside is lit; inside out, everything is dark. Beside the light a box
- * shades what is behind it. */
+/* Closed boxes: around the light nothing faces it and everything outside is lit; inside out, everything is dark. Beside the
+ * light a box shades what is behind it. */
 static void test_closed_boxes(void)
 {
     const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5}, from[3] = {9, 9, 9}, at[3] = {0, -3, 0};
@@ -521,16 +521,15 @@ static void test_budget(void)
     } cases[] = {
         {"ssssssssssssssss", "1111111111111111", 16, 32, 0, 1},     /* exactly full */
         {"sssssssssssssssss", "11111111111111110", 16, 1024, 0, 1}, /* the 17th has none */
-        {"sssss", "11110", 16, 16, 0, 1},                           /* tiles of 8 texels at least */
         {"pppss", "66011", 16, 64, 0, 1},                           /* a later smaller one is still served */
         {"ppsssss", "6611110", 16, 64, 0, 1},
         {"pspss", "61000", 16, 64, 7, 1}, /* capacity */
-        {"sps", "101", 16, 16, 0, 1},     /* six or none */
+        {"sps", "101", 16, 16, 4, 1},     /* six or none */
         {"ddddd", "11110", 64, 16, 0, 1},
         {"dddds", "44441", 64, 64, 0, 4}, /* each atlas has its own budget */
         {"ddpd", "3363", 64, 64, 0, 3},
         {"dddds", "44001", 64, 64, 8, 4},
-        {"dd", "40", 16, 16, 0, 4},
+        {"dd", "40", 16, 16, 4, 4},
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         fixture f;
@@ -550,10 +549,30 @@ static void test_budget(void)
     }
 }
 
+/* Tiles of less than 8 texels are an error, whatever the sizes. */
+static void test_tiles_too_small(void)
+{
+    for (int importance = 0; importance < 2; importance++) {
+        fixture f;
+        ref_picture p;
+        char error[200] = "";
+        const ref_options options = {.width = 4, .height = 4, .atlas_size = 16};
+        begin_lights(&f);
+        f.s.shadow.tiles = importance ? SCENE_TILES_IMPORTANCE : SCENE_TILES_EQUAL;
+        add_kinds(&f, "ssss");
+        CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), 0);
+        ref_free(&p);
+        add_kinds(&f, "s");
+        CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);
+        CHECK(strstr(error, "8 texels") != NULL);
+        end(&f);
+    }
+}
+
 /* Who does not ask leaves his place to others. */
 static void test_who_asks(void)
 {
-    const ref_options options = {.width = 4, .height = 4, .atlas_size = 16};
+    const ref_options options = {.width = 4, .height = 4, .atlas_size = 16, .max_other_tiles = 4};
     for (int c = 0; c < 8; c++) {
         fixture f;
         begin_lights(&f);
@@ -678,8 +697,8 @@ static void test_importance_sizes(void)
     CHECK(n_mixed > 100 && n_full > 30);
 }
 
-/* By hand: three equal lights of an atlas of 64 get 32 each, as another doubling has no room; a fourth fills it. A point light far away
- * yields to a spot. */
+/* By hand: three equal lights of an atlas of 64 get 32 each, as another doubling has no room; a fourth fills it. A point light
+ * far away yields to a spot. */
 static void test_importance_by_hand(void)
 {
     fixture f;
@@ -860,6 +879,7 @@ int main(void)
     test_no_acne_in_room();
     test_strength_of_punctual();
     test_budget();
+    test_tiles_too_small();
     test_who_asks();
     test_equal_sizes();
     test_importance_sizes();

@@ -1,6 +1,5 @@
-/* The reference engine's materials and mixing against closed forms: textures, alpha of surfaces and casters, specular, baked light, masks
- * (DESIGN 1.3, 1.6, 1.8, 1.9; rows M1 to M9, P7).
- */
+/* The reference engine's materials and mixing against closed forms: textures, alpha of surfaces and casters, specular, baked
+ * light, masks (DESIGN 1.3, 1.6, 1.8, 1.9; rows M1 to M9, P7). */
 #include "ref_fixture.h"
 
 static const double facing[12] = {-9, -9, -4, 9, -9, -4, 9, 9, -4, -9, 9, -4};
@@ -236,8 +235,8 @@ static void test_cut_casters(void)
         for (int c = 0; c < 4; c++) check_cut_caster(modes[m], c & 1, c >> 1);
 }
 
-/* What is seen of an object and what it casts are independent: a quad that is cut away for the camera still casts, and the other way
- * round. */
+/* What is seen of an object and what it casts are independent: a quad that is cut away for the camera still casts, and the other
+ * way round. */
 static void test_caster_and_sight(void)
 {
     const double eye[3] = {0, 3, 0}, at[3] = {0, 0, -1}, up[3] = {0, 1, 0};
@@ -326,6 +325,23 @@ static void test_specular(void)
         ref_free(&p);
         end(&f);
     }
+}
+
+/* A vertex normal that turns away from the viewer: light reaches it, the half vector does not. */
+static void test_no_negative_highlight(void)
+{
+    const double normals[12] = {1, 0, -1, 1, 0, -1, 1, 0, -1, 1, 0, -1};
+    fixture f;
+    begin(&f);
+    add_quad(&f, facing)->nrm = copy(normals, 12);
+    f.objects[0].specular[0] = 1;
+    f.objects[0].shininess_log2 = 0;
+    add_light(&f, -1, 0, -0.1)->shadow = false;
+    ref_picture p = render(&f, 9, 9, 64);
+    CHECK_NEAR(p.ndotl[0][40], 0.9 / sqrt(2 * 1.01), 1e-14);
+    CHECK_NEAR(p.rgb[120], p.ndotl[0][40], 1e-14);
+    ref_free(&p);
+    end(&f);
 }
 
 static void test_baked(void)
@@ -499,6 +515,7 @@ int main(void)
     test_caster_and_sight();
     test_casts_two_sided();
     test_specular();
+    test_no_negative_highlight();
     test_baked();
     test_mix_table();
     test_mixing();

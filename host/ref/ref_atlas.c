@@ -1,8 +1,8 @@
 /* Shadow maps: the smallest biased depth at each texel centre (DESIGN 1.6).
  *
  * Both kinds of view are drawn in homogeneous map coordinates (U w, V w, w), w = 1 in directional views and the light-plane
- * distance in perspective ones. As in ref_raster.c nothing is divided by w: a triangle that passes through the light's plane needs no
- * clipping, and the depth at a texel says whether that point casts.
+ * distance in perspective ones. As in ref_raster.c nothing is divided by w: a triangle that passes through the light's plane
+ * needs no clipping, and the depth at a texel says whether that point casts.
  */
 #include "ref_internal.h"
 
@@ -32,8 +32,8 @@ static int texel_coverage(const caster_triangle *t, double u, double v, double w
     return sides == 3 ? 1 : sides == -3 ? -1 : 0;
 }
 
-/* The triangle's plane. Interpolation keeps slivers within the triangle's own depth range, where their gradients would not; the clamp
- * takes what rounding leaves. */
+/* The triangle's plane. Interpolation keeps slivers within the triangle's own depth range, where their gradients would not; the
+ * clamp takes what rounding leaves. */
 static double mix_depth(const double depth[3], const double bary[3])
 {
     const double low = fmin(depth[0], fmin(depth[1], depth[2])), high = fmax(depth[0], fmax(depth[1], depth[2]));
@@ -79,8 +79,8 @@ static void grow_box(vec2 *low, vec2 *high, vec3 p)
     *high = (vec2){fmax(high->x, p.x / p.z), fmax(high->y, p.y / p.z)};
 }
 
-/* Bounds of the part that is not nearer than the near plane: its corners there, and where its edges cross the plane. w of directional
- * views is never nearer. */
+/* Bounds of the part that is not nearer than the near plane: its corners there, and where its edges cross the plane. w of
+ * directional views is never nearer. */
 static ref_box caster_box(const ref_light_view *view, const vec3 p[3])
 {
     vec2 low = {HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL};
@@ -132,7 +132,7 @@ static void set_bias(caster_triangle *t, const ref_light_view *view, const scene
     const vec3 normal = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));
     const vec2 gradient = ref_depth_gradient(view, normal, p[0]);
     t->bias = light->bias_slope * fmax(fabs(gradient.x), fabs(gradient.y));
-    t->constant = light->bias_constant * view->texel;
+    t->constant = fmin(1.0, light->bias_constant * view->texel);
     if (!view->perspective) t->bias += light->bias_constant;
 }
 

@@ -1,5 +1,5 @@
-/* Directional views: the cascades' spheres in the camera's frustum, how the views fit around them, which cascade a point is looked up
- * in (DESIGN 1.4). */
+/* Directional views: the cascades' spheres in the camera's frustum, how the views fit around them, which cascade a point is
+ * looked up in (DESIGN 1.4). */
 #include "ref_internal.h"
 
 /* The smallest m * 2^e >= x with 128 <= m <= 255, for x > 0. frexp gives x = f * 2^e with f in [1/2, 1); m = 256 is the same number
@@ -28,7 +28,8 @@ bool ref_ratios_ascend(const scene_shadow *shadow)
     return true;
 }
 
-/* The sphere of the slice of the frustum from depth n to m: centre depth c and radius r of DESIGN 1.4. A single tile takes them all. */
+/* The sphere of the slice of the frustum from depth n to m: centre depth c and radius r of DESIGN 1.4. A single tile takes them
+ * all. */
 static ref_sphere fit_sphere(const scene *s, int cascade, int width, int height)
 {
     const double m = cascade == REF_SINGLE_TILE ? s->shadow.max_distance : cascade_end(&s->shadow, cascade);

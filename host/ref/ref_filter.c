@@ -55,8 +55,8 @@ static double axis_weight(const ref_lookup *how, double x, int i)
     return 0.0;
 }
 
-/* The point that is looked up: indices are clamped to the tile (P8), and the receiver's plane (B5) is taken at the texel that is read.
- * Beyond the far end an empty texel still lets it be lit. */
+/* The point that is looked up: indices are clamped to the tile (P8), and the receiver's plane (B5) is taken at the texel that is
+ * read. Beyond the far end an empty texel still lets it be lit. */
 static double compare(const ref_light_view *view, const ref_lookup *how, vec3 p, int i, int j)
 {
     const int last = view->tile_texels - 1;

@@ -105,16 +105,6 @@ bool ref_alpha_cuts(scene_alpha mode, double alpha, double cutoff, int x,
                     int y); /* x, y: of the pixel, or of the texel in its tile */
 double ref_mask(const scene *s, const ref_triangle *triangle, const double bary[3], int channel); /* m of DESIGN 1.9 */
 
-/* ref_punctual.c */
-double ref_distance_factor(const scene_light *light, double distance2);
-ref_incidence ref_light_at(const scene_light *light, vec3 p);
-double ref_box_distance2(const ref_instance *instance, vec3 p);
-bool ref_reaches(const scene_light *light, const ref_instance *instance);
-void ref_list_lights(ref_frame *frame);
-
-/* ref_tiles.c */
-const char *ref_assign_tiles(ref_frame *frame);
-
 /* ref_view.c */
 scene_filter ref_light_filter(const scene_shadow *shadow, const scene_light *light, ref_atlas atlas);
 int ref_filter_index(scene_filter filter, double wanted_radius); /* k_f; wanted_radius: R', for the disk */
@@ -124,6 +114,16 @@ vec3 ref_to_light(const ref_light_view *view, vec3 world);      /* directional: 
 vec3 ref_project(const ref_light_view *view, vec3 p);           /* of ref_to_light's points, z > 0: (U, V, D) or (U, V, s) */
 double ref_texel_at(const ref_light_view *view, vec3 in_light); /* world units */
 vec2 ref_depth_gradient(const ref_light_view *view, vec3 normal, vec3 on_plane); /* depth per texel; all in ref_to_light's axes */
+
+/* ref_punctual.c */
+double ref_distance_factor(const scene_light *light, double distance2);
+ref_incidence ref_light_at(const scene_light *light, vec3 p);
+double ref_box_distance2(const ref_instance *instance, vec3 p);
+bool ref_reaches(const scene_light *light, const ref_instance *instance);
+void ref_list_lights(ref_frame *frame);
+
+/* ref_tiles.c */
+const char *ref_assign_tiles(ref_frame *frame);
 
 /* ref_cascade.c */
 bool ref_ratios_ascend(const scene_shadow *shadow);

@@ -63,7 +63,8 @@ static int pixel_coverage(const view_triangle *triangle, double s, double t, dou
     return sides == 3 ? 1 : sides == -3 ? -1 : 0;
 }
 
-/* The nearest depth wins, the first drawn at equal depths. Where alpha cuts (M8) there is no surface, and what is behind is seen. */
+/* The nearest depth wins, the first drawn at equal depths. Where alpha cuts (M8) there is no surface, and what is behind is
+ * seen. */
 static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i, int j)
 {
     const ref_camera *camera = &frame->camera;

@@ -68,7 +68,7 @@ static void serve(ref_frame *frame, size_t l, budget *b)
 {
     const int n = b->n_tiles + tiles_wanted(frame, l);
     const bool places = b->which == REF_OTHER_ATLAS || b->n_lights < MAX_CASCADE_LIGHTS;
-    if (!places || n > b->capacity || (int64_t)LEAST_TILE * LEAST_TILE * n > (int64_t)b->size * b->size) return;
+    if (!places || n > b->capacity) return;
     frame->picture->grant[l] = (ref_grant){.atlas = b->which, .n_tiles = n - b->n_tiles};
     b->n_tiles = n;
     b->n_lights++;

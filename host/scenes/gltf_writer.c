@@ -181,6 +181,15 @@ static size_t add_masks(gltf_document *d, const mesh_builder *m)
     return add_accessor(d, add_view(d, start, ARRAY_BUFFER), UBYTE_COMPONENT, m->n_vertices, "VEC4", NULL, NULL);
 }
 
+static size_t add_baked(gltf_document *d, const mesh_builder *m)
+{
+    size_t start = d->n_bytes;
+    for (size_t i = 0; i < m->n_vertices; i++) {
+        for (size_t k = 0; k < 3; k++) put_float(d, m->baked[i][k]);
+    }
+    return add_accessor(d, add_view(d, start, ARRAY_BUFFER), FLOAT_COMPONENT, m->n_vertices, "VEC3", NULL, NULL);
+}
+
 static size_t add_indices(gltf_document *d, const mesh_builder *m)
 {
     size_t start = d->n_bytes;
@@ -202,6 +211,7 @@ static void add_surface(gltf_document *d, const gltf_surface *s)
     if (m->attributes & MESH_UVS)
         add_text(d, list, ", \"TEXCOORD_0\": %zu", add_attribute(d, m, offsetof(mesh_vertex, uv), 2, false));
     if (m->attributes & MESH_MASKS) add_text(d, list, ", \"_GNOMON_MASK\": %zu", add_masks(d, m));
+    if (m->attributes & MESH_BAKED) add_text(d, list, ", \"_GNOMON_BAKED\": %zu", add_baked(d, m));
     add_text(d, list, "}, \"indices\": %zu, \"material\": %zu}", add_indices(d, m), s->material_idx);
 }
 

@@ -1,4 +1,4 @@
-/* make_scenes FOLDER: writes the project's own scenes there. */
+/* make_scenes FOLDER GALLERY_FOLDER: writes the project's own scenes, and the small ones of the gallery. */
 #include <stdio.h>
 
 #include "scenes.h"
@@ -16,8 +16,8 @@ static int make(const char *folder, const char *name, int (*write)(FILE *))
 
 int main(int argc, char **argv)
 {
-    if (argc != 2) {
-        fprintf(stderr, "usage: make_scenes FOLDER\n");
+    if (argc != 3) {
+        fprintf(stderr, "usage: make_scenes FOLDER GALLERY_FOLDER\n");
         return 2;
     }
     int failed = make(argv[1], "sundial.gltf", sundial_write);
@@ -26,5 +26,13 @@ int main(int argc, char **argv)
     failed |= make(argv[1], "room.gltf", room_write);
     failed |= make(argv[1], "fence.gltf", fence_write);
     failed |= make(argv[1], "mixed.gltf", mixed_write);
+    failed |= make(argv[2], "edge.gltf", gallery_edge_write);
+    failed |= make(argv[2], "slopes.gltf", gallery_slopes_write);
+    failed |= make(argv[2], "cones.gltf", gallery_cones_write);
+    failed |= make(argv[2], "lamps.gltf", gallery_lamps_write);
+    failed |= make(argv[2], "materials.gltf", gallery_materials_write);
+    failed |= make(argv[2], "near.gltf", gallery_near_write);
+    failed |= make(argv[2], "baked.gltf", gallery_baked_write);
+    failed |= make(argv[2], "suns.gltf", gallery_suns_write);
     return failed ? 1 : 0;
 }

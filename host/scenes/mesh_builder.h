@@ -30,7 +30,14 @@ typedef struct {
     mesh_point origin, x, y, z;
 } mesh_frame;
 
-typedef enum { MESH_FACE_NORMALS = 0, MESH_NORMALS = 1, MESH_COLOURS = 2, MESH_UVS = 4, MESH_MASKS = 8 } mesh_attributes;
+typedef enum {
+    MESH_FACE_NORMALS = 0,
+    MESH_NORMALS = 1,
+    MESH_COLOURS = 2,
+    MESH_UVS = 4,
+    MESH_MASKS = 8,
+    MESH_BAKED = 16
+} mesh_attributes;
 
 typedef struct {
     float pos[3], nrm[3], rgb[3], uv[2]; /* unused attributes stay zero */
@@ -44,6 +51,7 @@ typedef struct {
     size_t n_vertices, n_corners;
     mesh_vertex vertex[MESH_MAX_VERTICES];
     uint8_t mask[MESH_MAX_VERTICES][4]; /* with MESH_MASKS: filled by mask_bake when the mesh is done */
+    float baked[MESH_MAX_VERTICES][3];  /* with MESH_BAKED, likewise */
     uint16_t idx[MESH_MAX_CORNERS];
 } mesh_builder;
 

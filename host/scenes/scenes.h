@@ -21,4 +21,14 @@ int room_write(FILE *file);   /* a point light, all six cube faces in the pictur
 int fence_write(FILE *file);  /* casters that are cut out, dithered, two-sided, unlit, hidden */
 int mixed_write(FILE *file);  /* every kind of light, baked masks, a caster that moves over 48 frames */
 
+/* Small pieces for docs/GALLERY.md. */
+int gallery_edge_write(FILE *file);
+int gallery_slopes_write(FILE *file);
+int gallery_cones_write(FILE *file);
+int gallery_lamps_write(FILE *file);
+int gallery_materials_write(FILE *file);
+int gallery_near_write(FILE *file);
+int gallery_baked_write(FILE *file);
+int gallery_suns_write(FILE *file);
+
 #endif

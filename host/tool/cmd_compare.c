@@ -53,27 +53,52 @@ static void print_text(const tool_options *o, const metrics *m, long ram_bytes)
     printf("  library RAM           %8ld bytes\n", ram_bytes);
 }
 
-static int write_png(const char *dir, const char *name, const engine_picture *p, const uint8_t *rgb, char *error, size_t bytes)
+/* One of the pictures that -o writes. */
+typedef struct {
+    int width, height;
+    uint8_t *rgb8;
+} sheet;
+
+static int write_png(const char *dir, const char *name, const sheet *p, char *error, size_t bytes)
 {
     char path[4096];
     if (snprintf(path, sizeof path, "%s/%s", dir, name) >= (int)sizeof path) {
         snprintf(error, bytes, "path too long");
         return -1;
     }
-    return png_write_rgb8(path, p->width, p->height, rgb, error, bytes);
+    return png_write_rgb8(path, p->width, p->height, p->rgb8, error, bytes);
 }
 
-static int write_pictures(const char *dir, const engine_picture *fixed, const engine_picture *other, char *error, size_t bytes)
+static int write_pictures(const tool_options *o, const engine_picture *fixed, const engine_picture *other, char *error,
+                          size_t bytes)
 {
-    if (mkdir(dir, 0777) && errno != EEXIST) {
-        snprintf(error, bytes, "cannot create the folder: %s", strerror(errno));
-        return -1;
+    static const char *const names[] = {"fixed.png", "reference.png", "error.png", "beside.png"};
+    const view_kind view = (view_kind)o->view;
+    sheet sheets[4] = {{0}};
+    sheet *a = &sheets[0], *b = &sheets[1], *difference = &sheets[2], *beside = &sheets[3];
+    a->rgb8 = view_draw(fixed, view, o->light, &a->width, &a->height, error, bytes);
+    if (a->rgb8) b->rgb8 = view_draw(other, view, o->light, &b->width, &b->height, error, bytes);
+    int failed = !a->rgb8 || !b->rgb8;
+    if (!failed && (a->width != b->width || a->height != b->height)) {
+        snprintf(error, bytes, "the views differ in size: %dx%d and %dx%d", a->width, a->height, b->width, b->height);
+        failed = 1;
     }
-    uint8_t *difference = view_error(fixed, other);
-    int failed = !difference || write_png(dir, "fixed.png", fixed, fixed->rgb8, error, bytes) ||
-                 write_png(dir, "reference.png", other, other->rgb8, error, bytes) ||
-                 write_png(dir, "error.png", fixed, difference, error, bytes);
-    free(difference);
+    if (!failed) {
+        difference->width = a->width;
+        difference->height = a->height;
+        difference->rgb8 = view_error(a->rgb8, b->rgb8, a->width, a->height);
+        const uint8_t *const three[3] = {a->rgb8, b->rgb8, difference->rgb8};
+        if (difference->rgb8) beside->rgb8 = view_beside(three, 3, a->width, a->height, &beside->width, &beside->height);
+        failed = !beside->rgb8;
+    }
+    if (!failed && mkdir(o->out_path, 0777) && errno != EEXIST) {
+        snprintf(error, bytes, "cannot create the folder: %s", strerror(errno));
+        failed = 1;
+    }
+    for (size_t i = 0; i < 4; i++) {
+        if (!failed) failed = write_png(o->out_path, names[i], &sheets[i], error, bytes);
+        free(sheets[i].rgb8);
+    }
     return failed ? -1 : 0;
 }
 
@@ -95,7 +120,7 @@ int tool_compare(const tool_options *o)
     settings_fit(&set, &fixed.demand);
     metrics m;
     metrics_compute(&m, &fixed, &other);
-    if (o->out_path && write_pictures(o->out_path, &fixed, &other, error, sizeof error)) failed = tool_fail(o->out_path, error);
+    if (o->out_path && write_pictures(o, &fixed, &other, error, sizeof error)) failed = tool_fail(o->out_path, error);
     engine_free(&fixed);
     engine_free(&other);
     if (failed) return TOOL_FAILED;

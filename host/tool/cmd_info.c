@@ -113,9 +113,9 @@ static void print_json(const report *r)
     printf(", \"visible_triangles\": %u, \"tile_refs\": %u, \"clipped_triangles\": %u, \"caster_triangles\": %u",
            stats->n_triangles, stats->n_tile_refs, stats->n_clipped, stats->n_caster_triangles);
     printf(", \"shadow_tiles\": %zu, \"other_tiles\": %zu, \"surface_lights\": %zu, \"lights_without_room\": %u, "
-           "\"lights_left_out\": %u, \"clamped_views\": %u",
+           "\"lights_left_out\": %u, \"clamped_views\": %u, \"casters_culled\": %u",
            demand->shadow_tiles, demand->other_tiles, demand->surface_lights, stats->n_lights_without_room,
-           stats->n_lights_left_out, stats->n_reach_clamped);
+           stats->n_lights_left_out, stats->n_reach_clamped, stats->n_casters_culled);
     printf(", \"ram_bytes\": {");
     for (int i = 0; i < SETTINGS_PRESETS; i++) printf("%s\"%s\": %ld", i ? ", " : "", settings_preset_name[i], r->ram[i].total);
     printf("}, \"notes\": [");

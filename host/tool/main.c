@@ -10,15 +10,16 @@ static const char usage_text[] =
     "usage: gnomon COMMAND SCENE [options]        SCENE: .gltf, .glb or .obj\n"
     "\n"
     "  render SCENE -o OUT.png   one picture\n"
-    "  compare SCENE [-o DIR]    the library against the double-precision reference; DIR gets fixed.png, reference.png, error.png\n"
+    "  compare SCENE [-o DIR]    the library against the double-precision reference; DIR gets fixed.png, reference.png,\n"
+    "                            error.png, and beside.png, the three side by side\n"
     "  info SCENE                what the scene needs, and what in the file was ignored\n"
     "  knobs                     every knob and setting, as docs/CONFIG.md lists them\n"
     "\n"
     "  --engine fixed|reference  render: which engine draws (fixed)\n"
     "  --with reference          compare: against what (reference)\n"
     "  --size WxH                picture size (320x240)\n"
-    "  --view NAME               render: colour, shadow, depth, normal, atlas or cascade (colour)\n"
-    "  --light K                 render: the light of --view shadow and atlas (0)\n"
+    "  --view NAME               render, compare: colour, shadow, depth, normal, atlas or cascade (colour)\n"
+    "  --light K                 render, compare: the light of --view shadow and atlas (0)\n"
     "  --frame N                 animation frame (0)\n"
     "  --set KEY=VALUE           any knob or setting, in order; preset=tiny|balanced|accurate sets many;\n"
     "                            KEY@LIGHT=VALUE for one light, by its number or name\n"
@@ -38,8 +39,8 @@ static const option options[] = {
     {"--engine", BY_RENDER, "fixed or reference"},
     {"--with", BY_COMPARE, "reference"},
     {"--size", BY_ALL, "WxH, up to 2048x2048"},
-    {"--view", BY_RENDER, "colour, shadow, depth, normal, atlas or cascade"},
-    {"--light", BY_RENDER, "a light from 0 to 63"},
+    {"--view", BY_RENDER | BY_COMPARE, "colour, shadow, depth, normal, atlas or cascade"},
+    {"--light", BY_RENDER | BY_COMPARE, "a light from 0 to 63"},
     {"--frame", BY_ALL, "a frame from 0 to 100000000"},
     {"--set", BY_ALL, "KEY=VALUE, at most 64 times"},
     {"--json", BY_ALL, NULL},

@@ -124,13 +124,30 @@ uint8_t *view_draw(const engine_picture *p, view_kind view, size_t light, int *w
     return out;
 }
 
-uint8_t *view_error(const engine_picture *a, const engine_picture *b)
+uint8_t *view_error(const uint8_t *a, const uint8_t *b, int w, int h)
 {
-    size_t n = 3 * (size_t)a->width * (size_t)a->height;
+    size_t n = 3 * (size_t)w * (size_t)h;
     uint8_t *out = malloc(n);
     for (size_t i = 0; out && i < n; i++) {
-        int d = 8 * abs(a->rgb8[i] - b->rgb8[i]);
+        int d = 8 * abs(a[i] - b[i]);
         out[i] = (uint8_t)(d > 255 ? 255 : d);
+    }
+    return out;
+}
+
+uint8_t *view_beside(const uint8_t *const *pictures, int n, int w, int h, int *out_w, int *out_h)
+{
+    bool stacked = w > 2 * h;
+    size_t row = 3 * (size_t)w;
+    *out_w = stacked ? w : n * w + (n - 1) * VIEW_GAP;
+    *out_h = stacked ? n * h + (n - 1) * VIEW_GAP : h;
+    size_t out_row = 3 * (size_t)*out_w, bytes = out_row * (size_t)*out_h;
+    uint8_t *out = malloc(bytes);
+    if (!out) return NULL;
+    memset(out, 255, bytes);
+    for (int i = 0; i < n; i++) {
+        size_t x = stacked ? 0 : (size_t)(i * (w + VIEW_GAP)), y = stacked ? (size_t)(i * (h + VIEW_GAP)) : 0;
+        for (size_t k = 0; k < (size_t)h; k++) memcpy(out + (y + k) * out_row + 3 * x, pictures[i] + k * row, row);
     }
     return out;
 }

@@ -1,0 +1,76 @@
+#!/bin/sh
+# Makes docs/GALLERY.md and docs/pictures/gallery/*.png from docs/gallery.txt. usage: gallery.sh TOOL [OUT_DIR]
+set -e
+tool=$1 out=${2:-docs}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir -p "$work/pictures"
+
+scene_path() { if [ -f "docs/scenes/$1.gltf" ]; then echo "docs/scenes/$1.gltf"; else echo "host/scenes/$1.gltf"; fi; }
+
+# field NAME FILE: a number of a JSON object on one line, outside its lists
+field() { sed 's/\[[^]]*\]//g' "$2" | sed -n "s/.*\"$1\": \([-+.0-9a-z]*\).*/\1/p"; }
+percent() { field "$1" "$work/json" | awk '{ printf "%.2f %%", 100 * $1 }'; }
+
+# picture NAME SCENE ARGUMENTS...: the picture; its command and its metrics in $work
+picture() {
+    name=$1 scene=$(scene_path "$2")
+    shift 2
+    case " $* " in *" --size "*) ;; *) set -- "$@" --size 240x180 ;; esac
+    "$tool" compare "$scene" "$@" --json -o "$work/one" >"$work/json"
+    mv "$work/one/beside.png" "$work/pictures/$name.png"
+    echo "gnomon compare $scene $* -o DIR" >"$work/command"
+    psnr=$(field psnr_db "$work/json")
+    case $psnr in null) psnr=infinite ;; *) psnr=$(printf '%.1f dB' "$psnr") ;; esac
+    echo "identical $(percent identical), PSNR $psnr, shadow mismatch $(percent shadow_mismatch)" >"$work/metrics"
+}
+
+# numbers FIELDS SCENE ARGUMENTS...: of gnomon info, which has no views
+numbers() {
+    fields=$1 scene=$(scene_path "$2")
+    shift 2
+    n=$#
+    while [ "$n" -gt 0 ]; do
+        case $1 in
+        --view | --light) shift 2 && n=$((n - 2)) ;;
+        *) set -- "$@" "$1" && shift && n=$((n - 1)) ;;
+        esac
+    done
+    case " $* " in *" --size "*) ;; *) set -- "$@" --size 240x180 ;; esac
+    "$tool" info "$scene" "$@" --json >"$work/info"
+    for name in $fields; do printf ', %s %s' "$(echo "$name" | tr _ ' ')" "$(field "$name" "$work/info")"; done
+}
+
+cat >"$work/GALLERY.md" <<'TEXT'
+# Gallery
+
+Every row of the feature list as a picture: by the library, by the double-precision reference, and their difference eight times as strong; side by side, or one below the other
+where they are wide. The numbers are of the whole comparison: pixels that are identical as RGB565, PSNR of the 8-bit colours, and the share of surface points where a light's attenuation
+differs by more than 1/16. [FEATURES.md](FEATURES.md) names the code and the test of each row. `make docs` makes this page and its pictures anew from `docs/gallery.txt`.
+TEXT
+row='' n=0 extra='' wanted=''
+while IFS= read -r line; do
+    text=${line#? }
+    case $line in
+    '## '*)
+        text=${line#'## '}
+        row=$(echo "${text%% *}" | tr A-Z a-z) n=0
+        printf '\n<a id="%s"></a>\n\n## %s\n\n' "$row" "$text"
+        ;;
+    '* '*)
+        n=$((n + 1)) wanted=$text extra=''
+        picture "$row-$n" $wanted
+        ;;
+    '= '*) extra=$(numbers "$text" $wanted) ;;
+    '> '*)
+        printf '\n%s\n\n![%s](pictures/gallery/%s.png)\n\n`%s`<br>\n%s%s\n' "$text" "$(echo "$row" | tr a-z A-Z)" "$row-$n" \
+            "$(cat "$work/command")" "$(cat "$work/metrics")" "$extra"
+        ;;
+    *) [ -z "$row" ] || [ -z "$line" ] || echo "$line" ;;
+    esac
+done <docs/gallery.txt >>"$work/GALLERY.md"
+
+mkdir -p "$out/pictures"
+rm -rf "$out/pictures/gallery"
+cp -R "$work/pictures" "$out/pictures/gallery"
+cp "$work/GALLERY.md" "$out/GALLERY.md"
