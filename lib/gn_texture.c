@@ -79,6 +79,15 @@ uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q16, int32_t v_
     return to_uq16(blend(&f, value));
 }
 
+#if GN_MASKS
+uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel)
+{
+    const uint8_t flags = GN_TEXTURE_CLAMP_U | GN_TEXTURE_CLAMP_V | GN_TEXTURE_BILINEAR;
+    gn_texture texture = {image->rgba, image->width_log2, image->height_log2, flags};
+    return gn_texture_channel(&texture, u_q16, v_q16, channel);
+}
+#endif
+
 #if GN_TEXTURES
 void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const uint16_t idx[3])
 {

@@ -11,6 +11,11 @@ enum { GN_CHANNEL_RED, GN_CHANNEL_GREEN, GN_CHANNEL_BLUE, GN_CHANNEL_ALPHA };
 uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t channel);
 #endif
 
+#if GN_MASKS
+/* The same of a mask image: bilinear and clamped, whatever its flags say. */
+uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel);
+#endif
+
 #if GN_TEXTURES
 /* Texture coordinates of a triangle: vertex 0, then differences of vertices 1 and 2 to it. */
 typedef struct {

@@ -162,7 +162,7 @@ typedef struct {
     uint32_t specular_uq16[3];    /* linear, 0..65536; 0: none */
     uint8_t shininess_log2;       /* exponent 2^0 .. 2^7 */
     const gn_texture *texture;    /* or NULL */
-    const gn_texture *mask_image; /* M5: its four channels are shadow masks, looked up at the mesh's mask_uv_uq16, or NULL */
+    const gn_texture *mask_image; /* M5: four channels of shadow masks at the mesh's mask_uv_uq16, bilinear and clamped, or NULL */
     const uint8_t *mask_u8;       /* M5: 4 per vertex of the mesh, or NULL */
     const uint16_t *baked_uq12;   /* M9: 3 per vertex of the mesh, irradiance of the baked lights, 4.12, or NULL */
 } gn_object;
