@@ -405,6 +405,15 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
     }
 }
 
+/* The receiver's offset in a view. Of a flat surface it is the same in every cascade, but for the disk, whose reach differs. */
+static const int32_t *offset_in(const gn_frame *frame, const gn_surface *s, uint32_t slot, const gn_light_view *view,
+                                const int32_t n_q30[3], int32_t moved_q16[3])
+{
+    if (!s->smooth && view->filter != GN_FILTER_DISK) return s->flat_offset_q16[slot];
+    receiver_offset(frame, view, n_q30, moved_q16);
+    return moved_q16;
+}
+
 /* Where a directional light's view sees the point; in cascades also where the next one does. */
 static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
                                const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
@@ -416,15 +425,12 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
     if (cascaded && sample->cascade == GN_CASCADE_NONE) return;
     if (cascaded) view += sample->cascade;
     int32_t moved[3];
-    const int32_t *offset = s->flat_offset_q16[slot];
-    if (s->smooth) {
-        receiver_offset(frame, view, n_q30, moved);
-        offset = moved;
-    }
+    const int32_t *offset = offset_in(frame, s, slot, view, n_q30, moved);
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out);
     if (!GN_BLENDED_CASCADES || !cascaded || frame->scene->shadow.blend == GN_BLEND_HARD || sample->cascade == frame->last_cascade)
         return;
     view += frame->cascade[sample->cascade].next - sample->cascade;
+    if (view->filter == GN_FILTER_DISK) offset = offset_in(frame, s, slot, view, n_q30, moved);
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
 }
 #endif
