@@ -3,7 +3,6 @@
 #include "gn_math.h"
 #include "gn_object.h"
 #include "gn_q.h"
-#include "gn_scene.h"
 
 #if GN_SHADOWS
 
@@ -88,10 +87,13 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
     }
 }
 
-/* A3: in the order given; what does not fit has none, and later lights are still tried. Returns the number of tiles. */
-static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity)
+/* A3: in the order given; what does not fit has none, and later lights are still tried. No tile is smaller than 8 x 8 texels. Returns
+ * the number of tiles. */
+static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity, int32_t atlas_log2)
 {
     uint32_t n_tiles = 0, n_lights = 0, limit = capacity < GN_ATLAS_TILES_MAX ? capacity : GN_ATLAS_TILES_MAX;
+    uint32_t smallest_tiles = 1U << (2 * (atlas_log2 - 3));
+    if (limit > smallest_tiles) limit = smallest_tiles;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         if (!plan[l].n_tiles || plan[l].in_other != in_other) continue;
         if (n_tiles + plan[l].n_tiles > limit || (!in_other && n_lights == GN_CASCADED_LIGHTS_MAX)) {
@@ -157,25 +159,22 @@ static void sizes_by_importance(const gn_frame *frame, gn_tile_plan *plan, uint3
     }
 }
 
-static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity, int32_t atlas_size)
+static void plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity, int32_t atlas_size)
 {
     int32_t atlas_log2 = 31 - gn_clz32((uint32_t)atlas_size);
-    uint32_t n_tiles = serve(frame, plan, in_other, capacity);
-    if (n_tiles > 4U << (2 * (atlas_log2 - 4))) return gn_fail(frame, GN_ERR_SHADOW_TILE, 0); /* more than size^2 / 64 */
+    uint32_t n_tiles = serve(frame, plan, in_other, capacity, atlas_log2);
     if (frame->scene->shadow.tile_sizes == GN_TILES_IMPORTANCE) sizes_by_importance(frame, plan, in_other, atlas_log2);
     else equal_sizes(frame, plan, in_other, n_tiles, atlas_log2);
     frame->stats.n_shadow_tiles += n_tiles;
-    return GN_OK;
 }
 
-gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS])
+void gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS])
 {
     wish(frame, plan);
-    gn_status status = plan_atlas(frame, plan, 0, GN_MAX_SHADOW_TILES, GN_K(frame, atlas_size));
+    plan_atlas(frame, plan, 0, GN_MAX_SHADOW_TILES, GN_K(frame, atlas_size));
 #if GN_OTHER_ATLAS
-    if (!status) status = plan_atlas(frame, plan, 1, GN_MAX_OTHER_TILES, GN_K(frame, other_atlas_size));
+    plan_atlas(frame, plan, 1, GN_MAX_OTHER_TILES, GN_K(frame, other_atlas_size));
 #endif
-    return status;
 }
 
 #endif

@@ -15,7 +15,7 @@ typedef struct {
 } gn_tile_plan;
 
 /* One plan per light; sets frame->light[].shadow_state. Needs boxes and light states. */
-gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS]);
+void gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS]);
 
 #endif
 #endif
