@@ -57,7 +57,8 @@ static uint32_t rounded_depth(uint32_t depth_q32, int32_t dropped, uint32_t far)
 #if GN_RECEIVER_PLANE
 /* With x the depth at a tap in Q44, h half a step of rounding, s a texel, hence a whole number of steps: s >= round(x) if and only
  * if s > x - h, and, s being also a multiple of 2^12, if and only if s >= floor((x - h) / 2^12) + 1. From a texel to the next, x
- * changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. |x| < 2^44 + 2^47 for slopes of any value. */
+ * changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. |x| < 2^63 for slopes of any value: each is
+ * multiplied by less than 2^31 - 2^21. */
 static void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
 {
     l->slope_q28[0] = receiver->slope_q28[0];
@@ -65,20 +66,23 @@ static void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
     l->sloped = (l->slope_q28[0] | l->slope_q28[1]) != 0;
     if (!l->sloped) return;
     int64_t x_q44 = (int64_t)receiver->depth_q32 * 4096;
-    x_q44 += (int64_t)receiver->slope_q28[0] * (0x8000 - (l->u_q16 & 0xFFFF));
-    x_q44 += (int64_t)receiver->slope_q28[1] * (0x8000 - (l->v_q16 & 0xFFFF));
+    /* from the point itself, which may be further out than near_tile() left it, to the centre of the texel */
+    x_q44 += receiver->slope_q28[0] * ((int64_t)(l->u_q16 | 0xFFFF) - 0x7FFF - receiver->u_q16);
+    x_q44 += receiver->slope_q28[1] * ((int64_t)(l->v_q16 | 0xFFFF) - 0x7FFF - receiver->v_q16);
     l->least_q32 = ((x_q44 - ((int64_t)1 << (dropped + 11))) >> 12) + 1;
 }
 
-/* Change of least_q32 from the texel that (u, v) lies in, by at most 18 texels: below 2^40. */
+/* Change of least_q32 from the texel that (u, v) lies in to the one that a tap reads, which is limited to the tile: below 2^46. */
 static int64_t rise_u(const lookup *l, int32_t u)
 {
-    return (int64_t)l->slope_q28[0] * (16 * (u - (l->u_q16 >> 16)));
+    int32_t read = gn_max32(0, gn_min32(u, l->view->tile_texels - 1));
+    return (int64_t)l->slope_q28[0] * (16 * (read - (l->u_q16 >> 16)));
 }
 
 static int64_t rise_v(const lookup *l, int32_t v)
 {
-    return (int64_t)l->slope_q28[1] * (16 * (v - (l->v_q16 >> 16)));
+    int32_t read = gn_max32(0, gn_min32(v, l->view->tile_texels - 1));
+    return (int64_t)l->slope_q28[1] * (16 * (read - (l->v_q16 >> 16)));
 }
 
 static uint32_t limited(const gn_light_view *view, int64_t least_q32)
@@ -88,12 +92,9 @@ static uint32_t limited(const gn_light_view *view, int64_t least_q32)
 
 static uint32_t lit_row_on_plane(const lookup *l, gn_texels row, int32_t u0, int32_t v, int32_t n)
 {
-    int64_t least_q32 = l->least_q32 + rise_u(l, u0) + rise_v(l, v);
+    int64_t least_q32 = l->least_q32 + rise_v(l, v);
     uint32_t mask = 0;
-    for (int32_t i = 0; i < n; i++) {
-        mask |= lit(l->view, row, u0 + i, limited(l->view, least_q32)) << i;
-        least_q32 += (int64_t)l->slope_q28[0] * 16;
-    }
+    for (int32_t i = 0; i < n; i++) mask |= lit(l->view, row, u0 + i, limited(l->view, least_q32 + rise_u(l, u0 + i))) << i;
     return mask;
 }
 #endif

@@ -163,6 +163,9 @@ static int exact_lit(const gn_receiver *r, int64_t i, int64_t j)
 {
     if (view.border_lit && (outside(i) || outside(j))) return 1;
     int frac = view.depth_bits == 32 ? 0 : (int)frame.knobs.shadow_depth_frac, bits = view.depth_bits;
+    int64_t last = view.tile_texels - 1;
+    i = i < 0 ? 0 : i > last ? last : i; /* P8, and B5 speaks of the texel that is read */
+    j = j < 0 ? 0 : j > last ? last : j;
     i128 x_q44 = (i128)r->depth_q32 << 12;
     x_q44 += (i128)r->slope_q28[0] * (65536 * (i128)i + 32768 - r->u_q16);
     x_q44 += (i128)r->slope_q28[1] * (65536 * (i128)j + 32768 - r->v_q16);
