@@ -183,7 +183,7 @@ uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, cons
     const gn_light *light = &frame->scene->lights[light_idx];
     uint32_t strength = light->shadow_strength_uq16;
     if (!strength || !(surface->shadowed | surface->masked)) return GN_ONE_UQ16;
-    uint32_t mask = mask_of(surface, sample, light->mask_channel);
+    uint32_t mask = mask_of(surface, sample, light->mode == GN_LIGHT_MIXED ? light->mask_channel : -1);
 #if GN_SHADOWS
     if (frame->light[light_idx].view_idx < 0 || !gn_mul_uq16(strength, g_uq16)) return faded(mask, strength);
     uint32_t realtime = attenuation_of(frame, surface, sample, slot);

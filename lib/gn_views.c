@@ -14,6 +14,8 @@
 #include "gn_texel.h"
 #include "gn_tiles.h"
 
+#define GN_COLOUR_MAX_UQ16 0xFFFFFF /* 255.99 */
+
 static void setup_light(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *light = &frame->scene->lights[light_idx];
@@ -21,7 +23,9 @@ static void setup_light(gn_frame *frame, uint32_t light_idx)
     int64_t towards[3];
     for (int k = 0; k < 3; k++) {
         towards[k] = -(int64_t)light->direction[k];
-        state->colour_uq16[k] = light->colour_uq16[k];
+        /* those of spot and point lights keep their exponent: gn_punctual_setup */
+        int32_t exp = light->kind == GN_LIGHT_DIRECTIONAL ? light->colour_exp : 0;
+        state->colour_uq16[k] = (uint32_t)gn_clamp64(gn_scale64(light->colour_uq16[k], -exp), 0, GN_COLOUR_MAX_UQ16);
     }
     if (!gn_normalise_q30(state->to_light_q30, towards)) /* only a point light has none */
         for (int k = 0; k < 3; k++) state->to_light_q30[k] = 0;
@@ -134,6 +138,7 @@ static int stays(const gn_frame *frame, uint32_t idx, uint32_t light_idx, uint32
     uint32_t period = frame->scene->shadow.refresh[cascade_idx];
     const gn_light_view *view = &frame->view[idx];
     if (period < 2 || frame->frame_count % period == 0 || !frame->memory[idx].signature) return 0;
+    if (!view->tile_done) return 0; /* the frame was abandoned: the fit is newer than the texels */
     return !view->perspective && !view->empty && view->light_idx == light_idx && view->cascade_idx == cascade_idx;
 }
 
@@ -199,20 +204,18 @@ static void add_views(gn_frame *frame, const gn_tile_plan *plan)
     }
 }
 
-static gn_status setup_views(gn_frame *frame)
+static void setup_views(gn_frame *frame)
 {
     gn_tile_plan plan[GN_MAX_LIGHTS];
     frame->has_cascades = 0;
     gn_cascade_setup(frame);
-    gn_status status = gn_tiles_plan(frame, plan);
-    if (status) return status;
+    gn_tiles_plan(frame, plan);
 #if GN_INCREMENTAL
     check_layout(frame, plan);
 #endif
     add_views(frame, plan);
     gn_cull_begin(frame);
     frame->frame_count++;
-    return GN_OK;
 }
 #endif
 
@@ -227,7 +230,7 @@ gn_status gn_views_setup(gn_frame *frame)
     gn_status status = gn_object_boxes(frame);
     if (!status) status = gn_object_lights(frame);
 #if GN_SHADOWS
-    if (!status) status = setup_views(frame);
+    if (!status) setup_views(frame);
 #endif
     return status;
 }
