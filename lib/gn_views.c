@@ -14,6 +14,8 @@
 #include "gn_texel.h"
 #include "gn_tiles.h"
 
+#define GN_COLOUR_MAX_UQ16 0xFFFFFF /* 255.99 */
+
 static void setup_light(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *light = &frame->scene->lights[light_idx];
@@ -21,12 +23,14 @@ static void setup_light(gn_frame *frame, uint32_t light_idx)
     int64_t towards[3];
     for (int k = 0; k < 3; k++) {
         towards[k] = -(int64_t)light->direction[k];
-        state->colour_uq16[k] = light->colour_uq16[k];
+        /* those of spot and point lights keep their exponent: gn_punctual_setup */
+        int32_t exp = light->kind == GN_LIGHT_DIRECTIONAL ? light->colour_exp : 0;
+        state->colour_uq16[k] = (uint32_t)gn_clamp64(gn_scale64(light->colour_uq16[k], -exp), 0, GN_COLOUR_MAX_UQ16);
     }
     if (!gn_normalise_q30(state->to_light_q30, towards)) /* only a point light has none */
         for (int k = 0; k < 3; k++) state->to_light_q30[k] = 0;
     state->strength_uq16 = light->shadow_strength_uq16;
-    state->mask_channel = (int8_t)light->mask_channel;
+    state->mask_channel = light->mode == GN_LIGHT_MIXED ? (int8_t)light->mask_channel : -1;
     state->kind = (uint8_t)light->kind;
     state->off = light->mode == GN_LIGHT_BAKED;
     state->view_idx = -1;
