@@ -91,7 +91,8 @@ static void shrink(const caster_job *job, const uint16_t idx[3], int64_t corner[
         if (job->view->perspective) {
             const gn_persp_fit *fit = &job->view->fit.persp;
             int64_t z = gn_clamp64(corner[i][2], fit->near_q16, INT32_MAX);
-            by_q16 = gn_bf_apply(by_q16 * z, fit->texel_per_z, -16); /* 2^19 * 2^31 */
+            /* 2^19 * 2^31. A move by 2^32 leaves the range of perspective views whatever its direction: no need for more */
+            by_q16 = gn_clamp64(gn_bf_apply(by_q16 * z, fit->texel_per_z, -16), 0, (int64_t)1 << 32);
         }
 #endif
         for (int k = 0; k < 3; k++) {

@@ -132,12 +132,13 @@ static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int
 }
 
 #if GN_INCREMENTAL
-/* A5: whether the schedule lets a cascade keep its tile of an earlier frame, which slot `idx` still holds. */
+/* A5: whether the schedule lets a cascade keep its tile of an earlier frame, which slot `idx` still holds. After a frame that was
+ * begun but not drawn the slot holds a fit that its texels do not belong to. */
 static int stays(const gn_frame *frame, uint32_t idx, uint32_t light_idx, uint32_t cascade_idx)
 {
     uint32_t period = frame->scene->shadow.refresh[cascade_idx];
     const gn_light_view *view = &frame->view[idx];
-    if (period < 2 || frame->frame_count % period == 0 || !frame->memory[idx].signature) return 0;
+    if (period < 2 || frame->frame_count % period == 0 || !frame->memory[idx].signature || !view->tile_done) return 0;
     return !view->perspective && !view->empty && view->light_idx == light_idx && view->cascade_idx == cascade_idx;
 }
 

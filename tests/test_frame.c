@@ -5,26 +5,35 @@
 
 #include "check.h"
 #include "demo_scene.h"
+#include "random_scene.h"
 
 typedef struct {
     uint8_t *pixels, *times; /* bytes of the picture; how often each pixel was flushed */
     int width, height;
-    size_t pixel_bytes;
+    size_t n_bytes;
+    int bits; /* per pixel */
     long n_calls, n_outside;
 } canvas;
 
 static gn_renderer one, two;
 static demo_scene demo;
 
+/* Rows are of whole bytes. */
+static size_t row_bytes(const canvas *c, int width)
+{
+    return ((size_t)width * (size_t)c->bits + 7) / 8;
+}
+
 static void canvas_begin(canvas *c, int width, int height, gn_format format)
 {
-    size_t n = (size_t)width * (size_t)height;
+    static const int bits[] = {16, 24, 16, 8, 4, 1, 32};
     memset(c, 0, sizeof *c);
     c->width = width;
     c->height = height;
-    c->pixel_bytes = format == GN_FORMAT_RGB565 ? 2 : format == GN_FORMAT_RGB888 ? 3 : 4;
-    c->pixels = calloc(n, c->pixel_bytes);
-    c->times = calloc(n, 1);
+    c->bits = bits[format];
+    c->n_bytes = row_bytes(c, width) * (size_t)height;
+    c->pixels = calloc(c->n_bytes, 1);
+    c->times = calloc((size_t)width * (size_t)height, 1);
     if (!c->pixels || !c->times) abort();
 }
 
@@ -36,7 +45,7 @@ static void canvas_end(canvas *c)
 
 static uint32_t canvas_crc(const canvas *c)
 {
-    return demo_crc32(0, c->pixels, (size_t)c->width * (size_t)c->height * c->pixel_bytes);
+    return demo_crc32(0, c->pixels, c->n_bytes);
 }
 
 static void flush(void *user, int x, int y, int w, int h, const void *pixels)
@@ -48,9 +57,9 @@ static void flush(void *user, int x, int y, int w, int h, const void *pixels)
         return;
     }
     for (int row = 0; row < h; row++) {
-        size_t at = (size_t)(y + row) * (size_t)c->width + (size_t)x;
-        memcpy(c->pixels + at * c->pixel_bytes, (const uint8_t *)pixels + (size_t)row * (size_t)w * c->pixel_bytes,
-               (size_t)w * c->pixel_bytes);
+        size_t at = (size_t)(y + row) * (size_t)c->width + (size_t)x, n = row_bytes(c, w);
+        uint8_t *to = c->pixels + (size_t)(y + row) * row_bytes(c, c->width) + (size_t)x * (size_t)c->bits / 8;
+        memcpy(to, (const uint8_t *)pixels + (size_t)row * n, n);
         for (int i = 0; i < w; i++) c->times[at + (size_t)i]++;
     }
 }
@@ -445,6 +454,290 @@ static void test_refused_scenes(void)
     }
 }
 
+/* ---- Every field of a scene beyond its range ---------------------------------------------------------------------- */
+
+/* The demo scene with a light of each kind and an object with texture and masks, so that every field is asked for. */
+static struct {
+    gn_light light[3];
+    gn_texture texture, mask;
+    int16_t uv[2 * DEMO_BALL_VERTICES];
+    uint16_t mask_uv[2 * DEMO_BALL_VERTICES];
+    uint8_t rgba[4 * 4 * 2];
+} full;
+
+enum { FULL_DIRECTIONAL, FULL_SPOT, FULL_POINT, FULL_OBJECT = 1 };
+
+static void full_lights(void)
+{
+    for (int i = 0; i < 3; i++) {
+        gn_light *l = &full.light[i];
+        *l = demo.light[0];
+        l->kind = (gn_light_kind)i;
+        l->position_q16[1] = GN_Q16(3);
+        l->near_q16 = GN_Q16(0.05);
+        l->inner_turn = GN_TURN(30);
+        l->outer_turn = GN_TURN(60);
+        l->mask_channel = -1;
+    }
+    demo.scene.lights = full.light;
+    demo.scene.n_lights = 3;
+}
+
+static void full_scene(void)
+{
+    demo_scene_make(&demo, 1);
+    memset(&full, 0, sizeof full);
+    gn_texture texture = {full.rgba, 2, 1, 0};
+    gn_object *o = &demo.object[FULL_OBJECT];
+    full.texture = full.mask = texture;
+    full_lights();
+    demo.ball.uv = full.uv;
+    demo.ball.uv_frac_bits = 15;
+    demo.ball.mask_uv_uq16 = full.mask_uv;
+    o->texture = &full.texture;
+    o->mask_image = &full.mask;
+    demo.scene.shadow.mixing = GN_MIXING_DISTANCE;
+    demo.scene.shadow.disk_samples = 16;
+    demo.scene.shadow.filter = demo.scene.shadow.other_filter = GN_FILTER_DISK;
+}
+
+/* A field, the ends of its range, and what is said beyond them. */
+typedef struct {
+    void *field;
+    const char *name;
+    size_t size;
+    int is_signed;
+    int64_t lo, hi;
+    gn_status status;
+    uint32_t index;
+} bounded;
+
+#define BOUNDED_(x, lo, hi, is_signed, status, index)                                                                              \
+    {                                                                                                                              \
+        &(x), #x, sizeof(x), is_signed, lo, hi, status, index                                                                      \
+    }
+#define SIGNED(x, lo, hi, status, index)   BOUNDED_(x, lo, hi, 1, status, index)
+#define UNSIGNED(x, lo, hi, status, index) BOUNDED_(x, lo, hi, 0, status, index)
+#define LIGHT_SIGNED(l, x, lo, hi, status) SIGNED(full.light[l].x, lo, hi, status, l)
+#define UNIT                               65536
+
+static const bounded bounds[] = {
+    LIGHT_SIGNED(FULL_POINT, kind, 0, 2, GN_ERR_LIGHT_KIND),
+    LIGHT_SIGNED(FULL_SPOT, mode, 0, 2, GN_ERR_LIGHT_KIND),
+    LIGHT_SIGNED(FULL_SPOT, softness, 0, 2, GN_ERR_LIGHT_KIND),
+    UNSIGNED(full.light[1].colour_uq16[2], 0, 0xFFFFFF, GN_ERR_COLOUR, 1),
+    LIGHT_SIGNED(FULL_SPOT, colour_exp, -100, 100, GN_ERR_LIGHT_BIAS),
+    LIGHT_SIGNED(FULL_SPOT, position_q16[0], -8192 * UNIT, 8192 * UNIT, GN_ERR_LIGHT_POSITION),
+    LIGHT_SIGNED(FULL_POINT, position_q16[2], -8192 * UNIT, 8192 * UNIT, GN_ERR_LIGHT_POSITION),
+    LIGHT_SIGNED(FULL_SPOT, near_q16, 1, 8192 * UNIT, GN_ERR_LIGHT_RANGE),
+    LIGHT_SIGNED(FULL_POINT, near_q16, 1, 8192 * UNIT, GN_ERR_LIGHT_RANGE),
+    UNSIGNED(full.light[1].outer_turn, GN_TURN(30) /* inner */, 32587, GN_ERR_LIGHT_ANGLE, 1),
+    UNSIGNED(full.light[1].inner_turn, 0, GN_TURN(60) /* outer */, GN_ERR_LIGHT_ANGLE, 1),
+    UNSIGNED(full.light[2].shadow_strength_uq16, 0, UNIT, GN_ERR_LIGHT_BIAS, 2),
+    LIGHT_SIGNED(FULL_SPOT, mask_channel, -1, 3, GN_ERR_LIGHT_BIAS),
+    LIGHT_SIGNED(FULL_SPOT, bias_constant_q16, 0, 64 * UNIT, GN_ERR_LIGHT_BIAS),
+    LIGHT_SIGNED(FULL_SPOT, bias_slope_q16, 0, 64 * UNIT, GN_ERR_LIGHT_BIAS),
+    LIGHT_SIGNED(FULL_SPOT, bias_normal_q16, 0, 8 * UNIT, GN_ERR_LIGHT_BIAS),
+    LIGHT_SIGNED(FULL_SPOT, bias_receiver_q16[0], 0, 8 * UNIT, GN_ERR_LIGHT_BIAS),
+    LIGHT_SIGNED(FULL_SPOT, bias_receiver_q16[1], 0, 8 * UNIT, GN_ERR_LIGHT_BIAS),
+    LIGHT_SIGNED(FULL_SPOT, bias_receiver_q16[2], 0, 8 * UNIT, GN_ERR_LIGHT_BIAS),
+    LIGHT_SIGNED(FULL_SPOT, bias_receiver_q16[3], 0, 8 * UNIT, GN_ERR_LIGHT_BIAS),
+    LIGHT_SIGNED(FULL_DIRECTIONAL, bias_caster_q16, 0, 8 * UNIT, GN_ERR_LIGHT_BIAS),
+    UNSIGNED(full.light[2].receiver_plane, 0, 1, GN_ERR_LIGHT_BIAS, 2),
+    LIGHT_SIGNED(FULL_DIRECTIONAL, near_offset_q16, 0, 8192 * UNIT, GN_ERR_LIGHT_BIAS),
+    SIGNED(demo.object[1].visible_alpha, 0, 2, GN_ERR_MATERIAL, 1),
+    SIGNED(demo.object[2].caster_alpha, 0, 2, GN_ERR_MATERIAL, 2),
+    UNSIGNED(demo.object[1].alpha_uq16, 0, UNIT, GN_ERR_MATERIAL, 1),
+    UNSIGNED(demo.object[1].alpha_cutoff_uq16, 0, UNIT, GN_ERR_MATERIAL, 1),
+    UNSIGNED(demo.object[1].specular_uq16[0], 0, UNIT, GN_ERR_MATERIAL, 1),
+    UNSIGNED(demo.object[0].specular_uq16[2], 0, UNIT, GN_ERR_MATERIAL, 0),
+    UNSIGNED(demo.object[1].shininess_log2, 0, 7, GN_ERR_MATERIAL, 1),
+    UNSIGNED(demo.ball.uv_frac_bits, 0, 15, GN_ERR_TEXTURE, 1),
+    UNSIGNED(demo.scene.shadow.object_lights, 0, 8, GN_ERR_SHADOW_MODE, 0),
+    SIGNED(demo.scene.unit_log2, -30, 30, GN_ERR_CAMERA_DEPTH, 0),
+    SIGNED(demo.scene.shadow.mixing, 0, 2, GN_ERR_SHADOW_MODE, 0),
+    SIGNED(demo.scene.shadow.tile_sizes, 0, 1, GN_ERR_SHADOW_MODE, 0),
+    UNSIGNED(demo.scene.shadow.main_light, 0, 1, GN_ERR_SHADOW_MODE, 0),
+    SIGNED(demo.scene.shadow.filter, 0, GN_FILTER_DISK, GN_ERR_SHADOW_FILTER, 0),
+    SIGNED(demo.scene.shadow.other_filter, 0, GN_FILTER_DISK, GN_ERR_SHADOW_FILTER, 0),
+    SIGNED(demo.scene.shadow.kernel, 0, 1, GN_ERR_SHADOW_FILTER, 0),
+    UNSIGNED(demo.scene.shadow.penumbra_uq16, 0, 64 * UNIT, GN_ERR_SHADOW_FILTER, 0),
+    UNSIGNED(demo.scene.shadow.disk_samples, 1, 64, GN_ERR_SHADOW_FILTER, 0),
+    SIGNED(demo.scene.shadow.blend, 0, 2, GN_ERR_SHADOW_CASCADES, 0),
+    SIGNED(demo.scene.shadow.distance_mode, 0, 1, GN_ERR_SHADOW_DISTANCE, 0),
+};
+
+static void set_field(const bounded *b, int64_t value)
+{
+    if (b->size == 1) *(uint8_t *)b->field = (uint8_t)value;
+    else if (b->size == 2) *(uint16_t *)b->field = (uint16_t)value;
+    else memcpy(b->field, &(uint32_t){(uint32_t)value}, 4);
+}
+
+/* Each field at both ends of its range: drawn; next to them and at the ends of its type: refused, and the object or light named. */
+static void test_bounds(void)
+{
+    gn_picture p = picture_of(24, 16, GN_FORMAT_RGB565);
+    canvas c;
+    canvas_begin(&c, 24, 16, GN_FORMAT_RGB565);
+    CHECK(gn_init(&one, &p) == GN_OK);
+    for (size_t i = 0; i < sizeof bounds / sizeof *bounds; i++) {
+        const bounded *b = &bounds[i];
+        int64_t type_lo = b->is_signed ? INT32_MIN : 0, type_hi = b->is_signed ? INT32_MAX : ((int64_t)1 << 8 * b->size) - 1;
+        const int64_t values[] = {b->lo, b->hi, b->lo - 1, b->hi + 1, type_lo, type_hi};
+        for (int k = 0; k < 6; k++) {
+            int inside = values[k] >= b->lo && values[k] <= b->hi;
+            if (values[k] < type_lo || values[k] > type_hi) continue;
+            full_scene();
+            set_field(b, values[k]);
+            gn_status status = gn_render(&one, &demo.scene, flush, &c);
+            if (!inside) fails(status, b->status, b->index, 0, 0, b->name);
+            else if (!CHECK(status == GN_OK)) printf("%s = %lld: %s\n", b->name, (long long)values[k], gn_status_text(status));
+        }
+    }
+    canvas_end(&c);
+}
+
+static void texture_no_texels(void)
+{
+    full.texture.rgba = NULL;
+}
+static void texture_wide(void)
+{
+    full.texture.width_log2 = 13;
+}
+static void texture_high(void)
+{
+    full.texture.height_log2 = 255;
+}
+static void texture_no_uv(void)
+{
+    demo.ball.uv = NULL;
+}
+static void mask_no_texels(void)
+{
+    full.mask.rgba = NULL;
+}
+static void mask_wide(void)
+{
+    full.mask.width_log2 = 13;
+}
+static void mask_high(void)
+{
+    full.mask.height_log2 = 13;
+}
+static void mask_no_uv(void)
+{
+    demo.ball.mask_uv_uq16 = NULL;
+}
+static void spot_no_direction(void)
+{
+    memset(full.light[FULL_SPOT].direction, 0, sizeof full.light[FULL_SPOT].direction);
+}
+static void spot_below_1_degree(void)
+{
+    full.light[FULL_SPOT].inner_turn = 0, full.light[FULL_SPOT].outer_turn = 181;
+}
+static void spot_no_angle(void)
+{
+    full.light[FULL_SPOT].inner_turn = full.light[FULL_SPOT].outer_turn = 0;
+}
+static void range_short(void)
+{
+    full.light[FULL_POINT].range_q16 = 255, full.light[FULL_POINT].near_q16 = 1;
+}
+static void range_is_near(void)
+{
+    full.light[FULL_SPOT].range_q16 = 5000, full.light[FULL_SPOT].near_q16 = 5000;
+}
+static void fine_without_texture(void)
+{
+    demo.object[FULL_OBJECT].texture = NULL, demo.ball.uv_frac_bits = 255;
+}
+static void fine_without_mask(void)
+{
+    demo.object[FULL_OBJECT].mask_image = NULL, demo.ball.mask_uv_uq16 = NULL;
+}
+static void fine_point_no_direction(void)
+{
+    memset(full.light[FULL_POINT].direction, 0, sizeof full.light[FULL_POINT].direction);
+}
+static void fine_point_wild_angles(void)
+{
+    full.light[FULL_POINT].inner_turn = 65535, full.light[FULL_POINT].outer_turn = 0;
+}
+static void fine_directional_wild_place(void)
+{
+    full.light[FULL_DIRECTIONAL].position_q16[0] = INT32_MIN, full.light[FULL_DIRECTIONAL].near_q16 = -1;
+    full.light[FULL_DIRECTIONAL].range_q16 = 1, full.light[FULL_DIRECTIONAL].inner_turn = 65535;
+}
+static void fine_narrow_spot(void)
+{
+    full.light[FULL_SPOT].inner_turn = full.light[FULL_SPOT].outer_turn = 182;
+}
+static void fine_short_range(void)
+{
+    full.light[FULL_POINT].range_q16 = 256, full.light[FULL_POINT].near_q16 = 255;
+}
+static void fine_long_range(void)
+{
+    full.light[FULL_POINT].range_q16 = UINT32_MAX;
+}
+static void fine_no_disk(void)
+{
+    demo.scene.shadow.filter = demo.scene.shadow.other_filter = GN_FILTER_2X2, demo.scene.shadow.disk_samples = UINT32_MAX;
+}
+static void fine_unknown_flags(void)
+{
+    demo.object[0].flags |= 0xFFFFFF80U, full.texture.flags = 0xFF;
+}
+
+/* What depends on more than one field. */
+static void test_combinations(void)
+{
+    static const struct {
+        void (*set)(void);
+        const char *name;
+        gn_status status;
+        uint32_t index;
+    } cases[] = {
+#define COMBINATION(set, status, index) {set, #set, status, index}
+        COMBINATION(texture_no_texels, GN_ERR_TEXTURE, FULL_OBJECT),
+        COMBINATION(texture_wide, GN_ERR_TEXTURE, FULL_OBJECT),
+        COMBINATION(texture_high, GN_ERR_TEXTURE, FULL_OBJECT),
+        COMBINATION(texture_no_uv, GN_ERR_TEXTURE, FULL_OBJECT),
+        COMBINATION(mask_no_texels, GN_ERR_MASK, FULL_OBJECT),
+        COMBINATION(mask_wide, GN_ERR_MASK, FULL_OBJECT),
+        COMBINATION(mask_high, GN_ERR_MASK, FULL_OBJECT),
+        COMBINATION(mask_no_uv, GN_ERR_MASK, FULL_OBJECT),
+        COMBINATION(spot_no_direction, GN_ERR_LIGHT_DIRECTION, FULL_SPOT),
+        COMBINATION(spot_below_1_degree, GN_ERR_LIGHT_ANGLE, FULL_SPOT),
+        COMBINATION(spot_no_angle, GN_ERR_LIGHT_ANGLE, FULL_SPOT),
+        COMBINATION(range_short, GN_ERR_LIGHT_RANGE, FULL_POINT),
+        COMBINATION(range_is_near, GN_ERR_LIGHT_RANGE, FULL_SPOT),
+        COMBINATION(fine_without_texture, GN_OK, 0),
+        COMBINATION(fine_without_mask, GN_OK, 0),
+        COMBINATION(fine_point_no_direction, GN_OK, 0),
+        COMBINATION(fine_point_wild_angles, GN_OK, 0),
+        COMBINATION(fine_directional_wild_place, GN_OK, 0),
+        COMBINATION(fine_narrow_spot, GN_OK, 0),
+        COMBINATION(fine_short_range, GN_OK, 0),
+        COMBINATION(fine_long_range, GN_OK, 0),
+        COMBINATION(fine_no_disk, GN_OK, 0),
+        COMBINATION(fine_unknown_flags, GN_OK, 0),
+    };
+    gn_picture p = picture_of(24, 16, GN_FORMAT_RGB565);
+    canvas c;
+    canvas_begin(&c, 24, 16, GN_FORMAT_RGB565);
+    CHECK(gn_init(&one, &p) == GN_OK);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        full_scene();
+        cases[i].set();
+        fails(gn_render(&one, &demo.scene, flush, &c), cases[i].status, cases[i].index, 0, 0, cases[i].name);
+    }
+    canvas_end(&c);
+}
+
 static void test_refused_pictures(void)
 {
     static const struct {
@@ -769,7 +1062,7 @@ static void test_shadow_tile_order(void)
 static int difference(const canvas *a, const canvas *b)
 {
     int largest = 0;
-    for (size_t i = 0; i < (size_t)a->width * (size_t)a->height * a->pixel_bytes; i++) {
+    for (size_t i = 0; i < a->n_bytes; i++) {
         int d = abs(a->pixels[i] - b->pixels[i]);
         largest = d > largest ? d : largest;
     }
@@ -1145,213 +1438,98 @@ static void test_extremes(void)
 
 /* ---- Random scenes ------------------------------------------------------------------------------------------------ */
 
-static uint64_t random_state = 1;
-
-static uint32_t rnd(void)
-{
-    random_state = random_state * 6364136223846793005U + 1442695040888963407U;
-    uint32_t x = (uint32_t)(random_state >> 32);
-    return x ^ (x >> 15) ^ (uint32_t)random_state;
-}
-
-static int one_in(uint32_t n)
-{
-    return rnd() % n == 0;
-}
-
-/* lo..hi: any size of number is as likely as another, and so are the ends. */
-static int32_t pick(int32_t lo, int32_t hi)
-{
-    if (one_in(8)) return one_in(2) ? lo : hi;
-    int64_t range = (int64_t)hi - lo, v = (int64_t)((uint64_t)rnd() * (uint64_t)(range + 1) >> 32);
-    if (one_in(3)) v >>= rnd() % 32;
-    if (lo < 0 && one_in(2)) return (int32_t)(one_in(2) ? v % ((int64_t)hi + 1) : -(v % (-(int64_t)lo + 1)));
-    return (int32_t)(lo + v);
-}
-
-enum { GARBAGE_VERTICES = 9, GARBAGE_TRIANGLES = 14, GARBAGE_OBJECTS = 4 };
-
 typedef struct {
-    int32_t pos[GARBAGE_VERTICES * 3];
-    int16_t nrm[GARBAGE_VERTICES * 3];
-    uint16_t rgb[GARBAGE_VERTICES * 3], idx[GARBAGE_TRIANGLES * 3];
-    gn_mesh mesh;
-    gn_object object[GARBAGE_OBJECTS];
-    gn_light light[GN_MAX_LIGHTS];
-    gn_scene scene;
-} garbage;
+    random_scene scene;
+    canvas kept, fresh;
+    gn_panel panel;
+    long count[GN_STATUS_COUNT], wrong, drawn, compared;
+} campaign;
 
-static void random_bytes(void *out, size_t n)
+/* A format or a raw view. */
+static void next_picture(campaign *r, uint32_t kind)
 {
-    for (uint8_t *p = out; n > 0; n--) *p++ = (uint8_t)rnd();
+    gn_picture p = picture_of(48, 32, kind < GN_FORMAT_RAW32 ? (gn_format)kind : GN_FORMAT_RAW32);
+    p.view = kind < GN_FORMAT_RAW32 ? GN_VIEW_COLOUR : (gn_view)(kind - GN_FORMAT_RAW32 + 1);
+    p.view_light = (uint8_t)(rnd() % 8);
+    CHECK(gn_init(&one, &p) == GN_OK && gn_init(&two, &p) == GN_OK);
+    canvas_end(&r->kept);
+    canvas_end(&r->fresh);
+    canvas_begin(&r->kept, p.width, p.height, p.format);
+    canvas_begin(&r->fresh, p.width, p.height, p.format);
 }
 
-/* Spoils some 32-bit words of an object at random. */
-static void spoil_words(void *object, size_t n_bytes, size_t first_byte)
+/* What must not change a pixel: forgetting what was kept, culling casters, and other screen tiles where each pixel has its divide. */
+static void compare_with_fresh(campaign *r, long frame)
 {
-    do {
-        size_t at = first_byte + rnd() % ((n_bytes - first_byte) / 4) * 4;
-        random_bytes((char *)object + at, 4);
-    } while (one_in(2));
-}
-
-static void random_mesh(garbage *g)
-{
-    int32_t bits = pick(one_in(10) ? 0 : 16, one_in(50) ? 255 : 30), log2_size = bits + pick(-4, 6); /* a few units mostly */
-    int32_t size = 1 << (one_in(8) ? rnd() % 31 : (uint32_t)(log2_size < 0 ? 0 : log2_size > 30 ? 30 : log2_size));
-    for (int i = 0; i < GARBAGE_VERTICES * 3; i++) {
-        g->pos[i] = pick(-size, size);
-        g->nrm[i] = (int16_t)pick(INT16_MIN, INT16_MAX);
-        g->rgb[i] = (uint16_t)pick(0, 65535);
+    gn_scene other = r->scene.scene;
+    other.shadow.caster_culling = !other.shadow.caster_culling;
+    for (int i = 0; i < 4; i++)
+        if (other.shadow.refresh[i] > 1) return; /* tiles are older than the frame */
+    gn_forget_shadows(&two);
+    two.frame.knobs = one.frame.knobs;
+    if (one.frame.knobs.persp_step == 1) two.frame.knobs.tile_width = two.frame.knobs.tile_height = 8 + 8 * (int32_t)(rnd() % 6);
+    if (gn_render(&two, &other, flush, &r->fresh) != GN_OK) r->wrong++;
+    else if (memcmp(r->kept.pixels, r->fresh.pixels, r->kept.n_bytes) != 0) {
+        if (r->wrong++ < 10) printf("scene %ld: other pixels when drawn afresh\n", frame);
     }
-    for (int i = 0; i < GARBAGE_TRIANGLES * 3; i++) g->idx[i] = (uint16_t)(rnd() % GARBAGE_VERTICES);
-    if (one_in(100)) g->idx[rnd() % (GARBAGE_TRIANGLES * 3)] = (uint16_t)rnd();
-    if (one_in(50)) g->pos[rnd() % (GARBAGE_VERTICES * 3)] = (int32_t)rnd();
-    gn_mesh mesh = {.pos = g->pos,
-                    .nrm_q15 = one_in(2) ? g->nrm : NULL,
-                    .rgb_uq16 = one_in(2) ? g->rgb : NULL,
-                    .idx = g->idx,
-                    .n_vertices = GARBAGE_VERTICES,
-                    .n_triangles = GARBAGE_TRIANGLES};
-    mesh.pos_frac_bits = (uint8_t)bits;
-    g->mesh = mesh;
+    r->compared++;
 }
 
-static void random_objects(garbage *g, const gn_affine *camera)
+static void random_frame(campaign *r, long frame)
 {
-    for (int i = 0; i < GARBAGE_OBJECTS; i++) {
-        gn_object *o = &g->object[i];
-        gn_affine_rotation(&o->to_world, (uint16_t)rnd(), (uint16_t)rnd(), (uint16_t)rnd());
-        if (one_in(4)) gn_affine_scale(&o->to_world, pick(1, one_in(4) ? (8192 << 16) - 1 : 4 << 16));
-        if (one_in(8))
-            for (int k = 0; k < 9; k++) o->to_world.m_q30[k / 3][k % 3] = pick(-(1 << 30), 1 << 30);
-        if (one_in(8)) o->to_world.exp = pick(0, 14);
-        int64_t ahead_q16 = pick(0, 20 << 16);
-        for (int k = 0; k < 3; k++) {
-            int64_t near_camera = camera->t_q16[k] - ahead_q16 * camera->m_q30[k][2] / (1 << 30) + pick(-(2 << 16), 2 << 16);
-            o->to_world.t_q16[k] = one_in(8) || near_camera > 8192 << 16 || near_camera < -(8192 << 16)
-                                       ? pick(-(8192 << 16), 8192 << 16)
-                                       : (int32_t)near_camera;
-            o->albedo_uq16[k] = (uint32_t)pick(0, 65536);
-        }
-        o->flags = rnd();
-        if (one_in(100)) spoil_words(o, sizeof *o, offsetof(gn_object, to_world));
-        o->mesh = &g->mesh;
-    }
-}
-
-static void random_lights(garbage *g)
-{
-    for (int i = 0; i < GN_MAX_LIGHTS; i++) {
-        gn_light *l = &g->light[i];
-        l->kind = GN_LIGHT_DIRECTIONAL;
-        for (int k = 0; k < 3; k++) {
-            l->direction[k] = pick(INT32_MIN, INT32_MAX);
-            l->colour_uq16[k] = (uint32_t)pick(0, 0xFFFFFF);
-        }
-        l->shadow_strength_uq16 = (uint32_t)pick(0, 65536);
-        l->bias_constant_q16 = pick(0, 64 << 16);
-        l->bias_slope_q16 = pick(0, 64 << 16);
-        l->bias_normal_q16 = pick(0, 8 << 16);
-        l->near_offset_q16 = pick(0, 8192 << 16);
-        if (one_in(200)) spoil_words(l, sizeof *l, 0);
-    }
-}
-
-static void random_scene(garbage *g)
-{
-    gn_scene *s = &g->scene;
-    gn_camera *camera = &s->camera;
-    gn_affine_rotation(&camera->to_world, (uint16_t)rnd(), (uint16_t)rnd(), (uint16_t)rnd());
-    for (int k = 0; k < 3; k++) {
-        camera->to_world.t_q16[k] = pick(-(8192 << 16), 8192 << 16);
-        s->ambient_uq16[k] = (uint32_t)pick(0, 0xFFFFFF);
-        s->background_uq16[k] = (uint32_t)pick(0, 65536);
-    }
-    camera->focal_q24 = (uint32_t)pick(1 << 19, one_in(4) ? INT32_MAX : 1 << 26) << one_in(8);
-    camera->near_q16 = pick(256, one_in(8) ? 8192 << 16 : 1 << 16);
-    camera->far_q16 = one_in(50) ? (int32_t)rnd() : INT32_MAX;
-    s->n_objects = rnd() % (GARBAGE_OBJECTS + 1);
-    s->n_lights = rnd() % (GN_MAX_LIGHTS + 1);
-    s->shadow.max_distance_q16 = pick(camera->near_q16 < 8192 << 16 ? camera->near_q16 + 1 : 0, 8192 << 16);
-    s->shadow.distance_fade_uq16 = (uint32_t)pick(66, 65536);
-    s->shadow.cascade_fade_uq16 = (uint32_t)pick(66, 65536);
-    s->shadow.filter = (gn_filter)(rnd() % 5);
-    s->shadow.n_cascades = rnd() % 5;
-    for (int i = 0; i < 3; i++) {
-        uint32_t previous = i ? s->shadow.cascade_ratio_uq16[i - 1] : 0;
-        s->shadow.cascade_ratio_uq16[i] =
-            one_in(60) ? rnd() : previous + (one_in(5) ? 0 : rnd() % (65537 - (previous <= 65536 ? previous : 0)));
-    }
-    s->shadow.blend = (gn_blend)(rnd() % 3);
-    s->shadow.distance_mode = (gn_distance_mode)(rnd() % 2);
-    if (one_in(50)) spoil_words(s, sizeof *s, offsetof(gn_scene, camera));
-    if (one_in(50)) random_bytes(camera, sizeof *camera);
-    s->objects = g->object;
-    s->lights = g->light;
-    random_mesh(g);
-    random_objects(g, &camera->to_world);
-    random_lights(g);
-}
-
-static void random_knobs(gn_knobs *k)
-{
-    static const int32_t persp_steps[] = {1, 4, 8, 16};
-    k->subpixel_bits = 2 + (int32_t)(rnd() % 7);
-    k->persp_step = persp_steps[rnd() % 4];
-    k->newton_steps = 1 + (int32_t)(rnd() % 2);
-    k->shadow_subpixel_bits = 4 + (int32_t)(rnd() % 9);
-    k->shadow_depth_frac = (int32_t)(rnd() % 5);
-    k->weight_bits = 4 + (int32_t)(rnd() % 9);
-    k->atten_bits = one_in(2) ? 8 : 16;
-    k->atlas_size = 32 << rnd() % 4;
-    k->tile_width = 8 + 8 * (int32_t)(rnd() % 8);
-    k->tile_height = 1 + (int32_t)(rnd() % 40);
-    k->srgb = one_in(2);
-    if (one_in(100)) spoil_words(k, sizeof *k, 0);
+    canvas *c = &r->kept;
+    memset(c->times, 0, (size_t)c->width * (size_t)c->height);
+    c->n_calls = 0;
+    int changes = one_in(8);
+    gn_status status;
+    if (changes) status = gn_render_changes(&one, &r->scene.scene, &r->panel, flush, c, NULL);
+    else status = gn_render(&one, &r->scene.scene, flush, c);
+    if (!changes) memset(&r->panel, 0, sizeof r->panel);
+    if ((int)status < 0 || status >= GN_STATUS_COUNT) r->wrong++;
+    else r->count[status]++;
+    if (c->n_outside || (status == GN_OK ? !changes && !each_pixel_once(c) : c->n_calls != 0)) r->wrong++;
+    if (status != GN_OK) return;
+    r->drawn += gn_get_stats(&one)->n_triangles && gn_get_stats(&one)->n_caster_triangles;
+    if (one_in(4)) compare_with_fresh(r, frame);
 }
 
 static void test_random_scenes(long n_scenes)
 {
-    static garbage g;
-    static long count[GN_STATUS_COUNT];
-    canvas c;
-    canvas_begin(&c, 48, 32, GN_FORMAT_RAW32);
-    long wrong = 0, drawn = 0;
+    static campaign r;
+    const char *seed = getenv("SEED");
+    if (seed) random_state = strtoull(seed, NULL, 0);
     for (long i = 0; i < n_scenes; i++) {
-        if (i % 256 == 0) { /* a format or a raw view */
-            int kind = (int)(i / 256 % 7);
-            gn_picture p = picture_of(48, 32, kind < 2 ? (gn_format)kind : GN_FORMAT_RAW32);
-            p.view = kind < 2 ? GN_VIEW_COLOUR : (gn_view)(kind - 1);
-            p.view_light = (uint8_t)rnd();
-            CHECK(gn_init(&one, &p) == GN_OK);
-            c.pixel_bytes = p.format == GN_FORMAT_RGB565 ? 2 : p.format == GN_FORMAT_RGB888 ? 3 : 4;
+        if (i % 256 == 0) next_picture(&r, (uint32_t)(i / 256 % 11));
+        if (i % 4 == 0 || one_in(8)) {
+            random_knobs(&one.frame.knobs);
+            random_scene_make(&r.scene);
+            gn_forget_shadows(&one); /* arrays have changed in place */
+            memset(&r.panel, 0, sizeof r.panel);
+        } else {
+            random_scene_change(&r.scene);
         }
-        random_knobs(&one.frame.knobs);
-        random_scene(&g);
-        memset(c.times, 0, 48 * 32);
-        c.n_calls = 0;
-        gn_status status = gn_render(&one, &g.scene, flush, &c);
-        if ((int)status < 0 || status >= GN_STATUS_COUNT) wrong++;
-        else count[status]++;
-        if (status == GN_OK ? !each_pixel_once(&c) : c.n_calls != 0) wrong++;
-        drawn += status == GN_OK && gn_get_stats(&one)->n_triangles && gn_get_stats(&one)->n_caster_triangles;
+        random_frame(&r, i);
     }
-    CHECK_EQ_INT(wrong, 0);
-    CHECK(drawn > n_scenes / 10); /* enough of them are drawn with shadows, and many kinds of refusal occur */
+    CHECK_EQ_INT(r.wrong, 0);
+    CHECK(r.drawn > n_scenes / 10); /* enough of them are drawn with shadows, and many kinds of refusal occur */
     int kinds = 0;
-    for (int i = 1; i < GN_STATUS_COUNT; i++) kinds += count[i] > 0;
-    CHECK(kinds >= 9);
-    if (getenv("VERBOSE")) printf("%ld drawn\n", drawn);
-    if (getenv("VERBOSE"))
-        for (int i = 0; i < GN_STATUS_COUNT; i++) printf("%7ld %s\n", count[i], gn_status_text((gn_status)i));
-    canvas_end(&c);
+    for (int i = 1; i < GN_STATUS_COUNT; i++) kinds += r.count[i] > 0;
+    CHECK(kinds >= 15);
+    if (getenv("VERBOSE")) {
+        printf("%ld drawn, %ld compared\n", r.drawn, r.compared);
+        for (int i = 0; i < GN_STATUS_COUNT; i++) printf("%7ld %s\n", r.count[i], gn_status_text((gn_status)i));
+    }
+    canvas_end(&r.kept);
+    canvas_end(&r.fresh);
+    random_scene_end(&r.scene);
 }
 
 int main(void)
 {
     const char *soak = getenv("SOAK");
     test_refused_scenes();
+    test_bounds();
+    test_combinations();
     test_refused_pictures();
     test_tile_refs_full();
     test_knobs();
@@ -1366,6 +1544,6 @@ int main(void)
     test_tile_sizes();
     test_picture_sizes();
     test_extremes();
-    test_random_scenes(soak && *soak ? 2000000 : 20000);
+    test_random_scenes(getenv("SCENES") ? strtol(getenv("SCENES"), NULL, 0) : soak && *soak ? 2000000 : 20000);
     return check_report();
 }

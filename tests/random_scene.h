@@ -1,0 +1,359 @@
+/* Random scenes: every field valid mostly, at the ends of its range often, spoiled now and then. Pointers are never spoiled: they are
+ * either null or lead to arrays of exactly the size that the library may read. */
+#ifndef GNOMON_TESTS_RANDOM_SCENE_H
+#define GNOMON_TESTS_RANDOM_SCENE_H
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "gnomon.h"
+
+enum { RANDOM_VERTICES = 9, RANDOM_TRIANGLES = 14, RANDOM_OBJECTS = 4, RANDOM_MESHES = 2, RANDOM_TEXTURES = 3 };
+enum { RANDOM_TEXELS_LOG2 = 12, RANDOM_LIMIT_Q16 = 8192 << 16 };
+
+typedef struct {
+    int32_t pos[RANDOM_VERTICES * 3];
+    int16_t nrm[RANDOM_VERTICES * 3], uv[RANDOM_VERTICES * 2];
+    uint16_t rgb[RANDOM_VERTICES * 3], mask_uv[RANDOM_VERTICES * 2], idx[RANDOM_TRIANGLES * 3], baked[RANDOM_VERTICES * 3];
+    uint8_t mask[RANDOM_VERTICES * 4];
+    uint8_t *rgba[RANDOM_TEXTURES];
+    gn_texture texture[RANDOM_TEXTURES];
+    gn_mesh mesh[RANDOM_MESHES];
+    gn_object object[RANDOM_OBJECTS];
+    gn_light light[GN_MAX_LIGHTS];
+    gn_scene scene;
+} random_scene;
+
+static uint64_t random_state = 1;
+
+static uint32_t rnd(void)
+{
+    random_state = random_state * 6364136223846793005U + 1442695040888963407U;
+    uint32_t x = (uint32_t)(random_state >> 32);
+    return x ^ (x >> 15) ^ (uint32_t)random_state;
+}
+
+static int one_in(uint32_t n)
+{
+    return rnd() % n == 0;
+}
+
+/* lo..hi: any size of number is as likely as another, and so are the ends. */
+static int32_t pick(int32_t lo, int32_t hi)
+{
+    if (one_in(8)) return one_in(2) ? lo : hi;
+    int64_t range = (int64_t)hi - lo, v = (int64_t)((uint64_t)rnd() * (uint64_t)(range + 1) >> 32);
+    if (one_in(3)) v >>= rnd() % 32;
+    if (lo < 0 && one_in(2)) return (int32_t)(one_in(2) ? v % ((int64_t)hi + 1) : -(v % (-(int64_t)lo + 1)));
+    return (int32_t)(lo + v);
+}
+
+/* Mostly `usual`. */
+static int32_t seldom(int32_t usual, int32_t lo, int32_t hi)
+{
+    return one_in(4) ? pick(lo, hi) : usual;
+}
+
+static void random_bytes(void *out, size_t n)
+{
+    for (uint8_t *p = out; n > 0; n--) *p++ = (uint8_t)rnd();
+}
+
+/* Spoils some 32-bit words between two offsets at random. */
+static void spoil_words(void *object, size_t first_byte, size_t end_byte)
+{
+    do {
+        size_t at = first_byte + rnd() % ((end_byte - first_byte) / 4) * 4;
+        random_bytes((char *)object + at, 4);
+    } while (one_in(2));
+}
+
+/* Texels in a block of their own, so that a sanitizer sees what is read beside them. */
+static void random_textures(random_scene *g)
+{
+    for (int i = 0; i < RANDOM_TEXTURES; i++) {
+        gn_texture *t = &g->texture[i];
+        t->width_log2 = (uint8_t)pick(0, one_in(20) ? RANDOM_TEXELS_LOG2 : 4);
+        t->height_log2 = (uint8_t)pick(0, one_in(20) ? RANDOM_TEXELS_LOG2 - t->width_log2 : 12 - t->width_log2 < 4 ? 0 : 4);
+        t->flags = (uint8_t)rnd();
+        size_t n = (size_t)4 << (t->width_log2 + t->height_log2);
+        free(g->rgba[i]);
+        g->rgba[i] = malloc(n);
+        if (!g->rgba[i]) abort();
+        random_bytes(g->rgba[i], n);
+        t->rgba = g->rgba[i];
+        if (one_in(200)) t->rgba = NULL;
+        if (one_in(200)) t->width_log2 = (uint8_t)pick(13, 255);
+        if (one_in(200)) t->height_log2 = (uint8_t)pick(13, 255);
+    }
+}
+
+static void random_arrays(random_scene *g, int32_t size)
+{
+    for (int i = 0; i < RANDOM_VERTICES * 3; i++) {
+        g->pos[i] = pick(-size, size);
+        g->nrm[i] = (int16_t)pick(INT16_MIN, INT16_MAX);
+        g->rgb[i] = (uint16_t)pick(0, 65535);
+        g->baked[i] = (uint16_t)pick(0, 65535);
+    }
+    for (int i = 0; i < RANDOM_VERTICES * 2; i++) {
+        g->uv[i] = (int16_t)pick(INT16_MIN, INT16_MAX);
+        g->mask_uv[i] = (uint16_t)pick(0, 65535);
+    }
+    random_bytes(g->mask, sizeof g->mask);
+    for (int i = 0; i < RANDOM_TRIANGLES * 3; i++) g->idx[i] = (uint16_t)(rnd() % RANDOM_VERTICES);
+    if (one_in(100)) g->idx[rnd() % (RANDOM_TRIANGLES * 3)] = (uint16_t)rnd();
+    if (one_in(50)) g->pos[rnd() % (RANDOM_VERTICES * 3)] = (int32_t)rnd();
+}
+
+static void random_meshes(random_scene *g)
+{
+    int32_t bits = pick(one_in(10) ? 0 : 16, one_in(50) ? 255 : 30), log2_size = bits + pick(-4, 6); /* a few units mostly */
+    random_arrays(g, 1 << (one_in(8) ? rnd() % 31 : (uint32_t)(log2_size < 0 ? 0 : log2_size > 30 ? 30 : log2_size)));
+    for (int i = 0; i < RANDOM_MESHES; i++) {
+        gn_mesh mesh = {.pos = g->pos,
+                        .nrm_q15 = one_in(2) ? g->nrm : NULL,
+                        .rgb_uq16 = one_in(2) ? g->rgb : NULL,
+                        .uv = one_in(20) ? NULL : g->uv,
+                        .mask_uv_uq16 = one_in(20) ? NULL : g->mask_uv,
+                        .idx = g->idx,
+                        .n_vertices = RANDOM_VERTICES,
+                        .n_triangles = RANDOM_TRIANGLES};
+        mesh.pos_frac_bits = (uint8_t)bits;
+        mesh.uv_frac_bits = (uint8_t)pick(0, one_in(100) ? 255 : 15);
+        g->mesh[i] = mesh;
+    }
+}
+
+/* A place before the camera, or anywhere. */
+static void random_place(int32_t out_q16[3], const gn_affine *camera)
+{
+    int64_t ahead_q16 = pick(0, 20 << 16);
+    for (int k = 0; k < 3; k++) {
+        int64_t near_camera = camera->t_q16[k] - ahead_q16 * camera->m_q30[k][2] / (1 << 30) + pick(-(2 << 16), 2 << 16);
+        int anywhere = one_in(30) || near_camera > RANDOM_LIMIT_Q16 || near_camera < -RANDOM_LIMIT_Q16;
+        out_q16[k] = anywhere ? pick(-RANDOM_LIMIT_Q16, RANDOM_LIMIT_Q16) : (int32_t)near_camera;
+    }
+}
+
+static void random_material(random_scene *g, gn_object *o)
+{
+    for (int k = 0; k < 3; k++) {
+        o->albedo_uq16[k] = (uint32_t)pick(0, 65536);
+        o->specular_uq16[k] = (uint32_t)seldom(0, 0, 65536);
+    }
+    o->visible_alpha = one_in(3) ? (gn_alpha)(rnd() % 3) : GN_ALPHA_OPAQUE;
+    o->caster_alpha = one_in(3) ? (gn_alpha)(rnd() % 3) : GN_ALPHA_OPAQUE;
+    o->alpha_uq16 = (uint32_t)seldom(65536, 0, 65536);
+    o->alpha_cutoff_uq16 = (uint32_t)pick(0, 65536);
+    o->shininess_log2 = (uint8_t)pick(0, 7);
+    o->texture = one_in(3) ? &g->texture[rnd() % RANDOM_TEXTURES] : NULL;
+    o->mask_image = one_in(6) ? &g->texture[rnd() % RANDOM_TEXTURES] : NULL;
+    o->mask_u8 = one_in(3) ? g->mask : NULL;
+    o->baked_uq12 = one_in(4) ? g->baked : NULL;
+}
+
+static void random_object(random_scene *g, gn_object *o)
+{
+    gn_affine_rotation(&o->to_world, (uint16_t)rnd(), (uint16_t)rnd(), (uint16_t)rnd());
+    if (one_in(4)) gn_affine_scale(&o->to_world, pick(1, one_in(4) ? (8192 << 16) - 1 : 4 << 16));
+    if (one_in(8))
+        for (int k = 0; k < 9; k++) o->to_world.m_q30[k / 3][k % 3] = pick(-(1 << 30), 1 << 30);
+    if (one_in(8)) o->to_world.exp = pick(0, 14);
+    random_place(o->to_world.t_q16, &g->scene.camera.to_world);
+    o->mesh = &g->mesh[rnd() % RANDOM_MESHES];
+    o->flags = rnd();
+    if (!one_in(8)) o->flags &= ~(uint32_t)(GN_OBJECT_HIDDEN | GN_OBJECT_UNLIT);
+    if (!one_in(4)) o->flags |= GN_OBJECT_DEFAULT;
+    random_material(g, o);
+    if (one_in(150)) spoil_words(o, offsetof(gn_object, to_world), offsetof(gn_object, texture));
+}
+
+/* A vertex in the world, roughly. */
+static void vertex_place(const random_scene *g, int32_t out_q16[3])
+{
+    const gn_object *o = &g->object[rnd() % RANDOM_OBJECTS];
+    const int32_t *p = g->pos + 3 * (rnd() % RANDOM_VERTICES);
+    double unit = 65536.0 / (double)((uint64_t)1 << (o->mesh->pos_frac_bits % 31)), scale = unit / 1073741824.0;
+    for (int r = 0; r < 3; r++) {
+        double sum = 0;
+        for (int c = 0; c < 3; c++) sum += (double)o->to_world.m_q30[r][c] * (double)p[c];
+        sum = sum * scale * (double)(1 << (o->to_world.exp & 15)) + (double)o->to_world.t_q16[r];
+        out_q16[r] = sum > RANDOM_LIMIT_Q16 ? RANDOM_LIMIT_Q16 : sum < -RANDOM_LIMIT_Q16 ? -RANDOM_LIMIT_Q16 : (int32_t)sum;
+    }
+}
+
+static void random_light_place(const random_scene *g, gn_light *l)
+{
+    const gn_object *o = &g->object[rnd() % RANDOM_OBJECTS];
+    const gn_affine *camera = &g->scene.camera.to_world;
+    random_place(l->position_q16, camera);
+    switch (rnd() % 8) {
+    case 0:
+        memcpy(l->position_q16, o->to_world.t_q16, sizeof l->position_q16); /* inside */
+        break;
+    case 1:
+        vertex_place(g, l->position_q16);
+        break;
+    case 2:
+        memcpy(l->position_q16, camera->t_q16, sizeof l->position_q16);
+        break;
+    default:
+        break;
+    }
+    l->range_q16 = one_in(3) ? 0 : one_in(4) ? rnd() >> rnd() % 24 : (uint32_t)pick(256, 40 << 16);
+    if (l->range_q16 && l->range_q16 < 256) l->range_q16 = 256;
+    l->near_q16 = pick(1, one_in(8) ? RANDOM_LIMIT_Q16 : 1 << 15);
+    if (l->range_q16 && (uint32_t)l->near_q16 >= l->range_q16) l->near_q16 = (int32_t)(l->range_q16 / 2);
+    l->outer_turn = (uint16_t)pick(182, 32587);
+    l->inner_turn = one_in(4) ? l->outer_turn : (uint16_t)pick(0, l->outer_turn);
+}
+
+static void random_biases(gn_light *l)
+{
+    int wide = one_in(3);
+    l->bias_constant_q16 = seldom(0, 0, wide ? 64 << 16 : 1 << 16);
+    l->bias_slope_q16 = seldom(0, 0, wide ? 64 << 16 : 1 << 16);
+    l->bias_normal_q16 = seldom(1 << 16, 0, wide ? 8 << 16 : 2 << 16);
+    for (int k = 0; k < 4; k++) l->bias_receiver_q16[k] = one_in(3) ? seldom(0, 0, wide ? 8 << 16 : 1 << 16) : 0;
+    l->bias_caster_q16 = seldom(0, 0, wide ? 8 << 16 : 1 << 16);
+    l->receiver_plane = rnd() % 4 == 0;
+    l->near_offset_q16 = pick(0, one_in(2) ? RANDOM_LIMIT_Q16 : 8 << 16);
+}
+
+static void random_light(random_scene *g, gn_light *l)
+{
+    l->kind = (gn_light_kind)(rnd() % 3);
+    l->mode = one_in(8) ? GN_LIGHT_BAKED : one_in(2) ? GN_LIGHT_MIXED : GN_LIGHT_REALTIME;
+    for (int k = 0; k < 3; k++) {
+        l->direction[k] = pick(INT32_MIN, INT32_MAX);
+        l->colour_uq16[k] = (uint32_t)pick(0, 0xFFFFFF);
+    }
+    l->direction[0] |= 1;
+    l->colour_exp = seldom(0, -100, 100);
+    l->shadow_strength_uq16 = (uint32_t)(one_in(2) ? 65536 : pick(0, 65536));
+    l->softness = one_in(3) ? (gn_softness)(rnd() % 3) : GN_SOFTNESS_DEFAULT;
+    l->mask_channel = (int32_t)(rnd() % 5) - 1;
+    random_light_place(g, l);
+    random_biases(l);
+    if (one_in(300)) spoil_words(l, 0, sizeof *l);
+}
+
+static void random_camera(gn_camera *camera)
+{
+    gn_affine_rotation(&camera->to_world, (uint16_t)rnd(), (uint16_t)rnd(), (uint16_t)rnd());
+    for (int k = 0; k < 3; k++) camera->to_world.t_q16[k] = pick(-RANDOM_LIMIT_Q16, RANDOM_LIMIT_Q16);
+    camera->focal_q24 = (uint32_t)pick(1 << 19, one_in(6) ? INT32_MAX : 1 << 25) << one_in(8);
+    camera->near_q16 = pick(256, one_in(8) ? RANDOM_LIMIT_Q16 : 1 << 14);
+    camera->far_q16 = one_in(50) ? (int32_t)rnd() : INT32_MAX;
+}
+
+static void random_shadows(gn_shadow_settings *s, int32_t near_q16)
+{
+    s->max_distance_q16 = pick(near_q16 < RANDOM_LIMIT_Q16 ? near_q16 + 1 : 0, RANDOM_LIMIT_Q16);
+    s->distance_fade_uq16 = (uint32_t)pick(66, 65536);
+    s->cascade_fade_uq16 = (uint32_t)pick(66, 65536);
+    s->filter = (gn_filter)(rnd() % 6);
+    s->other_filter = (gn_filter)(rnd() % 6);
+    s->kernel = (gn_kernel)(rnd() % 2);
+    s->penumbra_uq16 = (uint32_t)pick(0, 64 << 16);
+    s->disk_samples = (uint32_t)pick(1, one_in(4) ? 64 : 8);
+    s->mixing = (gn_mixing)(rnd() % 3);
+    s->tile_sizes = (gn_tile_sizes)(rnd() % 2);
+    s->main_light = rnd() % 2;
+    s->caster_culling = rnd() % 2;
+    s->object_lights = rnd() % 9;
+    for (int i = 0; i < 4; i++) s->refresh[i] = one_in(4) ? rnd() % 4 : 0;
+    if (one_in(2)) memset(s->refresh, 0, sizeof s->refresh);
+    s->n_cascades = rnd() % 5;
+    for (int i = 0; i < 3; i++) {
+        uint32_t previous = i ? s->cascade_ratio_uq16[i - 1] : 0;
+        s->cascade_ratio_uq16[i] =
+            one_in(60) ? rnd() : previous + (one_in(5) ? 0 : rnd() % (65537 - (previous <= 65536 ? previous : 0)));
+    }
+    s->blend = (gn_blend)(rnd() % 3);
+    s->distance_mode = (gn_distance_mode)(rnd() % 2);
+}
+
+static void random_scene_make(random_scene *g)
+{
+    gn_scene *s = &g->scene;
+    random_camera(&s->camera);
+    for (int k = 0; k < 3; k++) {
+        s->ambient_uq16[k] = (uint32_t)pick(0, 0xFFFFFF);
+        s->background_uq16[k] = (uint32_t)pick(0, 65536);
+    }
+    s->unit_log2 = seldom(0, -30, 30);
+    s->n_objects = one_in(4) ? rnd() % (RANDOM_OBJECTS + 1) : RANDOM_OBJECTS;
+    s->n_lights = one_in(10) ? rnd() % (GN_MAX_LIGHTS + 1) : 1 + rnd() % 6;
+    random_shadows(&s->shadow, s->camera.near_q16);
+    random_textures(g);
+    random_meshes(g);
+    for (int i = 0; i < RANDOM_OBJECTS; i++) random_object(g, &g->object[i]);
+    for (uint32_t i = 0; i < s->n_lights; i++) random_light(g, &g->light[i]);
+    if (one_in(60)) spoil_words(s, offsetof(gn_scene, camera), sizeof *s);
+    if (one_in(60)) random_bytes(&s->camera, sizeof s->camera);
+    s->objects = g->object;
+    s->lights = g->light;
+}
+
+/* The next frame: a few things are different. Arrays stay as they are. */
+static void random_scene_change(random_scene *g)
+{
+    gn_scene *s = &g->scene;
+    int32_t *at = s->camera.to_world.t_q16;
+    do {
+        switch (rnd() % 8) {
+        case 0:
+            random_object(g, &g->object[rnd() % RANDOM_OBJECTS]);
+            break;
+        case 1:
+            g->object[rnd() % RANDOM_OBJECTS].to_world.t_q16[rnd() % 3] = pick(-RANDOM_LIMIT_Q16, RANDOM_LIMIT_Q16);
+            break;
+        case 2:
+            g->object[rnd() % RANDOM_OBJECTS].flags ^= 1U << rnd() % 7;
+            break;
+        case 3:
+            if (s->n_lights) random_light(g, &g->light[rnd() % s->n_lights]);
+            break;
+        case 4:
+            for (int k = 0; k < 3; k++) at[k] += at[k] > 0 ? -(int32_t)(rnd() >> 18) : (int32_t)(rnd() >> 18);
+            break;
+        case 5:
+            random_shadows(&s->shadow, s->camera.near_q16);
+            break;
+        case 6:
+            random_material(g, &g->object[rnd() % RANDOM_OBJECTS]);
+            break;
+        default: /* nothing */
+            break;
+        }
+    } while (one_in(2));
+}
+
+static void random_knobs(gn_knobs *k)
+{
+    static const int32_t persp_steps[] = {1, 4, 8, 16};
+    k->subpixel_bits = 2 + (int32_t)(rnd() % 7);
+    k->persp_step = persp_steps[rnd() % 4];
+    k->newton_steps = 1 + (int32_t)(rnd() % 2);
+    k->shadow_subpixel_bits = 4 + (int32_t)(rnd() % 9);
+    k->shadow_depth_frac = (int32_t)(rnd() % 5);
+    k->weight_bits = 4 + (int32_t)(rnd() % 9);
+    k->atten_bits = one_in(2) ? 8 : 16;
+    k->atlas_size = one_in(200) ? 1024 : 16 << rnd() % 4;
+    k->other_atlas_size = one_in(200) ? 1024 : 16 << rnd() % 4;
+    k->depth_bits = 8 << rnd() % 3;
+    k->other_depth_bits = 8 << rnd() % 3;
+    k->tile_width = 8 + 8 * (int32_t)(rnd() % 8);
+    k->tile_height = 1 + (int32_t)(rnd() % 40);
+    k->srgb = one_in(2);
+    if (one_in(200)) spoil_words(k, 0, sizeof *k);
+}
+
+static void random_scene_end(random_scene *g)
+{
+    for (int i = 0; i < RANDOM_TEXTURES; i++) free(g->rgba[i]);
+}
+
+#endif
