@@ -22,3 +22,7 @@ replace CONFIG.md knobs "$work/knobs"
 replace NUMERICS.md stages "$work/stages"
 "$build/test_accuracy" --table >"$work/accuracy"
 replace ACCURACY.md accuracy "$work/accuracy"
+for name in rows seams crawl; do
+    "$build/test_$name" --table >"$work/$name"
+    replace ACCURACY.md $name "$work/$name"
+done
