@@ -91,6 +91,7 @@ is_png() { # is_png FILE SIZE WHAT
     rm -f "$1"
 }
 
+# every view, by either engine (A6)
 for engine in fixed reference; do
     for view in colour shadow depth normal cascade atlas; do
         size=33x21
@@ -116,7 +117,17 @@ is_png "$tmp/one.png" 1x1 "--size 1x1"
 good compare "$cube" -o "$tmp/new" --size 33x21
 for name in fixed reference error; do is_png "$tmp/new/$name.png" 33x21 "compare -o"; done
 good compare "$cube" -o "$tmp/new" --size 16x16 # into a folder that exists
+is_png "$tmp/new/beside.png" 56x16 "compare -o, side by side"
 for name in fixed reference error; do is_png "$tmp/new/$name.png" 16x16 "compare -o"; done
+good compare "$cube" -o "$tmp/new" --size 33x8 --view depth
+is_png "$tmp/new/beside.png" 33x32 "compare -o, one below the other"
+good compare "$cube" -o "$tmp/new" --size 16x16 --view atlas --set atlas_size=64 --set cascades=3
+for name in fixed reference error; do is_png "$tmp/new/$name.png" 96x32 "compare -o --view atlas"; done
+is_png "$tmp/new/beside.png" 96x104 "compare -o --view atlas"
+bad 1 "no light 1" compare "$cube" -o "$tmp/new" --size 16x16 --view shadow --light 1
+# lamps inside of unlit bulbs: their insides are turned to the light, and what is seen of them is not
+good compare docs/scenes/cones.gltf -o "$tmp/new" --size 64x48 --view shadow --light 3
+cmp -s "$tmp/new/fixed.png" "$tmp/new/reference.png" && pass || fail "unlit surfaces in --view shadow differ"
 
 # ---- JSON --------------------------------------------------------------------------------------------------------------------
 
@@ -185,9 +196,8 @@ bad 2 "^gnomon: --size: bad value 'abc', not WxH" info "$cube" --size abc
 bad 2 "bad value 'a?b'" info "$cube" --size "$(printf 'a\nb')" # still one line
 bad 2 "bad value ''" render "$cube" -o ''
 # what a command does not use
-for option in '--view colour' '--light 0' '--engine fixed'; do
-    for command in compare info; do bad 2 "$command does not use ${option% *}" $command "$cube" $option; done
-done
+for option in "--view colour" "--light 0" "--engine fixed"; do bad 2 "info does not use ${option% *}" info "$cube" $option; done
+bad 2 "compare does not use --engine" compare "$cube" --engine fixed
 bad 2 'render does not use --with' render "$cube" -o "$tmp/a.png" --with reference
 bad 2 'info does not use --with' info "$cube" --with reference
 bad 2 'info does not use -o' info "$cube" -o "$tmp/a.png"
