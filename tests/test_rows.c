@@ -559,9 +559,115 @@ static void test_statistics(void)
     }
 }
 
+/* ---- The tables of docs/ACCURACY.md ------------------------------------------------------------------------------------- */
+
+typedef struct {
+    double rms, mismatch; /* of the first light's attenuation, where it is lit; off by more than 1/16 */
+} attenuation_error;
+
+static attenuation_error compare_attenuation(const engine_picture *a, const engine_picture *b)
+{
+    attenuation_error e = {0, 0};
+    double n = 0;
+    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
+        if (a->triangle[i] != b->triangle[i] || b->triangle[i] < 0 || !(b->ndotl[0][i] > 0)) continue;
+        const double d = fabs(a->shadow[0][i] - b->shadow[0][i]);
+        e.rms += d * d;
+        e.mismatch += d > 1.0 / 16;
+        n++;
+    }
+    return (attenuation_error){sqrt(e.rms / fmax(n, 1)), e.mismatch / fmax(n, 1)};
+}
+
+/* A picture of the yard; samples: of the disk, beyond what settings take; 0: as set. */
+static engine_picture picture_of(const char *words, int samples, bool fixed, long *ram)
+{
+    const row r = {"-", "yard", "", words, NULL, 1};
+    stage st;
+    engine_picture p;
+    if (open_stage(&st, &r, r.with, SETTINGS_ACCURATE)) abort();
+    if (samples) st.f.s.shadow.disk_samples = samples;
+    if (draw(&p, &st, fixed)) abort();
+    settings_fit(&st.set, &p.demand);
+    if (ram) *ram = p.perspective[0] ? settings_ram(&st.set).other_atlas : settings_ram(&st.set).atlas;
+    close_stage(&st);
+    return p;
+}
+
+static attenuation_error error_of(const char *words, const char *truth, bool fixed, long *ram)
+{
+    engine_picture p = picture_of(words, 0, fixed, ram), t = picture_of(truth, 0, false, NULL);
+    const attenuation_error e = compare_attenuation(&p, &t);
+    engine_free(&p);
+    engine_free(&t);
+    return e;
+}
+
+/* A4: the library against the reference, which does not round depths. */
+static void print_depth_bits(void)
+{
+    static const char *const lights[][3] = {
+        {"sun", "depth_bits", ""}, {"spot", "other_depth_bits", "near=1 "}, {"point", "other_depth_bits", "near=1 "}};
+    static const char *const biases[][2] = {{"bias_normal=1", "normal 1"},
+                                            {"bias_normal=1 bias_constant=2", "normal 1, constant 2"}};
+    printf("\n| light | bias | depth bits | RAM of the atlas | attenuation, RMS | off by more than 1/16 "
+           "|\n|---|---|---|---|---|---|\n");
+    for (size_t l = 0; l < 3; l++)
+        for (size_t b = 0; b < 2; b++)
+            for (int bits = 8; bits <= 32; bits *= 2) {
+                char words[160];
+                long ram = 0;
+                snprintf(words, sizeof words, ".light=%s %s%s %s=%d", lights[l][0], lights[l][2], biases[b][0], lights[l][1], bits);
+                const attenuation_error e = error_of(words, words, true, &ram);
+                printf("| %s | %s | %d | %ld | %.5f | %.3f %% |\n", lights[l][0], biases[b][1], bits, ram, e.rms, 100 * e.mismatch);
+            }
+}
+
+/* F6 against F3. */
+static void print_kernels(void)
+{
+    static const char *const filters[] = {"3x3", "5x5", "7x7"};
+    printf("\n| light | filter | linear kernel against tent: RMS | off by more than 1/16 |\n|---|---|---|---|\n");
+    for (int spot = 0; spot < 2; spot++)
+        for (size_t i = 0; i < sizeof filters / sizeof *filters; i++) {
+            char tent[64], linear[96];
+            snprintf(tent, sizeof tent, ".light=%s filter=%s", spot ? "spot" : "sun", filters[i]);
+            snprintf(linear, sizeof linear, "%s kernel=linear", tent);
+            const attenuation_error e = error_of(linear, tent, false, NULL);
+            printf("| %s | %s | %.5f | %.3f %% |\n", spot ? "spot" : "sun", filters[i], e.rms, 100 * e.mismatch);
+        }
+}
+
+/* F4 against as many samples as make an integral. */
+static void print_disk_samples(void)
+{
+    enum { MANY = 1024 };
+    printf("\n| light | samples | against %d: RMS | off by more than 1/16 |\n|---|---|---|---|\n", MANY);
+    for (int spot = 0; spot < 2; spot++) {
+        const char *words = spot ? ".light=spot filter=disk penumbra=4" : ".light=sun filter=disk penumbra=16";
+        engine_picture truth = picture_of(words, MANY, false, NULL);
+        for (int n = 1; n <= 64; n *= 2) {
+            engine_picture p = picture_of(words, n, false, NULL);
+            const attenuation_error e = compare_attenuation(&p, &truth);
+            printf("| %s | %d | %.5f | %.3f %% |\n", spot ? "spot" : "sun", n, e.rms, 100 * e.mismatch);
+            engine_free(&p);
+        }
+        engine_free(&truth);
+    }
+}
+
+static int print_tables(void)
+{
+    print_depth_bits();
+    print_kernels();
+    print_disk_samples();
+    return 0;
+}
+
 int main(int argc, char **argv)
 {
     const bool list = argc > 1 && strcmp(argv[1], "--list") == 0;
+    if (argc > 1 && strcmp(argv[1], "--table") == 0) return print_tables();
     const char *only = argc > 2 ? argv[2] : NULL;
     if (argc > 4 && strcmp(argv[1], "--try") == 0) { /* scene, words, with */
         const row own = {"try", argv[2], argv[3], argv[4], argc > 5 ? argv[5] : NULL, 1};

@@ -208,7 +208,7 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < sizeof filters / sizeof *filters; i++)
         for (int texels = 64; texels <= 128; texels *= 2)
             for (int fixed = 0; fixed < 2; fixed++) {
-                if (!optimised && (texels > 64 || fixed != (i & 1))) continue;
+                if (!optimised && (texels > 64 || (size_t)fixed != (i & 1))) continue;
                 const tally x = measure(filters[i].filter, texels, fixed);
                 const double interior = x.sum[0] / (double)x.n[0], seam = x.sum[1] / (double)x.n[1];
                 CHECK(x.n[0] > 10000 && x.n[1] > 2000);
