@@ -26,7 +26,7 @@ static uint32_t distance_fade(const gn_frame *frame, int32_t z_q16)
 
 uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
 {
-    if (!(surface->shadowed | surface->masked) || !sample->in_reach) return 0;
+    if (!surface->shadowed || !sample->in_reach) return 0;
     uint32_t g = GN_ONE_UQ16;
     if (frame->scene->shadow.distance_mode == GN_DISTANCE_DEPTH) g = distance_fade(frame, sample->value[GN_VALUE_Z]);
     if (!frame->has_cascades) return g;

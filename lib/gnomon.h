@@ -55,7 +55,7 @@ extern "C" {
       "texture without texels or above 4096 per side, or texture coordinates are missing or have more than 15 fraction bits")      \
     X(GN_ERR_MATERIAL,                                                                                                             \
       "alpha, cutoff, specular colour or shininess out of range, or an alpha mode or caster mode that is not built in")            \
-    X(GN_ERR_MASK, "mask image without coordinates, or a mask where masks are not built in")                                       \
+    X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")                          \
     X(GN_ERR_TOO_MANY_OBJECTS, "more objects than GN_MAX_OBJECTS")                                                                 \
     X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                                    \
     X(GN_ERR_LIGHT_KIND, "unknown kind, mode or softness of light, or one that is not built in")                                   \
