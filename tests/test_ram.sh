@@ -73,6 +73,9 @@ predicted() {
 if [ -n "$target" ]; then
     for preset in 0 1 2; do
         predicted $preset
+        predicted $preset punctual_lights=1 main_light=0 incremental=0 max_objects=1
+        predicted $preset shadows=0 punctual_lights=0 max_lights=3
+        predicted $preset srgb=0 textures=0 specular=0 masks=0 baked_light=0 visible_alpha=0 caster_alpha=0 filter_max=0 disk_filter=0
         predicted $preset shadows=0
         predicted $preset raw_views=1
         predicted $preset depth_blocks=0
@@ -91,8 +94,14 @@ if [ -n "$target" ]; then
         predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
     done
 fi
-if size_is '<= 65536' -DGN_PRESET=GN_PRESET_BALANCED -DGN_MAX_WIDTH=320 -DGN_MAX_HEIGHT=240 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=500; then pass
-else fail "preset balanced, 320x240, 500 triangles: more than 64 KiB of RAM"; fi
+# the promise of lib/gnomon.h: directional lights alone, which need no other atlas
+if size_is '<= 65536' -DGN_PRESET=GN_PRESET_BALANCED -DGN_MAX_WIDTH=320 -DGN_MAX_HEIGHT=240 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=500 \
+    -DGN_PUNCTUAL_LIGHTS=0 -DGN_MAIN_LIGHT=0; then pass
+else fail "preset balanced, 320x240, 500 triangles, directional lights: more than 64 KiB of RAM"; fi
+# what it says of the default configuration, in KB rounded up
+said=$(sed -n 's/.*about \([0-9]*\) KB as configured by default.*/\1/p' lib/gnomon.h)
+if size_is "<= ${said:-0} * 1024 && sizeof(gn_renderer) > (${said:-0} - 1) * 1024"; then pass
+else fail "lib/gnomon.h says $said KB by default, it is $(size_of) bytes"; fi
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
