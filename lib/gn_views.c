@@ -57,8 +57,8 @@ static void view_axes(gn_light_view *view, const int32_t w_q30[3])
 /* F5 */
 static gn_filter resolve_filter(gn_filter atlas, gn_softness softness)
 {
-    if (softness == GN_SOFTNESS_HARD) return atlas == GN_FILTER_HARD || GN_FILTER_MAX < 1 ? GN_FILTER_HARD : GN_FILTER_2X2;
-    if (softness == GN_SOFTNESS_SOFT && atlas < GN_FILTER_5X5) return GN_FILTER_MAX < 3 ? (gn_filter)GN_FILTER_MAX : GN_FILTER_5X5;
+    if (softness == GN_SOFTNESS_HARD) return atlas == GN_FILTER_HARD ? GN_FILTER_HARD : GN_FILTER_2X2;
+    if (softness == GN_SOFTNESS_SOFT && atlas < GN_FILTER_5X5) return GN_FILTER_5X5;
     return atlas;
 }
 
