@@ -12,14 +12,11 @@ void gn_alpha_begin(gn_alpha_test *test, const gn_object *object, gn_alpha mode,
     test->mode = mode;
     test->textured = GN_TEXTURES && object->texture;
     if (!test->textured) return;
-    const gn_mesh *mesh = object->mesh;
-    for (int i = 0; i < 2; i++) {
-        int64_t uv[3];
-        for (int k = 0; k < 3; k++) uv[k] = (int64_t)mesh->uv[2 * (size_t)idx[k] + (size_t)i] * (1 << (16 - mesh->uv_frac_bits));
-        test->uv_q16[0][i] = uv[0];
-        test->uv_q16[1][i] = uv[1] - uv[0];
-        test->uv_q16[2][i] = uv[2] - uv[0];
-    }
+#if GN_TEXTURES
+    gn_texture_corners(&test->uv, object->mesh, idx);
+#else
+    (void)idx;
+#endif
 }
 
 int gn_alpha_cuts(const gn_alpha_test *test, const int32_t b_q30[2], int32_t x, int32_t y)
@@ -27,11 +24,8 @@ int gn_alpha_cuts(const gn_alpha_test *test, const int32_t b_q30[2], int32_t x, 
     uint32_t alpha = test->object->alpha_uq16;
 #if GN_TEXTURES
     if (test->textured) {
-        int32_t uv[2];
-        for (int i = 0; i < 2; i++) /* 2^30 * 2^33 would not fit: differences lose a bit */
-            uv[i] = gn_sat32(test->uv_q16[0][i] + gn_shr64(b_q30[0] * (test->uv_q16[1][i] >> 1), 29) +
-                             gn_shr64(b_q30[1] * (test->uv_q16[2][i] >> 1), 29));
-        alpha = gn_mul_uq16(alpha, gn_texture_channel(test->object->texture, uv[0], uv[1], GN_CHANNEL_ALPHA));
+        int32_t u = gn_texture_coord(&test->uv, b_q30, 0), v = gn_texture_coord(&test->uv, b_q30, 1);
+        alpha = gn_mul_uq16(alpha, gn_texture_channel(test->object->texture, u, v, GN_CHANNEL_ALPHA));
     }
 #else
     (void)b_q30;

@@ -2,6 +2,7 @@
 #ifndef GN_ALPHA_H
 #define GN_ALPHA_H
 
+#include "gn_texture.h"
 #include "gnomon.h"
 
 #if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
@@ -10,8 +11,10 @@
 typedef struct {
     const gn_object *object;
     gn_alpha mode;
-    int textured;         /* 0: the object's own alpha all over */
-    int64_t uv_q16[3][2]; /* vertex 0, then differences of vertices 1 and 2 to it */
+    int textured; /* 0: the object's own alpha all over */
+#if GN_TEXTURES
+    gn_texture_triangle uv;
+#endif
 } gn_alpha_test;
 
 void gn_alpha_begin(gn_alpha_test *test, const gn_object *object, gn_alpha mode, const uint16_t idx[3]);

@@ -16,9 +16,15 @@ int32_t gn_bias_reach_q16(const gn_light *light)
     return reach;
 }
 
-gn_bias gn_bias_at(const gn_light_view *view, const gn_light *light, int32_t n_dot_l_q30)
+/* The receiver's offset in texels, Q16: along * N + towards * L. */
+typedef struct {
+    int32_t along_q16, towards_q16;
+} bias_terms;
+
+/* N . L of the interpolated normal as it is, Q30; only the four-term bias needs it. */
+static bias_terms bias_at(const gn_light_view *view, const gn_light *light, int32_t n_dot_l_q30)
 {
-    gn_bias bias = {view->offset_q16, 0};
+    bias_terms bias = {view->offset_q16, 0};
 #if GN_RECEIVER_BIAS
     const int32_t *b = light->bias_receiver_q16;
     if (!(b[0] | b[1] | b[3])) return bias;
@@ -33,5 +39,44 @@ gn_bias gn_bias_at(const gn_light_view *view, const gn_light *light, int32_t n_d
 #endif
     return bias;
 }
+
+void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3], int32_t out_q16[3])
+{
+    const int32_t *to_light = frame->light[view->light_idx].to_light_q30;
+    int32_t n_dot_l = GN_RECEIVER_BIAS ? (int32_t)gn_shr64(gn_dot64(n_q30, to_light), 30) : 0;
+    bias_terms bias = bias_at(view, &frame->scene->lights[view->light_idx], n_dot_l);
+    for (int i = 0; i < 3; i++) {
+        int64_t along_q30 = gn_shr64(gn_dot64(n_q30, view->axis_q30[i]), 30); /* |n| <= 1 */
+        out_q16[i] = (int32_t)gn_shr64(along_q30 * bias.along_q16, 30);
+    }
+    out_q16[2] -= bias.towards_q16; /* w is the direction of travel */
+}
+
+#if GN_PUNCTUAL_LIGHTS
+void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], const int32_t from_q16[3],
+                      int32_t out_q16[3])
+{
+    const gn_light_view *view = &frame->view[light->view_idx];
+    const gn_light *scene_light = &frame->scene->lights[view->light_idx];
+    int64_t z = 0; /* the light-plane distance */
+    if (light->kind == GN_LIGHT_SPOT) z = -gn_shr64(gn_dot64(from_q16, light->to_light_q30), 30);
+    else
+        for (int i = 0; i < 3; i++) z = (int64_t)gn_abs32(from_q16[i]) > z ? (int64_t)gn_abs32(from_q16[i]) : z;
+    z = gn_clamp64(z, 0, INT32_MAX);
+    int32_t to_light[3] = {0, 0, 0}, n_dot_l = 0;
+    if (GN_RECEIVER_BIAS) {
+        int64_t towards[3] = {-(int64_t)from_q16[0], -(int64_t)from_q16[1], -(int64_t)from_q16[2]};
+        gn_normalise_q30(to_light, towards);
+        n_dot_l = (int32_t)gn_clamp64(gn_shr64(gn_dot64(n_q30, to_light), 30), -(1 << 30), (1 << 30));
+    }
+    bias_terms bias = bias_at(view, scene_light, n_dot_l);
+    /* texels to units: 2^27 * 2^31 */
+    int64_t along = gn_bf_apply(bias.along_q16 * z, view->fit.persp.texel_per_z, -16);
+    int64_t towards = gn_bf_apply(bias.towards_q16 * z, view->fit.persp.texel_per_z, -16);
+    for (int i = 0; i < 3; i++)
+        out_q16[i] = gn_sat32(gn_shr64(gn_clamp64(along, 0, INT32_MAX) * n_q30[i], 30) +
+                              gn_shr64(gn_clamp64(towards, 0, INT32_MAX) * to_light[i], 30));
+}
+#endif
 
 #endif

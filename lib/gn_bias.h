@@ -11,13 +11,15 @@
 /* nu of DESIGN 1.4: how far a light's receiver bias can move a point across the light's axis, in texels per (k + 1), Q16. */
 int32_t gn_bias_reach_q16(const gn_light *light);
 
-/* The receiver's offset in texels, Q16: along * N + towards * L. */
-typedef struct {
-    int32_t along_q16, towards_q16;
-} gn_bias;
+/* How far a light's receiver is moved, for the interpolated normal as it is: in texels along the view's axes, Q16; the same in every
+ * cascade whose filter index is the same. */
+void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3], int32_t out_q16[3]);
 
-/* N . L of the interpolated normal as it is, Q30; only the four-term bias needs it. */
-gn_bias gn_bias_at(const gn_light_view *view, const gn_light *light, int32_t n_dot_l_q30);
+#if GN_PUNCTUAL_LIGHTS
+/* For spot and point lights: along the world's axes in its units, Q16. `from_q16` is the surface point minus the light. */
+void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], const int32_t from_q16[3],
+                      int32_t out_q16[3]);
+#endif
 
 #endif
 #endif

@@ -19,6 +19,7 @@ typedef struct {
 /* Returns 0 where the surface faces away or no light arrives (P10). */
 static int arrives(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot, arriving *a)
 {
+    (void)frame;
     a->light = surface->light[slot].state;
     a->value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
     a->cosine_q24 = a->value[GN_LIGHT_FACING];

@@ -2,7 +2,7 @@
 #ifndef GN_LIGHT_H
 #define GN_LIGHT_H
 
-#include "gn_surface.h"
+#include "gn_sample.h"
 
 /* Shadow factor of a light at a sample: 0..65536, 65536 where it casts none; 0 where the surface faces away or no light arrives. */
 uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t light_idx);

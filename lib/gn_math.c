@@ -177,3 +177,27 @@ uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn)
     int64_t q = (numerator + s / 2) / s;
     return q > (int64_t)UINT32_MAX ? UINT32_MAX : (uint32_t)q;
 }
+
+gn_length gn_length_of(int32_t newton_steps, const int32_t n_q30[3])
+{
+    uint64_t nn = (uint64_t)gn_dot64(n_q30, n_q30); /* Q60, at most 1 + rounding */
+    gn_length length;
+    length.shift = nn ? gn_clz64(nn) & ~1 : 0;
+    length.root = nn ? gn_rsqrt_norm((uint32_t)((nn << length.shift) >> 32), newton_steps) : 0;
+    return length;
+}
+
+int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], const int32_t unit_q30[3])
+{
+    int64_t dot_q30 = gn_shr64(gn_dot64(n_q30, unit_q30), 30);
+    int64_t cosine = gn_scale64(dot_q30 * (int64_t)length.root, 63 - 24 - length.shift / 2);
+    return (int32_t)gn_clamp64(cosine, -(1 << 24), 1 << 24);
+}
+
+void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int64_t v = gn_scale64((int64_t)n_q30[i] * (int64_t)length.root, 63 - 30 - length.shift / 2);
+        out_q30[i] = (int32_t)gn_clamp64(v, -(1 << 30), 1 << 30);
+    }
+}

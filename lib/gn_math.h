@@ -34,6 +34,16 @@ static inline int64_t gn_dot64(const int32_t a[3], const int32_t b[3])
     return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 }
 
+/* 1 / |n| of a vector of Q1.30 components, |n| <= 1 but for rounding: 2^(63 - shift / 2) = root * sqrt(n . n). Zero stays zero. */
+typedef struct {
+    uint32_t root;
+    int32_t shift;
+} gn_length;
+
+gn_length gn_length_of(int32_t newton_steps, const int32_t n_q30[3]);
+int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], const int32_t unit_q30[3]); /* n . unit / |n|, within +-1 */
+void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3]);                 /* n / |n| */
+
 /* Round Q1.30 cross product of unit vectors. */
 void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q30[3]);
 

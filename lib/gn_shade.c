@@ -1,4 +1,6 @@
 /* Shading of a screen tile. */
+#include <string.h>
+
 #include "gn_shade.h"
 #include "gn_light.h"
 #include "gn_pixel.h"
@@ -28,7 +30,7 @@ static uint32_t pack_axis(int64_t v_q30)
 static uint32_t raw_normal(const shading *s, int32_t x, int32_t y)
 {
     int32_t n[3], unit[3];
-    gn_surface_normal(s->frame, &s->surface, x, y, n);
+    gn_sample_normal(s->frame, &s->surface, x, y, n);
     int64_t wide[3] = {n[0], n[1], n[2]};
     if (!gn_normalise_q30(unit, wide)) return 512U << 20 | 512U << 10 | 512U;
     return pack_axis(unit[0]) << 20 | pack_axis(unit[1]) << 10 | pack_axis(unit[2]);
@@ -43,7 +45,7 @@ static uint32_t raw_value(const shading *s, const gn_sample *sample, int32_t x, 
     case GN_VIEW_DEPTH:
         return (uint32_t)sample->value[GN_VALUE_Z];
     case GN_VIEW_CASCADE:
-        return gn_surface_cascade(s->frame, &s->surface, x, y);
+        return gn_sample_cascade(s->frame, &s->surface, x, y);
     case GN_VIEW_NORMAL:
         return raw_normal(s, x, y);
     default:
@@ -176,14 +178,14 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
     int32_t step_px = s->surface.specular ? 1 : GN_K(s->frame, persp_step); /* a highlight is narrower than its n . h */
     int32_t first = s->surface.first_value, end = s->surface.n_values;
     gn_sample samples[2], step, *here = &samples[0], *next = &samples[1];
-    gn_surface_sample(s->frame, &s->surface, x_begin, y, here);
+    gn_sample_at(s->frame, &s->surface, x_begin, y, here);
     shade_pixel(s, here, x_begin, y);
     for (int32_t x = x_begin; x < x_end - 1;) {
         int32_t n = gn_min32(step_px, x_end - 1 - x);
-        gn_surface_sample(s->frame, &s->surface, x + n, y, next);
+        gn_sample_at(s->frame, &s->surface, x + n, y, next);
         while (n > 1 && !chord_holds(&s->surface, here, next)) {
             n >>= 1;
-            gn_surface_sample(s->frame, &s->surface, x + n, y, next);
+            gn_sample_at(s->frame, &s->surface, x + n, y, next);
         }
         if (n > 1) {
             step_between(&step, here, next, first, end, n);
@@ -252,6 +254,9 @@ static void clear_background(shading *s)
         return;
     }
 #endif
+    /* bits after a row's last pixel are flushed with it and count when tiles are compared (R6) */
+    if (frame->picture.format == GN_FORMAT_GREY4 || frame->picture.format == GN_FORMAT_MONO1)
+        memset(s->scratch->pixel.bytes, 0, gn_pixel_bytes(frame, s->rows.width, s->rect.y1 - s->rect.y0));
     for (int32_t y = s->rect.y0; y < s->rect.y1; y++) gn_pixel_fill(frame, &s->rows, s->rect.x0, y, s->rows.width, s->last_pixel);
 }
 

@@ -169,7 +169,7 @@ static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int3
 #if GN_MASKS
     if (!surface->masked || channel < 0) return GN_ONE_UQ16;
     const int32_t *value = &sample->value[GN_VALUE_MASK];
-    if (surface->object->mask_image) return gn_texture_channel(surface->object->mask_image, value[0], value[1], (uint32_t)channel);
+    if (surface->object->mask_image) return gn_texture_mask(surface->object->mask_image, value[0], value[1], (uint32_t)channel);
     return (uint32_t)gn_max32(0, gn_min32(value[channel], 65536));
 #else
     (void)surface, (void)sample, (void)channel;

@@ -2,7 +2,7 @@
 #ifndef GN_SHADOW_H
 #define GN_SHADOW_H
 
-#include "gn_surface.h"
+#include "gn_sample.h"
 
 /* g of DESIGN 1.4: how much of realtime shadows is left at this distance, 0..65536; the same for every light. */
 uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample);

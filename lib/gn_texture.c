@@ -79,7 +79,34 @@ uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q16, int32_t v_
     return to_uq16(blend(&f, value));
 }
 
+#if GN_MASKS
+uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel)
+{
+    const uint8_t flags = GN_TEXTURE_CLAMP_U | GN_TEXTURE_CLAMP_V | GN_TEXTURE_BILINEAR;
+    gn_texture texture = {image->rgba, image->width_log2, image->height_log2, flags};
+    return gn_texture_channel(&texture, u_q16, v_q16, channel);
+}
+#endif
+
 #if GN_TEXTURES
+void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const uint16_t idx[3])
+{
+    for (int i = 0; i < 2; i++) {
+        int64_t uv[3];
+        for (int k = 0; k < 3; k++) uv[k] = (int64_t)mesh->uv[2 * (size_t)idx[k] + (size_t)i] * (1 << (16 - mesh->uv_frac_bits));
+        out->uv_q16[0][i] = uv[0];
+        out->uv_q16[1][i] = uv[1] - uv[0];
+        out->uv_q16[2][i] = uv[2] - uv[0];
+    }
+}
+
+int32_t gn_texture_coord(const gn_texture_triangle *triangle, const int32_t b_q30[2], int32_t which)
+{
+    int64_t at = triangle->uv_q16[0][which], e1 = triangle->uv_q16[1][which], e2 = triangle->uv_q16[2][which];
+    /* 2^30 * 2^33 would not fit: differences lose a bit */
+    return gn_sat32(at + gn_shr64(b_q30[0] * (e1 >> 1), 29) + gn_shr64(b_q30[1] * (e2 >> 1), 29));
+}
+
 void gn_texture_colour(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t rgb_uq16[3])
 {
     footprint f;

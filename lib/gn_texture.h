@@ -11,7 +11,22 @@ enum { GN_CHANNEL_RED, GN_CHANNEL_GREEN, GN_CHANNEL_BLUE, GN_CHANNEL_ALPHA };
 uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t channel);
 #endif
 
+#if GN_MASKS
+/* The same of a mask image: bilinear and clamped, whatever its flags say. */
+uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel);
+#endif
+
 #if GN_TEXTURES
+/* Texture coordinates of a triangle: vertex 0, then differences of vertices 1 and 2 to it. */
+typedef struct {
+    int64_t uv_q16[3][2];
+} gn_texture_triangle;
+
+void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const uint16_t idx[3]);
+
+/* The coordinate (0: u, 1: v) of the point with barycentrics b1, b2, saturated. */
+int32_t gn_texture_coord(const gn_texture_triangle *triangle, const int32_t b_q30[2], int32_t which);
+
 /* Red, green, blue in linear light, 0..65536 each: decoded before they are filtered. */
 void gn_texture_colour(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t rgb_uq16[3]);
 #endif

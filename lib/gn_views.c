@@ -14,6 +14,8 @@
 #include "gn_texel.h"
 #include "gn_tiles.h"
 
+#define GN_COLOUR_MAX_UQ16 0xFFFFFF /* 255.99 */
+
 static void setup_light(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *light = &frame->scene->lights[light_idx];
@@ -21,12 +23,14 @@ static void setup_light(gn_frame *frame, uint32_t light_idx)
     int64_t towards[3];
     for (int k = 0; k < 3; k++) {
         towards[k] = -(int64_t)light->direction[k];
-        state->colour_uq16[k] = light->colour_uq16[k];
+        /* those of spot and point lights keep their exponent: gn_punctual_setup */
+        int32_t exp = light->kind == GN_LIGHT_DIRECTIONAL ? light->colour_exp : 0;
+        state->colour_uq16[k] = (uint32_t)gn_clamp64(gn_scale64(light->colour_uq16[k], -exp), 0, GN_COLOUR_MAX_UQ16);
     }
     if (!gn_normalise_q30(state->to_light_q30, towards)) /* only a point light has none */
         for (int k = 0; k < 3; k++) state->to_light_q30[k] = 0;
     state->strength_uq16 = light->shadow_strength_uq16;
-    state->mask_channel = (int8_t)light->mask_channel;
+    state->mask_channel = light->mode == GN_LIGHT_MIXED ? (int8_t)light->mask_channel : -1;
     state->kind = (uint8_t)light->kind;
     state->off = light->mode == GN_LIGHT_BAKED;
     state->view_idx = -1;
@@ -112,8 +116,6 @@ static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int
 {
     view->bias_constant_q16 = light->bias_constant_q16;
     view->bias_slope_q16 = light->bias_slope_q16;
-    view->border_lit = light->kind == GN_LIGHT_DIRECTIONAL && !cascaded;
-    view->perspective = light->kind != GN_LIGHT_DIRECTIONAL;
     set_filter(frame, view, light);
     if (!view->perspective) fit_directional(frame, view, light, cascaded);
 #if GN_PUNCTUAL_LIGHTS
@@ -175,6 +177,9 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
     view->first_texel = *first_texel;
     *first_texel += 1U << (2 * plan->tile_log2);
     set_texels(frame, view);
+    /* also of an empty one: a light's first view says what kind all of them are */
+    view->perspective = frame->light[light_idx].kind != GN_LIGHT_DIRECTIONAL;
+    view->border_lit = !view->perspective && !plan->cascaded;
     view->empty = plan->cascaded && frame->cascade[cascade_idx].radius2_q32 == 0;
     if (view->empty) return;
     if (view->stale) gn_ortho_rays(frame, view);

@@ -49,7 +49,7 @@ extern "C" {
                                "or no inverse")                                                                                    \
     X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, or more than 30 fraction bits")                              \
     X(GN_ERR_MESH_INDEX, "mesh index is not below its vertex count")                                                               \
-    X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera")                                   \
+    X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera or a spot or point light")          \
     X(GN_ERR_COLOUR, "colour, albedo or ambient out of range")                                                                     \
     X(GN_ERR_TEXTURE,                                                                                                              \
       "texture without texels or above 4096 per side, or texture coordinates are missing or have more than 15 fraction bits")      \
@@ -162,7 +162,7 @@ typedef struct {
     uint32_t specular_uq16[3];    /* linear, 0..65536; 0: none */
     uint8_t shininess_log2;       /* exponent 2^0 .. 2^7 */
     const gn_texture *texture;    /* or NULL */
-    const gn_texture *mask_image; /* M5: its four channels are shadow masks, looked up at the mesh's mask_uv_uq16, or NULL */
+    const gn_texture *mask_image; /* M5: four channels of shadow masks at the mesh's mask_uv_uq16, bilinear and clamped, or NULL */
     const uint8_t *mask_u8;       /* M5: 4 per vertex of the mesh, or NULL */
     const uint16_t *baked_uq12;   /* M9: 3 per vertex of the mesh, irradiance of the baked lights, 4.12, or NULL */
 } gn_object;
@@ -182,16 +182,16 @@ typedef enum {
 typedef struct {
     gn_light_kind kind;
     gn_light_mode mode;
-    int32_t direction[3];            /* directional: of travel, spot: of the axis; any length but zero */
-    int32_t position_q16[3];         /* spot, point */
-    uint32_t colour_uq16[3];         /* linear colour * intensity, 0..255.99; spot, point: at distance 1 */
-    int32_t colour_exp;              /* times 2^colour_exp, -100..100: spots and points need a wide range */
-    uint32_t range_q16;              /* spot, point: no light beyond; 0: unlimited */
-    int32_t near_q16;                /* spot, point: nothing nearer than this light-plane distance casts; > 0 */
+    int32_t direction[3];    /* directional: of travel, spot: of the axis; any length but zero */
+    int32_t position_q16[3]; /* spot, point */
+    uint32_t colour_uq16[3]; /* linear colour * intensity, 0..255.99; spot, point: at distance 1 */
+    int32_t colour_exp; /* times 2^colour_exp, -100..100: spots and points need a wide range; directional: up to 255.99 in all */
+    uint32_t range_q16; /* spot, point: no light beyond; 0: unlimited */
+    int32_t near_q16;   /* spot, point: nothing nearer than this light-plane distance casts; > 0 */
     uint16_t inner_turn, outer_turn; /* spot: full light within, none beyond; edge to edge, 1..179 degrees */
     uint32_t shadow_strength_uq16;   /* 0: casts no shadow and costs nothing; 65536: full */
     gn_softness softness;
-    int32_t mask_channel;         /* M5: 0..3, -1: none */
+    int32_t mask_channel;         /* M5: 0..3, -1: none; of mixed lights only */
     int32_t bias_constant_q16;    /* B1, texels, 0..64 */
     int32_t bias_slope_q16;       /* B1, 0..64 */
     int32_t bias_normal_q16;      /* B2, 0..8; 1.0 is a good value */

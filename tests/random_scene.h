@@ -125,6 +125,13 @@ static void random_meshes(random_scene *g)
     }
 }
 
+/* One after the other: the order of arguments is the compiler's choice, and a seed must mean the same scenes everywhere. */
+static void random_rotation(gn_affine *out)
+{
+    uint16_t yaw = (uint16_t)rnd(), pitch = (uint16_t)rnd(), roll = (uint16_t)rnd();
+    gn_affine_rotation(out, yaw, pitch, roll);
+}
+
 /* A place before the camera, or anywhere. */
 static void random_place(int32_t out_q16[3], const gn_affine *camera)
 {
@@ -155,7 +162,7 @@ static void random_material(random_scene *g, gn_object *o)
 
 static void random_object(random_scene *g, gn_object *o)
 {
-    gn_affine_rotation(&o->to_world, (uint16_t)rnd(), (uint16_t)rnd(), (uint16_t)rnd());
+    random_rotation(&o->to_world);
     if (one_in(4)) gn_affine_scale(&o->to_world, pick(1, one_in(4) ? (8192 << 16) - 1 : 4 << 16));
     if (one_in(8))
         for (int k = 0; k < 9; k++) o->to_world.m_q30[k / 3][k % 3] = pick(-(1 << 30), 1 << 30);
@@ -241,7 +248,7 @@ static void random_light(random_scene *g, gn_light *l)
 
 static void random_camera(gn_camera *camera)
 {
-    gn_affine_rotation(&camera->to_world, (uint16_t)rnd(), (uint16_t)rnd(), (uint16_t)rnd());
+    random_rotation(&camera->to_world);
     for (int k = 0; k < 3; k++) camera->to_world.t_q16[k] = pick(-RANDOM_LIMIT_Q16, RANDOM_LIMIT_Q16);
     camera->focal_q24 = (uint32_t)pick(1 << 19, one_in(6) ? INT32_MAX : 1 << 25) << one_in(8);
     camera->near_q16 = pick(256, one_in(8) ? RANDOM_LIMIT_Q16 : 1 << 14);

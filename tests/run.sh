@@ -90,7 +90,7 @@ variant() { # variant COMPILER OPTIMISATION
 
 install_missing
 build all
-build build/test_oiio build/test_stages build/test_accuracy build/gen_tables
+build build/test_oiio build/test_stages build/test_accuracy build/test_bias build/gen_tables
 for compiler in gcc clang; do
     variant $compiler -O0
     variant $compiler -O2

@@ -948,6 +948,133 @@ static void test_same_again(void)
     canvas_end(&c);
 }
 
+/* Slots of views are used again: an empty first cascade must not look like the spot light that was there before. */
+static void test_empty_cascade(void)
+{
+    gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
+    canvas c;
+    canvas_begin(&c, 48, 32, GN_FORMAT_RGB888);
+    CHECK(gn_init(&two, &p) == GN_OK);
+    full_scene();
+    demo.scene.lights = &full.light[FULL_SPOT];
+    demo.scene.n_lights = 1;
+    CHECK(gn_render(&two, &demo.scene, flush, &c) == GN_OK);
+    demo_scene_make(&demo, 1);
+    demo.scene.shadow.cascade_ratio_uq16[0] = 0;
+    CHECK(gn_render(&two, &demo.scene, flush, &c) == GN_OK);
+    CHECK_EQ_INT(canvas_crc(&c), crc_of(&one, &demo.scene, 48, 32, GN_FORMAT_RGB888));
+    canvas_end(&c);
+}
+
+/* A5: a frame that is abandoned fits its views, but its tiles are not drawn: the next must not keep those of the frame before. */
+static void test_abandoned_frame(void)
+{
+    gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
+    canvas c;
+    canvas_begin(&c, 48, 32, GN_FORMAT_RGB888);
+    CHECK(gn_init(&two, &p) == GN_OK);
+    demo_scene_make(&demo, 1);
+    for (int i = 0; i < 4; i++) demo.scene.shadow.refresh[i] = 4;
+    for (int i = 0; i < 4; i++) CHECK(gn_render(&two, &demo.scene, flush, &c) == GN_OK);
+    CHECK_EQ_INT(gn_get_stats(&two)->n_tiles_drawn, 0);
+    demo.scene.camera.to_world.t_q16[0] += GN_Q16(1.1);
+    CHECK(gn_begin(&two, &demo.scene) == GN_OK); /* the fifth frame would draw all tiles */
+    CHECK(gn_render(&two, &demo.scene, flush, &c) == GN_OK);
+    CHECK_EQ_INT(canvas_crc(&c), crc_of(&one, &demo.scene, 48, 32, GN_FORMAT_RGB888));
+    canvas_end(&c);
+}
+
+/* The exponent of a directional light's colour: the same as a brighter colour, up to the largest. */
+static void test_colour_exponent(void)
+{
+    uint32_t crc[4];
+    for (int i = 0; i < 4; i++) {
+        demo_scene_make(&demo, 0);
+        gn_light *l = &demo.light[0];
+        for (int k = 0; k < 3; k++) l->colour_uq16[k] = i < 2 ? i ? 40000 : 10000 : 0xFFFFFF;
+        l->colour_exp = i == 0 ? 2 : i == 3 ? 100 : 0;
+        crc[i] = crc_of(&one, &demo.scene, 48, 32, GN_FORMAT_RGB888);
+    }
+    CHECK_EQ_INT(crc[0], crc[1]);
+    CHECK_EQ_INT(crc[2], crc[3]);
+    CHECK(crc[1] != crc[2]);
+}
+
+/* M5: only mixed lights have masks. */
+static void test_mask_of_mixed_lights(void)
+{
+    uint32_t crc[3];
+    for (int i = 0; i < 3; i++) {
+        full_scene();
+        for (int l = 0; l < 3; l++) {
+            full.light[l].mode = i == 2 ? GN_LIGHT_MIXED : GN_LIGHT_REALTIME;
+            full.light[l].mask_channel = i == 0 ? -1 : 0;
+        }
+        demo.object[FULL_OBJECT].texture = NULL; /* a black one */
+        demo.scene.shadow.mixing = GN_MIXING_ALWAYS;
+        crc[i] = crc_of(&one, &demo.scene, 48, 32, GN_FORMAT_RGB888);
+    }
+    CHECK_EQ_INT(crc[0], crc[1]);
+    CHECK(crc[1] != crc[2]);
+}
+
+/* B4 away from a wide spot light moves a caster into its view from far outside: it must not be culled. */
+static void test_caster_moved_into_view(void)
+{
+    static const int32_t pos[9] = {0, 0, 0, GN_Q16(0.02), 0, 0, 0, GN_Q16(0.02), 0};
+    static const int16_t nrm[9] = {0, 0, 32767, 0, 0, 32767, 0, 0, 32767};
+    static const uint16_t idx[3] = {0, 1, 2};
+    gn_mesh mesh = {.pos = pos, .nrm_q15 = nrm, .idx = idx, .n_vertices = 3, .n_triangles = 1, .pos_frac_bits = 16};
+    gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
+    demo_scene_make(&demo, 0);
+    gn_light spot = {.kind = GN_LIGHT_SPOT, .direction = {0, 0, -1}, .near_q16 = 655, .shadow_strength_uq16 = 65536};
+    spot.inner_turn = spot.outer_turn = GN_TURN(170);
+    spot.bias_caster_q16 = GN_Q16(8);
+    demo.object[0].mesh = &mesh;
+    gn_affine_identity(&demo.object[0].to_world);
+    demo.object[0].to_world.t_q16[0] = GN_Q16(4);
+    demo.object[0].to_world.t_q16[2] = GN_Q16(-0.1);
+    demo.object[0].flags |= GN_OBJECT_CASTS_TWO_SIDED;
+    demo.scene.lights = &spot;
+    demo.scene.n_objects = 1;
+    CHECK(gn_init(&one, &p) == GN_OK);
+    one.frame.knobs.other_atlas_size = 16;
+    CHECK(gn_begin(&one, &demo.scene) == GN_OK && gn_shadow_tile_count(&one) == 1 && gn_shadow_tile(&one, 0) == GN_OK);
+    CHECK_EQ_INT(gn_get_stats(&one)->n_caster_triangles, 1);
+}
+
+/* Shadows of a flat ground and of one that counts as smooth, by normals a hair apart. */
+static void ground_shadows(canvas *c, int smooth)
+{
+    static int16_t nrm[12];
+    gn_picture p = picture_of(c->width, c->height, GN_FORMAT_RAW32);
+    p.view = GN_VIEW_SHADOW;
+    demo_scene_make(&demo, 1);
+    for (int i = 0; i < 4; i++) nrm[3 * i + 1] = 32767;
+    nrm[0] = (int16_t)smooth;
+    demo.ground.nrm_q15 = nrm;
+    demo.light[0].bias_normal_q16 = GN_Q16(6);
+    demo.scene.shadow.filter = GN_FILTER_DISK;
+    demo.scene.shadow.disk_samples = 16;
+    demo.scene.shadow.penumbra_uq16 = GN_UQ16(8);
+    CHECK(gn_init(&one, &p) == GN_OK && gn_render(&one, &demo.scene, flush, c) == GN_OK);
+}
+
+/* F4: the disk's reach differs from cascade to cascade, and so does the receiver's offset; flat or smooth. */
+static void test_disk_offset_per_cascade(void)
+{
+    canvas flat, smooth;
+    long n_different = 0;
+    canvas_begin(&flat, 96, 64, GN_FORMAT_RAW32);
+    canvas_begin(&smooth, 96, 64, GN_FORMAT_RAW32);
+    ground_shadows(&flat, 0);
+    ground_shadows(&smooth, 1);
+    for (size_t i = 0; i < flat.n_bytes; i += 4) n_different += memcmp(flat.pixels + i, smooth.pixels + i, 4) != 0;
+    if (!CHECK(n_different < 20)) printf("%ld pixels differ\n", n_different);
+    canvas_end(&flat);
+    canvas_end(&smooth);
+}
+
 /* One step of a frame: begin, each shadow tile, prepare, each screen tile. Returns 0 when it is done. */
 static int step(gn_renderer *r, const gn_scene *s, canvas *c, uint32_t n)
 {
@@ -1458,21 +1585,30 @@ static void next_picture(campaign *r, uint32_t kind)
     canvas_begin(&r->fresh, p.width, p.height, p.format);
 }
 
+/* The same frame by the other renderer, which has kept nothing. Whether it has the same pixels. */
+static int same_afresh(campaign *r, int32_t tile_size, int culling)
+{
+    gn_scene other = r->scene.scene;
+    other.shadow.caster_culling = (uint32_t)culling;
+    gn_forget_shadows(&two);
+    two.frame.knobs = one.frame.knobs;
+    if (tile_size) two.frame.knobs.tile_width = two.frame.knobs.tile_height = tile_size;
+    return gn_render(&two, &other, flush, &r->fresh) == GN_OK && !memcmp(r->kept.pixels, r->fresh.pixels, r->kept.n_bytes);
+}
+
 /* What must not change a pixel: forgetting what was kept, culling casters, and other screen tiles where each pixel has its divide. */
 static void compare_with_fresh(campaign *r, long frame)
 {
-    gn_scene other = r->scene.scene;
-    other.shadow.caster_culling = !other.shadow.caster_culling;
+    const gn_shadow_settings *s = &r->scene.scene.shadow;
+    int culling = !s->caster_culling;
+    int32_t tile_size = one.frame.knobs.persp_step == 1 ? 8 + 8 * (int32_t)(rnd() % 6) : 0;
     for (int i = 0; i < 4; i++)
-        if (other.shadow.refresh[i] > 1) return; /* tiles are older than the frame */
-    gn_forget_shadows(&two);
-    two.frame.knobs = one.frame.knobs;
-    if (one.frame.knobs.persp_step == 1) two.frame.knobs.tile_width = two.frame.knobs.tile_height = 8 + 8 * (int32_t)(rnd() % 6);
-    if (gn_render(&two, &other, flush, &r->fresh) != GN_OK) r->wrong++;
-    else if (memcmp(r->kept.pixels, r->fresh.pixels, r->kept.n_bytes) != 0) {
-        if (r->wrong++ < 10) printf("scene %ld: other pixels when drawn afresh\n", frame);
-    }
+        if (s->refresh[i] > 1) return; /* tiles are older than the frame */
     r->compared++;
+    if (same_afresh(r, tile_size, culling)) return;
+    if (r->wrong++ < 10)
+        printf("scene %ld: other pixels by what was kept: %d, by culling: %d, by screen tiles: %d\n", frame,
+               !same_afresh(r, 0, !culling), !same_afresh(r, 0, culling), !same_afresh(r, tile_size, !culling));
 }
 
 static void random_frame(campaign *r, long frame)
@@ -1493,13 +1629,23 @@ static void random_frame(campaign *r, long frame)
     if (one_in(4)) compare_with_fresh(r, frame);
 }
 
+static long option(const char *name, long otherwise)
+{
+    const char *value = getenv(name);
+    return value && *value ? strtol(value, NULL, 0) : otherwise;
+}
+
+/* SEED=n SCENES=n FIRST=n: other scenes, and where to look again. */
 static void test_random_scenes(long n_scenes)
 {
     static campaign r;
-    const char *seed = getenv("SEED");
-    if (seed) random_state = strtoull(seed, NULL, 0);
-    for (long i = 0; i < n_scenes; i++) {
-        if (i % 256 == 0) next_picture(&r, (uint32_t)(i / 256 % 11));
+    long first = option("FIRST", 0) & ~255L;
+    uint64_t seed = (uint64_t)option("SEED", 1) << 40;
+    for (long i = first; i < first + n_scenes; i++) {
+        if (i % 256 == 0) {
+            random_state = seed + (uint64_t)i;
+            next_picture(&r, (uint32_t)(i / 256 % 11));
+        }
         if (i % 4 == 0 || one_in(8)) {
             random_knobs(&one.frame.knobs);
             random_scene_make(&r.scene);
@@ -1526,7 +1672,6 @@ static void test_random_scenes(long n_scenes)
 
 int main(void)
 {
-    const char *soak = getenv("SOAK");
     test_refused_scenes();
     test_bounds();
     test_combinations();
@@ -1537,6 +1682,12 @@ int main(void)
     test_order();
     test_status_texts();
     test_same_again();
+    test_empty_cascade();
+    test_abandoned_frame();
+    test_colour_exponent();
+    test_mask_of_mixed_lights();
+    test_caster_moved_into_view();
+    test_disk_offset_per_cascade();
     test_two_renderers();
     test_tile_order();
     test_no_needless_tiles();
@@ -1544,6 +1695,6 @@ int main(void)
     test_tile_sizes();
     test_picture_sizes();
     test_extremes();
-    test_random_scenes(getenv("SCENES") ? strtol(getenv("SCENES"), NULL, 0) : soak && *soak ? 2000000 : 20000);
+    test_random_scenes(option("SCENES", option("SOAK", 0) ? 2000000 : 20000));
     return check_report();
 }

@@ -538,7 +538,7 @@ static void check_cascades(int n_cascades)
     CHECK_EQ_INT(s.shadow.n_cascades, n_cascades);
     CHECK(s.shadow.blend == SCENE_BLEND_HARD && s.shadow.distance_mode == SCENE_DISTANCE_DEPTH);
     for (int n = n_cascades; n <= 4; n++) {
-        for (int i = 0; i < 3; i++) CHECK_NEAR(s.shadow.cascade_ratio[i], ratios[n][i], 0);
+        for (int i = 0; i < 3; i++) CHECK_NEAR(s.shadow.cascade_ratio[i], scene_share(ratios[n][i]), 0);
         if (n == 4) break;
         s.shadow.n_cascades = n + 1;
         scene_default_ratios(&s.shadow);
@@ -558,7 +558,7 @@ static void check_defaults(int w, int h, double size)
     CHECK_NEAR(s.lights[0].colour[0], 0.85, 0);
     CHECK_NEAR(s.ambient[1], 0.18, 0);
     CHECK_NEAR(s.background[2], 0.6, 0);
-    CHECK_NEAR(s.shadow.distance_fade, 0.1, 0);
+    CHECK_NEAR(s.shadow.distance_fade, scene_share(0.1), 0);
     CHECK(s.shadow.filter == SCENE_FILTER_3X3);
     check_cascades(1);
     /* The shadow of the top vertex on the ground is in front of where shadows start to fade. */

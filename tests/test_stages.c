@@ -328,7 +328,7 @@ static void check_samples(const gn_frame *frame, int32_t view[][3])
                 /* edge-on planes are stood for by their nearest point (NUMERICS 4.3): not part of the bound */
                 if (!c.inside || !(c.kappa < 1000) || !(p.kappa0 < 1000)) continue;
                 if (c.z < fixed.camera.near_q16 * LSB16) continue; /* clipped away */
-                gn_surface_sample(frame, &surface, x, y, &sample);
+                gn_sample_at(frame, &surface, x, y, &sample);
                 check_depth(frame, tri, &p, &c, x, y);
                 record(STAGE_Z, fabs(sample.value[GN_VALUE_Z] * LSB16 - c.z), depth_bound(frame, &p, &c), LSB16);
                 check_cosine(frame, &surface, &sample, &c);

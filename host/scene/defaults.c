@@ -14,7 +14,7 @@ static const double camera_fill = 0.7; /* of the smaller picture dimension */
 static const double ground_albedo = 0.55;
 static const double ground_half_size_radii = 8;
 static const double shadow_reach_radii = 3; /* behind the object's centre, at most: a low sun casts without end */
-static const double shadow_fade = 0.1;
+static const double shadow_fade = 6554.0 / 65536; /* scene_share(0.1) */
 
 static bool check_object(loader *l, const scene_object *object)
 {
@@ -146,7 +146,7 @@ static void default_shadow(const loader *l, scene_shadow *out)
 {
     *out = (scene_shadow){.max_distance = fmin(100, l->s->camera.far),
                           .distance_fade = shadow_fade,
-                          .cascade_fade = 0.1,
+                          .cascade_fade = scene_share(0.1),
                           .filter = SCENE_FILTER_3X3,
                           .other_filter = SCENE_FILTER_3X3,
                           .kernel = SCENE_KERNEL_TENT,

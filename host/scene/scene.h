@@ -160,6 +160,9 @@ typedef struct {
     bool smooth;       /* meshes without normals: smooth vertex normals instead of face normals */
 } scene_options;
 
+/* v as a multiple of 1/65536: fades and cascade ratios are such (DESIGN 1.4). */
+double scene_share(double v);
+
 /* The ratios that go with n_cascades: 0.1, 0.25, 0.5 for 4; 0.1, 0.25 for 3; 0.25 for 2. */
 void scene_default_ratios(scene_shadow *shadow);
 

@@ -16,7 +16,8 @@ static const char *const mode_names[] = {"realtime", "mixed", "baked", NULL};
 static const char *const kind_names[] = {"directional", "spot", "point", NULL};
 
 typedef enum { OF_SCENE, OF_SHADOW, OF_LIGHTS } owner;
-typedef enum { NUMBER, COLOUR, BIAS, WHOLE, SWITCH, WORD, REACH } value_type; /* REACH: a distance, 0: unlimited */
+/* SHARE: a multiple of 1/65536; REACH: a distance, 0: unlimited */
+typedef enum { NUMBER, SHARE, COLOUR, BIAS, WHOLE, SWITCH, WORD, REACH } value_type;
 
 typedef struct {
     const char *name;
@@ -43,8 +44,8 @@ typedef struct {
 
 static const scene_knob scene_knobs[] = {
     SHADOW_("max_distance", NUMBER, max_distance, 0.004, 8192, "no shadow beyond this view depth (D5)"),
-    SHADOW_("distance_fade", NUMBER, distance_fade, 0.001, 1, "share of it over which shadows fade (D5)"),
-    SHADOW_("cascade_fade", NUMBER, cascade_fade, 0.001, 1, "margin of the bounding sphere (D3)"),
+    SHADOW_("distance_fade", SHARE, distance_fade, 0.001, 1, "share of it over which shadows fade (D5)"),
+    SHADOW_("cascade_fade", SHARE, cascade_fade, 0.001, 1, "margin of the bounding sphere (D3)"),
     SHADOW_("penumbra", NUMBER, penumbra, 0, 64,
             "radius of the disk filter, in 0.02 world units (directional lights) or 0.004 of a tile (F4)"),
     SHADOW_("disk_samples", WHOLE, disk_samples, 1, 64, "samples of the disk filter (F4)"),
@@ -131,6 +132,7 @@ static int read_numbers(const scene_knob *k, const char *value, stored *out)
     if (n != 1 && n != want) return -1;
     for (int i = n; i < want; i++) out->as.number[i] = out->as.number[0];
     out->bytes = (size_t)want * sizeof *out->as.number;
+    if (k->type == SHARE) out->as.number[0] = scene_share(out->as.number[0]);
     if (k->type != REACH || out->as.number[0] >= 0.01) return 0;
     if (out->as.number[0] > 0) return -1;
     out->as.number[0] = (double)INFINITY;
@@ -187,7 +189,7 @@ static int apply_ratios(scene *s, const char *value, char *error, size_t bytes)
     if (settings_numbers(value, ratio, want, 0, 1) != want) return settings_fail(error, bytes, "cascade_ratios", value, expected);
     for (int i = 1; i < want; i++)
         if (ratio[i] < ratio[i - 1]) return settings_fail(error, bytes, "cascade_ratios", value, "in ascending order");
-    memcpy(s->shadow.cascade_ratio, ratio, (size_t)want * sizeof *ratio);
+    for (int i = 0; i < want; i++) s->shadow.cascade_ratio[i] = scene_share(ratio[i]);
     return 0;
 }
 

@@ -1,0 +1,578 @@
+/* Every feature row (docs/DESIGN.md section 1) through the whole pipeline: the library against the reference, on a scene in which the row
+ * matters. "--list" prints what each line measures.
+ *
+ * A line says what it compares and what the picture is without it. That the row matters is tested too: the reference with and without must
+ * differ, and the library must come closer to the reference with the row than the one without is. So a setting that one engine ignores
+ * fails, however few pixels it changes. */
+#include "../host/tool/metrics.h"
+#include "row_scenes.h"
+
+enum { WIDTH = 160, HEIGHT = 120 };
+
+#ifdef __OPTIMIZE__
+static const bool optimised = true;
+#else
+static const bool optimised = false; /* slow: one preset per line, and no proof that it matters */
+#endif
+
+typedef struct {
+    const char *id, *scene, *words; /* words: of both pictures */
+    const char *with, *without;     /* NULL: nothing to leave out */
+    double allowed;                 /* what may differ, as a share of what the project promises */
+} row;
+
+typedef struct {
+    double identical, within1, psnr_db, shadow_mismatch;
+} floors;
+static const floors floor_of[SETTINGS_PRESETS] = {{0, 0, 0, 1}, {0.96, 0.993, 39, 0.008}, {0.985, 0.998, 43, 0.004}};
+
+#define MOST_TEXELS   0.004 /* of a shadow tile whose depth differs: its edges */
+#define LEAST_CHANGED 12    /* pixels that the row changes by more than 2 of 255 levels */
+
+/* ---- A scene with its settings ---------------------------------------------------------------------------------------- */
+
+typedef struct {
+    fixture f;  /* scenes built here */
+    scene file; /* scenes of host/scenes */
+    bool from_file;
+    settings set;
+} stage;
+
+static scene *scene_of(stage *st)
+{
+    return st->from_file ? &st->file : &st->f.s;
+}
+
+static int apply_to_file(stage *st, const char *words)
+{
+    char buffer[512], error[256] = "";
+    snprintf(buffer, sizeof buffer, "%s", words);
+    for (char *word = strtok(buffer, " "); word; word = strtok(NULL, " ")) {
+        if (settings_apply_all(&st->set, &st->file, &word, 1, error, sizeof error) == 0) continue;
+        printf("  %s: %s\n", word, error);
+        return -1;
+    }
+    return 0;
+}
+
+static int open_file(stage *st, const char *name)
+{
+    char path[64], error[256] = "";
+    const scene_options options = {.frame = 24, .width = WIDTH, .height = HEIGHT};
+    snprintf(path, sizeof path, "host/scenes/%s", name);
+    st->from_file = true;
+    if (scene_load(&st->file, path, &options, error, sizeof error) == 0) return 0;
+    printf("  %s\n", error);
+    return -1;
+}
+
+static int open_stage(stage *st, const row *r, const char *words, int preset)
+{
+    memset(st, 0, sizeof *st);
+    settings_init(&st->set);
+    settings_preset(&st->set, preset);
+    if (strstr(r->scene, ".gltf"))
+        return open_file(st, r->scene) || apply_to_file(st, r->words) || apply_to_file(st, words ? words : "") ? -1 : 0;
+    for (size_t i = 0; i < sizeof row_scenes / sizeof *row_scenes; i++)
+        if (strcmp(r->scene, row_scenes[i].name) == 0) row_scenes[i].build(&st->f);
+    return apply_words(&st->f, &st->set, r->words) || apply_words(&st->f, &st->set, words ? words : "") ? -1 : 0;
+}
+
+static void close_stage(stage *st)
+{
+    if (st->from_file) scene_free(&st->file);
+    else end(&st->f);
+}
+
+/* ---- One line --------------------------------------------------------------------------------------------------------- */
+
+typedef struct {
+    engine_picture fixed, reference;
+} pair;
+
+static int draw(engine_picture *out, stage *st, bool fixed)
+{
+    char error[256] = "";
+    const int failed = fixed ? engine_fixed(out, scene_of(st), &st->set, WIDTH, HEIGHT, ENGINE_ALL, error, sizeof error)
+                             : engine_reference(out, scene_of(st), &st->set, WIDTH, HEIGHT, error, sizeof error);
+    if (failed) printf("  %s\n", error);
+    return failed;
+}
+
+static long changed_pixels(const engine_picture *a, const engine_picture *b)
+{
+    long n = 0;
+    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) {
+        int worst = 0;
+        for (size_t k = 0; k < 3; k++) {
+            const int d = abs(a->rgb8[3 * i + k] - b->rgb8[3 * i + k]);
+            worst = d > worst ? d : worst;
+        }
+        n += worst > 2;
+    }
+    return n;
+}
+
+/* Where `seen` is true. */
+static double squared_distance(const engine_picture *a, const engine_picture *b, const bool *seen)
+{
+    double sum = 0;
+    for (size_t i = 0; i < (size_t)3 * WIDTH * HEIGHT; i++) sum += seen[i / 3] ? pow(a->rgb8[i] - b->rgb8[i], 2) : 0;
+    return sum;
+}
+
+/* How near the library comes with the row, against how near the picture without it is: 0 is perfect, 1 no better. Edges of triangles are
+ * another matter. */
+static double closeness(const pair *with, const engine_picture *without)
+{
+    static bool seen[WIDTH * HEIGHT];
+    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) seen[i] = with->fixed.triangle[i] == with->reference.triangle[i];
+    return squared_distance(&with->fixed, &with->reference, seen) / fmax(squared_distance(without, &with->reference, seen), 1e-9);
+}
+
+/* The share of what is promised that the metrics need: 1 is just enough. */
+static double share_needed(const metrics *m, int preset)
+{
+    const floors *f = &floor_of[preset];
+    double share = fmax((1 - m->identical) / (1 - f->identical), (1 - m->within1) / (1 - f->within1));
+    share = fmax(share, m->shadow_mismatch / f->shadow_mismatch);
+    return isinf(m->psnr_db) ? share : fmax(share, pow(10, (f->psnr_db - m->psnr_db) / 10));
+}
+
+/* Both say the same of tiles (A2, A3, D1, D10, P5). */
+static void check_tiles(const engine_picture *fixed, const engine_picture *reference)
+{
+    for (size_t l = 0; l < fixed->n_lights; l++) {
+        CHECK_EQ_INT(fixed->n_tiles[l], reference->n_tiles[l]);
+        CHECK_EQ_INT(fixed->atlas_texels[l], reference->atlas_texels[l]);
+    }
+}
+
+/* Texels whose depths differ by more than two steps, or that only one of both has covered. */
+static double tile_difference(const double *a, const double *b, int texels, int bits)
+{
+    long differing = 0;
+    const double step = 2.0 / (bits == 8 ? 255 : 65535);
+    for (int i = 0; i < texels * texels; i++) differing += (a[i] < 1) != (b[i] < 1) || fabs(a[i] - b[i]) > step;
+    return (double)differing / (texels * texels);
+}
+
+/* The share of such texels in the worst tile. */
+static double atlas_difference(const pair *p, const settings *set)
+{
+    double worst = 0;
+    for (size_t l = 0; l < p->fixed.n_lights; l++)
+        for (int i = 0; i < p->fixed.n_tiles[l]; i++) {
+            const double *a = p->fixed.atlas[l][i], *b = p->reference.atlas[l][i];
+            const int bits = p->fixed.perspective[l] ? set->quality.other_depth_bits : set->quality.depth_bits;
+            CHECK(!a == !b);
+            if (a && b) worst = fmax(worst, tile_difference(a, b, p->fixed.atlas_texels[l], bits));
+        }
+    return worst;
+}
+
+typedef struct {
+    metrics m;
+    double share, atlas;
+    long changed;
+    double closeness; /* squared distance to the reference over that of the picture without the row */
+} result;
+
+static int compare_without(result *out, const pair *with, const row *r, int preset)
+{
+    stage st;
+    engine_picture without;
+    if (open_stage(&st, r, r->without, preset) || draw(&without, &st, false)) return -1;
+    out->changed = changed_pixels(&with->reference, &without);
+    out->closeness = closeness(with, &without);
+    engine_free(&without);
+    close_stage(&st);
+    return 0;
+}
+
+static int measure(result *out, const row *r, int preset, bool matters)
+{
+    stage st;
+    pair p;
+    memset(out, 0, sizeof *out);
+    if (open_stage(&st, r, r->with, preset) || draw(&p.fixed, &st, true)) return -1;
+    if (draw(&p.reference, &st, false)) return -1;
+    metrics_compute(&out->m, &p.fixed, &p.reference);
+    out->share = share_needed(&out->m, preset);
+    check_tiles(&p.fixed, &p.reference);
+    out->atlas = atlas_difference(&p, &st.set);
+    const int failed = matters ? compare_without(out, &p, r, preset) : 0;
+    engine_free(&p.fixed);
+    engine_free(&p.reference);
+    close_stage(&st);
+    return failed;
+}
+
+static void print_result(const row *r, int preset, const result *x)
+{
+    printf("%-4s %-8s %s | %s | %s: share %.3f identical %.5f within1 %.5f psnr %.1f mismatch %.5f atten %.4f atlas %.5f changed "
+           "%ld close %.4f; "
+           "%ld coverage %ld shadow %ld rounding, worst %d at %d,%d %s\n",
+           r->id, settings_preset_name[preset], r->scene, r->words, r->with ? r->with : "", x->share, x->m.identical, x->m.within1,
+           x->m.psnr_db, x->m.shadow_mismatch, x->m.atten_max, x->atlas, x->changed, x->closeness, x->m.by_coverage, x->m.by_shadow,
+           x->m.by_rounding, x->m.max_error, x->m.worst_x, x->m.worst_y, x->m.worst_cause);
+}
+
+/* That the row matters is asked once, where little else differs. */
+static void check_row(const row *r, int preset, bool list)
+{
+    const bool matters = optimised && r->without && preset == SETTINGS_ACCURATE;
+    const unsigned long failed = check_n_failed;
+    result x;
+    if (!CHECK_EQ_INT(measure(&x, r, preset, matters), 0)) {
+        printf("  %s %s %s\n", r->id, r->words, r->with ? r->with : "");
+        return;
+    }
+    CHECK(x.share <= r->allowed);
+    CHECK(x.atlas <= MOST_TEXELS);
+    if (matters) {
+        CHECK(x.changed >= LEAST_CHANGED);
+        CHECK(x.closeness < 0.25);
+    }
+    if (list || check_n_failed > failed) print_result(r, preset, &x);
+}
+
+/* ---- The table -------------------------------------------------------------------------------------------------------- */
+
+#define FILTERED(id, light, name)                                                                                                  \
+    {                                                                                                                              \
+        id, "yard", ".light=" light, "filter=" name, "filter=2x2", 0.25                                                            \
+    }
+#define LINEAR(light, name)                                                                                                        \
+    {                                                                                                                              \
+        "F6", "yard", ".light=" light " filter=" name, "kernel=linear", "kernel=tent", 0.25                                        \
+    }
+#define DISK(light, penumbra, samples)                                                                                             \
+    {                                                                                                                              \
+        "F4", "yard", ".light=" light, "filter=disk penumbra=" penumbra " disk_samples=" samples, "filter=2x2", 0.5                \
+    }
+#define SOFTNESS(light)                                                                                                            \
+    {"F5", "yard", ".light=" light " filter=3x3", "softness=hard", "", 0.25},                                                      \
+    {                                                                                                                              \
+        "F5", "yard", ".light=" light " filter=3x3", "softness=soft", "", 0.25                                                     \
+    }
+#define BIASES(light)                                                                                                              \
+    {"B1", "yard", ".light=" light " bias_normal=0", "bias_constant=1.5", "", 1},                                                  \
+        {"B1", "yard", ".light=" light " bias_normal=0 bias_constant=0.3", "bias_slope=1.5", "", 0.25},                            \
+        {"B2", "yard", ".light=" light " bias_normal=0", "bias_normal=1", "", 0.25},                                               \
+        {"B2", "yard", ".light=" light " bias_normal=0 filter=5x5", "bias_normal=2", "", 0.25},                                    \
+        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=2,0,0,0", "", 0.5},                                        \
+        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=0,1.5,0,0", "", 0.75},                                     \
+        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=0,0,1.5,0", "", 0.25},                                     \
+        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=0,0,0,2", "", 0.25},                                       \
+        {"B3", "yard", ".light=" light " bias_normal=0 filter=3x3", "bias_receiver=0.5,0.4,0.3,0.6", "", 0.25},                    \
+        {"B4", "yard", ".light=" light " bias_normal=0", "bias_caster=1.5", "", 0.25},                                             \
+        {"B4", "yard", ".light=" light " bias_normal=0 .normals=0", "bias_caster=1.5", "", 0.25},                                  \
+        {"B5", "yard", ".light=" light " bias_normal=0 bias_constant=0.4", "receiver_plane=1", "", 0.25},                          \
+    {                                                                                                                              \
+        "B5", "yard", ".light=" light " bias_normal=0.3 filter=5x5", "receiver_plane=1", "", 0.25                                  \
+    }
+
+static const row rows[] = {
+    /* D: directional lights */
+    {"D1", "yard", ".light=suns", "shadow@1=1", "shadow@1=0", 0.25},
+    {"D1", "yard", ".light=suns", "strength@0=0", "", 0.25},
+    {"D1", "yard", "", ".light=five", "", 0.5}, /* the fifth has no tile */
+    {"D2", "yard", "atlas_size=64", ".direction=-0.9,-0.6,-0.2", "", 0.25},
+    {"D2", "yard", "", ".direction=0,-1,0", "", 1},
+    {"D2", "yard", "", ".direction=0.02,1,0.4", "", 0.1},
+    {"D3", "lane", "", "cascades=1", "cascades=4", 0.25},
+    {"D3", "lane", "", "cascades=2", "cascades=4", 0.25},
+    {"D3", "lane", "", "cascades=3", "cascades=4", 0.25},
+    {"D3", "lane", "", "cascades=4 cascade_ratios=0.067,0.2,0.467", "cascades=4", 0.25},
+    {"D3", "lane", "", "cascades=4 cascade_ratios=0.2,0.2,0.6", "cascades=4", 0.25},
+    {"D4", "lane", ".focal=3 cascades=4", "max_distance=40", "max_distance=20", 0.25},
+    {"D4", "lane", ".focal=0.6 cascades=3", "max_distance=40", "max_distance=15", 0.1},
+    {"D5", "lane", "cascades=4 max_distance=30", "distance_fade=0.6", "distance_fade=0.05", 0.25},
+    {"D6", "lane", "cascades=2 max_distance=20", "cascade_fade=0.7", "cascade_fade=0.05", 0.25},
+    {"D7", "lane", "cascades=2 atlas_size=64", "cascade_blend=soft cascade_fade=0.6", "cascade_fade=0.6", 0.5},
+    {"D7", "lane", "cascades=2 atlas_size=64", "cascade_blend=dither cascade_fade=0.6", "cascade_fade=0.6", 0.5},
+    {"D7", "lane", "cascades=3 filter=5x5", "cascade_blend=soft cascade_fade=0.5", "cascade_fade=0.5", 0.5},
+    {"D7", "lane", "cascades=3 filter=5x5", "cascade_blend=dither cascade_fade=0.5", "cascade_fade=0.5", 0.5},
+    {"D7", "lane", ".camera=0.5,2,6,0,0.5,-8 cascades=4 filter=5x5 atlas_size=64", "cascade_blend=soft cascade_fade=0.6",
+     "cascade_fade=0.6", 0.25},
+    {"D7", "lane", ".camera=0.5,2,6,0,0.5,-8 cascades=4 filter=5x5 atlas_size=64", "cascade_blend=dither cascade_fade=0.6",
+     "cascade_fade=0.6", 0.25},
+    {"D9", "yard", "", "near_offset=100", NULL, 0.1},
+    {"D9", "yard", "max_distance=3", ".direction=-0.2,-0.3,1", "", 0.25},
+    {"D10", "yard", ".light=suns", "main_light=1", "", 0.25},
+    {"D10", "yard", ".light=suns max_distance=9", "main_light=1", "", 0.25},
+    {"D10", "lane", ".light=suns cascades=4 filter=5x5", "main_light=1 cascade_blend=soft cascade_fade=0.4", "cascade_fade=0.4",
+     0.5},
+    {"D10", "yard", ".light=suns", "main_light=1 other_filter=7x7", "main_light=1", 0.25},
+    {"D11", "lane", ".camera=0,6,2,3,0,-6 .focal=0.5 max_distance=10", "distance_mode=radius", "distance_fade=0.001", 0.1},
+    {"D11", "yard", ".light=spot max_distance=9", "distance_mode=radius", "", 0.1},
+    {"D11", "yard", ".light=all max_distance=9", "distance_mode=radius", "", 0.1},
+    {"D5", "yard", ".light=spot max_distance=11", "distance_fade=0.5", "distance_fade=0.02", 0.1},
+    {"D5", "yard", ".light=point max_distance=11", "distance_fade=0.5", "distance_fade=0.02", 0.1},
+    {"D11", "yard", ".light=point max_distance=9", "distance_mode=radius", "", 0.1},
+
+    /* P: spot and point lights */
+    {"P1", "yard", "", ".light=all", "", 0.1},
+    {"P1", "yard", "", ".light=dozen shadow=0", "", 0.1},
+    {"P2", "yard", ".light=point", "range=4", "", 0.1},
+    {"P2", "yard", ".light=point", "range=100000", "range=7", 0.25},
+    {"P2", "yard", ".light=point", "range=0", "range=7", 0.25},
+    {"P2", "yard", ".light=spot", "range=0", "range=8", 0.1},
+    {"P2", "yard", ".light=point .position=0.9,0.9,0.6 .intensity=0.8", "range=1.2", "", 0.1},
+    {"P3", "yard", ".light=spot", ".cone=30,40", "", 0.1},
+    {"P3", "yard", ".light=spot", ".cone=50,50", "", 0.1},
+    {"P3", "yard", ".light=spot", ".cone=0,70", "", 0.1},
+    {"P4", "yard", ".light=spot", ".cone=1,1 .intensity=200 .camera=0,0.6,0.4,0,0,-1.5", ".camera=0,0.6,0.4,0,0,-1.5", 0.1},
+    {"P4", "yard", ".light=spot .intensity=60", ".cone=100,130", "", 0.1},
+    {"P4", "yard", ".light=spot .intensity=60", ".cone=179,179 other_atlas_size=1024", "", 0.1},
+    {"P4", "yard", ".light=spot .position=-1.3,2.9,1.9 .intensity=12", "near=2.4", "near=0.1", 0.25},
+    {"P4", "yard", ".light=spot .direction=0,-1,0 .position=0.5,3,-0.5 .intensity=8", ".cone=90,120", "", 0.5},
+    {"P5", "room", "", "shadow=1", "shadow=0", 0.5},
+    {"P5", "room", ".camera=-3.5,4.5,-3.4,1,1,1", "shadow=1", "shadow=0", 0.5},
+    {"P5", "room", ".camera=3.5,0.5,-3.5,-2,4,2", "shadow=1", "shadow=0", 0.5},
+    {"P5", "room", ".position=1.5,1.7,-2 .intensity=3", "near=0.6", "near=0.01", 0.5},
+    {"P6", "room", "filter=7x7", "other_atlas_size=64", "other_atlas_size=256", 0.5},
+    {"P6", "room", "filter=7x7 other_atlas_size=64", "bias_normal=3", "", 0.5},
+    {"P7", "yard", ".light=spot .flip=1", ".casts_two_sided=1", "", 0.1},
+    {"P7", "yard", ".light=point .flip=1", ".casts_two_sided=1", "", 0.1},
+    {"P7", "yard", ".light=sun .flip=1", ".casts_two_sided=1", "", 0.1},
+    {"P7", "yard", ".light=point .flip=1", ".two_sided=1", "", 0.1},
+    {"P8", "yard", ".light=all other_atlas_size=32 other_filter=7x7", "shadow=1", "shadow=0", 0.1},
+    {"P9", "yard", ".light=dozen shadow=0", "object_lights=1", "object_lights=0", 0.1},
+    {"P9", "yard", ".light=dozen shadow=0", "object_lights=2", "object_lights=1", 0.1},
+    {"P9", "yard", ".light=dozen shadow=0", "object_lights=3", "object_lights=2", 0.1},
+    {"P9", "yard", ".light=dozen shadow=0", "object_lights=4", "object_lights=3", 0.1},
+    {"P9", "yard", ".light=dozen shadow=0", "object_lights=5", "object_lights=4", 0.1},
+    {"P9", "yard", ".light=dozen shadow=0", "object_lights=6", "object_lights=5", 0.1},
+    {"P9", "yard", ".light=dozen shadow=0", "object_lights=7", "object_lights=6", 0.1},
+    {"P9", "yard", ".light=dozen shadow=0", "object_lights=8", "object_lights=7", 0.1},
+    {"P9", "yard", ".light=dozen", "object_lights=0", "object_lights=8", 0.1},
+    {"P10", "yard", ".light=spot", ".cone=10,20", "shadow=0", 0.1},
+
+    /* A: atlases */
+    {"A1", "yard", "", "atlas_size=32", "atlas_size=512", 0.1},
+    {"A1", "yard", "", "atlas_size=1024", "atlas_size=32", 0.1},
+    {"A1", "yard", ".light=spot", "other_atlas_size=16", "other_atlas_size=512", 0.1},
+    {"A1", "yard", ".light=spot", "other_atlas_size=1024", "other_atlas_size=64", 0.1},
+    {"A1", "yard", ".light=all", "filter=hard other_filter=7x7", "filter=hard", 0.1},
+    {"A2", "yard", ".light=all", "tiles=importance", "", 0.1},
+    {"A2", "yard", ".light=all range@2=3", "tiles=importance", "", 0.1},
+    {"A2", "lane", ".light=suns cascades=3", "tiles=importance", "", 0.5},
+    {"A3", "yard", ".light=seventeen object_lights=0", "shadow=1", "shadow=0", 0.25},
+    {"A3", "yard", ".light=dozen object_lights=0", "shadow=1", "shadow=0", 0.1},
+    {"A3", "lane", ".light=five cascades=4", "shadow=1", "shadow=0", 0.5},
+    {"A4", "yard", "bias_constant=1", "depth_bits=8", NULL, 0.5},
+    {"A4", "yard", "", "depth_bits=32", NULL, 0.1},
+    {"A4", "yard", ".light=spot near=2.5 bias_constant=4", "other_depth_bits=8", NULL, 0.5},
+    {"A4", "yard", ".light=spot", "other_depth_bits=32", NULL, 0.1},
+    {"A4", "yard", ".light=point near=1 bias_constant=1", "other_depth_bits=8", NULL, 0.1},
+    {"A4", "yard", ".light=point", "other_depth_bits=32", NULL, 0.1},
+
+    /* F: filters */
+    FILTERED("F1", "sun", "hard"),
+    FILTERED("F1", "spot", "hard"),
+    FILTERED("F1", "point", "hard"),
+    {"F2", "yard", ".light=sun", "filter=2x2", "filter=hard", 0.1},
+    {"F2", "yard", ".light=spot", "filter=2x2", "filter=hard", 0.1},
+    {"F2", "yard", ".light=point", "filter=2x2", "filter=hard", 0.1},
+    FILTERED("F3", "sun", "3x3"),
+    FILTERED("F3", "spot", "3x3"),
+    FILTERED("F3", "point", "3x3"),
+    FILTERED("F3", "sun", "5x5"),
+    FILTERED("F3", "spot", "5x5"),
+    FILTERED("F3", "point", "5x5"),
+    FILTERED("F3", "sun", "7x7"),
+    FILTERED("F3", "spot", "7x7"),
+    FILTERED("F3", "point", "7x7"),
+    LINEAR("sun", "3x3"),
+    LINEAR("spot", "3x3"),
+    LINEAR("point", "3x3"),
+    LINEAR("sun", "5x5"),
+    LINEAR("spot", "5x5"),
+    LINEAR("point", "5x5"),
+    LINEAR("sun", "7x7"),
+    LINEAR("spot", "7x7"),
+    LINEAR("point", "7x7"),
+    DISK("sun", "12", "1"),
+    DISK("spot", "4", "1"),
+    DISK("point", "8", "1"),
+    DISK("sun", "12", "4"),
+    DISK("spot", "4", "4"),
+    DISK("point", "8", "4"),
+    DISK("sun", "20", "16"),
+    DISK("spot", "2", "16"),
+    DISK("point", "12", "16"),
+    DISK("sun", "40", "64"),
+    DISK("spot", "10", "64"),
+    DISK("point", "16", "64"),
+    DISK("sun", "64", "32"),
+    DISK("spot", "64", "32"),
+    DISK("point", "64", "32"),
+    {"F4", "lane", "cascades=3", "filter=disk penumbra=20", "filter=2x2", 0.25},
+    {"F4", "lane", "cascades=4", "filter=disk penumbra=6 disk_samples=8 cascade_blend=soft cascade_fade=0.5", "filter=2x2", 0.25},
+    SOFTNESS("sun"),
+    SOFTNESS("spot"),
+    SOFTNESS("point"),
+    {"F5", "yard", ".light=all filter=3x3", "softness@1=soft", "", 0.1},
+
+    /* B: biases */
+    BIASES("sun"),
+    BIASES("spot"),
+    BIASES("point"),
+
+    /* M: materials, casters, masks */
+    {"M1", "yard", ".texture=pickets", ".caster=2", "", 0.1},
+    {"M1", "yard", ".texture=pickets", ".caster=3", "", 0.1},
+    {"M1", "yard", ".texture=soft_pickets", ".caster=2 .cutoff=0.8", "", 0.1},
+    {"M1", "yard", ".texture=soft_pickets .light=spot", ".caster=2", "", 0.1},
+    {"M1", "yard", ".texture=soft_pickets .light=spot", ".caster=3", "", 0.1},
+    {"M1", "yard", ".texture=soft_pickets .light=point", ".caster=2", "", 0.1},
+    {"M1", "yard", ".texture=soft_pickets .light=point", ".caster=3", "", 0.1},
+    {"M1", "yard", ".alpha=0.4", ".caster=3", "", 0.1},
+    {"M1", "yard", "", ".caster=0", "", 0.1},
+    {"M1", "yard", "", ".hidden=1", "", 0.1},
+    {"M1", "fence.gltf", "", "filter=3x3", "filter=hard", 0.5},
+    {"M2", "yard", "", ".receives=0", "", 0.1},
+    {"M2", "yard", "", ".unlit=1", "", 0.1},
+    {"M2", "yard", ".light=point", ".receives=0", "", 0.1},
+    {"M3", "yard", "", ".normals=0", "", 0.1},
+    {"M3", "yard", "", ".colours=1", "", 0.25},
+    {"M3", "yard", "", "ambient=0.3,0.1,0.05", "", 0.1},
+    {"M3", "yard", "", ".specular=0", "", 0.25},
+    {"M3", "yard", "", ".specular=1", "", 0.25},
+    {"M3", "yard", "", ".specular=2", "", 0.1},
+    {"M3", "yard", "", ".specular=3", "", 0.1},
+    {"M3", "yard", "", ".specular=4", "", 0.1},
+    {"M3", "yard", "", ".specular=5", "", 0.1},
+    {"M3", "yard", "", ".specular=6", "", 0.1},
+    {"M3", "yard", ".camera=-0.5,2.2,3.5,0.9,0.9,-0.6", ".specular=7", "", 0.25},
+    {"M3", "yard", ".light=all", ".specular=5", "", 0.1},
+    {"M3", "yard", ".light=point .normals=0", ".specular=4", "", 0.1},
+    {"M3", "yard", "", ".texture=nearest", "", 0.75},
+    {"M3", "yard", "", ".texture=bilinear", "", 0.5},
+    {"M3", "yard", "", ".texture=nearest .wrap=cc", ".texture=nearest", 0.75},
+    {"M3", "yard", "", ".texture=bilinear .wrap=rc", ".texture=bilinear", 0.5},
+    {"M3", "yard", "", ".texture=bilinear .wrap=cr", ".texture=bilinear", 0.5},
+    {"M4", "yard", ".light=sun", "strength=0.5", "", 0.1},
+    {"M4", "yard", ".light=spot", "strength=0.5", "", 0.1},
+    {"M4", "yard", ".light=point", "strength=0.5", "", 0.1},
+    {"M4", "yard", ".light=all", "strength=0", "", 0.1},
+    {"M5", "yard", ".masks=vertex", "mixing=always", "mixing=none", 0.1},
+    {"M5", "yard", ".masks=image", "mixing=always", "mixing=none", 0.25},
+    {"M5", "yard", ".masks=image", "mixing=always mask_channel=1", "mixing=always", 0.25},
+    {"M5", "yard", ".masks=vertex", "mixing=always mask_channel=3", "mixing=always", 0.1},
+    {"M5", "yard", ".masks=vertex", "mixing=always mask_channel=-1", "mixing=always", 0.1},
+    {"M6", "yard", ".light=all .masks=vertex", "mixing=always", "mixing=none", 0.1},
+    {"M6", "yard", ".light=all .masks=image max_distance=9 distance_fade=0.7", "mixing=distance", "mixing=none", 0.1},
+    {"M6", "yard", ".masks=image max_distance=9 distance_fade=0.7", "mixing=distance", "mixing=always", 0.1},
+    {"M6", "yard", ".masks=image max_distance=9 distance_fade=0.7", "mixing=always", "mixing=none", 0.1},
+    {"M6", "yard", ".masks=image max_distance=9 distance_fade=0.7", "mixing=none", "mixing=always", 0.1},
+    {"M6", "yard", ".masks=vertex mixing=always", "strength=0.5", "", 0.1},
+    {"M6", "yard", ".masks=vertex mixing=distance", "strength=0.5", "", 0.1},
+    {"M6", "yard", ".masks=vertex mixing=distance", "strength=0", "", 0.1},
+    {"M6", "yard", ".light=spot .masks=image max_distance=10 distance_fade=0.6", "mixing=distance", "mixing=always", 0.1},
+    {"M6", "yard", ".light=point .masks=image max_distance=10 distance_fade=0.6", "mixing=always", "mixing=distance", 0.1},
+    {"M6", "yard", ".light=dozen .masks=vertex object_lights=0", "mixing=always", "mixing=none", 0.1}, /* ten without a tile */
+    {"M6", "yard", ".light=seventeen .masks=vertex object_lights=0", "mixing=always", "mixing=none", 0.1},
+    {"M6", "yard", ".masks=vertex mixing=always", "receiver_plane=1 filter=5x5", "", 0.1},
+    {"M6", "mixed.gltf", "", "mixing=always", "mixing=none", 0.25},
+    {"M6", "mixed.gltf", "", "mixing=distance", "mixing=none", 0.1},
+    {"M7", "yard", "", "srgb=0", "", 0.25},
+    {"M8", "yard", ".texture=pickets", ".visible=1", "", 0.1},
+    {"M8", "yard", ".texture=soft_pickets", ".visible=1 .cutoff=0.85", "", 0.1},
+    {"M8", "yard", ".texture=soft_pickets", ".visible=2", "", 0.1},
+    {"M8", "yard", ".alpha=0.5", ".visible=2", "", 0.1},
+    {"M8", "yard", ".texture=pickets .flip=1 .caster=2", ".visible=1 .two_sided=1", "", 0.1},
+    {"M9", "yard", "", ".baked=1", "", 0.25},
+    {"M9", "yard", ".baked=1 .light=all", "mode@1=baked", "", 0.25},
+    {"M9", "yard", ".baked=1 .light=suns", "mode@0=baked", "", 0.25},
+
+    /* R: renderer */
+    {"R3", "yard", "", ".camera=-1.6,0.5,0.9,0.5,0.5,-4", "", 0.5},
+    {"R4", "yard", ".light=all .texture=bilinear .colours=1", "persp_step=16", NULL, 0.75},
+    {"R4", "yard", ".light=all .texture=bilinear .colours=1", "persp_step=4", NULL, 0.5},
+
+    /* the own scenes */
+    {"all", "sundial.gltf", "", "lights=spot", "", 0.5},
+    {"all", "sundial.gltf", "", "lights=point", "", 0.5},
+    {"all", "avenue.gltf", "", "add_light=spot add_light=point", "", 0.5},
+    {"all", "desk.gltf", "", "filter=5x5", "filter=hard", 0.25},
+    {"all", "room.gltf", "", "filter=3x3", "filter=hard", 0.75},
+    {"all", "mixed.gltf", "", "filter=7x7", "filter=hard", 0.1},
+};
+
+/* ---- Rows that change no picture, or not its colours ------------------------------------------------------------------- */
+
+/* R5: what each panel shows. */
+static void test_outputs(void)
+{
+    static const char *const names[] = {"rgb888", "rgb565", "rgb565_swapped", "grey8", "grey4", "mono1"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char words[32];
+        snprintf(words, sizeof words, "output=%s", names[i]);
+        const row r = {"R5", "yard", ".light=all", words, NULL, 0.25};
+        stage st;
+        pair p;
+        if (!CHECK_EQ_INT(open_stage(&st, &r, r.with, SETTINGS_ACCURATE) || draw(&p.fixed, &st, true), 0)) return;
+        if (!CHECK_EQ_INT(draw(&p.reference, &st, false), 0)) return;
+        const long changed = changed_pixels(&p.fixed, &p.reference);
+        if (!CHECK(changed <= WIDTH * HEIGHT / 500)) printf("  %s: %ld pixels differ\n", names[i], changed);
+        engine_free(&p.fixed);
+        engine_free(&p.reference);
+        close_stage(&st);
+    }
+}
+
+/* D8: the same pixels, fewer casters. */
+static void test_caster_culling(void)
+{
+    static const row r = {"D8", "lane", "cascades=4 cascade_fade=0.05", "caster_culling=1", "caster_culling=0", 0.1};
+    engine_picture picture[2];
+    for (int i = 0; i < 2; i++) {
+        stage st;
+        if (!CHECK_EQ_INT(open_stage(&st, &r, i ? r.with : r.without, SETTINGS_BALANCED) || draw(&picture[i], &st, true), 0))
+            return;
+        close_stage(&st);
+    }
+    CHECK_EQ_INT(picture[0].stats.n_casters_culled, 0);
+    CHECK(picture[1].stats.n_casters_culled > 0);
+    CHECK_EQ_INT(memcmp(picture[0].rgb8, picture[1].rgb8, (size_t)3 * WIDTH * HEIGHT), 0);
+    for (int i = 0; i < 2; i++) engine_free(&picture[i]);
+}
+
+/* A3, P6, P9: what the statistics say. */
+static void test_statistics(void)
+{
+    static const row lines[] = {{"A3", "yard", ".light=seventeen object_lights=0", "", "", 1},
+                                {"P9", "yard", ".light=dozen shadow=0", "object_lights=4", "", 1},
+                                {"P6", "room", "filter=7x7 bias_normal=8 other_atlas_size=32", "", "", 1}};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        stage st;
+        engine_picture p;
+        if (!CHECK_EQ_INT(open_stage(&st, &lines[i], lines[i].with, SETTINGS_BALANCED) || draw(&p, &st, true), 0)) return;
+        CHECK_EQ_INT(p.stats.n_lights_without_room, i == 0 ? 1 : 0);
+        CHECK((p.stats.n_lights_left_out > 0) == (i == 1));
+        CHECK_EQ_INT(p.stats.n_reach_clamped, i == 2 ? 6 : 0);
+        engine_free(&p);
+        close_stage(&st);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const bool list = argc > 1 && strcmp(argv[1], "--list") == 0;
+    const char *only = argc > 2 ? argv[2] : NULL;
+    if (argc > 4 && strcmp(argv[1], "--try") == 0) { /* scene, words, with */
+        const row own = {"try", argv[2], argv[3], argv[4], argc > 5 ? argv[5] : NULL, 1};
+        for (int preset = SETTINGS_ACCURATE; preset >= SETTINGS_BALANCED; preset--) check_row(&own, preset, true);
+        return check_report();
+    }
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (int preset = SETTINGS_ACCURATE; preset >= SETTINGS_BALANCED; preset--)
+            if (only ? strcmp(only, rows[i].id) == 0 : optimised || (int)(i % 2) == preset % 2) check_row(&rows[i], preset, list);
+    test_outputs();
+    test_caster_culling();
+    test_statistics();
+    return check_report();
+}
