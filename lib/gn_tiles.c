@@ -87,8 +87,8 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
     }
 }
 
-/* A3: in the order given; what does not fit has none, and later lights are still tried. No tile is smaller than 8 x 8 texels. Returns
- * the number of tiles. */
+/* A3: in the order given; what does not fit has none, and later lights are still tried. No tile is smaller than 8 x 8 texels.
+ * Returns the number of tiles. */
 static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity, int32_t atlas_log2)
 {
     uint32_t n_tiles = 0, n_lights = 0, limit = capacity < GN_ATLAS_TILES_MAX ? capacity : GN_ATLAS_TILES_MAX;

@@ -1624,7 +1624,7 @@ static int same_afresh(campaign *r, int32_t tile_size, int culling)
     return gn_render(&two, &other, flush, &r->fresh) == GN_OK && !memcmp(r->kept.pixels, r->fresh.pixels, r->kept.n_bytes);
 }
 
-/* What must not change a pixel: forgetting what was kept, culling casters, and other screen tiles where each pixel has its divide. */
+/* What must not change a pixel: forgetting what was kept, culling casters, other screen tiles where each pixel has its divide. */
 static void compare_with_fresh(campaign *r, long frame)
 {
     const gn_shadow_settings *s = &r->scene.scene.shadow;
