@@ -9,8 +9,8 @@
  *   gn_prepare      gn_setup    visible triangles: transform, cull, clip (gn_clip), project, depth plane (gn_plane)
  *                   gn_bin      triangles to screen tiles
  *   gn_screen_tile  gn_raster   visible surfaces: depth and triangle per pixel, by exact edge walkers (gn_walk)
- *                   gn_shade    runs of pixels of one surface (gn_surface): light (gn_light, gn_punctual), shadow (gn_shadow,
- *                               gn_filter), encode (gn_pixel)
+ *                   gn_shade    runs of pixels of one surface (gn_surface; gn_sample: at a pixel): light (gn_light, gn_punctual),
+ *                               shadow (gn_shadow, gn_filter), encode (gn_pixel)
  *                   flush
  */
 #include <string.h>

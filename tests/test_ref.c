@@ -1286,7 +1286,9 @@ static void test_errors(void)
     f.s.shadow.cascade_ratio[0] = 0.5;
     for (int l = 0; l < 4; l++) f.lights[l] = f.lights[0];
     f.s.n_lights = 4;
-    options.atlas_size = 16; /* room for four tiles of 8 texels: the first two lights */
+    options.atlas_size = 16; /* tiles of 4 texels */
+    CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);
+    options.max_tiles = 4; /* tiles of 8 texels: the first two lights */
     CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), 0);
     for (int l = 0; l < 4; l++) CHECK_EQ_INT(p.grant[l].tile_texels, l < 2 ? 8 : 0);
     ref_free(&p);

@@ -506,8 +506,8 @@ light 'a spot light after it' '"kind": "spot", "mode": "realtime", "shadow": "re
 light 'a point light without room' '"kind": "point", "mode": "realtime", "shadow": "no_room", "tiles": 0, "tile_texels": 0}'
 light 'a baked light' '"kind": "spot", "mode": "baked", "shadow": "not_wanted", "tiles": 0, "tile_texels": 0}'
 light 'lights without room' '"other_tiles": 13.*"lights_without_room": 1'
-good info "$cube" --size 16x12 --set lights=spot,point --set other_atlas_size=16
-grep -q "1 'point': point, no room for its shadow" "$tmp/out" && grep -q "0 'spot': spot, 1 shadow tile of 16x16" "$tmp/out" && pass || fail "info does not say which light got a tile"
+good info "$cube" --size 16x12 --set lights=spot,point,point,point --set other_atlas_size=64
+grep -q "3 'point': point, no room for its shadow" "$tmp/out" && grep -q "0 'spot': spot, 1 shadow tile of 16x16" "$tmp/out" && pass || fail "info does not say which light got a tile"
 grep -q 'needs:.* punctual_lights' "$tmp/out" && pass || fail "info does not name punctual_lights"
 good info "$cube" --size 16x12
 grep -q 'needs:.* punctual_lights' "$tmp/out" && fail "info names punctual_lights without a need" || pass
