@@ -454,6 +454,7 @@ static const row rows[] = {
     {"M3", "yard", "", ".texture=nearest .wrap=cc", ".texture=nearest", 0.75},
     {"M3", "yard", "", ".texture=bilinear .wrap=rc", ".texture=bilinear", 0.5},
     {"M3", "yard", "", ".texture=bilinear .wrap=cr", ".texture=bilinear", 0.5},
+    {"M3", "lane", ".light=five cascades=3 .receives=0", ".specular=1", "", 0.5}, /* walls edge-on to a sun */
     {"M4", "yard", ".light=sun", "strength=0.5", "", 0.1},
     {"M4", "yard", ".light=spot", "strength=0.5", "", 0.1},
     {"M4", "yard", ".light=point", "strength=0.5", "", 0.1},
