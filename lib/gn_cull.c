@@ -109,7 +109,7 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, const
 {
     const gn_light *light = &frame->scene->lights[view->light_idx];
     int64_t share_uq16 = 52429 - (int64_t)frame->scene->shadow.cascade_fade_uq16; /* 0.8 - c */
-    if (share_uq16 <= 0) return 0;
+    if (share_uq16 <= 0 || light->receiver_plane) return 0; /* B5: a tap may compare with a depth far from the receiver's */
     for (uint32_t i = 0; i < frame->n_cascades; i++) /* A5: an old tile may lack what a new one shows */
         if (frame->scene->shadow.refresh[i] > 1) return 0;
     const int64_t zero[3] = {0, 0, 0};

@@ -24,6 +24,7 @@ valgrind valgrind
 pkg-config pkg-config
 /usr/include/OpenImageIO/imageio.h libopenimageio-dev
 /usr/include/stdio.h libc6-dev
+/usr/lib/gcc/x86_64-linux-gnu/*/32/libgcc.a gcc-multilib
 NEEDS
 }
 

@@ -1563,6 +1563,30 @@ static void test_extremes(void)
     }
 }
 
+/* A5: settings and camera may change under a tile that is kept. */
+static void test_changes_under_kept_tiles(void)
+{
+    gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
+    canvas c;
+    canvas_begin(&c, 48, 32, GN_FORMAT_RGB888);
+    for (int kind = 0; kind < 3; kind++) {
+        CHECK(gn_init(&one, &p) == GN_OK);
+        one.frame.knobs.atlas_size = 1024;
+        demo_scene_make(&demo, 0);
+        gn_shadow_settings *s = &demo.scene.shadow;
+        s->refresh[0] = 2;
+        s->disk_samples = 16;
+        s->penumbra_uq16 = GN_UQ16(4);
+        s->filter = kind < 2 ? GN_FILTER_DISK : GN_FILTER_HARD;
+        if (kind == 2) limit_focal_high(&demo.scene), shadow_next_to_near(&demo.scene); /* the smallest texels */
+        CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
+        if (kind < 2) s->filter = GN_FILTER_3X3, s->disk_samples = kind ? UINT32_MAX : 0; /* are not looked at */
+        if (kind == 2) limit_focal_low(&demo.scene), shadow_all_the_way(&demo.scene);
+        CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
+    }
+    canvas_end(&c);
+}
+
 /* ---- Random scenes ------------------------------------------------------------------------------------------------ */
 
 typedef struct {
@@ -1570,6 +1594,7 @@ typedef struct {
     canvas kept, fresh;
     gn_panel panel;
     long count[GN_STATUS_COUNT], wrong, drawn, compared;
+    uint32_t texels;
 } campaign;
 
 /* A format or a raw view. */
@@ -1596,7 +1621,7 @@ static int same_afresh(campaign *r, int32_t tile_size, int culling)
     return gn_render(&two, &other, flush, &r->fresh) == GN_OK && !memcmp(r->kept.pixels, r->fresh.pixels, r->kept.n_bytes);
 }
 
-/* What must not change a pixel: forgetting what was kept, culling casters, and other screen tiles where each pixel has its divide. */
+/* What must not change a pixel: forgetting what was kept, culling casters, other screen tiles where each pixel has its divide. */
 static void compare_with_fresh(campaign *r, long frame)
 {
     const gn_shadow_settings *s = &r->scene.scene.shadow;
@@ -1609,6 +1634,19 @@ static void compare_with_fresh(campaign *r, long frame)
     if (r->wrong++ < 10)
         printf("scene %ld: other pixels by what was kept: %d, by culling: %d, by screen tiles: %d\n", frame,
                !same_afresh(r, 0, !culling), !same_afresh(r, 0, culling), !same_afresh(r, tile_size, !culling));
+}
+
+/* Every texel that is said to be there can be read. */
+static uint32_t read_tiles(const gn_renderer *r, uint32_t n_lights)
+{
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < n_lights * 6; i++) {
+        gn_tile_info info;
+        if (!gn_get_shadow_tile(r, i / 6, i % 6, &info)) continue;
+        size_t n = (size_t)info.texels * info.texels * info.depth_bits / 8;
+        for (size_t k = 0; k < n; k++) sum += ((const uint8_t *)info.depth)[k];
+    }
+    return sum;
 }
 
 static void random_frame(campaign *r, long frame)
@@ -1625,6 +1663,7 @@ static void random_frame(campaign *r, long frame)
     else r->count[status]++;
     if (c->n_outside || (status == GN_OK ? !changes && !each_pixel_once(c) : c->n_calls != 0)) r->wrong++;
     if (status != GN_OK) return;
+    if (one_in(64)) r->texels += read_tiles(&one, r->scene.scene.n_lights);
     r->drawn += gn_get_stats(&one)->n_triangles && gn_get_stats(&one)->n_caster_triangles;
     if (one_in(4)) compare_with_fresh(r, frame);
 }
@@ -1695,6 +1734,7 @@ int main(void)
     test_tile_sizes();
     test_picture_sizes();
     test_extremes();
+    test_changes_under_kept_tiles();
     test_random_scenes(option("SCENES", option("SOAK", 0) ? 2000000 : 20000));
     return check_report();
 }
