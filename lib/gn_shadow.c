@@ -196,7 +196,7 @@ uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, cons
         return faded(realtime, gn_mul_uq16(strength, g_uq16)); /* M4 */
     }
 #else
-    (void)g_uq16;
+    (void)frame, (void)g_uq16;
     return faded(mask, strength);
 #endif
 }
