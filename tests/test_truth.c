@@ -569,6 +569,7 @@ static void test_self_hits(void)
 /* The same in pictures: a turned box alone, seen from all sides, has no shadow on what it shows to the light. */
 static void test_self_hits_in_pictures(void)
 {
+    long n_lit = 0;
     for (int n = 0; n < 30; n++) {
         fixture f;
         begin(&f);
@@ -583,22 +584,21 @@ static void test_self_hits_in_pictures(void)
         random_direction(d);
         add_light(&f, d[0], d[1], d[2] < 0 ? d[2] : -d[2]);
         ref_picture p = trace(&f, 120, 120, 1);
-        long n_wrong = 0, n_lit = 0;
+        long n_wrong = 0;
         for (int i = 0; i < 14400; i++) {
             if (p.triangle[i] < 0 || !(p.ndotl[0][i] > 1e-6)) continue;
             n_lit++;
             n_wrong += fabs(p.shadow[0][i] - 1) > 0;
         }
         CHECK_EQ_INT(n_wrong, 0);
-        CHECK(n_lit > 50);
         ref_free(&p);
         end(&f);
     }
+    CHECK(n_lit > 10000);
 }
 
-/* A body that stands on a floor: not a pixel of the floor is dark around it on the lit side, none lit under its shadow's root. Two
- * objects in one plane after turning: what is seen of them is lit. */
-static void test_touching_objects(void)
+/* Two objects in one plane, turned by transforms that round differently: what is seen of them is lit. */
+static void test_coplanar_objects(void)
 {
     for (int n = 0; n < 20; n++) {
         fixture f;
@@ -691,7 +691,7 @@ static void test_box_on_floor(void)
             n_wrong += fabs(p.shadow[0][i] - (expected ? 0 : 1)) > 1e-12;
         }
         CHECK_EQ_INT(n_wrong, 0);
-        CHECK(n_dark > 200 && n_dark < n_floor);
+        CHECK(n_dark > 50 && n_dark < n_floor / 2);
         ref_free(&p);
         end(&f);
     }
@@ -1015,13 +1015,14 @@ typedef struct {
     const truth_tracer *tracer;
     const scene_light *light;
     ref_surface at;
-    double truth; /* transmittance at the point itself */
+    double truth;   /* transmittance at the point itself */
+    bool skips_own; /* triangle */
 } suspect;
 
 static double transmittance_at(const suspect *s, vec3 p)
 {
     const exact_point origin = corner_point(p);
-    return truth_transmittance(s->tracer, &origin, 1e-14 * s->tracer->extent, &s->at.triangle, s->light);
+    return truth_transmittance(s->tracer, &origin, 1e-14 * s->tracer->extent, s->skips_own ? &s->at.triangle : NULL, s->light);
 }
 
 /* The world point at the depth of `moved`, in ref_to_light's coordinates, and the middle of a texel. */
@@ -1041,7 +1042,7 @@ static vec3 texel_point(const ref_light_view *view, vec3 moved, double i, double
 /* With no bias in depth, what the map stores in a texel is where the true shadow begins on the ray through its middle, and a tap says
  * whether the point at the moved point's depth on that ray is in true shadow. All of these points lie as near as the filter reaches
  * and the receiver bias moves. If the light arrives at none of them otherwise than at the visible point, the map has no right to say
- * something else: there is no edge of the true shadow near. Its own triangle is no edge: the bias is to keep it out. */
+ * something else: there is no edge of the true shadow near. */
 static bool is_near_edge(const suspect *s, const ref_light_view *view)
 {
     const double k = view->filter_index, steep = sqrt(2.0) * s->light->bias_normal;
@@ -1089,7 +1090,7 @@ static void check_own_scene(const char *path)
     CHECK(ref_begin(&frame, &kept, &s, &options) == NULL); /* the surfaces, for a closer look */
     CHECK(truth_begin(&tracer, &frame) == NULL);
     ref_find_surfaces(&frame);
-    long n = 0, n_differ = 0, n_alone = 0;
+    long n = 0, n_differ = 0, n_alone = 0, n_own = 0; /* n_own: a triangle shadows itself, its bias being small */
     for (size_t l = 0; l < s.n_lights; l++)
         for (size_t i = 0; i < 160 * 120; i++) {
             if (truth.triangle[i] < 0 || !(truth.ndotl[l][i] > 0) || maps.grant[l].n_tiles == 0) continue;
@@ -1097,13 +1098,17 @@ static void check_own_scene(const char *path)
             if (fabs(maps.shadow[l][i] - truth.shadow[l][i]) <= 1.0 / 16) continue;
             n_differ++;
             suspect one = {.frame = &frame, .tracer = &tracer, .light = &s.lights[l], .at = ref_surface_at(&frame, i)};
+            one.skips_own = true;
             one.truth = transmittance_at(&one, one.at.world);
+            one.skips_own = false;
             n_alone += !is_excused(&one, l);
+            one.skips_own = true;
+            n_own += !is_excused(&one, l);
         }
-    printf("  %s: %ld points, %ld differ, %ld far from edges\n", path, n, n_differ, n_alone);
     CHECK(n > 5000);
     CHECK(n_differ < n / 4);
-    CHECK(n_alone <= n / 1000);
+    CHECK_EQ_INT(n_alone, 0);
+    CHECK(n_own <= n / 100);
     truth_end(&tracer);
     ref_end(&frame);
     ref_free(&maps);
@@ -1125,7 +1130,7 @@ int main(void)
     test_coincident_triangles();
     test_self_hits();
     test_self_hits_in_pictures();
-    test_touching_objects();
+    test_coplanar_objects();
     test_box_on_floor();
     test_ball_over_floor();
     test_caster_modes();
