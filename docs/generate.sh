@@ -1,6 +1,6 @@
 #!/bin/sh
 # Regenerates the parts of docs/ between "<!-- generated: NAME -->" and "<!-- end -->". usage: generate.sh TOOL [OUT_DIR]
-# With OUT_DIR the documents are written there instead of in place: the test compares the two.
+# The gallery is made as a whole, by gallery.sh. With OUT_DIR the documents are written there instead of in place: the test compares the two.
 set -e
 tool=$1 out=${2:-docs}
 build=$(dirname "$tool")
@@ -24,3 +24,8 @@ replace NUMERICS.md stages "$work/stages"
 replace ACCURACY.md accuracy "$work/accuracy"
 "$build/test_bias" --table >"$work/bias"
 replace BIAS.md bias "$work/bias"
+sh docs/gallery.sh "$tool" "$out"
+for name in rows seams crawl; do
+    "$build/test_$name" --table >"$work/$name"
+    replace ACCURACY.md $name "$work/$name"
+done

@@ -31,7 +31,8 @@ static bias_terms bias_at(const gn_light_view *view, const gn_light *light, int3
     int32_t reach = view->filter_idx + 1;
     int64_t cosine = gn_clamp64(n_dot_l_q30, 0, 1 << 30);
     int64_t sine = (int64_t)gn_isqrt64((uint64_t)(((int64_t)1 << 60) - cosine * cosine)); /* Q30 */
-    int64_t tangent_q16 = sine >> 14 >= 50 * cosine >> 14 ? 50 << 16 : (int64_t)(((uint64_t)sine << 16) / (uint64_t)cosine);
+    int64_t tangent_q16 = 50 << 16;
+    if (sine < 50 * cosine) tangent_q16 = gn_bf_apply(sine, gn_bf_recip(gn_bf_from_u64((uint64_t)cosine)), 16);
     bias.along_q16 += reach * (int32_t)gn_shr64(b[3] * sine, 30);
     bias.towards_q16 = reach * (b[0] + (int32_t)gn_shr64(b[1] * tangent_q16, 16)); /* 9 * 8 * 51 * 2^16 < 2^28 */
 #else

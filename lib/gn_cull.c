@@ -58,10 +58,11 @@ static int persp_sees(const gn_frame *frame, const gn_light_view *view, const gn
         c[i] = gn_shr64(sum, 29);
         e[i] = extent_q16(view->axis_q30[i], object->half_q16) + 4;
     }
-    int64_t deepest = c[2] + e[2];
+    int64_t deepest = c[2] + e[2], bias = frame->scene->lights[view->light_idx].bias_caster_q16;
+    /* B4 may move casters away from the light too, into the view: 2^19 * 2^33 */
+    if (bias) deepest += gn_bf_apply(bias * (deepest > fit->near_q16 ? deepest : fit->near_q16), fit->texel_per_z, -16) + 1;
     if (deepest < fit->near_q16) return 0;
     /* half-width of the tile at that depth, a texel and the casters' bias (B4) more */
-    int64_t bias = frame->scene->lights[view->light_idx].bias_caster_q16;
     int64_t width = gn_bf_apply(deepest, fit->texel_per_z, view->tile_log2 - 1); /* deepest * t */
     width += (width >> view->tile_log2) * (4 + (2 * bias >> 16)) + 4;
     return (int64_t)gn_abs64(c[0]) - e[0] <= width && (int64_t)gn_abs64(c[1]) - e[1] <= width;
@@ -108,7 +109,7 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, const
 {
     const gn_light *light = &frame->scene->lights[view->light_idx];
     int64_t share_uq16 = 52429 - (int64_t)frame->scene->shadow.cascade_fade_uq16; /* 0.8 - c */
-    if (share_uq16 <= 0) return 0;
+    if (share_uq16 <= 0 || light->receiver_plane) return 0; /* B5: a tap may compare with a depth far from the receiver's */
     for (uint32_t i = 0; i < frame->n_cascades; i++) /* A5: an old tile may lack what a new one shows */
         if (frame->scene->shadow.refresh[i] > 1) return 0;
     const int64_t zero[3] = {0, 0, 0};

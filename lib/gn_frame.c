@@ -3,14 +3,14 @@
  *   gn_begin        gn_scene    validate what the caller describes
  *                   gn_xform    camera
  *                   gn_views    lights: which reach which object (gn_object), which get how many shadow tiles (gn_tiles),
- *                               and how each lies in the world: gn_cascade and gn_ortho, or gn_persp
+ *                               and how each lies in the world (gn_cascade and gn_ortho, or gn_persp; gn_bias: filter reach)
  *   gn_shadow_tile  gn_atlas    casters (gn_cull: which) as depth seen from the light (gn_ortho, gn_persp: projection;
- *                               gn_caster: spans); bounds of depth per block (gn_blocks)
+ *                               gn_caster: spans, cut by alpha: gn_alpha, gn_texture); bounds of depth per block (gn_blocks)
  *   gn_prepare      gn_setup    visible triangles: transform, cull, clip (gn_clip), project, depth plane (gn_plane)
  *                   gn_bin      triangles to screen tiles
  *   gn_screen_tile  gn_raster   visible surfaces: depth and triangle per pixel, by exact edge walkers (gn_walk)
- *                   gn_shade    runs of pixels of one surface (gn_surface): light (gn_light, gn_punctual), shadow (gn_shadow,
- *                               gn_filter), encode (gn_pixel)
+ *                   gn_shade    runs of pixels of one surface (gn_surface; gn_sample: at a pixel): light (gn_light, gn_punctual),
+ *                               shadow (gn_shadow, gn_filter), encode (gn_pixel)
  *                   flush
  */
 #include <string.h>

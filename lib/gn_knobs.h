@@ -36,11 +36,13 @@
     X(max_triangles, MAX_TRIANGLES, 1, 65534, "visible triangles per frame, after culling and clipping",                           \
       "32 bytes each (44 above 6 subpixel bits)")                                                                                  \
     X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")                       \
-    X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each")                                                        \
-    X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "140 bytes of stack each")                       \
-    X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "40 bytes each")                                                   \
-    X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades", "192 bytes each")        \
-    X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the other atlas: 1 per spot, 6 per point light", "192 bytes each")        \
+    X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "168 bytes each, 32 without spot and point lights")                      \
+    X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "113 bytes of stack each")                       \
+    X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "36 bytes each, 24 without spot and point lights")                 \
+    X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",                          \
+      "208 bytes each, 192 without incremental")                                                                                   \
+    X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the other atlas: 1 per spot, 6 per point light",                          \
+      "208 bytes each, 192 without incremental")                                                                                   \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
 
 #define GN_FEATURE_KNOBS(X)                                                                                                        \
@@ -66,7 +68,7 @@
     X(caster_bias, CASTER_BIAS, 0, 1, "casters shrunk along their normals (B4)", "flash")                                          \
     X(receiver_plane, RECEIVER_PLANE, 0, 1, "depth of the receiver's plane per tap (B5)", "flash")                                 \
     X(incremental, INCREMENTAL, 0, 1, "shadow tiles are kept while nothing in them changes (A5)",                                  \
-      "8 bytes per tile; the same picture with and without")                                                                       \
+      "16 bytes per tile; the same picture with and without")                                                                      \
     X(static_layer, STATIC_LAYER, 0, 1, "static casters are kept apart from moving ones (A5)", "the atlases' RAM twice")           \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")                  \
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")               \

@@ -104,7 +104,7 @@ void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const g
 #if GN_SPECULAR
     uint64_t highlights[3] = {0, 0, 0};
 #endif
-    uint32_t g = surface->shadowed | surface->masked ? gn_shadow_distance(frame, surface, sample) : 0;
+    uint32_t g = surface->shadowed ? gn_shadow_distance(frame, surface, sample) : 0;
 #if GN_BAKED_LIGHT
     for (int c = 0; surface->baked && c < 3; c++) /* 2^20 * 2^17 */
         sum[c] += (uint64_t)surface->object->albedo_uq16[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_BAKED + c], 0) >> 12;

@@ -43,6 +43,7 @@ static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
     }
 }
 
+#if GN_SHADOWS || GN_PUNCTUAL_LIGHTS
 /* A point at depth z on a pixel's ray, along three axes. |z| * |a| < 2^31 * 2^31 by the choice of the shift */
 static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t px, int32_t py, int32_t z_q16, int64_t out_q16[3])
 {
@@ -51,6 +52,7 @@ static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t p
         out_q16[i] = gn_shr64(z_q16 * a, ray_shift) + ray[i].d_q16;
     }
 }
+#endif
 
 #if GN_SHADOWS
 /* Tile coordinates of the point at depth z on a pixel's ray. */
@@ -153,6 +155,8 @@ static void light_values(const gn_frame *frame, const gn_surface *s, int32_t px,
         out[0] = s->smooth ? gn_length_cosine_q24(length, n_q30, light->to_light_q30) : s->light[i].flat_cosine_q24;
 #if GN_SHADOWS
         if (s->shadowed) directional_coords(frame, s, i, px, py, n_q30, sample, out + 1);
+#else
+        (void)px, (void)py;
 #endif
     }
 #if GN_SPECULAR
@@ -207,7 +211,7 @@ void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t
     normal_at(s, &h, n);
     for (int i = 0; s->smooth && i < 3; i++) sample->normal_q15[i] = n[i] >> 15;
 #if GN_SHADOWS
-    if (s->shadowed | s->masked) select_cascade(frame, px, py, sample);
+    if (s->shadowed) select_cascade(frame, px, py, sample);
 #endif
     light_values(frame, s, px, py, n, sample);
 #if GN_SPECULAR

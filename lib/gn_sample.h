@@ -13,7 +13,9 @@ enum {
     GN_VALUE_FADE,                                          /* D6 factor of the cascade, Q16 */
     GN_VALUE_RGB,                                           /* 3: interpolated vertex colour, Q16 */
     GN_VALUE_LIGHT = GN_VALUE_RGB + 3,                      /* the lights of the surface's list */
-    GN_VALUES_PER_LIGHT = GN_BLENDED_CASCADES || GN_PUNCTUAL_LIGHTS ? 7 : 4,
+    GN_VALUES_PER_LIGHT = (GN_SHADOWS && GN_BLENDED_CASCADES) || GN_PUNCTUAL_LIGHTS ? 7
+                          : GN_SHADOWS                                              ? 4
+                                                                                    : 1,
     GN_VALUE_COUNT = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * GN_SURFACE_LIGHTS
 };
 

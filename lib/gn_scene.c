@@ -175,6 +175,26 @@ static int filter_ok(gn_filter filter)
     return (int)filter >= GN_FILTER_HARD && (int)filter <= GN_FILTER_MAX;
 }
 
+/* F5: a light's own filter, in place of that of its atlas, must be built too. */
+static int softness_ok(const gn_light *light, gn_filter filter)
+{
+    if (light->softness == GN_SOFTNESS_HARD) return GN_FILTER_MAX >= 1 || filter == GN_FILTER_HARD;
+    return light->softness == GN_SOFTNESS_DEFAULT || GN_FILTER_MAX >= 3 || filter == GN_FILTER_DISK;
+}
+
+static gn_status check_softness(gn_frame *frame, const gn_scene *scene)
+{
+    for (uint32_t i = 0; i < scene->n_lights; i++)
+        if (!softness_ok(&scene->lights[i], scene->shadow.filter) || !softness_ok(&scene->lights[i], scene->shadow.other_filter))
+            return gn_fail(frame, GN_ERR_LIGHT_KIND, i);
+    return GN_OK;
+}
+
+static int refresh_ok(const uint32_t refresh[4])
+{
+    return GN_INCREMENTAL || (refresh[0] < 2 && refresh[1] < 2 && refresh[2] < 2 && refresh[3] < 2);
+}
+
 static gn_status check_filters(gn_frame *frame, const gn_shadow_settings *shadow)
 {
     int disk = shadow->filter == GN_FILTER_DISK || shadow->other_filter == GN_FILTER_DISK;
@@ -184,7 +204,7 @@ static gn_status check_filters(gn_frame *frame, const gn_shadow_settings *shadow
         return gn_fail(frame, GN_ERR_SHADOW_FILTER, 0);
     if ((int)shadow->mixing < GN_MIXING_NONE || (int)shadow->mixing > (GN_MASKS ? GN_MIXING_DISTANCE : GN_MIXING_NONE) ||
         (int)shadow->tile_sizes < GN_TILES_EQUAL || (int)shadow->tile_sizes > GN_TILES_IMPORTANCE ||
-        shadow->main_light > (GN_MAIN_LIGHT ? 1U : 0U))
+        shadow->main_light > (GN_MAIN_LIGHT ? 1U : 0U) || !refresh_ok(shadow->refresh))
         return gn_fail(frame, GN_ERR_SHADOW_MODE, 0);
     return GN_OK;
 }
@@ -200,7 +220,8 @@ static gn_status check_shadow(gn_frame *frame, const gn_scene *scene)
     if ((int)shadow->distance_mode < GN_DISTANCE_DEPTH || (int)shadow->distance_mode > GN_DISTANCE_RADIUS)
         return gn_fail(frame, GN_ERR_SHADOW_DISTANCE, 0);
     if (!cascades_ok(shadow)) return gn_fail(frame, GN_ERR_SHADOW_CASCADES, 0);
-    return check_filters(frame, shadow);
+    gn_status status = check_filters(frame, shadow);
+    return status || GN_FILTER_MAX >= 3 ? status : check_softness(frame, scene);
 }
 
 gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene)

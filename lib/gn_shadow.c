@@ -26,7 +26,7 @@ static uint32_t distance_fade(const gn_frame *frame, int32_t z_q16)
 
 uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
 {
-    if (!(surface->shadowed | surface->masked) || !sample->in_reach) return 0;
+    if (!surface->shadowed || !sample->in_reach) return 0;
     uint32_t g = GN_ONE_UQ16;
     if (frame->scene->shadow.distance_mode == GN_DISTANCE_DEPTH) g = distance_fade(frame, sample->value[GN_VALUE_Z]);
     if (!frame->has_cascades) return g;
@@ -108,8 +108,8 @@ static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], c
 /* T / 2 * (1 + x / (z t)), Q16: the clamps keep what is far outside the tile outside. */
 static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t recip, int32_t clz)
 {
-    const int64_t bound = (int64_t)(((uint64_t)1 << 60) / view->fit.persp.focal2_q16);
-    const int64_t x_most = INT32_MAX;
+    /* times focal2 within 2^60, and 2^14 texels or more: beyond every tile */
+    const int64_t bound = (int64_t)1 << (28 + gn_clz32(view->fit.persp.focal2_q16)), x_most = INT32_MAX;
     int64_t ratio_q28 = gn_scale64(gn_clamp64(x_q16, -x_most, x_most) * (int64_t)recip, 35 - clz); /* 2^31 * 2^32 */
     int64_t texels = gn_shr64(gn_clamp64(ratio_q28, -bound, bound) * (int64_t)view->fit.persp.focal2_q16, 29);
     return gn_sat32(texels + ((int64_t)view->tile_texels << 15));

@@ -188,6 +188,10 @@ static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache
 }
 #endif
 
+/* A face that is edge-on to a light but for the last bits of its normal takes none of it: walls along the light's way are common, and a
+ * highlight is not small there. */
+#define GN_GRAZING_Q24 8
+
 static void directional_lights(const gn_frame *frame, gn_surface *s)
 {
     gn_length length = {0, 0};
@@ -197,7 +201,7 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
         if (light->kind != GN_LIGHT_DIRECTIONAL || light->off) continue;
         if (!s->smooth) {
             int32_t cosine = gn_length_cosine_q24(length, s->normal_q30[0], light->to_light_q30);
-            if (cosine <= 0) continue;
+            if (cosine <= GN_GRAZING_Q24) continue;
             s->light[s->n_lights].flat_cosine_q24 = cosine;
         }
         add_light(frame, s, l);

@@ -14,6 +14,8 @@
 #include "gn_texel.h"
 #include "gn_tiles.h"
 
+#define GN_COLOUR_MAX_UQ16 0xFFFFFF /* 255.99 */
+
 static void setup_light(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *light = &frame->scene->lights[light_idx];
@@ -21,12 +23,14 @@ static void setup_light(gn_frame *frame, uint32_t light_idx)
     int64_t towards[3];
     for (int k = 0; k < 3; k++) {
         towards[k] = -(int64_t)light->direction[k];
-        state->colour_uq16[k] = light->colour_uq16[k];
+        /* those of spot and point lights keep their exponent: gn_punctual_setup */
+        int32_t exp = light->kind == GN_LIGHT_DIRECTIONAL ? light->colour_exp : 0;
+        state->colour_uq16[k] = (uint32_t)gn_clamp64(gn_scale64(light->colour_uq16[k], -exp), 0, GN_COLOUR_MAX_UQ16);
     }
     if (!gn_normalise_q30(state->to_light_q30, towards)) /* only a point light has none */
         for (int k = 0; k < 3; k++) state->to_light_q30[k] = 0;
     state->strength_uq16 = light->shadow_strength_uq16;
-    state->mask_channel = (int8_t)light->mask_channel;
+    state->mask_channel = light->mode == GN_LIGHT_MIXED ? (int8_t)light->mask_channel : -1;
     state->kind = (uint8_t)light->kind;
     state->off = light->mode == GN_LIGHT_BAKED;
     state->view_idx = -1;
@@ -53,8 +57,8 @@ static void view_axes(gn_light_view *view, const int32_t w_q30[3])
 /* F5 */
 static gn_filter resolve_filter(gn_filter atlas, gn_softness softness)
 {
-    if (softness == GN_SOFTNESS_HARD) return atlas == GN_FILTER_HARD || GN_FILTER_MAX < 1 ? GN_FILTER_HARD : GN_FILTER_2X2;
-    if (softness == GN_SOFTNESS_SOFT && atlas < GN_FILTER_5X5) return GN_FILTER_MAX < 3 ? (gn_filter)GN_FILTER_MAX : GN_FILTER_5X5;
+    if (softness == GN_SOFTNESS_HARD) return atlas == GN_FILTER_HARD ? GN_FILTER_HARD : GN_FILTER_2X2;
+    if (softness == GN_SOFTNESS_SOFT && atlas < GN_FILTER_5X5) return GN_FILTER_5X5;
     return atlas;
 }
 
@@ -136,7 +140,10 @@ static int stays(const gn_frame *frame, uint32_t idx, uint32_t light_idx, uint32
 {
     uint32_t period = frame->scene->shadow.refresh[cascade_idx];
     const gn_light_view *view = &frame->view[idx];
-    if (period < 2 || frame->frame_count % period == 0 || !frame->memory[idx].signature || !view->tile_done) return 0;
+    gn_filter filter = resolve_filter(frame->scene->shadow.filter, frame->scene->lights[light_idx].softness);
+    if (period < 2 || frame->frame_count % period == 0 || !frame->memory[idx].signature) return 0;
+    if (!view->tile_done) return 0;       /* the frame was abandoned: the fit is newer than the texels */
+    if (view->filter != filter) return 0; /* what another filter needs was not validated */
     return !view->perspective && !view->empty && view->light_idx == light_idx && view->cascade_idx == cascade_idx;
 }
 
@@ -179,7 +186,9 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
     view->empty = plan->cascaded && frame->cascade[cascade_idx].radius2_q32 == 0;
     if (view->empty) return;
     if (view->stale) gn_ortho_rays(frame, view);
-    else fit(frame, view, &frame->scene->lights[light_idx], plan->cascaded);
+    /* a texel that was fitted to a far narrower picture can leave a ray no fraction bits */
+    if (view->stale && view->fit.ortho.ray_shift < 0) view->stale = 0;
+    if (!view->stale) fit(frame, view, &frame->scene->lights[light_idx], plan->cascaded);
 }
 
 /* Tiles of one atlas lie one behind the other, larger ones first, so that each begins at a multiple of its size. */

@@ -159,9 +159,9 @@ static inline void ls_flush(void *user, int x, int y, int w, int h, const void *
 }
 
 /* Everything of a frame up to gn_prepare. */
-static inline gn_status ls_prepare(gn_renderer *renderer, const gn_scene *scene)
+static inline gn_status ls_prepare(gn_renderer *renderer, const gn_scene *from)
 {
-    gn_status status = gn_begin(renderer, scene);
+    gn_status status = gn_begin(renderer, from);
     for (uint32_t i = 0; !status && i < gn_shadow_tile_count(renderer); i++) status = gn_shadow_tile(renderer, i);
     return status ? status : gn_prepare(renderer);
 }

@@ -265,6 +265,7 @@ static void random_shadows(gn_shadow_settings *s, int32_t near_q16)
     s->kernel = (gn_kernel)(rnd() % 2);
     s->penumbra_uq16 = (uint32_t)pick(0, 64 << 16);
     s->disk_samples = (uint32_t)pick(1, one_in(4) ? 64 : 8);
+    if (s->filter != GN_FILTER_DISK && s->other_filter != GN_FILTER_DISK && one_in(2)) s->disk_samples = one_in(2) ? 0 : rnd();
     s->mixing = (gn_mixing)(rnd() % 3);
     s->tile_sizes = (gn_tile_sizes)(rnd() % 2);
     s->main_light = rnd() % 2;
@@ -310,7 +311,7 @@ static void random_scene_change(random_scene *g)
     gn_scene *s = &g->scene;
     int32_t *at = s->camera.to_world.t_q16;
     do {
-        switch (rnd() % 8) {
+        switch (rnd() % 9) {
         case 0:
             random_object(g, &g->object[rnd() % RANDOM_OBJECTS]);
             break;
@@ -331,6 +332,10 @@ static void random_scene_change(random_scene *g)
             break;
         case 6:
             random_material(g, &g->object[rnd() % RANDOM_OBJECTS]);
+            break;
+        case 7:
+            random_camera(&s->camera);
+            random_shadows(&s->shadow, s->camera.near_q16);
             break;
         default: /* nothing */
             break;

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Every configuration builds without a warning; wrong ones do not, and say why; capacities, presets and memory are as promised.
+# Every configuration builds without a warning with two compilers and draws what the host build draws of the same scene; what is
+# not built in is refused; wrong configurations do not build, and say why; capacities that are too small say how many they lack.
 cd "$(dirname "$0")/.." || exit 1
 . tests/check.sh
 
@@ -7,75 +8,149 @@ variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; 
 warn=$(variable WARN)
 host_knobs=$(variable HOST_KNOBS)
 strict="-std=c99 -pedantic $warn -Ilib"
+sh tests/one_file.sh lib >"$tmp/lib.c"
 
-# objects NAME FLAGS...: the library under these flags, as $tmp/NAME/*.o
-objects() {
-    mkdir -p "$tmp/$1"
-    (
-        dir=$1 root=$PWD
-        shift
-        cd "$tmp/$dir" && gcc -std=c99 -pedantic $warn -I"$root/lib" "$@" -c "$root"/lib/*.c
-    ) >"$tmp/$1.log" 2>&1
+features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v RUNTIME_KNOBS)
+# flags WORD...: "none" and "all" of the features, "tiny"..., NAME=VALUE of a knob, or a flag as it is; of a name the last value counts
+flags() {
+    for word in "$@"; do
+        case $word in
+        none) for feature in $features; do echo "-DGN_$feature=0"; done ;;
+        all) for feature in $features; do echo "-DGN_$feature=$(most "$feature")"; done ;;
+        tiny) echo -DGN_PRESET=0 ;;
+        balanced) echo -DGN_PRESET=1 ;;
+        accurate) echo -DGN_PRESET=2 ;;
+        -*) echo "$word" ;;
+        *) echo "-DGN_$word" ;;
+        esac
+    done | awk -F= '!($1 in at) { at[$1] = ++n } { flag[at[$1]] = $0 } END { for (i = 1; i <= n; i++) print flag[i] }'
 }
+most() { if [ "$1" = FILTER_MAX ]; then echo 4; else echo 1; fi; }
+none=$(flags none) all=$(flags all)
 
-# ---- What must build -------------------------------------------------------------------------------------------------------
+# ---- What must build, and draw the same ------------------------------------------------------------------------------------
 
-builds() {
-    while read -r line; do
-        name=variant$(echo "$line" | tr -c 'A-Za-z0-9\n' _)
-        if objects "$name" -O1 -ffreestanding $line; then echo ok; else
-            echo "does not build: ${line:-(defaults)}"
-            grep -m 2 -E 'error|warning' "$tmp/$name.log"
-        fi
-        rm -rf "${tmp:?}/$name"
+{
+    echo
+    echo "none"
+    echo "all"
+    for feature in $features; do
+        value=$(most "$feature")
+        echo "none $feature=$value"
+        case $feature in # alone they have nothing to do: over shadows, or lights
+        *FILTER* | *CASC* | *BIAS | *PLANE | MAIN* | INCREM* | STATIC* | *BLOCKS | CASTER* | LINEAR*)
+            echo "none SHADOWS=1 $feature=$value" ;;
+        TILE_LIGHTS) echo "none PUNCTUAL_LIGHTS=1 TILE_LIGHTS=1" ;;
+        esac
+        echo "all $feature=0"
     done
+    for cut in VISIBLE_ALPHA CASTER_ALPHA MASKS; do
+        echo "none SHADOWS=1 TEXTURES=1 $cut=1"
+        echo "all TEXTURES=0 VISIBLE_ALPHA=0 CASTER_ALPHA=0 MASKS=0 $cut=1"
+    done
+    echo "none SHADOWS=1 PUNCTUAL_LIGHTS=1"
+    echo "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 RECEIVER_PLANE=1"
+    echo "all PUNCTUAL_LIGHTS=0 BLENDED_CASCADES=0"
+    echo "all PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0"
+    echo "all STATIC_LAYER=1 INCREMENTAL=0"
+    echo "none SHADOWS=1 STATIC_LAYER=1 INCREMENTAL=1"
+    for max in 0 1 2 3; do # with what builds upon kernels
+        echo "all FILTER_MAX=$max"
+        echo "all FILTER_MAX=$max DISK_FILTER=0 RECEIVER_PLANE=$((max % 2))"
+        echo "all FILTER_MAX=$max LINEAR_KERNELS=0 DEPTH_BLOCKS=$((max % 2)) RECEIVER_PLANE=0"
+    done
+    echo "all FILTER_MAX=0 DISK_FILTER=0 LINEAR_KERNELS=0 DEPTH_BLOCKS=0"
+    echo "all DISK_FILTER=0 LINEAR_KERNELS=0 RECEIVER_PLANE=0"
+    for bits in 8 16 32; do for other in 8 16 32; do
+        echo "DEPTH_BITS=$bits OTHER_DEPTH_BITS=$other DEPTH_BLOCKS=$((bits / 16 % 2))"
+    done; done
+    echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
+    echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 STATIC_LAYER=1"
+    echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
+    for preset in tiny balanced accurate; do
+        echo "$preset"
+        echo "$preset none"
+        echo "$preset all SRGB=0"
+        echo "-m32 $preset"
+    done
+    echo "-m32 none"
+    echo "-m32 all"
+    echo "-m32 all SHADOWS=0"
+    echo "-m32 all PUNCTUAL_LIGHTS=0 DEPTH_BITS=32"
+    echo "RUNTIME_KNOBS=1"
+    echo "RUNTIME_KNOBS=1 SHADOWS=0"
+    echo "RUNTIME_KNOBS=1 FILTER_MAX=0"
+    echo "SUBPIXEL_BITS=8 MAX_TILE_REFS=65535"
+    echo "MAX_TILE_REFS=65536 VERTEX_CACHE=4 MAX_LIGHTS=4 SURFACE_LIGHTS=4 MAX_OBJECTS=3"
+    echo "MAX_WIDTH=56 MAX_HEIGHT=44 TILE_WIDTH=8 TILE_HEIGHT=1"
+} >"$tmp/wanted"
+
+# draws N COMPILER CHECKER FLAGS...: built by the one without a warning, and looked through by the other; the same lines as the host
+draws() {
+    n=$1 compiler=$2 checker=$3
+    shift 3
+    words=$*
+    set -- $(flags "$@")
+    if ! $compiler $strict -O0 "$@" -Itests -o "$tmp/run$n" "$tmp/lib.c" tests/config_picture.c 2>"$tmp/log$n" ||
+        ! $checker $strict "$@" -fsyntax-only "$tmp/lib.c" 2>"$tmp/log$n"; then
+        echo "$compiler, $checker: does not build: $words"
+        grep -m 3 -E 'error|warning|undefined' "$tmp/log$n"
+        return
+    fi
+    "$tmp/run$n" >"$tmp/target$n" 2>&1
+    "$tmp/host_picture" -DGN_PRESET=1 "$@" >"$tmp/host$n" 2>&1
+    if cmp -s "$tmp/target$n" "$tmp/host$n" && grep -q '^format' "$tmp/host$n" && ! grep -q -v '^format' "$tmp/host$n"; then echo ok
+    else
+        echo "$compiler: draws something else than the host: $words"
+        diff "$tmp/target$n" "$tmp/host$n" | sed -n 2p
+    fi
+    rm -f "$tmp/run$n" "$tmp/target$n" "$tmp/host$n"
 }
 
-cat >"$tmp/wanted" <<'LIST'
+# every second line, from line $1 on; the compilers take turns, the faster one more often
+some_draw() {
+    line=0
+    while read -r words; do
+        line=$((line + 1))
+        [ $((line % 2)) = "$1" ] || continue
+        if [ $((line / 2 % 3)) = 0 ]; then draws "$1" gcc clang $words; else draws "$1" clang gcc $words; fi
+    done <"$tmp/wanted"
+}
 
--DGN_PRESET=GN_PRESET_TINY
--DGN_PRESET=GN_PRESET_BALANCED
--DGN_PRESET=GN_PRESET_ACCURATE
--DGN_RAW_VIEWS=1
--DGN_FILTER_MAX=0
--DGN_FILTER_MAX=1
--DGN_FILTER_MAX=2
--DGN_FILTER_MAX=3
--DGN_RAW_VIEWS=1 -DGN_SHADOWS=0
--DGN_VERTEX_NORMALS=0 -DGN_VERTEX_COLOURS=0
--DGN_SHADOWS=0 -DGN_FILTER_MAX=0 -DGN_VERTEX_NORMALS=0 -DGN_VERTEX_COLOURS=0 -DGN_DEPTH_BLOCKS=0 -DGN_SRGB=0
--DGN_SHADOWS=0 -DGN_FILTER_MAX=0 -DGN_VERTEX_NORMALS=0 -DGN_VERTEX_COLOURS=0 -DGN_DEPTH_BLOCKS=0 -DGN_RAW_VIEWS=1
--DGN_RUNTIME_KNOBS=1 -DGN_SHADOWS=0
--DGN_RUNTIME_KNOBS=1 -DGN_FILTER_MAX=0
--DGN_SUBPIXEL_BITS=8 -DGN_MAX_TILE_REFS=65535
--DGN_MAX_TILE_REFS=65536 -DGN_VERTEX_CACHE=4 -DGN_MAX_LIGHTS=1
--DGN_MAX_WIDTH=1 -DGN_MAX_HEIGHT=1 -DGN_MAX_TRIANGLES=1 -DGN_MAX_TILE_REFS=1 -DGN_TILE_WIDTH=8 -DGN_TILE_HEIGHT=1 -DGN_ATLAS_SIZE=16
-LIST
-# each switch off alone, and with each filter it could interact with
-for macro in $(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_]*, \([A-Z_]*\), 0, 1,.*/\1/p' lib/gn_knobs.h | grep -v -e RAW_VIEWS -e RUNTIME_KNOBS); do
-    echo "-DGN_$macro=0"
-done >>"$tmp/wanted"
-echo "-DGN_DEPTH_BLOCKS=0 -DGN_FILTER_MAX=1" >>"$tmp/wanted"
-(
-    trap - EXIT # it is not this subshell that cleans up
-    awk 'NR % 2' "$tmp/wanted" | builds >"$tmp/built1"
-) &
-awk 'NR % 2 == 0' "$tmp/wanted" | builds >"$tmp/built2"
-wait
-passed=$((passed + $(cat "$tmp"/built? | grep -c '^ok$')))
-failed=$((failed + $(cat "$tmp"/built? | grep -c '^does not build')))
-grep -hv '^ok$' "$tmp"/built?
+if gcc $strict -O1 $host_knobs -Itests -o "$tmp/host_picture" "$tmp/lib.c" tests/config_picture.c 2>"$tmp/log"; then
+    (
+        trap - EXIT # it is not this subshell that cleans up
+        some_draw 0 >"$tmp/drawn0"
+    ) &
+    some_draw 1 >"$tmp/drawn1"
+    wait
+    passed=$((passed + $(cat "$tmp"/drawn? | grep -c '^ok$')))
+    failed=$((failed + $(wc -l <"$tmp/wanted") - passed))
+    grep -hv '^ok$' "$tmp"/drawn?
+else fail "the host build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
+
+# file by file, as users build it: what each needs, it includes itself
+for flags in "" "$none" "$all" "$(flags MAX_WIDTH=1 MAX_HEIGHT=1 MAX_TRIANGLES=1 MAX_TILE_REFS=1 TILE_WIDTH=8 TILE_HEIGHT=1 ATLAS_SIZE=16 OTHER_ATLAS_SIZE=16 \
+    MAX_LIGHTS=1 SURFACE_LIGHTS=1 MAX_OBJECTS=1 MAX_SHADOW_TILES=1 MAX_OTHER_TILES=1)"; do
+    for compiler in gcc clang; do
+        if $compiler $strict $flags -O1 -ffreestanding -fsyntax-only lib/*.c >"$tmp/log" 2>&1; then pass
+        else fail "$compiler $flags: $(grep -m 1 -E 'error|warning' "$tmp/log")"; fi
+    done
+done
 
 # ---- What must not ---------------------------------------------------------------------------------------------------------
 
 # refused NAME FLAG: the build stops and its message names the knob
 refused() {
-    if gcc -std=c99 -Ilib $2 -fsyntax-only lib/gn_frame.c >"$tmp/message" 2>&1; then fail "builds with $2"
+    if gcc -std=c99 -Ilib $2 -fsyntax-only "$tmp/check.c" >"$tmp/message" 2>&1; then fail "builds with $2"
     elif grep -q "error.*$1" "$tmp/message"; then pass
     else fail "$2: the message does not name $1: $(grep -m 1 error "$tmp/message")"
     fi
 }
 
+grep -q '"gn_check.h"' lib/gn_frame.c && pass || fail "lib/gn_frame.c does not include the checks"
+echo '#include "gn_check.h"' >"$tmp/check.c"
+if gcc -std=c99 -Ilib -fsyntax-only "$tmp/check.c"; then pass; else fail "lib/gn_check.h does not stand alone"; fi
 sed -n 's/^ *X(\([a-z_]*\), \([A-Z_]*\), \([0-9]*\), \([0-9]*\),.*/\1 \2 \3 \4/p' lib/gn_knobs.h >"$tmp/knobs"
 [ "$(wc -l <"$tmp/knobs")" = "$(grep -c '^ *X(' lib/gn_knobs.h)" ] && pass || fail "the list of knobs in lib/gn_knobs.h is not understood"
 while read -r name macro low high; do
@@ -87,6 +162,9 @@ refused preset_unknown -DGN_PRESET=-1
 refused persp_step -DGN_PERSP_STEP=2
 refused atten_bits -DGN_ATTEN_BITS=12
 refused atlas_size -DGN_ATLAS_SIZE=96
+refused other_atlas_size -DGN_OTHER_ATLAS_SIZE=96
+refused depth_bits -DGN_DEPTH_BITS=24
+refused other_depth_bits -DGN_OTHER_DEPTH_BITS=12
 refused vertex_cache -DGN_VERTEX_CACHE=33
 refused tile_width -DGN_TILE_WIDTH=68
 refused picture_too_large "-DGN_SUBPIXEL_BITS=6 -DGN_MAX_WIDTH=1024" # beyond 16-bit screen coordinates
@@ -107,7 +185,7 @@ typedef char no_shadows[GN_SHADOWS == 0 ? 1 : -1];
 EOF_C
 if gcc $strict -I"$tmp" '-DGN_USER_CONFIG="my_config.h"' -fsyntax-only "$tmp/user.c" 2>"$tmp/message"; then pass
 else fail "GN_USER_CONFIG: $(grep -m 1 error "$tmp/message")"; fi
-if objects user -O1 -ffreestanding -I"$PWD/$tmp" '-DGN_USER_CONFIG="my_config.h"'; then pass
+if gcc $strict -I"$tmp" '-DGN_USER_CONFIG="my_config.h"' -O1 -ffreestanding -c -o "$tmp/user.o" "$tmp/lib.c" 2>"$tmp/user.log"; then pass
 else fail "GN_USER_CONFIG: $(grep -m 1 error "$tmp/user.log")"; fi
 
 cat >"$tmp/user.cpp" <<'EOF_C'
@@ -118,7 +196,7 @@ static const uint16_t idx[3] = {0, 1, 2};
 static void flush(void *, int, int, int, int, const void *) {}
 gn_status draw()
 {
-    gn_mesh mesh = {pos, nullptr, nullptr, idx, 3, 1, 16};
+    gn_mesh mesh = {pos, nullptr, nullptr, nullptr, nullptr, idx, 3, 1, 16, 0};
     gn_object object = gn_object();
     object.mesh = &mesh;
     object.flags = GN_OBJECT_DEFAULT;
@@ -135,9 +213,9 @@ gn_status draw()
     return gn_get_detail(&renderer)->needed ? GN_ERR_ORDER : gn_status_text(status)[0] ? status : GN_OK;
 }
 EOF_C
-for flags in "" "-DGN_SHADOWS=0 -DGN_RAW_VIEWS=1" "-DGN_RUNTIME_KNOBS=1" "-DGN_PRESET=2"; do
-    if g++ -std=c++11 -Wall -Wextra -pedantic -Werror -Ilib $flags -fsyntax-only "$tmp/user.cpp" 2>"$tmp/message"; then pass
-    else fail "C++ $flags: $(grep -m 1 error "$tmp/message")"; fi
+for words in "" none all "SHADOWS=0 RAW_VIEWS=1" RUNTIME_KNOBS=1 accurate; do
+    if g++ -std=c++11 -Wall -Wextra -pedantic -Werror -Ilib $(flags $words) -fsyntax-only "$tmp/user.cpp" 2>"$tmp/message"; then pass
+    else fail "C++ $words: $(grep -m 1 error "$tmp/message")"; fi
 done
 
 # ---- Pictures of the demo scene --------------------------------------------------------------------------------------------
@@ -195,8 +273,7 @@ EOF_C
 program() {
     program_name=$1
     shift
-    objects "$program_name" -O1 "$@" &&
-        gcc $strict -Itests -O1 "$@" -o "$tmp/$program_name.run" "$tmp/picture.c" "$tmp/$program_name"/*.o >>"$tmp/$program_name.log" 2>&1 || {
+    gcc $strict -Itests -O0 "$@" -o "$tmp/$program_name.run" "$tmp/picture.c" "$tmp/lib.c" >"$tmp/$program_name.log" 2>&1 || {
         fail "no program with $*: $(grep -m 1 error "$tmp/$program_name.log")"
         return 1
     }
@@ -234,120 +311,45 @@ done
 for frame in 0 1 2 3 4; do same wide "2048 80 1 - $frame" host "2048 80 1 - $frame 0" "2048 pixels wide at compile time against run time"; done
 if [ "$("$tmp/host.run" 160 120 0 - 0)" = "$("$tmp/host.run" 160 120 0 - 1)" ]; then fail "the demo's frames do not differ"; else pass; fi
 
-program plain -DGN_DEPTH_BLOCKS=0 && for filter in 0 1 2 3 4; do
-    same plain "160 120 1 $filter 0" balanced "160 120 1 $filter 0" "without depth blocks"
-done
-program hard -DGN_FILTER_MAX=0 && same hard "160 120 1 0 0" balanced "160 120 1 0 0" "hard filter alone"
-program tent -DGN_FILTER_MAX=2 && same tent "160 120 1 2 0" balanced "160 120 1 2 0" "3x3 filter the largest"
 
 # ---- Capacities ------------------------------------------------------------------------------------------------------------
 
 # status name -> number, from the order of the list
 number() { sed -n 's/^ *X(\(GN_[A-Z_]*\),.*/\1/p' lib/gnomon.h | awk -v name="$1" '$1 == name { print NR - 1 }'; }
 
-# full NAME STATUS MACRO OTHER-FLAGS [FRAME]: too few; as many as are needed; one less
+small() { # small FLAGS...: the last line of what the scene of tests/config_picture.c prints
+    gcc $strict -Itests -O0 $(flags "$@") -o "$tmp/small" "$tmp/lib.c" tests/config_picture.c 2>"$tmp/log" || { head -n 1 "$tmp/log"; return; }
+    "$tmp/small" | tail -n 1
+}
+
+# full STATUS MACRO TOO-FEW FLAGS...: too few; as many as are said to be needed; one less
 full() {
-    frame=${5:-0} status=$2 macro=$3 flags=$4 name=$1
-    program "$name" "-D$macro=3" $flags || return
-    set -- $("$tmp/$name.run" 160 120 0 - "$frame")
-    if [ "$1 $3" = "$(number "$status") 3" ] && [ "${2:-0}" -gt 3 ]; then pass; else fail "$macro=3: status ${1:-?}, needed ${2:-?}, available ${3:-?}"; return; fi
-    needed=$2
-    program "$name" "-D$macro=$needed" $flags || return
-    same "$name" "160 120 0 - $frame" balanced "160 120 0 - $frame" "$macro=$needed, as needed"
-    program "$name" "-D$macro=$((needed - 1))" $flags || return
-    if [ "$("$tmp/$name.run" 160 120 0 - "$frame")" = "$(number "$status") $needed $((needed - 1))" ]; then pass; else fail "$macro=$((needed - 1)): it needs $needed"; fi
-}
-
-full triangles GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES ""
-full refs GN_ERR_TILE_REFS_FULL GN_MAX_TILE_REFS ""
-full tiles GN_ERR_SHADOW_TILES_FULL GN_MAX_SHADOW_TILES "" 1
-
-# ---- Memory ----------------------------------------------------------------------------------------------------------------
-
-cat >"$tmp/ram.c" <<'EOF_C'
-/* ram PRESET KEY=VALUE...: what the tool predicts for the library's default capacities. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include "host/tool/settings.h"
-int main(int argc, char **argv)
-{
-    settings set;
-    scene none;
-    char error[200];
-    memset(&none, 0, sizeof none);
-    settings_init(&set);
-    settings_preset(&set, atoi(argv[1]));
-    if (settings_apply_all(&set, &none, argv + 2, argc - 2, error, sizeof error)) {
-        printf("%s\n", error);
-        return 1;
-    }
-    printf("%ld\n", settings_ram(&set).total);
-    return 0;
-}
-EOF_C
-if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 $warn -Ilib -I. $host_knobs -o "$tmp/ram" "$tmp/ram.c" host/tool/settings*.c host/tool/output.c host/scene/*.c -lm >"$tmp/ram.log" 2>&1; then
-    pass
-else
-    fail "settings_ram: $(grep -m 1 -E 'error|undefined' "$tmp/ram.log")"
-fi
-
-# size_of FLAGS...: sizeof(gn_renderer) on a 32-bit target (64-bit integers aligned as on Arm and RISC-V), else on this one
-target=
-echo 'typedef char a[sizeof(void *) == 4 ? 1 : -1];' >"$tmp/probe.c"
-gcc -m32 -malign-double -ffreestanding -fsyntax-only "$tmp/probe.c" 2>/dev/null && target='-m32 -malign-double'
-printf '#include "gnomon.h"\ntypedef char size_is[sizeof(gn_renderer) RELATION ? 1 : -1];\n' >"$tmp/size.c"
-size_is() { # size_is RELATION FLAGS...
-    relation=$1
-    shift
-    gcc -std=c99 $target -ffreestanding -Ilib "$@" "-DRELATION=$relation" -S -o "$tmp/size.s" "$tmp/size.c" 2>"$tmp/message"
-}
-size_of() { # by bisection: for messages
-    low=0 high=16777216
-    while [ $((high - low)) -gt 1 ]; do
-        middle=$(((low + high) / 2))
-        if size_is "<= $middle" "$@"; then high=$middle; else low=$middle; fi
+    status=$(number "$1") macro=$2 few=$3
+    shift 3
+    message=$(small "-D$macro=$few" "$@")
+    needed=$(echo "$message" | cut -d ' ' -f 4)
+    if [ "$message" = "status $status needed ${needed:-0} available $few" ]; then pass
+    else fail "$macro=$few: $message, not status $status"; return; fi
+    for enough in 1 2 3 4 5 6 7 8; do # the scenes that follow may need more
+        message=$(small "-D$macro=$needed" "$@")
+        case $message in "status $status "*) needed=$(echo "$message" | cut -d ' ' -f 4) ;; *) break ;; esac
     done
-    echo $high
+    message=$(small "-D$macro=$needed" "$@")
+    if [ "$message" = "$(small "$@")" ]; then pass; else fail "$macro=$needed, as needed: $message"; fi
+    message=$(small "-D$macro=$((needed - 1))" "$@")
+    if [ "$message" = "status $status needed $needed available $((needed - 1))" ]; then pass; else fail "$macro=$((needed - 1)): $message"; fi
 }
 
-# predicted PRESET KEY=VALUE...: the tool and the compiler agree
-predicted() {
-    preset=$1
-    shift
-    flags="-DGN_PRESET=$preset" sets=
-    for key in max_width max_height max_triangles max_tile_refs max_lights surface_lights max_objects max_shadow_tiles max_other_tiles vertex_cache; do
-        macro=GN_$(echo $key | tr a-z A-Z)
-        sets="$sets $key=$(sed -n "s/^#define $macro \([0-9]*\)$/\1/p" lib/gn_config.h)"
-    done
-    for set in "$@"; do flags="$flags -DGN_$(echo "${set%%=*}" | tr a-z A-Z)=${set#*=}"; done
-    ram=$("$tmp/ram" "$preset" $sets "$@")
-    if size_is "== $ram" $flags; then pass; else fail "RAM with $flags: predicted $ram, is $(size_of $flags)"; fi
-}
-
-if [ -n "$target" ]; then
-    for preset in 0 1 2; do
-        predicted $preset
-        predicted $preset shadows=0
-        predicted $preset raw_views=1
-        predicted $preset depth_blocks=0
-        predicted $preset incremental=0
-        predicted $preset static_layer=1
-        predicted $preset static_layer=1 depth_blocks=0 incremental=0
-        predicted $preset punctual_lights=0
-        predicted $preset main_light=0
-        predicted $preset punctual_lights=0 main_light=0
-        predicted $preset punctual_lights=0 main_light=0 shadows=0 max_objects=3 max_lights=1
-        predicted $preset depth_bits=8 other_depth_bits=32 atlas_size=16 other_atlas_size=512
-        predicted $preset depth_bits=32 other_depth_bits=8 atlas_size=32 other_atlas_size=16 static_layer=1
-        predicted $preset max_width=333 max_height=17 max_triangles=7 max_tile_refs=9 max_lights=3 max_shadow_tiles=16 vertex_cache=64
-        predicted $preset max_objects=777 max_other_tiles=13 surface_lights=3 max_shadow_tiles=1 max_lights=5
-        predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
-        predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
-    done
-fi
-if size_is '<= 65536' -DGN_PRESET=GN_PRESET_BALANCED -DGN_MAX_WIDTH=320 -DGN_MAX_HEIGHT=240 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=500; then pass
-else fail "preset balanced, 320x240, 500 triangles: more than 64 KiB of RAM"; fi
+full GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES 3
+full GN_ERR_TILE_REFS_FULL GN_MAX_TILE_REFS 3
+full GN_ERR_TOO_MANY_OBJECTS GN_MAX_OBJECTS 1
+full GN_ERR_TOO_MANY_LIGHTS GN_MAX_LIGHTS 1 PUNCTUAL_LIGHTS=0
+full GN_ERR_SURFACE_LIGHTS GN_SURFACE_LIGHTS 1
+# shadow tiles are no capacity that a frame fails for: lights go without, and are counted (A3)
+message=$(small MAX_SHADOW_TILES=1)
+if [ "$message" = "without room: 1" ]; then pass; else fail "GN_MAX_SHADOW_TILES=1: $message"; fi
+message=$(small MAX_OTHER_TILES=1)
+if [ "$message" = "without room: 2" ]; then pass; else fail "GN_MAX_OTHER_TILES=1: $message"; fi
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

@@ -6,6 +6,7 @@
 
 #include "check.h"
 #include "demo_scene.h"
+#include "light_scene.h"
 
 #define WIDTH       320
 #define HEIGHT      240
@@ -14,6 +15,7 @@
 static gn_renderer renderer;
 static gn_scratch scratch[THREADS_MAX];
 static demo_scene demo;
+static light_scene ls;
 
 typedef struct {
     uint32_t first, step; /* the tiles this thread draws */
@@ -48,22 +50,60 @@ static void draw_with(int n_threads, uint16_t *picture)
     for (int i = 0; i < n_threads; i++) pthread_join(thread[i], NULL);
 }
 
-int main(void)
+/* The same bytes by one thread and by many. */
+static void check_scene(const gn_scene *scene)
 {
     static uint16_t one[WIDTH * HEIGHT], many[WIDTH * HEIGHT];
     gn_picture p = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    CHECK_EQ_INT(gn_init(&renderer, &p), GN_OK);
+    CHECK_EQ_INT(ls_prepare(&renderer, scene), GN_OK);
+    draw_with(1, one);
+    for (int n = 2; n <= THREADS_MAX; n *= 2) {
+        memset(many, 0, sizeof many);
+        draw_with(n, many);
+        CHECK(memcmp(one, many, sizeof one) == 0);
+    }
+}
+
+/* Every kind of light, a texture with alpha, highlights, masks and baked light, blended cascades. */
+static void every_kind(gn_filter filter, gn_blend blend)
+{
+    static uint8_t mask[DEMO_BALL_VERTICES * 4];
+    static uint16_t baked[DEMO_BALL_VERTICES * 3];
+    static const gn_light_kind kinds[5] = {GN_LIGHT_DIRECTIONAL, GN_LIGHT_SPOT, GN_LIGHT_POINT, GN_LIGHT_DIRECTIONAL,
+                                           GN_LIGHT_SPOT};
+    rng r = {11};
+    ls_begin(&ls);
+    for (int i = 0; i < 5; i++) ls_add_random_light(&ls, &r, kinds[i])->receiver_plane = i & 1;
+    for (size_t i = 0; i < sizeof mask; i++) mask[i] = (uint8_t)(37 * i);
+    for (size_t i = 0; i < sizeof baked / sizeof *baked; i++) baked[i] = (uint16_t)(i % 7 * 100);
+    ls.light[1].mode = GN_LIGHT_MIXED;
+    ls.light[1].mask_channel = 2;
+    gn_object *ball = &ls.object[2];
+    ball->mask_u8 = mask;
+    ball->baked_uq12 = baked;
+    ball->shininess_log2 = 4;
+    for (int k = 0; k < 3; k++) ball->specular_uq16[k] = 20000;
+    ls.object[3].visible_alpha = ls.object[3].caster_alpha = filter == GN_FILTER_DISK ? GN_ALPHA_DITHER : GN_ALPHA_CLIP;
+    ls.holes.flags = GN_TEXTURE_BILINEAR;
+    gn_shadow_settings *shadow = &ls.scene.shadow;
+    shadow->filter = shadow->other_filter = filter;
+    shadow->blend = blend;
+    shadow->mixing = GN_MIXING_DISTANCE;
+    shadow->n_cascades = 4;
+    shadow->main_light = blend == GN_BLEND_DITHER;
+    shadow->tile_sizes = GN_TILES_IMPORTANCE;
+}
+
+int main(void)
+{
     for (uint32_t frame = 0; frame < 3; frame++) {
         demo_scene_make(&demo, frame);
-        CHECK_EQ_INT(gn_init(&renderer, &p), GN_OK);
-        CHECK_EQ_INT(gn_begin(&renderer, &demo.scene), GN_OK);
-        for (uint32_t i = 0; i < gn_shadow_tile_count(&renderer); i++) CHECK_EQ_INT(gn_shadow_tile(&renderer, i), GN_OK);
-        CHECK_EQ_INT(gn_prepare(&renderer), GN_OK);
-        draw_with(1, one);
-        for (int n = 2; n <= THREADS_MAX; n *= 2) {
-            memset(many, 0, sizeof many);
-            draw_with(n, many);
-            CHECK(memcmp(one, many, sizeof one) == 0);
-        }
+        check_scene(&demo.scene);
     }
+    every_kind(GN_FILTER_5X5, GN_BLEND_SOFT);
+    check_scene(&ls.scene);
+    every_kind(GN_FILTER_DISK, GN_BLEND_DITHER);
+    check_scene(&ls.scene);
     return check_report();
 }

@@ -966,6 +966,115 @@ static void test_empty_cascade(void)
     canvas_end(&c);
 }
 
+/* A5: a frame that is abandoned fits its views, but its tiles are not drawn: the next must not keep those of the frame before. */
+static void test_abandoned_frame(void)
+{
+    gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
+    canvas c;
+    canvas_begin(&c, 48, 32, GN_FORMAT_RGB888);
+    CHECK(gn_init(&two, &p) == GN_OK);
+    demo_scene_make(&demo, 1);
+    for (int i = 0; i < 4; i++) demo.scene.shadow.refresh[i] = 4;
+    for (int i = 0; i < 4; i++) CHECK(gn_render(&two, &demo.scene, flush, &c) == GN_OK);
+    CHECK_EQ_INT(gn_get_stats(&two)->n_tiles_drawn, 0);
+    demo.scene.camera.to_world.t_q16[0] += GN_Q16(1.1);
+    CHECK(gn_begin(&two, &demo.scene) == GN_OK); /* the fifth frame would draw all tiles */
+    CHECK(gn_render(&two, &demo.scene, flush, &c) == GN_OK);
+    CHECK_EQ_INT(canvas_crc(&c), crc_of(&one, &demo.scene, 48, 32, GN_FORMAT_RGB888));
+    canvas_end(&c);
+}
+
+/* The exponent of a directional light's colour: the same as a brighter colour, up to the largest. */
+static void test_colour_exponent(void)
+{
+    uint32_t crc[4];
+    for (int i = 0; i < 4; i++) {
+        demo_scene_make(&demo, 0);
+        gn_light *l = &demo.light[0];
+        for (int k = 0; k < 3; k++) l->colour_uq16[k] = i < 2 ? i ? 40000 : 10000 : 0xFFFFFF;
+        l->colour_exp = i == 0 ? 2 : i == 3 ? 100 : 0;
+        crc[i] = crc_of(&one, &demo.scene, 48, 32, GN_FORMAT_RGB888);
+    }
+    CHECK_EQ_INT(crc[0], crc[1]);
+    CHECK_EQ_INT(crc[2], crc[3]);
+    CHECK(crc[1] != crc[2]);
+}
+
+/* M5: only mixed lights have masks. */
+static void test_mask_of_mixed_lights(void)
+{
+    uint32_t crc[3];
+    for (int i = 0; i < 3; i++) {
+        full_scene();
+        for (int l = 0; l < 3; l++) {
+            full.light[l].mode = i == 2 ? GN_LIGHT_MIXED : GN_LIGHT_REALTIME;
+            full.light[l].mask_channel = i == 0 ? -1 : 0;
+        }
+        demo.object[FULL_OBJECT].texture = NULL; /* a black one */
+        demo.scene.shadow.mixing = GN_MIXING_ALWAYS;
+        crc[i] = crc_of(&one, &demo.scene, 48, 32, GN_FORMAT_RGB888);
+    }
+    CHECK_EQ_INT(crc[0], crc[1]);
+    CHECK(crc[1] != crc[2]);
+}
+
+/* B4 away from a wide spot light moves a caster into its view from far outside: it must not be culled. */
+static void test_caster_moved_into_view(void)
+{
+    static const int32_t pos[9] = {0, 0, 0, GN_Q16(0.02), 0, 0, 0, GN_Q16(0.02), 0};
+    static const int16_t nrm[9] = {0, 0, 32767, 0, 0, 32767, 0, 0, 32767};
+    static const uint16_t idx[3] = {0, 1, 2};
+    gn_mesh mesh = {.pos = pos, .nrm_q15 = nrm, .idx = idx, .n_vertices = 3, .n_triangles = 1, .pos_frac_bits = 16};
+    gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
+    demo_scene_make(&demo, 0);
+    gn_light spot = {.kind = GN_LIGHT_SPOT, .direction = {0, 0, -1}, .near_q16 = 655, .shadow_strength_uq16 = 65536};
+    spot.inner_turn = spot.outer_turn = GN_TURN(170);
+    spot.bias_caster_q16 = GN_Q16(8);
+    demo.object[0].mesh = &mesh;
+    gn_affine_identity(&demo.object[0].to_world);
+    demo.object[0].to_world.t_q16[0] = GN_Q16(4);
+    demo.object[0].to_world.t_q16[2] = GN_Q16(-0.1);
+    demo.object[0].flags |= GN_OBJECT_CASTS_TWO_SIDED;
+    demo.scene.lights = &spot;
+    demo.scene.n_objects = 1;
+    CHECK(gn_init(&one, &p) == GN_OK);
+    one.frame.knobs.other_atlas_size = 16;
+    CHECK(gn_begin(&one, &demo.scene) == GN_OK && gn_shadow_tile_count(&one) == 1 && gn_shadow_tile(&one, 0) == GN_OK);
+    CHECK_EQ_INT(gn_get_stats(&one)->n_caster_triangles, 1);
+}
+
+/* Shadows of a flat ground and of one that counts as smooth, by normals a hair apart. */
+static void ground_shadows(canvas *c, int smooth)
+{
+    static int16_t nrm[12];
+    gn_picture p = picture_of(c->width, c->height, GN_FORMAT_RAW32);
+    p.view = GN_VIEW_SHADOW;
+    demo_scene_make(&demo, 1);
+    for (int i = 0; i < 4; i++) nrm[3 * i + 1] = 32767;
+    nrm[0] = (int16_t)smooth;
+    demo.ground.nrm_q15 = nrm;
+    demo.light[0].bias_normal_q16 = GN_Q16(6);
+    demo.scene.shadow.filter = GN_FILTER_DISK;
+    demo.scene.shadow.disk_samples = 16;
+    demo.scene.shadow.penumbra_uq16 = GN_UQ16(8);
+    CHECK(gn_init(&one, &p) == GN_OK && gn_render(&one, &demo.scene, flush, c) == GN_OK);
+}
+
+/* F4: the disk's reach differs from cascade to cascade, and so does the receiver's offset; flat or smooth. */
+static void test_disk_offset_per_cascade(void)
+{
+    canvas flat, smooth;
+    long n_different = 0;
+    canvas_begin(&flat, 96, 64, GN_FORMAT_RAW32);
+    canvas_begin(&smooth, 96, 64, GN_FORMAT_RAW32);
+    ground_shadows(&flat, 0);
+    ground_shadows(&smooth, 1);
+    for (size_t i = 0; i < flat.n_bytes; i += 4) n_different += memcmp(flat.pixels + i, smooth.pixels + i, 4) != 0;
+    if (!CHECK(n_different < 20)) printf("%ld pixels differ\n", n_different);
+    canvas_end(&flat);
+    canvas_end(&smooth);
+}
+
 /* One step of a frame: begin, each shadow tile, prepare, each screen tile. Returns 0 when it is done. */
 static int step(gn_renderer *r, const gn_scene *s, canvas *c, uint32_t n)
 {
@@ -1454,6 +1563,30 @@ static void test_extremes(void)
     }
 }
 
+/* A5: settings and camera may change under a tile that is kept. */
+static void test_changes_under_kept_tiles(void)
+{
+    gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
+    canvas c;
+    canvas_begin(&c, 48, 32, GN_FORMAT_RGB888);
+    for (int kind = 0; kind < 3; kind++) {
+        CHECK(gn_init(&one, &p) == GN_OK);
+        one.frame.knobs.atlas_size = 1024;
+        demo_scene_make(&demo, 0);
+        gn_shadow_settings *s = &demo.scene.shadow;
+        s->refresh[0] = 2;
+        s->disk_samples = 16;
+        s->penumbra_uq16 = GN_UQ16(4);
+        s->filter = kind < 2 ? GN_FILTER_DISK : GN_FILTER_HARD;
+        if (kind == 2) limit_focal_high(&demo.scene), shadow_next_to_near(&demo.scene); /* the smallest texels */
+        CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
+        if (kind < 2) s->filter = GN_FILTER_3X3, s->disk_samples = kind ? UINT32_MAX : 0; /* are not looked at */
+        if (kind == 2) limit_focal_low(&demo.scene), shadow_all_the_way(&demo.scene);
+        CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
+    }
+    canvas_end(&c);
+}
+
 /* ---- Random scenes ------------------------------------------------------------------------------------------------ */
 
 typedef struct {
@@ -1461,6 +1594,7 @@ typedef struct {
     canvas kept, fresh;
     gn_panel panel;
     long count[GN_STATUS_COUNT], wrong, drawn, compared;
+    uint32_t texels;
 } campaign;
 
 /* A format or a raw view. */
@@ -1487,7 +1621,7 @@ static int same_afresh(campaign *r, int32_t tile_size, int culling)
     return gn_render(&two, &other, flush, &r->fresh) == GN_OK && !memcmp(r->kept.pixels, r->fresh.pixels, r->kept.n_bytes);
 }
 
-/* What must not change a pixel: forgetting what was kept, culling casters, and other screen tiles where each pixel has its divide. */
+/* What must not change a pixel: forgetting what was kept, culling casters, other screen tiles where each pixel has its divide. */
 static void compare_with_fresh(campaign *r, long frame)
 {
     const gn_shadow_settings *s = &r->scene.scene.shadow;
@@ -1500,6 +1634,19 @@ static void compare_with_fresh(campaign *r, long frame)
     if (r->wrong++ < 10)
         printf("scene %ld: other pixels by what was kept: %d, by culling: %d, by screen tiles: %d\n", frame,
                !same_afresh(r, 0, !culling), !same_afresh(r, 0, culling), !same_afresh(r, tile_size, !culling));
+}
+
+/* Every texel that is said to be there can be read. */
+static uint32_t read_tiles(const gn_renderer *r, uint32_t n_lights)
+{
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < n_lights * 6; i++) {
+        gn_tile_info info;
+        if (!gn_get_shadow_tile(r, i / 6, i % 6, &info)) continue;
+        size_t n = (size_t)info.texels * info.texels * info.depth_bits / 8;
+        for (size_t k = 0; k < n; k++) sum += ((const uint8_t *)info.depth)[k];
+    }
+    return sum;
 }
 
 static void random_frame(campaign *r, long frame)
@@ -1516,6 +1663,7 @@ static void random_frame(campaign *r, long frame)
     else r->count[status]++;
     if (c->n_outside || (status == GN_OK ? !changes && !each_pixel_once(c) : c->n_calls != 0)) r->wrong++;
     if (status != GN_OK) return;
+    if (one_in(64)) r->texels += read_tiles(&one, r->scene.scene.n_lights);
     r->drawn += gn_get_stats(&one)->n_triangles && gn_get_stats(&one)->n_caster_triangles;
     if (one_in(4)) compare_with_fresh(r, frame);
 }
@@ -1574,6 +1722,11 @@ int main(void)
     test_status_texts();
     test_same_again();
     test_empty_cascade();
+    test_abandoned_frame();
+    test_colour_exponent();
+    test_mask_of_mixed_lights();
+    test_caster_moved_into_view();
+    test_disk_offset_per_cascade();
     test_two_renderers();
     test_tile_order();
     test_no_needless_tiles();
@@ -1581,6 +1734,7 @@ int main(void)
     test_tile_sizes();
     test_picture_sizes();
     test_extremes();
+    test_changes_under_kept_tiles();
     test_random_scenes(option("SCENES", option("SOAK", 0) ? 2000000 : 20000));
     return check_report();
 }

@@ -1286,9 +1286,11 @@ static void test_errors(void)
     f.s.shadow.cascade_ratio[0] = 0.5;
     for (int l = 0; l < 4; l++) f.lights[l] = f.lights[0];
     f.s.n_lights = 4;
-    options.atlas_size = 16; /* room for four tiles of 8 texels: the first two lights */
+    options.atlas_size = 16; /* room for four tiles of 8 texels: two lights */
+    CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);
+    f.s.n_lights = 2;
     CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), 0);
-    for (int l = 0; l < 4; l++) CHECK_EQ_INT(p.grant[l].tile_texels, l < 2 ? 8 : 0);
+    for (int l = 0; l < 2; l++) CHECK_EQ_INT(p.grant[l].tile_texels, 8);
     ref_free(&p);
     options.other_atlas_size = 24;
     CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);

@@ -87,8 +87,7 @@ none "lib/ includes a header that it does not have" "$tmp/found"
 # gn_frame.c's table of contents, as "name rank kind": its lines are in the order of the stages; what stands in parentheses is a
 # service, which ranks as the stage that it is first named for. Nobody includes a stage of a later rank.
 awk 'FNR > 1 && /\*\// { exit } /^ \*   / {
-    line = $0
-    depth = 0
+    line = $0 # parentheses may go on in the next
     while (match(line, /[()]|gn_[a-z_]+/)) {
         word = substr(line, RSTART, RLENGTH)
         line = substr(line, RSTART + RLENGTH)
@@ -97,7 +96,7 @@ awk 'FNR > 1 && /\*\// { exit } /^ \*   / {
         else if (!seen[word]++ && word !~ /^gn_(begin|shadow_tile|prepare|screen_tile)$/) print word, FNR, depth ? "service" : "stage"
     }
 }' lib/gn_frame.c >"$tmp/order"
-for stage in gn_scene gn_xform gn_cascade gn_atlas gn_setup gn_bin gn_raster gn_shade; do
+for stage in gn_scene gn_xform gn_views gn_atlas gn_setup gn_bin gn_raster gn_shade; do
     grep -q "^$stage [0-9]* stage$" "$tmp/order" && pass || fail "lib/gn_frame.c's table of contents has no stage $stage"
 done
 while read -r name rank kind; do

@@ -91,6 +91,7 @@ is_png() { # is_png FILE SIZE WHAT
     rm -f "$1"
 }
 
+# every view, by either engine (A6)
 for engine in fixed reference; do
     for view in colour shadow depth normal cascade atlas; do
         size=33x21
@@ -133,7 +134,17 @@ is_png "$tmp/one.png" 1x1 "--size 1x1"
 good compare "$cube" -o "$tmp/new" --size 33x21
 for name in fixed reference error; do is_png "$tmp/new/$name.png" 33x21 "compare -o"; done
 good compare "$cube" -o "$tmp/new" --size 16x16 # into a folder that exists
+is_png "$tmp/new/beside.png" 56x16 "compare -o, side by side"
 for name in fixed reference error; do is_png "$tmp/new/$name.png" 16x16 "compare -o"; done
+good compare "$cube" -o "$tmp/new" --size 33x8 --view depth
+is_png "$tmp/new/beside.png" 33x32 "compare -o, one below the other"
+good compare "$cube" -o "$tmp/new" --size 16x16 --view atlas --set atlas_size=64 --set cascades=3
+for name in fixed reference error; do is_png "$tmp/new/$name.png" 96x32 "compare -o --view atlas"; done
+is_png "$tmp/new/beside.png" 96x104 "compare -o --view atlas"
+bad 1 "no light 1" compare "$cube" -o "$tmp/new" --size 16x16 --view shadow --light 1
+# lamps inside of unlit bulbs: their insides are turned to the light, and what is seen of them is not
+good compare docs/scenes/cones.gltf -o "$tmp/new" --size 64x48 --view shadow --light 3
+cmp -s "$tmp/new/fixed.png" "$tmp/new/reference.png" && pass || fail "unlit surfaces in --view shadow differ"
 
 good compare "$cube" --with truth -o "$tmp/three" --size 33x21
 for pair in 'fixed against reference: what fixed point' 'reference against truth: what the shadow map' 'fixed against truth: both'; do
@@ -225,9 +236,8 @@ bad 2 "^gnomon: --size: bad value 'abc', not WxH" info "$cube" --size abc
 bad 2 "bad value 'a?b'" info "$cube" --size "$(printf 'a\nb')" # still one line
 bad 2 "bad value ''" render "$cube" -o ''
 # what a command does not use
-for option in '--view colour' '--light 0' '--engine fixed'; do
-    for command in compare info; do bad 2 "$command does not use ${option% *}" $command "$cube" $option; done
-done
+for option in "--view colour" "--light 0" "--engine fixed"; do bad 2 "info does not use ${option% *}" info "$cube" $option; done
+bad 2 "compare does not use --engine" compare "$cube" --engine fixed
 bad 2 'render does not use --with' render "$cube" -o "$tmp/a.png" --with reference
 bad 2 'info does not use --with' info "$cube" --with reference
 bad 2 'info does not use -o' info "$cube" -o "$tmp/a.png"
@@ -536,8 +546,8 @@ light 'a spot light after it' '"kind": "spot", "mode": "realtime", "shadow": "re
 light 'a point light without room' '"kind": "point", "mode": "realtime", "shadow": "no_room", "tiles": 0, "tile_texels": 0}'
 light 'a baked light' '"kind": "spot", "mode": "baked", "shadow": "not_wanted", "tiles": 0, "tile_texels": 0}'
 light 'lights without room' '"other_tiles": 13.*"lights_without_room": 1'
-good info "$cube" --size 16x12 --set lights=spot,point --set other_atlas_size=16
-grep -q "1 'point': point, no room for its shadow" "$tmp/out" && grep -q "0 'spot': spot, 1 shadow tile of 16x16" "$tmp/out" && pass || fail "info does not say which light got a tile"
+good info "$cube" --size 16x12 --set lights=spot,point,point,point --set other_atlas_size=64
+grep -q "3 'point': point, no room for its shadow" "$tmp/out" && grep -q "0 'spot': spot, 1 shadow tile of 16x16" "$tmp/out" && pass || fail "info does not say which light got a tile"
 grep -q 'needs:.* punctual_lights' "$tmp/out" && pass || fail "info does not name punctual_lights"
 good info "$cube" --size 16x12
 grep -q 'needs:.* punctual_lights' "$tmp/out" && fail "info names punctual_lights without a need" || pass

@@ -115,7 +115,7 @@ double ref_shadow(const ref_frame *frame, const ref_surface *at, size_t l, vec3 
     const scene_light *light = &frame->s->lights[l];
     const scene_object *object = at->triangle.object;
     if (!(light->strength > 0.0) || !light->shadow || !object->receives || object->unlit) return 1.0;
-    const double m = ref_mask(frame->s, &at->triangle, at->bary, light->mask_channel);
+    const double m = ref_mask(frame->s, &at->triangle, at->bary, light->mode == SCENE_MIXED ? light->mask_channel : -1);
     const double g = is_served(frame, l) ? distance_strength(frame, at) : 0.0;
     double rt = 1.0;
     if (light->strength * g > 0.0)

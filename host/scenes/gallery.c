@@ -31,15 +31,18 @@ static void add_sun(gltf_document *d, mesh_point direction, double intensity)
                         &(gltf_light_text){.name = "sun", .rgb = {1, 0.95, 0.86}, .intensity = intensity});
 }
 
-/* A slab far taller than what the camera's sphere covers, and a thin rod: their shadows' edges from close by. */
+/* A leaning slab far taller than what the camera's sphere covers, and a thin rod: their shadows' edges from close by. */
 int gallery_edge_write(FILE *file)
 {
     static gltf_document d;
-    static mesh_builder rod;
+    static mesh_builder slab, rod;
     gltf_begin(&d);
     add_floor(&d, 6, -6, 4, (double[]){0.62, 0.6, 0.55});
     size_t red = gltf_add_material(&d, "slab", (double[]){0.55, 0.16, 0.1}, NULL);
-    add_box(&d, "slab", (mesh_point){-1.6, 0, -0.5}, (mesh_point){-0.55, 5, -0.2}, red);
+    mesh_begin(&slab, MESH_FACE_NORMALS);
+    mesh_place(&slab, mesh_frame_at((mesh_point){-1.1, -0.1, -0.55}, -26, 24));
+    mesh_box(&slab, (mesh_point){-0.15, 0, -0.5}, (mesh_point){0.15, 5, 0.5});
+    gltf_add_object(&d, "slab", &slab, red);
     mesh_begin(&rod, MESH_NORMALS);
     mesh_rod(&rod, (mesh_point){0.25, 0, -0.75}, (mesh_point){0.25, 0.8, -0.75}, 0.04, 8);
     gltf_add_object(&d, "rod", &rod, gltf_add_material(&d, "rod", (double[]){0.1, 0.3, 0.45}, NULL));
@@ -175,7 +178,7 @@ int gallery_lamps_write(FILE *file)
                                                .kind = GLTF_POINT,
                                                .rgb = {rgb[0], rgb[1], rgb[2]},
                                                .intensity = 0.75,
-                                               .range = 1.5,
+                                               .range = 1.15,
                                                .knobs = i == 5 || i == 10 ? "\"near\": 0.03" : "\"shadow\": 0"});
         if (i % 5 == 0) add_box(&d, "block", (mesh_point){x - 0.2, 0, z - 0.2}, (mesh_point){x, 0.5, z}, block);
     }
@@ -388,7 +391,7 @@ int gallery_suns_write(FILE *file)
     static gltf_document d;
     static mesh_builder post;
     static const char *const name[5] = {"east", "north", "west", "south", "fill"};
-    static const double rgb[5][3] = {{1, 0.35, 0.25}, {0.3, 0.9, 0.35}, {0.3, 0.45, 1}, {0.9, 0.8, 0.3}, {0.3, 0.3, 0.3}};
+    static const double rgb[5][3] = {{1, 0.12, 0.08}, {0.1, 0.8, 0.15}, {0.12, 0.2, 1}, {0.7, 0.55, 0.05}, {0.3, 0.3, 0.3}};
     static const mesh_point to[5] = {
         {0.6, -0.75, -0.25}, {0.25, -0.75, 0.6}, {-0.6, -0.75, 0.25}, {-0.25, -0.75, -0.6}, {0, -1, 0}};
     gltf_begin(&d);
@@ -401,19 +404,60 @@ int gallery_suns_write(FILE *file)
         gltf_add_light_node(&d, (mesh_point){0, 0, 0}, gltf_look(to[i]),
                             &(gltf_light_text){.name = name[i],
                                                .rgb = {rgb[i][0], rgb[i][1], rgb[i][2]},
-                                               .intensity = 1.1,
+                                               .intensity = i == 4 ? 0.6 : 1.5,
                                                .knobs = i == 4 ? "\"shadow\": 0" : NULL});
     gltf_add_camera(&d, &(gltf_camera){.fov_deg = 34,
                                        .near_distance = 1,
                                        .far_distance = 30,
-                                       .target = {0, 0.25, 0},
-                                       .distance = 5.5,
+                                       .target = {0, 0.3, 0},
+                                       .distance = 4.6,
                                        .yaw_deg = 10,
                                        .pitch_deg = -40});
     return gltf_write(
         &d,
         &(gltf_scene_text){.comment = "Four directional lights with shadows and one without. No animation.",
-                           .settings = "\"max_distance\": 9, \"filter\": \"3x3\", \"atlas_size\": 256, \"other_atlas_size\": 256, "
-                                       "\"cascades\": 1, \"ambient\": 0.05, \"background\": [0.4, 0.58, 0.82]"},
+                           .settings = "\"max_distance\": 9, \"filter\": \"3x3\", \"atlas_size\": 512, \"other_atlas_size\": 256, "
+                                       "\"cascades\": 1, \"ambient\": 0.03, \"background\": [0.4, 0.58, 0.82]"},
         file);
+}
+
+/* Six sheets around a lamp: by turns the front side faces it or is turned away; the sixth is turned away and two-sided. */
+int gallery_sheets_write(FILE *file)
+{
+    enum { N = 6 };
+    static gltf_document d;
+    static mesh_builder sheet, bulb;
+    gltf_begin(&d);
+    add_floor(&d, 4, -4, 4, (double[]){0.6, 0.6, 0.6});
+    size_t green = gltf_add_material(&d, "towards the lamp", (double[]){0.2, 0.5, 0.25}, NULL);
+    size_t red = gltf_add_material(&d, "away from it", (double[]){0.6, 0.2, 0.15}, NULL);
+    size_t blue = gltf_add_material(&d, "away, casts with both sides", (double[]){0.2, 0.3, 0.6}, "\"casts_two_sided\": 1");
+    for (int i = 0; i < N; i++) {
+        double middle = 2 * MESH_PI * (i + 0.25) / N, half = 0.3;
+        mesh_point a = {cos(middle - half), 0, sin(middle - half)}, b = {cos(middle + half), 0, sin(middle + half)};
+        mesh_point p[4] = {a, b, {b.x, 0.6, b.z}, {a.x, 0.6, a.z}}; /* seen from inside: clockwise */
+        mesh_begin(&sheet, MESH_FACE_NORMALS);
+        if (i % 2) mesh_quad(&sheet, p[1], p[0], p[3], p[2]);
+        else mesh_quad(&sheet, p[0], p[1], p[2], p[3]);
+        gltf_add_object(&d, "sheet", &sheet, i == N - 1 ? blue : i % 2 ? red : green);
+    }
+    gltf_add_light_node(
+        &d, (mesh_point){0, 0.9, 0}, upright,
+        &(gltf_light_text){
+            .name = "lamp", .kind = GLTF_POINT, .rgb = {1, 0.95, 0.85}, .intensity = 5, .range = 5, .knobs = "\"near\": 0.05"});
+    mesh_begin(&bulb, MESH_NORMALS);
+    mesh_ball(&bulb, (mesh_point){0, 0.9, 0}, 0.06, 6, 10);
+    gltf_add_object(&d, "bulb", &bulb, gltf_add_material(&d, "bulb", (double[]){1, 0.9, 0.7}, "\"unlit\": 1, \"casts\": 0"));
+    gltf_add_camera(&d, &(gltf_camera){.fov_deg = 40,
+                                       .near_distance = 1,
+                                       .far_distance = 30,
+                                       .target = {0, 0, 0.1},
+                                       .distance = 5.2,
+                                       .yaw_deg = 0,
+                                       .pitch_deg = -52});
+    return gltf_write(&d,
+                      &(gltf_scene_text){.comment = "Single sheets around a lamp, their fronts towards it or away. No animation.",
+                                         .settings = "\"max_distance\": 12, \"filter\": \"3x3\", \"other_atlas_size\": 512, "
+                                                     "\"ambient\": 0.06, \"background\": [0.02, 0.02, 0.03]"},
+                      file);
 }

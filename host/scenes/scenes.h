@@ -30,5 +30,6 @@ int gallery_materials_write(FILE *file);
 int gallery_near_write(FILE *file);
 int gallery_baked_write(FILE *file);
 int gallery_suns_write(FILE *file);
+int gallery_sheets_write(FILE *file);
 
 #endif

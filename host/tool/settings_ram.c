@@ -34,12 +34,11 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 {
     int other = s->feature.punctual_lights || s->feature.main_light;
     long views = s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
-    put(l, 4, 40, 8);                                      /* cascade */
-    put(l, 3, 1, 1);                                       /* n_cascades to has_cascades */
-    put(l, 1, 4, 4);                                       /* frame_count */
-    put(l, views, s->feature.depth_blocks ? 192 : 184, 8); /* view */
-    if (s->feature.incremental) put(l, views, 16, 8);      /* memory */
-    if (s->feature.incremental) put(l, 1, 8, 8);           /* layout */
+    put(l, 4, 40, 8);                                        /* cascade */
+    put(l, 3, 1, 1);                                         /* n_cascades to has_cascades */
+    put(l, 1, 4, 4);                                         /* frame_count */
+    put(l, views, s->feature.depth_blocks ? 192 : 184, 8);   /* view */
+    if (s->feature.incremental) put(l, 2 * views + 1, 8, 8); /* memory, layout */
     r->atlas = put_atlas(l, s, s->quality.atlas_size, s->quality.depth_bits);
     if (other) r->other_atlas = put_atlas(l, s, s->quality.other_atlas_size, s->quality.other_depth_bits);
 }
@@ -53,8 +52,7 @@ settings_ram_parts settings_ram(const settings *s)
     long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
     int punctual = s->feature.punctual_lights;
-    put(&frame, 1, 176, 4); /* picture to cam */
-    put(&frame, 1, 8, 8);   /* min2_q32 */
+    put(&frame, 1, 184, 8); /* picture to min2_q32 */
     r.lights = put(&frame, s->capacity.max_lights, punctual ? 168 : 32, punctual ? 8 : 4);
     r.objects = put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4);
     put(&frame, 1, 40, 4); /* receivers_q16 to tiles_y */

@@ -144,7 +144,7 @@ uint8_t *view_beside(const uint8_t *const *pictures, int n, int w, int h, int *o
     size_t out_row = 3 * (size_t)*out_w, bytes = out_row * (size_t)*out_h;
     uint8_t *out = malloc(bytes);
     if (!out) return NULL;
-    memset(out, 255, bytes);
+    memset(out, 128, bytes);
     for (int i = 0; i < n; i++) {
         size_t x = stacked ? 0 : (size_t)(i * (w + VIEW_GAP)), y = stacked ? (size_t)(i * (h + VIEW_GAP)) : 0;
         for (size_t k = 0; k < (size_t)h; k++) memcpy(out + (y + k) * out_row + 3 * x, pictures[i] + k * row, row);

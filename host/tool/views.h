@@ -15,7 +15,7 @@ uint8_t *view_draw(const engine_picture *p, view_kind view, size_t light, int *w
 /* |a - b| per channel of two RGB pictures, eight times as strong. */
 uint8_t *view_error(const uint8_t *a, const uint8_t *b, int w, int h);
 
-/* n RGB pictures of one size in one: side by side with white gaps, or one below the other if they are more than twice as wide as high.
+/* n RGB pictures of one size in one: side by side with grey gaps, or one below the other if they are more than twice as wide as high.
  * NULL: out of memory. */
 enum { VIEW_GAP = 4 };
 uint8_t *view_beside(const uint8_t *const *pictures, int n, int w, int h, int *out_w, int *out_h);

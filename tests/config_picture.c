@@ -1,0 +1,358 @@
+/* Pictures of a scene that uses everything that is built in, a line with a CRC each, and what is not built in is refused.
+ *
+ * A build for a target runs without arguments. The host build, which has everything and its quality knobs as data, is given the
+ * target's flags: it leaves out of the scene what they leave out of the library, and must print the same lines. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "demo_scene.h"
+
+enum { WIDTH = 56, HEIGHT = 44, VARIANTS = 6, LIGHTS = 4 };
+
+/* ---- What to use ----------------------------------------------------------------------------------------------------- */
+
+#define FIELD(name, MACRO, lo, hi, meaning, cost) int32_t name;
+static struct {
+    GN_QUALITY_KNOBS(FIELD)
+    GN_FEATURE_KNOBS(FIELD)
+} use;
+
+static void use_what_is_built(void)
+{
+#define BUILT(name, MACRO, lo, hi, meaning, cost) use.name = GN_##MACRO;
+    GN_QUALITY_KNOBS(BUILT)
+    GN_FEATURE_KNOBS(BUILT)
+}
+
+static void use_preset(int preset)
+{
+#define PRESET(name, MACRO, lo, hi, meaning, cost)                                                                                 \
+    {                                                                                                                              \
+        const int32_t of_preset[3] = {GN_PRESETS_##MACRO};                                                                         \
+        use.name = of_preset[preset];                                                                                              \
+    }
+    GN_QUALITY_KNOBS(PRESET)
+}
+
+static void use_flag(const char *flag)
+{
+    const char *value = strchr(flag, '=');
+    if (strncmp(flag, "-DGN_", 5) != 0 || !value) return;
+    size_t n = (size_t)(value - flag) - 5;
+    if (n == 6 && strncmp(flag + 5, "PRESET", n) == 0) use_preset(atoi(value + 1));
+#define NAMED(name, MACRO, lo, hi, meaning, cost)                                                                                  \
+    if (n == sizeof #MACRO - 1 && strncmp(flag + 5, #MACRO, n) == 0) use.name = atoi(value + 1);
+    GN_QUALITY_KNOBS(NAMED)
+    GN_FEATURE_KNOBS(NAMED)
+}
+
+/* ---- The scene ------------------------------------------------------------------------------------------------------- */
+
+static gn_renderer renderer;
+static demo_scene demo;
+static gn_light lights[LIGHTS];
+static uint8_t texels[4 * 8 * 8], mask[4 * DEMO_BALL_VERTICES];
+static uint16_t mask_uv[2 * 8], baked[3 * DEMO_BALL_VERTICES];
+static int16_t uv[2 * 8];
+static gn_texture texture = {texels, 3, 3, 0};
+
+static void make_arrays(void)
+{
+    for (size_t i = 0; i < sizeof texels; i++) texels[i] = (uint8_t)(40U + 37U * i % 211U);
+    for (size_t i = 0; i < sizeof mask; i++) mask[i] = (uint8_t)(i * 29U);
+    for (size_t i = 0; i < sizeof baked / 2; i++) baked[i] = (uint16_t)(i * 61U % 3000U);
+    for (size_t i = 0; i < 16; i++) {
+        uv[i] = (int16_t)(i % 3U * 900U);
+        mask_uv[i] = (uint16_t)(i % 5U * 16383U);
+    }
+}
+
+static void use_lights(int variant)
+{
+    gn_light sun = demo.light[0];
+    sun.mode = use.masks ? GN_LIGHT_MIXED : GN_LIGHT_REALTIME;
+    sun.mask_channel = use.masks ? 0 : -1;
+    sun.bias_constant_q16 = GN_Q16(0.5);
+    sun.bias_slope_q16 = GN_Q16(0.5);
+    if (use.receiver_bias)
+        for (int i = 0; i < 4; i++) sun.bias_receiver_q16[i] = GN_Q16(0.1) * i;
+    if (use.caster_bias) sun.bias_caster_q16 = GN_Q16(0.4);
+    sun.receiver_plane = use.receiver_plane && variant % 2;
+    sun.softness = use.filter_max >= 3 && variant == 1 ? GN_SOFTNESS_SOFT : GN_SOFTNESS_DEFAULT;
+    sun.near_q16 = GN_Q16(0.1);
+    lights[0] = lights[1] = lights[2] = lights[3] = sun;
+    lights[1].direction[0] = -lights[1].direction[0];
+    lights[1].colour_uq16[0] /= 2;
+    lights[1].shadow_strength_uq16 = 50000;
+    lights[1].mask_channel = -1;
+    if (use.filter_max >= 1 && variant == 2) lights[1].softness = GN_SOFTNESS_HARD;
+    lights[2].kind = GN_LIGHT_SPOT;
+    lights[2].position_q16[0] = GN_Q16(-2);
+    lights[2].position_q16[1] = GN_Q16(4);
+    lights[2].inner_turn = GN_TURN(40);
+    lights[2].outer_turn = GN_TURN(70);
+    lights[2].range_q16 = GN_Q16(12);
+    lights[3].kind = GN_LIGHT_POINT;
+    lights[3].position_q16[1] = GN_Q16(3.2);
+    lights[3].position_q16[2] = GN_Q16(1.5);
+    lights[3].range_q16 = variant % 2 ? GN_UQ16(9) : 0;
+    demo.scene.lights = lights;
+    demo.scene.n_lights = use.punctual_lights ? LIGHTS : 2;
+    for (uint32_t i = 1; i < demo.scene.n_lights; i++)
+        for (int k = 0; k < 3; k++) lights[i].colour_uq16[k] *= i < 2 ? 1U : 3U;
+}
+
+static void use_materials(int variant)
+{
+    gn_object *box = &demo.object[0], *ball = &demo.object[1], *ground = &demo.object[2];
+    demo.ground.uv = demo.box.uv = uv;
+    demo.ground.uv_frac_bits = demo.box.uv_frac_bits = 10;
+    demo.ground.mask_uv_uq16 = demo.box.mask_uv_uq16 = mask_uv;
+    texture.flags = (uint8_t)(variant % 3 == 2 ? GN_TEXTURE_BILINEAR : variant % 3);
+    gn_alpha cut = variant % 2 ? GN_ALPHA_CLIP : GN_ALPHA_DITHER;
+    for (int i = 0; i < DEMO_OBJECTS; i++) {
+        demo.object[i].alpha_uq16 = 50000;
+        demo.object[i].alpha_cutoff_uq16 = 30000;
+    }
+    if (use.textures) box->texture = ground->texture = &texture;
+    if (use.visible_alpha) box->visible_alpha = ball->visible_alpha = cut;
+    if (use.caster_alpha) box->caster_alpha = ball->caster_alpha = cut;
+    for (int k = 0; use.specular && k < 3; k++) ball->specular_uq16[k] = 30000;
+    ball->shininess_log2 = 4;
+    if (use.masks) ball->mask_u8 = mask;
+    if (use.masks) ground->mask_image = &texture;
+    if (use.baked_light) ball->baked_uq12 = baked;
+    ball->flags |= GN_OBJECT_MOVING;
+    /* a build without them does not look at these; this one would */
+    if (GN_VERTEX_NORMALS && !use.vertex_normals) demo.ball.nrm_q15 = NULL;
+    if (GN_VERTEX_COLOURS && !use.vertex_colours) demo.ball.rgb_uq16 = demo.box.rgb_uq16 = NULL;
+    for (int i = 0; GN_SHADOWS && !use.shadows && i < DEMO_OBJECTS; i++) demo.object[i].flags &= ~(uint32_t)GN_OBJECT_CASTS;
+}
+
+static gn_filter filter_of(int variant)
+{
+    if (variant % VARIANTS == GN_FILTER_DISK && use.disk_filter) return GN_FILTER_DISK;
+    return (gn_filter)(variant % VARIANTS < use.filter_max ? variant % VARIANTS : use.filter_max);
+}
+
+static void use_shadow_settings(int variant)
+{
+    gn_shadow_settings *s = &demo.scene.shadow;
+    s->filter = filter_of(variant);
+    s->other_filter = filter_of(variant + 3);
+    s->kernel = use.linear_kernels && variant % 2 ? GN_KERNEL_LINEAR : GN_KERNEL_TENT;
+    s->penumbra_uq16 = GN_UQ16(6);
+    s->disk_samples = 12;
+    s->mixing = use.masks ? (gn_mixing)(variant % 3) : GN_MIXING_NONE;
+    s->tile_sizes = variant % 2 ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL;
+    s->main_light = use.main_light && variant > 1;
+    s->caster_culling = 1;
+    s->object_lights = (uint32_t)variant % 3;
+    s->n_cascades = s->main_light ? 1U + (uint32_t)variant % 4 : 1U + (uint32_t)variant % 2; /* of two lights: 4 tiles */
+    s->blend = use.blended_cascades ? (gn_blend)(variant % 3) : GN_BLEND_HARD;
+    s->distance_mode = variant == 3 ? GN_DISTANCE_RADIUS : GN_DISTANCE_DEPTH;
+    s->max_distance_q16 = GN_Q16(9);
+    for (uint32_t i = 1; use.incremental && i < 4; i++) s->refresh[i] = i;
+}
+
+static void make_scene(int variant, int moved)
+{
+    demo_scene_make(&demo, (uint32_t)variant % 3);
+    if (moved) demo.object[1].to_world.t_q16[0] -= GN_Q16(0.3);
+    use_lights(variant);
+    use_materials(variant);
+    use_shadow_settings(variant);
+}
+
+/* ---- Pictures -------------------------------------------------------------------------------------------------------- */
+
+static uint32_t crc;
+
+static void flush(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    const gn_picture *picture = user;
+    size_t bytes = picture->format == GN_FORMAT_RGB565 ? 2 : picture->format == GN_FORMAT_RGB888 ? 3 : 4;
+    (void)x, (void)y;
+    crc = demo_crc32(crc, pixels, (size_t)(w * h) * bytes);
+}
+
+static gn_status begin(const gn_picture *picture)
+{
+    gn_status status = gn_init(&renderer, picture);
+#if GN_RUNTIME_KNOBS
+#define KNOB(name, MACRO, lo, hi, meaning, cost) renderer.frame.knobs.name = use.name;
+    GN_QUALITY_KNOBS(KNOB)
+#endif
+    return status;
+}
+
+/* All variants in one renderer, so that shadow tiles may be kept from one to the next. */
+static int pictures(gn_format format, gn_view view, uint8_t light)
+{
+    gn_picture picture = {WIDTH, HEIGHT, format, view, light};
+    gn_status status = begin(&picture);
+    for (int i = 0; !status && i < 2 * VARIANTS; i++) {
+        make_scene(i / 2, i % 2);
+        crc = 0;
+        status = gn_render(&renderer, &demo.scene, flush, &picture);
+        if (!status) printf("format %d view %d light %d scene %d: %08x\n", (int)format, (int)view, light, i, (unsigned)crc);
+        if (!status && gn_get_stats(&renderer)->n_lights_without_room)
+            printf("without room: %u\n", gn_get_stats(&renderer)->n_lights_without_room);
+    }
+    const gn_detail *d = gn_get_detail(&renderer);
+    if (status) printf("status %d needed %u available %u\n", (int)status, (unsigned)d->needed, (unsigned)d->available);
+    return status != GN_OK;
+}
+
+/* ---- Refusals -------------------------------------------------------------------------------------------------------- */
+
+static void ask_blend(void)
+{
+    demo.scene.shadow.blend = GN_BLEND_SOFT;
+}
+static void ask_filter(void)
+{
+    demo.scene.shadow.other_filter = (gn_filter)(GN_FILTER_MAX < 4 ? GN_FILTER_MAX + 1 : 4);
+}
+static void ask_disk(void)
+{
+    demo.scene.shadow.filter = GN_FILTER_DISK;
+}
+static void ask_linear(void)
+{
+    demo.scene.shadow.kernel = GN_KERNEL_LINEAR;
+}
+static void ask_spot(void)
+{
+    lights[1] = lights[2];
+}
+static void ask_point(void)
+{
+    lights[1] = lights[3];
+}
+static void ask_main(void)
+{
+    demo.scene.shadow.main_light = 1;
+}
+static void ask_caster_alpha(void)
+{
+    demo.object[1].caster_alpha = GN_ALPHA_DITHER;
+}
+static void ask_visible_alpha(void)
+{
+    demo.object[1].visible_alpha = GN_ALPHA_CLIP;
+}
+static void ask_texture(void)
+{
+    demo.object[2].texture = &texture;
+}
+static void ask_specular(void)
+{
+    demo.object[2].specular_uq16[1] = 1;
+}
+static void ask_mask(void)
+{
+    demo.object[1].mask_u8 = mask;
+}
+static void ask_mask_image(void)
+{
+    demo.object[2].mask_image = &texture;
+}
+static void ask_mixing(void)
+{
+    demo.scene.shadow.mixing = GN_MIXING_DISTANCE;
+}
+static void ask_baked(void)
+{
+    demo.object[1].baked_uq12 = baked;
+}
+static void ask_receiver_bias(void)
+{
+    lights[0].bias_receiver_q16[3] = 1;
+}
+static void ask_caster_bias(void)
+{
+    lights[0].bias_caster_q16 = 1;
+}
+static void ask_plane(void)
+{
+    lights[0].receiver_plane = 1;
+}
+static void ask_refresh(void)
+{
+    demo.scene.shadow.refresh[2] = 2;
+}
+static void ask_soft(void)
+{
+    lights[0].softness = GN_SOFTNESS_SOFT;
+}
+static void ask_hard(void)
+{
+    lights[0].softness = GN_SOFTNESS_HARD;
+    demo.scene.shadow.filter = GN_DISK_FILTER ? GN_FILTER_DISK : GN_FILTER_HARD;
+}
+
+static const struct {
+    const char *what;
+    int built;
+    gn_status status;
+    void (*ask)(void);
+} refusals[] = {
+    {"blend", GN_BLENDED_CASCADES || !GN_SHADOWS, GN_ERR_SHADOW_CASCADES, ask_blend},
+    {"larger filter", GN_FILTER_MAX == 4 || !GN_SHADOWS, GN_ERR_SHADOW_FILTER, ask_filter},
+    {"disk", GN_DISK_FILTER || !GN_SHADOWS, GN_ERR_SHADOW_FILTER, ask_disk},
+    {"linear", GN_LINEAR_KERNELS || !GN_SHADOWS, GN_ERR_SHADOW_FILTER, ask_linear},
+    {"spot", GN_PUNCTUAL_LIGHTS, GN_ERR_LIGHT_KIND, ask_spot},
+    {"point", GN_PUNCTUAL_LIGHTS, GN_ERR_LIGHT_KIND, ask_point},
+    {"main light", GN_MAIN_LIGHT || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_main},
+    {"caster alpha", GN_CASTER_ALPHA, GN_ERR_MATERIAL, ask_caster_alpha},
+    {"visible alpha", GN_VISIBLE_ALPHA, GN_ERR_MATERIAL, ask_visible_alpha},
+    {"texture", GN_TEXTURES, GN_ERR_TEXTURE, ask_texture},
+    {"specular", GN_SPECULAR, GN_ERR_MATERIAL, ask_specular},
+    {"mask", GN_MASKS, GN_ERR_MASK, ask_mask},
+    {"mask image", GN_MASKS, GN_ERR_MASK, ask_mask_image},
+    {"mixing", GN_MASKS || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_mixing},
+    {"baked light", GN_BAKED_LIGHT, GN_ERR_MASK, ask_baked},
+    {"receiver bias", GN_RECEIVER_BIAS, GN_ERR_LIGHT_BIAS, ask_receiver_bias},
+    {"caster bias", GN_CASTER_BIAS, GN_ERR_LIGHT_BIAS, ask_caster_bias},
+    {"receiver plane", GN_RECEIVER_PLANE, GN_ERR_LIGHT_BIAS, ask_plane},
+    {"refresh", GN_INCREMENTAL || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_refresh},
+    {"soft", GN_FILTER_MAX >= 3 || !GN_SHADOWS, GN_ERR_LIGHT_KIND, ask_soft},
+    {"hard", GN_FILTER_MAX >= 1 || !GN_DISK_FILTER || !GN_SHADOWS, GN_ERR_LIGHT_KIND, ask_hard},
+};
+
+/* A scene that needs no feature, and one wish. */
+static void refuse(void)
+{
+    gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    use_what_is_built();
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
+#define NONE(name, MACRO, lo, hi, meaning, cost) use.name = 0;
+        GN_FEATURE_KNOBS(NONE)
+        make_scene(0, 0);
+        if (begin(&picture)) return;
+        refusals[i].ask();
+        gn_status status = gn_begin(&renderer, &demo.scene);
+        gn_status expected = refusals[i].built ? GN_OK : refusals[i].status;
+        if (status != expected) printf("status of %s: %d, not %d\n", refusals[i].what, (int)status, (int)expected);
+    }
+    picture.format = GN_FORMAT_RAW32;
+    picture.view = GN_VIEW_DEPTH;
+    if (gn_init(&renderer, &picture) != (GN_RAW_VIEWS ? GN_OK : GN_ERR_FORMAT)) printf("status of raw views\n");
+}
+
+int main(int argc, char **argv)
+{
+    make_arrays();
+    use_what_is_built();
+    if (argc > 1) {
+        use_preset(GN_PRESET_BALANCED);
+        use.raw_views = 0;
+    }
+    for (int i = 1; i < argc; i++) use_flag(argv[i]);
+    int failed = pictures(GN_FORMAT_RGB888, GN_VIEW_COLOUR, 0);
+    for (uint8_t l = 0; !failed && use.raw_views && l < (use.punctual_lights ? LIGHTS : 2); l++)
+        failed = pictures(GN_FORMAT_RAW32, GN_VIEW_SHADOW, l);
+    if (!failed && argc == 1) refuse();
+    return failed;
+}
