@@ -209,8 +209,8 @@ static void test_one_triangle(void)
     CHECK(n_open < 200);
 }
 
-/* The bounds of the arithmetic in doubles hold: what they decide is what exact arithmetic says, for points that are nearly on edges and
- * planes. */
+/* The bounds of the arithmetic in doubles hold: what they decide is what exact arithmetic says, for points that are nearly on edges
+ * and planes. */
 static void test_filter_is_safe(void)
 {
     long n_wrong = 0;
@@ -297,8 +297,8 @@ static bool count_crossing(void *user, const truth_caster *c)
     return true;
 }
 
-/* From the inside every way out crosses the surface once more outwards (seen: a face that faces the target) than inwards. The ways go
- * exactly through vertices, through the middles of edges, and along edges. */
+/* From the inside every way out crosses the surface once more outwards (seen: a face that faces the target) than inwards. The ways
+ * go exactly through vertices, through the middles of edges, and along edges. */
 static void test_watertight(void)
 {
     for (int n = 0; n < 6; n++) {
@@ -513,8 +513,8 @@ static double edge_weight(void)
     return pick < 0.3 ? 0 : pick < 0.5 ? random_log(1e-30, 1e-3) : random_unit();
 }
 
-/* Points all over a convex body: lit where the face is turned to the light, dark where it is turned away; the tracer is not told which
- * triangle a point lies on. */
+/* Points all over a convex body: lit where the face is turned to the light, dark where it is turned away; the tracer is not told
+ * which triangle a point lies on. */
 static void check_convex(fixture *f, scene_light *light, double scale, double offset)
 {
     traced t;
@@ -1038,10 +1038,10 @@ static vec3 texel_point(const ref_light_view *view, vec3 moved, double i, double
     return vec3_add(as_vec3(view->position), vec3_mix(f, u, v, w));
 }
 
-/* With no bias in depth, what the map stores in a texel is where the true shadow begins on the ray through its middle, and a tap says
- * whether the point at the moved point's depth on that ray is in true shadow. All of these points lie as near as the filter reaches
- * and the receiver bias moves. If the light arrives at none of them otherwise than at the visible point, the map has no right to say
- * something else: there is no edge of the true shadow near. */
+/* With no bias in depth, what the map stores in a texel is where the true shadow begins on the ray through its middle, and a tap
+ * says whether the point at the moved point's depth on that ray is in true shadow. All of these points lie as near as the filter
+ * reaches and the receiver bias moves. If the light arrives at none of them otherwise than at the visible point, the map has no
+ * right to say something else: there is no edge of the true shadow near. */
 static bool is_near_edge(const suspect *s, const ref_light_view *view)
 {
     const double k = view->filter_index, steep = sqrt(2.0) * s->light->bias_normal;
