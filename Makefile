@@ -19,7 +19,7 @@ LIB_CFLAGS := -std=c99 -pedantic $(OPT) -g $(WARN) $(SAN) -Ilib
 HOST_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(OPT) -g $(WARN) $(SAN) -Ilib $(HOST_KNOBS)
 
 LIB_SRC := $(wildcard lib/*.c)
-HOST_SRC := $(wildcard host/ref/*.c host/scene/*.c) $(filter-out host/tool/main.c host/tool/gen_%.c, $(wildcard host/tool/*.c))
+HOST_SRC := $(wildcard host/ref/*.c host/truth/*.c host/scene/*.c) $(filter-out host/tool/main.c host/tool/gen_%.c, $(wildcard host/tool/*.c))
 SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/scenes/*.c))
 TESTS := $(basename $(notdir $(wildcard tests/test_*.c)))
 

@@ -117,12 +117,12 @@ for file in lib/*.c; do # and nobody below the frame includes it, nor is left ou
 done >"$tmp/found"
 none "not named in lib/gn_frame.c's table of contents" "$tmp/found"
 
-grep -H -E '#[[:space:]]*include[^"<]*["<][^">]*(lib/|gnomon\.h|gn_)' host/ref/*.[ch] >"$tmp/found"
-none "host/ref/ includes from lib/" "$tmp/found"
-grep -H -E '\<(gn|GN)_[A-Za-z]' host/ref/*.[ch] | while IFS= read -r line; do
+grep -H -E '#[[:space:]]*include[^"<]*["<][^">]*(lib/|gnomon\.h|gn_)' host/ref/*.[ch] host/truth/*.[ch] >"$tmp/found"
+none "host/ref/ or host/truth/ includes from lib/" "$tmp/found"
+grep -H -E '\<(gn|GN)_[A-Za-z]' host/ref/*.[ch] host/truth/*.[ch] | while IFS= read -r line; do
     code "${line%%:*}" | grep -E '\<(gn|GN)_[A-Za-z]'
 done | sort -u >"$tmp/found"
-none "host/ref/ uses the library" "$tmp/found"
+none "host/ref/ or host/truth/ uses the library" "$tmp/found"
 find lib host port -name '*.[ch]' 2>/dev/null | xargs grep -H -E '#[[:space:]]*include.*(tests/|boards/|"(\.\./)*check\.h)' >"$tmp/found"
 none "product code includes tests/ or boards/" "$tmp/found"
 if [ -d port ]; then

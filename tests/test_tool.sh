@@ -112,6 +112,23 @@ for engine in fixed reference; do # a spot light has one tile, a point light six
     good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view shadow --light 2 --set lights=point,directional,spot
     is_png "$tmp/view.png" 33x21 "--engine $engine --view shadow, the last of three lights"
 done
+for view in colour shadow depth normal; do # truth has no maps to show
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine truth --view $view --samples 2
+    is_png "$tmp/view.png" 33x21 "--engine truth --view $view"
+done
+for view in depth normal; do # what is no shadow is the reference's; so is the colour where there are none
+    good render "$cube" -o "$tmp/a.png" --size 33x21 --engine truth --view $view --samples 2
+    good render "$cube" -o "$tmp/b.png" --size 33x21 --engine reference --view $view
+    cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "truth and reference differ in --view $view"
+done
+good render "$cube" -o "$tmp/a.png" --size 33x21 --engine truth --set strength=0
+good render "$cube" -o "$tmp/b.png" --size 33x21 --engine reference --set strength=0
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "truth and reference differ without shadows"
+good render "$cube" -o "$tmp/a.png" --size 33x21 --engine truth
+good render "$cube" -o "$tmp/b.png" --size 33x21 --engine truth --set atlas_size=16 --set filter=7x7 --set bias_normal=5 # of the maps
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "truth depends on the shadow maps"
+good render "$cube" -o "$tmp/b.png" --size 33x21 --engine truth --samples 4
+cmp -s "$tmp/a.png" "$tmp/b.png" && fail "--samples changes nothing" || pass
 good render "$cube" -o "$tmp/one.png" --size 1x1
 is_png "$tmp/one.png" 1x1 "--size 1x1"
 good compare "$cube" -o "$tmp/new" --size 33x21
@@ -128,6 +145,17 @@ bad 1 "no light 1" compare "$cube" -o "$tmp/new" --size 16x16 --view shadow --li
 # lamps inside of unlit bulbs: their insides are turned to the light, and what is seen of them is not
 good compare docs/scenes/cones.gltf -o "$tmp/new" --size 64x48 --view shadow --light 3
 cmp -s "$tmp/new/fixed.png" "$tmp/new/reference.png" && pass || fail "unlit surfaces in --view shadow differ"
+
+good compare "$cube" --with truth -o "$tmp/three" --size 33x21
+for pair in 'fixed against reference: what fixed point' 'reference against truth: what the shadow map' 'fixed against truth: both'; do
+    grep -q "$pair" "$tmp/out" && pass || fail "compare --with truth does not report $pair"
+done
+for name in fixed reference truth error_fixed_reference error_reference_truth error_fixed_truth; do
+    is_png "$tmp/three/$name.png" 33x21 "compare --with truth -o"
+done
+is_png "$tmp/three/beside.png" 107x46 "compare --with truth -o"
+good compare "$cube" --with truth -o "$tmp/three" --size 60x20 --view shadow # wide pictures: below each other
+is_png "$tmp/three/beside.png" 124x68 "compare --with truth -o, wide"
 
 # ---- JSON --------------------------------------------------------------------------------------------------------------------
 
@@ -165,6 +193,10 @@ for scene in "$cube" "$odd"; do
     valid_json out width height
     good compare "$scene" --size 32x24 --json
     valid_json identical within1 max_error atten_rms atten_max shadow_mismatch coverage_mismatch ram_bytes
+    good compare "$scene" --size 32x24 --with truth --samples 2 --json
+    valid_json scene with width height samples ram_bytes fixed_reference reference_truth fixed_truth
+    n=$(grep -o '"shadow_mismatch": [^,]*, "coverage_mismatch"' "$tmp/out" | wc -l)
+    [ "$n" = 3 ] && pass || fail "compare --with truth --json has $n objects of metrics"
     good info "$scene" --size 32x24 --json
     valid_json objects triangles lights light_list textures alpha casters needs surface_lights shadow_tiles other_tiles ram_bytes notes
 done
@@ -185,6 +217,14 @@ bad 2 '-x' info "$cube" -x
 bad 2 other.obj info "$cube" other.obj
 bad 2 gpu render "$cube" -o "$tmp/a.png" --engine gpu
 bad 2 fixed compare "$cube" --with fixed
+for view in atlas cascade; do
+    bad 2 'no shadow maps' render "$cube" -o "$tmp/a.png" --engine truth --view $view
+    bad 2 'no shadow maps' compare "$cube" --with truth --view $view
+done
+for samples in 0 17 -1 1.5 '' x; do bad 2 '--samples' render "$cube" -o "$tmp/a.png" --engine truth --samples "$samples"; done
+bad 2 'truth, not for fixed' render "$cube" -o "$tmp/a.png" --samples 2
+bad 2 'truth, not for reference' compare "$cube" --samples 2
+bad 2 'info does not use --samples' info "$cube" --samples 2
 bad 2 xray render "$cube" -o "$tmp/a.png" --view xray
 bad 2 knobs knobs "$cube"
 for size in 0x0 99999x1 1x99999 -1x5 5x-1 1e3x4 '' x 10 10x 10x10x10 10X10 10.5x10 2049x1 1x2049 99999999999999999999x1 ' 5x5' '5x 5' +5x5; do

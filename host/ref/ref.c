@@ -44,35 +44,47 @@ static bool allocate(ref_frame *frame)
     return ok;
 }
 
-static const char *run_stages(ref_frame *frame)
+static const char *prepare(ref_frame *frame)
 {
     const char *fault;
     if (!allocate(frame)) return "out of memory for the picture";
     if ((fault = ref_transform_objects(frame)) != NULL) return fault;
     ref_list_lights(frame);
     if ((fault = ref_assign_tiles(frame)) != NULL) return fault;
-    if ((fault = ref_fit_lights(frame)) != NULL) return fault;
-    if ((fault = ref_render_atlas(frame)) != NULL) return fault;
-    ref_find_surfaces(frame);
-    ref_light_pixels(frame);
-    ref_encode_pixels(frame);
-    return NULL;
+    return ref_fit_lights(frame);
+}
+
+const char *ref_begin(ref_frame *frame, ref_picture *out, const scene *s, const ref_options *options)
+{
+    memset(out, 0, sizeof *out);
+    *frame = (ref_frame){.s = s, .options = options, .picture = out};
+    const char *fault = check_limits(s, options);
+    if (fault) return fault;
+    out->width = options->width;
+    out->height = options->height;
+    out->n_lights = s->n_lights;
+    frame->camera = ref_make_camera(&s->camera, options->width, options->height);
+    return prepare(frame);
+}
+
+void ref_end(ref_frame *frame)
+{
+    ref_free_instances(frame);
+    free(frame->hits);
+    frame->hits = NULL;
 }
 
 int ref_render(ref_picture *out, const scene *s, const ref_options *options, char *error, size_t error_bytes)
 {
-    memset(out, 0, sizeof *out);
-    const char *fault = check_limits(s, options);
+    ref_frame frame;
+    const char *fault = ref_begin(&frame, out, s, options);
+    if (!fault) fault = ref_render_atlas(&frame);
     if (!fault) {
-        out->width = options->width;
-        out->height = options->height;
-        out->n_lights = s->n_lights;
-        ref_frame frame = {.s = s, .options = options, .picture = out};
-        frame.camera = ref_make_camera(&s->camera, options->width, options->height);
-        fault = run_stages(&frame);
-        ref_free_instances(&frame);
-        free(frame.hits);
+        ref_find_surfaces(&frame);
+        ref_light_pixels(&frame);
+        ref_encode_pixels(&frame);
     }
+    ref_end(&frame);
     if (!fault) return 0;
     ref_free(out);
     if (error && error_bytes > 0) snprintf(error, error_bytes, "reference engine: %s", fault);

@@ -38,6 +38,11 @@ typedef struct {
     double radius;
 } ref_sphere;
 
+struct ref_surface;
+
+/* Another way to rt of DESIGN 1.9 than shadow maps: at a surface point, of a light that asks for tiles. */
+typedef double ref_visibility(const void *user, const struct ref_surface *at, size_t l);
+
 /* Which cascade a surface point is looked up in, and how far it is from leaving it. */
 typedef struct {
     int here;    /* -1: none */
@@ -54,7 +59,9 @@ typedef struct {
     size_t main_light;       /* D10; SCENE_NONE: every directional light has cascades */
     bool cascades_in_use;    /* some light has tiles in the directional atlas */
     ref_sphere sphere[REF_MAX_CASCADES];
-    ref_hit *hits; /* one per pixel; meaningful where picture->triangle >= 0 */
+    ref_hit *hits;              /* one per pixel; meaningful where picture->triangle >= 0 */
+    ref_visibility *visibility; /* NULL: the shadow maps */
+    const void *visibility_user;
 } ref_frame;
 
 /* Inclusive sample indices; empty if x1 < x0 or y1 < y0. */
@@ -71,7 +78,7 @@ typedef struct {
 } ref_triangle;
 
 /* What a pixel shows (DESIGN 1.2). */
-typedef struct {
+typedef struct ref_surface {
     ref_triangle triangle;
     const double *bary;
     vec3 world;
@@ -90,6 +97,10 @@ typedef struct {
     vec3 to_light;      /* L */
     double attenuation; /* a_l */
 } ref_incidence;
+
+/* ref.c: everything before the shadow maps, and what is left after the picture is finished. frame->picture stays. */
+const char *ref_begin(ref_frame *frame, ref_picture *out, const scene *s, const ref_options *options);
+void ref_end(ref_frame *frame);
 
 /* ref_xform.c */
 ref_camera ref_make_camera(const scene_camera *camera, int width, int height);
@@ -123,6 +134,7 @@ bool ref_reaches(const scene_light *light, const ref_instance *instance);
 void ref_list_lights(ref_frame *frame);
 
 /* ref_tiles.c */
+bool ref_asks_for_tiles(const ref_frame *frame, size_t l);
 const char *ref_assign_tiles(ref_frame *frame);
 
 /* ref_cascade.c */

@@ -107,6 +107,7 @@ void ref_find_surfaces(ref_frame *frame)
     for (size_t i = 0; i < n_pixels; i++) {
         frame->picture->depth[i] = HUGE_VAL;
         frame->picture->triangle[i] = -1;
+        for (size_t l = 0; l < frame->picture->n_lights; l++) frame->picture->shadow[l][i] = frame->picture->ndotl[l][i] = 0.0;
     }
     for (size_t o = 0; o < frame->s->n_objects; o++) {
         const scene_object *object = &frame->s->objects[o];

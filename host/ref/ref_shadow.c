@@ -75,8 +75,8 @@ static double blended_attenuation(const ref_frame *frame, const ref_surface *at,
     return lerp(attenuation_in(frame, at, l, selected->next, to_light), here, selected->fade);
 }
 
-/* rt of DESIGN 1.9. Only called where g > 0: a light with cascades then has one selected. */
-static double realtime_attenuation(const ref_frame *frame, const ref_surface *at, size_t l, vec3 to_light)
+/* rt of DESIGN 1.9, from the maps. Only called where g > 0: a light with cascades then has one selected. */
+static double mapped_attenuation(const ref_frame *frame, const ref_surface *at, size_t l, vec3 to_light)
 {
     const scene_light *light = &frame->s->lights[l];
     if (frame->picture->grant[l].atlas == REF_DIRECTIONAL_ATLAS) return blended_attenuation(frame, at, l, to_light);
@@ -86,9 +86,11 @@ static double realtime_attenuation(const ref_frame *frame, const ref_surface *at
     return attenuation_in(frame, at, l, ref_point_face(from_light), to_light);
 }
 
-/* A single tile around an empty slice is none; an empty cascade is never selected. */
-static bool has_tile(const ref_frame *frame, size_t l)
+/* A single tile around an empty slice is none; an empty cascade is never selected. Who does without maps serves every light that
+ * asks. */
+static bool is_served(const ref_frame *frame, size_t l)
 {
+    if (frame->visibility) return ref_asks_for_tiles(frame, l);
     const ref_grant *grant = &frame->picture->grant[l];
     return grant->n_tiles > 0 && (grant->atlas == REF_DIRECTIONAL_ATLAS || frame->picture->view[l][0].active);
 }
@@ -114,7 +116,9 @@ double ref_shadow(const ref_frame *frame, const ref_surface *at, size_t l, vec3 
     const scene_object *object = at->triangle.object;
     if (!(light->strength > 0.0) || !light->shadow || !object->receives || object->unlit) return 1.0;
     const double m = ref_mask(frame->s, &at->triangle, at->bary, light->mode == SCENE_MIXED ? light->mask_channel : -1);
-    const double g = has_tile(frame, l) ? distance_strength(frame, at) : 0.0;
-    const double rt = light->strength * g > 0.0 ? realtime_attenuation(frame, at, l, to_light) : 1.0;
+    const double g = is_served(frame, l) ? distance_strength(frame, at) : 0.0;
+    double rt = 1.0;
+    if (light->strength * g > 0.0)
+        rt = frame->visibility ? frame->visibility(frame->visibility_user, at, l) : mapped_attenuation(frame, at, l, to_light);
     return ref_mix(frame->s->shadow.mixing, light->strength, g, m, rt);
 }

@@ -28,7 +28,7 @@ static bool shadows_something(const ref_frame *frame, const scene_light *light)
     return casts && receives;
 }
 
-static bool asks(const ref_frame *frame, size_t l)
+bool ref_asks_for_tiles(const ref_frame *frame, size_t l)
 {
     const scene_light *light = &frame->s->lights[l];
     return light->mode != SCENE_BAKED && light->shadow && light->strength > 0.0 && shadows_something(frame, light);
@@ -41,7 +41,7 @@ static size_t find_main_light(const ref_frame *frame)
     double best_colour = 0.0;
     for (size_t l = 0; frame->s->shadow.main_light && l < frame->s->n_lights; l++) {
         const scene_light *light = &frame->s->lights[l];
-        if (light->kind != SCENE_LIGHT_DIRECTIONAL || !asks(frame, l)) continue;
+        if (light->kind != SCENE_LIGHT_DIRECTIONAL || !ref_asks_for_tiles(frame, l)) continue;
         const double colour = fmax(light->colour[0], fmax(light->colour[1], light->colour[2]));
         if (best != SCENE_NONE && !(colour > best_colour)) continue;
         best = l;
@@ -169,7 +169,7 @@ const char *ref_assign_tiles(ref_frame *frame)
                     .capacity = capacity(o->max_other_tiles)};
     frame->main_light = find_main_light(frame);
     for (size_t l = 0; l < frame->s->n_lights; l++)
-        if (asks(frame, l)) serve(frame, l, has_cascades(frame, l) ? &directional : &other);
+        if (ref_asks_for_tiles(frame, l)) serve(frame, l, has_cascades(frame, l) ? &directional : &other);
     frame->cascades_in_use = directional.n_tiles > 0;
     return sizes_fit(frame, &directional) && sizes_fit(frame, &other) ? NULL : "shadow tiles of less than 8 texels a side";
 }

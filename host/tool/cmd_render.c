@@ -6,6 +6,13 @@
 #include "../scene/png.h"
 #include "tool.h"
 
+static int draw(engine_picture *p, const tool_options *o, const scene *s, const settings *set, char *error, size_t bytes)
+{
+    if (strcmp(o->engine, "truth") == 0) return engine_truth(p, s, set, o->width, o->height, tool_samples(o), error, bytes);
+    if (strcmp(o->engine, "reference") == 0) return engine_reference(p, s, set, o->width, o->height, error, bytes);
+    return engine_fixed(p, s, set, o->width, o->height, o->view != VIEW_COLOUR, error, bytes);
+}
+
 int tool_render(const tool_options *o)
 {
     char error[TOOL_ERROR_BYTES] = "out of memory";
@@ -17,9 +24,7 @@ int tool_render(const tool_options *o)
     }
     if (tool_load(o, &s, &set)) return TOOL_FAILED;
     engine_picture p;
-    int failed = strcmp(o->engine, "fixed") == 0
-                     ? engine_fixed(&p, &s, &set, o->width, o->height, o->view != VIEW_COLOUR, error, sizeof error)
-                     : engine_reference(&p, &s, &set, o->width, o->height, error, sizeof error);
+    int failed = draw(&p, o, &s, &set, error, sizeof error);
     scene_free(&s);
     if (failed) return tool_fail(o->scene_path, error);
     int w, h;

@@ -1,4 +1,4 @@
-/* What the commands draw with: a picture by the library (fixed) or by the reference, in one shape. */
+/* What the commands draw with: a picture by the library (fixed), by the reference or by the ray tracer (truth), in one shape. */
 #ifndef GNOMON_ENGINE_H
 #define GNOMON_ENGINE_H
 
@@ -18,9 +18,9 @@ typedef struct {
     int64_t *triangle; /* object << 32 | triangle; -1: no surface */
     size_t n_lights;
     double *shadow[ENGINE_LIGHTS_MAX];   /* 0..1 */
-    double *ndotl[ENGINE_LIGHTS_MAX];    /* reference only, NULL from the library */
+    double *ndotl[ENGINE_LIGHTS_MAX];    /* reference and truth only, NULL from the library */
     int8_t *cascade;                     /* of the surface point; -1: none, or no surface */
-    int n_tiles[ENGINE_LIGHTS_MAX];      /* of each light: cascades, 1, or six faces; 0: it has none */
+    int n_tiles[ENGINE_LIGHTS_MAX];      /* of each light: cascades, 1, or six faces; 0: it has none, as all in truth */
     int atlas_texels[ENGINE_LIGHTS_MAX]; /* per side of each of its tiles */
     bool perspective[ENGINE_LIGHTS_MAX]; /* spot and point lights: depth is 1 - near / distance */
     double *atlas[ENGINE_LIGHTS_MAX]
@@ -41,6 +41,13 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
                  size_t error_bytes);
 int engine_reference(engine_picture *out, const scene *s, const settings *set, int width, int height, char *error,
                      size_t error_bytes);
+int engine_truth(engine_picture *out, const scene *s, const settings *set, int width, int height, int samples, char *error,
+                 size_t error_bytes);
 void engine_free(engine_picture *p);
+
+/* What the engines in double precision share: options for a configuration, and their picture after the same quantisation as the
+ * library's. Takes the arrays of ref, which is empty afterwards; -1: out of memory. */
+ref_options engine_ref_options(const settings *set, int width, int height);
+int engine_take(engine_picture *out, ref_picture *ref, const scene *s, const settings *set);
 
 #endif

@@ -1,4 +1,4 @@
-/* Pictures by the reference, quantised to the same outputs. */
+/* Pictures by the reference, and in double precision at all, quantised to the same outputs. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,36 +49,49 @@ static int capacity(int set, int built)
     return set && set < built ? set : built;
 }
 
+ref_options engine_ref_options(const settings *set, int width, int height)
+{
+    return (ref_options){.width = width,
+                         .height = height,
+                         .atlas_size = set->quality.atlas_size,
+                         .other_atlas_size = set->quality.other_atlas_size,
+                         .max_tiles = capacity(set->capacity.max_shadow_tiles, GN_MAX_SHADOW_TILES),
+                         .max_other_tiles = capacity(set->capacity.max_other_tiles, GN_MAX_OTHER_TILES),
+                         .srgb = set->quality.srgb != 0};
+}
+
+static void quantise(engine_picture *out, const ref_picture *ref, const settings *set)
+{
+    const size_t width = (size_t)ref->width, n = width * (size_t)ref->height;
+    for (size_t i = 0; i < n; i++) {
+        const double *c = ref->rgb + 3 * i;
+        output_quantise(set->output, c, set->quality.srgb, (int)(i % width), (int)(i / width), out->rgb8 + 3 * i);
+        out->rgb565[i] = (uint16_t)(level(c[0], 31) << 11 | level(c[1], 63) << 5 | level(c[2], 31));
+    }
+}
+
+int engine_take(engine_picture *out, ref_picture *ref, const scene *s, const settings *set)
+{
+    const size_t n = (size_t)ref->width * (size_t)ref->height;
+    *out = (engine_picture){.width = ref->width, .height = ref->height, .n_lights = ref->n_lights};
+    out->rgb8 = malloc(3 * n);
+    out->rgb565 = malloc(2 * n);
+    const bool ok = out->rgb8 && out->rgb565;
+    if (ok) {
+        quantise(out, ref, set);
+        take(out, ref, s);
+    } else {
+        engine_free(out);
+    }
+    ref_free(ref);
+    return ok ? 0 : -1;
+}
+
 int engine_reference(engine_picture *out, const scene *s, const settings *set, int width, int height, char *error,
                      size_t error_bytes)
 {
     ref_picture ref;
-    ref_options options = {.width = width,
-                           .height = height,
-                           .atlas_size = set->quality.atlas_size,
-                           .other_atlas_size = set->quality.other_atlas_size,
-                           .max_tiles = capacity(set->capacity.max_shadow_tiles, GN_MAX_SHADOW_TILES),
-                           .max_other_tiles = capacity(set->capacity.max_other_tiles, GN_MAX_OTHER_TILES),
-                           .srgb = set->quality.srgb != 0};
+    const ref_options options = engine_ref_options(set, width, height);
     memset(out, 0, sizeof *out);
-    if (ref_render(&ref, s, &options, error, error_bytes)) return -1;
-    size_t n = (size_t)width * (size_t)height;
-    out->width = width;
-    out->height = height;
-    out->n_lights = ref.n_lights;
-    out->rgb8 = malloc(3 * n);
-    out->rgb565 = malloc(2 * n);
-    if (!out->rgb8 || !out->rgb565) {
-        ref_free(&ref);
-        engine_free(out);
-        return -1;
-    }
-    for (size_t i = 0; i < n; i++) {
-        const double *c = ref.rgb + 3 * i;
-        output_quantise(set->output, c, set->quality.srgb, (int)(i % (size_t)width), (int)(i / (size_t)width), out->rgb8 + 3 * i);
-        out->rgb565[i] = (uint16_t)(level(c[0], 31) << 11 | level(c[1], 63) << 5 | level(c[2], 31));
-    }
-    take(out, &ref, s);
-    ref_free(&ref);
-    return 0;
+    return ref_render(&ref, s, &options, error, error_bytes) ? -1 : engine_take(out, &ref, s, set);
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../truth/truth.h"
 #include "tool.h"
 
 static const char usage_text[] =
@@ -11,12 +12,16 @@ static const char usage_text[] =
     "\n"
     "  render SCENE -o OUT.png   one picture\n"
     "  compare SCENE [-o DIR]    the library against the double-precision reference; DIR gets fixed.png, reference.png,\n"
-    "                            error.png, and beside.png, the three side by side\n"
+    "                            error.png, and beside.png, the three side by side. --with truth adds the ray tracer\n"
+    "                            (truth.png), and reports apart what fixed point costs (fixed against reference), what the\n"
+    "                            shadow maps cost (reference against truth), and both; an error picture for each\n"
     "  info SCENE                what the scene needs, and what in the file was ignored\n"
     "  knobs                     every knob and setting, as docs/CONFIG.md lists them\n"
     "\n"
-    "  --engine fixed|reference  render: which engine draws (fixed)\n"
-    "  --with reference          compare: against what (reference)\n"
+    "  --engine NAME             render: fixed, the library; reference, the same in double precision; truth, a ray tracer\n"
+    "                            with exact shadows (fixed)\n"
+    "  --with reference|truth    compare: against what (reference)\n"
+    "  --samples N               N x N samples per pixel of truth; 1: pixel centres, as the other engines (1)\n"
     "  --size WxH                picture size (320x240)\n"
     "  --view NAME               render, compare: colour, shadow, depth, normal, atlas or cascade (colour)\n"
     "  --light K                 render, compare: the light of --view shadow and atlas (0)\n"
@@ -36,8 +41,9 @@ typedef struct {
 
 static const option options[] = {
     {"-o", BY_RENDER | BY_COMPARE, "a path"},
-    {"--engine", BY_RENDER, "fixed or reference"},
-    {"--with", BY_COMPARE, "reference"},
+    {"--engine", BY_RENDER, "fixed, reference or truth"},
+    {"--with", BY_COMPARE, "reference or truth"},
+    {"--samples", BY_RENDER | BY_COMPARE, "samples from 1 to 16"},
     {"--size", BY_ALL, "WxH, up to 2048x2048"},
     {"--view", BY_RENDER | BY_COMPARE, "colour, shadow, depth, normal, atlas or cascade"},
     {"--light", BY_RENDER | BY_COMPARE, "a light from 0 to 63"},
@@ -81,13 +87,19 @@ static int parse_size(const char *text, tool_options *o)
     return parse_int(left, 1, GN_MAX_WIDTH, &o->width) || parse_int(x + 1, 1, GN_MAX_HEIGHT, &o->height) ? -1 : 0;
 }
 
+static int is_no_double_engine(const char *name)
+{
+    return strcmp(name, "reference") != 0 && strcmp(name, "truth") != 0;
+}
+
 /* One option with a value. 0, or -1 if the value is not one. */
 static int take_value(tool_options *o, const char *name, char *value)
 {
     int light = 0, failed = 0;
     if (strcmp(name, "-o") == 0) failed = !*(o->out_path = value);
-    else if (strcmp(name, "--engine") == 0) failed = strcmp(o->engine = value, "fixed") != 0 && strcmp(value, "reference") != 0;
-    else if (strcmp(name, "--with") == 0) failed = strcmp(value, "reference") != 0;
+    else if (strcmp(name, "--engine") == 0) failed = strcmp(o->engine = value, "fixed") != 0 && is_no_double_engine(value);
+    else if (strcmp(name, "--with") == 0) failed = is_no_double_engine(o->with = value);
+    else if (strcmp(name, "--samples") == 0) failed = parse_int(value, 1, TRUTH_MAX_SAMPLES, &o->samples);
     else if (strcmp(name, "--size") == 0) failed = parse_size(value, o);
     else if (strcmp(name, "--view") == 0) failed = (o->view = view_from_name(value)) < 0;
     else if (strcmp(name, "--frame") == 0) failed = parse_int(value, 0, 100000000, &o->frame);
@@ -106,6 +118,15 @@ static const option *find_option(const char *name)
     for (size_t i = 0; i < sizeof options / sizeof *options; i++)
         if (strcmp(name, options[i].name) == 0) return &options[i];
     return NULL;
+}
+
+/* engine: that render draws with, or compare compares with */
+static int check_truth(const tool_options *o, const char *engine)
+{
+    const int truth = strcmp(engine, "truth") == 0;
+    if (truth && (o->view == VIEW_ATLAS || o->view == VIEW_CASCADE))
+        return usage("truth has no shadow maps, and no such --view", NULL);
+    return o->samples && !truth ? usage("--samples is for truth, not for", engine) : TOOL_OK;
 }
 
 /* argv from 2 on, for the command argv[1] of that bit. */
@@ -133,7 +154,8 @@ static int parse(tool_options *o, int command, int argc, char **argv)
             return usage_error();
         }
     }
-    return o->scene_path ? TOOL_OK : usage("a scene is missing", NULL);
+    if (!o->scene_path) return usage("a scene is missing", NULL);
+    return check_truth(o, command == BY_RENDER ? o->engine : o->with);
 }
 
 static int run(int argc, char **argv)
@@ -143,7 +165,7 @@ static int run(int argc, char **argv)
         int bit;
         int (*run)(const tool_options *);
     } commands[] = {{"render", BY_RENDER, tool_render}, {"compare", BY_COMPARE, tool_compare}, {"info", BY_INFO, tool_info}};
-    tool_options o = {.engine = "fixed", .width = 320, .height = 240};
+    tool_options o = {.engine = "fixed", .with = "reference", .width = 320, .height = 240};
     if (argc < 2) return usage("a command is missing", NULL);
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0) {
         fputs(usage_text, stdout);

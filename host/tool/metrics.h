@@ -26,7 +26,7 @@ typedef struct {
     const char *worst_cause;
 } metrics;
 
-/* `other` must carry ndotl (the reference does). */
+/* `other` must carry ndotl: reference and truth do. `fixed` is the one that is judged. */
 void metrics_compute(metrics *m, const engine_picture *fixed, const engine_picture *other);
 
 #endif

@@ -31,6 +31,11 @@ int tool_fail(const char *path, const char *message)
     return TOOL_FAILED;
 }
 
+int tool_samples(const tool_options *o)
+{
+    return o->samples ? o->samples : 1;
+}
+
 int tool_load(const tool_options *o, scene *s, settings *set)
 {
     char error[TOOL_ERROR_BYTES] = "failed";

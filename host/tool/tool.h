@@ -12,7 +12,9 @@
 typedef struct {
     const char *scene_path;
     const char *out_path;
-    const char *engine; /* render: fixed, reference */
+    const char *engine; /* render: fixed, reference, truth */
+    const char *with;   /* compare: reference, truth */
+    int samples;        /* of truth, per pixel and axis; 0: not given, 1 */
     int width, height;
     int view;
     size_t light;
@@ -28,6 +30,9 @@ enum { TOOL_OK = 0, TOOL_FAILED = 1, TOOL_USAGE = 2 };
 int tool_render(const tool_options *o);
 int tool_compare(const tool_options *o);
 int tool_info(const tool_options *o);
+
+/* How many samples truth takes, per pixel and axis. */
+int tool_samples(const tool_options *o);
 
 /* Loads the scene with all settings applied. Prints the error and returns -1 if it fails. */
 int tool_load(const tool_options *o, scene *s, settings *set);
