@@ -29,3 +29,5 @@ for name in rows seams crawl; do
     "$build/test_$name" --table >"$work/$name"
     replace ACCURACY.md $name "$work/$name"
 done
+for name in kept culling lists changes; do "$build/test_$name"; done | sed -n 's/^[a-z].* \(per frame\|left out\|listed\|differ\).*/- &/p' >"$work/kept"
+replace ACCURACY.md kept "$work/kept"
