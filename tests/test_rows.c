@@ -125,7 +125,6 @@ static double closeness(const pair *with, const engine_picture *without)
     return squared_distance(&with->fixed, &with->reference, seen) / fmax(squared_distance(without, &with->reference, seen), 1e-9);
 }
 
-
 /* Both say the same of tiles (A2, A3, D1, D10, P5). */
 static void check_tiles(const engine_picture *fixed, const engine_picture *reference)
 {
