@@ -217,7 +217,7 @@ static void finish(const worst *w, const char *what, double allowed)
     if (!CHECK(w->share <= allowed))
         printf("  %s: %.3f of the floors, %.5f identical, %.5f shadow\n", what, w->share, w->identical, w->mismatch);
     char expected[64];
-    snprintf(expected, sizeof expected, allowed == 1 ? WITHIN : "within %g of the floors", allowed);
+    snprintf(expected, sizeof expected, allowed == 1 ? WITHIN : "within %g × the floors", allowed);
     line(what, expected, "%d picture%s: %.2f %% identical, shadows off in %.2f %%; %.2f of the floors", w->n, w->n == 1 ? "" : "s",
          100 * w->identical, 100 * w->mismatch, w->share);
 }

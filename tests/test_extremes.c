@@ -50,13 +50,13 @@ static void test_scaled_by_the_host(void)
         scale_stage(&st.f, ldexp(1, k));
         engine_picture p = library(&st), r = reference(&st);
         take(&w, &p, &r, st.preset);
-        if (k >= -4) take_equal(&e, &plain, &p); /* below, the 10^-4 reaches from the lamp to the ball */
+        if (k >= -7) take_equal(&e, &plain, &p); /* below, the 10^-4 reaches from the lamp to the post */
         engine_free(&p);
         engine_free(&r);
         end(&st.f);
     }
     engine_free(&plain);
-    finish_equal(&e, "scene scaled by 2⁻⁴ … 2⁸: sun, spot, point light", "unscaled");
+    finish_equal(&e, "scene scaled by 2⁻⁷ … 2⁸: sun, spot, point light", "unscaled");
     finish(&w, "scene scaled by 2⁻⁸ … 2⁸, against the reference", 0.5);
 }
 
