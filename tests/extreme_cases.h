@@ -179,6 +179,14 @@ static double psnr_of_surfaces(const engine_picture *a, const engine_picture *b)
     return sum > 0 ? 10 * log10(255.0 * 255.0 * (double)n / sum) : (double)INFINITY;
 }
 
+/* Pixels that a light's shadow is compared on, over all lights. */
+static double lit_pixels(const metrics *m)
+{
+    long n = 0;
+    for (size_t l = 0; l < m->n_lights; l++) n += m->light[l].pixels;
+    return (double)n;
+}
+
 static void take(worst *w, const engine_picture *fixed, const engine_picture *ref, int preset)
 {
     metrics m;
@@ -187,6 +195,7 @@ static void take(worst *w, const engine_picture *fixed, const engine_picture *re
     if (w->surfaces_only) {
         m.identical += (double)m.by_coverage / N_PIXELS;
         m.within1 = fmin(1, m.within1 + (double)m.by_coverage / N_PIXELS);
+        m.shadow_mismatch *= fmin(1, lit_pixels(&m) / (N_PIXELS / 4.0)); /* of a handful, one would be too many */
     }
     w->n++;
     w->share = fmax(w->share, share_needed(&m, preset));
