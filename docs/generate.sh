@@ -25,6 +25,8 @@ replace ACCURACY.md accuracy "$work/accuracy"
 "$build/test_bias" --table >"$work/bias"
 replace BIAS.md bias "$work/bias"
 sh docs/gallery.sh "$tool" "$out"
+"$build/test_extremes" --table >"$work/extremes"
+replace EXTREMES.md extremes "$work/extremes"
 for name in rows seams crawl; do
     "$build/test_$name" --table >"$work/$name"
     replace ACCURACY.md $name "$work/$name"
