@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../lib/gn_math.h"
+
 /* Everything must stay within +-8192 units of the origin and 16384 of the camera; half of that leaves room for both. */
 #define WORLD_REACH 4096.0
 
@@ -278,6 +280,10 @@ static int quantise_transform(gn_affine *out, const scene_object *o, int mesh_bi
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) out->m_q30[r][c] = fixed_unit(o->to_world.m[r][c], 30 + shift - exp);
         out->t_q16[r] = (int32_t)fixed(o->to_world.m[r][3], 16 + world_exp);
+    }
+    if (!gn_det_sign(out->m_q30)) { /* what the library asks */
+        snprintf(error, error_bytes, "object '%s': a scale of zero or almost zero along an axis cannot be drawn", o->name);
+        return -1;
     }
     return 0;
 }
