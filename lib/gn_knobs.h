@@ -67,9 +67,12 @@
     X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias (B3)", "flash")                                             \
     X(caster_bias, CASTER_BIAS, 0, 1, "casters shrunk along their normals (B4)", "flash")                                          \
     X(receiver_plane, RECEIVER_PLANE, 0, 1, "depth of the receiver's plane per tap (B5)", "flash")                                 \
-    X(incremental, INCREMENTAL, 0, 1, "shadow tiles are kept while nothing in them changes (A5)",                                  \
+    X(incremental, INCREMENTAL, 0, 1,                                                                                              \
+      "shadow tiles are kept from frame to frame while nothing in them changes: a single picture shows nothing of it (A5)",        \
       "16 bytes per tile; the same picture with and without")                                                                      \
-    X(static_layer, STATIC_LAYER, 0, 1, "static casters are kept apart from moving ones (A5)", "the atlases' RAM twice")           \
+    X(static_layer, STATIC_LAYER, 0, 1,                                                                                            \
+      "static casters are kept apart from moving ones, from frame to frame: a single picture shows nothing of it (A5)",            \
+      "the atlases' RAM twice")                                                                                                    \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")                  \
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")               \
     X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")                   \

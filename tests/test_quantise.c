@@ -353,6 +353,23 @@ static void test_shadow_settings(void)
     quantise_free(&fixed);
 }
 
+/* The library refuses what has no inverse without a word of why; neither a column nor a row of zeros has one. */
+static void test_flat(void)
+{
+    begin();
+    object.to_world.m[1][1] = 0;
+    refused("object 'thing': a scale of zero");
+    object.to_world.m[1][1] = 1e-12;
+    refused("a scale of zero");
+    object.to_world.m[1][1] = 1e-3;
+    if (quantise()) quantise_free(&fixed);
+    object.to_world.m[1][1] = -1; /* mirrored */
+    if (quantise()) quantise_free(&fixed);
+    object.to_world.m[1][0] = 1;
+    object.to_world.m[1][1] = 0; /* the second row is the first */
+    refused("a scale of zero");
+}
+
 int main(void)
 {
     test_unit();
@@ -364,5 +381,6 @@ int main(void)
     test_arrays();
     test_material();
     test_shadow_settings();
+    test_flat();
     return check_report();
 }

@@ -121,9 +121,9 @@ static void test_light_knobs(void)
         scene_free(&s);
     }
     static const char *const bad[][2] = {
-        {"\"mode\":\"fast\"", "/lights/0/extras/gnomon/mode: 'fast' is not a value of mode"},
+        {"\"mode\":\"fast\"", "/lights/0/extras/gnomon/mode: 'fast' is not realtime, mixed or baked"},
         {"\"mode\":1", "mode: a string"},
-        {"\"softness\":\"\"", "'' is not a value of softness"},
+        {"\"softness\":\"\"", "'' is not default, hard or soft"},
         {"\"mask_channel\":4", "mask_channel: an integer in -1..3"},
         {"\"mask_channel\":-2", "an integer in -1..3"},
         {"\"mask_channel\":0.5", "an integer in -1..3"},
@@ -132,12 +132,17 @@ static void test_light_knobs(void)
         {"\"bias_receiver\":[1,2,-3,4]", "bias_receiver: -3 is not in"},
         {"\"bias_receiver\":[1,2,3]", "bias_receiver: 4 numbers"},
         {"\"bias_receiver\":[1,2,3,1e19]", "1e+19 is not in"},
+        {"\"bias_caster\":8.1", "/lights/0/extras/gnomon/bias_caster: 8.1 is not in 0..8"},
+        {"\"bias_normal\":9", "/lights/0/extras/gnomon/bias_normal: 9 is not in 0..8"},
+        {"\"bias_constant\":65", "bias_constant: 65 is not in 0..64"},
+        {"\"bias_receiver\":[1,2,3,9]", "bias_receiver: 9 is not in 0..8"},
         {"\"bias_caster\":-1", "bias_caster: -1 is not in"},
         {"\"receiver_plane\":2", "true or false"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         if (!CHECK(refused(load_changed("\"strength\":0.9", bad[i][0]), bad[i][1]))) printf("  case %zu\n", i);
     }
+    CHECK(refused(load_changed("\"bias_slope\":2", "\"bias_slope\":64.5"), "bias_slope: 64.5 is not in 0..64"));
 }
 
 /* --- added lights ---------------------------------------------------------------------------------------------------- */

@@ -27,7 +27,8 @@ static const char textured_json[] =
     "{\"name\":\"glass\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,0.25],\"baseColorTexture\":{\"index\":1,\"texCoord\":"
     "1}},"
     "\"alphaMode\":\"BLEND\"}],\n"
-    "\"textures\":[{\"source\":0},{\"source\":0,\"sampler\":0}],\"samplers\":[{\"wrapS\":33071,\"wrapT\":10497,\"magFilter\":9728}]"
+    "\"textures\":[{\"source\":0},{\"source\":0,\"sampler\":0}],\"samplers\":[{\"wrapS\":33071,\"wrapT\":10497,\"magFilter\":9728},"
+    "{\"wrapS\":33071}]"
     ",\n"
     "\"images\":[{\"name\":\"checks\",\"uri\":\"data:image/png;base64,%s\"}],\n"
     "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},\n"
@@ -162,7 +163,7 @@ static void test_texture_changes(void)
     };
     static const change errors[] = {
         {"\"wrapS\":33071", "\"wrapS\":1", "/samplers/0/wrapS: wrap mode 1"},
-        {"\"sampler\":0", "\"sampler\":1", "/textures/1/sampler: there are only 1"},
+        {"\"sampler\":0", "\"sampler\":2", "/textures/1/sampler: there are only 2"},
         {"{\"source\":0}", "{\"source\":1}", "/textures/0/source: there are only 1"},
         {"\"texCoord\":1", "\"texCoord\":-1", "texCoord: an integer"},
         {"\"TEXCOORD_0\":2", "\"TEXCOORD_0\":0", "TEXCOORD_0: VEC2 of float"},
@@ -242,13 +243,18 @@ static void check_resampled(const uint8_t *row, const char *find, const char *pu
 static void test_resampling(void)
 {
     static const uint8_t middle[13] = {0, 0, 0, 0, 0, 255, 255, 255, 255, 0, 0, 0, 0};
+    static const uint8_t opaque[13] = {0, 0, 0, 0, 255, 255, 255, 255, 255, 0, 0, 0, 255};
+    static const uint8_t faint[13] = {0, 9, 9, 9, 0, 8, 8, 8, 1, 7, 7, 7, 2};
     static const uint8_t left[13] = {0, 255, 255, 255, 255, 0, 0, 0, 0, 0, 0, 0, 0};
-    static const char same[] = "{\"source\":0}", clamped[] = "{\"source\":0,\"sampler\":0}",
-                      mask[] = "\"extras\":{\"gnomon\":{\"mask_texture\":0}},";
-    /* 5/8 in linear light is 207 of sRGB, 7/8 is 240, 3/8 is 165; alpha 159, 223 and 96. */
-    check_resampled(middle, same, same, (const uint8_t[]){0, 207, 207, 0}, (const uint8_t[]){0, 159, 159, 0});
-    check_resampled(left, same, same, (const uint8_t[]){240, 165, 0, 99}, (const uint8_t[]){223, 96, 0, 32});
-    check_resampled(left, same, clamped, (const uint8_t[]){255, 165, 0, 0}, (const uint8_t[]){255, 96, 0, 0});
+    static const char same[] = "{\"source\":0}", clamped[] = "{\"source\":0,\"sampler\":1}",
+                      nearest[] = "{\"source\":0,\"sampler\":0}", mask[] = "\"extras\":{\"gnomon\":{\"mask_texture\":0}},";
+    /* 5/8 in linear light is 207 of sRGB, 7/8 is 240, 3/8 is 165; alpha 159, 223 and 96. Clear texels have no colour to give. */
+    check_resampled(opaque, same, same, (const uint8_t[]){0, 207, 207, 0}, (const uint8_t[]){255, 255, 255, 255});
+    check_resampled(middle, same, same, (const uint8_t[]){0, 255, 255, 0}, (const uint8_t[]){0, 159, 159, 0});
+    check_resampled(left, same, same, (const uint8_t[]){255, 255, 0, 255}, (const uint8_t[]){223, 96, 0, 32});
+    check_resampled(left, same, clamped, (const uint8_t[]){255, 255, 0, 0}, (const uint8_t[]){255, 96, 0, 0});
+    check_resampled(left, same, nearest, (const uint8_t[]){255, 0, 0, 0}, (const uint8_t[]){255, 0, 0, 0});
+    check_resampled(faint, same, nearest, (const uint8_t[]){9, 8, 8, 7}, (const uint8_t[]){0, 1, 1, 2});
     char put[100]; /* a mask image holds plain numbers, and is clamped */
     snprintf(put, sizeof put, "%s\"name\":\"paint\"", mask);
     check_resampled(left, "\"name\":\"paint\"", put, (const uint8_t[]){255, 96, 0, 0}, (const uint8_t[]){255, 96, 0, 0});

@@ -15,6 +15,16 @@ good() {
     else pass; fi
 }
 
+# said ARGUMENTS...: exit 0, and something on stderr, each line with the name of the tool
+said() {
+    run "$@"
+    status=$?
+    if [ $status != 0 ]; then fail "'$*' exits with $status: $(head -n 1 "$tmp/err")"
+    elif [ ! -s "$tmp/err" ]; then fail "'$*' says nothing"
+    elif grep -v -q '^gnomon: ' "$tmp/err"; then fail "'$*' does not say who speaks: $(head -n 1 "$tmp/err")"
+    else pass; fi
+}
+
 # bad STATUS WORD ARGUMENTS...: that exit status, nothing on stdout, one line on stderr with that word (a regular expression); a usage
 # error may add the line that names 'gnomon help'
 bad() {
@@ -73,6 +83,9 @@ grep -q '^usage: gnomon' "$tmp/out" && pass || fail "help does not say how it is
 good --help
 good knobs
 cp "$tmp/out" "$tmp/knobs"
+for knob in refresh incremental static_layer; do # they act from frame to frame
+    grep -q "^| \`$knob\` .*a single picture shows nothing of it" "$tmp/knobs" && pass || fail "knobs does not say that $knob shows in no single picture"
+done
 good info "$cube" --size 32x24
 good info "$glb" --size 32x24
 good compare "$cube" --size 32x24
@@ -483,7 +496,15 @@ done
 set --
 while [ $# -lt 64 ]; do set -- "$@" spot; done
 kinds=$(echo "$@" | tr ' ' ,)
-good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds
+said render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds # more than lists and atlas hold
+grep -q "[0-9] times a light was left out of an object's list of 8: --set object_lights=0 keeps all" "$tmp/err" && pass || fail "render does not say that lights were left out: $(cat "$tmp/err")"
+good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --json
+good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --engine reference
+said render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --set object_lights=0 --set other_atlas_size=32
+grep -q "lights have no shadow tile, so no shadow: [0-9]* 'spot', [0-9]* 'spot'.*, \.\.\.$" "$tmp/err" && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "render does not name lights without a tile: $(cat "$tmp/err")"
+said compare "$cube" --size 8x8 --set lights=spot,point,point,point --set other_atlas_size=64
+[ "$(cat "$tmp/err")" = "gnomon: 1 light has no shadow tile, so no shadow: 3 'point'" ] && pass || fail "compare does not name the light without a tile: $(cat "$tmp/err")"
+good compare "$cube" --size 8x8 --set lights=spot,point,point,point --set other_atlas_size=64 --json
 bad 1 'no more than 64' render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds,spot
 bad 1 'no more than 64' render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --set add_light=spot
 for value in '' , spot, ,spot sun spot,sun Spot 'spot, point' directionals; do bad 1 "'lights'.*directional, spot and point" info "$cube" --size 8x8 --set "lights=$value"; done
@@ -551,6 +572,46 @@ grep -q "3 'point': point, no room for its shadow" "$tmp/out" && grep -q "0 'spo
 grep -q 'needs:.* punctual_lights' "$tmp/out" && pass || fail "info does not name punctual_lights"
 good info "$cube" --size 16x12
 grep -q 'needs:.* punctual_lights' "$tmp/out" && fail "info names punctual_lights without a need" || pass
+
+# Settings that a light of its kind has no use for.
+useless() { # useless LIGHTS SETTING PATTERN: render and compare say so, info lists it
+    for command in "render -o $tmp/a.png" compare; do
+        said $command "$cube" --size 8x8 --set "lights=$1" --set "$2"
+        [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q "^gnomon: $3" "$tmp/err" && pass || fail "$command with $2 does not say '$3': $(cat "$tmp/err")"
+    done
+    good info "$cube" --size 8x8 --set "lights=$1" --set "$2"
+    grep -q "ignored: $3" "$tmp/out" && pass || fail "info with $2 does not list '$3'"
+}
+useless directional near@0=1 "near of light 'directional' ignored: a directional light has near_offset"
+useless point,directional range@1=3 "range of light 'directional' ignored: a directional light reaches everything"
+useless spot near_offset@spot=2 "near_offset of light 'spot' ignored: it is not directional"
+useless directional,point near_offset@1=2 "near_offset of light 'point' ignored"
+good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=directional,spot --set near@1=1 --set range@1=9 --set near_offset@0=1
+good render "$cube" -o "$tmp/a.png" --size 8x8 --set near@0=1 --json
+
+# Lights that cannot do what they are set to: one mask channel for two in one place (M5), baked without anything baked (M9).
+lights_noted() { # lights_noted COUNT PATTERN SETTINGS
+    good info "$cube" --size 8x8 $(for set in $3; do echo --set "$set"; done)
+    [ "$(grep -c "note: .*$2" "$tmp/out")" = "$1" ] && pass || fail "info with $3 does not say '$2' $1 times"
+}
+shared='share mask channel 2, and their ranges overlap'
+lights_noted 1 "lights 0 'spot' and 1 'point' $shared" 'lights=spot,point mode=mixed mask_channel=2'
+lights_noted 1 "lights 0 'directional' and 1 'point' $shared" 'lights=directional,point mode=mixed mask_channel=2 range=0.01'
+lights_noted 0 "$shared" 'lights=spot,point mode=mixed mask_channel=2 range=0.01' # far from each other
+lights_noted 1 "$shared" 'lights=spot,point mode=mixed mask_channel=2 range@0=0.01 range@1=0'
+lights_noted 0 'share mask' 'lights=spot,point mode=mixed mask_channel=2 mask_channel@1=1'
+lights_noted 0 'share mask' 'lights=spot,point mode=mixed mask_channel=-1'
+lights_noted 0 'share mask' 'lights=spot,point mode@0=mixed mask_channel=2'
+lights_noted 3 "$shared" 'lights=spot,point,spot mode=mixed mask_channel=2'
+lights_noted 1 "light 1 'spot' is baked, but no object has baked light: it contributes nothing" 'lights=point,spot mode@1=baked'
+lights_noted 0 'is baked' 'lights=point,spot'
+good info "$cube" --size 8x8 --json --set mode=baked
+grep -q '"notes": \[.*is baked' "$tmp/out" && pass || fail "info --json does not note a useless baked light"
+for scene in host/scenes/*.gltf; do
+    good info "$scene" --size 32x24
+    grep -q 'note:' "$tmp/out" && fail "info has a note on $scene" || pass
+    good render "$scene" -o "$tmp/a.png" --size 32x24
+done
 
 # ---- host/run.sh ---------------------------------------------------------------------------------------------------------------
 

@@ -8,6 +8,9 @@
 
 enum { MAX_LIST = 64 };
 
+/* The library's: of bias_constant and bias_slope, and of those that move what is looked up or drawn. */
+static const double depth_bias_max = 64, bias_max = 8;
+
 static bool find_knobs(gltf *g, const json_value *owner, const json_value **out)
 {
     const json_value *extras = json_get(owner, "extras"); /* extras may be of any type; only an object can have ours */
@@ -68,6 +71,14 @@ static bool get_range(gltf *g, const json_value *knobs, const char *key, double 
     return true;
 }
 
+/* "a, b or c". NULL: failed. */
+static const char *join_words(gltf *g, const char *const *words)
+{
+    const char *joined = words[0];
+    for (int i = 1; joined && words[i]; i++) joined = loader_format(g->l, "%s%s%s", joined, words[i + 1] ? ", " : " or ", words[i]);
+    return joined;
+}
+
 /* One of the words, as its index; *out is left alone where the key is absent. */
 static bool get_word(gltf *g, const json_value *knobs, const char *key, const char *const *words, int *out)
 {
@@ -79,7 +90,9 @@ static bool get_word(gltf *g, const json_value *knobs, const char *key, const ch
             return true;
         }
     }
-    return !word || gltf_fail(g, json_get(knobs, key), "'%s' is not a value of %s", word, key);
+    if (!word) return true;
+    const char *expected = join_words(g, words);
+    return expected && gltf_fail(g, json_get(knobs, key), "'%s' is not %s", word, expected);
 }
 
 static bool get_integer(gltf *g, const json_value *knobs, const char *key, int lowest, int highest, int *out)
@@ -114,8 +127,8 @@ static bool get_receiver_bias(gltf *g, const json_value *knobs, double *out)
 {
     if (!gltf_get_numbers(g, knobs, "bias_receiver", out, 4)) return false;
     for (int i = 0; i < 4; i++) {
-        if (!(out[i] >= 0 && out[i] <= LOADER_MAX_COORDINATE))
-            return gltf_fail(g, json_get(knobs, "bias_receiver"), "%g is not in 0..%g", out[i], LOADER_MAX_COORDINATE);
+        if (!(out[i] >= 0 && out[i] <= bias_max))
+            return gltf_fail(g, json_get(knobs, "bias_receiver"), "%g is not in 0..%g", out[i], bias_max);
     }
     return true;
 }
@@ -127,11 +140,11 @@ bool gltf_light_knobs(gltf *g, const json_value *owner, scene_light *light)
     /* A node may also carry a mesh, and its keys; gltf_check_node_knobs has seen to those. */
     if (owner->parent != g->nodes && !check_keys(g, k, true, false)) return false;
     return get_switch(g, k, "shadow", &light->shadow) && get_range(g, k, "strength", 1, &light->strength) &&
-           get_range(g, k, "bias_constant", LOADER_MAX_COORDINATE, &light->bias_constant) &&
-           get_range(g, k, "bias_slope", LOADER_MAX_COORDINATE, &light->bias_slope) &&
-           get_range(g, k, "bias_normal", LOADER_MAX_COORDINATE, &light->bias_normal) &&
-           get_range(g, k, "bias_caster", LOADER_MAX_COORDINATE, &light->bias_caster) &&
-           get_receiver_bias(g, k, light->bias_receiver) && get_switch(g, k, "receiver_plane", &light->receiver_plane) &&
+           get_range(g, k, "bias_constant", depth_bias_max, &light->bias_constant) &&
+           get_range(g, k, "bias_slope", depth_bias_max, &light->bias_slope) &&
+           get_range(g, k, "bias_normal", bias_max, &light->bias_normal) &&
+           get_range(g, k, "bias_caster", bias_max, &light->bias_caster) && get_receiver_bias(g, k, light->bias_receiver) &&
+           get_switch(g, k, "receiver_plane", &light->receiver_plane) &&
            get_range(g, k, "near_offset", LOADER_MAX_COORDINATE, &light->near_offset) && get_near(g, k, &light->near) &&
            get_light_words(g, k, light);
 }

@@ -37,8 +37,15 @@ int scene_load(scene *s, const char *path, const scene_options *options, char *e
     bool ok = load_any(&l) && loader_add_defaults(&l);
     loader_free_mesh_light(&l);
     arena_release(&l.memory, NULL);
+    s->n_file_notes = s->n_notes;
     if (!ok) scene_free(s);
     return ok ? 0 : -1;
+}
+
+int scene_add_note(scene *s, const char *text, char *error, size_t error_bytes)
+{
+    loader l = {.s = s, .path = "note", .error = error, .error_bytes = error_bytes};
+    return loader_note(&l, "%s", text) ? 0 : -1;
 }
 
 static void free_mesh(scene_mesh *mesh)

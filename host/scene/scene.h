@@ -150,7 +150,8 @@ typedef struct {
     size_t n_settings; /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */
     scene_setting *settings;
     size_t n_notes;
-    char **notes; /* one line each: what the file has and Gnomon ignores, and why */
+    char **notes;        /* one line each: what the file has and Gnomon ignores, and why */
+    size_t n_file_notes; /* those of the file; behind them are those of settings */
 } scene;
 
 typedef struct {
@@ -170,6 +171,9 @@ void scene_default_ratios(scene_shadow *shadow);
  * file, line or JSON path) and leaves *s empty. */
 int scene_load(scene *s, const char *path, const scene_options *options, char *error, size_t error_bytes);
 void scene_free(scene *s);
+
+/* One more line, cleaned as utf8.h does; not if it is there already. Returns 0; -1 with one line in error if memory runs out. */
+int scene_add_note(scene *s, const char *text, char *error, size_t error_bytes);
 
 /* Appends a light of this kind, placed so that it lights the scene as the camera sees it and throws a shadow into the picture: what
  * --set lights and --set add_light ask for. Returns 0; -1 with one line in error if memory runs out. */

@@ -47,8 +47,16 @@ typedef struct {
     double u;
 } tap;
 
-static tap find_tap(int i, int n_out, int n, bool clamp)
+/* What a look-up without interpolation finds. */
+static tap nearest_tap(int i, int n_out, int n)
 {
+    size_t at = (size_t)((i + 0.5) * n / n_out);
+    return (tap){at, at, 0};
+}
+
+static tap find_tap(int i, int n_out, int n, bool clamp, bool bilinear)
+{
+    if (!bilinear) return nearest_tap(i, n_out, n);
     double at = (i + 0.5) * n / n_out - 0.5, below = floor(at);
     int a = (int)below, b = a + 1;
     if (a < 0) a = clamp ? 0 : n - 1;
@@ -56,32 +64,46 @@ static tap find_tap(int i, int n_out, int n, bool clamp)
     return (tap){(size_t)a, (size_t)b, at - below};
 }
 
-static void resample_texel(const uint8_t *rgba, size_t w, tap x, tap y, const level_table *colour, const level_table *alpha,
-                           uint8_t *out)
+/* How pictures are weighed: with their colours as light, and by alpha; or as plain numbers, each channel for itself. */
+typedef struct {
+    level_table colour, alpha;
+    bool by_alpha;
+} weighing;
+
+/* A colour shows as far as its alpha says, so it counts that much: what a transparent texel is coloured must not bleed into its
+ * neighbours. Where all are transparent nothing shows; the colours are then weighed alike. */
+static void resample_texel(const uint8_t *rgba, size_t w, tap x, tap y, const weighing *weigh, uint8_t *out)
 {
-    const uint8_t *aa = rgba + 4 * (y.a * w + x.a), *ab = rgba + 4 * (y.a * w + x.b);
-    const uint8_t *ba = rgba + 4 * (y.b * w + x.a), *bb = rgba + 4 * (y.b * w + x.b);
-    for (int k = 0; k < 4; k++) {
-        const level_table *t = k < 3 ? colour : alpha;
-        double above = (1 - x.u) * t->level[aa[k]] + x.u * t->level[ab[k]],
-               below = (1 - x.u) * t->level[ba[k]] + x.u * t->level[bb[k]];
-        out[k] = to_level(t, (1 - y.u) * above + y.u * below);
+    const uint8_t *texel[4] = {rgba + 4 * (y.a * w + x.a), rgba + 4 * (y.a * w + x.b), rgba + 4 * (y.b * w + x.a),
+                               rgba + 4 * (y.b * w + x.b)};
+    const double share[4] = {(1 - y.u) * (1 - x.u), (1 - y.u) * x.u, y.u * (1 - x.u), y.u * x.u};
+    double alpha = 0;
+    for (int i = 0; i < 4; i++) alpha += share[i] * weigh->alpha.level[texel[i][3]];
+    for (int k = 0; k < 3; k++) {
+        double plain = 0, shown = 0;
+        for (int i = 0; i < 4; i++) {
+            double part = share[i] * weigh->colour.level[texel[i][k]];
+            plain += part;
+            shown += part * weigh->alpha.level[texel[i][3]];
+        }
+        out[k] = to_level(&weigh->colour, weigh->by_alpha && alpha > 0 ? shown / alpha : plain);
     }
+    out[3] = to_level(&weigh->alpha, alpha);
 }
 
-/* Bilinear, in linear light, around the corner where the texture repeats. At most halves a side (of a picture up to
- * TEXTURE_MAX_PICTURE): no texel is skipped. */
+/* As the texture is looked up, nearest or bilinear: bilinear in linear light, and around the corner where the texture repeats. At
+ * most halves a side (of a picture up to TEXTURE_MAX_PICTURE): bilinear, no texel is skipped. */
 static void resample(const png_picture *from, const texture_use *use, scene_texture *to)
 {
-    level_table colour, alpha;
-    make_levels(&colour, use->is_data);
-    make_levels(&alpha, true);
+    weighing weigh = {.by_alpha = !use->is_data};
+    make_levels(&weigh.colour, use->is_data);
+    make_levels(&weigh.alpha, true);
     for (int j = 0; j < to->height; j++) {
-        tap y = find_tap(j, to->height, from->h, to->clamp_v);
+        tap y = find_tap(j, to->height, from->h, to->clamp_v, use->bilinear);
         for (int i = 0; i < to->width; i++) {
-            tap x = find_tap(i, to->width, from->w, to->clamp_u);
+            tap x = find_tap(i, to->width, from->w, to->clamp_u, use->bilinear);
             uint8_t *out = to->rgba + 4 * ((size_t)j * (size_t)to->width + (size_t)i);
-            resample_texel(from->rgba, (size_t)from->w, x, y, &colour, &alpha, out);
+            resample_texel(from->rgba, (size_t)from->w, x, y, &weigh, out);
         }
     }
 }

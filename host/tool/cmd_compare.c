@@ -8,6 +8,7 @@
 
 #include "../scene/png.h"
 #include "metrics.h"
+#include "remarks.h"
 #include "tool.h"
 
 /* The engines in the order of their pictures. */
@@ -231,6 +232,10 @@ static int compare(comparison *c, const tool_options *o)
     settings set;
     if (tool_load(o, &s, &set)) return TOOL_FAILED;
     int failed = draw_all(c, o, &s, &set, error, sizeof error);
+    if (!failed && !o->json) {
+        remarks_on_settings(&s);
+        remarks_on_picture(&s, &c->picture[FIXED]);
+    }
     settings_trim(&set, &s);
     scene_free(&s);
     if (failed) return tool_fail(o->scene_path, error);

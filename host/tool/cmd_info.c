@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "remarks.h"
 #include "tool.h"
 
 typedef struct {
@@ -18,6 +19,7 @@ typedef struct {
 typedef struct {
     const tool_options *options;
     const scene *scene;
+    size_t n_ignored; /* of its notes; the rest are about lights that do not do what they are set to */
     const engine_picture *picture;
     counts counts;
     settings_ram_parts ram[SETTINGS_PRESETS];
@@ -203,7 +205,7 @@ static void print_text(const report *r)
     if (stats->n_lights_left_out) printf("  lights left out of objects' lists: %u\n", stats->n_lights_left_out);
     if (stats->n_reach_clamped) printf("  views whose filter does not fit their tile: %u\n", stats->n_reach_clamped);
     text_ram(r);
-    for (size_t i = 0; i < s->n_notes; i++) printf("  ignored: %s\n", s->notes[i]);
+    for (size_t i = 0; i < s->n_notes; i++) printf("  %s%s\n", i < r->n_ignored ? "ignored: " : "note: ", s->notes[i]);
 }
 
 int tool_info(const tool_options *o)
@@ -212,13 +214,15 @@ int tool_info(const tool_options *o)
     scene s;
     settings set, unlimited;
     if (tool_load(o, &s, &set)) return TOOL_FAILED;
+    const size_t n_ignored = s.n_notes;
     unlimited = set;
     unlimited.capacity.max_triangles = unlimited.capacity.max_tile_refs = unlimited.capacity.max_lights = 0;
     unlimited.capacity.surface_lights = unlimited.capacity.max_objects = 0;
     engine_picture p;
-    int failed = engine_fixed(&p, &s, &unlimited, o->width, o->height, ENGINE_COLOUR_ONLY, error, sizeof error);
+    int failed = remarks_on_lights(&s, error, sizeof error) ||
+                 engine_fixed(&p, &s, &unlimited, o->width, o->height, ENGINE_COLOUR_ONLY, error, sizeof error);
     if (!failed) {
-        report r = {.options = o, .scene = &s, .picture = &p};
+        report r = {.options = o, .scene = &s, .n_ignored = n_ignored, .picture = &p};
         count(&s, &r.counts);
         preset_ram(&set, &p.demand, &s, r.ram);
         if (o->json) print_json(&r);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../scene/png.h"
+#include "remarks.h"
 #include "tool.h"
 
 static int draw(engine_picture *p, const tool_options *o, const scene *s, const settings *set, char *error, size_t bytes)
@@ -11,6 +12,13 @@ static int draw(engine_picture *p, const tool_options *o, const scene *s, const 
     if (strcmp(o->engine, "truth") == 0) return engine_truth(p, s, set, o->width, o->height, tool_samples(o), error, bytes);
     if (strcmp(o->engine, "reference") == 0) return engine_reference(p, s, set, o->width, o->height, error, bytes);
     return engine_fixed(p, s, set, o->width, o->height, o->view != VIEW_COLOUR, error, bytes);
+}
+
+/* Only the library leaves something out. */
+static void say_remarks(const tool_options *o, const scene *s, const engine_picture *p)
+{
+    remarks_on_settings(s);
+    if (strcmp(o->engine, "fixed") == 0) remarks_on_picture(s, p);
 }
 
 int tool_render(const tool_options *o)
@@ -25,6 +33,7 @@ int tool_render(const tool_options *o)
     if (tool_load(o, &s, &set)) return TOOL_FAILED;
     engine_picture p;
     int failed = draw(&p, o, &s, &set, error, sizeof error);
+    if (!failed && !o->json) say_remarks(o, &s, &p);
     scene_free(&s);
     if (failed) return tool_fail(o->scene_path, error);
     int w, h;

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../lib/gn_math.h"
+
 /* Everything must stay within +-8192 units of the origin and 16384 of the camera; half of that leaves room for both. */
 #define WORLD_REACH 4096.0
 
@@ -259,6 +261,15 @@ static int quantise_texture(gn_texture *out, const scene_texture *t, char *error
 
 /* ---- Objects ---------------------------------------------------------------------------------------------------------- */
 
+/* What the library asks of a transform, at the largest scale that fits: objects too small for their scene are another matter. */
+static int is_flat(const scene_affine *a, int exp)
+{
+    int32_t m[3][3];
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) m[r][c] = fixed_unit(a->m[r][c], 30 - exp);
+    return !gn_det_sign(m);
+}
+
 /* Matrix entries become a Q1.30 mantissa under one exponent. A mesh's fraction bits beyond 0..30 move into that exponent. */
 static int quantise_transform(gn_affine *out, const scene_object *o, int mesh_bits, int stored_bits, int world_exp, char *error,
                               size_t error_bytes)
@@ -268,6 +279,10 @@ static int quantise_transform(gn_affine *out, const scene_object *o, int mesh_bi
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) largest = fmax(largest, fabs(o->to_world.m[r][c]));
     frexp(largest, &e);
+    if (is_flat(&o->to_world, e)) {
+        snprintf(error, error_bytes, "object '%s': a scale of zero or almost zero along an axis cannot be drawn", o->name);
+        return -1;
+    }
     int shift = world_exp + stored_bits - mesh_bits; /* object space as stored = true * 2^(mesh_bits - stored_bits) */
     int exp = e + shift < 0 ? 0 : e + shift;
     if (exp > 14) {

@@ -251,6 +251,21 @@ static int find_light(const scene *s, const char *key, const char *light, size_t
     return -1;
 }
 
+/* What a light of this kind has not got is noted, as the glTF loader notes it. */
+static int note_useless(scene *s, const char *key, size_t light, char *error, size_t bytes)
+{
+    const scene_light *l = &s->lights[light];
+    bool directional = l->kind == SCENE_LIGHT_DIRECTIONAL;
+    const char *why = NULL;
+    char note[200];
+    if (directional && strcmp(key, "near") == 0) why = "a directional light has near_offset";
+    if (directional && strcmp(key, "range") == 0) why = "a directional light reaches everything";
+    if (!directional && strcmp(key, "near_offset") == 0) why = "it is not directional";
+    if (!why) return 0;
+    snprintf(note, sizeof note, "%s of light '%.64s' ignored: %s", key, l->name, why);
+    return scene_add_note(s, note, error, bytes);
+}
+
 /* KEY@LIGHT */
 static int apply_to_light(settings *out, scene *s, const char *key, const char *at, const char *value, char *error, size_t bytes)
 {
@@ -264,6 +279,7 @@ static int apply_to_light(settings *out, scene *s, const char *key, const char *
     }
     if (find_light(s, key, at + 1, &light, error, bytes)) return -1;
     if (settings_apply_scene(s, plain, light, value, error, bytes) < 0) return -1;
+    if (note_useless(s, plain, light, error, bytes)) return -1;
     return k && strcmp(value, "0") != 0 ? apply_knob(out, k, value, error, bytes) : 0; /* what one light uses must be built */
 }
 

@@ -1,0 +1,93 @@
+/* What no error says and a picture does not show. */
+#include "remarks.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "tool.h"
+
+enum { NAMES_BYTES = 200, NOTE_BYTES = 300 };
+
+void remarks_on_settings(const scene *s)
+{
+    for (size_t i = s->n_file_notes; i < s->n_notes; i++) tool_error("%s", s->notes[i]);
+}
+
+/* "0 'a', 3 'b'", cut off behind a name where there is no room for more */
+static void name_lights_without_room(const scene *s, const engine_picture *p, char *out, size_t bytes)
+{
+    size_t used = 0;
+    out[0] = 0;
+    for (size_t i = 0; i < s->n_lights && i < p->n_lights; i++) {
+        if (p->shadow_state[i] != GN_SHADOW_NO_ROOM) continue;
+        int n = snprintf(out + used, bytes - used, "%s%zu '%.64s'", used ? ", " : "", i, s->lights[i].name);
+        if (n < 0 || (size_t)n + sizeof ", ..." > bytes - used) {
+            snprintf(out + used, bytes - used, "%s...", used ? ", " : "");
+            return;
+        }
+        used += (size_t)n;
+    }
+}
+
+void remarks_on_picture(const scene *s, const engine_picture *p)
+{
+    char names[NAMES_BYTES];
+    uint32_t left_out = p->stats.n_lights_left_out, no_room = p->stats.n_lights_without_room;
+    if (left_out)
+        tool_error("%u time%s a light was left out of an object's list of %d: --set object_lights=0 keeps all", left_out,
+                   left_out == 1 ? "" : "s", s->shadow.object_lights);
+    if (!no_room) return;
+    name_lights_without_room(s, p, names, sizeof names);
+    tool_error("%u light%s no shadow tile, so no shadow: %s", no_room, no_room == 1 ? " has" : "s have", names);
+}
+
+/* Whether some place is in the range of both. */
+static bool reach_overlaps(const scene_light *a, const scene_light *b)
+{
+    if (a->kind == SCENE_LIGHT_DIRECTIONAL || b->kind == SCENE_LIGHT_DIRECTIONAL) return true;
+    double d[3];
+    for (int i = 0; i < 3; i++) d[i] = a->position[i] - b->position[i];
+    return hypot(hypot(d[0], d[1]), d[2]) < a->range + b->range;
+}
+
+static bool is_masked(const scene_light *l)
+{
+    return l->mode == SCENE_MIXED && l->mask_channel >= 0;
+}
+
+static int note_shared_channels(scene *s, size_t first, char *error, size_t bytes)
+{
+    char note[NOTE_BYTES];
+    const scene_light *a = &s->lights[first];
+    for (size_t i = first + 1; i < s->n_lights; i++) {
+        const scene_light *b = &s->lights[i];
+        if (!is_masked(a) || !is_masked(b) || a->mask_channel != b->mask_channel || !reach_overlaps(a, b)) continue;
+        snprintf(note, sizeof note, "mixed lights %zu '%.64s' and %zu '%.64s' share mask channel %d, and their ranges overlap",
+                 first, a->name, i, b->name, a->mask_channel);
+        if (scene_add_note(s, note, error, bytes)) return -1;
+    }
+    return 0;
+}
+
+static bool has_baked_light(const scene *s)
+{
+    for (size_t i = 0; i < s->n_objects; i++)
+        if (s->objects[i].baked) return true;
+    return false;
+}
+
+static int note_useless_baked(scene *s, size_t light, char *error, size_t bytes)
+{
+    char note[NOTE_BYTES];
+    if (s->lights[light].mode != SCENE_BAKED || has_baked_light(s)) return 0;
+    snprintf(note, sizeof note, "light %zu '%.64s' is baked, but no object has baked light: it contributes nothing", light,
+             s->lights[light].name);
+    return scene_add_note(s, note, error, bytes);
+}
+
+int remarks_on_lights(scene *s, char *error, size_t error_bytes)
+{
+    for (size_t i = 0; i < s->n_lights; i++)
+        if (note_shared_channels(s, i, error, error_bytes) || note_useless_baked(s, i, error, error_bytes)) return -1;
+    return 0;
+}

@@ -1,0 +1,16 @@
+/* What no error says and a picture does not show: settings without effect, lights that the library left out, lights that cannot do
+ * what they are set to. */
+#ifndef GNOMON_REMARKS_H
+#define GNOMON_REMARKS_H
+
+#include "engine.h"
+
+/* To stderr, a line each: what settings came to nothing; what the library left out of a picture of its own. */
+void remarks_on_settings(const scene *s);
+void remarks_on_picture(const scene *s, const engine_picture *p);
+
+/* Adds a note for every pair of lights that one mask channel cannot serve (M5), and for baked lights without anything baked (M9).
+ * 0, or -1 with one line in error. */
+int remarks_on_lights(scene *s, char *error, size_t error_bytes);
+
+#endif
