@@ -402,8 +402,10 @@ static void test_kept_fields(void)
         ls.light[l].direction[2] += GN_Q16(0.15);
         check_changed(l, "direction");
     }
-    ls.light[0].near_offset_q16 += GN_Q16(3);
-    check_changed(0, "near_offset");
+    for (int i = 0; i < 2; i++) { /* the first doubles the range of depth, the second only shifts it */
+        ls.light[0].near_offset_q16 += GN_Q16(3);
+        check_changed(0, "near_offset");
+    }
     for (uint32_t l = 0; l < 3; l++) {
         kept.frame.knobs.shadow_subpixel_bits = l & 1 ? 12 : 4;
         check_changed(l, "shadow_subpixel_bits");
@@ -412,18 +414,16 @@ static void test_kept_fields(void)
 
 /* ---- D8: a shadow that leaves its cascade ---------------------------------------------------------------------------------------- */
 
-/* A ball close to the camera, inside the first cascade; light along y throws its shadow on a wall far down (side -1) or far up (1),
- * outside the first cascade. A wall on the other side puts the middle of the receivers' box where the camera is. */
+/* In a room around the camera, a ball close to it, inside the first cascade; light along y throws its shadow on the floor far down
+ * (side -1) or on the ceiling far up (1), outside the first cascade: the shadow goes on past the middle of the receivers' box. */
 static void far_shadow_scene(int side)
 {
     const int32_t eye[3] = {0, 0, 0}, target[3] = {0, side * GN_Q16(2), GN_Q16(-1)};
     ls_begin(&ls);
     ls.scene.n_objects = 0;
-    for (int i = -1; i <= 1; i += 2) {
-        gn_object *wall = ls_add_object(&ls, &ls.demo.ground);
-        ls_place(wall, 0, i * GN_Q16(8), 0, 0, 0, 2);
-        wall->flags = GN_OBJECT_RECEIVES | GN_OBJECT_TWO_SIDED;
-    }
+    gn_object *room = ls_add_object(&ls, &ls.demo.box);
+    ls_place(room, 0, 0, 0, 0, 0, 8 / 0.75);
+    room->flags = GN_OBJECT_RECEIVES | GN_OBJECT_TWO_SIDED;
     gn_object *ball = ls_add_object(&ls, &ls.demo.ball);
     ls_place(ball, GN_Q16(0.4), side * GN_Q16(1.8), GN_Q16(-0.7), 0, 0, 0.35);
     ball->flags = GN_OBJECT_CASTS;
@@ -452,14 +452,14 @@ static void check_far_shadow(int side)
     render(&fresh, kept_pixels);
     CHECK_EQ_INT(gn_get_stats(&fresh)->n_casters_culled, 0);
     CHECK(memcmp(kept_pixels, fresh_pixels, sizeof kept_pixels) == 0);
-    ls.object[2].flags = 0;
+    ls.object[1].flags = 0;
     render(&fresh, without);
     int n_shadow = 0;
     for (int i = 0; i < W * H; i++) n_shadow += without[BYTES * i] > fresh_pixels[BYTES * i];
     CHECK(n_shadow >= 2);
     /* were the shadow to end near the ball, it would be left out */
     far_shadow_scene(side);
-    for (int i = 0; i < 2; i++) ls.object[i].to_world.t_q16[1] /= 4;
+    for (int c = 0; c < 3; c++) ls.object[0].to_world.m_q30[1][c] /= 4;
     ls.scene.shadow.caster_culling = 1;
     render(&fresh, without);
     CHECK_EQ_INT(gn_get_stats(&fresh)->n_casters_culled, 1);
