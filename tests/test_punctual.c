@@ -471,11 +471,382 @@ static void test_far_shadow(void)
     check_far_shadow(1);
 }
 
+/* ---- A receiver in a light's tile ---------------------------------------------------------------------------------------------- */
+
+static double dot3(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* A world vector along the view's axes, which are taken as they are. */
+static void along_axes(const gn_light_view *view, const double world[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const double axis[3] = {view->axis_q30[i][0] * q30, view->axis_q30[i][1] * q30, view->axis_q30[i][2] * q30};
+        out[i] = dot3(axis, world);
+    }
+}
+
+/* T / t of DESIGN 1.5, and how far the view's is off, relatively. */
+static approx focal_of(const gn_light *light, const gn_light_view *view)
+{
+    approx focal = {view->fit.persp.focal2_q16 / 65536.0, 0};
+    if (light->kind == GN_LIGHT_POINT) return focal;
+    double angle = light->outer_turn * turn;
+    focal.v = view->tile_texels / tan(angle / 2);
+    focal.e = 0x1p-17 / focal.v + 2 * q30 / sin(angle) + 2 * q30 / (1 + cos(angle));
+    return focal;
+}
+
+/* Texels whose index along `axis` is below `from` are dark, all others lit; the light's shadow of the point then. */
+static uint32_t probe(gn_light_view *view, int axis, uint32_t from, uint32_t dark, uint32_t lit, const gn_surface *surface,
+                      const gn_sample *sample)
+{
+    uint32_t t = view->tile_texels;
+    for (uint32_t i = 0; i < t * t; i++) view->depth.d32[i] = (axis ? i / t : i % t) < from ? dark : lit;
+    gn_blocks_build(view);
+    return gn_shadow_factor(&fresh.frame, surface, sample, 0, 65536);
+}
+
+static double receiver_seen[2];
+
+static void check_coords(gn_light_view *view, const gn_surface *surface, const gn_sample *sample, const double at[3], approx focal)
+{
+    double z_q16 = at[2] * 65536, t = view->tile_texels, delta = fresh.frame.knobs.newton_steps == 1 ? 0x1p-17 : 0x1p-29;
+    for (int axis = 0; axis < 2; axis++) {
+        double beside = focal.v / 2 * at[axis] / at[2], u = t / 2 + beside;
+        double bound = (fabs(beside) * (delta + focal.e + 0.5 / z_q16) + focal.v / 4 / z_q16) * 1.004 + focal.v * q30 + 0x1p-17;
+        double first = floor(u - 0.5);
+        double got = first + 0.5 + probe(view, axis, (uint32_t)first + 1, 0, UINT32_MAX, surface, sample) / 65536.0;
+        CHECK(ratio_of(fabs(got - u), bound + 0x1p-13, &receiver_seen[0]) <= 1); /* 12 bits of weight */
+    }
+    uint32_t lo = 0, hi = UINT32_MAX; /* the depth of the receiver: the smallest stored one that leaves it lit */
+    while (lo < hi) {
+        uint32_t mid = lo + (hi - lo) / 2;
+        if (probe(view, 0, 0, 0, mid, surface, sample)) hi = mid;
+        else lo = mid + 1;
+    }
+    double share = view->fit.persp.near_q16 / z_q16, bound = share * (delta + 0.5 / z_q16) * 1.004 + 3 * q32;
+    CHECK(ratio_of(fabs(lo * q32 - (1 - share)), bound, &receiver_seen[1]) <= 1);
+}
+
+static void begin_shadowed(rng *r, gn_light_kind kind, int newton_steps)
+{
+    gn_picture p = {W, H, GN_FORMAT_RGB888, GN_VIEW_COLOUR, 0};
+    ls.scene.n_lights = 0;
+    gn_light *light = ls_add_random_light(&ls, r, kind);
+    light->outer_turn = (uint16_t)rng_range(r, GN_TURN(2), GN_TURN(178));
+    light->inner_turn = 0;
+    light->near_q16 = rng_range(r, 700, GN_Q16(0.8));
+    CHECK_EQ_INT(gn_init(&fresh, &p), GN_OK);
+    fresh.frame.knobs.other_atlas_size = kind == GN_LIGHT_POINT ? 32 : 16;
+    fresh.frame.knobs.other_depth_bits = 32;
+    fresh.frame.knobs.weight_bits = 12;
+    fresh.frame.knobs.atten_bits = 16;
+    fresh.frame.knobs.newton_steps = newton_steps;
+    CHECK_EQ_INT(gn_begin(&fresh, &ls.scene), GN_OK);
+    CHECK_EQ_INT(gn_get_light_shadow(&fresh, 0, NULL, NULL), GN_SHADOW_REALTIME);
+}
+
+/* A point in the middle part of one of the light's tiles, moved by a small offset. */
+static void check_receiver(rng *r)
+{
+    static gn_surface surface;
+    static gn_sample sample;
+    const gn_light *light = &ls.light[0];
+    uint32_t face = light->kind == GN_LIGHT_POINT ? rng_below(r, 6) : 0;
+    gn_light_view *view = &fresh.frame.view[face];
+    double t = view->tile_texels * 65536.0 / view->fit.persp.focal2_q16, moved[3], at[3];
+    double z = light->near_q16 / 65536.0 * 1.2 + rng_below(r, 10000) / 1000.0 / (t > 4 ? t / 4 : 1);
+    double wide = light->kind == GN_LIGHT_POINT ? 0.8 : 0.8 * t;
+    const double in[3] = {z * wide * rng_range(r, -999, 999) / 1000, z * wide * rng_range(r, -999, 999) / 1000, z};
+    int32_t *value = &sample.value[GN_VALUE_LIGHT];
+    for (int k = 0; k < 3; k++) {
+        double p = 0;
+        for (int i = 0; i < 3; i++) p += in[i] * view->axis_q30[i][k] * q30;
+        value[GN_LIGHT_POINT_AT + k] = (int32_t)floor(p * 65536);
+        value[GN_LIGHT_OFFSET + k] = rng_range(r, -100, 100);
+        moved[k] = (value[GN_LIGHT_POINT_AT + k] + value[GN_LIGHT_OFFSET + k]) / 65536.0;
+    }
+    surface.light[0].state = &fresh.frame.light[0];
+    surface.n_lights = surface.shadowed = 1;
+    along_axes(view, moved, at);
+    if (at[2] < light->near_q16 / 65536.0 * 1.01) return;
+    if (fabs(at[0]) > at[2] * 0.9 * t || fabs(at[1]) > at[2] * 0.9 * t) return;
+    check_coords(view, &surface, &sample, at, focal_of(light, view));
+}
+
+static void test_receivers(void)
+{
+    for (int steps = 1; steps <= 2; steps++) {
+        rng r = {17};
+        receiver_seen[0] = receiver_seen[1] = 0;
+        ls_begin(&ls);
+        ls.scene.shadow.other_filter = GN_FILTER_2X2;
+        for (int i = 0; i < 24; i++) {
+            begin_shadowed(&r, i & 1 ? GN_LIGHT_POINT : GN_LIGHT_SPOT, steps);
+            for (int k = 0; k < 8; k++) check_receiver(&r);
+        }
+        printf("receivers, %d Newton steps: shares of the bounds: coordinates %.2f, depth %.2f\n", steps, receiver_seen[0],
+               receiver_seen[1]);
+    }
+}
+
+/* ---- Stored depth, and casters that shrink (B4) ---------------------------------------------------------------------------------- */
+
+typedef struct {
+    double p[4][3], normal[3]; /* corners along the light's axes, unit normal */
+    double vertex;             /* how far a corner's coordinate may be off */
+} plate;
+
+static void cross3(const double a[3], const double b[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+static void plate_normal(plate *q)
+{
+    double e1[3], e2[3];
+    for (int k = 0; k < 3; k++) {
+        e1[k] = q->p[1][k] - q->p[0][k];
+        e2[k] = q->p[2][k] - q->p[0][k];
+    }
+    cross3(e1, e2, q->normal);
+    double length = sqrt(dot3(q->normal, q->normal));
+    for (int k = 0; k < 3; k++) q->normal[k] /= length;
+}
+
+/* B4. The normal is that of rounded corners, so it tilts by 2 sqrt(3) of their error over the triangle's smallest altitude. */
+static void plate_shrink(plate *q, const gn_light_view *view, double bias, double side)
+{
+    double per_z = bias * 2 * 65536 / view->fit.persp.focal2_q16, most = 0;
+    for (int i = 0; i < 4; i++) {
+        double by = per_z * fmax(q->p[i][2], view->fit.persp.near_q16 / 65536.0);
+        most = fmax(most, by);
+        for (int k = 0; k < 3; k++) q->p[i][k] -= q->normal[k] * by;
+    }
+    plate_normal(q); /* what is farther moves more: the plane turns */
+    if (bias > 0) q->vertex += 0x1p-15 + most * (0x1p-26 + 2 * sqrt(3) * sqrt(2) * q->vertex / side) + per_z * q->vertex;
+}
+
+/* The card as the light sees it, exactly. */
+static void plate_of(plate *q, const gn_object *card, const gn_light_view *view)
+{
+    double scale = ldexp(1, card->to_world.exp - 30), reach = 0;
+    for (int i = 0; i < 4; i++) {
+        double from[3];
+        for (int r = 0; r < 3; r++) {
+            from[r] = (card->to_world.t_q16[r] - view->fit.persp.eye_q16[r]) / 65536.0;
+            for (int c = 0; c < 3; c++) from[r] += card->to_world.m_q30[r][c] * scale * card->mesh->pos[3 * i + c] / 65536.0;
+        }
+        along_axes(view, from, q->p[i]);
+    }
+    for (int c = 0; c < 3; c++) reach += abs(card->mesh->pos[3 * 1 + c]) / 65536.0;
+    q->vertex = 0x1p-16 + ldexp(reach, card->to_world.exp) * 0x1p-31;
+    plate_normal(q);
+}
+
+static uint32_t stored_at(const gn_tile_info *tile, uint32_t i)
+{
+    return tile->depth_bits == 8    ? (uint32_t)((const uint8_t *)tile->depth)[i] << 24
+           : tile->depth_bits == 16 ? (uint32_t)((const uint16_t *)tile->depth)[i] << 16
+                                    : ((const uint32_t *)tile->depth)[i];
+}
+
+/* Inside the card: it and its neighbours are drawn. */
+static int inside(const gn_tile_info *tile, uint32_t u, uint32_t v)
+{
+    uint32_t t = tile->texels, i = v * t + u, empty = (uint32_t)(UINT32_MAX << (32 - tile->depth_bits));
+    if (!u || !v || u + 1 == t || v + 1 == t) return 0;
+    return stored_at(tile, i) != empty && stored_at(tile, i - 1) != empty && stored_at(tile, i + 1) != empty &&
+           stored_at(tile, i - t) != empty && stored_at(tile, i + t) != empty;
+}
+
+static double stored_seen;
+
+static int check_stored(const plate *q, const gn_light_view *view, const gn_tile_info *tile)
+{
+    double focal = view->fit.persp.focal2_q16 / 65536.0, h = fabs(dot3(q->normal, q->p[0])),
+           near = view->fit.persp.near_q16 / 65536.0;
+    double length0 = sqrt(dot3(q->p[0], q->p[0]));
+    int n = 0;
+    for (uint32_t v = 0; v < tile->texels; v++)
+        for (uint32_t u = 0; u < tile->texels; u++) {
+            if (!inside(tile, u, v)) continue;
+            const double ray[3] = {(2.0 * u + 1 - tile->texels) / focal, (2.0 * v + 1 - tile->texels) / focal, 1};
+            double per_ray = fabs(dot3(q->normal, ray)), share = near * per_ray / h, kappa = sqrt(dot3(ray, ray)) / per_ray;
+            double bound = ldexp(0.5, -(int)tile->depth_bits) + (tile->texels + 2) * q32 +
+                           share * ((kappa + length0 / h) * 0x1p-29 + 0x1p-27 + sqrt(3) * q->vertex / h);
+            double got = stored_at(tile, v * tile->texels + u) * q32;
+            CHECK(ratio_of(fabs(got - (1 - share)), bound, &stored_seen) <= 1);
+            n++;
+        }
+    return n;
+}
+
+static void random_plate(rng *r, gn_object *card, double *side)
+{
+    gn_light *light = &ls.light[0];
+    double axis[3], length = 0, far = rng_range(r, 1500, 6000) / 1000.0, scale = rng_range(r, 200, 800) / 1000.0;
+    for (int k = 0; k < 3; k++) length += (double)light->direction[k] * light->direction[k];
+    for (int k = 0; k < 3; k++) axis[k] = light->direction[k] / sqrt(length);
+    *side = 2 * scale;
+    gn_affine_rotation(&card->to_world, (uint16_t)rng_u32(r), (uint16_t)rng_u32(r), (uint16_t)rng_u32(r));
+    gn_affine_scale(&card->to_world, (int32_t)(scale * 65536));
+    for (int k = 0; k < 3; k++) card->to_world.t_q16[k] = light->position_q16[k] + (int32_t)(axis[k] * far * 65536);
+}
+
+static void check_plate(rng *r, int depth_bits, double bias, int *n_texels)
+{
+    plate q;
+    double side;
+    gn_tile_info tile = {0, 0, NULL};
+    ls.scene.n_lights = 0;
+    gn_light *light = ls_add_random_light(&ls, r, GN_LIGHT_SPOT);
+    light->outer_turn = (uint16_t)rng_range(r, GN_TURN(20), GN_TURN(80));
+    light->inner_turn = 0;
+    light->near_q16 = rng_range(r, GN_Q16(0.05), GN_Q16(0.3));
+    light->bias_caster_q16 = (int32_t)(bias * 65536);
+    random_plate(r, &ls.object[1], &side);
+    fresh.frame.knobs.other_depth_bits = depth_bits;
+    CHECK_EQ_INT(ls_prepare(&fresh, &ls.scene), GN_OK);
+    const gn_light_view *view = &fresh.frame.view[0];
+    CHECK_EQ_INT(gn_get_shadow_tile(&fresh, 0, 0, &tile), 64);
+    plate_of(&q, &ls.object[1], view);
+    plate_shrink(&q, view, bias, side);
+    if (fabs(dot3(q.normal, q.p[0])) < 0.2) return; /* edge on */
+    *n_texels += check_stored(&q, view, &tile);
+}
+
+static void test_stored(void)
+{
+    static const int bits[] = {8, 16, 32};
+    rng r = {23};
+    ls_begin(&ls);
+    ls.object[1] = ls.object[3];
+    ls.object[1].caster_alpha = ls.object[1].visible_alpha = GN_ALPHA_OPAQUE;
+    ls.object[1].texture = NULL;
+    ls.object[0].flags = GN_OBJECT_RECEIVES;
+    ls.scene.n_objects = 2;
+    init(&fresh);
+    fresh.frame.knobs.other_atlas_size = 64;
+    for (int b = 0; b < 3; b++)
+        for (int shrunk = 0; shrunk < 2; shrunk++) {
+            int n_texels = 0;
+            stored_seen = 0;
+            for (int i = 0; i < 20; i++) check_plate(&r, bits[b], shrunk ? rng_range(&r, 1, 64) / 8.0 : 0, &n_texels);
+            CHECK(n_texels > 1000);
+            printf("stored depth, %d bits%s: %d texels, share of the bound %.2f\n", bits[b], shrunk ? ", B4" : "", n_texels,
+                   stored_seen);
+        }
+}
+
+/* ---- Masks ----------------------------------------------------------------------------------------------------------------------- */
+
+static double texel_of(const uint8_t *rgba, int size, int x, int y, int channel)
+{
+    x = x < 0 ? 0 : x >= size ? size - 1 : x;
+    y = y < 0 ? 0 : y >= size ? size - 1 : y;
+    return rgba[4 * (y * size + x) + channel] / 255.0;
+}
+
+static void test_mask_image(void)
+{
+    enum { SIZE = 8 };
+    static uint8_t rgba[SIZE * SIZE * 4];
+    gn_texture image = {.rgba = rgba, .width_log2 = 3, .height_log2 = 3};
+    rng r = {3};
+    double largest = 0;
+    for (size_t i = 0; i < sizeof rgba; i++) rgba[i] = (uint8_t)(rng_below(&r, 3) ? rng_u32(&r) : rng_below(&r, 2) * 255);
+    for (int i = 0; i < 4000; i++) {
+        int32_t u = rng_range(&r, -9000, 75000), v = rng_range(&r, -9000, 75000);
+        int channel = (int)rng_below(&r, 4);
+        double x = u / 65536.0 * SIZE - 0.5, y = v / 65536.0 * SIZE - 0.5, fx = x - floor(x), fy = y - floor(y);
+        int x0 = (int)floor(x), y0 = (int)floor(y);
+        double upper = texel_of(rgba, SIZE, x0, y0, channel) * (1 - fx) + texel_of(rgba, SIZE, x0 + 1, y0, channel) * fx;
+        double lower = texel_of(rgba, SIZE, x0, y0 + 1, channel) * (1 - fx) + texel_of(rgba, SIZE, x0 + 1, y0 + 1, channel) * fx;
+        double exact = 65536 * (upper * (1 - fy) + lower * fy);
+        CHECK(ratio_of(fabs(gn_texture_mask(&image, u, v, (uint32_t)channel) - exact), 1.5, &largest) <= 1);
+    }
+    printf("mask image: share of the bound %.2f\n", largest);
+}
+
+static void masked_ground(const uint8_t *mask, int newton_steps, uint32_t *raw)
+{
+    static const int32_t eye[3] = {GN_Q16(0.3), GN_Q16(5), GN_Q16(2)}, target[3] = {0, 0, 0};
+    gn_picture p = {W, H, GN_FORMAT_RAW32, GN_VIEW_SHADOW, 0};
+    ls_canvas canvas = {(uint8_t *)raw, W, 4};
+    ls_begin(&ls);
+    ls.scene.n_objects = 1;
+    ls.object[0].mask_u8 = mask;
+    gn_light *light = ls_add_light(&ls, GN_LIGHT_POINT);
+    light->mode = GN_LIGHT_MIXED;
+    light->mask_channel = 2;
+    light->range_q16 = 0;
+    ls.object[0].flags = GN_OBJECT_RECEIVES; /* no caster: no tiles, the mask alone */
+    ls.scene.shadow.mixing = GN_MIXING_ALWAYS;
+    gn_camera_look_at(&ls.scene.camera.to_world, eye, target);
+    CHECK_EQ_INT(gn_init(&fresh, &p), GN_OK);
+    fresh.frame.knobs.persp_step = 1;
+    fresh.frame.knobs.newton_steps = newton_steps;
+    CHECK_EQ_INT(gn_render(&fresh, &ls.scene, ls_flush, &canvas), GN_OK);
+}
+
+/* Where a pixel's ray meets the ground. */
+static double ground_at(int x, int y, double at[2])
+{
+    const gn_cam *cam = &fresh.frame.cam;
+    double ray[3], px = 2 * x + 1 - W, py = H - 1 - 2 * y, focal2 = cam->focal2_px_q16 / 65536.0;
+    for (int k = 0; k < 3; k++) ray[k] = (cam->axis_q30[0][k] * px + cam->axis_q30[1][k] * py + cam->axis_q30[2][k] * focal2) * q30;
+    double along = -(cam->eye_q16[1] / 65536.0) / ray[1];
+    for (int k = 0; k < 2; k++) at[k] = cam->eye_q16[2 * k] / 65536.0 + along * ray[2 * k];
+    return sqrt(dot3(ray, ray)) / fabs(ray[1]); /* kappa */
+}
+
+/* The ground's triangles 0 1 2 and 0 2 3 meet where x = z; its corners are at +-6, 12 apart. */
+static void check_mask_pixel(const uint8_t *mask, int x, int y, uint32_t got, int newton_steps, double *largest)
+{
+    double at[2], kappa = ground_at(x, y, at), share_x = (at[0] + 6) / 12, share_z = (at[1] + 6) / 12;
+    if (fabs(at[0]) > 5.9 || fabs(at[1]) > 5.9 || fabs(at[0] - at[1]) < 0.05) return;
+    int second = at[0] > at[1];
+    double m[3] = {mask[2], mask[second ? 10 : 6], mask[second ? 14 : 10]};
+    double b1 = second ? share_z : share_z - share_x, b2 = second ? share_x - share_z : share_x;
+    double exact = 65536 / 255.0 * (m[0] + b1 * (m[1] - m[0]) + b2 * (m[2] - m[0]));
+    /* forms of the barycentrics: an edge (at most 17 long) crossed with a corner (at most 12 away) over twice the area, 144, and the
+     * camera's height, 5; corners of the view are off by 1.1 LSB per coordinate, altitudes are 8.4 */
+    double kappa_b = kappa * 17 * 12 / (144 * 5.0) * 5, delta = newton_steps == 1 ? 0x1p-17 : 0x1p-29;
+    double b = (kappa_b + kappa) * 0x1p-29 + delta + 0x1p-29 + 2 * sqrt(3) * kappa * 1.1 * 0x1p-16 / 8.4;
+    double bound = 1 + (fabs(m[1] - m[0]) + fabs(m[2] - m[0])) * 65536 / 255.0 * b;
+    CHECK(ratio_of(fabs(got - exact), bound, largest) <= 1);
+}
+
+static void test_mask_corners(void)
+{
+    static const uint8_t mask[16] = {0, 0, 10, 0, 0, 0, 255, 0, 0, 0, 99, 0, 0, 0, 201, 0};
+    static uint32_t raw[W * H];
+    for (int steps = 1; steps <= 2; steps++) {
+        double largest = 0;
+        int n = 0;
+        masked_ground(mask, steps, raw);
+        for (int i = 0; i < W * H; i++) {
+            if (raw[i] == UINT32_MAX) continue;
+            check_mask_pixel(mask, i % W, i / W, raw[i], steps, &largest);
+            n++;
+        }
+        CHECK(n > W * H / 2);
+        printf("masks of corners, %d Newton steps: share of the bound %.2f\n", steps, largest);
+    }
+}
+
 int main(void)
 {
     test_faces();
     test_attenuation();
     test_not_looked_up();
+    test_receivers();
+    test_stored();
+    test_mask_image();
+    test_mask_corners();
     test_kept_fields();
     test_far_shadow();
     return check_report();
