@@ -22,6 +22,7 @@ static uint8_t kept_pixels[W * H * BYTES], fresh_pixels[W * H * BYTES];
 
 static const double turn = 6.283185307179586 / 65536, q30 = 1.0 / (1 << 30), q32 = 1.0 / 4294967296.0;
 
+/* An error as a share of its bound. */
 static double ratio_of(double error, double bound, double *largest)
 {
     double share = error / bound;
@@ -128,7 +129,7 @@ static approx angle_of(const gn_light *light, const double from[3], double d)
 }
 
 /* max(0, cos) factor / max(d^2, 10^-4), as it arrives for a colour of 1. */
-static approx irradiance_of(const gn_light *light, approx factor, approx cosine, double d2)
+static approx irradiance_of(approx factor, approx cosine, double d2)
 {
     double delta = delta_root() + 0x1p-31, floor2 = least2(), scale2 = fmax(d2, floor2);
     double relative = (1 + delta) * (1 + delta) - 1 + 0x1p-28;
@@ -136,7 +137,6 @@ static approx irradiance_of(const gn_light *light, approx factor, approx cosine,
     approx share = product_q30(factor, cosine), out;
     out.v = share.v / scale2;
     out.e = share.e / scale2 * (1 + relative) + out.v * relative;
-    (void)light;
     return out;
 }
 
@@ -209,7 +209,7 @@ static void check_irradiance(rng *r, const gn_light *light, const gn_punctual_po
     CHECK_NEAR(gn_punctual_cosine_q30(point, -facing), -got, 1); /* halves upwards */
     CHECK_EQ_INT(gn_punctual_irradiance_q24(point, 0), 0);
     CHECK_EQ_INT(gn_punctual_irradiance_q24(point, -got), 0);
-    approx e = irradiance_of(light, factor, cosine, d * d);
+    approx e = irradiance_of(factor, cosine, d * d);
     double scale = ldexp(1, point->colour_exp), all = ldexp(1, 7) - 0x1p-24;
     double irradiance = gn_punctual_irradiance_q24(point, got) * 0x1p-24;
     if (e.v * scale - e.e * scale > all) CHECK(irradiance == all);
@@ -812,9 +812,9 @@ static void check_mask_pixel(const uint8_t *mask, int x, int y, uint32_t got, in
     double m[3] = {mask[2], mask[second ? 10 : 6], mask[second ? 14 : 10]};
     double b1 = second ? share_z : share_z - share_x, b2 = second ? share_x - share_z : share_x;
     double exact = 65536 / 255.0 * (m[0] + b1 * (m[1] - m[0]) + b2 * (m[2] - m[0]));
-    /* forms of the barycentrics: an edge (at most 17 long) crossed with a corner (at most 12 away) over twice the area, 144, and the
-     * camera's height, 5; corners of the view are off by 1.1 LSB per coordinate, altitudes are 8.4 */
-    double kappa_b = kappa * 17 * 12 / (144 * 5.0) * 5, delta = newton_steps == 1 ? 0x1p-17 : 0x1p-29;
+    /* forms of the barycentrics: an edge, at most 17 long, crossed with a corner, at most 12 away, over twice the area, 144; corners
+     * are off by 1.1 LSB per coordinate in the view, altitudes are 8.4 */
+    double kappa_b = kappa * 17 * 12 / 144.0, delta = newton_steps == 1 ? 0x1p-17 : 0x1p-29;
     double b = (kappa_b + kappa) * 0x1p-29 + delta + 0x1p-29 + 2 * sqrt(3) * kappa * 1.1 * 0x1p-16 / 8.4;
     double bound = 1 + (fabs(m[1] - m[0]) + fabs(m[2] - m[0])) * 65536 / 255.0 * b;
     CHECK(ratio_of(fabs(got - exact), bound, largest) <= 1);
