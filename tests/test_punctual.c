@@ -30,7 +30,7 @@ static double ratio_of(double error, double bound, double *largest)
     return share;
 }
 
-/* ---- P5: which face ---------------------------------------------------------------------------------------------------------- */
+/* ---- P5: which face -------------------------------------------------------------------------------------------- */
 
 static int32_t face_by_rule(const int32_t p[3])
 {
@@ -54,7 +54,7 @@ static void test_faces(void)
     CHECK_EQ_INT(gn_persp_face(extreme), 5);
 }
 
-/* ---- Attenuation against DESIGN 1.8 ------------------------------------------------------------------------------------------ */
+/* ---- Attenuation against DESIGN 1.8 ---------------------------------------------------------------------------- */
 
 /* A value and how far the library's may be from it. */
 typedef struct {
@@ -199,7 +199,7 @@ static void any_point(rng *r, const gn_light *light, int32_t out_q16[3])
     for (int k = 0; k < 3; k++) out_q16[k] = (int32_t)(way[k] / sqrt(sum) * d * 65536);
 }
 
-static void check_irradiance(rng *r, const gn_light *light, const gn_punctual_point *point, approx factor, double d)
+static void check_irradiance(rng *r, const gn_punctual_point *point, approx factor, double d)
 {
     int32_t facing = (int32_t)(d * 65536 * rng_below(r, 1001) / 1000);
     approx cosine = {facing / 65536.0 / d, 0};
@@ -248,7 +248,7 @@ static void check_point(rng *r, const gn_light_state *state)
     seen.lit++;
     CHECK(point.factor_q30 > 0);
     CHECK(ratio_of(fabs(point.factor_q30 * q30 - factor.v), factor.e, &seen.factor) <= 1);
-    check_irradiance(r, light, &point, factor, sqrt(d2));
+    check_irradiance(r, &point, factor, sqrt(d2));
 }
 
 static void test_attenuation(void)
@@ -269,7 +269,7 @@ static void test_attenuation(void)
     }
 }
 
-/* ---- P10 in a picture -------------------------------------------------------------------------------------------------------- */
+/* ---- P10 in a picture ------------------------------------------------------------------------------------------ */
 
 /* A camera that looks straight down on the ground, a spot above the ground at the same place: outside its cone, and out of its
  * range, the view of its shadow is 0 although nothing casts one. */
@@ -314,7 +314,7 @@ static void test_not_looked_up(void)
     check_disk_of_light(GN_UQ16(3.3), sqrt(3.3 * 3.3 - 9));
 }
 
-/* ---- A5: each field of a light alone ------------------------------------------------------------------------------------------- */
+/* ---- A5: each field of a light alone --------------------------------------------------------------------------- */
 
 static void render(gn_renderer *r, uint8_t *pixels)
 {
@@ -412,7 +412,7 @@ static void test_kept_fields(void)
     }
 }
 
-/* ---- D8: a shadow that leaves its cascade ---------------------------------------------------------------------------------------- */
+/* ---- D8: a shadow that leaves its cascade ---------------------------------------------------------------------- */
 
 /* In a room around the camera, a ball close to it, inside the first cascade; light along y throws its shadow on the floor far down
  * (side -1) or on the ceiling far up (1), outside the first cascade: the shadow goes on past the middle of the receivers' box. */
@@ -471,7 +471,7 @@ static void test_far_shadow(void)
     check_far_shadow(1);
 }
 
-/* ---- A receiver in a light's tile ---------------------------------------------------------------------------------------------- */
+/* ---- A receiver in a light's tile ------------------------------------------------------------------------------ */
 
 static double dot3(const double a[3], const double b[3])
 {
@@ -592,7 +592,7 @@ static void test_receivers(void)
     }
 }
 
-/* ---- Stored depth, and casters that shrink (B4) ---------------------------------------------------------------------------------- */
+/* ---- Stored depth, and casters that shrink (B4) ---------------------------------------------------------------- */
 
 typedef struct {
     double p[4][3], normal[3]; /* corners along the light's axes, unit normal */
@@ -741,7 +741,7 @@ static void test_stored(void)
         }
 }
 
-/* ---- Masks ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- Masks ----------------------------------------------------------------------------------------------------- */
 
 static double texel_of(const uint8_t *rgba, int size, int x, int y, int channel)
 {
@@ -812,8 +812,8 @@ static void check_mask_pixel(const uint8_t *mask, int x, int y, uint32_t got, in
     double m[3] = {mask[2], mask[second ? 10 : 6], mask[second ? 14 : 10]};
     double b1 = second ? share_z : share_z - share_x, b2 = second ? share_x - share_z : share_x;
     double exact = 65536 / 255.0 * (m[0] + b1 * (m[1] - m[0]) + b2 * (m[2] - m[0]));
-    /* forms of the barycentrics: an edge, at most 17 long, crossed with a corner, at most 12 away, over twice the area, 144; corners
-     * are off by 1.1 LSB per coordinate in the view, altitudes are 8.4 */
+    /* forms of the barycentrics: an edge, at most 17 long, crossed with a corner, at most 12 away, over twice the area, 144;
+     * corners are off by 1.1 LSB per coordinate in the view, altitudes are 8.4 */
     double kappa_b = kappa * 17 * 12 / 144.0, delta = newton_steps == 1 ? 0x1p-17 : 0x1p-29;
     double b = (kappa_b + kappa) * 0x1p-29 + delta + 0x1p-29 + 2 * sqrt(3) * kappa * 1.1 * 0x1p-16 / 8.4;
     double bound = 1 + (fabs(m[1] - m[0]) + fabs(m[2] - m[0])) * 65536 / 255.0 * b;
