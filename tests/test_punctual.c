@@ -166,9 +166,11 @@ static const gn_light_state *any_light(rng *r, int newton_steps, int32_t unit_lo
     light->shadow_strength_uq16 = 0;
     light->colour_exp = rng_range(r, -3, 6);
     light->range_q16 = rng_below(r, 4) ? (uint32_t)rng_range(r, 512, GN_Q16(30)) : 0;
-    light->near_q16 = 256;
+    if (light->range_q16 && rng_below(r, 6) == 0) light->range_q16 = (uint32_t)rng_range(r, 256, 700); /* below a centimetre */
+    light->near_q16 = 1;
     light->outer_turn = (uint16_t)rng_range(r, GN_TURN(1) + 1, GN_TURN(179) - 1);
     light->inner_turn = (uint16_t)rng_below(r, light->outer_turn + 1U);
+    if (rng_below(r, 5) == 0) light->inner_turn = light->outer_turn; /* the edge is 10^-4 wide */
     ls.scene.unit_log2 = unit_log2;
     if (!fresh.frame.picture.width) CHECK_EQ_INT(gn_init(&fresh, &p), GN_OK);
     fresh.frame.knobs.newton_steps = newton_steps;
@@ -189,9 +191,14 @@ static void any_point(rng *r, const gn_light *light, int32_t out_q16[3])
     for (int k = 0; k < 3; k++) length += (double)light->direction[k] * light->direction[k];
     for (int k = 0; k < 3; k++) axis[k] = light->direction[k] / sqrt(length);
     double spread = rng_below(r, 3) ? tan(light->outer_turn * turn / 2) * rng_below(r, 1100) / 1000.0 : 100;
+    int at_edge = light->kind == GN_LIGHT_SPOT && rng_below(r, 4) == 0;
     double reach = light->range_q16 ? light->range_q16 / 65536.0 * 1.05 : 50, least = sqrt(least2());
     double d = rng_below(r, 3) ? reach * rng_below(r, 100000) / 100000.0 : least * rng_below(r, 2000) / 1000.0;
-    double sum = 0;
+    double sum = 0, along = way[0] * axis[0] + way[1] * axis[1] + way[2] * axis[2];
+    if (at_edge) { /* across the axis alone, so that the angle is the cone's but for 0.02 % */
+        spread = tan(light->outer_turn * turn / 2) * rng_range(r, 9998, 10001) / 10000.0;
+        for (int k = 0; k < 3; k++) way[k] = (way[k] - along * axis[k]) / sqrt(1 - along * along);
+    }
     for (int k = 0; k < 3; k++) {
         if (light->kind == GN_LIGHT_SPOT) way[k] = axis[k] + spread * way[k];
         sum += way[k] * way[k];
@@ -820,6 +827,18 @@ static void check_mask_pixel(const uint8_t *mask, int x, int y, uint32_t got, in
     CHECK(ratio_of(fabs(got - exact), bound, largest) <= 1);
 }
 
+/* All lit is exactly that. */
+static void test_mask_full(void)
+{
+    static uint32_t raw[W * H];
+    static uint8_t mask[16];
+    int n_wrong = 0;
+    memset(mask, 255, sizeof mask);
+    masked_ground(mask, 1, raw);
+    for (int i = 0; i < W * H; i++) n_wrong += raw[i] != 65536 && raw[i] != UINT32_MAX;
+    CHECK_EQ_INT(n_wrong, 0);
+}
+
 static void test_mask_corners(void)
 {
     static const uint8_t mask[16] = {0, 0, 10, 0, 0, 0, 255, 0, 0, 0, 99, 0, 0, 0, 201, 0};
@@ -847,6 +866,7 @@ int main(void)
     test_stored();
     test_mask_image();
     test_mask_corners();
+    test_mask_full();
     test_kept_fields();
     test_far_shadow();
     return check_report();
