@@ -67,6 +67,7 @@
     X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias (B3)", "flash")                                             \
     X(caster_bias, CASTER_BIAS, 0, 1, "casters shrunk along their normals (B4)", "flash")                                          \
     X(receiver_plane, RECEIVER_PLANE, 0, 1, "depth of the receiver's plane per tap (B5)", "flash")                                 \
+    X(auto_bias, AUTO_BIAS, 0, 1, "automatic bias (B6)", "flash")                                                                  \
     X(incremental, INCREMENTAL, 0, 1, "shadow tiles are kept while nothing in them changes (A5)",                                  \
       "16 bytes per tile; the same picture with and without")                                                                      \
     X(static_layer, STATIC_LAYER, 0, 1, "static casters are kept apart from moving ones (A5)", "the atlases' RAM twice")           \

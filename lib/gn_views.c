@@ -127,6 +127,12 @@ static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int
         gn_persp_fit_view(frame, view, light);
     }
 #endif
+#if GN_AUTO_BIAS
+    if (light->auto_bias) {
+        gn_bias_auto_view(frame, view);
+        return;
+    }
+#endif
     view->offset_q16 = gn_mul_shr(light->bias_normal_q16, 92682 * (view->filter_idx + 1), 16); /* sqrt(2) in Q16 */
 #if GN_RECEIVER_BIAS
     view->offset_q16 += (view->filter_idx + 1) * light->bias_receiver_q16[2];

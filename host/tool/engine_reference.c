@@ -5,6 +5,7 @@
 
 #include "engine.h"
 #include "output.h"
+#include "quantise.h"
 
 static unsigned level(double v, double levels)
 {
@@ -59,7 +60,13 @@ int engine_reference(engine_picture *out, const scene *s, const settings *set, i
                            .other_atlas_size = set->quality.other_atlas_size,
                            .max_tiles = capacity(set->capacity.max_shadow_tiles, GN_MAX_SHADOW_TILES),
                            .max_other_tiles = capacity(set->capacity.max_other_tiles, GN_MAX_OTHER_TILES),
-                           .srgb = set->quality.srgb != 0};
+                           .srgb = set->quality.srgb != 0,
+                           .shadow_subpixel_bits = set->quality.shadow_subpixel_bits,
+                           .weight_bits = set->quality.weight_bits,
+                           .depth_bits = set->quality.depth_bits,
+                           .other_depth_bits = set->quality.other_depth_bits,
+                           .newton_steps = set->quality.newton_steps,
+                           .unit = ldexp(1.0, -16 - quantise_world_exp(s))};
     memset(out, 0, sizeof *out);
     if (ref_render(&ref, s, &options, error, error_bytes)) return -1;
     size_t n = (size_t)width * (size_t)height;
