@@ -172,15 +172,18 @@ void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32
 void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int32_t face[3], int32_t out_q16[3])
 {
     int64_t reach_q16 = view->offset_q16, u = gn_abs32(face[0]), v = gn_abs32(face[1]); /* < 2^21 */
+    int32_t range_log2 = view->tile_log2 + view->depth_log2;
+    out_q16[0] = out_q16[1] = 0;
     if (form == GN_AUTO_BIAS_NORMAL) {
+        out_q16[2] = -INT32_MAX; /* too steep for the map */
+        if ((u > v ? u : v) >> (range_log2 + 1) > (int64_t)gn_abs32(face[2])) return;
         int64_t lift_q16 = ((reach_q16 * (u + v) + view->auto_step * (int64_t)gn_abs32(face[2])) >> 30) + 1; /* 2^53 + 2^61 */
         for (int i = 0; i < 3; i++) out_q16[i] = gn_sat32(gn_shr64(lift_q16 * face[i], 30));
         return;
     }
-    int64_t most_q10 = (int64_t)1 << (11 + view->tile_log2 + view->depth_log2); /* twice the range: half of that lights all */
+    int64_t most_q10 = (int64_t)1 << (11 + range_log2); /* twice the range: half of that lights all */
     u = u < most_q10 ? u : most_q10;
     v = v < most_q10 ? v : most_q10;
-    out_q16[0] = out_q16[1] = 0;
     out_q16[2] = gn_sat32(-((reach_q16 * (u + v) >> 10) + view->auto_step + 1)); /* 2^21 * 2^32 */
 }
 
@@ -198,6 +201,12 @@ static int64_t lift_share_q30(const gn_light_view *view, int64_t across_q30, int
     return gn_clamp64(gn_bf_apply(share, gn_bf_recip(gn_bf_from_u64((uint64_t)left)), 30) + 1, 0, two);
 }
 
+/* Whether depth changes by more than twice the range over a texel, which casters do not: n tau |m_u| > 2 h. */
+static int too_steep(const gn_light_view *view, int64_t m_q30, int64_t h_q16)
+{
+    return gn_bf_apply(m_q30 * view->fit.persp.near_q16, view->fit.persp.texel_per_z, -31) > h_q16; /* 2^31 * 2^29 */
+}
+
 /* Depth: reach * (|ds/dU| + |ds/dV|), Q32, with |ds/dU| = n tau |m_u| / h. */
 static int64_t slope_share_q32(const gn_light_view *view, int64_t across_q30, int64_t h_q16)
 {
@@ -212,11 +221,12 @@ int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias form, const i
 {
     int64_t h_q16 = -gn_shr64(gn_dot64(face_q30, from_q16), 30), flip = h_q16 < 0 ? -1 : 1, m_q30[3]; /* m . P = -h */
     for (int i = 0; i < 3; i++) m_q30[i] = flip * gn_shr64(gn_dot64(face_q30, view->axis_q30[i]), 30);
-    int64_t across_q30 = (int64_t)gn_abs64(m_q30[0]) + (int64_t)gn_abs64(m_q30[1]);
+    int64_t u_q30 = (int64_t)gn_abs64(m_q30[0]), v_q30 = (int64_t)gn_abs64(m_q30[1]), across_q30 = u_q30 + v_q30;
     int64_t lift_q16 = ((int64_t)depth_q16 * view->auto_ray_q40 >> 40) + GN_AUTO_UNITS + 1;
     int64_t less_q32 = view->auto_step;
     if (form == GN_AUTO_BIAS_NORMAL) {
         int64_t z_q16 = gn_clamp64(gn_shr64(gn_dot64(from_q16, view->axis_q30[2]), 30), 0, INT32_MAX);
+        if (too_steep(view, u_q30 > v_q30 ? u_q30 : v_q30, flip * h_q16)) less_q32 = (int64_t)1 << 33;
         lift_q16 += (z_q16 * lift_share_q30(view, across_q30, m_q30[2]) >> 30) + 1; /* 2^31 * 2^31 */
     } else less_q32 += slope_share_q32(view, across_q30, flip * h_q16);
     for (int i = 0; i < 3; i++) /* 2^33 * 2^30 would not fit, but a lift of 2^31 is beyond any light */

@@ -83,6 +83,7 @@ static vec3 ortho_bias(const ref_frame *frame, const ref_light_view *view, scene
     const double error = place_error(frame, farthest(frame, view)) / view->texel + PLANE_ERROR;
     const double reach = tap_reach(view) + tap_error(frame->options) + error, most = 2.0 * view->depth_range;
     const double step = view->depth_range * step_error(frame->options, view) + 3.0 * COORDINATE_LSB + error;
+    if (form == SCENE_AUTO_BIAS_NORMAL && fmax(fabs(n.x), fabs(n.y)) > most * fabs(n.z)) return (vec3){0.0, 0.0, -2.0 * most};
     if (form == SCENE_AUTO_BIAS_NORMAL) return vec3_scale(n, reach * (fabs(n.x) + fabs(n.y)) + step * fabs(n.z));
     return (vec3){0.0, 0.0, -reach * (steepness(n.x, n.z, most) + steepness(n.y, n.z, most)) - step};
 }
@@ -98,6 +99,7 @@ static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene
         *less += fmin(2.0, reach * view->near * view->texel * across / fabs(vec3_dot(m, point)));
         return vec3_scale(m, lift);
     }
+    if (view->near * view->texel * fmax(fabs(m.x), fabs(m.y)) > 2.0 * fabs(vec3_dot(m, point))) *less = 2.0;
     const double a = fmin(MOST_SHARE, reach * view->texel * across);
     const double share = a / fmax(0.5, 1.0 - a * fmax(0.0, m.z));
     return vec3_scale(m, lift + point.z * fmin(MOST_SHARE, share));
