@@ -162,8 +162,7 @@ void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32
 {
     int64_t n[3];
     for (int i = 0; i < 3; i++) n[i] = gn_shr64(gn_dot64(face_q30, view->axis_q30[i]), 30);
-    int64_t flip = n[2] > 0 ? -1 : 1; /* w is the direction of travel */
-    for (int i = 0; i < 3; i++) out[i] = gn_sat32(flip * n[i]);
+    for (int i = 0; i < 3; i++) out[i] = gn_sat32(n[i]);
     if (form == GN_AUTO_BIAS_NORMAL) return;
     gn_bfloat per_w = gn_bf_recip(gn_bf_from_u64(gn_abs64(n[2]) | 1U));
     for (int i = 0; i < 2; i++) out[i] = gn_sat32(gn_bf_apply((int64_t)gn_abs64(n[i]), per_w, 10) + 1);
@@ -219,18 +218,18 @@ static int64_t slope_share_q32(const gn_light_view *view, int64_t across_q30, in
 int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t depth_q16,
                            const int32_t from_q16[3], int32_t moved_q16[3])
 {
-    int64_t h_q16 = -gn_shr64(gn_dot64(face_q30, from_q16), 30), flip = h_q16 < 0 ? -1 : 1, m_q30[3]; /* m . P = -h */
-    for (int i = 0; i < 3; i++) m_q30[i] = flip * gn_shr64(gn_dot64(face_q30, view->axis_q30[i]), 30);
+    int64_t h_q16 = (int64_t)gn_abs64(gn_shr64(gn_dot64(face_q30, from_q16), 30)), m_q30[3]; /* m . P = -h, behind the face +h */
+    for (int i = 0; i < 3; i++) m_q30[i] = gn_shr64(gn_dot64(face_q30, view->axis_q30[i]), 30);
     int64_t u_q30 = (int64_t)gn_abs64(m_q30[0]), v_q30 = (int64_t)gn_abs64(m_q30[1]), across_q30 = u_q30 + v_q30;
     int64_t lift_q16 = ((int64_t)depth_q16 * view->auto_ray_q40 >> 40) + GN_AUTO_UNITS + 1;
     int64_t less_q32 = view->auto_step;
     if (form == GN_AUTO_BIAS_NORMAL) {
         int64_t z_q16 = gn_clamp64(gn_shr64(gn_dot64(from_q16, view->axis_q30[2]), 30), 0, INT32_MAX);
-        if (too_steep(view, u_q30 > v_q30 ? u_q30 : v_q30, flip * h_q16)) less_q32 = (int64_t)1 << 33;
+        if (too_steep(view, u_q30 > v_q30 ? u_q30 : v_q30, h_q16)) less_q32 = (int64_t)1 << 33;
         lift_q16 += (z_q16 * lift_share_q30(view, across_q30, m_q30[2]) >> 30) + 1; /* 2^31 * 2^31 */
-    } else less_q32 += slope_share_q32(view, across_q30, flip * h_q16);
+    } else less_q32 += slope_share_q32(view, across_q30, h_q16);
     for (int i = 0; i < 3; i++) /* 2^33 * 2^30 would not fit, but a lift of 2^31 is beyond any light */
-        moved_q16[i] = gn_sat32(from_q16[i] + gn_shr64(flip * gn_clamp64(lift_q16, 0, INT32_MAX) * face_q30[i], 30));
+        moved_q16[i] = gn_sat32(from_q16[i] + gn_shr64(gn_clamp64(lift_q16, 0, INT32_MAX) * face_q30[i], 30));
     return less_q32;
 }
 #endif

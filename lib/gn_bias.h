@@ -26,8 +26,8 @@ void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const 
 /* B6 (DESIGN 1.7), once per view, after its fit and filter. */
 void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view);
 
-/* Once per triangle and directional light: what gn_bias_auto_ortho takes. face_q30: the face's normal in the world, either way.
- * Normal: its parts along the light's axes, Q30, towards the light; depth: |dD/dU|, |dD/dV|, Q10. */
+/* Once per triangle and directional light: what gn_bias_auto_ortho takes. face_q30: the face's normal in the world, towards
+ * the viewer. Normal: its parts along the light's axes, Q30; depth: |dD/dU|, |dD/dV|, Q10. */
 void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3]);
 
 /* How far the receiver is moved, in texels along the view's axes, Q16. */

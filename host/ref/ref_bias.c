@@ -108,12 +108,10 @@ static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene
 vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at, vec3 in_light,
                    double *less)
 {
-    const vec3 f = at->face;
+    const vec3 f = vec3_dot(at->face, vec3_sub(frame->camera.position, at->world)) < 0.0 ? vec3_scale(at->face, -1.0) : at->face;
     const vec3 n = {vec3_dot(f, vec3_load(view->axis[0])), vec3_dot(f, vec3_load(view->axis[1])),
                     vec3_dot(f, vec3_load(view->axis[2]))};
-    const double side = view->perspective ? vec3_dot(n, in_light) : n.z;
-    const vec3 towards = side > 0.0 ? vec3_scale(n, -1.0) : n;
     *less = 0.0;
-    if (!view->perspective) return ortho_bias(frame, view, form, towards);
-    return persp_bias(frame, view, form, towards, in_light, at->view_depth, less);
+    if (!view->perspective) return ortho_bias(frame, view, form, n);
+    return persp_bias(frame, view, form, n, in_light, at->view_depth, less);
 }
