@@ -40,9 +40,9 @@
     X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "113 bytes of stack each")                       \
     X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "36 bytes each, 24 without spot and point lights")                 \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",                          \
-      "208 bytes each, 192 without incremental")                                                                                   \
+      "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                                     \
     X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the other atlas: 1 per spot, 6 per point light",                          \
-      "208 bytes each, 192 without incremental")                                                                                   \
+      "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                                     \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
 
 #define GN_FEATURE_KNOBS(X)                                                                                                        \
