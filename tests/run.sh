@@ -105,7 +105,7 @@ variant() { # variant COMPILER OPTIMISATION [1: with the tests that run once]
 
 install_missing
 build all
-build build/test_oiio build/test_stages build/test_accuracy build/test_bias build/test_rows build/test_seams build/gen_tables
+build build/test_oiio build/test_stages build/test_accuracy build/test_bias build/test_census build/test_rows build/test_seams build/gen_tables
 variant gcc -O0
 variant gcc -O2 1
 variant clang -O0
