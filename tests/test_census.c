@@ -286,7 +286,7 @@ static void print_detachment(void)
                 for (int i = 0; i < N_BESIDE; i++) {
                     const cell c = {(scene_light_kind)kind, filters[k], 16, SETTINGS_BALANCED, WALL_TEXELS};
                     const detachment d = wall_at(&c, &beside[i], wall_degrees[a]);
-                    printf(" %.1f, %.1f, %.1f %% |", tidy(d.gap, 0.05), tidy(d.shrink, 0.05), 100 * d.wrong);
+                    printf(" %.1f, %.1f, %.1f %% |", tidy(d.gap, 0.05), tidy(d.shrink, 0.05), 100 * fmin(1, d.wrong));
                 }
                 printf("\n");
             }
