@@ -1,5 +1,6 @@
 /* Receiver bias. */
 #include "gn_bias.h"
+#include "gn_cascade.h"
 #include "gn_math.h"
 #include "gn_q.h"
 
@@ -7,8 +8,28 @@
 
 #define GN_SQRT2_Q16 92682
 
-int32_t gn_bias_reach_q16(const gn_light *light)
+#if GN_AUTO_BIAS
+/* Half a cell of the positions of casters and of filter weights, and two roundings of coordinates; texels, Q16. */
+static int32_t auto_delta_q16(const gn_frame *frame)
 {
+    (void)frame;
+    return (1 << (15 - GN_K(frame, shadow_subpixel_bits))) + (1 << (15 - GN_K(frame, weight_bits))) + 2;
+}
+
+/* nu: sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits what steps of depth add along the normal. */
+static int32_t auto_reach_q16(const gn_frame *frame, const gn_light_view *view)
+{
+    return gn_mul_shr(65536 + auto_delta_q16(frame), GN_SQRT2_Q16, 16) +
+           (int32_t)((view->tile_texels * (int64_t)65536) >> GN_VIEW_BITS(view)) + 1;
+}
+#endif
+
+int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light)
+{
+#if GN_AUTO_BIAS
+    if (light->auto_bias) return auto_reach_q16(frame, view);
+#endif
+    (void)frame, (void)view;
     int32_t reach = gn_mul_shr(light->bias_normal_q16, GN_SQRT2_Q16, 16); /* <= 8 * 1.42 */
 #if GN_RECEIVER_BIAS
     reach += light->bias_receiver_q16[2] + light->bias_receiver_q16[3];
@@ -78,6 +99,140 @@ void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const 
         out_q16[i] = gn_sat32(gn_shr64(gn_clamp64(along, 0, INT32_MAX) * n_q30[i], 30) +
                               gn_shr64(gn_clamp64(towards, 0, INT32_MAX) * to_light[i], 30));
 }
+#endif
+
+/* ---- Automatic bias (B6) ---------------------------------------------------------------------------------------------- */
+
+#if GN_AUTO_BIAS
+/* How far the centre of a texel that the filter reads can be, along each axis; texels, Q16. */
+static int32_t taps_q16(const gn_light_view *view)
+{
+    if (view->filter == GN_FILTER_HARD) return 32768;
+    if (view->filter == GN_FILTER_DISK) return view->disk_radius_q16 + 32768;
+    return (view->filter_idx + 1) << 16;
+}
+
+/* Stored depth and receiver's depth, each rounded to a step, as a share of the range: (1 + 1/64) 2^-bits + 2^-29, Q32 */
+static int64_t depth_step_q32(const gn_light_view *view)
+{
+    return (((int64_t)65 << 26) >> GN_VIEW_BITS(view)) + 9;
+}
+
+/* sqrt(1 + k^2) times the relative error of view depths, Q40: 2^7 * 2^-17 at the most. */
+static int32_t ray_error_q40(const gn_frame *frame)
+{
+    uint64_t ray2_q48 = (((uint64_t)1 << 24) + (uint64_t)gn_cascade_tan2_q24(frame)) << 24; /* <= (2^24 + 2^38) 2^24 */
+    return (int32_t)((uint64_t)gn_isqrt64(ray2_q48) >> (GN_K(frame, newton_steps) == 1 ? 1 : 12)) + 1;
+}
+
+#define GN_AUTO_UNITS 8 /* roundings of a point and of its triangle's corners */
+
+/* Distance of a receiver from where it should be, in texels, Q16: the farthest that the view's cascade shows. */
+static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
+{
+    int64_t farthest_q16 = frame->scene->shadow.max_distance_q16;
+    if (!view->border_lit) {
+        const gn_cascade_state *cascade = &frame->cascade[view->cascade_idx];
+        int64_t end_q16 = (int64_t)cascade->centre_q16 + (int64_t)gn_isqrt64(cascade->radius2_q32);
+        farthest_q16 = end_q16 < farthest_q16 ? end_q16 : farthest_q16;
+    }
+    int64_t error_q32 = gn_shr64(farthest_q16 * ray_error_q40(frame), 24) + ((int64_t)GN_AUTO_UNITS << 16); /* 2^30 * 2^31 */
+    int64_t texels_q16 = gn_bf_apply(error_q32, view->fit.ortho.inv_texel, -16) + 17; /* 2^-12: planes of large casters */
+    return (int32_t)gn_clamp64(texels_q16, 0, 8 << 16);
+}
+
+void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
+{
+    view->offset_q16 = taps_q16(view) + auto_delta_q16(frame);
+    if (view->perspective) {
+        /* coordinates are as wrong as the reciprocal: by 2^-17 of half a tile, or 2^-29; and so is n / z */
+        int one_step = GN_K(frame, newton_steps) == 1;
+        view->offset_q16 += one_step ? (view->tile_texels + 3) >> 2 : 1;
+        view->auto_step = (int32_t)(depth_step_q32(view) + (one_step ? 32768 : 8));
+        view->auto_ray_q40 = ray_error_q40(frame);
+        return;
+    }
+    int32_t place_q16 = place_error_q16(frame, view);
+    int64_t step_q16 = gn_scale64(depth_step_q32(view), 16 - view->tile_log2 - view->depth_log2) + 1; /* 2^25 * 2^4 */
+    view->offset_q16 += place_q16;
+    view->auto_step = (int32_t)gn_clamp64(step_q16 + 3 + place_q16, 0, INT32_MAX);
+}
+
+void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3])
+{
+    int64_t n[3];
+    for (int i = 0; i < 3; i++) n[i] = gn_shr64(gn_dot64(face_q30, view->axis_q30[i]), 30);
+    for (int i = 0; i < 3; i++) out[i] = gn_sat32(n[i]);
+    if (form == GN_AUTO_BIAS_NORMAL) return;
+    gn_bfloat per_w = gn_bf_recip(gn_bf_from_u64(gn_abs64(n[2]) | 1U));
+    for (int i = 0; i < 2; i++) out[i] = gn_sat32(gn_bf_apply((int64_t)gn_abs64(n[i]), per_w, 10) + 1);
+}
+
+void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int32_t face[3], int32_t out_q16[3])
+{
+    int64_t reach_q16 = view->offset_q16, u = gn_abs32(face[0]), v = gn_abs32(face[1]); /* < 2^21 */
+    int32_t range_log2 = view->tile_log2 + view->depth_log2;
+    out_q16[0] = out_q16[1] = 0;
+    if (form == GN_AUTO_BIAS_NORMAL) {
+        out_q16[2] = -INT32_MAX; /* too steep for the map */
+        if ((u > v ? u : v) >> (range_log2 + 1) > (int64_t)gn_abs32(face[2])) return;
+        int64_t lift_q16 = ((reach_q16 * (u + v) + view->auto_step * (int64_t)gn_abs32(face[2])) >> 30) + 1; /* 2^53 + 2^61 */
+        for (int i = 0; i < 3; i++) out_q16[i] = gn_sat32(gn_shr64(lift_q16 * face[i], 30));
+        return;
+    }
+    int64_t most_q10 = (int64_t)1 << (11 + range_log2); /* twice the range: half of that lights all */
+    u = u < most_q10 ? u : most_q10;
+    v = v < most_q10 ? v : most_q10;
+    out_q16[2] = gn_sat32(-((reach_q16 * (u + v) >> 10) + view->auto_step + 1)); /* 2^21 * 2^32 */
+}
+
+#if GN_PUNCTUAL_LIGHTS
+/* Normal: the way off the plane that a tap's reach takes, in units of the light-plane distance, Q30, at most 2: A / (1 - A max(0, m_w)),
+ * A = reach * tau * (|m_u| + |m_v|). */
+static int64_t lift_share_q30(const gn_light_view *view, int64_t across_q30, int64_t m_w_q30)
+{
+    const int64_t two = (int64_t)2 << 30;
+    int64_t share = gn_bf_apply(view->offset_q16 * across_q30 >> 16, view->fit.persp.texel_per_z, 0) + 1; /* 2^21 * 2^31 */
+    share = gn_clamp64(share, 0, two);
+    if (m_w_q30 <= 0) return share;
+    int64_t left = ((int64_t)1 << 30) - (share * m_w_q30 >> 30); /* seen from behind the light's plane */
+    if (left < (int64_t)1 << 29) left = (int64_t)1 << 29;
+    return gn_clamp64(gn_bf_apply(share, gn_bf_recip(gn_bf_from_u64((uint64_t)left)), 30) + 1, 0, two);
+}
+
+/* Whether depth changes by more than twice the range over a texel, which casters do not: n tau |m_u| > 2 h. */
+static int too_steep(const gn_light_view *view, int64_t m_q30, int64_t h_q16)
+{
+    return gn_bf_apply(m_q30 * view->fit.persp.near_q16, view->fit.persp.texel_per_z, -31) > h_q16; /* 2^31 * 2^29 */
+}
+
+/* Depth: reach * (|ds/dU| + |ds/dV|), Q32, with |ds/dU| = n tau |m_u| / h. */
+static int64_t slope_share_q32(const gn_light_view *view, int64_t across_q30, int64_t h_q16)
+{
+    const gn_persp_fit *fit = &view->fit.persp;
+    gn_bfloat per_h = gn_bf_mul(gn_bf_recip(gn_bf_from_u64((uint64_t)h_q16 | 1U)), fit->texel_per_z);
+    int64_t reach_q26 = view->offset_q16 * across_q30 >> 20;                                      /* 2^21 * 2^31 * 2^-20 */
+    return gn_clamp64(gn_bf_apply(reach_q26 * fit->near_q16, per_h, 6) + 1, 0, (int64_t)1 << 33); /* 2^32 * 2^29 */
+}
+
+int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t depth_q16,
+                           const int32_t from_q16[3], int32_t moved_q16[3])
+{
+    int64_t h_q16 = (int64_t)gn_abs64(gn_shr64(gn_dot64(face_q30, from_q16), 30)), m_q30[3]; /* m . P = -h, behind the face +h */
+    for (int i = 0; i < 3; i++) m_q30[i] = gn_shr64(gn_dot64(face_q30, view->axis_q30[i]), 30);
+    int64_t u_q30 = (int64_t)gn_abs64(m_q30[0]), v_q30 = (int64_t)gn_abs64(m_q30[1]), across_q30 = u_q30 + v_q30;
+    int64_t lift_q16 = ((int64_t)depth_q16 * view->auto_ray_q40 >> 40) + GN_AUTO_UNITS + 1;
+    int64_t less_q32 = view->auto_step;
+    if (form == GN_AUTO_BIAS_NORMAL) {
+        int64_t z_q16 = gn_clamp64(gn_shr64(gn_dot64(from_q16, view->axis_q30[2]), 30), 0, INT32_MAX);
+        if (too_steep(view, u_q30 > v_q30 ? u_q30 : v_q30, h_q16)) less_q32 = (int64_t)1 << 33;
+        lift_q16 += (z_q16 * lift_share_q30(view, across_q30, m_q30[2]) >> 30) + 1; /* 2^31 * 2^31 */
+    } else less_q32 += slope_share_q32(view, across_q30, h_q16);
+    for (int i = 0; i < 3; i++) /* 2^33 * 2^30 would not fit, but a lift of 2^31 is beyond any light */
+        moved_q16[i] = gn_sat32(from_q16[i] + gn_shr64(gn_clamp64(lift_q16, 0, INT32_MAX) * face_q30[i], 30));
+    return less_q32;
+}
+#endif
 #endif
 
 #endif

@@ -171,6 +171,9 @@
 #ifndef GN_RECEIVER_PLANE
 #define GN_RECEIVER_PLANE 1
 #endif
+#ifndef GN_AUTO_BIAS
+#define GN_AUTO_BIAS 1
+#endif
 #ifndef GN_INCREMENTAL
 #define GN_INCREMENTAL 1
 #endif

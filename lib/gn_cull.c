@@ -110,7 +110,7 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, const
     const gn_light *light = &frame->scene->lights[view->light_idx];
     int64_t share_uq16 = 52429 - (int64_t)frame->scene->shadow.cascade_fade_uq16; /* 0.8 - c */
     if (share_uq16 <= 0 || light->receiver_plane) return 0; /* B5: a tap may compare with a depth far from the receiver's */
-    for (uint32_t i = 0; i < frame->n_cascades; i++) /* A5: an old tile may lack what a new one shows */
+    for (uint32_t i = 0; i < frame->n_cascades; i++)        /* A5: an old tile may lack what a new one shows */
         if (frame->scene->shadow.refresh[i] > 1) return 0;
     const int64_t zero[3] = {0, 0, 0};
     int64_t c[3], end[3], half[3];
@@ -120,7 +120,7 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, const
     }
     /* the sphere around the object, widened by what a lookup in this view can reach beyond it */
     int64_t reach_texels_q16 =
-        (view->filter_idx + 1) * (int64_t)(65536 + gn_bias_reach_q16(light)) + 131072 + light->bias_caster_q16;
+        (view->filter_idx + 1) * (int64_t)(65536 + gn_bias_reach_q16(frame, view, light)) + 131072 + light->bias_caster_q16;
     int64_t radius =
         (int64_t)distance_q16(half, zero) + gn_bf_apply(reach_texels_q16, gn_bf_recip(view->fit.ortho.inv_texel), 0) + 2;
     int64_t length = shadow_length_q16(frame, view, c, radius);

@@ -40,9 +40,9 @@
     X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "113 bytes of stack each")                       \
     X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "36 bytes each, 24 without spot and point lights")                 \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",                          \
-      "208 bytes each, 192 without incremental")                                                                                   \
+      "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                                     \
     X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the other atlas: 1 per spot, 6 per point light",                          \
-      "208 bytes each, 192 without incremental")                                                                                   \
+      "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                                     \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
 
 #define GN_FEATURE_KNOBS(X)                                                                                                        \
@@ -67,6 +67,7 @@
     X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias (B3)", "flash")                                             \
     X(caster_bias, CASTER_BIAS, 0, 1, "casters shrunk along their normals (B4)", "flash")                                          \
     X(receiver_plane, RECEIVER_PLANE, 0, 1, "depth of the receiver's plane per tap (B5)", "flash")                                 \
+    X(auto_bias, AUTO_BIAS, 0, 1, "automatic bias (B6)", "flash")                                                                  \
     X(incremental, INCREMENTAL, 0, 1,                                                                                              \
       "shadow tiles are kept from frame to frame while nothing in them changes: a single picture shows nothing of it (A5)",        \
       "16 bytes per tile; the same picture with and without")                                                                      \

@@ -15,11 +15,11 @@ int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_
 }
 
 /* Texel size from the sphere: ceil8 of (1 - 2^-20) * 2 r / D. Returns its reciprocal. */
-static gn_bfloat inverse_texel(const gn_light_view *view, const gn_light *light, uint32_t filter_idx, gn_bfloat radius,
-                               int *clamped)
+static gn_bfloat inverse_texel(const gn_frame *frame, const gn_light_view *view, const gn_light *light, uint32_t filter_idx,
+                               gn_bfloat radius, int *clamped)
 {
     int64_t t_q16 = (int64_t)view->tile_texels << 16;
-    int64_t sphere_q16 = t_q16 - 2 * (int64_t)(filter_idx + 1) * (65536 + gn_bias_reach_q16(light)) - 65536;
+    int64_t sphere_q16 = t_q16 - 2 * (int64_t)(filter_idx + 1) * (65536 + gn_bias_reach_q16(frame, view, light)) - 65536;
     *clamped = sphere_q16 < t_q16 / 4;
     if (*clamped) sphere_q16 = t_q16 / 4;
     gn_bfloat texel = gn_bf_mul(radius, gn_bf_recip(gn_bf_from_u64((uint64_t)sphere_q16)));
@@ -44,7 +44,7 @@ static int64_t disk_radius_q16(const gn_frame *frame, gn_bfloat inv_texel)
 static void disk_index(const gn_frame *frame, gn_light_view *view, const gn_light *light, gn_bfloat radius)
 {
     int clamped;
-    int64_t texels_q16 = disk_radius_q16(frame, inverse_texel(view, light, 0, radius, &clamped));
+    int64_t texels_q16 = disk_radius_q16(frame, inverse_texel(frame, view, light, 0, radius, &clamped));
     view->filter_idx = (uint8_t)gn_clamp64((texels_q16 + 65535) >> 16, 1, GN_DISK_INDEX_MAX);
 }
 #endif
@@ -98,7 +98,7 @@ void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
 #if GN_DISK_FILTER
     if (view->filter == GN_FILTER_DISK) disk_index(frame, view, light, radius);
 #endif
-    view->fit.ortho.inv_texel = inverse_texel(view, light, view->filter_idx, radius, &clamped);
+    view->fit.ortho.inv_texel = inverse_texel(frame, view, light, view->filter_idx, radius, &clamped);
     frame->stats.n_reach_clamped += (uint32_t)clamped;
     place_tile(frame, view, light, centre_q16);
     gn_ortho_rays(frame, view);

@@ -57,7 +57,8 @@ void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
             focal2_q16(view->tile_texels, gn_sin_q30(light->outer_turn), ((int64_t)1 << 30) + gn_cos_q30(light->outer_turn));
     else
         fit->focal2_q16 = focal2_q16(
-            view->tile_texels, gn_persp_face_q24(view->filter_idx, gn_bias_reach_q16(light), view->tile_texels, &clamped), 1 << 24);
+            view->tile_texels,
+            gn_persp_face_q24(view->filter_idx, gn_bias_reach_q16(frame, view, light), view->tile_texels, &clamped), 1 << 24);
     frame->stats.n_reach_clamped += (uint32_t)clamped;
     fit->texel_per_z = gn_bf_recip(gn_bf_from_u64(fit->focal2_q16));
     fit->near_over_focal2 = gn_bf_mul(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16), fit->texel_per_z);

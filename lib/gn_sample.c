@@ -90,6 +90,24 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
     }
 }
 
+/* The surface's offset in a view, where it is not one for all views of the light: of smooth surfaces, of the disk, whose index and
+ * reach are the cascade's own, and of B6, whose steps of depth are. */
+static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot, const gn_light_view *view,
+                                 const int32_t n_q30[3], int32_t moved_q16[3])
+{
+    const int32_t *flat = s->light[slot].flat_offset_q16;
+#if GN_AUTO_BIAS
+    gn_auto_bias form = frame->scene->lights[s->light[slot].idx].auto_bias;
+    if (form) {
+        gn_bias_auto_ortho(view, form, flat, moved_q16);
+        return moved_q16;
+    }
+#endif
+    if (!s->smooth && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK)) return flat;
+    gn_bias_directional(frame, view, n_q30, moved_q16);
+    return moved_q16;
+}
+
 /* Where a directional light's view sees the point; in cascades also where the next one does. */
 static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
                                const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
@@ -101,17 +119,13 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
     if (cascaded && sample->cascade == GN_CASCADE_NONE) return;
     if (cascaded) view += sample->cascade;
     int32_t moved[3];
-    const int32_t *offset = s->light[slot].flat_offset_q16;
-    int own_offset = GN_DISK_FILTER && view->filter == GN_FILTER_DISK; /* its index, and so its reach, is the cascade's own */
-    if (s->smooth || own_offset) {
-        gn_bias_directional(frame, view, n_q30, moved);
-        offset = moved;
-    }
+    const int32_t *offset = own_offset(frame, s, slot, view, n_q30, moved);
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out);
     if (!GN_BLENDED_CASCADES || !cascaded || frame->scene->shadow.blend == GN_BLEND_HARD || sample->cascade == frame->last_cascade)
         return;
     view += frame->cascade[sample->cascade].next - sample->cascade;
-    if (own_offset) gn_bias_directional(frame, view, n_q30, moved);
+    int same = view->filter != GN_FILTER_DISK && !(GN_AUTO_BIAS && frame->scene->lights[s->light[slot].idx].auto_bias);
+    if (!same) offset = own_offset(frame, s, slot, view, n_q30, moved);
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
 }
 #endif
@@ -126,7 +140,9 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
     for (int i = 0; i < 3; i++) out[GN_LIGHT_POINT_AT + i] = (int32_t)gn_clamp64(at[i], -INT32_MAX, INT32_MAX);
     out[GN_LIGHT_FACING] = gn_sat32(-gn_shr64(gn_dot64(unit_q30, out + GN_LIGHT_POINT_AT), 30));
 #if GN_SHADOWS
-    if (light->view_idx >= 0 && s->shadowed) gn_bias_punctual(frame, light, n_q30, out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
+    int own = GN_AUTO_BIAS && frame->scene->lights[s->light[slot].idx].auto_bias; /* B6: per pixel */
+    if (light->view_idx >= 0 && s->shadowed && !own)
+        gn_bias_punctual(frame, light, n_q30, out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
 #else
     (void)frame, (void)n_q30;
 #endif

@@ -138,7 +138,8 @@ static int biases_ok(const gn_light *light)
     }
     lo = gn_min32(lo, light->bias_caster_q16);
     return ok && lo >= 0 && light->bias_caster_q16 <= (GN_CASTER_BIAS ? 8 << 16 : 0) &&
-           light->receiver_plane <= (GN_RECEIVER_PLANE ? 1U : 0U);
+           light->receiver_plane <= (GN_RECEIVER_PLANE ? 1U : 0U) && (int)light->auto_bias >= GN_AUTO_BIAS_OFF &&
+           (int)light->auto_bias <= (GN_AUTO_BIAS ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_OFF);
 }
 
 static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t idx)

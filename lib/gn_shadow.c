@@ -1,5 +1,6 @@
 /* Shadow of one light at a sample. */
 #include "gn_shadow.h"
+#include "gn_bias.h"
 #include "gn_filter.h"
 #include "gn_noise.h"
 #include "gn_persp.h"
@@ -115,15 +116,31 @@ static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t re
     return gn_sat32(texels + ((int64_t)view->tile_texels << 15));
 }
 
+/* B2 and B3 have moved the point at the sample; B6 does it here, face by face of a point light. Returns what is to be taken off its
+ * depth, Q32. */
+static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, const gn_light_view *view,
+                           const int32_t *value, int32_t moved_q16[3])
+{
+    const int32_t *from = value + GN_LIGHT_POINT_AT, *offset = value + GN_LIGHT_OFFSET;
+#if GN_AUTO_BIAS
+    gn_auto_bias form = frame->scene->lights[view->light_idx].auto_bias;
+    if (form) return gn_bias_auto_persp(view, form, surface->face_q30, sample->value[GN_VALUE_Z], from, moved_q16);
+#else
+    (void)frame, (void)surface, (void)sample, (void)view;
+#endif
+    for (int i = 0; i < 3; i++) moved_q16[i] = gn_sat32((int64_t)from[i] + offset[i]);
+    return 0;
+}
+
 static uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                                   const gn_light_view *view, const int32_t value[GN_VALUES_PER_LIGHT])
 {
-    const int32_t *from = value + GN_LIGHT_POINT_AT, *offset = value + GN_LIGHT_OFFSET;
+    const int32_t *from = value + GN_LIGHT_POINT_AT;
     /* P5: the face of the unmoved point; the moved one stays in it */
     if (frame->light[view->light_idx].kind == GN_LIGHT_POINT) view += gn_persp_face(from);
     int32_t moved[3];
     int64_t at[3];
-    for (int i = 0; i < 3; i++) moved[i] = gn_sat32((int64_t)from[i] + offset[i]);
+    int64_t less_q32 = moved_point(frame, surface, sample, view, value, moved);
     for (int i = 0; i < 3; i++) at[i] = gn_shr64(gn_dot64(moved, view->axis_q30[i]), 30); /* sqrt(3) * 2^61 */
     if (at[2] <= view->fit.persp.near_q16) return GN_ONE_UQ16;
     uint32_t z = at[2] > UINT32_MAX ? UINT32_MAX : (uint32_t)at[2];
@@ -132,7 +149,7 @@ static uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surfa
     /* 1 - n / z: n * recip * 2^(clz - 31) */
     uint64_t inverse = (uint64_t)(uint32_t)view->fit.persp.near_q16 * recip >> (31 - clz);
     gn_receiver r = {persp_coord(view, at[0], recip, clz), persp_coord(view, at[1], recip, clz), 0, {0, 0}, sample->x, sample->y};
-    r.depth_q32 = inverse > UINT32_MAX ? 0 : UINT32_MAX - (uint32_t)inverse;
+    r.depth_q32 = (uint32_t)gn_clamp64(UINT32_MAX - (int64_t)inverse - less_q32, 0, UINT32_MAX);
 #if GN_RECEIVER_PLANE
     if (frame->scene->lights[view->light_idx].receiver_plane) persp_slopes(view, surface->face_q30, from, r.slope_q28);
 #else

@@ -95,9 +95,13 @@ typedef struct {
         gn_ortho_fit ortho;
         gn_persp_fit persp;
     } fit;
-    gn_texels depth;         /* T * T, row by row, inside the atlas */
-    uint32_t first_texel;    /* of the tile in its atlas */
-    int32_t offset_q16;      /* B2 and b_z of B3: receiver offset along the normal, texels */
+    gn_texels depth;      /* T * T, row by row, inside the atlas */
+    uint32_t first_texel; /* of the tile in its atlas */
+    int32_t offset_q16;   /* B2 and b_z of B3: receiver offset along the normal, texels; B6: the reach of a tap, texels */
+#if GN_AUTO_BIAS
+    int32_t auto_step;    /* B6: what rounding of depths takes, directional: texels, Q16; spot, point: share of the range, Q32 */
+    int32_t auto_ray_q40; /* B6, spot and point: error of a point per view depth */
+#endif
     int32_t disk_radius_q16; /* F4, texels */
     int32_t bias_constant_q16, bias_slope_q16;
     uint16_t tile_texels; /* T */

@@ -209,20 +209,34 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
 }
 
 #if GN_SHADOWS
+/* What a light's bias takes from the surface, once for all of it: the face's normal, a directional light's offset. */
+static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
+{
+    const gn_light_state *light = s->light[slot].state;
+    const gn_light_view *view = &frame->view[light->view_idx];
+    if (light->kind == GN_LIGHT_DIRECTIONAL && !view->border_lit) view += frame->last_cascade; /* the first may be empty */
+#if GN_RECEIVER_PLANE || GN_AUTO_BIAS
+    const gn_light *scene_light = &frame->scene->lights[s->light[slot].idx];
+    if (scene_light->receiver_plane || scene_light->auto_bias) face_normal(frame, s, s->face_q30);
+#endif
+#if GN_AUTO_BIAS
+    if (scene_light->auto_bias) {
+        if (light->kind == GN_LIGHT_DIRECTIONAL)
+            gn_bias_auto_face(view, scene_light->auto_bias, s->face_q30, s->light[slot].flat_offset_q16);
+        return;
+    }
+#endif
+    if (!s->smooth && light->kind == GN_LIGHT_DIRECTIONAL)
+        gn_bias_directional(frame, view, s->normal_q30[0], s->light[slot].flat_offset_q16);
+}
+
 static void shadows(const gn_frame *frame, gn_surface *s)
 {
     if (!(s->object->flags & GN_OBJECT_RECEIVES) || s->object->flags & GN_OBJECT_UNLIT) return;
     for (uint32_t i = 0; i < s->n_lights; i++) {
-        const gn_light_state *light = s->light[i].state;
-        if (light->view_idx < 0) continue;
+        if (s->light[i].state->view_idx < 0) continue;
         s->shadowed = 1;
-        uint32_t last = frame->view[light->view_idx].border_lit ? 0 : frame->last_cascade;
-        if (!s->smooth && light->kind == GN_LIGHT_DIRECTIONAL)
-            gn_bias_directional(frame, &frame->view[(uint32_t)light->view_idx + last], s->normal_q30[0],
-                                s->light[i].flat_offset_q16);
-#if GN_RECEIVER_PLANE
-        if (frame->scene->lights[s->light[i].idx].receiver_plane) face_normal(frame, s, s->face_q30);
-#endif
+        bias(frame, s, i);
     }
 }
 #endif

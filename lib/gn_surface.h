@@ -12,7 +12,7 @@ typedef struct {
     const gn_light_state *state;
     uint32_t idx;
     uint32_t radiance_uq16[3]; /* albedo times colour */
-    /* where the normal is constant, for directional lights: n . L, and the receiver's offset in texels */
+    /* where the normal is constant, for directional lights: n . L, and the receiver's offset in texels; B6: what gn_bias_auto_face says */
     int32_t flat_cosine_q24;
     int32_t flat_offset_q16[3];
 } gn_surface_light;
@@ -34,7 +34,7 @@ typedef struct {
 #if GN_BAKED_LIGHT
     int32_t baked_q16[3][3];
 #endif
-#if GN_RECEIVER_PLANE
+#if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     int32_t face_q30[3]; /* normal of the face in the world; only where some light of the list asks for it */
 #endif
     uint8_t has_bary, smooth, coloured, textured, masked, baked, specular;

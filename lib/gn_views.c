@@ -123,6 +123,12 @@ static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int
         gn_persp_fit_view(frame, view, light);
     }
 #endif
+#if GN_AUTO_BIAS
+    if (light->auto_bias) {
+        gn_bias_auto_view(frame, view);
+        return;
+    }
+#endif
     view->offset_q16 = gn_mul_shr(light->bias_normal_q16, 92682 * (view->filter_idx + 1), 16); /* sqrt(2) in Q16 */
 #if GN_RECEIVER_BIAS
     view->offset_q16 += (view->filter_idx + 1) * light->bias_receiver_q16[2];
@@ -182,6 +188,9 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
     view->empty = plan->cascaded && frame->cascade[cascade_idx].radius2_q32 == 0;
     if (view->empty) return;
     if (view->stale) gn_ortho_rays(frame, view);
+#if GN_AUTO_BIAS
+    if (view->stale && frame->scene->lights[light_idx].auto_bias) gn_bias_auto_view(frame, view);
+#endif
     /* a texel that was fitted to a far narrower picture can leave a ray no fraction bits */
     if (view->stale && view->fit.ortho.ray_shift < 0) view->stale = 0;
     if (!view->stale) fit(frame, view, &frame->scene->lights[light_idx], plan->cascaded);

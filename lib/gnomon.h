@@ -179,6 +179,7 @@ typedef enum {
     GN_SOFTNESS_HARD,
     GN_SOFTNESS_SOFT
 } gn_softness; /* F5: the atlas's filter, 2x2, at least 5x5 */
+typedef enum { GN_AUTO_BIAS_OFF, GN_AUTO_BIAS_DEPTH, GN_AUTO_BIAS_NORMAL } gn_auto_bias; /* B6 */
 
 typedef struct {
     gn_light_kind kind;
@@ -199,6 +200,7 @@ typedef struct {
     int32_t bias_receiver_q16[4]; /* B3, 0..8 each */
     int32_t bias_caster_q16;      /* B4, texels, 0..8 */
     uint32_t receiver_plane;      /* B5: 1: every tap compares with the depth of the receiver's plane */
+    gn_auto_bias auto_bias;       /* B6: the least bias that leaves a plane no acne, instead of B2 and B3 */
     int32_t near_offset_q16;      /* D9, directional: pulls the light's near plane back, world units, 0..8192 */
 } gn_light;
 

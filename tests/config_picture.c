@@ -78,6 +78,7 @@ static void use_lights(int variant)
         for (int i = 0; i < 4; i++) sun.bias_receiver_q16[i] = GN_Q16(0.1) * i;
     if (use.caster_bias) sun.bias_caster_q16 = GN_Q16(0.4);
     sun.receiver_plane = use.receiver_plane && variant % 2;
+    if (use.auto_bias && variant) sun.auto_bias = variant % 2 ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_DEPTH;
     sun.softness = use.filter_max >= 3 && variant == 1 ? GN_SOFTNESS_SOFT : GN_SOFTNESS_DEFAULT;
     sun.near_q16 = GN_Q16(0.1);
     lights[0] = lights[1] = lights[2] = lights[3] = sun;
@@ -278,6 +279,10 @@ static void ask_plane(void)
 {
     lights[0].receiver_plane = 1;
 }
+static void ask_auto_bias(void)
+{
+    lights[0].auto_bias = GN_AUTO_BIAS_NORMAL;
+}
 static void ask_refresh(void)
 {
     demo.scene.shadow.refresh[2] = 2;
@@ -316,6 +321,7 @@ static const struct {
     {"receiver bias", GN_RECEIVER_BIAS, GN_ERR_LIGHT_BIAS, ask_receiver_bias},
     {"caster bias", GN_CASTER_BIAS, GN_ERR_LIGHT_BIAS, ask_caster_bias},
     {"receiver plane", GN_RECEIVER_PLANE, GN_ERR_LIGHT_BIAS, ask_plane},
+    {"automatic bias", GN_AUTO_BIAS, GN_ERR_LIGHT_BIAS, ask_auto_bias},
     {"refresh", GN_INCREMENTAL || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_refresh},
     {"soft", GN_FILTER_MAX >= 3 || !GN_SHADOWS, GN_ERR_LIGHT_KIND, ask_soft},
     {"hard", GN_FILTER_MAX >= 1 || !GN_DISK_FILTER || !GN_SHADOWS, GN_ERR_LIGHT_KIND, ask_hard},

@@ -95,6 +95,7 @@ MASKS masks
 BAKED_LIGHT baked_light
 CASTER_BIAS corner_normals
 RECEIVER_PLANE .*_slopes|lit_row_on_plane
+AUTO_BIAS gn_bias_auto_.*|.*_share_q3[02]|auto_.*
 INCREMENTAL check_layout|view_signature|stays
 STATIC_LAYER copy_texels
 MAIN_LIGHT main_light

@@ -62,6 +62,7 @@ static void any_bias(gn_light *light, rng *r)
     light->bias_caster_q16 = rng_below(r, 3) ? 0 : rng_range(r, 0, GN_Q16(8));
     for (int k = 0; k < 4; k++) light->bias_receiver_q16[k] = rng_below(r, 3) ? 0 : rng_range(r, 0, GN_Q16(1));
     light->receiver_plane = rng_below(r, 2);
+    light->auto_bias = rng_below(r, 2) ? GN_AUTO_BIAS_OFF : (gn_auto_bias)(1 + rng_below(r, 2));
     light->near_offset_q16 = rng_below(r, 3) ? 0 : rng_range(r, 0, GN_Q16(20));
 }
 

@@ -544,6 +544,7 @@ static const bounded bounds[] = {
     LIGHT_SIGNED(FULL_SPOT, bias_receiver_q16[3], 0, 8 * UNIT, GN_ERR_LIGHT_BIAS),
     LIGHT_SIGNED(FULL_DIRECTIONAL, bias_caster_q16, 0, 8 * UNIT, GN_ERR_LIGHT_BIAS),
     UNSIGNED(full.light[2].receiver_plane, 0, 1, GN_ERR_LIGHT_BIAS, 2),
+    LIGHT_SIGNED(FULL_SPOT, auto_bias, 0, 2, GN_ERR_LIGHT_BIAS),
     LIGHT_SIGNED(FULL_DIRECTIONAL, near_offset_q16, 0, 8192 * UNIT, GN_ERR_LIGHT_BIAS),
     SIGNED(demo.object[1].visible_alpha, 0, 2, GN_ERR_MATERIAL, 1),
     SIGNED(demo.object[2].caster_alpha, 0, 2, GN_ERR_MATERIAL, 2),

@@ -177,6 +177,7 @@ static void test_light(void)
     light.softness = SCENE_SOFT_HARD;
     light.mask_channel = 2;
     light.receiver_plane = true;
+    light.auto_bias = SCENE_AUTO_BIAS_NORMAL;
     light.bias_caster = 0.5;
     light.bias_constant = 1.5;
     light.bias_slope = 2.5;
@@ -199,6 +200,7 @@ static void test_light(void)
     CHECK_EQ_INT(l->bias_receiver_q16[0], 32768);
     CHECK_EQ_INT(l->bias_receiver_q16[3], 8 << 16);
     CHECK_EQ_INT(l->receiver_plane, 1);
+    CHECK_EQ_INT(l->auto_bias, GN_AUTO_BIAS_NORMAL);
     quantise_free(&fixed);
     light.shadow = false;
     if (!quantise()) return;

@@ -255,8 +255,12 @@ static void check_row(const row *r, int preset, bool list)
         {"B4", "yard", ".light=" light " bias_normal=0", "bias_caster=1.5", "", 0.25},                                             \
         {"B4", "yard", ".light=" light " bias_normal=0 .normals=0", "bias_caster=1.5", "", 0.25},                                  \
         {"B5", "yard", ".light=" light " bias_normal=0 bias_constant=0.4", "receiver_plane=1", "", 0.25},                          \
+        {"B5", "yard", ".light=" light " bias_normal=0.3 filter=5x5", "receiver_plane=1", "", 0.25},                               \
+        {"B6", "yard", ".light=" light " bias_normal=0", "auto_bias=normal", "", 0.25},                                            \
+        {"B6", "yard", ".light=" light " bias_normal=0 filter=5x5", "auto_bias=depth", "", 0.25},                                  \
+        {"B6", "yard", ".light=" light " bias_normal=0 filter=disk penumbra=6", "auto_bias=normal", "", 0.5},                      \
     {                                                                                                                              \
-        "B5", "yard", ".light=" light " bias_normal=0.3 filter=5x5", "receiver_plane=1", "", 0.25                                  \
+        "B6", "yard", ".light=" light " bias_normal=0 .normals=0", "auto_bias=normal", "", 0.25                                    \
     }
 
 static const row rows[] = {
@@ -481,6 +485,13 @@ static const row rows[] = {
     {"R4", "yard", ".light=all .texture=bilinear .colours=1", "persp_step=4", NULL, 0.5},
 
     /* the own scenes */
+    {"B6", "lane", "cascades=4 cascade_blend=soft cascade_fade=0.3 bias_normal=0", "auto_bias=normal", "", 0.25},
+    {"B6", "sundial.gltf", "bias_normal=0", "auto_bias=normal", NULL, 0.25},
+    {"B6", "avenue.gltf", "bias_normal=0", "auto_bias=normal", NULL, 0.25},
+    {"B6", "desk.gltf", "bias_normal=0", "auto_bias=normal", NULL, 0.25},
+    {"B6", "room.gltf", "bias_normal=0", "auto_bias=normal", NULL, 0.75},
+    {"B6", "fence.gltf", "bias_normal=0", "auto_bias=normal", NULL, 0.25},
+    {"B6", "mixed.gltf", "bias_normal=0", "auto_bias=normal", NULL, 0.25},
     {"all", "sundial.gltf", "", "lights=spot", "", 0.5},
     {"all", "sundial.gltf", "", "lights=point", "", 0.5},
     {"all", "avenue.gltf", "", "add_light=spot add_light=point", "", 0.5},

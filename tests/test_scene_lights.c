@@ -32,7 +32,7 @@ static void test_spot(void)
     CHECK_NEAR(l->inner, 6258 / 65536.0, 0); /* 0.3 / pi turns: 6258.23 steps */
     CHECK_NEAR(l->outer, 12516 / 65536.0, 0);
     CHECK(l->shadow && l->mode == SCENE_REALTIME && l->mask_channel == -1 && l->softness == SCENE_SOFT_DEFAULT &&
-          !l->receiver_plane);
+          !l->receiver_plane && l->auto_bias == SCENE_AUTO_BIAS_OFF);
     CHECK_NEAR(l->bias_normal, 1, 0);
     CHECK_NEAR(l->strength, 0.5, 0);
     scene_free(&s);
@@ -101,9 +101,9 @@ static void test_light_errors(void)
 
 static void test_light_knobs(void)
 {
-    static const char knobs[] =
-        "\"bias_constant\":0.5,\"bias_caster\":0.25,\"bias_receiver\":[1,2,3,4],\"receiver_plane\":1,\"near\":0.125,"
-        "\"softness\":\"soft\",\"mode\":\"mixed\",\"mask_channel\":3,\"shadow\":false,\"bias_normal\":0";
+    static const char knobs[] = "\"bias_constant\":0.5,\"bias_caster\":0.25,\"bias_receiver\":[1,2,3,4],\"receiver_plane\":1,"
+                                "\"near\":0.125,\"auto_bias\":\"depth\","
+                                "\"softness\":\"soft\",\"mode\":\"mixed\",\"mask_channel\":3,\"shadow\":false,\"bias_normal\":0";
     const char *text = replaced(without_animation(base_json), "\"strength\":0.9,\"bias_slope\":2", knobs);
     text = replaced(text, "\"type\":\"directional\"", "\"type\":\"point\"");
     text = replaced(text, "\"strength\":0.5,", "\"strength\":0.5,\"softness\":\"hard\",");
@@ -114,6 +114,7 @@ static void test_light_knobs(void)
     CHECK_NEAR(l->bias_normal, 0, 0);
     CHECK_NEAR(l->near, 0.125, 0);
     for (int i = 0; i < 4; i++) CHECK_NEAR(l->bias_receiver[i], ((const double[]){1, 2, 3, 4})[i], 0);
+    CHECK_EQ_INT(l->auto_bias, SCENE_AUTO_BIAS_DEPTH);
     CHECK(l->receiver_plane && !l->shadow && l->softness == SCENE_SOFT_HARD && l->mode == SCENE_MIXED && l->mask_channel == 3);
     scene_free(&s);
     if (CHECK_EQ_INT(load_changed("\"strength\":0.9", "\"mode\":\"baked\",\"mask_channel\":-1,\"softness\":\"default\""), 0)) {
@@ -138,6 +139,8 @@ static void test_light_knobs(void)
         {"\"bias_receiver\":[1,2,3,9]", "bias_receiver: 9 is not in 0..8"},
         {"\"bias_caster\":-1", "bias_caster: -1 is not in"},
         {"\"receiver_plane\":2", "true or false"},
+        {"\"auto_bias\":1", "auto_bias: a string"},
+        {"\"auto_bias\":\"on\"", "'on' is not a value of auto_bias"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         if (!CHECK(refused(load_changed("\"strength\":0.9", bad[i][0]), bad[i][1]))) printf("  case %zu\n", i);

@@ -1080,7 +1080,7 @@ static void check_own_scene(const char *path)
     settings_init(&set);
     settings_preset(&set, SETTINGS_ACCURATE);
     CHECK_EQ_INT(settings_apply_all(&set, &s, NULL, 0, error, sizeof error), 0);
-    const ref_options options = engine_ref_options(&set, 160, 120);
+    const ref_options options = engine_ref_options(&s, &set, 160, 120);
     ref_picture maps, truth, kept;
     ref_frame frame;
     truth_tracer tracer;

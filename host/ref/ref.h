@@ -1,7 +1,8 @@
 /* The reference engine: the whole pipeline of docs/DESIGN.md section 1 in double precision, written from the formulas.
  *
  * It is the oracle of the accuracy tests. It includes nothing from lib/ and shares no arithmetic with it: no snapping, no
- * quantisation, no stepping. The only inputs are the scene and the picture's size.
+ * quantisation, no stepping. The only inputs are the scene and the picture's size, and,
+ * for the automatic bias alone, how finely the library counts.
  */
 #ifndef GNOMON_REF_H
 #define GNOMON_REF_H
@@ -20,6 +21,9 @@ typedef struct {
     int max_tiles;        /* capacity of the directional atlas, 1..16; 0: 16 (A3) */
     int max_other_tiles;  /* of the other */
     bool unsnapped;       /* directional texels and origins are not rounded: a map without D2's stability, for comparison */
+    /* Of the engine whose automatic bias this is (B6): what it rounds decides how much bias is enough. 0: it does not. */
+    int shadow_subpixel_bits, weight_bits, depth_bits, other_depth_bits, newton_steps;
+    double unit; /* its least step of length */
 } ref_options;
 
 /* One light view: a cascade, a single directional tile, a spot's cone or a face of a point light's cube. */

@@ -55,20 +55,20 @@ static ref_sphere fit_sphere(const scene *s, int cascade, int width, int height)
 
 /* The texel with which a filter of index k_f keeps inside the tile. The factor just below 1 keeps the texel of a radius that is a
  * round number off the edge between two of ceil8's steps. */
-static double fit_texel(const ref_light_view *view, const scene_light *light, int filter_index, bool unsnapped)
+static double fit_texel(const ref_light_view *view, const scene_light *light, int filter_index, const ref_options *options)
 {
-    const double reach = 2.0 * (filter_index + 1) * (1.0 + ref_lateral_reach(light));
+    const double reach = 2.0 * (filter_index + 1) * (1.0 + ref_lateral_reach(options, view, light));
     const double sphere_texels = fmax(view->tile_texels - reach - 1.0, view->tile_texels / 4.0);
     const double texel = (1.0 - ldexp(1.0, -20)) * 2.0 * view->sphere_radius / sphere_texels;
-    return unsnapped ? texel : ceil8(texel);
+    return options->unsnapped ? texel : ceil8(texel);
 }
 
 /* The disk's radius in texels follows from the texel, which depends on how far it reaches: the texel of filter index 0 decides. */
-static void fit_filter(ref_light_view *view, const scene_shadow *shadow, const scene_light *light, bool unsnapped)
+static void fit_filter(ref_light_view *view, const scene_shadow *shadow, const scene_light *light, const ref_options *options)
 {
     const double width = 0.02 * shadow->penumbra;
-    view->filter_index = ref_filter_index(view->filter, width / fit_texel(view, light, 0, unsnapped));
-    view->texel = fit_texel(view, light, view->filter_index, unsnapped);
+    view->filter_index = ref_filter_index(view->filter, width / fit_texel(view, light, 0, options));
+    view->texel = fit_texel(view, light, view->filter_index, options);
     view->disk_radius = fmin(width / view->texel, view->filter_index);
 }
 
@@ -99,7 +99,7 @@ static int fit_directional(ref_light_view *view, const scene *s, const scene_lig
     view->filter = ref_light_filter(&s->shadow, light, cascade == REF_SINGLE_TILE ? REF_OTHER_ATLAS : REF_DIRECTIONAL_ATLAS);
     vec3_store(view->sphere_centre, sphere.centre);
     view->sphere_radius = sphere.radius;
-    fit_filter(view, &s->shadow, light, options->unsnapped);
+    fit_filter(view, &s->shadow, light, options);
     if (!isfinite(view->texel) || !(view->texel > 0.0) || !isfinite(light->near_offset)) return -1;
     ref_fit_axes(view, vec3_load(light->direction));
     fit_grid(view, light->near_offset, options->unsnapped);
@@ -119,7 +119,7 @@ static int fit_view(ref_frame *frame, size_t l, int i)
     const scene_light *light = &frame->s->lights[l];
     const ref_grant *grant = &frame->picture->grant[l];
     ref_light_view *view = &frame->picture->view[l][i];
-    if (light->kind != SCENE_LIGHT_DIRECTIONAL) return ref_fit_punctual(view, frame->s, light, i, grant->tile_texels);
+    if (light->kind != SCENE_LIGHT_DIRECTIONAL) return ref_fit_face(view, frame->s, light, i, frame->options, grant->tile_texels);
     const int cascade = grant->atlas == REF_OTHER_ATLAS ? REF_SINGLE_TILE : i;
     return fit_directional(view, frame->s, light, cascade, frame->options, grant->tile_texels);
 }

@@ -128,7 +128,8 @@ static vec3 face_axis(int face)
     return vec3_load(w);
 }
 
-int ref_fit_punctual(ref_light_view *view, const scene *s, const scene_light *light, int face, int tile_texels)
+int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light, int face, const ref_options *options,
+                 int tile_texels)
 {
     const bool point = light->kind == SCENE_LIGHT_POINT;
     const double wanted_radius = 0.004 * s->shadow.penumbra * tile_texels;
@@ -142,11 +143,17 @@ int ref_fit_punctual(ref_light_view *view, const scene *s, const scene_light *li
     vec3_store(view->position, vec3_load(light->position));
     view->near = light->near;
     view->depth_range = 1.0;
-    view->t = point ? ref_face_half_width(view->filter_index, ref_lateral_reach(light), tile_texels, &view->clamped)
+    view->t = point ? ref_face_half_width(view->filter_index, ref_lateral_reach(options, view, light), tile_texels, &view->clamped)
                     : fmax(tan(PI * light->outer), tile_texels / 65535.0);
     view->texel = 2.0 * view->t / tile_texels;
     ref_fit_axes(view, point ? face_axis(face) : vec3_load(light->direction));
     if (!isfinite(view->t) || !(view->t > 0.0) || !isfinite(view->near) || !(view->near > 0.0)) return -1;
     view->active = true;
     return 0;
+}
+
+int ref_fit_punctual(ref_light_view *view, const scene *s, const scene_light *light, int face, int tile_texels)
+{
+    const ref_options options = {.width = 1, .height = 1};
+    return ref_fit_face(view, s, light, face, &options, tile_texels);
 }

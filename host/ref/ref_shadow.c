@@ -31,6 +31,13 @@ static vec3 receiver_offset(const scene_light *light, vec3 n, vec3 to_light)
                     vec3_scale(n, sqrt(2.0) * light->bias_normal + b[2] + b[3] * sine));
 }
 
+static vec3 moved_point(const ref_light_view *view, const scene_light *light, const ref_surface *at, vec3 unmoved, vec3 to_light)
+{
+    const double texels = ref_texel_at(view, unmoved) * (view->filter_index + 1);
+    const vec3 offset = vec3_scale(receiver_offset(light, at->interpolated, to_light), texels);
+    return ref_to_light(view, vec3_add(at->world, offset));
+}
+
 /* B5: of the face's own plane, through the unmoved point. */
 static void set_plane(ref_lookup *how, const ref_light_view *view, const ref_surface *at, vec3 in_light)
 {
@@ -54,13 +61,14 @@ static double attenuation_in(const ref_frame *frame, const ref_surface *at, size
                       .x = at->x,
                       .y = at->y};
     const vec3 unmoved = ref_to_light(view, at->world);
-    const double texels = ref_texel_at(view, unmoved) * (view->filter_index + 1);
-    const vec3 offset = vec3_scale(receiver_offset(light, at->interpolated, to_light), texels);
-    const vec3 moved = ref_to_light(view, vec3_add(at->world, offset));
+    double less = 0.0;
+    const vec3 moved = light->auto_bias != SCENE_AUTO_BIAS_OFF
+                           ? vec3_add(unmoved, ref_auto_bias(frame, view, light->auto_bias, at, unmoved, &less))
+                           : moved_point(view, light, at, unmoved, to_light);
     if (view->perspective && !(moved.z > view->near)) return 1.0;
     if (light->receiver_plane) set_plane(&how, view, at, unmoved);
     const vec3 p = ref_project(view, moved);
-    return ref_filtered(view, &how, p.x, p.y, p.z);
+    return ref_filtered(view, &how, p.x, p.y, p.z - less);
 }
 
 /* D7 */

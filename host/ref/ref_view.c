@@ -42,11 +42,6 @@ scene_filter ref_light_filter(const scene_shadow *shadow, const scene_light *lig
     return own;
 }
 
-double ref_lateral_reach(const scene_light *light)
-{
-    return sqrt(2.0) * light->bias_normal + light->bias_receiver[2] + light->bias_receiver[3];
-}
-
 void ref_fit_axes(ref_light_view *view, vec3 w)
 {
     const vec3 hint = fabs(w.y) < 15.0 / 16.0 ? (vec3){0.0, 1.0, 0.0} : (vec3){1.0, 0.0, 0.0};

@@ -26,9 +26,9 @@ static bool is_one_of(const char *key, const char *const *keys)
     return false;
 }
 
-static const char *const light_keys[] = {"shadow",        "strength",    "bias_constant", "bias_slope", "bias_normal",
-                                         "bias_receiver", "bias_caster", "near_offset",   "near",       "receiver_plane",
-                                         "softness",      "mode",        "mask_channel",  NULL};
+static const char *const light_keys[] = {"shadow",        "strength",    "bias_constant", "bias_slope",   "bias_normal",
+                                         "bias_receiver", "bias_caster", "near_offset",   "near",         "receiver_plane",
+                                         "auto_bias",     "softness",    "mode",          "mask_channel", NULL};
 static const char *const surface_keys[] = {
     "casts",         "caster",       "casts_two_sided", "hidden",         "moving",       "receives", "unlit",
     "visible_alpha", "alpha_cutoff", "specular",        "shininess_log2", "mask_texture", NULL};
@@ -116,8 +116,12 @@ static bool get_light_words(gltf *g, const json_value *knobs, scene_light *light
 {
     static const char *const softness_words[] = {"default", "hard", "soft", NULL};
     static const char *const mode_words[] = {"realtime", "mixed", "baked", NULL};
-    int softness = (int)light->softness, mode = (int)light->mode;
-    if (!get_word(g, knobs, "softness", softness_words, &softness) || !get_word(g, knobs, "mode", mode_words, &mode)) return false;
+    static const char *const auto_words[] = {"off", "depth", "normal", NULL};
+    int softness = (int)light->softness, mode = (int)light->mode, automatic = (int)light->auto_bias;
+    if (!get_word(g, knobs, "softness", softness_words, &softness) || !get_word(g, knobs, "mode", mode_words, &mode) ||
+        !get_word(g, knobs, "auto_bias", auto_words, &automatic))
+        return false;
+    light->auto_bias = (scene_auto_bias)automatic;
     light->softness = (scene_softness)softness;
     light->mode = (scene_light_mode)mode;
     return get_integer(g, knobs, "mask_channel", -1, 3, &light->mask_channel);

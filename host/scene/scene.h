@@ -64,8 +64,9 @@ typedef struct {
 } scene_object;
 
 typedef enum { SCENE_LIGHT_DIRECTIONAL, SCENE_LIGHT_SPOT, SCENE_LIGHT_POINT } scene_light_kind;
-typedef enum { SCENE_REALTIME, SCENE_MIXED, SCENE_BAKED } scene_light_mode;           /* M9; mixed: realtime with a mask */
-typedef enum { SCENE_SOFT_DEFAULT, SCENE_SOFT_HARD, SCENE_SOFT_SOFT } scene_softness; /* F5 */
+typedef enum { SCENE_REALTIME, SCENE_MIXED, SCENE_BAKED } scene_light_mode; /* M9; mixed: realtime with a mask */
+typedef enum { SCENE_AUTO_BIAS_OFF, SCENE_AUTO_BIAS_DEPTH, SCENE_AUTO_BIAS_NORMAL } scene_auto_bias; /* B6 */
+typedef enum { SCENE_SOFT_DEFAULT, SCENE_SOFT_HARD, SCENE_SOFT_SOFT } scene_softness;                /* F5 */
 
 typedef struct {
     char *name;
@@ -78,16 +79,17 @@ typedef struct {
     scene_light_mode mode;
     int mask_channel; /* 0..3, -1: none */
     scene_softness softness;
-    bool shadow;             /* wants a shadow */
-    double strength;         /* 0..1 (M4) */
-    double bias_constant;    /* texels (B1) */
-    double bias_slope;       /* (B1) */
-    double bias_normal;      /* (B2), default 1 */
-    double bias_receiver[4]; /* (B3), default 0 */
-    double bias_caster;      /* (B4), texels, default 0 */
-    bool receiver_plane;     /* (B5) */
-    double near_offset;      /* directional: world units (D9), default 0 */
-    double near;             /* spot, point: nothing nearer than this light-plane distance casts; > 0 */
+    bool shadow;               /* wants a shadow */
+    double strength;           /* 0..1 (M4) */
+    double bias_constant;      /* texels (B1) */
+    double bias_slope;         /* (B1) */
+    double bias_normal;        /* (B2), default 1 */
+    double bias_receiver[4];   /* (B3), default 0 */
+    double bias_caster;        /* (B4), texels, default 0 */
+    bool receiver_plane;       /* (B5) */
+    scene_auto_bias auto_bias; /* (B6), default off */
+    double near_offset;        /* directional: world units (D9), default 0 */
+    double near;               /* spot, point: nothing nearer than this light-plane distance casts; > 0 */
 } scene_light;
 
 typedef struct {

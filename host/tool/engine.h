@@ -47,7 +47,7 @@ void engine_free(engine_picture *p);
 
 /* What the engines in double precision share: options for a configuration, and their picture after the same quantisation as the
  * library's. Takes the arrays of ref, which is empty afterwards; -1: out of memory. */
-ref_options engine_ref_options(const settings *set, int width, int height);
+ref_options engine_ref_options(const scene *s, const settings *set, int width, int height);
 int engine_take(engine_picture *out, ref_picture *ref, const scene *s, const settings *set);
 
 #endif

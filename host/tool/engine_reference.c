@@ -5,6 +5,7 @@
 
 #include "engine.h"
 #include "output.h"
+#include "quantise.h"
 
 static unsigned level(double v, double levels)
 {
@@ -49,7 +50,7 @@ static int capacity(int set, int built)
     return set && set < built ? set : built;
 }
 
-ref_options engine_ref_options(const settings *set, int width, int height)
+ref_options engine_ref_options(const scene *s, const settings *set, int width, int height)
 {
     return (ref_options){.width = width,
                          .height = height,
@@ -57,7 +58,13 @@ ref_options engine_ref_options(const settings *set, int width, int height)
                          .other_atlas_size = set->quality.other_atlas_size,
                          .max_tiles = capacity(set->capacity.max_shadow_tiles, GN_MAX_SHADOW_TILES),
                          .max_other_tiles = capacity(set->capacity.max_other_tiles, GN_MAX_OTHER_TILES),
-                         .srgb = set->quality.srgb != 0};
+                         .srgb = set->quality.srgb != 0,
+                         .shadow_subpixel_bits = set->quality.shadow_subpixel_bits,
+                         .weight_bits = set->quality.weight_bits,
+                         .depth_bits = set->quality.depth_bits,
+                         .other_depth_bits = set->quality.other_depth_bits,
+                         .newton_steps = set->quality.newton_steps,
+                         .unit = ldexp(1.0, -16 - quantise_world_exp(s))};
 }
 
 static void quantise(engine_picture *out, const ref_picture *ref, const settings *set)
@@ -91,7 +98,7 @@ int engine_reference(engine_picture *out, const scene *s, const settings *set, i
                      size_t error_bytes)
 {
     ref_picture ref;
-    const ref_options options = engine_ref_options(set, width, height);
+    const ref_options options = engine_ref_options(s, set, width, height);
     memset(out, 0, sizeof *out);
     return ref_render(&ref, s, &options, error, error_bytes) ? -1 : engine_take(out, &ref, s, set);
 }

@@ -25,7 +25,8 @@ _Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7
                    (int)GN_LIGHT_POINT == (int)SCENE_LIGHT_POINT && (int)GN_LIGHT_MIXED == (int)SCENE_MIXED &&
                    (int)GN_LIGHT_BAKED == (int)SCENE_BAKED && (int)GN_SOFTNESS_HARD == (int)SCENE_SOFT_HARD &&
                    (int)GN_SOFTNESS_SOFT == (int)SCENE_SOFT_SOFT && (int)GN_ALPHA_CLIP == (int)SCENE_ALPHA_CLIP &&
-                   (int)GN_ALPHA_DITHER == (int)SCENE_ALPHA_DITHER,
+                   (int)GN_ALPHA_DITHER == (int)SCENE_ALPHA_DITHER && (int)GN_AUTO_BIAS_DEPTH == (int)SCENE_AUTO_BIAS_DEPTH &&
+                   (int)GN_AUTO_BIAS_NORMAL == (int)SCENE_AUTO_BIAS_NORMAL,
                "the scene's enumerations are the library's");
 
 /* How a mesh is stored. */
@@ -94,7 +95,7 @@ static double reach_of_light(const scene_light *l)
     return reach;
 }
 
-static int choose_world_exp(const scene *s)
+int quantise_world_exp(const scene *s)
 {
     double reach = fmax(s->shadow.max_distance, s->camera.near);
     for (size_t i = 0; i < s->n_objects; i++) reach = fmax(reach, reach_of_object(s, &s->objects[i]));
@@ -375,6 +376,7 @@ static int quantise_light(gn_light *out, const scene_light *l, int world_exp, ch
     for (int i = 0; i < 4; i++) out->bias_receiver_q16[i] = (int32_t)fixed(l->bias_receiver[i], 16);
     out->bias_caster_q16 = (int32_t)fixed(l->bias_caster, 16);
     out->receiver_plane = l->receiver_plane;
+    out->auto_bias = (gn_auto_bias)l->auto_bias;
     if (l->kind == SCENE_LIGHT_DIRECTIONAL) {
         out->near_offset_q16 = (int32_t)fixed(l->near_offset, 16 + world_exp);
     } else {
@@ -442,7 +444,7 @@ static int allocate(fixed_scene *f, const scene *s)
 int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_bytes)
 {
     memset(out, 0, sizeof *out);
-    out->world_exp = choose_world_exp(s);
+    out->world_exp = quantise_world_exp(s);
     mesh_plan *plan = plan_meshes(s);
     int failed = allocate(out, s) || !plan;
     if (failed) no_memory(error, error_bytes);

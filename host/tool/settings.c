@@ -266,6 +266,13 @@ static int note_useless(scene *s, const char *key, size_t light, char *error, si
     return scene_add_note(s, note, error, bytes);
 }
 
+/* auto_bias: a word for lights, built or not as a knob. */
+static const char *as_knob(const char *value)
+{
+    if (strcmp(value, "off") == 0) return "0";
+    return strcmp(value, "depth") == 0 || strcmp(value, "normal") == 0 ? "1" : value;
+}
+
 /* KEY@LIGHT */
 static int apply_to_light(settings *out, scene *s, const char *key, const char *at, const char *value, char *error, size_t bytes)
 {
@@ -280,7 +287,13 @@ static int apply_to_light(settings *out, scene *s, const char *key, const char *
     if (find_light(s, key, at + 1, &light, error, bytes)) return -1;
     if (settings_apply_scene(s, plain, light, value, error, bytes) < 0) return -1;
     if (note_useless(s, plain, light, error, bytes)) return -1;
-    return k && strcmp(value, "0") != 0 ? apply_knob(out, k, value, error, bytes) : 0; /* what one light uses must be built */
+    return k && strcmp(as_knob(value), "0") != 0 ? apply_knob(out, k, as_knob(value), error, bytes)
+                                                 : 0; /* what one light uses must be built */
+}
+
+static bool of_knob_alone(const char *key, const char *value)
+{
+    return strcmp(key, "auto_bias") == 0 && (strcmp(value, "0") == 0 || strcmp(value, "1") == 0);
 }
 
 int settings_apply(settings *out, scene *s, const char *key, const char *value, char *error, size_t error_bytes)
@@ -291,10 +304,10 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     if ((taken = apply_own(out, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
     const char *at = strchr(key, '@');
     if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
-    /* main_light, caster_culling and receiver_plane are built and used, or neither: knobs and settings of the scene at once */
+    /* main_light, caster_culling, receiver_plane and auto_bias are built and used, or neither: knobs and settings of the scene at once */
     const knob *k = find_knob(key);
-    if ((taken = settings_apply_scene(s, key, SCENE_NONE, value, error, error_bytes)) < 0) return -1;
-    if (k) return apply_knob(out, k, value, error, error_bytes);
+    if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, value, error, error_bytes)) < 0) return -1;
+    if (k) return apply_knob(out, k, as_knob(value), error, error_bytes);
     if (taken) return 0;
     snprintf(error, error_bytes, "unknown setting '%s' ('gnomon knobs' lists them)", key);
     return -1;

@@ -82,6 +82,7 @@ static void needs_of_light(need_list *list, const scene *s, const scene_light *l
     if (biased) need(list, "receiver_bias", 1, "bias_receiver of light '%s'", l->name);
     if (l->bias_caster > 0) need(list, "caster_bias", 1, "bias_caster of light '%s'", l->name);
     if (l->receiver_plane) need(list, "receiver_plane", 1, "receiver_plane of light '%s'", l->name);
+    if (l->auto_bias) need(list, "auto_bias", 1, "auto_bias of light '%s'", l->name);
     if (!shadows || !wants_shadow(l)) return;
     need(list, "shadows", 1, "the shadow of light '%s'", l->name);
     needs_of_softness(list, s, l);

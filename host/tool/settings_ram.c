@@ -34,11 +34,11 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 {
     int other = s->feature.punctual_lights || s->feature.main_light;
     long views = s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
-    put(l, 4, 40, 8);                                        /* cascade */
-    put(l, 3, 1, 1);                                         /* n_cascades to has_cascades */
-    put(l, 1, 4, 4);                                         /* frame_count */
-    put(l, views, s->feature.depth_blocks ? 192 : 184, 8);   /* view */
-    if (s->feature.incremental) put(l, 2 * views + 1, 8, 8); /* memory, layout */
+    put(l, 4, 40, 8);                                                                         /* cascade */
+    put(l, 3, 1, 1);                                                                          /* n_cascades to has_cascades */
+    put(l, 1, 4, 4);                                                                          /* frame_count */
+    put(l, views, (s->feature.depth_blocks ? 192 : 184) + (s->feature.auto_bias ? 8 : 0), 8); /* view */
+    if (s->feature.incremental) put(l, 2 * views + 1, 8, 8);                                  /* memory, layout */
     r->atlas = put_atlas(l, s, s->quality.atlas_size, s->quality.depth_bits);
     if (other) r->other_atlas = put_atlas(l, s, s->quality.other_atlas_size, s->quality.other_depth_bits);
 }

@@ -12,6 +12,7 @@ static const char *const distance_names[] = {"depth", "radius", NULL};
 static const char *const mixing_names[] = {"none", "always", "distance", NULL};
 static const char *const tiles_names[] = {"equal", "importance", NULL};
 static const char *const softness_names[] = {"default", "hard", "soft", NULL};
+static const char *const auto_names[] = {"off", "depth", "normal", NULL};
 static const char *const mode_names[] = {"realtime", "mixed", "baked", NULL};
 static const char *const kind_names[] = {"directional", "spot", "point", NULL};
 
@@ -79,6 +80,8 @@ static const scene_knob scene_knobs[] = {
     SHADOW_("caster_culling", SWITCH, caster_culling, 0, 1, "as the feature (D8)"),
     LIGHT_("shadow", SWITCH, shadow, 0, 1, "the light wants a shadow"),
     LIGHT_("receiver_plane", SWITCH, receiver_plane, 0, 1, "every tap compares with the receiver's plane (B5); also the feature"),
+    {"auto_bias", OF_LIGHTS, WORD, offsetof(scene_light, auto_bias), 0, 0, auto_names,
+     "the least bias that leaves a plane no acne, instead of bias_normal and bias_receiver (B6); also the feature"},
     {"softness", OF_LIGHTS, WORD, offsetof(scene_light, softness), 0, 0, softness_names,
      "the atlas's filter, 2x2, or at least 5x5 (F5)"},
     {"mode", OF_LIGHTS, WORD, offsetof(scene_light, mode), 0, 0, mode_names, "baked lights contribute nothing at run time (M9)"},

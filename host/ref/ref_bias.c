@@ -1,0 +1,117 @@
+/* Receiver bias: the reach of every kind (DESIGN 1.4, 1.5), and the automatic one (DESIGN 1.7, row B6). */
+#include "ref_internal.h"
+
+#define COORDINATE_LSB 0x1p-16 /* of texels */
+#define PLANE_ERROR    0x1p-12 /* of planes through far corners of large casters, texels */
+#define PLACE_UNITS    8.0     /* roundings of a point and of its triangle's corners, in units of length */
+#define MOST_SHARE     2.0     /* of the light-plane distance: farther no point is moved */
+
+static double half_cell(int bits)
+{
+    return bits > 0 ? ldexp(1.0, -bits - 1) : 0.0;
+}
+
+/* delta */
+static double tap_error(const ref_options *o)
+{
+    return half_cell(o->shadow_subpixel_bits) + half_cell(o->weight_bits) + 2.0 * COORDINATE_LSB;
+}
+
+/* R */
+static double tap_reach(const ref_light_view *view)
+{
+    if (view->filter == SCENE_FILTER_HARD) return 0.5;
+    if (view->filter == SCENE_FILTER_DISK) return view->disk_radius + 0.5;
+    return view->filter_index + 1.0;
+}
+
+static int view_bits(const ref_options *o, const ref_light_view *view)
+{
+    return view->perspective || view->clear_border ? o->other_depth_bits : o->depth_bits;
+}
+
+/* e: a share of the range */
+static double step_error(const ref_options *o, const ref_light_view *view)
+{
+    const int bits = view_bits(o, view);
+    return bits > 0 ? 65.0 / 64.0 * ldexp(1.0, -bits) + ldexp(1.0, -29) : 0.0;
+}
+
+/* Relative: of view depths, and of the quotients x/z, y/z, n/z of perspective views. */
+static double depth_error(const ref_options *o)
+{
+    return o->newton_steps == 1 ? ldexp(1.0, -17) : o->newton_steps == 2 ? ldexp(1.0, -28) : 0.0;
+}
+static double quotient_error(const ref_options *o)
+{
+    return o->newton_steps == 1 ? ldexp(1.0, -17) : o->newton_steps == 2 ? ldexp(1.0, -29) : 0.0;
+}
+
+double ref_lateral_reach(const ref_options *options, const ref_light_view *view, const scene_light *light)
+{
+    if (light->auto_bias == SCENE_AUTO_BIAS_OFF)
+        return sqrt(2.0) * light->bias_normal + light->bias_receiver[2] + light->bias_receiver[3];
+    const int bits = view_bits(options, view);
+    return sqrt(2.0) * (1.0 + tap_error(options)) + (bits > 0 ? ldexp(view->tile_texels, -bits) : 0.0);
+}
+
+/* eta: how far off its plane a point at a view depth may be, in units of the world. */
+static double place_error(const ref_frame *frame, double view_depth)
+{
+    const ref_camera *camera = &frame->camera;
+    const double x = camera->half_width_px / camera->focal_px, y = camera->half_height_px / camera->focal_px;
+    return view_depth * sqrt(1.0 + x * x + y * y) * depth_error(frame->options) + PLACE_UNITS * frame->options->unit;
+}
+
+/* The farthest view depth that is looked up in a directional view. */
+static double farthest(const ref_frame *frame, const ref_light_view *view)
+{
+    const double most = frame->s->shadow.max_distance;
+    if (view->clear_border) return most;
+    const vec3 d = vec3_sub(vec3_load(view->sphere_centre), frame->camera.position);
+    return fmin(most, vec3_dot(d, frame->camera.forward) + view->sphere_radius);
+}
+
+/* Slopes are no steeper than twice the range: half of that lets all be lit. */
+static double steepness(double part, double along, double most)
+{
+    return fabs(part) > 0.0 ? fmin(most, fabs(part / along)) : 0.0;
+}
+
+static vec3 ortho_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, vec3 n)
+{
+    const double error = place_error(frame, farthest(frame, view)) / view->texel + PLANE_ERROR;
+    const double reach = tap_reach(view) + tap_error(frame->options) + error, most = 2.0 * view->depth_range;
+    const double step = view->depth_range * step_error(frame->options, view) + 3.0 * COORDINATE_LSB + error;
+    if (form == SCENE_AUTO_BIAS_NORMAL && fmax(fabs(n.x), fabs(n.y)) > most * fabs(n.z)) return (vec3){0.0, 0.0, -2.0 * most};
+    if (form == SCENE_AUTO_BIAS_NORMAL) return vec3_scale(n, reach * (fabs(n.x) + fabs(n.y)) + step * fabs(n.z));
+    return (vec3){0.0, 0.0, -reach * (steepness(n.x, n.z, most) + steepness(n.y, n.z, most)) - step};
+}
+
+static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, vec3 m, vec3 point,
+                       double view_depth, double *less)
+{
+    const ref_options *o = frame->options;
+    const double reach = tap_reach(view) + tap_error(o) + view->tile_texels / 2.0 * quotient_error(o);
+    const double across = fabs(m.x) + fabs(m.y), lift = place_error(frame, view_depth);
+    *less = step_error(o, view) + quotient_error(o);
+    if (form == SCENE_AUTO_BIAS_DEPTH) {
+        *less += fmin(2.0, reach * view->near * view->texel * across / fabs(vec3_dot(m, point)));
+        return vec3_scale(m, lift);
+    }
+    if (view->near * view->texel * fmax(fabs(m.x), fabs(m.y)) > 2.0 * fabs(vec3_dot(m, point))) *less = 2.0;
+    const double a = fmin(MOST_SHARE, reach * view->texel * across);
+    const double share = a / fmax(0.5, 1.0 - a * fmax(0.0, m.z));
+    return vec3_scale(m, lift + point.z * fmin(MOST_SHARE, share));
+}
+
+vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at, vec3 in_light,
+                   double *less)
+{
+    const vec3 f = vec3_dot(at->face, vec3_sub(frame->camera.position, at->world)) < 0.0 ? vec3_scale(at->face, -1.0) : at->face;
+    const vec3 n = {vec3_dot(f, vec3_load(view->axis[0])), vec3_dot(f, vec3_load(view->axis[1])),
+                    vec3_dot(f, vec3_load(view->axis[2]))};
+    *less = 0.0;
+    if (!view->perspective) return ortho_bias(frame, view, form, n);
+    return persp_bias(frame, view, form, n, in_light, at->view_depth, less);
+}
