@@ -53,7 +53,7 @@ settings_ram_parts settings_ram(const settings *s)
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
     int punctual = s->feature.punctual_lights;
     put(&frame, 1, 184, 8); /* picture to min2_q32 */
-    r.lights = put(&frame, s->capacity.max_lights, punctual ? 168 : 32, punctual ? 8 : 4);
+    r.lights = put(&frame, s->capacity.max_lights, punctual ? 176 : 36, punctual ? 8 : 4);
     r.objects = put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4);
     put(&frame, 1, 40, 4); /* receivers_q16 to tiles_y */
     r.triangles = put(&frame, s->capacity.max_triangles, s->quality.subpixel_bits > 6 ? 44 : 32, 4);
