@@ -1,5 +1,6 @@
 /* Lighting of one surface point. */
 #include "gn_light.h"
+#include "gn_count.h"
 #include "gn_punctual.h"
 #include "gn_q.h"
 #include "gn_shadow.h"
@@ -25,6 +26,7 @@ static int arrives(const gn_frame *frame, const gn_surface *surface, const gn_sa
     a->cosine_q24 = a->value[GN_LIGHT_FACING];
     if (a->value[GN_LIGHT_FACING] <= 0) return 0;
 #if GN_PUNCTUAL_LIGHTS
+    if (a->light->kind != GN_LIGHT_DIRECTIONAL) GN_COUNT(lights_punctual, 1);
     if (a->light->kind == GN_LIGHT_DIRECTIONAL) return 1;
     if (!gn_punctual_at(frame, a->light, a->value + GN_LIGHT_POINT_AT, &a->point)) return 0;
     a->cosine_q30 = gn_punctual_cosine_q30(&a->point, a->value[GN_LIGHT_FACING]);
@@ -93,6 +95,7 @@ static void modulate(const gn_surface *surface, const gn_sample *sample, uint64_
 #if GN_TEXTURES
     uint32_t texture[3];
     if (!surface->textured) return;
+    GN_COUNT(textured, 1);
     gn_texture_colour(surface->object->texture, sample->value[GN_VALUE_UV], sample->value[GN_VALUE_UV + 1], texture);
     for (int c = 0; c < 3; c++) sum[c] = (sum[c] * texture[c] + 0x8000U) >> 16;
 #endif
@@ -113,11 +116,13 @@ void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const g
         arriving a;
         if (!arrives(frame, surface, sample, i, &a)) continue;
         uint32_t shadow = gn_shadow_factor(frame, surface, sample, i, g);
+        GN_COUNT(lights, 1);
         if (!shadow) continue;
         uint32_t diffuse = diffuse_q24(&a);
         add(sum, surface->light[i].radiance_uq16, shadow == 65536 ? diffuse : gn_mul_uq16(diffuse, shadow));
 #if GN_SPECULAR
         if (surface->specular) {
+            GN_COUNT(highlights, 1);
             uint32_t colour[3];
             for (int c = 0; c < 3; c++) colour[c] = gn_mul_uq16(a.light->colour_uq16[c], surface->object->specular_uq16[c]);
             add(highlights, colour, gn_mul_uq16(specular_q24(surface, sample, &a), shadow));
