@@ -1,0 +1,1 @@
+COST(shaded, 100)
