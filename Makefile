@@ -12,9 +12,7 @@ OWN_SCENES := $(foreach s,sundial avenue desk room fence mixed,host/scenes/$(s).
 
 WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef -Werror
 # The host build of the library: every knob at run time, room for any scene. The pixels are the target's, bit for bit.
-# COUNTERS: the cost model of gnomon sweep; tests/calibrate.sh counts instructions without.
-COUNTERS ?= 1
-HOST_KNOBS := -DGN_COUNTERS=$(COUNTERS) -DGN_RUNTIME_KNOBS=1 -DGN_RAW_VIEWS=1 -DGN_STATIC_LAYER=1 -DGN_ATLAS_SIZE=1024 \
+HOST_KNOBS := -DGN_COUNTERS=1 -DGN_RUNTIME_KNOBS=1 -DGN_RAW_VIEWS=1 -DGN_STATIC_LAYER=1 -DGN_ATLAS_SIZE=1024 \
   -DGN_OTHER_ATLAS_SIZE=1024 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 -DGN_MAX_TILE_REFS=1000000 \
   -DGN_MAX_LIGHTS=64 -DGN_SURFACE_LIGHTS=64 -DGN_MAX_OBJECTS=65535 -DGN_MAX_SHADOW_TILES=16 -DGN_MAX_OTHER_TILES=16 -DGN_VERTEX_CACHE=1024
 LIB_CFLAGS := -std=c99 -pedantic $(OPT) -g $(WARN) $(SAN) -Ilib

@@ -233,11 +233,23 @@ typedef struct {
     size_t n;
 } config_list;
 
+/* Whether a knob changes anything in this scene. */
+static bool matters(const sweep *w, sweep_knob k)
+{
+    bool shadows = w->directional || w->other;
+    if (k == SWEEP_FILTER || k == SWEEP_KERNEL) return shadows;
+    if (k == SWEEP_ATLAS || k == SWEEP_DEPTH_BITS || k == SWEEP_CASCADES) return w->directional;
+    if (k == SWEEP_OTHER_ATLAS || k == SWEEP_OTHER_DEPTH_BITS) return w->other;
+    return true;
+}
+
 /* An atlas without a shadow is as small as it can be. */
 static void shrink_unused(const sweep *w, sweep_config *c)
 {
+    for (int k = SWEEP_PRESET + 1; k < SWEEP_KNOBS; k++)
+        if (!matters(w, (sweep_knob)k)) c->level[k] = -1;
     if (!w->directional) c->level[SWEEP_ATLAS] = 0;
-    if (!w->other) c->level[SWEEP_OTHER_ATLAS] = w->punctual ? 0 : -1;
+    if (!w->other && w->punctual) c->level[SWEEP_OTHER_ATLAS] = 0;
 }
 
 static void plan(config_list *list, sweep_config c)
@@ -260,16 +272,6 @@ static sweep_config with_atlases(sweep_config c, const char *side)
 static sweep_config with_depth(sweep_config c, const char *bits)
 {
     return with(with(c, SWEEP_DEPTH_BITS, bits), SWEEP_OTHER_DEPTH_BITS, bits);
-}
-
-/* Whether a knob changes anything in this scene. */
-static bool matters(const sweep *w, sweep_knob k)
-{
-    bool shadows = w->directional || w->other;
-    if (k == SWEEP_FILTER || k == SWEEP_KERNEL) return shadows;
-    if (k == SWEEP_ATLAS || k == SWEEP_DEPTH_BITS || k == SWEEP_CASCADES) return w->directional;
-    if (k == SWEEP_OTHER_ATLAS || k == SWEEP_OTHER_DEPTH_BITS) return w->other;
-    return true;
 }
 
 static void plan_presets(config_list *list)
