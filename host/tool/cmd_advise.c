@@ -211,20 +211,26 @@ static void describe(const sweep *w, size_t row, char *out, size_t bytes)
     snprintf(out, bytes, "%ld bytes and %.1f instructions per pixel by %s", r->ram_bytes, r->instructions, arguments);
 }
 
-/* Rounded up: what is named is enough. */
+/* What would do: each budget's least where the other is kept, or where both are missed, what comes nearest. */
 static int refuse(const sweep *w, const budget *b)
 {
     const tool_options *o = w->options;
-    const budget any = {DBL_MAX, DBL_MAX};
-    char message[2 * NEED_BYTES + 256], by_ram[NEED_BYTES], by_cost[NEED_BYTES], limit[64] = "";
+    const seed_list none = {{0}, 0};
+    char message[2 * NEED_BYTES + 256], need[NEED_BYTES], limit[64] = "";
     size_t ram = smallest(w, b, true), cost = smallest(w, b, false);
     if (o->instructions_per_pixel) snprintf(limit, sizeof limit, " and %d instructions per pixel", o->instructions_per_pixel);
-    describe(w, ram == SIZE_MAX ? smallest(w, &any, true) : ram, by_ram, sizeof by_ram);
-    snprintf(message, sizeof message, "no configuration fits into %d bytes%s; the least RAM: %s", o->ram, limit, by_ram);
-    if (o->instructions_per_pixel) {
+    snprintf(message, sizeof message, "no configuration fits into %d bytes%s", o->ram, limit);
+    const struct {
+        size_t row;
+        const char *what;
+    } needs[] = {{ram, o->instructions_per_pixel ? "the least RAM within the instructions" : "the least RAM"},
+                 {cost, "the fewest instructions within the RAM"},
+                 {ram == SIZE_MAX && cost == SIZE_MAX ? least_load(w, b, &none) : SIZE_MAX, "the nearest"}};
+    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++) {
         size_t used = strlen(message);
-        describe(w, cost == SIZE_MAX ? smallest(w, &any, false) : cost, by_cost, sizeof by_cost);
-        snprintf(message + used, sizeof message - used, "; the fewest instructions: %s", by_cost);
+        if (needs[i].row == SIZE_MAX) continue;
+        describe(w, needs[i].row, need, sizeof need);
+        snprintf(message + used, sizeof message - used, "; %s: %s", needs[i].what, need);
     }
     return tool_fail(o->scene_path, message);
 }

@@ -12,6 +12,12 @@
 
 enum { SAMPLES_MAX = 2000, SCENES_MAX = 64, STAGES = 4, PASSES = 20000 };
 
+/* A weight that few samples tell anything about stays small: 1000 instructions are as bad as this much of the sum of squares. */
+#ifndef RIDGE_OF_1000
+#define RIDGE_OF_1000 1e-3
+#endif
+#define RIDGE (RIDGE_OF_1000 / 1e6)
+
 typedef struct {
     char scene[64];
     double instructions[STAGES];
@@ -56,6 +62,8 @@ static void improve(double *weight, int event, int stage, const char *except, do
         square += x * x;
     }
     if (square <= 0) return;
+    along -= RIDGE * *weight;
+    square += RIDGE;
     double next = fmax(*weight + along / square, 0), change = next - *weight;
     for (size_t i = 0; i < n_samples; i++) {
         double y = samples[i].instructions[stage];

@@ -23,7 +23,7 @@ typedef struct {
     FILE *file;
     const plot_panel *panel;
     axis x, y;
-    box taken[BOXES_MAX]; /* by labels and points that are on the line */
+    box taken[BOXES_MAX]; /* by labels and points */
     size_t n_taken;
 } chart;
 
@@ -50,8 +50,9 @@ static axis fit_axis(const plot_panel *p, bool of_x, double from, double to)
         a.low = i ? fmin(a.low, v) : v;
         a.high = i ? fmax(a.high, v) : v;
     }
-    a.low /= 1.12;
-    a.high *= of_x ? 1.25 : 1.12; /* room for labels to the right */
+    /* room for labels, which lie before and below the line: nothing else does */
+    a.low /= of_x ? pow(a.high / a.low, 0.16) : 1.25;
+    a.high *= of_x ? pow(a.high / a.low, 0.04) : 1.12;
     return a;
 }
 
@@ -164,6 +165,22 @@ static void draw_point(const chart *c, const plot_point *p)
     fprintf(c->file, "</title></circle>\n");
 }
 
+static void take(chart *c, box b)
+{
+    if (c->n_taken < BOXES_MAX) c->taken[c->n_taken++] = b;
+}
+
+static void draw_points(chart *c, bool strong)
+{
+    for (size_t i = 0; i < c->panel->n; i++) {
+        const plot_point *p = &c->panel->points[i];
+        if (p->strong != strong) continue;
+        double x = place(&c->x, p->x), y = place(&c->y, p->y);
+        draw_point(c, p);
+        take(c, (box){x - 4, y - 4, x + 4, y + 4});
+    }
+}
+
 static bool is_free(const chart *c, const box *b)
 {
     if (b->x0 < c->x.from || b->x1 > c->x.to || b->y0 < c->y.to || b->y1 > c->y.from) return false;
@@ -174,15 +191,10 @@ static bool is_free(const chart *c, const box *b)
     return true;
 }
 
-static void take(chart *c, box b)
-{
-    if (c->n_taken < BOXES_MAX) c->taken[c->n_taken++] = b;
-}
-
 /* Beside the point where there is room, farther away if need be, with a thin line to it; nowhere: the point has its hover text. */
 static void draw_label(chart *c, const plot_point *p)
 {
-    static const double away[][2] = {{1, -1}, {1, 1}, {-1, -1}, {-1, 1}};
+    static const double away[][2] = {{-1, 1}, {-1, -1}, {1, 1}, {1, -1}};
     double x = place(&c->x, p->x), y = place(&c->y, p->y), width = (double)(LETTER * strlen(p->label));
     for (int far = 0; far < 9; far++)
         for (size_t i = 0; i < 4; i++) {
@@ -215,11 +227,8 @@ static int draw_panel(FILE *file, const plot_panel *p, double top)
     draw_frame(c);
     size_t n = find_front(p, front);
     draw_line(c, front, n);
-    for (size_t i = 0; i < p->n; i++) draw_point(c, &p->points[i]);
-    for (size_t i = 0; i < n; i++) {
-        double x = place(&c->x, front[i]->x), y = place(&c->y, front[i]->y);
-        take(c, (box){x - 4, y - 4, x + 4, y + 4});
-    }
+    draw_points(c, false);
+    draw_points(c, true);
     for (size_t i = 0; i < n; i++) draw_label(c, front[i]);
     free(c);
     free(front);
@@ -228,7 +237,7 @@ static int draw_panel(FILE *file, const plot_panel *p, double top)
 
 static const char style[] =
     "<style>text{font:11px sans-serif;fill:#333}.title{font-size:15px;font-weight:bold}.head{font-weight:bold}"
-    ".name{fill:#14508c}.grid{stroke:#e4e4e4}.frame{fill:none;stroke:#888}"
+    ".name{fill:#14508c;stroke:#fff;stroke-width:3px;paint-order:stroke}.grid{stroke:#e4e4e4}.frame{fill:none;stroke:#888}"
     ".front{fill:none;stroke:#14508c;stroke-width:1.5}.lead{stroke:#9ab;stroke-width:.7}"
     ".on{fill:#14508c}.off{fill:#fff;fill-opacity:.6;stroke:#b06a2c}</style>\n";
 
