@@ -13,6 +13,7 @@ static const double near_budget = 1.5;
 
 typedef struct {
     double ram, instructions;
+    int seeds, rounds; /* how far the search goes */
 } budget;
 
 /* 1 and less: it fits. */
@@ -46,7 +47,7 @@ static bool is_seed(const seed_list *seeds, size_t i)
 /* The most accurate ones with a load within (least, most]. */
 static void seed_best(const sweep *w, const budget *b, double least, double most, seed_list *seeds)
 {
-    for (int n = 0; n < SEEDS; n++) {
+    for (int n = 0; n < b->seeds; n++) {
         size_t best = SIZE_MAX;
         for (size_t i = 0; i < w->n_rows; i++) {
             double load = load_of(b, &w->rows[i]);
@@ -80,7 +81,7 @@ static size_t find_best(const sweep *w, const budget *b)
 
 static int refine(sweep *w, const budget *b)
 {
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < b->rounds; round++) {
         seed_list seeds = {{0}, 0};
         size_t before = find_best(w, b);
         seed_best(w, b, 0, 1, &seeds);
@@ -96,7 +97,7 @@ static int shrink(sweep *w, const budget *b)
 {
     for (int round = 0; round < SHRINK_ROUNDS; round++) {
         seed_list seeds = {{0}, 0};
-        for (int i = 0; i < SEEDS; i++) {
+        for (int i = 0; i < b->seeds; i++) {
             size_t next = least_load(w, b, &seeds);
             if (next != SIZE_MAX) seeds.idx[seeds.n++] = next;
         }
@@ -238,7 +239,8 @@ static int refuse(const sweep *w, const budget *b)
 int tool_advise(const tool_options *o)
 {
     sweep w;
-    const budget b = {o->ram, o->instructions_per_pixel ? o->instructions_per_pixel : DBL_MAX};
+    const budget b = {o->ram, o->instructions_per_pixel ? o->instructions_per_pixel : DBL_MAX, o->quick ? 1 : SEEDS,
+                      o->quick ? 1 : ROUNDS};
     if (sweep_begin(&w, o)) return TOOL_FAILED;
     int status = search(&w, &b, o->quick) ? TOOL_FAILED : TOOL_OK;
     if (status == TOOL_OK) {
