@@ -48,7 +48,7 @@ static void print_text(const sweep *w)
     printf("     bytes    (model) |      dB     RMS            |   PSNR identical  configuration\n");
     for (size_t i = 0; i < w->n_rows; i++)
         if (w->rows[i].on_front || o->all) print_row(w, &w->rows[i]);
-    if (w->n_refused) printf("%zu configurations cannot draw this scene, the first: %s\n", w->n_refused, w->refusal);
+    if (w->n_refused) printf("%zu of the configurations cannot draw this scene, the first: %s\n", w->n_refused, w->refusal);
 }
 
 /* ---- JSON ------------------------------------------------------------------------------------------------------------------------ */
