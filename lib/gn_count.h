@@ -1,5 +1,5 @@
-/* What the library did, counted for the host tool's model of cost (gnomon sweep): never in a firmware build, where GN_COUNT is nothing.
- * Whoever compiles lib/ with GN_COUNTERS=1 defines gn_count(), so that the library keeps no state of its own.
+/* What the library did, counted for the host tool's model of cost (gnomon sweep): never in a firmware build, where GN_COUNT is
+ * nothing. Whoever compiles lib/ with GN_COUNTERS=1 defines gn_count(), so that the library keeps no state of its own.
  */
 #ifndef GN_COUNT_H
 #define GN_COUNT_H

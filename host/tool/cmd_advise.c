@@ -30,7 +30,7 @@ static bool is_better(const sweep_row *a, const sweep_row *b)
     return a->instructions < b->instructions;
 }
 
-/* ---- Seeds: rows whose neighbours are worth a look ----------------------------------------------------------------------------- */
+/* ---- Seeds: rows whose neighbours are worth a look -------------------------------------------------------------------------- */
 
 typedef struct {
     size_t idx[2 * SEEDS];
@@ -77,7 +77,7 @@ static size_t find_best(const sweep *w, const budget *b)
     return best.n ? best.idx[0] : SIZE_MAX;
 }
 
-/* ---- Refinement ---------------------------------------------------------------------------------------------------------------- */
+/* ---- Refinement ------------------------------------------------------------------------------------------------------------- */
 
 static int refine(sweep *w, const budget *b)
 {
@@ -117,7 +117,7 @@ static int search(sweep *w, const budget *b, bool quick)
     return find_best(w, b) == SIZE_MAX ? 0 : refine(w, b);
 }
 
-/* ---- Arguments ------------------------------------------------------------------------------------------------------------------ */
+/* ---- Arguments -------------------------------------------------------------------------------------------------------------- */
 
 /* Appends as a shell reads it. */
 static void append_quoted(char *out, size_t bytes, const char *text)
@@ -154,7 +154,7 @@ static void make_arguments(const sweep *w, const sweep_row *r, char *out, size_t
     if (!n) snprintf(out, bytes, "no --set");
 }
 
-/* ---- Results -------------------------------------------------------------------------------------------------------------------- */
+/* ---- Results ---------------------------------------------------------------------------------------------------------------- */
 
 static void print_text(const sweep *w, const sweep_row *r)
 {

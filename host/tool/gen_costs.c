@@ -1,8 +1,8 @@
-/* Writes host/tool/cost_table.h: weights of the counted events, fitted to instructions. From stdin, per line: the scene, instructions of
- * shadow tiles, setup and binning, rasterising, shading, and the events in their order. tests/calibrate.sh feeds it.
+/* Writes host/tool/cost_table.h: weights of the counted events, fitted to instructions. From stdin, per line: the scene, instructions
+ * of shadow tiles, setup and binning, rasterising, shading, and the events in their order. tests/calibrate.sh feeds it.
  *
- * Each stage is fitted on its own, with the events that it can depend on, by least squares of the relative error; no weight is negative,
- * as no event takes instructions back. The error is stated twice: of the fit, and for scenes that were left out of it. */
+ * Each stage is fitted on its own, with the events that it can depend on, by least squares of the relative error; no weight is
+ * negative, as no event takes instructions back. The error is stated twice: of the fit, and for scenes that were left out of it. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

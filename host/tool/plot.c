@@ -56,7 +56,7 @@ static axis fit_axis(const plot_panel *p, bool of_x, double from, double to)
     return a;
 }
 
-/* ---- Axes ----------------------------------------------------------------------------------------------------------------------- */
+/* ---- Axes ------------------------------------------------------------------------------------------------------------------- */
 
 static void format_tick(char *out, size_t bytes, double v)
 {
@@ -113,7 +113,7 @@ static void draw_frame(const chart *c)
     fprintf(c->file, "</text>\n");
 }
 
-/* ---- The front -------------------------------------------------------------------------------------------------------------------- */
+/* ---- The front -------------------------------------------------------------------------------------------------------------- */
 
 static bool beats(const plot_point *a, const plot_point *b)
 {
@@ -155,7 +155,7 @@ static void draw_line(const chart *c, const plot_point *const *front, size_t n)
     fprintf(c->file, "H%.1f\"/>\n", c->x.to);
 }
 
-/* ---- Points and labels ---------------------------------------------------------------------------------------------------------------- */
+/* ---- Points and labels ------------------------------------------------------------------------------------------------------ */
 
 static void draw_point(const chart *c, const plot_point *p)
 {

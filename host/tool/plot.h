@@ -11,8 +11,8 @@ typedef struct {
     const char *label;
 } plot_point;
 
-/* Less is better along both axes; both are logarithmic. A line joins the points that no other beats in both; they carry their labels, and
- * every point tells its own on hover. */
+/* Less is better along both axes; both are logarithmic. A line joins the points that no other beats in both; they carry their labels,
+ * and every point tells its own on hover. */
 typedef struct {
     const char *title, *x_label, *y_label;
     const plot_point *points;

@@ -73,8 +73,8 @@ double sweep_error(const metrics *m);
 /* The configuration alone, "filter=3x3 atlas_size=64"; "the scene's own" for none. */
 void sweep_name(const sweep *w, const sweep_row *row, char *out, size_t bytes);
 
-/* Every setting that reproduces it, those of the command line included, in order: at most TOOL_SETS_MAX + SWEEP_KNOBS. The strings are
- * valid while text (room for SWEEP_KNOBS) is. Returns how many. */
+/* Every setting that reproduces it, those of the command line included, in order: at most TOOL_SETS_MAX + SWEEP_KNOBS. The
+ * strings are valid while text (room for SWEEP_KNOBS) is. Returns how many. */
 typedef struct {
     char text[SWEEP_KNOBS][32];
 } sweep_text;
