@@ -46,7 +46,7 @@ soak: ## the longer campaigns: minutes to hours
 bench: ## count instructions of the workload with callgrind against the committed baseline; WRITE=1 renews it
 	@sh tests/bench.sh $(if $(WRITE),--write)
 
-docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages accuracy bias rows seams crawl) ## regenerate the generated parts of docs/
+docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages accuracy bias rows seams crawl kept culling lists changes extremes) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
 
 tables: $(BUILD)/gen_tables ## regenerate lib/gn_tables.c

@@ -25,8 +25,12 @@ replace ACCURACY.md accuracy "$work/accuracy"
 "$build/test_bias" --table >"$work/bias"
 replace BIAS.md bias "$work/bias"
 sh docs/gallery.sh "$tool" "$out"
+"$build/test_extremes" --table >"$work/extremes"
+replace EXTREMES.md extremes "$work/extremes"
 for name in rows seams crawl; do
     "$build/test_$name" --table >"$work/$name"
     replace ACCURACY.md $name "$work/$name"
 done
+for name in kept culling lists changes; do "$build/test_$name"; done | sed -n 's/^[a-z].* \(per frame\|left out\|listed\|differ\).*/- &/p' >"$work/kept"
+replace ACCURACY.md kept "$work/kept"
 if [ "$out" = docs ]; then sh docs/trade.sh "$tool"; fi

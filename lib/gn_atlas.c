@@ -274,15 +274,9 @@ static uint64_t layer_signature(const gn_frame *frame, const gn_light_view *view
 static gn_light_view static_view(gn_frame *frame, const gn_light_view *view)
 {
     gn_light_view out = *view;
-    gn_texels texels = {frame->static_atlas.d8};
-    if (view->depth_bits == 16) texels.d16 = frame->static_atlas.d16;
-    if (view->depth_bits == 32) texels.d32 = frame->static_atlas.d32;
+    gn_texels texels = GN_TEXELS_OF(frame->static_atlas, view->depth_bits);
 #if GN_OTHER_ATLAS
-    if (view->in_other) {
-        texels.d8 = frame->static_other_atlas.d8;
-        if (view->depth_bits == 16) texels.d16 = frame->static_other_atlas.d16;
-        if (view->depth_bits == 32) texels.d32 = frame->static_other_atlas.d32;
-    }
+    if (view->in_other) texels = GN_TEXELS_OF(frame->static_other_atlas, view->depth_bits);
 #endif
     out.depth = gn_texels_at(texels, view->depth_bits, view->first_texel);
     return out;

@@ -36,7 +36,7 @@
     X(max_triangles, MAX_TRIANGLES, 1, 65534, "visible triangles per frame, after culling and clipping",                           \
       "32 bytes each (44 above 6 subpixel bits)")                                                                                  \
     X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")                       \
-    X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "168 bytes each, 32 without spot and point lights")                      \
+    X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")                      \
     X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "113 bytes of stack each")                       \
     X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "36 bytes each, 24 without spot and point lights")                 \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",                          \

@@ -6,42 +6,16 @@
 #include "gn_shadow.h"
 #include "gn_texture.h"
 
-/* What arrives from one light, before its shadow. */
-typedef struct {
-    const gn_light_state *light;
-    const int32_t *value;
-    int32_t cosine_q24; /* directional */
 #if GN_PUNCTUAL_LIGHTS
+/* Irradiance of a spot or point light whose colour is 1, Q24; `value` is its slot of a sample. */
+static uint32_t punctual_q24(const gn_frame *frame, const gn_light_state *light, const int32_t *value)
+{
     gn_punctual_point point;
-    int32_t cosine_q30;
-#endif
-} arriving;
-
-/* Returns 0 where the surface faces away or no light arrives (P10). */
-static int arrives(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot, arriving *a)
-{
-    (void)frame;
-    a->light = surface->light[slot].state;
-    a->value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
-    a->cosine_q24 = a->value[GN_LIGHT_FACING];
-    if (a->value[GN_LIGHT_FACING] <= 0) return 0;
-#if GN_PUNCTUAL_LIGHTS
-    if (a->light->kind != GN_LIGHT_DIRECTIONAL) GN_COUNT(lights_punctual, 1);
-    if (a->light->kind == GN_LIGHT_DIRECTIONAL) return 1;
-    if (!gn_punctual_at(frame, a->light, a->value + GN_LIGHT_POINT_AT, &a->point)) return 0;
-    a->cosine_q30 = gn_punctual_cosine_q30(&a->point, a->value[GN_LIGHT_FACING]);
-#endif
-    return 1;
+    GN_COUNT(lights_punctual, 1);
+    if (!gn_punctual_at(frame, light, value + GN_LIGHT_POINT_AT, &point)) return 0;
+    return gn_punctual_irradiance_q24(&point, gn_punctual_cosine_q30(&point, value[GN_LIGHT_FACING]));
 }
-
-/* Irradiance of a light whose colour is 1, Q24. */
-static uint32_t diffuse_q24(const arriving *a)
-{
-#if GN_PUNCTUAL_LIGHTS
-    if (a->light->kind != GN_LIGHT_DIRECTIONAL) return gn_punctual_irradiance_q24(&a->point, a->cosine_q30);
 #endif
-    return (uint32_t)a->cosine_q24;
-}
 
 #if GN_SPECULAR
 /* max(0, n . h)^(2^k), Q30 */
@@ -59,26 +33,37 @@ static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample,
 }
 
 /* The same times what arrives, Q24. */
-static uint32_t specular_q24(const gn_surface *surface, const gn_sample *sample, const arriving *a)
+static uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot)
 {
+    const gn_light_state *light = surface->light[slot].state;
 #if GN_PUNCTUAL_LIGHTS
-    if (a->light->kind != GN_LIGHT_DIRECTIONAL) {
+    const int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];
+    if (light->kind != GN_LIGHT_DIRECTIONAL) {
+        gn_punctual_point point;
         int32_t to_light[3];
-        for (int i = 0; i < 3; i++) to_light[i] = gn_punctual_cosine_q30(&a->point, -a->value[GN_LIGHT_POINT_AT + i]);
-        return gn_punctual_irradiance_q24(&a->point, highlight_q30(surface, sample, to_light));
+        if (!gn_punctual_at(frame, light, from, &point)) return 0;
+        for (int i = 0; i < 3; i++) to_light[i] = gn_punctual_cosine_q30(&point, -from[i]);
+        return gn_punctual_irradiance_q24(&point, highlight_q30(surface, sample, to_light));
     }
 #endif
-    return (uint32_t)(highlight_q30(surface, sample, a->light->to_light_q30) >> 6);
+    (void)frame;
+    return (uint32_t)(highlight_q30(surface, sample, light->to_light_q30) >> 6);
 }
 #endif
 
 uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t light_idx)
 {
-    arriving a;
-    for (uint32_t i = 0; i < surface->n_lights; i++)
-        if (surface->light[i].idx == light_idx && arrives(frame, surface, sample, i, &a))
-            return gn_shadow_factor(frame, surface, sample, i, gn_shadow_distance(frame, surface, sample));
-    return 0;
+    uint32_t slot = 0;
+    while (slot < surface->n_lights && surface->light[slot].idx != light_idx) slot++;
+    if (slot == surface->n_lights) return 0;
+    const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
+    if (value[GN_LIGHT_FACING] <= 0) return 0;
+#if GN_PUNCTUAL_LIGHTS
+    gn_punctual_point point;
+    const gn_light_state *light = surface->light[slot].state;
+    if (light->kind != GN_LIGHT_DIRECTIONAL && !gn_punctual_at(frame, light, value + GN_LIGHT_POINT_AT, &point)) return 0;
+#endif
+    return gn_shadow_factor(frame, surface, sample, slot, gn_shadow_distance(frame, surface, sample));
 }
 
 /* Light of Q24 irradiance times a colour, Q16, to Q20; 2^24 * 2^31 */
@@ -113,19 +98,24 @@ void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const g
         sum[c] += (uint64_t)surface->object->albedo_uq16[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_BAKED + c], 0) >> 12;
 #endif
     for (uint32_t i = 0; i < surface->n_lights; i++) {
-        arriving a;
-        if (!arrives(frame, surface, sample, i, &a)) continue;
+        const gn_surface_light *light = &surface->light[i];
+        const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
+        if (value[GN_LIGHT_FACING] <= 0) continue; /* P10 */
+        uint32_t diffuse = (uint32_t)value[GN_LIGHT_FACING];
+#if GN_PUNCTUAL_LIGHTS
+        if (light->state->kind != GN_LIGHT_DIRECTIONAL) diffuse = punctual_q24(frame, light->state, value);
+        if (!diffuse) continue;
+#endif
         uint32_t shadow = gn_shadow_factor(frame, surface, sample, i, g);
         GN_COUNT(lights, 1);
         if (!shadow) continue;
-        uint32_t diffuse = diffuse_q24(&a);
-        add(sum, surface->light[i].radiance_uq16, shadow == 65536 ? diffuse : gn_mul_uq16(diffuse, shadow));
+        add(sum, light->radiance_uq16, shadow == 65536 ? diffuse : gn_mul_uq16(diffuse, shadow));
 #if GN_SPECULAR
         if (surface->specular) {
             GN_COUNT(highlights, 1);
             uint32_t colour[3];
-            for (int c = 0; c < 3; c++) colour[c] = gn_mul_uq16(a.light->colour_uq16[c], surface->object->specular_uq16[c]);
-            add(highlights, colour, gn_mul_uq16(specular_q24(surface, sample, &a), shadow));
+            for (int c = 0; c < 3; c++) colour[c] = gn_mul_uq16(light->state->colour_uq16[c], surface->object->specular_uq16[c]);
+            add(highlights, colour, gn_mul_uq16(specular_q24(frame, surface, sample, i), shadow));
         }
 #endif
     }

@@ -129,7 +129,7 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
 #if GN_SHADOWS
     if (light->view_idx >= 0 && s->shadowed) gn_bias_punctual(frame, light, n_q30, out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
 #else
-    (void)n_q30;
+    (void)frame, (void)n_q30;
 #endif
 }
 #endif

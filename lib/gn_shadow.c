@@ -182,9 +182,10 @@ static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int3
 
 uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot, uint32_t g_uq16)
 {
+    if (!(surface->shadowed | surface->masked)) return GN_ONE_UQ16;
     const gn_light_state *light = surface->light[slot].state;
     uint32_t strength = light->strength_uq16;
-    if (!strength || !(surface->shadowed | surface->masked)) return GN_ONE_UQ16;
+    if (!strength) return GN_ONE_UQ16;
     uint32_t mask = mask_of(surface, sample, light->mask_channel);
 #if GN_SHADOWS
     if (light->view_idx < 0 || !gn_mul_uq16(strength, g_uq16)) return faded(mask, strength);
@@ -199,7 +200,7 @@ uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, cons
         return faded(realtime, gn_mul_uq16(strength, g_uq16)); /* M4 */
     }
 #else
-    (void)g_uq16;
+    (void)frame, (void)g_uq16;
     return faded(mask, strength);
 #endif
 }

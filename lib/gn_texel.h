@@ -11,6 +11,18 @@
 
 #define GN_DEPTH_EMPTY_Q32 0xFFFFFFFFU
 
+/* An atlas as its depth_bits name it. */
+#define GN_TEXELS_OF(atlas, depth_bits) gn_texels_of((atlas).d8, (atlas).d16, (atlas).d32, (depth_bits))
+
+static inline gn_texels gn_texels_of(uint8_t *d8, uint16_t *d16, uint32_t *d32, int32_t depth_bits)
+{
+    gn_texels texels;
+    if (depth_bits == 8) texels.d8 = d8;
+    else if (depth_bits == 16) texels.d16 = d16;
+    else texels.d32 = d32;
+    return texels;
+}
+
 static inline gn_texels gn_texels_at(gn_texels texels, int32_t depth_bits, size_t i)
 {
     if (depth_bits == 8) texels.d8 += i;

@@ -82,18 +82,14 @@ static void set_texels(gn_frame *frame, gn_light_view *view)
 {
     size_t first = view->first_texel;
     view->depth_bits = (uint8_t)GN_K(frame, depth_bits);
-    view->depth.d8 = frame->atlas.d8;
-    if (view->depth_bits == 16) view->depth.d16 = frame->atlas.d16;
-    if (view->depth_bits == 32) view->depth.d32 = frame->atlas.d32;
+    view->depth = GN_TEXELS_OF(frame->atlas, view->depth_bits);
 #if GN_DEPTH_BLOCKS
     view->block = frame->block + first / 64;
 #endif
 #if GN_OTHER_ATLAS
     if (view->in_other) {
         view->depth_bits = (uint8_t)GN_K(frame, other_depth_bits);
-        view->depth.d8 = frame->other_atlas.d8;
-        if (view->depth_bits == 16) view->depth.d16 = frame->other_atlas.d16;
-        if (view->depth_bits == 32) view->depth.d32 = frame->other_atlas.d32;
+        view->depth = GN_TEXELS_OF(frame->other_atlas, view->depth_bits);
 #if GN_DEPTH_BLOCKS
         view->block = frame->other_block + first / 64;
 #endif

@@ -77,6 +77,28 @@ static void check_floors(const metrics *m, int preset, const char *what)
                m->within1, m->psnr_db, m->shadow_mismatch);
 }
 
+/* The scene with its lights replaced by one of each kind in turn: what --set lights=KIND does. */
+static void run_kinds(const char *path, int preset)
+{
+    static const char *const kinds[] = {"lights=directional", "lights=spot", "lights=point"};
+    for (int k = 0; k < 3; k++) {
+        char error[512] = "", word[32];
+        char *const sets[] = {word};
+        scene s;
+        settings set;
+        metrics m;
+        scene_options options = {.width = 320, .height = 240};
+        snprintf(word, sizeof word, "%s", kinds[k]);
+        if (!CHECK_EQ_INT(scene_load(&s, path, &options, error, sizeof error), 0)) continue;
+        settings_init(&set);
+        CHECK_EQ_INT(settings_apply_all(&set, &s, NULL, 0, error, sizeof error), 0);
+        settings_preset(&set, preset);
+        CHECK_EQ_INT(settings_apply_all(&set, &s, sets, 1, error, sizeof error), 0);
+        if (CHECK_EQ_INT(compare_scene(&m, &s, &set), 0)) check_floors(&m, preset, word);
+        scene_free(&s);
+    }
+}
+
 static void run(const char *path, int preset, int table)
 {
     char error[512] = "";
@@ -115,7 +137,8 @@ static void run(const char *path, int preset, int table)
 
 int main(int argc, char **argv)
 {
-    static const char *const scenes[] = {"host/scenes/sundial.gltf", "host/scenes/avenue.gltf"};
+    static const char *const scenes[] = {"host/scenes/sundial.gltf", "host/scenes/avenue.gltf", "host/scenes/desk.gltf",
+                                         "host/scenes/room.gltf",    "host/scenes/fence.gltf",  "host/scenes/mixed.gltf"};
     int table = argc > 1 && strcmp(argv[1], "--table") == 0;
     if (table)
         printf("\n| scene | preset | identical | PSNR dB | differing: coverage, shadow, rounding | identical, median of %d views | "
@@ -123,6 +146,9 @@ int main(int argc, char **argv)
                "| PSNR, median | worst | shadow mismatch, worst |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
                N_VIEWS);
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
-        for (int preset = SETTINGS_ACCURATE; preset >= SETTINGS_BALANCED; preset--) run(scenes[i], preset, table);
+        for (int preset = SETTINGS_ACCURATE; preset >= SETTINGS_BALANCED; preset--) {
+            run(scenes[i], preset, table);
+            if (!table) run_kinds(scenes[i], preset);
+        }
     return table ? 0 : check_report();
 }

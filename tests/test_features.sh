@@ -92,7 +92,7 @@ while read -r row; do
         continue
     fi
     files "$row" lib "$(cell 3)"
-    files "$row" host/ref "$(cell 4)"
+    if [ "$(cell 4)" = "none: the same pixels" ]; then pass; else files "$row" host/ref "$(cell 4)"; fi
     settings "$row" "$(cell 5)"
     tests "$row" "$(cell 6)"
     anchor=$(echo "$row" | tr A-Z a-z)

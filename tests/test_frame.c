@@ -918,6 +918,14 @@ static void test_order(void)
     CHECK(gn_begin(&one, NULL) == GN_ERR_NULL); /* a failed begin ends the frame */
     fails(gn_shadow_tile(&one, 0), GN_ERR_ORDER, 0, 0, 0, "shadow tile after a failed begin");
     CHECK(gn_screen_tile(&one.frame, &one.scratch, 0, flush, &c) == GN_ERR_ORDER);
+    demo.scene.n_lights = 1;
+    CHECK(gn_begin(&one, &demo.scene) == GN_OK);
+    demo.ball_idx[5] += 1000; /* and a tile that failed is not done, whatever is mended afterwards */
+    gn_forget_shadows(&one);
+    fails(gn_shadow_tile(&one, 0), GN_ERR_MESH_INDEX, 1, 0, 0, "shadow tile with a bad index");
+    demo.ball_idx[5] -= 1000;
+    fails(gn_prepare(&one), GN_ERR_ORDER, 0, 0, 0, "prepare after a failed shadow tile");
+    CHECK(gn_shadow_tile(&one, 0) == GN_OK && gn_prepare(&one) == GN_OK);
     CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
     canvas_end(&c);
 }

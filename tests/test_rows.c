@@ -4,7 +4,7 @@
  * A line says what it compares and what the picture is without it. That the row matters is tested too: the reference with and without must
  * differ, and the library must come closer to the reference with the row than the one without is. So a setting that one engine ignores
  * fails, however few pixels it changes. */
-#include "../host/tool/metrics.h"
+#include "floors.h"
 #include "row_scenes.h"
 
 enum { WIDTH = 160, HEIGHT = 120 };
@@ -20,11 +20,6 @@ typedef struct {
     const char *with, *without;     /* NULL: nothing to leave out */
     double allowed;                 /* what may differ, as a share of what the project promises */
 } row;
-
-typedef struct {
-    double identical, within1, psnr_db, shadow_mismatch;
-} floors;
-static const floors floor_of[SETTINGS_PRESETS] = {{0, 0, 0, 1}, {0.96, 0.993, 39, 0.008}, {0.985, 0.998, 43, 0.004}};
 
 #define MOST_TEXELS   0.004 /* of a shadow tile whose depth differs: its edges */
 #define LEAST_CHANGED 12    /* pixels that the row changes by more than 2 of 255 levels */
@@ -128,15 +123,6 @@ static double closeness(const pair *with, const engine_picture *without)
     static bool seen[WIDTH * HEIGHT];
     for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) seen[i] = with->fixed.triangle[i] == with->reference.triangle[i];
     return squared_distance(&with->fixed, &with->reference, seen) / fmax(squared_distance(without, &with->reference, seen), 1e-9);
-}
-
-/* The share of what is promised that the metrics need: 1 is just enough. */
-static double share_needed(const metrics *m, int preset)
-{
-    const floors *f = &floor_of[preset];
-    double share = fmax((1 - m->identical) / (1 - f->identical), (1 - m->within1) / (1 - f->within1));
-    share = fmax(share, m->shadow_mismatch / f->shadow_mismatch);
-    return isinf(m->psnr_db) ? share : fmax(share, pow(10, (f->psnr_db - m->psnr_db) / 10));
 }
 
 /* Both say the same of tiles (A2, A3, D1, D10, P5). */

@@ -176,6 +176,14 @@ else
     else fail "docs/CONFIG.md is not what 'gnomon knobs' prints: make docs ($(diff "$tmp/knobs" "$tmp/section" | sed -n 2p))"; fi
 fi
 
+if [ ! -x build/test_extremes ]; then fail "there is no build/test_extremes"
+else
+    build/test_extremes --table | sed '/./,$!d' >"$tmp/extremes"
+    awk '/<!-- generated: extremes/ { inside = 1; next } /<!-- end/ { inside = 0 } inside' docs/EXTREMES.md | sed '/./,$!d' >"$tmp/section"
+    if cmp -s "$tmp/extremes" "$tmp/section" && [ -s "$tmp/section" ]; then pass
+    else fail "docs/EXTREMES.md is not what 'test_extremes --table' prints: make docs ($(diff "$tmp/extremes" "$tmp/section" | sed -n 2p))"; fi
+fi
+
 git ls-files --cached --others --exclude-standard -z | xargs -0 grep -I -n -H -E '[[:space:]]$' 2>/dev/null | cut -c 1-100 >"$tmp/found"
 none "trailing white space" "$tmp/found"
 git ls-files --cached --others --exclude-standard -z | xargs -0 grep -I -l -P '\t' 2>/dev/null | grep -v -E '(^|/)(Makefile|[^/]*\.mk)$' >"$tmp/found"

@@ -59,7 +59,7 @@ typedef struct {
     size_t main_light;       /* D10; SCENE_NONE: every directional light has cascades */
     bool cascades_in_use;    /* some light has tiles in the directional atlas */
     ref_sphere sphere[REF_MAX_CASCADES];
-    ref_hit *hits; /* one per pixel; meaningful where picture->triangle >= 0 */
+    ref_hit *hits;              /* one per pixel; meaningful where picture->triangle >= 0 */
     ref_visibility *visibility; /* NULL: the shadow maps */
     const void *visibility_user;
 } ref_frame;

@@ -12,6 +12,7 @@
  *   suns: 9.7 % RMS, 17.0 % at most
  *   slopes: 1.1 % RMS, 2.7 % at most
  */
+/* clang-format off */
 COST(tile_texels, 16.34) /* texel of a shadow tile that was cleared, and bounded by blocks */
 COST(casters, 767.8) /* caster triangle seen by an orthographic view */
 COST(casters_persp, 1354) /* caster triangle seen by a perspective view */

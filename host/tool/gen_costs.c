@@ -154,7 +154,7 @@ int main(int argc, char **argv)
         print_error(&some, scenes[i]);
         printf("\n");
     }
-    printf(" */\n");
+    printf(" */\n/* clang-format off */\n");
     for (int event = 0; event < GN_COUNT_N; event++) {
         double sum = 0;
         for (int stage = 0; stage < STAGES; stage++) sum += all.weight[stage][event];

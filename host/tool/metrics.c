@@ -11,9 +11,12 @@ static int steps565(uint16_t a, uint16_t b)
     return r > g ? (r > blue ? r : blue) : (g > blue ? g : blue);
 }
 
+/* Below this cosine a surface is edge-on to a light: which side it faces is rounding, and it receives nothing that could be seen. */
+#define FACING_LEAST 1e-5
+
 static int comparable(const engine_picture *fixed, const engine_picture *other, size_t light, size_t i)
 {
-    return fixed->triangle[i] >= 0 && fixed->triangle[i] == other->triangle[i] && other->ndotl[light][i] > 0;
+    return fixed->triangle[i] >= 0 && fixed->triangle[i] == other->triangle[i] && other->ndotl[light][i] > FACING_LEAST;
 }
 
 static void attenuation(metrics *m, const engine_picture *fixed, const engine_picture *other)

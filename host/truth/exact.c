@@ -6,8 +6,8 @@
 
 _Static_assert(FLT_EVAL_METHOD == 0 && FLT_RADIX == 2 && DBL_MANT_DIG == 53, "exact arithmetic stands on plain IEEE doubles");
 
-/* Components that each step needs at most: a difference of doubles 2, a minor 2 * (2 * 2 * 2), a determinant 3 * (2 * 2 * 16), with its
- * weight twice that, and the sum of three of them. */
+/* Components that each step needs at most: a difference of doubles 2, a minor 2 * (2 * 2 * 2), a determinant 3 * (2 * 2 * 16), with
+ * its weight twice that, and the sum of three of them. */
 enum { DIFFERENCE = 2, PRODUCT = 8, MINOR = 16, TERM = 64, DETERMINANT = 192, WEIGHTED = 384, SUM = 1152 };
 
 /* x + y = a + b, x the rounded sum */

@@ -5,7 +5,7 @@ typedef struct {
     const truth_tracer *tracer;
     const truth_ray *ray;
     const ref_triangle *skip;
-    double near;          /* of spot and point lights; */
+    double near;          /* of spot and point lights */
     double plane_from;    /* light-plane distance of the origin */
     double transmittance; /* so far */
 } passage;
@@ -32,7 +32,7 @@ static bool meet_caster(void *user, const truth_caster *c)
     truth_hit hit;
     if (way->skip && c->source.object == way->skip->object && c->source.idx == way->skip->idx) return true;
     if (!truth_meets(&hit, way->ray, c->p, c->uncertainty, c->two_sided)) return true;
-    /* P4: the light-plane distance shrinks evenly on the way to the light. Directional lights have pancaking (D9), that is no near plane. */
+    /* P4: the light-plane distance shrinks evenly on the way to the light. Directional lights have no near plane (D9). */
     if (!way->ray->target.infinite && !(way->plane_from * (1.0 - hit.t) >= way->near)) return true;
     way->transmittance *= passes(way->tracer->s, &c->source, hit.bary);
     return way->transmittance > 0.0;

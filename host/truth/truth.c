@@ -63,7 +63,8 @@ static void add_picture(sums *sum, const ref_picture *p)
         }
 }
 
-/* A pixel whose centre faces a light, and none of its samples, keeps its centre's shadow; where the centre does not, the shadow is 0. */
+/* A pixel whose centre faces a light, and none of its samples, keeps its centre's shadow; where the centre does not, the shadow is
+ * 0. */
 static void take_means(ref_picture *p, const sums *sum, int samples)
 {
     const size_t n = (size_t)p->width * (size_t)p->height;
