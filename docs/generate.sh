@@ -1,6 +1,6 @@
 #!/bin/sh
 # Regenerates the parts of docs/ between "<!-- generated: NAME -->" and "<!-- end -->". usage: generate.sh TOOL [OUT_DIR]
-# The gallery is made as a whole, by gallery.sh. With OUT_DIR the documents are written there instead of in place: the test compares the two.
+# The gallery is made as a whole, by gallery.sh; TRADE.md by trade.sh, which takes a minute and so is left out with OUT_DIR. With OUT_DIR the documents are written there instead of in place: the test compares the two.
 set -e
 tool=$1 out=${2:-docs}
 build=$(dirname "$tool")
@@ -37,3 +37,4 @@ for name in rows seams crawl; do
 done
 for name in kept culling lists changes; do "$build/test_$name"; done | sed -n 's/^[a-z].* \(per frame\|left out\|listed\|differ\).*/- &/p' >"$work/kept"
 replace ACCURACY.md kept "$work/kept"
+if [ "$out" = docs ]; then sh docs/trade.sh "$tool"; fi

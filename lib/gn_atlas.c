@@ -2,6 +2,7 @@
 #include "gn_atlas.h"
 #include "gn_blocks.h"
 #include "gn_caster.h"
+#include "gn_count.h"
 #include "gn_cull.h"
 #include "gn_math.h"
 #include "gn_ortho.h"
@@ -139,6 +140,8 @@ static gn_status draw_triangle(const caster_job *job, const uint16_t idx[3])
 {
     int64_t corner[3][3];
     gn_caster_alpha *with = NULL;
+    if (job->view->perspective) GN_COUNT(casters_persp, 1);
+    else GN_COUNT(casters, 1);
     gn_status status = transform(job, idx, corner);
     if (status) return status;
 #if GN_CASTER_ALPHA
@@ -313,6 +316,7 @@ static gn_status static_layer(gn_frame *frame, const gn_light_view *view, const 
 static gn_status draw_tile(gn_frame *frame, const gn_light_view *view, uint32_t view_idx)
 {
     frame->stats.n_tiles_drawn++;
+    GN_COUNT(tile_texels, view->tile_texels * view->tile_texels);
 #if GN_STATIC_LAYER
     gn_light_view below = static_view(frame, view);
     gn_status status = static_layer(frame, view, &below, view_idx);

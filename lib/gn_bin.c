@@ -1,5 +1,6 @@
 /* Counting sort of triangles into screen tiles, in triangle order. */
 #include "gn_bin.h"
+#include "gn_count.h"
 #include "gn_q.h"
 #include "gn_scene.h"
 
@@ -34,6 +35,7 @@ gn_status gn_bin_triangles(gn_frame *frame)
     frame->stats.n_tile_refs = n_refs > UINT32_MAX ? UINT32_MAX : (uint32_t)n_refs;
     if (n_refs > GN_MAX_TILE_REFS)
         return gn_fail_capacity(frame, GN_ERR_TILE_REFS_FULL, frame->stats.n_tile_refs, GN_MAX_TILE_REFS);
+    GN_COUNT(tile_refs, n_refs);
     gn_ref_offset *first = frame->tile_first;
     for (uint32_t i = 0; i <= n_tiles; i++) first[i] = 0;
     for (uint32_t t = 0; t < frame->stats.n_triangles; t++) {

@@ -1,5 +1,6 @@
 /* Spans of shadow texels. */
 #include "gn_caster.h"
+#include "gn_count.h"
 #include "gn_q.h"
 #include "gn_texel.h"
 #include "gn_walk.h"
@@ -27,6 +28,7 @@ static void span(gn_texels row, int32_t bits, int32_t u, int32_t u_end, int64_t 
     int64_t least = z < last ? z : last, most = z < last ? last : z;
     if (bits == 16 && least >= caster->lo && most <= caster->hi && most + caster->bias + 0x8000 <= (int64_t)UINT32_MAX) {
         uint16_t *texel = row.d16;
+        GN_COUNT(texels, u_end - u);
         uint32_t v = (uint32_t)(z + caster->bias + 0x8000), dv = (uint32_t)caster->dz_du;
         for (; u < u_end; u++) {
             if ((uint16_t)(v >> 16) < texel[u]) texel[u] = (uint16_t)(v >> 16);
@@ -34,6 +36,7 @@ static void span(gn_texels row, int32_t bits, int32_t u, int32_t u_end, int64_t 
         }
         return;
     }
+    GN_COUNT(texels_wide, u_end - u);
     for (; u < u_end; u++) {
         store(row, bits, u, gn_clamp64(z, caster->lo, caster->hi) + caster->bias);
         z += caster->dz_du;
@@ -71,16 +74,19 @@ int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const g
 {
     int32_t size = view->tile_texels, bits = GN_VIEW_BITS(view), n_texels = 0, u_begin, u_end, v;
     gn_walk walk;
+    GN_COUNT(caster_walks, 1);
     if (!gn_walk_begin(&walk, x, y, GN_K(frame, shadow_subpixel_bits), 0, size)) return 0;
     while (gn_walk_row(&walk, &v, &u_begin, &u_end)) {
         u_begin = gn_max32(u_begin, 0);
         u_end = gn_min32(u_end, size);
         if (u_begin >= u_end) continue;
         n_texels += u_end - u_begin;
+        GN_COUNT(caster_rows, 1);
         int64_t z = caster->z_corner + u_begin * caster->dz_du + v * caster->dz_dv;
         gn_texels row = gn_texels_at(view->depth, bits, (size_t)(uint32_t)(v * size));
 #if GN_CASTER_ALPHA
         if (alpha) {
+            GN_COUNT(texels_cut, u_end - u_begin);
             cut_span(row, view, v, u_begin, u_end, z, caster, alpha);
             continue;
         }

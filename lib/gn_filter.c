@@ -1,6 +1,7 @@
 /* Percentage-closer filtering. Compares come first, weights are exact integers, one division by multiplication ends it. */
 #include "gn_filter.h"
 #include "gn_blocks.h"
+#include "gn_count.h"
 #include "gn_q.h"
 #include "gn_tables.h"
 #include "gn_texel.h"
@@ -111,6 +112,7 @@ static uint32_t sum_any(const lookup *l, int32_t u, int32_t v, int32_t n, const 
 {
     const gn_light_view *view = l->view;
     int32_t last = view->tile_texels - 1, in_v = v < 0 ? 0 : v > last ? last : v, all = BORDER_LIT(view) && in_v != v;
+    GN_COUNT(taps_edge, 1);
     gn_texels row = texels_at(view, 0, in_v);
     uint32_t sum = 0;
 #if GN_RECEIVER_PLANE
@@ -137,6 +139,7 @@ static uint32_t tap(const lookup *l, int32_t u, int32_t v)
 /* A tap of the hard filter or the disk: one of few. */
 static inline uint32_t lone_tap(const lookup *l, int32_t u, int32_t v)
 {
+    GN_COUNT(taps_lone, 1);
     if (!plain(l, u, v, 1)) return tap(l, u, v);
     return gn_texel_load(texels_at(l->view, u, v), GN_VIEW_BITS(l->view), 0) >= l->least;
 }
@@ -195,6 +198,7 @@ static uint32_t bilinear(const lookup *l, int32_t bits)
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768;
     int32_t u = (cu >> 16) - 1, v = (cv >> 16) - 1;
     uint32_t l00, l01, l10, l11;
+    GN_COUNT(lookups_2x2, 1);
     if (plain(l, u, v, 2)) {
         int32_t depth_bits = GN_VIEW_BITS(l->view);
         gn_texels top = texels_at(l->view, u, v), bottom = gn_texels_at(top, depth_bits, l->view->tile_texels);
@@ -287,6 +291,8 @@ static uint32_t tent(const gn_frame *frame, const lookup *l, int32_t k, int32_t 
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
     if (decided(l, u0, v0, n, &answer)) return answer;
+    GN_COUNT(undecided, 1);
+    GN_COUNT(taps_tent, n * n);
 #if GN_LINEAR_KERNELS
     if (frame->scene->shadow.kernel == GN_KERNEL_LINEAR) {
         gn_linear_weights(wu, k, fraction(cu, bits), bits);
@@ -326,6 +332,7 @@ static uint32_t disk(const gn_frame *frame, const lookup *l, const gn_receiver *
     uint32_t n_samples = frame->scene->shadow.disk_samples, n_lit = 0, answer;
     int32_t radius_q16 = gn_max32(0, gn_min32(l->view->disk_radius_q16, DISK_RADIUS_MAX_Q16)), reach_q16 = radius_q16 + 32;
     if (decided(l, (l->u_q16 - reach_q16) >> 16, (l->v_q16 - reach_q16) >> 16, (2 * reach_q16 >> 16) + 2, &answer)) return answer;
+    GN_COUNT(undecided, 1);
     uint16_t turn = rotation_turn(receiver->pixel_x, receiver->pixel_y);
     int32_t c_q12 = gn_mul_shr(radius_q16, gn_cos_q30(turn), 34), s_q12 = gn_mul_shr(radius_q16, gn_sin_q30(turn), 34);
     int32_t u = l->u_q16 >> 16, fu_q27 = (l->u_q16 & 0xFFFF) << 11;

@@ -1,5 +1,6 @@
 /* Lighting of one surface point. */
 #include "gn_light.h"
+#include "gn_count.h"
 #include "gn_punctual.h"
 #include "gn_q.h"
 #include "gn_shadow.h"
@@ -10,6 +11,7 @@
 static uint32_t punctual_q24(const gn_frame *frame, const gn_light_state *light, const int32_t *value)
 {
     gn_punctual_point point;
+    GN_COUNT(lights_punctual, 1);
     if (!gn_punctual_at(frame, light, value + GN_LIGHT_POINT_AT, &point)) return 0;
     return gn_punctual_irradiance_q24(&point, gn_punctual_cosine_q30(&point, value[GN_LIGHT_FACING]));
 }
@@ -78,6 +80,7 @@ static void modulate(const gn_surface *surface, const gn_sample *sample, uint64_
 #if GN_TEXTURES
     uint32_t texture[3];
     if (!surface->textured) return;
+    GN_COUNT(textured, 1);
     gn_texture_colour(surface->object->texture, sample->value[GN_VALUE_UV], sample->value[GN_VALUE_UV + 1], texture);
     for (int c = 0; c < 3; c++) sum[c] = (sum[c] * texture[c] + 0x8000U) >> 16;
 #endif
@@ -104,10 +107,12 @@ void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const g
         if (!diffuse) continue;
 #endif
         uint32_t shadow = gn_shadow_factor(frame, surface, sample, i, g);
+        GN_COUNT(lights, 1);
         if (!shadow) continue;
         add(sum, light->radiance_uq16, shadow == 65536 ? diffuse : gn_mul_uq16(diffuse, shadow));
 #if GN_SPECULAR
         if (surface->specular) {
+            GN_COUNT(highlights, 1);
             uint32_t colour[3];
             for (int c = 0; c < 3; c++) colour[c] = gn_mul_uq16(light->state->colour_uq16[c], surface->object->specular_uq16[c]);
             add(highlights, colour, gn_mul_uq16(specular_q24(frame, surface, sample, i), shadow));

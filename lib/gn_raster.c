@@ -1,6 +1,7 @@
 /* Visible surfaces of a screen tile. */
 #include "gn_raster.h"
 #include "gn_alpha.h"
+#include "gn_count.h"
 #include "gn_plane.h"
 #include "gn_q.h"
 #include "gn_xform.h"
@@ -104,15 +105,18 @@ static void raster_triangle(const gn_frame *frame, gn_scratch *scratch, const gn
         xa = gn_max32(xa, rect->x0);
         xb = gn_min32(xb, rect->x1);
         if (xa >= xb) continue;
+        GN_COUNT(rows, 1);
         uint32_t iz = tri->iz_ref + (uint32_t)(xa - x_ref) * (uint32_t)tri->iz_dx + (uint32_t)(y - y_ref) * (uint32_t)tri->iz_dy;
         uint32_t iz_last = iz + (uint32_t)(xb - 1 - xa) * (uint32_t)tri->iz_dx;
         uint32_t *cell = scratch->cell + (y - rect->y0) * stride + (xa - rect->x0);
 #if GN_VISIBLE_ALPHA
         if (has_cuts) {
+            GN_COUNT(covered_cut, xb - xa);
             raster_span_cut(frame, &cut, cell, xa, xb, y, iz, tri, id, id_mask);
             continue;
         }
 #endif
+        GN_COUNT(covered, xb - xa);
         if (iz - lo <= hi - lo && iz_last - lo <= hi - lo) raster_span(cell, xb - xa, iz, (uint32_t)tri->iz_dx, id, id_mask);
         else raster_span_clamped(cell, xb - xa, iz, tri, id, id_mask);
     }
@@ -122,6 +126,8 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
 {
     gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
     int32_t n = (rect.x1 - rect.x0) * (rect.y1 - rect.y0);
+    GN_COUNT(screen_tiles, 1);
+    GN_COUNT(pixels, n);
     for (int32_t i = 0; i < n; i++) scratch->cell[i] = 0;
 #if GN_VISIBLE_ALPHA
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;

@@ -1,6 +1,7 @@
 /* A surface at a pixel's centre. */
 #include "gn_sample.h"
 #include "gn_bias.h"
+#include "gn_count.h"
 #include "gn_q.h"
 #include "gn_texture.h"
 
@@ -164,10 +165,12 @@ static void light_values(const gn_frame *frame, const gn_surface *s, int32_t px,
         for (int k = 1; k < GN_VALUES_PER_LIGHT; k++) out[k] = 0; /* not always used, but stepped */
 #if GN_PUNCTUAL_LIGHTS
         if (light->kind != GN_LIGHT_DIRECTIONAL) {
+            GN_COUNT(sample_lights_punctual, 1);
             punctual_values(frame, s, i, px, py, n_q30, unit_q30, sample, out);
             continue;
         }
 #endif
+        GN_COUNT(sample_lights, 1);
         out[0] = s->smooth ? gn_length_cosine_q24(length, n_q30, light->to_light_q30) : s->light[i].flat_cosine_q24;
 #if GN_SHADOWS
         if (s->shadowed) directional_coords(frame, s, i, px, py, n_q30, sample, out + 1);
@@ -214,6 +217,8 @@ void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t
 {
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
     hit h;
+    GN_COUNT(samples, 1);
+    if (s->has_bary) GN_COUNT(samples_smooth, 1);
     intersect(frame, s, px, py, &h);
     sample->value[GN_VALUE_Z] = h.z_q16;
     sample->value[GN_VALUE_FADE] = 0;

@@ -1,6 +1,7 @@
 /* Visible triangles. */
 #include "gn_setup.h"
 #include "gn_clip.h"
+#include "gn_count.h"
 #include "gn_math.h"
 #include "gn_plane.h"
 #include "gn_q.h"
@@ -142,10 +143,12 @@ static void emit(gn_frame *frame, const depth_setup *depth, const int32_t x[3], 
     tri.object_idx = (uint16_t)object_idx;
     tri.triangle_idx = (uint16_t)triangle_idx;
     frame->tri[frame->stats.n_triangles - 1] = tri;
+    GN_COUNT(visible, 1);
 }
 
 static void setup_triangle(gn_frame *frame, const int32_t *const v[3], uint32_t object_idx, uint32_t triangle_idx)
 {
+    GN_COUNT(triangles, 1);
     const gn_cam *cam = &frame->cam;
     uint32_t all = ~0U, any = 0, any_guard = 0;
     for (int i = 0; i < 3; i++) {

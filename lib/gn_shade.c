@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "gn_shade.h"
+#include "gn_count.h"
 #include "gn_light.h"
 #include "gn_pixel.h"
 #include "gn_punctual.h"
@@ -61,6 +62,7 @@ static uint32_t pack(shading *s, const uint32_t q20[3])
         last[0] = q20[0];
         last[1] = q20[1];
         last[2] = q20[2];
+        GN_COUNT(packed, 1);
         s->last_pixel = gn_pixel_pack(s->frame, q20);
     }
     return s->last_pixel;
@@ -77,6 +79,7 @@ static void shade_pixel(shading *s, gn_sample *sample, int32_t x, int32_t y)
     }
 #endif
     uint32_t radiance_q20[3];
+    GN_COUNT(shaded, 1);
     gn_light_radiance(s->frame, &s->surface, sample, radiance_q20);
     gn_pixel_store(s->frame, &s->rows, x, y, pack(s, radiance_q20));
 }
@@ -177,6 +180,7 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     int32_t step_px = s->surface.specular ? 1 : GN_K(s->frame, persp_step); /* a highlight is narrower than its n . h */
     int32_t first = s->surface.first_value, end = s->surface.n_values;
+    GN_COUNT(runs, 1);
     gn_sample samples[2], step, *here = &samples[0], *next = &samples[1];
     gn_sample_at(s->frame, &s->surface, x_begin, y, here);
     shade_pixel(s, here, x_begin, y);
@@ -188,6 +192,7 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
             gn_sample_at(s->frame, &s->surface, x + n, y, next);
         }
         if (n > 1) {
+            GN_COUNT(stepped, n * (end - first));
             step_between(&step, here, next, first, end, n);
             for (int32_t k = 1; k < n; k++) {
                 for (int32_t i = first; i < end; i++) here->value[i] += step.value[i];
@@ -207,6 +212,8 @@ static void fill_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     gn_sample sample;
     uint32_t radiance_q20[3];
+    GN_COUNT(runs, 1);
+    GN_COUNT(filled, x_end - x_begin);
     sample.cascade = GN_CASCADE_NONE;
     for (uint32_t i = 0; i < s->surface.n_lights; i++)
         sample.value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i] = s->surface.light[i].flat_cosine_q24;

@@ -1,6 +1,7 @@
 /* Shadow of one light at a sample. */
 #include "gn_shadow.h"
 #include "gn_bias.h"
+#include "gn_count.h"
 #include "gn_filter.h"
 #include "gn_noise.h"
 #include "gn_persp.h"
@@ -59,6 +60,7 @@ static void ortho_slopes(const gn_light_view *view, const int32_t face_q30[3], i
 static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                                   const gn_light_view *view, const int32_t coord[3])
 {
+    GN_COUNT(lookups, 1);
     gn_receiver r = {coord[0], coord[1], 0, {0, 0}, sample->x, sample->y};
     /* texels, Q16, to a share of T * 2^J texels */
     int32_t up = 16 - view->tile_log2 - view->depth_log2;
@@ -138,6 +140,7 @@ static uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surfa
     const int32_t *from = value + GN_LIGHT_POINT_AT;
     /* P5: the face of the unmoved point; the moved one stays in it */
     if (frame->light[view->light_idx].kind == GN_LIGHT_POINT) view += gn_persp_face(from);
+    GN_COUNT(lookups_persp, 1);
     int32_t moved[3];
     int64_t at[3];
     int64_t less_q32 = moved_point(frame, surface, sample, view, value, moved);

@@ -1,6 +1,7 @@
 /* A visible triangle as a surface. */
 #include "gn_surface.h"
 #include "gn_bias.h"
+#include "gn_count.h"
 #include "gn_q.h"
 #include "gn_sample.h"
 #include "gn_setup.h"
@@ -277,6 +278,7 @@ static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_
 
 void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s, const gn_tri *tri)
 {
+    GN_COUNT(surfaces, 1);
     s->object = &frame->scene->objects[tri->object_idx];
     use_object(frame, cache, s->object);
     const gn_mesh *mesh = s->object->mesh;

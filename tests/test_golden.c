@@ -11,7 +11,7 @@
 static const struct {
     const char *scene;
     int frame;
-    char *sets[4]; /* as --set */
+    const char *sets[4]; /* as --set */
 } frames[] = {
     {"sundial", 24, {NULL}},  {"sundial", 72, {NULL}},
     {"sundial", 132, {NULL}}, {"avenue", 0, {NULL}},
@@ -33,7 +33,7 @@ static uint32_t crc32_of(const void *data, size_t n)
 }
 
 /* The line of golden.txt for one frame and preset. */
-static int line_of(char *line, size_t bytes, const char *scene_name, int frame, char *const sets[4], int preset)
+static int line_of(char *line, size_t bytes, const char *scene_name, int frame, const char *const sets[4], int preset)
 {
     char path[256], error[512] = "";
     scene s;

@@ -43,7 +43,7 @@ static int apply_to_file(stage *st, const char *words)
     char buffer[512], error[256] = "";
     snprintf(buffer, sizeof buffer, "%s", words);
     for (char *word = strtok(buffer, " "); word; word = strtok(NULL, " ")) {
-        if (settings_apply_all(&st->set, &st->file, &word, 1, error, sizeof error) == 0) continue;
+        if (settings_apply_all(&st->set, &st->file, &(const char *){word}, 1, error, sizeof error) == 0) continue;
         printf("  %s: %s\n", word, error);
         return -1;
     }

@@ -4,6 +4,7 @@
 
 #include "../ref/ref.h"
 #include "../scene/scene.h"
+#include "count.h"
 #include "settings.h"
 
 #define ENGINE_LIGHTS_MAX 64
@@ -28,6 +29,7 @@ typedef struct {
     /* of the library only */
     gn_shadow_state shadow_state[ENGINE_LIGHTS_MAX];
     gn_stats stats;
+    count_all counts; /* of drawing rgb8 */
     settings_demand demand;
 } engine_picture;
 

@@ -254,7 +254,9 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
     gn_picture picture = {(uint16_t)width, (uint16_t)height, set->output, GN_VIEW_COLOUR, 0};
     int failed = allocate(out, s, width, height) || !renderer || !raw;
     if (failed) snprintf(error, error_bytes, "out of memory");
-    else failed = draw_panel(&j, picture, out->rgb8);
+    count_reset();
+    if (!failed) failed = draw_panel(&j, picture, out->rgb8);
+    out->counts = count_get();
     if (!failed) {
         out->stats = *gn_get_stats(renderer);
         failed = copy_atlas(&j, out);

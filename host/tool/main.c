@@ -16,6 +16,8 @@ static const char usage_text[] =
     "                            (truth.png), and reports apart what fixed point costs (fixed against reference), what the\n"
     "                            shadow maps cost (reference against truth), and both; an error picture for each\n"
     "  info SCENE                what the scene needs, and what in the file was ignored\n"
+    "  sweep SCENE               many configurations: RAM, instructions and error, and the front of those that no other beats\n"
+    "  advise SCENE --ram BYTES  the most accurate configuration within a budget, as --set arguments\n"
     "  knobs                     every knob and setting, as docs/CONFIG.md lists them\n"
     "\n"
     "  --engine NAME             render: fixed, the library; reference, the same in double precision; truth, a ray tracer\n"
@@ -28,9 +30,16 @@ static const char usage_text[] =
     "  --frame N                 animation frame (0)\n"
     "  --set KEY=VALUE           any knob or setting, in order; preset=tiny|balanced|accurate sets many;\n"
     "                            KEY@LIGHT=VALUE for one light, by its number or name\n"
+    "  --csv FILE, --svg FILE    sweep: every configuration as a table and a picture\n"
+    "  --all                     sweep: print every configuration, not only the front\n"
+    "  --quick                   sweep, advise: a few configurations only\n"
+    "  --ram BYTES               advise: the most RAM\n"
+    "  --instructions-per-pixel N  advise: the most instructions per pixel (no limit)\n"
     "  --json                    one JSON object on stdout and nothing else\n";
 
-enum { BY_RENDER = 1, BY_COMPARE = 2, BY_INFO = 4, BY_ALL = BY_RENDER | BY_COMPARE | BY_INFO };
+enum { BY_RENDER = 1, BY_COMPARE = 2, BY_INFO = 4, BY_SWEEP = 8, BY_ADVISE = 16, BY_ALL = 31 };
+
+enum { BUDGET_MAX = 1000000000 };
 
 /* Which commands use an option, and what its value is; NULL: it has none. */
 typedef struct {
@@ -49,6 +58,12 @@ static const option options[] = {
     {"--light", BY_RENDER | BY_COMPARE, "a light from 0 to 63"},
     {"--frame", BY_ALL, "a frame from 0 to 100000000"},
     {"--set", BY_ALL, "KEY=VALUE, at most 64 times"},
+    {"--csv", BY_SWEEP, "a path"},
+    {"--svg", BY_SWEEP, "a path"},
+    {"--ram", BY_ADVISE, "bytes from 1 to 1000000000"},
+    {"--instructions-per-pixel", BY_ADVISE, "a number from 1 to 1000000000"},
+    {"--all", BY_SWEEP, NULL},
+    {"--quick", BY_SWEEP | BY_ADVISE, NULL},
     {"--json", BY_ALL, NULL},
 };
 _Static_assert(GN_MAX_WIDTH == 2048 && GN_MAX_HEIGHT == 2048 && GN_MAX_LIGHTS == 64 && TOOL_SETS_MAX == 64, "as said above");
@@ -106,11 +121,23 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--light") == 0) {
         failed = parse_int(value, 0, GN_MAX_LIGHTS - 1, &light);
         o->light = (size_t)light;
-    } else if (strcmp(name, "--set") == 0) {
+    } else if (strcmp(name, "--csv") == 0) failed = !*(o->csv_path = value);
+    else if (strcmp(name, "--svg") == 0) failed = !*(o->svg_path = value);
+    else if (strcmp(name, "--ram") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->ram);
+    else if (strcmp(name, "--instructions-per-pixel") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->instructions_per_pixel);
+    else if (strcmp(name, "--set") == 0) {
         if (o->n_sets == TOOL_SETS_MAX) return -1;
         o->sets[o->n_sets++] = value;
     }
     return failed ? -1 : 0;
+}
+
+/* One option without. */
+static void take_switch(tool_options *o, const char *name)
+{
+    if (strcmp(name, "--json") == 0) o->json = 1;
+    if (strcmp(name, "--all") == 0) o->all = 1;
+    if (strcmp(name, "--quick") == 0) o->quick = 1;
 }
 
 static const option *find_option(const char *name)
@@ -145,7 +172,7 @@ static int parse(tool_options *o, int command, int argc, char **argv)
             return usage_error();
         }
         if (!found->value) {
-            o->json = 1;
+            take_switch(o, found->name);
             continue;
         }
         if (++i >= argc) return usage("a value is missing after", found->name);
@@ -155,6 +182,7 @@ static int parse(tool_options *o, int command, int argc, char **argv)
         }
     }
     if (!o->scene_path) return usage("a scene is missing", NULL);
+    if (command == BY_ADVISE && !o->ram) return usage("--ram BYTES is missing", NULL);
     return check_truth(o, command == BY_RENDER ? o->engine : o->with);
 }
 
@@ -164,7 +192,11 @@ static int run(int argc, char **argv)
         const char *name;
         int bit;
         int (*run)(const tool_options *);
-    } commands[] = {{"render", BY_RENDER, tool_render}, {"compare", BY_COMPARE, tool_compare}, {"info", BY_INFO, tool_info}};
+    } commands[] = {{"render", BY_RENDER, tool_render},
+                    {"compare", BY_COMPARE, tool_compare},
+                    {"info", BY_INFO, tool_info},
+                    {"sweep", BY_SWEEP, tool_sweep},
+                    {"advise", BY_ADVISE, tool_advise}};
     tool_options o = {.engine = "fixed", .with = "reference", .width = 320, .height = 240};
     if (argc < 2) return usage("a command is missing", NULL);
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0) {

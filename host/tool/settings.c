@@ -313,7 +313,7 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     return -1;
 }
 
-int settings_apply_all(settings *out, scene *s, char *const *sets, int n, char *error, size_t error_bytes)
+int settings_apply_all(settings *out, scene *s, const char *const *sets, int n, char *error, size_t error_bytes)
 {
     for (size_t i = 0; i < s->n_settings; i++)
         if (settings_apply(out, s, s->settings[i].key, s->settings[i].value, error, error_bytes)) return -1;

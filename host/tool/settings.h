@@ -44,7 +44,7 @@ int settings_load_option(scene_options *options, const char *key, const char *va
 int settings_apply(settings *out, scene *s, const char *key, const char *value, char *error, size_t error_bytes);
 
 /* Applies the scene file's own settings, then n "KEY=VALUE" strings of the command line. */
-int settings_apply_all(settings *out, scene *s, char *const *sets, int n, char *error, size_t error_bytes);
+int settings_apply_all(settings *out, scene *s, const char *const *sets, int n, char *error, size_t error_bytes);
 
 /* A feature that a scene needs: the knob's name, its smallest value, and what needs it. */
 typedef struct {

@@ -1,6 +1,7 @@
 /* What the commands share. */
 #include "tool.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -36,27 +37,41 @@ int tool_samples(const tool_options *o)
     return o->samples ? o->samples : 1;
 }
 
+int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, scene *s, settings *set, char *error,
+                   size_t error_bytes)
+{
+    scene_options options = {.frame = o->frame, .width = o->width, .height = o->height};
+    for (int i = 0; i < n_sets; i++) {
+        char key[32];
+        const char *equals = strchr(sets[i], '=');
+        size_t n = equals ? (size_t)(equals - sets[i]) : sizeof key;
+        if (n >= sizeof key) continue; /* named by settings_apply_all */
+        memcpy(key, sets[i], n);
+        key[n] = 0;
+        if (settings_load_option(&options, key, equals + 1, error, error_bytes) < 0) return -1;
+    }
+    if (scene_load(s, o->scene_path, &options, error, error_bytes)) return -1;
+    settings_init(set);
+    if (settings_apply_all(set, s, sets, n_sets, error, error_bytes) ||
+        settings_enforce(set, s, o->width, o->height, error, error_bytes)) {
+        scene_free(s);
+        return -1;
+    }
+    return 0;
+}
+
 int tool_load(const tool_options *o, scene *s, settings *set)
 {
     char error[TOOL_ERROR_BYTES] = "failed";
-    scene_options options = {.frame = o->frame, .width = o->width, .height = o->height};
-    for (int i = 0; i < o->n_sets; i++) {
-        char key[32];
-        const char *equals = strchr(o->sets[i], '=');
-        size_t n = equals ? (size_t)(equals - o->sets[i]) : sizeof key;
-        if (n >= sizeof key) continue; /* named by settings_apply_all */
-        memcpy(key, o->sets[i], n);
-        key[n] = 0;
-        if (settings_load_option(&options, key, equals + 1, error, sizeof error) < 0) return tool_fail(o->scene_path, error);
-    }
-    if (scene_load(s, o->scene_path, &options, error, sizeof error)) return tool_fail(o->scene_path, error);
-    settings_init(set);
-    if (settings_apply_all(set, s, o->sets, o->n_sets, error, sizeof error) ||
-        settings_enforce(set, s, o->width, o->height, error, sizeof error)) {
-        scene_free(s);
-        return tool_fail(o->scene_path, error);
-    }
-    return 0;
+    if (!tool_load_with(o, o->sets, o->n_sets, s, set, error, sizeof error)) return 0;
+    tool_fail(o->scene_path, error);
+    return -1;
+}
+
+void tool_json_number(const char *name, double v)
+{
+    if (isinf(v)) printf("\"%s\": null", name);
+    else printf("\"%s\": %.9g", name, v);
 }
 
 void tool_json_string(const char *text)

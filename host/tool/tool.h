@@ -20,8 +20,12 @@ typedef struct {
     size_t light;
     int frame;
     int json;
-    char *sets[TOOL_SETS_MAX];
+    const char *sets[TOOL_SETS_MAX];
     int n_sets;
+    const char *csv_path, *svg_path; /* sweep */
+    int all, quick;
+    int ram;                    /* advise: bytes; 0: not given */
+    int instructions_per_pixel; /* 0: no limit */
 } tool_options;
 
 /* Exit codes: failures of the work itself, and of the command line. */
@@ -30,12 +34,18 @@ enum { TOOL_OK = 0, TOOL_FAILED = 1, TOOL_USAGE = 2 };
 int tool_render(const tool_options *o);
 int tool_compare(const tool_options *o);
 int tool_info(const tool_options *o);
+int tool_sweep(const tool_options *o);
+int tool_advise(const tool_options *o);
 
 /* How many samples truth takes, per pixel and axis. */
 int tool_samples(const tool_options *o);
 
 /* Loads the scene with all settings applied. Prints the error and returns -1 if it fails. */
 int tool_load(const tool_options *o, scene *s, settings *set);
+
+/* The same with other settings in the place of the command line's; -1 with one line in error. */
+int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, scene *s, settings *set, char *error,
+                   size_t error_bytes);
 
 /* Prints "gnomon: " and one line to stderr, whatever bytes went into it. */
 #if defined(__GNUC__)
@@ -48,5 +58,8 @@ int tool_fail(const char *path, const char *message);
 
 /* Prints a JSON string with its quotes; bytes that are no UTF-8 become U+FFFD. */
 void tool_json_string(const char *text);
+
+/* Prints "name": v, infinity as null. */
+void tool_json_number(const char *name, double v);
 
 #endif

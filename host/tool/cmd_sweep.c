@@ -1,0 +1,233 @@
+/* gnomon sweep: the trade between RAM, instructions and error over the knobs. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plot.h"
+#include "sweep.h"
+
+enum { NAME_BYTES = 256 };
+
+/* ---- For people ------------------------------------------------------------------------------------------------------------- */
+
+static int by_ram(const void *a, const void *b)
+{
+    const sweep_row *ra = a, *rb = b;
+    if (ra->ram_bytes != rb->ram_bytes) return ra->ram_bytes < rb->ram_bytes ? -1 : 1;
+    return (ra->instructions > rb->instructions) - (ra->instructions < rb->instructions);
+}
+
+static void print_db(double v)
+{
+    if (isinf(v)) printf("%7s", "inf");
+    else printf("%7.2f", v);
+}
+
+static void print_row(const sweep *w, const sweep_row *r)
+{
+    char name[NAME_BYTES];
+    sweep_name(w, r, name, sizeof name);
+    printf("%c %8ld %8.1f ", r->on_front ? '*' : ' ', r->ram_bytes, r->instructions);
+    print_db(r->truth.psnr_db);
+    printf(" %8.4f %7.3f%% ", r->truth.atten_rms, 100 * r->truth.shadow_mismatch);
+    print_db(r->reference.psnr_db);
+    printf(" %7.3f%%  %s\n", 100 * r->reference.identical, name);
+}
+
+static void print_text(const sweep *w)
+{
+    const tool_options *o = w->options;
+    size_t n_front = 0;
+    for (size_t i = 0; i < w->n_rows; i++) n_front += w->rows[i].on_front;
+    printf("%s, %dx%d: %zu configurations, %zu of them on the front (*: no other is as good in RAM, instructions and PSNR)\n",
+           o->scene_path, o->width, o->height, w->n_rows, n_front);
+    printf("               instr. |   against exact shadows    |   against the\n");
+    printf("       RAM  per pixel |    PSNR  atten.  mismatch  |  same in double\n");
+    printf("     bytes    (model) |      dB     RMS            |   PSNR identical  configuration\n");
+    for (size_t i = 0; i < w->n_rows; i++)
+        if (w->rows[i].on_front || o->all) print_row(w, &w->rows[i]);
+    if (w->n_refused) printf("%zu of the configurations cannot draw this scene, the first: %s\n", w->n_refused, w->refusal);
+}
+
+/* ---- JSON ------------------------------------------------------------------------------------------------------------------- */
+
+static void print_metrics(const char *name, const metrics *m)
+{
+    printf(", \"%s\": {", name);
+    tool_json_number("identical", m->identical);
+    printf(", ");
+    tool_json_number("within1", m->within1);
+    printf(", ");
+    tool_json_number("psnr_db", m->psnr_db);
+    printf(", ");
+    tool_json_number("atten_rms", m->atten_rms);
+    printf(", ");
+    tool_json_number("shadow_mismatch", m->shadow_mismatch);
+    printf("}");
+}
+
+static void print_sets(const sweep *w, const sweep_row *r)
+{
+    sweep_text text;
+    const char *sets[TOOL_SETS_MAX + SWEEP_KNOBS];
+    int n = sweep_sets(w, r, &text, sets);
+    printf("\"sets\": [");
+    for (int i = 0; i < n; i++) {
+        if (i) printf(", ");
+        tool_json_string(sets[i]);
+    }
+    printf("]");
+}
+
+void sweep_json_row(const sweep *w, const sweep_row *r)
+{
+    print_sets(w, r);
+    printf(", \"ram_bytes\": %ld, ", r->ram_bytes);
+    tool_json_number("instructions_per_pixel", r->instructions);
+    print_metrics("truth", &r->truth);
+    print_metrics("reference", &r->reference);
+}
+
+static void print_json(const sweep *w)
+{
+    const tool_options *o = w->options;
+    printf("{\"scene\": ");
+    tool_json_string(o->scene_path);
+    printf(", \"width\": %d, \"height\": %d, \"refused\": %zu, \"rows\": [", o->width, o->height, w->n_refused);
+    for (size_t i = 0; i < w->n_rows; i++) {
+        printf("%s{\"front\": %s, ", i ? ", " : "", w->rows[i].on_front ? "true" : "false");
+        sweep_json_row(w, &w->rows[i]);
+        printf("}");
+    }
+    printf("]}\n");
+}
+
+/* ---- CSV -------------------------------------------------------------------------------------------------------------------- */
+
+static void csv_text(FILE *f, const char *text)
+{
+    fputc('"', f);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', f);
+        fputc(*text, f);
+    }
+    fputc('"', f);
+}
+
+static void csv_metrics(FILE *f, const metrics *m)
+{
+    fprintf(f, ",%.9g,%.9g,", m->identical, m->within1);
+    if (isinf(m->psnr_db)) fprintf(f, "inf");
+    else fprintf(f, "%.9g", m->psnr_db);
+    fprintf(f, ",%.9g,%.9g", m->atten_rms, m->shadow_mismatch);
+}
+
+static void csv_row(FILE *f, const sweep *w, const sweep_row *r)
+{
+    char name[NAME_BYTES];
+    sweep_name(w, r, name, sizeof name);
+    csv_text(f, name);
+    fprintf(f, ",%d,%ld,%.9g", r->on_front, r->ram_bytes, r->instructions);
+    csv_metrics(f, &r->truth);
+    csv_metrics(f, &r->reference);
+    for (int i = 0; i < GN_COUNT_N; i++) fprintf(f, ",%llu", (unsigned long long)r->counts.n[i]);
+    fputc('\n', f);
+}
+
+static int write_csv(const sweep *w, const char *path, char *error, size_t bytes)
+{
+    static const char *const kinds[] = {"truth", "reference"};
+    FILE *f = fopen(path, "w");
+    if (!f) {
+        snprintf(error, bytes, "cannot be written: %s", strerror(errno));
+        return -1;
+    }
+    fprintf(f, "configuration,front,ram_bytes,instructions_per_pixel");
+    for (int i = 0; i < 2; i++)
+        fprintf(f, ",%s_identical,%s_within1,%s_psnr_db,%s_atten_rms,%s_shadow_mismatch", kinds[i], kinds[i], kinds[i], kinds[i],
+                kinds[i]);
+    for (int i = 0; i < GN_COUNT_N; i++) fprintf(f, ",n_%s", count_name[i]);
+    fputc('\n', f);
+    for (size_t i = 0; i < w->n_rows; i++) csv_row(f, w, &w->rows[i]);
+    int failed = ferror(f);
+    failed |= fclose(f);
+    if (failed) snprintf(error, bytes, "cannot be written");
+    return failed ? -1 : 0;
+}
+
+/* ---- SVG -------------------------------------------------------------------------------------------------------------------- */
+
+/* Short enough for a plot: "tiny 3x3 64 cascades 4". */
+static void shorten(char *name)
+{
+    static const char *const drop[] = {"preset=", "filter=", "kernel=", "other_atlas_size=", "atlas_size="};
+    static const char *const shrink[][2] = {
+        {"other_depth_bits=", "o.depth "}, {"depth_bits=", "depth "}, {"cascades=", "casc. "}, {"persp_step=", "step "},
+        {"subpixel_bits=", "sub "},        {"tile_width=", "tw "},    {"tile_height=", "th "},
+    };
+    for (size_t i = 0; i < sizeof drop / sizeof *drop; i++)
+        for (char *at; (at = strstr(name, drop[i]));) memmove(at, at + strlen(drop[i]), strlen(at + strlen(drop[i])) + 1);
+    for (size_t i = 0; i < sizeof shrink / sizeof *shrink; i++)
+        for (char *at; (at = strstr(name, shrink[i][0]));) {
+            size_t old = strlen(shrink[i][0]), now = strlen(shrink[i][1]);
+            memcpy(at, shrink[i][1], now);
+            memmove(at + now, at + old, strlen(at + old) + 1);
+        }
+}
+
+static int write_svg(const sweep *w, const char *path, char *error, size_t bytes)
+{
+    char(*names)[NAME_BYTES] = calloc(w->n_rows, sizeof *names), title[1024];
+    plot_point *ram = calloc(w->n_rows, sizeof *ram), *cost = calloc(w->n_rows, sizeof *cost);
+    int failed = !names || !ram || !cost;
+    if (failed) snprintf(error, bytes, "out of memory");
+    for (size_t i = 0; i < w->n_rows && !failed; i++) {
+        const sweep_row *r = &w->rows[i];
+        sweep_name(w, r, names[i], sizeof names[i]);
+        shorten(names[i]);
+        /* a logarithmic axis has no 0 */
+        ram[i] = (plot_point){(double)r->ram_bytes, fmax(sweep_error(&r->truth), 0.01), r->on_front, names[i]};
+        cost[i] = ram[i];
+        cost[i].x = fmax(r->instructions, 0.01);
+    }
+    static const char error_axis[] = "RMS error against exact shadows, levels of 255";
+    const plot_panel panels[2] = {{"RAM against error", "RAM of the library, bytes", error_axis, ram, w->n_rows},
+                                  {"Cost against error", "instructions per pixel (model)", error_axis, cost, w->n_rows}};
+    const char *slash = strrchr(w->options->scene_path, '/');
+    snprintf(title, sizeof title, "%s, %dx%d; filled: on the front of RAM, cost and error",
+             slash ? slash + 1 : w->options->scene_path, w->options->width, w->options->height);
+    if (!failed) failed = plot_write(path, title, panels, 2, error, bytes);
+    free(names);
+    free(ram);
+    free(cost);
+    return failed ? -1 : 0;
+}
+
+/* ---- The command ------------------------------------------------------------------------------------------------------------ */
+
+static int show(const sweep *w)
+{
+    char error[TOOL_ERROR_BYTES];
+    const tool_options *o = w->options;
+    if (o->csv_path && write_csv(w, o->csv_path, error, sizeof error)) return tool_fail(o->csv_path, error);
+    if (o->svg_path && write_svg(w, o->svg_path, error, sizeof error)) return tool_fail(o->svg_path, error);
+    if (o->json) print_json(w);
+    else print_text(w);
+    return TOOL_OK;
+}
+
+int tool_sweep(const tool_options *o)
+{
+    sweep w;
+    if (sweep_begin(&w, o)) return TOOL_FAILED;
+    int status = sweep_run(&w, o->quick) ? TOOL_FAILED : TOOL_OK;
+    if (status == TOOL_OK) {
+        sweep_mark_front(&w);
+        qsort(w.rows, w.n_rows, sizeof *w.rows, by_ram);
+        status = show(&w);
+    }
+    sweep_end(&w);
+    return status;
+}

@@ -1,0 +1,86 @@
+/* Many configurations of one scene, measured: what gnomon sweep shows and gnomon advise chooses from. */
+#ifndef GNOMON_SWEEP_H
+#define GNOMON_SWEEP_H
+
+#include "metrics.h"
+#include "tool.h"
+
+/* The knobs that are varied. */
+typedef enum {
+    SWEEP_PRESET,
+    SWEEP_FILTER,
+    SWEEP_KERNEL,
+    SWEEP_ATLAS,
+    SWEEP_OTHER_ATLAS,
+    SWEEP_DEPTH_BITS,
+    SWEEP_OTHER_DEPTH_BITS,
+    SWEEP_CASCADES,
+    SWEEP_PERSP_STEP,
+    SWEEP_SUBPIXEL_BITS,
+    SWEEP_TILE_WIDTH,
+    SWEEP_TILE_HEIGHT,
+    SWEEP_KNOBS
+} sweep_knob;
+
+#define SWEEP_LEVELS_MAX 8
+
+/* A place in each knob's list of levels; -1: as the preset, or else the scene has it. */
+typedef struct {
+    int level[SWEEP_KNOBS];
+} sweep_config;
+
+typedef struct {
+    sweep_config config;
+    sweep_config effective; /* the same with every level that is in force; -1: one that is in no list */
+    gn_knobs quality;
+    scene_shadow shadow;
+    metrics reference; /* the library against the reference of the same configuration: what fixed point costs */
+    metrics truth;     /* the library against exact shadows, the same for all: what the configuration costs */
+    long ram_bytes;
+    double instructions; /* per pixel */
+    count_all counts;
+    bool on_front;
+} sweep_row;
+
+typedef struct {
+    const tool_options *options;
+    bool directional, punctual, other; /* shadows in the directional atlas, lights of the other, shadows in it */
+    bool held[SWEEP_KNOBS];            /* set on the command line: not varied */
+    engine_picture common;             /* exact shadows */
+    sweep_row *rows;
+    size_t n_rows, room, n_refused;
+    char refusal[TOOL_ERROR_BYTES]; /* why the first of them cannot be drawn */
+    size_t n_done, n_planned;       /* for the display of progress */
+} sweep;
+
+/* Loads the scene and draws what everything is compared with. Prints the error and returns -1 if that fails. */
+int sweep_begin(sweep *w, const tool_options *o);
+void sweep_end(sweep *w);
+
+/* Measures the documented set of configurations (docs/TRADE.md); quick: a few of them. Prints the error and returns -1. */
+int sweep_run(sweep *w, bool quick);
+
+/* Measures the neighbours of n rows: one knob, one level up or down. Prints the error and returns -1. */
+int sweep_around(sweep *w, const size_t *rows, size_t n);
+
+/* Marks the rows that no other row dominates: at most as much RAM, instructions and error, and less of one. */
+void sweep_mark_front(sweep *w);
+bool sweep_dominates(const sweep_row *a, const sweep_row *b);
+
+/* RMS over channels and pixels, in 8-bit levels: what PSNR says, on a scale that ends at 0. */
+double sweep_error(const metrics *m);
+
+/* The configuration alone, "filter=3x3 atlas_size=64"; "the scene's own" for none. */
+void sweep_name(const sweep *w, const sweep_row *row, char *out, size_t bytes);
+
+/* Every setting that reproduces it, those of the command line included, in order: at most TOOL_SETS_MAX + SWEEP_KNOBS. The
+ * strings are valid while text (room for SWEEP_KNOBS) is. Returns how many. */
+typedef struct {
+    char text[SWEEP_KNOBS][32];
+} sweep_text;
+int sweep_sets(const sweep *w, const sweep_row *row, sweep_text *text, const char **sets);
+
+/* Prints the members of a row's JSON object: sets, ram_bytes, instructions_per_pixel, truth, reference. */
+void sweep_json_row(const sweep *w, const sweep_row *r);
+
+#endif

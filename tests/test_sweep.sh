@@ -1,0 +1,163 @@
+#!/bin/sh
+# gnomon sweep and gnomon advise: the front, budgets kept, what they promise reproduced by gnomon compare. usage: test_sweep.sh [TOOL]
+cd "$(dirname "$0")/.." || exit 1
+tool=${1:-build/gnomon}
+. tests/check.sh
+size=48x36
+
+run() { timeout 120 "$tool" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null; }
+
+good() { # good ARGUMENTS...: exit 0, nothing on stderr: no progress either
+    run "$@"
+    status=$?
+    if [ $status != 0 ]; then fail "'$*' exits with $status: $(head -n 1 "$tmp/err")"
+    elif [ -s "$tmp/err" ]; then fail "'$*' succeeds and writes to stderr: $(head -n 1 "$tmp/err")"
+    else pass; fi
+}
+
+bad() { # bad STATUS WORD ARGUMENTS...: that exit status, nothing on stdout, a first line with that word
+    expected=$1 word=$2
+    shift 2
+    run "$@"
+    status=$?
+    if [ $status != "$expected" ]; then fail "'$*' exits with $status, not $expected: $(head -n 1 "$tmp/err")"
+    elif ! head -n 1 "$tmp/err" | grep -q -e "^gnomon: .*$word"; then fail "'$*' does not name '$word': $(head -n 1 "$tmp/err")"
+    elif [ "$(grep -v -c "^'gnomon help'" "$tmp/err")" != 1 ]; then fail "'$*' complains in several lines"
+    elif [ -s "$tmp/out" ]; then fail "'$*' fails and prints: $(head -n 1 "$tmp/out")"
+    else pass; fi
+}
+
+# field NAME [OBJECT]: a number of the JSON object on one line in $tmp/out, outside its lists; of one of the objects in it
+field() {
+    sed 's/"lights": \[[^]]*\]//g; s/"sets": \[[^]]*\]//g' "$tmp/out" | sed "s/.*\"${2:-xx no such object}\": {/{/" |
+        sed -n "s/^[^}]*\"$1\": \([-+.0-9a-z]*\).*/\1/p"
+}
+
+# ---- The sweep -----------------------------------------------------------------------------------------------------------------
+
+head='configuration,front,ram_bytes,instructions_per_pixel,truth_identical,truth_within1,truth_psnr_db,truth_atten_rms,truth_shadow_mismatch,reference_identical,reference_within1,reference_psnr_db,reference_atten_rms,reference_shadow_mismatch,n_tile_texels,'
+for name in sundial desk mixed; do
+    scene=host/scenes/$name.gltf csv=$tmp/$name.csv
+    good sweep "$scene" --quick --size $size --csv "$csv" --svg "$tmp/$name.svg"
+    grep -q "configurations, [0-9]* of them on the front" "$tmp/out" && pass || fail "sweep of $name does not say how many are on the front"
+    case $(head -n 1 "$csv") in "$head"*) pass ;; *) fail "columns of the CSV: $(head -n 1 "$csv")" ;; esac
+    rows=$(($(wc -l <"$csv") - 1))
+    [ $rows -ge 8 ] && pass || fail "sweep of $name has $rows rows"
+    [ "$(sed 's/"[^"]*"//' "$csv" | awk -F, '{ print NF }' | sort -u | wc -l)" = 1 ] && pass || fail "rows of the CSV differ in length"
+
+    # the front is one: nothing dominates what is on it, something dominates whatever is not
+    awk -F '"' 'NR > 1 { split($3, v, ","); n++; front[n] = v[2]; ram[n] = v[3]; cost[n] = v[4]; db[n] = v[7] == "inf" ? 1e9 : v[7] + 0 }
+        END {
+            for (i = 1; i <= n; i++) {
+                beaten = 0
+                for (k = 1; k <= n; k++)
+                    if (ram[k] <= ram[i] && cost[k] <= cost[i] && db[k] >= db[i] && (ram[k] < ram[i] || cost[k] < cost[i] || db[k] > db[i])) beaten = 1
+                if (beaten == front[i]) print "row " i
+                on += front[i]
+            }
+            if (!on) print "no row"
+        }' "$csv" >"$tmp/found"
+    [ -s "$tmp/found" ] && fail "front of $name: wrong about $(head -n 3 "$tmp/found" | tr '\n' ' ')" || pass
+
+    # more accurate is not worse
+    awk -F '"' '$2 ~ /^preset=tiny( atlas_size=16)?$/ { split($3, tiny, ",") } $2 ~ /^preset=accurate( atlas_size=16)?$/ { split($3, best, ",") }
+        END { exit !(best[7] >= tiny[7] && best[10] >= tiny[10] && best[3] >= tiny[3] && tiny[3] > 0) }' "$csv" &&
+        pass || fail "sweep of $name: the accurate preset is not better than tiny"
+
+    # every number of two rows is what compare says of these settings
+    for row in 3 $rows; do
+        line=$(sed -n "${row}p" "$csv")
+        settings=$(echo "$line" | awk -F '"' '{ print $2 }')
+        [ "$settings" = "the scene's own" ] && settings=
+        set --
+        for setting in $settings; do set -- "$@" --set "$setting"; done
+        good compare "$scene" --size $size --json --with truth "$@"
+        got="$(field ram_bytes) $(field psnr_db fixed_truth) $(field shadow_mismatch fixed_truth) $(field psnr_db fixed_reference) $(field identical fixed_reference)"
+        want=$(echo "$line" | awk -F '"' '{ split($3, v, ","); print v[3], v[7], v[9], v[12], v[10] }')
+        [ "$got" = "$want" ] && pass || fail "$name with '$settings': compare says $got, the sweep $want"
+    done
+
+    # the picture: one root, all points in both panels, nothing that runs or is fetched
+    [ "$(grep -c '<circle' "$tmp/$name.svg")" = $((2 * rows)) ] && pass || fail "$name.svg has $(grep -c '<circle' "$tmp/$name.svg") points"
+    [ "$(tail -n 1 "$tmp/$name.svg")" = '</svg>' ] && [ "$(grep -c '<svg' "$tmp/$name.svg")" = 1 ] && pass || fail "$name.svg does not end"
+    grep -q -i -E '<script|<image|href|@import|url\(|nan|inf' "$tmp/$name.svg" && fail "$name.svg is not self-contained, or has no number" || pass
+    if command -v xmllint >/dev/null; then xmllint --noout "$tmp/$name.svg" 2>"$tmp/found" && pass || fail "$name.svg: $(head -n 1 "$tmp/found")"; fi
+done
+
+good sweep host/scenes/sundial.gltf --quick --size $size --json
+[ "$(grep -o '"front": ' "$tmp/out" | wc -l)" = $(($(wc -l <"$tmp/sundial.csv") - 1)) ] && [ "$(wc -l <"$tmp/out")" = 1 ] && pass || fail "sweep --json has other rows than the CSV"
+good sweep host/scenes/sundial.gltf --quick --size $size --set filter=5x5 --set preset=tiny --all
+grep -q 'filter=\|preset=' "$tmp/out" && fail "sweep varies what --set holds" || pass
+good sweep host/scenes/sundial.gltf --quick --size $size --set shadows=0
+
+# ---- Advice --------------------------------------------------------------------------------------------------------------------
+
+for name in sundial desk mixed; do
+    scene=host/scenes/$name.gltf csv=$tmp/$name.csv
+    least=$(awk -F '"' 'NR > 1 { split($3, v, ","); if (!n++ || v[3] < least) least = v[3] } END { print least }' "$csv")
+    for factor in 11 20 60; do
+        budget=$((least * factor / 10))
+        good advise "$scene" --quick --size $size --ram $budget --json
+        arguments=$(sed -n 's/.*"arguments": "\([^"]*\)".*/\1/p' "$tmp/out")
+        ram=$(field ram_bytes) cost=$(field instructions_per_pixel) db=$(field psnr_db truth)
+        promised="$ram $(field psnr_db reference) $(field shadow_mismatch reference)"
+        [ "$ram" -le $budget ] && pass || fail "advice for $name: $ram bytes do not fit into $budget"
+        awk -F '"' -v ram="$ram" -v cost="$cost" -v db="$db" -v budget=$budget 'NR > 1 {
+                split($3, v, ",")
+                if (v[3] <= budget && v[7] > db + 1e-6) exit 1
+                if (v[3] <= ram && v[4] <= cost && v[7] >= db && (v[3] < ram || v[4] < cost - 1e-6 || v[7] > db + 1e-6)) exit 1
+            }' "$csv" && pass || fail "advice for $name in $budget bytes is not on the front: $arguments"
+        # shellcheck disable=SC2086
+        good compare "$scene" --size $size --json $arguments
+        got="$(field ram_bytes) $(field psnr_db) $(field shadow_mismatch)"
+        [ "$got" = "$promised" ] && pass || fail "$name with $arguments: promised $promised, compare says $got"
+        case $arguments in *cascades*) continue ;; esac # where shadows end depends on them, in the truth too
+        # shellcheck disable=SC2086
+        good compare "$scene" --size $size --json --with truth $arguments
+        [ "$(field psnr_db fixed_truth)" = "$db" ] && pass || fail "$name with $arguments: promised $db dB against the truth, compare says $(field psnr_db fixed_truth)"
+    done
+done
+
+# a budget of both kinds, and those that nothing fits: what is named would do, and a byte less would not
+good advise host/scenes/desk.gltf --quick --size $size --ram 100000 --instructions-per-pixel 100000
+bad 1 'no configuration fits into 1000 bytes; the least RAM: [0-9]* bytes and .* by --set' advise host/scenes/desk.gltf --quick --size $size --ram 1000
+least=$(sed -n 's/.*the least RAM: \([0-9]*\) bytes.*/\1/p' "$tmp/err")
+good advise host/scenes/desk.gltf --quick --size $size --ram "$least"
+bad 1 'no configuration fits' advise host/scenes/desk.gltf --quick --size $size --ram $((least - 1))
+bad 1 'the fewest instructions within the RAM: [0-9]* bytes' advise host/scenes/desk.gltf --quick --size $size --ram 100000 --instructions-per-pixel 5
+bad 1 'the nearest: [0-9]* bytes' advise host/scenes/desk.gltf --quick --size $size --ram 1000 --instructions-per-pixel 5 --json
+
+# ---- Usage ---------------------------------------------------------------------------------------------------------------------
+
+scene=host/scenes/sundial.gltf
+bad 2 ram advise $scene
+bad 2 ram advise $scene --ram 0
+bad 2 ram advise $scene --ram many
+bad 2 instructions advise $scene --ram 1000 --instructions-per-pixel -1
+bad 2 csv advise $scene --ram 1000 --csv "$tmp/x.csv"
+bad 2 scene sweep
+bad 2 engine sweep $scene --engine fixed
+bad 2 ram sweep $scene --ram 1000
+bad 2 value sweep $scene --csv
+bad 1 missing sweep "$tmp/missing.gltf"
+bad 1 atlas_size sweep $scene --set atlas_size=3
+bad 1 "$tmp/no/x.csv" sweep $scene --quick --size 8x8 --csv "$tmp/no/x.csv"
+bad 1 "$tmp/no/x.svg" sweep $scene --quick --size 8x8 --svg "$tmp/no/x.svg"
+if command -v script >/dev/null; then # a terminal sees progress
+    script -q -e -c "$tool sweep $scene --quick --size 8x8" "$tmp/typescript" >/dev/null 2>&1 </dev/null
+    grep -q '3 of [0-9]* configurations' "$tmp/typescript" && pass || fail "no progress on a terminal"
+fi
+
+# ---- docs/TRADE.md -------------------------------------------------------------------------------------------------------------
+
+# one scene made anew; all of them take a minute: sh docs/trade.sh build/gnomon
+mkdir "$tmp/docs"
+sh docs/trade.sh "$tool" "$tmp/docs" sundial >/dev/null 2>"$tmp/err" && pass || fail "docs/trade.sh: $(head -n 1 "$tmp/err")"
+cmp -s docs/TRADE.md "$tmp/docs/TRADE.md" && pass || fail "docs/TRADE.md is out of date: make docs ($(diff docs/TRADE.md "$tmp/docs/TRADE.md" | sed -n 2p))"
+cmp -s docs/pictures/trade-sundial.svg "$tmp/docs/pictures/trade-sundial.svg" && pass || fail "docs/pictures/trade-sundial.svg is out of date: make docs"
+for name in sundial avenue desk room fence mixed; do
+    [ -s docs/pictures/trade-$name.svg ] && grep -q "pictures/trade-$name.svg" docs/TRADE.md && pass || fail "docs/TRADE.md has no picture of $name"
+done
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
