@@ -83,7 +83,7 @@ static void run_kinds(const char *path, int preset)
     static const char *const kinds[] = {"lights=directional", "lights=spot", "lights=point"};
     for (int k = 0; k < 3; k++) {
         char error[512] = "", word[32];
-        char *const sets[] = {word};
+        const char *const sets[] = {word};
         scene s;
         settings set;
         metrics m;
