@@ -140,7 +140,7 @@ static void test_light_knobs(void)
         {"\"bias_caster\":-1", "bias_caster: -1 is not in"},
         {"\"receiver_plane\":2", "true or false"},
         {"\"auto_bias\":1", "auto_bias: a string"},
-        {"\"auto_bias\":\"on\"", "'on' is not a value of auto_bias"},
+        {"\"auto_bias\":\"on\"", "'on' is not off, depth or normal"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         if (!CHECK(refused(load_changed("\"strength\":0.9", bad[i][0]), bad[i][1]))) printf("  case %zu\n", i);
