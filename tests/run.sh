@@ -67,11 +67,10 @@ report() { # report KEY NAME
     [ "$f" = 0 ] || grep -v '^[0-9]* passed' "$out" | head -n 20
 }
 
-# together LABEL: tests from standard input, a line "KEY COMMAND" each, two at a time.
+# together LABEL: the tests in build/tmp/jobs, a line "KEY COMMAND" each, two at a time.
 together() {
     rm -rf build/tmp/run
     mkdir -p build/tmp/run
-    cat >build/tmp/jobs
     xargs -P 2 -I '{}' sh -c '
         key=${1%% *} command=${1#* } start=$(date +%s)
         sh -c "$command" >"build/tmp/run/$key.out" 2>&1
@@ -100,7 +99,8 @@ variant() { # variant COMPILER OPTIMISATION [1: with the tests that run once]
         name=$(basename "$program" .c)
         case " $once " in *" $name "*) [ "${3:-0}" = 1 ] || continue ;; esac
         echo "$name $dir/$name"
-    done | together "$1 $2"
+    done >build/tmp/jobs
+    together "$1 $2"
 }
 
 install_missing
@@ -120,6 +120,7 @@ build build/test/memory/test_frame BUILD=build/test/memory CC=clang SAN=-fsaniti
     echo "memory build/test/memory/test_frame"
     echo 'bench sh tests/bench.sh >build/tmp/bench.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/bench.log; exit 1; }'
     echo 'run make -s run >build/tmp/run.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/run.log; exit 1; }'
-} | together
+} >build/tmp/jobs
+together
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

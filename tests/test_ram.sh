@@ -23,7 +23,7 @@ int main(int argc, char **argv)
     memset(&none, 0, sizeof none);
     settings_init(&set);
     settings_preset(&set, atoi(argv[1]));
-    if (settings_apply_all(&set, &none, argv + 2, argc - 2, error, sizeof error)) {
+    if (settings_apply_all(&set, &none, (const char *const *)(argv + 2), argc - 2, error, sizeof error)) {
         printf("%s\n", error);
         return 1;
     }
