@@ -154,7 +154,7 @@ static void light_values(const gn_frame *frame, const gn_surface *s, int32_t px,
                          gn_sample *sample)
 {
     gn_length length = {0, 0};
-    if (s->smooth || s->n_punctual || s->specular) length = gn_length_of(GN_K(frame, newton_steps), n_q30);
+    if (s->smooth) length = gn_length_of(GN_K(frame, newton_steps), n_q30);
 #if GN_PUNCTUAL_LIGHTS || GN_SPECULAR
     int32_t unit_q30[3] = {n_q30[0], n_q30[1], n_q30[2]};
     if (s->smooth) gn_length_unit(length, n_q30, unit_q30);

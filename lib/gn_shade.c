@@ -111,8 +111,10 @@ static int turned_too_far(const int32_t a_q15[3], const int32_t b_q15[3])
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* A point that is off by 1/512 of its distance from the light changes what arrives by less than 1 %. */
-static int punctual_chord_holds(const int32_t *a, const int32_t *b, uint64_t near4, uint64_t dz)
+/* A point that is off by 1/512 of its distance from the light changes what arrives by less than 1 %. Where it is looked up in a tile it
+ * may be off by 1/32 texel: the distance, here in the largest component, is at least z / sqrt(3). */
+static int punctual_chord_holds(const gn_frame *frame, const gn_light_state *light, int shadowed, const int32_t *a,
+                                const int32_t *b, uint64_t near4, uint64_t dz)
 {
     uint64_t distance = 0, moved = 0; /* in the largest component */
     for (int i = GN_LIGHT_POINT_AT; i < GN_LIGHT_POINT_AT + 3; i++) {
@@ -120,8 +122,16 @@ static int punctual_chord_holds(const int32_t *a, const int32_t *b, uint64_t nea
         if (gn_abs32(a[i]) > distance) distance = gn_abs32(a[i]);
         if (d > moved) moved = d;
     }
-    if (moved * 4 > distance) return 0;           /* the light is no farther than a few pixels */
-    return moved * dz <= (near4 >> 9) * distance; /* 2^32 * 2^30, 2^24 * 2^31 */
+    if (moved * 4 > distance) return 0;                 /* the light is no farther than a few pixels */
+    if (moved * dz > (near4 >> 9) * distance) return 0; /* 2^32 * 2^30, 2^24 * 2^31 */
+    if (!shadowed || light->view_idx < 0 || dz == 0) return 1;
+#if GN_SHADOWS
+    int64_t texel_q16 = gn_bf_apply((int64_t)distance, frame->view[light->view_idx].fit.persp.texel_per_z, 0);
+    return (moved * dz) >> 5 <= (near4 >> 10) * (uint64_t)gn_clamp64(texel_q16, 0, INT32_MAX); /* 2^23 * 2^31 */
+#else
+    (void)frame;
+    return 1;
+#endif
 }
 #endif
 
@@ -150,7 +160,7 @@ static int texture_chord_holds(const gn_surface *surface, const gn_sample *a, co
 /* Whether linear steps between two samples stay close to what lies between. Over a change of depth from z to z + dz a value
  * that changes by dv bends away from its chord by at most dv * dz / (4 z) (NUMERICS 4.4). Colours and the interpolated normal, whose
  * range is 1, may be off by 1/128. */
-static int chord_holds(const gn_surface *surface, const gn_sample *a, const gn_sample *b)
+static int chord_holds(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b)
 {
     uint32_t za = (uint32_t)a->value[GN_VALUE_Z], zb = (uint32_t)b->value[GN_VALUE_Z];
     uint64_t near4 = (uint64_t)(za < zb ? za : zb) * 4, dz = za < zb ? zb - za : za - zb;
@@ -168,7 +178,10 @@ static int chord_holds(const gn_surface *surface, const gn_sample *a, const gn_s
             continue;
         }
 #if GN_PUNCTUAL_LIGHTS
-        if (!punctual_chord_holds(a->value + at, b->value + at, near4, dz)) return 0;
+        if (!punctual_chord_holds(frame, surface->light[i].state, surface->shadowed, a->value + at, b->value + at, near4, dz))
+            return 0;
+#else
+        (void)frame;
 #endif
     }
     return 1;
@@ -187,7 +200,7 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
     for (int32_t x = x_begin; x < x_end - 1;) {
         int32_t n = gn_min32(step_px, x_end - 1 - x);
         gn_sample_at(s->frame, &s->surface, x + n, y, next);
-        while (n > 1 && !chord_holds(&s->surface, here, next)) {
+        while (n > 1 && !chord_holds(s->frame, &s->surface, here, next)) {
             n >>= 1;
             gn_sample_at(s->frame, &s->surface, x + n, y, next);
         }
