@@ -46,6 +46,13 @@ soak: ## the longer campaigns: minutes to hours
 bench: ## count instructions of the workload with callgrind against the committed baseline; WRITE=1 renews it
 	@sh tests/bench.sh $(if $(WRITE),--write)
 
+firmware: $(if $(BOARD),$(FIRMWARE),boards) ## build the image of a board: BOARD=mps2-an385 [APP=crc] [SCENE=FILE] [PRESET=tiny]
+
+emulate: $(if $(BOARD),run-firmware,boards) ## build it, and run it in the emulator
+
+boards: ## list the boards
+	@for file in boards/*/board.mk; do printf "  %-20s%s\n" "$$(basename $$(dirname $$file))" "$$(sed -n "1s/^# //p" $$file)"; done
+
 docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages accuracy bias census rows seams crawl kept culling lists changes extremes) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
 
@@ -101,7 +108,11 @@ $(BUILD)/obj/%.o: %.c
 	@echo '  CC $<'
 	@$(CC) $(HOST_CFLAGS) -MMD -MP -c -o $@ $<
 
+ifneq ($(BOARD),)
+include boards/boards.mk
+endif
+
 -include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
 
-.PHONY: all help run test soak bench docs tables scenes clean test-programs
+.PHONY: all help run test soak bench firmware emulate boards docs tables scenes clean test-programs
 .SECONDARY:

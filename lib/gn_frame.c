@@ -52,9 +52,8 @@ static int knobs_ok(const gn_frame *frame)
 
 static int picture_format_ok(const gn_picture *picture)
 {
-    if (picture->format == GN_FORMAT_RAW32)
-        return GN_RAW_VIEWS && (int)picture->view >= GN_VIEW_COLOUR + 1 && (int)picture->view <= GN_VIEW_TRIANGLE;
-    return picture->view == GN_VIEW_COLOUR && (int)picture->format >= GN_FORMAT_RGB565 && (int)picture->format <= GN_FORMAT_MONO1;
+    if (picture->format == GN_FORMAT_RAW32) return GN_RAW_VIEWS && (uint32_t)picture->view - 1U < GN_VIEW_TRIANGLE;
+    return picture->view == GN_VIEW_COLOUR && (uint32_t)picture->format <= GN_FORMAT_MONO1;
 }
 
 gn_status gn_init(gn_renderer *r, const gn_picture *picture)

@@ -138,15 +138,14 @@ static int biases_ok(const gn_light *light)
     }
     lo = gn_min32(lo, light->bias_caster_q16);
     return ok && lo >= 0 && light->bias_caster_q16 <= (GN_CASTER_BIAS ? 8 << 16 : 0) &&
-           light->receiver_plane <= (GN_RECEIVER_PLANE ? 1U : 0U) && (int)light->auto_bias >= GN_AUTO_BIAS_OFF &&
-           (int)light->auto_bias <= (GN_AUTO_BIAS ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_OFF);
+           light->receiver_plane <= (GN_RECEIVER_PLANE ? 1U : 0U) &&
+           (uint32_t)light->auto_bias <= (GN_AUTO_BIAS ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_OFF);
 }
 
 static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t idx)
 {
-    if ((int)light->kind < GN_LIGHT_DIRECTIONAL ||
-        (int)light->kind > (GN_PUNCTUAL_LIGHTS ? GN_LIGHT_POINT : GN_LIGHT_DIRECTIONAL) || (int)light->mode < GN_LIGHT_REALTIME ||
-        (int)light->mode > GN_LIGHT_BAKED || (int)light->softness < GN_SOFTNESS_DEFAULT || (int)light->softness > GN_SOFTNESS_SOFT)
+    if ((uint32_t)light->kind > (GN_PUNCTUAL_LIGHTS ? GN_LIGHT_POINT : GN_LIGHT_DIRECTIONAL) ||
+        (uint32_t)light->mode > GN_LIGHT_BAKED || (uint32_t)light->softness > GN_SOFTNESS_SOFT)
         return gn_fail(frame, GN_ERR_LIGHT_KIND, idx);
     if (light->kind != GN_LIGHT_POINT && !light->direction[0] && !light->direction[1] && !light->direction[2])
         return gn_fail(frame, GN_ERR_LIGHT_DIRECTION, idx);
@@ -160,8 +159,7 @@ static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t id
 static int cascades_ok(const gn_shadow_settings *shadow)
 {
     if (shadow->n_cascades > 4) return 0;
-    if ((int)shadow->blend < GN_BLEND_HARD || (int)shadow->blend > (GN_BLENDED_CASCADES ? GN_BLEND_DITHER : GN_BLEND_HARD))
-        return 0;
+    if ((uint32_t)shadow->blend > (GN_BLENDED_CASCADES ? GN_BLEND_DITHER : GN_BLEND_HARD)) return 0;
     uint32_t previous = 0;
     for (uint32_t i = 0; i + 1 < shadow->n_cascades; i++) {
         if (shadow->cascade_ratio_uq16[i] < previous || shadow->cascade_ratio_uq16[i] > 65536) return 0;
@@ -173,7 +171,7 @@ static int cascades_ok(const gn_shadow_settings *shadow)
 static int filter_ok(gn_filter filter)
 {
     if (filter == GN_FILTER_DISK) return GN_DISK_FILTER;
-    return (int)filter >= GN_FILTER_HARD && (int)filter <= GN_FILTER_MAX;
+    return (uint32_t)filter <= GN_FILTER_MAX;
 }
 
 /* F5: a light's own filter, in place of that of its atlas, must be built too. */
@@ -199,13 +197,12 @@ static int refresh_ok(const uint32_t refresh[4])
 static gn_status check_filters(gn_frame *frame, const gn_shadow_settings *shadow)
 {
     int disk = shadow->filter == GN_FILTER_DISK || shadow->other_filter == GN_FILTER_DISK;
-    if (!filter_ok(shadow->filter) || !filter_ok(shadow->other_filter) || (int)shadow->kernel < GN_KERNEL_TENT ||
-        (int)shadow->kernel > (GN_LINEAR_KERNELS ? GN_KERNEL_LINEAR : GN_KERNEL_TENT) || shadow->penumbra_uq16 > 64 << 16 ||
+    if (!filter_ok(shadow->filter) || !filter_ok(shadow->other_filter) ||
+        (uint32_t)shadow->kernel > (GN_LINEAR_KERNELS ? GN_KERNEL_LINEAR : GN_KERNEL_TENT) || shadow->penumbra_uq16 > 64 << 16 ||
         (disk && (shadow->disk_samples < 1 || shadow->disk_samples > 64)))
         return gn_fail(frame, GN_ERR_SHADOW_FILTER, 0);
-    if ((int)shadow->mixing < GN_MIXING_NONE || (int)shadow->mixing > (GN_MASKS ? GN_MIXING_DISTANCE : GN_MIXING_NONE) ||
-        (int)shadow->tile_sizes < GN_TILES_EQUAL || (int)shadow->tile_sizes > GN_TILES_IMPORTANCE ||
-        shadow->main_light > (GN_MAIN_LIGHT ? 1U : 0U) || !refresh_ok(shadow->refresh))
+    if ((uint32_t)shadow->mixing > (GN_MASKS ? GN_MIXING_DISTANCE : GN_MIXING_NONE) ||
+        (uint32_t)shadow->tile_sizes > GN_TILES_IMPORTANCE || shadow->main_light > (GN_MAIN_LIGHT ? 1U : 0U) || !refresh_ok(shadow->refresh))
         return gn_fail(frame, GN_ERR_SHADOW_MODE, 0);
     return GN_OK;
 }
@@ -218,7 +215,7 @@ static gn_status check_shadow(gn_frame *frame, const gn_scene *scene)
     if (shadow->distance_fade_uq16 < GN_FADE_MIN_UQ16 || shadow->distance_fade_uq16 > 65536 ||
         shadow->cascade_fade_uq16 < GN_FADE_MIN_UQ16 || shadow->cascade_fade_uq16 > 65536)
         return gn_fail(frame, GN_ERR_SHADOW_FADE, 0);
-    if ((int)shadow->distance_mode < GN_DISTANCE_DEPTH || (int)shadow->distance_mode > GN_DISTANCE_RADIUS)
+    if ((uint32_t)shadow->distance_mode > GN_DISTANCE_RADIUS)
         return gn_fail(frame, GN_ERR_SHADOW_DISTANCE, 0);
     if (!cascades_ok(shadow)) return gn_fail(frame, GN_ERR_SHADOW_CASCADES, 0);
     gn_status status = check_filters(frame, shadow);

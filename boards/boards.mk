@@ -1,0 +1,88 @@
+# Firmware of one board: make firmware BOARD=mps2-an385 APP=crc. Included when BOARD is set.
+#
+# BOARD       a folder of boards/ with board.mk, startup.c, link.ld
+# APP         boards/apps/APP.c; APP.mk beside it may add to APP_SRC and APP_FLAGS
+# SCENE       a scene file that the app renders, compiled to C arrays by build/gnomon
+# PRESET      tiny, balanced, accurate
+# FW_OPT      the optimisation, else the board's
+# FW_FLAGS    more flags, such as -DGN_TILE_HEIGHT=4
+# LINK_FLAGS  more flags of the linker, such as -Wl,--defsym=RAM_BYTES=32K,--defsym=STACK=1K
+# IMAGE       the name of the image, else made of APP, SCENE and PRESET
+# ARGS        what the app reads with board_args
+
+APP ?= crc
+include boards/$(BOARD)/board.mk
+-include boards/apps/$(APP).mk
+
+BOARD_OPT ?= -O2
+FW_OPT ?= $(BOARD_OPT)
+IMAGE ?= $(APP)$(if $(SCENE),-$(basename $(notdir $(SCENE))))$(if $(PRESET),-$(PRESET))
+FW := $(BUILD)/firmware/$(BOARD)
+FIRMWARE := $(FW)/$(IMAGE).elf
+FW_OBJ_DIR := $(FW)/$(IMAGE).obj
+
+# The host links a program; boards link without a C library.
+FW_HOSTED := $(filter host,$(BOARD_RUNS))
+FW_CC := $(if $(BOARD_CC),$(BOARD_CC),$(BOARD_CROSS)gcc)
+FW_SRC := $(LIB_SRC) boards/apps/$(APP).c $(APP_SRC) $(wildcard boards/$(BOARD)/*.c) boards/common/print.c $(BOARD_COMMON:%=boards/common/%.c)
+ifeq ($(FW_HOSTED),)
+FW_SRC += boards/common/start.c boards/common/memory.c
+FW_FREE := -ffreestanding -isystem boards/common/include
+FW_LINK := -nostdlib -nostartfiles -Wl,--gc-sections,--fatal-warnings,-Map=$(FIRMWARE:.elf=.map) -Wl,--no-warn-rwx-segments -Lboards/common -T boards/$(BOARD)/link.ld
+FW_LIBS := -lgcc
+endif
+ifneq ($(PRESET),)
+FW_PRESET := -DGN_PRESET=GN_PRESET_$(shell echo $(PRESET) | tr a-z A-Z)
+endif
+ifneq ($(SCENE),)
+FW_SCENE_DIR := $(FW_OBJ_DIR)/scene
+FW_SCENE := -I$(FW_SCENE_DIR) '-DGN_USER_CONFIG="gn_scene_config.h"' -DBOARD_SCENE=1
+FW_SCENE_OBJ := $(FW_SCENE_DIR)/scene.o
+endif
+FW_CFLAGS := $(BOARD_CPU) -std=c99 $(FW_OPT) -g $(WARN) $(FW_FREE) -ffunction-sections -fdata-sections -Ilib -Iport -Iboards/common -Iboards/apps \
+  $(FW_SCENE) $(FW_PRESET) $(BOARD_FLAGS) $(APP_FLAGS) $(FW_FLAGS)
+FW_OBJ := $(FW_SRC:%.c=$(FW_OBJ_DIR)/%.o) $(FW_SCENE_OBJ)
+
+$(FIRMWARE): $(FW_OBJ) $(wildcard boards/$(BOARD)/*.ld boards/common/*.ld) $(FW_OBJ_DIR)/link.flags
+	@echo '  LD $@'
+	@$(FW_CC) $(BOARD_CPU) $(FW_OPT) $(FW_LINK) $(LINK_FLAGS) -o $@ $(FW_OBJ) $(FW_LIBS)
+
+$(FW_OBJ_DIR)/%.o: %.c $(FW_OBJ_DIR)/compile.flags
+	@mkdir -p $(@D)
+	@echo '  CC $< ($(BOARD))'
+	@$(FW_CC) $(FW_CFLAGS) -MMD -MP -c -o $@ $<
+
+# The compiler would turn the loops of memset and memcpy into calls of themselves.
+$(FW_OBJ_DIR)/boards/common/memory.o $(FW_OBJ_DIR)/boards/common/start.o: FW_CFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
+
+ifneq ($(SCENE),)
+$(FW_OBJ): $(FW_SCENE_DIR)/scene.c
+$(FW_SCENE_DIR)/scene.c: $(SCENE) $(BUILD)/gnomon
+	@mkdir -p $(@D)
+	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(if $(PRESET),--set preset=$(PRESET))
+$(FW_SCENE_OBJ): $(FW_SCENE_DIR)/scene.c $(FW_OBJ_DIR)/compile.flags
+	@$(FW_CC) $(FW_CFLAGS) -MMD -MP -c -o $@ $<
+endif
+
+# Rebuilds what other flags made.
+$(FW_OBJ_DIR)/compile.flags: FW_NOW = $(FW_CC) $(FW_CFLAGS)
+$(FW_OBJ_DIR)/link.flags: FW_NOW = $(LINK_FLAGS)
+$(FW_OBJ_DIR)/%.flags: always
+	@mkdir -p $(@D)
+	@echo '$(subst ','"'"',$(FW_NOW))' | cmp -s - $@ || echo '$(subst ','"'"',$(FW_NOW))' >$@
+always:
+
+-include $(shell test -d $(FW_OBJ_DIR) && find $(FW_OBJ_DIR) -name '*.d')
+
+comma := ,
+EMULATOR_FLAGS := -display none -monitor none -serial none
+run-firmware: $(FIRMWARE)
+ifneq ($(FW_HOSTED),)
+	@$(FIRMWARE) $(ARGS)
+else ifneq ($(BOARD_EMULATOR),)
+	@timeout $(or $(TIMEOUT),120) $(BOARD_EMULATOR) $(EMULATOR_FLAGS) -semihosting-config enable=on,target=native,arg=$(APP)$(ARGS:%=$(comma)arg=%) -kernel $(FIRMWARE)
+else
+	@echo "$(BOARD) is built, not run: no emulator has it" && exit 1
+endif
+
+.PHONY: always run-firmware

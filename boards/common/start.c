@@ -1,0 +1,77 @@
+#include "start.h"
+
+#include "board.h"
+
+enum { CANARY_WORDS = 4 };
+#define PAINT 0xC0DEFACEU
+
+extern uint32_t board_data_load[], board_data_start[], board_data_end[];
+extern uint32_t board_fast_load[], board_fast_start[], board_fast_end[];
+extern uint32_t board_bss_start[], board_bss_end[], board_fast_bss_start[], board_fast_bss_end[];
+
+uint32_t board_fault_stack[BOARD_FAULT_STACK_WORDS];
+
+/* Up to the caller's frame, less what this function may still push. */
+static void paint_stack(void)
+{
+    uint32_t *end = (uint32_t *)__builtin_frame_address(0) - 16;
+    for (volatile uint32_t *word = board_stack_bottom; word < end; word++) *word = PAINT;
+}
+
+/* Where the linker placed a section where it is stored, there is nothing to copy. */
+static void copy(uint32_t *to, const uint32_t *end, const uint32_t *from)
+{
+    if (to == from) return;
+    while (to < end) *to++ = *from++;
+}
+
+static void clear(uint32_t *from, const uint32_t *end)
+{
+    while (from < end) *from++ = 0;
+}
+
+uint32_t board_stack_used_bytes(void)
+{
+    const uint32_t *word = board_stack_bottom;
+    while (word < board_stack_top && *word == PAINT) word++;
+    return (uint32_t)((uintptr_t)board_stack_top - (uintptr_t)word);
+}
+
+int board_canary_ok(void)
+{
+    for (int i = 0; i < CANARY_WORDS; i++)
+        if (board_stack_bottom[i] != PAINT) return 0;
+    return 1;
+}
+
+void board_start(void)
+{
+    paint_stack();
+    copy(board_data_start, board_data_end, board_data_load);
+    copy(board_fast_start, board_fast_end, board_fast_load);
+    clear(board_bss_start, board_bss_end);
+    clear(board_fast_bss_start, board_fast_bss_end);
+    int status = app_main();
+    if (!board_canary_ok()) {
+        board_print("canary: the stack ran over\n");
+        status = BOARD_STATUS_CANARY;
+    }
+    board_exit(status);
+}
+
+void board_fault_value(const char *name, uint32_t value)
+{
+    board_print(" ");
+    board_print(name);
+    board_print("=");
+    board_print_hex(value);
+}
+
+void board_fault_exit(uint32_t stack_pointer)
+{
+    board_fault_value("sp", stack_pointer);
+    board_print("\n");
+    if (stack_pointer < (uintptr_t)board_stack_bottom + 4 * CANARY_WORDS) board_print("fault: the stack ran over\n");
+    else if (!board_canary_ok()) board_print("fault: the canary is gone\n");
+    board_exit(BOARD_STATUS_FAULT);
+}

@@ -1,0 +1,24 @@
+/* What startup code and fault handlers share. */
+#ifndef GNOMON_BOARDS_START_H
+#define GNOMON_BOARDS_START_H
+
+#include <stdint.h>
+
+/* From the linker script. The stack is the lowest thing in RAM: where nothing lies below, running over is a fault at once. */
+extern uint32_t board_stack_bottom[], board_stack_top[], board_ram_end[];
+
+enum { BOARD_STATUS_FAULT = 3, BOARD_STATUS_CANARY = 4 }; /* what the emulator exits with */
+
+/* Everything from a valid stack pointer on: paints the stack, fills .data, .bss and the fast sections, runs the app, looks at the
+ * canary, and exits. Never returns. */
+void board_start(void) __attribute__((noreturn));
+
+/* The end of every fault handler: the report's last line, and the exit. */
+void board_fault_exit(uint32_t stack_pointer) __attribute__((noreturn));
+void board_fault_value(const char *name, uint32_t value);
+
+/* A stack of its own for the fault handler: the other one may be what failed. */
+enum { BOARD_FAULT_STACK_WORDS = 64 };
+extern uint32_t board_fault_stack[BOARD_FAULT_STACK_WORDS];
+
+#endif
