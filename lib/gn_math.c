@@ -4,11 +4,11 @@
 #include "gn_tables.h"
 #include "gnomon.h"
 
-gn_bfloat gn_bf_from_u64(uint64_t v)
+uint64_t gn_bf_from_u64_bits(uint64_t v)
 {
     int32_t clz = gn_clz64(v);
     gn_bfloat out = {(uint32_t)((v << clz) >> 32), 32 - clz};
-    return out;
+    return gn_bf_bits(out);
 }
 
 uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
@@ -36,24 +36,27 @@ uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
     return (uint32_t)y;
 }
 
-gn_bfloat gn_bf_recip(gn_bfloat a)
+uint64_t gn_bf_recip_bits(uint64_t bits)
 {
+    gn_bfloat a = gn_bf_of_bits(bits);
     gn_bfloat out = {gn_recip_norm(a.mant, 2), -a.exp - 63};
-    return out;
+    return gn_bf_bits(out);
 }
 
-gn_bfloat gn_bf_mul(gn_bfloat a, gn_bfloat b)
+uint64_t gn_bf_mul_bits(uint64_t a_bits, uint64_t b_bits)
 {
+    gn_bfloat a = gn_bf_of_bits(a_bits), b = gn_bf_of_bits(b_bits);
     gn_bfloat out = gn_bf_from_u64((uint64_t)a.mant * b.mant);
     out.exp += a.exp + b.exp;
-    return out;
+    return gn_bf_bits(out);
 }
 
-int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift)
+int64_t gn_bf_apply_bits(int64_t a, uint64_t b_bits)
 {
+    gn_bfloat b = gn_bf_of_bits(b_bits);
     if (a == 0) return 0;
     uint64_t ua = gn_abs64(a);
-    int32_t s = b.exp + shift;
+    int32_t s = b.exp;
     uint64_t r;
     if (ua >> 32) {
         /* the 96-bit product without its low 32 bits: (hi * 2^32 + lo) * mant / 2^32 */
@@ -178,13 +181,12 @@ uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn)
     return q > (int64_t)UINT32_MAX ? UINT32_MAX : (uint32_t)q;
 }
 
-gn_length gn_length_of(int32_t newton_steps, const int32_t n_q30[3])
+uint64_t gn_length_bits(int32_t newton_steps, const int32_t n_q30[3])
 {
     uint64_t nn = (uint64_t)gn_dot64(n_q30, n_q30); /* Q60, at most 1 + rounding */
-    gn_length length;
-    length.shift = nn ? gn_clz64(nn) & ~1 : 0;
-    length.root = nn ? gn_rsqrt_norm((uint32_t)((nn << length.shift) >> 32), newton_steps) : 0;
-    return length;
+    uint32_t shift = nn ? (uint32_t)gn_clz64(nn) & ~1U : 0;
+    uint32_t root = nn ? gn_rsqrt_norm((uint32_t)((nn << shift) >> 32), newton_steps) : 0;
+    return (uint64_t)shift << 32 | root;
 }
 
 int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], const int32_t unit_q30[3])

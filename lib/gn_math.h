@@ -6,8 +6,29 @@
 
 #include "gnomon.h"
 
+/* Block floats and lengths go through calls as 64 bits, the mantissa low: two registers on every core, where the calling convention
+ * of ARM returns a structure of 8 bytes in memory. */
+static inline uint64_t gn_bf_bits(gn_bfloat a)
+{
+    return (uint64_t)(uint32_t)a.exp << 32 | a.mant;
+}
+
+static inline gn_bfloat gn_bf_of_bits(uint64_t bits)
+{
+    gn_bfloat a = {(uint32_t)bits, (int32_t)(bits >> 32)};
+    return a;
+}
+
+uint64_t gn_bf_from_u64_bits(uint64_t v);
+uint64_t gn_bf_recip_bits(uint64_t a);
+uint64_t gn_bf_mul_bits(uint64_t a, uint64_t b);
+int64_t gn_bf_apply_bits(int64_t a, uint64_t b);
+
 /* Nearest below: v truncated to 32 significant bits; v > 0. Relative error < 2^-31. */
-gn_bfloat gn_bf_from_u64(uint64_t v);
+static inline gn_bfloat gn_bf_from_u64(uint64_t v)
+{
+    return gn_bf_of_bits(gn_bf_from_u64_bits(v));
+}
 
 /* 2^63 / m for a normalised m in [2^31, 2^32). newton_steps 1: relative error < 2^-17, 2: < 2^-29, and then within [2^31, 2^32). */
 uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps);
@@ -15,11 +36,24 @@ uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps);
 /* 2^47 / sqrt(m) for m in [2^30, 2^32). newton_steps 1: relative error < 2^-15, 2: < 2^-28, and then within [2^31, 2^32). */
 uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps);
 
-gn_bfloat gn_bf_recip(gn_bfloat a);            /* relative error < 2^-29 */
-gn_bfloat gn_bf_mul(gn_bfloat a, gn_bfloat b); /* relative error < 2^-31 */
+/* Relative error < 2^-29 */
+static inline gn_bfloat gn_bf_recip(gn_bfloat a)
+{
+    return gn_bf_of_bits(gn_bf_recip_bits(gn_bf_bits(a)));
+}
+
+/* Relative error < 2^-31 */
+static inline gn_bfloat gn_bf_mul(gn_bfloat a, gn_bfloat b)
+{
+    return gn_bf_of_bits(gn_bf_mul_bits(gn_bf_bits(a), gn_bf_bits(b)));
+}
 
 /* round(a * b.mant * 2^(b.exp + shift)), saturating at +-2^63. Error at most 1 LSB or 2^-31 of the result, the larger. */
-int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift);
+static inline int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift)
+{
+    b.exp += shift;
+    return gn_bf_apply_bits(a, gn_bf_bits(b));
+}
 
 uint32_t gn_isqrt64(uint64_t v); /* floor(sqrt(v)) */
 
@@ -40,7 +74,15 @@ typedef struct {
     int32_t shift;
 } gn_length;
 
-gn_length gn_length_of(int32_t newton_steps, const int32_t n_q30[3]);
+uint64_t gn_length_bits(int32_t newton_steps, const int32_t n_q30[3]);
+
+static inline gn_length gn_length_of(int32_t newton_steps, const int32_t n_q30[3])
+{
+    uint64_t bits = gn_length_bits(newton_steps, n_q30);
+    gn_length length = {(uint32_t)bits, (int32_t)(bits >> 32)};
+    return length;
+}
+
 int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], const int32_t unit_q30[3]); /* n . unit / |n|, within +-1 */
 void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3]);                 /* n / |n| */
 
