@@ -34,7 +34,7 @@ static const char *const filter_name[6] = {"hard", "2x2", "3x3", "5x5", "7x7", "
 static gn_renderer renderer;
 static uint32_t raw[128 * 96];
 static int raw_width, world_exp;
-static double light_scale = 1; /* of the light's distance, directional: of the view */
+static double light_scale = 1; /* of the light's distance, directional: of the view; the view of a wall is never smaller */
 
 /* ---- Pictures --------------------------------------------------------------------------------------------------------- */
 
@@ -140,7 +140,8 @@ static inline void plane_scene_begin(fixture *f, plane_scene *p, const cell *c, 
     combine(p->from, distance[c->kind] * light_scale, light, 0, a, 0, a);
     begin(f);
     add_quad(f, corners);
-    combine(eye, 5.0, p->normal, 3.1, t, 1.7, s);
+    const double nearer = c->kind == SCENE_LIGHT_DIRECTIONAL ? fmin(1, light_scale) : 1; /* the view ends sooner */
+    combine(eye, 5.0 * nearer, p->normal, 3.1 * nearer, t, 1.7 * nearer, s);
     look(f, eye, origin, s);
     f->s.camera.focal = 1.6;
     f->s.shadow.max_distance = p->max_distance = c->kind == SCENE_LIGHT_DIRECTIONAL ? 12 * light_scale : 12;
@@ -208,7 +209,8 @@ static inline void turn_about(double out[3], double x, double y, double z)
 static inline double wall_scene_begin(fixture *f, const cell *c, const bias *b, double degrees, double height)
 {
     static const double distance[3] = {1, 12, 6};
-    const double x = sin(degrees * DEGREE) * distance[c->kind], y = cos(degrees * DEGREE) * distance[c->kind];
+    const double far = c->kind == SCENE_LIGHT_DIRECTIONAL ? 1 : distance[c->kind] * light_scale;
+    const double x = sin(degrees * DEGREE) * far, y = cos(degrees * DEGREE) * far;
     double from[3], eye[3], at[3], up[3], quad[12];
     begin(f);
     for (int i = 0; i < 4; i++) turn_about(quad + 3 * i, i == 1 || i == 2 ? 20 : -20, 0, i >= 2 ? -20 : 20);
@@ -221,7 +223,7 @@ static inline double wall_scene_begin(fixture *f, const cell *c, const bias *b, 
     turn_about(up, 1, 0, 0.4);
     look(f, eye, at, up);
     f->s.camera.focal = 2.2;
-    f->s.shadow.max_distance = 8;
+    f->s.shadow.max_distance = 8 * (c->kind == SCENE_LIGHT_DIRECTIONAL ? light_scale : 1);
     light_from(f, c, from, b);
     return c->kind == SCENE_LIGHT_DIRECTIONAL ? height * x / y : height * x / (y - height);
 }
@@ -244,7 +246,7 @@ static inline detachment detach_at(const cell *c, const bias *b, double degrees,
     turn_about(row, 0, 0, 1);
     if (draw(&f, c, WALL_WIDTH, WALL_HEIGHT)) {
         const gn_light_view *view = &renderer.frame.view[renderer.frame.light[0].view_idx];
-        const double from = c->kind == SCENE_LIGHT_SPOT ? 12 : c->kind == SCENE_LIGHT_POINT ? 6 : 0;
+        const double from = light_scale * (c->kind == SCENE_LIGHT_SPOT ? 12 : c->kind == SCENE_LIGHT_POINT ? 6 : 0);
         const double unit = 7 / (f.s.camera.focal * WALL_HEIGHT / 2.0);
         texel = from > 0 ? 2 * 65536.0 / view->fit.persp.focal2_q16 * from
                          : ldexp(1 / (double)view->fit.ortho.inv_texel.mant, -view->fit.ortho.inv_texel.exp - world_exp);

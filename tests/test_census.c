@@ -1,7 +1,9 @@
 /* The census of the automatic bias (B6): lit planes, casters and receivers at once, at every angle and distance to every kind of light,
  * through every filter, at every depth and preset. No point of them may be shadowed, not by one tap. And what it costs: how far shadows
- * are detached, beside the other biases, at every angle. "--table" prints docs/BIAS.md's tables, "--plot" the picture beside them.
+ * are detached, beside the other biases, at every angle. "--table" prints docs/BIAS.md's tables, "--plots DIR" draws the pictures
+ * beside them.
  */
+#include "../host/tool/plot.h"
 #include "bias_scene.h"
 
 #define SMALL_WIDTH  48
@@ -245,7 +247,7 @@ enum { DEFAULT, BOTH, DEPTH, NORMAL };
 static detachment wall_at(const cell *c, const bias *b, double degrees)
 {
     static const double distance[3] = {HUGE_VAL, 12, 6};
-    const double s = sin(degrees * DEGREE), cosine = cos(degrees * DEGREE), d = distance[c->kind];
+    const double s = sin(degrees * DEGREE), cosine = cos(degrees * DEGREE), d = distance[c->kind] * light_scale;
     const double height = c->kind == SCENE_LIGHT_DIRECTIONAL ? 2 * cosine / s : 2 * d * cosine / (d * s + 2);
     return detach_at(c, b, degrees, fmin(WALL, height));
 }
@@ -312,38 +314,6 @@ static void print_curved(void)
             }
 }
 
-/* The share of a wall's shadow that is lit, against the angle; directional, 2x2 and 5x5. */
-#define PLOT_X(degrees) (60 + 520 * (degrees) / 90)
-#define PLOT_Y(share)   (300 - 260 * fmin(1, (share) / 0.6))
-
-static void print_plot(void)
-{
-    static const char *const colour[N_BESIDE] = {"#888888", "#222222", "#d08020", "#2060c0"};
-    printf("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"600\" height=\"350\" font-family=\"sans-serif\" font-size=\"12\">\n"
-           "<rect width=\"600\" height=\"350\" fill=\"white\"/>\n");
-    for (int i = 0; i <= 6; i++)
-        printf("<path d=\"M60 %.1fH580\" stroke=\"#dddddd\"/><text x=\"52\" y=\"%.1f\" text-anchor=\"end\">%d %%</text>\n",
-               PLOT_Y(i / 10.0), PLOT_Y(i / 10.0) + 4, 10 * i);
-    for (int i = 0; i <= 90; i += 15) printf("<text x=\"%d\" y=\"318\" text-anchor=\"middle\">%d°</text>\n", PLOT_X(i), i);
-    printf("<text x=\"320\" y=\"338\" text-anchor=\"middle\">angle of the sun; share of a wall's shadow that is lit, full: 5×5, "
-           "dashed: 2×2</text>\n");
-    for (int i = 0; i < N_BESIDE; i++) {
-        for (int k = 0; k < 2; k++) {
-            printf("<path fill=\"none\" stroke=\"%s\" stroke-width=\"2\"%s d=\"", colour[i], k ? "" : " stroke-dasharray=\"5 4\"");
-            for (int a = 0; a < N_DEGREES; a++) {
-                const cell c = {SCENE_LIGHT_DIRECTIONAL, k ? SCENE_FILTER_5X5 : SCENE_FILTER_2X2, 16, SETTINGS_BALANCED,
-                                WALL_TEXELS};
-                printf("%c%.1f %.1f", a ? 'L' : 'M', PLOT_X(wall_degrees[a]),
-                       PLOT_Y(wall_at(&c, &beside[i], wall_degrees[a]).wrong));
-            }
-            printf("\"/>\n");
-        }
-        printf("<path d=\"M80 %dh30\" stroke=\"%s\" stroke-width=\"2\"/><text x=\"116\" y=\"%d\">%s</text>\n", 30 + 18 * i,
-               colour[i], 34 + 18 * i, beside[i].name);
-    }
-    printf("</svg>\n");
-}
-
 static void print_acne(void)
 {
     printf("\n| light | planes | points | depth | normal |\n|---|---|---|---|---|\n");
@@ -360,6 +330,145 @@ static void print_acne(void)
     }
 }
 
+/* ---- Plots ------------------------------------------------------------------------------------------------------------ */
+
+static const bias shown[] = {
+    {.name = "B1: constant 0.5, slope 1", .constant = 0.5, .slope = 1},
+    {.name = "B2: 1, the default", .normal = 1},
+    {.name = "B6: auto depth", .automatic = SCENE_AUTO_BIAS_DEPTH},
+    {.name = "B6: auto normal", .automatic = SCENE_AUTO_BIAS_NORMAL},
+};
+enum { N_SHOWN = sizeof shown / sizeof *shown, N_MAPS = 9, N_ROWS = 18 };
+
+typedef struct {
+    double acne, lit, gap, shrink; /* shares of points and of the shadow; texels; NaN: nothing to see, or acne hides it */
+} census;
+
+/* Planes tilted along an axis of the texels and along their diagonal, and a wall. */
+static census census_of(const cell *c, const bias *b, double degrees)
+{
+    tally t = {.first = 90, .worst = 1};
+    for (int i = 0; i < 3; i++) count_plane(&t, c, b, degrees, PI / 4 * i + 0.1);
+    const double scale = light_scale;
+    if (c->kind == SCENE_LIGHT_DIRECTIONAL) light_scale = fmax(1, scale);
+    const detachment d = wall_at(c, b, degrees);
+    light_scale = scale;
+    return (census){t.pixels ? (double)t.dark / (double)t.pixels : (double)NAN, fmin(1, d.wrong), fmax(0, d.gap),
+                    d.acne ? (double)NAN : fmax(0, d.shrink)};
+}
+
+/* Everything that the pictures show: every bias, light, distance, filter, depth, angle. */
+static census all[N_SHOWN][N_MAPS][N_ROWS][N_DEGREES];
+
+static void take_census(void)
+{
+    for (size_t i = 0; i < N_SHOWN; i++)
+        for (int map = 0; map < N_MAPS; map++)
+            for (int row = 0; row < N_ROWS; row++)
+                for (int a = 0; a < N_DEGREES; a++) {
+                    const cell c = {(scene_light_kind)(map / 3), (scene_filter)(row / 3), depth_bits[row % 3], SETTINGS_BALANCED,
+                                    WALL_TEXELS};
+                    light_scale = scales[map % 3];
+                    all[i][map][row][a] = census_of(&c, &shown[i], wall_degrees[a]);
+                }
+    light_scale = 1;
+}
+
+static double acne_at(void *user, size_t band, size_t map, size_t column, size_t row)
+{
+    (void)user;
+    return all[band][map][row][column].acne;
+}
+static double lit_at(void *user, size_t band, size_t map, size_t column, size_t row)
+{
+    (void)user;
+    return all[band][map][row][column].lit;
+}
+static double gap_at(void *user, size_t band, size_t map, size_t column, size_t row)
+{
+    (void)user;
+    return all[band][map][row][column].gap;
+}
+
+static int write_heat(const char *folder, const char *name, plot_heat h)
+{
+    static const char *const maps[N_MAPS] = {"sun, near", "sun",         "sun, far", "spot, near", "spot",
+                                             "spot, far", "point, near", "point",    "point, far"};
+    static const char *const columns[N_DEGREES] = {NULL, "20°", NULL, NULL, "50°", NULL, NULL, NULL, "80°", NULL};
+    const char *bands[N_SHOWN], *rows[N_ROWS] = {NULL};
+    char path[4096], error[200] = "";
+    for (size_t i = 0; i < N_SHOWN; i++) bands[i] = shown[i].name;
+    for (size_t i = 0; i < N_ROWS; i += 3) rows[i] = filter_name[i / 3];
+    h.bands = bands, h.maps = maps, h.columns = columns, h.rows = rows;
+    h.n_bands = N_SHOWN, h.n_maps = N_MAPS, h.n_columns = (size_t)N_DEGREES, h.n_rows = N_ROWS;
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    const int failed = plot_heat_write(path, &h, error, sizeof error);
+    if (failed) fprintf(stderr, "%s: %s\n", path, error);
+    return failed;
+}
+
+/* Through 5x5 with 16 bits, at the middle distance. */
+static int write_curves(const char *folder)
+{
+    enum { METRICS = 4, ROW = 3 * SCENE_FILTER_5X5 + 1 };
+    static const char *const what[METRICS] = {"wrongly shadowed points", "share of a shadow that is lit",
+                                              "gap at a wall's foot, texels", "shadow too short, texels"};
+    static double y[METRICS][3][N_SHOWN][N_DEGREES];
+    static char titles[METRICS][3][80];
+    plot_curves panels[3 * METRICS];
+    const char *names[N_SHOWN];
+    char path[4096], error[200] = "";
+    for (size_t i = 0; i < N_SHOWN; i++) names[i] = shown[i].name;
+    for (size_t m = 0; m < METRICS; m++)
+        for (size_t kind = 0; kind < 3; kind++) {
+            plot_curves *p = &panels[3 * m + kind];
+            snprintf(titles[m][kind], sizeof titles[m][kind], "%s: %s", kind_name[kind], what[m]);
+            *p = (plot_curves){.title = titles[m][kind],
+                               .x_high = 90,
+                               .x_step = 15,
+                               .x_format = "%.0f°",
+                               .x = wall_degrees,
+                               .y_high = m < 2 ? 100 : 10,
+                               .y_step = m < 2 ? 25 : 2,
+                               .y_format = m < 2 ? "%.0f %%" : "%.0f",
+                               .n = (size_t)N_DEGREES};
+            for (size_t i = 0; i < N_SHOWN; i++) {
+                for (int a = 0; a < N_DEGREES; a++) {
+                    const census *c = &all[i][3 * kind + 1][ROW][a];
+                    y[m][kind][i][a] = m == 0 ? 100 * c->acne : m == 1 ? 100 * c->lit : m == 2 ? c->gap : c->shrink;
+                }
+                p->y[i] = y[m][kind][i];
+            }
+        }
+    snprintf(path, sizeof path, "%s/census.svg", folder);
+    const int failed = plot_curves_write(path, "Acne and detachment over the angle of the light, 5x5, 16 bits", names, N_SHOWN,
+                                         panels, 3 * METRICS, 3, error, sizeof error);
+    if (failed) fprintf(stderr, "%s: %s\n", path, error);
+    return failed;
+}
+
+static int write_plots(const char *folder)
+{
+    take_census();
+    const plot_heat acne = {.title = "Wrongly shadowed points of a plane",
+                            .value = acne_at,
+                            .high = 1,
+                            .format = "%.2f",
+                            .key = "rows of a filter: 8, 16, 32 bits; share of the points, no colour: none at all"},
+                    lit = {.title = "Wrongly lit points behind a wall",
+                           .value = lit_at,
+                           .high = 1,
+                           .format = "%.2f",
+                           .key = "rows of a filter: 8, 16, 32 bits; share of its shadow"},
+                    gap = {.title = "Detachment: the gap at the foot of a wall",
+                           .value = gap_at,
+                           .high = 10,
+                           .format = "%.1f",
+                           .key = "rows of a filter: 8, 16, 32 bits; texels, half of the filter's blur among them"};
+    return write_heat(folder, "census-acne.svg", acne) || write_heat(folder, "census-lit.svg", lit) ||
+           write_heat(folder, "census-gap.svg", gap) || write_curves(folder);
+}
+
 int main(int argc, char **argv)
 {
     const int n = getenv("SOAK") ? 100 : 2;
@@ -369,10 +478,7 @@ int main(int argc, char **argv)
         print_curved();
         return 0;
     }
-    if (argc > 1 && strcmp(argv[1], "--plot") == 0) {
-        print_plot();
-        return 0;
-    }
+    if (argc > 2 && strcmp(argv[1], "--plots") == 0) return write_plots(argv[2]) ? 1 : 0;
     test_planes(argc > 1 ? atoi(argv[1]) : n);
     test_too_little();
     test_cut_planes(n);

@@ -1,13 +1,14 @@
 /* Scatter plots. */
 #include "plot.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 960, TITLE = 34, PANEL = 440, LEFT = 70, RIGHT = 24, TOP = 34, BOTTOM = 48, FONT = 11, LETTER = 6 };
+#include "plot_svg.h"
+
+enum { PANEL = 440, TOP = 34, BOTTOM = 48 };
 
 typedef struct {
     double low, high; /* of the data, with a margin */
@@ -26,16 +27,6 @@ typedef struct {
     box taken[BOXES_MAX]; /* by labels and points */
     size_t n_taken;
 } chart;
-
-static void put_text(FILE *f, const char *text)
-{
-    for (; *text; text++) {
-        if (*text == '&') fputs("&amp;", f);
-        else if (*text == '<') fputs("&lt;", f);
-        else if (*text == '>') fputs("&gt;", f);
-        else if ((unsigned char)*text >= 32) fputc(*text, f);
-    }
-}
 
 static double place(const axis *a, double v)
 {
@@ -105,11 +96,11 @@ static void draw_frame(const chart *c)
     fprintf(c->file, "<rect class=\"frame\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", c->x.from, c->y.to,
             c->x.to - c->x.from, c->y.from - c->y.to);
     fprintf(c->file, "<text class=\"head\" x=\"%.1f\" y=\"%.1f\">", c->x.from, c->y.to - 10);
-    put_text(c->file, p->title);
+    svg_text(c->file, p->title);
     fprintf(c->file, "</text>\n<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", mid_x, c->y.from + 34);
-    put_text(c->file, p->x_label);
+    svg_text(c->file, p->x_label);
     fprintf(c->file, "</text>\n<text transform=\"translate(18 %.1f) rotate(-90)\" text-anchor=\"middle\">", mid_y);
-    put_text(c->file, p->y_label);
+    svg_text(c->file, p->y_label);
     fprintf(c->file, "</text>\n");
 }
 
@@ -161,7 +152,7 @@ static void draw_point(const chart *c, const plot_point *p)
 {
     fprintf(c->file, "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>", p->strong ? "on" : "off", place(&c->x, p->x),
             place(&c->y, p->y), p->strong ? "4" : "3");
-    put_text(c->file, p->label);
+    svg_text(c->file, p->label);
     fprintf(c->file, "</title></circle>\n");
 }
 
@@ -195,17 +186,17 @@ static bool is_free(const chart *c, const box *b)
 static void draw_label(chart *c, const plot_point *p)
 {
     static const double away[][2] = {{-1, 1}, {-1, -1}, {1, 1}, {1, -1}};
-    double x = place(&c->x, p->x), y = place(&c->y, p->y), width = (double)(LETTER * strlen(p->label));
+    double x = place(&c->x, p->x), y = place(&c->y, p->y), width = (double)(SVG_LETTER * strlen(p->label));
     for (int far = 0; far < 9; far++)
         for (size_t i = 0; i < 4; i++) {
             double dx = away[i][0] * (7 + 7 * far), dy = away[i][1] * (3 + 13 * far);
-            double left = dx > 0 ? x + dx : x + dx - width, base = y + dy + (dy > 0 ? FONT - 2 : 0);
-            box b = {left - 2, base - FONT, left + width + 2, base + 3};
+            double left = dx > 0 ? x + dx : x + dx - width, base = y + dy + (dy > 0 ? SVG_FONT - 2 : 0);
+            box b = {left - 2, base - SVG_FONT, left + width + 2, base + 3};
             if (!is_free(c, &b)) continue;
             take(c, b);
             if (far) fprintf(c->file, "<path class=\"lead\" d=\"M%.1f %.1fL%.1f %.1f\"/>", x, y, x + dx, base - 4);
             fprintf(c->file, "<text class=\"name\" x=\"%.1f\" y=\"%.1f\" textLength=\"%.0f\">", left, base, width);
-            put_text(c->file, p->label);
+            svg_text(c->file, p->label);
             fprintf(c->file, "</text>\n");
             return;
         }
@@ -222,7 +213,7 @@ static int draw_panel(FILE *file, const plot_panel *p, double top)
     }
     c->file = file;
     c->panel = p;
-    c->x = fit_axis(p, true, LEFT, WIDTH - RIGHT);
+    c->x = fit_axis(p, true, SVG_LEFT, SVG_WIDTH - SVG_RIGHT);
     c->y = fit_axis(p, false, top + PANEL - BOTTOM, top + TOP);
     draw_frame(c);
     size_t n = find_front(p, front);
@@ -235,30 +226,11 @@ static int draw_panel(FILE *file, const plot_panel *p, double top)
     return 0;
 }
 
-static const char style[] =
-    "<style>text{font:11px sans-serif;fill:#333}.title{font-size:15px;font-weight:bold}.head{font-weight:bold}"
-    ".name{fill:#14508c;stroke:#fff;stroke-width:3px;paint-order:stroke}.grid{stroke:#e4e4e4}.frame{fill:none;stroke:#888}"
-    ".front{fill:none;stroke:#14508c;stroke-width:1.5}.lead{stroke:#9ab;stroke-width:.7}"
-    ".on{fill:#14508c}.off{fill:#fff;fill-opacity:.6;stroke:#b06a2c}</style>\n";
-
 int plot_write(const char *path, const char *title, const plot_panel *panels, size_t n_panels, char *error, size_t error_bytes)
 {
-    int height = TITLE + PANEL * (int)n_panels, failed = 0;
-    FILE *f = fopen(path, "w");
-    if (!f) {
-        snprintf(error, error_bytes, "cannot be written: %s", strerror(errno));
-        return -1;
-    }
-    fprintf(f, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\">\n", WIDTH, height,
-            WIDTH, height);
-    fprintf(f, "%s<rect width=\"%d\" height=\"%d\" fill=\"#fff\"/>\n<text class=\"title\" x=\"%d\" y=\"24\">", style, WIDTH, height,
-            LEFT);
-    put_text(f, title);
-    fprintf(f, "</text>\n");
-    for (size_t i = 0; i < n_panels && !failed; i++) failed = draw_panel(f, &panels[i], TITLE + (double)PANEL * (double)i);
-    fprintf(f, "</svg>\n");
-    failed |= ferror(f);
-    failed |= fclose(f);
-    if (failed) snprintf(error, error_bytes, "cannot be written");
-    return failed ? -1 : 0;
+    int failed = 0;
+    FILE *f = svg_begin(path, title, SVG_TITLE + PANEL * (int)n_panels, error, error_bytes);
+    if (!f) return -1;
+    for (size_t i = 0; i < n_panels && !failed; i++) failed = draw_panel(f, &panels[i], SVG_TITLE + (double)PANEL * (double)i);
+    return svg_end(f, failed, error, error_bytes);
 }
