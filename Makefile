@@ -5,6 +5,8 @@
 CC ?= gcc
 BUILD ?= build
 OPT ?= -O2
+# The library and the rest can differ: the oracles need not be slow where the library is tested without optimisation.
+HOST_OPT ?= $(OPT)
 SAN ?=
 SIZE ?= 320x240
 SCENES ?=
@@ -16,7 +18,8 @@ HOST_KNOBS := -DGN_COUNTERS=1 -DGN_RUNTIME_KNOBS=1 -DGN_RAW_VIEWS=1 -DGN_STATIC_
   -DGN_OTHER_ATLAS_SIZE=1024 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 -DGN_MAX_TILE_REFS=1000000 \
   -DGN_MAX_LIGHTS=64 -DGN_SURFACE_LIGHTS=64 -DGN_MAX_OBJECTS=65535 -DGN_MAX_SHADOW_TILES=16 -DGN_MAX_OTHER_TILES=16 -DGN_VERTEX_CACHE=1024
 LIB_CFLAGS := -std=c99 -pedantic $(OPT) -g $(WARN) $(SAN) -Ilib
-HOST_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(OPT) -g $(WARN) $(SAN) -Ilib $(HOST_KNOBS)
+HOST_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(HOST_OPT) -g $(WARN) $(SAN) -Ilib $(HOST_KNOBS) \
+  -DSLOW_LIBRARY=$(if $(filter -O0,$(OPT)),1,0)
 
 LIB_SRC := $(wildcard lib/*.c)
 HOST_SRC := $(wildcard host/ref/*.c host/truth/*.c host/scene/*.c) $(filter-out host/tool/main.c host/tool/gen_%.c, $(wildcard host/tool/*.c))

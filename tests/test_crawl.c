@@ -161,7 +161,7 @@ int main(int argc, char **argv)
                                               "library, grid fixed in the world"};
     tally t[N_WAYS] = {{0, 0, 0, 0}};
     const bool table = argc > 1 && strcmp(argv[1], "--table") == 0;
-#ifdef __OPTIMIZE__
+#if !SLOW_LIBRARY
     const int n_frames = N_FRAMES;
 #else
     const int n_frames = N_FRAMES / 6;

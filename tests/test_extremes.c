@@ -6,7 +6,7 @@
 #include "extreme_cases.h"
 #include "../lib/gn_q.h"
 
-#ifdef __OPTIMIZE__
+#if !SLOW_LIBRARY
 static const bool optimised = true;
 #else
 static const bool optimised = false; /* slow: fewer of what there are many of */

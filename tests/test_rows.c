@@ -9,7 +9,7 @@
 
 enum { WIDTH = 160, HEIGHT = 120 };
 
-#ifdef __OPTIMIZE__
+#if !SLOW_LIBRARY
 static const bool optimised = true;
 #else
 static const bool optimised = false; /* slow: every other line, one preset, and no proof that it matters */

@@ -196,7 +196,7 @@ int main(int argc, char **argv)
         const char *name;
     } filters[] = {{SCENE_FILTER_HARD, "hard"}, {SCENE_FILTER_2X2, "2x2"}, {SCENE_FILTER_5X5, "5x5"}};
     throw_splinters();
-#ifdef __OPTIMIZE__
+#if !SLOW_LIBRARY
     const bool optimised = true;
 #else
     const bool optimised = false; /* slow: less of it */

@@ -169,7 +169,7 @@ int gallery_lamps_write(FILE *file)
     size_t mesh = gltf_add_mesh(&d, "flagstone", &(gltf_surface){&slab, stone}, 1);
     for (int i = 0; i < N * N; i++) {
         double x = i % N - 1.5, z = i / N - 1.5;
-        char name[16];
+        char name[20];
         gltf_add_node(&d, "flagstone", "\"mesh\": %zu, \"translation\": [%g, 0, %g]", mesh, x, z);
         snprintf(name, sizeof name, "lamp %d", i);
         const double *rgb = colour[(i + i / N) % 4];
