@@ -158,6 +158,13 @@ static bool read_channel(gltf *g, const json_value *json, const json_value *samp
     return read_target(g, target, out);
 }
 
+static void note_duration(gltf *g, const gltf_array *times)
+{
+    scene *s = g->l->s;
+    s->fps = g->fps;
+    s->duration = fmax(s->duration, times->values[times->count - 1]);
+}
+
 static bool play_channel(gltf *g, const channel *c, const char *animation, unsigned char *moved)
 {
     sampler s = {.width = c->width};
@@ -167,6 +174,7 @@ static bool play_channel(gltf *g, const channel *c, const char *animation, unsig
     *moved = (unsigned char)(*moved | c->bit);
     arena_block *mark = g->l->memory.blocks;
     bool ok = read_sampler(g, c->sampler, &s);
+    if (ok) note_duration(g, &s.times);
     if (ok && !evaluate(&s, g->l->options->frame / g->fps, c->property)) ok = gltf_fail(g, c->sampler, "a rotation is zero");
     arena_release(&g->l->memory, mark);
     return ok;

@@ -18,6 +18,7 @@ static const char usage_text[] =
     "  info SCENE                what the scene needs, and what in the file was ignored\n"
     "  sweep SCENE               many configurations: RAM, instructions and error, and the front of those that no other beats\n"
     "  advise SCENE --ram BYTES  the most accurate configuration within a budget, as --set arguments\n"
+    "  compile SCENE -o DIR      C for flash: scene.c and scene.h, and gn_scene_config.h, the library with just what it needs\n"
     "  knobs                     every knob and setting, as docs/CONFIG.md lists them\n"
     "\n"
     "  --engine NAME             render: fixed, the library; reference, the same in double precision; truth, a ray tracer\n"
@@ -28,6 +29,8 @@ static const char usage_text[] =
     "  --view NAME               render, compare: colour, shadow, depth, normal, atlas or cascade (colour)\n"
     "  --light K                 render, compare: the light of --view shadow and atlas (0)\n"
     "  --frame N                 animation frame (0)\n"
+    "  --frames FIRST-LAST       compile: these frames (all of the animation)\n"
+    "  --margin PERCENT          compile: room for more triangles and tile references than the frames took (10)\n"
     "  --set KEY=VALUE           any knob or setting, in order; preset=tiny|balanced|accurate sets many;\n"
     "                            KEY@LIGHT=VALUE for one light, by its number or name\n"
     "  --csv FILE, --svg FILE    sweep: every configuration as a table and a picture\n"
@@ -37,7 +40,7 @@ static const char usage_text[] =
     "  --instructions-per-pixel N  advise: the most instructions per pixel (no limit)\n"
     "  --json                    one JSON object on stdout and nothing else\n";
 
-enum { BY_RENDER = 1, BY_COMPARE = 2, BY_INFO = 4, BY_SWEEP = 8, BY_ADVISE = 16, BY_ALL = 31 };
+enum { BY_RENDER = 1, BY_COMPARE = 2, BY_INFO = 4, BY_SWEEP = 8, BY_ADVISE = 16, BY_COMPILE = 32, BY_ALL = 63 };
 
 enum { BUDGET_MAX = 1000000000 };
 
@@ -49,14 +52,16 @@ typedef struct {
 } option;
 
 static const option options[] = {
-    {"-o", BY_RENDER | BY_COMPARE, "a path"},
+    {"-o", BY_RENDER | BY_COMPARE | BY_COMPILE, "a path"},
     {"--engine", BY_RENDER, "fixed, reference or truth"},
     {"--with", BY_COMPARE, "reference or truth"},
     {"--samples", BY_RENDER | BY_COMPARE, "samples from 1 to 16"},
     {"--size", BY_ALL, "WxH, up to 2048x2048"},
     {"--view", BY_RENDER | BY_COMPARE, "colour, shadow, depth, normal, atlas or cascade"},
     {"--light", BY_RENDER | BY_COMPARE, "a light from 0 to 63"},
-    {"--frame", BY_ALL, "a frame from 0 to 100000000"},
+    {"--frame", BY_ALL & ~BY_COMPILE, "a frame from 0 to 100000000"},
+    {"--frames", BY_COMPILE, "FIRST-LAST, frames from 0 to 100000000"},
+    {"--margin", BY_COMPILE, "per cent from 0 to 1000"},
     {"--set", BY_ALL, "KEY=VALUE, at most 64 times"},
     {"--csv", BY_SWEEP, "a path"},
     {"--svg", BY_SWEEP, "a path"},
@@ -102,6 +107,18 @@ static int parse_size(const char *text, tool_options *o)
     return parse_int(left, 1, GN_MAX_WIDTH, &o->width) || parse_int(x + 1, 1, GN_MAX_HEIGHT, &o->height) ? -1 : 0;
 }
 
+static int parse_frames(const char *text, tool_options *o)
+{
+    char first[16];
+    const char *dash = strchr(text, '-');
+    size_t n = dash ? (size_t)(dash - text) : 0;
+    if (!dash || n >= sizeof first) return -1;
+    memcpy(first, text, n);
+    first[n] = 0;
+    if (parse_int(first, 0, 100000000, &o->frame) || parse_int(dash + 1, 0, 100000000, &o->last_frame)) return -1;
+    return o->last_frame < o->frame ? -1 : 0;
+}
+
 static int is_no_double_engine(const char *name)
 {
     return strcmp(name, "reference") != 0 && strcmp(name, "truth") != 0;
@@ -118,6 +135,8 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--size") == 0) failed = parse_size(value, o);
     else if (strcmp(name, "--view") == 0) failed = (o->view = view_from_name(value)) < 0;
     else if (strcmp(name, "--frame") == 0) failed = parse_int(value, 0, 100000000, &o->frame);
+    else if (strcmp(name, "--frames") == 0) failed = parse_frames(value, o);
+    else if (strcmp(name, "--margin") == 0) failed = parse_int(value, 0, 1000, &o->margin);
     else if (strcmp(name, "--light") == 0) {
         failed = parse_int(value, 0, GN_MAX_LIGHTS - 1, &light);
         o->light = (size_t)light;
@@ -196,8 +215,9 @@ static int run(int argc, char **argv)
                     {"compare", BY_COMPARE, tool_compare},
                     {"info", BY_INFO, tool_info},
                     {"sweep", BY_SWEEP, tool_sweep},
-                    {"advise", BY_ADVISE, tool_advise}};
-    tool_options o = {.engine = "fixed", .with = "reference", .width = 320, .height = 240};
+                    {"advise", BY_ADVISE, tool_advise},
+                    {"compile", BY_COMPILE, tool_compile}};
+    tool_options o = {.engine = "fixed", .with = "reference", .width = 320, .height = 240, .last_frame = -1, .margin = 10};
     if (argc < 2) return usage("a command is missing", NULL);
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0) {
         fputs(usage_text, stdout);

@@ -26,6 +26,8 @@ typedef struct {
     int all, quick;
     int ram;                    /* advise: bytes; 0: not given */
     int instructions_per_pixel; /* 0: no limit */
+    int last_frame;             /* compile: of --frames, whose first is frame; -1: to the end of the animation */
+    int margin;                 /* compile: per cent */
 } tool_options;
 
 /* Exit codes: failures of the work itself, and of the command line. */
@@ -36,6 +38,7 @@ int tool_compare(const tool_options *o);
 int tool_info(const tool_options *o);
 int tool_sweep(const tool_options *o);
 int tool_advise(const tool_options *o);
+int tool_compile(const tool_options *o);
 
 /* How many samples truth takes, per pixel and axis. */
 int tool_samples(const tool_options *o);

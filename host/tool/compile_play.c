@@ -1,0 +1,220 @@
+/* Playing a scene's frames: what changes from one to the next, and the most that any of them needs. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compile.h"
+
+#define OBJECT_(name, n) {COMPILE_OF_OBJECT, #name, offsetof(gn_object, name), n}
+#define LIGHT_(name, n)  {COMPILE_OF_LIGHT, #name, offsetof(gn_light, name), n}
+#define SCENE_(name, n)  {COMPILE_OF_SCENE, #name, offsetof(gn_scene, name), n}
+
+/* All that the loaders and the choice of the unit of length can make differ from frame to frame. */
+static const compile_field fields[] = {
+    OBJECT_(to_world.m_q30, 9),
+    OBJECT_(to_world.t_q16, 3),
+    OBJECT_(to_world.exp, 1),
+    LIGHT_(direction, 3),
+    LIGHT_(position_q16, 3),
+    LIGHT_(colour_exp, 1),
+    LIGHT_(range_q16, 1),
+    LIGHT_(near_q16, 1),
+    LIGHT_(near_offset_q16, 1),
+    SCENE_(camera.to_world.m_q30, 9),
+    SCENE_(camera.to_world.t_q16, 3),
+    SCENE_(camera.focal_q24, 1),
+    SCENE_(camera.near_q16, 1),
+    SCENE_(camera.far_q16, 1),
+    SCENE_(unit_log2, 1),
+    SCENE_(shadow.max_distance_q16, 1),
+};
+enum { N_FIELDS = sizeof fields / sizeof *fields };
+
+static const void *owner_of(const fixed_scene *f, compile_owner of, size_t idx)
+{
+    return of == COMPILE_OF_OBJECT ? (const void *)&f->objects[idx]
+           : of == COMPILE_OF_LIGHT ? (const void *)&f->lights[idx]
+                                    : (const void *)&f->scene;
+}
+
+static size_t count_of(const fixed_scene *f, compile_owner of)
+{
+    return of == COMPILE_OF_OBJECT ? f->scene.n_objects : of == COMPILE_OF_LIGHT ? f->scene.n_lights : 1;
+}
+
+/* ---- What may not change ------------------------------------------------------------------------------------------------ */
+
+static bool same_array(const void *a, const void *b, size_t bytes)
+{
+    return (!a && !b) || (a && b && memcmp(a, b, bytes) == 0);
+}
+
+static bool same_mesh(const gn_mesh *a, const gn_mesh *b)
+{
+    size_t n = a->n_vertices;
+    return a->n_vertices == b->n_vertices && a->n_triangles == b->n_triangles && a->pos_frac_bits == b->pos_frac_bits &&
+           a->uv_frac_bits == b->uv_frac_bits && same_array(a->pos, b->pos, 12 * n) && same_array(a->nrm_q15, b->nrm_q15, 6 * n) &&
+           same_array(a->rgb_uq16, b->rgb_uq16, 6 * n) && same_array(a->uv, b->uv, 4 * n) &&
+           same_array(a->mask_uv_uq16, b->mask_uv_uq16, 4 * n) && same_array(a->idx, b->idx, 6 * (size_t)a->n_triangles);
+}
+
+/* Frames differ in fields alone. */
+static int check_same(const compiled *c, const fixed_scene *f, int frame, char *error, size_t bytes)
+{
+    const fixed_scene *base = &c->fixed;
+    const char *what = f->scene.n_objects != base->scene.n_objects ? "objects"
+                       : f->scene.n_lights != base->scene.n_lights ? "lights"
+                       : f->n_meshes != base->n_meshes             ? "meshes"
+                                                                   : NULL;
+    for (size_t i = 0; !what && i < f->n_meshes; i++)
+        if (!same_mesh(&f->meshes[i], &base->meshes[i])) what = "meshes";
+    for (size_t i = 0; !what && i < f->scene.n_objects; i++)
+        if (f->objects[i].mesh - f->meshes != base->objects[i].mesh - base->meshes) what = "meshes";
+    if (!what) return 0;
+    snprintf(error, bytes, "frame %d has other %s than frame %d (a transform that mirrors, or a ground that follows): leave one out with --frames",
+             frame, what, c->first_frame);
+    return -1;
+}
+
+/* ---- Tracks ------------------------------------------------------------------------------------------------------------- */
+
+static compile_track *find_track(compiled *c, const compile_field *field, size_t idx)
+{
+    for (size_t i = 0; i < c->n_tracks; i++)
+        if (c->tracks[i].field == field && c->tracks[i].idx == idx) return &c->tracks[i];
+    return NULL;
+}
+
+/* A track that stood still up to this frame; NULL: out of memory. */
+static compile_track *add_track(compiled *c, const compile_field *field, size_t idx, int frames_before, const void *first)
+{
+    compile_track *grown = realloc(c->tracks, (c->n_tracks + 1) * sizeof *grown);
+    if (!grown) return NULL;
+    c->tracks = grown;
+    compile_track *t = &c->tracks[c->n_tracks];
+    *t = (compile_track){field, idx, malloc((size_t)c->n_frames * field->n_words * sizeof *t->words)};
+    if (!t->words) return NULL;
+    c->n_tracks++;
+    for (int i = 0; i < frames_before; i++) memcpy(t->words + (size_t)i * field->n_words, first, 4 * field->n_words);
+    return t;
+}
+
+static int track_field(compiled *c, const fixed_scene *f, int i, const compile_field *field, size_t idx)
+{
+    const char *first = (const char *)owner_of(&c->fixed, field->of, idx) + field->offset;
+    const char *now = (const char *)owner_of(f, field->of, idx) + field->offset;
+    compile_track *t = find_track(c, field, idx);
+    if (!t && memcmp(first, now, 4 * field->n_words) != 0) t = add_track(c, field, idx, i, first);
+    else if (!t) return 0;
+    if (!t) return -1;
+    memcpy(t->words + (size_t)i * field->n_words, now, 4 * field->n_words);
+    c->moves[field->of] = true;
+    return 0;
+}
+
+static int track_frame(compiled *c, const fixed_scene *f, int i)
+{
+    for (size_t k = 0; k < N_FIELDS; k++)
+        for (size_t idx = 0; idx < count_of(f, fields[k].of); idx++)
+            if (track_field(c, f, i, &fields[k], idx)) return -1;
+    return 0;
+}
+
+/* ---- Demand ------------------------------------------------------------------------------------------------------------- */
+
+static void most(size_t *of, size_t value)
+{
+    if (value > *of) *of = value;
+}
+
+static void take_demand(settings_demand *all, const settings_demand *frame)
+{
+    all->width = frame->width;
+    all->height = frame->height;
+    most(&all->objects, frame->objects);
+    most(&all->lights, frame->lights);
+    most(&all->surface_lights, frame->surface_lights);
+    most(&all->triangles, frame->triangles);
+    most(&all->tile_refs, frame->tile_refs);
+    most(&all->shadow_tiles, frame->shadow_tiles);
+    most(&all->other_tiles, frame->other_tiles);
+}
+
+/* ---- Frames ------------------------------------------------------------------------------------------------------------- */
+
+static int play_frame(compiled *c, const scene *s, const settings *set, const fixed_scene *f, int i, char *error, size_t bytes)
+{
+    engine_picture p;
+    if (i > 0 && check_same(c, f, c->first_frame + i, error, bytes)) return -1;
+    if (track_frame(c, f, i)) {
+        snprintf(error, bytes, "out of memory");
+        return -1;
+    }
+    if (engine_fixed(&p, s, set, c->options->width, c->options->height, ENGINE_COLOUR_ONLY, error, bytes)) return -1;
+    if (p.demand.triangles > c->demand.triangles) c->peak_triangles = c->first_frame + i;
+    if (p.demand.tile_refs > c->demand.tile_refs) c->peak_tile_refs = c->first_frame + i;
+    c->culled += p.stats.n_casters_culled;
+    take_demand(&c->demand, &p.demand);
+    engine_free(&p);
+    return 0;
+}
+
+/* Every frame but the first, which stays. */
+static int play_later(compiled *c, int i, char *error, size_t bytes)
+{
+    tool_options o = *c->options;
+    scene s;
+    settings set;
+    fixed_scene f;
+    o.frame = c->first_frame + i;
+    if (tool_load_with(&o, o.sets, o.n_sets, &s, &set, error, bytes)) return -1;
+    int failed = quantise_scene(&f, &s, error, bytes);
+    if (!failed) {
+        failed = play_frame(c, &s, &set, &f, i, error, bytes);
+        quantise_free(&f);
+    }
+    scene_free(&s);
+    return failed;
+}
+
+/* All frames of the animation, or those that were asked for. */
+static int choose_frames(compiled *c, char *error, size_t bytes)
+{
+    const tool_options *o = c->options;
+    double last = ceil(c->scene.duration * c->scene.fps - 1e-6);
+    c->first_frame = o->frame;
+    c->n_frames = 1;
+    if (o->last_frame >= 0) {
+        c->n_frames = o->last_frame - o->frame + 1;
+    } else if (o->frame < last) {
+        c->n_frames = last - o->frame < COMPILE_FRAMES_MAX ? (int)last - o->frame + 1 : COMPILE_FRAMES_MAX + 1;
+    }
+    if (c->n_frames <= COMPILE_FRAMES_MAX) return 0;
+    snprintf(error, bytes, "%g frames are more than %d: choose some with --frames FIRST-LAST", last, (int)COMPILE_FRAMES_MAX);
+    return -1;
+}
+
+int compile_play(compiled *c, const tool_options *o, char *error, size_t error_bytes)
+{
+    settings set;
+    *c = (compiled){.options = o};
+    if (tool_load_with(o, o->sets, o->n_sets, &c->scene, &set, error, error_bytes)) return -1;
+    c->set = set;
+    if (choose_frames(c, error, error_bytes) || quantise_scene(&c->fixed, &c->scene, error, error_bytes)) {
+        scene_free(&c->scene);
+        return -1;
+    }
+    int failed = play_frame(c, &c->scene, &set, &c->fixed, 0, error, error_bytes);
+    for (int i = 1; !failed && i < c->n_frames; i++) failed = play_later(c, i, error, error_bytes);
+    if (failed) compile_free(c);
+    return failed;
+}
+
+void compile_free(compiled *c)
+{
+    for (size_t i = 0; i < c->n_tracks; i++) free(c->tracks[i].words);
+    free(c->tracks);
+    quantise_free(&c->fixed);
+    scene_free(&c->scene);
+    *c = (compiled){0};
+}
