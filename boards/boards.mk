@@ -28,7 +28,7 @@ FW_SRC := $(LIB_SRC) boards/apps/$(APP).c $(APP_SRC) $(wildcard boards/$(BOARD)/
 ifeq ($(FW_HOSTED),)
 FW_SRC += boards/common/start.c boards/common/memory.c
 FW_FREE := -ffreestanding -isystem boards/common/include
-FW_LINK := -nostdlib -nostartfiles -Wl,--gc-sections,--fatal-warnings,-Map=$(FIRMWARE:.elf=.map) -Wl,--no-warn-rwx-segments -Lboards/common -T boards/$(BOARD)/link.ld
+FW_LINK := -nostdlib -nostartfiles -Wl,--gc-sections,--fatal-warnings,-Map=$(FIRMWARE:.elf=.map) -Wl,--no-warn-rwx-segments -Lboards/common -Lport -T boards/$(BOARD)/link.ld
 FW_LIBS := -lgcc
 endif
 ifneq ($(PRESET),)
@@ -43,7 +43,7 @@ FW_CFLAGS := $(BOARD_CPU) -std=c99 $(FW_OPT) -g $(WARN) $(FW_FREE) -ffunction-se
   $(FW_SCENE) $(FW_PRESET) $(BOARD_FLAGS) $(APP_FLAGS) $(FW_FLAGS)
 FW_OBJ := $(FW_SRC:%.c=$(FW_OBJ_DIR)/%.o) $(FW_SCENE_OBJ)
 
-$(FIRMWARE): $(FW_OBJ) $(wildcard boards/$(BOARD)/*.ld boards/common/*.ld) $(FW_OBJ_DIR)/link.flags
+$(FIRMWARE): $(FW_OBJ) $(wildcard boards/$(BOARD)/*.ld boards/common/*.ld port/*.ld) $(FW_OBJ_DIR)/link.flags
 	@echo '  LD $@'
 	@$(FW_CC) $(BOARD_CPU) $(FW_OPT) $(FW_LINK) $(LINK_FLAGS) -o $@ $(FW_OBJ) $(FW_LIBS)
 

@@ -199,7 +199,7 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
 /* Tiles of one atlas lie one behind the other, larger ones first, so that each begins at a multiple of its size. */
 static void add_views(gn_frame *frame, const gn_tile_plan *plan)
 {
-    uint32_t first[GN_MAX_LIGHTS], next[2] = {0, 0};
+    uint32_t first[GN_MAX_LIGHTS] = {0}, next[2] = {0, 0}; /* every light with tiles gets its first */
     for (int32_t log2 = 10; log2 >= 3; log2--) {
         for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
             if (!plan[l].n_tiles || plan[l].tile_log2 != log2) continue;

@@ -1,0 +1,7 @@
+# QEMU's virt machine: RV32IMAC.
+BOARD_CORE := RV32IMAC
+BOARD_RUNS := qemu
+BOARD_CROSS := riscv64-unknown-elf-
+BOARD_CPU := -march=rv32imac -mabi=ilp32
+BOARD_COMMON := rv32 semihosting
+BOARD_EMULATOR := qemu-system-riscv32 -M virt -bios none
