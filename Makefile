@@ -49,9 +49,9 @@ soak: ## the longer campaigns: minutes to hours
 bench: ## count instructions of the workload with callgrind against the committed baseline; WRITE=1 renews it
 	@sh tests/bench.sh $(if $(WRITE),--write)
 
-firmware: $(if $(BOARD),$(FIRMWARE),boards) ## build the image of a board: BOARD=mps2-an385 [APP=crc] [SCENE=FILE] [PRESET=tiny]
+firmware: $(if $(BOARD),,boards) ## build the image of a board: BOARD=mps2-an385 [APP=crc] [SCENE=FILE] [PRESET=tiny]
 
-emulate: $(if $(BOARD),run-firmware,boards) ## build it, and run it in the emulator
+emulate: $(if $(BOARD),,boards) ## build it, and run it in the emulator
 
 boards: ## list the boards
 	@for file in boards/*/board.mk; do printf "  %-20s%s\n" "$$(basename $$(dirname $$file))" "$$(sed -n "1s/^# //p" $$file)"; done

@@ -74,6 +74,9 @@ always:
 
 -include $(shell test -d $(FW_OBJ_DIR) && find $(FW_OBJ_DIR) -name '*.d')
 
+firmware: $(FIRMWARE)
+emulate: run-firmware
+
 comma := ,
 EMULATOR_FLAGS := -display none -monitor none -serial none
 run-firmware: $(FIRMWARE)

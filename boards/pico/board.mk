@@ -1,0 +1,8 @@
+# Raspberry Pi Pico (RP2040): Cortex-M0+. Built, not run: no emulator here has it.
+BOARD_CORE := Cortex-M0+
+BOARD_RUNS := no
+BOARD_CROSS := arm-none-eabi-
+BOARD_CPU := -mcpu=cortex-m0plus -mthumb
+BOARD_OPT := -Os
+BOARD_COMMON := cortex_m no_console
+BOARD_EMULATOR :=

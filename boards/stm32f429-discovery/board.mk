@@ -1,0 +1,7 @@
+# STM32F429 Discovery: Cortex-M4. Built, not run: no emulator here has it.
+BOARD_CORE := Cortex-M4
+BOARD_RUNS := no
+BOARD_CROSS := arm-none-eabi-
+BOARD_CPU := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
+BOARD_COMMON := cortex_m no_console
+BOARD_EMULATOR :=
