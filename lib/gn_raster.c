@@ -94,7 +94,7 @@ static void raster_triangle(const gn_frame *frame, gn_scratch *scratch, const gn
 #endif
     gn_walk walk;
     if (!gn_raster_walk(frame, &walk, tri, rect)) return;
-    int32_t bits = GN_K(frame, subpixel_bits), stride = rect->x1 - rect->x0;
+    int32_t bits = GN_K(frame, subpixel_bits), stride = GN_K(frame, tile_width);
     uint32_t id = gn_raster_id(frame, tri_idx), id_mask = (1U << frame->id_bits) - 1;
     uint32_t lo = (uint32_t)tri->iz_min << 16, hi = (uint32_t)tri->iz_max << 16 | 0xFFFFU;
     int32_t sx[3], sy[3];
@@ -125,9 +125,9 @@ static void raster_triangle(const gn_frame *frame, gn_scratch *scratch, const gn
 void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
-    int32_t n = (rect.x1 - rect.x0) * (rect.y1 - rect.y0);
+    int32_t n = GN_K(frame, tile_width) * (rect.y1 - rect.y0);
     GN_COUNT(screen_tiles, 1);
-    GN_COUNT(pixels, n);
+    GN_COUNT(pixels, (rect.x1 - rect.x0) * (rect.y1 - rect.y0));
     for (int32_t i = 0; i < n; i++) scratch->cell[i] = 0;
 #if GN_VISIBLE_ALPHA
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;

@@ -8,6 +8,7 @@
 #include "gn_punctual.h"
 #include "gn_q.h"
 #include "gn_raster.h"
+#include "gn_runs.h"
 
 typedef struct {
     const gn_frame *frame;
@@ -237,28 +238,19 @@ static void fill_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 static void shade_triangle(shading *s, uint32_t tri_idx)
 {
     const gn_frame *frame = s->frame;
-    const gn_rect *rect = &s->rect;
-    gn_walk walk;
-    s->tri = &frame->tri[tri_idx];
-    if (!gn_raster_walk(frame, &walk, s->tri, rect)) return;
-    uint32_t id = gn_raster_id(frame, tri_idx), id_mask = (1U << frame->id_bits) - 1;
+    uint32_t stride = (uint32_t)GN_K(frame, tile_width), first;
+    int32_t n_px;
     int begun = 0;
-    int32_t y, xa, xb;
-    while (gn_walk_row(&walk, &y, &xa, &xb)) {
-        xb = gn_min32(xb, rect->x1);
-        const uint32_t *cell = s->scratch->cell + (y - rect->y0) * (rect->x1 - rect->x0) - rect->x0;
-        for (int32_t x = gn_max32(xa, rect->x0); x < xb;) {
-            if ((cell[x] & id_mask) != id) {
-                x++;
-                continue;
-            }
-            int32_t run_end = x + 1;
-            while (run_end < xb && (cell[run_end] & id_mask) == id) run_end++;
-            if (!begun++) gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
-            if (gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32) fill_run(s, y, x, run_end);
-            else shade_run(s, y, x, run_end);
-            x = run_end;
+    gn_run_taker taker;
+    gn_runs_begin(&taker, s->scratch, gn_raster_id(frame, tri_idx));
+    while (gn_runs_take(&taker, stride, &first, &n_px)) {
+        int32_t x = s->rect.x0 + (int32_t)(first % stride), y = s->rect.y0 + (int32_t)(first / stride);
+        if (!begun++) {
+            s->tri = &frame->tri[tri_idx];
+            gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
         }
+        if (gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32) fill_run(s, y, x, x + n_px);
+        else shade_run(s, y, x, x + n_px);
     }
 }
 
@@ -297,5 +289,6 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
 #endif
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
     clear_background(&s);
+    gn_runs_build(frame, scratch, s.rows.width, s.rect.y1 - s.rect.y0);
     for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++) shade_triangle(&s, frame->tile_ref[i]);
 }

@@ -272,10 +272,18 @@ typedef union {
     uint32_t raw[GN_TILE_PIXELS_MAX * (GN_RAW_VIEWS ? 4 : 3) / 4];
 } gn_tile_pixels;
 
+#define GN_RUN_LISTS 64
+#if GN_TILE_PIXELS_MAX > 65535
+typedef uint32_t gn_run_idx;
+#else
+typedef uint16_t gn_run_idx;
+#endif
+
 typedef struct gn_scratch {
-    uint32_t cell[GN_TILE_PIXELS_MAX]; /* nearest surface: near / Z in the high bits, the triangle in the low id_bits; 0: none */
+    uint32_t cell[GN_TILE_PIXELS_MAX]; /* rows of tile_width: nearest surface, near / Z in the high bits, the triangle in the low id_bits; 0: none */
     gn_tile_pixels pixel;              /* finished pixels in the picture's format */
     gn_vcache_entry vertex[GN_VERTEX_CACHE];
+    gn_run_idx run_list[GN_RUN_LISTS]; /* first runs, by the low bits of their triangles; see gn_runs.h */
 } gn_scratch;
 
 #endif

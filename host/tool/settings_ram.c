@@ -65,6 +65,7 @@ settings_ram_parts settings_ram(const settings *s)
     r.cells = put(&all, tile_w * tile_h, 4, 4);
     r.pixels = put(&all, tile_w * tile_h, s->feature.raw_views ? 4 : 3, 4);
     put(&all, s->capacity.vertex_cache, 16, 4);
+    put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
     pad(&all, all.align);
     r.total = all.size;
     r.rest = r.total - r.atlas - r.other_atlas - r.objects - r.lights - r.triangles - r.tile_refs - r.tiles - r.cells - r.pixels;
