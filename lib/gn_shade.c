@@ -194,7 +194,6 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     int32_t step_px = s->surface.specular ? 1 : GN_K(s->frame, persp_step); /* a highlight is narrower than its n . h */
     int32_t first = s->surface.first_value, end = s->surface.n_values;
-    GN_COUNT(runs, 1);
     gn_sample samples[2], step, *here = &samples[0], *next = &samples[1];
     gn_sample_at(s->frame, &s->surface, x_begin, y, here);
     shade_pixel(s, here, x_begin, y);
@@ -221,37 +220,39 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
     }
 }
 
-/* A run of a surface that looks the same all over. */
-static void fill_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
+/* The pixel of a surface that looks the same all over. */
+static uint32_t constant_pixel(shading *s)
 {
     gn_sample sample;
     uint32_t radiance_q20[3];
-    GN_COUNT(runs, 1);
-    GN_COUNT(filled, x_end - x_begin);
     sample.cascade = GN_CASCADE_NONE;
     for (uint32_t i = 0; i < s->surface.n_lights; i++)
         sample.value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i] = s->surface.light[i].flat_cosine_q24;
     gn_light_radiance(s->frame, &s->surface, &sample, radiance_q20);
-    gn_pixel_fill(s->frame, &s->rows, x_begin, y, x_end - x_begin, pack(s, radiance_q20));
+    return pack(s, radiance_q20);
 }
 
 static void shade_triangle(shading *s, uint32_t tri_idx)
 {
     const gn_frame *frame = s->frame;
-    uint32_t stride = (uint32_t)GN_K(frame, tile_width), first;
+    uint32_t stride = (uint32_t)GN_K(frame, tile_width), first, packed = 0;
     int32_t n_px;
-    int begun = 0;
+    int constant;
     gn_run_taker taker;
     gn_runs_begin(&taker, s->scratch, gn_raster_id(frame, tri_idx));
-    while (gn_runs_take(&taker, stride, &first, &n_px)) {
+    if (!gn_runs_take(&taker, stride, &first, &n_px)) return;
+    s->tri = &frame->tri[tri_idx];
+    gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
+    constant = gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32;
+    if (constant) packed = constant_pixel(s);
+    do {
         int32_t x = s->rect.x0 + (int32_t)(first % stride), y = s->rect.y0 + (int32_t)(first / stride);
-        if (!begun++) {
-            s->tri = &frame->tri[tri_idx];
-            gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
-        }
-        if (gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32) fill_run(s, y, x, x + n_px);
-        else shade_run(s, y, x, x + n_px);
-    }
+        GN_COUNT(runs, 1);
+        if (constant) {
+            GN_COUNT(filled, n_px);
+            gn_pixel_fill(frame, &s->rows, x, y, n_px, packed);
+        } else shade_run(s, y, x, x + n_px);
+    } while (gn_runs_take(&taker, stride, &first, &n_px));
 }
 
 static void clear_background(shading *s)
