@@ -87,6 +87,11 @@ test-programs: $(TESTS:%=$(BUILD)/%) $(BUILD)/gnomon
 
 $(BUILD)/test_scenes: $(SCENE_OBJ)
 
+# What a board streamed, as a picture.
+$(BUILD)/rgb565_png: $(BUILD)/obj/boards/tools/rgb565_png.o $(SCENE_PNG)
+	@echo '  LD $@'
+	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
+
 $(BUILD)/test_%: $(BUILD)/obj/tests/test_%.o $(HOST_OBJ) $(LIB_OBJ)
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm

@@ -26,6 +26,9 @@ int board_file_create(const char *path);
 int board_file_write(int file, const void *bytes, size_t n_bytes);
 int board_file_close(int file);
 
+/* One line: the RAM that the image takes, its stack with it, and how much of the stack was ever used. Nothing on the host. */
+void board_print_memory(void);
+
 /* The stack was painted before app_main: the most bytes that it ever took so far, and whether its lowest words are whole. */
 uint32_t board_stack_used_bytes(void);
 int board_canary_ok(void);

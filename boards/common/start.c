@@ -44,6 +44,18 @@ int board_canary_ok(void)
     return 1;
 }
 
+void board_print_memory(void)
+{
+    board_print("RAM ");
+    board_print_u32((uint32_t)((uintptr_t)board_bss_end - (uintptr_t)board_stack_bottom + (uintptr_t)board_fast_bss_end -
+                               (uintptr_t)board_fast_bss_start));
+    board_print(" bytes, with a stack of ");
+    board_print_u32((uint32_t)((uintptr_t)board_stack_top - (uintptr_t)board_stack_bottom));
+    board_print(", of which used ");
+    board_print_u32(board_stack_used_bytes());
+    board_print("\n");
+}
+
 void board_start(void)
 {
     paint_stack();

@@ -1,0 +1,1 @@
+APP_FLAGS := '-DGN_USER_CONFIG="pocket_config.h"'
