@@ -31,14 +31,18 @@ extern "C" void oiio_free(unsigned char *pixels)
     delete[] pixels;
 }
 
-extern "C" int oiio_compare(const char *a, const char *b, double *mean, double *rms, double *largest)
+extern "C" int oiio_compare(const char *a, const char *b, double threshold, oiio_result *out)
 {
     ImageCache::create(true)->invalidate_all(true);
     ImageBuf left(a), right(b);
     if (!left.read(0, 0, true, TypeDesc::FLOAT) || !right.read(0, 0, true, TypeDesc::FLOAT)) return -1;
-    ImageBufAlgo::CompareResults result = ImageBufAlgo::compare(left, right, 10.0f, 10.0f);
-    *mean = result.meanerror;
-    *rms = result.rms_error;
-    *largest = result.maxerror;
-    return result.error ? -1 : 0;
+    if (left.spec().width != right.spec().width || left.spec().height != right.spec().height) return -1;
+    ImageBufAlgo::CompareResults result = ImageBufAlgo::compare(left, right, float(threshold), float(threshold));
+    out->mean = result.meanerror;
+    out->rms = result.rms_error;
+    out->largest = result.maxerror;
+    out->x = result.maxx;
+    out->y = result.maxy;
+    out->n_failing = long(result.nfail);
+    return 0;
 }
