@@ -59,6 +59,10 @@ boards: ## list the boards
 docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages accuracy bias census rows seams crawl kept culling lists changes extremes) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
 
+report: $(BUILD)/gnomon $(BUILD)/make_report ## one page of pictures, metrics and plots: build/report/index.html
+	@sh host/report/report.sh $(BUILD)/gnomon $(SIZE) $(BUILD)/report $(patsubst %sundial.gltf,%sundial.gltf@48,$(OWN_SCENES)) $(SCENES)
+	@echo $(BUILD)/report/index.html
+
 tables: $(BUILD)/gen_tables ## regenerate lib/gn_tables.c
 	$(BUILD)/gen_tables > lib/gn_tables.c
 
@@ -75,6 +79,10 @@ $(BUILD)/gnomon: $(BUILD)/obj/host/tool/main.o $(HOST_OBJ) $(LIB_OBJ)
 $(BUILD)/gen_tables: host/tool/gen_tables.c
 	@mkdir -p $(@D)
 	$(CC) $(HOST_CFLAGS) -o $@ $< -lm
+
+$(BUILD)/make_report: $(patsubst %,$(BUILD)/obj/host/%.o, report/make_report report/embed scene/json scene/arena)
+	@echo '  LD $@'
+	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
 
 # Of the host's scene code the generator has the PNG writer alone.
 SCENE_PNG := $(patsubst %,$(BUILD)/obj/host/scene/%.o, png_write deflate zlib_tables)
