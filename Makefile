@@ -29,6 +29,7 @@ TESTS := $(basename $(notdir $(wildcard tests/test_*.c)))
 LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/obj/%.o)
 HOST_OBJ := $(HOST_SRC:%.c=$(BUILD)/obj/%.o)
 SCENE_OBJ := $(SCENE_SRC:%.c=$(BUILD)/obj/%.o)
+PANEL_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o, $(wildcard boards/displays/*.c) $(wildcard tests/panel_*.c))
 
 all: $(BUILD)/gnomon ## build the host tool, build/gnomon (default)
 
@@ -94,6 +95,7 @@ $(BUILD)/make_scenes: $(BUILD)/obj/host/scenes/make_scenes.o $(SCENE_OBJ) $(SCEN
 test-programs: $(TESTS:%=$(BUILD)/%) $(BUILD)/gnomon
 
 $(BUILD)/test_scenes: $(SCENE_OBJ)
+$(BUILD)/test_panels: $(PANEL_OBJ)
 
 # What a board streamed, as a picture.
 $(BUILD)/rgb565_png: $(BUILD)/obj/boards/tools/rgb565_png.o $(SCENE_PNG)

@@ -1,0 +1,125 @@
+#include "display.h"
+
+#include <string.h>
+
+#include "display_pack.h"
+
+static int fits(gn_format format, panel_pixels pixels)
+{
+    switch (pixels) {
+    case PANEL_PIXELS_GREY4: return format == GN_FORMAT_GREY4;
+    case PANEL_PIXELS_PAGE1: return format == GN_FORMAT_MONO1;
+    default: return format == GN_FORMAT_RGB565 || format == GN_FORMAT_RGB565_SWAPPED;
+    }
+}
+
+static int several_per_byte(panel_pixels pixels)
+{
+    return pixels == PANEL_PIXELS_GREY4 || pixels == PANEL_PIXELS_PAGE1;
+}
+
+panel_status display_init(display *d)
+{
+    if (!d || !d->panel || !d->panel->driver || !d->buffer[0] != !d->buffer[1]) return PANEL_ERR_NULL;
+    panel_pixels pixels = panel_pixel_format(d->panel);
+    if (!fits(d->format, pixels)) return PANEL_ERR_FORMAT;
+    if (!d->buffer[0] && (d->shadow || !display_is_native(d->format, pixels))) return PANEL_ERR_BUFFER;
+    d->status = PANEL_OK;
+    d->turn = 0;
+    return PANEL_OK;
+}
+
+size_t display_shadow_bytes(const panel *p)
+{
+    return panel_window_bytes(p, p->width, p->height);
+}
+
+typedef struct {
+    int x, y, w, h;
+} rectangle;
+
+/* The window, and in the same breath its pixels: `fill` converts rows y .. y + n of it. */
+typedef void (*fill_fn)(const display *d, uint8_t *out, const rectangle *r, int y, int n_rows, const uint8_t *in);
+
+static panel_status send(display *d, const rectangle *r, fill_fn fill, const uint8_t *in)
+{
+    int step = panel_pixel_format(d->panel) == PANEL_PIXELS_PAGE1 ? 8 : 1;
+    size_t step_bytes = panel_window_bytes(d->panel, r->w, step);
+    if (step_bytes > d->buffer_bytes) return PANEL_ERR_BUFFER;
+    size_t most = d->buffer_bytes / step_bytes * (size_t)step; /* rows in a buffer */
+    for (int y = 0; y < r->h;) {
+        int n_rows = (size_t)(r->h - y) < most ? r->h - y : (int)most;
+        uint8_t *out = d->buffer[d->turn];
+        fill(d, out, r, y, n_rows, in); /* the other buffer is under way */
+        panel_status status = y == 0 ? panel_window(d->panel, r->x, r->y, r->w, r->h) : PANEL_OK;
+        if (!status) status = panel_stream(d->panel, out, panel_window_bytes(d->panel, r->w, n_rows));
+        if (status) return status;
+        d->turn ^= 1;
+        y += n_rows;
+    }
+    return PANEL_OK;
+}
+
+static void fill_from_tile(const display *d, uint8_t *out, const rectangle *r, int y, int n_rows, const uint8_t *in)
+{
+    display_pack(out, in + (size_t)y * display_row_bytes(d->format, r->w), d->format, panel_pixel_format(d->panel), r->w, n_rows);
+}
+
+/* Rows (pages: groups of eight) of the shadow, from column r->x on. */
+static void fill_from_shadow(const display *d, uint8_t *out, const rectangle *r, int y, int n_rows, const uint8_t *in)
+{
+    int pages = panel_pixel_format(d->panel) == PANEL_PIXELS_PAGE1, step = pages ? 8 : 1;
+    size_t stride = panel_window_bytes(d->panel, d->panel->width, step), n = panel_window_bytes(d->panel, r->w, step);
+    in += (size_t)((r->y + y) / step) * stride + (size_t)r->x / (pages ? 1 : 2);
+    for (int i = 0; i < n_rows; i += step, in += stride, out += n) memcpy(out, in, n);
+}
+
+/* The smallest window of whole bytes around r. */
+static rectangle widened(const display *d, rectangle r)
+{
+    int pages = panel_pixel_format(d->panel) == PANEL_PIXELS_PAGE1, ax = pages ? 1 : 2, ay = pages ? 8 : 1;
+    int right = (r.x + r.w + ax - 1) / ax * ax, bottom = (r.y + r.h + ay - 1) / ay * ay;
+    if (right > d->panel->width) right = d->panel->width;
+    if (bottom > d->panel->height) bottom = d->panel->height;
+    r.x -= r.x % ax;
+    r.y -= r.y % ay;
+    r.w = right - r.x;
+    r.h = bottom - r.y;
+    return r;
+}
+
+static int inside(const panel *p, const rectangle *r)
+{
+    return r->x >= 0 && r->y >= 0 && r->w > 0 && r->h > 0 && r->w <= p->width - r->x && r->h <= p->height - r->y;
+}
+
+static panel_status send_at_once(display *d, const rectangle *r, const uint8_t *in)
+{
+    panel_status status = panel_window(d->panel, r->x, r->y, r->w, r->h);
+    if (!status) status = panel_stream(d->panel, in, panel_window_bytes(d->panel, r->w, r->h));
+    return status ? status : panel_wait(d->panel);
+}
+
+void display_flush(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    display *d = (display *)user;
+    const uint8_t *in = (const uint8_t *)pixels;
+    rectangle r;
+    r.x = x, r.y = y, r.w = w, r.h = h;
+    if (d->status) return;
+    panel_pixels format = panel_pixel_format(d->panel);
+    if (!inside(d->panel, &r)) d->status = PANEL_ERR_WINDOW;
+    else if (!d->buffer[0]) d->status = send_at_once(d, &r, in);
+    else if (d->shadow && several_per_byte(format)) {
+        display_put(d->shadow, d->panel->width, format, x, y, w, h, in);
+        r = widened(d, r);
+        d->status = send(d, &r, fill_from_shadow, d->shadow);
+    } else d->status = send(d, &r, fill_from_tile, in);
+}
+
+panel_status display_finish(display *d)
+{
+    panel_status status = d->status ? d->status : panel_wait(d->panel);
+    d->status = PANEL_OK;
+    return status;
+}
