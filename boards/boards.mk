@@ -1,7 +1,7 @@
 # Firmware of one board: make firmware BOARD=mps2-an385 APP=crc. Included when BOARD is set.
 #
 # BOARD       a folder of boards/ with board.mk, startup.c, link.ld
-# APP         boards/apps/APP.c; APP.mk beside it may add to APP_SRC and APP_FLAGS
+# APP         boards/apps/APP.c; APP.mk beside it may set APP_SRC, APP_FLAGS, APP_OBJ, and have rules
 # SCENE       a scene file that the app renders, compiled to C arrays by build/gnomon
 # PRESET      tiny, balanced, accurate
 # FW_OPT      the optimisation, else the board's
@@ -12,7 +12,6 @@
 
 APP ?= crc
 include boards/$(BOARD)/board.mk
--include boards/apps/$(APP).mk
 
 BOARD_OPT ?= -O2
 FW_OPT ?= $(BOARD_OPT)
@@ -20,6 +19,8 @@ IMAGE ?= $(APP)$(if $(SCENE),-$(basename $(notdir $(SCENE))))$(if $(PRESET),-$(P
 FW := $(BUILD)/firmware/$(BOARD)
 FIRMWARE := $(FW)/$(IMAGE).elf
 FW_OBJ_DIR := $(FW)/$(IMAGE).obj
+
+-include boards/apps/$(APP).mk
 
 # The host links a program; boards link without a C library.
 FW_HOSTED := $(filter host,$(BOARD_RUNS))
@@ -41,7 +42,7 @@ FW_SCENE_OBJ := $(FW_SCENE_DIR)/scene.o
 endif
 FW_CFLAGS := $(BOARD_CPU) -std=c99 $(FW_OPT) -g $(WARN) $(FW_FREE) -ffunction-sections -fdata-sections -Ilib -Iport -Iboards/common -Iboards/apps \
   $(FW_SCENE) $(FW_PRESET) $(BOARD_FLAGS) $(APP_FLAGS) $(FW_FLAGS)
-FW_OBJ := $(FW_SRC:%.c=$(FW_OBJ_DIR)/%.o) $(FW_SCENE_OBJ)
+FW_OBJ := $(FW_SRC:%.c=$(FW_OBJ_DIR)/%.o) $(FW_SCENE_OBJ) $(APP_OBJ)
 
 $(FIRMWARE): $(FW_OBJ) $(wildcard boards/$(BOARD)/*.ld boards/common/*.ld port/*.ld) $(FW_OBJ_DIR)/link.flags
 	@echo '  LD $@'
