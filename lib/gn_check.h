@@ -18,6 +18,8 @@ GN_STATIC_ASSERT(persp_step_not_1_4_8_16, GN_PERSP_STEP == 1 || GN_PERSP_STEP ==
 GN_STATIC_ASSERT(atten_bits_not_8_or_16, GN_ATTEN_BITS == 8 || GN_ATTEN_BITS == 16);
 GN_STATIC_ASSERT(atlas_size_not_power_of_two, GN_IS_POWER_OF_TWO(GN_ATLAS_SIZE));
 GN_STATIC_ASSERT(other_atlas_size_not_power_of_two, GN_IS_POWER_OF_TWO(GN_OTHER_ATLAS_SIZE));
+GN_STATIC_ASSERT(atlas_texels_not_multiple_of_64, GN_ATLAS_TEXELS % 64 == 0);
+GN_STATIC_ASSERT(other_atlas_texels_not_multiple_of_64, GN_OTHER_ATLAS_TEXELS % 64 == 0);
 GN_STATIC_ASSERT(depth_bits_not_8_16_or_32, GN_IS_POWER_OF_TWO(GN_DEPTH_BITS));
 GN_STATIC_ASSERT(other_depth_bits_not_8_16_or_32, GN_IS_POWER_OF_TWO(GN_OTHER_DEPTH_BITS));
 GN_STATIC_ASSERT(vertex_cache_not_power_of_two, GN_IS_POWER_OF_TWO(GN_VERTEX_CACHE));

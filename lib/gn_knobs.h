@@ -43,6 +43,9 @@
       "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                                     \
     X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the other atlas: 1 per spot, 6 per point light",                          \
       "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                                     \
+    X(atlas_texels, ATLAS_TEXELS, 64, 1048576, "texels that the tiles of the directional atlas take, a multiple of 64; by default all of it", \
+      "depth_bits / 8 bytes each: tiles take all of an atlas only where they are 1, 4 or 16, or sized by importance")              \
+    X(other_atlas_texels, OTHER_ATLAS_TEXELS, 64, 1048576, "the same of the other atlas", "other_depth_bits / 8 bytes each")       \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
 
 #define GN_FEATURE_KNOBS(X)                                                                                                        \

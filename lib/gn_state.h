@@ -129,7 +129,7 @@ typedef struct {
     uint64_t static_signature; /* the same for the static layer */
 } gn_tile_memory;
 
-#define GN_ATLAS_BYTES (GN_ATLAS_SIZE * GN_ATLAS_SIZE * ((GN_RUNTIME_KNOBS ? 32 : GN_DEPTH_BITS) / 8))
+#define GN_ATLAS_BYTES (GN_ATLAS_TEXELS * ((GN_RUNTIME_KNOBS ? 32 : GN_DEPTH_BITS) / 8))
 typedef union {
     uint8_t d8[GN_ATLAS_BYTES];
     uint16_t d16[GN_ATLAS_BYTES / 2];
@@ -137,7 +137,7 @@ typedef union {
 } gn_atlas_texels;
 
 #if GN_OTHER_ATLAS
-#define GN_OTHER_ATLAS_BYTES (GN_OTHER_ATLAS_SIZE * GN_OTHER_ATLAS_SIZE * ((GN_RUNTIME_KNOBS ? 32 : GN_OTHER_DEPTH_BITS) / 8))
+#define GN_OTHER_ATLAS_BYTES (GN_OTHER_ATLAS_TEXELS * ((GN_RUNTIME_KNOBS ? 32 : GN_OTHER_DEPTH_BITS) / 8))
 typedef union {
     uint8_t d8[GN_OTHER_ATLAS_BYTES];
     uint16_t d16[GN_OTHER_ATLAS_BYTES / 2];
@@ -252,7 +252,7 @@ typedef struct gn_frame {
     gn_atlas_texels static_atlas;
 #endif
 #if GN_DEPTH_BLOCKS
-    gn_depth_block block[GN_ATLAS_SIZE * GN_ATLAS_SIZE / 64];
+    gn_depth_block block[GN_ATLAS_TEXELS / 64];
 #endif
 #if GN_OTHER_ATLAS
     gn_other_texels other_atlas;
@@ -260,7 +260,7 @@ typedef struct gn_frame {
     gn_other_texels static_other_atlas;
 #endif
 #if GN_DEPTH_BLOCKS
-    gn_depth_block other_block[GN_OTHER_ATLAS_SIZE * GN_OTHER_ATLAS_SIZE / 64];
+    gn_depth_block other_block[GN_OTHER_ATLAS_TEXELS / 64];
 #endif
 #endif
 #endif

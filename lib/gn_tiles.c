@@ -157,6 +157,15 @@ static void sizes_by_importance(const gn_frame *frame, gn_tile_plan *plan, uint3
     }
 }
 
+/* With the default capacities they always do: an atlas holds what it is divided into. */
+static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other)
+{
+    uint32_t needed = 0, available = in_other ? GN_OTHER_ATLAS_TEXELS : GN_ATLAS_TEXELS;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++)
+        if (plan[l].n_tiles && plan[l].in_other == in_other) needed += texels_of(&plan[l]);
+    return needed <= available ? GN_OK : gn_fail_capacity(frame, GN_ERR_ATLAS_FULL, needed, available);
+}
+
 static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity, int32_t atlas_size)
 {
     int32_t atlas_log2 = 31 - gn_clz32((uint32_t)atlas_size);
@@ -165,7 +174,7 @@ static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_oth
     if (frame->scene->shadow.tile_sizes == GN_TILES_IMPORTANCE) sizes_by_importance(frame, plan, in_other, atlas_log2);
     else equal_sizes(frame, plan, in_other, n_tiles, atlas_log2);
     frame->stats.n_shadow_tiles += n_tiles;
-    return GN_OK;
+    return texels_suffice(frame, plan, in_other);
 }
 
 gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS])

@@ -74,6 +74,7 @@ extern "C" {
     X(GN_ERR_SHADOW_MODE, "unknown mixing, tile sizes, refresh or list length, or one that is not built in")                       \
     X(GN_ERR_SHADOW_CASCADES, "more than 4 cascades, ratios above 1 or not ascending, or a blend that is not built in")            \
     X(GN_ERR_SHADOW_TILE, "shadow tile would be smaller than 8 texels")                                                            \
+    X(GN_ERR_ATLAS_FULL, "shadow tiles take more texels than GN_ATLAS_TEXELS or GN_OTHER_ATLAS_TEXELS")                            \
     X(GN_ERR_TRIANGLES_FULL, "more visible triangles than GN_MAX_TRIANGLES")                                                       \
     X(GN_ERR_TILE_REFS_FULL, "more tile references than GN_MAX_TILE_REFS")
 

@@ -27,7 +27,8 @@ int main(int argc, char **argv)
     }
     if (status) {
         const gn_detail *d = gn_get_detail(&renderer);
-        fprintf(stderr, "%s (%u, needed %u, available %u)\n", gn_status_text(status), (unsigned)d->index, (unsigned)d->needed, (unsigned)d->available);
+        fprintf(stderr, "%s (%u, needed %u, available %u)\n", gn_status_text(status), (unsigned)d->index, (unsigned)d->needed,
+                (unsigned)d->available);
     }
     return status != 0;
 }

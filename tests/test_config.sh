@@ -345,6 +345,17 @@ full GN_ERR_TILE_REFS_FULL GN_MAX_TILE_REFS 3
 full GN_ERR_TOO_MANY_OBJECTS GN_MAX_OBJECTS 1
 full GN_ERR_TOO_MANY_LIGHTS GN_MAX_LIGHTS 1 PUNCTUAL_LIGHTS=0
 full GN_ERR_SURFACE_LIGHTS GN_SURFACE_LIGHTS 1
+# texels come in blocks of 64: as many as are needed, and a block less
+for macro in GN_ATLAS_TEXELS GN_OTHER_ATLAS_TEXELS; do
+    needed=64
+    for enough in 1 2 3 4 5 6 7 8; do
+        message=$(small -D$macro=$needed)
+        case $message in "status $(number GN_ERR_ATLAS_FULL) "*) needed=$(echo "$message" | cut -d ' ' -f 4) ;; *) break ;; esac
+    done
+    if [ "$needed" -gt 64 ] && [ "$message" = "$(small)" ]; then pass; else fail "$macro=$needed, as needed: $message"; fi
+    message=$(small -D$macro=$((needed - 64)))
+    if [ "$message" = "status $(number GN_ERR_ATLAS_FULL) needed $needed available $((needed - 64))" ]; then pass; else fail "$macro: $message"; fi
+done
 # shadow tiles are no capacity that a frame fails for: lights go without, and are counted (A3)
 message=$(small MAX_SHADOW_TILES=1)
 if [ "$message" = "without room: 1" ]; then pass; else fail "GN_MAX_SHADOW_TILES=1: $message"; fi

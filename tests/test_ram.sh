@@ -92,6 +92,7 @@ if [ -n "$target" ]; then
         predicted $preset max_objects=777 max_other_tiles=13 surface_lights=3 max_shadow_tiles=1 max_lights=5
         predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
         predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
+        predicted $preset atlas_texels=8192 other_atlas_texels=64 static_layer=1
     done
 fi
 # the promise of lib/gnomon.h: directional lights alone, which need no other atlas

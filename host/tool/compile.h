@@ -34,11 +34,11 @@ enum { COMPILE_REASONS_MAX = 96 };
 
 typedef struct {
     const tool_options *options;
-    int first_frame, n_frames; /* of the scene file's animation */
-    scene scene;               /* as the first frame has it */
-    fixed_scene fixed;         /* the same; what tracks change is the first frame's */
-    settings set;              /* the configuration */
-    settings_demand demand;    /* the most that any frame took */
+    int first_frame, n_frames;          /* of the scene file's animation */
+    scene scene;                        /* as the first frame has it */
+    fixed_scene fixed;                  /* the same; what tracks change is the first frame's */
+    settings set;                       /* the configuration */
+    settings_demand demand;             /* the most that any frame took */
     int peak_triangles, peak_tile_refs; /* the frames that took it */
     size_t culled;                      /* casters left out by D8, all frames */
     compile_reason reasons[COMPILE_REASONS_MAX];

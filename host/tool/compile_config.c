@@ -60,6 +60,10 @@ static void choose_capacities(compiled *c)
     fit(c, "max_objects", &s->capacity.max_objects, d->objects, 65535, "objects in the scene", 0, false);
     fit(c, "max_shadow_tiles", &s->capacity.max_shadow_tiles, d->shadow_tiles, 16, "tiles at most in a frame", 0, false);
     fit(c, "max_other_tiles", &s->capacity.max_other_tiles, d->other_tiles, 16, "tiles at most in a frame", 0, false);
+    fit(c, "atlas_texels", &s->capacity.atlas_texels, d->atlas_texels < 64 ? 64 : d->atlas_texels, 1 << 20, "texels: the tiles", 0,
+        false);
+    fit(c, "other_atlas_texels", &s->capacity.other_atlas_texels, d->other_atlas_texels < 64 ? 64 : d->other_atlas_texels, 1 << 20,
+        "texels: the tiles", 0, false);
 }
 
 /* An atlas that no frame uses is as small as can be, and as deep as the other: depths are then of one type. */
@@ -130,7 +134,10 @@ static void choose_speed(compiled *c)
     bool scheduled = false;
     for (int i = 0; i < 4; i++) scheduled |= c->scene.shadow.refresh[i] > 1;
     if (!scheduled && (!s->feature.shadows || c->n_frames < 2)) s->feature.incremental = 0;
-    because(c, "incremental", scheduled ? "refresh" : s->feature.incremental ? "shadow tiles may last from frame to frame" : "nothing lasts from frame to frame");
+    because(c, "incremental",
+            scheduled                ? "refresh"
+            : s->feature.incremental ? "shadow tiles may last from frame to frame"
+                                     : "nothing lasts from frame to frame");
 }
 
 static void choose_features(compiled *c)
@@ -172,9 +179,9 @@ static void write_knob(FILE *f, const compiled *c, const char *knob, const char 
     fprintf(f, " */\n");
 }
 
-#define QUALITY_(name, MACRO, lo, hi, meaning, cost)   write_knob(f, c, #name, #MACRO, c->set.quality.name);
-#define CAPACITY_(name, MACRO, lo, hi, meaning, cost)  write_knob(f, c, #name, #MACRO, c->set.capacity.name);
-#define FEATURES_(name, MACRO, lo, hi, meaning, cost)  write_knob(f, c, #name, #MACRO, c->set.feature.name);
+#define QUALITY_(name, MACRO, lo, hi, meaning, cost)  write_knob(f, c, #name, #MACRO, c->set.quality.name);
+#define CAPACITY_(name, MACRO, lo, hi, meaning, cost) write_knob(f, c, #name, #MACRO, c->set.capacity.name);
+#define FEATURES_(name, MACRO, lo, hi, meaning, cost) write_knob(f, c, #name, #MACRO, c->set.feature.name);
 
 void compile_write_config(FILE *f, const compiled *c)
 {

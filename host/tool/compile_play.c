@@ -5,9 +5,18 @@
 
 #include "compile.h"
 
-#define OBJECT_(name, n) {COMPILE_OF_OBJECT, #name, offsetof(gn_object, name), n}
-#define LIGHT_(name, n)  {COMPILE_OF_LIGHT, #name, offsetof(gn_light, name), n}
-#define SCENE_(name, n)  {COMPILE_OF_SCENE, #name, offsetof(gn_scene, name), n}
+#define OBJECT_(name, n)                                                                                                           \
+    {                                                                                                                              \
+        COMPILE_OF_OBJECT, #name, offsetof(gn_object, name), n                                                                     \
+    }
+#define LIGHT_(name, n)                                                                                                            \
+    {                                                                                                                              \
+        COMPILE_OF_LIGHT, #name, offsetof(gn_light, name), n                                                                       \
+    }
+#define SCENE_(name, n)                                                                                                            \
+    {                                                                                                                              \
+        COMPILE_OF_SCENE, #name, offsetof(gn_scene, name), n                                                                       \
+    }
 
 /* All that the loaders and the choice of the unit of length can make differ from frame to frame. */
 static const compile_field fields[] = {
@@ -32,7 +41,7 @@ enum { N_FIELDS = sizeof fields / sizeof *fields };
 
 static const void *owner_of(const fixed_scene *f, compile_owner of, size_t idx)
 {
-    return of == COMPILE_OF_OBJECT ? (const void *)&f->objects[idx]
+    return of == COMPILE_OF_OBJECT  ? (const void *)&f->objects[idx]
            : of == COMPILE_OF_LIGHT ? (const void *)&f->lights[idx]
                                     : (const void *)&f->scene;
 }
@@ -71,8 +80,10 @@ static int check_same(const compiled *c, const fixed_scene *f, int frame, char *
     for (size_t i = 0; !what && i < f->scene.n_objects; i++)
         if (f->objects[i].mesh - f->meshes != base->objects[i].mesh - base->meshes) what = "meshes";
     if (!what) return 0;
-    snprintf(error, bytes, "frame %d has other %s than frame %d (a transform that mirrors, or a ground that follows): leave one out with --frames",
-             frame, what, c->first_frame);
+    snprintf(
+        error, bytes,
+        "frame %d has other %s than frame %d (a transform that mirrors, or a ground that follows): leave one out with --frames",
+        frame, what, c->first_frame);
     return -1;
 }
 
@@ -138,6 +149,8 @@ static void take_demand(settings_demand *all, const settings_demand *frame)
     most(&all->tile_refs, frame->tile_refs);
     most(&all->shadow_tiles, frame->shadow_tiles);
     most(&all->other_tiles, frame->other_tiles);
+    most(&all->atlas_texels, frame->atlas_texels);
+    most(&all->other_atlas_texels, frame->other_atlas_texels);
 }
 
 /* ---- Frames ------------------------------------------------------------------------------------------------------------- */

@@ -78,8 +78,8 @@ static void write_meshes(FILE *f, const compiled *c)
     fprintf(f, "\nstatic const gn_mesh meshes[%zu] = {\n", fixed->n_meshes);
     for (size_t i = 0; i < fixed->n_meshes; i++) {
         const gn_mesh *m = &fixed->meshes[i];
-        fprintf(f, "    {.n_vertices = %u, .n_triangles = %u, .pos_frac_bits = %u, .uv_frac_bits = %u", m->n_vertices, m->n_triangles,
-                m->pos_frac_bits, m->uv_frac_bits);
+        fprintf(f, "    {.n_vertices = %u, .n_triangles = %u, .pos_frac_bits = %u, .uv_frac_bits = %u", m->n_vertices,
+                m->n_triangles, m->pos_frac_bits, m->uv_frac_bits);
         write_pointer(f, "pos", "mesh", i, "pos", m->pos);
         write_pointer(f, "nrm_q15", "mesh", i, "nrm", m->nrm_q15);
         write_pointer(f, "rgb_uq16", "mesh", i, "rgb", m->rgb_uq16);
@@ -152,7 +152,9 @@ static void write_object(FILE *f, const compiled *c, size_t i)
     fprintf(f, ".mesh = &meshes[%td], .flags = %" PRIu32 ",\n     ", o->mesh - c->fixed.meshes, o->flags);
     write_affine(f, &o->to_world);
     write_unsigned(f, "albedo_uq16", o->albedo_uq16, 3);
-    fprintf(f, ",\n     .visible_alpha = (gn_alpha)%d, .caster_alpha = (gn_alpha)%d, .alpha_uq16 = %" PRIu32 ", .alpha_cutoff_uq16 = %" PRIu32,
+    fprintf(f,
+            ",\n     .visible_alpha = (gn_alpha)%d, .caster_alpha = (gn_alpha)%d, .alpha_uq16 = %" PRIu32
+            ", .alpha_cutoff_uq16 = %" PRIu32,
             (int)o->visible_alpha, (int)o->caster_alpha, o->alpha_uq16, o->alpha_cutoff_uq16);
     write_unsigned(f, "specular_uq16", o->specular_uq16, 3);
     fprintf(f, ", .shininess_log2 = %u", o->shininess_log2);
@@ -179,17 +181,23 @@ static void write_objects(FILE *f, const compiled *c)
 static void write_light(FILE *f, const gn_light *l, const char *name)
 {
     write_name(f, name);
-    fprintf(f, ".kind = (gn_light_kind)%d, .mode = (gn_light_mode)%d, .softness = (gn_softness)%d, .mask_channel = %" PRId32, (int)l->kind,
-            (int)l->mode, (int)l->softness, l->mask_channel);
+    fprintf(f, ".kind = (gn_light_kind)%d, .mode = (gn_light_mode)%d, .softness = (gn_softness)%d, .mask_channel = %" PRId32,
+            (int)l->kind, (int)l->mode, (int)l->softness, l->mask_channel);
     write_signed(f, "direction", l->direction, 3);
     write_signed(f, "position_q16", l->position_q16, 3);
     write_unsigned(f, "colour_uq16", l->colour_uq16, 3);
-    fprintf(f, ",\n     .colour_exp = %" PRId32 ", .range_q16 = %" PRIu32 "U, .near_q16 = %" PRId32 ", .inner_turn = %u, .outer_turn = %u",
+    fprintf(f,
+            ",\n     .colour_exp = %" PRId32 ", .range_q16 = %" PRIu32 "U, .near_q16 = %" PRId32
+            ", .inner_turn = %u, .outer_turn = %u",
             l->colour_exp, l->range_q16, l->near_q16, l->inner_turn, l->outer_turn);
-    fprintf(f, ", .shadow_strength_uq16 = %" PRIu32 ",\n     .bias_constant_q16 = %" PRId32 ", .bias_slope_q16 = %" PRId32
-               ", .bias_normal_q16 = %" PRId32, l->shadow_strength_uq16, l->bias_constant_q16, l->bias_slope_q16, l->bias_normal_q16);
+    fprintf(f,
+            ", .shadow_strength_uq16 = %" PRIu32 ",\n     .bias_constant_q16 = %" PRId32 ", .bias_slope_q16 = %" PRId32
+            ", .bias_normal_q16 = %" PRId32,
+            l->shadow_strength_uq16, l->bias_constant_q16, l->bias_slope_q16, l->bias_normal_q16);
     write_signed(f, "bias_receiver_q16", l->bias_receiver_q16, 4);
-    fprintf(f, ", .bias_caster_q16 = %" PRId32 ", .receiver_plane = %" PRIu32 ", .auto_bias = (gn_auto_bias)%d, .near_offset_q16 = %" PRId32 "},\n",
+    fprintf(f,
+            ", .bias_caster_q16 = %" PRId32 ", .receiver_plane = %" PRIu32
+            ", .auto_bias = (gn_auto_bias)%d, .near_offset_q16 = %" PRId32 "},\n",
             l->bias_caster_q16, l->receiver_plane, (int)l->auto_bias, l->near_offset_q16);
 }
 
@@ -203,12 +211,18 @@ static void write_lights(FILE *f, const compiled *c)
 
 static void write_shadow(FILE *f, const gn_shadow_settings *s)
 {
-    fprintf(f, "    .shadow = {.max_distance_q16 = %" PRId32 ", .distance_fade_uq16 = %" PRIu32 ", .cascade_fade_uq16 = %" PRIu32 ",\n",
-            s->max_distance_q16, s->distance_fade_uq16, s->cascade_fade_uq16);
-    fprintf(f, "               .filter = (gn_filter)%d, .other_filter = (gn_filter)%d, .kernel = (gn_kernel)%d, .penumbra_uq16 = %" PRIu32
-               ", .disk_samples = %" PRIu32 ",\n", (int)s->filter, (int)s->other_filter, (int)s->kernel, s->penumbra_uq16, s->disk_samples);
-    fprintf(f, "               .mixing = (gn_mixing)%d, .tile_sizes = (gn_tile_sizes)%d, .main_light = %" PRIu32 ", .caster_culling = %" PRIu32
-               ", .object_lights = %" PRIu32, (int)s->mixing, (int)s->tile_sizes, s->main_light, s->caster_culling, s->object_lights);
+    fprintf(
+        f, "    .shadow = {.max_distance_q16 = %" PRId32 ", .distance_fade_uq16 = %" PRIu32 ", .cascade_fade_uq16 = %" PRIu32 ",\n",
+        s->max_distance_q16, s->distance_fade_uq16, s->cascade_fade_uq16);
+    fprintf(
+        f,
+        "               .filter = (gn_filter)%d, .other_filter = (gn_filter)%d, .kernel = (gn_kernel)%d, .penumbra_uq16 = %" PRIu32
+        ", .disk_samples = %" PRIu32 ",\n",
+        (int)s->filter, (int)s->other_filter, (int)s->kernel, s->penumbra_uq16, s->disk_samples);
+    fprintf(f,
+            "               .mixing = (gn_mixing)%d, .tile_sizes = (gn_tile_sizes)%d, .main_light = %" PRIu32
+            ", .caster_culling = %" PRIu32 ", .object_lights = %" PRIu32,
+            (int)s->mixing, (int)s->tile_sizes, s->main_light, s->caster_culling, s->object_lights);
     write_unsigned(f, "refresh", s->refresh, 4);
     fprintf(f, ",\n               .n_cascades = %" PRIu32, s->n_cascades);
     write_unsigned(f, "cascade_ratio_uq16", s->cascade_ratio_uq16, 3);
@@ -218,10 +232,14 @@ static void write_shadow(FILE *f, const gn_shadow_settings *s)
 static void write_scene_struct(FILE *f, const compiled *c)
 {
     const gn_scene *s = &c->fixed.scene;
-    fprintf(f, "\nstatic const gn_scene still = {\n    .objects = objects, .n_objects = %" PRIu32 ", .lights = lights, .n_lights = %" PRIu32 ",\n    .camera = {",
+    fprintf(f,
+            "\nstatic const gn_scene still = {\n    .objects = objects, .n_objects = %" PRIu32
+            ", .lights = lights, .n_lights = %" PRIu32 ",\n    .camera = {",
             s->n_objects, s->n_lights);
     write_affine(f, &s->camera.to_world);
-    fprintf(f, ",\n               .focal_q24 = %" PRIu32 "U, .near_q16 = %" PRId32 ", .far_q16 = %" PRId32 "},\n    .unit_log2 = %" PRId32,
+    fprintf(f,
+            ",\n               .focal_q24 = %" PRIu32 "U, .near_q16 = %" PRId32 ", .far_q16 = %" PRId32
+            "},\n    .unit_log2 = %" PRId32,
             s->camera.focal_q24, s->camera.near_q16, s->camera.far_q16, s->unit_log2);
     write_unsigned(f, "ambient_uq16", s->ambient_uq16, 3);
     write_unsigned(f, "background_uq16", s->background_uq16, 3);

@@ -220,8 +220,10 @@ static void measure_demand(const job *j, engine_picture *out)
     demand->tile_refs = out->stats.n_tile_refs;
     for (size_t l = 0; l < out->n_lights; l++) {
         if (!out->n_tiles[l]) continue;
-        if (frame->view[frame->light[l].view_idx].in_other) demand->other_tiles += (size_t)out->n_tiles[l];
-        else demand->shadow_tiles += (size_t)out->n_tiles[l];
+        const size_t n = (size_t)out->n_tiles[l], texels = n * (size_t)out->atlas_texels[l] * (size_t)out->atlas_texels[l];
+        const bool in_other = frame->view[frame->light[l].view_idx].in_other;
+        *(in_other ? &demand->other_tiles : &demand->shadow_tiles) += n;
+        *(in_other ? &demand->other_atlas_texels : &demand->atlas_texels) += texels;
     }
 }
 

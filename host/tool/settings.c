@@ -81,6 +81,12 @@ static void fit(int *capacity, size_t needed)
     if (!*capacity) *capacity = needed > 0 ? (int)needed : 1;
 }
 
+/* A tile has at least 8 x 8. */
+static void fit_texels(int *capacity, size_t needed)
+{
+    fit(capacity, needed > 64 ? needed : 64);
+}
+
 void settings_fit(settings *s, const settings_demand *demand)
 {
     fit(&s->capacity.max_width, (size_t)demand->width);
@@ -92,6 +98,8 @@ void settings_fit(settings *s, const settings_demand *demand)
     fit(&s->capacity.max_objects, demand->objects);
     fit(&s->capacity.max_shadow_tiles, demand->shadow_tiles);
     fit(&s->capacity.max_other_tiles, demand->other_tiles);
+    fit_texels(&s->capacity.atlas_texels, demand->atlas_texels);
+    fit_texels(&s->capacity.other_atlas_texels, demand->other_atlas_texels);
 }
 
 int settings_suffice(const settings *s, const settings_demand *demand, char *error, size_t error_bytes)
@@ -108,6 +116,8 @@ int settings_suffice(const settings *s, const settings_demand *demand, char *err
         {"max_objects", "objects", s->capacity.max_objects, demand->objects},
         {"max_shadow_tiles", "tiles of the directional atlas", s->capacity.max_shadow_tiles, demand->shadow_tiles},
         {"max_other_tiles", "tiles of the other atlas", s->capacity.max_other_tiles, demand->other_tiles},
+        {"atlas_texels", "texels of the directional atlas's tiles", s->capacity.atlas_texels, demand->atlas_texels},
+        {"other_atlas_texels", "texels of the other atlas's tiles", s->capacity.other_atlas_texels, demand->other_atlas_texels},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         if (!all[i].available || all[i].needed <= (size_t)all[i].available) continue;
@@ -199,6 +209,7 @@ static const char *refine(const settings *s, const void *changed, int n)
         return "8, 16 or 32";
     if ((changed == &s->quality.atlas_size || changed == &s->quality.other_atlas_size) && (n & (n - 1))) return "a power of two";
     if (changed == &s->quality.tile_width && n % 8) return "a multiple of 8";
+    if ((changed == &s->capacity.atlas_texels || changed == &s->capacity.other_atlas_texels) && n % 64) return "a multiple of 64";
     if (changed == &s->capacity.vertex_cache && (n & (n - 1))) return "a power of two";
     return NULL;
 }

@@ -26,7 +26,7 @@ void settings_init(settings *out);               /* balanced, every feature; cap
 /* What a rendered picture needed. */
 typedef struct {
     int width, height;
-    size_t objects, lights, surface_lights, triangles, tile_refs, shadow_tiles, other_tiles;
+    size_t objects, lights, surface_lights, triangles, tile_refs, shadow_tiles, other_tiles, atlas_texels, other_atlas_texels;
 } settings_demand;
 
 /* Gives every capacity that is still 0 just that. */

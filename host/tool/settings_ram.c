@@ -21,11 +21,12 @@ static long put(layout *l, long n, long size, long align)
 }
 
 /* An atlas with its static layer and depth blocks */
-static long put_atlas(layout *l, const settings *s, long side, long depth_bits)
+static long put_atlas(layout *l, const settings *s, long side, long texels, long depth_bits)
 {
+    if (!texels) texels = side * side;
     long bytes = 0, layers = s->feature.static_layer ? 2 : 1;
-    for (long i = 0; i < layers; i++) bytes += put(l, side * side * depth_bits / 8, 1, 4);
-    if (s->feature.depth_blocks) bytes += put(l, side * side / 64, 4, 2);
+    for (long i = 0; i < layers; i++) bytes += put(l, texels * depth_bits / 8, 1, 4);
+    if (s->feature.depth_blocks) bytes += put(l, texels / 64, 4, 2);
     return bytes;
 }
 
@@ -39,8 +40,8 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
     put(l, 1, 4, 4);                                                                          /* frame_count */
     put(l, views, (s->feature.depth_blocks ? 192 : 184) + (s->feature.auto_bias ? 8 : 0), 8); /* view */
     if (s->feature.incremental) put(l, 2 * views + 1, 8, 8);                                  /* memory, layout */
-    r->atlas = put_atlas(l, s, s->quality.atlas_size, s->quality.depth_bits);
-    if (other) r->other_atlas = put_atlas(l, s, s->quality.other_atlas_size, s->quality.other_depth_bits);
+    r->atlas = put_atlas(l, s, s->quality.atlas_size, s->capacity.atlas_texels, s->quality.depth_bits);
+    if (other) r->other_atlas = put_atlas(l, s, s->quality.other_atlas_size, s->capacity.other_atlas_texels, s->quality.other_depth_bits);
 }
 
 /* Mirrors lib/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against sizeof(gn_renderer). */
