@@ -57,6 +57,9 @@ emulate: $(if $(BOARD),,boards) ## build it, and run it in the emulator
 boards: ## list the boards
 	@for file in boards/*/board.mk; do printf "  %-20s%s\n" "$$(basename $$(dirname $$file))" "$$(sed -n "1s/^# //p" $$file)"; done
 
+size: ## measure flash, RAM and worst-case stack on the targets; WRITE=1 renews baseline and docs/MEMORY.md
+	@sh tests/size.sh $(if $(WRITE),--write)
+
 docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages accuracy bias census rows seams crawl kept culling lists changes extremes) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
 
@@ -132,5 +135,5 @@ endif
 
 -include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
 
-.PHONY: all help run test soak bench firmware emulate boards docs tables scenes clean test-programs
+.PHONY: all help run test soak bench size firmware emulate boards docs tables scenes clean test-programs
 .SECONDARY:

@@ -21,6 +21,9 @@ make make
 clang clang
 /usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-x86_64.a libclang-rt-dev
 valgrind valgrind
+arm-none-eabi-gcc gcc-arm-none-eabi
+qemu-system-arm qemu-system-arm
+riscv64-unknown-elf-gcc gcc-riscv64-unknown-elf
 pkg-config pkg-config
 /usr/include/OpenImageIO/imageio.h libopenimageio-dev
 /usr/include/stdio.h libc6-dev

@@ -1,0 +1,33 @@
+/* RAM by part: objects whose sizes nm reads. */
+#include "gnomon.h"
+
+#define PART(name, n) extern char ram_##name[n]; char ram_##name[n]
+#define OF(member)    sizeof(((gn_renderer *)0)->member)
+
+PART(total, sizeof(gn_renderer));
+PART(triangles, OF(frame.tri));
+PART(tiles, OF(frame.tile_first) + OF(frame.tile_ref));
+PART(lights, OF(frame.light));
+PART(objects, OF(frame.object));
+PART(screen_tile, OF(scratch.cell) + OF(scratch.pixel));
+PART(vertices, OF(scratch.vertex));
+#if GN_SHADOWS
+PART(views, OF(frame.view) + OF(frame.cascade));
+#if GN_STATIC_LAYER
+PART(atlas, 2 * OF(frame.atlas));
+#else
+PART(atlas, OF(frame.atlas));
+#endif
+#if GN_OTHER_ATLAS
+#if GN_STATIC_LAYER
+PART(other_atlas, 2 * OF(frame.other_atlas));
+#else
+PART(other_atlas, OF(frame.other_atlas));
+#endif
+#endif
+#if GN_DEPTH_BLOCKS && GN_OTHER_ATLAS
+PART(blocks, OF(frame.block) + OF(frame.other_block));
+#elif GN_DEPTH_BLOCKS
+PART(blocks, OF(frame.block));
+#endif
+#endif
