@@ -148,7 +148,8 @@ tables() { # tables FILE
             print "\nWorst-case stack of `gn_render` in bytes, without that of the flush callback:\n"
             table("stack", "gn_render", "configuration")
             n = split("gn_init gn_begin gn_shadow_tile gn_prepare gn_screen_tile", root, " ")
-            print "\nBy step, on " core[1] ":\n"
+            step = ("Cortex-M3" in known) ? "Cortex-M3" : core[1]
+            print "\nBy step, on " step ":\n"
             line = "| configuration |"
             for (r = 1; r <= n; r++) line = line " `" root[r] "` |"
             print line
@@ -157,7 +158,7 @@ tables() { # tables FILE
             m = split(configurations, name, " ")
             for (i = 1; i <= m; i++) {
                 line = "| " name[i] " |"
-                for (r = 1; r <= n; r++) line = line " " figure["stack", core[1], name[i], root[r]] " |"
+                for (r = 1; r <= n; r++) line = line " " figure["stack", step, name[i], root[r]] " |"
                 print line
             }
             print "\nRAM in bytes, by part of a `gn_renderer`:\n"
