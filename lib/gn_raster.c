@@ -3,42 +3,61 @@
 #include "gn_alpha.h"
 #include "gn_count.h"
 #include "gn_plane.h"
+#include "gn_hint.h"
 #include "gn_q.h"
+#include "gn_walk.h"
 #include "gn_xform.h"
 
-int gn_raster_walk(const gn_frame *frame, gn_walk *walk, const gn_tri *tri, const gn_rect *rect)
-{
-    int32_t x[3], y[3];
-    gn_setup_corners(frame, tri, x, y);
-    return gn_walk_begin(walk, x, y, GN_K(frame, subpixel_bits), rect->y0, rect->y1);
-}
+/* What a triangle's rows have in common. A candidate cell is its depth above its identity. */
+typedef struct {
+    uint32_t iz_dx;
+    uint32_t lo, range; /* depth inside the triangle: lo .. lo + range */
+    uint32_t id_mask;
+    uint32_t below; /* from a cell of all depth and no identity's bits clear to the triangle's: id_mask - id */
+} raster_depth;
 
-/* Depth is linear over a row; inside the triangle it stays within [lo, hi]. A snapped edge can reach past the unsnapped plane
+/* Depth is linear over a row; inside the triangle it stays within its range. A snapped edge can reach past the unsnapped plane
  * by a fraction of a pixel, so a value outside is brought back to the nearer end (modulo 2^32). */
-static uint32_t clamp_depth(uint32_t v, uint32_t lo, uint32_t hi)
+static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
 {
-    if (v - lo <= hi - lo) return v;
-    return lo - v < v - hi ? lo : hi;
+    uint32_t above = v - depth->lo;
+    if (above <= depth->range) return v;
+    return 0U - above < above - depth->range ? depth->lo : depth->lo + depth->range;
 }
 
-static void raster_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t iz_dx, uint32_t id, uint32_t id_mask)
-{
-    for (int32_t i = 0; i < n; i++) {
-        uint32_t candidate = (iz & ~id_mask) | id;
-        if (candidate > cell[i]) cell[i] = candidate;
-        iz += iz_dx;
-    }
-}
+/* Identities in a tile ascend as it is drawn, so that a candidate wins where its depth is at least the cell's: all that is compared
+ * is its depth with the bits of the identity set. */
+#define GN_CELL_(i)                                                                                                                \
+    do {                                                                                                                           \
+        uint32_t candidate = iz | id_mask;                                                                                         \
+        if (candidate >= cell[i]) {                                                                                                \
+            GN_KEEP(candidate);                                                                                                    \
+            cell[i] = candidate - below;                                                                                           \
+        }                                                                                                                          \
+        iz += iz_dx;                                                                                                               \
+        GN_KEEP(iz);                                                                                                               \
+    } while (0)
 
-static void raster_span_clamped(uint32_t *cell, int32_t n, uint32_t iz, const gn_tri *tri, uint32_t id, uint32_t id_mask)
+static void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
 {
-    uint32_t lo = (uint32_t)tri->iz_min << 16, hi = (uint32_t)tri->iz_max << 16 | 0xFFFFU;
-    for (int32_t i = 0; i < n; i++) {
-        uint32_t candidate = (clamp_depth(iz, lo, hi) & ~id_mask) | id;
-        if (candidate > cell[i]) cell[i] = candidate;
-        iz += (uint32_t)tri->iz_dx;
+    GN_COUNT(covered, n);
+    uint32_t iz_dx = depth->iz_dx, id_mask = depth->id_mask, below = depth->below;
+    for (; n >= 4; n -= 4, cell += 4) {
+        GN_CELL_(0);
+        GN_CELL_(1);
+        GN_CELL_(2);
+        GN_CELL_(3);
+        GN_KEEP(cell);
     }
+    if (n & 2) {
+        GN_CELL_(0);
+        GN_CELL_(1);
+        cell += 2;
+        GN_KEEP(cell);
+    }
+    if (n & 1) GN_CELL_(0);
 }
+#undef GN_CELL_
 
 #if GN_VISIBLE_ALPHA
 /* M8: a triangle that alpha cuts, as the camera sees it. */
@@ -70,68 +89,114 @@ static int is_cut(const gn_frame *frame, const cut_triangle *cut, int32_t x, int
         gn_bary_at(b_q30, &cut->bary, &recip, px, py, frame->cam.focal2_px_q16);
     return gn_alpha_cuts(&cut->test, b_q30, x, y);
 }
-
-/* One pixel at a time: only where the surface would be the nearest is its alpha looked up. */
-static void raster_span_cut(const gn_frame *frame, const cut_triangle *cut, uint32_t *cell, int32_t x, int32_t x_end, int32_t y,
-                            uint32_t iz, const gn_tri *tri, uint32_t id, uint32_t id_mask)
-{
-    uint32_t lo = (uint32_t)tri->iz_min << 16, hi = (uint32_t)tri->iz_max << 16 | 0xFFFFU;
-    for (; x < x_end; x++, cell++) {
-        uint32_t candidate = (clamp_depth(iz, lo, hi) & ~id_mask) | id;
-        if (candidate > *cell && !is_cut(frame, cut, x, y)) *cell = candidate;
-        iz += (uint32_t)tri->iz_dx;
-    }
-}
+#else
+typedef void cut_triangle;
 #endif
 
-static void raster_triangle(const gn_frame *frame, gn_scratch *scratch, const gn_rect *rect, uint32_t tri_idx)
+/* A screen tile. */
+typedef struct {
+    const gn_frame *frame;
+    gn_scratch *scratch;
+    gn_rect rect;
+    int32_t width, height; /* pixels */
+    int32_t x, y;          /* of the picture's centre from the tile's corner, as corners of triangles */
+    uint32_t id_mask;
+} raster_tile;
+
+/* Pixels of a row that need a look each: alpha may cut them, or depth leaves the triangle's range. Where alpha cuts, it is looked up only
+ * where the surface would be the nearest. */
+static GN_NOINLINE void raster_span_slow(const raster_tile *tile, const cut_triangle *cut, const raster_depth *depth,
+                                         uint32_t *cell, int32_t n, uint32_t iz)
 {
-    const gn_tri *tri = &frame->tri[tri_idx];
+    for (int32_t i = 0; i < n; i++, cell++, iz += depth->iz_dx) {
+        uint32_t candidate = clamp_depth(iz, depth) | depth->id_mask;
+        if (candidate < *cell) continue;
 #if GN_VISIBLE_ALPHA
-    cut_triangle cut;
-    int has_cuts = frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE;
-    if (has_cuts) cut_begin(frame, scratch, &cut, tri);
-#endif
-    gn_walk walk;
-    if (!gn_raster_walk(frame, &walk, tri, rect)) return;
-    int32_t bits = GN_K(frame, subpixel_bits), stride = GN_K(frame, tile_width);
-    uint32_t id = gn_raster_id(frame, tri_idx), id_mask = (1U << frame->id_bits) - 1;
-    uint32_t lo = (uint32_t)tri->iz_min << 16, hi = (uint32_t)tri->iz_max << 16 | 0xFFFFU;
-    int32_t sx[3], sy[3];
-    gn_setup_corners(frame, tri, sx, sy);
-    int32_t x_ref = sx[0] >> bits, y_ref = sy[0] >> bits;
-    int32_t y, xa, xb;
-    while (gn_walk_row(&walk, &y, &xa, &xb)) {
-        xa = gn_max32(xa, rect->x0);
-        xb = gn_min32(xb, rect->x1);
-        if (xa >= xb) continue;
-        GN_COUNT(rows, 1);
-        uint32_t iz = tri->iz_ref + (uint32_t)(xa - x_ref) * (uint32_t)tri->iz_dx + (uint32_t)(y - y_ref) * (uint32_t)tri->iz_dy;
-        uint32_t iz_last = iz + (uint32_t)(xb - 1 - xa) * (uint32_t)tri->iz_dx;
-        uint32_t *cell = scratch->cell + (y - rect->y0) * stride + (xa - rect->x0);
-#if GN_VISIBLE_ALPHA
-        if (has_cuts) {
-            GN_COUNT(covered_cut, xb - xa);
-            raster_span_cut(frame, &cut, cell, xa, xb, y, iz, tri, id, id_mask);
-            continue;
+        if (cut) {
+            int32_t at = (int32_t)(cell - tile->scratch->cell), stride = GN_K(tile->frame, tile_width);
+            if (is_cut(tile->frame, cut, tile->rect.x0 + at % stride, tile->rect.y0 + at / stride)) continue;
         }
 #endif
-        GN_COUNT(covered, xb - xa);
-        if (iz - lo <= hi - lo && iz_last - lo <= hi - lo) raster_span(cell, xb - xa, iz, (uint32_t)tri->iz_dx, id, id_mask);
-        else raster_span_clamped(cell, xb - xa, iz, tri, id, id_mask);
+        *cell = candidate - depth->below;
+    }
+    GN_COUNT(covered_cut, cut ? n : 0);
+    GN_COUNT(covered, cut ? 0 : n);
+}
+
+/* Walks a triangle that `cut` cuts, if it is not NULL. */
+static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, const cut_triangle *cut)
+{
+    int32_t bits = GN_K(tile->frame, subpixel_bits), x[3], y[3];
+    gn_walk walk;
+    for (int i = 0; i < 3; i++) {
+        x[i] = tri->x[i] + tile->x;
+        y[i] = tri->y[i] + tile->y;
+    }
+    int32_t n_rows = gn_walk_begin(&walk, x, y, bits, 0, tile->height);
+    int32_t stride = GN_K(tile->frame, tile_width), width = tile->width;
+    if (!n_rows) return;
+    raster_depth depth;
+    depth.iz_dx = (uint32_t)tri->iz_dx;
+    depth.lo = (uint32_t)tri->iz_min << 16;
+    depth.range = ((uint32_t)tri->iz_max << 16 | 0xFFFFU) - depth.lo;
+    depth.id_mask = tile->id_mask;
+    depth.below = tile->id_mask - id;
+    uint32_t iz_dy = (uint32_t)tri->iz_dy;
+    /* at the tile's left border, above the least; inside the triangle below `end`, but for the last value there is */
+    uint32_t iz_row =
+        tri->iz_ref - depth.lo - (uint32_t)(x[0] >> bits) * depth.iz_dx + (uint32_t)(walk.first - (y[0] >> bits)) * iz_dy;
+    uint32_t end = cut ? 0 : depth.range;
+    uint32_t *row = tile->scratch->cell + walk.first * stride;
+    for (; n_rows > 0; n_rows = gn_walk_on(&walk)) {
+        for (const gn_span *span = walk.span; n_rows > 0; n_rows--, span++, row += stride, iz_row += iz_dy) {
+            int32_t xa = gn_max32(span->x_begin, 0), n = gn_min32(span->x_end, width) - xa;
+            if (n <= 0) continue;
+            uint32_t above = iz_row + (uint32_t)xa * depth.iz_dx;
+            GN_COUNT(rows, 1);
+            if (above < end && above + (uint32_t)(n - 1) * depth.iz_dx < end) raster_span(row + xa, n, above + depth.lo, &depth);
+            else raster_span_slow(tile, cut, &depth, row + xa, n, above + depth.lo);
+        }
     }
 }
+
+#if GN_VISIBLE_ALPHA
+static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+{
+    cut_triangle cut;
+    cut_begin(tile->frame, tile->scratch, &cut, tri);
+    raster_triangle(tile, tri, id, &cut);
+}
+#endif
 
 void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
-    gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
-    int32_t n = GN_K(frame, tile_width) * (rect.y1 - rect.y0);
+    int32_t bits = GN_K(frame, subpixel_bits);
+    raster_tile tile;
+    tile.frame = frame;
+    tile.scratch = scratch;
+    tile.rect = gn_bin_tile_rect(frame, tile_idx);
+    tile.width = tile.rect.x1 - tile.rect.x0;
+    tile.height = tile.rect.y1 - tile.rect.y0;
+    tile.x = ((frame->picture.width << bits) >> 1) - tile.rect.x0 * (1 << bits);
+    tile.y = ((frame->picture.height << bits) >> 1) - tile.rect.y0 * (1 << bits);
+    tile.id_mask = (1U << frame->id_bits) - 1;
     GN_COUNT(screen_tiles, 1);
-    GN_COUNT(pixels, (rect.x1 - rect.x0) * (rect.y1 - rect.y0));
+    GN_COUNT(pixels, tile.width * tile.height);
+    int32_t n = GN_K(frame, tile_width) * tile.height;
     for (int32_t i = 0; i < n; i++) scratch->cell[i] = 0;
 #if GN_VISIBLE_ALPHA
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
 #endif
-    for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++)
-        raster_triangle(frame, scratch, &rect, frame->tile_ref[i]);
+    /* backwards: identities ascend */
+    for (uint32_t i = frame->tile_first[tile_idx + 1]; i-- > frame->tile_first[tile_idx];) {
+        uint32_t tri_idx = frame->tile_ref[i];
+        const gn_tri *tri = &frame->tri[tri_idx];
+#if GN_VISIBLE_ALPHA
+        if (frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
+            raster_cut_triangle(&tile, tri, gn_raster_id(frame, tri_idx));
+            continue;
+        }
+#endif
+        raster_triangle(&tile, tri, gn_raster_id(frame, tri_idx), NULL);
+    }
 }

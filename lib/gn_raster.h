@@ -3,7 +3,6 @@
 #define GN_RASTER_H
 
 #include "gn_bin.h"
-#include "gn_walk.h"
 
 /* Fills scratch->cell, rows of rect.x1 - rect.x0. A cell is near / Z in its high bits and the triangle's identity in its low
  * id_bits; the larger cell wins, whatever the order of drawing. */
@@ -14,8 +13,5 @@ static inline uint32_t gn_raster_id(const gn_frame *frame, uint32_t tri_idx)
 {
     return frame->stats.n_triangles - tri_idx;
 }
-
-/* Starts walking a triangle's rows inside the rectangle. */
-int gn_raster_walk(const gn_frame *frame, gn_walk *walk, const gn_tri *tri, const gn_rect *rect);
 
 #endif

@@ -1,8 +1,11 @@
 /* Exact edge walkers. */
 #include "gn_walk.h"
+#include "gn_hint.h"
 #include "gn_q.h"
 
-/* Quotient and remainder rounded towards minus infinity; b > 0 */
+/* ---- Quotient and remainder ---------------------------------------------------------------------------------------- */
+
+/* Rounded towards minus infinity; b > 0 */
 static void floor_div(int64_t a, int32_t b, int32_t *q, int32_t *r)
 {
     int64_t quotient, rest;
@@ -22,7 +25,7 @@ static void floor_div(int64_t a, int32_t b, int32_t *q, int32_t *r)
 }
 
 /* The edge from (x0, y0) down to (x1, y1), y0 < y1, at row y. */
-static void edge_begin(gn_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t subpixel_bits, int32_t y)
+static void exact_begin(gn_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t subpixel_bits, int32_t y)
 {
     int64_t one = (int64_t)1 << subpixel_bits, half = one >> 1;
     int32_t dx = x1 - x0, dy = y1 - y0; /* < 2^30 */
@@ -34,33 +37,122 @@ static void edge_begin(gn_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_
     edge->dy = dy;
 }
 
-int gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo, int32_t y_hi)
+static inline int32_t exact_step(gn_edge *edge)
+{
+    int32_t x = edge->q;
+    edge->q += edge->dq;
+    edge->r += edge->dr;
+    if (edge->r >= edge->dy) {
+        edge->r -= edge->dy;
+        edge->q++;
+    }
+    return x;
+}
+
+/* ---- Fixed point --------------------------------------------------------------------------------------------------- */
+
+/* 18 fraction bits leave 14 for pixels. Start and step err by less than one unit each, upwards or downwards: after n rows x is
+ * within n of M / dy. What it must not be is below a multiple of 1 / dy that M / dy has reached, or at one that it has not: so it
+ * starts n higher, and 2 n * dy <= 2^18. */
+#define GN_FIXED_BITS   18
+#define GN_FIXED_EXTENT ((1 << (GN_FIXED_BITS - 1)) / GN_WALK_ROWS) /* dx, dy below this: dx * 2^18 fits, too */
+
+static inline int is_small(const int32_t x[3], int32_t height)
+{
+    uint32_t far = (uint32_t)(x[1] - x[0] + GN_FIXED_EXTENT) | (uint32_t)(x[2] - x[0] + GN_FIXED_EXTENT) |
+                   (uint32_t)(x[2] - x[1] + GN_FIXED_EXTENT);
+    return height < GN_FIXED_EXTENT && far < 2 * GN_FIXED_EXTENT;
+}
+
+/* Where the edge from (x0, y0) down to (x1, y1) crosses rows y <= .. < y_end, into every other int32_t from `at` on. */
+static int32_t *fixed_rows(int32_t *at, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t subpixel_bits, int32_t y,
+                           int32_t y_end)
+{
+    int32_t one = 1 << subpixel_bits, half = one >> 1, dx = x1 - x0, dy = y1 - y0, from = x0 - half;
+    int32_t row = y * one + half - y0;                                           /* 0 .. dy */
+    int32_t m = ((from & (one - 1)) * dy + row * dx + one - 1) >> subpixel_bits; /* from the upper end's pixel; 2^25 + 2^26 */
+    int32_t n = m + dy - 1, whole = from >> subpixel_bits;
+    const int32_t unit = 1 << GN_FIXED_BITS, most = 1 << (30 - GN_FIXED_BITS);
+    if (n >= most || n < -most) { /* more than one division of 32 bits gives */
+        int32_t q = n / dy;
+        whole += q;
+        n -= q * dy;
+    }
+    uint32_t x = ((uint32_t)whole << GN_FIXED_BITS) + (uint32_t)(n * unit / dy) + GN_WALK_ROWS, step = (uint32_t)(dx * unit / dy);
+    for (; y < y_end; y++, at += 2, x += step) *at = (int32_t)x >> GN_FIXED_BITS;
+    return at;
+}
+
+/* One border of rows up to `end`: 0 left, 1 right. */
+static inline void fixed_border(gn_walk *walk, int side, int32_t end)
+{
+    const int32_t *x = walk->x, *y = walk->y;
+    int32_t row = walk->row, turn = gn_min32(walk->row_end[1 + side], end), bits = walk->subpixel_bits;
+    int32_t *at = side ? &walk->span[0].x_end : &walk->span[0].x_begin;
+    if (row < turn) at = fixed_rows(at, x[0], y[0], x[1 + side], y[1 + side], bits, row, turn);
+    else turn = row;
+    if (turn < end) fixed_rows(at, x[1 + side], y[1 + side], x[2 - side], y[2 - side], bits, turn, end);
+}
+
+/* ---- Walking ------------------------------------------------------------------------------------------------------- */
+
+/* Begins an edge at the current row: corners are 0 top, 1 left, 2 right. */
+static void edge_begin(gn_walk *walk, int side, int from, int to)
+{
+    const int32_t *x = walk->x, *y = walk->y;
+    exact_begin(&walk->edge[side], x[from], y[from], x[to], y[to], walk->subpixel_bits, walk->row);
+}
+
+/* Rows up to `end`. */
+static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
+{
+    gn_span *span = walk->span;
+    for (; walk->row < end; walk->row++, span++) {
+        for (int side = 0; side < 2; side++)
+            if (walk->row == walk->row_end[1 + side]) edge_begin(walk, side, 1 + side, 2 - side);
+        span->x_begin = exact_step(&walk->edge[0]);
+        span->x_end = exact_step(&walk->edge[1]);
+    }
+}
+
+int32_t gn_walk_on(gn_walk *walk)
+{
+    int32_t end = gn_min32(walk->row_end[0], walk->row + GN_WALK_ROWS), n = end - walk->row;
+    if (n <= 0) return 0;
+    walk->first = walk->row;
+    if (walk->fixed) {
+        fixed_border(walk, 0, end);
+        fixed_border(walk, 1, end);
+        walk->row = end;
+    } else {
+        exact_rows(walk, end);
+    }
+    walk->n_left = n;
+    return n;
+}
+
+int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo, int32_t y_hi)
 {
     int top = y[1] < y[0] ? 1 : 0;
     if (y[2] < y[top]) top = 2;
-    int bottom = y[(top + 1) % 3] >= y[(top + 2) % 3] ? (top + 1) % 3 : (top + 2) % 3;
-    int mid = 3 - top - bottom;
-    int32_t y0 = gn_max32(gn_first_px(y[top], subpixel_bits), y_lo);
-    walk->y_end = gn_min32(gn_first_px(y[bottom], subpixel_bits), y_hi);
-    if (y0 >= walk->y_end) return 0;
-    walk->y = y0;
-    walk->y_mid = gn_first_px(y[mid], subpixel_bits);
-    walk->subpixel_bits = subpixel_bits;
-    int64_t turn = (int64_t)(x[mid] - x[top]) * (y[bottom] - y[top]) - (int64_t)(x[bottom] - x[top]) * (y[mid] - y[top]);
-    walk->long_edge_left = turn > 0; /* the middle vertex lies right of the long edge */
-    edge_begin(&walk->edge[0], x[top], y[top], x[bottom], y[bottom], subpixel_bits, y0);
-    int32_t lower[4] = {x[mid], y[mid], x[bottom], y[bottom]};
-    for (int i = 0; i < 4; i++) walk->lower[i] = lower[i];
-    if (y0 < walk->y_mid) {
-        edge_begin(&walk->edge[1], x[top], y[top], x[mid], y[mid], subpixel_bits, y0);
-    } else {
-        walk->y_mid = y0; /* gn_walk_row begins the lower edge at once */
+    int left = top == 2 ? 0 : top + 1, right = 3 - top - left;
+    int64_t turn = (int64_t)(x[left] - x[top]) * (y[right] - y[top]) - (int64_t)(x[right] - x[top]) * (y[left] - y[top]);
+    if (turn > 0) {
+        left = right;
+        right = 3 - top - left;
     }
-    return 1;
-}
-
-void gn_walk_lower_edge(gn_walk *walk)
-{
-    const int32_t *e = walk->lower;
-    edge_begin(&walk->edge[1], e[0], e[1], e[2], e[3], walk->subpixel_bits, walk->y);
+    walk->x[0] = x[top], walk->x[1] = x[left], walk->x[2] = x[right];
+    walk->y[0] = y[top], walk->y[1] = y[left], walk->y[2] = y[right];
+    walk->row = gn_max32(gn_first_px(walk->y[0], subpixel_bits), y_lo);
+    walk->row_end[1] = gn_first_px(walk->y[1], subpixel_bits);
+    walk->row_end[2] = gn_first_px(walk->y[2], subpixel_bits);
+    walk->row_end[0] = gn_min32(gn_max32(walk->row_end[1], walk->row_end[2]), y_hi);
+    if (walk->row >= walk->row_end[0]) return 0;
+    walk->subpixel_bits = subpixel_bits;
+    walk->fixed = is_small(walk->x, gn_max32(walk->y[1], walk->y[2]) - walk->y[0]);
+    for (int side = 0; !walk->fixed && side < 2; side++) {
+        if (walk->row < walk->row_end[1 + side]) edge_begin(walk, side, 0, 1 + side);
+        else if (walk->row > walk->row_end[1 + side]) edge_begin(walk, side, 1 + side, 2 - side);
+    }
+    return gn_walk_on(walk);
 }

@@ -11,7 +11,8 @@
 
 #include "../host/scene/zlib_stream.h"
 #include "bench_gen.h"
-#include "gn_raster.h"
+#include "gn_setup.h"
+#include "gn_walk.h"
 #include "gnomon.h"
 
 enum { N_TRIANGLES_MAX = BENCH_N_SMALL };
@@ -212,12 +213,12 @@ static uint32_t count_inside(const outline *o, int w, int h, const uint8_t *cove
 /* Marks what the library's rasteriser covers. */
 static uint32_t cover(const gn_tri *tri, uint8_t *covered)
 {
-    const gn_rect all = {0, 0, BENCH_WIDTH, BENCH_HEIGHT};
     gn_walk walk;
-    int32_t y, xa, xb;
+    int32_t y, xa, xb, corner_x[3], corner_y[3];
     uint32_t n = 0;
     memset(covered, 0, BENCH_WIDTH * BENCH_HEIGHT);
-    if (!gn_raster_walk(&renderer.frame, &walk, tri, &all)) return 0;
+    gn_setup_corners(&renderer.frame, tri, corner_x, corner_y);
+    if (!gn_walk_begin(&walk, corner_x, corner_y, GN_SUBPIXEL_BITS, 0, BENCH_HEIGHT)) return 0;
     while (gn_walk_row(&walk, &y, &xa, &xb))
         for (int32_t x = xa; x < xb; x++, n++) covered[y * BENCH_WIDTH + x] = 1;
     return n;

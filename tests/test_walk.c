@@ -125,6 +125,33 @@ static void test_huge_triangles(void)
     CHECK_TALLY(t, "huge triangles");
 }
 
+/* Triangles as large as fixed point steps them, whose edge crosses the first or the last row within 1 / dy of a pixel centre: the smallest
+ * error shows there. */
+static void test_fixed_point_limits(void)
+{
+    enum { LARGEST = (1 << 13) - 1 };
+    tally t = {0};
+    for (uint32_t i = 0; i < 2000000; i++) {
+        int32_t bits = tried_bits[i & 3], one = 1 << bits, shift = rng_range(&random_state, 0, 3),
+                n_rows = 16 << rng_range(&random_state, 0, 3);
+        int32_t dy = (LARGEST >> shift) - rng_range(&random_state, 0, i & 4 ? 30 : 400),
+                dx = rng_range(&random_state, -LARGEST, LARGEST);
+        int32_t x0 = rng_range(&random_state, -3000, 3000), y0 = rng_range(&random_state, -3000, 3000);
+        int32_t first = gn_first_px(y0, bits) + rng_range(&random_state, 0, dy / one > n_rows ? dy / one - n_rows : 0);
+        int64_t row = (int64_t)(first + (i & 8 ? n_rows - 1 : 0)) * one + one / 2 - y0;
+        int64_t over = ((x0 - one / 2) * (int64_t)dy + row * dx) % ((int64_t)dy * one);
+        if (over < 0) over += (int64_t)dy * one;
+        if (row >= dy || (over > one && over < (int64_t)(dy - 1) * one)) continue;
+        int32_t other = x0 + (dx < 0 ? dx + LARGEST : LARGEST);
+        int32_t x[3] = {x0, x0 + dx, other}, y[3] = {y0, y0 + dy, y0 + dy};
+        int32_t px = (int32_t)(x0 + row * dx / dy) >> bits;
+        window w = {px - 2, first, px + 3, first + n_rows};
+        HOLDS(&t, walk_equals_oracle(x, y, bits, w), "bits %d: (%d, %d) + (%d, %d)", (int)bits, (int)x0, (int)y0, (int)dx, (int)dy);
+    }
+    CHECK(t.n > 300);
+    CHECK_TALLY(t, "limits of fixed point");
+}
+
 /* A walk that starts and ends at tile borders gives the spans of the walk over everything. */
 static void test_tile_borders(void)
 {
@@ -468,6 +495,7 @@ int main(void)
     test_first_px();
     test_small_triangles();
     test_huge_triangles();
+    test_fixed_point_limits();
     test_tile_borders();
     test_grid();
     test_fan();

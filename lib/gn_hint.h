@@ -1,0 +1,16 @@
+/* Hints to the compiler that change no result: each is nothing where it is not known. */
+#ifndef GN_HINT_H
+#define GN_HINT_H
+
+#if defined(__GNUC__)
+/* v is taken for changed here, and neither computed before nor from what was. It keeps what an unrolled loop steps in one register,
+ * and a branch a branch, where four registers and predicated instructions would cost more. */
+#define GN_KEEP(v) __asm__ volatile("" : "+r"(v))
+/* Of a function that is seldom called from a hot one: inlined, it would take registers. */
+#define GN_NOINLINE __attribute__((noinline))
+#else
+#define GN_KEEP(v) ((void)0)
+#define GN_NOINLINE
+#endif
+
+#endif
