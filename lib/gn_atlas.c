@@ -97,7 +97,7 @@ static void shrink(const caster_job *job, const uint16_t idx[3], int64_t corner[
         }
 #endif
         for (int k = 0; k < 3; k++) {
-            int64_t along_q30 = gn_shr64(gn_dot64(n[i], job->view->axis_q30[k]), 30);
+            int64_t along_q30 = gn_dot_q30(n[i], job->view->axis_q30[k]);
             corner[i][k] -= gn_shr64(along_q30 * by_q16, 30);
         }
     }

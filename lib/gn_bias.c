@@ -65,10 +65,10 @@ static bias_terms bias_at(const gn_light_view *view, const gn_light *light, int3
 void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3], int32_t out_q16[3])
 {
     const int32_t *to_light = frame->light[view->light_idx].to_light_q30;
-    int32_t n_dot_l = GN_RECEIVER_BIAS ? (int32_t)gn_shr64(gn_dot64(n_q30, to_light), 30) : 0;
+    int32_t n_dot_l = GN_RECEIVER_BIAS ? (int32_t)gn_dot_q30(n_q30, to_light) : 0;
     bias_terms bias = bias_at(view, &frame->scene->lights[view->light_idx], n_dot_l);
     for (int i = 0; i < 3; i++) {
-        int64_t along_q30 = gn_shr64(gn_dot64(n_q30, view->axis_q30[i]), 30); /* |n| <= 1 */
+        int64_t along_q30 = gn_dot_q30(n_q30, view->axis_q30[i]); /* |n| <= 1 */
         out_q16[i] = (int32_t)gn_shr64(along_q30 * bias.along_q16, 30);
     }
     out_q16[2] -= bias.towards_q16; /* w is the direction of travel */
@@ -81,7 +81,7 @@ void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const 
     const gn_light_view *view = &frame->view[light->view_idx];
     const gn_light *scene_light = &frame->scene->lights[view->light_idx];
     int64_t z = 0; /* the light-plane distance */
-    if (light->kind == GN_LIGHT_SPOT) z = -gn_shr64(gn_dot64(from_q16, light->to_light_q30), 30);
+    if (light->kind == GN_LIGHT_SPOT) z = -gn_dot_q30(from_q16, light->to_light_q30);
     else
         for (int i = 0; i < 3; i++) z = (int64_t)gn_abs32(from_q16[i]) > z ? (int64_t)gn_abs32(from_q16[i]) : z;
     z = gn_clamp64(z, 0, INT32_MAX);
@@ -89,7 +89,7 @@ void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const 
     if (GN_RECEIVER_BIAS) {
         int64_t towards[3] = {-(int64_t)from_q16[0], -(int64_t)from_q16[1], -(int64_t)from_q16[2]};
         gn_normalise_q30(to_light, towards);
-        n_dot_l = (int32_t)gn_clamp64(gn_shr64(gn_dot64(n_q30, to_light), 30), -(1 << 30), (1 << 30));
+        n_dot_l = (int32_t)gn_clamp64(gn_dot_q30(n_q30, to_light), -(1 << 30), (1 << 30));
     }
     bias_terms bias = bias_at(view, scene_light, n_dot_l);
     /* texels to units: 2^27 * 2^31 */
@@ -161,7 +161,7 @@ void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
 void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3])
 {
     int64_t n[3];
-    for (int i = 0; i < 3; i++) n[i] = gn_shr64(gn_dot64(face_q30, view->axis_q30[i]), 30);
+    for (int i = 0; i < 3; i++) n[i] = gn_dot_q30(face_q30, view->axis_q30[i]);
     for (int i = 0; i < 3; i++) out[i] = gn_sat32(n[i]);
     if (form == GN_AUTO_BIAS_NORMAL) return;
     gn_bfloat per_w = gn_bf_recip(gn_bf_from_u64(gn_abs64(n[2]) | 1U));
@@ -218,13 +218,13 @@ static int64_t slope_share_q32(const gn_light_view *view, int64_t across_q30, in
 int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t depth_q16,
                            const int32_t from_q16[3], int32_t moved_q16[3])
 {
-    int64_t h_q16 = (int64_t)gn_abs64(gn_shr64(gn_dot64(face_q30, from_q16), 30)), m_q30[3]; /* m . P = -h, behind the face +h */
-    for (int i = 0; i < 3; i++) m_q30[i] = gn_shr64(gn_dot64(face_q30, view->axis_q30[i]), 30);
+    int64_t h_q16 = (int64_t)gn_abs64(gn_dot_q30(face_q30, from_q16)), m_q30[3]; /* m . P = -h, behind the face +h */
+    for (int i = 0; i < 3; i++) m_q30[i] = gn_dot_q30(face_q30, view->axis_q30[i]);
     int64_t u_q30 = (int64_t)gn_abs64(m_q30[0]), v_q30 = (int64_t)gn_abs64(m_q30[1]), across_q30 = u_q30 + v_q30;
     int64_t lift_q16 = ((int64_t)depth_q16 * view->auto_ray_q40 >> 40) + GN_AUTO_UNITS + 1;
     int64_t less_q32 = view->auto_step;
     if (form == GN_AUTO_BIAS_NORMAL) {
-        int64_t z_q16 = gn_clamp64(gn_shr64(gn_dot64(from_q16, view->axis_q30[2]), 30), 0, INT32_MAX);
+        int64_t z_q16 = gn_clamp64(gn_dot_q30(from_q16, view->axis_q30[2]), 0, INT32_MAX);
         if (too_steep(view, u_q30 > v_q30 ? u_q30 : v_q30, h_q16)) less_q32 = (int64_t)1 << 33;
         lift_q16 += (z_q16 * lift_share_q30(view, across_q30, m_q30[2]) >> 30) + 1; /* 2^31 * 2^31 */
     } else less_q32 += slope_share_q32(view, across_q30, h_q16);

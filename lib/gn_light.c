@@ -25,7 +25,7 @@ static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample,
     for (int i = 0; i < 3; i++) h[i] = (to_light_q30[i] >> 1) + (sample->to_eye_q30[i] >> 1); /* |h| <= 1 */
     int64_t wide[3] = {h[0], h[1], h[2]};
     if (!gn_normalise_q30(h, wide)) return 0;
-    int64_t dot = gn_shr64(gn_dot64(sample->normal_q30, h), 30);
+    int64_t dot = gn_dot_q30(sample->normal_q30, h);
     if (dot <= 0) return 0;
     int32_t power = (int32_t)gn_clamp64(dot, 0, 1 << 30);
     for (int32_t k = 0; k < surface->object->shininess_log2; k++) power = gn_mul_q30(power, power);

@@ -4,6 +4,16 @@
 #include "gn_tables.h"
 #include "gnomon.h"
 
+int64_t gn_far_dot64(const int32_t a[3], const int32_t b[3])
+{
+    return gn_dot64_inline(a, b);
+}
+
+int64_t gn_far_dot_q30(const int32_t a[3], const int32_t b[3])
+{
+    return gn_dot_q30_inline(a, b);
+}
+
 uint64_t gn_bf_from_u64_bits(uint64_t v)
 {
     int32_t clz = gn_clz64(v);
@@ -191,7 +201,7 @@ uint64_t gn_length_bits(int32_t newton_steps, const int32_t n_q30[3])
 
 int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], const int32_t unit_q30[3])
 {
-    int64_t dot_q30 = gn_shr64(gn_dot64(n_q30, unit_q30), 30);
+    int64_t dot_q30 = gn_dot_q30(n_q30, unit_q30);
     int64_t cosine = gn_scale64(dot_q30 * (int64_t)length.root, 63 - 24 - length.shift / 2);
     return (int32_t)gn_clamp64(cosine, -(1 << 24), 1 << 24);
 }

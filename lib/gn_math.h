@@ -4,16 +4,17 @@
 
 #include <stdint.h>
 
+#include "gn_q.h"
 #include "gnomon.h"
 
 /* Block floats and lengths go through calls as 64 bits, the mantissa low: two registers on every core, where the calling convention
  * of ARM returns a structure of 8 bytes in memory. */
-static inline uint64_t gn_bf_bits(gn_bfloat a)
+GN_INLINE uint64_t gn_bf_bits(gn_bfloat a)
 {
     return (uint64_t)(uint32_t)a.exp << 32 | a.mant;
 }
 
-static inline gn_bfloat gn_bf_of_bits(uint64_t bits)
+GN_INLINE gn_bfloat gn_bf_of_bits(uint64_t bits)
 {
     gn_bfloat a = {(uint32_t)bits, (int32_t)(bits >> 32)};
     return a;
@@ -25,7 +26,7 @@ uint64_t gn_bf_mul_bits(uint64_t a, uint64_t b);
 int64_t gn_bf_apply_bits(int64_t a, uint64_t b);
 
 /* Nearest below: v truncated to 32 significant bits; v > 0. Relative error < 2^-31. */
-static inline gn_bfloat gn_bf_from_u64(uint64_t v)
+GN_INLINE gn_bfloat gn_bf_from_u64(uint64_t v)
 {
     return gn_bf_of_bits(gn_bf_from_u64_bits(v));
 }
@@ -37,19 +38,19 @@ uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps);
 uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps);
 
 /* Relative error < 2^-29 */
-static inline gn_bfloat gn_bf_recip(gn_bfloat a)
+GN_INLINE gn_bfloat gn_bf_recip(gn_bfloat a)
 {
     return gn_bf_of_bits(gn_bf_recip_bits(gn_bf_bits(a)));
 }
 
 /* Relative error < 2^-31 */
-static inline gn_bfloat gn_bf_mul(gn_bfloat a, gn_bfloat b)
+GN_INLINE gn_bfloat gn_bf_mul(gn_bfloat a, gn_bfloat b)
 {
     return gn_bf_of_bits(gn_bf_mul_bits(gn_bf_bits(a), gn_bf_bits(b)));
 }
 
 /* round(a * b.mant * 2^(b.exp + shift)), saturating at +-2^63. Error at most 1 LSB or 2^-31 of the result, the larger. */
-static inline int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift)
+GN_INLINE int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift)
 {
     b.exp += shift;
     return gn_bf_apply_bits(a, gn_bf_bits(b));
@@ -63,10 +64,26 @@ int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3]);
 /* Exact; |components| < 2^30 so that the result fits. */
 void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3]);
 /* Exact; |sum| < 2^63 */
-static inline int64_t gn_dot64(const int32_t a[3], const int32_t b[3])
+int64_t gn_far_dot64(const int32_t a[3], const int32_t b[3]);
+int64_t gn_far_dot_q30(const int32_t a[3], const int32_t b[3]);
+static inline int64_t gn_dot64_inline(const int32_t a[3], const int32_t b[3])
 {
     return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 }
+
+/* round(a . b / 2^30) */
+static inline int64_t gn_dot_q30_inline(const int32_t a[3], const int32_t b[3])
+{
+    return gn_shr64_inline(gn_dot64_inline(a, b), 30);
+}
+
+#if defined(GN_FAR)
+#define gn_dot64   gn_far_dot64
+#define gn_dot_q30 gn_far_dot_q30
+#else
+#define gn_dot64   gn_dot64_inline
+#define gn_dot_q30 gn_dot_q30_inline
+#endif
 
 /* 1 / |n| of a vector of Q1.30 components, |n| <= 1 but for rounding: 2^(63 - shift / 2) = root * sqrt(n . n). Zero stays zero. */
 typedef struct {
@@ -76,7 +93,7 @@ typedef struct {
 
 uint64_t gn_length_bits(int32_t newton_steps, const int32_t n_q30[3]);
 
-static inline gn_length gn_length_of(int32_t newton_steps, const int32_t n_q30[3])
+GN_INLINE gn_length gn_length_of(int32_t newton_steps, const int32_t n_q30[3])
 {
     uint64_t bits = gn_length_bits(newton_steps, n_q30);
     gn_length length = {(uint32_t)bits, (int32_t)(bits >> 32)};

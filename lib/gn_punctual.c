@@ -48,7 +48,7 @@ void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
         light->position_q16[i] = from->position_q16[i];
         offset[i] = from->position_q16[i] - cam->eye_q16[i]; /* within 2^30 each */
     }
-    for (int i = 0; i < 3; i++) light->eye_q16[i] = (int32_t)gn_shr64(gn_dot64(cam->axis_q30[i], offset), 30); /* sqrt(3) * 2^30 */
+    for (int i = 0; i < 3; i++) light->eye_q16[i] = (int32_t)gn_dot_q30(cam->axis_q30[i], offset); /* sqrt(3) * 2^30 */
     ray_planes(frame, light);
     uint64_t range = from->range_q16, floor2 = frame->min2_q32; /* r^2 >= 10^-4 */
     light->range2_q32 = range ? (range * range > floor2 ? range * range : floor2) : UINT64_MAX;
@@ -111,7 +111,7 @@ int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int
     out->factor_q30 = window_q30(light, d2);
     if (light->kind == GN_LIGHT_SPOT) {
         /* against the axis towards the light: the light-plane distance as a share of the distance */
-        int32_t along = gn_sat32(-gn_shr64(gn_dot64(from_light_q16, light->to_light_q30), 30));
+        int32_t along = gn_sat32(-gn_dot_q30(from_light_q16, light->to_light_q30));
         uint32_t angle = along > 0 ? angle_q30(light, gn_punctual_cosine_q30(out, along)) : 0;
         out->factor_q30 = (uint32_t)gn_mul_q30((int32_t)out->factor_q30, (int32_t)angle);
     }

@@ -10,6 +10,13 @@
 
 typedef char gn_assert_arithmetic_shift[((-5) >> 1) == -3 ? 1 : -1];
 
+/* What must not become a function of its own: wrappers that are shorter than a call. */
+#if defined(__GNUC__)
+#define GN_INLINE static inline __attribute__((always_inline))
+#else
+#define GN_INLINE static inline
+#endif
+
 /* Leading zeros; v != 0. */
 static inline int32_t gn_clz32(uint32_t v)
 {
@@ -41,14 +48,14 @@ static inline int32_t gn_max32(int32_t a, int32_t b)
     return a > b ? a : b;
 }
 
-static inline int64_t gn_clamp64(int64_t v, int64_t lo, int64_t hi)
+static inline int64_t gn_clamp64_inline(int64_t v, int64_t lo, int64_t hi)
 {
     return v < lo ? lo : v > hi ? hi : v;
 }
 
-static inline int32_t gn_sat32(int64_t v)
+static inline int32_t gn_sat32_inline(int64_t v)
 {
-    return (int32_t)gn_clamp64(v, INT32_MIN, INT32_MAX);
+    return (int32_t)gn_clamp64_inline(v, INT32_MIN, INT32_MAX);
 }
 
 /* |v| as unsigned: defined for the most negative value too. */
@@ -57,7 +64,7 @@ static inline uint32_t gn_abs32(int32_t v)
     return v < 0 ? 0U - (uint32_t)v : (uint32_t)v;
 }
 
-static inline uint64_t gn_abs64(int64_t v)
+static inline uint64_t gn_abs64_inline(int64_t v)
 {
     return v < 0 ? 0U - (uint64_t)v : (uint64_t)v;
 }
@@ -69,33 +76,73 @@ static inline int64_t gn_shl64(int64_t v, int32_t s)
 }
 
 /* round(v / 2^s); 0 <= s <= 62, |v| < 2^63 - 2^(s - 1). */
-static inline int64_t gn_shr64(int64_t v, int32_t s)
+static inline int64_t gn_shr64_inline(int64_t v, int32_t s)
 {
     return s ? (v + ((int64_t)1 << (s - 1))) >> s : v;
 }
 
 /* round(v * 2^-s) for any s of either sign; saturates. */
-static inline int64_t gn_scale64(int64_t v, int32_t s)
+static inline int64_t gn_scale64_inline(int64_t v, int32_t s)
 {
     if (s > 63) return 0;
     if (s > 0) return (v >> s) + ((v >> (s - 1)) & 1); /* no addition that could overflow */
     if (s == 0) return v;
     if (v == 0) return 0;
-    if (gn_clz64(gn_abs64(v)) - 1 < -s) return v < 0 ? -INT64_MAX : INT64_MAX;
+    if (gn_clz64(gn_abs64_inline(v)) - 1 < -s) return v < 0 ? -INT64_MAX : INT64_MAX;
     return gn_shl64(v, -s);
 }
 
 /* round(a * b / 2^s); 1 <= s <= 62, |a * b| <= 2^62. */
-static inline int32_t gn_mul_shr(int32_t a, int32_t b, int32_t s)
+static inline int32_t gn_mul_shr_inline(int32_t a, int32_t b, int32_t s)
 {
     return (int32_t)(((int64_t)a * b + ((int64_t)1 << (s - 1))) >> s);
 }
 
 /* round(a * b / 2^30) for Q1.30 factors whose product fits Q1.30. */
-static inline int32_t gn_mul_q30(int32_t a, int32_t b)
+static inline int32_t gn_mul_q30_inline(int32_t a, int32_t b)
 {
-    return gn_mul_shr(a, b, 30);
+    return gn_mul_shr_inline(a, b, 30);
 }
+
+/* Where size comes first (-Os), what the compiler would spell out at every place is a call: gn_q.c has the bodies. */
+#if defined(__OPTIMIZE_SIZE__) && defined(__GNUC__)
+#define GN_FAR 1
+int64_t gn_far_clamp64(int64_t v, int64_t lo, int64_t hi);
+int32_t gn_far_clamp32(int64_t v, int32_t lo, int32_t hi);
+int32_t gn_far_sat32(int64_t v);
+int64_t gn_far_shr64(int64_t v, int32_t s);
+int64_t gn_far_shr30(int64_t v);
+int64_t gn_far_scale64(int64_t v, int32_t s);
+int32_t gn_far_mul_shr(int32_t a, int32_t b, int32_t s);
+int32_t gn_far_mul_q30(int32_t a, int32_t b);
+uint64_t gn_far_abs64(int64_t v);
+#define GN_IS_INT32_(v) (__builtin_constant_p(v) && (v) >= INT32_MIN && (v) <= INT32_MAX)
+
+GN_INLINE int64_t gn_clamp64(int64_t v, int64_t lo, int64_t hi)
+{
+    return GN_IS_INT32_(lo) && GN_IS_INT32_(hi) ? gn_far_clamp32(v, (int32_t)lo, (int32_t)hi) : gn_far_clamp64(v, lo, hi);
+}
+
+GN_INLINE int64_t gn_shr64(int64_t v, int32_t s)
+{
+    if (!__builtin_constant_p(s)) return gn_far_shr64(v, s);
+    return s == 30 ? gn_far_shr30(v) : gn_shr64_inline(v, s);
+}
+
+#define gn_sat32   gn_far_sat32
+#define gn_scale64 gn_far_scale64
+#define gn_mul_shr gn_far_mul_shr
+#define gn_mul_q30 gn_far_mul_q30
+#define gn_abs64   gn_far_abs64
+#else
+#define gn_clamp64 gn_clamp64_inline
+#define gn_shr64   gn_shr64_inline
+#define gn_sat32   gn_sat32_inline
+#define gn_scale64 gn_scale64_inline
+#define gn_mul_shr gn_mul_shr_inline
+#define gn_mul_q30 gn_mul_q30_inline
+#define gn_abs64   gn_abs64_inline
+#endif
 
 /* round(a * b / 2^16) of unsigned fractions; the result fits. */
 static inline uint32_t gn_mul_uq16(uint32_t a, uint32_t b)

@@ -139,7 +139,7 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
     int64_t at[3];
     point_on_ray(light->from_light, light->ray_shift, px, py, sample->value[GN_VALUE_Z], at);
     for (int i = 0; i < 3; i++) out[GN_LIGHT_POINT_AT + i] = (int32_t)gn_clamp64(at[i], -INT32_MAX, INT32_MAX);
-    out[GN_LIGHT_FACING] = gn_sat32(-gn_shr64(gn_dot64(unit_q30, out + GN_LIGHT_POINT_AT), 30));
+    out[GN_LIGHT_FACING] = gn_sat32(-gn_dot_q30(unit_q30, out + GN_LIGHT_POINT_AT));
 #if GN_SHADOWS
     int own = GN_AUTO_BIAS && frame->scene->lights[s->light[slot].idx].auto_bias; /* B6: per pixel */
     if (light->view_idx >= 0 && s->shadowed && !own)

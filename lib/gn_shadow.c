@@ -48,10 +48,10 @@ static int32_t limit_slope(const gn_light_view *view, int64_t slope_q28)
 
 static void ortho_slopes(const gn_light_view *view, const int32_t face_q30[3], int32_t slope_q28[2])
 {
-    int64_t w = gn_shr64(gn_dot64(face_q30, view->axis_q30[2]), 30);
+    int64_t w = gn_dot_q30(face_q30, view->axis_q30[2]);
     gn_bfloat per_w = gn_bf_recip(gn_bf_from_u64(gn_abs64(w) | 1U));
     for (int i = 0; i < 2; i++) {
-        int64_t u = gn_shr64(gn_dot64(face_q30, view->axis_q30[i]), 30);
+        int64_t u = gn_dot_q30(face_q30, view->axis_q30[i]);
         slope_q28[i] = limit_slope(view, gn_bf_apply(w < 0 ? u : -u, per_w, 28 - view->tile_log2 - view->depth_log2));
     }
 }
@@ -99,10 +99,10 @@ static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *su
 static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3], int32_t slope_q28[2])
 {
     const gn_persp_fit *fit = &view->fit.persp;
-    int64_t h = gn_shr64(gn_dot64(face_q30, from_q16), 30);
+    int64_t h = gn_dot_q30(face_q30, from_q16);
     gn_bfloat per_h = gn_bf_mul(gn_bf_recip(gn_bf_from_u64(gn_abs64(h) | 1U)), fit->texel_per_z);
     for (int i = 0; i < 2; i++) {
-        int64_t m = gn_shr64(gn_dot64(face_q30, view->axis_q30[i]), 30) * fit->near_q16; /* Q46, 2^59 */
+        int64_t m = gn_dot_q30(face_q30, view->axis_q30[i]) * fit->near_q16; /* Q46, 2^59 */
         slope_q28[i] = limit_slope(view, gn_bf_apply(h < 0 ? m : -m, per_h, -2));
     }
 }
@@ -144,7 +144,7 @@ static uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surfa
     int32_t moved[3];
     int64_t at[3];
     int64_t less_q32 = moved_point(frame, surface, sample, view, value, moved);
-    for (int i = 0; i < 3; i++) at[i] = gn_shr64(gn_dot64(moved, view->axis_q30[i]), 30); /* sqrt(3) * 2^61 */
+    for (int i = 0; i < 3; i++) at[i] = gn_dot_q30(moved, view->axis_q30[i]); /* sqrt(3) * 2^61 */
     if (at[2] <= view->fit.persp.near_q16) return GN_ONE_UQ16;
     uint32_t z = at[2] > UINT32_MAX ? UINT32_MAX : (uint32_t)at[2];
     int32_t clz = gn_clz32(z);

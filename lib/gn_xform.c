@@ -58,7 +58,7 @@ void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t
         for (int c = 0; c < 3; c++) {
             int32_t column[3] = {a->m_q30[0][c], a->m_q30[1][c], a->m_q30[2][c]};
             /* |axis| = 1, |column| <= sqrt(3): the sum is below 2^61, the result below 2^31 */
-            out->m[r][c] = gn_sat32(gn_shr64(gn_dot64(axis_q30[r], column), 30));
+            out->m[r][c] = gn_sat32(gn_dot_q30(axis_q30[r], column));
         }
         int64_t t = 0; /* |difference| <= 2^30 each, times 2^30, three of them with a unit row: below 2^62 */
         for (int c = 0; c < 3; c++) t += ((int64_t)a->t_q16[c] - origin_q16[c]) * axis_q30[r][c];
