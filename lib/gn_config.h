@@ -27,7 +27,7 @@
 #define GN_PRESETS_PERSP_STEP           16, 8, 1
 #define GN_PRESETS_NEWTON_STEPS         1, 1, 2
 #define GN_PRESETS_SHADOW_SUBPIXEL_BITS 8, 8, 12
-#define GN_PRESETS_SHADOW_DEPTH_FRAC    0, 0, 4
+#define GN_PRESETS_SHADOW_DEPTH_FRAC    0, 4, 4
 #define GN_PRESETS_WEIGHT_BITS          6, 8, 12
 #define GN_PRESETS_ATTEN_BITS           8, 16, 16
 #define GN_PRESETS_ATLAS_SIZE           64, 128, 256

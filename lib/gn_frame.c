@@ -10,8 +10,8 @@
  *                   gn_bin      triangles to screen tiles
  *   gn_screen_tile  gn_raster   visible surfaces: depth and triangle per pixel, by exact edge walkers (gn_walk)
  *                   gn_runs     what is visible of each triangle, as runs of pixels
- *                   gn_shade    a triangle at a time (gn_surface; gn_sample: at a pixel): light (gn_light, gn_punctual),
- *                               shadow (gn_shadow, gn_filter), encode (gn_pixel)
+ *                   gn_shade    a triangle at a time (gn_surface; gn_sample: at a pixel; gn_chord: between): light (gn_light,
+ *                               gn_punctual), shadow (gn_shadow, gn_filter), encode (gn_pixel)
  *                   flush
  */
 #include <string.h>

@@ -12,7 +12,7 @@
 #define GN_QUALITY_KNOBS(X)                                                                                                        \
     X(subpixel_bits, SUBPIXEL_BITS, 2, 8, "fraction bits of screen coordinates",                                                   \
       "above 6: 12 more bytes per triangle and 64-bit edge starts")                                                                \
-    X(persp_step, PERSP_STEP, 1, 16, "most pixels between perspective divides (1, 4, 8 or 16), linear between",                    \
+    X(persp_step, PERSP_STEP, 1, 16, "most pixels between perspective divides (1, 4, 8 or 16), parabolas between",                    \
       "1: a divide and all attributes per pixel")                                                                                  \
     X(newton_steps, NEWTON_STEPS, 1, 2, "Newton steps of per-pixel reciprocals: 2^-17 or 2^-30 relative",                          \
       "two multiplications per divide")                                                                                            \
@@ -37,7 +37,7 @@
       "32 bytes each (44 above 6 subpixel bits)")                                                                                  \
     X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")                       \
     X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")                      \
-    X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "113 bytes of stack each")                       \
+    X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "141 bytes of stack each")                       \
     X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "36 bytes each, 24 without spot and point lights")                 \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",                          \
       "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                                     \

@@ -356,7 +356,7 @@ static const row rows[] = {
     {"A4", "yard", "", "depth_bits=32", NULL, 0.1},
     {"A4", "yard", ".light=spot near=2.5 bias_constant=4", "other_depth_bits=8", NULL, 0.5},
     {"A4", "yard", ".light=spot", "other_depth_bits=32", NULL, 0.1},
-    {"A4", "yard", ".light=point near=1 bias_constant=1", "other_depth_bits=8", NULL, 0.1},
+    {"A4", "yard", ".light=point near=1 bias_constant=1", "other_depth_bits=8", NULL, 0.15},
     {"A4", "yard", ".light=point", "other_depth_bits=32", NULL, 0.1},
 
     /* F: filters */
