@@ -12,7 +12,8 @@ static const model_rules *rules_of(const panel_model *m)
 void model_reject(panel_model *m, const char *what, unsigned value)
 {
     if (m->n_rejected++ == 0)
-        snprintf(m->rejected, sizeof m->rejected, "command %02X at %llu us: %s (%02X)", m->command, (unsigned long long)m->now_us, what, value);
+        snprintf(m->rejected, sizeof m->rejected, "command %02X at %llu us: %s (%02X)", m->command, (unsigned long long)m->now_us,
+                 what, value);
 }
 
 static void start_over(panel_model *m)

@@ -1,5 +1,6 @@
-/* Models of display controllers: they take what arrives on the bus, byte by byte and with its time, keep registers and memory as the
- * data sheets say, and tell what the glass shows. What a data sheet forbids is rejected: counted, and the first case kept in words. */
+/* Models of display controllers: they take what arrives on the bus, byte by byte and with its time, keep registers and memory as
+ * the data sheets say, and tell what the glass shows. What a data sheet forbids is rejected: counted, and the first case kept in
+ * words. */
 #ifndef GNOMON_TESTS_PANEL_MODEL_H
 #define GNOMON_TESTS_PANEL_MODEL_H
 
@@ -14,10 +15,10 @@ typedef enum { MODEL_ST7789, MODEL_ILI9341, MODEL_SSD1306, MODEL_SSD1327, MODEL_
 /* How the glass is made: what the driver's configuration has to say right. */
 typedef struct {
     int width, height, ram_x, ram_y;
-    int bgr, inverted;       /* colour */
-    int external_vcc;        /* OLED */
-    int first_com;           /* SSD1327, SSD0323 */
-    int sequential_com;      /* SSD1306 */
+    int bgr, inverted;  /* colour */
+    int external_vcc;   /* OLED */
+    int first_com;      /* SSD1327, SSD0323 */
+    int sequential_com; /* SSD1306 */
 } model_glass;
 
 typedef struct panel_model {
@@ -41,8 +42,8 @@ typedef struct panel_model {
     uint64_t held_since_us, ready_us, may_wake_us, may_sleep_us;
     int first_column, last_column, first_row, last_row; /* the window, in units of the chip's memory */
     int column, row;
-    uint32_t left;       /* units that the window still takes */
-    int half, half_byte; /* of a pixel of two bytes */
+    uint32_t left;                              /* units that the window still takes */
+    int half, half_byte;                        /* of a pixel of two bytes */
     uint16_t memory[MODEL_ROWS][MODEL_COLUMNS]; /* one pixel each, where the glass is wired to it */
 } panel_model;
 
@@ -54,10 +55,11 @@ void model_break(panel_model *m);                           /* the bus was aband
 /* What the glass shows at (x, y) of the upright, unturned glass: RGB565, grey 0..15, or 0..1. */
 int model_pixel(const panel_model *m, int x, int y);
 
-/* ---- For the chips' own files ------------------------------------------------------------------------------------------------- */
+/* ---- For the chips' own files -------------------------------------------------------------------------------------------------
+ */
 
 void model_reject(panel_model *m, const char *what, unsigned value);
-void model_open_window(panel_model *m); /* pointer to the window's beginning, `left` to its size */
+void model_open_window(panel_model *m);         /* pointer to the window's beginning, `left` to its size */
 int model_step(panel_model *m, int down_first); /* pointer to the next unit; 0: the window was full already */
 
 typedef struct {

@@ -10,10 +10,26 @@ enum { MY = 0x80, MX = 0x40, MV = 0x20, BGR = 0x08 };
 static int n_common(uint8_t command)
 {
     switch (command) {
-    case 0x00: case 0x01: case 0x10: case 0x11: case 0x13: case 0x20: case 0x21: case 0x28: case 0x29: case 0x2C: return 0;
-    case 0x2A: case 0x2B: return 4;
-    case 0x26: case 0x36: case 0x3A: return 1;
-    default: return -1;
+    case 0x00:
+    case 0x01:
+    case 0x10:
+    case 0x11:
+    case 0x13:
+    case 0x20:
+    case 0x21:
+    case 0x28:
+    case 0x29:
+    case 0x2C:
+        return 0;
+    case 0x2A:
+    case 0x2B:
+        return 4;
+    case 0x26:
+    case 0x36:
+    case 0x3A:
+        return 1;
+    default:
+        return -1;
     }
 }
 
@@ -21,11 +37,23 @@ static int n_st7789(const panel_model *m, uint8_t command)
 {
     (void)m;
     switch (command) {
-    case 0xB2: return 5;
-    case 0xB7: case 0xBB: case 0xC0: case 0xC3: case 0xC4: case 0xC6: return 1;
-    case 0xC2: case 0xD0: return 2;
-    case 0xE0: case 0xE1: return 14;
-    default: return n_common(command);
+    case 0xB2:
+        return 5;
+    case 0xB7:
+    case 0xBB:
+    case 0xC0:
+    case 0xC3:
+    case 0xC4:
+    case 0xC6:
+        return 1;
+    case 0xC2:
+    case 0xD0:
+        return 2;
+    case 0xE0:
+    case 0xE1:
+        return 14;
+    default:
+        return n_common(command);
     }
 }
 
@@ -33,11 +61,20 @@ static int n_ili9341(const panel_model *m, uint8_t command)
 {
     (void)m;
     switch (command) {
-    case 0xC0: case 0xC1: case 0xC7: return 1;
-    case 0xB1: case 0xC5: return 2;
-    case 0xB6: return 3;
-    case 0xE0: case 0xE1: return 15;
-    default: return n_common(command);
+    case 0xC0:
+    case 0xC1:
+    case 0xC7:
+        return 1;
+    case 0xB1:
+    case 0xC5:
+        return 2;
+    case 0xB6:
+        return 3;
+    case 0xE0:
+    case 0xE1:
+        return 15;
+    default:
+        return n_common(command);
     }
 }
 
@@ -77,13 +114,26 @@ static void check(panel_model *m, uint8_t command, const uint8_t *p)
 {
     int ok = 1;
     switch (command) {
-    case 0x26: ok = p[0] == 1 || p[0] == 2 || p[0] == 4 || p[0] == 8; break;
-    case 0x36: ok = (p[0] & 3) == 0; break;
-    case 0x3A: ok = (p[0] & 7) == 3 || (p[0] & 7) == 5 || (p[0] & 7) == 6; break;
-    case 0xB1: ok = p[0] <= 3 && p[1] >= 0x10 && p[1] <= 0x1F; break;
-    case 0xC0: ok = p[0] >= 3 && p[0] <= 0x3F; break; /* ILI9341: below 3 is prohibited */
-    case 0xC5: ok = p[0] <= 0x7F && p[1] <= 0x64; break;
-    default: break;
+    case 0x26:
+        ok = p[0] == 1 || p[0] == 2 || p[0] == 4 || p[0] == 8;
+        break;
+    case 0x36:
+        ok = (p[0] & 3) == 0;
+        break;
+    case 0x3A:
+        ok = (p[0] & 7) == 3 || (p[0] & 7) == 5 || (p[0] & 7) == 6;
+        break;
+    case 0xB1:
+        ok = p[0] <= 3 && p[1] >= 0x10 && p[1] <= 0x1F;
+        break;
+    case 0xC0:
+        ok = p[0] >= 3 && p[0] <= 0x3F;
+        break; /* ILI9341: below 3 is prohibited */
+    case 0xC5:
+        ok = p[0] <= 0x7F && p[1] <= 0x64;
+        break;
+    default:
+        break;
     }
     if (!ok) model_reject(m, "parameter out of range", p[0]);
 }
@@ -101,23 +151,38 @@ static void execute(panel_model *m, uint8_t command, const uint8_t *p)
         m->now_us = now;
         break;
     }
-    case 0x10: sleep_or_wake(m, 1); break;
-    case 0x11: sleep_or_wake(m, 0); break;
-    case 0x20: m->inverted = 0; break;
-    case 0x21: m->inverted = 1; break;
-    case 0x28: m->on = 0; break;
+    case 0x10:
+        sleep_or_wake(m, 1);
+        break;
+    case 0x11:
+        sleep_or_wake(m, 0);
+        break;
+    case 0x20:
+        m->inverted = 0;
+        break;
+    case 0x21:
+        m->inverted = 1;
+        break;
+    case 0x28:
+        m->on = 0;
+        break;
     case 0x29:
         if (m->asleep) model_reject(m, "display on while asleep", 0);
         m->on = 1;
         break;
-    case 0x2A: set_range(m, p, 1); break;
-    case 0x2B: set_range(m, p, 0); break;
+    case 0x2A:
+        set_range(m, p, 1);
+        break;
+    case 0x2B:
+        set_range(m, p, 0);
+        break;
     case 0x2C:
         if ((m->reg[0x3A][0] & 7) != 5) model_reject(m, "pixels are not of 16 bits", m->reg[0x3A][0]);
         m->streaming = 1;
         model_open_window(m);
         break;
-    default: break;
+    default:
+        break;
     }
 }
 

@@ -1,5 +1,5 @@
-/* Panel drivers against models of their controllers: every tile of a picture arrives where it should, through both buffers, in every
- * orientation; nothing is sent that a data sheet forbids; slow, late and failing transfers end in a clear status, and panel_init()
+/* Panel drivers against models of their controllers: every tile of a picture arrives where it should, through both buffers, in
+ * every orientation; nothing is sent that a data sheet forbids; slow, late and failing transfers end in a clear status, and panel_init()
  * leads out of all of them. */
 #include <stdlib.h>
 #include <string.h>
@@ -24,21 +24,61 @@ typedef struct {
 } specimen;
 
 static const specimen specimens[] = {
-    {"st7789", &panel_st7789, MODEL_ST7789, {240, 240, 0, 0, 0, 1, 0, 0, 0}, {240, 240, 0, 0, 0, PANEL_INVERT, 0, 0, 0}, GN_FORMAT_RGB565_SWAPPED},
-    {"st7789 135x240", &panel_st7789, MODEL_ST7789, {135, 240, 52, 40, 0, 1, 0, 0, 0}, {135, 240, 52, 40, 0, PANEL_INVERT, 0, 0, 0}, GN_FORMAT_RGB565},
-    {"ili9341", &panel_ili9341, MODEL_ILI9341, {240, 320, 0, 0, 1, 0, 0, 0, 0}, {240, 320, 0, 0, 0, PANEL_BGR, 0, 0, 0}, GN_FORMAT_RGB565},
+    {"st7789",
+     &panel_st7789,
+     MODEL_ST7789,
+     {240, 240, 0, 0, 0, 1, 0, 0, 0},
+     {240, 240, 0, 0, 0, PANEL_INVERT, 0, 0, 0},
+     GN_FORMAT_RGB565_SWAPPED},
+    {"st7789 135x240",
+     &panel_st7789,
+     MODEL_ST7789,
+     {135, 240, 52, 40, 0, 1, 0, 0, 0},
+     {135, 240, 52, 40, 0, PANEL_INVERT, 0, 0, 0},
+     GN_FORMAT_RGB565},
+    {"ili9341",
+     &panel_ili9341,
+     MODEL_ILI9341,
+     {240, 320, 0, 0, 1, 0, 0, 0, 0},
+     {240, 320, 0, 0, 0, PANEL_BGR, 0, 0, 0},
+     GN_FORMAT_RGB565},
     {"ssd1306", &panel_ssd1306, MODEL_SSD1306, {128, 64, 0, 0, 0, 0, 0, 0, 0}, {128, 64, 0, 0, 0, 0, 0, 0, 0}, GN_FORMAT_MONO1},
-    {"ssd1306 128x32", &panel_ssd1306, MODEL_SSD1306, {128, 32, 0, 0, 0, 0, 1, 0, 1}, {128, 32, 0, 0, 0, PANEL_EXTERNAL_VCC, 9, 0, 1}, GN_FORMAT_MONO1},
-    {"ssd1306 72x40", &panel_ssd1306, MODEL_SSD1306, {72, 40, 28, 0, 0, 1, 0, 0, 0}, {72, 40, 28, 0, 0, PANEL_INVERT, 0, 0, 0}, GN_FORMAT_MONO1},
+    {"ssd1306 128x32",
+     &panel_ssd1306,
+     MODEL_SSD1306,
+     {128, 32, 0, 0, 0, 0, 1, 0, 1},
+     {128, 32, 0, 0, 0, PANEL_EXTERNAL_VCC, 9, 0, 1},
+     GN_FORMAT_MONO1},
+    {"ssd1306 72x40",
+     &panel_ssd1306,
+     MODEL_SSD1306,
+     {72, 40, 28, 0, 0, 1, 0, 0, 0},
+     {72, 40, 28, 0, 0, PANEL_INVERT, 0, 0, 0},
+     GN_FORMAT_MONO1},
     {"ssd1306 96x39", &panel_ssd1306, MODEL_SSD1306, {96, 39, 0, 0, 0, 0, 0, 0, 0}, {96, 39, 0, 0, 0, 0, 0, 0, 0}, GN_FORMAT_MONO1},
     {"ssd1327", &panel_ssd1327, MODEL_SSD1327, {128, 128, 0, 0, 0, 0, 0, 0, 0}, {128, 128, 0, 0, 0, 0, 0, 0, 0}, GN_FORMAT_GREY4},
-    {"ssd1327 96x96", &panel_ssd1327, MODEL_SSD1327, {96, 96, 16, 0, 0, 1, 0, 32, 0}, {96, 96, 16, 0, 0, PANEL_INVERT, 1, 32, 0}, GN_FORMAT_GREY4},
-    {"ssd0323", &panel_ssd0323, MODEL_SSD0323, {128, 64, 0, 0, 0, 0, 1, 0x4C, 0}, {128, 64, 0, 0, 0, PANEL_EXTERNAL_VCC, 0, 0x4C, 0}, GN_FORMAT_GREY4},
-    {"ssd0323 127x79", &panel_ssd0323, MODEL_SSD0323, {127, 79, 0, 0, 0, 0, 0, 0, 0}, {127, 79, 0, 0, 0, 0, 0, 0, 0}, GN_FORMAT_GREY4},
+    {"ssd1327 96x96",
+     &panel_ssd1327,
+     MODEL_SSD1327,
+     {96, 96, 16, 0, 0, 1, 0, 32, 0},
+     {96, 96, 16, 0, 0, PANEL_INVERT, 1, 32, 0},
+     GN_FORMAT_GREY4},
+    {"ssd0323",
+     &panel_ssd0323,
+     MODEL_SSD0323,
+     {128, 64, 0, 0, 0, 0, 1, 0x4C, 0},
+     {128, 64, 0, 0, 0, PANEL_EXTERNAL_VCC, 0, 0x4C, 0},
+     GN_FORMAT_GREY4},
+    {"ssd0323 127x79",
+     &panel_ssd0323,
+     MODEL_SSD0323,
+     {127, 79, 0, 0, 0, 0, 0, 0, 0},
+     {127, 79, 0, 0, 0, 0, 0, 0, 0},
+     GN_FORMAT_GREY4},
 };
 enum { N_SPECIMENS = sizeof specimens / sizeof *specimens };
 
-/* ---- A rig: model, bus, panel, display, and the picture that the glass is to show ----------------------------------------------- */
+/* ---- A rig: model, bus, panel, display, and the picture that the glass is to show ------------------------------------------- */
 
 typedef struct {
     const specimen *s;
@@ -98,14 +138,19 @@ static void store(const rig *r, uint8_t *tile, int w, int x, int y, unsigned v)
         i = (size_t)(y * ((w + 1) / 2) + x / 2);
         tile[i] = (uint8_t)(x % 2 ? (tile[i] & 0xF0U) | v : (tile[i] & 15U) | v << 4);
         break;
-    default: memcpy(tile + 2 * (y * w + x), &p, 2); break;
+    default:
+        memcpy(tile + 2 * (y * w + x), &p, 2);
+        break;
     }
 }
 
 /* Flushes a tile of random pixels, as the library would. */
 static void flush_random(rig *r, int x, int y, int w, int h)
 {
-    size_t row = r->s->format == GN_FORMAT_MONO1 ? ((size_t)w + 7) / 8 : r->s->format == GN_FORMAT_GREY4 ? ((size_t)w + 1) / 2 : 2 * (size_t)w, n = row * (size_t)h;
+    size_t row = r->s->format == GN_FORMAT_MONO1   ? ((size_t)w + 7) / 8
+                 : r->s->format == GN_FORMAT_GREY4 ? ((size_t)w + 1) / 2
+                                                   : 2 * (size_t)w,
+           n = row * (size_t)h;
     uint8_t *tile = malloc(n); /* not a byte more, so that a sanitizer sees who reads beyond */
     if (!tile) abort();
     memset(tile, 0xFF, n);
@@ -125,7 +170,8 @@ static panel_status draw(rig *r, int tile_w, int tile_h)
 {
     for (int y = 0; y < r->panel.height; y += tile_h) {
         for (int x = 0; x < r->panel.width; x += tile_w) {
-            int w = r->panel.width - x < tile_w ? r->panel.width - x : tile_w, h = r->panel.height - y < tile_h ? r->panel.height - y : tile_h;
+            int w = r->panel.width - x < tile_w ? r->panel.width - x : tile_w,
+                h = r->panel.height - y < tile_h ? r->panel.height - y : tile_h;
             flush_random(r, x, y, w, h);
             r->bus.n_overlaps += (unsigned)r->bus.under_way; /* the caller is back, and the bus at work */
             r->n_tiles++;
@@ -139,10 +185,14 @@ static int seen(const rig *r, int x, int y)
 {
     int w = r->s->glass.width, h = r->s->glass.height;
     switch (r->panel.config.turn) {
-    case 1: return model_pixel(&r->model, w - 1 - y, x);
-    case 2: return model_pixel(&r->model, w - 1 - x, h - 1 - y);
-    case 3: return model_pixel(&r->model, y, h - 1 - x);
-    default: return model_pixel(&r->model, x, y);
+    case 1:
+        return model_pixel(&r->model, w - 1 - y, x);
+    case 2:
+        return model_pixel(&r->model, w - 1 - x, h - 1 - y);
+    case 3:
+        return model_pixel(&r->model, y, h - 1 - x);
+    default:
+        return model_pixel(&r->model, x, y);
     }
 }
 
@@ -157,11 +207,13 @@ static int n_wrong(const rig *r)
 static void check_picture(const rig *r, const char *what)
 {
     int wrong = n_wrong(r), ok = wrong == 0 && r->model.n_rejected == 0;
-    if (!ok) printf("%s, turned %d, %s: %d pixels wrong; %u rejected: %s\n", r->s->name, r->panel.config.turn, what, wrong, r->model.n_rejected, r->model.rejected);
+    if (!ok)
+        printf("%s, turned %d, %s: %d pixels wrong; %u rejected: %s\n", r->s->name, r->panel.config.turn, what, wrong,
+               r->model.n_rejected, r->model.rejected);
     CHECK(ok);
 }
 
-/* ---- Pictures ---------------------------------------------------------------------------------------------------------------- */
+/* ---- Pictures --------------------------------------------------------------------------------------------------------------- */
 
 static int can_turn(const specimen *s, int turn)
 {
@@ -200,7 +252,8 @@ static void test_any_window(const specimen *s)
     check_picture(r, "odd tiles");
     for (int i = 0; i < 300; i++) {
         int x = (int)rng_below(&r->random, r->panel.width), y = (int)rng_below(&r->random, r->panel.height);
-        int w = 1 + (int)rng_below(&r->random, (uint32_t)(r->panel.width - x)), h = 1 + (int)rng_below(&r->random, (uint32_t)(r->panel.height - y));
+        int w = 1 + (int)rng_below(&r->random, (uint32_t)(r->panel.width - x)),
+            h = 1 + (int)rng_below(&r->random, (uint32_t)(r->panel.height - y));
         flush_random(r, x, y, i % 3 ? (w + 15) / 16 : w, i % 2 ? (h + 15) / 16 : h);
     }
     CHECK_EQ_INT(display_finish(&r->display), PANEL_OK);
@@ -216,7 +269,12 @@ static void test_alignment(const specimen *s)
     int w = r->panel.width, h = r->panel.height, grey = s->format == GN_FORMAT_GREY4, mono = s->format == GN_FORMAT_MONO1;
     const struct {
         int x, y, w, h, bad;
-    } cases[] = {{0, 0, w, h, 0}, {1, 0, 2, 8, grey}, {0, 0, 3, 8, grey}, {0, 1, 2, 8, mono}, {0, 0, 2, 7, mono}, {2, 8, 4, 8, 0},
+    } cases[] = {{0, 0, w, h, 0},
+                 {1, 0, 2, 8, grey},
+                 {0, 0, 3, 8, grey},
+                 {0, 1, 2, 8, mono},
+                 {0, 0, 2, 7, mono},
+                 {2, 8, 4, 8, 0},
                  {w - w % 2 - 2, h - 8 - h % 8, w % 2 + 2, h % 8 + 8, 0}}; /* the border may cut a byte */
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         uint32_t calls = r->bus.n_calls;
@@ -236,10 +294,18 @@ static void collect(void *user, int x, int y, int w, int h, const void *pixels)
         for (int i = 0; i < w; i++) {
             unsigned v;
             switch (r->s->format) {
-            case GN_FORMAT_MONO1: v = (unsigned)p[j * ((w + 7) / 8) + i / 8] >> (7 - i % 8) & 1U; break;
-            case GN_FORMAT_GREY4: v = (unsigned)p[j * ((w + 1) / 2) + i / 2] >> (i % 2 ? 0 : 4) & 15U; break;
-            case GN_FORMAT_RGB565_SWAPPED: v = (unsigned)p[2 * (j * w + i)] << 8 | p[2 * (j * w + i) + 1]; break;
-            default: v = (unsigned)p[2 * (j * w + i) + 1] << 8 | p[2 * (j * w + i)]; break;
+            case GN_FORMAT_MONO1:
+                v = (unsigned)p[j * ((w + 7) / 8) + i / 8] >> (7 - i % 8) & 1U;
+                break;
+            case GN_FORMAT_GREY4:
+                v = (unsigned)p[j * ((w + 1) / 2) + i / 2] >> (i % 2 ? 0 : 4) & 15U;
+                break;
+            case GN_FORMAT_RGB565_SWAPPED:
+                v = (unsigned)p[2 * (j * w + i)] << 8 | p[2 * (j * w + i) + 1];
+                break;
+            default:
+                v = (unsigned)p[2 * (j * w + i) + 1] << 8 | p[2 * (j * w + i)];
+                break;
             }
             r->picture[(y + j) * r->panel.width + x + i] = (uint16_t)v;
         }
@@ -278,7 +344,7 @@ static void test_without_buffers(const specimen *s)
     CHECK_EQ_INT(display_init(&r->display), PANEL_ERR_BUFFER);
 }
 
-/* ---- Order of calls, and mistakes of the caller ---------------------------------------------------------------------------------- */
+/* ---- Order of calls, and mistakes of the caller ----------------------------------------------------------------------------- */
 
 static void test_sleep(const specimen *s)
 {
@@ -314,8 +380,9 @@ static void test_mistakes(const specimen *s)
     CHECK_EQ_INT(rig_init(r, 0), PANEL_OK);
     int w = r->panel.width, h = r->panel.height;
     uint32_t calls = r->bus.n_calls;
-    const int outside[][4] = {{-2, 0, 8, 8}, {0, -8, 8, 8}, {0, 0, 0, 8}, {0, 0, 8, 0}, {w, 0, 8, 8}, {0, h, 8, 8}, {0, 0, w + 2, 8}, {0, 0, 8, h + 8},
-                              {8, 0, w, 8}, {2, 8, 0x7FFFFFFE, 8}, {2, 8, 8, 0x7FFFFFF8}, {-2147483647, 0, 8, 8}, {0, 0, -8, 8}};
+    const int outside[][4] = {{-2, 0, 8, 8},         {0, -8, 8, 8},          {0, 0, 0, 8},     {0, 0, 8, 0}, {w, 0, 8, 8},
+                              {0, h, 8, 8},          {0, 0, w + 2, 8},       {0, 0, 8, h + 8}, {8, 0, w, 8}, {2, 8, 0x7FFFFFFE, 8},
+                              {2, 8, 8, 0x7FFFFFF8}, {-2147483647, 0, 8, 8}, {0, 0, -8, 8}};
     for (size_t i = 0; i < sizeof outside / sizeof *outside; i++) {
         CHECK_EQ_INT(panel_window(&r->panel, outside[i][0], outside[i][1], outside[i][2], outside[i][3]), PANEL_ERR_WINDOW);
         display_flush(&r->display, outside[i][0], outside[i][1], outside[i][2], outside[i][3], bytes);
@@ -323,7 +390,7 @@ static void test_mistakes(const specimen *s)
         CHECK_EQ_INT(display_finish(&r->display), PANEL_ERR_WINDOW); /* and forgotten */
         CHECK_EQ_INT(display_finish(&r->display), PANEL_OK);
     }
-    CHECK_EQ_INT(panel_stream(&r->panel, bytes, 2), PANEL_ERR_ORDER); /* no window */
+    CHECK_EQ_INT(panel_stream(&r->panel, bytes, 2), PANEL_ERR_ORDER);     /* no window */
     CHECK(r->bus.n_calls - calls < 2 * sizeof outside / sizeof *outside); /* the waiting of display_finish alone */
     CHECK_EQ_INT(panel_window(&r->panel, 8, 8, 8, 8), PANEL_OK);
     size_t n = panel_window_bytes(&r->panel, 8, 8);
@@ -376,7 +443,7 @@ static void test_configurations(const specimen *s)
     for (int i = 0; i < PANEL_N_STATUS; i++) CHECK(strlen(panel_status_text((panel_status)i)) > 1);
 }
 
-/* ---- Slow, late and failing transfers --------------------------------------------------------------------------------------------- */
+/* ---- Slow, late and failing transfers --------------------------------------------------------------------------------------- */
 
 /* A small glass in a corner of the memory, so that every transfer of a session can be made to fail. */
 static specimen small_specimen(const specimen *s)
@@ -430,8 +497,9 @@ static int recovers(rig *r, const panel_model *healthy)
     int initialised = r->panel.state != 0 && r->bus.fault != FAULT_NONE;
     if (initialised) {
         panel_status status = panel_window(&r->panel, 0, 0, 8, 8);
-        if (status != PANEL_ERR_LOST || panel_stream(&r->panel, bytes, 2) != PANEL_ERR_LOST || panel_wait(&r->panel) != PANEL_ERR_LOST ||
-            panel_show(&r->panel, 1) != PANEL_ERR_LOST || panel_sleep(&r->panel) != PANEL_ERR_LOST || panel_wake(&r->panel) != PANEL_ERR_LOST)
+        if (status != PANEL_ERR_LOST || panel_stream(&r->panel, bytes, 2) != PANEL_ERR_LOST ||
+            panel_wait(&r->panel) != PANEL_ERR_LOST || panel_show(&r->panel, 1) != PANEL_ERR_LOST ||
+            panel_sleep(&r->panel) != PANEL_ERR_LOST || panel_wake(&r->panel) != PANEL_ERR_LOST)
             return 0;
     }
     if (r->bus.n_calls != calls) return 0;
@@ -457,18 +525,19 @@ static void test_failures(const specimen *s)
                 r = rig_make(&small, with_reset);
                 r->bus.fault_at = at;
                 r->bus.fault = (bus_fault)fault;
-                panel_status expected = fault == FAULT_STUCK || fault == FAULT_HANGS ? PANEL_ERR_TIMEOUT : PANEL_ERR_BUS, status = session(r);
+                panel_status expected = fault == FAULT_STUCK || fault == FAULT_HANGS ? PANEL_ERR_TIMEOUT : PANEL_ERR_BUS,
+                             status = session(r);
                 int ok = status == expected && r->bus.n_calls <= most_calls && r->model.n_rejected == 0 && recovers(r, &healthy);
                 if (!ok && n_bad++ == 0)
-                    printf("%s%s: transfer %u, fault %d: %s; %u rejected: %s\n", s->name, with_reset ? ", reset line" : "", at, fault,
-                           panel_status_text(status), r->model.n_rejected, r->model.rejected);
+                    printf("%s%s: transfer %u, fault %d: %s; %u rejected: %s\n", s->name, with_reset ? ", reset line" : "", at,
+                           fault, panel_status_text(status), r->model.n_rejected, r->model.rejected);
             }
         }
         CHECK_EQ_INT(n_bad, 0);
     }
 }
 
-/* ---- The models reject what they should -------------------------------------------------------------------------------------------- */
+/* ---- The models reject what they should ------------------------------------------------------------------------------------- */
 
 static void rejects(const char *what, panel_model *m, const char *expected)
 {
@@ -539,8 +608,11 @@ static const forbidden forbidden_streams[] = {
 static void test_models(void)
 {
     static panel_model m;
-    const model_glass glass[] = {{240, 320, 0, 0, 0, 0, 0, 0, 0}, {240, 320, 0, 0, 0, 0, 0, 0, 0}, {128, 64, 0, 0, 0, 0, 0, 0, 0},
-                                 {128, 128, 0, 0, 0, 0, 0, 0, 0}, {128, 64, 0, 0, 0, 0, 0, 0, 0}};
+    const model_glass glass[] = {{240, 320, 0, 0, 0, 0, 0, 0, 0},
+                                 {240, 320, 0, 0, 0, 0, 0, 0, 0},
+                                 {128, 64, 0, 0, 0, 0, 0, 0, 0},
+                                 {128, 128, 0, 0, 0, 0, 0, 0, 0},
+                                 {128, 64, 0, 0, 0, 0, 0, 0, 0}};
     for (size_t i = 0; i < sizeof forbidden_streams / sizeof *forbidden_streams; i++) {
         model_init(&m, forbidden_streams[i].chip, &glass[forbidden_streams[i].chip]);
         m.now_us = 200000;
@@ -571,7 +643,7 @@ static void test_models(void)
     rejects("9 us of reset", &m, "too short");
 }
 
-/* ---- A frame buffer in memory ------------------------------------------------------------------------------------------------------ */
+/* ---- A frame buffer in memory ----------------------------------------------------------------------------------------------- */
 
 static void test_framebuffer(void)
 {
@@ -590,7 +662,8 @@ static void test_framebuffer(void)
     CHECK_EQ_INT(panel_show(&r->panel, 1), PANEL_OK);
     int wrong = 0;
     for (int y = 0; y < 50; y++) {
-        for (int x = 0; x < 47; x++) wrong += (memory[y * 100 + 2 * x] | memory[y * 100 + 2 * x + 1] << 8) != r->picture[y * 47 + x];
+        for (int x = 0; x < 47; x++)
+            wrong += (memory[y * 100 + 2 * x] | memory[y * 100 + 2 * x + 1] << 8) != r->picture[y * 47 + x];
         for (int x = 94; x < 100; x++) wrong += memory[y * 100 + x] != 0xEE; /* beyond the rows' ends */
     }
     CHECK_EQ_INT(wrong, 0);

@@ -7,9 +7,12 @@
 static int fits(gn_format format, panel_pixels pixels)
 {
     switch (pixels) {
-    case PANEL_PIXELS_GREY4: return format == GN_FORMAT_GREY4;
-    case PANEL_PIXELS_PAGE1: return format == GN_FORMAT_MONO1;
-    default: return format == GN_FORMAT_RGB565 || format == GN_FORMAT_RGB565_SWAPPED;
+    case PANEL_PIXELS_GREY4:
+        return format == GN_FORMAT_GREY4;
+    case PANEL_PIXELS_PAGE1:
+        return format == GN_FORMAT_MONO1;
+    default:
+        return format == GN_FORMAT_RGB565 || format == GN_FORMAT_RGB565_SWAPPED;
     }
 }
 

@@ -1,12 +1,12 @@
 /* From the library's screen tiles to a panel: display_flush is a gn_flush_fn, its `user` a display.
  *
- * Two buffers take turns: a tile, or as many of its rows as fit, is converted into one while the other is under way, and the library
- * draws its next tile meanwhile. The bytes that DMA reads are in these buffers alone, so that they are what has to lie in memory that
- * it reaches. Without buffers a tile is sent from where the library drew it, and waited for.
+ * Two buffers take turns: a tile, or as many of its rows as fit, is converted into one while the other is under way, and the
+ * library draws its next tile meanwhile. The bytes that DMA reads are in these buffers alone, so that they are what has to lie in
+ * memory that it reaches. Without buffers a tile is sent from where the library drew it, and waited for.
  *
- * The panels of 4 bits and of 1 bit per pixel keep several pixels in a byte. Tiles whose borders cut such bytes need the `shadow`, a
- * copy of the panel's memory: the byte's other pixels come from there. With tiles that respect the borders (x and w even; for pages y
- * and h multiples of 8, that is GN_TILE_HEIGHT 8 or 16) there is no need of one.
+ * The panels of 4 bits and of 1 bit per pixel keep several pixels in a byte. Tiles whose borders cut such bytes need the `shadow`,
+ * a copy of the panel's memory: the byte's other pixels come from there. With tiles that respect the borders (x and w even; for
+ * pages y and h multiples of 8, that is GN_TILE_HEIGHT 8 or 16) there is no need of one.
  */
 #ifndef DISPLAY_H
 #define DISPLAY_H
@@ -16,8 +16,8 @@
 
 typedef struct {
     panel *panel;
-    gn_format format;    /* of the picture: RGB565 or RGB565_SWAPPED; GREY4; MONO1 */
-    uint8_t *buffer[2];  /* `buffer_bytes` each, at least a row of a tile (pages: eight rows); or NULL, both */
+    gn_format format;   /* of the picture: RGB565 or RGB565_SWAPPED; GREY4; MONO1 */
+    uint8_t *buffer[2]; /* `buffer_bytes` each, at least a row of a tile (pages: eight rows); or NULL, both */
     size_t buffer_bytes;
     uint8_t *shadow;     /* display_shadow_bytes(), cleared, or NULL */
     panel_status status; /* the first error since display_finish() */

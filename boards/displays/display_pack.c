@@ -19,10 +19,14 @@ static int little_endian(void)
 int display_is_native(gn_format format, panel_pixels pixels)
 {
     switch (pixels) {
-    case PANEL_PIXELS_GREY4: return format == GN_FORMAT_GREY4;
-    case PANEL_PIXELS_RGB565_MSB: return format == (little_endian() ? GN_FORMAT_RGB565_SWAPPED : GN_FORMAT_RGB565);
-    case PANEL_PIXELS_RGB565_LSB: return format == (little_endian() ? GN_FORMAT_RGB565 : GN_FORMAT_RGB565_SWAPPED);
-    default: return 0;
+    case PANEL_PIXELS_GREY4:
+        return format == GN_FORMAT_GREY4;
+    case PANEL_PIXELS_RGB565_MSB:
+        return format == (little_endian() ? GN_FORMAT_RGB565_SWAPPED : GN_FORMAT_RGB565);
+    case PANEL_PIXELS_RGB565_LSB:
+        return format == (little_endian() ? GN_FORMAT_RGB565 : GN_FORMAT_RGB565_SWAPPED);
+    default:
+        return 0;
     }
 }
 

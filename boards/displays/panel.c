@@ -17,7 +17,7 @@ const char *panel_status_text(panel_status status)
     return (unsigned)status < PANEL_N_STATUS ? text[status] : "unknown status";
 }
 
-/* ---- Bounded waiting --------------------------------------------------------------------------------------------------------- */
+/* ---- Bounded waiting -------------------------------------------------------------------------------------------------------- */
 
 static panel_status lose(panel *p, panel_status status)
 {
@@ -49,7 +49,7 @@ static panel_status start(panel *p, bus_write write, const uint8_t *bytes, size_
     return lose(p, PANEL_ERR_TIMEOUT);
 }
 
-/* ---- For the drivers --------------------------------------------------------------------------------------------------------- */
+/* ---- For the drivers -------------------------------------------------------------------------------------------------------- */
 
 panel_status panel_send(panel *p, const uint8_t *bytes, size_t n)
 {
@@ -101,7 +101,7 @@ unsigned panel_mirrors(uint8_t turn)
     return mirrors[turn & 3];
 }
 
-/* ---- Set-up ------------------------------------------------------------------------------------------------------------------ */
+/* ---- Set-up ----------------------------------------------------------------------------------------------------------------- */
 
 static uint32_t align_x(const panel_driver *d)
 {
@@ -160,7 +160,7 @@ panel_status panel_init(panel *p, const panel_driver *driver, const panel_config
     return status;
 }
 
-/* ---- The interface ----------------------------------------------------------------------------------------------------------- */
+/* ---- The interface ---------------------------------------------------------------------------------------------------------- */
 
 static panel_status usable(const panel *p, int state)
 {
@@ -206,9 +206,12 @@ size_t panel_window_bytes(const panel *p, int w, int h)
 {
     size_t columns = (size_t)w, rows = (size_t)h;
     switch (p->driver->pixels) {
-    case PANEL_PIXELS_GREY4: return (columns + 1) / 2 * rows;
-    case PANEL_PIXELS_PAGE1: return columns * ((rows + 7) / 8);
-    default: return 2 * columns * rows;
+    case PANEL_PIXELS_GREY4:
+        return (columns + 1) / 2 * rows;
+    case PANEL_PIXELS_PAGE1:
+        return columns * ((rows + 7) / 8);
+    default:
+        return 2 * columns * rows;
     }
 }
 

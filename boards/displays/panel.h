@@ -1,14 +1,14 @@
 /* Panels behind one small interface: open a window, stream its pixels, wait.
  *
- * A panel is a controller (panel_st7789, panel_ili9341, panel_ssd1306, panel_ssd1327, panel_ssd0323, panel_linear), the glass that it
- * drives, and the bus that reaches it. No memory but the caller's `panel`, no floating point, nothing global.
+ * A panel is a controller (panel_st7789, panel_ili9341, panel_ssd1306, panel_ssd1327, panel_ssd0323, panel_linear), the glass that
+ * it drives, and the bus that reaches it. No memory but the caller's `panel`, no floating point, nothing global.
  *
- * Sending is asynchronous: panel_stream() returns while the bytes are under way, and they belong to the bus until panel_wait(), or the
- * next panel_window() or panel_stream(), has returned. Whoever fills one buffer while the other is sent has double buffering; display.h
- * does just that for the library's screen tiles.
+ * Sending is asynchronous: panel_stream() returns while the bytes are under way, and they belong to the bus until panel_wait(), or
+ * the next panel_window() or panel_stream(), has returned. Whoever fills one buffer while the other is sent has double buffering;
+ * display.h does just that for the library's screen tiles.
  *
- * Every call returns a status. Mistakes of the caller (a window beyond the glass, too many bytes) change nothing. After an error of the
- * bus nobody knows what the controller has got: the panel is then lost, all calls say so at once and leave the bus alone, until
+ * Every call returns a status. Mistakes of the caller (a window beyond the glass, too many bytes) change nothing. After an error of
+ * the bus nobody knows what the controller has got: the panel is then lost, all calls say so at once and leave the bus alone, until
  * panel_init() starts over. No call waits longer than `max_polls` answers of "busy".
  */
 #ifndef PANEL_H
@@ -37,13 +37,14 @@ typedef enum { PANEL_STATUS_LIST(PANEL_STATUS_ENUM_) PANEL_N_STATUS } panel_stat
 
 const char *panel_status_text(panel_status status);
 
-/* ---- The bus: what a board supplies ------------------------------------------------------------------------------------------ */
+/* ---- The bus: what a board supplies ----------------------------------------------------------------------------------------- */
 
 typedef struct {
     void *user;
 
-    /* Starts to send n >= 1 bytes with the data/command line low (command) or high (data), and returns. The bytes stay where they are
-     * until wait() has said PANEL_OK. PANEL_BUSY: not now, nothing was taken, ask again. A bus without DMA may send them at once. */
+    /* Starts to send n >= 1 bytes with the data/command line low (command) or high (data), and returns. The bytes stay where they
+     * are until wait() has said PANEL_OK. PANEL_BUSY: not now, nothing was taken, ask again. A bus without DMA may send them at
+     * once. */
     panel_status (*write_command)(void *user, const uint8_t *bytes, size_t n);
     panel_status (*write_data)(void *user, const uint8_t *bytes, size_t n);
 
@@ -58,7 +59,7 @@ typedef struct {
     uint32_t max_polls; /* so many answers of PANEL_BUSY in a row are a time-out; at least 1 */
 } panel_bus;
 
-/* ---- The panel --------------------------------------------------------------------------------------------------------------- */
+/* ---- The panel -------------------------------------------------------------------------------------------------------------- */
 
 enum {                        /* panel_config.flags */
        PANEL_BGR = 1,         /* the glass has its filters in the order blue, green, red */
@@ -71,8 +72,8 @@ typedef struct {
     uint16_t ram_x, ram_y;  /* where its top left pixel lies in the controller's memory; OLED: ram_y is 0 */
     uint8_t turn;           /* quarter turns clockwise, 0 .. 3; OLED: 0 or 2 */
     uint8_t flags;
-    uint8_t contrast;      /* OLED: 0: a middle value; SSD0323: up to 127 */
-    uint8_t first_com;     /* SSD1327, SSD0323: the display offset by which the glass is wired */
+    uint8_t contrast;       /* OLED: 0: a middle value; SSD0323: up to 127 */
+    uint8_t first_com;      /* SSD1327, SSD0323: the display offset by which the glass is wired */
     uint8_t sequential_com; /* SSD1306: 1: COM pins in sequence (128x32 glasses); 0: alternating (128x64) */
 } panel_config;
 
@@ -93,9 +94,9 @@ typedef struct {
     const panel_driver *driver;
     panel_bus bus;
     panel_config config;
-    uint16_t width, height;     /* as turned */
+    uint16_t width, height;      /* as turned */
     uint16_t offset_x, offset_y; /* of the glass in the controller's memory, as turned */
-    uint32_t left_bytes;        /* of the open window */
+    uint32_t left_bytes;         /* of the open window */
     uint8_t state, shown;
     uint8_t command[PANEL_COMMAND_MAX]; /* commands are sent from here: from RAM, where DMA can read */
 } panel;

@@ -1,6 +1,7 @@
 /* ILI9341: 240x320, 16 bits per pixel. */
 #include "panel_dcs.h"
 
+/* clang-format off */
 static const uint8_t registers[] = {
     /* bytes, ms, command, parameters */
     2, 0, 0xC0, 0x23,             /* power 1: grey levels up to 4.60 V */
@@ -11,6 +12,7 @@ static const uint8_t registers[] = {
     4, 0, 0xB6, 0x08, 0x82, 0x27, /* 320 lines; scan order as the glass is wired */
     2, 0, DCS_GAMSET, 0x01,       /* gamma curve 2.2 */
     0};
+/* clang-format on */
 
 static panel_status set_up(panel *p)
 {

@@ -4,6 +4,7 @@
 enum { COLUMNS = 0x21, PAGES = 0x22, COLUMNS_NORMAL = 0xA0, ROWS_NORMAL = 0xC0, INVERT_OFF = 0xA6, OFFSET = 0xD3, COM_PINS = 0xDA };
 enum { CHARGE_PUMP = 0x8D, PRECHARGE = 0xD9, LEAST_ROWS = 16 };
 
+/* clang-format off */
 static const uint8_t registers[] = {
     /* bytes, ms, command, parameters */
     1, 0, SSD_OFF,    2, 0, 0xD5, 0x80, /* oscillator, no divider */
@@ -12,6 +13,7 @@ static const uint8_t registers[] = {
     2, 0, 0xDB, 0x20,                   /* VCOMH 0.77 VCC */
     1, 0, 0x2E,                         /* no scrolling */
     1, 0, SSD_FROM_RAM, 0};
+/* clang-format on */
 
 /* With the charge pump the precharge phases are longer, and the pump is to run before the display is switched on. */
 static panel_status set_up_supply(panel *p)

@@ -5,21 +5,25 @@ enum { COLUMNS = 0x15, ROWS = 0x75, REMAP = 0xA0, INVERT = 0xA7, DC_DC = 0xAD, L
 enum { REMAP_COLUMNS = 0x01, REMAP_NIBBLES = 0x02, REMAP_ROWS = 0x10, REMAP_SPLIT = 0x40 };
 
 /* The pictures are encoded for the eye: grey level i is to shine as (i / 15)^2.2. */
+/* clang-format off */
 static const uint8_t registers_1327[] = {
     /* bytes, ms, command, parameters */
-    2, 0, 0xFD, 0x12, 1, 0, SSD_OFF,                                              /* unlock */
-    2, 0, 0xAB, 0x01,                                                              /* internal VDD regulator */
-    2, 0, 0xB1, 0x51, 2, 0, 0xB3, 0x00, 2, 0, 0xB6, 0x01,                          /* phases, clock, second precharge */
-    2, 0, 0xBC, 0x08, 2, 0, 0xBE, 0x07, 2, 0, 0xD5, 0x62,                          /* precharge voltage, VCOMH, enable second precharge */
-    16, 0, 0xB8, 0, 1, 2, 3, 6, 8, 12, 16, 20, 26, 32, 39, 46, 54, 63,             /* pulse widths of levels 1 .. 15 */
+    2, 0, 0xFD, 0x12, 1, 0, SSD_OFF, /* unlock */
+    2, 0, 0xAB, 0x01, /* internal VDD regulator */
+    2, 0, 0xB1, 0x51, 2, 0, 0xB3, 0x00, 2, 0, 0xB6, 0x01, /* phases, clock, second precharge */
+    2, 0, 0xBC, 0x08, 2, 0, 0xBE, 0x07, 2, 0, 0xD5, 0x62, /* precharge voltage, VCOMH, enable second precharge */
+    16, 0, 0xB8, 0, 1, 2, 3, 6, 8, 12, 16, 20, 26, 32, 39, 46, 54, 63, /* pulse widths of levels 1 .. 15 */
     2, 0, SSD_START_LINE, 0, 0};
+/* clang-format on */
 
+/* clang-format off */
 static const uint8_t registers_0323[] = {
     /* bytes, ms, command, parameters */
-    1, 0, 0x86,                                                                    /* full current */
-    2, 0, 0xB1, 0x22, 2, 0, 0xB2, 0x46, 2, 0, 0xB3, 0xA0,                          /* phases, row period, clock */
-    9, 0, 0xB8, 0x01, 0x11, 0x21, 0x22, 0x33, 0x44, 0x65, 0x77,                    /* widths added by levels 1 .. 15, low nibble first */
+    1, 0, 0x86, /* full current */
+    2, 0, 0xB1, 0x22, 2, 0, 0xB2, 0x46, 2, 0, 0xB3, 0xA0, /* phases, row period, clock */
+    9, 0, 0xB8, 0x01, 0x11, 0x21, 0x22, 0x33, 0x44, 0x65, 0x77, /* widths added by levels 1 .. 15, low nibble first */
     2, 0, SSD_START_LINE, 0, 0};
+/* clang-format on */
 
 static panel_status set_up(panel *p, const uint8_t *registers, unsigned remap, uint8_t contrast)
 {
