@@ -54,6 +54,8 @@ firmware: $(if $(BOARD),,boards) ## build the image of a board: BOARD=mps2-an385
 
 emulate: $(if $(BOARD),,boards) ## build it, and run it in the emulator
 
+screen: $(if $(BOARD),,boards) ## what a board's display shows: BOARD=lm3s6965evb ARGS="09:00 10:00" [APP=clock]
+
 boards: ## list the boards
 	@for file in boards/*/board.mk; do printf "  %-20s%s\n" "$$(basename $$(dirname $$file))" "$$(sed -n "1s/^# //p" $$file)"; done
 
@@ -104,6 +106,14 @@ $(BUILD)/test_panels: $(PANEL_OBJ)
 $(BUILD)/rgb565_png: $(BUILD)/obj/boards/tools/rgb565_png.o $(SCENE_PNG)
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
+
+$(BUILD)/ppm: $(BUILD)/obj/boards/tools/ppm.o $(SCENE_PNG)
+	@echo '  LD $@'
+	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
+
+$(BUILD)/capture: $(BUILD)/obj/boards/tools/capture.o
+	@echo '  LD $@'
+	@$(CC) $(OPT) $(SAN) -o $@ $^
 
 $(BUILD)/test_%: $(BUILD)/obj/tests/test_%.o $(HOST_OBJ) $(LIB_OBJ)
 	@echo '  LD $@'

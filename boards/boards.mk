@@ -4,13 +4,14 @@
 # APP         boards/apps/APP.c; APP.mk beside it may set APP_SRC, APP_FLAGS, APP_OBJ, and have rules
 # SCENE       a scene file that the app renders, compiled to C arrays by build/gnomon
 # PRESET      tiny, balanced, accurate
+# SCENE_FLAGS more options of gnomon compile, such as --size 128x64
 # FW_OPT      the optimisation, else the board's
 # FW_FLAGS    more flags, such as -DGN_TILE_HEIGHT=4
 # LINK_FLAGS  more flags of the linker, such as -Wl,--defsym=RAM_BYTES=32K,--defsym=STACK=1K
 # IMAGE       the name of the image, else made of APP, SCENE and PRESET
 # ARGS        what the app reads with board_args
 
-APP ?= crc
+APP ?= $(if $(filter screen,$(MAKECMDGOALS)),clock,crc)
 include boards/$(BOARD)/board.mk
 
 BOARD_OPT ?= -O2
@@ -58,9 +59,9 @@ $(FW_OBJ_DIR)/boards/common/memory.o $(FW_OBJ_DIR)/boards/common/start.o: FW_CFL
 
 ifneq ($(SCENE),)
 $(FW_OBJ): $(FW_SCENE_DIR)/scene.c
-$(FW_SCENE_DIR)/scene.c: $(SCENE) $(BUILD)/gnomon
+$(FW_SCENE_DIR)/scene.c: $(SCENE) $(BUILD)/gnomon $(FW_OBJ_DIR)/scene.flags
 	@mkdir -p $(@D)
-	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(if $(PRESET),--set preset=$(PRESET))
+	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(if $(PRESET),--set preset=$(PRESET)) $(SCENE_FLAGS)
 $(FW_SCENE_OBJ): $(FW_SCENE_DIR)/scene.c $(FW_OBJ_DIR)/compile.flags
 	@$(FW_CC) $(FW_CFLAGS) -MMD -MP -c -o $@ $<
 endif
@@ -68,6 +69,7 @@ endif
 # Rebuilds what other flags made.
 $(FW_OBJ_DIR)/compile.flags: FW_NOW = $(FW_CC) $(FW_CFLAGS)
 $(FW_OBJ_DIR)/link.flags: FW_NOW = $(LINK_FLAGS)
+$(FW_OBJ_DIR)/scene.flags: FW_NOW = $(SCENE) $(PRESET) $(SCENE_FLAGS)
 $(FW_OBJ_DIR)/%.flags: always
 	@mkdir -p $(@D)
 	@echo '$(subst ','"'"',$(FW_NOW))' | cmp -s - $@ || echo '$(subst ','"'"',$(FW_NOW))' >$@
@@ -77,16 +79,27 @@ always:
 
 firmware: $(FIRMWARE)
 emulate: run-firmware
+screen: run-screen
 
 comma := ,
+empty :=
+FW_ARGS = $(subst $(empty) $(comma),$(comma),$(APP)$(ARGS:%=$(comma)arg=%))
+EMULATE = $(BOARD_EMULATOR) -semihosting-config enable=on,target=native,arg=$(FW_ARGS) -kernel $(FIRMWARE)
 EMULATOR_FLAGS := -display none -monitor none -serial none
 run-firmware: $(FIRMWARE)
 ifneq ($(FW_HOSTED),)
 	@$(FIRMWARE) $(ARGS)
 else ifneq ($(BOARD_EMULATOR),)
-	@timeout $(or $(TIMEOUT),120) $(BOARD_EMULATOR) $(EMULATOR_FLAGS) -semihosting-config enable=on,target=native,arg=$(APP)$(ARGS:%=$(comma)arg=%) -kernel $(FIRMWARE)
+	@timeout $(or $(TIMEOUT),120) $(EMULATE) $(EMULATOR_FLAGS)
 else
 	@echo "$(BOARD) is built, not run: no emulator has it" && exit 1
 endif
 
-.PHONY: always run-firmware
+# The display, when the clock has come to the last time of ARGS.
+SCREEN_OUT ?= $(FIRMWARE:.elf=.ppm)
+run-screen: ARGS ?= 09:40 10:00
+run-screen: $(FIRMWARE) $(BUILD)/capture $(BUILD)/ppm
+	@$(BUILD)/capture $(or $(TIMEOUT),60) 'READY $(lastword $(ARGS))' $(SCREEN_OUT) $(EMULATE)
+	@$(BUILD)/ppm png $(SCREEN_OUT) $(SCREEN_OUT:.ppm=.png) && echo $(SCREEN_OUT:.ppm=.png)
+
+.PHONY: always run-firmware run-screen

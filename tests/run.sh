@@ -23,6 +23,7 @@ clang clang
 valgrind valgrind
 arm-none-eabi-gcc gcc-arm-none-eabi
 qemu-system-arm qemu-system-arm
+qemu-system-riscv32 qemu-system-misc
 riscv64-unknown-elf-gcc gcc-riscv64-unknown-elf
 pkg-config pkg-config
 /usr/include/OpenImageIO/imageio.h libopenimageio-dev

@@ -6,3 +6,5 @@ BOARD_CPU := -mcpu=cortex-m0plus -mthumb
 BOARD_OPT := -Os
 BOARD_COMMON := cortex_m no_console
 BOARD_EMULATOR :=
+SCREEN_SIZE := 320x240
+SCREEN_FORMAT := RGB565

@@ -5,3 +5,6 @@ BOARD_CROSS := riscv64-unknown-elf-
 BOARD_CPU := -march=rv32imac -mabi=ilp32
 BOARD_COMMON := rv32 semihosting
 BOARD_EMULATOR := qemu-system-riscv32 -M virt -bios none
+SCREEN_SIZE := 320x240
+SCREEN_FORMAT := RGB565
+SCREEN_DEVICE := -nic none -device VGA,romfile=

@@ -1,0 +1,81 @@
+/* A clock: the sundial, whose shadow shows the hour, on the board's display. Tiles that look as they did are not sent again.
+ *
+ * ARGS="07:00 13:00" runs from the one time to the other in steps of five minutes, says READY and keeps the picture; without it the
+ * clock runs through the day, for ever. An error of the display is told, and the display is opened anew. */
+#include "board.h"
+#include "day.h"
+#include "scene.h"
+#include "../displays/screen.h"
+
+static gn_renderer renderer; /* all of the memory */
+static gn_panel shown;       /* what is on the display, as signatures of its tiles */
+static scene_state state;
+static panel the_panel;
+static display the_display;
+
+static void open_display(void)
+{
+    static const gn_panel unknown;
+    panel_status status;
+    while ((status = screen_open(&the_panel, &the_display)) != PANEL_OK) {
+        board_print("display: ");
+        board_print(panel_status_text(status));
+        board_print("\n");
+    }
+    shown = unknown;
+}
+
+/* Until the frame is on the display. */
+static gn_status show(uint32_t frame, uint32_t *n_sent)
+{
+    for (;;) {
+        const gn_scene *scene = scene_frame(&state, frame);
+        gn_status status = gn_render_changes(&renderer, scene, &shown, display_flush, &the_display, n_sent);
+        if (status) return status;
+        panel_status display_status = display_finish(&the_display);
+        if (!display_status) display_status = the_panel.shown ? PANEL_OK : panel_show(&the_panel, 1);
+        if (!display_status) return GN_OK;
+        board_print(panel_status_text(display_status));
+        board_print("\n");
+        open_display();
+    }
+}
+
+static gn_status run(uint32_t first, uint32_t last)
+{
+    uint32_t n_sent = 0, n_all = 0, n_frames = 0;
+    char text[6];
+    gn_status status = GN_OK;
+    for (uint32_t frame = first; !status && frame <= last; frame++, n_frames++) {
+        status = show(frame, &n_sent);
+        n_all += n_sent;
+    }
+    day_text(last, text);
+    board_print_u32(n_frames);
+    board_print(" frames, ");
+    board_print_u32(n_all);
+    board_print(" of ");
+    board_print_u32(n_frames * gn_screen_tile_count(&renderer));
+    board_print(" tiles sent\n");
+    board_print_memory();
+    board_print(status ? gn_status_text(status) : board_canary_ok() ? "READY " : "canary: the stack ran over ");
+    board_print(text);
+    board_print("\n");
+    return status;
+}
+
+int app_main(void)
+{
+    static const gn_picture picture = {SCREEN_WIDTH, SCREEN_HEIGHT, GN_FORMAT_SCREEN, GN_VIEW_COLOUR, 0};
+    const char *args = board_args();
+    int32_t first = day_frame(&args);
+    while (*args == ' ') args++;
+    int32_t last = day_frame(&args);
+    int runs_on = first < 0;
+    open_display();
+    gn_status status = gn_init(&renderer, &picture);
+    if (!status) status = run(runs_on ? 0 : (uint32_t)first, runs_on || last < first ? SCENE_FRAMES - 1 : (uint32_t)last);
+    while (runs_on && !status) status = run(0, SCENE_FRAMES - 1);
+    if (status) return 1;
+    for (;;) continue; /* the display keeps the picture */
+}

@@ -1,0 +1,2 @@
+include boards/apps/screen.mk
+APP_SRC := boards/apps/day.c
