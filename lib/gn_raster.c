@@ -116,6 +116,8 @@ static GN_NOINLINE void raster_span_slow(const raster_tile *tile, const cut_tria
             int32_t at = (int32_t)(cell - tile->scratch->cell), stride = GN_K(tile->frame, tile_width);
             if (is_cut(tile->frame, cut, tile->rect.x0 + at % stride, tile->rect.y0 + at / stride)) continue;
         }
+#else
+        (void)tile;
 #endif
         *cell = candidate - depth->below;
     }
