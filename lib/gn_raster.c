@@ -117,7 +117,7 @@ static GN_NOINLINE void raster_span_slow(const raster_tile *tile, const cut_tria
             if (is_cut(tile->frame, cut, tile->rect.x0 + at % stride, tile->rect.y0 + at / stride)) continue;
         }
 #else
-        (void)tile;
+        (void)tile, (void)cut;
 #endif
         *cell = candidate - depth->below;
     }
