@@ -15,40 +15,23 @@ gn_rect gn_bin_tile_rect(const gn_frame *frame, uint32_t tile_idx)
     return r;
 }
 
-/* The tiles that the triangle's bounding box touches, as a rectangle of tiles. */
-static gn_rect tiles_of(const gn_frame *frame, const gn_tri *tri)
-{
-    int32_t w = GN_K(frame, tile_width), h = GN_K(frame, tile_height);
-    gn_rect px = gn_setup_bounds(frame, tri);
-    gn_rect r = {px.x0 / w, px.y0 / h, (px.x1 - 1) / w + 1, (px.y1 - 1) / h + 1};
-    return r;
-}
-
 gn_status gn_bin_triangles(gn_frame *frame)
 {
     uint32_t n_tiles = (uint32_t)frame->tiles_x * frame->tiles_y;
     uint64_t n_refs = 0;
-    for (uint32_t t = 0; t < frame->stats.n_triangles; t++) {
-        gn_rect r = tiles_of(frame, &frame->tri[t]);
-        n_refs += (uint32_t)((r.x1 - r.x0) * (r.y1 - r.y0));
-    }
+    gn_ref_offset *first = frame->tile_first;
+    for (uint32_t i = 0; i < n_tiles; i++) n_refs += first[i];
     frame->stats.n_tile_refs = n_refs > UINT32_MAX ? UINT32_MAX : (uint32_t)n_refs;
     if (n_refs > GN_MAX_TILE_REFS)
         return gn_fail_capacity(frame, GN_ERR_TILE_REFS_FULL, frame->stats.n_tile_refs, GN_MAX_TILE_REFS);
     GN_COUNT(tile_refs, n_refs);
-    gn_ref_offset *first = frame->tile_first;
-    for (uint32_t i = 0; i <= n_tiles; i++) first[i] = 0;
-    for (uint32_t t = 0; t < frame->stats.n_triangles; t++) {
-        gn_rect r = tiles_of(frame, &frame->tri[t]);
-        for (int32_t y = r.y0; y < r.y1; y++)
-            for (int32_t x = r.x0; x < r.x1; x++) first[y * frame->tiles_x + x]++;
-    }
     /* to the end of each bin, then filled backwards so that each bin starts where it should, in triangle order */
     for (uint32_t i = 1; i <= n_tiles; i++) first[i] = (gn_ref_offset)(first[i] + first[i - 1]);
     for (uint32_t t = frame->stats.n_triangles; t-- > 0;) {
-        gn_rect r = tiles_of(frame, &frame->tri[t]);
-        for (int32_t y = r.y0; y < r.y1; y++)
-            for (int32_t x = r.x0; x < r.x1; x++) frame->tile_ref[--first[y * frame->tiles_x + x]] = (uint16_t)t;
+        gn_rect px = gn_setup_bounds(frame, &frame->tri[t]), r = gn_setup_tiles(frame, &px);
+        gn_ref_offset *row = first + r.y0 * frame->tiles_x;
+        for (int32_t n = r.y1 - r.y0; n > 0; n--, row += frame->tiles_x)
+            for (int32_t x = r.x0; x < r.x1; x++) frame->tile_ref[--row[x]] = (uint16_t)t;
     }
     return GN_OK;
 }

@@ -4,6 +4,7 @@
 
 #include "gn_setup.h"
 
+/* Sorts what gn_setup counted in tile_first. */
 gn_status gn_bin_triangles(gn_frame *frame);
 
 /* Pixels of a screen tile. */

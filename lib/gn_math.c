@@ -100,6 +100,13 @@ uint32_t gn_isqrt64(uint64_t v)
     return (uint32_t)root;
 }
 
+/* The upper 32 bits of a * 2^s, 0 <= s < 64; what is above them is the sign's. */
+static inline int32_t upper32(int64_t a, int32_t s)
+{
+    uint32_t hi = (uint32_t)((uint64_t)a >> 32), lo = (uint32_t)a;
+    return (int32_t)(s < 32 ? hi << s | (lo >> 1) >> (31 - s) : lo << (s - 32));
+}
+
 int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
 {
     uint64_t any = gn_abs64(a[0]) | gn_abs64(a[1]) | gn_abs64(a[2]);
@@ -109,8 +116,11 @@ int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
     }
     int32_t e = 34 - gn_clz64(any); /* bits above 30 */
     for (int i = 0; i < 3; i++) {
-        int64_t v = e > 0 ? gn_scale64(a[i], e) : gn_shl64(a[i], -e);
-        out[i] = (int32_t)gn_clamp64(v, -((1 << 30) - 1), (1 << 30) - 1); /* rounding may reach 2^30 */
+        int32_t v = e < 34 ? upper32(a[i], 33 - e) : (int32_t)(a[i] >> 33); /* one bit more than is kept */
+        v = (v >> 1) + (v & 1);
+        if (v == 1 << 30) v--; /* rounded up */
+        if (v == -(1 << 30)) v++;
+        out[i] = v;
     }
     return e;
 }

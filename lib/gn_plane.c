@@ -2,17 +2,26 @@
 #include "gn_plane.h"
 #include "gn_q.h"
 
+/* Brings an edge to 30 bits. Returns the exponent that it lost. */
+static int32_t shorten(int32_t e[3])
+{
+    const int64_t wide[3] = {e[0], e[1], e[2]};
+    return gn_norm_vec(e, wide);
+}
+
 void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3])
 {
-    int64_t e1[3], e2[3], n[3];
-    int32_t e1n[3], e2n[3];
+    int32_t e1[3], e2[3], exp = 0;
+    int64_t n[3];
+    uint32_t wide = 0;
     for (int i = 0; i < 3; i++) {
-        e1[i] = (int64_t)v1[i] - v0[i];
-        e2[i] = (int64_t)v2[i] - v0[i];
+        e1[i] = v1[i] - v0[i]; /* < 2^31 */
+        e2[i] = v2[i] - v0[i];
+        wide |= ((uint32_t)e1[i] ^ (uint32_t)e1[i] << 1) | ((uint32_t)e2[i] ^ (uint32_t)e2[i] << 1);
     }
-    int32_t exp1 = gn_norm_vec(e1n, e1), exp2 = gn_norm_vec(e2n, e2);
-    gn_cross64(n, e1n, e2n);
-    plane->n_exp = gn_norm_vec(plane->n, n) + exp1 + exp2;
+    if (wide >> 31) exp = shorten(e1) + shorten(e2); /* 2^30 or more */
+    gn_cross64(n, e1, e2);                           /* exact: 2 * 2^30 * 2^30 */
+    plane->n_exp = gn_norm_vec(plane->n, n) + exp;
     plane->det = gn_dot64(plane->n, v0); /* 3 * 2^30 * 2^30 */
     plane->back = plane->det < 0;
     if (plane->back) {
