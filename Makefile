@@ -22,7 +22,7 @@ HOST_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(HOST_OPT) -g $(WARN) $(SAN) 
   -DSLOW_LIBRARY=$(if $(filter -O0,$(OPT)),1,0)
 
 LIB_SRC := $(wildcard lib/*.c)
-HOST_SRC := $(wildcard host/ref/*.c host/truth/*.c host/scene/*.c) $(filter-out host/tool/main.c host/tool/gen_%.c, $(wildcard host/tool/*.c))
+HOST_SRC := $(wildcard host/ref/*.c host/truth/*.c host/scene/*.c host/bake/*.c) $(filter-out host/tool/main.c host/tool/gen_%.c, $(wildcard host/tool/*.c))
 SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/scenes/*.c))
 TESTS := $(basename $(notdir $(wildcard tests/test_*.c)))
 

@@ -1,0 +1,43 @@
+/* What the stages of baking share. */
+#ifndef GNOMON_BAKE_INTERNAL_H
+#define GNOMON_BAKE_INTERNAL_H
+
+#include "../truth/truth.h"
+#include "bake.h"
+#include "charts.h"
+
+/* What an object gets; the scene is changed when all is known. */
+typedef struct {
+    bool wanted;
+    chart_set set;     /* masks per texel */
+    size_t n_vertices; /* of the new mesh */
+    uint32_t *source;  /* vertex of the new mesh -> of the old one */
+    uint32_t *idx;
+    double *mask_uv;
+    uint8_t *mask; /* 4 per vertex of the old mesh: masks per vertex */
+    double *baked; /* 3 per vertex of the old mesh: the lights that are baked whole */
+} bake_object;
+
+typedef struct {
+    scene *s;
+    ref_frame frame;
+    truth_tracer tracer;
+    const bake_options *options;
+    bake_result *result;
+    int channel[REF_MAX_LIGHTS];
+    bake_object *objects; /* one per object of the scene */
+    uint8_t *image;       /* masks per texel: 4 x side x side */
+} baker;
+
+/* bake_light.c: at a point of a triangle, 1 lit: what arrives of the lights of each channel; and the irradiance of the lights that
+ * are baked whole. bary: not negative. */
+void bake_masks_at(const baker *b, const ref_triangle *t, const double bary[3], double mask[BAKE_CHANNELS]);
+vec3 bake_light_at(const baker *b, const ref_triangle *t, const double bary[3]);
+
+/* bake_vertices.c: fills mask (unless masks are per texel) and baked of an object. 0, or -1: out of memory. */
+int bake_vertices(baker *b, size_t object);
+
+/* bake_texels.c: charts, coordinates and the image. 0, or -1 with one line in error. */
+int bake_texels(baker *b, char *error, size_t error_bytes);
+
+#endif
