@@ -30,8 +30,8 @@ typedef struct {
 } baker;
 
 /* bake_light.c: at a point of a triangle, 1 lit: what arrives of the lights of each channel; and the irradiance of the lights that
- * are baked whole. bary: not negative. */
-void bake_masks_at(const baker *b, const ref_triangle *t, const double bary[3], double mask[BAKE_CHANNELS]);
+ * are baked whole. bary: not negative. False, if asked to look: the point is inside something, where nobody sees it. */
+bool bake_masks_at(const baker *b, const ref_triangle *t, const double bary[3], bool look, double mask[BAKE_CHANNELS]);
 vec3 bake_light_at(const baker *b, const ref_triangle *t, const double bary[3]);
 
 /* bake_vertices.c: fills mask (unless masks are per texel) and baked of an object. 0, or -1: out of memory. */
@@ -39,5 +39,15 @@ int bake_vertices(baker *b, size_t object);
 
 /* bake_texels.c: charts, coordinates and the image. 0, or -1 with one line in error. */
 int bake_texels(baker *b, char *error, size_t error_bytes);
+
+/* bake_fit.c: a chart's masks, such that what is interpolated between its texels comes nearest to what the rays found. */
+typedef struct {
+    int w, h, n;    /* texels; points per side of a texel */
+    float *masks;   /* BAKE_CHANNELS per texel, 0..1: as first guessed, and then fitted */
+    size_t *sample; /* of each texel: 1 + its place in samples; 0: its mask is right */
+    float *samples; /* BAKE_CHANNELS per point; NaN: it may be anything */
+    size_t n_sampled;
+} bake_fit;
+int bake_fit_masks(bake_fit *fit); /* 0, or -1: out of memory */
 
 #endif

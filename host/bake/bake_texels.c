@@ -1,5 +1,4 @@
-/* Masks per texel: each is the mean over its square of the surface, so that what is interpolated between texels is as sharp as they
- * are dense. */
+/* Masks per texel: charts, coordinates, and rays. What the rays found is fitted in bake_fit.c. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +7,7 @@
 #include "bake_internal.h"
 
 /* Points per side of a texel: first a few, and more where they differ. */
-enum { FEW = 2, MANY = 6 };
+enum { FEW = 2, MANY = 4 };
 
 /* ---- Charts and coordinates ---- */
 
@@ -24,14 +23,14 @@ static int make_charts(baker *b)
     return 0;
 }
 
-static int place_charts(baker *b, char *error, size_t bytes)
+static int place_charts(baker *b, int side, char *error, size_t bytes)
 {
     chart **all = calloc(b->result->n_charts + 1, sizeof *all);
     size_t n = 0;
     if (!all) return -1;
     for (size_t i = 0; i < b->s->n_objects; i++)
         for (size_t k = 0; k < b->objects[i].set.n_charts; k++) all[n++] = &b->objects[i].set.charts[k];
-    const bool fits = charts_pack(all, n, b->options->side, &b->result->density);
+    const bool fits = charts_pack(all, n, side, &b->result->density);
     free(all);
     if (fits) return 0;
     snprintf(error, bytes, "%zu charts do not fit into %dx%d texels: more texels, or masks per vertex", n, b->options->side,
@@ -41,14 +40,14 @@ static int place_charts(baker *b, char *error, size_t bytes)
 
 /* A vertex of several charts becomes several. */
 typedef struct {
-    size_t chart;
+    const chart *of;
     uint32_t next; /* of the same old vertex, + 1; 0: none */
 } split;
 
-static uint32_t split_vertex(bake_object *o, split *splits, uint32_t *first, uint32_t old, size_t of)
+static uint32_t split_vertex(bake_object *o, split *splits, uint32_t *first, uint32_t old, const chart *of)
 {
     for (uint32_t at = first[old]; at; at = splits[at - 1].next)
-        if (splits[at - 1].chart == of) return at - 1;
+        if (splits[at - 1].of == of) return at - 1;
     const uint32_t vertex = (uint32_t)o->n_vertices++;
     splits[vertex] = (split){of, first[old]};
     o->source[vertex] = old;
@@ -68,9 +67,9 @@ static int split_mesh(const baker *b, size_t object)
     o->mask_uv = calloc(2 * n + 2, sizeof *o->mask_uv);
     const bool ok = splits && first && o->source && o->idx && o->mask_uv;
     for (size_t i = 0; ok && i < n; i++) {
-        const size_t of = o->set.chart_of[i / 3];
-        const uint32_t vertex = split_vertex(o, splits, first, mesh->idx[i], of);
-        const vec2 at = chart_to_atlas(&o->set.charts[of], o->set.corner[i], b->result->density);
+        const chart *of = &o->set.charts[o->set.chart_of[i / 3]];
+        const uint32_t vertex = split_vertex(o, splits, first, mesh->idx[i], of->same ? of->same : of);
+        const vec2 at = chart_to_atlas(of, o->set.corner[i], b->result->density);
         o->idx[i] = vertex;
         o->mask_uv[2 * vertex] = at.x / b->options->side;
         o->mask_uv[2 * vertex + 1] = at.y / b->options->side;
@@ -124,7 +123,8 @@ typedef struct {
     size_t object;
     const chart_set *set;
     const chart *c;
-    size_t last; /* the triangle of the point before: it is likely this one's too */
+    size_t last;    /* the triangle of the point before: it is likely this one's too */
+    double bary[3]; /* of that point */
 } walk;
 
 /* The chart's triangle that is at this place, or the nearest: what lies outside continues its edge. */
@@ -145,51 +145,212 @@ static size_t find_triangle(walk *w, vec2 at, double bary[3])
     return found;
 }
 
-/* The sum over n x n points of a texel; false: they are not all alike. */
-static bool sum_texel(walk *w, int x, int y, int n, double sum[BAKE_CHANNELS])
+/* The masks at point i of n x n of a texel; look: NaN where nobody sees it. */
+static void sample(walk *w, int x, int y, int n, int i, bool look, float mask[BAKE_CHANNELS])
 {
-    const double density = w->b->result->density;
-    double first[BAKE_CHANNELS];
+    const double density = w->b->result->density * w->c->weight;
+    const double px = x - (CHART_PADDING + 0.5) + (i % n + 0.5) / n, py = y - (CHART_PADDING + 0.5) + (i / n + 0.5) / n;
+    const vec2 at = {density > 0 ? px / density : 0, density > 0 ? py / density : 0};
+    double found[BAKE_CHANNELS];
+    const ref_triangle t = ref_triangle_of(&w->b->frame, w->object, find_triangle(w, at, w->bary));
+    const bool known = bake_masks_at(w->b, &t, w->bary, look, found);
+    for (int c = 0; c < BAKE_CHANNELS; c++) mask[c] = known ? (float)found[c] : NAN;
+}
+
+static bool is_known(const float *mask)
+{
+    return !isnan(mask[0]);
+}
+
+/* What may be anything is like everything. */
+static bool same_masks(const float *a, const float *b)
+{
+    for (int c = 0; c < BAKE_CHANNELS; c++)
+        if (a[c] < b[c] || a[c] > b[c]) return false;
+    return true;
+}
+
+/* A few points of a texel; false: they are not all alike. */
+static bool sample_few(walk *w, int x, int y, bool look, float mask[BAKE_CHANNELS])
+{
+    float other[BAKE_CHANNELS];
     bool alike = true;
-    memset(sum, 0, BAKE_CHANNELS * sizeof *sum);
-    for (int i = 0; i < n * n; i++) {
-        const double px = x - (w->c->x + CHART_PADDING + 0.5) + (i % n + 0.5) / n,
-                     py = y - (w->c->y + CHART_PADDING + 0.5) + (i / n + 0.5) / n;
-        const vec2 at = {density > 0 ? px / density : 0, density > 0 ? py / density : 0};
-        double bary[3], mask[BAKE_CHANNELS];
-        const ref_triangle t = ref_triangle_of(&w->b->frame, w->object, find_triangle(w, at, bary));
-        bake_masks_at(w->b, &t, bary, mask);
-        for (int c = 0; c < BAKE_CHANNELS; c++) {
-            if (!i) first[c] = mask[c];
-            alike = alike && fabs(mask[c] - first[c]) <= 0;
-            sum[c] += mask[c];
-        }
+    sample(w, x, y, FEW, 0, look, mask);
+    for (int i = 1; i < FEW * FEW && alike; i++) {
+        sample(w, x, y, FEW, i, look, other);
+        alike = same_masks(mask, other);
+        if (!is_known(mask)) memcpy(mask, other, sizeof other);
     }
     return alike;
 }
 
-static void bake_chart(walk *w)
+static walk begin_walk(const baker *b, size_t object, size_t k)
 {
-    for (int y = w->c->y; y < w->c->y + w->c->h; y++)
-        for (int x = w->c->x; x < w->c->x + w->c->w; x++) {
-            double sum[BAKE_CHANNELS];
-            int n = FEW;
-            if (!sum_texel(w, x, y, FEW, sum)) sum_texel(w, x, y, n = MANY, sum);
-            uint8_t *texel = w->b->image + 4 * ((size_t)y * (size_t)w->b->options->side + (size_t)x);
-            for (int c = 0; c < BAKE_CHANNELS; c++) texel[c] = (uint8_t)floor(255 * sum[c] / (n * n) + 0.5);
-        }
+    const chart_set *set = &b->objects[object].set;
+    return (walk){.b = b, .object = object, .set = set, .c = &set->charts[k], .last = set->order[set->charts[k].first]};
 }
 
-static void bake_charts(baker *b)
+/* ---- Where the texels go ----
+ *
+ * A first image, with fewer texels of one size, tells where edges of shadows are. The picture's error there is as long as the edge and as
+ * wide as a texel, each as large as the camera sees it: over all charts it is least if the density goes with the cube root of what
+ * edges a chart has per area, in squares of what the camera makes of a length.
+ */
+
+/* Edges that are not in the picture count too: the camera may move. */
+static const double unseen = 0.02, least_weight = 1.0 / 8;
+
+/* The square of what the camera makes of a length there. */
+static double seen_size2(const baker *b, vec3 at)
+{
+    const ref_camera *camera = &b->frame.camera;
+    const vec3 d = vec3_sub(at, camera->position);
+    const double z = vec3_dot(d, camera->forward), distance = fmax(sqrt(vec3_dot(d, d)), camera->near);
+    const double x = fabs(vec3_dot(d, camera->right)) * camera->focal_px, y = fabs(vec3_dot(d, camera->up)) * camera->focal_px;
+    const bool seen = z > camera->near && x <= z * camera->half_width_px && y <= z * camera->half_height_px;
+    return (seen ? 1 : unseen) / (distance * distance);
+}
+
+/* Where the last point was sampled. */
+static vec3 point_of(const walk *w, const double bary[3])
+{
+    const ref_triangle t = ref_triangle_of(&w->b->frame, w->object, w->last);
+    return vec3_mix(bary, t.instance->world[t.idx[0]], t.instance->world[t.idx[1]], t.instance->world[t.idx[2]]);
+}
+
+/* Whether the chart is of one value, mask; if not, how much its edges count. */
+static bool is_flat(walk *w, float mask[BAKE_CHANNELS], double *edges)
+{
+    float here[BAKE_CHANNELS], before[BAKE_CHANNELS];
+    bool flat = true;
+    *edges = 0;
+    for (int i = 0; i < w->c->w * w->c->h; i++) {
+        const bool alike = sample_few(w, i % w->c->w, i / w->c->w, true, here);
+        if (!i || !is_known(mask)) memcpy(mask, here, sizeof here);
+        if (!alike || (i % w->c->w && !same_masks(here, before))) *edges += seen_size2(w->b, point_of(w, w->bary));
+        flat = flat && alike && same_masks(here, mask);
+        memcpy(before, here, sizeof here);
+    }
+    for (int c = 0; c < BAKE_CHANNELS && !is_known(mask); c++) mask[BAKE_CHANNELS - 1 - c] = 1; /* the first tells */
+    return flat;
+}
+
+typedef struct {
+    float mask[BAKE_CHANNELS];
+    const chart *first;
+} flat_value;
+
+/* Charts that are lit all over, or dark all over, share a texel; the others get their weights. */
+static int weigh_charts(baker *b)
+{
+    flat_value *values = calloc(b->result->n_charts + 1, sizeof *values);
+    size_t n = 0;
+    double most = 0;
+    for (size_t i = 0; values && i < b->s->n_objects; i++)
+        for (size_t k = 0; k < b->objects[i].set.n_charts; k++) {
+            chart *c = &b->objects[i].set.charts[k];
+            walk w = begin_walk(b, i, k);
+            double edges;
+            if (!is_flat(&w, values[n].mask, &edges)) {
+                c->weight = cbrt(edges / (c->w * c->h));
+                most = fmax(most, c->weight);
+                continue;
+            }
+            size_t at = 0;
+            while (!same_masks(values[at].mask, values[n].mask)) at++;
+            if (at == n) values[n++].first = c;
+            c->same = values[at].first;
+        }
+    free(values);
+    for (size_t i = 0; i < b->s->n_objects; i++)
+        for (size_t k = 0; k < b->objects[i].set.n_charts; k++) {
+            chart *c = &b->objects[i].set.charts[k];
+            c->weight = most > 0 ? clamp(c->weight / most, least_weight, 1) : 1;
+        }
+    return values ? 0 : -1;
+}
+
+/* ---- The image ---- */
+
+static void put_texel(const baker *b, int x, int y, const float mask[BAKE_CHANNELS])
+{
+    uint8_t *texel = b->image + 4 * ((size_t)y * (size_t)b->options->side + (size_t)x);
+    for (int c = 0; c < BAKE_CHANNELS; c++) texel[c] = (uint8_t)floor(255 * (double)mask[c] + 0.5);
+}
+
+static void put_chart(const baker *b, const chart *c, const float *masks)
+{
+    for (int i = 0; i < c->w * c->h; i++) put_texel(b, c->x + i % c->w, c->y + i / c->w, masks + BAKE_CHANNELS * i);
+}
+
+/* Whether the texel or one beside it differs from this one: there the masks have an edge. */
+static bool has_edge(const chart *c, const float *masks, const bool *mixed, int x, int y)
+{
+    const float *here = masks + BAKE_CHANNELS * (y * c->w + x);
+    for (int j = y > 0 ? y - 1 : 0; j <= y + 1 && j < c->h; j++)
+        for (int i = x > 0 ? x - 1 : 0; i <= x + 1 && i < c->w; i++) {
+            const float *there = masks + BAKE_CHANNELS * (j * c->w + i);
+            if (mixed[j * c->w + i] || !same_masks(here, there)) return true;
+        }
+    return false;
+}
+
+static void sample_edges(walk *w, const bool *mixed, bake_fit *fit)
+{
+    for (int i = 0; i < fit->w * fit->h; i++) {
+        fit->sample[i] = 0;
+        if (!has_edge(w->c, fit->masks, mixed, i % fit->w, i / fit->w)) continue;
+        float *out = fit->samples + (size_t)BAKE_CHANNELS * MANY * MANY * fit->n_sampled;
+        for (int k = 0; k < MANY * MANY; k++) sample(w, i % fit->w, i / fit->w, MANY, k, true, out + BAKE_CHANNELS * k);
+        fit->sample[i] = ++fit->n_sampled;
+    }
+}
+
+static size_t count_edges(const chart *c, const float *masks, const bool *mixed)
+{
+    size_t n = 0;
+    for (int i = 0; i < c->w * c->h; i++) n += has_edge(c, masks, mixed, i % c->w, i / c->w);
+    return n;
+}
+
+static int bake_chart(walk *w)
+{
+    const size_t n = (size_t)w->c->w * (size_t)w->c->h;
+    bool *mixed = calloc(n, sizeof *mixed), ok;
+    bake_fit fit = {.w = w->c->w,
+                    .h = w->c->h,
+                    .n = MANY,
+                    .masks = calloc(n, BAKE_CHANNELS * sizeof(float)),
+                    .sample = calloc(n, sizeof *fit.sample)};
+    if ((ok = mixed && fit.masks && fit.sample)) {
+        for (size_t i = 0; i < n; i++)
+            mixed[i] = !sample_few(w, (int)i % fit.w, (int)i / fit.w, false, fit.masks + BAKE_CHANNELS * i);
+        const size_t n_edges = count_edges(w->c, fit.masks, mixed);
+        fit.samples = calloc(n_edges + 1, BAKE_CHANNELS * MANY * MANY * sizeof *fit.samples);
+        ok = fit.samples != NULL;
+    }
+    if (ok) {
+        sample_edges(w, mixed, &fit);
+        ok = bake_fit_masks(&fit) == 0;
+        put_chart(w->b, w->c, fit.masks);
+    }
+    free(mixed);
+    free(fit.masks);
+    free(fit.sample);
+    free(fit.samples);
+    return ok ? 0 : -1;
+}
+
+static int bake_charts(baker *b)
 {
     size_t n_done = 0;
     for (size_t i = 0; i < b->s->n_objects; i++)
         for (size_t k = 0; k < b->objects[i].set.n_charts; k++) {
-            const chart_set *set = &b->objects[i].set;
-            walk w = {.b = b, .object = i, .set = set, .c = &set->charts[k], .last = set->order[set->charts[k].first]};
-            bake_chart(&w);
+            walk w = begin_walk(b, i, k);
+            if ((!w.c->same || w.c->same == w.c) && bake_chart(&w)) return -1;
             if (b->options->progress) b->options->progress(b->options->user, ++n_done, b->result->n_charts);
         }
+    return 0;
 }
 
 int bake_texels(baker *b, char *error, size_t error_bytes)
@@ -197,7 +358,10 @@ int bake_texels(baker *b, char *error, size_t error_bytes)
     const size_t n = 4 * (size_t)b->options->side * (size_t)b->options->side;
     snprintf(error, error_bytes, "out of memory");
     b->image = malloc(n);
-    if (!b->image || make_charts(b) || place_charts(b, error, error_bytes)) return -1;
+    if (!b->image || make_charts(b)) return -1;
+    if (place_charts(b, b->options->side / 2, error, error_bytes) && place_charts(b, b->options->side, error, error_bytes))
+        return -1;
+    if (weigh_charts(b) || place_charts(b, b->options->side, error, error_bytes)) return -1;
     memset(b->image, 255, n);
     for (size_t i = 0; i < b->s->n_objects; i++) {
         if (!b->objects[i].wanted) continue;
@@ -208,6 +372,5 @@ int bake_texels(baker *b, char *error, size_t error_bytes)
                  b->s->objects[i].name, b->objects[i].n_vertices, (int)LOADER_MAX_MESH);
         return -1;
     }
-    bake_charts(b);
-    return 0;
+    return bake_charts(b);
 }

@@ -64,9 +64,9 @@ static void add_corner(const baker *b, const ref_triangle *t, size_t k, sums *su
         bary[k] = 1 - spots[i][0] - spots[i][1];
         bary[(k + 1) % 3] = spots[i][0];
         bary[(k + 2) % 3] = spots[i][1];
-        if (!b->options->side) bake_masks_at(b, t, bary, mask);
+        if (!bake_masks_at(b, t, bary, true, mask)) continue;
         vec3_store(light, bake_light_at(b, t, bary));
-        for (int c = 0; c < BAKE_CHANNELS && !b->options->side; c++) sum->mask[c] += mask[c];
+        for (int c = 0; c < BAKE_CHANNELS; c++) sum->mask[c] += mask[c];
         for (int c = 0; c < 3; c++) sum->light[c] += light[c];
         sum->n += 1;
     }

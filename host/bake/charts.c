@@ -252,6 +252,7 @@ int charts_make(chart_set *out, const vec3 *world, size_t n_vertices, const uint
     for (size_t t = 0, done = 0; ok && t < n_triangles; t++) {
         if (out->chart_of[t] != SIZE_MAX) continue;
         out->charts[out->n_charts].first = done;
+        out->charts[out->n_charts].weight = 1;
         grow_chart(&m, t);
         done += out->charts[out->n_charts - 1].n_triangles;
     }
@@ -277,7 +278,8 @@ void charts_free(chart_set *set)
 static int by_height(const void *a, const void *b)
 {
     const chart *p = *(chart *const *)a, *q = *(chart *const *)b;
-    if (p->height < q->height || p->height > q->height) return p->height > q->height ? -1 : 1;
+    const double hp = p->same ? 0 : p->height * p->weight, hq = q->same ? 0 : q->height * q->weight;
+    if (hp < hq || hp > hq) return hp > hq ? -1 : 1;
     return (p->serial > q->serial) - (p->serial < q->serial);
 }
 
@@ -286,9 +288,11 @@ static bool pack_at(chart **charts, size_t n, int side, double density)
     int x = 0, y = 0, shelf = 0;
     for (size_t i = 0; i < n; i++) {
         chart *c = charts[i];
-        if (c->width * density > side || c->height * density > side) return false;
-        c->w = (int)ceil(c->width * density) + CHART_BORDER;
-        c->h = (int)ceil(c->height * density) + CHART_BORDER;
+        const double texels = c->same ? 0 : density * c->weight;
+        if (c->same && c->same != c) continue;
+        if (c->width * texels > side || c->height * texels > side) return false;
+        c->w = (int)ceil(c->width * texels) + CHART_BORDER;
+        c->h = (int)ceil(c->height * texels) + CHART_BORDER;
         if (x + c->w > side) {
             y += shelf;
             x = shelf = 0;
@@ -305,10 +309,11 @@ static bool pack_at(chart **charts, size_t n, int side, double density)
 bool charts_pack(chart **charts, size_t n, int side, double *density)
 {
     double widest = 0, low = 0;
+    *density = 0;
     for (size_t i = 0; i < n; i++) charts[i]->serial = i;
     qsort(charts, n, sizeof *charts, by_height);
     if (!pack_at(charts, n, side, 0)) return false;
-    for (size_t i = 0; i < n; i++) widest = fmax(widest, charts[i]->width);
+    for (size_t i = 0; i < n; i++) widest = fmax(widest, charts[i]->same ? 0 : charts[i]->width * charts[i]->weight);
     double high = widest > 0 ? side / widest : 0;
     for (int step = 0; step < 40; step++) {
         const double middle = (low + high) / 2;

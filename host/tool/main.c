@@ -19,6 +19,8 @@ static const char usage_text[] =
     "  sweep SCENE               many configurations: RAM, instructions and error, and the front of those that no other beats\n"
     "  advise SCENE --ram BYTES  the most accurate configuration within a budget, as --set arguments\n"
     "  compile SCENE -o DIR      C for flash: scene.c and scene.h, and gn_scene_config.h, the library with just what it needs\n"
+    "  bake SCENE -o OUT.gltf    the shadows of what stands still as masks, by the ray tracer; what they cost and how true they "
+    "are\n"
     "  knobs                     every knob and setting, as docs/CONFIG.md lists them\n"
     "\n"
     "  --engine NAME             render: fixed, the library; reference, the same in double precision; truth, a ray tracer\n"
@@ -38,9 +40,11 @@ static const char usage_text[] =
     "  --quick                   sweep, advise: a few configurations only\n"
     "  --ram BYTES               advise: the most RAM\n"
     "  --instructions-per-pixel N  advise: the most instructions per pixel (no limit)\n"
+    "  --texels N                bake: side of the mask image, a power of two from 16 to 4096; 0: masks per vertex (256)\n"
+    "  --still                   bake: objects marked as moving stand still too\n"
     "  --json                    one JSON object on stdout and nothing else\n";
 
-enum { BY_RENDER = 1, BY_COMPARE = 2, BY_INFO = 4, BY_SWEEP = 8, BY_ADVISE = 16, BY_COMPILE = 32, BY_ALL = 63 };
+enum { BY_RENDER = 1, BY_COMPARE = 2, BY_INFO = 4, BY_SWEEP = 8, BY_ADVISE = 16, BY_COMPILE = 32, BY_BAKE = 64, BY_ALL = 127 };
 
 enum { BUDGET_MAX = 1000000000 };
 
@@ -52,7 +56,7 @@ typedef struct {
 } option;
 
 static const option options[] = {
-    {"-o", BY_RENDER | BY_COMPARE | BY_COMPILE, "a path"},
+    {"-o", BY_RENDER | BY_COMPARE | BY_COMPILE | BY_BAKE, "a path"},
     {"--engine", BY_RENDER, "fixed, reference or truth"},
     {"--with", BY_COMPARE, "reference or truth"},
     {"--samples", BY_RENDER | BY_COMPARE, "samples from 1 to 16"},
@@ -67,6 +71,8 @@ static const option options[] = {
     {"--svg", BY_SWEEP, "a path"},
     {"--ram", BY_ADVISE, "bytes from 1 to 1000000000"},
     {"--instructions-per-pixel", BY_ADVISE, "a number from 1 to 1000000000"},
+    {"--texels", BY_BAKE, "0 or a power of two from 16 to 4096"},
+    {"--still", BY_BAKE, NULL},
     {"--all", BY_SWEEP, NULL},
     {"--quick", BY_SWEEP | BY_ADVISE, NULL},
     {"--json", BY_ALL, NULL},
@@ -142,6 +148,8 @@ static int take_value(tool_options *o, const char *name, char *value)
         o->light = (size_t)light;
     } else if (strcmp(name, "--csv") == 0) failed = !*(o->csv_path = value);
     else if (strcmp(name, "--svg") == 0) failed = !*(o->svg_path = value);
+    else if (strcmp(name, "--texels") == 0)
+        failed = parse_int(value, 0, 4096, &o->texels) || (o->texels & (o->texels - 1)) || (o->texels && o->texels < 16);
     else if (strcmp(name, "--ram") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->ram);
     else if (strcmp(name, "--instructions-per-pixel") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->instructions_per_pixel);
     else if (strcmp(name, "--set") == 0) {
@@ -157,6 +165,7 @@ static void take_switch(tool_options *o, const char *name)
     if (strcmp(name, "--json") == 0) o->json = 1;
     if (strcmp(name, "--all") == 0) o->all = 1;
     if (strcmp(name, "--quick") == 0) o->quick = 1;
+    if (strcmp(name, "--still") == 0) o->still = 1;
 }
 
 static const option *find_option(const char *name)
@@ -201,6 +210,7 @@ static int parse(tool_options *o, int command, int argc, char **argv)
         }
     }
     if (!o->scene_path) return usage("a scene is missing", NULL);
+    if (command == BY_BAKE && !o->out_path) return usage("-o FILE is missing", NULL);
     if (command == BY_ADVISE && !o->ram) return usage("--ram BYTES is missing", NULL);
     return check_truth(o, command == BY_RENDER ? o->engine : o->with);
 }
@@ -211,12 +221,10 @@ static int run(int argc, char **argv)
         const char *name;
         int bit;
         int (*run)(const tool_options *);
-    } commands[] = {{"render", BY_RENDER, tool_render},
-                    {"compare", BY_COMPARE, tool_compare},
-                    {"info", BY_INFO, tool_info},
-                    {"sweep", BY_SWEEP, tool_sweep},
-                    {"advise", BY_ADVISE, tool_advise},
-                    {"compile", BY_COMPILE, tool_compile}};
+    } commands[] = {{"render", BY_RENDER, tool_render}, {"compare", BY_COMPARE, tool_compare},
+                    {"info", BY_INFO, tool_info},       {"sweep", BY_SWEEP, tool_sweep},
+                    {"advise", BY_ADVISE, tool_advise}, {"compile", BY_COMPILE, tool_compile},
+                    {"bake", BY_BAKE, tool_bake}};
     tool_options o = {.engine = "fixed", .with = "reference", .width = 320, .height = 240, .last_frame = -1, .margin = 10};
     if (argc < 2) return usage("a command is missing", NULL);
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0) {

@@ -35,6 +35,9 @@ void settings_fit(settings *s, const settings_demand *demand);
 /* 0, or -1 with one line in error if a capacity that was set is less. */
 int settings_suffice(const settings *s, const settings_demand *demand, char *error, size_t error_bytes);
 
+/* Whether the setting is about what a scene holds (or one of its lights, or how it is loaded), and not about the library. */
+bool settings_of_scene(const char *key);
+
 /* Settings that a loader must know before it reads the file. 1: taken; 0: not one of them; -1: bad value. */
 int settings_load_option(scene_options *options, const char *key, const char *value, char *error, size_t error_bytes);
 

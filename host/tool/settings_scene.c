@@ -98,6 +98,14 @@ static const scene_knob *find(const char *key)
     return NULL;
 }
 
+bool settings_of_scene(const char *key)
+{
+    static const char *const others[] = {"cascades", "cascade_ratios", "refresh", "lights", "add_light", "ground", "normals"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (strcmp(key, others[i]) == 0) return true;
+    return strchr(key, '@') || find(key);
+}
+
 bool settings_of_lights(const char *key)
 {
     const scene_knob *k = find(key);

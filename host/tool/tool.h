@@ -24,6 +24,7 @@ typedef struct {
     int n_sets;
     const char *csv_path, *svg_path; /* sweep */
     int all, quick;
+    int texels, still;          /* bake: side of the mask image, 0: per vertex */
     int ram;                    /* advise: bytes; 0: not given */
     int instructions_per_pixel; /* 0: no limit */
     int last_frame;             /* compile: of --frames, whose first is frame; -1: to the end of the animation */
@@ -39,6 +40,7 @@ int tool_info(const tool_options *o);
 int tool_sweep(const tool_options *o);
 int tool_advise(const tool_options *o);
 int tool_compile(const tool_options *o);
+int tool_bake(const tool_options *o);
 
 /* How many samples truth takes, per pixel and axis. */
 int tool_samples(const tool_options *o);
