@@ -144,7 +144,7 @@ static void choose_features(compiled *c)
 {
     const feature features[] = {GN_FEATURE_KNOBS(FEATURE_)};
     settings_need needs[SETTINGS_NEEDS_MAX];
-    int n_needs = settings_needs(&c->scene, c->set.feature.shadows, needs);
+    int n_needs = settings_needs(&c->scene, c->set.feature.shadows && settings_casts(&c->scene), needs);
     for (size_t i = 0; i < N_FEATURES; i++) {
         const feature *f = &features[i];
         if (changes_no_picture(f->knob) || is_of_vertices(c, f->knob, f->value)) continue;

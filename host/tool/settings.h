@@ -64,6 +64,9 @@ int settings_needs(const scene *s, bool shadows, settings_need *needs);
 /* Lights that want a shadow. */
 size_t settings_shadow_lights(const scene *s);
 
+/* Whether anything casts: a scene whose shadows are all in masks needs no shadows to be drawn. */
+bool settings_casts(const scene *s);
+
 /* Switches off the features that cost RAM where the scene does not need them: shadows, and what makes the other atlas. */
 void settings_trim(settings *set, const scene *s);
 

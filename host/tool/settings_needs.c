@@ -110,10 +110,17 @@ int settings_needs(const scene *s, bool shadows, settings_need *needs)
     return list.n;
 }
 
+bool settings_casts(const scene *s)
+{
+    for (size_t i = 0; i < s->n_objects; i++)
+        if (s->objects[i].caster != SCENE_CASTER_OFF) return true;
+    return false;
+}
+
 void settings_trim(settings *set, const scene *s)
 {
     settings_need needs[SETTINGS_NEEDS_MAX];
-    bool shadows = settings_shadow_lights(s) > 0, punctual = false, main_light = false;
+    bool shadows = settings_shadow_lights(s) > 0 && settings_casts(s), punctual = false, main_light = false;
     int n = settings_needs(s, shadows, needs);
     for (int i = 0; i < n; i++) {
         punctual |= strcmp(needs[i].knob, "punctual_lights") == 0;
