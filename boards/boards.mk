@@ -8,7 +8,7 @@
 # FW_OPT      the optimisation, else the board's
 # FW_FLAGS    more flags, such as -DGN_TILE_HEIGHT=4
 # LINK_FLAGS  more flags of the linker, such as -Wl,--defsym=RAM_BYTES=32K,--defsym=STACK=1K
-# IMAGE       the name of the image, else made of APP, SCENE and PRESET
+# IMAGE       the name of the image, else made of APP, SCENE, PRESET and SCREEN_OF
 # ARGS        what the app reads with board_args
 
 APP ?= $(if $(filter screen,$(MAKECMDGOALS)),clock,crc)
@@ -16,7 +16,7 @@ include boards/$(BOARD)/board.mk
 
 BOARD_OPT ?= -O2
 FW_OPT ?= $(BOARD_OPT)
-IMAGE ?= $(APP)$(if $(SCENE),-$(basename $(notdir $(SCENE))))$(if $(PRESET),-$(PRESET))
+IMAGE ?= $(APP)$(if $(SCENE),-$(basename $(notdir $(SCENE))))$(if $(PRESET),-$(PRESET))$(if $(SCREEN_OF),-$(SCREEN_OF))
 FW := $(BUILD)/firmware/$(BOARD)
 FIRMWARE := $(FW)/$(IMAGE).elf
 FW_OBJ_DIR := $(FW)/$(IMAGE).obj

@@ -16,19 +16,19 @@ same() {
 build() { # build WHAT MAKE-ARGUMENT...: once, quietly
     what=$1
     shift
-    if make -s "$@" >"$tmp/make" 2>&1; then pass; else fail "$what does not build: $(grep -m 1 -E 'error|Error|region' "$tmp/make")"; fi
+    if make -s -j2 "$@" >"$tmp/make" 2>&1; then pass; else fail "$what does not build: $(grep -m 1 -E 'error|Error|region' "$tmp/make")"; fi
 }
 
-# display BOARD SIZE FORMAT ERROR: ERROR is what the emulated controller prints of commands that it does not know
+# display BOARD ERROR: ERROR is what the emulated controller prints of commands that it does not know
 display() {
     build "the clock of $1" firmware BOARD="$1" APP=clock
-    build "the prediction for $1" firmware BOARD=host APP=predict SCREEN_SIZE="$2" SCREEN_FORMAT="$3" IMAGE="predict-$1"
+    build "the prediction for $1" firmware BOARD=host APP=predict SCREEN_OF="$1"
     for hour in $hours; do
         if ! make -s screen BOARD="$1" ARGS="$(from "$hour") $hour" SCREEN_OUT="$tmp/$1-$hour.ppm" >"$tmp/log" 2>&1; then
             fail "$1 at $hour: $(tail -n 2 "$tmp/log" | tr '\n' ' ')"
             continue
         fi
-        if grep -q -e "$4" -e 'canary' -e 'fault' "$tmp/log"; then fail "$1 at $hour: $(cat "$tmp/log")"; else pass; fi
+        if grep -q -e "$2" -e 'canary' -e 'fault' "$tmp/log"; then fail "$1 at $hour: $(cat "$tmp/log")"; else pass; fi
         # "7 frames, 35 of 56 tiles sent"
         awk '/ tiles sent/ { exit !($1 == 7 && $3 > 0 && $3 < $5) }' "$tmp/log" && pass || fail "$1 at $hour: $(grep tiles "$tmp/log")"
         build/firmware/host/predict-"$1".elf "$hour" "$tmp/host.ppm" || fail "no prediction for $1 at $hour"
@@ -40,8 +40,8 @@ display() {
 }
 
 build "the tools" build/capture build/ppm
-display lm3s6965evb 128x64 GREY4 'ssd0323: error'
-display rv32-virt 320x240 RGB565 'invalid'
+display lm3s6965evb 'ssd0323: error'
+display rv32-virt 'invalid'
 
 # What the capture reports when there is nothing to capture.
 build/capture 1 'READY never' "$tmp/none.ppm" qemu-system-arm -M lm3s6965evb -kernel build/firmware/lm3s6965evb/clock.elf \

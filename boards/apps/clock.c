@@ -4,7 +4,6 @@
  * clock runs through the day, for ever. An error of the display is told, and the display is opened anew. */
 #include "board.h"
 #include "day.h"
-#include "scene.h"
 #include "../displays/screen.h"
 
 static gn_renderer renderer; /* all of the memory */
@@ -29,7 +28,7 @@ static void open_display(void)
 static gn_status show(uint32_t frame, uint32_t *n_sent)
 {
     for (;;) {
-        const gn_scene *scene = scene_frame(&state, frame);
+        const gn_scene *scene = day_scene(&state, frame);
         gn_status status = gn_render_changes(&renderer, scene, &shown, display_flush, &the_display, n_sent);
         if (status) return status;
         panel_status display_status = display_finish(&the_display);

@@ -25,3 +25,11 @@ void day_text(uint32_t frame, char text[6])
     text[4] = (char)('0' + minute % 10);
     text[5] = '\0';
 }
+
+/* A 128x64 picture of the whole garden has a dial of 45 x 30 pixels. */
+const gn_scene *day_scene(scene_state *state, uint32_t frame)
+{
+    const gn_scene *scene = scene_frame(state, frame);
+    state->scene.camera.focal_q24 = state->scene.camera.focal_q24 / 16 * SCREEN_ZOOM;
+    return scene;
+}

@@ -2,7 +2,6 @@
  * that the emulator makes of its screen. Grey displays come out four times as large. */
 #include "board.h"
 #include "day.h"
-#include "scene.h"
 
 enum { ZOOM = GN_FORMAT_SCREEN == GN_FORMAT_GREY4 ? 4 : 1 };
 
@@ -69,7 +68,7 @@ int app_main(void)
         return 2;
     }
     gn_status status = gn_init(&renderer, &picture);
-    if (!status) status = gn_render(&renderer, scene_frame(&state, (uint32_t)frame), collect, NULL);
+    if (!status) status = gn_render(&renderer, day_scene(&state, (uint32_t)frame), collect, NULL);
     if (status) board_print(gn_status_text(status));
     return status || write_ppm(args);
 }

@@ -7,3 +7,4 @@ BOARD_COMMON := cortex_m semihosting
 BOARD_EMULATOR := qemu-system-arm -M lm3s6965evb
 SCREEN_SIZE := 128x64
 SCREEN_FORMAT := GREY4
+SCREEN_ZOOM := 26
