@@ -1,7 +1,7 @@
 # Firmware of one board: make firmware BOARD=mps2-an385 APP=crc. Included when BOARD is set.
 #
 # BOARD       a folder of boards/ with board.mk, startup.c, link.ld
-# APP         boards/apps/APP.c; APP.mk beside it may set APP_SRC, APP_FLAGS, APP_OBJ, and have rules
+# APP         boards/apps/APP.c; APP.mk beside it may set APP_SRC, APP_FLAGS, APP_OBJ, APP_LIB, and have rules
 # SCENE       a scene file that the app renders, compiled to C arrays by build/gnomon
 # PRESET      tiny, balanced, accurate
 # SCENE_FLAGS more options of gnomon compile, such as --size 128x64
@@ -21,12 +21,13 @@ FW := $(BUILD)/firmware/$(BOARD)
 FIRMWARE := $(FW)/$(IMAGE).elf
 FW_OBJ_DIR := $(FW)/$(IMAGE).obj
 
+APP_LIB := $(LIB_SRC)
 -include boards/apps/$(APP).mk
 
 # The host links a program; boards link without a C library.
 FW_HOSTED := $(filter host,$(BOARD_RUNS))
 FW_CC := $(if $(BOARD_CC),$(BOARD_CC),$(BOARD_CROSS)gcc)
-FW_SRC := $(LIB_SRC) boards/apps/$(APP).c $(APP_SRC) $(wildcard boards/$(BOARD)/*.c) boards/common/print.c $(BOARD_COMMON:%=boards/common/%.c)
+FW_SRC := $(APP_LIB) boards/apps/$(APP).c $(APP_SRC) $(wildcard boards/$(BOARD)/*.c) boards/common/print.c $(BOARD_COMMON:%=boards/common/%.c)
 ifeq ($(FW_HOSTED),)
 FW_SRC += boards/common/start.c boards/common/memory.c
 FW_FREE := -ffreestanding -isystem boards/common/include

@@ -29,6 +29,7 @@ replace BIAS.md census "$work/census"
 mkdir -p "$out/pictures"
 "$build/test_census" --plots "$out/pictures"
 sh docs/gallery.sh "$tool" "$out"
+sh docs/boards.sh "$out"
 "$build/test_extremes" --table >"$work/extremes"
 replace EXTREMES.md extremes "$work/extremes"
 for name in rows seams crawl; do

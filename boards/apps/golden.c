@@ -190,7 +190,7 @@ static void print_line(const golden_frame *g, uint32_t frame, int preset, uint32
     board_print(preset_names[preset]);
     board_print(" ");
     board_print(format_names[g->format]);
-    if (g->setting) board_print(" ");
+    if (g->setting) board_print(", ");
     if (g->setting) board_print(g->setting);
     board_print("\n");
 }

@@ -1,4 +1,4 @@
-# QEMU's virt machine: RV32IMAC.
+# QEMU's virt machine: RV32IMAC. Runs in QEMU.
 BOARD_CORE := RV32IMAC
 BOARD_RUNS := qemu
 BOARD_CROSS := riscv64-unknown-elf-

@@ -1,0 +1,1 @@
+APP_LIB := # it draws nothing

@@ -1,0 +1,165 @@
+#!/bin/sh
+# The same bits on every host build and on six cores in the emulator, as docs/BOARDS.md lists them; 16 KB of RAM; guards that report;
+# boards that are built and not run.
+cd "$(dirname "$0")/.." || exit 1
+if [ "${1:-}" = job ]; then tmp=$2; else . tests/check.sh; fi # a job is this script, called by xargs below
+
+setting() { sed -n "s/^$2 := *//p" "boards/$1/board.mk"; }
+boards=$(for file in boards/*/board.mk; do basename "$(dirname "$file")"; done)
+emulated=$(for board in $boards; do if [ "$(setting "$board" BOARD_RUNS)" = qemu ]; then echo "$board"; fi; done)
+built_only=$(for board in $boards; do if [ "$(setting "$board" BOARD_RUNS)" = no ]; then echo "$board"; fi; done)
+firmware() { make -s --no-print-directory "$@"; }
+
+# ---- Jobs: each prints "ok" or what is wrong, a line each ------------------------------------------------------------------
+
+same_frames() { # same_frames WHAT FILE
+    if cmp -s "$2" "$tmp/golden"; then echo ok
+    else echo "$1: $(diff "$2" "$tmp/golden" | head -n 3 | tr '\n' ';')"; fi
+}
+
+# The whole library as one file; scenes as objects of one word size.
+host_golden() { # host_golden COMPILER OPTIMISATION WORD
+    out=$tmp/host$1$2$3
+    if $1 $3 -std=c99 -w $2 -Ilib -Iboards/common -Iboards/apps '-DGN_USER_CONFIG="golden_config.h"' -o "$out" "$tmp/lib.c" \
+        boards/apps/golden.c boards/host/startup.c boards/common/print.c "$tmp"/scene"$3"_*.o 2>"$out.log"; then
+        "$out" >"$out.txt" 2>&1
+        same_frames "$*" "$out.txt"
+    else echo "$*: $(grep -m 1 -E 'error|undefined' "$out.log")"; fi
+}
+
+board_golden() { # board_golden BOARD
+    if firmware firmware BOARD="$1" APP=golden >"$tmp/$1.log" 2>&1 && firmware emulate BOARD="$1" APP=golden >"$tmp/$1.txt" 2>&1; then
+        same_frames "$1" "$tmp/$1.txt"
+    else echo "$1: golden: $(grep -h -m 1 -i -E 'error|undefined|fault' "$tmp/$1.log" "$tmp/$1.txt")"; fi
+}
+
+# Knobs as constants, and only what the scene needs.
+board_play() { # board_play BOARD SCENE FRAME PRESET
+    crc=$(grep " $2 frame $3 $4 RGB565\$" "$tmp/golden" | head -n 1 | cut -d' ' -f1)
+    firmware emulate BOARD="$1" APP=play SCENE="host/scenes/$2.gltf" PRESET="$4" \
+        SCENE_FLAGS="--size 160x120 --frames $3-$3 --set output=rgb565" >"$tmp/play$1" 2>&1
+    if [ -n "$crc" ] && grep -q "^$crc frame 0\$" "$tmp/play$1"; then echo ok
+    else echo "$1: $*: $(grep -v '^  ' "$tmp/play$1" | head -n 2 | tr '\n' ';') instead of $crc"; fi
+}
+
+board_guards() { # board_guards BOARD
+    firmware firmware BOARD="$1" APP=fault >"$tmp/guard$1" 2>&1
+    for args in none trap stack; do
+        firmware emulate BOARD="$1" APP=fault ARGS=$args >"$tmp/guard$1" 2>&1
+        status=$?
+        case $args in
+        none) expected='^stack [0-9]* bytes$' ;;
+        trap) expected='^fault: exception [0-9]* pc=[0-9a-f]* lr=' ;;
+        stack) expected='the stack ran over' ;;
+        esac
+        if [ $((status != 0)) = "$([ $args = none ] && echo 0 || echo 1)" ] && grep -q "$expected" "$tmp/guard$1"; then echo ok
+        else echo "$1: fault $args: $(grep -v '^  ' "$tmp/guard$1" | tr '\n' ';')"; fi
+    done
+}
+
+built() { # built BOARD
+    if firmware firmware BOARD="$1" APP=crc >"$tmp/built$1" 2>&1 && [ -s "build/firmware/$1/crc.elf" ]; then echo ok
+    else echo "$1: $(grep -m 1 -E 'error|undefined' "$tmp/built$1")"; fi
+    sed -n 1p "boards/$1/board.mk" | grep -q 'Built, not run' && echo ok || echo "$1 is not labelled as built, not run"
+}
+
+# The micro:bit's 16 KB: the pictures and the strips are the host's, and what does not fit is refused.
+pocket() {
+    for board in host microbit; do
+        firmware emulate BOARD=$board APP=pocket ARGS="$tmp/strips.$board" >"$tmp/pocket.$board" 2>&1
+    done
+    grep '^hour' "$tmp/pocket.host" >"$tmp/hours.host"
+    grep '^hour' "$tmp/pocket.microbit" >"$tmp/hours.microbit"
+    if [ "$(wc -l <"$tmp/hours.host")" = 3 ] && cmp -s "$tmp/hours.host" "$tmp/hours.microbit"; then echo ok
+    else echo "pocket: $(grep -v '^  ' "$tmp/pocket.microbit" | tr '\n' ';')"; fi
+    sed 's/hour \([0-9]\) crc \(.*\)/| \1 | `\2` |/' "$tmp/hours.microbit" >"$tmp/hours.rows"
+    [ "$(grep -c -x -F -f "$tmp/hours.rows" docs/BOARDS.md)" = 3 ] && echo ok || echo "docs/BOARDS.md has other CRCs of the pocket sundial"
+    if build/rgb565_png 128 128 "$tmp/pocket.png" <"$tmp/strips.microbit" && cmp -s "$tmp/pocket.png" docs/pictures/pocket.png; then echo ok
+    else echo "pocket: the streamed picture is not docs/pictures/pocket.png"; fi
+    bytes=$(sed -n 's/^RAM \([0-9]*\) bytes.*/\1/p' "$tmp/pocket.microbit")
+    [ "${bytes:-99999}" -le 16384 ] && echo ok || echo "pocket: $bytes bytes of RAM"
+    if firmware firmware BOARD=microbit APP=pocket LINK_FLAGS=-Wl,--defsym=RAM_BYTES=12K IMAGE=pocket >"$tmp/pocket.12" 2>&1; then echo "12 KB are enough for the pocket sundial"
+    elif grep -q 'overflowed by' "$tmp/pocket.12"; then echo ok
+    else echo "pocket with 12 KB: $(head -n 1 "$tmp/pocket.12")"; fi
+}
+
+# What is hot stands in .hot, which runs from the instruction memory where a board has one; nothing else does.
+hot() {
+    arm-none-eabi-objdump -t build/firmware/mps3-an547/golden.elf | awk '$3 == "F" && $4 == ".hot" && $1 < "00080000" { print $NF }' >"$tmp/hot"
+    for function in gn_raster_tile gn_shade_tile; do
+        grep -q -x $function "$tmp/hot" && echo ok || echo "$function is not in the instruction memory of mps3-an547"
+    done
+    grep -q -x gn_scene_validate "$tmp/hot" && echo "gn_scene_validate is hot" || echo ok
+}
+
+# The boot ROM of the RP2040 wants CRC-32/MPEG-2 of the first 252 bytes in the next four.
+pico_boot() {
+    arm-none-eabi-objcopy -O binary -j .boot build/firmware/pico/crc.elf "$tmp/boot"
+    cat >"$tmp/boot.c" <<'EOF_C'
+#include <stdint.h>
+#include <stdio.h>
+int main(void)
+{
+    uint32_t crc = ~0U, stored = 0;
+    for (int i = 0; i < 252; i++) {
+        crc ^= (uint32_t)getchar() << 24;
+        for (int bit = 0; bit < 8; bit++) crc = crc << 1 ^ (crc >> 31 ? 0x04C11DB7U : 0);
+    }
+    for (int i = 0; i < 4; i++) stored |= (uint32_t)getchar() << 8 * i;
+    if (crc != stored || getchar() != EOF) printf("pico: the boot stage's CRC is %08x, not %08x\n", (unsigned)crc, (unsigned)stored);
+    else printf("ok\n");
+}
+EOF_C
+    gcc -o "$tmp/boot_crc" "$tmp/boot.c" && "$tmp/boot_crc" <"$tmp/boot"
+}
+
+# ---- Running, two at a time ------------------------------------------------------------------------------------------------
+
+if [ "${1:-}" = job ]; then
+    shift 2
+    "$@"
+    exit
+fi
+
+# Lines "CRC SCENE frame N PRESET PICTURE" from the document's table
+sed -n 's/^| \([a-z]*\) | \([0-9]*\) | \([a-z]*\) | \(.*\) | `\([0-9a-f]*\)` |$/\5 \1 frame \2 \3 \4/p' docs/BOARDS.md >"$tmp/golden"
+[ "$(wc -l <"$tmp/golden")" -gt 40 ] && pass || fail "docs/BOARDS.md has no table of golden frames"
+
+scenes_ok=1
+for scene in sundial avenue desk room fence mixed; do firmware BOARD=host APP=golden "build/firmware/scenes/$scene/scene.c" >"$tmp/log" 2>&1 || scenes_ok=0; done
+for word in -m64 -m32; do
+    for scene in sundial avenue desk room fence mixed; do
+        gcc $word -std=c99 -w -O1 -Ilib -Iboards/apps "-Ibuild/firmware/scenes/$scene" '-DGN_USER_CONFIG="golden_config.h"' -DGOLDEN_SCENE=$scene \
+            -c -o "$tmp/scene${word}_$scene.o" boards/apps/golden_scene.c || scenes_ok=0
+    done
+done
+[ $scenes_ok = 1 ] && pass || fail "a scene does not compile: $(tail -n 1 "$tmp/log")"
+make -s build/rgb565_png >"$tmp/log" 2>&1 && pass || fail "rgb565_png does not build"
+sh tests/one_file.sh lib >"$tmp/lib.c"
+
+{
+    for board in $emulated; do
+        grep -q "RAM_BYTES : [0-9]*M" "boards/$board/link.ld" && echo "board_golden $board"
+    done
+    for compiler in gcc clang; do for opt in -O3 -O2 -Os -O0; do for word in -m64 -m32; do echo "host_golden $compiler $opt $word"; done; done; done
+    echo "board_play mps2-an385 sundial 24 tiny"
+    echo "board_play mps2-an386 desk 0 balanced"
+    echo "board_play mps2-an505 fence 0 accurate"
+    echo "board_play mps3-an547 mixed 0 balanced"
+    echo "board_play nrf51-large avenue 0 tiny"
+    echo "board_play rv32-virt room 0 accurate"
+    for board in $emulated; do echo "board_guards $board"; done
+    for board in $built_only; do echo "built $board"; done
+    echo pocket
+} >"$tmp/jobs"
+xargs -P 2 -I '{}' sh -c 'sh tests/test_boards.sh job "$1" $2' run "$tmp" '{}' <"$tmp/jobs" >"$tmp/results" 2>&1
+{ hot; pico_boot; } >>"$tmp/results" 2>&1
+passed=$((passed + $(grep -c '^ok$' "$tmp/results")))
+failed=$((failed + $(grep -v -c '^ok$' "$tmp/results")))
+grep -v '^ok$' "$tmp/results"
+[ "$(echo "$emulated" | grep -c .)" -ge 7 ] && pass || fail "the emulated boards are $emulated"
+[ "$(echo "$built_only" | grep -c .)" -ge 2 ] && pass || fail "the boards that are built only are $built_only"
+[ "$(grep -c '^ok$' "$tmp/results")" -ge 58 ] && pass || fail "jobs are missing"
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
