@@ -8,11 +8,14 @@
 /* k^2 = (W^2 + H^2) / (H focal)^2, Q24, clamped to 2^14 (half-diagonal of 89.5 degrees). */
 int64_t gn_cascade_tan2_q24(const gn_frame *frame)
 {
-    const int64_t limit = (int64_t)1 << 38;
-    int64_t w = frame->picture.width, h = frame->picture.height, focal = frame->scene->camera.focal_q24;
-    int64_t k2 = gn_clamp64((((w * w + h * h) << 24) + h * h / 2) / (h * h), 0, limit); /* 2^23 * 2^24 */
-    k2 = gn_clamp64(((k2 << 24) + focal / 2) / focal, 0, limit);                        /* 2^62 */
-    return gn_clamp64(((k2 << 24) + focal / 2) / focal, 0, limit);
+    const uint64_t limit = (uint64_t)1 << 38;
+    uint32_t w = frame->picture.width, h = frame->picture.height, focal = frame->scene->camera.focal_q24;
+    uint64_t k2 = gn_udiv64(((uint64_t)(w * w + h * h) << 24) + h * h / 2, h * h); /* 2^23 * 2^24 */
+    for (int i = 0; i < 2; i++) {
+        if (k2 > limit) k2 = limit;
+        k2 = gn_udiv64((k2 << 24) + focal / 2, focal); /* 2^62 */
+    }
+    return (int64_t)(k2 < limit ? k2 : limit);
 }
 
 void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t *centre_q24, int64_t *radius_q24)
@@ -22,7 +25,7 @@ void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16,
     int64_t q = 65536 - (int64_t)frame->scene->shadow.cascade_fade_uq16;
     if (q < 8192) q = 8192; /* 1/8: see DESIGN 1.4 */
     int64_t q2 = (q * q) >> 8;
-    int64_t n = ((int64_t)near_q16 << 24) / far_q16; /* < 1 */
+    int64_t n = (int64_t)gn_udiv64((uint64_t)(uint32_t)near_q16 << 24, (uint32_t)far_q16); /* < 1 */
     int64_t n2 = gn_shr64(n * n, 24);
     int64_t a = one - q2, b = n - q2;
     int64_t big_c = gn_shr64((one + k2) * (q2 - n2), 24); /* 2^38 * 2^24 */
@@ -30,10 +33,10 @@ void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16,
     int64_t c = one;
     if (under >= 0 && big_c > 0) {
         int64_t s = gn_isqrt64((uint64_t)under);
-        if (s > b) c = gn_clamp64((big_c << 24) / (s - b), 0, one);
+        if (s > b) c = gn_clamp64((int64_t)gn_udiv64((uint64_t)big_c << 24, (uint64_t)(s - b)), 0, one);
     }
     int64_t far2 = gn_shr64((one - c) * (one - c), 24) + k2;
-    int64_t near2 = ((c - n) * (c - n) + k2 * n2) / q2; /* 2^48 + 2^62 */
+    int64_t near2 = (int64_t)gn_udiv64((uint64_t)((c - n) * (c - n) + k2 * n2), (uint64_t)q2); /* 2^48 + 2^62 */
     int64_t r2 = far2 > near2 ? far2 : near2;           /* <= (1 + 2^14) * 64 in Q24: 2^44 at the extreme, 2^38 else */
     *centre_q24 = c;
     *radius_q24 = r2 < (int64_t)1 << 38 ? gn_isqrt64((uint64_t)r2 << 24) : (int64_t)gn_isqrt64((uint64_t)r2) << 12;

@@ -86,6 +86,26 @@ int64_t gn_bf_apply_bits(int64_t a, uint64_t b_bits)
     return a < 0 ? -(int64_t)r : (int64_t)r;
 }
 
+uint64_t gn_udiv64_rest(uint64_t a, uint64_t b, uint64_t *rest)
+{
+    uint64_t quotient = 0;
+    int32_t bit = a ? gn_clz64(b) - gn_clz64(a) : -1;
+    for (b = bit > 0 ? b << bit : b; bit >= 0; bit--, b >>= 1) {
+        quotient <<= 1;
+        if (a >= b) {
+            a -= b;
+            quotient |= 1U;
+        }
+    }
+    *rest = a;
+    return quotient;
+}
+
+uint64_t gn_udiv64(uint64_t a, uint64_t b)
+{
+    return gn_udiv64_rest(a, b, &a);
+}
+
 uint32_t gn_isqrt64(uint64_t v)
 {
     uint64_t root = 0;
@@ -197,8 +217,8 @@ uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn)
     int32_t s = gn_sin_q30(vertical_fov_turn);
     if (s <= 0) return vertical_fov_turn ? 0 : UINT32_MAX;
     int64_t numerator = ((int64_t)(1 << 30) + gn_cos_q30(vertical_fov_turn)) << 24;
-    int64_t q = (numerator + s / 2) / s;
-    return q > (int64_t)UINT32_MAX ? UINT32_MAX : (uint32_t)q;
+    uint64_t q = gn_udiv64((uint64_t)numerator + (uint32_t)s / 2, (uint32_t)s);
+    return q > UINT32_MAX ? UINT32_MAX : (uint32_t)q;
 }
 
 uint64_t gn_length_bits(int32_t newton_steps, const int32_t n_q30[3])

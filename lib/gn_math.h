@@ -58,6 +58,11 @@ GN_INLINE int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift)
 
 uint32_t gn_isqrt64(uint64_t v); /* floor(sqrt(v)) */
 
+/* floor(a / b), b > 0, and what is left. A step per bit of the quotient: never per pixel; where it is short, no slower than the compiler's
+ * helper, which takes ten times the flash. */
+uint64_t gn_udiv64_rest(uint64_t a, uint64_t b, uint64_t *rest);
+uint64_t gn_udiv64(uint64_t a, uint64_t b);
+
 /* round(a * 2^q30 / |a|); a any length but zero. Each component errs by at most 3 LSB of Q1.30. Returns 0 if a is zero. */
 int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3]);
 

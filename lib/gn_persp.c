@@ -24,7 +24,7 @@ int32_t gn_persp_face(const int32_t from_light_q16[3])
 int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped)
 {
     const int64_t one = 1 << 24, two = 2 << 24;
-    int64_t a = ((int64_t)(2 * (filter_idx + 1)) << 24) / tile_texels; /* <= 2.25 */
+    int64_t a = (int64_t)gn_udiv64((uint64_t)(2 * (filter_idx + 1)) << 24, (uint64_t)tile_texels); /* <= 2.25 */
     int64_t p = gn_shr64((int64_t)nu_q16 * 46341 * a, 32);             /* nu / sqrt(2) * A: 2^21 * 2^16 * 2^26 */
     int64_t b = one - p - a, product = gn_shr64(p * (one - a), 24);
     int64_t under = b * b - 4 * product * one;
@@ -32,7 +32,7 @@ int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texel
     if (b <= 0 || under < 0) return two;
     /* the smaller root of P (1 - A) t^2 - (1 - P - A) t + 1, in the form that P = 0 does not hurt */
     int64_t sum = b + (int64_t)gn_isqrt64((uint64_t)under);
-    int64_t t = ((two << 24) + sum / 2) / sum;
+    int64_t t = (int64_t)gn_udiv64((uint64_t)((two << 24) + sum / 2), (uint64_t)sum);
     if (t > two) return two;
     *clamped = 0;
     return t;
@@ -42,7 +42,7 @@ int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texel
 static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int64_t t_denominator)
 {
     uint64_t scaled = ((uint64_t)tile_texels << 16) * (uint64_t)t_denominator; /* 2^26 * 2^31 */
-    uint64_t focal2 = (scaled + (uint64_t)t_numerator / 2) / (uint64_t)t_numerator;
+    uint64_t focal2 = gn_udiv64(scaled + (uint64_t)t_numerator / 2, (uint64_t)t_numerator);
     return focal2 > UINT32_MAX ? UINT32_MAX : (uint32_t)focal2;
 }
 
@@ -63,7 +63,11 @@ void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
     fit->texel_per_z = gn_bf_recip(gn_bf_from_u64(fit->focal2_q16));
     fit->near_over_focal2 = gn_bf_mul(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16), fit->texel_per_z);
     fit->texel_per_z.exp += 17; /* 2 / (T / t), T / t in Q16 */
-    for (int i = 0; i < 2; i++) fit->guard_q16[i] = gn_sat32((int64_t)(((uint64_t)(2 * GN_GUARD_TEXELS) << 32) / fit->focal2_q16));
+    fit->guard_q16[0] = fit->guard_q16[1] = gn_sat32((int64_t)gn_udiv64((uint64_t)(2 * GN_GUARD_TEXELS) << 32, fit->focal2_q16));
+    fit->side_q16[0] = fit->side_q16[1] = gn_sat32((int64_t)gn_udiv64((uint64_t)view->tile_texels << 32, fit->focal2_q16) + 2);
+    fit->ratio_max_q28 = (int64_t)gn_udiv64((uint64_t)1 << 62, fit->focal2_q16);
+    /* min(1, constant * 2t / T): T / t has 16 fraction bits */
+    fit->constant_share_q30 = (int32_t)gn_clamp64((int64_t)gn_udiv64((uint64_t)(uint32_t)light->bias_constant_q16 << 31, fit->focal2_q16), 0, 1 << 30);
 }
 
 /* ---- Casters ------------------------------------------------------------------------------------------------------ */
@@ -83,8 +87,7 @@ static void add_bias(const gn_light_view *view, gn_caster *caster)
     int64_t steepest = (int64_t)(u > v ? u : v); /* <= 2^33 */
     caster->bias = gn_shr64(steepest * view->bias_slope_q16, 16);
     if (!view->bias_constant_q16) return;
-    /* share = min(1, constant * 2t / T), Q30: T / t has 16 fraction bits */
-    int64_t share = gn_clamp64((((int64_t)view->bias_constant_q16 << 31) / view->fit.persp.focal2_q16), 0, 1 << 30);
+    int64_t share = view->fit.persp.constant_share_q30;
     caster->dz_du -= gn_shr64((caster->dz_du >> 2) * share, 28); /* 2^31 * 2^30 */
     caster->dz_dv -= gn_shr64((caster->dz_dv >> 2) * share, 28);
     caster->lo += gn_shr64((one - caster->lo) * share, 30);
@@ -131,7 +134,7 @@ static void project(const gn_frame *frame, const gn_light_view *view, const int3
         int64_t ratio_q28 = gn_scale64((int64_t)v_q16[i] * (int64_t)recip, shift);
         const int64_t limit = (int64_t)1 << 46;
         ratio_q28 = gn_clamp64(ratio_q28, -limit, limit);
-        int64_t bound = (int64_t)(((uint64_t)1 << 62) / view->fit.persp.focal2_q16);
+        int64_t bound = view->fit.persp.ratio_max_q28;
         texel[i] = gn_shr64(gn_clamp64(ratio_q28, -bound, bound) * (int64_t)view->fit.persp.focal2_q16, 45 - bits);
     }
     *x = (int32_t)gn_clamp64(texel[0], -most, most) + centre;
@@ -142,11 +145,9 @@ int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, int3
                           gn_caster_alpha *alpha)
 {
     const gn_persp_fit *fit = &view->fit.persp;
-    /* the tile's own border, a little wider: what is outside all of it casts nothing here */
-    int32_t side = gn_sat32((int64_t)((((uint64_t)view->tile_texels << 32) / fit->focal2_q16)) + 2), sides[2] = {side, side};
     uint32_t all = ~0U, any = 0;
     for (int i = 0; i < 3; i++) {
-        all &= gn_outcode(corner[i], fit->near_q16, sides);
+        all &= gn_outcode(corner[i], fit->near_q16, fit->side_q16);
         any |= gn_outcode(corner[i], fit->near_q16, fit->guard_q16);
     }
     gn_caster caster;

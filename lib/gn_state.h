@@ -87,6 +87,9 @@ typedef struct {
     gn_bfloat near_over_focal2; /* n / (T / t) */
     gn_bfloat texel_per_z;      /* 2t / T: width of a texel at light-plane distance 1 */
     int32_t guard_q16[2];       /* |x|, |y| <= guard * z after clipping to the guard band */
+    int32_t side_q16[2];        /* the same for the tile's own border, a little wider: what is outside all of it casts nothing here */
+    int64_t ratio_max_q28;      /* x / z beyond this would overflow, times focal2 */
+    int32_t constant_share_q30; /* B1: min(1, constant bias * 2t / T) */
 } gn_persp_fit;
 
 typedef struct {

@@ -1,5 +1,6 @@
 /* Exact edge walkers. */
 #include "gn_walk.h"
+#include "gn_math.h"
 #include "gn_hint.h"
 #include "gn_q.h"
 
@@ -13,8 +14,13 @@ static void floor_div(int64_t a, int32_t b, int32_t *q, int32_t *r)
         quotient = (int32_t)a / b;
         rest = (int32_t)a % b;
     } else {
-        quotient = a / b;
-        rest = a % b;
+        uint64_t left;
+        quotient = (int64_t)gn_udiv64_rest(gn_abs64(a), (uint32_t)b, &left);
+        rest = (int64_t)left;
+        if (a < 0) {
+            quotient = -quotient;
+            rest = -rest;
+        }
     }
     if (rest < 0) {
         rest += b;

@@ -20,7 +20,7 @@ static int32_t guard_px(int32_t subpixel_bits, int32_t size_px)
 /* Pixels from the centre over the focal length: Q16, rounded down so that a clipped vertex stays within. */
 static int32_t slope_q16(uint32_t twice_px, uint32_t focal2_px_q16)
 {
-    return gn_sat32((int64_t)(((uint64_t)twice_px << 32) / focal2_px_q16));
+    return gn_sat32((int64_t)gn_udiv64((uint64_t)twice_px << 32, focal2_px_q16));
 }
 
 void gn_cam_setup(gn_frame *frame)
