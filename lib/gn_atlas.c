@@ -270,58 +270,59 @@ static uint64_t layer_signature(const gn_frame *frame, const gn_light_view *view
 #endif
 
 #if GN_STATIC_LAYER
-/* The view with its texels in the static layer. */
-static gn_light_view static_view(gn_frame *frame, const gn_light_view *view)
+/* The view's texels in the static layer. */
+static gn_texels static_texels(gn_frame *frame, const gn_light_view *view)
 {
-    gn_light_view out = *view;
     gn_texels texels = GN_TEXELS_OF(frame->static_atlas, view->depth_bits);
 #if GN_OTHER_ATLAS
     if (view->in_other) texels = GN_TEXELS_OF(frame->static_other_atlas, view->depth_bits);
 #endif
-    out.depth = gn_texels_at(texels, view->depth_bits, view->first_texel);
-    return out;
+    return gn_texels_at(texels, view->depth_bits, view->first_texel);
 }
 
-static void copy_texels(const gn_light_view *to, const gn_light_view *from)
+static void copy_texels(const gn_light_view *to, gn_texels from)
 {
     size_t n = (size_t)to->tile_texels * to->tile_texels;
     int32_t bits = GN_VIEW_BITS(to);
     if (bits == 8)
-        for (size_t i = 0; i < n; i++) to->depth.d8[i] = from->depth.d8[i];
+        for (size_t i = 0; i < n; i++) to->depth.d8[i] = from.d8[i];
     else if (bits == 16)
-        for (size_t i = 0; i < n; i++) to->depth.d16[i] = from->depth.d16[i];
+        for (size_t i = 0; i < n; i++) to->depth.d16[i] = from.d16[i];
     else
-        for (size_t i = 0; i < n; i++) to->depth.d32[i] = from->depth.d32[i];
+        for (size_t i = 0; i < n; i++) to->depth.d32[i] = from.d32[i];
 }
 
 /* Static casters into the static layer, unless it holds them already. */
-static gn_status static_layer(gn_frame *frame, const gn_light_view *view, const gn_light_view *below, uint32_t view_idx)
+static gn_status static_layer(gn_frame *frame, gn_light_view *view, gn_texels below, uint32_t view_idx)
 {
 #if GN_INCREMENTAL
     uint64_t signature = layer_signature(frame, view, LAYER_STATIC);
     if (frame->memory[view_idx].static_signature == signature) return GN_OK;
     frame->memory[view_idx].static_signature = 0;
 #endif
-    clear(below);
-    gn_status status = draw_layer(frame, below, LAYER_STATIC);
+    gn_texels above = view->depth;
+    view->depth = below;
+    clear(view);
+    gn_status status = draw_layer(frame, view, LAYER_STATIC);
+    view->depth = above;
 #if GN_INCREMENTAL
     if (!status) frame->memory[view_idx].static_signature = signature;
 #else
-    (void)view, (void)view_idx;
+    (void)view_idx;
 #endif
     return status;
 }
 #endif
 
-static gn_status draw_tile(gn_frame *frame, const gn_light_view *view, uint32_t view_idx)
+static gn_status draw_view(gn_frame *frame, gn_light_view *view, uint32_t view_idx)
 {
     frame->stats.n_tiles_drawn++;
     GN_COUNT(tile_texels, view->tile_texels * view->tile_texels);
 #if GN_STATIC_LAYER
-    gn_light_view below = static_view(frame, view);
-    gn_status status = static_layer(frame, view, &below, view_idx);
+    gn_texels below = static_texels(frame, view);
+    gn_status status = static_layer(frame, view, below, view_idx);
     if (status) return status;
-    copy_texels(view, &below);
+    copy_texels(view, below);
     return draw_layer(frame, view, LAYER_MOVING);
 #else
     (void)view_idx;
@@ -339,7 +340,7 @@ gn_status gn_atlas_render_tile(gn_frame *frame, uint32_t view_idx)
     if (frame->memory[view_idx].signature == signature) return GN_OK;
     frame->memory[view_idx].signature = 0;
 #endif
-    gn_status status = draw_tile(frame, view, view_idx);
+    gn_status status = draw_view(frame, view, view_idx);
     if (status) return status;
 #if GN_DEPTH_BLOCKS
     gn_blocks_build(view);

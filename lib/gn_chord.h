@@ -4,12 +4,6 @@
 
 #include "gn_sample.h"
 
-typedef struct {
-    int32_t step[GN_VALUE_COUNT]; /* from the first pixel to the next */
-    int32_t bend[GN_VALUE_COUNT]; /* what the step grows by per pixel */
-    int32_t bend_first, bend_end; /* of values; the others' steps stay */
-} gn_chord;
-
 /* From sample a to sample b, n > 1 pixels further on in the row. 0: what lies between strays from any parabola (NUMERICS 4.4). */
 int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b,
                      int32_t n);

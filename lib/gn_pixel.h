@@ -14,13 +14,6 @@ uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3]);
 /* Bytes of a tile of finished pixels. */
 size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
 
-/* Where a screen tile's pixels are stored. */
-typedef struct {
-    gn_tile_pixels *pixels;
-    int32_t width;  /* pixels per row of the tile */
-    int32_t x0, y0; /* of the tile in the picture: the dither's pattern stands still in the picture */
-} gn_pixel_rows;
-
 /* Stores a packed pixel n times from (x, y) of the picture on, within one row. */
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
 

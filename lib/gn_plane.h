@@ -9,21 +9,8 @@
 #include "gn_math.h"
 #include "gnomon.h"
 
-typedef struct {
-    int32_t n[3]; /* face normal, away from the viewer for a front face, |n| < 2^30, power-of-two scale n_exp */
-    int32_t n_exp;
-    int64_t det;  /* n . v0, positive after gn_plane_setup; 0: edge on or degenerate */
-    int32_t back; /* 1: seen from behind (n has been negated) */
-} gn_plane;
-
 /* v0, v1, v2 in view space, |v| < 2^30. */
 void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3]);
-
-/* Perspective-correct barycentrics b1, b2 of a triangle: (form . ray) / (n . ray) * 2^exp, NUMERICS 4.3. */
-typedef struct {
-    int32_t form[2][3];
-    int32_t exp[2];
-} gn_bary;
 
 /* For the triangle that `plane` was set up from. */
 void gn_bary_setup(gn_bary *bary, const gn_plane *plane, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3]);

@@ -11,17 +11,7 @@
 #include "gn_raster.h"
 #include "gn_runs.h"
 
-typedef struct {
-    const gn_frame *frame;
-    gn_scratch *scratch;
-    gn_rect rect;
-    gn_pixel_rows rows;
-    gn_surface_cache cache;
-    gn_surface surface;
-    const gn_tri *tri;
-    uint32_t last_q20[3]; /* the last radiance and its pixel: neighbours are often equal */
-    uint32_t last_pixel;
-} shading;
+typedef gn_shading shading;
 
 #if GN_RAW_VIEWS
 /* Q1.30 to 10 bits, offset 512 */
@@ -92,21 +82,21 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     int32_t step_px = s->surface.specular ? 1 : GN_K(s->frame, persp_step); /* a highlight is narrower than its n . h */
     int32_t first = s->surface.first_value, end = s->surface.n_values;
-    gn_chord chord;
-    gn_sample samples[2], *here = &samples[0], *next = &samples[1];
+    gn_chord *chord = &s->chord;
+    gn_sample *here = &s->sample[0], *next = &s->sample[1];
     gn_sample_at(s->frame, &s->surface, x_begin, y, here);
     shade_pixel(s, here, x_begin, y);
     for (int32_t x = x_begin; x < x_end - 1;) {
         int32_t n = gn_min32(step_px, x_end - 1 - x);
         gn_sample_at(s->frame, &s->surface, x + n, y, next);
-        while (n > 1 && !gn_chord_between(&chord, s->frame, &s->surface, here, next, n)) {
+        while (n > 1 && !gn_chord_between(chord, s->frame, &s->surface, here, next, n)) {
             n >>= 1;
             gn_sample_at(s->frame, &s->surface, x + n, y, next);
         }
         if (n > 1) {
             GN_COUNT(stepped, n * (end - first));
             for (int32_t k = 1; k < n; k++) {
-                gn_chord_next(&chord, here->value, first, end);
+                gn_chord_next(chord, here->value, first, end);
                 shade_pixel(s, here, x + k, y);
             }
         }
@@ -121,12 +111,12 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 /* The pixel of a surface that looks the same all over. */
 static uint32_t constant_pixel(shading *s)
 {
-    gn_sample sample;
+    gn_sample *sample = &s->sample[0];
     uint32_t radiance_q20[3];
-    sample.cascade = GN_CASCADE_NONE;
+    sample->cascade = GN_CASCADE_NONE;
     for (uint32_t i = 0; i < s->surface.n_lights; i++)
-        sample.value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i] = s->surface.light[i].flat_cosine_q24;
-    gn_light_radiance(s->frame, &s->surface, &sample, radiance_q20);
+        sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i] = s->surface.light[i].flat_cosine_q24;
+    gn_light_radiance(s->frame, &s->surface, sample, radiance_q20);
     return pack(s, radiance_q20);
 }
 
@@ -173,21 +163,21 @@ static void clear_background(shading *s)
 
 void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
-    shading s;
-    s.frame = frame;
-    s.scratch = scratch;
-    s.rect = gn_bin_tile_rect(frame, tile_idx);
-    s.rows.pixels = &scratch->pixel;
-    s.rows.width = s.rect.x1 - s.rect.x0;
-    s.rows.x0 = s.rect.x0;
-    s.rows.y0 = s.rect.y0;
-    s.cache.object = NULL;
-    s.cache.lights = UINT64_MAX;
+    shading *s = &scratch->shading;
+    s->frame = frame;
+    s->scratch = scratch;
+    s->rect = gn_bin_tile_rect(frame, tile_idx);
+    s->rows.pixels = &scratch->pixel;
+    s->rows.width = s->rect.x1 - s->rect.x0;
+    s->rows.x0 = s->rect.x0;
+    s->rows.y0 = s->rect.y0;
+    s->cache.object = NULL;
+    s->cache.lights = UINT64_MAX;
 #if GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS
-    s.cache.lights = gn_punctual_in_tile(frame, &s.rect);
+    s->cache.lights = gn_punctual_in_tile(frame, &s->rect);
 #endif
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
-    clear_background(&s);
-    gn_runs_build(frame, scratch, s.rows.width, s.rect.y1 - s.rect.y0);
-    for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++) shade_triangle(&s, frame->tile_ref[i]);
+    clear_background(s);
+    gn_runs_build(frame, scratch, s->rows.width, s->rect.y1 - s->rect.y0);
+    for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++) shade_triangle(s, frame->tile_ref[i]);
 }

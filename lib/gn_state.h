@@ -275,6 +275,8 @@ typedef union {
     uint32_t raw[GN_TILE_PIXELS_MAX * (GN_RAW_VIEWS ? 4 : 3) / 4];
 } gn_tile_pixels;
 
+#include "gn_shading.h"
+
 #define GN_RUN_LISTS 64
 #if GN_TILE_PIXELS_MAX > 65535
 typedef uint32_t gn_run_idx;
@@ -287,6 +289,7 @@ typedef struct gn_scratch {
     gn_tile_pixels pixel;              /* finished pixels in the picture's format */
     gn_vcache_entry vertex[GN_VERTEX_CACHE];
     gn_run_idx run_list[GN_RUN_LISTS]; /* first runs, by the low bits of their triangles; see gn_runs.h */
+    gn_shading shading;
 } gn_scratch;
 
 #endif

@@ -17,10 +17,6 @@ uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, 
 #endif
 
 #if GN_TEXTURES
-/* Texture coordinates of a triangle: vertex 0, then differences of vertices 1 and 2 to it. */
-typedef struct {
-    int64_t uv_q16[3][2];
-} gn_texture_triangle;
 
 void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const uint16_t idx[3]);
 

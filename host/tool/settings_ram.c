@@ -44,6 +44,31 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
     if (other) r->other_atlas = put_atlas(l, s, s->quality.other_atlas_size, s->capacity.other_atlas_texels, s->quality.other_depth_bits);
 }
 
+/* gn_shading of lib/gn_shading.h */
+static void put_shading(layout *out, const settings *s)
+{
+    layout surface = {0, 8}, all = {0, 8};
+    int per_light = (s->feature.shadows && s->feature.blended_cascades) || s->feature.punctual_lights ? 7 : s->feature.shadows ? 4 : 1;
+    long values = (s->feature.textures ? 2 : 0) + (s->feature.masks ? 4 : 0) + (s->feature.baked_light ? 3 : 0) + 5 +
+                  (long)per_light * s->capacity.surface_lights;
+    put(&surface, 1, 160, 8); /* object to rgb_q16 */
+    if (s->feature.textures) put(&surface, 6, 8, 8);
+    if (s->feature.masks) put(&surface, 12, 4, 4);
+    if (s->feature.baked_light) put(&surface, 9, 4, 4);
+    if (s->feature.receiver_plane || s->feature.auto_bias) put(&surface, 3, 4, 4);
+    put(&surface, 36, 1, 4); /* has_bary to n_punctual */
+    put(&surface, s->capacity.surface_lights, 36, 4);
+    pad(&surface, surface.align);
+    put(&all, 1, 40, 4);  /* frame to rows */
+    put(&all, 1, 128, 8); /* cache */
+    put(&all, 1, surface.size, 8);
+    put(&all, 5, 4, 4);                                                     /* tri to last_pixel */
+    put(&all, 2, 4 * values + 28 + (s->feature.specular ? 24 : 0), 4);      /* sample */
+    put(&all, 1, 8 * values + 8, 4);                                        /* chord */
+    pad(&all, all.align);
+    put(out, 1, all.size, 8);
+}
+
 /* Mirrors lib/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against sizeof(gn_renderer). */
 settings_ram_parts settings_ram(const settings *s)
 {
@@ -67,6 +92,7 @@ settings_ram_parts settings_ram(const settings *s)
     r.pixels = put(&all, tile_w * tile_h, s->feature.raw_views ? 4 : 3, 4);
     put(&all, s->capacity.vertex_cache, 16, 4);
     put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
+    put_shading(&all, s);
     pad(&all, all.align);
     r.total = all.size;
     r.rest = r.total - r.atlas - r.other_atlas - r.objects - r.lights - r.triangles - r.tile_refs - r.tiles - r.cells - r.pixels;

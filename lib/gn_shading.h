@@ -1,0 +1,139 @@
+/* What a core keeps while it shades a screen tile: in its gn_scratch, for a stack is small. Private, like gn_state.h, which includes it.
+ * The functions that use these types say what they mean: gn_plane.h, gn_texture.h, gn_surface.h, gn_sample.h, gn_chord.h, gn_pixel.h, gn_shade.c.
+ */
+#ifndef GN_SHADING_H
+#define GN_SHADING_H
+
+/* Pixels whose centres lie in the triangle's bounding box, cut to the picture: x0 <= x < x1, y0 <= y < y1. */
+typedef struct {
+    int32_t x0, y0, x1, y1;
+} gn_rect;
+
+typedef struct {
+    int32_t n[3]; /* face normal, away from the viewer for a front face, |n| < 2^30, power-of-two scale n_exp */
+    int32_t n_exp;
+    int64_t det;  /* n . v0, positive after gn_plane_setup; 0: edge on or degenerate */
+    int32_t back; /* 1: seen from behind (n has been negated) */
+} gn_plane;
+
+/* Perspective-correct barycentrics b1, b2 of a triangle: (form . ray) / (n . ray) * 2^exp, NUMERICS 4.3. */
+typedef struct {
+    int32_t form[2][3];
+    int32_t exp[2];
+} gn_bary;
+
+#if GN_TEXTURES
+/* Texture coordinates of a triangle: vertex 0, then differences of vertices 1 and 2 to it. */
+typedef struct {
+    int64_t uv_q16[3][2];
+} gn_texture_triangle;
+#endif
+
+/* A light of the surface's list. */
+typedef struct {
+    const gn_light_state *state;
+    uint32_t idx;
+    uint32_t radiance_uq16[3]; /* albedo times colour */
+    /* where the normal is constant, for directional lights: n . L, and the receiver's offset in texels; B6: what gn_bias_auto_face says */
+    int32_t flat_cosine_q24;
+    int32_t flat_offset_q16[3];
+} gn_surface_light;
+
+typedef struct {
+    const gn_object *object;
+    gn_plane plane;
+    gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
+    int32_t z_min_q16, z_max_q16;
+    gn_bary bary;
+    int32_t normal_q30[3][3]; /* vertex 0, then differences of vertices 1 and 2 to it; flat: the face normal and zeros */
+    int32_t rgb_q16[3][3];    /* likewise for vertex colours */
+#if GN_TEXTURES
+    gn_texture_triangle uv;
+#endif
+#if GN_MASKS
+    int32_t mask_q16[3][4];
+#endif
+#if GN_BAKED_LIGHT
+    int32_t baked_q16[3][3];
+#endif
+#if GN_RECEIVER_PLANE || GN_AUTO_BIAS
+    int32_t face_q30[3]; /* normal of the face in the world; only where some light of the list asks for it */
+#endif
+    uint8_t has_bary, smooth, coloured, textured, masked, baked, specular;
+    uint8_t shadowed; /* some light's shadow may fall on it */
+    int32_t first_value, n_values;
+    uint32_t base_q20[3]; /* albedo times ambient: with the lights' radiance_uq16, weighted, it sums up to the radiance */
+    uint32_t n_lights, n_punctual;
+    gn_surface_light light[GN_SURFACE_LIGHTS]; /* those that can reach it */
+} gn_surface;
+
+/* Keeps what neighbouring triangles of a screen tile share. */
+typedef struct {
+    const gn_object *object;
+    gn_xform to_view; /* of the current object */
+    int32_t normal_matrix[3][3];
+    uint64_t lights; /* R9: a bit per light that can reach the screen tile */
+} gn_surface_cache;
+
+/* Values sampled at a pixel and stepped linearly between samples. The first groups only where a surface has them. */
+enum {
+    GN_VALUE_UV = 0,                                        /* 2: texture coordinates, Q16 */
+    GN_VALUE_MASK = GN_VALUE_UV + (GN_TEXTURES ? 2 : 0),    /* 4: shadow masks, Q16; or 2: coordinates of the mask image */
+    GN_VALUE_BAKED = GN_VALUE_MASK + (GN_MASKS ? 4 : 0),    /* 3: irradiance, Q16 */
+    GN_VALUE_Z = GN_VALUE_BAKED + (GN_BAKED_LIGHT ? 3 : 0), /* view depth, Q16 */
+    GN_VALUE_FADE,                                          /* D6 factor of the cascade, Q16 */
+    GN_VALUE_RGB,                                           /* 3: interpolated vertex colour, Q16 */
+    GN_VALUE_LIGHT = GN_VALUE_RGB + 3,                      /* the lights of the surface's list */
+    GN_VALUES_PER_LIGHT = (GN_SHADOWS && GN_BLENDED_CASCADES) || GN_PUNCTUAL_LIGHTS ? 7
+                          : GN_SHADOWS                                              ? 4
+                                                                                    : 1,
+    GN_VALUE_COUNT = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * GN_SURFACE_LIGHTS
+};
+
+/* Values of a light. Directional: n . L in Q24, tile coordinates U, V, D in Q16 texels, and those of the next cascade. Spot and point:
+ * n . (light - point), the point from the light, and the receiver's offset, all in world axes and Q16 units. */
+enum { GN_LIGHT_FACING, GN_LIGHT_POINT_AT, GN_LIGHT_OFFSET = 4 };
+
+#define GN_CASCADE_NONE 4
+
+typedef struct {
+    int32_t value[GN_VALUE_COUNT];
+    int32_t normal_q15[3]; /* interpolated, not renormalised; lit smooth surfaces only */
+    int32_t cascade;       /* of the surface point, GN_CASCADE_NONE: none */
+    int32_t in_reach;      /* D11: near enough to the camera for shadows */
+    int32_t x, y;          /* the pixel */
+#if GN_SPECULAR
+    int32_t normal_q30[3], to_eye_q30[3]; /* unit; surfaces with highlights only */
+#endif
+} gn_sample;
+
+/* Between two samples: gn_chord.h. */
+typedef struct {
+    int32_t step[GN_VALUE_COUNT]; /* from the first pixel to the next */
+    int32_t bend[GN_VALUE_COUNT]; /* what the step grows by per pixel */
+    int32_t bend_first, bend_end; /* of values; the others' steps stay */
+} gn_chord;
+
+/* Where a screen tile's pixels are stored. */
+typedef struct {
+    gn_tile_pixels *pixels;
+    int32_t width;  /* pixels per row of the tile */
+    int32_t x0, y0; /* of the tile in the picture: the dither's pattern stands still in the picture */
+} gn_pixel_rows;
+
+/* The tile, and the triangle at hand. */
+typedef struct {
+    const struct gn_frame *frame;
+    struct gn_scratch *scratch;
+    gn_rect rect;
+    gn_pixel_rows rows;
+    gn_surface_cache cache;
+    gn_surface surface;
+    const gn_tri *tri;
+    uint32_t last_q20[3]; /* the last radiance and its pixel: neighbours are often equal */
+    uint32_t last_pixel;
+    gn_sample sample[2]; /* the run's last exact one and the next */
+    gn_chord chord;
+} gn_shading;
+
+#endif
