@@ -81,7 +81,7 @@ static int punctual_holds(const gn_frame *frame, const gn_light_state *light, in
     int64_t texel_q16 = gn_bf_apply((int64_t)distance, frame->view[light->view_idx].fit.persp.texel_per_z, 0);
     return holds((int64_t)moved, error, (uint64_t)gn_clamp64(texel_q16, 0, INT32_MAX) >> GN_PERSP_LOG2);
 #else
-    (void)frame, (void)turned;
+    (void)frame;
     return 1;
 #endif
 }
