@@ -22,7 +22,7 @@
 /* From normal n0 to n1: |n1|^2 / |n0|^2 - 1, and the square of the angle; Q16. */
 typedef struct {
     int32_t longer_q16, angle2_q16;
-} turn;
+} turning;
 
 /* v / of rounded down, Q16; v < of */
 static int32_t quotient_q16(uint32_t v, uint32_t of)
@@ -32,7 +32,7 @@ static int32_t quotient_q16(uint32_t v, uint32_t of)
 }
 
 /* 0: too far apart for what turn_cosines leaves, which is of third order. */
-static int turn_between(turn *out, const int32_t a_q15[3], const int32_t b_q15[3])
+static int turn_between(turning *out, const int32_t a_q15[3], const int32_t b_q15[3])
 {
     uint32_t aa = 0, bb = 0, apart = 0; /* components within 2^15: halved differences within 2^15, sums below 2^32 */
     for (int i = 0; i < 3; i++) {
@@ -98,7 +98,7 @@ static int directional_holds(const int32_t *a, const int32_t *b, share error)
 /* B3's terms along the light, its tangent and sine are no lines: of 1/8 in the normal, of 1/32 in the light's direction they bend by
  * 2^-6 of themselves up to 80 degrees. */
 static int terms_hold(const gn_frame *frame, const gn_surface *surface, uint32_t slot, const int32_t *a, const int32_t *b,
-                      const turn *turned)
+                      const turning *turned)
 {
     const int32_t *terms = frame->scene->lights[surface->light[slot].idx].bias_receiver_q16;
     if (!surface->shadowed || !(terms[0] | terms[1] | terms[3])) return 1;
@@ -114,7 +114,7 @@ static int terms_hold(const gn_frame *frame, const gn_surface *surface, uint32_t
 #endif
 
 static int lights_hold(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b, share error,
-                       const turn *turned)
+                       const turning *turned)
 {
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i;
@@ -148,7 +148,7 @@ static int texture_holds(const gn_surface *surface, const gn_sample *a, const gn
 #endif
 
 static int all_hold(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b, share error,
-                    const turn *turned)
+                    const turning *turned)
 {
     int ranged = surface->smooth | surface->coloured | surface->masked | surface->baked;
     if (ranged && error.num > error.den >> GN_SHARE_LOG2) return 0;
@@ -196,7 +196,7 @@ static void set_steps(gn_chord *chord, const gn_surface *surface, const gn_sampl
  *
  * for n = n0 + t (n1 - n0) is shorter by angle^2/2 t (1 - t) than between its ends, and not as long at one as at the other. */
 static void turn_cosines(gn_chord *chord, const gn_surface *surface, const gn_sample *a, const gn_sample *b, int32_t n,
-                         const turn *t)
+                         const turning *t)
 {
     int32_t log2 = log2_of(n);
     if (chord->bend_end == chord->bend_first) { /* the cosines alone bend */
@@ -231,7 +231,7 @@ int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *s
 {
     uint32_t za = (uint32_t)a->value[GN_VALUE_Z], zb = (uint32_t)b->value[GN_VALUE_Z], dz = za < zb ? zb - za : za - zb;
     int32_t bend_q30 = 0;
-    turn turned = {0, 0};
+    turning turned = {0, 0};
     if (a->cascade != b->cascade || a->in_reach != b->in_reach) return 0;
     if (surface->smooth && surface->n_lights && !turn_between(&turned, a->normal_q15, b->normal_q15)) return 0;
     const share of_line = {dz, 2 * ((uint64_t)za + zb)}; /* |a| / 2 */
