@@ -225,7 +225,7 @@ static int run(int argc, char **argv)
                     {"info", BY_INFO, tool_info},       {"sweep", BY_SWEEP, tool_sweep},
                     {"advise", BY_ADVISE, tool_advise}, {"compile", BY_COMPILE, tool_compile},
                     {"bake", BY_BAKE, tool_bake}};
-    tool_options o = {.engine = "fixed", .with = "reference", .width = 320, .height = 240, .last_frame = -1, .margin = 10};
+    tool_options o = {.engine = "fixed", .with = "reference", .width = 320, .height = 240, .last_frame = -1, .margin = 10, .texels = 256};
     if (argc < 2) return usage("a command is missing", NULL);
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0) {
         fputs(usage_text, stdout);
