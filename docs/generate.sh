@@ -38,4 +38,6 @@ for name in rows seams crawl; do
 done
 for name in kept culling lists changes; do "$build/test_$name"; done | sed -n 's/^[a-z].* \(per frame\|left out\|listed\|differ\).*/- &/p' >"$work/kept"
 replace ACCURACY.md kept "$work/kept"
+sh docs/displays.sh "$out" "$work/displays"
+replace DISPLAYS.md displays "$work/displays"
 if [ "$out" = docs ]; then sh docs/trade.sh "$tool"; fi

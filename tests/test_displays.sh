@@ -33,6 +33,8 @@ display() {
         awk '/ tiles sent/ { exit !($1 == 7 && $3 > 0 && $3 < $5) }' "$tmp/log" && pass || fail "$1 at $hour: $(grep tiles "$tmp/log")"
         build/firmware/host/predict-"$1".elf "$hour" "$tmp/host.ppm" || fail "no prediction for $1 at $hour"
         same "$tmp/$1-$hour.ppm" "$tmp/host.ppm" "$1 at $hour: the screen is not what the host predicts"
+        cmp -s "$tmp/$1-$hour.png" "docs/pictures/display-$1-$(echo "$hour" | tr -d :).png" && pass ||
+            fail "docs/DISPLAYS.md does not show $1 at $hour as it is: make docs"
         cat "$tmp/$1-$hour.ppm" | cksum >>"$tmp/$1.sums"
     done
     [ "$(sort -u "$tmp/$1.sums" | wc -l)" = 4 ] && pass || fail "$1 shows the same at different hours"

@@ -1,6 +1,6 @@
 /* Panel drivers against models of their controllers: every tile of a picture arrives where it should, through both buffers, in
  * every orientation; nothing is sent that a data sheet forbids; slow, late and failing transfers end in a clear status, and panel_init()
- * leads out of all of them. */
+ * leads out of all of them. --picture PANEL ZOOM prints what the glass of a model shows, as a PPM. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -674,8 +674,40 @@ static void test_framebuffer(void)
     CHECK_EQ_INT(panel_init(&r->panel, &panel_linear, &config, &bus), PANEL_ERR_CONFIG);
 }
 
-int main(void)
+/* ---- What a glass shows, to look at ----------------------------------------------------------------------------------------- */
+
+static void put_pixel(const specimen *s, int v)
 {
+    int rgb[3] = {v, v, v};
+    if (s->format == GN_FORMAT_MONO1) rgb[0] = rgb[1] = rgb[2] = 255 * v;
+    else if (s->format == GN_FORMAT_GREY4) rgb[0] = rgb[1] = rgb[2] = 17 * v;
+    else {
+        rgb[0] = (v >> 11) * 255 / 31;
+        rgb[1] = (v >> 5 & 63) * 255 / 63;
+        rgb[2] = (v & 31) * 255 / 31;
+    }
+    for (int k = 0; k < 3; k++) putchar(rgb[k]);
+}
+
+/* A frame of the library on the model's glass, as a PPM: each pixel `zoom` times as wide and high. */
+static int print_picture(const char *name, int zoom)
+{
+    for (int i = 0; i < N_SPECIMENS; i++) {
+        const specimen *s = &specimens[i];
+        if (strcmp(s->name, name)) continue;
+        test_library_frame(s);
+        printf("P6\n%d %d\n255\n", zoom * s->glass.width, zoom * s->glass.height);
+        for (int y = 0; y < zoom * s->glass.height; y++)
+            for (int x = 0; x < zoom * s->glass.width; x++) put_pixel(s, model_pixel(&the_rig.model, x / zoom, y / zoom));
+        return check_n_failed > 0;
+    }
+    fprintf(stderr, "test_panels: no panel %s\n", name);
+    return 2;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 4 && strcmp(argv[1], "--picture") == 0) return print_picture(argv[2], atoi(argv[3]));
     test_models();
     test_framebuffer();
     for (int i = 0; i < N_SPECIMENS; i++) {

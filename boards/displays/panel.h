@@ -102,7 +102,8 @@ typedef struct {
 } panel;
 
 /* Resets and sets up the controller; also the way out of any error. The display stays dark, so that the memory's noise is not seen:
- * panel_show() after the first frame. Blocks for the controller's delays, 240 ms on the colour panels. */
+ * panel_show() after the first frame. Blocks for the delays of the data sheet: 241 ms on the colour panels, 360 without a reset line,
+ * a few on the OLEDs. */
 panel_status panel_init(panel *p, const panel_driver *driver, const panel_config *config, const panel_bus *bus);
 panel_status panel_show(panel *p, int on);
 panel_status panel_sleep(panel *p); /* the memory keeps the picture */
