@@ -7,16 +7,6 @@
 
 #if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
 
-/* One triangle of an object. */
-typedef struct {
-    const gn_object *object;
-    gn_alpha mode;
-    int textured; /* 0: the object's own alpha all over */
-#if GN_TEXTURES
-    gn_texture_triangle uv;
-#endif
-} gn_alpha_test;
-
 void gn_alpha_begin(gn_alpha_test *test, const gn_object *object, gn_alpha mode, const uint16_t idx[3]);
 
 /* Whether the point with barycentrics b1, b2 is cut; (x, y) picks the noise of the dither. */

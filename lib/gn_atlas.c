@@ -18,19 +18,7 @@
 /* Which casters: with a static layer they are drawn apart. */
 typedef enum { LAYER_ALL, LAYER_STATIC, LAYER_MOVING } layer;
 
-/* One caster and one view. */
-typedef struct {
-    gn_frame *frame;
-    const gn_light_view *view;
-    const gn_object *object;
-    uint32_t object_idx;
-    gn_xform to_light;
-    int two_sided;
-#if GN_CASTER_BIAS
-    int32_t shrink_q16; /* B4, texels */
-    int32_t normal_matrix[3][3];
-#endif
-} caster_job;
+typedef gn_caster_job caster_job;
 
 static int in_layer(const gn_object *object, layer which)
 {
@@ -136,20 +124,20 @@ static int32_t draw_perspective(const caster_job *job, int64_t corner[3][3], gn_
 }
 #endif
 
-static gn_status draw_triangle(const caster_job *job, const uint16_t idx[3])
+static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
 {
-    int64_t corner[3][3];
+    const caster_job *job = &casting->job;
+    int64_t(*corner)[3] = casting->polygon.p;
     gn_caster_alpha *with = NULL;
     if (job->view->perspective) GN_COUNT(casters_persp, 1);
     else GN_COUNT(casters, 1);
     gn_status status = transform(job, idx, corner);
     if (status) return status;
 #if GN_CASTER_ALPHA
-    gn_caster_alpha alpha;
     if (job->object->caster_alpha != GN_ALPHA_OPAQUE) {
-        gn_alpha_begin(&alpha.test, job->object, job->object->caster_alpha, idx);
-        alpha.needs_plane = alpha.test.textured;
-        with = &alpha;
+        with = &casting->alpha;
+        gn_alpha_begin(&with->test, job->object, job->object->caster_alpha, idx);
+        with->needs_plane = with->test.textured;
     }
 #endif
     int32_t n_texels;
@@ -157,44 +145,44 @@ static gn_status draw_triangle(const caster_job *job, const uint16_t idx[3])
     if (job->view->perspective) n_texels = draw_perspective(job, corner, with, &status);
     else
 #endif
-        n_texels = gn_ortho_triangle(job->frame, job->view, corner, job->two_sided, with);
+        n_texels = gn_ortho_triangle(job->frame, job->view, casting, with);
     if (n_texels < 0) return status;
     job->frame->stats.n_caster_triangles++;
     job->frame->stats.n_texels_drawn += (uint32_t)n_texels;
     return GN_OK;
 }
 
-static gn_status draw_object(gn_frame *frame, const gn_light_view *view, uint32_t object_idx)
+static gn_status draw_object(gn_frame *frame, gn_casting *casting, const gn_light_view *view, uint32_t object_idx)
 {
-    caster_job job;
-    job.frame = frame;
-    job.view = view;
-    job.object = &frame->scene->objects[object_idx];
-    job.object_idx = object_idx;
-    job.two_sided = (job.object->flags & (GN_OBJECT_TWO_SIDED | GN_OBJECT_CASTS_TWO_SIDED)) != 0;
+    caster_job *job = &casting->job;
+    job->frame = frame;
+    job->view = view;
+    job->object = &frame->scene->objects[object_idx];
+    job->object_idx = object_idx;
+    job->two_sided = (job->object->flags & (GN_OBJECT_TWO_SIDED | GN_OBJECT_CASTS_TWO_SIDED)) != 0;
 #if GN_PUNCTUAL_LIGHTS
-    if (view->perspective) gn_xform_compose(&job.to_light, view->axis_q30, view->fit.persp.eye_q16, job.object);
+    if (view->perspective) gn_xform_compose(&job->to_light, view->axis_q30, view->fit.persp.eye_q16, job->object);
     else
 #endif
-        gn_ortho_compose(&job.to_light, view, job.object);
+        gn_ortho_compose(&job->to_light, view, job->object);
 #if GN_CASTER_BIAS
-    job.shrink_q16 = frame->scene->lights[view->light_idx].bias_caster_q16;
-    if (job.shrink_q16 && GN_VERTEX_NORMALS && job.object->mesh->nrm_q15) gn_xform_normal_matrix(job.normal_matrix, job.object);
+    job->shrink_q16 = frame->scene->lights[view->light_idx].bias_caster_q16;
+    if (job->shrink_q16 && GN_VERTEX_NORMALS && job->object->mesh->nrm_q15) gn_xform_normal_matrix(job->normal_matrix, job->object);
 #endif
-    const gn_mesh *mesh = job.object->mesh;
+    const gn_mesh *mesh = job->object->mesh;
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
-        gn_status status = draw_triangle(&job, mesh->idx + 3 * (size_t)t);
+        gn_status status = draw_triangle(casting, mesh->idx + 3 * (size_t)t);
         if (status) return status;
     }
     return GN_OK;
 }
 
-static gn_status draw_layer(gn_frame *frame, const gn_light_view *view, layer which)
+static gn_status draw_layer(gn_frame *frame, gn_casting *casting, const gn_light_view *view, layer which)
 {
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
         int culled, drawn = casts_here(frame, view, o, which, &culled);
         frame->stats.n_casters_culled += (uint32_t)culled;
-        gn_status status = drawn ? draw_object(frame, view, o) : GN_OK;
+        gn_status status = drawn ? draw_object(frame, casting, view, o) : GN_OK;
         if (status) return status;
     }
     return GN_OK;
@@ -293,7 +281,7 @@ static void copy_texels(const gn_light_view *to, gn_texels from)
 }
 
 /* Static casters into the static layer, unless it holds them already. */
-static gn_status static_layer(gn_frame *frame, gn_light_view *view, gn_texels below, uint32_t view_idx)
+static gn_status static_layer(gn_frame *frame, gn_casting *casting, gn_light_view *view, gn_texels below, uint32_t view_idx)
 {
 #if GN_INCREMENTAL
     uint64_t signature = layer_signature(frame, view, LAYER_STATIC);
@@ -303,7 +291,7 @@ static gn_status static_layer(gn_frame *frame, gn_light_view *view, gn_texels be
     gn_texels above = view->depth;
     view->depth = below;
     clear(view);
-    gn_status status = draw_layer(frame, view, LAYER_STATIC);
+    gn_status status = draw_layer(frame, casting, view, LAYER_STATIC);
     view->depth = above;
 #if GN_INCREMENTAL
     if (!status) frame->memory[view_idx].static_signature = signature;
@@ -314,24 +302,24 @@ static gn_status static_layer(gn_frame *frame, gn_light_view *view, gn_texels be
 }
 #endif
 
-static gn_status draw_view(gn_frame *frame, gn_light_view *view, uint32_t view_idx)
+static gn_status draw_view(gn_frame *frame, gn_casting *casting, gn_light_view *view, uint32_t view_idx)
 {
     frame->stats.n_tiles_drawn++;
     GN_COUNT(tile_texels, view->tile_texels * view->tile_texels);
 #if GN_STATIC_LAYER
     gn_texels below = static_texels(frame, view);
-    gn_status status = static_layer(frame, view, below, view_idx);
+    gn_status status = static_layer(frame, casting, view, below, view_idx);
     if (status) return status;
     copy_texels(view, below);
-    return draw_layer(frame, view, LAYER_MOVING);
+    return draw_layer(frame, casting, view, LAYER_MOVING);
 #else
     (void)view_idx;
     clear(view);
-    return draw_layer(frame, view, LAYER_ALL);
+    return draw_layer(frame, casting, view, LAYER_ALL);
 #endif
 }
 
-gn_status gn_atlas_render_tile(gn_frame *frame, uint32_t view_idx)
+gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx)
 {
     gn_light_view *view = &frame->view[view_idx];
     if (view->empty || view->stale) return GN_OK;
@@ -340,7 +328,7 @@ gn_status gn_atlas_render_tile(gn_frame *frame, uint32_t view_idx)
     if (frame->memory[view_idx].signature == signature) return GN_OK;
     frame->memory[view_idx].signature = 0;
 #endif
-    gn_status status = draw_view(frame, view, view_idx);
+    gn_status status = draw_view(frame, casting, view, view_idx);
     if (status) return status;
 #if GN_DEPTH_BLOCKS
     gn_blocks_build(view);

@@ -7,7 +7,7 @@
 #if GN_SHADOWS
 
 /* Brings one view's tile up to date: draws it, unless it still holds what would be drawn. */
-gn_status gn_atlas_render_tile(gn_frame *frame, uint32_t view_idx);
+gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx);
 
 #endif
 #endif

@@ -19,18 +19,8 @@ typedef struct {
 } gn_caster;
 
 #if GN_CASTER_ALPHA
-/* For casters cut by alpha: the triangle as seen from the light. */
-typedef struct {
-    gn_alpha_test test;
-    int needs_plane; /* alpha is not the same all over */
-    gn_plane plane;
-    gn_bary bary;
-    uint32_t focal2_q16;
-} gn_caster_alpha;
 
 void gn_caster_alpha_plane(gn_caster_alpha *alpha, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3]);
-#else
-typedef void gn_caster_alpha;
 #endif
 
 /* Corners in texels with shadow_subpixel_bits fraction bits, within 2^26. `alpha` may be NULL. Returns the number of

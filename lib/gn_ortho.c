@@ -1,4 +1,6 @@
 /* Orthographic light views. */
+#include <string.h>
+
 #include "gn_ortho.h"
 #include "gn_bias.h"
 #include "gn_cascade.h"
@@ -112,17 +114,6 @@ void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
 
 #define GN_TILE_REACH_Q16 ((int64_t)16384 << 16) /* casters are cut at this distance in texels: keeps gn_walk in range */
 
-typedef struct {
-    int64_t c[3]; /* U, V, D in texels, Q16 */
-} ortho_point;
-
-#define GN_ORTHO_POLYGON_MAX 8 /* a triangle against four sides has 7; rounding may bend it once more */
-
-typedef struct {
-    ortho_point p[GN_ORTHO_POLYGON_MAX];
-    int n;
-} ortho_polygon;
-
 /* Object space to tile coordinates: as gn_xform_compose, with 1 / texel folded into the matrix. */
 void gn_ortho_compose(gn_xform *out, const gn_light_view *view, const gn_object *object)
 {
@@ -148,17 +139,17 @@ void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh,
 }
 
 /* Cuts at sign * c[axis] <= reach. */
-static void clip_side(ortho_polygon *polygon, int axis, int64_t sign)
+static void clip_side(gn_light_polygon *polygon, gn_light_polygon *in, int axis, int64_t sign)
 {
-    ortho_polygon in = *polygon;
+    *in = *polygon;
     polygon->n = 0;
-    for (int i = 0; i < in.n; i++) {
-        const ortho_point *a = &in.p[i], *b = &in.p[(i + 1) % in.n];
-        int64_t da = GN_TILE_REACH_Q16 - sign * a->c[axis], db = GN_TILE_REACH_Q16 - sign * b->c[axis];
-        if (da >= 0 && polygon->n < GN_ORTHO_POLYGON_MAX) polygon->p[polygon->n++] = *a;
+    for (int i = 0; i < in->n; i++) {
+        const int64_t *a = in->p[i], *b = in->p[(i + 1) % in->n];
+        int64_t da = GN_TILE_REACH_Q16 - sign * a[axis], db = GN_TILE_REACH_Q16 - sign * b[axis];
+        if (da >= 0 && polygon->n < GN_ORTHO_POLYGON_MAX) memcpy(polygon->p[polygon->n++], a, sizeof in->p[0]);
         if ((da >= 0) == (db >= 0) || polygon->n >= GN_ORTHO_POLYGON_MAX) continue;
         if (da < 0) { /* from the inside end, for the sake of shared edges */
-            const ortho_point *swap = a;
+            const int64_t *swap = a;
             a = b;
             b = swap;
             int64_t d = da;
@@ -166,35 +157,35 @@ static void clip_side(ortho_polygon *polygon, int axis, int64_t sign)
             db = d;
         }
         gn_bfloat t = gn_bf_recip(gn_bf_from_u64((uint64_t)(da - db)));
-        ortho_point *cut = &polygon->p[polygon->n++];
+        int64_t *cut = polygon->p[polygon->n++];
         for (int k = 0; k < 3; k++) {
-            int64_t step = gn_bf_apply(gn_bf_apply(da, t, 31), gn_bf_from_u64(gn_abs64(b->c[k] - a->c[k]) | 1U), -31);
-            cut->c[k] = a->c[k] + (b->c[k] < a->c[k] ? -step : step);
+            int64_t step = gn_bf_apply(gn_bf_apply(da, t, 31), gn_bf_from_u64(gn_abs64(b[k] - a[k]) | 1U), -31);
+            cut[k] = a[k] + (b[k] < a[k] ? -step : step);
         }
     }
 }
 
-static void clip_to_reach(ortho_polygon *polygon)
+static void clip_to_reach(gn_light_polygon *polygon, gn_light_polygon *uncut)
 {
     for (int axis = 0; axis < 2; axis++) {
         int64_t lo = 0, hi = 0;
         for (int i = 0; i < polygon->n; i++) {
-            lo = polygon->p[i].c[axis] < lo ? polygon->p[i].c[axis] : lo;
-            hi = polygon->p[i].c[axis] > hi ? polygon->p[i].c[axis] : hi;
+            lo = polygon->p[i][axis] < lo ? polygon->p[i][axis] : lo;
+            hi = polygon->p[i][axis] > hi ? polygon->p[i][axis] : hi;
         }
-        if (hi > GN_TILE_REACH_Q16) clip_side(polygon, axis, 1);
-        if (lo < -GN_TILE_REACH_Q16) clip_side(polygon, axis, -1);
+        if (hi > GN_TILE_REACH_Q16) clip_side(polygon, uncut, axis, 1);
+        if (lo < -GN_TILE_REACH_Q16) clip_side(polygon, uncut, axis, -1);
     }
 }
 
 /* Plane, bias (B1) and range of a triangle from its unsnapped vertices. Returns 0 if it cannot be seen from the light. */
-static int caster_begin(gn_caster *out, const gn_light_view *view, const ortho_point p[3], int two_sided)
+static int caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3], int two_sided)
 {
     int64_t e1[3], e2[3], n[3];
     int32_t e1n[3], e2n[3], nn[3];
     for (int i = 0; i < 3; i++) {
-        e1[i] = p[1].c[i] - p[0].c[i];
-        e2[i] = p[2].c[i] - p[0].c[i];
+        e1[i] = p[1][i] - p[0][i];
+        e2[i] = p[2][i] - p[0][i];
     }
     gn_norm_vec(e1n, e1);
     gn_norm_vec(e2n, e2);
@@ -210,10 +201,10 @@ static int caster_begin(gn_caster *out, const gn_light_view *view, const ortho_p
     out->bias = gn_scale64(bias, -to_steps);
     out->dz_du = gn_clamp64(gn_bf_apply(flip * nn[0], per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
     out->dz_dv = gn_clamp64(gn_bf_apply(flip * nn[1], per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
-    int64_t lo = p[0].c[2], hi = lo;
+    int64_t lo = p[0][2], hi = lo;
     for (int i = 1; i < 3; i++) {
-        lo = p[i].c[2] < lo ? p[i].c[2] : lo;
-        hi = p[i].c[2] > hi ? p[i].c[2] : hi;
+        lo = p[i][2] < lo ? p[i][2] : lo;
+        hi = p[i][2] > hi ? p[i][2] : hi;
     }
     const int64_t far = (int64_t)1 << 32;
     out->lo = gn_clamp64(gn_scale64(lo, -to_steps), 0, far); /* D9: pancaking */
@@ -222,36 +213,36 @@ static int caster_begin(gn_caster *out, const gn_light_view *view, const ortho_p
 }
 
 /* Depth at the centre of texel (0, 0) from the plane through one vertex, which is within reach: below 2^48. */
-static int64_t depth_at_corner(const gn_light_view *view, const gn_caster *caster, const ortho_point *anchor)
+static int64_t depth_at_corner(const gn_light_view *view, const gn_caster *caster, const int64_t anchor[3])
 {
-    int64_t du_q16 = 32768 - anchor->c[0], dv_q16 = 32768 - anchor->c[1]; /* <= 2^30 */
-    int64_t z = gn_scale64(anchor->c[2], view->tile_log2 + view->depth_log2 - 16);
+    int64_t du_q16 = 32768 - anchor[0], dv_q16 = 32768 - anchor[1]; /* <= 2^30 */
+    int64_t z = gn_scale64(anchor[2], view->tile_log2 + view->depth_log2 - 16);
     /* gradient <= 2^33 times 2^31 would not fit: split the offset into whole texels and a fraction */
     z += caster->dz_du * (du_q16 >> 16) + gn_shr64(caster->dz_du * (du_q16 & 65535), 16);
     return z + caster->dz_dv * (dv_q16 >> 16) + gn_shr64(caster->dz_dv * (dv_q16 & 65535), 16);
 }
 
-static int misses_tile(const gn_light_view *view, const ortho_point p[3])
+static int misses_tile(const gn_light_view *view, int64_t p[3][3])
 {
     int64_t end = (int64_t)view->tile_texels << 16;
     for (int axis = 0; axis < 2; axis++) {
-        if (p[0].c[axis] < 0 && p[1].c[axis] < 0 && p[2].c[axis] < 0) return 1;
-        if (p[0].c[axis] > end && p[1].c[axis] > end && p[2].c[axis] > end) return 1;
+        if (p[0][axis] < 0 && p[1][axis] < 0 && p[2][axis] < 0) return 1;
+        if (p[0][axis] > end && p[1][axis] > end && p[2][axis] > end) return 1;
     }
     return 0;
 }
 
 #if GN_CASTER_ALPHA
 /* Parallel projection as a perspective one: all corners at the same depth, so that barycentrics are affine. */
-static void alpha_plane(const gn_light_view *view, gn_caster_alpha *alpha, const ortho_point p[3])
+static void alpha_plane(const gn_light_view *view, gn_caster_alpha *alpha, int64_t p[3][3])
 {
     int32_t v[3][3], shift = 0;
     int64_t centre = (int64_t)view->tile_texels << 15;
     uint64_t any = 0;
-    for (int i = 0; i < 3; i++) any |= gn_abs64(p[i].c[0] - centre) | gn_abs64(p[i].c[1] - centre);
+    for (int i = 0; i < 3; i++) any |= gn_abs64(p[i][0] - centre) | gn_abs64(p[i][1] - centre);
     while (any >> shift >= (uint64_t)1 << 29) shift++;
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 2; k++) v[i][k] = (int32_t)gn_scale64(p[i].c[k] - centre, shift);
+        for (int k = 0; k < 2; k++) v[i][k] = (int32_t)gn_scale64(p[i][k] - centre, shift);
         v[i][2] = (1 << 23) >> shift; /* shift <= 18 */
     }
     alpha->focal2_q16 = 1U << 24; /* x / z = px / 2F: 2F = 256 half texels where z is 128 texels */
@@ -259,26 +250,24 @@ static void alpha_plane(const gn_light_view *view, gn_caster_alpha *alpha, const
 }
 #endif
 
-int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, int64_t corner[3][3], int two_sided,
-                          gn_caster_alpha *alpha)
+int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_caster_alpha *alpha)
 {
     gn_caster caster;
-    ortho_polygon polygon = {.n = 3};
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) polygon.p[i].c[k] = corner[i][k];
-    if (misses_tile(view, polygon.p) || !caster_begin(&caster, view, polygon.p, two_sided)) return -1;
+    gn_light_polygon *polygon = &casting->polygon;
+    polygon->n = 3;
+    if (misses_tile(view, polygon->p) || !caster_begin(&caster, view, polygon->p, casting->job.two_sided)) return -1;
 #if GN_CASTER_ALPHA
-    if (alpha && alpha->needs_plane) alpha_plane(view, alpha, polygon.p);
+    if (alpha && alpha->needs_plane) alpha_plane(view, alpha, polygon->p);
 #endif
-    clip_to_reach(&polygon);
-    if (polygon.n >= 3) caster.z_corner = depth_at_corner(view, &caster, &polygon.p[0]);
+    clip_to_reach(polygon, &casting->uncut);
+    if (polygon->n >= 3) caster.z_corner = depth_at_corner(view, &caster, polygon->p[0]);
     int32_t bits = GN_K(frame, shadow_subpixel_bits), n_texels = 0;
-    for (int i = 1; i + 1 < polygon.n; i++) {
-        const ortho_point *p[3] = {&polygon.p[0], &polygon.p[i], &polygon.p[i + 1]};
+    for (int i = 1; i + 1 < polygon->n; i++) {
+        const int64_t *p[3] = {polygon->p[0], polygon->p[i], polygon->p[i + 1]};
         int32_t x[3], y[3];
         for (int k = 0; k < 3; k++) {
-            x[k] = (int32_t)gn_shr64(p[k]->c[0], 16 - bits); /* 2^14 texels * 2^12 */
-            y[k] = (int32_t)gn_shr64(p[k]->c[1], 16 - bits);
+            x[k] = (int32_t)gn_shr64(p[k][0], 16 - bits); /* 2^14 texels * 2^12 */
+            y[k] = (int32_t)gn_shr64(p[k][1], 16 - bits);
         }
         n_texels += gn_caster_draw(frame, view, &caster, x, y, alpha);
     }

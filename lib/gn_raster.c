@@ -60,12 +60,7 @@ static void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_dep
 #undef GN_CELL_
 
 #if GN_VISIBLE_ALPHA
-/* M8: a triangle that alpha cuts, as the camera sees it. */
-typedef struct {
-    gn_alpha_test test;
-    gn_plane plane;
-    gn_bary bary;
-} cut_triangle;
+typedef gn_alpha_cut cut_triangle;
 
 static void cut_begin(const gn_frame *frame, gn_scratch *scratch, cut_triangle *cut, const gn_tri *tri)
 {
@@ -164,9 +159,9 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
 #if GN_VISIBLE_ALPHA
 static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
-    cut_triangle cut;
-    cut_begin(tile->frame, tile->scratch, &cut, tri);
-    raster_triangle(tile, tri, id, &cut);
+    cut_triangle *cut = &tile->scratch->work.cut;
+    cut_begin(tile->frame, tile->scratch, cut, tri);
+    raster_triangle(tile, tri, id, cut);
 }
 #endif
 

@@ -163,7 +163,7 @@ static void clear_background(shading *s)
 
 void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
-    shading *s = &scratch->shading;
+    shading *s = &scratch->work.shading;
     s->frame = frame;
     s->scratch = scratch;
     s->rect = gn_bin_tile_rect(frame, tile_idx);

@@ -1,5 +1,6 @@
-/* What a core keeps while it shades a screen tile: in its gn_scratch, for a stack is small. Private, like gn_state.h, which includes it.
- * The functions that use these types say what they mean: gn_plane.h, gn_texture.h, gn_surface.h, gn_sample.h, gn_chord.h, gn_pixel.h, gn_shade.c.
+/* What a core keeps while it works on a tile: in its gn_scratch, for a stack is small. Private, like gn_state.h, which includes it. The
+ * functions that use these types say what they mean: gn_plane.h, gn_texture.h, gn_surface.h, gn_sample.h, gn_chord.h, gn_pixel.h, gn_shade.c,
+ * gn_alpha.h, gn_caster.h, gn_ortho.c, gn_atlas.c.
  */
 #ifndef GN_SHADING_H
 #define GN_SHADING_H
@@ -135,5 +136,85 @@ typedef struct {
     gn_sample sample[2]; /* the run's last exact one and the next */
     gn_chord chord;
 } gn_shading;
+
+/* ---- Triangles that alpha cuts ------------------------------------------------------------------------------------- */
+
+#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+/* One triangle of an object. */
+typedef struct {
+    const gn_object *object;
+    gn_alpha mode;
+    int textured; /* 0: the object's own alpha all over */
+#if GN_TEXTURES
+    gn_texture_triangle uv;
+#endif
+} gn_alpha_test;
+
+/* M8: as the camera sees it. */
+typedef struct {
+    gn_alpha_test test;
+    gn_plane plane;
+    gn_bary bary;
+} gn_alpha_cut;
+#endif
+
+/* ---- Casters --------------------------------------------------------------------------------------------------------- */
+
+#if GN_SHADOWS
+#if GN_CASTER_ALPHA
+/* For casters cut by alpha: the triangle as seen from the light. */
+typedef struct {
+    gn_alpha_test test;
+    int needs_plane; /* alpha is not the same all over */
+    gn_plane plane;
+    gn_bary bary;
+    uint32_t focal2_q16;
+} gn_caster_alpha;
+#else
+typedef void gn_caster_alpha;
+#endif
+
+/* One caster and one view. */
+typedef struct {
+    struct gn_frame *frame;
+    const gn_light_view *view;
+    const gn_object *object;
+    uint32_t object_idx;
+    gn_xform to_light;
+    int two_sided;
+#if GN_CASTER_BIAS
+    int32_t shrink_q16; /* B4, texels */
+    int32_t normal_matrix[3][3];
+#endif
+} gn_caster_job;
+
+#define GN_ORTHO_POLYGON_MAX 8 /* a triangle against four sides has 7; rounding may bend it once more */
+
+/* Corners as a view sees them: U, V, D in texels, Q16; of perspective views in world units from the light. */
+typedef struct {
+    int64_t p[GN_ORTHO_POLYGON_MAX][3];
+    int n;
+} gn_light_polygon;
+
+/* One triangle into one shadow tile. */
+typedef struct {
+    gn_caster_job job;
+    gn_light_polygon polygon, uncut;
+#if GN_CASTER_ALPHA
+    gn_caster_alpha alpha;
+#endif
+} gn_casting;
+#endif
+
+/* What one core does at a time. */
+typedef union {
+    gn_shading shading;
+#if GN_VISIBLE_ALPHA
+    gn_alpha_cut cut;
+#endif
+#if GN_SHADOWS
+    gn_casting casting;
+#endif
+} gn_work;
 
 #endif

@@ -289,7 +289,7 @@ typedef struct gn_scratch {
     gn_tile_pixels pixel;              /* finished pixels in the picture's format */
     gn_vcache_entry vertex[GN_VERTEX_CACHE];
     gn_run_idx run_list[GN_RUN_LISTS]; /* first runs, by the low bits of their triangles; see gn_runs.h */
-    gn_shading shading;
+    gn_work work;
 } gn_scratch;
 
 #endif
