@@ -4,6 +4,7 @@
 #include "gn_caster.h"
 #include "gn_count.h"
 #include "gn_cull.h"
+#include "gn_hint.h"
 #include "gn_math.h"
 #include "gn_ortho.h"
 #include "gn_persp.h"
@@ -70,7 +71,7 @@ static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t
 }
 
 /* B4: corners move inwards by a share of a texel, which in perspective views grows with distance. */
-static void shrink(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
+static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
 {
     int32_t n[3][3];
     corner_normals(job, idx, corner, n);
@@ -108,19 +109,20 @@ static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t
 }
 
 #if GN_PUNCTUAL_LIGHTS
-static int32_t draw_perspective(const caster_job *job, int64_t corner[3][3], gn_caster_alpha *alpha, gn_status *status)
+static int32_t draw_perspective(gn_casting *casting, gn_caster_alpha *alpha, gn_status *status)
 {
-    int32_t v[3][3];
+    const caster_job *job = &casting->job;
+    int64_t(*corner)[3] = casting->polygon.p;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
             if (corner[i][k] <= -GN_VIEW_LIMIT_Q16 || corner[i][k] >= GN_VIEW_LIMIT_Q16) {
                 *status = gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
                 return -1;
             }
-            v[i][k] = (int32_t)corner[i][k];
+            casting->with.clipping.polygon.v_q16[i][k] = (int32_t)corner[i][k];
         }
     }
-    return gn_persp_triangle(job->frame, job->view, v, job->two_sided, alpha);
+    return gn_persp_triangle(job->frame, job->view, casting, alpha);
 }
 #endif
 
@@ -142,7 +144,7 @@ static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
 #endif
     int32_t n_texels;
 #if GN_PUNCTUAL_LIGHTS
-    if (job->view->perspective) n_texels = draw_perspective(job, corner, with, &status);
+    if (job->view->perspective) n_texels = draw_perspective(casting, with, &status);
     else
 #endif
         n_texels = gn_ortho_triangle(job->frame, job->view, casting, with);

@@ -43,12 +43,12 @@ static void cut(int32_t out[3], const int32_t in[3], int64_t d_in, const int32_t
     }
 }
 
-static void clip_plane(gn_polygon *polygon, uint32_t plane, int32_t near_q16, const int32_t side_q16[2])
+static void clip_plane(gn_polygon *polygon, gn_polygon *in, uint32_t plane, int32_t near_q16, const int32_t side_q16[2])
 {
-    gn_polygon in = *polygon;
+    *in = *polygon;
     int n = 0;
-    for (int i = 0; i < in.n; i++) {
-        const int32_t *a = in.v_q16[i], *b = in.v_q16[(i + 1) % in.n];
+    for (int i = 0; i < in->n; i++) {
+        const int32_t *a = in->v_q16[i], *b = in->v_q16[(i + 1) % in->n];
         int64_t da = distance(a, plane, near_q16, side_q16), db = distance(b, plane, near_q16, side_q16);
         if (da >= 0 && n < GN_CLIP_VERTICES_MAX) {
             for (int k = 0; k < 3; k++) polygon->v_q16[n][k] = a[k];
@@ -64,9 +64,9 @@ static void clip_plane(gn_polygon *polygon, uint32_t plane, int32_t near_q16, co
     polygon->n = n;
 }
 
-void gn_clip(gn_polygon *polygon, uint32_t planes, int32_t near_q16, const int32_t side_q16[2])
+void gn_clip(gn_polygon *polygon, gn_polygon *uncut, uint32_t planes, int32_t near_q16, const int32_t side_q16[2])
 {
     for (uint32_t plane = GN_OUT_NEAR; plane <= GN_OUT_TOP && polygon->n >= 3; plane <<= 1)
-        if (planes & plane) clip_plane(polygon, plane, near_q16, side_q16);
+        if (planes & plane) clip_plane(polygon, uncut, plane, near_q16, side_q16);
     if (polygon->n < 3) polygon->n = 0;
 }

@@ -129,7 +129,7 @@ gn_status gn_prepare(gn_renderer *r)
     for (uint32_t i = 0; i < frame->n_views; i++)
         if (!frame->view[i].tile_done) return gn_fail(frame, GN_ERR_ORDER, i);
 #endif
-    gn_status status = gn_setup_triangles(frame, r->scratch.cell, GN_TILE_PIXELS_MAX);
+    gn_status status = gn_setup_triangles(frame, &r->scratch.work.clipping, r->scratch.cell, GN_TILE_PIXELS_MAX);
     if (status) return status;
     /* cells hold triangle + 1; what the identity leaves is depth */
     frame->id_bits = frame->stats.n_triangles ? (uint8_t)(32 - gn_clz32(frame->stats.n_triangles)) : 1;

@@ -1,6 +1,7 @@
 /* Lighting of one surface point. */
 #include "gn_light.h"
 #include "gn_count.h"
+#include "gn_hint.h"
 #include "gn_punctual.h"
 #include "gn_q.h"
 #include "gn_shadow.h"
@@ -33,7 +34,7 @@ static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample,
 }
 
 /* The same times what arrives, Q24. */
-static uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot)
+static GN_NOINLINE uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot)
 {
     const gn_light_state *light = surface->light[slot].state;
 #if GN_PUNCTUAL_LIGHTS

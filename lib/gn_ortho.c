@@ -4,6 +4,7 @@
 #include "gn_ortho.h"
 #include "gn_bias.h"
 #include "gn_cascade.h"
+#include "gn_hint.h"
 #include "gn_math.h"
 #include "gn_q.h"
 #include "gn_xform.h"
@@ -139,7 +140,7 @@ void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh,
 }
 
 /* Cuts at sign * c[axis] <= reach. */
-static void clip_side(gn_light_polygon *polygon, gn_light_polygon *in, int axis, int64_t sign)
+static GN_NOINLINE void clip_side(gn_light_polygon *polygon, gn_light_polygon *in, int axis, int64_t sign)
 {
     *in = *polygon;
     polygon->n = 0;
@@ -179,7 +180,7 @@ static void clip_to_reach(gn_light_polygon *polygon, gn_light_polygon *uncut)
 }
 
 /* Plane, bias (B1) and range of a triangle from its unsnapped vertices. Returns 0 if it cannot be seen from the light. */
-static int caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3], int two_sided)
+static GN_NOINLINE int caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3], int two_sided)
 {
     int64_t e1[3], e2[3], n[3];
     int32_t e1n[3], e2n[3], nn[3];
@@ -259,7 +260,7 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
 #if GN_CASTER_ALPHA
     if (alpha && alpha->needs_plane) alpha_plane(view, alpha, polygon->p);
 #endif
-    clip_to_reach(polygon, &casting->uncut);
+    clip_to_reach(polygon, &casting->with.uncut);
     if (polygon->n >= 3) caster.z_corner = depth_at_corner(view, &caster, polygon->p[0]);
     int32_t bits = GN_K(frame, shadow_subpixel_bits), n_texels = 0;
     for (int i = 1; i + 1 < polygon->n; i++) {

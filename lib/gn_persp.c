@@ -141,10 +141,12 @@ static void project(const gn_frame *frame, const gn_light_view *view, const int3
     *y = (int32_t)gn_clamp64(texel[1], -most, most) + centre;
 }
 
-int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, int32_t corner[3][3], int two_sided,
-                          gn_caster_alpha *alpha)
+int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_caster_alpha *alpha)
 {
     const gn_persp_fit *fit = &view->fit.persp;
+    gn_polygon *polygon = &casting->with.clipping.polygon;
+    int32_t(*corner)[3] = polygon->v_q16;
+    polygon->n = 3;
     uint32_t all = ~0U, any = 0;
     for (int i = 0; i < 3; i++) {
         all &= gn_outcode(corner[i], fit->near_q16, fit->side_q16);
@@ -152,21 +154,18 @@ int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, int3
     }
     gn_caster caster;
     gn_plane plane;
-    if (all || !caster_begin(&caster, &plane, view, corner, two_sided)) return -1;
+    if (all || !caster_begin(&caster, &plane, view, corner, casting->job.two_sided)) return -1;
 #if GN_CASTER_ALPHA
     if (alpha && alpha->needs_plane) {
         alpha->focal2_q16 = fit->focal2_q16;
         gn_caster_alpha_plane(alpha, corner[0], corner[1], corner[2]);
     }
 #endif
-    gn_polygon polygon = {.n = 3};
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) polygon.v_q16[i][k] = corner[i][k];
-    if (any) gn_clip(&polygon, GN_OUT_ALL, fit->near_q16, fit->guard_q16);
-    int32_t x[GN_CLIP_VERTICES_MAX], y[GN_CLIP_VERTICES_MAX];
-    for (int i = 0; i < polygon.n; i++) project(frame, view, polygon.v_q16[i], &x[i], &y[i]);
+    if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->near_q16, fit->guard_q16);
+    int32_t *x = casting->with.clipping.x, *y = casting->with.clipping.y;
+    for (int i = 0; i < polygon->n; i++) project(frame, view, polygon->v_q16[i], &x[i], &y[i]);
     int32_t n_texels = 0;
-    for (int i = 1; i + 1 < polygon.n; i++) {
+    for (int i = 1; i + 1 < polygon->n; i++) {
         int32_t fx[3] = {x[0], x[i], x[i + 1]}, fy[3] = {y[0], y[i], y[i + 1]};
         n_texels += gn_caster_draw(frame, view, &caster, fx, fy, alpha);
     }

@@ -51,6 +51,7 @@ typedef struct {
 /* One object. */
 typedef struct {
     gn_frame *frame;
+    gn_clipping *clipping;
     corner *cache;
     uint32_t cache_mask;
     uint32_t focal_norm; /* 2F, normalised */
@@ -258,23 +259,24 @@ static GN_NOINLINE void clipped_triangle(const setup_job *job, const int32_t *co
 {
     gn_frame *frame = job->frame;
     const gn_cam *cam = &frame->cam;
-    gn_polygon polygon = {.n = 3};
+    gn_polygon *polygon = &job->clipping->polygon;
+    polygon->n = 3;
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) polygon.v_q16[i][k] = v[i][k];
-    gn_clip(&polygon, GN_OUT_ALL, cam->near_q16, cam->guard_q16);
+        for (int k = 0; k < 3; k++) polygon->v_q16[i][k] = v[i][k];
+    gn_clip(polygon, &job->clipping->uncut, GN_OUT_ALL, cam->near_q16, cam->guard_q16);
     frame->stats.n_clipped++;
-    int32_t x[GN_CLIP_VERTICES_MAX], y[GN_CLIP_VERTICES_MAX];
-    for (int i = 0; i < polygon.n; i++) {
-        int32_t z = polygon.v_q16[i][2], clz = gn_clz32((uint32_t)z);
-        project(job, polygon.v_q16[i], gn_recip_norm((uint32_t)z << clz, 2), clz, &x[i], &y[i]);
+    int32_t *x = job->clipping->x, *y = job->clipping->y;
+    for (int i = 0; i < polygon->n; i++) {
+        int32_t z = polygon->v_q16[i][2], clz = gn_clz32((uint32_t)z);
+        project(job, polygon->v_q16[i], gn_recip_norm((uint32_t)z << clz, 2), clz, &x[i], &y[i]);
         /* a cut vertex may miss the guard band by a rounding of view space, which a long focal length magnifies */
         x[i] = gn_max32(gn_min32(x[i], cam->coord_max), -cam->coord_max);
         y[i] = gn_max32(gn_min32(y[i], cam->coord_max), -cam->coord_max);
     }
     int32_t z_min = gn_min32(v[0][2], gn_min32(v[1][2], v[2][2])), z_max = gn_max32(v[0][2], gn_max32(v[1][2], v[2][2]));
     depth_setup depth;
-    if (polygon.n) depth_begin(frame, &depth, v, inverse_depth_q32(frame, gn_max32(z_min, cam->near_q16)));
-    for (int i = 1; i + 1 < polygon.n; i++) {
+    if (polygon->n) depth_begin(frame, &depth, v, inverse_depth_q32(frame, gn_max32(z_min, cam->near_q16)));
+    for (int i = 1; i + 1 < polygon->n; i++) {
         int32_t fx[3] = {x[0], x[i], x[i + 1]}, fy[3] = {y[0], y[i], y[i + 1]};
         gn_tri *tri = emit_begin(job, next_triangle(frame), fx, fy);
         if (tri) emit_end(job, tri, &depth, inverse_depth_q32(frame, z_max), triangle_idx);
@@ -337,13 +339,14 @@ static gn_status setup_object(setup_job *job)
     return GN_OK;
 }
 
-gn_status gn_setup_triangles(gn_frame *frame, uint32_t *memory, uint32_t n_words)
+gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *memory, uint32_t n_words)
 {
     setup_job job;
     uint32_t n = 256;
     int32_t clz = gn_clz32(frame->cam.focal2_px_q16);
     while (n > 1 && n * (sizeof(corner) / 4) > n_words) n >>= 1;
     job.frame = frame;
+    job.clipping = clipping;
     job.cache = (corner *)(void *)memory;
     job.cache_mask = n - 1;
     job.focal_norm = frame->cam.focal2_px_q16 << clz;

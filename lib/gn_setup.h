@@ -5,7 +5,7 @@
 #include "gnomon.h"
 
 /* Fills frame->tri from the scene, and counts the triangles of each screen tile. The memory is scratch, for a cache of vertices: at least 8 words. */
-gn_status gn_setup_triangles(gn_frame *frame, uint32_t *memory, uint32_t n_words);
+gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *memory, uint32_t n_words);
 
 /* View position of an object's vertex through the cache. Returns 0 if it is beyond +-16384 units, or
  * its position beyond +-2^30. */

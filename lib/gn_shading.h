@@ -158,6 +158,21 @@ typedef struct {
 } gn_alpha_cut;
 #endif
 
+/* ---- Clipping -------------------------------------------------------------------------------------------------------- */
+
+#define GN_CLIP_VERTICES_MAX 8 /* a triangle against five planes */
+
+typedef struct {
+    int32_t v_q16[GN_CLIP_VERTICES_MAX][3]; /* X right, Y up, Z forward */
+    int n;
+} gn_polygon;
+
+/* A triangle of the camera's or of a perspective light's. */
+typedef struct {
+    gn_polygon polygon, uncut;
+    int32_t x[GN_CLIP_VERTICES_MAX], y[GN_CLIP_VERTICES_MAX]; /* projected */
+} gn_clipping;
+
 /* ---- Casters --------------------------------------------------------------------------------------------------------- */
 
 #if GN_SHADOWS
@@ -199,7 +214,11 @@ typedef struct {
 /* One triangle into one shadow tile. */
 typedef struct {
     gn_caster_job job;
-    gn_light_polygon polygon, uncut;
+    gn_light_polygon polygon;
+    union {
+        gn_light_polygon uncut; /* orthographic */
+        gn_clipping clipping;   /* perspective */
+    } with;
 #if GN_CASTER_ALPHA
     gn_caster_alpha alpha;
 #endif
@@ -209,6 +228,7 @@ typedef struct {
 /* What one core does at a time. */
 typedef union {
     gn_shading shading;
+    gn_clipping clipping;
 #if GN_VISIBLE_ALPHA
     gn_alpha_cut cut;
 #endif

@@ -3,6 +3,7 @@
 #include "gn_bias.h"
 #include "gn_count.h"
 #include "gn_filter.h"
+#include "gn_hint.h"
 #include "gn_noise.h"
 #include "gn_persp.h"
 #include "gn_q.h"
@@ -134,7 +135,7 @@ static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, con
     return 0;
 }
 
-static uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                                   const gn_light_view *view, const int32_t value[GN_VALUES_PER_LIGHT])
 {
     const int32_t *from = value + GN_LIGHT_POINT_AT;

@@ -56,6 +56,8 @@ static void random_point(int32_t v[3], uint32_t bits, const frustum *f)
 }
 
 /* Corners around the near end of the frustum, so that many planes cut the same triangle. */
+static gn_polygon uncut; /* gn_clip works in it */
+
 static void tight_triangle(gn_polygon *p, const frustum *f)
 {
     int32_t near = f->near < 1 << 24 ? f->near : 1 << 24;
@@ -108,7 +110,7 @@ static int step_ok(gn_polygon *p, uint32_t plane, const frustum *f)
     gn_polygon before = *p;
     for (int i = 0; i < n; i++) inside[i] = plane_distance(before.v_q16[i], plane, f) >= 0;
     for (int i = 0; i < n; i++) n_expected += inside[i] + (inside[i] != inside[(i + 1) % n]);
-    gn_clip(p, plane, f->near, f->side);
+    gn_clip(p, &uncut, plane, f->near, f->side);
     if (n_expected < 3) return p->n == 0;
     if (p->n != n_expected || p->n > GN_CLIP_VERTICES_MAX) return 0;
     for (int i = 0, out = 0; i < n; i++) {
@@ -185,7 +187,7 @@ static void test_triangles(void)
         if (i % 7 == 0) memcpy(triangle.v_q16[2], triangle.v_q16[rng_below(&random_state, 2)], sizeof triangle.v_q16[2]);
         uint32_t planes = outcodes(&triangle, &f);
         p = q = triangle;
-        gn_clip(&p, planes, f.near, f.side);
+        gn_clip(&p, &uncut, planes, f.near, f.side);
         int ok = 1;
         for (uint32_t plane = GN_OUT_NEAR; plane <= GN_OUT_TOP && q.n; plane <<= 1)
             if (planes & plane) ok = ok && step_ok(&q, plane, &f);
@@ -219,7 +221,7 @@ static gn_polygon clipped(const int32_t a[3], const int32_t b[3], const int32_t 
     gn_polygon p = {.n = 3};
     const int32_t *const v[3] = {a, b, c};
     for (uint32_t i = 0; i < 3; i++) memcpy(p.v_q16[i], v[(i + first) % 3], sizeof p.v_q16[i]);
-    gn_clip(&p, ALL_PLANES, f->near, f->side);
+    gn_clip(&p, &uncut, ALL_PLANES, f->near, f->side);
     return p;
 }
 
