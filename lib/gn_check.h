@@ -25,9 +25,5 @@ GN_STATIC_ASSERT(other_depth_bits_not_8_16_or_32, GN_IS_POWER_OF_TWO(GN_OTHER_DE
 GN_STATIC_ASSERT(vertex_cache_not_power_of_two, GN_IS_POWER_OF_TWO(GN_VERTEX_CACHE));
 GN_STATIC_ASSERT(tile_width_not_multiple_of_8, GN_TILE_WIDTH % 8 == 0);
 GN_STATIC_ASSERT(tile_has_more_than_65536_pixels, GN_TILE_WIDTH * GN_TILE_HEIGHT <= 65536); /* gn_runs.h links cells by 16 bits */
-/* with 16-bit screen coordinates a guard band of at least 8 pixels must be left around the picture: gn_xform.c */
-GN_STATIC_ASSERT(picture_too_large_for_subpixel_bits, GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 6 ||
-                                                          (GN_MAX_WIDTH <= 2 * ((32767 >> GN_SUBPIXEL_BITS) - 10) &&
-                                                           GN_MAX_HEIGHT <= 2 * ((32767 >> GN_SUBPIXEL_BITS) - 10)));
 
 #endif

@@ -23,7 +23,7 @@
 #define GN_PICK(...) GN_PICK_(__VA_ARGS__)
 
 /* Quality: tiny, balanced, accurate. */
-#define GN_PRESETS_SUBPIXEL_BITS        4, 6, 8
+#define GN_PRESETS_SUBPIXEL_BITS        4, 7, 8
 #define GN_PRESETS_PERSP_STEP           16, 8, 1
 #define GN_PRESETS_NEWTON_STEPS         1, 1, 2
 #define GN_PRESETS_SHADOW_SUBPIXEL_BITS 8, 8, 12

@@ -11,7 +11,7 @@
 
 #define GN_QUALITY_KNOBS(X)                                                                                                        \
     X(subpixel_bits, SUBPIXEL_BITS, 2, 8, "fraction bits of screen coordinates",                                                   \
-      "above 6: 12 more bytes per triangle and 64-bit edge starts")                                                                \
+      "12 more bytes per triangle where 16 bits do not hold them: 8, or 7 above 490 pixels")                                                                \
     X(persp_step, PERSP_STEP, 1, 16, "most pixels between perspective divides (1, 4, 8 or 16), parabolas between",                    \
       "1: a divide and all attributes per pixel")                                                                                  \
     X(newton_steps, NEWTON_STEPS, 1, 2, "Newton steps of per-pixel reciprocals: 2^-17 or 2^-30 relative",                          \
@@ -34,7 +34,7 @@
     X(max_width, MAX_WIDTH, 1, 2048, "largest picture width in pixels", "2 bytes per screen tile")                                 \
     X(max_height, MAX_HEIGHT, 1, 2048, "largest picture height in pixels", "2 bytes per screen tile")                              \
     X(max_triangles, MAX_TRIANGLES, 1, 65534, "visible triangles per frame, after culling and clipping",                           \
-      "32 bytes each (44 above 6 subpixel bits)")                                                                                  \
+      "32 bytes each, 44 with wider screen coordinates")                                                                                  \
     X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")                       \
     X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")                      \
     X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "141 bytes of stack each")                       \

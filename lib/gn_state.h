@@ -180,14 +180,16 @@ typedef struct {
     gn_bfloat angle_scale; /* 1 / (cos inner - cos outer) */
 #endif
 } gn_light_state;
-#if GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 6
+/* 16 bits where a guard band of at least 8 pixels is left around every picture: gn_xform.c */
+#define GN_COORD_PX_MAX (2 * ((32767 >> GN_SUBPIXEL_BITS) - 10))
+#if GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 7 || GN_MAX_WIDTH > GN_COORD_PX_MAX || GN_MAX_HEIGHT > GN_COORD_PX_MAX
 typedef int32_t gn_coord;
 #else
 typedef int16_t gn_coord;
 #endif
 
 /* A visible triangle on the screen, ready to be walked. Coordinates are from the picture's centre (y down), with subpixel_bits
- * fraction bits: up to 6 of them fit 16 bits, as the guard band sees to. */
+ * fraction bits: up to 7 of them fit 16 bits in most pictures, as the guard band sees to. */
 typedef struct {
     gn_coord x[3], y[3];     /* counter-clockwise in the world, so that its signed area on the screen (y down) is negative */
     uint32_t iz_ref;         /* near / Z at the centre of the pixel that holds vertex 0, Q0.32, modulo 2^32 */

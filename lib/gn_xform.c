@@ -3,12 +3,12 @@
 #include "gn_math.h"
 #include "gn_q.h"
 
-/* How far from the picture's centre a clipped vertex may lie, in pixels. Up to 6 subpixel bits it must fit 16 bits where the
+/* How far from the picture's centre a clipped vertex may lie, in pixels. Up to 7 subpixel bits it must fit 16 bits where the
  * picture allows (NUMERICS 4.2); otherwise 1000 pixels around the picture. The choice does not depend on the type that stores
  * it, so that every build clips alike. */
 static int fits_16_bits(int32_t subpixel_bits, int32_t size_px)
 {
-    return subpixel_bits <= 6 && size_px <= 2 * ((32767 >> subpixel_bits) - 10);
+    return subpixel_bits <= 7 && size_px <= 2 * ((32767 >> subpixel_bits) - 10);
 }
 
 static int32_t guard_px(int32_t subpixel_bits, int32_t size_px)

@@ -167,8 +167,6 @@ refused depth_bits -DGN_DEPTH_BITS=24
 refused other_depth_bits -DGN_OTHER_DEPTH_BITS=12
 refused vertex_cache -DGN_VERTEX_CACHE=33
 refused tile_width -DGN_TILE_WIDTH=68
-refused picture_too_large "-DGN_SUBPIXEL_BITS=6 -DGN_MAX_WIDTH=1024" # beyond 16-bit screen coordinates
-refused picture_too_large "-DGN_SUBPIXEL_BITS=6 -DGN_MAX_HEIGHT=1024"
 
 # ---- The user's own header; C++ --------------------------------------------------------------------------------------------
 

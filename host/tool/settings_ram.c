@@ -70,6 +70,13 @@ static void put_shading(layout *out, const settings *s)
 }
 
 /* Mirrors lib/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against sizeof(gn_renderer). */
+/* Screen coordinates of more than 16 bits. */
+static int wide_coordinates(const settings *s)
+{
+    const int bits = s->quality.subpixel_bits, most = 2 * ((32767 >> bits) - 10);
+    return bits > 7 || s->capacity.max_width > most || s->capacity.max_height > most;
+}
+
 settings_ram_parts settings_ram(const settings *s)
 {
     settings_ram_parts r = {0};
@@ -82,7 +89,7 @@ settings_ram_parts settings_ram(const settings *s)
     r.lights = put(&frame, s->capacity.max_lights, punctual ? 176 : 36, punctual ? 8 : 4);
     r.objects = put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4);
     put(&frame, 1, 40, 4); /* receivers_q16 to tiles_y */
-    r.triangles = put(&frame, s->capacity.max_triangles, s->quality.subpixel_bits > 6 ? 44 : 32, 4);
+    r.triangles = put(&frame, s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
     r.tile_refs = put(&frame, s->capacity.max_tile_refs, 2, 2);
     if (s->feature.shadows) put_shadows(&frame, s, &r);
