@@ -16,12 +16,12 @@ build() {
     gcc $strict -O1 -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/$1/run" "$tmp/lib.c" "$tmp/$1/scene.c" tests/compiled_picture.c 2>"$tmp/$1/log"
 }
 
-# same NAME SCENE "FRAMES" OPTIONS...: what the compiled scene shows at frames of its own is what the tool renders
+# same NAME SCENE "FRAMES" "COMPILE-OPTIONS" OPTIONS...: what the compiled scene shows at frames of its own is what the tool renders
 same() {
-    name=$1 scene=$2 frames=$3
-    shift 3
+    name=$1 scene=$2 frames=$3 options=$4
+    shift 4
     mkdir -p "$tmp/$name"
-    if ! "$tool" compile "$scene" -o "$tmp/$name" "$@" >"$tmp/$name/log" 2>&1; then fail "$name: $(head -n 1 "$tmp/$name/log")"; return; fi
+    if ! "$tool" compile "$scene" -o "$tmp/$name" $options "$@" >"$tmp/$name/log" 2>&1; then fail "$name: $(head -n 1 "$tmp/$name/log")"; return; fi
     if ! build "$name"; then fail "$name does not build: $(grep -m 1 -E 'error|undefined' "$tmp/$name/log")"; return; fi
     pictures=
     for frame in $frames; do
@@ -32,14 +32,22 @@ same() {
     else fail "$name: $(head -n 1 "$tmp/$name/log" "$tmp/$name/differ" | tr '\n' ' ')"; fi
 }
 
+# every preset, nothing left out, all frames
 for preset in tiny balanced accurate; do
-    same sundial-$preset host/scenes/sundial.gltf "0 1 77 144 9" --size 160x120 --set preset=$preset
-    same avenue-$preset host/scenes/avenue.gltf 0 --set preset=$preset
-    same desk-$preset host/scenes/desk.gltf "0 1 2 30 48" --size 96x64 --set preset=$preset
-    same room-$preset host/scenes/room.gltf 0 --set preset=$preset
-    same fence-$preset host/scenes/fence.gltf 0 --size 200x100 --set preset=$preset
-    same mixed-$preset host/scenes/mixed.gltf "24 0 25 48" --size 160x120 --set preset=$preset
+    same sundial-$preset host/scenes/sundial.gltf "0 1 77 144 9" "--simplify none" --size 160x120 --set preset=$preset
+    same avenue-$preset host/scenes/avenue.gltf 0 "--simplify none" --size 200x100 --set preset=$preset
+    same desk-$preset host/scenes/desk.gltf "0 1 2 30 48" "--simplify none" --size 96x64 --set preset=$preset
+    same room-$preset host/scenes/room.gltf 0 "--simplify none" --size 160x120 --set preset=$preset
+    same fence-$preset host/scenes/fence.gltf 0 "--simplify none" --size 200x100 --set preset=$preset
+    same mixed-$preset host/scenes/mixed.gltf "24 0 25 48" "--simplify none" --size 160x120 --set preset=$preset
 done
+# what none of these frames shows left out
+same sundial host/scenes/sundial.gltf "0 2 4 1" "--frames 0-4" --size 160x120
+same avenue host/scenes/avenue.gltf 0 ""
+same desk host/scenes/desk.gltf "0 2 3" "--frames 0-3" --size 96x64
+same room host/scenes/room.gltf 0 "" --size 160x120
+same fence host/scenes/fence.gltf 0 "--set output=grey4" --size 160x120
+same mixed host/scenes/mixed.gltf "1 0" "--frames 0-1" --size 96x64 --set preset=tiny
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

@@ -47,9 +47,16 @@ int tool_compile(const tool_options *o)
         return TOOL_USAGE;
     }
     if (compile_play(&c, o, error, sizeof error)) return tool_fail(o->scene_path, error);
+    compile_stage st;
+    int failed = compile_stage_open(&st, &c) || compile_simplify(&c, &st, error, sizeof error);
+    compile_stage_close(&st);
+    if (failed) {
+        compile_free(&c);
+        return tool_fail(o->scene_path, error);
+    }
     compile_choose(&c);
     if (!o->json) remarks_on_settings(&c.scene);
-    int failed = write_all(&c, error, sizeof error);
+    failed = write_all(&c, error, sizeof error);
     compile_free(&c);
     return failed ? tool_fail(o->out_path, error) : TOOL_OK;
 }

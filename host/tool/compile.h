@@ -1,5 +1,6 @@
 /* gnomon compile: a scene file as C for flash, and the configuration that it needs. Private to host/tool/compile_*.c and
- * cmd_compile.c: compile_play.c plays the frames, compile_config.c writes the configuration, compile_scene.c the scene. */
+ * cmd_compile.c. In order: compile_play.c loads every frame, compile_frames.c draws them, compile_simplify.c and compile_mesh.c take
+ * away what no picture shows, compile_config.c chooses the configuration, compile_scene.c writes the scene. */
 #ifndef GNOMON_COMPILE_H
 #define GNOMON_COMPILE_H
 
@@ -32,35 +33,110 @@ typedef struct {
 } compile_reason;
 enum { COMPILE_REASONS_MAX = 96 };
 
+/* Of one frame's picture, in its first format and in all. */
+typedef struct {
+    uint64_t first, all;
+} compile_hash;
+
+/* What all frames took together, or the most that one of them took. */
+typedef struct {
+    compile_hash *hash; /* of each frame's picture */
+    int differs;        /* the first frame that is another picture than wanted; -1: none */
+    settings_demand demand;
+    int peak_triangles, peak_tile_refs; /* the frames that took most, from 0 */
+    size_t culled;                      /* casters left out by D8 */
+    size_t caster_triangles;
+    double instructions, lookups; /* by the model of cost; of shadows */
+} compile_run;
+
+/* Something that was taken away, and what that saved. */
+typedef struct {
+    char what[160];
+    size_t n;
+    long flash_bytes, ram_bytes;
+    double instructions; /* share of all, 0..1 */
+} compile_saving;
+enum { COMPILE_SAVINGS_MAX = 24 };
+
 typedef struct {
     const tool_options *options;
-    int first_frame, n_frames;          /* of the scene file's animation */
-    scene scene;                        /* as the first frame has it */
-    fixed_scene fixed;                  /* the same; what tracks change is the first frame's */
-    settings set;                       /* the configuration */
-    settings_demand demand;             /* the most that any frame took */
-    int peak_triangles, peak_tile_refs; /* the frames that took it */
-    size_t culled;                      /* casters left out by D8, all frames */
+    int first_frame, n_frames;                                           /* of the scene file's animation */
+    scene scene;                                                         /* as the first frame has it */
+    fixed_scene fixed;                                                   /* the same; what tracks change is the first frame's */
+    const char **object_name, **light_name, **mesh_name, **texture_name; /* beside the arrays of fixed, whose elements may go */
+    size_t n_textures;                                                   /* of fixed.textures */
+    settings set;                                                        /* the configuration */
+    compile_run run;
+    size_t kept_tiles; /* from frame to frame, all frames */
     compile_reason reasons[COMPILE_REASONS_MAX];
     size_t n_reasons;
+    compile_saving savings[COMPILE_SAVINGS_MAX];
+    size_t n_savings;
     compile_track *tracks;
     size_t n_tracks;
-    bool moves[3]; /* by compile_owner: there are tracks */
 } compiled;
 
-/* Loads and renders every frame. 0, or -1 with one line in error. */
+/* compile_play.c: loads every frame. 0, or -1 with one line in error. */
 int compile_play(compiled *c, const tool_options *o, char *error, size_t error_bytes);
-/* Makes c->set the least configuration for what was played. */
-void compile_choose(compiled *c);
-
 void compile_free(compiled *c);
+bool compile_moves(const compiled *c, compile_owner of); /* there are tracks */
 
+/* compile_frames.c: what draws frames. */
+typedef struct {
+    gn_renderer *renderer;
+    gn_scene scene;
+    gn_object *objects;
+    gn_light *lights;
+    bool begun;
+    count_all counts; /* of one format */
+    size_t pixel_bytes;
+    uint64_t hash;
+} compile_stage;
+
+int compile_stage_open(compile_stage *st, const compiled *c); /* -1: out of memory */
+void compile_stage_close(compile_stage *st);
+
+/* The scene at a frame (from 0), as scene_frame() of the firmware gives it. */
+const gn_scene *compile_frame(compile_stage *st, const compiled *c, int i);
+
+/* One frame's picture, as RGB888 and RGB565, and the grey format that was set: what rounds to the same bytes in one may not in
+ * another; no more than the first format if that is not the one wanted. 0, or -1: the library refuses, and its detail says why. */
+int compile_draw(compile_stage *st, const compiled *c, int i, const compile_hash *wanted, compile_hash *hash);
+bool compile_same(const compile_hash *a, const compile_hash *b);
+
+/* All frames; with wanted, until one is another picture. run->hash must have room for n_frames. */
+int compile_run_all(compile_run *run, compile_stage *st, const compiled *c, const compile_run *wanted);
+
+/* Marks the triangles that some frame's picture shows, by mesh. */
+int compile_see(compile_stage *st, const compiled *c, bool **seen);
+
+/* Shadow tiles that A5 keeps, all frames. */
+int compile_keeps_tiles(compile_stage *st, const compiled *c, size_t *n_kept);
+
+/* compile_simplify.c: takes away what changes no byte of any frame. 0, or -1 with one line in error. */
+int compile_simplify(compiled *c, compile_stage *st, char *error, size_t error_bytes);
+
+/* compile_mesh.c */
+size_t compile_merge_vertices(compiled *c); /* returns how many went */
+size_t compile_drop_degenerate(compiled *c);
+void compile_drop_unused(compiled *c); /* vertices, meshes and textures that nothing names any more */
+void compile_drop_objects(compiled *c, const bool *gone);
+void compile_drop_lights(compiled *c, const bool *gone);
+void compile_keep_triangles(gn_mesh *mesh, const uint16_t *idx, size_t n_triangles, const bool *gone);
+
+/* compile_config.c: makes c->set the least configuration for what was played, and writes it. */
+void compile_choose(compiled *c);
 void compile_write_config(FILE *file, const compiled *c);
+
+/* compile_size.c: bytes on a 32-bit target. short_enums: as Arm has them. */
+long compile_flash_bytes(const compiled *c); /* of the scene's data */
+long compile_state_bytes(const compiled *c, bool short_enums);
+
+/* compile_scene.c */
 void compile_write_header(FILE *file, const compiled *c);
 void compile_write_scene(FILE *file, const compiled *c);
-
-/* Text of the scene file inside a comment: it cannot end it. */
 void compile_write_origin(FILE *file, const compiled *c);
+/* Text of the scene file inside a comment: it cannot end it. */
 void compile_write_text(FILE *file, const char *text);
 
 #endif

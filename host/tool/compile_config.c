@@ -49,12 +49,14 @@ static void fit(compiled *c, const char *knob, int *capacity, size_t n, int most
 
 static void choose_capacities(compiled *c)
 {
-    const settings_demand *d = &c->demand;
+    const settings_demand *d = &c->run.demand;
     settings *s = &c->set;
     fit(c, "max_width", &s->capacity.max_width, (size_t)d->width, 2048, "pixels: the picture", 0, false);
     fit(c, "max_height", &s->capacity.max_height, (size_t)d->height, 2048, "pixels: the picture", 0, false);
-    fit(c, "max_triangles", &s->capacity.max_triangles, d->triangles, 65534, "visible triangles", c->peak_triangles, true);
-    fit(c, "max_tile_refs", &s->capacity.max_tile_refs, d->tile_refs, 1000000, "references", c->peak_tile_refs, true);
+    fit(c, "max_triangles", &s->capacity.max_triangles, d->triangles, 65534, "visible triangles",
+        c->first_frame + c->run.peak_triangles, true);
+    fit(c, "max_tile_refs", &s->capacity.max_tile_refs, d->tile_refs, 1000000, "references", c->first_frame + c->run.peak_tile_refs,
+        true);
     fit(c, "max_lights", &s->capacity.max_lights, d->lights, 64, "lights in the scene", 0, false);
     fit(c, "surface_lights", &s->capacity.surface_lights, d->surface_lights, 64, "lights reach one object at most", 0, false);
     fit(c, "max_objects", &s->capacity.max_objects, d->objects, 65535, "objects in the scene", 0, false);
@@ -72,12 +74,12 @@ static void shrink_atlases(compiled *c)
     settings *s = &c->set;
     bool other = s->feature.punctual_lights || s->feature.main_light;
     if (!s->feature.shadows || !other) return;
-    if (!c->demand.shadow_tiles) {
+    if (!c->run.demand.shadow_tiles) {
         s->quality.atlas_size = 16;
         s->quality.depth_bits = s->quality.other_depth_bits;
         because(c, "atlas_size", "no frame draws a directional light's shadow");
         because(c, "depth_bits", "as the other atlas: this one is not used");
-    } else if (!c->demand.other_tiles) {
+    } else if (!c->run.demand.other_tiles) {
         s->quality.other_atlas_size = 16;
         s->quality.other_depth_bits = s->quality.depth_bits;
         because(c, "other_atlas_size", "no frame draws into it");
@@ -87,78 +89,124 @@ static void shrink_atlases(compiled *c)
 
 /* ---- Features ----------------------------------------------------------------------------------------------------------- */
 
-typedef struct {
-    const char *knob;
-    int *value;
-} feature;
-
-#define FEATURE_(name, MACRO, lo, hi, meaning, cost) {#name, &c->set.feature.name},
-enum {
-#define FEATURE_COUNT_(name, MACRO, lo, hi, meaning, cost) FEATURE_IDX_##name,
-    GN_FEATURE_KNOBS(FEATURE_COUNT_) N_FEATURES
-};
-
-/* What one picture cannot show to be needed: the same pixels either way. */
-static bool changes_no_picture(const char *knob)
+/* A feature that something of the scene uses: the largest value counts, and what first needed it is named. */
+static void use(compiled *c, const char *knob, int *value, int needed, const char *format, const char *name)
 {
-    static const char *const names[] = {"depth_blocks", "tile_lights",   "caster_culling", "incremental",
-                                        "static_layer", "runtime_knobs", "raw_views",      NULL};
-    for (int i = 0; names[i]; i++)
-        if (strcmp(knob, names[i]) == 0) return true;
-    return false;
+    if (needed <= *value) return;
+    *value = needed;
+    because(c, knob, format, name);
 }
 
-/* Pictures that settings_needs does not look at: what is not built would be left out, not refused. */
-static bool is_of_vertices(compiled *c, const char *knob, int *value)
+#define USE(feature_name, needed, format, name) use(c, #feature_name, &c->set.feature.feature_name, needed, format, name)
+
+static void use_filter(compiled *c, gn_filter filter, const char *what)
 {
-    bool normals = strcmp(knob, "vertex_normals") == 0, used = false;
-    if (!normals && strcmp(knob, "vertex_colours") != 0) return false;
-    for (size_t i = 0; i < c->scene.n_meshes; i++)
-        used |= normals ? c->scene.meshes[i].nrm != NULL : c->scene.meshes[i].rgb != NULL;
-    *value = used;
-    because(c, knob, "%s mesh has any", used ? "some" : "no");
-    return true;
+    if (filter == GN_FILTER_DISK) USE(disk_filter, 1, "the filter of %s", what);
+    else USE(filter_max, (int)filter, "the filter of %s", what);
 }
 
-static void choose_speed(compiled *c)
+static void use_light(compiled *c, const gn_light *l, bool casts, const char *name)
 {
-    settings *s = &c->set;
-    size_t punctual = 0;
-    for (size_t i = 0; i < c->scene.n_lights; i++) punctual += c->scene.lights[i].kind != SCENE_LIGHT_DIRECTIONAL;
-    if (!s->feature.shadows || s->feature.filter_max + s->feature.disk_filter == 0) s->feature.depth_blocks = 0;
-    because(c, "depth_blocks", s->feature.depth_blocks ? "faster, the same picture" : "nothing to filter, or not wanted");
-    if (punctual < 2) s->feature.tile_lights = 0;
-    because(c, "tile_lights", "%zu spot and point lights", punctual);
-    if (!s->feature.shadows || s->capacity.max_shadow_tiles < 2 || !c->culled) s->feature.caster_culling = 0;
-    because(c, "caster_culling", "%zu casters left out of larger cascades in all frames", c->culled);
-    bool scheduled = false;
-    for (int i = 0; i < 4; i++) scheduled |= c->scene.shadow.refresh[i] > 1;
-    if (!scheduled && (!s->feature.shadows || c->n_frames < 2)) s->feature.incremental = 0;
-    because(c, "incremental",
-            scheduled                ? "refresh"
-            : s->feature.incremental ? "shadow tiles may last from frame to frame"
-                                     : "nothing lasts from frame to frame");
+    const gn_shadow_settings *s = &c->fixed.scene.shadow;
+    const int32_t *r = l->bias_receiver_q16;
+    if (l->kind != GN_LIGHT_DIRECTIONAL) USE(punctual_lights, 1, "light '%s'", name);
+    if (l->shadow_strength_uq16 && l->mode != GN_LIGHT_BAKED && casts) USE(shadows, 1, "light '%s'", name);
+    if (r[0] || r[1] || r[2] || r[3]) USE(receiver_bias, 1, "bias_receiver of light '%s'", name);
+    if (l->bias_caster_q16) USE(caster_bias, 1, "bias_caster of light '%s'", name);
+    if (l->receiver_plane) USE(receiver_plane, 1, "receiver_plane of light '%s'", name);
+    if (l->auto_bias) USE(auto_bias, 1, "auto_bias of light '%s'", name);
+    if (l->softness == GN_SOFTNESS_SOFT && (s->filter != GN_FILTER_DISK || s->other_filter != GN_FILTER_DISK))
+        USE(filter_max, GN_FILTER_5X5, "soft light '%s'", name);
+    if (l->softness == GN_SOFTNESS_HARD && (s->filter != GN_FILTER_HARD || s->other_filter != GN_FILTER_HARD))
+        USE(filter_max, GN_FILTER_2X2, "hard light '%s'", name);
+}
+
+static void use_object(compiled *c, const gn_object *o, const char *name)
+{
+    const uint32_t *s = o->specular_uq16;
+    if (o->visible_alpha != GN_ALPHA_OPAQUE) USE(visible_alpha, 1, "object '%s'", name);
+    if (o->caster_alpha != GN_ALPHA_OPAQUE) USE(caster_alpha, 1, "object '%s'", name);
+    if (o->texture) USE(textures, 1, "object '%s'", name);
+    if (s[0] || s[1] || s[2]) USE(specular, 1, "object '%s'", name);
+    if (o->mask_u8 || o->mask_image) USE(masks, 1, "object '%s'", name);
+    if (o->baked_uq12) USE(baked_light, 1, "object '%s'", name);
+}
+
+static void use_shadows(compiled *c)
+{
+    const gn_shadow_settings *s = &c->fixed.scene.shadow;
+    use_filter(c, (gn_filter)s->filter, "directional lights");
+    use_filter(c, (gn_filter)s->other_filter, "spot and point lights");
+    if (s->kernel == GN_KERNEL_LINEAR) USE(linear_kernels, 1, "%s", "the setting kernel");
+    if (s->blend != GN_BLEND_HARD) USE(blended_cascades, 1, "%s", "the setting cascade_blend");
+    if (s->main_light) USE(main_light, 1, "%s", "the setting main_light");
+    if (s->mixing != GN_MIXING_NONE) USE(masks, 1, "%s", "the setting mixing");
+}
+
+/* Everything that a scene can use to 0; the rest makes the same picture with and without. */
+static void use_nothing(compiled *c)
+{
+#define NOTHING(name)                                                                                                              \
+    c->set.feature.name = 0;                                                                                                       \
+    because(c, #name, "nothing uses it")
+    NOTHING(shadows);
+    NOTHING(blended_cascades);
+    NOTHING(filter_max);
+    NOTHING(disk_filter);
+    NOTHING(linear_kernels);
+    NOTHING(punctual_lights);
+    NOTHING(main_light);
+    NOTHING(caster_alpha);
+    NOTHING(visible_alpha);
+    NOTHING(textures);
+    NOTHING(specular);
+    NOTHING(masks);
+    NOTHING(baked_light);
+    NOTHING(receiver_bias);
+    NOTHING(caster_bias);
+    NOTHING(receiver_plane);
+    NOTHING(auto_bias);
+    NOTHING(vertex_normals);
+    NOTHING(vertex_colours);
+    c->set.feature.raw_views = c->set.feature.runtime_knobs = 0;
+    because(c, "raw_views", "for host tools");
+    because(c, "runtime_knobs", "for host tools");
 }
 
 static void choose_features(compiled *c)
 {
-    const feature features[] = {GN_FEATURE_KNOBS(FEATURE_)};
-    settings_need needs[SETTINGS_NEEDS_MAX];
-    int n_needs = settings_needs(&c->scene, c->set.feature.shadows && settings_casts(&c->scene), needs);
-    for (size_t i = 0; i < N_FEATURES; i++) {
-        const feature *f = &features[i];
-        if (changes_no_picture(f->knob) || is_of_vertices(c, f->knob, f->value)) continue;
-        *f->value = 0;
-        because(c, f->knob, "nothing uses it");
-        for (int k = 0; k < n_needs; k++) {
-            if (strcmp(needs[k].knob, f->knob) != 0) continue;
-            *f->value = needs[k].value;
-            because(c, f->knob, "%s", needs[k].what);
-        }
+    const fixed_scene *f = &c->fixed;
+    bool casts = false; /* shadows may all be in masks */
+    use_nothing(c);
+    for (uint32_t i = 0; i < f->scene.n_objects; i++) casts |= (f->objects[i].flags & GN_OBJECT_CASTS) != 0;
+    for (uint32_t i = 0; i < f->scene.n_lights; i++) use_light(c, &f->lights[i], casts, c->light_name[i]);
+    for (uint32_t i = 0; i < f->scene.n_objects; i++) use_object(c, &f->objects[i], c->object_name[i]);
+    for (size_t i = 0; i < f->n_meshes; i++) {
+        if (f->meshes[i].nrm_q15) USE(vertex_normals, 1, "mesh '%s'", c->mesh_name[i]);
+        if (f->meshes[i].rgb_uq16) USE(vertex_colours, 1, "mesh '%s'", c->mesh_name[i]);
     }
-    c->set.feature.raw_views = c->set.feature.runtime_knobs = 0;
-    because(c, "raw_views", "for host tools");
-    because(c, "runtime_knobs", "for host tools");
+    if (c->set.feature.shadows) use_shadows(c);
+}
+
+/* What changes no picture is built where it has something to do, unless it was switched off. */
+static void choose_speed(compiled *c)
+{
+    settings *s = &c->set;
+    size_t punctual = 0, scheduled = 0;
+    for (uint32_t i = 0; i < c->fixed.scene.n_lights; i++) punctual += c->fixed.lights[i].kind != GN_LIGHT_DIRECTIONAL;
+    for (int i = 0; i < 4; i++) scheduled += c->fixed.scene.shadow.refresh[i] > 1;
+    if (!s->feature.shadows) {
+        s->feature.depth_blocks = s->feature.static_layer = 0;
+        because(c, "static_layer", "no shadows");
+    }
+    because(c, "depth_blocks", s->feature.depth_blocks ? "faster shadows, the same picture" : "no shadows, or not wanted");
+    if (punctual < 2) s->feature.tile_lights = 0;
+    because(c, "tile_lights", "%zu spot and point lights", punctual);
+    if (!s->feature.shadows || !c->run.culled) s->feature.caster_culling = 0;
+    because(c, "caster_culling", "casters left out of larger cascades, all frames: %zu", c->run.culled);
+    if (!s->feature.shadows || (!c->kept_tiles && !scheduled)) s->feature.incremental = 0;
+    if (scheduled && s->feature.shadows) because(c, "incremental", "the setting refresh");
+    else because(c, "incremental", "shadow tiles kept from the frame before, all frames: %zu", c->kept_tiles);
 }
 
 void compile_choose(compiled *c)
@@ -183,14 +231,26 @@ static void write_knob(FILE *f, const compiled *c, const char *knob, const char 
 #define CAPACITY_(name, MACRO, lo, hi, meaning, cost) write_knob(f, c, #name, #MACRO, c->set.capacity.name);
 #define FEATURES_(name, MACRO, lo, hi, meaning, cost) write_knob(f, c, #name, #MACRO, c->set.feature.name);
 
+static void write_savings(FILE *f, const compiled *c)
+{
+    for (size_t i = 0; i < c->n_savings; i++) {
+        const compile_saving *s = &c->savings[i];
+        fprintf(f, " * %zu ", s->n);
+        compile_write_text(f, s->what);
+        fprintf(f, ": %ld bytes of flash, %ld of RAM, %.1f %% of instructions\n", s->flash_bytes, s->ram_bytes,
+                100 * s->instructions);
+    }
+}
+
 void compile_write_config(FILE *f, const compiled *c)
 {
     fprintf(f, "/* ");
     compile_write_origin(f, c);
     fprintf(f, ".\n *\n * The library as this scene needs it, from %d frame%s played at %dx%d: frames %d to %d.\n", c->n_frames,
             c->n_frames == 1 ? "" : "s", c->options->width, c->options->height, c->first_frame, c->first_frame + c->n_frames - 1);
-    fprintf(f, " * RAM of gn_renderer on a 32-bit target: %ld bytes.\n */\n#ifndef GN_SCENE_CONFIG_H\n#define GN_SCENE_CONFIG_H\n",
-            settings_ram(&c->set).total);
+    fprintf(f, " * RAM of gn_renderer on a 32-bit target: %ld bytes.\n", settings_ram(&c->set).total);
+    write_savings(f, c);
+    fprintf(f, " */\n#ifndef GN_SCENE_CONFIG_H\n#define GN_SCENE_CONFIG_H\n");
     fprintf(f, "\n/* Quality: these make the picture. */\n");
     GN_QUALITY_KNOBS(QUALITY_)
     fprintf(f, "\n/* Capacity: found by playing the frames. */\n");

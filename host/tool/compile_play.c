@@ -119,7 +119,6 @@ static int track_field(compiled *c, const fixed_scene *f, int i, const compile_f
     else if (!t) return 0;
     if (!t) return -1;
     memcpy(t->words + (size_t)i * field->n_words, now, 4 * field->n_words);
-    c->moves[field->of] = true;
     return 0;
 }
 
@@ -131,45 +130,14 @@ static int track_frame(compiled *c, const fixed_scene *f, int i)
     return 0;
 }
 
-/* ---- Demand ------------------------------------------------------------------------------------------------------------- */
-
-static void most(size_t *of, size_t value)
-{
-    if (value > *of) *of = value;
-}
-
-static void take_demand(settings_demand *all, const settings_demand *frame)
-{
-    all->width = frame->width;
-    all->height = frame->height;
-    most(&all->objects, frame->objects);
-    most(&all->lights, frame->lights);
-    most(&all->surface_lights, frame->surface_lights);
-    most(&all->triangles, frame->triangles);
-    most(&all->tile_refs, frame->tile_refs);
-    most(&all->shadow_tiles, frame->shadow_tiles);
-    most(&all->other_tiles, frame->other_tiles);
-    most(&all->atlas_texels, frame->atlas_texels);
-    most(&all->other_atlas_texels, frame->other_atlas_texels);
-}
-
 /* ---- Frames ------------------------------------------------------------------------------------------------------------- */
 
-static int play_frame(compiled *c, const scene *s, const settings *set, const fixed_scene *f, int i, char *error, size_t bytes)
+static int play_frame(compiled *c, const fixed_scene *f, int i, char *error, size_t bytes)
 {
-    engine_picture p;
     if (i > 0 && check_same(c, f, c->first_frame + i, error, bytes)) return -1;
-    if (track_frame(c, f, i)) {
-        snprintf(error, bytes, "out of memory");
-        return -1;
-    }
-    if (engine_fixed(&p, s, set, c->options->width, c->options->height, ENGINE_COLOUR_ONLY, error, bytes)) return -1;
-    if (p.demand.triangles > c->demand.triangles) c->peak_triangles = c->first_frame + i;
-    if (p.demand.tile_refs > c->demand.tile_refs) c->peak_tile_refs = c->first_frame + i;
-    c->culled += p.stats.n_casters_culled;
-    take_demand(&c->demand, &p.demand);
-    engine_free(&p);
-    return 0;
+    if (!track_frame(c, f, i)) return 0;
+    snprintf(error, bytes, "out of memory");
+    return -1;
 }
 
 /* Every frame but the first, which stays. */
@@ -183,7 +151,7 @@ static int play_later(compiled *c, int i, char *error, size_t bytes)
     if (tool_load_with(&o, o.sets, o.n_sets, &s, &set, error, bytes)) return -1;
     int failed = quantise_scene(&f, &s, error, bytes);
     if (!failed) {
-        failed = play_frame(c, &s, &set, &f, i, error, bytes);
+        failed = play_frame(c, &f, i, error, bytes);
         quantise_free(&f);
     }
     scene_free(&s);
@@ -207,26 +175,53 @@ static int choose_frames(compiled *c, char *error, size_t bytes)
     return -1;
 }
 
+static int name_all(compiled *c)
+{
+    const scene *s = &c->scene;
+    c->object_name = malloc((s->n_objects + 1) * sizeof *c->object_name);
+    c->light_name = malloc((s->n_lights + 1) * sizeof *c->light_name);
+    c->mesh_name = malloc((s->n_meshes + 1) * sizeof *c->mesh_name);
+    c->texture_name = malloc((s->n_textures + 1) * sizeof *c->texture_name);
+    if (!c->object_name || !c->light_name || !c->mesh_name || !c->texture_name) return -1;
+    for (size_t i = 0; i < s->n_objects; i++) c->object_name[i] = s->objects[i].name;
+    for (size_t i = 0; i < s->n_lights; i++) c->light_name[i] = s->lights[i].name;
+    for (size_t i = 0; i < s->n_meshes; i++) c->mesh_name[i] = s->meshes[i].name;
+    for (size_t i = 0; i < s->n_textures; i++) c->texture_name[i] = s->textures[i].name;
+    c->n_textures = s->n_textures;
+    return 0;
+}
+
 int compile_play(compiled *c, const tool_options *o, char *error, size_t error_bytes)
 {
-    settings set;
     *c = (compiled){.options = o};
-    if (tool_load_with(o, o->sets, o->n_sets, &c->scene, &set, error, error_bytes)) return -1;
-    c->set = set;
+    if (tool_load_with(o, o->sets, o->n_sets, &c->scene, &c->set, error, error_bytes)) return -1;
     if (choose_frames(c, error, error_bytes) || quantise_scene(&c->fixed, &c->scene, error, error_bytes)) {
         scene_free(&c->scene);
         return -1;
     }
-    int failed = play_frame(c, &c->scene, &set, &c->fixed, 0, error, error_bytes);
+    int failed = name_all(c);
+    if (failed) snprintf(error, error_bytes, "out of memory");
     for (int i = 1; !failed && i < c->n_frames; i++) failed = play_later(c, i, error, error_bytes);
     if (failed) compile_free(c);
     return failed;
+}
+
+bool compile_moves(const compiled *c, compile_owner of)
+{
+    for (size_t i = 0; i < c->n_tracks; i++)
+        if (c->tracks[i].field->of == of) return true;
+    return false;
 }
 
 void compile_free(compiled *c)
 {
     for (size_t i = 0; i < c->n_tracks; i++) free(c->tracks[i].words);
     free(c->tracks);
+    free(c->object_name);
+    free(c->light_name);
+    free(c->mesh_name);
+    free(c->texture_name);
+    free(c->run.hash);
     quantise_free(&c->fixed);
     scene_free(&c->scene);
     *c = (compiled){0};

@@ -74,7 +74,7 @@ static void write_mesh_arrays(FILE *f, const gn_mesh *m, size_t i, const char *n
 static void write_meshes(FILE *f, const compiled *c)
 {
     const fixed_scene *fixed = &c->fixed;
-    for (size_t i = 0; i < fixed->n_meshes; i++) write_mesh_arrays(f, &fixed->meshes[i], i, c->scene.meshes[i].name);
+    for (size_t i = 0; i < fixed->n_meshes; i++) write_mesh_arrays(f, &fixed->meshes[i], i, c->mesh_name[i]);
     fprintf(f, "\nstatic const gn_mesh meshes[%zu] = {\n", fixed->n_meshes);
     for (size_t i = 0; i < fixed->n_meshes; i++) {
         const gn_mesh *m = &fixed->meshes[i];
@@ -93,13 +93,13 @@ static void write_meshes(FILE *f, const compiled *c)
 
 static void write_textures(FILE *f, const compiled *c)
 {
-    size_t n = c->scene.n_textures;
+    size_t n = c->n_textures;
     for (size_t i = 0; i < n; i++) {
-        const scene_texture *t = &c->scene.textures[i];
+        const gn_texture *t = &c->fixed.textures[i];
         fprintf(f, "\n/* texture %zu '", i);
-        compile_write_text(f, t->name);
-        fprintf(f, "': %dx%d */\n", t->width, t->height);
-        write_array(f, U8, "texture", i, "rgba", t->rgba, 4 * (size_t)t->width * (size_t)t->height, 2 * PER_LINE);
+        compile_write_text(f, c->texture_name[i]);
+        fprintf(f, "': %dx%d */\n", 1 << t->width_log2, 1 << t->height_log2);
+        write_array(f, U8, "texture", i, "rgba", t->rgba, (size_t)4 << (t->width_log2 + t->height_log2), 2 * PER_LINE);
     }
     if (!n) return;
     fprintf(f, "\nstatic const gn_texture textures[%zu] = {\n", n);
@@ -148,7 +148,7 @@ static void write_name(FILE *f, const char *name)
 static void write_object(FILE *f, const compiled *c, size_t i)
 {
     const gn_object *o = &c->fixed.objects[i];
-    write_name(f, c->scene.objects[i].name);
+    write_name(f, c->object_name[i]);
     fprintf(f, ".mesh = &meshes[%td], .flags = %" PRIu32 ",\n     ", o->mesh - c->fixed.meshes, o->flags);
     write_affine(f, &o->to_world);
     write_unsigned(f, "albedo_uq16", o->albedo_uq16, 3);
@@ -205,7 +205,7 @@ static void write_lights(FILE *f, const compiled *c)
 {
     size_t n = c->fixed.scene.n_lights;
     fprintf(f, "\nstatic const gn_light lights[%zu] = {\n", n ? n : 1);
-    for (size_t i = 0; i < n; i++) write_light(f, &c->fixed.lights[i], c->scene.lights[i].name);
+    for (size_t i = 0; i < n; i++) write_light(f, &c->fixed.lights[i], c->light_name[i]);
     fprintf(f, "%s};\n", n ? "" : "    {.shadow_strength_uq16 = 0},\n");
 }
 
@@ -254,8 +254,8 @@ static void write_tracks(FILE *f, const compiled *c)
 {
     for (size_t i = 0; i < c->n_tracks; i++) {
         const compile_track *t = &c->tracks[i];
-        const char *name = t->field->of == COMPILE_OF_OBJECT  ? c->scene.objects[t->idx].name
-                           : t->field->of == COMPILE_OF_LIGHT ? c->scene.lights[t->idx].name
+        const char *name = t->field->of == COMPILE_OF_OBJECT  ? c->object_name[t->idx]
+                           : t->field->of == COMPILE_OF_LIGHT ? c->light_name[t->idx]
                                                               : "the scene";
         fprintf(f, "\n/* %s of ", t->field->name);
         compile_write_text(f, name);
@@ -287,9 +287,9 @@ static void write_frame_function(FILE *f, const compiled *c)
         return;
     }
     fprintf(f, "    if (frame >= SCENE_FRAMES) frame = SCENE_FRAMES - 1;\n    now->scene = still;\n");
-    if (c->moves[COMPILE_OF_OBJECT])
+    if (compile_moves(c, COMPILE_OF_OBJECT))
         fprintf(f, "    memcpy(now->objects, objects, sizeof objects);\n    now->scene.objects = now->objects;\n");
-    if (c->moves[COMPILE_OF_LIGHT])
+    if (compile_moves(c, COMPILE_OF_LIGHT))
         fprintf(f, "    memcpy(now->lights, lights, sizeof lights);\n    now->scene.lights = now->lights;\n");
     for (size_t i = 0; i < c->n_tracks; i++) write_track_use(f, &c->tracks[i], i);
     fprintf(f, "    return &now->scene;\n}\n");
@@ -337,8 +337,8 @@ void compile_write_header(FILE *f, const compiled *c)
     fprintf(f, "/* What moves: RAM. */\ntypedef struct {\n");
     if (c->n_tracks) fprintf(f, "    gn_scene scene;\n");
     else fprintf(f, "    uint8_t nothing;\n");
-    if (c->moves[COMPILE_OF_OBJECT]) fprintf(f, "    gn_object objects[%" PRIu32 "];\n", c->fixed.scene.n_objects);
-    if (c->moves[COMPILE_OF_LIGHT]) fprintf(f, "    gn_light lights[%" PRIu32 "];\n", c->fixed.scene.n_lights);
+    if (compile_moves(c, COMPILE_OF_OBJECT)) fprintf(f, "    gn_object objects[%" PRIu32 "];\n", c->fixed.scene.n_objects);
+    if (compile_moves(c, COMPILE_OF_LIGHT)) fprintf(f, "    gn_light lights[%" PRIu32 "];\n", c->fixed.scene.n_lights);
     fprintf(f, "} scene_state;\n\n"
                "/* The scene at a frame, 0 .. SCENE_FRAMES - 1, in any order; valid until the next call. */\n"
                "const gn_scene *scene_frame(scene_state *now, uint32_t frame);\n\n"

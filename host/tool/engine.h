@@ -47,6 +47,9 @@ int engine_truth(engine_picture *out, const scene *s, const settings *set, int w
                  size_t error_bytes);
 void engine_free(engine_picture *p);
 
+/* What the frame that was rendered last took. */
+void engine_demand(const gn_renderer *renderer, settings_demand *out);
+
 /* What the engines in double precision share: options for a configuration, and their picture after the same quantisation as the
  * library's. Takes the arrays of ref, which is empty afterwards; -1: out of memory. */
 ref_options engine_ref_options(const scene *s, const settings *set, int width, int height);

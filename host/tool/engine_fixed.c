@@ -207,23 +207,21 @@ static size_t surface_lights(const gn_frame *frame)
     return directional + listed;
 }
 
-static void measure_demand(const job *j, engine_picture *out)
+void engine_demand(const gn_renderer *renderer, settings_demand *out)
 {
-    const gn_frame *frame = &j->renderer->frame;
-    settings_demand *demand = &out->demand;
-    demand->width = out->width;
-    demand->height = out->height;
-    demand->objects = j->scene->n_objects;
-    demand->lights = j->scene->n_lights;
-    demand->surface_lights = surface_lights(frame);
-    demand->triangles = out->stats.n_triangles;
-    demand->tile_refs = out->stats.n_tile_refs;
-    for (size_t l = 0; l < out->n_lights; l++) {
-        if (!out->n_tiles[l]) continue;
-        const size_t n = (size_t)out->n_tiles[l], texels = n * (size_t)out->atlas_texels[l] * (size_t)out->atlas_texels[l];
+    const gn_frame *frame = &renderer->frame;
+    *out = (settings_demand){.width = frame->picture.width, .height = frame->picture.height};
+    out->objects = frame->scene->n_objects;
+    out->lights = frame->scene->n_lights;
+    out->surface_lights = surface_lights(frame);
+    out->triangles = frame->stats.n_triangles;
+    out->tile_refs = frame->stats.n_tile_refs;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        uint32_t n = 0, side = 0;
+        if (gn_get_light_shadow(renderer, l, &n, &side) != GN_SHADOW_REALTIME) continue;
         const bool in_other = frame->view[frame->light[l].view_idx].in_other;
-        *(in_other ? &demand->other_tiles : &demand->shadow_tiles) += n;
-        *(in_other ? &demand->other_atlas_texels : &demand->atlas_texels) += texels;
+        *(in_other ? &out->other_tiles : &out->shadow_tiles) += n;
+        *(in_other ? &out->other_atlas_texels : &out->atlas_texels) += (size_t)n * side * side;
     }
 }
 
@@ -264,7 +262,7 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
         failed = copy_atlas(&j, out);
     }
     if (!failed) {
-        measure_demand(&j, out);
+        engine_demand(renderer, &out->demand);
         failed = settings_suffice(set, &out->demand, error, error_bytes);
     }
     picture.format = GN_FORMAT_RGB565;

@@ -33,6 +33,7 @@ static const char usage_text[] =
     "  --frame N                 animation frame (0)\n"
     "  --frames FIRST-LAST       compile: these frames (all of the animation)\n"
     "  --margin PERCENT          compile: room for more triangles and tile references than the frames took (10)\n"
+    "  --simplify none|safe|path  compile: leave out what changes no picture of any camera, or none of the frames (path)\n"
     "  --set KEY=VALUE           any knob or setting, in order; preset=tiny|balanced|accurate sets many;\n"
     "                            KEY@LIGHT=VALUE for one light, by its number or name\n"
     "  --csv FILE, --svg FILE    sweep: every configuration as a table and a picture\n"
@@ -66,6 +67,7 @@ static const option options[] = {
     {"--frame", BY_ALL & ~BY_COMPILE, "a frame from 0 to 100000000"},
     {"--frames", BY_COMPILE, "FIRST-LAST, frames from 0 to 100000000"},
     {"--margin", BY_COMPILE, "per cent from 0 to 1000"},
+    {"--simplify", BY_COMPILE, "none, safe or path"},
     {"--set", BY_ALL, "KEY=VALUE, at most 64 times"},
     {"--csv", BY_SWEEP, "a path"},
     {"--svg", BY_SWEEP, "a path"},
@@ -125,6 +127,14 @@ static int parse_frames(const char *text, tool_options *o)
     return o->last_frame < o->frame ? -1 : 0;
 }
 
+static int simplify_from_name(const char *name)
+{
+    static const char *const names[] = {"none", "safe", "path"};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(name, names[i]) == 0) return i;
+    return -1;
+}
+
 static int is_no_double_engine(const char *name)
 {
     return strcmp(name, "reference") != 0 && strcmp(name, "truth") != 0;
@@ -143,6 +153,7 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--frame") == 0) failed = parse_int(value, 0, 100000000, &o->frame);
     else if (strcmp(name, "--frames") == 0) failed = parse_frames(value, o);
     else if (strcmp(name, "--margin") == 0) failed = parse_int(value, 0, 1000, &o->margin);
+    else if (strcmp(name, "--simplify") == 0) failed = (o->simplify = simplify_from_name(value)) < 0;
     else if (strcmp(name, "--light") == 0) {
         failed = parse_int(value, 0, GN_MAX_LIGHTS - 1, &light);
         o->light = (size_t)light;
@@ -225,7 +236,14 @@ static int run(int argc, char **argv)
                     {"info", BY_INFO, tool_info},       {"sweep", BY_SWEEP, tool_sweep},
                     {"advise", BY_ADVISE, tool_advise}, {"compile", BY_COMPILE, tool_compile},
                     {"bake", BY_BAKE, tool_bake}};
-    tool_options o = {.engine = "fixed", .with = "reference", .width = 320, .height = 240, .last_frame = -1, .margin = 10, .texels = 256};
+    tool_options o = {.engine = "fixed",
+                      .with = "reference",
+                      .width = 320,
+                      .height = 240,
+                      .last_frame = -1,
+                      .margin = 10,
+                      .simplify = TOOL_SIMPLIFY_PATH,
+                      .texels = 256};
     if (argc < 2) return usage("a command is missing", NULL);
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0) {
         fputs(usage_text, stdout);

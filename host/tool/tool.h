@@ -8,6 +8,9 @@
 #define TOOL_SETS_MAX    64
 #define TOOL_ERROR_BYTES 512
 
+/* What compile may take away: nothing; what no picture could show; also what none of the frames shows. */
+enum { TOOL_SIMPLIFY_NONE, TOOL_SIMPLIFY_SAFE, TOOL_SIMPLIFY_PATH };
+
 /* The command line, parsed. */
 typedef struct {
     const char *scene_path;
@@ -29,6 +32,7 @@ typedef struct {
     int instructions_per_pixel; /* 0: no limit */
     int last_frame;             /* compile: of --frames, whose first is frame; -1: to the end of the animation */
     int margin;                 /* compile: per cent */
+    int simplify;               /* compile */
 } tool_options;
 
 /* Exit codes: failures of the work itself, and of the command line. */

@@ -1,0 +1,61 @@
+/* What the compiled scene takes on a 32-bit target, to the byte: as its compilers lay out the structures of gnomon.h. */
+#include "compile.h"
+
+enum { MESH_BYTES = 32, TEXTURE_BYTES = 8 };
+
+static long padded(long bytes)
+{
+    return (bytes + 3) / 4 * 4;
+}
+
+/* Enumerations take 4 bytes each, or, as Arm's compilers have them by default, one. */
+static long object_bytes(bool short_enums)
+{
+    return short_enums ? 116 : 120;
+}
+
+static long light_bytes(bool short_enums)
+{
+    return short_enums ? 112 : 116;
+}
+
+static long scene_bytes(bool short_enums)
+{
+    return short_enums ? 184 : 200;
+}
+
+static long mesh_bytes(const gn_mesh *m)
+{
+    long n = m->n_vertices, bytes = padded(n * 12) + padded((long)m->n_triangles * 6);
+    if (m->nrm_q15) bytes += padded(6 * n);
+    if (m->rgb_uq16) bytes += padded(6 * n);
+    if (m->uv) bytes += 4 * n;
+    if (m->mask_uv_uq16) bytes += 4 * n;
+    return bytes + MESH_BYTES;
+}
+
+long compile_flash_bytes(const compiled *c)
+{
+    const gn_scene *s = &c->fixed.scene;
+    long bytes = scene_bytes(false) + (long)(s->n_objects ? s->n_objects : 1) * object_bytes(false) +
+                 (long)(s->n_lights ? s->n_lights : 1) * light_bytes(false);
+    for (size_t i = 0; i < c->fixed.n_meshes; i++) bytes += mesh_bytes(&c->fixed.meshes[i]);
+    for (size_t i = 0; i < c->n_textures; i++)
+        bytes += TEXTURE_BYTES + (4L << (c->fixed.textures[i].width_log2 + c->fixed.textures[i].height_log2));
+    for (uint32_t i = 0; i < s->n_objects; i++) {
+        const gn_object *o = &s->objects[i];
+        if (o->mask_u8) bytes += 4L * o->mesh->n_vertices;
+        if (o->baked_uq12) bytes += padded(6L * o->mesh->n_vertices);
+    }
+    for (size_t i = 0; i < c->n_tracks; i++) bytes += 4L * c->n_frames * (long)c->tracks[i].field->n_words;
+    return bytes;
+}
+
+long compile_state_bytes(const compiled *c, bool short_enums)
+{
+    if (!c->n_tracks) return 1;
+    long bytes = scene_bytes(short_enums);
+    if (compile_moves(c, COMPILE_OF_OBJECT)) bytes += (long)c->fixed.scene.n_objects * object_bytes(short_enums);
+    if (compile_moves(c, COMPILE_OF_LIGHT)) bytes += (long)c->fixed.scene.n_lights * light_bytes(short_enums);
+    return bytes;
+}
