@@ -5,7 +5,7 @@
  * - after a reset a pixel has 18 bits, until COLMOD says 16 */
 #include "panel_model.h"
 
-enum { MY = 0x80, MX = 0x40, MV = 0x20, BGR = 0x08 };
+enum { MY = 0x80, MX = 0x40, MV = 0x20, BGR = 0x08, ILI9341_SS = 0x20 };
 
 static int n_common(uint8_t command)
 {
@@ -206,9 +206,12 @@ static void pixels(panel_model *m, uint8_t byte)
     else m->memory[y][x] = (uint16_t)(m->half_byte << 8 | byte);
 }
 
+/* The glasses of the ILI9341 are wired from its last source driver on: without SS in B6h the picture is its mirror image. */
 static int shown(const panel_model *m, int x, int y)
 {
-    int v = m->memory[y + m->glass.ram_y][x + m->glass.ram_x];
+    int column = x + m->glass.ram_x;
+    if (m->chip == MODEL_ILI9341 && !(m->reg[0xB6][1] & ILI9341_SS)) column = MODEL_COLUMNS - 1 - column;
+    int v = m->memory[y + m->glass.ram_y][column];
     if (((m->reg[0x36][0] & BGR) != 0) != m->glass.bgr) v = (v & 0x07E0) | v >> 11 | (v & 31) << 11;
     return m->inverted != m->glass.inverted ? v ^ 0xFFFF : v;
 }

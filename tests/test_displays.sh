@@ -45,6 +45,16 @@ build "the tools" build/capture build/ppm
 display lm3s6965evb 'ssd0323: error'
 display rv32-virt 'invalid'
 
+# The drivers are integer code without state: nothing of theirs is writable, and of others they need memcpy and integer helpers alone.
+objects=build/firmware/lm3s6965evb/clock.obj/boards/displays
+arm-none-eabi-nm -A --defined-only "$objects"/*.o | awk '$(NF - 1) ~ /^[dDbBcCsS]$/' >"$tmp/found"
+[ -s "$tmp/found" ] && fail "writable data in boards/displays/: $(head -n 3 "$tmp/found")" || pass
+arm-none-eabi-nm -A --defined-only "$objects"/*.o | awk '{ print $NF }' | sort -u >"$tmp/defined"
+arm-none-eabi-nm -A -u "$objects"/*.o | awk '{ print $NF }' | sort -u | comm -23 - "$tmp/defined" |
+    grep -v -x -E 'mem(cpy|set)|__aeabi_u?i(div|divmod)' >"$tmp/found"
+[ -s "$tmp/found" ] && fail "boards/displays/ needs $(tr '\n' ' ' <"$tmp/found")" || pass
+[ "$(wc -l <"$tmp/defined")" -gt 30 ] && pass || fail "boards/displays/ defines $(wc -l <"$tmp/defined") names"
+
 # What the capture reports when there is nothing to capture.
 build/capture 1 'READY never' "$tmp/none.ppm" qemu-system-arm -M lm3s6965evb -kernel build/firmware/lm3s6965evb/clock.elf \
     -semihosting-config enable=on,target=native,arg=clock,arg=06:00,arg=06:00 >/dev/null 2>"$tmp/log" && fail "a capture of nothing" || pass

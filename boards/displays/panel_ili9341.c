@@ -9,7 +9,7 @@ static const uint8_t registers[] = {
     3, 0, 0xC5, 0x3E, 0x28,       /* VCOM high 4.25 V, low -1.50 V */
     2, 0, 0xC7, 0x86,             /* VCOM offset */
     3, 0, 0xB1, 0x00, 0x18,       /* 79 frames per second */
-    4, 0, 0xB6, 0x08, 0x82, 0x27, /* 320 lines; scan order as the glass is wired */
+    4, 0, 0xB6, 0x08, 0xA2, 0x27, /* 320 lines; source drivers from right to left, as the glasses are wired */
     2, 0, DCS_GAMSET, 0x01,       /* gamma curve 2.2 */
     0};
 /* clang-format on */
