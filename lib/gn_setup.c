@@ -56,24 +56,27 @@ typedef struct {
     uint32_t cache_mask;
     uint32_t focal_norm; /* 2F, normalised */
     int32_t focal_shift; /* see project */
+    uint32_t near_norm;  /* near, normalised */
+    int32_t near_clz;
+    uint32_t tan[2]; /* cam->tan_q16 * 2^15; 0: not less than 2, too much for side_bits */
     uint32_t object_idx;
     const gn_object *object;
     gn_xform xform;
     gn_xform_fast fast;
 } setup_job;
 
-/* near * 2^clz / Z * ..., Q32, rounded to nearest, saturated below 1: recip is that of Z * 2^clz. */
-static inline uint32_t inverse_depth(const gn_frame *frame, uint32_t recip, int32_t clz)
+/* near / Z, Q32, truncated, below 1; recip is that of Z * 2^clz */
+static inline uint32_t inverse_depth(const setup_job *job, uint32_t recip, int32_t clz)
 {
-    uint64_t r = ((uint64_t)(uint32_t)frame->cam.near_q16 * recip) >> (30 - clz); /* 2^30 * 2^32, clz 2 .. 23: one bit more */
-    r = (r + 1) >> 1;
-    return r > UINT32_MAX ? UINT32_MAX : (uint32_t)r;
+    uint32_t q = (uint32_t)(((uint64_t)job->near_norm * recip) >> 32); /* near * 2^near_clz * 2^63 / (Z * 2^clz) / 2^32 */
+    int32_t s = job->near_clz - clz;                                   /* Z is not nearer than near */
+    return s ? q >> (s - 1) : q << 1 | 1U;                             /* 2^31 if s is 0 */
 }
 
-static uint32_t inverse_depth_q32(const gn_frame *frame, int32_t z_q16)
+static uint32_t inverse_depth_q32(const setup_job *job, int32_t z_q16)
 {
     int32_t clz = gn_clz32((uint32_t)z_q16);
-    return inverse_depth(frame, gn_recip_norm((uint32_t)z_q16 << clz, 2), clz);
+    return inverse_depth(job, gn_recip_norm((uint32_t)z_q16 << clz, 2), clz);
 }
 
 /* round(v * 2^-s), 1 <= s <= 62; the result fits 32 bits */
@@ -90,16 +93,17 @@ static inline void project(const setup_job *job, const int32_t v_q16[3], uint32_
 {
     /* 2F / Z with 31 bits: 2^63 / (Z 2^clz) * (2F 2^focal_clz) / 2^33 */
     int32_t scale = (int32_t)(((uint64_t)recip * job->focal_norm) >> 33), s = job->focal_shift - clz;
+    GN_KEEP(scale); /* positive, or as good as signed */
     *x = round_shift((int64_t)v_q16[0] * scale, s);
     *y = -round_shift((int64_t)v_q16[1] * scale, s);
 }
 
-/* Whether |v| > tan * Z, for Z > 0: bit `low` if v is below, the next if it is above. */
-static inline uint32_t side_bits(int32_t v, int32_t z, int32_t tan_q16, uint32_t low)
+/* Whether |v| > tan * Z, for Z > 0 and tan < 2: bit `low` if v is below, the next if it is above. */
+static inline uint32_t side_bits(int32_t v, int32_t z, uint32_t tan, uint32_t low)
 {
-    uint64_t limit = ((uint64_t)(uint32_t)z * (uint32_t)tan_q16) >> 16; /* 2^30 * 2^31 */
-    int32_t most = limit > INT32_MAX ? INT32_MAX : (int32_t)limit;
-    return v < -most ? low : v > most ? low << 1 : 0;
+    uint32_t most = (uint32_t)(((uint64_t)((uint32_t)z << 1) * tan) >> 32); /* < 2^31 */
+    if ((uint32_t)v + most <= 2 * most) return 0;
+    return v < 0 ? low : low << 1;
 }
 
 /* Returns 0 if the vertex is out of range. */
@@ -117,13 +121,15 @@ static int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
         c->out |= gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
         return 1;
     }
-    c->out = side_bits(c->v_q16[0], z, cam->tan_q16[0], GN_OUT_LEFT) | side_bits(c->v_q16[1], z, cam->tan_q16[1], GN_OUT_BOTTOM);
+    if (job->tan[0] && job->tan[1])
+        c->out = side_bits(c->v_q16[0], z, job->tan[0], GN_OUT_LEFT) | side_bits(c->v_q16[1], z, job->tan[1], GN_OUT_BOTTOM);
+    else c->out = gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
     if (c->out) c->out |= gn_outcode(c->v_q16, cam->near_q16, cam->guard_q16) << 8;
     if (c->out >> 8) return 1;
     int32_t clz = gn_clz32((uint32_t)z); /* Z in [2^8, 2^30): clz 2..23 */
     uint32_t recip = gn_recip_norm((uint32_t)z << clz, 2);
     project(job, c->v_q16, recip, clz, &c->x, &c->y);
-    c->iz_q32 = inverse_depth(job->frame, recip, clz);
+    c->iz_q32 = inverse_depth(job, recip, clz);
     return 1;
 }
 
@@ -275,11 +281,11 @@ static GN_NOINLINE void clipped_triangle(const setup_job *job, const int32_t *co
     }
     int32_t z_min = gn_min32(v[0][2], gn_min32(v[1][2], v[2][2])), z_max = gn_max32(v[0][2], gn_max32(v[1][2], v[2][2]));
     depth_setup depth;
-    if (polygon->n) depth_begin(frame, &depth, v, inverse_depth_q32(frame, gn_max32(z_min, cam->near_q16)));
+    if (polygon->n) depth_begin(frame, &depth, v, inverse_depth_q32(job, gn_max32(z_min, cam->near_q16)));
     for (int i = 1; i + 1 < polygon->n; i++) {
         int32_t fx[3] = {x[0], x[i], x[i + 1]}, fy[3] = {y[0], y[i], y[i + 1]};
         gn_tri *tri = emit_begin(job, next_triangle(frame), fx, fy);
-        if (tri) emit_end(job, tri, &depth, inverse_depth_q32(frame, z_max), triangle_idx);
+        if (tri) emit_end(job, tri, &depth, inverse_depth_q32(job, z_max), triangle_idx);
     }
 }
 
@@ -351,6 +357,9 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *m
     job.cache_mask = n - 1;
     job.focal_norm = frame->cam.focal2_px_q16 << clz;
     job.focal_shift = 47 + clz - GN_K(frame, subpixel_bits);
+    job.near_clz = gn_clz32((uint32_t)frame->cam.near_q16);
+    job.near_norm = (uint32_t)frame->cam.near_q16 << job.near_clz;
+    for (int i = 0; i < 2; i++) job.tan[i] = frame->cam.tan_q16[i] >> 17 ? 0 : (uint32_t)frame->cam.tan_q16[i] << 15;
     frame->stats.n_triangles = 0;
     frame->stats.n_clipped = 0;
     for (uint32_t i = 0; i <= (uint32_t)frame->tiles_x * frame->tiles_y; i++) frame->tile_first[i] = 0;

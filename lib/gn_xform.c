@@ -86,39 +86,40 @@ void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *m
 void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform)
 {
     int32_t s = xform->shift;
-    fast->shift = s;
-    fast->usable = s >= 2 && s <= 62;
+    fast->shift = 0;
+    if (s < 3 || s > 62) return;
     for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 3; c++) fast->m[r][c] = xform->m[r][c];
-        if (gn_abs64(xform->t_q16[r]) >> 30 || !fast->usable) {
-            fast->usable = 0;
-            return;
-        }
-        fast->t_q16[r] = s < 32 ? 0 : (int32_t)xform->t_q16[r];
-        fast->sum[r] = ((int64_t)1 << (s - 1)) + (s < 32 ? gn_shl64(xform->t_q16[r], s) : 0); /* 2^30 * 2^31 */
+        if (gn_abs64(xform->t_q16[r]) >> 30) return;
+        for (int c = 0; c < 3; c++) fast->row[r].m[c] = xform->m[r][c];
+        fast->row[r].t_q16 = s < 32 ? 0 : (int32_t)xform->t_q16[r];
+        fast->row[r].sum = ((int64_t)1 << (s - 1)) + (s < 32 ? gn_shl64(xform->t_q16[r], s) : 0); /* 2^30 * 2^31 */
     }
+    fast->shift = s;
 }
 
 int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const int32_t p[3])
 {
-    uint32_t p0 = (uint32_t)p[0], p1 = (uint32_t)p[1], p2 = (uint32_t)p[2];
-    if (((p0 ^ p0 << 1) | (p1 ^ p1 << 1) | (p2 ^ p2 << 1)) >> 31 || !fast->usable) return 0;
-    int32_t s = fast->shift;
+    int32_t s = fast->shift, p0 = p[0], p1 = p[1], p2 = p[2];
+    uint32_t wide = (uint32_t)p0 ^ (uint32_t)p0 << 1;
+    wide |= (uint32_t)p1 ^ (uint32_t)p1 << 1;
+    wide |= (uint32_t)p2 ^ (uint32_t)p2 << 1;
+    if (wide >> 31 || !s) return 0;
+    wide = 0;
     for (int r = 0; r < 3; r++) {
         /* 3 * 2^60 + 2^61 + 2^61 */
-        int64_t sum = fast->sum[r] + (int64_t)fast->m[r][0] * p[0] + (int64_t)fast->m[r][1] * p[1] + (int64_t)fast->m[r][2] * p[2];
+        const int32_t *m = fast->row[r].m;
+        int64_t sum = fast->row[r].sum + (int64_t)m[0] * p0 + (int64_t)m[1] * p1 + (int64_t)m[2] * p2;
         int32_t hi = (int32_t)(sum >> 32);
-        if (s < 32) {
-            uint32_t limit = 1U << (s - 2); /* |hi| * 2^32 < 2^30 * 2^s */
-            if ((uint32_t)hi + limit - 1 >= 2 * limit - 1) return 0;
+        if (s < 32) { /* |hi| * 2^32 < 2^29 * 2^s */
+            wide |= ((uint32_t)hi + (1U << (s - 3))) >> (s - 2);
             out_q16[r] = (int32_t)((uint32_t)hi << (32 - s) | (uint32_t)sum >> s);
         } else {
-            int32_t v = (hi >> (s - 32)) + fast->t_q16[r]; /* 2^31 - 1 + 2^30 would not fit: s is at least 32, so 3 * 2^28 + 2^30 */
-            if ((uint32_t)v + (1U << 30) - 1 >= (2U << 30) - 1) return 0;
+            int32_t v = (hi >> (s - 32)) + fast->row[r].t_q16; /* 3 * 2^28 + 2^30 */
+            wide |= ((uint32_t)v + (1U << 29)) >> 30;
             out_q16[r] = v;
         }
     }
-    return 1;
+    return !wide;
 }
 
 void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object)
