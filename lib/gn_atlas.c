@@ -1,4 +1,6 @@
 /* Shadow tiles. */
+#include <string.h>
+
 #include "gn_atlas.h"
 #include "gn_blocks.h"
 #include "gn_caster.h"
@@ -126,13 +128,53 @@ static int32_t draw_perspective(gn_casting *casting, gn_caster_alpha *alpha, gn_
 }
 #endif
 
-static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
+/* Corners through the cache. Returns 0 if one is out of the ordinary. */
+static inline int cached_corners(caster_job *job, const uint16_t idx[3], const int32_t *c[3])
+{
+    const gn_mesh *mesh = job->object->mesh;
+    for (int i = 0; i < 3; i++) {
+        uint32_t vertex_idx = idx[i], tag = (job->object_idx << 16 | vertex_idx) + 1U;
+        if (vertex_idx >= mesh->n_vertices) return 0;
+        gn_caster_corner *entry = &job->cache[vertex_idx & job->cache_mask];
+        if (entry->tag != tag) {
+            if ((i > 0 && entry->c == c[0]) || (i > 1 && entry->c == c[1]))
+                entry = &job->spare[i]; /* needed by the triangle itself */
+            entry->tag = 0;
+            if (!gn_xform_fast_vertex(entry->c, &job->fast, mesh->pos + 3 * (size_t)vertex_idx)) return 0;
+            entry->tag = tag;
+        }
+        c[i] = entry->c;
+    }
+    return 1;
+}
+
+/* What is neither shrunk nor cut, and not far out: most of what there is. Returns 0 if that is not so. */
+static inline int draw_small(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
+{
+    caster_job *job = &casting->job;
+    const int32_t *c[3];
+#if GN_CASTER_BIAS
+    if (job->shrink_q16) return 0;
+#endif
+    if (job->object->caster_alpha != GN_ALPHA_OPAQUE || !cached_corners(job, idx, c)) return 0;
+#if GN_PUNCTUAL_LIGHTS
+    if (job->view->perspective) {
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++) casting->with.clipping.polygon.v_q16[i][k] = c[i][k];
+        *n_texels = gn_persp_triangle(job->frame, job->view, casting, NULL);
+        return 1;
+    }
+#endif
+    *n_texels = gn_ortho_small_triangle(job->frame, job->view, c, job->two_sided);
+    return 1;
+}
+
+static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
     const caster_job *job = &casting->job;
     int64_t(*corner)[3] = casting->polygon.p;
     gn_caster_alpha *with = NULL;
-    if (job->view->perspective) GN_COUNT(casters_persp, 1);
-    else GN_COUNT(casters, 1);
+    *n_texels = -1;
     gn_status status = transform(job, idx, corner);
     if (status) return status;
 #if GN_CASTER_ALPHA
@@ -142,12 +184,22 @@ static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
         with->needs_plane = with->test.textured;
     }
 #endif
-    int32_t n_texels;
 #if GN_PUNCTUAL_LIGHTS
-    if (job->view->perspective) n_texels = draw_perspective(casting, with, &status);
+    if (job->view->perspective) *n_texels = draw_perspective(casting, with, &status);
     else
 #endif
-        n_texels = gn_ortho_triangle(job->frame, job->view, casting, with);
+        *n_texels = gn_ortho_triangle(job->frame, job->view, casting, with);
+    return status;
+}
+
+static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
+{
+    const caster_job *job = &casting->job;
+    int32_t n_texels;
+    gn_status status = GN_OK;
+    if (job->view->perspective) GN_COUNT(casters_persp, 1);
+    else GN_COUNT(casters, 1);
+    if (!draw_small(casting, idx, &n_texels)) status = draw_large(casting, idx, &n_texels);
     if (n_texels < 0) return status;
     job->frame->stats.n_caster_triangles++;
     job->frame->stats.n_texels_drawn += (uint32_t)n_texels;
@@ -167,6 +219,7 @@ static gn_status draw_object(gn_frame *frame, gn_casting *casting, const gn_ligh
     else
 #endif
         gn_ortho_compose(&job->to_light, view, job->object);
+    gn_xform_fast_begin(&job->fast, &job->to_light);
 #if GN_CASTER_BIAS
     job->shrink_q16 = frame->scene->lights[view->light_idx].bias_caster_q16;
     if (job->shrink_q16 && GN_VERTEX_NORMALS && job->object->mesh->nrm_q15) gn_xform_normal_matrix(job->normal_matrix, job->object);
@@ -181,6 +234,7 @@ static gn_status draw_object(gn_frame *frame, gn_casting *casting, const gn_ligh
 
 static gn_status draw_layer(gn_frame *frame, gn_casting *casting, const gn_light_view *view, layer which)
 {
+    for (uint32_t i = 0; i <= casting->job.cache_mask; i++) casting->job.cache[i].tag = 0;
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
         int culled, drawn = casts_here(frame, view, o, which, &culled);
         frame->stats.n_casters_culled += (uint32_t)culled;
@@ -192,14 +246,9 @@ static gn_status draw_layer(gn_frame *frame, gn_casting *casting, const gn_light
 
 static void clear(const gn_light_view *view)
 {
-    size_t n = (size_t)view->tile_texels * view->tile_texels;
     int32_t bits = GN_VIEW_BITS(view);
-    if (bits == 8)
-        for (size_t i = 0; i < n; i++) view->depth.d8[i] = UINT8_MAX;
-    else if (bits == 16)
-        for (size_t i = 0; i < n; i++) view->depth.d16[i] = UINT16_MAX;
-    else
-        for (size_t i = 0; i < n; i++) view->depth.d32[i] = UINT32_MAX;
+    size_t n_bytes = (size_t)view->tile_texels * view->tile_texels * (size_t)(bits / 8);
+    memset(bits == 8 ? (void *)view->depth.d8 : bits == 16 ? (void *)view->depth.d16 : (void *)view->depth.d32, 255, n_bytes);
 }
 
 /* ---- What is kept (A5) -------------------------------------------------------------------------------------------- */
@@ -317,12 +366,19 @@ static gn_status draw_view(gn_frame *frame, gn_casting *casting, gn_light_view *
 #else
     (void)view_idx;
     clear(view);
+#if GN_DEPTH_BLOCKS
+    gn_blocks_clear(view);
+#endif
     return draw_layer(frame, casting, view, LAYER_ALL);
 #endif
 }
 
-gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx)
+gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory, uint32_t n_words)
 {
+    uint32_t n = 256;
+    while (n > 1 && n * (sizeof(gn_caster_corner) / 4) > n_words) n >>= 1;
+    casting->job.cache = (gn_caster_corner *)(void *)memory;
+    casting->job.cache_mask = n - 1;
     gn_light_view *view = &frame->view[view_idx];
     if (view->empty || view->stale) return GN_OK;
 #if GN_INCREMENTAL
@@ -333,7 +389,8 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
     gn_status status = draw_view(frame, casting, view, view_idx);
     if (status) return status;
 #if GN_DEPTH_BLOCKS
-    gn_blocks_build(view);
+    if (GN_STATIC_LAYER) gn_blocks_build(view); /* what the layer holds was not touched now */
+    else gn_blocks_build_touched(view);
 #endif
 #if GN_INCREMENTAL
     frame->memory[view_idx].signature = signature;

@@ -24,44 +24,52 @@ static inline gn_depth_block eight(gn_texels row, int32_t depth_bits, size_t u)
     return block;
 }
 
-/* Widens a row of blocks by a row of texels. */
-static inline void take_row(gn_depth_block *block, gn_texels row, int32_t depth_bits, uint32_t n)
+static gn_depth_block bounds_of(const gn_light_view *view, size_t first)
 {
-    for (uint32_t b = 0; b < n; b++) {
-        gn_depth_block here = eight(row, depth_bits, 8 * (size_t)b);
-        widen(&block[b], &here);
+    gn_depth_block block = {65535, 0};
+    int32_t bits = GN_VIEW_BITS(view);
+    for (int v = 0; v < 8; v++, first += view->tile_texels) {
+        gn_depth_block row;
+        if (bits == 16) row = eight(view->depth, 16, first);
+        else if (bits == 8) row = eight(view->depth, 8, first);
+        else row = eight(view->depth, 32, first);
+        widen(&block, &row);
     }
+    return block;
 }
 
-static void bound_texels(gn_light_view *view, uint32_t n)
+static void set_all(const gn_light_view *view, uint16_t lo, uint16_t hi)
 {
-    static const gn_depth_block nothing = {65535, 0};
-    int32_t bits = GN_VIEW_BITS(view);
-    gn_texels row = view->depth;
-    for (uint32_t v = 0; v < 8 * n; v++) {
-        gn_depth_block *block = view->block + (size_t)(v >> 3) * n;
-        if (!(v & 7U))
-            for (uint32_t b = 0; b < n; b++) block[b] = nothing;
-        if (bits == 16) take_row(block, row, 16, n);
-        else if (bits == 8) take_row(block, row, 8, n);
-        else take_row(block, row, 32, n);
-        row = gn_texels_at(row, bits, view->tile_texels);
-    }
+    const gn_depth_block block = {lo, hi};
+    uint32_t n = view->tile_texels >> 3;
+    for (uint32_t i = 0; i < n * n; i++) view->block[i] = block;
+}
+
+void gn_blocks_clear(const gn_light_view *view)
+{
+    uint16_t empty = (uint16_t)(gn_texel_far(GN_VIEW_BITS(view)) >> 16);
+    set_all(view, empty, empty);
 }
 
 void gn_blocks_build(gn_light_view *view)
 {
+    set_all(view, 65535, 0);
+    gn_blocks_build_touched(view);
+}
+
+void gn_blocks_build_touched(gn_light_view *view)
+{
     uint32_t n = view->tile_texels >> 3;
-    bound_texels(view, n);
-    /* widen in place: each block still finds its right and lower neighbours as they were */
     gn_depth_block *block = view->block;
-    for (uint32_t v = 0; v < n; v++) {
-        for (uint32_t u = 0; u < n; u++, block++) {
-            if (u + 1 < n) widen(block, block + 1);
-            if (v + 1 < n) widen(block, block + n);
-            if (u + 1 < n && v + 1 < n) widen(block, block + n + 1);
-        }
-    }
+    for (uint32_t v = 0; v < n; v++)
+        for (uint32_t u = 0; u < n; u++, block++)
+            if (!block->hi) *block = bounds_of(view, 8 * ((size_t)v * view->tile_texels + u));
+    /* widen in place, along rows and then along columns: each block still finds its neighbour as it was */
+    block = view->block;
+    for (uint32_t v = 0; v < n; v++, block++)
+        for (uint32_t u = 1; u < n; u++, block++) widen(block, block + 1);
+    block = view->block;
+    for (uint32_t i = n; i < n * n; i++, block++) widen(block, block + n);
 }
 
 const gn_depth_block *gn_blocks_at(const gn_light_view *view, int32_t u, int32_t v)

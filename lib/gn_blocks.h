@@ -18,8 +18,18 @@
 
 #define GN_BLOCK_REACH 9 /* texels per axis that one block answers for */
 
-/* Rebuilds the bounds of a finished tile. */
 void gn_blocks_build(gn_light_view *view);
+
+/* The same for a tile that was cleared, and whose spans were marked since: what was not touched is empty. */
+void gn_blocks_clear(const gn_light_view *view);
+void gn_blocks_build_touched(gn_light_view *view);
+
+/* Marks the blocks of n > 0 texels from (u, v) on by bounds that no block has. */
+static inline void gn_blocks_touch(const gn_light_view *view, int32_t u, int32_t v, int32_t n)
+{
+    gn_depth_block *row = view->block + ((v >> 3) << (view->tile_log2 - 3));
+    for (int32_t b = u >> 3; b <= (u + n - 1) >> 3; b++) row[b].hi = 0;
+}
 
 /* Bounds over the texels u .. u + 8, v .. v + 8, where texels outside the tile repeat its border. */
 const gn_depth_block *gn_blocks_at(const gn_light_view *view, int32_t u, int32_t v);

@@ -1,6 +1,8 @@
 /* Spans of shadow texels. */
 #include "gn_caster.h"
+#include "gn_blocks.h"
 #include "gn_count.h"
+#include "gn_hint.h"
 #include "gn_q.h"
 #include "gn_texel.h"
 #include "gn_walk.h"
@@ -22,25 +24,53 @@ static void store(gn_texels row, int32_t bits, int32_t u, int64_t z)
     }
 }
 
-static void span(gn_texels row, int32_t bits, int32_t u, int32_t u_end, int64_t z, const gn_caster *caster)
+/* Depth of a caster in 16-bit texels, if it is nowhere cut off, nor so steep that it could leave its range by half of all depths: all of it
+ * fits 32 bits then, and steps may be taken modulo 2^32. */
+typedef struct {
+    uint32_t z_row; /* at the tile's left border, above the least */
+    uint32_t dz_du, dz_dv;
+    uint32_t range;
+    uint32_t add; /* the least, with bias and half a step */
+    int usable;
+} caster_depth16;
+
+#define GN_TEXEL_(i)                                                                                                               \
+    do {                                                                                                                           \
+        uint32_t depth = z >> 16;                                                                                                  \
+        if (depth < texel[i]) {                                                                                                    \
+            GN_KEEP(depth);                                                                                                        \
+            texel[i] = (uint16_t)depth;                                                                                            \
+        }                                                                                                                          \
+        z += dz;                                                                                                                   \
+        GN_KEEP(z);                                                                                                                \
+    } while (0)
+
+static inline void span16(uint16_t *texel, int32_t n, uint32_t z, uint32_t dz)
 {
-    int64_t last = z + (u_end - 1 - u) * caster->dz_du;
-    int64_t least = z < last ? z : last, most = z < last ? last : z;
-    if (bits == 16 && least >= caster->lo && most <= caster->hi && most + caster->bias + 0x8000 <= (int64_t)UINT32_MAX) {
-        uint16_t *texel = row.d16;
-        GN_COUNT(texels, u_end - u);
-        uint32_t v = (uint32_t)(z + caster->bias + 0x8000), dv = (uint32_t)caster->dz_du;
-        for (; u < u_end; u++) {
-            if ((uint16_t)(v >> 16) < texel[u]) texel[u] = (uint16_t)(v >> 16);
-            v += dv;
-        }
-        return;
+    GN_COUNT(texels, n);
+    for (; n >= 4; n -= 4, texel += 4) {
+        GN_TEXEL_(0);
+        GN_TEXEL_(1);
+        GN_TEXEL_(2);
+        GN_TEXEL_(3);
+        GN_KEEP(texel);
     }
-    GN_COUNT(texels_wide, u_end - u);
-    for (; u < u_end; u++) {
-        store(row, bits, u, gn_clamp64(z, caster->lo, caster->hi) + caster->bias);
-        z += caster->dz_du;
-    }
+    for (; n > 0; n--, texel++) GN_TEXEL_(0);
+}
+#undef GN_TEXEL_
+
+static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *caster, int32_t first_row)
+{
+    const int64_t steep = 1 << 30;
+    caster_depth16 d;
+    d.usable = GN_VIEW_BITS(view) == 16 && caster->lo > 0 && caster->hi + caster->bias + 0x8000 <= (int64_t)UINT32_MAX &&
+               caster->dz_du < steep && -caster->dz_du < steep && caster->dz_dv < steep && -caster->dz_dv < steep;
+    d.dz_du = (uint32_t)caster->dz_du;
+    d.dz_dv = (uint32_t)caster->dz_dv;
+    d.z_row = (uint32_t)caster->z_corner + (uint32_t)first_row * d.dz_dv - (uint32_t)caster->lo;
+    d.range = (uint32_t)(caster->hi - caster->lo);
+    d.add = (uint32_t)(caster->lo + caster->bias + 0x8000);
+    return d;
 }
 
 #if GN_CASTER_ALPHA
@@ -59,43 +89,71 @@ static int is_cut(const gn_light_view *view, const gn_caster_alpha *alpha, int32
     return gn_alpha_cuts(&alpha->test, b_q30, u, v);
 }
 
-static void cut_span(gn_texels row, const gn_light_view *view, int32_t v, int32_t u, int32_t u_end, int64_t z,
-                     const gn_caster *caster, const gn_caster_alpha *alpha)
+#endif
+
+/* Any row of texels, one at a time. */
+static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster, const gn_caster_alpha *alpha, int32_t v, int32_t u,
+                             int32_t u_end)
 {
-    for (; u < u_end; u++) {
-        if (!is_cut(view, alpha, u, v)) store(row, GN_VIEW_BITS(view), u, gn_clamp64(z, caster->lo, caster->hi) + caster->bias);
-        z += caster->dz_du;
+    int32_t bits = GN_VIEW_BITS(view);
+    int64_t z = caster->z_corner + u * caster->dz_du + v * caster->dz_dv;
+    gn_texels row = gn_texels_at(view->depth, bits, (size_t)(uint32_t)(v * view->tile_texels));
+    GN_COUNT(texels_cut, alpha ? u_end - u : 0);
+    GN_COUNT(texels_wide, alpha ? 0 : u_end - u);
+    for (; u < u_end; u++, z += caster->dz_du) {
+#if GN_CASTER_ALPHA
+        if (alpha && is_cut(view, alpha, u, v)) continue;
+#else
+        (void)alpha;
+#endif
+        store(row, bits, u, gn_clamp64(z, caster->lo, caster->hi) + caster->bias);
     }
 }
+
+int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_walk *walk, const int32_t x[3], const int32_t y[3])
+{
+    int32_t bits = GN_K(frame, shadow_subpixel_bits), size = view->tile_texels;
+    GN_COUNT(caster_walks, 1);
+    if (gn_first_px(gn_min32(x[0], gn_min32(x[1], x[2])), bits) >=
+        gn_min32(gn_first_px(gn_max32(x[0], gn_max32(x[1], x[2])), bits), size))
+        return 0;
+    int32_t n_rows = gn_walk_begin(walk, x, y, bits, 0, size);
+    if (walk->row < walk->row_end[0]) return n_rows; /* more than one batch: something will be there */
+    for (int32_t i = 0; i < n_rows; i++)
+        if (gn_max32(walk->span[i].x_begin, 0) < gn_min32(walk->span[i].x_end, size)) return n_rows;
+    return 0;
+}
+
+int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_walk *walk, int32_t n_rows,
+                       const gn_caster_alpha *alpha)
+{
+    int32_t size = view->tile_texels, n_texels = 0, v = walk->first;
+    caster_depth16 depth = depth16_begin(view, caster, v);
+    uint32_t range = depth.usable && !alpha ? depth.range : 0;
+    for (; n_rows > 0; n_rows = gn_walk_on(walk)) {
+        for (const gn_span *at = walk->span; n_rows > 0; n_rows--, at++, v++, depth.z_row += depth.dz_dv) {
+            int32_t u = gn_max32(at->x_begin, 0), n = gn_min32(at->x_end, size) - u;
+            if (n <= 0) continue;
+            n_texels += n;
+#if GN_DEPTH_BLOCKS
+            gn_blocks_touch(view, u, v, n);
 #endif
+            GN_COUNT(caster_rows, 1);
+            uint32_t z = depth.z_row + (uint32_t)u * depth.dz_du;
+            if (z < range && z + (uint32_t)(n - 1) * depth.dz_du < range)
+                span16(view->depth.d16 + v * size + u, n, z + depth.add, depth.dz_du);
+            else span(view, caster, alpha, v, u, u + n);
+        }
+    }
+    return n_texels;
+}
 
 int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, const int32_t x[3],
                        const int32_t y[3], const gn_caster_alpha *alpha)
 {
-    int32_t size = view->tile_texels, bits = GN_VIEW_BITS(view), n_texels = 0, u_begin, u_end, v;
     gn_walk walk;
-    GN_COUNT(caster_walks, 1);
-    if (!gn_walk_begin(&walk, x, y, GN_K(frame, shadow_subpixel_bits), 0, size)) return 0;
-    while (gn_walk_row(&walk, &v, &u_begin, &u_end)) {
-        u_begin = gn_max32(u_begin, 0);
-        u_end = gn_min32(u_end, size);
-        if (u_begin >= u_end) continue;
-        n_texels += u_end - u_begin;
-        GN_COUNT(caster_rows, 1);
-        int64_t z = caster->z_corner + u_begin * caster->dz_du + v * caster->dz_dv;
-        gn_texels row = gn_texels_at(view->depth, bits, (size_t)(uint32_t)(v * size));
-#if GN_CASTER_ALPHA
-        if (alpha) {
-            GN_COUNT(texels_cut, u_end - u_begin);
-            cut_span(row, view, v, u_begin, u_end, z, caster, alpha);
-            continue;
-        }
-#else
-        (void)alpha;
-#endif
-        span(row, bits, u_begin, u_end, z, caster);
-    }
-    return n_texels;
+    int32_t n_rows = gn_caster_begin(frame, view, &walk, x, y);
+    return n_rows ? gn_caster_rows(view, caster, &walk, n_rows, alpha) : 0;
 }
 
 #endif

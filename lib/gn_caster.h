@@ -4,6 +4,7 @@
 
 #include "gn_alpha.h"
 #include "gn_plane.h"
+#include "gn_walk.h"
 #include "gnomon.h"
 
 #if GN_SHADOWS
@@ -27,6 +28,11 @@ void gn_caster_alpha_plane(gn_caster_alpha *alpha, const int32_t v0[3], const in
  * texels covered. */
 int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, const int32_t x[3],
                        const int32_t y[3], const gn_caster_alpha *alpha);
+
+/* The same in two steps, for casters that may cover nothing: begins a walk (returns its first rows, 0: nothing is covered), and draws. */
+int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_walk *walk, const int32_t x[3], const int32_t y[3]);
+int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_walk *walk, int32_t n_rows,
+                       const gn_caster_alpha *alpha);
 
 #endif
 #endif

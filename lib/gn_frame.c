@@ -112,7 +112,7 @@ gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx)
     if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, GN_ERR_ORDER, 0);
     if (tile_idx >= frame->n_views) return gn_fail(frame, GN_ERR_INDEX, tile_idx);
 #if GN_SHADOWS
-    gn_status status = gn_atlas_render_tile(frame, &r->scratch.work.casting, tile_idx);
+    gn_status status = gn_atlas_render_tile(frame, &r->scratch.work.casting, tile_idx, r->scratch.cell, GN_TILE_PIXELS_MAX);
     frame->view[tile_idx].tile_done = !status; /* gn_prepare does not go on with half a tile */
     return status;
 #else

@@ -179,45 +179,60 @@ static void clip_to_reach(gn_light_polygon *polygon, gn_light_polygon *uncut)
     }
 }
 
-/* Plane, bias (B1) and range of a triangle from its unsnapped vertices. Returns 0 if it cannot be seen from the light. */
-static GN_NOINLINE int caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3], int two_sided)
+/* round(a * b * 2^shift), as gn_bf_apply gives it */
+static inline int64_t apply(int32_t a, gn_bfloat b, int32_t shift)
 {
-    int64_t e1[3], e2[3], n[3];
-    int32_t e1n[3], e2n[3], nn[3];
-    for (int i = 0; i < 3; i++) {
-        e1[i] = p[1][i] - p[0][i];
-        e2[i] = p[2][i] - p[0][i];
-    }
-    gn_norm_vec(e1n, e1);
-    gn_norm_vec(e2n, e2);
-    gn_cross64(n, e1n, e2n);
-    gn_norm_vec(nn, n);
+    int32_t s = -(b.exp + shift);
+    if (s < 1 || s > 62) return gn_bf_apply(a, b, shift);
+    uint64_t r = (uint64_t)gn_abs32(a) * b.mant; /* 2^30 * 2^32 */
+    int64_t v = (int64_t)((r >> s) + ((r >> (s - 1)) & 1U));
+    return a < 0 ? -v : v;
+}
+
+/* Plane, bias (B1) and range of a triangle with this normal, whose depths are lo .. hi, texels. Returns 0 if it cannot be seen from
+ * the light. */
+static GN_NOINLINE int caster_begin(gn_caster *out, const gn_light_view *view, const int32_t nn[3], int two_sided, int64_t lo,
+                                    int64_t hi)
+{
     if (nn[2] == 0 || (nn[2] > 0 && !two_sided)) return 0; /* along w: away from the light */
     int32_t to_steps = 16 - view->tile_log2 - view->depth_log2;
     gn_bfloat per_n = gn_bf_recip(gn_bf_from_u64(gn_abs32(nn[2])));
-    int64_t flip = nn[2] < 0 ? 1 : -1;
-    int64_t du = gn_bf_apply(flip * nn[0], per_n, 16), dv = gn_bf_apply(flip * nn[1], per_n, 16); /* texels per texel, Q16 */
-    int64_t steepest = gn_clamp64((int64_t)(gn_abs64(du) > gn_abs64(dv) ? gn_abs64(du) : gn_abs64(dv)), 0, (int64_t)1 << 31);
+    int32_t nu = nn[2] < 0 ? nn[0] : -nn[0], nv = nn[2] < 0 ? nn[1] : -nn[1];
+    int64_t steepest = gn_clamp64(apply((int32_t)(gn_abs32(nu) > gn_abs32(nv) ? gn_abs32(nu) : gn_abs32(nv)), per_n, 16), 0,
+                                  (int64_t)1 << 31);                                        /* texels per texel, Q16 */
     int64_t bias = view->bias_constant_q16 + gn_shr64(steepest * view->bias_slope_q16, 16); /* 2^31 * 2^22 */
     out->bias = gn_scale64(bias, -to_steps);
-    out->dz_du = gn_clamp64(gn_bf_apply(flip * nn[0], per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
-    out->dz_dv = gn_clamp64(gn_bf_apply(flip * nn[1], per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
-    int64_t lo = p[0][2], hi = lo;
-    for (int i = 1; i < 3; i++) {
-        lo = p[i][2] < lo ? p[i][2] : lo;
-        hi = p[i][2] > hi ? p[i][2] : hi;
-    }
+    out->dz_du = gn_clamp64(apply(nu, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
+    out->dz_dv = gn_clamp64(apply(nv, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
     const int64_t far = (int64_t)1 << 32;
     out->lo = gn_clamp64(gn_scale64(lo, -to_steps), 0, far); /* D9: pancaking */
     out->hi = gn_clamp64(gn_scale64(hi, -to_steps), 0, far);
     return out->lo < far;
 }
 
-/* Depth at the centre of texel (0, 0) from the plane through one vertex, which is within reach: below 2^48. */
-static int64_t depth_at_corner(const gn_light_view *view, const gn_caster *caster, const int64_t anchor[3])
+/* Of corners anywhere. */
+static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3], int two_sided)
 {
-    int64_t du_q16 = 32768 - anchor[0], dv_q16 = 32768 - anchor[1]; /* <= 2^30 */
-    int64_t z = gn_scale64(anchor[2], view->tile_log2 + view->depth_log2 - 16);
+    int64_t e1[3], e2[3], n[3], lo = p[0][2], hi = lo;
+    int32_t e1n[3], e2n[3], nn[3];
+    for (int i = 0; i < 3; i++) {
+        e1[i] = p[1][i] - p[0][i];
+        e2[i] = p[2][i] - p[0][i];
+        lo = p[i][2] < lo ? p[i][2] : lo;
+        hi = p[i][2] > hi ? p[i][2] : hi;
+    }
+    gn_norm_vec(e1n, e1);
+    gn_norm_vec(e2n, e2);
+    gn_cross64(n, e1n, e2n);
+    gn_norm_vec(nn, n);
+    return caster_begin(out, view, nn, two_sided, lo, hi);
+}
+
+/* Depth at the centre of texel (0, 0) from the plane through one vertex, which is within reach: below 2^48. */
+static int64_t depth_at_corner(const gn_light_view *view, const gn_caster *caster, int64_t u_q16, int64_t v_q16, int64_t depth_q16)
+{
+    int64_t du_q16 = 32768 - u_q16, dv_q16 = 32768 - v_q16; /* <= 2^30 */
+    int64_t z = gn_scale64(depth_q16, view->tile_log2 + view->depth_log2 - 16);
     /* gradient <= 2^33 times 2^31 would not fit: split the offset into whole texels and a fraction */
     z += caster->dz_du * (du_q16 >> 16) + gn_shr64(caster->dz_du * (du_q16 & 65535), 16);
     return z + caster->dz_dv * (dv_q16 >> 16) + gn_shr64(caster->dz_dv * (dv_q16 & 65535), 16);
@@ -256,12 +271,12 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
     gn_caster caster;
     gn_light_polygon *polygon = &casting->polygon;
     polygon->n = 3;
-    if (misses_tile(view, polygon->p) || !caster_begin(&caster, view, polygon->p, casting->job.two_sided)) return -1;
+    if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.two_sided)) return -1;
 #if GN_CASTER_ALPHA
     if (alpha && alpha->needs_plane) alpha_plane(view, alpha, polygon->p);
 #endif
     clip_to_reach(polygon, &casting->with.uncut);
-    if (polygon->n >= 3) caster.z_corner = depth_at_corner(view, &caster, polygon->p[0]);
+    if (polygon->n >= 3) caster.z_corner = depth_at_corner(view, &caster, polygon->p[0][0], polygon->p[0][1], polygon->p[0][2]);
     int32_t bits = GN_K(frame, shadow_subpixel_bits), n_texels = 0;
     for (int i = 1; i + 1 < polygon->n; i++) {
         const int64_t *p[3] = {polygon->p[0], polygon->p[i], polygon->p[i + 1]};
@@ -273,6 +288,36 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
         n_texels += gn_caster_draw(frame, view, &caster, x, y, alpha);
     }
     return n_texels;
+}
+
+int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, const int32_t *const c[3], int two_sided)
+{
+    int32_t end = view->tile_texels << 16, sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3], y[3];
+    for (int axis = 0; axis < 2; axis++) /* misses the tile: a sign of all three */
+        if (((c[0][axis] & c[1][axis] & c[2][axis]) | ((end - c[0][axis]) & (end - c[1][axis]) & (end - c[2][axis]))) < 0)
+            return -1;
+    int32_t e1[3], e2[3], nn[3];
+    for (int i = 0; i < 3; i++) {
+        e1[i] = c[1][i] - c[0][i]; /* < 2^30 */
+        e2[i] = c[2][i] - c[0][i];
+    }
+    int64_t n[3] = {0, 0, (int64_t)e1[0] * e2[1] - (int64_t)e1[1] * e2[0]};
+    if (n[2] == 0 || (n[2] > 0 && !two_sided)) return -1;
+    for (int k = 0; k < 3; k++) {
+        x[k] = (c[k][0] + half) >> sub;
+        y[k] = (c[k][1] + half) >> sub;
+    }
+    gn_walk walk;
+    int32_t n_rows = gn_caster_begin(frame, view, &walk, x, y);
+    if (!n_rows) return 0;
+    gn_caster caster;
+    gn_cross64(n, e1, e2);
+    gn_norm_vec(nn, n);
+    if (!caster_begin(&caster, view, nn, two_sided, gn_min32(c[0][2], gn_min32(c[1][2], c[2][2])),
+                      gn_max32(c[0][2], gn_max32(c[1][2], c[2][2]))))
+        return -1;
+    caster.z_corner = depth_at_corner(view, &caster, c[0][0], c[0][1], c[0][2]);
+    return gn_caster_rows(view, &caster, &walk, n_rows, NULL);
 }
 
 #endif

@@ -189,8 +189,18 @@ typedef struct {
 typedef void gn_caster_alpha;
 #endif
 
+/* A vertex as a view sees it, if it is within 2^29. */
+typedef struct {
+    uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
+    int32_t c[3];
+} gn_caster_corner;
+
 /* One caster and one view. */
 typedef struct {
+    gn_caster_corner *cache;
+    uint32_t cache_mask;
+    gn_caster_corner spare[3]; /* where a triangle's corners share an entry */
+    gn_xform_fast fast;
     struct gn_frame *frame;
     const gn_light_view *view;
     const gn_object *object;

@@ -13,6 +13,16 @@ typedef struct {
     int32_t shift;
 } gn_xform;
 
+/* The same for many vertices: what can be, is added up beforehand. Sums stay below 2^63. */
+typedef struct {
+    struct {
+        int64_t sum; /* half of the last bit and, up to 31 bits of shift, the translation */
+        int32_t m[3];
+        int32_t t_q16; /* the translation above that, 0 below */
+    } row[3];
+    int32_t shift; /* 0: the transform or its translation is out of the ordinary, gn_xform_vertex does it */
+} gn_xform_fast;
+
 /* A block float: a positive number mant * 2^exp, mant in [2^31, 2^32). See gn_math.h. */
 typedef struct {
     uint32_t mant;

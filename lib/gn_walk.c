@@ -93,11 +93,11 @@ static int32_t *fixed_rows(int32_t *at, int32_t x0, int32_t y0, int32_t x1, int3
 static inline void fixed_border(gn_walk *walk, int side, int32_t end)
 {
     const int32_t *x = walk->x, *y = walk->y;
-    int32_t row = walk->row, turn = gn_min32(walk->row_end[1 + side], end), bits = walk->subpixel_bits;
+    int32_t row = walk->row, bend = gn_min32(walk->row_end[1 + side], end), bits = walk->subpixel_bits;
     int32_t *at = side ? &walk->span[0].x_end : &walk->span[0].x_begin;
-    if (row < turn) at = fixed_rows(at, x[0], y[0], x[1 + side], y[1 + side], bits, row, turn);
-    else turn = row;
-    if (turn < end) fixed_rows(at, x[1 + side], y[1 + side], x[2 - side], y[2 - side], bits, turn, end);
+    if (row < bend) at = fixed_rows(at, x[0], y[0], x[1 + side], y[1 + side], bits, row, bend);
+    else bend = row;
+    if (bend < end) fixed_rows(at, x[1 + side], y[1 + side], x[2 - side], y[2 - side], bits, bend, end);
 }
 
 /* ---- Walking ------------------------------------------------------------------------------------------------------- */

@@ -105,21 +105,26 @@ int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const in
     wide |= (uint32_t)p2 ^ (uint32_t)p2 << 1;
     if (wide >> 31 || !s) return 0;
     wide = 0;
+    if (s < 32) {
+        int32_t up = 32 - s;
+        for (int r = 0; r < 3; r++) {
+            const int32_t *m = fast->row[r].m;
+            int64_t sum =
+                fast->row[r].sum + (int64_t)m[0] * p0 + (int64_t)m[1] * p1 + (int64_t)m[2] * p2; /* 3 * 2^60 + 2^61 + 2^61 */
+            int32_t hi = (int32_t)(sum >> 32);
+            wide |= (uint32_t)(hi ^ hi >> 31);
+            out_q16[r] = (int32_t)((uint32_t)hi << up | (uint32_t)sum >> s);
+        }
+        return !(wide >> (s - 3)); /* |hi| * 2^32 < 2^29 * 2^s */
+    }
     for (int r = 0; r < 3; r++) {
-        /* 3 * 2^60 + 2^61 + 2^61 */
         const int32_t *m = fast->row[r].m;
         int64_t sum = fast->row[r].sum + (int64_t)m[0] * p0 + (int64_t)m[1] * p1 + (int64_t)m[2] * p2;
-        int32_t hi = (int32_t)(sum >> 32);
-        if (s < 32) { /* |hi| * 2^32 < 2^29 * 2^s */
-            wide |= ((uint32_t)hi + (1U << (s - 3))) >> (s - 2);
-            out_q16[r] = (int32_t)((uint32_t)hi << (32 - s) | (uint32_t)sum >> s);
-        } else {
-            int32_t v = (hi >> (s - 32)) + fast->row[r].t_q16; /* 3 * 2^28 + 2^30 */
-            wide |= ((uint32_t)v + (1U << 29)) >> 30;
-            out_q16[r] = v;
-        }
+        int32_t v = ((int32_t)(sum >> 32) >> (s - 32)) + fast->row[r].t_q16; /* 3 * 2^28 + 2^30 */
+        wide |= (uint32_t)(v ^ v >> 31);
+        out_q16[r] = v;
     }
-    return !wide;
+    return !(wide >> 29);
 }
 
 void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object)

@@ -16,16 +16,7 @@ int gn_xform_position_ok(const gn_mesh *mesh, uint32_t vertex_idx);
 /* out_q16 = xform of a mesh vertex, |out| exact to 1 LSB plus the composition's 3 * |p| * 2^-30. Not range checked. */
 void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx);
 
-/* A transform for many vertices: what can be, is added up beforehand. Sums stay below 2^63. */
-typedef struct {
-    struct {
-        int64_t sum; /* half of the last bit and, up to 31 bits of shift, the translation */
-        int32_t m[3];
-        int32_t t_q16; /* the translation above that, 0 below */
-    } row[3];
-    int32_t shift; /* 0: the transform or its translation is out of the ordinary, gn_xform_vertex does it */
-} gn_xform_fast;
-
+/* Adds up what can be beforehand, for many vertices. */
 void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform);
 
 /* What gn_xform_vertex gives. Returns 0 where it does not: where the result may be 2^29 or more, or the position 2^30. */
