@@ -199,4 +199,7 @@
 #define GN_RUNTIME_KNOBS 0
 #endif
 
+/* Whether surfaces may be shaded piece by piece (gn_piece.h): not where every pixel is to be exact. */
+#define GN_PIECES (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1)
+
 #endif

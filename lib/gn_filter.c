@@ -393,4 +393,132 @@ uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view,
     return GN_K(frame, atten_bits) == 8 ? (attenuation + 128) & ~255U : attenuation;
 }
 
+#if GN_PIECES
+/* ---- Rows of receivers -------------------------------------------------------------------------------------------- */
+
+/* The texels that a row of receivers reads along an axis: first, and the last. */
+static void reads(const gn_light_view *view, int32_t a_q16, int32_t b_q16, int32_t *first, int32_t *last)
+{
+    int32_t k = view->filter_idx;
+    *first = ((gn_min32(a_q16, b_q16) + 32768) >> 16) - (k + 1);
+    *last = ((gn_max32(a_q16, b_q16) + 32768) >> 16) + k;
+}
+
+static uint32_t least_of(const gn_frame *frame, const gn_light_view *view, int32_t depth_q31)
+{
+    uint32_t depth_q32 = depth_q31 < 0 ? 0 : (uint32_t)depth_q31 << 1;
+    return rounded_depth(depth_q32, dropped_bits(frame, view), gn_texel_far(GN_VIEW_BITS(view)));
+}
+
+/* Whether texels first .. last along both axes are all lit or all dark to every depth from `least` to `most`. */
+static int texels_agree(const gn_light_view *view, const int32_t first[2], const int32_t last[2], uint32_t least, uint32_t most,
+                        uint32_t *attenuation)
+{
+    int32_t bits = GN_VIEW_BITS(view), end = view->tile_texels - 1;
+    uint32_t lit = 0, dark = 0, n = (uint32_t)(last[0] - first[0]) + 1;
+    if (first[0] < 0 || first[1] < 0 || last[0] > end || last[1] > end) return 0;
+    gn_texels row = texels_at(view, first[0], first[1]);
+    for (int32_t v = first[1]; v <= last[1]; v++, row = gn_texels_at(row, bits, view->tile_texels)) {
+        for (uint32_t i = 0; i < n; i++) {
+            uint32_t texel = gn_texel_load(row, bits, i);
+            if (texel >= most) lit = 1;
+            else if (texel < least) dark = 1;
+            else return 0;
+        }
+        if (lit & dark) return 0;
+    }
+    *attenuation = lit << 16;
+    return 1;
+}
+
+int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *a, const gn_receiver_step *b,
+                      uint32_t *attenuation)
+{
+    int32_t first[2], last[2];
+    reads(view, a->u_q16, b->u_q16, &first[0], &last[0]);
+    reads(view, a->v_q16, b->v_q16, &first[1], &last[1]);
+    int32_t n = gn_max32(last[0] - first[0], last[1] - first[1]) + 1;
+    uint32_t least = least_of(frame, view, gn_min32(a->depth_q31, b->depth_q31));
+    uint32_t most = least_of(frame, view, gn_max32(a->depth_q31, b->depth_q31));
+    if (n <= 6) return texels_agree(view, first, last, least, most, attenuation);
+#if GN_DEPTH_BLOCKS
+    if (n > 2 * GN_BLOCK_REACH) return 0;
+    gn_depth_block bounds =
+        n <= GN_BLOCK_REACH ? *gn_blocks_at(view, first[0], first[1]) : gn_blocks_over(view, first[0], first[1], n);
+    *attenuation = 65536;
+    if (most <= (uint32_t)bounds.lo << 16) return 1;
+    *attenuation = 0;
+    if (least <= gn_block_highest(&bounds, GN_VIEW_BITS(view))) return 0;
+    int32_t end = view->tile_texels - 1;
+    return !BORDER_LIT(view) || (first[0] >= 0 && first[1] >= 0 && last[0] <= end && last[1] <= end);
+#else
+    return 0;
+#endif
+}
+
+#if GN_FILTER_MAX >= 1
+/* 2x2 of 16 bits whose texels all lie in the tile. Coordinates half a texel up and left, depths half a step up: what is shifted out
+ * is the fraction, and rounded. */
+static void bilinear_row(const gn_light_view *view, gn_receiver_step at, const gn_receiver_step *step, int32_t n, int32_t bits,
+                         uint32_t *attenuation)
+{
+    const uint16_t *texel = view->depth.d16;
+    uint32_t pitch = view->tile_texels, log2 = view->tile_log2, one = 1U << bits;
+    at.u_q16 -= 32768;
+    at.v_q16 -= 32768;
+    at.depth_q31 += 1 << 14;
+    for (uint32_t *end = attenuation + n; attenuation < end; attenuation++) {
+        const uint16_t *p = texel + (((uint32_t)at.v_q16 >> 16) << log2) + ((uint32_t)at.u_q16 >> 16), *q = p + pitch;
+        int32_t below = (at.depth_q31 >> 15) - 1; /* lit: the texel is above */
+        uint32_t n_lit = (uint32_t)(below - p[0]) >> 31;
+        n_lit += (uint32_t)(below - p[1]) >> 31;
+        n_lit += (uint32_t)(below - q[0]) >> 31;
+        n_lit += (uint32_t)(below - q[1]) >> 31;
+        *attenuation = n_lit << 14;
+        if (n_lit - 1 < 3) {
+            uint32_t wu = fraction(at.u_q16, bits), wv = fraction(at.v_q16, bits);
+            uint32_t upper = (p[0] > below ? one - wu : 0) + (p[1] > below ? wu : 0);
+            uint32_t lower = (q[0] > below ? one - wu : 0) + (q[1] > below ? wu : 0);
+            *attenuation = ((one - wv) * upper + wv * lower) << (16 - 2 * bits);
+        }
+        at.u_q16 += step->u_q16;
+        at.v_q16 += step->v_q16;
+        at.depth_q31 += step->depth_q31;
+    }
+}
+
+/* Whether that is all there is to do. */
+static int is_simple(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from, const gn_receiver_step *to)
+{
+    int32_t u, u_last, v, v_last;
+    if (view->filter != GN_FILTER_2X2 || GN_VIEW_BITS(view) != 16 || dropped_bits(frame, view) != 16) return 0;
+    if (GN_K(frame, weight_bits) > 8 || GN_K(frame, atten_bits) != 16) return 0;
+    reads(view, from->u_q16, to->u_q16, &u, &u_last);
+    reads(view, from->v_q16, to->v_q16, &v, &v_last);
+    return u >= 0 && v >= 0 && u_last < view->tile_texels && v_last < view->tile_texels;
+}
+#endif
+
+void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from, const gn_receiver_step *to,
+                   const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
+{
+    gn_receiver_step at = *from;
+#if GN_FILTER_MAX >= 1
+    if (is_simple(frame, view, from, to)) {
+        bilinear_row(view, at, step, n, GN_K(frame, weight_bits), attenuation);
+        return;
+    }
+#else
+    (void)to;
+#endif
+    for (int32_t i = 0; i < n; i++) {
+        gn_receiver r = {at.u_q16, at.v_q16, at.depth_q31 < 0 ? 0 : (uint32_t)at.depth_q31 << 1, {0, 0}, 0, 0};
+        attenuation[i] = gn_filter_attenuation(frame, view, &r);
+        at.u_q16 += step->u_q16;
+        at.v_q16 += step->v_q16;
+        at.depth_q31 += step->depth_q31;
+    }
+}
+#endif
+
 #endif

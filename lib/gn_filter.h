@@ -26,5 +26,21 @@ typedef struct {
 /* Attenuation 0 (shadowed) .. 65536 (lit). Texels outside the tile repeat its border, or are lit if the view says so (D10). */
 uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver);
 
+#if GN_PIECES
+/* A receiver on the way from pixel to pixel: tile coordinates in texels, Q16, and its share of the view's depth range, Q31; negative
+ * before the near plane. Coordinates within +-2^28. */
+typedef struct {
+    int32_t u_q16, v_q16, depth_q31;
+} gn_receiver_step;
+
+/* Whether bounds of depth tell the attenuation of all receivers on the line between two; never for the disk. */
+int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *a, const gn_receiver_step *b,
+                      uint32_t *attenuation);
+
+/* Attenuations of n receivers from `from` on, all between `from` and `to`, which the steps may not quite reach. */
+void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from, const gn_receiver_step *to,
+                   const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
+#endif
+
 #endif
 #endif

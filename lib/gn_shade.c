@@ -5,6 +5,7 @@
 #include "gn_chord.h"
 #include "gn_count.h"
 #include "gn_light.h"
+#include "gn_piece.h"
 #include "gn_pixel.h"
 #include "gn_punctual.h"
 #include "gn_q.h"
@@ -20,7 +21,7 @@ static uint32_t pack_axis(int64_t v_q30)
     return (uint32_t)(512 + gn_clamp64(gn_shr64(v_q30 * 511, 30), -511, 511));
 }
 
-static uint32_t raw_normal(const shading *s, int32_t x, int32_t y)
+static uint32_t raw_normal(const gn_shading *s, int32_t x, int32_t y)
 {
     int32_t n[3], unit[3];
     gn_sample_normal(s->frame, &s->surface, x, y, n);
@@ -29,7 +30,7 @@ static uint32_t raw_normal(const shading *s, int32_t x, int32_t y)
     return pack_axis(unit[0]) << 20 | pack_axis(unit[1]) << 10 | pack_axis(unit[2]);
 }
 
-static uint32_t raw_value(const shading *s, const gn_sample *sample, int32_t x, int32_t y)
+static uint32_t raw_value(const gn_shading *s, const gn_sample *sample, int32_t x, int32_t y)
 {
     const gn_picture *picture = &s->frame->picture;
     switch (picture->view) {
@@ -47,7 +48,7 @@ static uint32_t raw_value(const shading *s, const gn_sample *sample, int32_t x, 
 }
 #endif
 
-static uint32_t pack(shading *s, const uint32_t q20[3])
+static uint32_t pack(gn_shading *s, const uint32_t q20[3])
 {
     uint32_t *last = s->last_q20;
     if (q20[0] != last[0] || q20[1] != last[1] || q20[2] != last[2]) {
@@ -60,7 +61,7 @@ static uint32_t pack(shading *s, const uint32_t q20[3])
     return s->last_pixel;
 }
 
-static void shade_pixel(shading *s, gn_sample *sample, int32_t x, int32_t y)
+static void shade_pixel(gn_shading *s, gn_sample *sample, int32_t x, int32_t y)
 {
     sample->x = x;
     sample->y = y;
@@ -78,7 +79,7 @@ static void shade_pixel(shading *s, gn_sample *sample, int32_t x, int32_t y)
 
 /* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every persp_step
  * pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the triangle. */
-static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
+static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     int32_t step_px = s->surface.specular ? 1 : GN_K(s->frame, persp_step); /* a highlight is narrower than its n . h */
     int32_t first = s->surface.first_value, end = s->surface.n_values;
@@ -109,7 +110,7 @@ static void shade_run(shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 }
 
 /* The pixel of a surface that looks the same all over. */
-static uint32_t constant_pixel(shading *s)
+static uint32_t constant_pixel(gn_shading *s)
 {
     gn_sample *sample = &s->sample[0];
     uint32_t radiance_q20[3];
@@ -120,7 +121,69 @@ static uint32_t constant_pixel(shading *s)
     return pack(s, radiance_q20);
 }
 
-static void shade_triangle(shading *s, uint32_t tri_idx)
+#if GN_PIECES
+/* Takes the triangle's runs and links them one after the other, from the first. Returns the part of the screen that they span. */
+static gn_rect link_runs(const gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
+{
+    uint32_t stride = (uint32_t)GN_K(s->frame, tile_width), at = first, *cell = s->scratch->cell;
+    int32_t x = (int32_t)(first % stride), x0 = x, x1 = x + n_px, y0 = (int32_t)(first / stride);
+    while (gn_runs_take(taker, stride, &first, &n_px)) {
+        cell[at] = first << 16 | taker->id;
+        at = first;
+        x = (int32_t)(first % stride);
+        x0 = gn_min32(x0, x);
+        x1 = gn_max32(x1, x + n_px);
+    }
+    cell[at] = at << 16 | taker->id;
+    gn_rect spanned = {x0 + s->rect.x0, y0 + s->rect.y0, x1 + s->rect.x0, (int32_t)(at / stride) + 1 + s->rect.y0};
+    return spanned;
+}
+
+/* Shades what lies in a part of the screen of the runs that are linked from `first` on. */
+static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *part)
+{
+    uint32_t stride = (uint32_t)GN_K(s->frame, tile_width), i = first, next, id = s->scratch->cell[first] & 0xFFFFU;
+    int32_t y = s->rect.y0 + (int32_t)(first / stride);
+    uint32_t row = first - first % stride;
+    for (;; i = next) {
+        const uint32_t *cell = &s->scratch->cell[i];
+        for (; i - row >= stride; row += stride) y++;
+        if (y >= part->y1) return;
+        next = cell[0] >> 16;
+        int32_t x = s->rect.x0 + (int32_t)(i - row);
+        int32_t x_end = x + (i + 1 < row + stride && (cell[1] & 0xFFFFU) == id ? (int32_t)(cell[1] >> 16) : 1);
+        x = gn_max32(x, part->x0);
+        x_end = gn_min32(x_end, part->x1);
+        if (x < x_end && y >= part->y0) {
+            GN_COUNT(runs, 1);
+            if (pieces) gn_pieces_row(pieces, &s->rows, y, x, x_end);
+            else shade_run(s, y, x, x_end);
+        }
+        if (next == i) return;
+    }
+}
+
+/* From left to right, piece by piece, each as wide as it may be. */
+static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *all)
+{
+    for (int32_t y = all->y0; y < all->y1; y += GN_PIECE_ROWS) {
+        gn_rect part = {all->x0, y, all->x1, gn_min32(y + GN_PIECE_ROWS, all->y1)};
+        for (int32_t width = GN_PIECE_WIDTH; part.x0 < all->x1; part.x0 = part.x1) {
+            part.x1 = gn_min32(part.x0 + width, all->x1);
+            int is_piece = gn_pieces_select(pieces, &part);
+            if (is_piece) width = gn_min32(2 * width, GN_PIECE_WIDTH);
+            while (!is_piece && part.x1 - part.x0 > 8) {
+                part.x1 = part.x0 + ((part.x1 - part.x0 + 1) >> 1);
+                width = part.x1 - part.x0;
+                is_piece = gn_pieces_select(pieces, &part);
+            }
+            shade_part(s, is_piece ? pieces : NULL, first, &part);
+        }
+    }
+}
+#endif
+
+static void shade_triangle(gn_shading *s, uint32_t tri_idx)
 {
     const gn_frame *frame = s->frame;
     uint32_t stride = (uint32_t)GN_K(frame, tile_width), first, packed = 0;
@@ -133,6 +196,15 @@ static void shade_triangle(shading *s, uint32_t tri_idx)
     gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
     constant = gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32;
     if (constant) packed = constant_pixel(s);
+#if GN_PIECES
+    else if (gn_pieces_fit(frame, &s->surface)) {
+        gn_pieces *pieces = &s->pieces;
+        gn_rect spanned = link_runs(s, &taker, first, n_px);
+        if (!gn_pieces_begin(pieces, frame, &s->surface, &spanned)) shade_part(s, NULL, first, &spanned);
+        else shade_pieces(s, pieces, first, &spanned);
+        return;
+    }
+#endif
     do {
         int32_t x = s->rect.x0 + (int32_t)(first % stride), y = s->rect.y0 + (int32_t)(first / stride);
         GN_COUNT(runs, 1);
@@ -143,7 +215,7 @@ static void shade_triangle(shading *s, uint32_t tri_idx)
     } while (gn_runs_take(&taker, stride, &first, &n_px));
 }
 
-static void clear_background(shading *s)
+static void clear_background(gn_shading *s)
 {
     const gn_frame *frame = s->frame;
     for (int c = 0; c < 3; c++) s->last_q20[c] = frame->scene->background_uq16[c] << 4;

@@ -122,6 +122,40 @@ typedef struct {
     int32_t x0, y0; /* of the tile in the picture: the dither's pattern stands still in the picture */
 } gn_pixel_rows;
 
+#if GN_PIECES
+/* Linear on the screen: at a place, and its change per pixel to the right and down. */
+typedef struct {
+    int32_t at, dx, dy;
+} gn_slope;
+
+typedef struct {
+    const struct gn_frame *frame;
+    const gn_surface *surface;
+    int32_t ref_x, ref_y; /* the place of w, b */
+    gn_slope w, b[2];     /* n . ray and the barycentrics times it, at one scale: 0 < w < 2^27 on the triangle */
+    int32_t z_shift;      /* view depth = depth_scale.mant * (2^63 / w normalised) / 2^32 >> z_shift - clz(w) */
+    int32_t shadow_slot;  /* in the surface's list, of the light whose shadow may fall on it; -1: none */
+    /* the piece: around (x, y) */
+    int32_t x, y;
+    int varies;                            /* colours are not one all over */
+    int32_t ramp_px;                       /* how long a row of pixels may be of one ramp */
+    int looks_up;                          /* 0: dark all over */
+    gn_slope dark_q24[3], lit_q24[3];      /* without and with the light */
+    uint32_t dark_pixel, lit_pixel;        /* packed, where nothing varies */
+    int32_t w_dx_q30, w_dy_q30;            /* change of w per pixel, relative to w */
+#if GN_SHADOWS
+    const gn_light_view *view;
+    int32_t offset_q16[3][3]; /* the receiver's in texels: at vertex 0, and at the others */
+    gn_slope place[3];        /* where the light sees the piece: texels, Q16; U, V and depth D */
+    int32_t depth_up, depth_least, depth_most; /* D to a share of the range, Q31, by a shift, and its limits */
+    int32_t chunk_px;      /* how many pixels may be stepped from end to end */
+    int32_t x0, y0;        /* the corner of the piece */
+    uint32_t cells;        /* what is known of its cells, 2 bits each */
+    int32_t cell_reach[3]; /* of U, V, D from the middle of a cell to its corners */
+#endif
+} gn_pieces;
+#endif
+
 /* The tile, and the triangle at hand. */
 typedef struct {
     const struct gn_frame *frame;
@@ -135,6 +169,9 @@ typedef struct {
     uint32_t last_pixel;
     gn_sample sample[2]; /* the run's last exact one and the next */
     gn_chord chord;
+#if GN_PIECES
+    gn_pieces pieces;
+#endif
 } gn_shading;
 
 /* ---- Triangles that alpha cuts ------------------------------------------------------------------------------------- */

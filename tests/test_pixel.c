@@ -192,12 +192,40 @@ static void test_levels(void)
     CHECK_EQ_INT(n, 256);
 }
 
+/* Ramps of RGB565 are packed by tables; every light from black to white, and what lies beyond, as gn_pixel_pack() has it. */
+static void test_ramp(void)
+{
+    enum { N = 1024 };
+    static const gn_format formats[] = {GN_FORMAT_RGB565, GN_FORMAT_RGB565_SWAPPED, GN_FORMAT_GREY8};
+    static gn_tile_pixels pixels;
+    gn_pixel_rows rows = {&pixels, N, 0, 0};
+    tally same = {0};
+    for (size_t k = 0; k < 3; k++) {
+        frame.picture.format = formats[k];
+        for (int32_t first = -4 * N; first < ONE_Q20 + 4 * N; first += N) {
+            const int32_t from[3] = {first * 16 + 15, (ONE_Q20 - first) * 16, (first ^ 0x5555) * 16}, step[3] = {16, -16, 48};
+            gn_pixel_ramp(&frame, &rows, 0, 0, N, from, step);
+            for (int32_t i = 0; i < N; i++) {
+                uint32_t q20[3];
+                for (int c = 0; c < 3; c++) {
+                    int32_t q24 = from[c] + i * step[c];
+                    q20[c] = q24 < 0 ? 0 : (uint32_t)q24 >> 4;
+                }
+                uint32_t is = k < 2 ? pixels.rgb565[i] : pixels.bytes[i], want = gn_pixel_pack(&frame, q20);
+                HOLDS(&same, is == want, "%d, format %d: %x, not %x", (int)(first + i), (int)k, (unsigned)is, (unsigned)want);
+            }
+        }
+    }
+    CHECK_TALLY(same, "ramps are packed like single pixels");
+}
+
 int main(void)
 {
     test_encode();
     test_pack();
     test_fill();
     test_levels();
+    test_ramp();
     test_greys();
     test_packed_rows();
     return check_report();

@@ -49,6 +49,37 @@ static void print_disk_table(void)
     printf("\n};\n#endif\n");
 }
 
+/* What gn_pixel.c makes of linear light, Q20 and below 1, at `levels` + 1 levels: its own rounding, so that tables and code agree. */
+static uint32_t level_of(const double *table, uint32_t linear_q20, uint32_t levels)
+{
+    uint32_t v = (linear_q20 * 52920U + 0x8000U) >> 16;
+    if (linear_q20 >= 1U << 11) {
+        uint32_t octave = 0;
+        while (linear_q20 >> (octave + 12)) octave++;
+        uint32_t shift = octave + 5, at = (octave << 6) + (linear_q20 >> shift & 63U), rest = linear_q20 & ((1U << shift) - 1);
+        uint32_t here = (uint32_t)lround(fmin(table[at], 65535.0)), next = (uint32_t)lround(fmin(table[at + 1], 65535.0));
+        v = here + (((next - here) * rest + ((1U << shift) >> 1)) >> shift);
+    }
+    return (v * levels + 32767U) / 65535U;
+}
+
+/* Levels are counted on from `first` in all that is printed. No cell holds two borders of levels. */
+static void print_cells(const double *table, uint32_t levels, uint32_t n, uint32_t first)
+{
+    printf("\nconst uint8_t gn_level_%u_table[%u] = {", levels, n);
+    for (uint32_t i = 0; i < n; i++) printf("%s%u,", i % 32 ? " " : "\n    ", first + level_of(table, (i << 20) / n, levels));
+    printf("\n};\n");
+}
+
+static void print_borders(const double *table, uint32_t levels)
+{
+    for (uint32_t level = 1, x = 0; level <= levels; level++) {
+        while (level_of(table, x, levels) < level) x++;
+        printf("%s%luU,", level % 12 == 1 ? "\n    " : " ", (unsigned long)x << 4);
+    }
+    printf(" 0xFFFFFFFFU,");
+}
+
 int main(void)
 {
     double v[577];
@@ -69,6 +100,14 @@ int main(void)
     printf("\n};\n");
     for (int i = 0; i <= 576; i++) v[i] = 65535.0 * srgb(ldexp(1.0 + (i % 64) / 64.0, i / 64 - 9));
     print_u16("gn_srgb_table", v, 577);
+    printf("\n#if GN_PIECES");
+    print_cells(v, 63, 1024, 0);
+    print_cells(v, 31, 512, 64);
+    printf("\nconst uint32_t gn_level_end_q24[96] = {");
+    print_borders(v, 63);
+    print_borders(v, 31);
+    printf("\n};\n");
+    printf("#endif\n");
     print_disk_table();
     for (int i = 0; i <= 255; i++) v[i] = 65535.0 * linear(i / 255.0);
     printf("\n#if GN_TEXTURES");

@@ -65,6 +65,7 @@ static void put_shading(layout *out, const settings *s)
     put(&all, 5, 4, 4);                                                     /* tri to last_pixel */
     put(&all, 2, 4 * values + 28 + (s->feature.specular ? 24 : 0), 4);      /* sample */
     put(&all, 1, 8 * values + 8, 4);                                        /* chord */
+    if (s->quality.persp_step > 1) put(&all, 1, s->feature.shadows ? 284 : 168, 4); /* pieces */
     pad(&all, all.align);
     put(out, 1, all.size, 8);
 }

@@ -1,0 +1,557 @@
+/* Surfaces piece by piece. Scales and errors: NUMERICS 4.12. */
+#include "gn_piece.h"
+#include "gn_bias.h"
+#include "gn_count.h"
+#include "gn_filter.h"
+#include "gn_math.h"
+#include "gn_q.h"
+
+#if GN_PIECES
+
+enum { CELL_UNKNOWN, CELL_LIT, CELL_DARK, CELL_MIXED };
+
+/* The upper half of a product. */
+static inline int32_t mul_high(int32_t a, int32_t b)
+{
+    return (int32_t)((int64_t)a * b >> 32);
+}
+
+static inline int32_t along(const gn_slope *s, int32_t dx, int32_t dy)
+{
+    return s->at + s->dx * dx + s->dy * dy;
+}
+
+/* ---- Once per surface --------------------------------------------------------------------------------------------- */
+
+/* A linear form of view space on the screen, at pixel (x, y), times 2^-shift. Returns 0 if it leaves +-2^31 within `reach`. */
+static int form_on_screen(gn_slope *out, const gn_frame *frame, const int32_t form[3], int32_t shift, int32_t x, int32_t y,
+                          const gn_rect *rect)
+{
+    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    int64_t at = gn_scale64(gn_plane_at(form, px, py, frame->cam.focal2_px_q16), shift);
+    int64_t dx = gn_scale64((int64_t)form[0] * 131072, shift), dy = gn_scale64((int64_t)form[1] * -131072, shift);
+    const int64_t most = (int64_t)1 << 30;
+    if (gn_abs64(at) >= 1U << 30 || gn_abs64(dx) >= 1U << 28 || gn_abs64(dy) >= 1U << 28) return 0;
+    if ((int64_t)gn_abs64(dx) * (rect->x1 - rect->x0) + (int64_t)gn_abs64(dy) * (rect->y1 - rect->y0) >= most) return 0;
+    out->at = (int32_t)at;
+    out->dx = (int32_t)dx;
+    out->dy = (int32_t)dy;
+    return 1;
+}
+
+/* Forms of the surface at a common scale, at which n . ray is below 2^27 on the triangle. */
+static int forms(gn_pieces *p, const gn_rect *rect)
+{
+    const gn_surface *s = p->surface;
+    int32_t shift = s->depth_scale.exp + 32 - (31 - gn_clz32((uint32_t)s->z_min_q16)) - 27;
+    p->z_shift = 31 + shift - s->depth_scale.exp;
+    p->ref_x = (rect->x0 + rect->x1) >> 1;
+    p->ref_y = (rect->y0 + rect->y1) >> 1;
+    if (!form_on_screen(&p->w, p->frame, s->plane.n, shift, p->ref_x, p->ref_y, rect)) return 0;
+    for (int k = 0; s->has_bary && k < 2; k++)
+        if (!form_on_screen(&p->b[k], p->frame, s->bary.form[k], shift - s->bary.exp[k], p->ref_x, p->ref_y, rect)) return 0;
+    return 1;
+}
+
+#if GN_SHADOWS
+/* What the offset of the only light with a shadow needs. Returns 0 if it is not linear in the interpolated normal. */
+static int shadow_light(gn_pieces *p)
+{
+    const gn_frame *frame = p->frame;
+    const gn_surface *s = p->surface;
+    const gn_surface_light *light = &s->light[p->shadow_slot];
+    const gn_light *scene_light = &frame->scene->lights[light->idx];
+    const gn_light_view *view = &frame->view[light->state->view_idx];
+    if (!view->border_lit) view += frame->last_cascade;
+    if (view->perspective || view->filter == GN_FILTER_DISK) return 0;
+    if (GN_RECEIVER_PLANE && scene_light->receiver_plane) return 0;
+    if (GN_BLENDED_CASCADES && !view->border_lit && frame->scene->shadow.blend != GN_BLEND_HARD && frame->n_cascades > 1) return 0;
+    for (int i = 0; i < 3; i++) {
+        p->offset_q16[0][i] = light->flat_offset_q16[i];
+        p->offset_q16[1][i] = p->offset_q16[2][i] = 0;
+    }
+    if ((GN_AUTO_BIAS && scene_light->auto_bias) || !s->smooth) return 1;
+    const int32_t *b = scene_light->bias_receiver_q16;
+    if (GN_RECEIVER_BIAS && (b[0] | b[1] | b[3])) return 0;
+    for (int k = 0; k < 3; k++) gn_bias_directional(frame, view, s->normal_q30[k], p->offset_q16[k]);
+    return 1;
+}
+
+/* The light whose shadow may fall here. Returns 0 if there are several. */
+static int find_shadow(gn_pieces *p)
+{
+    const gn_surface *s = p->surface;
+    for (uint32_t i = 0; s->shadowed && i < s->n_lights; i++) {
+        if (s->light[i].state->view_idx < 0 || !s->light[i].state->strength_uq16) continue;
+        if (p->shadow_slot >= 0) return 0;
+        p->shadow_slot = (int32_t)i;
+    }
+    return p->shadow_slot < 0 || shadow_light(p);
+}
+#endif
+
+int gn_pieces_fit(const gn_frame *frame, const gn_surface *s)
+{
+    if (GN_K(frame, persp_step) == 1 || frame->picture.format == GN_FORMAT_RAW32) return 0;
+    if ((s->textured | s->masked | s->baked | s->specular) || s->n_punctual || s->plane.det <= 0) return 0;
+    if (s->smooth && s->n_lights) return 0;
+    for (int c = 0; c < 3; c++)
+        if (s->base_q20[c] >= 1U << 25) return 0;
+    for (uint32_t i = 0; i < s->n_lights; i++)
+        for (int c = 0; c < 3; c++)
+            if (s->light[i].radiance_uq16[c] >= 1U << 20) return 0;
+    return 1;
+}
+
+int gn_pieces_begin(gn_pieces *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+{
+    p->frame = frame;
+    p->surface = s;
+    p->shadow_slot = -1;
+#if GN_SHADOWS
+    if (!find_shadow(p)) return 0;
+#endif
+    return forms(p, rect);
+}
+
+/* ---- Once per piece ----------------------------------------------------------------------------------------------- */
+
+/* The surface in the middle of a piece. */
+typedef struct {
+    uint32_t recip; /* 2^63 / (w << clz) */
+    int32_t clz;
+    int32_t z_q16;
+    gn_slope b_q28[2];
+    int32_t w_dx_q30, w_dy_q30; /* change of w per pixel, relative to w */
+} middle;
+
+static int32_t depth_of(const gn_pieces *p, uint32_t recip, int32_t clz)
+{
+    int32_t shift = p->z_shift - clz;
+    uint32_t z = (uint32_t)((uint64_t)p->surface->depth_scale.mant * recip >> 32);
+    if (shift < 1) return p->surface->z_max_q16;
+    z = shift > 31 ? 0 : ((z >> (shift - 1)) + 1) >> 1;
+    return gn_max32(gn_min32((int32_t)(z & INT32_MAX), p->surface->z_max_q16), p->surface->z_min_q16);
+}
+
+/* Returns 0 where the plane is seen too steeply. */
+static int find_middle(const gn_pieces *p, middle *m)
+{
+    int32_t dx = p->x - p->ref_x, dy = p->y - p->ref_y;
+    int32_t w = along(&p->w, dx, dy);
+    if (w < 1 << 10 || w >= 1 << 28) return 0;
+    if (gn_abs32(p->w.dx) > (uint32_t)w >> 3 || gn_abs32(p->w.dy) > (uint32_t)w >> 3) return 0;
+    m->clz = gn_clz32((uint32_t)w);
+    m->recip = gn_recip_norm((uint32_t)w << m->clz, GN_K(p->frame, newton_steps));
+    m->z_q16 = depth_of(p, m->recip, m->clz);
+    int32_t half = (int32_t)(m->recip >> 1); /* 2^62 / (w << clz) */
+    m->w_dx_q30 = mul_high(p->w.dx, half) * (1 << m->clz);
+    m->w_dy_q30 = mul_high(p->w.dy, half) * (1 << m->clz);
+    for (int k = 0; p->surface->has_bary && k < 2; k++) {
+        const gn_slope *b = &p->b[k];
+        int32_t at = along(b, dx, dy), up = 1 << (m->clz - 2);
+        if ((gn_abs32(at) | gn_abs32(b->dx) | gn_abs32(b->dy)) >> 2 >= (uint32_t)w) return 0; /* within +-4 */
+        gn_slope *out = &m->b_q28[k];
+        out->at = mul_high(at, half) * up;
+        out->dx = mul_high(b->dx, half) * up - mul_high(out->at, m->w_dx_q30) * 4;
+        out->dy = mul_high(b->dy, half) * up - mul_high(out->at, m->w_dy_q30) * 4;
+    }
+    return 1;
+}
+
+/* v0 + b1 d1 + b2 d2 with `drop` of the 28 fraction bits of b dropped, on to the unit of v0. */
+static gn_slope interpolate(const middle *m, int32_t v0, int32_t d1, int32_t d2, int32_t drop)
+{
+    const gn_slope *a = &m->b_q28[0], *b = &m->b_q28[1];
+    gn_slope out = {v0 + (int32_t)(((int64_t)a->at * d1 + (int64_t)b->at * d2) >> drop),
+                    (int32_t)(((int64_t)a->dx * d1 + (int64_t)b->dx * d2) >> drop),
+                    (int32_t)(((int64_t)a->dy * d1 + (int64_t)b->dy * d2) >> drop)};
+    return out;
+}
+
+static inline int32_t mul_q24(int32_t a, int32_t b)
+{
+    return (int32_t)((int64_t)a * b >> 24);
+}
+
+static gn_slope product_q24(const gn_slope *f, const gn_slope *c)
+{
+    gn_slope out = {mul_q24(f->at, c->at), mul_q24(f->at, c->dx) + mul_q24(f->dx, c->at),
+                    mul_q24(f->at, c->dy) + mul_q24(f->dy, c->at)};
+    return out;
+}
+
+/* Light without the one that casts a shadow, and with all of its. */
+static void colours(gn_pieces *p, const middle *m)
+{
+    const gn_surface *s = p->surface;
+    for (int c = 0; c < 3; c++) {
+        gn_slope dark = {(int32_t)(s->base_q20[c] << 4), 0, 0}, light = {0, 0, 0};
+        for (uint32_t i = 0; i < s->n_lights; i++) {
+            const gn_surface_light *l = &s->light[i];
+            gn_slope *sum = (int32_t)i == p->shadow_slot ? &light : &dark;
+            sum->at += (int32_t)gn_mul_uq16(l->radiance_uq16[c], (uint32_t)l->flat_cosine_q24);
+        }
+        if (s->coloured) {
+            gn_slope colour = interpolate(m, s->rgb_q16[0][c] << 8, s->rgb_q16[1][c], s->rgb_q16[2][c], 20);
+            dark = product_q24(&dark, &colour);
+            light = product_q24(&light, &colour);
+        }
+        p->dark_q24[c] = dark;
+        p->lit_q24[c].at = dark.at + light.at;
+        p->lit_q24[c].dx = dark.dx + light.dx;
+        p->lit_q24[c].dy = dark.dy + light.dy;
+    }
+}
+
+/* Over half a piece a value changes by g and w by t, relative to w: what colour_near() leaves out is g t^2, and the ends of a ramp of
+ * n pixels bend by a quarter of what both change over it. */
+static int close_enough(gn_pieces *p, uint32_t half_w, uint32_t half_h)
+{
+    uint64_t bend_q30 = (uint64_t)gn_abs32(p->w_dx_q30) * half_w + (uint64_t)gn_abs32(p->w_dy_q30) * half_h;
+    if (bend_q30 > 1U << 27) return 0;
+    if (!p->varies) return 1;
+    int32_t persp_step = GN_K(p->frame, persp_step), tolerance_log2 = persp_step == 16 ? 7 : persp_step == 8 ? 9 : 10;
+    uint32_t change = 0, fastest = 0, bend2_q30 = (uint32_t)(bend_q30 * bend_q30 >> 30);
+    for (int c = 0; c < 3; c++) {
+        const gn_slope *lit = &p->lit_q24[c];
+        uint32_t dx = gn_abs32(lit->dx) >> 8, here = dx * half_w + (gn_abs32(lit->dy) >> 8) * half_h; /* Q16 */
+        if (here > change) change = here;
+        if (dx > fastest) fastest = dx;
+    }
+    if ((uint64_t)change * bend2_q30 >> (46 - tolerance_log2)) return 0;
+    /* n^2 / 4 times both slopes */
+    uint64_t bend_46 = (uint64_t)fastest * gn_abs32(p->w_dx_q30);
+    for (p->ramp_px = GN_PIECE_WIDTH; p->ramp_px > 4; p->ramp_px >>= 1)
+        if (!(bend_46 * (uint32_t)(p->ramp_px * p->ramp_px / 4) >> (46 - tolerance_log2))) break;
+    return 1;
+}
+
+#if GN_SHADOWS
+/* Bounds of what lies in a piece. */
+typedef struct {
+    int32_t z_lo, z_hi;
+    uint64_t across2_lo, across2_hi; /* squared distance from the view's axis, Q32 */
+} extent;
+
+/* |2x + 1 - size| over lo <= x < hi */
+static void pixel_range(int32_t lo, int32_t hi, int32_t size, int32_t *least, int32_t *most)
+{
+    int32_t a = 2 * lo + 1 - size, b = 2 * (hi - 1) + 1 - size;
+    *most = gn_max32(-a, b);
+    *least = a > 0 ? a : b < 0 ? -b : 0;
+}
+
+static uint64_t across2(const gn_frame *frame, int32_t z_q16, int32_t px, int32_t py)
+{
+    int64_t x = gn_bf_apply((int64_t)z_q16 * px, frame->cam.inv_focal2, 16);
+    int64_t y = gn_bf_apply((int64_t)z_q16 * py, frame->cam.inv_focal2, 16);
+    x = gn_clamp64(x, 0, 1 << 30);
+    y = gn_clamp64(y, 0, 1 << 30);
+    return (uint64_t)(x * x) + (uint64_t)(y * y);
+}
+
+static void find_extent(const gn_pieces *p, const middle *m, const gn_rect *rect, extent *e)
+{
+    const gn_frame *frame = p->frame;
+    int32_t x_lo, x_hi, y_lo, y_hi, half_w = (rect->x1 - rect->x0 + 1) >> 1, half_h = (rect->y1 - rect->y0 + 1) >> 1;
+    int32_t bend_q30 = (int32_t)(gn_abs32(m->w_dx_q30) * (uint32_t)half_w + gn_abs32(m->w_dy_q30) * (uint32_t)half_h);
+    int32_t dz = (mul_high(m->z_q16, bend_q30) + 1) * 5; /* z / (1 - 1/8) is below z (1 + 5/4 / 8) */
+    e->z_lo = gn_max32(m->z_q16 - dz, p->surface->z_min_q16);
+    e->z_hi = gn_min32(gn_sat32((int64_t)m->z_q16 + dz), p->surface->z_max_q16);
+    pixel_range(rect->x0, rect->x1, frame->picture.width, &x_lo, &x_hi);
+    pixel_range(rect->y0, rect->y1, frame->picture.height, &y_lo, &y_hi);
+    e->across2_hi = across2(frame, e->z_hi, x_hi, y_hi);
+    e->across2_lo = 0;
+    if (frame->n_cascades > 1 || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS)
+        e->across2_lo = across2(frame, e->z_lo, x_lo, y_lo);
+}
+
+enum { REACH_NONE, REACH_ALL, REACH_SOME };
+
+/* D5, D11: whether the distance leaves all or nothing of shadows. */
+static int reach_of_distance(const gn_frame *frame, const extent *e)
+{
+    int64_t m = frame->scene->shadow.max_distance_q16;
+    if (frame->scene->shadow.distance_mode == GN_DISTANCE_DEPTH) {
+        if ((uint32_t)e->z_hi <= frame->fade_start_q16) return REACH_ALL;
+        return e->z_lo >= m ? REACH_NONE : REACH_SOME;
+    }
+    if (e->across2_hi + (uint64_t)((int64_t)e->z_hi * e->z_hi) <= (uint64_t)(m * m)) return REACH_ALL;
+    return e->across2_lo + (uint64_t)((int64_t)e->z_lo * e->z_lo) > (uint64_t)(m * m) ? REACH_NONE : REACH_SOME;
+}
+
+/* D4, D6: whether one cascade, and all of it, is that of the whole piece. */
+static int reach_of_cascades(const gn_frame *frame, const extent *e, int32_t *cascade)
+{
+    for (int32_t i = 0; i < frame->n_cascades; i++) {
+        const gn_cascade_state *state = &frame->cascade[i];
+        int64_t before = (int64_t)state->centre_q16 - e->z_lo, behind = (int64_t)e->z_hi - state->centre_q16;
+        int64_t far = before > behind ? before : behind, near = before < 0 ? -before : behind < 0 ? -behind : 0;
+        if (e->across2_lo + (uint64_t)(near * near) >= state->radius2_q32) continue;
+        *cascade = i;
+        uint64_t within = i == frame->last_cascade ? state->inner2_q32 : state->radius2_q32 - 1;
+        return e->across2_hi + (uint64_t)(far * far) <= within ? REACH_ALL : REACH_SOME;
+    }
+    return REACH_NONE;
+}
+
+/* (z a) >> shift on the ray through a pixel, all modulo 2^32: the sum with the origin fits. */
+static int32_t on_ray(int32_t z_q16, int32_t a, int32_t shift)
+{
+    return (int32_t)(uint32_t)(uint64_t)gn_shr64((int64_t)z_q16 * a, shift);
+}
+
+/* Where the light sees the piece. Returns 0 where that is not close enough to linear over the piece. */
+static int find_place(gn_pieces *p, const middle *m, const gn_rect *rect)
+{
+    const gn_ortho_fit *fit = &p->view->fit.ortho;
+    int32_t px = 2 * p->x + 1 - p->frame->picture.width, py = p->frame->picture.height - 1 - 2 * p->y;
+    int32_t half_w = (rect->x1 - rect->x0 + 1) >> 1, half_h = (rect->y1 - rect->y0 + 1) >> 1;
+    int32_t z_dx = -mul_high(m->z_q16, m->w_dx_q30), z_dy = -mul_high(m->z_q16, m->w_dy_q30); /* Q14 */
+    uint32_t most = 0, fastest = 0;
+    for (int i = 0; i < 3; i++) {
+        const gn_ray_plane *ray = &fit->ray[i];
+        int32_t a = (int32_t)((uint32_t)ray->a0 + (uint32_t)ray->ax * (uint32_t)px + (uint32_t)ray->ay * (uint32_t)py); /* < 2^31 */
+        gn_slope *out = &p->place[i];
+        out->at = (int32_t)((uint32_t)on_ray(m->z_q16, a, fit->ray_shift) + (uint32_t)ray->d_q16 + (uint32_t)p->offset_q16[0][i]);
+        out->dx = (int32_t)gn_shr64(((int64_t)z_dx * a) * 4 + (int64_t)m->z_q16 * ray->ax * 2, fit->ray_shift);
+        out->dy = (int32_t)gn_shr64(((int64_t)z_dy * a) * 4 - (int64_t)m->z_q16 * ray->ay * 2, fit->ray_shift);
+        uint32_t across = gn_abs32(out->dx) * (uint32_t)half_w + gn_abs32(out->dy) * (uint32_t)half_h;
+        if ((gn_abs32(out->dx) | gn_abs32(out->dy)) >> 22) return 0; /* 64 texels per pixel */
+        if (across > most) most = across;
+        if (gn_abs32(out->dx) > fastest) fastest = gn_abs32(out->dx);
+        p->cell_reach[i] = (int32_t)((gn_abs32(out->dx) + gn_abs32(out->dy)) * (GN_CELL / 2 + 1) + 2048);
+    }
+    /* g t^2 within 1/32 texel; from end to end of a chunk of n pixels a chord bends by g t / 4 */
+    uint32_t bend_q15 = (uint32_t)(gn_abs32(m->w_dx_q30) * (uint32_t)half_w + gn_abs32(m->w_dy_q30) * (uint32_t)half_h) >> 15;
+    if ((uint64_t)most * ((bend_q15 * bend_q15) >> 15) >> 15 > 2048) return 0;
+    p->chunk_px = GN_K(p->frame, persp_step);
+    while (p->chunk_px > 1 &&
+           ((uint64_t)fastest * (uint32_t)p->chunk_px * ((gn_abs32(m->w_dx_q30) * (uint32_t)p->chunk_px) >> 8)) >> 22 > 4 * 2048)
+        p->chunk_px >>= 1;
+    return 1;
+}
+
+static int pick_view(gn_pieces *p, const gn_surface_light *light, int32_t cascade)
+{
+    const gn_frame *frame = p->frame;
+    p->view = &frame->view[light->state->view_idx];
+    if (!p->view->border_lit) p->view += cascade;
+    int32_t up = 15 - p->view->tile_log2 - p->view->depth_log2; /* texels, Q16, to a share of the range, Q31 */
+    p->depth_up = gn_max32(up, 0);
+    p->depth_least = -((1 << 30) >> p->depth_up);
+    p->depth_most = 0x7FFF8000 >> p->depth_up;
+#if GN_AUTO_BIAS
+    gn_auto_bias form = frame->scene->lights[light->idx].auto_bias;
+    if (form) gn_bias_auto_ortho(p->view, form, light->flat_offset_q16, p->offset_q16[0]);
+#endif
+    return up >= 0;
+}
+
+/* What becomes of the light's shadow in the piece. Returns 0 where it fades or changes cascades. */
+static int shadow(gn_pieces *p, const middle *m, const gn_rect *rect)
+{
+    const gn_frame *frame = p->frame;
+    const gn_surface_light *light = &p->surface->light[p->shadow_slot];
+    extent e;
+    int32_t cascade = 0;
+    find_extent(p, m, rect, &e);
+    int reach = reach_of_distance(frame, &e);
+    if (reach == REACH_ALL && frame->has_cascades) reach = reach_of_cascades(frame, &e, &cascade);
+    if (reach == REACH_SOME) return 0;
+    uint32_t keep = reach == REACH_NONE ? 65536 : 65536 - light->state->strength_uq16;
+    for (int c = 0; keep && c < 3; c++) {
+        gn_slope *dark = &p->dark_q24[c], *lit = &p->lit_q24[c];
+        dark->at += gn_mul_shr(lit->at - dark->at, (int32_t)keep, 16);
+        dark->dx += gn_mul_shr(lit->dx - dark->dx, (int32_t)keep, 16);
+        dark->dy += gn_mul_shr(lit->dy - dark->dy, (int32_t)keep, 16);
+    }
+    p->looks_up = reach == REACH_ALL;
+    if (p->looks_up && (!pick_view(p, light, cascade) || !find_place(p, m, rect))) return 0;
+    return 1;
+}
+#endif
+
+static uint32_t packed(const gn_frame *frame, const gn_slope colour_q24[3])
+{
+    uint32_t q20[3];
+    for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour_q24[c].at, 0) >> 4;
+    return gn_pixel_pack(frame, q20);
+}
+
+int gn_pieces_select(gn_pieces *p, const gn_rect *rect)
+{
+    middle m;
+    p->x = (rect->x0 + rect->x1) >> 1;
+    p->y = (rect->y0 + rect->y1) >> 1;
+    if (!find_middle(p, &m)) return 0;
+    p->w_dx_q30 = m.w_dx_q30;
+    p->w_dy_q30 = m.w_dy_q30;
+    p->varies = p->surface->coloured;
+    colours(p, &m);
+    if (!close_enough(p, (uint32_t)(rect->x1 - rect->x0 + 1) >> 1, (uint32_t)(rect->y1 - rect->y0 + 1) >> 1)) return 0;
+    p->looks_up = 0;
+#if GN_SHADOWS
+    p->x0 = rect->x0;
+    p->y0 = rect->y0;
+    p->cells = 0;
+    if (p->shadow_slot >= 0 && !shadow(p, &m, rect)) return 0;
+#endif
+    if (!p->varies) {
+        p->dark_pixel = packed(p->frame, p->dark_q24);
+        p->lit_pixel = packed(p->frame, p->lit_q24);
+    }
+    return 1;
+}
+
+/* ---- Rows --------------------------------------------------------------------------------------------------------- */
+
+/* A colour near (x, y), to the second order, and its change per pixel there. It is v + g / (1 + t), g the change by the slope and t that
+ * of w: about v + g (1 - t). `right` and `down` are from the middle of the piece, in half pixels. */
+static inline int32_t colour_near(const gn_pieces *p, const gn_slope *colour, int32_t right, int32_t down, int32_t t_q30,
+                                  int32_t *step)
+{
+    int32_t g = (colour->dx * right + colour->dy * down) >> 1;
+    *step = colour->dx - 4 * (mul_high(colour->dx, t_q30) + mul_high(g, p->w_dx_q30));
+    return colour->at + g - 4 * mul_high(g, t_q30);
+}
+
+/* A row of pixels that the light reaches all over, or not at all. */
+static void plain_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, int lit)
+{
+    if (!p->varies) {
+        gn_pixel_fill(p->frame, rows, x, y, n, lit ? p->lit_pixel : p->dark_pixel);
+        return;
+    }
+    const gn_slope *colour = lit ? p->lit_q24 : p->dark_q24;
+    for (int32_t end = x + n; x < end; x += n) {
+        n = gn_min32(end - x, p->ramp_px);
+        int32_t right = 2 * (x - p->x) + n - 1, down = 2 * (y - p->y), from[3], step[3];
+        int32_t t_q30 = (p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1;
+        for (int c = 0; c < 3; c++)
+            from[c] = colour_near(p, &colour[c], right, down, t_q30, &step[c]) - ((step[c] * (n - 1)) >> 1);
+        gn_pixel_ramp(p->frame, rows, x, y, n, from, step);
+    }
+}
+
+#if GN_SHADOWS
+static void partly_lit(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, uint32_t attenuation)
+{
+    int32_t colour[3], right = 2 * (x - p->x), down = 2 * (y - p->y), t_q30 = (p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1, step;
+    for (int c = 0; c < 3; c++) {
+        int32_t dark = p->dark_q24[c].at, lit = p->lit_q24[c].at;
+        if (p->varies) {
+            dark = colour_near(p, &p->dark_q24[c], right, down, t_q30, &step);
+            lit = colour_near(p, &p->lit_q24[c], right, down, t_q30, &step);
+        }
+        colour[c] = dark + (int32_t)((int64_t)(lit - dark) * (int32_t)attenuation >> 16);
+    }
+    gn_pixel_ramp(p->frame, rows, x, y, 1, colour, colour);
+}
+
+/* Where the light sees the surface at a pixel: v + g / (1 + t), g the change by the slope, t that of w, is v + g - g t but for g t^2. */
+static void receiver_at(const gn_pieces *p, int32_t x, int32_t y, gn_receiver_step *out)
+{
+    int32_t dx = x - p->x, dy = y - p->y, t_q30 = p->w_dx_q30 * dx + p->w_dy_q30 * dy;
+    int32_t u = p->place[0].dx * dx + p->place[0].dy * dy, v = p->place[1].dx * dx + p->place[1].dy * dy;
+    int32_t d = p->place[2].dx * dx + p->place[2].dy * dy;
+    out->u_q16 = p->place[0].at + u - mul_high(u, t_q30) * 4;
+    out->v_q16 = p->place[1].at + v - mul_high(v, t_q30) * 4;
+    d = p->place[2].at + d - mul_high(d, t_q30) * 4;
+    out->depth_q31 = gn_max32(p->depth_least, gn_min32(d, p->depth_most)) * (1 << p->depth_up);
+}
+
+/* (b - a) / n, rounded towards zero, n <= 16 */
+static int32_t step_of(int32_t a, int32_t b, int32_t n)
+{
+    static const uint32_t inverse[17] = {0,           0xFFFFFFFFU, 0x80000000U, 0x55555555U, 0x40000000U, 0x33333333U,
+                                         0x2AAAAAAAU, 0x24924924U, 0x20000000U, 0x1C71C71CU, 0x19999999U, 0x1745D174U,
+                                         0x15555555U, 0x13B13B13U, 0x12492492U, 0x11111111U, 0x10000000U};
+    uint32_t d = b < a ? (uint32_t)a - (uint32_t)b : (uint32_t)b - (uint32_t)a;
+    int32_t size = (int32_t)((uint64_t)d * inverse[n] >> 32);
+    return b < a ? -size : size;
+}
+
+/* n <= 17 pixels from x on, looked up one by one. */
+static void looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n)
+{
+    uint32_t attenuation[17];
+    gn_receiver_step from, to, step = {0, 0, 0};
+    receiver_at(p, x, y, &from);
+    to = from;
+    if (n > 1) {
+        receiver_at(p, x + n - 1, y, &to);
+        step.u_q16 = step_of(from.u_q16, to.u_q16, n - 1);
+        step.v_q16 = step_of(from.v_q16, to.v_q16, n - 1);
+        step.depth_q31 = step_of(from.depth_q31, to.depth_q31, n - 1);
+    }
+    gn_filter_row(p->frame, p->view, &from, &to, &step, n, attenuation);
+    for (int32_t i = 0; i < n;) {
+        uint32_t here = attenuation[i];
+        if (here - 1 < 65535) {
+            partly_lit(p, rows, y, x + i++, here);
+            continue;
+        }
+        int32_t first = i++;
+        while (i < n && attenuation[i] == here) i++;
+        plain_row(p, rows, y, x + first, i - first, here != 0);
+    }
+}
+
+/* What bounds of depth say of a cell of the piece. */
+static uint32_t judge_cell(const gn_pieces *p, int32_t x, int32_t y)
+{
+    gn_receiver_step middle_of, a, b;
+    receiver_at(p, x + GN_CELL / 2, y + GN_CELL / 2, &middle_of);
+    a.u_q16 = middle_of.u_q16 - p->cell_reach[0];
+    b.u_q16 = middle_of.u_q16 + p->cell_reach[0];
+    a.v_q16 = middle_of.v_q16 - p->cell_reach[1];
+    b.v_q16 = middle_of.v_q16 + p->cell_reach[1];
+    int32_t reach = gn_min32(p->cell_reach[2], INT32_MAX >> p->depth_up) * (1 << p->depth_up);
+    a.depth_q31 = gn_max32(middle_of.depth_q31, -(1 << 30)) - gn_min32(reach, 1 << 30);
+    b.depth_q31 = middle_of.depth_q31 > 0x7FFF8000 - reach ? 0x7FFF8000 : middle_of.depth_q31 + reach;
+    uint32_t attenuation;
+    if (!gn_filter_decides(p->frame, p->view, &a, &b, &attenuation)) return CELL_MIXED;
+    return attenuation ? CELL_LIT : CELL_DARK;
+}
+
+static void shadowed_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t x_end)
+{
+    int32_t cell_y = (y - p->y0) / GN_CELL;
+    while (x < x_end) {
+        uint32_t state = CELL_UNKNOWN;
+        int32_t end = x;
+        do { /* on through cells of one kind */
+            int32_t cell_x = (end - p->x0) / GN_CELL, shift = 2 * (cell_x + cell_y * (GN_PIECE_WIDTH / GN_CELL));
+            uint32_t here = p->cells >> shift & 3U;
+            if (here == CELL_UNKNOWN) {
+                here = judge_cell(p, p->x0 + cell_x * GN_CELL, p->y0 + cell_y * GN_CELL);
+                p->cells |= here << shift;
+            }
+            if (state == CELL_UNKNOWN) state = here;
+            if (here != state) break;
+            end = p->x0 + (cell_x + 1) * GN_CELL;
+        } while (end < x_end && (state != CELL_MIXED || end - x < p->chunk_px));
+        int32_t n = gn_min32(end, x_end) - x;
+        if (state == CELL_MIXED) {
+            n = gn_min32(n, p->chunk_px);
+            looked_up_row(p, rows, y, x, n);
+        } else plain_row(p, rows, y, x, n, state == CELL_LIT);
+        x += n;
+    }
+}
+#endif
+
+void gn_pieces_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x_begin, int32_t x_end)
+{
+#if GN_SHADOWS
+    if (p->looks_up) {
+        shadowed_row(p, rows, y, x_begin, x_end);
+        return;
+    }
+#endif
+    plain_row(p, rows, y, x_begin, x_end - x_begin, 0);
+}
+
+#endif

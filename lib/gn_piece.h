@@ -1,0 +1,29 @@
+/* A surface piece by piece: parts of the screen over which its colours are linear, closely enough. Within a piece a row of pixels
+ * is stepped by additions, and only a shadow's edge is looked up pixel by pixel. Not every surface can be shaded so; the rest, and
+ * everything where every pixel is to be exact, is sampled (gn_sample). */
+#ifndef GN_PIECE_H
+#define GN_PIECE_H
+
+#include "gn_pixel.h"
+#include "gn_setup.h"
+#include "gn_surface.h"
+
+#if GN_PIECES
+
+/* Pixels: the largest piece, and parts of it whose shadow is asked for once. */
+enum { GN_PIECE_WIDTH = 64, GN_PIECE_ROWS = 16, GN_CELL = 8 };
+
+/* Whether the surface may be shaded so. */
+int gn_pieces_fit(const gn_frame *frame, const gn_surface *surface);
+
+/* Makes it ready for pixels of `rect`. Returns 0 if it cannot be shaded so there. */
+int gn_pieces_begin(gn_pieces *pieces, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect);
+
+/* Makes a part of it the piece, if it is close enough to linear there. */
+int gn_pieces_select(gn_pieces *pieces, const gn_rect *rect);
+
+/* Shades pixels x_begin <= x < x_end of one row, all in the piece and of the surface. */
+void gn_pieces_row(gn_pieces *pieces, const gn_pixel_rows *rows, int32_t y, int32_t x_begin, int32_t x_end);
+
+#endif
+#endif
