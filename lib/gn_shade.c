@@ -83,8 +83,8 @@ static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     int32_t step_px = s->surface.specular ? 1 : GN_K(s->frame, persp_step); /* a highlight is narrower than its n . h */
     int32_t first = s->surface.first_value, end = s->surface.n_values;
-    gn_chord *chord = &s->chord;
-    gn_sample *here = &s->sample[0], *next = &s->sample[1];
+    gn_chord *chord = &s->by.run.chord;
+    gn_sample *here = &s->by.run.sample[0], *next = &s->by.run.sample[1];
     gn_sample_at(s->frame, &s->surface, x_begin, y, here);
     shade_pixel(s, here, x_begin, y);
     for (int32_t x = x_begin; x < x_end - 1;) {
@@ -112,7 +112,7 @@ static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 /* The pixel of a surface that looks the same all over. */
 static uint32_t constant_pixel(gn_shading *s)
 {
-    gn_sample *sample = &s->sample[0];
+    gn_sample *sample = &s->by.run.sample[0];
     uint32_t radiance_q20[3];
     sample->cascade = GN_CASCADE_NONE;
     for (uint32_t i = 0; i < s->surface.n_lights; i++)
@@ -177,7 +177,12 @@ static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first, const
                 width = part.x1 - part.x0;
                 is_piece = gn_pieces_select(pieces, &part);
             }
-            shade_part(s, is_piece ? pieces : NULL, first, &part);
+            if (is_piece) {
+                shade_part(s, pieces, first, &part);
+                continue;
+            }
+            shade_part(s, NULL, first, &part); /* which takes the pieces' place */
+            gn_pieces_begin(pieces, s->frame, &s->surface, all);
         }
     }
 }
@@ -198,7 +203,7 @@ static void shade_triangle(gn_shading *s, uint32_t tri_idx)
     if (constant) packed = constant_pixel(s);
 #if GN_PIECES
     else if (gn_pieces_fit(frame, &s->surface)) {
-        gn_pieces *pieces = &s->pieces;
+        gn_pieces *pieces = &s->by.pieces;
         gn_rect spanned = link_runs(s, &taker, first, n_px);
         if (!gn_pieces_begin(pieces, frame, &s->surface, &spanned)) shade_part(s, NULL, first, &spanned);
         else shade_pieces(s, pieces, first, &spanned);

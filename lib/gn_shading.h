@@ -167,11 +167,15 @@ typedef struct {
     const gn_tri *tri;
     uint32_t last_q20[3]; /* the last radiance and its pixel: neighbours are often equal */
     uint32_t last_pixel;
-    gn_sample sample[2]; /* the run's last exact one and the next */
-    gn_chord chord;
+    union {
+        struct {
+            gn_sample sample[2]; /* the run's last exact one and the next */
+            gn_chord chord;
+        } run;
 #if GN_PIECES
-    gn_pieces pieces;
+        gn_pieces pieces;
 #endif
+    } by; /* how the surface is shaded */
 } gn_shading;
 
 /* ---- Triangles that alpha cuts ------------------------------------------------------------------------------------- */

@@ -63,9 +63,9 @@ static void put_shading(layout *out, const settings *s)
     put(&all, 1, 128, 8); /* cache */
     put(&all, 1, surface.size, 8);
     put(&all, 5, 4, 4);                                                     /* tri to last_pixel */
-    put(&all, 2, 4 * values + 28 + (s->feature.specular ? 24 : 0), 4);      /* sample */
-    put(&all, 1, 8 * values + 8, 4);                                        /* chord */
-    if (s->quality.persp_step > 1) put(&all, 1, s->feature.shadows ? 284 : 168, 4); /* pieces */
+    long run = 2 * (4 * values + 28 + (s->feature.specular ? 24 : 0)) + 8 * values + 8, pieces = s->feature.shadows ? 284 : 168;
+    if (s->quality.persp_step == 1) pieces = 0;
+    put(&all, 1, run > pieces ? run : pieces, 4); /* by */
     pad(&all, all.align);
     put(out, 1, all.size, 8);
 }
