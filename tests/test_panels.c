@@ -391,7 +391,7 @@ static void test_mistakes(const specimen *s)
         CHECK_EQ_INT(display_finish(&r->display), PANEL_OK);
     }
     CHECK_EQ_INT(panel_stream(&r->panel, bytes, 2), PANEL_ERR_ORDER);     /* no window */
-    CHECK(r->bus.n_calls - calls < 2 * sizeof outside / sizeof *outside); /* the waiting of display_finish alone */
+    CHECK_EQ_INT(r->bus.n_calls - calls, 2 * (sizeof outside / sizeof *outside)); /* the waiting of display_finish alone */
     CHECK_EQ_INT(panel_window(&r->panel, 8, 8, 8, 8), PANEL_OK);
     size_t n = panel_window_bytes(&r->panel, 8, 8);
     CHECK_EQ_INT(panel_stream(&r->panel, bytes, n + 1), PANEL_ERR_LENGTH);

@@ -1,6 +1,6 @@
-# For apps that show the sundial on a display. SCREEN_SIZE, SCREEN_FORMAT and SCREEN_ZOOM (16ths) come from the board.
+# For apps that show the sundial on a display. SCREEN_SIZE, SCREEN_FORMAT, SCREEN_ZOOM (16ths) and SCREEN_SETTINGS come from the board.
 SCREEN_ZOOM ?= 16
 SCENE ?= host/scenes/sundial.gltf
-SCENE_FLAGS ?= --size $(SCREEN_SIZE)
+SCENE_FLAGS ?= --size $(SCREEN_SIZE) $(SCREEN_SETTINGS)
 APP_FLAGS := -DSCREEN_WIDTH=$(word 1,$(subst x, ,$(SCREEN_SIZE))) -DSCREEN_HEIGHT=$(word 2,$(subst x, ,$(SCREEN_SIZE))) \
   -DGN_FORMAT_SCREEN=GN_FORMAT_$(SCREEN_FORMAT) -DSCREEN_ZOOM=$(SCREEN_ZOOM)

@@ -122,7 +122,7 @@ void display_flush(void *user, int x, int y, int w, int h, const void *pixels)
 
 panel_status display_finish(display *d)
 {
-    panel_status status = d->status ? d->status : panel_wait(d->panel);
+    panel_status last = panel_wait(d->panel), status = d->status ? d->status : last;
     d->status = PANEL_OK;
     return status;
 }

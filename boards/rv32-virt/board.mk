@@ -8,3 +8,4 @@ BOARD_EMULATOR := qemu-system-riscv32 -M virt -bios none
 SCREEN_SIZE := 320x240
 SCREEN_FORMAT := RGB565
 SCREEN_DEVICE := -nic none -device VGA,romfile=
+SCREEN_SETTINGS := --set atlas_size=256

@@ -7,3 +7,4 @@ BOARD_COMMON := cortex_m no_console
 BOARD_EMULATOR :=
 SCREEN_SIZE := 320x240
 SCREEN_FORMAT := RGB565
+SCREEN_SETTINGS := --set atlas_size=256
