@@ -40,27 +40,32 @@ static gn_status show(uint32_t frame, uint32_t *n_sent)
     }
 }
 
-static gn_status run(uint32_t first, uint32_t last)
+static void report(uint32_t frame, uint32_t n_frames, uint32_t n_sent)
 {
-    uint32_t n_sent = 0, n_all = 0, n_frames = 0;
     char text[6];
-    gn_status status = GN_OK;
-    for (uint32_t frame = first; !status && frame <= last; frame++, n_frames++) {
-        status = show(frame, &n_sent);
-        n_all += n_sent;
-    }
-    day_text(last, text);
+    day_text(frame, text);
     board_print_u32(n_frames);
     board_print(" frames, ");
-    board_print_u32(n_all);
+    board_print_u32(n_sent);
     board_print(" of ");
     board_print_u32(n_frames * gn_screen_tile_count(&renderer));
     board_print(" tiles sent\n");
     board_print_memory();
-    board_print(status ? gn_status_text(status) : board_canary_ok() ? "READY " : "canary: the stack ran over ");
+    board_print(board_canary_ok() ? "READY " : "canary: the stack ran over ");
     board_print(text);
     board_print("\n");
-    return status;
+}
+
+static gn_status run(uint32_t first, uint32_t last)
+{
+    uint32_t n_sent = 0, n_all = 0;
+    for (uint32_t frame = first; frame <= last; frame++) {
+        gn_status status = show(frame, &n_sent);
+        if (status) return status;
+        n_all += n_sent;
+    }
+    report(last, last - first + 1, n_all);
+    return GN_OK;
 }
 
 int app_main(void)
@@ -75,6 +80,8 @@ int app_main(void)
     gn_status status = gn_init(&renderer, &picture);
     if (!status) status = run(runs_on ? 0 : (uint32_t)first, runs_on || last < first ? SCENE_FRAMES - 1 : (uint32_t)last);
     while (runs_on && !status) status = run(0, SCENE_FRAMES - 1);
-    if (status) return 1;
-    for (;;) continue; /* the display keeps the picture */
+    while (!status) continue; /* the display keeps the picture */
+    board_print(gn_status_text(status));
+    board_print("\n");
+    return 1;
 }

@@ -8,4 +8,4 @@ BOARD_EMULATOR := qemu-system-arm -M lm3s6965evb
 SCREEN_SIZE := 128x64
 SCREEN_FORMAT := GREY4
 SCREEN_ZOOM := 26
-SCREEN_SETTINGS := --set tile_height=8
+SCREEN_SETTINGS := --set tile_height=8 --set max_tile_refs=1000
