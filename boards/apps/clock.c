@@ -80,7 +80,8 @@ int app_main(void)
     gn_status status = gn_init(&renderer, &picture);
     if (!status) status = run(runs_on ? 0 : (uint32_t)first, runs_on || last < first ? SCENE_FRAMES - 1 : (uint32_t)last);
     while (runs_on && !status) status = run(0, SCENE_FRAMES - 1);
-    while (!status) continue; /* the display keeps the picture */
+    if (!status)
+        for (;;) continue; /* the display keeps the picture */
     board_print(gn_status_text(status));
     board_print("\n");
     return 1;
