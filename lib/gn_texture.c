@@ -37,17 +37,18 @@ typedef struct {
     int bilinear;
 } footprint;
 
-static void find_texels(footprint *out, const gn_texture *texture, int32_t u_q16, int32_t v_q16)
+/* 2^bytes_log2 bytes per texel. */
+static void find_texels(footprint *out, const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t bytes_log2)
 {
     out->bilinear = (texture->flags & GN_TEXTURE_BILINEAR) != 0;
     axis_taps u = find_taps(u_q16, texture->width_log2, texture->flags & GN_TEXTURE_CLAMP_U, out->bilinear);
     axis_taps v = find_taps(v_q16, texture->height_log2, texture->flags & GN_TEXTURE_CLAMP_V, out->bilinear);
-    const uint8_t *upper = texture->rgba + 4 * ((size_t)v.first << texture->width_log2);
-    const uint8_t *lower = texture->rgba + 4 * ((size_t)v.second << texture->width_log2);
-    out->texel[0] = upper + 4 * u.first;
-    out->texel[1] = upper + 4 * u.second;
-    out->texel[2] = lower + 4 * u.first;
-    out->texel[3] = lower + 4 * u.second;
+    const uint8_t *upper = texture->rgba + ((size_t)v.first << texture->width_log2 << bytes_log2);
+    const uint8_t *lower = texture->rgba + ((size_t)v.second << texture->width_log2 << bytes_log2);
+    out->texel[0] = upper + (u.first << bytes_log2);
+    out->texel[1] = upper + (u.second << bytes_log2);
+    out->texel[2] = lower + (u.first << bytes_log2);
+    out->texel[3] = lower + (u.second << bytes_log2);
     out->right_uq16 = u.weight_uq16;
     out->down_uq16 = v.weight_uq16;
 }
@@ -69,22 +70,28 @@ static uint32_t to_uq16(uint32_t v)
     return v + (v >> 15);
 }
 
-uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t channel)
+static uint32_t channel_at(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t bytes_log2, uint32_t channel)
 {
     footprint f;
     uint32_t value[4];
-    find_texels(&f, texture, u_q16, v_q16);
+    find_texels(&f, texture, u_q16, v_q16, bytes_log2);
     if (!f.bilinear) return to_uq16(f.texel[0][channel] * 257U);
     for (int i = 0; i < 4; i++) value[i] = f.texel[i][channel] * 257U;
     return to_uq16(blend(&f, value));
+}
+
+uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t channel)
+{
+    return channel_at(texture, u_q16, v_q16, 2, channel);
 }
 
 #if GN_MASKS
 uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel)
 {
     const uint8_t flags = GN_TEXTURE_CLAMP_U | GN_TEXTURE_CLAMP_V | GN_TEXTURE_BILINEAR;
+    const uint32_t bytes_log2 = image->flags & GN_TEXTURE_MASK_1 ? 0 : image->flags & GN_TEXTURE_MASK_2 ? 1 : 2;
     gn_texture texture = {image->rgba, image->width_log2, image->height_log2, flags};
-    return gn_texture_channel(&texture, u_q16, v_q16, channel);
+    return channel >> bytes_log2 ? 65536 : channel_at(&texture, u_q16, v_q16, bytes_log2, channel);
 }
 #endif
 
@@ -111,7 +118,7 @@ void gn_texture_colour(const gn_texture *texture, int32_t u_q16, int32_t v_q16, 
 {
     footprint f;
     uint32_t value[4];
-    find_texels(&f, texture, u_q16, v_q16);
+    find_texels(&f, texture, u_q16, v_q16, 2);
     for (int c = 0; c < 3; c++) {
         if (f.bilinear) {
             for (int i = 0; i < 4; i++) value[i] = gn_srgb_decode_table[f.texel[i][c]];

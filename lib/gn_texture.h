@@ -12,7 +12,7 @@ uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q16, int32_t v_
 #endif
 
 #if GN_MASKS
-/* The same of a mask image: bilinear and clamped, whatever its flags say. */
+/* The same of a mask image: bilinear and clamped, whatever its flags say, and lit in a channel that it has not. */
 uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel);
 #endif
 

@@ -130,7 +130,9 @@ typedef struct {
 enum {                         /* gn_texture.flags */
        GN_TEXTURE_CLAMP_U = 1, /* else it repeats */
        GN_TEXTURE_CLAMP_V = 2,
-       GN_TEXTURE_BILINEAR = 4 /* else nearest */
+       GN_TEXTURE_BILINEAR = 4, /* else nearest */
+       GN_TEXTURE_MASK_1 = 8,   /* mask images only: one byte per texel, channel 0; the others are lit */
+       GN_TEXTURE_MASK_2 = 16   /* two */
 };
 
 typedef struct {

@@ -778,6 +778,28 @@ static void test_mask_image(void)
     printf("mask image: share of the bound %.2f\n", largest);
 }
 
+/* Images of one and two bytes per texel are as those of four; the channels that they lack are lit. */
+static void test_narrow_mask_image(void)
+{
+    enum { SIZE = 8 };
+    static uint8_t rgba[SIZE * SIZE * 4], one[SIZE * SIZE], two[SIZE * SIZE * 2];
+    const gn_texture image = {.rgba = rgba, .width_log2 = 3, .height_log2 = 3};
+    const gn_texture narrow[2] = {{.rgba = one, .width_log2 = 3, .height_log2 = 3, .flags = GN_TEXTURE_MASK_1},
+                                  {.rgba = two, .width_log2 = 3, .height_log2 = 3, .flags = GN_TEXTURE_MASK_2}};
+    rng r = {4};
+    for (size_t i = 0; i < sizeof rgba; i++) rgba[i] = (uint8_t)rng_u32(&r);
+    for (size_t i = 0; i < SIZE * SIZE; i++) {
+        one[i] = rgba[4 * i];
+        memcpy(two + 2 * i, rgba + 4 * i, 2);
+    }
+    for (int i = 0; i < 4000; i++) {
+        const int32_t u = rng_range(&r, -9000, 75000), v = rng_range(&r, -9000, 75000);
+        const uint32_t channel = rng_below(&r, 4), full = gn_texture_mask(&image, u, v, channel);
+        CHECK_EQ_INT(gn_texture_mask(&narrow[0], u, v, channel), channel < 1 ? full : 65536);
+        CHECK_EQ_INT(gn_texture_mask(&narrow[1], u, v, channel), channel < 2 ? full : 65536);
+    }
+}
+
 static void masked_ground(const uint8_t *mask, int newton_steps, uint32_t *raw)
 {
     static const int32_t eye[3] = {GN_Q16(0.3), GN_Q16(5), GN_Q16(2)}, target[3] = {0, 0, 0};
@@ -865,6 +887,7 @@ int main(void)
     test_receivers();
     test_stored();
     test_mask_image();
+    test_narrow_mask_image();
     test_mask_corners();
     test_mask_full();
     test_kept_fields();

@@ -208,11 +208,12 @@ static void change_lights(baker *b)
 static bool change_scene(baker *b)
 {
     const size_t side = (size_t)b->options->side;
-    if (side) b->result->mask_bytes = 4 * side * side;
+    change_lights(b);
+    const size_t channels = (size_t)b->result->n_channels, texel_bytes = channels > 2 ? 4 : channels > 1 ? 2 : 1;
+    if (side) b->result->mask_bytes = texel_bytes * side * side;
     if (side && !add_image(b)) return false;
     for (size_t i = 0; i < b->s->n_objects; i++)
         if (!change_object(b, i)) return false;
-    change_lights(b);
     b->s->shadow.mixing = SCENE_MIX_ALWAYS;
     return true;
 }

@@ -256,11 +256,14 @@ static void drop_textures(compiled *c)
             if (o->texture == texture) o->texture = to;
             if (o->mask_image == texture) o->mask_image = to;
         }
-        if (!used) continue;
+        if (!used) {
+            quantise_free_texture(&c->fixed.textures[i]);
+            continue;
+        }
         c->texture_name[n] = c->texture_name[i];
         c->fixed.textures[n++] = *texture;
     }
-    c->n_textures = n;
+    c->n_textures = c->fixed.n_textures = n;
 }
 
 /* Attributes that no object's material looks at. */

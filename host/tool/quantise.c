@@ -260,6 +260,38 @@ static int quantise_texture(gn_texture *out, const scene_texture *t, char *error
     return 0;
 }
 
+size_t quantise_texel_bytes(const gn_texture *t)
+{
+    return t->flags & GN_TEXTURE_MASK_1 ? 1 : t->flags & GN_TEXTURE_MASK_2 ? 2 : 4;
+}
+
+/* Whether the texture is a mask image and nothing else. */
+static bool is_mask_image(const scene *s, size_t texture)
+{
+    bool mask = false;
+    for (size_t i = 0; i < s->n_objects; i++) {
+        if (s->objects[i].texture_idx == texture) return false;
+        mask = mask || s->objects[i].mask_texture_idx == texture;
+    }
+    return mask;
+}
+
+/* Drops the channels of a mask image behind the last that a light uses. 0, or -1: out of memory. */
+static int pack_mask_image(gn_texture *out, const scene *s, size_t texture)
+{
+    int n_channels = 0;
+    for (size_t l = 0; l < s->n_lights; l++)
+        if (s->lights[l].mode == SCENE_MIXED && s->lights[l].mask_channel >= n_channels) n_channels = s->lights[l].mask_channel + 1;
+    if (n_channels > 2 || !is_mask_image(s, texture)) return 0;
+    const size_t bytes = n_channels > 1 ? 2 : 1, n = (size_t)1 << (out->width_log2 + out->height_log2);
+    uint8_t *packed = malloc(bytes * n);
+    if (!packed) return -1;
+    for (size_t i = 0; i < bytes * n; i++) packed[i] = out->rgba[4 * (i / bytes) + i % bytes];
+    out->rgba = packed;
+    out->flags = (uint8_t)(out->flags | (bytes == 1 ? GN_TEXTURE_MASK_1 : GN_TEXTURE_MASK_2));
+    return 0;
+}
+
 /* ---- Objects ---------------------------------------------------------------------------------------------------------- */
 
 /* What the library asks of a transform, at the largest scale that fits: objects too small for their scene are another matter. */
@@ -434,6 +466,7 @@ static int allocate(fixed_scene *f, const scene *s)
     f->lights = calloc(s->n_lights + 1, sizeof *f->lights);
     f->textures = calloc(s->n_textures + 1, sizeof *f->textures);
     f->n_meshes = s->n_meshes;
+    f->n_textures = s->n_textures;
     f->scene.objects = f->objects;
     f->scene.lights = f->lights;
     f->scene.n_objects = (uint32_t)s->n_objects;
@@ -449,8 +482,10 @@ int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_b
     int failed = allocate(out, s) || !plan;
     if (failed) no_memory(error, error_bytes);
     else failed = quantise_unit(&out->scene, s, out->world_exp, error, error_bytes);
-    for (size_t i = 0; !failed && i < s->n_textures; i++)
+    for (size_t i = 0; !failed && i < s->n_textures; i++) {
         failed = quantise_texture(&out->textures[i], &s->textures[i], error, error_bytes);
+        if (!failed && pack_mask_image(&out->textures[i], s, i)) failed = no_memory(error, error_bytes);
+    }
     for (size_t i = 0; !failed && i < s->n_meshes; i++)
         failed = quantise_mesh(&out->meshes[i], &s->meshes[i], &plan[i], error, error_bytes);
     for (size_t i = 0; !failed && i < s->n_objects; i++) failed = quantise_object(out, i, s, plan, error, error_bytes);
@@ -468,6 +503,13 @@ static void release(const void *array)
     free((void *)(uintptr_t)array);
 }
 
+/* Texels that are not the scene's. */
+void quantise_free_texture(gn_texture *t)
+{
+    if (quantise_texel_bytes(t) < 4) release(t->rgba);
+    t->rgba = NULL;
+}
+
 void quantise_free(fixed_scene *f)
 {
     for (size_t i = 0; f->meshes && i < f->n_meshes; i++) {
@@ -479,6 +521,7 @@ void quantise_free(fixed_scene *f)
         release(f->meshes[i].idx);
     }
     for (size_t i = 0; f->objects && i < f->scene.n_objects; i++) release(f->objects[i].baked_uq12);
+    for (size_t i = 0; f->textures && i < f->n_textures; i++) quantise_free_texture(&f->textures[i]);
     free(f->meshes);
     free(f->objects);
     free(f->lights);

@@ -5,7 +5,8 @@
 #include "../../lib/gnomon.h"
 #include "../scene/scene.h"
 
-/* Texels and masks stay the scene's: it must live as long. */
+/* Texels and masks stay the scene's: it must live as long. But of a mask image whose last channels no light uses, only what is used
+ * is kept. */
 typedef struct {
     gn_scene scene;
     int world_exp; /* library units = world units * 2^world_exp */
@@ -13,8 +14,13 @@ typedef struct {
     gn_mesh *meshes;
     gn_object *objects;
     gn_light *lights;
+    size_t n_textures;
     gn_texture *textures;
 } fixed_scene;
+
+/* Bytes per texel: 4, or of a mask image 1 or 2. */
+size_t quantise_texel_bytes(const gn_texture *t);
+void quantise_free_texture(gn_texture *t);
 
 /* Chooses the power of two that puts the scene into the upper range of Q15.16 and converts everything with rounding to
  * nearest. 0, or -1 with one line in error that names what does not fit. */
