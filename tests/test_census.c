@@ -426,11 +426,11 @@ static int write_curves(const char *folder)
             *p = (plot_curves){.title = titles[m][kind],
                                .x_high = 90,
                                .x_step = 15,
-                               .x_format = "%.0f°",
+                               .x_unit = "°",
                                .x = wall_degrees,
                                .y_high = m < 2 ? 100 : 10,
                                .y_step = m < 2 ? 25 : 2,
-                               .y_format = m < 2 ? "%.0f %%" : "%.0f",
+                               .y_unit = m < 2 ? " %" : "",
                                .n = (size_t)N_DEGREES};
             for (size_t i = 0; i < N_SHOWN; i++) {
                 for (int a = 0; a < N_DEGREES; a++) {
@@ -453,17 +453,14 @@ static int write_plots(const char *folder)
     const plot_heat acne = {.title = "Wrongly shadowed points of a plane",
                             .value = acne_at,
                             .high = 1,
-                            .format = "%.2f",
                             .key = "rows of a filter: 8, 16, 32 bits; share of the points, no colour: none at all"},
                     lit = {.title = "Wrongly lit points behind a wall",
                            .value = lit_at,
                            .high = 1,
-                           .format = "%.2f",
                            .key = "rows of a filter: 8, 16, 32 bits; share of its shadow"},
                     gap = {.title = "Detachment: the gap at the foot of a wall",
                            .value = gap_at,
                            .high = 10,
-                           .format = "%.1f",
                            .key = "rows of a filter: 8, 16, 32 bits; texels, half of the filter's blur among them"};
     return write_heat(folder, "census-acne.svg", acne) || write_heat(folder, "census-lit.svg", lit) ||
            write_heat(folder, "census-gap.svg", gap) || write_curves(folder);

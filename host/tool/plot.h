@@ -30,9 +30,9 @@ enum { PLOT_CURVES_MAX = 4 };
 
 typedef struct {
     const char *title;
-    double x_high, y_high;           /* both axes begin at 0; what is above y_high is drawn there */
-    double x_step, y_step;           /* of the ticks */
-    const char *x_format, *y_format; /* of their numbers, for printf */
+    double x_high, y_high;       /* both axes begin at 0; what is above y_high is drawn there */
+    double x_step, y_step;       /* of the ticks */
+    const char *x_unit, *y_unit; /* behind their numbers */
     const double *x;
     const double *y[PLOT_CURVES_MAX]; /* n each; NaN: a gap */
     size_t n;
@@ -50,8 +50,8 @@ typedef struct {
     const char *const *bands, *const *maps;   /* named above each band of tables, and above the tables of the first */
     const char *const *columns, *const *rows; /* NULL among them: no label */
     size_t n_bands, n_maps, n_columns, n_rows;
-    double high;              /* the darkest; 0 has no colour at all, so that the least value above it is seen */
-    const char *key, *format; /* what the colours say, and how a value is printed */
+    double high;     /* the darkest; 0 has no colour at all, so that the least value above it is seen */
+    const char *key; /* what the colours say */
     double (*value)(void *user, size_t band, size_t map, size_t column, size_t row); /* NaN: unknown */
     void *user;
 } plot_heat;

@@ -23,14 +23,10 @@ static double at_y(const frame *c, double v)
     return c->bottom - (c->bottom - c->top) * fmin(1, v / c->p->y_high);
 }
 
-/* The format is the caller's own, and takes one double. */
-#if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wformat-nonliteral"
-#endif
 static void draw_tick(const frame *c, bool of_x, double v)
 {
     char text[32];
-    snprintf(text, sizeof text, of_x ? c->p->x_format : c->p->y_format, v);
+    snprintf(text, sizeof text, "%g%s", v, of_x ? c->p->x_unit : c->p->y_unit);
     if (of_x) {
         fprintf(c->file, "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/>", at_x(c, v), c->bottom, c->top);
         svg_label(c->file, NULL, at_x(c, v), c->bottom + 15, "middle", text);

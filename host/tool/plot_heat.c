@@ -87,10 +87,6 @@ static void draw_columns(const sheet *s, double y)
         }
 }
 
-/* The format is the caller's own, and takes one double. */
-#if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wformat-nonliteral"
-#endif
 static void draw_key(const sheet *s, double y)
 {
     const plot_heat *h = s->h;
@@ -102,7 +98,7 @@ static void draw_key(const sheet *s, double y)
         x = SVG_WIDTH - SVG_RIGHT - 62.0 * (KEY_STEPS + 1 - i);
         fprintf(s->file, "<path class=\"heat\" opacity=\"%.2f\" d=\"M%.1f %.1fh14v12h-14z\"/>", opacity(level_of(h, v)), x, y);
         fprintf(s->file, "<path class=\"frame\" d=\"M%.1f %.1fh14v12h-14z\"/>", x, y);
-        snprintf(text, sizeof text, h->format, v);
+        snprintf(text, sizeof text, "%.2g", v);
         svg_label(s->file, NULL, x + 18, y + 10, "start", text);
     }
 }
