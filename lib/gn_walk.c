@@ -60,31 +60,41 @@ static inline int32_t exact_step(gn_edge *edge)
 /* 18 fraction bits leave 14 for pixels. Start and step err by less than one unit each, upwards or downwards: after n rows x is
  * within n of M / dy. What it must not be is below a multiple of 1 / dy that M / dy has reached, or at one that it has not: so it
  * starts n higher, and 2 n * dy <= 2^18. */
-#define GN_FIXED_BITS   18
-#define GN_FIXED_EXTENT ((1 << (GN_FIXED_BITS - 1)) / GN_WALK_ROWS) /* dx, dy below this: dx * 2^18 fits, too */
+#define GN_FIXED_BITS  18
+#define GN_FIXED_SMALL (1 << 13) /* dx, dy of edges that are walked 16 rows at a time; twice that: 8 rows */
 
-static inline int is_small(const int32_t x[3], int32_t height)
+/* How many rows fixed point lasts for a triangle with these corners: 16, 8 or none. */
+static inline int32_t fixed_for(const int32_t x[3], int32_t height, int32_t subpixel_bits)
 {
-    uint32_t far = (uint32_t)(x[1] - x[0] + GN_FIXED_EXTENT) | (uint32_t)(x[2] - x[0] + GN_FIXED_EXTENT) |
-                   (uint32_t)(x[2] - x[1] + GN_FIXED_EXTENT);
-    return height < GN_FIXED_EXTENT && far < 2 * GN_FIXED_EXTENT;
+    uint32_t far = (uint32_t)((x[0] ^ x[0] >> 31) | (x[1] ^ x[1] >> 31) | (x[2] ^ x[2] >> 31)) >> (12 + subpixel_bits);
+    uint32_t extent = (uint32_t)height;
+    int32_t a = x[1] - x[0], b = x[2] - x[0], c = x[2] - x[1];
+    extent |= (uint32_t)((a ^ a >> 31) | (b ^ b >> 31) | (c ^ c >> 31));
+    return far || extent >= 2 * GN_FIXED_SMALL ? 0 : extent >= GN_FIXED_SMALL ? GN_WALK_ROWS / 2 : GN_WALK_ROWS;
+}
+
+/* a * 2^18 / b modulo 2^32, within one unit; 0 < b < 2^14 */
+static inline uint32_t fixed_ratio(int32_t a, int32_t b)
+{
+    const int32_t unit = 1 << GN_FIXED_BITS, most = 1 << (31 - GN_FIXED_BITS);
+    if (a < most && a >= -most) return (uint32_t)(a * unit / b);
+    int32_t q = a / b, r = a - q * b;
+    if (r < 0) {
+        r += b;
+        q--;
+    }
+    return ((uint32_t)q << GN_FIXED_BITS) + ((uint32_t)r << GN_FIXED_BITS) / (uint32_t)b;
 }
 
 /* Where the edge from (x0, y0) down to (x1, y1) crosses rows y <= .. < y_end, into every other int32_t from `at` on. */
-static int32_t *fixed_rows(int32_t *at, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t subpixel_bits, int32_t y,
-                           int32_t y_end)
+static int32_t *fixed_rows(int32_t *at, int32_t n_rows, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t subpixel_bits,
+                           int32_t y, int32_t y_end)
 {
     int32_t one = 1 << subpixel_bits, half = one >> 1, dx = x1 - x0, dy = y1 - y0, from = x0 - half;
     int32_t row = y * one + half - y0;                                           /* 0 .. dy */
-    int32_t m = ((from & (one - 1)) * dy + row * dx + one - 1) >> subpixel_bits; /* from the upper end's pixel; 2^25 + 2^26 */
-    int32_t n = m + dy - 1, whole = from >> subpixel_bits;
-    const int32_t unit = 1 << GN_FIXED_BITS, most = 1 << (30 - GN_FIXED_BITS);
-    if (n >= most || n < -most) { /* more than one division of 32 bits gives */
-        int32_t q = n / dy;
-        whole += q;
-        n -= q * dy;
-    }
-    uint32_t x = ((uint32_t)whole << GN_FIXED_BITS) + (uint32_t)(n * unit / dy) + GN_WALK_ROWS, step = (uint32_t)(dx * unit / dy);
+    int32_t m = ((from & (one - 1)) * dy + row * dx + one - 1) >> subpixel_bits; /* from the upper end's pixel; 2^26 + 2^28 */
+    uint32_t x = ((uint32_t)(from >> subpixel_bits) << GN_FIXED_BITS) + fixed_ratio(m + dy - 1, dy), step = fixed_ratio(dx, dy);
+    x += (uint32_t)n_rows;
     for (; y < y_end; y++, at += 2, x += step) *at = (int32_t)x >> GN_FIXED_BITS;
     return at;
 }
@@ -95,9 +105,9 @@ static inline void fixed_border(gn_walk *walk, int side, int32_t end)
     const int32_t *x = walk->x, *y = walk->y;
     int32_t row = walk->row, bend = gn_min32(walk->row_end[1 + side], end), bits = walk->subpixel_bits;
     int32_t *at = side ? &walk->span[0].x_end : &walk->span[0].x_begin;
-    if (row < bend) at = fixed_rows(at, x[0], y[0], x[1 + side], y[1 + side], bits, row, bend);
+    if (row < bend) at = fixed_rows(at, walk->fixed, x[0], y[0], x[1 + side], y[1 + side], bits, row, bend);
     else bend = row;
-    if (bend < end) fixed_rows(at, x[1 + side], y[1 + side], x[2 - side], y[2 - side], bits, bend, end);
+    if (bend < end) fixed_rows(at, walk->fixed, x[1 + side], y[1 + side], x[2 - side], y[2 - side], bits, bend, end);
 }
 
 /* ---- Walking ------------------------------------------------------------------------------------------------------- */
@@ -123,7 +133,7 @@ static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
 
 int32_t gn_walk_on(gn_walk *walk)
 {
-    int32_t end = gn_min32(walk->row_end[0], walk->row + GN_WALK_ROWS), n = end - walk->row;
+    int32_t end = gn_min32(walk->row_end[0], walk->row + (walk->fixed ? walk->fixed : GN_WALK_ROWS)), n = end - walk->row;
     if (n <= 0) return 0;
     walk->first = walk->row;
     if (walk->fixed) {
@@ -155,7 +165,7 @@ int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int
     walk->row_end[0] = gn_min32(gn_max32(walk->row_end[1], walk->row_end[2]), y_hi);
     if (walk->row >= walk->row_end[0]) return 0;
     walk->subpixel_bits = subpixel_bits;
-    walk->fixed = is_small(walk->x, gn_max32(walk->y[1], walk->y[2]) - walk->y[0]);
+    walk->fixed = fixed_for(walk->x, gn_max32(walk->y[1], walk->y[2]) - walk->y[0], subpixel_bits);
     for (int side = 0; !walk->fixed && side < 2; side++) {
         if (walk->row < walk->row_end[1 + side]) edge_begin(walk, side, 0, 1 + side);
         else if (walk->row > walk->row_end[1 + side]) edge_begin(walk, side, 1 + side, 2 - side);

@@ -29,7 +29,7 @@ typedef struct {
     int32_t row;        /* the next to be walked */
     int32_t row_end[3]; /* first row after the triangle, after the edge from the top to the left, to the right */
     int32_t subpixel_bits;
-    int32_t fixed;         /* 1: small enough for fixed point */
+    int32_t fixed;         /* rows that fixed point lasts, 0: the triangle is too large for it */
     gn_edge edge[2];       /* of others: left, right */
     int32_t first, n_left; /* for gn_walk_row: row of span[0], spans not taken yet */
     gn_span span[GN_WALK_ROWS];
