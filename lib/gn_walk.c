@@ -86,28 +86,37 @@ static inline uint32_t fixed_ratio(int32_t a, int32_t b)
     return ((uint32_t)q << GN_FIXED_BITS) + ((uint32_t)r << GN_FIXED_BITS) / (uint32_t)b;
 }
 
-/* Where the edge from (x0, y0) down to (x1, y1) crosses rows y <= .. < y_end, into every other int32_t from `at` on. */
-static int32_t *fixed_rows(int32_t *at, int32_t n_rows, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t subpixel_bits,
-                           int32_t y, int32_t y_end)
+/* Where an edge down crosses rows y <= .. < y_end, not empty, into every other int32_t from `at` on. */
+static GN_NOINLINE void fixed_rows(const gn_walk *walk, int32_t *at, const gn_walk_corner *from, const gn_walk_corner *to,
+                                   int32_t y, int32_t y_end)
 {
-    int32_t one = 1 << subpixel_bits, half = one >> 1, dx = x1 - x0, dy = y1 - y0, from = x0 - half;
-    int32_t row = y * one + half - y0;                                           /* 0 .. dy */
-    int32_t m = ((from & (one - 1)) * dy + row * dx + one - 1) >> subpixel_bits; /* from the upper end's pixel; 2^26 + 2^28 */
-    uint32_t x = ((uint32_t)(from >> subpixel_bits) << GN_FIXED_BITS) + fixed_ratio(m + dy - 1, dy), step = fixed_ratio(dx, dy);
-    x += (uint32_t)n_rows;
-    for (; y < y_end; y++, at += 2, x += step) *at = (int32_t)x >> GN_FIXED_BITS;
-    return at;
+    int32_t bits = walk->subpixel_bits, one = 1 << bits, half = one >> 1, dx = to->x - from->x, dy = to->y - from->y,
+            x0 = from->x - half;
+    int32_t row = y * one + half - from->y;                           /* 0 .. dy */
+    int32_t m = ((x0 & (one - 1)) * dy + row * dx + one - 1) >> bits; /* from the upper end's pixel; 2^26 + 2^28 */
+    uint32_t x = ((uint32_t)(x0 >> bits) << GN_FIXED_BITS) + fixed_ratio(m + dy - 1, dy) + (uint32_t)walk->fixed;
+    uint32_t step = fixed_ratio(dx, dy);
+    int32_t *end = at + 2 * (y_end - y);
+    do {
+        *at = (int32_t)x >> GN_FIXED_BITS;
+        at += 2;
+        x += step;
+        GN_KEEP(at);
+    } while (at != end);
 }
 
 /* One border of rows up to `end`: 0 left, 1 right. */
 static inline void fixed_border(gn_walk *walk, int side, int32_t end)
 {
-    const int32_t *x = walk->x, *y = walk->y;
-    int32_t row = walk->row, bend = gn_min32(walk->row_end[1 + side], end), bits = walk->subpixel_bits;
+    const gn_walk_corner *p = walk->corner;
+    int32_t row = walk->row, bend = gn_min32(walk->row_end[1 + side], end);
     int32_t *at = side ? &walk->span[0].x_end : &walk->span[0].x_begin;
-    if (row < bend) at = fixed_rows(at, walk->fixed, x[0], y[0], x[1 + side], y[1 + side], bits, row, bend);
-    else bend = row;
-    if (bend < end) fixed_rows(at, walk->fixed, x[1 + side], y[1 + side], x[2 - side], y[2 - side], bits, bend, end);
+    if (row < bend) {
+        fixed_rows(walk, at, &p[0], &p[1 + side], row, bend);
+        at += 2 * (bend - row);
+        row = bend;
+    }
+    if (row < end) fixed_rows(walk, at, &p[1 + side], &p[2 - side], row, end);
 }
 
 /* ---- Walking ------------------------------------------------------------------------------------------------------- */
@@ -115,8 +124,8 @@ static inline void fixed_border(gn_walk *walk, int side, int32_t end)
 /* Begins an edge at the current row: corners are 0 top, 1 left, 2 right. */
 static void edge_begin(gn_walk *walk, int side, int from, int to)
 {
-    const int32_t *x = walk->x, *y = walk->y;
-    exact_begin(&walk->edge[side], x[from], y[from], x[to], y[to], walk->subpixel_bits, walk->row);
+    const gn_walk_corner *a = &walk->corner[from], *b = &walk->corner[to];
+    exact_begin(&walk->edge[side], a->x, a->y, b->x, b->y, walk->subpixel_bits, walk->row);
 }
 
 /* Rows up to `end`. */
@@ -131,10 +140,9 @@ static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
     }
 }
 
-int32_t gn_walk_on(gn_walk *walk)
+int32_t gn_walk_next(gn_walk *walk)
 {
     int32_t end = gn_min32(walk->row_end[0], walk->row + (walk->fixed ? walk->fixed : GN_WALK_ROWS)), n = end - walk->row;
-    if (n <= 0) return 0;
     walk->first = walk->row;
     if (walk->fixed) {
         fixed_border(walk, 0, end);
@@ -157,18 +165,18 @@ int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int
         left = right;
         right = 3 - top - left;
     }
-    walk->x[0] = x[top], walk->x[1] = x[left], walk->x[2] = x[right];
-    walk->y[0] = y[top], walk->y[1] = y[left], walk->y[2] = y[right];
-    walk->row = gn_max32(gn_first_px(walk->y[0], subpixel_bits), y_lo);
-    walk->row_end[1] = gn_first_px(walk->y[1], subpixel_bits);
-    walk->row_end[2] = gn_first_px(walk->y[2], subpixel_bits);
+    const gn_walk_corner a = {x[top], y[top]}, b = {x[left], y[left]}, c = {x[right], y[right]};
+    walk->corner[0] = a, walk->corner[1] = b, walk->corner[2] = c;
+    walk->row = gn_max32(gn_first_px(a.y, subpixel_bits), y_lo);
+    walk->row_end[1] = gn_first_px(b.y, subpixel_bits);
+    walk->row_end[2] = gn_first_px(c.y, subpixel_bits);
     walk->row_end[0] = gn_min32(gn_max32(walk->row_end[1], walk->row_end[2]), y_hi);
     if (walk->row >= walk->row_end[0]) return 0;
     walk->subpixel_bits = subpixel_bits;
-    walk->fixed = fixed_for(walk->x, gn_max32(walk->y[1], walk->y[2]) - walk->y[0], subpixel_bits);
+    walk->fixed = fixed_for(x, gn_max32(b.y, c.y) - a.y, subpixel_bits);
     for (int side = 0; !walk->fixed && side < 2; side++) {
         if (walk->row < walk->row_end[1 + side]) edge_begin(walk, side, 0, 1 + side);
         else if (walk->row > walk->row_end[1 + side]) edge_begin(walk, side, 1 + side, 2 - side);
     }
-    return gn_walk_on(walk);
+    return gn_walk_next(walk);
 }

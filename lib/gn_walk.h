@@ -22,12 +22,16 @@ typedef struct {
     int32_t x_begin, x_end;
 } gn_span;
 
+typedef struct {
+    int32_t x, y;
+} gn_walk_corner;
+
 #define GN_WALK_ROWS 16 /* that are walked at a time */
 
 typedef struct {
-    int32_t x[3], y[3]; /* top, left and right of it */
-    int32_t row;        /* the next to be walked */
-    int32_t row_end[3]; /* first row after the triangle, after the edge from the top to the left, to the right */
+    gn_walk_corner corner[3]; /* top, left and right of it */
+    int32_t row;              /* the next to be walked */
+    int32_t row_end[3];       /* first row after the triangle, after the edge from the top to the left, to the right */
     int32_t subpixel_bits;
     int32_t fixed;         /* rows that fixed point lasts, 0: the triangle is too large for it */
     gn_edge edge[2];       /* of others: left, right */
@@ -45,8 +49,14 @@ static inline int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
  * among them. Returns n, 0 if there are none. */
 int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo, int32_t y_hi);
 
-/* Walks the next rows; the same. */
-int32_t gn_walk_on(gn_walk *walk);
+/* Walks the next rows, of which there are some. */
+int32_t gn_walk_next(gn_walk *walk);
+
+/* Walks the next rows; the same as gn_walk_begin. */
+static inline int32_t gn_walk_on(gn_walk *walk)
+{
+    return walk->row < walk->row_end[0] ? gn_walk_next(walk) : 0;
+}
 
 /* One row at a time, after gn_walk_begin: the span x_begin <= x < x_end (possibly empty) of row *y. Returns 0 after the last row. */
 static inline int gn_walk_row(gn_walk *walk, int32_t *y, int32_t *x_begin, int32_t *x_end)
