@@ -20,7 +20,9 @@ void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v1[3], c
         wide |= ((uint32_t)e1[i] ^ (uint32_t)e1[i] << 1) | ((uint32_t)e2[i] ^ (uint32_t)e2[i] << 1);
     }
     if (wide >> 31) exp = shorten(e1) + shorten(e2); /* 2^30 or more */
-    gn_cross64(n, e1, e2);                           /* exact: 2 * 2^30 * 2^30 */
+    n[0] = (int64_t)e1[1] * e2[2] - (int64_t)e1[2] * e2[1]; /* exact: 2 * 2^30 * 2^30 */
+    n[1] = (int64_t)e1[2] * e2[0] - (int64_t)e1[0] * e2[2];
+    n[2] = (int64_t)e1[0] * e2[1] - (int64_t)e1[1] * e2[0];
     plane->n_exp = gn_norm_vec(plane->n, n) + exp;
     plane->det = gn_dot64(plane->n, v0); /* 3 * 2^30 * 2^30 */
     plane->back = plane->det < 0;

@@ -163,7 +163,15 @@ static void depth_begin(const gn_frame *frame, depth_setup *depth, const int32_t
     depth->flat = largest;
     gn_plane_setup(&depth->plane, v[0], v[1], v[2]);
     if (depth->plane.det > 0) {
-        depth->scale = gn_bf_mul(frame->cam.near_over_focal2, gn_bf_recip(gn_bf_from_u64((uint64_t)depth->plane.det)));
+        int32_t clz = gn_clz64((uint64_t)depth->plane.det); /* gn_bf_mul(near_over_focal2, gn_bf_recip(det)), written out */
+        uint32_t recip = gn_recip_norm((uint32_t)((uint64_t)depth->plane.det << clz >> 32), 2);
+        uint64_t mant = (uint64_t)frame->cam.near_over_focal2.mant * recip;
+        depth->scale.exp = frame->cam.near_over_focal2.exp + clz - 95 + 32;
+        if (!(mant >> 63)) {
+            mant <<= 1;
+            depth->scale.exp--;
+        }
+        depth->scale.mant = (uint32_t)(mant >> 32);
         if (apply_small(&depth->dx, depth->plane.n[0], depth->scale, 49) &&
             apply_small(&depth->dy, -depth->plane.n[1], depth->scale, 49))
             return;
@@ -177,7 +185,13 @@ static uint32_t depth_at(const gn_frame *frame, const depth_setup *depth, int32_
     if (!depth->plane.det) return depth->flat;
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
     int64_t w = gn_plane_at(depth->plane.n, px, py, frame->cam.focal2_px_q16);
-    return (uint32_t)gn_bf_apply(w, depth->scale, 32); /* modulo 2^32: the pixel may lie just outside the triangle */
+    uint32_t hi = (uint32_t)(gn_abs64(w) >> 32), lo = (uint32_t)gn_abs64(w), mant = depth->scale.mant;
+    int32_t s = -(depth->scale.exp + 64);
+    if (!hi || s < 1 || s > 31) return (uint32_t)gn_bf_apply(w, depth->scale, 32);
+    /* the same, modulo 2^32: the pixel may lie just outside the triangle */
+    uint64_t r = (uint64_t)hi * mant + (((uint64_t)lo * mant + 0x80000000U) >> 32);
+    uint32_t v = ((uint32_t)(r >> 32) << (32 - s) | (uint32_t)r >> s) + (((uint32_t)r >> (s - 1)) & 1U);
+    return w < 0 ? 0U - v : v;
 }
 
 /* ---- Triangles ----------------------------------------------------------------------------------------------------- */
