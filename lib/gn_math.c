@@ -130,6 +130,12 @@ static inline int32_t upper32(int64_t a, int32_t s)
     return (int32_t)(s < 32 ? hi << s | (lo >> 1) >> (31 - s) : lo << (s - 32));
 }
 
+/* Half of it, rounded */
+static inline int32_t halved(int32_t v)
+{
+    return (v >> 1) + (v & 1);
+}
+
 int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
 {
     uint64_t any = gn_abs64(a[0]) | gn_abs64(a[1]) | gn_abs64(a[2]);
@@ -137,15 +143,18 @@ int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
         out[0] = out[1] = out[2] = 0;
         return 0;
     }
-    int32_t e = 34 - gn_clz64(any); /* bits above 30 */
-    for (int i = 0; i < 3; i++) {
-        int32_t v = e < 34 ? upper32(a[i], 33 - e) : (int32_t)(a[i] >> 33); /* one bit more than is kept */
-        v = (v >> 1) + (v & 1);
-        if (v == 1 << 30) v--; /* rounded up */
-        if (v == -(1 << 30)) v++;
-        out[i] = v;
+    int32_t clz = gn_clz64(any), s = clz - 1;         /* one bit more than is kept is 2^s of it */
+    if (s < 0 || (any << clz) >> 33 == 0x7FFFFFFFU) { /* may be rounded up to 2^30 */
+        for (int i = 0; i < 3; i++) {
+            int32_t v = halved(s < 0 ? (int32_t)(a[i] >> 33) : upper32(a[i], s));
+            out[i] = v == 1 << 30 ? v - 1 : v == -(1 << 30) ? v + 1 : v;
+        }
+    } else {
+        out[0] = halved(upper32(a[0], s));
+        out[1] = halved(upper32(a[1], s));
+        out[2] = halved(upper32(a[2], s));
     }
-    return e;
+    return 34 - clz; /* bits above 30 */
 }
 
 int gn_det_sign(const int32_t m[3][3])
