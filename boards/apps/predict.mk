@@ -1,4 +1,7 @@
 # SCREEN_OF=BOARD says whose display is predicted.
+ifeq ($(SCREEN_OF),)
+$(error SCREEN_OF=BOARD says whose display is predicted)
+endif
 screen_setting = $(shell sed -n 's/^$(1) := //p' boards/$(SCREEN_OF)/board.mk)
 SCREEN_SIZE := $(call screen_setting,SCREEN_SIZE)
 SCREEN_FORMAT := $(call screen_setting,SCREEN_FORMAT)

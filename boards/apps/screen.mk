@@ -1,4 +1,7 @@
 # For apps that show the sundial on a display. SCREEN_SIZE, SCREEN_FORMAT, SCREEN_ZOOM (16ths) and SCREEN_SETTINGS come from the board.
+ifeq ($(SCREEN_SIZE),)
+$(error $(BOARD) has no display that the clock knows)
+endif
 SCREEN_ZOOM ?= 16
 SCENE ?= host/scenes/sundial.gltf
 SCENE_FLAGS ?= --size $(SCREEN_SIZE) $(SCREEN_SETTINGS)

@@ -43,6 +43,7 @@ enum {
     DMA_FLAGS = 0x3D, /* of stream 4, in DMA_STATUS and DMA_CLEAR */
     DMA_FAILED = 0x0C,
     DMA_ON = 1,
+    DMA_MOST = 65535,
     DMA_BYTES = 1 << 6 | 1 << 10 | 2 << 25, /* memory to peripheral, memory steps, channel 2: SPI5's transmitter */
     CLOCK_MHZ = 168,
     POLLS = 10000000,
@@ -90,6 +91,7 @@ static void set_up_pins(void)
 
 static panel_status begin(const uint8_t *bytes, size_t n, int is_data)
 {
+    if (n > DMA_MOST) return PANEL_ERR_LENGTH;
     set_pin(PORT_D, PIN_COMMAND, is_data);
     REGISTER(DMA_CLEAR) = DMA_FLAGS;
     REGISTER(DMA_CONTROL) = DMA_BYTES;
