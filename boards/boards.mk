@@ -62,7 +62,7 @@ ifneq ($(SCENE),)
 $(FW_OBJ): $(FW_SCENE_DIR)/scene.c
 $(FW_SCENE_DIR)/scene.c: $(SCENE) $(BUILD)/gnomon $(FW_OBJ_DIR)/scene.flags
 	@mkdir -p $(@D)
-	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(if $(PRESET),--set preset=$(PRESET)) $(SCENE_FLAGS)
+	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(if $(wildcard boards/$(BOARD)/link.ld),--board $(BOARD)) $(if $(PRESET),--set preset=$(PRESET)) $(SCENE_FLAGS)
 $(FW_SCENE_OBJ): $(FW_SCENE_DIR)/scene.c $(FW_OBJ_DIR)/compile.flags
 	@$(FW_CC) $(FW_CFLAGS) -MMD -MP -c -o $@ $<
 endif

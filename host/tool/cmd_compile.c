@@ -38,25 +38,74 @@ static int write_all(const compiled *c, char *error, size_t bytes)
                : 0;
 }
 
+/* Where the scene must fit; without a board, in --ram and --flash. 1: somewhere; 0: nowhere. */
+int compile_read_board(const tool_options *o, board *out, char *error, size_t bytes)
+{
+    *out = (board){.name = "", .ram = 1L << 30, .flash = 1L << 30, .stack = 1536, .core = FLASH_CORTEX_M0, .short_enums = true};
+    if (o->board && board_read(out, o->board, error, bytes)) return -1;
+    if (o->ram) out->ram = o->ram;
+    if (o->flash) out->flash = o->flash;
+    return o->board || o->ram || o->flash;
+}
+
+static int check_fit(const compiled *c, const board *b, char *error, size_t bytes)
+{
+    char much[160], nearest[256];
+    compile_memory m = compile_measure(c, b);
+    if (compile_fits(&m, b)) return 0;
+    compile_say_memory(&m, b, much, sizeof much);
+    compile_find_nearest(c, b, nearest, sizeof nearest);
+    snprintf(error, bytes, "does not fit%s%s: %s; %s", b->name[0] ? " " : "", b->name, much, nearest);
+    return -1;
+}
+
+static void print_summary(const compiled *c, const board *b)
+{
+    compile_memory m = compile_measure(c, b);
+    if (!c->options->json) {
+        printf("%ld bytes of RAM: renderer %ld, what moves %ld; %ld bytes of flash: scene %ld, code about %ld\n",
+               m.renderer + m.state, m.renderer, m.state, m.data + m.code, m.data, m.code);
+        return;
+    }
+    printf("{\"out\": ");
+    tool_json_string(c->options->out_path);
+    printf(", \"frames\": %d, \"renderer_bytes\": %ld, \"state_bytes\": %ld, \"data_bytes\": %ld, \"code_bytes\": %ld}\n",
+           c->n_frames, m.renderer, m.state, m.data, m.code);
+}
+
+int compile_all(compiled *c, const tool_options *o, char *error, size_t bytes)
+{
+    compile_stage st;
+    if (compile_play(c, o, error, bytes)) return -1;
+    int failed = compile_stage_open(&st, c) || compile_simplify(c, &st, error, bytes);
+    compile_stage_close(&st);
+    if (failed) compile_free(c);
+    else compile_choose(c);
+    return failed ? -1 : 0;
+}
+
 int tool_compile(const tool_options *o)
 {
     char error[TOOL_ERROR_BYTES] = "out of memory";
     compiled c;
+    board b;
     if (!o->out_path) {
         tool_error("compile: -o DIR is missing");
         return TOOL_USAGE;
     }
-    if (compile_play(&c, o, error, sizeof error)) return tool_fail(o->scene_path, error);
-    compile_stage st;
-    int failed = compile_stage_open(&st, &c) || compile_simplify(&c, &st, error, sizeof error);
-    compile_stage_close(&st);
-    if (failed) {
-        compile_free(&c);
-        return tool_fail(o->scene_path, error);
+    if (compile_read_board(o, &b, error, sizeof error) < 0) {
+        tool_error("%s", error);
+        return TOOL_FAILED;
     }
-    compile_choose(&c);
+    if (compile_all(&c, o, error, sizeof error)) return tool_fail(o->scene_path, error);
     if (!o->json) remarks_on_settings(&c.scene);
-    failed = write_all(&c, error, sizeof error);
+    const char *about = o->scene_path;
+    int failed = check_fit(&c, &b, error, sizeof error);
+    if (!failed) {
+        failed = write_all(&c, error, sizeof error);
+        about = o->out_path;
+    }
+    if (!failed) print_summary(&c, &b);
     compile_free(&c);
-    return failed ? tool_fail(o->out_path, error) : TOOL_OK;
+    return failed ? tool_fail(about, error) : TOOL_OK;
 }

@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 
+#include "board.h"
 #include "quantise.h"
 #include "tool.h"
 
@@ -65,7 +66,8 @@ typedef struct {
     fixed_scene fixed;                                                   /* the same; what tracks change is the first frame's */
     const char **object_name, **light_name, **mesh_name, **texture_name; /* beside the arrays of fixed, whose elements may go */
     size_t n_textures;                                                   /* of fixed.textures */
-    settings set;                                                        /* the configuration */
+    settings asked;                                                      /* what was set */
+    settings set;                                                        /* the configuration that is chosen */
     compile_run run;
     size_t kept_tiles; /* from frame to frame, all frames */
     compile_reason reasons[COMPILE_REASONS_MAX];
@@ -107,6 +109,9 @@ bool compile_same(const compile_hash *a, const compile_hash *b);
 /* All frames; with wanted, until one is another picture. run->hash must have room for n_frames. */
 int compile_run_all(compile_run *run, compile_stage *st, const compiled *c, const compile_run *wanted);
 
+/* One more frame of a run. */
+int compile_run_one(compile_run *run, compile_stage *st, const compiled *c, int i);
+
 /* Marks the triangles that some frame's picture shows, by mesh. */
 int compile_see(compile_stage *st, const compiled *c, bool **seen);
 
@@ -131,6 +136,22 @@ void compile_write_config(FILE *file, const compiled *c);
 /* compile_size.c: bytes on a 32-bit target. short_enums: as Arm has them. */
 long compile_flash_bytes(const compiled *c); /* of the scene's data */
 long compile_state_bytes(const compiled *c, bool short_enums);
+
+/* compile_fit.c: bytes of RAM: renderer, state; of flash: data, code (an estimate). */
+typedef struct {
+    long renderer, state, data, code;
+} compile_memory;
+enum { COMPILE_SHORT_ENUMS_LESS = 8 }; /* gn_renderer */
+compile_memory compile_measure(const compiled *c, const board *b);
+bool compile_fits(const compile_memory *m, const board *b);
+/* What is too much. */
+void compile_say_memory(const compile_memory *m, const board *b, char *out, size_t bytes);
+/* The settings of a configuration that fits, as options; false: none. */
+bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t bytes);
+
+/* cmd_compile.c: all of it but the files; 1: there is a board, 0: none was asked for, -1. */
+int compile_all(compiled *c, const tool_options *o, char *error, size_t error_bytes);
+int compile_read_board(const tool_options *o, board *out, char *error, size_t error_bytes);
 
 /* compile_scene.c */
 void compile_write_header(FILE *file, const compiled *c);

@@ -145,6 +145,15 @@ static void take_frame(compile_run *run, const compile_stage *st, int i)
     run->lookups += (double)(counts.n[GN_COUNT_lookups] + counts.n[GN_COUNT_lookups_persp]);
 }
 
+int compile_run_one(compile_run *run, compile_stage *st, const compiled *c, int i)
+{
+    compile_hash hash;
+    count_reset();
+    if (compile_draw(st, c, i, NULL, &hash)) return -1;
+    take_frame(run, st, i);
+    return 0;
+}
+
 int compile_run_all(compile_run *run, compile_stage *st, const compiled *c, const compile_run *wanted)
 {
     compile_hash *hash = run->hash;

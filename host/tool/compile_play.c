@@ -195,6 +195,7 @@ int compile_play(compiled *c, const tool_options *o, char *error, size_t error_b
 {
     *c = (compiled){.options = o};
     if (tool_load_with(o, o->sets, o->n_sets, &c->scene, &c->set, error, error_bytes)) return -1;
+    c->asked = c->set;
     if (choose_frames(c, error, error_bytes) || quantise_scene(&c->fixed, &c->scene, error, error_bytes)) {
         scene_free(&c->scene);
         return -1;

@@ -32,6 +32,7 @@ static const char usage_text[] =
     "  --light K                 render, compare: the light of --view shadow and atlas (0)\n"
     "  --frame N                 animation frame (0)\n"
     "  --frames FIRST-LAST       compile: these frames (all of the animation)\n"
+    "  --board NAME              compile, info: must fit the memory of boards/NAME, of its code -Os; or --ram, --flash BYTES\n"
     "  --margin PERCENT          compile: room for more triangles and tile references than the frames took (10)\n"
     "  --simplify none|safe|path  compile: leave out what changes no picture of any camera, or none of the frames (path)\n"
     "  --set KEY=VALUE           any knob or setting, in order; preset=tiny|balanced|accurate sets many;\n"
@@ -65,13 +66,15 @@ static const option options[] = {
     {"--view", BY_RENDER | BY_COMPARE, "colour, shadow, depth, normal, atlas or cascade"},
     {"--light", BY_RENDER | BY_COMPARE, "a light from 0 to 63"},
     {"--frame", BY_ALL & ~BY_COMPILE, "a frame from 0 to 100000000"},
-    {"--frames", BY_COMPILE, "FIRST-LAST, frames from 0 to 100000000"},
-    {"--margin", BY_COMPILE, "per cent from 0 to 1000"},
-    {"--simplify", BY_COMPILE, "none, safe or path"},
+    {"--frames", BY_COMPILE | BY_INFO, "FIRST-LAST, frames from 0 to 100000000"},
+    {"--margin", BY_COMPILE | BY_INFO, "per cent from 0 to 1000"},
+    {"--simplify", BY_COMPILE | BY_INFO, "none, safe or path"},
     {"--set", BY_ALL, "KEY=VALUE, at most 64 times"},
     {"--csv", BY_SWEEP, "a path"},
     {"--svg", BY_SWEEP, "a path"},
-    {"--ram", BY_ADVISE, "bytes from 1 to 1000000000"},
+    {"--board", BY_COMPILE | BY_INFO, "a folder of boards/"},
+    {"--flash", BY_COMPILE | BY_INFO, "bytes from 1 to 1000000000"},
+    {"--ram", BY_ADVISE | BY_COMPILE | BY_INFO, "bytes from 1 to 1000000000"},
     {"--instructions-per-pixel", BY_ADVISE, "a number from 1 to 1000000000"},
     {"--texels", BY_BAKE, "0 or a power of two from 16 to 4096"},
     {"--still", BY_BAKE, NULL},
@@ -152,6 +155,8 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--view") == 0) failed = (o->view = view_from_name(value)) < 0;
     else if (strcmp(name, "--frame") == 0) failed = parse_int(value, 0, 100000000, &o->frame);
     else if (strcmp(name, "--frames") == 0) failed = parse_frames(value, o);
+    else if (strcmp(name, "--board") == 0) failed = !*(o->board = value);
+    else if (strcmp(name, "--flash") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->flash);
     else if (strcmp(name, "--margin") == 0) failed = parse_int(value, 0, 1000, &o->margin);
     else if (strcmp(name, "--simplify") == 0) failed = (o->simplify = simplify_from_name(value)) < 0;
     else if (strcmp(name, "--light") == 0) {

@@ -28,11 +28,13 @@ typedef struct {
     const char *csv_path, *svg_path; /* sweep */
     int all, quick;
     int texels, still;          /* bake: side of the mask image, 0: per vertex */
-    int ram;                    /* advise: bytes; 0: not given */
+    int ram;                    /* advise, compile, info: bytes; 0: not given */
     int instructions_per_pixel; /* 0: no limit */
     int last_frame;             /* compile: of --frames, whose first is frame; -1: to the end of the animation */
     int margin;                 /* compile: per cent */
     int simplify;               /* compile */
+    const char *board;          /* compile, info: or NULL */
+    int flash;                  /* bytes; 0: not given */
 } tool_options;
 
 /* Exit codes: failures of the work itself, and of the command line. */

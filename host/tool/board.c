@@ -1,0 +1,81 @@
+/* Reading a board's linker script and settings, as far as memory goes. */
+#include "board.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TEXT_BYTES = 16384 };
+
+/* The file's text with a terminating zero; NULL: it does not open. */
+static char *read_text(const char *folder, const char *file)
+{
+    char path[512];
+    int n = snprintf(path, sizeof path, "%s/%s", folder, file);
+    FILE *f = n > 0 && (size_t)n < sizeof path ? fopen(path, "rb") : NULL;
+    char *text = f ? calloc(1, TEXT_BYTES) : NULL;
+    if (text) text[fread(text, 1, TEXT_BYTES - 1, f)] = 0;
+    if (f) fclose(f);
+    return text;
+}
+
+/* "16K", "2M - 256"; what comes before a colon is another case. -1: no number. */
+static long size_of(const char *at)
+{
+    char line[128];
+    snprintf(line, sizeof line, "%.*s", (int)strcspn(at, ";}\n"), at);
+    const char *colon = strchr(line, ':'), *p = colon ? colon + 1 : line;
+    char *end;
+    long bytes = strtol(p, &end, 0);
+    if (end == p || bytes < 0 || bytes > 1 << 30) return -1;
+    if (*end == 'K') bytes *= 1024, end++;
+    else if (*end == 'M') bytes *= 1024 * 1024, end++;
+    while (isspace((unsigned char)*end)) end++;
+    return *end == '-' ? bytes - strtol(end + 1, NULL, 0) : bytes;
+}
+
+/* The region that an alias stands for. */
+static long length_of(const char *script, const char *alias)
+{
+    char pattern[64], region[64];
+    snprintf(pattern, sizeof pattern, "REGION_ALIAS(\"%s\"", alias);
+    const char *at = strstr(script, pattern);
+    if (!at || sscanf(at + strlen(pattern), ", %60[a-z0-9_A-Z]", region) != 1) return -1;
+    strcat(region, " (");
+    at = strstr(script, region);
+    at = at ? strstr(at, "LENGTH =") : NULL;
+    return at ? size_of(at + 8) : -1;
+}
+
+static void read_core(board *out, const char *settings_text)
+{
+    const char *cpu = settings_text ? strstr(settings_text, "BOARD_CPU") : NULL;
+    bool arm = !cpu || strstr(cpu, "-mcpu=cortex") != NULL;
+    out->short_enums = arm;
+    out->core = cpu && strstr(cpu, "cortex-m0") ? FLASH_CORTEX_M0 : FLASH_CORTEX_M4;
+}
+
+int board_read(board *out, const char *name, char *error, size_t error_bytes)
+{
+    char folder[256];
+    snprintf(folder, sizeof folder, "%s%s", strchr(name, '/') ? "" : "boards/", name);
+    char *script = read_text(folder, "link.ld"), *settings_text = read_text(folder, "board.mk");
+    *out = (board){.stack = 0};
+    snprintf(out->name, sizeof out->name, "%s", name);
+    if (script) {
+        const char *stack = strstr(script, "STACK_BYTES =");
+        out->ram = length_of(script, "RAM");
+        out->flash = length_of(script, "FLASH");
+        out->stack = stack ? size_of(stack + 13) : 0;
+        read_core(out, settings_text);
+    }
+    bool ok = script && out->ram > 0 && out->flash > 0 && out->stack >= 0;
+    if (!script)
+        snprintf(error, error_bytes, "--board %s: there is no %s/link.ld; --ram and --flash say the same of any board", name,
+                 folder);
+    else if (!ok) snprintf(error, error_bytes, "--board %s: the memory in %s/link.ld is not understood", name, folder);
+    free(script);
+    free(settings_text);
+    return ok ? 0 : -1;
+}
