@@ -65,7 +65,7 @@ typedef struct {
     size_t n_lights;
     double *shadow[REF_MAX_LIGHTS]; /* DESIGN 1.10, per pixel; 0 where there is no surface */
     double
-        *ndotl[REF_MAX_LIGHTS]; /* n . L, unclamped; -1 where a_l = 0, and where the light is baked or not in the object's list */
+        *ndotl[REF_MAX_LIGHTS]; /* n . L, unclamped; -1 where a_l = 0 or next to it, and where the light is baked or not in the object's list */
     ref_grant grant[REF_MAX_LIGHTS];
     ref_light_view view[REF_MAX_LIGHTS][REF_MAX_VIEWS];
     int8_t *cascade; /* selected by t_i, before any blending; -1 where there is no surface or no cascade */

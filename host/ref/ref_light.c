@@ -9,6 +9,16 @@ static double highlight(const ref_frame *frame, const ref_surface *at, vec3 to_l
     return pow(fmax(0.0, ndoth), ldexp(1.0, at->triangle.object->shininess_log2));
 }
 
+/* At the rim of a cone or a range the library's light ends a rounding earlier or later: what is darker than this share of the light is
+ * not shown (DESIGN 1.10). */
+#define RIM 0x1p-20
+
+static bool at_rim(const scene_light *light, const ref_surface *at, double attenuation)
+{
+    const vec3 v = vec3_sub(vec3_load(light->position), at->world);
+    return light->kind != SCENE_LIGHT_DIRECTIONAL && attenuation * fmax(vec3_dot(v, v), 1e-4) < RIM;
+}
+
 /* What one light adds. Lights that contribute nothing anywhere near leave n . L at -1. */
 static vec3 add_light(ref_frame *frame, const ref_surface *at, size_t l, size_t pixel)
 {
@@ -19,10 +29,11 @@ static vec3 add_light(ref_frame *frame, const ref_surface *at, size_t l, size_t 
     const ref_incidence incidence = ref_light_at(&frame->s->lights[l], at->world);
     if (!(incidence.attenuation > 0.0)) return none;
     const double ndotl = vec3_dot(at->normal, incidence.to_light);
-    picture->ndotl[l][pixel] = ndotl;
+    const bool shown = !at_rim(&frame->s->lights[l], at, incidence.attenuation);
+    if (shown) picture->ndotl[l][pixel] = ndotl;
     if (!(ndotl > 0.0)) return none;
     const double shadow = ref_shadow(frame, at, l, incidence.to_light);
-    picture->shadow[l][pixel] = shadow;
+    if (shown) picture->shadow[l][pixel] = shadow;
     vec3 reflected = vec3_scale(at->albedo, ndotl);
     if (vec3_dot(specular, specular) > 0.0)
         reflected = vec3_add(reflected, vec3_scale(specular, highlight(frame, at, incidence.to_light)));
