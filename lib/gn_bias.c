@@ -118,11 +118,13 @@ static int64_t depth_step_q32(const gn_light_view *view)
     return (((int64_t)65 << 26) >> GN_VIEW_BITS(view)) + 9;
 }
 
-/* sqrt(1 + k^2) times the relative error of view depths, Q40: 2^7 * 2^-17 at the most. */
+/* sqrt(1 + k^2) times the relative error of view depths, and of a pixel's ray, whose three coefficients are rounded in each axis: 2^-28
+ * of W + H. Q40: 2^7 * (2^-17 + 2^-16) at the most. */
 static int32_t ray_error_q40(const gn_frame *frame)
 {
     uint64_t ray2_q48 = (((uint64_t)1 << 24) + (uint64_t)gn_cascade_tan2_q24(frame)) << 24; /* <= (2^24 + 2^38) 2^24 */
-    return (int32_t)((uint64_t)gn_isqrt64(ray2_q48) >> (GN_K(frame, newton_steps) == 1 ? 1 : 12)) + 1;
+    uint64_t ray_q24 = gn_isqrt64(ray2_q48), pixels = (uint64_t)frame->picture.width + frame->picture.height;
+    return gn_sat32((int64_t)((ray_q24 >> (GN_K(frame, newton_steps) == 1 ? 1 : 12)) + (ray_q24 * pixels >> 12) + 2));
 }
 
 #define GN_AUTO_UNITS 8 /* roundings of a point and of its triangle's corners */
@@ -148,7 +150,8 @@ void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
         /* coordinates are as wrong as the reciprocal: by 2^-17 of half a tile, or 2^-29; and so is n / z */
         int one_step = GN_K(frame, newton_steps) == 1;
         view->offset_q16 += one_step ? (view->tile_texels + 3) >> 2 : 1;
-        view->auto_step = (int32_t)(depth_step_q32(view) + (one_step ? 32768 : 8));
+        /* steps over the tile are rounded to 2^-32, its plane to 2^-27 and, in place, 2^-28 */
+        view->auto_step = (int32_t)(depth_step_q32(view) + (one_step ? 32768 : 8) + view->tile_texels + 64);
         view->auto_ray_q40 = ray_error_q40(frame);
         return;
     }

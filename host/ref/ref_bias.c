@@ -42,6 +42,12 @@ static double depth_error(const ref_options *o)
 {
     return o->newton_steps == 1 ? ldexp(1.0, -17) : o->newton_steps == 2 ? ldexp(1.0, -28) : 0.0;
 }
+/* Of a pixel's ray, whose three coefficients along each axis are rounded, relative to a point's depth. */
+static double ray_error(const ref_options *o)
+{
+    return o->newton_steps > 0 ? ldexp(o->width + o->height, -28) : 0.0;
+}
+
 static double quotient_error(const ref_options *o)
 {
     return o->newton_steps == 1 ? ldexp(1.0, -17) : o->newton_steps == 2 ? ldexp(1.0, -29) : 0.0;
@@ -60,7 +66,8 @@ static double place_error(const ref_frame *frame, double view_depth)
 {
     const ref_camera *camera = &frame->camera;
     const double x = camera->half_width_px / camera->focal_px, y = camera->half_height_px / camera->focal_px;
-    return view_depth * sqrt(1.0 + x * x + y * y) * depth_error(frame->options) + PLACE_UNITS * frame->options->unit;
+    return view_depth * sqrt(1.0 + x * x + y * y) * (depth_error(frame->options) + ray_error(frame->options)) +
+           PLACE_UNITS * frame->options->unit;
 }
 
 /* The farthest view depth that is looked up in a directional view. */
@@ -88,13 +95,19 @@ static vec3 ortho_bias(const ref_frame *frame, const ref_light_view *view, scene
     return (vec3){0.0, 0.0, -reach * (steepness(n.x, n.z, most) + steepness(n.y, n.z, most)) - step};
 }
 
+/* Of depths in a perspective view: steps over the tile, and the plane that is stepped. */
+static double plane_error(const ref_options *o, const ref_light_view *view)
+{
+    return view_bits(o, view) > 0 ? ldexp(view->tile_texels + 64.0, -32) : 0.0;
+}
+
 static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, vec3 m, vec3 point,
                        double view_depth, double *less)
 {
     const ref_options *o = frame->options;
     const double reach = tap_reach(view) + tap_error(o) + view->tile_texels / 2.0 * quotient_error(o);
     const double across = fabs(m.x) + fabs(m.y), lift = place_error(frame, view_depth);
-    *less = step_error(o, view) + quotient_error(o);
+    *less = step_error(o, view) + quotient_error(o) + plane_error(o, view);
     if (form == SCENE_AUTO_BIAS_DEPTH) {
         *less += fmin(2.0, reach * view->near * view->texel * across / fabs(vec3_dot(m, point)));
         return vec3_scale(m, lift);
