@@ -21,6 +21,13 @@ uint64_t gn_bf_from_u64_bits(uint64_t v)
     return gn_bf_bits(out);
 }
 
+/* Entry i of gn_recip_table is 2^25 / (2i + 513), rounded. Where size comes first and the core divides, it is computed. */
+#if defined(GN_FAR) && (defined(__ARM_FEATURE_IDIV) || defined(__riscv_div))
+#define RECIP_START(i) (((1U << 25) + (i) + 256U) / (2U * (i) + 513U))
+#else
+#define RECIP_START(i) ((uint32_t)gn_recip_table[i])
+#endif
+
 /* One step of Newton's method towards 1 / x, x = m / 2^32 in [1/2, 1), y in Q1.31: y(2 - xy) exceeds 1 / x only by truncation, so only x near 1/2
  * reaches 2^32. */
 static inline uint32_t recip_step(uint32_t m, uint32_t y)
@@ -32,7 +39,7 @@ static inline uint32_t recip_step(uint32_t m, uint32_t y)
 
 uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
 {
-    uint32_t y = recip_step(m, (uint32_t)gn_recip_table[(m >> 23) & 255U] << 16);
+    uint32_t y = recip_step(m, RECIP_START((m >> 23) & 255U) << 16);
     return newton_steps > 1 ? recip_step(m, y) : y;
 }
 

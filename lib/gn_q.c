@@ -1,5 +1,6 @@
 /* Calls in place of inline code, where size comes first: see gn_q.h. The linker drops what is not called. */
 #include "gn_q.h"
+#include "gn_signature.h"
 
 int64_t gn_far_clamp64(int64_t v, int64_t lo, int64_t hi);
 int32_t gn_far_clamp32(int64_t v, int32_t lo, int32_t hi);
@@ -54,4 +55,9 @@ int32_t gn_far_mul_q30(int32_t a, int32_t b)
 uint64_t gn_far_abs64(int64_t v)
 {
     return gn_abs64_inline(v);
+}
+
+uint64_t gn_far_signature_add(uint64_t signature, uint64_t word)
+{
+    return gn_signature_add_inline(signature, word);
 }
