@@ -150,7 +150,7 @@ static int texture_holds(const gn_surface *surface, const gn_sample *a, const gn
 static int all_hold(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b, share error,
                     const turning *turned)
 {
-    int ranged = surface->smooth | surface->coloured | surface->masked | surface->baked;
+    int ranged = GN_SMOOTH(surface) | GN_COLOURED(surface) | surface->masked | surface->baked;
     if (ranged && error.num > error.den >> GN_SHARE_LOG2) return 0;
 #if GN_TEXTURES
     if (surface->textured && !texture_holds(surface, a, b, error)) return 0;
@@ -233,7 +233,7 @@ int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *s
     int32_t bend_q30 = 0;
     turning turned = {0, 0};
     if (a->cascade != b->cascade || a->in_reach != b->in_reach) return 0;
-    if (surface->smooth && surface->n_lights && !turn_between(&turned, a->normal_q15, b->normal_q15)) return 0;
+    if (GN_SMOOTH(surface) && surface->n_lights && !turn_between(&turned, a->normal_q15, b->normal_q15)) return 0;
     const share of_line = {dz, 2 * ((uint64_t)za + zb)}; /* |a| / 2 */
     if (!all_hold(frame, surface, a, b, of_line, &turned)) {
         bend_q30 = (int32_t)quotient_q30(dz, za + zb);

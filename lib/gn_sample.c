@@ -27,7 +27,7 @@ static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, in
     int32_t shift = 63 + 32 - r.clz - s->depth_scale.exp;
     uint64_t z = shift > 63 ? 0 : shift < 33 ? (uint64_t)INT32_MAX : ((p >> (shift - 1)) + 1) >> 1;
     h->z_q16 = (int32_t)gn_clamp64((int64_t)z, s->z_min_q16, s->z_max_q16);
-    if (s->has_bary) gn_bary_at(h->b_q30, &s->bary, &r, px, py, frame->cam.focal2_px_q16);
+    if (GN_HAS_BARY(s)) gn_bary_at(h->b_q30, &s->bary, &r, px, py, frame->cam.focal2_px_q16);
 }
 
 /* a0 + b1 * a1 + b2 * a2 */
@@ -40,7 +40,7 @@ static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
 {
     for (int i = 0; i < 3; i++) {
         const int32_t n0 = s->normal_q30[0][i];
-        n_q30[i] = s->smooth ? interpolate(h, n0, s->normal_q30[1][i], s->normal_q30[2][i]) : n0;
+        n_q30[i] = GN_SMOOTH(s) ? interpolate(h, n0, s->normal_q30[1][i], s->normal_q30[2][i]) : n0;
     }
 }
 
@@ -104,7 +104,7 @@ static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uin
         return moved_q16;
     }
 #endif
-    if (!s->smooth && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK)) return flat;
+    if (!GN_SMOOTH(s) && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK)) return flat;
     gn_bias_directional(frame, view, n_q30, moved_q16);
     return moved_q16;
 }
@@ -154,10 +154,10 @@ static void light_values(const gn_frame *frame, const gn_surface *s, int32_t px,
                          gn_sample *sample)
 {
     gn_length length = {0, 0};
-    if (s->smooth) length = gn_length_of(GN_K(frame, newton_steps), n_q30);
+    if (GN_SMOOTH(s)) length = gn_length_of(GN_K(frame, newton_steps), n_q30);
 #if GN_PUNCTUAL_LIGHTS || GN_SPECULAR
     int32_t unit_q30[3] = {n_q30[0], n_q30[1], n_q30[2]};
-    if (s->smooth) gn_length_unit(length, n_q30, unit_q30);
+    if (GN_SMOOTH(s)) gn_length_unit(length, n_q30, unit_q30);
 #endif
     for (uint32_t i = 0; i < s->n_lights; i++) {
         int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
@@ -171,7 +171,7 @@ static void light_values(const gn_frame *frame, const gn_surface *s, int32_t px,
         }
 #endif
         GN_COUNT(sample_lights, 1);
-        out[0] = s->smooth ? gn_length_cosine_q24(length, n_q30, light->to_light_q30) : s->light[i].flat_cosine_q24;
+        out[0] = GN_SMOOTH(s) ? gn_length_cosine_q24(length, n_q30, light->to_light_q30) : s->light[i].flat_cosine_q24;
 #if GN_SHADOWS
         if (s->shadowed) directional_coords(frame, s, i, px, py, n_q30, sample, out + 1);
 #else
@@ -218,19 +218,19 @@ void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
     hit h;
     GN_COUNT(samples, 1);
-    if (s->has_bary) GN_COUNT(samples_smooth, 1);
+    if (GN_HAS_BARY(s)) GN_COUNT(samples_smooth, 1);
     intersect(frame, s, px, py, &h);
     sample->value[GN_VALUE_Z] = h.z_q16;
     sample->value[GN_VALUE_FADE] = 0;
     sample->cascade = GN_CASCADE_NONE;
     sample->in_reach = 0;
     for (int i = 0; i < 3; i++)
-        sample->value[GN_VALUE_RGB + i] = s->coloured ? interpolate(&h, s->rgb_q16[0][i], s->rgb_q16[1][i], s->rgb_q16[2][i]) : 0;
+        sample->value[GN_VALUE_RGB + i] = GN_COLOURED(s) ? interpolate(&h, s->rgb_q16[0][i], s->rgb_q16[1][i], s->rgb_q16[2][i]) : 0;
     if (s->first_value < GN_VALUE_Z) extra_values(s, &h, sample->value);
     if (!s->n_lights) return;
     int32_t n[3];
     normal_at(s, &h, n);
-    for (int i = 0; s->smooth && i < 3; i++) sample->normal_q15[i] = n[i] >> 15;
+    for (int i = 0; GN_SMOOTH(s) && i < 3; i++) sample->normal_q15[i] = n[i] >> 15;
 #if GN_SHADOWS
     if (s->shadowed) select_cascade(frame, px, py, sample);
 #endif

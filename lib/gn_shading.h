@@ -68,6 +68,12 @@ typedef struct {
     gn_surface_light light[GN_SURFACE_LIGHTS]; /* those that can reach it */
 } gn_surface;
 
+/* What a build without any cannot have. */
+#define GN_SMOOTH(s)   (GN_VERTEX_NORMALS && (s)->smooth)
+#define GN_COLOURED(s) (GN_VERTEX_COLOURS && (s)->coloured)
+#define GN_HAS_BARY(s)                                                                                                             \
+    ((GN_VERTEX_NORMALS || GN_VERTEX_COLOURS || GN_TEXTURES || GN_MASKS || GN_BAKED_LIGHT) && (s)->has_bary)
+
 /* Keeps what neighbouring triangles of a screen tile share. */
 typedef struct {
     const gn_object *object;

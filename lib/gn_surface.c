@@ -39,7 +39,7 @@ static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_sur
     s->smooth = 0;
     if (s->object->flags & GN_OBJECT_UNLIT && !GN_RAW_VIEWS) return;
     s->smooth = GN_VERTEX_NORMALS && mesh->nrm_q15;
-    if (!s->smooth) {
+    if (!GN_SMOOTH(s)) {
         face_normal(frame, s, s->normal_q30[0]);
         return;
     }
@@ -64,7 +64,7 @@ static void colours(gn_surface *s, const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
     s->coloured = GN_VERTEX_COLOURS && mesh->rgb_uq16;
-    if (!s->coloured) return;
+    if (!GN_COLOURED(s)) return;
     for (int i = 0; i < 3; i++) {
         int32_t c[3];
         for (int k = 0; k < 3; k++) c[k] = mesh->rgb_uq16[3 * (size_t)idx[k] + (size_t)i];
@@ -151,7 +151,7 @@ static void add_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
 /* Whether a light can reach the triangle: not from behind a flat one, and not from beyond its range. */
 static int reaches(const gn_surface *s, const gn_light_state *light, int32_t v[3][3])
 {
-    if (!s->smooth) {
+    if (!GN_SMOOTH(s)) {
         int64_t side = 0; /* n points away from the viewer: negative is in front */
         for (int k = 0; k < 3; k++) side += (int64_t)s->plane.n[k] * (((int64_t)light->eye_q16[k] - v[0][k]) >> 2);
         if (side >= 0 && s->plane.det > 0) return 0;
@@ -196,11 +196,11 @@ static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache
 static void directional_lights(const gn_frame *frame, gn_surface *s)
 {
     gn_length length = {0, 0};
-    if (!s->smooth) length = gn_length_of(GN_K(frame, newton_steps), s->normal_q30[0]);
+    if (!GN_SMOOTH(s)) length = gn_length_of(GN_K(frame, newton_steps), s->normal_q30[0]);
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
         if (light->kind != GN_LIGHT_DIRECTIONAL || light->off) continue;
-        if (!s->smooth) {
+        if (!GN_SMOOTH(s)) {
             int32_t cosine = gn_length_cosine_q24(length, s->normal_q30[0], light->to_light_q30);
             if (cosine <= GN_GRAZING_Q24) continue;
             s->light[s->n_lights].flat_cosine_q24 = cosine;
@@ -227,7 +227,7 @@ static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
         return;
     }
 #endif
-    if (!s->smooth && light->kind == GN_LIGHT_DIRECTIONAL)
+    if (!GN_SMOOTH(s) && light->kind == GN_LIGHT_DIRECTIONAL)
         gn_bias_directional(frame, view, s->normal_q30[0], s->light[slot].flat_offset_q16);
 }
 
@@ -287,7 +287,7 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
     s->smooth = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
     s->first_value = GN_VALUE_Z;
     colours(s, idx);
-    if (s->object->flags & GN_OBJECT_UNLIT && !s->coloured && !s->object->texture && !GN_RAW_VIEWS) {
+    if (s->object->flags & GN_OBJECT_UNLIT && !GN_COLOURED(s) && !s->object->texture && !GN_RAW_VIEWS) {
         begin_lighting(frame, cache, s, v); /* one colour: nothing to interpolate */
         return;
     }
@@ -298,6 +298,6 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
     if (s->plane.det > 0)
         s->depth_scale = gn_bf_mul(gn_bf_from_u64((uint64_t)s->plane.det), gn_bf_from_u64(frame->cam.focal2_px_q16));
     attributes(frame, cache, s, idx);
-    if (s->has_bary) gn_bary_setup(&s->bary, &s->plane, v[0], v[1], v[2]);
+    if (GN_HAS_BARY(s)) gn_bary_setup(&s->bary, &s->plane, v[0], v[1], v[2]);
     begin_lighting(frame, cache, s, v);
 }
