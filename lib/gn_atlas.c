@@ -35,7 +35,12 @@ static int casts_here(const gn_frame *frame, const gn_light_view *view, uint32_t
 {
     const gn_object *object = &frame->scene->objects[object_idx];
     *culled = 0;
-    if (!in_layer(object, which) || !gn_cull_sees(frame, view, &frame->object[object_idx])) return 0;
+    if (!in_layer(object, which)) return 0;
+#if GN_OBJECT_BOXES
+    if (!gn_cull_sees(frame, view, &frame->object[object_idx])) return 0;
+#else
+    (void)view;
+#endif
 #if GN_CASTER_CULLING
     *culled = frame->scene->shadow.caster_culling && !view->perspective && !view->border_lit && view->cascade_idx > 0 &&
               gn_cull_shown_nearer(frame, view, &frame->object[object_idx]);
@@ -200,6 +205,7 @@ static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
     if (job->view->perspective) GN_COUNT(casters_persp, 1);
     else GN_COUNT(casters, 1);
     if (!draw_small(casting, idx, &n_texels)) status = draw_large(casting, idx, &n_texels);
+    if (!GN_CASTER_CLIPPING && n_texels == GN_ORTHO_TOO_FAR) return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
     if (n_texels < 0) return status;
     job->frame->stats.n_caster_triangles++;
     job->frame->stats.n_texels_drawn += (uint32_t)n_texels;

@@ -48,7 +48,7 @@ void gn_cascade_slice(const gn_frame *frame, uint32_t i, int32_t *near_q16, int3
     int32_t m = shadow->max_distance_q16;
     *near_q16 = frame->scene->camera.near_q16;
     if (i > 0) *near_q16 = gn_max32(*near_q16, (int32_t)(((int64_t)m * shadow->cascade_ratio_uq16[i - 1] + 0x8000) >> 16));
-    *far_q16 = i + 1 < frame->n_cascades ? (int32_t)(((int64_t)m * shadow->cascade_ratio_uq16[i] + 0x8000) >> 16) : m;
+    *far_q16 = i + 1 < GN_N_CASCADES(frame) ? (int32_t)(((int64_t)m * shadow->cascade_ratio_uq16[i] + 0x8000) >> 16) : m;
 }
 
 /* Spheres of all slices; radius_q24 is relative to the slice's end, which slice_of gives again. */
@@ -57,7 +57,7 @@ static void setup_spheres(gn_frame *frame)
     const gn_shadow_settings *shadow = &frame->scene->shadow;
     uint64_t keep_q32 = (uint64_t)(65536 - shadow->cascade_fade_uq16) * (65536 - shadow->cascade_fade_uq16);
     frame->last_cascade = 0;
-    for (uint32_t i = 0; i < frame->n_cascades; i++) {
+    for (uint32_t i = 0; i < GN_N_CASCADES(frame); i++) {
         gn_cascade_state *cascade = &frame->cascade[i];
         int32_t near_q16, far_q16;
         int64_t centre_q24, radius_q24;
@@ -74,7 +74,7 @@ static void setup_spheres(gn_frame *frame)
         gn_bfloat width = gn_bf_mul(gn_bf_from_u64(cascade->radius2_q32), gn_bf_from_u64(((uint64_t)1 << 32) - keep_q32));
         cascade->fade_scale = gn_bf_recip(width);
         cascade->inner2_q32 = (cascade->radius2_q32 >> 32) * keep_q32 + (((cascade->radius2_q32 & UINT32_MAX) * keep_q32) >> 32);
-        frame->cascade[frame->last_cascade].next = (int32_t)i;
+        frame->cascade[GN_LAST_CASCADE(frame)].next = (int32_t)i;
         frame->last_cascade = (uint8_t)i;
     }
 }
@@ -91,7 +91,7 @@ static void distance_fade(gn_frame *frame)
 void gn_cascade_setup(gn_frame *frame)
 {
     uint32_t n = frame->scene->shadow.n_cascades;
-    frame->n_cascades = (uint8_t)(n ? n : 1);
+    frame->n_cascades = (uint8_t)(GN_CASCADES && n ? n : 1);
     distance_fade(frame);
     setup_spheres(frame);
 }

@@ -192,6 +192,24 @@
 #ifndef GN_VERTEX_COLOURS
 #define GN_VERTEX_COLOURS 1
 #endif
+#ifndef GN_VALIDATION
+#define GN_VALIDATION 1
+#endif
+#ifndef GN_OTHER_FORMATS
+#define GN_OTHER_FORMATS 1
+#endif
+#ifndef GN_CASCADES
+#define GN_CASCADES 1
+#endif
+#ifndef GN_TILE_IMPORTANCE
+#define GN_TILE_IMPORTANCE 1
+#endif
+#ifndef GN_OBJECT_BOXES
+#define GN_OBJECT_BOXES 1
+#endif
+#ifndef GN_CASTER_CLIPPING
+#define GN_CASTER_CLIPPING 1
+#endif
 #ifndef GN_RAW_VIEWS
 #define GN_RAW_VIEWS 0
 #endif

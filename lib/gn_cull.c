@@ -7,23 +7,7 @@
 
 #if GN_SHADOWS
 
-void gn_cull_begin(gn_frame *frame)
-{
-    int32_t(*box)[3] = frame->receivers_q16;
-    for (int k = 0; k < 3; k++) {
-        box[0][k] = INT32_MAX;
-        box[1][k] = INT32_MIN;
-    }
-    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
-        const gn_object_state *object = &frame->object[i];
-        if (!(frame->scene->objects[i].flags & GN_OBJECT_RECEIVES)) continue;
-        for (int k = 0; k < 3; k++) {
-            box[0][k] = gn_min32(box[0][k], gn_sat32((int64_t)object->centre_q16[k] - object->half_q16[k]));
-            box[1][k] = gn_max32(box[1][k], gn_sat32((int64_t)object->centre_q16[k] + object->half_q16[k]));
-        }
-    }
-}
-
+#if GN_OBJECT_BOXES
 /* Half extent of a box along an axis, Q16, rounded up. */
 static int64_t extent_q16(const int32_t axis_q30[3], const int32_t half_q16[3])
 {
@@ -76,8 +60,26 @@ int gn_cull_sees(const gn_frame *frame, const gn_light_view *view, const gn_obje
 #endif
     return ortho_sees(frame, view, object);
 }
+#endif
 
 #if GN_CASTER_CULLING
+void gn_cull_begin(gn_frame *frame)
+{
+    int32_t(*box)[3] = frame->receivers_q16;
+    for (int k = 0; k < 3; k++) {
+        box[0][k] = INT32_MAX;
+        box[1][k] = INT32_MIN;
+    }
+    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+        const gn_object_state *object = &frame->object[i];
+        if (!(frame->scene->objects[i].flags & GN_OBJECT_RECEIVES)) continue;
+        for (int k = 0; k < 3; k++) {
+            box[0][k] = gn_min32(box[0][k], gn_sat32((int64_t)object->centre_q16[k] - object->half_q16[k]));
+            box[1][k] = gn_max32(box[1][k], gn_sat32((int64_t)object->centre_q16[k] + object->half_q16[k]));
+        }
+    }
+}
+
 /* |a - b| + 1, Q16; 2^32 at the most */
 static uint64_t distance_q16(const int64_t a[3], const int64_t b[3])
 {
@@ -110,7 +112,7 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, const
     const gn_light *light = &frame->scene->lights[view->light_idx];
     int64_t share_uq16 = 52429 - (int64_t)frame->scene->shadow.cascade_fade_uq16; /* 0.8 - c */
     if (share_uq16 <= 0 || light->receiver_plane) return 0; /* B5: a tap may compare with a depth far from the receiver's */
-    for (uint32_t i = 0; i < frame->n_cascades; i++)        /* A5: an old tile may lack what a new one shows */
+    for (uint32_t i = 0; i < GN_N_CASCADES(frame); i++)        /* A5: an old tile may lack what a new one shows */
         if (frame->scene->shadow.refresh[i] > 1) return 0;
     const int64_t zero[3] = {0, 0, 0};
     int64_t c[3], end[3], half[3];

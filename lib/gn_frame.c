@@ -55,6 +55,7 @@ static int knobs_ok(const gn_frame *frame)
 static int picture_format_ok(const gn_picture *picture)
 {
     if (picture->format == GN_FORMAT_RAW32) return GN_RAW_VIEWS && (uint32_t)picture->view - 1U < GN_VIEW_TRIANGLE;
+    if (!GN_OTHER_FORMATS && picture->format != GN_FORMAT_RGB565 && picture->format != GN_FORMAT_RGB565_SWAPPED) return 0;
     return picture->view == GN_VIEW_COLOUR && (uint32_t)picture->format <= GN_FORMAT_MONO1;
 }
 
@@ -91,8 +92,11 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
     frame->tiles_x = (uint16_t)((frame->picture.width + GN_K(frame, tile_width) - 1) / GN_K(frame, tile_width));
     frame->tiles_y = (uint16_t)((frame->picture.height + GN_K(frame, tile_height) - 1) / GN_K(frame, tile_height));
     if ((uint32_t)frame->tiles_x * frame->tiles_y > GN_TILES_MAX) return gn_fail(frame, GN_ERR_KNOB, 0);
-    gn_status status = gn_scene_validate(frame, scene);
+    gn_status status = GN_OK;
+#if GN_VALIDATION
+    status = gn_scene_validate(frame, scene);
     if (status) return status;
+#endif
     frame->scene = scene;
     gn_cam_setup(frame);
     status = gn_views_setup(frame);

@@ -79,6 +79,15 @@
       "the atlases' RAM twice")                                                                                                    \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")                  \
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")               \
+    X(validation, VALIDATION, 0, 1,                                                                                                \
+      "scenes are checked before they are drawn; without, what would be refused may do anything", "flash")                         \
+    X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats but RGB565: RGB888, grey, one bit", "flash")                              \
+    X(cascades, CASCADES, 0, 1, "more than one cascade per light (D3)", "flash")                                                   \
+    X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance (A2)", "flash")                                            \
+    X(object_boxes, OBJECT_BOXES, 0, 1,                                                                                            \
+      "casters whose box a shadow tile does not see are passed over", "flash, 24 bytes per object; the same picture with and without")\
+    X(caster_clipping, CASTER_CLIPPING, 0, 1,                                                                                      \
+      "directional casters may reach more than 16384 texels beyond their tile; without, they are refused", "flash")                \
     X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")                   \
     X(runtime_knobs, RUNTIME_KNOBS, 0, 1, "quality knobs as data (host tools)", "everything is built")
 

@@ -6,6 +6,7 @@
 #include "gn_scene.h"
 #include "gn_xform.h"
 
+#if GN_BOXES
 /* Twice the centre and the half extents of the mesh's coordinates; 0: a position is out of range. */
 static int mesh_box(const gn_mesh *mesh, int32_t centre[3], int32_t half[3])
 {
@@ -57,6 +58,7 @@ uint64_t gn_object_distance2_q32(const gn_object_state *object, const int32_t p_
     }
     return sum;
 }
+#endif
 
 int gn_object_is_reached(const gn_frame *frame, uint32_t object_idx, uint32_t light_idx)
 {

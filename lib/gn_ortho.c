@@ -139,6 +139,7 @@ void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh,
     }
 }
 
+#if GN_CASTER_CLIPPING
 /* Cuts at sign * c[axis] <= reach. */
 static GN_NOINLINE void clip_side(gn_light_polygon *polygon, gn_light_polygon *in, int axis, int64_t sign)
 {
@@ -178,6 +179,14 @@ static void clip_to_reach(gn_light_polygon *polygon, gn_light_polygon *uncut)
         if (lo < -GN_TILE_REACH_Q16) clip_side(polygon, uncut, axis, -1);
     }
 }
+#else
+static int within_reach(int64_t p[3][3])
+{
+    for (int i = 0; i < 3; i++)
+        if (gn_abs64(p[i][0]) > GN_TILE_REACH_Q16 || gn_abs64(p[i][1]) > GN_TILE_REACH_Q16) return 0;
+    return 1;
+}
+#endif
 
 /* round(a * b * 2^shift), as gn_bf_apply gives it */
 static inline int64_t apply(int32_t a, gn_bfloat b, int32_t shift)
@@ -275,7 +284,11 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
 #if GN_CASTER_ALPHA
     if (alpha && alpha->needs_plane) alpha_plane(view, alpha, polygon->p);
 #endif
+#if GN_CASTER_CLIPPING
     clip_to_reach(polygon, &casting->with.uncut);
+#else
+    if (!within_reach(polygon->p)) return GN_ORTHO_TOO_FAR;
+#endif
     if (polygon->n >= 3) caster.z_corner = depth_at_corner(view, &caster, polygon->p[0][0], polygon->p[0][1], polygon->p[0][2]);
     int32_t bits = GN_K(frame, shadow_subpixel_bits), n_texels = 0;
     for (int i = 1; i + 1 < polygon->n; i++) {

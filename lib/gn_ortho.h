@@ -26,8 +26,7 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
 /* The same for corners within 2^29 (8192 texels), without alpha. */
 int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, const int32_t *const c[3], int two_sided);
 
-/* The same for corners within 2^29 (8192 texels), without alpha. */
-int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, const int32_t *const c[3], int two_sided);
+#define GN_ORTHO_TOO_FAR (-2) /* without GN_CASTER_CLIPPING: it reaches too far beyond the tile */
 
 #endif
 #endif

@@ -40,6 +40,7 @@ static uint32_t encode(const gn_frame *frame, uint32_t linear_q20)
     return GN_K(frame, srgb) ? srgb_encode(linear_q20) : linear_encode(linear_q20);
 }
 
+#if GN_OTHER_FORMATS
 /* Rec. 709 weights in Q16; they sum to 65536. Channels are limited first, so that one cannot outshine the others. */
 static uint32_t luminance_q20(const uint32_t c[3])
 {
@@ -47,15 +48,21 @@ static uint32_t luminance_q20(const uint32_t c[3])
              b = c[2] < GN_ONE_Q20 ? c[2] : GN_ONE_Q20;
     return (uint32_t)(((uint64_t)r * 13933U + (uint64_t)g * 46871U + (uint64_t)b * 4732U + 0x8000U) >> 16);
 }
+#endif
+
+static uint32_t pack_565(const gn_frame *frame, const uint32_t c[3])
+{
+    uint32_t v = quantise(encode(frame, c[0]), 31) << 11 | quantise(encode(frame, c[1]), 63) << 5 | quantise(encode(frame, c[2]), 31);
+    return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
+}
 
 uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
 {
-    uint32_t r = linear_q20[0], g = linear_q20[1], b = linear_q20[2], v;
+#if GN_OTHER_FORMATS
     switch (frame->picture.format) {
     case GN_FORMAT_RGB565:
     case GN_FORMAT_RGB565_SWAPPED:
-        v = quantise(encode(frame, r), 31) << 11 | quantise(encode(frame, g), 63) << 5 | quantise(encode(frame, b), 31);
-        return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
+        break;
     case GN_FORMAT_GREY8:
         return quantise(encode(frame, luminance_q20(linear_q20)), 255);
     case GN_FORMAT_GREY4:
@@ -63,10 +70,14 @@ uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
     case GN_FORMAT_MONO1:
         return linear_encode(luminance_q20(linear_q20));
     default:
-        return quantise(encode(frame, r), 255) | quantise(encode(frame, g), 255) << 8 | quantise(encode(frame, b), 255) << 16;
+        return quantise(encode(frame, linear_q20[0]), 255) | quantise(encode(frame, linear_q20[1]), 255) << 8 |
+               quantise(encode(frame, linear_q20[2]), 255) << 16;
     }
+#endif
+    return pack_565(frame, linear_q20);
 }
 
+#if GN_OTHER_FORMATS
 /* The threshold of an 8x8 ordered dither at a pixel, 1..127 of 128: the bits of x ^ y and y, interleaved and reversed. */
 static uint32_t threshold(int32_t x, int32_t y)
 {
@@ -91,6 +102,7 @@ static void fill_grey4(uint8_t *row, int32_t at, int32_t n, uint32_t level)
         *out = i & 1 ? (uint8_t)((*out & 0xF0U) | level) : (uint8_t)((*out & 0x0FU) | level << 4);
     }
 }
+#endif
 
 /* Two pixels a word where they lie so. */
 static void fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)
@@ -106,6 +118,7 @@ static void fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t pac
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed)
 {
     int32_t at = x - rows->x0, row = y - rows->y0, i = row * rows->width + at;
+#if GN_OTHER_FORMATS
     uint8_t *bytes = rows->pixels->bytes;
     if (frame->picture.format == GN_FORMAT_RGB565 || frame->picture.format == GN_FORMAT_RGB565_SWAPPED) {
         fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
@@ -123,11 +136,18 @@ void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
             *out++ = (uint8_t)(packed >> 16);
         }
     }
+#else
+    (void)frame;
+    fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
+#endif
 }
 
 size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height)
 {
     size_t w = (size_t)(uint32_t)width, h = (size_t)(uint32_t)height;
+#if !GN_OTHER_FORMATS
+    if (!GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32) return 2 * w * h;
+#endif
     switch (frame->picture.format) {
     case GN_FORMAT_RGB565:
     case GN_FORMAT_RGB565_SWAPPED:

@@ -26,7 +26,7 @@ void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
 /* Stores one packed pixel at (x, y) of the picture; RGB565 is what most panels take, so it goes first. */
 static inline void gn_pixel_store(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t packed)
 {
-    if (frame->picture.format == GN_FORMAT_RGB565)
+    if (frame->picture.format == GN_FORMAT_RGB565 || !GN_OTHER_FORMATS)
         rows->pixels->rgb565[(y - rows->y0) * rows->width + x - rows->x0] = (uint16_t)packed;
     else gn_pixel_fill(frame, rows, x, y, 1, packed);
 }

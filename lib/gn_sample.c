@@ -76,7 +76,7 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
     int64_t m = frame->scene->shadow.max_distance_q16;
     sample->in_reach = frame->scene->shadow.distance_mode != GN_DISTANCE_RADIUS || across + (uint64_t)(z * z) <= (uint64_t)(m * m);
     if (!sample->in_reach) return;
-    for (int32_t i = 0; i < frame->n_cascades; i++) {
+    for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
         const gn_cascade_state *cascade = &frame->cascade[i];
         int64_t dz = z - cascade->centre_q16;
         uint64_t dist2 = across + (uint64_t)(dz * dz);
@@ -122,7 +122,7 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
     int32_t moved[3];
     const int32_t *offset = own_offset(frame, s, slot, view, n_q30, moved);
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out);
-    if (!GN_BLENDED_CASCADES || !cascaded || frame->scene->shadow.blend == GN_BLEND_HARD || sample->cascade == frame->last_cascade)
+    if (!GN_BLENDED_CASCADES || !cascaded || frame->scene->shadow.blend == GN_BLEND_HARD || sample->cascade == GN_LAST_CASCADE(frame))
         return;
     view += frame->cascade[sample->cascade].next - sample->cascade;
     int same = view->filter != GN_FILTER_DISK && !(GN_AUTO_BIAS && frame->scene->lights[s->light[slot].idx].auto_bias);

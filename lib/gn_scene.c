@@ -2,6 +2,7 @@
 #include "gn_scene.h"
 #include "gn_math.h"
 #include "gn_q.h"
+#include "gn_xform.h"
 
 #define GN_POSITION_LIMIT_Q16 (8192 << 16)
 #define GN_COLOUR_LIMIT_UQ16  0xFFFFFFU /* 255.99 */
@@ -23,6 +24,7 @@ gn_status gn_fail_capacity(gn_frame *frame, gn_status status, uint32_t needed, u
     return status;
 }
 
+#if GN_VALIDATION
 static int above(const uint32_t v[3], uint32_t limit)
 {
     return v[0] > limit || v[1] > limit || v[2] > limit;
@@ -108,6 +110,10 @@ static gn_status check_object(gn_frame *frame, const gn_object *object, uint32_t
     if (!object_transform_ok(&object->to_world)) return gn_fail(frame, GN_ERR_OBJECT_TRANSFORM, idx);
     gn_status status = check_mesh(frame, object->mesh, idx);
     if (status) return status;
+#if !GN_BOXES /* else gn_object looks at them */
+    for (uint32_t i = 0; i < object->mesh->n_vertices; i++)
+        if (!gn_xform_position_ok(object->mesh, i)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, idx);
+#endif
     /* gn_xform: positions with few fraction bits under a large scale would need a left shift */
     if (object->mesh->pos_frac_bits + 14 < object->to_world.exp) return gn_fail(frame, GN_ERR_OBJECT_TRANSFORM, idx);
     return check_material(frame, object, idx);
@@ -158,7 +164,7 @@ static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t id
 
 static int cascades_ok(const gn_shadow_settings *shadow)
 {
-    if (shadow->n_cascades > 4) return 0;
+    if (shadow->n_cascades > (GN_CASCADES ? 4 : 1)) return 0;
     if ((uint32_t)shadow->blend > (GN_BLENDED_CASCADES ? GN_BLEND_DITHER : GN_BLEND_HARD)) return 0;
     uint32_t previous = 0;
     for (uint32_t i = 0; i + 1 < shadow->n_cascades; i++) {
@@ -240,3 +246,4 @@ gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene)
         if ((status = check_object(frame, &scene->objects[i], i)) != GN_OK) return status;
     return GN_SHADOWS ? check_shadow(frame, scene) : GN_OK;
 }
+#endif

@@ -233,7 +233,7 @@ static void clear_background(gn_shading *s)
     }
 #endif
     /* bits after a row's last pixel are flushed with it and count when tiles are compared (R6) */
-    if (frame->picture.format == GN_FORMAT_GREY4 || frame->picture.format == GN_FORMAT_MONO1)
+    if (GN_OTHER_FORMATS && (frame->picture.format == GN_FORMAT_GREY4 || frame->picture.format == GN_FORMAT_MONO1))
         memset(s->scratch->pixel.bytes, 0, gn_pixel_bytes(frame, s->rows.width, s->rect.y1 - s->rect.y0));
     for (int32_t y = s->rect.y0; y < s->rect.y1; y++) gn_pixel_fill(frame, &s->rows, s->rect.x0, y, s->rows.width, s->last_pixel);
 }

@@ -34,7 +34,7 @@ uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, co
     if (frame->scene->shadow.distance_mode == GN_DISTANCE_DEPTH) g = distance_fade(frame, sample->value[GN_VALUE_Z]);
     if (!frame->has_cascades) return g;
     if (sample->cascade == GN_CASCADE_NONE) return 0;
-    return sample->cascade == frame->last_cascade ? gn_mul_uq16(g, (uint32_t)sample->value[GN_VALUE_FADE]) : g; /* D6 */
+    return sample->cascade == GN_LAST_CASCADE(frame) ? gn_mul_uq16(g, (uint32_t)sample->value[GN_VALUE_FADE]) : g; /* D6 */
 }
 
 /* ---- Lookups --------------------------------------------------------------------------------------------------------- */
@@ -83,7 +83,7 @@ static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *su
 {
     const gn_light_view *view = first + sample->cascade;
     uint32_t factor = (uint32_t)sample->value[GN_VALUE_FADE];
-    gn_blend blend = GN_BLENDED_CASCADES && sample->cascade != frame->last_cascade ? frame->scene->shadow.blend : GN_BLEND_HARD;
+    gn_blend blend = GN_BLENDED_CASCADES && sample->cascade != GN_LAST_CASCADE(frame) ? frame->scene->shadow.blend : GN_BLEND_HARD;
     if (blend == GN_BLEND_HARD || factor >= GN_ONE_UQ16) return ortho_attenuation(frame, surface, sample, view, coord);
     const gn_light_view *next = first + frame->cascade[sample->cascade].next;
     if (blend == GN_BLEND_DITHER && factor >= gn_noise_uq16(sample->x, sample->y))

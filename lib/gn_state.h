@@ -49,6 +49,9 @@ typedef struct {
 
 #define GN_OBJECT_LIGHTS_MAX 8 /* P9 */
 
+/* Whether anything asks for the boxes of objects. */
+#define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING)))
+
 /* What is known of an object before its triangles are looked at. */
 typedef struct {
     int32_t centre_q16[3], half_q16[3]; /* its box in the world */
@@ -243,7 +246,9 @@ typedef struct gn_frame {
     gn_cam cam;
     uint64_t min2_q32; /* P2: the least distance^2 of spot and point lights, 10^-4 of the model's */
     gn_light_state light[GN_MAX_LIGHTS];
+#if GN_BOXES
     gn_object_state object[GN_MAX_OBJECTS];
+#endif
     int32_t receivers_q16[2][3]; /* box of all receiving objects: least, largest corner; D8 */
     uint32_t fade_start_q16;     /* D5: strength = (max_distance - z) * fade_scale */
     gn_bfloat fade_scale;
@@ -280,6 +285,9 @@ typedef struct gn_frame {
 #endif
 #endif
 } gn_frame;
+
+#define GN_N_CASCADES(frame)   (GN_CASCADES ? (frame)->n_cascades : 1)
+#define GN_LAST_CASCADE(frame) (GN_CASCADES ? (frame)->last_cascade : 0)
 
 typedef union {
     uint8_t bytes[GN_TILE_PIXELS_MAX * (GN_RAW_VIEWS ? 4 : 3)];

@@ -215,7 +215,7 @@ static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
 {
     const gn_light_state *light = s->light[slot].state;
     const gn_light_view *view = &frame->view[light->view_idx];
-    if (light->kind == GN_LIGHT_DIRECTIONAL && !view->border_lit) view += frame->last_cascade; /* the first may be empty */
+    if (light->kind == GN_LIGHT_DIRECTIONAL && !view->border_lit) view += GN_LAST_CASCADE(frame); /* the first may be empty */
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     const gn_light *scene_light = &frame->scene->lights[s->light[slot].idx];
     if (scene_light->receiver_plane || scene_light->auto_bias) face_normal(frame, s, s->face_q30);

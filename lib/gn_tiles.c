@@ -40,6 +40,7 @@ static uint32_t main_light(const gn_frame *frame)
 }
 #endif
 
+#if GN_TILE_IMPORTANCE
 /* ceil(64 * min(1, range / distance to the camera)) */
 static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
 {
@@ -61,6 +62,7 @@ static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
     return 64;
 #endif
 }
+#endif
 
 static void wish(gn_frame *frame, gn_tile_plan *plan)
 {
@@ -78,13 +80,15 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
         gn_tile_plan none = {0, 0, 0, 0, 0};
         plan[l] = none;
         if (light->shadow_state == GN_SHADOW_NOT_WANTED) continue;
+#if GN_TILE_IMPORTANCE
         plan[l].weight = weight_of(frame, light);
+#endif
         plan[l].cascaded = light->kind == GN_LIGHT_DIRECTIONAL;
 #if GN_MAIN_LIGHT
         if (scene->shadow.main_light && l != main) plan[l].cascaded = 0;
 #endif
         plan[l].in_other = !plan[l].cascaded;
-        plan[l].n_tiles = plan[l].cascaded ? frame->n_cascades : light->kind == GN_LIGHT_POINT ? 6 : 1;
+        plan[l].n_tiles = plan[l].cascaded ? GN_N_CASCADES(frame) : light->kind == GN_LIGHT_POINT ? 6 : 1;
     }
 }
 
@@ -118,6 +122,7 @@ static uint32_t texels_of(const gn_tile_plan *plan)
     return (uint32_t)plan->n_tiles << (2 * plan->tile_log2); /* 16 * 2^20 */
 }
 
+#if GN_TILE_IMPORTANCE
 /* T / w of a against T / w of b: tiles that are larger than their light is worth come first. */
 static int more_generous(const gn_tile_plan *a, const gn_tile_plan *b)
 {
@@ -156,6 +161,7 @@ static void sizes_by_importance(const gn_frame *frame, gn_tile_plan *plan, uint3
         plan[l].tile_log2++;
     }
 }
+#endif
 
 /* With the default capacities they always do: an atlas holds what it is divided into. */
 static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other)
@@ -171,8 +177,11 @@ static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_oth
     int32_t atlas_log2 = 31 - gn_clz32((uint32_t)atlas_size);
     uint32_t n_tiles = serve(frame, plan, in_other, capacity);
     if (n_tiles > 4U << (2 * (atlas_log2 - 4))) return gn_fail(frame, GN_ERR_SHADOW_TILE, 0); /* more than size^2 / 64 */
+#if GN_TILE_IMPORTANCE
     if (frame->scene->shadow.tile_sizes == GN_TILES_IMPORTANCE) sizes_by_importance(frame, plan, in_other, atlas_log2);
-    else equal_sizes(frame, plan, in_other, n_tiles, atlas_log2);
+    else
+#endif
+        equal_sizes(frame, plan, in_other, n_tiles, atlas_log2);
     frame->stats.n_shadow_tiles += n_tiles;
     return texels_suffice(frame, plan, in_other);
 }

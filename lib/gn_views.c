@@ -200,11 +200,11 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
 static void add_views(gn_frame *frame, const gn_tile_plan *plan)
 {
     uint32_t first[GN_MAX_LIGHTS] = {0}, next[2] = {0, 0}; /* every light with tiles gets its first */
-    for (int32_t log2 = 10; log2 >= 3; log2--) {
+    for (int32_t log2 = GN_TILE_IMPORTANCE ? 10 : 3; log2 >= 3; log2--) { /* else one size per atlas */
         for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
-            if (!plan[l].n_tiles || plan[l].tile_log2 != log2) continue;
+            if (!plan[l].n_tiles || (GN_TILE_IMPORTANCE && plan[l].tile_log2 != log2)) continue;
             first[l] = next[plan[l].in_other];
-            next[plan[l].in_other] += (uint32_t)plan[l].n_tiles << (2 * log2);
+            next[plan[l].in_other] += (uint32_t)plan[l].n_tiles << (2 * plan[l].tile_log2);
         }
     }
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
@@ -227,7 +227,9 @@ static gn_status setup_views(gn_frame *frame)
     check_layout(frame, plan);
 #endif
     add_views(frame, plan);
+#if GN_CASTER_CULLING
     gn_cull_begin(frame);
+#endif
     frame->frame_count++;
     return GN_OK;
 }
@@ -241,8 +243,13 @@ gn_status gn_views_setup(gn_frame *frame)
     int64_t min2 = gn_scale64(429497, -2 * scene->unit_log2);
     frame->min2_q32 = min2 > 0 ? (uint64_t)min2 : 1;
     for (uint32_t i = 0; i < scene->n_lights; i++) setup_light(frame, i);
-    gn_status status = gn_object_boxes(frame);
+    gn_status status = GN_OK;
+#if GN_BOXES
+    status = gn_object_boxes(frame);
+#endif
+#if GN_PUNCTUAL_LIGHTS || GN_MAX_LIGHTS > GN_SURFACE_LIGHTS
     if (!status) status = gn_object_lights(frame);
+#endif
 #if GN_SHADOWS
     if (!status) status = setup_views(frame);
 #endif

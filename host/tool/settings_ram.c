@@ -88,7 +88,8 @@ settings_ram_parts settings_ram(const settings *s)
     int punctual = s->feature.punctual_lights;
     put(&frame, 1, 184, 8); /* picture to min2_q32 */
     r.lights = put(&frame, s->capacity.max_lights, punctual ? 176 : 36, punctual ? 8 : 4);
-    r.objects = put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4);
+    int boxes = punctual || (s->feature.shadows && (s->feature.object_boxes || s->feature.caster_culling));
+    r.objects = boxes ? put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4) : 0;
     put(&frame, 1, 40, 4); /* receivers_q16 to tiles_y */
     r.triangles = put(&frame, s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
