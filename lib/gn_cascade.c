@@ -91,7 +91,7 @@ static void distance_fade(gn_frame *frame)
 void gn_cascade_setup(gn_frame *frame)
 {
     uint32_t n = frame->scene->shadow.n_cascades;
-    frame->n_cascades = (uint8_t)(GN_CASCADES && n ? n : 1);
+    frame->n_cascades = (uint8_t)(GN_MANY_CASCADES && n ? n : 1);
     distance_fade(frame);
     setup_spheres(frame);
 }

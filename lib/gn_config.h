@@ -198,8 +198,8 @@
 #ifndef GN_OTHER_FORMATS
 #define GN_OTHER_FORMATS 1
 #endif
-#ifndef GN_CASCADES
-#define GN_CASCADES 1
+#ifndef GN_MANY_CASCADES
+#define GN_MANY_CASCADES 1
 #endif
 #ifndef GN_TILE_IMPORTANCE
 #define GN_TILE_IMPORTANCE 1

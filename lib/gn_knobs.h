@@ -82,7 +82,7 @@
     X(validation, VALIDATION, 0, 1,                                                                                                \
       "scenes are checked before they are drawn; without, what would be refused may do anything", "flash")                         \
     X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats but RGB565: RGB888, grey, one bit", "flash")                              \
-    X(cascades, CASCADES, 0, 1, "more than one cascade per light (D3)", "flash")                                                   \
+    X(many_cascades, MANY_CASCADES, 0, 1, "more than one cascade per light (D3)", "flash")                                                   \
     X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance (A2)", "flash")                                            \
     X(object_boxes, OBJECT_BOXES, 0, 1,                                                                                            \
       "casters whose box a shadow tile does not see are passed over", "flash, 24 bytes per object; the same picture with and without")\

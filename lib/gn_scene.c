@@ -164,7 +164,7 @@ static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t id
 
 static int cascades_ok(const gn_shadow_settings *shadow)
 {
-    if (shadow->n_cascades > (GN_CASCADES ? 4 : 1)) return 0;
+    if (shadow->n_cascades > (GN_MANY_CASCADES ? 4 : 1)) return 0;
     if ((uint32_t)shadow->blend > (GN_BLENDED_CASCADES ? GN_BLEND_DITHER : GN_BLEND_HARD)) return 0;
     uint32_t previous = 0;
     for (uint32_t i = 0; i + 1 < shadow->n_cascades; i++) {
@@ -208,7 +208,7 @@ static gn_status check_filters(gn_frame *frame, const gn_shadow_settings *shadow
         (disk && (shadow->disk_samples < 1 || shadow->disk_samples > 64)))
         return gn_fail(frame, GN_ERR_SHADOW_FILTER, 0);
     if ((uint32_t)shadow->mixing > (GN_MASKS ? GN_MIXING_DISTANCE : GN_MIXING_NONE) ||
-        (uint32_t)shadow->tile_sizes > GN_TILES_IMPORTANCE || shadow->main_light > (GN_MAIN_LIGHT ? 1U : 0U) || !refresh_ok(shadow->refresh))
+        (uint32_t)shadow->tile_sizes > (GN_TILE_IMPORTANCE ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL) || shadow->main_light > (GN_MAIN_LIGHT ? 1U : 0U) || !refresh_ok(shadow->refresh))
         return gn_fail(frame, GN_ERR_SHADOW_MODE, 0);
     return GN_OK;
 }

@@ -286,8 +286,8 @@ typedef struct gn_frame {
 #endif
 } gn_frame;
 
-#define GN_N_CASCADES(frame)   (GN_CASCADES ? (frame)->n_cascades : 1)
-#define GN_LAST_CASCADE(frame) (GN_CASCADES ? (frame)->last_cascade : 0)
+#define GN_N_CASCADES(frame)   (GN_MANY_CASCADES ? (frame)->n_cascades : 1)
+#define GN_LAST_CASCADE(frame) (GN_MANY_CASCADES ? (frame)->last_cascade : 0)
 
 typedef union {
     uint8_t bytes[GN_TILE_PIXELS_MAX * (GN_RAW_VIEWS ? 4 : 3)];

@@ -145,11 +145,12 @@ static void use_shadow_settings(int variant)
     s->penumbra_uq16 = GN_UQ16(6);
     s->disk_samples = 12;
     s->mixing = use.masks ? (gn_mixing)(variant % 3) : GN_MIXING_NONE;
-    s->tile_sizes = variant % 2 ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL;
+    s->tile_sizes = use.tile_importance && variant % 2 ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL;
     s->main_light = use.main_light && variant > 1;
     s->caster_culling = 1;
     s->object_lights = (uint32_t)variant % 3;
     s->n_cascades = s->main_light ? 1U + (uint32_t)variant % 4 : 1U + (uint32_t)variant % 2; /* of two lights: 4 tiles */
+    if (!use.many_cascades) s->n_cascades = 1;
     s->blend = use.blended_cascades ? (gn_blend)(variant % 3) : GN_BLEND_HARD;
     s->distance_mode = variant == 3 ? GN_DISTANCE_RADIUS : GN_DISTANCE_DEPTH;
     s->max_distance_q16 = GN_Q16(9);
@@ -172,7 +173,7 @@ static uint32_t crc;
 static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 {
     const gn_picture *picture = user;
-    size_t bytes = picture->format == GN_FORMAT_RGB565 ? 2 : picture->format == GN_FORMAT_RGB888 ? 3 : 4;
+    size_t bytes = picture->format == GN_FORMAT_RGB565_SWAPPED ? 2 : picture->format == GN_FORMAT_RGB888 ? 3 : 4;
     (void)x, (void)y;
     crc = demo_crc32(crc, pixels, (size_t)(w * h) * bytes);
 }
@@ -297,6 +298,16 @@ static void ask_hard(void)
     demo.scene.shadow.filter = GN_DISK_FILTER ? GN_FILTER_DISK : GN_FILTER_HARD;
 }
 
+static void ask_importance(void)
+{
+    demo.scene.shadow.tile_sizes = GN_TILES_IMPORTANCE;
+}
+static void ask_cascades(void)
+{
+    demo.scene.shadow.n_cascades = 2;
+    for (int i = 0; i < 3; i++) demo.scene.shadow.cascade_ratio_uq16[i] = 30000;
+}
+
 static const struct {
     const char *what;
     int built;
@@ -324,6 +335,8 @@ static const struct {
     {"automatic bias", GN_AUTO_BIAS, GN_ERR_LIGHT_BIAS, ask_auto_bias},
     {"refresh", GN_INCREMENTAL || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_refresh},
     {"soft", GN_FILTER_MAX >= 3 || !GN_SHADOWS, GN_ERR_LIGHT_KIND, ask_soft},
+    {"importance", GN_TILE_IMPORTANCE || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_importance},
+    {"cascades", GN_MANY_CASCADES || !GN_SHADOWS, GN_ERR_SHADOW_CASCADES, ask_cascades},
     {"hard", GN_FILTER_MAX >= 1 || !GN_DISK_FILTER || !GN_SHADOWS, GN_ERR_LIGHT_KIND, ask_hard},
 };
 
@@ -342,6 +355,8 @@ static void refuse(void)
         gn_status expected = refusals[i].built ? GN_OK : refusals[i].status;
         if (status != expected) printf("status of %s: %d, not %d\n", refusals[i].what, (int)status, (int)expected);
     }
+    picture.format = GN_FORMAT_GREY4;
+    if (gn_init(&renderer, &picture) != (GN_OTHER_FORMATS ? GN_OK : GN_ERR_FORMAT)) printf("status of other formats\n");
     picture.format = GN_FORMAT_RAW32;
     picture.view = GN_VIEW_DEPTH;
     if (gn_init(&renderer, &picture) != (GN_RAW_VIEWS ? GN_OK : GN_ERR_FORMAT)) printf("status of raw views\n");
@@ -356,9 +371,9 @@ int main(int argc, char **argv)
         use.raw_views = 0;
     }
     for (int i = 1; i < argc; i++) use_flag(argv[i]);
-    int failed = pictures(GN_FORMAT_RGB888, GN_VIEW_COLOUR, 0);
+    int failed = pictures(use.other_formats ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565_SWAPPED, GN_VIEW_COLOUR, 0);
     for (uint8_t l = 0; !failed && use.raw_views && l < (use.punctual_lights ? LIGHTS : 2); l++)
         failed = pictures(GN_FORMAT_RAW32, GN_VIEW_SHADOW, l);
-    if (!failed && argc == 1) refuse();
+    if (!failed && argc == 1 && GN_VALIDATION) refuse();
     return failed;
 }

@@ -41,7 +41,7 @@ bytes() { # of flash: code and constants
 # What a feature stands on: alone it has nothing to do.
 under() {
     case $1 in
-    SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW*) ;;
+    SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS) ;;
     TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
     LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
@@ -63,7 +63,7 @@ for feature in $features; do
     if [ $alone -ge -64 ] && [ $basis -ge -64 ] && [ $saved -ge -256 ]; then pass
     else fail "$feature: $alone bytes alone, $basis on what it stands on; off saves $saved of all"; fi
     case $feature in
-    SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW* | TILE_LIGHTS) ;;
+    SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_LIGHTS) ;;
     *) if [ $alone -le 32 ] || [ $feature = CASTER_ALPHA ]; then pass; else fail "$feature without shadows: $alone bytes"; fi ;;
     esac
 done
@@ -99,6 +99,11 @@ AUTO_BIAS gn_bias_auto_.*|.*_share_q3[02]|auto_.*
 INCREMENTAL check_layout|view_signature|stays
 STATIC_LAYER copy_texels
 MAIN_LIGHT main_light
+VALIDATION gn_scene_validate|check_.*light
+OTHER_FORMATS luminance_q20|fill_(grey4|mono)
+TILE_IMPORTANCE sizes_by_importance|weight_of
+OBJECT_BOXES gn_cull_sees|.*_sees
+CASTER_CLIPPING clip_side|clip_to_reach
 LIST
 
 # ---- Divisions -------------------------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ host_knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1//') # the tool alone c
 strict="-std=c99 -pedantic $warn -Ilib"
 sh tests/one_file.sh lib >"$tmp/lib.c"
 
-features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v RUNTIME_KNOBS)
+features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e VALIDATION)
 # flags WORD...: "none" and "all" of the features, "tiny"..., NAME=VALUE of a knob, or a flag as it is; of a name the last value counts
 flags() {
     for word in "$@"; do
@@ -38,12 +38,14 @@ none=$(flags none) all=$(flags all)
         value=$(most "$feature")
         echo "none $feature=$value"
         case $feature in # alone they have nothing to do: over shadows, or lights
-        *FILTER* | *CASC* | *BIAS | *PLANE | MAIN* | INCREM* | STATIC* | *BLOCKS | CASTER* | LINEAR*)
+        *FILTER* | *CASC* | *BIAS | *PLANE | MAIN* | INCREM* | STATIC* | *BLOCKS | CASTER* | LINEAR* | TILE_IMP* | OBJECT_B*)
             echo "none SHADOWS=1 $feature=$value" ;;
         TILE_LIGHTS) echo "none PUNCTUAL_LIGHTS=1 TILE_LIGHTS=1" ;;
         esac
         echo "all $feature=0"
     done
+    echo "all VALIDATION=0"
+    echo "none SHADOWS=1 VALIDATION=0 tiny SRGB=0"
     for cut in VISIBLE_ALPHA CASTER_ALPHA MASKS; do
         echo "none SHADOWS=1 TEXTURES=1 $cut=1"
         echo "all TEXTURES=0 VISIBLE_ALPHA=0 CASTER_ALPHA=0 MASKS=0 $cut=1"

@@ -140,6 +140,8 @@ static void use_shadows(compiled *c)
     if (s->kernel == GN_KERNEL_LINEAR) USE(linear_kernels, 1, "%s", "the setting kernel");
     if (s->blend != GN_BLEND_HARD) USE(blended_cascades, 1, "%s", "the setting cascade_blend");
     if (s->main_light) USE(main_light, 1, "%s", "the setting main_light");
+    if (s->n_cascades > 1) USE(many_cascades, 1, "%s", "the setting cascades");
+    if (s->tile_sizes == GN_TILES_IMPORTANCE) USE(tile_importance, 1, "%s", "the setting tiles");
     if (s->mixing != GN_MIXING_NONE) USE(masks, 1, "%s", "the setting mixing");
 }
 
@@ -156,6 +158,8 @@ static void use_nothing(compiled *c)
     NOTHING(linear_kernels);
     NOTHING(punctual_lights);
     NOTHING(main_light);
+    NOTHING(many_cascades);
+    NOTHING(tile_importance);
     NOTHING(caster_alpha);
     NOTHING(visible_alpha);
     NOTHING(textures);
@@ -170,6 +174,10 @@ static void use_nothing(compiled *c)
     NOTHING(vertex_colours);
     c->set.feature.raw_views = c->set.feature.runtime_knobs = 0;
     because(c, "raw_views", "for host tools");
+    because(c, "validation", "off where the scene changes in no way that was not tried on the host");
+    because(c, "other_formats", "off where the panel takes RGB565");
+    because(c, "object_boxes", "the same picture with and without");
+    because(c, "caster_clipping", "off where no frame is refused for it");
     because(c, "runtime_knobs", "for host tools");
 }
 

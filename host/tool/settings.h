@@ -55,7 +55,7 @@ typedef struct {
     int value;
     char what[96];
 } settings_need;
-#define SETTINGS_NEEDS_MAX 24
+#define SETTINGS_NEEDS_MAX 32
 
 /* Fills `needs` (room for SETTINGS_NEEDS_MAX), one entry per knob; returns how many. Features that only make the same picture
  * faster are never needed, nor are those without which settings_enforce draws something simpler. shadows: some are drawn. */

@@ -59,6 +59,8 @@ static void needs_of_shadows(need_list *list, const scene *s)
     if (s->shadow.blend != SCENE_BLEND_HARD)
         need(list, "blended_cascades", 1, "cascade_blend %s", settings_blend_names[s->shadow.blend]);
     if (s->shadow.main_light) need(list, "main_light", 1, "main_light 1");
+    if (s->shadow.n_cascades > 1) need(list, "many_cascades", 1, "cascades %d", s->shadow.n_cascades);
+    if (s->shadow.tiles == SCENE_TILES_IMPORTANCE) need(list, "tile_importance", 1, "tiles importance");
     if (s->shadow.mixing != SCENE_MIX_NONE) need(list, "masks", 1, "mixing");
 }
 
