@@ -22,9 +22,15 @@ static int64_t distance(const int32_t v[3], uint32_t plane, int32_t near_q16, co
 
 uint32_t gn_outcode(const int32_t v_q16[3], int32_t near_q16, const int32_t side_q16[2])
 {
-    uint32_t out = 0;
-    for (uint32_t plane = GN_OUT_NEAR; plane <= GN_OUT_TOP; plane <<= 1)
-        if (distance(v_q16, plane, near_q16, side_q16) < 0) out |= plane;
+    /* as distance() has them */
+    uint32_t out = v_q16[2] < near_q16 ? GN_OUT_NEAR : 0;
+    int64_t side = (int64_t)v_q16[2] * side_q16[0], along = (int64_t)v_q16[0] * 65536;
+    if (side + along < 0) out |= GN_OUT_LEFT;
+    if (side - along < 0) out |= GN_OUT_RIGHT;
+    side = (int64_t)v_q16[2] * side_q16[1];
+    along = (int64_t)v_q16[1] * 65536;
+    if (side + along < 0) out |= GN_OUT_BOTTOM;
+    if (side - along < 0) out |= GN_OUT_TOP;
     return out;
 }
 

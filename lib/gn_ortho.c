@@ -198,6 +198,13 @@ static inline int64_t apply(int32_t a, gn_bfloat b, int32_t shift)
     return a < 0 ? -v : v;
 }
 
+/* Texels along w, Q16, as a share of the depth range, Q32. |.| < 2^49 */
+static inline int64_t depth_q32(const gn_light_view *view, int64_t texels_q16)
+{
+    int32_t up = 16 - view->tile_log2 - view->depth_log2; /* at most 13 */
+    return up >= 0 ? gn_shl64(texels_q16, up) : gn_shr64(texels_q16, -up);
+}
+
 /* Plane, bias (B1) and range of a triangle with this normal, whose depths are lo .. hi, texels. Returns 0 if it cannot be seen from
  * the light. */
 static GN_NOINLINE int caster_begin(gn_caster *out, const gn_light_view *view, const int32_t nn[3], int two_sided, int64_t lo,
@@ -210,12 +217,12 @@ static GN_NOINLINE int caster_begin(gn_caster *out, const gn_light_view *view, c
     int64_t steepest = gn_clamp64(apply((int32_t)(gn_abs32(nu) > gn_abs32(nv) ? gn_abs32(nu) : gn_abs32(nv)), per_n, 16), 0,
                                   (int64_t)1 << 31);                                        /* texels per texel, Q16 */
     int64_t bias = view->bias_constant_q16 + gn_shr64(steepest * view->bias_slope_q16, 16); /* 2^31 * 2^22 */
-    out->bias = gn_scale64(bias, -to_steps);
+    out->bias = depth_q32(view, bias);
     out->dz_du = gn_clamp64(apply(nu, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
     out->dz_dv = gn_clamp64(apply(nv, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
     const int64_t far = (int64_t)1 << 32;
-    out->lo = gn_clamp64(gn_scale64(lo, -to_steps), 0, far); /* D9: pancaking */
-    out->hi = gn_clamp64(gn_scale64(hi, -to_steps), 0, far);
+    out->lo = gn_clamp64(depth_q32(view, lo), 0, far); /* D9: pancaking */
+    out->hi = gn_clamp64(depth_q32(view, hi), 0, far);
     return out->lo < far;
 }
 
@@ -241,7 +248,7 @@ static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *vi
 static int64_t depth_at_corner(const gn_light_view *view, const gn_caster *caster, int64_t u_q16, int64_t v_q16, int64_t depth_q16)
 {
     int64_t du_q16 = 32768 - u_q16, dv_q16 = 32768 - v_q16; /* <= 2^30 */
-    int64_t z = gn_scale64(depth_q16, view->tile_log2 + view->depth_log2 - 16);
+    int64_t z = depth_q32(view, depth_q16);
     /* gradient <= 2^33 times 2^31 would not fit: split the offset into whole texels and a fraction */
     z += caster->dz_du * (du_q16 >> 16) + gn_shr64(caster->dz_du * (du_q16 & 65535), 16);
     return z + caster->dz_dv * (dv_q16 >> 16) + gn_shr64(caster->dz_dv * (dv_q16 & 65535), 16);
