@@ -43,9 +43,9 @@ static void exact_begin(gn_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32
     edge->dy = dy;
 }
 
-static inline int32_t exact_step(gn_edge *edge)
+static inline int16_t exact_step(gn_edge *edge)
 {
-    int32_t x = edge->q;
+    int16_t x = (int16_t)gn_max32(gn_min32(edge->q, INT16_MAX), INT16_MIN);
     edge->q += edge->dq;
     edge->r += edge->dr;
     if (edge->r >= edge->dy) {
@@ -86,8 +86,8 @@ static inline uint32_t fixed_ratio(int32_t a, int32_t b)
     return ((uint32_t)q << GN_FIXED_BITS) + ((uint32_t)r << GN_FIXED_BITS) / (uint32_t)b;
 }
 
-/* Where an edge down crosses rows y <= .. < y_end, not empty, into every other int32_t from `at` on. */
-static GN_NOINLINE void fixed_rows(const gn_walk *walk, int32_t *at, const gn_walk_corner *from, const gn_walk_corner *to,
+/* Where an edge down crosses rows y <= .. < y_end, not empty, into every other int16_t from `at` on. */
+static GN_NOINLINE void fixed_rows(const gn_walk *walk, int16_t *at, const gn_walk_corner *from, const gn_walk_corner *to,
                                    int32_t y, int32_t y_end)
 {
     int32_t bits = walk->subpixel_bits, one = 1 << bits, half = one >> 1, dx = to->x - from->x, dy = to->y - from->y,
@@ -96,9 +96,9 @@ static GN_NOINLINE void fixed_rows(const gn_walk *walk, int32_t *at, const gn_wa
     int32_t m = ((x0 & (one - 1)) * dy + row * dx + one - 1) >> bits; /* from the upper end's pixel; 2^26 + 2^28 */
     uint32_t x = ((uint32_t)(x0 >> bits) << GN_FIXED_BITS) + fixed_ratio(m + dy - 1, dy) + (uint32_t)walk->fixed;
     uint32_t step = fixed_ratio(dx, dy);
-    int32_t *end = at + 2 * (y_end - y);
+    int16_t *end = at + 2 * (y_end - y);
     do {
-        *at = (int32_t)x >> GN_FIXED_BITS;
+        *at = (int16_t)((int32_t)x >> GN_FIXED_BITS);
         at += 2;
         x += step;
         GN_KEEP(at);
@@ -110,7 +110,7 @@ static inline void fixed_border(gn_walk *walk, int side, int32_t end)
 {
     const gn_walk_corner *p = walk->corner;
     int32_t row = walk->row, bend = gn_min32(walk->row_end[1 + side], end);
-    int32_t *at = side ? &walk->span[0].x_end : &walk->span[0].x_begin;
+    int16_t *at = side ? &walk->span[0].x_end : &walk->span[0].x_begin;
     if (row < bend) {
         fixed_rows(walk, at, &p[0], &p[1 + side], row, bend);
         at += 2 * (bend - row);

@@ -19,7 +19,7 @@ typedef struct {
 } gn_edge;
 
 typedef struct {
-    int32_t x_begin, x_end;
+    int16_t x_begin, x_end; /* limited to what 16 bits hold: no picture or tile is as wide */
 } gn_span;
 
 typedef struct {

@@ -119,6 +119,7 @@ static void test_huge_triangles(void)
         int64_t f = rng_below(&random_state, 257);
         int32_t cx = (int32_t)((x[a] * f + x[b] * (256 - f)) / 256 / (1 << bits)) + rng_range(&random_state, -6, 6);
         int32_t cy = (int32_t)((y[a] * f + y[b] * (256 - f)) / 256 / (1 << bits)) + rng_range(&random_state, -6, 6);
+        cx = cx < -32000 ? -32000 : cx > 32000 ? 32000 : cx; /* spans are limited to 16 bits */
         window w = {cx - 8, cy - 8, cx + 8, cy + 8};
         HOLDS(&t, walk_equals_oracle(x, y, bits, w), "bits %d: (%d, %d) (%d, %d) (%d, %d) at (%d, %d)", (int)bits, (int)x[0],
               (int)y[0], (int)x[1], (int)y[1], (int)x[2], (int)y[2], (int)cx, (int)cy);
