@@ -41,6 +41,7 @@
     X(lights_punctual, "spot or point light that faces a pixel")                                                                   \
     X(highlights, "specular highlight of a light at a pixel")                                                                      \
     X(textured, "pixel whose colour is a texture's")                                                                               \
+    X(masked, "look-up in a mask image")                                                                                           \
     X(packed, "colour encoded")                                                                                                    \
     X(lookups, "shadow lookup in an orthographic view")                                                                            \
     X(lookups_persp, "shadow lookup in a perspective view")                                                                        \

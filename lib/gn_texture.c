@@ -1,6 +1,7 @@
 /* Textures. Positions are exact: coordinates have 16 fraction bits, and so have texels, the lowest of them zero. Values are 65535 = 1
  * until the end, so that a product with a weight fits 32 bits: a step to 16 bits after each axis, and one to 65536 = 1. */
 #include "gn_texture.h"
+#include "gn_count.h"
 #include "gn_q.h"
 #include "gn_tables.h"
 
@@ -11,6 +12,7 @@ typedef struct {
     uint32_t first, second, weight_uq16;
 } axis_taps;
 
+#if GN_TEXTURES || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
 /* 2^size_log2 <= 4096 texels. */
 static axis_taps find_taps(int32_t c_q16, int32_t size_log2, int clamped, int bilinear)
 {
@@ -37,31 +39,26 @@ typedef struct {
     int bilinear;
 } footprint;
 
-/* 2^bytes_log2 bytes per texel. */
-static void find_texels(footprint *out, const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t bytes_log2)
+static void find_texels(footprint *out, const gn_texture *texture, int32_t u_q16, int32_t v_q16)
 {
     out->bilinear = (texture->flags & GN_TEXTURE_BILINEAR) != 0;
     axis_taps u = find_taps(u_q16, texture->width_log2, texture->flags & GN_TEXTURE_CLAMP_U, out->bilinear);
     axis_taps v = find_taps(v_q16, texture->height_log2, texture->flags & GN_TEXTURE_CLAMP_V, out->bilinear);
-    const uint8_t *upper = texture->rgba + ((size_t)v.first << texture->width_log2 << bytes_log2);
-    const uint8_t *lower = texture->rgba + ((size_t)v.second << texture->width_log2 << bytes_log2);
-    out->texel[0] = upper + (u.first << bytes_log2);
-    out->texel[1] = upper + (u.second << bytes_log2);
-    out->texel[2] = lower + (u.first << bytes_log2);
-    out->texel[3] = lower + (u.second << bytes_log2);
+    const uint8_t *upper = texture->rgba + 4 * ((size_t)v.first << texture->width_log2);
+    const uint8_t *lower = texture->rgba + 4 * ((size_t)v.second << texture->width_log2);
+    out->texel[0] = upper + 4 * u.first;
+    out->texel[1] = upper + 4 * u.second;
+    out->texel[2] = lower + 4 * u.first;
+    out->texel[3] = lower + 4 * u.second;
     out->right_uq16 = u.weight_uq16;
     out->down_uq16 = v.weight_uq16;
 }
+#endif
 
 /* 65535 * 65536 + 32768 < 2^32; two equal values give themselves. */
 static uint32_t mix(uint32_t a, uint32_t b, uint32_t weight_uq16)
 {
     return (a * (65536U - weight_uq16) + b * weight_uq16 + 32768U) >> 16;
-}
-
-static uint32_t blend(const footprint *f, const uint32_t value[4])
-{
-    return mix(mix(value[0], value[1], f->right_uq16), mix(value[2], value[3], f->right_uq16), f->down_uq16);
 }
 
 /* round(v * 65536 / 65535) */
@@ -70,28 +67,45 @@ static uint32_t to_uq16(uint32_t v)
     return v + (v >> 15);
 }
 
-static uint32_t channel_at(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t bytes_log2, uint32_t channel)
+#if GN_TEXTURES || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+static uint32_t blend(const footprint *f, const uint32_t value[4])
 {
-    footprint f;
-    uint32_t value[4];
-    find_texels(&f, texture, u_q16, v_q16, bytes_log2);
-    if (!f.bilinear) return to_uq16(f.texel[0][channel] * 257U);
-    for (int i = 0; i < 4; i++) value[i] = f.texel[i][channel] * 257U;
-    return to_uq16(blend(&f, value));
+    return mix(mix(value[0], value[1], f->right_uq16), mix(value[2], value[3], f->right_uq16), f->down_uq16);
 }
 
 uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q16, int32_t v_q16, uint32_t channel)
 {
-    return channel_at(texture, u_q16, v_q16, 2, channel);
+    footprint f;
+    uint32_t value[4];
+    find_texels(&f, texture, u_q16, v_q16);
+    if (!f.bilinear) return to_uq16(f.texel[0][channel] * 257U);
+    for (int i = 0; i < 4; i++) value[i] = f.texel[i][channel] * 257U;
+    return to_uq16(blend(&f, value));
 }
+#endif
 
 #if GN_MASKS
+/* find_taps of a clamped, bilinear image: once per pixel and light, so without a branch. */
+static axis_taps mask_taps(int32_t c_q16, uint32_t size_log2)
+{
+    int32_t last = (1 << size_log2) - 1, at_q16 = gn_max32(0, gn_min32(c_q16, 65536)) * (1 << size_log2) - 32768;
+    int32_t first = at_q16 >> 16; /* -1 .. last */
+    return (axis_taps){(uint32_t)gn_max32(first, 0), (uint32_t)gn_min32(first + 1, last), (uint32_t)at_q16 & 0xFFFFU};
+}
+
+/* Where all four texels are one, as in all that is wholly lit or dark, so is what lies between them. */
 uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel)
 {
-    const uint8_t flags = GN_TEXTURE_CLAMP_U | GN_TEXTURE_CLAMP_V | GN_TEXTURE_BILINEAR;
     const uint32_t bytes_log2 = image->flags & GN_TEXTURE_MASK_1 ? 0 : image->flags & GN_TEXTURE_MASK_2 ? 1 : 2;
-    gn_texture texture = {image->rgba, image->width_log2, image->height_log2, flags};
-    return channel >> bytes_log2 ? 65536 : channel_at(&texture, u_q16, v_q16, bytes_log2, channel);
+    GN_COUNT(masked, 1);
+    if (channel >> bytes_log2) return 65536;
+    const axis_taps u = mask_taps(u_q16, image->width_log2), v = mask_taps(v_q16, image->height_log2);
+    const uint8_t *upper = image->rgba + channel + ((size_t)v.first << image->width_log2 << bytes_log2);
+    const uint8_t *lower = image->rgba + channel + ((size_t)v.second << image->width_log2 << bytes_log2);
+    const uint32_t left = u.first << bytes_log2, right = u.second << bytes_log2;
+    const uint32_t a = upper[left] * 257U, b = upper[right] * 257U, c = lower[left] * 257U, d = lower[right] * 257U;
+    if (!((a ^ b) | (a ^ c) | (a ^ d))) return to_uq16(a);
+    return to_uq16(mix(mix(a, b, u.weight_uq16), mix(c, d, u.weight_uq16), v.weight_uq16));
 }
 #endif
 
@@ -118,7 +132,7 @@ void gn_texture_colour(const gn_texture *texture, int32_t u_q16, int32_t v_q16, 
 {
     footprint f;
     uint32_t value[4];
-    find_texels(&f, texture, u_q16, v_q16, 2);
+    find_texels(&f, texture, u_q16, v_q16);
     for (int c = 0; c < 3; c++) {
         if (f.bilinear) {
             for (int i = 0; i < 4; i++) value[i] = gn_srgb_decode_table[f.texel[i][c]];

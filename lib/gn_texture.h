@@ -4,7 +4,7 @@
 
 #include "gnomon.h"
 
-#if GN_TEXTURES || GN_MASKS || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+#if GN_TEXTURES || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
 enum { GN_CHANNEL_RED, GN_CHANNEL_GREEN, GN_CHANNEL_BLUE, GN_CHANNEL_ALPHA };
 
 /* One channel, not decoded: 0..65536. u and v of any value, v downwards. */

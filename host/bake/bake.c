@@ -178,7 +178,8 @@ static bool change_object(baker *b, size_t i)
     o->mask_texture_idx = SCENE_NONE;
     if (!made->wanted) return true;
     const size_t before = b->s->meshes[o->mesh_idx].n_vertices;
-    if (b->options->side) {
+    if (made->lit) b->result->n_objects--;
+    else if (b->options->side) {
         if (!set_mesh(b->s, o, made)) return false;
         o->mask_texture_idx = b->s->n_textures - 1;
         b->result->n_vertices += made->n_vertices - before;

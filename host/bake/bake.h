@@ -23,7 +23,7 @@ typedef enum {
 typedef struct {
     bake_fate fate[REF_MAX_LIGHTS];
     int n_channels;
-    size_t n_objects; /* that have masks now */
+    size_t n_objects; /* that have masks now: what is lit all over needs none */
     size_t n_moving;  /* that were left out because they move */
     size_t n_vertices, n_vertices_before;
     size_t n_charts;

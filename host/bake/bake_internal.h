@@ -9,6 +9,7 @@
 /* What an object gets; the scene is changed when all is known. */
 typedef struct {
     bool wanted;
+    bool lit;          /* all over: it needs no mask */
     chart_set set;     /* masks per texel */
     size_t n_vertices; /* of the new mesh */
     uint32_t *source;  /* vertex of the new mesh -> of the old one */

@@ -267,6 +267,13 @@ typedef struct {
     const chart *first;
 } flat_value;
 
+static bool is_lit(const float mask[BAKE_CHANNELS])
+{
+    for (int c = 0; c < BAKE_CHANNELS; c++)
+        if (mask[c] < 1) return false;
+    return true;
+}
+
 /* Charts that are lit all over, or dark all over, share a texel; the others get their weights. */
 static int weigh_charts(baker *b)
 {
@@ -274,12 +281,14 @@ static int weigh_charts(baker *b)
     const double per_unit = points_per_unit(b);
     size_t n = 0;
     double most = 0;
-    for (size_t i = 0; values && i < b->s->n_objects; i++)
+    for (size_t i = 0; values && i < b->s->n_objects; i++) {
+        b->objects[i].lit = true;
         for (size_t k = 0; k < b->objects[i].set.n_charts; k++) {
             chart *c = &b->objects[i].set.charts[k];
             walk w = begin_walk(b, i, k);
             double edges;
             if (!is_flat(&w, per_unit, values[n].mask, &edges)) {
+                b->objects[i].lit = false;
                 c->weight = sqrt(sqrt(edges));
                 most = fmax(most, c->weight);
                 continue;
@@ -288,7 +297,9 @@ static int weigh_charts(baker *b)
             while (!same_masks(values[at].mask, values[n].mask)) at++;
             if (at == n) values[n++].first = c;
             c->same = values[at].first;
+            b->objects[i].lit = b->objects[i].lit && is_lit(values[at].mask);
         }
+    }
     free(values);
     for (size_t i = 0; i < b->s->n_objects; i++)
         for (size_t k = 0; k < b->objects[i].set.n_charts; k++) {
@@ -389,7 +400,7 @@ int bake_texels(baker *b, char *error, size_t error_bytes)
     if (weigh_charts(b) || place_charts(b, error, error_bytes)) return -1;
     memset(b->image, 255, n);
     for (size_t i = 0; i < b->s->n_objects; i++) {
-        if (!b->objects[i].wanted) continue;
+        if (!b->objects[i].wanted || b->objects[i].lit) continue;
         if (split_mesh(b, i)) return -1;
         if (b->objects[i].n_vertices <= LOADER_MAX_MESH) continue;
         snprintf(error, error_bytes,

@@ -98,6 +98,8 @@ int bake_vertices(baker *b, size_t object)
         for (size_t k = 0; k < 3; k++) add_corner(b, &triangle, k, &sum[first[triangle.idx[k]]]);
     }
     for (size_t v = 0; ok && v < mesh->n_vertices; v++) take_means(b, out, &sum[first[v]], v);
+    out->lit = ok && out->mask;
+    for (size_t i = 0; out->lit && i < BAKE_CHANNELS * mesh->n_vertices; i++) out->lit = out->mask[i] == 255;
     free(first);
     free(sum);
     return ok ? 0 : -1;

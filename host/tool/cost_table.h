@@ -42,6 +42,7 @@ COST(lights, 0) /* light that arrives at a pixel */
 COST(lights_punctual, 0) /* spot or point light that faces a pixel */
 COST(highlights, 1500) /* specular highlight of a light at a pixel */
 COST(textured, 0) /* pixel whose colour is a texture's */
+COST(masked, 123) /* look-up in a mask image */
 COST(packed, 13.97) /* colour encoded */
 COST(lookups, 235.2) /* shadow lookup in an orthographic view */
 COST(lookups_persp, 1057) /* shadow lookup in a perspective view */
