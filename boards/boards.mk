@@ -38,9 +38,9 @@ ifneq ($(PRESET),)
 FW_PRESET := -DGN_PRESET=GN_PRESET_$(shell echo $(PRESET) | tr a-z A-Z)
 endif
 ifneq ($(SCENE),)
-FW_SCENE_DIR := $(FW_OBJ_DIR)/scene
+FW_SCENE_DIR ?= $(FW_OBJ_DIR)/scene
 FW_SCENE := -I$(FW_SCENE_DIR) '-DGN_USER_CONFIG="gn_scene_config.h"' -DBOARD_SCENE=1
-FW_SCENE_OBJ := $(FW_SCENE_DIR)/scene.o
+FW_SCENE_OBJ := $(FW_OBJ_DIR)/scene.o
 endif
 FW_CFLAGS := $(BOARD_CPU) -std=c99 $(FW_OPT) -g $(WARN) $(FW_FREE) -ffunction-sections -fdata-sections -Ilib -Iport -Iboards/common -Iboards/apps \
   $(FW_SCENE) $(FW_PRESET) $(BOARD_FLAGS) $(APP_FLAGS) $(FW_FLAGS)
@@ -60,7 +60,7 @@ $(FW_OBJ_DIR)/boards/common/memory.o $(FW_OBJ_DIR)/boards/common/start.o: FW_CFL
 
 ifneq ($(SCENE),)
 $(FW_OBJ): $(FW_SCENE_DIR)/scene.c
-$(FW_SCENE_DIR)/scene.c: $(SCENE) $(BUILD)/gnomon $(FW_OBJ_DIR)/scene.flags
+$(FW_SCENE_DIR)/scene.c: $(SCENE) $(BUILD)/gnomon $(FW_SCENE_DIR)/scene.flags
 	@mkdir -p $(@D)
 	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(if $(wildcard boards/$(BOARD)/link.ld),--board $(BOARD)) $(if $(PRESET),--set preset=$(PRESET)) $(SCENE_FLAGS)
 $(FW_SCENE_OBJ): $(FW_SCENE_DIR)/scene.c $(FW_OBJ_DIR)/compile.flags
@@ -70,8 +70,8 @@ endif
 # Rebuilds what other flags made.
 $(FW_OBJ_DIR)/compile.flags: FW_NOW = $(FW_CC) $(FW_CFLAGS)
 $(FW_OBJ_DIR)/link.flags: FW_NOW = $(LINK_FLAGS)
-$(FW_OBJ_DIR)/scene.flags: FW_NOW = $(SCENE) $(PRESET) $(SCENE_FLAGS)
-$(FW_OBJ_DIR)/%.flags: always
+$(FW_SCENE_DIR)/scene.flags: FW_NOW = $(SCENE) $(PRESET) $(SCENE_FLAGS)
+%.flags: always
 	@mkdir -p $(@D)
 	@echo '$(subst ','"'"',$(FW_NOW))' | cmp -s - $@ || echo '$(subst ','"'"',$(FW_NOW))' >$@
 always:

@@ -4,6 +4,11 @@ $(error $(BOARD) has no display that the clock knows)
 endif
 SCREEN_ZOOM ?= 16
 SCENE ?= host/scenes/sundial.gltf
-SCENE_FLAGS ?= --size $(SCREEN_SIZE) $(SCREEN_SETTINGS)
+SCENE_FLAGS ?= --size $(SCREEN_SIZE) $(SCREEN_SETTINGS) --simplify safe
 APP_FLAGS := -DSCREEN_WIDTH=$(word 1,$(subst x, ,$(SCREEN_SIZE))) -DSCREEN_HEIGHT=$(word 2,$(subst x, ,$(SCREEN_SIZE))) \
   -DGN_FORMAT_SCREEN=GN_FORMAT_$(SCREEN_FORMAT) -DSCREEN_ZOOM=$(SCREEN_ZOOM)
+
+# Compiled once for all that show it alike.
+screen_empty :=
+screen_space := $(screen_empty) $(screen_empty)
+FW_SCENE_DIR := $(BUILD)/firmware/scenes/$(basename $(notdir $(SCENE)))-$(subst =,-,$(subst $(screen_space),-,$(subst --,,$(strip $(SCENE_FLAGS)))))
