@@ -123,12 +123,10 @@ static GN_NOINLINE void raster_span_slow(const raster_tile *tile, const cut_tria
 /* Walks a triangle that `cut` cuts, if it is not NULL. */
 static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, const cut_triangle *cut)
 {
-    int32_t bits = GN_K(tile->frame, subpixel_bits), x[3], y[3];
+    const int32_t x[3] = {tri->x[0] + tile->x, tri->x[1] + tile->x, tri->x[2] + tile->x};
+    const int32_t y[3] = {tri->y[0] + tile->y, tri->y[1] + tile->y, tri->y[2] + tile->y};
+    int32_t bits = GN_K(tile->frame, subpixel_bits);
     gn_walk walk;
-    for (int i = 0; i < 3; i++) {
-        x[i] = tri->x[i] + tile->x;
-        y[i] = tri->y[i] + tile->y;
-    }
     int32_t n_rows = gn_walk_begin(&walk, x, y, bits, 0, tile->height);
     int32_t stride = GN_K(tile->frame, tile_width), width = tile->width;
     if (!n_rows) return;

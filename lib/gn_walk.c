@@ -67,10 +67,10 @@ static inline int16_t exact_step(gn_edge *edge)
 static inline int32_t fixed_for(const int32_t x[3], int32_t height, int32_t subpixel_bits)
 {
     uint32_t far = (uint32_t)((x[0] ^ x[0] >> 31) | (x[1] ^ x[1] >> 31) | (x[2] ^ x[2] >> 31)) >> (12 + subpixel_bits);
-    uint32_t extent = (uint32_t)height;
+    uint32_t size = (uint32_t)height;
     int32_t a = x[1] - x[0], b = x[2] - x[0], c = x[2] - x[1];
-    extent |= (uint32_t)((a ^ a >> 31) | (b ^ b >> 31) | (c ^ c >> 31));
-    return far || extent >= 2 * GN_FIXED_SMALL ? 0 : extent >= GN_FIXED_SMALL ? GN_WALK_ROWS / 2 : GN_WALK_ROWS;
+    size |= (uint32_t)((a ^ a >> 31) | (b ^ b >> 31) | (c ^ c >> 31));
+    return far || size >= 2 * GN_FIXED_SMALL ? 0 : size >= GN_FIXED_SMALL ? GN_WALK_ROWS / 2 : GN_WALK_ROWS;
 }
 
 /* a * 2^18 / b modulo 2^32, within one unit; 0 < b < 2^14 */
