@@ -1,6 +1,6 @@
 #!/bin/sh
 # Regenerates the parts of docs/ between "<!-- generated: NAME -->" and "<!-- end -->". usage: generate.sh TOOL [OUT_DIR]
-# The gallery is made as a whole, by gallery.sh; TRADE.md by trade.sh, which takes a minute and so is left out with OUT_DIR. With OUT_DIR the documents are written there instead of in place: the test compares the two.
+# The gallery is made as a whole, by gallery.sh; BAKE.md by bake.sh; TRADE.md by trade.sh, which takes a minute and so is left out with OUT_DIR. With OUT_DIR the documents are written there instead of in place: the test compares the two.
 set -e
 tool=$1 out=${2:-docs}
 build=$(dirname "$tool")
@@ -30,6 +30,7 @@ mkdir -p "$out/pictures"
 "$build/test_census" --plots "$out/pictures"
 sh docs/gallery.sh "$tool" "$out"
 sh docs/boards.sh "$out"
+sh docs/bake.sh "$tool" "$out"
 "$build/test_extremes" --table >"$work/extremes"
 replace EXTREMES.md extremes "$work/extremes"
 for name in rows seams crawl; do
