@@ -43,9 +43,24 @@ typedef struct {
 } bias_terms;
 
 /* N . L of the interpolated normal as it is, Q30; only the four-term bias needs it. */
+#if GN_AUTO_BIAS
+/* The hard filter reads half a texel away, but what a curved surface does within a texel counts. */
+static int32_t smooth_more_q16(const gn_light_view *view)
+{
+    return view->filter == GN_FILTER_HARD ? 32768 : 0;
+}
+#endif
+
 static bias_terms bias_at(const gn_light_view *view, const gn_light *light, int32_t n_dot_l_q30)
 {
     bias_terms bias = {view->offset_q16, 0};
+#if GN_AUTO_BIAS
+    if (light->auto_bias) { /* curved */
+        bias.along_q16 =
+            view->perspective ? gn_mul_shr(view->offset_q16 + smooth_more_q16(view), GN_SQRT2_Q16, 16) : view->auto_place;
+        return bias;
+    }
+#endif
 #if GN_RECEIVER_BIAS
     const int32_t *b = light->bias_receiver_q16;
     if (!(b[0] | b[1] | b[3])) return bias;
@@ -75,8 +90,18 @@ void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const
 }
 
 #if GN_PUNCTUAL_LIGHTS
-void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], const int32_t from_q16[3],
-                      int32_t out_q16[3])
+#if GN_AUTO_BIAS
+#define GN_AUTO_UNITS 8 /* roundings of a point and of its triangle's corners */
+
+/* Distance of a receiver from where it should be, in units of the world. */
+static int64_t place_error_persp_q16(const gn_light_view *view, int32_t depth_q16)
+{
+    return ((int64_t)depth_q16 * view->auto_place >> 40) + GN_AUTO_UNITS + 1;
+}
+#endif
+
+void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], int32_t depth_q16,
+                      const int32_t from_q16[3], int32_t out_q16[3])
 {
     const gn_light_view *view = &frame->view[light->view_idx];
     const gn_light *scene_light = &frame->scene->lights[view->light_idx];
@@ -94,6 +119,11 @@ void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const 
     bias_terms bias = bias_at(view, scene_light, n_dot_l);
     /* texels to units: 2^27 * 2^31 */
     int64_t along = gn_bf_apply(bias.along_q16 * z, view->fit.persp.texel_per_z, -16);
+#if GN_AUTO_BIAS
+    if (scene_light->auto_bias) along += place_error_persp_q16(view, depth_q16);
+#else
+    (void)depth_q16;
+#endif
     int64_t towards = gn_bf_apply(bias.towards_q16 * z, view->fit.persp.texel_per_z, -16);
     for (int i = 0; i < 3; i++)
         out_q16[i] = gn_sat32(gn_shr64(gn_clamp64(along, 0, INT32_MAX) * n_q30[i], 30) +
@@ -127,7 +157,9 @@ static int32_t ray_error_q40(const gn_frame *frame)
     return gn_sat32((int64_t)((ray_q24 >> (GN_K(frame, newton_steps) == 1 ? 1 : 12)) + (ray_q24 * pixels >> 12) + 2));
 }
 
+#if !GN_PUNCTUAL_LIGHTS
 #define GN_AUTO_UNITS 8 /* roundings of a point and of its triangle's corners */
+#endif
 
 /* Distance of a receiver from where it should be, in texels, Q16: the farthest that the view's cascade shows. */
 static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
@@ -152,13 +184,16 @@ void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
         view->offset_q16 += one_step ? (view->tile_texels + 3) >> 2 : 1;
         /* steps over the tile are rounded to 2^-32, its plane to 2^-27 and, in place, 2^-28 */
         view->auto_step = (int32_t)(depth_step_q32(view) + (one_step ? 32768 : 8) + view->tile_texels + 64);
-        view->auto_ray_q40 = ray_error_q40(frame);
+        view->auto_place = ray_error_q40(frame);
         return;
     }
     int32_t place_q16 = place_error_q16(frame, view);
     int64_t step_q16 = gn_scale64(depth_step_q32(view), 16 - view->tile_log2 - view->depth_log2) + 1; /* 2^25 * 2^4 */
     view->offset_q16 += place_q16;
     view->auto_step = (int32_t)gn_clamp64(step_q16 + 3 + place_q16, 0, INT32_MAX);
+    /* curved: sqrt(2 r^2 + e^2) is what any plane through its normal needs; < 2^21, and steps of more are beyond any range */
+    int64_t r_q16 = view->offset_q16 + smooth_more_q16(view), step = view->auto_step < 1 << 28 ? view->auto_step : 1 << 28;
+    view->auto_place = (int32_t)gn_isqrt64((uint64_t)(2 * r_q16 * r_q16 + step * step)) + 1;
 }
 
 void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3])
@@ -224,7 +259,7 @@ int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias form, const i
     int64_t h_q16 = (int64_t)gn_abs64(gn_dot_q30(face_q30, from_q16)), m_q30[3]; /* m . P = -h, behind the face +h */
     for (int i = 0; i < 3; i++) m_q30[i] = gn_dot_q30(face_q30, view->axis_q30[i]);
     int64_t u_q30 = (int64_t)gn_abs64(m_q30[0]), v_q30 = (int64_t)gn_abs64(m_q30[1]), across_q30 = u_q30 + v_q30;
-    int64_t lift_q16 = ((int64_t)depth_q16 * view->auto_ray_q40 >> 40) + GN_AUTO_UNITS + 1;
+    int64_t lift_q16 = place_error_persp_q16(view, depth_q16);
     int64_t less_q32 = view->auto_step;
     if (form == GN_AUTO_BIAS_NORMAL) {
         int64_t z_q16 = gn_clamp64(gn_dot_q30(from_q16, view->axis_q30[2]), 0, INT32_MAX);

@@ -17,9 +17,10 @@ int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, cons
 void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3], int32_t out_q16[3]);
 
 #if GN_PUNCTUAL_LIGHTS
-/* For spot and point lights: along the world's axes in its units, Q16. `from_q16` is the surface point minus the light. */
-void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], const int32_t from_q16[3],
-                      int32_t out_q16[3]);
+/* For spot and point lights: along the world's axes in its units, Q16. `from_q16` is the surface point minus the light, seen at view
+ * depth `depth_q16`. */
+void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], int32_t depth_q16,
+                      const int32_t from_q16[3], int32_t out_q16[3]);
 #endif
 
 #if GN_AUTO_BIAS

@@ -99,7 +99,7 @@ static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uin
     const int32_t *flat = s->light[slot].flat_offset_q16;
 #if GN_AUTO_BIAS
     gn_auto_bias form = frame->scene->lights[s->light[slot].idx].auto_bias;
-    if (form) {
+    if (form && !GN_CURVED(s)) {
         gn_bias_auto_ortho(view, form, flat, moved_q16);
         return moved_q16;
     }
@@ -141,9 +141,9 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
     for (int i = 0; i < 3; i++) out[GN_LIGHT_POINT_AT + i] = (int32_t)gn_clamp64(at[i], -INT32_MAX, INT32_MAX);
     out[GN_LIGHT_FACING] = gn_sat32(-gn_dot_q30(unit_q30, out + GN_LIGHT_POINT_AT));
 #if GN_SHADOWS
-    int own = GN_AUTO_BIAS && frame->scene->lights[s->light[slot].idx].auto_bias; /* B6: per pixel */
+    int own = GN_AUTO_BIAS && !GN_CURVED(s) && frame->scene->lights[s->light[slot].idx].auto_bias; /* B6: per pixel */
     if (light->view_idx >= 0 && s->shadowed && !own)
-        gn_bias_punctual(frame, light, n_q30, out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
+        gn_bias_punctual(frame, light, n_q30, sample->value[GN_VALUE_Z], out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
 #else
     (void)frame, (void)n_q30;
 #endif

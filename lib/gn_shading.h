@@ -70,6 +70,7 @@ typedef struct {
 
 /* What a build without any cannot have. */
 #define GN_SMOOTH(s)   (GN_VERTEX_NORMALS && (s)->smooth)
+#define GN_CURVED(s)   (GN_VERTEX_NORMALS && (s)->smooth > 1) /* by 2^-10 or more: B6 takes the interpolated normal */
 #define GN_COLOURED(s) (GN_VERTEX_COLOURS && (s)->coloured)
 #define GN_HAS_BARY(s)                                                                                                             \
     ((GN_VERTEX_NORMALS || GN_VERTEX_COLOURS || GN_TEXTURES || GN_MASKS || GN_BAKED_LIGHT) && (s)->has_bary)

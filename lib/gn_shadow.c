@@ -127,16 +127,21 @@ static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, con
     const int32_t *from = value + GN_LIGHT_POINT_AT, *offset = value + GN_LIGHT_OFFSET;
 #if GN_AUTO_BIAS
     gn_auto_bias form = frame->scene->lights[view->light_idx].auto_bias;
-    if (form) return gn_bias_auto_persp(view, form, surface->face_q30, sample->value[GN_VALUE_Z], from, moved_q16);
+    if (form && !GN_CURVED(surface))
+        return gn_bias_auto_persp(view, form, surface->face_q30, sample->value[GN_VALUE_Z], from, moved_q16);
 #else
     (void)frame, (void)surface, (void)sample, (void)view;
 #endif
     for (int i = 0; i < 3; i++) moved_q16[i] = gn_sat32((int64_t)from[i] + offset[i]);
+#if GN_AUTO_BIAS
+    return form ? view->auto_step : 0;
+#else
     return 0;
+#endif
 }
 
 static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                                  const gn_light_view *view, const int32_t value[GN_VALUES_PER_LIGHT])
+                                              const gn_light_view *view, const int32_t value[GN_VALUES_PER_LIGHT])
 {
     const int32_t *from = value + GN_LIGHT_POINT_AT;
     /* P5: the face of the unmoved point; the moved one stays in it */

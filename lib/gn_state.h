@@ -116,7 +116,7 @@ typedef struct {
     int32_t offset_q16;   /* B2 and b_z of B3: receiver offset along the normal, texels; B6: the reach of a tap, texels */
 #if GN_AUTO_BIAS
     int32_t auto_step;    /* B6: what rounding of depths takes, directional: texels, Q16; spot, point: share of the range, Q32 */
-    int32_t auto_ray_q40; /* B6, spot and point: error of a point per view depth */
+    int32_t auto_place;   /* B6, directional: offset of curved surfaces, texels, Q16; spot, point: error of a point per view depth, Q40 */
 #endif
     int32_t disk_radius_q16; /* F4, texels */
     int32_t bias_constant_q16, bias_slope_q16;

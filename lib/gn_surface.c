@@ -54,10 +54,10 @@ static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_sur
         s->normal_q30[0][i] = n[0][i];
         for (int k = 1; k < 3; k++) {
             s->normal_q30[k][i] = gn_sat32((int64_t)n[k][i] - n[0][i]);
-            any |= (uint32_t)s->normal_q30[k][i];
+            any |= gn_abs32(s->normal_q30[k][i]);
         }
     }
-    s->smooth = any != 0; /* three equal normals: a flat triangle after all */
+    s->smooth = any ? any >> 20 ? 2 : 1 : 0; /* three equal normals: a flat triangle after all */
 }
 
 static void colours(gn_surface *s, const uint16_t *idx)
@@ -222,7 +222,7 @@ static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
 #endif
 #if GN_AUTO_BIAS
     if (scene_light->auto_bias) {
-        if (light->kind == GN_LIGHT_DIRECTIONAL)
+        if (!GN_CURVED(s) && light->kind == GN_LIGHT_DIRECTIONAL)
             gn_bias_auto_face(view, scene_light->auto_bias, s->face_q30, s->light[slot].flat_offset_q16);
         return;
     }

@@ -84,6 +84,7 @@ typedef struct ref_surface {
     vec3 world;
     vec3 face;         /* unit normal of the triangle itself */
     vec3 interpolated; /* N, turned towards the viewer */
+    bool curved;       /* N changes over the triangle */
     vec3 normal;       /* n */
     vec3 albedo;
     double view_depth;
