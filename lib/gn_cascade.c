@@ -37,7 +37,7 @@ void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16,
     }
     int64_t far2 = gn_shr64((one - c) * (one - c), 24) + k2;
     int64_t near2 = (int64_t)gn_udiv64((uint64_t)((c - n) * (c - n) + k2 * n2), (uint64_t)q2); /* 2^48 + 2^62 */
-    int64_t r2 = far2 > near2 ? far2 : near2;           /* <= (1 + 2^14) * 64 in Q24: 2^44 at the extreme, 2^38 else */
+    int64_t r2 = far2 > near2 ? far2 : near2; /* <= (1 + 2^14) * 64 in Q24: 2^44 at the extreme, 2^38 else */
     *centre_q24 = c;
     *radius_q24 = r2 < (int64_t)1 << 38 ? gn_isqrt64((uint64_t)r2 << 24) : (int64_t)gn_isqrt64((uint64_t)r2) << 12;
 }
@@ -48,7 +48,9 @@ void gn_cascade_slice(const gn_frame *frame, uint32_t i, int32_t *near_q16, int3
     int32_t m = shadow->max_distance_q16;
     *near_q16 = frame->scene->camera.near_q16;
     if (i > 0) *near_q16 = gn_max32(*near_q16, (int32_t)(((int64_t)m * shadow->cascade_ratio_uq16[i - 1] + 0x8000) >> 16));
-    *far_q16 = i + 1 < GN_N_CASCADES(frame) ? (int32_t)(((int64_t)m * shadow->cascade_ratio_uq16[i] + 0x8000) >> 16) : m;
+    *far_q16 = m;
+    if (GN_MANY_CASCADES && i + 1 < GN_N_CASCADES(frame))
+        *far_q16 = (int32_t)(((int64_t)m * shadow->cascade_ratio_uq16[i] + 0x8000) >> 16);
 }
 
 /* Spheres of all slices; radius_q24 is relative to the slice's end, which slice_of gives again. */
