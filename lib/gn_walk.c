@@ -140,7 +140,7 @@ static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
     }
 }
 
-int32_t gn_walk_next(gn_walk *walk)
+static inline int32_t walk_rows(gn_walk *walk)
 {
     int32_t end = gn_min32(walk->row_end[0], walk->row + (walk->fixed ? walk->fixed : GN_WALK_ROWS)), n = end - walk->row;
     walk->first = walk->row;
@@ -153,6 +153,11 @@ int32_t gn_walk_next(gn_walk *walk)
     }
     walk->n_left = n;
     return n;
+}
+
+int32_t gn_walk_next(gn_walk *walk)
+{
+    return walk_rows(walk);
 }
 
 int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo, int32_t y_hi)
@@ -178,5 +183,5 @@ int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int
         if (walk->row < walk->row_end[1 + side]) edge_begin(walk, side, 0, 1 + side);
         else if (walk->row > walk->row_end[1 + side]) edge_begin(walk, side, 1 + side, 2 - side);
     }
-    return gn_walk_next(walk);
+    return walk_rows(walk);
 }
