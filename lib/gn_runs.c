@@ -1,5 +1,6 @@
 /* Runs of visible pixels. */
 #include "gn_runs.h"
+#include "gn_hint.h"
 
 /* Links a run at the head of its list. */
 static inline void link_run(gn_scratch *scratch, uint32_t id, uint32_t first, uint32_t n_px)
@@ -22,7 +23,10 @@ void gn_runs_build(const gn_frame *frame, gn_scratch *scratch, int32_t width, in
             uint32_t id = *--cell & id_mask;
             if (!id) continue;
             uint32_t *last = cell;
-            while (cell > row && !((cell[-1] ^ id) & id_mask)) cell--;
+            while (cell > row && !((cell[-1] ^ id) & id_mask)) {
+                cell--;
+                GN_KEEP(cell); /* one pointer */
+            }
             link_run(scratch, id, (uint32_t)(cell - scratch->cell), (uint32_t)(last - cell) + 1);
         }
     }
