@@ -100,6 +100,7 @@ static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int
 }
 #endif
 
+#if GN_LARGE_CASTERS
 /* Corners as the view sees them: in texels for orthographic views, in world units from the light for perspective ones. */
 static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
 {
@@ -114,6 +115,7 @@ static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t
 #endif
     return GN_OK;
 }
+#endif
 
 #if GN_PUNCTUAL_LIGHTS
 static int32_t draw_perspective(gn_casting *casting, gn_caster_alpha *alpha, gn_status *status)
@@ -170,10 +172,11 @@ static inline int draw_small(gn_casting *casting, const uint16_t idx[3], int32_t
         return 1;
     }
 #endif
-    *n_texels = gn_ortho_small_triangle(job->frame, job->view, c, job->two_sided);
+    *n_texels = gn_ortho_small_triangle(job->frame, job->view, casting, c);
     return 1;
 }
 
+#if GN_LARGE_CASTERS
 static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
     const caster_job *job = &casting->job;
@@ -196,6 +199,16 @@ static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[
         *n_texels = gn_ortho_triangle(job->frame, job->view, casting, with);
     return status;
 }
+#else
+static gn_status draw_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
+{
+    const caster_job *job = &casting->job;
+    *n_texels = -1;
+    for (int i = 0; i < 3; i++)
+        if (idx[i] >= job->object->mesh->n_vertices) return gn_fail(job->frame, GN_ERR_MESH_INDEX, job->object_idx);
+    return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
+}
+#endif
 
 static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
 {

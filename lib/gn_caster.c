@@ -148,12 +148,11 @@ int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_wa
     return n_texels;
 }
 
-int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, const int32_t x[3],
+int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, gn_walk *walk, const int32_t x[3],
                        const int32_t y[3], const gn_caster_alpha *alpha)
 {
-    gn_walk walk;
-    int32_t n_rows = gn_caster_begin(frame, view, &walk, x, y);
-    return n_rows ? gn_caster_rows(view, caster, &walk, n_rows, alpha) : 0;
+    int32_t n_rows = gn_caster_begin(frame, view, walk, x, y);
+    return n_rows ? gn_caster_rows(view, caster, walk, n_rows, alpha) : 0;
 }
 
 #endif

@@ -24,9 +24,9 @@ typedef struct {
 void gn_caster_alpha_plane(gn_caster_alpha *alpha, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3]);
 #endif
 
-/* Corners in texels with shadow_subpixel_bits fraction bits, within 2^26. `alpha` may be NULL. Returns the number of
+/* Corners in texels with shadow_subpixel_bits fraction bits, within 2^26. The walk is scratch; `alpha` may be NULL. Returns the number of
  * texels covered. */
-int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, const int32_t x[3],
+int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, gn_walk *walk, const int32_t x[3],
                        const int32_t y[3], const gn_caster_alpha *alpha);
 
 /* The same in two steps, for casters that may cover nothing: begins a walk (returns its first rows, 0: nothing is covered), and draws. */

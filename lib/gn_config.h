@@ -104,7 +104,7 @@
 #define GN_SURFACE_LIGHTS 8
 #endif
 #ifndef GN_MAX_OBJECTS
-#define GN_MAX_OBJECTS 48
+#define GN_MAX_OBJECTS 40
 #endif
 #ifndef GN_MAX_OTHER_TILES
 #define GN_MAX_OTHER_TILES 8

@@ -2,6 +2,7 @@
 #include "gn_filter.h"
 #include "gn_blocks.h"
 #include "gn_count.h"
+#include "gn_hint.h"
 #include "gn_q.h"
 #include "gn_tables.h"
 #include "gn_texel.h"
@@ -55,7 +56,7 @@ static int64_t plane_rise_q44(int32_t slope_q28, int32_t tap_q16, int32_t c_q16)
     return slope_q28 * ((int64_t)(tap_q16 >> 16) * 65536 + 0x8000 - c_q16);
 }
 
-static void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
+static GN_NOINLINE void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
 {
     int32_t most = 2 << 28;
     l->slope_q28[0] = gn_max32(-most, gn_min32(receiver->slope_q28[0], most));
@@ -69,7 +70,7 @@ static void start_plane(lookup *l, const gn_receiver *receiver, int32_t dropped)
 }
 
 /* least_q32 at a texel of the tile, at most 64 + 1023 texels away in each axis: 2^50 and twice 2^44. */
-static int64_t least_on_plane(const lookup *l, int32_t u, int32_t v)
+static inline int64_t least_on_plane(const lookup *l, int32_t u, int32_t v)
 {
     int32_t du = u - (l->u_q16 >> 16), dv = v - (l->v_q16 >> 16);
     return l->least_q32 + (int64_t)l->slope_q28[0] * (16 * du) + (int64_t)l->slope_q28[1] * (16 * dv);
@@ -77,7 +78,8 @@ static int64_t least_on_plane(const lookup *l, int32_t u, int32_t v)
 
 static uint32_t limited(const gn_light_view *view, int64_t least_q32)
 {
-    return (uint32_t)gn_clamp64(least_q32, 0, gn_texel_far(GN_VIEW_BITS(view)));
+    uint32_t far = gn_texel_far(GN_VIEW_BITS(view));
+    return least_q32 < 0 ? 0 : least_q32 > (int64_t)far ? far : (uint32_t)least_q32;
 }
 
 #define SLOPED(l) ((l)->sloped)

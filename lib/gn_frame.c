@@ -20,6 +20,7 @@
 #include "gn_atlas.h"
 #include "gn_bin.h"
 #include "gn_check.h"
+#include "gn_hint.h"
 #include "gn_pixel.h"
 #include "gn_q.h"
 #include "gn_raster.h"
@@ -149,30 +150,38 @@ uint32_t gn_screen_tile_count(const gn_renderer *r)
     return r ? (uint32_t)r->frame.tiles_x * r->frame.tiles_y : 0;
 }
 
-static gn_status draw_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush)
+/* What is visible. */
+static gn_status begin_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush)
 {
     if (!frame || !scratch || !flush) return GN_ERR_NULL;
     if (frame->stage != GN_STAGE_PREPARED) return GN_ERR_ORDER;
     if (tile_idx >= (uint32_t)frame->tiles_x * frame->tiles_y) return GN_ERR_INDEX;
     gn_raster_tile(frame, scratch, tile_idx);
-    gn_shade_tile(frame, scratch, tile_idx);
     return GN_OK;
+}
+
+/* Apart, so that drawing does not go on top of its frame. */
+static GN_NOINLINE void flush_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
+{
+    gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
+    flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
 }
 
 gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
 {
-    gn_status status = draw_tile(frame, scratch, tile_idx, flush);
+    gn_status status = begin_tile(frame, scratch, tile_idx, flush);
     if (status) return status;
-    gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
-    flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
+    gn_shade_tile(frame, scratch, tile_idx);
+    flush_tile(frame, scratch, tile_idx, flush, user);
     return GN_OK;
 }
 
 /* Of a finished tile's bytes. */
-static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch, const gn_rect *rect)
+static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch, uint32_t tile_idx)
 {
+    gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
     uint64_t signature = GN_SIGNATURE_SEED;
-    size_t n = gn_pixel_bytes(frame, rect->x1 - rect->x0, rect->y1 - rect->y0), i = 0;
+    size_t n = gn_pixel_bytes(frame, rect.x1 - rect.x0, rect.y1 - rect.y0), i = 0;
     const uint8_t *bytes = scratch->pixel.bytes;
     for (; i + 4 <= n; i += 4) {
         uint32_t word;
@@ -188,13 +197,13 @@ gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, 
 {
     if (flushed) *flushed = 0;
     if (!panel) return GN_ERR_NULL;
-    gn_status status = draw_tile(frame, scratch, tile_idx, flush);
+    gn_status status = begin_tile(frame, scratch, tile_idx, flush);
     if (status) return status;
-    gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
-    uint64_t signature = tile_signature(frame, scratch, &rect);
+    gn_shade_tile(frame, scratch, tile_idx);
+    uint64_t signature = tile_signature(frame, scratch, tile_idx);
     if (panel->signature[tile_idx] == signature) return GN_OK;
     panel->signature[tile_idx] = signature;
-    flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
+    flush_tile(frame, scratch, tile_idx, flush, user);
     if (flushed) *flushed = 1;
     return GN_OK;
 }

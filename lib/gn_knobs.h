@@ -87,7 +87,7 @@
     X(object_boxes, OBJECT_BOXES, 0, 1,                                                                                            \
       "casters whose box a shadow tile does not see are passed over", "flash, 24 bytes per object; the same picture with and without")\
     X(caster_clipping, CASTER_CLIPPING, 0, 1,                                                                                      \
-      "directional casters may reach more than 16384 texels beyond their tile; without, they are refused", "flash")                \
+      "directional casters may reach more than 8192 texels beyond their tile; without, they may be refused", "flash")                \
     X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")                   \
     X(runtime_knobs, RUNTIME_KNOBS, 0, 1, "quality knobs as data (host tools)", "everything is built")
 

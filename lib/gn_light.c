@@ -74,7 +74,7 @@ static void add(uint64_t sum_q20[3], const uint32_t colour_uq16[3], uint32_t irr
 }
 
 /* Vertex colour and texture. */
-static void modulate(const gn_surface *surface, const gn_sample *sample, uint64_t sum[3])
+static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sample, uint64_t sum[3])
 {
     if (GN_COLOURED(surface))
         for (int c = 0; c < 3; c++) sum[c] = (sum[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_RGB + c], 0) + 0x8000U) >> 16;

@@ -188,6 +188,9 @@ static int within_reach(int64_t p[3][3])
 }
 #endif
 
+#if defined(GN_FAR)
+#define apply gn_bf_apply
+#else
 /* round(a * b * 2^shift), as gn_bf_apply gives it */
 static inline int64_t apply(int32_t a, gn_bfloat b, int32_t shift)
 {
@@ -197,6 +200,7 @@ static inline int64_t apply(int32_t a, gn_bfloat b, int32_t shift)
     int64_t v = (int64_t)((r >> s) + ((r >> (s - 1)) & 1U));
     return a < 0 ? -v : v;
 }
+#endif
 
 /* Texels along w, Q16, as a share of the depth range, Q32. |.| < 2^49 */
 static inline int64_t depth_q32(const gn_light_view *view, int64_t texels_q16)
@@ -305,13 +309,14 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
             x[k] = (int32_t)gn_shr64(p[k][0], 16 - bits); /* 2^14 texels * 2^12 */
             y[k] = (int32_t)gn_shr64(p[k][1], 16 - bits);
         }
-        n_texels += gn_caster_draw(frame, view, &caster, x, y, alpha);
+        n_texels += gn_caster_draw(frame, view, &caster, &casting->walk, x, y, alpha);
     }
     return n_texels;
 }
 
-int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, const int32_t *const c[3], int two_sided)
+int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, const int32_t *const c[3])
 {
+    int two_sided = casting->job.two_sided;
     int32_t end = view->tile_texels << 16, sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3], y[3];
     for (int axis = 0; axis < 2; axis++) /* misses the tile: a sign of all three */
         if (((c[0][axis] & c[1][axis] & c[2][axis]) | ((end - c[0][axis]) & (end - c[1][axis]) & (end - c[2][axis]))) < 0)
@@ -327,8 +332,7 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
         x[k] = (c[k][0] + half) >> sub;
         y[k] = (c[k][1] + half) >> sub;
     }
-    gn_walk walk;
-    int32_t n_rows = gn_caster_begin(frame, view, &walk, x, y);
+    int32_t n_rows = gn_caster_begin(frame, view, &casting->walk, x, y);
     if (!n_rows) return 0;
     gn_caster caster;
     gn_cross64(n, e1, e2);
@@ -337,7 +341,7 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
                       gn_max32(c[0][2], gn_max32(c[1][2], c[2][2]))))
         return -1;
     caster.z_corner = depth_at_corner(view, &caster, c[0][0], c[0][1], c[0][2]);
-    return gn_caster_rows(view, &caster, &walk, n_rows, NULL);
+    return gn_caster_rows(view, &caster, &casting->walk, n_rows, NULL);
 }
 
 #endif

@@ -24,7 +24,7 @@ void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh,
 int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_caster_alpha *alpha);
 
 /* The same for corners within 2^29 (8192 texels), without alpha. */
-int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, const int32_t *const c[3], int two_sided);
+int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, const int32_t *const c[3]);
 
 #define GN_ORTHO_TOO_FAR (-2) /* without GN_CASTER_CLIPPING: it reaches too far beyond the tile */
 

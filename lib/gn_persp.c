@@ -167,7 +167,7 @@ int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
     int32_t n_texels = 0;
     for (int i = 1; i + 1 < polygon->n; i++) {
         int32_t fx[3] = {x[0], x[i], x[i + 1]}, fy[3] = {y[0], y[i], y[i + 1]};
-        n_texels += gn_caster_draw(frame, view, &caster, fx, fy, alpha);
+        n_texels += gn_caster_draw(frame, view, &caster, &casting->walk, fx, fy, alpha);
     }
     return n_texels;
 }

@@ -107,6 +107,7 @@ static inline int32_t gn_mul_q30_inline(int32_t a, int32_t b)
 /* Where size comes first (-Os), what the compiler would spell out at every place is a call: gn_q.c has the bodies. */
 #if defined(__OPTIMIZE_SIZE__) && defined(__GNUC__)
 #define GN_FAR 1
+#define GN_SIZE_FIRST 1 /* the same for expressions: one way of two that give the same bits is enough */
 int64_t gn_far_clamp64(int64_t v, int64_t lo, int64_t hi);
 int32_t gn_far_clamp32(int64_t v, int32_t lo, int32_t hi);
 int32_t gn_far_sat32(int64_t v);
@@ -135,6 +136,7 @@ GN_INLINE int64_t gn_shr64(int64_t v, int32_t s)
 #define gn_mul_q30 gn_far_mul_q30
 #define gn_abs64   gn_far_abs64
 #else
+#define GN_SIZE_FIRST 0
 #define gn_clamp64 gn_clamp64_inline
 #define gn_shr64   gn_shr64_inline
 #define gn_sat32   gn_sat32_inline

@@ -146,7 +146,7 @@ typedef struct {
 static inline int apply_small(int32_t *out, int32_t a, gn_bfloat b, int32_t shift)
 {
     int32_t s = -(b.exp + shift) - 33;
-    if (s < 0 || s > 30) {
+    if (GN_SIZE_FIRST || s < 0 || s > 30) {
         int64_t v = gn_bf_apply(a, b, shift);
         *out = (int32_t)v;
         return v == *out;

@@ -4,6 +4,7 @@
 #include "gn_shade.h"
 #include "gn_chord.h"
 #include "gn_count.h"
+#include "gn_hint.h"
 #include "gn_light.h"
 #include "gn_piece.h"
 #include "gn_pixel.h"
@@ -71,10 +72,9 @@ static void shade_pixel(gn_shading *s, gn_sample *sample, int32_t x, int32_t y)
         return;
     }
 #endif
-    uint32_t radiance_q20[3];
     GN_COUNT(shaded, 1);
-    gn_light_radiance(s->frame, &s->surface, sample, radiance_q20);
-    gn_pixel_store(s->frame, &s->rows, x, y, pack(s, radiance_q20));
+    gn_light_radiance(s->frame, &s->surface, sample, s->radiance_q20);
+    gn_pixel_store(s->frame, &s->rows, x, y, pack(s, s->radiance_q20));
 }
 
 /* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every persp_step
@@ -122,8 +122,8 @@ static uint32_t constant_pixel(gn_shading *s)
 }
 
 #if GN_PIECES
-/* Takes the triangle's runs and links them one after the other, from the first. Returns the part of the screen that they span. */
-static gn_rect link_runs(const gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
+/* Takes the triangle's runs and links them one after the other, from the first; s->spanned is the part of the screen that they span. */
+static GN_NOINLINE void link_runs(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
 {
     uint32_t stride = (uint32_t)GN_K(s->frame, tile_width), at = first, *cell = s->scratch->cell;
     int32_t x = (int32_t)(first % stride), x0 = x, x1 = x + n_px, y0 = (int32_t)(first / stride);
@@ -135,8 +135,8 @@ static gn_rect link_runs(const gn_shading *s, gn_run_taker *taker, uint32_t firs
         x1 = gn_max32(x1, x + n_px);
     }
     cell[at] = at << 16 | taker->id;
-    gn_rect spanned = {x0 + s->rect.x0, y0 + s->rect.y0, x1 + s->rect.x0, (int32_t)(at / stride) + 1 + s->rect.y0};
-    return spanned;
+    const gn_rect spanned = {x0 + s->rect.x0, y0 + s->rect.y0, x1 + s->rect.x0, (int32_t)(at / stride) + 1 + s->rect.y0};
+    s->spanned = spanned;
 }
 
 /* Shades what lies in a part of the screen of the runs that are linked from `first` on. */
@@ -166,22 +166,24 @@ static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, const g
 /* From left to right, piece by piece, each as wide as it may be. */
 static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *all)
 {
+    gn_rect *part = &s->part;
     for (int32_t y = all->y0; y < all->y1; y += GN_PIECE_ROWS) {
-        gn_rect part = {all->x0, y, all->x1, gn_min32(y + GN_PIECE_ROWS, all->y1)};
-        for (int32_t width = GN_PIECE_WIDTH; part.x0 < all->x1; part.x0 = part.x1) {
-            part.x1 = gn_min32(part.x0 + width, all->x1);
-            int is_piece = gn_pieces_select(pieces, &part);
+        const gn_rect rows = {all->x0, y, all->x1, gn_min32(y + GN_PIECE_ROWS, all->y1)};
+        *part = rows;
+        for (int32_t width = GN_PIECE_WIDTH; part->x0 < all->x1; part->x0 = part->x1) {
+            part->x1 = gn_min32(part->x0 + width, all->x1);
+            int is_piece = gn_pieces_select(pieces, part);
             if (is_piece) width = gn_min32(2 * width, GN_PIECE_WIDTH);
-            while (!is_piece && part.x1 - part.x0 > 8) {
-                part.x1 = part.x0 + ((part.x1 - part.x0 + 1) >> 1);
-                width = part.x1 - part.x0;
-                is_piece = gn_pieces_select(pieces, &part);
+            while (!is_piece && part->x1 - part->x0 > 8) {
+                part->x1 = part->x0 + ((part->x1 - part->x0 + 1) >> 1);
+                width = part->x1 - part->x0;
+                is_piece = gn_pieces_select(pieces, part);
             }
             if (is_piece) {
-                shade_part(s, pieces, first, &part);
+                shade_part(s, pieces, first, part);
                 continue;
             }
-            shade_part(s, NULL, first, &part); /* which takes the pieces' place */
+            shade_part(s, NULL, first, part); /* which takes the pieces' place */
             gn_pieces_begin(pieces, s->frame, &s->surface, all);
         }
     }
@@ -204,9 +206,10 @@ static void shade_triangle(gn_shading *s, uint32_t tri_idx)
 #if GN_PIECES
     else if (gn_pieces_fit(frame, &s->surface)) {
         gn_pieces *pieces = &s->by.pieces;
-        gn_rect spanned = link_runs(s, &taker, first, n_px);
-        if (!gn_pieces_begin(pieces, frame, &s->surface, &spanned)) shade_part(s, NULL, first, &spanned);
-        else shade_pieces(s, pieces, first, &spanned);
+        gn_rect *spanned = &s->spanned;
+        link_runs(s, &taker, first, n_px);
+        if (!gn_pieces_begin(pieces, frame, &s->surface, spanned)) shade_part(s, NULL, first, spanned);
+        else shade_pieces(s, pieces, first, spanned);
         return;
     }
 #endif

@@ -5,6 +5,8 @@
 #ifndef GN_SHADING_H
 #define GN_SHADING_H
 
+#include "gn_walk.h"
+
 /* Pixels whose centres lie in the triangle's bounding box, cut to the picture: x0 <= x < x1, y0 <= y < y1. */
 typedef struct {
     int32_t x0, y0, x1, y1;
@@ -174,6 +176,10 @@ typedef struct {
     const gn_tri *tri;
     uint32_t last_q20[3]; /* the last radiance and its pixel: neighbours are often equal */
     uint32_t last_pixel;
+    uint32_t radiance_q20[3];
+#if GN_PIECES
+    gn_rect spanned, part; /* of the screen: by the triangle, what is shaded now */
+#endif
     union {
         struct {
             gn_sample sample[2]; /* the run's last exact one and the next */
@@ -269,9 +275,13 @@ typedef struct {
     int n;
 } gn_light_polygon;
 
+/* Whether casters are drawn that gn_ortho_small_triangle does not take. */
+#define GN_LARGE_CASTERS (GN_CASTER_CLIPPING || GN_CASTER_ALPHA || GN_CASTER_BIAS || GN_PUNCTUAL_LIGHTS)
+
 /* One triangle into one shadow tile. */
 typedef struct {
     gn_caster_job job;
+    gn_walk walk;
     gn_light_polygon polygon;
     union {
         gn_light_polygon uncut; /* orthographic */

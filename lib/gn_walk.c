@@ -142,9 +142,9 @@ static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
 
 static inline int32_t walk_rows(gn_walk *walk)
 {
-    int32_t end = gn_min32(walk->row_end[0], walk->row + (walk->fixed ? walk->fixed : GN_WALK_ROWS)), n = end - walk->row;
+    int32_t fixed = GN_SIZE_FIRST ? 0 : walk->fixed, end = gn_min32(walk->row_end[0], walk->row + (fixed ? fixed : GN_WALK_ROWS)), n = end - walk->row;
     walk->first = walk->row;
-    if (walk->fixed) {
+    if (fixed) {
         fixed_border(walk, 0, end);
         fixed_border(walk, 1, end);
         walk->row = end;
@@ -178,7 +178,7 @@ int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int
     walk->row_end[0] = gn_min32(gn_max32(walk->row_end[1], walk->row_end[2]), y_hi);
     if (walk->row >= walk->row_end[0]) return 0;
     walk->subpixel_bits = subpixel_bits;
-    walk->fixed = fixed_for(x, gn_max32(b.y, c.y) - a.y, subpixel_bits);
+    walk->fixed = GN_SIZE_FIRST ? 0 : fixed_for(x, gn_max32(b.y, c.y) - a.y, subpixel_bits);
     for (int side = 0; !walk->fixed && side < 2; side++) {
         if (walk->row < walk->row_end[1 + side]) edge_begin(walk, side, 0, 1 + side);
         else if (walk->row > walk->row_end[1 + side]) edge_begin(walk, side, 1 + side, 2 - side);

@@ -33,7 +33,7 @@ CONFIGURATIONS="smallest tiny balanced accurate full"
 flags_of() {
     case $1 in
     smallest) # one directional light, hard shadow, flat colours
-        echo "$(off SHADOWS) -DGN_SHADOWS=1 -DGN_PRESET=0 -DGN_SRGB=0 -DGN_MAX_LIGHTS=1 -DGN_SURFACE_LIGHTS=1 -DGN_MAX_SHADOW_TILES=1" \
+        echo "$(off SHADOWS) -DGN_SHADOWS=1 -DGN_PRESET=0 -DGN_PERSP_STEP=1 -DGN_SRGB=0 -DGN_MAX_LIGHTS=1 -DGN_SURFACE_LIGHTS=1 -DGN_MAX_SHADOW_TILES=1" \
             "-DGN_MAX_WIDTH=128 -DGN_MAX_HEIGHT=128 -DGN_MAX_TRIANGLES=64 -DGN_MAX_TILE_REFS=256 -DGN_MAX_OBJECTS=8" ;;
     tiny) echo -DGN_PRESET=0 ;;
     balanced) echo -DGN_PRESET=1 ;;
@@ -78,7 +78,7 @@ figures() { # figures CORE CONFIGURATION
         awk -v f="fault $1 $2 $fault" -v fault="$fault" '$1 == fault { n++ } END { print f, n + 0 }' "$dir/graph"
     done
     # what calls through a pointer, but for the flush callback
-    awk -v f="fault $1 $2 pointers" '$1 == "indirect" && $2 !~ /^(gn_screen_tile|gn_render)/ { n++ } END { print f, n + 0 }' "$dir/graph"
+    awk -v f="fault $1 $2 pointers" '$1 == "indirect" && $2 !~ /^(flush_tile|gn_screen_tile|gn_render)/ { n++ } END { print f, n + 0 }' "$dir/graph"
     awk -v f="fault $1 $2 soft-float" '$3 ~ /^__(aeabi_[fd]|[a-z]*[sd]f[23]?$|[a-z]*(add|sub|mul|div|neg|cmp)[sd]f)/ { n++ } END { print f, n + 0 }' "$dir/symbols"
     awk -v f="fault $1 $2 malloc" '$3 ~ /^(malloc|calloc|realloc|free|_sbrk|sbrk)$/ { n++ } END { print f, n + 0 }' "$dir/symbols"
     slow_divisions "$1" "$2"

@@ -62,7 +62,7 @@ static void put_shading(layout *out, const settings *s)
     put(&all, 1, 40, 4);  /* frame to rows */
     put(&all, 1, 128, 8); /* cache */
     put(&all, 1, surface.size, 8);
-    put(&all, 5, 4, 4);                                                     /* tri to last_pixel */
+    put(&all, s->quality.persp_step == 1 ? 8 : 16, 4, 4); /* tri to part */
     long run = 2 * (4 * values + 28 + (s->feature.specular ? 24 : 0)) + 8 * values + 8, pieces = s->feature.shadows ? 284 : 168;
     if (s->quality.persp_step == 1) pieces = 0;
     put(&all, 1, run > pieces ? run : pieces, 4); /* by */
