@@ -13,6 +13,7 @@ for board in lm3s6965evb rv32-virt; do
         make -s screen BOARD=$board ARGS="$hour $hour" SCREEN_OUT="$work/screen.ppm" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
         cp "$work/screen.png" "$out/pictures/display-$board-$(echo $hour | tr -d :).png"
     done
+    sed -n "s/^RAM \([0-9]*\) bytes, with a stack of \([0-9]*\), of which used \([0-9]*\).*/| the clock on $board, all in all | | \1, of which \2 for the stack; used of that: \3 |/p" "$work/log" >>"$work/clocks"
 done
 
 make -s build/test_panels build/ppm >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
@@ -41,4 +42,5 @@ ram() { arm-none-eabi-nm -S "$work/ram.o" | awk -v name="$1" '$4 == name { print
     echo "| SSD1327 and SSD0323 | $(flash panel_ssd panel_ssd_grey) | |"
     echo "| frame buffer in memory | $(flash panel_linear framebuffer) | $(ram frame_): \`framebuffer\` |"
     echo "| \`display.c\`, \`display_pack.c\`: the library's tiles | $(flash display display_pack) | $(ram display_): \`display\`; two buffers of a tile |"
+    cat "$work/clocks"
 } >"$table"
