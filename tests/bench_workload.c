@@ -1,6 +1,7 @@
 /* The workload of tests/bench.sh, drawn through the public API by the library as firmware has it: constants, no run-time knobs.
  *
  *   bench_workload count           checks the triangles and the coverage, prints the counts by which instructions are divided
+ *   bench_workload meshes          prints the sets as arrays in C
  *   bench_workload ram             prints sizeof(gn_renderer) of this build
  *   bench_workload draw CASE SET   draws once; what counts happens inside bench_shadow_tiles and bench_draw
  */
@@ -9,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../boards/apps/bench_scene.h"
 #include "../host/scene/zlib_stream.h"
 #include "bench_gen.h"
 #include "gn_setup.h"
@@ -16,14 +18,6 @@
 #include "gnomon.h"
 
 enum { N_TRIANGLES_MAX = BENCH_N_SMALL };
-
-typedef struct {
-    const char *name;
-    int coloured; /* vertex colours, and vertex normals where light falls */
-    int shadowed; /* one light; otherwise the object is unlit */
-} bench_case;
-
-static const bench_case cases[] = {{"flat", 0, 0}, {"gouraud", 1, 0}, {"flat-shadow", 0, 1}, {"gouraud-shadow", 1, 1}};
 
 typedef struct {
     const char *name;
@@ -39,10 +33,7 @@ static const bench_set sets[] = {{"L", large, BENCH_N_LARGE, 0xC491E3B7U, 225278
                                  {"empty", NULL, 0, 0, 0}}; /* clearing alone */
 
 static gn_renderer renderer;
-static gn_mesh mesh;
-static gn_object object;
-static gn_light light;
-static gn_scene scene;
+static bench_scene bench;
 
 static void fail(const char *what)
 {
@@ -96,55 +87,22 @@ static void build_mesh(const bench_case *c, const bench_set *set)
         idx[i] = i;
     }
     for (size_t t = 0; t < set->n; t++) lean_normals(pos + 9 * t, nrm_q15 + 9 * t);
-    mesh.pos = pos;
-    mesh.pos_frac_bits = BENCH_FRAC_BITS;
-    mesh.nrm_q15 = c->coloured && c->shadowed ? nrm_q15 : NULL;
-    mesh.rgb_uq16 = c->coloured ? rgb_uq16 : NULL;
-    mesh.idx = idx;
-    mesh.n_vertices = (uint16_t)(3 * set->n);
-    mesh.n_triangles = set->n;
-}
-
-static void build_light(void)
-{
-    static const int32_t direction[3] = {GN_Q16(0.4), GN_Q16(-0.3), GN_Q16(-1.0)}; /* from beside the camera */
-    memcpy(light.direction, direction, sizeof direction);
-    light.kind = GN_LIGHT_DIRECTIONAL;
-    for (int i = 0; i < 3; i++) light.colour_uq16[i] = GN_UQ16(0.9);
-    light.shadow_strength_uq16 = GN_UQ16(1.0);
-    light.bias_constant_q16 = GN_Q16(0.5);
-    light.bias_slope_q16 = GN_Q16(1.0);
-    light.bias_normal_q16 = GN_Q16(1.0);
-    scene.lights = &light;
-    /* the deepest vertex lies at 14.6 units: the whole view has shadows, none of them faded */
-    scene.shadow.max_distance_q16 = GN_Q16(16);
-    scene.shadow.distance_fade_uq16 = GN_UQ16(1.0 / 16);
-    scene.shadow.cascade_fade_uq16 = GN_UQ16(0.1);
-    scene.shadow.filter = GN_FILTER_2X2;
+    bench.mesh.pos = pos;
+    bench.mesh.pos_frac_bits = BENCH_FRAC_BITS;
+    bench.mesh.nrm_q15 = c->coloured && c->shadowed ? nrm_q15 : NULL;
+    bench.mesh.rgb_uq16 = c->coloured ? rgb_uq16 : NULL;
+    bench.mesh.idx = idx;
+    bench.mesh.n_vertices = (uint16_t)(3 * set->n);
+    bench.mesh.n_triangles = set->n;
 }
 
 static void build_scene(const bench_case *c, const bench_set *set)
 {
     build_mesh(c, set);
-    build_light();
-    object.mesh = &mesh;
-    gn_affine_identity(&object.to_world);
-    object.albedo_uq16[0] = GN_UQ16(0.8);
-    object.albedo_uq16[1] = GN_UQ16(0.6);
-    object.albedo_uq16[2] = GN_UQ16(0.3);
-    object.flags = c->shadowed ? GN_OBJECT_DEFAULT : GN_OBJECT_UNLIT;
-    scene.objects = &object;
-    scene.n_objects = set->n > 0;
-    scene.n_lights = (uint32_t)c->shadowed;
-    gn_affine_identity(&scene.camera.to_world);
-    scene.camera.focal_q24 = GN_Q24(2.0 * BENCH_FOCAL_PX / BENCH_HEIGHT);
-    scene.camera.near_q16 = GN_Q16(1);
-    scene.camera.far_q16 = GN_Q16(32);
-    for (int i = 0; i < 3; i++) scene.ambient_uq16[i] = GN_UQ16(0.1);
-    scene.background_uq16[2] = GN_UQ16(0.1);
+    bench_build_scene(&bench, c);
     gn_picture picture = {BENCH_WIDTH, BENCH_HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
     check(gn_init(&renderer, &picture));
-    check(gn_begin(&renderer, &scene));
+    check(gn_begin(&renderer, &bench.scene));
 }
 
 /* ---- What is counted ---------------------------------------------------------------------------------------------- */
@@ -242,7 +200,7 @@ static void count_pixels(const bench_set *set, counts *out)
     static uint8_t covered[BENCH_WIDTH * BENCH_HEIGHT];
     const double slack_px = sqrt(0.5) / (1 << GN_SUBPIXEL_BITS) + 1.0 / 4096;
     uint32_t n_wrong = 0;
-    build_scene(&cases[0], set);
+    build_scene(&bench_cases[0], set);
     bench_draw(count_cells, &out->visible_px);
     const gn_frame *frame = &renderer.frame;
     if (gn_get_stats(&renderer)->n_triangles != set->n || gn_get_stats(&renderer)->n_clipped) fail("triangles lost or clipped");
@@ -263,7 +221,7 @@ static void count_pixels(const bench_set *set, counts *out)
 /* Texel centres inside the casters that face the light, in exact arithmetic. */
 static void count_texels(const bench_set *set, counts *out)
 {
-    build_scene(&cases[2], set);
+    build_scene(&bench_cases[2], set);
     bench_shadow_tiles();
     const gn_light_view *view = &renderer.frame.view[0];
     uint32_t n_casters = 0;
@@ -271,7 +229,7 @@ static void count_texels(const bench_set *set, counts *out)
         double c[2][3];
         outline o;
         for (int i = 0; i < 3; i++) {
-            const int32_t *p = mesh.pos + 9 * t + 3 * i;
+            const int32_t *p = bench.mesh.pos + 9 * t + 3 * i;
             for (int k = 0; k < 2; k++) {
                 double along = 0;
                 for (int j = 0; j < 3; j++) along += ldexp((double)view->axis_q30[k][j] * p[j], -30 - BENCH_FRAC_BITS);
@@ -304,6 +262,36 @@ static void print_counts(void)
     printf("count caster_texels %u %u\n", n[0].texels, n[1].texels);
 }
 
+/* ---- For other machines ------------------------------------------------------------------------------------------- */
+
+static void print_array(const char *type, const char *name, const char *set, const void *data, size_t n, int width)
+{
+    printf("static const %s %s_%s[] = {", type, name, set);
+    for (size_t i = 0; i < n; i++) {
+        long v = width == 4 ? (long)((const int32_t *)data)[i] : width == -2 ? (long)((const int16_t *)data)[i] : (long)((const uint16_t *)data)[i];
+        printf("%s%ld,", i % 16 ? " " : "\n    ", v);
+    }
+    printf("\n};\n");
+}
+
+/* The sets as arrays in C, for boards/apps/bench.c: the machines that are measured need not make them. */
+static void print_meshes(void)
+{
+    const bench_case all = {"", 1, 1};
+    printf("/* Written by bench_workload. */\n");
+    for (int i = 0; i < 2; i++) {
+        size_t n = (size_t)3 * sets[i].n;
+        build_mesh(&all, &sets[i]);
+        print_array("int32_t", "pos", sets[i].name, bench.mesh.pos, 3 * n, 4);
+        print_array("int16_t", "nrm_q15", sets[i].name, bench.mesh.nrm_q15, 3 * n, -2);
+        print_array("uint16_t", "rgb_uq16", sets[i].name, bench.mesh.rgb_uq16, 3 * n, 2);
+        print_array("uint16_t", "idx", sets[i].name, bench.mesh.idx, n, 2);
+        printf("static const gn_mesh mesh_%s = {.pos = pos_%s, .nrm_q15 = nrm_q15_%s, .rgb_uq16 = rgb_uq16_%s, .idx = idx_%s, "
+               ".pos_frac_bits = %d, .n_vertices = %zu, .n_triangles = %u};\n",
+               sets[i].name, sets[i].name, sets[i].name, sets[i].name, sets[i].name, BENCH_FRAC_BITS, n, sets[i].n);
+    }
+}
+
 /* ---- Main --------------------------------------------------------------------------------------------------------- */
 
 static void make_triangles(void)
@@ -325,8 +313,8 @@ static int draw(const char *case_name, const char *set_name)
 {
     const bench_case *c = NULL;
     const bench_set *set = NULL;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        if (!strcmp(cases[i].name, case_name)) c = &cases[i];
+    for (size_t i = 0; i < BENCH_N_CASES; i++)
+        if (!strcmp(bench_cases[i].name, case_name)) c = &bench_cases[i];
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++)
         if (!strcmp(sets[i].name, set_name)) set = &sets[i];
     if (!c || !set) return 0;
@@ -340,7 +328,8 @@ int main(int argc, char **argv)
 {
     make_triangles();
     if (argc == 2 && !strcmp(argv[1], "count")) print_counts();
+    else if (argc == 2 && !strcmp(argv[1], "meshes")) print_meshes();
     else if (argc == 2 && !strcmp(argv[1], "ram")) printf("%lu\n", (unsigned long)sizeof renderer);
-    else if (argc != 4 || strcmp(argv[1], "draw") || !draw(argv[2], argv[3])) fail("count | ram | draw CASE SET");
+    else if (argc != 4 || strcmp(argv[1], "draw") || !draw(argv[2], argv[3])) fail("count | ram | meshes | draw CASE SET");
     return 0;
 }

@@ -1,0 +1,93 @@
+/* What is measured on a target by tests/bench_target.sh, whose counter sees the library's own functions begin.
+ *
+ *   make emulate BOARD=... APP=bench ARGS="CASE SET"     a case and a set of the workload
+ *   make emulate BOARD=... APP=bench SCENE=FILE ARGS=N   frame N of a scene, configured for it
+ *
+ * Prints by what the instructions are divided.
+ */
+#include "board.h"
+
+#ifdef BOARD_SCENE
+#include "scene.h"
+#else
+#include "bench_scene.h"
+#include "bench_meshes.h"
+#endif
+
+/* The counter takes this for the end of what it counts. */
+void bench_flush(void *user, int x, int y, int w, int h, const void *pixels);
+
+void bench_flush(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    (void)user, (void)x, (void)y, (void)w, (void)h, (void)pixels;
+}
+
+static gn_renderer renderer;
+
+static void print_count(const char *name, uint32_t n)
+{
+    board_print(name);
+    board_print(" ");
+    board_print_u32(n);
+    board_print("\n");
+}
+
+static int draw(const gn_scene *scene, gn_picture picture)
+{
+    gn_status status = gn_init(&renderer, &picture);
+    if (!status) status = gn_render(&renderer, scene, bench_flush, NULL);
+    if (status) {
+        board_print(gn_status_text(status));
+        board_print("\n");
+        return 1;
+    }
+    const gn_stats *stats = gn_get_stats(&renderer);
+    print_count("pixels", picture.width * picture.height);
+    print_count("triangles", stats->n_triangles);
+    print_count("caster_triangles", stats->n_caster_triangles);
+    print_count("texels", stats->n_texels_drawn);
+    return 0;
+}
+
+#ifdef BOARD_SCENE
+
+int app_main(void)
+{
+    static scene_state state;
+    uint32_t frame = 0;
+    for (const char *digit = board_args(); *digit >= '0' && *digit <= '9'; digit++) frame = 10 * frame + (uint32_t)(*digit - '0');
+    return draw(scene_frame(&state, frame), (gn_picture){SCENE_WIDTH, SCENE_HEIGHT, SCENE_FORMAT, GN_VIEW_COLOUR, 0});
+}
+
+#else
+
+static bench_scene bench;
+
+/* Steps over a word and the blank behind it. */
+static int skip_word(const char **text, const char *word)
+{
+    const char *at = *text;
+    while (*word && *at == *word) at++, word++;
+    if (*word || (*at && *at != ' ')) return 0;
+    *text = *at ? at + 1 : at;
+    return 1;
+}
+
+int app_main(void)
+{
+    const char *args = board_args();
+    const bench_case *c = bench_cases;
+    while (c < bench_cases + BENCH_N_CASES && !skip_word(&args, c->name)) c++;
+    if (c < bench_cases + BENCH_N_CASES && skip_word(&args, "L")) bench.mesh = mesh_L;
+    else if (c < bench_cases + BENCH_N_CASES && skip_word(&args, "S")) bench.mesh = mesh_S;
+    else if (c == bench_cases + BENCH_N_CASES || !skip_word(&args, "empty")) {
+        board_print("no such case or set\n");
+        return 1;
+    }
+    if (!c->coloured) bench.mesh.rgb_uq16 = NULL;
+    if (!c->coloured || !c->shadowed) bench.mesh.nrm_q15 = NULL;
+    bench_build_scene(&bench, c);
+    return draw(&bench.scene, (gn_picture){BENCH_SCENE_WIDTH, BENCH_SCENE_HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0});
+}
+
+#endif
