@@ -47,8 +47,9 @@ test: ## run every test; installs what is missing (needs root or sudo)
 soak: ## the longer campaigns: minutes to hours
 	@SOAK=1 sh tests/run.sh
 
-bench: ## count instructions of the workload with callgrind against the committed baseline; WRITE=1 renews it
+bench: $(BUILD)/gnomon ## count instructions on the host and on four target cores against the committed baselines; WRITE=1 renews them
 	@sh tests/bench.sh $(if $(WRITE),--write)
+	@sh tests/bench_target.sh $(if $(WRITE),--write)
 
 firmware: $(if $(BOARD),,boards) ## build the image of a board: BOARD=mps2-an385 [APP=crc] [SCENE=FILE] [PRESET=tiny]
 

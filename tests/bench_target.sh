@@ -31,7 +31,7 @@ board() {
     shift
     echo "$CORES" | { while read -r name board flags; do
         [ "$name" = "$core" ] || continue
-        make -s BOARD="$board" BOARD_CPU="$flags" APP=bench BUILD="$BUILD" "$@" </dev/null
+        make -s -j2 BOARD="$board" BOARD_CPU="$flags" APP=bench BUILD="$BUILD" "$@" </dev/null
     done; }
 }
 
