@@ -11,7 +11,7 @@
 # IMAGE       the name of the image, else made of APP, SCENE, PRESET and SCREEN_OF
 # ARGS        what the app reads with board_args
 
-APP ?= $(if $(filter screen,$(MAKECMDGOALS)),clock,crc)
+APP ?= $(if $(filter screen,$(MAKECMDGOALS)),clock,$(if $(SCENE),play,crc))
 include boards/$(BOARD)/board.mk
 
 BOARD_OPT ?= -O2

@@ -142,6 +142,10 @@ static int bake(job *j, char *error, size_t bytes)
     if (tool_load(o, &s, &set)) return TOOL_FAILED;
     const bake_options options = {.side = o->texels, .still = o->still, .progress = show_progress};
     const ref_options frame = engine_ref_options(&s, &set, o->width, o->height);
+    if (!settings_casts(&s)) {
+        scene_free(&s);
+        return tool_fail(o->scene_path, "nothing in it casts a shadow, so there is nothing to bake");
+    }
     int failed = draw_truth(j, &s, &set, error, bytes) || draw(&j->before, &s, &set, o, error, bytes) ||
                  bake_scene(&s, &frame, &options, &j->result, error, bytes);
     if (failed) failed = tool_fail(o->scene_path, error);
