@@ -135,6 +135,22 @@ static int32_t draw_perspective(gn_casting *casting, gn_caster_alpha *alpha, gn_
 }
 #endif
 
+/* A corner as the view sees it, 0: beyond 2^29 at the least. */
+static inline int caster_corner(int32_t out[3], const caster_job *job, uint32_t vertex_idx)
+{
+#if GN_LARGE_CASTERS
+    return gn_xform_fast_vertex(out, &job->fast, job->object->mesh->pos + 3 * (size_t)vertex_idx);
+#else
+    int64_t v[3];
+    gn_ortho_vertex(v, &job->to_light, job->object->mesh, vertex_idx);
+    for (int i = 0; i < 3; i++) {
+        if (gn_abs64(v[i]) >> 29) return 0;
+        out[i] = (int32_t)v[i];
+    }
+    return 1;
+#endif
+}
+
 /* Corners through the cache. Returns 0 if one is out of the ordinary. */
 static inline int cached_corners(caster_job *job, const uint16_t idx[3], const int32_t *c[3])
 {
@@ -147,7 +163,7 @@ static inline int cached_corners(caster_job *job, const uint16_t idx[3], const i
             if ((i > 0 && entry->c == c[0]) || (i > 1 && entry->c == c[1]))
                 entry = &job->spare[i]; /* needed by the triangle itself */
             entry->tag = 0;
-            if (!gn_xform_fast_vertex(entry->c, &job->fast, mesh->pos + 3 * (size_t)vertex_idx)) return 0;
+            if (!caster_corner(entry->c, job, vertex_idx)) return 0;
             entry->tag = tag;
         }
         c[i] = entry->c;
@@ -238,7 +254,9 @@ static gn_status draw_object(gn_frame *frame, gn_casting *casting, const gn_ligh
     else
 #endif
         gn_ortho_compose(&job->to_light, view, job->object);
+#if GN_LARGE_CASTERS
     gn_xform_fast_begin(&job->fast, &job->to_light);
+#endif
 #if GN_CASTER_BIAS
     job->shrink_q16 = frame->scene->lights[view->light_idx].bias_caster_q16;
     if (job->shrink_q16 && GN_VERTEX_NORMALS && job->object->mesh->nrm_q15) gn_xform_normal_matrix(job->normal_matrix, job->object);

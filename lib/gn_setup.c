@@ -112,7 +112,7 @@ static int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
     const gn_cam *cam = &job->frame->cam;
     const gn_mesh *mesh = job->object->mesh;
     c->tag = 0;
-    if (!gn_xform_fast_vertex(c->v_q16, &job->fast, mesh->pos + 3 * (size_t)vertex_idx) &&
+    if ((GN_SIZE_FIRST || !gn_xform_fast_vertex(c->v_q16, &job->fast, mesh->pos + 3 * (size_t)vertex_idx)) &&
         !view_position(c->v_q16, &job->xform, mesh, vertex_idx))
         return 0;
     int32_t z = c->v_q16[2];
@@ -350,7 +350,7 @@ static gn_status setup_object(setup_job *job)
     corner spare[3];
     const corner *c[3];
     gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->object);
-    gn_xform_fast_begin(&job->fast, &job->xform);
+    if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
         gn_status status = fetch_corners(job, mesh->idx + 3 * (size_t)t, spare, c);
         if (status) return status;
