@@ -32,7 +32,7 @@ static void test_spot(void)
     CHECK_NEAR(l->inner, 6258 / 65536.0, 0); /* 0.3 / pi turns: 6258.23 steps */
     CHECK_NEAR(l->outer, 12516 / 65536.0, 0);
     CHECK(l->shadow && l->mode == SCENE_REALTIME && l->mask_channel == -1 && l->softness == SCENE_SOFT_DEFAULT &&
-          !l->receiver_plane && l->auto_bias == SCENE_AUTO_BIAS_OFF);
+          !l->receiver_plane && l->auto_bias == SCENE_AUTO_BIAS_NORMAL);
     CHECK_NEAR(l->bias_normal, 1, 0);
     CHECK_NEAR(l->strength, 0.5, 0);
     scene_free(&s);

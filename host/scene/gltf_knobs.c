@@ -117,6 +117,8 @@ static bool get_light_words(gltf *g, const json_value *knobs, scene_light *light
     static const char *const softness_words[] = {"default", "hard", "soft", NULL};
     static const char *const mode_words[] = {"realtime", "mixed", "baked", NULL};
     static const char *const auto_words[] = {"off", "depth", "normal", NULL};
+    /* who says how far points move means it */
+    if (json_get(knobs, "bias_normal") || json_get(knobs, "bias_receiver")) light->auto_bias = SCENE_AUTO_BIAS_OFF;
     int softness = (int)light->softness, mode = (int)light->mode, automatic = (int)light->auto_bias;
     if (!get_word(g, knobs, "softness", softness_words, &softness) || !get_word(g, knobs, "mode", mode_words, &mode) ||
         !get_word(g, knobs, "auto_bias", auto_words, &automatic))

@@ -81,7 +81,8 @@ static const scene_knob scene_knobs[] = {
     LIGHT_("shadow", SWITCH, shadow, 0, 1, "the light wants a shadow"),
     LIGHT_("receiver_plane", SWITCH, receiver_plane, 0, 1, "every tap compares with the receiver's plane (B5); also the feature"),
     {"auto_bias", OF_LIGHTS, WORD, offsetof(scene_light, auto_bias), 0, 0, auto_names,
-     "the least bias that leaves a plane no acne, instead of bias_normal and bias_receiver (B6); also the feature"},
+     "the least bias that leaves a plane no acne (B6), normal by default; setting bias_normal or bias_receiver ends it; also the "
+     "feature"},
     {"softness", OF_LIGHTS, WORD, offsetof(scene_light, softness), 0, 0, softness_names,
      "the atlas's filter, 2x2, or at least 5x5 (F5)"},
     {"mode", OF_LIGHTS, WORD, offsetof(scene_light, mode), 0, 0, mode_names, "baked lights contribute nothing at run time (M9)"},
@@ -170,12 +171,21 @@ static int read_value(const scene_knob *k, const char *value, stored *out)
     }
 }
 
+/* Who says how far points move means it: that ends the automatic bias. */
+static bool ends_auto_bias(const scene_knob *k)
+{
+    return k->offset == offsetof(scene_light, bias_normal) || k->offset == offsetof(scene_light, bias_receiver);
+}
+
 static void store(scene *s, const scene_knob *k, size_t light, const stored *v)
 {
     if (k->of == OF_SCENE) memcpy((char *)s + k->offset, &v->as, v->bytes);
     if (k->of == OF_SHADOW) memcpy((char *)&s->shadow + k->offset, &v->as, v->bytes);
-    for (size_t l = 0; k->of == OF_LIGHTS && l < s->n_lights; l++)
-        if (light == SCENE_NONE || light == l) memcpy((char *)&s->lights[l] + k->offset, &v->as, v->bytes);
+    for (size_t l = 0; k->of == OF_LIGHTS && l < s->n_lights; l++) {
+        if (light != SCENE_NONE && light != l) continue;
+        memcpy((char *)&s->lights[l] + k->offset, &v->as, v->bytes);
+        if (ends_auto_bias(k)) s->lights[l].auto_bias = SCENE_AUTO_BIAS_OFF;
+    }
 }
 
 /* ---- Settings with rules of their own ------------------------------------------------------------------------------------- */
