@@ -11,9 +11,11 @@ TMPDIR=$tmp sh tests/one_file.sh lib >"$tmp/lib.c"
 if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -o "$tmp/same" tests/same_pictures.c host/scene/*.c -lm \
     >"$tmp/log" 2>&1; then pass; else fail "same_pictures: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
 
-# build NAME: the firmware of build/tmp/.../NAME as a program
+# build NAME: the firmware of build/tmp/.../NAME as a program; what was written, without a warning
 build() {
-    gcc $strict -O1 -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/$1/run" "$tmp/lib.c" "$tmp/$1/scene.c" tests/compiled_picture.c 2>"$tmp/$1/log"
+    gcc $strict -fsyntax-only -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' "$tmp/$1/scene.c" 2>"$tmp/$1/log" &&
+        gcc -std=c99 -w -O1 -Ilib -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/$1/run" "$tmp/lib.c" "$tmp/$1/scene.c" \
+            tests/compiled_picture.c 2>"$tmp/$1/log"
 }
 
 # same NAME SCENE "FRAMES" "COMPILE-OPTIONS" OPTIONS...: what the compiled scene shows at frames of its own is what the tool renders
@@ -48,6 +50,107 @@ same desk host/scenes/desk.gltf "0 2 3" "--frames 0-3" --size 96x64
 same room host/scenes/room.gltf 0 "" --size 160x120
 same fence host/scenes/fence.gltf 0 "--set output=grey4" --size 160x120
 same mixed host/scenes/mixed.gltf "1 0" "--frames 0-1" --size 96x64 --set preset=tiny
+
+
+# ---- What it says it takes -------------------------------------------------------------------------------------------------------
+
+# takes NAME COMPILER FLAGS...: sizeof of what the build declares, "renderer state"
+printf '#include "scene.h"\nchar renderer_bytes[sizeof(gn_renderer)], state_bytes[sizeof(scene_state)];\n' >"$tmp/takes.c"
+takes() {
+    name=$1
+    shift
+    "$@" -std=c99 -ffreestanding -Ilib -I"$tmp/$name" '-DGN_USER_CONFIG="gn_scene_config.h"' -fno-common -c -o "$tmp/takes.o" "$tmp/takes.c" 2>"$tmp/log" &&
+        nm -S -t d "$tmp/takes.o" | awk '{ size[$4] = $2 + 0 } END { print size["renderer_bytes"], size["state_bytes"] }'
+}
+# to the byte, on targets whose enumerations are words, and on Arm
+for name in sundial desk room mixed-tiny fence avenue-accurate; do
+    said=$(sed -n 's/^ \* RAM, bytes: gn_renderer \([0-9]*\), scene_state \([0-9]*\); on Arm, .*, \([0-9]*\) and \([0-9]*\)\..*/\1 \2 \3 \4/p' "$tmp/$name/gn_scene_config.h")
+    is="$(takes "$name" gcc -m32 -malign-double) $(takes "$name" arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb)"
+    if [ -n "$said" ] && [ "$said" = "$is" ]; then pass; else fail "$name: RAM is said to be $said, is $is"; fi
+done
+
+# flash: the scene's data to its alignment, the library's code within a fifth
+for name in sundial room mixed-tiny; do
+    arm="arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -std=c99 -Os -ffreestanding -isystem boards/common/include -Ilib -I$tmp/$name"
+    $arm '-DGN_USER_CONFIG="gn_scene_config.h"' -c -o "$tmp/data.o" "$tmp/$name/scene.c" 2>"$tmp/log"
+    data=$(arm-none-eabi-size -A "$tmp/data.o" | awk '$1 ~ /^\.rodata/ { n += $2 } END { print n + 0 }')
+    said=$(sed -n 's/^ \* Flash, bytes: scene\.c \([0-9]*\); .* about \([0-9]*\) on Cortex-M0.*/\1 \2/p' "$tmp/$name/gn_scene_config.h")
+    if [ $((${said% *} - data)) -ge 0 ] && [ $((${said% *} - data)) -le 64 ]; then pass; else fail "$name: data is said to be ${said% *} bytes, is $data"; fi
+    code=$(sh host/tool/gen_flash.sh -- cortex-m0 -I"$tmp/$name" '-DGN_USER_CONFIG="gn_scene_config.h"')
+    if [ $((5 * ${said#* })) -ge $((4 * code)) ] && [ $((5 * ${said#* })) -le $((6 * code)) ]; then pass
+    else fail "$name: code is said to be ${said#* } bytes, is $code: sh host/tool/gen_flash.sh > host/tool/flash_table.h"; fi
+done
+
+# ---- Boards ------------------------------------------------------------------------------------------------------------------------
+
+"$tool" compile docs/scenes/near.gltf -o "$tmp/near" --board microbit --size 128x64 --set preset=tiny >"$tmp/out" 2>&1 && pass || fail "near.gltf does not fit a micro:bit: $(cat "$tmp/out")"
+"$tool" info docs/scenes/near.gltf --board microbit --size 128x64 --set preset=tiny >"$tmp/out" 2>&1
+grep -q '^  fits microbit: ' "$tmp/out" && pass || fail "info does not say that near.gltf fits: $(tail -n 1 "$tmp/out")"
+# refused, with a configuration that then fits
+"$tool" compile docs/scenes/slopes.gltf -o "$tmp/slopes" --board microbit --size 128x64 --set preset=tiny >"$tmp/out" 2>"$tmp/err"
+[ $? = 1 ] && [ ! -e "$tmp/slopes" ] && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "slopes.gltf is not refused for a micro:bit"
+nearest=$(sed -n 's/.*nearest that does:\(.*\): [0-9]* bytes of RAM.*/\1/p' "$tmp/err")
+[ -n "$nearest" ] && "$tool" compile docs/scenes/slopes.gltf -o "$tmp/slopes" --board microbit --size 128x64 --set preset=tiny $nearest >"$tmp/out" 2>&1 && pass ||
+    fail "nearest configuration '$nearest': $(tail -n 1 "$tmp/out" "$tmp/err" | tr '\n' ' ')"
+"$tool" compile docs/scenes/slopes.gltf -o "$tmp/no" --flash 20000 2>"$tmp/err" && fail "20000 bytes of flash are enough" || pass
+grep -q 'bytes of flash (scene [0-9]*, code about [0-9]*) of 20000' "$tmp/err" && pass || fail "too much flash: $(cat "$tmp/err")"
+for board in nowhere "" ../../etc; do
+    "$tool" compile docs/scenes/near.gltf -o "$tmp/no" --board "$board" >"$tmp/out" 2>"$tmp/err" && fail "board '$board' is known" || pass
+    [ "$(grep -c '^gnomon: ' "$tmp/err")" = 1 ] && pass || fail "board '$board': $(cat "$tmp/err")"
+done
+for folder in boards/*/link.ld; do
+    board=$(basename "$(dirname "$folder")")
+    "$tool" info docs/scenes/edge.gltf --size 16x12 --board "$board" >"$tmp/out" 2>&1 && grep -q "fits\? $board" "$tmp/out" && pass || fail "$folder is not understood: $(tail -n 1 "$tmp/out")"
+done
+
+# ---- What is left out --------------------------------------------------------------------------------------------------------------
+
+# leaves NAME WHAT: the configuration says so
+leaves() {
+    grep -q "^ \* - [0-9]* $2" "$tmp/$1/gn_scene_config.h" && pass || fail "$1: nothing was left out of: $2"
+}
+leaves avenue "casters whose shadow no frame shows: .*[1-9][0-9.]* % of instructions"
+leaves avenue "receivers that no shadow reaches"
+leaves room "objects that no frame shows"
+leaves desk "triangles that no frame shows"
+leaves desk "vertex normals and colours that change nothing"
+leaves mixed "vertices that were there twice"
+grep -q '^ \* - ' "$tmp/sundial-tiny/gn_scene_config.h" && fail "--simplify none leaves something out" || pass
+# a lamp that reaches nothing, a sun whose shadow is nowhere: neither its kind nor its atlas is in the image
+same lamp docs/scenes/near.gltf 0 "" --size 96x64 --set add_light=point --set range@1=0.01
+leaves lamp "lights that reach nothing: '"
+grep -q '^#define GN_PUNCTUAL_LIGHTS *0 ' "$tmp/lamp/gn_scene_config.h" && pass || fail "lamp: punctual lights are built"
+same suns docs/scenes/suns.gltf 0 "" --size 128x64 --set preset=tiny
+leaves suns "shadows of lights that no frame shows"
+grep -q '^#define GN_SHADOWS *0 ' "$tmp/suns/gn_scene_config.h" && pass || fail "suns: shadows are built"
+same baked docs/scenes/baked.gltf 0 "" --size 96x64
+
+# ---- Errors ------------------------------------------------------------------------------------------------------------------------
+
+refused() { # refused STATUS WORDS OPTIONS...
+    expected=$1 words=$2
+    shift 2
+    "$tool" compile "$@" >"$tmp/out" 2>"$tmp/err"
+    status=$?
+    if [ $status = "$expected" ] && grep -q -e "$words" "$tmp/err"; then pass; else fail "compile $*: status $status, $(head -n 1 "$tmp/err")"; fi
+}
+refused 2 "-o DIR is missing" docs/scenes/near.gltf
+refused 2 "bad value" docs/scenes/near.gltf -o "$tmp/no" --frames 5-2
+refused 2 "bad value" docs/scenes/near.gltf -o "$tmp/no" --frames 5
+refused 2 "bad value" docs/scenes/near.gltf -o "$tmp/no" --margin -1
+refused 2 "bad value" docs/scenes/near.gltf -o "$tmp/no" --simplify much
+refused 2 "does not use --frame" docs/scenes/near.gltf -o "$tmp/no" --frame 3
+refused 1 "are more than 20000" host/scenes/sundial.gltf -o "$tmp/no" --frames 0-99999999
+refused 1 "cannot create the folder" docs/scenes/near.gltf -o "$tmp/none/such" --size 16x12
+refused 1 "cannot be opened" "$tmp/none.gltf" -o "$tmp/no"
+refused 1 "max_triangles" docs/scenes/near.gltf -o "$tmp/no" --size 64x64 --set max_triangles=3
+[ ! -e "$tmp/no" ] && pass || fail "a refused scene leaves a folder"
+# the same again, byte for byte
+"$tool" compile host/scenes/desk.gltf -o "$tmp/again" --frames 0-3 --size 96x64 >"$tmp/log" 2>&1
+diff -r "$tmp/again/scene.c" "$tmp/desk/scene.c" >"$tmp/log" && diff "$tmp/again/gn_scene_config.h" "$tmp/desk/gn_scene_config.h" >"$tmp/log" && pass || fail "compiling again writes something else"
+# names of the file in comments
+printf 'o a*/b?\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 4 2 3\n' >"$tmp/odd.obj"
+same odd "$tmp/odd.obj" 0 "" --size 64x48
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

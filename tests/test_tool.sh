@@ -650,7 +650,7 @@ while read -r name low high; do
         1) # a capacity that is too small for the scene, or a feature that it needs: said in one line
             if [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q '^gnomon: ' "$tmp/err"; then pass
             else fail "$name=$value is refused without a clear line: $(head -n 1 "$tmp/err")"; fi
-            case $name in max_* | shadows | filter_max | vertex_* | persp_step | tile_*) ;;
+            case $name in max_* | atlas_texels | shadows | filter_max | vertex_* | persp_step | tile_*) ;;
             *) fail "$name=$value, an end of its range, is refused: $(head -n 1 "$tmp/err")" ;; esac ;;
         *) fail "$name=$value exits with $status" ;;
         esac

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "info_memory.h"
 #include "remarks.h"
 #include "tool.h"
 
@@ -23,6 +24,7 @@ typedef struct {
     const engine_picture *picture;
     counts counts;
     settings_ram_parts ram[SETTINGS_PRESETS];
+    info_memory memory;
 } report;
 
 static const char *const kind_names[] = {"directional", "spot", "point"};
@@ -52,6 +54,12 @@ static void count(const scene *s, counts *c)
     c->n_needs = settings_needs(s, c->shadow_lights > 0, c->needs);
 }
 
+/* Tiles of an atlas of another size. */
+static size_t scaled_texels(size_t texels, int side, int measured_side)
+{
+    return texels / (size_t)measured_side * (size_t)side / (size_t)measured_side * (size_t)side;
+}
+
 /* RAM per preset with features and capacities for just this scene at this picture size, where they were not set. */
 static void preset_ram(const settings *set, const settings_demand *demand, const scene *s, settings_ram_parts *ram)
 {
@@ -59,7 +67,11 @@ static void preset_ram(const settings *set, const settings_demand *demand, const
         settings needed = *set;
         settings_preset(&needed, i);
         settings_trim(&needed, s);
-        settings_fit(&needed, demand);
+        settings_demand scaled = *demand;
+        scaled.atlas_texels = scaled_texels(demand->atlas_texels, needed.quality.atlas_size, set->quality.atlas_size);
+        scaled.other_atlas_texels =
+            scaled_texels(demand->other_atlas_texels, needed.quality.other_atlas_size, set->quality.other_atlas_size);
+        settings_fit(&needed, &scaled);
         ram[i] = settings_ram(&needed);
     }
 }
@@ -120,7 +132,9 @@ static void print_json(const report *r)
            stats->n_lights_left_out, stats->n_reach_clamped, stats->n_casters_culled);
     printf(", \"ram_bytes\": {");
     for (int i = 0; i < SETTINGS_PRESETS; i++) printf("%s\"%s\": %ld", i ? ", " : "", settings_preset_name[i], r->ram[i].total);
-    printf("}, \"notes\": [");
+    printf("}");
+    info_memory_json(&r->memory);
+    printf(", \"notes\": [");
     for (size_t i = 0; i < s->n_notes; i++) {
         if (i) printf(", ");
         tool_json_string(s->notes[i]);
@@ -205,6 +219,7 @@ static void print_text(const report *r)
     if (stats->n_lights_left_out) printf("  lights left out of objects' lists: %u\n", stats->n_lights_left_out);
     if (stats->n_reach_clamped) printf("  views whose filter does not fit their tile: %u\n", stats->n_reach_clamped);
     text_ram(r);
+    info_memory_text(&r->memory);
     for (size_t i = 0; i < s->n_notes; i++) printf("  %s%s\n", i < r->n_ignored ? "ignored: " : "note: ", s->notes[i]);
 }
 
@@ -225,8 +240,9 @@ int tool_info(const tool_options *o)
         report r = {.options = o, .scene = &s, .n_ignored = n_ignored, .picture = &p};
         count(&s, &r.counts);
         preset_ram(&set, &p.demand, &s, r.ram);
-        if (o->json) print_json(&r);
-        else print_text(&r);
+        failed = info_memory_find(&r.memory, o, error, sizeof error);
+        if (!failed && o->json) print_json(&r);
+        else if (!failed) print_text(&r);
         engine_free(&p);
     }
     scene_free(&s);

@@ -134,7 +134,7 @@ void compile_choose(compiled *c);
 void compile_write_config(FILE *file, const compiled *c);
 
 /* compile_size.c: bytes on a 32-bit target. short_enums: as Arm has them. */
-long compile_flash_bytes(const compiled *c); /* of the scene's data */
+long compile_flash_bytes(const compiled *c, bool short_enums); /* of the data in scene.c */
 long compile_state_bytes(const compiled *c, bool short_enums);
 
 /* compile_fit.c: bytes of RAM: renderer, state; of flash: data, code (an estimate). */

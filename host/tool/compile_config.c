@@ -239,11 +239,23 @@ static void write_knob(FILE *f, const compiled *c, const char *knob, const char 
 #define CAPACITY_(name, MACRO, lo, hi, meaning, cost) write_knob(f, c, #name, #MACRO, c->set.capacity.name);
 #define FEATURES_(name, MACRO, lo, hi, meaning, cost) write_knob(f, c, #name, #MACRO, c->set.feature.name);
 
+static void write_costs(FILE *f, const compiled *c)
+{
+    long ram = settings_ram(&c->set).total;
+    fprintf(f,
+            " *\n * RAM, bytes: gn_renderer %ld, scene_state %ld; on Arm, where enumerations are short, %ld and %ld. Stack beside "
+            "that.\n",
+            ram, compile_state_bytes(c, false), ram - COMPILE_SHORT_ENUMS_LESS, compile_state_bytes(c, true));
+    fprintf(f, " * Flash, bytes: scene.c %ld; the library with -Os about %ld on Cortex-M0, %ld on Cortex-M4.\n",
+            compile_flash_bytes(c, true), flash_estimate(&c->set, FLASH_CORTEX_M0), flash_estimate(&c->set, FLASH_CORTEX_M4));
+    if (c->n_savings) fprintf(f, " *\n * Left out, and every frame is the same picture, byte for byte:\n");
+}
+
 static void write_savings(FILE *f, const compiled *c)
 {
     for (size_t i = 0; i < c->n_savings; i++) {
         const compile_saving *s = &c->savings[i];
-        fprintf(f, " * %zu ", s->n);
+        fprintf(f, " * - %zu ", s->n);
         compile_write_text(f, s->what);
         fprintf(f, ": %ld bytes of flash, %ld of RAM, %.1f %% of instructions\n", s->flash_bytes, s->ram_bytes,
                 100 * s->instructions);
@@ -256,7 +268,7 @@ void compile_write_config(FILE *f, const compiled *c)
     compile_write_origin(f, c);
     fprintf(f, ".\n *\n * The library as this scene needs it, from %d frame%s played at %dx%d: frames %d to %d.\n", c->n_frames,
             c->n_frames == 1 ? "" : "s", c->options->width, c->options->height, c->first_frame, c->first_frame + c->n_frames - 1);
-    fprintf(f, " * RAM of gn_renderer on a 32-bit target: %ld bytes.\n", settings_ram(&c->set).total);
+    write_costs(f, c);
     write_savings(f, c);
     fprintf(f, " */\n#ifndef GN_SCENE_CONFIG_H\n#define GN_SCENE_CONFIG_H\n");
     fprintf(f, "\n/* Quality: these make the picture. */\n");

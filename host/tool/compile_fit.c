@@ -5,7 +5,7 @@
 
 compile_memory compile_measure(const compiled *c, const board *b)
 {
-    compile_memory m = {.data = compile_flash_bytes(c), .state = compile_state_bytes(c, b->short_enums)};
+    compile_memory m = {.data = compile_flash_bytes(c, true), .state = compile_state_bytes(c, b->short_enums)};
     m.renderer = settings_ram(&c->set).total - (b->short_enums ? COMPILE_SHORT_ENUMS_LESS : 0);
     m.code = flash_estimate(&c->set, b->core);
     return m;

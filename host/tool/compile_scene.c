@@ -99,7 +99,8 @@ static void write_textures(FILE *f, const compiled *c)
         fprintf(f, "\n/* texture %zu '", i);
         compile_write_text(f, c->texture_name[i]);
         fprintf(f, "': %dx%d */\n", 1 << t->width_log2, 1 << t->height_log2);
-        write_array(f, U8, "texture", i, "rgba", t->rgba, quantise_texel_bytes(t) << (t->width_log2 + t->height_log2), 2 * PER_LINE);
+        write_array(f, U8, "texture", i, "rgba", t->rgba, quantise_texel_bytes(t) << (t->width_log2 + t->height_log2),
+                    2 * PER_LINE);
     }
     if (!n) return;
     fprintf(f, "\nstatic const gn_texture textures[%zu] = {\n", n);

@@ -328,7 +328,7 @@ typedef struct {
 
 static measure measure_now(const trial *b)
 {
-    return (measure){compile_flash_bytes(b->c), ram_of(b->c, &b->now), b->now.instructions};
+    return (measure){compile_flash_bytes(b->c, true), ram_of(b->c, &b->now), b->now.instructions};
 }
 
 static const char *name_of(const trial *b, const candidate *d)
@@ -669,6 +669,7 @@ static int simplify(trial *b, char *error, size_t bytes)
     if (c->options->simplify == TOOL_SIMPLIFY_PATH) simplify_path(b);
     if (compile_run_all(&b->now, b->st, c, &b->wanted)) return say_refused(b, error, bytes);
     if (b->now.differs >= 0) return say_changed(c, b->now.differs, error, bytes);
+    if (settings_suffice(&c->asked, &b->now.demand, error, bytes)) return -1;
     c->run = b->now;
     if (compile_keeps_tiles(b->st, c, &c->kept_tiles)) return say_refused(b, error, bytes);
     if (!b->no_memory) return 0;

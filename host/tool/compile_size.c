@@ -34,11 +34,11 @@ static long mesh_bytes(const gn_mesh *m)
     return bytes + MESH_BYTES;
 }
 
-long compile_flash_bytes(const compiled *c)
+long compile_flash_bytes(const compiled *c, bool short_enums)
 {
     const gn_scene *s = &c->fixed.scene;
-    long bytes = scene_bytes(false) + (long)(s->n_objects ? s->n_objects : 1) * object_bytes(false) +
-                 (long)(s->n_lights ? s->n_lights : 1) * light_bytes(false);
+    long bytes = scene_bytes(short_enums) + (long)(s->n_objects ? s->n_objects : 1) * object_bytes(short_enums) +
+                 (long)(s->n_lights ? s->n_lights : 1) * light_bytes(short_enums);
     for (size_t i = 0; i < c->fixed.n_meshes; i++) bytes += mesh_bytes(&c->fixed.meshes[i]);
     for (size_t i = 0; i < c->n_textures; i++)
         bytes += TEXTURE_BYTES + padded((long)quantise_texel_bytes(&c->fixed.textures[i])

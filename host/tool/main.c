@@ -31,7 +31,7 @@ static const char usage_text[] =
     "  --view NAME               render, compare: colour, shadow, depth, normal, atlas or cascade (colour)\n"
     "  --light K                 render, compare: the light of --view shadow and atlas (0)\n"
     "  --frame N                 animation frame (0)\n"
-    "  --frames FIRST-LAST       compile: these frames (all of the animation)\n"
+    "  --frames FIRST-LAST       compile, info: these frames (all of the animation)\n"
     "  --board NAME              compile, info: must fit the memory of boards/NAME, of its code -Os; or --ram, --flash BYTES\n"
     "  --margin PERCENT          compile: room for more triangles and tile references than the frames took (10)\n"
     "  --simplify none|safe|path  compile: leave out what changes no picture of any camera, or none of the frames (path)\n"
@@ -68,7 +68,7 @@ static const option options[] = {
     {"--frame", BY_ALL & ~BY_COMPILE, "a frame from 0 to 100000000"},
     {"--frames", BY_COMPILE | BY_INFO, "FIRST-LAST, frames from 0 to 100000000"},
     {"--margin", BY_COMPILE | BY_INFO, "per cent from 0 to 1000"},
-    {"--simplify", BY_COMPILE | BY_INFO, "none, safe or path"},
+    {"--simplify", BY_COMPILE, "none, safe or path"},
     {"--set", BY_ALL, "KEY=VALUE, at most 64 times"},
     {"--csv", BY_SWEEP, "a path"},
     {"--svg", BY_SWEEP, "a path"},

@@ -1,0 +1,104 @@
+/* RAM and flash of each preset, and whether they fit a board. */
+#include "info_memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* As if the preset were set last. */
+static void try_preset(info_memory *out, const tool_options *o, int preset)
+{
+    static const board m0 = {.core = FLASH_CORTEX_M0, .short_enums = true}, m4 = {.core = FLASH_CORTEX_M4, .short_enums = true};
+    char set[32], error[TOOL_ERROR_BYTES] = "out of memory";
+    tool_options with = *o;
+    compiled c;
+    if (with.n_sets == TOOL_SETS_MAX) with.n_sets--;
+    snprintf(set, sizeof set, "preset=%s", settings_preset_name[preset]);
+    with.sets[with.n_sets++] = set;
+    with.simplify = TOOL_SIMPLIFY_SAFE;
+    if (compile_all(&c, &with, error, sizeof error)) {
+        snprintf(out->refused[preset], sizeof out->refused[preset], "%.150s", error);
+        return;
+    }
+    out->memory[preset][FLASH_CORTEX_M0] = compile_measure(&c, &m0);
+    out->memory[preset][FLASH_CORTEX_M4] = compile_measure(&c, &m4);
+    compile_free(&c);
+}
+
+/* What gnomon compile would say. */
+static int judge(info_memory *out, const tool_options *o, const board *b, char *error, size_t bytes)
+{
+    compiled c;
+    if (compile_all(&c, o, error, bytes)) return -1;
+    compile_memory m = compile_measure(&c, b);
+    out->fits = compile_fits(&m, b);
+    if (out->fits) {
+        snprintf(out->verdict, sizeof out->verdict, "fits %s: %ld bytes of RAM (stack %ld) of %ld, about %ld of flash of %ld",
+                 b->name, m.renderer + m.state + b->stack, b->stack, b->ram, m.data + m.code, b->flash);
+    } else {
+        char much[160], nearest[256];
+        compile_say_memory(&m, b, much, sizeof much);
+        compile_find_nearest(&c, b, nearest, sizeof nearest);
+        snprintf(out->verdict, sizeof out->verdict, "does not fit %s: %s; %s", b->name, much, nearest);
+    }
+    compile_free(&c);
+    return 0;
+}
+
+static int count_frames(info_memory *out, const tool_options *o, char *error, size_t bytes)
+{
+    scene s;
+    settings set;
+    if (tool_load_with(o, o->sets, o->n_sets, &s, &set, error, bytes)) return -1;
+    out->frames = 1 + (int)fmin(ceil(s.duration * s.fps - 1e-6), 1e8);
+    scene_free(&s);
+    return 0;
+}
+
+int info_memory_find(info_memory *out, const tool_options *o, char *error, size_t error_bytes)
+{
+    tool_options frames = *o;
+    board b;
+    memset(out, 0, sizeof *out);
+    if (frames.last_frame < 0) frames.last_frame = frames.frame;
+    if (count_frames(out, o, error, error_bytes)) return -1;
+    for (int i = 0; i < SETTINGS_PRESETS; i++) try_preset(out, &frames, i);
+    int asked = compile_read_board(o, &b, error, error_bytes);
+    if (asked <= 0) return asked;
+    if (!b.name[0]) snprintf(b.name, sizeof b.name, "that");
+    return judge(out, &frames, &b, error, error_bytes);
+}
+
+void info_memory_text(const info_memory *m)
+{
+    if (m->frames > 1) printf("  animation: %d frames; --frames 0-%d plays them all\n", m->frames, m->frames - 1);
+    printf("  compiled (gnomon compile leaves out more), on Arm:\n");
+    for (int i = 0; i < SETTINGS_PRESETS; i++) {
+        const compile_memory *a = &m->memory[i][FLASH_CORTEX_M0], *b = &m->memory[i][FLASH_CORTEX_M4];
+        if (m->refused[i][0]) {
+            printf("    %-9s %s\n", settings_preset_name[i], m->refused[i]);
+            continue;
+        }
+        printf("    %-9s RAM %ld bytes: renderer %ld, what moves %ld; flash: scene %ld, code about %ld (Cortex-M0), %ld (M4)\n",
+               settings_preset_name[i], a->renderer + a->state, a->renderer, a->state, a->data, a->code, b->code);
+    }
+    if (m->verdict[0]) printf("  %s\n", m->verdict);
+}
+
+void info_memory_json(const info_memory *m)
+{
+    printf(", \"frames\": %d, \"compiled\": {", m->frames);
+    const char *gap = "";
+    for (int i = 0; i < SETTINGS_PRESETS; i++) {
+        const compile_memory *a = &m->memory[i][FLASH_CORTEX_M0], *b = &m->memory[i][FLASH_CORTEX_M4];
+        if (m->refused[i][0]) continue;
+        printf("%s\"%s\": {\"renderer_bytes\": %ld, \"state_bytes\": %ld, \"data_bytes\": %ld, \"code_bytes_m0\": %ld, "
+               "\"code_bytes_m4\": %ld}",
+               gap, settings_preset_name[i], a->renderer, a->state, a->data, a->code, b->code);
+        gap = ", ";
+    }
+    printf("}");
+    if (!m->verdict[0]) return;
+    printf(", \"fits\": %s, \"verdict\": ", m->fits ? "true" : "false");
+    tool_json_string(m->verdict);
+}
