@@ -92,6 +92,11 @@ if [ -n "$target" ]; then
         predicted $preset max_objects=777 max_other_tiles=13 surface_lights=3 max_shadow_tiles=1 max_lights=5
         predicted $preset max_tile_refs=70001 atlas_size=64 tile_width=72 tile_height=5 max_lights=8
         predicted $preset max_tile_refs=70001 atlas_size=16 tile_width=24 tile_height=1 shadows=0
+        predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 # casting is larger than shading
+        predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 caster_bias=0
+        predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 textures=0 visible_alpha=0
+        predicted $preset surface_lights=1 masks=0 baked_light=0 punctual_lights=0 blended_cascades=0 textures=0 caster_alpha=0 caster_bias=0
+        predicted $preset surface_lights=1 textures=0 specular=0 masks=0 baked_light=0 punctual_lights=0 main_light=0 shadows=0 persp_step=1
         predicted $preset atlas_texels=8192 other_atlas_texels=64 static_layer=1
     done
 fi

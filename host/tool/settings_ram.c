@@ -44,8 +44,15 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
     if (other) r->other_atlas = put_atlas(l, s, s->quality.other_atlas_size, s->capacity.other_atlas_texels, s->quality.other_depth_bits);
 }
 
-/* gn_shading of lib/gn_shading.h */
-static void put_shading(layout *out, const settings *s)
+/* gn_casting of lib/gn_shading.h */
+static long casting_bytes(const settings *s)
+{
+    if (!s->feature.shadows) return 0;
+    return 696 + (s->feature.caster_bias ? 40 : 0) + (!s->feature.caster_alpha ? 0 : s->feature.textures ? 144 : 88);
+}
+
+/* gn_work of lib/gn_shading.h: the largest of what one core does at a time, shading or casting */
+static void put_work(layout *out, const settings *s)
 {
     layout surface = {0, 8}, all = {0, 8};
     int per_light = (s->feature.shadows && s->feature.blended_cascades) || s->feature.punctual_lights ? 7 : s->feature.shadows ? 4 : 1;
@@ -67,7 +74,8 @@ static void put_shading(layout *out, const settings *s)
     if (s->quality.persp_step == 1) pieces = 0;
     put(&all, 1, run > pieces ? run : pieces, 4); /* by */
     pad(&all, all.align);
-    put(out, 1, all.size, 8);
+    const long casting = casting_bytes(s), clipping = 264, least = casting > clipping ? casting : clipping;
+    put(out, 1, all.size > least ? all.size : least, 8);
 }
 
 /* Mirrors lib/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against sizeof(gn_renderer). */
@@ -101,7 +109,7 @@ settings_ram_parts settings_ram(const settings *s)
     r.pixels = put(&all, tile_w * tile_h, s->feature.raw_views ? 4 : 3, 4);
     put(&all, s->capacity.vertex_cache, 16, 4);
     put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
-    put_shading(&all, s);
+    put_work(&all, s);
     pad(&all, all.align);
     r.total = all.size;
     r.rest = r.total - r.atlas - r.other_atlas - r.objects - r.lights - r.triangles - r.tile_refs - r.tiles - r.cells - r.pixels;
