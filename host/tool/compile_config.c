@@ -174,8 +174,6 @@ static void use_nothing(compiled *c)
     NOTHING(vertex_colours);
     c->set.feature.raw_views = c->set.feature.runtime_knobs = 0;
     because(c, "raw_views", "for host tools");
-    because(c, "validation", "off where the scene changes in no way that was not tried on the host");
-    because(c, "other_formats", "off where the panel takes RGB565");
     because(c, "object_boxes", "the same picture with and without");
     because(c, "caster_clipping", "off where no frame is refused for it");
     because(c, "runtime_knobs", "for host tools");
@@ -217,11 +215,23 @@ static void choose_speed(compiled *c)
     else because(c, "incremental", "shadow tiles kept from the frame before, all frames: %zu", c->kept_tiles);
 }
 
+/* What the tool has done already. */
+static void choose_checks(compiled *c)
+{
+    const bool rgb565 = c->set.output == GN_FORMAT_RGB565;
+    if (c->options->simplify == TOOL_SIMPLIFY_PATH) c->set.feature.validation = 0;
+    because(c, "validation", c->set.feature.validation ? "scenes of --simplify none and safe may be moved otherwise"
+                                                       : "every frame was checked when it was compiled");
+    if (rgb565) c->set.feature.other_formats = 0;
+    because(c, "other_formats", rgb565 ? "the panel takes RGB565" : "the panel takes another than RGB565");
+}
+
 void compile_choose(compiled *c)
 {
     choose_features(c);
     choose_capacities(c);
     choose_speed(c);
+    choose_checks(c);
     shrink_atlases(c);
 }
 

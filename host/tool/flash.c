@@ -42,6 +42,10 @@ static long of_shadows(const settings *s, flash_core core)
     if (s->feature.receiver_plane) bytes += receiver_plane_bytes[core];
     if (s->feature.auto_bias) bytes += auto_bias_bytes[core];
     if (s->feature.incremental) bytes += incremental_bytes[core];
+    if (s->feature.many_cascades) bytes += many_cascades_bytes[core];
+    if (s->feature.tile_importance) bytes += tile_importance_bytes[core];
+    if (s->feature.object_boxes) bytes += object_boxes_bytes[core];
+    if (s->feature.caster_clipping) bytes += caster_clipping_bytes[core];
     if (s->feature.static_layer) bytes += static_layer_bytes[core];
     return bytes;
 }
@@ -51,6 +55,8 @@ long flash_estimate(const settings *s, flash_core core)
     long bytes = typical_bytes[core] + of_surfaces(s, core);
     if (s->feature.shadows) bytes += of_shadows(s, core);
     else bytes += s->feature.punctual_lights ? punctual_unshadowed_bytes[core] : no_shadows_bytes[core];
+    if (s->feature.validation) bytes += validation_bytes[core];
+    if (s->feature.other_formats) bytes += other_formats_bytes[core];
     if (s->feature.tile_lights) bytes += tile_lights_bytes[core];
     if (!s->quality.srgb) bytes += linear_bytes[core];
     if (s->quality.persp_step == 1) bytes += preset_accurate_bytes[core];
