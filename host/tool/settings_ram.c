@@ -48,7 +48,7 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 static long casting_bytes(const settings *s)
 {
     if (!s->feature.shadows) return 0;
-    return 696 + (s->feature.caster_bias ? 40 : 0) + (!s->feature.caster_alpha ? 0 : s->feature.textures ? 144 : 88);
+    return 856 + (s->feature.caster_bias ? 40 : 0) + (!s->feature.caster_alpha ? 0 : s->feature.textures ? 144 : 88);
 }
 
 /* gn_work of lib/gn_shading.h: the largest of what one core does at a time, shading or casting */
