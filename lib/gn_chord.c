@@ -195,7 +195,7 @@ static void set_steps(gn_chord *chord, const gn_surface *surface, const gn_sampl
  *     (longer/2 (v1 - v0) + angle^2/2 v - (n1 - n0) . (p1 - p0)) t (1 - t)
  *
  * for n = n0 + t (n1 - n0) is shorter by angle^2/2 t (1 - t) than between its ends, and not as long at one as at the other. */
-static void turn_cosines(gn_chord *chord, const gn_surface *surface, const gn_sample *a, const gn_sample *b, int32_t n,
+static void turn_cosines(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b, int32_t n,
                          const turning *t)
 {
     int32_t log2 = log2_of(n);
@@ -207,6 +207,7 @@ static void turn_cosines(gn_chord *chord, const gn_surface *surface, const gn_sa
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i;
         int64_t v0 = a->value[at], v1 = b->value[at], d = v1 - v0;
+        if (GN_K(frame, vertex_light) && surface->light[i].state->kind == GN_LIGHT_DIRECTIONAL) continue; /* no cosine of this normal */
         if ((gn_abs64(v0) | gn_abs64(v1)) >> 30) continue; /* lights so far away are dark, and this must not overflow */
         int64_t more = gn_shr64(t->longer_q16 * d + t->angle2_q16 * ((v0 + v1) >> 1), 16);
 #if GN_PUNCTUAL_LIGHTS
@@ -242,6 +243,6 @@ int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *s
         if (bend_q16 > GN_BEND_MAX_Q16 || !all_hold(frame, surface, a, b, of_parabola, &turned)) return 0;
     }
     set_steps(chord, surface, a, b, n, za < zb ? bend_q30 : -bend_q30);
-    if (turned.angle2_q16 | turned.longer_q16) turn_cosines(chord, surface, a, b, n, &turned);
+    if (turned.angle2_q16 | turned.longer_q16) turn_cosines(chord, frame, surface, a, b, n, &turned);
     return 1;
 }

@@ -37,6 +37,7 @@
 #define GN_PRESETS_TILE_WIDTH           64, 64, 64
 #define GN_PRESETS_TILE_HEIGHT          8, 16, 16
 #define GN_PRESETS_SRGB                 1, 1, 1
+#define GN_PRESETS_VERTEX_LIGHT         0, 0, 0
 
 #ifndef GN_SUBPIXEL_BITS
 #define GN_SUBPIXEL_BITS GN_PICK(GN_PRESETS_SUBPIXEL_BITS)
@@ -79,6 +80,10 @@
 #endif
 #ifndef GN_SRGB
 #define GN_SRGB GN_PICK(GN_PRESETS_SRGB)
+#endif
+
+#ifndef GN_VERTEX_LIGHT
+#define GN_VERTEX_LIGHT GN_PICK(GN_PRESETS_VERTEX_LIGHT)
 #endif
 
 /* Capacities. */

@@ -459,19 +459,20 @@ int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn
 }
 
 #if GN_FILTER_MAX >= 1
-/* 2x2 of 16 bits whose texels all lie in the tile. Coordinates half a texel up and left, depths half a step up: what is shifted out
- * is the fraction, and rounded. */
-static void bilinear_row(const gn_light_view *view, gn_receiver_step at, const gn_receiver_step *step, int32_t n, int32_t bits,
+/* 2x2 of 16 bits whose texels all lie in the tile. Coordinates half a texel up and left: what is shifted out is the fraction. */
+static void bilinear_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at, const gn_receiver_step *step, int32_t n,
                          uint32_t *attenuation)
 {
     const uint16_t *texel = view->depth.d16;
+    int32_t bits = GN_K(frame, weight_bits), dropped = dropped_bits(frame, view);
+    int32_t kept = -(1 << (dropped - 1)); /* of a depth, Q31, once half a step is added */
     uint32_t pitch = view->tile_texels, log2 = view->tile_log2, one = 1U << bits;
     at.u_q16 -= 32768;
     at.v_q16 -= 32768;
-    at.depth_q31 += 1 << 14;
+    at.depth_q31 += 1 << (dropped - 2);
     for (uint32_t *end = attenuation + n; attenuation < end; attenuation++) {
         const uint16_t *p = texel + (((uint32_t)at.v_q16 >> 16) << log2) + ((uint32_t)at.u_q16 >> 16), *q = p + pitch;
-        int32_t below = (at.depth_q31 >> 15) - 1; /* lit: the texel is above */
+        int32_t below = ((at.depth_q31 & kept) - 1) >> 15; /* lit: the texel is above */
         uint32_t n_lit = (uint32_t)(below - p[0]) >> 31;
         n_lit += (uint32_t)(below - p[1]) >> 31;
         n_lit += (uint32_t)(below - q[0]) >> 31;
@@ -481,7 +482,8 @@ static void bilinear_row(const gn_light_view *view, gn_receiver_step at, const g
             uint32_t wu = fraction(at.u_q16, bits), wv = fraction(at.v_q16, bits);
             uint32_t upper = (p[0] > below ? one - wu : 0) + (p[1] > below ? wu : 0);
             uint32_t lower = (q[0] > below ? one - wu : 0) + (q[1] > below ? wu : 0);
-            *attenuation = ((one - wv) * upper + wv * lower) << (16 - 2 * bits);
+            uint32_t partly = ((one - wv) * upper + wv * lower) << (16 - 2 * bits);
+            *attenuation = GN_K(frame, atten_bits) == 8 ? (partly + 128) & ~255U : partly;
         }
         at.u_q16 += step->u_q16;
         at.v_q16 += step->v_q16;
@@ -493,8 +495,8 @@ static void bilinear_row(const gn_light_view *view, gn_receiver_step at, const g
 static int is_simple(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from, const gn_receiver_step *to)
 {
     int32_t u, u_last, v, v_last;
-    if (view->filter != GN_FILTER_2X2 || GN_VIEW_BITS(view) != 16 || dropped_bits(frame, view) != 16) return 0;
-    if (GN_K(frame, weight_bits) > 8 || GN_K(frame, atten_bits) != 16) return 0;
+    if (view->filter != GN_FILTER_2X2 || GN_VIEW_BITS(view) != 16) return 0;
+    if (GN_K(frame, weight_bits) > 8) return 0;
     reads(view, from->u_q16, to->u_q16, &u, &u_last);
     reads(view, from->v_q16, to->v_q16, &v, &v_last);
     return u >= 0 && v >= 0 && u_last < view->tile_texels && v_last < view->tile_texels;
@@ -507,7 +509,7 @@ void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_re
     gn_receiver_step at = *from;
 #if GN_FILTER_MAX >= 1
     if (is_simple(frame, view, from, to)) {
-        bilinear_row(view, at, step, n, GN_K(frame, weight_bits), attenuation);
+        bilinear_row(frame, view, at, step, n, attenuation);
         return;
     }
 #else

@@ -28,7 +28,9 @@
     X(other_depth_bits, OTHER_DEPTH_BITS, 8, 32, "bits per texel of the other atlas (8, 16 or 32)", "RAM")                         \
     X(tile_width, TILE_WIDTH, 8, 2048, "screen tile width in pixels, a multiple of 8", "RAM: 7 bytes per tile pixel")              \
     X(tile_height, TILE_HEIGHT, 1, 2048, "screen tile height in pixels", "RAM: 7 bytes per tile pixel")                            \
-    X(srgb, SRGB, 0, 1, "encode the output with the sRGB curve", "1154 bytes of flash, 10 instructions per channel")
+    X(srgb, SRGB, 0, 1, "encode the output with the sRGB curve", "1154 bytes of flash, 10 instructions per channel")                \
+    X(vertex_light, VERTEX_LIGHT, 0, 1, "1: Gouraud shading: n . L of directional lights is found at vertices and interpolated",   \
+      "saves a root per sample; 12 bytes per light of a surface")
 
 #define GN_CAPACITY_KNOBS(X)                                                                                                       \
     X(max_width, MAX_WIDTH, 1, 2048, "largest picture width in pixels", "2 bytes per screen tile")                                 \

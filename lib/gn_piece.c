@@ -70,7 +70,8 @@ static int shadow_light(gn_pieces *p)
         p->offset_q16[0][i] = light->flat_offset_q16[i];
         p->offset_q16[1][i] = p->offset_q16[2][i] = 0;
     }
-    if ((GN_AUTO_BIAS && scene_light->auto_bias) || !s->smooth) return 1;
+    if (!GN_SMOOTH(s)) return 1;
+    if (GN_AUTO_BIAS && scene_light->auto_bias) return 0; /* along the normal, and not linear in it */
     const int32_t *b = scene_light->bias_receiver_q16;
     if (GN_RECEIVER_BIAS && (b[0] | b[1] | b[3])) return 0;
     for (int k = 0; k < 3; k++) gn_bias_directional(frame, view, s->normal_q30[k], p->offset_q16[k]);
@@ -94,7 +95,6 @@ int gn_pieces_fit(const gn_frame *frame, const gn_surface *s)
 {
     if (GN_K(frame, persp_step) == 1 || frame->picture.format == GN_FORMAT_RAW32) return 0;
     if ((s->textured | s->masked | s->baked | s->specular) || s->n_punctual || s->plane.det <= 0) return 0;
-    if (s->smooth && s->n_lights) return 0;
     for (int c = 0; c < 3; c++)
         if (s->base_q20[c] >= 1U << 25) return 0;
     for (uint32_t i = 0; i < s->n_lights; i++)
@@ -181,49 +181,152 @@ static gn_slope product_q24(const gn_slope *f, const gn_slope *c)
     return out;
 }
 
-/* Light without the one that casts a shadow, and with all of its. */
-static void colours(gn_pieces *p, const middle *m)
+/* Half the sides of a piece, in pixels. */
+typedef struct {
+    uint32_t w, h;
+} half_size;
+
+/* By how much a value changes from the middle of a piece to its corners, without the lower `drop` bits. */
+static uint32_t change_of(const gn_slope *s, half_size half, int32_t drop)
 {
-    const gn_surface *s = p->surface;
-    for (int c = 0; c < 3; c++) {
-        gn_slope dark = {(int32_t)(s->base_q20[c] << 4), 0, 0}, light = {0, 0, 0};
-        for (uint32_t i = 0; i < s->n_lights; i++) {
-            const gn_surface_light *l = &s->light[i];
-            gn_slope *sum = (int32_t)i == p->shadow_slot ? &light : &dark;
-            sum->at += (int32_t)gn_mul_uq16(l->radiance_uq16[c], (uint32_t)l->flat_cosine_q24);
-        }
-        if (s->coloured) {
-            gn_slope colour = interpolate(m, s->rgb_q16[0][c] << 8, s->rgb_q16[1][c], s->rgb_q16[2][c], 20);
-            dark = product_q24(&dark, &colour);
-            light = product_q24(&light, &colour);
-        }
-        p->dark_q24[c] = dark;
-        p->lit_q24[c].at = dark.at + light.at;
-        p->lit_q24[c].dx = dark.dx + light.dx;
-        p->lit_q24[c].dy = dark.dy + light.dy;
-    }
+    return (gn_abs32(s->dx) >> drop) * half.w + (gn_abs32(s->dy) >> drop) * half.h;
 }
 
-/* Over half a piece a value changes by g and w by t, relative to w: what colour_near() leaves out is g t^2, and the ends of a ramp of
- * n pixels bend by a quarter of what both change over it. */
-static int close_enough(gn_pieces *p, uint32_t half_w, uint32_t half_h)
+/* How far linear colours may stray from the true ones: 2^-this. */
+static int32_t tolerance_log2(const gn_frame *frame)
 {
-    uint64_t bend_q30 = (uint64_t)gn_abs32(p->w_dx_q30) * half_w + (uint64_t)gn_abs32(p->w_dy_q30) * half_h;
+    (void)frame;
+    return GN_K(frame, persp_step) == 16 ? 7 : GN_K(frame, persp_step) == 8 ? 9 : 10;
+}
+
+#if GN_VERTEX_NORMALS
+/* The interpolated normal in the middle: as it is and of unit length, and its changes, Q30. */
+typedef struct {
+    gn_length length;
+    int32_t n_q30[3], unit_q30[3], dx_q30[3], dy_q30[3];
+} middle_normal;
+
+/* A cosine bends by half the square of the angle. Returns 0 if the normal turns too far over the piece. */
+static int find_normal(const gn_pieces *p, const middle *m, half_size half, middle_normal *normal)
+{
+    const gn_surface *s = p->surface;
+    uint32_t size2 = 0, turned2 = 0;
+    for (int i = 0; i < 3; i++) {
+        gn_slope n_q28 = interpolate(m, s->normal_q30[0][i] / 4, s->normal_q30[1][i], s->normal_q30[2][i], 30);
+        uint32_t turned = change_of(&n_q28, half, 14);
+        if (gn_abs32(n_q28.at) > 1U << 28 || (gn_abs32(n_q28.dx) | gn_abs32(n_q28.dy)) >> 28 || turned >> 14) return 0;
+        size2 += (gn_abs32(n_q28.at) >> 14) * (gn_abs32(n_q28.at) >> 14);
+        turned2 += turned * turned;
+        normal->n_q30[i] = n_q28.at * 4;
+        normal->dx_q30[i] = n_q28.dx * 4;
+        normal->dy_q30[i] = n_q28.dy * 4;
+    }
+    if (turned2 > size2 >> (tolerance_log2(p->frame) - 1)) return 0;
+    normal->length = gn_length_of(GN_K(p->frame, newton_steps), normal->n_q30);
+    gn_length_unit(normal->length, normal->n_q30, normal->unit_q30);
+    return 1;
+}
+
+/* n . L: (n' . L - (n . L) (n' . n)) / |N| is its change, n' that of N. Returns 0 if it changes sign over the piece. */
+static int cosine(const middle_normal *normal, const gn_light_state *light, half_size half, gn_slope *out)
+{
+    const int32_t *to_light = light->to_light_q30, *unit = normal->unit_q30;
+    out->at = gn_length_cosine_q24(normal->length, normal->n_q30, to_light);
+    out->dx = gn_length_cosine_q24(normal->length, normal->dx_q30, to_light) -
+              gn_mul_shr(out->at, gn_length_cosine_q24(normal->length, normal->dx_q30, unit), 24);
+    out->dy = gn_length_cosine_q24(normal->length, normal->dy_q30, to_light) -
+              gn_mul_shr(out->at, gn_length_cosine_q24(normal->length, normal->dy_q30, unit), 24);
+    uint32_t change = change_of(out, half, 0);
+    if (out->at < 0) {
+        int beyond = gn_abs32(out->at) >= change;
+        out->at = out->dx = out->dy = 0;
+        return beyond;
+    }
+    return (uint32_t)out->at >= change;
+}
+#endif
+
+static void add_light(gn_slope *sum, uint32_t colour_uq16, const gn_slope *cosine_q24)
+{
+    sum->at += (int32_t)((int64_t)(int32_t)colour_uq16 * cosine_q24->at >> 16);
+    sum->dx += (int32_t)((int64_t)(int32_t)colour_uq16 * cosine_q24->dx >> 16);
+    sum->dy += (int32_t)((int64_t)(int32_t)colour_uq16 * cosine_q24->dy >> 16);
+}
+
+/* What arrives without the light that casts a shadow, and with all of its. Returns 0 if that is not close to linear. */
+static int arriving(gn_pieces *p, const middle *m, half_size half)
+{
+    const gn_surface *s = p->surface;
+#if GN_VERTEX_NORMALS
+    middle_normal normal;
+    int turns = GN_SMOOTH(s) && !GN_K(p->frame, vertex_light);
+    if (turns && s->n_lights && !find_normal(p, m, half, &normal)) return 0;
+#else
+    (void)m, (void)half;
+#endif
+    for (int c = 0; c < 3; c++) {
+        gn_slope dark = {(int32_t)(s->base_q20[c] << 4), 0, 0};
+        p->dark_q24[c] = p->lit_q24[c] = dark;
+    }
+    for (uint32_t i = 0; i < s->n_lights; i++) {
+        const gn_surface_light *light = &s->light[i];
+        gn_slope facing = {light->flat_cosine_q24, 0, 0};
+#if GN_VERTEX_NORMALS
+        if (turns && !cosine(&normal, light->state, half, &facing)) return 0;
+#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
+        const int32_t *at = light->vertex_cosine_q24;
+        if (GN_SMOOTH(s) && !turns) facing = interpolate(m, at[0], at[1], at[2], 28);
+#endif
+#endif
+        for (int c = 0; c < 3; c++) {
+            add_light(&p->lit_q24[c], light->radiance_uq16[c], &facing);
+            if ((int32_t)i != p->shadow_slot) add_light(&p->dark_q24[c], light->radiance_uq16[c], &facing);
+        }
+    }
+    return 1;
+}
+
+/* Times the vertices' colours. Two values that both change are multiplied row by row. */
+static int colours(gn_pieces *p, const middle *m, half_size half)
+{
+    const gn_surface *s = p->surface;
+    p->tinted = GN_COLOURED(s) && GN_SMOOTH(s);
+    if (!arriving(p, m, half)) return 0;
+    for (int c = 0; GN_COLOURED(s) && c < 3; c++) {
+        gn_slope colour = interpolate(m, s->rgb_q16[0][c] * 256, s->rgb_q16[1][c], s->rgb_q16[2][c], 20);
+        p->tint_q24[c] = colour;
+        if (p->tinted) continue;
+        p->dark_q24[c] = product_q24(&p->dark_q24[c], &colour);
+        p->lit_q24[c] = product_q24(&p->lit_q24[c], &colour);
+    }
+    return 1;
+}
+
+/* Over half a piece a value changes by g and w by t, relative to w: what colour_near() leaves out is g t^2; over a ramp of n pixels it
+ * bends by a quarter of the product of what both, or two factors, change over it. */
+static int close_enough(gn_pieces *p, half_size half)
+{
+    uint64_t bend_q30 = (uint64_t)gn_abs32(p->w_dx_q30) * half.w + (uint64_t)gn_abs32(p->w_dy_q30) * half.h;
     if (bend_q30 > 1U << 27) return 0;
     if (!p->varies) return 1;
-    int32_t persp_step = GN_K(p->frame, persp_step), tolerance_log2 = persp_step == 16 ? 7 : persp_step == 8 ? 9 : 10;
-    uint32_t change = 0, fastest = 0, bend2_q30 = (uint32_t)(bend_q30 * bend_q30 >> 30);
+    int32_t tolerance = tolerance_log2(p->frame);
+    uint32_t change = 0, fastest = 0, product = 0, bend2_q30 = (uint32_t)(bend_q30 * bend_q30 >> 30);
     for (int c = 0; c < 3; c++) {
-        const gn_slope *lit = &p->lit_q24[c];
-        uint32_t dx = gn_abs32(lit->dx) >> 8, here = dx * half_w + (gn_abs32(lit->dy) >> 8) * half_h; /* Q16 */
+        uint32_t dx = gn_abs32(p->lit_q24[c].dx) >> 8, here = change_of(&p->lit_q24[c], half, 8); /* Q16 */
+        if (p->tinted) {
+            uint32_t tint_dx = gn_abs32(p->tint_q24[c].dx) >> 8;
+            if ((dx | tint_dx) >> 16) return 0;
+            product = (uint32_t)gn_max32((int32_t)product, (int32_t)(dx * tint_dx >> 2)); /* Q30 */
+            dx += tint_dx;
+            here += change_of(&p->tint_q24[c], half, 8);
+        }
         if (here > change) change = here;
         if (dx > fastest) fastest = dx;
     }
-    if ((uint64_t)change * bend2_q30 >> (46 - tolerance_log2)) return 0;
-    /* n^2 / 4 times both slopes */
-    uint64_t bend_46 = (uint64_t)fastest * gn_abs32(p->w_dx_q30);
+    if ((uint64_t)change * bend2_q30 >> (46 - tolerance)) return 0;
+    uint64_t bend_q46 = (uint64_t)fastest * gn_abs32(p->w_dx_q30) + ((uint64_t)product << 16);
     for (p->ramp_px = GN_PIECE_WIDTH; p->ramp_px > 4; p->ramp_px >>= 1)
-        if (!(bend_46 * (uint32_t)(p->ramp_px * p->ramp_px / 4) >> (46 - tolerance_log2))) break;
+        if (!(bend_q46 * (uint32_t)(p->ramp_px * p->ramp_px / 4) >> (46 - tolerance))) break;
     return 1;
 }
 
@@ -317,6 +420,12 @@ static int find_place(gn_pieces *p, const middle *m, const gn_rect *rect)
         out->at = (int32_t)((uint32_t)on_ray(m->z_q16, a, fit->ray_shift) + (uint32_t)ray->d_q16 + (uint32_t)p->offset_q16[0][i]);
         out->dx = (int32_t)gn_shr64(((int64_t)z_dx * a) * 4 + (int64_t)m->z_q16 * ray->ax * 2, fit->ray_shift);
         out->dy = (int32_t)gn_shr64(((int64_t)z_dy * a) * 4 - (int64_t)m->z_q16 * ray->ay * 2, fit->ray_shift);
+        if (GN_SMOOTH(p->surface)) {
+            gn_slope offset = interpolate(m, p->offset_q16[0][i], p->offset_q16[1][i], p->offset_q16[2][i], 28);
+            out->at += offset.at - p->offset_q16[0][i];
+            out->dx += offset.dx;
+            out->dy += offset.dy;
+        }
         uint32_t across = gn_abs32(out->dx) * (uint32_t)half_w + gn_abs32(out->dy) * (uint32_t)half_h;
         if ((gn_abs32(out->dx) | gn_abs32(out->dy)) >> 22) return 0; /* 64 texels per pixel */
         if (across > most) most = across;
@@ -326,7 +435,7 @@ static int find_place(gn_pieces *p, const middle *m, const gn_rect *rect)
     /* g t^2 within 1/32 texel; from end to end of a chunk of n pixels a chord bends by g t / 4 */
     uint32_t bend_q15 = (uint32_t)(gn_abs32(m->w_dx_q30) * (uint32_t)half_w + gn_abs32(m->w_dy_q30) * (uint32_t)half_h) >> 15;
     if ((uint64_t)most * ((bend_q15 * bend_q15) >> 15) >> 15 > 2048) return 0;
-    p->chunk_px = GN_K(p->frame, persp_step);
+    p->chunk_px = p->varies ? gn_min32(GN_K(p->frame, persp_step), p->ramp_px) : GN_K(p->frame, persp_step);
     while (p->chunk_px > 1 &&
            ((uint64_t)fastest * (uint32_t)p->chunk_px * ((gn_abs32(m->w_dx_q30) * (uint32_t)p->chunk_px) >> 8)) >> 22 > 4 * 2048)
         p->chunk_px >>= 1;
@@ -388,9 +497,9 @@ int gn_pieces_select(gn_pieces *p, const gn_rect *rect)
     if (!find_middle(p, &m)) return 0;
     p->w_dx_q30 = m.w_dx_q30;
     p->w_dy_q30 = m.w_dy_q30;
-    p->varies = p->surface->coloured;
-    colours(p, &m);
-    if (!close_enough(p, (uint32_t)(rect->x1 - rect->x0 + 1) >> 1, (uint32_t)(rect->y1 - rect->y0 + 1) >> 1)) return 0;
+    p->varies = GN_COLOURED(p->surface) || GN_SMOOTH(p->surface);
+    half_size half = {(uint32_t)(rect->x1 - rect->x0 + 1) >> 1, (uint32_t)(rect->y1 - rect->y0 + 1) >> 1};
+    if (!colours(p, &m, half) || !close_enough(p, half)) return 0;
     p->looks_up = 0;
 #if GN_SHADOWS
     p->x0 = rect->x0;
@@ -417,6 +526,21 @@ static inline int32_t colour_near(const gn_pieces *p, const gn_slope *colour, in
     return colour->at + g - 4 * mul_high(g, t_q30);
 }
 
+/* The same of all channels, for a row of n pixels from (x, y) on: the colour of its first and the step from each to the next. */
+static void ramp_of(const gn_pieces *p, const gn_slope colour_q24[3], int32_t x, int32_t y, int32_t n, int32_t from[3], int32_t step[3])
+{
+    int32_t right = 2 * (x - p->x) + n - 1, down = 2 * (y - p->y), t_q30 = (p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1;
+    for (int c = 0; c < 3; c++) {
+        int32_t at = colour_near(p, &colour_q24[c], right, down, t_q30, &step[c]);
+        if (p->tinted) {
+            int32_t tint_step, tint = colour_near(p, &p->tint_q24[c], right, down, t_q30, &tint_step);
+            step[c] = mul_q24(step[c], tint) + mul_q24(at, tint_step);
+            at = mul_q24(at, tint);
+        }
+        from[c] = at - ((step[c] * (n - 1)) >> 1);
+    }
+}
+
 /* A row of pixels that the light reaches all over, or not at all. */
 static void plain_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, int lit)
 {
@@ -424,30 +548,56 @@ static void plain_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, 
         gn_pixel_fill(p->frame, rows, x, y, n, lit ? p->lit_pixel : p->dark_pixel);
         return;
     }
-    const gn_slope *colour = lit ? p->lit_q24 : p->dark_q24;
-    for (int32_t end = x + n; x < end; x += n) {
+    for (int32_t end = x + n, from[3], step[3]; x < end; x += n) {
         n = gn_min32(end - x, p->ramp_px);
-        int32_t right = 2 * (x - p->x) + n - 1, down = 2 * (y - p->y), from[3], step[3];
-        int32_t t_q30 = (p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1;
-        for (int c = 0; c < 3; c++)
-            from[c] = colour_near(p, &colour[c], right, down, t_q30, &step[c]) - ((step[c] * (n - 1)) >> 1);
+        ramp_of(p, lit ? p->lit_q24 : p->dark_q24, x, y, n, from, step);
         gn_pixel_ramp(p->frame, rows, x, y, n, from, step);
     }
 }
 
 #if GN_SHADOWS
-static void partly_lit(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, uint32_t attenuation)
+/* Colours along a row of pixels: without the light and with it. */
+typedef struct {
+    int32_t dark[3], dark_step[3], lit[3], lit_step[3];
+} row_colours;
+
+static void find_row_colours(const gn_pieces *p, int32_t x, int32_t y, int32_t n, row_colours *row)
 {
-    int32_t colour[3], right = 2 * (x - p->x), down = 2 * (y - p->y), t_q30 = (p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1, step;
-    for (int c = 0; c < 3; c++) {
-        int32_t dark = p->dark_q24[c].at, lit = p->lit_q24[c].at;
-        if (p->varies) {
-            dark = colour_near(p, &p->dark_q24[c], right, down, t_q30, &step);
-            lit = colour_near(p, &p->lit_q24[c], right, down, t_q30, &step);
-        }
-        colour[c] = dark + (int32_t)((int64_t)(lit - dark) * (int32_t)attenuation >> 16);
+    if (p->varies) {
+        ramp_of(p, p->dark_q24, x, y, n, row->dark, row->dark_step);
+        ramp_of(p, p->lit_q24, x, y, n, row->lit, row->lit_step);
+        return;
     }
-    gn_pixel_ramp(p->frame, rows, x, y, 1, colour, colour);
+    for (int c = 0; c < 3; c++) {
+        row->dark[c] = p->dark_q24[c].at;
+        row->lit[c] = p->lit_q24[c].at;
+        row->dark_step[c] = row->lit_step[c] = 0;
+    }
+}
+
+/* Pixels first .. first + n - 1 of a row that begins at x, all lit or all dark. */
+static void part_of_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, const row_colours *row, int32_t first,
+                        int32_t n, int lit)
+{
+    const int32_t *colour = lit ? row->lit : row->dark, *step = lit ? row->lit_step : row->dark_step;
+    if (!p->varies) {
+        gn_pixel_fill(p->frame, rows, x + first, y, n, lit ? p->lit_pixel : p->dark_pixel);
+        return;
+    }
+    const int32_t from[3] = {colour[0] + first * step[0], colour[1] + first * step[1], colour[2] + first * step[2]};
+    if (n == 1) gn_pixel_dot(p->frame, rows, x + first, y, from);
+    else gn_pixel_ramp(p->frame, rows, x + first, y, n, from, step);
+}
+
+static void partly_lit(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, const row_colours *row, int32_t i,
+                       uint32_t attenuation)
+{
+    int32_t colour[3];
+    for (int c = 0; c < 3; c++) {
+        int32_t dark = row->dark[c] + i * row->dark_step[c], more = row->lit[c] + i * row->lit_step[c] - dark;
+        colour[c] = dark + (int32_t)((int64_t)more * (int32_t)attenuation >> 16);
+    }
+    gn_pixel_dot(p->frame, rows, x + i, y, colour);
 }
 
 /* Where the light sees the surface at a pixel: v + g / (1 + t), g the change by the slope, t that of w, is v + g - g t but for g t^2. */
@@ -486,16 +636,18 @@ static void looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t
         step.v_q16 = step_of(from.v_q16, to.v_q16, n - 1);
         step.depth_q31 = step_of(from.depth_q31, to.depth_q31, n - 1);
     }
+    row_colours row;
+    find_row_colours(p, x, y, n, &row);
     gn_filter_row(p->frame, p->view, &from, &to, &step, n, attenuation);
     for (int32_t i = 0; i < n;) {
         uint32_t here = attenuation[i];
         if (here - 1 < 65535) {
-            partly_lit(p, rows, y, x + i++, here);
+            partly_lit(p, rows, y, x, &row, i++, here);
             continue;
         }
         int32_t first = i++;
         while (i < n && attenuation[i] == here) i++;
-        plain_row(p, rows, y, x + first, i - first, here != 0);
+        part_of_row(p, rows, y, x, &row, first, i - first, here != 0);
     }
 }
 

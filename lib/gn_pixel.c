@@ -166,22 +166,35 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height)
 }
 
 #if GN_PIECES
-/* No channel leaves 0 .. 1. A colour is of the level where its cell begins, or the next. */
+/* A colour below 1 is of the level where its cell begins, or the next. */
+static inline uint16_t level_565(uint32_t r_q24, uint32_t g_q24, uint32_t b_q24)
+{
+    uint32_t red = gn_level_31_table[r_q24 >> 15], green = gn_level_63_table[g_q24 >> 14], blue = gn_level_31_table[b_q24 >> 15];
+    if (r_q24 >= gn_level_end_q24[red]) red++;
+    if (g_q24 >= gn_level_end_q24[green]) green++;
+    if (b_q24 >= gn_level_end_q24[blue]) blue++;
+    return (uint16_t)((red << 11) + (green << 5) + blue - 64U); /* 64 << 11 is dropped */
+}
+
+/* No channel leaves 0 .. 1. */
 static void ramp_565(uint16_t *out, int32_t n, const int32_t from_q24[3], const int32_t step_q24[3])
 {
-    const uint8_t *cell_31 = gn_level_31_table, *cell_63 = gn_level_63_table;
-    const uint32_t *level_end = gn_level_end_q24;
     uint32_t r = (uint32_t)from_q24[0], g = (uint32_t)from_q24[1], b = (uint32_t)from_q24[2];
     uint32_t dr = (uint32_t)step_q24[0], dg = (uint32_t)step_q24[1], db = (uint32_t)step_q24[2];
-    for (uint16_t *end = out + n; out < end;) {
-        uint32_t red = cell_31[r >> 15], green = cell_63[g >> 14], blue = cell_31[b >> 15];
-        if (r >= level_end[red]) red++;
-        if (g >= level_end[green]) green++;
-        if (b >= level_end[blue]) blue++;
-        r += dr;
-        g += dg;
-        b += db;
-        *out++ = (uint16_t)((red << 11) + (green << 5) + blue - 64U); /* 64 << 11 is dropped */
+    for (uint16_t *end = out + n; out < end; r += dr, g += dg, b += db) *out++ = level_565(r, g, b);
+}
+
+static void slow_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const int32_t from_q24[3],
+                      const int32_t step_q24[3])
+{
+    int32_t at[3] = {from_q24[0], from_q24[1], from_q24[2]};
+    for (int32_t i = 0; i < n; i++) {
+        uint32_t q20[3];
+        for (int c = 0; c < 3; c++) {
+            q20[c] = at[c] < 0 ? 0 : (uint32_t)at[c] >> 4;
+            if (i + 1 < n) at[c] += step_q24[c];
+        }
+        gn_pixel_store(frame, rows, x + i, y, gn_pixel_pack(frame, q20));
     }
 }
 
@@ -194,14 +207,14 @@ void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
         ramp_565(rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0, n, from_q24, step_q24);
         return;
     }
-    int32_t at[3] = {from_q24[0], from_q24[1], from_q24[2]};
-    for (int32_t i = 0; i < n; i++) {
-        uint32_t q20[3];
-        for (int c = 0; c < 3; c++) {
-            q20[c] = at[c] < 0 ? 0 : (uint32_t)at[c] >> 4;
-            at[c] += step_q24[c];
-        }
-        gn_pixel_store(frame, rows, x + i, y, gn_pixel_pack(frame, q20));
-    }
+    slow_ramp(frame, rows, x, y, n, from_q24, step_q24);
+}
+
+void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3])
+{
+    uint32_t r = (uint32_t)colour_q24[0], g = (uint32_t)colour_q24[1], b = (uint32_t)colour_q24[2];
+    if (frame->picture.format == GN_FORMAT_RGB565 && GN_K(frame, srgb) && (r | g | b) < 1U << 24)
+        rows->pixels->rgb565[(y - rows->y0) * rows->width + x - rows->x0] = level_565(r, g, b);
+    else slow_ramp(frame, rows, x, y, 1, colour_q24, colour_q24);
 }
 #endif

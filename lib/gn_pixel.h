@@ -21,6 +21,9 @@ void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
 /* Stores n pixels from (x, y) of the picture on, within one row, of colours that grow by a step per pixel; |from + i step| < 2^30. */
 void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const int32_t from_q24[3],
                    const int32_t step_q24[3]);
+
+/* Stores one pixel at (x, y); |colour| < 2^30. */
+void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3]);
 #endif
 
 /* Stores one packed pixel at (x, y) of the picture; RGB565 is what most panels take, so it goes first. */

@@ -150,11 +150,25 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
 }
 #endif
 
-static void light_values(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, const int32_t n_q30[3],
+/* n . L of a directional light: of the interpolated normal, or interpolated. */
+static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s, const gn_surface_light *light, const hit *h,
+                                      gn_length length, const int32_t n_q30[3])
+{
+    (void)frame, (void)h;
+    if (!GN_SMOOTH(s)) return light->flat_cosine_q24;
+#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
+    const int32_t *at = light->vertex_cosine_q24;
+    if (GN_K(frame, vertex_light)) return interpolate(h, at[0], at[1], at[2]);
+#endif
+    return gn_length_cosine_q24(length, n_q30, light->state->to_light_q30);
+}
+
+static void light_values(const gn_frame *frame, const gn_surface *s, const hit *h, int32_t px, int32_t py, const int32_t n_q30[3],
                          gn_sample *sample)
 {
     gn_length length = {0, 0};
-    if (GN_SMOOTH(s)) length = gn_length_of(GN_K(frame, newton_steps), n_q30);
+    int needs_length = !GN_K(frame, vertex_light) || s->n_punctual || s->specular;
+    if (GN_SMOOTH(s) && needs_length) length = gn_length_of(GN_K(frame, newton_steps), n_q30);
 #if GN_PUNCTUAL_LIGHTS || GN_SPECULAR
     int32_t unit_q30[3] = {n_q30[0], n_q30[1], n_q30[2]};
     if (GN_SMOOTH(s)) gn_length_unit(length, n_q30, unit_q30);
@@ -171,7 +185,7 @@ static void light_values(const gn_frame *frame, const gn_surface *s, int32_t px,
         }
 #endif
         GN_COUNT(sample_lights, 1);
-        out[0] = GN_SMOOTH(s) ? gn_length_cosine_q24(length, n_q30, light->to_light_q30) : s->light[i].flat_cosine_q24;
+        out[0] = directional_cosine_q24(frame, s, &s->light[i], h, length, n_q30);
 #if GN_SHADOWS
         if (s->shadowed) directional_coords(frame, s, i, px, py, n_q30, sample, out + 1);
 #else
@@ -234,7 +248,7 @@ void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t
 #if GN_SHADOWS
     if (s->shadowed) select_cascade(frame, px, py, sample);
 #endif
-    light_values(frame, s, px, py, n, sample);
+    light_values(frame, s, &h, px, py, n, sample);
 #if GN_SPECULAR
     if (s->specular) to_eye(frame, px, py, sample->to_eye_q30);
 #endif

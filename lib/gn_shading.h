@@ -40,6 +40,9 @@ typedef struct {
     /* where the normal is constant, for directional lights: n . L, and the receiver's offset in texels; B6: what gn_bias_auto_face says */
     int32_t flat_cosine_q24;
     int32_t flat_offset_q16[3];
+#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
+    int32_t vertex_cosine_q24[3]; /* at vertex 0, and differences of the others to it; smooth surfaces and directional lights only */
+#endif
 } gn_surface_light;
 
 typedef struct {
@@ -149,7 +152,9 @@ typedef struct {
     int varies;                            /* colours are not one all over */
     int32_t ramp_px;                       /* how long a row of pixels may be of one ramp */
     int looks_up;                          /* 0: dark all over */
+    int tinted;                            /* times the colours of vertices; otherwise these are in it */
     gn_slope dark_q24[3], lit_q24[3];      /* without and with the light */
+    gn_slope tint_q24[3];
     uint32_t dark_pixel, lit_pixel;        /* packed, where nothing varies */
     int32_t w_dx_q30, w_dy_q30;            /* change of w per pixel, relative to w */
 #if GN_SHADOWS

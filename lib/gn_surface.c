@@ -193,6 +193,24 @@ static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache
  * highlight is not small there. */
 #define GN_GRAZING_Q24 8
 
+#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
+/* n . L at the vertices, where it is not below 0. Returns 0 if it is nowhere above. */
+static int vertex_cosines(const gn_surface *s, const gn_light_state *light, int32_t out_q24[3])
+{
+    int32_t any = 0, at[3];
+    for (int k = 0; k < 3; k++) {
+        int64_t dot = gn_dot64(s->normal_q30[0], light->to_light_q30);
+        if (k > 0) dot += gn_dot64(s->normal_q30[k], light->to_light_q30);
+        at[k] = (int32_t)gn_clamp64(gn_shr64(dot, 36), 0, 1 << 24);
+        any |= at[k];
+    }
+    out_q24[0] = at[0];
+    out_q24[1] = at[1] - at[0];
+    out_q24[2] = at[2] - at[0];
+    return any;
+}
+#endif
+
 static void directional_lights(const gn_frame *frame, gn_surface *s)
 {
     gn_length length = {0, 0};
@@ -205,6 +223,10 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
             if (cosine <= GN_GRAZING_Q24) continue;
             s->light[s->n_lights].flat_cosine_q24 = cosine;
         }
+#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
+        int lit = !s->smooth || !GN_K(frame, vertex_light) || vertex_cosines(s, light, s->light[s->n_lights].vertex_cosine_q24);
+        if (!lit) continue;
+#endif
         add_light(frame, s, l);
     }
 }

@@ -428,6 +428,8 @@ static const row rows[] = {
     {"M2", "yard", ".light=point", ".receives=0", "", 0.1},
     {"M3", "yard", "", ".normals=0", "", 0.1},
     {"M3", "yard", "", ".colours=1", "", 0.25},
+    {"M3", "sundial.gltf", "", "vertex_light=1", "", 0.5},
+    {"M3", "mixed.gltf", "", "vertex_light=1", "", 0.5},
     {"M3", "yard", "", "ambient=0.3,0.1,0.05", "", 0.1},
     {"M3", "yard", "", ".specular=0", "", 0.25},
     {"M3", "yard", "", ".specular=1", "", 0.25},

@@ -483,8 +483,8 @@ static void test_grid_does_not_crawl(const gn_knobs *knobs)
 
 int main(int argc, char **argv)
 {
-    static const gn_knobs balanced = {6, 8, 1, 8, 0, 8, 16, 128, 128, 16, 16, 64, 16, 1},
-                          accurate = {8, 1, 2, 12, 4, 12, 16, 256, 256, 16, 16, 64, 16, 1};
+    static const gn_knobs balanced = {6, 8, 1, 8, 0, 8, 16, 128, 128, 16, 16, 64, 16, 1, 0},
+                          accurate = {8, 1, 2, 12, 4, 12, 16, 256, 256, 16, 16, 64, 16, 1, 0};
     int table = argc > 1 && strcmp(argv[1], "--table") == 0;
     for (int preset = 0; preset < 2; preset++) {
         memset(seen, 0, sizeof seen);

@@ -17,6 +17,7 @@ typedef struct {
     int width, height;
     int atlas_size;       /* texels per side of the directional atlas (A1) */
     bool srgb;            /* encode the output with the sRGB curve */
+    bool vertex_light;    /* n . L of directional lights is that of the vertices, interpolated */
     int other_atlas_size; /* of the other atlas; 0: the same */
     int max_tiles;        /* capacity of the directional atlas, 1..16; 0: 16 (A3) */
     int max_other_tiles;  /* of the other */

@@ -86,6 +86,7 @@ typedef struct ref_surface {
     vec3 interpolated; /* N, turned towards the viewer */
     bool curved;       /* N changes over the triangle */
     vec3 normal;       /* n */
+    bool behind;       /* seen from behind: the normals of vertices count with the other sign */
     vec3 albedo;
     double view_depth;
     ref_selection selected;

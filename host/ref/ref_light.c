@@ -19,6 +19,23 @@ static bool at_rim(const scene_light *light, const ref_surface *at, double atten
     return light->kind != SCENE_LIGHT_DIRECTIONAL && attenuation * fmax(vec3_dot(v, v), 1e-4) < RIM;
 }
 
+/* Knob vertex_light, directional lights: the cosines at the vertices, none below 0, interpolated. */
+static double vertex_cosine(const ref_surface *at, vec3 to_light)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double ndotl = vec3_dot(at->triangle.instance->normal[at->triangle.idx[k]], to_light);
+        sum += at->bary[k] * fmax(0.0, at->behind ? -ndotl : ndotl);
+    }
+    return sum;
+}
+
+static double cosine(const ref_frame *frame, const ref_surface *at, size_t l, vec3 to_light)
+{
+    const bool interpolate = frame->options->vertex_light && at->triangle.instance->normal && frame->s->lights[l].kind == SCENE_LIGHT_DIRECTIONAL;
+    return interpolate ? vertex_cosine(at, to_light) : vec3_dot(at->normal, to_light);
+}
+
 /* What one light adds. Lights that contribute nothing anywhere near leave n . L at -1. */
 static vec3 add_light(ref_frame *frame, const ref_surface *at, size_t l, size_t pixel)
 {
@@ -28,7 +45,7 @@ static vec3 add_light(ref_frame *frame, const ref_surface *at, size_t l, size_t 
     if (!at->triangle.instance->lit[l]) return none;
     const ref_incidence incidence = ref_light_at(&frame->s->lights[l], at->world);
     if (!(incidence.attenuation > 0.0)) return none;
-    const double ndotl = vec3_dot(at->normal, incidence.to_light);
+    const double ndotl = cosine(frame, at, l, incidence.to_light);
     const bool shown = !at_rim(&frame->s->lights[l], at, incidence.attenuation);
     if (shown) picture->ndotl[l][pixel] = ndotl;
     if (!(ndotl > 0.0)) return none;

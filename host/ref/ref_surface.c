@@ -51,6 +51,7 @@ ref_surface ref_surface_at(const ref_frame *frame, size_t pixel)
         .interpolated = n,
         .curved = is_curved(&t),
         .normal = vec3_unit(n),
+        .behind = hit->behind,
         .albedo = surface_albedo(frame->s, &t, hit->bary),
         .view_depth = frame->picture->depth[pixel],
         .selected = ref_select_cascade(frame, world),

@@ -59,6 +59,7 @@ ref_options engine_ref_options(const scene *s, const settings *set, int width, i
                          .max_tiles = capacity(set->capacity.max_shadow_tiles, GN_MAX_SHADOW_TILES),
                          .max_other_tiles = capacity(set->capacity.max_other_tiles, GN_MAX_OTHER_TILES),
                          .srgb = set->quality.srgb != 0,
+                         .vertex_light = set->quality.vertex_light != 0,
                          .shadow_subpixel_bits = set->quality.shadow_subpixel_bits,
                          .weight_bits = set->quality.weight_bits,
                          .depth_bits = set->quality.depth_bits,

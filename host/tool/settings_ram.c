@@ -64,13 +64,13 @@ static void put_work(layout *out, const settings *s)
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
     if (s->feature.receiver_plane || s->feature.auto_bias) put(&surface, 3, 4, 4);
     put(&surface, 36, 1, 4); /* has_bary to n_punctual */
-    put(&surface, s->capacity.surface_lights, 36, 4);
+    put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 48 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
     put(&all, 1, 128, 8); /* cache */
     put(&all, 1, surface.size, 8);
     put(&all, s->quality.persp_step == 1 ? 8 : 16, 4, 4); /* tri to part */
-    long run = 2 * (4 * values + 28 + (s->feature.specular ? 24 : 0)) + 8 * values + 8, pieces = s->feature.shadows ? 284 : 168;
+    long run = 2 * (4 * values + 28 + (s->feature.specular ? 24 : 0)) + 8 * values + 8, pieces = s->feature.shadows ? 324 : 208;
     if (s->quality.persp_step == 1) pieces = 0;
     put(&all, 1, run > pieces ? run : pieces, 4); /* by */
     pad(&all, all.align);
