@@ -51,7 +51,7 @@ bench: $(BUILD)/gnomon ## count instructions on the host and on four target core
 	@sh tests/bench.sh $(if $(WRITE),--write)
 	@sh tests/bench_target.sh $(if $(WRITE),--write)
 
-firmware: $(if $(BOARD),,boards) ## build the image of a board: BOARD=mps2-an385 [APP=play] [SCENE=FILE] [PRESET=tiny]
+firmware: $(if $(BOARD),,boards) ## build the image of a board: BOARD=mps2-an385 [APP=crc] [SCENE=FILE: APP=play] [PRESET=tiny]
 
 emulate: $(if $(BOARD),,boards) ## build it, and run it in the emulator
 

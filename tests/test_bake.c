@@ -1,4 +1,4 @@
-/* Baking: charts that do not overlap, channels that do not meet, masks that are what rays find; and scenes written as glTF are the
+/* Baking (M5, M9): charts that do not overlap, channels that do not meet, masks that are what rays find; and scenes written as glTF are the
  * scenes that they were. */
 #include <string.h>
 #include <sys/stat.h>
