@@ -12,6 +12,8 @@
 #include "gn_shadow.h"
 #include "gn_texture.h"
 
+#define LAZY (1 / 8.0) /* a bound that is more than 8 times what is ever seen says nothing */
+
 #define W     48
 #define H     36
 #define BYTES 3
@@ -273,6 +275,7 @@ static void test_attenuation(void)
         printf("attenuation, %d Newton steps: %lu lit, %lu below the least distance; shares of the bounds: factor %.2f, "
                "cosine %.2f, irradiance %.2f\n",
                steps, seen.lit, seen.near, seen.factor, seen.cosine, seen.irradiance);
+        CHECK(fmin(seen.factor, fmin(seen.cosine, seen.irradiance)) > LAZY);
     }
 }
 
@@ -596,6 +599,7 @@ static void test_receivers(void)
         }
         printf("receivers, %d Newton steps: shares of the bounds: coordinates %.2f, depth %.2f\n", steps, receiver_seen[0],
                receiver_seen[1]);
+        CHECK(fmin(receiver_seen[0], receiver_seen[1]) > LAZY);
     }
 }
 
@@ -745,6 +749,7 @@ static void test_stored(void)
             CHECK(n_texels > 1000);
             printf("stored depth, %d bits%s: %d texels, share of the bound %.2f\n", bits[b], shrunk ? ", B4" : "", n_texels,
                    stored_seen);
+            CHECK(stored_seen > LAZY);
         }
 }
 
@@ -776,6 +781,7 @@ static void test_mask_image(void)
         CHECK(ratio_of(fabs(gn_texture_mask(&image, u, v, (uint32_t)channel) - exact), 1.5, &largest) <= 1);
     }
     printf("mask image: share of the bound %.2f\n", largest);
+    CHECK(largest > LAZY);
 }
 
 /* Images of one and two bytes per texel are as those of four; the channels that they lack are lit. */
@@ -876,6 +882,7 @@ static void test_mask_corners(void)
         }
         CHECK(n > W * H / 2);
         printf("masks of corners, %d Newton steps: share of the bound %.2f\n", steps, largest);
+        CHECK(largest > LAZY);
     }
 }
 

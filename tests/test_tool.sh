@@ -403,7 +403,6 @@ for command in info compare; do
     bad 1 "punctual_lights.*point light" $command "$cube" --size 8x8 --set add_light=point --set punctual_lights=0
     bad 1 "filter_max.*soft light.*3" $command "$cube" --size 8x8 --set softness=soft --set filter_max=2
     bad 1 "receiver_bias.*bias_receiver" $command "$cube" --size 8x8 --set bias_receiver=0,0,0,1 --set receiver_bias=0
-    bad 1 "auto_bias.*light" $command "$cube" --size 8x8 --set auto_bias=normal --set auto_bias=0
     bad 1 "caster_bias.*bias_caster" $command "$cube" --size 8x8 --set bias_caster=1 --set caster_bias=0
     bad 1 "masks.*mixing" $command "$cube" --size 8x8 --set mixing=always --set masks=0
     bad 1 "max_other_tiles is 5" $command "$cube" --size 8x8 --set lights=point --set max_other_tiles=5
@@ -476,7 +475,7 @@ unlike 'filter=5x5 kernel=linear' 'filter=5x5'
 unlike 'filter=disk penumbra=64' 'filter=disk penumbra=0.5'
 unlike 'filter=disk penumbra=64 disk_samples=1' 'filter=disk penumbra=64 disk_samples=64'
 alike 'bias_receiver=0,0,1,0' 'bias_receiver@0=0,0,1,0'
-alike 'auto_bias=normal' 'auto_bias=0 auto_bias@0=normal bias_normal=4'
+alike 'auto_bias=normal' 'auto_bias=0 bias_normal=4 auto_bias@0=normal'
 unlike 'filter=7x7 auto_bias=off bias_normal=0 bias_constant=0' 'filter=7x7 auto_bias=normal'
 unlike 'filter=7x7 bias_normal=0 bias_constant=0' 'filter=7x7 bias_normal=0 bias_constant=0 bias_receiver=0,0,8,0'
 unlike 'lights=spot' 'lights=spot range=3'

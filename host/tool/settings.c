@@ -302,9 +302,15 @@ static int apply_to_light(settings *out, scene *s, const char *key, const char *
                                                  : 0; /* what one light uses must be built */
 }
 
+/* Built or not; without it no light uses it. */
 static bool of_knob_alone(const char *key, const char *value)
 {
-    return strcmp(key, "auto_bias") == 0 && (strcmp(value, "0") == 0 || strcmp(value, "1") == 0);
+    return strcmp(key, "auto_bias") == 0 && strcmp(value, "1") == 0;
+}
+
+static const char *as_word(const char *key, const char *value)
+{
+    return strcmp(key, "auto_bias") == 0 && strcmp(value, "0") == 0 ? "off" : value;
 }
 
 int settings_apply(settings *out, scene *s, const char *key, const char *value, char *error, size_t error_bytes)
@@ -317,7 +323,8 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
     /* main_light, caster_culling, receiver_plane and auto_bias are built and used, or neither: knobs and settings of the scene at once */
     const knob *k = find_knob(key);
-    if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, value, error, error_bytes)) < 0) return -1;
+    const char *word = as_word(key, value);
+    if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, word, error, error_bytes)) < 0) return -1;
     if (k) return apply_knob(out, k, as_knob(value), error, error_bytes);
     if (taken) return 0;
     snprintf(error, error_bytes, "unknown setting '%s' ('gnomon knobs' lists them)", key);
