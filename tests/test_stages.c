@@ -22,7 +22,7 @@
 #define WIDTH    160
 #define HEIGHT   120
 
-enum { STAGE_VIEW, STAGE_SCREEN, STAGE_DEPTH, STAGE_Z, STAGE_COSINE, STAGE_LIGHT_UV, STAGE_LIGHT_DEPTH, STAGE_COUNT };
+enum { STAGE_VIEW, STAGE_SCREEN, STAGE_DEPTH, STAGE_Z, STAGE_COSINE, STAGE_LIGHT_UV, STAGE_LIGHT_DEPTH, STAGE_PLACE, STAGE_COUNT };
 static const char *const stage_name[STAGE_COUNT] = {
     "transform to view space, LSB of Q15.16",
     "projection, LSB of the subpixel grid",
@@ -31,6 +31,7 @@ static const char *const stage_name[STAGE_COUNT] = {
     "n . L of a sample, LSB of Q24",
     "light coordinates of a sample, LSB of Q16 texels",
     "stored caster depth, LSB of the 16-bit depth",
+    "bias: a receiver off its plane, all stages before it, LSB of length",
 };
 static struct {
     double error, share;
@@ -308,6 +309,41 @@ static void check_light_coords(const gn_frame *frame, const gn_surface *s, const
     }
 }
 
+/* The sum of the stages that B6 counts on (NUMERICS 4.11): how far off its plane a receiver lies. Corners, depth and ray err on their own;
+ * the light's coordinates add what 4.4 says of them. */
+static double place_bound(const gn_frame *frame, double z)
+{
+    const double half_diagonal = sqrt(WIDTH * WIDTH + HEIGHT * HEIGHT) / (renderer.frame.cam.focal2_px_q16 * LSB16);
+    const double relative = (frame->knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -28)) + ldexp(WIDTH + HEIGHT, -28);
+    return z * sqrt(1 + half_diagonal * half_diagonal) * relative + 8 * LSB16;
+}
+
+static void check_place(const gn_frame *frame, const gn_surface *s, const gn_sample *sample, const plane *p, const crossing *c)
+{
+    const gn_light_view *view = &frame->view[0];
+    double texel = 1 / ldexp(view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp), off = 0, sum = 0, n[3],
+           length = sqrt(dot(p->n, p->n));
+    if (sample->cascade == GN_CASCADE_NONE) return;
+    for (int k = 0; k < 3; k++)
+        n[k] = ldexp(s->normal_q30[0][k] + c->b[0] * s->normal_q30[1][k] + c->b[1] * s->normal_q30[2][k], -30);
+    for (int i = 0; i < 3; i++) {
+        double axis[3], eye = 0, along = 0, moved = 0, facing = 0;
+        axis_of(view->axis_q30[i], axis);
+        for (int k = 0; k < 3; k++) {
+            double cam_axis[3];
+            axis_of(frame->cam.axis_q30[k], cam_axis);
+            along += c->ray[k] * dot(cam_axis, axis);
+            facing += p->n[k] / length * dot(cam_axis, axis);
+            eye += frame->cam.eye_q16[k] * LSB16 * axis[k];
+            moved += n[k] * axis[k];
+        }
+        double want = (c->z * along + eye) / texel - view->fit.ortho.origin[i] + moved * view->offset_q16 * LSB16;
+        off += (sample->value[GN_VALUE_LIGHT + 1 + i] * LSB16 - want) * facing;
+        sum += fabs(facing);
+    }
+    record(STAGE_PLACE, fabs(off) * texel, place_bound(frame, c->z) + 3 * sum * texel * LSB16, LSB16);
+}
+
 static void check_samples(const gn_frame *frame, int32_t view[][3])
 {
     gn_surface_cache cache = {.object = NULL};
@@ -333,6 +369,7 @@ static void check_samples(const gn_frame *frame, int32_t view[][3])
                 record(STAGE_Z, fabs(sample.value[GN_VALUE_Z] * LSB16 - c.z), depth_bound(frame, &p, &c), LSB16);
                 check_cosine(frame, &surface, &sample, &c);
                 check_light_coords(frame, &surface, &sample, &c);
+                check_place(frame, &surface, &sample, &p, &c);
             }
         }
     }
