@@ -470,6 +470,32 @@ static void run_scene(const gn_knobs *knobs)
     check_samples(&renderer.frame, view);
 }
 
+/* What gn_bias takes off for all that errs, against the sum of the stages' bounds: no less, and no more than its own roundings. */
+static void check_sum(const gn_knobs *knobs)
+{
+    gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    random_scene();
+    light.auto_bias = GN_AUTO_BIAS_NORMAL;
+    gn_init(&renderer, &picture);
+    renderer.frame.knobs = *knobs;
+    CHECK_EQ_INT(gn_begin(&renderer, &fixed), GN_OK);
+    const gn_frame *frame = &renderer.frame;
+    const gn_light_view *view = &frame->view[0];
+    const double texel = 1 / ldexp(view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp);
+    const double end = frame->cascade[0].centre_q16 * LSB16 + sqrt(ldexp((double)frame->cascade[0].radius2_q32, -32));
+    const double place = place_bound(frame, fmin(end, fixed.shadow.max_distance_q16 * LSB16)) / texel + ldexp(1, -12);
+    const double snap = ldexp(1, -knobs->shadow_subpixel_bits - 1) + ldexp(1, -knobs->weight_bits - 1) + 2 * LSB16;
+    const double stored =
+        (65 / 64.0 * ldexp(1, -knobs->depth_bits) + ldexp(1, -29)) * ldexp(view->tile_texels, view->depth_log2) + 3 * LSB16;
+    const double reach = 2 + snap + place, step = stored + place, both = sqrt(2 * reach * reach + step * step);
+    const double got[3] = {view->offset_q16 * LSB16, view->auto_step * LSB16, view->auto_place * LSB16},
+                 want[3] = {reach, step, both};
+    for (int i = 0; i < 3; i++)
+        if (!CHECK(got[i] >= want[i] - 2 * LSB16 && got[i] <= want[i] * (1 + ldexp(1, -12)) + 6 * LSB16))
+            printf("term %d of B6: %.6f, the stages add up to %.6f\n", i, got[i], want[i]);
+    light.auto_bias = GN_AUTO_BIAS_OFF;
+}
+
 static void run_caster_plane(const gn_knobs *knobs)
 {
     gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
@@ -528,6 +554,7 @@ int main(int argc, char **argv)
         for (int i = 0; i < N_SCENES; i++) {
             run_scene(preset ? &accurate : &balanced);
             run_caster_plane(preset ? &accurate : &balanced);
+            if (i % 10 == 0) check_sum(preset ? &accurate : &balanced);
         }
         if (table)
             printf("\n**%s**\n\n| stage | cases | largest error | largest share of its bound |\n|---|---|---|---|\n",
