@@ -4,6 +4,7 @@
 # APP         boards/apps/APP.c; APP.mk beside it may set APP_SRC, APP_FLAGS, APP_OBJ, APP_LIB, and have rules
 # SCENE       a scene file that the app renders, compiled to C arrays by build/gnomon
 # PRESET      tiny, balanced, accurate
+# BOARD_PORT  folders of port/, the first with the header, in place of those that the board names
 # SCENE_FLAGS more options of gnomon compile, such as --size 128x64
 # FW_OPT      the optimisation, else the board's
 # FW_FLAGS    more flags, such as -DGN_TILE_HEIGHT=4
@@ -42,8 +43,12 @@ FW_SCENE_DIR ?= $(FW_OBJ_DIR)/scene
 FW_SCENE := -I$(FW_SCENE_DIR) '-DGN_USER_CONFIG="gn_scene_config.h"' -DBOARD_SCENE=1
 FW_SCENE_OBJ := $(FW_OBJ_DIR)/scene.o
 endif
+ifneq ($(BOARD_PORT),)
+FW_PORT := -Iport/$(firstword $(BOARD_PORT)) '-DGN_PORT="gn_port_$(notdir $(firstword $(BOARD_PORT))).h"'
+FW_SRC += $(filter-out port/portable/gn_port_oracle.c,$(foreach port,$(BOARD_PORT),$(wildcard port/$(port)/*.c)))
+endif
 FW_CFLAGS := $(BOARD_CPU) -std=c99 $(FW_OPT) -g $(WARN) $(FW_FREE) -ffunction-sections -fdata-sections -Ilib -Iport -Iboards/common -Iboards/apps \
-  $(FW_SCENE) $(FW_PRESET) $(BOARD_FLAGS) $(APP_FLAGS) $(FW_FLAGS)
+  $(FW_SCENE) $(FW_PRESET) $(FW_PORT) $(BOARD_FLAGS) $(APP_FLAGS) $(FW_FLAGS)
 FW_OBJ := $(FW_SRC:%.c=$(FW_OBJ_DIR)/%.o) $(FW_SCENE_OBJ) $(APP_OBJ)
 
 $(FIRMWARE): $(FW_OBJ) $(wildcard boards/$(BOARD)/*.ld boards/common/*.ld port/*.ld) $(FW_OBJ_DIR)/link.flags

@@ -3,6 +3,7 @@
 #include "gn_blocks.h"
 #include "gn_count.h"
 #include "gn_hint.h"
+#include "gn_kernel.h"
 #include "gn_q.h"
 #include "gn_tables.h"
 #include "gn_texel.h"
@@ -255,6 +256,7 @@ void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 /* Sum of the weights of the lit texels among n of a row. */
 static inline uint32_t sum_plain(gn_texels row, int32_t depth_bits, uint32_t least, int32_t n, const uint32_t *w)
 {
+    if (depth_bits == 16) return gn_kernel_tent_row16(row.d16, least, n, w);
     uint32_t sum = 0;
     for (int32_t i = 0; i < n; i++)
         if (gn_texel_load(row, depth_bits, (uint32_t)i) >= least) sum += w[i];

@@ -11,13 +11,20 @@ static gn_renderer renderer;
 static gn_light sun = {.colour_uq16 = {GN_UQ16(1.5), GN_UQ16(1.35), GN_UQ16(1.1)},
                        .shadow_strength_uq16 = GN_UQ16(1),
                        .bias_normal_q16 = GN_Q16(1)};
-static gn_scene scene = {.objects = pocket_objects,
+static const gn_scene scene = {.objects = pocket_objects,
                          .n_objects = POCKET_OBJECTS,
                          .lights = &sun,
                          .n_lights = 1,
                          .ambient_uq16 = {9000, 11000, 16000},
                          .background_uq16 = {20000, 32000, 50000},
-                         .camera = {.focal_q24 = GN_Q24(2.4), .near_q16 = GN_Q16(1), .far_q16 = GN_Q16(30)},
+                         /* from (2.2, 5, 5.6) to (0, 0.35, -0.1), as gn_camera_look_at has it: a constant costs no RAM */
+                         .camera = {.to_world = {.m_q30 = {{1001719042, -234149502, 307659678},
+                                                           {0, 854433424, 650280731},
+                                                           {-386627038, -606662213, 797121069}},
+                                                 .t_q16 = {XYZ(2.2, 5, 5.6)}},
+                                    .focal_q24 = GN_Q24(2.4),
+                                    .near_q16 = GN_Q16(1),
+                                    .far_q16 = GN_Q16(30)},
                          .shadow = {.max_distance_q16 = GN_Q16(11),
                                     .distance_fade_uq16 = GN_UQ16(0.1),
                                     .cascade_fade_uq16 = GN_UQ16(0.1),
@@ -55,12 +62,10 @@ static gn_status show_hour(int hour, stream *out)
 
 int app_main(void)
 {
-    static const int32_t eye[3] = {GN_Q16(2.2), GN_Q16(5), GN_Q16(5.6)}, target[3] = {0, GN_Q16(0.35), GN_Q16(-0.1)};
     const gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
     const char *path = board_args();
     stream out = {0, *path ? board_file_create(path) : -1, 0};
     int failed = *path && out.file < 0;
-    gn_camera_look_at(&scene.camera.to_world, eye, target);
     gn_status status = gn_init(&renderer, &picture);
     for (int hour = 0; !status && hour < HOURS; hour++) {
         status = show_hour(hour, &out);

@@ -15,7 +15,7 @@ void board_print_u32(uint32_t value);
 void board_print_hex(uint32_t value); /* eight digits */
 
 /* What follows the image's name on the command line (make emulate ARGS="..."), at most BOARD_ARGS_BYTES - 1 characters; "" without. */
-enum { BOARD_ARGS_BYTES = 128 };
+enum { BOARD_ARGS_BYTES = 96 };
 const char *board_args(void);
 
 /* Ends the run: the emulator exits with this status. Without a console it never returns either. */

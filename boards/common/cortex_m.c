@@ -31,15 +31,13 @@ void cortex_m_report(const uint32_t *frame)
     board_fault_exit((uint32_t)(uintptr_t)frame);
 }
 
-/* On a stack of its own: the other one may be what failed. */
+/* On the end of RAM: the stack may be what failed. */
 __attribute__((naked, used)) void cortex_m_fault(void)
 {
     __asm__ volatile("mrs r0, msp\n"
-                     "ldr r1, =board_fault_stack\n"
-                     "movs r2, %0\n"
-                     "add r1, r1, r2\n"
+                     "ldr r1, =board_ram_end\n"
                      "msr msp, r1\n"
                      "ldr r1, =cortex_m_report\n"
-                     "bx r1\n" ::"i"(4 * BOARD_FAULT_STACK_WORDS - 8)
-                     : "memory");
+                     "bx r1\n"
+                     ::: "memory");
 }

@@ -4,7 +4,7 @@
 
 typedef uint32_t __attribute__((may_alias)) word;
 
-void *memset(void *to, int value, size_t n)
+__attribute__((weak)) void *memset(void *to, int value, size_t n)
 {
     uint8_t *out = to;
     for (; n && (uintptr_t)out % 4; n--) *out++ = (uint8_t)value;

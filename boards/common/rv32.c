@@ -21,12 +21,11 @@ void rv32_report(uint32_t stack_pointer, uint32_t return_address)
     board_fault_exit(stack_pointer);
 }
 
-/* On a stack of its own: the other one may be what failed. mtvec wants it on four bytes. */
+/* On the end of RAM: the stack may be what failed. mtvec wants the handler on four bytes. */
 __attribute__((naked, aligned(4), used)) void rv32_trap(void)
 {
     __asm__ volatile("mv a0, sp\n"
                      "mv a1, ra\n"
-                     "la sp, board_fault_stack\n"
-                     "addi sp, sp, %0\n"
-                     "j rv32_report\n" ::"i"(4 * BOARD_FAULT_STACK_WORDS));
+                     "la sp, board_ram_end\n"
+                     "j rv32_report\n");
 }

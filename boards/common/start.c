@@ -9,8 +9,6 @@ extern uint32_t board_data_load[], board_data_start[], board_data_end[];
 extern uint32_t board_fast_load[], board_fast_start[], board_fast_end[];
 extern uint32_t board_bss_start[], board_bss_end[], board_fast_bss_start[], board_fast_bss_end[];
 
-uint32_t board_fault_stack[BOARD_FAULT_STACK_WORDS];
-
 /* Up to the caller's frame, less what this function may still push. */
 static void paint_stack(void)
 {

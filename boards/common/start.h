@@ -17,8 +17,6 @@ void board_start(void) __attribute__((noreturn));
 void board_fault_exit(uint32_t stack_pointer) __attribute__((noreturn));
 void board_fault_value(const char *name, uint32_t value);
 
-/* A stack of its own for the fault handler: the other one may be what failed. */
-enum { BOARD_FAULT_STACK_WORDS = 64 };
-extern uint32_t board_fault_stack[BOARD_FAULT_STACK_WORDS];
+/* Fault handlers run on the end of RAM, whatever lies there: the stack may be what failed, and nobody goes on. */
 
 #endif

@@ -4,6 +4,7 @@ BOARD_RUNS := qemu
 BOARD_CROSS := arm-none-eabi-
 BOARD_CPU := -mcpu=cortex-m3 -mthumb
 BOARD_COMMON := cortex_m semihosting
+BOARD_PORT := armv7m
 BOARD_EMULATOR := qemu-system-arm -M lm3s6965evb
 SCREEN_SIZE := 128x64
 SCREEN_FORMAT := GREY4

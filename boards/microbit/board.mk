@@ -5,4 +5,5 @@ BOARD_CROSS := arm-none-eabi-
 BOARD_CPU := -mcpu=cortex-m0 -mthumb
 BOARD_OPT := -Os
 BOARD_COMMON := cortex_m semihosting
+BOARD_PORT := armv6m
 BOARD_EMULATOR := qemu-system-arm -M microbit

@@ -4,4 +4,5 @@ BOARD_RUNS := qemu
 BOARD_CROSS := arm-none-eabi-
 BOARD_CPU := -mcpu=cortex-m55 -mthumb -mfloat-abi=hard
 BOARD_COMMON := cortex_m semihosting
+BOARD_PORT := helium armv7m
 BOARD_EMULATOR := qemu-system-arm -M mps3-an547

@@ -5,6 +5,7 @@ BOARD_CROSS := arm-none-eabi-
 BOARD_CPU := -mcpu=cortex-m0plus -mthumb
 BOARD_OPT := -Os
 BOARD_COMMON := cortex_m no_console
+BOARD_PORT := armv6m
 BOARD_EMULATOR :=
 SCREEN_SIZE := 320x240
 SCREEN_FORMAT := RGB565

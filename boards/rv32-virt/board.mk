@@ -4,6 +4,7 @@ BOARD_RUNS := qemu
 BOARD_CROSS := riscv64-unknown-elf-
 BOARD_CPU := -march=rv32imac -mabi=ilp32
 BOARD_COMMON := rv32 semihosting
+BOARD_PORT := portable
 BOARD_EMULATOR := qemu-system-riscv32 -M virt -bios none
 SCREEN_SIZE := 320x240
 SCREEN_FORMAT := RGB565

@@ -1,0 +1,126 @@
+/* Holds the port's kernels against the portable ones, bit for bit: every length and alignment that occurs, values at the edges and
+ * many between. Prints how many differed. */
+#include "gn_port_portable.h"
+
+#include <string.h>
+
+#include "board.h"
+#include "gn_kernel.h"
+
+static uint32_t state = 1;
+static uint32_t n_checked, n_wrong;
+
+static uint32_t random32(void)
+{
+    state ^= state << 13;
+    state ^= state >> 17;
+    state ^= state << 5;
+    return state;
+}
+
+static void check(int ok)
+{
+    n_checked++;
+    if (!ok) n_wrong++;
+}
+
+/* ---- The row of a tent ----------------------------------------------------------------------------------------------- */
+
+enum { TEXELS_MAX = 8 };
+
+/* Depths are close to `least` half the time, at both ends of their range now and then. */
+static uint16_t random_texel(uint32_t least)
+{
+    uint32_t r = random32();
+    switch (r & 7U) {
+    case 0:
+        return 0;
+    case 1:
+        return UINT16_MAX;
+    case 2:
+    case 3:
+        return (uint16_t)(r >> 16);
+    default:
+        return (uint16_t)((least >> 16) + (r >> 16) % 3U - 1U);
+    }
+}
+
+static uint32_t random_least(void)
+{
+    uint32_t r = random32(), least = random32();
+    if (r % 8 == 0) return 0;
+    if (r % 8 == 1) return 0xFFFF0000U;
+    if (r % 2 == 0) least &= 0xFFFF0000U; /* no bits below a texel's */
+    return least < 0xFFFF0000U ? least : 0xFFFF0000U;
+}
+
+static void check_tent_row(void)
+{
+    static uint16_t texels[TEXELS_MAX + 1];
+    static uint32_t weights[TEXELS_MAX];
+    for (int turn = 0; turn < 20000; turn++) {
+        uint16_t *row = texels + turn % 2; /* on four bytes, and on two */
+        uint32_t least = random_least();
+        int32_t n = 4 + 2 * (turn % 3);
+        for (int i = 0; i < n; i++) {
+            row[i] = random_texel(least);
+            weights[i] = random32() >> (4 + turn % 24); /* eight stay below 2^32 */
+        }
+        check(gn_kernel_tent_row16(row, least, n, weights) == gn_oracle_tent_row16(row, least, n, weights));
+        check(gn_portable_tent_row16(row, least, n, weights) == gn_oracle_tent_row16(row, least, n, weights));
+    }
+}
+
+/* ---- memset ---------------------------------------------------------------------------------------------------------- */
+
+/* All of a buffer is compared: what lies around must stay. */
+static void check_memset(void)
+{
+    enum { BYTES = 320 };
+    static uint32_t words[2][BYTES / 4];
+    uint8_t *filled = (uint8_t *)words[0], *expected = (uint8_t *)words[1];
+    for (volatile size_t at = 0; at < 8; at++) {
+        for (volatile size_t n = 0; n < 300; n += n < 150 ? 1 : 7) {
+            uint8_t value = (uint8_t)random32();
+            for (int i = 0; i < BYTES / 4; i++) words[0][i] = words[1][i] = random32();
+            check(memset(filled + at, value, n) == filled + at);
+            gn_oracle_memset(expected + at, value, n);
+            check(memcmp(filled, expected, BYTES) == 0);
+        }
+    }
+}
+
+/* ---- Products -------------------------------------------------------------------------------------------------------- */
+
+/* Half of them of few bits, so that carries meet zeros and ones. */
+static uint64_t random64(void)
+{
+    static const uint32_t edges[] = {0, 1, 0xFFFF, 0x10000, 0x7FFFFFFF, 0x80000000, 0xFFFF0000, 0xFFFFFFFF};
+    uint32_t r = random32(), hi = random32(), lo = random32();
+    if (r & 1U) lo = edges[r >> 4 & 7U];
+    if (r & 2U) hi = edges[r >> 8 & 7U];
+    if ((r & 12U) == 12U) hi = 0U - (lo >> 31); /* a sign */
+    return (uint64_t)hi << 32 | lo;
+}
+
+static void check_products(void)
+{
+    for (int turn = 0; turn < 20000; turn++) {
+        volatile uint64_t a = random64(), b = random64();
+        volatile int32_t c = (int32_t)a, d = (int32_t)b;
+        check(a * b == gn_oracle_mul64(a, b));
+        check((uint64_t)((int64_t)c * d) == gn_oracle_mul64((uint64_t)(int64_t)c, (uint64_t)(int64_t)d));
+    }
+}
+
+int app_main(void)
+{
+    check_tent_row();
+    check_memset();
+    check_products();
+    board_print_u32(n_checked);
+    board_print(" checked, ");
+    board_print_u32(n_wrong);
+    board_print(" wrong\n");
+    return n_wrong != 0;
+}

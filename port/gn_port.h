@@ -1,0 +1,45 @@
+/* The port contract: what a port to a core may provide. Everything has a portable default, so that a port begins empty and grows where
+ * it pays. docs/PORTING.md says how to write one and how it is tested; port/template is one that compiles.
+ *
+ * A port is a folder port/NAME with gn_port_NAME.h, which includes this header, and .c files. The library is compiled with
+ * -DGN_PORT='"gn_port_NAME.h"' -Iport -Iport/NAME, and the folder's .c files are linked.
+ */
+#ifndef GN_PORT_H
+#define GN_PORT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* ---- Placement ----------------------------------------------------------------------------------------------------- *
+ * Hot code: the files of lib/ that run per pixel, row and texel are listed in port/hot.ld, for linker scripts to include.
+ * Buffers: a program marks what should live in fast memory (the screen tile's gn_scratch above all, then the gn_renderer), and what a
+ * DMA engine reads. The linker script places .fast; the alignment of DMA buffers is that of the largest cache line there is.
+ */
+#if defined(__GNUC__)
+#define GN_PORT_FAST __attribute__((section(".fast")))
+#define GN_PORT_DMA  __attribute__((aligned(32)))
+#else
+#define GN_PORT_FAST
+#define GN_PORT_DMA
+#endif
+
+/* ---- Cache maintenance --------------------------------------------------------------------------------------------- *
+ * Called with what the library or a display driver has written, before a DMA engine reads it. Owes: when it returns, n_bytes from
+ * `bytes` on are in memory, not only in a data cache or a write buffer. n_bytes may be 0; `bytes` may have any alignment.
+ */
+void gn_port_before_dma(const void *bytes, size_t n_bytes);
+
+/* ---- Kernels ------------------------------------------------------------------------------------------------------- *
+ * Each owes the same bits as its portable definition for every argument within the preconditions, touches nothing else, needs no
+ * alignment beyond that of the types, and may be called from several cores at once.
+ *
+ * Replaced by name, in the port's header:
+ *   #define gn_kernel_tent_row16 gn_port_tent_row16     one row of a tent over 16-bit shadow texels; lib/gn_kernel.h defines it
+ *
+ * Replaced by linking:
+ *   memset            clears screen tiles and shadow tiles: whole words, many of them. The C library's is the definition
+ *   __aeabi_lmul      a 64-bit product modulo 2^64: on cores without a wide multiplication every product of two 32-bit values is one
+ */
+uint32_t gn_port_tent_row16(const uint16_t *texel, uint32_t least, int32_t n, const uint32_t *weight);
+
+#endif

@@ -1,0 +1,12 @@
+/* The port of a core that has nothing to offer but a C compiler, and the oracle of all others: every kernel of the contract in plain C,
+ * written to be read. tests/test_port.sh holds each port, and the library's own definitions, against these. */
+#ifndef GN_PORT_PORTABLE_H
+#define GN_PORT_PORTABLE_H
+
+#include "gn_port.h"
+
+uint32_t gn_oracle_tent_row16(const uint16_t *texel, uint32_t least, int32_t n, const uint32_t *weight);
+void gn_oracle_memset(uint8_t *to, uint8_t value, size_t n);
+uint64_t gn_oracle_mul64(uint64_t a, uint64_t b);
+
+#endif
