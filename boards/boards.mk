@@ -11,6 +11,7 @@
 # LINK_FLAGS  more flags of the linker, such as -Wl,--defsym=RAM_BYTES=32K,--defsym=STACK=1K
 # IMAGE       the name of the image, else made of APP, SCENE, PRESET and SCREEN_OF
 # ARGS        what the app reads with board_args
+# COUNT       1: the emulator counts the instructions of the run
 
 APP ?= $(if $(filter screen,$(MAKECMDGOALS)),clock,$(if $(SCENE),play,crc))
 include boards/$(BOARD)/board.mk
@@ -91,8 +92,8 @@ comma := ,
 empty :=
 FW_ARGS = $(subst $(empty) $(comma),$(comma),$(APP)$(ARGS:%=$(comma)arg=%))
 EMULATE = $(BOARD_EMULATOR) -semihosting-config enable=on,target=native,arg=$(FW_ARGS) -kernel $(FIRMWARE)
-EMULATOR_FLAGS := -display none -monitor none -serial none
-run-firmware: $(FIRMWARE)
+EMULATOR_FLAGS := -display none -monitor none -serial none $(if $(COUNT),-plugin $(abspath $(BUILD)/instructions.so))
+run-firmware: $(FIRMWARE) $(if $(COUNT),$(BUILD)/instructions.so)
 ifneq ($(FW_HOSTED),)
 	@$(FIRMWARE) $(ARGS)
 else ifneq ($(BOARD_EMULATOR),)
@@ -107,5 +108,9 @@ run-screen: ARGS ?= 09:40 10:00
 run-screen: $(FIRMWARE) $(BUILD)/capture $(BUILD)/ppm
 	@$(BUILD)/capture $(or $(TIMEOUT),60) 'READY $(lastword $(ARGS))' $(SCREEN_OUT) $(EMULATE)
 	@$(BUILD)/ppm png $(SCREEN_OUT) $(SCREEN_OUT:.ppm=.png) && echo $(SCREEN_OUT:.ppm=.png)
+
+$(BUILD)/instructions.so: boards/tools/instructions.c
+	@mkdir -p $(@D)
+	@$(CC) -std=c11 -O2 $(WARN) -shared -fPIC -o $@ $<
 
 .PHONY: always run-firmware run-screen

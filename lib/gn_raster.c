@@ -1,4 +1,6 @@
 /* Visible surfaces of a screen tile. */
+#include <string.h>
+
 #include "gn_raster.h"
 #include "gn_alpha.h"
 #include "gn_count.h"
@@ -177,8 +179,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     tile.id_mask = (1U << frame->id_bits) - 1;
     GN_COUNT(screen_tiles, 1);
     GN_COUNT(pixels, tile.width * tile.height);
-    int32_t n = GN_K(frame, tile_width) * tile.height;
-    for (int32_t i = 0; i < n; i++) scratch->cell[i] = 0;
+    memset(scratch->cell, 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
 #if GN_VISIBLE_ALPHA
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
 #endif
