@@ -41,4 +41,7 @@ for name in kept culling lists changes; do "$build/test_$name"; done | sed -n 's
 replace ACCURACY.md kept "$work/kept"
 sh docs/displays.sh "$out" "$work/displays"
 replace DISPLAYS.md displays "$work/displays"
-if [ "$out" = docs ]; then sh docs/trade.sh "$tool"; fi
+if [ "$out" = docs ]; then
+    sh docs/trade.sh "$tool"
+    sh docs/porting.sh
+fi

@@ -59,6 +59,13 @@ wrong clear mps2-an385 armv7m gn_port_armv7m.c 's/"7: strb r1, \[ip\], #1\\n"/"7
 wrong pair mps2-an386 'armv7em armv7m' gn_port_armv7em.c 's/"usub16 r5, r5, r1\\n"/"ssub16 r5, r5, r1\\n"/'
 wrong vector mps3-an547 'helium armv7m' gn_port_helium.c 's/"vpt.u32 cs, q0, r1\\n"/"vpt.u32 hi, q0, r1\\n"/'
 
+# It pays where multiplication is narrow.
+for ports in "" armv6m; do
+    make -s --no-print-directory emulate BOARD=microbit APP=pocket IMAGE=pocket-count "BOARD_PORT=$ports" COUNT=1 2>&1 | sed -n 's/^instructions //p'
+done >"$tmp/count"
+awk 'NR == 1 { without = $1 } END { exit !(NR == 2 && $1 < 0.92 * without) }' "$tmp/count" && pass || fail "instructions without and with the port of ARMv6-M: $(tr '
+' ' ' <"$tmp/count")"
+
 # The library's own definition is under the same test; the library with a port draws the golden frames in test_boards.sh.
 grep -q 'gn_portable_tent_row16(row' boards/apps/port.c && pass || fail "boards/apps/port.c does not test the library's own kernel"
 grep -l '__ARM\|__riscv\|__thumb' lib/*.[ch] >"$tmp/found"

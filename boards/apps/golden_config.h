@@ -9,3 +9,4 @@
 #define GN_MAX_OTHER_TILES  16
 #define GN_ATLAS_SIZE       256
 #define GN_OTHER_ATLAS_SIZE 256
+#define GN_MAX_OBJECTS      64
