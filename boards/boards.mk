@@ -109,7 +109,7 @@ run-screen: $(FIRMWARE) $(BUILD)/capture $(BUILD)/ppm
 	@$(BUILD)/capture $(or $(TIMEOUT),60) 'READY $(lastword $(ARGS))' $(SCREEN_OUT) $(EMULATE)
 	@$(BUILD)/ppm png $(SCREEN_OUT) $(SCREEN_OUT:.ppm=.png) && echo $(SCREEN_OUT:.ppm=.png)
 
-$(BUILD)/instructions.so: boards/tools/instructions.c
+$(BUILD)/instructions.so: boards/tools/instructions.c boards/tools/tcg_plugin.h
 	@mkdir -p $(@D)
 	@$(CC) -std=c11 -O2 $(WARN) -shared -fPIC -o $@ $<
 
