@@ -9,10 +9,12 @@
 #include "../lib/gn_cascade.h"
 #include "../lib/gn_light.h"
 #include "../lib/gn_ortho.h"
+#include "../lib/gn_pixel.h"
 #include "../lib/gn_plane.h"
 #include "../lib/gn_q.h"
 #include "../lib/gn_raster.h"
 #include "../lib/gn_surface.h"
+#include "../lib/gn_walk.h"
 #include "../lib/gn_xform.h"
 #include "../lib/gnomon.h"
 #include "check.h"
@@ -22,7 +24,19 @@
 #define WIDTH    160
 #define HEIGHT   120
 
-enum { STAGE_VIEW, STAGE_SCREEN, STAGE_DEPTH, STAGE_Z, STAGE_COSINE, STAGE_LIGHT_UV, STAGE_LIGHT_DEPTH, STAGE_PLACE, STAGE_COUNT };
+enum {
+    STAGE_VIEW,
+    STAGE_SCREEN,
+    STAGE_DEPTH,
+    STAGE_Z,
+    STAGE_COSINE,
+    STAGE_LIGHT_UV,
+    STAGE_LIGHT_DEPTH,
+    STAGE_PLACE,
+    STAGE_EDGE,
+    STAGE_PACK,
+    STAGE_COUNT
+};
 static const char *const stage_name[STAGE_COUNT] = {
     "transform to view space, LSB of Q15.16",
     "projection, LSB of the subpixel grid",
@@ -32,6 +46,8 @@ static const char *const stage_name[STAGE_COUNT] = {
     "light coordinates of a sample, LSB of Q16 texels",
     "stored caster depth, LSB of the 16-bit depth",
     "bias: a receiver off its plane, all stages before it, LSB of length",
+    "edge setup: where a row crosses an edge, pixels, after the subpixel grid",
+    "packing, LSB of 8 bits",
 };
 static struct {
     double error, share;
@@ -470,6 +486,48 @@ static void run_scene(const gn_knobs *knobs)
     check_samples(&renderer.frame, view);
 }
 
+/* NUMERICS 4.2: exact, that is the first pixel whose centre is at or right of the edge: of the crossing itself, up to one pixel less. */
+static void check_edges(const gn_knobs *knobs)
+{
+    const double unit = ldexp(1, -knobs->subpixel_bits);
+    int32_t x[3], y[3], row, from, to;
+    gn_walk walk;
+    for (int i = 0; i < 3; i++) {
+        x[i] = (int32_t)uniform(0, 90 / unit);
+        y[i] = (int32_t)uniform(0, 90 / unit);
+    }
+    if (!gn_walk_begin(&walk, x, y, knobs->subpixel_bits, 0, 90)) return;
+    while (gn_walk_row(&walk, &row, &from, &to)) {
+        double left = 1e9, right = -1e9;
+        for (int i = 0; i < 3; i++) {
+            int k = (i + 1) % 3;
+            double at = row + 0.5 - y[i] * unit, dy = (y[k] - y[i]) * unit;
+            if ((y[i] * unit < row + 0.5) == (y[k] * unit < row + 0.5)) continue; /* not crossed by this row's centres */
+            double cross = x[i] * unit + at * (x[k] - x[i]) * unit / dy;
+            left = fmin(left, cross);
+            right = fmax(right, cross);
+        }
+        if (left > right) continue;
+        record(STAGE_EDGE, from + 0.5 - left, 1 + 1e-9, 1);
+        record(STAGE_EDGE, to + 0.5 - right, 1 + 1e-9, 1);
+        CHECK(from + 0.5 - left > -1e-9 && to + 0.5 - right > -1e-9);
+    }
+}
+
+/* NUMERICS 2 and 4.7: rounded to a level once, after an encoding that is off by less than 1.5 of 65535. */
+static void check_packing(const gn_frame *frame)
+{
+    for (int i = 0; i < 50; i++) {
+        uint32_t q20[3] = {0, 0, 0};
+        double v = i & 1 ? uniform(0, 1) : pow(uniform(0, 1), 3);
+        q20[0] = (uint32_t)(v * 1048576);
+        v = q20[0] / 1048576.0;
+        double want = v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055;
+        double got = gn_pixel_pack(frame, q20) & 255;
+        record(STAGE_PACK, fabs(got - 255 * want), 0.5 + 1.5 * 255 / 65535, 1);
+    }
+}
+
 /* What gn_bias takes off for all that errs, against the sum of the stages' bounds: no less, and no more than its own roundings. */
 static void check_sum(const gn_knobs *knobs)
 {
@@ -555,6 +613,9 @@ int main(int argc, char **argv)
             run_scene(preset ? &accurate : &balanced);
             run_caster_plane(preset ? &accurate : &balanced);
             if (i % 10 == 0) check_sum(preset ? &accurate : &balanced);
+            check_edges(preset ? &accurate : &balanced);
+            renderer.frame.picture.format = GN_FORMAT_RGB888;
+            check_packing(&renderer.frame);
         }
         if (table)
             printf("\n**%s**\n\n| stage | cases | largest error | largest share of its bound |\n|---|---|---|---|\n",
