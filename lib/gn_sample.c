@@ -175,10 +175,9 @@ static void light_values(const gn_frame *frame, const gn_surface *s, const hit *
 #endif
     for (uint32_t i = 0; i < s->n_lights; i++) {
         int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
-        const gn_light_state *light = s->light[i].state;
         for (int k = 1; k < GN_VALUES_PER_LIGHT; k++) out[k] = 0; /* not always used, but stepped */
 #if GN_PUNCTUAL_LIGHTS
-        if (light->kind != GN_LIGHT_DIRECTIONAL) {
+        if (s->light[i].state->kind != GN_LIGHT_DIRECTIONAL) {
             GN_COUNT(sample_lights_punctual, 1);
             punctual_values(frame, s, i, px, py, n_q30, unit_q30, sample, out);
             continue;
