@@ -2,13 +2,18 @@
 #include "gn_scene.h"
 #include "gn_math.h"
 #include "gn_q.h"
-#include "gn_xform.h"
 
 #define GN_POSITION_LIMIT_Q16 (8192 << 16)
 #define GN_COLOUR_LIMIT_UQ16  0xFFFFFFU /* 255.99 */
 #define GN_FADE_MIN_UQ16      66U       /* 0.001 */
 #define GN_SPOT_TURN_MIN      182U      /* 1 degree */
 #define GN_SPOT_TURN_MAX      32587U    /* 179 degrees, rounded to nearest */
+
+int gn_scene_position_ok(const gn_mesh *mesh, uint32_t vertex_idx)
+{
+    const int32_t *p = mesh->pos + 3 * (size_t)vertex_idx;
+    return gn_abs32(p[0]) <= 1U << 30 && gn_abs32(p[1]) <= 1U << 30 && gn_abs32(p[2]) <= 1U << 30;
+}
 
 gn_status gn_fail(gn_frame *frame, gn_status status, uint32_t index)
 {
@@ -112,7 +117,7 @@ static gn_status check_object(gn_frame *frame, const gn_object *object, uint32_t
     if (status) return status;
 #if !GN_BOXES /* else gn_object looks at them */
     for (uint32_t i = 0; i < object->mesh->n_vertices; i++)
-        if (!gn_xform_position_ok(object->mesh, i)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, idx);
+        if (!gn_scene_position_ok(object->mesh, i)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, idx);
 #endif
     /* gn_xform: positions with few fraction bits under a large scale would need a left shift */
     if (object->mesh->pos_frac_bits + 14 < object->to_world.exp) return gn_fail(frame, GN_ERR_OBJECT_TRANSFORM, idx);

@@ -14,7 +14,7 @@
 static int view_position(int32_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
 {
     int64_t v[3];
-    if (!gn_xform_position_ok(mesh, vertex_idx)) return 0;
+    if (!gn_scene_position_ok(mesh, vertex_idx)) return 0;
     gn_xform_vertex(v, xform, mesh, vertex_idx);
     for (int i = 0; i < 3; i++) {
         if (v[i] <= -GN_VIEW_LIMIT_Q16 || v[i] >= GN_VIEW_LIMIT_Q16) return 0;

@@ -68,12 +68,6 @@ void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t
     out->shift = 30 - a->exp + object->mesh->pos_frac_bits - 16;
 }
 
-int gn_xform_position_ok(const gn_mesh *mesh, uint32_t vertex_idx)
-{
-    const int32_t *p = mesh->pos + 3 * (size_t)vertex_idx;
-    return gn_abs32(p[0]) <= 1U << 30 && gn_abs32(p[1]) <= 1U << 30 && gn_abs32(p[2]) <= 1U << 30;
-}
-
 void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
 {
     const int32_t *p = mesh->pos + 3 * (size_t)vertex_idx;

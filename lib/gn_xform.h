@@ -10,9 +10,6 @@ void gn_cam_setup(gn_frame *frame);
 /* Object space to axes (rows, unit, Q1.30) through `origin_q16`: out = axis * (to_world * p - origin). */
 void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t origin_q16[3], const gn_object *object);
 
-/* Whether a position is within +-2^30, as the transforms rely on. */
-int gn_xform_position_ok(const gn_mesh *mesh, uint32_t vertex_idx);
-
 /* out_q16 = xform of a mesh vertex, |out| exact to 1 LSB plus the composition's 3 * |p| * 2^-30. Not range checked. */
 void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx);
 
