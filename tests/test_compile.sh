@@ -14,7 +14,7 @@ if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -o "$tmp/same" tests/same_pi
 # build NAME: the firmware of build/tmp/.../NAME as a program; what was written, without a warning
 build() {
     gcc $strict -fsyntax-only -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' "$tmp/$1/scene.c" 2>"$tmp/$1/log" &&
-        gcc -std=c99 -w -O1 -Ilib -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/$1/run" "$tmp/lib.c" "$tmp/$1/scene.c" \
+        gcc -std=c99 -w -O0 -Ilib -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/$1/run" "$tmp/lib.c" "$tmp/$1/scene.c" \
             tests/compiled_picture.c 2>"$tmp/$1/log"
 }
 
