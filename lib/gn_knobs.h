@@ -30,7 +30,9 @@
     X(tile_height, TILE_HEIGHT, 1, 2048, "screen tile height in pixels", "RAM: 7 bytes per tile pixel")                            \
     X(srgb, SRGB, 0, 1, "encode the output with the sRGB curve", "1154 bytes of flash, 10 instructions per channel")                \
     X(vertex_light, VERTEX_LIGHT, 0, 1, "1: Gouraud shading: n . L of directional lights is found at vertices and interpolated",   \
-      "saves a root per sample; 12 bytes per light of a surface")
+      "saves a root per sample; 12 bytes per light of a surface")                               \
+    X(position_bits, POSITION_BITS, 16, 32, "bits of a mesh's coordinates (16 or 32)", "flash: 6 or 12 bytes per vertex") \
+    X(normal_bits, NORMAL_BITS, 8, 16, "bits of a mesh's normals (8 or 16)", "flash: 3 or 6 bytes per vertex")
 
 #define GN_CAPACITY_KNOBS(X)                                                                                                       \
     X(max_width, MAX_WIDTH, 1, 2048, "largest picture width in pixels", "2 bytes per screen tile")                                 \

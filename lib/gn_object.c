@@ -13,7 +13,7 @@ static int mesh_box(const gn_mesh *mesh, int32_t centre[3], int32_t half[3])
     int32_t lo[3], hi[3];
     for (int k = 0; k < 3; k++) lo[k] = hi[k] = mesh->pos[k];
     for (uint32_t i = 0; i < mesh->n_vertices; i++) {
-        const int32_t *p = mesh->pos + 3 * (size_t)i;
+        const gn_position *p = mesh->pos + 3 * (size_t)i;
         if (!gn_scene_position_ok(mesh, i)) return 0;
         for (int k = 0; k < 3; k++) {
             lo[k] = gn_min32(lo[k], p[k]);

@@ -11,7 +11,7 @@
 
 int gn_scene_position_ok(const gn_mesh *mesh, uint32_t vertex_idx)
 {
-    const int32_t *p = mesh->pos + 3 * (size_t)vertex_idx;
+    const gn_position *p = mesh->pos + 3 * (size_t)vertex_idx;
     return gn_abs32(p[0]) <= 1U << 30 && gn_abs32(p[1]) <= 1U << 30 && gn_abs32(p[2]) <= 1U << 30;
 }
 

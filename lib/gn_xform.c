@@ -70,7 +70,8 @@ void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t
 
 void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
 {
-    const int32_t *p = mesh->pos + 3 * (size_t)vertex_idx;
+    const gn_position *at = mesh->pos + 3 * (size_t)vertex_idx;
+    const int32_t p[3] = {at[0], at[1], at[2]};
     for (int r = 0; r < 3; r++) {
         /* |row| <= sqrt(3) * 2^30, |p| <= sqrt(3) * 2^30: below 3 * 2^60 */
         out_q16[r] = gn_shr64(gn_dot64(xform->m[r], p), xform->shift) + xform->t_q16[r];
@@ -95,8 +96,9 @@ void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform)
 #define GN_FAST_ROW_(r)                                                                                                            \
     (fast->row[r].sum + (int64_t)fast->row[r].m[0] * p0 + (int64_t)fast->row[r].m[1] * p1 + (int64_t)fast->row[r].m[2] * p2)
 
-int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const int32_t p[3])
+int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
 {
+    const int32_t p[3] = {position[0], position[1], position[2]};
     int32_t s = fast->shift, p0 = p[0], p1 = p[1], p2 = p[2];
     uint32_t wide = (uint32_t)p0 ^ (uint32_t)p0 << 1;
     wide |= (uint32_t)p1 ^ (uint32_t)p1 << 1;
@@ -146,7 +148,7 @@ void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object)
     }
 }
 
-void gn_xform_normal(int32_t out_q30[3], const int32_t matrix[3][3], const int16_t nrm_q15[3])
+void gn_xform_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
 {
     int64_t n[3]; /* 3 * 2^30 * 2^15 */
     for (int r = 0; r < 3; r++)

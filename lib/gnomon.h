@@ -114,9 +114,21 @@ int32_t gn_cos_q30(uint16_t angle_turn);
 
 /* ---- Scene: described by the caller, read only during a call ------------------------------------------------------ */
 
+/* With quality knobs as data the wide types hold what the narrow ones do. */
+#if GN_POSITION_BITS == 16 && !GN_RUNTIME_KNOBS
+typedef int16_t gn_position;
+#else
+typedef int32_t gn_position;
+#endif
+#if GN_NORMAL_BITS == 8 && !GN_RUNTIME_KNOBS
+typedef int8_t gn_normal;
+#else
+typedef int16_t gn_normal;
+#endif
+
 typedef struct {
-    const int32_t *pos;           /* 3 per vertex, |pos| <= 2^30, `pos_frac_bits` fraction bits */
-    const int16_t *nrm_q15;       /* 3 per vertex, a direction (its length does not matter), or NULL: face normals */
+    const gn_position *pos;       /* 3 per vertex, |pos| <= 2^30, `pos_frac_bits` fraction bits */
+    const gn_normal *nrm_q15;     /* 3 per vertex, a direction (its length does not matter), or NULL: face normals */
     const uint16_t *rgb_uq16;     /* 3 per vertex, linear, 65535 = 1, or NULL: white */
     const int16_t *uv;            /* 2 per vertex, texture coordinates with `uv_frac_bits` fraction bits, v downwards, or NULL */
     const uint16_t *mask_uv_uq16; /* 2 per vertex, of the mask image, 65535 = 1, or NULL */

@@ -51,6 +51,10 @@ same room host/scenes/room.gltf 0 "" --size 160x120
 same fence host/scenes/fence.gltf 0 "--set output=grey4" --size 160x120
 same mixed host/scenes/mixed.gltf "1 0" "--frames 0-1" --size 96x64 --set preset=tiny
 
+# vertices in half the bytes: the tool quantises alike
+same short host/scenes/sundial.gltf "0 2" "--frames 0-2" --size 96x64 --set position_bits=16 --set normal_bits=8
+same short-room host/scenes/room.gltf 0 "--simplify none" --size 96x64 --set position_bits=16
+grep -q 'static const gn_position ' "$tmp/short/scene.c" && grep -q '^#define GN_POSITION_BITS *16 ' "$tmp/short/gn_scene_config.h" && pass || fail "short: no short positions"
 
 # ---- What it says it takes -------------------------------------------------------------------------------------------------------
 
@@ -70,7 +74,7 @@ for name in sundial desk room mixed-tiny fence avenue-accurate; do
 done
 
 # flash: the scene's data to its alignment, the library's code within a fifth
-for name in sundial room mixed-tiny; do
+for name in sundial room mixed-tiny short; do
     arm="arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -std=c99 -Os -ffreestanding -isystem boards/common/include -Ilib -I$tmp/$name"
     $arm '-DGN_USER_CONFIG="gn_scene_config.h"' -c -o "$tmp/data.o" "$tmp/$name/scene.c" 2>"$tmp/log"
     data=$(arm-none-eabi-size -A "$tmp/data.o" | awk '$1 ~ /^\.rodata/ { n += $2 } END { print n + 0 }')

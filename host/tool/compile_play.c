@@ -149,7 +149,7 @@ static int play_later(compiled *c, int i, char *error, size_t bytes)
     fixed_scene f;
     o.frame = c->first_frame + i;
     if (tool_load_with(&o, o.sets, o.n_sets, &s, &set, error, bytes)) return -1;
-    int failed = quantise_scene(&f, &s, error, bytes);
+    int failed = quantise_scene_for(&f, &s, &set.quality, error, bytes);
     if (!failed) {
         failed = play_frame(c, &f, i, error, bytes);
         quantise_free(&f);
@@ -196,7 +196,7 @@ int compile_play(compiled *c, const tool_options *o, char *error, size_t error_b
     *c = (compiled){.options = o};
     if (tool_load_with(o, o->sets, o->n_sets, &c->scene, &c->set, error, error_bytes)) return -1;
     c->asked = c->set;
-    if (choose_frames(c, error, error_bytes) || quantise_scene(&c->fixed, &c->scene, error, error_bytes)) {
+    if (choose_frames(c, error, error_bytes) || quantise_scene_for(&c->fixed, &c->scene, &c->set.quality, error, error_bytes)) {
         scene_free(&c->scene);
         return -1;
     }

@@ -14,15 +14,17 @@ void compile_write_text(FILE *file, const char *text)
 
 /* ---- Arrays ------------------------------------------------------------------------------------------------------------- */
 
-typedef enum { I32, I16, U16, U8 } number_type;
-static const char *const type_names[] = {"int32_t", "int16_t", "uint16_t", "uint8_t"};
+typedef enum { I32, I16, U16, U8, POSITION, NORMAL } number_type;
+static const char *const type_names[] = {"int32_t", "int16_t", "uint16_t", "uint8_t", "gn_position", "gn_normal"};
 
 static long number_at(number_type type, const void *array, size_t i)
 {
     switch (type) {
     case I32:
+    case POSITION:
         return ((const int32_t *)array)[i];
     case I16:
+    case NORMAL:
         return ((const int16_t *)array)[i];
     case U16:
         return ((const uint16_t *)array)[i];
@@ -63,8 +65,8 @@ static void write_mesh_arrays(FILE *f, const gn_mesh *m, size_t i, const char *n
     fprintf(f, "\n/* mesh %zu '", i);
     compile_write_text(f, name);
     fprintf(f, "': %zu vertices, %u triangles */\n", n, m->n_triangles);
-    write_array(f, I32, "mesh", i, "pos", m->pos, 3 * n, PER_LINE);
-    write_array(f, I16, "mesh", i, "nrm", m->nrm_q15, 3 * n, PER_LINE);
+    write_array(f, POSITION, "mesh", i, "pos", m->pos, 3 * n, PER_LINE);
+    write_array(f, NORMAL, "mesh", i, "nrm", m->nrm_q15, 3 * n, PER_LINE);
     write_array(f, U16, "mesh", i, "rgb", m->rgb_uq16, 3 * n, PER_LINE);
     write_array(f, I16, "mesh", i, "uv", m->uv, 2 * n, PER_LINE);
     write_array(f, U16, "mesh", i, "mask_uv", m->mask_uv_uq16, 2 * n, PER_LINE);

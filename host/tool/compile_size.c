@@ -24,10 +24,10 @@ static long scene_bytes(bool short_enums)
     return short_enums ? 184 : 200;
 }
 
-static long mesh_bytes(const gn_mesh *m)
+static long mesh_bytes(const gn_mesh *m, const gn_knobs *knobs)
 {
-    long n = m->n_vertices, bytes = padded(n * 12) + padded((long)m->n_triangles * 6);
-    if (m->nrm_q15) bytes += padded(6 * n);
+    long n = m->n_vertices, bytes = padded(3 * n * knobs->position_bits / 8) + padded((long)m->n_triangles * 6);
+    if (m->nrm_q15) bytes += padded(3 * n * knobs->normal_bits / 8);
     if (m->rgb_uq16) bytes += padded(6 * n);
     if (m->uv) bytes += 4 * n;
     if (m->mask_uv_uq16) bytes += 4 * n;
@@ -39,7 +39,7 @@ long compile_flash_bytes(const compiled *c, bool short_enums)
     const gn_scene *s = &c->fixed.scene;
     long bytes = scene_bytes(short_enums) + (long)(s->n_objects ? s->n_objects : 1) * object_bytes(short_enums) +
                  (long)(s->n_lights ? s->n_lights : 1) * light_bytes(short_enums);
-    for (size_t i = 0; i < c->fixed.n_meshes; i++) bytes += mesh_bytes(&c->fixed.meshes[i]);
+    for (size_t i = 0; i < c->fixed.n_meshes; i++) bytes += mesh_bytes(&c->fixed.meshes[i], &c->set.quality);
     for (size_t i = 0; i < c->n_textures; i++)
         bytes += TEXTURE_BYTES + padded((long)quantise_texel_bytes(&c->fixed.textures[i])
                                         << (c->fixed.textures[i].width_log2 + c->fixed.textures[i].height_log2));

@@ -247,7 +247,7 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
                  size_t error_bytes)
 {
     fixed_scene fixed;
-    if (quantise_scene(&fixed, s, error, error_bytes)) return -1;
+    if (quantise_scene_for(&fixed, s, &set->quality, error, error_bytes)) return -1;
     gn_renderer *renderer = malloc(sizeof *renderer);
     uint32_t *raw = malloc((size_t)width * (size_t)height * sizeof *raw);
     job j = {renderer, set, &fixed, s, error, error_bytes};

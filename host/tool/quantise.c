@@ -32,6 +32,8 @@ _Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7
 /* How a mesh is stored. */
 typedef struct {
     int pos_bits;         /* fraction bits of coordinates; what is outside 0..30 goes to the objects' exponents */
+    bool short_positions; /* 16 bits */
+    double normal_one;    /* 1 in normals */
     int clamped[2];       /* per axis of texture coordinates: some texture on this mesh does not repeat */
     double uv_periods[2]; /* whole ones, taken off the texture coordinates */
 } mesh_plan;
@@ -134,10 +136,14 @@ static int position_bits(const scene_mesh *mesh)
     return largest > 0 ? 30 - e : 30;
 }
 
-static mesh_plan *plan_meshes(const scene *s)
+static mesh_plan *plan_meshes(const scene *s, const gn_knobs *knobs)
 {
     mesh_plan *plan = calloc(s->n_meshes + 1, sizeof *plan);
-    for (size_t i = 0; plan && i < s->n_meshes; i++) plan[i].pos_bits = position_bits(&s->meshes[i]);
+    for (size_t i = 0; plan && i < s->n_meshes; i++) {
+        plan[i].short_positions = knobs->position_bits == 16;
+        plan[i].normal_one = knobs->normal_bits == 8 ? 127 : 32767;
+        plan[i].pos_bits = position_bits(&s->meshes[i]) - (plan[i].short_positions ? 15 : 0);
+    }
     for (size_t i = 0; plan && i < s->n_objects; i++) {
         const scene_object *o = &s->objects[i];
         if (o->texture_idx >= s->n_textures) continue;
@@ -166,19 +172,20 @@ static int plan_texture_coordinates(mesh_plan *plan, const scene_mesh *mesh)
     return largest > 0 && e > 0 ? 15 - e : 15;
 }
 
-static int32_t *fixed_positions(const scene_mesh *mesh, int bits)
+static int32_t *fixed_positions(const scene_mesh *mesh, int bits, bool short_positions)
 {
+    const double most = short_positions ? 32767 : 1073741824.0;
     size_t n = 3 * mesh->n_vertices;
     int32_t *pos = malloc(n * sizeof *pos);
-    for (size_t i = 0; pos && i < n; i++) pos[i] = (int32_t)rounded(ldexp(mesh->pos[i], bits), 1, -1073741824.0, 1073741824.0);
+    for (size_t i = 0; pos && i < n; i++) pos[i] = (int32_t)rounded(ldexp(mesh->pos[i], bits), 1, -most, most);
     return pos;
 }
 
-static int16_t *fixed_normals(const scene_mesh *mesh)
+static int16_t *fixed_normals(const scene_mesh *mesh, double one)
 {
     size_t n = 3 * mesh->n_vertices;
     int16_t *nrm = malloc(n * sizeof *nrm);
-    for (size_t i = 0; nrm && i < n; i++) nrm[i] = (int16_t)rounded(mesh->nrm[i], 32767, -32767, 32767);
+    for (size_t i = 0; nrm && i < n; i++) nrm[i] = (int16_t)rounded(mesh->nrm[i], one, -one, one);
     return nrm;
 }
 
@@ -224,9 +231,9 @@ static int quantise_mesh(gn_mesh *out, const scene_mesh *mesh, mesh_plan *plan, 
     out->n_triangles = (uint16_t)mesh->n_triangles;
     out->pos_frac_bits = (uint8_t)(bits < 0 ? 0 : bits > 30 ? 30 : bits);
     out->uv_frac_bits = (uint8_t)uv_bits;
-    out->pos = fixed_positions(mesh, bits);
+    out->pos = fixed_positions(mesh, bits, plan->short_positions);
     out->idx = fixed_indices(mesh);
-    if (mesh->nrm) out->nrm_q15 = fixed_normals(mesh);
+    if (mesh->nrm) out->nrm_q15 = fixed_normals(mesh, plan->normal_one);
     if (mesh->rgb) out->rgb_uq16 = fixed_words(mesh->rgb, 3 * n, 65535);
     if (mesh->uv) out->uv = fixed_texture_coordinates(mesh, plan, uv_bits);
     if (mesh->mask_uv) out->mask_uv_uq16 = fixed_words(mesh->mask_uv, 2 * n, 65535);
@@ -476,9 +483,15 @@ static int allocate(fixed_scene *f, const scene *s)
 
 int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_bytes)
 {
+    const gn_knobs wide = {.position_bits = 32, .normal_bits = 16};
+    return quantise_scene_for(out, s, &wide, error, error_bytes);
+}
+
+int quantise_scene_for(fixed_scene *out, const scene *s, const gn_knobs *knobs, char *error, size_t error_bytes)
+{
     memset(out, 0, sizeof *out);
     out->world_exp = quantise_world_exp(s);
-    mesh_plan *plan = plan_meshes(s);
+    mesh_plan *plan = plan_meshes(s, knobs);
     int failed = allocate(out, s) || !plan;
     if (failed) no_memory(error, error_bytes);
     else failed = quantise_unit(&out->scene, s, out->world_exp, error, error_bytes);
