@@ -11,7 +11,7 @@
 #if GN_PIECES
 
 /* Pixels: the largest piece, and parts of it whose shadow is asked for once. */
-enum { GN_PIECE_WIDTH = 64, GN_PIECE_ROWS = 16, GN_CELL = 8 };
+enum { GN_PIECE_WIDTH = 64, GN_PIECE_ROWS = 8, GN_CELL = 8 };
 
 /* Whether the surface may be shaded so. */
 int gn_pieces_fit(const gn_frame *frame, const gn_surface *surface);

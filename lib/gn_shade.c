@@ -174,7 +174,7 @@ static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first, const
             part->x1 = gn_min32(part->x0 + width, all->x1);
             int is_piece = gn_pieces_select(pieces, part);
             if (is_piece) width = gn_min32(2 * width, GN_PIECE_WIDTH);
-            while (!is_piece && part->x1 - part->x0 > 8) {
+            while (!is_piece && part->x1 - part->x0 > 4) {
                 part->x1 = part->x0 + ((part->x1 - part->x0 + 1) >> 1);
                 width = part->x1 - part->x0;
                 is_piece = gn_pieces_select(pieces, part);
