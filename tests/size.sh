@@ -4,6 +4,7 @@
 #   sh tests/size.sh --figures [some]    one figure per line: flash|whole|ram|stack|fault CORE CONFIGURATION NAME VALUE; some: what the test needs
 #   sh tests/size.sh --tables FILE       tables, in Markdown, of figures measured before
 #   sh tests/size.sh --write             makes the figures tests/size_baseline.txt, and writes docs/MEMORY.md
+#   sh tests/size.sh --files CORE CONFIGURATION        flash by file of lib/
 #   sh tests/size.sh --flags CONFIGURATION   its compiler flags
 #   sh tests/size.sh --functions CORE CONFIGURATION    the largest functions and tables of an image
 # Cores are those of boards/*/board.mk. Everything is compiled as boards/boards.mk does it, -Os.
@@ -103,6 +104,16 @@ slow_divisions() {
         }' "$dir/graph"
 }
 
+# Flash of the image by the file that a function or table comes from; of names that several files have, the first.
+files() {
+    for object in "$dir"/gn_*.o; do
+        ${prefix}nm --defined-only "$object" | awk -v file="$(basename "$object" .o)" '{ print "in", $3, file }'
+    done | awk '
+        $1 == "in" { if (!($2 in file)) file[$2] = $3; next }
+        $2 ~ /[tTrR]/ && $3 !~ /^(size_|mem(set|cpy|move|cmp)$)/ { n[$3 in file ? file[$3] : "runtime"] += $1 }
+        END { for (f in n) print n[f], f }' - "$dir/symbols" | sort -rn
+}
+
 measure() { # measure [some]
     for core in $(cores | cut -d ' ' -f 1); do
         for configuration in $CONFIGURATIONS; do
@@ -191,14 +202,21 @@ case ${1:-} in
     { echo "# Written by sh tests/size.sh --write: bytes."; measure all; } >"$work/baseline"
     cp "$work/baseline" "$BASELINE"
     tables "$BASELINE" >"$work/tables"
+    by_file >"$work/files"
     awk -v file="$work/tables" '
         $0 == "<!-- generated: sizes -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
         $0 == "<!-- end -->" { skip = 0 }
         !skip { print }' "$DOC" >"$work/doc"
-    cp "$work/doc" "$DOC" ;;
+    awk -v file="$work/files" '
+        $0 == "<!-- generated: files -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
+        $0 == "<!-- end -->" { skip = 0 }
+        !skip { print }' "$work/doc" >"$DOC" ;;
 --functions)
     image "$2" "$3"
     sort -rn "$dir/symbols" | awk '$2 ~ /[tTrR]/ { print $1, $3 }' ;;
+--files)
+    image "$2" "$3"
+    files ;;
 *)
     measure all >"$work/all"
     tables "$work/all" ;;

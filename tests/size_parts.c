@@ -8,9 +8,12 @@ PART(total, sizeof(gn_renderer));
 PART(triangles, OF(frame.tri));
 PART(tiles, OF(frame.tile_first) + OF(frame.tile_ref));
 PART(lights, OF(frame.light));
+#if GN_BOXES
 PART(objects, OF(frame.object));
+#endif
 PART(screen_tile, OF(scratch.cell) + OF(scratch.pixel));
 PART(vertices, OF(scratch.vertex));
+PART(work, OF(scratch.work));
 #if GN_SHADOWS
 PART(views, OF(frame.view) + OF(frame.cascade));
 #if GN_STATIC_LAYER

@@ -6,6 +6,7 @@
 #include "exact.h"
 #include "gn_math.h"
 #include "gn_q.h"
+#include "gn_tables.h"
 #include "gnomon.h"
 #include "rng.h"
 
@@ -109,6 +110,27 @@ typedef struct {
     u128 below[2], above[2]; /* largest distance below and above the true value, as a difference of products */
     uint32_t m_below[2], m_above[2];
 } newton;
+
+static void test_udiv(void)
+{
+    tally quotients = {0};
+    rng random = {64};
+    for (int i = 0; i < 1000000; i++) {
+        uint64_t a = rng_u64(&random) >> rng_below(&random, 64), b = (rng_u64(&random) >> rng_below(&random, 64)) | 1U, rest;
+        uint64_t q = gn_udiv64_rest(a, b, &rest);
+        HOLDS(&quotients, q == a / b && rest == a % b && gn_udiv64(a, b) == q, "%llu / %llu", (unsigned long long)a, (unsigned long long)b);
+    }
+    CHECK_TALLY(quotients, "quotients");
+}
+
+/* What gn_recip_norm computes where it has no table. */
+static void test_recip_table(void)
+{
+    tally entries = {0};
+    for (uint32_t i = 0; i < 256; i++)
+        HOLDS(&entries, ((1U << 25) + i + 256U) / (2U * i + 513U) == gn_recip_table[i], "entry %u", (unsigned)i);
+    CHECK_TALLY(entries, "entries of the table of reciprocals");
+}
 
 /* y * m against 2^63: the relative error of y is (y * m - 2^63) / 2^63. */
 static void try_recip(newton *t, uint32_t m)
@@ -419,6 +441,8 @@ int main(int argc, char **argv)
     test_bits();
     test_shifts();
     test_products();
+    test_recip_table();
+    test_udiv();
     test_newton((argc > 1 && !strcmp(argv[1], "soak")) || getenv("SOAK"));
     test_bf();
     test_bf_apply();

@@ -73,11 +73,11 @@ emulated smallest "$(sh tests/size.sh --flags smallest)"
 
 # ---- Budgets ----------------------------------------------------------------------------------------------------------------
 
-within flash Cortex-M3 full linked 51000
-within flash Cortex-M3 smallest linked 25000
-within stack Cortex-M3 balanced gn_render 3000
-within stack Cortex-M3 smallest gn_render 1300
-within ram Cortex-M3 smallest total 16000
+for configuration in smallest tiny balanced accurate full; do within stack Cortex-M3 $configuration gn_render 1024; done
+within flash Cortex-M3 full linked 58000
+within flash Cortex-M3 accurate linked 46500
+within flash Cortex-M3 smallest linked 19000
+within ram Cortex-M3 smallest total 17000
 
 # ---- Growth -----------------------------------------------------------------------------------------------------------------
 
