@@ -6,6 +6,7 @@
 #   sh tests/size.sh --write             makes the figures tests/size_baseline.txt, and writes docs/MEMORY.md
 #   sh tests/size.sh --files CORE CONFIGURATION        flash by file of lib/
 #   sh tests/size.sh --flags CONFIGURATION   its compiler flags
+#   sh tests/size.sh --document          writes docs/MEMORY.md alone
 #   sh tests/size.sh --functions CORE CONFIGURATION    the largest functions and tables of an image
 # Cores are those of boards/*/board.mk. Everything is compiled as boards/boards.mk does it, -Os.
 set -eu
@@ -194,23 +195,45 @@ tables() { # tables FILE
         }' "$1"
 }
 
+by_file() {
+    for configuration in full smallest; do
+        image Cortex-M3 $configuration
+        files | sed "s/^/$configuration /"
+    done | awk '
+        { n[$1, $3] = $2; if (!($3 in seen)) { seen[$3]; file[++n_files] = $3 } }
+        END {
+            print "| file | full | smallest |\n| --- | --- | --- |"
+            for (i = 1; i <= n_files; i++) {
+                f = file[i]
+                if (n["full", f] + n["smallest", f])
+                    print "| `" f "` | " (n["full", f] ? n["full", f] : "–") " | " (n["smallest", f] ? n["smallest", f] : "–") " |"
+            }
+        }'
+}
+
+document() { # from the baseline, and the files as they are
+    tables "$BASELINE" >"$work/sizes"
+    by_file >"$work/files"
+    cp "$DOC" "$work/doc"
+    for part in sizes files; do
+        awk -v begin="<!-- generated: $part -->" -v file="$work/$part" '
+            $0 == begin { print; while ((getline line < file) > 0) print line; skip = 1; next }
+            $0 == "<!-- end -->" { skip = 0 }
+            !skip { print }' "$work/doc" >"$work/next"
+        mv "$work/next" "$work/doc"
+    done
+    cp "$work/doc" "$DOC"
+}
+
 case ${1:-} in
 --flags) echo $(flags_of "$2") ;;
 --figures) measure "${2:-all}" ;;
 --tables) tables "$2" ;;
+--document) document ;;
 --write)
     { echo "# Written by sh tests/size.sh --write: bytes."; measure all; } >"$work/baseline"
     cp "$work/baseline" "$BASELINE"
-    tables "$BASELINE" >"$work/tables"
-    by_file >"$work/files"
-    awk -v file="$work/tables" '
-        $0 == "<!-- generated: sizes -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
-        $0 == "<!-- end -->" { skip = 0 }
-        !skip { print }' "$DOC" >"$work/doc"
-    awk -v file="$work/files" '
-        $0 == "<!-- generated: files -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
-        $0 == "<!-- end -->" { skip = 0 }
-        !skip { print }' "$work/doc" >"$DOC" ;;
+    document ;;
 --functions)
     image "$2" "$3"
     sort -rn "$dir/symbols" | awk '$2 ~ /[tTrR]/ { print $1, $3 }' ;;
