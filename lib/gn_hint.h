@@ -13,4 +13,13 @@
 #define GN_NOINLINE
 #endif
 
+/* Whether the core has an instruction that divides: the only question about the core that the library asks. */
+#ifndef GN_CORE_DIVIDES
+#if defined(__ARM_FEATURE_IDIV) || defined(__riscv_div)
+#define GN_CORE_DIVIDES 1
+#else
+#define GN_CORE_DIVIDES 0
+#endif
+#endif
+
 #endif

@@ -1,5 +1,6 @@
 /* Number core. Every step states the range that keeps it from overflowing. */
 #include "gn_math.h"
+#include "gn_hint.h"
 #include "gn_q.h"
 #include "gn_tables.h"
 #include "gnomon.h"
@@ -22,7 +23,7 @@ uint64_t gn_bf_from_u64_bits(uint64_t v)
 }
 
 /* Entry i of gn_recip_table is 2^25 / (2i + 513), rounded. Where size comes first and the core divides, it is computed. */
-#if defined(GN_FAR) && (defined(__ARM_FEATURE_IDIV) || defined(__riscv_div))
+#if defined(GN_FAR) && GN_CORE_DIVIDES
 #define RECIP_START(i) (((1U << 25) + (i) + 256U) / (2U * (i) + 513U))
 #else
 #define RECIP_START(i) ((uint32_t)gn_recip_table[i])
