@@ -13,6 +13,22 @@
 /* Pixels: the largest piece, and parts of it whose shadow is asked for once. */
 enum { GN_PIECE_WIDTH = 64, GN_PIECE_ROWS = 8, GN_CELL = 8 };
 
+/* The upper half of a product. */
+static inline int32_t gn_mul_high(int32_t a, int32_t b)
+{
+    return (int32_t)((int64_t)a * b >> 32);
+}
+
+static inline int32_t gn_mul_q24(int32_t a, int32_t b)
+{
+    return (int32_t)((int64_t)a * b >> 24);
+}
+
+static inline int32_t gn_along(const gn_slope *s, int32_t dx, int32_t dy)
+{
+    return s->at + s->dx * dx + s->dy * dy;
+}
+
 /* Whether the surface may be shaded so. */
 int gn_pieces_fit(const gn_frame *frame, const gn_surface *surface);
 

@@ -1,0 +1,203 @@
+/* Rows of pieces. */
+#include "gn_count.h"
+#include "gn_filter.h"
+#include "gn_piece.h"
+#include "gn_q.h"
+
+#if GN_PIECES
+
+#if GN_SHADOWS
+enum { CELL_UNKNOWN, CELL_LIT, CELL_DARK, CELL_MIXED };
+#endif
+
+/* A colour near (x, y), to the second order, and its change per pixel there. It is v + g / (1 + t), g the change by the slope and t that
+ * of w: about v + g (1 - t). `right` and `down` are from the middle of the piece, in half pixels. */
+static inline int32_t colour_near(const gn_pieces *p, const gn_slope *colour, int32_t right, int32_t down, int32_t t_q30,
+                                  int32_t *step)
+{
+    int32_t g = (colour->dx * right + colour->dy * down) >> 1;
+    *step = colour->dx - 4 * (gn_mul_high(colour->dx, t_q30) + gn_mul_high(g, p->w_dx_q30));
+    return colour->at + g - 4 * gn_mul_high(g, t_q30);
+}
+
+/* The same of all channels, for a row of n pixels from (x, y) on: the colour of its first and the step from each to the next. */
+static void ramp_of(const gn_pieces *p, const gn_slope colour_q24[3], int32_t x, int32_t y, int32_t n, int32_t from[3], int32_t step[3])
+{
+    int32_t right = 2 * (x - p->x) + n - 1, down = 2 * (y - p->y), t_q30 = (p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1;
+    for (int c = 0; c < 3; c++) {
+        int32_t at = colour_near(p, &colour_q24[c], right, down, t_q30, &step[c]);
+        if (p->tinted) {
+            int32_t tint_step, tint = colour_near(p, &p->tint_q24[c], right, down, t_q30, &tint_step);
+            step[c] = gn_mul_q24(step[c], tint) + gn_mul_q24(at, tint_step);
+            at = gn_mul_q24(at, tint);
+        }
+        from[c] = at - ((step[c] * (n - 1)) >> 1);
+    }
+}
+
+/* A row of pixels that the light reaches all over, or not at all. */
+static void plain_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, int lit)
+{
+    if (!p->varies) {
+        gn_pixel_fill(p->frame, rows, x, y, n, lit ? p->lit_pixel : p->dark_pixel);
+        return;
+    }
+    for (int32_t end = x + n, from[3], step[3]; x < end; x += n) {
+        n = gn_min32(end - x, p->ramp_px);
+        ramp_of(p, lit ? p->lit_q24 : p->dark_q24, x, y, n, from, step);
+        gn_pixel_ramp(p->frame, rows, x, y, n, from, step);
+    }
+}
+
+#if GN_SHADOWS
+/* Colours along a row of pixels: without the light and with it. */
+typedef struct {
+    int32_t dark[3], dark_step[3], lit[3], lit_step[3];
+} row_colours;
+
+static void find_row_colours(const gn_pieces *p, int32_t x, int32_t y, int32_t n, row_colours *row)
+{
+    if (p->varies) {
+        ramp_of(p, p->dark_q24, x, y, n, row->dark, row->dark_step);
+        ramp_of(p, p->lit_q24, x, y, n, row->lit, row->lit_step);
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        row->dark[c] = p->dark_q24[c].at;
+        row->lit[c] = p->lit_q24[c].at;
+        row->dark_step[c] = row->lit_step[c] = 0;
+    }
+}
+
+/* Pixels first .. first + n - 1 of a row that begins at x, all lit or all dark. */
+static void part_of_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, const row_colours *row, int32_t first,
+                        int32_t n, int lit)
+{
+    const int32_t *colour = lit ? row->lit : row->dark, *step = lit ? row->lit_step : row->dark_step;
+    if (!p->varies) {
+        gn_pixel_fill(p->frame, rows, x + first, y, n, lit ? p->lit_pixel : p->dark_pixel);
+        return;
+    }
+    const int32_t from[3] = {colour[0] + first * step[0], colour[1] + first * step[1], colour[2] + first * step[2]};
+    if (n == 1) gn_pixel_dot(p->frame, rows, x + first, y, from);
+    else gn_pixel_ramp(p->frame, rows, x + first, y, n, from, step);
+}
+
+static void partly_lit(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, const row_colours *row, int32_t i,
+                       uint32_t attenuation)
+{
+    int32_t colour[3];
+    for (int c = 0; c < 3; c++) {
+        int32_t dark = row->dark[c] + i * row->dark_step[c], more = row->lit[c] + i * row->lit_step[c] - dark;
+        colour[c] = dark + (int32_t)((int64_t)more * (int32_t)attenuation >> 16);
+    }
+    gn_pixel_dot(p->frame, rows, x + i, y, colour);
+}
+
+/* Where the light sees the surface at a pixel: v + g / (1 + t), g the change by the slope, t that of w, is v + g - g t but for g t^2. */
+static void receiver_at(const gn_pieces *p, int32_t x, int32_t y, gn_receiver_step *out)
+{
+    int32_t dx = x - p->x, dy = y - p->y, t_q30 = p->w_dx_q30 * dx + p->w_dy_q30 * dy;
+    int32_t u = p->place[0].dx * dx + p->place[0].dy * dy, v = p->place[1].dx * dx + p->place[1].dy * dy;
+    int32_t d = p->place[2].dx * dx + p->place[2].dy * dy;
+    out->u_q16 = p->place[0].at + u - gn_mul_high(u, t_q30) * 4;
+    out->v_q16 = p->place[1].at + v - gn_mul_high(v, t_q30) * 4;
+    d = p->place[2].at + d - gn_mul_high(d, t_q30) * 4;
+    out->depth_q31 = gn_max32(p->depth_least, gn_min32(d, p->depth_most)) * (1 << p->depth_up);
+}
+
+/* (b - a) / n, rounded towards zero, n <= 16 */
+static int32_t step_of(int32_t a, int32_t b, int32_t n)
+{
+    static const uint32_t inverse[17] = {0,           0xFFFFFFFFU, 0x80000000U, 0x55555555U, 0x40000000U, 0x33333333U,
+                                         0x2AAAAAAAU, 0x24924924U, 0x20000000U, 0x1C71C71CU, 0x19999999U, 0x1745D174U,
+                                         0x15555555U, 0x13B13B13U, 0x12492492U, 0x11111111U, 0x10000000U};
+    uint32_t d = b < a ? (uint32_t)a - (uint32_t)b : (uint32_t)b - (uint32_t)a;
+    int32_t size = (int32_t)((uint64_t)d * inverse[n] >> 32);
+    return b < a ? -size : size;
+}
+
+/* n <= 17 pixels from x on, looked up one by one. */
+static void looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n)
+{
+    uint32_t attenuation[17];
+    gn_receiver_step from, to, step = {0, 0, 0};
+    receiver_at(p, x, y, &from);
+    to = from;
+    if (n > 1) {
+        receiver_at(p, x + n - 1, y, &to);
+        step.u_q16 = step_of(from.u_q16, to.u_q16, n - 1);
+        step.v_q16 = step_of(from.v_q16, to.v_q16, n - 1);
+        step.depth_q31 = step_of(from.depth_q31, to.depth_q31, n - 1);
+    }
+    row_colours row;
+    find_row_colours(p, x, y, n, &row);
+    gn_filter_row(p->frame, p->view, &from, &to, &step, n, attenuation);
+    for (int32_t i = 0; i < n;) {
+        uint32_t here = attenuation[i];
+        if (here - 1 < 65535) {
+            partly_lit(p, rows, y, x, &row, i++, here);
+            continue;
+        }
+        int32_t first = i++;
+        while (i < n && attenuation[i] == here) i++;
+        part_of_row(p, rows, y, x, &row, first, i - first, here != 0);
+    }
+}
+
+/* What bounds of depth say of a cell of the piece. */
+static uint32_t judge_cell(const gn_pieces *p, int32_t x, int32_t y)
+{
+    gn_receiver_step middle_of, a, b;
+    receiver_at(p, x + GN_CELL / 2, y + GN_CELL / 2, &middle_of);
+    a.u_q16 = middle_of.u_q16 - p->cell_reach[0];
+    b.u_q16 = middle_of.u_q16 + p->cell_reach[0];
+    a.v_q16 = middle_of.v_q16 - p->cell_reach[1];
+    b.v_q16 = middle_of.v_q16 + p->cell_reach[1];
+    int32_t reach = gn_min32(p->cell_reach[2], INT32_MAX >> p->depth_up) * (1 << p->depth_up);
+    a.depth_q31 = gn_max32(middle_of.depth_q31, -(1 << 30)) - gn_min32(reach, 1 << 30);
+    b.depth_q31 = middle_of.depth_q31 > 0x7FFF8000 - reach ? 0x7FFF8000 : middle_of.depth_q31 + reach;
+    uint32_t attenuation;
+    if (!gn_filter_decides(p->frame, p->view, &a, &b, &attenuation)) return CELL_MIXED;
+    return attenuation ? CELL_LIT : CELL_DARK;
+}
+
+static void shadowed_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t x_end)
+{
+    int32_t cell_y = (y - p->y0) / GN_CELL;
+    while (x < x_end) {
+        uint32_t state = CELL_UNKNOWN;
+        int32_t end = x;
+        do { /* on through cells of one kind */
+            int32_t cell_x = (end - p->x0) / GN_CELL, shift = 2 * (cell_x + cell_y * (GN_PIECE_WIDTH / GN_CELL));
+            uint32_t here = p->cells >> shift & 3U;
+            if (here == CELL_UNKNOWN) {
+                here = judge_cell(p, p->x0 + cell_x * GN_CELL, p->y0 + cell_y * GN_CELL);
+                p->cells |= here << shift;
+            }
+            if (state == CELL_UNKNOWN) state = here;
+            if (here != state) break;
+            end = p->x0 + (cell_x + 1) * GN_CELL;
+        } while (end < x_end && (state != CELL_MIXED || end - x < p->chunk_px));
+        int32_t n = gn_min32(end, x_end) - x;
+        if (state == CELL_MIXED) {
+            n = gn_min32(n, p->chunk_px);
+            looked_up_row(p, rows, y, x, n);
+        } else plain_row(p, rows, y, x, n, state == CELL_LIT);
+        x += n;
+    }
+}
+#endif
+
+void gn_pieces_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x_begin, int32_t x_end)
+{
+#if GN_SHADOWS
+    if (p->looks_up) {
+        shadowed_row(p, rows, y, x_begin, x_end);
+        return;
+    }
+#endif
+    plain_row(p, rows, y, x_begin, x_end - x_begin, 0);
+}
+
+#endif
