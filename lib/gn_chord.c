@@ -94,7 +94,7 @@ static int directional_holds(const int32_t *a, const int32_t *b, share error)
     return 1;
 }
 
-#if GN_RECEIVER_BIAS
+#if GN_SHADOWS && GN_RECEIVER_BIAS
 /* B3's terms along the light, its tangent and sine are no lines: of 1/8 in the normal, of 1/32 in the light's direction they bend by
  * 2^-6 of themselves up to 80 degrees. */
 static int terms_hold(const gn_frame *frame, const gn_surface *surface, uint32_t slot, const int32_t *a, const int32_t *b,
@@ -118,7 +118,7 @@ static int lights_hold(const gn_frame *frame, const gn_surface *surface, const g
 {
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i;
-#if GN_RECEIVER_BIAS
+#if GN_SHADOWS && GN_RECEIVER_BIAS
         if (!terms_hold(frame, surface, i, a->value + at, b->value + at, turned)) return 0;
 #endif
 #if GN_PUNCTUAL_LIGHTS
