@@ -66,6 +66,9 @@ size: ## measure flash, RAM and worst-case stack on the targets; WRITE=1 renews 
 docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages accuracy bias census rows seams crawl kept culling lists changes extremes) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
 
+matrix: $(BUILD)/gnomon ## measure what each feature costs on two cores, in some minutes: docs/MATRIX.md
+	@sh docs/matrix.sh $(BUILD)/gnomon
+
 report: $(BUILD)/gnomon $(BUILD)/make_report ## one page of pictures, metrics and plots: build/report/index.html
 	@sh host/report/report.sh $(BUILD)/gnomon $(SIZE) $(BUILD)/report $(patsubst %sundial.gltf,%sundial.gltf@48,$(OWN_SCENES)) $(SCENES)
 	@echo $(BUILD)/report/index.html
@@ -146,5 +149,5 @@ endif
 
 -include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
 
-.PHONY: all help run test soak bench size firmware emulate boards docs tables scenes clean test-programs
+.PHONY: all help run test soak bench size matrix firmware emulate boards docs tables scenes clean test-programs
 .SECONDARY:

@@ -5,6 +5,7 @@
 #   sh tests/size.sh --tables FILE       tables, in Markdown, of figures measured before
 #   sh tests/size.sh --write             makes the figures tests/size_baseline.txt, and writes docs/MEMORY.md
 #   sh tests/size.sh --files CORE CONFIGURATION        flash by file of lib/
+#   sh tests/size.sh --list FILE CORE...    figures of configurations of a file: lines NAME FLAGS...
 #   sh tests/size.sh --flags CONFIGURATION   its compiler flags
 #   sh tests/size.sh --document          writes docs/MEMORY.md alone
 #   sh tests/size.sh --functions CORE CONFIGURATION    the largest functions and tables of an image
@@ -41,10 +42,24 @@ flags_of() {
     balanced) echo -DGN_PRESET=1 ;;
     accurate) echo -DGN_PRESET=2 ;;
     full) for feature in $features; do [ "$feature" = FILTER_MAX ] || echo "-DGN_$feature=1"; done ;;
+    *) sed -n "s|^$1 ||p" "$list" ;;
     esac
 }
 
 # ---- Measuring --------------------------------------------------------------------------------------------------------------
+
+# object SOURCE FILE: compiled, or a copy of what the same lines came to before
+object() {
+    same=$work/same.$prefix$($compile -E -P "$1" | { echo "$core_flags"; cat; } | cksum | tr " " .)
+    if [ ! -e "$same.o" ]; then
+        own=$dir/new
+        $compile -fstack-usage -c "$1" -o "$own.o"
+        mv "$own.su" "$same.su"
+        mv "$own.o" "$same.o"
+    fi
+    cp "$same.o" "$2.o"
+    cp "$same.su" "$2.su"
+}
 
 # image CORE CONFIGURATION: $work/CORE.CONFIGURATION/image and what belongs to it
 image() {
@@ -57,8 +72,7 @@ image() {
     compile="${prefix}gcc $core_flags -std=c99 -Os -ffreestanding -isystem boards/common/include -ffunction-sections -fdata-sections -Ilib $(flags_of "$2")"
     (cd "$dir" && for source in ../../../../lib/*.c ../../../../tests/size_app.c; do echo "$source"; done) | sed 's|^\(../\)*||' >"$dir/sources"
     while read -r source; do
-        object=$dir/$(basename "$source" .c).o
-        $compile -fstack-usage -c "$source" -o "$object"
+        object "$source" "$dir/$(basename "$source" .c)"
     done <"$dir/sources"
     $compile -fno-tree-loop-distribute-patterns -fno-builtin -c boards/common/memory.c -o "$dir/memory.o"
     $compile -c tests/size_parts.c -o "$dir/parts.obj"
@@ -115,17 +129,31 @@ files() {
         END { for (f in n) print n[f], f }' - "$dir/symbols" | sort -rn
 }
 
+two_at_a_time() { # the figures of $work/wanted
+    for half in 0 1; do
+        awk -v half=$half 'NR % 2 == half' "$work/wanted" | while read -r core configuration; do
+            figures "$core" "$configuration"
+            rm -r "$dir"
+        done >"$work/figures$half" &
+    done
+    wait
+    sort "$work/figures0" "$work/figures1"
+}
+
 measure() { # measure [some]
     for core in $(cores | cut -d ' ' -f 1); do
         for configuration in $CONFIGURATIONS; do
             case ${1:-}$core.$configuration in some*Cortex-M3.* | some*.smallest | [!s]*) echo "$core $configuration" ;; esac
         done
     done >"$work/wanted"
-    for half in 0 1; do # two at a time
-        awk -v half=$half 'NR % 2 == half' "$work/wanted" | while read -r core configuration; do figures "$core" "$configuration"; done >"$work/figures$half" &
-    done
-    wait
-    sort "$work/figures0" "$work/figures1"
+    two_at_a_time
+}
+
+measure_list() { # measure_list FILE CORE...
+    list=$1
+    shift
+    for core; do awk -v core="$core" '{ print core, $1 }' "$list"; done >"$work/wanted"
+    two_at_a_time
 }
 
 # ---- Documents --------------------------------------------------------------------------------------------------------------
@@ -228,6 +256,7 @@ document() { # from the baseline, and the files as they are
 case ${1:-} in
 --flags) echo $(flags_of "$2") ;;
 --figures) measure "${2:-all}" ;;
+--list) shift && measure_list "$@" ;;
 --tables) tables "$2" ;;
 --document) document ;;
 --write)
