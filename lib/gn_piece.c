@@ -464,7 +464,7 @@ static int shadow(gn_pieces *p, const middle *m, const gn_rect *rect)
 }
 #endif
 
-static uint32_t packed(const gn_frame *frame, const gn_slope colour_q24[3])
+static uint32_t packed(const gn_frame *frame, const gn_slope *colour_q24)
 {
     uint32_t q20[3];
     for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour_q24[c].at, 0) >> 4;

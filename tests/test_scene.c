@@ -341,7 +341,7 @@ static void put_le(size_t at, size_t v)
 
 static void make_glb(void)
 {
-    const char *json = replaced(base_json, ",\"uri\":\"test%5Fscene.bin\"", "");
+    const char *json = replaced(base_json, ",\"uri\":\"" BASE_URI "\"", "");
     size_t n = strlen(json), n_json = (n + 3) / 4 * 4;
     n_glb = 20 + n_json + 8 + sizeof base_bin;
     memcpy(glb, "glTF", 4);

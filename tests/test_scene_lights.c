@@ -1,6 +1,7 @@
 /* Lights of scenes: what files say about them, and those that no file placed. Run from the project's folder. */
 #define _POSIX_C_SOURCE 200809L
 #define TMP             "build/tmp/test_scene_lights"
+#define BASE_URI        "test%5Fscene%5Flights.bin"
 
 #include <stdint.h>
 #include <sys/stat.h>
@@ -285,7 +286,7 @@ int main(void)
     mkdir("build", 0777);
     mkdir("build/tmp", 0777);
     make_base_bin();
-    write_file("build/tmp/test_scene.bin", base_bin, sizeof base_bin);
+    write_file(TMP ".bin", base_bin, sizeof base_bin);
     test_spot();
     test_cones();
     test_point();

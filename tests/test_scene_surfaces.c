@@ -1,6 +1,7 @@
 /* Surfaces of scenes: textures, alpha, knobs of materials and objects, baked light. Run from the project's folder. */
 #define _POSIX_C_SOURCE 200809L
 #define TMP             "build/tmp/test_scene_surfaces"
+#define BASE_URI        "test%5Fscene%5Fmoving.bin"
 
 #include <stdint.h>
 #include <sys/stat.h>
@@ -361,7 +362,7 @@ static int moves(const char *text)
 static void test_moving(void)
 {
     make_base_bin();
-    write_file("build/tmp/test_scene.bin", base_bin, sizeof base_bin);
+    write_file("build/tmp/test_scene_moving.bin", base_bin, sizeof base_bin);
     CHECK_EQ_INT(moves(base_json), 1);
     CHECK_EQ_INT(moves(without_animation(base_json)), 0);
     CHECK_EQ_INT(moves(replaced(base_json, "{\"sampler\":1,\"target\":{\"node\":1,\"path\":\"rotation\"}},", "")), 1);
