@@ -2,6 +2,7 @@
 # Counts the instructions of firmware in the emulator, stage by stage, and holds them against tests/bench_target_baseline.txt.
 #   sh tests/bench_target.sh            fails if a total is more than 2 % above the baseline
 #   sh tests/bench_target.sh --quick    the workload on the Cortex-M3 alone
+#   sh tests/bench_target.sh --document writes the baseline's figures into docs/SPEED.md
 #   sh tests/bench_target.sh --write    makes the new figures the baseline, and writes them into docs/SPEED.md
 # Environment: BUILD, GNOMON.
 set -eu
@@ -13,30 +14,25 @@ BASELINE=tests/bench_target_baseline.txt
 DOC=docs/SPEED.md
 CASES="flat gouraud flat-shadow gouraud-shadow"
 SCENES="sundial avenue desk room fence mixed"
-PRESETS="tiny balanced accurate"
-STAGES="gn_begin gn_shadow_tile gn_prepare gn_setup_triangles gn_bin_triangles gn_raster_tile gn_shade_tile bench_flush"
+STAGES="gn_scene_validate gn_views_setup gn_atlas_render_tile gn_setup_triangles gn_bin_triangles gn_raster_tile gn_shade_tile bench_flush"
 
-# core, board whose emulator runs its code, flags
-CORES="M3 mps2-an385 -mcpu=cortex-m3 -mthumb
-M0 mps2-an385 -mcpu=cortex-m0 -mthumb
-M4 mps2-an386 -mcpu=cortex-m4 -mthumb
-RV32 rv32-virt -march=rv32imac -mabi=ilp32"
+# core, board
+CORES="M3 mps2-an385
+M0 nrf51-large
+M4 mps2-an386
+RV32 rv32-virt"
 
 mkdir -p "$DIR"
 gcc -std=c11 -O2 -Wall -Wextra -Wconversion -Wno-attributes -Werror -shared -fPIC -o "$DIR/libstages.so" boards/tools/stage_plugin.c
 
-# board CORE VARIABLE...: the board's make, with this core's code
+board_of() { echo "$CORES" | sed -n "s/^$1 //p"; }
+
+# board CORE VARIABLE...: make for its board
 board() {
     core=$1
     shift
-    echo "$CORES" | { while read -r name board flags; do
-        [ "$name" = "$core" ] || continue
-        make -s -j2 BOARD="$board" BOARD_CPU="$flags" APP=bench BUILD="$BUILD" "$@" </dev/null
-    done; }
+    make -s -j2 BOARD="$(board_of "$core")" FW_OPT=-O2 APP=bench BUILD="$BUILD" "$@" </dev/null
 }
-
-# image CORE: where its images are
-image_dir() { echo "$CORES" | awk -v core="$1" -v build="$BUILD" '$1 == core { print build "/firmware/" $2 }'; }
 
 # one "run CORE NAME" IMAGE CORE ARGS VARIABLE...: a line with the instructions of every stage, in the order of STAGES, then the
 # counts that the app prints
@@ -44,7 +40,7 @@ one() {
     label=$1 image=$2 core=$3 args=$4
     shift 4
     board "$core" firmware IMAGE="$image" "$@" >"$DIR/log" 2>&1 || { cat "$DIR/log" >&2; exit 1; }
-    elf=$(image_dir "$core")/$image.elf
+    elf=$BUILD/firmware/$(board_of "$core")/$image.elf
     stages=
     for stage in $STAGES; do
         at=$(arm-none-eabi-nm "$elf" | awk -v f="$stage" '$3 == f { print $1 }')
@@ -63,25 +59,29 @@ workload() { # workload CORE
     one "work $1 flat-shadow empty" "bench-$1" "$1" "flat-shadow empty"
 }
 
-scenes() { # scenes CORE
+scenes() { # scenes CORE PRESET...
+    core=$1
+    shift
+    presets=$*
     for scene in $SCENES; do
-        for preset in $PRESETS; do
-            one "scene $1 $scene $preset" "bench-$1-$scene-$preset" "$1" 0 SCENE="host/scenes/$scene.gltf" PRESET="$preset"
+        for preset in $presets; do
+            one "scene $core $scene $preset" "bench-$core-$scene-$preset" "$core" 0 SCENE="host/scenes/$scene.gltf" PRESET="$preset"
         done
     done
 }
 
 measure() { # measure QUICK
-    echo "# Written by tests/bench_target.sh --write. Instructions of: $STAGES; then pixels, triangles, caster triangles, shadow texels."
+    echo "# Written by tests/bench_target.sh --write. Instructions of: $STAGES; then pixels, triangles, caster triangles, shadow texels drawn."
     echo "compiler $(arm-none-eabi-gcc --version | sed 1q); $(riscv64-unknown-elf-gcc --version | sed 1q)"
     "$BUILD/firmware/bench/workload" count
     workload M3
     [ "$1" = quick ] && return
     for core in M0 M4 RV32; do workload "$core"; done
-    for core in M3 M0 M4 RV32; do scenes "$core"; done
+    scenes M3 tiny balanced accurate
+    for core in M0 M4 RV32; do scenes "$core" balanced; done
 }
 
-# What the total leaves out: what runs before gn_begin and after the last flush of a run.
+# The total leaves out what runs before the first stage.
 tables() {
     awk '
         function total(    i, sum) { sum = 0; for (i = 5; i <= 12; i++) sum += $i; return sum }
@@ -95,13 +95,13 @@ tables() {
             key = $3 " " $4
             if (!(key in seen)) { seen[key] = 1; name[++n_names] = key }
             sum[$2, key] = total(); pixels = $13
-            shadow[$2, key] = $6; begin[$2, key] = $5; prep[$2, key] = $7 + $8 + $9; raster[$2, key] = $10; shade[$2, key] = $11
+            shadow[$2, key] = $7; begin[$2, key] = $5 + $6; prep[$2, key] = $8 + $9; raster[$2, key] = $10; shade[$2, key] = $11
             px[key] = $13; tri[key] = $14; caster[key] = $15; texels[key] = $16
         }
         function net(c, what, set, i) {
             return work[c, what, set, i] - work[c, "flat-shadow", "empty", i] * (1 - n["visible_px", set] / (320 * 240))
         }
-        function drawing(c, what, set,    i, s) { s = 0; for (i = 7; i <= 11; i++) s += net(c, what, set, i); return s }
+        function drawing(c, what, set,    i, s) { s = 0; for (i = 8; i <= 11; i++) s += net(c, what, set, i); return s }
         function solve(l, s, pixels,    det) {
             det = n["triangles", "L"] * n[pixels, "S"] - n["triangles", "S"] * n[pixels, "L"]
             a = (l * n[pixels, "S"] - s * n[pixels, "L"]) / det
@@ -118,24 +118,24 @@ tables() {
             for (c = 1; c <= n_cores; c++) for (k = 1; k <= 4; k++) {
                 q = core[c]; w = cases[k]
                 l = s = 0
-                for (i = 7; i <= 10; i++) { l += net(q, w, "L", i); s += net(q, w, "S", i) }
+                for (i = 8; i <= 10; i++) { l += net(q, w, "L", i); s += net(q, w, "S", i) }
                 printf "| %s | %s | %s | %s | %s | %.1f | %s | %.2f M | %.2f M |\n", q, w, solve(drawing(q, w, "L"), drawing(q, w, "S"), "covered_px"),
                     solve(l, s, "covered_px"), solve(net(q, w, "L", 11), net(q, w, "S", 11), "visible_px"), net(q, w, "L", 11) / n["visible_px", "L"],
-                    w ~ /shadow/ ? sprintf("%.0f", (work[q, w, "L", 6] - work[q, "flat-shadow", "empty", 6]) / n["casters", "L"]) : "",
+                    w ~ /shadow/ ? sprintf("%.0f", (work[q, w, "L", 7] - work[q, "flat-shadow", "empty", 7]) / n["casters", "L"]) : "",
                     drawing(q, w, "L") / 1e6, drawing(q, w, "S") / 1e6
             }
             if (!n_names) exit
             print "\nThe own scenes, frame 0 as `gnomon compile` configures it: a first frame, with every shadow tile drawn. Instructions per picture pixel:\n"
             head = "| scene | preset |"; rule = "| --- | --- |"
             for (c = 1; c <= n_cores; c++) { head = head " " core[c] " |"; rule = rule " --- |" }
-            print head " begin, M3 | shadow tiles, M3: per texel | setup and bins, M3: per triangle | raster, M3: per pixel | shading, M3: per pixel | triangles | caster triangles | texels |"
+            print head " begin, M3 | shadow tiles, M3: per caster triangle | setup and bins, M3: per triangle | raster, M3: per pixel | shading, M3: per pixel | triangles | caster triangles | texels drawn |"
             print rule " --- | --- | --- | --- | --- | --- | --- | --- |"
             for (i = 1; i <= n_names; i++) {
                 k = name[i]; split(k, part, " ")
                 line = "| " part[1] " | " part[2] " |"
-                for (c = 1; c <= n_cores; c++) line = line sprintf(" %.0f |", sum[core[c], k] / px[k])
+                for (c = 1; c <= n_cores; c++) line = line ((core[c], k) in sum ? sprintf(" %.0f |", sum[core[c], k] / px[k]) : " |")
                 printf "%s %.0f K | %s | %.0f | %.1f | %.1f | %d | %d | %d |\n", line, begin["M3", k] / 1e3,
-                    texels[k] ? sprintf("%.1f", shadow["M3", k] / texels[k]) : "", tri[k] ? prep["M3", k] / tri[k] : 0,
+                    caster[k] ? sprintf("%.0f", shadow["M3", k] / caster[k]) : "", tri[k] ? prep["M3", k] / tri[k] : 0,
                     raster["M3", k] / px[k], shade["M3", k] / px[k], tri[k], caster[k], texels[k]
             }
         }' "$1"
@@ -153,6 +153,11 @@ document() {
         END { if (!closed) exit 1 }' "$DOC"
 }
 
+if [ "${1:-}" = --document ]; then
+    document >"$DIR/SPEED.md"
+    cp "$DIR/SPEED.md" "$DOC"
+    exit 0
+fi
 board M3 firmware IMAGE=bench-M3 >/dev/null # makes the workload
 if [ "${1:-}" = --write ]; then
     measure all >"$DIR/target.txt"
