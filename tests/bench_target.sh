@@ -49,7 +49,7 @@ one() {
     board "$core" emulate IMAGE="$image" "$@" ARGS="$args" TIMEOUT=300 \
         EMULATOR_FLAGS="-display none -monitor none -serial none -plugin $DIR/libstages.so,out=$DIR/stages$stages" >"$DIR/log" 2>&1 ||
         { cat "$DIR/log" >&2; exit 1; }
-    echo "$label $(awk '$2 > 0 { printf "%s ", $3 }' "$DIR/stages")$(awk '/^[a-z_]+ [0-9]+\r?$/ { printf "%s ", $2 + 0 }' "$DIR/log")"
+    echo "$label $(awk '$2 > 0 { printf "%s ", $3 }' "$DIR/stages")$(awk '/^[a-z_]+ [0-9]+\r?$/ { printf "%s ", $2 + 0 }' "$DIR/log")" | sed 's, *$,,'
 }
 
 workload() { # workload CORE
