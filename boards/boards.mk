@@ -92,8 +92,8 @@ comma := ,
 empty :=
 FW_ARGS = $(subst $(empty) $(comma),$(comma),$(APP)$(ARGS:%=$(comma)arg=%))
 EMULATE = $(BOARD_EMULATOR) -semihosting-config enable=on,target=native,arg=$(FW_ARGS) -kernel $(FIRMWARE)
-EMULATOR_FLAGS := -display none -monitor none -serial none $(if $(COUNT),-plugin $(abspath $(BUILD)/instructions.so))
-run-firmware: $(FIRMWARE) $(if $(COUNT),$(BUILD)/instructions.so)
+EMULATOR_FLAGS := -display none -monitor none -serial none $(if $(COUNT),-plugin $(abspath $(BUILD)/libstages.so))
+run-firmware: $(FIRMWARE) $(if $(COUNT),$(BUILD)/libstages.so)
 ifneq ($(FW_HOSTED),)
 	@$(FIRMWARE) $(ARGS)
 else ifneq ($(BOARD_EMULATOR),)
@@ -109,7 +109,7 @@ run-screen: $(FIRMWARE) $(BUILD)/capture $(BUILD)/ppm
 	@$(BUILD)/capture $(or $(TIMEOUT),60) 'READY $(lastword $(ARGS))' $(SCREEN_OUT) $(EMULATE)
 	@$(BUILD)/ppm png $(SCREEN_OUT) $(SCREEN_OUT:.ppm=.png) && echo $(SCREEN_OUT:.ppm=.png)
 
-$(BUILD)/instructions.so: boards/tools/instructions.c boards/tools/tcg_plugin.h
+$(BUILD)/libstages.so: boards/tools/stage_plugin.c boards/tools/tcg_plugin.h
 	@mkdir -p $(@D)
 	@$(CC) -std=c11 -O2 $(WARN) -shared -fPIC -o $@ $<
 

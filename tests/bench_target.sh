@@ -23,7 +23,7 @@ M4 mps2-an386
 RV32 rv32-virt"
 
 mkdir -p "$DIR"
-gcc -std=c11 -O2 -Wall -Wextra -Wconversion -Wno-attributes -Werror -shared -fPIC -o "$DIR/libstages.so" boards/tools/stage_plugin.c
+make -s BOARD=mps2-an385 APP=bench BUILD="$BUILD" "$BUILD/libstages.so"
 
 board_of() { echo "$CORES" | sed -n "s/^$1 //p"; }
 
@@ -47,7 +47,7 @@ one() {
         stages=$stages,stage=${at:-ffffffff}
     done
     board "$core" emulate IMAGE="$image" "$@" ARGS="$args" TIMEOUT=300 \
-        EMULATOR_FLAGS="-display none -monitor none -serial none -plugin $DIR/libstages.so,out=$DIR/stages$stages" >"$DIR/log" 2>&1 ||
+        EMULATOR_FLAGS="-display none -monitor none -serial none -plugin $BUILD/libstages.so,out=$DIR/stages$stages" >"$DIR/log" 2>&1 ||
         { cat "$DIR/log" >&2; exit 1; }
     echo "$label $(awk '$2 > 0 { printf "%s ", $3 }' "$DIR/stages")$(awk '/^[a-z_]+ [0-9]+\r?$/ { printf "%s ", $2 + 0 }' "$DIR/log")" | sed 's, *$,,'
 }

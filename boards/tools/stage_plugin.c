@@ -3,7 +3,8 @@
  *
  *   qemu-system-arm ... -plugin libstages.so,out=FILE,stage=ADDRESS,stage=ADDRESS...
  *
- * writes one line per stage to FILE: "stage NUMBER INSTRUCTIONS", in the order of the arguments, counted from 1.
+ * writes one line per stage to FILE: "stage NUMBER INSTRUCTIONS", in the order of the arguments, counted from 1. Without out= it prints
+ * "instructions N", of the whole run: make emulate COUNT=1.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -45,7 +46,10 @@ static void translated(qemu_plugin_id_t id, qemu_plugin_tb *block)
 static void write_out(qemu_plugin_id_t id, void *user)
 {
     (void)id, (void)user;
-    FILE *out = fopen(out_path, "w");
+    uint64_t sum = 0;
+    for (size_t s = 0; s <= n_stages; s++) sum += instructions[s];
+    if (!*out_path) fprintf(stderr, "instructions %" PRIu64 "\n", sum);
+    FILE *out = *out_path ? fopen(out_path, "w") : NULL;
     if (!out) return;
     for (size_t s = 0; s <= n_stages; s++) fprintf(out, "stage %zu %" PRIu64 "\n", s, instructions[s]);
     fclose(out);
