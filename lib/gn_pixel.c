@@ -144,25 +144,11 @@ void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
 
 size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height)
 {
-    size_t w = (size_t)(uint32_t)width, h = (size_t)(uint32_t)height;
+    uint32_t w = (uint32_t)width, h = (uint32_t)height;
 #if !GN_OTHER_FORMATS
-    if (!GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32) return 2 * w * h;
+    if (!GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32) return (size_t)2 * w * h;
 #endif
-    switch (frame->picture.format) {
-    case GN_FORMAT_RGB565:
-    case GN_FORMAT_RGB565_SWAPPED:
-        return 2 * w * h;
-    case GN_FORMAT_GREY8:
-        return w * h;
-    case GN_FORMAT_GREY4:
-        return (w + 1) / 2 * h;
-    case GN_FORMAT_MONO1:
-        return (w + 7) / 8 * h;
-    case GN_FORMAT_RAW32:
-        return 4 * w * h;
-    default:
-        return 3 * w * h;
-    }
+    return gn_format_bytes(frame->picture.format, w, h);
 }
 
 #if GN_PIECES

@@ -2,16 +2,6 @@
 #include "gn_q.h"
 #include "gn_signature.h"
 
-int64_t gn_far_clamp64(int64_t v, int64_t lo, int64_t hi);
-int32_t gn_far_clamp32(int64_t v, int32_t lo, int32_t hi);
-int32_t gn_far_sat32(int64_t v);
-int64_t gn_far_shr64(int64_t v, int32_t s);
-int64_t gn_far_shr30(int64_t v);
-int64_t gn_far_scale64(int64_t v, int32_t s);
-int32_t gn_far_mul_shr(int32_t a, int32_t b, int32_t s);
-int32_t gn_far_mul_q30(int32_t a, int32_t b);
-uint64_t gn_far_abs64(int64_t v);
-
 int64_t gn_far_clamp64(int64_t v, int64_t lo, int64_t hi)
 {
     return gn_clamp64_inline(v, lo, hi);

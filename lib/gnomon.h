@@ -299,6 +299,26 @@ typedef struct {
  * multiple of the tile's width. The buffer is reused after the call returns. */
 typedef void (*gn_flush_fn)(void *user, int x, int y, int w, int h, const void *pixels);
 
+/* Bytes of w * h pixels as they are flushed, rows of whole bytes; w and h below 2^15. */
+static inline size_t gn_format_bytes(gn_format format, uint32_t w, uint32_t h)
+{
+    switch (format) {
+    case GN_FORMAT_RGB565:
+    case GN_FORMAT_RGB565_SWAPPED:
+        return (size_t)2 * w * h;
+    case GN_FORMAT_GREY8:
+        return (size_t)w * h;
+    case GN_FORMAT_GREY4:
+        return (size_t)((w + 1) / 2) * h;
+    case GN_FORMAT_MONO1:
+        return (size_t)((w + 7) / 8) * h;
+    case GN_FORMAT_RAW32:
+        return (size_t)4 * w * h;
+    default:
+        return (size_t)3 * w * h;
+    }
+}
+
 typedef struct {
     uint32_t n_triangles; /* visible, after culling and clipping */
     uint32_t n_tile_refs;

@@ -156,27 +156,11 @@ typedef struct {
     uint32_t crc;
 } picture_sum;
 
-static uint32_t row_bytes(gn_format format, uint32_t w)
-{
-    switch (format) {
-    case GN_FORMAT_RGB888:
-        return 3 * w;
-    case GN_FORMAT_GREY8:
-        return w;
-    case GN_FORMAT_GREY4:
-        return (w + 1) / 2;
-    case GN_FORMAT_MONO1:
-        return (w + 7) / 8;
-    default:
-        return 2 * w;
-    }
-}
-
 static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 {
     picture_sum *sum = user;
     (void)x, (void)y;
-    sum->crc = crc32_add(sum->crc, pixels, row_bytes(sum->format, (uint32_t)w) * (uint32_t)h);
+    sum->crc = crc32_add(sum->crc, pixels, gn_format_bytes(sum->format, (uint32_t)w, (uint32_t)h));
 }
 
 static void print_line(const golden_frame *g, uint32_t frame, int preset, uint32_t crc)

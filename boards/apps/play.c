@@ -8,27 +8,11 @@
 static gn_renderer renderer;
 static scene_state state;
 
-static uint32_t bytes_of(uint32_t w, uint32_t h)
-{
-    switch (SCENE_FORMAT) {
-    case GN_FORMAT_RGB888:
-        return 3 * w * h;
-    case GN_FORMAT_GREY8:
-        return w * h;
-    case GN_FORMAT_GREY4:
-        return (w + 1) / 2 * h;
-    case GN_FORMAT_MONO1:
-        return (w + 7) / 8 * h;
-    default:
-        return 2 * w * h;
-    }
-}
-
 static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 {
     uint32_t *crc = user;
     (void)x, (void)y;
-    *crc = crc32_add(*crc, pixels, bytes_of((uint32_t)w, (uint32_t)h));
+    *crc = crc32_add(*crc, pixels, gn_format_bytes(SCENE_FORMAT, (uint32_t)w, (uint32_t)h));
 }
 
 static uint32_t n_frames(void)

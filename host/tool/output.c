@@ -44,19 +44,11 @@ static void decode_pixel(gn_format format, const uint8_t *row, int i, uint8_t rg
     }
 }
 
-static size_t row_bytes(gn_format format, int w)
-{
-    if (format == GN_FORMAT_GREY8) return (size_t)w;
-    if (format == GN_FORMAT_GREY4) return ((size_t)w + 1) / 2;
-    if (format == GN_FORMAT_MONO1) return ((size_t)w + 7) / 8;
-    return (size_t)w * (format == GN_FORMAT_RGB888 ? 3 : 2);
-}
-
 void output_decode(gn_format format, int x, int y, int w, int h, const void *pixels, uint8_t *rgb8, int width)
 {
     for (int row = 0; row < h; row++)
         for (int i = 0; i < w; i++)
-            decode_pixel(format, (const uint8_t *)pixels + (size_t)row * row_bytes(format, w), i,
+            decode_pixel(format, (const uint8_t *)pixels + (size_t)row * gn_format_bytes(format, (uint32_t)w, 1), i,
                          rgb8 + 3 * ((size_t)(y + row) * (size_t)width + (size_t)(x + i)));
 }
 
