@@ -89,13 +89,12 @@ data() {
 # Lines "work Cortex-M4 CASE OVER N": instructions of a picture of boards/apps/features.c, one case of features at a time
 instructions() {
     image=build/firmware/mps2-an386/features
-    gcc -std=c11 -O2 -shared -fPIC -o "$work/libstages.so" boards/tools/stage_plugin.c
-    make -s firmware BOARD=mps2-an386 APP=features >"$work/log" 2>&1
+    make -s firmware build/libstages.so BOARD=mps2-an386 APP=features >"$work/log" 2>&1
     begin=$(arm-none-eabi-nm "$image.elf" | awk '$3 == "gn_begin" { print $1 }')
     make -s emulate BOARD=mps2-an386 APP=features 2>&1 | grep '^[a-z0-9_]* [a-z0-9_-]*$' >"$work/cases"
     while read -r name over; do
         make -s emulate BOARD=mps2-an386 APP=features ARGS="$name" \
-            EMULATOR_FLAGS="-display none -monitor none -serial none -plugin $work/libstages.so,out=$work/stages,stage=$begin" >"$work/log" 2>&1 </dev/null
+            EMULATOR_FLAGS="-display none -monitor none -serial none -plugin $PWD/build/libstages.so,out=$work/stages,stage=$begin" >"$work/log" 2>&1 </dev/null
         awk -v of="work Cortex-M4 $name $over" '$2 == 1 { print of, $3 }' "$work/stages"
     done <"$work/cases"
 }

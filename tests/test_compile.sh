@@ -120,6 +120,14 @@ leaves desk "triangles that no frame shows"
 leaves desk "vertex normals and colours that change nothing"
 leaves mixed "vertices that were there twice"
 grep -q '^ \* - ' "$tmp/sundial-tiny/gn_scene_config.h" && fail "--simplify none leaves something out" || pass
+# casters: boxes where they spare one; the code for far ones where there are any, or where the scene may be moved
+has() { grep -q "^#define GN_$2 *$3 " "$tmp/$1/gn_scene_config.h" && pass || fail "$1: GN_$2 is not $3"; }
+has sundial OBJECT_BOXES 0
+has avenue OBJECT_BOXES 1
+has sundial CASTER_CLIPPING 0
+has sundial-balanced CASTER_CLIPPING 1
+same far docs/scenes/near.gltf 0 "" --size 96x64 --set max_distance=2 --set atlas_size=512
+has far CASTER_CLIPPING 1
 # a lamp that reaches nothing, a sun whose shadow is nowhere: neither its kind nor its atlas is in the image
 same lamp docs/scenes/near.gltf 0 "" --size 96x64 --set add_light=point --set range@1=0.01
 leaves lamp "lights that reach nothing: '"
@@ -148,6 +156,7 @@ refused 1 "are more than 20000" host/scenes/sundial.gltf -o "$tmp/no" --frames 0
 refused 1 "cannot create the folder" docs/scenes/near.gltf -o "$tmp/none/such" --size 16x12
 refused 1 "cannot be opened" "$tmp/none.gltf" -o "$tmp/no"
 refused 1 "max_triangles" docs/scenes/near.gltf -o "$tmp/no" --size 64x64 --set max_triangles=3
+refused 1 "caster_clipping" docs/scenes/near.gltf -o "$tmp/no" --size 96x64 --set max_distance=2 --set atlas_size=512 --set caster_clipping=0
 [ ! -e "$tmp/no" ] && pass || fail "a refused scene leaves a folder"
 # the same again, byte for byte
 "$tool" compile host/scenes/desk.gltf -o "$tmp/again" --frames 0-3 --size 96x64 >"$tmp/log" 2>&1

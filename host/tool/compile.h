@@ -1,5 +1,5 @@
 /* gnomon compile: a scene file as C for flash, and the configuration that it needs. Private to host/tool/compile_*.c and
- * cmd_compile.c. In order: compile_play.c loads every frame, compile_frames.c draws them, compile_simplify.c and compile_mesh.c take
+ * cmd_compile.c. In order: compile_play.c loads every frame, compile_frames.c draws them, compile_casters.c looks at their shadow tiles, compile_simplify.c and compile_mesh.c take
  * away what no picture shows, compile_config.c chooses the configuration, compile_scene.c writes the scene. */
 #ifndef GNOMON_COMPILE_H
 #define GNOMON_COMPILE_H
@@ -48,6 +48,8 @@ typedef struct {
     size_t culled;                      /* casters left out by D8 */
     size_t caster_triangles;
     double instructions, lookups; /* by the model of cost; of shadows */
+    size_t casters_unseen; /* by boxes: casters that a shadow tile does not see */
+    int64_t reach_q16, reach_seen_q16; /* how far casters lie from the corner of a directional light's tile: all, and those it sees */
 } compile_run;
 
 /* Something that was taken away, and what that saved. */
@@ -111,6 +113,14 @@ int compile_run_all(compile_run *run, compile_stage *st, const compiled *c, cons
 
 /* One more frame of a run. */
 int compile_run_one(compile_run *run, compile_stage *st, const compiled *c, int i);
+
+/* compile_casters.c: adds what the shadow tiles of the frame drawn last had to do with casters. */
+void compile_casters(compile_run *run, const gn_renderer *r);
+
+/* How far casters lie, of all or of those that boxes let through; and what is refused without caster_clipping. */
+enum { COMPILE_REACH_MAX = 8192 };
+int compile_reach_texels(const compile_run *run, bool boxes);
+int compile_check_reach(const compiled *c, char *error, size_t error_bytes);
 
 /* Marks the triangles that some frame's picture shows, by mesh. */
 int compile_see(compile_stage *st, const compiled *c, bool **seen);

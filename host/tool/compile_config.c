@@ -174,8 +174,6 @@ static void use_nothing(compiled *c)
     NOTHING(vertex_colours);
     c->set.feature.raw_views = c->set.feature.runtime_knobs = 0;
     because(c, "raw_views", "for host tools");
-    because(c, "object_boxes", "the same picture with and without");
-    because(c, "caster_clipping", "off where no frame is refused for it");
     because(c, "runtime_knobs", "for host tools");
 }
 
@@ -215,6 +213,23 @@ static void choose_speed(compiled *c)
     else because(c, "incremental", "shadow tiles kept from the frame before, all frames: %zu", c->kept_tiles);
 }
 
+/* Casters of directional lights are drawn without ado up to COMPILE_REACH_MAX texels from their tile: none that comes up to half of that
+ * needs the code that cuts them. Without it, what would be too far is refused, not misdrawn. */
+enum { REACH_ENOUGH = COMPILE_REACH_MAX / 2 };
+
+static void choose_casters(compiled *c)
+{
+    settings *s = &c->set;
+    const bool path = c->options->simplify == TOOL_SIMPLIFY_PATH;
+    if (!s->feature.shadows || !c->run.casters_unseen) s->feature.object_boxes = 0;
+    because(c, "object_boxes", "casters that a shadow tile does not see, all frames: %zu", c->run.casters_unseen);
+    const int reach = compile_reach_texels(&c->run, s->feature.object_boxes);
+    if (!s->feature.shadows || (path && reach <= REACH_ENOUGH)) s->feature.caster_clipping = 0;
+    if (!c->run.reach_q16) because(c, "caster_clipping", "no caster of a directional light");
+    else if (path) because(c, "caster_clipping", "casters lie up to %d texels from a tile's corner, of %d without", reach, REACH_ENOUGH);
+    else because(c, "caster_clipping", "scenes of --simplify none and safe may be moved otherwise");
+}
+
 /* What the tool has done already. */
 static void choose_checks(compiled *c)
 {
@@ -232,6 +247,7 @@ void compile_choose(compiled *c)
     choose_features(c);
     choose_capacities(c);
     choose_speed(c);
+    choose_casters(c);
     choose_checks(c);
     shrink_atlases(c);
 }

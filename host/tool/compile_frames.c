@@ -143,6 +143,7 @@ static void take_frame(compile_run *run, const compile_stage *st, int i)
     run->caster_triangles += stats->n_caster_triangles;
     run->instructions += cost_instructions(&counts);
     run->lookups += (double)(counts.n[GN_COUNT_lookups] + counts.n[GN_COUNT_lookups_persp]);
+    compile_casters(run, st->renderer);
 }
 
 int compile_run_one(compile_run *run, compile_stage *st, const compiled *c, int i)

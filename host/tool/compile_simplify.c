@@ -671,6 +671,7 @@ static int simplify(trial *b, char *error, size_t bytes)
     if (b->now.differs >= 0) return say_changed(c, b->now.differs, error, bytes);
     if (settings_suffice(&c->asked, &b->now.demand, error, bytes)) return -1;
     c->run = b->now;
+    if (compile_check_reach(c, error, bytes)) return -1;
     if (compile_keeps_tiles(b->st, c, &c->kept_tiles)) return say_refused(b, error, bytes);
     if (!b->no_memory) return 0;
     snprintf(error, bytes, "out of memory");
