@@ -47,6 +47,11 @@ typedef struct {
 
 typedef struct {
     const gn_object *object;
+    uint8_t has_bary, smooth, coloured, textured, masked, baked, specular;
+    uint8_t shadowed; /* some light's shadow may fall on it */
+    int32_t first_value, n_values;
+    uint32_t n_lights, n_punctual;
+    uint32_t base_q20[3]; /* albedo times ambient: with the lights' radiance_uq16, weighted, it sums up to the radiance */
     gn_plane plane;
     gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
     int32_t z_min_q16, z_max_q16;
@@ -65,11 +70,6 @@ typedef struct {
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     int32_t face_q30[3]; /* normal of the face in the world; only where some light of the list asks for it */
 #endif
-    uint8_t has_bary, smooth, coloured, textured, masked, baked, specular;
-    uint8_t shadowed; /* some light's shadow may fall on it */
-    int32_t first_value, n_values;
-    uint32_t base_q20[3]; /* albedo times ambient: with the lights' radiance_uq16, weighted, it sums up to the radiance */
-    uint32_t n_lights, n_punctual;
     gn_surface_light light[GN_SURFACE_LIGHTS]; /* those that can reach it */
 } gn_surface;
 
@@ -110,11 +110,11 @@ enum { GN_LIGHT_FACING, GN_LIGHT_POINT_AT, GN_LIGHT_OFFSET = 4 };
 #define GN_CASCADE_NONE 4
 
 typedef struct {
-    int32_t value[GN_VALUE_COUNT];
-    int32_t normal_q15[3]; /* interpolated, not renormalised; lit smooth surfaces only */
     int32_t cascade;       /* of the surface point, GN_CASCADE_NONE: none */
     int32_t in_reach;      /* D11: near enough to the camera for shadows */
     int32_t x, y;          /* the pixel */
+    int32_t normal_q15[3]; /* interpolated, not renormalised; lit smooth surfaces only */
+    int32_t value[GN_VALUE_COUNT];
 #if GN_SPECULAR
     int32_t normal_q30[3], to_eye_q30[3]; /* unit; surfaces with highlights only */
 #endif
@@ -256,16 +256,16 @@ typedef struct {
 
 /* One caster and one view. */
 typedef struct {
-    gn_caster_corner *cache;
-    uint32_t cache_mask;
-    gn_caster_corner spare[3]; /* where a triangle's corners share an entry */
-    gn_xform_fast fast;
     struct gn_frame *frame;
     const gn_light_view *view;
     const gn_object *object;
     uint32_t object_idx;
-    gn_xform to_light;
     int two_sided;
+    gn_caster_corner *cache;
+    uint32_t cache_mask;
+    gn_caster_corner spare[3]; /* where a triangle's corners share an entry */
+    gn_xform to_light;
+    gn_xform_fast fast;
 #if GN_CASTER_BIAS
     int32_t shrink_q16; /* B4, texels */
     int32_t normal_matrix[3][3];

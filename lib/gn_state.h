@@ -106,11 +106,6 @@ typedef struct {
 } gn_persp_fit;
 
 typedef struct {
-    int32_t axis_q30[3][3]; /* u, v, w in the world */
-    union {
-        gn_ortho_fit ortho;
-        gn_persp_fit persp;
-    } fit;
     gn_texels depth;      /* T * T, row by row, inside the atlas */
     uint32_t first_texel; /* of the tile in its atlas */
     int32_t offset_q16;   /* B2 and b_z of B3: receiver offset along the normal, texels; B6: the reach of a tap, texels */
@@ -137,6 +132,11 @@ typedef struct {
 #if GN_DEPTH_BLOCKS
     gn_depth_block *block; /* (T / 8) * (T / 8) */
 #endif
+    int32_t axis_q30[3][3]; /* u, v, w in the world */
+    union {
+        gn_ortho_fit ortho;
+        gn_persp_fit persp;
+    } fit;
 } gn_light_view;
 
 /* What a view's tile holds from one frame to the next (A5). */
@@ -236,33 +236,38 @@ typedef struct gn_frame {
 #if GN_RUNTIME_KNOBS
     gn_knobs knobs;
 #endif
-    gn_picture picture;
+    /* what is small goes first: instructions reach it without an address of its own */
     const gn_scene *scene;
-    gn_stats stats;
-    gn_detail detail;
+    gn_picture picture;
     uint8_t stage;   /* gn_stage in gn_frame.c */
     uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 1 */
     uint16_t n_views;
+    uint16_t tiles_x, tiles_y;
     gn_cam cam;
-    uint64_t min2_q32; /* P2: the least distance^2 of spot and point lights, 10^-4 of the model's */
-    gn_light_state light[GN_MAX_LIGHTS];
-#if GN_BOXES
-    gn_object_state object[GN_MAX_OBJECTS];
-#endif
+    uint64_t min2_q32;           /* P2: the least distance^2 of spot and point lights, 10^-4 of the model's */
     int32_t receivers_q16[2][3]; /* box of all receiving objects: least, largest corner; D8 */
     uint32_t fade_start_q16;     /* D5: strength = (max_distance - z) * fade_scale */
     gn_bfloat fade_scale;
-    uint16_t tiles_x, tiles_y;
-    gn_tri tri[GN_MAX_TRIANGLES];
-    gn_ref_offset tile_first[GN_TILES_MAX + 1];
-    uint16_t tile_ref[GN_MAX_TILE_REFS];
+    gn_stats stats;
+    gn_detail detail;
 #if GN_SHADOWS
-    gn_cascade_state cascade[4];
     uint8_t n_cascades;
     uint8_t last_cascade;             /* the last that is not empty */
     uint8_t has_cascades;             /* some directional light has tiles in the directional atlas: D6 applies */
     uint32_t frame_count;             /* A5: for the schedule of cascades */
+    gn_cascade_state cascade[4];
+#endif
+    gn_light_state light[GN_MAX_LIGHTS];
+#if GN_SHADOWS
     gn_light_view view[GN_VIEWS_MAX]; /* light by light, cascade by cascade or face by face */
+#endif
+#if GN_BOXES
+    gn_object_state object[GN_MAX_OBJECTS];
+#endif
+    gn_tri tri[GN_MAX_TRIANGLES];
+    gn_ref_offset tile_first[GN_TILES_MAX + 1];
+    uint16_t tile_ref[GN_MAX_TILE_REFS];
+#if GN_SHADOWS
 #if GN_INCREMENTAL
     gn_tile_memory memory[GN_VIEWS_MAX];
     uint64_t layout; /* signature of where the tiles lie: what is kept is forgotten when that changes */

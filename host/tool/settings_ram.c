@@ -30,15 +30,20 @@ static long put_atlas(layout *l, const settings *s, long side, long texels, long
     return bytes;
 }
 
-/* gn_frame from its cascades on */
+/* Cascades and views of gn_frame */
+static void put_views(layout *l, const settings *s)
+{
+    int other = s->feature.punctual_lights || s->feature.main_light;
+    long views = s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
+    long view = 180 + (s->feature.depth_blocks ? 4 : 0) + (s->feature.auto_bias ? 8 : 0);
+    put(l, views, (view + 7) / 8 * 8, 8);
+}
+
+/* gn_frame from its memory of tiles on */
 static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 {
     int other = s->feature.punctual_lights || s->feature.main_light;
     long views = s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
-    put(l, 4, 40, 8);                                                                         /* cascade */
-    put(l, 3, 1, 1);                                                                          /* n_cascades to has_cascades */
-    put(l, 1, 4, 4);                                                                          /* frame_count */
-    put(l, views, (s->feature.depth_blocks ? 192 : 184) + (s->feature.auto_bias ? 8 : 0), 8); /* view */
     if (s->feature.incremental) put(l, 2 * views + 1, 8, 8);                                  /* memory, layout */
     r->atlas = put_atlas(l, s, s->quality.atlas_size, s->capacity.atlas_texels, s->quality.depth_bits);
     if (other) r->other_atlas = put_atlas(l, s, s->quality.other_atlas_size, s->capacity.other_atlas_texels, s->quality.other_depth_bits);
@@ -58,12 +63,11 @@ static void put_work(layout *out, const settings *s)
     int per_light = (s->feature.shadows && s->feature.blended_cascades) || s->feature.punctual_lights ? 7 : s->feature.shadows ? 4 : 1;
     long values = (s->feature.textures ? 2 : 0) + (s->feature.masks ? 4 : 0) + (s->feature.baked_light ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
-    put(&surface, 1, 160, 8); /* object to rgb_q16 */
+    put(&surface, 1, 192, 8); /* object to rgb_q16 */
     if (s->feature.textures) put(&surface, 6, 8, 8);
     if (s->feature.masks) put(&surface, 12, 4, 4);
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
     if (s->feature.receiver_plane || s->feature.auto_bias) put(&surface, 3, 4, 4);
-    put(&surface, 36, 1, 4); /* has_bary to n_punctual */
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 48 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
@@ -94,11 +98,15 @@ settings_ram_parts settings_ram(const settings *s)
     long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
     int punctual = s->feature.punctual_lights;
-    put(&frame, 1, 184, 8); /* picture to min2_q32 */
+    put(&frame, 1, 224, 8); /* scene to detail */
+    if (s->feature.shadows) {
+        put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
+        put(&frame, 4, 40, 8); /* cascade */
+    }
     r.lights = put(&frame, s->capacity.max_lights, punctual ? 176 : 36, punctual ? 8 : 4);
+    if (s->feature.shadows) put_views(&frame, s);
     int boxes = punctual || (s->feature.shadows && (s->feature.object_boxes || s->feature.caster_culling));
     r.objects = boxes ? put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4) : 0;
-    put(&frame, 1, 40, 4); /* receivers_q16 to tiles_y */
     r.triangles = put(&frame, s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
     r.tile_refs = put(&frame, s->capacity.max_tile_refs, 2, 2);
