@@ -3,6 +3,7 @@
 #include "gn_cascade.h"
 #include "gn_math.h"
 #include "gn_q.h"
+#include "gn_scene.h"
 
 #if GN_SHADOWS
 
@@ -27,7 +28,7 @@ static int32_t auto_reach_q16(const gn_frame *frame, const gn_light_view *view)
 int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light)
 {
 #if GN_AUTO_BIAS
-    if (light->auto_bias) return auto_reach_q16(frame, view);
+    if (gn_scene_auto_bias(light)) return auto_reach_q16(frame, view);
 #endif
     (void)frame, (void)view;
     int32_t reach = gn_mul_shr(light->bias_normal_q16, GN_SQRT2_Q16, 16); /* <= 8 * 1.42 */
@@ -42,7 +43,6 @@ typedef struct {
     int32_t along_q16, towards_q16;
 } bias_terms;
 
-/* N . L of the interpolated normal as it is, Q30; only the four-term bias needs it. */
 #if GN_AUTO_BIAS
 /* The hard filter reads half a texel away, but what a curved surface does within a texel counts. */
 static int32_t smooth_more_q16(const gn_light_view *view)
@@ -51,15 +51,18 @@ static int32_t smooth_more_q16(const gn_light_view *view)
 }
 #endif
 
-static bias_terms bias_at(const gn_light_view *view, const gn_light *light, int32_t n_dot_l_q30)
+/* n_dot_l_q30: N . L of the interpolated normal as it is; only the four-term bias needs it. */
+static bias_terms bias_at(const gn_light_view *view, const gn_light *light, gn_auto_bias automatic, int32_t n_dot_l_q30)
 {
     bias_terms bias = {view->offset_q16, 0};
 #if GN_AUTO_BIAS
-    if (light->auto_bias) { /* curved */
+    if (automatic) { /* curved */
         bias.along_q16 =
             view->perspective ? gn_mul_shr(view->offset_q16 + smooth_more_q16(view), GN_SQRT2_Q16, 16) : view->auto_place;
         return bias;
     }
+#else
+    (void)automatic;
 #endif
 #if GN_RECEIVER_BIAS
     const int32_t *b = light->bias_receiver_q16;
@@ -79,9 +82,9 @@ static bias_terms bias_at(const gn_light_view *view, const gn_light *light, int3
 
 void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3], int32_t out_q16[3])
 {
-    const int32_t *to_light = frame->light[view->light_idx].to_light_q30;
-    int32_t n_dot_l = GN_RECEIVER_BIAS ? (int32_t)gn_dot_q30(n_q30, to_light) : 0;
-    bias_terms bias = bias_at(view, &frame->scene->lights[view->light_idx], n_dot_l);
+    const gn_light_state *state = &frame->light[view->light_idx];
+    int32_t n_dot_l = GN_RECEIVER_BIAS ? (int32_t)gn_dot_q30(n_q30, state->to_light_q30) : 0;
+    bias_terms bias = bias_at(view, &frame->scene->lights[view->light_idx], (gn_auto_bias)state->auto_bias, n_dot_l);
     for (int i = 0; i < 3; i++) {
         int64_t along_q30 = gn_dot_q30(n_q30, view->axis_q30[i]); /* |n| <= 1 */
         out_q16[i] = (int32_t)gn_shr64(along_q30 * bias.along_q16, 30);
@@ -116,11 +119,11 @@ void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const 
         gn_normalise_q30(to_light, towards);
         n_dot_l = (int32_t)gn_clamp64(gn_dot_q30(n_q30, to_light), -(1 << 30), (1 << 30));
     }
-    bias_terms bias = bias_at(view, scene_light, n_dot_l);
+    bias_terms bias = bias_at(view, scene_light, (gn_auto_bias)light->auto_bias, n_dot_l);
     /* texels to units: 2^27 * 2^31 */
     int64_t along = gn_bf_apply(bias.along_q16 * z, view->fit.persp.texel_per_z, -16);
 #if GN_AUTO_BIAS
-    if (scene_light->auto_bias) along += place_error_persp_q16(view, depth_q16);
+    if (light->auto_bias) along += place_error_persp_q16(view, depth_q16);
 #else
     (void)depth_q16;
 #endif

@@ -58,7 +58,7 @@ static int shadow_light(gn_pieces *p)
         p->offset_q16[1][i] = p->offset_q16[2][i] = 0;
     }
     if (!GN_SMOOTH(s)) return 1;
-    if (GN_AUTO_BIAS && scene_light->auto_bias) return 0; /* along the normal, and not linear in it */
+    if (GN_AUTO_BIAS && light->state->auto_bias) return 0; /* along the normal, and not linear in it */
     const int32_t *b = scene_light->bias_receiver_q16;
     if (GN_RECEIVER_BIAS && (b[0] | b[1] | b[3])) return 0;
     for (int k = 0; k < 3; k++) gn_bias_directional(frame, view, s->normal_q30[k], p->offset_q16[k]);
@@ -434,7 +434,7 @@ static int pick_view(gn_pieces *p, const gn_surface_light *light, int32_t cascad
     p->depth_least = -((1 << 30) >> p->depth_up);
     p->depth_most = 0x7FFF8000 >> p->depth_up;
 #if GN_AUTO_BIAS
-    gn_auto_bias form = frame->scene->lights[light->idx].auto_bias;
+    gn_auto_bias form = (gn_auto_bias)light->state->auto_bias;
     if (form) gn_bias_auto_ortho(p->view, form, light->flat_offset_q16, p->offset_q16[0]);
 #endif
     return up >= 0;

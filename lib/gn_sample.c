@@ -98,7 +98,7 @@ static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uin
 {
     const int32_t *flat = s->light[slot].flat_offset_q16;
 #if GN_AUTO_BIAS
-    gn_auto_bias form = frame->scene->lights[s->light[slot].idx].auto_bias;
+    gn_auto_bias form = (gn_auto_bias)s->light[slot].state->auto_bias;
     if (form && !GN_CURVED(s)) {
         gn_bias_auto_ortho(view, form, flat, moved_q16);
         return moved_q16;
@@ -125,7 +125,7 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
     if (!GN_BLENDED_CASCADES || !cascaded || frame->scene->shadow.blend == GN_BLEND_HARD || sample->cascade == GN_LAST_CASCADE(frame))
         return;
     view += frame->cascade[sample->cascade].next - sample->cascade;
-    int same = view->filter != GN_FILTER_DISK && !(GN_AUTO_BIAS && frame->scene->lights[s->light[slot].idx].auto_bias);
+    int same = view->filter != GN_FILTER_DISK && !(GN_AUTO_BIAS && light->auto_bias);
     if (!same) offset = own_offset(frame, s, slot, view, n_q30, moved);
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
 }
@@ -141,7 +141,7 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
     for (int i = 0; i < 3; i++) out[GN_LIGHT_POINT_AT + i] = (int32_t)gn_clamp64(at[i], -INT32_MAX, INT32_MAX);
     out[GN_LIGHT_FACING] = gn_sat32(-gn_dot_q30(unit_q30, out + GN_LIGHT_POINT_AT));
 #if GN_SHADOWS
-    int own = GN_AUTO_BIAS && !GN_CURVED(s) && frame->scene->lights[s->light[slot].idx].auto_bias; /* B6: per pixel */
+    int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* B6: per pixel */
     if (light->view_idx >= 0 && s->shadowed && !own)
         gn_bias_punctual(frame, light, n_q30, sample->value[GN_VALUE_Z], out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
 #else

@@ -137,6 +137,23 @@ static gn_status check_punctual(gn_frame *frame, const gn_light *light, uint32_t
     return GN_OK;
 }
 
+gn_auto_bias gn_scene_auto_bias(const gn_light *light)
+{
+    const int32_t *b = light->bias_receiver_q16;
+    if (light->auto_bias == GN_AUTO_BIAS_OFF) return (gn_auto_bias)0;
+    if (light->auto_bias != GN_AUTO_BIAS_DEFAULT) return light->auto_bias;
+    return light->bias_normal_q16 | b[0] | b[1] | b[2] | b[3] ? (gn_auto_bias)0 : GN_AUTO_BIAS_NORMAL;
+}
+
+/* B6. Where it is not built it is missed by who asks for it, and by a light that casts shadows and has no other bias. */
+static int auto_bias_ok(const gn_light *light)
+{
+    if ((uint32_t)light->auto_bias > GN_AUTO_BIAS_OFF) return 0;
+    if (GN_AUTO_BIAS || !gn_scene_auto_bias(light)) return 1;
+    int casts = GN_SHADOWS && light->mode != GN_LIGHT_BAKED && light->shadow_strength_uq16 > 0;
+    return light->auto_bias == GN_AUTO_BIAS_DEFAULT && !casts;
+}
+
 static int biases_ok(const gn_light *light)
 {
     int32_t lo = gn_min32(gn_min32(light->bias_constant_q16, light->bias_slope_q16),
@@ -150,7 +167,7 @@ static int biases_ok(const gn_light *light)
     lo = gn_min32(lo, light->bias_caster_q16);
     return ok && lo >= 0 && light->bias_caster_q16 <= (GN_CASTER_BIAS ? 8 << 16 : 0) &&
            light->receiver_plane <= (GN_RECEIVER_PLANE ? 1U : 0U) &&
-           (uint32_t)light->auto_bias <= (GN_AUTO_BIAS ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_OFF);
+           auto_bias_ok(light);
 }
 
 static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t idx)

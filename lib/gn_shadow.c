@@ -126,7 +126,7 @@ static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, con
 {
     const int32_t *from = value + GN_LIGHT_POINT_AT, *offset = value + GN_LIGHT_OFFSET;
 #if GN_AUTO_BIAS
-    gn_auto_bias form = frame->scene->lights[view->light_idx].auto_bias;
+    gn_auto_bias form = (gn_auto_bias)frame->light[view->light_idx].auto_bias;
     if (form && !GN_CURVED(surface))
         return gn_bias_auto_persp(view, form, surface->face_q30, sample->value[GN_VALUE_Z], from, moved_q16);
 #else

@@ -180,6 +180,7 @@ typedef struct {
     uint8_t off;          /* baked: contributes nothing at run time */
     uint8_t shadow_state; /* gn_shadow_state */
     uint8_t n_views;      /* cascades, 1, or 6 faces */
+    uint8_t auto_bias;    /* B6: GN_AUTO_BIAS_DEPTH or _NORMAL, 0: none */
     int16_t view_idx;     /* of its first gn_light_view, -1: no shadow */
 #if GN_PUNCTUAL_LIGHTS
     int32_t position_q16[3];

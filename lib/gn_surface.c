@@ -240,12 +240,12 @@ static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
     if (light->kind == GN_LIGHT_DIRECTIONAL && !view->border_lit) view += GN_LAST_CASCADE(frame); /* the first may be empty */
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     const gn_light *scene_light = &frame->scene->lights[s->light[slot].idx];
-    if (scene_light->receiver_plane || scene_light->auto_bias) face_normal(frame, s, s->face_q30);
+    if (scene_light->receiver_plane || light->auto_bias) face_normal(frame, s, s->face_q30);
 #endif
 #if GN_AUTO_BIAS
-    if (scene_light->auto_bias) {
+    if (light->auto_bias) {
         if (!GN_CURVED(s) && light->kind == GN_LIGHT_DIRECTIONAL)
-            gn_bias_auto_face(view, scene_light->auto_bias, s->face_q30, s->light[slot].flat_offset_q16);
+            gn_bias_auto_face(view, (gn_auto_bias)light->auto_bias, s->face_q30, s->light[slot].flat_offset_q16);
         return;
     }
 #endif

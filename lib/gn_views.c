@@ -33,6 +33,9 @@ static void setup_light(gn_frame *frame, uint32_t light_idx)
     state->mask_channel = light->mode == GN_LIGHT_MIXED ? (int8_t)light->mask_channel : -1;
     state->kind = (uint8_t)light->kind;
     state->off = light->mode == GN_LIGHT_BAKED;
+#if GN_SHADOWS && GN_AUTO_BIAS
+    state->auto_bias = (uint8_t)gn_scene_auto_bias(light);
+#endif
     state->view_idx = -1;
     state->n_views = 0;
     state->shadow_state = GN_SHADOW_NOT_WANTED;
@@ -124,7 +127,7 @@ static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int
     }
 #endif
 #if GN_AUTO_BIAS
-    if (light->auto_bias) {
+    if (frame->light[view->light_idx].auto_bias) {
         gn_bias_auto_view(frame, view);
         return;
     }
@@ -189,7 +192,7 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
     if (view->empty) return;
     if (view->stale) gn_ortho_rays(frame, view);
 #if GN_AUTO_BIAS
-    if (view->stale && frame->scene->lights[light_idx].auto_bias) gn_bias_auto_view(frame, view);
+    if (view->stale && frame->light[light_idx].auto_bias) gn_bias_auto_view(frame, view);
 #endif
     /* a texel that was fitted to a far narrower picture can leave a ray no fraction bits */
     if (view->stale && view->fit.ortho.ray_shift < 0) view->stale = 0;

@@ -194,7 +194,13 @@ typedef enum {
     GN_SOFTNESS_HARD,
     GN_SOFTNESS_SOFT
 } gn_softness; /* F5: the atlas's filter, 2x2, at least 5x5 */
-typedef enum { GN_AUTO_BIAS_OFF, GN_AUTO_BIAS_DEPTH, GN_AUTO_BIAS_NORMAL } gn_auto_bias; /* B6 */
+typedef enum {
+    GN_AUTO_BIAS_DEFAULT, /* normal, unless bias_normal_q16 or bias_receiver_q16 is set: that ends it. A light that casts shadows must
+                             set one of them, or say off, where automatic bias is not built */
+    GN_AUTO_BIAS_DEPTH,   /* less depth */
+    GN_AUTO_BIAS_NORMAL,  /* along the face's normal: detaches least */
+    GN_AUTO_BIAS_OFF
+} gn_auto_bias; /* B6 */
 
 typedef struct {
     gn_light_kind kind;
@@ -211,11 +217,11 @@ typedef struct {
     int32_t mask_channel;         /* M5: 0..3, -1: none; of mixed lights only */
     int32_t bias_constant_q16;    /* B1, texels, 0..64 */
     int32_t bias_slope_q16;       /* B1, 0..64 */
-    int32_t bias_normal_q16;      /* B2, 0..8; 1.0 is a good value */
+    int32_t bias_normal_q16;      /* B2, 0..8 */
     int32_t bias_receiver_q16[4]; /* B3, 0..8 each */
     int32_t bias_caster_q16;      /* B4, texels, 0..8 */
     uint32_t receiver_plane;      /* B5: 1: every tap compares with the depth of the receiver's plane */
-    gn_auto_bias auto_bias;       /* B6: the least bias that leaves a plane no acne, instead of B2 and B3 */
+    gn_auto_bias auto_bias;       /* B6: the least bias that leaves a plane no acne, in place of B2 and B3; on by default */
     int32_t near_offset_q16;      /* D9, directional: pulls the light's near plane back, world units, 0..8192 */
 } gn_light;
 

@@ -284,6 +284,10 @@ static void ask_auto_bias(void)
 {
     lights[0].auto_bias = GN_AUTO_BIAS_NORMAL;
 }
+static void ask_any_bias(void) /* none is set: the automatic one */
+{
+    lights[0].bias_normal_q16 = 0;
+}
 static void ask_refresh(void)
 {
     demo.scene.shadow.refresh[2] = 2;
@@ -333,6 +337,7 @@ static const struct {
     {"caster bias", GN_CASTER_BIAS, GN_ERR_LIGHT_BIAS, ask_caster_bias},
     {"receiver plane", GN_RECEIVER_PLANE, GN_ERR_LIGHT_BIAS, ask_plane},
     {"automatic bias", GN_AUTO_BIAS, GN_ERR_LIGHT_BIAS, ask_auto_bias},
+    {"automatic bias by default", GN_AUTO_BIAS || !GN_SHADOWS, GN_ERR_LIGHT_BIAS, ask_any_bias},
     {"refresh", GN_INCREMENTAL || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_refresh},
     {"soft", GN_FILTER_MAX >= 3 || !GN_SHADOWS, GN_ERR_LIGHT_KIND, ask_soft},
     {"importance", GN_TILE_IMPORTANCE || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_importance},

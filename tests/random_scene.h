@@ -225,7 +225,7 @@ static void random_biases(gn_light *l)
     for (int k = 0; k < 4; k++) l->bias_receiver_q16[k] = one_in(3) ? seldom(0, 0, wide ? 8 << 16 : 1 << 16) : 0;
     l->bias_caster_q16 = seldom(0, 0, wide ? 8 << 16 : 1 << 16);
     l->receiver_plane = rnd() % 4 == 0;
-    l->auto_bias = one_in(3) ? (gn_auto_bias)(rnd() % 3) : GN_AUTO_BIAS_OFF;
+    l->auto_bias = one_in(3) ? (gn_auto_bias)(rnd() % 4) : GN_AUTO_BIAS_OFF;
     l->near_offset_q16 = pick(0, one_in(2) ? RANDOM_LIMIT_Q16 : 8 << 16);
 }
 

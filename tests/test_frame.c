@@ -544,7 +544,7 @@ static const bounded bounds[] = {
     LIGHT_SIGNED(FULL_SPOT, bias_receiver_q16[3], 0, 8 * UNIT, GN_ERR_LIGHT_BIAS),
     LIGHT_SIGNED(FULL_DIRECTIONAL, bias_caster_q16, 0, 8 * UNIT, GN_ERR_LIGHT_BIAS),
     UNSIGNED(full.light[2].receiver_plane, 0, 1, GN_ERR_LIGHT_BIAS, 2),
-    LIGHT_SIGNED(FULL_SPOT, auto_bias, 0, 2, GN_ERR_LIGHT_BIAS),
+    LIGHT_SIGNED(FULL_SPOT, auto_bias, 0, 3, GN_ERR_LIGHT_BIAS),
     LIGHT_SIGNED(FULL_DIRECTIONAL, near_offset_q16, 0, 8192 * UNIT, GN_ERR_LIGHT_BIAS),
     SIGNED(demo.object[1].visible_alpha, 0, 2, GN_ERR_MATERIAL, 1),
     SIGNED(demo.object[2].caster_alpha, 0, 2, GN_ERR_MATERIAL, 2),
@@ -1007,6 +1007,33 @@ static void test_colour_exponent(void)
     CHECK_EQ_INT(crc[0], crc[1]);
     CHECK_EQ_INT(crc[2], crc[3]);
     CHECK(crc[1] != crc[2]);
+}
+
+/* B6: what a light without any bias has, until another bias of the receiver is set or it is told off. */
+static void test_automatic_by_default(void)
+{
+    static const struct {
+        gn_auto_bias automatic;
+        int32_t normal_q16, receiver_q16;
+    } set[] = {{GN_AUTO_BIAS_DEFAULT, 0, 0},    {GN_AUTO_BIAS_NORMAL, 0, 0},          {GN_AUTO_BIAS_NORMAL, GN_Q16(3), GN_Q16(2)},
+               {GN_AUTO_BIAS_OFF, 0, 0},        {GN_AUTO_BIAS_DEFAULT, GN_Q16(3), 0}, {GN_AUTO_BIAS_OFF, GN_Q16(3), 0},
+               {GN_AUTO_BIAS_DEFAULT, 0, GN_Q16(2)}, {GN_AUTO_BIAS_OFF, 0, GN_Q16(2)}};
+    uint32_t crc[sizeof set / sizeof *set];
+    for (size_t i = 0; i < sizeof set / sizeof *set; i++) {
+        demo_scene_make(&demo, 0);
+        for (uint32_t l = 0; l < demo.scene.n_lights; l++) {
+            demo.light[l].auto_bias = set[i].automatic;
+            demo.light[l].bias_normal_q16 = set[i].normal_q16;
+            demo.light[l].bias_receiver_q16[3] = set[i].receiver_q16;
+        }
+        crc[i] = crc_of(&one, &demo.scene, 48, 32, GN_FORMAT_RGB888);
+    }
+    CHECK_EQ_INT(crc[0], crc[1]);
+    CHECK_EQ_INT(crc[0], crc[2]); /* in place of the others where it is asked for */
+    CHECK(crc[0] != crc[3]);
+    CHECK_EQ_INT(crc[4], crc[5]);
+    CHECK_EQ_INT(crc[6], crc[7]);
+    CHECK(crc[4] != crc[0] && crc[6] != crc[0]);
 }
 
 /* M5: only mixed lights have masks. */
@@ -1733,6 +1760,7 @@ int main(void)
     test_empty_cascade();
     test_abandoned_frame();
     test_colour_exponent();
+    test_automatic_by_default();
     test_mask_of_mixed_lights();
     test_caster_moved_into_view();
     test_disk_offset_per_cascade();

@@ -114,7 +114,7 @@ static void use_light(compiled *c, const gn_light *l, bool casts, const char *na
     if (r[0] || r[1] || r[2] || r[3]) USE(receiver_bias, 1, "bias_receiver of light '%s'", name);
     if (l->bias_caster_q16) USE(caster_bias, 1, "bias_caster of light '%s'", name);
     if (l->receiver_plane) USE(receiver_plane, 1, "receiver_plane of light '%s'", name);
-    if (l->auto_bias) USE(auto_bias, 1, "auto_bias of light '%s'", name);
+    if (l->auto_bias != GN_AUTO_BIAS_OFF) USE(auto_bias, 1, "auto_bias of light '%s'", name);
     if (l->softness == GN_SOFTNESS_SOFT && (s->filter != GN_FILTER_DISK || s->other_filter != GN_FILTER_DISK))
         USE(filter_max, GN_FILTER_5X5, "soft light '%s'", name);
     if (l->softness == GN_SOFTNESS_HARD && (s->filter != GN_FILTER_HARD || s->other_filter != GN_FILTER_HARD))

@@ -567,7 +567,7 @@ static void add_light_features(trial *b, size_t i)
     const gn_light *l = &b->c->fixed.lights[i];
     const int32_t *r = l->bias_receiver_q16;
     if (l->softness != GN_SOFTNESS_DEFAULT) add(b, LIGHT_SOFTNESS, i);
-    if (r[0] || r[1] || r[2] || r[3] || l->bias_caster_q16 || l->receiver_plane || l->auto_bias) add(b, LIGHT_BIAS, i);
+    if (r[0] || r[1] || r[2] || r[3] || l->bias_caster_q16 || l->receiver_plane || l->auto_bias != GN_AUTO_BIAS_OFF) add(b, LIGHT_BIAS, i);
 }
 
 static void try_features(trial *b)

@@ -25,8 +25,7 @@ _Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7
                    (int)GN_LIGHT_POINT == (int)SCENE_LIGHT_POINT && (int)GN_LIGHT_MIXED == (int)SCENE_MIXED &&
                    (int)GN_LIGHT_BAKED == (int)SCENE_BAKED && (int)GN_SOFTNESS_HARD == (int)SCENE_SOFT_HARD &&
                    (int)GN_SOFTNESS_SOFT == (int)SCENE_SOFT_SOFT && (int)GN_ALPHA_CLIP == (int)SCENE_ALPHA_CLIP &&
-                   (int)GN_ALPHA_DITHER == (int)SCENE_ALPHA_DITHER && (int)GN_AUTO_BIAS_DEPTH == (int)SCENE_AUTO_BIAS_DEPTH &&
-                   (int)GN_AUTO_BIAS_NORMAL == (int)SCENE_AUTO_BIAS_NORMAL,
+                   (int)GN_ALPHA_DITHER == (int)SCENE_ALPHA_DITHER,
                "the scene's enumerations are the library's");
 
 /* How a mesh is stored. */
@@ -403,6 +402,9 @@ static void quantise_reach(gn_light *out, const scene_light *l, int world_exp)
 
 static int quantise_light(gn_light *out, const scene_light *l, int world_exp, char *error, size_t error_bytes)
 {
+    static const gn_auto_bias auto_bias[] = {[SCENE_AUTO_BIAS_OFF] = GN_AUTO_BIAS_OFF,
+                                             [SCENE_AUTO_BIAS_DEPTH] = GN_AUTO_BIAS_DEPTH,
+                                             [SCENE_AUTO_BIAS_NORMAL] = GN_AUTO_BIAS_NORMAL};
     out->kind = (gn_light_kind)l->kind;
     out->mode = (gn_light_mode)l->mode;
     out->softness = (gn_softness)l->softness;
@@ -415,7 +417,7 @@ static int quantise_light(gn_light *out, const scene_light *l, int world_exp, ch
     for (int i = 0; i < 4; i++) out->bias_receiver_q16[i] = (int32_t)fixed(l->bias_receiver[i], 16);
     out->bias_caster_q16 = (int32_t)fixed(l->bias_caster, 16);
     out->receiver_plane = l->receiver_plane;
-    out->auto_bias = (gn_auto_bias)l->auto_bias;
+    out->auto_bias = auto_bias[l->auto_bias];
     if (l->kind == SCENE_LIGHT_DIRECTIONAL) {
         out->near_offset_q16 = (int32_t)fixed(l->near_offset, 16 + world_exp);
     } else {
