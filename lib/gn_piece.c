@@ -78,15 +78,20 @@ static int find_shadow(gn_pieces *p)
 }
 #endif
 
+/* Light of all lamps together, from straight ahead, that 32 bits of colours in Q24 are made for: 4. Factors that are found between
+ * vertices, cosines and colours of vertices, stay within +-2 all over a piece (stays_within_2): 2^27 for what arrives, 2^28 times a
+ * colour, and a row of that, stepped from end to end, below 2^30. */
+#define GN_PIECE_LIGHT_Q20 (1U << 22)
+
 int gn_pieces_fit(const gn_frame *frame, const gn_surface *s)
 {
     if (GN_K(frame, persp_step) == 1 || frame->picture.format == GN_FORMAT_RAW32) return 0;
     if ((s->textured | s->masked | s->baked | s->specular) || s->n_punctual || s->plane.det <= 0) return 0;
-    for (int c = 0; c < 3; c++)
-        if (s->base_q20[c] >= 1U << 25) return 0;
-    for (uint32_t i = 0; i < s->n_lights; i++)
-        for (int c = 0; c < 3; c++)
-            if (s->light[i].radiance_uq16[c] >= 1U << 20) return 0;
+    for (int c = 0; c < 3; c++) {
+        uint64_t all_q20 = s->base_q20[c]; /* < 2^30, and 2^36 per light */
+        for (uint32_t i = 0; i < s->n_lights; i++) all_q20 += (uint64_t)s->light[i].radiance_uq16[c] << 4;
+        if (all_q20 >= GN_PIECE_LIGHT_Q20) return 0;
+    }
     return 1;
 }
 
@@ -137,7 +142,8 @@ static int find_middle(const gn_pieces *p, middle *m)
     for (int k = 0; p->surface->has_bary && k < 2; k++) {
         const gn_slope *b = &p->b[k];
         int32_t at = gn_along(b, dx, dy), up = 1 << (m->clz - 2);
-        if ((gn_abs32(at) | gn_abs32(b->dx) | gn_abs32(b->dy)) >> 2 >= (uint32_t)w) return 0; /* within +-4 */
+        uint32_t most = (uint32_t)w + ((uint32_t)w >> 1); /* within +-3/2, and slopes, with what w adds, +-27/16 */
+        if (gn_abs32(at) >= most || gn_abs32(b->dx) >= most || gn_abs32(b->dy) >= most) return 0;
         gn_slope *out = &m->b_q28[k];
         out->at = gn_mul_high(at, half) * up;
         out->dx = gn_mul_high(b->dx, half) * up - gn_mul_high(out->at, m->w_dx_q30) * 4;
@@ -146,7 +152,8 @@ static int find_middle(const gn_pieces *p, middle *m)
     return 1;
 }
 
-/* v0 + b1 d1 + b2 d2 with `drop` of the 28 fraction bits of b dropped, on to the unit of v0. */
+/* v0 + b1 d1 + b2 d2 with `drop` of the 28 fraction bits of b dropped, on to the unit of v0. With |v0| <= 1 and |d| <= 2 in that unit it
+ * is within +-7, its slopes within +-6.75: below 2^31 for a unit of 2^28. */
 static gn_slope interpolate(const middle *m, int32_t v0, int32_t d1, int32_t d2, int32_t drop)
 {
     const gn_slope *a = &m->b_q28[0], *b = &m->b_q28[1];
@@ -156,10 +163,10 @@ static gn_slope interpolate(const middle *m, int32_t v0, int32_t d1, int32_t d2,
     return out;
 }
 
-static gn_slope product_q24(const gn_slope *f, const gn_slope *c)
+/* Times a factor below 4; c stays within +-2. */
+static gn_slope times_q24(const gn_slope *c, int32_t factor)
 {
-    gn_slope out = {gn_mul_q24(f->at, c->at), gn_mul_q24(f->at, c->dx) + gn_mul_q24(f->dx, c->at),
-                    gn_mul_q24(f->at, c->dy) + gn_mul_q24(f->dy, c->at)};
+    gn_slope out = {gn_mul_q24(factor, c->at), gn_mul_q24(factor, c->dx), gn_mul_q24(factor, c->dy)};
     return out;
 }
 
@@ -168,10 +175,17 @@ typedef struct {
     uint32_t w, h;
 } half_size;
 
-/* By how much a value changes from the middle of a piece to its corners, without the lower `drop` bits. */
+/* By how much a value changes from the middle of a piece to its corners, without the lower `drop` bits. Halves are at most 32 and 4: it
+ * fits for slopes below 2^26, or 2^31 with 5 bits dropped. */
 static uint32_t change_of(const gn_slope *s, half_size half, int32_t drop)
 {
     return (gn_abs32(s->dx) >> drop) * half.w + (gn_abs32(s->dy) >> drop) * half.h;
+}
+
+/* A factor in Q24, its slopes as interpolate() leaves them. */
+static int stays_within_2(const gn_slope *factor, half_size half)
+{
+    return (gn_abs32(factor->at) >> 8) + change_of(factor, half, 8) <= 2U << 16;
 }
 
 /* How far linear colours may stray from the true ones: 2^-this. */
@@ -209,7 +223,8 @@ static int find_normal(const gn_pieces *p, const middle *m, half_size half, midd
     return 1;
 }
 
-/* n . L: (n' . L - (n . L) (n' . n)) / |N| is its change, n' that of N. Returns 0 if it changes sign over the piece. */
+/* n . L: (n' . L - (n . L) (n' . n)) / |N| is its change, n' that of N. Returns 0 if it changes sign over the piece.
+ * Slopes are below 2: cosines are limited to 1. */
 static int cosine(const middle_normal *normal, const gn_light_state *light, half_size half, gn_slope *out)
 {
     const int32_t *to_light = light->to_light_q30, *unit = normal->unit_q30;
@@ -228,6 +243,7 @@ static int cosine(const middle_normal *normal, const gn_light_state *light, half
 }
 #endif
 
+/* All of it within GN_PIECE_LIGHT_Q20 times 2. */
 static void add_light(gn_slope *sum, uint32_t colour_uq16, const gn_slope *cosine_q24)
 {
     sum->at += (int32_t)((int64_t)(int32_t)colour_uq16 * cosine_q24->at >> 16);
@@ -258,6 +274,7 @@ static int arriving(gn_pieces *p, const middle *m, half_size half)
 #if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
         const int32_t *at = light->vertex_cosine_q24;
         if (GN_SMOOTH(s) && !turns) facing = interpolate(m, at[0], at[1], at[2], 28);
+        if (!stays_within_2(&facing, half)) return 0;
 #endif
 #endif
         for (int c = 0; c < 3; c++) {
@@ -276,10 +293,11 @@ static int colours(gn_pieces *p, const middle *m, half_size half)
     if (!arriving(p, m, half)) return 0;
     for (int c = 0; GN_COLOURED(s) && c < 3; c++) {
         gn_slope colour = interpolate(m, s->rgb_q16[0][c] * 256, s->rgb_q16[1][c], s->rgb_q16[2][c], 20);
+        if (!stays_within_2(&colour, half)) return 0;
         p->tint_q24[c] = colour;
-        if (p->tinted) continue;
-        p->dark_q24[c] = product_q24(&p->dark_q24[c], &colour);
-        p->lit_q24[c] = product_q24(&p->lit_q24[c], &colour);
+        if (p->tinted) continue; /* else what arrives is the same all over */
+        p->dark_q24[c] = times_q24(&colour, p->dark_q24[c].at);
+        p->lit_q24[c] = times_q24(&colour, p->lit_q24[c].at);
     }
     return 1;
 }

@@ -1036,6 +1036,40 @@ static void test_automatic_by_default(void)
     CHECK(crc[4] != crc[0] && crc[6] != crc[0]);
 }
 
+/* Lights that are harmless alone but sum up past the range of what pieces step. */
+static void test_many_bright_lights(void)
+{
+    enum { N_LIGHTS = 32 };
+    static gn_light lights[N_LIGHTS];
+    static const uint16_t rgb[4 * 3] = {65535, 30000, 30000, 30000, 65535, 30000, 30000, 30000, 65535, 50000, 50000, 50000};
+    uint32_t crc[3];
+    for (int i = 0; i < 3; i++) {
+        gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
+        canvas c;
+        demo_scene_make(&demo, 0);
+        for (int l = 0; l < N_LIGHTS; l++) {
+            lights[l] = demo.light[0];
+            lights[l].shadow_strength_uq16 = 0;
+            lights[l].direction[0] = lights[l].direction[2] = l;
+            lights[l].direction[1] = -1000;
+            for (int k = 0; k < 3; k++) lights[l].colour_uq16[k] = GN_UQ16(15.9);
+        }
+        demo.scene.lights = lights;
+        demo.scene.n_lights = N_LIGHTS;
+        demo.ground.rgb_uq16 = rgb;
+        demo.scene.objects = &demo.object[i < 2 ? 2 : 1]; /* the ground; the ball */
+        demo.scene.n_objects = 1;
+        canvas_begin(&c, p.width, p.height, p.format);
+        CHECK(gn_init(&one, &p) == GN_OK);
+        one.frame.knobs.persp_step = i ? 8 : 1;
+        CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
+        crc[i] = canvas_crc(&c);
+        canvas_end(&c);
+    }
+    CHECK_EQ_INT(crc[1], crc[0]); /* white ground */
+    CHECK(crc[2] != crc[1]);
+}
+
 /* M5: only mixed lights have masks. */
 static void test_mask_of_mixed_lights(void)
 {
@@ -1761,6 +1795,7 @@ int main(void)
     test_abandoned_frame();
     test_colour_exponent();
     test_automatic_by_default();
+    test_many_bright_lights();
     test_mask_of_mixed_lights();
     test_caster_moved_into_view();
     test_disk_offset_per_cascade();
