@@ -104,24 +104,13 @@ static void fill_grey4(uint8_t *row, int32_t at, int32_t n, uint32_t level)
 }
 #endif
 
-/* Two pixels a word where they lie so. */
-static void fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)
-{
-    uint32_t end = i + n, both = packed | packed << 16;
-    if (i & 1U && i < end) pixels->rgb565[i++] = (uint16_t)packed;
-    for (; i + 8 <= end; i += 8)
-        pixels->raw[i / 2] = pixels->raw[i / 2 + 1] = pixels->raw[i / 2 + 2] = pixels->raw[i / 2 + 3] = both;
-    for (; i + 2 <= end; i += 2) pixels->raw[i / 2] = both;
-    if (i < end) pixels->rgb565[i] = (uint16_t)packed;
-}
-
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed)
 {
     int32_t at = x - rows->x0, row = y - rows->y0, i = row * rows->width + at;
 #if GN_OTHER_FORMATS
     uint8_t *bytes = rows->pixels->bytes;
     if (frame->picture.format == GN_FORMAT_RGB565 || frame->picture.format == GN_FORMAT_RGB565_SWAPPED) {
-        fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
+        gn_pixel_fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
     } else if (frame->picture.format == GN_FORMAT_GREY8) {
         while (n-- > 0) bytes[i++] = (uint8_t)packed;
     } else if (frame->picture.format == GN_FORMAT_GREY4) {
@@ -138,7 +127,7 @@ void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
     }
 #else
     (void)frame;
-    fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
+    gn_pixel_fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
 #endif
 }
 

@@ -26,6 +26,21 @@ void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
 void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3]);
 #endif
 
+/* Stores a 16-bit pixel n times from index i of the tile on, two a word where there are many. */
+static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)
+{
+    uint32_t end = i + n;
+    if (n >= 8) {
+        uint32_t both = packed | packed << 16, word = (i + 1) >> 1, words = end >> 1;
+        if (i & 1U) pixels->rgb565[i] = (uint16_t)packed;
+        for (; word + 4 <= words; word += 4)
+            pixels->raw[word] = pixels->raw[word + 1] = pixels->raw[word + 2] = pixels->raw[word + 3] = both;
+        for (; word < words; word++) pixels->raw[word] = both;
+        i = 2 * words;
+    }
+    for (; i < end; i++) pixels->rgb565[i] = (uint16_t)packed;
+}
+
 /* Stores one packed pixel at (x, y) of the picture; RGB565 is what most panels take, so it goes first. */
 static inline void gn_pixel_store(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t packed)
 {

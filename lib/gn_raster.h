@@ -14,4 +14,10 @@ static inline uint32_t gn_raster_id(const gn_frame *frame, uint32_t tri_idx)
     return frame->stats.n_triangles - tri_idx;
 }
 
+/* The triangle of an identity. */
+static inline const gn_tri *gn_raster_tri(const gn_frame *frame, uint32_t id)
+{
+    return &frame->tri[frame->stats.n_triangles - id];
+}
+
 #endif

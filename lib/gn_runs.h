@@ -7,12 +7,48 @@
 #ifndef GN_RUNS_H
 #define GN_RUNS_H
 
+#include "gn_hint.h"
 #include "gnomon.h"
 
 #define GN_RUN_NONE ((gn_run_idx) ~(gn_run_idx)0)
 
-/* Turns the tile's n_rows rows of cells into lists of runs. */
-void gn_runs_build(const gn_frame *frame, gn_scratch *scratch, int32_t width, int32_t n_rows);
+/* Begins a tile: its lists are empty. */
+void gn_runs_clear(gn_scratch *scratch);
+
+/* Passes over the background that ends before `end`: a cell that nothing covers is 0. */
+static inline uint32_t *gn_runs_skip(uint32_t *row, uint32_t *end)
+{
+    while (end - row >= 4 && !(end[-1] | end[-2] | end[-3] | end[-4])) end -= 4;
+    while (end > row && !end[-1]) end--;
+    return end;
+}
+
+/* The first cell of the run that ends with `last`, which is not the background's. */
+static inline uint32_t *gn_runs_first(uint32_t *row, uint32_t *last, uint32_t id_mask)
+{
+    uint32_t id = *last;
+    while (last > row && !((last[-1] ^ id) & id_mask)) {
+        last--;
+        GN_KEEP(last); /* one pointer */
+    }
+    return last;
+}
+
+/* Links a run at the head of its list: runs come from the tile's last to its first, so that each list begins with what comes first. */
+static inline void gn_runs_link(gn_scratch *scratch, uint32_t id, uint32_t first, uint32_t n_px)
+{
+    gn_run_idx *list = &scratch->run_list[id & (GN_RUN_LISTS - 1)];
+    uint32_t next = *list == GN_RUN_NONE ? first : *list;
+    scratch->cell[first] = next << 16 | id;
+    if (n_px > 1) scratch->cell[first + 1] = n_px << 16 | id;
+    *list = (gn_run_idx)first;
+}
+
+/* Leaves a run out: nothing that is linked goes on in its cells. */
+static inline void gn_runs_drop(uint32_t *first)
+{
+    *first = 0;
+}
 
 /* Walks the runs of one triangle, top down and left to right, and takes them from their list. */
 typedef struct {

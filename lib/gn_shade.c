@@ -223,6 +223,79 @@ static void shade_triangle(gn_shading *s, uint32_t tri_idx)
     } while (gn_runs_take(&taker, stride, &first, &n_px));
 }
 
+/* ---- Runs ---------------------------------------------------------------------------------------------------------- */
+
+/* An object whose triangles all look alike, wherever they are: unlit, of one colour. Its pixels are filled in as its runs are found. */
+typedef struct {
+    uint32_t object_idx;
+    int plain;
+    uint32_t packed;
+} object_look;
+
+#define LOOKS 8 /* a power of two */
+
+static GN_NOINLINE object_look look_at(gn_shading *s, object_look looks[LOOKS], uint32_t object_idx)
+{
+    const gn_object *object = &s->frame->scene->objects[object_idx];
+    object_look *look = &looks[object_idx & (LOOKS - 1)];
+    uint32_t q20[3];
+    if (look->object_idx != object_idx) {
+        look->object_idx = object_idx;
+        look->plain = object->flags & GN_OBJECT_UNLIT && !(GN_VERTEX_COLOURS && object->mesh->rgb_uq16) &&
+                      !(GN_TEXTURES && object->texture) && s->frame->picture.format != GN_FORMAT_RAW32;
+        for (int c = 0; c < 3; c++) q20[c] = object->albedo_uq16[c] << 4;
+        if (look->plain) look->packed = pack(s, q20);
+    }
+    return *look;
+}
+
+static GN_NOINLINE void fill_other(gn_shading *s, uint32_t at, uint32_t n_px, uint32_t packed)
+{
+    int32_t x = (int32_t)(at % (uint32_t)s->rows.width), y = (int32_t)(at / (uint32_t)s->rows.width);
+    gn_pixel_fill(s->frame, &s->rows, s->rect.x0 + x, s->rect.y0 + y, (int32_t)n_px, packed);
+}
+
+/* Links the tile's runs, but for those of plain objects, which it fills in. Returns how many are linked. */
+static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
+{
+    const gn_frame *frame = s->frame;
+    gn_scratch *scratch = s->scratch;
+    const int is_565 = !GN_OTHER_FORMATS || frame->picture.format == GN_FORMAT_RGB565;
+    uint32_t id_mask = (1U << frame->id_bits) - 1, n_linked = 0, width = (uint32_t)s->rows.width, at = (uint32_t)n_rows * width;
+    uint32_t *row = scratch->cell + n_rows * GN_K(frame, tile_width), *end, *first;
+    object_look looks[LOOKS], look = {UINT32_MAX, 0, 0};
+    for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) looks[i] = look;
+    gn_runs_clear(scratch);
+    while (row > scratch->cell) {
+        row -= GN_K(frame, tile_width);
+        at -= width;
+        for (end = row + width; end > row; end = first) {
+            if (!end[-1]) {
+                first = gn_runs_skip(row, end - 1);
+                continue;
+            }
+            first = gn_runs_first(row, end - 1, id_mask);
+            uint32_t id = *first & id_mask, n_px = (uint32_t)(end - first);
+            if (!GN_SIZE_FIRST) {
+                uint32_t object_idx = gn_raster_tri(frame, id)->object_idx;
+                if (look.object_idx != object_idx) look = look_at(s, looks, object_idx);
+            }
+            if (look.plain) {
+                uint32_t i = at + (uint32_t)(first - row);
+                GN_COUNT(runs, 1);
+                GN_COUNT(filled, n_px);
+                gn_runs_drop(first);
+                if (is_565) gn_pixel_fill_16(&scratch->pixel, i, n_px, look.packed);
+                else fill_other(s, i, n_px, look.packed);
+            } else {
+                gn_runs_link(scratch, id, (uint32_t)(first - scratch->cell), n_px);
+                n_linked++;
+            }
+        }
+    }
+    return n_linked;
+}
+
 static void clear_background(gn_shading *s)
 {
     const gn_frame *frame = s->frame;
@@ -251,13 +324,13 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     s->rows.width = s->rect.x1 - s->rect.x0;
     s->rows.x0 = s->rect.x0;
     s->rows.y0 = s->rect.y0;
+    clear_background(s);
+    if (!sort_runs(s, s->rect.y1 - s->rect.y0)) return;
     s->cache.object = NULL;
     s->cache.lights = UINT64_MAX;
 #if GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS
     s->cache.lights = gn_punctual_in_tile(frame, &s->rect);
 #endif
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
-    clear_background(s);
-    gn_runs_build(frame, scratch, s->rows.width, s->rect.y1 - s->rect.y0);
     for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++) shade_triangle(s, frame->tile_ref[i]);
 }

@@ -309,10 +309,6 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
     s->smooth = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
     s->first_value = GN_VALUE_Z;
     colours(s, idx);
-    if (s->object->flags & GN_OBJECT_UNLIT && !GN_COLOURED(s) && !s->object->texture && !GN_RAW_VIEWS) {
-        begin_lighting(frame, cache, s, v); /* one colour: nothing to interpolate */
-        return;
-    }
     for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &cache->to_view, mesh, tri->object_idx, idx[i]);
     gn_plane_setup(&s->plane, v[0], v[1], v[2]);
     s->z_min_q16 = gn_max32(gn_min32(v[0][2], gn_min32(v[1][2], v[2][2])), frame->cam.near_q16);
