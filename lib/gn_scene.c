@@ -29,6 +29,16 @@ gn_status gn_fail_capacity(gn_frame *frame, gn_status status, uint32_t needed, u
     return status;
 }
 
+#if GN_VALIDATION || (GN_SHADOWS && GN_AUTO_BIAS)
+gn_auto_bias gn_scene_auto_bias(const gn_light *light)
+{
+    const int32_t *b = light->bias_receiver_q16;
+    if (light->auto_bias == GN_AUTO_BIAS_OFF) return (gn_auto_bias)0;
+    if (light->auto_bias != GN_AUTO_BIAS_DEFAULT) return light->auto_bias;
+    return light->bias_normal_q16 | b[0] | b[1] | b[2] | b[3] ? (gn_auto_bias)0 : GN_AUTO_BIAS_NORMAL;
+}
+#endif
+
 #if GN_VALIDATION
 static int above(const uint32_t v[3], uint32_t limit)
 {
@@ -137,16 +147,8 @@ static gn_status check_punctual(gn_frame *frame, const gn_light *light, uint32_t
     return GN_OK;
 }
 
-gn_auto_bias gn_scene_auto_bias(const gn_light *light)
-{
-    const int32_t *b = light->bias_receiver_q16;
-    if (light->auto_bias == GN_AUTO_BIAS_OFF) return (gn_auto_bias)0;
-    if (light->auto_bias != GN_AUTO_BIAS_DEFAULT) return light->auto_bias;
-    return light->bias_normal_q16 | b[0] | b[1] | b[2] | b[3] ? (gn_auto_bias)0 : GN_AUTO_BIAS_NORMAL;
-}
-
 /* B6. Where it is not built it is missed by who asks for it, and by a light that casts shadows and has no other bias. */
-static int auto_bias_ok(const gn_light *light)
+static int bias_is_built(const gn_light *light)
 {
     if ((uint32_t)light->auto_bias > GN_AUTO_BIAS_OFF) return 0;
     if (GN_AUTO_BIAS || !gn_scene_auto_bias(light)) return 1;
@@ -167,7 +169,7 @@ static int biases_ok(const gn_light *light)
     lo = gn_min32(lo, light->bias_caster_q16);
     return ok && lo >= 0 && light->bias_caster_q16 <= (GN_CASTER_BIAS ? 8 << 16 : 0) &&
            light->receiver_plane <= (GN_RECEIVER_PLANE ? 1U : 0U) &&
-           auto_bias_ok(light);
+           bias_is_built(light);
 }
 
 static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t idx)
