@@ -103,47 +103,41 @@ static inline gn_texels texels_at(const gn_light_view *view, int32_t u, int32_t 
 }
 
 /* Taps are limited to the tile (P8). */
-static uint32_t lit(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
+static int is_dark(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
 {
     int32_t last = view->tile_texels - 1, in_u = u < 0 ? 0 : u > last ? last : u;
-    if (BORDER_LIT(view) && in_u != u) return 1;
-    return gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)in_u) >= least;
+    if (BORDER_LIT(view) && in_u != u) return 0;
+    return gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)in_u) < least;
 }
 
-/* Sum of the weights of the texels of row v, n from u on, that let the receiver be lit, wherever they lie. */
-static uint32_t sum_any(const lookup *l, int32_t u, int32_t v, int32_t n, const uint32_t *w)
+/* Texels of row v, n from u on, wherever they lie: bit i is set where texel i keeps the receiver dark. */
+static uint32_t dark_anywhere(const lookup *l, int32_t u, int32_t v, int32_t n)
 {
     const gn_light_view *view = l->view;
-    int32_t last = view->tile_texels - 1, in_v = v < 0 ? 0 : v > last ? last : v, all = BORDER_LIT(view) && in_v != v;
+    int32_t last = view->tile_texels - 1, in_v = v < 0 ? 0 : v > last ? last : v;
+    uint32_t dark = 0;
     GN_COUNT(taps_edge, 1);
+    if (BORDER_LIT(view) && in_v != v) return 0;
     gn_texels row = texels_at(view, 0, in_v);
-    uint32_t sum = 0;
 #if GN_RECEIVER_PLANE
     if (l->sloped) {
         int64_t least_q32 = least_on_plane(l, gn_max32(0, gn_min32(u, last)), in_v); /* of the texel that is read */
         for (int32_t i = 0; i < n; i++, u++) {
-            if (all || lit(view, row, u, limited(view, least_q32))) sum += w[i];
+            dark |= (uint32_t)is_dark(view, row, u, limited(view, least_q32)) << i;
             if (u >= 0 && u < last) least_q32 += (int64_t)l->slope_q28[0] * 16;
         }
-        return sum;
+        return dark;
     }
 #endif
-    for (int32_t i = 0; i < n; i++)
-        if (all || lit(view, row, u + i, l->least)) sum += w[i];
-    return sum;
+    for (int32_t i = 0; i < n; i++) dark |= (uint32_t)is_dark(view, row, u + i, l->least) << i;
+    return dark;
 }
 
-static uint32_t tap(const lookup *l, int32_t u, int32_t v)
-{
-    static const uint32_t one = 1;
-    return sum_any(l, u, v, 1, &one);
-}
-
-/* A tap of the hard filter or the disk: one of few. */
+/* A tap of the hard filter, the disk or 2x2 at the border. */
 static inline uint32_t lone_tap(const lookup *l, int32_t u, int32_t v)
 {
     GN_COUNT(taps_lone, 1);
-    if (!plain(l, u, v, 1)) return tap(l, u, v);
+    if (!plain(l, u, v, 1)) return !dark_anywhere(l, u, v, 1);
     return gn_texel_load(texels_at(l->view, u, v), GN_VIEW_BITS(l->view), 0) >= l->least;
 }
 
@@ -210,10 +204,11 @@ static uint32_t bilinear(const lookup *l, int32_t bits)
         l10 = gn_texel_load(bottom, depth_bits, 0) >= l->least;
         l11 = gn_texel_load(bottom, depth_bits, 1) >= l->least;
     } else {
-        l00 = tap(l, u, v);
-        l01 = tap(l, u + 1, v);
-        l10 = tap(l, u, v + 1);
-        l11 = tap(l, u + 1, v + 1);
+        uint32_t dark = dark_anywhere(l, u, v, 2) | dark_anywhere(l, u, v + 1, 2) << 2;
+        l00 = ~dark & 1U;
+        l01 = ~dark >> 1 & 1U;
+        l10 = ~dark >> 2 & 1U;
+        l11 = ~dark >> 3 & 1U;
     }
     if (l00 + l01 + l10 + l11 == 4) return 65536;
     if (l00 + l01 + l10 + l11 == 0) return 0;
@@ -253,27 +248,48 @@ void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 }
 #endif
 
-/* Sum of the weights of the lit texels among n of a row. */
-static inline uint32_t sum_plain(gn_texels row, int32_t depth_bits, uint32_t least, int32_t n, const uint32_t *w)
+/* Which of n x n texels from (u, v) on keep the receiver dark: bit i of dark[j] for texel i of row j. Returns what any row has, and in
+ * the upper half what all have. */
+static uint32_t find_dark(const lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark)
 {
-    if (depth_bits == 16) return gn_kernel_tent_row16(row.d16, least, n, w);
-    uint32_t sum = 0;
-    for (int32_t i = 0; i < n; i++)
-        if (gn_texel_load(row, depth_bits, (uint32_t)i) >= least) sum += w[i];
-    return sum;
+    int32_t depth_bits = GN_VIEW_BITS(l->view);
+    int is_plain = plain(l, u, v, n);
+    uint32_t any = 0, all = 255;
+    if (is_plain && depth_bits == 16)
+        return gn_kernel_dark_texels16(texels_at(l->view, u, v).d16, l->view->tile_texels, l->least, n, dark);
+    for (int32_t j = 0; j < n; j++) {
+        uint32_t row_dark = 0;
+        if (is_plain) {
+            gn_texels row = texels_at(l->view, u, v + j);
+            for (int32_t i = 0; i < n; i++) row_dark |= (uint32_t)(gn_texel_load(row, depth_bits, (uint32_t)i) < l->least) << i;
+        } else row_dark = dark_anywhere(l, u, v + j, n);
+        dark[j] = (uint8_t)row_dark;
+        any |= row_dark;
+        all &= row_dark;
+    }
+    return any | all << 16;
 }
 
-/* The same for n x n texels from (u, v) on. narrow: products stay below 2^32. */
-static uint64_t weighted(const lookup *l, int32_t u, int32_t v, int32_t n, const uint32_t *wu, const uint32_t *wv, int narrow)
+/* Sums of the weights in all subsets of four: bit i for weight i. */
+static void subset_sums(uint32_t sums[16], const uint32_t w[4])
 {
-    int is_plain = plain(l, u, v, n);
-    gn_texels row = is_plain ? texels_at(l->view, u, v) : l->view->depth;
-    size_t pitch = is_plain ? l->view->tile_texels : 0;
+    uint32_t a = w[0], b = w[1], c = w[2], d = w[3], ab = a + b, cd = c + d;
+    sums[0] = 0, sums[1] = a, sums[2] = b, sums[3] = ab;
+    sums[4] = c, sums[5] = a + c, sums[6] = b + c, sums[7] = ab + c;
+    sums[8] = d, sums[9] = a + d, sums[10] = b + d, sums[11] = ab + d;
+    sums[12] = cd, sums[13] = a + cd, sums[14] = b + cd, sums[15] = ab + cd;
+}
+
+/* Sum of the products of weights of the dark texels of n x n. narrow: they stay below 2^32 together. */
+static uint64_t weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv, int narrow)
+{
+    uint32_t left[16], right[16];
     uint64_t sum = 0;
+    subset_sums(left, wu);
+    if (n > 4) subset_sums(right, wu + 4);
     for (int32_t j = 0; j < n; j++) {
-        int32_t depth_bits = GN_VIEW_BITS(l->view);
-        uint32_t across = is_plain ? sum_plain(row, depth_bits, l->least, n, wu) : sum_any(l, u, v + j, n, wu);
-        row = gn_texels_at(row, depth_bits, pitch);
+        uint32_t across = left[dark[j] & 15U];
+        if (n > 4) across += right[dark[j] >> 4];
         if (narrow) sum += across * wv[j];
         else sum += (uint64_t)across * wv[j];
     }
@@ -294,24 +310,30 @@ static uint32_t tent(const gn_frame *frame, const lookup *l, int32_t k, int32_t 
     uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX], answer;
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
+    uint8_t dark[GN_TENT_TAPS_MAX];
     if (decided(l, u0, v0, n, &answer)) return answer;
     GN_COUNT(undecided, 1);
     GN_COUNT(taps_tent, n * n);
+    uint32_t found = find_dark(l, u0, v0, n, dark);
+    if (!(found & 0xFFFFU)) return 65536;
+    if (found >> 16 == (1U << n) - 1) return 0;
 #if GN_LINEAR_KERNELS
     if (frame->scene->shadow.kernel == GN_KERNEL_LINEAR) {
         gn_linear_weights(wu, k, fraction(cu, bits), bits);
         gn_linear_weights(wv, k, fraction(cv, bits), bits);
         /* products <= 52 F * 16 F, their sum <= 52^2 F^2 <= 2704 * 2^24 */
-        uint64_t sum = weighted(l, u0, v0, n, wu, wv, bits <= 11);
-        return share(sum, 2 * bits, k == 1 ? 268435456U : k == 2 ? 29826162U : 1588375U); /* round(2^32 / 16, 144, 2704) */
+        uint32_t whole = k == 1 ? 16 : k == 2 ? 144 : 2704;
+        uint64_t sum = ((uint64_t)whole << 2 * bits) - weighted(dark, n, wu, wv, bits <= 11);
+        return share(sum, 2 * bits, k == 1 ? 268435456U : k == 2 ? 29826162U : 1588375U); /* round(2^32 / whole) */
     }
 #endif
     (void)frame;
     gn_tent_weights(wu, k, fraction(cu, bits), bits);
     gn_tent_weights(wv, k, fraction(cv, bits), bits);
     /* along a row <= 49 F^2 < 2^30, all <= (2k + 1)^4 F^4 <= 2401 * 2^48 */
-    uint64_t sum = weighted(l, u0, v0, n, wu, wv, 0);
-    return share(sum, 4 * bits, k == 1 ? 53024288U : k == 2 ? 6871948U : 1788824U); /* round(2^32 / 81, 625, 2401) */
+    uint32_t whole = k == 1 ? 81 : k == 2 ? 625 : 2401;
+    uint64_t sum = ((uint64_t)whole << 4 * bits) - weighted(dark, n, wu, wv, 0);
+    return share(sum, 4 * bits, k == 1 ? 53024288U : k == 2 ? 6871948U : 1788824U); /* round(2^32 / whole) */
 }
 #endif
 
@@ -444,7 +466,7 @@ int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn
     int32_t n = gn_max32(last[0] - first[0], last[1] - first[1]) + 1;
     uint32_t least = least_of(frame, view, gn_min32(a->depth_q31, b->depth_q31));
     uint32_t most = least_of(frame, view, gn_max32(a->depth_q31, b->depth_q31));
-    if (n <= 6) return texels_agree(view, first, last, least, most, attenuation);
+    if (n <= 12) return texels_agree(view, first, last, least, most, attenuation);
 #if GN_DEPTH_BLOCKS
     if (n > 2 * GN_BLOCK_REACH) return 0;
     gn_depth_block bounds =
@@ -514,9 +536,12 @@ void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_re
         bilinear_row(frame, view, at, step, n, attenuation);
         return;
     }
-#else
-    (void)to;
 #endif
+    uint32_t all;
+    if (n > 2 && gn_filter_decides(frame, view, from, to, &all)) {
+        for (int32_t i = 0; i < n; i++) attenuation[i] = all;
+        return;
+    }
     for (int32_t i = 0; i < n; i++) {
         gn_receiver r = {at.u_q16, at.v_q16, at.depth_q31 < 0 ? 0 : (uint32_t)at.depth_q31 << 1, {0, 0}, 0, 0};
         attenuation[i] = gn_filter_attenuation(frame, view, &r);

@@ -14,18 +14,33 @@
 #include GN_PORT
 #endif
 
-/* Sum of the weights of those of n texels of a row that let a receiver be lit: whose depth, as the upper 16 of 32 bits, is at least
- * `least`. n = 4, 6 or 8; least <= 0xFFFF0000; the sum of all weights is below 2^32. `texel` lies on two bytes, not on four. */
-static inline uint32_t gn_portable_tent_row16(const uint16_t *texel, uint32_t least, int32_t n, const uint32_t *weight)
+/* The next lower bit: whether a texel is below a level. */
+static inline uint32_t gn_borrow(uint32_t bits, uint32_t texel, uint32_t level)
 {
-    uint32_t sum = 0;
-    for (int32_t i = 0; i < n; i++)
-        if ((uint32_t)texel[i] << 16 >= least) sum += weight[i];
-    return sum;
+    return bits << 1 | (texel - level) >> 31;
 }
 
-#ifndef gn_kernel_tent_row16
-#define gn_kernel_tent_row16 gn_portable_tent_row16
+/* Which of n x n texels, in rows `pitch` apart, keep a receiver in the dark: whose depth, as the upper 16 of 32 bits, is below
+ * `least`. Bit i of dark[j] is for texel i of row j. Returns the bits that any row has, plus, 16 bits up, those that all have.
+ * n = 4, 6 or 8; least <= 0xFFFF0000. `texel` lies on two bytes, not on four. */
+static inline uint32_t gn_portable_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark)
+{
+    uint32_t level = (least + 0xFFFFU) >> 16, any = 0, all = 255;
+    for (uint8_t *end = dark + n; dark < end; dark++, texel += pitch) {
+        uint32_t row = 0;
+        if (n == 8) row = gn_borrow(gn_borrow(row, texel[7], level), texel[6], level);
+        if (n >= 6) row = gn_borrow(gn_borrow(row, texel[5], level), texel[4], level);
+        row = gn_borrow(gn_borrow(row, texel[3], level), texel[2], level);
+        row = gn_borrow(gn_borrow(row, texel[1], level), texel[0], level);
+        *dark = (uint8_t)row;
+        any |= row;
+        all &= row;
+    }
+    return any | all << 16;
+}
+
+#ifndef gn_kernel_dark_texels16
+#define gn_kernel_dark_texels16 gn_portable_dark_texels16
 #endif
 
 #endif

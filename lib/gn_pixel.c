@@ -50,10 +50,43 @@ static uint32_t luminance_q20(const uint32_t c[3])
 }
 #endif
 
-static uint32_t pack_565(const gn_frame *frame, const uint32_t c[3])
+static uint32_t by_curve_565(const gn_frame *frame, const uint32_t c[3])
 {
-    uint32_t v = quantise(encode(frame, c[0]), 31) << 11 | quantise(encode(frame, c[1]), 63) << 5 | quantise(encode(frame, c[2]), 31);
-    return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
+    return quantise(encode(frame, c[0]), 31) << 11 | quantise(encode(frame, c[1]), 63) << 5 | quantise(encode(frame, c[2]), 31);
+}
+
+#if GN_LEVEL_TABLES
+/* A colour below 1 is of the level where its cell begins, or the next. */
+static inline uint32_t pack_565(uint32_t r_q24, uint32_t g_q24, uint32_t b_q24)
+{
+    uint32_t red = gn_level_31_table[r_q24 >> 15], green = gn_level_63_table[g_q24 >> 14], blue = gn_level_31_table[b_q24 >> 15];
+    if (r_q24 >= gn_level_end_q24[red]) red++;
+    if (g_q24 >= gn_level_end_q24[green]) green++;
+    if (b_q24 >= gn_level_end_q24[blue]) blue++;
+    return (red << 11) + (green << 5) + blue - 64U; /* 64 << 11 lies above */
+}
+
+static inline uint32_t limited_q24(int32_t v)
+{
+    return v < 0 ? 0 : v < 1 << 24 ? (uint32_t)v : (1U << 24) - 1;
+}
+
+static inline uint32_t limit_and_pack_565(int32_t r_q24, int32_t g_q24, int32_t b_q24)
+{
+    return pack_565(limited_q24(r_q24), limited_q24(g_q24), limited_q24(b_q24));
+}
+#endif
+
+static uint32_t any_565(const gn_frame *frame, const uint32_t c[3])
+{
+#if GN_LEVEL_TABLES
+    if (GN_K(frame, srgb)) {
+        uint32_t q24[3];
+        for (int i = 0; i < 3; i++) q24[i] = c[i] < GN_ONE_Q20 ? c[i] << 4 : (1U << 24) - 1;
+        return pack_565(q24[0], q24[1], q24[2]) & 0xFFFFU;
+    }
+#endif
+    return by_curve_565(frame, c);
 }
 
 uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
@@ -74,7 +107,8 @@ uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
                quantise(encode(frame, linear_q20[2]), 255) << 16;
     }
 #endif
-    return pack_565(frame, linear_q20);
+    uint32_t v = any_565(frame, linear_q20);
+    return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
 }
 
 #if GN_OTHER_FORMATS
@@ -141,23 +175,21 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height)
 }
 
 #if GN_PIECES
-/* A colour below 1 is of the level where its cell begins, or the next. */
-static inline uint16_t level_565(uint32_t r_q24, uint32_t g_q24, uint32_t b_q24)
+#if GN_LEVEL_TABLES
+static int has_levels(const gn_frame *frame)
 {
-    uint32_t red = gn_level_31_table[r_q24 >> 15], green = gn_level_63_table[g_q24 >> 14], blue = gn_level_31_table[b_q24 >> 15];
-    if (r_q24 >= gn_level_end_q24[red]) red++;
-    if (g_q24 >= gn_level_end_q24[green]) green++;
-    if (b_q24 >= gn_level_end_q24[blue]) blue++;
-    return (uint16_t)((red << 11) + (green << 5) + blue - 64U); /* 64 << 11 is dropped */
+    return frame->picture.format == GN_FORMAT_RGB565 && GN_K(frame, srgb);
 }
 
-/* No channel leaves 0 .. 1. */
-static void ramp_565(uint16_t *out, int32_t n, const int32_t from_q24[3], const int32_t step_q24[3])
+/* inside: no channel leaves 0 .. 1. */
+static inline void ramp_565(uint16_t *out, int32_t n, const int32_t from_q24[3], const int32_t step_q24[3], int inside)
 {
     uint32_t r = (uint32_t)from_q24[0], g = (uint32_t)from_q24[1], b = (uint32_t)from_q24[2];
     uint32_t dr = (uint32_t)step_q24[0], dg = (uint32_t)step_q24[1], db = (uint32_t)step_q24[2];
-    for (uint16_t *end = out + n; out < end; r += dr, g += dg, b += db) *out++ = level_565(r, g, b);
+    for (uint16_t *end = out + n; out < end; r += dr, g += dg, b += db)
+        *out++ = (uint16_t)(inside ? pack_565(r, g, b) : limit_and_pack_565((int32_t)r, (int32_t)g, (int32_t)b));
 }
+#endif
 
 static void slow_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const int32_t from_q24[3],
                       const int32_t step_q24[3])
@@ -176,20 +208,28 @@ static void slow_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t 
 void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const int32_t from_q24[3],
                    const int32_t step_q24[3])
 {
-    uint32_t all = 0;
-    for (int c = 0; c < 3; c++) all |= (uint32_t)from_q24[c] | (uint32_t)(from_q24[c] + (n - 1) * step_q24[c]);
-    if (frame->picture.format == GN_FORMAT_RGB565 && GN_K(frame, srgb) && all < 1U << 24) {
-        ramp_565(rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0, n, from_q24, step_q24);
+#if GN_LEVEL_TABLES
+    if (has_levels(frame)) {
+        uint16_t *out = rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0;
+        uint32_t all = 0;
+        for (int c = 0; c < 3; c++) all |= (uint32_t)from_q24[c] | (uint32_t)(from_q24[c] + (n - 1) * step_q24[c]);
+        if (all < 1U << 24) ramp_565(out, n, from_q24, step_q24, 1);
+        else ramp_565(out, n, from_q24, step_q24, 0);
         return;
     }
+#endif
     slow_ramp(frame, rows, x, y, n, from_q24, step_q24);
 }
 
 void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3])
 {
-    uint32_t r = (uint32_t)colour_q24[0], g = (uint32_t)colour_q24[1], b = (uint32_t)colour_q24[2];
-    if (frame->picture.format == GN_FORMAT_RGB565 && GN_K(frame, srgb) && (r | g | b) < 1U << 24)
-        rows->pixels->rgb565[(y - rows->y0) * rows->width + x - rows->x0] = level_565(r, g, b);
-    else slow_ramp(frame, rows, x, y, 1, colour_q24, colour_q24);
+#if GN_LEVEL_TABLES
+    if (has_levels(frame)) {
+        uint16_t *out = rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0;
+        *out = (uint16_t)limit_and_pack_565(colour_q24[0], colour_q24[1], colour_q24[2]);
+        return;
+    }
+#endif
+    slow_ramp(frame, rows, x, y, 1, colour_q24, colour_q24);
 }
 #endif

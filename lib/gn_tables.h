@@ -5,12 +5,16 @@
 #include <stdint.h>
 
 #include "gn_config.h"
+#include "gn_q.h"
+
+/* Whether colours of RGB565 are packed by tables: three times as fast as by the curve, with the same bits. */
+#define GN_LEVEL_TABLES (!GN_SIZE_FIRST && (GN_RUNTIME_KNOBS || GN_SRGB))
 
 extern const uint16_t gn_recip_table[256]; /* Q1.15: 1/x at the middle of [1/2 + i/512, 1/2 + (i+1)/512) */
 extern const uint16_t gn_rsqrt_table[192]; /* Q1.15: 1/sqrt(x) for x in [1/4 + i/256, 1/4 + (i+1)/256) */
 extern const int32_t gn_sin_table_q30[65]; /* sin(i / 256 turn) */
 extern const uint16_t gn_srgb_table[577];  /* 65535 * srgb(x), x = 2^(k-9) (1 + j/64) at entry 64 k + j; see gn_pixel.c */
-#if GN_PIECES
+#if GN_LEVEL_TABLES
 /* For RGB565, of colours below 1: the level where a cell of 1/1024 or 1/512 begins, and where each level ends; 31 levels count from 64. */
 extern const uint8_t gn_level_63_table[1024], gn_level_31_table[512];
 extern const uint32_t gn_level_end_q24[96];

@@ -34,12 +34,12 @@ void gn_port_before_dma(const void *bytes, size_t n_bytes);
  * alignment beyond that of the types, and may be called from several cores at once.
  *
  * Replaced by name, in the port's header:
- *   #define gn_kernel_tent_row16 gn_port_tent_row16     one row of a tent over 16-bit shadow texels; lib/gn_kernel.h defines it
+ *   #define gn_kernel_dark_texels16 gn_port_dark_texels16     16-bit shadow texels under a tent; lib/gn_kernel.h defines it
  *
  * Replaced by linking:
  *   memset            clears screen tiles and shadow tiles: whole words, many of them. The C library's is the definition
  *   __aeabi_lmul      a 64-bit product modulo 2^64: on cores without a wide multiplication every product of two 32-bit values is one
  */
-uint32_t gn_port_tent_row16(const uint16_t *texel, uint32_t least, int32_t n, const uint32_t *weight);
+uint32_t gn_port_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark);
 
 #endif

@@ -56,7 +56,7 @@ int app_main(void)
     static scene_state state;
     uint32_t frame = 0;
     for (const char *digit = board_args(); *digit >= '0' && *digit <= '9'; digit++) frame = 10 * frame + (uint32_t)(*digit - '0');
-    return draw(scene_frame(&state, frame), (gn_picture){SCENE_WIDTH, SCENE_HEIGHT, SCENE_FORMAT, GN_VIEW_COLOUR, 0});
+    return draw(scene_frame(&state, frame), (gn_picture){SCENE_WIDTH, SCENE_HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0});
 }
 
 #else

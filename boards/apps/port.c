@@ -24,9 +24,9 @@ static void check(int ok)
     if (!ok) n_wrong++;
 }
 
-/* ---- The row of a tent ----------------------------------------------------------------------------------------------- */
+/* ---- Texels under a tent --------------------------------------------------------------------------------------------- */
 
-enum { TEXELS_MAX = 8 };
+enum { TEXELS_MAX = 8, PITCH_MAX = 16 };
 
 /* Depths are close to `least` half the time, at both ends of their range now and then. */
 static uint16_t random_texel(uint32_t least)
@@ -54,20 +54,38 @@ static uint32_t random_least(void)
     return least < 0xFFFF0000U ? least : 0xFFFF0000U;
 }
 
-static void check_tent_row(void)
+typedef uint32_t kernel(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark);
+
+/* All that may be written is compared, and what lies behind it. */
+static int same(kernel *of, const uint16_t *texel, size_t pitch, uint32_t least, int32_t n)
 {
-    static uint16_t texels[TEXELS_MAX + 1];
-    static uint32_t weights[TEXELS_MAX];
+    uint8_t is[TEXELS_MAX + 1], want[TEXELS_MAX + 1];
+    memset(is, 0xA5, sizeof is);
+    memset(want, 0xA5, sizeof want);
+    return of(texel, pitch, least, n, is) == gn_oracle_dark_texels16(texel, pitch, least, n, want) && memcmp(is, want, sizeof is) == 0;
+}
+
+static uint32_t kernel_of_port(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark)
+{
+    return gn_kernel_dark_texels16(texel, pitch, least, n, dark);
+}
+
+static uint32_t kernel_of_library(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark)
+{
+    return gn_portable_dark_texels16(texel, pitch, least, n, dark);
+}
+
+static void check_dark_texels(void)
+{
+    static uint16_t texels[TEXELS_MAX * PITCH_MAX + 1];
     for (int turn = 0; turn < 20000; turn++) {
-        uint16_t *row = texels + turn % 2; /* on four bytes, and on two */
-        uint32_t least = random_least();
+        uint16_t *first = texels + turn % 2; /* on four bytes, and on two */
+        uint32_t least = random_least(), alike = random32() & 3U;
         int32_t n = 4 + 2 * (turn % 3);
-        for (int i = 0; i < n; i++) {
-            row[i] = random_texel(least);
-            weights[i] = random32() >> (4 + turn % 24); /* eight stay below 2^32 */
-        }
-        check(gn_kernel_tent_row16(row, least, n, weights) == gn_oracle_tent_row16(row, least, n, weights));
-        check(gn_portable_tent_row16(row, least, n, weights) == gn_oracle_tent_row16(row, least, n, weights));
+        size_t pitch = turn % 5 ? PITCH_MAX : TEXELS_MAX;
+        for (size_t i = 0; i < TEXELS_MAX * pitch; i++) first[i] = i > 1 && alike ? first[i - alike] : random_texel(least);
+        check(same(kernel_of_port, first, pitch, least, n));
+        check(same(kernel_of_library, first, pitch, least, n));
     }
 }
 
@@ -115,7 +133,7 @@ static void check_products(void)
 
 int app_main(void)
 {
-    check_tent_row();
+    check_dark_texels();
     check_memset();
     check_products();
     board_print_u32(n_checked);

@@ -100,7 +100,7 @@ int main(void)
     printf("\n};\n");
     for (int i = 0; i <= 576; i++) v[i] = 65535.0 * srgb(ldexp(1.0 + (i % 64) / 64.0, i / 64 - 9));
     print_u16("gn_srgb_table", v, 577);
-    printf("\n#if GN_PIECES");
+    printf("\n#if GN_LEVEL_TABLES");
     print_cells(v, 63, 1024, 0);
     print_cells(v, 31, 512, 64);
     printf("\nconst uint32_t gn_level_end_q24[96] = {");

@@ -4,6 +4,6 @@
 
 #include "gn_port.h"
 
-#define gn_kernel_tent_row16 gn_port_tent_row16
+#define gn_kernel_dark_texels16 gn_port_dark_texels16
 
 #endif

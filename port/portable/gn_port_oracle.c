@@ -1,13 +1,21 @@
 #include "gn_port_portable.h"
 
-uint32_t gn_oracle_tent_row16(const uint16_t *texel, uint32_t least, int32_t n, const uint32_t *weight)
+uint32_t gn_oracle_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark)
 {
-    uint32_t sum = 0;
+    uint32_t any = 0, all = 0;
+    for (int32_t j = 0; j < n; j++) dark[j] = 0;
     for (int32_t i = 0; i < n; i++) {
-        uint32_t depth = texel[i] * 65536U;
-        sum += depth >= least ? weight[i] : 0;
+        uint32_t bit = 1U << i, n_dark = 0;
+        for (int32_t j = 0; j < n; j++) {
+            uint32_t depth = texel[(size_t)j * pitch + (size_t)i] * 65536U;
+            if (depth >= least) continue;
+            dark[j] = (uint8_t)(dark[j] + bit);
+            n_dark++;
+        }
+        if (n_dark) any += bit;
+        if (n_dark == (uint32_t)n) all += bit;
     }
-    return sum;
+    return any + 65536U * all;
 }
 
 /* A volatile pointer: or the compiler makes a call of memset of it. */

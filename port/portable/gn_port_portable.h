@@ -5,7 +5,7 @@
 
 #include "gn_port.h"
 
-uint32_t gn_oracle_tent_row16(const uint16_t *texel, uint32_t least, int32_t n, const uint32_t *weight);
+uint32_t gn_oracle_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark);
 void gn_oracle_memset(uint8_t *to, uint8_t value, size_t n);
 uint64_t gn_oracle_mul64(uint64_t a, uint64_t b);
 

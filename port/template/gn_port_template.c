@@ -7,12 +7,19 @@ void gn_port_before_dma(const void *bytes, size_t n_bytes)
     (void)bytes, (void)n_bytes;
 }
 
-/* Owes: the sum of weight[i] over all i < n with (texel[i] << 16) >= least, modulo 2^32. n is 4, 6 or 8; least <= 0xFFFF0000; texel lies on
- * two bytes: a wider load must be one that the core does unaligned. Reads nothing beyond texel[n - 1] and weight[n - 1]. */
-uint32_t gn_port_tent_row16(const uint16_t *texel, uint32_t least, int32_t n, const uint32_t *weight)
+/* Owes: bit i of dark[j], for i, j < n, is set if (texel[j * pitch + i] << 16) < least, all other bits are 0; returns the bits that any row
+ * has, plus, times 65536, those that all rows have. n is 4, 6 or 8; least <= 0xFFFF0000; texel lies on two bytes: a wider load must be one
+ * that the core does unaligned. Reads nothing but the n x n texels, and writes nothing but dark[0] to dark[n - 1]. */
+uint32_t gn_port_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark)
 {
-    uint32_t sum = 0;
-    for (const uint32_t *end = weight + n; weight < end; texel++, weight++)
-        if (*texel >= (least + 0xFFFFU) >> 16) sum += *weight;
-    return sum;
+    uint32_t any = 0, all = 255;
+    for (int32_t j = 0; j < n; j++, texel += pitch) {
+        uint32_t row = 0;
+        for (int32_t i = 0; i < n; i++)
+            if (texel[i] < (least + 0xFFFFU) >> 16) row |= 1U << i;
+        dark[j] = (uint8_t)row;
+        any |= row;
+        all &= row;
+    }
+    return any | all << 16;
 }

@@ -5,6 +5,6 @@
 #include "gn_port.h"
 
 /* Leave out the line, and the function, of a kernel that the portable code should do. */
-#define gn_kernel_tent_row16 gn_port_tent_row16
+#define gn_kernel_dark_texels16 gn_port_dark_texels16
 
 #endif
