@@ -58,6 +58,7 @@ static void setup_spheres(gn_frame *frame)
 {
     const gn_shadow_settings *shadow = &frame->scene->shadow;
     uint64_t keep_q32 = (uint64_t)(65536 - shadow->cascade_fade_uq16) * (65536 - shadow->cascade_fade_uq16);
+    int beyond = 0; /* there is an unused cascade behind the last */
     frame->last_cascade = 0;
     for (uint32_t i = 0; i < GN_N_CASCADES(frame); i++) {
         gn_cascade_state *cascade = &frame->cascade[i];
@@ -66,6 +67,8 @@ static void setup_spheres(gn_frame *frame)
         gn_cascade_slice(frame, i, &near_q16, &far_q16);
         cascade->radius2_q32 = 0;
         if (far_q16 <= near_q16) continue;
+        beyond = GN_CASCADE_UNUSED(frame, i);
+        if (beyond) continue;
         gn_cascade_sphere(frame, near_q16, far_q16, &centre_q24, &radius_q24);
         cascade->centre_q16 = (int32_t)gn_shr64(centre_q24 * far_q16, 24);
         /* radius < 2^30 in Q16: a sphere that wide holds all that view coordinates can reach */
@@ -79,6 +82,8 @@ static void setup_spheres(gn_frame *frame)
         frame->cascade[GN_LAST_CASCADE(frame)].next = (int32_t)i;
         frame->last_cascade = (uint8_t)i;
     }
+    gn_cascade_state *last = &frame->cascade[GN_LAST_CASCADE(frame)];
+    if (beyond && last->radius2_q32) last->inner2_q32 = last->radius2_q32 - 1; /* D6: shadows do not end there */
 }
 
 /* D5: strength 1 up to max distance * (1 - fade), then linear to 0 at max distance. */

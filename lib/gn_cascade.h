@@ -6,6 +6,8 @@
 
 #if GN_SHADOWS
 
+#define GN_CASCADE_UNUSED(frame, i) (GN_MANY_CASCADES && ((frame)->scene->shadow.cascades_unused >> (i) & 1U) != 0)
+
 /* Fills frame->cascade and the distance fade. */
 void gn_cascade_setup(gn_frame *frame);
 

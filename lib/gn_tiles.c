@@ -1,5 +1,6 @@
 /* Tile budgets. A tile is a run of T * T texels of its atlas, so tiles of any power-of-two sizes pack without waste. */
 #include "gn_tiles.h"
+#include "gn_cascade.h"
 #include "gn_math.h"
 #include "gn_object.h"
 #include "gn_q.h"
@@ -77,7 +78,7 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
 #endif
     for (uint32_t l = 0; l < scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
-        gn_tile_plan none = {0, 0, 0, 0, 0};
+        gn_tile_plan none = {0, 0, 0, 0, 0, 0};
         plan[l] = none;
         if (light->shadow_state == GN_SHADOW_NOT_WANTED) continue;
 #if GN_TILE_IMPORTANCE
@@ -89,6 +90,9 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
 #endif
         plan[l].in_other = !plan[l].cascaded;
         plan[l].n_tiles = plan[l].cascaded ? GN_N_CASCADES(frame) : light->kind == GN_LIGHT_POINT ? 6 : 1;
+        plan[l].n_drawn = plan[l].n_tiles;
+        for (uint32_t i = 0; plan[l].cascaded && i < GN_N_CASCADES(frame); i++)
+            if (GN_CASCADE_UNUSED(frame, i)) plan[l].n_drawn--;
     }
 }
 
@@ -168,7 +172,7 @@ static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint3
 {
     uint32_t needed = 0, available = in_other ? GN_OTHER_ATLAS_TEXELS : GN_ATLAS_TEXELS;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
-        if (plan[l].n_tiles && plan[l].in_other == in_other) needed += texels_of(&plan[l]);
+        if (plan[l].n_tiles && plan[l].in_other == in_other) needed += (uint32_t)plan[l].n_drawn << (2 * plan[l].tile_log2);
     return needed <= available ? GN_OK : gn_fail_capacity(frame, GN_ERR_ATLAS_FULL, needed, available);
 }
 

@@ -8,6 +8,7 @@
 
 typedef struct {
     uint8_t n_tiles;  /* 0: none */
+    uint8_t n_drawn;  /* without those of unused cascades */
     uint8_t in_other; /* atlas */
     uint8_t cascaded; /* its tiles are cascades */
     uint8_t tile_log2;

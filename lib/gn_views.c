@@ -160,6 +160,7 @@ static void check_layout(gn_frame *frame, const gn_tile_plan *plan)
 #if GN_OTHER_ATLAS
     layout = gn_signature_add(layout, (uint64_t)GN_K(frame, other_depth_bits) << 8 | (uint64_t)GN_K(frame, other_atlas_size) << 32);
 #endif
+    layout = gn_signature_add(layout, frame->scene->shadow.cascades_unused);
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
         layout = gn_signature_add(layout, (uint64_t)plan[l].n_tiles << 32 | (uint64_t)plan[l].in_other << 16 | plan[l].tile_log2);
     if (layout == frame->layout) return;
@@ -183,7 +184,7 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
     view->tile_log2 = plan->tile_log2;
     view->tile_texels = (uint16_t)(1U << plan->tile_log2);
     view->first_texel = *first_texel;
-    *first_texel += 1U << (2 * plan->tile_log2);
+    if (!plan->cascaded || !GN_CASCADE_UNUSED(frame, cascade_idx)) *first_texel += 1U << (2 * plan->tile_log2);
     set_texels(frame, view);
     /* also of an empty one: a light's first view says what kind all of them are */
     view->perspective = frame->light[light_idx].kind != GN_LIGHT_DIRECTIONAL;
@@ -207,7 +208,7 @@ static void add_views(gn_frame *frame, const gn_tile_plan *plan)
         for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
             if (!plan[l].n_tiles || (GN_TILE_IMPORTANCE && plan[l].tile_log2 != log2)) continue;
             first[l] = next[plan[l].in_other];
-            next[plan[l].in_other] += (uint32_t)plan[l].n_tiles << (2 * plan[l].tile_log2);
+            next[plan[l].in_other] += (uint32_t)plan[l].n_drawn << (2 * plan[l].tile_log2);
         }
     }
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {

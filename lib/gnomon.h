@@ -256,6 +256,7 @@ typedef struct {
     uint32_t object_lights;         /* P9: most spot and point lights per object, 0 (no limit) .. 8 */
     uint32_t refresh[4];            /* A5: cascade i is drawn anew every refresh[i]th frame; 0 as 1 */
     uint32_t n_cascades;            /* 0 (as 1) .. 4; each takes a tile of the atlas */
+    uint32_t cascades_unused;       /* bit i: cascade i has no tile, and pixels in it look into the next: for scenes that never do */
     uint32_t cascade_ratio_uq16[3]; /* where cascades 0, 1, 2 end, as shares of the max distance, ascending; the last ends there */
     gn_blend blend;                 /* anything but hard needs GN_BLENDED_CASCADES */
     gn_distance_mode distance_mode;

@@ -126,6 +126,8 @@ has sundial OBJECT_BOXES 0
 has avenue OBJECT_BOXES 1
 has sundial CASTER_CLIPPING 0
 has sundial-balanced CASTER_CLIPPING 1
+same cascades docs/scenes/slopes.gltf 0 "" --size 96x64 --set cascades=4 --set cascade_blend=soft
+leaves cascades "cascades that no pixel looks into: 0 1: .*, [1-9][0-9]* of RAM"
 same far docs/scenes/near.gltf 0 "" --size 96x64 --set max_distance=2 --set atlas_size=512
 has far CASTER_CLIPPING 1
 # a lamp that reaches nothing, a sun whose shadow is nowhere: neither its kind nor its atlas is in the image

@@ -1,4 +1,4 @@
-/* Caster culling (D8): fewer casters, the same pixels. */
+/* Caster culling (D8): fewer casters, the same pixels. Cascades without a tile: the same. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,6 +37,48 @@ static int check_culling(gn_scene *s, int atlas_size, tally *t)
     t->pictures++;
     t->culled += gn_get_stats(&renderer)->n_casters_culled;
     t->drawn += gn_get_stats(&renderer)->n_caster_triangles;
+    return CHECK(memcmp(with, without, sizeof with) == 0);
+}
+
+/* ---- Cascades that no pixel looks into --------------------------------------------------------------------------------------- */
+
+/* The cascades of the picture's pixels, and those that they are blended with. */
+static uint32_t cascades_in_use(gn_scene *s, int atlas_size)
+{
+    static uint32_t raw[W * H];
+    const gn_picture p = {W, H, GN_FORMAT_RAW32, GN_VIEW_CASCADE, 0};
+    ls_canvas canvas = {(uint8_t *)raw, W, 4};
+    uint32_t used = 0;
+    CHECK_EQ_INT(gn_init(&renderer, &p), GN_OK);
+    renderer.frame.knobs.atlas_size = atlas_size;
+    CHECK_EQ_INT(gn_render(&renderer, s, ls_flush, &canvas), GN_OK);
+    for (int i = 0; i < W * H; i++) {
+        if (raw[i] >= s->shadow.n_cascades) continue; /* none, or the background */
+        used |= 1U << raw[i];
+        if (s->shadow.blend != GN_BLEND_HARD) used |= 1U << renderer.frame.cascade[raw[i]].next;
+    }
+    return used & ((1U << s->shadow.n_cascades) - 1);
+}
+
+/* Without the tiles of the others the picture is the same, and the tiles that are left take the first texels of the atlas. */
+static int check_unused(gn_scene *s, int atlas_size, unsigned long *n_unused)
+{
+    static uint8_t with[W * H * BYTES], without[W * H * BYTES];
+    uint32_t in_use = cascades_in_use(s, atlas_size), texels = 0;
+    render(s, 1, atlas_size, with);
+    s->shadow.cascades_unused = ((1U << s->shadow.n_cascades) - 1) & ~in_use;
+    render(s, 1, atlas_size, without);
+    for (uint32_t v = 0; v < renderer.frame.n_views; v++) {
+        const gn_light_view *view = &renderer.frame.view[v];
+        if (s->shadow.cascades_unused >> view->cascade_idx & 1) {
+            *n_unused += 1;
+            if (!CHECK(view->empty)) return 0;
+        } else {
+            CHECK_EQ_INT(view->first_texel, texels);
+            texels += (uint32_t)view->tile_texels * view->tile_texels;
+        }
+    }
+    s->shadow.cascades_unused = 0;
     return CHECK(memcmp(with, without, sizeof with) == 0);
 }
 
@@ -161,19 +203,44 @@ static void test_random(void)
     rng r = {77};
     tally t = {0, 0, 0, 0};
     const char *more = getenv("SOAK");
+    unsigned long n_unused = 0;
     for (int i = 0; i < (more ? atoi(more) * 2000 : 100); i++) {
         random_scene(&r);
         if (i & 1) shadows_ahead(&r);
+        int32_t reach_q16 = ls.scene.shadow.max_distance_q16;
+        ls.scene.shadow.max_distance_q16 *= 1 + i % 3; /* and far ones that nothing reaches */
+        if (!check_unused(&ls.scene, 32 << i % 4, &n_unused)) printf("  random scene %d, unused cascades\n", i);
+        ls.scene.shadow.max_distance_q16 = reach_q16;
         if (!check_culling(&ls.scene, 32 << rng_below(&r, 4), &t)) printf("  random scene %d\n", i);
     }
-    CHECK(t.culled > 0);
+    CHECK(t.culled > 0 && n_unused > 20);
+    printf("random scenes: %lu tiles of cascades that no pixel looks into\n", n_unused);
     printf("random scenes, %lu pictures: %lu casters left out, %lu triangles instead of %lu\n", t.pictures, t.culled, t.drawn,
            t.drawn_without);
+}
+
+/* The first of two cascades ends anywhere: where the second is not needed, shadows do not fade at the end of the first (D6). */
+static void test_last(void)
+{
+    rng r = {78};
+    unsigned long n_unused = 0;
+    for (int i = 0; i < 60; i++) {
+        random_scene(&r);
+        gn_affine_scale(&ls.object[0].to_world, GN_Q16(0.5));
+        ls.scene.shadow.n_cascades = 2;
+        ls.scene.shadow.blend = GN_BLEND_HARD;
+        ls.scene.shadow.distance_mode = GN_DISTANCE_RADIUS;
+        ls.scene.shadow.max_distance_q16 = GN_Q16(60);
+        ls.scene.shadow.cascade_ratio_uq16[0] = GN_UQ16(0.1) + rng_below(&r, GN_UQ16(0.3));
+        if (!check_unused(&ls.scene, 256, &n_unused)) printf("  first cascade to %u / 65536\n", (unsigned)ls.scene.shadow.cascade_ratio_uq16[0]);
+    }
+    CHECK(n_unused > 0);
 }
 
 int main(void)
 {
     test_avenue();
     test_random();
+    test_last();
     return check_report();
 }

@@ -200,6 +200,13 @@ int compile_see(compile_stage *st, const compiled *c, bool **seen)
     return 0;
 }
 
+static size_t tiles_of(const gn_renderer *r)
+{
+    size_t n = 0;
+    for (uint32_t i = 0; i < r->frame.n_views; i++) n += !r->frame.view[i].empty;
+    return n;
+}
+
 /* One frame after another, as a firmware plays them. */
 int compile_keeps_tiles(compile_stage *st, const compiled *c, size_t *n_kept)
 {
@@ -208,7 +215,7 @@ int compile_keeps_tiles(compile_stage *st, const compiled *c, size_t *n_kept)
     if (begin(st, c, GN_FORMAT_RGB565, GN_VIEW_COLOUR)) return -1;
     for (int i = 0; i < c->n_frames; i++) {
         if (gn_render(st->renderer, compile_frame(st, c, i), hash_tile, st)) return -1;
-        *n_kept += gn_get_stats(st->renderer)->n_shadow_tiles - gn_get_stats(st->renderer)->n_tiles_drawn;
+        *n_kept += tiles_of(st->renderer) - gn_get_stats(st->renderer)->n_tiles_drawn;
     }
     return 0;
 }

@@ -228,6 +228,7 @@ static void write_shadow(FILE *f, const gn_shadow_settings *s)
             (int)s->mixing, (int)s->tile_sizes, s->main_light, s->caster_culling, s->object_lights);
     write_unsigned(f, "refresh", s->refresh, 4);
     fprintf(f, ",\n               .n_cascades = %" PRIu32, s->n_cascades);
+    if (s->cascades_unused) fprintf(f, ", .cascades_unused = 0x%" PRIx32, s->cascades_unused);
     write_unsigned(f, "cascade_ratio_uq16", s->cascade_ratio_uq16, 3);
     fprintf(f, ", .blend = (gn_blend)%d, .distance_mode = (gn_distance_mode)%d},\n", (int)s->blend, (int)s->distance_mode);
 }

@@ -33,12 +33,13 @@ typedef enum {
     MIXING,
     MAIN_LIGHT,
     BLEND,
-    CASCADES
+    CASCADES,
+    UNUSED_CASCADE
 } kind;
 
 typedef struct {
     kind kind;
-    size_t idx;          /* of the object, light or mesh */
+    size_t idx;          /* of the object, light, mesh or cascade */
     uint16_t *triangles; /* TRIANGLES: not its own */
     size_t n_triangles;
     bool taken;
@@ -115,7 +116,7 @@ static void take_from_object(gn_object *o, kind what)
     o->mask_u8 = NULL;
 }
 
-static void take_from_shadow(gn_shadow_settings *s, kind what)
+static void take_from_shadow(gn_shadow_settings *s, kind what, size_t idx)
 {
     if (what == FILTER) s->filter = GN_FILTER_HARD;
     if (what == OTHER_FILTER) s->other_filter = GN_FILTER_HARD;
@@ -124,6 +125,7 @@ static void take_from_shadow(gn_shadow_settings *s, kind what)
     if (what == MAIN_LIGHT) s->main_light = 0;
     if (what == BLEND) s->blend = GN_BLEND_HARD;
     if (what == CASCADES) s->n_cascades = 1;
+    if (what == UNUSED_CASCADE) s->cascades_unused |= 1U << idx;
 }
 
 static void turn_triangles(const trial *b, const candidate *d, bool gone)
@@ -157,7 +159,7 @@ static void take(trial *b, candidate *d)
         else mesh_of(b, d)->rgb_uq16 = NULL;
     } else if (d->kind >= FILTER) {
         d->was.shadow = b->c->fixed.scene.shadow;
-        take_from_shadow(&b->c->fixed.scene.shadow, d->kind);
+        take_from_shadow(&b->c->fixed.scene.shadow, d->kind, d->idx);
     } else {
         d->was.object = *object_of(b, d);
         take_from_object(object_of(b, d), d->kind);
@@ -190,7 +192,7 @@ static void give_back_to_object(gn_object *o, const gn_object *was, kind what)
     o->mask_u8 = was->mask_u8;
 }
 
-static void give_back_to_shadow(gn_shadow_settings *s, const gn_shadow_settings *was, kind what)
+static void give_back_to_shadow(gn_shadow_settings *s, const gn_shadow_settings *was, kind what, size_t idx)
 {
     if (what == FILTER) s->filter = was->filter;
     if (what == OTHER_FILTER) s->other_filter = was->other_filter;
@@ -199,6 +201,7 @@ static void give_back_to_shadow(gn_shadow_settings *s, const gn_shadow_settings 
     if (what == MAIN_LIGHT) s->main_light = was->main_light;
     if (what == BLEND) s->blend = was->blend;
     if (what == CASCADES) s->n_cascades = was->n_cascades;
+    if (what == UNUSED_CASCADE) s->cascades_unused &= ~(1U << idx);
 }
 
 static void give_back(trial *b, candidate *d)
@@ -208,7 +211,7 @@ static void give_back(trial *b, candidate *d)
     else if (is_of_light(d->kind)) give_back_to_light(light_of(b, d), &d->was.light, d->kind);
     else if (d->kind == MESH_NORMALS) mesh_of(b, d)->nrm_q15 = d->was.mesh.nrm_q15;
     else if (d->kind == MESH_COLOURS) mesh_of(b, d)->rgb_uq16 = d->was.mesh.rgb_uq16;
-    else if (d->kind >= FILTER) give_back_to_shadow(&b->c->fixed.scene.shadow, &d->was.shadow, d->kind);
+    else if (d->kind >= FILTER) give_back_to_shadow(&b->c->fixed.scene.shadow, &d->was.shadow, d->kind, d->idx);
     else give_back_to_object(object_of(b, d), &d->was.object, d->kind);
 }
 
@@ -409,6 +412,21 @@ static void try_kind(trial *b, const char *what, kind k, size_t count, uint32_t 
         add(b, k, i);
     }
     report(b, what, try_all(b), &before);
+    clear(b);
+}
+
+/* Each by itself: the others stay where they are. */
+static void try_cascades(trial *b)
+{
+    measure before = measure_now(b);
+    char what[100] = "cascades that no pixel looks into:";
+    clear(b);
+    for (uint32_t i = 0; b->now.demand.shadow_tiles > 1 && i < b->c->fixed.scene.shadow.n_cascades; i++)
+        add(b, UNUSED_CASCADE, i);
+    size_t n = try_all(b);
+    for (size_t i = 0; i < b->n; i++)
+        if (b->list[i].taken) snprintf(what + strlen(what), sizeof what - strlen(what), " %zu", b->list[i].idx);
+    report(b, what, n, &before);
     clear(b);
 }
 
@@ -632,6 +650,7 @@ static void simplify_path(trial *b)
     choose_samples(b);
     try_lights(b);
     try_kind(b, "shadows of lights that no frame shows", LIGHT_SHADOW, s->n_lights, 0, false);
+    try_cascades(b);
     try_kind(b, "casters whose shadow no frame shows", CASTER, s->n_objects, GN_OBJECT_CASTS, true);
     try_kind(b, "receivers that no shadow reaches", RECEIVER, s->n_objects, GN_OBJECT_RECEIVES, true);
     try_kind(b, "objects that no frame shows", SEEN, s->n_objects, GN_OBJECT_HIDDEN, false);
