@@ -135,6 +135,10 @@ static int32_t draw_perspective(gn_casting *casting, gn_caster_alpha *alpha, gn_
 }
 #endif
 
+/* Where size comes first, the general way does small casters too: it has the same results. */
+#define SMALL_CASTERS (!GN_SIZE_FIRST || !GN_LARGE_CASTERS)
+
+#if SMALL_CASTERS
 /* A corner as the view sees it, 0: beyond 2^29 at the least. */
 static inline int caster_corner(int32_t out[3], const caster_job *job, uint32_t vertex_idx)
 {
@@ -191,6 +195,7 @@ static inline int draw_small(gn_casting *casting, const uint16_t idx[3], int32_t
     *n_texels = gn_ortho_small_triangle(job->frame, job->view, casting, c);
     return 1;
 }
+#endif
 
 #if GN_LARGE_CASTERS
 static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
@@ -230,10 +235,14 @@ static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
 {
     const caster_job *job = &casting->job;
     int32_t n_texels;
-    gn_status status = GN_OK;
+    gn_status status;
     if (job->view->perspective) GN_COUNT(casters_persp, 1);
     else GN_COUNT(casters, 1);
-    if (!draw_small(casting, idx, &n_texels)) status = draw_large(casting, idx, &n_texels);
+#if SMALL_CASTERS
+    if (draw_small(casting, idx, &n_texels)) status = GN_OK;
+    else
+#endif
+        status = draw_large(casting, idx, &n_texels);
     if (!GN_CASTER_CLIPPING && n_texels == GN_ORTHO_TOO_FAR) return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
     if (n_texels < 0) return status;
     job->frame->stats.n_caster_triangles++;
@@ -254,7 +263,7 @@ static gn_status draw_object(gn_frame *frame, gn_casting *casting, const gn_ligh
     else
 #endif
         gn_ortho_compose(&job->to_light, view, job->object);
-#if GN_LARGE_CASTERS
+#if GN_LARGE_CASTERS && SMALL_CASTERS
     gn_xform_fast_begin(&job->fast, &job->to_light);
 #endif
 #if GN_CASTER_BIAS
@@ -271,7 +280,9 @@ static gn_status draw_object(gn_frame *frame, gn_casting *casting, const gn_ligh
 
 static gn_status draw_layer(gn_frame *frame, gn_casting *casting, const gn_light_view *view, layer which)
 {
+#if SMALL_CASTERS
     for (uint32_t i = 0; i <= casting->job.cache_mask; i++) casting->job.cache[i].tag = 0;
+#endif
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
         int culled, drawn = casts_here(frame, view, o, which, &culled);
         frame->stats.n_casters_culled += (uint32_t)culled;
@@ -412,10 +423,14 @@ static gn_status draw_view(gn_frame *frame, gn_casting *casting, gn_light_view *
 
 gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory, uint32_t n_words)
 {
+#if SMALL_CASTERS
     uint32_t n = 256;
     while (n > 1 && n * (sizeof(gn_caster_corner) / 4) > n_words) n >>= 1;
     casting->job.cache = (gn_caster_corner *)(void *)memory;
     casting->job.cache_mask = n - 1;
+#else
+    (void)memory, (void)n_words;
+#endif
     gn_light_view *view = &frame->view[view_idx];
     if (view->empty || view->stale) return GN_OK;
 #if GN_INCREMENTAL

@@ -24,10 +24,11 @@ static void store(gn_texels row, int32_t bits, int32_t u, int64_t z)
     }
 }
 
+#if !GN_SIZE_FIRST
 /* Depth of a caster in 16-bit texels, if it is nowhere cut off, nor so steep that it could leave its range by half of all depths: all of it
  * fits 32 bits then, and steps may be taken modulo 2^32. */
 typedef struct {
-    uint32_t z_row; /* at the tile's left border, above the least */
+    uint32_t z_corner; /* in texel (0, 0), above the least */
     uint32_t dz_du, dz_dv;
     uint32_t range;
     uint32_t add; /* the least, with bias and half a step */
@@ -59,7 +60,7 @@ static inline void span16(uint16_t *texel, int32_t n, uint32_t z, uint32_t dz)
 }
 #undef GN_TEXEL_
 
-static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *caster, int32_t first_row)
+static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *caster)
 {
     const int64_t steep = 1 << 30;
     caster_depth16 d;
@@ -67,11 +68,12 @@ static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *
                caster->dz_du < steep && -caster->dz_du < steep && caster->dz_dv < steep && -caster->dz_dv < steep;
     d.dz_du = (uint32_t)caster->dz_du;
     d.dz_dv = (uint32_t)caster->dz_dv;
-    d.z_row = (uint32_t)caster->z_corner + (uint32_t)first_row * d.dz_dv - (uint32_t)caster->lo;
+    d.z_corner = (uint32_t)caster->z_corner - (uint32_t)caster->lo;
     d.range = (uint32_t)(caster->hi - caster->lo);
     d.add = (uint32_t)(caster->lo + caster->bias + 0x8000);
     return d;
 }
+#endif
 
 #if GN_CASTER_ALPHA
 void gn_caster_alpha_plane(gn_caster_alpha *alpha, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3])
@@ -114,11 +116,12 @@ int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_wal
 {
     int32_t bits = GN_K(frame, shadow_subpixel_bits), size = view->tile_texels;
     GN_COUNT(caster_walks, 1);
-    if (gn_first_px(gn_min32(x[0], gn_min32(x[1], x[2])), bits) >=
-        gn_min32(gn_first_px(gn_max32(x[0], gn_max32(x[1], x[2])), bits), size))
+    if (!GN_SIZE_FIRST &&
+        gn_first_px(gn_min32(x[0], gn_min32(x[1], x[2])), bits) >=
+            gn_min32(gn_first_px(gn_max32(x[0], gn_max32(x[1], x[2])), bits), size))
         return 0;
     int32_t n_rows = gn_walk_begin(walk, x, y, bits, 0, size);
-    if (walk->row < walk->row_end[0]) return n_rows; /* more than one batch: something will be there */
+    if (GN_SIZE_FIRST || walk->row < walk->row_end[0]) return n_rows; /* more than one batch: something will be there */
     for (int32_t i = 0; i < n_rows; i++)
         if (gn_max32(walk->span[i].x_begin, 0) < gn_min32(walk->span[i].x_end, size)) return n_rows;
     return 0;
@@ -128,10 +131,12 @@ int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_wa
                        const gn_caster_alpha *alpha)
 {
     int32_t size = view->tile_texels, n_texels = 0, v = walk->first;
-    caster_depth16 depth = depth16_begin(view, caster, v);
+#if !GN_SIZE_FIRST
+    caster_depth16 depth = depth16_begin(view, caster);
     uint32_t range = depth.usable && !alpha ? depth.range : 0;
+#endif
     for (; n_rows > 0; n_rows = gn_walk_on(walk)) {
-        for (const gn_span *at = walk->span; n_rows > 0; n_rows--, at++, v++, depth.z_row += depth.dz_dv) {
+        for (const gn_span *at = walk->span; n_rows > 0; n_rows--, at++, v++) {
             int32_t u = gn_max32(at->x_begin, 0), n = gn_min32(at->x_end, size) - u;
             if (n <= 0) continue;
             n_texels += n;
@@ -139,10 +144,14 @@ int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_wa
             gn_blocks_touch(view, u, v, n);
 #endif
             GN_COUNT(caster_rows, 1);
-            uint32_t z = depth.z_row + (uint32_t)u * depth.dz_du;
-            if (z < range && z + (uint32_t)(n - 1) * depth.dz_du < range)
+#if !GN_SIZE_FIRST /* what is longer has the same results */
+            uint32_t z = depth.z_corner + (uint32_t)v * depth.dz_dv + (uint32_t)u * depth.dz_du;
+            if (z < range && z + (uint32_t)(n - 1) * depth.dz_du < range) {
                 span16(view->depth.d16 + v * size + u, n, z + depth.add, depth.dz_du);
-            else span(view, caster, alpha, v, u, u + n);
+                continue;
+            }
+#endif
+            span(view, caster, alpha, v, u, u + n);
         }
     }
     return n_texels;

@@ -25,6 +25,8 @@ uint64_t gn_bf_from_u64_bits(uint64_t v)
 /* Entry i of gn_recip_table is 2^25 / (2i + 513), rounded. Where size comes first and the core divides, it is computed. */
 #if defined(GN_FAR) && GN_CORE_DIVIDES
 #define RECIP_START(i) (((1U << 25) + (i) + 256U) / (2U * (i) + 513U))
+#elif defined(GN_FAR)
+#define RECIP_START(i) gn_far_recip_entry(i)
 #else
 #define RECIP_START(i) ((uint32_t)gn_recip_table[i])
 #endif
@@ -47,7 +49,7 @@ uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
 uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
 {
     /* x = m / 2^32 in [1/4, 1); y ~ 1/sqrt(x) in Q1.31; y(3 - xy^2)/2 */
-    uint64_t y = (uint64_t)gn_rsqrt_table[(m >> 24) - 64U] << 16;
+    uint64_t y = (uint64_t)gn_rsqrt_entry((m >> 24) - 64U) << 16;
     for (int32_t i = 0; i < newton_steps; i++) {
         uint32_t yy = (uint32_t)((y * y) >> 32);     /* Q2.30, <= 4 (table entries are < 2 in Q1.15) */
         uint64_t xyy = ((uint64_t)m * yy) >> 32;     /* Q2.30, near 1 */

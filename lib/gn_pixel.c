@@ -12,9 +12,9 @@ static inline uint32_t srgb_encode(uint32_t linear_q20)
     if (linear_q20 < 1U << 11) return (linear_q20 * 52920U + 0x8000U) >> 16;
     int32_t octave = 20 - gn_clz32(linear_q20); /* 0..8: linear in [2^(octave - 9), 2^(octave - 8)) */
     int32_t shift = octave + 5;                 /* bits below the 64 steps of an octave */
-    const uint16_t *entry = gn_srgb_table + ((uint32_t)octave << 6) + ((linear_q20 >> shift) & 63U);
+    uint32_t i = ((uint32_t)octave << 6) + ((linear_q20 >> shift) & 63U), here = gn_srgb_entry(i), next = gn_srgb_entry(i + 1);
     uint32_t rest = linear_q20 & ((1U << shift) - 1);
-    return entry[0] + (((uint32_t)(entry[1] - entry[0]) * rest + ((1U << shift) >> 1)) >> shift); /* 2^11 * 2^14 */
+    return here + (((next - here) * rest + ((1U << shift) >> 1)) >> shift); /* 2^11 * 2^14 */
 }
 
 /* round(levels * v / 65535): x / 65535 is (x + 1 + (x >> 16)) >> 16 below 2^32 - 2^16 */

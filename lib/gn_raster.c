@@ -40,6 +40,7 @@ static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
         GN_KEEP(iz);                                                                                                               \
     } while (0)
 
+#if !GN_SIZE_FIRST
 static void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
 {
     GN_COUNT(covered, n);
@@ -60,6 +61,7 @@ static void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_dep
     if (n & 1) GN_CELL_(0);
 }
 #undef GN_CELL_
+#endif
 
 #if GN_VISIBLE_ALPHA
 typedef gn_alpha_cut cut_triangle;
@@ -139,10 +141,9 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
     depth.id_mask = tile->id_mask;
     depth.below = tile->id_mask - id;
     uint32_t iz_dy = (uint32_t)tri->iz_dy;
-    /* at the tile's left border, above the least; inside the triangle below `end`, but for the last value there is */
+    /* at the tile's left border, above the least; inside the triangle below its range, but for the last value there is */
     uint32_t iz_row =
         tri->iz_ref - depth.lo - (uint32_t)(x[0] >> bits) * depth.iz_dx + (uint32_t)(walk.first - (y[0] >> bits)) * iz_dy;
-    uint32_t end = cut ? 0 : depth.range;
     uint32_t *row = tile->scratch->cell + walk.first * stride;
     for (; n_rows > 0; n_rows = gn_walk_on(&walk)) {
         for (const gn_span *span = walk.span; n_rows > 0; n_rows--, span++, row += stride, iz_row += iz_dy) {
@@ -150,8 +151,14 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
             if (n <= 0) continue;
             uint32_t above = iz_row + (uint32_t)xa * depth.iz_dx;
             GN_COUNT(rows, 1);
-            if (above < end && above + (uint32_t)(n - 1) * depth.iz_dx < end) raster_span(row + xa, n, above + depth.lo, &depth);
-            else raster_span_slow(tile, cut, &depth, row + xa, n, above + depth.lo);
+#if !GN_SIZE_FIRST /* the slow way has the same results */
+            uint32_t end = cut ? 0 : depth.range;
+            if (above < end && above + (uint32_t)(n - 1) * depth.iz_dx < end) {
+                raster_span(row + xa, n, above + depth.lo, &depth);
+                continue;
+            }
+#endif
+            raster_span_slow(tile, cut, &depth, row + xa, n, above + depth.lo);
         }
     }
 }

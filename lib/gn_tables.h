@@ -26,4 +26,19 @@ extern const int16_t gn_disk_table_q15[128]; /* x, y of 64 points of the unit di
 extern const uint16_t gn_srgb_decode_table[256]; /* 65535 * linear light of an 8-bit sRGB value */
 #endif
 
+/* Entries of tables. Where size comes first, computed: gn_curves.c; reciprocals by the core's divider, if it has one. */
+uint32_t gn_far_recip_entry(uint32_t i);
+uint32_t gn_far_rsqrt_entry(uint32_t i);
+uint32_t gn_far_srgb_entry(uint32_t i);
+uint32_t gn_far_srgb_decode_entry(uint32_t i);
+#if GN_SIZE_FIRST
+#define gn_rsqrt_entry       gn_far_rsqrt_entry
+#define gn_srgb_entry        gn_far_srgb_entry
+#define gn_srgb_decode_entry gn_far_srgb_decode_entry
+#else
+#define gn_rsqrt_entry(i)       ((uint32_t)gn_rsqrt_table[i])
+#define gn_srgb_entry(i)        ((uint32_t)gn_srgb_table[i])
+#define gn_srgb_decode_entry(i) ((uint32_t)gn_srgb_decode_table[i])
+#endif
+
 #endif

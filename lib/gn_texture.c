@@ -135,10 +135,10 @@ void gn_texture_colour(const gn_texture *texture, int32_t u_q16, int32_t v_q16, 
     find_texels(&f, texture, u_q16, v_q16);
     for (int c = 0; c < 3; c++) {
         if (f.bilinear) {
-            for (int i = 0; i < 4; i++) value[i] = gn_srgb_decode_table[f.texel[i][c]];
+            for (int i = 0; i < 4; i++) value[i] = gn_srgb_decode_entry(f.texel[i][c]);
             rgb_uq16[c] = to_uq16(blend(&f, value));
         } else {
-            rgb_uq16[c] = to_uq16(gn_srgb_decode_table[f.texel[0][c]]);
+            rgb_uq16[c] = to_uq16(gn_srgb_decode_entry(f.texel[0][c]));
         }
     }
 }

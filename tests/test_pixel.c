@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "gn_pixel.h"
+#include "gn_tables.h"
 #include "gnomon.h"
 #include "rng.h"
 
@@ -37,6 +38,20 @@ static void test_encode(void)
     CHECK(gn_srgb_encode(0) == 0 && gn_srgb_encode(ONE_Q20) == 65535);
     CHECK(gn_srgb_encode(ONE_Q20 + 1) == 65535 && gn_srgb_encode(UINT32_MAX) == 65535);
     printf("gn_srgb_encode: %.3Lf LSB at %s\n", w.error, w.at);
+}
+
+/* What is computed where size comes first is what the tables hold. */
+static void test_curves(void)
+{
+    tally recip = {0}, rsqrt = {0}, encode = {0}, decode = {0};
+    for (uint32_t i = 0; i < 256; i++) HOLDS(&recip, gn_far_recip_entry(i) == gn_recip_table[i], "%u", (unsigned)i);
+    for (uint32_t i = 0; i < 192; i++) HOLDS(&rsqrt, gn_far_rsqrt_entry(i) == gn_rsqrt_table[i], "%u", (unsigned)i);
+    for (uint32_t i = 0; i < 577; i++) HOLDS(&encode, gn_far_srgb_entry(i) == gn_srgb_table[i], "%u", (unsigned)i);
+    for (uint32_t i = 0; i < 256; i++) HOLDS(&decode, gn_far_srgb_decode_entry(i) == gn_srgb_decode_table[i], "%u", (unsigned)i);
+    CHECK_TALLY(recip, "reciprocals");
+    CHECK_TALLY(rsqrt, "reciprocal roots");
+    CHECK_TALLY(encode, "the sRGB curve");
+    CHECK_TALLY(decode, "the sRGB curve, inverted");
 }
 
 /* round(levels * v / 65535), the nearest level of an encoded value: never a tie, as 65535 is odd */
@@ -222,6 +237,7 @@ static void test_ramp(void)
 int main(void)
 {
     test_encode();
+    test_curves();
     test_pack();
     test_fill();
     test_levels();
