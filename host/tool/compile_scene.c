@@ -290,7 +290,7 @@ static void write_frame_function(FILE *f, const compiled *c)
         fprintf(f, "    (void)now, (void)frame; /* nothing moves */\n    return &still;\n}\n");
         return;
     }
-    fprintf(f, "    if (frame >= SCENE_FRAMES) frame = SCENE_FRAMES - 1;\n    now->scene = still;\n");
+    fprintf(f, "    if (frame >= SCENE_FRAMES) frame = SCENE_FRAMES - 1;\n    memcpy(&now->scene, &still, sizeof still);\n");
     if (compile_moves(c, COMPILE_OF_OBJECT))
         fprintf(f, "    memcpy(now->objects, objects, sizeof objects);\n    now->scene.objects = now->objects;\n");
     if (compile_moves(c, COMPILE_OF_LIGHT))
