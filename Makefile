@@ -44,8 +44,8 @@ run: $(BUILD)/gnomon ## render and compare the main scenes (and SCENES=...); pic
 test: ## run every test; installs what is missing (needs root or sudo)
 	@sh tests/run.sh
 
-soak: ## the longer campaigns: minutes to hours
-	@SOAK=1 sh tests/run.sh
+soak: ## the longer campaigns, minutes to hours: [SEED=n] [SCENES=n] [CAMPAIGNS="random census"]
+	@sh tests/soak.sh
 
 bench: $(BUILD)/gnomon ## count instructions on the host and on four target cores against the committed baselines; WRITE=1 renews them
 	@sh tests/bench.sh $(if $(WRITE),--write)

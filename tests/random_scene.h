@@ -114,8 +114,8 @@ static void random_meshes(random_scene *g)
         gn_mesh mesh = {.pos = g->pos,
                         .nrm_q15 = one_in(2) ? g->nrm : NULL,
                         .rgb_uq16 = one_in(2) ? g->rgb : NULL,
-                        .uv = one_in(20) ? NULL : g->uv,
-                        .mask_uv_uq16 = one_in(20) ? NULL : g->mask_uv,
+                        .uv = one_in(60) ? NULL : g->uv,
+                        .mask_uv_uq16 = one_in(60) ? NULL : g->mask_uv,
                         .idx = g->idx,
                         .n_vertices = RANDOM_VERTICES,
                         .n_triangles = RANDOM_TRIANGLES};
@@ -135,7 +135,7 @@ static void random_rotation(gn_affine *out)
 /* A place before the camera, or anywhere. */
 static void random_place(int32_t out_q16[3], const gn_affine *camera)
 {
-    int64_t ahead_q16 = pick(0, 20 << 16);
+    int64_t ahead_q16 = one_in(3) ? pick(0, 20 << 16) : (1 << 16) + (int64_t)(rnd() % (8 << 16)); /* often in view */
     for (int k = 0; k < 3; k++) {
         int64_t near_camera = camera->t_q16[k] - ahead_q16 * camera->m_q30[k][2] / (1 << 30) + pick(-(2 << 16), 2 << 16);
         int anywhere = one_in(30) || near_camera > RANDOM_LIMIT_Q16 || near_camera < -RANDOM_LIMIT_Q16;
@@ -354,13 +354,16 @@ static void random_knobs(gn_knobs *k)
     k->shadow_depth_frac = (int32_t)(rnd() % 5);
     k->weight_bits = 4 + (int32_t)(rnd() % 9);
     k->atten_bits = one_in(2) ? 8 : 16;
-    k->atlas_size = one_in(200) ? 1024 : 16 << rnd() % 4;
-    k->other_atlas_size = one_in(200) ? 1024 : 16 << rnd() % 4;
+    k->atlas_size = one_in(200) ? 1024 : one_in(8) ? 16 : 32 << rnd() % 3;
+    k->other_atlas_size = one_in(200) ? 1024 : one_in(8) ? 16 : 32 << rnd() % 4;
     k->depth_bits = 8 << rnd() % 3;
     k->other_depth_bits = 8 << rnd() % 3;
     k->tile_width = 8 + 8 * (int32_t)(rnd() % 8);
     k->tile_height = 1 + (int32_t)(rnd() % 40);
     k->srgb = one_in(2);
+    k->vertex_light = one_in(4);
+    k->position_bits = 32; /* may have been spoiled */
+    k->normal_bits = 16;
     if (one_in(200)) spoil_words(k, 0, sizeof *k);
 }
 

@@ -117,12 +117,12 @@ variant gcc -O2 1
 variant clang -O0
 variant clang -O2
 build build/test/threads/test_cores BUILD=build/test/threads SAN=-fsanitize=thread
-build build/test/memory/test_frame BUILD=build/test/memory CC=clang SAN=-fsanitize=memory
+build build/test/memory/test_random BUILD=build/test/memory CC=clang SAN=-fsanitize=memory
 {
     for script in tests/test_*.sh; do echo "$(basename "$script" .sh) sh $script build/gnomon"; done
     echo "test_oiio build/test_oiio"
     echo "threads build/test/threads/test_cores"
-    echo "memory build/test/memory/test_frame"
+    echo "memory build/test/memory/test_random"
     echo 'bench sh tests/bench.sh >build/tmp/bench.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/bench.log; exit 1; }'
     echo 'run make -s run >build/tmp/run.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/run.log; exit 1; }'
 } >build/tmp/jobs

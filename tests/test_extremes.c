@@ -2,7 +2,8 @@
  * section 1, docs/NUMERICS.md). "--table" prints docs/EXTREMES.md. SOAK=1: more random scenes; SCENES=n SEED=n: how many, and others.
  *
  * What other tests measure already is not repeated: bias and acne are test_bias.c's, crawling edges test_crawl.c's, every refusal and every
- * limit of a field test_frame.c's. */
+ * limit of a field test_refused.c's. */
+#include "campaign.h"
 #include "extreme_cases.h"
 #include "../lib/gn_q.h"
 
@@ -1493,12 +1494,6 @@ static void random_words(char *words, size_t n, const char **scene_name)
     add_words(words, n, ".focal=%g", exp(roll(log(0.4), log(8))));
 }
 
-static long option(const char *name, long otherwise)
-{
-    const char *value = getenv(name);
-    return value && *value ? strtol(value, NULL, 0) : otherwise;
-}
-
 /* One random scene; what is beyond what it may need is printed with its number. */
 static void random_picture(worst *w, double *sum, long i, double allowed)
 {
@@ -1539,7 +1534,10 @@ static void test_random(long n)
         double sum = 0;
         char what[160];
         const double allowed = preset == SETTINGS_ACCURATE ? 1 : 2;
-        for (long i = preset == SETTINGS_BALANCED; i < n; i += 2) random_picture(&w, &sum, i, allowed);
+        for (long i = preset == SETTINGS_BALANCED; i < n; i += 2) {
+            random_picture(&w, &sum, i, allowed);
+            show_progress(settings_preset_name[preset], option("SEED", 1), i + 1, n);
+        }
         snprintf(what, sizeof what,
                  "random lights, shadows, surfaces, cameras, in a corner of ±8192 units, in units to 16 times as coarse; %s",
                  settings_preset_name[preset]);

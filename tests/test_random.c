@@ -1,0 +1,131 @@
+/* Random scenes from random words: a seed is a scene. Run under sanitizers this is the search for undefined behaviour.
+ * SEED=n SCENES=n FIRST=n: other scenes, and where to look again. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "campaign.h"
+#include "canvas.h"
+#include "check.h"
+#include "random_scene.h"
+
+static gn_renderer one, two;
+
+typedef struct {
+    random_scene scene;
+    canvas kept, fresh;
+    gn_panel panel;
+    long count[GN_STATUS_COUNT], wrong, drawn, compared;
+    uint32_t texels;
+} campaign;
+
+/* A format or a raw view. */
+static void next_picture(campaign *r, uint32_t kind)
+{
+    gn_picture p = picture_of(48, 32, kind < GN_FORMAT_RAW32 ? (gn_format)kind : GN_FORMAT_RAW32);
+    p.view = kind < GN_FORMAT_RAW32 ? GN_VIEW_COLOUR : (gn_view)(kind - GN_FORMAT_RAW32 + 1);
+    p.view_light = (uint8_t)(rnd() % 8);
+    CHECK(gn_init(&one, &p) == GN_OK && gn_init(&two, &p) == GN_OK);
+    canvas_end(&r->kept);
+    canvas_end(&r->fresh);
+    canvas_begin(&r->kept, p.width, p.height, p.format);
+    canvas_begin(&r->fresh, p.width, p.height, p.format);
+}
+
+/* The same frame by the other renderer, which has kept nothing. Whether it has the same pixels. */
+static int same_afresh(campaign *r, int32_t tile_size, int culling)
+{
+    gn_scene other = r->scene.scene;
+    other.shadow.caster_culling = (uint32_t)culling;
+    gn_forget_shadows(&two);
+    two.frame.knobs = one.frame.knobs;
+    if (tile_size) two.frame.knobs.tile_width = two.frame.knobs.tile_height = tile_size;
+    return gn_render(&two, &other, flush, &r->fresh) == GN_OK && !memcmp(r->kept.pixels, r->fresh.pixels, r->kept.n_bytes);
+}
+
+/* What must not change a pixel: forgetting what was kept, culling casters, other screen tiles where each pixel has its divide. */
+static void compare_with_fresh(campaign *r, long frame)
+{
+    const gn_shadow_settings *s = &r->scene.scene.shadow;
+    int culling = !s->caster_culling;
+    int32_t tile_size = one.frame.knobs.persp_step == 1 ? 8 + 8 * (int32_t)(rnd() % 6) : 0;
+    for (int i = 0; i < 4; i++)
+        if (s->refresh[i] > 1) return; /* tiles are older than the frame */
+    r->compared++;
+    if (same_afresh(r, tile_size, culling)) return;
+    if (r->wrong++ < 10)
+        printf("scene %ld: other pixels by what was kept: %d, by culling: %d, by screen tiles: %d\n", frame,
+               !same_afresh(r, 0, !culling), !same_afresh(r, 0, culling), !same_afresh(r, tile_size, !culling));
+}
+
+/* Every texel that is said to be there can be read. */
+static uint32_t read_tiles(const gn_renderer *r, uint32_t n_lights)
+{
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < n_lights * 6; i++) {
+        gn_tile_info info;
+        if (!gn_get_shadow_tile(r, i / 6, i % 6, &info)) continue;
+        size_t n = (size_t)info.texels * info.texels * info.depth_bits / 8;
+        for (size_t k = 0; k < n; k++) sum += ((const uint8_t *)info.depth)[k];
+    }
+    return sum;
+}
+
+static void random_frame(campaign *r, long frame)
+{
+    canvas *c = &r->kept;
+    memset(c->times, 0, (size_t)c->width * (size_t)c->height);
+    c->n_calls = 0;
+    int changes = one_in(8);
+    gn_status status;
+    if (changes) status = gn_render_changes(&one, &r->scene.scene, &r->panel, flush, c, NULL);
+    else status = gn_render(&one, &r->scene.scene, flush, c);
+    if (!changes) memset(&r->panel, 0, sizeof r->panel);
+    if ((int)status < 0 || status >= GN_STATUS_COUNT) r->wrong++;
+    else r->count[status]++;
+    if (c->n_outside || (status == GN_OK ? !changes && !each_pixel_once(c) : c->n_calls != 0)) r->wrong++;
+    if (status != GN_OK) return;
+    if (one_in(64)) r->texels += read_tiles(&one, r->scene.scene.n_lights);
+    r->drawn += gn_get_stats(&one)->n_triangles && one.frame.n_views;
+    if (one_in(4)) compare_with_fresh(r, frame);
+}
+
+static void test_random_scenes(long n_scenes)
+{
+    static campaign r;
+    long first = option("FIRST", 0) & ~255L;
+    const long seed = option("SEED", 1);
+    for (long i = first; i < first + n_scenes; i++) {
+        if (i % 256 == 0) {
+            random_state = ((uint64_t)seed << 40) + (uint64_t)i;
+            next_picture(&r, (uint32_t)(i / 256 % 11));
+        }
+        if (i % 4 == 0 || one_in(8)) {
+            random_knobs(&one.frame.knobs);
+            random_scene_make(&r.scene);
+            gn_forget_shadows(&one); /* arrays have changed in place */
+            memset(&r.panel, 0, sizeof r.panel);
+        } else {
+            random_scene_change(&r.scene);
+        }
+        random_frame(&r, i);
+        show_progress("random scenes", seed, i + 1 - first, n_scenes);
+    }
+    CHECK_EQ_INT(r.wrong, 0);
+    CHECK(r.drawn > n_scenes / 8); /* enough of them are drawn with shadows, and many kinds of refusal occur */
+    int kinds = 0;
+    for (int i = 1; i < GN_STATUS_COUNT; i++) kinds += r.count[i] > 0;
+    CHECK(kinds >= 15);
+    printf("seed %ld, scenes %ld to %ld: %ld drawn with shadows, %ld refused, %ld compared with a fresh frame\n", seed, first,
+           first + n_scenes - 1, r.drawn, n_scenes - r.count[GN_OK], r.compared);
+    if (getenv("VERBOSE"))
+        for (int i = 0; i < GN_STATUS_COUNT; i++) printf("%7ld %s\n", r.count[i], gn_status_text((gn_status)i));
+    canvas_end(&r.kept);
+    canvas_end(&r.fresh);
+    random_scene_end(&r.scene);
+}
+
+int main(void)
+{
+    test_random_scenes(option("SCENES", 20000));
+    return check_report();
+}
