@@ -232,5 +232,6 @@
 
 /* Whether surfaces may be shaded piece by piece (gn_piece.h): not where every pixel is to be exact. */
 #define GN_PIECES (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1)
+#define GN_TURNING (GN_PIECES && GN_VERTEX_NORMALS && (GN_RUNTIME_KNOBS || !GN_VERTEX_LIGHT))
 
 #endif

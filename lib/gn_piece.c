@@ -5,6 +5,7 @@
 #include "gn_filter.h"
 #include "gn_math.h"
 #include "gn_q.h"
+#include "gn_turn.h"
 
 #if GN_PIECES
 
@@ -41,7 +42,7 @@ static int forms(gn_pieces *p, const gn_rect *rect)
 }
 
 #if GN_SHADOWS
-/* What the offset of the only light with a shadow needs. Returns 0 if it is not linear in the interpolated normal. */
+/* Whether the offset of the only light with a shadow is linear in the interpolated normal. */
 static int shadow_light(gn_pieces *p)
 {
     const gn_frame *frame = p->frame;
@@ -53,16 +54,9 @@ static int shadow_light(gn_pieces *p)
     if (view->perspective || view->filter == GN_FILTER_DISK) return 0;
     if (GN_RECEIVER_PLANE && scene_light->receiver_plane) return 0;
     if (GN_BLENDED_CASCADES && !view->border_lit && frame->scene->shadow.blend != GN_BLEND_HARD && frame->n_cascades > 1) return 0;
-    for (int i = 0; i < 3; i++) {
-        p->offset_q16[0][i] = light->flat_offset_q16[i];
-        p->offset_q16[1][i] = p->offset_q16[2][i] = 0;
-    }
-    if (!GN_SMOOTH(s)) return 1;
-    if (GN_AUTO_BIAS && light->state->auto_bias) return 0; /* along the normal, and not linear in it */
+    for (int i = 0; i < 3; i++) p->offset_q16[i] = GN_SMOOTH(s) ? 0 : light->flat_offset_q16[i];
     const int32_t *b = scene_light->bias_receiver_q16;
-    if (GN_RECEIVER_BIAS && (b[0] | b[1] | b[3])) return 0;
-    for (int k = 0; k < 3; k++) gn_bias_directional(frame, view, s->normal_q30[k], p->offset_q16[k]);
-    return 1;
+    return !GN_SMOOTH(s) || !GN_RECEIVER_BIAS || light->state->auto_bias || !(b[0] | b[1] | b[3]);
 }
 
 /* The light whose shadow may fall here. Returns 0 if there are several. */
@@ -114,6 +108,7 @@ typedef struct {
     int32_t clz;
     int32_t z_q16;
     gn_slope b_q28[2];
+    gn_slope n_q28[3]; /* interpolated normal of smooth surfaces */
     int32_t w_dx_q30, w_dy_q30; /* change of w per pixel, relative to w */
 } middle;
 
@@ -196,50 +191,10 @@ static int32_t tolerance_log2(const gn_frame *frame)
 }
 
 #if GN_VERTEX_NORMALS
-/* The interpolated normal in the middle: as it is and of unit length, and its changes, Q30. */
-typedef struct {
-    gn_length length;
-    int32_t n_q30[3], unit_q30[3], dx_q30[3], dy_q30[3];
-} middle_normal;
-
-/* A cosine bends by half the square of the angle. Returns 0 if the normal turns too far over the piece. */
-static int find_normal(const gn_pieces *p, const middle *m, half_size half, middle_normal *normal)
+/* The interpolated normal in the middle, Q28; what is outside of +-1 there is looked at no further. */
+static void find_normal(const gn_surface *s, middle *m)
 {
-    const gn_surface *s = p->surface;
-    uint32_t size2 = 0, turned2 = 0;
-    for (int i = 0; i < 3; i++) {
-        gn_slope n_q28 = interpolate(m, s->normal_q30[0][i] / 4, s->normal_q30[1][i], s->normal_q30[2][i], 30);
-        uint32_t turned = change_of(&n_q28, half, 14);
-        if (gn_abs32(n_q28.at) > 1U << 28 || (gn_abs32(n_q28.dx) | gn_abs32(n_q28.dy)) >> 28 || turned >> 14) return 0;
-        size2 += (gn_abs32(n_q28.at) >> 14) * (gn_abs32(n_q28.at) >> 14);
-        turned2 += turned * turned;
-        normal->n_q30[i] = n_q28.at * 4;
-        normal->dx_q30[i] = n_q28.dx * 4;
-        normal->dy_q30[i] = n_q28.dy * 4;
-    }
-    if (turned2 > size2 >> (tolerance_log2(p->frame) - 1)) return 0;
-    normal->length = gn_length_of(GN_K(p->frame, newton_steps), normal->n_q30);
-    gn_length_unit(normal->length, normal->n_q30, normal->unit_q30);
-    return 1;
-}
-
-/* n . L: (n' . L - (n . L) (n' . n)) / |N| is its change, n' that of N. Returns 0 if it changes sign over the piece.
- * Slopes are below 2: cosines are limited to 1. */
-static int cosine(const middle_normal *normal, const gn_light_state *light, half_size half, gn_slope *out)
-{
-    const int32_t *to_light = light->to_light_q30, *unit = normal->unit_q30;
-    out->at = gn_length_cosine_q24(normal->length, normal->n_q30, to_light);
-    out->dx = gn_length_cosine_q24(normal->length, normal->dx_q30, to_light) -
-              gn_mul_shr(out->at, gn_length_cosine_q24(normal->length, normal->dx_q30, unit), 24);
-    out->dy = gn_length_cosine_q24(normal->length, normal->dy_q30, to_light) -
-              gn_mul_shr(out->at, gn_length_cosine_q24(normal->length, normal->dy_q30, unit), 24);
-    uint32_t change = change_of(out, half, 0);
-    if (out->at < 0) {
-        int beyond = gn_abs32(out->at) >= change;
-        out->at = out->dx = out->dy = 0;
-        return beyond;
-    }
-    return (uint32_t)out->at >= change;
+    for (int i = 0; i < 3; i++) m->n_q28[i] = interpolate(m, s->normal_q30[0][i] / 4, s->normal_q30[1][i], s->normal_q30[2][i], 30);
 }
 #endif
 
@@ -255,13 +210,7 @@ static void add_light(gn_slope *sum, uint32_t colour_uq16, const gn_slope *cosin
 static int arriving(gn_pieces *p, const middle *m, half_size half)
 {
     const gn_surface *s = p->surface;
-#if GN_VERTEX_NORMALS
-    middle_normal normal;
-    int turns = GN_SMOOTH(s) && !GN_K(p->frame, vertex_light);
-    if (turns && s->n_lights && !find_normal(p, m, half, &normal)) return 0;
-#else
     (void)m, (void)half;
-#endif
     for (int c = 0; c < 3; c++) {
         gn_slope dark = {(int32_t)(s->base_q20[c] << 4), 0, 0};
         p->dark_q24[c] = p->lit_q24[c] = dark;
@@ -269,13 +218,10 @@ static int arriving(gn_pieces *p, const middle *m, half_size half)
     for (uint32_t i = 0; i < s->n_lights; i++) {
         const gn_surface_light *light = &s->light[i];
         gn_slope facing = {light->flat_cosine_q24, 0, 0};
-#if GN_VERTEX_NORMALS
-        if (turns && !cosine(&normal, light->state, half, &facing)) return 0;
-#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
+#if GN_VERTEX_NORMALS && (GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT)
         const int32_t *at = light->vertex_cosine_q24;
-        if (GN_SMOOTH(s) && !turns) facing = interpolate(m, at[0], at[1], at[2], 28);
+        if (GN_SMOOTH(s)) facing = interpolate(m, at[0], at[1], at[2], 28);
         if (!stays_within_2(&facing, half)) return 0;
-#endif
 #endif
         for (int c = 0; c < 3; c++) {
             add_light(&p->lit_q24[c], light->radiance_uq16[c], &facing);
@@ -286,11 +232,22 @@ static int arriving(gn_pieces *p, const middle *m, half_size half)
 }
 
 /* Times the vertices' colours. Two values that both change are multiplied row by row. */
-static int colours(gn_pieces *p, const middle *m, half_size half)
+static int colours(gn_pieces *p, middle *m, half_size half)
 {
     const gn_surface *s = p->surface;
     p->tinted = GN_COLOURED(s) && GN_SMOOTH(s);
-    if (!arriving(p, m, half)) return 0;
+    p->turns = 0;
+#if GN_VERTEX_NORMALS
+    if (GN_SMOOTH(s)) find_normal(s, m);
+#endif
+#if GN_TURNING
+    p->turns = GN_SMOOTH(s) && !GN_K(p->frame, vertex_light);
+    p->turning.keep_uq16 = 65536;
+#endif
+    if (!p->turns && !arriving(p, m, half)) return 0;
+#if GN_TURNING
+    if (p->turns && !gn_turn_select(p, m->n_q28, half.w, half.h)) return 0;
+#endif
     for (int c = 0; GN_COLOURED(s) && c < 3; c++) {
         gn_slope colour = interpolate(m, s->rgb_q16[0][c] * 256, s->rgb_q16[1][c], s->rgb_q16[2][c], 20);
         if (!stays_within_2(&colour, half)) return 0;
@@ -302,31 +259,41 @@ static int colours(gn_pieces *p, const middle *m, half_size half)
     return 1;
 }
 
-/* Over half a piece a value changes by g and w by t, relative to w: what colour_near() leaves out is g t^2; over a ramp of n pixels it
- * bends by a quarter of the product of what both, or two factors, change over it. */
+/* How many pixels a ramp may have that bends by a quarter of `bend` from pixel to pixel. */
+static int32_t longest_ramp(uint64_t bend_q46, int32_t tolerance, int32_t least)
+{
+    int32_t n = GN_PIECE_WIDTH;
+    while (n > least && bend_q46 * (uint32_t)(n * n / 4) >> (46 - tolerance)) n >>= 1;
+    return n;
+}
+
+/* Whether w changes by at most an eighth over half a piece, and how long its ramps may be: over n pixels a colour bends by a quarter of the
+ * product of what it and w, relative to w, or two factors change over them, and a cosine by an eighth of the square of the angle. */
 static int close_enough(gn_pieces *p, half_size half)
 {
     uint64_t bend_q30 = (uint64_t)gn_abs32(p->w_dx_q30) * half.w + (uint64_t)gn_abs32(p->w_dy_q30) * half.h;
     if (bend_q30 > 1U << 27) return 0;
     if (!p->varies) return 1;
     int32_t tolerance = tolerance_log2(p->frame);
-    uint32_t change = 0, fastest = 0, product = 0, bend2_q30 = (uint32_t)(bend_q30 * bend_q30 >> 30);
+    uint32_t fastest = 0, product = 0, turn = 0;
+#if GN_TURNING
+    if (p->turns) turn = p->turning.per_px_q16;
+#endif
     for (int c = 0; c < 3; c++) {
-        uint32_t dx = gn_abs32(p->lit_q24[c].dx) >> 8, here = change_of(&p->lit_q24[c], half, 8); /* Q16 */
+        uint32_t dx = p->turns ? 0 : gn_abs32(p->lit_q24[c].dx) >> 8; /* Q16 */
         if (p->tinted) {
             uint32_t tint_dx = gn_abs32(p->tint_q24[c].dx) >> 8;
-            if ((dx | tint_dx) >> 16) return 0;
-            product = (uint32_t)gn_max32((int32_t)product, (int32_t)(dx * tint_dx >> 2)); /* Q30 */
+            if ((dx | tint_dx | turn) >> 16) return 0;
+            product = (uint32_t)gn_max32((int32_t)product, (int32_t)((dx + turn) * (tint_dx >> 2))); /* Q30 */
             dx += tint_dx;
-            here += change_of(&p->tint_q24[c], half, 8);
         }
-        if (here > change) change = here;
         if (dx > fastest) fastest = dx;
     }
-    if ((uint64_t)change * bend2_q30 >> (46 - tolerance)) return 0;
-    uint64_t bend_q46 = (uint64_t)fastest * gn_abs32(p->w_dx_q30) + ((uint64_t)product << 16);
-    for (p->ramp_px = GN_PIECE_WIDTH; p->ramp_px > 4; p->ramp_px >>= 1)
-        if (!(bend_q46 * (uint32_t)(p->ramp_px * p->ramp_px / 4) >> (46 - tolerance))) break;
+    uint64_t bend_q46 = (uint64_t)fastest * gn_abs32(p->w_dx_q30);
+#if GN_TURNING
+    p->tint_px = longest_ramp(bend_q46, tolerance, 4);
+#endif
+    p->ramp_px = longest_ramp(bend_q46 + ((uint64_t)product << 16) + ((uint64_t)turn * turn << 13), tolerance, p->turns ? 1 : 4);
     return 1;
 }
 
@@ -405,6 +372,18 @@ static int32_t on_ray(int32_t z_q16, int32_t a, int32_t shift)
     return (int32_t)(uint32_t)(uint64_t)gn_shr64((int64_t)z_q16 * a, shift);
 }
 
+#if GN_VERTEX_NORMALS
+/* So many texels, Q16, along the interpolated normal, and of that the part along an axis. */
+static gn_slope along_normal(const middle *m, const int32_t axis_q30[3], int32_t along_q16)
+{
+    const gn_slope *n = m->n_q28; /* within +-7: 3 * 2^61 */
+    int32_t at[3] = {n[0].at, n[1].at, n[2].at}, dx[3] = {n[0].dx, n[1].dx, n[2].dx}, dy[3] = {n[0].dy, n[1].dy, n[2].dy};
+    gn_slope out = {(int32_t)((gn_dot64(at, axis_q30) >> 32) * along_q16 >> 26), (int32_t)((gn_dot64(dx, axis_q30) >> 32) * along_q16 >> 26),
+                    (int32_t)((gn_dot64(dy, axis_q30) >> 32) * along_q16 >> 26)};
+    return out;
+}
+#endif
+
 /* Where the light sees the piece. Returns 0 where that is not close enough to linear over the piece. */
 static int find_place(gn_pieces *p, const middle *m, const gn_rect *rect)
 {
@@ -417,15 +396,17 @@ static int find_place(gn_pieces *p, const middle *m, const gn_rect *rect)
         const gn_ray_plane *ray = &fit->ray[i];
         int32_t a = (int32_t)((uint32_t)ray->a0 + (uint32_t)ray->ax * (uint32_t)px + (uint32_t)ray->ay * (uint32_t)py); /* < 2^31 */
         gn_slope *out = &p->place[i];
-        out->at = (int32_t)((uint32_t)on_ray(m->z_q16, a, fit->ray_shift) + (uint32_t)ray->d_q16 + (uint32_t)p->offset_q16[0][i]);
+        out->at = (int32_t)((uint32_t)on_ray(m->z_q16, a, fit->ray_shift) + (uint32_t)ray->d_q16 + (uint32_t)p->offset_q16[i]);
         out->dx = (int32_t)gn_shr64(((int64_t)z_dx * a) * 4 + (int64_t)m->z_q16 * ray->ax * 2, fit->ray_shift);
         out->dy = (int32_t)gn_shr64(((int64_t)z_dy * a) * 4 - (int64_t)m->z_q16 * ray->ay * 2, fit->ray_shift);
-        if (GN_SMOOTH(p->surface)) {
-            gn_slope offset = interpolate(m, p->offset_q16[0][i], p->offset_q16[1][i], p->offset_q16[2][i], 28);
-            out->at += offset.at - p->offset_q16[0][i];
+#if GN_VERTEX_NORMALS
+        if (p->along_q16) {
+            gn_slope offset = along_normal(m, p->view->axis_q30[i], p->along_q16);
+            out->at = (int32_t)((uint32_t)out->at + (uint32_t)offset.at);
             out->dx += offset.dx;
             out->dy += offset.dy;
         }
+#endif
         uint32_t across = gn_abs32(out->dx) * (uint32_t)half_w + gn_abs32(out->dy) * (uint32_t)half_h;
         if ((gn_abs32(out->dx) | gn_abs32(out->dy)) >> 22) return 0; /* 64 texels per pixel */
         if (across > most) most = across;
@@ -435,7 +416,7 @@ static int find_place(gn_pieces *p, const middle *m, const gn_rect *rect)
     /* g t^2 within 1/32 texel; from end to end of a chunk of n pixels a chord bends by g t / 4 */
     uint32_t bend_q15 = (uint32_t)(gn_abs32(m->w_dx_q30) * (uint32_t)half_w + gn_abs32(m->w_dy_q30) * (uint32_t)half_h) >> 15;
     if ((uint64_t)most * ((bend_q15 * bend_q15) >> 15) >> 15 > 2048) return 0;
-    p->chunk_px = p->varies ? gn_min32(GN_K(p->frame, persp_step), p->ramp_px) : GN_K(p->frame, persp_step);
+    p->chunk_px = p->varies && !p->turns ? gn_min32(GN_K(p->frame, persp_step), p->ramp_px) : GN_K(p->frame, persp_step);
     while (p->chunk_px > 1 &&
            ((uint64_t)fastest * (uint32_t)p->chunk_px * ((gn_abs32(m->w_dx_q30) * (uint32_t)p->chunk_px) >> 8)) >> 22 > 4 * 2048)
         p->chunk_px >>= 1;
@@ -448,12 +429,17 @@ static int pick_view(gn_pieces *p, const gn_surface_light *light, int32_t cascad
     p->view = &frame->view[light->state->view_idx];
     if (!p->view->border_lit) p->view += cascade;
     int32_t up = 15 - p->view->tile_log2 - p->view->depth_log2; /* texels, Q16, to a share of the range, Q31 */
+    p->along_q16 = GN_SMOOTH(p->surface) ? p->view->offset_q16 : 0;
     p->depth_up = gn_max32(up, 0);
     p->depth_least = -((1 << 30) >> p->depth_up);
     p->depth_most = 0x7FFF8000 >> p->depth_up;
 #if GN_AUTO_BIAS
     gn_auto_bias form = (gn_auto_bias)light->state->auto_bias;
-    if (form) gn_bias_auto_ortho(p->view, form, light->flat_offset_q16, p->offset_q16[0]);
+    if (form && !GN_CURVED(p->surface)) {
+        gn_bias_auto_ortho(p->view, form, light->flat_offset_q16, p->offset_q16);
+        return up >= 0;
+    }
+    if (form) p->along_q16 = p->view->auto_place;
 #endif
     return up >= 0;
 }
@@ -470,7 +456,10 @@ static int shadow(gn_pieces *p, const middle *m, const gn_rect *rect)
     if (reach == REACH_ALL && frame->has_cascades) reach = reach_of_cascades(frame, &e, &cascade);
     if (reach == REACH_SOME) return 0;
     uint32_t keep = reach == REACH_NONE ? 65536 : 65536 - light->state->strength_uq16;
-    for (int c = 0; keep && c < 3; c++) {
+#if GN_TURNING
+    p->turning.keep_uq16 = keep;
+#endif
+    for (int c = 0; keep && !p->turns && c < 3; c++) {
         gn_slope *dark = &p->dark_q24[c], *lit = &p->lit_q24[c];
         dark->at += gn_mul_shr(lit->at - dark->at, (int32_t)keep, 16);
         dark->dx += gn_mul_shr(lit->dx - dark->dx, (int32_t)keep, 16);

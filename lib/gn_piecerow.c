@@ -3,6 +3,7 @@
 #include "gn_filter.h"
 #include "gn_piece.h"
 #include "gn_q.h"
+#include "gn_turn.h"
 
 #if GN_PIECES
 
@@ -10,24 +11,14 @@
 enum { CELL_UNKNOWN, CELL_LIT, CELL_DARK, CELL_MIXED };
 #endif
 
-/* A colour near (x, y), to the second order, and its change per pixel there. It is v + g / (1 + t), g the change by the slope and t that
- * of w: about v + g (1 - t). `right` and `down` are from the middle of the piece, in half pixels. */
-static inline int32_t colour_near(const gn_pieces *p, const gn_slope *colour, int32_t right, int32_t down, int32_t t_q30,
-                                  int32_t *step)
-{
-    int32_t g = (colour->dx * right + colour->dy * down) >> 1;
-    *step = colour->dx - 4 * (gn_mul_high(colour->dx, t_q30) + gn_mul_high(g, p->w_dx_q30));
-    return colour->at + g - 4 * gn_mul_high(g, t_q30);
-}
-
-/* The same of all channels, for a row of n pixels from (x, y) on: the colour of its first and the step from each to the next. */
+/* All channels, for a row of n pixels from (x, y) on: the colour of its first and the step from each to the next. */
 static void ramp_of(const gn_pieces *p, const gn_slope colour_q24[3], int32_t x, int32_t y, int32_t n, int32_t from[3], int32_t step[3])
 {
-    int32_t right = 2 * (x - p->x) + n - 1, down = 2 * (y - p->y), t_q30 = (p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1;
+    int32_t right = 2 * (x - p->x) + n - 1, down = 2 * (y - p->y), per_w_q30 = gn_per_w((p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1);
     for (int c = 0; c < 3; c++) {
-        int32_t at = colour_near(p, &colour_q24[c], right, down, t_q30, &step[c]);
+        int32_t at = gn_colour_near(p, &colour_q24[c], right, down, per_w_q30, &step[c]);
         if (p->tinted) {
-            int32_t tint_step, tint = colour_near(p, &p->tint_q24[c], right, down, t_q30, &tint_step);
+            int32_t tint_step, tint = gn_colour_near(p, &p->tint_q24[c], right, down, per_w_q30, &tint_step);
             step[c] = gn_mul_q24(step[c], tint) + gn_mul_q24(at, tint_step);
             at = gn_mul_q24(at, tint);
         }
@@ -42,6 +33,12 @@ static void plain_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, 
         gn_pixel_fill(p->frame, rows, x, y, n, lit ? p->lit_pixel : p->dark_pixel);
         return;
     }
+#if GN_TURNING
+    if (p->turns) {
+        gn_turn_row(p, rows, y, x, n, NULL, lit);
+        return;
+    }
+#endif
     for (int32_t end = x + n, from[3], step[3]; x < end; x += n) {
         n = gn_min32(end - x, p->ramp_px);
         ramp_of(p, lit ? p->lit_q24 : p->dark_q24, x, y, n, from, step);
@@ -130,9 +127,15 @@ static void looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t
         step.v_q16 = step_of(from.v_q16, to.v_q16, n - 1);
         step.depth_q31 = step_of(from.depth_q31, to.depth_q31, n - 1);
     }
+    gn_filter_row(p->frame, p->view, &from, &to, &step, n, attenuation);
+#if GN_TURNING
+    if (p->turns) {
+        gn_turn_row(p, rows, y, x, n, attenuation, 0);
+        return;
+    }
+#endif
     row_colours row;
     find_row_colours(p, x, y, n, &row);
-    gn_filter_row(p->frame, p->view, &from, &to, &step, n, attenuation);
     for (int32_t i = 0; i < n;) {
         uint32_t here = attenuation[i];
         if (here - 1 < 65535) {

@@ -140,6 +140,16 @@ typedef struct {
     int32_t at, dx, dy;
 } gn_slope;
 
+#if GN_TURNING
+/* N, the normal times n . ray over that of the middle, is linear over a piece, with (x, y) from the middle. */
+typedef struct {
+    gn_slope facing_q28[GN_SURFACE_LIGHTS]; /* N . L */
+    uint32_t size_q28, size_dx, size_dy, size_dxx, size_dxy, size_dyy; /* |N|^2: size + x (dx + x dxx + y dxy) + y (dy + y dyy) */
+    uint32_t per_px_q16;                    /* how far it turns from pixel to pixel, at most; radians */
+    uint32_t keep_uq16;                     /* of the light that casts a shadow, what this leaves */
+} gn_turning;
+#endif
+
 typedef struct {
     const struct gn_frame *frame;
     const gn_surface *surface;
@@ -151,6 +161,11 @@ typedef struct {
     int32_t x, y;
     int varies;                            /* colours are not one all over */
     int32_t ramp_px;                       /* how long a row of pixels may be of one ramp */
+    int turns;                             /* normals do: what arrives is not in the slopes */
+#if GN_TURNING
+    int32_t tint_px;                       /* how long the colours of vertices are linear in a row */
+    gn_turning turning;
+#endif
     int looks_up;                          /* 0: dark all over */
     int tinted;                            /* times the colours of vertices; otherwise these are in it */
     gn_slope dark_q24[3], lit_q24[3];      /* without and with the light */
@@ -159,7 +174,8 @@ typedef struct {
     int32_t w_dx_q30, w_dy_q30;            /* change of w per pixel, relative to w */
 #if GN_SHADOWS
     const gn_light_view *view;
-    int32_t offset_q16[3][3]; /* the receiver's in texels: at vertex 0, and at the others */
+    int32_t offset_q16[3];    /* the receiver's in texels: what is the same all over, */
+    int32_t along_q16;        /* and along the interpolated normal as it is */
     gn_slope place[3];        /* where the light sees the piece: texels, Q16; U, V and depth D */
     int32_t depth_up, depth_least, depth_most; /* D to a share of the range, Q31, by a shift, and its limits */
     int32_t chunk_px;      /* how many pixels may be stepped from end to end */

@@ -1,0 +1,165 @@
+/* Pieces of smooth surfaces. Ranges and errors: NUMERICS 4.12. */
+#include "gn_turn.h"
+#include "gn_math.h"
+#include "gn_piece.h"
+#include "gn_q.h"
+
+#if GN_TURNING
+
+/* ---- Once per piece ----------------------------------------------------------------------------------------------- */
+
+/* At least the length of a vector of absolute values. */
+static uint32_t length_below(const uint32_t a[3])
+{
+    uint32_t most = a[0] > a[1] ? a[0] : a[1];
+    if (a[2] > most) most = a[2];
+    return (most + a[0] + a[1] + a[2]) >> 1;
+}
+
+/* a . b / 2^shift; components < 2^30 */
+static int32_t dot(const int32_t a[3], const int32_t b[3], int32_t shift)
+{
+    return (int32_t)(gn_dot64(a, b) >> shift);
+}
+
+/* N . L, N the normal times n . ray over that of the middle: at, and by how much it changes. */
+static void find_facing(gn_pieces *p, const int32_t at[3], const int32_t dx[3], const int32_t dy[3])
+{
+    for (uint32_t i = 0; i < p->surface->n_lights; i++) {
+        const int32_t *to_light = p->surface->light[i].state->to_light_q30;
+        gn_slope *facing = &p->turning.facing_q28[i];
+        facing->at = dot(at, to_light, 30); /* < 2^28 */
+        facing->dx = dot(dx, to_light, 30);
+        facing->dy = dot(dy, to_light, 30);
+    }
+}
+
+int gn_turn_select(gn_pieces *p, const gn_slope n_q28[3], uint32_t half_w, uint32_t half_h)
+{
+    gn_turning *t = &p->turning;
+    int32_t at[3], dx[3], dy[3];
+    uint32_t turned[3], along[3];
+    for (int i = 0; i < 3; i++) {
+        const gn_slope *n = &n_q28[i];
+        if (gn_abs32(n->at) > 1U << 28 || (gn_abs32(n->dx) | gn_abs32(n->dy)) >> 27) return 0;
+        at[i] = n->at;
+        dx[i] = n->dx + gn_mul_high(n->at, p->w_dx_q30) * 4; /* 2^27 + 2^25 */
+        dy[i] = n->dy + gn_mul_high(n->at, p->w_dy_q30) * 4;
+        along[i] = gn_abs32(dx[i]) >> 12; /* Q16 */
+        turned[i] = along[i] * half_w + (gn_abs32(dy[i]) >> 12) * half_h;
+    }
+    uint32_t size_q28 = (uint32_t)dot(at, at, 28), turned_q16 = length_below(turned);
+    if (size_q28 < 1U << 26 || turned_q16 > 2U << 16) return 0;
+    t->size_q28 = size_q28;
+    t->size_dx = 2 * (uint32_t)dot(at, dx, 28);
+    t->size_dy = 2 * (uint32_t)dot(at, dy, 28);
+    t->size_dxx = (uint32_t)dot(dx, dx, 28);
+    t->size_dxy = 2 * (uint32_t)dot(dx, dy, 28);
+    t->size_dyy = (uint32_t)dot(dy, dy, 28);
+    /* 1 / sqrt(s) is below 1 + (1 - s) 4/3 from 1/4 to 1 */
+    uint32_t left_q16 = size_q28 < 1U << 28 ? ((1U << 28) - size_q28) >> 12 : 0;
+    t->per_px_q16 = length_below(along) * (256 + (left_q16 >> 8) * 4 / 3) >> 8; /* 2^18 * 2^9 */
+    if (turned_q16 * (turned_q16 >> 4) > size_q28 >> 2) t->per_px_q16 = 65535; /* |N| is less than half elsewhere */
+    find_facing(p, at, dx, dy);
+    return 1;
+}
+
+/* ---- Rows --------------------------------------------------------------------------------------------------------- */
+
+/* A part of a row over which vertex colours are linear. */
+typedef struct {
+    const gn_pieces *p;
+    int32_t x, y;            /* its first pixel, from the middle of the piece */
+    uint32_t size_q28, size_dx;
+    int32_t tint_q29[3], tint_step[3];
+} row;
+
+static void begin_row(row *r, const gn_pieces *p, int32_t x, int32_t y, int32_t n)
+{
+    const gn_turning *t = &p->turning;
+    r->p = p;
+    r->x = x - p->x;
+    r->y = y - p->y;
+    uint32_t right = (uint32_t)r->x, down = (uint32_t)r->y;
+    r->size_dx = t->size_dx + 2 * right * t->size_dxx + down * t->size_dxy;
+    r->size_q28 = t->size_q28 + right * (t->size_dx + right * t->size_dxx + down * t->size_dxy) + down * (t->size_dy + down * t->size_dyy);
+    if (!p->tinted) return;
+    int32_t half_right = 2 * r->x + n - 1, per_w_q30 = gn_per_w((p->w_dx_q30 * half_right + p->w_dy_q30 * 2 * r->y) >> 1);
+    for (int c = 0; c < 3; c++) {
+        int32_t step, at = gn_colour_near(p, &p->tint_q24[c], half_right, 2 * r->y, per_w_q30, &step);
+        r->tint_step[c] = step * 32;
+        r->tint_q29[c] = at * 32 - step * 16 * (n - 1);
+    }
+}
+
+/* The colour at its pixel i, `share` of the light with the shadow let through. Returns a bit per light that shines on it. */
+static uint32_t colour_at(const row *r, int32_t i, uint32_t share_uq16, int32_t colour_q24[3])
+{
+    const gn_pieces *p = r->p;
+    const gn_surface *s = p->surface;
+    int32_t sum_q27[3];
+    uint32_t lit = 0, size_q28 = r->size_q28 + (uint32_t)i * (r->size_dx + (uint32_t)i * p->turning.size_dxx);
+    int32_t up = gn_clz32(size_q28 > 65536 ? size_q28 : 65536) & 30; /* < 16: 14 at most, for |N| of 2^-6 */
+    uint32_t root = gn_rsqrt_norm(size_q28 << up | 1U << 30, GN_K(p->frame, newton_steps)); /* 2^(33 - up / 2) / |N| */
+    for (int c = 0; c < 3; c++) sum_q27[c] = (int32_t)(s->base_q20[c] << 7);
+    for (uint32_t k = 0; k < s->n_lights; k++) {
+        int32_t facing = gn_along(&p->turning.facing_q28[k], r->x + i, r->y);
+        if (facing <= 0) continue;
+        lit |= 1U << (k & 31);
+        int32_t cosine_q30 = gn_mul_high(facing, (int32_t)(root >> 1)) * (4 << (up >> 1)); /* 2^(28 - up / 2) */
+        if ((int32_t)k == p->shadow_slot && share_uq16 < 65536) cosine_q30 = (int32_t)((int64_t)cosine_q30 * (int32_t)share_uq16 >> 16);
+        for (int c = 0; c < 3; c++) sum_q27[c] += 2 * gn_mul_high((int32_t)(s->light[k].radiance_uq16[c] << 12), cosine_q30);
+    }
+    for (int c = 0; c < 3; c++)
+        colour_q24[c] = p->tinted ? gn_mul_high(sum_q27[c], r->tint_q29[c] + i * r->tint_step[c]) : sum_q27[c] >> 3;
+    return lit;
+}
+
+static uint32_t share_of(const gn_pieces *p, uint32_t attenuation)
+{
+    return p->turning.keep_uq16 + ((65536 - p->turning.keep_uq16) * (attenuation >> 1) >> 15);
+}
+
+static void each_pixel(const row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation, uint32_t share)
+{
+    for (int32_t i = 0; i < n; i++) {
+        int32_t colour[3];
+        colour_at(r, i, attenuation ? share_of(r->p, attenuation[i]) : share, colour);
+        gn_pixel_dot(r->p->frame, rows, x + i, y, colour);
+    }
+}
+
+/* Ramps as long as they may be, shorter where a light begins or ends to shine. */
+static void ramps(const row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, uint32_t share)
+{
+    int32_t from[3], to[3], step[3];
+    uint32_t lit = colour_at(r, 0, share, from);
+    for (int32_t i = 0; i < n;) {
+        int32_t length = r->p->ramp_px;
+        uint32_t lit_there;
+        while (length > n - i) length >>= 1;
+        while ((lit_there = colour_at(r, i + length, share, to)) != lit && length > 1) length >>= 1;
+        int32_t log2 = 31 - gn_clz32((uint32_t)length);
+        for (int c = 0; c < 3; c++) step[c] = (to[c] - from[c]) >> log2;
+        if (length > 1) gn_pixel_ramp(r->p->frame, rows, x + i, y, length, from, step);
+        else gn_pixel_dot(r->p->frame, rows, x + i, y, from);
+        for (int c = 0; c < 3; c++) from[c] = to[c];
+        lit = lit_there;
+        i += length;
+    }
+}
+
+void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation, int all)
+{
+    uint32_t share = share_of(p, all ? 65536 : 0);
+    row r;
+    for (int32_t end = x + n; x < end; x += n) {
+        n = gn_min32(end - x, p->tint_px);
+        begin_row(&r, p, x, y, n);
+        if (attenuation || p->ramp_px < 4) each_pixel(&r, rows, y, x, n, attenuation, share);
+        else ramps(&r, rows, y, x, n, share);
+        if (attenuation) attenuation += n;
+    }
+}
+
+#endif
