@@ -41,7 +41,7 @@ static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
     } while (0)
 
 #if !GN_SIZE_FIRST
-static void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
+GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
 {
     GN_COUNT(covered, n);
     uint32_t iz_dx = depth->iz_dx, id_mask = depth->id_mask, below = depth->below;
@@ -124,6 +124,47 @@ static GN_NOINLINE void raster_span_slow(const raster_tile *tile, const cut_tria
     GN_COUNT(covered, cut ? 0 : n);
 }
 
+#if !GN_SIZE_FIRST
+/* A small triangle whose depth needs no look (gn_tri): its edges are stepped in fixed point, row by row. */
+static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+{
+    /* top, left and right of it, as a ring: left edges lead down from one to the next, right ones from one to the last */
+    const gn_walk_corner ring[4] = {{tri->x[0] + tile->x, tri->y[0] + tile->y}, {tri->x[1] + tile->x, tri->y[1] + tile->y},
+                                    {tri->x[2] + tile->x, tri->y[2] + tile->y}, {tri->x[0] + tile->x, tri->y[0] + tile->y}};
+    const int32_t bits = GN_K(tile->frame, subpixel_bits), stride = GN_K(tile->frame, tile_width), lasts = tri->iz_min - 1;
+    int32_t at = gn_max32(gn_first_px(ring[0].y, bits), 0), bend[2] = {gn_first_px(ring[1].y, bits), gn_first_px(ring[2].y, bits)};
+    int32_t end = gn_min32(gn_max32(bend[0], bend[1]), tile->height), left_end = at, right_end = at;
+    const raster_depth depth = {(uint32_t)tri->iz_dx, 0, 0, tile->id_mask, tile->id_mask - id};
+    const uint32_t iz_dy = (uint32_t)tri->iz_dy;
+    const int32_t width = tile->width;
+    uint32_t iz_row = tri->iz_ref + (uint32_t)(at - (ring[0].y >> bits)) * iz_dy - (uint32_t)(ring[0].x >> bits) * depth.iz_dx;
+    uint32_t *row = tile->scratch->cell + at * stride;
+    gn_walk_line left = {0, 0}, right = {0, 0};
+    while (at < end) {
+        if (at == left_end) {
+            const gn_walk_corner *from = ring + (at >= bend[0]);
+            left_end = gn_min32(at < bend[0] ? gn_min32(bend[0], end) : end, at + lasts);
+            left = gn_walk_line_at(from[0].x, from[0].y, from[1].x, from[1].y, at, lasts, bits);
+        }
+        if (at == right_end) {
+            const gn_walk_corner *from = ring + 3 - (at >= bend[1]);
+            right_end = gn_min32(at < bend[1] ? gn_min32(bend[1], end) : end, at + lasts);
+            right = gn_walk_line_at(from[0].x, from[0].y, from[-1].x, from[-1].y, at, lasts, bits);
+        }
+        for (int32_t stop = gn_min32(left_end, right_end); at < stop; at++) {
+            int32_t xa = gn_max32((int32_t)left.x >> GN_FIXED_BITS, 0), n = gn_min32((int32_t)right.x >> GN_FIXED_BITS, width) - xa;
+            GN_COUNT(rows, n > 0);
+            if (n > 0) raster_span(row + xa, n, iz_row + (uint32_t)xa * depth.iz_dx, &depth);
+            left.x += left.step;
+            right.x += right.step;
+            row += stride;
+            iz_row += iz_dy;
+        }
+    }
+}
+
+#endif
+
 /* Walks a triangle that `cut` cuts, if it is not NULL. */
 static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, const cut_triangle *cut)
 {
@@ -136,8 +177,9 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
     if (!n_rows) return;
     raster_depth depth;
     depth.iz_dx = (uint32_t)tri->iz_dx;
-    depth.lo = (uint32_t)tri->iz_min << 16;
-    depth.range = ((uint32_t)tri->iz_max << 16 | 0xFFFFU) - depth.lo;
+    int bounded = tri->iz_min <= tri->iz_max;
+    depth.lo = bounded ? (uint32_t)tri->iz_min << 16 : 0;
+    depth.range = bounded ? ((uint32_t)tri->iz_max << 16 | 0xFFFFU) - depth.lo : UINT32_MAX;
     depth.id_mask = tile->id_mask;
     depth.below = tile->id_mask - id;
     uint32_t iz_dy = (uint32_t)tri->iz_dy;
@@ -197,6 +239,12 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
 #if GN_VISIBLE_ALPHA
         if (frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
             raster_cut_triangle(&tile, tri, gn_raster_id(frame, tri_idx));
+            continue;
+        }
+#endif
+#if !GN_SIZE_FIRST
+        if (tri->iz_min > 1 && !tri->iz_max) {
+            raster_small(&tile, tri, gn_raster_id(frame, tri_idx));
             continue;
         }
 #endif

@@ -70,7 +70,8 @@ static inline uint32_t inverse_depth(const setup_job *job, uint32_t recip, int32
 {
     uint32_t q = (uint32_t)(((uint64_t)job->near_norm * recip) >> 32); /* near * 2^near_clz * 2^63 / (Z * 2^clz) / 2^32 */
     int32_t s = job->near_clz - clz;                                   /* Z is not nearer than near */
-    return s ? q >> (s - 1) : q << 1 | 1U;                             /* 2^31 if s is 0 */
+    if (!s && q >> 31) return UINT32_MAX;                              /* Z is near, and the quotient exact */
+    return s ? q >> (s - 1) : q << 1 | 1U;
 }
 
 static uint32_t inverse_depth_q32(const setup_job *job, int32_t z_q16)
@@ -243,15 +244,31 @@ static inline gn_tri *emit_begin(const setup_job *job, gn_tri *tri, const int32_
     gn_frame *frame = job->frame;
     int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
     if (area >= 0 && (area == 0 || !(job->object->flags & GN_OBJECT_TWO_SIDED))) return NULL;
-    int second = area > 0 ? 2 : 1;
-    tri->x[0] = (gn_coord)x[0], tri->x[1] = (gn_coord)x[second], tri->x[2] = (gn_coord)x[3 - second];
-    tri->y[0] = (gn_coord)y[0], tri->y[1] = (gn_coord)y[second], tri->y[2] = (gn_coord)y[3 - second];
+    /* the top first, then the left of it: turned round if seen from behind, rotated */
+    int second = area > 0 ? 2 : 1, top = y[second] < y[0] ? second : 0;
+    if (y[3 - second] < y[top]) top = 3 - second;
+    int left = top == 0 ? second : top == second ? 3 - second : 0, right = 3 - top - left;
+    tri->x[0] = (gn_coord)x[top], tri->x[1] = (gn_coord)x[left], tri->x[2] = (gn_coord)x[right];
+    tri->y[0] = (gn_coord)y[top], tri->y[1] = (gn_coord)y[left], tri->y[2] = (gn_coord)y[right];
     gn_rect bounds = bounds_of(frame, tri);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return NULL;
     if (frame->stats.n_triangles++ >= GN_MAX_TRIANGLES) return NULL; /* counted on, to say how many would have been enough */
     count_tiles(frame, &bounds);
     GN_COUNT(visible, 1);
     return tri;
+}
+
+/* What triangles need to know of their depth. A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel
+ * grid along each axis; where that is little, and no end of all depths is near, depth may leave the triangle's own range. */
+static inline void store_range(gn_tri *tri, uint32_t least, uint32_t largest, int32_t bits)
+{
+    uint32_t reach = (((gn_abs32(tri->iz_dx) >> 1) + (gn_abs32(tri->iz_dy) >> 1)) >> bits) + 4096; /* roundings of 2^13 steps */
+    tri->iz_min = (uint16_t)(least >> 16);
+    tri->iz_max = (uint16_t)(largest >> 16);
+    if (reach >> 18 || least <= reach || largest >= UINT32_MAX - reach) return;
+    const int32_t x[3] = {tri->x[0], tri->x[1], tri->x[2]};
+    tri->iz_min = (uint16_t)(1 + gn_walk_lasts(x, gn_max32(tri->y[1], tri->y[2]) - tri->y[0], bits));
+    tri->iz_max = 0;
 }
 
 static inline void emit_end(const setup_job *job, gn_tri *tri, const depth_setup *depth, uint32_t iz_min, uint32_t triangle_idx)
@@ -262,8 +279,7 @@ static inline void emit_end(const setup_job *job, gn_tri *tri, const depth_setup
     tri->iz_ref = depth_at(frame, depth, x >> bits, y >> bits);
     tri->iz_dx = depth->dx;
     tri->iz_dy = depth->dy;
-    tri->iz_min = (uint16_t)(iz_min >> 16);
-    tri->iz_max = (uint16_t)(depth->flat >> 16);
+    store_range(tri, iz_min, depth->flat, bits);
     tri->object_idx = (uint16_t)job->object_idx;
     tri->triangle_idx = (uint16_t)triangle_idx;
 }

@@ -57,45 +57,12 @@ static inline int16_t exact_step(gn_edge *edge)
 
 /* ---- Fixed point --------------------------------------------------------------------------------------------------- */
 
-/* 18 fraction bits leave 14 for pixels. Start and step err by less than one unit each, upwards or downwards: after n rows x is
- * within n of M / dy. What it must not be is below a multiple of 1 / dy that M / dy has reached, or at one that it has not: so it
- * starts n higher, and 2 n * dy <= 2^18. */
-#define GN_FIXED_BITS  18
-#define GN_FIXED_SMALL (1 << 13) /* dx, dy of edges that are walked 16 rows at a time; twice that: 8 rows */
-
-/* How many rows fixed point lasts for a triangle with these corners: 16, 8 or none. */
-static inline int32_t fixed_for(const int32_t x[3], int32_t height, int32_t subpixel_bits)
-{
-    uint32_t far = (uint32_t)((x[0] ^ x[0] >> 31) | (x[1] ^ x[1] >> 31) | (x[2] ^ x[2] >> 31)) >> (12 + subpixel_bits);
-    uint32_t size = (uint32_t)height;
-    int32_t a = x[1] - x[0], b = x[2] - x[0], c = x[2] - x[1];
-    size |= (uint32_t)((a ^ a >> 31) | (b ^ b >> 31) | (c ^ c >> 31));
-    return far || size >= 2 * GN_FIXED_SMALL ? 0 : size >= GN_FIXED_SMALL ? GN_WALK_ROWS / 2 : GN_WALK_ROWS;
-}
-
-/* a * 2^18 / b modulo 2^32, within one unit; 0 < b < 2^14 */
-static inline uint32_t fixed_ratio(int32_t a, int32_t b)
-{
-    const int32_t unit = 1 << GN_FIXED_BITS, most = 1 << (31 - GN_FIXED_BITS);
-    if (a < most && a >= -most) return (uint32_t)(a * unit / b);
-    int32_t q = a / b, r = a - q * b;
-    if (r < 0) {
-        r += b;
-        q--;
-    }
-    return ((uint32_t)q << GN_FIXED_BITS) + ((uint32_t)r << GN_FIXED_BITS) / (uint32_t)b;
-}
-
 /* Where an edge down crosses rows y <= .. < y_end, not empty, into every other int16_t from `at` on. */
 static GN_NOINLINE void fixed_rows(const gn_walk *walk, int16_t *at, const gn_walk_corner *from, const gn_walk_corner *to,
                                    int32_t y, int32_t y_end)
 {
-    int32_t bits = walk->subpixel_bits, one = 1 << bits, half = one >> 1, dx = to->x - from->x, dy = to->y - from->y,
-            x0 = from->x - half;
-    int32_t row = y * one + half - from->y;                           /* 0 .. dy */
-    int32_t m = ((x0 & (one - 1)) * dy + row * dx + one - 1) >> bits; /* from the upper end's pixel; 2^26 + 2^28 */
-    uint32_t x = ((uint32_t)(x0 >> bits) << GN_FIXED_BITS) + fixed_ratio(m + dy - 1, dy) + (uint32_t)walk->fixed;
-    uint32_t step = fixed_ratio(dx, dy);
+    gn_walk_line line = gn_walk_line_at(from->x, from->y, to->x, to->y, y, walk->fixed, walk->subpixel_bits);
+    uint32_t x = line.x, step = line.step;
     int16_t *end = at + 2 * (y_end - y);
     do {
         *at = (int16_t)((int32_t)x >> GN_FIXED_BITS);
@@ -178,7 +145,7 @@ int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int
     walk->row_end[0] = gn_min32(gn_max32(walk->row_end[1], walk->row_end[2]), y_hi);
     if (walk->row >= walk->row_end[0]) return 0;
     walk->subpixel_bits = subpixel_bits;
-    walk->fixed = GN_SIZE_FIRST ? 0 : fixed_for(x, gn_max32(b.y, c.y) - a.y, subpixel_bits);
+    walk->fixed = GN_SIZE_FIRST ? 0 : gn_walk_lasts(x, gn_max32(b.y, c.y) - a.y, subpixel_bits);
     for (int side = 0; !walk->fixed && side < 2; side++) {
         if (walk->row < walk->row_end[1 + side]) edge_begin(walk, side, 0, 1 + side);
         else if (walk->row > walk->row_end[1 + side]) edge_begin(walk, side, 1 + side, 2 - side);

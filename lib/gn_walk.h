@@ -45,6 +45,54 @@ static inline int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
     return (coord + ((1 << subpixel_bits) >> 1) - 1) >> subpixel_bits; /* ceil((c - half) / 2^s), as 2^s - 1 - half = half - 1 */
 }
 
+/* ---- Fixed point --------------------------------------------------------------------------------------------------- */
+
+/* 18 fraction bits leave 14 for pixels. Start and step err by less than one unit each, upwards or downwards: after n rows x is
+ * within n of M / dy. What it must not be is below a multiple of 1 / dy that M / dy has reached, or at one that it has not: so it
+ * starts n higher, and 2 n * dy <= 2^18. */
+#define GN_FIXED_BITS  18
+#define GN_FIXED_SMALL (1 << 13) /* dx, dy of edges that are walked 16 rows at a time; twice that: 8 rows */
+
+/* How many rows fixed point lasts for a triangle with these corners: 16, 8 or none. */
+static inline int32_t gn_walk_lasts(const int32_t x[3], int32_t height, int32_t subpixel_bits)
+{
+    uint32_t far = (uint32_t)((x[0] ^ x[0] >> 31) | (x[1] ^ x[1] >> 31) | (x[2] ^ x[2] >> 31)) >> (12 + subpixel_bits);
+    uint32_t size = (uint32_t)height;
+    int32_t a = x[1] - x[0], b = x[2] - x[0], c = x[2] - x[1];
+    size |= (uint32_t)((a ^ a >> 31) | (b ^ b >> 31) | (c ^ c >> 31));
+    return far || size >= 2 * GN_FIXED_SMALL ? 0 : size >= GN_FIXED_SMALL ? GN_WALK_ROWS / 2 : GN_WALK_ROWS;
+}
+
+/* a * 2^18 / b modulo 2^32, within one unit; 0 < b < 2^14 */
+static inline uint32_t gn_walk_ratio(int32_t a, int32_t b)
+{
+    const int32_t unit = 1 << GN_FIXED_BITS, most = 1 << (31 - GN_FIXED_BITS);
+    if (a < most && a >= -most) return (uint32_t)(a * unit / b);
+    int32_t q = a / b, r = a - q * b;
+    if (r < 0) {
+        r += b;
+        q--;
+    }
+    return ((uint32_t)q << GN_FIXED_BITS) + ((uint32_t)r << GN_FIXED_BITS) / (uint32_t)b;
+}
+
+/* Where an edge crosses a row, as the first pixel at or right of it above GN_FIXED_BITS, modulo 2^32; its step per row. */
+typedef struct {
+    uint32_t x, step;
+} gn_walk_line;
+
+/* The edge from (x0, y0) down to (x1, y1), y0 < y1, at row y, which it crosses; it lasts for n_rows, gn_walk_lasts of them. */
+static inline gn_walk_line gn_walk_line_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y, int32_t n_rows, int32_t subpixel_bits)
+{
+    int32_t one = 1 << subpixel_bits, half = one >> 1, dx = x1 - x0, dy = y1 - y0, row = y * one + half - y0; /* 0 .. dy */
+    x0 -= half;
+    int32_t m = ((x0 & (one - 1)) * dy + row * dx + one - 1) >> subpixel_bits; /* from the upper end's pixel; 2^26 + 2^28 */
+    gn_walk_line line;
+    line.x = ((uint32_t)(x0 >> subpixel_bits) << GN_FIXED_BITS) + gn_walk_ratio(m + dy - 1, dy) + (uint32_t)n_rows;
+    line.step = gn_walk_ratio(dx, dy);
+    return line;
+}
+
 /* Walks the first of rows y_lo <= y < y_hi of a triangle of any orientation, from walk->first on: walk->span[0 .. n - 1], empty ones
  * among them. Returns n, 0 if there are none. */
 int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo, int32_t y_hi);
