@@ -54,6 +54,28 @@ same mixed host/scenes/mixed.gltf "1 0" "--frames 0-1" --size 96x64 --set preset
 # vertices in half the bytes: the tool quantises alike
 same short host/scenes/sundial.gltf "0 2" "--frames 0-2" --size 96x64 --set position_bits=16 --set normal_bits=8
 same short-room host/scenes/room.gltf 0 "--simplify none" --size 96x64 --set position_bits=16
+# chosen where no bit of the picture changes, else measured
+mesh() { # mesh NAME X: a pyramid on a grid but for a coordinate X of four bytes, as glTF
+    zero='\000\000\000\000' one='\000\000\200\077' minus='\000\000\200\277' words='\000\000\001\000\002\000\000\000\002\000\003\000\000\000\004\000\001\000\003\000\004\000\000\000'
+    bytes=$(printf "$zero$zero$zero$one$zero$zero$2$one$zero$zero$one$zero$zero$zero$minus$words" | base64 -w 0)
+    cat >"$tmp/$1.gltf" <<E_GLTF
+{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "translation": [0.3, 0.1, 0.7]}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 5, "type": "VEC3"}, {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 60}, {"buffer": 0, "byteOffset": 60, "byteLength": 24}],
+ "buffers": [{"byteLength": 84, "uri": "data:application/octet-stream;base64,$bytes"}]}
+E_GLTF
+}
+mesh grid '\000\000\200\077'
+mesh off '\315\314\214\077' # 1.1
+same grid "$tmp/grid.gltf" 0 "--simplify safe" --size 96x64
+same off "$tmp/off.gltf" 0 "--simplify safe" --size 96x64
+same wide "$tmp/grid.gltf" 0 "" --size 96x64 --set position_bits=32
+for name in grid:16 off:32 wide:32; do
+    grep -q "^#define GN_POSITION_BITS *${name#*:} " "$tmp/${name%:*}/gn_scene_config.h" && pass || fail "${name%:*}: positions are not of ${name#*:} bits"
+done
+grep -q 'positions that 16 bits hold exactly' "$tmp/grid/gn_scene_config.h" && grep -q 'position_bits=16 [0-9]* less: ' "$tmp/off/gn_scene_config.h" &&
+    pass || fail "it is not said what 16 bits change"
 grep -q 'static const gn_position ' "$tmp/short/scene.c" && grep -q '^#define GN_POSITION_BITS *16 ' "$tmp/short/gn_scene_config.h" && pass || fail "short: no short positions"
 
 # ---- What it says it takes -------------------------------------------------------------------------------------------------------

@@ -61,6 +61,13 @@ typedef struct {
 } compile_saving;
 enum { COMPILE_SAVINGS_MAX = 24 };
 
+/* What fewer bits would change in some frames' pictures. */
+typedef enum { COMPILE_POSITIONS, COMPILE_NORMALS } compile_narrowed;
+typedef struct {
+    size_t n_pixels, n_changed; /* n_pixels 0: not measured */
+    int most;                   /* of 255 */
+} compile_change;
+
 typedef struct {
     const tool_options *options;
     int first_frame, n_frames;                                           /* of the scene file's animation */
@@ -78,6 +85,7 @@ typedef struct {
     size_t n_savings;
     compile_track *tracks;
     size_t n_tracks;
+    compile_change narrow_change[2]; /* by compile_narrowed */
 } compiled;
 
 /* compile_play.c: loads every frame. 0, or -1 with one line in error. */
@@ -111,6 +119,9 @@ bool compile_same(const compile_hash *a, const compile_hash *b);
 /* All frames; with wanted, until one is another picture. run->hash must have room for n_frames. */
 int compile_run_all(compile_run *run, compile_stage *st, const compiled *c, const compile_run *wanted);
 
+/* One frame by itself, as RGB888. */
+int compile_show(compile_stage *st, const compiled *c, int i, gn_flush_fn to, void *user);
+
 /* One more frame of a run. */
 int compile_run_one(compile_run *run, compile_stage *st, const compiled *c, int i);
 
@@ -138,6 +149,10 @@ void compile_drop_unused(compiled *c); /* vertices, meshes and textures that not
 void compile_drop_objects(compiled *c, const bool *gone);
 void compile_drop_lights(compiled *c, const bool *gone);
 void compile_keep_triangles(gn_mesh *mesh, const uint16_t *idx, size_t n_triangles, const bool *gone);
+
+/* compile_narrow.c: positions in 16 bits, normals in 8, if every frame stays the wanted one, and if nothing is rounded or that is allowed. */
+enum { COMPILE_NARROW_NOT, COMPILE_NARROW_EXACT, COMPILE_NARROW_ROUNDED };
+int compile_narrow(compiled *c, compile_stage *st, compile_narrowed what, bool rounded, const compile_run *wanted, compile_run *now);
 
 /* compile_config.c: makes c->set the least configuration for what was played, and writes it. */
 void compile_choose(compiled *c);

@@ -242,6 +242,14 @@ static void choose_checks(compiled *c)
     because(c, "other_formats", rgb565 ? "the panel takes RGB565" : "the panel takes another than RGB565");
 }
 
+/* compile_narrow.c has chosen, or measured. */
+static void explain_bits(compiled *c, compile_narrowed what, const char *knob, int bits, int asked)
+{
+    const compile_change *change = &c->narrow_change[what];
+    if (bits < asked) because(c, knob, "no frame shows a difference to %d", asked);
+    else if (change->n_pixels) because(c, knob, "%d would change the picture: see above", bits / 2);
+}
+
 void compile_choose(compiled *c)
 {
     choose_features(c);
@@ -250,6 +258,8 @@ void compile_choose(compiled *c)
     choose_casters(c);
     choose_checks(c);
     shrink_atlases(c);
+    explain_bits(c, COMPILE_POSITIONS, "position_bits", c->set.quality.position_bits, c->asked.quality.position_bits);
+    explain_bits(c, COMPILE_NORMALS, "normal_bits", c->set.quality.normal_bits, c->asked.quality.normal_bits);
 }
 
 /* ---- gn_scene_config.h -------------------------------------------------------------------------------------------------- */
@@ -266,15 +276,23 @@ static void write_knob(FILE *f, const compiled *c, const char *knob, const char 
 #define CAPACITY_(name, MACRO, lo, hi, meaning, cost) write_knob(f, c, #name, #MACRO, c->set.capacity.name);
 #define FEATURES_(name, MACRO, lo, hi, meaning, cost) write_knob(f, c, #name, #MACRO, c->set.feature.name);
 
-/* Not chosen by itself: it moves vertices by a share of 2^-16 of their mesh. */
+/* What was not chosen by itself, as it changes the picture. */
 static void write_narrow(FILE *f, const compiled *c)
 {
-    compiled narrow = *c;
-    narrow.set.quality.position_bits = 16;
-    narrow.set.quality.normal_bits = 8;
-    long less = compile_flash_bytes(c, true) - compile_flash_bytes(&narrow, true);
-    if (less > 0)
-        fprintf(f, " * With --set position_bits=16 --set normal_bits=8, %ld less: gnomon compare says what that changes.\n", less);
+    static const char *const setting[2] = {"position_bits=16", "normal_bits=8"};
+    for (int what = COMPILE_POSITIONS; what <= COMPILE_NORMALS; what++) {
+        const compile_change *change = &c->narrow_change[what];
+        compiled narrow = *c;
+        if (what == COMPILE_POSITIONS) narrow.set.quality.position_bits = 16;
+        else narrow.set.quality.normal_bits = 8;
+        long less = compile_flash_bytes(c, true) - compile_flash_bytes(&narrow, true);
+        if (less <= 0 || !change->n_pixels) continue;
+        fprintf(f, " * With --set %s %ld less: ", setting[what], less);
+        if (!change->n_changed) fprintf(f, "none of these pixels changes.\n");
+        else
+            fprintf(f, "%.2f %% of these pixels change, by up to %d of 255.\n",
+                    100.0 * (double)change->n_changed / (double)change->n_pixels, change->most);
+    }
 }
 
 static void write_costs(FILE *f, const compiled *c)

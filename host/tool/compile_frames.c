@@ -200,6 +200,12 @@ int compile_see(compile_stage *st, const compiled *c, bool **seen)
     return 0;
 }
 
+int compile_show(compile_stage *st, const compiled *c, int i, gn_flush_fn to, void *user)
+{
+    st->begun = false;
+    return begin(st, c, GN_FORMAT_RGB888, GN_VIEW_COLOUR) || gn_render(st->renderer, compile_frame(st, c, i), to, user) ? -1 : 0;
+}
+
 static size_t tiles_of(const gn_renderer *r)
 {
     size_t n = 0;

@@ -636,6 +636,22 @@ static void merge(trial *b)
     report(b, "vertices that were there twice, or unused", compile_merge_vertices(b->c), &before);
 }
 
+/* Vertices in fewer bits. For firmware that moves the camera, only where nothing is rounded. */
+static void narrow(trial *b)
+{
+    static const char *const names[2][2] = {{"positions that 16 bits hold exactly", "positions that 16 bits hold as far as any frame shows"},
+                                            {"normals that 8 bits hold exactly", "normals that 8 bits hold as far as any frame shows"}};
+    const bool rounded = b->c->options->simplify == TOOL_SIMPLIFY_PATH;
+    for (int what = COMPILE_POSITIONS; what <= COMPILE_NORMALS; what++) {
+        measure before = measure_now(b);
+        size_t n = 0;
+        for (size_t i = 0; i < b->c->fixed.n_meshes; i++)
+            n += what == COMPILE_POSITIONS || b->c->fixed.meshes[i].nrm_q15 ? b->c->fixed.meshes[i].n_vertices : 0;
+        int status = compile_narrow(b->c, b->st, (compile_narrowed)what, rounded, &b->wanted, &b->now);
+        if (status != COMPILE_NARROW_NOT) report(b, names[what][status == COMPILE_NARROW_ROUNDED], n, &before);
+    }
+}
+
 /* ---- All ---------------------------------------------------------------------------------------------------------------- */
 
 static void choose_samples(trial *b)
@@ -686,6 +702,7 @@ static int simplify(trial *b, char *error, size_t bytes)
     b->now.hash = hash;
     if (c->options->simplify != TOOL_SIMPLIFY_NONE) merge(b);
     if (c->options->simplify == TOOL_SIMPLIFY_PATH) simplify_path(b);
+    if (c->options->simplify != TOOL_SIMPLIFY_NONE) narrow(b);
     if (compile_run_all(&b->now, b->st, c, &b->wanted)) return say_refused(b, error, bytes);
     if (b->now.differs >= 0) return say_changed(c, b->now.differs, error, bytes);
     if (settings_suffice(&c->asked, &b->now.demand, error, bytes)) return -1;
