@@ -90,11 +90,12 @@ static uint32_t limited(const gn_light_view *view, int64_t least_q32)
 
 /* ---- Compares ----------------------------------------------------------------------------------------------------- */
 
-/* Whether n x n texels from (u, v) on lie in the tile and compare with one depth: nothing to look after at each tap. */
+/* Whether n x n texels from (u, v) on lie in the tile and compare with one depth: nothing to look after at each tap. Where size comes
+ * first it is looked after all the same. */
 static inline int plain(const lookup *l, int32_t u, int32_t v, int32_t n)
 {
     uint32_t room = (uint32_t)(l->view->tile_texels - n);
-    return !SLOPED(l) && (uint32_t)u <= room && (uint32_t)v <= room;
+    return !GN_SIZE_FIRST && !SLOPED(l) && (uint32_t)u <= room && (uint32_t)v <= room;
 }
 
 static inline gn_texels texels_at(const gn_light_view *view, int32_t u, int32_t v)
@@ -270,6 +271,7 @@ static uint32_t find_dark(const lookup *l, int32_t u, int32_t v, int32_t n, uint
     return any | all << 16;
 }
 
+#if !GN_SIZE_FIRST
 /* Sums of the weights in all subsets of four: bit i for weight i. */
 static void subset_sums(uint32_t sums[16], const uint32_t w[4])
 {
@@ -279,12 +281,22 @@ static void subset_sums(uint32_t sums[16], const uint32_t w[4])
     sums[8] = d, sums[9] = a + d, sums[10] = b + d, sums[11] = ab + d;
     sums[12] = cd, sums[13] = a + cd, sums[14] = b + cd, sums[15] = ab + cd;
 }
+#endif
 
 /* Sum of the products of weights of the dark texels of n x n. narrow: they stay below 2^32 together. */
 static uint64_t weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv, int narrow)
 {
-    uint32_t left[16], right[16];
     uint64_t sum = 0;
+#if GN_SIZE_FIRST
+    (void)narrow;
+    for (int32_t j = 0; j < n; j++) {
+        uint32_t across = 0;
+        for (int32_t i = 0; i < n; i++)
+            if (dark[j] >> i & 1U) across += wu[i];
+        sum += (uint64_t)across * wv[j];
+    }
+#else
+    uint32_t left[16], right[16];
     subset_sums(left, wu);
     if (n > 4) subset_sums(right, wu + 4);
     for (int32_t j = 0; j < n; j++) {
@@ -293,6 +305,7 @@ static uint64_t weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, con
         if (narrow) sum += across * wv[j];
         else sum += (uint64_t)across * wv[j];
     }
+#endif
     return sum;
 }
 
