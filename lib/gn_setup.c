@@ -44,8 +44,10 @@ typedef struct {
     uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
     int32_t v_q16[3];
     uint32_t out;    /* outside of which planes: of the picture, of the guard band << 8 */
+#if !GN_SIZE_FIRST
     int32_t x, y;    /* on the screen as in gn_tri, if in the guard band */
     uint32_t iz_q32; /* near / Z, the same */
+#endif
 } corner;
 
 /* One object. */
@@ -84,7 +86,7 @@ static uint32_t inverse_depth_q32(const setup_job *job, int32_t z_q16)
 static inline int32_t round_shift(int64_t v, int32_t s)
 {
     int32_t hi = (int32_t)(v >> 32);
-    if (s > 32) return (hi + (1 << (s - 33))) >> (s - 32);
+    if (!GN_SIZE_FIRST && s > 32) return (hi + (1 << (s - 33))) >> (s - 32);
     return (int32_t)gn_shr64(v, s);
 }
 
@@ -122,15 +124,17 @@ static int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
         c->out |= gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
         return 1;
     }
-    if (job->tan[0] && job->tan[1])
+    if (!GN_SIZE_FIRST && job->tan[0] && job->tan[1])
         c->out = side_bits(c->v_q16[0], z, job->tan[0], GN_OUT_LEFT) | side_bits(c->v_q16[1], z, job->tan[1], GN_OUT_BOTTOM);
     else c->out = gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
     if (c->out) c->out |= gn_outcode(c->v_q16, cam->near_q16, cam->guard_q16) << 8;
+#if !GN_SIZE_FIRST
     if (c->out >> 8) return 1;
     int32_t clz = gn_clz32((uint32_t)z); /* Z in [2^8, 2^30): clz 2..23 */
     uint32_t recip = gn_recip_norm((uint32_t)z << clz, 2);
     project(job, c->v_q16, recip, clz, &c->x, &c->y);
     c->iz_q32 = inverse_depth(job, recip, clz);
+#endif
     return 1;
 }
 
@@ -164,7 +168,10 @@ static void depth_begin(const gn_frame *frame, depth_setup *depth, const int32_t
     depth->flat = largest;
     gn_plane_setup(&depth->plane, v[0], v[1], v[2]);
     if (depth->plane.det > 0) {
-        int32_t clz = gn_clz64((uint64_t)depth->plane.det); /* gn_bf_mul(near_over_focal2, gn_bf_recip(det)), written out */
+#if GN_SIZE_FIRST
+        depth->scale = gn_bf_mul(frame->cam.near_over_focal2, gn_bf_recip(gn_bf_from_u64((uint64_t)depth->plane.det)));
+#else
+        int32_t clz = gn_clz64((uint64_t)depth->plane.det); /* the same, written out */
         uint32_t recip = gn_recip_norm((uint32_t)((uint64_t)depth->plane.det << clz >> 32), 2);
         uint64_t mant = (uint64_t)frame->cam.near_over_focal2.mant * recip;
         depth->scale.exp = frame->cam.near_over_focal2.exp + clz - 95 + 32;
@@ -173,6 +180,7 @@ static void depth_begin(const gn_frame *frame, depth_setup *depth, const int32_t
             depth->scale.exp--;
         }
         depth->scale.mant = (uint32_t)(mant >> 32);
+#endif
         if (apply_small(&depth->dx, depth->plane.n[0], depth->scale, 49) &&
             apply_small(&depth->dy, -depth->plane.n[1], depth->scale, 49))
             return;
@@ -290,8 +298,8 @@ static inline gn_tri *next_triangle(gn_frame *frame)
     return &frame->tri[frame->stats.n_triangles < GN_MAX_TRIANGLES ? frame->stats.n_triangles : GN_MAX_TRIANGLES - 1];
 }
 
-/* A triangle that leaves the guard band, or comes nearer than near. */
-static GN_NOINLINE void clipped_triangle(const setup_job *job, const int32_t *const v[3], uint32_t triangle_idx)
+/* Any triangle: what leaves the guard band, or comes nearer than near, is clipped. Where size comes first, it does all of them. */
+static GN_NOINLINE void general_triangle(const setup_job *job, const int32_t *const v[3], uint32_t outside, uint32_t triangle_idx)
 {
     gn_frame *frame = job->frame;
     const gn_cam *cam = &frame->cam;
@@ -299,8 +307,10 @@ static GN_NOINLINE void clipped_triangle(const setup_job *job, const int32_t *co
     polygon->n = 3;
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) polygon->v_q16[i][k] = v[i][k];
-    gn_clip(polygon, &job->clipping->uncut, GN_OUT_ALL, cam->near_q16, cam->guard_q16);
-    frame->stats.n_clipped++;
+    if (outside) {
+        gn_clip(polygon, &job->clipping->uncut, GN_OUT_ALL, cam->near_q16, cam->guard_q16);
+        frame->stats.n_clipped++;
+    }
     int32_t *x = job->clipping->x, *y = job->clipping->y;
     for (int i = 0; i < polygon->n; i++) {
         int32_t z = polygon->v_q16[i][2], clz = gn_clz32((uint32_t)z);
@@ -309,13 +319,18 @@ static GN_NOINLINE void clipped_triangle(const setup_job *job, const int32_t *co
         x[i] = gn_max32(gn_min32(x[i], cam->coord_max), -cam->coord_max);
         y[i] = gn_max32(gn_min32(y[i], cam->coord_max), -cam->coord_max);
     }
-    int32_t z_min = gn_min32(v[0][2], gn_min32(v[1][2], v[2][2])), z_max = gn_max32(v[0][2], gn_max32(v[1][2], v[2][2]));
+    uint32_t largest = 0, least = UINT32_MAX;
+    for (int i = 0; i < 3; i++) {
+        uint32_t iz_q32 = inverse_depth_q32(job, gn_max32(v[i][2], cam->near_q16));
+        if (iz_q32 > largest) largest = iz_q32;
+        if (iz_q32 < least) least = iz_q32;
+    }
     depth_setup depth;
-    if (polygon->n) depth_begin(frame, &depth, v, inverse_depth_q32(job, gn_max32(z_min, cam->near_q16)));
+    if (polygon->n) depth_begin(frame, &depth, v, largest);
     for (int i = 1; i + 1 < polygon->n; i++) {
         int32_t fx[3] = {x[0], x[i], x[i + 1]}, fy[3] = {y[0], y[i], y[i + 1]};
         gn_tri *tri = emit_begin(job, next_triangle(frame), fx, fy);
-        if (tri) emit_end(job, tri, &depth, inverse_depth_q32(job, z_max), triangle_idx);
+        if (tri) emit_end(job, tri, &depth, least, triangle_idx);
     }
 }
 
@@ -324,10 +339,12 @@ static void setup_triangle(const setup_job *job, const corner *const c[3], uint3
     GN_COUNT(triangles, 1);
     if (c[0]->out & c[1]->out & c[2]->out & GN_OUT_ALL) return;
     const int32_t *const v[3] = {c[0]->v_q16, c[1]->v_q16, c[2]->v_q16};
-    if ((c[0]->out | c[1]->out | c[2]->out) >> 8) {
-        clipped_triangle(job, v, triangle_idx);
+    uint32_t outside = (c[0]->out | c[1]->out | c[2]->out) >> 8;
+    if (GN_SIZE_FIRST || outside) {
+        general_triangle(job, v, outside, triangle_idx);
         return;
     }
+#if !GN_SIZE_FIRST
     const int32_t x[3] = {c[0]->x, c[1]->x, c[2]->x}, y[3] = {c[0]->y, c[1]->y, c[2]->y};
     gn_tri *tri = emit_begin(job, next_triangle(job->frame), x, y);
     if (!tri) return;
@@ -336,6 +353,7 @@ static void setup_triangle(const setup_job *job, const corner *const c[3], uint3
     a = c[2]->iz_q32;
     depth_begin(job->frame, &depth, v, a > largest ? a : largest);
     emit_end(job, tri, &depth, a < least ? a : least, triangle_idx);
+#endif
 }
 
 /* ---- Objects ------------------------------------------------------------------------------------------------------- */
