@@ -11,20 +11,21 @@
 
 /* ---- Once per surface --------------------------------------------------------------------------------------------- */
 
-/* A linear form of view space on the screen, at pixel (x, y), times 2^-shift. Returns 0 if it leaves +-2^31 within `reach`. */
-static int form_on_screen(gn_slope *out, const gn_frame *frame, const int32_t form[3], int32_t shift, int32_t x, int32_t y,
-                          const gn_rect *rect)
+/* A linear form of view space, at least 2^29 long, on the screen: at the middle of `rect` times 2^-shift. Returns 0 if it leaves +-2^31
+ * within `rect`, as it does everywhere with a small shift. */
+static int form_on_screen(gn_slope *out, const gn_pieces *p, const int32_t form[3], int32_t shift, const gn_rect *rect)
 {
-    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
-    int64_t at = gn_scale64(gn_plane_at(form, px, py, frame->cam.focal2_px_q16), shift);
-    int64_t dx = gn_scale64((int64_t)form[0] * 131072, shift), dy = gn_scale64((int64_t)form[1] * -131072, shift);
-    const int64_t most = (int64_t)1 << 30;
-    if (gn_abs64(at) >= 1U << 30 || gn_abs64(dx) >= 1U << 28 || gn_abs64(dy) >= 1U << 28) return 0;
-    if ((int64_t)gn_abs64(dx) * (rect->x1 - rect->x0) + (int64_t)gn_abs64(dy) * (rect->y1 - rect->y0) >= most) return 0;
-    out->at = (int32_t)at;
-    out->dx = (int32_t)dx;
-    out->dy = (int32_t)dy;
-    return 1;
+    const gn_frame *frame = p->frame;
+    int32_t px = 2 * p->ref_x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * p->ref_y, s = shift - 17;
+    if (s < 1 || s > 45) return 0;
+    int64_t at = gn_plane_at(form, px, py, frame->cam.focal2_px_q16) >> (s + 16);
+    if (at != (int32_t)at) return 0;
+    s = gn_min32(s, 31);
+    out->at = ((int32_t)at + 1) >> 1;
+    out->dx = ((form[0] >> (s - 1)) + 1) >> 1;
+    out->dy = -(((form[1] >> (s - 1)) + 1) >> 1);
+    uint32_t dx = gn_abs32(out->dx), dy = gn_abs32(out->dy), w = (uint32_t)(rect->x1 - rect->x0), h = (uint32_t)(rect->y1 - rect->y0);
+    return gn_abs32(out->at) < 1U << 30 && (dx | dy) < 1U << 28 && (uint64_t)dx * w + (uint64_t)dy * h < 1U << 30;
 }
 
 /* Forms of the surface at a common scale, at which n . ray is below 2^27 on the triangle. */
@@ -35,9 +36,9 @@ static int forms(gn_pieces *p, const gn_rect *rect)
     p->z_shift = 31 + shift - s->depth_scale.exp;
     p->ref_x = (rect->x0 + rect->x1) >> 1;
     p->ref_y = (rect->y0 + rect->y1) >> 1;
-    if (!form_on_screen(&p->w, p->frame, s->plane.n, shift, p->ref_x, p->ref_y, rect)) return 0;
+    if (!form_on_screen(&p->w, p, s->plane.n, shift, rect)) return 0;
     for (int k = 0; s->has_bary && k < 2; k++)
-        if (!form_on_screen(&p->b[k], p->frame, s->bary.form[k], shift - s->bary.exp[k], p->ref_x, p->ref_y, rect)) return 0;
+        if (!form_on_screen(&p->b[k], p, s->bary.form[k], shift - s->bary.exp[k], rect)) return 0;
     return 1;
 }
 
@@ -259,12 +260,11 @@ static int colours(gn_pieces *p, middle *m, half_size half)
     return 1;
 }
 
-/* How many pixels a ramp may have that bends by a quarter of `bend` from pixel to pixel. */
-static int32_t longest_ramp(uint64_t bend_q46, int32_t tolerance, int32_t least)
+/* How many pixels n a ramp may have, a power of two, if it bends by n^2 / 4 of `bend`: n^2 / 4 of that is below 2^(46 - tolerance). */
+static int32_t longest_ramp(uint64_t bend_q46, int32_t tolerance, int32_t least_log2)
 {
-    int32_t n = GN_PIECE_WIDTH;
-    while (n > least && bend_q46 * (uint32_t)(n * n / 4) >> (46 - tolerance)) n >>= 1;
-    return n;
+    int32_t bits = 64 - gn_clz64(bend_q46 | 1U), log2 = (48 - tolerance - bits) >> 1;
+    return 1 << gn_max32(least_log2, gn_min32(log2, GN_PIECE_WIDTH_LOG2));
 }
 
 /* Whether w changes by at most an eighth over half a piece, and how long its ramps may be: over n pixels a colour bends by a quarter of the
@@ -291,9 +291,9 @@ static int close_enough(gn_pieces *p, half_size half)
     }
     uint64_t bend_q46 = (uint64_t)fastest * gn_abs32(p->w_dx_q30);
 #if GN_TURNING
-    p->tint_px = longest_ramp(bend_q46, tolerance, 4);
+    p->tint_px = longest_ramp(bend_q46, tolerance, 2);
 #endif
-    p->ramp_px = longest_ramp(bend_q46 + ((uint64_t)product << 16) + ((uint64_t)turn * turn << 13), tolerance, p->turns ? 1 : 4);
+    p->ramp_px = longest_ramp(bend_q46 + ((uint64_t)product << 16) + ((uint64_t)turn * turn << 13), tolerance, p->turns ? 0 : 2);
     return 1;
 }
 
@@ -397,8 +397,8 @@ static int find_place(gn_pieces *p, const middle *m, const gn_rect *rect)
         int32_t a = (int32_t)((uint32_t)ray->a0 + (uint32_t)ray->ax * (uint32_t)px + (uint32_t)ray->ay * (uint32_t)py); /* < 2^31 */
         gn_slope *out = &p->place[i];
         out->at = (int32_t)((uint32_t)on_ray(m->z_q16, a, fit->ray_shift) + (uint32_t)ray->d_q16 + (uint32_t)p->offset_q16[i]);
-        out->dx = (int32_t)gn_shr64(((int64_t)z_dx * a) * 4 + (int64_t)m->z_q16 * ray->ax * 2, fit->ray_shift);
-        out->dy = (int32_t)gn_shr64(((int64_t)z_dy * a) * 4 - (int64_t)m->z_q16 * ray->ay * 2, fit->ray_shift);
+        out->dx = (int32_t)((((int64_t)z_dx * a) * 4 + (int64_t)m->z_q16 * ray->ax * 2) >> fit->ray_shift);
+        out->dy = (int32_t)((((int64_t)z_dy * a) * 4 - (int64_t)m->z_q16 * ray->ay * 2) >> fit->ray_shift);
 #if GN_VERTEX_NORMALS
         if (p->along_q16) {
             gn_slope offset = along_normal(m, p->view->axis_q30[i], p->along_q16);

@@ -35,18 +35,19 @@ void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v1[3], c
 void gn_bary_setup(gn_bary *bary, const gn_plane *plane, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3])
 {
     /* b1 = (e2 x v0) . ray / (n . ray), b2 = (v0 x e1) . ray / (n . ray) */
-    int64_t e[2][3];
-    int32_t en[2][3], e_exp[2];
-    for (int i = 0; i < 3; i++) {
-        e[0][i] = (int64_t)v1[i] - v0[i];
-        e[1][i] = (int64_t)v2[i] - v0[i];
-    }
-    for (int k = 0; k < 2; k++) e_exp[k] = gn_norm_vec(en[k], e[k]);
     for (int k = 0; k < 2; k++) {
+        const int32_t *to = k == 0 ? v2 : v1;
         int64_t c[3];
-        if (k == 0) gn_cross64(c, en[1], v0);
-        else gn_cross64(c, v0, en[0]);
-        bary->exp[k] = gn_norm_vec(bary->form[k], c) + e_exp[1 - k] - plane->n_exp;
+        int32_t e[3], exp = 0;
+        uint32_t wide = 0;
+        for (int i = 0; i < 3; i++) {
+            e[i] = to[i] - v0[i]; /* < 2^31 */
+            wide |= (uint32_t)e[i] ^ (uint32_t)e[i] << 1;
+        }
+        if (wide >> 31) exp = shorten(e);
+        if (k == 0) gn_cross64(c, e, v0);
+        else gn_cross64(c, v0, e);
+        bary->exp[k] = gn_norm_vec(bary->form[k], c) + exp - plane->n_exp;
         if (plane->back)
             for (int i = 0; i < 3; i++) bary->form[k][i] = -bary->form[k][i];
     }

@@ -5,6 +5,7 @@
 #ifndef GN_SHADING_H
 #define GN_SHADING_H
 
+#include "gn_q.h"
 #include "gn_walk.h"
 
 /* Pixels whose centres lie in the triangle's bounding box, cut to the picture: x0 <= x < x1, y0 <= y < y1. */
@@ -83,7 +84,10 @@ typedef struct {
 /* Keeps what neighbouring triangles of a screen tile share. */
 typedef struct {
     const gn_object *object;
-    gn_xform to_view; /* of the current object */
+    union {
+        gn_xform to_view; /* where size comes first */
+        gn_xform_fast fast;
+    } by; /* of the current object */
     int32_t normal_matrix[3][3];
     uint64_t lights; /* R9: a bit per light that can reach the screen tile */
 } gn_surface_cache;

@@ -2,6 +2,7 @@
 #include "gn_surface.h"
 #include "gn_bias.h"
 #include "gn_count.h"
+#include "gn_hint.h"
 #include "gn_q.h"
 #include "gn_sample.h"
 #include "gn_setup.h"
@@ -294,8 +295,20 @@ static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_
 {
     if (cache->object == object) return;
     cache->object = object;
-    gn_xform_compose(&cache->to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
+    gn_xform to_view;
+    gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
+    if (GN_SIZE_FIRST) cache->by.to_view = to_view;
+    else gn_xform_fast_begin(&cache->by.fast, &to_view);
     if (GN_VERTEX_NORMALS && object->mesh->nrm_q15) gn_xform_normal_matrix(cache->normal_matrix, object);
+}
+
+/* A vertex of a transform or a position out of the ordinary. */
+static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch, const gn_tri *tri, uint32_t vertex_idx)
+{
+    const gn_object *object = &frame->scene->objects[tri->object_idx];
+    gn_xform to_view;
+    gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
+    gn_setup_vertex(out_q16, scratch->vertex, &to_view, object->mesh, tri->object_idx, vertex_idx);
 }
 
 void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s, const gn_tri *tri)
@@ -309,7 +322,10 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
     s->smooth = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
     s->first_value = GN_VALUE_Z;
     colours(s, idx);
-    for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &cache->to_view, mesh, tri->object_idx, idx[i]);
+    for (int i = 0; i < 3; i++) {
+        if (GN_SIZE_FIRST) gn_setup_vertex(v[i], scratch->vertex, &cache->by.to_view, mesh, tri->object_idx, idx[i]);
+        else if (!gn_xform_fast_vertex(v[i], &cache->by.fast, mesh->pos + 3 * (size_t)idx[i])) slow_vertex(v[i], frame, scratch, tri, idx[i]);
+    }
     gn_plane_setup(&s->plane, v[0], v[1], v[2]);
     s->z_min_q16 = gn_max32(gn_min32(v[0][2], gn_min32(v[1][2], v[2][2])), frame->cam.near_q16);
     s->z_max_q16 = gn_max32(v[0][2], gn_max32(v[1][2], v[2][2]));

@@ -69,10 +69,17 @@ int gn_turn_select(gn_pieces *p, const gn_slope n_q28[3], uint32_t half_w, uint3
 /* A part of a row over which vertex colours are linear. */
 typedef struct {
     const gn_pieces *p;
-    int32_t x, y;            /* its first pixel, from the middle of the piece */
+    int32_t x, y; /* its first pixel, from the middle of the piece */
     uint32_t size_q28, size_dx;
-    int32_t tint_q29[3], tint_step[3];
+    int32_t tint_q28[3], tint_step[3];
 } row;
+
+GN_INLINE void begin_tint(row *r, int c, int32_t n, int32_t half_right, int32_t per_w_q30)
+{
+    int32_t step, at = gn_colour_near(r->p, &r->p->tint_q24[c], half_right, 2 * r->y, per_w_q30, &step);
+    r->tint_step[c] = step * 16;
+    r->tint_q28[c] = at * 16 - step * 8 * (n - 1);
+}
 
 static void begin_row(row *r, const gn_pieces *p, int32_t x, int32_t y, int32_t n)
 {
@@ -80,16 +87,18 @@ static void begin_row(row *r, const gn_pieces *p, int32_t x, int32_t y, int32_t 
     r->p = p;
     r->x = x - p->x;
     r->y = y - p->y;
-    uint32_t right = (uint32_t)r->x, down = (uint32_t)r->y;
-    r->size_dx = t->size_dx + 2 * right * t->size_dxx + down * t->size_dxy;
-    r->size_q28 = t->size_q28 + right * (t->size_dx + right * t->size_dxx + down * t->size_dxy) + down * (t->size_dy + down * t->size_dyy);
-    if (!p->tinted) return;
-    int32_t half_right = 2 * r->x + n - 1, per_w_q30 = gn_per_w((p->w_dx_q30 * half_right + p->w_dy_q30 * 2 * r->y) >> 1);
-    for (int c = 0; c < 3; c++) {
-        int32_t step, at = gn_colour_near(p, &p->tint_q24[c], half_right, 2 * r->y, per_w_q30, &step);
-        r->tint_step[c] = step * 32;
-        r->tint_q29[c] = at * 32 - step * 16 * (n - 1);
+    uint32_t right = (uint32_t)r->x, down = (uint32_t)r->y, slope = t->size_dx + down * t->size_dxy;
+    r->size_dx = slope + 2 * right * t->size_dxx;
+    r->size_q28 = t->size_q28 + right * (slope + right * t->size_dxx) + down * (t->size_dy + down * t->size_dyy);
+    if (!p->tinted) {
+        r->tint_q28[0] = r->tint_q28[1] = r->tint_q28[2] = 1 << 28;
+        r->tint_step[0] = r->tint_step[1] = r->tint_step[2] = 0;
+        return;
     }
+    int32_t half_right = 2 * r->x + n - 1, per_w_q30 = gn_per_w((p->w_dx_q30 * half_right + p->w_dy_q30 * 2 * r->y) >> 1);
+    begin_tint(r, 0, n, half_right, per_w_q30);
+    begin_tint(r, 1, n, half_right, per_w_q30);
+    begin_tint(r, 2, n, half_right, per_w_q30);
 }
 
 /* The colour at its pixel i, `share` of the light with the shadow let through. Returns a bit per light that shines on it. */
@@ -97,21 +106,24 @@ static uint32_t colour_at(const row *r, int32_t i, uint32_t share_uq16, int32_t 
 {
     const gn_pieces *p = r->p;
     const gn_surface *s = p->surface;
-    int32_t sum_q27[3];
-    uint32_t lit = 0, size_q28 = r->size_q28 + (uint32_t)i * (r->size_dx + (uint32_t)i * p->turning.size_dxx);
+    uint32_t lit = 0, n_lights = s->n_lights, size_q28 = r->size_q28 + (uint32_t)i * (r->size_dx + (uint32_t)i * p->turning.size_dxx);
     int32_t up = gn_clz32(size_q28 > 65536 ? size_q28 : 65536) & 30; /* < 16: 14 at most, for |N| of 2^-6 */
     uint32_t root = gn_rsqrt_norm(size_q28 << up | 1U << 30, GN_K(p->frame, newton_steps)); /* 2^(33 - up / 2) / |N| */
-    for (int c = 0; c < 3; c++) sum_q27[c] = (int32_t)(s->base_q20[c] << 7);
-    for (uint32_t k = 0; k < s->n_lights; k++) {
+    int32_t red = (int32_t)(s->base_q20[0] << 8), green = (int32_t)(s->base_q20[1] << 8), blue = (int32_t)(s->base_q20[2] << 8);
+    for (uint32_t k = 0; k < n_lights; k++) { /* colours in Q28, below 2^30 and 2^-13 of that */
         int32_t facing = gn_along(&p->turning.facing_q28[k], r->x + i, r->y);
         if (facing <= 0) continue;
         lit |= 1U << (k & 31);
         int32_t cosine_q30 = gn_mul_high(facing, (int32_t)(root >> 1)) * (4 << (up >> 1)); /* 2^(28 - up / 2) */
-        if ((int32_t)k == p->shadow_slot && share_uq16 < 65536) cosine_q30 = (int32_t)((int64_t)cosine_q30 * (int32_t)share_uq16 >> 16);
-        for (int c = 0; c < 3; c++) sum_q27[c] += 2 * gn_mul_high((int32_t)(s->light[k].radiance_uq16[c] << 12), cosine_q30);
+        if ((int32_t)k == p->shadow_slot && share_uq16 < 65536) cosine_q30 = gn_mul_high(cosine_q30, (int32_t)(share_uq16 << 14)) * 4;
+        const uint32_t *radiance_uq16 = s->light[k].radiance_uq16;
+        red += 4 * gn_mul_high((int32_t)(radiance_uq16[0] << 12), cosine_q30);
+        green += 4 * gn_mul_high((int32_t)(radiance_uq16[1] << 12), cosine_q30);
+        blue += 4 * gn_mul_high((int32_t)(radiance_uq16[2] << 12), cosine_q30);
     }
-    for (int c = 0; c < 3; c++)
-        colour_q24[c] = p->tinted ? gn_mul_high(sum_q27[c], r->tint_q29[c] + i * r->tint_step[c]) : sum_q27[c] >> 3;
+    colour_q24[0] = gn_mul_high(red, r->tint_q28[0] + i * r->tint_step[0]);
+    colour_q24[1] = gn_mul_high(green, r->tint_q28[1] + i * r->tint_step[1]);
+    colour_q24[2] = gn_mul_high(blue, r->tint_q28[2] + i * r->tint_step[2]);
     return lit;
 }
 

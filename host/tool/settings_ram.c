@@ -71,10 +71,11 @@ static void put_work(layout *out, const settings *s)
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 48 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
-    put(&all, 1, 128, 8); /* cache */
+    put(&all, 1, 136, 8); /* cache */
     put(&all, 1, surface.size, 8);
     put(&all, s->quality.persp_step == 1 ? 8 : 16, 4, 4); /* tri to part */
-    long run = 2 * (4 * values + 28 + (s->feature.specular ? 24 : 0)) + 8 * values + 8, pieces = s->feature.shadows ? 324 : 208;
+    long run = 2 * (4 * values + 28 + (s->feature.specular ? 24 : 0)) + 8 * values + 8, pieces = s->feature.shadows ? 308 : 212;
+    if (s->feature.vertex_normals && !s->quality.vertex_light) pieces += 36 + 12 * s->capacity.surface_lights; /* turning */
     if (s->quality.persp_step == 1) pieces = 0;
     put(&all, 1, run > pieces ? run : pieces, 4); /* by */
     pad(&all, all.align);
