@@ -4,7 +4,6 @@
 #include "gn_count.h"
 #include "gn_hint.h"
 #include "gn_math.h"
-#include "gn_plane.h"
 #include "gn_q.h"
 #include "gn_scene.h"
 #include "gn_walk.h"
@@ -39,14 +38,19 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *
 
 /* ---- Vertices ------------------------------------------------------------------------------------------------------ */
 
+/* A vertex on the screen, in the guard band. */
+typedef struct {
+    int32_t x_q16, y_q16; /* pixels from the picture's centre, y down: below 2^11 pixels */
+    uint32_t iz_q32;      /* near / Z */
+} projected;
+
 /* A vertex as triangles need it. */
 typedef struct {
     uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
     int32_t v_q16[3];
     uint32_t out;    /* outside of which planes: of the picture, of the guard band << 8 */
 #if !GN_SIZE_FIRST
-    int32_t x, y;    /* on the screen as in gn_tri, if in the guard band */
-    uint32_t iz_q32; /* near / Z, the same */
+    projected at; /* if in the guard band */
 #endif
 } corner;
 
@@ -76,29 +80,31 @@ static inline uint32_t inverse_depth(const setup_job *job, uint32_t recip, int32
     return s ? q >> (s - 1) : q << 1 | 1U;
 }
 
-static uint32_t inverse_depth_q32(const setup_job *job, int32_t z_q16)
+/* floor(v * scale * 2^-s), 1 <= s <= 62; the result fits 32 bits */
+static inline int32_t scale_down(int32_t v, int32_t scale, int32_t s)
 {
-    int32_t clz = gn_clz32((uint32_t)z_q16);
-    return inverse_depth(job, gn_recip_norm((uint32_t)z_q16 << clz, 2), clz);
+    int64_t product = (int64_t)v * scale;
+    int32_t hi = (int32_t)(product >> 32);
+    return s >= 32 ? hi >> (s - 32) : (int32_t)((uint32_t)hi << (32 - s) | (uint32_t)product >> s);
 }
 
-/* round(v * 2^-s), 1 <= s <= 62; the result fits 32 bits */
-static inline int32_t round_shift(int64_t v, int32_t s)
+/* X * 2F / Z and near / Z; Z in [2^8, 2^30). The first is rounded down. */
+GN_INLINE void project(const setup_job *job, const int32_t v_q16[3], projected *at)
 {
-    int32_t hi = (int32_t)(v >> 32);
-    if (!GN_SIZE_FIRST && s > 32) return (hi + (1 << (s - 33))) >> (s - 32);
-    return (int32_t)gn_shr64(v, s);
-}
-
-/* Screen position from the picture's centre with subpixel_bits fraction bits, rounded to nearest: X * 2F / Z. Inside the guard band it is
- * below 2^11 pixels. */
-static inline void project(const setup_job *job, const int32_t v_q16[3], uint32_t recip, int32_t clz, int32_t *x, int32_t *y)
-{
+    int32_t clz = gn_clz32((uint32_t)v_q16[2]), s = job->focal_shift - clz; /* clz 2..23 */
+    uint32_t recip = gn_recip_norm((uint32_t)v_q16[2] << clz, 2);
     /* 2F / Z with 31 bits: 2^63 / (Z 2^clz) * (2F 2^focal_clz) / 2^33 */
-    int32_t scale = (int32_t)(((uint64_t)recip * job->focal_norm) >> 33), s = job->focal_shift - clz;
+    int32_t scale = (int32_t)(((uint64_t)recip * job->focal_norm) >> 33);
     GN_KEEP(scale); /* positive, or as good as signed */
-    *x = round_shift((int64_t)v_q16[0] * scale, s);
-    *y = -round_shift((int64_t)v_q16[1] * scale, s);
+    at->x_q16 = scale_down(v_q16[0], scale, s);
+    at->y_q16 = -scale_down(v_q16[1], scale, s);
+    at->iz_q32 = inverse_depth(job, recip, clz);
+}
+
+/* To the subpixel grid, to nearest. */
+static inline int32_t snap(int32_t q16, int32_t bits)
+{
+    return (q16 + (1 << (15 - bits))) >> (16 - bits);
 }
 
 /* Whether |v| > tan * Z, for Z > 0 and tan < 2: bit `low` if v is below, the next if it is above. */
@@ -129,78 +135,53 @@ static int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
     else c->out = gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
     if (c->out) c->out |= gn_outcode(c->v_q16, cam->near_q16, cam->guard_q16) << 8;
 #if !GN_SIZE_FIRST
-    if (c->out >> 8) return 1;
-    int32_t clz = gn_clz32((uint32_t)z); /* Z in [2^8, 2^30): clz 2..23 */
-    uint32_t recip = gn_recip_norm((uint32_t)z << clz, 2);
-    project(job, c->v_q16, recip, clz, &c->x, &c->y);
-    c->iz_q32 = inverse_depth(job, recip, clz);
+    if (!(c->out >> 8)) project(job, c->v_q16, &c->at);
 #endif
     return 1;
 }
 
 /* ---- Depth --------------------------------------------------------------------------------------------------------- */
 
+/* near / Z over a triangle. */
 typedef struct {
-    gn_plane plane;
-    gn_bfloat scale; /* near / (2F det): turns c . ray into near / Z */
-    int32_t dx, dy;
-    uint32_t flat; /* near / Z for triangles without a usable plane: the largest */
-} depth_setup;
+    uint32_t ref;   /* at the centre of the pixel that holds the top, modulo 2^32 */
+    int32_t dx, dy; /* per pixel */
+    uint32_t least, largest;
+} depth_range;
 
-/* gn_bf_apply where it is known to fit 32 bits; returns 0 otherwise. */
-static inline int apply_small(int32_t *out, int32_t a, gn_bfloat b, int32_t shift)
+/* floor(n * f / 2^(33 + s)), |n| < 2^60, 1 <= s <= 62. Returns 0 if that is more than 32 bits. */
+static inline int gradient(int32_t *out, int64_t n, int32_t f, int32_t s)
 {
-    int32_t s = -(b.exp + shift) - 33;
-    if (GN_SIZE_FIRST || s < 0 || s > 30) {
-        int64_t v = gn_bf_apply(a, b, shift);
-        *out = (int32_t)v;
-        return v == *out;
-    }
-    uint32_t t = (uint32_t)(((uint64_t)gn_abs32(a) * b.mant) >> 32) >> s; /* 2^31 * 2^32 */
-    int32_t v = (int32_t)((t >> 1) + (t & 1));
-    *out = a < 0 ? -v : v;
-    return 1;
+    uint32_t lo = (uint32_t)n;
+    int64_t v = ((int64_t)(int32_t)(n >> 32) * f + ((int64_t)(int32_t)(lo >> 1) * f >> 31)) >> s;
+    *out = (int32_t)v;
+    return v == *out;
 }
 
-/* Plane of the unsnapped triangle. `largest`: of near / Z on it. */
-static void depth_begin(const gn_frame *frame, depth_setup *depth, const int32_t *const v[3], uint32_t largest)
+/* The plane through three projected corners, all of the screen in Q16 pixels: |x|, |y| < 2^27. Where it is too steep, a pixel spans half of all
+ * depths: the nearest stands for it. */
+static inline void depth_of_corners(depth_range *depth, const projected *const c[3], int top, int32_t x_q16, int32_t y_q16)
 {
-    depth->flat = largest;
-    gn_plane_setup(&depth->plane, v[0], v[1], v[2]);
-    if (depth->plane.det > 0) {
-#if GN_SIZE_FIRST
-        depth->scale = gn_bf_mul(frame->cam.near_over_focal2, gn_bf_recip(gn_bf_from_u64((uint64_t)depth->plane.det)));
-#else
-        int32_t clz = gn_clz64((uint64_t)depth->plane.det); /* the same, written out */
-        uint32_t recip = gn_recip_norm((uint32_t)((uint64_t)depth->plane.det << clz >> 32), 2);
-        uint64_t mant = (uint64_t)frame->cam.near_over_focal2.mant * recip;
-        depth->scale.exp = frame->cam.near_over_focal2.exp + clz - 95 + 32;
-        if (!(mant >> 63)) {
-            mant <<= 1;
-            depth->scale.exp--;
-        }
-        depth->scale.mant = (uint32_t)(mant >> 32);
-#endif
-        if (apply_small(&depth->dx, depth->plane.n[0], depth->scale, 49) &&
-            apply_small(&depth->dy, -depth->plane.n[1], depth->scale, 49))
-            return;
+    uint32_t i0 = c[0]->iz_q32, i1 = c[1]->iz_q32, i2 = c[2]->iz_q32;
+    uint32_t largest = i0 > i1 ? i0 : i1, least = i0 > i1 ? i1 : i0;
+    depth->largest = i2 > largest ? i2 : largest;
+    depth->least = i2 < least ? i2 : least;
+    int32_t ax = c[1]->x_q16 - c[0]->x_q16, ay = c[1]->y_q16 - c[0]->y_q16, bx = c[2]->x_q16 - c[0]->x_q16, by = c[2]->y_q16 - c[0]->y_q16;
+    int32_t a = (int32_t)(i1 >> 1) - (int32_t)(i0 >> 1), b = (int32_t)(i2 >> 1) - (int32_t)(i0 >> 1);
+    int64_t area = (int64_t)ax * by - (int64_t)bx * ay; /* 2^57 */
+    uint64_t size = gn_abs64(area) | 1U;
+    int32_t clz = gn_clz64(size), s = 45 - clz; /* gradients are n / area * 2^17 = n * (2^63 / norm) / 2^(78 - clz), in halves */
+    int32_t recip = (int32_t)(gn_recip_norm((uint32_t)(size << clz >> 32), 2) >> 1);
+    if (area < 0) recip = -recip;
+    if (s < 1 || !gradient(&depth->dx, (int64_t)a * by - (int64_t)b * ay, recip, s) ||
+        !gradient(&depth->dy, (int64_t)b * ax - (int64_t)a * bx, recip, s)) {
+        depth->dx = depth->dy = 0;
+        depth->ref = depth->largest;
+        return;
     }
-    depth->dx = depth->dy = 0;
-    depth->plane.det = 0; /* edge on: the depth range of a pixel exceeds half of all depths; its nearest point stands for it */
-}
-
-static uint32_t depth_at(const gn_frame *frame, const depth_setup *depth, int32_t x, int32_t y)
-{
-    if (!depth->plane.det) return depth->flat;
-    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
-    int64_t w = gn_plane_at(depth->plane.n, px, py, frame->cam.focal2_px_q16);
-    uint32_t hi = (uint32_t)(gn_abs64(w) >> 32), lo = (uint32_t)gn_abs64(w), mant = depth->scale.mant;
-    int32_t s = -(depth->scale.exp + 64);
-    if (!hi || s < 1 || s > 31) return (uint32_t)gn_bf_apply(w, depth->scale, 32);
-    /* the same, modulo 2^32: the pixel may lie just outside the triangle */
-    uint64_t r = (uint64_t)hi * mant + (((uint64_t)lo * mant + 0x80000000U) >> 32);
-    uint32_t v = ((uint32_t)(r >> 32) << (32 - s) | (uint32_t)r >> s) + (((uint32_t)r >> (s - 1)) & 1U);
-    return w < 0 ? 0U - v : v;
+    /* from the top to the centre: less than two pixels */
+    int64_t step = (int64_t)depth->dx * (x_q16 - c[top]->x_q16) + (int64_t)depth->dy * (y_q16 - c[top]->y_q16);
+    depth->ref = c[top]->iz_q32 + (uint32_t)(step >> 16);
 }
 
 /* ---- Triangles ----------------------------------------------------------------------------------------------------- */
@@ -215,29 +196,32 @@ void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], in
     }
 }
 
-/* First and last pixel centres between the least and the largest of three coordinates from the centre, cut to 0 .. size. */
-static inline void bounds_along(int32_t a, int32_t b, int32_t c, int32_t bits, int32_t size, int32_t *from, int32_t *to)
+/* First and last pixel centres from one coordinate to another, both from the picture's centre, cut to 0 .. size. */
+static inline void bounds_along(int32_t lo, int32_t hi, int32_t bits, int32_t size, int32_t *from, int32_t *to)
 {
-    int32_t lo = gn_min32(a, gn_min32(b, c)), hi = gn_max32(a, gn_max32(b, c)), centre = (size << bits) >> 1;
+    int32_t centre = (size << bits) >> 1;
     *from = gn_max32(gn_first_px(lo + centre, bits), 0);
     *to = gn_min32(gn_first_px(hi + centre, bits), size);
 }
 
-static inline gn_rect bounds_of(const gn_frame *frame, const gn_tri *tri)
+/* Returns how many rows fixed point lasts, too. */
+static inline int32_t bounds_of(const gn_frame *frame, const gn_tri *tri, gn_rect *r)
 {
-    int32_t bits = GN_K(frame, subpixel_bits);
-    gn_rect r;
-    bounds_along(tri->x[0], tri->x[1], tri->x[2], bits, frame->picture.width, &r.x0, &r.x1);
-    bounds_along(tri->y[0], tri->y[1], tri->y[2], bits, frame->picture.height, &r.y0, &r.y1);
-    return r;
+    int32_t bits = GN_K(frame, subpixel_bits), x0 = tri->x[0], x1 = tri->x[1], x2 = tri->x[2];
+    int32_t lo = gn_min32(gn_min32(x0, x1), x2), hi = gn_max32(gn_max32(x0, x1), x2), bottom = gn_max32(tri->y[1], tri->y[2]);
+    bounds_along(lo, hi, bits, frame->picture.width, &r->x0, &r->x1);
+    bounds_along(tri->y[0], bottom, bits, frame->picture.height, &r->y0, &r->y1);
+    return gn_walk_lasts((uint32_t)(hi - lo) | (uint32_t)(bottom - tri->y[0]));
 }
 
 gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
 {
-    return bounds_of(frame, tri);
+    gn_rect r;
+    bounds_of(frame, tri, &r);
+    return r;
 }
 
-static void count_tiles(gn_frame *frame, const gn_rect *px)
+static inline void count_tiles(gn_frame *frame, const gn_rect *px)
 {
     gn_rect r = gn_setup_tiles(frame, px);
     gn_ref_offset *row = frame->tile_first + r.y0 * frame->tiles_x;
@@ -245,92 +229,107 @@ static void count_tiles(gn_frame *frame, const gn_rect *px)
         for (int32_t x = r.x0; x < r.x1; x++) row[x]++;
 }
 
-/* Begins a triangle of the clipped polygon: its corners, and its screen tiles are counted. Returns NULL if it faces away or covers no
- * pixel centre, or if there is no room. */
-static inline gn_tri *emit_begin(const setup_job *job, gn_tri *tri, const int32_t x[3], const int32_t y[3])
+/* What is known of a triangle when its place is taken. */
+typedef struct {
+    gn_tri *tri;
+    int top;       /* which of the corners it was */
+    int32_t lasts; /* gn_walk_lasts */
+} new_triangle;
+
+/* Takes the place of a triangle, if it is given its corners' places on the subpixel grid, and counts its screen tiles. Returns 0 if it faces away or
+ * covers no pixel centre, or if there is no room. */
+static inline int take_place(const setup_job *job, new_triangle *taken, const int32_t x[3], const int32_t y[3])
 {
     gn_frame *frame = job->frame;
+    gn_rect bounds;
     int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
-    if (area >= 0 && (area == 0 || !(job->object->flags & GN_OBJECT_TWO_SIDED))) return NULL;
-    /* the top first, then the left of it: turned round if seen from behind, rotated */
+    if (area >= 0 && (area == 0 || !(job->object->flags & GN_OBJECT_TWO_SIDED))) return 0;
+    /* turned round if seen from behind; then rotated, to begin with the top */
     int second = area > 0 ? 2 : 1, top = y[second] < y[0] ? second : 0;
     if (y[3 - second] < y[top]) top = 3 - second;
     int left = top == 0 ? second : top == second ? 3 - second : 0, right = 3 - top - left;
+    /* beyond the last it is not kept */
+    gn_tri *tri = &frame->tri[frame->stats.n_triangles < GN_MAX_TRIANGLES ? frame->stats.n_triangles : GN_MAX_TRIANGLES - 1];
     tri->x[0] = (gn_coord)x[top], tri->x[1] = (gn_coord)x[left], tri->x[2] = (gn_coord)x[right];
     tri->y[0] = (gn_coord)y[top], tri->y[1] = (gn_coord)y[left], tri->y[2] = (gn_coord)y[right];
-    gn_rect bounds = bounds_of(frame, tri);
-    if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return NULL;
-    if (frame->stats.n_triangles++ >= GN_MAX_TRIANGLES) return NULL; /* counted on, to say how many would have been enough */
+    taken->tri = tri;
+    taken->top = top;
+    taken->lasts = bounds_of(frame, tri, &bounds);
+    if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return 0;
+    if (frame->stats.n_triangles++ >= GN_MAX_TRIANGLES) return 0; /* counted on, to say how many would have been enough */
     count_tiles(frame, &bounds);
     GN_COUNT(visible, 1);
-    return tri;
+    return 1;
 }
 
-/* What triangles need to know of their depth. A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel
- * grid along each axis; where that is little, and no end of all depths is near, depth may leave the triangle's own range. */
-static inline void store_range(gn_tri *tri, uint32_t least, uint32_t largest, int32_t bits)
+/* The pixel that holds the top. */
+static inline void top_pixel(const gn_frame *frame, const gn_tri *tri, int32_t *x, int32_t *y)
 {
-    uint32_t reach = (((gn_abs32(tri->iz_dx) >> 1) + (gn_abs32(tri->iz_dy) >> 1)) >> bits) + 4096; /* roundings of 2^13 steps */
-    tri->iz_min = (uint16_t)(least >> 16);
-    tri->iz_max = (uint16_t)(largest >> 16);
-    if (reach >> 18 || least <= reach || largest >= UINT32_MAX - reach) return;
-    const int32_t x[3] = {tri->x[0], tri->x[1], tri->x[2]};
-    tri->iz_min = (uint16_t)(1 + gn_walk_lasts(x, gn_max32(tri->y[1], tri->y[2]) - tri->y[0], bits));
-    tri->iz_max = 0;
-}
-
-static inline void emit_end(const setup_job *job, gn_tri *tri, const depth_setup *depth, uint32_t iz_min, uint32_t triangle_idx)
-{
-    const gn_frame *frame = job->frame;
     int32_t bits = GN_K(frame, subpixel_bits);
-    int32_t x = tri->x[0] + ((frame->picture.width << bits) >> 1), y = tri->y[0] + ((frame->picture.height << bits) >> 1);
-    tri->iz_ref = depth_at(frame, depth, x >> bits, y >> bits);
+    *x = (tri->x[0] + ((frame->picture.width << bits) >> 1)) >> bits;
+    *y = (tri->y[0] + ((frame->picture.height << bits) >> 1)) >> bits;
+}
+
+/* A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel grid along each axis. Where that is little, and
+ * neither end of all depths is near, depth may leave the triangle's own range. */
+static inline void store(const setup_job *job, const new_triangle *taken, const depth_range *depth, uint32_t triangle_idx)
+{
+    gn_tri *tri = taken->tri;
+    uint32_t steepness = (gn_abs32(depth->dx) >> 1) + (gn_abs32(depth->dy) >> 1);
+    uint32_t reach = (steepness >> GN_K(job->frame, subpixel_bits)) + 4096; /* and roundings of 2^13 steps */
+    int free = !(reach >> 18) && depth->least > reach && depth->largest < UINT32_MAX - reach;
+    tri->iz_ref = depth->ref;
     tri->iz_dx = depth->dx;
     tri->iz_dy = depth->dy;
-    store_range(tri, iz_min, depth->flat, bits);
+    tri->iz_min = (uint16_t)(free ? (uint32_t)taken->lasts + 1 : depth->least >> 16);
+    tri->iz_max = (uint16_t)(free ? 0 : depth->largest >> 16);
     tri->object_idx = (uint16_t)job->object_idx;
     tri->triangle_idx = (uint16_t)triangle_idx;
 }
 
-/* Where the next triangle goes; beyond the last it is not kept. */
-static inline gn_tri *next_triangle(gn_frame *frame)
+/* A triangle in the guard band. */
+static GN_NOINLINE void emit(const setup_job *job, const projected *const c[3], uint32_t triangle_idx)
 {
-    return &frame->tri[frame->stats.n_triangles < GN_MAX_TRIANGLES ? frame->stats.n_triangles : GN_MAX_TRIANGLES - 1];
+    const gn_frame *frame = job->frame;
+    int32_t bits = GN_K(frame, subpixel_bits), px, py;
+    const int32_t x[3] = {snap(c[0]->x_q16, bits), snap(c[1]->x_q16, bits), snap(c[2]->x_q16, bits)};
+    const int32_t y[3] = {snap(c[0]->y_q16, bits), snap(c[1]->y_q16, bits), snap(c[2]->y_q16, bits)};
+    new_triangle taken;
+    depth_range depth;
+    if (!take_place(job, &taken, x, y)) return;
+    top_pixel(frame, taken.tri, &px, &py);
+    depth_of_corners(&depth, c, taken.top, (2 * px + 1 - frame->picture.width) * 32768, (2 * py + 1 - frame->picture.height) * 32768);
+    store(job, &taken, &depth, triangle_idx);
+}
+
+/* A cut vertex may miss the guard band by a rounding of view space, which a long focal length magnifies. */
+static GN_NOINLINE void project_cut(const setup_job *job, const int32_t v_q16[3], projected *at)
+{
+    int32_t most = job->frame->cam.coord_max_q16;
+    project(job, v_q16, at);
+    at->x_q16 = gn_max32(gn_min32(at->x_q16, most), -most);
+    at->y_q16 = gn_max32(gn_min32(at->y_q16, most), -most);
 }
 
 /* Any triangle: what leaves the guard band, or comes nearer than near, is clipped. Where size comes first, it does all of them. */
-static GN_NOINLINE void general_triangle(const setup_job *job, const int32_t *const v[3], uint32_t outside, uint32_t triangle_idx)
+static GN_NOINLINE void general_triangle(const setup_job *job, const corner *const c[3], uint32_t outside, uint32_t triangle_idx)
 {
     gn_frame *frame = job->frame;
-    const gn_cam *cam = &frame->cam;
     gn_polygon *polygon = &job->clipping->polygon;
     polygon->n = 3;
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) polygon->v_q16[i][k] = v[i][k];
+        for (int k = 0; k < 3; k++) polygon->v_q16[i][k] = c[i]->v_q16[k];
     if (outside) {
-        gn_clip(polygon, &job->clipping->uncut, GN_OUT_ALL, cam->near_q16, cam->guard_q16);
+        gn_clip(polygon, &job->clipping->uncut, GN_OUT_ALL, frame->cam.near_q16, frame->cam.guard_q16);
         frame->stats.n_clipped++;
     }
-    int32_t *x = job->clipping->x, *y = job->clipping->y;
-    for (int i = 0; i < polygon->n; i++) {
-        int32_t z = polygon->v_q16[i][2], clz = gn_clz32((uint32_t)z);
-        project(job, polygon->v_q16[i], gn_recip_norm((uint32_t)z << clz, 2), clz, &x[i], &y[i]);
-        /* a cut vertex may miss the guard band by a rounding of view space, which a long focal length magnifies */
-        x[i] = gn_max32(gn_min32(x[i], cam->coord_max), -cam->coord_max);
-        y[i] = gn_max32(gn_min32(y[i], cam->coord_max), -cam->coord_max);
-    }
-    uint32_t largest = 0, least = UINT32_MAX;
-    for (int i = 0; i < 3; i++) {
-        uint32_t iz_q32 = inverse_depth_q32(job, gn_max32(v[i][2], cam->near_q16));
-        if (iz_q32 > largest) largest = iz_q32;
-        if (iz_q32 < least) least = iz_q32;
-    }
-    depth_setup depth;
-    if (polygon->n) depth_begin(frame, &depth, v, largest);
-    for (int i = 1; i + 1 < polygon->n; i++) {
-        int32_t fx[3] = {x[0], x[i], x[i + 1]}, fy[3] = {y[0], y[i], y[i + 1]};
-        gn_tri *tri = emit_begin(job, next_triangle(frame), fx, fy);
-        if (tri) emit_end(job, tri, &depth, least, triangle_idx);
+    projected at[3];
+    const projected *const corners[3] = {&at[0], &at[1], &at[2]};
+    for (int i = 0; i < polygon->n; i++) { /* a fan */
+        project_cut(job, polygon->v_q16[i], &at[gn_min32(i, 2)]);
+        if (i < 2) continue;
+        emit(job, corners, triangle_idx);
+        at[1] = at[2];
     }
 }
 
@@ -338,21 +337,14 @@ static void setup_triangle(const setup_job *job, const corner *const c[3], uint3
 {
     GN_COUNT(triangles, 1);
     if (c[0]->out & c[1]->out & c[2]->out & GN_OUT_ALL) return;
-    const int32_t *const v[3] = {c[0]->v_q16, c[1]->v_q16, c[2]->v_q16};
     uint32_t outside = (c[0]->out | c[1]->out | c[2]->out) >> 8;
     if (GN_SIZE_FIRST || outside) {
-        general_triangle(job, v, outside, triangle_idx);
+        general_triangle(job, c, outside, triangle_idx);
         return;
     }
 #if !GN_SIZE_FIRST
-    const int32_t x[3] = {c[0]->x, c[1]->x, c[2]->x}, y[3] = {c[0]->y, c[1]->y, c[2]->y};
-    gn_tri *tri = emit_begin(job, next_triangle(job->frame), x, y);
-    if (!tri) return;
-    uint32_t a = c[0]->iz_q32, b = c[1]->iz_q32, largest = a > b ? a : b, least = a > b ? b : a;
-    depth_setup depth;
-    a = c[2]->iz_q32;
-    depth_begin(job->frame, &depth, v, a > largest ? a : largest);
-    emit_end(job, tri, &depth, a < least ? a : least, triangle_idx);
+    const projected *const at[3] = {&c[0]->at, &c[1]->at, &c[2]->at};
+    emit(job, at, triangle_idx);
 #endif
 }
 
@@ -404,7 +396,7 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *m
     job.cache = (corner *)(void *)memory;
     job.cache_mask = n - 1;
     job.focal_norm = frame->cam.focal2_px_q16 << clz;
-    job.focal_shift = 47 + clz - GN_K(frame, subpixel_bits);
+    job.focal_shift = 31 + clz;
     job.near_clz = gn_clz32((uint32_t)frame->cam.near_q16);
     job.near_norm = (uint32_t)frame->cam.near_q16 << job.near_clz;
     for (int i = 0; i < 2; i++) job.tan[i] = frame->cam.tan_q16[i] >> 17 ? 0 : (uint32_t)frame->cam.tan_q16[i] << 15;

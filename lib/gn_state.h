@@ -37,7 +37,7 @@ typedef struct {
     gn_bfloat near_over_focal2; /* near / 2F */
     gn_bfloat inv_focal2;       /* 1 / 2F, 2F in Q16 */
     int32_t guard_q16[2];       /* |X| <= guard[0] * Z and |Y| <= guard[1] * Z hold after clipping to the guard band */
-    int32_t coord_max;          /* of screen coordinates from the picture's centre */
+    int32_t coord_max_q16;      /* of screen coordinates from the picture's centre, pixels */
     int32_t tan_q16[2];         /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
 } gn_cam;
 

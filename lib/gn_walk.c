@@ -57,6 +57,14 @@ static inline int16_t exact_step(gn_edge *edge)
 
 /* ---- Fixed point --------------------------------------------------------------------------------------------------- */
 
+/* How many rows fixed point lasts for a triangle with these corners. */
+static inline int32_t fixed_for(const int32_t x[3], int32_t height, int32_t subpixel_bits)
+{
+    uint32_t far = (uint32_t)((x[0] ^ x[0] >> 31) | (x[1] ^ x[1] >> 31) | (x[2] ^ x[2] >> 31)) >> (12 + subpixel_bits);
+    int32_t a = x[1] - x[0], b = x[2] - x[0], c = x[2] - x[1];
+    return far ? 0 : gn_walk_lasts((uint32_t)height | (uint32_t)((a ^ a >> 31) | (b ^ b >> 31) | (c ^ c >> 31)));
+}
+
 /* Where an edge down crosses rows y <= .. < y_end, not empty, into every other int16_t from `at` on. */
 static GN_NOINLINE void fixed_rows(const gn_walk *walk, int16_t *at, const gn_walk_corner *from, const gn_walk_corner *to,
                                    int32_t y, int32_t y_end)
@@ -145,7 +153,7 @@ int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int
     walk->row_end[0] = gn_min32(gn_max32(walk->row_end[1], walk->row_end[2]), y_hi);
     if (walk->row >= walk->row_end[0]) return 0;
     walk->subpixel_bits = subpixel_bits;
-    walk->fixed = GN_SIZE_FIRST ? 0 : gn_walk_lasts(x, gn_max32(b.y, c.y) - a.y, subpixel_bits);
+    walk->fixed = GN_SIZE_FIRST ? 0 : fixed_for(x, gn_max32(b.y, c.y) - a.y, subpixel_bits);
     for (int side = 0; !walk->fixed && side < 2; side++) {
         if (walk->row < walk->row_end[1 + side]) edge_begin(walk, side, 0, 1 + side);
         else if (walk->row > walk->row_end[1 + side]) edge_begin(walk, side, 1 + side, 2 - side);

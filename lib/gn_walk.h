@@ -53,14 +53,10 @@ static inline int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
 #define GN_FIXED_BITS  18
 #define GN_FIXED_SMALL (1 << 13) /* dx, dy of edges that are walked 16 rows at a time; twice that: 8 rows */
 
-/* How many rows fixed point lasts for a triangle with these corners: 16, 8 or none. */
-static inline int32_t gn_walk_lasts(const int32_t x[3], int32_t height, int32_t subpixel_bits)
+/* How many rows fixed point lasts for a triangle of that size, dx | dy of its edges, not further than 2^12 pixels from 0: 16, 8 or none. */
+static inline int32_t gn_walk_lasts(uint32_t size)
 {
-    uint32_t far = (uint32_t)((x[0] ^ x[0] >> 31) | (x[1] ^ x[1] >> 31) | (x[2] ^ x[2] >> 31)) >> (12 + subpixel_bits);
-    uint32_t size = (uint32_t)height;
-    int32_t a = x[1] - x[0], b = x[2] - x[0], c = x[2] - x[1];
-    size |= (uint32_t)((a ^ a >> 31) | (b ^ b >> 31) | (c ^ c >> 31));
-    return far || size >= 2 * GN_FIXED_SMALL ? 0 : size >= GN_FIXED_SMALL ? GN_WALK_ROWS / 2 : GN_WALK_ROWS;
+    return size >= 2 * GN_FIXED_SMALL ? 0 : size >= GN_FIXED_SMALL ? GN_WALK_ROWS / 2 : GN_WALK_ROWS;
 }
 
 /* a * 2^18 / b modulo 2^32, within one unit; 0 < b < 2^14 */

@@ -42,7 +42,7 @@ void gn_cam_setup(gn_frame *frame)
     cam->inv_focal2 = inverse;
     cam->near_over_focal2 = ratio;
     int32_t size[2] = {frame->picture.width, frame->picture.height}, bits = GN_K(frame, subpixel_bits);
-    cam->coord_max = fits_16_bits(bits, gn_max32(size[0], size[1])) ? 32767 : 1 << 20;
+    cam->coord_max_q16 = fits_16_bits(bits, gn_max32(size[0], size[1])) ? gn_min32(32767 << (16 - bits), 1 << 27) : 1 << 27;
     for (int i = 0; i < 2; i++) {
         int32_t guard = guard_px(bits, gn_max32(size[0], size[1]));
         cam->guard_q16[i] = slope_q16(2 * (uint32_t)guard, cam->focal2_px_q16);

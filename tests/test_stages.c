@@ -268,7 +268,9 @@ static void check_depth(const gn_frame *frame, const gn_tri *tri, const plane *p
     int dx = x - (sx[0] >> bits), dy = y - (sy[0] >> bits);
     uint32_t got = tri->iz_ref + (uint32_t)dx * (uint32_t)tri->iz_dx + (uint32_t)dy * (uint32_t)tri->iz_dy;
     double want = ldexp(fixed.camera.near_q16 * LSB16 / c->z, 32);
-    double bound = 1 + 0.5 * (abs(dx) + abs(dy)) + want * (ldexp(c->kappa + p->kappa0, -29) + ldexp(1, -27));
+    double focal2 = frame->cam.focal2_px_q16 * LSB16, slope = ldexp(fixed.camera.near_q16 * LSB16, 33) / (focal2 * fabs(p->det)) * (fabs(p->n[0]) + fabs(p->n[1]));
+    double bound = 4 + abs(dx) + abs(dy) + 1.5 * ldexp(slope, -16) + ldexp(want, -27);
+    if (frame->stats.n_clipped) bound += want * ldexp(c->kappa + p->kappa0, -29);
     record(STAGE_DEPTH, fabs((double)got - want), bound, 1);
 }
 
