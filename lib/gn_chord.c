@@ -181,6 +181,7 @@ static int32_t first_step(int64_t d, int32_t bend, int32_t n, int32_t log2)
 static void set_steps(gn_chord *chord, const gn_surface *surface, const gn_sample *a, const gn_sample *b, int32_t n, int32_t bend)
 {
     int32_t log2 = log2_of(n), per_px_q30 = 4 * bend / (n * n);
+    chord->end = surface->n_values;
     chord->bend_first = surface->first_value;
     chord->bend_end = per_px_q30 ? surface->n_values : chord->bend_first;
     for (int32_t i = surface->first_value; i < (int32_t)surface->n_values; i++) {

@@ -9,9 +9,9 @@ int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *s
                      int32_t n);
 
 /* One pixel further on. */
-static inline void gn_chord_next(gn_chord *chord, int32_t *value, int32_t first, int32_t end)
+static inline void gn_chord_next(gn_chord *chord, int32_t *value, int32_t first)
 {
-    for (int32_t i = first; i < end; i++) value[i] += chord->step[i];
+    for (int32_t i = first; i < chord->end; i++) value[i] += chord->step[i];
     for (int32_t i = chord->bend_first; i < chord->bend_end; i++) chord->step[i] += chord->bend[i];
 }
 

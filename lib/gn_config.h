@@ -234,4 +234,7 @@
 #define GN_PIECES (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1)
 #define GN_TURNING (GN_PIECES && GN_VERTEX_NORMALS && (GN_RUNTIME_KNOBS || !GN_VERTEX_LIGHT))
 
+/* Whether what arrives from spot and point lights is stepped between samples. */
+#define GN_ARRIVAL_STEPS (GN_PUNCTUAL_LIGHTS && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))
+
 #endif

@@ -7,17 +7,6 @@
 #include "gn_shadow.h"
 #include "gn_texture.h"
 
-#if GN_PUNCTUAL_LIGHTS
-/* Irradiance of a spot or point light whose colour is 1, Q24; `value` is its slot of a sample. */
-static uint32_t punctual_q24(const gn_frame *frame, const gn_light_state *light, const int32_t *value)
-{
-    gn_punctual_point point;
-    GN_COUNT(lights_punctual, 1);
-    if (!gn_punctual_at(frame, light, value + GN_LIGHT_POINT_AT, &point)) return 0;
-    return gn_punctual_irradiance_q24(&point, gn_punctual_cosine_q30(&point, value[GN_LIGHT_FACING]));
-}
-#endif
-
 #if GN_SPECULAR
 /* max(0, n . h)^(2^k), Q30 */
 static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample, const int32_t to_light_q30[3])
@@ -60,9 +49,7 @@ uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const
     const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
     if (value[GN_LIGHT_FACING] <= 0) return 0;
 #if GN_PUNCTUAL_LIGHTS
-    gn_punctual_point point;
-    const gn_light_state *light = surface->light[slot].state;
-    if (light->kind != GN_LIGHT_DIRECTIONAL && !gn_punctual_at(frame, light, value + GN_LIGHT_POINT_AT, &point)) return 0;
+    if (surface->light[slot].state->kind != GN_LIGHT_DIRECTIONAL && !sample->arrival[slot].reaches) return 0;
 #endif
     return gn_shadow_factor(frame, surface, sample, slot, gn_shadow_distance(frame, surface, sample));
 }
@@ -101,12 +88,11 @@ void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const g
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         const gn_surface_light *light = &surface->light[i];
         const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
-        if (value[GN_LIGHT_FACING] <= 0) continue; /* P10 */
-        uint32_t diffuse = (uint32_t)value[GN_LIGHT_FACING];
+        uint32_t diffuse = (uint32_t)gn_max32(value[GN_LIGHT_FACING], 0);
 #if GN_PUNCTUAL_LIGHTS
-        if (light->state->kind != GN_LIGHT_DIRECTIONAL) diffuse = punctual_q24(frame, light->state, value);
-        if (!diffuse) continue;
+        if (light->state->kind != GN_LIGHT_DIRECTIONAL) diffuse = sample->arrival[i].irradiance_q24;
 #endif
+        if (!diffuse) continue;
         uint32_t shadow = gn_shadow_factor(frame, surface, sample, i, g);
         GN_COUNT(lights, 1);
         if (!shadow) continue;

@@ -109,10 +109,12 @@ int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int
     if (d2 < frame->min2_q32) out->scale_root = inverse_root(frame, frame->min2_q32, &out->scale_shift);
     out->colour_exp = light->colour_exp;
     out->factor_q30 = window_q30(light, d2);
+    out->within_inner = 0;
     if (light->kind == GN_LIGHT_SPOT) {
         /* against the axis towards the light: the light-plane distance as a share of the distance */
         int32_t along = gn_sat32(-gn_dot_q30(from_light_q16, light->to_light_q30));
         uint32_t angle = along > 0 ? angle_q30(light, gn_punctual_cosine_q30(out, along)) : 0;
+        out->within_inner = angle == GN_ONE_Q30;
         out->factor_q30 = (uint32_t)gn_mul_q30((int32_t)out->factor_q30, (int32_t)angle);
     }
     return out->factor_q30 != 0;

@@ -21,6 +21,7 @@ typedef struct {
     uint32_t scale_root; /* the same for max(d2, min2) */
     int32_t scale_shift;
     int32_t colour_exp;
+    int32_t within_inner; /* a spot's inner cone, where its angle has no effect */
 } gn_punctual_point;
 
 /* `from_light` is the surface point minus the light's position, world axes, Q16. Returns 0 where no light arrives (P10). */

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "gn_shade.h"
+#include "gn_arrival.h"
 #include "gn_chord.h"
 #include "gn_count.h"
 #include "gn_hint.h"
@@ -77,15 +78,45 @@ static void shade_pixel(gn_shading *s, gn_sample *sample, int32_t x, int32_t y)
     gn_pixel_store(s->frame, &s->rows, x, y, pack(s, s->radiance_q20));
 }
 
+/* What arrives there from spot and point lights. */
+static void arrive(shading *s, gn_sample *sample)
+{
+#if GN_PUNCTUAL_LIGHTS
+    gn_arrivals_at(s->frame, &s->surface, sample);
+#else
+    (void)s, (void)sample;
+#endif
+}
+
+/* The n - 1 pixels between two samples, along a chord that is set. */
+static void shade_chord(shading *s, gn_sample *from, const gn_sample *to, int32_t x, int32_t y, int32_t n)
+{
+    int32_t first = s->surface.first_value;
+    gn_chord *chord = &s->by.run.chord;
+#if GN_ARRIVAL_STEPS
+    gn_arrivals_between(chord, s->frame, &s->surface, from, to, n);
+#else
+    (void)to;
+#endif
+    GN_COUNT(stepped, n * (chord->end - first));
+    for (int32_t k = 1; k < n; k++) {
+        gn_chord_next(chord, from->value, first);
+#if GN_ARRIVAL_STEPS
+        gn_arrivals_next(chord, s->frame, &s->surface, from);
+#endif
+        shade_pixel(s, from, x + k, y);
+    }
+}
+
 /* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every persp_step
  * pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the triangle. */
 static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     int32_t step_px = s->surface.specular ? 1 : GN_K(s->frame, persp_step); /* a highlight is narrower than its n . h */
-    int32_t first = s->surface.first_value, end = s->surface.n_values;
     gn_chord *chord = &s->by.run.chord;
     gn_sample *here = &s->by.run.sample[0], *next = &s->by.run.sample[1];
     gn_sample_at(s->frame, &s->surface, x_begin, y, here);
+    arrive(s, here);
     shade_pixel(s, here, x_begin, y);
     for (int32_t x = x_begin; x < x_end - 1;) {
         int32_t n = gn_min32(step_px, x_end - 1 - x);
@@ -94,13 +125,8 @@ static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
             n >>= 1;
             gn_sample_at(s->frame, &s->surface, x + n, y, next);
         }
-        if (n > 1) {
-            GN_COUNT(stepped, n * (end - first));
-            for (int32_t k = 1; k < n; k++) {
-                gn_chord_next(chord, here->value, first, end);
-                shade_pixel(s, here, x + k, y);
-            }
-        }
+        arrive(s, next);
+        if (n > 1) shade_chord(s, here, next, x, y, n);
         gn_sample *swap = here;
         here = next;
         next = swap;

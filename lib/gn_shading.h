@@ -111,6 +111,34 @@ enum {
  * n . (light - point), the point from the light, and the receiver's offset, all in world axes and Q16 units. */
 enum { GN_LIGHT_FACING, GN_LIGHT_POINT_AT, GN_LIGHT_OFFSET = 4 };
 
+#if GN_PUNCTUAL_LIGHTS
+/* What arrives at a sample from a spot or point light: gn_arrival.h. */
+typedef struct {
+    uint32_t irradiance_q24; /* of a light whose colour is 1 */
+#if GN_SHADOWS
+    int32_t u_q16, v_q16;
+    uint32_t depth_q32;
+#endif
+    uint8_t reaches; /* 0: nothing arrives, and the rest means nothing */
+#if GN_SHADOWS
+    uint8_t face;    /* of the light's views */
+#endif
+#if GN_ARRIVAL_STEPS
+    uint8_t within_inner; /* a spot's inner cone */
+    uint8_t shadow;       /* what bounds of depth say */
+#endif
+} gn_arrival;
+
+enum { GN_SHADOW_UNDECIDED, GN_SHADOW_NONE, GN_SHADOW_FULL };
+
+/* Between two samples: irradiance, U, V and depth. */
+typedef struct {
+    int32_t holds; /* 0: found again at every pixel */
+    int32_t step[4], bend[4];
+    int32_t depth_q30;
+} gn_arrival_steps;
+#endif
+
 #define GN_CASCADE_NONE 4
 
 typedef struct {
@@ -119,6 +147,9 @@ typedef struct {
     int32_t x, y;          /* the pixel */
     int32_t normal_q15[3]; /* interpolated, not renormalised; lit smooth surfaces only */
     int32_t value[GN_VALUE_COUNT];
+#if GN_PUNCTUAL_LIGHTS
+    gn_arrival arrival[GN_SURFACE_LIGHTS]; /* of spot and point lights */
+#endif
 #if GN_SPECULAR
     int32_t normal_q30[3], to_eye_q30[3]; /* unit; surfaces with highlights only */
 #endif
@@ -128,7 +159,11 @@ typedef struct {
 typedef struct {
     int32_t step[GN_VALUE_COUNT]; /* from the first pixel to the next */
     int32_t bend[GN_VALUE_COUNT]; /* what the step grows by per pixel */
-    int32_t bend_first, bend_end; /* of values; the others' steps stay */
+    int32_t end;                  /* of the values that are stepped */
+    int32_t bend_first, bend_end; /* the others' steps stay */
+#if GN_ARRIVAL_STEPS
+    gn_arrival_steps arrival[GN_SURFACE_LIGHTS];
+#endif
 } gn_chord;
 
 /* Where a screen tile's pixels are stored. */

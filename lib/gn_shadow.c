@@ -1,11 +1,10 @@
 /* Shadow of one light at a sample. */
 #include "gn_shadow.h"
-#include "gn_bias.h"
+#include "gn_arrival.h"
 #include "gn_count.h"
 #include "gn_filter.h"
 #include "gn_hint.h"
 #include "gn_noise.h"
-#include "gn_persp.h"
 #include "gn_q.h"
 #include "gn_texture.h"
 
@@ -109,60 +108,19 @@ static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], c
 }
 #endif
 
-/* T / 2 * (1 + x / (z t)), Q16: the clamps keep what is far outside the tile outside. */
-static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t recip, int32_t clz)
+static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot)
 {
-    /* times focal2 within 2^60, and 2^14 texels or more: beyond every tile */
-    const int64_t bound = (int64_t)1 << (28 + gn_clz32(view->fit.persp.focal2_q16)), x_most = INT32_MAX;
-    int64_t ratio_q28 = gn_scale64(gn_clamp64(x_q16, -x_most, x_most) * (int64_t)recip, 35 - clz); /* 2^31 * 2^32 */
-    int64_t texels = gn_shr64(gn_clamp64(ratio_q28, -bound, bound) * (int64_t)view->fit.persp.focal2_q16, 29);
-    return gn_sat32(texels + ((int64_t)view->tile_texels << 15));
-}
-
-/* B2 and B3 have moved the point at the sample; B6 does it here, face by face of a point light. Returns what is to be taken off its
- * depth, Q32. */
-static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, const gn_light_view *view,
-                           const int32_t *value, int32_t moved_q16[3])
-{
-    const int32_t *from = value + GN_LIGHT_POINT_AT, *offset = value + GN_LIGHT_OFFSET;
-#if GN_AUTO_BIAS
-    gn_auto_bias form = (gn_auto_bias)frame->light[view->light_idx].auto_bias;
-    if (form && !GN_CURVED(surface))
-        return gn_bias_auto_persp(view, form, surface->face_q30, sample->value[GN_VALUE_Z], from, moved_q16);
-#else
-    (void)frame, (void)surface, (void)sample, (void)view;
-#endif
-    for (int i = 0; i < 3; i++) moved_q16[i] = gn_sat32((int64_t)from[i] + offset[i]);
-#if GN_AUTO_BIAS
-    return form ? view->auto_step : 0;
-#else
-    return 0;
-#endif
-}
-
-static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                                              const gn_light_view *view, const int32_t value[GN_VALUES_PER_LIGHT])
-{
-    const int32_t *from = value + GN_LIGHT_POINT_AT;
-    /* P5: the face of the unmoved point; the moved one stays in it */
-    if (frame->light[view->light_idx].kind == GN_LIGHT_POINT) view += gn_persp_face(from);
+    const gn_arrival *at = &sample->arrival[slot];
     GN_COUNT(lookups_persp, 1);
-    int32_t moved[3];
-    int64_t at[3];
-    int64_t less_q32 = moved_point(frame, surface, sample, view, value, moved);
-    for (int i = 0; i < 3; i++) at[i] = gn_dot_q30(moved, view->axis_q30[i]); /* sqrt(3) * 2^61 */
-    if (at[2] <= view->fit.persp.near_q16) return GN_ONE_UQ16;
-    uint32_t z = at[2] > UINT32_MAX ? UINT32_MAX : (uint32_t)at[2];
-    int32_t clz = gn_clz32(z);
-    uint32_t recip = gn_recip_norm(z << clz, GN_K(frame, newton_steps));
-    /* 1 - n / z: n * recip * 2^(clz - 31) */
-    uint64_t inverse = (uint64_t)(uint32_t)view->fit.persp.near_q16 * recip >> (31 - clz);
-    gn_receiver r = {persp_coord(view, at[0], recip, clz), persp_coord(view, at[1], recip, clz), 0, {0, 0}, sample->x, sample->y};
-    r.depth_q32 = (uint32_t)gn_clamp64(UINT32_MAX - (int64_t)inverse - less_q32, 0, UINT32_MAX);
+    if (at->face == GN_FACE_NONE) return GN_ONE_UQ16;
+#if GN_ARRIVAL_STEPS
+    if (at->shadow != GN_SHADOW_UNDECIDED) return at->shadow == GN_SHADOW_NONE ? GN_ONE_UQ16 : 0;
+#endif
+    const gn_light_view *view = &frame->view[surface->light[slot].state->view_idx + at->face];
+    gn_receiver r = {at->u_q16, at->v_q16, at->depth_q32, {0, 0}, sample->x, sample->y};
 #if GN_RECEIVER_PLANE
+    const int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];
     if (frame->scene->lights[view->light_idx].receiver_plane) persp_slopes(view, surface->face_q30, from, r.slope_q28);
-#else
-    (void)surface;
 #endif
     return gn_filter_attenuation(frame, view, &r);
 }
@@ -172,10 +130,10 @@ static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *surface,
 {
     const gn_light_state *light = surface->light[slot].state;
     const gn_light_view *first = &frame->view[light->view_idx];
-    const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
 #if GN_PUNCTUAL_LIGHTS
-    if (first->perspective) return persp_attenuation(frame, surface, sample, first, value);
+    if (first->perspective) return persp_attenuation(frame, surface, sample, slot);
 #endif
+    const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
     if (first->border_lit) return ortho_attenuation(frame, surface, sample, first, value + 1);
     return cascaded_attenuation(frame, surface, sample, first, value + 1);
 }

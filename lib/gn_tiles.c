@@ -121,12 +121,12 @@ static void equal_sizes(const gn_frame *frame, gn_tile_plan *plan, uint32_t in_o
         if (plan[l].n_tiles && plan[l].in_other == in_other) plan[l].tile_log2 = (uint8_t)tile_log2;
 }
 
+#if GN_TILE_IMPORTANCE
 static uint32_t texels_of(const gn_tile_plan *plan)
 {
     return (uint32_t)plan->n_tiles << (2 * plan->tile_log2); /* 16 * 2^20 */
 }
 
-#if GN_TILE_IMPORTANCE
 /* T / w of a against T / w of b: tiles that are larger than their light is worth come first. */
 static int more_generous(const gn_tile_plan *a, const gn_tile_plan *b)
 {

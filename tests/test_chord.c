@@ -70,7 +70,7 @@ static void test_perspective(void)
         const double z0 = a.value[GN_VALUE_Z], z1 = b.value[GN_VALUE_Z], q = fabs(z1 - z0) / (z1 + z0);
         const double share = q * q / 4;
         for (int32_t p = 1; p < n; p++) {
-            gn_chord_next(&chord, here.value, surface.first_value, surface.n_values);
+            gn_chord_next(&chord, here.value, surface.first_value);
             const double t = (double)p / n, s = t * z0 / (t * z0 + (1 - t) * z1);
             for (int32_t i = surface.first_value; i < surface.n_values; i++) {
                 const double d = (double)b.value[i] - a.value[i], exact = a.value[i] + d * s;
@@ -140,7 +140,7 @@ static void test_turning(void)
         for (int32_t p = 1; p < steps; p++) {
             double n[3], exact = 0, size = 0;
             const double t = (double)p / steps;
-            gn_chord_next(&chord, here.value, surface.first_value, surface.n_values);
+            gn_chord_next(&chord, here.value, surface.first_value);
             for (int i = 0; i < 3; i++) {
                 n[i] = n0[i] + t * (n1[i] - n0[i]);
                 size += n[i] * n[i];
@@ -203,7 +203,7 @@ static void test_extremes(void)
         }
         const int32_t n = 2 + (int32_t)rng_below(&state, 15);
         if (!CHECK(gn_chord_between(&chord, &frame, &surface, &a, &b, n))) return;
-        for (int32_t p = 1; p < n; p++) gn_chord_next(&chord, a.value, surface.first_value, surface.n_values); /* sanitizers */
+        for (int32_t p = 1; p < n; p++) gn_chord_next(&chord, a.value, surface.first_value); /* sanitizers */
     }
 }
 

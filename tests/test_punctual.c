@@ -6,6 +6,7 @@
 #include "check.h"
 #include "light_scene.h"
 
+#include "gn_arrival.h"
 #include "gn_blocks.h"
 #include "gn_persp.h"
 #include "gn_punctual.h"
@@ -579,7 +580,10 @@ static void check_receiver(rng *r)
         moved[k] = (value[GN_LIGHT_POINT_AT + k] + value[GN_LIGHT_OFFSET + k]) / 65536.0;
     }
     surface.light[0].state = &fresh.frame.light[0];
-    surface.n_lights = surface.shadowed = 1;
+    value[GN_LIGHT_FACING] = 1 << 30;
+    surface.n_lights = surface.n_punctual = surface.shadowed = 1;
+    gn_arrivals_at(&fresh.frame, &surface, &sample);
+    if (!sample.arrival[0].reaches) return; /* out of the light's reach */
     along_axes(view, moved, at);
     if (at[2] < light->near_q16 / 65536.0 * 1.01) return;
     if (fabs(at[0]) > at[2] * 0.9 * t || fabs(at[1]) > at[2] * 0.9 * t) return;

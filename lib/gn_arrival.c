@@ -1,0 +1,248 @@
+/* What arrives from spot and point lights. */
+#include "gn_arrival.h"
+#include "gn_bias.h"
+#include "gn_count.h"
+#include "gn_filter.h"
+#include "gn_math.h"
+#include "gn_persp.h"
+#include "gn_punctual.h"
+#include "gn_q.h"
+
+#if GN_PUNCTUAL_LIGHTS
+
+/* ---- At a point --------------------------------------------------------------------------------------------------- */
+
+#if GN_SHADOWS
+/* T / 2 * (1 + x / (z t)), Q16: the clamps keep what is far outside the tile outside. */
+static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t recip, int32_t clz)
+{
+    /* times focal2 within 2^60, and 2^14 texels or more: beyond every tile */
+    const int64_t bound = (int64_t)1 << (28 + gn_clz32(view->fit.persp.focal2_q16)), x_most = INT32_MAX;
+    int64_t ratio_q28 = gn_scale64(gn_clamp64(x_q16, -x_most, x_most) * (int64_t)recip, 35 - clz); /* 2^31 * 2^32 */
+    int64_t texels = gn_shr64(gn_clamp64(ratio_q28, -bound, bound) * (int64_t)view->fit.persp.focal2_q16, 29);
+    return gn_sat32(texels + ((int64_t)view->tile_texels << 15));
+}
+
+/* B2 and B3 have moved the point at the sample; B6 does it here, face by face of a point light. Returns what is to be taken off its
+ * depth, Q32. */
+static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, int32_t z_q16, const gn_light_view *view,
+                           const int32_t *value, int32_t moved_q16[3])
+{
+    const int32_t *from = value + GN_LIGHT_POINT_AT, *offset = value + GN_LIGHT_OFFSET;
+#if GN_AUTO_BIAS
+    gn_auto_bias form = (gn_auto_bias)frame->light[view->light_idx].auto_bias;
+    if (form && !GN_CURVED(surface)) return gn_bias_auto_persp(view, form, surface->face_q30, z_q16, from, moved_q16);
+#else
+    (void)frame, (void)surface, (void)z_q16, (void)view;
+#endif
+    for (int i = 0; i < 3; i++) moved_q16[i] = gn_sat32((int64_t)from[i] + offset[i]);
+#if GN_AUTO_BIAS
+    return form ? view->auto_step : 0;
+#else
+    return 0;
+#endif
+}
+
+/* Where the light's view sees the point. */
+static void find_place(const gn_frame *frame, const gn_surface *surface, const gn_light_state *light, int32_t z_q16, const int32_t *value,
+                       gn_arrival *out)
+{
+    int32_t moved[3];
+    int64_t at[3];
+    /* P5: the face of the unmoved point; the moved one stays in it */
+    out->face = light->kind == GN_LIGHT_POINT ? (uint8_t)gn_persp_face(value + GN_LIGHT_POINT_AT) : 0;
+    const gn_light_view *view = &frame->view[light->view_idx + out->face];
+    int64_t less_q32 = moved_point(frame, surface, z_q16, view, value, moved);
+    for (int i = 0; i < 3; i++) at[i] = gn_dot_q30(moved, view->axis_q30[i]); /* sqrt(3) * 2^61 */
+    if (at[2] <= view->fit.persp.near_q16) {
+        out->face = GN_FACE_NONE;
+        return;
+    }
+    uint32_t z = at[2] > UINT32_MAX ? UINT32_MAX : (uint32_t)at[2];
+    int32_t clz = gn_clz32(z);
+    uint32_t recip = gn_recip_norm(z << clz, GN_K(frame, newton_steps));
+    /* 1 - n / z: n * recip * 2^(clz - 31) */
+    uint64_t inverse = (uint64_t)(uint32_t)view->fit.persp.near_q16 * recip >> (31 - clz);
+    out->u_q16 = persp_coord(view, at[0], recip, clz);
+    out->v_q16 = persp_coord(view, at[1], recip, clz);
+    out->depth_q32 = (uint32_t)gn_clamp64(UINT32_MAX - (int64_t)inverse - less_q32, 0, UINT32_MAX);
+}
+#endif
+
+/* `value` is the light's slot of a sample, z the view depth. */
+static void arrive(const gn_frame *frame, const gn_surface *surface, const gn_light_state *light, int32_t z_q16, const int32_t *value,
+                   gn_arrival *out)
+{
+    gn_punctual_point point;
+    out->irradiance_q24 = 0;
+    out->reaches = value[GN_LIGHT_FACING] > 0 && gn_punctual_at(frame, light, value + GN_LIGHT_POINT_AT, &point); /* P10 */
+    if (!out->reaches) return;
+    GN_COUNT(lights_punctual, 1);
+    out->irradiance_q24 = gn_punctual_irradiance_q24(&point, gn_punctual_cosine_q30(&point, value[GN_LIGHT_FACING]));
+#if GN_ARRIVAL_STEPS
+    out->within_inner = (uint8_t)point.within_inner;
+    out->shadow = GN_SHADOW_UNDECIDED;
+#endif
+#if GN_SHADOWS
+    out->face = GN_FACE_NONE;
+    if (surface->shadowed && light->view_idx >= 0) find_place(frame, surface, light, z_q16, value, out);
+#else
+    (void)surface, (void)z_q16;
+#endif
+}
+
+void gn_arrivals_at(const gn_frame *frame, const gn_surface *surface, gn_sample *sample)
+{
+    for (uint32_t i = surface->n_lights - surface->n_punctual; i < surface->n_lights; i++)
+        arrive(frame, surface, surface->light[i].state, sample->value[GN_VALUE_Z],
+               &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i], &sample->arrival[i]);
+}
+
+#if GN_ARRIVAL_STEPS
+/* ---- Between two points ----------------------------------------------------------------------------------------------- */
+
+/* Value i of a chord after m pixels. */
+static int32_t after(const gn_chord *chord, const int32_t *value, int32_t i, int32_t m)
+{
+    int32_t bend = i >= chord->bend_first && i < chord->bend_end ? chord->bend[i] : 0;
+    return gn_sat32(value[i] + m * (int64_t)chord->step[i] + m * (m - 1) / 2 * (int64_t)bend);
+}
+
+/* A parabola of whole steps through v0, vm after m and vn after n pixels. Returns 0 if they are too far apart. */
+static int parabola(int32_t v0, int32_t vm, int32_t vn, int32_t m, int32_t n, int32_t *step, int32_t *bend)
+{
+    int64_t to_m = (int64_t)vm - v0, to_n = (int64_t)vn - v0;
+    if ((gn_abs64(to_m) | gn_abs64(to_n)) >> 30) return 0;
+    int32_t first = (int32_t)to_m / m;
+    *bend = 2 * ((int32_t)to_n / n - first) / (n - m);
+    *step = first - *bend * (m - 1) / 2;
+    return 1;
+}
+
+/* NUMERICS 4.13: what is left out is of third order in the way as a share of the distance. */
+static int is_far(const int32_t *from_q16, const int32_t *to_q16)
+{
+    uint64_t distance = 0, moved = 0;
+    for (int i = 0; i < 3; i++) {
+        if (gn_abs32(from_q16[i]) > distance) distance = gn_abs32(from_q16[i]);
+        moved += gn_abs64((int64_t)to_q16[i] - from_q16[i]);
+    }
+    return 8 * moved <= distance;
+}
+
+#if GN_SHADOWS
+/* A place is off by no more than 0.08 of how far it moves times the square of how much nearer the light is at one end than at the other,
+ * as a share: 1/64 texel is left. */
+static int places_hold(const gn_arrival *a, const gn_arrival *b)
+{
+    uint64_t moved_q8 = (gn_abs64((int64_t)b->u_q16 - a->u_q16) + gn_abs64((int64_t)b->v_q16 - a->v_q16)) >> 8;
+    uint64_t change = gn_abs64((int64_t)b->depth_q32 - a->depth_q32) >> 12, rest = (a->depth_q32 > b->depth_q32 ? ~a->depth_q32 : ~b->depth_q32) >> 12;
+    return moved_q8 < 1U << 20 && change * change * moved_q8 <= rest * rest * 50; /* 2^40 * 2^20 */
+}
+
+static int32_t least_of(int32_t a, int32_t b, int32_t c)
+{
+    return gn_min32(a, gn_min32(b, c));
+}
+
+static int32_t most_of(int32_t a, int32_t b, int32_t c)
+{
+    return gn_max32(a, gn_max32(b, c));
+}
+
+/* Widens lo .. hi of three values by how far the parabola through them goes beyond. */
+static void widen(int32_t a, int32_t b, int32_t c, int32_t *lo, int32_t *hi)
+{
+    int32_t beyond = (int32_t)((gn_abs64((int64_t)a - b) + gn_abs64((int64_t)b - c)) >> 2) + 64;
+    *lo = gn_sat32((int64_t)least_of(a, b, c) - beyond);
+    *hi = gn_sat32((int64_t)most_of(a, b, c) + beyond);
+}
+
+/* Whether bounds of depth tell the attenuation of all that lies between. */
+static void decide(const gn_frame *frame, const gn_light_state *light, const gn_arrival *a, const gn_arrival *m, const gn_arrival *b,
+                   gn_arrival *out)
+{
+    const gn_light_view *view = &frame->view[light->view_idx + a->face];
+    gn_receiver_step lo, hi;
+    uint32_t attenuation;
+    if (view->filter == GN_FILTER_DISK) return;
+    widen(a->u_q16, m->u_q16, b->u_q16, &lo.u_q16, &hi.u_q16);
+    widen(a->v_q16, m->v_q16, b->v_q16, &lo.v_q16, &hi.v_q16);
+    widen((int32_t)(a->depth_q32 >> 1), (int32_t)(m->depth_q32 >> 1), (int32_t)(b->depth_q32 >> 1), &lo.depth_q31, &hi.depth_q31);
+    if (gn_filter_decides(frame, view, &lo, &hi, &attenuation)) out->shadow = attenuation ? GN_SHADOW_NONE : GN_SHADOW_FULL;
+}
+#endif
+
+/* Sets the steps of one light. Returns 0 where no parabola will do: at the rim of a cone, at a terminator, from face to face. */
+static int between(const gn_frame *frame, const gn_surface *surface, uint32_t slot, gn_chord *chord, gn_sample *sa, const gn_sample *sb,
+                   int32_t n)
+{
+    const gn_surface_light *light = &surface->light[slot];
+    gn_arrival *a = &sa->arrival[slot], m;
+    const gn_arrival *b = &sb->arrival[slot];
+    int32_t first = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * (int32_t)slot, middle = n >> 1, value[GN_VALUES_PER_LIGHT];
+    gn_arrival_steps *steps = &chord->arrival[slot];
+    if (!a->reaches || !b->reaches || a->within_inner != b->within_inner) return 0;
+    if (!is_far(sa->value + first + GN_LIGHT_POINT_AT, sb->value + first + GN_LIGHT_POINT_AT)) return 0;
+    for (int32_t i = 0; i < GN_VALUES_PER_LIGHT; i++) value[i] = after(chord, sa->value, first + i, middle);
+    arrive(frame, surface, light->state, after(chord, sa->value, GN_VALUE_Z, middle), value, &m);
+    if (!m.reaches || a->within_inner != m.within_inner) return 0;
+    if (!parabola((int32_t)a->irradiance_q24, (int32_t)m.irradiance_q24, (int32_t)b->irradiance_q24, middle, n, &steps->step[0], &steps->bend[0]))
+        return 0;
+#if GN_SHADOWS
+    if (light->state->view_idx < 0 || !surface->shadowed) return 1;
+#if GN_RECEIVER_PLANE
+    if (frame->scene->lights[light->idx].receiver_plane) return 0; /* slopes ask for the point */
+#endif
+    if (a->face != b->face || a->face != m.face) return 0;
+    if (a->face == GN_FACE_NONE) return 1;
+    if (!a->depth_q32 || !b->depth_q32 || !m.depth_q32) return 0; /* limited */
+    if (!places_hold(a, b)) return 0;
+    decide(frame, light->state, a, &m, b, a);
+    if (a->shadow != GN_SHADOW_UNDECIDED) return 1;
+    steps->depth_q30 = (int32_t)(a->depth_q32 >> 2);
+    return parabola(a->u_q16, m.u_q16, b->u_q16, middle, n, &steps->step[1], &steps->bend[1]) &&
+           parabola(a->v_q16, m.v_q16, b->v_q16, middle, n, &steps->step[2], &steps->bend[2]) &&
+           parabola(steps->depth_q30, (int32_t)(m.depth_q32 >> 2), (int32_t)(b->depth_q32 >> 2), middle, n, &steps->step[3], &steps->bend[3]);
+#else
+    return 1;
+#endif
+}
+
+void gn_arrivals_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, gn_sample *a, const gn_sample *b, int32_t n)
+{
+    int32_t end = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * (int32_t)(surface->n_lights - surface->n_punctual);
+    for (uint32_t i = surface->n_lights - surface->n_punctual; i < surface->n_lights; i++) {
+        chord->arrival[i].holds = n > 2 && between(frame, surface, i, chord, a, b, n);
+        if (!chord->arrival[i].holds) end = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * (int32_t)(i + 1);
+    }
+    chord->end = end;
+    chord->bend_end = gn_min32(chord->bend_end, end);
+}
+
+static void step(gn_arrival_steps *steps, gn_arrival *out)
+{
+    out->irradiance_q24 = (uint32_t)gn_max32(0, (int32_t)out->irradiance_q24 + steps->step[0]);
+    steps->step[0] += steps->bend[0];
+#if GN_SHADOWS
+    if (out->face == GN_FACE_NONE || out->shadow != GN_SHADOW_UNDECIDED) return;
+    out->u_q16 += steps->step[1];
+    out->v_q16 += steps->step[2];
+    steps->depth_q30 += steps->step[3]; /* a parabola may leave 0 .. 1 */
+    out->depth_q32 = steps->depth_q30 < 0 ? 0 : steps->depth_q30 >> 30 ? UINT32_MAX : (uint32_t)steps->depth_q30 << 2;
+    for (int i = 1; i < 4; i++) steps->step[i] += steps->bend[i];
+#endif
+}
+
+void gn_arrivals_next(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, gn_sample *sample)
+{
+    for (uint32_t i = surface->n_lights - surface->n_punctual; i < surface->n_lights; i++) {
+        if (chord->arrival[i].holds) step(&chord->arrival[i], &sample->arrival[i]);
+        else
+            arrive(frame, surface, surface->light[i].state, sample->value[GN_VALUE_Z],
+                   &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i], &sample->arrival[i]);
+    }
+}
+#endif
+
+#endif
