@@ -13,6 +13,20 @@
 #define GN_NOINLINE
 #endif
 
+/* Where size comes first, a pointer to an element is computed once: v is not known to be what it was computed from. */
+#if defined(__OPTIMIZE_SIZE__) && defined(__GNUC__)
+#define GN_ELEMENT(v) __asm__("" : "+r"(v))
+#else
+#define GN_ELEMENT(v) ((void)0)
+#endif
+
+/* Of a function that is called from few places: shared where size comes first, inlined otherwise. */
+#if defined(__OPTIMIZE_SIZE__)
+#define GN_SHARED GN_NOINLINE
+#else
+#define GN_SHARED inline
+#endif
+
 /* Whether the core has an instruction that divides: the only question about the core that the library asks. */
 #ifndef GN_CORE_DIVIDES
 #if defined(__ARM_FEATURE_IDIV) || defined(__riscv_div)

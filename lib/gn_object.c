@@ -2,6 +2,7 @@
 #include "gn_object.h"
 #include "gn_math.h"
 #include "gn_punctual.h"
+#include "gn_hint.h"
 #include "gn_q.h"
 #include "gn_scene.h"
 #include "gn_xform.h"
@@ -116,6 +117,7 @@ static uint32_t list_lights(gn_frame *frame, uint32_t object_idx)
 {
     const gn_scene *scene = frame->scene;
     gn_object_state *object = &frame->object[object_idx];
+    GN_ELEMENT(object);
     light_list list = {.n = 0, .limit = scene->shadow.object_lights ? scene->shadow.object_lights : GN_OBJECT_LIGHTS_MAX};
     uint32_t n_reaching = 0;
     for (uint32_t l = 0; l < scene->n_lights; l++) {

@@ -1,6 +1,7 @@
 /* Spot and point lights. Distances squared are Q32 in 64 bits: components are below 2^31, so three squares stay below 2^64. */
 #include "gn_punctual.h"
 #include "gn_math.h"
+#include "gn_hint.h"
 #include "gn_q.h"
 
 #if GN_PUNCTUAL_LIGHTS
@@ -41,6 +42,7 @@ void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *from = &frame->scene->lights[light_idx];
     gn_light_state *light = &frame->light[light_idx];
+    GN_ELEMENT(light);
     const gn_cam *cam = &frame->cam;
     int32_t offset[3];
     normalise_colour(light, from);

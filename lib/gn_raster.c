@@ -236,6 +236,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     for (uint32_t i = frame->tile_first[tile_idx + 1]; i-- > frame->tile_first[tile_idx];) {
         uint32_t tri_idx = frame->tile_ref[i];
         const gn_tri *tri = &frame->tri[tri_idx];
+    GN_ELEMENT(tri);
 #if GN_VISIBLE_ALPHA
         if (frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
             raster_cut_triangle(&tile, tri, gn_raster_id(frame, tri_idx));

@@ -139,6 +139,7 @@ static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 static uint32_t constant_pixel(gn_shading *s)
 {
     gn_sample *sample = &s->by.run.sample[0];
+    GN_ELEMENT(sample);
     uint32_t radiance_q20[3];
     sample->cascade = GN_CASCADE_NONE;
     for (uint32_t i = 0; i < s->surface.n_lights; i++)

@@ -218,6 +218,7 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
     if (!GN_SMOOTH(s)) length = gn_length_of(GN_K(frame, newton_steps), s->normal_q30[0]);
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
+    GN_ELEMENT(light);
         if (light->kind != GN_LIGHT_DIRECTIONAL || light->off) continue;
         if (!GN_SMOOTH(s)) {
             int32_t cosine = gn_length_cosine_q24(length, s->normal_q30[0], light->to_light_q30);

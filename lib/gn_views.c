@@ -8,6 +8,7 @@
 #include "gn_ortho.h"
 #include "gn_persp.h"
 #include "gn_punctual.h"
+#include "gn_hint.h"
 #include "gn_q.h"
 #include "gn_scene.h"
 #include "gn_signature.h"
@@ -19,6 +20,7 @@
 static void setup_light(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *light = &frame->scene->lights[light_idx];
+    GN_ELEMENT(light);
     gn_light_state *state = &frame->light[light_idx];
     int64_t towards[3];
     for (int k = 0; k < 3; k++) {
@@ -172,6 +174,7 @@ static void check_layout(gn_frame *frame, const gn_tile_plan *plan)
 static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *plan, uint32_t cascade_idx, uint32_t *first_texel)
 {
     gn_light_view *view = &frame->view[frame->n_views];
+    GN_ELEMENT(view);
     view->stale = 0;
 #if GN_INCREMENTAL
     view->stale = (uint8_t)(plan->cascaded && stays(frame, frame->n_views, light_idx, cascade_idx));
