@@ -64,7 +64,8 @@ typedef struct {
     int32_t focal_shift; /* see project */
     uint32_t near_norm;  /* near, normalised */
     int32_t near_clz;
-    uint32_t tan[2]; /* cam->tan_q16 * 2^15; 0: not less than 2, too much for side_bits */
+    uint32_t tan[2]; /* cam->tan_q16 * 2^15 */
+    int narrow;      /* both less than 2: else too much for side_bits */
     uint32_t object_idx;
     const gn_object *object;
     gn_xform xform;
@@ -116,26 +117,27 @@ static inline uint32_t side_bits(int32_t v, int32_t z, uint32_t tan, uint32_t lo
 }
 
 /* Returns 0 if the vertex is out of range. */
-static int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
+static GN_NOINLINE int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
 {
     const gn_cam *cam = &job->frame->cam;
-    const gn_mesh *mesh = job->object->mesh;
+    int32_t v[3];
     c->tag = 0;
-    if ((GN_SIZE_FIRST || !gn_xform_fast_vertex(c->v_q16, &job->fast, mesh->pos + 3 * (size_t)vertex_idx)) &&
-        !view_position(c->v_q16, &job->xform, mesh, vertex_idx))
-        return 0;
-    int32_t z = c->v_q16[2];
-    c->out = GN_OUT_NEAR << 8;
-    if (z < cam->near_q16) {
-        c->out |= gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
+    if (GN_SIZE_FIRST || !gn_xform_fast_inline(v, &job->fast, job->object->mesh->pos + 3 * (size_t)vertex_idx)) {
+        if (!view_position(c->v_q16, &job->xform, job->object->mesh, vertex_idx)) return 0;
+        for (int k = 0; k < 3; k++) v[k] = c->v_q16[k];
+    }
+    for (int k = 0; k < 3; k++) c->v_q16[k] = v[k];
+    if (v[2] < cam->near_q16) {
+        c->out = GN_OUT_NEAR << 8 | gn_outcode(v, cam->near_q16, cam->tan_q16);
         return 1;
     }
-    if (!GN_SIZE_FIRST && job->tan[0] && job->tan[1])
-        c->out = side_bits(c->v_q16[0], z, job->tan[0], GN_OUT_LEFT) | side_bits(c->v_q16[1], z, job->tan[1], GN_OUT_BOTTOM);
-    else c->out = gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
-    if (c->out) c->out |= gn_outcode(c->v_q16, cam->near_q16, cam->guard_q16) << 8;
+    uint32_t out;
+    if (!GN_SIZE_FIRST && job->narrow) out = side_bits(v[0], v[2], job->tan[0], GN_OUT_LEFT) | side_bits(v[1], v[2], job->tan[1], GN_OUT_BOTTOM);
+    else out = gn_outcode(v, cam->near_q16, cam->tan_q16);
+    if (out) out |= gn_outcode(v, cam->near_q16, cam->guard_q16) << 8;
+    c->out = out;
 #if !GN_SIZE_FIRST
-    if (!(c->out >> 8)) project(job, c->v_q16, &c->at);
+    if (!(out >> 8)) project(job, v, &c->at);
 #endif
     return 1;
 }
@@ -152,8 +154,10 @@ typedef struct {
 /* floor(n * f / 2^(33 + s)), |n| < 2^60, 1 <= s <= 62. Returns 0 if that is more than 32 bits. */
 static inline int gradient(int32_t *out, int64_t n, int32_t f, int32_t s)
 {
-    uint32_t lo = (uint32_t)n;
-    int64_t v = ((int64_t)(int32_t)(n >> 32) * f + ((int64_t)(int32_t)(lo >> 1) * f >> 31)) >> s;
+    int32_t hi = (int32_t)(n >> 32), lo = (int32_t)((uint32_t)n >> 1);
+    GN_KEEP(hi); /* 32 bits each: products are one instruction */
+    GN_KEEP(lo);
+    int64_t v = ((int64_t)hi * f + ((int64_t)lo * f >> 31)) >> s;
     *out = (int32_t)v;
     return v == *out;
 }
@@ -173,6 +177,7 @@ static inline void depth_of_corners(depth_range *depth, const projected *const c
     int32_t clz = gn_clz64(size), s = 45 - clz; /* gradients are n / area * 2^17 = n * (2^63 / norm) / 2^(78 - clz), in halves */
     int32_t recip = (int32_t)(gn_recip_norm((uint32_t)(size << clz >> 32), 2) >> 1);
     if (area < 0) recip = -recip;
+    GN_KEEP(recip);
     if (s < 1 || !gradient(&depth->dx, (int64_t)a * by - (int64_t)b * ay, recip, s) ||
         !gradient(&depth->dy, (int64_t)b * ax - (int64_t)a * bx, recip, s)) {
         depth->dx = depth->dy = 0;
@@ -196,28 +201,24 @@ void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], in
     }
 }
 
-/* First and last pixel centres from one coordinate to another, both from the picture's centre, cut to 0 .. size. */
-static inline void bounds_along(int32_t lo, int32_t hi, int32_t bits, int32_t size, int32_t *from, int32_t *to)
+/* Pixels whose centres lie between the least and largest coordinates, from the picture's centre: cut to the picture. Returns how many rows fixed point
+ * lasts, too. */
+static inline int32_t bounds_of(const gn_frame *frame, gn_rect *r, int32_t x0, int32_t x1, int32_t x2, int32_t top, int32_t y1, int32_t y2)
 {
-    int32_t centre = (size << bits) >> 1;
-    *from = gn_max32(gn_first_px(lo + centre, bits), 0);
-    *to = gn_min32(gn_first_px(hi + centre, bits), size);
-}
-
-/* Returns how many rows fixed point lasts, too. */
-static inline int32_t bounds_of(const gn_frame *frame, const gn_tri *tri, gn_rect *r)
-{
-    int32_t bits = GN_K(frame, subpixel_bits), x0 = tri->x[0], x1 = tri->x[1], x2 = tri->x[2];
-    int32_t lo = gn_min32(gn_min32(x0, x1), x2), hi = gn_max32(gn_max32(x0, x1), x2), bottom = gn_max32(tri->y[1], tri->y[2]);
-    bounds_along(lo, hi, bits, frame->picture.width, &r->x0, &r->x1);
-    bounds_along(tri->y[0], bottom, bits, frame->picture.height, &r->y0, &r->y1);
-    return gn_walk_lasts((uint32_t)(hi - lo) | (uint32_t)(bottom - tri->y[0]));
+    int32_t bits = GN_K(frame, subpixel_bits), width = frame->picture.width, height = frame->picture.height;
+    int32_t lo = gn_min32(gn_min32(x0, x1), x2), hi = gn_max32(gn_max32(x0, x1), x2), bottom = gn_max32(y1, y2);
+    int32_t centre_x = (width << bits) >> 1, centre_y = (height << bits) >> 1;
+    r->x0 = gn_max32(gn_first_px(lo + centre_x, bits), 0);
+    r->x1 = gn_min32(gn_first_px(hi + centre_x, bits), width);
+    r->y0 = gn_max32(gn_first_px(top + centre_y, bits), 0);
+    r->y1 = gn_min32(gn_first_px(bottom + centre_y, bits), height);
+    return gn_walk_lasts((uint32_t)(hi - lo) | (uint32_t)(bottom - top));
 }
 
 gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
 {
     gn_rect r;
-    bounds_of(frame, tri, &r);
+    bounds_of(frame, &r, tri->x[0], tri->x[1], tri->x[2], tri->y[0], tri->y[1], tri->y[2]);
     return r;
 }
 
@@ -250,11 +251,12 @@ static inline int take_place(const setup_job *job, new_triangle *taken, const in
     int left = top == 0 ? second : top == second ? 3 - second : 0, right = 3 - top - left;
     /* beyond the last it is not kept */
     gn_tri *tri = &frame->tri[frame->stats.n_triangles < GN_MAX_TRIANGLES ? frame->stats.n_triangles : GN_MAX_TRIANGLES - 1];
+    GN_KEEP(tri);
     tri->x[0] = (gn_coord)x[top], tri->x[1] = (gn_coord)x[left], tri->x[2] = (gn_coord)x[right];
     tri->y[0] = (gn_coord)y[top], tri->y[1] = (gn_coord)y[left], tri->y[2] = (gn_coord)y[right];
     taken->tri = tri;
     taken->top = top;
-    taken->lasts = bounds_of(frame, tri, &bounds);
+    taken->lasts = bounds_of(frame, &bounds, x[0], x[1], x[2], y[top], y[left], y[right]);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return 0;
     if (frame->stats.n_triangles++ >= GN_MAX_TRIANGLES) return 0; /* counted on, to say how many would have been enough */
     count_tiles(frame, &bounds);
@@ -399,7 +401,8 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *m
     job.focal_shift = 31 + clz;
     job.near_clz = gn_clz32((uint32_t)frame->cam.near_q16);
     job.near_norm = (uint32_t)frame->cam.near_q16 << job.near_clz;
-    for (int i = 0; i < 2; i++) job.tan[i] = frame->cam.tan_q16[i] >> 17 ? 0 : (uint32_t)frame->cam.tan_q16[i] << 15;
+    for (int i = 0; i < 2; i++) job.tan[i] = (uint32_t)frame->cam.tan_q16[i] << 15;
+    job.narrow = !((frame->cam.tan_q16[0] | frame->cam.tan_q16[1]) >> 17);
     frame->stats.n_triangles = 0;
     frame->stats.n_clipped = 0;
     for (uint32_t i = 0; i <= (uint32_t)frame->tiles_x * frame->tiles_y; i++) frame->tile_first[i] = 0;

@@ -92,37 +92,10 @@ void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform)
     fast->shift = s;
 }
 
-/* Row r times p, with what is added up beforehand: 3 * 2^60 + 2^61 + 2^61 */
-#define GN_FAST_ROW_(r)                                                                                                            \
-    (fast->row[r].sum + (int64_t)fast->row[r].m[0] * p0 + (int64_t)fast->row[r].m[1] * p1 + (int64_t)fast->row[r].m[2] * p2)
-
 int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
 {
-    const int32_t p[3] = {position[0], position[1], position[2]};
-    int32_t s = fast->shift, p0 = p[0], p1 = p[1], p2 = p[2];
-    uint32_t wide = (uint32_t)p0 ^ (uint32_t)p0 << 1;
-    wide |= (uint32_t)p1 ^ (uint32_t)p1 << 1;
-    wide |= (uint32_t)p2 ^ (uint32_t)p2 << 1;
-    if (wide >> 31 || !s) return 0;
-    int64_t x = GN_FAST_ROW_(0), y = GN_FAST_ROW_(1), z = GN_FAST_ROW_(2);
-    int32_t hi[3] = {(int32_t)(x >> 32), (int32_t)(y >> 32), (int32_t)(z >> 32)};
-    if (s < 32) {
-        int32_t up = 32 - s;
-        out_q16[0] = (int32_t)((uint32_t)hi[0] << up | (uint32_t)x >> s);
-        out_q16[1] = (int32_t)((uint32_t)hi[1] << up | (uint32_t)y >> s);
-        out_q16[2] = (int32_t)((uint32_t)hi[2] << up | (uint32_t)z >> s);
-        wide = (uint32_t)((hi[0] ^ hi[0] >> 31) | (hi[1] ^ hi[1] >> 31) | (hi[2] ^ hi[2] >> 31));
-        return !(wide >> (s - 3)); /* |hi| * 2^32 < 2^29 * 2^s */
-    }
-    wide = 0;
-    for (int r = 0; r < 3; r++) {
-        int32_t v = (hi[r] >> (s - 32)) + fast->row[r].t_q16; /* 3 * 2^28 + 2^30 */
-        wide |= (uint32_t)(v ^ v >> 31);
-        out_q16[r] = v;
-    }
-    return !(wide >> 29);
+    return gn_xform_fast_inline(out_q16, fast, position);
 }
-#undef GN_FAST_ROW_
 
 void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object)
 {
