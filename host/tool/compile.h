@@ -93,6 +93,16 @@ int compile_play(compiled *c, const tool_options *o, char *error, size_t error_b
 void compile_free(compiled *c);
 bool compile_moves(const compiled *c, compile_owner of); /* there are tracks */
 
+/* compile_progress.c: what is being done, on a terminal and after a second; n_all 0: not counted. */
+typedef struct {
+    const char *doing;
+    size_t n_done, n_all;
+    double next_s;
+    bool shown;
+} compile_progress;
+void compile_tick(compile_progress *p, int frame, int n_frames);
+void compile_tick_end(compile_progress *p);
+
 /* compile_frames.c: what draws frames. */
 typedef struct {
     gn_renderer *renderer;
@@ -103,6 +113,7 @@ typedef struct {
     count_all counts; /* of one format */
     size_t pixel_bytes;
     uint64_t hash;
+    compile_progress progress;
 } compile_stage;
 
 int compile_stage_open(compile_stage *st, const compiled *c); /* -1: out of memory */

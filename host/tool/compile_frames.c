@@ -17,6 +17,7 @@ int compile_stage_open(compile_stage *st, const compiled *c)
 
 void compile_stage_close(compile_stage *st)
 {
+    compile_tick_end(&st->progress);
     free(st->renderer);
     free(st->objects);
     free(st->lights);
@@ -90,6 +91,7 @@ int compile_draw(compile_stage *st, const compiled *c, int i, const compile_hash
     gn_status status = st->begun ? GN_OK : begin(st, c, GN_FORMAT_RGB888, GN_VIEW_COLOUR);
     const bool grey = c->set.output >= GN_FORMAT_GREY8 && c->set.output <= GN_FORMAT_MONO1;
     st->begun = true;
+    compile_tick(&st->progress, i, c->n_frames);
     st->hash = 0xCBF29CE484222325U;
     if (!status) status = prepare(st->renderer, compile_frame(st, c, i));
     if (!status) status = draw_tiles(st, GN_FORMAT_RGB888);

@@ -200,9 +200,14 @@ int compile_play(compiled *c, const tool_options *o, char *error, size_t error_b
         scene_free(&c->scene);
         return -1;
     }
+    compile_progress progress = {.doing = "loading"};
     int failed = name_all(c);
     if (failed) snprintf(error, error_bytes, "out of memory");
-    for (int i = 1; !failed && i < c->n_frames; i++) failed = play_later(c, i, error, error_bytes);
+    for (int i = 1; !failed && i < c->n_frames; i++) {
+        compile_tick(&progress, i, c->n_frames);
+        failed = play_later(c, i, error, error_bytes);
+    }
+    compile_tick_end(&progress);
     if (failed) compile_free(c);
     return failed;
 }

@@ -286,10 +286,13 @@ static size_t try_taken(trial *b)
 
 static size_t try_all(trial *b)
 {
+    b->st->progress.n_all = b->n;
     for (size_t i = 0; i < b->n; i++) {
+        b->st->progress.n_done = i;
         take(b, &b->list[i]);
         if (!same_samples(b)) give_back(b, &b->list[i]);
     }
+    b->st->progress.n_all = 0;
     return try_taken(b);
 }
 
@@ -307,9 +310,11 @@ static void add(trial *b, kind what, size_t idx)
     b->list[b->n++] = (candidate){.kind = what, .idx = idx};
 }
 
-static void clear(trial *b)
+/* A new kind of candidates. */
+static void clear(trial *b, const char *what)
 {
     b->n = 0;
+    b->st->progress.doing = what;
 }
 
 enum { NAMES_MAX = 8 };
@@ -384,14 +389,14 @@ static void try_lights(trial *b)
 {
     const gn_scene *s = &b->c->fixed.scene;
     measure before = measure_now(b);
-    clear(b);
+    clear(b, "lights");
     for (uint32_t i = 0; i < s->n_lights; i++) add(b, LIGHT, i);
     size_t n = try_all(b);
     bool *gone = calloc(s->n_lights + 1, sizeof *gone);
     char names[200] = "";
     for (size_t i = 0; gone && i < b->n; i++) gone[b->list[i].idx] = b->list[i].taken;
     list_names(b, names, sizeof names);
-    clear(b);
+    clear(b, NULL);
     if (gone && n) {
         compile_drop_lights(b->c, gone);
         b->now.demand.lights = s->n_lights;
@@ -405,14 +410,14 @@ static void try_lights(trial *b)
 static void try_kind(trial *b, const char *what, kind k, size_t count, uint32_t flag, bool flag_set)
 {
     measure before = measure_now(b);
-    clear(b);
+    clear(b, what);
     for (size_t i = 0; i < count; i++) {
         if (k == LIGHT_SHADOW && !b->c->fixed.lights[i].shadow_strength_uq16) continue;
         if (flag && ((b->c->fixed.objects[i].flags & flag) != 0) != flag_set) continue;
         add(b, k, i);
     }
     report(b, what, try_all(b), &before);
-    clear(b);
+    clear(b, NULL);
 }
 
 /* Each by itself: the others stay where they are. */
@@ -420,14 +425,14 @@ static void try_cascades(trial *b)
 {
     measure before = measure_now(b);
     char what[100] = "cascades that no pixel looks into:";
-    clear(b);
+    clear(b, "cascades");
     for (uint32_t i = 0; b->now.demand.shadow_tiles > 1 && i < b->c->fixed.scene.shadow.n_cascades; i++)
         add(b, UNUSED_CASCADE, i);
     size_t n = try_all(b);
     for (size_t i = 0; i < b->n; i++)
         if (b->list[i].taken) snprintf(what + strlen(what), sizeof what - strlen(what), " %zu", b->list[i].idx);
     report(b, what, n, &before);
-    clear(b);
+    clear(b, NULL);
 }
 
 /* Neither seen nor casting. */
@@ -539,7 +544,7 @@ static void try_triangles(trial *b)
     bool **seen = open_seen(c);
     uint16_t **lists = calloc(c->fixed.n_meshes + 1, sizeof *lists);
     size_t n = 0;
-    clear(b);
+    clear(b, "triangles that no frame shows");
     if (seen && lists && !open_whole(b) && !compile_see(b->st, c, seen)) {
         size_t n_unseen = 0, k;
         for (size_t i = 0; i < c->fixed.n_meshes; i++) {
@@ -560,7 +565,7 @@ static void try_triangles(trial *b)
     free(lists);
     char names[200] = "";
     list_names(b, names, sizeof names);
-    clear(b);
+    clear(b, NULL);
     close_whole(b);
     compile_drop_unused(c);
     char what[240];
@@ -593,7 +598,7 @@ static void try_features(trial *b)
     compiled *c = b->c;
     const gn_shadow_settings *shadow = &c->fixed.scene.shadow;
     measure before = measure_now(b);
-    clear(b);
+    clear(b, "settings and materials");
     if (shadow->mixing != GN_MIXING_NONE) add(b, MIXING, 0);
     if (shadow->main_light) add(b, MAIN_LIGHT, 0);
     if (shadow->blend != GN_BLEND_HARD) add(b, BLEND, 0);
@@ -604,7 +609,7 @@ static void try_features(trial *b)
     for (uint32_t i = 0; i < c->fixed.scene.n_lights; i++) add_light_features(b, i);
     for (uint32_t i = 0; i < c->fixed.scene.n_objects; i++) add_object_features(b, i);
     report(b, "settings and materials that change nothing", try_all(b), &before);
-    clear(b);
+    clear(b, NULL);
 }
 
 /* Arrays that are looked up and change nothing: colours that are white, normals of flat faces that light alike. */
@@ -612,7 +617,7 @@ static void try_attributes(trial *b)
 {
     compiled *c = b->c;
     measure before = measure_now(b);
-    clear(b);
+    clear(b, "vertex normals and colours");
     for (size_t i = 0; i < c->fixed.n_meshes; i++) {
         if (c->fixed.meshes[i].nrm_q15) add(b, MESH_NORMALS, i);
         if (c->fixed.meshes[i].rgb_uq16) add(b, MESH_COLOURS, i);
@@ -625,7 +630,7 @@ static void try_attributes(trial *b)
         free((void *)(uintptr_t)array);
     }
     report(b, "vertex normals and colours that change nothing", n, &before);
-    clear(b);
+    clear(b, NULL);
 }
 
 static void merge(trial *b)
