@@ -6,7 +6,9 @@
 
 #if GN_SHADOWS
 
-#define GN_CASCADE_UNUSED(frame, i) (GN_MANY_CASCADES && ((frame)->scene->shadow.cascades_unused >> (i) & 1U) != 0)
+/* Of a single cascade nothing is unused: builds with and without more than one agree. */
+#define GN_CASCADE_UNUSED(frame, i) \
+    (GN_MANY_CASCADES && (frame)->n_cascades > 1 && ((frame)->scene->shadow.cascades_unused >> (i) & 1U) != 0)
 
 /* Fills frame->cascade and the distance fade. */
 void gn_cascade_setup(gn_frame *frame);

@@ -112,12 +112,19 @@ done
 "$tool" compile docs/scenes/near.gltf -o "$tmp/near" --board microbit --size 128x64 --set preset=tiny >"$tmp/out" 2>&1 && pass || fail "near.gltf does not fit a micro:bit: $(cat "$tmp/out")"
 "$tool" info docs/scenes/near.gltf --board microbit --size 128x64 --set preset=tiny >"$tmp/out" 2>&1
 grep -q '^  fits microbit: ' "$tmp/out" && pass || fail "info does not say that near.gltf fits: $(tail -n 1 "$tmp/out")"
-# refused, with a configuration that then fits
-"$tool" compile docs/scenes/slopes.gltf -o "$tmp/slopes" --board microbit --size 128x64 --set preset=tiny >"$tmp/out" 2>"$tmp/err"
-[ $? = 1 ] && [ ! -e "$tmp/slopes" ] && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "slopes.gltf is not refused for a micro:bit"
-nearest=$(sed -n 's/.*nearest that does:\(.*\): [0-9]* bytes of RAM.*/\1/p' "$tmp/err")
-[ -n "$nearest" ] && "$tool" compile docs/scenes/slopes.gltf -o "$tmp/slopes" --board microbit --size 128x64 --set preset=tiny $nearest >"$tmp/out" 2>&1 && pass ||
-    fail "nearest configuration '$nearest': $(tail -n 1 "$tmp/out" "$tmp/err" | tr '\n' ' ')"
+# refused, with a configuration that then fits: fewer bits of depth, a coarser map, smaller tiles, a smaller picture; less flash
+nearest() { # nearest NAME SCENE OPTIONS...
+    name=$1 scene=$2
+    shift 2
+    "$tool" compile "$scene" -o "$tmp/$name" "$@" >"$tmp/out" 2>"$tmp/err"
+    [ $? = 1 ] && [ ! -e "$tmp/$name" ] && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "$name is not refused: $(tail -n 1 "$tmp/out" "$tmp/err" | tr '\n' ' ')"
+    near=$(sed -n 's/.*nearest that does:\(.*\): [0-9]* bytes of RAM.* off by .*/\1/p' "$tmp/err")
+    [ -n "$near" ] && "$tool" compile "$scene" -o "$tmp/$name" "$@" $near >"$tmp/out" 2>&1 && pass || fail "$name, nearest configuration '$near': $(tail -n 1 "$tmp/out" "$tmp/err" | tr '\n' ' ')"
+}
+nearest slopes docs/scenes/slopes.gltf --board microbit --size 128x64 --set preset=tiny
+nearest suns-accurate docs/scenes/suns.gltf --board microbit --size 128x64 --set preset=accurate
+nearest sundial-small host/scenes/sundial.gltf --board microbit --size 64x48 --frames 72-72 --set preset=tiny
+nearest edge-flash docs/scenes/edge.gltf --flash 40000 --size 64x48
 "$tool" compile docs/scenes/slopes.gltf -o "$tmp/no" --flash 20000 2>"$tmp/err" && fail "20000 bytes of flash are enough" || pass
 grep -q 'bytes of flash (scene [0-9]*, code about [0-9]*) of 20000' "$tmp/err" && pass || fail "too much flash: $(cat "$tmp/err")"
 for board in nowhere "" ../../etc; do
@@ -156,7 +163,7 @@ has far CASTER_CLIPPING 1
 same lamp docs/scenes/near.gltf 0 "" --size 96x64 --set add_light=point --set range@1=0.01
 leaves lamp "lights that reach nothing: '"
 grep -q '^#define GN_PUNCTUAL_LIGHTS *0 ' "$tmp/lamp/gn_scene_config.h" && pass || fail "lamp: punctual lights are built"
-same suns docs/scenes/suns.gltf 0 "" --size 128x64 --set preset=tiny
+same suns docs/scenes/near.gltf 0 "" --size 96x64 --set max_distance=1.4
 leaves suns "shadows of lights that no frame shows"
 grep -q '^#define GN_SHADOWS *0 ' "$tmp/suns/gn_scene_config.h" && pass || fail "suns: shadows are built"
 same baked docs/scenes/baked.gltf 0 "" --size 96x64

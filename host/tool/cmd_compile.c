@@ -50,7 +50,7 @@ int compile_read_board(const tool_options *o, board *out, char *error, size_t by
 
 static int check_fit(const compiled *c, const board *b, char *error, size_t bytes)
 {
-    char much[160], nearest[256];
+    char much[160], nearest[400];
     compile_memory m = compile_measure(c, b);
     if (compile_fits(&m, b)) return 0;
     compile_say_memory(&m, b, much, sizeof much);

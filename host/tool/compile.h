@@ -182,7 +182,7 @@ compile_memory compile_measure(const compiled *c, const board *b);
 bool compile_fits(const compile_memory *m, const board *b);
 /* What is too much. */
 void compile_say_memory(const compile_memory *m, const board *b, char *out, size_t bytes);
-/* The settings of a configuration that fits, as options; false: none. */
+/* compile_search.c: the settings of the configuration that fits and changes the picture least, as options; false: none. */
 bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t bytes);
 
 /* cmd_compile.c: all of it but the files; 1: there is a board, 0: none was asked for, -1. */

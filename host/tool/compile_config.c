@@ -180,9 +180,10 @@ static void use_nothing(compiled *c)
 static void choose_features(compiled *c)
 {
     const fixed_scene *f = &c->fixed;
-    bool casts = false; /* shadows may all be in masks */
+    uint32_t flags = 0; /* shadows may all be in masks, or fall on nothing */
     use_nothing(c);
-    for (uint32_t i = 0; i < f->scene.n_objects; i++) casts |= (f->objects[i].flags & GN_OBJECT_CASTS) != 0;
+    for (uint32_t i = 0; i < f->scene.n_objects; i++) flags |= f->objects[i].flags;
+    const bool casts = (flags & GN_OBJECT_CASTS) && (flags & GN_OBJECT_RECEIVES);
     for (uint32_t i = 0; i < f->scene.n_lights; i++) use_light(c, &f->lights[i], casts, c->light_name[i]);
     for (uint32_t i = 0; i < f->scene.n_objects; i++) use_object(c, &f->objects[i], c->object_name[i]);
     for (size_t i = 0; i < f->n_meshes; i++) {

@@ -426,7 +426,8 @@ static void try_cascades(trial *b)
     measure before = measure_now(b);
     char what[100] = "cascades that no pixel looks into:";
     clear(b, "cascades");
-    for (uint32_t i = 0; b->now.demand.shadow_tiles > 1 && i < b->c->fixed.scene.shadow.n_cascades; i++)
+    const uint32_t n_cascades = b->c->fixed.scene.shadow.n_cascades;
+    for (uint32_t i = 0; n_cascades > 1 && b->now.demand.shadow_tiles && i < n_cascades; i++)
         add(b, UNUSED_CASCADE, i);
     size_t n = try_all(b);
     for (size_t i = 0; i < b->n; i++)

@@ -220,7 +220,7 @@ void engine_demand(const gn_renderer *renderer, settings_demand *out)
         uint32_t n = 0, side = 0, n_unused = 0;
         if (gn_get_light_shadow(renderer, l, &n, &side) != GN_SHADOW_REALTIME) continue;
         const bool in_other = frame->view[frame->light[l].view_idx].in_other;
-        for (uint32_t i = 0; !in_other && i < n; i++) n_unused += frame->scene->shadow.cascades_unused >> i & 1;
+        for (uint32_t i = 0; !in_other && i < n && n > 1; i++) n_unused += frame->scene->shadow.cascades_unused >> i & 1;
         *(in_other ? &out->other_tiles : &out->shadow_tiles) += n;
         *(in_other ? &out->other_atlas_texels : &out->atlas_texels) += (size_t)(n - n_unused) * side * side;
     }

@@ -36,7 +36,7 @@ static int judge(info_memory *out, const tool_options *o, const board *b, char *
         snprintf(out->verdict, sizeof out->verdict, "fits %s: %ld bytes of RAM (stack %ld) of %ld, about %ld of flash of %ld",
                  b->name, m.renderer + m.state + b->stack, b->stack, b->ram, m.data + m.code, b->flash);
     } else {
-        char much[160], nearest[256];
+        char much[160], nearest[400];
         compile_say_memory(&m, b, much, sizeof much);
         compile_find_nearest(&c, b, nearest, sizeof nearest);
         snprintf(out->verdict, sizeof out->verdict, "does not fit %s: %s; %s", b->name, much, nearest);

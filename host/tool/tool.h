@@ -6,7 +6,7 @@
 #include "views.h"
 
 #define TOOL_SETS_MAX    64
-#define TOOL_ERROR_BYTES 512
+#define TOOL_ERROR_BYTES 800
 
 /* What compile may take away: nothing; what no picture could show; also what none of the frames shows. */
 enum { TOOL_SIMPLIFY_NONE, TOOL_SIMPLIFY_SAFE, TOOL_SIMPLIFY_PATH };
