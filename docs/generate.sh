@@ -20,6 +20,10 @@ replace() { # replace DOCUMENT NAME FILE
 replace CONFIG.md knobs "$work/knobs"
 "$build/test_stages" --table >"$work/stages"
 replace NUMERICS.md stages "$work/stages"
+for name in radiance punctual; do
+    "$build/test_$name" --table >"$work/$name"
+    replace NUMERICS.md $name "$work/$name"
+done
 "$build/test_accuracy" --table >"$work/accuracy"
 replace ACCURACY.md accuracy "$work/accuracy"
 "$build/test_bias" --table >"$work/bias"

@@ -187,6 +187,7 @@ void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
         /* coordinates are as wrong as the reciprocal: by 2^-17 of half a tile, or 2^-29; and so is n / z */
         int one_step = GN_K(frame, newton_steps) == 1;
         view->offset_q16 += one_step ? (view->tile_texels + 3) >> 2 : 1;
+        view->offset_q16 += (int32_t)(((view->fit.persp.focal2_q16 >> 29) + 1) >> 1); /* x / z is rounded to 2^-30 of T / t */
         /* steps over the tile are rounded to 2^-32, its plane to 2^-27 and, in place, 2^-28 */
         view->auto_step = (int32_t)(depth_step_q32(view) + (one_step ? 32768 : 8) + view->tile_texels + 64);
         view->auto_place = ray_error_q40(frame);
