@@ -105,6 +105,7 @@ test-programs: $(TESTS:%=$(BUILD)/%) $(BUILD)/gnomon
 
 $(BUILD)/test_scenes: $(SCENE_OBJ)
 $(BUILD)/test_panels: $(PANEL_OBJ)
+$(BUILD)/test_radiance: $(BUILD)/obj/tests/pieces_colours.o
 
 # What a board streamed, as a picture.
 $(BUILD)/rgb565_png: $(BUILD)/obj/boards/tools/rgb565_png.o $(SCENE_PNG)

@@ -264,6 +264,7 @@ static int colours(gn_pieces *p, middle *m, half_size half)
 static int32_t longest_ramp(uint64_t bend_q46, int32_t tolerance, int32_t least_log2)
 {
     int32_t bits = 64 - gn_clz64(bend_q46 | 1U), log2 = (48 - tolerance - bits) >> 1;
+    if (log2 < 1) least_log2 = 0; /* 4 pixels would bend by more than 4 times the tolerance */
     return 1 << gn_max32(least_log2, gn_min32(log2, GN_PIECE_WIDTH_LOG2));
 }
 

@@ -107,8 +107,9 @@ static uint32_t colour_at(const row *r, int32_t i, uint32_t share_uq16, int32_t 
     const gn_pieces *p = r->p;
     const gn_surface *s = p->surface;
     uint32_t lit = 0, n_lights = s->n_lights, size_q28 = r->size_q28 + (uint32_t)i * (r->size_dx + (uint32_t)i * p->turning.size_dxx);
-    int32_t up = gn_clz32(size_q28 > 65536 ? size_q28 : 65536) & 30; /* < 16: 14 at most, for |N| of 2^-6 */
-    uint32_t root = gn_rsqrt_norm(size_q28 << up | 1U << 30, GN_K(p->frame, newton_steps)); /* 2^(33 - up / 2) / |N| */
+    if (size_q28 < 65536) size_q28 = 65536;
+    int32_t up = gn_clz32(size_q28) & 30; /* 14 at most, for |N| of 2^-6 */
+    uint32_t root = gn_rsqrt_norm(size_q28 << up, GN_K(p->frame, newton_steps)); /* 2^(33 - up / 2) / |N| */
     int32_t red = (int32_t)(s->base_q20[0] << 8), green = (int32_t)(s->base_q20[1] << 8), blue = (int32_t)(s->base_q20[2] << 8);
     for (uint32_t k = 0; k < n_lights; k++) { /* colours in Q28, below 2^30 and 2^-13 of that */
         int32_t facing = gn_along(&p->turning.facing_q28[k], r->x + i, r->y);

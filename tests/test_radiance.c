@@ -1,10 +1,8 @@
 /* The stages from the shadow's filter to radiance, and the receiver's offset of spot and point lights, each against the formula it stands
  * for, in double, from the same quantised inputs and within the bound of docs/NUMERICS.md. "--table": the largest error seen, per stage. */
-#define gn_pieces_row gn_pieces_row_of_this_test /* for its ramps of colours: the library has its own */
-#include "../lib/gn_piecerow.c"
-#undef gn_pieces_row
 #include "../lib/gn_bias.h"
 #include "../lib/gn_blocks.h"
+#include "../lib/gn_filter.h"
 #include "../lib/gn_light.h"
 #include "../lib/gn_punctual.h"
 #include "../lib/gn_scene.h"
@@ -34,6 +32,7 @@ static const char *const stage_name[STAGE_COUNT] = {
     "bias of spot and point lights: automatic, depth, LSB of Q32",
 };
 
+#include "pieces_colours.h"
 #include "stages.h"
 
 #define LSB20 ldexp(1, -20)
@@ -277,24 +276,26 @@ static void check_samples(const gn_surface *s, const plane *p, const gn_rect *r)
         }
 }
 
-/* 4.12: what linear colours may stray by, slopes, and the forms of the barycentrics, which are stepped from the middle of all. */
-static void check_ramp(const gn_pieces *pieces, const plane *p, double tolerance, int x, int y, int n)
+/* 4.12: what ramps may stray by, slopes, the forms of the barycentrics, stepped from the middle of all, and the square of N. */
+static void check_row(gn_pieces *pieces, const plane *p, double tolerance, int y, int x_begin, int x_end)
 {
-    int32_t from[3], step[3];
-    ramp_of(pieces, pieces->dark_q24, x, y, n, from, step);
-    for (int i = 0; i < n; i += 3) {
+    static int32_t got[GN_PIECE_WIDTH][3];
+    pieces_colours(pieces, y, x_begin, x_end, got);
+    for (int x = x_begin; x < x_end; x += 3) {
         crossing c;
         shade want;
-        cross_at(&c, p, x + i, y);
+        double n[3];
+        cross_at(&c, p, x, y);
         if (!is_seen(&c, p)) continue;
-        const int dx = x + i - pieces->ref_x, dy = y - pieces->ref_y;
-        const int row = pieces->ramp_px == 4 ? 4 : 1; /* the shortest ramps may bend more */
+        const int dx = x - pieces->ref_x, dy = y - pieces->ref_y;
         const double units = 0.5 * (1 + abs(dx) + abs(dy)), w = gn_along(&pieces->w, dx, dy);
         shade_at(&renderer.frame, pieces->surface, &c, 2.5 * units / w + ldexp(64, -28), &want);
+        normal_at(pieces->surface, &c, n);
+        const double of_normal = pieces->turns ? ldexp(1, -17) / dot(n, n) : 0, ramp = pieces->turns && !pieces->tinted ? 1 : 4;
         for (int k = 0; k < 3; k++) {
-            const double got = fmax(0, ldexp(from[k] + (double)i * step[k], -24));
-            const double stray = tolerance * (want.most[k] * (1.15 + row) + 1.155 * want.smooth[k]) + ldexp(1, -17);
-            record(STAGE_PIECES, fabs(got - want.want[k]), want.bound[k] + (pieces->varies ? stray : 0), LSB20);
+            const double stray = want.most[k] * (tolerance * ramp + ldexp(1, -12)) + ldexp(1, -17) + of_normal * want.smooth[k];
+            const double bound = want.bound[k] + (pieces->varies ? stray : 0);
+            record(STAGE_PIECES, fabs(fmax(0, ldexp(got[x - x_begin][k], -24)) - want.want[k]), bound, LSB20);
         }
     }
 }
@@ -315,8 +316,7 @@ static void check_pieces(const gn_surface *s, const plane *p, const gn_rect *r)
             }
             x = part.x1;
             for (int row = part.y0; taken && row < part.y1; row += 3)
-                for (int at = part.x0; at < part.x1; at += pieces.ramp_px)
-                    check_ramp(&pieces, p, tolerance, at, row, part.x1 - at < pieces.ramp_px ? part.x1 - at : pieces.ramp_px);
+                check_row(&pieces, p, tolerance, row, part.x0, part.x1);
         }
 }
 
