@@ -122,7 +122,7 @@ static int caster_begin(gn_caster *caster, gn_plane *plane, const gn_light_view 
 }
 
 /* Texels from the tile's corner; v is inside the guard band and not nearer than near. */
-static void project(const gn_frame *frame, const gn_light_view *view, const int32_t v_q16[3], int32_t *x, int32_t *y)
+static void project_corner(const gn_frame *frame, const gn_light_view *view, const int32_t v_q16[3], int32_t *x, int32_t *y)
 {
     int32_t bits = GN_K(frame, shadow_subpixel_bits), clz = gn_clz32((uint32_t)v_q16[2]), centre = (view->tile_texels << bits) >> 1;
     const int64_t most = (int64_t)(2 * GN_GUARD_TEXELS) << bits;
@@ -163,7 +163,7 @@ int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
 #endif
     if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->near_q16, fit->guard_q16);
     int32_t *x = casting->with.clipping.x, *y = casting->with.clipping.y;
-    for (int i = 0; i < polygon->n; i++) project(frame, view, polygon->v_q16[i], &x[i], &y[i]);
+    for (int i = 0; i < polygon->n; i++) project_corner(frame, view, polygon->v_q16[i], &x[i], &y[i]);
     int32_t n_texels = 0;
     for (int i = 1; i + 1 < polygon->n; i++) {
         int32_t fx[3] = {x[0], x[i], x[i + 1]}, fy[3] = {y[0], y[i], y[i + 1]};
