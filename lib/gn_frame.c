@@ -138,7 +138,7 @@ gn_status gn_prepare(gn_renderer *r)
     gn_status status = gn_setup_triangles(frame, &r->scratch.work.clipping, r->scratch.cell, GN_TILE_PIXELS_MAX);
     if (status) return status;
     /* cells hold triangle + 1; what the identity leaves is depth */
-    frame->id_bits = frame->stats.n_triangles ? (uint8_t)(32 - gn_clz32(frame->stats.n_triangles)) : 1;
+    frame->id_bits = (uint8_t)(32 - gn_clz32(frame->stats.n_triangles + 1)); /* and for one that no triangle has: gn_runs */
     status = gn_bin_triangles(frame);
     if (status) return status;
     frame->stage = GN_STAGE_PREPARED;

@@ -112,7 +112,7 @@ static GN_NOINLINE void raster_span_slow(const raster_tile *tile, const cut_tria
         if (candidate < *cell) continue;
 #if GN_VISIBLE_ALPHA
         if (cut) {
-            int32_t at = (int32_t)(cell - tile->scratch->cell), stride = GN_K(tile->frame, tile_width);
+            int32_t at = (int32_t)(cell - GN_CELLS(tile->scratch)), stride = GN_K(tile->frame, tile_width);
             if (is_cut(tile->frame, cut, tile->rect.x0 + at % stride, tile->rect.y0 + at / stride)) continue;
         }
 #else
@@ -138,7 +138,7 @@ static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri,
     const uint32_t iz_dy = (uint32_t)tri->iz_dy;
     const int32_t width = tile->width;
     uint32_t iz_row = tri->iz_ref + (uint32_t)(at - (ring[0].y >> bits)) * iz_dy - (uint32_t)(ring[0].x >> bits) * depth.iz_dx;
-    uint32_t *row = tile->scratch->cell + at * stride;
+    uint32_t *row = GN_CELLS(tile->scratch) + at * stride;
     gn_walk_line left = {0, 0}, right = {0, 0};
     while (at < end) {
         if (at == left_end) {
@@ -186,7 +186,7 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
     /* at the tile's left border, above the least; inside the triangle below its range, but for the last value there is */
     uint32_t iz_row =
         tri->iz_ref - depth.lo - (uint32_t)(x[0] >> bits) * depth.iz_dx + (uint32_t)(walk.first - (y[0] >> bits)) * iz_dy;
-    uint32_t *row = tile->scratch->cell + walk.first * stride;
+    uint32_t *row = GN_CELLS(tile->scratch) + walk.first * stride;
     for (; n_rows > 0; n_rows = gn_walk_on(&walk)) {
         for (const gn_span *span = walk.span; n_rows > 0; n_rows--, span++, row += stride, iz_row += iz_dy) {
             int32_t xa = gn_max32(span->x_begin, 0), n = gn_min32(span->x_end, width) - xa;
@@ -228,7 +228,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     tile.id_mask = (1U << frame->id_bits) - 1;
     GN_COUNT(screen_tiles, 1);
     GN_COUNT(pixels, tile.width * tile.height);
-    memset(scratch->cell, 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
+    memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
 #if GN_VISIBLE_ALPHA
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
 #endif

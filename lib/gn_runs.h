@@ -15,23 +15,23 @@
 /* Begins a tile: its lists are empty. */
 void gn_runs_clear(gn_scratch *scratch);
 
-/* Passes over the background that ends before `end`: a cell that nothing covers is 0. */
-static inline uint32_t *gn_runs_skip(uint32_t *row, uint32_t *end)
+/* The last cell before `end` that something covers: the background's are 0. Stops at the one before the row. */
+static inline uint32_t *gn_runs_last(uint32_t *end)
 {
-    while (end - row >= 4 && !(end[-1] | end[-2] | end[-3] | end[-4])) end -= 4;
-    while (end > row && !end[-1]) end--;
+    do end--;
+    while (!*end);
     return end;
 }
 
-/* The first cell of the run that ends with `last`, which is not the background's. */
-static inline uint32_t *gn_runs_first(uint32_t *row, uint32_t *last, uint32_t id_mask)
+/* The first cell of the run that ends with `last`. The one before the row must be of no triangle: UINT32_MAX. */
+static inline uint32_t *gn_runs_first(uint32_t *last, uint32_t id_mask)
 {
     uint32_t id = *last;
-    while (last > row && !((last[-1] ^ id) & id_mask)) {
+    do {
         last--;
         GN_KEEP(last); /* one pointer */
-    }
-    return last;
+    } while (!((*last ^ id) & id_mask));
+    return last + 1;
 }
 
 /* Links a run at the head of its list: runs come from the tile's last to its first, so that each list begins with what comes first. */
@@ -39,8 +39,8 @@ static inline void gn_runs_link(gn_scratch *scratch, uint32_t id, uint32_t first
 {
     gn_run_idx *list = &scratch->run_list[id & (GN_RUN_LISTS - 1)];
     uint32_t next = *list == GN_RUN_NONE ? first : *list;
-    scratch->cell[first] = next << 16 | id;
-    if (n_px > 1) scratch->cell[first + 1] = n_px << 16 | id;
+    GN_CELLS(scratch)[first] = next << 16 | id;
+    if (n_px > 1) GN_CELLS(scratch)[first + 1] = n_px << 16 | id;
     *list = (gn_run_idx)first;
 }
 
@@ -60,7 +60,7 @@ typedef struct {
 
 static inline void gn_runs_begin(gn_run_taker *taker, gn_scratch *scratch, uint32_t id)
 {
-    taker->cell = scratch->cell;
+    taker->cell = GN_CELLS(scratch);
     taker->list = &scratch->run_list[id & (GN_RUN_LISTS - 1)];
     taker->id = id;
     taker->at = *taker->list;

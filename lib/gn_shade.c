@@ -152,7 +152,7 @@ static uint32_t constant_pixel(gn_shading *s)
 /* Takes the triangle's runs and links them one after the other, from the first; s->spanned is the part of the screen that they span. */
 static GN_NOINLINE void link_runs(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
 {
-    uint32_t stride = (uint32_t)GN_K(s->frame, tile_width), at = first, *cell = s->scratch->cell;
+    uint32_t stride = (uint32_t)GN_K(s->frame, tile_width), at = first, *cell = GN_CELLS(s->scratch);
     int32_t x = (int32_t)(first % stride), x0 = x, x1 = x + n_px, y0 = (int32_t)(first / stride);
     while (gn_runs_take(taker, stride, &first, &n_px)) {
         cell[at] = first << 16 | taker->id;
@@ -169,11 +169,11 @@ static GN_NOINLINE void link_runs(gn_shading *s, gn_run_taker *taker, uint32_t f
 /* Shades what lies in a part of the screen of the runs that are linked from `first` on. */
 static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *part)
 {
-    uint32_t stride = (uint32_t)GN_K(s->frame, tile_width), i = first, next, id = s->scratch->cell[first] & 0xFFFFU;
+    uint32_t stride = (uint32_t)GN_K(s->frame, tile_width), i = first, next, id = GN_CELLS(s->scratch)[first] & 0xFFFFU;
     int32_t y = s->rect.y0 + (int32_t)(first / stride);
     uint32_t row = first - first % stride;
     for (;; i = next) {
-        const uint32_t *cell = &s->scratch->cell[i];
+        const uint32_t *cell = &GN_CELLS(s->scratch)[i];
         for (; i - row >= stride; row += stride) y++;
         if (y >= part->y1) return;
         next = cell[0] >> 16;
@@ -252,6 +252,8 @@ static void shade_triangle(gn_shading *s, uint32_t tri_idx)
 
 /* ---- Runs ---------------------------------------------------------------------------------------------------------- */
 
+enum { NOT_PLAIN, PLAIN, PLAIN_565 };
+
 /* An object whose triangles all look alike, wherever they are: unlit, of one colour. Its pixels are filled in as its runs are found. */
 typedef struct {
     uint32_t object_idx;
@@ -268,10 +270,11 @@ static GN_NOINLINE object_look look_at(gn_shading *s, object_look looks[LOOKS], 
     uint32_t q20[3];
     if (look->object_idx != object_idx) {
         look->object_idx = object_idx;
-        look->plain = object->flags & GN_OBJECT_UNLIT && !(GN_VERTEX_COLOURS && object->mesh->rgb_uq16) &&
-                      !(GN_TEXTURES && object->texture) && s->frame->picture.format != GN_FORMAT_RAW32;
+        int plain = object->flags & GN_OBJECT_UNLIT && !(GN_VERTEX_COLOURS && object->mesh->rgb_uq16) && !(GN_TEXTURES && object->texture) &&
+                    s->frame->picture.format != GN_FORMAT_RAW32;
+        look->plain = !plain ? NOT_PLAIN : s->frame->picture.format == GN_FORMAT_RGB565 ? PLAIN_565 : PLAIN;
         for (int c = 0; c < 3; c++) q20[c] = object->albedo_uq16[c] << 4;
-        if (look->plain) look->packed = pack(s, q20);
+        if (plain) look->packed = pack(s, q20);
     }
     return *look;
 }
@@ -287,38 +290,36 @@ static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
 {
     const gn_frame *frame = s->frame;
     gn_scratch *scratch = s->scratch;
-    const int is_565 = !GN_OTHER_FORMATS || frame->picture.format == GN_FORMAT_RGB565;
     uint32_t id_mask = (1U << frame->id_bits) - 1, n_linked = 0, width = (uint32_t)s->rows.width, at = (uint32_t)n_rows * width;
-    uint32_t *row = scratch->cell + n_rows * GN_K(frame, tile_width), *end, *first;
-    object_look looks[LOOKS], look = {UINT32_MAX, 0, 0};
+    uint32_t *cells = GN_CELLS(scratch), *row = cells + n_rows * GN_K(frame, tile_width), *first;
+    object_look looks[LOOKS], look = {UINT32_MAX, NOT_PLAIN, 0};
     for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) looks[i] = look;
     gn_runs_clear(scratch);
-    while (row > scratch->cell) {
+    while (row > cells) {
         row -= GN_K(frame, tile_width);
         at -= width;
-        for (end = row + width; end > row; end = first) {
-            if (!end[-1]) {
-                first = gn_runs_skip(row, end - 1);
-                continue;
-            }
-            first = gn_runs_first(row, end - 1, id_mask);
-            uint32_t id = *first & id_mask, n_px = (uint32_t)(end - first);
+        uint32_t before = row[-1];
+        row[-1] = UINT32_MAX;
+        for (uint32_t *end = row + width; (end = gn_runs_last(end)) >= row; end = first) {
+            first = gn_runs_first(end, id_mask);
+            uint32_t id = *first & id_mask, n_px = (uint32_t)(end - first) + 1;
             if (!GN_SIZE_FIRST) {
                 uint32_t object_idx = gn_raster_tri(frame, id)->object_idx;
                 if (look.object_idx != object_idx) look = look_at(s, looks, object_idx);
             }
-            if (look.plain) {
-                uint32_t i = at + (uint32_t)(first - row);
-                GN_COUNT(runs, 1);
-                GN_COUNT(filled, n_px);
-                gn_runs_drop(first);
-                if (is_565) gn_pixel_fill_16(&scratch->pixel, i, n_px, look.packed);
-                else fill_other(s, i, n_px, look.packed);
-            } else {
-                gn_runs_link(scratch, id, (uint32_t)(first - scratch->cell), n_px);
+            if (look.plain == NOT_PLAIN) {
+                gn_runs_link(scratch, id, (uint32_t)(first - cells), n_px);
                 n_linked++;
+                continue;
             }
+            uint32_t i = at + (uint32_t)(first - row);
+            GN_COUNT(runs, 1);
+            GN_COUNT(filled, n_px);
+            gn_runs_drop(first);
+            if (look.plain == PLAIN_565) gn_pixel_fill_16(&scratch->pixel, i, n_px, look.packed);
+            else fill_other(s, i, n_px, look.packed);
         }
+        row[-1] = before;
     }
     return n_linked;
 }

@@ -117,7 +117,7 @@ settings_ram_parts settings_ram(const settings *s)
     if (s->feature.shadows) put_shadows(&frame, s, &r);
     pad(&frame, frame.align);
     all = frame;
-    r.cells = put(&all, tile_w * tile_h, 4, 4);
+    r.cells = put(&all, 1 + tile_w * tile_h, 4, 4);
     r.pixels = put(&all, tile_w * tile_h, s->feature.raw_views ? 4 : 3, 4);
     put(&all, s->capacity.vertex_cache, 16, 4);
     put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
