@@ -24,7 +24,8 @@ row() { # row SCENE LABEL, of maps or masks: OBJECT
     echo "|---|---|---|---|---|---|---|---|"
     for name in sundial avenue desk room fence mixed; do
         first=1
-        for texels in 0 256 512; do
+        case $name in avenue) sizes="0 256 512 1024" ;; *) sizes="0 256 512" ;; esac
+        for texels in $sizes; do
             "$tool" bake host/scenes/$name.gltf -o "$work/$name.gltf" --still --texels $texels --json >"$work/json"
             [ $first = 0 ] || row $name maps 0
             first=0

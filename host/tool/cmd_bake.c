@@ -24,6 +24,8 @@ typedef struct {
 
 typedef struct {
     const tool_options *o;
+    int texels;        /* of the mask image's side */
+    const char *about; /* the file that an error is about */
     bake_result result;
     scene baked; /* as the file was read back */
     drawn before, after;
@@ -133,25 +135,37 @@ static int draw_truth(job *j, scene *s, const settings *set, char *error, size_t
     return failed;
 }
 
-/* The scene as it was: the truth, its picture, and then the masks. */
+/* The scene as it was: the truth, and its picture. */
+static int look(job *j, char *error, size_t bytes)
+{
+    scene s;
+    settings set;
+    if (tool_load(j->o, &s, &set)) return TOOL_FAILED;
+    int failed = 0;
+    if (!settings_casts(&s)) {
+        snprintf(error, bytes, "nothing in it casts a shadow, so there is nothing to bake");
+        failed = -1;
+    }
+    if (!failed) failed = draw_truth(j, &s, &set, error, bytes) || draw(&j->before, &s, &set, j->o, error, bytes);
+    scene_free(&s);
+    return failed ? tool_fail(j->o->scene_path, error) : TOOL_OK;
+}
+
+/* The masks, in the file. */
 static int bake(job *j, char *error, size_t bytes)
 {
     const tool_options *o = j->o;
     scene s;
     settings set;
-    if (tool_load(o, &s, &set)) return TOOL_FAILED;
-    const bake_options options = {.side = o->texels, .still = o->still, .progress = show_progress};
+    j->about = o->scene_path;
+    if (tool_load_with(o, o->sets, o->n_sets, &s, &set, error, bytes)) return -1;
+    const bake_options options = {.side = j->texels, .still = o->still, .progress = show_progress};
     const ref_options frame = engine_ref_options(&s, &set, o->width, o->height);
-    if (!settings_casts(&s)) {
-        scene_free(&s);
-        return tool_fail(o->scene_path, "nothing in it casts a shadow, so there is nothing to bake");
-    }
-    int failed = draw_truth(j, &s, &set, error, bytes) || draw(&j->before, &s, &set, o, error, bytes) ||
-                 bake_scene(&s, &frame, &options, &j->result, error, bytes);
-    if (failed) failed = tool_fail(o->scene_path, error);
-    else if (write_scene(&s, o, error, bytes)) failed = tool_fail(o->out_path, error);
+    int failed = bake_scene(&s, &frame, &options, &j->result, error, bytes);
+    j->about = failed ? o->scene_path : o->out_path;
+    failed = failed || write_scene(&s, o, error, bytes);
     scene_free(&s);
-    return failed;
+    return failed ? -1 : 0;
 }
 
 /* And as the file has it. */
@@ -161,8 +175,35 @@ static int read_back(job *j, char *error, size_t bytes)
     settings set;
     o.scene_path = j->o->out_path;
     o.frame = 0;
-    if (tool_load_with(&o, NULL, 0, &j->baked, &set, error, bytes)) return tool_fail(o.scene_path, error);
-    return draw(&j->after, &j->baked, &set, &o, error, bytes) ? tool_fail(o.scene_path, error) : TOOL_OK;
+    return tool_load_with(&o, NULL, 0, &j->baked, &set, error, bytes) || draw(&j->after, &j->baked, &set, &o, error, bytes) ? -1 : 0;
+}
+
+static int bake_and_compare(job *j, int texels, char *error, size_t bytes)
+{
+    engine_free(&j->after.picture);
+    scene_free(&j->baked);
+    memset(&j->after, 0, sizeof j->after);
+    memset(&j->baked, 0, sizeof j->baked);
+    memset(&j->result, 0, sizeof j->result);
+    j->texels = texels;
+    if (bake(j, error, bytes) || read_back(j, error, bytes)) return -1;
+    compare(j);
+    return 0;
+}
+
+/* What a mask must not make worse: the picture, and the shadow at each point on the average. */
+static bool is_as_true(const job *j)
+{
+    return j->after.m.psnr_db >= j->before.m.psnr_db && j->after.m.atten_rms <= j->before.m.atten_rms;
+}
+
+/* The least of some sizes that is as true as the shadow maps; the last if none is. */
+static int bake_as_true(job *j, char *error, size_t bytes)
+{
+    static const int sides[] = {256, 512, 1024};
+    for (size_t i = 0; i < sizeof sides / sizeof *sides; i++)
+        if (!bake_and_compare(j, sides[i], error, bytes) && is_as_true(j)) return 0;
+    return j->baked.n_objects ? 0 : -1;
 }
 
 /* ---- What it tells ---- */
@@ -188,11 +229,11 @@ static void print_text(const job *j)
 {
     const bake_result *r = &j->result;
     printf("%s: %zu objects with masks in %d of %d channels, ", j->o->out_path, r->n_objects, r->n_channels, (int)BAKE_CHANNELS);
-    if (j->o->texels)
-        printf("%dx%d texels, %zu charts, %.3g texels per unit, %zu vertices instead of %zu\n", j->o->texels, j->o->texels,
+    if (j->texels)
+        printf("%dx%d texels, %zu charts, %.3g texels per unit, %zu vertices instead of %zu\n", j->texels, j->texels,
                r->n_charts, r->density, r->n_vertices, r->n_vertices_before);
     else printf("per vertex\n");
-    printf("  flash: %zu bytes of masks%s\n", r->mask_bytes, j->o->texels ? " and their coordinates" : "");
+    printf("  flash: %zu bytes of masks%s\n", r->mask_bytes, j->texels ? " and their coordinates" : "");
     name_lights(j);
     if (r->n_moving)
         printf("  %zu moving object%s no mask%s\n", r->n_moving, r->n_moving == 1 ? " has" : "s have", r->n_moving == 1 ? "" : "s");
@@ -224,7 +265,7 @@ static void print_json(const job *j)
     tool_json_string(j->o->scene_path);
     printf(", \"width\": %d, \"height\": %d, \"texels\": %d, \"channels\": %d, \"objects\": %zu, \"moving\": %zu, "
            "\"casters_kept\": %s",
-           j->o->width, j->o->height, j->o->texels, r->n_channels, r->n_objects, r->n_moving, r->casters_kept ? "true" : "false");
+           j->o->width, j->o->height, j->texels, r->n_channels, r->n_objects, r->n_moving, r->casters_kept ? "true" : "false");
     printf(", \"charts\": %zu, \"mask_bytes\": %zu, \"vertices\": %zu, \"vertices_before\": %zu, \"lights\": [", r->n_charts,
            r->mask_bytes, r->n_vertices, r->n_vertices_before);
     for (size_t l = 0; l < j->baked.n_lights; l++) {
@@ -235,7 +276,21 @@ static void print_json(const job *j)
     printf("]");
     json_drawn("maps", &j->before);
     json_drawn("masks", &j->after);
-    printf("}\n");
+    printf(", \"as_true\": %s}\n", is_as_true(j) ? "true" : "false");
+}
+
+/* Where the masks are not as near to the truth as what they take the place of. */
+static void warn(const job *j)
+{
+    const metrics *before = &j->before.m, *after = &j->after.m;
+    if (!is_as_true(j))
+        tool_error("%s: the masks are farther from exact shadows than the shadow maps, PSNR %.2f dB after %.2f, RMS error of the shadow %.3f after %.3f: "
+                   "more --texels, or shadow maps",
+                   j->o->out_path, after->psnr_db, before->psnr_db, after->atten_rms, before->atten_rms);
+    else if (after->shadow_mismatch > before->shadow_mismatch)
+        tool_error("%s: edges of shadows are softer than with shadow maps, by more than 1/16 at %.1f %% of points after %.1f %%, but less wrong on the average: "
+                   "more --texels make them sharper",
+                   j->o->out_path, 100 * after->shadow_mismatch, 100 * before->shadow_mismatch);
 }
 
 int tool_bake(const tool_options *o)
@@ -244,12 +299,17 @@ int tool_bake(const tool_options *o)
     job *j = calloc(1, sizeof *j);
     if (!j) return tool_fail(o->scene_path, error);
     j->o = o;
-    int status = bake(j, error, sizeof error);
-    if (!status) status = read_back(j, error, sizeof error);
+    int status = look(j, error, sizeof error);
     if (!status) {
-        compare(j);
+        const int failed = o->texels == TOOL_TEXELS_AUTO ? bake_as_true(j, error, sizeof error) : bake_and_compare(j, o->texels, error, sizeof error);
+        if (failed) status = tool_fail(j->about, error);
+    }
+    if (!status) {
         if (o->json) print_json(j);
-        else print_text(j);
+        else {
+            print_text(j);
+            warn(j);
+        }
     }
     engine_free(&j->before.picture);
     engine_free(&j->after.picture);

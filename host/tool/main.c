@@ -42,7 +42,8 @@ static const char usage_text[] =
     "  --quick                   sweep, advise: a few configurations only\n"
     "  --ram BYTES               advise: the most RAM\n"
     "  --instructions-per-pixel N  advise: the most instructions per pixel (no limit)\n"
-    "  --texels N                bake: side of the mask image, a power of two from 16 to 4096; 0: masks per vertex (256)\n"
+    "  --texels N                bake: side of the mask image, a power of two from 16 to 4096; 0: masks per vertex; auto:\n"
+    "                            the least of 256, 512 and 1024 that is as true as shadow maps are (auto)\n"
     "  --still                   bake: objects marked as moving stand still too\n"
     "  --json                    one JSON object on stdout and nothing else\n";
 
@@ -76,7 +77,7 @@ static const option options[] = {
     {"--flash", BY_COMPILE | BY_INFO, "bytes from 1 to 1000000000"},
     {"--ram", BY_ADVISE | BY_COMPILE | BY_INFO, "bytes from 1 to 1000000000"},
     {"--instructions-per-pixel", BY_ADVISE, "a number from 1 to 1000000000"},
-    {"--texels", BY_BAKE, "0 or a power of two from 16 to 4096"},
+    {"--texels", BY_BAKE, "auto, 0 or a power of two from 16 to 4096"},
     {"--still", BY_BAKE, NULL},
     {"--all", BY_SWEEP, NULL},
     {"--quick", BY_SWEEP | BY_ADVISE, NULL},
@@ -116,6 +117,13 @@ static int parse_size(const char *text, tool_options *o)
     memcpy(left, text, n);
     left[n] = 0;
     return parse_int(left, 1, GN_MAX_WIDTH, &o->width) || parse_int(x + 1, 1, GN_MAX_HEIGHT, &o->height) ? -1 : 0;
+}
+
+static int parse_texels(const char *value, int *texels)
+{
+    *texels = TOOL_TEXELS_AUTO;
+    if (strcmp(value, "auto") == 0) return 0;
+    return parse_int(value, 0, 4096, texels) || (*texels & (*texels - 1)) || (*texels && *texels < 16);
 }
 
 static int parse_frames(const char *text, tool_options *o)
@@ -164,8 +172,7 @@ static int take_value(tool_options *o, const char *name, char *value)
         o->light = (size_t)light;
     } else if (strcmp(name, "--csv") == 0) failed = !*(o->csv_path = value);
     else if (strcmp(name, "--svg") == 0) failed = !*(o->svg_path = value);
-    else if (strcmp(name, "--texels") == 0)
-        failed = parse_int(value, 0, 4096, &o->texels) || (o->texels & (o->texels - 1)) || (o->texels && o->texels < 16);
+    else if (strcmp(name, "--texels") == 0) failed = parse_texels(value, &o->texels);
     else if (strcmp(name, "--ram") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->ram);
     else if (strcmp(name, "--instructions-per-pixel") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->instructions_per_pixel);
     else if (strcmp(name, "--set") == 0) {
@@ -248,7 +255,7 @@ static int run(int argc, char **argv)
                       .last_frame = -1,
                       .margin = 10,
                       .simplify = TOOL_SIMPLIFY_PATH,
-                      .texels = 256};
+                      .texels = TOOL_TEXELS_AUTO};
     if (argc < 2) return usage("a command is missing", NULL);
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0) {
         fputs(usage_text, stdout);

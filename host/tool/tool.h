@@ -6,6 +6,7 @@
 #include "views.h"
 
 #define TOOL_SETS_MAX    64
+#define TOOL_TEXELS_AUTO (-1)
 #define TOOL_ERROR_BYTES 800
 
 /* What compile may take away: nothing; what no picture could show; also what none of the frames shows. */
@@ -27,7 +28,7 @@ typedef struct {
     int n_sets;
     const char *csv_path, *svg_path; /* sweep */
     int all, quick;
-    int texels, still;          /* bake: side of the mask image, 0: per vertex */
+    int texels, still;          /* bake: side of the mask image, 0: per vertex, TOOL_TEXELS_AUTO */
     int ram;                    /* advise, compile, info: bytes; 0: not given */
     int instructions_per_pixel; /* 0: no limit */
     int last_frame;             /* compile: of --frames, whose first is frame; -1: to the end of the animation */
