@@ -263,7 +263,7 @@ typedef struct {
 
 #define LOOKS 8 /* a power of two */
 
-static GN_NOINLINE object_look look_at(gn_shading *s, object_look looks[LOOKS], uint32_t object_idx)
+static const object_look *look_at(gn_shading *s, object_look looks[LOOKS], uint32_t object_idx)
 {
     const gn_object *object = &s->frame->scene->objects[object_idx];
     object_look *look = &looks[object_idx & (LOOKS - 1)];
@@ -276,52 +276,80 @@ static GN_NOINLINE object_look look_at(gn_shading *s, object_look looks[LOOKS], 
         for (int c = 0; c < 3; c++) q20[c] = object->albedo_uq16[c] << 4;
         if (plain) look->packed = pack(s, q20);
     }
-    return *look;
+    return look;
 }
 
-static GN_NOINLINE void fill_other(gn_shading *s, uint32_t at, uint32_t n_px, uint32_t packed)
+/* What is known while the runs of a tile are sorted. */
+typedef struct {
+    gn_shading *s;
+    uint32_t n_linked;
+    uint32_t plain_idx, packed; /* the plain object met last, of 16 bits per pixel */
+    object_look looks[LOOKS];
+} run_sorter;
+
+/* Links a run, or fills it in if its object is plain. */
+static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uint32_t id, uint32_t n_px)
 {
-    int32_t x = (int32_t)(at % (uint32_t)s->rows.width), y = (int32_t)(at / (uint32_t)s->rows.width);
-    gn_pixel_fill(s->frame, &s->rows, s->rect.x0 + x, s->rect.y0 + y, (int32_t)n_px, packed);
+    gn_shading *s = sorter->s;
+    uint32_t at = (uint32_t)(first - GN_CELLS(s->scratch));
+    if (!GN_SIZE_FIRST) {
+        const object_look *look = look_at(s, sorter->looks, gn_raster_tri(s->frame, id)->object_idx);
+        if (look->plain != NOT_PLAIN) {
+            int32_t stride = GN_K(s->frame, tile_width), x = (int32_t)at % stride, y = (int32_t)at / stride;
+            GN_COUNT(runs, 1);
+            GN_COUNT(filled, n_px);
+            gn_runs_drop(first);
+            gn_pixel_fill(s->frame, &s->rows, s->rect.x0 + x, s->rect.y0 + y, (int32_t)n_px, look->packed);
+            if (look->plain == PLAIN) return;
+            sorter->plain_idx = look->object_idx;
+            sorter->packed = look->packed;
+            return;
+        }
+    }
+    gn_runs_link(s->scratch, id, at, n_px);
+    sorter->n_linked++;
 }
 
 /* Links the tile's runs, but for those of plain objects, which it fills in. Returns how many are linked. */
 static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
 {
     const gn_frame *frame = s->frame;
-    gn_scratch *scratch = s->scratch;
-    uint32_t id_mask = (1U << frame->id_bits) - 1, n_linked = 0, width = (uint32_t)s->rows.width, at = (uint32_t)n_rows * width;
-    uint32_t *cells = GN_CELLS(scratch), *row = cells + n_rows * GN_K(frame, tile_width), *first;
-    object_look looks[LOOKS], look = {UINT32_MAX, NOT_PLAIN, 0};
-    for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) looks[i] = look;
-    gn_runs_clear(scratch);
+    const gn_tri *end = gn_raster_tri(frame, 0);
+    run_sorter sorter;
+    uint32_t id_mask = (1U << frame->id_bits) - 1, width = (uint32_t)s->rows.width, plain_idx = UINT32_MAX, packed = 0;
+    uint32_t *cells = GN_CELLS(s->scratch), *row = cells + n_rows * GN_K(frame, tile_width);
+    uint16_t *pixel = s->scratch->pixel.rgb565 + (uint32_t)n_rows * width;
+    sorter.s = s;
+    sorter.n_linked = 0;
+    sorter.plain_idx = UINT32_MAX;
+    for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) sorter.looks[i].object_idx = UINT32_MAX;
+    gn_runs_clear(s->scratch);
     while (row > cells) {
         row -= GN_K(frame, tile_width);
-        at -= width;
-        uint32_t before = row[-1];
+        pixel -= width;
+        uint32_t before = row[-1], *last = row + width;
         row[-1] = UINT32_MAX;
-        for (uint32_t *end = row + width; (end = gn_runs_last(end)) >= row; end = first) {
-            first = gn_runs_first(end, id_mask);
-            uint32_t id = *first & id_mask, n_px = (uint32_t)(end - first) + 1;
-            if (!GN_SIZE_FIRST) {
-                uint32_t object_idx = gn_raster_tri(frame, id)->object_idx;
-                if (look.object_idx != object_idx) look = look_at(s, looks, object_idx);
-            }
-            if (look.plain == NOT_PLAIN) {
-                gn_runs_link(scratch, id, (uint32_t)(first - cells), n_px);
-                n_linked++;
+        while ((last = gn_runs_last(last)) >= row) {
+            uint32_t id = *last & id_mask, *first = gn_runs_first(last, id_mask), n_px = (uint32_t)(last - first) + 1;
+            last = first;
+            if (!GN_SIZE_FIRST && n_px < 8 && (end - id)->object_idx == plain_idx) {
+                uint16_t *out = pixel + (first - row);
+                GN_COUNT(runs, 1);
+                GN_COUNT(filled, n_px);
+                gn_runs_drop(first);
+                do {
+                    *out++ = (uint16_t)packed;
+                    GN_KEEP(out);
+                } while (--n_px);
                 continue;
             }
-            uint32_t i = at + (uint32_t)(first - row);
-            GN_COUNT(runs, 1);
-            GN_COUNT(filled, n_px);
-            gn_runs_drop(first);
-            if (look.plain == PLAIN_565) gn_pixel_fill_16(&scratch->pixel, i, n_px, look.packed);
-            else fill_other(s, i, n_px, look.packed);
+            sort_run(&sorter, first, id, n_px);
+            plain_idx = sorter.plain_idx;
+            packed = sorter.packed;
         }
         row[-1] = before;
     }
-    return n_linked;
+    return sorter.n_linked;
 }
 
 static void clear_background(gn_shading *s)
