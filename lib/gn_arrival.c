@@ -108,11 +108,12 @@ static int32_t after(const gn_chord *chord, const int32_t *value, int32_t i, int
     return gn_sat32(value[i] + m * (int64_t)chord->step[i] + m * (m - 1) / 2 * (int64_t)bend);
 }
 
-/* A parabola of whole steps through v0, vm after m and vn after n pixels. Returns 0 if they are too far apart. */
+/* A parabola of whole steps through v0, vm after m and vn after n pixels, n <= 16. Returns 0 if they are too far apart, or so large that what
+ * lies between, up to 5/3 of the largest, might not fit. */
 static int parabola(int32_t v0, int32_t vm, int32_t vn, int32_t m, int32_t n, int32_t *step, int32_t *bend)
 {
     int64_t to_m = (int64_t)vm - v0, to_n = (int64_t)vn - v0;
-    if ((gn_abs64(to_m) | gn_abs64(to_n)) >> 30) return 0;
+    if ((gn_abs64(to_m) | gn_abs64(to_n) | gn_abs32(v0) | gn_abs32(vm) | gn_abs32(vn)) >> 30) return 0;
     int32_t first = (int32_t)to_m / m;
     *bend = 2 * ((int32_t)to_n / n - first) / (n - m);
     *step = first - *bend * (m - 1) / 2;
