@@ -14,6 +14,17 @@
 # COUNT       1: the emulator counts the instructions of the run
 
 APP ?= $(if $(filter screen,$(MAKECMDGOALS)),clock,$(if $(SCENE),play,crc))
+ifeq ($(wildcard boards/$(BOARD)/board.mk),)
+$(error There is no board '$(BOARD)': make boards lists those that there are)
+endif
+ifneq ($(SCENE),)
+ifneq ($(words $(SCENE)),1)
+$(error SCENE='$(SCENE)': make knows no file names with blanks in them)
+endif
+ifeq ($(wildcard $(SCENE)),)
+$(error SCENE=$(SCENE): there is no such file)
+endif
+endif
 include boards/$(BOARD)/board.mk
 
 BOARD_OPT ?= -O2

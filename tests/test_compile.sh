@@ -189,9 +189,21 @@ refused 1 "cannot be opened" "$tmp/none.gltf" -o "$tmp/no"
 refused 1 "max_triangles" docs/scenes/near.gltf -o "$tmp/no" --size 64x64 --set max_triangles=3
 refused 1 "caster_clipping" docs/scenes/near.gltf -o "$tmp/no" --size 64x64 --set max_distance=1.6 --set cascades=1 --set atlas_size=1024 --set caster_clipping=0
 [ ! -e "$tmp/no" ] && pass || fail "a refused scene leaves a folder"
+# a folder keeps what it had if not all of it can be written
+mkdir "$tmp/half" "$tmp/half/scene.c"
+refused 1 "scene.c: Is a directory" docs/scenes/near.gltf -o "$tmp/half" --size 16x12
+[ -z "$(find "$tmp/half" -name '*.new')" ] && pass || fail "a failed write leaves $(ls "$tmp/half" | tr '\n' ' ')"
+# what make says of a board or a scene that is not there
+for wrong in "BOARD=nowhere" "BOARD=mps2-an385 SCENE=$tmp/none.gltf"; do
+    make -s firmware $wrong >"$tmp/out" 2>"$tmp/err" && fail "make firmware $wrong succeeds" || pass
+    grep -q "There is no board 'nowhere'\|there is no such file" "$tmp/err" && pass || fail "make firmware $wrong: $(head -n 1 "$tmp/err")"
+done
 # the same again, byte for byte
 "$tool" compile host/scenes/desk.gltf -o "$tmp/again" --frames 0-3 --size 96x64 >"$tmp/log" 2>&1
 diff -r "$tmp/again/scene.c" "$tmp/desk/scene.c" >"$tmp/log" && diff "$tmp/again/gn_scene_config.h" "$tmp/desk/gn_scene_config.h" >"$tmp/log" && pass || fail "compiling again writes something else"
+# nothing to be seen
+sed 's/"rotation": \[-0.104465, [^]]*\]/"rotation": [0.7071, 0, 0, 0.7071]/' docs/scenes/near.gltf >"$tmp/sky.gltf"
+same sky "$tmp/sky.gltf" 0 "" --size 64x48
 # names of the file in comments
 printf 'o a*/b?\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 4 2 3\n' >"$tmp/odd.obj"
 same odd "$tmp/odd.obj" 0 "" --size 64x48

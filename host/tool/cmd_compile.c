@@ -7,35 +7,57 @@
 #include "compile.h"
 #include "remarks.h"
 
-static int write_file(const compiled *c, const char *name, void (*write)(FILE *, const compiled *), char *error, size_t bytes)
+typedef struct {
+    const char *name;
+    void (*write)(FILE *, const compiled *);
+} output_file;
+
+static const output_file outputs[] = {
+    {"scene.c", compile_write_scene}, {"scene.h", compile_write_header}, {"gn_scene_config.h", compile_write_config}};
+enum { N_OUTPUTS = sizeof outputs / sizeof *outputs, PATH_BYTES = 4096 };
+
+static int path_of(const compiled *c, const output_file *out, const char *suffix, char path[PATH_BYTES])
 {
-    char path[4096];
-    int n = snprintf(path, sizeof path, "%s/%s", c->options->out_path, name);
-    FILE *file = n < 0 || (size_t)n >= sizeof path ? NULL : fopen(path, "wb");
-    if (!file) {
-        snprintf(error, bytes, "%s: %s", name, strerror(errno));
-        return -1;
-    }
-    write(file, c);
-    int failed = ferror(file) != 0;
-    if (fclose(file) || failed) {
-        snprintf(error, bytes, "%s: cannot be written", name);
-        return -1;
-    }
-    return 0;
+    int n = snprintf(path, PATH_BYTES, "%s/%s%s", c->options->out_path, out->name, suffix);
+    if (n >= 0 && n < PATH_BYTES) return 0;
+    errno = ENAMETOOLONG;
+    return -1;
 }
 
+static int write_new(const compiled *c, const output_file *out)
+{
+    char path[PATH_BYTES];
+    FILE *file = path_of(c, out, ".new", path) ? NULL : fopen(path, "wb");
+    if (!file) return -1;
+    out->write(file, c);
+    int failed = ferror(file) != 0;
+    return fclose(file) || failed ? -1 : 0;
+}
+
+static int put_in_place(const compiled *c, const output_file *out)
+{
+    char from[PATH_BYTES], to[PATH_BYTES];
+    return path_of(c, out, ".new", from) || path_of(c, out, "", to) || rename(from, to) ? -1 : 0;
+}
+
+/* All files, or those that were there before: a configuration beside the scene of another would be worse than none. */
 static int write_all(const compiled *c, char *error, size_t bytes)
 {
+    char path[PATH_BYTES];
+    size_t i = 0;
     if (mkdir(c->options->out_path, 0777) && errno != EEXIST) {
         snprintf(error, bytes, "cannot create the folder: %s", strerror(errno));
         return -1;
     }
-    return write_file(c, "gn_scene_config.h", compile_write_config, error, bytes) ||
-                   write_file(c, "scene.h", compile_write_header, error, bytes) ||
-                   write_file(c, "scene.c", compile_write_scene, error, bytes)
-               ? -1
-               : 0;
+    errno = 0;
+    while (i < N_OUTPUTS && !write_new(c, &outputs[i])) i++;
+    if (i == N_OUTPUTS)
+        for (i = 0; i < N_OUTPUTS && !put_in_place(c, &outputs[i]);) i++;
+    if (i == N_OUTPUTS) return 0;
+    snprintf(error, bytes, "%s: %s", outputs[i].name, errno ? strerror(errno) : "cannot be written");
+    for (i = 0; i < N_OUTPUTS; i++)
+        if (!path_of(c, &outputs[i], ".new", path)) remove(path);
+    return -1;
 }
 
 /* Where the scene must fit; without a board, in --ram and --flash. 1: somewhere; 0: nowhere. */
