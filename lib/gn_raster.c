@@ -159,6 +159,10 @@ static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri,
             right.x += right.step;
             row += stride;
             iz_row += iz_dy;
+            GN_KEEP(left.x); /* stepped, not found again after the loop */
+            GN_KEEP(right.x);
+            GN_KEEP(row);
+            GN_KEEP(iz_row);
         }
     }
 }

@@ -164,13 +164,14 @@ static inline int gradient(int32_t *out, int64_t n, int32_t f, int32_t s)
 
 /* The plane through three projected corners, all of the screen in Q16 pixels: |x|, |y| < 2^27. Where it is too steep, a pixel spans half of all
  * depths: the nearest stands for it. */
-static inline void depth_of_corners(depth_range *depth, const projected *const c[3], int top, int32_t x_q16, int32_t y_q16)
+static inline void depth_of_corners(depth_range *depth, const projected *c0, const projected *c1, const projected *c2, int32_t to_x_q16,
+                                    int32_t to_y_q16)
 {
-    uint32_t i0 = c[0]->iz_q32, i1 = c[1]->iz_q32, i2 = c[2]->iz_q32;
+    uint32_t i0 = c0->iz_q32, i1 = c1->iz_q32, i2 = c2->iz_q32;
     uint32_t largest = i0 > i1 ? i0 : i1, least = i0 > i1 ? i1 : i0;
     depth->largest = i2 > largest ? i2 : largest;
     depth->least = i2 < least ? i2 : least;
-    int32_t ax = c[1]->x_q16 - c[0]->x_q16, ay = c[1]->y_q16 - c[0]->y_q16, bx = c[2]->x_q16 - c[0]->x_q16, by = c[2]->y_q16 - c[0]->y_q16;
+    int32_t ax = c1->x_q16 - c0->x_q16, ay = c1->y_q16 - c0->y_q16, bx = c2->x_q16 - c0->x_q16, by = c2->y_q16 - c0->y_q16;
     int32_t a = (int32_t)(i1 >> 1) - (int32_t)(i0 >> 1), b = (int32_t)(i2 >> 1) - (int32_t)(i0 >> 1);
     int64_t area = (int64_t)ax * by - (int64_t)bx * ay; /* 2^57 */
     uint64_t size = gn_abs64(area) | 1U;
@@ -184,9 +185,9 @@ static inline void depth_of_corners(depth_range *depth, const projected *const c
         depth->ref = depth->largest;
         return;
     }
-    /* from the top to the centre: less than two pixels */
-    int64_t step = (int64_t)depth->dx * (x_q16 - c[top]->x_q16) + (int64_t)depth->dy * (y_q16 - c[top]->y_q16);
-    depth->ref = c[top]->iz_q32 + (uint32_t)(step >> 16);
+    /* to the centre: less than two pixels */
+    int64_t step = (int64_t)depth->dx * to_x_q16 + (int64_t)depth->dy * to_y_q16;
+    depth->ref = c0->iz_q32 + (uint32_t)(step >> 16);
 }
 
 /* ---- Triangles ----------------------------------------------------------------------------------------------------- */
@@ -201,25 +202,23 @@ void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], in
     }
 }
 
-/* Pixels whose centres lie between the least and largest coordinates, from the picture's centre: cut to the picture. Returns how many rows fixed point
- * lasts, too. */
-static inline int32_t bounds_of(const gn_frame *frame, gn_rect *r, int32_t x0, int32_t x1, int32_t x2, int32_t top, int32_t y1, int32_t y2)
+/* Pixels whose centres lie between the least and largest coordinates, from the picture's centre, in the subpixel grid: cut to the picture. */
+static inline gn_rect bounds_of(const gn_frame *frame, int32_t left, int32_t right, int32_t top, int32_t bottom)
 {
     int32_t bits = GN_K(frame, subpixel_bits), width = frame->picture.width, height = frame->picture.height;
-    int32_t lo = gn_min32(gn_min32(x0, x1), x2), hi = gn_max32(gn_max32(x0, x1), x2), bottom = gn_max32(y1, y2);
     int32_t centre_x = (width << bits) >> 1, centre_y = (height << bits) >> 1;
-    r->x0 = gn_max32(gn_first_px(lo + centre_x, bits), 0);
-    r->x1 = gn_min32(gn_first_px(hi + centre_x, bits), width);
-    r->y0 = gn_max32(gn_first_px(top + centre_y, bits), 0);
-    r->y1 = gn_min32(gn_first_px(bottom + centre_y, bits), height);
-    return gn_walk_lasts((uint32_t)(hi - lo) | (uint32_t)(bottom - top));
+    gn_rect r;
+    r.x0 = gn_max32(gn_first_px(left + centre_x, bits), 0);
+    r.x1 = gn_min32(gn_first_px(right + centre_x, bits), width);
+    r.y0 = gn_max32(gn_first_px(top + centre_y, bits), 0);
+    r.y1 = gn_min32(gn_first_px(bottom + centre_y, bits), height);
+    return r;
 }
 
 gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
 {
-    gn_rect r;
-    bounds_of(frame, &r, tri->x[0], tri->x[1], tri->x[2], tri->y[0], tri->y[1], tri->y[2]);
-    return r;
+    int32_t x0 = tri->x[0], x1 = tri->x[1], x2 = tri->x[2];
+    return bounds_of(frame, gn_min32(gn_min32(x0, x1), x2), gn_max32(gn_max32(x0, x1), x2), tri->y[0], gn_max32(tri->y[1], tri->y[2]));
 }
 
 static inline void count_tiles(gn_frame *frame, const gn_rect *px)
@@ -230,78 +229,65 @@ static inline void count_tiles(gn_frame *frame, const gn_rect *px)
         for (int32_t x = r.x0; x < r.x1; x++) row[x]++;
 }
 
-/* What is known of a triangle when its place is taken. */
-typedef struct {
-    gn_tri *tri;
-    int top;       /* which of the corners it was */
-    int32_t lasts; /* gn_walk_lasts */
-} new_triangle;
-
-/* Takes the place of a triangle, if it is given its corners' places on the subpixel grid, and counts its screen tiles. Returns 0 if it faces away or
- * covers no pixel centre, or if there is no room. */
-static inline int take_place(const setup_job *job, new_triangle *taken, const int32_t x[3], const int32_t y[3])
-{
-    gn_frame *frame = job->frame;
-    gn_rect bounds;
-    int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
-    if (area >= 0 && (area == 0 || !(job->object->flags & GN_OBJECT_TWO_SIDED))) return 0;
-    /* turned round if seen from behind; then rotated, to begin with the top */
-    int second = area > 0 ? 2 : 1, top = y[second] < y[0] ? second : 0;
-    if (y[3 - second] < y[top]) top = 3 - second;
-    int left = top == 0 ? second : top == second ? 3 - second : 0, right = 3 - top - left;
-    /* beyond the last it is not kept */
-    gn_tri *tri = &frame->tri[frame->stats.n_triangles < GN_MAX_TRIANGLES ? frame->stats.n_triangles : GN_MAX_TRIANGLES - 1];
-    GN_KEEP(tri);
-    tri->x[0] = (gn_coord)x[top], tri->x[1] = (gn_coord)x[left], tri->x[2] = (gn_coord)x[right];
-    tri->y[0] = (gn_coord)y[top], tri->y[1] = (gn_coord)y[left], tri->y[2] = (gn_coord)y[right];
-    taken->tri = tri;
-    taken->top = top;
-    taken->lasts = bounds_of(frame, &bounds, x[0], x[1], x[2], y[top], y[left], y[right]);
-    if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return 0;
-    if (frame->stats.n_triangles++ >= GN_MAX_TRIANGLES) return 0; /* counted on, to say how many would have been enough */
-    count_tiles(frame, &bounds);
-    GN_COUNT(visible, 1);
-    return 1;
-}
-
-/* The pixel that holds the top. */
-static inline void top_pixel(const gn_frame *frame, const gn_tri *tri, int32_t *x, int32_t *y)
-{
-    int32_t bits = GN_K(frame, subpixel_bits);
-    *x = (tri->x[0] + ((frame->picture.width << bits) >> 1)) >> bits;
-    *y = (tri->y[0] + ((frame->picture.height << bits) >> 1)) >> bits;
-}
-
 /* A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel grid along each axis. Where that is little, and
  * neither end of all depths is near, depth may leave the triangle's own range. */
-static inline void store(const setup_job *job, const new_triangle *taken, const depth_range *depth, uint32_t triangle_idx)
+static inline void store_depth(gn_tri *tri, const depth_range *depth, int32_t lasts, int32_t bits)
 {
-    gn_tri *tri = taken->tri;
     uint32_t steepness = (gn_abs32(depth->dx) >> 1) + (gn_abs32(depth->dy) >> 1);
-    uint32_t reach = (steepness >> GN_K(job->frame, subpixel_bits)) + 4096; /* and roundings of 2^13 steps */
+    uint32_t reach = (steepness >> bits) + 4096; /* and roundings of 2^13 steps */
     int free = !(reach >> 18) && depth->least > reach && depth->largest < UINT32_MAX - reach;
     tri->iz_ref = depth->ref;
     tri->iz_dx = depth->dx;
     tri->iz_dy = depth->dy;
-    tri->iz_min = (uint16_t)(free ? (uint32_t)taken->lasts + 1 : depth->least >> 16);
+    tri->iz_min = (uint16_t)(free ? (uint32_t)lasts + 1 : depth->least >> 16);
     tri->iz_max = (uint16_t)(free ? 0 : depth->largest >> 16);
-    tri->object_idx = (uint16_t)job->object_idx;
-    tri->triangle_idx = (uint16_t)triangle_idx;
 }
 
-/* A triangle in the guard band. */
-static GN_NOINLINE void emit(const setup_job *job, const projected *const c[3], uint32_t triangle_idx)
+/* A corner on the subpixel grid. */
+typedef struct {
+    const projected *at;
+    int32_t x, y;
+} grid_corner;
+
+static inline grid_corner on_grid(const projected *at, int32_t bits)
 {
-    const gn_frame *frame = job->frame;
-    int32_t bits = GN_K(frame, subpixel_bits), px, py;
-    const int32_t x[3] = {snap(c[0]->x_q16, bits), snap(c[1]->x_q16, bits), snap(c[2]->x_q16, bits)};
-    const int32_t y[3] = {snap(c[0]->y_q16, bits), snap(c[1]->y_q16, bits), snap(c[2]->y_q16, bits)};
-    new_triangle taken;
+    const grid_corner snapped = {at, snap(at->x_q16, bits), snap(at->y_q16, bits)};
+    return snapped;
+}
+
+/* A triangle in the guard band: nothing if it faces away or covers no pixel centre. */
+static GN_NOINLINE void emit(const setup_job *job, const projected *p0, const projected *p1, const projected *p2, uint32_t triangle_idx)
+{
+    gn_frame *frame = job->frame;
+    int32_t bits = GN_K(frame, subpixel_bits);
+    grid_corner a = on_grid(p0, bits), b = on_grid(p1, bits), c = on_grid(p2, bits), swap;
+    int64_t area = (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
+    if (area >= 0) {
+        if (area == 0 || !(job->object->flags & GN_OBJECT_TWO_SIDED)) return;
+        swap = b, b = c, c = swap;
+    }
+    if (c.y < a.y && c.y < b.y) swap = a, a = c, c = b, b = swap; /* rotated, to begin with the top */
+    else if (b.y < a.y) swap = a, a = b, b = c, c = swap;
+    int32_t left = gn_min32(gn_min32(a.x, b.x), c.x), right = gn_max32(gn_max32(a.x, b.x), c.x), bottom = gn_max32(b.y, c.y);
+    const gn_rect bounds = bounds_of(frame, left, right, a.y, bottom);
+    if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
+    uint32_t n = frame->stats.n_triangles++; /* counted on, to say how many would have been enough */
+    if (n >= GN_MAX_TRIANGLES) return;
+    count_tiles(frame, &bounds);
+    GN_COUNT(visible, 1);
+    gn_tri *tri = &frame->tri[n];
+    GN_KEEP(tri);
+    tri->x[0] = (gn_coord)a.x, tri->x[1] = (gn_coord)b.x, tri->x[2] = (gn_coord)c.x;
+    tri->y[0] = (gn_coord)a.y, tri->y[1] = (gn_coord)b.y, tri->y[2] = (gn_coord)c.y;
+    tri->object_idx = (uint16_t)job->object_idx;
+    tri->triangle_idx = (uint16_t)triangle_idx;
+    /* from the top to the centre of the pixel that holds it */
+    int32_t one = 1 << bits, x = a.x + ((frame->picture.width << bits) >> 1), y = a.y + ((frame->picture.height << bits) >> 1);
+    int32_t to_x_q16 = ((a.x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->x_q16;
+    int32_t to_y_q16 = ((a.y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->y_q16;
     depth_range depth;
-    if (!take_place(job, &taken, x, y)) return;
-    top_pixel(frame, taken.tri, &px, &py);
-    depth_of_corners(&depth, c, taken.top, (2 * px + 1 - frame->picture.width) * 32768, (2 * py + 1 - frame->picture.height) * 32768);
-    store(job, &taken, &depth, triangle_idx);
+    depth_of_corners(&depth, a.at, b.at, c.at, to_x_q16, to_y_q16);
+    store_depth(tri, &depth, gn_walk_lasts((uint32_t)(right - left) | (uint32_t)(bottom - a.y)), bits);
 }
 
 /* A cut vertex may miss the guard band by a rounding of view space, which a long focal length magnifies. */
@@ -326,11 +312,10 @@ static GN_NOINLINE void general_triangle(const setup_job *job, const corner *con
         frame->stats.n_clipped++;
     }
     projected at[3];
-    const projected *const corners[3] = {&at[0], &at[1], &at[2]};
     for (int i = 0; i < polygon->n; i++) { /* a fan */
         project_cut(job, polygon->v_q16[i], &at[gn_min32(i, 2)]);
         if (i < 2) continue;
-        emit(job, corners, triangle_idx);
+        emit(job, &at[0], &at[1], &at[2], triangle_idx);
         at[1] = at[2];
     }
 }
@@ -345,8 +330,7 @@ static void setup_triangle(const setup_job *job, const corner *const c[3], uint3
         return;
     }
 #if !GN_SIZE_FIRST
-    const projected *const at[3] = {&c[0]->at, &c[1]->at, &c[2]->at};
-    emit(job, at, triangle_idx);
+    emit(job, &c[0]->at, &c[1]->at, &c[2]->at, triangle_idx);
 #endif
 }
 
