@@ -13,7 +13,7 @@ void gn_alpha_begin(gn_alpha_test *test, const gn_object *object, gn_alpha mode,
     test->textured = GN_TEXTURES && object->texture;
     if (!test->textured) return;
 #if GN_TEXTURES
-    gn_texture_corners(&test->uv, object->mesh, idx);
+    gn_texture_corners(&test->uv, object->mesh, object->texture, idx);
 #else
     (void)idx;
 #endif
@@ -24,7 +24,7 @@ int gn_alpha_cuts(const gn_alpha_test *test, const int32_t b_q30[2], int32_t x, 
     uint32_t alpha = test->object->alpha_uq16;
 #if GN_TEXTURES
     if (test->textured) {
-        int32_t u = gn_texture_coord(&test->uv, b_q30, 0), v = gn_texture_coord(&test->uv, b_q30, 1);
+        int32_t u = gn_texture_coord(&test->uv, test->object->texture, b_q30, 0), v = gn_texture_coord(&test->uv, test->object->texture, b_q30, 1);
         alpha = gn_mul_uq16(alpha, gn_texture_channel(test->object->texture, u, v, GN_CHANNEL_ALPHA));
     }
 #else

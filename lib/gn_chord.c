@@ -141,7 +141,7 @@ static int texture_holds(const gn_surface *surface, const gn_sample *a, const gn
     const uint8_t log2[2] = {texture->width_log2, texture->height_log2};
     for (int i = 0; i < 2; i++) {
         int64_t d = (int64_t)b->value[GN_VALUE_UV + i] - a->value[GN_VALUE_UV + i];
-        if (!holds(d, error, (65536U >> GN_TEXTURE_LOG2) >> log2[i])) return 0;
+        if (!holds(d, error, (1U << (20 - GN_TEXTURE_LOG2)) >> log2[i])) return 0;
     }
     return 1;
 }

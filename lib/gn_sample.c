@@ -212,7 +212,7 @@ static void to_eye(const gn_frame *frame, int32_t px, int32_t py, int32_t out_q3
 static void extra_values(const gn_surface *s, const hit *h, int32_t *value)
 {
 #if GN_TEXTURES
-    for (int i = 0; s->textured && i < 2; i++) value[GN_VALUE_UV + i] = gn_texture_coord(&s->uv, h->b_q30, i);
+    for (int i = 0; s->textured && i < 2; i++) value[GN_VALUE_UV + i] = gn_texture_coord(&s->uv, s->object->texture, h->b_q30, i);
     for (int i = 0; !s->textured && i < 2; i++) value[GN_VALUE_UV + i] = 0;
 #endif
 #if GN_MASKS

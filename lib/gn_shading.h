@@ -94,7 +94,7 @@ typedef struct {
 
 /* Values sampled at a pixel and stepped linearly between samples. The first groups only where a surface has them. */
 enum {
-    GN_VALUE_UV = 0,                                        /* 2: texture coordinates, Q16 */
+    GN_VALUE_UV = 0,                                        /* 2: texture coordinates, Q20 */
     GN_VALUE_MASK = GN_VALUE_UV + (GN_TEXTURES ? 2 : 0),    /* 4: shadow masks, Q16; or 2: coordinates of the mask image */
     GN_VALUE_BAKED = GN_VALUE_MASK + (GN_MASKS ? 4 : 0),    /* 3: irradiance, Q16 */
     GN_VALUE_Z = GN_VALUE_BAKED + (GN_BAKED_LIGHT ? 3 : 0), /* view depth, Q16 */

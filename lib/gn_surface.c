@@ -80,7 +80,7 @@ static void colours(gn_surface *s, const uint16_t *idx)
 static void texture_coords(gn_surface *s, const uint16_t *idx)
 {
     s->textured = s->object->texture != NULL;
-    if (s->textured) gn_texture_corners(&s->uv, s->object->mesh, idx);
+    if (s->textured) gn_texture_corners(&s->uv, s->object->mesh, s->object->texture, idx);
 }
 #endif
 
