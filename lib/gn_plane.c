@@ -63,12 +63,23 @@ int gn_plane_recip(gn_ray_recip *out, const gn_plane *plane, int32_t px, int32_t
     return 1;
 }
 
+/* round(b * 2^-s) within 0 .. most */
+static inline uint32_t share(int64_t b, int32_t s, uint32_t most)
+{
+    if (GN_SIZE_FIRST || s < 1 || s > 62) return (uint32_t)gn_clamp64(gn_scale64(b, s), 0, most);
+    if (b < 0) return 0;
+    uint64_t twice = (uint64_t)b >> (s - 1);
+    if (twice >> 32) return twice >= (uint64_t)most << 1 ? most : (uint32_t)((twice + 1) >> 1);
+    uint32_t t = ((uint32_t)twice >> 1) + ((uint32_t)twice & 1U);
+    return t < most ? t : most;
+}
+
 void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip, int32_t px, int32_t py, uint32_t focal2_px_q16)
 {
     const int32_t one = 1 << 30;
     for (int k = 0; k < 2; k++) {
         int64_t b = gn_plane_at(bary->form[k], px, py, focal2_px_q16);
-        uint64_t t = (uint64_t)gn_clamp64(gn_scale64(b, 32 - recip->clz - bary->exp[k]), 0, recip->w_norm);
+        uint64_t t = share(b, 32 - recip->clz - bary->exp[k], recip->w_norm);
         b_q30[k] = (int32_t)((t * recip->recip) >> 33); /* 2^64 / 2^33 */
         b_q30[k] = gn_min32(b_q30[k], one);
     }

@@ -112,8 +112,8 @@ static GN_NOINLINE void raster_span_slow(const raster_tile *tile, const cut_tria
         if (candidate < *cell) continue;
 #if GN_VISIBLE_ALPHA
         if (cut) {
-            int32_t at = (int32_t)(cell - GN_CELLS(tile->scratch)), stride = GN_K(tile->frame, tile_width);
-            if (is_cut(tile->frame, cut, tile->rect.x0 + at % stride, tile->rect.y0 + at / stride)) continue;
+            uint32_t at = (uint32_t)(cell - GN_CELLS(tile->scratch)), stride = (uint32_t)GN_K(tile->frame, tile_width);
+            if (is_cut(tile->frame, cut, tile->rect.x0 + (int32_t)(at % stride), tile->rect.y0 + (int32_t)(at / stride))) continue;
         }
 #else
         (void)tile, (void)cut;
