@@ -28,10 +28,15 @@ gn_status gn_bin_triangles(gn_frame *frame)
     /* to the end of each bin, then filled backwards so that each bin starts where it should, in triangle order */
     for (uint32_t i = 1; i <= n_tiles; i++) first[i] = (gn_ref_offset)(first[i] + first[i - 1]);
     for (uint32_t t = frame->stats.n_triangles; t-- > 0;) {
-        gn_rect px = gn_setup_bounds(frame, &frame->tri[t]), r = gn_setup_tiles(frame, &px);
-        gn_ref_offset *row = first + r.y0 * frame->tiles_x;
-        for (int32_t n = r.y1 - r.y0; n > 0; n--, row += frame->tiles_x)
-            for (int32_t x = r.x0; x < r.x1; x++) frame->tile_ref[--row[x]] = (uint16_t)t;
+        gn_rect px = gn_setup_bounds(frame, &frame->tri[t]);
+        gn_tile_walk tiles = gn_setup_tiles(frame, &px);
+        gn_ref_offset *at = first + tiles.first;
+        do {
+            int32_t n = tiles.width;
+            do frame->tile_ref[--*at++] = (uint16_t)t;
+            while (--n);
+            at += tiles.skip;
+        } while (--tiles.height);
     }
     return GN_OK;
 }

@@ -64,8 +64,8 @@ typedef struct {
     int32_t focal_shift; /* see project */
     uint32_t near_norm;  /* near, normalised */
     int32_t near_clz;
-    uint32_t tan[2]; /* cam->tan_q16 * 2^15 */
-    int narrow;      /* both less than 2: else too much for side_bits */
+    uint32_t half_q16[2]; /* the picture's, pixels */
+    int32_t near_guard;   /* inside |x|, |y| <= Z * 2^-near_guard is inside the guard band */
     uint32_t object_idx;
     const gn_object *object;
     gn_xform xform;
@@ -81,12 +81,12 @@ static inline uint32_t inverse_depth(const setup_job *job, uint32_t recip, int32
     return s ? q >> (s - 1) : q << 1 | 1U;
 }
 
-/* floor(v * scale * 2^-s), 1 <= s <= 62; the result fits 32 bits */
+/* floor(v * scale * 2^-s), below 2^27, scale in [2^29, 2^31): |v| * 2^(32 - s) < 2^30. Beyond s = 32 the last bits of v are dropped first. */
 static inline int32_t scale_down(int32_t v, int32_t scale, int32_t s)
 {
-    int64_t product = (int64_t)v * scale;
-    int32_t hi = (int32_t)(product >> 32);
-    return s >= 32 ? hi >> (s - 32) : (int32_t)((uint32_t)hi << (32 - s) | (uint32_t)product >> s);
+    int32_t shifted = s <= 32 ? (int32_t)((uint32_t)v << (32 - s)) : v >> (s - 32);
+    GN_KEEP(shifted);
+    return (int32_t)(((int64_t)shifted * scale) >> 32);
 }
 
 /* X * 2F / Z and near / Z; Z in [2^8, 2^30). The first is rounded down. */
@@ -108,11 +108,10 @@ static inline int32_t snap(int32_t q16, int32_t bits)
     return (q16 + (1 << (15 - bits))) >> (16 - bits);
 }
 
-/* Whether |v| > tan * Z, for Z > 0 and tan < 2: bit `low` if v is below, the next if it is above. */
-static inline uint32_t side_bits(int32_t v, int32_t z, uint32_t tan, uint32_t low)
+/* Bit `low` if v is below -half, the next if it is above half. */
+static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
 {
-    uint32_t most = (uint32_t)(((uint64_t)((uint32_t)z << 1) * tan) >> 32); /* < 2^31 */
-    if ((uint32_t)v + most <= 2 * most) return 0;
+    if ((uint32_t)v + half <= 2 * half) return 0;
     return v < 0 ? low : low << 1;
 }
 
@@ -128,13 +127,19 @@ static GN_NOINLINE int fill_corner(const setup_job *job, corner *c, uint32_t ver
     }
     for (int k = 0; k < 3; k++) c->v_q16[k] = v[k];
     if (v[2] < cam->near_q16) {
-        c->out = GN_OUT_NEAR << 8 | gn_outcode(v, cam->near_q16, cam->tan_q16);
+        c->out = GN_OUT_NEAR << 8 | gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
         return 1;
     }
-    uint32_t out;
-    if (!GN_SIZE_FIRST && job->narrow) out = side_bits(v[0], v[2], job->tan[0], GN_OUT_LEFT) | side_bits(v[1], v[2], job->tan[1], GN_OUT_BOTTOM);
-    else out = gn_outcode(v, cam->near_q16, cam->tan_q16);
-    if (out) out |= gn_outcode(v, cam->near_q16, cam->guard_q16) << 8;
+    uint32_t z = (uint32_t)v[2] >> job->near_guard;
+    if (!GN_SIZE_FIRST && (uint32_t)v[0] + z <= 2 * z && (uint32_t)v[1] + z <= 2 * z) {
+#if !GN_SIZE_FIRST
+        project(job, v, &c->at);
+        c->out = side_bits(c->at.x_q16, job->half_q16[0], GN_OUT_LEFT) | side_bits(-c->at.y_q16, job->half_q16[1], GN_OUT_BOTTOM);
+#endif
+        return 1;
+    }
+    uint32_t out = gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
+    if (out) out |= gn_outcode(c->v_q16, cam->near_q16, cam->guard_q16) << 8;
     c->out = out;
 #if !GN_SIZE_FIRST
     if (!(out >> 8)) project(job, v, &c->at);
@@ -223,10 +228,14 @@ gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
 
 static inline void count_tiles(gn_frame *frame, const gn_rect *px)
 {
-    gn_rect r = gn_setup_tiles(frame, px);
-    gn_ref_offset *row = frame->tile_first + r.y0 * frame->tiles_x;
-    for (int32_t n = r.y1 - r.y0; n > 0; n--, row += frame->tiles_x)
-        for (int32_t x = r.x0; x < r.x1; x++) row[x]++;
+    gn_tile_walk tiles = gn_setup_tiles(frame, px); /* of some tiles */
+    gn_ref_offset *at = frame->tile_first + tiles.first;
+    do {
+        int32_t n = tiles.width;
+        do ++*at++;
+        while (--n);
+        at += tiles.skip;
+    } while (--tiles.height);
 }
 
 /* A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel grid along each axis. Where that is little, and
@@ -385,8 +394,9 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *m
     job.focal_shift = 31 + clz;
     job.near_clz = gn_clz32((uint32_t)frame->cam.near_q16);
     job.near_norm = (uint32_t)frame->cam.near_q16 << job.near_clz;
-    for (int i = 0; i < 2; i++) job.tan[i] = (uint32_t)frame->cam.tan_q16[i] << 15;
-    job.narrow = !((frame->cam.tan_q16[0] | frame->cam.tan_q16[1]) >> 17);
+    job.half_q16[0] = (uint32_t)frame->picture.width << 15;
+    job.half_q16[1] = (uint32_t)frame->picture.height << 15;
+    for (job.near_guard = 0; gn_min32(frame->cam.guard_q16[0], frame->cam.guard_q16[1]) < 65536 >> job.near_guard;) job.near_guard++;
     frame->stats.n_triangles = 0;
     frame->stats.n_clipped = 0;
     for (uint32_t i = 0; i <= (uint32_t)frame->tiles_x * frame->tiles_y; i++) frame->tile_first[i] = 0;

@@ -17,16 +17,22 @@ void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], in
 
 gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri);
 
-/* The screen tiles that pixels of the picture lie in, as a rectangle of tiles. */
-static inline gn_rect gn_setup_tiles(const gn_frame *frame, const gn_rect *px)
+/* The screen tiles that pixels of the picture lie in, some at least: `height` rows of `width` tiles, with `skip` others between. */
+typedef struct {
+    uint32_t first;
+    int32_t width, height, skip;
+} gn_tile_walk;
+
+static inline gn_tile_walk gn_setup_tiles(const gn_frame *frame, const gn_rect *px)
 {
     uint32_t w = (uint32_t)GN_K(frame, tile_width), h = (uint32_t)GN_K(frame, tile_height); /* nothing is negative */
-    gn_rect r;
-    r.x0 = (int32_t)((uint32_t)px->x0 / w);
-    r.y0 = (int32_t)((uint32_t)px->y0 / h);
-    r.x1 = (int32_t)((uint32_t)(px->x1 - 1) / w) + 1;
-    r.y1 = (int32_t)((uint32_t)(px->y1 - 1) / h) + 1;
-    return r;
+    uint32_t x = (uint32_t)px->x0 / w, y = (uint32_t)px->y0 / h, tiles_x = frame->tiles_x;
+    gn_tile_walk tiles;
+    tiles.first = y * tiles_x + x;
+    tiles.width = (int32_t)((uint32_t)(px->x1 - 1) / w - x) + 1;
+    tiles.height = (int32_t)((uint32_t)(px->y1 - 1) / h - y) + 1;
+    tiles.skip = (int32_t)tiles_x - tiles.width;
+    return tiles;
 }
 
 #endif
