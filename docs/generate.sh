@@ -26,6 +26,10 @@ for name in radiance punctual; do
 done
 "$build/test_accuracy" --table >"$work/accuracy"
 replace ACCURACY.md accuracy "$work/accuracy"
+if [ -n "$MODELS" ]; then # meshes that are not the project's
+    "$build/test_accuracy" --models --table >"$work/models"
+    replace ACCURACY.md models "$work/models"
+fi
 "$build/test_bias" --table >"$work/bias"
 replace BIAS.md bias "$work/bias"
 "$build/test_census" --table >"$work/census"

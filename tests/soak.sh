@@ -1,21 +1,26 @@
 #!/bin/sh
 # The campaigns, each in a build of its own under the address and undefined-behaviour sanitizers, with progress on a terminal. What was run
-# goes to build/soak.log: date, campaign, seed, scenes, result. usage: [SEED=n] [SCENES=n] [CAMPAIGNS="random census"] soak.sh
+# goes to build/soak.log: date, campaign, seed, scenes, result. usage: [SEED=n] [SCENES=n] [MODELS="a.obj b.glb"] [CAMPAIGNS="random census"] soak.sh
 #
 # random    10^6 random scenes: nothing undefined, nothing changed that was kept (tests/test_random.c), some minutes
 # extremes  20000 random scenes against the reference (tests/test_extremes.c), about an hour
 # census    planes at 100 times as many angles (tests/test_census.c)
 # culling   casters left out at many more places (tests/test_culling.c)
 # math      every operand of the reciprocal and of the root (tests/test_math.c)
+# models    the accuracy of meshes that MODELS names (tests/test_accuracy.c), a minute each
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random math culling census extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random math culling census ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
 # campaign NAME SCENES: how many, unless SCENES says otherwise; 0: it has no scenes to count
 campaign() {
-    program=$build/test_$1
+    program=$build/test_$1 option=
+    case $1 in
+    extremes) option=--random ;;
+    models) program=$build/test_accuracy option=--models ;;
+    esac
     SCENES=${asked:-$2}
     if ! make -s -j2 "$program" BUILD=$build SAN="-fsanitize=address,undefined -fno-sanitize-recover=all" >$build/make 2>&1; then
         tail -n 5 $build/make
@@ -24,8 +29,6 @@ campaign() {
     fi
     echo "$1: seed $SEED$([ "$2" = 0 ] || echo ", $SCENES scenes")"
     start=$(date +%s)
-    option=
-    [ "$1" != extremes ] || option=--random
     SOAK=1 SEED=$SEED SCENES=$SCENES "$program" $option >$build/$1.out
     status=$?
     line=$(tail -n 1 $build/$1.out | grep -E '^[0-9]+ passed, [0-9]+ failed$')
@@ -41,7 +44,7 @@ for name in $CAMPAIGNS; do
     case $name in
     random) campaign random 1000000 ;;
     extremes) campaign extremes 20000 ;;
-    census | culling | math) campaign $name 0 ;;
+    census | culling | math | models) campaign $name 0 ;;
     *) echo "no such campaign: $name" && failed=$((failed + 1)) ;;
     esac
 done

@@ -168,8 +168,33 @@ static void test_values(void)
     CHECK_TALLY(flat, "equal texels blend to themselves");
 }
 
+/* Coordinates between corners: to the last bit of 2^-20, whole turns aside where they repeat, however large the texture. */
+static void test_coordinates(void)
+{
+    tally close = {0};
+    for (int i = 0; i < 20000; i++) {
+        int16_t uv[6];
+        const uint16_t idx[3] = {0, 1, 2};
+        const gn_texture t = {NULL, 9, 9, (uint8_t)(rng_u32(&random_state) & 7U)};
+        gn_mesh mesh = {.uv = uv, .n_vertices = 3};
+        gn_texture_triangle triangle;
+        mesh.uv_frac_bits = (uint8_t)rng_range(&random_state, 6, 15); /* within 512 turns */
+        for (int k = 0; k < 6; k++) uv[k] = (int16_t)rng_range(&random_state, -32768, 32767);
+        const int32_t b1 = rng_range(&random_state, 0, 1 << 30), b2 = rng_range(&random_state, 0, (1 << 30) - b1), b[2] = {b1, b2};
+        gn_texture_corners(&triangle, &mesh, &t, idx);
+        for (int k = 0; k < 2; k++) {
+            double at = uv[k] + ldexp(b1, -30) * (uv[2 + k] - uv[k]) + ldexp(b2, -30) * (uv[4 + k] - uv[k]);
+            double off = ldexp(gn_texture_coord(&triangle, &t, b, k), -20) - ldexp(at, -mesh.uv_frac_bits);
+            if (!(t.flags & (k ? GN_TEXTURE_CLAMP_V : GN_TEXTURE_CLAMP_U))) off -= floor(off + 0.5);
+            HOLDS(&close, fabs(off) <= 1.01 * 0x1p-20, "axis %d, flags %d: off by %g", k, (int)t.flags, off);
+        }
+    }
+    CHECK_TALLY(close, "gn_texture_coord");
+}
+
 int main(void)
 {
+    test_coordinates();
     test_lookups();
     test_values();
     return check_report();
