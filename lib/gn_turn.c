@@ -133,24 +133,19 @@ static uint32_t share_of(const gn_pieces *p, uint32_t attenuation)
     return p->turning.keep_uq16 + ((65536 - p->turning.keep_uq16) * (attenuation >> 1) >> 15);
 }
 
-static void each_pixel(const row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation, uint32_t share)
-{
-    for (int32_t i = 0; i < n; i++) {
-        int32_t colour[3];
-        colour_at(r, i, attenuation ? share_of(r->p, attenuation[i]) : share, colour);
-        gn_pixel_dot(r->p->frame, rows, x + i, y, colour);
-    }
-}
-
 /* Ramps as long as they may be, shorter where a light begins or ends to shine. */
-static void ramps(const row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, uint32_t share)
+static void ramps(const row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t end, uint32_t share)
 {
     int32_t from[3], to[3], step[3];
-    uint32_t lit = colour_at(r, 0, share, from);
-    for (int32_t i = 0; i < n;) {
+    uint32_t lit = colour_at(r, i, share, from);
+    while (i < end) {
+        if (i + 1 == end) {
+            gn_pixel_dot(r->p->frame, rows, x + i, y, from);
+            return;
+        }
         int32_t length = r->p->ramp_px;
         uint32_t lit_there;
-        while (length > n - i) length >>= 1;
+        while (length > end - i) length >>= 1;
         while ((lit_there = colour_at(r, i + length, share, to)) != lit && length > 1) length >>= 1;
         int32_t log2 = 31 - gn_clz32((uint32_t)length);
         for (int c = 0; c < 3; c++) step[c] = (to[c] - from[c]) >> log2;
@@ -162,6 +157,15 @@ static void ramps(const row *r, const gn_pixel_rows *rows, int32_t y, int32_t x,
     }
 }
 
+static void each_pixel(const row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation, uint32_t share)
+{
+    for (int32_t i = 0; i < n; i++) {
+        int32_t colour[3];
+        colour_at(r, i, attenuation ? share_of(r->p, attenuation[i]) : share, colour);
+        gn_pixel_dot(r->p->frame, rows, x + i, y, colour);
+    }
+}
+
 void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation, int all)
 {
     uint32_t share = share_of(p, all ? 65536 : 0);
@@ -169,8 +173,13 @@ void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32
     for (int32_t end = x + n; x < end; x += n) {
         n = gn_min32(end - x, p->tint_px);
         begin_row(&r, p, x, y, n);
-        if (attenuation || p->ramp_px < 4) each_pixel(&r, rows, y, x, n, attenuation, share);
-        else ramps(&r, rows, y, x, n, share);
+        if (p->ramp_px < 4) each_pixel(&r, rows, y, x, n, attenuation, share);
+        else if (!attenuation) ramps(&r, rows, y, x, 0, n, share);
+        for (int32_t first = 0, i = 0; attenuation && p->ramp_px >= 4 && i < n; first = i) { /* what is lit alike */
+            uint32_t here = attenuation[i++];
+            while (i < n && attenuation[i] == here) i++;
+            ramps(&r, rows, y, x, first, i, share_of(p, here));
+        }
         if (attenuation) attenuation += n;
     }
 }
