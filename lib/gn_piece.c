@@ -367,55 +367,57 @@ static int reach_of_cascades(const gn_frame *frame, const extent *e, int32_t *ca
     return REACH_NONE;
 }
 
-/* (z a) >> shift on the ray through a pixel, all modulo 2^32: the sum with the origin fits. */
-static int32_t on_ray(int32_t z_q16, int32_t a, int32_t shift)
+/* The point of a ray's plane at depth z, and its changes. With z in Q30 and `shift` bits more than 32 to drop from products, they are below
+ * 2^29 and 2^30; the sum with the origin fits. */
+static gn_slope on_ray(const gn_ray_plane *ray, int32_t px, int32_t py, int32_t z_q30, int32_t z_dx_q30, int32_t z_dy_q30, int32_t shift)
 {
-    return (int32_t)(uint32_t)(uint64_t)gn_shr64((int64_t)z_q16 * a, shift);
+    int32_t a = (int32_t)((uint32_t)ray->a0 + (uint32_t)ray->ax * (uint32_t)px + (uint32_t)ray->ay * (uint32_t)py); /* < 2^31 */
+    gn_slope out = {(int32_t)((uint32_t)(gn_mul_high(z_q30, a) >> shift) + (uint32_t)ray->d_q16),
+                    (gn_mul_high(z_dx_q30, a) + 2 * gn_mul_high(z_q30, ray->ax)) >> shift,
+                    (gn_mul_high(z_dy_q30, a) - 2 * gn_mul_high(z_q30, ray->ay)) >> shift};
+    return out;
 }
 
 #if GN_VERTEX_NORMALS
-/* So many texels, Q16, along the interpolated normal, and of that the part along an axis. */
-static gn_slope along_normal(const middle *m, const int32_t axis_q30[3], int32_t along_q16)
+/* Moves places so many texels, Q16, along the interpolated normal. */
+static void move_along_normal(gn_slope place[3], const middle *m, const int32_t axis_q30[3][3], int32_t along_q16)
 {
     const gn_slope *n = m->n_q28; /* within +-7: 3 * 2^61 */
-    int32_t at[3] = {n[0].at, n[1].at, n[2].at}, dx[3] = {n[0].dx, n[1].dx, n[2].dx}, dy[3] = {n[0].dy, n[1].dy, n[2].dy};
-    gn_slope out = {(int32_t)((gn_dot64(at, axis_q30) >> 32) * along_q16 >> 26), (int32_t)((gn_dot64(dx, axis_q30) >> 32) * along_q16 >> 26),
-                    (int32_t)((gn_dot64(dy, axis_q30) >> 32) * along_q16 >> 26)};
-    return out;
+    const int32_t at[3] = {n[0].at, n[1].at, n[2].at}, dx[3] = {n[0].dx, n[1].dx, n[2].dx}, dy[3] = {n[0].dy, n[1].dy, n[2].dy};
+    int32_t along_q22 = along_q16 * 64; /* < 2^23 * 2^6; products of Q26 and Q22 */
+    for (int i = 0; i < 3; i++) {
+        place[i].at += gn_mul_high((int32_t)(gn_dot64(at, axis_q30[i]) >> 32), along_q22);
+        place[i].dx += gn_mul_high((int32_t)(gn_dot64(dx, axis_q30[i]) >> 32), along_q22);
+        place[i].dy += gn_mul_high((int32_t)(gn_dot64(dy, axis_q30[i]) >> 32), along_q22);
+    }
 }
 #endif
 
 /* Where the light sees the piece. Returns 0 where that is not close enough to linear over the piece. */
-static int find_place(gn_pieces *p, const middle *m, const gn_rect *rect)
+static int find_place(gn_pieces *p, const middle *m, half_size half)
 {
     const gn_ortho_fit *fit = &p->view->fit.ortho;
     int32_t px = 2 * p->x + 1 - p->frame->picture.width, py = p->frame->picture.height - 1 - 2 * p->y;
-    int32_t half_w = (rect->x1 - rect->x0 + 1) >> 1, half_h = (rect->y1 - rect->y0 + 1) >> 1;
-    int32_t z_dx = -gn_mul_high(m->z_q16, m->w_dx_q30), z_dy = -gn_mul_high(m->z_q16, m->w_dy_q30); /* Q14 */
+    int32_t up = gn_clz32((uint32_t)m->z_q16) - 2, z_q30 = m->z_q16 * (1 << up), shift = fit->ray_shift + up - 32;
+    int32_t z_dx_q30 = -4 * gn_mul_high(z_q30, m->w_dx_q30), z_dy_q30 = -4 * gn_mul_high(z_q30, m->w_dy_q30); /* 2^27 */
     uint32_t most = 0, fastest = 0;
+    if (shift < 0 || shift > 31) return 0;
     for (int i = 0; i < 3; i++) {
-        const gn_ray_plane *ray = &fit->ray[i];
-        int32_t a = (int32_t)((uint32_t)ray->a0 + (uint32_t)ray->ax * (uint32_t)px + (uint32_t)ray->ay * (uint32_t)py); /* < 2^31 */
-        gn_slope *out = &p->place[i];
-        out->at = (int32_t)((uint32_t)on_ray(m->z_q16, a, fit->ray_shift) + (uint32_t)ray->d_q16 + (uint32_t)p->offset_q16[i]);
-        out->dx = (int32_t)((((int64_t)z_dx * a) * 4 + (int64_t)m->z_q16 * ray->ax * 2) >> fit->ray_shift);
-        out->dy = (int32_t)((((int64_t)z_dy * a) * 4 - (int64_t)m->z_q16 * ray->ay * 2) >> fit->ray_shift);
+        p->place[i] = on_ray(&fit->ray[i], px, py, z_q30, z_dx_q30, z_dy_q30, shift);
+        p->place[i].at = (int32_t)((uint32_t)p->place[i].at + (uint32_t)p->offset_q16[i]);
+    }
 #if GN_VERTEX_NORMALS
-        if (p->along_q16) {
-            gn_slope offset = along_normal(m, p->view->axis_q30[i], p->along_q16);
-            out->at = (int32_t)((uint32_t)out->at + (uint32_t)offset.at);
-            out->dx += offset.dx;
-            out->dy += offset.dy;
-        }
+    if (p->along_q16) move_along_normal(p->place, m, p->view->axis_q30, p->along_q16);
 #endif
-        uint32_t across = gn_abs32(out->dx) * (uint32_t)half_w + gn_abs32(out->dy) * (uint32_t)half_h;
-        if ((gn_abs32(out->dx) | gn_abs32(out->dy)) >> 22) return 0; /* 64 texels per pixel */
+    for (int i = 0; i < 3; i++) {
+        uint32_t dx = gn_abs32(p->place[i].dx), dy = gn_abs32(p->place[i].dy), across = dx * half.w + dy * half.h;
+        if ((dx | dy) >> 22) return 0; /* 64 texels per pixel */
         if (across > most) most = across;
-        if (gn_abs32(out->dx) > fastest) fastest = gn_abs32(out->dx);
-        p->cell_reach[i] = (int32_t)((gn_abs32(out->dx) + gn_abs32(out->dy)) * (GN_CELL / 2 + 1) + 2048);
+        if (dx > fastest) fastest = dx;
+        p->cell_reach[i] = (int32_t)((dx + dy) * (GN_CELL / 2 + 1) + 2048);
     }
     /* g t^2 within 1/32 texel; from end to end of a chunk of n pixels a chord bends by g t / 4 */
-    uint32_t bend_q15 = (uint32_t)(gn_abs32(m->w_dx_q30) * (uint32_t)half_w + gn_abs32(m->w_dy_q30) * (uint32_t)half_h) >> 15;
+    uint32_t bend_q15 = (gn_abs32(m->w_dx_q30) * half.w + gn_abs32(m->w_dy_q30) * half.h) >> 15;
     if ((uint64_t)most * ((bend_q15 * bend_q15) >> 15) >> 15 > 2048) return 0;
     p->chunk_px = p->varies && !p->turns ? gn_min32(GN_K(p->frame, persp_step), p->ramp_px) : GN_K(p->frame, persp_step);
     while (p->chunk_px > 1 &&
@@ -446,7 +448,7 @@ static int pick_view(gn_pieces *p, const gn_surface_light *light, int32_t cascad
 }
 
 /* What becomes of the light's shadow in the piece. Returns 0 where it fades or changes cascades. */
-static int shadow(gn_pieces *p, const middle *m, const gn_rect *rect)
+static int shadow(gn_pieces *p, const middle *m, const gn_rect *rect, half_size half)
 {
     const gn_frame *frame = p->frame;
     const gn_surface_light *light = &p->surface->light[p->shadow_slot];
@@ -467,7 +469,7 @@ static int shadow(gn_pieces *p, const middle *m, const gn_rect *rect)
         dark->dy += gn_mul_shr(lit->dy - dark->dy, (int32_t)keep, 16);
     }
     p->looks_up = reach == REACH_ALL;
-    if (p->looks_up && (!pick_view(p, light, cascade) || !find_place(p, m, rect))) return 0;
+    if (p->looks_up && (!pick_view(p, light, cascade) || !find_place(p, m, half))) return 0;
     return 1;
 }
 #endif
@@ -495,7 +497,7 @@ int gn_pieces_select(gn_pieces *p, const gn_rect *rect)
     p->x0 = rect->x0;
     p->y0 = rect->y0;
     p->cells = 0;
-    if (p->shadow_slot >= 0 && !shadow(p, &m, rect)) return 0;
+    if (p->shadow_slot >= 0 && !shadow(p, &m, rect, half)) return 0;
 #endif
     if (!p->varies) {
         p->dark_pixel = packed(p->frame, p->dark_q24);
