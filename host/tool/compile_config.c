@@ -47,9 +47,46 @@ static void fit(compiled *c, const char *knob, int *capacity, size_t n, int most
     else because(c, knob, "%zu %s", n, what);
 }
 
+static size_t tiles_of(gn_light_kind kind)
+{
+    return kind == GN_LIGHT_POINT ? 6 : 1;
+}
+
+/* Where the scene may be moved, any light may come to reach something: tiles for all that want a shadow. */
+static settings_demand with_all_tiles(const compiled *c)
+{
+    enum { TILES_MAX = 16 }; /* of an atlas */
+    settings_demand d = c->run.demand;
+    const gn_scene *now = &c->fixed.scene;
+    const gn_shadow_settings *shadow = &now->shadow;
+    size_t directional = 0, other = 0;
+    for (uint32_t i = 0; i < now->n_lights; i++) {
+        const gn_light *l = &now->lights[i];
+        if (!l->shadow_strength_uq16 || l->mode == GN_LIGHT_BAKED) continue;
+        if (l->kind == GN_LIGHT_DIRECTIONAL && !(shadow->main_light && directional)) directional += shadow->n_cascades ? shadow->n_cascades : 1;
+        else other += tiles_of(l->kind);
+    }
+    directional = directional < TILES_MAX ? directional : TILES_MAX;
+    other = other < TILES_MAX ? other : TILES_MAX;
+    if (directional > d.shadow_tiles) {
+        d.shadow_tiles = directional;
+        d.atlas_texels = (size_t)c->set.quality.atlas_size * (size_t)c->set.quality.atlas_size;
+    }
+    if (other > d.other_tiles) {
+        d.other_tiles = other;
+        d.other_atlas_texels = (size_t)c->set.quality.other_atlas_size * (size_t)c->set.quality.other_atlas_size;
+    }
+    return d;
+}
+
+static settings_demand demand_of(const compiled *c)
+{
+    return c->options->simplify == TOOL_SIMPLIFY_PATH ? c->run.demand : with_all_tiles(c);
+}
+
 static void choose_capacities(compiled *c)
 {
-    const settings_demand *d = &c->run.demand;
+    const settings_demand all = demand_of(c), *d = &all;
     settings *s = &c->set;
     fit(c, "max_width", &s->capacity.max_width, (size_t)d->width, 2048, "pixels: the picture", 0, false);
     fit(c, "max_height", &s->capacity.max_height, (size_t)d->height, 2048, "pixels: the picture", 0, false);
@@ -74,12 +111,13 @@ static void shrink_atlases(compiled *c)
     settings *s = &c->set;
     bool other = s->feature.punctual_lights || s->feature.main_light;
     if (!s->feature.shadows || !other) return;
-    if (!c->run.demand.shadow_tiles) {
+    const settings_demand d = demand_of(c);
+    if (!d.shadow_tiles) {
         s->quality.atlas_size = 16;
         s->quality.depth_bits = s->quality.other_depth_bits;
         because(c, "atlas_size", "no frame draws a directional light's shadow");
         because(c, "depth_bits", "as the other atlas: this one is not used");
-    } else if (!c->run.demand.other_tiles) {
+    } else if (!d.other_tiles) {
         s->quality.other_atlas_size = 16;
         s->quality.other_depth_bits = s->quality.depth_bits;
         because(c, "other_atlas_size", "no frame draws into it");
