@@ -112,7 +112,7 @@ tables() {
         }
         END {
             print "Compilers: " compiler "; -O2, preset balanced for the workload. M3-fast has `vertex_light` 1 (Gouraud shading: light is"
-            print "found at vertices), `persp_step` 16 and screen tiles of 320x16, which take 13 KB more than 64x16.\n"
+            print "found at vertices), `persp_step` 16 and screen tiles of 320x16, which take 28 KB more than those of 64x16.\n"
             print "The workload. Instructions per triangle + per covered pixel of everything from `gn_prepare` to the last flush; visible surfaces"
             print "are setup, binning and rasterising; shading is per triangle + per *visible* pixel.\n"
             print "| core | case | everything | visible surfaces | shading | shading, L, per visible pixel | shadow tile, L, per caster | everything, L | everything, S |"
