@@ -59,6 +59,7 @@ screen: $(if $(BOARD),,boards) ## what a board's display shows: BOARD=lm3s6965ev
 
 boards: ## list the boards
 	@for file in boards/*/board.mk; do printf "  %-20s%s\n" "$$(basename $$(dirname $$file))" "$$(sed -n "1s/^# //p" $$file)"; done
+	@$(if $(filter firmware emulate screen,$(MAKECMDGOALS)),echo "Which of them? BOARD=..." >&2; exit 1)
 
 size: ## measure flash, RAM and worst-case stack on the targets; WRITE=1 renews baseline and docs/MEMORY.md
 	@sh tests/size.sh $(if $(WRITE),--write)
@@ -150,5 +151,5 @@ endif
 
 -include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
 
-.PHONY: all help run test soak bench size matrix firmware emulate boards docs tables scenes clean test-programs
+.PHONY: all help run test soak bench size matrix firmware emulate screen boards docs tables scenes clean test-programs
 .SECONDARY:

@@ -17,6 +17,14 @@ APP ?= $(if $(filter screen,$(MAKECMDGOALS)),clock,$(if $(SCENE),play,crc))
 ifeq ($(wildcard boards/$(BOARD)/board.mk),)
 $(error There is no board '$(BOARD)': make boards lists those that there are)
 endif
+ifeq ($(wildcard boards/apps/$(APP).c),)
+$(error There is no app '$(APP)': boards/apps has $(sort $(patsubst boards/apps/%.mk,%,$(filter-out %/screen.mk,$(wildcard boards/apps/*.mk))) play))
+endif
+ifneq ($(PRESET),)
+ifeq ($(filter tiny balanced accurate,$(PRESET)),)
+$(error PRESET='$(PRESET)' is none of tiny, balanced, accurate)
+endif
+endif
 ifneq ($(SCENE),)
 ifneq ($(words $(SCENE)),1)
 $(error SCENE='$(SCENE)': make knows no file names with blanks in them)
@@ -117,8 +125,12 @@ endif
 SCREEN_OUT ?= $(FIRMWARE:.elf=.ppm)
 run-screen: ARGS ?= 09:40 10:00
 run-screen: $(FIRMWARE) $(BUILD)/capture $(BUILD)/ppm
+ifneq ($(BOARD_EMULATOR),)
 	@$(BUILD)/capture $(or $(TIMEOUT),60) 'READY $(lastword $(ARGS))' $(SCREEN_OUT) $(EMULATE)
 	@$(BUILD)/ppm png $(SCREEN_OUT) $(SCREEN_OUT:.ppm=.png) && echo $(SCREEN_OUT:.ppm=.png)
+else
+	@echo "$(BOARD) is built, not run: no emulator has it" && exit 1
+endif
 
 $(BUILD)/libstages.so: boards/tools/stage_plugin.c boards/tools/tcg_plugin.h
 	@mkdir -p $(@D)

@@ -25,8 +25,9 @@ static int faulty(const test_bus *b, bus_fault fault)
     return b->fault == fault && b->n_transfers == b->fault_at;
 }
 
-static panel_status begin(test_bus *b, const uint8_t *bytes, size_t n, int is_data)
+static panel_status write(void *user, const uint8_t *bytes, size_t n, int is_data)
 {
+    test_bus *b = (test_bus *)user;
     b->n_calls++;
     b->model->now_us += POLL_US;
     if (b->under_way) model_reject(b->model, "a transfer while another is under way", 0);
@@ -49,16 +50,6 @@ static panel_status begin(test_bus *b, const uint8_t *bytes, size_t n, int is_da
     b->under_way = 1;
     if (is_data) b->n_data_bytes += n;
     return PANEL_OK;
-}
-
-static panel_status write_command(void *user, const uint8_t *bytes, size_t n)
-{
-    return begin((test_bus *)user, bytes, n, 0);
-}
-
-static panel_status write_data(void *user, const uint8_t *bytes, size_t n)
-{
-    return begin((test_bus *)user, bytes, n, 1);
 }
 
 static panel_status end(test_bus *b, size_t n, panel_status status)
@@ -113,8 +104,7 @@ void test_bus_init(test_bus *b, panel_model *model, int with_reset_line)
     memset(b, 0, sizeof *b);
     b->model = model;
     panel_bus bus = {.user = b,
-                     .write_command = write_command,
-                     .write_data = write_data,
+                     .write = write,
                      .wait = wait,
                      .delay_us = delay_us,
                      .reset = with_reset_line ? reset : NULL,

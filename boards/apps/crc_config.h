@@ -1,5 +1,7 @@
 /* So small that it runs on every board. */
-#define GN_PRESET         GN_PRESET_TINY
+#ifndef GN_PRESET
+#define GN_PRESET GN_PRESET_TINY
+#endif
 #define GN_MAX_WIDTH      64
 #define GN_MAX_HEIGHT     48
 #define GN_MAX_TRIANGLES  16

@@ -1,5 +1,7 @@
 /* A lit scene with a filtered shadow, 128 x 128 pixels, in 16 KB of RAM with everything. */
-#define GN_PRESET           GN_PRESET_TINY
+#ifndef GN_PRESET
+#define GN_PRESET GN_PRESET_TINY
+#endif
 #define GN_MAX_WIDTH        128
 #define GN_MAX_HEIGHT       128
 #define GN_MAX_TRIANGLES    56

@@ -131,9 +131,28 @@ static void check_products(void)
     }
 }
 
+/* ---- Before DMA ------------------------------------------------------------------------------------------------------ */
+
+#ifdef GN_PORT
+/* What is in memory afterwards an emulator without caches cannot show; that any alignment and length is taken, and nothing changed, it can. */
+static void check_before_dma(void)
+{
+    static uint8_t bytes[200];
+    for (size_t i = 0; i < sizeof bytes; i++) bytes[i] = (uint8_t)(i * 7);
+    for (size_t at = 0; at < 40; at++)
+        for (size_t n = 0; n < 150; n += 29) gn_port_before_dma(bytes + at, n);
+    uint32_t n_changed = 0;
+    for (size_t i = 0; i < sizeof bytes; i++) n_changed += bytes[i] != (uint8_t)(i * 7);
+    check(n_changed == 0);
+}
+#endif
+
 int app_main(void)
 {
     check_dark_texels();
+#ifdef GN_PORT
+    check_before_dma();
+#endif
     check_memset();
     check_products();
     board_print_u32(n_checked);

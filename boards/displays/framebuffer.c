@@ -2,9 +2,8 @@
 
 #include <string.h>
 
-static panel_status open_window(void *user, const uint8_t *bytes, size_t n)
+static panel_status open_window(framebuffer *f, const uint8_t *bytes, size_t n)
 {
-    framebuffer *f = (framebuffer *)user;
     if (n != 8) return PANEL_ERR_BUS;
     for (int i = 0; i < 4; i++) f->window[i] = (uint16_t)(bytes[2 * i] | bytes[2 * i + 1] << 8);
     f->at_bytes = 0;
@@ -12,9 +11,8 @@ static panel_status open_window(void *user, const uint8_t *bytes, size_t n)
     return inside ? PANEL_OK : PANEL_ERR_BUS;
 }
 
-static panel_status copy(void *user, const uint8_t *bytes, size_t n)
+static panel_status copy(framebuffer *f, const uint8_t *bytes, size_t n)
 {
-    framebuffer *f = (framebuffer *)user;
     uint32_t row_bytes = 2U * f->window[2];
     if (n > row_bytes * f->window[3] - f->at_bytes) return PANEL_ERR_BUS;
     while (n > 0) {
@@ -26,6 +24,12 @@ static panel_status copy(void *user, const uint8_t *bytes, size_t n)
         n -= part;
     }
     return PANEL_OK;
+}
+
+static panel_status write(void *user, const uint8_t *bytes, size_t n, int is_data)
+{
+    framebuffer *f = (framebuffer *)user;
+    return is_data ? copy(f, bytes, n) : open_window(f, bytes, n);
 }
 
 static panel_status idle(void *user)
@@ -42,6 +46,6 @@ static void no_delay(void *user, uint32_t us)
 
 void framebuffer_bus(framebuffer *f, panel_bus *bus)
 {
-    panel_bus b = {.user = f, .write_command = open_window, .write_data = copy, .wait = idle, .delay_us = no_delay, .max_polls = 1};
+    panel_bus b = {.user = f, .write = write, .wait = idle, .delay_us = no_delay, .max_polls = 1};
     *bus = b;
 }

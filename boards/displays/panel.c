@@ -37,12 +37,10 @@ static panel_status settle(panel *p)
     return lose(p, PANEL_ERR_TIMEOUT);
 }
 
-typedef panel_status (*bus_write)(void *user, const uint8_t *bytes, size_t n);
-
-static panel_status start(panel *p, bus_write write, const uint8_t *bytes, size_t n)
+static panel_status start(panel *p, const uint8_t *bytes, size_t n, int is_data)
 {
     for (uint32_t i = 0; i < p->bus.max_polls; i++) {
-        panel_status status = write(p->bus.user, bytes, n);
+        panel_status status = p->bus.write(p->bus.user, bytes, n, is_data);
         if (status == PANEL_OK) return PANEL_OK;
         if (status != PANEL_BUSY) return lose(p, status);
     }
@@ -57,10 +55,10 @@ panel_status panel_send(panel *p, const uint8_t *bytes, size_t n)
     panel_status status = settle(p);                       /* before the bytes of the last command are overwritten */
     if (status) return status;
     memcpy(p->command, bytes, n);
-    status = start(p, p->bus.write_command, p->command, n_low);
+    status = start(p, p->command, n_low, 0);
     if (status || n == n_low) return status;
     status = settle(p);
-    return status ? status : start(p, p->bus.write_data, p->command + n_low, n - n_low);
+    return status ? status : start(p, p->command + n_low, n - n_low, 1);
 }
 
 panel_status panel_send_1(panel *p, uint8_t command)
@@ -148,7 +146,7 @@ static panel_status reset(panel *p)
 panel_status panel_init(panel *p, const panel_driver *driver, const panel_config *config, const panel_bus *bus)
 {
     if (!p || !driver || !config || !bus) return PANEL_ERR_NULL;
-    if (!bus->write_command || !bus->write_data || !bus->wait || !bus->delay_us) return PANEL_ERR_NULL;
+    if (!bus->write || !bus->wait || !bus->delay_us) return PANEL_ERR_NULL;
     if (bus->max_polls == 0) return PANEL_ERR_CONFIG;
     panel fresh = {.driver = driver, .bus = *bus, .config = *config};
     *p = fresh;
@@ -251,7 +249,7 @@ panel_status panel_stream(panel *p, const uint8_t *bytes, size_t n)
     if (n > p->left_bytes) return p->left_bytes ? PANEL_ERR_LENGTH : PANEL_ERR_ORDER;
     if (n == 0) return PANEL_OK;
     status = settle(p);
-    if (!status) status = start(p, p->bus.write_data, bytes, n);
+    if (!status) status = start(p, bytes, n, 1);
     if (!status) p->left_bytes -= (uint32_t)n;
     return status;
 }

@@ -42,11 +42,10 @@ const char *panel_status_text(panel_status status);
 typedef struct {
     void *user;
 
-    /* Starts to send n >= 1 bytes with the data/command line low (command) or high (data), and returns. The bytes stay where they
+    /* Starts to send n >= 1 bytes with the data/command line low (commands) or high (data), and returns. The bytes stay where they
      * are until wait() has said PANEL_OK. PANEL_BUSY: not now, nothing was taken, ask again. A bus without DMA may send them at
-     * once. */
-    panel_status (*write_command)(void *user, const uint8_t *bytes, size_t n);
-    panel_status (*write_data)(void *user, const uint8_t *bytes, size_t n);
+     * once; one with DMA calls gn_port_before_dma() of the port first. */
+    panel_status (*write)(void *user, const uint8_t *bytes, size_t n, int is_data);
 
     /* PANEL_OK: nothing is under way, all of it has arrived and the data/command line may change. PANEL_BUSY: ask again. Else: what
      * went wrong. */

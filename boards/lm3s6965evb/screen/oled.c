@@ -68,22 +68,13 @@ typedef struct {
     size_t left;
 } transfer;
 
-static panel_status begin(transfer *t, const uint8_t *bytes, size_t n, int is_data)
+static panel_status write(void *user, const uint8_t *bytes, size_t n, int is_data)
 {
+    transfer *t = (transfer *)user;
     set_pin(GPIO_C, PIN_COMMAND, is_data);
     t->next = bytes;
     t->left = n;
     return PANEL_OK;
-}
-
-static panel_status write_command(void *user, const uint8_t *bytes, size_t n)
-{
-    return begin((transfer *)user, bytes, n, 0);
-}
-
-static panel_status write_data(void *user, const uint8_t *bytes, size_t n)
-{
-    return begin((transfer *)user, bytes, n, 1);
 }
 
 static panel_status wait(void *user)
@@ -113,8 +104,7 @@ panel_status screen_open(panel *p, display *d)
     static transfer t;
     static uint8_t buffer[2][TILE_BYTES];
     const panel_bus bus = {.user = &t,
-                           .write_command = write_command,
-                           .write_data = write_data,
+                           .write = write,
                            .wait = wait,
                            .delay_us = delay_us,
                            .abandon = abandon,
@@ -123,10 +113,6 @@ panel_status screen_open(panel *p, display *d)
     set_up_pins();
     panel_status status = panel_init(p, &panel_ssd0323, &config, &bus);
     if (status) return status;
-    d->panel = p;
-    d->format = GN_FORMAT_GREY4;
-    d->buffer[0] = buffer[0];
-    d->buffer[1] = buffer[1];
-    d->buffer_bytes = sizeof buffer[0];
+    *d = (display){.panel = p, .format = GN_FORMAT_GREY4, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
     return display_init(d);
 }

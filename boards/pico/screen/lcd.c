@@ -2,6 +2,7 @@
  * It has no reset line. DMA channel 0 feeds the transmitter. */
 #include "../../common/systick.h"
 #include "../../displays/screen.h"
+#include "gn_port.h"
 
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 #define ATOMIC_CLEAR      0x3000U /* a write to the alias clears the bits */
@@ -83,27 +84,16 @@ static void set_up_pins(void)
 
 /* ---- The bus ---------------------------------------------------------------------------------------------------------------- */
 
-static panel_status begin(const uint8_t *bytes, size_t n, int is_data)
+static panel_status write(void *user, const uint8_t *bytes, size_t n, int is_data)
 {
+    (void)user;
     set_pin(PIN_COMMAND, is_data);
     REGISTER(DMA_READ) = (uint32_t)(uintptr_t)bytes;
     REGISTER(DMA_WRITE) = SPI_DR;
     REGISTER(DMA_COUNT) = (uint32_t)n;
-    __asm__ volatile("dmb" ::: "memory"); /* the bytes are in memory */
+    gn_port_before_dma(bytes, n);
     REGISTER(DMA_CONTROL) = DMA_ON_BYTES;
     return PANEL_OK;
-}
-
-static panel_status write_command(void *user, const uint8_t *bytes, size_t n)
-{
-    (void)user;
-    return begin(bytes, n, 0);
-}
-
-static panel_status write_data(void *user, const uint8_t *bytes, size_t n)
-{
-    (void)user;
-    return begin(bytes, n, 1);
 }
 
 static panel_status wait(void *user)
@@ -131,9 +121,8 @@ static void delay_us(void *user, uint32_t us)
 
 panel_status screen_open(panel *p, display *d)
 {
-    static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.write_command = write_command,
-                           .write_data = write_data,
+    GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
+    const panel_bus bus = {.write = write,
                            .wait = wait,
                            .delay_us = delay_us,
                            .abandon = abandon,
@@ -142,10 +131,6 @@ panel_status screen_open(panel *p, display *d)
     set_up_pins();
     panel_status status = panel_init(p, &panel_st7789, &config, &bus);
     if (status) return status;
-    d->panel = p;
-    d->format = GN_FORMAT_SCREEN;
-    d->buffer[0] = buffer[0];
-    d->buffer[1] = buffer[1];
-    d->buffer_bytes = sizeof buffer[0];
+    *d = (display){.panel = p, .format = GN_FORMAT_SCREEN, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
     return display_init(d);
 }

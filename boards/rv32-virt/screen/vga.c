@@ -66,8 +66,7 @@ panel_status screen_open(panel *p, display *d)
     set_mode(card);
     framebuffer_bus(&f, &bus);
     status = panel_init(p, &panel_linear, &config, &bus);
-    d->panel = p;
-    d->format = GN_FORMAT_RGB565;
-    d->buffer[0] = d->buffer[1] = NULL; /* memory is there at once: nothing to overlap with */
-    return status ? status : display_init(d);
+    if (status) return status;
+    *d = (display){.panel = p, .format = GN_FORMAT_RGB565}; /* no buffers: memory is there at once, nothing to overlap with */
+    return display_init(d);
 }

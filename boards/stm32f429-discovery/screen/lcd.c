@@ -2,6 +2,7 @@
  * high. Its reset line is the board's. Stream 4 of DMA2 feeds the transmitter. */
 #include "../../common/systick.h"
 #include "../../displays/screen.h"
+#include "gn_port.h"
 
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 
@@ -89,8 +90,9 @@ static void set_up_pins(void)
 
 /* ---- The bus ---------------------------------------------------------------------------------------------------------------- */
 
-static panel_status begin(const uint8_t *bytes, size_t n, int is_data)
+static panel_status write(void *user, const uint8_t *bytes, size_t n, int is_data)
 {
+    (void)user;
     if (n > DMA_MOST) return PANEL_ERR_LENGTH;
     set_pin(PORT_D, PIN_COMMAND, is_data);
     REGISTER(DMA_CLEAR) = DMA_FLAGS;
@@ -98,21 +100,9 @@ static panel_status begin(const uint8_t *bytes, size_t n, int is_data)
     REGISTER(DMA_PERIPHERAL) = SPI_DR;
     REGISTER(DMA_MEMORY) = (uint32_t)(uintptr_t)bytes;
     REGISTER(DMA_COUNT) = (uint32_t)n;
-    __asm__ volatile("dmb" ::: "memory"); /* the bytes are in memory */
+    gn_port_before_dma(bytes, n);
     REGISTER(DMA_CONTROL) = DMA_BYTES | DMA_ON;
     return PANEL_OK;
-}
-
-static panel_status write_command(void *user, const uint8_t *bytes, size_t n)
-{
-    (void)user;
-    return begin(bytes, n, 0);
-}
-
-static panel_status write_data(void *user, const uint8_t *bytes, size_t n)
-{
-    (void)user;
-    return begin(bytes, n, 1);
 }
 
 /* The stream switches itself off at its end. */
@@ -141,9 +131,8 @@ static void delay_us(void *user, uint32_t us)
 
 panel_status screen_open(panel *p, display *d)
 {
-    static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.write_command = write_command,
-                           .write_data = write_data,
+    GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
+    const panel_bus bus = {.write = write,
                            .wait = wait,
                            .delay_us = delay_us,
                            .abandon = abandon,
@@ -152,10 +141,6 @@ panel_status screen_open(panel *p, display *d)
     set_up_pins();
     panel_status status = panel_init(p, &panel_ili9341, &config, &bus);
     if (status) return status;
-    d->panel = p;
-    d->format = GN_FORMAT_SCREEN;
-    d->buffer[0] = buffer[0];
-    d->buffer[1] = buffer[1];
-    d->buffer_bytes = sizeof buffer[0];
+    *d = (display){.panel = p, .format = GN_FORMAT_SCREEN, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
     return display_init(d);
 }
