@@ -11,7 +11,7 @@
  *   gn_screen_tile  gn_raster   visible surfaces: depth and triangle per pixel, by exact edge walkers (gn_walk)
  *                   gn_runs     what is visible of each triangle, as runs of pixels
  *                   gn_shade    a triangle at a time (gn_surface), piece by piece (gn_piece, gn_piecerow, gn_turn) or by pixels (gn_sample,
- *                               gn_chord between them): light (gn_light, gn_punctual), shadow (gn_shadow, gn_filter),
+ *                               gn_chord between them): light (gn_light, gn_arrival, gn_punctual), shadow (gn_shadow, gn_filter),
  *                               encode (gn_pixel)
  *                   flush
  */

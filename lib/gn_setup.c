@@ -244,12 +244,12 @@ static inline void store_depth(gn_tri *tri, const depth_range *depth, int32_t la
 {
     uint32_t steepness = (gn_abs32(depth->dx) >> 1) + (gn_abs32(depth->dy) >> 1);
     uint32_t reach = (steepness >> bits) + 4096; /* and roundings of 2^13 steps */
-    int free = !(reach >> 18) && depth->least > reach && depth->largest < UINT32_MAX - reach;
+    int unlimited = !(reach >> 18) && depth->least > reach && depth->largest < UINT32_MAX - reach;
     tri->iz_ref = depth->ref;
     tri->iz_dx = depth->dx;
     tri->iz_dy = depth->dy;
-    tri->iz_min = (uint16_t)(free ? (uint32_t)lasts + 1 : depth->least >> 16);
-    tri->iz_max = (uint16_t)(free ? 0 : depth->largest >> 16);
+    tri->iz_min = (uint16_t)(unlimited ? (uint32_t)lasts + 1 : depth->least >> 16);
+    tri->iz_max = (uint16_t)(unlimited ? 0 : depth->largest >> 16);
 }
 
 /* A corner on the subpixel grid. */

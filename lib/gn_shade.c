@@ -79,7 +79,7 @@ static void shade_pixel(gn_shading *s, gn_sample *sample, int32_t x, int32_t y)
 }
 
 /* What arrives there from spot and point lights. */
-static void arrive(shading *s, gn_sample *sample)
+static void find_arrivals(shading *s, gn_sample *sample)
 {
 #if GN_PUNCTUAL_LIGHTS
     gn_arrivals_at(s->frame, &s->surface, sample);
@@ -116,7 +116,7 @@ static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
     gn_chord *chord = &s->by.run.chord;
     gn_sample *here = &s->by.run.sample[0], *next = &s->by.run.sample[1];
     gn_sample_at(s->frame, &s->surface, x_begin, y, here);
-    arrive(s, here);
+    find_arrivals(s, here);
     shade_pixel(s, here, x_begin, y);
     for (int32_t x = x_begin; x < x_end - 1;) {
         int32_t n = gn_min32(step_px, x_end - 1 - x);
@@ -125,7 +125,7 @@ static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
             n >>= 1;
             gn_sample_at(s->frame, &s->surface, x + n, y, next);
         }
-        arrive(s, next);
+        find_arrivals(s, next);
         if (n > 1) shade_chord(s, here, next, x, y, n);
         gn_sample *swap = here;
         here = next;
