@@ -128,6 +128,12 @@ static void looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t
         step.depth_q31 = step_of(from.depth_q31, to.depth_q31, n - 1);
     }
     gn_filter_row(p->frame, p->view, &from, &to, &step, n, attenuation);
+    int32_t alike = 1;
+    while (alike < n && attenuation[alike] == attenuation[0]) alike++;
+    if (alike == n && attenuation[0] - 1 >= 65535) { /* all or nothing, as most short rows */
+        plain_row(p, rows, y, x, n, attenuation[0] != 0);
+        return;
+    }
 #if GN_TURNING
     if (p->turns) {
         gn_turn_row(p, rows, y, x, n, attenuation, 0);
