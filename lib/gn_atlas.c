@@ -250,7 +250,8 @@ static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
     return GN_OK;
 }
 
-static gn_status draw_object(gn_frame *frame, gn_casting *casting, const gn_light_view *view, uint32_t object_idx)
+/* Not inlined: gcc 12 at -Os takes the view's axes for a part of what it computes a pointer to, and warns of them. */
+static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, const gn_light_view *view, uint32_t object_idx)
 {
     caster_job *job = &casting->job;
     job->frame = frame;

@@ -107,6 +107,14 @@ for name in sundial room mixed-tiny short; do
     else fail "$name: code is said to be ${said#* } bytes, is $code: sh host/tool/gen_flash.sh > host/tool/flash_table.h"; fi
 done
 
+# the library for it, where size comes first: no warning
+root=$PWD
+mkdir -p "$tmp/objects"
+for name in mixed room; do
+    (cd "$tmp/objects" && arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -std=c99 -Os $warn -ffreestanding -isystem "$root/boards/common/include" -I"$root/lib" -I"$root/$tmp/$name" \
+        '-DGN_USER_CONFIG="gn_scene_config.h"' -c "$root"/lib/*.c) >"$tmp/log" 2>&1 && pass || fail "$name: the library at -Os: $(grep -m 1 -E 'error|warning' "$tmp/log")"
+done
+
 # ---- Boards ------------------------------------------------------------------------------------------------------------------------
 
 "$tool" compile docs/scenes/near.gltf -o "$tmp/near" --board microbit --size 128x64 --set preset=tiny >"$tmp/out" 2>&1 && pass || fail "near.gltf does not fit a micro:bit: $(cat "$tmp/out")"
