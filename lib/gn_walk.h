@@ -11,6 +11,8 @@
 
 #include <stdint.h>
 
+#include "gn_q.h"
+
 /* M / dy of the current row, rounded up to a pixel in q. */
 typedef struct {
     int32_t q, r;   /* quotient and remainder, 0 <= r < dy */
@@ -56,6 +58,7 @@ static inline int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
 /* How many rows fixed point lasts for a triangle of that size, dx | dy of its edges, not further than 2^12 pixels from 0: 16, 8 or none. */
 static inline int32_t gn_walk_lasts(uint32_t size)
 {
+    if (GN_SIZE_FIRST) return 0; /* exact steps do all */
     return size >= 2 * GN_FIXED_SMALL ? 0 : size >= GN_FIXED_SMALL ? GN_WALK_ROWS / 2 : GN_WALK_ROWS;
 }
 
