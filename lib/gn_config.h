@@ -220,6 +220,9 @@
 #ifndef GN_OBJECT_BOXES
 #define GN_OBJECT_BOXES 1
 #endif
+#ifndef GN_CLIPPING
+#define GN_CLIPPING 1
+#endif
 #ifndef GN_CASTER_CLIPPING
 #define GN_CASTER_CLIPPING 1
 #endif

@@ -90,6 +90,8 @@
     X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance (A2)", "flash")                                            \
     X(object_boxes, OBJECT_BOXES, 0, 1,                                                                                            \
       "casters whose box a shadow tile does not see are passed over", "flash, 24 bytes per object; the same picture with and without")\
+    X(clipping, CLIPPING, 0, 1,                                                                                                    \
+      "visible triangles may come nearer than the near plane, or reach far beyond the picture; without, the frame is refused", "flash") \
     X(caster_clipping, CASTER_CLIPPING, 0, 1,                                                                                      \
       "directional casters may reach more than 8192 texels beyond their tile; without, they may be refused", "flash")                \
     X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")                   \

@@ -44,12 +44,15 @@ typedef struct {
     uint32_t iz_q32;      /* near / Z */
 } projected;
 
+/* Whether a vertex is projected once. Where size comes first, every triangle is looked at as one that is clipped. */
+#define CACHED_PROJECTION (!GN_SIZE_FIRST || !GN_CLIPPING)
+
 /* A vertex as triangles need it. */
 typedef struct {
     uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
     int32_t v_q16[3];
     uint32_t out;    /* outside of which planes: of the picture, of the guard band << 8 */
-#if !GN_SIZE_FIRST
+#if CACHED_PROJECTION
     projected at; /* if in the guard band */
 #endif
 } corner;
@@ -119,9 +122,14 @@ static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
 static GN_NOINLINE int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
 {
     const gn_cam *cam = &job->frame->cam;
-    int32_t v[3];
     c->tag = 0;
-    if (GN_SIZE_FIRST || !gn_xform_fast_inline(v, &job->fast, job->object->mesh->pos + 3 * (size_t)vertex_idx)) {
+#if GN_SIZE_FIRST
+    const int32_t *v = c->v_q16;
+    if (!view_position(c->v_q16, &job->xform, job->object->mesh, vertex_idx)) return 0;
+    c->out = gn_outcode(v, cam->near_q16, cam->tan_q16) | gn_outcode(v, cam->near_q16, cam->guard_q16) << 8;
+#else
+    int32_t v[3];
+    if (!gn_xform_fast_inline(v, &job->fast, job->object->mesh->pos + 3 * (size_t)vertex_idx)) {
         if (!view_position(c->v_q16, &job->xform, job->object->mesh, vertex_idx)) return 0;
         for (int k = 0; k < 3; k++) v[k] = c->v_q16[k];
     }
@@ -131,18 +139,17 @@ static GN_NOINLINE int fill_corner(const setup_job *job, corner *c, uint32_t ver
         return 1;
     }
     uint32_t z = (uint32_t)v[2] >> job->near_guard;
-    if (!GN_SIZE_FIRST && (uint32_t)v[0] + z <= 2 * z && (uint32_t)v[1] + z <= 2 * z) {
-#if !GN_SIZE_FIRST
+    if ((uint32_t)v[0] + z <= 2 * z && (uint32_t)v[1] + z <= 2 * z) {
         project(job, v, &c->at);
         c->out = side_bits(c->at.x_q16, job->half_q16[0], GN_OUT_LEFT) | side_bits(-c->at.y_q16, job->half_q16[1], GN_OUT_BOTTOM);
-#endif
         return 1;
     }
     uint32_t out = gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
     if (out) out |= gn_outcode(c->v_q16, cam->near_q16, cam->guard_q16) << 8;
     c->out = out;
-#if !GN_SIZE_FIRST
-    if (!(out >> 8)) project(job, v, &c->at);
+#endif
+#if CACHED_PROJECTION
+    if (!(c->out >> 8)) project(job, v, &c->at);
 #endif
     return 1;
 }
@@ -299,6 +306,7 @@ static GN_NOINLINE void emit(const setup_job *job, const projected *p0, const pr
     store_depth(tri, &depth, gn_walk_lasts((uint32_t)(right - left) | (uint32_t)(bottom - a.y)), bits);
 }
 
+#if GN_CLIPPING
 /* A cut vertex may miss the guard band by a rounding of view space, which a long focal length magnifies. */
 static GN_NOINLINE void project_cut(const setup_job *job, const int32_t v_q16[3], projected *at)
 {
@@ -329,18 +337,25 @@ static GN_NOINLINE void general_triangle(const setup_job *job, const corner *con
     }
 }
 
-static void setup_triangle(const setup_job *job, const corner *const c[3], uint32_t triangle_idx)
+#endif
+
+static gn_status setup_triangle(const setup_job *job, const corner *const c[3], uint32_t triangle_idx)
 {
     GN_COUNT(triangles, 1);
-    if (c[0]->out & c[1]->out & c[2]->out & GN_OUT_ALL) return;
+    if (c[0]->out & c[1]->out & c[2]->out & GN_OUT_ALL) return GN_OK;
     uint32_t outside = (c[0]->out | c[1]->out | c[2]->out) >> 8;
-    if (GN_SIZE_FIRST || outside) {
+#if GN_CLIPPING
+    if (!CACHED_PROJECTION || outside) {
         general_triangle(job, c, outside, triangle_idx);
-        return;
+        return GN_OK;
     }
-#if !GN_SIZE_FIRST
+#else
+    if (outside) return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
+#endif
+#if CACHED_PROJECTION
     emit(job, &c[0]->at, &c[1]->at, &c[2]->at, triangle_idx);
 #endif
+    return GN_OK;
 }
 
 /* ---- Objects ------------------------------------------------------------------------------------------------------- */
@@ -374,8 +389,8 @@ static gn_status setup_object(setup_job *job)
     if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
         gn_status status = fetch_corners(job, mesh->idx + 3 * (size_t)t, spare, c);
+        if (!status) status = setup_triangle(job, c, t);
         if (status) return status;
-        setup_triangle(job, c, t);
     }
     return GN_OK;
 }

@@ -50,7 +50,8 @@ extern "C" {
                                "or no inverse")                                                                                    \
     X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, or more than 30 fraction bits")                              \
     X(GN_ERR_MESH_INDEX, "mesh index is not below its vertex count")                                                               \
-    X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera or a spot or point light")          \
+    X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera or a spot or point light, or a triangle would have to " \
+                             "be clipped and that is not built in")                                                              \
     X(GN_ERR_COLOUR, "colour, albedo or ambient out of range")                                                                     \
     X(GN_ERR_TEXTURE,                                                                                                              \
       "texture without texels or above 4096 per side, or texture coordinates are missing or have more than 15 fraction bits")      \

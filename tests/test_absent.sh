@@ -103,6 +103,7 @@ VALIDATION gn_scene_validate|check_.*light
 OTHER_FORMATS luminance_q20|fill_(grey4|mono)
 TILE_IMPORTANCE sizes_by_importance|weight_of
 OBJECT_BOXES gn_cull_sees|.*_sees
+CLIPPING project_cut|general_triangle
 CASTER_CLIPPING clip_side|clip_to_reach
 LIST
 

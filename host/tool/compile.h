@@ -45,6 +45,7 @@ typedef struct {
     int differs;        /* the first frame that is another picture than wanted; -1: none */
     settings_demand demand;
     int peak_triangles, peak_tile_refs; /* the frames that took most, from 0 */
+    size_t clipped;                     /* visible triangles that were */
     size_t culled;                      /* casters left out by D8 */
     size_t caster_triangles;
     double instructions, lookups; /* by the model of cost; of shadows */

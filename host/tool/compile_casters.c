@@ -53,6 +53,10 @@ int compile_reach_texels(const compile_run *run, bool boxes)
 
 int compile_check_reach(const compiled *c, char *error, size_t error_bytes)
 {
+    if (!c->asked.feature.clipping && c->run.clipped) {
+        snprintf(error, error_bytes, "setting 'clipping': 0, and %zu triangles of all frames are clipped", c->run.clipped);
+        return -1;
+    }
     const bool boxes = c->asked.feature.object_boxes && c->run.casters_unseen;
     const int reach = compile_reach_texels(&c->run, boxes);
     if (c->asked.feature.caster_clipping || !c->asked.feature.shadows || reach < COMPILE_REACH_MAX) return 0;

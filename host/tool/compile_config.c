@@ -260,6 +260,9 @@ static void choose_casters(compiled *c)
 {
     settings *s = &c->set;
     const bool path = c->options->simplify == TOOL_SIMPLIFY_PATH;
+    if (path && !c->run.clipped) s->feature.clipping = 0;
+    because(c, "clipping", path ? "visible triangles that are clipped, all frames: %zu" : "scenes of --simplify none and safe may be moved otherwise",
+            c->run.clipped);
     if (!s->feature.shadows || !c->run.casters_unseen) s->feature.object_boxes = 0;
     because(c, "object_boxes", "casters that a shadow tile does not see, all frames: %zu", c->run.casters_unseen);
     const int reach = compile_reach_texels(&c->run, s->feature.object_boxes);

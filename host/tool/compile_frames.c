@@ -141,6 +141,7 @@ static void take_frame(compile_run *run, const compile_stage *st, int i)
     const count_all counts = st->counts;
     engine_demand(st->renderer, &demand);
     take_demand(run, &demand, i);
+    run->clipped += stats->n_clipped;
     run->culled += stats->n_casters_culled;
     run->caster_triangles += stats->n_caster_triangles;
     run->instructions += cost_instructions(&counts);

@@ -56,6 +56,7 @@ long flash_estimate(const settings *s, flash_core core)
     if (s->feature.shadows) bytes += of_shadows(s, core);
     else bytes += s->feature.punctual_lights ? punctual_unshadowed_bytes[core] : no_shadows_bytes[core];
     if (s->feature.validation) bytes += validation_bytes[core];
+    if (s->feature.clipping) bytes += clipping_bytes[core];
     if (s->feature.other_formats) bytes += other_formats_bytes[core];
     if (s->feature.tile_lights) bytes += tile_lights_bytes[core];
     if (!s->quality.srgb) bytes += linear_bytes[core];
