@@ -41,7 +41,14 @@ flags_of() {
     tiny) echo -DGN_PRESET=0 ;;
     balanced) echo -DGN_PRESET=1 ;;
     accurate) echo -DGN_PRESET=2 ;;
-    full) for feature in $features; do [ "$feature" = FILTER_MAX ] || echo "-DGN_$feature=1"; done ;;
+    full) # every feature of the specification, in one way each: without pieces and parabolas, bounds of depth and boxes, which only save time
+        for feature in $features; do
+            case $feature in
+            DEPTH_BLOCKS | OBJECT_BOXES) echo "-DGN_$feature=0" ;;
+            *) [ "$feature" = FILTER_MAX ] || echo "-DGN_$feature=1" ;;
+            esac
+        done
+        echo "-DGN_PERSP_STEP=1" ;;
     *) sed -n "s|^$1 ||p" "$list" ;;
     esac
 }

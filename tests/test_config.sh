@@ -10,7 +10,7 @@ host_knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1//') # the tool alone c
 strict="-std=c99 -pedantic $warn -Ilib"
 sh tests/one_file.sh lib >"$tmp/lib.c"
 
-features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e VALIDATION)
+features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e VALIDATION -e "^CLIPPING")
 # flags WORD...: "none" and "all" of the features, "tiny"..., NAME=VALUE of a knob, or a flag as it is; of a name the last value counts
 flags() {
     for word in "$@"; do
