@@ -433,7 +433,7 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
     (void)memory, (void)n_words;
 #endif
     gn_light_view *view = &frame->view[view_idx];
-    GN_ELEMENT(view);
+
     if (view->empty || view->stale) return GN_OK;
 #if GN_INCREMENTAL
     uint64_t signature = layer_signature(frame, view, LAYER_ALL);

@@ -88,6 +88,7 @@ static void find_arrivals(shading *s, gn_sample *sample)
 #endif
 }
 
+#if GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1
 /* The n - 1 pixels between two samples, along a chord that is set. */
 static void shade_chord(shading *s, gn_sample *from, const gn_sample *to, int32_t x, int32_t y, int32_t n)
 {
@@ -107,11 +108,21 @@ static void shade_chord(shading *s, gn_sample *from, const gn_sample *to, int32_
         shade_pixel(s, from, x + k, y);
     }
 }
+#endif
 
 /* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every persp_step
  * pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the triangle. */
 static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
+#if !GN_RUNTIME_KNOBS && GN_PERSP_STEP == 1 /* nothing lies between */
+    gn_sample *here = &s->by.run.sample[0];
+    GN_ELEMENT(here);
+    for (int32_t x = x_begin; x < x_end; x++) {
+        gn_sample_at(s->frame, &s->surface, x, y, here);
+        arrive(s, here);
+        shade_pixel(s, here, x, y);
+    }
+#else
     int32_t step_px = s->surface.specular ? 1 : GN_K(s->frame, persp_step); /* a highlight is narrower than its n . h */
     gn_chord *chord = &s->by.run.chord;
     gn_sample *here = &s->by.run.sample[0], *next = &s->by.run.sample[1];
@@ -133,6 +144,7 @@ static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
         x += n;
         shade_pixel(s, here, x, y);
     }
+#endif
 }
 
 /* The pixel of a surface that looks the same all over. */

@@ -72,16 +72,16 @@ typedef struct {
     int32_t x, y; /* its first pixel, from the middle of the piece */
     uint32_t size_q28, size_dx;
     int32_t tint_q28[3], tint_step[3];
-} row;
+} tinted_row;
 
-GN_INLINE void begin_tint(row *r, int c, int32_t n, int32_t half_right, int32_t per_w_q30)
+GN_INLINE void begin_tint(tinted_row *r, int c, int32_t n, int32_t half_right, int32_t per_w_q30)
 {
     int32_t step, at = gn_colour_near(r->p, &r->p->tint_q24[c], half_right, 2 * r->y, per_w_q30, &step);
     r->tint_step[c] = step * 16;
     r->tint_q28[c] = at * 16 - step * 8 * (n - 1);
 }
 
-static void begin_row(row *r, const gn_pieces *p, int32_t x, int32_t y, int32_t n)
+static void begin_row(tinted_row *r, const gn_pieces *p, int32_t x, int32_t y, int32_t n)
 {
     const gn_turning *t = &p->turning;
     r->p = p;
@@ -102,7 +102,7 @@ static void begin_row(row *r, const gn_pieces *p, int32_t x, int32_t y, int32_t 
 }
 
 /* The colour at its pixel i, `share` of the light with the shadow let through. Returns a bit per light that shines on it. */
-static uint32_t colour_at(const row *r, int32_t i, uint32_t share_uq16, int32_t colour_q24[3])
+static uint32_t colour_at(const tinted_row *r, int32_t i, uint32_t share_uq16, int32_t colour_q24[3])
 {
     const gn_pieces *p = r->p;
     const gn_surface *s = p->surface;
@@ -134,7 +134,7 @@ static uint32_t share_of(const gn_pieces *p, uint32_t attenuation)
 }
 
 /* Ramps as long as they may be, shorter where a light begins or ends to shine. */
-static void ramps(const row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t end, uint32_t share)
+static void ramps(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t end, uint32_t share)
 {
     int32_t from[3], to[3], step[3];
     uint32_t lit = colour_at(r, i, share, from);
@@ -157,7 +157,7 @@ static void ramps(const row *r, const gn_pixel_rows *rows, int32_t y, int32_t x,
     }
 }
 
-static void each_pixel(const row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation, uint32_t share)
+static void each_pixel(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation, uint32_t share)
 {
     for (int32_t i = 0; i < n; i++) {
         int32_t colour[3];
@@ -169,7 +169,7 @@ static void each_pixel(const row *r, const gn_pixel_rows *rows, int32_t y, int32
 void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation, int all)
 {
     uint32_t share = share_of(p, all ? 65536 : 0);
-    row r;
+    tinted_row r;
     for (int32_t end = x + n; x < end; x += n) {
         n = gn_min32(end - x, p->tint_px);
         begin_row(&r, p, x, y, n);
