@@ -39,7 +39,7 @@ mkdir -p "$out/pictures"
 sh docs/gallery.sh "$tool" "$out"
 sh docs/boards.sh "$out"
 sh docs/bake.sh "$tool" "$out"
-"$build/test_extremes" --table >"$work/extremes"
+for part in extremes extremes_light extremes_many; do "$build/test_$part" --table; done >"$work/extremes"
 replace EXTREMES.md extremes "$work/extremes"
 for name in rows seams crawl; do
     "$build/test_$name" --table >"$work/$name"

@@ -1,4 +1,4 @@
-/* What test_extremes.c is written in: scenes of row_scenes.h, drawn by both engines or by the library alone, measured, and put down as a
+/* What test_extremes.c and its like are written in: scenes of row_scenes.h, drawn by both engines or by the library alone, measured, and put down as a
  * line of docs/EXTREMES.md. */
 #ifndef GNOMON_TESTS_EXTREME_CASES_H
 #define GNOMON_TESTS_EXTREME_CASES_H
@@ -9,6 +9,8 @@
 #include "../host/tool/quantise.h"
 
 #include <stdarg.h>
+
+enum { optimised = !SLOW_LIBRARY }; /* not: fewer of what there are many of */
 
 enum { WIDTH = 64, HEIGHT = 48, N_PIXELS = WIDTH * HEIGHT };
 
@@ -26,7 +28,7 @@ __attribute__((format(printf, 3, 4))) static void line(const char *what, const c
     printf(" |\n");
 }
 
-static void heading(const char *text)
+static inline void heading(const char *text)
 {
     if (table) printf("\n**%s**\n\n| case | expected | measured |\n|---|---|---|\n", text);
 }
@@ -39,7 +41,7 @@ typedef struct {
     int preset;
 } stage;
 
-static void open_stage(stage *st, const char *scene_name, const char *words, int preset)
+static inline void open_stage(stage *st, const char *scene_name, const char *words, int preset)
 {
     memset(st, 0, sizeof *st);
     settings_init(&st->set);
@@ -59,7 +61,7 @@ typedef struct {
     size_t pixel_bytes;
 } canvas;
 
-static void flush(void *user, int x, int y, int w, int h, const void *pixels)
+static inline void flush(void *user, int x, int y, int w, int h, const void *pixels)
 {
     const canvas *c = user;
     for (int row = 0; row < h; row++)
@@ -78,7 +80,7 @@ static gn_status prepare(const gn_scene *drawn, const settings *set)
 }
 
 /* Of a prepared frame, in any format: shadow tiles are not drawn anew. */
-static void draw_as(void *out, gn_format format, size_t pixel_bytes, gn_view view, size_t light)
+static inline void draw_as(void *out, gn_format format, size_t pixel_bytes, gn_view view, size_t light)
 {
     canvas c = {out, pixel_bytes};
     renderer.frame.picture = (gn_picture){WIDTH, HEIGHT, format, view, (uint8_t)light};
@@ -124,14 +126,14 @@ static gn_status draw_library(engine_picture *out, const gn_scene *drawn, const 
     return GN_OK;
 }
 
-static void quantise(fixed_scene *out, const stage *st)
+static inline void quantise(fixed_scene *out, const stage *st)
 {
     char error[256] = "";
     if (!CHECK_EQ_INT(quantise_scene(out, &st->f.s, error, sizeof error), 0)) printf("  %s\n", error);
 }
 
 /* The library's picture of a stage, in the unit of length that the host chooses. */
-static engine_picture library(const stage *st)
+static inline engine_picture library(const stage *st)
 {
     fixed_scene fixed;
     engine_picture p;
@@ -142,7 +144,7 @@ static engine_picture library(const stage *st)
     return p;
 }
 
-static engine_picture reference(const stage *st)
+static inline engine_picture reference(const stage *st)
 {
     engine_picture p;
     char error[256] = "";
@@ -161,13 +163,13 @@ typedef struct {
     bool surfaces_only; /* identical and share: of the pixels that show the same surface */
 } worst;
 
-static worst nothing_yet(void)
+static inline worst nothing_yet(void)
 {
     return (worst){.identical = 1};
 }
 
 /* Of the pixels where both show the same triangle: in a picture as small as these, one pixel at an edge would decide. */
-static double psnr_of_surfaces(const engine_picture *a, const engine_picture *b)
+static inline double psnr_of_surfaces(const engine_picture *a, const engine_picture *b)
 {
     double sum = 0;
     long n = 0;
@@ -180,14 +182,14 @@ static double psnr_of_surfaces(const engine_picture *a, const engine_picture *b)
 }
 
 /* Pixels that a light's shadow is compared on, over all lights. */
-static double lit_pixels(const metrics *m)
+static inline double lit_pixels(const metrics *m)
 {
     long n = 0;
     for (size_t l = 0; l < m->n_lights; l++) n += m->light[l].pixels;
     return (double)n;
 }
 
-static void take(worst *w, const engine_picture *fixed, const engine_picture *ref, int preset)
+static inline void take(worst *w, const engine_picture *fixed, const engine_picture *ref, int preset)
 {
     metrics m;
     metrics_compute(&m, fixed, ref);
@@ -210,7 +212,7 @@ static void take(worst *w, const engine_picture *fixed, const engine_picture *re
 }
 
 /* Both engines on a stage. */
-static void compare(worst *w, const stage *st)
+static inline void compare(worst *w, const stage *st)
 {
     engine_picture a = library(st), b = reference(st);
     take(w, &a, &b, st->preset);
@@ -221,7 +223,7 @@ static void compare(worst *w, const stage *st)
 #define WITHIN "within the floors"
 
 /* `allowed`: share of the floors; the document says what these are. */
-static void finish(const worst *w, const char *what, double allowed)
+static inline void finish(const worst *w, const char *what, double allowed)
 {
     if (!CHECK(w->share <= allowed))
         printf("  %s: %.3f of the floors, %.5f identical, %.5f shadow\n", what, w->share, w->identical, w->mismatch);
@@ -232,7 +234,7 @@ static void finish(const worst *w, const char *what, double allowed)
 }
 
 /* One scene under several words, each after those for all. */
-static void within(const char *what, const char *scene_name, const char *common, const char *const *variants, size_t n,
+static inline void within(const char *what, const char *scene_name, const char *common, const char *const *variants, size_t n,
                    double allowed)
 {
     worst w = nothing_yet();
@@ -255,13 +257,13 @@ static void within(const char *what, const char *scene_name, const char *common,
         within(what, scene_name, common, variants_, sizeof variants_ / sizeof *variants_, allowed);                                \
     } while (0)
 
-static bool same_bytes(const engine_picture *a, const engine_picture *b)
+static inline bool same_bytes(const engine_picture *a, const engine_picture *b)
 {
     return memcmp(a->rgb8, b->rgb8, 3 * N_PIXELS) == 0 && memcmp(a->rgb565, b->rgb565, 2 * N_PIXELS) == 0 &&
            memcmp(a->triangle, b->triangle, N_PIXELS * sizeof *a->triangle) == 0;
 }
 
-static long pixels_apart(const engine_picture *a, const engine_picture *b)
+static inline long pixels_apart(const engine_picture *a, const engine_picture *b)
 {
     long n = 0;
     for (size_t i = 0; i < N_PIXELS; i++) n += memcmp(a->rgb8 + 3 * i, b->rgb8 + 3 * i, 3) != 0;
@@ -273,14 +275,14 @@ typedef struct {
     int n, same;
 } equals;
 
-static void take_equal(equals *e, const engine_picture *a, const engine_picture *b)
+static inline void take_equal(equals *e, const engine_picture *a, const engine_picture *b)
 {
     e->n++;
     if (CHECK(same_bytes(a, b))) e->same++;
     else printf("  %ld pixels differ\n", pixels_apart(a, b));
 }
 
-static void finish_equal(const equals *e, const char *what, const char *to)
+static inline void finish_equal(const equals *e, const char *what, const char *to)
 {
     char expected[128];
     snprintf(expected, sizeof expected, "same bytes as %s", to);
@@ -288,7 +290,7 @@ static void finish_equal(const equals *e, const char *what, const char *to)
 }
 
 /* Two ways to say the same picture. */
-static void same_picture(equals *e, const char *scene_name, const char *words, const char *other)
+static inline void same_picture(equals *e, const char *scene_name, const char *words, const char *other)
 {
     stage a, b;
     open_stage(&a, scene_name, words, SETTINGS_ACCURATE);
@@ -304,7 +306,7 @@ static void same_picture(equals *e, const char *scene_name, const char *words, c
 /* ---- What is refused ------------------------------------------------------------------------------------------------- */
 
 /* The yard with all lights, spoiled on the way to the library: the status, and words that its text must have. */
-static void refused(const char *what, void (*spoil)(fixed_scene *), gn_status status, const char *text)
+static inline void refused(const char *what, void (*spoil)(fixed_scene *), gn_status status, const char *text)
 {
     stage st;
     fixed_scene fixed;

@@ -3,7 +3,7 @@
 # goes to build/soak.log: date, campaign, seed, scenes, result. usage: [SEED=n] [SCENES=n] [MODELS="a.obj b.glb"] [CAMPAIGNS="random census"] soak.sh
 #
 # random    10^6 random scenes: nothing undefined, nothing changed that was kept (tests/test_random.c), some minutes
-# extremes  20000 random scenes against the reference (tests/test_extremes.c), about an hour
+# extremes  20000 random scenes against the reference (tests/test_extremes_many.c), about an hour
 # census    planes at 100 times as many angles (tests/test_census.c)
 # culling   casters left out at many more places (tests/test_culling.c)
 # math      every operand of the reciprocal and of the root (tests/test_math.c)
@@ -18,7 +18,7 @@ passed=0 failed=0
 campaign() {
     program=$build/test_$1 option=
     case $1 in
-    extremes) option=--random ;;
+    extremes) program=$build/test_extremes_many option=--random ;;
     models) program=$build/test_accuracy option=--models ;;
     esac
     SCENES=${asked:-$2}
