@@ -31,19 +31,10 @@ uint64_t gn_bf_from_u64_bits(uint64_t v)
 #define RECIP_START(i) ((uint32_t)gn_recip_table[i])
 #endif
 
-/* One step of Newton's method towards 1 / x, x = m / 2^32 in [1/2, 1), y in Q1.31: y(2 - xy) exceeds 1 / x only by truncation, so only x near 1/2
- * reaches 2^32. */
-static inline uint32_t recip_step(uint32_t m, uint32_t y)
-{
-    uint32_t two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32); /* Q1.31, near 1: xy is within 2^-8 of 1 */
-    uint64_t better = (uint64_t)y * two_minus_xy;
-    return better >> 63 ? UINT32_MAX : (uint32_t)(better >> 31);
-}
-
 uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
 {
-    uint32_t y = recip_step(m, RECIP_START((m >> 23) & 255U) << 16);
-    return newton_steps > 1 ? recip_step(m, y) : y;
+    uint32_t y = gn_recip_step(m, RECIP_START((m >> 23) & 255U) << 16);
+    return newton_steps > 1 ? gn_recip_step(m, y) : y;
 }
 
 uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)

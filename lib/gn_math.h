@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "gn_q.h"
+#include "gn_tables.h"
 #include "gnomon.h"
 
 /* Block floats and lengths go through calls as 64 bits, the mantissa low: two registers on every core, where the calling convention
@@ -33,6 +34,25 @@ GN_INLINE gn_bfloat gn_bf_from_u64(uint64_t v)
 
 /* 2^63 / m for a normalised m in [2^31, 2^32). newton_steps 1: relative error < 2^-17, 2: < 2^-29, and then within [2^31, 2^32). */
 uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps);
+
+/* One step of Newton's method towards 1 / x, x = m / 2^32 in [1/2, 1), y in Q1.31: y(2 - xy) exceeds 1 / x only by truncation, so only x near 1/2
+ * reaches 2^32. */
+static inline uint32_t gn_recip_step(uint32_t m, uint32_t y)
+{
+    uint32_t two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32); /* Q1.31, near 1: xy is within 2^-8 of 1 */
+    uint64_t better = (uint64_t)y * two_minus_xy;
+    return better >> 63 ? UINT32_MAX : (uint32_t)(better >> 31);
+}
+
+/* gn_recip_norm with two steps, spelled out where it is called per vertex. */
+#if GN_SIZE_FIRST
+#define gn_recip_norm2(m) gn_recip_norm(m, 2)
+#else
+static inline uint32_t gn_recip_norm2(uint32_t m)
+{
+    return gn_recip_step(m, gn_recip_step(m, (uint32_t)gn_recip_table[(m >> 23) & 255U] << 16));
+}
+#endif
 
 /* 2^47 / sqrt(m) for m in [2^30, 2^32). newton_steps 1: relative error < 2^-15, 2: < 2^-28, and then within [2^31, 2^32). */
 uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps);

@@ -125,7 +125,7 @@ static GN_NOINLINE void raster_span_slow(const raster_tile *tile, const cut_tria
 }
 
 #if !GN_SIZE_FIRST
-/* A small triangle whose depth needs no look (gn_tri): its edges are stepped in fixed point, row by row. */
+/* A small triangle that nothing cuts and whose depth needs no look (gn_tri): its edges are stepped in fixed point, row by row. */
 static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
     /* top, left and right of it, as a ring: left edges lead down from one to the next, right ones from one to the last */
@@ -240,16 +240,16 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     for (uint32_t i = frame->tile_first[tile_idx + 1]; i-- > frame->tile_first[tile_idx];) {
         uint32_t tri_idx = frame->tile_ref[i];
         const gn_tri *tri = &frame->tri[tri_idx];
-    GN_ELEMENT(tri);
-#if GN_VISIBLE_ALPHA
-        if (frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
-            raster_cut_triangle(&tile, tri, gn_raster_id(frame, tri_idx));
-            continue;
-        }
-#endif
+        GN_ELEMENT(tri);
 #if !GN_SIZE_FIRST
         if (tri->iz_min > 1 && !tri->iz_max) {
             raster_small(&tile, tri, gn_raster_id(frame, tri_idx));
+            continue;
+        }
+#endif
+#if GN_VISIBLE_ALPHA
+        if (frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
+            raster_cut_triangle(&tile, tri, gn_raster_id(frame, tri_idx));
             continue;
         }
 #endif

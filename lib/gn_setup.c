@@ -71,6 +71,7 @@ typedef struct {
     int32_t near_guard;   /* inside |x|, |y| <= Z * 2^-near_guard is inside the guard band */
     uint32_t object_idx;
     const gn_object *object;
+    int32_t lasts_mask; /* 0 where alpha cuts the object: its triangles are not drawn as gn_raster.c draws small ones */
     gn_xform xform;
     gn_xform_fast fast;
 } setup_job;
@@ -96,7 +97,7 @@ static inline int32_t scale_down(int32_t v, int32_t scale, int32_t s)
 GN_INLINE void project(const setup_job *job, const int32_t v_q16[3], projected *at)
 {
     int32_t clz = gn_clz32((uint32_t)v_q16[2]), s = job->focal_shift - clz; /* clz 2..23 */
-    uint32_t recip = gn_recip_norm((uint32_t)v_q16[2] << clz, 2);
+    uint32_t recip = gn_recip_norm2((uint32_t)v_q16[2] << clz);
     /* 2F / Z with 31 bits: 2^63 / (Z 2^clz) * (2F 2^focal_clz) / 2^33 */
     int32_t scale = (int32_t)(((uint64_t)recip * job->focal_norm) >> 33);
     GN_KEEP(scale); /* positive, or as good as signed */
@@ -188,7 +189,7 @@ static inline void depth_of_corners(depth_range *depth, const projected *c0, con
     int64_t area = (int64_t)ax * by - (int64_t)bx * ay; /* 2^57 */
     uint64_t size = gn_abs64(area) | 1U;
     int32_t clz = gn_clz64(size), s = 45 - clz; /* gradients are n / area * 2^17 = n * (2^63 / norm) / 2^(78 - clz), in halves */
-    int32_t recip = (int32_t)(gn_recip_norm((uint32_t)(size << clz >> 32), 2) >> 1);
+    int32_t recip = (int32_t)(gn_recip_norm2((uint32_t)(size << clz >> 32)) >> 1);
     if (area < 0) recip = -recip;
     GN_KEEP(recip);
     if (s < 1 || !gradient(&depth->dx, (int64_t)a * by - (int64_t)b * ay, recip, s) ||
@@ -303,7 +304,7 @@ static GN_NOINLINE void emit(const setup_job *job, const projected *p0, const pr
     int32_t to_y_q16 = ((a.y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->y_q16;
     depth_range depth;
     depth_of_corners(&depth, a.at, b.at, c.at, to_x_q16, to_y_q16);
-    store_depth(tri, &depth, gn_walk_lasts((uint32_t)(right - left) | (uint32_t)(bottom - a.y)), bits);
+    store_depth(tri, &depth, job->lasts_mask & gn_walk_lasts((uint32_t)(right - left) | (uint32_t)(bottom - a.y)), bits);
 }
 
 #if GN_CLIPPING
@@ -387,6 +388,7 @@ static gn_status setup_object(setup_job *job)
     const corner *c[3];
     gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->object);
     if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
+    job->lasts_mask = GN_VISIBLE_ALPHA && job->object->visible_alpha != GN_ALPHA_OPAQUE ? 0 : -1;
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
         gn_status status = fetch_corners(job, mesh->idx + 3 * (size_t)t, spare, c);
         if (!status) status = setup_triangle(job, c, t);

@@ -11,6 +11,7 @@
 
 #include <stdint.h>
 
+#include "gn_hint.h"
 #include "gn_q.h"
 
 /* M / dy of the current row, rounded up to a pixel in q. */
@@ -66,6 +67,7 @@ static inline int32_t gn_walk_lasts(uint32_t size)
 static inline uint32_t gn_walk_ratio(int32_t a, int32_t b)
 {
     const int32_t unit = 1 << GN_FIXED_BITS, most = 1 << (31 - GN_FIXED_BITS);
+    GN_KEEP(a); /* a constant in what it is made of would not fit an instruction */
     if (a < most && a >= -most) return (uint32_t)(a * unit / b);
     int32_t q = a / b, r = a - q * b;
     if (r < 0) {
