@@ -69,6 +69,7 @@ typedef gn_alpha_cut cut_triangle;
 static void cut_begin(const gn_frame *frame, gn_scratch *scratch, cut_triangle *cut, const gn_tri *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
+    GN_ELEMENT(object);
     const uint16_t *idx = object->mesh->idx + 3 * (size_t)tri->triangle_idx;
     gn_alpha_begin(&cut->test, object, object->visible_alpha, idx);
     if (!cut->test.textured) return;

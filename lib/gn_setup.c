@@ -26,6 +26,7 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *
                     uint32_t vertex_idx)
 {
     gn_vcache_entry *entry = &cache[vertex_idx & (GN_VERTEX_CACHE - 1)];
+    GN_ELEMENT(entry);
     uint32_t tag = (object_idx << 16 | vertex_idx) + 1U;
     if (entry->tag != tag) {
         entry->tag = 0;
@@ -238,6 +239,7 @@ static inline void count_tiles(gn_frame *frame, const gn_rect *px)
 {
     gn_tile_walk tiles = gn_setup_tiles(frame, px); /* of some tiles */
     gn_ref_offset *at = frame->tile_first + tiles.first;
+    GN_ELEMENT(at);
     do {
         int32_t n = tiles.width;
         do ++*at++;
@@ -276,6 +278,7 @@ static inline grid_corner on_grid(const projected *at, int32_t bits)
 static GN_NOINLINE void emit(const setup_job *job, const projected *p0, const projected *p1, const projected *p2, uint32_t triangle_idx)
 {
     gn_frame *frame = job->frame;
+    GN_ELEMENT(frame);
     int32_t bits = GN_K(frame, subpixel_bits);
     grid_corner a = on_grid(p0, bits), b = on_grid(p1, bits), c = on_grid(p2, bits), swap;
     int64_t area = (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);

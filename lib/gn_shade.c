@@ -53,6 +53,7 @@ static uint32_t raw_value(const gn_shading *s, const gn_sample *sample, int32_t 
 static uint32_t pack(gn_shading *s, const uint32_t q20[3])
 {
     uint32_t *last = s->last_q20;
+    GN_ELEMENT(last);
     if (q20[0] != last[0] || q20[1] != last[1] || q20[2] != last[2]) {
         last[0] = q20[0];
         last[1] = q20[1];
@@ -119,7 +120,7 @@ static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
     GN_ELEMENT(here);
     for (int32_t x = x_begin; x < x_end; x++) {
         gn_sample_at(s->frame, &s->surface, x, y, here);
-        arrive(s, here);
+        find_arrivals(s, here);
         shade_pixel(s, here, x, y);
     }
 #else
@@ -385,6 +386,7 @@ static void clear_background(gn_shading *s)
 void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     shading *s = &scratch->work.shading;
+    GN_ELEMENT(s);
     s->frame = frame;
     s->scratch = scratch;
     s->rect = gn_bin_tile_rect(frame, tile_idx);

@@ -117,6 +117,7 @@ static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_su
     if (at->shadow != GN_SHADOW_UNDECIDED) return at->shadow == GN_SHADOW_NONE ? GN_ONE_UQ16 : 0;
 #endif
     const gn_light_view *view = &frame->view[surface->light[slot].state->view_idx + at->face];
+    GN_ELEMENT(view);
     gn_receiver r = {at->u_q16, at->v_q16, at->depth_q32, {0, 0}, sample->x, sample->y};
 #if GN_RECEIVER_PLANE
     const int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];

@@ -272,6 +272,7 @@ static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache,
     const gn_scene *scene = frame->scene;
     int unlit = without_light(frame, s);
     const uint32_t *albedo = s->object->albedo_uq16;
+    GN_ELEMENT(albedo);
     for (int c = 0; c < 3; c++) /* 2^17 * 2^24 */
         s->base_q20[c] = unlit ? albedo[c] << 4 : (uint32_t)(((uint64_t)albedo[c] * scene->ambient_uq16[c] + (1U << 11)) >> 12);
     s->shadowed = 0;

@@ -1,6 +1,7 @@
 /* Tile budgets. A tile is a run of T * T texels of its atlas, so tiles of any power-of-two sizes pack without waste. */
 #include "gn_tiles.h"
 #include "gn_cascade.h"
+#include "gn_hint.h"
 #include "gn_math.h"
 #include "gn_object.h"
 #include "gn_q.h"
@@ -78,6 +79,7 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
 #endif
     for (uint32_t l = 0; l < scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
+        GN_ELEMENT(light);
         gn_tile_plan none = {0, 0, 0, 0, 0, 0};
         plan[l] = none;
         if (light->shadow_state == GN_SHADOW_NOT_WANTED) continue;
