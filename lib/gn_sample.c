@@ -69,8 +69,10 @@ static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int3
 static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
 {
     gn_bfloat per_px = frame->cam.inv_focal2;
-    int64_t z = sample->value[GN_VALUE_Z], x = gn_bf_apply(z * px, per_px, 16), y = gn_bf_apply(z * py, per_px, 16);
-    uint64_t across = (uint64_t)(x * x) + (uint64_t)(y * y); /* a point of a triangle: within 2^30 each */
+    const int64_t most = 1 << 30; /* of a point of a triangle; a plane seen edge on may be drawn where it is not */
+    int64_t z = sample->value[GN_VALUE_Z], x = gn_clamp64(gn_bf_apply(z * px, per_px, 16), -most, most),
+            y = gn_clamp64(gn_bf_apply(z * py, per_px, 16), -most, most);
+    uint64_t across = (uint64_t)(x * x) + (uint64_t)(y * y);
     sample->cascade = GN_CASCADE_NONE;
     sample->value[GN_VALUE_FADE] = 0;
     int64_t m = frame->scene->shadow.max_distance_q16;
