@@ -1,7 +1,7 @@
 /* A clock: the sundial, whose shadow shows the hour, on the board's display. Tiles that look as they did are not sent again.
  *
- * ARGS="07:00 13:00" runs from the one time to the other in steps of five minutes, says READY and keeps the picture; without it the
- * clock runs through the day, for ever. An error of the display is told, and the display is opened anew. */
+ * ARGS="07:00 13:00" runs from the one time to the other in steps of five minutes, says READY and keeps the picture; one time alone is
+ * both. Without any the clock runs through the day, for ever. An error of the display is told, and the display is opened anew. */
 #include "board.h"
 #include "day.h"
 #include "../displays/screen.h"
@@ -68,18 +68,35 @@ static gn_status run(uint32_t first, uint32_t last)
     return GN_OK;
 }
 
+/* The times to show: of ARGS, or all of the day. Returns 0 if they are none that the clock knows. */
+static int read_times(const char *args, uint32_t *first, uint32_t *last)
+{
+    *first = 0;
+    *last = SCENE_FRAMES - 1;
+    if (!*args) return 1;
+    int32_t from = day_frame(&args);
+    while (*args == ' ') args++;
+    int32_t to = *args ? day_frame(&args) : from;
+    if (*args || from < 0 || to < from || to >= (int32_t)SCENE_FRAMES) return 0;
+    *first = (uint32_t)from;
+    *last = (uint32_t)to;
+    return 1;
+}
+
 int app_main(void)
 {
     static const gn_picture picture = {SCREEN_WIDTH, SCREEN_HEIGHT, GN_FORMAT_SCREEN, GN_VIEW_COLOUR, 0};
+    uint32_t first, last;
     const char *args = board_args();
-    int32_t first = day_frame(&args);
-    while (*args == ' ') args++;
-    int32_t last = day_frame(&args);
-    int runs_on = first < 0;
+    int runs_on = !*args;
+    if (!read_times(args, &first, &last)) {
+        board_print("times are two of the sundial's day, in order, on minutes that 5 divides: 07:00 13:00\n");
+        return 1;
+    }
     open_display();
     gn_status status = gn_init(&renderer, &picture);
-    if (!status) status = run(runs_on ? 0 : (uint32_t)first, runs_on || last < first ? SCENE_FRAMES - 1 : (uint32_t)last);
-    while (runs_on && !status) status = run(0, SCENE_FRAMES - 1);
+    do status = status ? status : run(first, last);
+    while (runs_on && !status);
     if (!status)
         for (;;) continue; /* the display keeps the picture */
     board_print(gn_status_text(status));

@@ -10,7 +10,7 @@ int32_t day_frame(const char **text)
 {
     const char *t = *text;
     int32_t hour = two_digits(t), minute = hour < 0 || t[2] != ':' ? -1 : two_digits(t + 3);
-    if (minute < 0 || minute % DAY_MINUTES_PER_FRAME || hour < DAY_FIRST_HOUR) return -1;
+    if (minute < 0 || minute > 59 || minute % DAY_MINUTES_PER_FRAME || hour < DAY_FIRST_HOUR) return -1;
     *text = t + 5;
     return (hour - DAY_FIRST_HOUR) * DAY_FRAMES_PER_HOUR + minute / DAY_MINUTES_PER_FRAME;
 }
