@@ -124,7 +124,6 @@ static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
 static GN_NOINLINE int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
 {
     const gn_cam *cam = &job->frame->cam;
-    c->tag = 0;
 #if GN_SIZE_FIRST
     const int32_t *v = c->v_q16;
     if (!view_position(c->v_q16, &job->xform, job->object->mesh, vertex_idx)) return 0;
@@ -216,25 +215,6 @@ void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], in
     }
 }
 
-/* Pixels whose centres lie between the least and largest coordinates, from the picture's centre, in the subpixel grid: cut to the picture. */
-static inline gn_rect bounds_of(const gn_frame *frame, int32_t left, int32_t right, int32_t top, int32_t bottom)
-{
-    int32_t bits = GN_K(frame, subpixel_bits), width = frame->picture.width, height = frame->picture.height;
-    int32_t centre_x = (width << bits) >> 1, centre_y = (height << bits) >> 1;
-    gn_rect r;
-    r.x0 = gn_max32(gn_first_px(left + centre_x, bits), 0);
-    r.x1 = gn_min32(gn_first_px(right + centre_x, bits), width);
-    r.y0 = gn_max32(gn_first_px(top + centre_y, bits), 0);
-    r.y1 = gn_min32(gn_first_px(bottom + centre_y, bits), height);
-    return r;
-}
-
-gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
-{
-    int32_t x0 = tri->x[0], x1 = tri->x[1], x2 = tri->x[2];
-    return bounds_of(frame, gn_min32(gn_min32(x0, x1), x2), gn_max32(gn_max32(x0, x1), x2), tri->y[0], gn_max32(tri->y[1], tri->y[2]));
-}
-
 static inline void count_tiles(gn_frame *frame, const gn_rect *px)
 {
     gn_tile_walk tiles = gn_setup_tiles(frame, px); /* of some tiles */
@@ -289,7 +269,7 @@ static GN_NOINLINE void emit(const setup_job *job, const projected *p0, const pr
     if (c.y < a.y && c.y < b.y) swap = a, a = c, c = b, b = swap; /* rotated, to begin with the top */
     else if (b.y < a.y) swap = a, a = b, b = c, c = swap;
     int32_t left = gn_min32(gn_min32(a.x, b.x), c.x), right = gn_max32(gn_max32(a.x, b.x), c.x), bottom = gn_max32(b.y, c.y);
-    const gn_rect bounds = bounds_of(frame, left, right, a.y, bottom);
+    const gn_rect bounds = gn_setup_bounds_of(frame, left, right, a.y, bottom);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
     uint32_t n = frame->stats.n_triangles++; /* counted on, to say how many would have been enough */
     if (n >= GN_MAX_TRIANGLES) return;
@@ -367,9 +347,9 @@ static gn_status setup_triangle(const setup_job *job, const corner *const c[3], 
 /* The corners of a triangle, through the cache. */
 static inline gn_status fetch_corners(const setup_job *job, const uint16_t *idx, corner spare[3], const corner *c[3])
 {
-    uint32_t n_vertices = job->object->mesh->n_vertices;
+    uint32_t n_vertices = job->object->mesh->n_vertices, first_tag = (job->object_idx << 16) + 1;
     for (int i = 0; i < 3; i++) {
-        uint32_t vertex_idx = idx[i], tag = (job->object_idx << 16 | vertex_idx) + 1U;
+        uint32_t vertex_idx = idx[i], tag = first_tag + vertex_idx;
         if (vertex_idx >= n_vertices) return gn_fail(job->frame, GN_ERR_MESH_INDEX, job->object_idx);
         corner *entry = &job->cache[vertex_idx & job->cache_mask];
         if (entry->tag != tag) {

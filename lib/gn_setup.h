@@ -2,6 +2,8 @@
 #ifndef GN_SETUP_H
 #define GN_SETUP_H
 
+#include "gn_q.h"
+#include "gn_walk.h"
 #include "gnomon.h"
 
 /* Fills frame->tri from the scene, and counts the triangles of each screen tile. The memory is scratch, for a cache of vertices: at least 8 words. */
@@ -15,7 +17,24 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *
 /* Screen coordinates of the corners from the picture's top left corner, subpixel_bits fraction bits. */
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3]);
 
-gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri);
+/* Pixels whose centres lie between the least and largest coordinates, from the picture's centre, in the subpixel grid: cut to the picture. */
+static inline gn_rect gn_setup_bounds_of(const gn_frame *frame, int32_t left, int32_t right, int32_t top, int32_t bottom)
+{
+    int32_t bits = GN_K(frame, subpixel_bits), width = frame->picture.width, height = frame->picture.height;
+    int32_t centre_x = (width << bits) >> 1, centre_y = (height << bits) >> 1;
+    gn_rect r;
+    r.x0 = gn_max32(gn_first_px(left + centre_x, bits), 0);
+    r.x1 = gn_min32(gn_first_px(right + centre_x, bits), width);
+    r.y0 = gn_max32(gn_first_px(top + centre_y, bits), 0);
+    r.y1 = gn_min32(gn_first_px(bottom + centre_y, bits), height);
+    return r;
+}
+
+static inline gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
+{
+    int32_t x0 = tri->x[0], x1 = tri->x[1], x2 = tri->x[2];
+    return gn_setup_bounds_of(frame, gn_min32(gn_min32(x0, x1), x2), gn_max32(gn_max32(x0, x1), x2), tri->y[0], gn_max32(tri->y[1], tri->y[2]));
+}
 
 /* The screen tiles that pixels of the picture lie in, some at least: `height` rows of `width` tiles, with `skip` others between. */
 typedef struct {
