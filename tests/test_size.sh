@@ -74,9 +74,9 @@ emulated smallest "$(sh tests/size.sh --flags smallest | sed 's/-DGN_CLIPPING=0/
 # ---- Budgets ----------------------------------------------------------------------------------------------------------------
 
 for configuration in smallest tiny balanced accurate full; do within stack Cortex-M3 $configuration gn_render 1024; done
-within flash Cortex-M3 full linked 59000
-within flash Cortex-M3 accurate linked 48000
-within flash Cortex-M3 smallest linked 19000
+within flash Cortex-M3 full linked 40960
+within flash Cortex-M3 accurate linked 43000
+within flash Cortex-M3 smallest linked 16640
 within ram Cortex-M3 smallest total 17000
 
 # ---- Growth -----------------------------------------------------------------------------------------------------------------
