@@ -19,10 +19,9 @@ __attribute__((weak)) void *memset(void *to, int value, size_t n)
     return to;
 }
 
-void *memcpy(void *restrict to, const void *restrict from, size_t n)
+/* Ascending: right for ranges that overlap, too, where `to` is not above `from`. */
+static void copy_up(uint8_t *out, const uint8_t *in, size_t n)
 {
-    uint8_t *out = to;
-    const uint8_t *in = from;
     if (((uintptr_t)out ^ (uintptr_t)in) % 4 == 0) {
         for (; n && (uintptr_t)out % 4; n--) *out++ = *in++;
         word *words = (word *)(void *)out;
@@ -32,6 +31,11 @@ void *memcpy(void *restrict to, const void *restrict from, size_t n)
         in = (const uint8_t *)source;
     }
     for (; n; n--) *out++ = *in++;
+}
+
+void *memcpy(void *restrict to, const void *restrict from, size_t n)
+{
+    copy_up(to, from, n);
     return to;
 }
 
@@ -39,8 +43,9 @@ void *memmove(void *to, const void *from, size_t n)
 {
     uint8_t *out = to;
     const uint8_t *in = from;
-    if ((uintptr_t)out <= (uintptr_t)in) return memcpy(to, from, n); /* ascending is right, and memcpy ascends */
-    while (n--) out[n] = in[n];
+    if ((uintptr_t)out <= (uintptr_t)in) copy_up(out, in, n);
+    else
+        while (n--) out[n] = in[n];
     return to;
 }
 

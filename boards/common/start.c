@@ -42,11 +42,18 @@ int board_canary_ok(void)
     return 1;
 }
 
+/* From the first byte to the last: what alignment leaves between them is taken, too. */
+static uint32_t ram_bytes(void)
+{
+    uintptr_t first = (uintptr_t)board_stack_bottom, end = (uintptr_t)board_bss_end, fast_end = (uintptr_t)board_fast_bss_end;
+    if (fast_end >= end && fast_end <= (uintptr_t)board_ram_end) return (uint32_t)(fast_end - first);
+    return (uint32_t)(end - first + fast_end - (uintptr_t)board_fast_bss_start);
+}
+
 void board_print_memory(void)
 {
     board_print("RAM ");
-    board_print_u32((uint32_t)((uintptr_t)board_bss_end - (uintptr_t)board_stack_bottom + (uintptr_t)board_fast_bss_end -
-                               (uintptr_t)board_fast_bss_start));
+    board_print_u32(ram_bytes());
     board_print(" bytes, with a stack of ");
     board_print_u32((uint32_t)((uintptr_t)board_stack_top - (uintptr_t)board_stack_bottom));
     board_print(", of which used ");
@@ -57,6 +64,7 @@ void board_print_memory(void)
 void board_start(void)
 {
     paint_stack();
+    board_guard_stack();
     copy(board_data_start, board_data_end, board_data_load);
     copy(board_fast_start, board_fast_end, board_fast_load);
     clear(board_bss_start, board_bss_end);
@@ -77,11 +85,11 @@ void board_fault_value(const char *name, uint32_t value)
     board_print_hex(value);
 }
 
-void board_fault_exit(uint32_t stack_pointer)
+void board_fault_exit(uint32_t stack_pointer, int ran_over)
 {
     board_fault_value("sp", stack_pointer);
     board_print("\n");
-    if (stack_pointer < (uintptr_t)board_stack_bottom + 4 * CANARY_WORDS) board_print("fault: the stack ran over\n");
+    if (ran_over || stack_pointer < (uintptr_t)board_stack_bottom + 4 * CANARY_WORDS) board_print("fault: the stack ran over\n");
     else if (!board_canary_ok()) board_print("fault: the canary is gone\n");
     board_exit(BOARD_STATUS_FAULT);
 }

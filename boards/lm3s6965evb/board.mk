@@ -3,7 +3,7 @@ BOARD_CORE := Cortex-M3
 BOARD_RUNS := qemu
 BOARD_CROSS := arm-none-eabi-
 BOARD_CPU := -mcpu=cortex-m3 -mthumb
-BOARD_COMMON := cortex_m semihosting
+BOARD_COMMON := cortex_m vectors semihosting
 BOARD_PORT := armv7m
 BOARD_EMULATOR := qemu-system-arm -M lm3s6965evb
 SCREEN_SIZE := 128x64
