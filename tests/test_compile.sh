@@ -132,7 +132,7 @@ nearest() { # nearest NAME SCENE OPTIONS...
 nearest slopes docs/scenes/slopes.gltf --board microbit --size 128x64 --set preset=tiny
 nearest suns-accurate docs/scenes/suns.gltf --board microbit --size 128x64 --set preset=accurate
 nearest sundial-small host/scenes/sundial.gltf --board microbit --size 64x48 --frames 72-72 --set preset=tiny
-nearest edge-flash docs/scenes/edge.gltf --flash 40000 --size 64x48
+nearest edge-flash docs/scenes/edge.gltf --flash 30000 --size 64x48
 "$tool" compile docs/scenes/slopes.gltf -o "$tmp/no" --flash 20000 2>"$tmp/err" && fail "20000 bytes of flash are enough" || pass
 grep -q 'bytes of flash (scene [0-9]*, code about [0-9]*) of 20000' "$tmp/err" && pass || fail "too much flash: $(cat "$tmp/err")"
 for board in nowhere "" ../../etc; do
