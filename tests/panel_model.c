@@ -20,7 +20,7 @@ static void start_over(panel_model *m)
 {
     memset(m->reg, 0, sizeof m->reg);
     m->n_expected = m->n_got = m->streaming = m->interrupted = m->half = 0;
-    m->on = m->locked = m->inverted = 0;
+    m->on = m->locked = m->inverted = m->scrolling = 0;
     m->asleep = 1;
     m->left = 0;
     rules_of(m)->reset(m);
@@ -34,6 +34,55 @@ void model_init(panel_model *m, model_chip chip, const model_glass *glass)
     memset(m->memory, 0xA5, sizeof m->memory);
     start_over(m);
 }
+
+/* ---- In the middle of other work -------------------------------------------------------------------------------------------- */
+
+enum { WARM_TRIES = 40, WARM_STEP_US = 200000 };
+
+static void send_random(panel_model *m, uint8_t command, int n, rng *random)
+{
+    int as_data = rules_of(m)->parameters_are_data;
+    m->now_us += WARM_STEP_US;
+    model_byte(m, 0, command);
+    for (int i = 0; i < n; i++) model_byte(m, as_data, (uint8_t)rng_below(random, 256));
+}
+
+/* Until the model allows it, or not at all; the memory is the last member, and no command changes it. */
+static void send_allowed(panel_model *m, uint8_t command, int n, rng *random)
+{
+    static panel_model before;
+    memcpy(&before, m, offsetof(panel_model, memory));
+    for (int i = 0; i < WARM_TRIES; i++) {
+        send_random(m, command, n, random);
+        if (m->n_rejected == 0) return;
+        memcpy(m, &before, offsetof(panel_model, memory));
+    }
+}
+
+static uint8_t longest_command(const panel_model *m)
+{
+    int longest = 0;
+    for (int c = 0; c < 256; c++)
+        if (rules_of(m)->n_parameters(m, (uint8_t)c) > rules_of(m)->n_parameters(m, (uint8_t)longest)) longest = c;
+    return (uint8_t)longest;
+}
+
+void model_warm_up(panel_model *m, rng *random)
+{
+    m->now_us += WARM_STEP_US;
+    for (int c = 0; c < 256; c++) {
+        int n = rules_of(m)->n_parameters(m, (uint8_t)c);
+        if (n >= 0 && rng_below(random, 2)) send_allowed(m, (uint8_t)c, n, random);
+    }
+    m->now_us += WARM_STEP_US;
+    m->on = (int)rng_below(random, 2);
+    if (m->chip == MODEL_SSD1327) m->locked = (int)rng_below(random, 2);
+    if (rng_below(random, 2)) send_random(m, longest_command(m), 0, random);
+    model_break(m); /* whoever did all this is gone */
+    if (rules_of(m)->parameters_are_data) m->ready_us = m->now_us + 5000, m->may_sleep_us = m->may_wake_us = m->now_us + 120000;
+}
+
+/* ---- What arrives ----------------------------------------------------------------------------------------------------------- */
 
 void model_reset_line(panel_model *m, int held)
 {

@@ -7,8 +7,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "rng.h"
+
 enum { MODEL_COLUMNS = 240, MODEL_ROWS = 320, MODEL_PARAMETERS = 16 };
-enum { MODEL_DARK = -1 }; /* what model_pixel says of a glass that is off */
+enum { MODEL_DARK = -1 };
 
 typedef enum { MODEL_ST7789, MODEL_ILI9341, MODEL_SSD1306, MODEL_SSD1327, MODEL_SSD0323 } model_chip;
 
@@ -38,7 +40,7 @@ typedef struct panel_model {
     uint8_t reg[256][MODEL_PARAMETERS]; /* the parameters of each command, as last set */
 
     /* The state that commands change. */
-    int held_in_reset, asleep, on, locked, inverted;
+    int held_in_reset, asleep, on, locked, inverted, scrolling;
     uint64_t held_since_us, ready_us, may_wake_us, may_sleep_us;
     int first_column, last_column, first_row, last_row; /* the window, in units of the chip's memory */
     int column, row;
@@ -49,10 +51,14 @@ typedef struct panel_model {
 
 void model_init(panel_model *m, model_chip chip, const model_glass *glass); /* powered, memory full of noise */
 void model_reset_line(panel_model *m, int held);
+
+/* In the middle of other work: about half of the commands that it knows were sent, each with random parameters of those that it
+ * allows, the last perhaps cut off before its parameters; noise on a glass that is perhaps lit; an SSD1327 perhaps locked. */
+void model_warm_up(panel_model *m, rng *random);
 void model_byte(panel_model *m, int is_data, uint8_t byte); /* data/command line and byte, at m->now_us */
 void model_break(panel_model *m);                           /* the bus was abandoned */
 
-/* What the glass shows at (x, y) of the upright, unturned glass: RGB565, grey 0..15, or 0..1. */
+/* What the glass shows at (x, y) of the upright, unturned glass: RGB565, grey 0..15, or 0..1; MODEL_DARK where nothing is driven. */
 int model_pixel(const panel_model *m, int x, int y);
 
 /* ---- For the chips' own files -------------------------------------------------------------------------------------------------

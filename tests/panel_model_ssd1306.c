@@ -1,9 +1,12 @@
 /* SSD1306: 128x64 bits in 8 pages. Column and page addresses of the window (21h, 22h) belong to the horizontal and vertical modes;
  * remapping of the columns (A0h, A1h) acts on what is written from then on, that of the rows (C0h, C8h) at once. The charge pump
- * runs before the display is switched on, unless the glass has its voltage from outside. */
+ * runs before the display is switched on, unless the glass has its voltage from outside. Nothing may be written to the memory while
+ * it scrolls. A frame has the rows' number times the clocks of a row: both precharge phases and 50; slower than 60 in a second it
+ * flickers. The data sheet gives the oscillator's frequency at its reset value, 8, and it rises with the value. */
 #include "panel_model.h"
 
 enum { COLUMNS = 128, PAGES = 8, ROWS = 64 };
+enum { OSCILLATOR_HZ = 370000, OSCILLATOR_RESET = 8, ROW_CLOCKS = 50, LEAST_FRAMES_HZ = 60 };
 
 static int n_parameters(const panel_model *m, uint8_t command)
 {
@@ -11,6 +14,7 @@ static int n_parameters(const panel_model *m, uint8_t command)
     if ((command >= 0x40 && command <= 0x7F) || (command >= 0xA4 && command <= 0xA7)) return 0;
     switch (command) {
     case 0x2E:
+    case 0x2F:
     case 0xA0:
     case 0xA1:
     case 0xAE:
@@ -46,7 +50,10 @@ static void reset(panel_model *m)
     m->reg[0x81][0] = 0x7F;
     m->reg[0x8D][0] = 0x10;
     m->reg[0xA8][0] = ROWS - 1;
+    m->reg[0xD5][0] = 0x80;
+    m->reg[0xD9][0] = 0x22;
     m->reg[0xDA][0] = 0x12;
+    m->reg[0xDB][0] = 0x20;
     m->reg[0xA0][1] = m->reg[0xC0][1] = m->reg[0x40][1] = 0; /* [1]: what the commands without parameter chose */
 }
 
@@ -88,8 +95,17 @@ static void check(panel_model *m, uint8_t command, const uint8_t *p)
     if ((command == 0x21 || command == 0x22) && m->reg[0x20][0] == 2) model_reject(m, "window in page mode", p[0]);
 }
 
+static int frames_hz(const panel_model *m)
+{
+    int clock = m->reg[0xD5][0], phases = m->reg[0xD9][0];
+    if (clock >> 4 < OSCILLATOR_RESET) return 0; /* unknown */
+    int clocks = ((clock & 15) + 1) * ((phases & 15) + (phases >> 4) + ROW_CLOCKS) * (m->reg[0xA8][0] + 1);
+    return OSCILLATOR_HZ / clocks;
+}
+
 static void switch_on(panel_model *m)
 {
+    if (frames_hz(m) < LEAST_FRAMES_HZ) model_reject(m, "flickers", m->reg[0xD5][0]);
     if (!m->glass.external_vcc && m->reg[0x8D][0] != 0x14) model_reject(m, "on without the panel's voltage", m->reg[0x8D][0]);
     if (((m->reg[0xDA][0] & 0x10) == 0) != m->glass.sequential_com)
         model_reject(m, "COM pins are not the glass's", m->reg[0xDA][0]);
@@ -107,6 +123,10 @@ static void execute(panel_model *m, uint8_t command, const uint8_t *p)
         break;
     case 0x22:
         m->first_row = p[0] & 7, m->last_row = p[1] & 7;
+        break;
+    case 0x2E:
+    case 0x2F:
+        m->scrolling = command & 1;
         break;
     case 0xA0:
     case 0xA1:
@@ -139,6 +159,7 @@ static void execute(panel_model *m, uint8_t command, const uint8_t *p)
 static void pixels(panel_model *m, uint8_t byte)
 {
     int column = m->column, page = m->row;
+    if (m->scrolling) model_reject(m, "written while it scrolls", byte);
     if (!model_step(m, m->reg[0x20][0] == 1)) {
         model_reject(m, "more bytes than the window has", byte);
         return;

@@ -1,6 +1,10 @@
 /* SSD1327 (128x128) and SSD0323 (128x80): two pixels of 4 bits per byte. A column address counts bytes, 0 .. 63. Remapping of
  * columns and nibbles acts on what is written from then on, that of the rows at once. A locked SSD1327 takes nothing but its unlock
- * command. */
+ * command; a NOP that it does not take does no harm. Its glasses have no supply for the logic but the controller's own regulator.
+ * A row of the SSD0323 is to last for both precharge phases and the pulse of the brightest level, whose width is that of level 1
+ * and, for each further level, its parameter and one. */
+#include <string.h>
+
 #include "panel_model.h"
 
 enum { ADDRESSES = 64, COLUMNS = 128 };
@@ -29,8 +33,6 @@ static int n_common(uint8_t command)
     case 0xA8:
     case 0xB1:
     case 0xB3:
-    case 0xBC:
-    case 0xBE:
         return 1;
     case 0x15:
     case 0x75:
@@ -48,6 +50,8 @@ static int n_ssd1327(const panel_model *m, uint8_t command)
         return 0;
     case 0xAB:
     case 0xB6:
+    case 0xBC:
+    case 0xBE:
     case 0xD5:
     case 0xFD:
         return 1;
@@ -68,7 +72,6 @@ static int n_ssd0323(const panel_model *m, uint8_t command)
         return 0;
     case 0xAD:
     case 0xB2:
-    case 0xBF:
         return 1;
     case 0xB8:
         return 8;
@@ -85,6 +88,12 @@ static void reset(panel_model *m)
     m->reg[0xA8][0] = (uint8_t)(n_rows(m) - 1);
     m->reg[0xA4][1] = 0;
     m->reg[0xAB][0] = 1;
+    if (m->chip == MODEL_SSD0323) {
+        m->reg[0xB1][0] = 0x53;
+        m->reg[0xB2][0] = 37;
+        memset(m->reg[0xB8], 0x11, 8);
+        m->reg[0xB8][0] = 1;
+    }
     model_open_window(m);
 }
 
@@ -100,51 +109,69 @@ static int table_is_valid(const panel_model *m, const uint8_t *p)
     return 1;
 }
 
-static void check(panel_model *m, uint8_t command, const uint8_t *p)
+static int lies_in(const uint8_t *p, int end)
 {
-    int ok = 1, n = n_rows(m);
+    return p[0] <= p[1] && p[1] < end;
+}
+
+static int both_phases(uint8_t p)
+{
+    return (p & 15) != 0 && p >> 4 != 0;
+}
+
+static int supply_is_valid(uint8_t command, uint8_t p)
+{
+    switch (command) {
+    case 0xAB:
+        return p == 1;
+    case 0xAD:
+        return p == 2 || p == 3;
+    case 0xB1:
+        return both_phases(p);
+    case 0xB6:
+        return p >= 1 && p <= 15;
+    case 0xBC:
+        return p <= 15;
+    case 0xBE:
+        return p <= 7;
+    case 0xD5:
+        return (p & 0xFC) == 0x60;
+    default:
+        return 1;
+    }
+}
+
+static int is_valid(const panel_model *m, uint8_t command, const uint8_t *p)
+{
     switch (command) {
     case 0x15:
-        ok = p[0] <= p[1] && p[1] < ADDRESSES;
-        break;
+        return lies_in(p, ADDRESSES);
     case 0x75:
-        ok = p[0] <= p[1] && p[1] < n;
-        break;
+        return lies_in(p, n_rows(m));
     case 0x81:
-        ok = m->chip == MODEL_SSD1327 || p[0] < 128;
-        break;
+        return m->chip == MODEL_SSD1327 || p[0] < 128;
     case 0xA0:
-        ok = (p[0] & REMAP_RESERVED) == 0;
-        break;
+        return (p[0] & REMAP_RESERVED) == 0;
     case 0xA1:
     case 0xA2:
-        ok = p[0] < n;
-        break;
+        return p[0] < n_rows(m);
     case 0xA8:
-        ok = p[0] >= 15 && p[0] < n;
-        break;
-    case 0xAB:
-        ok = p[0] <= 1;
-        break;
-    case 0xAD:
-        ok = p[0] == 2 || p[0] == 3;
-        break;
-    case 0xB1:
-        ok = (p[0] & 15) != 0 && p[0] >> 4 != 0;
-        break;
-    case 0xB6:
-        ok = p[0] >= 1 && p[0] <= 15;
-        break;
+        return p[0] >= 15 && p[0] < n_rows(m);
     case 0xB8:
-        ok = table_is_valid(m, p);
-        break;
+        return table_is_valid(m, p);
     case 0xFD:
-        ok = p[0] == 0x12 || p[0] == 0x16;
-        break;
+        return p[0] == 0x12 || p[0] == 0x16;
     default:
-        break;
+        return supply_is_valid(command, p[0]);
     }
-    if (!ok) model_reject(m, "parameter out of range", p[0]);
+}
+
+static int row_clocks(const panel_model *m)
+{
+    const uint8_t *added = m->reg[0xB8];
+    int phases = m->reg[0xB1][0], clocks = (phases & 15) + (phases >> 4) + (added[0] & 7);
+    for (int i = 1; i < 8; i++) clocks += (added[i] & 7) + 1 + (added[i] >> 4 & 7) + 1;
+    return clocks;
 }
 
 static void switch_on(panel_model *m)
@@ -154,22 +181,28 @@ static void switch_on(panel_model *m)
     if (m->reg[0xA2][0] != m->glass.first_com) model_reject(m, "display offset is not the glass's", m->reg[0xA2][0]);
     if (m->reg[0xA8][0] + 1 != m->glass.height) model_reject(m, "multiplex ratio is not the glass's", m->reg[0xA8][0]);
     if (!(m->reg[0xA0][0] & SPLIT)) model_reject(m, "COM pins are not the glass's", m->reg[0xA0][0]);
+    if (m->chip == MODEL_SSD0323 && m->reg[0xB2][0] < row_clocks(m)) model_reject(m, "rows are too short", m->reg[0xB2][0]);
     m->on = 1;
 }
 
 static void execute(panel_model *m, uint8_t command, const uint8_t *p)
 {
     if (m->locked && command != 0xFD) {
-        model_reject(m, "locked", command);
+        if (command != 0xE3) model_reject(m, "locked", command);
         return;
     }
-    check(m, command, p);
+    if (!is_valid(m, command, p)) model_reject(m, "parameter out of range", p[0]);
     switch (command) {
     case 0x15:
         m->first_column = p[0] & 63, m->last_column = p[1] & 63;
         break;
     case 0x75:
         m->first_row = p[0] % n_rows(m), m->last_row = p[1] % n_rows(m);
+        break;
+    case 0x84:
+    case 0x85:
+    case 0x86:
+        m->reg[0x84][1] = command & 3; /* quarter, half, whole current */
         break;
     case 0xA4:
     case 0xA5:

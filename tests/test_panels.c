@@ -12,7 +12,7 @@
 #include "panel_model.h"
 #include "rng.h"
 
-enum { MOST_PIXELS = 240 * 320, BUFFER_BYTES = 3000 };
+enum { MOST_PIXELS = 240 * 320, BUFFER_BYTES = 3000, WARM_STARTS = 24 };
 
 typedef struct {
     const char *name;
@@ -355,6 +355,7 @@ static void test_sleep(const specimen *s)
     CHECK_EQ_INT(panel_show(&r->panel, 1), PANEL_OK);
     CHECK_EQ_INT(panel_sleep(&r->panel), PANEL_OK);
     CHECK_EQ_INT(model_pixel(&r->model, 0, 0), MODEL_DARK);
+    CHECK_EQ_INT(r->model.on, 0); /* so that waking shows nothing before panel_wake() does */
     uint32_t calls = r->bus.n_calls;
     CHECK_EQ_INT(panel_sleep(&r->panel), PANEL_ERR_ORDER);
     CHECK_EQ_INT(panel_show(&r->panel, 1), PANEL_ERR_ORDER);
@@ -390,7 +391,7 @@ static void test_mistakes(const specimen *s)
         CHECK_EQ_INT(display_finish(&r->display), PANEL_ERR_WINDOW); /* and forgotten */
         CHECK_EQ_INT(display_finish(&r->display), PANEL_OK);
     }
-    CHECK_EQ_INT(panel_stream(&r->panel, bytes, 2), PANEL_ERR_ORDER);     /* no window */
+    CHECK_EQ_INT(panel_stream(&r->panel, bytes, 2), PANEL_ERR_ORDER);             /* no window */
     CHECK_EQ_INT(r->bus.n_calls - calls, 2 * (sizeof outside / sizeof *outside)); /* the waiting of display_finish alone */
     CHECK_EQ_INT(panel_window(&r->panel, 8, 8, 8, 8), PANEL_OK);
     size_t n = panel_window_bytes(&r->panel, 8, 8);
@@ -402,6 +403,10 @@ static void test_mistakes(const specimen *s)
     CHECK_EQ_INT(panel_stream(&r->panel, bytes, 1), PANEL_ERR_ORDER);
     CHECK_EQ_INT(panel_window(&r->panel, 0, 0, 16, 16), PANEL_OK);
     CHECK_EQ_INT(panel_stream(&r->panel, bytes, 3), PANEL_OK);
+    CHECK_EQ_INT(panel_show(&r->panel, 0), PANEL_OK); /* ends the window */
+    CHECK_EQ_INT(panel_stream(&r->panel, bytes, 2), PANEL_ERR_ORDER);
+    CHECK_EQ_INT(panel_window(&r->panel, 0, 0, 16, 16), PANEL_OK);
+    CHECK_EQ_INT(panel_stream(&r->panel, bytes, 3), PANEL_OK);
     CHECK_EQ_INT(draw(r, 64, 16), PANEL_OK); /* the window that was not filled does not show */
     CHECK_EQ_INT(panel_show(&r->panel, 1), PANEL_OK);
     check_picture(r, "after mistakes");
@@ -409,6 +414,41 @@ static void test_mistakes(const specimen *s)
     display_flush(&r->display, 0, 0, 128 < w ? 128 : w, 8, bytes);
     CHECK_EQ_INT(display_finish(&r->display), s->format == GN_FORMAT_GREY4 && w < 127 ? PANEL_OK : PANEL_ERR_BUFFER);
     CHECK_EQ_INT(r->model.n_rejected, 0);
+}
+
+/* What only some controllers cannot do: the controller is not even reset. */
+static void test_unfit(void)
+{
+    static const struct {
+        const char *name;
+        panel_config config;
+        int fits;
+    } cases[] = {
+        {"ssd1306", {.width = 128, .height = 16}, 1},
+        {"ssd1306", {.width = 128, .height = 15}, 0},
+        {"ssd1306", {.width = 128, .height = 32, .ram_y = 8}, 0},
+        {"ssd1327", {.width = 128, .height = 16, .contrast = 255, .first_com = 127}, 1},
+        {"ssd1327", {.width = 128, .height = 15}, 0},
+        {"ssd1327", {.width = 128, .height = 64, .ram_y = 1}, 0},
+        {"ssd1327", {.width = 128, .height = 64, .first_com = 128}, 0},
+        {"ssd0323", {.width = 128, .height = 16, .contrast = 127, .first_com = 79}, 1},
+        {"ssd0323", {.width = 128, .height = 15}, 0},
+        {"ssd0323", {.width = 128, .height = 64, .ram_y = 1}, 0},
+        {"ssd0323", {.width = 128, .height = 64, .contrast = 128}, 0},
+        {"ssd0323", {.width = 128, .height = 64, .first_com = 80}, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const specimen *s = specimens;
+        while (strcmp(s->name, cases[i].name)) s++;
+        for (int with_reset = 0; with_reset < 2; with_reset++) {
+            rig *r = rig_make(s, with_reset);
+            panel_status status = panel_init(&r->panel, s->driver, &cases[i].config, &r->bus.bus);
+            CHECK_EQ_INT(status, cases[i].fits ? PANEL_OK : PANEL_ERR_CONFIG);
+            CHECK_EQ_INT(r->model.now_us == 0, !cases[i].fits); /* neither a byte nor a delay */
+            CHECK_EQ_INT(r->model.n_rejected, 0);
+            CHECK_EQ_INT(panel_window(&r->panel, 0, 0, 8, 8), cases[i].fits ? PANEL_OK : PANEL_ERR_ORDER);
+        }
+    }
 }
 
 static void test_configurations(const specimen *s)
@@ -508,6 +548,27 @@ static int recovers(rig *r, const panel_model *healthy)
     return session(r) == PANEL_OK && n_wrong(r) == 0 && r->model.n_rejected == 0 && same_registers(&r->model, healthy);
 }
 
+/* The controller had another life before: nothing of it is left, with or without a reset line. */
+static void test_warm_starts(const specimen *s)
+{
+    static panel_model healthy;
+    specimen small = small_specimen(s);
+    rig *r = rig_make(&small, 1);
+    CHECK_EQ_INT(session(r), PANEL_OK);
+    healthy = r->model;
+    rng random = {.state = 1};
+    for (int i = 0; i < WARM_STARTS; i++) {
+        r = rig_make(&small, i % 4 == 0);
+        model_warm_up(&r->model, &random);
+        CHECK_EQ_INT(rig_init(r, 0), PANEL_OK);
+        CHECK_EQ_INT(model_pixel(&r->model, 0, 0), MODEL_DARK);
+        CHECK_EQ_INT(draw(r, 16, 8), PANEL_OK);
+        CHECK_EQ_INT(panel_show(&r->panel, 1), PANEL_OK);
+        check_picture(r, "after a warm start");
+        CHECK(same_registers(&r->model, &healthy));
+    }
+}
+
 static void test_failures(const specimen *s)
 {
     static panel_model healthy;
@@ -584,6 +645,14 @@ static const forbidden forbidden_streams[] = {
     {MODEL_ILI9341, "", "26!03", "parameter out of range"},
     {MODEL_ILI9341, "", "B2", "unknown command"},
     {MODEL_ILI9341, "", "C0!02", "parameter out of range"},
+    {MODEL_ILI9341, "", "C1!FF", "parameter out of range"},
+    {MODEL_ILI9341, "", "C1!14", "parameter out of range"},
+    {MODEL_ILI9341, "", "B6!08 A2 28", "parameter out of range"},
+    {MODEL_ILI9341, "", "B6!04 A2 27", "parameter out of range"},
+    {MODEL_ILI9341, "", "30!00 00 01 40", "parameter out of range"},
+    {MODEL_SSD1306, "8D 14 D5 82", "AF", "flickers"},
+    {MODEL_SSD1306, "8D 14 D5 70", "AF", "flickers"},
+    {MODEL_SSD1306, "2F", "!11", "written while it scrolls"},
     {MODEL_SSD1306, "", "AF", "without the panel's voltage"},
     {MODEL_SSD1306, "", "21 00 7F", "window in page mode"},
     {MODEL_SSD1306, "20 00", "21 05 04", "parameter out of range"},
@@ -599,6 +668,12 @@ static const forbidden forbidden_streams[] = {
     {MODEL_SSD1327, "", "B8 00 01 02 03 04 05 06 07 08 09 0A 0B 0C 0D 0D", "parameter out of range"},
     {MODEL_SSD1327, "15 00 00 75 00 00!11", "!22", "more bytes than the window"},
     {MODEL_SSD1327, "A0 51 A2 05", "AF", "display offset"},
+    {MODEL_SSD1327, "", "AB 00", "parameter out of range"},
+    {MODEL_SSD1327, "", "BC 10", "parameter out of range"},
+    {MODEL_SSD1327, "", "BE 08", "parameter out of range"},
+    {MODEL_SSD1327, "", "D5 22", "parameter out of range"},
+    {MODEL_SSD1327, "FD 16 E3", "A1 00", "locked"},
+    {MODEL_SSD0323, "AD 03 A8 3F A0 40 B2 24", "AF", "rows are too short"},
     {MODEL_SSD0323, "", "AF", "without the panel's voltage"},
     {MODEL_SSD0323, "", "75 00 50", "parameter out of range"},
     {MODEL_SSD0323, "", "81 80", "parameter out of range"},
@@ -633,6 +708,11 @@ static void test_models(void)
     m.now_us = 130000;
     commands(&m, "11");
     m.now_us = 140000;
+    commands(&m, "01");
+    rejects("reset 10 ms after waking", &m, "within 120 ms");
+    m.now_us = 270000;
+    commands(&m, "11");
+    m.now_us = 280000;
     commands(&m, "10");
     rejects("asleep 10 ms after waking", &m, "within 120 ms");
     model_reset_line(&m, 1);
@@ -710,6 +790,7 @@ int main(int argc, char **argv)
     if (argc == 4 && strcmp(argv[1], "--picture") == 0) return print_picture(argv[2], atoi(argv[3]));
     test_models();
     test_framebuffer();
+    test_unfit();
     for (int i = 0; i < N_SPECIMENS; i++) {
         test_whole_pictures(&specimens[i]);
         test_any_window(&specimens[i]);
@@ -720,6 +801,7 @@ int main(int argc, char **argv)
         test_mistakes(&specimens[i]);
         test_configurations(&specimens[i]);
         test_slow_bus(&specimens[i]);
+        test_warm_starts(&specimens[i]);
         test_failures(&specimens[i]);
     }
     return check_report();

@@ -151,6 +151,7 @@ panel_status panel_init(panel *p, const panel_driver *driver, const panel_config
     panel fresh = {.driver = driver, .bus = *bus, .config = *config};
     *p = fresh;
     panel_status status = place(p);
+    if (!status && driver->fits && !driver->fits(&p->config)) status = PANEL_ERR_CONFIG;
     if (!status) status = reset(p);
     if (!status) status = driver->set_up(p);
     if (!status) status = settle(p);

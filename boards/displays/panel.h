@@ -7,7 +7,8 @@
  * the next panel_window() or panel_stream(), has returned. Whoever fills one buffer while the other is sent has double buffering;
  * display.h does just that for the library's screen tiles.
  *
- * Every call returns a status. Mistakes of the caller (a window beyond the glass, too many bytes) change nothing. After an error of
+ * Every call returns a status. Mistakes of the caller (a window beyond the glass, too many bytes) change nothing, and send nothing;
+ * after a configuration that cannot be the panel is one that was never initialised. After an error of
  * the bus nobody knows what the controller has got: the panel is then lost, all calls say so at once and leave the bus alone, until
  * panel_init() starts over. No call waits longer than `max_polls` answers of "busy".
  */

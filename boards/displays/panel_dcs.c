@@ -11,6 +11,7 @@ panel_status panel_dcs_soft_reset(panel *p)
     return status ? status : panel_delay_ms(p, DCS_SLEEP_MS);
 }
 
+/* Any reset, by line or by command, has left inversion, partial mode and idle mode. */
 panel_status panel_dcs_set_up(panel *p, const uint8_t *script)
 {
     unsigned mirrors = panel_mirrors(p->config.turn);
@@ -22,8 +23,7 @@ panel_status panel_dcs_set_up(panel *p, const uint8_t *script)
     if (!status) status = panel_send_script(p, script);
     if (!status) status = panel_send_2(p, DCS_COLMOD, COLMOD_16_BITS);
     if (!status) status = panel_send_2(p, DCS_MADCTL, (uint8_t)madctl);
-    if (!status) status = panel_send_1(p, p->config.flags & PANEL_INVERT ? DCS_INVON : DCS_INVOFF);
-    if (!status) status = panel_send_1(p, DCS_NORON);
+    if (!status && (p->config.flags & PANEL_INVERT)) status = panel_send_1(p, DCS_INVON);
     return status;
 }
 

@@ -8,8 +8,6 @@ enum {
     DCS_SWRESET = 0x01,
     DCS_SLPIN = 0x10,
     DCS_SLPOUT = 0x11,
-    DCS_NORON = 0x13,
-    DCS_INVOFF = 0x20,
     DCS_INVON = 0x21,
     DCS_GAMSET = 0x26,
     DCS_DISPOFF = 0x28,

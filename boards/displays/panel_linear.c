@@ -7,9 +7,9 @@ static panel_status nothing(panel *p)
     return PANEL_OK;
 }
 
-static panel_status set_up(panel *p)
+static int fits(const panel_config *c)
 {
-    return p->config.turn || p->config.flags ? PANEL_ERR_CONFIG : PANEL_OK;
+    return c->turn == 0 && c->flags == 0;
 }
 
 static panel_status window(panel *p, uint32_t x, uint32_t y, uint32_t w, uint32_t h)
@@ -34,8 +34,9 @@ static panel_status always(panel *p, int on)
 const panel_driver panel_linear = {.pixels = PANEL_PIXELS_RGB565_LSB,
                                    .ram_width = 2048,
                                    .ram_height = 2048,
+                                   .fits = fits,
                                    .soft_reset = nothing,
-                                   .set_up = set_up,
+                                   .set_up = nothing,
                                    .window = window,
                                    .show = always,
                                    .sleep = always};

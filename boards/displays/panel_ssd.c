@@ -16,10 +16,12 @@ panel_status panel_ssd_show(panel *p, int on)
     return panel_send_1(p, on ? SSD_ON : SSD_OFF);
 }
 
-/* "Off" is this controller's sleep. */
+/* "Off" is this controller's sleep: panel_sleep() has said so already, and panel_wake() says "on". */
 panel_status panel_ssd_sleep(panel *p, int asleep)
 {
-    return asleep ? panel_send_1(p, SSD_OFF) : PANEL_OK;
+    (void)p;
+    (void)asleep;
+    return PANEL_OK;
 }
 
 panel_status panel_ssd_range(panel *p, uint8_t command, uint32_t first, uint32_t n)

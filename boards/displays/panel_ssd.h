@@ -16,7 +16,7 @@ enum {
     SSD_NOP = 0xE3
 };
 
-enum { SSD_RESET_MS = 1 };
+enum { SSD_RESET_MS = 1, SSD_LEAST_ROWS = 16 };
 
 panel_status panel_ssd_soft_reset(panel *p);
 panel_status panel_ssd_show(panel *p, int on);

@@ -2,7 +2,7 @@
 #include "panel_ssd.h"
 
 enum { COLUMNS = 0x21, PAGES = 0x22, COLUMNS_NORMAL = 0xA0, ROWS_NORMAL = 0xC0, INVERT_OFF = 0xA6, OFFSET = 0xD3, COM_PINS = 0xDA };
-enum { CHARGE_PUMP = 0x8D, PRECHARGE = 0xD9, LEAST_ROWS = 16 };
+enum { CHARGE_PUMP = 0x8D, PRECHARGE = 0xD9 };
 
 /* clang-format off */
 static const uint8_t registers[] = {
@@ -37,9 +37,13 @@ static panel_status set_up_glass(panel *p)
     return status;
 }
 
+static int fits(const panel_config *c)
+{
+    return c->ram_y == 0 && c->height >= SSD_LEAST_ROWS;
+}
+
 static panel_status set_up(panel *p)
 {
-    if (p->config.ram_y != 0 || p->config.height < LEAST_ROWS) return PANEL_ERR_CONFIG;
     panel_status status = panel_send_script(p, registers);
     if (!status) status = set_up_supply(p);
     return status ? status : set_up_glass(p);
@@ -55,6 +59,7 @@ const panel_driver panel_ssd1306 = {.pixels = PANEL_PIXELS_PAGE1,
                                     .ram_width = 128,
                                     .ram_height = 64,
                                     .reset_ms = SSD_RESET_MS,
+                                    .fits = fits,
                                     .soft_reset = panel_ssd_soft_reset,
                                     .set_up = set_up,
                                     .window = window,

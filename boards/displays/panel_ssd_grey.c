@@ -1,7 +1,8 @@
 /* SSD1327 and SSD0323: 4 bits per pixel, two pixels per byte of memory. */
 #include "panel_ssd.h"
 
-enum { COLUMNS = 0x15, ROWS = 0x75, REMAP = 0xA0, INVERT = 0xA7, DC_DC = 0xAD, LEAST_ROWS = 16 };
+enum { COLUMNS = 0x15, ROWS = 0x75, REMAP = 0xA0, INVERT = 0xA7, DC_DC = 0xAD };
+enum { ROWS_1327 = 128, ROWS_0323 = 80, MOST_CONTRAST_0323 = 127 };
 enum { REMAP_COLUMNS = 0x01, REMAP_NIBBLES = 0x02, REMAP_ROWS = 0x10, REMAP_SPLIT = 0x40 };
 
 /* The pictures are encoded for the eye: grey level i is to shine as (i / 15)^2.2. */
@@ -25,9 +26,18 @@ static const uint8_t registers_0323[] = {
     2, 0, SSD_START_LINE, 0, 0};
 /* clang-format on */
 
+static int fits_1327(const panel_config *c)
+{
+    return c->ram_y == 0 && c->height >= SSD_LEAST_ROWS && c->first_com < ROWS_1327;
+}
+
+static int fits_0323(const panel_config *c)
+{
+    return c->ram_y == 0 && c->height >= SSD_LEAST_ROWS && c->first_com < ROWS_0323 && c->contrast <= MOST_CONTRAST_0323;
+}
+
 static panel_status set_up(panel *p, const uint8_t *registers, unsigned remap, uint8_t contrast)
 {
-    if (p->config.ram_y != 0 || p->config.height < LEAST_ROWS) return PANEL_ERR_CONFIG;
     if (p->config.turn) remap ^= REMAP_COLUMNS | REMAP_NIBBLES | REMAP_ROWS;
     panel_status status = panel_send_script(p, registers);
     if (!status) status = panel_send_2(p, REMAP, (uint8_t)(remap | REMAP_SPLIT));
@@ -46,7 +56,6 @@ static panel_status set_up_1327(panel *p)
 
 static panel_status set_up_0323(panel *p)
 {
-    if (p->config.contrast > 127) return PANEL_ERR_CONFIG;
     panel_status status = panel_send_1(p, SSD_OFF);
     if (!status) status = panel_send_2(p, DC_DC, p->config.flags & PANEL_EXTERNAL_VCC ? 0x02 : 0x03);
     return status ? status : set_up(p, registers_0323, REMAP_NIBBLES | REMAP_ROWS, p->config.contrast ? p->config.contrast : 0x40);
@@ -60,8 +69,9 @@ static panel_status window(panel *p, uint32_t x, uint32_t y, uint32_t w, uint32_
 
 const panel_driver panel_ssd1327 = {.pixels = PANEL_PIXELS_GREY4,
                                     .ram_width = 128,
-                                    .ram_height = 128,
+                                    .ram_height = ROWS_1327,
                                     .reset_ms = SSD_RESET_MS,
+                                    .fits = fits_1327,
                                     .soft_reset = panel_ssd_soft_reset,
                                     .set_up = set_up_1327,
                                     .window = window,
@@ -70,8 +80,9 @@ const panel_driver panel_ssd1327 = {.pixels = PANEL_PIXELS_GREY4,
 
 const panel_driver panel_ssd0323 = {.pixels = PANEL_PIXELS_GREY4,
                                     .ram_width = 128,
-                                    .ram_height = 80,
+                                    .ram_height = ROWS_0323,
                                     .reset_ms = SSD_RESET_MS,
+                                    .fits = fits_0323,
                                     .soft_reset = panel_ssd_soft_reset,
                                     .set_up = set_up_0323,
                                     .window = window,

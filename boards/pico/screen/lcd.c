@@ -41,6 +41,7 @@ enum {
     PIN_LIGHT = 20,
     CLOCK_MHZ = 125,
     POLLS = 10000000,
+    ABORT_POLLS = 10000,
     TILE_BYTES = GN_TILE_WIDTH * GN_TILE_HEIGHT * 2
 };
 #define SIO_SET    0xD0000014U
@@ -109,8 +110,8 @@ static void abandon(void *user)
 {
     (void)user;
     REGISTER(DMA_ABORT) = 1;
-    while (REGISTER(DMA_ABORT) & 1U) continue;
-    REGISTER(DMA_CONTROL) = 3U << 29; /* a one clears what failed */
+    for (int i = 0; i < ABORT_POLLS && (REGISTER(DMA_ABORT) & 1U); i++) continue; /* if that was not enough, wait() says so */
+    REGISTER(DMA_CONTROL) = 3U << 29;                                             /* a one clears what failed */
 }
 
 static void delay_us(void *user, uint32_t us)
@@ -122,11 +123,7 @@ static void delay_us(void *user, uint32_t us)
 panel_status screen_open(panel *p, display *d)
 {
     GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.write = write,
-                           .wait = wait,
-                           .delay_us = delay_us,
-                           .abandon = abandon,
-                           .max_polls = POLLS};
+    const panel_bus bus = {.write = write, .wait = wait, .delay_us = delay_us, .abandon = abandon, .max_polls = POLLS};
     const panel_config config = {.width = 240, .height = 320, .turn = 1, .flags = PANEL_INVERT};
     set_up_pins();
     panel_status status = panel_init(p, &panel_st7789, &config, &bus);

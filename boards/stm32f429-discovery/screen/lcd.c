@@ -48,6 +48,7 @@ enum {
     DMA_BYTES = 1 << 6 | 1 << 10 | 2 << 25, /* memory to peripheral, memory steps, channel 2: SPI5's transmitter */
     CLOCK_MHZ = 168,
     POLLS = 10000000,
+    ABORT_POLLS = 10000,
     TILE_BYTES = GN_TILE_WIDTH * GN_TILE_HEIGHT * 2
 };
 
@@ -119,7 +120,7 @@ static void abandon(void *user)
 {
     (void)user;
     REGISTER(DMA_CONTROL) = 0;
-    while (REGISTER(DMA_CONTROL) & DMA_ON) continue;
+    for (int i = 0; i < ABORT_POLLS && (REGISTER(DMA_CONTROL) & DMA_ON); i++) continue; /* if that was not enough, wait() says so */
     REGISTER(DMA_CLEAR) = DMA_FLAGS;
 }
 
@@ -132,11 +133,7 @@ static void delay_us(void *user, uint32_t us)
 panel_status screen_open(panel *p, display *d)
 {
     GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.write = write,
-                           .wait = wait,
-                           .delay_us = delay_us,
-                           .abandon = abandon,
-                           .max_polls = POLLS};
+    const panel_bus bus = {.write = write, .wait = wait, .delay_us = delay_us, .abandon = abandon, .max_polls = POLLS};
     const panel_config config = {.width = 240, .height = 320, .turn = 1, .flags = PANEL_BGR};
     set_up_pins();
     panel_status status = panel_init(p, &panel_ili9341, &config, &bus);
