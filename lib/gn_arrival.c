@@ -179,7 +179,7 @@ static int between(const gn_frame *frame, const gn_surface *surface, uint32_t sl
                    int32_t n)
 {
     const gn_surface_light *light = &surface->light[slot];
-    gn_arrival *a = &sa->arrival[slot], m;
+    gn_arrival *a = &sa->arrival[slot], m = {0};
     const gn_arrival *b = &sb->arrival[slot];
     int32_t first = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * (int32_t)slot, middle = n >> 1, value[GN_VALUES_PER_LIGHT];
     gn_arrival_steps *steps = &chord->arrival[slot];

@@ -102,7 +102,7 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
 static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity)
 {
     uint32_t n_tiles = 0, n_lights = 0, limit = capacity < GN_ATLAS_TILES_MAX ? capacity : GN_ATLAS_TILES_MAX;
-    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+    for (uint32_t l = 0; l < frame->scene->n_lights && l < GN_MAX_LIGHTS; l++) { /* the second for the compiler, which does not know */
         if (!plan[l].n_tiles || plan[l].in_other != in_other) continue;
         if (n_tiles + plan[l].n_tiles > limit || (!in_other && n_lights == GN_CASCADED_LIGHTS_MAX)) {
             plan[l].n_tiles = 0;

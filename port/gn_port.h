@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 /* ---- Placement ----------------------------------------------------------------------------------------------------- *
- * Hot code: the files of lib/ that run per pixel, row and texel are listed in port/hot.ld, for linker scripts to include.
+ * Hot code: the files that run per pixel, row and texel, and what they call, are listed in port/hot.ld, for linker scripts to include.
  * Buffers: a program marks what should live in fast memory (the screen tile's gn_scratch above all, then the gn_renderer), and what a
  * DMA engine reads. The linker script places .fast; the alignment of DMA buffers is that of the largest cache line there is.
  */
