@@ -103,14 +103,15 @@ static int frames_hz(const panel_model *m)
     return OSCILLATOR_HZ / clocks;
 }
 
-static void switch_on(panel_model *m)
+static void switch_to(panel_model *m, int on)
 {
+    m->on = on;
+    if (!on) return;
     if (frames_hz(m) < LEAST_FRAMES_HZ) model_reject(m, "flickers", m->reg[0xD5][0]);
     if (!m->glass.external_vcc && m->reg[0x8D][0] != 0x14) model_reject(m, "on without the panel's voltage", m->reg[0x8D][0]);
     if (((m->reg[0xDA][0] & 0x10) == 0) != m->glass.sequential_com)
         model_reject(m, "COM pins are not the glass's", m->reg[0xDA][0]);
     if (m->reg[0xA8][0] + 1 != m->glass.height) model_reject(m, "multiplex ratio is not the glass's", m->reg[0xA8][0]);
-    m->on = 1;
 }
 
 static void execute(panel_model *m, uint8_t command, const uint8_t *p)
@@ -145,10 +146,8 @@ static void execute(panel_model *m, uint8_t command, const uint8_t *p)
         m->inverted = command & 1;
         break;
     case 0xAE:
-        m->on = 0;
-        break;
     case 0xAF:
-        switch_on(m);
+        switch_to(m, command & 1);
         break;
     default:
         break;

@@ -372,13 +372,10 @@ static void test_sleep(const specimen *s)
     check_picture(r, "after another");
 }
 
-static void test_mistakes(const specimen *s)
+static const uint8_t some_bytes[64 * 64 * 2];
+
+static void check_outside(rig *r)
 {
-    rig *r = rig_make(s, 1);
-    static const uint8_t bytes[64 * 64 * 2];
-    panel fresh = {0};
-    CHECK_EQ_INT(panel_window(&fresh, 0, 0, 8, 8), PANEL_ERR_ORDER);
-    CHECK_EQ_INT(rig_init(r, 0), PANEL_OK);
     int w = r->panel.width, h = r->panel.height;
     uint32_t calls = r->bus.n_calls;
     const int outside[][4] = {{-2, 0, 8, 8},         {0, -8, 8, 8},          {0, 0, 0, 8},     {0, 0, 8, 0}, {w, 0, 8, 8},
@@ -386,13 +383,19 @@ static void test_mistakes(const specimen *s)
                               {2, 8, 8, 0x7FFFFFF8}, {-2147483647, 0, 8, 8}, {0, 0, -8, 8}};
     for (size_t i = 0; i < sizeof outside / sizeof *outside; i++) {
         CHECK_EQ_INT(panel_window(&r->panel, outside[i][0], outside[i][1], outside[i][2], outside[i][3]), PANEL_ERR_WINDOW);
-        display_flush(&r->display, outside[i][0], outside[i][1], outside[i][2], outside[i][3], bytes);
+        display_flush(&r->display, outside[i][0], outside[i][1], outside[i][2], outside[i][3], some_bytes);
         CHECK_EQ_INT(r->display.status, PANEL_ERR_WINDOW);
         CHECK_EQ_INT(display_finish(&r->display), PANEL_ERR_WINDOW); /* and forgotten */
         CHECK_EQ_INT(display_finish(&r->display), PANEL_OK);
     }
-    CHECK_EQ_INT(panel_stream(&r->panel, bytes, 2), PANEL_ERR_ORDER);             /* no window */
+    CHECK_EQ_INT(panel_stream(&r->panel, some_bytes, 2), PANEL_ERR_ORDER);        /* no window */
     CHECK_EQ_INT(r->bus.n_calls - calls, 2 * (sizeof outside / sizeof *outside)); /* the waiting of display_finish alone */
+}
+
+/* Leaves a window that was not filled. */
+static void check_lengths(rig *r)
+{
+    const uint8_t *bytes = some_bytes;
     CHECK_EQ_INT(panel_window(&r->panel, 8, 8, 8, 8), PANEL_OK);
     size_t n = panel_window_bytes(&r->panel, 8, 8);
     CHECK_EQ_INT(panel_stream(&r->panel, bytes, n + 1), PANEL_ERR_LENGTH);
@@ -407,12 +410,22 @@ static void test_mistakes(const specimen *s)
     CHECK_EQ_INT(panel_stream(&r->panel, bytes, 2), PANEL_ERR_ORDER);
     CHECK_EQ_INT(panel_window(&r->panel, 0, 0, 16, 16), PANEL_OK);
     CHECK_EQ_INT(panel_stream(&r->panel, bytes, 3), PANEL_OK);
+}
+
+static void test_mistakes(const specimen *s)
+{
+    rig *r = rig_make(s, 1);
+    panel fresh = {0};
+    CHECK_EQ_INT(panel_window(&fresh, 0, 0, 8, 8), PANEL_ERR_ORDER);
+    CHECK_EQ_INT(rig_init(r, 0), PANEL_OK);
+    check_outside(r);
+    check_lengths(r);
     CHECK_EQ_INT(draw(r, 64, 16), PANEL_OK); /* the window that was not filled does not show */
     CHECK_EQ_INT(panel_show(&r->panel, 1), PANEL_OK);
     check_picture(r, "after mistakes");
     r->display.buffer_bytes = 63;
-    display_flush(&r->display, 0, 0, 128 < w ? 128 : w, 8, bytes);
-    CHECK_EQ_INT(display_finish(&r->display), s->format == GN_FORMAT_GREY4 && w < 127 ? PANEL_OK : PANEL_ERR_BUFFER);
+    display_flush(&r->display, 0, 0, r->panel.width > 128 ? 128 : r->panel.width, 8, some_bytes);
+    CHECK_EQ_INT(display_finish(&r->display), s->format == GN_FORMAT_GREY4 && r->panel.width < 127 ? PANEL_OK : PANEL_ERR_BUFFER);
     CHECK_EQ_INT(r->model.n_rejected, 0);
 }
 
@@ -680,6 +693,32 @@ static const forbidden forbidden_streams[] = {
     {MODEL_SSD0323, "", "FD 12", "unknown command"},
 };
 
+static void test_times(panel_model *m, const model_glass *glass)
+{
+    model_init(m, MODEL_ST7789, glass);
+    commands(m, "00");
+    rejects("a command at once after the reset", m, "too early");
+    m->now_us = 10000;
+    commands(m, "11");
+    rejects("awake 10 ms after the reset", m, "within 120 ms");
+    m->now_us = 130000;
+    commands(m, "11");
+    m->now_us = 140000;
+    commands(m, "01");
+    rejects("reset 10 ms after waking", m, "within 120 ms");
+    m->now_us = 270000;
+    commands(m, "11");
+    m->now_us = 280000;
+    commands(m, "10");
+    rejects("asleep 10 ms after waking", m, "within 120 ms");
+    model_reset_line(m, 1);
+    model_byte(m, 0, 0x11);
+    rejects("held in reset", m, "held in reset");
+    m->now_us += 9;
+    model_reset_line(m, 0);
+    rejects("9 us of reset", m, "too short");
+}
+
 static void test_models(void)
 {
     static panel_model m;
@@ -699,28 +738,7 @@ static void test_models(void)
         commands(&m, forbidden_streams[i].sinful);
         rejects(forbidden_streams[i].sinful, &m, forbidden_streams[i].expected);
     }
-    model_init(&m, MODEL_ST7789, &glass[0]);
-    commands(&m, "00");
-    rejects("a command at once after the reset", &m, "too early");
-    m.now_us = 10000;
-    commands(&m, "11");
-    rejects("awake 10 ms after the reset", &m, "within 120 ms");
-    m.now_us = 130000;
-    commands(&m, "11");
-    m.now_us = 140000;
-    commands(&m, "01");
-    rejects("reset 10 ms after waking", &m, "within 120 ms");
-    m.now_us = 270000;
-    commands(&m, "11");
-    m.now_us = 280000;
-    commands(&m, "10");
-    rejects("asleep 10 ms after waking", &m, "within 120 ms");
-    model_reset_line(&m, 1);
-    model_byte(&m, 0, 0x11);
-    rejects("held in reset", &m, "held in reset");
-    m.now_us += 9;
-    model_reset_line(&m, 0);
-    rejects("9 us of reset", &m, "too short");
+    test_times(&m, &glass[MODEL_ST7789]);
 }
 
 /* ---- A frame buffer in memory ----------------------------------------------------------------------------------------------- */

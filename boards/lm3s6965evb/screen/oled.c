@@ -56,9 +56,8 @@ static void set_up_pins(void)
     REGISTER(GPIO_A + GPIO_AFSEL) |= 0x2CU;
     REGISTER(GPIO_A + GPIO_DEN) |= 0x2CU;
     REGISTER(SSI0_CR1) = 0;
-    REGISTER(SSI0_CPSR) = 4; /* 3 MHz; the controller takes 4 */
-    REGISTER(SSI0_CR0) =
-        0x47U; /* 8 bits; the clock rests high, data changes on its rising edge: so does the driver of the board's maker */
+    REGISTER(SSI0_CPSR) = 4;    /* 3 MHz; the controller takes 4 */
+    REGISTER(SSI0_CR0) = 0x47U; /* 8 bits; the clock rests high, data changes on its rising edge: as the board's maker has it */
     REGISTER(SSI0_CR1) = 2;
 }
 
@@ -104,7 +103,12 @@ panel_status screen_open(panel *p, display *d)
 {
     static transfer t;
     static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.user = &t, .write = write, .wait = wait, .delay_us = delay_us, .abandon = abandon, .max_polls = POLLS};
+    const panel_bus bus = {.user = &t,
+                           .write = write,
+                           .wait = wait,
+                           .delay_us = delay_us,
+                           .abandon = abandon,
+                           .max_polls = POLLS};
     const panel_config config = {.width = 128, .height = 64, .flags = PANEL_EXTERNAL_VCC, .first_com = 0x4C};
     set_up_pins();
     panel_status status = panel_init(p, &panel_ssd0323, &config, &bus);

@@ -106,12 +106,13 @@ static panel_status wait(void *user)
     return (control & DMA_BUSY) || (REGISTER(SPI_SR) & SPI_BUSY) ? PANEL_BUSY : PANEL_OK;
 }
 
+/* If its polls are not enough, wait() stays busy and panel_init() says so. */
 static void abandon(void *user)
 {
     (void)user;
     REGISTER(DMA_ABORT) = 1;
-    for (int i = 0; i < ABORT_POLLS && (REGISTER(DMA_ABORT) & 1U); i++) continue; /* if that was not enough, wait() says so */
-    REGISTER(DMA_CONTROL) = 3U << 29;                                             /* a one clears what failed */
+    for (int i = 0; i < ABORT_POLLS && (REGISTER(DMA_ABORT) & 1U); i++) continue;
+    REGISTER(DMA_CONTROL) = 3U << 29; /* a one clears what failed */
 }
 
 static void delay_us(void *user, uint32_t us)
@@ -123,7 +124,11 @@ static void delay_us(void *user, uint32_t us)
 panel_status screen_open(panel *p, display *d)
 {
     GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.write = write, .wait = wait, .delay_us = delay_us, .abandon = abandon, .max_polls = POLLS};
+    const panel_bus bus = {.write = write,
+                           .wait = wait,
+                           .delay_us = delay_us,
+                           .abandon = abandon,
+                           .max_polls = POLLS};
     const panel_config config = {.width = 240, .height = 320, .turn = 1, .flags = PANEL_INVERT};
     set_up_pins();
     panel_status status = panel_init(p, &panel_st7789, &config, &bus);

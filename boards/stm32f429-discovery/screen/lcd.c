@@ -116,11 +116,12 @@ static panel_status wait(void *user)
     return (spi & SPI_BUSY) || !(spi & SPI_EMPTY) ? PANEL_BUSY : PANEL_OK;
 }
 
+/* If its polls are not enough, wait() stays busy and panel_init() says so. */
 static void abandon(void *user)
 {
     (void)user;
     REGISTER(DMA_CONTROL) = 0;
-    for (int i = 0; i < ABORT_POLLS && (REGISTER(DMA_CONTROL) & DMA_ON); i++) continue; /* if that was not enough, wait() says so */
+    for (int i = 0; i < ABORT_POLLS && (REGISTER(DMA_CONTROL) & DMA_ON); i++) continue;
     REGISTER(DMA_CLEAR) = DMA_FLAGS;
 }
 
@@ -133,7 +134,11 @@ static void delay_us(void *user, uint32_t us)
 panel_status screen_open(panel *p, display *d)
 {
     GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.write = write, .wait = wait, .delay_us = delay_us, .abandon = abandon, .max_polls = POLLS};
+    const panel_bus bus = {.write = write,
+                           .wait = wait,
+                           .delay_us = delay_us,
+                           .abandon = abandon,
+                           .max_polls = POLLS};
     const panel_config config = {.width = 240, .height = 320, .turn = 1, .flags = PANEL_BGR};
     set_up_pins();
     panel_status status = panel_init(p, &panel_ili9341, &config, &bus);
