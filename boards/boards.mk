@@ -109,7 +109,7 @@ screen: run-screen
 
 comma := ,
 empty :=
-FW_ARGS = $(subst $(empty) $(comma),$(comma),$(APP)$(ARGS:%=$(comma)arg=%))
+FW_ARGS = $(APP)$(subst $(empty) $(comma)arg=,$(comma)arg=,$(patsubst %,$(comma)arg=%,$(subst $(comma),$(comma)$(comma),$(ARGS))))
 EMULATE = $(BOARD_EMULATOR) -semihosting-config enable=on,target=native,arg=$(FW_ARGS) -kernel $(FIRMWARE)
 EMULATOR_FLAGS := -display none -monitor none -serial none $(if $(COUNT),-plugin $(abspath $(BUILD)/libstages.so))
 run-firmware: $(FIRMWARE) $(if $(COUNT),$(BUILD)/libstages.so)

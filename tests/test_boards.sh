@@ -96,6 +96,15 @@ pocket() {
     else echo "pocket: the streamed picture is not docs/pictures/pocket.png"; fi
     bytes=$(sed -n 's/^RAM \([0-9]*\) bytes.*/\1/p' "$tmp/pocket.microbit")
     [ "${bytes:-99999}" -le 16384 ] && echo ok || echo "pocket: $bytes bytes of RAM"
+    # A comma is the emulator's, what is too long is refused, and so is a file that cannot be.
+    firmware emulate BOARD=microbit APP=pocket ARGS="$tmp/a,b" >/dev/null 2>&1 && cmp -s "$tmp/a,b" "$tmp/strips.microbit" && echo ok || echo "pocket: no file with a comma"
+    long=$tmp/$(printf '%0110d' 0)
+    for board in host microbit; do
+        firmware emulate BOARD=$board APP=pocket ARGS="$long" >"$tmp/long.$board" 2>&1 && echo "$board: ARGS of 110 characters"
+        grep -q '^ARGS are too long' "$tmp/long.$board" && echo ok || echo "$board: ARGS of 110 characters: $(head -n 1 "$tmp/long.$board")"
+        firmware emulate BOARD=$board APP=pocket ARGS=/no/such/folder >"$tmp/no.$board" 2>&1 && echo "$board: a file in no folder"
+        grep -q '^cannot create /no/such/folder' "$tmp/no.$board" && echo ok || echo "$board: a file in no folder: $(head -n 1 "$tmp/no.$board")"
+    done
     if firmware firmware BOARD=microbit APP=pocket LINK_FLAGS=-Wl,--defsym=RAM_BYTES=12K IMAGE=pocket >"$tmp/pocket.12" 2>&1; then echo "12 KB are enough for the pocket sundial"
     elif grep -q 'overflowed by' "$tmp/pocket.12"; then echo ok
     else echo "pocket with 12 KB: $(head -n 1 "$tmp/pocket.12")"; fi
@@ -187,7 +196,7 @@ failed=$((failed + $(grep -v -c '^ok$' "$tmp/results")))
 grep -v '^ok$' "$tmp/results"
 [ "$(echo "$emulated" | grep -c .)" -ge 7 ] && pass || fail "the emulated boards are $emulated"
 [ "$(echo "$built_only" | grep -c .)" -ge 2 ] && pass || fail "the boards that are built only are $built_only"
-[ "$(grep -c '^ok$' "$tmp/results")" -ge 69 ] && pass || fail "jobs are missing"
+[ "$(grep -c '^ok$' "$tmp/results")" -ge 74 ] && pass || fail "jobs are missing"
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

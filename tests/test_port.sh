@@ -52,6 +52,15 @@ for folder in port/*/; do # none that no board has
     esac
 done
 
+# The recipe of docs/PORTING.md, line by line, in a copy of the tree.
+mkdir "$tmp/tree"
+cp -r Makefile lib port boards host tests "$tmp/tree/"
+sed -n '/^## Write a port/,$s/^       \(cp\|mv\|sed\) /\1 /p' docs/PORTING.md | sed 's/NAME/mine/g; s/GN_PORT_mine/GN_PORT_MINE/' >"$tmp/recipe"
+[ "$(wc -l <"$tmp/recipe")" = 4 ] && pass || fail "docs/PORTING.md has a recipe of $(wc -l <"$tmp/recipe") lines"
+if (cd "$tmp/tree" && sh -e ../recipe) && make -s -C "$tmp/tree" --no-print-directory emulate BOARD=host APP=port BOARD_PORT=mine >"$tmp/mine" 2>&1 &&
+    [ "$(found mine)" = 0 ]; then pass
+else fail "the recipe of docs/PORTING.md: $(grep -v '^  ' "$tmp/mine" | head -n 2 | tr '\n' ';')"; fi
+
 wrong template host template gn_port_template.c 's/return any | all << 16;/return any | (all ^ (n == 6 \&\& dark[5] == 63)) << 16;/'
 wrong template-edge host template gn_port_template.c 's/< (least + 0xFFFFU) >> 16/< least >> 16/'
 wrong product nrf51-large armv6m gn_port_armv6m.c 's/"adcs r1, r2\\n"/"add r1, r2\\n"/'

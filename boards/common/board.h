@@ -14,14 +14,17 @@ void board_print(const char *text);
 void board_print_u32(uint32_t value);
 void board_print_hex(uint32_t value); /* eight digits */
 
-/* What follows the image's name on the command line (make emulate ARGS="..."), at most BOARD_ARGS_BYTES - 1 characters; "" without. */
+/* What follows the image's name on the command line (make emulate ARGS="..."); "" without. With more than BOARD_ARGS_BYTES - 1 characters,
+ * the image's name with them, the run ends at once with status 5. */
 enum { BOARD_ARGS_BYTES = 96 };
 const char *board_args(void);
+#define BOARD_ARGS_TOO_LONG "ARGS are too long\n"
 
 /* Ends the run: the emulator exits with this status. Without a console it never returns either. */
 void board_exit(int status) __attribute__((noreturn));
 
-/* A file on the machine that runs the emulator; a negative handle or a nonzero result is a failure. */
+/* A file on the machine that runs the emulator; a negative handle, which is reported, or a nonzero result is a failure. */
+#define BOARD_NO_FILE "cannot create "
 int board_file_create(const char *path);
 int board_file_write(int file, const void *bytes, size_t n_bytes);
 int board_file_close(int file);

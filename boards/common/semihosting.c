@@ -1,5 +1,7 @@
 /* The console through semihosting: a trap that the emulator or the debugger answers. Without either it would fault: boards that run
  * alone link no_console.c instead. */
+#include "start.h"
+
 #include "board.h"
 
 enum {
@@ -49,7 +51,10 @@ const char *board_args(void)
 {
     static char text[BOARD_ARGS_BYTES];
     intptr_t block[2] = {(intptr_t)text, sizeof text - 1};
-    if (semihosting(SYS_GET_CMDLINE, block)) text[0] = '\0';
+    if (semihosting(SYS_GET_CMDLINE, block)) {
+        board_print(BOARD_ARGS_TOO_LONG);
+        board_exit(BOARD_STATUS_ARGS);
+    }
     const char *rest = text;
     while (*rest && *rest != ' ') rest++;
     while (*rest == ' ') rest++;
@@ -61,7 +66,9 @@ int board_file_create(const char *path)
     intptr_t n = 0;
     while (path[n]) n++;
     const intptr_t block[3] = {(intptr_t)path, MODE_WRITE_BINARY, n};
-    return (int)semihosting(SYS_OPEN, block);
+    int file = (int)semihosting(SYS_OPEN, block);
+    if (file < 0) board_print(BOARD_NO_FILE), board_print(path), board_print("\n");
+    return file;
 }
 
 int board_file_write(int file, const void *bytes, size_t n_bytes)

@@ -8,7 +8,7 @@
  * has one or the core guards it. */
 extern uint32_t board_stack_bottom[], board_stack_top[], board_ram_end[];
 
-enum { BOARD_STATUS_FAULT = 3, BOARD_STATUS_CANARY = 4 }; /* what the emulator exits with */
+enum { BOARD_STATUS_FAULT = 3, BOARD_STATUS_CANARY = 4, BOARD_STATUS_ARGS = 5 }; /* what the emulator exits with */
 
 /* By the core, after the stack is painted: makes what lies below the stack a fault, where the core can. No frame of the library is larger
  * than the guard, so that none steps over it. */

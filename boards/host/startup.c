@@ -1,6 +1,9 @@
 /* A terminal for a console, the process for a board. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+#include "start.h"
 
 #include "board.h"
 
@@ -27,7 +30,8 @@ static FILE *files[FILES];
 int board_file_create(const char *path)
 {
     for (int i = 0; i < FILES; i++)
-        if (!files[i]) return (files[i] = fopen(path, "wb")) != NULL ? i : -1;
+        if (!files[i] && (files[i] = fopen(path, "wb")) != NULL) return i;
+    fprintf(stderr, BOARD_NO_FILE "%s\n", path);
     return -1;
 }
 
@@ -58,8 +62,16 @@ void board_print_memory(void) {}
 
 int main(int argc, char **argv)
 {
-    int n = 0;
-    for (int i = 1; i < argc && n < BOARD_ARGS_BYTES; i++)
-        n += snprintf(args + n, (size_t)(BOARD_ARGS_BYTES - n), "%s%s", i > 1 ? " " : "", argv[i]);
+    size_t n = 0;
+    for (int i = 1; i < argc; i++) {
+        size_t length = strlen(argv[i]);
+        if (n + length + 2 > sizeof args) {
+            board_print(BOARD_ARGS_TOO_LONG);
+            return BOARD_STATUS_ARGS;
+        }
+        if (i > 1) args[n++] = ' ';
+        memcpy(args + n, argv[i], length);
+        n += length;
+    }
     return app_main();
 }
