@@ -770,6 +770,9 @@ static void test_framebuffer(void)
     CHECK_EQ_INT(panel_window(&r->panel, 0, 44, 8, 7), PANEL_ERR_BUS);
     config.turn = 2;
     CHECK_EQ_INT(panel_init(&r->panel, &panel_linear, &config, &bus), PANEL_ERR_CONFIG);
+    config.turn = 0;
+    config.flags = PANEL_BGR;
+    CHECK_EQ_INT(panel_init(&r->panel, &panel_linear, &config, &bus), PANEL_ERR_CONFIG);
 }
 
 /* ---- What a glass shows, to look at ----------------------------------------------------------------------------------------- */
