@@ -1,6 +1,6 @@
 # Firmware of one board: make firmware BOARD=mps2-an385 APP=crc. Included when BOARD is set.
 #
-# BOARD       a folder of boards/ with board.mk, startup.c, link.ld
+# BOARD       a folder of boards/ with board.mk, link.ld and, where common/vectors.c does not do, startup.c
 # APP         boards/apps/APP.c; APP.mk beside it may set APP_SRC, APP_FLAGS, APP_OBJ, APP_LIB, and have rules
 # SCENE       a scene file that the app renders, compiled to C arrays by build/gnomon
 # PRESET      tiny, balanced, accurate
@@ -60,6 +60,7 @@ FW_PRESET := -DGN_PRESET=GN_PRESET_$(shell echo $(PRESET) | tr a-z A-Z)
 endif
 ifneq ($(SCENE),)
 FW_SCENE_DIR ?= $(FW_OBJ_DIR)/scene
+FW_SCENE_BOARD ?= $(if $(wildcard boards/$(BOARD)/link.ld),--board $(BOARD)) # whether it fits
 FW_SCENE := -I$(FW_SCENE_DIR) '-DGN_USER_CONFIG="gn_scene_config.h"' -DBOARD_SCENE=1
 FW_SCENE_OBJ := $(FW_OBJ_DIR)/scene.o
 endif
@@ -87,7 +88,7 @@ ifneq ($(SCENE),)
 $(FW_OBJ): $(FW_SCENE_DIR)/scene.c
 $(FW_SCENE_DIR)/scene.c: $(SCENE) $(BUILD)/gnomon $(FW_SCENE_DIR)/scene.flags
 	@mkdir -p $(@D)
-	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(if $(wildcard boards/$(BOARD)/link.ld),--board $(BOARD)) $(if $(PRESET),--set preset=$(PRESET)) $(SCENE_FLAGS)
+	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(FW_SCENE_BOARD) $(if $(PRESET),--set preset=$(PRESET)) $(SCENE_FLAGS)
 $(FW_SCENE_OBJ): $(FW_SCENE_DIR)/scene.c $(FW_OBJ_DIR)/compile.flags
 	@$(FW_CC) $(FW_CFLAGS) -MMD -MP -c -o $@ $<
 endif
@@ -103,7 +104,17 @@ always:
 
 -include $(shell test -d $(FW_OBJ_DIR) && find $(FW_OBJ_DIR) -name '*.d')
 
-firmware: $(FIRMWARE)
+# What a programmer writes to flash, of boards that nothing emulates; UF2 where the board takes it by copying.
+FW_FLAT := $(if $(filter no,$(BOARD_RUNS)),$(FIRMWARE:.elf=.bin) $(if $(BOARD_UF2),$(FIRMWARE:.elf=.uf2)))
+$(FIRMWARE:.elf=.bin): $(FIRMWARE)
+	@$(BOARD_CROSS)objcopy -O binary $< $@
+$(FIRMWARE:.elf=.uf2): $(FIRMWARE:.elf=.bin) $(BUILD)/uf2
+	@$(BUILD)/uf2 $(BOARD_UF2) <$< >$@
+$(BUILD)/uf2: boards/tools/uf2.c
+	@mkdir -p $(@D)
+	@$(CC) -std=c11 -O2 $(WARN) -o $@ $<
+
+firmware: $(FIRMWARE) $(FW_FLAT)
 emulate: run-firmware
 screen: run-screen
 

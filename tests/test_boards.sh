@@ -78,6 +78,7 @@ board_warnings() { # board_warnings BOARD OPTIMISATION CONFIGURATION
 built() { # built BOARD
     if firmware firmware BOARD="$1" APP=crc >"$tmp/built$1" 2>&1 && [ -s "build/firmware/$1/crc.elf" ]; then echo ok
     else echo "$1: $(grep -m 1 -E 'error|undefined' "$tmp/built$1")"; fi
+    [ -s "build/firmware/$1/crc.bin" ] && echo ok || echo "$1 has no flat image"
     sed -n 1p "boards/$1/board.mk" | grep -q 'Built, not run' && echo ok || echo "$1 is not labelled as built, not run"
 }
 
@@ -146,6 +147,19 @@ EOF_C
     gcc -o "$tmp/boot_crc" "$tmp/boot.c" && "$tmp/boot_crc" <"$tmp/boot"
 }
 
+# UF2: blocks of 512 bytes with 256 of the flat image each, in order, for an RP2040.
+pico_uf2() {
+    bin=build/firmware/pico/crc.bin uf2=build/firmware/pico/crc.uf2
+    n=$((($(wc -c <$bin) + 255) / 256))
+    [ "$(wc -c <$uf2)" = $((512 * n)) ] && echo ok || echo "crc.uf2 has not $n blocks"
+    last=$(od -A n -v -t x4 -j $((512 * (n - 1))) -N 32 $uf2 | tr -d ' \n')
+    expected=$(printf '0a3246559e5d515700002000%08x00000100%08x%08xe48bff56' $((0x10000000 + 256 * (n - 1))) $((n - 1)) $n)
+    [ "$last" = "$expected" ] && echo ok || echo "crc.uf2: $last, not $expected"
+    od -A n -v -w512 -t x1 $uf2 | cut -c 97-864 | tr -d ' \n' >"$tmp/uf2"
+    od -A n -v -w256 -t x1 $bin | tr -d ' \n' >"$tmp/bin"
+    head -c "$(wc -c <"$tmp/bin")" "$tmp/uf2" | cmp -s - "$tmp/bin" && echo ok || echo "crc.uf2 holds other bytes than crc.bin"
+}
+
 # ---- Running, two at a time ------------------------------------------------------------------------------------------------
 
 if [ "${1:-}" = job ]; then
@@ -190,13 +204,13 @@ sh tests/one_file.sh lib >"$tmp/lib.c"
     echo pocket
 } >"$tmp/jobs"
 xargs -P 2 -I '{}' sh -c 'sh tests/test_boards.sh job "$1" $2' run "$tmp" '{}' <"$tmp/jobs" >"$tmp/results" 2>&1
-{ hot; pico_boot; } >>"$tmp/results" 2>&1
+{ hot; pico_boot; pico_uf2; } >>"$tmp/results" 2>&1
 passed=$((passed + $(grep -c '^ok$' "$tmp/results")))
 failed=$((failed + $(grep -v -c '^ok$' "$tmp/results")))
 grep -v '^ok$' "$tmp/results"
 [ "$(echo "$emulated" | grep -c .)" -ge 7 ] && pass || fail "the emulated boards are $emulated"
 [ "$(echo "$built_only" | grep -c .)" -ge 2 ] && pass || fail "the boards that are built only are $built_only"
-[ "$(grep -c '^ok$' "$tmp/results")" -ge 74 ] && pass || fail "jobs are missing"
+[ "$(grep -c '^ok$' "$tmp/results")" -ge 81 ] && pass || fail "jobs are missing"
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

@@ -7,6 +7,8 @@ BOARD_OPT := -Os
 BOARD_COMMON := cortex_m no_console
 BOARD_PORT := armv6m
 BOARD_EMULATOR :=
+# Where flash begins, and what the chip is called
+BOARD_UF2 := 0x10000000 0xE48BFF56
 SCREEN_SIZE := 320x240
 SCREEN_FORMAT := RGB565
 SCREEN_SETTINGS := --set atlas_size=256
