@@ -2,11 +2,12 @@
 #include "crc32.h"
 
 #include "board.h"
+#include "gn_port.h"
 #include "gnomon.h"
 
 enum { WIDTH = 64, HEIGHT = 48, FRAMES = 4 };
 
-static gn_renderer renderer; /* all of the memory */
+static gn_renderer renderer GN_PORT_FAST; /* all of the memory, so small that it fits where data is fastest */
 
 static const int32_t pos[] = {GN_Q16(-4), 0,          GN_Q16(4), GN_Q16(4), 0,          GN_Q16(4),  GN_Q16(4),  0,          GN_Q16(-4),
                               GN_Q16(-4), 0,          GN_Q16(-4), GN_Q16(-1), 0,         GN_Q16(1),  GN_Q16(1),  0,          GN_Q16(1),
