@@ -1,5 +1,5 @@
 #!/bin/sh
-# Regenerates the generated parts of docs/BOARDS.md and docs/pictures/pocket.png. usage: boards.sh [OUT_DIR]
+# Regenerates the generated parts of docs/BOARDS.md and docs/pictures/pocket.png. usage: boards.sh [OUT_DIR], or --boards: prints the table of the boards
 cd "$(dirname "$0")/.." || exit 1
 
 setting() { sed -n "s/^$2 := *//p" "boards/$1/board.mk"; }
@@ -11,7 +11,7 @@ table_of_boards() {
         board=$(basename "$(dirname "$file")")
         [ "$board" = host ] && continue
         memory=$(sed -n 's/^ *[a-z0-9]* (\(r[wx]*\)) : ORIGIN = [^,]*, LENGTH = \(.*\)$/\1 \2/p' "boards/$board/link.ld" |
-            awk '{ sub(/^rw?x? DEFINED\(RAM_BYTES\) \? RAM_BYTES : /, "rw "); sub(/ - 256$/, ""); if ($2 != "256") print $2 }' | paste -s -d+ | sed 's/+/ + /g; s/\([KM]\)/ \1B/g')
+            awk '{ sub(/^rw?x? DEFINED\(RAM_BYTES\) \? RAM_BYTES : /, "rw "); sub(/ - (256|4K)$/, ""); if ($2 != "256") print $2 }' | paste -s -d+ | sed 's/+/ + /g; s/\([KM]\)/ \1B/g')
         echo "| $board | $(setting "$board" BOARD_CORE) | $memory | $(sed -n '1s/^# //p' "$file") |"
     done
 }
@@ -41,6 +41,7 @@ replace() { # replace NAME: by the lines of standard input
     cp "$work/next" "$out/BOARDS.md"
 }
 
+if [ "${1:-}" = --boards ]; then table_of_boards; exit; fi # for a test to compare
 out=${1:-docs}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

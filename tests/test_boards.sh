@@ -179,6 +179,9 @@ fi
 sed -n 's/^| \([a-z]*\) | \([0-9]*\) | \([a-z]*\) | \(.*\) | `\([0-9a-f]*\)` |$/\5 \1 frame \2 \3 \4/p' docs/BOARDS.md >"$tmp/golden"
 [ "$(wc -l <"$tmp/golden")" -gt 40 ] && pass || fail "docs/BOARDS.md has no table of golden frames"
 
+sh docs/boards.sh --boards | grep -v -x -F -f docs/BOARDS.md >"$tmp/rows"
+[ -s "$tmp/rows" ] && fail "docs/BOARDS.md has other boards: $(head -n 1 "$tmp/rows")" || pass
+
 scenes_ok=1
 for scene in sundial avenue desk room fence mixed; do firmware BOARD=host APP=golden "build/firmware/scenes/$scene/scene.c" >"$tmp/log" 2>&1 || scenes_ok=0; done
 for word in -m64 -m32; do
