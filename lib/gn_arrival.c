@@ -23,18 +23,16 @@ static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t re
     return gn_sat32(texels + ((int64_t)view->tile_texels << 15));
 }
 
-/* B2 and B3 have moved the point at the sample; B6 does it here, face by face of a point light. Returns what is to be taken off its
- * depth, Q32. */
-static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, int32_t z_q16, const gn_light_view *view,
+/* B2 and B3 have moved the point at the sample; B6 does it here, in one of its forms, face by face of a point light. Returns what is to
+ * be taken off its depth, Q32. */
+static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, int32_t z_q16, const gn_light_view *view, gn_auto_bias form,
                            const int32_t *value, int32_t moved_q16[3])
 {
     const int32_t *from = value + GN_LIGHT_POINT_AT, *offset = value + GN_LIGHT_OFFSET;
 #if GN_AUTO_BIAS
-    gn_auto_bias form = (gn_auto_bias)frame->light[view->light_idx].auto_bias;
     if (form && !GN_CURVED(surface)) return gn_bias_auto_persp(view, form, surface->face_q30, z_q16, from, moved_q16);
-#else
-    (void)frame, (void)surface, (void)z_q16, (void)view;
 #endif
+    (void)frame, (void)surface, (void)z_q16, (void)view, (void)form;
     for (int i = 0; i < 3; i++) moved_q16[i] = gn_sat32((int64_t)from[i] + offset[i]);
 #if GN_AUTO_BIAS
     return form ? view->auto_step : 0;
@@ -43,21 +41,14 @@ static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, int
 #endif
 }
 
-/* Where the light's view sees the point. */
-static void find_place(const gn_frame *frame, const gn_surface *surface, const gn_light_state *light, int32_t z_q16, const int32_t *value,
-                       gn_arrival *out)
+/* Where the view sees the point in that form. Returns 0 if it is nearer than its near plane. */
+static int place_in(const gn_frame *frame, const gn_surface *surface, int32_t z_q16, const gn_light_view *view, gn_auto_bias form,
+                    const int32_t *value, gn_arrival *out)
 {
     int32_t moved[3];
-    int64_t at[3];
-    /* P5: the face of the unmoved point; the moved one stays in it */
-    out->face = light->kind == GN_LIGHT_POINT ? (uint8_t)gn_persp_face(value + GN_LIGHT_POINT_AT) : 0;
-    const gn_light_view *view = &frame->view[light->view_idx + out->face];
-    int64_t less_q32 = moved_point(frame, surface, z_q16, view, value, moved);
+    int64_t at[3], less_q32 = moved_point(frame, surface, z_q16, view, form, value, moved);
     for (int i = 0; i < 3; i++) at[i] = gn_dot_q30(moved, view->axis_q30[i]); /* sqrt(3) * 2^61 */
-    if (at[2] <= view->fit.persp.near_q16) {
-        out->face = GN_FACE_NONE;
-        return;
-    }
+    if (at[2] <= view->fit.persp.near_q16) return 0;
     uint32_t z = at[2] > UINT32_MAX ? UINT32_MAX : (uint32_t)at[2];
     int32_t clz = gn_clz32(z);
     uint32_t recip = gn_recip_norm(z << clz, GN_K(frame, newton_steps));
@@ -66,6 +57,32 @@ static void find_place(const gn_frame *frame, const gn_surface *surface, const g
     out->u_q16 = persp_coord(view, at[0], recip, clz);
     out->v_q16 = persp_coord(view, at[1], recip, clz);
     out->depth_q32 = (uint32_t)gn_clamp64(UINT32_MAX - (int64_t)inverse - less_q32, 0, UINT32_MAX);
+    return 1;
+}
+
+/* Where the light's view sees the point. B6 along the normal would move what is at a spot's rim out of its tile, whose border says nothing
+ * of it: there it goes along the ray. */
+static void find_place(const gn_frame *frame, const gn_surface *surface, const gn_light_state *light, int32_t z_q16, const int32_t *value,
+                       gn_arrival *out)
+{
+    /* P5: the face of the unmoved point; the moved one stays in it */
+    uint8_t face = light->kind == GN_LIGHT_POINT ? (uint8_t)gn_persp_face(value + GN_LIGHT_POINT_AT) : 0;
+    const gn_light_view *view = &frame->view[light->view_idx + face];
+    gn_auto_bias form = GN_AUTO_BIAS_DEFAULT; /* none */
+#if GN_AUTO_BIAS
+    form = (gn_auto_bias)light->auto_bias;
+#endif
+    int seen = place_in(frame, surface, z_q16, view, form, value, out);
+#if GN_AUTO_BIAS
+    uint32_t end = (uint32_t)view->tile_texels << 16;
+    if (seen && form == GN_AUTO_BIAS_NORMAL && !GN_CURVED(surface) && ((uint32_t)out->u_q16 > end || (uint32_t)out->v_q16 > end)) {
+        seen = place_in(frame, surface, z_q16, view, GN_AUTO_BIAS_DEPTH, value, out);
+#if GN_ARRIVAL_STEPS
+        out->side |= GN_SIDE_DEPTH;
+#endif
+    }
+#endif
+    out->face = seen ? face : GN_FACE_NONE;
 }
 #endif
 
@@ -80,7 +97,7 @@ static void arrive(const gn_frame *frame, const gn_surface *surface, const gn_li
     GN_COUNT(lights_punctual, 1);
     out->irradiance_q24 = gn_punctual_irradiance_q24(&point, gn_punctual_cosine_q30(&point, value[GN_LIGHT_FACING]));
 #if GN_ARRIVAL_STEPS
-    out->within_inner = (uint8_t)point.within_inner;
+    out->side = point.within_inner ? GN_SIDE_INNER : 0;
     out->shadow = GN_SHADOW_UNDECIDED;
 #endif
 #if GN_SHADOWS
@@ -183,11 +200,11 @@ static int between(const gn_frame *frame, const gn_surface *surface, uint32_t sl
     const gn_arrival *b = &sb->arrival[slot];
     int32_t first = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * (int32_t)slot, middle = n >> 1, value[GN_VALUES_PER_LIGHT];
     gn_arrival_steps *steps = &chord->arrival[slot];
-    if (!a->reaches || !b->reaches || a->within_inner != b->within_inner) return 0;
+    if (!a->reaches || !b->reaches || a->side != b->side) return 0;
     if (!is_far(sa->value + first + GN_LIGHT_POINT_AT, sb->value + first + GN_LIGHT_POINT_AT)) return 0;
     for (int32_t i = 0; i < GN_VALUES_PER_LIGHT; i++) value[i] = after(chord, sa->value, first + i, middle);
     arrive(frame, surface, light->state, after(chord, sa->value, GN_VALUE_Z, middle), value, &m);
-    if (!m.reaches || a->within_inner != m.within_inner) return 0;
+    if (!m.reaches || a->side != m.side) return 0;
     if (!parabola((int32_t)a->irradiance_q24, (int32_t)m.irradiance_q24, (int32_t)b->irradiance_q24, middle, n, &steps->step[0], &steps->bend[0]))
         return 0;
 #if GN_SHADOWS

@@ -124,12 +124,15 @@ typedef struct {
     uint8_t face;    /* of the light's views */
 #endif
 #if GN_ARRIVAL_STEPS
-    uint8_t within_inner; /* a spot's inner cone */
+    uint8_t side; /* of what nothing is stepped across */
     uint8_t shadow;       /* what bounds of depth say */
 #endif
 } gn_arrival;
 
 enum { GN_SHADOW_UNDECIDED, GN_SHADOW_NONE, GN_SHADOW_FULL };
+
+/* Within a spot's inner cone; where B6 goes along the ray. */
+enum { GN_SIDE_INNER = 1, GN_SIDE_DEPTH = 2 };
 
 /* Between two samples: irradiance, U, V and depth. */
 typedef struct {

@@ -67,7 +67,13 @@ static double attenuation_in(const ref_frame *frame, const ref_surface *at, size
                            : moved_point(view, light, at, unmoved, to_light);
     if (view->perspective && !(moved.z > view->near)) return 1.0;
     if (light->receiver_plane) set_plane(&how, view, at, unmoved);
-    const vec3 p = ref_project(view, moved);
+    vec3 p = ref_project(view, moved);
+    const double end = view->tile_texels;
+    if (view->perspective && light->auto_bias == SCENE_AUTO_BIAS_NORMAL && !at->curved && (p.x < 0.0 || p.y < 0.0 || p.x > end || p.y > end)) {
+        const vec3 along = vec3_add(unmoved, ref_auto_bias(frame, view, SCENE_AUTO_BIAS_DEPTH, at, unmoved, &less));
+        if (!(along.z > view->near)) return 1.0;
+        p = ref_project(view, along);
+    }
     return ref_filtered(view, &how, p.x, p.y, p.z - less);
 }
 
