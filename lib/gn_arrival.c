@@ -25,17 +25,17 @@ static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t re
 
 /* B2 and B3 have moved the point at the sample; B6 does it here, in one of its forms, face by face of a point light. Returns what is to
  * be taken off its depth, Q32. */
-static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, int32_t z_q16, const gn_light_view *view, gn_auto_bias form,
+static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, int32_t z_q16, const gn_light_view *view, gn_auto_bias *form,
                            const int32_t *value, int32_t moved_q16[3])
 {
     const int32_t *from = value + GN_LIGHT_POINT_AT, *offset = value + GN_LIGHT_OFFSET;
 #if GN_AUTO_BIAS
-    if (form && !GN_CURVED(surface)) return gn_bias_auto_persp(view, form, surface->face_q30, z_q16, from, moved_q16);
+    if (*form && !GN_CURVED(surface)) return gn_bias_auto_persp(view, form, surface->face_q30, z_q16, from, moved_q16);
 #endif
     (void)frame, (void)surface, (void)z_q16, (void)view, (void)form;
     for (int i = 0; i < 3; i++) moved_q16[i] = gn_sat32((int64_t)from[i] + offset[i]);
 #if GN_AUTO_BIAS
-    return form ? view->auto_step : 0;
+    return *form ? view->auto_step : 0;
 #else
     return 0;
 #endif
@@ -46,10 +46,13 @@ static int place_in(const gn_frame *frame, const gn_surface *surface, int32_t z_
                     const int32_t *value, gn_arrival *out)
 {
     int32_t moved[3];
-    int64_t at[3], less_q32 = moved_point(frame, surface, z_q16, view, form, value, moved);
+    int64_t at[3], less_q32 = moved_point(frame, surface, z_q16, view, &form, value, moved);
     for (int i = 0; i < 3; i++) at[i] = gn_dot_q30(moved, view->axis_q30[i]); /* sqrt(3) * 2^61 */
     if (at[2] <= view->fit.persp.near_q16) return 0;
     uint32_t z = at[2] > UINT32_MAX ? UINT32_MAX : (uint32_t)at[2];
+#if GN_ARRIVAL_STEPS
+    if (form == GN_AUTO_BIAS_DEPTH) out->side |= GN_SIDE_DEPTH;
+#endif
     int32_t clz = gn_clz32(z);
     uint32_t recip = gn_recip_norm(z << clz, GN_K(frame, newton_steps));
     /* 1 - n / z: n * recip * 2^(clz - 31) */
@@ -75,12 +78,8 @@ static void find_place(const gn_frame *frame, const gn_surface *surface, const g
     int seen = place_in(frame, surface, z_q16, view, form, value, out);
 #if GN_AUTO_BIAS
     uint32_t end = (uint32_t)view->tile_texels << 16;
-    if (seen && form == GN_AUTO_BIAS_NORMAL && !GN_CURVED(surface) && ((uint32_t)out->u_q16 > end || (uint32_t)out->v_q16 > end)) {
+    if (seen && form == GN_AUTO_BIAS_NORMAL && !GN_CURVED(surface) && ((uint32_t)out->u_q16 > end || (uint32_t)out->v_q16 > end))
         seen = place_in(frame, surface, z_q16, view, GN_AUTO_BIAS_DEPTH, value, out);
-#if GN_ARRIVAL_STEPS
-        out->side |= GN_SIDE_DEPTH;
-#endif
-    }
 #endif
     out->face = seen ? face : GN_FACE_NONE;
 }

@@ -36,8 +36,9 @@ void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int3
 
 #if GN_PUNCTUAL_LIGHTS
 /* A point of a spot or point light's view, `from_q16` the light and seen at view depth `depth_q16`: moves it, and returns by how much
- * its depth in the map is less than that of the moved point, Q32. */
-int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t depth_q16,
+ * its depth in the map is less than that of the moved point, Q32. The normal form gives way to the depth form, in *form, where it would
+ * move the point by more than twice its depth. */
+int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias *form, const int32_t face_q30[3], int32_t depth_q16,
                            const int32_t from_q16[3], int32_t moved_q16[3]);
 #endif
 #endif

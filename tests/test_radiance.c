@@ -490,7 +490,8 @@ static void check_automatic(const gn_light_view *view, const receiver *r, const 
     if (across > 0.4 || h < 0.05 || near * r->tau * fmax(fabs(m[0]), fabs(m[1])) > 1.9 * h) return; /* edge on */
     const double share = across / (1 - across * fmax(0, m[2])), lift = place_of(view, r) + (is_normal ? r->z * share : 0);
     int32_t moved[3];
-    const int64_t less = gn_bias_auto_persp(view, lamp.auto_bias, face_q30, r->depth_q16, r->from_q16, moved);
+    gn_auto_bias form = lamp.auto_bias;
+    const int64_t less = gn_bias_auto_persp(view, &form, face_q30, r->depth_q16, r->from_q16, moved);
     /* roundings upwards: 1 of the place, 1 + 2 of the share, 1 of the lift; axes and face are rounded */
     const double off = 4 * LSB16 + r->z * ldexp(4, -30) + share * (LSB16 / 2 + r->distance * ldexp(5.2, -30)) + r->z * share * ldexp(1, -26);
     for (int k = 0; k < 3; k++)

@@ -4,7 +4,7 @@
 #define COORDINATE_LSB 0x1p-16 /* of texels */
 #define PLANE_ERROR    0x1p-12 /* of planes through far corners of large casters, texels */
 #define PLACE_UNITS    8.0     /* roundings of a point and of its triangle's corners, in units of length */
-#define MOST_SHARE     2.0     /* of the light-plane distance: farther no point is moved */
+#define MOST_SHARE     2.0     /* of the light-plane distance: farther no point is moved along its normal */
 
 static double half_cell(int bits)
 {
@@ -116,14 +116,13 @@ static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene
     const double across = fabs(m.x) + fabs(m.y), lift = place_error(frame, view_depth);
     *less = step_error(o, view) + quotient_error(o) + plane_error(o, view);
     if (at->curved) return vec3_scale(m, lift + point.z * view->texel * sqrt(2.0) * smooth_reach(view, reach));
-    if (form == SCENE_AUTO_BIAS_DEPTH) {
+    const double a = reach * view->texel * across, left = 1.0 - a * fmax(0.0, m.z), share = a / left;
+    if (form == SCENE_AUTO_BIAS_DEPTH || a > MOST_SHARE || left < 0.5 || share > MOST_SHARE) {
         *less += fmin(2.0, reach * view->near * view->texel * across / fabs(vec3_dot(m, point)));
         return vec3_scale(m, lift);
     }
     if (view->near * view->texel * fmax(fabs(m.x), fabs(m.y)) > 2.0 * fabs(vec3_dot(m, point))) *less = 2.0;
-    const double a = fmin(MOST_SHARE, reach * view->texel * across);
-    const double share = a / fmax(0.5, 1.0 - a * fmax(0.0, m.z));
-    return vec3_scale(m, lift + point.z * fmin(MOST_SHARE, share));
+    return vec3_scale(m, lift + point.z * share);
 }
 
 vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at, vec3 in_light,
