@@ -60,7 +60,7 @@ FW_PRESET := -DGN_PRESET=GN_PRESET_$(shell echo $(PRESET) | tr a-z A-Z)
 endif
 ifneq ($(SCENE),)
 FW_SCENE_DIR ?= $(FW_OBJ_DIR)/scene
-FW_SCENE_BOARD ?= $(if $(wildcard boards/$(BOARD)/link.ld),--board $(BOARD)) # whether it fits
+FW_SCENE_BOARD ?= $(if $(wildcard boards/$(BOARD)/link.ld),--board $(BOARD) $(addprefix --optimise ,$(lastword $(filter -O%,$(FW_OPT) $(FW_FLAGS))))) # whether it fits
 FW_SCENE := -I$(FW_SCENE_DIR) '-DGN_USER_CONFIG="gn_scene_config.h"' -DBOARD_SCENE=1
 FW_SCENE_OBJ := $(FW_OBJ_DIR)/scene.o
 endif
@@ -96,7 +96,7 @@ endif
 # Rebuilds what other flags made.
 $(FW_OBJ_DIR)/compile.flags: FW_NOW = $(FW_CC) $(FW_CFLAGS)
 $(FW_OBJ_DIR)/link.flags: FW_NOW = $(LINK_FLAGS)
-$(FW_SCENE_DIR)/scene.flags: FW_NOW = $(SCENE) $(PRESET) $(SCENE_FLAGS)
+$(FW_SCENE_DIR)/scene.flags: FW_NOW = $(SCENE) $(PRESET) $(SCENE_FLAGS) $(FW_SCENE_BOARD)
 %.flags: always
 	@mkdir -p $(@D)
 	@echo '$(subst ','"'"',$(FW_NOW))' | cmp -s - $@ || echo '$(subst ','"'"',$(FW_NOW))' >$@

@@ -144,6 +144,26 @@ for folder in boards/*/link.ld; do
     "$tool" info docs/scenes/edge.gltf --size 16x12 --board "$board" >"$tmp/out" 2>&1 && grep -q "fits\? $board" "$tmp/out" && pass || fail "$folder is not understood: $(tail -n 1 "$tmp/out")"
 done
 
+# the image that is linked: its RAM to the byte, its flash within the estimate's tolerance, at either optimisation
+linked() { # linked BOARD END OPTIMISATION OPTIONS...
+    board=$1 end=$2 optimise=$3
+    shift 3
+    make -s firmware BOARD=$board APP=play SCENE=docs/scenes/near.gltf IMAGE=fit$optimise BUILD="$tmp/fw" FW_OPT=$optimise FW_SCENE_BOARD= SCENE_FLAGS="$*" >"$tmp/log" 2>&1
+    image=$(arm-none-eabi-nm -t d "$tmp/fw/firmware/$board/fit$optimise.elf" | awk -v end="$end" '{ at[$3] = $1 + 0 } END { print at[end] - at["board_stack_bottom"] }')
+    code=$(arm-none-eabi-size -A -d "$tmp/fw/firmware/$board/fit$optimise.elf" | awk '$1 ~ /^\.(boot|vectors|text|hot|data|ARM\.exidx)$/ { n += $2 } END { print n + 0 }')
+    "$tool" compile docs/scenes/near.gltf -o "$tmp/no" --board $board --optimise $optimise --ram "$((image - 1))" --flash 100 "$@" 2>"$tmp/err"
+    said=$(sed -n 's/.*it takes \([0-9]*\) bytes of RAM.* and \([0-9]*\) bytes of flash.*/\1 \2/p' "$tmp/err")
+    if [ "${said% *}" = "$image" ]; then pass; else fail "$board: RAM is said to be ${said% *}, is $image: $(tail -n 1 "$tmp/log")"; fi
+    if [ $((10 * ${said#* })) -ge $((9 * code)) ] && [ $((8 * ${said#* })) -le $((9 * code)) ]; then pass; else fail "$board $optimise: flash is said to be ${said#* }, is $code"; fi
+    "$tool" compile docs/scenes/near.gltf -o "$tmp/edge" --board $board --ram "$image" "$@" >"$tmp/out" 2>&1 && pass || fail "$board: $image bytes of RAM do not do: $(tail -n 1 "$tmp/out")"
+}
+mkdir -p "$tmp/fw" && ln -s "$PWD/$tool" "$tmp/fw/gnomon"
+linked microbit board_fast_bss_end -Os --size 64x48 --set preset=tiny
+linked stm32f429-discovery board_bss_end -O2 --size 64x48 --set preset=balanced
+# less than the tolerance is left: said; refused where the board's own optimisation needs more
+"$tool" compile docs/scenes/near.gltf -o "$tmp/edge" --board microbit --size 64x48 --set preset=tiny --flash 41000 2>&1 | grep -q 'may not fit' && pass || fail "flash that is nearly full is not warned of"
+"$tool" compile docs/scenes/near.gltf -o "$tmp/no" --board microbit --size 64x48 --set preset=tiny --flash 41000 --optimise -O2 >"$tmp/out" 2>&1 && fail "-O2 takes no more flash" || pass
+
 # ---- What is left out --------------------------------------------------------------------------------------------------------------
 
 # leaves NAME WHAT: the configuration says so

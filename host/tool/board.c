@@ -7,6 +7,8 @@
 #include <string.h>
 
 enum { TEXT_BYTES = 16384 };
+enum { OWN_FLASH_BYTES = 3000 }; /* start, console, the app play, libgcc */
+enum { RISCV_OS = 121, RISCV_O2 = 191 }; /* per cent of a Cortex-M4 with -Os */
 
 /* The file's text with a terminating zero; NULL: it does not open. */
 static char *read_text(const char *folder, const char *file)
@@ -32,20 +34,43 @@ static long size_of(const char *at)
     if (*end == 'K') bytes *= 1024, end++;
     else if (*end == 'M') bytes *= 1024 * 1024, end++;
     while (isspace((unsigned char)*end)) end++;
-    return *end == '-' ? bytes - strtol(end + 1, NULL, 0) : bytes;
+    if (*end != '-') return bytes;
+    long less = strtol(end + 1, &end, 0);
+    return bytes - (*end == 'K' ? 1024 * less : less);
+}
+
+static bool region_of(const char *script, const char *alias, char region[64])
+{
+    char pattern[64];
+    snprintf(pattern, sizeof pattern, "REGION_ALIAS(\"%s\"", alias);
+    const char *at = strstr(script, pattern);
+    return at && sscanf(at + strlen(pattern), ", %60[a-z0-9_A-Z]", region) == 1;
 }
 
 /* The region that an alias stands for. */
 static long length_of(const char *script, const char *alias)
 {
-    char pattern[64], region[64];
-    snprintf(pattern, sizeof pattern, "REGION_ALIAS(\"%s\"", alias);
-    const char *at = strstr(script, pattern);
-    if (!at || sscanf(at + strlen(pattern), ", %60[a-z0-9_A-Z]", region) != 1) return -1;
+    char region[64];
+    if (!region_of(script, alias, region)) return -1;
     strcat(region, " (");
-    at = strstr(script, region);
+    const char *at = strstr(script, region);
     at = at ? strstr(at, "LENGTH =") : NULL;
     return at ? size_of(at + 8) : -1;
+}
+
+static bool same_region(const char *script, const char *a, const char *b)
+{
+    char region[64], other[64];
+    return region_of(script, a, region) && region_of(script, b, other) && strcmp(region, other) == 0;
+}
+
+/* -O2 unrolls and inlines: measured with the presets on scenes of host/scenes. */
+void board_set_optimisation(board *b, const char *flag)
+{
+    static const int percent_o2[FLASH_CORES] = {170, 158};
+    const bool small = strcmp(flag, "-Os") == 0 || strcmp(flag, "-Oz") == 0;
+    if (b->riscv) b->code_percent = small ? RISCV_OS : RISCV_O2;
+    else b->code_percent = small ? 100 : percent_o2[b->core];
 }
 
 static void read_core(board *out, const char *settings_text)
@@ -54,6 +79,9 @@ static void read_core(board *out, const char *settings_text)
     bool arm = !cpu || strstr(cpu, "-mcpu=cortex") != NULL;
     out->short_enums = arm;
     out->core = cpu && strstr(cpu, "cortex-m0") ? FLASH_CORTEX_M0 : FLASH_CORTEX_M4;
+    out->riscv = !arm;
+    out->own_flash = OWN_FLASH_BYTES;
+    board_set_optimisation(out, settings_text && strstr(settings_text, "BOARD_OPT := -Os") ? "-Os" : "-O2");
 }
 
 int board_read(board *out, const char *name, char *error, size_t error_bytes)
@@ -68,6 +96,10 @@ int board_read(board *out, const char *name, char *error, size_t error_bytes)
         out->ram = length_of(script, "RAM");
         out->flash = length_of(script, "FLASH");
         out->stack = stack ? size_of(stack + 13) : 0;
+        const char *own = strstr(script, "BOARD_BYTES =");
+        out->own_ram = own ? size_of(own + 13) : 0;
+        out->fast_in_ram = same_region(script, "FAST", "RAM");
+        out->hot_in_ram = same_region(script, "HOT", "RAM");
         read_core(out, settings_text);
     }
     bool ok = script && out->ram > 0 && out->flash > 0 && out->stack >= 0;

@@ -65,6 +65,7 @@ int compile_read_board(const tool_options *o, board *out, char *error, size_t by
 {
     *out = (board){.name = "", .ram = 1L << 30, .flash = 1L << 30, .stack = 1536, .core = FLASH_CORTEX_M0, .short_enums = true};
     if (o->board && board_read(out, o->board, error, bytes)) return -1;
+    if (o->optimise) board_set_optimisation(out, o->optimise);
     if (o->ram) out->ram = o->ram;
     if (o->flash) out->flash = o->flash;
     return o->board || o->ram || o->flash;
@@ -72,13 +73,22 @@ int compile_read_board(const tool_options *o, board *out, char *error, size_t by
 
 static int check_fit(const compiled *c, const board *b, char *error, size_t bytes)
 {
-    char much[160], nearest[400];
+    char much[240], nearest[400];
     compile_memory m = compile_measure(c, b);
     if (compile_fits(&m, b)) return 0;
     compile_say_memory(&m, b, much, sizeof much);
     compile_find_nearest(c, b, nearest, sizeof nearest);
     snprintf(error, bytes, "does not fit%s%s: %s; %s", b->name[0] ? " " : "", b->name, much, nearest);
     return -1;
+}
+
+/* Flash is an estimate. */
+static void say_if_close(const compiled *c, const board *b)
+{
+    const compile_memory m = compile_measure(c, b);
+    if (!compile_is_close(&m, b)) return;
+    fprintf(stderr, "gnomon: about %ld bytes of the %ld of flash or of the %ld of RAM on %s: code is estimated to %d per cent, and may not fit\n", compile_rom_bytes(&m), b->flash,
+            b->ram, b->name, COMPILE_CODE_TOLERANCE);
 }
 
 static void print_summary(const compiled *c, const board *b)
@@ -127,6 +137,7 @@ int tool_compile(const tool_options *o)
         failed = write_all(&c, error, sizeof error);
         about = o->out_path;
     }
+    if (!failed) say_if_close(&c, &b);
     if (!failed) print_summary(&c, &b);
     compile_free(&c);
     return failed ? tool_fail(about, error) : TOOL_OK;

@@ -179,8 +179,13 @@ typedef struct {
     long renderer, state, data, code;
 } compile_memory;
 enum { COMPILE_SHORT_ENUMS_LESS = 8 }; /* gn_renderer */
+enum { COMPILE_CODE_TOLERANCE = 10 };  /* per cent that code may take more than estimated */
 compile_memory compile_measure(const compiled *c, const board *b);
+long compile_ram_bytes(const compile_memory *m, const board *b); /* all of it, stack and board included */
+long compile_rom_bytes(const compile_memory *m);
 bool compile_fits(const compile_memory *m, const board *b);
+/* It fits, but by less than the estimate of code is good for. */
+bool compile_is_close(const compile_memory *m, const board *b);
 /* What is too much. */
 void compile_say_memory(const compile_memory *m, const board *b, char *out, size_t bytes);
 /* compile_search.c: the settings of the configuration that fits and changes the picture least, as options; false: none. */

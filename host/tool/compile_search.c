@@ -31,7 +31,7 @@ typedef struct {
     int most[LOSSES]; /* steps that there are */
     variant list[LISTED_MAX];
     size_t n;
-    compile_memory least;
+    long least_ram, least_flash; /* of all that was tried, each by itself */
     double change; /* of what was found, RMS */
 } search;
 
@@ -147,6 +147,13 @@ static bool costs_less(const variant *a, const variant *b)
     return true;
 }
 
+static void keep_least(search *s, const compile_memory *m)
+{
+    const long ram = compile_ram_bytes(m, s->b), flash = compile_rom_bytes(m);
+    if (ram < s->least_ram) s->least_ram = ram;
+    if (flash < s->least_flash) s->least_flash = flash;
+}
+
 static void consider(search *s, variant v)
 {
     v.lean = LEAN_MAX;
@@ -155,7 +162,7 @@ static void consider(search *s, variant v)
     for (size_t i = 0; i < s->n; i++)
         if (costs_less(&s->list[i], &v)) return;
     compile_memory m = predict(s, &v);
-    if (m.renderer + m.state < s->least.renderer + s->least.state) s->least = m;
+    keep_least(s, &m);
     if (compile_fits(&m, s->b) && s->n < LISTED_MAX) s->list[s->n++] = v;
 }
 
@@ -292,7 +299,7 @@ static void say_variant(const search *s, const variant *v, const compile_memory 
         if (on->feature.incremental) say(out, bytes, &n, " --set incremental=0");
         if (on->feature.caster_culling) say(out, bytes, &n, " --set caster_culling=0");
     }
-    say(out, bytes, &n, ": %ld bytes of RAM, %ld of flash, colours off by %.1f of 255 (RMS)", m->renderer + m->state + s->b->stack, m->data + m->code,
+    say(out, bytes, &n, ": %ld bytes of RAM, %ld of flash, colours off by %.1f of 255 (RMS)", compile_ram_bytes(m, s->b), compile_rom_bytes(m),
         sqrt(v->change));
 }
 
@@ -337,8 +344,9 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
     board narrow = *b; /* other settings may keep triangles that these do not show */
     narrow.ram -= b->ram / 64;
     narrow.flash -= b->flash / 64;
-    search s = {.c = c, .b = &narrow, .least = compile_measure(c, b)};
-    find_losses(&s, s.least.data + s.least.code > narrow.flash);
+    const compile_memory asked = compile_measure(c, b);
+    search s = {.c = c, .b = &narrow, .least_ram = compile_ram_bytes(&asked, b), .least_flash = compile_rom_bytes(&asked)};
+    find_losses(&s, compile_rom_bytes(&asked) > narrow.flash);
     bool found = find(&s, false, out, bytes);
     if (found && s.change <= MUCH) return true;
     for (int eighths = EIGHTHS - 1; eighths > 0 && !(found && eighths < EIGHTHS / 2); eighths--) {
@@ -348,7 +356,7 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
         if (s.change <= MUCH) return true;
     }
     if (found) return true;
-    snprintf(out, bytes, "no settings do: the least that was found takes %ld bytes of RAM and %ld of flash",
-             s.least.renderer + s.least.state + b->stack, s.least.data + s.least.code);
+    snprintf(out, bytes, "no settings do: the least that was found, each by itself, is %ld bytes of RAM and %ld of flash",
+             s.least_ram, s.least_flash);
     return false;
 }

@@ -34,9 +34,9 @@ static int judge(info_memory *out, const tool_options *o, const board *b, char *
     out->fits = compile_fits(&m, b);
     if (out->fits) {
         snprintf(out->verdict, sizeof out->verdict, "fits %s: %ld bytes of RAM (stack %ld) of %ld, about %ld of flash of %ld",
-                 b->name, m.renderer + m.state + b->stack, b->stack, b->ram, m.data + m.code, b->flash);
+                 b->name, compile_ram_bytes(&m, b), b->stack, b->ram, compile_rom_bytes(&m), b->flash);
     } else {
-        char much[160], nearest[400];
+        char much[240], nearest[400];
         compile_say_memory(&m, b, much, sizeof much);
         compile_find_nearest(&c, b, nearest, sizeof nearest);
         snprintf(out->verdict, sizeof out->verdict, "does not fit %s: %s; %s", b->name, much, nearest);

@@ -32,7 +32,8 @@ static const char usage_text[] =
     "  --light K                 render, compare: the light of --view shadow and atlas (0)\n"
     "  --frame N                 animation frame (0)\n"
     "  --frames FIRST-LAST       compile, info: these frames (all of the animation)\n"
-    "  --board NAME              compile, info: must fit the memory of boards/NAME, of its code -Os; or --ram, --flash BYTES\n"
+    "  --board NAME              compile, info: must fit the memory of boards/NAME; or --ram, --flash BYTES\n"
+    "  --optimise -Os|-O2        compile, info: how the library is built, for the estimate of flash (as the board says)\n"
     "  --margin PERCENT          compile: room for more triangles and tile references than the frames took (10)\n"
     "  --simplify none|safe|path  compile: leave out what changes no picture of any camera, or none of the frames (path)\n"
     "  --set KEY=VALUE           any knob or setting, in order; preset=tiny|balanced|accurate sets many;\n"
@@ -75,6 +76,7 @@ static const option options[] = {
     {"--svg", BY_SWEEP, "a path"},
     {"--board", BY_COMPILE | BY_INFO, "a folder of boards/"},
     {"--flash", BY_COMPILE | BY_INFO, "bytes from 1 to 1000000000"},
+    {"--optimise", BY_COMPILE | BY_INFO, "-Os, -O2, ..."},
     {"--ram", BY_ADVISE | BY_COMPILE | BY_INFO, "bytes from 1 to 1000000000"},
     {"--instructions-per-pixel", BY_ADVISE, "a number from 1 to 1000000000"},
     {"--texels", BY_BAKE, "auto, 0 or a power of two from 16 to 4096"},
@@ -165,6 +167,7 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--frames") == 0) failed = parse_frames(value, o);
     else if (strcmp(name, "--board") == 0) failed = !*(o->board = value);
     else if (strcmp(name, "--flash") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->flash);
+    else if (strcmp(name, "--optimise") == 0) failed = strncmp(o->optimise = value, "-O", 2) != 0;
     else if (strcmp(name, "--margin") == 0) failed = parse_int(value, 0, 1000, &o->margin);
     else if (strcmp(name, "--simplify") == 0) failed = (o->simplify = simplify_from_name(value)) < 0;
     else if (strcmp(name, "--light") == 0) {

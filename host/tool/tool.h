@@ -33,6 +33,7 @@ typedef struct {
     int instructions_per_pixel; /* 0: no limit */
     int last_frame;             /* compile: of --frames, whose first is frame; -1: to the end of the animation */
     int margin;                 /* compile: per cent */
+    const char *optimise;       /* compile: -Os, -O2: how the library is built; NULL: as the board says */
     int simplify;               /* compile */
     const char *board;          /* compile, info: or NULL */
     int flash;                  /* bytes; 0: not given */
