@@ -6,7 +6,7 @@ tool=${1:-build/gnomon}
 
 variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
-strict="-std=c99 -pedantic $warn -Ilib"
+strict="-std=c99 -pedantic-errors $warn -Ilib"
 TMPDIR=$tmp sh tests/one_file.sh lib >"$tmp/lib.c"
 if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -o "$tmp/same" tests/same_pictures.c host/scene/*.c -lm \
     >"$tmp/log" 2>&1; then pass; else fail "same_pictures: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
@@ -232,6 +232,10 @@ diff -r "$tmp/again/scene.c" "$tmp/desk/scene.c" >"$tmp/log" && diff "$tmp/again
 # nothing to be seen
 sed 's/"rotation": \[-0.104465, [^]]*\]/"rotation": [0.7071, 0, 0, 0.7071]/' docs/scenes/near.gltf >"$tmp/sky.gltf"
 same sky "$tmp/sky.gltf" 0 "" --size 64x48
+# all of it removed: no array is of zero elements
+sed 's/"nodes": \[0\]/"nodes": [0, 1]/; s/"nodes": \[{"mesh": 0, /"cameras": [{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}}], "nodes": [{"mesh": 0, /; s/0.7\]}\],$/0.7]}, {"camera": 0, "translation": [0, 0, -5]}],/' "$tmp/grid.gltf" >"$tmp/away.gltf"
+same away "$tmp/away.gltf" 0 "" --size 64x48
+grep -q 'gn_mesh meshes' "$tmp/away/scene.c" && fail "away: something of the mesh is left" || pass
 # names of the file in comments
 printf 'o a*/b?\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 4 2 3\n' >"$tmp/odd.obj"
 same odd "$tmp/odd.obj" 0 "" --size 64x48

@@ -45,7 +45,7 @@ static void write_numbers(FILE *f, number_type type, const void *array, size_t n
 static void write_array(FILE *f, number_type type, const char *kind, size_t idx, const char *name, const void *array, size_t n,
                         size_t per_line)
 {
-    if (!array) return;
+    if (!array || !n) return;
     fprintf(f, "static const %s %s_%zu_%s[%zu] = {", type_names[type], kind, idx, name, n);
     write_numbers(f, type, array, n, per_line);
     fprintf(f, "\n};\n");
@@ -77,6 +77,7 @@ static void write_meshes(FILE *f, const compiled *c)
 {
     const fixed_scene *fixed = &c->fixed;
     for (size_t i = 0; i < fixed->n_meshes; i++) write_mesh_arrays(f, &fixed->meshes[i], i, c->mesh_name[i]);
+    if (!fixed->n_meshes) return; /* no array is of zero elements */
     fprintf(f, "\nstatic const gn_mesh meshes[%zu] = {\n", fixed->n_meshes);
     for (size_t i = 0; i < fixed->n_meshes; i++) {
         const gn_mesh *m = &fixed->meshes[i];
