@@ -240,5 +240,13 @@ grep -q 'gn_mesh meshes' "$tmp/away/scene.c" && fail "away: something of the mes
 printf 'o a*/b?\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 4 2 3\n' >"$tmp/odd.obj"
 same odd "$tmp/odd.obj" 0 "" --size 64x48
 
+# bytes that are not ASCII, marks of direction among them, stay out of the code
+sed 's/{"mesh": 0, /{"mesh": 0, "name": "\\u202eab\\u00e9c", /' "$tmp/grid.gltf" >"$tmp/bidi.gltf"
+same bidi "$tmp/bidi.gltf" 0 "--simplify none" --size 64x48
+grep -q '/\* \.\.\.ab\.\.c \*/' "$tmp/bidi/scene.c" && ! LC_ALL=C grep -q '[^ -~]' "$tmp/bidi/scene.c" && pass || fail "bidi: $(grep -m 1 'ab' "$tmp/bidi/scene.c")"
+# what changes nothing is named
+same idle docs/scenes/near.gltf 0 "" --size 96x64 --set max_distance=0.5 --set filter=3x3
+leaves idle "settings and materials that change nothing: .*'filter'"
+
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

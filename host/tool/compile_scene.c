@@ -9,7 +9,7 @@ enum { PER_LINE = 12 };
 
 void compile_write_text(FILE *file, const char *text)
 {
-    for (; *text; text++) fputc(*text == '*' || (unsigned char)*text < 32 || *text == '\\' ? '.' : *text, file);
+    for (; *text; text++) fputc(*text == '*' || *text < 32 || *text > 126 || *text == '\\' ? '.' : *text, file);
 }
 
 /* ---- Arrays ------------------------------------------------------------------------------------------------------------- */

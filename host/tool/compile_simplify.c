@@ -339,8 +339,17 @@ static measure measure_now(const trial *b)
     return (measure){compile_flash_bytes(b->c, true), ram_of(b->c, &b->now), b->now.instructions};
 }
 
+/* A setting; NULL: something of an object, a light or a mesh. */
+static const char *setting_of(kind k)
+{
+    static const char *const names[] = {[FILTER] = "filter", [OTHER_FILTER] = "other_filter", [KERNEL] = "kernel", [MIXING] = "mixing", [MAIN_LIGHT] = "main_light",
+                                        [BLEND] = "cascade_blend", [CASCADES] = "cascades"};
+    return (size_t)k < sizeof names / sizeof *names ? names[k] : NULL;
+}
+
 static const char *name_of(const trial *b, const candidate *d)
 {
+    if (setting_of(d->kind)) return setting_of(d->kind);
     return is_of_light(d->kind)                          ? b->c->light_name[d->idx]
            : d->kind == TRIANGLES || is_of_mesh(d->kind) ? b->c->mesh_name[d->idx]
                                                          : b->c->object_name[d->idx];
@@ -349,7 +358,7 @@ static const char *name_of(const trial *b, const candidate *d)
 static bool named_before(const trial *b, size_t i)
 {
     for (size_t k = 0; k < i; k++)
-        if (b->list[k].taken && b->list[k].kind < FILTER && strcmp(name_of(b, &b->list[k]), name_of(b, &b->list[i])) == 0)
+        if (b->list[k].taken && b->list[k].kind != UNUSED_CASCADE && strcmp(name_of(b, &b->list[k]), name_of(b, &b->list[i])) == 0)
             return true;
     return false;
 }
@@ -360,7 +369,7 @@ static void list_names(const trial *b, char *out, size_t bytes)
     size_t used = strlen(out), n = 0;
     for (size_t i = 0; i < b->n && used + 1 < bytes; i++) {
         const candidate *d = &b->list[i];
-        if (!d->taken || d->kind >= FILTER || named_before(b, i)) continue;
+        if (!d->taken || d->kind == UNUSED_CASCADE || named_before(b, i)) continue;
         if (n == NAMES_MAX || used + strlen(name_of(b, d)) + 12 > bytes) {
             snprintf(out + used, bytes - used, ", ...");
             return;
