@@ -248,5 +248,9 @@ grep -q '/\* \.\.\.ab\.\.c \*/' "$tmp/bidi/scene.c" && ! LC_ALL=C grep -q '[^ -~
 same idle docs/scenes/near.gltf 0 "" --size 96x64 --set max_distance=0.5 --set filter=3x3
 leaves idle "settings and materials that change nothing: .*'filter'"
 
+# frames that the animation does not have
+"$tool" compile host/scenes/desk.gltf -o "$tmp/beyond" --frames 47-60 --size 32x24 2>&1 | grep -q 'the animation ends with frame 48$' && pass || fail "frames beyond the animation are not told of"
+"$tool" info host/scenes/desk.gltf --board mps2-an385 --size 32x24 | grep -q '^  fits mps2-an385: .*(frame 0 alone; --frames 0-48 for all)$' && pass || fail "info does not say that it is frame 0"
+
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

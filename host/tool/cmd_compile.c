@@ -1,5 +1,6 @@
 /* gnomon compile: a scene file as C arrays for flash, with a configuration of just what it needs. */
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -116,6 +117,13 @@ int compile_all(compiled *c, const tool_options *o, char *error, size_t bytes)
     return failed ? -1 : 0;
 }
 
+/* The loader holds the last frame: what was asked for is compiled, and takes flash for nothing. */
+static void say_if_beyond(const compiled *c)
+{
+    const double last = c->scene.fps > 0 ? ceil(c->scene.duration * c->scene.fps - 1e-6) : 0;
+    if (c->options->last_frame > last) tool_error("--frames %d-%d: the animation ends with frame %.0f", c->options->frame, c->options->last_frame, last);
+}
+
 int tool_compile(const tool_options *o)
 {
     char error[TOOL_ERROR_BYTES] = "out of memory";
@@ -130,6 +138,7 @@ int tool_compile(const tool_options *o)
         return TOOL_FAILED;
     }
     if (compile_all(&c, o, error, sizeof error)) return tool_fail(o->scene_path, error);
+    say_if_beyond(&c);
     if (!o->json) remarks_on_settings(&c.scene);
     const char *about = o->scene_path;
     int failed = check_fit(&c, &b, error, sizeof error);

@@ -66,7 +66,12 @@ int info_memory_find(info_memory *out, const tool_options *o, char *error, size_
     int asked = compile_read_board(o, &b, error, error_bytes);
     if (asked <= 0) return asked;
     if (!b.name[0]) snprintf(b.name, sizeof b.name, "that");
-    return judge(out, &frames, &b, error, error_bytes);
+    if (judge(out, &frames, &b, error, error_bytes)) return -1;
+    if (o->last_frame < 0 && out->frames > 1) {
+        const size_t n = strlen(out->verdict);
+        snprintf(out->verdict + n, sizeof out->verdict - n, " (frame %d alone; --frames 0-%d for all)", frames.frame, out->frames - 1);
+    }
+    return 0;
 }
 
 void info_memory_text(const info_memory *m)

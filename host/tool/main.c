@@ -31,7 +31,7 @@ static const char usage_text[] =
     "  --view NAME               render, compare: colour, shadow, depth, normal, atlas or cascade (colour)\n"
     "  --light K                 render, compare: the light of --view shadow and atlas (0)\n"
     "  --frame N                 animation frame (0)\n"
-    "  --frames FIRST-LAST       compile, info: these frames (all of the animation)\n"
+    "  --frames FIRST-LAST       compile, info: these frames (compile: all of the animation; info: frame 0 alone)\n"
     "  --board NAME              compile, info: must fit the memory of boards/NAME; or --ram, --flash BYTES\n"
     "  --optimise -Os|-O2        compile, info: how the library is built, for the estimate of flash (as the board says)\n"
     "  --margin PERCENT          compile: room for more triangles and tile references than the frames took (10)\n"
