@@ -182,10 +182,24 @@ static uint32_t cover(const gn_tri *tri, uint8_t *covered)
     return n;
 }
 
-static void count_cells(void *user, int x, int y, int w, int h, const void *pixels)
+/* A picture without triangles has one colour. */
+static void note_background(void *user, int x, int y, int w, int h, const void *pixels)
 {
-    (void)x, (void)y, (void)pixels;
-    for (int i = 0; i < w * h; i++) *(uint32_t *)user += renderer.scratch.cell[i] != 0;
+    (void)x, (void)y, (void)w, (void)h;
+    *(uint16_t *)user = *(const uint16_t *)pixels;
+}
+
+typedef struct {
+    uint16_t background;
+    uint32_t n;
+} visible;
+
+static void count_visible(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    visible *v = user;
+    (void)x, (void)y;
+    for (int i = 0; i < w * h; i++)
+        if (((const uint16_t *)pixels)[i] != v->background) v->n++;
 }
 
 typedef struct {
@@ -200,8 +214,12 @@ static void count_pixels(const bench_set *set, counts *out)
     static uint8_t covered[BENCH_WIDTH * BENCH_HEIGHT];
     const double slack_px = sqrt(0.5) / (1 << GN_SUBPIXEL_BITS) + 1.0 / 4096;
     uint32_t n_wrong = 0;
+    visible seen = {0, 0};
+    build_scene(&bench_cases[0], &sets[2]); /* the empty one */
+    bench_draw(note_background, &seen.background);
     build_scene(&bench_cases[0], set);
-    bench_draw(count_cells, &out->visible_px);
+    bench_draw(count_visible, &seen);
+    out->visible_px = seen.n;
     const gn_frame *frame = &renderer.frame;
     if (gn_get_stats(&renderer)->n_triangles != set->n || gn_get_stats(&renderer)->n_clipped) fail("triangles lost or clipped");
     for (uint32_t t = 0; t < set->n; t++) {
