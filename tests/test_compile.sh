@@ -164,6 +164,15 @@ linked stm32f429-discovery board_bss_end -O2 --size 64x48 --set preset=balanced
 "$tool" compile docs/scenes/near.gltf -o "$tmp/edge" --board microbit --size 64x48 --set preset=tiny --flash 41000 2>&1 | grep -q 'may not fit' && pass || fail "flash that is nearly full is not warned of"
 "$tool" compile docs/scenes/near.gltf -o "$tmp/no" --board microbit --size 64x48 --set preset=tiny --flash 41000 --optimise -O2 >"$tmp/out" 2>&1 && fail "-O2 takes no more flash" || pass
 
+# a texture, a buffer or a material that changes makes the scene anew
+mkdir "$tmp/beside" && cp "$tmp/grid.gltf" "$tmp/beside/" && : >"$tmp/beside/a.bin"
+touch -d '1 minute ago' "$tmp/beside/"*
+again() { make -s "$tmp/fw/firmware/microbit/play-grid.obj/scene/scene.c" BOARD=microbit SCENE="$tmp/beside/grid.gltf" BUILD="$tmp/fw" SCENE_FLAGS="--size 32x24" 2>&1 | grep -c 'bytes of RAM'; }
+first="$(again)$(again)"
+touch "$tmp/beside/a.bin"
+first=$first$(again)
+[ "$first" = 101 ] && pass || fail "a changed buffer: the scene is made $first, not at first, not again, then again"
+
 # ---- What is left out --------------------------------------------------------------------------------------------------------------
 
 # leaves NAME WHAT: the configuration says so
