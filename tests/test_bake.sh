@@ -63,6 +63,7 @@ else fail "the compiled room: $(grep -m 1 . "$tmp/err")"; fi
 
 good bake host/scenes/desk.gltf -o "$tmp/moving.gltf" --size 80x60 --json
 grep -q '"moving": 4, "casters_kept": true' "$tmp/out" && pass || fail "the desk's moving objects are not seen"
+"$tool" bake host/scenes/sundial.gltf -o "$tmp/still.gltf" --size 32x24 --texels 64 2>&1 >/dev/null | grep -q 'the animation, .*camera, is not kept: all is as at frame 0$' && pass || fail "it is not said that the animation goes"
 holds "desk with moving objects" "$(field masks shadow_texels) > 0"
 good bake host/scenes/room.gltf -o "$tmp/vertices.glb" --texels 0 --size 80x60 --json
 [ "$(field masks shadow_texels)" = 0 ] && grep -q '"charts": 0' "$tmp/out" && grep -q -a '_GNOMON_MASK' "$tmp/vertices.glb" && pass || fail "no masks per vertex"

@@ -28,6 +28,7 @@ typedef struct {
     const char *about; /* the file that an error is about */
     bake_result result;
     scene baked; /* as the file was read back */
+    bool was_animated;
     drawn before, after;
     engine_picture truth;
 } job;
@@ -159,6 +160,7 @@ static int bake(job *j, char *error, size_t bytes)
     settings set;
     j->about = o->scene_path;
     if (tool_load_with(o, o->sets, o->n_sets, &s, &set, error, bytes)) return -1;
+    j->was_animated = s.duration > 0;
     const bake_options options = {.side = j->texels, .still = o->still, .progress = show_progress};
     const ref_options frame = engine_ref_options(&s, &set, o->width, o->height);
     int failed = bake_scene(&s, &frame, &options, &j->result, error, bytes);
@@ -279,10 +281,12 @@ static void print_json(const job *j)
     printf(", \"as_true\": %s}\n", is_as_true(j) ? "true" : "false");
 }
 
-/* Where the masks are not as near to the truth as what they take the place of. */
+/* What was lost, and where the masks are not as near to the truth as what they take the place of. */
 static void warn(const job *j)
 {
     const metrics *before = &j->before.m, *after = &j->after.m;
+    if (j->was_animated)
+        tool_error("%s: the animation, of objects, lights and camera, is not kept: all is as at frame %d", j->o->out_path, j->o->frame);
     if (!is_as_true(j))
         tool_error("%s: the masks are farther from exact shadows than the shadow maps, PSNR %.2f dB after %.2f, RMS error of the shadow %.3f after %.3f: "
                    "more --texels, or shadow maps",
