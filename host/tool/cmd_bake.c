@@ -14,6 +14,8 @@
 #include "tool.h"
 
 /* One of the two: shadow maps, or masks. */
+#define LEAST_GAIN_DB 0.1 /* PSNR, of twice the texels */
+
 typedef struct {
     engine_picture picture;
     metrics m; /* against the truth of the scene as it was */
@@ -29,6 +31,7 @@ typedef struct {
     bake_result result;
     scene baked; /* as the file was read back */
     bool was_animated;
+    bool texels_do_not_help;
     drawn before, after;
     engine_picture truth;
 } job;
@@ -199,12 +202,28 @@ static bool is_as_true(const job *j)
     return j->after.m.psnr_db >= j->before.m.psnr_db && j->after.m.atten_rms <= j->before.m.atten_rms;
 }
 
-/* The least of some sizes that is as true as the shadow maps; the last if none is. */
+/* What is not as true as the shadow maps, more texels no longer make truer: it is wrong elsewhere, as in lights baked into the vertices. */
+static bool is_no_truer(const job *j, const metrics *smaller)
+{
+    const metrics *now = &j->after.m, *maps = &j->before.m;
+    const bool colours = now->psnr_db < maps->psnr_db && now->psnr_db < smaller->psnr_db + LEAST_GAIN_DB;
+    return colours || (now->atten_rms > maps->atten_rms && now->atten_rms > 0.95 * smaller->atten_rms);
+}
+
+/* The least of some sizes that is as true as the shadow maps; if none is, the one beyond which nothing is gained, else the last. */
 static int bake_as_true(job *j, char *error, size_t bytes)
 {
     static const int sides[] = {256, 512, 1024};
-    for (size_t i = 0; i < sizeof sides / sizeof *sides; i++)
-        if (!bake_and_compare(j, sides[i], error, bytes) && is_as_true(j)) return 0;
+    metrics smaller = {0};
+    for (size_t i = 0; i < sizeof sides / sizeof *sides; i++) {
+        if (bake_and_compare(j, sides[i], error, bytes)) continue;
+        if (is_as_true(j)) return 0;
+        if (i && smaller.psnr_db > 0 && is_no_truer(j, &smaller)) {
+            j->texels_do_not_help = true;
+            return bake_and_compare(j, sides[i - 1], error, bytes);
+        }
+        smaller = j->after.m;
+    }
     return j->baked.n_objects ? 0 : -1;
 }
 
@@ -282,6 +301,15 @@ static void print_json(const job *j)
 }
 
 /* What was lost, and where the masks are not as near to the truth as what they take the place of. */
+static const char *what_to_do(const job *j)
+{
+    size_t n_whole = 0;
+    for (size_t l = 0; l < j->baked.n_lights; l++) n_whole += j->result.fate[l] == BAKE_WHOLE;
+    if (!j->texels_do_not_help) return "more --texels, or shadow maps";
+    return n_whole ? "more texels do not help, as lights are baked whole, into the vertices: fewer lights that overlap, or shadow maps"
+                   : "more texels do not help: shadow maps";
+}
+
 static void warn(const job *j)
 {
     const metrics *before = &j->before.m, *after = &j->after.m;
@@ -289,8 +317,8 @@ static void warn(const job *j)
         tool_error("%s: the animation, of objects, lights and camera, is not kept: all is as at frame %d", j->o->out_path, j->o->frame);
     if (!is_as_true(j))
         tool_error("%s: the masks are farther from exact shadows than the shadow maps, PSNR %.2f dB after %.2f, RMS error of the shadow %.3f after %.3f: "
-                   "more --texels, or shadow maps",
-                   j->o->out_path, after->psnr_db, before->psnr_db, after->atten_rms, before->atten_rms);
+                   "%s",
+                   j->o->out_path, after->psnr_db, before->psnr_db, after->atten_rms, before->atten_rms, what_to_do(j));
     else if (after->shadow_mismatch > before->shadow_mismatch)
         tool_error("%s: edges of shadows are softer than with shadow maps, by more than 1/16 at %.1f %% of points after %.1f %%, but less wrong on the average: "
                    "more --texels make them sharper",
