@@ -81,6 +81,9 @@ five=directional,directional,directional,directional,directional
 grep -q 'farther from exact shadows than the shadow maps' "$tmp/err" && pass || fail "masks of few texels are not warned of: $(cat "$tmp/err")"
 [ "$(grep -c ': channel [0-3]$' "$tmp/out")" = 4 ] && [ "$(grep -c "^  light 4 '.*': baked whole" "$tmp/out")" = 1 ] && pass || fail "five suns: $(grep light "$tmp/out" | tr '\n' ';')"
 grep -q '_GNOMON_BAKED' "$tmp/five.gltf" && grep -q '"mode": "baked"' "$tmp/five.gltf" && pass || fail "the fifth sun is not in the vertices"
+# what more texels do not help stops where it is
+"$tool" bake docs/scenes/near.gltf -o "$tmp/six.gltf" --size 64x48 --set lights=directional,point,point,point,point,point >"$tmp/out" 2>"$tmp/err"
+grep -q 'more texels do not help, as lights are baked whole' "$tmp/err" && grep -q ' 256x256 texels' "$tmp/out" && pass || fail "lights baked whole: $(head -n 1 "$tmp/err" "$tmp/out")"
 # sixteen lamps whose ranges meet only their neighbours' share four
 good bake docs/scenes/lamps.gltf -o "$tmp/lamps.gltf" --size 80x60 --set shadow=1 --texels 128 --json
 [ "$(grep -o '"fate": "masked"' "$tmp/out" | wc -l)" -ge 8 ] && grep -q '"channels": 4' "$tmp/out" && pass || fail "lamps do not share channels"
