@@ -153,6 +153,7 @@ linked() { # linked BOARD END OPTIMISATION OPTIONS...
     code=$(arm-none-eabi-size -A -d "build/firmware/$board/test-fit$optimise.elf" | awk '$1 ~ /^\.(boot|vectors|text|hot|data|ARM\.exidx)$/ { n += $2 } END { print n + 0 }')
     "$tool" compile docs/scenes/near.gltf -o "$tmp/no" --board $board --optimise $optimise --ram "$((image - 1))" --flash 100 "$@" 2>"$tmp/err"
     said=$(sed -n 's/.*it takes \([0-9]*\) bytes of RAM.* and \([0-9]*\) bytes of flash.*/\1 \2/p' "$tmp/err")
+    said=${said:-0 0}
     if [ "${said% *}" = "$image" ]; then pass; else fail "$board: RAM is said to be ${said% *}, is $image: $(tail -n 1 "$tmp/log")"; fi
     if [ $((10 * ${said#* })) -ge $((9 * code)) ] && [ $((8 * ${said#* })) -le $((9 * code)) ]; then pass; else fail "$board $optimise: flash is said to be ${said#* }, is $code"; fi
     "$tool" compile docs/scenes/near.gltf -o "$tmp/edge" --board $board --ram "$image" "$@" >"$tmp/out" 2>&1 && pass || fail "$board: $image bytes of RAM do not do: $(tail -n 1 "$tmp/out")"
