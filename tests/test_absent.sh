@@ -41,7 +41,7 @@ bytes() { # of flash: code and constants
 # What a feature stands on: alone it has nothing to do.
 under() {
     case $1 in
-    SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS) ;;
+    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS) ;;
     TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
     LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
@@ -63,7 +63,7 @@ for feature in $features; do
     if [ $alone -ge -64 ] && [ $basis -ge -64 ] && [ $saved -ge -256 ]; then pass
     else fail "$feature: $alone bytes alone, $basis on what it stands on; off saves $saved of all"; fi
     case $feature in
-    SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_LIGHTS) ;;
+    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_LIGHTS) ;;
     *) if [ $alone -le 32 ] || [ $feature = CASTER_ALPHA ]; then pass; else fail "$feature without shadows: $alone bytes"; fi ;;
     esac
 done
