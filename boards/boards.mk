@@ -85,11 +85,9 @@ $(FW_OBJ_DIR)/%.o: %.c $(FW_OBJ_DIR)/compile.flags
 $(FW_OBJ_DIR)/boards/common/memory.o $(FW_OBJ_DIR)/boards/common/start.o: FW_CFLAGS += -fno-tree-loop-distribute-patterns -fno-builtin
 
 ifneq ($(SCENE),)
-# What the scene may have been read from: images, buffers and materials beside it, or a folder below.
-scene_beside := $(wildcard $(foreach kind,bin png mtl,$(dir $(SCENE))*.$(kind) $(dir $(SCENE))*/*.$(kind)))
-scene_beside := $(foreach file,$(wildcard $(scene_beside)),$(if $(findstring :,$(file)),,$(file)))
+# scene.d, which is written beside it, names what else the scene was read from.
 $(FW_OBJ): $(FW_SCENE_DIR)/scene.c
-$(FW_SCENE_DIR)/scene.c: $(SCENE) $(scene_beside) $(BUILD)/gnomon $(FW_SCENE_DIR)/scene.flags
+$(FW_SCENE_DIR)/scene.c: $(SCENE) $(BUILD)/gnomon $(FW_SCENE_DIR)/scene.flags
 	@mkdir -p $(@D)
 	@$(BUILD)/gnomon compile $(SCENE) -o $(@D) $(FW_SCENE_BOARD) $(if $(PRESET),--set preset=$(PRESET)) $(SCENE_FLAGS)
 $(FW_SCENE_OBJ): $(FW_SCENE_DIR)/scene.c $(FW_OBJ_DIR)/compile.flags

@@ -164,15 +164,16 @@ linked stm32f429-discovery board_bss_end -O2 --size 64x48 --set preset=balanced
 "$tool" compile docs/scenes/near.gltf -o "$tmp/edge" --board microbit --size 64x48 --set preset=tiny --flash 41000 2>&1 | grep -q 'may not fit' && pass || fail "flash that is nearly full is not warned of"
 "$tool" compile docs/scenes/near.gltf -o "$tmp/no" --board microbit --size 64x48 --set preset=tiny --flash 41000 --optimise -O2 >"$tmp/out" 2>&1 && fail "-O2 takes no more flash" || pass
 
-# a texture, a buffer or a material that changes makes the scene anew
-mkdir "$tmp/beside" && cp "$tmp/grid.gltf" "$tmp/beside/" && : >"$tmp/beside/a.bin"
-touch -d '1 minute ago' "$tmp/beside/"*
-again() { make -s "build/firmware/microbit/test-beside.obj/scene/scene.c" BOARD=microbit IMAGE=test-beside SCENE="$tmp/beside/grid.gltf" SCENE_FLAGS="--size 32x24" 2>&1 | grep -c 'bytes of RAM'; }
+# a texture, a buffer or a material that changes makes the scene anew, wherever it lies
+mkdir -p "$tmp/beside" "$tmp/far off" && : >"$tmp/far off/a\$b:.mtl"
+printf 'mtllib ../far off/a$b:.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$tmp/beside/one.obj"
+touch -d '1 minute ago' "$tmp/beside/"* "$tmp/far off/"*
+again() { make -s "build/firmware/microbit/test-beside.obj/scene/scene.c" BOARD=microbit IMAGE=test-beside SCENE="$tmp/beside/one.obj" SCENE_FLAGS="--size 32x24 --set preset=tiny" 2>&1 | grep -c 'bytes of RAM'; }
 rm -rf build/firmware/microbit/test-beside.obj
 first="$(again)$(again)"
-touch "$tmp/beside/a.bin"
+touch "$tmp/far off/"*
 first=$first$(again)
-[ "$first" = 101 ] && pass || fail "a changed buffer: the scene is made $first, not at first, not again, then again"
+[ "$first" = 101 ] && pass || fail "a changed material: the scene is made $first, not at first, not again, then again"
 
 # ---- What is left out --------------------------------------------------------------------------------------------------------------
 

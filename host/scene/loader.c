@@ -115,12 +115,26 @@ static bool read_stream(loader *l, FILE *file, const char *path, uint8_t **bytes
     return buffer != NULL;
 }
 
+static bool add_file(loader *l, const char *path)
+{
+    scene *s = l->s;
+    for (size_t i = 0; i < s->n_files; i++)
+        if (strcmp(s->files[i], path) == 0) return true;
+    void *array = s->files;
+    bool grown = scene_grow(l, &array, s->n_files, sizeof *s->files);
+    s->files = array;
+    char *copy = grown ? duplicate(l, path) : NULL;
+    if (!copy) return false;
+    s->files[s->n_files++] = copy;
+    return true;
+}
+
 bool loader_try_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes, bool *opened)
 {
     FILE *file = fopen(path, "rb");
     *opened = file != NULL;
     if (!file) return true;
-    bool ok = read_stream(l, file, path, bytes, n_bytes);
+    bool ok = add_file(l, path) && read_stream(l, file, path, bytes, n_bytes);
     fclose(file);
     return ok;
 }

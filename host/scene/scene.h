@@ -154,6 +154,8 @@ typedef struct {
     size_t n_notes;
     char **notes;        /* one line each: what the file has and Gnomon ignores, and why */
     size_t n_file_notes; /* those of the file; behind them are those of settings */
+    size_t n_files;      /* that it was read from, the scene file first */
+    char **files;
     double fps;          /* frames per second of its animation; 0: it has none */
     double duration;     /* seconds until everything in it has come to rest */
 } scene;

@@ -14,7 +14,7 @@ typedef struct {
 } output_file;
 
 static const output_file outputs[] = {
-    {"scene.c", compile_write_scene}, {"scene.h", compile_write_header}, {"gn_scene_config.h", compile_write_config}};
+    {"scene.c", compile_write_scene}, {"scene.h", compile_write_header}, {"gn_scene_config.h", compile_write_config}, {"scene.d", compile_write_rule}};
 enum { N_OUTPUTS = sizeof outputs / sizeof *outputs, PATH_BYTES = 4096 };
 
 static int path_of(const compiled *c, const output_file *out, const char *suffix, char path[PATH_BYTES])

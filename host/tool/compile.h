@@ -170,6 +170,9 @@ int compile_narrow(compiled *c, compile_stage *st, compile_narrowed what, bool r
 void compile_choose(compiled *c);
 void compile_write_config(FILE *file, const compiled *c);
 
+/* compile_rule.c: scene.d */
+void compile_write_rule(FILE *file, const compiled *c);
+
 /* compile_size.c: bytes on a 32-bit target. short_enums: as Arm has them. */
 long compile_flash_bytes(const compiled *c, bool short_enums); /* of the data in scene.c */
 long compile_state_bytes(const compiled *c, bool short_enums);
