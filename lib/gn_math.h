@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "gn_hint.h"
 #include "gn_q.h"
 #include "gn_tables.h"
 #include "gnomon.h"
@@ -50,7 +51,15 @@ static inline uint32_t gn_recip_step(uint32_t m, uint32_t y)
 #else
 static inline uint32_t gn_recip_norm2(uint32_t m)
 {
-    return gn_recip_step(m, gn_recip_step(m, (uint32_t)gn_recip_table[(m >> 23) & 255U] << 16));
+    uint32_t y = (uint32_t)gn_recip_table[(m >> 23) & 255U] << 16, two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32);
+    /* the first step ends below 2^32: the entry for x next to 1/2 is too far from 2 */
+    y = (uint32_t)(((uint64_t)y * two_minus_xy) >> 31);
+    GN_KEEP(y); /* 32 bits, of which it knows */
+    two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32);
+    uint64_t better = (uint64_t)y * two_minus_xy;
+    y = (uint32_t)(better >> 31) | (uint32_t)((int32_t)(better >> 32) >> 31); /* UINT32_MAX from 2^32 on */
+    GN_KEEP(y);
+    return y;
 }
 #endif
 

@@ -65,9 +65,11 @@ typedef struct {
     corner *cache;
     uint32_t cache_mask;
     uint32_t focal_norm; /* 2F, normalised */
-    int32_t focal_shift; /* see project */
+    int32_t focal_up;    /* see project */
     uint32_t near_norm;  /* near, normalised */
-    int32_t near_clz;
+    int32_t near_down;   /* its leading zeros, less one */
+    int32_t near_q16;
+    uint32_t z_range;     /* from near to 2^30 */
     uint32_t half_q16[2]; /* the picture's, pixels */
     int32_t near_guard;   /* inside |x|, |y| <= Z * 2^-near_guard is inside the guard band */
     uint32_t object_idx;
@@ -81,29 +83,35 @@ typedef struct {
 static inline uint32_t inverse_depth(const setup_job *job, uint32_t recip, int32_t clz)
 {
     uint32_t q = (uint32_t)(((uint64_t)job->near_norm * recip) >> 32); /* near * 2^near_clz * 2^63 / (Z * 2^clz) / 2^32 */
-    int32_t s = job->near_clz - clz;                                   /* Z is not nearer than near */
-    if (!s && q >> 31) return UINT32_MAX;                              /* Z is near, and the quotient exact */
-    return s ? q >> (s - 1) : q << 1 | 1U;
+    int32_t down = job->near_down - clz;                               /* Z is not nearer than near: -1 at the least */
+    if (down >= 0) return q >> down;
+    return q >> 31 ? UINT32_MAX : q << 1 | 1U; /* Z is near, and the quotient exact */
 }
 
-/* floor(v * scale * 2^-s), below 2^27, scale in [2^29, 2^31): |v| * 2^(32 - s) < 2^30. Beyond s = 32 the last bits of v are dropped first. */
-static inline int32_t scale_down(int32_t v, int32_t scale, int32_t s)
+/* floor(v * scale / 2^32) */
+static inline int32_t scaled(int32_t v, int32_t scale)
 {
-    int32_t shifted = s <= 32 ? (int32_t)((uint32_t)v << (32 - s)) : v >> (s - 32);
-    GN_KEEP(shifted);
-    return (int32_t)(((int64_t)shifted * scale) >> 32);
+    GN_KEEP(v); /* positive, or as good as signed: one multiplication */
+    GN_KEEP(scale);
+    return (int32_t)(((int64_t)v * scale) >> 32);
 }
 
 /* X * 2F / Z and near / Z; Z in [2^8, 2^30). The first is rounded down. */
 GN_INLINE void project(const setup_job *job, const int32_t v_q16[3], projected *at)
 {
-    int32_t clz = gn_clz32((uint32_t)v_q16[2]), s = job->focal_shift - clz; /* clz 2..23 */
+    int32_t clz = gn_clz32((uint32_t)v_q16[2]), up = job->focal_up + clz; /* clz 2..23 */
     uint32_t recip = gn_recip_norm2((uint32_t)v_q16[2] << clz);
-    /* 2F / Z with 31 bits: 2^63 / (Z 2^clz) * (2F 2^focal_clz) / 2^33 */
-    int32_t scale = (int32_t)(((uint64_t)recip * job->focal_norm) >> 33);
-    GN_KEEP(scale); /* positive, or as good as signed */
-    at->x_q16 = scale_down(v_q16[0], scale, s);
-    at->y_q16 = -scale_down(v_q16[1], scale, s);
+    /* 2F / Z with 31 bits: 2^63 / (Z 2^clz) * (2F 2^focal_clz) / 2^33, in [2^29, 2^31); results are below 2^27, so that |v| * 2^up < 2^30 */
+    int32_t scale = (int32_t)(((uint64_t)recip * job->focal_norm) >> 33), x = v_q16[0], y = v_q16[1];
+    if (up >= 0) {
+        x = (int32_t)((uint32_t)x << up);
+        y = (int32_t)((uint32_t)y << up);
+    } else { /* the last bits are dropped first */
+        x >>= -up;
+        y >>= -up;
+    }
+    at->x_q16 = scaled(x, scale);
+    at->y_q16 = -scaled(y, scale);
     at->iz_q32 = inverse_depth(job, recip, clz);
 }
 
@@ -113,6 +121,20 @@ static inline int32_t snap(int32_t q16, int32_t bits)
     return (q16 + (1 << (15 - bits))) >> (16 - bits);
 }
 
+#if GN_SIZE_FIRST
+/* Returns 0 if the vertex is out of range. */
+static GN_NOINLINE int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
+{
+    const gn_cam *cam = &job->frame->cam;
+    const int32_t *v = c->v_q16;
+    if (!view_position(c->v_q16, &job->xform, job->object->mesh, vertex_idx)) return 0;
+    c->out = gn_outcode(v, cam->near_q16, cam->tan_q16) | gn_outcode(v, cam->near_q16, cam->guard_q16) << 8;
+#if CACHED_PROJECTION
+    if (!(c->out >> 8)) project(job, v, &c->at);
+#endif
+    return 1;
+}
+#else
 /* Bit `low` if v is below -half, the next if it is above half. */
 static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
 {
@@ -120,40 +142,38 @@ static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
     return v < 0 ? low : low << 1;
 }
 
-/* Returns 0 if the vertex is out of range. */
-static GN_NOINLINE int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
+/* A corner nearer than near, beyond what is projected or near the border of the guard band, or out of range: returns 0 then. */
+static GN_NOINLINE int fill_far_corner(const setup_job *job, corner *c)
 {
     const gn_cam *cam = &job->frame->cam;
-#if GN_SIZE_FIRST
     const int32_t *v = c->v_q16;
-    if (!view_position(c->v_q16, &job->xform, job->object->mesh, vertex_idx)) return 0;
-    c->out = gn_outcode(v, cam->near_q16, cam->tan_q16) | gn_outcode(v, cam->near_q16, cam->guard_q16) << 8;
-#else
+    for (int k = 0; k < 3; k++)
+        if (v[k] <= -GN_VIEW_LIMIT_Q16 || v[k] >= GN_VIEW_LIMIT_Q16) return 0;
+    c->out = gn_outcode(v, cam->near_q16, cam->tan_q16);
+    if (v[2] < cam->near_q16) c->out |= GN_OUT_NEAR << 8;
+    else if (c->out) c->out |= gn_outcode(v, cam->near_q16, cam->guard_q16) << 8;
+    if (!(c->out >> 8)) project(job, v, &c->at);
+    return 1;
+}
+
+/* Returns 0 if the vertex is out of range. */
+GN_INLINE int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
+{
+    const gn_mesh *mesh = job->object->mesh;
     int32_t v[3];
-    if (!gn_xform_fast_inline(v, &job->fast, job->object->mesh->pos + 3 * (size_t)vertex_idx)) {
-        if (!view_position(c->v_q16, &job->xform, job->object->mesh, vertex_idx)) return 0;
+    if (!gn_xform_fast_wide(v, &job->fast, mesh->pos + 3 * (size_t)vertex_idx)) {
+        if (!view_position(c->v_q16, &job->xform, mesh, vertex_idx)) return 0;
         for (int k = 0; k < 3; k++) v[k] = c->v_q16[k];
     }
     for (int k = 0; k < 3; k++) c->v_q16[k] = v[k];
-    if (v[2] < cam->near_q16) {
-        c->out = GN_OUT_NEAR << 8 | gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
-        return 1;
-    }
     uint32_t z = (uint32_t)v[2] >> job->near_guard;
-    if ((uint32_t)v[0] + z <= 2 * z && (uint32_t)v[1] + z <= 2 * z) {
-        project(job, v, &c->at);
-        c->out = side_bits(c->at.x_q16, job->half_q16[0], GN_OUT_LEFT) | side_bits(-c->at.y_q16, job->half_q16[1], GN_OUT_BOTTOM);
-        return 1;
-    }
-    uint32_t out = gn_outcode(c->v_q16, cam->near_q16, cam->tan_q16);
-    if (out) out |= gn_outcode(c->v_q16, cam->near_q16, cam->guard_q16) << 8;
-    c->out = out;
-#endif
-#if CACHED_PROJECTION
-    if (!(c->out >> 8)) project(job, v, &c->at);
-#endif
+    if ((uint32_t)v[2] - (uint32_t)job->near_q16 >= job->z_range || (uint32_t)v[0] + z > 2 * z || (uint32_t)v[1] + z > 2 * z)
+        return fill_far_corner(job, c);
+    project(job, v, &c->at);
+    c->out = side_bits(c->at.x_q16, job->half_q16[0], GN_OUT_LEFT) | side_bits(-c->at.y_q16, job->half_q16[1], GN_OUT_BOTTOM);
     return 1;
 }
+#endif
 
 /* ---- Depth --------------------------------------------------------------------------------------------------------- */
 
@@ -344,21 +364,20 @@ static gn_status setup_triangle(const setup_job *job, const corner *const c[3], 
 
 /* ---- Objects ------------------------------------------------------------------------------------------------------- */
 
-/* The corners of a triangle, through the cache. */
-static inline gn_status fetch_corners(const setup_job *job, const uint16_t *idx, corner spare[3], const corner *c[3])
+/* The corners of a triangle, through the cache: c[2 .. 4]. */
+static inline gn_status fetch_corners(const setup_job *job, const uint16_t *idx, corner spare[3], const corner *c[5])
 {
     uint32_t n_vertices = job->object->mesh->n_vertices, first_tag = (job->object_idx << 16) + 1;
-    for (int i = 0; i < 3; i++) {
-        uint32_t vertex_idx = idx[i], tag = first_tag + vertex_idx;
+    for (const corner **at = c + 2; at != c + 5; at++) {
+        uint32_t vertex_idx = *idx++, tag = first_tag + vertex_idx;
         if (vertex_idx >= n_vertices) return gn_fail(job->frame, GN_ERR_MESH_INDEX, job->object_idx);
         corner *entry = &job->cache[vertex_idx & job->cache_mask];
         if (entry->tag != tag) {
-            if ((i > 0 && entry == c[0]) || (i > 1 && entry == c[1]))
-                entry = &spare[i]; /* the triangle itself needs what is there */
+            if (entry == at[-1] || entry == at[-2]) entry = &spare[at - c - 2]; /* the triangle itself needs what is there */
             if (!fill_corner(job, entry, vertex_idx)) return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
             entry->tag = tag;
         }
-        c[i] = entry;
+        *at = entry;
     }
     return GN_OK;
 }
@@ -368,13 +387,14 @@ static gn_status setup_object(setup_job *job)
     const gn_cam *cam = &job->frame->cam;
     const gn_mesh *mesh = job->object->mesh;
     corner spare[3];
-    const corner *c[3];
+    const corner *c[5];
+    c[0] = c[1] = NULL; /* before the first there is none */
     gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->object);
     if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
     job->lasts_mask = GN_VISIBLE_ALPHA && job->object->visible_alpha != GN_ALPHA_OPAQUE ? 0 : -1;
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
         gn_status status = fetch_corners(job, mesh->idx + 3 * (size_t)t, spare, c);
-        if (!status) status = setup_triangle(job, c, t);
+        if (!status) status = setup_triangle(job, c + 2, t);
         if (status) return status;
     }
     return GN_OK;
@@ -391,12 +411,17 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *m
     job.cache = (corner *)(void *)memory;
     job.cache_mask = n - 1;
     job.focal_norm = frame->cam.focal2_px_q16 << clz;
-    job.focal_shift = 31 + clz;
-    job.near_clz = gn_clz32((uint32_t)frame->cam.near_q16);
-    job.near_norm = (uint32_t)frame->cam.near_q16 << job.near_clz;
-    job.half_q16[0] = (uint32_t)frame->picture.width << 15;
-    job.half_q16[1] = (uint32_t)frame->picture.height << 15;
-    for (job.near_guard = 0; gn_min32(frame->cam.guard_q16[0], frame->cam.guard_q16[1]) < 65536 >> job.near_guard;) job.near_guard++;
+    job.focal_up = 1 - clz;
+    job.near_down = gn_clz32((uint32_t)frame->cam.near_q16) - 1;
+    job.near_norm = (uint32_t)frame->cam.near_q16 << (job.near_down + 1);
+    if (!GN_SIZE_FIRST) { /* for fill_corner */
+        int32_t guard = gn_min32(frame->cam.guard_q16[0], frame->cam.guard_q16[1]);
+        job.near_q16 = frame->cam.near_q16;
+        job.z_range = (uint32_t)GN_VIEW_LIMIT_Q16 - (uint32_t)job.near_q16;
+        job.half_q16[0] = (uint32_t)frame->picture.width << 15;
+        job.half_q16[1] = (uint32_t)frame->picture.height << 15;
+        for (job.near_guard = 0; guard < 65536 >> job.near_guard;) job.near_guard++;
+    }
     frame->stats.n_triangles = 0;
     frame->stats.n_clipped = 0;
     for (uint32_t i = 0; i <= (uint32_t)frame->tiles_x * frame->tiles_y; i++) frame->tile_first[i] = 0;

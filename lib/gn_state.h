@@ -13,14 +13,15 @@ typedef struct {
     int32_t shift;
 } gn_xform;
 
-/* The same for many vertices: what can be, is added up beforehand. Sums stay below 2^63. */
+/* The same for many vertices: what can be, is added up beforehand, and all is times 2^up so that results are the upper words. Sums stay below 2^63. */
 typedef struct {
     struct {
-        int64_t sum; /* half of the last bit and, up to 31 bits of shift, the translation */
+        int64_t sum; /* half of the last bit and, up to 32 bits of shift, the translation */
         int32_t m[3];
         int32_t t_q16; /* the translation above that, 0 below */
     } row[3];
-    int32_t shift; /* 0: the transform or its translation is out of the ordinary, gn_xform_vertex does it */
+    uint32_t reach;   /* of positions, a power of two; 0: the transform or its translation is out of the ordinary, gn_xform_vertex does it */
+    uint8_t up, down; /* 32 bits of shift are the upper word: what they are less, and more */
 } gn_xform_fast;
 
 /* A block float: a positive number mant * 2^exp, mant in [2^31, 2^32). See gn_math.h. */

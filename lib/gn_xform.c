@@ -80,16 +80,23 @@ void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *m
 
 void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform)
 {
-    int32_t s = xform->shift;
-    fast->shift = 0;
+    int32_t s = xform->shift, up = gn_max32(32 - s, 0), down = gn_max32(s - 32, 0);
+    fast->reach = 0;
     if (s < 3 || s > 62) return;
     for (int r = 0; r < 3; r++) {
-        if (gn_abs64(xform->t_q16[r]) >> 30) return;
-        for (int c = 0; c < 3; c++) fast->row[r].m[c] = xform->m[r][c];
-        fast->row[r].t_q16 = s < 32 ? 0 : (int32_t)xform->t_q16[r];
-        fast->row[r].sum = ((int64_t)1 << (s - 1)) + (s < 32 ? gn_shl64(xform->t_q16[r], s) : 0); /* 2^30 * 2^31 */
+        uint64_t t = gn_abs64(xform->t_q16[r]), reach = 2 * t + 1;
+        for (int c = 0; c < 3; c++) {
+            fast->row[r].m[c] = xform->m[r][c];
+            reach += gn_abs32(xform->m[r][c]);
+        }
+        /* sum + m . p in 63 bits, p in 31: 2^31 + t * 2^32 + the row's entries * 2^31 */
+        if (t >> 30 || reach >> 32) return;
+        fast->row[r].t_q16 = down ? (int32_t)xform->t_q16[r] : 0;
+        fast->row[r].sum = ((int64_t)1 << (31 + down)) + (down ? 0 : gn_shl64(xform->t_q16[r], 32));
     }
-    fast->shift = s;
+    fast->up = (uint8_t)up;
+    fast->down = (uint8_t)down;
+    fast->reach = 1U << (31 - gn_max32(up, 1)); /* a position may have 30 bits, whatever the transform: gn_scene_position_ok */
 }
 
 int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
