@@ -4,8 +4,8 @@
 
 #include "gn_setup.h"
 
-/* Sorts what gn_setup counted in tile_first. */
-gn_status gn_bin_triangles(gn_frame *frame);
+/* Sorts what gn_setup_triangles counted in tile_first, with what it left in the scratch. */
+gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch);
 
 /* Pixels of a screen tile. */
 gn_rect gn_bin_tile_rect(const gn_frame *frame, uint32_t tile_idx);

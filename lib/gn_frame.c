@@ -135,11 +135,11 @@ gn_status gn_prepare(gn_renderer *r)
     for (uint32_t i = 0; i < frame->n_views; i++)
         if (!frame->view[i].tile_done) return gn_fail(frame, GN_ERR_ORDER, i);
 #endif
-    gn_status status = gn_setup_triangles(frame, &r->scratch.work.clipping, r->scratch.cell, GN_TILE_PIXELS_MAX);
+    gn_status status = gn_setup_triangles(frame, &r->scratch);
     if (status) return status;
     /* cells hold triangle + 1; what the identity leaves is depth */
     frame->id_bits = (uint8_t)(32 - gn_clz32(frame->stats.n_triangles + 1)); /* and for one that no triangle has: gn_runs */
-    status = gn_bin_triangles(frame);
+    status = gn_bin_triangles(frame, &r->scratch);
     if (status) return status;
     frame->stage = GN_STAGE_PREPARED;
     return GN_OK;

@@ -37,6 +37,20 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *
     return 1;
 }
 
+/* Half-words on both sides of this are not put together to words: that takes more than it saves. */
+#if GN_SIZE_FIRST
+#define APART(v) ((void)0)
+#else
+#define APART(v) GN_KEEP(v)
+#endif
+
+/* Of what is seldom called. */
+#if GN_SIZE_FIRST
+#define SELDOM inline
+#else
+#define SELDOM GN_NOINLINE
+#endif
+
 /* ---- Vertices ------------------------------------------------------------------------------------------------------ */
 
 /* A vertex on the screen, in the guard band. */
@@ -64,6 +78,9 @@ typedef struct {
     gn_clipping *clipping;
     corner *cache;
     uint32_t cache_mask;
+    uint16_t *place;     /* see gn_setup.h */
+    gn_ref_offset *tile_first;
+    int32_t add_px[2]; /* see gn_setup_bounds_of */
     uint32_t focal_norm; /* 2F, normalised */
     int32_t focal_up;    /* see project */
     uint32_t near_norm;  /* near, normalised */
@@ -223,6 +240,74 @@ static inline void depth_of_corners(depth_range *depth, const projected *c0, con
     depth->ref = c0->iz_q32 + (uint32_t)(step >> 16);
 }
 
+/* A corner on the subpixel grid. */
+typedef struct {
+    const projected *at;
+    int32_t x, y;
+} grid_corner;
+
+/* A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel grid along each axis: by so much may depth leave
+ * the triangle's own range. Where that is little, and neither end of all depths is near, it has no bounds. */
+static inline uint32_t depth_reach(int32_t dx, int32_t dy, int32_t bits)
+{
+    return (((gn_abs32(dx) >> 1) + (gn_abs32(dy) >> 1)) >> bits) + 4096; /* and roundings of 2^13 steps */
+}
+
+#define REACH_MAX (1U << 18)
+
+/* Depth of any triangle, from c to the centre of the pixel that holds it. */
+static SELDOM void general_depth(gn_tri *tri, const projected *c0, const projected *c1, const projected *c2, int32_t to_x_q16, int32_t to_y_q16,
+                                 int32_t lasts, int32_t bits)
+{
+    depth_range depth;
+    depth_of_corners(&depth, c0, c1, c2, to_x_q16, to_y_q16);
+    uint32_t reach = depth_reach(depth.dx, depth.dy, bits);
+    int unlimited = reach < REACH_MAX && depth.least > reach && depth.largest < UINT32_MAX - reach;
+    tri->iz_ref = depth.ref;
+    tri->iz_dx = depth.dx;
+    tri->iz_dy = depth.dy;
+    tri->iz_min = (uint16_t)(unlimited ? (uint32_t)lasts + 1 : depth.least >> 16);
+    tri->iz_max = (uint16_t)(unlimited ? 0 : depth.largest >> 16);
+}
+
+#if !GN_SIZE_FIRST
+/* gradient() of a shift below 32: the lower word as a signed one */
+static inline int quick_gradient(int32_t *out, int64_t n, int32_t f, int32_t s)
+{
+    int32_t lo = (int32_t)((uint32_t)n & ~1U), hi = (int32_t)(n >> 32) + (int32_t)((uint32_t)lo >> 31);
+    GN_KEEP(hi);
+    int64_t v = (int64_t)hi * f + (int32_t)((int64_t)lo * f >> 32);
+    *out = (int32_t)((uint32_t)v >> s | (uint32_t)(v >> 32) << (32 - s));
+    return (int32_t)(v >> 32) >> s == *out >> 31;
+}
+
+/* The same for a triangle that faces the camera, has more than half a pixel and less than 2^17, and needs no bounds. Returns 0 for others. */
+static inline int quick_depth(gn_tri *tri, const projected *c0, const projected *c1, const projected *c2, int32_t to_x_q16, int32_t to_y_q16,
+                              int32_t lasts, int32_t bits)
+{
+    int32_t ax = c1->x_q16 - c0->x_q16, ay = c1->y_q16 - c0->y_q16, minus_bx = c0->x_q16 - c2->x_q16, by = c2->y_q16 - c0->y_q16;
+    uint64_t size = (uint64_t)-((int64_t)ax * by + (int64_t)minus_bx * ay) | 1U;
+    uint32_t hi = (uint32_t)(size >> 32), i0 = c0->iz_q32, i1 = c1->iz_q32, i2 = c2->iz_q32;
+    if (hi - 1 >= (1U << 18) - 1) return 0;
+    int32_t clz = gn_clz32(hi), s = 45 - clz, dx, dy;
+    int32_t recip = -(int32_t)(gn_recip_norm2(hi << clz | (uint32_t)size >> (32 - clz)) >> 1);
+    int32_t a = (int32_t)(i1 >> 1) - (int32_t)(i0 >> 1), b = (int32_t)(i2 >> 1) - (int32_t)(i0 >> 1);
+    if (!quick_gradient(&dx, (int64_t)a * by + (int64_t)-b * ay, recip, s) ||
+        !quick_gradient(&dy, (int64_t)b * ax + (int64_t)a * minus_bx, recip, s))
+        return 0;
+    uint32_t reach = depth_reach(dx, dy, bits), more = reach + 1, range = UINT32_MAX - reach - more;
+    GN_KEEP(more);
+    if (reach >= REACH_MAX || i0 - more >= range || i1 - more >= range || i2 - more >= range) return 0;
+    int64_t step = (int64_t)dx * to_x_q16 + (int64_t)dy * to_y_q16; /* less than two pixels */
+    tri->iz_ref = i0 + (uint32_t)(step >> 16);
+    tri->iz_dx = dx;
+    tri->iz_dy = dy;
+    tri->iz_min = (uint16_t)(lasts + 1);
+    tri->iz_max = 0;
+    return 1;
+}
+#endif
+
 /* ---- Triangles ----------------------------------------------------------------------------------------------------- */
 
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3])
@@ -235,8 +320,25 @@ void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], in
     }
 }
 
-static inline void count_tiles(gn_frame *frame, const gn_rect *px)
+/* Counts a triangle in the screen tiles that it may have pixels in. Where these are few, they are left for gn_bin.c. */
+static inline void count_tiles(const setup_job *job, const gn_rect *px, uint32_t tri_idx)
 {
+    gn_frame *frame = job->frame;
+#if !GN_SIZE_FIRST
+    uint32_t w = (uint32_t)GN_K(frame, tile_width), h = (uint32_t)GN_K(frame, tile_height), tiles_x = frame->tiles_x; /* nothing is negative */
+    uint32_t one = (uint32_t)px->y0 / h * tiles_x + (uint32_t)px->x0 / w;
+    uint32_t apart = (uint32_t)(px->y1 - 1) / h * tiles_x + (uint32_t)(px->x1 - 1) / w - one;
+    uint32_t way = !apart ? GN_PLACE_ONE : apart == 1 ? GN_PLACE_NEXT : apart == tiles_x ? GN_PLACE_BELOW : GN_PLACE_MANY;
+    if (tri_idx < GN_PLACES) job->place[tri_idx] = (uint16_t)(one << 2 | way);
+    if (way != GN_PLACE_MANY) {
+        gn_ref_offset *n_first = &job->tile_first[one];
+        ++*n_first;
+        if (apart) ++n_first[apart];
+        return;
+    }
+#else
+    (void)tri_idx;
+#endif
     gn_tile_walk tiles = gn_setup_tiles(frame, px); /* of some tiles */
     gn_ref_offset *at = frame->tile_first + tiles.first;
     GN_ELEMENT(at);
@@ -247,26 +349,6 @@ static inline void count_tiles(gn_frame *frame, const gn_rect *px)
         at += tiles.skip;
     } while (--tiles.height);
 }
-
-/* A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel grid along each axis. Where that is little, and
- * neither end of all depths is near, depth may leave the triangle's own range. */
-static inline void store_depth(gn_tri *tri, const depth_range *depth, int32_t lasts, int32_t bits)
-{
-    uint32_t steepness = (gn_abs32(depth->dx) >> 1) + (gn_abs32(depth->dy) >> 1);
-    uint32_t reach = (steepness >> bits) + 4096; /* and roundings of 2^13 steps */
-    int unlimited = !(reach >> 18) && depth->least > reach && depth->largest < UINT32_MAX - reach;
-    tri->iz_ref = depth->ref;
-    tri->iz_dx = depth->dx;
-    tri->iz_dy = depth->dy;
-    tri->iz_min = (uint16_t)(unlimited ? (uint32_t)lasts + 1 : depth->least >> 16);
-    tri->iz_max = (uint16_t)(unlimited ? 0 : depth->largest >> 16);
-}
-
-/* A corner on the subpixel grid. */
-typedef struct {
-    const projected *at;
-    int32_t x, y;
-} grid_corner;
 
 static inline grid_corner on_grid(const projected *at, int32_t bits)
 {
@@ -289,25 +371,29 @@ static GN_NOINLINE void emit(const setup_job *job, const projected *p0, const pr
     if (c.y < a.y && c.y < b.y) swap = a, a = c, c = b, b = swap; /* rotated, to begin with the top */
     else if (b.y < a.y) swap = a, a = b, b = c, c = swap;
     int32_t left = gn_min32(gn_min32(a.x, b.x), c.x), right = gn_max32(gn_max32(a.x, b.x), c.x), bottom = gn_max32(b.y, c.y);
-    const gn_rect bounds = gn_setup_bounds_of(frame, left, right, a.y, bottom);
+    const gn_rect bounds = gn_setup_bounds_of(frame, left, right, a.y, bottom, GN_SIZE_FIRST ? gn_setup_add(frame->picture.width, bits) : job->add_px[0],
+                                              GN_SIZE_FIRST ? gn_setup_add(frame->picture.height, bits) : job->add_px[1]);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
     uint32_t n = frame->stats.n_triangles++; /* counted on, to say how many would have been enough */
     if (n >= GN_MAX_TRIANGLES) return;
-    count_tiles(frame, &bounds);
+    count_tiles(job, &bounds, n);
     GN_COUNT(visible, 1);
     gn_tri *tri = &frame->tri[n];
     GN_KEEP(tri);
-    tri->x[0] = (gn_coord)a.x, tri->x[1] = (gn_coord)b.x, tri->x[2] = (gn_coord)c.x;
-    tri->y[0] = (gn_coord)a.y, tri->y[1] = (gn_coord)b.y, tri->y[2] = (gn_coord)c.y;
+    tri->x[0] = (gn_coord)a.x, tri->x[2] = (gn_coord)c.x, tri->y[1] = (gn_coord)b.y;
+    APART(tri);
+    tri->x[1] = (gn_coord)b.x, tri->y[0] = (gn_coord)a.y, tri->y[2] = (gn_coord)c.y;
     tri->object_idx = (uint16_t)job->object_idx;
     tri->triangle_idx = (uint16_t)triangle_idx;
     /* from the top to the centre of the pixel that holds it */
     int32_t one = 1 << bits, x = a.x + ((frame->picture.width << bits) >> 1), y = a.y + ((frame->picture.height << bits) >> 1);
     int32_t to_x_q16 = ((a.x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->x_q16;
     int32_t to_y_q16 = ((a.y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->y_q16;
-    depth_range depth;
-    depth_of_corners(&depth, a.at, b.at, c.at, to_x_q16, to_y_q16);
-    store_depth(tri, &depth, job->lasts_mask & gn_walk_lasts((uint32_t)(right - left) | (uint32_t)(bottom - a.y)), bits);
+    int32_t lasts = job->lasts_mask & gn_walk_lasts((uint32_t)(right - left) | (uint32_t)(bottom - a.y));
+#if !GN_SIZE_FIRST
+    if (quick_depth(tri, a.at, b.at, c.at, to_x_q16, to_y_q16, lasts, bits)) return;
+#endif
+    general_depth(tri, a.at, b.at, c.at, to_x_q16, to_y_q16, lasts, bits);
 }
 
 #if GN_CLIPPING
@@ -400,15 +486,15 @@ static gn_status setup_object(setup_job *job)
     return GN_OK;
 }
 
-gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *memory, uint32_t n_words)
+gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
 {
     setup_job job;
     uint32_t n = 256;
     int32_t clz = gn_clz32(frame->cam.focal2_px_q16);
-    while (n > 1 && n * (sizeof(corner) / 4) > n_words) n >>= 1;
+    while (n > 1 && n * (sizeof(corner) / 4) > sizeof scratch->cell / 4) n >>= 1;
     job.frame = frame;
-    job.clipping = clipping;
-    job.cache = (corner *)(void *)memory;
+    job.clipping = &scratch->work.clipping;
+    job.cache = (corner *)(void *)scratch->cell;
     job.cache_mask = n - 1;
     job.focal_norm = frame->cam.focal2_px_q16 << clz;
     job.focal_up = 1 - clz;
@@ -416,6 +502,10 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *m
     job.near_norm = (uint32_t)frame->cam.near_q16 << (job.near_down + 1);
     if (!GN_SIZE_FIRST) { /* for fill_corner */
         int32_t guard = gn_min32(frame->cam.guard_q16[0], frame->cam.guard_q16[1]);
+        job.place = scratch->pixel.rgb565;
+        job.add_px[0] = gn_setup_add(frame->picture.width, GN_K(frame, subpixel_bits));
+        job.add_px[1] = gn_setup_add(frame->picture.height, GN_K(frame, subpixel_bits));
+        job.tile_first = frame->tile_first;
         job.near_q16 = frame->cam.near_q16;
         job.z_range = (uint32_t)GN_VIEW_LIMIT_Q16 - (uint32_t)job.near_q16;
         job.half_q16[0] = (uint32_t)frame->picture.width << 15;

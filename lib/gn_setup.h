@@ -6,8 +6,14 @@
 #include "gn_walk.h"
 #include "gnomon.h"
 
-/* Fills frame->tri from the scene, and counts the triangles of each screen tile. The memory is scratch, for a cache of vertices: at least 8 words. */
-gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *memory, uint32_t n_words);
+/* Fills frame->tri from the scene, and counts the triangles of each screen tile. The scratch is used for a cache of vertices, and for what
+ * gn_bin_triangles need not find again. */
+gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch);
+
+/* In the scratch's pixels, of the first triangles: the first screen tile that one may have pixels in, above two bits: that alone, the next one, the
+ * one below, or others too. Where size comes first there is none of this. */
+#define GN_PLACES GN_TILE_PIXELS_MAX
+enum { GN_PLACE_ONE, GN_PLACE_NEXT, GN_PLACE_BELOW, GN_PLACE_MANY };
 
 /* View position of an object's vertex through the cache. Returns 0 if it is beyond +-16384 units, or
  * its position beyond +-2^30. */
@@ -17,23 +23,29 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *
 /* Screen coordinates of the corners from the picture's top left corner, subpixel_bits fraction bits. */
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3]);
 
-/* Pixels whose centres lie between the least and largest coordinates, from the picture's centre, in the subpixel grid: cut to the picture. */
-static inline gn_rect gn_setup_bounds_of(const gn_frame *frame, int32_t left, int32_t right, int32_t top, int32_t bottom)
+/* Pixels whose centres lie between the least and largest coordinates, from the picture's centre, in the subpixel grid: cut to the picture. What is
+ * added before they are shifted is the picture's centre, and the rounding of gn_first_px. */
+static inline gn_rect gn_setup_bounds_of(const gn_frame *frame, int32_t left, int32_t right, int32_t top, int32_t bottom, int32_t add_x, int32_t add_y)
 {
-    int32_t bits = GN_K(frame, subpixel_bits), width = frame->picture.width, height = frame->picture.height;
-    int32_t centre_x = (width << bits) >> 1, centre_y = (height << bits) >> 1;
+    int32_t bits = GN_K(frame, subpixel_bits);
     gn_rect r;
-    r.x0 = gn_max32(gn_first_px(left + centre_x, bits), 0);
-    r.x1 = gn_min32(gn_first_px(right + centre_x, bits), width);
-    r.y0 = gn_max32(gn_first_px(top + centre_y, bits), 0);
-    r.y1 = gn_min32(gn_first_px(bottom + centre_y, bits), height);
+    r.x0 = gn_max32((left + add_x) >> bits, 0);
+    r.x1 = gn_min32((right + add_x) >> bits, frame->picture.width);
+    r.y0 = gn_max32((top + add_y) >> bits, 0);
+    r.y1 = gn_min32((bottom + add_y) >> bits, frame->picture.height);
     return r;
+}
+
+static inline int32_t gn_setup_add(int32_t size_px, int32_t bits)
+{
+    return ((size_px << bits) >> 1) + ((1 << bits) >> 1) - 1;
 }
 
 static inline gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
 {
-    int32_t x0 = tri->x[0], x1 = tri->x[1], x2 = tri->x[2];
-    return gn_setup_bounds_of(frame, gn_min32(gn_min32(x0, x1), x2), gn_max32(gn_max32(x0, x1), x2), tri->y[0], gn_max32(tri->y[1], tri->y[2]));
+    int32_t x0 = tri->x[0], x1 = tri->x[1], x2 = tri->x[2], bits = GN_K(frame, subpixel_bits);
+    return gn_setup_bounds_of(frame, gn_min32(gn_min32(x0, x1), x2), gn_max32(gn_max32(x0, x1), x2), tri->y[0], gn_max32(tri->y[1], tri->y[2]),
+                              gn_setup_add(frame->picture.width, bits), gn_setup_add(frame->picture.height, bits));
 }
 
 /* The screen tiles that pixels of the picture lie in, some at least: `height` rows of `width` tiles, with `skip` others between. */
