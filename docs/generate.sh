@@ -20,7 +20,7 @@ replace() { # replace DOCUMENT NAME FILE
 replace CONFIG.md knobs "$work/knobs"
 "$build/test_stages" --table >"$work/stages"
 replace NUMERICS.md stages "$work/stages"
-for name in radiance punctual; do
+for name in casters radiance punctual; do
     "$build/test_$name" --table >"$work/$name"
     replace NUMERICS.md $name "$work/$name"
 done
