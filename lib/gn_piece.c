@@ -214,7 +214,7 @@ static int arriving(gn_pieces *p, const middle *m, half_size half)
     (void)m, (void)half;
     for (int c = 0; c < 3; c++) {
         gn_slope dark = {(int32_t)(s->base_q20[c] << 4), 0, 0};
-        p->dark_q24[c] = p->lit_q24[c] = dark;
+        p->dark[c].slope_q24 = p->lit[c].slope_q24 = dark;
     }
     for (uint32_t i = 0; i < s->n_lights; i++) {
         const gn_surface_light *light = &s->light[i];
@@ -225,8 +225,8 @@ static int arriving(gn_pieces *p, const middle *m, half_size half)
         if (!stays_within_2(&facing, half)) return 0;
 #endif
         for (int c = 0; c < 3; c++) {
-            add_light(&p->lit_q24[c], light->radiance_uq16[c], &facing);
-            if ((int32_t)i != p->shadow_slot) add_light(&p->dark_q24[c], light->radiance_uq16[c], &facing);
+            add_light(&p->lit[c].slope_q24, light->radiance_uq16[c], &facing);
+            if ((int32_t)i != p->shadow_slot) add_light(&p->dark[c].slope_q24, light->radiance_uq16[c], &facing);
         }
     }
     return 1;
@@ -254,10 +254,16 @@ static int colours(gn_pieces *p, middle *m, half_size half)
         if (!stays_within_2(&colour, half)) return 0;
         p->tint_q24[c] = colour;
         if (p->tinted) continue; /* else what arrives is the same all over */
-        p->dark_q24[c] = times_q24(&colour, p->dark_q24[c].at);
-        p->lit_q24[c] = times_q24(&colour, p->lit_q24[c].at);
+        p->dark[c].slope_q24 = times_q24(&colour, p->dark[c].slope_q24.at);
+        p->lit[c].slope_q24 = times_q24(&colour, p->lit[c].slope_q24.at);
     }
     return 1;
+}
+
+/* Whether w changes by at most an eighth over half a piece. */
+static int is_even(const gn_pieces *p, half_size half)
+{
+    return (uint64_t)gn_abs32(p->w_dx_q30) * half.w + (uint64_t)gn_abs32(p->w_dy_q30) * half.h <= 1U << 27;
 }
 
 /* How many pixels n a ramp may have, a power of two, if it bends by n^2 / 4 of `bend`: n^2 / 4 of that is below 2^(46 - tolerance). */
@@ -268,33 +274,109 @@ static int32_t longest_ramp(uint64_t bend_q46, int32_t tolerance, int32_t least_
     return 1 << gn_max32(least_log2, gn_min32(log2, GN_PIECE_WIDTH_LOG2));
 }
 
-/* Whether w changes by at most an eighth over half a piece, and how long its ramps may be: over n pixels a colour bends by a quarter of the
- * product of what it and w, relative to w, or two factors change over them, and a cosine by an eighth of the square of the angle. */
-static int close_enough(gn_pieces *p, half_size half)
-{
-    uint64_t bend_q30 = (uint64_t)gn_abs32(p->w_dx_q30) * half.w + (uint64_t)gn_abs32(p->w_dy_q30) * half.h;
-    if (bend_q30 > 1U << 27) return 0;
-    if (!p->varies) return 1;
-    int32_t tolerance = tolerance_log2(p->frame);
-    uint32_t fastest = 0, product = 0, turn = 0;
+
 #if GN_TURNING
-    if (p->turns) turn = p->turning.per_px_q16;
-#endif
-    for (int c = 0; c < 3; c++) {
-        uint32_t dx = p->turns ? 0 : gn_abs32(p->lit_q24[c].dx) >> 8; /* Q16 */
-        if (p->tinted) {
-            uint32_t tint_dx = gn_abs32(p->tint_q24[c].dx) >> 8;
-            if ((dx | tint_dx | turn) >> 16) return 0;
-            product = (uint32_t)gn_max32((int32_t)product, (int32_t)((dx + turn) * (tint_dx >> 2))); /* Q30 */
-            dx += tint_dx;
-        }
-        if (dx > fastest) fastest = dx;
+/* How long ramps may be where normals turn: over n pixels a colour bends by a quarter of the product of what it and w, relative to w, or
+ * two factors change over them, and a cosine by an eighth of the square of the angle. Returns 0 if something changes too fast. */
+static int turning_ramps(gn_pieces *p)
+{
+    int32_t tolerance = tolerance_log2(p->frame);
+    uint32_t fastest = 0, product = 0, turn = p->turning.per_px_q16;
+    for (int c = 0; p->tinted && c < 3; c++) {
+        uint32_t tint_dx = gn_abs32(p->tint_q24[c].dx) >> 8; /* Q16 */
+        if ((tint_dx | turn) >> 16) return 0;
+        product = (uint32_t)gn_max32((int32_t)product, (int32_t)(turn * (tint_dx >> 2))); /* Q30 */
+        if (tint_dx > fastest) fastest = tint_dx;
     }
     uint64_t bend_q46 = (uint64_t)fastest * gn_abs32(p->w_dx_q30);
-#if GN_TURNING
     p->tint_px = longest_ramp(bend_q46, tolerance, 2);
+    p->ramp_px = longest_ramp(bend_q46 + ((uint64_t)product << 16) + ((uint64_t)turn * turn << 13), tolerance, 0);
+    return 1;
+}
 #endif
-    p->ramp_px = longest_ramp(bend_q46 + ((uint64_t)product << 16) + ((uint64_t)turn * turn << 13), tolerance, p->turns ? 0 : 2);
+
+/* v or -1 - v, whichever is not negative: what several have set together is at least all of them, and less than twice the largest. */
+static inline uint32_t size_of(int32_t v)
+{
+    return (uint32_t)(v ^ (v >> 31));
+}
+
+/* How steep several slopes are, at most. */
+typedef struct {
+    uint32_t dx, dy;
+} steepness;
+
+static inline void include(steepness *all, const gn_slope *s)
+{
+    all->dx |= size_of(s->dx);
+    all->dy |= size_of(s->dy);
+}
+
+/* A colour times that of the vertices. Slopes of factors are below 1 per pixel, and within 8 and 2 at the place: those of the product below
+ * 2^28. */
+static void tint_curve(gn_curve *curve, const gn_slope *tint)
+{
+    gn_slope *s = &curve->slope_q24;
+    int32_t at = s->at, dx = s->dx * 64, dy = s->dy * 64, tint_dx = tint->dx * 64, tint_dy = tint->dy * 64;
+    s->at = gn_mul_q24(at, tint->at);
+    s->dx = gn_mul_q24(at, tint->dx) + gn_mul_q24(s->dx, tint->at);
+    s->dy = gn_mul_q24(at, tint->dy) + gn_mul_q24(s->dy, tint->at);
+    if (!(dx | dy)) return;
+    curve->dxx_q28 = gn_mul_high(dx, tint_dx);
+    curve->dxy_q28 = gn_mul_high(dx, tint_dy) + gn_mul_high(dy, tint_dx);
+    curve->dyy_q28 = gn_mul_high(dy, tint_dy);
+}
+
+/* What perspective adds: g / (1 + t) is g - g t to the second order. */
+static void bend_curve(const gn_pieces *p, gn_curve *curve)
+{
+    int32_t dx = curve->slope_q24.dx * 8, dy = curve->slope_q24.dy * 8, w_dx = p->w_dx_q30 * 8, w_dy = p->w_dy_q30 * 8;
+    curve->dxx_q28 -= gn_mul_high(dx, w_dx);
+    curve->dxy_q28 -= gn_mul_high(dx, w_dy) + gn_mul_high(dy, w_dx);
+    curve->dyy_q28 -= gn_mul_high(dy, w_dy);
+}
+
+/* By how much values change from the middle of a piece to its corners, Q16. */
+static inline uint32_t change_q16(const steepness *s, half_size half)
+{
+    return (s->dx >> 8) * half.w + (s->dy >> 8) * half.h;
+}
+
+/* Whether what lies beyond the second order, g t^2 / (1 + t), and up to 5/2 t times the product of the factors' changes, is within the
+ * tolerance all over a piece. */
+static int curves_hold(const gn_pieces *p, const steepness *light, const steepness *tint, const steepness *both, half_size half)
+{
+    uint32_t t_q15 = (gn_abs32(p->w_dx_q30) * half.w + gn_abs32(p->w_dy_q30) * half.h) >> 15; /* 2^12 */
+    uint64_t linear_q34 = (uint64_t)change_q16(both, half) * ((t_q15 * t_q15) >> 12);
+    uint64_t product_q32 = (uint64_t)change_q16(light, half) * change_q16(tint, half); /* 2^22 each */
+    return linear_q34 * 5 / 4 + (product_q32 * t_q15 >> 13) * 5 / 2 <= (uint64_t)1 << (34 - tolerance_log2(p->frame));
+}
+
+/* Makes colours of what arrives, and finds how long their ramps may be. Returns 0 if they change too fast. */
+static int curves(gn_pieces *p, half_size half)
+{
+    steepness light = {0, 0}, tint = {0, 0}, both = {0, 0};
+    uint32_t most = 0;
+    int32_t bend = 0;
+    for (int c = 0; c < 3; c++) {
+        include(&light, &p->dark[c].slope_q24);
+        include(&light, &p->lit[c].slope_q24);
+        if (p->tinted) include(&tint, &p->tint_q24[c]);
+    }
+    if ((light.dx | light.dy | tint.dx | tint.dy) >> 24) return 0;
+    for (int i = 0; i < 6; i++) {
+        gn_curve *curve = i < 3 ? &p->dark[i] : &p->lit[i - 3];
+        curve->dxx_q28 = curve->dxy_q28 = curve->dyy_q28 = 0;
+        if (p->tinted) tint_curve(curve, &p->tint_q24[i < 3 ? i : i - 3]);
+        include(&both, &curve->slope_q24);
+        most |= size_of(curve->dxx_q28) | size_of(curve->dxy_q28) | size_of(curve->dyy_q28);
+        bend = gn_max32(bend, (int32_t)size_of(curve->dxx_q28));
+    }
+    if (most >> 23) return 0; /* 1/32: a row is within 2^31 */
+    bend += 1 + gn_mul_high((int32_t)both.dx * 8, (int32_t)gn_abs32(p->w_dx_q30) * 8);
+    p->ramp_px = longest_ramp((uint64_t)(uint32_t)bend << 18, tolerance_log2(p->frame), 2);
+    p->steep = !curves_hold(p, &light, &tint, &both, half);
+    for (int i = 0; !p->steep && i < 6; i++) bend_curve(p, i < 3 ? &p->dark[i] : &p->lit[i - 3]);
     return 1;
 }
 
@@ -419,7 +501,7 @@ static int find_place(gn_pieces *p, const middle *m, half_size half)
     /* g t^2 within 1/32 texel; from end to end of a chunk of n pixels a chord bends by g t / 4 */
     uint32_t bend_q15 = (gn_abs32(m->w_dx_q30) * half.w + gn_abs32(m->w_dy_q30) * half.h) >> 15;
     if ((uint64_t)most * ((bend_q15 * bend_q15) >> 15) >> 15 > 2048) return 0;
-    p->chunk_px = p->varies && !p->turns ? gn_min32(GN_K(p->frame, persp_step), p->ramp_px) : GN_K(p->frame, persp_step);
+    p->chunk_px = GN_K(p->frame, persp_step);
     while (p->chunk_px > 1 &&
            ((uint64_t)fastest * (uint32_t)p->chunk_px * ((gn_abs32(m->w_dx_q30) * (uint32_t)p->chunk_px) >> 8)) >> 22 > 4 * 2048)
         p->chunk_px >>= 1;
@@ -463,7 +545,7 @@ static int shadow(gn_pieces *p, const middle *m, const gn_rect *rect, half_size 
     p->turning.keep_uq16 = keep;
 #endif
     for (int c = 0; keep && !p->turns && c < 3; c++) {
-        gn_slope *dark = &p->dark_q24[c], *lit = &p->lit_q24[c];
+        gn_slope *dark = &p->dark[c].slope_q24, *lit = &p->lit[c].slope_q24;
         dark->at += gn_mul_shr(lit->at - dark->at, (int32_t)keep, 16);
         dark->dx += gn_mul_shr(lit->dx - dark->dx, (int32_t)keep, 16);
         dark->dy += gn_mul_shr(lit->dy - dark->dy, (int32_t)keep, 16);
@@ -474,10 +556,10 @@ static int shadow(gn_pieces *p, const middle *m, const gn_rect *rect, half_size 
 }
 #endif
 
-static uint32_t packed(const gn_frame *frame, const gn_slope *colour_q24)
+static uint32_t packed(const gn_frame *frame, const gn_curve *colour)
 {
     uint32_t q20[3];
-    for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour_q24[c].at, 0) >> 4;
+    for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour[c].slope_q24.at, 0) >> 4;
     return gn_pixel_pack(frame, q20);
 }
 
@@ -491,7 +573,7 @@ int gn_pieces_select(gn_pieces *p, const gn_rect *rect)
     p->w_dy_q30 = m.w_dy_q30;
     p->varies = GN_COLOURED(p->surface) || GN_SMOOTH(p->surface);
     half_size half = {(uint32_t)(rect->x1 - rect->x0 + 1) >> 1, (uint32_t)(rect->y1 - rect->y0 + 1) >> 1};
-    if (!colours(p, &m, half) || !close_enough(p, half)) return 0;
+    if (!is_even(p, half) || !colours(p, &m, half)) return 0;
     p->looks_up = 0;
 #if GN_SHADOWS
     p->x0 = rect->x0;
@@ -499,10 +581,18 @@ int gn_pieces_select(gn_pieces *p, const gn_rect *rect)
     p->cells = 0;
     if (p->shadow_slot >= 0 && !shadow(p, &m, rect, half)) return 0;
 #endif
+#if GN_TURNING
+    if (p->turns) return turning_ramps(p);
+#endif
     if (!p->varies) {
-        p->dark_pixel = packed(p->frame, p->dark_q24);
-        p->lit_pixel = packed(p->frame, p->lit_q24);
+        p->dark_pixel = packed(p->frame, p->dark);
+        p->lit_pixel = packed(p->frame, p->lit);
+        return 1;
     }
+    if (!curves(p, half)) return 0;
+#if GN_SHADOWS
+    if (p->chunk_px > p->ramp_px) p->chunk_px = p->ramp_px;
+#endif
     return 1;
 }
 

@@ -11,7 +11,7 @@
 #if GN_PIECES
 
 /* Pixels: the largest piece, and parts of it whose shadow is asked for once. */
-enum { GN_PIECE_WIDTH_LOG2 = 6, GN_PIECE_WIDTH = 1 << GN_PIECE_WIDTH_LOG2, GN_PIECE_ROWS = 8, GN_CELL = 8 };
+enum { GN_PIECE_WIDTH_LOG2 = 6, GN_PIECE_WIDTH = 1 << GN_PIECE_WIDTH_LOG2, GN_PIECE_ROWS = 16, GN_CELL = 8 };
 
 /* The upper half of a product. */
 static inline int32_t gn_mul_high(int32_t a, int32_t b)

@@ -11,18 +11,35 @@
 enum { CELL_UNKNOWN, CELL_LIT, CELL_DARK, CELL_MIXED };
 #endif
 
-/* All channels, for a row of n pixels from (x, y) on: the colour of its first and the step from each to the next. */
-static void ramp_of(const gn_pieces *p, const gn_slope colour_q24[3], int32_t x, int32_t y, int32_t n, int32_t from[3], int32_t step[3])
+/* v + s g + s^2 q in the middle of a row, with g its first and q its second order and s = 1 / (1 + t), and its slope there. */
+static void steep_ramp(const gn_pieces *p, const gn_curve *colour, int32_t right, int32_t down, int32_t n, gn_ramp *ramp)
 {
-    int32_t right = 2 * (x - p->x) + n - 1, down = 2 * (y - p->y), per_w_q30 = gn_per_w((p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1);
-    for (int c = 0; c < 3; c++) {
-        int32_t at = gn_colour_near(p, &colour_q24[c], right, down, per_w_q30, &step[c]);
-        if (p->tinted) {
-            int32_t tint_step, tint = gn_colour_near(p, &p->tint_q24[c], right, down, per_w_q30, &tint_step);
-            step[c] = gn_mul_q24(step[c], tint) + gn_mul_q24(at, tint_step);
-            at = gn_mul_q24(at, tint);
-        }
-        from[c] = at - ((step[c] * (n - 1)) >> 1);
+    int32_t scale_q30 = gn_per_w((p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1); /* right, down: in half pixels */
+    for (int c = 0; c < 3; c++, colour++) {
+        const gn_slope *v = &colour->slope_q24;
+        int32_t across = right * colour->dxx_q28 >> 5, slope = across + (down * colour->dxy_q28 >> 5), g = (right * v->dx + down * v->dy) >> 1;
+        int32_t q = 4 * gn_mul_high((right * slope + down * (down * colour->dyy_q28 >> 5)) >> 1, scale_q30);
+        int32_t bent = slope + across - 4 * gn_mul_high(g + 2 * q, p->w_dx_q30);
+        int32_t step = 4 * gn_mul_high(v->dx + 4 * gn_mul_high(bent, scale_q30), scale_q30);
+        ramp->step_q24[c] = step;
+        ramp->from_q24[c] = v->at + 4 * gn_mul_high(g + q, scale_q30) - ((step * (n - 1)) >> 1);
+    }
+}
+
+/* A row of n pixels from (x, y) on. */
+static void ramp_of(const gn_pieces *p, const gn_curve *colour, int32_t x, int32_t y, int32_t n, gn_ramp *ramp)
+{
+    int32_t right = x - p->x, down = y - p->y, both = 2 * right + n - 1;
+    if (p->steep) {
+        steep_ramp(p, colour, both, 2 * down, n, ramp);
+        return;
+    }
+    for (int c = 0; c < 3; c++, colour++) { /* from the first to the last of n */
+        const gn_slope *s = &colour->slope_q24;
+        int32_t slope = s->dx + (down * colour->dxy_q28 >> 4), bent = colour->dxx_q28;
+        int32_t left = s->at + down * (s->dy + (down * colour->dyy_q28 >> 4));
+        ramp->from_q24[c] = left + right * (slope + (right * bent >> 4));
+        ramp->step_q24[c] = slope + (both * bent >> 4);
     }
 }
 
@@ -39,56 +56,25 @@ static void plain_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, 
         return;
     }
 #endif
-    for (int32_t end = x + n, from[3], step[3]; x < end; x += n) {
+    for (int32_t end = x + n; x < end; x += n) {
+        gn_ramp ramp;
         n = gn_min32(end - x, p->ramp_px);
-        ramp_of(p, lit ? p->lit_q24 : p->dark_q24, x, y, n, from, step);
-        gn_pixel_ramp(p->frame, rows, x, y, n, from, step);
+        ramp_of(p, lit ? p->lit : p->dark, x, y, n, &ramp);
+        gn_pixel_ramp(p->frame, rows, x, y, n, &ramp);
     }
 }
 
 #if GN_SHADOWS
-/* Colours along a row of pixels: without the light and with it. */
-typedef struct {
-    int32_t dark[3], dark_step[3], lit[3], lit_step[3];
-} row_colours;
-
-static void find_row_colours(const gn_pieces *p, int32_t x, int32_t y, int32_t n, row_colours *row)
+static void colours_of(const gn_pieces *p, const gn_curve *colour, int32_t x, int32_t y, int32_t n, gn_ramp *ramp)
 {
     if (p->varies) {
-        ramp_of(p, p->dark_q24, x, y, n, row->dark, row->dark_step);
-        ramp_of(p, p->lit_q24, x, y, n, row->lit, row->lit_step);
+        ramp_of(p, colour, x, y, n, ramp);
         return;
     }
     for (int c = 0; c < 3; c++) {
-        row->dark[c] = p->dark_q24[c].at;
-        row->lit[c] = p->lit_q24[c].at;
-        row->dark_step[c] = row->lit_step[c] = 0;
+        ramp->from_q24[c] = colour[c].slope_q24.at;
+        ramp->step_q24[c] = 0;
     }
-}
-
-/* Pixels first .. first + n - 1 of a row that begins at x, all lit or all dark. */
-static void part_of_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, const row_colours *row, int32_t first,
-                        int32_t n, int lit)
-{
-    const int32_t *colour = lit ? row->lit : row->dark, *step = lit ? row->lit_step : row->dark_step;
-    if (!p->varies) {
-        gn_pixel_fill(p->frame, rows, x + first, y, n, lit ? p->lit_pixel : p->dark_pixel);
-        return;
-    }
-    const int32_t from[3] = {colour[0] + first * step[0], colour[1] + first * step[1], colour[2] + first * step[2]};
-    if (n == 1) gn_pixel_dot(p->frame, rows, x + first, y, from);
-    else gn_pixel_ramp(p->frame, rows, x + first, y, n, from, step);
-}
-
-static void partly_lit(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, const row_colours *row, int32_t i,
-                       uint32_t attenuation)
-{
-    int32_t colour[3];
-    for (int c = 0; c < 3; c++) {
-        int32_t dark = row->dark[c] + i * row->dark_step[c], more = row->lit[c] + i * row->lit_step[c] - dark;
-        colour[c] = dark + (int32_t)((int64_t)more * (int32_t)attenuation >> 16);
-    }
-    gn_pixel_dot(p->frame, rows, x + i, y, colour);
 }
 
 /* Where the light sees the surface at a pixel: v + g / (1 + t), g the change by the slope, t that of w, is v + g - g t but for g t^2. */
@@ -140,18 +126,10 @@ static void looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t
         return;
     }
 #endif
-    row_colours row;
-    find_row_colours(p, x, y, n, &row);
-    for (int32_t i = 0; i < n;) {
-        uint32_t here = attenuation[i];
-        if (here - 1 < 65535) {
-            partly_lit(p, rows, y, x, &row, i++, here);
-            continue;
-        }
-        int32_t first = i++;
-        while (i < n && attenuation[i] == here) i++;
-        part_of_row(p, rows, y, x, &row, first, i - first, here != 0);
-    }
+    gn_ramp dark, lit;
+    colours_of(p, p->dark, x, y, n, &dark);
+    colours_of(p, p->lit, x, y, n, &lit);
+    gn_pixel_mix(p->frame, rows, x, y, n, &dark, &lit, attenuation);
 }
 
 /* What bounds of depth say of a cell of the piece. */

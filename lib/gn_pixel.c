@@ -68,7 +68,7 @@ static inline uint32_t pack_565(uint32_t r_q24, uint32_t g_q24, uint32_t b_q24)
 
 static inline uint32_t limited_q24(int32_t v)
 {
-    return v < 0 ? 0 : v < 1 << 24 ? (uint32_t)v : (1U << 24) - 1;
+    return (uint32_t)gn_min32(gn_max32(v, 0), (1 << 24) - 1); /* one instruction, where there is one */
 }
 
 static inline uint32_t limit_and_pack_565(int32_t r_q24, int32_t g_q24, int32_t b_q24)
@@ -181,55 +181,95 @@ static int has_levels(const gn_frame *frame)
     return frame->picture.format == GN_FORMAT_RGB565 && GN_K(frame, srgb);
 }
 
-/* inside: no channel leaves 0 .. 1. */
-static inline void ramp_565(uint16_t *out, int32_t n, const int32_t from_q24[3], const int32_t step_q24[3], int inside)
+static uint16_t *pixel_565(const gn_pixel_rows *rows, int32_t x, int32_t y)
 {
-    uint32_t r = (uint32_t)from_q24[0], g = (uint32_t)from_q24[1], b = (uint32_t)from_q24[2];
-    uint32_t dr = (uint32_t)step_q24[0], dg = (uint32_t)step_q24[1], db = (uint32_t)step_q24[2];
+    return rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0;
+}
+
+/* Whether n colours all lie in 0 .. 1. */
+static inline int stays_inside(const gn_ramp *ramp, int32_t n)
+{
+    uint32_t all = 0;
+    for (int c = 0; c < 3; c++) all |= (uint32_t)ramp->from_q24[c] | (uint32_t)(ramp->from_q24[c] + (n - 1) * ramp->step_q24[c]);
+    return all < 1U << 24;
+}
+
+static inline void ramp_565(uint16_t *out, int32_t n, const gn_ramp *ramp, int inside)
+{
+    uint32_t r = (uint32_t)ramp->from_q24[0], g = (uint32_t)ramp->from_q24[1], b = (uint32_t)ramp->from_q24[2];
+    uint32_t dr = (uint32_t)ramp->step_q24[0], dg = (uint32_t)ramp->step_q24[1], db = (uint32_t)ramp->step_q24[2];
     for (uint16_t *end = out + n; out < end; r += dr, g += dg, b += db)
         *out++ = (uint16_t)(inside ? pack_565(r, g, b) : limit_and_pack_565((int32_t)r, (int32_t)g, (int32_t)b));
 }
-#endif
 
-static void slow_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const int32_t from_q24[3],
-                      const int32_t step_q24[3])
+/* One channel of it, on top of those before. Levels of 31 are counted from 64: 64 << 11 lies above the pixel. */
+static inline void mix_channel(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c, const uint32_t *share_uq16)
 {
-    int32_t at[3] = {from_q24[0], from_q24[1], from_q24[2]};
-    for (int32_t i = 0; i < n; i++) {
-        uint32_t q20[3];
-        for (int c = 0; c < 3; c++) {
-            q20[c] = at[c] < 0 ? 0 : (uint32_t)at[c] >> 4;
-            if (i + 1 < n) at[c] += step_q24[c];
-        }
-        gn_pixel_store(frame, rows, x + i, y, gn_pixel_pack(frame, q20));
+    int32_t from = dark->from_q24[c], step = dark->step_q24[c], more = lit->from_q24[c] - from, more_step = lit->step_q24[c] - step;
+    for (uint16_t *end = out + n; out < end; from += step, more += more_step) {
+        int32_t v = from + (int32_t)((int64_t)more * (int32_t)*share_uq16++ >> 16);
+        uint32_t q24 = limited_q24(v), level = c == 1 ? gn_level_63_table[q24 >> 14] : gn_level_31_table[q24 >> 15];
+        if (q24 >= gn_level_end_q24[level]) level++;
+        uint32_t left = c == 0 ? 0 : *out;
+        *out++ = (uint16_t)(left + (c == 0 ? level << 11 : c == 1 ? level << 5 : level - 64));
     }
 }
+#endif
 
-void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const int32_t from_q24[3],
-                   const int32_t step_q24[3])
+static void slow_pixel(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3])
+{
+    uint32_t q20[3];
+    for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour_q24[c], 0) >> 4;
+    gn_pixel_store(frame, rows, x, y, gn_pixel_pack(frame, q20));
+}
+
+void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const gn_ramp *ramp)
 {
 #if GN_LEVEL_TABLES
     if (has_levels(frame)) {
-        uint16_t *out = rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0;
-        uint32_t all = 0;
-        for (int c = 0; c < 3; c++) all |= (uint32_t)from_q24[c] | (uint32_t)(from_q24[c] + (n - 1) * step_q24[c]);
-        if (all < 1U << 24) ramp_565(out, n, from_q24, step_q24, 1);
-        else ramp_565(out, n, from_q24, step_q24, 0);
+        uint16_t *out = pixel_565(rows, x, y);
+        if (stays_inside(ramp, n)) ramp_565(out, n, ramp, 1);
+        else ramp_565(out, n, ramp, 0);
         return;
     }
 #endif
-    slow_ramp(frame, rows, x, y, n, from_q24, step_q24);
+    for (int32_t i = 0; i < n; i++) {
+        int32_t colour[3];
+        for (int c = 0; c < 3; c++) colour[c] = ramp->from_q24[c] + i * ramp->step_q24[c];
+        slow_pixel(frame, rows, x + i, y, colour);
+    }
+}
+
+void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const gn_ramp *dark,
+                  const gn_ramp *lit, const uint32_t *share_uq16)
+{
+#if GN_LEVEL_TABLES
+    if (has_levels(frame)) {
+        uint16_t *out = pixel_565(rows, x, y);
+        mix_channel(out, n, dark, lit, 0, share_uq16);
+        mix_channel(out, n, dark, lit, 1, share_uq16);
+        mix_channel(out, n, dark, lit, 2, share_uq16);
+        return;
+    }
+#endif
+    for (int32_t i = 0; i < n; i++) {
+        int32_t colour[3];
+        for (int c = 0; c < 3; c++) {
+            int32_t from = dark->from_q24[c] + i * dark->step_q24[c], more = lit->from_q24[c] + i * lit->step_q24[c] - from;
+            colour[c] = from + (int32_t)((int64_t)more * (int32_t)share_uq16[i] >> 16);
+        }
+        slow_pixel(frame, rows, x + i, y, colour);
+    }
 }
 
 void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3])
 {
 #if GN_LEVEL_TABLES
     if (has_levels(frame)) {
-        uint16_t *out = rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0;
-        *out = (uint16_t)limit_and_pack_565(colour_q24[0], colour_q24[1], colour_q24[2]);
+        *pixel_565(rows, x, y) = (uint16_t)limit_and_pack_565(colour_q24[0], colour_q24[1], colour_q24[2]);
         return;
     }
 #endif
-    slow_ramp(frame, rows, x, y, 1, colour_q24, colour_q24);
+    slow_pixel(frame, rows, x, y, colour_q24);
 }
 #endif

@@ -19,9 +19,17 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
 
 #if GN_PIECES
-/* Stores n pixels from (x, y) of the picture on, within one row, of colours that grow by a step per pixel; |from + i step| < 2^30. */
-void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const int32_t from_q24[3],
-                   const int32_t step_q24[3]);
+/* A colour that grows by a step per pixel; |from + i step| < 2^30. */
+typedef struct {
+    int32_t from_q24[3], step_q24[3];
+} gn_ramp;
+
+/* Stores n pixels from (x, y) of the picture on, within one row. */
+void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const gn_ramp *ramp);
+
+/* The same of pixels between two colours: share[i] of 65536 on the way from dark to lit. */
+void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const gn_ramp *dark,
+                  const gn_ramp *lit, const uint32_t *share_uq16);
 
 /* Stores one pixel at (x, y); |colour| < 2^30. */
 void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3]);

@@ -203,20 +203,26 @@ static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, const g
     }
 }
 
-/* From left to right, piece by piece, each as wide as it may be. */
+/* From left to right, piece by piece, each as wide as it may be; where the first of a band is none, in bands of half the height. */
 static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *all)
 {
     gn_rect *part = &s->part;
-    for (int32_t y = all->y0; y < all->y1; y += GN_PIECE_ROWS) {
-        const gn_rect rows = {all->x0, y, all->x1, gn_min32(y + GN_PIECE_ROWS, all->y1)};
+    int32_t height = GN_PIECE_ROWS;
+    for (int32_t y = all->y0; y < all->y1; y = part->y1) {
+        const gn_rect rows = {all->x0, y, all->x1, gn_min32(y + height, all->y1)};
         *part = rows;
         for (int32_t width = GN_PIECE_WIDTH; part->x0 < all->x1; part->x0 = part->x1) {
             part->x1 = gn_min32(part->x0 + width, all->x1);
             int is_piece = gn_pieces_select(pieces, part);
             if (is_piece) width = gn_min32(2 * width, GN_PIECE_WIDTH);
-            while (!is_piece && part->x1 - part->x0 > 4) {
-                part->x1 = part->x0 + ((part->x1 - part->x0 + 1) >> 1);
-                width = part->x1 - part->x0;
+            while (!is_piece && (part->x1 - part->x0 > 4 || (part->x0 == all->x0 && part->y1 - y > 8))) {
+                if (part->x0 == all->x0 && part->y1 - y > 8) {
+                    height = 8;
+                    part->y1 = y + 8;
+                } else {
+                    part->x1 = part->x0 + ((part->x1 - part->x0 + 1) >> 1);
+                    width = part->x1 - part->x0;
+                }
                 is_piece = gn_pieces_select(pieces, part);
             }
             if (is_piece) {

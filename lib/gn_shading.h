@@ -182,6 +182,12 @@ typedef struct {
     int32_t at, dx, dy;
 } gn_slope;
 
+/* Of second order: x, y pixels from the place, v = at + dx x + dy y + dxx x^2 + dxy x y + dyy y^2. */
+typedef struct {
+    gn_slope slope_q24;
+    int32_t dxx_q28, dxy_q28, dyy_q28;
+} gn_curve;
+
 #if GN_TURNING
 /* N, the normal times n . ray over that of the middle, is linear over a piece, with (x, y) from the middle. */
 typedef struct {
@@ -210,7 +216,8 @@ typedef struct {
 #endif
     int looks_up;                          /* 0: dark all over */
     int tinted;                            /* times the colours of vertices; otherwise these are in it */
-    gn_slope dark_q24[3], lit_q24[3];      /* without and with the light */
+    int steep;                             /* curves are of factors times 1 / (1 + t), t the change of w; else of it all */
+    gn_curve dark[3], lit[3];              /* without and with the light */
     gn_slope tint_q24[3];
     uint32_t dark_pixel, lit_pixel;        /* packed, where nothing varies */
     int32_t w_dx_q30, w_dy_q30;            /* change of w per pixel, relative to w */

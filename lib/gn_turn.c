@@ -136,7 +136,8 @@ static uint32_t share_of(const gn_pieces *p, uint32_t attenuation)
 /* Ramps as long as they may be, shorter where a light begins or ends to shine. */
 static void ramps(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t end, uint32_t share)
 {
-    int32_t from[3], to[3], step[3];
+    gn_ramp ramp;
+    int32_t *from = ramp.from_q24, to[3];
     uint32_t lit = colour_at(r, i, share, from);
     while (i < end) {
         if (i + 1 == end) {
@@ -148,8 +149,8 @@ static void ramps(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int
         while (length > end - i) length >>= 1;
         while ((lit_there = colour_at(r, i + length, share, to)) != lit && length > 1) length >>= 1;
         int32_t log2 = 31 - gn_clz32((uint32_t)length);
-        for (int c = 0; c < 3; c++) step[c] = (to[c] - from[c]) >> log2;
-        if (length > 1) gn_pixel_ramp(r->p->frame, rows, x + i, y, length, from, step);
+        for (int c = 0; c < 3; c++) ramp.step_q24[c] = (to[c] - from[c]) >> log2;
+        if (length > 1) gn_pixel_ramp(r->p->frame, rows, x + i, y, length, &ramp);
         else gn_pixel_dot(r->p->frame, rows, x + i, y, from);
         for (int c = 0; c < 3; c++) from[c] = to[c];
         lit = lit_there;

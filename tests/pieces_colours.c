@@ -1,6 +1,7 @@
 /* What emits pixels is this file's; what is included is built a second time under other names. */
 #define gn_pixel_fill  colours_fill
 #define gn_pixel_ramp  colours_ramp
+#define gn_pixel_mix   colours_mix
 #define gn_pixel_dot   colours_dot
 #define gn_turn_select colours_turn_select
 #define gn_turn_row    colours_turn_row
@@ -20,15 +21,21 @@ void colours_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, i
 {
     (void)frame, (void)rows, (void)y, (void)packed;
     for (int32_t i = 0; i < n; i++)
-        for (int c = 0; c < 3; c++) out_q24[x - first_x + i][c] = at_hand->dark_q24[c].at; /* no shadow: one colour all over */
+        for (int c = 0; c < 3; c++) out_q24[x - first_x + i][c] = at_hand->dark[c].slope_q24.at; /* no shadow: one colour all over */
 }
 
-void colours_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const int32_t from_q24[3],
-                  const int32_t step_q24[3])
+void colours_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const gn_ramp *ramp)
 {
     (void)frame, (void)rows, (void)y;
     for (int32_t i = 0; i < n; i++)
-        for (int c = 0; c < 3; c++) out_q24[x - first_x + i][c] = from_q24[c] + i * step_q24[c];
+        for (int c = 0; c < 3; c++) out_q24[x - first_x + i][c] = ramp->from_q24[c] + i * ramp->step_q24[c];
+}
+
+void colours_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const gn_ramp *dark,
+                 const gn_ramp *lit, const uint32_t *share_uq16)
+{
+    (void)lit, (void)share_uq16; /* no shadow: never called */
+    colours_ramp(frame, rows, x, y, n, dark);
 }
 
 void colours_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3])

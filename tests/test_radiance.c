@@ -225,6 +225,19 @@ typedef struct {
     double smooth[3], most[3]; /* light that varies with the normal; the larger of what arrives and the tint, at least 1 */
 } shade;
 
+/* Knob vertex_light: the cosine of the corners, interpolated, and what it may be off by. */
+static double corner_cosine(const gn_surface *s, const crossing *c, const double to_light[3], double bary_off, double *off)
+{
+    double at[3];
+    for (int k = 0; k < 3; k++) {
+        double n[3];
+        for (int i = 0; i < 3; i++) n[i] = ldexp((double)s->normal_q30[0][i] + (k ? s->normal_q30[k][i] : 0), -30);
+        at[k] = fmax(0, dot(n, to_light));
+    }
+    *off = (fabs(at[1] - at[0]) + fabs(at[2] - at[0])) * bary_off + ldexp(4, -24);
+    return at[0] + c->b[0] * (at[1] - at[0]) + c->b[1] * (at[2] - at[0]);
+}
+
 static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing *c, double more_b, shade *out)
 {
     double n[3], change = normal_at(s, c, n), length = sqrt(dot(n, n)), more = 2 * sqrt(3.0) * change * more_b / length;
@@ -234,10 +247,11 @@ static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing 
         for (uint32_t l = 0; l < fixed.n_lights; l++) {
             double to_light[3], colour = albedo * lamps[l].colour_uq16[k] * LSB16;
             axis_of(frame->light[l].to_light_q30, to_light);
-            const double cosine = fmax(0, dot(n, to_light) / length);
+            double cosine = fmax(0, dot(n, to_light) / length), cosine_off = cosine_bound(frame, c, n, change) + more;
+            if (frame->knobs.vertex_light && s->smooth) cosine = corner_cosine(s, c, to_light, bary_bound(frame, c) + more_b, &cosine_off);
             sum += colour * cosine;
             smooth += colour;
-            off += cosine * LSB16 / 2 + (colour + LSB16 / 2) * (cosine_bound(frame, c, n, change) + more) + LSB20 / 2;
+            off += cosine * LSB16 / 2 + (colour + LSB16 / 2) * cosine_off + LSB20 / 2;
         }
         double tint = 1, tint_off = 0;
         if (s->coloured) {
@@ -291,7 +305,7 @@ static void check_row(gn_pieces *pieces, const plane *p, double tolerance, int y
         const double units = 0.5 * (1 + abs(dx) + abs(dy)), w = gn_along(&pieces->w, dx, dy);
         shade_at(&renderer.frame, pieces->surface, &c, 2.5 * units / w + ldexp(64, -28), &want);
         normal_at(pieces->surface, &c, n);
-        const double of_normal = pieces->turns ? ldexp(1, -17) / dot(n, n) : 0, ramp = pieces->turns && !pieces->tinted ? 1 : 4;
+        const double of_normal = pieces->turns ? ldexp(1, -17) / dot(n, n) : 0, ramp = !pieces->turns ? 5 : pieces->tinted ? 4 : 1;
         for (int k = 0; k < 3; k++) {
             const double stray = want.most[k] * (tolerance * ramp + ldexp(1, -12)) + ldexp(1, -17) + of_normal * want.smooth[k];
             const double bound = want.bound[k] + (pieces->varies ? stray : 0);
@@ -326,8 +340,10 @@ static void check_radiance(const gn_knobs *knobs)
     static gn_surface surface;
     gn_surface_cache cache = {.object = NULL};
     gn_scratch *scratch = &renderer.scratch;
+    gn_knobs mine = *knobs;
     lit_scene();
-    if (begin(knobs)) {
+    mine.vertex_light = one_in(2);
+    if (begin(&mine)) {
         gn_render(&renderer, &fixed, ignore, NULL);
         view_corners(&renderer.frame, view);
         for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
