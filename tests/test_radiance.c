@@ -10,26 +10,38 @@
 
 enum {
     STAGE_FILTER,
+    STAGE_FILTER_TENT,
+    STAGE_FILTER_LINEAR,
     STAGE_DISTANCE,
-    STAGE_ATTENUATION,
+    STAGE_ATTENUATION, /* and one for each way of mixing */
+    STAGE_ATTENUATION_ALWAYS,
+    STAGE_ATTENUATION_DISTANCE,
     STAGE_RADIANCE,
     STAGE_PIECES,
-    STAGE_OFFSET,
-    STAGE_CURVED,
-    STAGE_LIFT,
-    STAGE_LESS,
-    STAGE_COUNT
+    STAGE_OFFSET, /* of spot lights; each is followed by that of point lights */
+    STAGE_CURVED = STAGE_OFFSET + 2,
+    STAGE_LIFT = STAGE_CURVED + 2,
+    STAGE_LESS = STAGE_LIFT + 2,
+    STAGE_COUNT = STAGE_LESS + 2
 };
 static const char *const stage_name[STAGE_COUNT] = {
-    "filter: share of lit, LSB of Q16",
+    "filter, 2x2: share of lit, LSB of Q16",
+    "filter, tents of 3x3 to 7x7: share of lit, LSB of Q16",
+    "filter, linear kernels: share of lit, LSB of Q16",
     "attenuation: distance strength, LSB of Q16",
-    "attenuation: strength, distance and mask mixed, LSB of Q16",
+    "attenuation: strength and distance, LSB of Q16",
+    "attenuation: with a mask, always, LSB of Q16",
+    "attenuation: with a mask, by distance, LSB of Q16",
     "shading, samples: radiance in linear light, LSB of Q20",
     "shading, pieces: radiance in linear light, LSB of Q20",
-    "bias of spot and point lights: offset by B2 and B3, LSB of Q15.16",
-    "bias of spot and point lights: automatic, curved surfaces, LSB of Q15.16",
-    "bias of spot and point lights: automatic, along the face's normal, LSB of Q15.16",
-    "bias of spot and point lights: automatic, depth, LSB of Q32",
+    "bias, spot: offset by B2 and B3, LSB of Q15.16",
+    "bias, point: offset by B2 and B3, LSB of Q15.16",
+    "bias, spot: automatic, curved surfaces, LSB of Q15.16",
+    "bias, point: automatic, curved surfaces, LSB of Q15.16",
+    "bias, spot: automatic, along the face's normal, LSB of Q15.16",
+    "bias, point: automatic, along the face's normal, LSB of Q15.16",
+    "bias, spot: automatic, depth, LSB of Q32",
+    "bias, point: automatic, depth, LSB of Q32",
 };
 
 #include "pieces_colours.h"
@@ -124,7 +136,8 @@ static void check_filter(const gn_knobs *knobs)
                 if (x >= 0 && y >= 0 && x < t && y < t && lit[y * t + x])
                     want += weight_of(view, fixed.shadow.kernel, x, u) * weight_of(view, fixed.shadow.kernel, y, v);
         const double got = gn_filter_attenuation(&renderer.frame, view, &r) * LSB16;
-        record(STAGE_FILTER, fabs(got - want), filter_bound(knobs, view, fixed.shadow.kernel), LSB16);
+        const int stage = view->filter_idx == 0 ? STAGE_FILTER : fixed.shadow.kernel == GN_KERNEL_LINEAR ? STAGE_FILTER_LINEAR : STAGE_FILTER_TENT;
+        record(stage, fabs(got - want), filter_bound(knobs, view, fixed.shadow.kernel), LSB16);
     }
 }
 
@@ -151,7 +164,7 @@ static void check_mixing(gn_surface *surface, gn_sample *sample)
     fixed.shadow.mixing = mixing;
     const double got = gn_shadow_factor(frame, surface, sample, 0, g) * LSB16;
     if (s * d < LSB16) return; /* no shadow of today's: the mask alone */
-    record(STAGE_ATTENUATION, fabs(got - want), (mixing == GN_MIXING_DISTANCE ? 1.5 : 1) * LSB16, LSB16);
+    record(STAGE_ATTENUATION + (int)mixing, fabs(got - want), (mixing == GN_MIXING_DISTANCE ? 1.5 : 1) * LSB16, LSB16);
 }
 
 static void check_attenuation(const gn_knobs *knobs)
@@ -370,6 +383,11 @@ static void check_radiance(const gn_knobs *knobs)
 
 static gn_light lamp;
 
+static int is_point(void)
+{
+    return lamp.kind == GN_LIGHT_POINT;
+}
+
 static void normalise(double v[3])
 {
     const double length = sqrt(dot(v, v));
@@ -470,7 +488,7 @@ static void check_offset(const gn_light_view *view, const receiver *r, const int
         const double bound = fabs(n[k]) * (wide * along_off + along * r->tau * z_off + along * wide * ldexp(1, -28) + LSB16) +
                              fabs(towards[k]) * (wide * to_off + to * r->tau * z_off + to * wide * ldexp(1, -28) + (to > 0 ? LSB16 : 0)) +
                              wide * to * ldexp(3, -30) + (to > 0 ? 2 : 1) * LSB16 / 2;
-        record(STAGE_OFFSET, fabs(got[k] * LSB16 - want), bound, LSB16);
+        record(STAGE_OFFSET + is_point(), fabs(got[k] * LSB16 - want), bound, LSB16);
     }
 }
 
@@ -489,7 +507,7 @@ static void check_curved(const gn_light_view *view, const receiver *r, const int
     int32_t got[3];
     gn_bias_punctual(frame, &frame->light[0], n_q30, r->depth_q16, r->from_q16, got);
     for (int k = 0; k < 3; k++)
-        record(STAGE_CURVED, fabs(got[k] * LSB16 - sigma * n[k]), fabs(n[k]) * off + LSB16 / 2, LSB16);
+        record(STAGE_CURVED + is_point(), fabs(got[k] * LSB16 - sigma * n[k]), fabs(n[k]) * off + LSB16 / 2, LSB16);
 }
 
 /* The plane m . P = -h through the point, seen from its front. */
@@ -511,11 +529,11 @@ static void check_automatic(const gn_light_view *view, const receiver *r, const 
     /* roundings upwards: 1 of the place, 1 + 2 of the share, 1 of the lift; axes and face are rounded */
     const double off = 4 * LSB16 + r->z * ldexp(4, -30) + share * (LSB16 / 2 + r->distance * ldexp(5.2, -30)) + r->z * share * ldexp(1, -26);
     for (int k = 0; k < 3; k++)
-        record(STAGE_LIFT, fabs((moved[k] - r->from_q16[k]) * LSB16 - lift * face[k]), fabs(face[k]) * off + LSB16 / 2, LSB16);
+        record(STAGE_LIFT + is_point(), fabs((moved[k] - r->from_q16[k]) * LSB16 - lift * face[k]), fabs(face[k]) * off + LSB16 / 2, LSB16);
     const double slope = near * across / h, lsb = ldexp(1, -32);
     if (is_normal || slope > 1.9) return;
     const double bound = slope * ((1.5 * LSB16 + r->distance * ldexp(5.2, -30)) / h + ldexp(1, -26)) + near / h * r->tau * ldexp(1, -26) + 3 * lsb;
-    record(STAGE_LESS, fabs((double)(less - view->auto_step) * lsb - slope), bound, lsb);
+    record(STAGE_LESS + is_point(), fabs((double)(less - view->auto_step) * lsb - slope), bound, lsb);
 }
 
 /* What gn_bias takes for all that errs, against the sum of the stages' bounds (NUMERICS 4.3, 4.4, 4.10): no less, and no more than its
