@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the generated parts of docs/TRADE.md and docs/pictures/trade-*.svg: about a minute. usage: trade.sh TOOL [OUT_DIR [SCENE...]]
+# Makes the generated parts of docs/TRADE.md and docs/pictures/trade-*.svg: minutes. usage: trade.sh TOOL [OUT_DIR [SCENE...]]
 # With OUT_DIR they are written there instead of in place, with SCENE only of these: the test compares one of them.
 set -e
 tool=$1 out=${2:-docs}
@@ -10,15 +10,39 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p "$out/pictures"
 [ "$out" = docs ] || cp docs/TRADE.md "$out/"
 
-# front CSV: the rows of the front, from the smallest
+# front CSV: the rows of the front, from the smallest. Of a scene that moves, "a (b)" is all frames that are played, and the worst of them.
 front() {
-    echo "| RAM, bytes | instructions per pixel | PSNR against exact shadows, dB | shadow mismatch | PSNR against the reference, dB | configuration |"
-    echo "|---|---|---|---|---|---|"
-    awk -F '"' 'NR > 1 {
-        split($3, v, ",")
-        if (v[2] != 1) next
-        printf "| %d | %.0f | %.2f | %.2f %% | %.2f | `%s` |\n", v[3], v[4], v[7], 100 * v[9], v[12], $2
-    }' "$1"
+    awk -F '"' '
+        NR == 1 { next }
+        { split($3, v, ",") }
+        NR == 2 {
+            moves = v[15] > 1
+            if (moves) {
+                print "Frame 0, and the later frames 1 to 8: their mean, and in brackets the worst of them.\n"
+                print "| RAM, bytes | instructions per pixel: first frame | later frames | PSNR against exact shadows, dB | shadow mismatch, first frame | PSNR against the reference, dB | configuration |"
+            } else print "| RAM, bytes | instructions per pixel: tiles drawn | tiles kept | PSNR against exact shadows, dB | shadow mismatch | PSNR against the reference, dB | configuration |"
+            print "|---|---|---|---|---|---|---|"
+        }
+        v[2] != 1 { next }
+        {
+            later = sprintf("%.0f", v[16]); truth = sprintf("%.2f", v[18]); reference = sprintf("%.2f", v[20])
+            if (moves) { later = later sprintf(" (%.0f)", v[17]); truth = truth sprintf(" (%.2f)", v[19]); reference = reference sprintf(" (%.2f)", v[21]) }
+            printf "| %d | %.0f | %s | %s | %.2f %% | %s | `%s` |\n", v[3], v[4], later, truth, 100 * v[9], reference, $2
+        }' "$1"
+}
+
+# schedules TEXT: what the sweep says of cascades on a schedule
+schedules() {
+    awk '
+        /^Cascades on a schedule/ {
+            print "\nCascades on a schedule, in the later frames; with what they change:\n"
+            print "| instructions per pixel | PSNR against exact shadows, dB | PSNR against the reference, always drawn anew, dB | its worst frame | configuration |\n|---|---|---|---|---|"
+            on = 1; next
+        }
+        on && / dB  / {
+            name = $0; sub(/.* dB  /, "", name)
+            printf "| %.1f (%s %%) | %s (%s) | %s (%s) | %s | `%s` |\n", $1, $2, $4, $5, $7, $8, $10, name
+        }' "$1"
 }
 
 replace() { # replace NAME FILE
@@ -30,12 +54,13 @@ replace() { # replace NAME FILE
 }
 
 for scene in $scenes; do
-    "$tool" sweep "host/scenes/$scene.gltf" --csv "$work/$scene.csv" --svg "$out/pictures/trade-$scene.svg" >/dev/null
+    "$tool" sweep "host/scenes/$scene.gltf" --csv "$work/$scene.csv" --svg "$out/pictures/trade-$scene.svg" >"$work/$scene.txt"
     {
         echo
         echo "![$scene: RAM and cost against error](pictures/trade-$scene.svg)"
         echo
         front "$work/$scene.csv"
+        schedules "$work/$scene.txt"
         echo
     } >"$work/$scene.md"
     replace "$scene" "$work/$scene.md"

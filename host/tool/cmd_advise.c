@@ -19,15 +19,15 @@ typedef struct {
 /* 1 and less: it fits. */
 static double load_of(const budget *b, const sweep_row *r)
 {
-    return fmax((double)r->ram_bytes / b->ram, r->instructions / b->instructions);
+    return fmax((double)r->ram_bytes / b->ram, r->cost / b->instructions);
 }
 
 /* More accurate; of equals the smaller, then the faster: such a row is on the front. */
 static bool is_better(const sweep_row *a, const sweep_row *b)
 {
-    if (a->truth.psnr_db < b->truth.psnr_db || a->truth.psnr_db > b->truth.psnr_db) return a->truth.psnr_db > b->truth.psnr_db;
+    if (a->db < b->db || a->db > b->db) return a->db > b->db;
     if (a->ram_bytes != b->ram_bytes) return a->ram_bytes < b->ram_bytes;
-    return a->instructions < b->instructions;
+    return a->cost < b->cost;
 }
 
 /* ---- Seeds: rows whose neighbours are worth a look -------------------------------------------------------------------------- */
@@ -158,14 +158,20 @@ static void make_arguments(const sweep *w, const sweep_row *r, char *out, size_t
 
 static void print_text(const sweep *w, const sweep_row *r)
 {
+    const tool_options *o = w->options;
     char arguments[ARGUMENT_BYTES];
     make_arguments(w, r, arguments, sizeof arguments);
     printf("%s\n", arguments);
     printf("  RAM                      %8ld bytes\n", r->ram_bytes);
-    printf("  instructions             %8.1f per pixel (model)\n", r->instructions);
-    printf("  against exact shadows    %8.2f dB, attenuation RMS %.4f, shadow mismatch %.3f %%\n", r->truth.psnr_db,
-           r->truth.atten_rms, 100 * r->truth.shadow_mismatch);
-    printf("  against the same in double %6.2f dB, %.3f %% identical\n", r->reference.psnr_db, 100 * r->reference.identical);
+    printf("  instructions             %8.1f per pixel (model), every shadow tile drawn; %.1f in %s\n", r->instructions, r->played.instructions,
+           w->moves ? "later frames" : "a later frame, which keeps them");
+    if (w->moves)
+        printf("  over frames %d to %-9d %7.2f dB against exact shadows, %.2f dB the worst; %.1f instructions per pixel at most\n", o->frame + 1,
+               o->frame + SWEEP_PLAYED, r->played.truth.mean_db, r->played.truth.worst_db, r->played.most);
+    printf("  against exact shadows    %8.2f dB, attenuation RMS %.4f, shadow mismatch %.3f %%%s\n", r->truth.psnr_db, r->truth.atten_rms,
+           100 * r->truth.shadow_mismatch, w->moves ? ", in the first frame" : "");
+    printf("  against the same in double %6.2f dB, %.3f %% identical%s\n", r->reference.psnr_db, 100 * r->reference.identical,
+           w->moves ? ", in the first frame" : "");
     printf("  the best of %zu configurations\n", w->n_rows);
 }
 
@@ -188,7 +194,7 @@ static void print_json(const sweep *w, const sweep_row *r)
 
 static bool needs_less(const sweep_row *a, const sweep_row *b, bool ram)
 {
-    return ram ? a->ram_bytes < b->ram_bytes : a->instructions < b->instructions;
+    return ram ? a->ram_bytes < b->ram_bytes : a->cost < b->cost;
 }
 
 /* The row with the least RAM, or instructions, among those that keep the other budget; SIZE_MAX: none does. */
@@ -197,7 +203,7 @@ static size_t smallest(const sweep *w, const budget *b, bool ram)
     size_t best = SIZE_MAX;
     for (size_t i = 0; i < w->n_rows; i++) {
         const sweep_row *r = &w->rows[i];
-        if (ram ? r->instructions > b->instructions : (double)r->ram_bytes > b->ram) continue;
+        if (ram ? r->cost > b->instructions : (double)r->ram_bytes > b->ram) continue;
         if (best == SIZE_MAX || needs_less(r, &w->rows[best], ram)) best = i;
     }
     return best;
@@ -209,7 +215,7 @@ static void describe(const sweep *w, size_t row, char *out, size_t bytes)
     char arguments[NEED_BYTES - 128];
     const sweep_row *r = &w->rows[row];
     make_arguments(w, r, arguments, sizeof arguments);
-    snprintf(out, bytes, "%ld bytes and %.1f instructions per pixel by %s", r->ram_bytes, r->instructions, arguments);
+    snprintf(out, bytes, "%ld bytes and %.1f instructions per pixel by %s", r->ram_bytes, r->cost, arguments);
 }
 
 /* What would do: each budget's least where the other is kept, or where both are missed, what comes nearest. */

@@ -16,7 +16,7 @@ static int by_ram(const void *a, const void *b)
 {
     const sweep_row *ra = a, *rb = b;
     if (ra->ram_bytes != rb->ram_bytes) return ra->ram_bytes < rb->ram_bytes ? -1 : 1;
-    return (ra->instructions > rb->instructions) - (ra->instructions < rb->instructions);
+    return (ra->cost > rb->cost) - (ra->cost < rb->cost);
 }
 
 static void print_db(double v)
@@ -29,11 +29,62 @@ static void print_row(const sweep *w, const sweep_row *r)
 {
     char name[NAME_BYTES];
     sweep_name(w, r, name, sizeof name);
-    printf("%c %8ld %8.1f ", r->on_front ? '*' : ' ', r->ram_bytes, r->instructions);
-    print_db(r->truth.psnr_db);
-    printf(" %8.4f %7.3f%% ", r->truth.atten_rms, 100 * r->truth.shadow_mismatch);
-    print_db(r->reference.psnr_db);
+    printf("%c %8ld %8.1f %8.1f ", r->on_front ? '*' : ' ', r->ram_bytes, r->instructions, r->played.instructions);
+    if (w->moves) printf("%8.1f ", r->played.most);
+    print_db(r->played.truth.mean_db);
+    printf(" ");
+    if (w->moves) print_db(r->played.truth.worst_db);
+    else printf("%8.4f", r->truth.atten_rms);
+    printf(" %7.3f%% ", 100 * r->truth.shadow_mismatch);
+    print_db(r->played.reference.mean_db);
     printf(" %7.3f%%  %s\n", 100 * r->reference.identical, name);
+}
+
+static void print_head(const sweep *w)
+{
+    if (w->moves) {
+        printf("             instructions per pixel |   against exact shadows    |   against the\n");
+        printf("                 (model)            |                            |  same in double\n");
+        printf("       RAM    first    later   most |    PSNR  worst first frame | PSNR first frame\n");
+        printf("     bytes    frame   frames        |      dB     dB   mismatch  |   dB  identical  configuration\n");
+    } else {
+        printf("               instr. per pixel   |   against exact shadows    |   against the\n");
+        printf("                   (model)        |                            |  same in double\n");
+        printf("       RAM tiles:     tiles:      |    PSNR  atten.  mismatch  |\n");
+        printf("     bytes    drawn     kept      |      dB     RMS            |   PSNR identical  configuration\n");
+    }
+}
+
+static double percent(double now, double then)
+{
+    return then > 0 ? 100 * (now / then - 1) : 0;
+}
+
+static void print_schedule(const sweep *w, const sweep_row *r, const sweep_row *base)
+{
+    char name[NAME_BYTES];
+    const sweep_played *now = &r->played, *then = &base->played;
+    sweep_name(w, r, name, sizeof name);
+    printf("  %8.1f %+7.2f %% %8.2f %+6.2f dB %8.2f %+7.2f dB %8.2f dB  %s\n", now->instructions, percent(now->instructions, then->instructions),
+           now->truth.mean_db, now->truth.mean_db - then->truth.mean_db, now->reference.mean_db, now->reference.mean_db - then->reference.mean_db,
+           now->reference.worst_db, name);
+}
+
+/* What each schedule of cascades saves, and what that costs: the configuration without one first. */
+static void print_schedules(const sweep *w)
+{
+    const sweep_row *last = NULL;
+    for (size_t i = 0; i < w->n_rows; i++) {
+        const sweep_row *base = sweep_unscheduled(w, &w->rows[i]);
+        if (!base) continue;
+        if (!last)
+            printf("\nCascades on a schedule (refresh), in the later frames and against the same drawn anew in each:\n"
+                   "                             PSNR against         against the same in      the worst\n"
+                   "  instr. per pixel          exact shadows      double, always anew     frame of these\n");
+        if (base != last) print_schedule(w, base, base);
+        print_schedule(w, &w->rows[i], base);
+        last = base;
+    }
 }
 
 static void print_text(const sweep *w)
@@ -43,11 +94,12 @@ static void print_text(const sweep *w)
     for (size_t i = 0; i < w->n_rows; i++) n_front += w->rows[i].on_front;
     printf("%s, %dx%d: %zu configurations, %zu of them on the front (*: no other is as good in RAM, instructions and PSNR)\n",
            o->scene_path, o->width, o->height, w->n_rows, n_front);
-    printf("               instr. |   against exact shadows    |   against the\n");
-    printf("       RAM  per pixel |    PSNR  atten.  mismatch  |  same in double\n");
-    printf("     bytes    (model) |      dB     RMS            |   PSNR identical  configuration\n");
+    if (w->moves) printf("frame %d, then frames %d to %d by the same renderer: the front is of these\n", o->frame, o->frame + 1, o->frame + SWEEP_PLAYED);
+    else printf("nothing moves: shadow tiles are drawn once, and a schedule of cascades (refresh) has nothing to save\n");
+    print_head(w);
     for (size_t i = 0; i < w->n_rows; i++)
         if (w->rows[i].on_front || o->all) print_row(w, &w->rows[i]);
+    print_schedules(w);
     if (w->n_refused) printf("%zu of the configurations cannot draw this scene, the first: %s\n", w->n_refused, w->refusal);
 }
 
@@ -81,6 +133,25 @@ static void print_sets(const sweep *w, const sweep_row *r)
     printf("]");
 }
 
+static void print_later(const sweep *w, const sweep_row *r)
+{
+    const struct {
+        const char *name;
+        double value;
+    } members[] = {{"instructions_per_pixel", r->played.instructions},
+                   {"most_instructions_per_pixel", r->played.most},
+                   {"truth_psnr_db", r->played.truth.mean_db},
+                   {"truth_worst_psnr_db", r->played.truth.worst_db},
+                   {"reference_psnr_db", r->played.reference.mean_db},
+                   {"reference_worst_psnr_db", r->played.reference.worst_db}};
+    printf(", \"later\": {\"frames\": %zu", w->n_played);
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        printf(", ");
+        tool_json_number(members[i].name, members[i].value);
+    }
+    printf("}");
+}
+
 void sweep_json_row(const sweep *w, const sweep_row *r)
 {
     print_sets(w, r);
@@ -88,6 +159,7 @@ void sweep_json_row(const sweep *w, const sweep_row *r)
     tool_json_number("instructions_per_pixel", r->instructions);
     print_metrics("truth", &r->truth);
     print_metrics("reference", &r->reference);
+    print_later(w, r);
 }
 
 static void print_json(const sweep *w)
@@ -116,12 +188,26 @@ static void csv_text(FILE *f, const char *text)
     fputc('"', f);
 }
 
+static void csv_db(FILE *f, double db)
+{
+    if (isinf(db)) fprintf(f, ",inf");
+    else fprintf(f, ",%.9g", db);
+}
+
 static void csv_metrics(FILE *f, const metrics *m)
 {
-    fprintf(f, ",%.9g,%.9g,", m->identical, m->within1);
-    if (isinf(m->psnr_db)) fprintf(f, "inf");
-    else fprintf(f, "%.9g", m->psnr_db);
+    fprintf(f, ",%.9g,%.9g", m->identical, m->within1);
+    csv_db(f, m->psnr_db);
     fprintf(f, ",%.9g,%.9g", m->atten_rms, m->shadow_mismatch);
+}
+
+static void csv_later(FILE *f, const sweep *w, const sweep_played *p)
+{
+    fprintf(f, ",%zu,%.9g,%.9g", w->n_played, p->instructions, p->most);
+    csv_db(f, p->truth.mean_db);
+    csv_db(f, p->truth.worst_db);
+    csv_db(f, p->reference.mean_db);
+    csv_db(f, p->reference.worst_db);
 }
 
 static void csv_row(FILE *f, const sweep *w, const sweep_row *r)
@@ -132,6 +218,7 @@ static void csv_row(FILE *f, const sweep *w, const sweep_row *r)
     fprintf(f, ",%d,%ld,%.9g", r->on_front, r->ram_bytes, r->instructions);
     csv_metrics(f, &r->truth);
     csv_metrics(f, &r->reference);
+    csv_later(f, w, &r->played);
     for (int i = 0; i < GN_COUNT_N; i++) fprintf(f, ",%llu", (unsigned long long)r->counts.n[i]);
     fputc('\n', f);
 }
@@ -148,6 +235,8 @@ static int write_csv(const sweep *w, const char *path, char *error, size_t bytes
     for (int i = 0; i < 2; i++)
         fprintf(f, ",%s_identical,%s_within1,%s_psnr_db,%s_atten_rms,%s_shadow_mismatch", kinds[i], kinds[i], kinds[i], kinds[i],
                 kinds[i]);
+    fprintf(f, ",later_frames,later_instructions_per_pixel,later_most_instructions_per_pixel");
+    for (int i = 0; i < 2; i++) fprintf(f, ",later_%s_psnr_db,later_%s_worst_psnr_db", kinds[i], kinds[i]);
     for (int i = 0; i < GN_COUNT_N; i++) fprintf(f, ",n_%s", count_name[i]);
     fputc('\n', f);
     for (size_t i = 0; i < w->n_rows; i++) csv_row(f, w, &w->rows[i]);
@@ -166,6 +255,7 @@ static void shorten(char *name)
     static const char *const shrink[][2] = {
         {"other_depth_bits=", "o.depth "}, {"depth_bits=", "depth "}, {"cascades=", "casc. "}, {"persp_step=", "step "},
         {"subpixel_bits=", "sub "},        {"tile_width=", "tw "},    {"tile_height=", "th "},
+        {"refresh=", "ref. "},             {"static_layer=", "layer "},
     };
     for (size_t i = 0; i < sizeof drop / sizeof *drop; i++)
         for (char *at; (at = strstr(name, drop[i]));) memmove(at, at + strlen(drop[i]), strlen(at + strlen(drop[i])) + 1);
@@ -188,13 +278,14 @@ static int write_svg(const sweep *w, const char *path, char *error, size_t bytes
         sweep_name(w, r, names[i], sizeof names[i]);
         shorten(names[i]);
         /* a logarithmic axis has no 0 */
-        ram[i] = (plot_point){(double)r->ram_bytes, fmax(sweep_error(&r->truth), 0.01), r->on_front, names[i]};
+        ram[i] = (plot_point){(double)r->ram_bytes, fmax(sweep_error(r->db), 0.01), r->on_front, names[i]};
         cost[i] = ram[i];
-        cost[i].x = fmax(r->instructions, 0.01);
+        cost[i].x = fmax(r->cost, 0.01);
     }
     static const char error_axis[] = "RMS error against exact shadows, levels of 255";
+    const char *cost_axis = w->moves ? "instructions per pixel (model), mean over frames" : "instructions per pixel (model)";
     const plot_panel panels[2] = {{"RAM against error", "RAM of the library, bytes", error_axis, ram, w->n_rows},
-                                  {"Cost against error", "instructions per pixel (model)", error_axis, cost, w->n_rows}};
+                                  {"Cost against error", cost_axis, error_axis, cost, w->n_rows}};
     const char *slash = strrchr(w->options->scene_path, '/');
     snprintf(title, sizeof title, "%s, %dx%d; filled: on the front of RAM, cost and error",
              slash ? slash + 1 : w->options->scene_path, w->options->width, w->options->height);

@@ -53,20 +53,6 @@ static size_t count_of(const fixed_scene *f, compile_owner of)
 
 /* ---- What may not change ------------------------------------------------------------------------------------------------ */
 
-static bool same_array(const void *a, const void *b, size_t bytes)
-{
-    return (!a && !b) || (a && b && memcmp(a, b, bytes) == 0);
-}
-
-static bool same_mesh(const gn_mesh *a, const gn_mesh *b)
-{
-    size_t n = a->n_vertices;
-    return a->n_vertices == b->n_vertices && a->n_triangles == b->n_triangles && a->pos_frac_bits == b->pos_frac_bits &&
-           a->uv_frac_bits == b->uv_frac_bits && same_array(a->pos, b->pos, 12 * n) && same_array(a->nrm_q15, b->nrm_q15, 6 * n) &&
-           same_array(a->rgb_uq16, b->rgb_uq16, 6 * n) && same_array(a->uv, b->uv, 4 * n) &&
-           same_array(a->mask_uv_uq16, b->mask_uv_uq16, 4 * n) && same_array(a->idx, b->idx, 6 * (size_t)a->n_triangles);
-}
-
 /* Frames differ in fields alone. */
 static int check_same(const compiled *c, const fixed_scene *f, int frame, char *error, size_t bytes)
 {
@@ -76,7 +62,7 @@ static int check_same(const compiled *c, const fixed_scene *f, int frame, char *
                        : f->n_meshes != base->n_meshes             ? "meshes"
                                                                    : NULL;
     for (size_t i = 0; !what && i < f->n_meshes; i++)
-        if (!same_mesh(&f->meshes[i], &base->meshes[i])) what = "meshes";
+        if (!quantise_same_mesh(&f->meshes[i], &base->meshes[i])) what = "meshes";
     for (size_t i = 0; !what && i < f->scene.n_objects; i++)
         if (f->objects[i].mesh - f->meshes != base->objects[i].mesh - base->meshes) what = "meshes";
     if (!what) return 0;

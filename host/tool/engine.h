@@ -47,6 +47,14 @@ int engine_truth(engine_picture *out, const scene *s, const settings *set, int w
                  size_t error_bytes);
 void engine_free(engine_picture *p);
 
+/* The library's frames one after the other, colours alone, by one renderer: it keeps shadow tiles as firmware does (A5), and follows
+ * the schedule of cascades. Calls each for every frame, the first of which is 0, with what drawing it took; that returns 0, or -1
+ * with one line in error, like this. */
+enum { ENGINE_FRAMES_MAX = 16 };
+typedef int (*engine_each)(void *user, size_t frame, const uint8_t *rgb8, const count_all *counts, char *error, size_t error_bytes);
+int engine_play(const scene *frames, size_t n, const settings *set, int width, int height, engine_each each, void *user,
+                char *error, size_t error_bytes);
+
 /* What the frame that was rendered last took. */
 void engine_demand(const gn_renderer *renderer, settings_demand *out);
 

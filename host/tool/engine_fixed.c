@@ -22,19 +22,6 @@ static void flush(void *user, int x, int y, int w, int h, const void *pixels)
                (const uint8_t *)pixels + (size_t)row * (size_t)w * c->pixel_bytes, (size_t)w * c->pixel_bytes);
 }
 
-/* A picture in any output format, as seen. */
-typedef struct {
-    uint8_t *rgb8;
-    int width;
-    gn_format format;
-} panel;
-
-static void flush_panel(void *user, int x, int y, int w, int h, const void *pixels)
-{
-    panel *p = user;
-    output_decode(p->format, x, y, w, h, pixels, p->rgb8, p->width);
-}
-
 typedef struct {
     gn_renderer *renderer;
     const settings *set;
@@ -117,8 +104,8 @@ static int draw(const job *j, gn_picture picture, void *pixels)
 
 static int draw_panel(const job *j, gn_picture picture, uint8_t *rgb8)
 {
-    panel p = {rgb8, picture.width, picture.format};
-    return pass(j, &picture, flush_panel, &p);
+    output_panel p = {rgb8, picture.width, picture.format};
+    return pass(j, &picture, output_flush, &p);
 }
 
 static int draw_raw(const job *j, gn_picture picture, gn_view view, size_t light, uint32_t *raw)

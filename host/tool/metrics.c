@@ -58,15 +58,27 @@ static const char *cause_of(const metrics *m, const engine_picture *fixed, const
     return "rounding";
 }
 
-static int worst_channel(const engine_picture *a, const engine_picture *b, size_t i, double *squares)
+static int worst_channel(const uint8_t *a, const uint8_t *b, size_t i, double *squares)
 {
     int worst = 0;
     for (size_t k = 0; k < 3; k++) {
-        int d = abs(a->rgb8[3 * i + k] - b->rgb8[3 * i + k]);
+        int d = abs(a[3 * i + k] - b[3 * i + k]);
         *squares += (double)d * d;
         worst = d > worst ? d : worst;
     }
     return worst;
+}
+
+static double psnr_db(double squares, long pixels)
+{
+    return squares > 0 ? 10 * log10(255.0 * 255.0 * 3.0 * (double)pixels / squares) : (double)INFINITY;
+}
+
+double metrics_psnr_db(const uint8_t *a, const uint8_t *b, size_t n)
+{
+    double squares = 0;
+    for (size_t i = 0; i < n; i++) worst_channel(a, b, i, &squares);
+    return psnr_db(squares, (long)n);
 }
 
 void metrics_compute(metrics *m, const engine_picture *fixed, const engine_picture *other)
@@ -78,7 +90,7 @@ void metrics_compute(metrics *m, const engine_picture *fixed, const engine_pictu
     long same = 0, near = 0, other_triangle = 0;
     double squares = 0;
     for (size_t i = 0; i < (size_t)m->pixels; i++) {
-        int steps = steps565(fixed->rgb565[i], other->rgb565[i]), worst = worst_channel(fixed, other, i, &squares);
+        int steps = steps565(fixed->rgb565[i], other->rgb565[i]), worst = worst_channel(fixed->rgb8, other->rgb8, i, &squares);
         same += steps == 0;
         near += steps <= 1;
         other_triangle += fixed->triangle[i] != other->triangle[i];
@@ -99,6 +111,6 @@ void metrics_compute(metrics *m, const engine_picture *fixed, const engine_pictu
     m->identical = (double)same / (double)m->pixels;
     m->within1 = (double)near / (double)m->pixels;
     m->coverage_mismatch = (double)other_triangle / (double)m->pixels;
-    m->psnr_db = squares > 0 ? 10 * log10(255.0 * 255.0 * 3.0 * (double)m->pixels / squares) : (double)INFINITY;
+    m->psnr_db = psnr_db(squares, m->pixels);
     attenuation(m, fixed, other);
 }

@@ -26,6 +26,9 @@ typedef struct {
     const char *worst_cause;
 } metrics;
 
+/* psnr_db alone, of n pixels of 8-bit RGB. */
+double metrics_psnr_db(const uint8_t *a, const uint8_t *b, size_t n);
+
 /* `other` must carry ndotl: reference and truth do. `fixed` is the one that is judged. */
 void metrics_compute(metrics *m, const engine_picture *fixed, const engine_picture *other);
 

@@ -52,6 +52,12 @@ void output_decode(gn_format format, int x, int y, int w, int h, const void *pix
                          rgb8 + 3 * ((size_t)(y + row) * (size_t)width + (size_t)(x + i)));
 }
 
+void output_flush(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    output_panel *p = user;
+    output_decode(p->format, x, y, w, h, pixels, p->rgb8, p->width);
+}
+
 static double to_linear(double v, int srgb)
 {
     if (!srgb) return v;

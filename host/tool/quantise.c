@@ -543,3 +543,42 @@ void quantise_free(fixed_scene *f)
     free(f->textures);
     memset(f, 0, sizeof *f);
 }
+
+/* ---- Frames of one animation ------------------------------------------------------------------------------------------ */
+
+static bool same_array(const void *a, const void *b, size_t bytes)
+{
+    return (!a && !b) || (a && b && memcmp(a, b, bytes) == 0);
+}
+
+bool quantise_same_mesh(const gn_mesh *a, const gn_mesh *b)
+{
+    size_t n = a->n_vertices;
+    return a->n_vertices == b->n_vertices && a->n_triangles == b->n_triangles && a->pos_frac_bits == b->pos_frac_bits &&
+           a->uv_frac_bits == b->uv_frac_bits && same_array(a->pos, b->pos, 12 * n) && same_array(a->nrm_q15, b->nrm_q15, 6 * n) &&
+           same_array(a->rgb_uq16, b->rgb_uq16, 6 * n) && same_array(a->uv, b->uv, 4 * n) &&
+           same_array(a->mask_uv_uq16, b->mask_uv_uq16, 4 * n) && same_array(a->idx, b->idx, 6 * (size_t)a->n_triangles);
+}
+
+static bool same_texture(const gn_texture *a, const gn_texture *b)
+{
+    const size_t texels = (size_t)1 << (a->width_log2 + a->height_log2);
+    return a->width_log2 == b->width_log2 && a->height_log2 == b->height_log2 && a->flags == b->flags &&
+           quantise_texel_bytes(a) == quantise_texel_bytes(b) && same_array(a->rgba, b->rgba, texels * quantise_texel_bytes(a));
+}
+
+bool quantise_share(fixed_scene *f, const fixed_scene *first)
+{
+    if (f->n_meshes != first->n_meshes || f->n_textures != first->n_textures) return false;
+    for (size_t i = 0; i < f->n_meshes; i++)
+        if (!quantise_same_mesh(&f->meshes[i], &first->meshes[i])) return false;
+    for (size_t i = 0; i < f->n_textures; i++)
+        if (!same_texture(&f->textures[i], &first->textures[i])) return false;
+    for (size_t i = 0; i < f->scene.n_objects; i++) {
+        gn_object *o = &f->objects[i];
+        o->mesh = first->meshes + (o->mesh - f->meshes);
+        if (o->texture) o->texture = first->textures + (o->texture - f->textures);
+        if (o->mask_image) o->mask_image = first->textures + (o->mask_image - f->textures);
+    }
+    return true;
+}

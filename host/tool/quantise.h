@@ -30,4 +30,10 @@ int quantise_scene_for(fixed_scene *out, const scene *s, const gn_knobs *knobs, 
 int quantise_world_exp(const scene *s); /* the power of two that quantise_scene chooses */
 void quantise_free(fixed_scene *f);
 
+bool quantise_same_mesh(const gn_mesh *a, const gn_mesh *b);
+
+/* Lets a later frame's objects have the meshes and textures of the first, in the same place of memory as in firmware, so that the
+ * library knows shadow tiles again. First must live as long. Returns false, and changes nothing, where they are others. */
+bool quantise_share(fixed_scene *f, const fixed_scene *first);
+
 #endif

@@ -27,6 +27,8 @@ static const struct {
     [SWEEP_SUBPIXEL_BITS] = {"subpixel_bits", NULL, {"4", "6", "8"}},
     [SWEEP_TILE_WIDTH] = {"tile_width", NULL, {"16", "32", "64", "128"}},
     [SWEEP_TILE_HEIGHT] = {"tile_height", NULL, {"2", "4", "8", "16", "32"}},
+    [SWEEP_REFRESH] = {"refresh", "incremental", {"8", "4", "1,8", "1,4", "1,2,4,8", "2", "1,2", "1,1,1,8", "1,1,1,4", "1,1,1,2", "1"}},
+    [SWEEP_STATIC_LAYER] = {"static_layer", "incremental", {"0", "1"}},
 };
 
 static int fail(const sweep *w, const char *error)
@@ -117,6 +119,21 @@ static void show_progress(const sweep *w)
     fflush(stderr);
 }
 
+/* As short as it can be said: the last number holds for the rest. */
+static int level_of_schedule(const scene_shadow *s)
+{
+    char text[64];
+    int n = s->n_cascades;
+    while (n > 1 && s->refresh[n - 1] == s->refresh[n - 2]) n--;
+    for (int i = 0, used = 0; i < n; i++) used += snprintf(text + used, sizeof text - (size_t)used, i ? ",%d" : "%d", s->refresh[i]);
+    return level_of(SWEEP_REFRESH, text);
+}
+
+static bool same_schedule(const scene_shadow *a, const scene_shadow *b)
+{
+    return memcmp(a->refresh, b->refresh, (size_t)a->n_cascades * sizeof *a->refresh) == 0;
+}
+
 static void find_levels(sweep_row *row)
 {
     const gn_knobs *q = &row->quality;
@@ -133,14 +150,35 @@ static void find_levels(sweep_row *row)
     level[SWEEP_SUBPIXEL_BITS] = level_of_int(SWEEP_SUBPIXEL_BITS, q->subpixel_bits);
     level[SWEEP_TILE_WIDTH] = level_of_int(SWEEP_TILE_WIDTH, q->tile_width);
     level[SWEEP_TILE_HEIGHT] = level_of_int(SWEEP_TILE_HEIGHT, q->tile_height);
+    level[SWEEP_REFRESH] = level_of_schedule(&row->shadow);
+    level[SWEEP_STATIC_LAYER] = level_of_int(SWEEP_STATIC_LAYER, row->static_layer);
+}
+
+static bool same_but_schedule(const sweep_row *a, const sweep_row *b)
+{
+    return a->static_layer == b->static_layer && memcmp(&a->quality, &b->quality, sizeof a->quality) == 0 && a->shadow.filter == b->shadow.filter &&
+           a->shadow.other_filter == b->shadow.other_filter && a->shadow.kernel == b->shadow.kernel &&
+           a->shadow.n_cascades == b->shadow.n_cascades;
 }
 
 /* Configurations that differ in nothing that is varied are one. */
 static bool same(const sweep_row *a, const sweep_row *b)
 {
-    return memcmp(&a->quality, &b->quality, sizeof a->quality) == 0 && a->shadow.filter == b->shadow.filter &&
-           a->shadow.other_filter == b->shadow.other_filter && a->shadow.kernel == b->shadow.kernel &&
-           a->shadow.n_cascades == b->shadow.n_cascades;
+    return same_but_schedule(a, b) && same_schedule(&a->shadow, &b->shadow);
+}
+
+static bool is_scheduled(const scene_shadow *s)
+{
+    for (int i = 0; i < s->n_cascades; i++)
+        if (s->refresh[i] > 1) return true;
+    return false;
+}
+
+const sweep_row *sweep_unscheduled(const sweep *w, const sweep_row *row)
+{
+    for (size_t i = 0; is_scheduled(&row->shadow) && i < w->n_rows; i++)
+        if (same_but_schedule(&w->rows[i], row) && !is_scheduled(&w->rows[i].shadow)) return &w->rows[i];
+    return NULL;
 }
 
 static bool is_known(const sweep *w, const sweep_row *row)
@@ -151,8 +189,9 @@ static bool is_known(const sweep *w, const sweep_row *row)
 }
 
 /* Draws the row by both engines and fills its numbers; -1 with one line in error. */
-static int measure(const sweep *w, sweep_row *row, const scene *s, settings *set, char *error, size_t bytes)
+static int measure(const sweep *w, sweep_row *row, const scene *s, const settings *set, char *error, size_t bytes)
 {
+    settings least = *set; /* of features and capacities */
     engine_picture fixed, reference;
     const int width = w->options->width, height = w->options->height;
     if (engine_fixed(&fixed, s, set, width, height, ENGINE_ALL, error, bytes)) return -1;
@@ -164,9 +203,9 @@ static int measure(const sweep *w, sweep_row *row, const scene *s, settings *set
     metrics_compute(&row->truth, &fixed, &w->common);
     row->counts = fixed.counts;
     row->instructions = cost_instructions(&row->counts) / ((double)width * height);
-    settings_trim(set, s);
-    settings_fit(set, &fixed.demand);
-    row->ram_bytes = settings_ram(set).total;
+    settings_trim(&least, s);
+    settings_fit(&least, &fixed.demand);
+    row->ram_bytes = settings_ram(&least).total;
     engine_free(&fixed);
     engine_free(&reference);
     return 0;
@@ -200,6 +239,14 @@ static int load(const sweep *w, const sweep_config *c, scene *s, settings *set, 
     return tool_load_with(w->options, sets, n, s, set, error, bytes);
 }
 
+static int play(const sweep *w, sweep_row *row, const settings *set, char *error, size_t bytes)
+{
+    sweep_text text;
+    const char *sets[TOOL_SETS_MAX + SWEEP_KNOBS];
+    int n = sets_of(w, &row->config, &text, sets);
+    return sweep_play(w, row, sets, n, set, error, bytes);
+}
+
 /* Adds a row unless it is known, or cannot be drawn. Prints the error and returns -1 if memory runs out. */
 static int add(sweep *w, const sweep_config *c)
 {
@@ -215,9 +262,10 @@ static int add(sweep *w, const sweep_config *c)
     }
     row->quality = set.quality;
     row->shadow = s.shadow;
+    row->static_layer = set.feature.static_layer;
     find_levels(row);
     if (!is_known(w, row)) {
-        if (measure(w, row, &s, &set, error, sizeof error)) refuse(w, error);
+        if (measure(w, row, &s, &set, error, sizeof error) || play(w, row, &set, error, sizeof error)) refuse(w, error);
         else w->n_rows++;
     }
     scene_free(&s);
@@ -240,6 +288,8 @@ static bool matters(const sweep *w, sweep_knob k)
     if (k == SWEEP_FILTER || k == SWEEP_KERNEL) return shadows;
     if (k == SWEEP_ATLAS || k == SWEEP_DEPTH_BITS || k == SWEEP_CASCADES) return w->directional;
     if (k == SWEEP_OTHER_ATLAS || k == SWEEP_OTHER_DEPTH_BITS) return w->other;
+    if (k == SWEEP_REFRESH) return w->directional && w->moves;
+    if (k == SWEEP_STATIC_LAYER) return shadows && w->layers;
     return true;
 }
 
@@ -294,6 +344,8 @@ static void plan_one_at_a_time(config_list *list, sweep_config base)
         {SWEEP_CASCADES, {"1", "2", "3", "4"}},
         {SWEEP_PERSP_STEP, {"1", "4", "16"}},
         {SWEEP_SUBPIXEL_BITS, {"4", "8"}},
+        {SWEEP_REFRESH, {"8", "4", "1,8", "1,4", "1,2,4,8", "2", "1,2", "1,1,1,8", "1,1,1,4", "1,1,1,2"}},
+        {SWEEP_STATIC_LAYER, {"1"}},
     };
     static const char *const tents[] = {"3x3", "5x5", "7x7"};
     for (size_t i = 0; i < sizeof ones / sizeof *ones; i++)
@@ -334,6 +386,7 @@ static void plan_quick(config_list *list)
     sweep_config balanced = with(nothing_set(), SWEEP_PRESET, "balanced");
     plan_presets(list);
     for (size_t i = 0; i < 6; i++) plan(list, with_atlases(with(balanced, SWEEP_FILTER, filters[i / 3]), sides[i % 3]));
+    if (matters(list->w, SWEEP_REFRESH)) plan(list, with(balanced, SWEEP_REFRESH, "4"));
 }
 
 static int measure_all(sweep *w, const config_list *list)
@@ -389,16 +442,15 @@ int sweep_around(sweep *w, const size_t *rows, size_t n)
 
 /* ---- The front -------------------------------------------------------------------------------------------------------------- */
 
-double sweep_error(const metrics *m)
+double sweep_error(double psnr_db)
 {
-    return isinf(m->psnr_db) ? 0 : 255 * pow(10, -m->psnr_db / 20);
+    return isinf(psnr_db) ? 0 : 255 * pow(10, -psnr_db / 20);
 }
 
 bool sweep_dominates(const sweep_row *a, const sweep_row *b)
 {
-    double ea = a->truth.psnr_db, eb = b->truth.psnr_db;
-    if (a->ram_bytes > b->ram_bytes || a->instructions > b->instructions || ea < eb) return false;
-    return a->ram_bytes < b->ram_bytes || a->instructions < b->instructions || ea > eb;
+    if (a->ram_bytes > b->ram_bytes || a->cost > b->cost || a->db < b->db) return false;
+    return a->ram_bytes < b->ram_bytes || a->cost < b->cost || a->db > b->db;
 }
 
 void sweep_mark_front(sweep *w)
@@ -446,7 +498,8 @@ int sweep_begin(sweep *w, const tool_options *o)
     if (tool_load(o, &s, &set)) return -1;
     look_at_sets(w);
     look_at_lights(w, &s);
-    int failed = engine_truth(&w->common, &s, &set, o->width, o->height, 1, error, sizeof error);
+    int failed = engine_truth(&w->common, &s, &set, o->width, o->height, 1, error, sizeof error) ||
+                 sweep_play_begin(w, &s, &set, error, sizeof error);
     scene_free(&s);
     return failed ? fail(w, error) : 0;
 }
@@ -454,6 +507,7 @@ int sweep_begin(sweep *w, const tool_options *o)
 void sweep_end(sweep *w)
 {
     engine_free(&w->common);
+    sweep_play_end(w);
     free(w->rows);
     memset(w, 0, sizeof *w);
 }

@@ -19,15 +19,32 @@ typedef enum {
     SWEEP_SUBPIXEL_BITS,
     SWEEP_TILE_WIDTH,
     SWEEP_TILE_HEIGHT,
+    SWEEP_REFRESH,
+    SWEEP_STATIC_LAYER,
     SWEEP_KNOBS
 } sweep_knob;
 
-#define SWEEP_LEVELS_MAX 8
+#define SWEEP_LEVELS_MAX 12
+
+/* Frames that are played after the first: the least number in which every schedule of 1, 2, 4 and 8 comes round equally often. */
+enum { SWEEP_PLAYED = 8 };
 
 /* A place in each knob's list of levels; -1: as the preset, or else the scene has it. */
 typedef struct {
     int level[SWEEP_KNOBS];
 } sweep_config;
+
+/* Over frames: of the mean squared error, and of the frame that is worst. */
+typedef struct {
+    double mean_db, worst_db;
+} sweep_error_db;
+
+/* The frames after the first, by a renderer that keeps shadow tiles (A5) and refreshes cascades by their schedule. Of a scene in
+ * which nothing moves that is the first once more, with every tile kept. */
+typedef struct {
+    double instructions, most; /* per pixel: mean, and of the frame that takes most */
+    sweep_error_db truth, reference;
+} sweep_played;
 
 typedef struct {
     sweep_config config;
@@ -37,8 +54,11 @@ typedef struct {
     metrics reference; /* the library against the reference of the same configuration: what fixed point costs */
     metrics truth;     /* the library against exact shadows, the same for all: what the configuration costs */
     long ram_bytes;
-    double instructions; /* per pixel */
-    count_all counts;
+    double instructions; /* per pixel, of the first frame: every shadow tile is drawn */
+    count_all counts;    /* of the first frame */
+    sweep_played played;
+    double cost, db; /* what the front is made of, and advice: of a scene that moves, what is played; else the first frame */
+    int static_layer;
     bool on_front;
 } sweep_row;
 
@@ -46,7 +66,10 @@ typedef struct {
     const tool_options *options;
     bool directional, punctual, other; /* shadows in the directional atlas, lights of the other, shadows in it */
     bool held[SWEEP_KNOBS];            /* set on the command line: not varied */
+    bool moves, layers;                /* frames differ; some caster moves and is known to, so that a static layer has a use */
     engine_picture common;             /* exact shadows */
+    size_t n_played;
+    uint8_t *truth_rgb8[SWEEP_PLAYED]; /* exact shadows in the frames that are played, if anything moves */
     sweep_row *rows;
     size_t n_rows, room, n_refused;
     char refusal[TOOL_ERROR_BYTES]; /* why the first of them cannot be drawn */
@@ -56,6 +79,11 @@ typedef struct {
 /* Loads the scene and draws what everything is compared with. Prints the error and returns -1 if that fails. */
 int sweep_begin(sweep *w, const tool_options *o);
 void sweep_end(sweep *w);
+
+/* What acts from frame to frame: sweep_play.c, for sweep.c alone. */
+int sweep_play_begin(sweep *w, const scene *s, const settings *set, char *error, size_t bytes);
+int sweep_play(const sweep *w, sweep_row *row, const char *const *sets, int n_sets, const settings *set, char *error, size_t bytes);
+void sweep_play_end(sweep *w);
 
 /* Measures the documented set of configurations (docs/TRADE.md); quick: a few of them. Prints the error and returns -1. */
 int sweep_run(sweep *w, bool quick);
@@ -68,7 +96,10 @@ void sweep_mark_front(sweep *w);
 bool sweep_dominates(const sweep_row *a, const sweep_row *b);
 
 /* RMS over channels and pixels, in 8-bit levels: what PSNR says, on a scale that ends at 0. */
-double sweep_error(const metrics *m);
+double sweep_error(double psnr_db);
+
+/* Of a row with a schedule of cascades: the row that differs in nothing else and has none; NULL: there is no such pair. */
+const sweep_row *sweep_unscheduled(const sweep *w, const sweep_row *row);
 
 /* The configuration alone, "filter=3x3 atlas_size=64"; "the scene's own" for none. */
 void sweep_name(const sweep *w, const sweep_row *row, char *out, size_t bytes);
