@@ -1,4 +1,4 @@
-/* Surfaces and casters that alpha cuts: clip and dither (M1, M8, DESIGN 1.6, 1.8). */
+/* Triangles that alpha cuts: clip and dither (M1, M8, DESIGN 1.6, 1.8), as the camera or a light sees them, along the rows that are walked. */
 #ifndef GN_ALPHA_H
 #define GN_ALPHA_H
 
@@ -7,10 +7,23 @@
 
 #if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
 
-void gn_alpha_begin(gn_alpha_test *test, const gn_object *object, gn_alpha mode, const uint16_t idx[3]);
+/* A triangle of an object. If it has a texture, cut->textured, gn_alpha_plane comes next. */
+void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, const uint16_t idx[3]);
 
-/* Whether the point with barycentrics b1, b2 is cut; (x, y) picks the noise of the dither. */
-int gn_alpha_cuts(const gn_alpha_test *test, const int32_t b_q30[2], int32_t x, int32_t y);
+/* Its corners, as gn_plane_setup takes them, in a picture `width` pixels wide. */
+void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3],
+                    uint32_t focal2_px_q16, int32_t width, int32_t newton_steps);
+
+/* Row y, seen along the ray py, of which the triangle covers x_begin <= x < x_end, inside the screen tile or not. */
+void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py, int32_t x_begin, int32_t x_end);
+
+/* Whether pixel x of the row is cut, x_begin <= x < x_end; (x, y) picks the noise of the dither. */
+int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x);
+
+#if GN_TEXTURES
+/* Texture coordinates there. With persp_step > 1 they come from exact ones at most 8 pixels apart, within 2^-8 texel (NUMERICS 4.9). */
+void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2]);
+#endif
 
 #endif
 #endif

@@ -118,7 +118,7 @@ static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t
 #endif
 
 #if GN_PUNCTUAL_LIGHTS
-static int32_t draw_perspective(gn_casting *casting, gn_caster_alpha *alpha, gn_status *status)
+static int32_t draw_perspective(gn_casting *casting, gn_alpha_cut *alpha, gn_status *status)
 {
     const caster_job *job = &casting->job;
     int64_t(*corner)[3] = casting->polygon.p;
@@ -202,15 +202,14 @@ static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[
 {
     const caster_job *job = &casting->job;
     int64_t(*corner)[3] = casting->polygon.p;
-    gn_caster_alpha *with = NULL;
+    gn_alpha_cut *with = NULL;
     *n_texels = -1;
     gn_status status = transform(job, idx, corner);
     if (status) return status;
 #if GN_CASTER_ALPHA
     if (job->object->caster_alpha != GN_ALPHA_OPAQUE) {
         with = &casting->alpha;
-        gn_alpha_begin(&with->test, job->object, job->object->caster_alpha, idx);
-        with->needs_plane = with->test.textured;
+        gn_alpha_begin(with, job->object, job->object->caster_alpha, idx);
     }
 #endif
 #if GN_PUNCTUAL_LIGHTS

@@ -9,19 +9,20 @@
 
 #if GN_SHADOWS
 
-/* Keeps the smaller depth. z in Q32, rounded to the texel's bits. */
-static void store(gn_texels row, int32_t bits, int32_t u, int64_t z)
+/* Keeps the smaller depth, unless alpha cuts texel u. z in Q32, rounded to the texel's bits. */
+static void store(gn_texels row, int32_t bits, int32_t u, int64_t z, gn_alpha_cut *alpha)
 {
-    if (bits == 16) {
-        int64_t v = gn_clamp64((z + 0x8000) >> 16, 0, UINT16_MAX);
-        if ((uint16_t)v < row.d16[u]) row.d16[u] = (uint16_t)v;
-    } else if (bits == 8) {
-        int64_t v = gn_clamp64((z + 0x800000) >> 24, 0, UINT8_MAX);
-        if ((uint8_t)v < row.d8[u]) row.d8[u] = (uint8_t)v;
-    } else {
-        int64_t v = gn_clamp64(z, 0, UINT32_MAX);
-        if ((uint32_t)v < row.d32[u]) row.d32[u] = (uint32_t)v;
-    }
+    const int32_t drop = 32 - bits;
+    const uint32_t v = (uint32_t)gn_clamp64((z + ((int64_t)1 << drop >> 1)) >> drop, 0, UINT32_MAX >> drop);
+    if (v << drop >= gn_texel_load(row, bits, (size_t)(uint32_t)u)) return;
+#if GN_CASTER_ALPHA
+    if (alpha && gn_alpha_cuts(alpha, u)) return;
+#else
+    (void)alpha;
+#endif
+    if (bits == 16) row.d16[u] = (uint16_t)v;
+    else if (bits == 8) row.d8[u] = (uint8_t)v;
+    else row.d32[u] = v;
 }
 
 #if !GN_SIZE_FIRST
@@ -75,26 +76,8 @@ static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *
 }
 #endif
 
-#if GN_CASTER_ALPHA
-void gn_caster_alpha_plane(gn_caster_alpha *alpha, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3])
-{
-    gn_plane_setup(&alpha->plane, v0, v1, v2);
-    gn_bary_setup(&alpha->bary, &alpha->plane, v0, v1, v2);
-}
-
-static int is_cut(const gn_light_view *view, const gn_caster_alpha *alpha, int32_t u, int32_t v)
-{
-    int32_t b_q30[2] = {0, 0}, px = 2 * u + 1 - view->tile_texels, py = 2 * v + 1 - view->tile_texels;
-    gn_ray_recip recip;
-    if (alpha->needs_plane && gn_plane_recip(&recip, &alpha->plane, px, py, alpha->focal2_q16, 2))
-        gn_bary_at(b_q30, &alpha->bary, &recip, px, py, alpha->focal2_q16);
-    return gn_alpha_cuts(&alpha->test, b_q30, u, v);
-}
-
-#endif
-
 /* Any row of texels, one at a time. */
-static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster, const gn_caster_alpha *alpha, int32_t v, int32_t u,
+static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster, gn_alpha_cut *alpha, int32_t v, int32_t u,
                              int32_t u_end)
 {
     int32_t bits = GN_VIEW_BITS(view);
@@ -103,12 +86,7 @@ static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster,
     GN_COUNT(texels_cut, alpha ? u_end - u : 0);
     GN_COUNT(texels_wide, alpha ? 0 : u_end - u);
     for (; u < u_end; u++, z += caster->dz_du) {
-#if GN_CASTER_ALPHA
-        if (alpha && is_cut(view, alpha, u, v)) continue;
-#else
-        (void)alpha;
-#endif
-        store(row, bits, u, gn_clamp64(z, caster->lo, caster->hi) + caster->bias);
+        store(row, bits, u, gn_clamp64(z, caster->lo, caster->hi) + caster->bias, alpha);
     }
 }
 
@@ -128,7 +106,7 @@ int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_wal
 }
 
 int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_walk *walk, int32_t n_rows,
-                       const gn_caster_alpha *alpha)
+                       gn_alpha_cut *alpha)
 {
     int32_t size = view->tile_texels, n_texels = 0, v = walk->first;
 #if !GN_SIZE_FIRST
@@ -151,6 +129,9 @@ int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_wa
                 continue;
             }
 #endif
+#if GN_CASTER_ALPHA
+            if (alpha) gn_alpha_row(alpha, v, 2 * v + 1 - size, at->x_begin, at->x_end);
+#endif
             span(view, caster, alpha, v, u, u + n);
         }
     }
@@ -158,7 +139,7 @@ int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_wa
 }
 
 int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, gn_walk *walk, const int32_t x[3],
-                       const int32_t y[3], const gn_caster_alpha *alpha)
+                       const int32_t y[3], gn_alpha_cut *alpha)
 {
     int32_t n_rows = gn_caster_begin(frame, view, walk, x, y);
     return n_rows ? gn_caster_rows(view, caster, walk, n_rows, alpha) : 0;

@@ -221,13 +221,6 @@ static void turn_cosines(gn_chord *chord, const gn_frame *frame, const gn_surfac
     }
 }
 
-/* |z1 - z0| / (z1 + z0) = num / den, Q30, to 2^-17 of it. */
-static uint32_t quotient_q30(uint32_t num, uint32_t den)
-{
-    int32_t clz = gn_clz32(den);
-    return (uint32_t)((uint64_t)num * gn_recip_norm(den << clz, 1) >> (33 - clz)); /* num < den: < 2^30 */
-}
-
 int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b,
                      int32_t n)
 {
@@ -238,7 +231,7 @@ int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *s
     if (GN_SMOOTH(surface) && surface->n_lights && !turn_between(&turned, a->normal_q15, b->normal_q15)) return 0;
     const share of_line = {dz, 2 * ((uint64_t)za + zb)}; /* |a| / 2 */
     if (!all_hold(frame, surface, a, b, of_line, &turned)) {
-        bend_q30 = (int32_t)quotient_q30(dz, za + zb);
+        bend_q30 = (int32_t)gn_quotient_q30(dz, za + zb);
         uint32_t bend_q16 = (uint32_t)(bend_q30 >> 14) + 1;
         const share of_parabola = {bend_q16 * bend_q16, (uint64_t)1 << 34}; /* a^2 / 4 */
         if (bend_q16 > GN_BEND_MAX_Q16 || !all_hold(frame, surface, a, b, of_parabola, &turned)) return 0;

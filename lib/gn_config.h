@@ -240,4 +240,7 @@
 /* Whether what arrives from spot and point lights is stepped between samples. */
 #define GN_ARRIVAL_STEPS (GN_PUNCTUAL_LIGHTS && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))
 
+/* Whether texture coordinates that alpha is looked up at are. */
+#define GN_ALPHA_STEPS (GN_TEXTURES && (GN_CASTER_ALPHA || GN_VISIBLE_ALPHA) && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))
+
 #endif

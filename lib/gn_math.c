@@ -37,6 +37,12 @@ uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
     return newton_steps > 1 ? gn_recip_step(m, y) : y;
 }
 
+uint32_t gn_quotient_q30(uint32_t num, uint32_t den)
+{
+    int32_t clz = gn_clz32(den);
+    return (uint32_t)((uint64_t)num * gn_recip_norm(den << clz, 1) >> (33 - clz)); /* num <= den: 2^30 at most, and 2^13 */
+}
+
 uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
 {
     /* x = m / 2^32 in [1/4, 1); y ~ 1/sqrt(x) in Q1.31; y(3 - xy^2)/2 */

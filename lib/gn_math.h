@@ -63,6 +63,9 @@ static inline uint32_t gn_recip_norm2(uint32_t m)
 }
 #endif
 
+/* num / den to 2^-17 of it, Q30; num <= den */
+uint32_t gn_quotient_q30(uint32_t num, uint32_t den);
+
 /* 2^47 / sqrt(m) for m in [2^30, 2^32). newton_steps 1: relative error < 2^-15, 2: < 2^-28, and then within [2^31, 2^32). */
 uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps);
 

@@ -272,7 +272,7 @@ static int misses_tile(const gn_light_view *view, int64_t p[3][3])
 
 #if GN_CASTER_ALPHA
 /* Parallel projection as a perspective one: all corners at the same depth, so that barycentrics are affine. */
-static void alpha_plane(const gn_light_view *view, gn_caster_alpha *alpha, int64_t p[3][3])
+static void alpha_plane(const gn_frame *frame, const gn_light_view *view, gn_alpha_cut *alpha, int64_t p[3][3])
 {
     int32_t v[3][3], shift = 0;
     int64_t centre = (int64_t)view->tile_texels << 15;
@@ -283,19 +283,19 @@ static void alpha_plane(const gn_light_view *view, gn_caster_alpha *alpha, int64
         for (int k = 0; k < 2; k++) v[i][k] = (int32_t)gn_scale64(p[i][k] - centre, shift);
         v[i][2] = (1 << 23) >> shift; /* shift <= 18 */
     }
-    alpha->focal2_q16 = 1U << 24; /* x / z = px / 2F: 2F = 256 half texels where z is 128 texels */
-    gn_caster_alpha_plane(alpha, v[0], v[1], v[2]);
+    /* x / z = px / 2F: 2F = 256 half texels where z is 128 texels */
+    gn_alpha_plane(alpha, frame, v[0], v[1], v[2], 1U << 24, view->tile_texels, 2);
 }
 #endif
 
-int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_caster_alpha *alpha)
+int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha)
 {
     gn_caster caster;
     gn_light_polygon *polygon = &casting->polygon;
     polygon->n = 3;
     if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.two_sided)) return -1;
 #if GN_CASTER_ALPHA
-    if (alpha && alpha->needs_plane) alpha_plane(view, alpha, polygon->p);
+    if (alpha && alpha->textured) alpha_plane(frame, view, alpha, polygon->p);
 #endif
 #if GN_CASTER_CLIPPING
     clip_to_reach(polygon, &casting->with.uncut);

@@ -21,7 +21,7 @@ void gn_ortho_compose(gn_xform *out, const gn_light_view *view, const gn_object 
 void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx);
 
 /* Draws a triangle into the view's tile. Returns the number of texels it covers, -1 if it cannot show there. */
-int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_caster_alpha *alpha);
+int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha);
 
 /* The same for corners within 2^29 (8192 texels), without alpha. */
 int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, const int32_t *const c[3]);

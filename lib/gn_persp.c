@@ -141,7 +141,7 @@ static void project_corner(const gn_frame *frame, const gn_light_view *view, con
     *y = (int32_t)gn_clamp64(texel[1], -most, most) + centre;
 }
 
-int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_caster_alpha *alpha)
+int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha)
 {
     const gn_persp_fit *fit = &view->fit.persp;
     gn_polygon *polygon = &casting->with.clipping.polygon;
@@ -156,10 +156,7 @@ int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
     gn_plane plane;
     if (all || !caster_begin(&caster, &plane, view, corner, casting->job.two_sided)) return -1;
 #if GN_CASTER_ALPHA
-    if (alpha && alpha->needs_plane) {
-        alpha->focal2_q16 = fit->focal2_q16;
-        gn_caster_alpha_plane(alpha, corner[0], corner[1], corner[2]);
-    }
+    if (alpha && alpha->textured) gn_alpha_plane(alpha, frame, corner[0], corner[1], corner[2], fit->focal2_q16, view->tile_texels, 2);
 #endif
     if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->near_q16, fit->guard_q16);
     int32_t *x = casting->with.clipping.x, *y = casting->with.clipping.y;

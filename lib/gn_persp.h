@@ -21,7 +21,7 @@ void gn_persp_face_axis(int32_t out_q30[3], int32_t face);
 
 /* Draws a triangle, corners in the view's axes from the light, |.| < 2^30. Returns the number of texels it covers,
  * -1 if it cannot show in the tile. */
-int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_caster_alpha *alpha);
+int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha);
 
 #endif
 #endif

@@ -64,33 +64,20 @@ GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_
 #endif
 
 #if GN_VISIBLE_ALPHA
-typedef gn_alpha_cut cut_triangle;
-
-static void cut_begin(const gn_frame *frame, gn_scratch *scratch, cut_triangle *cut, const gn_tri *tri)
+static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     GN_ELEMENT(object);
     const uint16_t *idx = object->mesh->idx + 3 * (size_t)tri->triangle_idx;
-    gn_alpha_begin(&cut->test, object, object->visible_alpha, idx);
-    if (!cut->test.textured) return;
+    gn_alpha_begin(cut, object, object->visible_alpha, idx);
+    if (!cut->textured) return;
     gn_xform to_view;
     int32_t v[3][3];
     gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
     for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &to_view, object->mesh, tri->object_idx, idx[i]);
-    gn_plane_setup(&cut->plane, v[0], v[1], v[2]);
-    gn_bary_setup(&cut->bary, &cut->plane, v[0], v[1], v[2]);
+    gn_alpha_plane(cut, frame, v[0], v[1], v[2], frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
 }
 
-static int is_cut(const gn_frame *frame, const cut_triangle *cut, int32_t x, int32_t y)
-{
-    int32_t b_q30[2] = {0, 0}, px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
-    gn_ray_recip recip;
-    if (cut->test.textured && gn_plane_recip(&recip, &cut->plane, px, py, frame->cam.focal2_px_q16, GN_K(frame, newton_steps)))
-        gn_bary_at(b_q30, &cut->bary, &recip, px, py, frame->cam.focal2_px_q16);
-    return gn_alpha_cuts(&cut->test, b_q30, x, y);
-}
-#else
-typedef void cut_triangle;
 #endif
 
 /* A screen tile. */
@@ -105,19 +92,15 @@ typedef struct {
 
 /* Pixels of a row that need a look each: alpha may cut them, or depth leaves the triangle's range. Where alpha cuts, it is looked up only
  * where the surface would be the nearest. */
-static GN_NOINLINE void raster_span_slow(const raster_tile *tile, const cut_triangle *cut, const raster_depth *depth,
-                                         uint32_t *cell, int32_t n, uint32_t iz)
+static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz, gn_alpha_cut *cut, int32_t x)
 {
     for (int32_t i = 0; i < n; i++, cell++, iz += depth->iz_dx) {
         uint32_t candidate = clamp_depth(iz, depth) | depth->id_mask;
         if (candidate < *cell) continue;
 #if GN_VISIBLE_ALPHA
-        if (cut) {
-            uint32_t at = (uint32_t)(cell - GN_CELLS(tile->scratch)), stride = (uint32_t)GN_K(tile->frame, tile_width);
-            if (is_cut(tile->frame, cut, tile->rect.x0 + (int32_t)(at % stride), tile->rect.y0 + (int32_t)(at / stride))) continue;
-        }
+        if (cut && gn_alpha_cuts(cut, x + i)) continue;
 #else
-        (void)tile, (void)cut;
+        (void)cut, (void)x;
 #endif
         *cell = candidate - depth->below;
     }
@@ -170,8 +153,17 @@ static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri,
 
 #endif
 
+#if GN_VISIBLE_ALPHA
+/* Row v of the tile. */
+static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const gn_span *span)
+{
+    int32_t y = tile->rect.y0 + v;
+    gn_alpha_row(cut, y, tile->frame->picture.height - 1 - 2 * y, tile->rect.x0 + span->x_begin, tile->rect.x0 + span->x_end);
+}
+#endif
+
 /* Walks a triangle that `cut` cuts, if it is not NULL. */
-static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, const cut_triangle *cut)
+static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, gn_alpha_cut *cut)
 {
     const int32_t x[3] = {tri->x[0] + tile->x, tri->x[1] + tile->x, tri->x[2] + tile->x};
     const int32_t y[3] = {tri->y[0] + tile->y, tri->y[1] + tile->y, tri->y[2] + tile->y};
@@ -205,7 +197,10 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
                 continue;
             }
 #endif
-            raster_span_slow(tile, cut, &depth, row + xa, n, above + depth.lo);
+#if GN_VISIBLE_ALPHA
+            if (cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
+#endif
+            raster_span_slow(&depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
         }
     }
 }
@@ -213,7 +208,7 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
 #if GN_VISIBLE_ALPHA
 static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
-    cut_triangle *cut = &tile->scratch->work.cut;
+    gn_alpha_cut *cut = &tile->scratch->work.cut;
     cut_begin(tile->frame, tile->scratch, cut, tri);
     raster_triangle(tile, tri, id, cut);
 }

@@ -264,22 +264,43 @@ typedef struct {
 /* ---- Triangles that alpha cuts ------------------------------------------------------------------------------------- */
 
 #if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
-/* One triangle of an object. */
+#if GN_ALPHA_STEPS
+/* An exact place in a row; n . ray there as gn_ray_recip has it, w_norm 0: nothing is seen. */
+typedef struct {
+    int32_t x, uv_q20[2];
+    uint32_t w_norm;
+    int32_t clz;
+} gn_alpha_exact;
+
+/* Texture coordinates of first <= x < end, k pixels on: from + k step + k (k - 1) / 2 bend. */
+typedef struct {
+    int32_t first, end;
+    int32_t hold; /* 0: they are found one by one */
+    int32_t from_q20[2], step_q24[2], bend_q24[2];
+} gn_alpha_steps;
+#endif
+
+/* One triangle of an object, as the camera or a light sees it, and a row of it: gn_alpha.h. */
 typedef struct {
     const gn_object *object;
     gn_alpha mode;
     int textured; /* 0: the object's own alpha all over */
+    int32_t y, py;
 #if GN_TEXTURES
     gn_texture_triangle uv;
-#endif
-} gn_alpha_test;
-
-/* M8: as the camera sees it. */
-typedef struct {
-    gn_alpha_test test;
     gn_plane plane;
     gn_bary bary;
+    uint32_t focal2_px_q16;
+    int32_t width, newton_steps;
+#endif
+#if GN_ALPHA_STEPS
+    int32_t px_per_step, x_begin, x_end;
+    gn_alpha_exact exact; /* the last one found */
+    gn_alpha_steps steps;
+#endif
 } gn_alpha_cut;
+#else
+typedef void gn_alpha_cut;
 #endif
 
 /* ---- Clipping -------------------------------------------------------------------------------------------------------- */
@@ -300,19 +321,6 @@ typedef struct {
 /* ---- Casters --------------------------------------------------------------------------------------------------------- */
 
 #if GN_SHADOWS
-#if GN_CASTER_ALPHA
-/* For casters cut by alpha: the triangle as seen from the light. */
-typedef struct {
-    gn_alpha_test test;
-    int needs_plane; /* alpha is not the same all over */
-    gn_plane plane;
-    gn_bary bary;
-    uint32_t focal2_q16;
-} gn_caster_alpha;
-#else
-typedef void gn_caster_alpha;
-#endif
-
 /* A vertex as a view sees it, if it is within 2^29. */
 typedef struct {
     uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
@@ -358,7 +366,7 @@ typedef struct {
         gn_clipping clipping;   /* perspective */
     } with;
 #if GN_CASTER_ALPHA
-    gn_caster_alpha alpha;
+    gn_alpha_cut alpha;
 #endif
 } gn_casting;
 #endif

@@ -116,17 +116,12 @@ uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, 
 #endif
 
 #if GN_TEXTURES
-static int is_clamped(const gn_texture *texture, int axis)
-{
-    return (texture->flags & (axis ? GN_TEXTURE_CLAMP_V : GN_TEXTURE_CLAMP_U)) != 0;
-}
-
 void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_texture *texture, const uint16_t idx[3])
 {
     for (int i = 0; i < 2; i++) {
         int64_t uv[3];
         for (int k = 0; k < 3; k++) uv[k] = (int64_t)mesh->uv[2 * (size_t)idx[k] + (size_t)i] * (1 << (16 - mesh->uv_frac_bits));
-        out->uv_q16[0][i] = is_clamped(texture, i) ? uv[0] : uv[0] & 0xFFFF; /* whole turns change nothing */
+        out->uv_q16[0][i] = gn_texture_clamps(texture, i) ? uv[0] : uv[0] & 0xFFFF; /* whole turns change nothing */
         out->uv_q16[1][i] = uv[1] - uv[0];
         out->uv_q16[2][i] = uv[2] - uv[0];
     }
@@ -137,7 +132,7 @@ int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *
     int64_t at = triangle->uv_q16[0][which], e1 = triangle->uv_q16[1][which], e2 = triangle->uv_q16[2][which];
     /* 2^30 * 2^33 would not fit; the lowest bit of differences of at most 15 fraction bits is zero */
     int64_t c_q20 = at * 16 + gn_shr64(b_q30[0] * (e1 >> 1), 25) + gn_shr64(b_q30[1] * (e2 >> 1), 25);
-    return is_clamped(texture, which) ? gn_sat32(c_q20) : (int32_t)(uint32_t)c_q20;
+    return gn_texture_clamps(texture, which) ? gn_sat32(c_q20) : (int32_t)(uint32_t)c_q20;
 }
 
 void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3])

@@ -18,6 +18,12 @@ uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, 
 
 #if GN_TEXTURES
 
+/* Whether a coordinate (0: u, 1: v) ends at the texture's borders; otherwise it repeats. */
+static inline int gn_texture_clamps(const gn_texture *texture, int axis)
+{
+    return (texture->flags & (axis ? GN_TEXTURE_CLAMP_V : GN_TEXTURE_CLAMP_U)) != 0;
+}
+
 void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_texture *texture, const uint16_t idx[3]);
 
 /* The coordinate (0: u, 1: v) of the point with barycentrics b1, b2, Q20: modulo 2^12 turns, saturated where it is clamped. */

@@ -86,8 +86,8 @@ DEPTH_BLOCKS gn_blocks_.*
 FILTER_MAX gn_tent_weights|gn_linear_weights
 DISK_FILTER gn_disk_.*|disk.*
 CASTER_CULLING gn_cull_shown_nearer
-CASTER_ALPHA gn_caster_alpha_plane
-VISIBLE_ALPHA cut_begin|is_cut
+CASTER_ALPHA alpha_plane
+VISIBLE_ALPHA cut_begin|cut_row
 TILE_LIGHTS gn_punctual_in_tile
 TEXTURES gn_texture_colour|gn_srgb_decode_table
 SPECULAR highlight_q30

@@ -49,11 +49,19 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
     if (other) r->other_atlas = put_atlas(l, s, s->quality.other_atlas_size, s->capacity.other_atlas_texels, s->quality.other_depth_bits);
 }
 
+/* gn_alpha_cut of lib/gn_shading.h */
+static long cut_bytes(const settings *s)
+{
+    if (!s->feature.caster_alpha) return 0;
+    if (!s->feature.textures) return 24;
+    return s->quality.persp_step > 1 ? 216 : 152;
+}
+
 /* gn_casting of lib/gn_shading.h */
 static long casting_bytes(const settings *s)
 {
     if (!s->feature.shadows) return 0;
-    return 856 + (s->feature.caster_bias ? 40 : 0) + (!s->feature.caster_alpha ? 0 : s->feature.textures ? 144 : 88);
+    return 856 + (s->feature.caster_bias ? 40 : 0) + cut_bytes(s);
 }
 
 /* gn_work of lib/gn_shading.h: the largest of what one core does at a time, shading or casting */
