@@ -147,10 +147,14 @@ static int32_t taps_q16(const gn_light_view *view)
     return (view->filter_idx + 1) << 16;
 }
 
-/* Stored depth and receiver's depth, each rounded to a step, as a share of the range: (1 + 1/64) 2^-bits + 2^-29, Q32 */
-static int64_t depth_step_q32(const gn_light_view *view)
+/* Stored depth, rounded to half a step after up to T rounded ones, and the receiver's, rounded to half of its own finer step, as a share of
+ * the range: 2^-(bits + 1) + 2^-(bits + frac + 1) + (T + 2) 2^-32 + 2^-29, Q32 */
+static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view *view)
 {
-    return (((int64_t)65 << 26) >> GN_VIEW_BITS(view)) + 9;
+    const int64_t half = (int64_t)1 << 31;
+    int32_t bits = GN_VIEW_BITS(view);
+    (void)frame;
+    return (half >> bits) + (bits == 32 ? 0 : half >> (bits + GN_K(frame, shadow_depth_frac))) + view->tile_texels + 11;
 }
 
 /* sqrt(1 + k^2) times the relative error of view depths, and of a pixel's ray, whose three coefficients are rounded in each axis: 2^-28
@@ -188,13 +192,13 @@ void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
         int one_step = GN_K(frame, newton_steps) == 1;
         view->offset_q16 += one_step ? (view->tile_texels + 3) >> 2 : 1;
         view->offset_q16 += (int32_t)(((view->fit.persp.focal2_q16 >> 29) + 1) >> 1); /* x / z is rounded to 2^-30 of T / t */
-        /* steps over the tile are rounded to 2^-32, its plane to 2^-27 and, in place, 2^-28 */
-        view->auto_step = (int32_t)(depth_step_q32(view) + (one_step ? 32768 : 8) + view->tile_texels + 64);
+        /* its plane is rounded to 2^-27 and, in place, 2^-28 */
+        view->auto_step = (int32_t)(depth_step_q32(frame, view) + (one_step ? 32768 : 8) + 64);
         view->auto_place = ray_error_q40(frame);
         return;
     }
     int32_t place_q16 = place_error_q16(frame, view);
-    int64_t step_q16 = gn_scale64(depth_step_q32(view), 16 - view->tile_log2 - view->depth_log2) + 1; /* 2^25 * 2^4 */
+    int64_t step_q16 = gn_scale64(depth_step_q32(frame, view), 16 - view->tile_log2 - view->depth_log2) + 1; /* 2^25 * 2^4 */
     view->offset_q16 += place_q16;
     view->auto_step = (int32_t)gn_clamp64(step_q16 + 3 + place_q16, 0, INT32_MAX);
     /* curved: sqrt(2 r^2 + e^2) is what any plane through its normal needs; < 2^21, and steps of more are beyond any range */

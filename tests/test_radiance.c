@@ -547,8 +547,10 @@ static void check_sum(const gn_knobs *knobs, const gn_light_view *view)
     const double snap = ldexp(1, -knobs->shadow_subpixel_bits - 1) + ldexp(1, -knobs->weight_bits - 1) + 2 * LSB16;
     const double half_diagonal = sqrt(WIDTH * WIDTH + HEIGHT * HEIGHT) / (renderer.frame.cam.focal2_px_q16 * LSB16);
     const double ray = sqrt(1 + half_diagonal * half_diagonal) * ((one_step ? ldexp(1, -17) : ldexp(1, -28)) + ldexp(WIDTH + HEIGHT, -28));
+    const double rounded = ldexp(1, -knobs->other_depth_bits - 1) +
+                           (knobs->other_depth_bits < 32 ? ldexp(1, -knobs->other_depth_bits - knobs->shadow_depth_frac - 1) : 0);
     const double want[3] = {taps[view->filter] + snap + t / 2 * divide + focal * ldexp(1, -30),
-                            65 / 64.0 * ldexp(1, -knobs->other_depth_bits) + ldexp(1, -29) + divide + ldexp(t + 5, -32) + ldexp(1, -27), ray};
+                            rounded + ldexp(1, -29) + divide + ldexp(t + 5, -32) + ldexp(1, -27), ray};
     const double got[3] = {view->offset_q16 * LSB16, ldexp(view->auto_step, -32), ldexp(view->auto_place, -40)};
     const double unit[3] = {LSB16, ldexp(32, -32), ldexp(1, -40)}; /* of the second: half of 64 units */
     for (int i = 0; i < 3; i++)
@@ -559,7 +561,7 @@ static void check_sum(const gn_knobs *knobs, const gn_light_view *view)
 static void check_view(const gn_knobs *knobs, const gn_light_view *view)
 {
     if (lamp.auto_bias) check_sum(knobs, view);
-    for (int i = 0; i < 20; i++) {
+    for (int i = 0; i < 30; i++) {
         receiver r;
         double n[3];
         int32_t n_q30[3];

@@ -319,8 +319,9 @@ static void check_sum(const gn_knobs *knobs)
     const double end = frame->cascade[0].centre_q16 * LSB16 + sqrt(ldexp((double)frame->cascade[0].radius2_q32, -32));
     const double place = place_bound(frame, fmin(end, fixed.shadow.max_distance_q16 * LSB16)) / texel + ldexp(1, -12);
     const double snap = ldexp(1, -knobs->shadow_subpixel_bits - 1) + ldexp(1, -knobs->weight_bits - 1) + 2 * LSB16;
+    const double rounded = ldexp(1, -knobs->depth_bits - 1) + ldexp(1, -knobs->depth_bits - knobs->shadow_depth_frac - 1);
     const double stored =
-        (65 / 64.0 * ldexp(1, -knobs->depth_bits) + ldexp(1, -29)) * ldexp(view->tile_texels, view->depth_log2) + 3 * LSB16;
+        (rounded + ldexp(view->tile_texels + 2, -32) + ldexp(1, -29)) * ldexp(view->tile_texels, view->depth_log2) + 3 * LSB16;
     const double reach = 2 + snap + place, step = stored + place, both = sqrt(2 * reach * reach + step * step);
     const double got[3] = {view->offset_q16 * LSB16, view->auto_step * LSB16, view->auto_place * LSB16},
                  want[3] = {reach, step, both};

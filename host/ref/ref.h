@@ -23,7 +23,7 @@ typedef struct {
     int max_other_tiles;  /* of the other */
     bool unsnapped;       /* directional texels and origins are not rounded: a map without D2's stability, for comparison */
     /* Of the engine whose automatic bias this is (B6): what it rounds decides how much bias is enough. 0: it does not. */
-    int shadow_subpixel_bits, weight_bits, depth_bits, other_depth_bits, newton_steps;
+    int shadow_subpixel_bits, weight_bits, depth_bits, other_depth_bits, shadow_depth_frac, newton_steps;
     double unit; /* its least step of length */
 } ref_options;
 

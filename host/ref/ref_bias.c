@@ -34,7 +34,9 @@ static int view_bits(const ref_options *o, const ref_light_view *view)
 static double step_error(const ref_options *o, const ref_light_view *view)
 {
     const int bits = view_bits(o, view);
-    return bits > 0 ? 65.0 / 64.0 * ldexp(1.0, -bits) + ldexp(1.0, -29) : 0.0;
+    if (bits <= 0) return 0.0;
+    const double receiver = bits < 32 ? half_cell(bits + o->shadow_depth_frac) : 0.0;
+    return half_cell(bits) + receiver + ldexp(view->tile_texels + 2.0, -32) + ldexp(1.0, -29);
 }
 
 /* Relative: of view depths, and of the quotients x/z, y/z, n/z of perspective views. */
@@ -105,7 +107,7 @@ static vec3 ortho_bias(const ref_frame *frame, const ref_light_view *view, scene
 /* Of depths in a perspective view: steps over the tile, and the plane that is stepped. */
 static double plane_error(const ref_options *o, const ref_light_view *view)
 {
-    return view_bits(o, view) > 0 ? ldexp(view->tile_texels + 64.0, -32) : 0.0;
+    return view_bits(o, view) > 0 ? ldexp(64.0, -32) : 0.0;
 }
 
 static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at, vec3 m,

@@ -61,6 +61,7 @@ ref_options engine_ref_options(const scene *s, const settings *set, int width, i
                          .srgb = set->quality.srgb != 0,
                          .vertex_light = set->quality.vertex_light != 0,
                          .shadow_subpixel_bits = set->quality.shadow_subpixel_bits,
+                         .shadow_depth_frac = set->quality.shadow_depth_frac,
                          .weight_bits = set->quality.weight_bits,
                          .depth_bits = set->quality.depth_bits,
                          .other_depth_bits = set->quality.other_depth_bits,

@@ -1,0 +1,161 @@
+/* Detachment at the contact, beside acne: the gap behind the foot of a wall, under the automatic bias (B6) and under the defaults of B1 and B2
+ * (constant and slope 0, normal 1), at every angle and for every kind of light. How wide a gap is depends on where the wall stands in the
+ * light's grid, by a tenth of a texel or so either way: what is compared are means over many places. "--table" prints docs/BIAS.md's table. */
+#include "bias_scene.h"
+
+static const bias beside[] = {
+    {.name = "B2 1", .normal = 1},
+    {.name = "auto depth", .automatic = SCENE_AUTO_BIAS_DEPTH},
+    {.name = "auto normal", .automatic = SCENE_AUTO_BIAS_NORMAL},
+};
+enum { DEFAULT, DEPTH, NORMAL, N_BESIDE };
+
+/* ---- The gap ---------------------------------------------------------------------------------------------------------- */
+
+#define EYE_HIGH 7.0
+#define FOCAL    8.8 /* four pixels to a texel */
+#define SEEN     0.9 /* behind the foot, of a shadow two units long */
+
+/* The wall moves against the light's grid, which a directional light has in the world and others carry with them. */
+static void shift(fixture *f, scene_light_kind kind, const double by[3])
+{
+    for (int k = 0; k < 3; k++) {
+        if (kind != SCENE_LIGHT_DIRECTIONAL) {
+            f->lights[0].position[k] += by[k];
+            continue;
+        }
+        f->s.camera.to_world.m[k][3] += by[k];
+        for (size_t o = 0; o < f->s.n_objects; o++) f->objects[o].to_world.m[k][3] += by[k];
+    }
+}
+
+/* A wall so high that its shadow is two units long, seen from above, and the light beside its foot. */
+static void contact_scene(fixture *f, const cell *c, const bias *b, double degrees, const double by[3])
+{
+    static const double distance[3] = {1, 12, 6};
+    const double s = sin(degrees * DEGREE), cosine = cos(degrees * DEGREE), d = distance[c->kind];
+    double eye[3], at[3], up[3];
+    wall_scene_begin(f, c, b, degrees, c->kind == SCENE_LIGHT_DIRECTIONAL ? 2 * cosine / s : 2 * d * cosine / (d * s + 2));
+    turn_about(eye, 0.6, EYE_HIGH, 0.1);
+    turn_about(at, 0.6, 0, 0.1);
+    turn_about(up, 1, 0, 0.4);
+    look(f, eye, at, up);
+    f->s.camera.focal = FOCAL;
+    shift(f, c->kind, by);
+}
+
+static double texel_at_foot(const cell *c)
+{
+    static const double distance[3] = {0, 12, 6};
+    const gn_light_view *view = &renderer.frame.view[renderer.frame.light[0].view_idx];
+    if (c->kind == SCENE_LIGHT_DIRECTIONAL) return ldexp(1 / (double)view->fit.ortho.inv_texel.mant, -view->fit.ortho.inv_texel.exp - world_exp);
+    return 2 * 65536.0 / view->fit.persp.focal2_q16 * distance[c->kind];
+}
+
+/* Light behind the foot, texels. */
+static double gap_of(const cell *c, const bias *b, double degrees, double x, double z)
+{
+    static fixture f;
+    const double unit = EYE_HIGH / (FOCAL * WALL_HEIGHT / 2), width = 0.8;
+    double axis[3], row[3], by[3], sum = 0;
+    turn_about(axis, 1, 0, 0);
+    turn_about(row, 0, 0, 1);
+    turn_about(by, x, 0, z);
+    contact_scene(&f, c, b, degrees, by);
+    if (draw(&f, c, WALL_WIDTH, WALL_HEIGHT))
+        for (int i = 0; i < WALL_WIDTH * WALL_HEIGHT; i++) {
+            double at[3];
+            for (int k = 0; k < 3; k++) {
+                const double *m = f.s.camera.to_world.m[k], px = (i % WALL_WIDTH + 0.5 - WALL_WIDTH / 2.0) * unit;
+                at[k] = m[3] + m[0] * px + m[1] * (WALL_HEIGHT / 2.0 - i / WALL_WIDTH - 0.5) * unit - EYE_HIGH * m[2];
+                if (c->kind == SCENE_LIGHT_DIRECTIONAL) at[k] -= by[k];
+            }
+            const double behind = dot(at, axis);
+            if (fabs(dot(at, row)) < width / 2 && behind > 0 && behind < SEEN) sum += fmin(1, raw[i] / 65536.0);
+        }
+    end(&f);
+    return sum * unit * unit / width / texel_at_foot(c);
+}
+
+/* Over places that fill a few texels evenly. */
+static double mean_gap(const cell *c, const bias *b, double degrees, int n)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++) sum += gap_of(c, b, degrees, 0.4 * fmod(i * 0.6180339887, 1), 0.4 * fmod(i * 0.7548776662, 1));
+    return sum / n;
+}
+
+/* ---- Acne ------------------------------------------------------------------------------------------------------------- */
+
+/* Points of planes at that angle that are not wholly lit. */
+static long acne_of(const cell *wall, const bias *b, double degrees, int n)
+{
+    static fixture f;
+    cell c = *wall;
+    long dark = 0, seen = 0;
+    c.texels = TEXELS;
+    for (int i = 0; i < n; i++) {
+        plane_scene p;
+        plane_point h;
+        plane_scene_begin(&f, &p, &c, b, degrees * DEGREE, PI / 4 * i + (i & 1 ? 0 : 0.1));
+        if (draw(&f, &c, WIDTH, HEIGHT))
+            for (int k = 0; k < WIDTH * HEIGHT; k++) {
+                if (!plane_point_at(&h, &f, &p, k % WIDTH, k / WIDTH)) continue;
+                seen++;
+                dark += raw[k] < 65536;
+            }
+        end(&f);
+    }
+    CHECK(seen > 100);
+    return dark;
+}
+
+/* ---- Side by side ----------------------------------------------------------------------------------------------------- */
+
+/* What the automatic bias may lose to one that has acne nowhere either: the mean of n places is good to a hundredth of a texel, and rounding of
+ * stored depths is taken off along the ray under spot and point lights (NUMERICS 4.11). */
+static void test_contact(void)
+{
+    static const double degrees[] = {10, 30, 50, 75};
+    static const scene_filter filters[2] = {SCENE_FILTER_HARD, SCENE_FILTER_5X5};
+    for (int kind = 0; kind < 3; kind++)
+        for (int k = 0; k < 2; k++)
+            for (int a = 0; a < 4; a++) {
+                const cell c = {(scene_light_kind)kind, filters[k], 16, SETTINGS_ACCURATE, WALL_TEXELS};
+                const double now = mean_gap(&c, &beside[DEFAULT], degrees[a], 10), then = mean_gap(&c, &beside[NORMAL], degrees[a], 10);
+                CHECK_EQ_INT(acne_of(&c, &beside[NORMAL], degrees[a], 2), 0);
+                if (!CHECK(then <= now + (kind == SCENE_LIGHT_DIRECTIONAL ? 0.02 : 0.03)))
+                    printf("  %s, %s, %.0f degrees: %.3f, default %.3f\n", kind_name[kind], filter_name[c.filter], degrees[a], then, now);
+            }
+}
+
+static void print_table(void)
+{
+    static const scene_filter filters[3] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_5X5};
+    for (int bits = 16; bits >= 8; bits -= 8)
+        for (int kind = 0; kind < 3; kind++) {
+            printf("\n**%s, %d bits**\n\n| angle |", kind_name[kind], bits);
+            for (int k = 0; k < 3; k++)
+                for (int i = 0; i < N_BESIDE; i++) printf(" %s: %s |", filter_name[filters[k]], beside[i].name);
+            printf("\n|---|---|---|---|---|---|---|---|---|---|\n");
+            for (double degrees = 10; degrees <= 80; degrees += 10) {
+                printf("| %.0f° |", degrees);
+                for (int k = 0; k < 3; k++)
+                    for (int i = 0; i < N_BESIDE; i++) {
+                        const cell c = {(scene_light_kind)kind, filters[k], bits, SETTINGS_ACCURATE, WALL_TEXELS};
+                        printf(" %ld, %.2f |", acne_of(&c, &beside[i], degrees, 8), mean_gap(&c, &beside[i], degrees, 24));
+                    }
+                printf("\n");
+            }
+        }
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1 && strcmp(argv[1], "--table") == 0) {
+        print_table();
+        return check_n_failed ? 1 : 0;
+    }
+    test_contact();
+    return check_report();
+}
