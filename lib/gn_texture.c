@@ -2,6 +2,7 @@
  * until the end, so that a product with a weight fits 32 bits: a step to 16 bits after each axis, and one to 65536 = 1. */
 #include "gn_texture.h"
 #include "gn_count.h"
+#include "gn_hint.h"
 #include "gn_q.h"
 #include "gn_tables.h"
 
@@ -20,7 +21,7 @@ static int32_t texels_q16(int32_t c_q20, int32_t size_log2)
     return size_log2 >= 4 ? (int32_t)((uint32_t)c_q20 << (size_log2 - 4)) : c_q20 >> (4 - size_log2);
 }
 
-static axis_taps find_taps(int32_t c_q20, int32_t size_log2, int clamped, int bilinear)
+static GN_SHARED axis_taps find_taps(int32_t c_q20, int32_t size_log2, int clamped, int bilinear)
 {
     uint32_t last = (1U << size_log2) - 1;
     int32_t half = bilinear ? 32768 : 0;
@@ -45,7 +46,7 @@ typedef struct {
     int bilinear;
 } footprint;
 
-static void find_texels(footprint *out, const gn_texture *texture, int32_t u_q20, int32_t v_q20)
+static GN_SHARED void find_texels(footprint *out, const gn_texture *texture, int32_t u_q20, int32_t v_q20)
 {
     out->bilinear = (texture->flags & GN_TEXTURE_BILINEAR) != 0;
     axis_taps u = find_taps(u_q20, texture->width_log2, texture->flags & GN_TEXTURE_CLAMP_U, out->bilinear);
@@ -74,6 +75,13 @@ static uint32_t to_uq16(uint32_t v)
 }
 
 #if GN_TEXTURES || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+/* Whether all four are the same, as in what has one colour. */
+static inline int is_even(const footprint *f, uint32_t channel)
+{
+    const uint8_t *const *t = f->texel;
+    return !GN_SIZE_FIRST && !((t[0][channel] ^ t[1][channel]) | (t[0][channel] ^ t[2][channel]) | (t[0][channel] ^ t[3][channel]));
+}
+
 static uint32_t blend(const footprint *f, const uint32_t value[4])
 {
     return mix(mix(value[0], value[1], f->right_uq16), mix(value[2], value[3], f->right_uq16), f->down_uq16);
@@ -84,7 +92,7 @@ uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_
     footprint f;
     uint32_t value[4];
     find_texels(&f, texture, u_q20, v_q20);
-    if (!f.bilinear) return to_uq16(f.texel[0][channel] * 257U);
+    if (!f.bilinear || is_even(&f, channel)) return to_uq16(f.texel[0][channel] * 257U);
     for (int i = 0; i < 4; i++) value[i] = f.texel[i][channel] * 257U;
     return to_uq16(blend(&f, value));
 }
@@ -141,7 +149,7 @@ void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, 
     uint32_t value[4];
     find_texels(&f, texture, u_q20, v_q20);
     for (int c = 0; c < 3; c++) {
-        if (f.bilinear) {
+        if (f.bilinear && !is_even(&f, (uint32_t)c)) {
             for (int i = 0; i < 4; i++) value[i] = gn_srgb_decode_entry(f.texel[i][c]);
             rgb_uq16[c] = to_uq16(blend(&f, value));
         } else {
