@@ -8,9 +8,12 @@
 #define GN_KEEP(v) __asm__ volatile("" : "+r"(v))
 /* Of a function that is seldom called from a hot one: inlined, it would take registers. */
 #define GN_NOINLINE __attribute__((noinline))
+/* From one case into the next. */
+#define GN_GOES_ON __attribute__((fallthrough))
 #else
 #define GN_KEEP(v) ((void)0)
 #define GN_NOINLINE
+#define GN_GOES_ON ((void)0)
 #endif
 
 /* Where size comes first, a pointer to an element is computed once: v is not known to be what it was computed from. */

@@ -29,12 +29,12 @@ static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
 
 /* Identities in a tile ascend as it is drawn, so that a candidate wins where its depth is at least the cell's: all that is compared
  * is its depth with the bits of the identity set. */
-#define GN_CELL_(i)                                                                                                                \
+#define GN_CELL_(cell)                                                                                                             \
     do {                                                                                                                           \
         uint32_t candidate = iz | id_mask;                                                                                         \
-        if (candidate >= cell[i]) {                                                                                                \
+        if (candidate >= (cell)) {                                                                                                 \
             GN_KEEP(candidate);                                                                                                    \
-            cell[i] = candidate - below;                                                                                           \
+            (cell) = candidate - below;                                                                                            \
         }                                                                                                                          \
         iz += iz_dx;                                                                                                               \
         GN_KEEP(iz);                                                                                                               \
@@ -46,19 +46,44 @@ GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_
     GN_COUNT(covered, n);
     uint32_t iz_dx = depth->iz_dx, id_mask = depth->id_mask, below = depth->below;
     for (; n >= 4; n -= 4, cell += 4) {
-        GN_CELL_(0);
-        GN_CELL_(1);
-        GN_CELL_(2);
-        GN_CELL_(3);
+        GN_CELL_(cell[0]);
+        GN_CELL_(cell[1]);
+        GN_CELL_(cell[2]);
+        GN_CELL_(cell[3]);
         GN_KEEP(cell);
     }
     if (n & 2) {
-        GN_CELL_(0);
-        GN_CELL_(1);
+        GN_CELL_(cell[0]);
+        GN_CELL_(cell[1]);
         cell += 2;
         GN_KEEP(cell);
     }
-    if (n & 1) GN_CELL_(0);
+    if (n & 1) GN_CELL_(cell[0]);
+}
+
+/* Apart, so that it takes no registers of short spans. */
+static GN_NOINLINE void raster_long_span(uint32_t *end, int32_t n, uint32_t iz, const raster_depth *depth)
+{
+    raster_span(end - n, n, iz, depth);
+}
+
+/* The n cells before `end`, none if n is not positive: seldom more than eight. */
+GN_INLINE void raster_short_span(uint32_t *end, int32_t n, uint32_t iz, const raster_depth *depth)
+{
+    uint32_t iz_dx = depth->iz_dx, id_mask = depth->id_mask, below = depth->below;
+    GN_COUNT(covered, n > 0 && n <= 8 ? n : 0);
+    switch (n) { /* each goes on with those after it */
+    case 8: GN_CELL_(end[-8]); GN_GOES_ON;
+    case 7: GN_CELL_(end[-7]); GN_GOES_ON;
+    case 6: GN_CELL_(end[-6]); GN_GOES_ON;
+    case 5: GN_CELL_(end[-5]); GN_GOES_ON;
+    case 4: GN_CELL_(end[-4]); GN_GOES_ON;
+    case 3: GN_CELL_(end[-3]); GN_GOES_ON;
+    case 2: GN_CELL_(end[-2]); GN_GOES_ON;
+    case 1: GN_CELL_(end[-1]); break;
+    default:
+        if (n > 0) raster_long_span(end, n, iz, depth);
+    }
 }
 #undef GN_CELL_
 #endif
@@ -87,6 +112,7 @@ typedef struct {
     gn_rect rect;
     int32_t width, height; /* pixels */
     int32_t x, y;          /* of the picture's centre from the tile's corner, as corners of triangles */
+    uint32_t inside;       /* coordinates below it, a power of two, are left of the right border */
     uint32_t id_mask;
 } raster_tile;
 
@@ -148,6 +174,71 @@ static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri,
             GN_KEEP(row);
             GN_KEEP(iz_row);
         }
+    }
+}
+
+/* What is stepped from row to row of a narrow triangle. */
+typedef struct {
+    gn_walk_line left, right;
+    uint32_t iz, iz_dy;
+    uint32_t *row;
+} narrow_rows;
+
+/* The rows before `end`, of which there are some. They are cut to the tile's width, if not all of them lie inside. */
+GN_INLINE void raster_narrow_rows(narrow_rows *rows, const uint32_t *end, int32_t stride, int inside, int32_t width, const raster_depth *depth)
+{
+    uint32_t left = rows->left.x, right = rows->right.x, iz = rows->iz;
+    uint32_t *row = rows->row;
+    do {
+        int32_t xa = (int32_t)left >> GN_NARROW_BITS, xb = (int32_t)right >> GN_NARROW_BITS;
+        if (!inside) {
+            xa = gn_max32(xa, 0);
+            xb = gn_min32(xb, width);
+        }
+        GN_COUNT(rows, xb > xa);
+        raster_short_span(row + xb, xb - xa, iz + (uint32_t)xa * depth->iz_dx, depth);
+        left += rows->left.step;
+        right += rows->right.step;
+        iz += rows->iz_dy;
+        row += stride;
+        GN_KEEP(left); /* stepped, not found again after the loop */
+        GN_KEEP(right);
+        GN_KEEP(iz);
+        GN_KEEP(row);
+    } while (row != end);
+    rows->left.x = left, rows->right.x = right;
+    rows->iz = iz;
+    rows->row = row;
+}
+
+/* A triangle of a few pixels, that nothing cuts and whose depth needs no look: of most of them all is in one or two screen tiles. */
+static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+{
+    const int32_t bits = GN_K(tile->frame, subpixel_bits), half = (1 << bits) >> 1, stride = GN_K(tile->frame, tile_width);
+    const gn_walk_corner top = {tri->x[0] + tile->x, tri->y[0] + tile->y}, left = {tri->x[1] + tile->x, tri->y[1] + tile->y},
+                         right = {tri->x[2] + tile->x, tri->y[2] + tile->y};
+    int32_t at = gn_max32(gn_first_px(top.y, bits), 0), left_end = gn_first_px(left.y, bits), right_end = gn_first_px(right.y, bits);
+    int32_t end = gn_min32(gn_max32(left_end, right_end), tile->height), bend = gn_min32(left_end, right_end);
+    if (at >= end) return;
+    int inside = (uint32_t)(top.x | left.x | right.x) < tile->inside;
+    const raster_depth depth = {(uint32_t)tri->iz_dx, 0, 0, tile->id_mask, tile->id_mask - id};
+    narrow_rows rows;
+    rows.iz_dy = (uint32_t)tri->iz_dy;
+    rows.iz = tri->iz_ref + (uint32_t)(at - (top.y >> bits)) * rows.iz_dy - (uint32_t)(top.x >> bits) * depth.iz_dx;
+    uint32_t *cells = GN_CELLS(tile->scratch);
+    rows.row = cells + at * stride;
+    int32_t y = at * (1 << bits) + half;
+    rows.left = at < left_end ? gn_walk_narrow_at(top.x, top.y, left.x, left.y, y, bits) : gn_walk_narrow_at(left.x, left.y, right.x, right.y, y, bits);
+    rows.right = at < right_end ? gn_walk_narrow_at(top.x, top.y, right.x, right.y, y, bits) : gn_walk_narrow_at(right.x, right.y, left.x, left.y, y, bits);
+    if (bend <= at || bend > end) bend = end;
+    for (;;) {
+        if (inside) raster_narrow_rows(&rows, cells + bend * stride, stride, 1, 0, &depth);
+        else raster_narrow_rows(&rows, cells + bend * stride, stride, 0, tile->width, &depth);
+        if (bend == end) return;
+        y = bend * (1 << bits) + half;
+        if (bend == left_end) rows.left = gn_walk_narrow_at(left.x, left.y, right.x, right.y, y, bits);
+        else rows.right = gn_walk_narrow_at(right.x, right.y, left.x, left.y, y, bits);
+        bend = end;
     }
 }
 
@@ -226,6 +317,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     tile.x = ((frame->picture.width << bits) >> 1) - tile.rect.x0 * (1 << bits);
     tile.y = ((frame->picture.height << bits) >> 1) - tile.rect.y0 * (1 << bits);
     tile.id_mask = (1U << frame->id_bits) - 1;
+    if (!GN_SIZE_FIRST) tile.inside = 1U << (31 - gn_clz32((uint32_t)tile.width) + bits);
     GN_COUNT(screen_tiles, 1);
     GN_COUNT(pixels, tile.width * tile.height);
     memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
@@ -238,6 +330,10 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
         const gn_tri *tri = &frame->tri[tri_idx];
         GN_ELEMENT(tri);
 #if !GN_SIZE_FIRST
+        if (tri->iz_min == GN_NARROW + 1 && !tri->iz_max) {
+            raster_narrow(&tile, tri, gn_raster_id(frame, tri_idx));
+            continue;
+        }
         if (tri->iz_min > 1 && !tri->iz_max) {
             raster_small(&tile, tri, gn_raster_id(frame, tri_idx));
             continue;

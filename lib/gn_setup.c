@@ -92,6 +92,7 @@ typedef struct {
     uint32_t object_idx;
     const gn_object *object;
     int32_t lasts_mask; /* 0 where alpha cuts the object: its triangles are not drawn as gn_raster.c draws small ones */
+    int32_t narrow;     /* gn_walk_narrow, 0 there too */
     gn_xform xform;
     gn_xform_fast fast;
 } setup_job;
@@ -389,7 +390,8 @@ static GN_NOINLINE void emit(const setup_job *job, const projected *p0, const pr
     int32_t one = 1 << bits, x = a.x + ((frame->picture.width << bits) >> 1), y = a.y + ((frame->picture.height << bits) >> 1);
     int32_t to_x_q16 = ((a.x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->x_q16;
     int32_t to_y_q16 = ((a.y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->y_q16;
-    int32_t lasts = job->lasts_mask & gn_walk_lasts((uint32_t)(right - left) | (uint32_t)(bottom - a.y));
+    int32_t width = right - left, height = bottom - a.y, lasts = GN_NARROW;
+    if (GN_SIZE_FIRST || width >= job->narrow || height >= job->narrow) lasts = job->lasts_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height);
 #if !GN_SIZE_FIRST
     if (quick_depth(tri, a.at, b.at, c.at, to_x_q16, to_y_q16, lasts, bits)) return;
 #endif
@@ -478,6 +480,7 @@ static gn_status setup_object(setup_job *job)
     gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->object);
     if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
     job->lasts_mask = GN_VISIBLE_ALPHA && job->object->visible_alpha != GN_ALPHA_OPAQUE ? 0 : -1;
+    if (!GN_SIZE_FIRST) job->narrow = job->lasts_mask & gn_walk_narrow(GN_K(job->frame, subpixel_bits));
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
         gn_status status = fetch_corners(job, mesh->idx + 3 * (size_t)t, spare, c);
         if (!status) status = setup_triangle(job, c + 2, t);

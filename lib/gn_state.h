@@ -209,7 +209,7 @@ typedef struct {
     gn_coord x[3], y[3];     /* top, left and right of it: counter-clockwise in the world, its signed area on the screen (y down) is negative */
     uint32_t iz_ref;         /* near / Z at the centre of the pixel that holds vertex 0, Q0.32, modulo 2^32 */
     int32_t iz_dx, iz_dy;    /* per pixel, modulo 2^32 */
-    uint16_t iz_min, iz_max; /* bounds of near / Z, Q0.16, rounded outwards; where none are needed, 1 + gn_walk_lasts and 0 */
+    uint16_t iz_min, iz_max; /* bounds of near / Z, Q0.16, rounded outwards; where none are needed, 1 + gn_walk_lasts or GN_NARROW, and 0 */
     uint16_t object_idx;
     uint16_t triangle_idx;
 } gn_tri;

@@ -87,10 +87,33 @@ static inline gn_walk_line gn_walk_line_at(int32_t x0, int32_t y0, int32_t x1, i
 {
     int32_t one = 1 << subpixel_bits, half = one >> 1, dx = x1 - x0, dy = y1 - y0, row = y * one + half - y0; /* 0 .. dy */
     x0 -= half;
-    int32_t m = ((x0 & (one - 1)) * dy + row * dx + one - 1) >> subpixel_bits; /* from the upper end's pixel; 2^26 + 2^28 */
+    /* ceil(M) + dy - 1, from the upper end's pixel; 2^26 + 2^28 */
+    int32_t m = dy + (((x0 & (one - 1)) * dy + row * dx - 1) >> subpixel_bits);
     gn_walk_line line;
-    line.x = ((uint32_t)(x0 >> subpixel_bits) << GN_FIXED_BITS) + gn_walk_ratio(m + dy - 1, dy) + (uint32_t)n_rows;
+    line.x = ((uint32_t)(x0 >> subpixel_bits) << GN_FIXED_BITS) + gn_walk_ratio(m, dy) + (uint32_t)n_rows;
     line.step = gn_walk_ratio(dx, dy);
+    return line;
+}
+
+/* The same of triangles whose width and height are so small that no edge has more than 15 rows, and 16 fraction bits are enough: dy is at most
+ * 1900 units of the subpixel grid, and m of the function below, at most 2 dy + dx dy / 2^subpixel_bits, less than 2^15. */
+#define GN_NARROW_BITS 16
+#define GN_NARROW      1 /* in place of gn_walk_lasts */
+static inline int32_t gn_walk_narrow(int32_t subpixel_bits)
+{
+    return subpixel_bits < 7 ? 15 << subpixel_bits : 1900;
+}
+
+/* `y` is the row's centre. */
+static inline gn_walk_line gn_walk_narrow_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y, int32_t subpixel_bits)
+{
+    GN_KEEP(x0); /* nothing is found before it is wanted */
+    GN_KEEP(y0);
+    const int32_t unit = 1 << GN_NARROW_BITS;
+    int32_t one = 1 << subpixel_bits, dx = x1 - x0, dy = y1 - y0;
+    x0 -= one >> 1;
+    int32_t m = dy + (((x0 & (one - 1)) * dy + (y - y0) * dx - 1) >> subpixel_bits);
+    const gn_walk_line line = {((uint32_t)(x0 >> subpixel_bits) << GN_NARROW_BITS) + 16U + (uint32_t)(m * unit / dy), (uint32_t)(dx * unit / dy)};
     return line;
 }
 
