@@ -56,14 +56,17 @@ static uint32_t by_curve_565(const gn_frame *frame, const uint32_t c[3])
 }
 
 #if GN_LEVEL_TABLES
-/* A colour below 1 is of the level where its cell begins, or the next. */
+/* A colour below 1 is of the level where its cell begins, or the next. One less: what has not reached the level's end is below 0. */
+static inline uint32_t level_before(const uint8_t *levels, uint32_t v_q24, int shift)
+{
+    uint32_t level = levels[v_q24 >> shift];
+    return level - ((v_q24 - gn_level_end_q24[level]) >> 31);
+}
+
 static inline uint32_t pack_565(uint32_t r_q24, uint32_t g_q24, uint32_t b_q24)
 {
-    uint32_t red = gn_level_31_table[r_q24 >> 15], green = gn_level_63_table[g_q24 >> 14], blue = gn_level_31_table[b_q24 >> 15];
-    if (r_q24 >= gn_level_end_q24[red]) red++;
-    if (g_q24 >= gn_level_end_q24[green]) green++;
-    if (b_q24 >= gn_level_end_q24[blue]) blue++;
-    return (red << 11) + (green << 5) + blue - 64U; /* 64 << 11 lies above */
+    uint32_t red = level_before(gn_level_31_table, r_q24, 15), green = level_before(gn_level_63_table, g_q24, 14);
+    return (red << 11) + (green << 5) + level_before(gn_level_31_table, b_q24, 15) + (1U << 11) + (1U << 5) + 1 - 64; /* 64 << 11 lies above */
 }
 
 static inline uint32_t limited_q24(int32_t v)
@@ -189,9 +192,10 @@ static uint16_t *pixel_565(const gn_pixel_rows *rows, int32_t x, int32_t y)
 /* Whether n colours all lie in 0 .. 1. */
 static inline int stays_inside(const gn_ramp *ramp, int32_t n)
 {
-    uint32_t all = 0;
-    for (int c = 0; c < 3; c++) all |= (uint32_t)ramp->from_q24[c] | (uint32_t)(ramp->from_q24[c] + (n - 1) * ramp->step_q24[c]);
-    return all < 1U << 24;
+    const int32_t *from = ramp->from_q24, *step = ramp->step_q24;
+    int32_t last = n - 1;
+    int32_t all = from[0] | (from[0] + last * step[0]) | from[1] | (from[1] + last * step[1]) | from[2] | (from[2] + last * step[2]);
+    return (uint32_t)all < 1U << 24;
 }
 
 static inline void ramp_565(uint16_t *out, int32_t n, const gn_ramp *ramp, int inside)
@@ -202,16 +206,30 @@ static inline void ramp_565(uint16_t *out, int32_t n, const gn_ramp *ramp, int i
         *out++ = (uint16_t)(inside ? pack_565(r, g, b) : limit_and_pack_565((int32_t)r, (int32_t)g, (int32_t)b));
 }
 
-/* One channel of it, on top of those before. Levels of 31 are counted from 64: 64 << 11 lies above the pixel. */
+/* One channel of it, on top of those before; the last adds what level_before leaves out. */
+static inline uint32_t above(uint32_t left, uint32_t level, int c)
+{
+    return c == 0 ? level << 11 : left + (c == 1 ? level << 5 : level + (1U << 11) + (1U << 5) + 1 - 64);
+}
+
 static inline void mix_channel(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c, const uint32_t *share_uq16)
 {
     int32_t from = dark->from_q24[c], step = dark->step_q24[c], more = lit->from_q24[c] - from, more_step = lit->step_q24[c] - step;
-    for (uint16_t *end = out + n; out < end; from += step, more += more_step) {
+    for (uint16_t *end = out + n; out < end; from += step, more += more_step, out++) {
         int32_t v = from + (int32_t)((int64_t)more * (int32_t)*share_uq16++ >> 16);
-        uint32_t q24 = limited_q24(v), level = c == 1 ? gn_level_63_table[q24 >> 14] : gn_level_31_table[q24 >> 15];
-        if (q24 >= gn_level_end_q24[level]) level++;
-        uint32_t left = c == 0 ? 0 : *out;
-        *out++ = (uint16_t)(left + (c == 0 ? level << 11 : c == 1 ? level << 5 : level - 64));
+        *out = (uint16_t)above(c == 0 ? 0 : *out, level_before(c == 1 ? gn_level_63_table : gn_level_31_table, limited_q24(v), c == 1 ? 14 : 15), c);
+    }
+}
+
+/* The same of colours that stay inside: in 31 bits, the difference rounded down to 15. */
+static inline void mix_inside(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c, const uint32_t *share_uq16)
+{
+    const uint8_t *levels = c == 1 ? gn_level_63_table : gn_level_31_table;
+    uint32_t from = (uint32_t)dark->from_q24[c] << 7, step = (uint32_t)dark->step_q24[c] << 7;
+    int32_t more = lit->from_q24[c] - dark->from_q24[c], more_step = lit->step_q24[c] - dark->step_q24[c];
+    for (uint16_t *end = out + n; out < end; from += step, more += more_step) {
+        uint32_t v = from + (uint32_t)(more >> 9) * *share_uq16++, left = c == 0 ? 0 : *out;
+        *out++ = (uint16_t)above(left, level_before(levels, v >> 7, c == 1 ? 14 : 15), c);
     }
 }
 #endif
@@ -246,6 +264,12 @@ void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, i
 #if GN_LEVEL_TABLES
     if (has_levels(frame)) {
         uint16_t *out = pixel_565(rows, x, y);
+        if (stays_inside(dark, n) && stays_inside(lit, n)) {
+            mix_inside(out, n, dark, lit, 0, share_uq16);
+            mix_inside(out, n, dark, lit, 1, share_uq16);
+            mix_inside(out, n, dark, lit, 2, share_uq16);
+            return;
+        }
         mix_channel(out, n, dark, lit, 0, share_uq16);
         mix_channel(out, n, dark, lit, 1, share_uq16);
         mix_channel(out, n, dark, lit, 2, share_uq16);

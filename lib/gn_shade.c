@@ -303,6 +303,7 @@ typedef struct {
     gn_shading *s;
     uint32_t n_linked;
     uint32_t plain_idx, packed; /* the plain object met last, of 16 bits per pixel */
+    uint32_t lit_idx;           /* the object met last that is not */
     object_look looks[LOOKS];
 } run_sorter;
 
@@ -324,6 +325,7 @@ static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uint32_t i
             sorter->packed = look->packed;
             return;
         }
+        sorter->lit_idx = gn_raster_tri(s->frame, id)->object_idx;
     }
     gn_runs_link(s->scratch, id, at, n_px);
     sorter->n_linked++;
@@ -335,12 +337,12 @@ static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
     const gn_frame *frame = s->frame;
     const gn_tri *end = gn_raster_tri(frame, 0);
     run_sorter sorter;
-    uint32_t id_mask = (1U << frame->id_bits) - 1, width = (uint32_t)s->rows.width, plain_idx = UINT32_MAX, packed = 0;
-    uint32_t *cells = GN_CELLS(s->scratch), *row = cells + n_rows * GN_K(frame, tile_width);
+    uint32_t id_mask = (1U << frame->id_bits) - 1, width = (uint32_t)s->rows.width, plain_idx = UINT32_MAX, lit_idx = UINT32_MAX, packed = 0;
+    uint32_t *cells = GN_CELLS(s->scratch), *row = cells + n_rows * GN_K(frame, tile_width), n_linked = 0;
     uint16_t *pixel = s->scratch->pixel.rgb565 + (uint32_t)n_rows * width;
     sorter.s = s;
     sorter.n_linked = 0;
-    sorter.plain_idx = UINT32_MAX;
+    sorter.plain_idx = sorter.lit_idx = UINT32_MAX;
     for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) sorter.looks[i].object_idx = UINT32_MAX;
     gn_runs_clear(s->scratch);
     while (row > cells) {
@@ -362,13 +364,19 @@ static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
                 } while (--n_px);
                 continue;
             }
+            if (!GN_SIZE_FIRST && (end - id)->object_idx == lit_idx) {
+                gn_runs_link(s->scratch, id, (uint32_t)(first - cells), n_px);
+                n_linked++;
+                continue;
+            }
             sort_run(&sorter, first, id, n_px);
+            lit_idx = sorter.lit_idx;
             plain_idx = sorter.plain_idx;
             packed = sorter.packed;
         }
         row[-1] = before;
     }
-    return sorter.n_linked;
+    return sorter.n_linked + n_linked;
 }
 
 static void clear_background(gn_shading *s)

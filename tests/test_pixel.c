@@ -207,6 +207,11 @@ static void test_levels(void)
     CHECK_EQ_INT(n, 256);
 }
 
+static uint32_t q20_of(int32_t q24)
+{
+    return q24 < 0 ? 0 : (uint32_t)q24 >> 4;
+}
+
 /* Ramps of RGB565 are packed by tables; every light from black to white, and what lies beyond, as gn_pixel_pack() has it. */
 static void test_ramp(void)
 {
@@ -218,13 +223,12 @@ static void test_ramp(void)
     for (size_t k = 0; k < 3; k++) {
         frame.picture.format = formats[k];
         for (int32_t first = -4 * N; first < ONE_Q20 + 4 * N; first += N) {
-            const int32_t from[3] = {first * 16 + 15, (ONE_Q20 - first) * 16, (first ^ 0x5555) * 16}, step[3] = {16, -16, 48};
-            gn_pixel_ramp(&frame, &rows, 0, 0, N, from, step);
+            const gn_ramp ramp = {{first * 16 + 15, (ONE_Q20 - first) * 16, (first ^ 0x5555) * 16}, {16, -16, 48}};
+            gn_pixel_ramp(&frame, &rows, 0, 0, N, &ramp);
             for (int32_t i = 0; i < N; i++) {
                 uint32_t q20[3];
                 for (int c = 0; c < 3; c++) {
-                    int32_t q24 = from[c] + i * step[c];
-                    q20[c] = q24 < 0 ? 0 : (uint32_t)q24 >> 4;
+                    q20[c] = q20_of(ramp.from_q24[c] + i * ramp.step_q24[c]);
                 }
                 uint32_t is = k < 2 ? pixels.rgb565[i] : pixels.bytes[i], want = gn_pixel_pack(&frame, q20);
                 HOLDS(&same, is == want, "%d, format %d: %x, not %x", (int)(first + i), (int)k, (unsigned)is, (unsigned)want);
@@ -232,6 +236,58 @@ static void test_ramp(void)
         }
     }
     CHECK_TALLY(same, "ramps are packed like single pixels");
+}
+
+static uint32_t mix_state = 1;
+
+static int32_t random_below(int32_t n)
+{
+    mix_state = mix_state * 1664525U + 1013904223U;
+    return (int32_t)((uint64_t)mix_state * (uint32_t)n >> 32);
+}
+
+/* Each channel is what lies so far between dark and lit has, or what lies 2^-15 below it. */
+static int between(uint32_t is, uint32_t want, uint32_t below)
+{
+    static const uint32_t channel[3] = {31U << 11, 63U << 5, 31U};
+    for (int c = 0; c < 3; c++)
+        if ((is & channel[c]) > (want & channel[c]) || (is & channel[c]) < (below & channel[c])) return 0;
+    return 1;
+}
+
+/* Rows between two ramps, all of it within 0 .. 1 or not. */
+static void test_mix(void)
+{
+    enum { N = 16 };
+    static gn_tile_pixels pixels;
+    gn_pixel_rows rows = {&pixels, N, 0, 0};
+    tally same = {0};
+    frame.picture.format = GN_FORMAT_RGB565;
+    for (int k = 0; k < 20000; k++) {
+        gn_ramp ramp[2];
+        uint32_t share[N];
+        for (int i = 0; i < N; i++) share[i] = (uint32_t)random_below(4) == 0 ? (uint32_t)random_below(2) * 65536 : (uint32_t)random_below(65537);
+        for (int side = 0; side < 2; side++)
+            for (int c = 0; c < 3; c++) {
+                int32_t last = random_below(1 << 24) + (k % 4 ? 0 : random_below(1 << 24) - (1 << 23));
+                ramp[side].from_q24[c] = random_below(1 << 24);
+                ramp[side].step_q24[c] = (last - ramp[side].from_q24[c]) / (N - 1);
+            }
+        gn_pixel_mix(&frame, &rows, 0, 0, N, &ramp[0], &ramp[1], share);
+        for (int i = 0; i < N; i++) {
+            uint32_t q20[3], below[3];
+            for (int c = 0; c < 3; c++) {
+                int32_t dark = ramp[0].from_q24[c] + i * ramp[0].step_q24[c], lit = ramp[1].from_q24[c] + i * ramp[1].step_q24[c];
+                int32_t v = dark + (int32_t)((int64_t)(lit - dark) * (int32_t)share[i] >> 16);
+                q20[c] = q20_of(v);
+                below[c] = q20_of(v - 512);
+            }
+            uint32_t want = gn_pixel_pack(&frame, q20);
+            HOLDS(&same, between(pixels.rgb565[i], want, gn_pixel_pack(&frame, below)), "%d of row %d: %x, not %x", i, k, (unsigned)pixels.rgb565[i],
+                  (unsigned)want);
+        }
+    }
+    CHECK_TALLY(same, "pixels between dark and lit");
 }
 
 int main(void)
@@ -242,6 +298,7 @@ int main(void)
     test_fill();
     test_levels();
     test_ramp();
+    test_mix();
     test_greys();
     test_packed_rows();
     return check_report();

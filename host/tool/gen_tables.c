@@ -77,7 +77,7 @@ static void print_borders(const double *table, uint32_t levels)
         while (level_of(table, x, levels) < level) x++;
         printf("%s%luU,", level % 12 == 1 ? "\n    " : " ", (unsigned long)x << 4);
     }
-    printf(" 0xFFFFFFFFU,");
+    printf(" %luU,", 1UL << 24); /* no colour ends it */
 }
 
 int main(void)
