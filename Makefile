@@ -64,7 +64,7 @@ boards: ## list the boards
 size: ## measure flash, RAM and worst-case stack on the targets; WRITE=1 renews baseline and docs/MEMORY.md
 	@sh tests/size.sh $(if $(WRITE),--write)
 
-docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages casters radiance punctual accuracy bias census rows seams crawl kept culling lists changes extremes extremes_light extremes_many) ## regenerate the generated parts of docs/
+docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages casters radiance punctual accuracy bias contact census rows seams crawl kept culling lists changes extremes extremes_light extremes_many) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
 
 matrix: $(BUILD)/gnomon ## measure what each feature costs on two cores, in some minutes: docs/MATRIX.md

@@ -34,6 +34,8 @@ fi
 replace BIAS.md bias "$work/bias"
 "$build/test_census" --table >"$work/census"
 replace BIAS.md census "$work/census"
+"$build/test_contact" --table >"$work/contact"
+replace BIAS.md contact "$work/contact"
 mkdir -p "$out/pictures"
 "$build/test_census" --plots "$out/pictures"
 sh docs/gallery.sh "$tool" "$out"

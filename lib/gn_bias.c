@@ -235,12 +235,14 @@ void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int3
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* Normal: the way off the plane that a tap's reach takes, in units of the light-plane distance, Q30: A / (1 - A max(0, m_w)),
- * A = reach * tau * (|m_u| + |m_v|). Returns -1 where it would be above 2, or the divisor below 1/2. */
-static int64_t lift_share_q30(const gn_light_view *view, int64_t across_q30, int64_t m_w_q30)
+/* Normal: the way off the plane that a tap's reach and the rounding of depths take, in units of the light-plane distance, Q30:
+ * A / (1 - A max(0, m_w)), A = reach * tau * (|m_u| + |m_v|) + D_s h / n. Returns -1 where it would be above 2, or the divisor below 1/2. */
+static int64_t lift_share_q30(const gn_light_view *view, int64_t across_q30, int64_t m_w_q30, int64_t h_q16)
 {
     const int64_t two = (int64_t)2 << 30;
-    int64_t share = gn_bf_apply(view->offset_q16 * across_q30 >> 16, view->fit.persp.texel_per_z, 0) + 1; /* 2^21 * 2^31 */
+    int64_t share = gn_bf_apply(view->offset_q16 * across_q30 >> 16, view->fit.persp.texel_per_z, 0) + 2; /* 2^21 * 2^31 */
+    gn_bfloat per_near = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)view->fit.persp.near_q16));
+    share += gn_bf_apply((h_q16 + 2) * view->auto_step, per_near, -2); /* 2^32 * 2^24; h is rounded */
     if (share > two) return -1;
     if (m_w_q30 <= 0) return share;
     int64_t left = ((int64_t)1 << 30) - (share * m_w_q30 >> 30); /* seen from behind the light's plane */
@@ -271,14 +273,14 @@ int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias *form, const 
     for (int i = 0; i < 3; i++) m_q30[i] = gn_dot_q30(face_q30, view->axis_q30[i]);
     int64_t u_q30 = (int64_t)gn_abs64(m_q30[0]), v_q30 = (int64_t)gn_abs64(m_q30[1]), across_q30 = u_q30 + v_q30;
     int64_t lift_q16 = place_error_persp_q16(view, depth_q16);
-    int64_t less_q32 = view->auto_step;
-    int64_t share_q30 = *form == GN_AUTO_BIAS_NORMAL ? lift_share_q30(view, across_q30, m_q30[2]) : -1;
+    int64_t less_q32 = 0;
+    int64_t share_q30 = *form == GN_AUTO_BIAS_NORMAL ? lift_share_q30(view, across_q30, m_q30[2], h_q16) : -1;
     if (share_q30 < 0) *form = GN_AUTO_BIAS_DEPTH;
     if (*form == GN_AUTO_BIAS_NORMAL) {
         int64_t z_q16 = gn_clamp64(gn_dot_q30(from_q16, view->axis_q30[2]), 0, INT32_MAX);
         if (too_steep(view, u_q30 > v_q30 ? u_q30 : v_q30, h_q16)) less_q32 = (int64_t)1 << 33;
         lift_q16 += (z_q16 * share_q30 >> 30) + 1; /* 2^31 * 2^31 */
-    } else less_q32 += slope_share_q32(view, across_q30, h_q16);
+    } else less_q32 = view->auto_step + slope_share_q32(view, across_q30, h_q16);
     for (int i = 0; i < 3; i++) /* 2^33 * 2^30 would not fit, but a lift of 2^31 is beyond any light */
         moved_q16[i] = gn_sat32(from_q16[i] + gn_shr64(gn_clamp64(lift_q16, 0, INT32_MAX) * face_q30[i], 30));
     return less_q32;

@@ -110,7 +110,7 @@ variant() { # variant COMPILER OPTIMISATION [1: with the tests that run once]
 
 install_missing
 build all
-build build/test_oiio build/make_report build/test_stages build/test_casters build/test_radiance build/test_punctual build/test_accuracy build/test_bias build/test_census build/test_rows build/test_seams build/test_crawl \
+build build/test_oiio build/make_report build/test_stages build/test_casters build/test_radiance build/test_punctual build/test_accuracy build/test_bias build/test_contact build/test_census build/test_rows build/test_seams build/test_crawl \
     build/test_kept build/test_culling build/test_lists build/test_changes build/test_extremes build/test_extremes_light build/test_extremes_many build/gen_tables
 variant gcc -O2 1
 variant clang -O0

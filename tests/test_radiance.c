@@ -519,15 +519,17 @@ static void check_automatic(const gn_light_view *view, const receiver *r, const 
         axis_of(view->axis_q30[i], axis);
         m[i] = dot(face, axis);
     }
-    const double across = reach * r->tau * (fabs(m[0]) + fabs(m[1])), near = view->fit.persp.near_q16 * LSB16;
+    const double near = view->fit.persp.near_q16 * LSB16, rounded = ldexp(view->auto_step, -32) / near; /* per distance from the plane */
     const int is_normal = lamp.auto_bias == GN_AUTO_BIAS_NORMAL;
+    const double across = reach * r->tau * (fabs(m[0]) + fabs(m[1])) + (is_normal ? rounded * h : 0);
     if (across > 0.4 || h < 0.05 || near * r->tau * fmax(fabs(m[0]), fabs(m[1])) > 1.9 * h) return; /* edge on */
     const double share = across / (1 - across * fmax(0, m[2])), lift = place_of(view, r) + (is_normal ? r->z * share : 0);
     int32_t moved[3];
     gn_auto_bias form = lamp.auto_bias;
     const int64_t less = gn_bias_auto_persp(view, &form, face_q30, r->depth_q16, r->from_q16, moved);
-    /* roundings upwards: 1 of the place, 1 + 2 of the share, 1 of the lift; axes and face are rounded */
-    const double off = 4 * LSB16 + r->z * ldexp(4, -30) + share * (LSB16 / 2 + r->distance * ldexp(5.2, -30)) + r->z * share * ldexp(1, -26);
+    CHECK(!is_normal || less == 0);
+    /* roundings upwards: 1 of the place, 2 + 2 of the share, 1 of the lift; axes and face are rounded, h is by 1.5 LSB and 2 more */
+    const double off = 4 * LSB16 + r->z * (ldexp(5, -30) + (is_normal ? 3.5 * LSB16 + r->distance * ldexp(5.2, -30) : 0) * rounded) + share * (LSB16 / 2 + r->distance * ldexp(5.2, -30)) + r->z * share * ldexp(1, -26);
     for (int k = 0; k < 3; k++)
         record(STAGE_LIFT + is_point(), fabs((moved[k] - r->from_q16[k]) * LSB16 - lift * face[k]), fabs(face[k]) * off + LSB16 / 2, LSB16);
     const double slope = near * across / h, lsb = ldexp(1, -32);

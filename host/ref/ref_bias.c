@@ -115,15 +115,15 @@ static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene
 {
     const ref_options *o = frame->options;
     const double reach = tap_reach(view) + tap_error(o) + view->tile_texels / 2.0 * quotient_error(o);
-    const double across = fabs(m.x) + fabs(m.y), lift = place_error(frame, view_depth);
+    const double across = fabs(m.x) + fabs(m.y), lift = place_error(frame, view_depth), h = fabs(vec3_dot(m, point));
     *less = step_error(o, view) + quotient_error(o) + plane_error(o, view);
     if (at->curved) return vec3_scale(m, lift + point.z * view->texel * sqrt(2.0) * smooth_reach(view, reach));
-    const double a = reach * view->texel * across, left = 1.0 - a * fmax(0.0, m.z), share = a / left;
+    const double a = reach * view->texel * across + *less * h / view->near, left = 1.0 - a * fmax(0.0, m.z), share = a / left;
     if (form == SCENE_AUTO_BIAS_DEPTH || a > MOST_SHARE || left < 0.5 || share > MOST_SHARE) {
-        *less += fmin(2.0, reach * view->near * view->texel * across / fabs(vec3_dot(m, point)));
+        *less += fmin(2.0, reach * view->near * view->texel * across / h);
         return vec3_scale(m, lift);
     }
-    if (view->near * view->texel * fmax(fabs(m.x), fabs(m.y)) > 2.0 * fabs(vec3_dot(m, point))) *less = 2.0;
+    *less = view->near * view->texel * fmax(fabs(m.x), fabs(m.y)) > 2.0 * h ? 2.0 : 0.0;
     return vec3_scale(m, lift + point.z * share);
 }
 
