@@ -190,6 +190,37 @@ static void decide(const gn_frame *frame, const gn_light_state *light, const gn_
 }
 #endif
 
+/* Whether nothing arrives between two points that nothing arrives at. Range and cone are convex: from the middle of the way, which is no
+ * farther than half of it from every other point of it, to the surface of one of them it must be farther than that. */
+static int stays_dark(const gn_surface *surface, const gn_light_state *light, const int32_t *a, const int32_t *b)
+{
+    const int32_t *a_q16 = a + GN_LIGHT_POINT_AT, *b_q16 = b + GN_LIGHT_POINT_AT;
+    int32_t middle_q16[3];
+    uint64_t size = 0, way = 64, d2 = 0, scaled2 = 0; /* along the axes, and what steps may be off by; Q32 */
+    uint32_t any = 0;
+    if (!GN_SMOOTH(surface) && a[GN_LIGHT_FACING] <= 0 && b[GN_LIGHT_FACING] <= 0) return 1;
+    for (int i = 0; i < 3; i++) {
+        middle_q16[i] = (int32_t)(((int64_t)a_q16[i] + b_q16[i]) >> 1);
+        uint32_t m = gn_abs32(middle_q16[i]);
+        way += gn_abs64((int64_t)b_q16[i] - a_q16[i]);
+        size += m;
+        any |= m;
+        d2 += (uint64_t)m * m;
+    }
+    way >>= 1;
+    if (8 * way > size) return 0; /* and what follows fits */
+    if (d2 >= light->range2_q32 && d2 - light->range2_q32 > 2 * way * size + way * way) return 1; /* (r + way)^2, r no more than the size */
+    if (light->kind != GN_LIGHT_SPOT) return 0;
+    /* cos(outer / 2) |p| is more than the light-plane distance, even if both change by the way; what a root of one step may be off by is added */
+    int32_t drop = gn_max32(0, 17 - gn_clz32(any | 1U)); /* to 15 bits */
+    int64_t along = (-gn_dot_q30(middle_q16, light->to_light_q30) + (int64_t)(2 * way + (size >> 12))) >> drop;
+    if (along < 0) return 1;
+    if (along >= 65535) return 0;
+    for (int i = 0; i < 3; i++) scaled2 += (uint64_t)(gn_abs32(middle_q16[i]) >> drop) * (gn_abs32(middle_q16[i]) >> drop);
+    uint64_t cosine = (uint64_t)(light->cos_outer_q30 >> 15);
+    return scaled2 * (cosine * cosine) > (uint64_t)((along + 1) * (along + 1)) << 30; /* 3 * 2^30 * 2^30, 2^32 * 2^30 */
+}
+
 /* Sets the steps of one light. Returns 0 where no parabola will do: at the rim of a cone, at a terminator, from face to face. */
 static int between(const gn_frame *frame, const gn_surface *surface, uint32_t slot, gn_chord *chord, gn_sample *sa, const gn_sample *sb,
                    int32_t n)
@@ -199,6 +230,7 @@ static int between(const gn_frame *frame, const gn_surface *surface, uint32_t sl
     const gn_arrival *b = &sb->arrival[slot];
     int32_t first = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * (int32_t)slot, middle = n >> 1, value[GN_VALUES_PER_LIGHT];
     gn_arrival_steps *steps = &chord->arrival[slot];
+    if (!a->reaches && !b->reaches) return stays_dark(surface, light->state, sa->value + first, sb->value + first);
     if (!a->reaches || !b->reaches || a->side != b->side) return 0;
     if (!is_far(sa->value + first + GN_LIGHT_POINT_AT, sb->value + first + GN_LIGHT_POINT_AT)) return 0;
     for (int32_t i = 0; i < GN_VALUES_PER_LIGHT; i++) value[i] = after(chord, sa->value, first + i, middle);
@@ -239,6 +271,7 @@ void gn_arrivals_between(gn_chord *chord, const gn_frame *frame, const gn_surfac
 
 static void step(gn_arrival_steps *steps, gn_arrival *out)
 {
+    if (!out->reaches) return; /* nor will it */
     out->irradiance_q24 = (uint32_t)gn_max32(0, (int32_t)out->irradiance_q24 + steps->step[0]);
     steps->step[0] += steps->bend[0];
 #if GN_SHADOWS

@@ -86,6 +86,7 @@ static void begin_light(rng *r)
     fresh.frame.knobs.persp_step = 16;
     fresh.frame.knobs.other_atlas_size = light->kind == GN_LIGHT_POINT ? 512 : 128; /* 128 texels a tile */
     CHECK_EQ_INT(gn_begin(&fresh, &ls.scene), GN_OK);
+    for (size_t i = 0; i < sizeof fresh.frame.other_block / sizeof *fresh.frame.other_block; i++) fresh.frame.other_block[i] = (gn_depth_block){0, UINT16_MAX}; /* nothing is decided */
 }
 
 /* A sample at a point of the plane n . p = -height as the light sees it. Returns n . (light - point). */
@@ -104,12 +105,36 @@ static struct {
     long held, tried;
 } seen_of[2], *seen = seen_of; /* spot, point */
 
+static struct {
+    long held, tried; /* of those that are dark all along */
+    long wrong;       /* pixels that something is said to arrive at nevertheless */
+    double brightest;  /* of 1 / d^2, in those that held */
+} dark_of[2], *dark = dark_of;
+
+/* Nothing arrives at either end: nothing must where that is taken for all that lies between. */
+static void check_dark(gn_chord *chord, gn_sample *here, const gn_sample *next, const double a[3], const double b[3], const double n[3], int32_t px)
+{
+    double brightest = 0;
+    gn_arrivals_between(chord, &fresh.frame, &surface, here, next, px);
+    for (int32_t k = 1; k < px; k++) {
+        double p[3];
+        for (int i = 0; i < 3; i++) p[i] = a[i] + (b[i] - a[i]) * k / px;
+        const arrived exact = exact_at(&ls.light[0], 0, p, -dot(n, p));
+        brightest = fmax(brightest, exact.irradiance * dot(p, p) / ldexp(1, fresh.frame.light[0].colour_exp));
+        gn_arrivals_next(chord, &fresh.frame, &surface, here);
+        dark->wrong += chord->arrival[0].holds && here->arrival[0].reaches;
+    }
+    dark->tried += brightest == 0;
+    dark->held += chord->arrival[0].holds;
+    if (chord->arrival[0].holds) dark->brightest = fmax(dark->brightest, brightest);
+}
+
 /* Two points and what lies between them. */
 static void check_chord(rng *r)
 {
     const gn_light *light = &ls.light[0];
     double a[3], b[3], n[3], length = 0;
-    const double d = random_of(r, 0.6, light->range_q16 / 65536.0), moved = d * pow(2, -random_of(r, 2, 7));
+    const double d = random_of(r, 0.6, 1.2 * light->range_q16 / 65536.0), moved = d * pow(2, -random_of(r, 2, 7));
     for (int i = 0; i < 3; i++) n[i] = random_of(r, -1, 1), a[i] = random_of(r, -1, 1), length += a[i] * a[i];
     for (int i = 0; i < 3; i++) a[i] *= d / sqrt(length);
     length = sqrt(dot(n, n)) * (dot(n, a) > 0 ? -1 : 1);
@@ -128,6 +153,7 @@ static void check_chord(rng *r)
     if (!gn_chord_between(&chord, &fresh.frame, &surface, &here, &next, px)) return;
     gn_arrivals_at(&fresh.frame, &surface, &here);
     gn_arrivals_at(&fresh.frame, &surface, &next);
+    if (!here.arrival[0].reaches && !next.arrival[0].reaches && dot(n, a) < -0x1p-12) check_dark(&chord, &here, &next, a, b, n, px);
     if (!here.arrival[0].reaches) return;
     const int face = here.arrival[0].face;
     seen->tried++;
@@ -159,6 +185,7 @@ int main(void)
     for (int i = 0; i < 300; i++) {
         begin_light(&r);
         seen = &seen_of[ls.light[0].kind == GN_LIGHT_POINT];
+        dark = &dark_of[seen == &seen_of[1]];
         for (int k = 0; k < 400; k++) check_chord(&r);
     }
     for (int k = 0; k < 2; k++) {
@@ -169,6 +196,9 @@ int main(void)
         CHECK(seen->irradiance <= 0x1p-8 && 0x1p-8 < 8 * seen->irradiance);
         CHECK(seen->texels <= 0x1p-6 && 0x1p-6 < 8 * seen->texels);
         CHECK(seen->off_plane <= 1 && 1 < 8 * seen->off_plane);
+        printf("    dark at both ends: %ld of %ld that are dark all along are known to be, with %g of 1 / d^2 at most\n", dark_of[k].held, dark_of[k].tried, dark_of[k].brightest);
+        CHECK(dark_of[k].brightest == 0 && dark_of[k].wrong == 0);
+        CHECK(2 * dark_of[k].held > dark_of[k].tried);
     }
     return check_report();
 }
