@@ -1,4 +1,6 @@
 /* Triangles that alpha cuts. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_alpha.h"
 #include "gn_math.h"
 #include "gn_noise.h"
@@ -163,5 +165,7 @@ int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x)
     if (cut->mode == GN_ALPHA_CLIP) return alpha < cut->object->alpha_cutoff_uq16;
     return alpha < gn_noise_uq16(x, cut->y);
 }
+
+#endif
 
 #endif

@@ -1,4 +1,6 @@
 /* What arrives from spot and point lights. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_arrival.h"
 #include "gn_bias.h"
 #include "gn_count.h"
@@ -293,6 +295,8 @@ void gn_arrivals_next(gn_chord *chord, const gn_frame *frame, const gn_surface *
                    &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i], &sample->arrival[i]);
     }
 }
+#endif
+
 #endif
 
 #endif

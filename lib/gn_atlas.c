@@ -1,4 +1,6 @@
 /* Shadow tiles. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include <string.h>
 
 #include "gn_atlas.h"
@@ -450,5 +452,7 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
 #endif
     return GN_OK;
 }
+
+#endif
 
 #endif

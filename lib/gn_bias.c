@@ -1,4 +1,6 @@
 /* Receiver bias. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_bias.h"
 #include "gn_cascade.h"
 #include "gn_math.h"
@@ -286,6 +288,8 @@ int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias *form, const 
     return less_q32;
 }
 #endif
+#endif
+
 #endif
 
 #endif

@@ -1,4 +1,6 @@
 /* Counting sort of triangles into screen tiles, in triangle order. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_bin.h"
 #include "gn_count.h"
 #include "gn_q.h"
@@ -59,3 +61,5 @@ gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch)
     }
     return GN_OK;
 }
+
+#endif

@@ -1,4 +1,6 @@
 /* Bounds of shadow depth over blocks of texels. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_blocks.h"
 #include "gn_q.h"
 #include "gn_texel.h"
@@ -90,5 +92,7 @@ gn_depth_block gn_blocks_over(const gn_light_view *view, int32_t u, int32_t v, i
     }
     return bounds;
 }
+
+#endif
 
 #endif

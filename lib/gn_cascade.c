@@ -1,4 +1,6 @@
 /* Cascades: slices of the frustum, their spheres, and how shadows end with distance. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_cascade.h"
 #include "gn_math.h"
 #include "gn_q.h"
@@ -111,5 +113,7 @@ int32_t gn_cascade_fit_sphere(const gn_frame *frame, int32_t near_q16, int32_t f
     radius->exp -= 24 + 16;
     return (int32_t)gn_shr64(centre_q24 * far_q16, 24);
 }
+
+#endif
 
 #endif

@@ -1,4 +1,6 @@
 /* Spans of shadow texels. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_caster.h"
 #include "gn_blocks.h"
 #include "gn_count.h"
@@ -144,5 +146,7 @@ int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const g
     int32_t n_rows = gn_caster_begin(frame, view, walk, x, y);
     return n_rows ? gn_caster_rows(view, caster, walk, n_rows, alpha) : 0;
 }
+
+#endif
 
 #endif

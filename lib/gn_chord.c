@@ -4,6 +4,8 @@
  * s = (u + a)/(1 + a u), u = -1..1 along the pixels, a = (z1 - z0)/(z1 + z0). The parabola s = u + a (1 - u^2) meets both ends and the
  * middle; it errs by a^2 u (1 - u^2)/(1 + a u), which is at most 0.385 a^2/(1 - |a|): of v1 - v0, a^2/4 up to |a| = 3/16. The line s = u
  * errs by a/2 of v1 - v0: where that will do, nothing is added to the steps. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_chord.h"
 #include "gn_math.h"
 #include "gn_q.h"
@@ -240,3 +242,5 @@ int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *s
     if (turned.angle2_q16 | turned.longer_q16) turn_cosines(chord, frame, surface, a, b, n, &turned);
     return 1;
 }
+
+#endif

@@ -1,4 +1,6 @@
 /* Sutherland-Hodgman in view space. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_clip.h"
 #include "gn_math.h"
 #include "gn_q.h"
@@ -76,3 +78,5 @@ void gn_clip(gn_polygon *polygon, gn_polygon *uncut, uint32_t planes, int32_t ne
         if (planes & plane) clip_plane(polygon, uncut, plane, near_q16, side_q16);
     if (polygon->n < 3) polygon->n = 0;
 }
+
+#endif

@@ -22,6 +22,11 @@
     (GN_PRESET == GN_PRESET_TINY ? (tiny) : GN_PRESET == GN_PRESET_BALANCED ? (balanced) : (accurate))
 #define GN_PICK(...) GN_PICK_(__VA_ARGS__)
 
+/* A quality of its own (gn_compact.h): what it cannot do is off by default. */
+#ifndef GN_COMPACT
+#define GN_COMPACT 0
+#endif
+
 /* Quality: tiny, balanced, accurate. */
 #define GN_PRESETS_SUBPIXEL_BITS        4, 7, 8
 #define GN_PRESETS_PERSP_STEP           16, 8, 1
@@ -96,7 +101,7 @@
 
 /* Capacities. */
 #ifndef GN_MAX_WIDTH
-#define GN_MAX_WIDTH 320
+#define GN_MAX_WIDTH (GN_COMPACT ? 256 : 320)
 #endif
 #ifndef GN_MAX_HEIGHT
 #define GN_MAX_HEIGHT 240
@@ -108,10 +113,10 @@
 #define GN_MAX_TILE_REFS 1500
 #endif
 #ifndef GN_MAX_LIGHTS
-#define GN_MAX_LIGHTS 8
+#define GN_MAX_LIGHTS (GN_COMPACT ? 1 : 8)
 #endif
 #ifndef GN_MAX_SHADOW_TILES
-#define GN_MAX_SHADOW_TILES 4
+#define GN_MAX_SHADOW_TILES (GN_COMPACT ? 1 : 4)
 #endif
 #ifndef GN_SURFACE_LIGHTS
 #define GN_SURFACE_LIGHTS 8
@@ -137,94 +142,94 @@
 #define GN_SHADOWS 1
 #endif
 #ifndef GN_DEPTH_BLOCKS
-#define GN_DEPTH_BLOCKS 1
+#define GN_DEPTH_BLOCKS (!GN_COMPACT)
 #endif
 #ifndef GN_BLENDED_CASCADES
-#define GN_BLENDED_CASCADES 1
+#define GN_BLENDED_CASCADES (!GN_COMPACT)
 #endif
 #ifndef GN_FILTER_MAX
-#define GN_FILTER_MAX 4
+#define GN_FILTER_MAX (GN_COMPACT ? 0 : 4)
 #endif
 #ifndef GN_DISK_FILTER
-#define GN_DISK_FILTER 1
+#define GN_DISK_FILTER (!GN_COMPACT)
 #endif
 #ifndef GN_LINEAR_KERNELS
-#define GN_LINEAR_KERNELS 1
+#define GN_LINEAR_KERNELS (!GN_COMPACT)
 #endif
 #ifndef GN_PUNCTUAL_LIGHTS
-#define GN_PUNCTUAL_LIGHTS 1
+#define GN_PUNCTUAL_LIGHTS (!GN_COMPACT)
 #endif
 #ifndef GN_MAIN_LIGHT
-#define GN_MAIN_LIGHT 1
+#define GN_MAIN_LIGHT (!GN_COMPACT)
 #endif
 #ifndef GN_TILE_LIGHTS
-#define GN_TILE_LIGHTS 1
+#define GN_TILE_LIGHTS (!GN_COMPACT)
 #endif
 #ifndef GN_CASTER_CULLING
-#define GN_CASTER_CULLING 1
+#define GN_CASTER_CULLING (!GN_COMPACT)
 #endif
 #ifndef GN_CASTER_ALPHA
-#define GN_CASTER_ALPHA 1
+#define GN_CASTER_ALPHA (!GN_COMPACT)
 #endif
 #ifndef GN_VISIBLE_ALPHA
-#define GN_VISIBLE_ALPHA 1
+#define GN_VISIBLE_ALPHA (!GN_COMPACT)
 #endif
 #ifndef GN_TEXTURES
-#define GN_TEXTURES 1
+#define GN_TEXTURES (!GN_COMPACT)
 #endif
 #ifndef GN_SPECULAR
-#define GN_SPECULAR 1
+#define GN_SPECULAR (!GN_COMPACT)
 #endif
 #ifndef GN_MASKS
-#define GN_MASKS 1
+#define GN_MASKS (!GN_COMPACT)
 #endif
 #ifndef GN_BAKED_LIGHT
-#define GN_BAKED_LIGHT 1
+#define GN_BAKED_LIGHT (!GN_COMPACT)
 #endif
 #ifndef GN_RECEIVER_BIAS
-#define GN_RECEIVER_BIAS 1
+#define GN_RECEIVER_BIAS (!GN_COMPACT)
 #endif
 #ifndef GN_CASTER_BIAS
-#define GN_CASTER_BIAS 1
+#define GN_CASTER_BIAS (!GN_COMPACT)
 #endif
 #ifndef GN_RECEIVER_PLANE
-#define GN_RECEIVER_PLANE 1
+#define GN_RECEIVER_PLANE (!GN_COMPACT)
 #endif
 #ifndef GN_AUTO_BIAS
-#define GN_AUTO_BIAS 1
+#define GN_AUTO_BIAS (!GN_COMPACT)
 #endif
 #ifndef GN_INCREMENTAL
-#define GN_INCREMENTAL 1
+#define GN_INCREMENTAL (!GN_COMPACT)
 #endif
 #ifndef GN_STATIC_LAYER
 #define GN_STATIC_LAYER 0
 #endif
 #ifndef GN_VERTEX_NORMALS
-#define GN_VERTEX_NORMALS 1
+#define GN_VERTEX_NORMALS (!GN_COMPACT)
 #endif
 #ifndef GN_VERTEX_COLOURS
-#define GN_VERTEX_COLOURS 1
+#define GN_VERTEX_COLOURS (!GN_COMPACT)
 #endif
 #ifndef GN_VALIDATION
 #define GN_VALIDATION 1
 #endif
 #ifndef GN_OTHER_FORMATS
-#define GN_OTHER_FORMATS 1
+#define GN_OTHER_FORMATS (!GN_COMPACT)
 #endif
 #ifndef GN_MANY_CASCADES
-#define GN_MANY_CASCADES 1
+#define GN_MANY_CASCADES (!GN_COMPACT)
 #endif
 #ifndef GN_TILE_IMPORTANCE
-#define GN_TILE_IMPORTANCE 1
+#define GN_TILE_IMPORTANCE (!GN_COMPACT)
 #endif
 #ifndef GN_OBJECT_BOXES
-#define GN_OBJECT_BOXES 1
+#define GN_OBJECT_BOXES (!GN_COMPACT)
 #endif
 #ifndef GN_CLIPPING
-#define GN_CLIPPING 1
+#define GN_CLIPPING (!GN_COMPACT)
 #endif
 #ifndef GN_CASTER_CLIPPING
-#define GN_CASTER_CLIPPING 1
+#define GN_CASTER_CLIPPING (!GN_COMPACT)
 #endif
 #ifndef GN_RAW_VIEWS
 #define GN_RAW_VIEWS 0
@@ -234,7 +239,7 @@
 #endif
 
 /* Whether surfaces may be shaded piece by piece (gn_piece.h): not where every pixel is to be exact. */
-#define GN_PIECES (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1)
+#define GN_PIECES (GN_RUNTIME_KNOBS || (GN_PERSP_STEP > 1 && !GN_COMPACT))
 #define GN_TURNING (GN_PIECES && GN_VERTEX_NORMALS && (GN_RUNTIME_KNOBS || !GN_VERTEX_LIGHT))
 
 /* Whether what arrives from spot and point lights is stepped between samples. */

@@ -1,4 +1,6 @@
 /* Caster culling. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_cull.h"
 #include "gn_bias.h"
 #include "gn_math.h"
@@ -139,6 +141,8 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, const
     }
     return 0;
 }
+#endif
+
 #endif
 
 #endif

@@ -1,4 +1,6 @@
 /* Percentage-closer filtering. Compares come first, weights are exact integers, one division by multiplication ends it. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_filter.h"
 #include "gn_blocks.h"
 #include "gn_count.h"
@@ -563,6 +565,8 @@ void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_re
         at.depth_q31 += step->depth_q31;
     }
 }
+#endif
+
 #endif
 
 #endif

@@ -94,6 +94,9 @@
       "visible triangles may come nearer than the near plane, or reach far beyond the picture; without, the frame is refused", "flash") \
     X(caster_clipping, CASTER_CLIPPING, 0, 1,                                                                                      \
       "directional casters may reach more than 8192 texels beyond their tile; without, they may be refused", "flash")                \
+    X(compact, COMPACT, 0, 1,                                                                                                      \
+      "32-bit arithmetic for one directional light with one hard shadow tile and flat colours, in pictures up to 256x256; all other features are off", \
+      "none: half of the flash; scenes out of its range are refused")                                                              \
     X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")                   \
     X(runtime_knobs, RUNTIME_KNOBS, 0, 1, "quality knobs as data (host tools)", "everything is built")
 

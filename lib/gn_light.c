@@ -1,4 +1,6 @@
 /* Lighting of one surface point. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_light.h"
 #include "gn_count.h"
 #include "gn_hint.h"
@@ -114,3 +116,5 @@ void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const g
         radiance_q20[c] = sum[c] > UINT32_MAX ? UINT32_MAX : (uint32_t)sum[c];
     }
 }
+
+#endif

@@ -1,4 +1,6 @@
 /* Boxes and light lists of objects. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_object.h"
 #include "gn_math.h"
 #include "gn_punctual.h"
@@ -158,3 +160,5 @@ gn_status gn_object_lights(gn_frame *frame)
         return gn_fail_capacity(frame, GN_ERR_SURFACE_LIGHTS, n_directional + most, GN_SURFACE_LIGHTS);
     return GN_OK;
 }
+
+#endif

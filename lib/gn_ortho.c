@@ -1,4 +1,6 @@
 /* Orthographic light views. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include <string.h>
 
 #include "gn_ortho.h"
@@ -345,5 +347,7 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
     caster.z_corner = depth_at_corner(view, &caster, c[0][0], c[0][1], c[0][2]);
     return gn_caster_rows(view, &caster, &casting->walk, n_rows, NULL);
 }
+
+#endif
 
 #endif

@@ -1,4 +1,6 @@
 /* Perspective light views. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_persp.h"
 #include "gn_bias.h"
 #include "gn_clip.h"
@@ -168,5 +170,7 @@ int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
     }
     return n_texels;
 }
+
+#endif
 
 #endif

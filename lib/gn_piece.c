@@ -1,4 +1,6 @@
 /* Surfaces piece by piece. Scales and errors: NUMERICS 4.12. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_piece.h"
 #include "gn_bias.h"
 #include "gn_count.h"
@@ -595,5 +597,7 @@ int gn_pieces_select(gn_pieces *p, const gn_rect *rect)
 #endif
     return 1;
 }
+
+#endif
 
 #endif

@@ -1,4 +1,6 @@
 /* Rows of pieces. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_count.h"
 #include "gn_filter.h"
 #include "gn_piece.h"
@@ -236,5 +238,7 @@ void gn_pieces_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x
 #endif
     plain_row(p, rows, y, x_begin, x_end - x_begin, 0);
 }
+
+#endif
 
 #endif

@@ -1,4 +1,6 @@
 /* The projective plane of a triangle. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_plane.h"
 #include "gn_q.h"
 
@@ -85,3 +87,5 @@ void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip
     }
     if (b_q30[1] > one - b_q30[0]) b_q30[1] = one - b_q30[0];
 }
+
+#endif

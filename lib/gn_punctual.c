@@ -1,4 +1,6 @@
 /* Spot and point lights. Distances squared are Q32 in 64 bits: components are below 2^31, so three squares stay below 2^64. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_punctual.h"
 #include "gn_math.h"
 #include "gn_hint.h"
@@ -170,6 +172,8 @@ uint64_t gn_punctual_in_tile(const gn_frame *frame, const gn_rect *rect)
         if (in_tile(frame, rect, &frame->light[l])) lights |= (uint64_t)1 << l;
     return lights;
 }
+#endif
+
 #endif
 
 #endif

@@ -1,4 +1,6 @@
 /* Visible surfaces of a screen tile. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include <string.h>
 
 #include "gn_raster.h"
@@ -348,3 +350,5 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
         raster_triangle(&tile, tri, gn_raster_id(frame, tri_idx), NULL);
     }
 }
+
+#endif

@@ -1,7 +1,11 @@
 /* Runs of visible pixels. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_runs.h"
 
 void gn_runs_clear(gn_scratch *scratch)
 {
     for (uint32_t i = 0; i < GN_RUN_LISTS; i++) scratch->run_list[i] = GN_RUN_NONE;
 }
+
+#endif

@@ -1,4 +1,6 @@
 /* A surface at a pixel's centre. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_sample.h"
 #include "gn_bias.h"
 #include "gn_count.h"
@@ -277,3 +279,5 @@ void gn_sample_normal(const gn_frame *frame, const gn_surface *s, int32_t x, int
     intersect(frame, s, 2 * x + 1 - frame->picture.width, frame->picture.height - 1 - 2 * y, &h);
     normal_at(s, &h, normal_q30);
 }
+
+#endif

@@ -1,4 +1,6 @@
 /* Visible triangles. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_setup.h"
 #include "gn_clip.h"
 #include "gn_count.h"
@@ -529,3 +531,5 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
         return gn_fail_capacity(frame, GN_ERR_TRIANGLES_FULL, frame->stats.n_triangles, GN_MAX_TRIANGLES);
     return GN_OK;
 }
+
+#endif

@@ -1,4 +1,6 @@
 /* Shading of a screen tile. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include <string.h>
 
 #include "gn_shade.h"
@@ -418,3 +420,5 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
     for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++) shade_triangle(s, frame->tile_ref[i]);
 }
+
+#endif

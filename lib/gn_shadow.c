@@ -1,4 +1,6 @@
 /* Shadow of one light at a sample. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_shadow.h"
 #include "gn_arrival.h"
 #include "gn_count.h"
@@ -186,3 +188,5 @@ uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, cons
     return faded(mask, strength);
 #endif
 }
+
+#endif

@@ -63,6 +63,9 @@ typedef struct {
 } gn_object_state;
 #define GN_OBJECT_LIGHTS_ALL 255U
 
+#if GN_COMPACT
+#include "gn_compact_state.h"
+#else
 #if GN_SHADOWS
 #define GN_OTHER_ATLAS (GN_PUNCTUAL_LIGHTS || GN_MAIN_LIGHT) /* whether there is one */
 #define GN_VIEWS_MAX   (GN_MAX_SHADOW_TILES + (GN_OTHER_ATLAS ? GN_MAX_OTHER_TILES : 0))
@@ -322,4 +325,5 @@ typedef struct gn_scratch {
     gn_work work;
 } gn_scratch;
 
+#endif
 #endif

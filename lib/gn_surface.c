@@ -1,4 +1,6 @@
 /* A visible triangle as a surface. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_surface.h"
 #include "gn_bias.h"
 #include "gn_count.h"
@@ -337,3 +339,5 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
     if (GN_HAS_BARY(s)) gn_bary_setup(&s->bary, &s->plane, v[0], v[1], v[2]);
     begin_lighting(frame, cache, s, v);
 }
+
+#endif

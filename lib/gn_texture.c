@@ -1,5 +1,7 @@
 /* Textures. Positions are exact: coordinates have 20 fraction bits, texels 16. Values are 65535 = 1
  * until the end, so that a product with a weight fits 32 bits: a step to 16 bits after each axis, and one to 65536 = 1. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_texture.h"
 #include "gn_count.h"
 #include "gn_hint.h"
@@ -157,6 +159,8 @@ void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, 
         }
     }
 }
+#endif
+
 #endif
 
 #endif

@@ -1,4 +1,6 @@
 /* Tile budgets. A tile is a run of T * T texels of its atlas, so tiles of any power-of-two sizes pack without waste. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_tiles.h"
 #include "gn_cascade.h"
 #include "gn_hint.h"
@@ -201,5 +203,7 @@ gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS])
 #endif
     return status;
 }
+
+#endif
 
 #endif

@@ -1,4 +1,6 @@
 /* Pieces of smooth surfaces. Ranges and errors: NUMERICS 4.12. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_turn.h"
 #include "gn_math.h"
 #include "gn_piece.h"
@@ -184,5 +186,7 @@ void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32
         if (attenuation) attenuation += n;
     }
 }
+
+#endif
 
 #endif

@@ -1,4 +1,6 @@
 /* Lights and their views. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_views.h"
 #include "gn_bias.h"
 #include "gn_cascade.h"
@@ -262,3 +264,5 @@ gn_status gn_views_setup(gn_frame *frame)
 #endif
     return status;
 }
+
+#endif

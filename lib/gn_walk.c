@@ -1,4 +1,6 @@
 /* Exact edge walkers. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_walk.h"
 #include "gn_math.h"
 #include "gn_hint.h"
@@ -160,3 +162,5 @@ int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int
     }
     return walk_rows(walk);
 }
+
+#endif

@@ -1,4 +1,6 @@
 /* Transforms of the frame. */
+#include "gnomon.h"
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_xform.h"
 #include "gn_math.h"
 #include "gn_q.h"
@@ -135,3 +137,5 @@ void gn_xform_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_no
         n[r] = (int64_t)matrix[r][0] * nrm_q15[0] + (int64_t)matrix[r][1] * nrm_q15[1] + (int64_t)matrix[r][2] * nrm_q15[2];
     if (!gn_normalise_q30(out_q30, n)) out_q30[0] = out_q30[1] = out_q30[2] = 0;
 }
+
+#endif

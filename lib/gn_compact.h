@@ -1,0 +1,75 @@
+/* Compact arithmetic (GN_COMPACT): one directional light with one shadow tile, the hard filter and flat colours, in few bytes of flash.
+ *
+ * Camera and light are projectors of one kind (gn_compact_view): the same code transforms, projects, sets up and draws triangles into a
+ * screen tile and into the shadow tile. Lengths are 32 bits, products 64, and what is divided by is normalised first. Ranges, and the errors that
+ * follow, are in docs/NUMERICS.md section 5; whatever lies outside is refused, whether or not validation is built.
+ */
+#ifndef GN_COMPACT_H
+#define GN_COMPACT_H
+
+#include "gnomon.h"
+
+#if GN_COMPACT
+
+#define GN_COMPACT_LENGTH_Q16 (1 << 29)    /* view coordinates and view depths are below: 8192 units; places in the world below half of it */
+#define GN_COMPACT_BITS       7         /* subpixel bits */
+#define GN_COMPACT_REACH_Q16  (2047 << 16) /* pixels or texels from the raster's middle */
+
+/* ---- gn_compact_point.c ---- */
+
+/* round(a * 2^30 / |a|), within 4 LSB; any length but zero, |a| < 2^62. Returns 0 if a is zero. */
+int gn_compact_unit(int32_t out_q30[3], const int64_t a[3]);
+
+/* a * b * 2^-(32 + shift) without the last bits of a * b; 0 <= shift < 32 */
+uint32_t gn_compact_mul(uint32_t a, uint32_t b, int32_t shift);
+
+/* Rotation, place and scale of an affine transform: whether they are in range. */
+int gn_compact_affine_ok(const gn_affine *a);
+
+/* From what `affine` transforms to the projector's axes. Returns 0 if that is out of range. */
+int gn_compact_compose(gn_compact_xform *out, const gn_compact_view *view, const gn_affine *affine, int32_t frac_bits);
+
+/* Returns 0 if the result is out of range. */
+int gn_compact_transform(int32_t out_q16[3], const gn_compact_xform *xform, const int32_t p[3]);
+
+/* What keeps a corner from being drawn: it is out of range, or nearer than near. */
+enum { GN_COMPACT_LEFT = 1, GN_COMPACT_ABOVE = 2, GN_COMPACT_RIGHT = 4, GN_COMPACT_BELOW = 8, GN_COMPACT_NEAR = 16, GN_COMPACT_FAR = 32 };
+
+/* Projects corner->v_q16. Returns where it is outside of the raster; corner->at_q16 is good unless that has GN_COMPACT_FAR or _NEAR. */
+uint32_t gn_compact_project(gn_compact_corner *corner, const gn_compact_view *view);
+
+/* From keys of the light, Q18 texels, to steps of depth: a tile's width is 2^16 of them. */
+#define GN_COMPACT_TILE_LOG2                                                                                                       \
+    (GN_ATLAS_SIZE == 16 ? 4 : GN_ATLAS_SIZE == 32 ? 5 : GN_ATLAS_SIZE == 64 ? 6 : GN_ATLAS_SIZE == 128 ? 7 : 8)
+#define GN_COMPACT_STEP_SHIFT (GN_COMPACT_TILE_LOG2 + 2)
+
+/* U, V, D of a corner that the light has projected: texels, Q16. */
+static inline void gn_compact_place(int32_t out_q16[3], const gn_compact_corner *corner)
+{
+    out_q16[0] = corner->at_q16[0];
+    out_q16[1] = corner->at_q16[1];
+    out_q16[2] = -(corner->key >> 2);
+}
+
+/* ---- gn_compact_triangle.c ---- */
+
+/* The cells or texels that triangles are drawn into: one of them, of `rect` of the raster. */
+typedef struct {
+    gn_rect rect;
+    uint32_t *cell;
+    uint16_t *texel;
+    uint32_t id, id_bits; /* of the triangle, in a cell */
+} gn_compact_raster;
+
+/* Draws a triangle: a larger cell or a smaller depth stays. */
+void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri);
+
+/* A key at a pixel. */
+static inline uint32_t gn_compact_key(const gn_tri *tri, int32_t x, int32_t y)
+{
+    return tri->key + 
+           (uint32_t)(x - tri->begin[0]) * (uint32_t)tri->key_dx + (uint32_t)(y - tri->begin[1]) * (uint32_t)tri->key_dy;
+}
+
+#endif
+#endif

@@ -1,0 +1,265 @@
+/* Compact arithmetic: triangles into screen tiles and into the shadow tile. */
+#include <string.h>
+
+#include "gn_atlas.h"
+#include "gn_bin.h"
+#include "gn_compact.h"
+#include "gn_raster.h"
+#include "gn_setup.h"
+
+#if GN_COMPACT
+#include "gn_hint.h"
+#include "gn_math.h"
+#include "gn_q.h"
+#include "gn_scene.h"
+
+#define ONE_PX    (1 << GN_COMPACT_BITS)
+#define STEEP_MAX ((int64_t)1 << 36) /* change of key per pixel, Q8: beyond, a triangle has one key */
+
+/* ---- Setup --------------------------------------------------------------------------------------------------------- */
+
+/* First pixel whose centre is at or after a coordinate. */
+static int32_t first_px(int32_t at)
+{
+    return (at + ONE_PX / 2 - 1) >> GN_COMPACT_BITS;
+}
+
+/* Pixels along an axis: 0 x, 1 y. */
+static void bound(gn_tri *tri, int axis, const int32_t at[3], int32_t size)
+{
+    tri->begin[axis] = (int16_t)gn_max32(first_px(gn_min32(gn_min32(at[0], at[1]), at[2])), 0);
+    tri->end[axis] = (int16_t)gn_min32(first_px(gn_max32(gn_max32(at[0], at[1]), at[2])), size);
+}
+
+/* n * 2^15 / area: per pixel, Q8; |n| < 2^50 */
+static int64_t gradient(int64_t n, uint64_t area, int32_t clz)
+{
+    uint32_t recip = gn_recip_norm((uint32_t)(area << clz >> 32), 2); /* 2^(95 - clz) / area */
+    n = gn_shl64(n, 13);
+    n = (n >> 32) * (int64_t)recip + (int64_t)(((uint64_t)(uint32_t)n * recip) >> 32);
+    return n >> (61 - clz);
+}
+
+/* The key's plane. */
+static void plane(gn_tri *tri, const gn_compact_corner c[3], uint64_t area)
+{
+    const int32_t *x = tri->x, *y = tri->y;
+    int32_t clz = gn_clz64(area), ka = c[0].key, kb = c[1].key - ka, kc = c[2].key - ka;
+    int64_t dx = STEEP_MAX, dy = 0;
+    if (clz <= 61) { /* less than that is a few subpixels */
+        dx = gradient((int64_t)kc * (y[1] - y[0]) - (int64_t)kb * (y[2] - y[0]), area, clz);
+        dy = gradient((int64_t)kb * (x[2] - x[0]) - (int64_t)kc * (x[1] - x[0]), area, clz);
+    }
+    if (dx >= STEEP_MAX || dx <= -STEEP_MAX || dy >= STEEP_MAX || dy <= -STEEP_MAX) {
+        dx = dy = 0;
+        ka = gn_max32(gn_max32(ka, c[1].key), c[2].key);
+    }
+    /* to the first pixel's centre: 2^36 * 2^19 */
+    int64_t step = dx * (tri->begin[0] * ONE_PX + ONE_PX / 2 - x[0]) + dy * (tri->begin[1] * ONE_PX + ONE_PX / 2 - y[0]);
+    tri->key = (uint32_t)ka + (uint32_t)(step >> (8 + GN_COMPACT_BITS));
+    tri->key_dx = (int32_t)((dx + 128) >> 8);
+    tri->key_dy = (int32_t)((dy + 128) >> 8);
+}
+
+/* Returns 0 if the triangle faces away or covers no pixel. */
+static int setup(gn_tri *tri, gn_compact_corner c[3], const gn_compact_view *view, uint32_t flags)
+{
+    for (int i = 0; i < 3; i++) {
+        tri->x[i] = (c[i].at_q16[0] + 256) >> (16 - GN_COMPACT_BITS);
+        tri->y[i] = (c[i].at_q16[1] + 256) >> (16 - GN_COMPACT_BITS);
+    }
+    int32_t *x = tri->x, *y = tri->y;
+    int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
+    if (area >= 0) {
+        if (!area || !(flags & view->two_sided)) return 0;
+        gn_compact_corner swap = c[1];
+        int32_t sx = x[1], sy = y[1];
+        c[1] = c[2], x[1] = x[2], y[1] = y[2];
+        c[2] = swap, x[2] = sx, y[2] = sy;
+        area = -area;
+    }
+    bound(tri, 0, x, view->size[0]);
+    bound(tri, 1, y, view->size[1]);
+    if (tri->begin[0] >= tri->end[0] || tri->begin[1] >= tri->end[1]) return 0;
+    plane(tri, c, (uint64_t)-area);
+    return 1;
+}
+
+/* ---- Objects ------------------------------------------------------------------------------------------------------- */
+
+/* Towards the viewer, in the light's axes; zero where the corners lie in a line. */
+static void face_normal(gn_tri *tri, const gn_frame *frame, const gn_compact_corner c[3])
+{
+    int32_t a[3], b[3], n[3];
+    int64_t normal[3];
+    for (int i = 0; i < 3; i++) {
+        a[i] = c[1].v_q16[i] - c[0].v_q16[i];
+        b[i] = c[2].v_q16[i] - c[0].v_q16[i];
+    }
+    gn_cross64(normal, a, b); /* 2^61 */
+    if (!gn_compact_unit(n, normal)) return;
+    n[1] = -n[1]; /* the camera's own axes: up, back */
+    n[2] = -n[2];
+    for (int i = 0; i < 3; i++) tri->normal_q14[i] = (int16_t)(gn_dot64(frame->to_light.m_q29[i], n) >> 45);
+}
+
+/* B1, in steps of keys. */
+static int32_t caster_bias(const gn_tri *tri, const gn_light *light)
+{
+    uint32_t dx = gn_abs32(tri->key_dx), dy = gn_abs32(tri->key_dy);
+    uint64_t slope = ((uint64_t)(dx > dy ? dx : dy) * (uint32_t)light->bias_slope_q16) >> 16; /* 2^28 * 2^22 */
+    slope += (uint32_t)light->bias_constant_q16 << 2;
+    return slope < 1U << 29 ? (int32_t)slope : 1 << 29;
+}
+
+/* A triangle with its corners in the raster's range, or out of sight. */
+static gn_status corners(const gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, const gn_mesh *mesh, const uint16_t *idx,
+                         uint32_t *outside)
+{
+    uint32_t all = UINT32_MAX, any = 0;
+    (void)frame;
+    for (int i = 0; i < 3; i++) {
+        if (idx[i] >= mesh->n_vertices) return GN_ERR_MESH_INDEX;
+        const gn_position *at = mesh->pos + 3 * (uint32_t)idx[i];
+        const int32_t p[3] = {at[0], at[1], at[2]};
+        if (!gn_compact_transform(job->corner[i].v_q16, &job->xform, p)) return GN_ERR_VERTEX_RANGE;
+        uint32_t out = gn_compact_project(&job->corner[i], view);
+        all &= out;
+        any |= out;
+    }
+    *outside = all & ~(uint32_t)GN_COMPACT_FAR;
+    return *outside || !(any & (GN_COMPACT_FAR | GN_COMPACT_NEAR)) ? GN_OK : GN_ERR_VERTEX_RANGE;
+}
+
+static gn_status triangle(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, const gn_compact_raster *raster,
+                          uint32_t object_idx, const uint16_t *idx)
+{
+    const gn_object *object = &frame->scene->objects[object_idx];
+    uint32_t outside;
+    gn_status status = corners(frame, job, view, object->mesh, idx, &outside);
+    if (status || outside) return status;
+    gn_tri *tri = &job->tri;
+    if (!raster && frame->stats.n_triangles < GN_MAX_TRIANGLES) tri = &frame->tri[frame->stats.n_triangles];
+    if (!setup(tri, job->corner, view, object->flags)) return GN_OK;
+    tri->object_idx = (uint16_t)object_idx;
+    if (raster) {
+        tri->bias = caster_bias(tri, frame->scene->lights);
+        frame->stats.n_caster_triangles++;
+        gn_compact_draw(raster, tri);
+    } else {
+        face_normal(tri, frame, job->corner);
+        frame->stats.n_triangles++;
+    }
+    return GN_OK;
+}
+
+/* All objects that a projector sees: drawn, or without a raster kept. */
+static gn_status objects(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, const gn_compact_raster *raster)
+{
+    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+        const gn_object *object = &frame->scene->objects[i];
+        if ((object->flags ^ view->flags) & view->mask) continue;
+        if (!gn_compact_affine_ok(&object->to_world) ||
+            !gn_compact_compose(&job->xform, view, &object->to_world, object->mesh->pos_frac_bits))
+            return gn_fail(frame, GN_ERR_OBJECT_TRANSFORM, i);
+        for (uint32_t t = 0; t < object->mesh->n_triangles; t++) {
+            gn_status status = triangle(frame, job, view, raster, i, object->mesh->idx + 3 * t);
+            if (status) return gn_fail(frame, status, i);
+        }
+    }
+    return GN_OK;
+}
+
+gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *memory, uint32_t n_words)
+{
+    (void)memory, (void)n_words;
+    frame->stats.n_triangles = 0;
+    gn_status status = objects(frame, clipping, &frame->cam, NULL);
+    if (!status && frame->stats.n_triangles > GN_MAX_TRIANGLES)
+        return gn_fail_capacity(frame, GN_ERR_TRIANGLES_FULL, frame->stats.n_triangles, GN_MAX_TRIANGLES);
+    return status;
+}
+
+gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory, uint32_t n_words)
+{
+    (void)memory, (void)n_words;
+    const gn_light_view *view = &frame->view[view_idx];
+    gn_compact_raster raster = {{0, 0, GN_ATLAS_SIZE, GN_ATLAS_SIZE}, NULL, frame->atlas, 0, 0};
+    memset(frame->atlas, 0xFF, sizeof frame->atlas);
+    return objects(frame, casting, &view->project, &raster);
+}
+
+/* ---- Drawing ------------------------------------------------------------------------------------------------------- */
+
+/* Where an edge's pixels begin to lie inside: f >= 0, by the top-left rule; its steps are those of a pixel. */
+typedef struct {
+    int32_t f, dx, dy;
+} edge;
+
+static void edge_begin(edge *e, const gn_tri *tri, int i, int32_t px, int32_t py)
+{
+    int j = i == 2 ? 0 : i + 1;
+    int32_t dx = tri->x[j] - tri->x[i], dy = tri->y[j] - tri->y[i], left_or_top = dy > 0 || (dy == 0 && dx < 0);
+    /* corners and pixels are in a box of 4094 pixels: below 2^38. A pixel's step is a multiple of 2^7, so that nothing is lost */
+    int64_t f = (int64_t)(px * ONE_PX + ONE_PX / 2 - tri->x[i]) * dy - (int64_t)(py * ONE_PX + ONE_PX / 2 - tri->y[i]) * dx;
+    e->f = (int32_t)((f - !left_or_top) >> GN_COMPACT_BITS);
+    e->dx = dy;
+    e->dy = -dx;
+}
+
+void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri)
+{
+    const gn_rect *rect = &raster->rect;
+    int32_t x0 = gn_max32(tri->begin[0], rect->x0), x1 = gn_min32(tri->end[0], rect->x1);
+    int32_t y0 = gn_max32(tri->begin[1], rect->y0), y1 = gn_min32(tri->end[1], rect->y1);
+    if (x0 >= x1) return;
+    edge e[3];
+    for (int i = 0; i < 3; i++) edge_begin(&e[i], tri, i, x0, y0);
+    for (; y0 < y1; y0++) {
+        int32_t f0 = e[0].f, f1 = e[1].f, f2 = e[2].f;
+        uint32_t key = gn_compact_key(tri, x0, y0);
+        int32_t at = (y0 - rect->y0) * (rect->x1 - rect->x0) + x0 - rect->x0;
+        for (int32_t n = x1 - x0; n > 0; n--, at++) {
+            if ((f0 | f1 | f2) >= 0) {
+                if (raster->cell) {
+                    uint32_t cell = ((uint32_t)gn_max32((int32_t)key, 0) << 1 >> raster->id_bits << raster->id_bits) + raster->id;
+                    if (cell > raster->cell[at]) raster->cell[at] = cell;
+                } else { /* D9: pancaking; what lies beyond the range stays out */
+                    uint32_t depth = (uint32_t)(gn_max32(-(int32_t)key, 0) + tri->bias) >> GN_COMPACT_STEP_SHIFT;
+                    if (depth < raster->texel[at]) raster->texel[at] = (uint16_t)depth;
+                }
+            }
+            f0 += e[0].dx, f1 += e[1].dx, f2 += e[2].dx;
+            key += (uint32_t)tri->key_dx;
+        }
+        for (int i = 0; i < 3; i++) e[i].f += e[i].dy;
+    }
+}
+
+void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
+{
+    gn_compact_raster raster = {gn_bin_tile_rect(frame, tile_idx), scratch->cell, NULL, 0, frame->id_bits};
+    memset(scratch->cell, 0, sizeof scratch->cell);
+    for (uint32_t i = 0; i < frame->stats.n_triangles; i++) {
+        raster.id = gn_raster_id(frame, i);
+        gn_compact_draw(&raster, &frame->tri[i]);
+    }
+}
+
+gn_rect gn_bin_tile_rect(const gn_frame *frame, uint32_t tile_idx)
+{
+    gn_rect r;
+    r.x0 = (int32_t)(tile_idx % frame->tiles_x) * GN_TILE_WIDTH;
+    r.y0 = (int32_t)(tile_idx / frame->tiles_x) * GN_TILE_HEIGHT;
+    r.x1 = gn_min32(r.x0 + GN_TILE_WIDTH, frame->picture.width);
+    r.y1 = gn_min32(r.y0 + GN_TILE_HEIGHT, frame->picture.height);
+    return r;
+}
+
+gn_status gn_bin_triangles(gn_frame *frame) /* each screen tile looks at all of them */
+{
+    (void)frame;
+    return GN_OK;
+}
+
+#endif
