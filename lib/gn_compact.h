@@ -12,8 +12,8 @@
 #if GN_COMPACT
 
 #define GN_COMPACT_LENGTH_Q16 (1 << 29)    /* view coordinates and view depths are below: 8192 units; places in the world below half of it */
-#define GN_COMPACT_BITS       7         /* subpixel bits */
-#define GN_COMPACT_REACH_Q16  (2047 << 16) /* pixels or texels from the raster's middle */
+#define GN_COMPACT_BITS       8            /* subpixel bits */
+#define GN_COMPACT_REACH_Q16  (1440 << 16) /* pixels or texels from the raster's middle: (2 * 1440 * 2^8)^2 < 2^39 */
 
 /* ---- gn_compact_point.c ---- */
 
@@ -26,17 +26,19 @@ uint32_t gn_compact_mul(uint32_t a, uint32_t b, int32_t shift);
 /* Rotation, place and scale of an affine transform: whether they are in range. */
 int gn_compact_affine_ok(const gn_affine *a);
 
-/* From what `affine` transforms to the projector's axes. Returns 0 if that is out of range. */
+/* From what `affine` transforms to the projector's axes; both are gn_compact_affine_ok. Returns 0 if a place is out of range. */
 int gn_compact_compose(gn_compact_xform *out, const gn_compact_view *view, const gn_affine *affine, int32_t frac_bits);
 
 /* Returns 0 if the result is out of range. */
 int gn_compact_transform(int32_t out_q16[3], const gn_compact_xform *xform, const int32_t p[3]);
 
-/* What keeps a corner from being drawn: it is out of range, or nearer than near. */
-enum { GN_COMPACT_LEFT = 1, GN_COMPACT_ABOVE = 2, GN_COMPACT_RIGHT = 4, GN_COMPACT_BELOW = 8, GN_COMPACT_NEAR = 16, GN_COMPACT_FAR = 32 };
+/* Projects a point. Returns 0 if the light sees it nearer or farther than the reach. */
+int gn_compact_project(gn_compact_corner *corner, const gn_compact_view *view, const int32_t v_q16[3]);
 
-/* Projects corner->v_q16. Returns where it is outside of the raster; corner->at_q16 is good unless that has GN_COMPACT_FAR or _NEAR. */
-uint32_t gn_compact_project(gn_compact_corner *corner, const gn_compact_view *view);
+/* ---- gn_compact_clip.c ---- */
+
+/* Cuts the polygon of n points to the guard band, and of the camera to the near plane. Returns how many points are left, 0 or 3 to 8. */
+int gn_compact_clip(gn_compact_polygon *polygon, gn_compact_polygon *spare, int n, const gn_compact_view *view);
 
 /* From keys of the light, Q18 texels, to steps of depth: a tile's width is 2^16 of them. */
 #define GN_COMPACT_TILE_LOG2                                                                                                       \
@@ -67,7 +69,7 @@ void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri);
 /* A key at a pixel. */
 static inline uint32_t gn_compact_key(const gn_tri *tri, int32_t x, int32_t y)
 {
-    return tri->key + 
+    return tri->key +
            (uint32_t)(x - tri->begin[0]) * (uint32_t)tri->key_dx + (uint32_t)(y - tri->begin[1]) * (uint32_t)tri->key_dy;
 }
 

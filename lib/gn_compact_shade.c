@@ -64,15 +64,15 @@ static int point_at(const gn_frame *frame, const gn_tri *tri, int32_t x, int32_t
 }
 
 /* What the light's shadow leaves of it. */
-static uint32_t shadow_uq16(const gn_frame *frame, const gn_tri *tri, int32_t x, int32_t y)
+static uint32_t shadow_at(const gn_frame *frame, const gn_tri *tri, int32_t x, int32_t y)
 {
     gn_compact_corner corner;
     int32_t p[3], at[3];
     int64_t rest = (int64_t)frame->radius2_q32;
     if (!point_at(frame, tri, x, y, p)) return ONE_UQ16;
     uint32_t strength = share_uq16(&frame->distance, frame->scene->shadow.max_distance_q16 + p[2]);
-    if (!strength || !gn_compact_transform(corner.v_q16, &frame->to_light, p)) return ONE_UQ16;
-    gn_compact_project(&corner, &frame->view[0].project);
+    if (!strength || !gn_compact_transform(at, &frame->to_light, p)) return ONE_UQ16;
+    gn_compact_project(&corner, &frame->view[0].project, at);
     gn_compact_place(at, &corner);
     for (int i = 0; i < 3; i++) {
         int64_t d = at[i] - frame->centre_q16[i];
@@ -99,7 +99,7 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
         for (int32_t x = rect.x0; x < rect.x1; x++) {
             uint32_t id = *cell++ & ((1U << frame->id_bits) - 1), was = light;
             if (id != last) surface_begin(frame, &s, id);
-            light = s.tri ? shadow_uq16(frame, s.tri, x, y) : ONE_UQ16;
+            light = s.tri ? shadow_at(frame, s.tri, x, y) : ONE_UQ16;
             if (id != last || light != was) {
                 uint32_t c[3];
                 for (int i = 0; i < 3; i++) c[i] = s.base_q20[i] + (uint32_t)(((uint64_t)s.lit_q20[i] * light) >> 16);

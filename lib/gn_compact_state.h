@@ -19,7 +19,7 @@ typedef union {
 
 /* From an object's space, or the camera's, to a projector's axes: (m * p >> shift) + t. */
 typedef struct {
-    int32_t m_q29[3][3];
+    int32_t m_q28[3][3];
     int32_t t_q16[3];
     int32_t shift;
 } gn_compact_xform;
@@ -34,6 +34,7 @@ typedef struct {
     int32_t near_q16;
     int32_t near_clz;
     int32_t size[2];        /* of the raster */
+    int32_t guard;          /* camera: |x|, |y| <= guard * z after clipping; light: <= guard, Q16 */
     uint32_t flags, mask;   /* objects are drawn whose flags & mask are these */
     uint32_t two_sided;     /* flags of those whose backs are drawn */
 } gn_compact_view;
@@ -58,7 +59,7 @@ typedef struct {
     uint8_t shadow_state;
 } gn_light_state;
 
-/* A triangle of a raster: corners from its top left corner, Q7; keys grow towards the viewer. */
+/* A triangle of a raster: corners from its top left corner, Q8; keys grow towards the viewer. */
 typedef struct {
     int32_t x[3], y[3]; /* seen from the front: of negative area, y down */
     uint32_t key;       /* at the centre of pixel (x0, y0) */
@@ -69,17 +70,23 @@ typedef struct {
     uint16_t object_idx;
 } gn_tri;
 
+/* Along the projector's axes. */
+typedef struct {
+    int32_t v_q16[8][3]; /* a triangle against five planes */
+} gn_compact_polygon;
+
 /* A projected corner. */
 typedef struct {
-    int32_t v_q16[3];   /* along the projector's axes */
     int32_t at_q16[2];  /* of the raster */
     int32_t key;
 } gn_compact_corner;
 
 typedef struct {
     gn_compact_xform xform;
+    gn_compact_polygon polygon, spare;
     gn_compact_corner corner[3];
     gn_tri tri;
+    int16_t normal_q14[3];
 } gn_compact_job;
 typedef gn_compact_job gn_casting, gn_clipping;
 

@@ -31,13 +31,13 @@ static void bound(gn_tri *tri, int axis, const int32_t at[3], int32_t size)
     tri->end[axis] = (int16_t)gn_min32(first_px(gn_max32(gn_max32(at[0], at[1]), at[2])), size);
 }
 
-/* n * 2^15 / area: per pixel, Q8; |n| < 2^50 */
+/* n * 2^16 / area: per pixel, Q8; |n| < 2^50.5 */
 static int64_t gradient(int64_t n, uint64_t area, int32_t clz)
 {
     uint32_t recip = gn_recip_norm((uint32_t)(area << clz >> 32), 2); /* 2^(95 - clz) / area */
-    n = gn_shl64(n, 13);
+    n = gn_shl64(n, 12);
     n = (n >> 32) * (int64_t)recip + (int64_t)(((uint64_t)(uint32_t)n * recip) >> 32);
-    return n >> (61 - clz);
+    return n >> (59 - clz);
 }
 
 /* The key's plane. */
@@ -46,7 +46,7 @@ static void plane(gn_tri *tri, const gn_compact_corner c[3], uint64_t area)
     const int32_t *x = tri->x, *y = tri->y;
     int32_t clz = gn_clz64(area), ka = c[0].key, kb = c[1].key - ka, kc = c[2].key - ka;
     int64_t dx = STEEP_MAX, dy = 0;
-    if (clz <= 61) { /* less than that is a few subpixels */
+    if (clz <= 59) { /* less than that is a few subpixels */
         dx = gradient((int64_t)kc * (y[1] - y[0]) - (int64_t)kb * (y[2] - y[0]), area, clz);
         dy = gradient((int64_t)kb * (x[2] - x[0]) - (int64_t)kc * (x[1] - x[0]), area, clz);
     }
@@ -54,7 +54,7 @@ static void plane(gn_tri *tri, const gn_compact_corner c[3], uint64_t area)
         dx = dy = 0;
         ka = gn_max32(gn_max32(ka, c[1].key), c[2].key);
     }
-    /* to the first pixel's centre: 2^36 * 2^19 */
+    /* to the first pixel's centre: 2^36 * 2^19.5 */
     int64_t step = dx * (tri->begin[0] * ONE_PX + ONE_PX / 2 - x[0]) + dy * (tri->begin[1] * ONE_PX + ONE_PX / 2 - y[0]);
     tri->key = (uint32_t)ka + (uint32_t)(step >> (8 + GN_COMPACT_BITS));
     tri->key_dx = (int32_t)((dx + 128) >> 8);
@@ -65,8 +65,8 @@ static void plane(gn_tri *tri, const gn_compact_corner c[3], uint64_t area)
 static int setup(gn_tri *tri, gn_compact_corner c[3], const gn_compact_view *view, uint32_t flags)
 {
     for (int i = 0; i < 3; i++) {
-        tri->x[i] = (c[i].at_q16[0] + 256) >> (16 - GN_COMPACT_BITS);
-        tri->y[i] = (c[i].at_q16[1] + 256) >> (16 - GN_COMPACT_BITS);
+        tri->x[i] = (c[i].at_q16[0] + 128) >> (16 - GN_COMPACT_BITS);
+        tri->y[i] = (c[i].at_q16[1] + 128) >> (16 - GN_COMPACT_BITS);
     }
     int32_t *x = tri->x, *y = tri->y;
     int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
@@ -88,19 +88,24 @@ static int setup(gn_tri *tri, gn_compact_corner c[3], const gn_compact_view *vie
 /* ---- Objects ------------------------------------------------------------------------------------------------------- */
 
 /* Towards the viewer, in the light's axes; zero where the corners lie in a line. */
-static void face_normal(gn_tri *tri, const gn_frame *frame, const gn_compact_corner c[3])
+static void face_normal(int16_t out_q14[3], const gn_frame *frame, int32_t (*v)[3])
 {
     int32_t a[3], b[3], n[3];
     int64_t normal[3];
     for (int i = 0; i < 3; i++) {
-        a[i] = c[1].v_q16[i] - c[0].v_q16[i];
-        b[i] = c[2].v_q16[i] - c[0].v_q16[i];
+        a[i] = v[1][i] - v[0][i];
+        b[i] = v[2][i] - v[0][i];
+        out_q14[i] = 0;
     }
     gn_cross64(normal, a, b); /* 2^61 */
     if (!gn_compact_unit(n, normal)) return;
-    n[1] = -n[1]; /* the camera's own axes: up, back */
+    int64_t seen = gn_dot64(n, v[0]); /* from the eye, which is at 0: 2^60 */
+    n[1] = -n[1];                     /* the camera's own axes: up, back */
     n[2] = -n[2];
-    for (int i = 0; i < 3; i++) tri->normal_q14[i] = (int16_t)(gn_dot64(frame->to_light.m_q29[i], n) >> 45);
+    for (int i = 0; i < 3; i++) {
+        int16_t q14 = (int16_t)(gn_dot64(frame->to_light.m_q28[i], n) >> 44);
+        out_q14[i] = seen < 0 ? q14 : (int16_t)-q14;
+    }
 }
 
 /* B1, in steps of keys. */
@@ -112,43 +117,49 @@ static int32_t caster_bias(const gn_tri *tri, const gn_light *light)
     return slope < 1U << 29 ? (int32_t)slope : 1 << 29;
 }
 
-/* A triangle with its corners in the raster's range, or out of sight. */
-static gn_status corners(const gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, const gn_mesh *mesh, const uint16_t *idx,
-                         uint32_t *outside)
+/* Corners along the projector's axes. */
+static gn_status fetch(gn_compact_job *job, const gn_mesh *mesh, const uint16_t *idx)
 {
-    uint32_t all = UINT32_MAX, any = 0;
-    (void)frame;
     for (int i = 0; i < 3; i++) {
         if (idx[i] >= mesh->n_vertices) return GN_ERR_MESH_INDEX;
         const gn_position *at = mesh->pos + 3 * (uint32_t)idx[i];
         const int32_t p[3] = {at[0], at[1], at[2]};
-        if (!gn_compact_transform(job->corner[i].v_q16, &job->xform, p)) return GN_ERR_VERTEX_RANGE;
-        uint32_t out = gn_compact_project(&job->corner[i], view);
-        all &= out;
-        any |= out;
+        if (!gn_compact_transform(job->polygon.v_q16[i], &job->xform, p)) return GN_ERR_VERTEX_RANGE;
     }
-    *outside = all & ~(uint32_t)GN_COMPACT_FAR;
-    return *outside || !(any & (GN_COMPACT_FAR | GN_COMPACT_NEAR)) ? GN_OK : GN_ERR_VERTEX_RANGE;
+    return GN_OK;
 }
 
-static gn_status triangle(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, const gn_compact_raster *raster,
-                          uint32_t object_idx, const uint16_t *idx)
+/* Draws job->corner, or without a raster keeps it. */
+static void emit(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, const gn_compact_raster *raster, uint32_t object_idx)
 {
-    const gn_object *object = &frame->scene->objects[object_idx];
-    uint32_t outside;
-    gn_status status = corners(frame, job, view, object->mesh, idx, &outside);
-    if (status || outside) return status;
     gn_tri *tri = &job->tri;
     if (!raster && frame->stats.n_triangles < GN_MAX_TRIANGLES) tri = &frame->tri[frame->stats.n_triangles];
-    if (!setup(tri, job->corner, view, object->flags)) return GN_OK;
-    tri->object_idx = (uint16_t)object_idx;
+    if (!setup(tri, job->corner, view, frame->scene->objects[object_idx].flags)) return;
     if (raster) {
         tri->bias = caster_bias(tri, frame->scene->lights);
         frame->stats.n_caster_triangles++;
         gn_compact_draw(raster, tri);
     } else {
-        face_normal(tri, frame, job->corner);
+        tri->object_idx = (uint16_t)object_idx;
+        memcpy(tri->normal_q14, job->normal_q14, sizeof tri->normal_q14);
         frame->stats.n_triangles++;
+    }
+}
+
+static gn_status triangle(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, const gn_compact_raster *raster,
+                          uint32_t object_idx, const uint16_t *idx)
+{
+    gn_status status = fetch(job, frame->scene->objects[object_idx].mesh, idx);
+    if (status) return status;
+    if (!raster) face_normal(job->normal_q14, frame, job->polygon.v_q16);
+    int n = gn_compact_clip(&job->polygon, &job->spare, 3, view);
+    for (int i = 0; i < n; i++) { /* a fan */
+        if (!gn_compact_project(&job->corner[gn_min32(i, 2)], view, job->polygon.v_q16[i])) return GN_ERR_VERTEX_RANGE;
+        if (i < 2) continue;
+        gn_compact_corner last = job->corner[2], first = job->corner[0];
+        emit(frame, job, view, raster, object_idx);
+        job->corner[0] = first; /* which may have been exchanged */
+        job->corner[1] = last;
     }
     return GN_OK;
 }
@@ -170,11 +181,10 @@ static gn_status objects(gn_frame *frame, gn_compact_job *job, const gn_compact_
     return GN_OK;
 }
 
-gn_status gn_setup_triangles(gn_frame *frame, gn_clipping *clipping, uint32_t *memory, uint32_t n_words)
+gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
 {
-    (void)memory, (void)n_words;
     frame->stats.n_triangles = 0;
-    gn_status status = objects(frame, clipping, &frame->cam, NULL);
+    gn_status status = objects(frame, &scratch->work.clipping, &frame->cam, NULL);
     if (!status && frame->stats.n_triangles > GN_MAX_TRIANGLES)
         return gn_fail_capacity(frame, GN_ERR_TRIANGLES_FULL, frame->stats.n_triangles, GN_MAX_TRIANGLES);
     return status;
@@ -200,7 +210,7 @@ static void edge_begin(edge *e, const gn_tri *tri, int i, int32_t px, int32_t py
 {
     int j = i == 2 ? 0 : i + 1;
     int32_t dx = tri->x[j] - tri->x[i], dy = tri->y[j] - tri->y[i], left_or_top = dy > 0 || (dy == 0 && dx < 0);
-    /* corners and pixels are in a box of 4094 pixels: below 2^38. A pixel's step is a multiple of 2^7, so that nothing is lost */
+    /* corners and pixels are in a box of 2880 pixels: below 2^39. A pixel's step is a multiple of 2^8, so that nothing is lost */
     int64_t f = (int64_t)(px * ONE_PX + ONE_PX / 2 - tri->x[i]) * dy - (int64_t)(py * ONE_PX + ONE_PX / 2 - tri->y[i]) * dx;
     e->f = (int32_t)((f - !left_or_top) >> GN_COMPACT_BITS);
     e->dx = dy;
@@ -256,9 +266,9 @@ gn_rect gn_bin_tile_rect(const gn_frame *frame, uint32_t tile_idx)
     return r;
 }
 
-gn_status gn_bin_triangles(gn_frame *frame) /* each screen tile looks at all of them */
+gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch) /* each screen tile looks at all of them */
 {
-    (void)frame;
+    (void)frame, (void)scratch;
     return GN_OK;
 }
 

@@ -10,6 +10,7 @@
 #include "gn_scene.h"
 
 #define ONE_Q28 (1 << 28)
+#define GUARD_PX 1400 /* pixels or texels from the middle: within GN_COMPACT_REACH_Q16 */
 
 /* ---- Arithmetic of a frame ------------------------------------------------------------------------------------------ */
 
@@ -58,7 +59,9 @@ static gn_status lens(gn_frame *frame)
     uint32_t focal2_q16 = (uint32_t)(((uint64_t)camera->focal_q24 * frame->picture.height + 128U) >> 8);
     int32_t clz;
     if (!gn_compact_affine_ok(&camera->to_world) || camera->to_world.exp) return GN_ERR_CAMERA_TRANSFORM;
-    if (camera->focal_q24 >> 29 || focal2_q16 < 1U << 16) return GN_ERR_CAMERA_FOCAL; /* 1 <= 2F < 2^13 pixels */
+    if (camera->focal_q24 >> 29 || focal2_q16 < 1U << 16) return GN_ERR_CAMERA_FOCAL; /* 1 <= 2F, and at most 2800 pixels */
+    cam->guard = (int32_t)((2U * GUARD_PX << 16) / focal2_q16);
+    if (!cam->guard) return GN_ERR_CAMERA_FOCAL;
     cam->shift = clz = gn_clz32(focal2_q16);
     cam->scale = focal2_q16 << clz;
     frame->per_px_q29 = (int32_t)(gn_recip_norm(cam->scale, 2) >> (18 - clz));
@@ -89,7 +92,7 @@ static gn_status check_light(const gn_frame *frame, const gn_light *light)
 static gn_status check_shadow(const gn_frame *frame, const gn_shadow_settings *shadow)
 {
     int32_t near_q16 = frame->cam.near_q16;
-    if (shadow->max_distance_q16 < 4 * near_q16 || shadow->max_distance_q16 >> 10 > near_q16 ||
+    if (shadow->max_distance_q16 <= near_q16 || shadow->max_distance_q16 >> 10 > near_q16 ||
         shadow->max_distance_q16 > GN_COMPACT_LENGTH_Q16 / 2 || shadow->distance_mode)
         return GN_ERR_SHADOW_DISTANCE;
     if (shadow->cascade_fade_uq16 > 1U << 15 || shadow->distance_fade_uq16 > 1U << 16) return GN_ERR_SHADOW_FADE;
@@ -97,20 +100,22 @@ static gn_status check_shadow(const gn_frame *frame, const gn_shadow_settings *s
     return shadow->n_cascades > 1 ? GN_ERR_SHADOW_CASCADES : GN_OK;
 }
 
-/* Centre and radius of the slice's sphere as shares of the max distance (DESIGN 1.4), Q28. */
-static void fit_sphere(const gn_frame *frame, int32_t *centre, int32_t *radius)
+/* Centre and radius of the slice's sphere as shares of the max distance (DESIGN 1.4), Q28. Returns 0 if near is beyond q^2 of it. */
+static int fit_sphere(const gn_frame *frame, int32_t *centre, int32_t *radius)
 {
     const gn_shadow_settings *shadow = &frame->scene->shadow;
     int32_t tan_x = (frame->per_px_q29 * frame->cam.size[0]) >> 1, tan_y = (frame->per_px_q29 * frame->cam.size[1]) >> 1;
     int32_t k2 = mul_q28(tan_x, tan_x) + mul_q28(tan_y, tan_y); /* < 4 */
-    int32_t n = div_q28(frame->cam.near_q16, shadow->max_distance_q16), n2 = mul_q28(n, n); /* <= 1/4 */
+    int32_t n = div_q28(frame->cam.near_q16, shadow->max_distance_q16), n2 = mul_q28(n, n); /* < 1 */
     int32_t q = ONE_Q28 - (int32_t)(shadow->cascade_fade_uq16 << 12), q2 = mul_q28(q, q);   /* >= 1/2 */
     int32_t a = ONE_Q28 - q2, b = n - q2, big_c = mul_q28(ONE_Q28 + k2, q2 - n2), c = ONE_Q28; /* C > 0 */
+    if (b > 0) return 0; /* of b < 0 differences are not small */
     int32_t s = (int32_t)gn_isqrt64((uint64_t)((int64_t)b * b + (int64_t)a * big_c)) - b; /* 1 + 1 * 5; both >= 0 */
     if (s > big_c) c = div_q28(big_c, s);
     int32_t far2 = mul_q28(ONE_Q28 - c, ONE_Q28 - c) + k2, near2 = div_q28(mul_q28(c - n, c - n) + mul_q28(k2, n2), q2);
     *centre = c;
     *radius = (int32_t)gn_isqrt64((uint64_t)(uint32_t)gn_max32(far2, near2) << 28);
+    return 1;
 }
 
 /* Texel size: ceil8 of (1 - 2^-20) * 2 r / D, of which view->scale and shift are the reciprocal. Returns its significant digits. */
@@ -136,8 +141,8 @@ static uint32_t fit_texel(const gn_frame *frame, gn_compact_view *view, int32_t 
     return digits;
 }
 
-/* Whole texels around the sphere's centre: the eye is where the tile's middle lies at depth 0. */
-static void place_tile(const gn_frame *frame, gn_compact_view *view, uint32_t digits, int32_t centre_q16)
+/* Whole texels around the sphere's centre: the eye is where the tile's middle lies at depth 0. Returns 0 if that is out of range. */
+static int place_tile(const gn_frame *frame, gn_compact_view *view, uint32_t digits, int32_t centre_q16)
 {
     int64_t along_q16[3];
     for (int k = 0; k < 3; k++) {
@@ -154,7 +159,9 @@ static void place_tile(const gn_frame *frame, gn_compact_view *view, uint32_t di
         int64_t sum = 0;
         for (int k = 0; k < 3; k++) sum += along_q16[k] * view->axis_q30[k][i];
         view->eye_q16[i] = (int32_t)(sum >> 30);
+        if (gn_abs64(sum >> 30) > 1U << 30) return 0;
     }
+    return 1;
 }
 
 /* DESIGN 1.4: u, v, w from the direction of travel. */
@@ -171,9 +178,9 @@ static int view_axes(gn_compact_view *view, const int32_t direction[3])
     return 1;
 }
 
-static void compose_to_light(gn_frame *frame)
+static int compose_to_light(gn_frame *frame)
 {
-    gn_compact_compose(&frame->to_light, &frame->view[0].project, &frame->scene->camera.to_world, 16);
+    return gn_compact_compose(&frame->to_light, &frame->view[0].project, &frame->scene->camera.to_world, 16);
 }
 
 static gn_status fit_light(gn_frame *frame, const gn_light *light)
@@ -184,19 +191,22 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     int32_t centre_q28, radius_q28;
     int32_t max_q16 = shadow->max_distance_q16;
     frame->offset_q16 = (int32_t)gn_compact_mul((uint32_t)light->bias_normal_q16, 0xB504F334U, 0) << 1; /* sqrt(2) 2^31 */
-    fit_sphere(frame, &centre_q28, &radius_q28);
+    if (!fit_sphere(frame, &centre_q28, &radius_q28)) return GN_ERR_SHADOW_DISTANCE;
     uint32_t digits = fit_texel(frame, project, radius_q28);
     if ((uint32_t)(project->shift - 24) > 22) return GN_ERR_SHADOW_DISTANCE; /* texels of 2^-8 units or more */
+    /* a texel is digits 2^(shift - 23) */
+    project->guard = project->shift > 33 ? 1 << 30 : (int32_t)(digits * GUARD_PX) << (project->shift - 23);
     project->size[0] = project->size[1] = GN_ATLAS_SIZE;
     project->flags = project->mask = GN_OBJECT_CASTS;
     project->two_sided = GN_OBJECT_TWO_SIDED | GN_OBJECT_CASTS_TWO_SIDED;
     int32_t centre_q16 = (int32_t)(((int64_t)centre_q28 * max_q16) >> 28);
-    place_tile(frame, project, digits, centre_q16);
-    compose_to_light(frame);
+    if (!place_tile(frame, project, digits, centre_q16)) return GN_ERR_SHADOW_DISTANCE;
+    if (!compose_to_light(frame)) return GN_ERR_SHADOW_DISTANCE;
     gn_compact_corner corner;
     const int32_t centre[3] = {0, 0, -centre_q16};
-    gn_compact_transform(corner.v_q16, &frame->to_light, centre);
-    gn_compact_project(&corner, project);
+    int32_t v[3];
+    gn_compact_transform(v, &frame->to_light, centre);
+    gn_compact_project(&corner, project, v);
     gn_compact_place(frame->centre_q16, &corner);
     uint32_t radius_q16 = (uint32_t)(((((int64_t)radius_q28 * max_q16) >> 28) * (int64_t)project->scale) >> project->shift);
     frame->radius2_q32 = (uint64_t)radius_q16 * radius_q16;

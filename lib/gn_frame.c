@@ -14,6 +14,9 @@
  *                               gn_chord between them): light (gn_light, gn_arrival, gn_punctual), shadow (gn_shadow, gn_filter),
  *                               encode (gn_pixel)
  *                   flush
+ *   GN_COMPACT      behind the same calls, in 32 bits: camera and light (gn_compact_views), casters and visible triangles
+ *                   (gn_compact_triangle: setup and drawing; gn_compact_point: transform and projection; gn_compact_clip), shading
+ *                   (gn_compact_shade)
  */
 #include <string.h>
 

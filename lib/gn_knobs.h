@@ -52,6 +52,12 @@
     X(other_atlas_texels, OTHER_ATLAS_TEXELS, 64, 1048576, "the same of the other atlas", "other_depth_bits / 8 bytes each")       \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
 
+/* Another arithmetic (gn_compact.h): constant in every build. */
+#define GN_ARITHMETIC_KNOBS(X)                                                                                                     \
+    X(compact, COMPACT, 0, 1,                                                                                                      \
+      "32-bit arithmetic for one directional light with one hard shadow tile and flat colours, in pictures up to 256x256; features are off", \
+      "none: the least flash; a scene beyond its range is refused")
+
 #define GN_FEATURE_KNOBS(X)                                                                                                        \
     X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                                      \
     X(depth_blocks, DEPTH_BLOCKS, 0, 1, "bounds of shadow depth per 8x8 texels decide most lookups at once",                       \
@@ -94,9 +100,6 @@
       "visible triangles may come nearer than the near plane, or reach far beyond the picture; without, the frame is refused", "flash") \
     X(caster_clipping, CASTER_CLIPPING, 0, 1,                                                                                      \
       "directional casters may reach more than 8192 texels beyond their tile; without, they may be refused", "flash")                \
-    X(compact, COMPACT, 0, 1,                                                                                                      \
-      "32-bit arithmetic for one directional light with one hard shadow tile and flat colours, in pictures up to 256x256; all other features are off", \
-      "none: half of the flash; scenes out of its range are refused")                                                              \
     X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")                   \
     X(runtime_knobs, RUNTIME_KNOBS, 0, 1, "quality knobs as data (host tools)", "everything is built")
 

@@ -6,16 +6,24 @@
 
 PART(total, sizeof(gn_renderer));
 PART(triangles, OF(frame.tri));
+#if !GN_COMPACT
 PART(tiles, OF(frame.tile_first) + OF(frame.tile_ref));
+#endif
 PART(lights, OF(frame.light));
 #if GN_BOXES
 PART(objects, OF(frame.object));
 #endif
 PART(screen_tile, OF(scratch.cell) + OF(scratch.pixel));
+#if !GN_COMPACT
 PART(vertices, OF(scratch.vertex));
+#endif
 PART(work, OF(scratch.work));
 #if GN_SHADOWS
+#if GN_COMPACT
+PART(views, OF(frame.view));
+#else
 PART(views, OF(frame.view) + OF(frame.cascade));
+#endif
 #if GN_STATIC_LAYER
 PART(atlas, 2 * OF(frame.atlas));
 #else

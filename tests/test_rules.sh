@@ -77,7 +77,7 @@ none "recursion in lib/" "$tmp/found"
 
 # ---- Who includes whom -----------------------------------------------------------------------------------------------------
 
-grep -H -E '^[[:space:]]*#[[:space:]]*include' lib/*.[ch] | grep -v -E '<(stdint|stddef|string)\.h>|"(gnomon|gn_[a-z]+)\.h"|(GN_USER_CONFIG|GN_PORT)$' >"$tmp/found"
+grep -H -E '^[[:space:]]*#[[:space:]]*include' lib/*.[ch] | grep -v -E '<(stdint|stddef|string)\.h>|"(gnomon|gn_[a-z_]+)\.h"|(GN_USER_CONFIG|GN_PORT)$' >"$tmp/found"
 none "lib/ includes more than itself, stdint.h, stddef.h and string.h" "$tmp/found"
 grep -h -E '^ *#include "gn' lib/*.[ch] | sed 's/.*"\(.*\)".*/\1/' | sort -u | while read -r header; do
     [ -f "lib/$header" ] || echo "$header"

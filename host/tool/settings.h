@@ -14,6 +14,9 @@ typedef struct {
     struct {
         GN_FEATURE_KNOBS(SETTINGS_FIELD_)
     } feature;
+    struct {
+        GN_ARITHMETIC_KNOBS(SETTINGS_FIELD_)
+    } arithmetic;
     gn_format output; /* of the pictures people see */
 } settings;
 

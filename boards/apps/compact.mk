@@ -1,0 +1,1 @@
+APP_FLAGS := '-DGN_USER_CONFIG="compact_config.h"'
