@@ -14,7 +14,7 @@
 
 /* What a triangle's rows have in common. A candidate cell is its depth above its identity. */
 typedef struct {
-    uint32_t iz_dx;
+    uint32_t minus_dx; /* from a cell to the one before it */
     uint32_t lo, range; /* depth inside the triangle: lo .. lo + range */
     uint32_t id_mask;
     uint32_t below; /* from a cell of all depth and no identity's bits clear to the triangle's: id_mask - id */
@@ -38,56 +38,102 @@ static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
             GN_KEEP(candidate);                                                                                                    \
             (cell) = candidate - below;                                                                                            \
         }                                                                                                                          \
-        iz += iz_dx;                                                                                                               \
+        iz += minus_dx;                                                                                                            \
         GN_KEEP(iz);                                                                                                               \
     } while (0)
 
 #if !GN_SIZE_FIRST
+/* n > 0 cells, from the last, whose depth is iz, to the first: those that eights leave, then eights. */
 GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
 {
     GN_COUNT(covered, n);
-    uint32_t iz_dx = depth->iz_dx, id_mask = depth->id_mask, below = depth->below;
-    for (; n >= 4; n -= 4, cell += 4) {
-        GN_CELL_(cell[0]);
-        GN_CELL_(cell[1]);
-        GN_CELL_(cell[2]);
-        GN_CELL_(cell[3]);
-        GN_KEEP(cell);
+    uint32_t minus_dx = depth->minus_dx, id_mask = depth->id_mask, below = depth->below, *at = cell + (n & ~7);
+    GN_KEEP(at); /* one pointer */
+    switch (n & 7) { /* each goes on with those after it */
+    case 7: GN_CELL_(at[6]); GN_GOES_ON;
+    case 6: GN_CELL_(at[5]); GN_GOES_ON;
+    case 5: GN_CELL_(at[4]); GN_GOES_ON;
+    case 4: GN_CELL_(at[3]); GN_GOES_ON;
+    case 3: GN_CELL_(at[2]); GN_GOES_ON;
+    case 2: GN_CELL_(at[1]); GN_GOES_ON;
+    case 1: GN_CELL_(at[0]); GN_GOES_ON;
+    default: break;
     }
-    if (n & 2) {
-        GN_CELL_(cell[0]);
-        GN_CELL_(cell[1]);
-        cell += 2;
-        GN_KEEP(cell);
+    while (at != cell) {
+        at -= 8;
+        GN_KEEP(at);
+        GN_CELL_(at[7]);
+        GN_CELL_(at[6]);
+        GN_CELL_(at[5]);
+        GN_CELL_(at[4]);
+        GN_CELL_(at[3]);
+        GN_CELL_(at[2]);
+        GN_CELL_(at[1]);
+        GN_CELL_(at[0]);
     }
-    if (n & 1) GN_CELL_(cell[0]);
 }
 
 /* Apart, so that it takes no registers of short spans. */
-static GN_NOINLINE void raster_long_span(uint32_t *end, int32_t n, uint32_t iz, const raster_depth *depth)
+static GN_NOINLINE void raster_long_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t minus_dx, uint32_t id_mask, uint32_t below)
 {
-    raster_span(end - n, n, iz, depth);
+    const raster_depth depth = {minus_dx, 0, 0, id_mask, below}; /* by their values: a pointer would keep them in memory */
+    raster_span(cell, n, iz, &depth);
 }
 
-/* The n cells before `end`, none if n is not positive: seldom more than eight. */
-GN_INLINE void raster_short_span(uint32_t *end, int32_t n, uint32_t iz, const raster_depth *depth)
+/* The same of no cells if n is not positive, and seldom more than eight. */
+GN_INLINE void raster_short_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
 {
-    uint32_t iz_dx = depth->iz_dx, id_mask = depth->id_mask, below = depth->below;
+    uint32_t minus_dx = depth->minus_dx, id_mask = depth->id_mask, below = depth->below;
     GN_COUNT(covered, n > 0 && n <= 8 ? n : 0);
-    switch (n) { /* each goes on with those after it */
-    case 8: GN_CELL_(end[-8]); GN_GOES_ON;
-    case 7: GN_CELL_(end[-7]); GN_GOES_ON;
-    case 6: GN_CELL_(end[-6]); GN_GOES_ON;
-    case 5: GN_CELL_(end[-5]); GN_GOES_ON;
-    case 4: GN_CELL_(end[-4]); GN_GOES_ON;
-    case 3: GN_CELL_(end[-3]); GN_GOES_ON;
-    case 2: GN_CELL_(end[-2]); GN_GOES_ON;
-    case 1: GN_CELL_(end[-1]); break;
+    switch (n) {
+    case 8: GN_CELL_(cell[7]); GN_GOES_ON;
+    case 7: GN_CELL_(cell[6]); GN_GOES_ON;
+    case 6: GN_CELL_(cell[5]); GN_GOES_ON;
+    case 5: GN_CELL_(cell[4]); GN_GOES_ON;
+    case 4: GN_CELL_(cell[3]); GN_GOES_ON;
+    case 3: GN_CELL_(cell[2]); GN_GOES_ON;
+    case 2: GN_CELL_(cell[1]); GN_GOES_ON;
+    case 1: GN_CELL_(cell[0]); break;
     default:
-        if (n > 0) raster_long_span(end, n, iz, depth);
+        if (n > 0) raster_long_span(cell, n, iz, minus_dx, id_mask, below);
     }
 }
 #undef GN_CELL_
+
+/* What is stepped from row to row of a triangle. */
+typedef struct {
+    gn_walk_line left, right;
+    uint32_t iz, iz_dy; /* left of the tile's first column */
+    uint32_t *row;
+} stepped_rows;
+
+/* The rows before `end`, of which there are some; borders have `fraction` bits. Rows are cut to the tile's width, if not all of them lie inside. */
+GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stride, int32_t fraction, int inside, int32_t width, const raster_depth *depth)
+{
+    uint32_t left = rows->left.x, right = rows->right.x, iz = rows->iz;
+    uint32_t *row = rows->row;
+    do {
+        int32_t xa = (int32_t)left >> fraction, xb = (int32_t)right >> fraction;
+        if (!inside) {
+            xa = gn_max32(xa, 0);
+            xb = gn_min32(xb, width);
+        }
+        GN_COUNT(rows, xb > xa);
+        if (fraction == GN_NARROW_BITS) raster_short_span(row + xa, xb - xa, iz - (uint32_t)xb * depth->minus_dx, depth);
+        else if (xb > xa) raster_span(row + xa, xb - xa, iz - (uint32_t)xb * depth->minus_dx, depth);
+        left += rows->left.step;
+        right += rows->right.step;
+        iz += rows->iz_dy;
+        row += stride;
+        GN_KEEP(left); /* stepped, not found again after the loop */
+        GN_KEEP(right);
+        GN_KEEP(iz);
+        GN_KEEP(row);
+    } while (row != end);
+    rows->left.x = left, rows->right.x = right;
+    rows->iz = iz;
+    rows->row = row;
+}
 #endif
 
 #if GN_VISIBLE_ALPHA
@@ -122,7 +168,7 @@ typedef struct {
  * where the surface would be the nearest. */
 static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz, gn_alpha_cut *cut, int32_t x)
 {
-    for (int32_t i = 0; i < n; i++, cell++, iz += depth->iz_dx) {
+    for (int32_t i = 0; i < n; i++, cell++, iz -= depth->minus_dx) {
         uint32_t candidate = clamp_depth(iz, depth) | depth->id_mask;
         if (candidate < *cell) continue;
 #if GN_VISIBLE_ALPHA
@@ -146,71 +192,26 @@ static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri,
     const int32_t bits = GN_K(tile->frame, subpixel_bits), stride = GN_K(tile->frame, tile_width), lasts = tri->iz_min - 1;
     int32_t at = gn_max32(gn_first_px(ring[0].y, bits), 0), bend[2] = {gn_first_px(ring[1].y, bits), gn_first_px(ring[2].y, bits)};
     int32_t end = gn_min32(gn_max32(bend[0], bend[1]), tile->height), left_end = at, right_end = at;
-    const raster_depth depth = {(uint32_t)tri->iz_dx, 0, 0, tile->id_mask, tile->id_mask - id};
-    const uint32_t iz_dy = (uint32_t)tri->iz_dy;
-    const int32_t width = tile->width;
-    uint32_t iz_row = tri->iz_ref + (uint32_t)(at - (ring[0].y >> bits)) * iz_dy - (uint32_t)(ring[0].x >> bits) * depth.iz_dx;
-    uint32_t *row = GN_CELLS(tile->scratch) + at * stride;
-    gn_walk_line left = {0, 0}, right = {0, 0};
+    uint32_t minus_dx = 0U - (uint32_t)tri->iz_dx;
+    GN_KEEP(minus_dx); /* one of the two */
+    const raster_depth depth = {minus_dx, 0, 0, tile->id_mask, tile->id_mask - id};
+    stepped_rows rows = {{0, 0}, {0, 0}, 0, (uint32_t)tri->iz_dy, GN_CELLS(tile->scratch) + at * stride};
+    rows.iz = tri->iz_ref + (uint32_t)(at - (ring[0].y >> bits)) * rows.iz_dy + (uint32_t)((ring[0].x >> bits) + 1) * minus_dx;
     while (at < end) {
         if (at == left_end) {
             const gn_walk_corner *from = ring + (at >= bend[0]);
             left_end = gn_min32(at < bend[0] ? gn_min32(bend[0], end) : end, at + lasts);
-            left = gn_walk_line_at(from[0].x, from[0].y, from[1].x, from[1].y, at, lasts, bits);
+            rows.left = gn_walk_line_at(from[0].x, from[0].y, from[1].x, from[1].y, at, lasts, bits);
         }
         if (at == right_end) {
             const gn_walk_corner *from = ring + 3 - (at >= bend[1]);
             right_end = gn_min32(at < bend[1] ? gn_min32(bend[1], end) : end, at + lasts);
-            right = gn_walk_line_at(from[0].x, from[0].y, from[-1].x, from[-1].y, at, lasts, bits);
+            rows.right = gn_walk_line_at(from[0].x, from[0].y, from[-1].x, from[-1].y, at, lasts, bits);
         }
-        for (int32_t stop = gn_min32(left_end, right_end); at < stop; at++) {
-            int32_t xa = gn_max32((int32_t)left.x >> GN_FIXED_BITS, 0), n = gn_min32((int32_t)right.x >> GN_FIXED_BITS, width) - xa;
-            GN_COUNT(rows, n > 0);
-            if (n > 0) raster_span(row + xa, n, iz_row + (uint32_t)xa * depth.iz_dx, &depth);
-            left.x += left.step;
-            right.x += right.step;
-            row += stride;
-            iz_row += iz_dy;
-            GN_KEEP(left.x); /* stepped, not found again after the loop */
-            GN_KEEP(right.x);
-            GN_KEEP(row);
-            GN_KEEP(iz_row);
-        }
+        int32_t stop = gn_min32(left_end, right_end);
+        raster_rows(&rows, rows.row + (stop - at) * stride, stride, GN_FIXED_BITS, 0, tile->width, &depth);
+        at = stop;
     }
-}
-
-/* What is stepped from row to row of a narrow triangle. */
-typedef struct {
-    gn_walk_line left, right;
-    uint32_t iz, iz_dy;
-    uint32_t *row;
-} narrow_rows;
-
-/* The rows before `end`, of which there are some. They are cut to the tile's width, if not all of them lie inside. */
-GN_INLINE void raster_narrow_rows(narrow_rows *rows, const uint32_t *end, int32_t stride, int inside, int32_t width, const raster_depth *depth)
-{
-    uint32_t left = rows->left.x, right = rows->right.x, iz = rows->iz;
-    uint32_t *row = rows->row;
-    do {
-        int32_t xa = (int32_t)left >> GN_NARROW_BITS, xb = (int32_t)right >> GN_NARROW_BITS;
-        if (!inside) {
-            xa = gn_max32(xa, 0);
-            xb = gn_min32(xb, width);
-        }
-        GN_COUNT(rows, xb > xa);
-        raster_short_span(row + xb, xb - xa, iz + (uint32_t)xa * depth->iz_dx, depth);
-        left += rows->left.step;
-        right += rows->right.step;
-        iz += rows->iz_dy;
-        row += stride;
-        GN_KEEP(left); /* stepped, not found again after the loop */
-        GN_KEEP(right);
-        GN_KEEP(iz);
-        GN_KEEP(row);
-    } while (row != end);
-    rows->left.x = left, rows->right.x = right;
-    rows->iz = iz;
-    rows->row = row;
 }
 
 /* A triangle of a few pixels, that nothing cuts and whose depth needs no look: of most of them all is in one or two screen tiles. */
@@ -223,10 +224,12 @@ static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri
     int32_t end = gn_min32(gn_max32(left_end, right_end), tile->height), bend = gn_min32(left_end, right_end);
     if (at >= end) return;
     int inside = (uint32_t)(top.x | left.x | right.x) < tile->inside;
-    const raster_depth depth = {(uint32_t)tri->iz_dx, 0, 0, tile->id_mask, tile->id_mask - id};
-    narrow_rows rows;
+    uint32_t minus_dx = 0U - (uint32_t)tri->iz_dx;
+    GN_KEEP(minus_dx); /* one of the two */
+    const raster_depth depth = {minus_dx, 0, 0, tile->id_mask, tile->id_mask - id};
+    stepped_rows rows;
     rows.iz_dy = (uint32_t)tri->iz_dy;
-    rows.iz = tri->iz_ref + (uint32_t)(at - (top.y >> bits)) * rows.iz_dy - (uint32_t)(top.x >> bits) * depth.iz_dx;
+    rows.iz = tri->iz_ref + (uint32_t)(at - (top.y >> bits)) * rows.iz_dy + (uint32_t)((top.x >> bits) + 1) * minus_dx;
     uint32_t *cells = GN_CELLS(tile->scratch);
     rows.row = cells + at * stride;
     int32_t y = at * (1 << bits) + half;
@@ -234,8 +237,8 @@ static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri
     rows.right = at < right_end ? gn_walk_narrow_at(top.x, top.y, right.x, right.y, y, bits) : gn_walk_narrow_at(right.x, right.y, left.x, left.y, y, bits);
     if (bend <= at || bend > end) bend = end;
     for (;;) {
-        if (inside) raster_narrow_rows(&rows, cells + bend * stride, stride, 1, 0, &depth);
-        else raster_narrow_rows(&rows, cells + bend * stride, stride, 0, tile->width, &depth);
+        if (inside) raster_rows(&rows, cells + bend * stride, stride, GN_NARROW_BITS, 1, 0, &depth);
+        else raster_rows(&rows, cells + bend * stride, stride, GN_NARROW_BITS, 0, tile->width, &depth);
         if (bend == end) return;
         y = bend * (1 << bits) + half;
         if (bend == left_end) rows.left = gn_walk_narrow_at(left.x, left.y, right.x, right.y, y, bits);
@@ -266,7 +269,8 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
     int32_t stride = GN_K(tile->frame, tile_width), width = tile->width;
     if (!n_rows) return;
     raster_depth depth;
-    depth.iz_dx = (uint32_t)tri->iz_dx;
+    const uint32_t iz_dx = (uint32_t)tri->iz_dx;
+    depth.minus_dx = 0U - iz_dx;
     int bounded = tri->iz_min <= tri->iz_max;
     depth.lo = bounded ? (uint32_t)tri->iz_min << 16 : 0;
     depth.range = bounded ? ((uint32_t)tri->iz_max << 16 | 0xFFFFU) - depth.lo : UINT32_MAX;
@@ -275,18 +279,18 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
     uint32_t iz_dy = (uint32_t)tri->iz_dy;
     /* at the tile's left border, above the least; inside the triangle below its range, but for the last value there is */
     uint32_t iz_row =
-        tri->iz_ref - depth.lo - (uint32_t)(x[0] >> bits) * depth.iz_dx + (uint32_t)(walk.first - (y[0] >> bits)) * iz_dy;
+        tri->iz_ref - depth.lo - (uint32_t)(x[0] >> bits) * iz_dx + (uint32_t)(walk.first - (y[0] >> bits)) * iz_dy;
     uint32_t *row = GN_CELLS(tile->scratch) + walk.first * stride;
     for (; n_rows > 0; n_rows = gn_walk_on(&walk)) {
         for (const gn_span *span = walk.span; n_rows > 0; n_rows--, span++, row += stride, iz_row += iz_dy) {
             int32_t xa = gn_max32(span->x_begin, 0), n = gn_min32(span->x_end, width) - xa;
             if (n <= 0) continue;
-            uint32_t above = iz_row + (uint32_t)xa * depth.iz_dx;
+            uint32_t above = iz_row + (uint32_t)xa * iz_dx;
             GN_COUNT(rows, 1);
 #if !GN_SIZE_FIRST /* the slow way has the same results */
             uint32_t end = cut ? 0 : depth.range;
-            if (above < end && above + (uint32_t)(n - 1) * depth.iz_dx < end) {
-                raster_span(row + xa, n, above + depth.lo, &depth);
+            if (above < end && above + (uint32_t)(n - 1) * iz_dx < end) {
+                raster_span(row + xa, n, above + depth.lo + (uint32_t)(n - 1) * iz_dx, &depth);
                 continue;
             }
 #endif

@@ -26,11 +26,10 @@ static inline uint32_t *gn_runs_last(uint32_t *end)
 /* The first cell of the run that ends with `last`. The one before the row must be of no triangle: UINT32_MAX. */
 static inline uint32_t *gn_runs_first(uint32_t *last, uint32_t id_mask)
 {
-    uint32_t id = *last;
-    do {
-        last--;
-        GN_KEEP(last); /* one pointer */
-    } while (!((*last ^ id) & id_mask));
+    uint32_t id = *last, before;
+    do before = *--last;
+    while (!((before ^ id) & id_mask));
+    GN_KEEP(last); /* one pointer */
     return last + 1;
 }
 
