@@ -198,6 +198,7 @@ static inline void take(worst *w, const engine_picture *fixed, const engine_pict
         m.identical += (double)m.by_coverage / N_PIXELS;
         m.within1 = fmin(1, m.within1 + (double)m.by_coverage / N_PIXELS);
         m.shadow_mismatch *= fmin(1, lit_pixels(&m) / (N_PIXELS / 4.0)); /* of a handful, one would be too many */
+        if (m.max_error == 0) m.identical = m.within1 = 1; /* one colour on the border between two levels of RGB565 */
     }
     w->n++;
     w->share = fmax(w->share, share_needed(&m, preset));
