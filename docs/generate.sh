@@ -1,6 +1,6 @@
 #!/bin/sh
 # Regenerates the parts of docs/ between "<!-- generated: NAME -->" and "<!-- end -->". usage: generate.sh TOOL [OUT_DIR]
-# The gallery is made as a whole, by gallery.sh; BAKE.md by bake.sh; TRADE.md by trade.sh, which takes a minute and so is left out with OUT_DIR. With OUT_DIR the documents are written there instead of in place: the test compares the two.
+# The gallery is made as a whole, by gallery.sh; BAKE.md by bake.sh; TRADE.md by trade.sh, which takes minutes and so is left out with OUT_DIR. With OUT_DIR the documents are written there instead of in place: the test compares the two.
 set -e
 tool=$1 out=${2:-docs}
 build=$(dirname "$tool")

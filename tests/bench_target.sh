@@ -14,7 +14,7 @@ BASELINE=tests/bench_target_baseline.txt
 DOC=docs/SPEED.md
 CASES="flat gouraud flat-shadow gouraud-shadow"
 SCENES="sundial avenue desk room fence mixed"
-STAGES="gn_scene_validate gn_views_setup gn_atlas_render_tile gn_setup_triangles gn_bin_triangles gn_raster_tile gn_shade_tile bench_flush"
+STAGES=$(sh boards/tools/count.sh --stages)
 
 # core, board, and what it is configured by: light found at vertices alone, the longest steps, bands as wide as the picture
 CORES="M3 mps2-an385
@@ -24,34 +24,18 @@ M4 mps2-an386
 RV32 rv32-virt"
 
 mkdir -p "$DIR"
-make -s BOARD=mps2-an385 APP=bench BUILD="$BUILD" "$BUILD/libstages.so"
 
 board_of() { echo "$CORES" | sed -n "s/^$1 \\([^ ]*\\).*/\\1/p"; }
 flags_of() { echo "$CORES" | sed -n "s/^$1 [^ ]* *//p"; }
-
-# board CORE VARIABLE...: make for its board
-board() {
-    core=$1
-    shift
-    make -s -j2 BOARD="$(board_of "$core")" FW_OPT=-O2 FW_FLAGS="$(flags_of "$core")" APP=bench BUILD="$BUILD" "$@" </dev/null
-}
+for core in M3 RV32; do sh boards/tools/count.sh --ready "$(board_of $core)"; done
 
 # one "run CORE NAME" IMAGE CORE ARGS VARIABLE...: a line with the instructions of every stage, in the order of STAGES, then the
 # counts that the app prints
 one() {
     label=$1 image=$2 core=$3 args=$4
     shift 4
-    board "$core" firmware IMAGE="$image" "$@" >"$DIR/log" 2>&1 || { cat "$DIR/log" >&2; exit 1; }
-    elf=$BUILD/firmware/$(board_of "$core")/$image.elf
-    stages=
-    for stage in $STAGES; do
-        at=$(arm-none-eabi-nm "$elf" | awk -v f="$stage" '$3 == f { print $1 }')
-        stages=$stages,stage=${at:-ffffffff}
-    done
-    board "$core" emulate IMAGE="$image" "$@" ARGS="$args" TIMEOUT=300 \
-        EMULATOR_FLAGS="-display none -monitor none -serial none -plugin $BUILD/libstages.so,out=$DIR/stages$stages" >"$DIR/log" 2>&1 ||
-        { cat "$DIR/log" >&2; exit 1; }
-    echo "$label $(awk '$2 > 0 { printf "%s ", $3 }' "$DIR/stages")$(awk '/^[a-z_]+ [0-9]+\r?$/ { printf "%s ", $2 + 0 }' "$DIR/log")" | sed 's, *$,,'
+    sh boards/tools/count.sh "$(board_of "$core")" "$image" "$args" FW_OPT=-O2 FW_FLAGS="$(flags_of "$core")" "$@" </dev/null >"$DIR/log"
+    echo "$label $(awk '$1 == "stage" { printf "%s ", $3 } /^[a-z_]+ [0-9]+$/ { printf "%s ", $2 }' "$DIR/log")" | sed 's, *$,,'
 }
 
 workload() { # workload CORE
@@ -153,7 +137,7 @@ if [ "${1:-}" = --document ]; then
     rewrite_document
     exit 0
 fi
-board M3 firmware IMAGE=bench-M3 >/dev/null # makes the workload
+make -s BOARD=mps2-an385 APP=bench BUILD="$BUILD" "$BUILD/firmware/bench/bench_meshes.h" >/dev/null # makes the workload
 if [ "${1:-}" = --write ]; then
     measure all >"$DIR/target.txt"
     cp "$DIR/target.txt" "$BASELINE"

@@ -5,7 +5,7 @@ tool=${1:-build/gnomon}
 . tests/check.sh
 size=48x36
 
-run() { timeout 120 "$tool" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null; }
+run() { timeout 300 "$tool" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null; }
 
 good() { # good ARGUMENTS...: exit 0, nothing on stderr: no progress either
     run "$@"
@@ -35,7 +35,7 @@ field() {
 
 # ---- The sweep -----------------------------------------------------------------------------------------------------------------
 
-head='configuration,front,ram_bytes,instructions_per_pixel,truth_identical,truth_within1,truth_psnr_db,truth_atten_rms,truth_shadow_mismatch,reference_identical,reference_within1,reference_psnr_db,reference_atten_rms,reference_shadow_mismatch,later_frames,later_instructions_per_pixel,later_most_instructions_per_pixel,later_truth_psnr_db,later_truth_worst_psnr_db,later_reference_psnr_db,later_reference_worst_psnr_db,n_tile_texels,'
+head='configuration,front,ram_bytes,instructions_per_pixel,truth_identical,truth_within1,truth_psnr_db,truth_atten_rms,truth_shadow_mismatch,reference_identical,reference_within1,reference_psnr_db,reference_atten_rms,reference_shadow_mismatch,later_frames,later_instructions_per_pixel,later_most_instructions_per_pixel,later_truth_psnr_db,later_truth_worst_psnr_db,later_reference_psnr_db,later_reference_worst_psnr_db,target_instructions_per_pixel,target_later_instructions_per_pixel,n_tile_texels,'
 for name in sundial desk mixed; do
     scene=host/scenes/$name.gltf csv=$tmp/$name.csv
     good sweep "$scene" --quick --size $size --csv "$csv" --svg "$tmp/$name.svg"
@@ -169,6 +169,43 @@ bad 1 'no configuration fits' advise host/scenes/desk.gltf --quick --size $size 
 bad 1 'the fewest instructions within the RAM: [0-9]* bytes' advise host/scenes/desk.gltf --quick --size $size --ram 100000 --instructions-per-pixel 5
 bad 1 'the nearest: [0-9]* bytes' advise host/scenes/desk.gltf --quick --size $size --ram 1000 --instructions-per-pixel 5 --json
 
+# ---- On a target ---------------------------------------------------------------------------------------------------------------
+
+# one configuration of a still scene, so that one image is built; a terminal sees what is at work
+one="--set preset=tiny --set filter=hard --set atlas_size=64"
+counted="$tool sweep host/scenes/fence.gltf --quick --size $size $one --target mps2-an385 --csv $tmp/counted.csv --svg $tmp/counted.svg"
+if command -v script >/dev/null; then
+    script -q -e -c "$counted" "$tmp/typescript" >/dev/null 2>&1 </dev/null
+    grep -q '0 of 1 counted on mps2-an385' "$tmp/typescript" && pass || fail "a terminal does not see that something is counted"
+else $counted >/dev/null 2>&1; fi
+sh boards/tools/count.sh mps2-an385 test-sweep "0,0 1" FW_OPT=-O2 SCENE=host/scenes/fence.gltf PRESET=tiny \
+    SCENE_FLAGS="--size $size --frames 0-1 --simplify safe --set filter=hard --set atlas_size=64 --set output=rgb565" >"$tmp/stages" 2>&1
+want=$(awk '/^args:/ { run++ } $1 == "stage" { n[run] += $3 } END { printf "%.3f %.3f", n[1] / 48 / 36, (n[2] - n[1]) / 48 / 36 }' "$tmp/stages")
+got=$(awk -F '"' 'NR == 2 { split($3, v, ","); printf "%.3f %.3f", v[22], v[23] }' "$tmp/counted.csv")
+[ "$got" = "$want" ] && pass || fail "counted on mps2-an385: $got, and by hand $want"
+echo "$got" | awk '{ exit !($1 > 100 && $2 > 100 && $2 < $1) }' && pass || fail "tiles that are kept save nothing on mps2-an385: $got"
+[ "$(grep -c '<circle' "$tmp/counted.svg")" = 3 ] && grep -q 'Cost on mps2-an385' "$tmp/counted.svg" && pass || fail "the plot has no panel of mps2-an385"
+sh boards/tools/count.sh --remove mps2-an385 test-sweep
+ls build/firmware/mps2-an385 | grep -q '^sweep-' && fail "the sweep leaves images behind" || pass
+# shellcheck disable=SC2086
+good advise host/scenes/fence.gltf --quick --size $size $one --set persp_step=8 --set subpixel_bits=4 --set tile_width=32 --set tile_height=8 --set depth_bits=16 --set cascades=1 \
+    --ram 100000 --instructions-per-pixel 100000 --target mps2-an385 --json
+grep -q '"target": {"board": "mps2-an385", "instructions_per_pixel": [0-9.]*, ' "$tmp/out" && pass || fail "advice for mps2-an385 was not counted: $(head -c 300 "$tmp/out")"
+
+# where nothing counts, the reason is said once; a board that there is not, or that nothing emulates, is an error
+scene=host/scenes/fence.gltf
+mkdir -p "$tmp/ghost"
+printf '# A core that nobody has a compiler for.\nBOARD_RUNS := qemu\nBOARD_CROSS := ghost-none-\nBOARD_EMULATOR := qemu-system-ghost\n' >"$tmp/ghost/board.mk"
+run sweep $scene --quick --size 8x8 --target "../$tmp/ghost" --csv "$tmp/ghost.csv" && pass || fail "without a toolchain the sweep fails: $(head -n 1 "$tmp/err")"
+[ "$(grep -c 'ghost-none-gcc is not installed' "$tmp/err")" = 1 ] && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "without a toolchain: $(head -n 2 "$tmp/err")"
+awk -F '"' 'NR > 1 { split($3, v, ","); if (v[22] != "" || v[23] != "" || v[24] == "") exit 1 } END { exit !(NR > 5) }' "$tmp/ghost.csv" && pass || fail "columns that were not counted are not empty"
+run advise $scene --quick --size 8x8 --ram 100000 --instructions-per-pixel 100000 --target "../$tmp/ghost"
+[ $? = 1 ] && grep -q 'is of .*ghost: without --target' "$tmp/err" && pass || fail "a budget that nothing counts is taken: $(tail -n 1 "$tmp/err")"
+bad 1 "no board 'nowhere'" sweep $scene --target nowhere
+bad 1 'no emulator runs pico' sweep $scene --target pico
+bad 1 "no board 'nowhere'" advise $scene --ram 100000 --target nowhere
+bad 2 target compile $scene -o "$tmp/c" --target mps2-an385
+
 # ---- Usage ---------------------------------------------------------------------------------------------------------------------
 
 scene=host/scenes/sundial.gltf
@@ -196,7 +233,9 @@ fi
 mkdir "$tmp/docs"
 sh docs/trade.sh "$tool" "$tmp/docs" avenue >/dev/null 2>"$tmp/err" && pass || fail "docs/trade.sh: $(head -n 1 "$tmp/err")"
 cmp -s docs/TRADE.md "$tmp/docs/TRADE.md" && pass || fail "docs/TRADE.md is out of date: make docs ($(diff docs/TRADE.md "$tmp/docs/TRADE.md" | sed -n 2p))"
-cmp -s docs/pictures/trade-avenue.svg "$tmp/docs/pictures/trade-avenue.svg" && pass || fail "docs/pictures/trade-avenue.svg is out of date: make docs"
+new=$tmp/docs/pictures/trade-avenue.svg # without what was counted
+grep '<circle' docs/pictures/trade-avenue.svg | head -n "$(grep -c '<circle' "$new")" >"$tmp/points"
+[ -s "$tmp/points" ] && grep '<circle' "$new" | cmp -s - "$tmp/points" && pass || fail "docs/pictures/trade-avenue.svg is out of date: make docs"
 for name in sundial avenue desk room fence mixed; do
     [ -s docs/pictures/trade-$name.svg ] && grep -q "pictures/trade-$name.svg" docs/TRADE.md && pass || fail "docs/TRADE.md has no picture of $name"
 done

@@ -1,7 +1,8 @@
-/* What is measured on a target by tests/bench_target.sh, whose counter sees the library's own functions begin.
+/* What is measured on a target by boards/tools/count.sh, whose counter sees the library's own functions begin.
  *
  *   make emulate BOARD=... APP=bench ARGS="CASE SET"     a case and a set of the workload
  *   make emulate BOARD=... APP=bench SCENE=FILE ARGS=N   frame N of a scene, configured for it
+ *   make emulate BOARD=... APP=bench SCENE=FILE ARGS="N M"   from frame N to frame M, shadow tiles being kept; beyond the last it is still
  *
  * Prints by what the instructions are divided.
  */
@@ -32,10 +33,9 @@ static void print_count(const char *name, uint32_t n)
     board_print("\n");
 }
 
-static int draw(const gn_scene *scene, gn_picture picture)
+/* Of what was drawn last. */
+static int report(gn_status status, gn_picture picture)
 {
-    gn_status status = gn_init(&renderer, &picture);
-    if (!status) status = gn_render(&renderer, scene, bench_flush, NULL);
     if (status) {
         board_print(gn_status_text(status));
         board_print("\n");
@@ -51,12 +51,27 @@ static int draw(const gn_scene *scene, gn_picture picture)
 
 #ifdef BOARD_SCENE
 
+/* A number, and the blank behind it; -1: there is none. */
+static int32_t read_number(const char **text)
+{
+    const char *at = *text;
+    int32_t n = *at >= '0' && *at <= '9' ? 0 : -1;
+    for (; *at >= '0' && *at <= '9'; at++) n = 10 * n + (*at - '0');
+    *text = *at == ' ' ? at + 1 : at;
+    return n;
+}
+
 int app_main(void)
 {
     static scene_state state;
-    uint32_t frame = 0;
-    for (const char *digit = board_args(); *digit >= '0' && *digit <= '9'; digit++) frame = 10 * frame + (uint32_t)(*digit - '0');
-    return draw(scene_frame(&state, frame), (gn_picture){SCENE_WIDTH, SCENE_HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0});
+    const gn_picture picture = {SCENE_WIDTH, SCENE_HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    const char *args = board_args();
+    int32_t frame = read_number(&args), last = read_number(&args);
+    const gn_scene *scene = scene_frame(&state, frame < 0 ? 0 : (uint32_t)frame);
+    gn_status status = gn_init(&renderer, &picture);
+    if (!status) status = gn_render(&renderer, scene, bench_flush, NULL);
+    while (!status && ++frame <= last) status = gn_render(&renderer, scene_frame(&state, (uint32_t)frame), bench_flush, NULL);
+    return report(status, picture);
 }
 
 #else
@@ -87,7 +102,10 @@ int app_main(void)
     if (!c->coloured) bench.mesh.rgb_uq16 = NULL;
     if (!c->coloured || !c->shadowed) bench.mesh.nrm_q15 = NULL;
     bench_build_scene(&bench, c);
-    return draw(&bench.scene, (gn_picture){BENCH_SCENE_WIDTH, BENCH_SCENE_HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0});
+    const gn_picture picture = {BENCH_SCENE_WIDTH, BENCH_SCENE_HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    gn_status status = gn_init(&renderer, &picture);
+    if (!status) status = gn_render(&renderer, &bench.scene, bench_flush, NULL);
+    return report(status, picture);
 }
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "sweep.h"
 
-enum { SEEDS = 3, ROUNDS = 2, SHRINK_ROUNDS = 6, ARGUMENT_BYTES = 16384, NEED_BYTES = 3072 };
+enum { SEEDS = 3, ROUNDS = 2, SHRINK_ROUNDS = 6, COUNTS_MAX = 10, ARGUMENT_BYTES = 16384, NEED_BYTES = 3072 };
 /* A row that is over its budget by no more than this may have a neighbour that is not. */
 static const double near_budget = 1.5;
 
@@ -110,35 +110,50 @@ static int shrink(sweep *w, const budget *b)
     return 0;
 }
 
+/* ---- On a target: what is counted, and for the rest the model in proportion ------------------------------------------------ */
+
+static void count(sweep *w, size_t row)
+{
+    if (row == SIZE_MAX || w->rows[row].is_counted || w->rows[row].is_uncountable) return;
+    sweep_target_count(w, &row, 1);
+    sweep_target_scale(w);
+}
+
+/* The row with the least RAM, or instructions, among those that keep the other budget; SIZE_MAX: none does. */
+static size_t smallest(const sweep *w, const budget *b, bool ram);
+
+/* What a budget of instructions is held against before anything is near it: the best and the cheapest of what fits into the RAM. */
+static void count_ends(sweep *w, const budget *b)
+{
+    budget of_ram = *b;
+    of_ram.instructions = DBL_MAX;
+    count(w, find_best(w, &of_ram));
+    count(w, smallest(w, &of_ram, false));
+}
+
+/* Until the best is one that was counted. */
+static void settle(sweep *w, const budget *b)
+{
+    for (int n = 0; n < COUNTS_MAX; n++) {
+        size_t best = find_best(w, b);
+        if (best == SIZE_MAX || w->rows[best].is_counted) return;
+        count(w, best);
+    }
+    for (size_t i = 0; i < w->n_rows; i++) /* what was not is no advice */
+        if (!w->rows[i].is_counted) w->rows[i].cost = (double)INFINITY;
+}
+
 static int search(sweep *w, const budget *b, bool quick)
 {
     if (sweep_run(w, quick)) return -1;
+    if (w->counts && b->instructions < DBL_MAX) count_ends(w, b);
     if (find_best(w, b) == SIZE_MAX && shrink(w, b)) return -1;
-    return find_best(w, b) == SIZE_MAX ? 0 : refine(w, b);
+    if (find_best(w, b) != SIZE_MAX && refine(w, b)) return -1;
+    if (w->counts) settle(w, b);
+    return 0;
 }
 
 /* ---- Arguments -------------------------------------------------------------------------------------------------------------- */
-
-/* Appends as a shell reads it. */
-static void append_quoted(char *out, size_t bytes, const char *text)
-{
-    size_t used = strlen(out);
-    bool plain = *text && !text[strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_=.,@+-/:")];
-    if (plain) {
-        snprintf(out + used, bytes - used, "%s", text);
-        return;
-    }
-    if (used + 1 < bytes) out[used++] = '\'';
-    for (; *text && used + 6 < bytes; text++) {
-        if (*text != '\'') out[used++] = *text;
-        else {
-            memcpy(out + used, "'\\''", 4);
-            used += 4;
-        }
-    }
-    if (used + 1 < bytes) out[used++] = '\'';
-    out[used < bytes ? used : bytes - 1] = 0;
-}
 
 static void make_arguments(const sweep *w, const sweep_row *r, char *out, size_t bytes)
 {
@@ -149,7 +164,7 @@ static void make_arguments(const sweep *w, const sweep_row *r, char *out, size_t
     for (int i = 0; i < n; i++) {
         size_t used = strlen(out);
         snprintf(out + used, bytes - used, "%s--set ", i ? " " : "");
-        append_quoted(out, bytes, sets[i]);
+        tool_append_quoted(out, bytes, sets[i]);
     }
     if (!n) snprintf(out, bytes, "no --set");
 }
@@ -165,6 +180,9 @@ static void print_text(const sweep *w, const sweep_row *r)
     printf("  RAM                      %8ld bytes\n", r->ram_bytes);
     printf("  instructions             %8.1f per pixel (model), every shadow tile drawn; %.1f in %s\n", r->instructions, r->played.instructions,
            w->moves ? "later frames" : "a later frame, which keeps them");
+    if (r->is_counted)
+        printf("  on %-22s %7.1f per pixel, every shadow tile drawn; %.1f in %s\n", o->target, r->target, r->target_later,
+               w->moves ? "later frames" : "a later frame");
     if (w->moves)
         printf("  over frames %d to %-9d %7.2f dB against exact shadows, %.2f dB the worst; %.1f instructions per pixel at most\n", o->frame + 1,
                o->frame + SWEEP_PLAYED, r->played.truth.mean_db, r->played.truth.worst_db, r->played.most);
@@ -173,6 +191,7 @@ static void print_text(const sweep *w, const sweep_row *r)
     printf("  against the same in double %6.2f dB, %.3f %% identical%s\n", r->reference.psnr_db, 100 * r->reference.identical,
            w->moves ? ", in the first frame" : "");
     printf("  the best of %zu configurations\n", w->n_rows);
+    if (w->n_uncounted) printf("  %zu could not be counted on %s, the first: %s\n", w->n_uncounted, o->target, w->uncounted);
 }
 
 static void print_json(const sweep *w, const sweep_row *r)
@@ -197,7 +216,6 @@ static bool needs_less(const sweep_row *a, const sweep_row *b, bool ram)
     return ram ? a->ram_bytes < b->ram_bytes : a->cost < b->cost;
 }
 
-/* The row with the least RAM, or instructions, among those that keep the other budget; SIZE_MAX: none does. */
 static size_t smallest(const sweep *w, const budget *b, bool ram)
 {
     size_t best = SIZE_MAX;
@@ -215,15 +233,20 @@ static void describe(const sweep *w, size_t row, char *out, size_t bytes)
     char arguments[NEED_BYTES - 128];
     const sweep_row *r = &w->rows[row];
     make_arguments(w, r, arguments, sizeof arguments);
-    snprintf(out, bytes, "%ld bytes and %.1f instructions per pixel by %s", r->ram_bytes, r->cost, arguments);
+    snprintf(out, bytes, "%ld bytes and %.1f instructions per pixel%s%s by %s", r->ram_bytes, r->cost, w->counts ? " on " : "",
+             w->counts ? w->options->target : "", arguments);
 }
 
 /* What would do: each budget's least where the other is kept, or where both are missed, what comes nearest. */
-static int refuse(const sweep *w, const budget *b)
+static int refuse(sweep *w, const budget *b)
 {
     const tool_options *o = w->options;
     const seed_list none = {{0}, 0};
     char message[2 * NEED_BYTES + 256], need[NEED_BYTES], limit[64] = "";
+    for (int i = 0; w->counts && i < 2; i++) { /* what is named is counted, too; then another may be */
+        count(w, smallest(w, b, true));
+        count(w, smallest(w, b, false));
+    }
     size_t ram = smallest(w, b, true), cost = smallest(w, b, false);
     if (o->instructions_per_pixel) snprintf(limit, sizeof limit, " and %d instructions per pixel", o->instructions_per_pixel);
     snprintf(message, sizeof message, "no configuration fits into %d bytes%s", o->ram, limit);
@@ -242,13 +265,23 @@ static int refuse(const sweep *w, const budget *b)
     return tool_fail(o->scene_path, message);
 }
 
+/* -1: a budget of instructions on a target where nothing counts them. */
+static int begin_target(sweep *w)
+{
+    const tool_options *o = w->options;
+    if (sweep_target_begin(w)) return -1;
+    if (!o->target || w->counts || !o->instructions_per_pixel) return 0;
+    tool_error("--instructions-per-pixel %d is of %s: without --target it is of the model", o->instructions_per_pixel, o->target);
+    return -1;
+}
+
 int tool_advise(const tool_options *o)
 {
     sweep w;
     const budget b = {o->ram, o->instructions_per_pixel ? o->instructions_per_pixel : DBL_MAX, o->quick ? 1 : SEEDS,
                       o->quick ? 1 : ROUNDS};
     if (sweep_begin(&w, o)) return TOOL_FAILED;
-    int status = search(&w, &b, o->quick) ? TOOL_FAILED : TOOL_OK;
+    int status = begin_target(&w) || search(&w, &b, o->quick) ? TOOL_FAILED : TOOL_OK;
     if (status == TOOL_OK) {
         size_t best = find_best(&w, &b);
         if (best == SIZE_MAX) status = refuse(&w, &b);

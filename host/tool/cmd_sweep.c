@@ -21,37 +21,55 @@ static int by_ram(const void *a, const void *b)
 
 static void print_db(double v)
 {
-    if (isinf(v)) printf("%7s", "inf");
-    else printf("%7.2f", v);
+    if (isinf(v)) printf(" %8s", "inf");
+    else printf(" %8.2f", v);
+}
+
+static void print_target(const sweep_row *r)
+{
+    if (r->is_counted) printf(" %8.1f %8.1f", r->target, r->target_later);
+    else printf(" %8s %8s", "-", "-");
 }
 
 static void print_row(const sweep *w, const sweep_row *r)
 {
     char name[NAME_BYTES];
     sweep_name(w, r, name, sizeof name);
-    printf("%c %8ld %8.1f %8.1f ", r->on_front ? '*' : ' ', r->ram_bytes, r->instructions, r->played.instructions);
-    if (w->moves) printf("%8.1f ", r->played.most);
+    printf("%c%8ld %8.1f %8.1f", r->on_front ? '*' : ' ', r->ram_bytes, r->instructions, r->played.instructions);
+    if (w->moves) printf(" %8.1f", r->played.most);
+    if (w->counts) print_target(r);
     print_db(r->played.truth.mean_db);
-    printf(" ");
     if (w->moves) print_db(r->played.truth.worst_db);
-    else printf("%8.4f", r->truth.atten_rms);
-    printf(" %7.3f%% ", 100 * r->truth.shadow_mismatch);
+    else printf(" %8.4f", r->truth.atten_rms);
+    printf(" %7.3f%%", 100 * r->truth.shadow_mismatch);
     print_db(r->played.reference.mean_db);
     printf(" %7.3f%%  %s\n", 100 * r->reference.identical, name);
 }
 
+/* Three lines. Later frames have what the first has, and a mean; of a scene in which nothing moves they are one, with its tiles kept. */
 static void print_head(const sweep *w)
 {
-    if (w->moves) {
-        printf("             instructions per pixel |   against exact shadows    |   against the\n");
-        printf("                 (model)            |                            |  same in double\n");
-        printf("       RAM    first    later   most |    PSNR  worst first frame | PSNR first frame\n");
-        printf("     bytes    frame   frames        |      dB     dB   mismatch  |   dB  identical  configuration\n");
-    } else {
-        printf("               instr. per pixel   |   against exact shadows    |   against the\n");
-        printf("                   (model)        |                            |  same in double\n");
-        printf("       RAM tiles:     tiles:      |    PSNR  atten.  mismatch  |\n");
-        printf("     bytes    drawn     kept      |      dB     RMS            |   PSNR identical  configuration\n");
+    const bool moves = w->moves;
+    const struct {
+        const char *line[3];
+        bool is_shown;
+    } columns[] = {
+        {{"", "RAM", "bytes"}, true},
+        {{"model:", moves ? "first" : "tiles", moves ? "frame" : "drawn"}, true},
+        {{"model:", moves ? "later" : "tiles", moves ? "frames" : "kept"}, true},
+        {{"model:", "most", "later"}, moves},
+        {{"counted:", moves ? "first" : "tiles", moves ? "frame" : "drawn"}, w->counts},
+        {{"counted:", moves ? "later" : "tiles", moves ? "frames" : "kept"}, w->counts},
+        {{"to exact", "shadows:", "PSNR"}, true},
+        {{"", moves ? "PSNR," : "atten.", moves ? "worst" : "RMS"}, true},
+        {{"", moves ? "(first)" : "", "mismatch"}, true},
+        {{"to same", "in dbl.:", "PSNR"}, true},
+        {{"", moves ? "(first)" : "", "ident."}, true},
+    };
+    for (size_t i = 0; i < 3; i++) {
+        for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
+            if (columns[k].is_shown) printf(" %8s", columns[k].line[i]);
+        printf("%s\n", i == 2 ? "  configuration" : "");
     }
 }
 
@@ -96,11 +114,15 @@ static void print_text(const sweep *w)
            o->scene_path, o->width, o->height, w->n_rows, n_front);
     if (w->moves) printf("frame %d, then frames %d to %d by the same renderer: the front is of these\n", o->frame, o->frame + 1, o->frame + SWEEP_PLAYED);
     else printf("nothing moves: shadow tiles are drawn once, and a schedule of cascades (refresh) has nothing to save\n");
+    printf("instructions per pixel by a model of the host");
+    if (w->counts) printf(", and counted in the emulator of %s", o->target);
+    printf("; PSNR in dB\n");
     print_head(w);
     for (size_t i = 0; i < w->n_rows; i++)
         if (w->rows[i].on_front || o->all) print_row(w, &w->rows[i]);
     print_schedules(w);
     if (w->n_refused) printf("%zu of the configurations cannot draw this scene, the first: %s\n", w->n_refused, w->refusal);
+    if (w->n_uncounted) printf("%zu of the configurations could not be counted on %s, the first: %s\n", w->n_uncounted, o->target, w->uncounted);
 }
 
 /* ---- JSON ------------------------------------------------------------------------------------------------------------------- */
@@ -160,6 +182,14 @@ void sweep_json_row(const sweep *w, const sweep_row *r)
     print_metrics("truth", &r->truth);
     print_metrics("reference", &r->reference);
     print_later(w, r);
+    if (!r->is_counted) return;
+    printf(", \"target\": {\"board\": ");
+    tool_json_string(w->options->target);
+    printf(", ");
+    tool_json_number("instructions_per_pixel", r->target);
+    printf(", ");
+    tool_json_number("later_instructions_per_pixel", r->target_later);
+    printf("}");
 }
 
 static void print_json(const sweep *w)
@@ -219,6 +249,8 @@ static void csv_row(FILE *f, const sweep *w, const sweep_row *r)
     csv_metrics(f, &r->truth);
     csv_metrics(f, &r->reference);
     csv_later(f, w, &r->played);
+    if (r->is_counted) fprintf(f, ",%.9g,%.9g", r->target, r->target_later);
+    else fprintf(f, ",,");
     for (int i = 0; i < GN_COUNT_N; i++) fprintf(f, ",%llu", (unsigned long long)r->counts.n[i]);
     fputc('\n', f);
 }
@@ -237,6 +269,7 @@ static int write_csv(const sweep *w, const char *path, char *error, size_t bytes
                 kinds[i]);
     fprintf(f, ",later_frames,later_instructions_per_pixel,later_most_instructions_per_pixel");
     for (int i = 0; i < 2; i++) fprintf(f, ",later_%s_psnr_db,later_%s_worst_psnr_db", kinds[i], kinds[i]);
+    fprintf(f, ",target_instructions_per_pixel,target_later_instructions_per_pixel");
     for (int i = 0; i < GN_COUNT_N; i++) fprintf(f, ",n_%s", count_name[i]);
     fputc('\n', f);
     for (size_t i = 0; i < w->n_rows; i++) csv_row(f, w, &w->rows[i]);
@@ -267,32 +300,56 @@ static void shorten(char *name)
         }
 }
 
-static int write_svg(const sweep *w, const char *path, char *error, size_t bytes)
+static const char *const error_axis = "RMS error against exact shadows, levels of 255";
+enum { PANELS_MAX = 3 };
+
+typedef struct {
+    char (*names)[NAME_BYTES];
+    plot_point *points[PANELS_MAX];
+    size_t n[PANELS_MAX];
+} plot_data;
+
+static void add_point(plot_data *d, size_t panel, const sweep_row *r, double x, const char *name)
 {
-    char(*names)[NAME_BYTES] = calloc(w->n_rows, sizeof *names), title[1024];
-    plot_point *ram = calloc(w->n_rows, sizeof *ram), *cost = calloc(w->n_rows, sizeof *cost);
-    int failed = !names || !ram || !cost;
-    if (failed) snprintf(error, bytes, "out of memory");
+    /* a logarithmic axis has no 0 */
+    d->points[panel][d->n[panel]++] = (plot_point){fmax(x, 0.01), fmax(sweep_error(r->db), 0.01), r->on_front, name};
+}
+
+static int gather(plot_data *d, const sweep *w)
+{
+    d->names = calloc(w->n_rows, sizeof *d->names);
+    int failed = !d->names;
+    for (size_t i = 0; i < PANELS_MAX; i++) failed |= !(d->points[i] = calloc(w->n_rows, sizeof *d->points[i]));
     for (size_t i = 0; i < w->n_rows && !failed; i++) {
         const sweep_row *r = &w->rows[i];
-        sweep_name(w, r, names[i], sizeof names[i]);
-        shorten(names[i]);
-        /* a logarithmic axis has no 0 */
-        ram[i] = (plot_point){(double)r->ram_bytes, fmax(sweep_error(r->db), 0.01), r->on_front, names[i]};
-        cost[i] = ram[i];
-        cost[i].x = fmax(r->cost, 0.01);
+        sweep_name(w, r, d->names[i], sizeof d->names[i]);
+        shorten(d->names[i]);
+        add_point(d, 0, r, (double)r->ram_bytes, d->names[i]);
+        add_point(d, 1, r, r->cost, d->names[i]);
+        if (r->is_counted) add_point(d, 2, r, w->moves ? r->target_later : r->target, d->names[i]);
     }
-    static const char error_axis[] = "RMS error against exact shadows, levels of 255";
-    const char *cost_axis = w->moves ? "instructions per pixel (model), mean over frames" : "instructions per pixel (model)";
-    const plot_panel panels[2] = {{"RAM against error", "RAM of the library, bytes", error_axis, ram, w->n_rows},
-                                  {"Cost against error", cost_axis, error_axis, cost, w->n_rows}};
-    const char *slash = strrchr(w->options->scene_path, '/');
+    return failed;
+}
+
+static int write_svg(const sweep *w, const char *path, char *error, size_t bytes)
+{
+    char title[1024], target[128], target_axis[160];
+    plot_data d = {0};
+    const char *over = w->moves ? ", mean of later frames" : "", *slash = strrchr(w->options->scene_path, '/');
+    char cost_axis[96];
+    snprintf(cost_axis, sizeof cost_axis, "instructions per pixel (model)%s", over);
+    snprintf(target, sizeof target, "Cost on %.64s against error", w->options->target ? w->options->target : "");
+    snprintf(target_axis, sizeof target_axis, "instructions per pixel (counted)%s", over);
     snprintf(title, sizeof title, "%s, %dx%d; filled: on the front of RAM, cost and error",
              slash ? slash + 1 : w->options->scene_path, w->options->width, w->options->height);
-    if (!failed) failed = plot_write(path, title, panels, 2, error, bytes);
-    free(names);
-    free(ram);
-    free(cost);
+    int failed = gather(&d, w);
+    if (failed) snprintf(error, bytes, "out of memory");
+    const plot_panel panels[PANELS_MAX] = {{"RAM against error", "RAM of the library, bytes", error_axis, d.points[0], d.n[0]},
+                                           {"Cost against error", cost_axis, error_axis, d.points[1], d.n[1]},
+                                           {target, target_axis, error_axis, d.points[2], d.n[2]}};
+    if (!failed) failed = plot_write(path, title, panels, d.n[2] ? 3 : 2, error, bytes);
+    for (size_t i = 0; i < PANELS_MAX; i++) free(d.points[i]);
+    free(d.names);
     return failed ? -1 : 0;
 }
 
@@ -309,14 +366,29 @@ static int show(const sweep *w)
     return TOOL_OK;
 }
 
+/* On the target: what is printed. */
+static int count(sweep *w)
+{
+    size_t *rows = w->counts ? malloc(w->n_rows * sizeof *rows) : NULL, n = 0;
+    if (w->counts && !rows) return -1;
+    for (size_t i = 0; w->counts && i < w->n_rows; i++)
+        if (w->rows[i].on_front || w->options->all) rows[n++] = i;
+    sweep_target_count(w, rows, n);
+    free(rows);
+    return 0;
+}
+
 int tool_sweep(const tool_options *o)
 {
     sweep w;
     if (sweep_begin(&w, o)) return TOOL_FAILED;
-    int status = sweep_run(&w, o->quick) ? TOOL_FAILED : TOOL_OK;
+    int status = sweep_target_begin(&w) || sweep_run(&w, o->quick) ? TOOL_FAILED : TOOL_OK;
     if (status == TOOL_OK) {
         sweep_mark_front(&w);
         qsort(w.rows, w.n_rows, sizeof *w.rows, by_ram);
+        if (count(&w)) status = tool_fail(o->scene_path, "out of memory");
+    }
+    if (status == TOOL_OK) {
         status = show(&w);
     }
     sweep_end(&w);

@@ -43,8 +43,11 @@ static const char usage_text[] =
     "  --all                     sweep: print every configuration, not only the front\n"
     "  --quick                   sweep, advise: a few configurations only\n"
     "  --ram BYTES               advise: the most RAM\n"
-    "  --instructions-per-pixel N  advise: the most instructions per pixel by the model of docs/TRADE.md, which is of x86-64; of a\n"
-    "                            scene that moves their mean over frames, else with every shadow tile drawn (no limit)\n"
+    "  --instructions-per-pixel N  advise: the most instructions per pixel: of the host, by the model of docs/TRADE.md, or with\n"
+    "                            --target of that board. Of a scene that moves their mean over the later frames, else with\n"
+    "                            every shadow tile drawn (no limit)\n"
+    "  --target NAME             sweep: count the instructions of what is printed, the front or with --all everything, as firmware\n"
+    "                            for boards/NAME in its emulator; advise: those of the advice. Seconds for each configuration\n"
     "  --texels N                bake: side of the mask image, a power of two from 16 to 4096; 0: masks per vertex; auto:\n"
     "                            the least of 256, 512 and 1024 that is as true as shadow maps are (auto)\n"
     "  --still                   bake: objects marked as moving stand still too\n"
@@ -77,6 +80,7 @@ static const option options[] = {
     {"--csv", BY_SWEEP, "a path"},
     {"--svg", BY_SWEEP, "a path"},
     {"--board", BY_COMPILE | BY_INFO, "a folder of boards/"},
+    {"--target", BY_SWEEP | BY_ADVISE, "a folder of boards/"},
     {"--flash", BY_COMPILE | BY_INFO, "bytes from 1 to 1000000000"},
     {"--optimise", BY_COMPILE | BY_INFO, "-Os, -O2, ..."},
     {"--ram", BY_ADVISE | BY_COMPILE | BY_INFO, "bytes from 1 to 1000000000"},
@@ -168,6 +172,7 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--frame") == 0) failed = parse_int(value, 0, 100000000, &o->frame);
     else if (strcmp(name, "--frames") == 0) failed = parse_frames(value, o);
     else if (strcmp(name, "--board") == 0) failed = !*(o->board = value);
+    else if (strcmp(name, "--target") == 0) failed = !*(o->target = value);
     else if (strcmp(name, "--flash") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->flash);
     else if (strcmp(name, "--optimise") == 0) failed = strncmp(o->optimise = value, "-O", 2) != 0;
     else if (strcmp(name, "--margin") == 0) failed = parse_int(value, 0, 1000, &o->margin);

@@ -495,6 +495,7 @@ int sweep_begin(sweep *w, const tool_options *o)
     settings set;
     memset(w, 0, sizeof *w);
     w->options = o;
+    w->scale = 1;
     if (tool_load(o, &s, &set)) return -1;
     look_at_sets(w);
     look_at_lights(w, &s);

@@ -57,8 +57,11 @@ typedef struct {
     double instructions; /* per pixel, of the first frame: every shadow tile is drawn */
     count_all counts;    /* of the first frame */
     sweep_played played;
-    double cost, db; /* what the front is made of, and advice: of a scene that moves, what is played; else the first frame */
+    double cost, db; /* what the front is made of, and advice: of a scene that moves, what is played; else the first frame. The
+                      * cost by the model, or after sweep_target_scale on the target */
     int static_layer;
+    bool is_counted, is_uncountable; /* on --target: it was; it failed */
+    double target, target_later; /* instructions per pixel on --target: of the first frame, and the mean of the later ones */
     bool on_front;
 } sweep_row;
 
@@ -73,6 +76,10 @@ typedef struct {
     sweep_row *rows;
     size_t n_rows, room, n_refused;
     char refusal[TOOL_ERROR_BYTES]; /* why the first of them cannot be drawn */
+    bool counts;                    /* --target: something counts */
+    double scale;                   /* of the model, for what is not counted */
+    size_t n_uncounted;
+    char uncounted[TOOL_ERROR_BYTES]; /* why the first of them could not be counted */
     size_t n_done, n_planned;       /* for the display of progress */
 } sweep;
 
@@ -90,6 +97,15 @@ int sweep_run(sweep *w, bool quick);
 
 /* Measures the neighbours of n rows: one knob, one level up or down. Prints the error and returns -1. */
 int sweep_around(sweep *w, const size_t *rows, size_t n);
+
+/* Instructions on the board that --target names: sweep_target.c. Begin prints why nothing counts, if so; -1: the board is none that
+ * ever could. Rows that cannot be counted are counted in n_uncounted. */
+int sweep_target_begin(sweep *w);
+void sweep_target_count(sweep *w, const size_t *rows, size_t n);
+
+/* Makes the target's instructions the cost of every row: as counted, or the model's times what the counted rows are of theirs. */
+void sweep_target_scale(sweep *w);
+double sweep_model_cost(const sweep *w, const sweep_row *row);
 
 /* Marks the rows that no other row dominates: at most as much RAM, instructions and error, and less of one. */
 void sweep_mark_front(sweep *w);

@@ -111,6 +111,11 @@ static int take_frame(void *user, size_t frame, const uint8_t *rgb8, const count
     return p->w->moves ? compare_frame(p, frame, rgb8, error, bytes) : 0;
 }
 
+double sweep_model_cost(const sweep *w, const sweep_row *row)
+{
+    return w->moves ? row->played.instructions : row->instructions;
+}
+
 int sweep_play(const sweep *w, sweep_row *row, const char *const *sets, int n_sets, const settings *set, char *error, size_t bytes)
 {
     scene frames[SWEEP_PLAYED + 1];
@@ -124,7 +129,7 @@ int sweep_play(const sweep *w, sweep_row *row, const char *const *sets, int n_se
         row->played.truth = (sweep_error_db){row->truth.psnr_db, row->truth.psnr_db};
         row->played.reference = (sweep_error_db){row->reference.psnr_db, row->reference.psnr_db};
     }
-    row->cost = w->moves ? row->played.instructions : row->instructions;
+    row->cost = w->scale * sweep_model_cost(w, row);
     row->db = row->played.truth.mean_db;
     return failed;
 }

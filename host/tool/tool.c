@@ -68,6 +68,26 @@ int tool_load(const tool_options *o, scene *s, settings *set)
     return -1;
 }
 
+void tool_append_quoted(char *out, size_t bytes, const char *text)
+{
+    size_t used = strlen(out);
+    bool plain = *text && !text[strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_=.,@+-/:")];
+    if (plain) {
+        snprintf(out + used, bytes - used, "%s", text);
+        return;
+    }
+    if (used + 1 < bytes) out[used++] = '\'';
+    for (; *text && used + 6 < bytes; text++) {
+        if (*text != '\'') out[used++] = *text;
+        else {
+            memcpy(out + used, "'\\''", 4);
+            used += 4;
+        }
+    }
+    if (used + 1 < bytes) out[used++] = '\'';
+    out[used < bytes ? used : bytes - 1] = 0;
+}
+
 void tool_json_number(const char *name, double v)
 {
     if (isinf(v)) printf("\"%s\": null", name);

@@ -36,6 +36,7 @@ typedef struct {
     const char *optimise;       /* compile: -Os, -O2: how the library is built; NULL: as the board says */
     int simplify;               /* compile */
     const char *board;          /* compile, info: or NULL */
+    const char *target;         /* sweep, advise: a board that instructions are counted on; or NULL */
     int flash;                  /* bytes; 0: not given */
 } tool_options;
 
@@ -68,6 +69,9 @@ void tool_error(const char *format, ...);
 
 /* Prints "gnomon: path: message" to stderr; returns TOOL_FAILED. */
 int tool_fail(const char *path, const char *message);
+
+/* Appends text to the string in out, quoted as a shell reads it. */
+void tool_append_quoted(char *out, size_t bytes, const char *text);
 
 /* Prints a JSON string with its quotes; bytes that are no UTF-8 become U+FFFD. */
 void tool_json_string(const char *text);
