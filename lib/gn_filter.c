@@ -259,7 +259,8 @@ static uint32_t find_dark(const lookup *l, int32_t u, int32_t v, int32_t n, uint
     int is_plain = plain(l, u, v, n);
     uint32_t any = 0, all = 255;
     if (is_plain && depth_bits == 16)
-        return gn_kernel_dark_texels16(texels_at(l->view, u, v).d16, l->view->tile_texels, l->least, n, dark);
+        return n == 4 && !GN_SIZE_FIRST ? gn_kernel_dark_texels16(texels_at(l->view, u, v).d16, l->view->tile_texels, l->least, 4, dark)
+                                        : gn_kernel_dark_texels16(texels_at(l->view, u, v).d16, l->view->tile_texels, l->least, n, dark);
     for (int32_t j = 0; j < n; j++) {
         uint32_t row_dark = 0;
         if (is_plain) {
@@ -458,6 +459,13 @@ static int texels_agree(const gn_light_view *view, const int32_t first[2], const
     int32_t bits = GN_VIEW_BITS(view), end = view->tile_texels - 1;
     uint32_t lit = 0, dark = 0, n = (uint32_t)(last[0] - first[0]) + 1;
     if (first[0] < 0 || first[1] < 0 || last[0] > end || last[1] > end) return 0;
+#if GN_DEPTH_BLOCKS
+    const gn_depth_block *bounds = &view->block[(first[1] >> 3 << (view->tile_log2 - 3)) + (first[0] >> 3)];
+    if (last[0] - first[0] < GN_BLOCK_REACH && last[1] - first[1] < GN_BLOCK_REACH) { /* for less than a look at each */
+        *attenuation = most <= (uint32_t)bounds->lo << 16 ? 65536 : 0;
+        if (*attenuation || least > gn_block_highest(bounds, bits)) return 1;
+    }
+#endif
     gn_texels row = texels_at(view, first[0], first[1]);
     for (int32_t v = first[1]; v <= last[1]; v++, row = gn_texels_at(row, bits, view->tile_texels)) {
         for (uint32_t i = 0; i < n; i++) {

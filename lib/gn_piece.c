@@ -56,7 +56,6 @@ static int shadow_light(gn_pieces *p)
     if (!view->border_lit) view += frame->last_cascade;
     if (view->perspective || view->filter == GN_FILTER_DISK) return 0;
     if (GN_RECEIVER_PLANE && scene_light->receiver_plane) return 0;
-    if (GN_BLENDED_CASCADES && !view->border_lit && frame->scene->shadow.blend != GN_BLEND_HARD && frame->n_cascades > 1) return 0;
     for (int i = 0; i < 3; i++) p->offset_q16[i] = GN_SMOOTH(s) ? 0 : light->flat_offset_q16[i];
     const int32_t *b = scene_light->bias_receiver_q16;
     return !GN_SMOOTH(s) || !GN_RECEIVER_BIAS || light->state->auto_bias || !(b[0] | b[1] | b[3]);
@@ -161,7 +160,7 @@ static gn_slope interpolate(const middle *m, int32_t v0, int32_t d1, int32_t d2,
     return out;
 }
 
-/* Times a factor below 4; c stays within +-2. */
+/* Times a factor below 8; c stays within +-2. */
 static gn_slope times_q24(const gn_slope *c, int32_t factor)
 {
     gn_slope out = {gn_mul_q24(factor, c->at), gn_mul_q24(factor, c->dx), gn_mul_q24(factor, c->dy)};
@@ -319,11 +318,14 @@ static inline void include(steepness *all, const gn_slope *s)
 static void tint_curve(gn_curve *curve, const gn_slope *tint)
 {
     gn_slope *s = &curve->slope_q24;
+    if (!(s->dx | s->dy)) { /* ambient light */
+        *s = times_q24(tint, s->at);
+        return;
+    }
     int32_t at = s->at, dx = s->dx * 64, dy = s->dy * 64, tint_dx = tint->dx * 64, tint_dy = tint->dy * 64;
     s->at = gn_mul_q24(at, tint->at);
     s->dx = gn_mul_q24(at, tint->dx) + gn_mul_q24(s->dx, tint->at);
     s->dy = gn_mul_q24(at, tint->dy) + gn_mul_q24(s->dy, tint->at);
-    if (!(dx | dy)) return;
     curve->dxx_q28 = gn_mul_high(dx, tint_dx);
     curve->dxy_q28 = gn_mul_high(dx, tint_dy) + gn_mul_high(dy, tint_dx);
     curve->dyy_q28 = gn_mul_high(dy, tint_dy);
@@ -436,16 +438,17 @@ static int reach_of_distance(const gn_frame *frame, const extent *e)
     return e->across2_lo + (uint64_t)((int64_t)e->z_lo * e->z_lo) > (uint64_t)(m * m) ? REACH_NONE : REACH_SOME;
 }
 
-/* D4, D6: whether one cascade, and all of it, is that of the whole piece. */
+/* D4, D6, D7: whether one cascade, and all of it, is that of the whole piece. */
 static int reach_of_cascades(const gn_frame *frame, const extent *e, int32_t *cascade)
 {
+    int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
     for (int32_t i = 0; i < frame->n_cascades; i++) {
         const gn_cascade_state *state = &frame->cascade[i];
         int64_t before = (int64_t)state->centre_q16 - e->z_lo, behind = (int64_t)e->z_hi - state->centre_q16;
         int64_t far = before > behind ? before : behind, near = before < 0 ? -before : behind < 0 ? -behind : 0;
         if (e->across2_lo + (uint64_t)(near * near) >= state->radius2_q32) continue;
         *cascade = i;
-        uint64_t within = i == frame->last_cascade ? state->inner2_q32 : state->radius2_q32 - 1;
+        uint64_t within = blends || i == frame->last_cascade ? state->inner2_q32 : state->radius2_q32 - 1;
         return e->across2_hi + (uint64_t)(far * far) <= within ? REACH_ALL : REACH_SOME;
     }
     return REACH_NONE;

@@ -39,7 +39,7 @@ GN_INLINE void curve_ramp(const gn_curve *colour, int32_t right, int32_t down, i
 }
 
 /* A row of n pixels from (x, y) on. */
-static void ramp_of(const gn_pieces *p, const gn_curve *colour, int32_t x, int32_t y, int32_t n, gn_ramp *ramp)
+GN_INLINE void ramp_of(const gn_pieces *p, const gn_curve *colour, int32_t x, int32_t y, int32_t n, gn_ramp *ramp)
 {
     int32_t right = x - p->x, down = y - p->y, both = 2 * right + n - 1;
     if (p->steep) {

@@ -34,6 +34,30 @@ static void face_normal(const gn_frame *frame, const gn_surface *s, int32_t out_
         for (int i = 0; i < 3; i++) out_q30[i] = -frame->cam.axis_q30[2][i];
 }
 
+/* The upper half of a . b, b in Q15 on its way to Q31. */
+static inline int32_t row_high(const int32_t a[3], const int32_t b_q31[3])
+{
+    return (int32_t)(((int64_t)a[0] * b_q31[0] + (int64_t)a[1] * b_q31[1] + (int64_t)a[2] * b_q31[2]) >> 32);
+}
+
+void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
+{
+    const int32_t b[3] = {nrm_q15[0] * 65536, nrm_q15[1] * 65536, nrm_q15[2] * 65536};
+    int32_t n[3] = {row_high(matrix[0], b), row_high(matrix[1], b), row_high(matrix[2], b)};
+    uint32_t size = (uint32_t)((uint64_t)gn_dot64(n, n) >> 32); /* |n| <= sqrt(3) 2^30 */
+    if (GN_SIZE_FIRST || size < 1U << 22) { /* not by far of unit length */
+        gn_xform_normal(out_q30, matrix, nrm_q15);
+        return;
+    }
+    int32_t half = gn_clz32(size) >> 1, up = 2 * half;
+    uint64_t sum = (uint64_t)gn_dot64(n, n) << up;
+    uint32_t root = gn_rsqrt_norm((uint32_t)(sum >> 32), 2); /* 2^63 / (|n| << half) */
+    for (int i = 0; i < 3; i++) {
+        int32_t v = (int32_t)((int64_t)(n[i] * (1 << (half - 1))) * (int32_t)(root >> 1) >> 31);
+        out_q30[i] = gn_max32(-(1 << 30), gn_min32(v, 1 << 30));
+    }
+}
+
 static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
@@ -48,7 +72,7 @@ static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_sur
     }
     int32_t n[3][3];
     for (int k = 0; k < 3; k++) {
-        gn_xform_normal(n[k], cache->normal_matrix, mesh->nrm_q15 + 3 * (size_t)idx[k]);
+        gn_surface_normal(n[k], cache->normal_matrix, mesh->nrm_q15 + 3 * (size_t)idx[k]);
         if (s->plane.back)
             for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
     }

@@ -6,6 +6,7 @@
 #include "exact.h"
 #include "gn_math.h"
 #include "gn_q.h"
+#include "gn_surface.h"
 #include "gn_tables.h"
 #include "gnomon.h"
 #include "rng.h"
@@ -303,6 +304,35 @@ static void random_vector(int64_t a[3], uint32_t i)
     }
 }
 
+/* Normals of meshes, of unit length and of others, by matrices whose largest entry has 30 bits. */
+static void test_mesh_normals(void)
+{
+    tally t = {0};
+    worst w = {0};
+    for (uint32_t i = 0; i < 200000; i++) {
+        int32_t m[3][3], out[3] = {0, 0, 0};
+        gn_normal n[3];
+        long double a[3] = {0, 0, 0}, l = 0;
+        for (int r = 0; r < 3; r++)
+            for (int c = 0; c < 3; c++) m[r][c] = (int32_t)rng_wide_i64(&random_state, i & 1 ? 30 : 29);
+        m[i % 3][i / 3 % 3] = i & 4 ? 1 << 30 : -(1 << 29);
+        for (int c = 0; c < 3; c++) n[c] = (gn_normal)(rng_wide_i64(&random_state, 15) >> (i % 5 ? 0 : 9));
+        if (!i) n[0] = n[1] = n[2] = -32767 - 1;
+        for (int r = 0; r < 3; r++) {
+            for (int c = 0; c < 3; c++) a[r] += (long double)m[r][c] * n[c];
+            l += a[r] * a[r];
+        }
+        gn_surface_normal(out, (const int32_t(*)[3])m, n);
+        for (int k = 0; l > 0 && k < 3; k++) {
+            long double e = fabsl((long double)out[k] - a[k] * 1073741824.0L / sqrtl(l));
+            HOLDS(&t, e <= 16.0L && out[k] <= 1 << 30 && out[k] >= -(1 << 30), "%lu [%d]: %.3Lf", (unsigned long)i, k, e);
+            WORST(&w, e, "%lu", (unsigned long)i);
+        }
+    }
+    CHECK_TALLY(t, "gn_surface_normal within 2^-26");
+    printf("gn_surface_normal: %.3Lf LSB at %s\n", w.error, w.at);
+}
+
 static void test_normalise(void)
 {
     tally t = {0}, zero = {0};
@@ -448,6 +478,7 @@ int main(int argc, char **argv)
     test_bf_apply();
     test_isqrt();
     test_normalise();
+    test_mesh_normals();
     test_norm_vec();
     test_cross_dot();
     test_sine();
