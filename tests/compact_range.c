@@ -151,6 +151,41 @@ static void after_a_refusal(void)
     CHECK(!memcmp(first.pixel, drawn.pixel, sizeof first.pixel));
 }
 
+/* A square with its corners on pixel centres has those of its left and top edges, and not those of its right and bottom ones; each of those on its diagonal
+ * belongs to one of its triangles, whichever is drawn first. */
+static void fill_rule(void)
+{
+    static canvas first;
+    gn_mesh half[2];
+    for (int order = 0; order < 2; order++) {
+        int wrong = 0;
+        begin();
+        for (int i = 0; i < 4; i++) {
+            pos[3 * i] = i == 0 || i == 3 ? GN_Q16(-8.5) : GN_Q16(7.5);
+            pos[3 * i + 1] = i < 2 ? GN_Q16(-8.5) : GN_Q16(7.5);
+            pos[3 * i + 2] = GN_Q16(-32);
+        }
+        for (int i = 0; i < 2; i++) {
+            int which = i ^ order;
+            half[which] = mesh;
+            half[which].idx = idx + 3 * which;
+            half[which].n_triangles = 1;
+            object[i].mesh = &half[which];
+            object[i].flags = GN_OBJECT_UNLIT;
+            object[i].albedo_uq16[2] = which ? 65535 : 0;
+        }
+        scene.camera.focal_q24 = GN_Q24(2); /* a unit is a pixel */
+        scene.shadow.max_distance_q16 = GN_Q16(40);
+        gn_affine_identity(&scene.camera.to_world);
+        CHECK_EQ_INT(draw(), GN_OK);
+        for (int y = 0; y < HEIGHT; y++)
+            for (int x = 0; x < WIDTH; x++) wrong += (drawn.pixel[y * WIDTH + x] != 0) != (x >= 15 && x < 31 && y >= 8 && y < 24);
+        CHECK_EQ_INT(wrong, 0);
+        if (order) CHECK(!memcmp(first.pixel, drawn.pixel, sizeof first.pixel));
+        first = drawn;
+    }
+}
+
 /* ---- Random numbers ----------------------------------------------------------------------------------------------------- */
 
 static uint32_t rnd(void)
@@ -215,6 +250,7 @@ int main(int argc, char **argv)
     refusals();
     many_triangles();
     after_a_refusal();
+    fill_rule();
     campaign(argc > 1 ? atol(argv[1]) : 1000);
     return check_report();
 }
