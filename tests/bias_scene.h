@@ -51,7 +51,7 @@ static inline void set_knobs(const cell *c)
     settings set;
     settings_init(&set);
     settings_preset(&set, c->preset);
-    set.quality.atlas_size = c->texels;
+    set.quality.atlas_size = c->texels < 16 ? 16 : c->texels; /* the least that there is */
     set.quality.other_atlas_size = c->kind == SCENE_LIGHT_POINT ? 4 * c->texels : c->texels;
     set.quality.depth_bits = set.quality.other_depth_bits = c->bits;
     set.quality.tile_width = 128;

@@ -60,6 +60,12 @@ static void check_cell(const cell *c, const bias *b, int n_planes)
     CHECK(t.pixels > 0 || n_planes < 4);
 }
 
+/* The smallest tile there is: 8, in the smallest atlas 16. */
+static int least_texels(int kind)
+{
+    return kind == SCENE_LIGHT_POINT ? 8 : 16;
+}
+
 static void test_planes(int n_planes)
 {
     for (int kind = 0; kind < 3; kind++)
@@ -67,7 +73,7 @@ static void test_planes(int n_planes)
             for (int bits = 0; bits < 3; bits++)
                 for (int preset = 0; preset < 3; preset++)
                     for (int form = 0; form < 2; form++) {
-                        const int texels = 32 << (int)random_between(0, kind == SCENE_LIGHT_POINT ? 2 : 4);
+                        const int texels = least_texels(kind) << (int)random_between(0, kind == SCENE_LIGHT_POINT ? 4 : 5);
                         const cell c = {(scene_light_kind)kind, (scene_filter)filter, depth_bits[bits], preset, texels};
                         check_cell(&c, &forms[form], n_planes);
                     }
@@ -344,7 +350,7 @@ static void print_acne(void)
         long planes = 0;
         for (int i = 0; i < 6 * 3 * 3 * 10; i++, planes++)
             for (int form = 0; form < 2; form++) {
-                const int texels = 32 << (i % (kind == SCENE_LIGHT_POINT ? 2 : 4));
+                const int texels = least_texels(kind) << (i % (kind == SCENE_LIGHT_POINT ? 4 : 5));
                 const cell c = {(scene_light_kind)kind, (scene_filter)(i % 6), depth_bits[i / 6 % 3], i / 18 % 3, texels};
                 any_plane(&t[form], &c, &forms[form]);
             }
