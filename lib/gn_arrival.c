@@ -138,17 +138,18 @@ static int parabola(int32_t v0, int32_t vm, int32_t vn, int32_t m, int32_t n, in
     return 1;
 }
 
-/* NUMERICS 4.13: what is left out is of third order in the way as a share of the distance. */
-static int is_far(const int32_t *from_q16, const int32_t *to_q16)
+/* NUMERICS 4.13: what is left out is of third order in the way as a share of the distance. That is an eighth at most, an eleventh where a spot fades out. */
+static int is_far(const int32_t *from_q16, const int32_t *to_q16, int fades)
 {
-    uint64_t distance = 0, moved = 0;
+    uint64_t distance2 = 0, moved2 = 0;
     for (int i = 0; i < 3; i++) {
-        if (gn_abs32(from_q16[i]) > distance) distance = gn_abs32(from_q16[i]);
-        moved += gn_abs64((int64_t)to_q16[i] - from_q16[i]);
+        int64_t moved = (int64_t)to_q16[i] - from_q16[i];
+        if (gn_abs64(moved) >> 27) return 0; /* 3 * 2^54 * 2^7 */
+        distance2 += (uint64_t)((int64_t)from_q16[i] * from_q16[i]);
+        moved2 += (uint64_t)(moved * moved);
     }
-    return 8 * moved <= distance;
+    return moved2 << (fades ? 7 : 6) <= distance2;
 }
-
 #if GN_SHADOWS
 /* A place is off by no more than 0.08 of how far it moves times the square of how much nearer the light is at one end than at the other,
  * as a share: 1/64 texel is left. */
@@ -189,6 +190,46 @@ static void decide(const gn_frame *frame, const gn_light_state *light, const gn_
     widen(a->v_q16, m->v_q16, b->v_q16, &lo.v_q16, &hi.v_q16);
     widen((int32_t)(a->depth_q32 >> 1), (int32_t)(m->depth_q32 >> 1), (int32_t)(b->depth_q32 >> 1), &lo.depth_q31, &hi.depth_q31);
     if (gn_filter_decides(frame, view, &lo, &hi, &attenuation)) out->shadow = attenuation ? GN_SHADOW_NONE : GN_SHADOW_FULL;
+}
+
+/* 1 - depth: n / z and the bias, times 2^(up - 2). */
+static int32_t nearness(const gn_arrival *at, int32_t up)
+{
+    return (int32_t)(up < 2 ? ~at->depth_q32 >> (2 - up) : ~at->depth_q32 << (up - 2));
+}
+
+/* U, V in Q20 and nearness with all bits that fit, for steps are whole. */
+static int step_places(gn_arrival_steps *steps, const gn_arrival *a, const gn_arrival *m, const gn_arrival *b, int32_t middle, int32_t n)
+{
+    const gn_arrival *at[3] = {a, m, b};
+    int32_t value[3][3];
+    steps->up = gn_clz32(~a->depth_q32 | ~m->depth_q32 | ~b->depth_q32 | 1U);
+    for (int i = 0; i < 3; i++) {
+        if ((gn_abs32(at[i]->u_q16) | gn_abs32(at[i]->v_q16)) >> 26) return 0; /* and outside every tile */
+        value[0][i] = at[i]->u_q16 * 16;
+        value[1][i] = at[i]->v_q16 * 16;
+        value[2][i] = nearness(at[i], steps->up);
+    }
+    for (int k = 0; k < 3; k++) {
+        steps->at[k] = value[k][0];
+        if (!parabola(value[k][0], value[k][1], value[k][2], middle, n, &steps->step[k + 1], &steps->bend[k + 1])) return 0;
+    }
+    return 1;
+}
+
+/* The same of places and shadow. */
+static int places_between(const gn_frame *frame, const gn_surface_light *light, gn_arrival_steps *steps, gn_arrival *a, const gn_arrival *m,
+                          const gn_arrival *b, int32_t middle, int32_t n)
+{
+#if GN_RECEIVER_PLANE
+    if (frame->scene->lights[light->idx].receiver_plane) return 0; /* slopes ask for the point */
+#endif
+    if (a->face != b->face || a->face != m->face) return 0;
+    if (a->face == GN_FACE_NONE) return 1;
+    if (!a->depth_q32 || !b->depth_q32 || !m->depth_q32) return 0; /* limited */
+    if (!places_hold(a, b)) return 0;
+    decide(frame, light->state, a, m, b, a);
+    return a->shadow != GN_SHADOW_UNDECIDED || step_places(steps, a, m, b, middle, n);
 }
 #endif
 
@@ -234,7 +275,8 @@ static int between(const gn_frame *frame, const gn_surface *surface, uint32_t sl
     gn_arrival_steps *steps = &chord->arrival[slot];
     if (!a->reaches && !b->reaches) return stays_dark(surface, light->state, sa->value + first, sb->value + first);
     if (!a->reaches || !b->reaches || a->side != b->side) return 0;
-    if (!is_far(sa->value + first + GN_LIGHT_POINT_AT, sb->value + first + GN_LIGHT_POINT_AT)) return 0;
+    int fades = light->state->kind == GN_LIGHT_SPOT && !(a->side & GN_SIDE_INNER);
+    if (!is_far(sa->value + first + GN_LIGHT_POINT_AT, sb->value + first + GN_LIGHT_POINT_AT, fades)) return 0;
     for (int32_t i = 0; i < GN_VALUES_PER_LIGHT; i++) value[i] = after(chord, sa->value, first + i, middle);
     arrive(frame, surface, light->state, after(chord, sa->value, GN_VALUE_Z, middle), value, &m);
     if (!m.reaches || a->side != m.side) return 0;
@@ -242,19 +284,7 @@ static int between(const gn_frame *frame, const gn_surface *surface, uint32_t sl
         return 0;
 #if GN_SHADOWS
     if (light->state->view_idx < 0 || !surface->shadowed) return 1;
-#if GN_RECEIVER_PLANE
-    if (frame->scene->lights[light->idx].receiver_plane) return 0; /* slopes ask for the point */
-#endif
-    if (a->face != b->face || a->face != m.face) return 0;
-    if (a->face == GN_FACE_NONE) return 1;
-    if (!a->depth_q32 || !b->depth_q32 || !m.depth_q32) return 0; /* limited */
-    if (!places_hold(a, b)) return 0;
-    decide(frame, light->state, a, &m, b, a);
-    if (a->shadow != GN_SHADOW_UNDECIDED) return 1;
-    steps->depth_q30 = (int32_t)(a->depth_q32 >> 2);
-    return parabola(a->u_q16, m.u_q16, b->u_q16, middle, n, &steps->step[1], &steps->bend[1]) &&
-           parabola(a->v_q16, m.v_q16, b->v_q16, middle, n, &steps->step[2], &steps->bend[2]) &&
-           parabola(steps->depth_q30, (int32_t)(m.depth_q32 >> 2), (int32_t)(b->depth_q32 >> 2), middle, n, &steps->step[3], &steps->bend[3]);
+    return places_between(frame, light, steps, a, &m, b, middle, n);
 #else
     return 1;
 #endif
@@ -271,6 +301,16 @@ void gn_arrivals_between(gn_chord *chord, const gn_frame *frame, const gn_surfac
     chord->bend_end = gn_min32(chord->bend_end, end);
 }
 
+#if GN_SHADOWS
+/* A parabola may leave 0 .. 1. */
+static uint32_t depth_of(const gn_arrival_steps *steps)
+{
+    uint32_t near = (uint32_t)gn_max32(steps->at[2], 0);
+    if (steps->up >= 2) return ~(near >> (steps->up - 2));
+    return near >> (30 + steps->up) ? 0 : ~(near << (2 - steps->up));
+}
+#endif
+
 static void step(gn_arrival_steps *steps, gn_arrival *out)
 {
     if (!out->reaches) return; /* nor will it */
@@ -278,11 +318,13 @@ static void step(gn_arrival_steps *steps, gn_arrival *out)
     steps->step[0] += steps->bend[0];
 #if GN_SHADOWS
     if (out->face == GN_FACE_NONE || out->shadow != GN_SHADOW_UNDECIDED) return;
-    out->u_q16 += steps->step[1];
-    out->v_q16 += steps->step[2];
-    steps->depth_q30 += steps->step[3]; /* a parabola may leave 0 .. 1 */
-    out->depth_q32 = steps->depth_q30 < 0 ? 0 : steps->depth_q30 >> 30 ? UINT32_MAX : (uint32_t)steps->depth_q30 << 2;
-    for (int i = 1; i < 4; i++) steps->step[i] += steps->bend[i];
+    for (int i = 0; i < 3; i++) {
+        steps->at[i] += steps->step[i + 1];
+        steps->step[i + 1] += steps->bend[i + 1];
+    }
+    out->u_q16 = steps->at[0] >> 4;
+    out->v_q16 = steps->at[1] >> 4;
+    out->depth_q32 = depth_of(steps);
 #endif
 }
 

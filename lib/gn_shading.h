@@ -138,7 +138,8 @@ enum { GN_SIDE_INNER = 1, GN_SIDE_DEPTH = 2 };
 typedef struct {
     int32_t holds; /* 0: found again at every pixel */
     int32_t step[4], bend[4];
-    int32_t depth_q30;
+    int32_t at[3]; /* U and V, Q20, and 1 - depth, Q32 * 2^(up - 2) */
+    int32_t up;
 } gn_arrival_steps;
 #endif
 

@@ -84,7 +84,7 @@ static void put_work(layout *out, const settings *s)
     put(&all, s->quality.persp_step == 1 ? 8 : 16, 4, 4); /* tri to part */
     long arrival = s->feature.punctual_lights ? s->capacity.surface_lights : 0, n_steps = s->quality.persp_step == 1 ? 0 : arrival;
     arrival *= s->feature.shadows ? 20 : 8;
-    long run = 2 * (4 * values + 28 + arrival + (s->feature.specular ? 24 : 0)) + 8 * values + 12 + 40 * n_steps;
+    long run = 2 * (4 * values + 28 + arrival + (s->feature.specular ? 24 : 0)) + 8 * values + 12 + 52 * n_steps;
     long pieces = s->feature.shadows ? 384 : 288;
     if (s->feature.vertex_normals && !s->quality.vertex_light) pieces += 36 + 12 * s->capacity.surface_lights; /* turning */
     if (s->quality.persp_step == 1) pieces = 0;
