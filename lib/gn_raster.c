@@ -311,6 +311,28 @@ static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tr
 }
 #endif
 
+/* A triangle that a screen tile meets. */
+static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+{
+#if !GN_SIZE_FIRST
+    if (tri->iz_min == GN_NARROW + 1 && !tri->iz_max) {
+        raster_narrow(tile, tri, id);
+        return;
+    }
+    if (tri->iz_min > 1 && !tri->iz_max) {
+        raster_small(tile, tri, id);
+        return;
+    }
+#endif
+#if GN_VISIBLE_ALPHA
+    if (tile->frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
+        raster_cut_triangle(tile, tri, id);
+        return;
+    }
+#endif
+    raster_triangle(tile, tri, id, NULL);
+}
+
 void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     int32_t bits = GN_K(frame, subpixel_bits);
@@ -331,28 +353,23 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
 #endif
     /* backwards: identities ascend */
+#if GN_SIZE_FIRST
     for (uint32_t i = frame->tile_first[tile_idx + 1]; i-- > frame->tile_first[tile_idx];) {
         uint32_t tri_idx = frame->tile_ref[i];
         const gn_tri *tri = &frame->tri[tri_idx];
         GN_ELEMENT(tri);
-#if !GN_SIZE_FIRST
-        if (tri->iz_min == GN_NARROW + 1 && !tri->iz_max) {
-            raster_narrow(&tile, tri, gn_raster_id(frame, tri_idx));
-            continue;
-        }
-        if (tri->iz_min > 1 && !tri->iz_max) {
-            raster_small(&tile, tri, gn_raster_id(frame, tri_idx));
-            continue;
-        }
-#endif
-#if GN_VISIBLE_ALPHA
-        if (frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
-            raster_cut_triangle(&tile, tri, gn_raster_id(frame, tri_idx));
-            continue;
-        }
-#endif
-        raster_triangle(&tile, tri, gn_raster_id(frame, tri_idx), NULL);
+        raster_one(&tile, tri, gn_raster_id(frame, tri_idx));
     }
+#else
+    const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]], *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
+    const gn_tri *first = frame->tri;
+    uint32_t n_triangles = frame->stats.n_triangles;
+    GN_KEEP(first); /* found once */
+    while (ref != none) {
+        uint32_t tri_idx = *--ref;
+        raster_one(&tile, first + tri_idx, n_triangles - tri_idx); /* gn_raster_id */
+    }
+#endif
 }
 
 #endif
