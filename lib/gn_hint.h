@@ -16,6 +16,13 @@
 #define GN_GOES_ON ((void)0)
 #endif
 
+/* A condition that is seldom true: what it guards goes out of the way. */
+#if defined(__GNUC__)
+#define GN_SELDOM(c) __builtin_expect(!!(c), 0)
+#else
+#define GN_SELDOM(c) (c)
+#endif
+
 /* Where size comes first, a pointer to an element is computed once: v is not known to be what it was computed from. */
 #if defined(__OPTIMIZE_SIZE__) && defined(__GNUC__)
 #define GN_ELEMENT(v) __asm__("" : "+r"(v))

@@ -160,7 +160,8 @@ typedef struct {
     gn_rect rect;
     int32_t width, height; /* pixels */
     int32_t x, y;          /* of the picture's centre from the tile's corner, as corners of triangles */
-    uint32_t inside;       /* coordinates below it, a power of two, are left of the right border */
+    int32_t column_x, row_y; /* the same, less half a pixel and with the rounding of gn_first_px: of narrow triangles */
+    uint32_t inside;         /* coordinates below it, a power of two, are left of the right border */
     uint32_t id_mask;
 } raster_tile;
 
@@ -214,25 +215,25 @@ static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri,
     }
 }
 
-/* A triangle of a few pixels, that nothing cuts and whose depth needs no look: of most of them all is in one or two screen tiles. */
+/* A triangle of a few pixels, that nothing cuts and whose depth needs no look: of most of them all is in one or two screen tiles. Its corners have what
+ * rounds them to rows, and to the centres of columns, in them. */
 static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
-    const int32_t bits = GN_K(tile->frame, subpixel_bits), half = (1 << bits) >> 1, stride = GN_K(tile->frame, tile_width);
-    const gn_walk_corner top = {tri->x[0] + tile->x, tri->y[0] + tile->y}, left = {tri->x[1] + tile->x, tri->y[1] + tile->y},
-                         right = {tri->x[2] + tile->x, tri->y[2] + tile->y};
-    int32_t at = gn_max32(gn_first_px(top.y, bits), 0), left_end = gn_first_px(left.y, bits), right_end = gn_first_px(right.y, bits);
+    const int32_t bits = GN_K(tile->frame, subpixel_bits), one = 1 << bits, half = one >> 1, stride = GN_K(tile->frame, tile_width);
+    const gn_walk_corner top = {tri->x[0] + tile->column_x, tri->y[0] + tile->row_y}, left = {tri->x[1] + tile->column_x, tri->y[1] + tile->row_y},
+                         right = {tri->x[2] + tile->column_x, tri->y[2] + tile->row_y};
+    int32_t at = gn_max32(top.y >> bits, 0), left_end = left.y >> bits, right_end = right.y >> bits;
     int32_t end = gn_min32(gn_max32(left_end, right_end), tile->height), bend = gn_min32(left_end, right_end);
     if (at >= end) return;
     int inside = (uint32_t)(top.x | left.x | right.x) < tile->inside;
-    uint32_t minus_dx = 0U - (uint32_t)tri->iz_dx;
+    uint32_t minus_dx = 0U - (uint32_t)tri->iz_dx, *cells = GN_CELLS(tile->scratch);
     GN_KEEP(minus_dx); /* one of the two */
     const raster_depth depth = {minus_dx, 0, 0, tile->id_mask, tile->id_mask - id};
     stepped_rows rows;
     rows.iz_dy = (uint32_t)tri->iz_dy;
-    rows.iz = tri->iz_ref + (uint32_t)(at - (top.y >> bits)) * rows.iz_dy + (uint32_t)((top.x >> bits) + 1) * minus_dx;
-    uint32_t *cells = GN_CELLS(tile->scratch);
+    rows.iz = tri->iz_ref + (uint32_t)(at - ((top.y - half + 1) >> bits)) * rows.iz_dy + (uint32_t)((top.x + half + one) >> bits) * minus_dx;
     rows.row = cells + at * stride;
-    int32_t y = at * (1 << bits) + half;
+    int32_t y = at * one + one - 1;
     rows.left = at < left_end ? gn_walk_narrow_at(top.x, top.y, left.x, left.y, y, bits) : gn_walk_narrow_at(left.x, left.y, right.x, right.y, y, bits);
     rows.right = at < right_end ? gn_walk_narrow_at(top.x, top.y, right.x, right.y, y, bits) : gn_walk_narrow_at(right.x, right.y, left.x, left.y, y, bits);
     if (bend <= at || bend > end) bend = end;
@@ -240,7 +241,7 @@ static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri
         if (inside) raster_rows(&rows, cells + bend * stride, stride, GN_NARROW_BITS, 1, 0, &depth);
         else raster_rows(&rows, cells + bend * stride, stride, GN_NARROW_BITS, 0, tile->width, &depth);
         if (bend == end) return;
-        y = bend * (1 << bits) + half;
+        y = bend * one + one - 1;
         if (bend == left_end) rows.left = gn_walk_narrow_at(left.x, left.y, right.x, right.y, y, bits);
         else rows.right = gn_walk_narrow_at(right.x, right.y, left.x, left.y, y, bits);
         bend = end;
@@ -345,7 +346,11 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     tile.x = ((frame->picture.width << bits) >> 1) - tile.rect.x0 * (1 << bits);
     tile.y = ((frame->picture.height << bits) >> 1) - tile.rect.y0 * (1 << bits);
     tile.id_mask = (1U << frame->id_bits) - 1;
-    if (!GN_SIZE_FIRST) tile.inside = 1U << (31 - gn_clz32((uint32_t)tile.width) + bits);
+    if (!GN_SIZE_FIRST) {
+        tile.column_x = tile.x - ((1 << bits) >> 1);
+        tile.row_y = tile.y + ((1 << bits) >> 1) - 1;
+        tile.inside = 1U << (31 - gn_clz32((uint32_t)tile.width) + bits);
+    }
     GN_COUNT(screen_tiles, 1);
     GN_COUNT(pixels, tile.width * tile.height);
     memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));

@@ -104,8 +104,9 @@ static inline uint32_t inverse_depth(const setup_job *job, uint32_t recip, int32
 {
     uint32_t q = (uint32_t)(((uint64_t)job->near_norm * recip) >> 32); /* near * 2^near_clz * 2^63 / (Z * 2^clz) / 2^32 */
     int32_t down = job->near_down - clz;                               /* Z is not nearer than near: -1 at the least */
-    if (down >= 0) return q >> down;
-    return q >> 31 ? UINT32_MAX : q << 1 | 1U; /* Z is near, and the quotient exact */
+    if (GN_SELDOM(down < 0)) return q >> 31 ? UINT32_MAX : q << 1 | 1U; /* Z is near, and the quotient exact */
+    GN_KEEP(q); /* a branch */
+    return q >> down;
 }
 
 /* floor(v * scale / 2^32) */
@@ -155,11 +156,16 @@ static GN_NOINLINE int fill_corner(const setup_job *job, corner *c, uint32_t ver
     return 1;
 }
 #else
+/* Beyond +-half */
+static inline int is_beyond(int32_t v, uint32_t half)
+{
+    return (uint32_t)v + half > 2 * half;
+}
+
 /* Bit `low` if v is below -half, the next if it is above half. */
 static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
 {
-    if ((uint32_t)v + half <= 2 * half) return 0;
-    return v < 0 ? low : low << 1;
+    return !is_beyond(v, half) ? 0 : v < 0 ? low : low << 1;
 }
 
 /* A corner nearer than near, beyond what is projected or near the border of the guard band, or out of range: returns 0 then. */
@@ -190,7 +196,10 @@ GN_INLINE int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
     if ((uint32_t)v[2] - (uint32_t)job->near_q16 >= job->z_range || (uint32_t)v[0] + z > 2 * z || (uint32_t)v[1] + z > 2 * z)
         return fill_far_corner(job, c);
     project(job, v, &c->at);
-    c->out = side_bits(c->at.x_q16, job->half_q16[0], GN_OUT_LEFT) | side_bits(-c->at.y_q16, job->half_q16[1], GN_OUT_BOTTOM);
+    uint32_t half_x = job->half_q16[0], half_y = job->half_q16[1];
+    c->out = 0;
+    if (GN_SELDOM(is_beyond(c->at.x_q16, half_x) || is_beyond(c->at.y_q16, half_y)))
+        c->out = side_bits(c->at.x_q16, half_x, GN_OUT_LEFT) | side_bits(-c->at.y_q16, half_y, GN_OUT_BOTTOM);
     return 1;
 }
 #endif

@@ -104,14 +104,13 @@ static inline int32_t gn_walk_narrow(int32_t subpixel_bits)
     return subpixel_bits < 7 ? 15 << subpixel_bits : 1900;
 }
 
-/* `y` is the row's centre. */
+/* `y` is the row's centre; of x, and of both y alike, anything may have been added beforehand, but half a pixel must have been taken from x. */
 static inline gn_walk_line gn_walk_narrow_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y, int32_t subpixel_bits)
 {
     GN_KEEP(x0); /* nothing is found before it is wanted */
     GN_KEEP(y0);
     const int32_t unit = 1 << GN_NARROW_BITS;
     int32_t one = 1 << subpixel_bits, dx = x1 - x0, dy = y1 - y0;
-    x0 -= one >> 1;
     int32_t m = dy + (((x0 & (one - 1)) * dy + (y - y0) * dx - 1) >> subpixel_bits);
     const gn_walk_line line = {((uint32_t)(x0 >> subpixel_bits) << GN_NARROW_BITS) + 16U + (uint32_t)(m * unit / dy), (uint32_t)(dx * unit / dy)};
     return line;
