@@ -18,6 +18,13 @@
 /* T / 2 * (1 + x / (z t)), Q16: the clamps keep what is far outside the tile outside. */
 static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t recip, int32_t clz)
 {
+#if !GN_SIZE_FIRST
+    if (gn_abs64(x_q16) < (uint64_t)UINT32_MAX >> clz && clz >= 2 && !(view->fit.persp.focal2_q16 >> 30)) { /* |x| < 2 z: the same, of which nothing needs a clamp */
+        int32_t x = (int32_t)x_q16 * (1 << (clz - 2)); /* x / z = x * recip / 2^61: below 2^29 * 4 */
+        int32_t ratio_q28 = (int32_t)((((int64_t)x * (int64_t)recip >> 32) + 1) >> 1);
+        return (int32_t)(((int64_t)ratio_q28 * (int64_t)view->fit.persp.focal2_q16 + (1 << 28)) >> 29) + (view->tile_texels << 15);
+    }
+#endif
     /* times focal2 within 2^60, and 2^14 texels or more: beyond every tile */
     const int64_t bound = (int64_t)1 << (28 + gn_clz32(view->fit.persp.focal2_q16)), x_most = INT32_MAX;
     int64_t ratio_q28 = gn_scale64(gn_clamp64(x_q16, -x_most, x_most) * (int64_t)recip, 35 - clz); /* 2^31 * 2^32 */
@@ -123,17 +130,18 @@ void gn_arrivals_at(const gn_frame *frame, const gn_surface *surface, gn_sample 
 static int32_t after(const gn_chord *chord, const int32_t *value, int32_t i, int32_t m)
 {
     int32_t bend = i >= chord->bend_first && i < chord->bend_end ? chord->bend[i] : 0;
-    return gn_sat32(value[i] + m * (int64_t)chord->step[i] + m * (m - 1) / 2 * (int64_t)bend);
+    return (int32_t)((uint32_t)value[i] + (uint32_t)m * (uint32_t)chord->step[i] + (uint32_t)(m * (m - 1) / 2) * (uint32_t)bend); /* within the chord's ends */
 }
 
 /* A parabola of whole steps through v0, vm after m and vn after n pixels, n <= 16. Returns 0 if they are too far apart, or so large that what
  * lies between, up to 5/3 of the largest, might not fit. */
 static int parabola(int32_t v0, int32_t vm, int32_t vn, int32_t m, int32_t n, int32_t *step, int32_t *bend)
 {
-    int64_t to_m = (int64_t)vm - v0, to_n = (int64_t)vn - v0;
-    if ((gn_abs64(to_m) | gn_abs64(to_n) | gn_abs32(v0) | gn_abs32(vm) | gn_abs32(vn)) >> 30) return 0;
-    int32_t first = (int32_t)to_m / m;
-    *bend = 2 * ((int32_t)to_n / n - first) / (n - m);
+    if ((gn_abs32(v0) | gn_abs32(vm) | gn_abs32(vn)) >> 30) return 0;
+    int32_t to_m = vm - v0, to_n = vn - v0;
+    if ((gn_abs32(to_m) | gn_abs32(to_n)) >> 30) return 0;
+    int32_t first = to_m / m;
+    *bend = 2 * (to_n / n - first) / (n - m);
     *step = first - *bend * (m - 1) / 2;
     return 1;
 }
