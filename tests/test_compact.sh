@@ -29,6 +29,10 @@ if [ "${1:-}" = --table ]; then
 fi
 counted "$tmp/compare"
 
+gcc -std=c11 -w -O2 -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_ATLAS_SIZE=128 -Ilib -I. -Itests "-DLIBRARY=\"$tmp/lib.c\"" \
+    -o "$tmp/bounds" tests/compact_bounds.c -lm || fail "compact_bounds does not build"
+counted "$tmp/bounds"
+
 # ---- Range: the compilers of the test suite, with sanitizers -----------------------------------------------------------------------
 
 for how in "gcc -O2" "clang -O0"; do
