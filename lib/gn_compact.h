@@ -2,7 +2,7 @@
  *
  * Camera and light are projectors of one kind (gn_compact_view): the same code transforms, projects, sets up and draws triangles into a
  * screen tile and into the shadow tile. Lengths are 32 bits, products 64, and what is divided by is normalised first. Ranges, and the errors that
- * follow, are in docs/NUMERICS.md section 5; whatever lies outside is refused, whether or not validation is built.
+ * follow, are in docs/NUMERICS.md 4.15; whatever lies outside is refused, whether or not validation is built.
  */
 #ifndef GN_COMPACT_H
 #define GN_COMPACT_H

@@ -1,4 +1,4 @@
-/* The error bounds of docs/NUMERICS.md section 5, stage by stage, against double precision. Compiled with GN_COMPACT and the whole library as one file,
+/* The error bounds of docs/NUMERICS.md 4.15, stage by stage, against double precision. Compiled with GN_COMPACT and the whole library as one file,
  * LIBRARY, of which it asks the stages. */
 #include LIBRARY
 

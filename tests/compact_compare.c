@@ -242,6 +242,7 @@ int main(int argc, char **argv)
         if (!strcmp(argv[i], "--table")) table = 1;
         if (!strcmp(argv[i], "-o") && i + 1 < argc) prefix = argv[++i];
     }
+    if (table) printf("| scene | views | identical, median | worst | within1, worst | PSNR dB, median | worst | shadow mismatch, worst |\n|---|---|---|---|---|---|---|---|\n");
     own_scene("sundial", 48);
     own_scene("avenue", 0);
     own_scene("fence", 0);
