@@ -11,6 +11,16 @@
 
 #if GN_PIECES
 
+int32_t gn_step_of(int32_t a, int32_t b, int32_t n)
+{
+    static const uint32_t inverse[17] = {0,           0xFFFFFFFFU, 0x80000000U, 0x55555555U, 0x40000000U, 0x33333333U,
+                                         0x2AAAAAAAU, 0x24924924U, 0x20000000U, 0x1C71C71CU, 0x19999999U, 0x1745D174U,
+                                         0x15555555U, 0x13B13B13U, 0x12492492U, 0x11111111U, 0x10000000U};
+    uint32_t d = b < a ? (uint32_t)a - (uint32_t)b : (uint32_t)b - (uint32_t)a;
+    int32_t size = (int32_t)((uint64_t)d * inverse[n] >> 32);
+    return b < a ? -size : size;
+}
+
 /* ---- Once per surface --------------------------------------------------------------------------------------------- */
 
 /* A linear form of view space, at least 2^29 long, on the screen: at the middle of `rect` times 2^-shift. Returns 0 if it leaves +-2^31

@@ -46,6 +46,9 @@ static inline int32_t gn_colour_near(const gn_pieces *p, const gn_slope *colour,
     return colour->at + g;
 }
 
+/* (b - a) / n, rounded towards zero, n <= 16 */
+int32_t gn_step_of(int32_t a, int32_t b, int32_t n);
+
 /* Whether the surface may be shaded so. */
 int gn_pieces_fit(const gn_frame *frame, const gn_surface *surface);
 

@@ -100,23 +100,12 @@ static void receiver_at(const gn_pieces *p, int32_t x, int32_t y, gn_receiver_st
     out->depth_q31 = gn_max32(p->depth_least, gn_min32(place_at(&p->place[2], dx, dy, t_q30), p->depth_most)) * (1 << p->depth_up);
 }
 
-/* (b - a) / n, rounded towards zero, n <= 16 */
-static int32_t step_of(int32_t a, int32_t b, int32_t n)
-{
-    static const uint32_t inverse[17] = {0,           0xFFFFFFFFU, 0x80000000U, 0x55555555U, 0x40000000U, 0x33333333U,
-                                         0x2AAAAAAAU, 0x24924924U, 0x20000000U, 0x1C71C71CU, 0x19999999U, 0x1745D174U,
-                                         0x15555555U, 0x13B13B13U, 0x12492492U, 0x11111111U, 0x10000000U};
-    uint32_t d = b < a ? (uint32_t)a - (uint32_t)b : (uint32_t)b - (uint32_t)a;
-    int32_t size = (int32_t)((uint64_t)d * inverse[n] >> 32);
-    return b < a ? -size : size;
-}
-
 /* (b - a) / n of two values that were limited */
 static GN_NOINLINE int32_t limited_step(const gn_pieces *p, gn_receiver_step *from, gn_receiver_step *to, int32_t n)
 {
     from->depth_q31 = gn_max32(p->depth_least, gn_min32(from->depth_q31, p->depth_most));
     to->depth_q31 = gn_max32(p->depth_least, gn_min32(to->depth_q31, p->depth_most));
-    return step_of(from->depth_q31 * (1 << p->depth_up), to->depth_q31 * (1 << p->depth_up), n);
+    return gn_step_of(from->depth_q31 * (1 << p->depth_up), to->depth_q31 * (1 << p->depth_up), n);
 }
 
 /* From a place's value where g and t are what they are to the one `n` pixels on: the chord of v + g - g t, whose step is that of the middle. */

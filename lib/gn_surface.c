@@ -34,29 +34,43 @@ static void face_normal(const gn_frame *frame, const gn_surface *s, int32_t out_
         for (int i = 0; i < 3; i++) out_q30[i] = -frame->cam.axis_q30[2][i];
 }
 
-/* The upper half of a . b, b in Q15 on its way to Q31. */
-static inline int32_t row_high(const int32_t a[3], const int32_t b_q31[3])
+#if !GN_SIZE_FIRST
+static inline int64_t absolute(int64_t v)
 {
-    return (int32_t)(((int64_t)a[0] * b_q31[0] + (int64_t)a[1] * b_q31[1] + (int64_t)a[2] * b_q31[2]) >> 32);
+    return (v ^ (v >> 63)) - (v >> 63);
+}
+
+/* Bits s .. s + 31 below the sign of 64, rounded to 31. */
+static inline int32_t rounded_high(int64_t v, int32_t s)
+{
+    uint32_t high = (uint32_t)((uint64_t)v >> 32) << s | (uint32_t)v >> (32 - s);
+    return (int32_t)(((int32_t)high >> 1) + (int32_t)(high & 1U));
 }
 
 void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
 {
-    const int32_t b[3] = {nrm_q15[0] * 65536, nrm_q15[1] * 65536, nrm_q15[2] * 65536};
-    int32_t n[3] = {row_high(matrix[0], b), row_high(matrix[1], b), row_high(matrix[2], b)};
-    uint32_t size = (uint32_t)((uint64_t)gn_dot64(n, n) >> 32); /* |n| <= sqrt(3) 2^30 */
-    if (GN_SIZE_FIRST || size < 1U << 22) { /* not by far of unit length */
+    int64_t a[3];
+    for (int r = 0; r < 3; r++)
+        a[r] = (int64_t)matrix[r][0] * nrm_q15[0] + (int64_t)matrix[r][1] * nrm_q15[1] + (int64_t)matrix[r][2] * nrm_q15[2];
+    uint64_t any = (uint64_t)(absolute(a[0]) | absolute(a[1]) | absolute(a[2]));
+    uint32_t high = (uint32_t)(any >> 32);
+    int32_t s = high ? gn_clz32(high) - 1 : 31;
+    if (!high || (uint32_t)(any >> (32 - s)) >= 0x7FFFFFFEU) { /* short, or rounded up to 2^30 */
         gn_xform_normal(out_q30, matrix, nrm_q15);
         return;
     }
-    int32_t half = gn_clz32(size) >> 1, up = 2 * half;
-    uint64_t sum = (uint64_t)gn_dot64(n, n) << up;
-    uint32_t root = gn_rsqrt_norm((uint32_t)(sum >> 32), 2); /* 2^63 / (|n| << half) */
-    for (int i = 0; i < 3; i++) {
-        int32_t v = (int32_t)((int64_t)(n[i] * (1 << (half - 1))) * (int32_t)(root >> 1) >> 31);
+    int32_t n[3] = {rounded_high(a[0], s), rounded_high(a[1], s), rounded_high(a[2], s)};
+    uint64_t sum = (uint64_t)gn_dot64(n, n); /* 2^58 to 3 * 2^60 */
+    int32_t up = gn_clz32((uint32_t)(sum >> 32)) & 30;
+    uint32_t root = gn_rsqrt_norm((uint32_t)((sum << up) >> 32), 2);
+    for (int i = 0; i < 3; i++) { /* as gn_normalise_q30() does it */
+        int32_t twice = up == 4 ? 2 * n[i] : n[i];
+        int64_t p = (int64_t)twice * (int32_t)(root - 0x80000000U - 0x80000000U);
+        int32_t v = (int32_t)(p >> 32) + twice + (int32_t)((uint32_t)p >> 31);
         out_q30[i] = gn_max32(-(1 << 30), gn_min32(v, 1 << 30));
     }
 }
+#endif
 
 static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
 {

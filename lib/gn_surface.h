@@ -5,12 +5,17 @@
 #include "gn_math.h"
 #include "gn_plane.h"
 #include "gn_texture.h"
+#include "gn_xform.h"
 #include "gnomon.h"
 
 void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface, const gn_tri *tri);
 
-/* A mesh's normal in the world, of unit length: the direction of gn_xform_normal(), within 2^-26. */
+/* gn_xform_normal(), in one piece where time counts. */
+#if GN_SIZE_FIRST
+#define gn_surface_normal gn_xform_normal
+#else
 void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3]);
+#endif
 
 /* 1: one radiance all over, no need to sample it. */
 static inline int gn_surface_is_constant(const gn_surface *s)

@@ -135,38 +135,78 @@ static uint32_t share_of(const gn_pieces *p, uint32_t attenuation)
     return p->turning.keep_uq16 + ((65536 - p->turning.keep_uq16) * (attenuation >> 1) >> 15);
 }
 
-/* Ramps as long as they may be, shorter where a light begins or ends to shine. */
-static void ramps(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t end, uint32_t share)
+/* From one colour to another, `ahead` pixels further on: 1 to 16, or a power of two. */
+static inline void find_steps(gn_ramp *ramp, const int32_t to_q24[3], int32_t ahead)
+{
+    const int32_t *from = ramp->from_q24;
+    int32_t *step = ramp->step_q24, log2 = 31 - gn_clz32((uint32_t)ahead);
+    if (ahead & (ahead - 1)) {
+        for (int c = 0; c < 3; c++) step[c] = gn_step_of(from[c], to_q24[c], ahead);
+        return;
+    }
+    for (int c = 0; c < 3; c++) step[c] = (to_q24[c] - from[c]) >> log2;
+}
+
+/* Ramps as long as they may be, shorter where a light begins or ends to shine. One ends where the next begins, the last on its last pixel. */
+static void ramps(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, uint32_t share)
 {
     gn_ramp ramp;
     int32_t *from = ramp.from_q24, to[3];
-    uint32_t lit = colour_at(r, i, share, from);
-    while (i < end) {
-        if (i + 1 == end) {
+    uint32_t lit = colour_at(r, 0, share, from), lit_there;
+    for (int32_t i = 0; i < n;) {
+        int32_t left = n - i, length = r->p->ramp_px, ahead;
+        if (left == 1) {
             gn_pixel_dot(r->p->frame, rows, x + i, y, from);
             return;
         }
-        int32_t length = r->p->ramp_px;
-        uint32_t lit_there;
-        while (length > end - i) length >>= 1;
-        while ((lit_there = colour_at(r, i + length, share, to)) != lit && length > 1) length >>= 1;
-        int32_t log2 = 31 - gn_clz32((uint32_t)length);
-        for (int c = 0; c < 3; c++) ramp.step_q24[c] = (to[c] - from[c]) >> log2;
-        if (length > 1) gn_pixel_ramp(r->p->frame, rows, x + i, y, length, &ramp);
-        else gn_pixel_dot(r->p->frame, rows, x + i, y, from);
+        if (left <= length && left <= 17) length = left;
+        while (length > left) length >>= 1;
+        ahead = length - (length == left && left <= 17);
+        while ((lit_there = colour_at(r, i + ahead, share, to)) != lit && ahead > 1) length = ahead >>= 1;
+        if (ahead == 1 && lit_there != lit) length = 1;
+        find_steps(&ramp, to, ahead);
+        gn_pixel_ramp(r->p->frame, rows, x + i, y, length, &ramp);
         for (int c = 0; c < 3; c++) from[c] = to[c];
         lit = lit_there;
         i += length;
     }
 }
 
-static void each_pixel(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation, uint32_t share)
+static void each_pixel(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t n, const uint32_t *attenuation,
+                       uint32_t share)
 {
-    for (int32_t i = 0; i < n; i++) {
+    for (; n > 0; n--, i++) {
         int32_t colour[3];
         colour_at(r, i, attenuation ? share_of(r->p, attenuation[i]) : share, colour);
         gn_pixel_dot(r->p->frame, rows, x + i, y, colour);
     }
+}
+
+/* Without the light that casts a shadow, or with what is left of it. */
+static void dark_at(const tinted_row *r, int32_t i, int32_t colour_q24[3])
+{
+    const gn_surface *s = r->p->surface;
+    if (s->n_lights > 1 || r->p->turning.keep_uq16) {
+        colour_at(r, i, r->p->turning.keep_uq16, colour_q24);
+        return;
+    }
+    for (int c = 0; c < 3; c++) colour_q24[c] = gn_mul_high((int32_t)(s->base_q20[c] << 8), r->tint_q28[c] + i * r->tint_step[c]);
+}
+
+/* n <= 17 pixels from i on, no longer than a ramp, each as far between two ramps as its light is let through. */
+static void mixed(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t n, const uint32_t *attenuation)
+{
+    gn_ramp dark, lit;
+    int32_t ahead = n - 1, dark_to[3], lit_to[3];
+    if (n < 3 || colour_at(r, i, 65536, lit.from_q24) != colour_at(r, i + ahead, 65536, lit_to)) {
+        each_pixel(r, rows, y, x, i, n, attenuation, 0);
+        return;
+    }
+    dark_at(r, i, dark.from_q24);
+    dark_at(r, i + ahead, dark_to);
+    find_steps(&dark, dark_to, ahead);
+    find_steps(&lit, lit_to, ahead);
+    gn_pixel_mix(r->p->frame, rows, x + i, y, n, &dark, &lit, attenuation + i);
 }
 
 void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation, int all)
@@ -176,13 +216,10 @@ void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32
     for (int32_t end = x + n; x < end; x += n) {
         n = gn_min32(end - x, p->tint_px);
         begin_row(&r, p, x, y, n);
-        if (p->ramp_px < 4) each_pixel(&r, rows, y, x, n, attenuation, share);
-        else if (!attenuation) ramps(&r, rows, y, x, 0, n, share);
-        for (int32_t first = 0, i = 0; attenuation && p->ramp_px >= 4 && i < n; first = i) { /* what is lit alike */
-            uint32_t here = attenuation[i++];
-            while (i < n && attenuation[i] == here) i++;
-            ramps(&r, rows, y, x, first, i, share_of(p, here));
-        }
+        if (p->ramp_px < 4) each_pixel(&r, rows, y, x, 0, n, attenuation, share);
+        else if (!attenuation) ramps(&r, rows, y, x, n, share);
+        else
+            for (int32_t i = 0; i < n; i += p->ramp_px) mixed(&r, rows, y, x, i, gn_min32(n - i, p->ramp_px), attenuation);
         if (attenuation) attenuation += n;
     }
 }
