@@ -67,6 +67,12 @@ static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int3
     for (int i = 0; i < 3; i++) out[i] = gn_sat32(at[i] + offset_q16[i]);
 }
 
+/* Whether a light has cascades, or shadows end at a distance from the camera. */
+static int asks_for_cascades(const gn_frame *frame)
+{
+    return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
+}
+
 /* D4, D6, D11: the cascade of the surface point and its fade factor. */
 static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
 {
@@ -240,7 +246,7 @@ void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t
     sample->value[GN_VALUE_Z] = h.z_q16;
     sample->value[GN_VALUE_FADE] = 0;
     sample->cascade = GN_CASCADE_NONE;
-    sample->in_reach = 0;
+    sample->in_reach = 1;
     for (int i = 0; i < 3; i++)
         sample->value[GN_VALUE_RGB + i] = GN_COLOURED(s) ? interpolate(&h, s->rgb_q16[0][i], s->rgb_q16[1][i], s->rgb_q16[2][i]) : 0;
     if (s->first_value < GN_VALUE_Z) extra_values(s, &h, sample->value);
@@ -249,7 +255,7 @@ void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t
     normal_at(s, &h, n);
     for (int i = 0; GN_SMOOTH(s) && i < 3; i++) sample->normal_q15[i] = n[i] >> 15;
 #if GN_SHADOWS
-    if (s->shadowed) select_cascade(frame, px, py, sample);
+    if (s->shadowed && asks_for_cascades(frame)) select_cascade(frame, px, py, sample);
 #endif
     light_values(frame, s, &h, px, py, n, sample);
 #if GN_SPECULAR
