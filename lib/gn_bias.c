@@ -243,8 +243,7 @@ static int64_t lift_share_q30(const gn_light_view *view, int64_t across_q30, int
 {
     const int64_t two = (int64_t)2 << 30;
     int64_t share = gn_bf_apply(view->offset_q16 * across_q30 >> 16, view->fit.persp.texel_per_z, 0) + 2; /* 2^21 * 2^31 */
-    gn_bfloat per_near = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)view->fit.persp.near_q16));
-    share += gn_bf_apply((h_q16 + 2) * view->auto_step, per_near, -2); /* 2^32 * 2^24; h is rounded */
+    share += gn_bf_apply((h_q16 + 2) * view->auto_step, view->fit.persp.per_near, -2); /* 2^32 * 2^24; h is rounded */
     if (share > two) return -1;
     if (m_w_q30 <= 0) return share;
     int64_t left = ((int64_t)1 << 30) - (share * m_w_q30 >> 30); /* seen from behind the light's plane */

@@ -63,7 +63,7 @@ void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
             gn_persp_face_q24(view->filter_idx, gn_bias_reach_q16(frame, view, light), view->tile_texels, &clamped), 1 << 24);
     frame->stats.n_reach_clamped += (uint32_t)clamped;
     fit->texel_per_z = gn_bf_recip(gn_bf_from_u64(fit->focal2_q16));
-    fit->near_over_focal2 = gn_bf_mul(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16), fit->texel_per_z);
+    fit->per_near = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16));
     fit->texel_per_z.exp += 17; /* 2 / (T / t), T / t in Q16 */
     fit->guard_q16[0] = fit->guard_q16[1] = gn_sat32((int64_t)gn_udiv64((uint64_t)(2 * GN_GUARD_TEXELS) << 32, fit->focal2_q16));
     fit->side_q16[0] = fit->side_q16[1] = gn_sat32((int64_t)gn_udiv64((uint64_t)view->tile_texels << 32, fit->focal2_q16) + 2);
@@ -106,7 +106,9 @@ static int caster_begin(gn_caster *caster, gn_plane *plane, const gn_light_view 
     gn_plane_setup(plane, v[0], v[1], v[2]);
     /* u x v = w: a face that looks at the light has its normal against the view, and was turned by gn_plane_setup */
     if (plane->det == 0 || (!plane->back && !two_sided)) return 0;
-    gn_bfloat scale = gn_bf_mul(fit->near_over_focal2, gn_bf_recip(gn_bf_from_u64((uint64_t)plane->det)));
+    gn_bfloat scale = gn_bf_mul(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16), fit->texel_per_z); /* n / (T / t), 2^17 of it */
+    scale = gn_bf_mul(scale, gn_bf_recip(gn_bf_from_u64((uint64_t)plane->det)));
+    scale.exp -= 17;
     int32_t px = 1 - view->tile_texels, z_min = v[0][2], z_max = v[0][2];
     const int64_t most = GN_CASTER_GRADIENT_MAX;
     caster->dz_du = gn_clamp64(-gn_bf_apply(plane->n[0], scale, 49), -most, most);

@@ -101,7 +101,7 @@ typedef struct {
     int32_t eye_q16[3];
     int32_t near_q16;           /* n: depth is 1 - n / z */
     uint32_t focal2_q16;        /* T / t: twice the focal length in texels */
-    gn_bfloat near_over_focal2; /* n / (T / t) */
+    gn_bfloat per_near;         /* 1 / n, n in Q16 */
     gn_bfloat texel_per_z;      /* 2t / T: width of a texel at light-plane distance 1 */
     int32_t guard_q16[2];       /* |x|, |y| <= guard * z after clipping to the guard band */
     int32_t side_q16[2];        /* the same for the tile's own border, a little wider: what is outside all of it casts nothing here */
