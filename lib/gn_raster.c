@@ -215,6 +215,11 @@ static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri,
     }
 }
 
+static inline gn_walk_line narrow_line(gn_walk_corner from, gn_walk_corner to, int32_t y, int32_t bits)
+{
+    return gn_walk_narrow_at(from.x, from.y, to.x, to.y, y, bits, GN_CORE_DIVIDES);
+}
+
 /* A triangle of a few pixels, that nothing cuts and whose depth needs no look: of most of them all is in one or two screen tiles. Its corners have what
  * rounds them to rows, and to the centres of columns, in them. */
 static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri, uint32_t id)
@@ -234,16 +239,16 @@ static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri
     rows.iz = tri->iz_ref + (uint32_t)(at - ((top.y - half + 1) >> bits)) * rows.iz_dy + (uint32_t)((top.x + half + one) >> bits) * minus_dx;
     rows.row = cells + at * stride;
     int32_t y = at * one + one - 1;
-    rows.left = at < left_end ? gn_walk_narrow_at(top.x, top.y, left.x, left.y, y, bits) : gn_walk_narrow_at(left.x, left.y, right.x, right.y, y, bits);
-    rows.right = at < right_end ? gn_walk_narrow_at(top.x, top.y, right.x, right.y, y, bits) : gn_walk_narrow_at(right.x, right.y, left.x, left.y, y, bits);
+    rows.left = at < left_end ? narrow_line(top, left, y, bits) : narrow_line(left, right, y, bits);
+    rows.right = at < right_end ? narrow_line(top, right, y, bits) : narrow_line(right, left, y, bits);
     if (bend <= at || bend > end) bend = end;
     for (;;) {
         if (inside) raster_rows(&rows, cells + bend * stride, stride, GN_NARROW_BITS, 1, 0, &depth);
         else raster_rows(&rows, cells + bend * stride, stride, GN_NARROW_BITS, 0, tile->width, &depth);
         if (bend == end) return;
         y = bend * one + one - 1;
-        if (bend == left_end) rows.left = gn_walk_narrow_at(left.x, left.y, right.x, right.y, y, bits);
-        else rows.right = gn_walk_narrow_at(right.x, right.y, left.x, left.y, y, bits);
+        if (bend == left_end) rows.left = narrow_line(left, right, y, bits);
+        else rows.right = narrow_line(right, left, y, bits);
         bend = end;
     }
 }

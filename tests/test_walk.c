@@ -165,7 +165,7 @@ static void test_narrow_edges(void)
         int32_t x0 = rng_range(&random_state, -4000, 4000) * (i & 4 ? 16 : 1), y0 = rng_range(&random_state, -3000, 3000);
         int32_t first = gn_first_px(y0, bits), end = gn_first_px(y0 + dy, bits), from = rng_range(&random_state, first, end > first ? end - 1 : first);
         if (from >= end) continue;
-        gn_walk_line line = gn_walk_narrow_at(x0 - one / 2, y0, x0 - one / 2 + dx, y0 + dy, from * one + one / 2, bits);
+        gn_walk_line line = gn_walk_narrow_at(x0 - one / 2, y0, x0 - one / 2 + dx, y0 + dy, from * one + one / 2, bits, i & 8 ? 1 : 0);
         int good = 1;
         for (int32_t row = from; row < end; row++, line.x += line.step) {
             int64_t over = ((int64_t)x0 - one / 2) * dy + ((int64_t)row * one + one / 2 - y0) * dx, centre = (int64_t)dy * one; /* ceil(over / centre) */
