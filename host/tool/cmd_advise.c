@@ -77,6 +77,23 @@ static size_t find_best(const sweep *w, const budget *b)
     return best.n ? best.idx[0] : SIZE_MAX;
 }
 
+static bool needs_less(const sweep_row *a, const sweep_row *b, bool ram)
+{
+    return ram ? a->ram_bytes < b->ram_bytes : a->cost < b->cost;
+}
+
+/* The row with the least RAM, or instructions, among those that keep the other budget; SIZE_MAX: none does. */
+static size_t smallest(const sweep *w, const budget *b, bool ram)
+{
+    size_t best = SIZE_MAX;
+    for (size_t i = 0; i < w->n_rows; i++) {
+        const sweep_row *r = &w->rows[i];
+        if (ram ? r->cost > b->instructions : (double)r->ram_bytes > b->ram) continue;
+        if (best == SIZE_MAX || needs_less(r, &w->rows[best], ram)) best = i;
+    }
+    return best;
+}
+
 /* ---- Refinement ------------------------------------------------------------------------------------------------------------- */
 
 static int refine(sweep *w, const budget *b)
@@ -118,9 +135,6 @@ static void count(sweep *w, size_t row)
     sweep_target_count(w, &row, 1);
     sweep_target_scale(w);
 }
-
-/* The row with the least RAM, or instructions, among those that keep the other budget; SIZE_MAX: none does. */
-static size_t smallest(const sweep *w, const budget *b, bool ram);
 
 /* What a budget of instructions is held against before anything is near it: the best and the cheapest of what fits into the RAM. */
 static void count_ends(sweep *w, const budget *b)
@@ -211,22 +225,6 @@ static void print_json(const sweep *w, const sweep_row *r)
     printf("}\n");
 }
 
-static bool needs_less(const sweep_row *a, const sweep_row *b, bool ram)
-{
-    return ram ? a->ram_bytes < b->ram_bytes : a->cost < b->cost;
-}
-
-static size_t smallest(const sweep *w, const budget *b, bool ram)
-{
-    size_t best = SIZE_MAX;
-    for (size_t i = 0; i < w->n_rows; i++) {
-        const sweep_row *r = &w->rows[i];
-        if (ram ? r->cost > b->instructions : (double)r->ram_bytes > b->ram) continue;
-        if (best == SIZE_MAX || needs_less(r, &w->rows[best], ram)) best = i;
-    }
-    return best;
-}
-
 /* "63992 bytes and 112.3 instructions per pixel by --set ..." */
 static void describe(const sweep *w, size_t row, char *out, size_t bytes)
 {
@@ -262,6 +260,9 @@ static int refuse(sweep *w, const budget *b)
         describe(w, needs[i].row, need, sizeof need);
         snprintf(message + used, sizeof message - used, "; %s: %s", needs[i].what, need);
     }
+    size_t used = strlen(message);
+    if (w->n_uncounted)
+        snprintf(message + used, sizeof message - used, "; %zu could not be counted on %s, the first: %s", w->n_uncounted, o->target, w->uncounted);
     return tool_fail(o->scene_path, message);
 }
 

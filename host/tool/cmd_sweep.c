@@ -78,13 +78,20 @@ static double percent(double now, double then)
     return then > 0 ? 100 * (now / then - 1) : 0;
 }
 
+/* Of two that are infinite: none. */
+static double gain_db(double now, double then)
+{
+    return isinf(now) && isinf(then) ? 0 : now - then;
+}
+
 static void print_schedule(const sweep *w, const sweep_row *r, const sweep_row *base)
 {
     char name[NAME_BYTES];
     const sweep_played *now = &r->played, *then = &base->played;
     sweep_name(w, r, name, sizeof name);
     printf("  %8.1f %+7.2f %% %8.2f %+6.2f dB %8.2f %+7.2f dB %8.2f dB  %s\n", now->instructions, percent(now->instructions, then->instructions),
-           now->truth.mean_db, now->truth.mean_db - then->truth.mean_db, now->reference.mean_db, now->reference.mean_db - then->reference.mean_db,
+           now->truth.mean_db, gain_db(now->truth.mean_db, then->truth.mean_db), now->reference.mean_db,
+           gain_db(now->reference.mean_db, then->reference.mean_db),
            now->reference.worst_db, name);
 }
 
