@@ -512,14 +512,13 @@ static void bilinear_row(const gn_frame *frame, const gn_light_view *view, gn_re
 {
     const uint16_t *texel = view->depth.d16;
     int32_t bits = GN_K(frame, weight_bits), dropped = dropped_bits(frame, view);
-    int32_t kept = -(1 << (dropped - 1)); /* of a depth, Q31, once half a step is added */
     uint32_t pitch = view->tile_texels, log2 = view->tile_log2, one = 1U << bits;
     at.u_q16 -= 32768;
     at.v_q16 -= 32768;
-    at.depth_q31 += 1 << (dropped - 2);
+    at.depth_q31 -= 1 << (dropped - 2); /* half a step is added, and a step taken off: a texel above is not below the depth rounded */
     for (uint32_t *end = attenuation + n; attenuation < end; attenuation++) {
         const uint16_t *p = texel + (((uint32_t)at.v_q16 >> 16) << log2) + ((uint32_t)at.u_q16 >> 16), *q = p + pitch;
-        int32_t below = ((at.depth_q31 & kept) - 1) >> 15; /* lit: the texel is above */
+        int32_t below = at.depth_q31 >> 15; /* lit: the texel is above */
         uint32_t n_lit = (uint32_t)(below - p[0]) >> 31;
         n_lit += (uint32_t)(below - p[1]) >> 31;
         n_lit += (uint32_t)(below - q[0]) >> 31;
