@@ -223,7 +223,7 @@ static uint32_t bilinear(const lookup *l, int32_t bits)
 #endif
 
 #if GN_FILTER_MAX >= 2
-void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
+static inline void tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 {
     uint32_t f = 1U << weight_bits, ff = f * f, uf4 = 4 * u * f, h = 2 * u;
     uint32_t m = h < f ? f - h : 0, p = h > f ? h - f : 0; /* |2u - F| left and right of the texel's centre */
@@ -235,6 +235,11 @@ void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
         w[i] = (uint32_t)(4 * i + 2) * ff - uf4 - (i == k ? m * m : 0);
         w[n - 1 - i] = (uint32_t)(4 * i - 2) * ff + uf4 - (i == k ? p * p : 0);
     }
+}
+
+void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
+{
+    tent_weights(w, k, u, weight_bits);
 }
 
 #if GN_LINEAR_KERNELS
@@ -537,12 +542,44 @@ static void bilinear_row(const gn_frame *frame, const gn_light_view *view, gn_re
     }
 }
 
+#if GN_FILTER_MAX >= 2 && !GN_SIZE_FIRST
+/* The same of 3x3: what tent() does, but for its looks at bounds. */
+static void tent3_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at, const gn_receiver_step *step, int32_t n,
+                      uint32_t *attenuation)
+{
+    int32_t bits = GN_K(frame, weight_bits);
+    at.u_q16 -= 98304;
+    at.v_q16 -= 98304;
+    at.depth_q31 -= 1 << (dropped_bits(frame, view) - 2);
+    for (uint32_t *end = attenuation + n; attenuation < end; attenuation++) {
+        const uint16_t *texel = view->depth.d16 + (((uint32_t)at.v_q16 >> 16) << view->tile_log2) + ((uint32_t)at.u_q16 >> 16);
+        uint32_t wu[4], wv[4];
+        uint8_t dark[4];
+        uint32_t found = gn_kernel_dark_texels16(texel, view->tile_texels, (uint32_t)gn_max32((at.depth_q31 >> 15) + 1, 0) << 16, 4, dark);
+        GN_COUNT(undecided, 1);
+        GN_COUNT(taps_tent, 16);
+        *attenuation = (found & 0xFFFFU) ? 0 : 65536;
+        if ((found & 0xFFFFU) && found >> 16 != 15) {
+            tent_weights(wu, 1, fraction(at.u_q16, bits), bits);
+            tent_weights(wv, 1, fraction(at.v_q16, bits), bits);
+            uint32_t partly = share(((uint64_t)81 << 4 * bits) - weighted(dark, 4, wu, wv, 0), 4 * bits, 53024288U);
+            *attenuation = GN_K(frame, atten_bits) == 8 ? (partly + 128) & ~255U : partly;
+        }
+        at.u_q16 += step->u_q16;
+        at.v_q16 += step->v_q16;
+        at.depth_q31 += step->depth_q31;
+    }
+}
+#endif
+
 /* Whether that is all there is to do. */
 static int is_simple(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from, const gn_receiver_step *to)
 {
     int32_t u, u_last, v, v_last;
-    if (view->filter != GN_FILTER_2X2 || GN_VIEW_BITS(view) != 16) return 0;
-    if (GN_K(frame, weight_bits) > 8) return 0;
+    if (GN_VIEW_BITS(view) != 16) return 0;
+    if (GN_FILTER_MAX >= 2 && !GN_SIZE_FIRST && view->filter == GN_FILTER_3X3) {
+        if (GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR) return 0;
+    } else if (view->filter != GN_FILTER_2X2 || GN_K(frame, weight_bits) > 8) return 0;
     reads(view, from->u_q16, to->u_q16, &u, &u_last);
     reads(view, from->v_q16, to->v_q16, &v, &v_last);
     return u >= 0 && v >= 0 && u_last < view->tile_texels && v_last < view->tile_texels;
@@ -554,7 +591,8 @@ void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_re
 {
     gn_receiver_step at = *from;
 #if GN_FILTER_MAX >= 1
-    if (is_simple(frame, view, from, to)) {
+    int simple = is_simple(frame, view, from, to);
+    if (simple && view->filter == GN_FILTER_2X2) {
         bilinear_row(frame, view, at, step, n, attenuation);
         return;
     }
@@ -564,6 +602,12 @@ void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_re
         for (int32_t i = 0; i < n; i++) attenuation[i] = all;
         return;
     }
+#if GN_FILTER_MAX >= 2 && !GN_SIZE_FIRST
+    if (simple) {
+        tent3_row(frame, view, at, step, n, attenuation);
+        return;
+    }
+#endif
     for (int32_t i = 0; i < n; i++) {
         gn_receiver r = {at.u_q16, at.v_q16, at.depth_q31 < 0 ? 0 : (uint32_t)at.depth_q31 << 1, {0, 0}, 0, 0};
         attenuation[i] = gn_filter_attenuation(frame, view, &r);
