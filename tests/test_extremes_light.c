@@ -1,5 +1,7 @@
 /* Lines 4 to 7 of the extremes (test_extremes.c): lights, shadow tiles, cascades, biases. */
 #include "extreme_cases.h"
+#include "../host/scene/bounds.h"
+#include "../host/scene/loader.h"
 #include "../lib/gn_q.h"
 
 /* ---- 4: directions, angles, ranges, intensities -------------------------------------------------------------------------- */
@@ -127,6 +129,47 @@ static void range_is_near(fixed_scene *f)
     f->lights[2].range_q16 = (uint32_t)f->lights[2].near_q16;
 }
 
+/* With the near plane that the loader gives a light whose file sets none. */
+static engine_picture with_own_near(const char *words, double range)
+{
+    stage st;
+    bounds b;
+    open_stage(&st, "yard", words, SETTINGS_ACCURATE);
+    CHECK(bounds_of_scene(&b, &st.f.s, NULL));
+    st.f.s.lights[0].range = range;
+    st.f.s.lights[0].near = 0;
+    lights_set_near(&st.f.s, b.low, b.high);
+    engine_picture p = library(&st);
+    end(&st.f);
+    return p;
+}
+
+static long shadowed_pixels(const engine_picture *p)
+{
+    long n = 0;
+    for (size_t i = 0; i < N_PIXELS; i++) n += p->triangle[i] >> 32 == GROUND && p->shadow[0][i] < 0.5;
+    return n;
+}
+
+/* A range far beyond the scene changes nothing, least of all where shadows begin. */
+static void test_ranges_beyond_scene(void)
+{
+    static const char *const lights[] = {".light=point", ".light=spot"};
+    static const double ranges[] = {1000, 1e4, 1e7, 1e17};
+    equals e = {0, 0};
+    for (size_t l = 0; l < 2; l++) {
+        engine_picture unlimited = with_own_near(lights[l], (double)INFINITY);
+        CHECK(shadowed_pixels(&unlimited) > 100);
+        for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+            engine_picture p = with_own_near(lights[l], ranges[i]);
+            take_equal(&e, &p, &unlimited);
+            engine_free(&p);
+        }
+        engine_free(&unlimited);
+    }
+    finish_equal(&e, "range of 10³, 10⁴, 10⁷, 10¹⁷ units, near plane as the loader sets it", "an unlimited one");
+}
+
 static void test_ranges(void)
 {
     equals e = {0, 0};
@@ -138,6 +181,7 @@ static void test_ranges(void)
     same_picture(&e, "yard", ".light=spot range=65000", ".light=spot range=0");
     same_picture(&e, "yard", ".light=spot range=100000", ".light=spot range=0");
     finish_equal(&e, "range of 65 000 and 100 000 units", "an unlimited one");
+    test_ranges_beyond_scene();
     WITHIN_ALL("range that ends on the ground, 0.01 units (r² = 10⁻⁴), 0.3, 2, 10⁴ units", "yard", ".light=point .intensity=3", 1,
                "range=3.1", ".position=1,0.005,2 range=0.01 near=0.004 .intensity=1",
                ".position=1,0.1,2 range=0.3 near=0.05 .intensity=0.1", "range=2", "range=10000");

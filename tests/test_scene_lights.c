@@ -29,7 +29,7 @@ static void test_spot(void)
     CHECK_NEAR(l->colour[0], 2, 1e-12);
     CHECK_NEAR(l->colour[1], 1, 1e-12);
     CHECK_NEAR(l->range, 32, 0);
-    CHECK_NEAR(l->near, 0.5, 0);
+    CHECK_NEAR(l->near, sqrt(9 * 9 + 2 * 2 + 3 * 3) / 64, 1e-15); /* corner (10, 0, 0) */
     CHECK_NEAR(l->inner, 6258 / 65536.0, 0); /* 0.3 / pi turns: 6258.23 steps */
     CHECK_NEAR(l->outer, 12516 / 65536.0, 0);
     CHECK(l->shadow && l->mode == SCENE_REALTIME && l->mask_channel == -1 && l->softness == SCENE_SOFT_DEFAULT &&
@@ -79,6 +79,22 @@ static void test_point(void)
     if (!CHECK_EQ_INT(load_light("\"type\":\"point\",\"range\":1e300", "\"name\":\"x\""), 0)) return (void)puts(error);
     CHECK(isinf(s.lights[0].range));
     scene_free(&s);
+}
+
+/* The near distance is of what the light can light: a finite range beyond the scene makes no difference, one within it does. */
+static void test_near_of_ranges(void)
+{
+    static const struct {
+        const char *range;
+        double near;
+    } cases[] = {{"3.5", 3 / 64.0}, {"1000", 3 / 64.0}, {"1e7", 3 / 64.0}, {"1e17", 3 / 64.0}, {"3", 3 / 64.0}, {"2", 2 / 64.0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char members[64];
+        snprintf(members, sizeof members, "\"type\":\"point\",\"range\":%s", cases[i].range);
+        if (!CHECK_EQ_INT(load_light(members, "\"translation\":[8,0,1]"), 0)) return (void)puts(error);
+        CHECK_NEAR(s.lights[0].near, cases[i].near, 1e-15);
+        scene_free(&s);
+    }
 }
 
 static void test_light_errors(void)
@@ -290,6 +306,7 @@ int main(void)
     test_spot();
     test_cones();
     test_point();
+    test_near_of_ranges();
     test_light_errors();
     test_light_knobs();
     test_added_lights();

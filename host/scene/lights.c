@@ -45,7 +45,7 @@ void lights_set_near(scene *s, const double *low, const double *high)
     for (size_t i = 0; i < s->n_lights; i++) {
         scene_light *light = &s->lights[i];
         if (light->kind == SCENE_LIGHT_DIRECTIONAL || light->near > 0) continue;
-        double reach = isfinite(light->range) ? light->range : farthest_corner(light->position, low, high);
+        double reach = fmin(light->range, farthest_corner(light->position, low, high));
         light->near = near_share * fmax(reach, LIGHT_MIN_RANGE);
     }
 }

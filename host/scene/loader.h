@@ -112,7 +112,8 @@ bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, 
 #define LIGHT_MIN_RANGE 0.01
 /* Everything that has a default but the kind and the name; range unlimited, near 0: to be found by lights_set_near. */
 void light_set_defaults(scene_light *light);
-/* Spot and point lights without a near distance get one: of the range, or of how far the box reaches from an unlimited light. */
+/* Spot and point lights without a near distance get one: a share of how far they light anything, the range or the box's farthest
+ * corner. A range far beyond the scene says nothing of what is in it. */
 void lights_set_near(scene *s, const double *low, const double *high);
 bool lights_add(loader *l, const char *name, scene_light_kind kind);
 
