@@ -88,10 +88,10 @@ gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t distance2_q32
 }
 
 /* 2^47 / sqrt(v << shift >> 32); v > 0 */
-static uint32_t inverse_root(const gn_frame *frame, uint64_t v, int32_t *shift)
+static uint32_t inverse_root(uint64_t v, int32_t newton_steps, int32_t *shift)
 {
     *shift = gn_clz64(v) & ~1;
-    return gn_rsqrt_norm((uint32_t)((v << *shift) >> 32), GN_K(frame, newton_steps));
+    return gn_rsqrt_norm((uint32_t)((v << *shift) >> 32), newton_steps);
 }
 
 /* P3: clamp((cos - cos outer) / (cos inner - cos outer), 0, 1)^2, Q30 */
@@ -103,14 +103,23 @@ static uint32_t angle_q30(const gn_light_state *light, int32_t cosine_q30)
     return (uint32_t)gn_mul_q30(share, share);
 }
 
+/* One Newton step leaves 2^-15 of a cosine: as a share of a cone's edge that is too much where the edge is narrower than 2^-6. */
+#define GN_NARROW_EXP (-55) /* of its reciprocal in Q30 */
+
+static int32_t root_steps(const gn_frame *frame, const gn_light_state *light)
+{
+    return light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_K(frame, newton_steps);
+}
+
 int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3], gn_punctual_point *out)
 {
     uint64_t d2 = 0;
     for (int i = 0; i < 3; i++) d2 += (uint64_t)((int64_t)from_light_q16[i] * from_light_q16[i]);
     if (d2 >= light->range2_q32 || d2 == 0) return 0;
-    out->inv_root = out->scale_root = inverse_root(frame, d2, &out->shift);
+    int32_t steps = root_steps(frame, light);
+    out->inv_root = out->scale_root = inverse_root(d2, steps, &out->shift);
     out->scale_shift = out->shift;
-    if (d2 < frame->min2_q32) out->scale_root = inverse_root(frame, frame->min2_q32, &out->scale_shift);
+    if (d2 < frame->min2_q32) out->scale_root = inverse_root(frame->min2_q32, steps, &out->scale_shift);
     out->colour_exp = light->colour_exp;
     out->factor_q30 = window_q30(light, d2);
     out->within_inner = 0;

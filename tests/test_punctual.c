@@ -100,8 +100,12 @@ static double clamp01(double v)
     return v < 0 ? 0 : v > 1 ? 1 : v;
 }
 
+/* Of the light at hand: a spot whose edge is narrower than 2^-6 has two steps in any case. */
 static double delta_root(void)
 {
+    const gn_light *light = &ls.light[0];
+    const double edge = cos(light->inner_turn * turn / 2) - cos(light->outer_turn * turn / 2);
+    if (light->kind == GN_LIGHT_SPOT && edge < 0x1p-6) return 0x1p-28;
     return fresh.frame.knobs.newton_steps == 1 ? 0x1p-15 : 0x1p-28;
 }
 
