@@ -29,7 +29,7 @@ GN_STATIC_ASSERT(vertex_cache_not_power_of_two, GN_IS_POWER_OF_TWO(GN_VERTEX_CAC
 GN_STATIC_ASSERT(tile_width_not_multiple_of_8, GN_TILE_WIDTH % 8 == 0);
 GN_STATIC_ASSERT(tile_has_more_than_65536_pixels, GN_TILE_WIDTH * GN_TILE_HEIGHT <= 65536); /* gn_runs.h links cells by 16 bits */
 
-/* Compact arithmetic: of features it has shadows, and validation. Clipping it always has. */
+/* Compact arithmetic: of features it has shadows, and may have automatic bias and validation. Clipping it always has. */
 #define GN_COMPACT_IS_(condition) (!GN_COMPACT || (condition))
 GN_STATIC_ASSERT(compact_has_pictures_up_to_256, GN_COMPACT_IS_(GN_MAX_WIDTH <= 256 && GN_MAX_HEIGHT <= 256));
 GN_STATIC_ASSERT(compact_has_one_light_and_one_shadow_tile, GN_COMPACT_IS_(GN_SHADOWS && GN_MAX_LIGHTS == 1 && GN_MAX_SHADOW_TILES == 1));
@@ -38,7 +38,7 @@ GN_STATIC_ASSERT(compact_has_no_lights_but_directional_ones, GN_COMPACT_IS_(!GN_
 GN_STATIC_ASSERT(compact_has_the_hard_filter, GN_COMPACT_IS_(!GN_FILTER_MAX && !GN_DISK_FILTER && !GN_LINEAR_KERNELS && !GN_DEPTH_BLOCKS));
 GN_STATIC_ASSERT(compact_has_one_cascade, GN_COMPACT_IS_(!GN_MANY_CASCADES && !GN_BLENDED_CASCADES && !GN_CASTER_CULLING && !GN_TILE_IMPORTANCE));
 GN_STATIC_ASSERT(compact_has_flat_colours, GN_COMPACT_IS_(!GN_TEXTURES && !GN_SPECULAR && !GN_VERTEX_NORMALS && !GN_VERTEX_COLOURS && !GN_VISIBLE_ALPHA && !GN_CASTER_ALPHA));
-GN_STATIC_ASSERT(compact_has_no_such_bias, GN_COMPACT_IS_(!GN_RECEIVER_BIAS && !GN_CASTER_BIAS && !GN_RECEIVER_PLANE && !GN_AUTO_BIAS));
+GN_STATIC_ASSERT(compact_has_no_such_bias, GN_COMPACT_IS_(!GN_RECEIVER_BIAS && !GN_CASTER_BIAS && !GN_RECEIVER_PLANE));
 GN_STATIC_ASSERT(compact_keeps_nothing, GN_COMPACT_IS_(!GN_INCREMENTAL && !GN_STATIC_LAYER && !GN_OBJECT_BOXES));
 GN_STATIC_ASSERT(compact_has_rgb565, GN_COMPACT_IS_(!GN_OTHER_FORMATS && !GN_RAW_VIEWS && !GN_RUNTIME_KNOBS));
 

@@ -61,6 +61,7 @@ typedef struct {
     uint32_t *cell;
     uint16_t *texel;
     uint32_t id, id_bits; /* of the triangle, in a cell */
+    int32_t bias;         /* what is added to depth, in steps of keys */
 } gn_compact_raster;
 
 /* Draws a triangle: a larger cell or a smaller depth stays. */
@@ -69,8 +70,8 @@ void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri);
 /* A key at a pixel. */
 static inline uint32_t gn_compact_key(const gn_tri *tri, int32_t x, int32_t y)
 {
-    return tri->key +
-           (uint32_t)(x - tri->begin[0]) * (uint32_t)tri->key_dx + (uint32_t)(y - tri->begin[1]) * (uint32_t)tri->key_dy;
+    int64_t step = (int64_t)(x - tri->begin[0]) * tri->key_dx + (int64_t)(y - tri->begin[1]) * tri->key_dy;
+    return tri->key + (uint32_t)(step >> tri->frac_bits);
 }
 
 #endif

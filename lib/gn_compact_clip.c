@@ -2,15 +2,13 @@
 #include "gn_compact.h"
 
 #if GN_COMPACT
-#include <string.h>
-
 #include "gn_math.h"
 #include "gn_q.h"
 
-/* How far a point is inside of a side of the guard band, 0 .. 3, or beyond the near plane, 4: below 2^42. */
+/* How far a point is inside of a side of the guard band, 0 .. 3, or beyond the near plane: below 2^42. */
 static int64_t inside(const gn_compact_view *view, const int32_t v_q16[3], int plane)
 {
-    if (plane == 4) return (int64_t)v_q16[2] - view->near_q16;
+    if (plane >= 4) return (int64_t)v_q16[2] - view->near_q16;
     int64_t side = v_q16[plane >> 1], reach = view->near_norm ? (int64_t)v_q16[2] * view->guard : view->guard;
     return plane & 1 ? reach - side : reach + side;
 }
@@ -30,7 +28,10 @@ static int clip_plane(int32_t (*out)[3], int32_t (*in)[3], int n, const gn_compa
     for (int i = 0; i < n; i++) {
         const int32_t *p = in[i], *q = in[i + 1 == n ? 0 : i + 1];
         int64_t a = inside(view, p, plane), b = inside(view, q, plane);
-        if (a >= 0) memcpy(out[n_out++], p, sizeof *out);
+        if (a >= 0) {
+            for (int k = 0; k < 3; k++) out[n_out][k] = p[k];
+            n_out++;
+        }
         if (a >= 0 && b < 0) cut(out[n_out++], p, q, a, b);
         if (a < 0 && b >= 0) cut(out[n_out++], q, p, b, a); /* the same place as from the other side */
     }
@@ -39,9 +40,10 @@ static int clip_plane(int32_t (*out)[3], int32_t (*in)[3], int n, const gn_compa
 
 int gn_compact_clip(gn_compact_polygon *polygon, gn_compact_polygon *spare, int n, const gn_compact_view *view)
 {
-    for (int plane = view->near_norm ? 4 : 3; plane >= 0; plane--) {
-        memcpy(spare, polygon, sizeof *polygon);
-        n = clip_plane(polygon->v_q16, spare->v_q16, n, view, plane);
+    /* to and fro an even number of times: the near plane counts twice */
+    for (int plane = view->near_norm ? 5 : 3; plane >= 0; plane -= 2) {
+        n = clip_plane(spare->v_q16, polygon->v_q16, n, view, plane);
+        n = clip_plane(polygon->v_q16, spare->v_q16, n, view, plane - 1);
     }
     return n;
 }

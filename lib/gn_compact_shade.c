@@ -17,7 +17,21 @@ typedef struct {
     const gn_tri *tri;    /* NULL: no shadow can fall on it */
     uint32_t base_q20[3]; /* radiance without the light, */
     uint32_t lit_q20[3];  /* and what the light adds */
+    int32_t offset_q16[3];  /* of the receiver, texels */
 } surface;
+
+/* B2, or B6: r (|n_u| + |n_v|) + eps_0 |n_w| along the normal. */
+static void move_receiver(const gn_frame *frame, surface *s, const gn_tri *tri)
+{
+    const int16_t *n = tri->normal_q14;
+    int64_t along_q16 = frame->offset_q16;
+#if GN_AUTO_BIAS
+    if (frame->flat_offset_q16)
+        along_q16 = (along_q16 * (int64_t)(gn_abs32(n[0]) + gn_abs32(n[1])) + (int64_t)frame->flat_offset_q16 * -n[2]) >> 14;
+#endif
+    for (int i = 0; i < 3; i++) s->offset_q16[i] = (int32_t)((along_q16 * n[i]) >> 14);
+    s->tri = tri;
+}
 
 static void surface_begin(const gn_frame *frame, surface *s, uint32_t id)
 {
@@ -32,7 +46,7 @@ static void surface_begin(const gn_frame *frame, surface *s, uint32_t id)
         own = object->albedo_uq16;
         if (object->flags & GN_OBJECT_UNLIT) object = NULL;
         else if (scene->n_lights && tri->normal_q14[2] < 0) cosine_q14 = (uint32_t)-tri->normal_q14[2];
-        if (cosine_q14 && frame->n_views && object->flags & GN_OBJECT_RECEIVES) s->tri = tri;
+        if (cosine_q14 && frame->n_views && object->flags & GN_OBJECT_RECEIVES) move_receiver(frame, s, tri);
     }
     for (int i = 0; i < 3; i++) {
         s->base_q20[i] = own[i] << 4;
@@ -64,12 +78,12 @@ static int point_at(const gn_frame *frame, const gn_tri *tri, int32_t x, int32_t
 }
 
 /* What the light's shadow leaves of it. */
-static uint32_t shadow_at(const gn_frame *frame, const gn_tri *tri, int32_t x, int32_t y)
+static uint32_t shadow_at(const gn_frame *frame, const surface *s, int32_t x, int32_t y)
 {
     gn_compact_corner corner;
     int32_t p[3], at[3];
     int64_t rest = (int64_t)frame->radius2_q32;
-    if (!point_at(frame, tri, x, y, p)) return ONE_UQ16;
+    if (!point_at(frame, s->tri, x, y, p)) return ONE_UQ16;
     uint32_t strength = share_uq16(&frame->distance, frame->scene->shadow.max_distance_q16 + p[2]);
     if (!strength || !gn_compact_transform(at, &frame->to_light, p)) return ONE_UQ16;
     gn_compact_project(&corner, &frame->view[0].project, at);
@@ -77,7 +91,7 @@ static uint32_t shadow_at(const gn_frame *frame, const gn_tri *tri, int32_t x, i
     for (int i = 0; i < 3; i++) {
         int64_t d = at[i] - frame->centre_q16[i];
         rest -= d * d;
-        at[i] += (int32_t)(((int64_t)frame->offset_q16 * tri->normal_q14[i]) >> 14);
+        at[i] += s->offset_q16[i];
     }
     if (rest <= 0) return ONE_UQ16;
     strength = gn_mul_uq16(strength, share_uq16(&frame->sphere, (int32_t)(rest >> 16)));
@@ -94,12 +108,13 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     uint32_t last = UINT32_MAX, light = ONE_UQ16, packed = 0;
     const uint32_t *cell = scratch->cell;
     uint16_t *pixel = scratch->pixel.rgb565;
-    surface s = {0};
+    surface s;
+    s.tri = NULL;
     for (int32_t y = rect.y0; y < rect.y1; y++) {
         for (int32_t x = rect.x0; x < rect.x1; x++) {
             uint32_t id = *cell++ & ((1U << frame->id_bits) - 1), was = light;
             if (id != last) surface_begin(frame, &s, id);
-            light = s.tri ? shadow_at(frame, s.tri, x, y) : ONE_UQ16;
+            light = s.tri ? shadow_at(frame, &s, x, y) : ONE_UQ16;
             if (id != last || light != was) {
                 uint32_t c[3];
                 for (int i = 0; i < 3; i++) c[i] = s.base_q20[i] + (uint32_t)(((uint64_t)s.lit_q20[i] * light) >> 16);

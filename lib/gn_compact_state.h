@@ -63,9 +63,9 @@ typedef struct {
 typedef struct {
     int32_t x[3], y[3]; /* seen from the front: of negative area, y down */
     uint32_t key;       /* at the centre of pixel (x0, y0) */
-    int32_t key_dx, key_dy;
+    int32_t key_dx, key_dy; /* per pixel, with frac_bits */
     int16_t begin[2], end[2]; /* pixels that it can cover, of x and y */
-    int32_t bias; /* shadow tile: what is added to depth */
+    int32_t frac_bits;        /* 8, or 0 where steep */
     int16_t normal_q14[3]; /* of the face, in the light's axes, towards the viewer */
     uint16_t object_idx;
 } gn_tri;
@@ -117,7 +117,8 @@ typedef struct gn_frame {
     gn_compact_share distance, sphere; /* D5: Q16; D6: texels^2, Q16 */
     int32_t centre_q16[3];      /* of the sphere: U, V, D */
     uint64_t radius2_q32;       /* texels^2 */
-    int32_t offset_q16;         /* B2, texels */
+    int32_t offset_q16;         /* B2, texels; B6: r */
+    int32_t flat_offset_q16;    /* B6: eps_0; 0: B2 */
     gn_stats stats;
     gn_detail detail;
     gn_light_state light[GN_MAX_LIGHTS];

@@ -57,8 +57,14 @@ static void plane(gn_tri *tri, const gn_compact_corner c[3], uint64_t area)
     /* to the first pixel's centre: 2^36 * 2^19.5 */
     int64_t step = dx * (tri->begin[0] * ONE_PX + ONE_PX / 2 - x[0]) + dy * (tri->begin[1] * ONE_PX + ONE_PX / 2 - y[0]);
     tri->key = (uint32_t)ka + (uint32_t)(step >> (8 + GN_COMPACT_BITS));
-    tri->key_dx = (int32_t)((dx + 128) >> 8);
-    tri->key_dy = (int32_t)((dy + 128) >> 8);
+    tri->frac_bits = 8;
+    if (((uint64_t)(dx + (1 << 30)) | (uint64_t)(dy + (1 << 30))) >> 31) { /* rounding must fit, too */
+        tri->frac_bits = 0;
+        dx = (dx + 128) >> 8;
+        dy = (dy + 128) >> 8;
+    }
+    tri->key_dx = (int32_t)dx;
+    tri->key_dy = (int32_t)dy;
 }
 
 /* Returns 0 if the triangle faces away or covers no pixel. */
@@ -111,7 +117,7 @@ static void face_normal(int16_t out_q14[3], const gn_frame *frame, int32_t (*v)[
 /* B1, in steps of keys. */
 static int32_t caster_bias(const gn_tri *tri, const gn_light *light)
 {
-    uint32_t dx = gn_abs32(tri->key_dx), dy = gn_abs32(tri->key_dy);
+    uint32_t dx = gn_abs32(tri->key_dx) >> tri->frac_bits, dy = gn_abs32(tri->key_dy) >> tri->frac_bits;
     uint64_t slope = ((uint64_t)(dx > dy ? dx : dy) * (uint32_t)light->bias_slope_q16) >> 16; /* 2^28 * 2^22 */
     slope += (uint32_t)light->bias_constant_q16 << 2;
     return slope < 1U << 29 ? (int32_t)slope : 1 << 29;
@@ -130,23 +136,23 @@ static gn_status fetch(gn_compact_job *job, const gn_mesh *mesh, const uint16_t 
 }
 
 /* Draws job->corner, or without a raster keeps it. */
-static void emit(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, const gn_compact_raster *raster, uint32_t object_idx)
+static void emit(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, gn_compact_raster *raster, uint32_t object_idx)
 {
     gn_tri *tri = &job->tri;
     if (!raster && frame->stats.n_triangles < GN_MAX_TRIANGLES) tri = &frame->tri[frame->stats.n_triangles];
     if (!setup(tri, job->corner, view, frame->scene->objects[object_idx].flags)) return;
     if (raster) {
-        tri->bias = caster_bias(tri, frame->scene->lights);
+        raster->bias = caster_bias(tri, frame->scene->lights);
         frame->stats.n_caster_triangles++;
         gn_compact_draw(raster, tri);
     } else {
         tri->object_idx = (uint16_t)object_idx;
-        memcpy(tri->normal_q14, job->normal_q14, sizeof tri->normal_q14);
+        for (int i = 0; i < 3; i++) tri->normal_q14[i] = job->normal_q14[i];
         frame->stats.n_triangles++;
     }
 }
 
-static gn_status triangle(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, const gn_compact_raster *raster,
+static gn_status triangle(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, gn_compact_raster *raster,
                           uint32_t object_idx, const uint16_t *idx)
 {
     gn_status status = fetch(job, frame->scene->objects[object_idx].mesh, idx);
@@ -165,7 +171,7 @@ static gn_status triangle(gn_frame *frame, gn_compact_job *job, const gn_compact
 }
 
 /* All objects that a projector sees: drawn, or without a raster kept. */
-static gn_status objects(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, const gn_compact_raster *raster)
+static gn_status objects(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, gn_compact_raster *raster)
 {
     for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
         const gn_object *object = &frame->scene->objects[i];
@@ -194,7 +200,7 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
 {
     (void)memory, (void)n_words;
     const gn_light_view *view = &frame->view[view_idx];
-    gn_compact_raster raster = {{0, 0, GN_ATLAS_SIZE, GN_ATLAS_SIZE}, NULL, frame->atlas, 0, 0};
+    gn_compact_raster raster = {{0, 0, GN_ATLAS_SIZE, GN_ATLAS_SIZE}, NULL, frame->atlas, 0, 0, 0};
     memset(frame->atlas, 0xFF, sizeof frame->atlas);
     return objects(frame, casting, &view->project, &raster);
 }
@@ -223,11 +229,14 @@ void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri)
     int32_t x0 = gn_max32(tri->begin[0], rect->x0), x1 = gn_min32(tri->end[0], rect->x1);
     int32_t y0 = gn_max32(tri->begin[1], rect->y0), y1 = gn_min32(tri->end[1], rect->y1);
     if (x0 >= x1) return;
+    /* whole steps, so that the key does not depend on where the rectangle begins */
+    int32_t half = (1 << tri->frac_bits) >> 1, key_dx = (tri->key_dx + half) >> tri->frac_bits, key_dy = (tri->key_dy + half) >> tri->frac_bits;
+    uint32_t row = tri->key + (uint32_t)(x0 - tri->begin[0]) * (uint32_t)key_dx + (uint32_t)(y0 - tri->begin[1]) * (uint32_t)key_dy;
     edge e[3];
     for (int i = 0; i < 3; i++) edge_begin(&e[i], tri, i, x0, y0);
     for (; y0 < y1; y0++) {
         int32_t f0 = e[0].f, f1 = e[1].f, f2 = e[2].f;
-        uint32_t key = gn_compact_key(tri, x0, y0);
+        uint32_t key = row;
         int32_t at = (y0 - rect->y0) * (rect->x1 - rect->x0) + x0 - rect->x0;
         for (int32_t n = x1 - x0; n > 0; n--, at++) {
             if ((f0 | f1 | f2) >= 0) {
@@ -235,20 +244,21 @@ void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri)
                     uint32_t cell = ((uint32_t)gn_max32((int32_t)key, 0) << 1 >> raster->id_bits << raster->id_bits) + raster->id;
                     if (cell > raster->cell[at]) raster->cell[at] = cell;
                 } else { /* D9: pancaking; what lies beyond the range stays out */
-                    uint32_t depth = (uint32_t)(gn_max32(-(int32_t)key, 0) + tri->bias) >> GN_COMPACT_STEP_SHIFT;
+                    uint32_t depth = (uint32_t)(gn_max32(-(int32_t)key, 0) + raster->bias) >> GN_COMPACT_STEP_SHIFT;
                     if (depth < raster->texel[at]) raster->texel[at] = (uint16_t)depth;
                 }
             }
             f0 += e[0].dx, f1 += e[1].dx, f2 += e[2].dx;
-            key += (uint32_t)tri->key_dx;
+            key += (uint32_t)key_dx;
         }
         for (int i = 0; i < 3; i++) e[i].f += e[i].dy;
+        row += (uint32_t)key_dy;
     }
 }
 
 void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
-    gn_compact_raster raster = {gn_bin_tile_rect(frame, tile_idx), scratch->cell, NULL, 0, frame->id_bits};
+    gn_compact_raster raster = {gn_bin_tile_rect(frame, tile_idx), scratch->cell, NULL, 0, frame->id_bits, 0};
     memset(scratch->cell, 0, sizeof scratch->cell);
     for (uint32_t i = 0; i < frame->stats.n_triangles; i++) {
         raster.id = gn_raster_id(frame, i);

@@ -33,6 +33,12 @@ static void share_of(gn_compact_share *out, int32_t width)
     out->recip = gn_recip_norm((uint32_t)out->width << out->clz, 2);
 }
 
+/* v * scale >> shift: texels of the light's, Q16, of a length. */
+static int32_t texels_q16(const gn_compact_view *view, int32_t v_q16)
+{
+    return (int32_t)(((int64_t)v_q16 * (int64_t)view->scale) >> view->shift);
+}
+
 /* ---- Camera --------------------------------------------------------------------------------------------------------- */
 
 void gn_cam_setup(gn_frame *frame)
@@ -76,6 +82,16 @@ static gn_status lens(gn_frame *frame)
 
 /* ---- Light ---------------------------------------------------------------------------------------------------------- */
 
+/* Whether the light has a bias that is built. B6 along the normal; the general arithmetic's other form is not there. */
+static int bias_ok(const gn_light *light)
+{
+#if GN_AUTO_BIAS
+    return gn_scene_auto_bias(light) != GN_AUTO_BIAS_DEPTH;
+#else
+    return light->auto_bias == GN_AUTO_BIAS_OFF || (!light->auto_bias && light->bias_normal_q16);
+#endif
+}
+
 /* What is not built is refused: biases but B1 and B2, a near plane that is pulled back, what lies beyond the range of a colour. */
 static gn_status check_light(const gn_frame *frame, const gn_light *light)
 {
@@ -84,7 +100,7 @@ static gn_status check_light(const gn_frame *frame, const gn_light *light)
     uint32_t bias = (uint32_t)(light->bias_constant_q16 | light->bias_slope_q16) >> 6 | (uint32_t)light->bias_normal_q16 >> 3;
     if (frame->scene->n_lights > 1) return GN_ERR_TOO_MANY_LIGHTS;
     if (light->kind || light->mode || light->softness == GN_SOFTNESS_SOFT) return GN_ERR_LIGHT_KIND;
-    if (none || bias >> 16 || (light->auto_bias != GN_AUTO_BIAS_OFF && (light->auto_bias || !light->bias_normal_q16)))
+    if (none || bias >> 16 || !bias_ok(light))
         return GN_ERR_LIGHT_BIAS;
     return GN_OK;
 }
@@ -119,13 +135,13 @@ static int fit_sphere(const gn_frame *frame, int32_t *centre, int32_t *radius)
 }
 
 /* Texel size: ceil8 of (1 - 2^-20) * 2 r / D, of which view->scale and shift are the reciprocal. Returns its significant digits. */
-static uint32_t fit_texel(const gn_frame *frame, gn_compact_view *view, int32_t radius_q28)
+static uint32_t fit_texel(const gn_frame *frame, gn_compact_view *view, int32_t radius_q28, int32_t reach_q16)
 {
     const int32_t t_q16 = GN_ATLAS_SIZE << 16;
     uint64_t product = (uint64_t)(uint32_t)radius_q28 * (uint32_t)frame->scene->shadow.max_distance_q16; /* Q44 */
-    int32_t texels_q16 = gn_max32(t_q16 - 2 * (65536 + frame->offset_q16) - 65536, t_q16 / 4);
-    int32_t product_clz = gn_clz64(product), clz = gn_clz32((uint32_t)texels_q16), exp = 37 - product_clz + clz;
-    uint32_t texel = gn_compact_mul((uint32_t)(product << product_clz >> 32), gn_recip_norm((uint32_t)texels_q16 << clz, 2), 0);
+    int32_t sphere_q16 = gn_max32(t_q16 - 2 * (65536 + reach_q16) - 65536, t_q16 / 4);
+    int32_t product_clz = gn_clz64(product), clz = gn_clz32((uint32_t)sphere_q16), exp = 37 - product_clz + clz;
+    uint32_t texel = gn_compact_mul((uint32_t)(product << product_clz >> 32), gn_recip_norm((uint32_t)sphere_q16 << clz, 2), 0);
     texel -= texel >> 20;
     if (!(texel >> 31)) {
         texel <<= 1;
@@ -183,6 +199,28 @@ static int compose_to_light(gn_frame *frame)
     return gn_compact_compose(&frame->to_light, &frame->view[0].project, &frame->scene->camera.to_world, 16);
 }
 
+/* How far a receiver moves along its face's normal: by B2, or by B6 (NUMERICS 4.15). nu of DESIGN 1.7, which the tile's reach must hold. */
+static int32_t receiver_reach(gn_frame *frame, const gn_light *light)
+{
+    frame->offset_q16 = (int32_t)gn_compact_mul((uint32_t)light->bias_normal_q16, 0xB504F334U, 0) << 1; /* sqrt(2) 2^31 */
+    frame->flat_offset_q16 = 0;
+#if GN_AUTO_BIAS
+    if (gn_scene_auto_bias(light)) return 92877 + GN_ATLAS_SIZE; /* sqrt(2) (1 + delta) + T 2^-16 */
+#endif
+    return frame->offset_q16;
+}
+
+#if GN_AUTO_BIAS
+static void auto_offsets(gn_frame *frame, const gn_light *light, int32_t max_q16)
+{
+    const gn_compact_view *view = &frame->view[0].project;
+    if (!gn_scene_auto_bias(light)) return;
+    int32_t epsilon = 512 + texels_q16(view, 8) + (int32_t)(((int64_t)texels_q16(view, max_q16) * frame->per_px_q29) >> 36);
+    frame->offset_q16 = 32768 + 138 + epsilon; /* R + delta + epsilon_r */
+    frame->flat_offset_q16 = GN_ATLAS_SIZE + GN_ATLAS_SIZE / 64 + 11 + epsilon;
+}
+#endif
+
 static gn_status fit_light(gn_frame *frame, const gn_light *light)
 {
     const gn_shadow_settings *shadow = &frame->scene->shadow;
@@ -190,9 +228,9 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     gn_compact_view *project = &view->project;
     int32_t centre_q28, radius_q28;
     int32_t max_q16 = shadow->max_distance_q16;
-    frame->offset_q16 = (int32_t)gn_compact_mul((uint32_t)light->bias_normal_q16, 0xB504F334U, 0) << 1; /* sqrt(2) 2^31 */
+    int32_t reach_q16 = receiver_reach(frame, light);
     if (!fit_sphere(frame, &centre_q28, &radius_q28)) return GN_ERR_SHADOW_DISTANCE;
-    uint32_t digits = fit_texel(frame, project, radius_q28);
+    uint32_t digits = fit_texel(frame, project, radius_q28, reach_q16);
     if ((uint32_t)(project->shift - 24) > 22) return GN_ERR_SHADOW_DISTANCE; /* texels of 2^-8 units or more */
     /* a texel is digits 2^(shift - 23) */
     project->guard = project->shift > 33 ? 1 << 30 : (int32_t)(digits * GUARD_PX) << (project->shift - 23);
@@ -208,12 +246,15 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     gn_compact_transform(v, &frame->to_light, centre);
     gn_compact_project(&corner, project, v);
     gn_compact_place(frame->centre_q16, &corner);
-    uint32_t radius_q16 = (uint32_t)(((((int64_t)radius_q28 * max_q16) >> 28) * (int64_t)project->scale) >> project->shift);
-    frame->radius2_q32 = (uint64_t)radius_q16 * radius_q16;
+    int64_t radius_q16 = texels_q16(project, (int32_t)(((int64_t)radius_q28 * max_q16) >> 28));
+    frame->radius2_q32 = (uint64_t)(radius_q16 * radius_q16);
     /* D6: r^2 (1 - (1 - fade)^2); D5 */
     uint32_t keep = ONE_Q28 / 4096 - shadow->cascade_fade_uq16;
     share_of(&frame->sphere, (int32_t)gn_compact_mul((uint32_t)(frame->radius2_q32 >> 16), 0U - keep * keep, 0));
     share_of(&frame->distance, (int32_t)(((uint64_t)(uint32_t)max_q16 * shadow->distance_fade_uq16) >> 16));
+#if GN_AUTO_BIAS
+    auto_offsets(frame, light, max_q16);
+#endif
     view->depth.d16 = frame->atlas;
     view->tile_texels = GN_ATLAS_SIZE;
     view->tile_done = 0;

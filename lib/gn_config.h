@@ -207,7 +207,7 @@
 #define GN_RECEIVER_PLANE (!GN_COMPACT)
 #endif
 #ifndef GN_AUTO_BIAS
-#define GN_AUTO_BIAS (!GN_COMPACT)
+#define GN_AUTO_BIAS 1
 #endif
 #ifndef GN_INCREMENTAL
 #define GN_INCREMENTAL (!GN_COMPACT)

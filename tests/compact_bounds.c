@@ -143,7 +143,7 @@ static void planes(void)
             int px = tri.begin[0] + (int)(rnd() % (uint32_t)(tri.end[0] - tri.begin[0])), py = tri.begin[1] + (int)(rnd() % (uint32_t)(tri.end[1] - tri.begin[1]));
             double exact = k[0] + dx * (px + 0.5 - x[0]) + dy * (py + 0.5 - y[0]);
             double steps = px - tri.begin[0] + py - tri.begin[1], far = fabs(dx) * fabs(px - x[0]) + fabs(dy) * fabs(py - y[0]);
-            if (fabs(exact) < 1 << 30) most(&worst, ((int32_t)gn_compact_key(&tri, px, py) - exact) / (steps / 2 + 16 + ldexp(far, -27)));
+            if (fabs(exact) < 1 << 30) most(&worst, ((int32_t)gn_compact_key(&tri, px, py) - exact) / (steps / (tri.frac_bits ? 256 : 2) + 16 + ldexp(far, -27)));
         }
     }
     bounded("keys of a triangle, of their bound", worst, 1);

@@ -85,10 +85,10 @@ static int ascending(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Those of the preset balanced, in every view. */
-static void add(series *all, const metrics *m, const char *what, int view)
+/* Those of the preset balanced, in every view; of random scenes, where a pixel more or less can be one of black and white, 36 dB. */
+static void add(series *all, const metrics *m, double psnr_db, const char *what, int view)
 {
-    int ok = m->identical >= 0.985 && m->within1 >= 0.998 && m->psnr_db >= 41 && m->shadow_mismatch <= 0.004;
+    int ok = m->identical >= 0.985 && m->within1 >= 0.998 && m->psnr_db >= psnr_db && m->shadow_mismatch <= 0.004;
     if (!CHECK(ok))
         printf("  %s, view %d: identical %g within1 %g psnr %g shadow_mismatch %g\n", what, view, m->identical, m->within1, m->psnr_db,
                m->shadow_mismatch);
@@ -114,7 +114,7 @@ static void report(series *all, const char *what)
 
 static settings settings_for(scene *s)
 {
-    static const char *const sets[] = {"filter=hard", "cascades=1", "auto_bias=off", "bias_normal=1", "atlas_size=128", "srgb=0"};
+    static const char *const sets[] = {"filter=hard", "cascades=1", "atlas_size=128", "srgb=0", "shadow_subpixel_bits=8", "weight_bits=12", "newton_steps=1"};
     char error[512] = "";
     settings set;
     settings_init(&set);
@@ -171,7 +171,7 @@ static void own_scene(const char *name, int frame)
     for (int n = 0; n < N_VIEWS; n++) {
         metrics m;
         if (n) swing(&s, n, &original);
-        if (CHECK_EQ_INT(compare(&m, &s, &set, n ? NULL : name), GN_OK)) add(&all, &m, name, n);
+        if (CHECK_EQ_INT(compare(&m, &s, &set, n ? NULL : name), GN_OK)) add(&all, &m, 41, name, n);
     }
     report(&all, name);
     scene_free(&s);
@@ -227,13 +227,45 @@ static void random_scenes(void)
         metrics m;
         random_scene(&f);
         settings set = settings_for(&f.s);
-        f.lights[0].bias_normal = random_between(1, 2);
+        f.lights[0].bias_normal = all.n % 2 ? random_between(1, 2) : 0;
+        f.lights[0].auto_bias = all.n % 2 ? SCENE_AUTO_BIAS_OFF : SCENE_AUTO_BIAS_NORMAL;
         gn_status status = compare(&m, &f.s, &set, all.n ? NULL : "random");
-        if (CHECK_EQ_INT(status, GN_OK)) add(&all, &m, "random", all.n);
+        if (CHECK_EQ_INT(status, GN_OK)) add(&all, &m, 36, "random", all.n);
         else break;
         end(&f);
     }
     report(&all, "random scenes");
+}
+
+/* B6: a plane has no shadow of its own, however it lies. */
+static void planes_without_acne(void)
+{
+    long seen = 0, dark = 0;
+    for (int n = 0; n < 60; n++) {
+        fixture f;
+        fixed_scene fixed;
+        engine_picture p;
+        char error[200];
+        random_scene(&f);
+        f.s.n_objects = 1;
+        turn_and_place(&f.objects[0].to_world);
+        f.objects[0].two_sided = n % 2;
+        scene_light *light = &f.lights[0];
+        *light = (scene_light){.name = no_name, .direction = {light->direction[0], light->direction[1], light->direction[2]}, .colour = {1, 1, 1}, .shadow = true,
+                               .strength = 0.5, .auto_bias = SCENE_AUTO_BIAS_NORMAL};
+        if (quantise_scene(&fixed, &f.s, error, sizeof error)) abort();
+        if (CHECK_EQ_INT(draw(&p, &fixed.scene), GN_OK)) {
+            for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
+                seen += p.triangle[i] >= 0 && p.shadow[0][i] > 0;
+                dark += p.triangle[i] >= 0 && p.shadow[0][i] > 0 && p.shadow[0][i] < 1;
+            }
+        }
+        engine_free(&p);
+        quantise_free(&fixed);
+        end(&f);
+    }
+    CHECK(seen > 200000);
+    if (!CHECK_EQ_INT(dark, 0)) printf("  %ld of %ld pixels\n", dark, seen);
 }
 
 int main(int argc, char **argv)
@@ -247,5 +279,6 @@ int main(int argc, char **argv)
     own_scene("avenue", 0);
     own_scene("fence", 0);
     random_scenes();
+    if (!table) planes_without_acne();
     return check_report();
 }

@@ -45,7 +45,7 @@ static void look(int64_t *shown, uint32_t *shadow_uq16, int width)
                 surface s = {0};
                 if (id) surface_begin(frame, &s, id);
                 shown[y * width + x] = id ? identity[gn_raster_tri(frame, id) - frame->tri] : -1;
-                shadow_uq16[y * width + x] = s.tri ? shadow_at(frame, s.tri, x, y) : id && gn_raster_tri(frame, id)->normal_q14[2] < 0 ? 65536 : 0;
+                shadow_uq16[y * width + x] = s.tri ? shadow_at(frame, &s, x, y) : id && gn_raster_tri(frame, id)->normal_q14[2] < 0 ? 65536 : 0;
             }
         }
     }

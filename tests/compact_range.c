@@ -102,8 +102,9 @@ static void refusals(void)
     REFUSED(sun.mode = GN_LIGHT_MIXED, GN_ERR_LIGHT_KIND);
     REFUSED(sun.softness = GN_SOFTNESS_SOFT, GN_ERR_LIGHT_KIND);
     REFUSED(memset(sun.direction, 0, sizeof sun.direction), GN_ERR_LIGHT_DIRECTION);
-    REFUSED(sun.bias_normal_q16 = 0, GN_ERR_LIGHT_BIAS); /* asks for automatic bias */
-    REFUSED(sun.auto_bias = GN_AUTO_BIAS_NORMAL, GN_ERR_LIGHT_BIAS);
+    REFUSED(sun.bias_normal_q16 = 0, GN_AUTO_BIAS ? GN_OK : GN_ERR_LIGHT_BIAS); /* asks for automatic bias */
+    REFUSED(sun.auto_bias = GN_AUTO_BIAS_NORMAL, GN_AUTO_BIAS ? GN_OK : GN_ERR_LIGHT_BIAS);
+    REFUSED(sun.auto_bias = GN_AUTO_BIAS_DEPTH, GN_ERR_LIGHT_BIAS);
     REFUSED(sun.bias_normal_q16 = GN_Q16(8), GN_ERR_LIGHT_BIAS);
     REFUSED(sun.bias_slope_q16 = -1, GN_ERR_LIGHT_BIAS);
     REFUSED(sun.bias_caster_q16 = 1, GN_ERR_LIGHT_BIAS);
@@ -220,7 +221,7 @@ static void spoil(void)
     case 9: sun.colour_uq16[rnd() % 3] = (uint32_t)any(); break;
     case 10: sun.shadow_strength_uq16 = (uint32_t)any(); break;
     case 11: sun.bias_normal_q16 = any(); sun.bias_slope_q16 = any(); break;
-    case 12: sun.bias_constant_q16 = any(); break;
+    case 12: sun.bias_constant_q16 = any(); sun.auto_bias = GN_AUTO_BIAS_NORMAL; break;
     case 13: scene.camera.to_world.m_q30[rnd() % 3][rnd() % 3] = any(); break;
     case 14: scene.camera.to_world.t_q16[rnd() % 3] = any(); break;
     case 15: scene.camera.focal_q24 = (uint32_t)any(); break;

@@ -35,15 +35,15 @@ counted "$tmp/bounds"
 
 # ---- Range: the compilers of the test suite, with sanitizers -----------------------------------------------------------------------
 
-for how in "gcc -O2" "clang -O0"; do
+for how in "gcc -O2 -DGN_AUTO_BIAS=0" "clang -O0"; do
     if $how -std=c11 -w -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -Ilib -Itests \
         -o "$tmp/range" tests/compact_range.c "$tmp/lib.c" -lm 2>"$tmp/log"; then counted "$tmp/range" 5000
     else fail "$how: $(grep -m 1 error "$tmp/log")"; fi
 done
-for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=2 -DGN_VALIDATION=0" "-DGN_COMPACT=1 -DGN_PRESET=0 -DGN_STATIC_LAYER=0"; do
+for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=2 -DGN_VALIDATION=0" "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0"; do
     gcc -std=c99 -pedantic $warn -O2 -Ilib $knobs -c -o "$tmp/warnings.o" "$tmp/lib.c" 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
-for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS RAW_VIEWS OTHER_FORMATS INCREMENTAL AUTO_BIAS; do
+for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS RAW_VIEWS OTHER_FORMATS INCREMENTAL STATIC_LAYER; do
     gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction=1 -fsyntax-only lib/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
     grep -q 'error.*compact_' "$tmp/log" && pass || fail "$contradiction: the message does not name compact: $(grep -m 1 error "$tmp/log")"
 done

@@ -54,7 +54,8 @@ static void make_light(void)
         scene.background_uq16[k] = (uint32_t)between(0, 65536);
     }
     sun.shadow_strength_uq16 = GN_UQ16(1);
-    sun.bias_normal_q16 = between(GN_Q16(0.5), GN_Q16(2));
+    sun.bias_normal_q16 = between(-GN_Q16(1), GN_Q16(2));
+    if (sun.bias_normal_q16 < 0) sun.bias_normal_q16 = 0; /* automatic */
     sun.bias_constant_q16 = between(0, 65536);
     sun.bias_slope_q16 = between(0, 65536);
     sun.bias_caster_q16 = 0;
