@@ -45,15 +45,21 @@ static void exact_begin(gn_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32
     edge->dy = dy;
 }
 
-static inline int16_t exact_step(gn_edge *edge)
+/* To the next row. */
+static inline void exact_next(gn_edge *edge)
 {
-    int16_t x = (int16_t)gn_max32(gn_min32(edge->q, INT16_MAX), INT16_MIN);
     edge->q += edge->dq;
     edge->r += edge->dr;
     if (edge->r >= edge->dy) {
         edge->r -= edge->dy;
         edge->q++;
     }
+}
+
+static inline int16_t exact_step(gn_edge *edge)
+{
+    int16_t x = (int16_t)gn_max32(gn_min32(edge->q, INT16_MAX), INT16_MIN);
+    exact_next(edge);
     return x;
 }
 
@@ -105,6 +111,7 @@ static void edge_begin(gn_walk *walk, int side, int from, int to)
     exact_begin(&walk->edge[side], a->x, a->y, b->x, b->y, walk->subpixel_bits, walk->row);
 }
 
+#if GN_SIZE_FIRST
 /* Rows up to `end`. */
 static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
 {
@@ -116,6 +123,41 @@ static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
         span->x_end = exact_step(&walk->edge[1]);
     }
 }
+#else
+/* One border of rows up to `end`: 0 left, 1 right. */
+static GN_NOINLINE void exact_border(gn_walk *walk, int side, int32_t end)
+{
+    int16_t *at = side ? &walk->span[0].x_end : &walk->span[0].x_begin;
+    int32_t first = walk->row, row = first, bend = walk->row_end[1 + side];
+    while (row < end) {
+        walk->row = row;
+        if (row == bend) edge_begin(walk, side, 1 + side, 2 - side);
+        gn_edge edge = walk->edge[side];
+        int32_t n = (row < bend ? gn_min32(bend, end) : end) - row;
+        row += n;
+        if ((uint32_t)edge.q + (1U << 14) < 1U << 15 && (uint32_t)edge.dq + (1U << 9) < 1U << 10) { /* 16 bits hold it for 16 rows */
+            do {
+                *at = (int16_t)edge.q;
+                at += 2;
+                exact_next(&edge);
+                GN_KEEP(at);
+            } while (--n);
+        } else {
+            for (; n > 0; n--, at += 2) *at = exact_step(&edge);
+        }
+        walk->edge[side] = edge;
+    }
+    walk->row = first;
+}
+
+/* Rows up to `end`. */
+static inline void exact_rows(gn_walk *walk, int32_t end)
+{
+    exact_border(walk, 0, end);
+    exact_border(walk, 1, end);
+    walk->row = end;
+}
+#endif
 
 static inline int32_t walk_rows(gn_walk *walk)
 {
