@@ -77,6 +77,30 @@ static void refused(const char *word)
     if (!CHECK(strstr(error, word) != NULL)) printf("  '%s' without '%s'\n", error, word);
 }
 
+/* What the unit is chosen for is known by name: a user may want to move it. */
+static void test_farthest(void)
+{
+    quantise_reach r;
+    begin();
+    r = quantise_farthest(&s);
+    CHECK(r.subject == QUANTISE_MAX_DISTANCE && r.reach == 100);
+    light.position[2] = -101;
+    r = quantise_farthest(&s);
+    CHECK(r.subject == QUANTISE_LIGHT && r.idx == 0 && r.reach == 101);
+    light.near = 102;
+    r = quantise_farthest(&s);
+    CHECK(r.subject == QUANTISE_LIGHT && r.reach == 102);
+    s.camera.to_world.m[1][3] = -103;
+    r = quantise_farthest(&s);
+    CHECK(r.subject == QUANTISE_CAMERA && r.reach == 103);
+    s.camera.near = 104;
+    r = quantise_farthest(&s);
+    CHECK(r.subject == QUANTISE_CAMERA_NEAR && r.reach == 104);
+    pos[4] = -105;
+    r = quantise_farthest(&s);
+    CHECK(r.subject == QUANTISE_OBJECT && r.idx == 0 && r.reach == 105);
+}
+
 /* 100 units become 3200: the largest power of two that keeps everything below 4096. */
 static void test_unit(void)
 {
@@ -374,6 +398,7 @@ static void test_flat(void)
 
 int main(void)
 {
+    test_farthest();
     test_unit();
     test_intensity();
     test_reach();

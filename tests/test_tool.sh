@@ -452,17 +452,18 @@ is max_error 0 'equal pictures'
 
 # ---- Lights --------------------------------------------------------------------------------------------------------------------
 
+quiet=       # --json: without remarks
 alike() { # alike A B: settings, separated by blanks, that draw the same picture, in both engines
     for engine in fixed reference; do
-        good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine $(for set in $1; do echo --set "$set"; done)
-        good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine $(for set in $2; do echo --set "$set"; done)
+        good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine $quiet $(for set in $1; do echo --set "$set"; done)
+        good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine $quiet $(for set in $2; do echo --set "$set"; done)
         cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$engine draws $1 and $2 differently"
     done
 }
 unlike() { # the same, and the pictures differ
     for engine in fixed reference; do
-        good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine $(for set in $1; do echo --set "$set"; done)
-        good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine $(for set in $2; do echo --set "$set"; done)
+        good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine $quiet $(for set in $1; do echo --set "$set"; done)
+        good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine $quiet $(for set in $2; do echo --set "$set"; done)
         cmp -s "$tmp/a.png" "$tmp/b.png" && fail "$engine draws $1 and $2 alike" || pass
     done
 }
@@ -495,8 +496,10 @@ unlike 'filter=7x7 auto_bias=off bias_normal=0 bias_constant=0' 'filter=7x7 auto
 unlike 'filter=7x7 bias_normal=0 bias_constant=0' 'filter=7x7 bias_normal=0 bias_constant=0 bias_receiver=0,0,8,0'
 unlike 'lights=spot' 'lights=spot range=3'
 unlike 'lights=spot range=0' 'lights=spot range=3'
-unlike 'lights=spot' 'lights=spot near=8192 range=0'
+unlike 'lights=spot' 'lights=spot near=6.8 range=0'
+quiet=--json
 alike 'lights=spot range=8 near=9' 'lights=spot range=8 shadow=0'
+quiet=
 unlike 'lights=directional,directional cascades=4' 'lights=directional,directional cascades=4 main_light=1'
 unlike 'lights=spot other_atlas_size=32' 'lights=spot other_atlas_size=128'
 alike 'refresh=1' 'refresh=2,3'
@@ -625,6 +628,33 @@ lights_noted 1 "light 1 'spot' is baked, but no object has baked light: it contr
 lights_noted 0 'is baked' 'lights=point,spot'
 good info "$cube" --size 8x8 --json --set mode=baked
 grep -q '"notes": \[.*is baked' "$tmp/out" && pass || fail "info --json does not note a useless baked light"
+
+# Shadows that are on and in no picture: a near plane beyond all casters, a scene beyond the default shadow distance.
+remarked() { # remarked PATTERN SCENE SETTINGS: render and compare say so in one line, info notes it; all do without
+    for command in "render -o $tmp/a.png" compare; do
+        said $command "$2" --size 16x12 $(for set in $3; do echo --set "$set"; done)
+        [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q "^gnomon: .*$1" "$tmp/err" && pass || fail "$command of $2 with '$3' does not say '$1': $(cat "$tmp/err")"
+    done
+    good info "$2" --size 16x12 $(for set in $3; do echo --set "$set"; done)
+    grep -q "note: .*$1" "$tmp/out" && pass || fail "info of $2 with '$3' does not note '$1'"
+}
+remarked "light 0 'spot' casts no shadow: its near plane is 90 away, no caster more than [0-9.]*; --set near@0=0\.[0-9]*" "$cube" 'lights=spot near=90 range=0'
+remarked "light 1 'point' casts no shadow: .* near@1=" "$cube" 'lights=spot,point near@1=90 range=0'
+for set in 'near=90 range=0 shadow=0' 'near=90 range=0 strength=0' 'near=90 range=0 mode=baked' 'near=1 range=0'; do
+    good render "$cube" -o "$tmp/a.png" --size 16x12 --set lights=point $(for one in $set; do echo --set "$one"; done)
+done
+# The floor of near.gltf, seen through a long lens from above and from a thousand units: in no picture nearer than 100 units, or just.
+far_away() { # far_away HEIGHT: as without a shadow distance of its own
+    sed 's/"max_distance": 16, //; s/"zfar": 60/"zfar": 6000/; s/"yfov": 1.22173/"yfov": 0.05/; s/"translation": \[0, 1.1, 0\], "rotation": \[-0.104465, [^]]*\]/"translation": [0, '"$1"', -8], "rotation": [-0.7071068, 0, 0, 0.7071068]/' docs/scenes/near.gltf >"$tmp/away.gltf"
+}
+far_away 1000
+remarked 'nothing in view is nearer than 100, .* it is [0-9.]* to 1000 away; --set max_distance=1000' "$tmp/away.gltf" ''
+good render "$tmp/away.gltf" -o "$tmp/a.png" --size 16x12 --set max_distance=1000
+good render "$tmp/away.gltf" -o "$tmp/a.png" --size 16x12 --set shadow=0
+far_away 99
+good render "$tmp/away.gltf" -o "$tmp/a.png" --size 16x12
+sed 's/"znear": 0.1/"znear": 100/' "$tmp/away.gltf" >"$tmp/beyond.gltf"
+bad 1 'it is 100, the near plane 100; --set max_distance=.*one is [0-9.]* of the scene.s, for [^,]*, [0-9.]* from the origin or the camera' render "$tmp/beyond.gltf" -o "$tmp/a.png" --size 16x12
 for scene in host/scenes/*.gltf; do
     good info "$scene" --size 32x24
     grep -q 'note:' "$tmp/out" && fail "info has a note on $scene" || pass

@@ -32,7 +32,8 @@ int tool_render(const tool_options *o)
     }
     if (tool_load(o, &s, &set)) return TOOL_FAILED;
     engine_picture p;
-    int failed = draw(&p, o, &s, &set, error, sizeof error);
+    int failed = draw(&p, o, &s, &set, error, sizeof error) ||
+                 remarks_on_shadows(&s, o->width, o->height, error, sizeof error);
     if (!failed && !o->json) say_remarks(o, &s, &p);
     scene_free(&s);
     if (failed) return tool_fail(o->scene_path, error);

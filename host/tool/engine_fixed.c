@@ -31,15 +31,26 @@ typedef struct {
     size_t error_bytes;
 } job;
 
+static void name_farthest(const scene *s, const quantise_reach *farthest, char *out, size_t bytes)
+{
+    static const char *const names[] = {[QUANTISE_CAMERA] = "the camera's place",
+                                        [QUANTISE_CAMERA_NEAR] = "the camera's near plane",
+                                        [QUANTISE_MAX_DISTANCE] = "max_distance"};
+    if (farthest->subject == QUANTISE_OBJECT) snprintf(out, bytes, "object '%.64s'", s->objects[farthest->idx].name);
+    else if (farthest->subject == QUANTISE_LIGHT) snprintf(out, bytes, "light '%.64s'", s->lights[farthest->idx].name);
+    else snprintf(out, bytes, "%s", names[farthest->subject]);
+}
+
 /* Ranges are the library's: what one of its units is in the scene's own, and what made it so. */
 static void add_units(const job *j)
 {
     size_t used = strlen(j->error);
-    double unit = ldexp(1, -j->fixed->world_exp);
+    const quantise_reach farthest = quantise_farthest(j->scene);
+    char name[100];
+    name_farthest(j->scene, &farthest, name, sizeof name);
     snprintf(j->error + used, j->error_bytes - used,
-             " (in the library's units: one is %g of the scene's, as everything within %g of the origin, lights, camera and shadow "
-             "distance must fit)",
-             unit, 4096 * unit);
+             " (in the library's units: one is %g of the scene's, for %s, %g from the origin or the camera, must fit)",
+             ldexp(1, -j->fixed->world_exp), name, farthest.reach);
 }
 
 /* What the index of a status counts. */
@@ -79,6 +90,9 @@ static int explain(const job *j, gn_status status)
         snprintf(j->error, j->error_bytes, "object '%s': %s", s->objects[d->index].name, gn_status_text(status));
     else if (about == ABOUT_LIGHT && d->index < s->n_lights)
         snprintf(j->error, j->error_bytes, "light '%s': %s", s->lights[d->index].name, gn_status_text(status));
+    else if (status == GN_ERR_SHADOW_DISTANCE)
+        snprintf(j->error, j->error_bytes, "%s: it is %g, the near plane %g; --set max_distance=...", gn_status_text(status),
+                 s->shadow.max_distance, s->camera.near);
     else snprintf(j->error, j->error_bytes, "%s", gn_status_text(status));
     if (status == GN_ERR_CAMERA_DEPTH || status == GN_ERR_SHADOW_DISTANCE || status == GN_ERR_LIGHT_RANGE ||
         status == GN_ERR_LIGHT_POSITION)

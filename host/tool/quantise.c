@@ -96,14 +96,33 @@ static double reach_of_light(const scene_light *l)
     return reach;
 }
 
+static double reach_of_camera(const scene_camera *camera)
+{
+    double reach = 0;
+    for (int r = 0; r < 3; r++) reach = fmax(reach, fabs(camera->to_world.m[r][3]));
+    return reach;
+}
+
+static void take_farther(quantise_reach *most, double reach, quantise_subject subject, size_t idx)
+{
+    if (reach > most->reach) *most = (quantise_reach){reach, subject, idx};
+}
+
+quantise_reach quantise_farthest(const scene *s)
+{
+    quantise_reach most = {.subject = QUANTISE_CAMERA};
+    take_farther(&most, reach_of_camera(&s->camera), QUANTISE_CAMERA, 0);
+    take_farther(&most, s->camera.near, QUANTISE_CAMERA_NEAR, 0);
+    take_farther(&most, s->shadow.max_distance, QUANTISE_MAX_DISTANCE, 0);
+    for (size_t i = 0; i < s->n_objects; i++) take_farther(&most, reach_of_object(s, &s->objects[i]), QUANTISE_OBJECT, i);
+    for (size_t i = 0; i < s->n_lights; i++) take_farther(&most, reach_of_light(&s->lights[i]), QUANTISE_LIGHT, i);
+    return most;
+}
+
 int quantise_world_exp(const scene *s)
 {
-    double reach = fmax(s->shadow.max_distance, s->camera.near);
-    for (size_t i = 0; i < s->n_objects; i++) reach = fmax(reach, reach_of_object(s, &s->objects[i]));
-    for (int r = 0; r < 3; r++) reach = fmax(reach, fabs(s->camera.to_world.m[r][3]));
-    for (size_t i = 0; i < s->n_lights; i++) reach = fmax(reach, reach_of_light(&s->lights[i]));
     int e;
-    frexp(reach / WORLD_REACH, &e);
+    frexp(quantise_farthest(s).reach / WORLD_REACH, &e);
     return -e;
 }
 
@@ -392,7 +411,7 @@ static int quantise_colour(gn_light *out, const scene_light *l, int world_exp, c
 
 /* Where light ends and where shadows begin, as far as the library resolves either. A near plane that is not below the range casts
  * nothing onto anything lit: one just below it does neither. */
-static void quantise_reach(gn_light *out, const scene_light *l, int world_exp)
+static void quantise_range(gn_light *out, const scene_light *l, int world_exp)
 {
     double near = fmax(LIGHT_NEAREST_Q16, floor(ldexp(l->near, 16 + world_exp) + 0.5));
     double range = fmax(LIGHT_NEAREST_Q16 + 1, floor(ldexp(l->range, 16 + world_exp) + 0.5)); /* stays infinite */
@@ -424,7 +443,7 @@ static int quantise_light(gn_light *out, const scene_light *l, int world_exp, ch
         for (int i = 0; i < 3; i++) out->position_q16[i] = (int32_t)fixed(l->position[i], 16 + world_exp);
         out->inner_turn = (uint16_t)fixed(l->inner, 16);
         out->outer_turn = (uint16_t)fixed(l->outer, 16);
-        quantise_reach(out, l, world_exp);
+        quantise_range(out, l, world_exp);
     }
     return quantise_colour(out, l, world_exp, error, error_bytes);
 }

@@ -28,6 +28,17 @@ int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_b
 /* The same with vertices for these position_bits and normal_bits: still 32 and 16 bits wide, but they hold what the narrow ones do. */
 int quantise_scene_for(fixed_scene *out, const scene *s, const gn_knobs *knobs, char *error, size_t error_bytes);
 int quantise_world_exp(const scene *s); /* the power of two that quantise_scene chooses */
+
+/* What that is chosen for: the largest coordinate or distance of the scene, and whose it is. A light's is of its place, or how far off
+ * its shadows begin. */
+typedef enum { QUANTISE_CAMERA, QUANTISE_CAMERA_NEAR, QUANTISE_MAX_DISTANCE, QUANTISE_OBJECT, QUANTISE_LIGHT } quantise_subject;
+typedef struct {
+    double reach;
+    quantise_subject subject;
+    size_t idx; /* of the object or light */
+} quantise_reach;
+quantise_reach quantise_farthest(const scene *s);
+
 void quantise_free(fixed_scene *f);
 
 bool quantise_same_mesh(const gn_mesh *a, const gn_mesh *b);

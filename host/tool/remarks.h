@@ -13,4 +13,8 @@ void remarks_on_picture(const scene *s, const engine_picture *p);
  * 0, or -1 with one line in error. */
 int remarks_on_lights(scene *s, char *error, size_t error_bytes);
 
+/* Adds a note for every light all of whose casters are nearer than its near plane, and one if (nearly) all that is in view lies beyond
+ * the shadow distance that a file gets which sets none. 0, or -1 with one line in error. */
+int remarks_on_shadows(scene *s, int width, int height, char *error, size_t error_bytes);
+
 #endif
