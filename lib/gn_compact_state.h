@@ -47,14 +47,14 @@ typedef struct {
 } gn_compact_share;
 
 typedef struct {
-    gn_compact_view project; /* first, as gn_light_view is asked for by what does not know the rest */
+    gn_compact_view project;
     gn_texels depth;
     uint16_t tile_texels;
     uint8_t tile_done, empty;
 } gn_light_view;
 
 typedef struct {
-    int16_t view_idx; /* -1: no shadow */
+    int16_t view_idx; /* 0 */
     uint8_t n_views;
     uint8_t shadow_state;
 } gn_light_state;

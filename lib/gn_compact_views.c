@@ -278,6 +278,7 @@ gn_status gn_views_setup(gn_frame *frame)
         compose_to_light(frame); /* for normals where there is no shadow */
     }
     frame->stats.n_shadow_tiles = frame->n_views;
+    frame->light[0].n_views = frame->light[0].shadow_state = (uint8_t)frame->n_views; /* GN_SHADOW_NOT_WANTED or _REALTIME; the first view */
     return status ? gn_fail(frame, status, 0) : GN_OK;
 }
 

@@ -187,6 +187,28 @@ static void fill_rule(void)
     }
 }
 
+/* A3, A6: what the light got. */
+static void tile_of_the_light(void)
+{
+    uint32_t n_tiles, texels, empty = 0, drawn_texels = 0;
+    gn_tile_info info;
+    begin();
+    CHECK_EQ_INT(draw(), GN_OK);
+    CHECK_EQ_INT(gn_get_light_shadow(&renderer, 0, &n_tiles, &texels), GN_SHADOW_REALTIME);
+    CHECK(n_tiles == 1 && texels == GN_ATLAS_SIZE);
+    CHECK_EQ_INT(gn_get_shadow_tile(&renderer, 0, 0, &info), GN_ATLAS_SIZE);
+    CHECK_EQ_INT(info.depth_bits, 16);
+    for (uint32_t i = 0; i < GN_ATLAS_SIZE * GN_ATLAS_SIZE; i++) {
+        if (((const uint16_t *)info.depth)[i] == 65535) empty++;
+        else drawn_texels++;
+    }
+    CHECK(empty > 100 && drawn_texels > 100);
+    sun.shadow_strength_uq16 = 0;
+    CHECK_EQ_INT(draw(), GN_OK);
+    CHECK_EQ_INT(gn_get_light_shadow(&renderer, 0, &n_tiles, &texels), GN_SHADOW_NOT_WANTED);
+    CHECK(n_tiles == 0 && texels == 0 && gn_get_shadow_tile(&renderer, 0, 0, &info) == 0);
+}
+
 /* ---- Random numbers ----------------------------------------------------------------------------------------------------- */
 
 static uint32_t rnd(void)
@@ -252,6 +274,7 @@ int main(int argc, char **argv)
     many_triangles();
     after_a_refusal();
     fill_rule();
+    tile_of_the_light();
     campaign(argc > 1 ? atol(argv[1]) : 1000);
     return check_report();
 }
