@@ -179,7 +179,7 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height)
 
 #if GN_PIECES
 /* Between dark and lit: their difference is rounded down to 15 fraction bits. */
-static inline int32_t mixed(int32_t dark_q24, int32_t more_q24, uint32_t share_uq16)
+static inline int32_t mixed_q24(int32_t dark_q24, int32_t more_q24, uint32_t share_uq16)
 {
     return dark_q24 + (int32_t)((int64_t)(more_q24 >> 9) * (int32_t)share_uq16 >> 7);
 }
@@ -222,7 +222,7 @@ static inline void mix_channel(uint16_t *out, int32_t n, const gn_ramp *dark, co
 {
     int32_t from = dark->from_q24[c], step = dark->step_q24[c], more = lit->from_q24[c] - from, more_step = lit->step_q24[c] - step;
     for (uint16_t *end = out + n; out < end; from += step, more += more_step, out++) {
-        int32_t v = mixed(from, more, *share_uq16++);
+        int32_t v = mixed_q24(from, more, *share_uq16++);
         *out = (uint16_t)above(c == 0 ? 0 : *out, level_before(c == 1 ? gn_level_63_table : gn_level_31_table, limited_q24(v), c == 1 ? 14 : 15), c);
     }
 }
@@ -286,7 +286,7 @@ void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, i
         int32_t colour[3];
         for (int c = 0; c < 3; c++) {
             int32_t from = dark->from_q24[c] + i * dark->step_q24[c], more = lit->from_q24[c] + i * lit->step_q24[c] - from;
-            colour[c] = mixed(from, more, share_uq16[i]);
+            colour[c] = mixed_q24(from, more, share_uq16[i]);
         }
         slow_pixel(frame, rows, x + i, y, colour);
     }

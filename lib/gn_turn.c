@@ -194,7 +194,7 @@ static void dark_at(const tinted_row *r, int32_t i, int32_t colour_q24[3])
 }
 
 /* n <= 17 pixels from i on, no longer than a ramp, each as far between two ramps as its light is let through. */
-static void mixed(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t n, const uint32_t *attenuation)
+static void mixed_row(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t n, const uint32_t *attenuation)
 {
     gn_ramp dark, lit;
     int32_t ahead = n - 1, dark_to[3], lit_to[3];
@@ -219,7 +219,7 @@ void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32
         if (p->ramp_px < 4) each_pixel(&r, rows, y, x, 0, n, attenuation, share);
         else if (!attenuation) ramps(&r, rows, y, x, n, share);
         else
-            for (int32_t i = 0; i < n; i += p->ramp_px) mixed(&r, rows, y, x, i, gn_min32(n - i, p->ramp_px), attenuation);
+            for (int32_t i = 0; i < n; i += p->ramp_px) mixed_row(&r, rows, y, x, i, gn_min32(n - i, p->ramp_px), attenuation);
         if (attenuation) attenuation += n;
     }
 }
