@@ -70,6 +70,7 @@ static void test_equal(void)
     CHECK_NEAR(m.coverage_mismatch, 0, 0);
     CHECK_EQ_INT(m.by_coverage, 0);
     CHECK_EQ_INT(m.by_shadow, 0);
+    CHECK_EQ_INT(m.by_light, 0);
     CHECK_EQ_INT(m.by_rounding, 0);
     CHECK_EQ_INT(m.worst_x, 0);
     CHECK_EQ_INT(m.worst_y, 0);
@@ -232,6 +233,26 @@ static void test_causes(void)
     CHECK_EQ_INT(m.by_rounding, 2);
 }
 
+/* Rounding is one step, in whichever channel; two steps are another light, unless surface or shadow says more. */
+static void test_light_or_rounding(void)
+{
+    static const int shift[3] = {11, 5, 0};
+    for (int k = 0; k < 3; k++) {
+        begin(2, 2, 1);
+        fixed.rgb565[0] = (uint16_t)(fixed.rgb565[0] + (1 << shift[k]));
+        for (int i = 1; i < 4; i++) fixed.rgb565[i] = (uint16_t)(fixed.rgb565[i] + (2 << shift[k]));
+        fixed.triangle[2] = 8;
+        other.shadow[0][3] += 1.0 / 128;
+        fixed.rgb8[3] = 80;
+        compute();
+        CHECK_EQ_INT(m.by_rounding, 1);
+        CHECK_EQ_INT(m.by_light, 1);
+        CHECK_EQ_INT(m.by_coverage, 1);
+        CHECK_EQ_INT(m.by_shadow, 1);
+        CHECK(m.worst_x == 1 && m.worst_y == 0 && strcmp(m.worst_cause, "light") == 0);
+    }
+}
+
 /* Each light for itself, and all samples of all lights together. */
 static void test_lights(void)
 {
@@ -303,6 +324,7 @@ int main(void)
     test_attenuation();
     test_comparable();
     test_causes();
+    test_light_or_rounding();
     test_lights();
     test_many_lights();
     return check_report();

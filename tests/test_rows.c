@@ -198,10 +198,10 @@ static void print_result(const row *r, int preset, const result *x)
 {
     printf("%-4s %-8s %s | %s | %s: share %.3f identical %.5f within1 %.5f psnr %.1f mismatch %.5f atten %.4f atlas %.5f changed "
            "%ld close %.4f; "
-           "%ld coverage %ld shadow %ld rounding, worst %d at %d,%d %s\n",
+           "%ld coverage %ld shadow %ld light %ld rounding, worst %d at %d,%d %s\n",
            r->id, settings_preset_name[preset], r->scene, r->words, r->with ? r->with : "", x->share, x->m.identical, x->m.within1,
            x->m.psnr_db, x->m.shadow_mismatch, x->m.atten_max, x->atlas, x->changed, x->closeness, x->m.by_coverage, x->m.by_shadow,
-           x->m.by_rounding, x->m.max_error, x->m.worst_x, x->m.worst_y, x->m.worst_cause);
+           x->m.by_light, x->m.by_rounding, x->m.max_error, x->m.worst_x, x->m.worst_y, x->m.worst_cause);
 }
 
 /* That the row matters is asked once, where little else differs. */

@@ -629,6 +629,12 @@ lights_noted 0 'is baked' 'lights=point,spot'
 good info "$cube" --size 8x8 --json --set mode=baked
 grep -q '"notes": \[.*is baked' "$tmp/out" && pass || fail "info --json does not note a useless baked light"
 
+# A cone that the library cannot draw: what it draws is another, and said to be.
+sed 's/"outerConeAngle": [0-9.]*/"outerConeAngle": 1.5707963/' docs/scenes/cones.gltf >"$tmp/cones-wide.gltf"
+said render "$tmp/cones-wide.gltf" -o "$tmp/a.png" --size 16x12
+grep -q "^gnomon: cone of light [0-9]* '[^']*' is limited to 179 degrees" "$tmp/err" && pass || fail "a cone of 180 degrees is not said to be narrower: $(cat "$tmp/err")"
+good render docs/scenes/cones.gltf -o "$tmp/a.png" --size 16x12
+
 # Shadows that are on and in no picture: a near plane beyond all casters, a scene beyond the default shadow distance.
 remarked() { # remarked PATTERN SCENE SETTINGS: render and compare say so in one line, info notes it; all do without
     for command in "render -o $tmp/a.png" compare; do

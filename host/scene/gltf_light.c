@@ -65,6 +65,7 @@ static bool read_cone(gltf *g, const json_value *json, const char *name, scene_l
     out->outer = steps / angle_steps;
     out->inner = fmin(round(inner / VEC_PI * angle_steps), steps) / angle_steps;
     if (degrees >= 1 - 1e-6 && degrees <= 179 + 1e-6) return true;
+    out->cone_limited = true;
     return loader_note(g->l, "cone of light '%s' is limited to 1..179 degrees", name);
 }
 

@@ -75,6 +75,7 @@ typedef struct {
     double position[3];  /* spot, point */
     double range;        /* spot, point: >= 0.01; INFINITY: unlimited */
     double inner, outer; /* spot: angles edge to edge in turns, multiples of 1/65536 (DESIGN 1.8) */
+    bool cone_limited;   /* the file's is outside 1 .. 179 degrees */
     double colour[3];    /* linear, colour x intensity, pi folded in (DESIGN 1.3); spot, point: at distance 1 */
     scene_light_mode mode;
     int mask_channel; /* 0..3, -1: none */

@@ -69,8 +69,8 @@ static void print_details(const metrics *m)
     for (size_t l = 0; l < m->n_lights; l++)
         printf("%s{\"atten_rms\": %.9g, \"atten_max\": %.9g, \"shadow_mismatch\": %.9g, \"pixels\": %ld}", l ? ", " : "",
                m->light[l].atten_rms, m->light[l].atten_max, m->light[l].shadow_mismatch, m->light[l].pixels);
-    printf("], \"differing_pixels\": {\"coverage\": %ld, \"shadow\": %ld, \"rounding\": %ld}", m->by_coverage, m->by_shadow,
-           m->by_rounding);
+    printf("], \"differing_pixels\": {\"coverage\": %ld, \"shadow\": %ld, \"light\": %ld, \"rounding\": %ld}", m->by_coverage,
+           m->by_shadow, m->by_light, m->by_rounding);
     printf(", \"worst_pixel\": {\"x\": %d, \"y\": %d, \"cause\": \"%s\"}", m->worst_x, m->worst_y, m->worst_cause);
 }
 
@@ -105,7 +105,8 @@ static void print_metrics(const metrics *m)
     printf("  attenuation RMS, max  %8.6f, %.4f\n", m->atten_rms, m->atten_max);
     printf("  shadow mismatch       %8.4f %%   (attenuation off by more than 1/16)\n", 100 * m->shadow_mismatch);
     printf("  coverage mismatch     %8.4f %%   (another triangle is visible)\n", 100 * m->coverage_mismatch);
-    printf("  differing pixels      %ld coverage, %ld shadow, %ld rounding\n", m->by_coverage, m->by_shadow, m->by_rounding);
+    printf("  differing pixels      %ld coverage, %ld shadow, %ld light, %ld rounding\n", m->by_coverage, m->by_shadow, m->by_light,
+           m->by_rounding);
 }
 
 static void print_text(const tool_options *o, const comparison *c)

@@ -50,12 +50,24 @@ static void attenuation(metrics *m, const engine_picture *fixed, const engine_pi
     }
 }
 
-static const char *cause_of(const metrics *m, const engine_picture *fixed, const engine_picture *other, size_t i)
+static const char *const cause_names[] = {"coverage", "shadow", "light", "rounding"};
+typedef enum { COVERAGE, SHADOW, LIGHT, ROUNDING } cause;
+
+/* Rounding is what one step explains: where colours are farther apart under the same shadow, the light itself differs. */
+static cause cause_of(const metrics *m, const engine_picture *fixed, const engine_picture *other, size_t i, int steps)
 {
-    if (fixed->triangle[i] != other->triangle[i]) return "coverage";
+    if (fixed->triangle[i] != other->triangle[i]) return COVERAGE;
     for (size_t l = 0; l < m->n_lights; l++)
-        if (fabs(fixed->shadow[l][i] - other->shadow[l][i]) > 1.0 / 256) return "shadow";
-    return "rounding";
+        if (fabs(fixed->shadow[l][i] - other->shadow[l][i]) > 1.0 / 256) return SHADOW;
+    return steps > 1 ? LIGHT : ROUNDING;
+}
+
+static void count_cause(metrics *m, cause why)
+{
+    if (why == COVERAGE) m->by_coverage++;
+    else if (why == SHADOW) m->by_shadow++;
+    else if (why == LIGHT) m->by_light++;
+    else m->by_rounding++;
 }
 
 static int worst_channel(const uint8_t *a, const uint8_t *b, size_t i, double *squares)
@@ -95,17 +107,13 @@ void metrics_compute(metrics *m, const engine_picture *fixed, const engine_pictu
         near += steps <= 1;
         other_triangle += fixed->triangle[i] != other->triangle[i];
         if (!steps && worst <= m->max_error) continue;
-        const char *cause = cause_of(m, fixed, other, i);
-        if (steps) {
-            if (cause[0] == 'c') m->by_coverage++;
-            else if (cause[0] == 's') m->by_shadow++;
-            else m->by_rounding++;
-        }
+        const cause why = cause_of(m, fixed, other, i, steps);
+        if (steps) count_cause(m, why);
         if (worst > m->max_error) {
             m->max_error = worst;
             m->worst_x = (int)(i % (size_t)fixed->width);
             m->worst_y = (int)(i / (size_t)fixed->width);
-            m->worst_cause = cause;
+            m->worst_cause = cause_names[why];
         }
     }
     m->identical = (double)same / (double)m->pixels;

@@ -21,7 +21,8 @@ typedef struct {
     /* pixels that are not identical, by cause */
     long by_coverage;     /* another triangle is visible */
     long by_shadow;       /* the shadow factor of some light differs by more than 1/256 */
-    long by_rounding;     /* neither: the colour lies next to a rounding threshold */
+    long by_light;        /* neither, and yet more than one step: what lights the surface differs */
+    long by_rounding;     /* one step: the colour lies next to a rounding threshold */
     int worst_x, worst_y; /* a pixel with max_error */
     const char *worst_cause;
 } metrics;

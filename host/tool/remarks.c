@@ -8,8 +8,20 @@
 
 enum { NAMES_BYTES = 200, NOTE_BYTES = 300 };
 
+static const double degrees_per_turn = 360;
+
+/* Most of what a file says in vain is for info; this changes the picture. */
+static void remark_on_cones(const scene *s)
+{
+    for (size_t i = 0; i < s->n_lights; i++)
+        if (s->lights[i].cone_limited)
+            tool_error("cone of light %zu '%s' is limited to %.0f degrees: 1 to 179 can be drawn", i, s->lights[i].name,
+                       degrees_per_turn * s->lights[i].outer);
+}
+
 void remarks_on_settings(const scene *s)
 {
+    remark_on_cones(s);
     for (size_t i = s->n_file_notes; i < s->n_notes; i++) tool_error("%s", s->notes[i]);
 }
 

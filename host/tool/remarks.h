@@ -5,7 +5,7 @@
 
 #include "engine.h"
 
-/* To stderr, a line each: what settings came to nothing; what the library left out of a picture of its own. */
+/* To stderr, a line each: what settings came to nothing, which cones had to be others; what the library left out of a picture of its own. */
 void remarks_on_settings(const scene *s);
 void remarks_on_picture(const scene *s, const engine_picture *p);
 
