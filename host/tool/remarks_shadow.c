@@ -73,6 +73,12 @@ typedef struct {
     double corner[CORNERS_MAX][3]; /* view space, depth positive */
 } polygon;
 
+/* A corner more; not one that only rounding could bring, of a polygon that it bent. */
+static void add_corner(polygon *p, const double *corner)
+{
+    if (p->n < CORNERS_MAX) memcpy(p->corner[p->n++], corner, sizeof p->corner[0]);
+}
+
 /* Keeps the side where a . p >= b. */
 static void cut(polygon *p, const double *a, double b)
 {
@@ -81,10 +87,11 @@ static void cut(polygon *p, const double *a, double b)
     for (int i = 0; i < whole.n; i++) {
         const double *from = whole.corner[i], *to = whole.corner[(i + 1) % whole.n];
         const double d0 = vec_dot(a, from) - b, d1 = vec_dot(a, to) - b;
-        if (d0 >= 0) memcpy(p->corner[p->n++], from, sizeof whole.corner[0]);
+        double crossing[3];
+        if (d0 >= 0) add_corner(p, from);
         if ((d0 >= 0) == (d1 >= 0)) continue;
-        for (int k = 0; k < 3; k++) p->corner[p->n][k] = from[k] + d0 / (d0 - d1) * (to[k] - from[k]);
-        p->n++;
+        for (int k = 0; k < 3; k++) crossing[k] = from[k] + d0 / (d0 - d1) * (to[k] - from[k]);
+        add_corner(p, crossing);
     }
 }
 

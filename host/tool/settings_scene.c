@@ -44,7 +44,8 @@ typedef struct {
     }
 
 static const scene_knob scene_knobs[] = {
-    SHADOW_("max_distance", NUMBER, max_distance, 0.004, 8192, "no shadow beyond this view depth (D5)"),
+    SHADOW_("max_distance", NUMBER, max_distance, 0.004, 8192,
+            "no shadow beyond this view depth; unset, with a camera of the file's, at most 100 (D5)"),
     SHADOW_("distance_fade", SHARE, distance_fade, 0.001, 1, "share of it over which shadows fade (D5)"),
     SHADOW_("cascade_fade", SHARE, cascade_fade, 0.001, 1, "margin of the bounding sphere (D3)"),
     SHADOW_("penumbra", NUMBER, penumbra, 0, 64,
@@ -59,7 +60,8 @@ static const scene_knob scene_knobs[] = {
     LIGHT_("bias_receiver", BIAS, bias_receiver, 0, 8, "receiver offset of four terms: one number or X,Y,Z,W (B3)"),
     LIGHT_("bias_caster", NUMBER, bias_caster, 0, 8, "casters shrunk along their normals, in texels (B4)"),
     LIGHT_("near_offset", NUMBER, near_offset, 0, 8192, "pulls a directional light's near plane back (D9)"),
-    LIGHT_("near", NUMBER, near, 0.001, 8192, "nothing nearer to a spot or point light casts (P4)"),
+    LIGHT_("near", NUMBER, near, 0.001, 8192,
+           "nothing nearer to a spot or point light casts; unset, 1/64 of its range or of the scene's farthest corner, the nearer (P4)"),
     LIGHT_("range", REACH, range, 0, 100000, "reach of a spot or point light, at least 0.01; 0: unlimited (P2)"),
     LIGHT_("mask_channel", WHOLE, mask_channel, -1, 3, "channel of the baked shadow mask; -1: none (M5)"),
     SCENE_("ambient", COLOUR, ambient, 0, 255, "ambient light: one number or R,G,B"),
