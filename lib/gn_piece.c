@@ -539,7 +539,10 @@ static int pick_view(gn_pieces *p, const gn_surface_light *light, int32_t cascad
         gn_bias_auto_ortho(p->view, form, light->flat_offset_q16, p->offset_q16);
         return up >= 0;
     }
-    if (form) p->along_q16 = p->view->auto_place;
+    if (form) {
+        gn_bias_directional(frame, p->view, p->surface->lift_q30, p->offset_q16);
+        p->along_q16 = GN_BENT(p->surface) ? 0 : p->view->auto_place;
+    }
 #endif
     return up >= 0;
 }

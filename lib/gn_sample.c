@@ -101,6 +101,18 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
     }
 }
 
+#if GN_AUTO_BIAS
+/* B6 of curved surfaces: along what the point moves. */
+static const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light, const int32_t n_q30[3], int32_t out_q30[3])
+{
+    if (!GN_CURVED(s) || !light->auto_bias) return n_q30;
+    for (int i = 0; i < 3; i++) out_q30[i] = s->lift_q30[i] + (GN_BENT(s) ? 0 : n_q30[i]);
+    return out_q30;
+}
+#else
+#define lifted_normal(s, light, n_q30, out_q30) (n_q30)
+#endif
+
 /* The surface's offset in a view, where it is not one for all views of the light: of smooth surfaces, of the disk, whose index and
  * reach are the cascade's own, and of B6, whose steps of depth are. */
 static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot, const gn_light_view *view,
@@ -115,7 +127,8 @@ static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uin
     }
 #endif
     if (!GN_SMOOTH(s) && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK)) return flat;
-    gn_bias_directional(frame, view, n_q30, moved_q16);
+    int32_t lifted[3];
+    gn_bias_directional(frame, view, lifted_normal(s, s->light[slot].state, n_q30, lifted), moved_q16);
     return moved_q16;
 }
 
@@ -152,8 +165,10 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
     out[GN_LIGHT_FACING] = gn_sat32(-gn_dot_q30(unit_q30, out + GN_LIGHT_POINT_AT));
 #if GN_SHADOWS
     int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* B6: per pixel */
+    int32_t lifted[3];
     if (light->view_idx >= 0 && s->shadowed && !own)
-        gn_bias_punctual(frame, light, n_q30, sample->value[GN_VALUE_Z], out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
+        gn_bias_punctual(frame, light, lifted_normal(s, light, n_q30, lifted), sample->value[GN_VALUE_Z], out + GN_LIGHT_POINT_AT,
+                         out + GN_LIGHT_OFFSET);
 #else
     (void)frame, (void)n_q30;
 #endif

@@ -71,12 +71,16 @@ typedef struct {
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     int32_t face_q30[3]; /* normal of the face in the world; only where some light of the list asks for it */
 #endif
+#if GN_AUTO_BIAS
+    int32_t lift_q30[3]; /* curved: what its normal is off by for B6; likewise */
+#endif
     gn_surface_light light[GN_SURFACE_LIGHTS]; /* those that can reach it */
 } gn_surface;
 
 /* What a build without any cannot have. */
 #define GN_SMOOTH(s)   (GN_VERTEX_NORMALS && (s)->smooth)
-#define GN_CURVED(s)   (GN_VERTEX_NORMALS && (s)->smooth > 1) /* by 2^-10 or more: B6 takes the interpolated normal */
+#define GN_CURVED(s)   (GN_VERTEX_NORMALS && (s)->smooth > 1) /* by 2^-10 or more: B6 takes the interpolated normal, with */
+#define GN_BENT(s)     ((s)->smooth > 2)                      /* corners that turn away from the face: only lift_q30 */
 #define GN_COLOURED(s) (GN_VERTEX_COLOURS && (s)->coloured)
 #define GN_HAS_BARY(s)                                                                                                             \
     ((GN_VERTEX_NORMALS || GN_VERTEX_COLOURS || GN_TEXTURES || GN_MASKS || GN_BAKED_LIGHT) && (s)->has_bary)

@@ -274,6 +274,24 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
 }
 
 #if GN_SHADOWS
+#if GN_AUTO_BIAS
+#define GN_LEAST_ALONG_Q28 (7 << 25)
+
+/* B6, curved: with this the interpolated normal has a part of 1 or more along the face's everywhere. Where a corner's is too far from the
+ * face's, that alone is taken. */
+static void lift_normal(gn_surface *s)
+{
+    int32_t least = -4; /* Q28; roundings */
+    for (int k = 2; k >= 0; k--) {
+        int32_t along = (int32_t)(gn_dot64(s->normal_q30[k], s->face_q30) >> 32);
+        if (k == 0) least += along;
+        else if (along < least) least = along;
+    }
+    if (least < GN_LEAST_ALONG_Q28) s->smooth = 3, least = 0;
+    for (int i = 0; i < 3; i++) s->lift_q30[i] = (int32_t)(((1 << 30) - 4 * (int64_t)least) * s->face_q30[i] >> 32) * 4;
+}
+#endif
+
 /* What a light's bias takes from the surface, once for all of it: the face's normal, a directional light's offset. */
 static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
 {
@@ -286,7 +304,8 @@ static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
 #endif
 #if GN_AUTO_BIAS
     if (light->auto_bias) {
-        if (!GN_CURVED(s) && light->kind == GN_LIGHT_DIRECTIONAL)
+        if (GN_CURVED(s)) lift_normal(s);
+        else if (light->kind == GN_LIGHT_DIRECTIONAL)
             gn_bias_auto_face(view, (gn_auto_bias)light->auto_bias, s->face_q30, s->light[slot].flat_offset_q16);
         return;
     }

@@ -5,6 +5,7 @@
 #define PLANE_ERROR    0x1p-12 /* of planes through far corners of large casters, texels */
 #define PLACE_UNITS    8.0     /* roundings of a point and of its triangle's corners, in units of length */
 #define MOST_SHARE     2.0     /* of the light-plane distance: farther no point is moved along its normal */
+#define LEAST_ALONG    0.875   /* of corners' normals along the face's: with less, they say nothing of its place */
 
 static double half_cell(int bits)
 {
@@ -87,7 +88,7 @@ static double steepness(double part, double along, double most)
     return fabs(part) > 0.0 ? fmin(most, fabs(part / along)) : 0.0;
 }
 
-/* Of a curved surface: along N as it is, as far as any plane through N needs. */
+/* Of a curved surface: along N', as far as any plane needs. */
 static double smooth_reach(const ref_light_view *view, double reach)
 {
     return view->filter == SCENE_FILTER_HARD ? reach + 0.5 : reach;
@@ -127,11 +128,24 @@ static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene
     return vec3_scale(m, lift + point.z * share);
 }
 
+/* N' of a curved triangle: its part along the face's normal is nowhere below 1. */
+static vec3 curved_normal(const ref_surface *at, vec3 face)
+{
+    const ref_triangle *t = &at->triangle;
+    double least = 1.0;
+    for (int k = 0; k < 3; k++) {
+        const double along = vec3_dot(t->instance->normal[t->idx[k]], face);
+        least = fmin(least, at->behind ? -along : along);
+    }
+    if (least < LEAST_ALONG) return face;
+    return vec3_add(at->interpolated, vec3_scale(face, 1.0 - least));
+}
+
 vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at, vec3 in_light,
                    double *less)
 {
     const vec3 face = vec3_dot(at->face, vec3_sub(frame->camera.position, at->world)) < 0.0 ? vec3_scale(at->face, -1.0) : at->face;
-    const vec3 f = at->curved ? at->interpolated : face;
+    const vec3 f = at->curved ? curved_normal(at, face) : face;
     const vec3 n = {vec3_dot(f, vec3_load(view->axis[0])), vec3_dot(f, vec3_load(view->axis[1])),
                     vec3_dot(f, vec3_load(view->axis[2]))};
     *less = 0.0;

@@ -76,6 +76,7 @@ static void put_work(layout *out, const settings *s)
     if (s->feature.masks) put(&surface, 12, 4, 4);
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
     if (s->feature.receiver_plane || s->feature.auto_bias) put(&surface, 3, 4, 4);
+    if (s->feature.auto_bias) put(&surface, 3, 4, 4); /* lift_q30 */
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 48 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
