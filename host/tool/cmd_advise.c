@@ -7,13 +7,10 @@
 
 #include "sweep.h"
 
-enum { SEEDS = 3, ROUNDS = 2, SHRINK_ROUNDS = 6, COUNTS_MAX = 10, ARGUMENT_BYTES = 16384, NEED_BYTES = 3072 };
-/* A row that is over its budget by no more than this may have a neighbour that is not. */
-static const double near_budget = 1.5;
+enum { ROWS_MAX = 700, ROWS_MAX_QUICK = 160, COUNTS_MAX = 10, ARGUMENT_BYTES = 16384, NEED_BYTES = 3072 };
 
 typedef struct {
     double ram, instructions;
-    int seeds, rounds; /* how far the search goes */
 } budget;
 
 /* 1 and less: it fits. */
@@ -30,51 +27,24 @@ static bool is_better(const sweep_row *a, const sweep_row *b)
     return a->cost < b->cost;
 }
 
-/* ---- Seeds: rows whose neighbours are worth a look -------------------------------------------------------------------------- */
-
-typedef struct {
-    size_t idx[2 * SEEDS];
-    size_t n;
-} seed_list;
-
-static bool is_seed(const seed_list *seeds, size_t i)
-{
-    for (size_t k = 0; k < seeds->n; k++)
-        if (seeds->idx[k] == i) return true;
-    return false;
-}
-
-/* The most accurate ones with a load within (least, most]. */
-static void seed_best(const sweep *w, const budget *b, double least, double most, seed_list *seeds)
-{
-    for (int n = 0; n < b->seeds; n++) {
-        size_t best = SIZE_MAX;
-        for (size_t i = 0; i < w->n_rows; i++) {
-            double load = load_of(b, &w->rows[i]);
-            if (load <= least || load > most || is_seed(seeds, i)) continue;
-            if (best == SIZE_MAX || is_better(&w->rows[i], &w->rows[best])) best = i;
-        }
-        if (best == SIZE_MAX) return;
-        seeds->idx[seeds->n++] = best;
-    }
-}
-
-static size_t least_load(const sweep *w, const budget *b, const seed_list *except)
+/* SIZE_MAX: none. */
+static size_t least_load(const sweep *w, const budget *b)
 {
     size_t best = SIZE_MAX;
-    for (size_t i = 0; i < w->n_rows; i++) {
-        if (is_seed(except, i)) continue;
+    for (size_t i = 0; i < w->n_rows; i++)
         if (best == SIZE_MAX || load_of(b, &w->rows[i]) < load_of(b, &w->rows[best])) best = i;
-    }
     return best;
 }
 
 /* SIZE_MAX: none fits. */
 static size_t find_best(const sweep *w, const budget *b)
 {
-    seed_list best = {{0}, 0};
-    seed_best(w, b, 0, 1, &best);
-    return best.n ? best.idx[0] : SIZE_MAX;
+    size_t best = SIZE_MAX;
+    for (size_t i = 0; i < w->n_rows; i++) {
+        if (load_of(b, &w->rows[i]) > 1) continue;
+        if (best == SIZE_MAX || is_better(&w->rows[i], &w->rows[best])) best = i;
+    }
+    return best;
 }
 
 static bool needs_less(const sweep_row *a, const sweep_row *b, bool ram)
@@ -94,37 +64,78 @@ static size_t smallest(const sweep *w, const budget *b, bool ram)
     return best;
 }
 
-/* ---- Refinement ------------------------------------------------------------------------------------------------------------- */
+/* ---- The search -------------------------------------------------------------------------------------------------------------
+ * It knows no budget: that only chooses among the rows. So a larger budget never gets a worse answer. */
 
-static int refine(sweep *w, const budget *b)
+/* What an explored row covers: rows that are better by less than that. Halved as long as rows may be added. */
+static const double coarsest = 0.64, finest = 0.002, ram_share = 2, db_share = 4;
+
+typedef struct {
+    double tolerance;
+    bool any_cost; /* of RAM and dB alone */
+} grain;
+
+static bool covers(const sweep_row *a, const sweep_row *b, const grain *g)
 {
-    for (int round = 0; round < b->rounds; round++) {
-        seed_list seeds = {{0}, 0};
-        size_t before = find_best(w, b);
-        seed_best(w, b, 0, 1, &seeds);
-        seed_best(w, b, 1, near_budget, &seeds);
-        if (sweep_around(w, seeds.idx, seeds.n)) return -1;
-        if (find_best(w, b) == before) return 0;
-    }
-    return 0;
+    return (double)a->ram_bytes <= (double)b->ram_bytes * (1 + ram_share * g->tolerance) && a->db >= b->db - db_share * g->tolerance &&
+           (g->any_cost || a->cost <= b->cost * (1 + g->tolerance));
 }
 
-/* Towards what needs least of the budget, until something fits or nothing gets smaller. */
-static int shrink(sweep *w, const budget *b)
+static bool is_open(const sweep *w, const sweep_row *r, const grain *g)
 {
-    for (int round = 0; round < SHRINK_ROUNDS; round++) {
-        seed_list seeds = {{0}, 0};
-        for (int i = 0; i < b->seeds; i++) {
-            size_t next = least_load(w, b, &seeds);
-            if (next != SIZE_MAX) seeds.idx[seeds.n++] = next;
-        }
-        double before = load_of(b, &w->rows[seeds.idx[0]]);
-        if (before <= 1) return 0;
-        if (sweep_around(w, seeds.idx, seeds.n)) return -1;
-        seed_list none = {{0}, 0};
-        if (load_of(b, &w->rows[least_load(w, b, &none)]) >= before) return 0;
+    const grain exact = {0, true};
+    if (!r->on_front || r->is_explored) return false;
+    for (size_t i = 0; i < w->n_rows; i++) {
+        const sweep_row *other = &w->rows[i];
+        if (other->is_explored && covers(other, r, g)) return false;
+        if (g->any_cost && covers(other, r, &exact) && (other->db > r->db || other->ram_bytes < r->ram_bytes)) return false;
     }
-    return 0;
+    return true;
+}
+
+/* The neighbours of every row on the front that none covers. Returns how many such rows there were; -1. */
+static int explore_front(sweep *w, const grain *g, size_t rows_max)
+{
+    int n = 0;
+    const size_t n_rows = w->n_rows;
+    sweep_mark_front(w);
+    for (size_t i = 0; i < n_rows && w->n_rows < rows_max; i++) {
+        if (!is_open(w, &w->rows[i], g)) continue;
+        if (sweep_around(w, i)) return -1;
+        n++;
+    }
+    return n;
+}
+
+static int explore_all(sweep *w, bool any_cost, size_t rows_max)
+{
+    int n = 0;
+    for (grain g = {coarsest, any_cost}; g.tolerance > finest && w->n_rows < rows_max && n >= 0; g.tolerance /= 2) {
+        do n = explore_front(w, &g, rows_max);
+        while (n > 0);
+    }
+    return n;
+}
+
+/* Down to a row with no neighbour that needs less RAM: what a refusal names. */
+static int explore_least(sweep *w)
+{
+    const budget any = {DBL_MAX, DBL_MAX};
+    for (;;) {
+        size_t least = smallest(w, &any, true);
+        if (w->rows[least].is_explored) return 0;
+        if (sweep_around(w, least)) return -1;
+    }
+}
+
+/* RAM alone first, as most budgets are: that front is short, and the better start for that of all three. */
+static int explore(sweep *w, size_t rows_max)
+{
+    w->is_open = true;
+    int failed = explore_least(w) || explore_all(w, true, rows_max - rows_max / 3) < 0 || explore_all(w, false, rows_max) < 0;
+    w->is_open = false;
+    sweep_show_progress(w);
+    return failed ? -1 : 0;
 }
 
 /* ---- On a target: what is counted, and for the rest the model in proportion ------------------------------------------------ */
@@ -159,10 +170,10 @@ static void settle(sweep *w, const budget *b)
 
 static int search(sweep *w, const budget *b, bool quick)
 {
-    if (sweep_run(w, quick)) return -1;
+    w->colours_only = true;
+    if (sweep_run(w, quick) || sweep_least(w)) return -1;
+    if (explore(w, quick ? ROWS_MAX_QUICK : ROWS_MAX)) return -1;
     if (w->counts && b->instructions < DBL_MAX) count_ends(w, b);
-    if (find_best(w, b) == SIZE_MAX && shrink(w, b)) return -1;
-    if (find_best(w, b) != SIZE_MAX && refine(w, b)) return -1;
     if (w->counts) settle(w, b);
     return 0;
 }
@@ -204,7 +215,7 @@ static void print_text(const sweep *w, const sweep_row *r)
            100 * r->truth.shadow_mismatch, w->moves ? ", in the first frame" : "");
     printf("  against the same in double %6.2f dB, %.3f %% identical%s\n", r->reference.psnr_db, 100 * r->reference.identical,
            w->moves ? ", in the first frame" : "");
-    printf("  the best of %zu configurations\n", w->n_rows);
+    printf("  the best of %zu configurations, at %dx%d\n", w->n_rows, o->width, o->height);
     if (w->n_uncounted) printf("  %zu could not be counted on %s, the first: %s\n", w->n_uncounted, o->target, w->uncounted);
 }
 
@@ -239,7 +250,6 @@ static void describe(const sweep *w, size_t row, char *out, size_t bytes)
 static int refuse(sweep *w, const budget *b)
 {
     const tool_options *o = w->options;
-    const seed_list none = {{0}, 0};
     char message[2 * NEED_BYTES + 256], need[NEED_BYTES], limit[64] = "";
     for (int i = 0; w->counts && i < 2; i++) { /* what is named is counted, too; then another may be */
         count(w, smallest(w, b, true));
@@ -247,13 +257,13 @@ static int refuse(sweep *w, const budget *b)
     }
     size_t ram = smallest(w, b, true), cost = smallest(w, b, false);
     if (o->instructions_per_pixel) snprintf(limit, sizeof limit, " and %d instructions per pixel", o->instructions_per_pixel);
-    snprintf(message, sizeof message, "no configuration fits into %d bytes%s", o->ram, limit);
+    snprintf(message, sizeof message, "no configuration fits into %d bytes%s at %dx%d", o->ram, limit, o->width, o->height);
     const struct {
         size_t row;
         const char *what;
-    } needs[] = {{ram, o->instructions_per_pixel ? "the least RAM within the instructions" : "the least RAM"},
-                 {cost, "the fewest instructions within the RAM"},
-                 {ram == SIZE_MAX && cost == SIZE_MAX ? least_load(w, b, &none) : SIZE_MAX, "the nearest"}};
+    } needs[] = {{ram, o->instructions_per_pixel ? "the least RAM found within the instructions" : "the least RAM found"},
+                 {cost, "the fewest instructions found within the RAM"},
+                 {ram == SIZE_MAX && cost == SIZE_MAX ? least_load(w, b) : SIZE_MAX, "the nearest"}};
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++) {
         size_t used = strlen(message);
         if (needs[i].row == SIZE_MAX) continue;
@@ -279,13 +289,13 @@ static int begin_target(sweep *w)
 int tool_advise(const tool_options *o)
 {
     sweep w;
-    const budget b = {o->ram, o->instructions_per_pixel ? o->instructions_per_pixel : DBL_MAX, o->quick ? 1 : SEEDS,
-                      o->quick ? 1 : ROUNDS};
+    const budget b = {o->ram, o->instructions_per_pixel ? o->instructions_per_pixel : DBL_MAX};
     if (sweep_begin(&w, o)) return TOOL_FAILED;
     int status = begin_target(&w) || search(&w, &b, o->quick) ? TOOL_FAILED : TOOL_OK;
     if (status == TOOL_OK) {
         size_t best = find_best(&w, &b);
-        if (best == SIZE_MAX) status = refuse(&w, &b);
+        if (best != SIZE_MAX && sweep_complete(&w, best)) status = TOOL_FAILED;
+        else if (best == SIZE_MAX) status = refuse(&w, &b);
         else if (o->json) print_json(&w, &w.rows[best]);
         else print_text(&w, &w.rows[best]);
     }

@@ -174,7 +174,7 @@ static int copy_tile(const job *j, engine_picture *out, size_t light, size_t idx
     return tile ? 0 : -1;
 }
 
-static int copy_atlas(const job *j, engine_picture *out)
+static int copy_atlas(const job *j, engine_picture *out, int what)
 {
     for (size_t l = 0; l < out->n_lights; l++) {
         uint32_t n_tiles = 0, texels = 0;
@@ -183,7 +183,7 @@ static int copy_atlas(const job *j, engine_picture *out)
         out->n_tiles[l] = (int)n_tiles;
         out->atlas_texels[l] = (int)texels;
         out->perspective[l] = j->scene->lights[l].kind != SCENE_LIGHT_DIRECTIONAL;
-        for (size_t i = 0; i < n_tiles; i++)
+        for (size_t i = 0; what == ENGINE_ALL && i < n_tiles; i++)
             if (copy_tile(j, out, l, i)) {
                 snprintf(j->error, j->error_bytes, "out of memory");
                 return -1;
@@ -261,7 +261,7 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
     out->counts = count_get();
     if (!failed) {
         out->stats = *gn_get_stats(renderer);
-        failed = copy_atlas(&j, out);
+        failed = copy_atlas(&j, out, what);
     }
     if (!failed) {
         engine_demand(renderer, &out->demand);

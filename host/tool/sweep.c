@@ -111,10 +111,11 @@ static sweep_config nothing_set(void)
 
 /* ---- Measuring -------------------------------------------------------------------------------------------------------------- */
 
-static void show_progress(const sweep *w)
+void sweep_show_progress(const sweep *w)
 {
     if (!isatty(STDERR_FILENO)) return;
-    if (w->n_done < w->n_planned) fprintf(stderr, "\r%zu of %zu configurations ", w->n_done, w->n_planned);
+    if (w->is_open) fprintf(stderr, "\r%zu configurations ", w->n_rows);
+    else if (w->n_done < w->n_planned) fprintf(stderr, "\r%zu of %zu configurations ", w->n_done, w->n_planned);
     else fprintf(stderr, "\r\033[K");
     fflush(stderr);
 }
@@ -188,10 +189,31 @@ static bool is_known(const sweep *w, const sweep_row *row)
     return false;
 }
 
+static void take_needs(const sweep *w, sweep_row *row, const scene *s, const settings *set, const engine_picture *fixed)
+{
+    settings least = *set; /* of features and capacities */
+    row->counts = fixed->counts;
+    row->instructions = cost_instructions(&row->counts) / ((double)w->options->width * w->options->height);
+    settings_trim(&least, s);
+    settings_fit(&least, &fixed->demand);
+    row->ram_bytes = settings_ram(&least).total;
+}
+
+/* What advice goes by: colours alone, against exact shadows alone. */
+static int measure_colours(const sweep *w, sweep_row *row, const scene *s, const settings *set, char *error, size_t bytes)
+{
+    engine_picture fixed;
+    const int width = w->options->width, height = w->options->height;
+    if (engine_fixed(&fixed, s, set, width, height, ENGINE_COLOUR_ONLY, error, bytes)) return -1;
+    row->truth.psnr_db = metrics_psnr_db(fixed.rgb8, w->common.rgb8, (size_t)width * (size_t)height);
+    take_needs(w, row, s, set, &fixed);
+    engine_free(&fixed);
+    return 0;
+}
+
 /* Draws the row by both engines and fills its numbers; -1 with one line in error. */
 static int measure(const sweep *w, sweep_row *row, const scene *s, const settings *set, char *error, size_t bytes)
 {
-    settings least = *set; /* of features and capacities */
     engine_picture fixed, reference;
     const int width = w->options->width, height = w->options->height;
     if (engine_fixed(&fixed, s, set, width, height, ENGINE_ALL, error, bytes)) return -1;
@@ -201,11 +223,7 @@ static int measure(const sweep *w, sweep_row *row, const scene *s, const setting
     }
     metrics_compute(&row->reference, &fixed, &reference);
     metrics_compute(&row->truth, &fixed, &w->common);
-    row->counts = fixed.counts;
-    row->instructions = cost_instructions(&row->counts) / ((double)width * height);
-    settings_trim(&least, s);
-    settings_fit(&least, &fixed.demand);
-    row->ram_bytes = settings_ram(&least).total;
+    take_needs(w, row, s, set, &fixed);
     engine_free(&fixed);
     engine_free(&reference);
     return 0;
@@ -247,6 +265,26 @@ static int play(const sweep *w, sweep_row *row, const settings *set, char *error
     return sweep_play(w, row, sets, n, set, error, bytes);
 }
 
+static bool was_tried(const sweep *w, const sweep_config *c)
+{
+    for (size_t i = 0; i < w->n_tried; i++)
+        if (memcmp(&w->tried[i], c, sizeof *c) == 0) return true;
+    return false;
+}
+
+static int keep_tried(sweep *w, const sweep_config *c)
+{
+    if (w->n_tried == w->tried_room) {
+        size_t room = w->tried_room ? 2 * w->tried_room : ROWS_FIRST;
+        sweep_config *grown = realloc(w->tried, room * sizeof *grown);
+        if (!grown) return -1;
+        w->tried = grown;
+        w->tried_room = room;
+    }
+    w->tried[w->n_tried++] = *c;
+    return 0;
+}
+
 /* Adds a row unless it is known, or cannot be drawn. Prints the error and returns -1 if memory runs out. */
 static int add(sweep *w, const sweep_config *c)
 {
@@ -255,6 +293,8 @@ static int add(sweep *w, const sweep_config *c)
     settings set;
     sweep_row *row = new_row(w);
     if (!row) return fail(w, error);
+    if (w->colours_only && was_tried(w, c)) return 0;
+    if (w->colours_only && keep_tried(w, c)) return fail(w, error);
     row->config = *c;
     if (load(w, c, &s, &set, error, sizeof error)) {
         refuse(w, error);
@@ -265,10 +305,28 @@ static int add(sweep *w, const sweep_config *c)
     row->static_layer = set.feature.static_layer;
     find_levels(row);
     if (!is_known(w, row)) {
-        if (measure(w, row, &s, &set, error, sizeof error) || play(w, row, &set, error, sizeof error)) refuse(w, error);
+        int failed = w->colours_only ? measure_colours(w, row, &s, &set, error, sizeof error) : measure(w, row, &s, &set, error, sizeof error);
+        if (failed || play(w, row, &set, error, sizeof error)) refuse(w, error);
         else w->n_rows++;
     }
     scene_free(&s);
+    return 0;
+}
+
+int sweep_complete(sweep *w, size_t i)
+{
+    char error[TOOL_ERROR_BYTES] = "out of memory";
+    scene s;
+    settings set;
+    sweep_row row = w->rows[i];
+    if (load(w, &row.config, &s, &set, error, sizeof error)) return fail(w, error);
+    w->colours_only = false;
+    int failed = measure(w, &row, &s, &set, error, sizeof error) || play(w, &row, &set, error, sizeof error);
+    w->colours_only = true;
+    scene_free(&s);
+    if (failed) return fail(w, error);
+    row.cost = w->rows[i].cost; /* counted, perhaps */
+    w->rows[i] = row;
     return 0;
 }
 
@@ -394,11 +452,11 @@ static int measure_all(sweep *w, const config_list *list)
     w->n_done = 0;
     w->n_planned = list->n;
     for (size_t i = 0; i < list->n; i++) {
-        show_progress(w);
+        sweep_show_progress(w);
         if (add(w, &list->all[i])) return -1;
         w->n_done++;
     }
-    show_progress(w);
+    sweep_show_progress(w);
     return 0;
 }
 
@@ -419,23 +477,35 @@ int sweep_run(sweep *w, bool quick)
     return w->n_rows ? 0 : fail(w, w->refusal);
 }
 
-int sweep_around(sweep *w, const size_t *rows, size_t n)
+int sweep_around(sweep *w, size_t i)
+{
+    static config_list list;
+    const sweep_row *row = &w->rows[i];
+    list.w = w;
+    list.n = 0;
+    for (int k = SWEEP_PRESET + 1; k < SWEEP_KNOBS; k++) {
+        int now = row->effective.level[k];
+        if (now < 0 || w->held[k] || !matters(w, (sweep_knob)k)) continue;
+        for (int to = now - 1; to <= now + 1; to += 2) {
+            if (to < 0 || to >= n_levels((sweep_knob)k)) continue;
+            sweep_config c = row->config;
+            c.level[k] = to;
+            plan(&list, c);
+        }
+    }
+    w->rows[i].is_explored = true;
+    return measure_all(w, &list);
+}
+
+int sweep_least(sweep *w)
 {
     static config_list list;
     list.w = w;
     list.n = 0;
-    for (size_t i = 0; i < n; i++) {
-        const sweep_row *row = &w->rows[rows[i]];
-        for (int k = SWEEP_PRESET + 1; k < SWEEP_KNOBS; k++) {
-            int now = row->effective.level[k];
-            if (now < 0 || w->held[k] || !matters(w, (sweep_knob)k)) continue;
-            for (int to = now - 1; to <= now + 1; to += 2) {
-                if (to < 0 || to >= n_levels((sweep_knob)k)) continue;
-                sweep_config c = row->config;
-                c.level[k] = to;
-                plan(&list, c);
-            }
-        }
+    for (int i = 0; i < n_levels(SWEEP_PRESET); i++) {
+        sweep_config c = with(nothing_set(), SWEEP_PRESET, knobs[SWEEP_PRESET].levels[i]);
+        for (int k = SWEEP_PRESET + 1; k < SWEEP_KNOBS; k++) c.level[k] = 0;
+        plan(&list, c);
     }
     return measure_all(w, &list);
 }
@@ -510,5 +580,6 @@ void sweep_end(sweep *w)
     engine_free(&w->common);
     sweep_play_end(w);
     free(w->rows);
+    free(w->tried);
     memset(w, 0, sizeof *w);
 }

@@ -62,7 +62,7 @@ typedef struct {
     int static_layer;
     bool is_counted, is_uncountable; /* on --target: it was; it failed */
     double target, target_later; /* instructions per pixel on --target: of the first frame, and the mean of the later ones */
-    bool on_front;
+    bool on_front, is_explored; /* explored: its neighbours were measured */
 } sweep_row;
 
 typedef struct {
@@ -81,6 +81,10 @@ typedef struct {
     size_t n_uncounted;
     char uncounted[TOOL_ERROR_BYTES]; /* why the first of them could not be counted */
     size_t n_done, n_planned;       /* for the display of progress */
+    bool colours_only;              /* of each row only what cost, db and RAM need: sweep_complete has the rest */
+    bool is_open;                   /* progress: how many rows there will be is not known */
+    sweep_config *tried;            /* with colours_only: what was added, rows or not */
+    size_t n_tried, tried_room;
 } sweep;
 
 /* Loads the scene and draws what everything is compared with. Prints the error and returns -1 if that fails. */
@@ -95,8 +99,17 @@ void sweep_play_end(sweep *w);
 /* Measures the documented set of configurations (docs/TRADE.md); quick: a few of them. Prints the error and returns -1. */
 int sweep_run(sweep *w, bool quick);
 
-/* Measures the neighbours of n rows: one knob, one level up or down. Prints the error and returns -1. */
-int sweep_around(sweep *w, const size_t *rows, size_t n);
+/* Measures the neighbours of a row: one knob, one level up or down. Prints the error and returns -1. */
+int sweep_around(sweep *w, size_t row);
+
+/* The configuration that is least in every knob, with each preset. */
+int sweep_least(sweep *w);
+
+/* On a terminal: how far it is; clears the line where it is through. */
+void sweep_show_progress(const sweep *w);
+
+/* With colours_only: measures the rest of a row. Prints the error and returns -1. */
+int sweep_complete(sweep *w, size_t row);
 
 /* Instructions on the board that --target names: sweep_target.c. Begin prints why nothing counts, if so; -1: the board is none that
  * ever could. Rows that cannot be counted are counted in n_uncounted. */

@@ -91,9 +91,10 @@ static int compare_frame(const play *p, size_t frame, const uint8_t *rgb8, char 
 {
     const tool_options *o = p->w->options;
     const size_t n_pixels = (size_t)o->width * (size_t)o->height, n = p->w->n_played;
+    add_error(&p->played->truth, metrics_psnr_db(rgb8, p->w->truth_rgb8[frame - 1], n_pixels), n);
+    if (p->w->colours_only) return 0;
     engine_picture reference;
     if (engine_reference(&reference, &p->frames[frame], p->set, o->width, o->height, error, bytes)) return -1;
-    add_error(&p->played->truth, metrics_psnr_db(rgb8, p->w->truth_rgb8[frame - 1], n_pixels), n);
     add_error(&p->played->reference, metrics_psnr_db(rgb8, reference.rgb8, n_pixels), n);
     engine_free(&reference);
     return 0;
@@ -116,15 +117,21 @@ double sweep_model_cost(const sweep *w, const sweep_row *row)
     return w->moves ? row->played.instructions : row->instructions;
 }
 
-int sweep_play(const sweep *w, sweep_row *row, const char *const *sets, int n_sets, const settings *set, char *error, size_t bytes)
+static int play_frames(const sweep *w, sweep_row *row, const char *const *sets, int n_sets, const settings *set, char *error, size_t bytes)
 {
     scene frames[SWEEP_PLAYED + 1];
-    const sweep_error_db none = {(double)INFINITY, (double)INFINITY};
-    row->played = (sweep_played){.truth = none, .reference = none};
-    if (load_frames(w, sets, n_sets, frames, error, bytes)) return -1;
     play p = {w, frames, set, &row->played};
+    if (load_frames(w, sets, n_sets, frames, error, bytes)) return -1;
     int failed = engine_play(frames, w->n_played + 1, set, w->options->width, w->options->height, take_frame, &p, error, bytes);
     free_frames(frames, w->n_played + 1);
+    return failed;
+}
+
+int sweep_play(const sweep *w, sweep_row *row, const char *const *sets, int n_sets, const settings *set, char *error, size_t bytes)
+{
+    const sweep_error_db none = {(double)INFINITY, (double)INFINITY};
+    row->played = (sweep_played){.truth = none, .reference = none};
+    int failed = w->moves || !w->colours_only ? play_frames(w, row, sets, n_sets, set, error, bytes) : 0;
     if (!w->moves) { /* the same pixels */
         row->played.truth = (sweep_error_db){row->truth.psnr_db, row->truth.psnr_db};
         row->played.reference = (sweep_error_db){row->reference.psnr_db, row->reference.psnr_db};
