@@ -110,7 +110,7 @@ static const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *l
     return out_q30;
 }
 #else
-#define lifted_normal(s, light, n_q30, out_q30) (n_q30)
+#define lifted_normal(s, light, n_q30, out_q30) ((void)(out_q30), (n_q30))
 #endif
 
 /* The surface's offset in a view, where it is not one for all views of the light: of smooth surfaces, of the disk, whose index and

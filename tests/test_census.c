@@ -434,6 +434,23 @@ static void print_curved(void)
             }
 }
 
+/* Faces that look at the light: on others lies the body's own shadow. */
+static void print_bodies(void)
+{
+    for (int body = 0; body < N_BODIES; body++)
+        for (int kind = 0; kind < 3; kind++)
+            for (int filter = SCENE_FILTER_2X2; filter <= SCENE_FILTER_5X5; filter += 2) {
+                printf("| smooth %s | %s | %s |", body_name[body], kind_name[kind], filter == SCENE_FILTER_2X2 ? "2×2" : "5×5");
+                for (int i = 0; i < N_BESIDE; i++) {
+                    const cell c = {(scene_light_kind)kind, (scene_filter)filter, 16, SETTINGS_BALANCED, 64};
+                    curved_points p = {0};
+                    for (int k = 0; k < 20; k++) count_body(&p, &c, &beside[i], body);
+                    printf(" %.2g %% |", 100 * (double)p.dark[0] / (double)p.lit[0]);
+                }
+                printf("\n");
+            }
+}
+
 static void print_acne(void)
 {
     printf("\n| light | planes | points | depth | normal |\n|---|---|---|---|---|\n");
@@ -593,6 +610,7 @@ int main(int argc, char **argv)
         print_acne();
         print_detachment();
         print_curved();
+        print_bodies();
         return 0;
     }
     if (argc > 2 && strcmp(argv[1], "--plots") == 0) return write_plots(argv[2]) ? 1 : 0;
