@@ -19,14 +19,19 @@ counted() {
 
 # ---- Accuracy: beside the host's own library, of which the engine shares no symbol ------------------------------------------------
 
-gcc -std=c11 -w -O2 $flags -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=2000 -DGN_MAX_OBJECTS=100 -DGN_MAX_HEIGHT=256 -Ilib -I. "-DLIBRARY=\"$tmp/lib.c\"" \
-    -c tests/compact_engine.c -o "$tmp/all.o" && objcopy --keep-global-symbol=compact_render "$tmp/all.o" "$tmp/engine.o" &&
-    gcc -std=c11 -D_POSIX_C_SOURCE=200809L $warn -O2 -Ilib $(variable HOST_KNOBS) -c tests/compact_compare.c -o "$tmp/compare.o" &&
-    gcc -o "$tmp/compare" "$tmp/compare.o" "$tmp/engine.o" $(variable HOST_OBJ) $(variable LIB_OBJ) -lm || fail "the comparison does not build"
+comparison() { # with the sRGB curve or without: $1
+    gcc -std=c11 -w -O2 $flags -UGN_SRGB -DGN_SRGB=$1 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=2000 -DGN_MAX_OBJECTS=100 -DGN_MAX_HEIGHT=256 -Ilib -I. "-DLIBRARY=\"$tmp/lib.c\"" \
+        -c tests/compact_engine.c -o "$tmp/all.o" && objcopy --keep-global-symbol=compact_render "$tmp/all.o" "$tmp/engine.o" &&
+        gcc -std=c11 -D_POSIX_C_SOURCE=200809L $warn -O2 "-DSRGB=\"srgb=$1\"" -Ilib $(variable HOST_KNOBS) -c tests/compact_compare.c -o "$tmp/compare.o" &&
+        gcc -o "$tmp/compare" "$tmp/compare.o" "$tmp/engine.o" $(variable HOST_OBJ) $(variable LIB_OBJ) -lm || fail "the comparison does not build"
+}
+comparison 0
 if [ "${1:-}" = --table ]; then
     "$tmp/compare" --table | grep '^|'
     exit
 fi
+counted "$tmp/compare"
+comparison 1
 counted "$tmp/compare"
 
 gcc -std=c11 -w -O2 -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_ATLAS_SIZE=128 -Ilib -I. -Itests "-DLIBRARY=\"$tmp/lib.c\"" \
