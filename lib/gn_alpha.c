@@ -24,12 +24,11 @@ void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, c
 
 #define GN_ALPHA_STEP_MAX 8 /* pixels: screen tiles begin at multiples of it */
 
-void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3],
-                    uint32_t focal2_px_q16, int32_t width, int32_t newton_steps)
+void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16, int32_t width, int32_t newton_steps)
 {
 #if GN_TEXTURES
-    gn_plane_setup(&cut->plane, v0, v1, v2);
-    gn_bary_setup(&cut->bary, &cut->plane, v0, v1, v2);
+    gn_plane_setup(&cut->plane, v[0], v[1], v[2]);
+    gn_bary_setup(&cut->bary, &cut->plane, v[0], v[1], v[2]);
     cut->focal2_px_q16 = focal2_px_q16;
     cut->width = width;
     cut->newton_steps = newton_steps;
@@ -39,21 +38,7 @@ void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, const int32_t v0[3
     (void)frame;
 #endif
 #else
-    (void)cut, (void)frame, (void)v0, (void)v1, (void)v2, (void)focal2_px_q16, (void)width, (void)newton_steps;
-#endif
-}
-
-void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py, int32_t x_begin, int32_t x_end)
-{
-    cut->y = y;
-    cut->py = py;
-#if GN_ALPHA_STEPS
-    cut->x_begin = x_begin;
-    cut->x_end = x_end;
-    cut->steps.end = x_begin; /* none yet */
-    cut->exact.x = x_end;     /* nor this: never the first of any */
-#else
-    (void)x_begin, (void)x_end;
+    (void)cut, (void)frame, (void)v, (void)focal2_px_q16, (void)width, (void)newton_steps;
 #endif
 }
 
@@ -131,11 +116,9 @@ static void find_steps(gn_alpha_cut *cut, int32_t x)
     }
     steps->hold = 1;
 }
-#endif
 
 void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2])
 {
-#if GN_ALPHA_STEPS
     if (cut->px_per_step > 1) {
         const gn_alpha_steps *steps = &cut->steps;
         if (x >= steps->end || x < steps->first) find_steps(cut, x);
@@ -146,10 +129,10 @@ void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2])
             return;
         }
     }
-#endif
     gn_ray_recip recip;
     exact_coords(cut, x, uv_q20, &recip);
 }
+#endif
 #endif
 
 int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x)
@@ -158,7 +141,12 @@ int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x)
 #if GN_TEXTURES
     if (cut->textured) {
         int32_t uv_q20[2];
+#if GN_ALPHA_STEPS
         gn_alpha_coords(cut, x, uv_q20);
+#else
+        gn_ray_recip recip;
+        exact_coords(cut, x, uv_q20, &recip);
+#endif
         alpha = gn_mul_uq16(alpha, gn_texture_channel(cut->object->texture, uv_q20[0], uv_q20[1], GN_CHANNEL_ALPHA));
     }
 #endif

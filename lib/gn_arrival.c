@@ -5,6 +5,7 @@
 #include "gn_bias.h"
 #include "gn_count.h"
 #include "gn_filter.h"
+#include "gn_hint.h"
 #include "gn_math.h"
 #include "gn_persp.h"
 #include "gn_punctual.h"
@@ -226,7 +227,7 @@ static int step_places(gn_arrival_steps *steps, const gn_arrival *a, const gn_ar
 }
 
 /* The same of places and shadow. */
-static int places_between(const gn_frame *frame, const gn_surface_light *light, gn_arrival_steps *steps, gn_arrival *a, const gn_arrival *m,
+static GN_NOINLINE int places_between(const gn_frame *frame, const gn_surface_light *light, gn_arrival_steps *steps, gn_arrival *a, const gn_arrival *m,
                           const gn_arrival *b, int32_t middle, int32_t n)
 {
 #if GN_RECEIVER_PLANE
@@ -243,7 +244,7 @@ static int places_between(const gn_frame *frame, const gn_surface_light *light, 
 
 /* Whether nothing arrives between two points that nothing arrives at. Range and cone are convex: from the middle of the way, which is no
  * farther than half of it from every other point of it, to the surface of one of them it must be farther than that. */
-static int stays_dark(const gn_surface *surface, const gn_light_state *light, const int32_t *a, const int32_t *b)
+static GN_NOINLINE int stays_dark(const gn_surface *surface, const gn_light_state *light, const int32_t *a, const int32_t *b)
 {
     const int32_t *a_q16 = a + GN_LIGHT_POINT_AT, *b_q16 = b + GN_LIGHT_POINT_AT;
     int32_t middle_q16[3];

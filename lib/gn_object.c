@@ -39,19 +39,19 @@ gn_status gn_object_boxes(gn_frame *frame)
         int32_t centre[3], half[3];
         gn_xform xform;
         if (!mesh_box(object->mesh, centre, half)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, i);
-        int far = 0;
+        uint64_t farthest = 0;
         gn_xform_compose(&xform, world, origin, object);
         for (int r = 0; r < 3; r++) {
             int64_t c = gn_shr64(gn_dot64(xform.m[r], centre), xform.shift) + xform.t_q16[r];
             uint64_t h = 0; /* three products of at most 2^60 */
             for (int k = 0; k < 3; k++) h += (uint64_t)gn_abs32(xform.m[r][k]) * (uint32_t)half[k];
             h = (h >> xform.shift) + 2; /* outwards */
-            far |= gn_abs64(c) + h > INT32_MAX;
+            farthest |= gn_abs64(c) + h;
             state->centre_q16[r] = (int32_t)c;
             state->half_q16[r] = (int32_t)h;
         }
         /* beyond 32 bits: all that a view can see, for what is out there may cast a shadow in here */
-        for (int r = 0; far && r < 3; r++) state->centre_q16[r] = 0, state->half_q16[r] = INT32_MAX;
+        for (int r = 0; farthest >> 31 && r < 3; r++) state->centre_q16[r] = 0, state->half_q16[r] = INT32_MAX;
     }
     return GN_OK;
 }

@@ -286,7 +286,7 @@ static void alpha_plane(const gn_frame *frame, const gn_light_view *view, gn_alp
         v[i][2] = (1 << 23) >> shift; /* shift <= 18 */
     }
     /* x / z = px / 2F: 2F = 256 half texels where z is 128 texels */
-    gn_alpha_plane(alpha, frame, v[0], v[1], v[2], 1U << 24, view->tile_texels, 2);
+    gn_alpha_plane(alpha, frame, v, 1U << 24, view->tile_texels, 2);
 }
 #endif
 

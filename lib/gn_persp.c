@@ -106,14 +106,13 @@ static int caster_begin(gn_caster *caster, gn_plane *plane, const gn_light_view 
     gn_plane_setup(plane, v[0], v[1], v[2]);
     /* u x v = w: a face that looks at the light has its normal against the view, and was turned by gn_plane_setup */
     if (plane->det == 0 || (!plane->back && !two_sided)) return 0;
-    gn_bfloat scale = gn_bf_mul(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16), fit->texel_per_z); /* n / (T / t), 2^17 of it */
+    gn_bfloat scale = gn_bf_mul(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16), fit->texel_per_z); /* n / (T / t): 2^17 of it, which is taken off below */
     scale = gn_bf_mul(scale, gn_bf_recip(gn_bf_from_u64((uint64_t)plane->det)));
-    scale.exp -= 17;
     int32_t px = 1 - view->tile_texels, z_min = v[0][2], z_max = v[0][2];
     const int64_t most = GN_CASTER_GRADIENT_MAX;
-    caster->dz_du = gn_clamp64(-gn_bf_apply(plane->n[0], scale, 49), -most, most);
-    caster->dz_dv = gn_clamp64(-gn_bf_apply(plane->n[1], scale, 49), -most, most);
-    int64_t inverse = gn_bf_apply(gn_plane_at(plane->n, px, px, fit->focal2_q16), scale, 32);
+    caster->dz_du = gn_clamp64(-gn_bf_apply(plane->n[0], scale, 32), -most, most);
+    caster->dz_dv = gn_clamp64(-gn_bf_apply(plane->n[1], scale, 32), -most, most);
+    int64_t inverse = gn_bf_apply(gn_plane_at(plane->n, px, px, fit->focal2_q16), scale, 15);
     caster->z_corner = ((int64_t)1 << 32) - gn_clamp64(inverse, -((int64_t)1 << 46), (int64_t)1 << 46);
     for (int i = 1; i < 3; i++) {
         z_min = gn_min32(z_min, v[i][2]);
@@ -160,7 +159,7 @@ int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
     gn_plane plane;
     if (all || !caster_begin(&caster, &plane, view, corner, casting->job.two_sided)) return -1;
 #if GN_CASTER_ALPHA
-    if (alpha && alpha->textured) gn_alpha_plane(alpha, frame, corner[0], corner[1], corner[2], fit->focal2_q16, view->tile_texels, 2);
+    if (alpha && alpha->textured) gn_alpha_plane(alpha, frame, corner, fit->focal2_q16, view->tile_texels, 2);
 #endif
     if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->near_q16, fit->guard_q16);
     int32_t *x = casting->with.clipping.x, *y = casting->with.clipping.y;

@@ -116,7 +116,7 @@ GN_INLINE int32_t place_step(const gn_pieces *p, const gn_slope *place, int32_t 
 }
 
 /* The first and the last of n > 1 receivers, and the step from each to the next. */
-static void receivers(const gn_pieces *p, int32_t x, int32_t y, int32_t n, gn_receiver_step *from, gn_receiver_step *to, gn_receiver_step *step)
+static GN_SHARED void receivers(const gn_pieces *p, int32_t x, int32_t y, int32_t n, gn_receiver_step *from, gn_receiver_step *to, gn_receiver_step *step)
 {
     int32_t right = x - p->x, down = y - p->y, both = 2 * right + n, t2_q30 = p->w_dx_q30 * both + p->w_dy_q30 * 2 * down;
     int32_t t_q30 = p->w_dx_q30 * right + p->w_dy_q30 * down;
@@ -136,8 +136,18 @@ static void receivers(const gn_pieces *p, int32_t x, int32_t y, int32_t n, gn_re
     to->depth_q31 *= 1 << p->depth_up;
 }
 
-/* n <= 17 pixels from x on, looked up one by one. */
-static void looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n)
+static GN_SHARED void partly_lit_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation)
+{
+    gn_ramp dark, lit;
+    colours_of(p, p->dark, x, y, n, &dark);
+    colours_of(p, p->lit, x, y, n, &lit);
+    gn_pixel_mix(p->frame, rows, x, y, n, &dark, &lit, attenuation);
+}
+
+enum { ROW_DRAWN, ROW_DARK, ROW_LIT };
+
+/* n <= 17 pixels from x on, looked up one by one; if all are alike, which most short rows are, they are left to be drawn so. */
+static GN_SHARED int looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n)
 {
     uint32_t attenuation[17];
     gn_receiver_step from, to, step;
@@ -145,20 +155,15 @@ static void looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t
     gn_filter_row(p->frame, p->view, &from, &to, &step, n, attenuation);
     int32_t alike = 1;
     while (alike < n && attenuation[alike] == attenuation[0]) alike++;
-    if (alike == n && attenuation[0] - 1 >= 65535) { /* all or nothing, as most short rows */
-        plain_row(p, rows, y, x, n, attenuation[0] != 0);
-        return;
-    }
+    if (alike == n && attenuation[0] - 1 >= 65535) return attenuation[0] ? ROW_LIT : ROW_DARK;
 #if GN_TURNING
     if (p->turns) {
         gn_turn_row(p, rows, y, x, n, attenuation, 0);
-        return;
+        return ROW_DRAWN;
     }
 #endif
-    gn_ramp dark, lit;
-    colours_of(p, p->dark, x, y, n, &dark);
-    colours_of(p, p->lit, x, y, n, &lit);
-    gn_pixel_mix(p->frame, rows, x, y, n, &dark, &lit, attenuation);
+    partly_lit_row(p, rows, y, x, n, attenuation);
+    return ROW_DRAWN;
 }
 
 enum { CELLS_ACROSS = GN_PIECE_WIDTH / GN_CELL };
@@ -211,7 +216,8 @@ static void shadowed_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int
         }
         for (int32_t n; x < end; x += n) {
             n = gn_min32(end - x, p->chunk_px);
-            looked_up_row(p, rows, y, x, n);
+            int alike = looked_up_row(p, rows, y, x, n);
+            if (alike != ROW_DRAWN) plain_row(p, rows, y, x, n, alike == ROW_LIT);
         }
     }
 }

@@ -148,7 +148,7 @@ static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *
     int32_t v[3][3];
     gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
     for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &to_view, object->mesh, tri->object_idx, idx[i]);
-    gn_alpha_plane(cut, frame, v[0], v[1], v[2], frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
+    gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
 }
 
 #endif

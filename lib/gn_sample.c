@@ -70,6 +70,7 @@ static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int3
 /* Whether a light has cascades, or shadows end at a distance from the camera. */
 static int asks_for_cascades(const gn_frame *frame)
 {
+    if (GN_SIZE_FIRST && !GN_PIECES) return 1; /* the same, for nothing depends on it */
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 

@@ -185,19 +185,23 @@ static GN_NOINLINE void link_runs(gn_shading *s, gn_run_taker *taker, uint32_t f
 static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *part)
 {
     const uint32_t *cells = GN_CELLS(s->scratch), stride = (uint32_t)GN_K(s->frame, tile_width), id = cells[first] & 0xFFFFU;
-    const gn_rect r = *part;
+#if GN_SIZE_FIRST
+    const gn_rect *const r = part;
+#else
+    const gn_rect copy = *part, *const r = &copy; /* in registers */
+#endif
     uint32_t i = first, next, row = first - first % stride;
     int32_t y = s->rect.y0 + (int32_t)(first / stride), left = s->rect.x0;
     for (;; i = next) {
         const uint32_t *cell = cells + i;
         for (; i - row >= stride; row += stride) y++;
-        if (y >= r.y1) return;
+        if (y >= r->y1) return;
         next = cell[0] >> 16;
         int32_t x = left + (int32_t)(i - row);
         int32_t x_end = x + (i + 1 < row + stride && (cell[1] & 0xFFFFU) == id ? (int32_t)(cell[1] >> 16) : 1);
-        x = gn_max32(x, r.x0);
-        x_end = gn_min32(x_end, r.x1);
-        if (x < x_end && y >= r.y0) {
+        x = gn_max32(x, r->x0);
+        x_end = gn_min32(x_end, r->x1);
+        if (x < x_end && y >= r->y0) {
             GN_COUNT(runs, 1);
             if (pieces) gn_pieces_row(pieces, &s->rows, y, x, x_end);
             else shade_run(s, y, x, x_end);

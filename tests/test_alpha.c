@@ -133,7 +133,7 @@ static void test_rows(int step)
         object.mesh = &mesh;
         memset(&cut, 0, sizeof cut);
         gn_alpha_begin(&cut, &object, GN_ALPHA_CLIP, idx);
-        gn_alpha_plane(&cut, &frame, t.v[0], t.v[1], t.v[2], (uint32_t)t.focal2 << 16, WIDTH, 2);
+        gn_alpha_plane(&cut, &frame, t.v, (uint32_t)t.focal2 << 16, WIDTH, 2);
         for (int row = 0; row < ROWS_MAX; row++) {
             int32_t y = (int32_t)rng_below(&random_state, HEIGHT), x0 = 0;
             int n = inside(&t, y, &x0);
@@ -161,7 +161,7 @@ static void test_tiles(void)
         object.mesh = &mesh;
         memset(&cut, 0, sizeof cut);
         gn_alpha_begin(&cut, &object, GN_ALPHA_CLIP, idx);
-        gn_alpha_plane(&cut, &frame, t.v[0], t.v[1], t.v[2], (uint32_t)t.focal2 << 16, WIDTH, 2);
+        gn_alpha_plane(&cut, &frame, t.v, (uint32_t)t.focal2 << 16, WIDTH, 2);
         int32_t y = (int32_t)rng_below(&random_state, HEIGHT), x0 = 0, whole[WIDTH][2];
         int n = inside(&t, y, &x0);
         if (!n) continue;
