@@ -162,7 +162,7 @@ done
 
 # more of either budget is never worse, and no row of the sweep that fits is better than the advice
 for name in fence avenue; do
-    case $name in fence) costs='1500 2000 3500' ;; *) costs='3200 4000 6000' ;; esac
+    case $name in fence) costs='2500 3200 5000' ;; *) costs='4600 5200 7000' ;; esac
     scene=host/scenes/$name.gltf csv=$tmp/$name.csv
     good sweep "$scene" --quick --size 32x24 --csv "$csv"
     : >"$tmp/answers"
