@@ -43,7 +43,8 @@ static void set_matrix(gn_affine *out, int64_t m[3][3], int32_t exp)
     int32_t shift = -exp; /* to exponent 0, then up as far as the largest entry needs */
     while (exp + shift < 14 && gn_abs64(gn_scale64((int64_t)any, shift)) > GN_ONE_Q30) shift++;
     for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++) out->m_q30[r][c] = (int32_t)gn_clamp64(gn_scale64(m[r][c], shift), -GN_ONE_Q30, GN_ONE_Q30);
+        for (int c = 0; c < 3; c++)
+            out->m_q30[r][c] = (int32_t)gn_clamp64(gn_scale64(m[r][c], shift), -GN_ONE_Q30, GN_ONE_Q30);
     out->exp = exp + shift;
 }
 

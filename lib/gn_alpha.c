@@ -24,7 +24,8 @@ void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, c
 
 #define GN_ALPHA_STEP_MAX 8 /* pixels: screen tiles begin at multiples of it */
 
-void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16, int32_t width, int32_t newton_steps)
+void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16, int32_t width,
+                    int32_t newton_steps)
 {
 #if GN_TEXTURES
     gn_plane_setup(&cut->plane, v[0], v[1], v[2]);
@@ -42,7 +43,7 @@ void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], u
 #endif
 }
 
-/* ---- Texture coordinates ------------------------------------------------------------------------------------------- */
+/* ---- Texture coordinates ----------------------------------------------------------------------------------------- */
 
 #if GN_TEXTURES
 
@@ -74,7 +75,8 @@ static void find_exact(const gn_alpha_cut *cut, gn_alpha_exact *at, int32_t x)
 static int32_t bend_between(const gn_alpha_exact *a, const gn_alpha_exact *b)
 {
     int32_t larger = a->clz - b->clz; /* w1, by so many bits */
-    uint32_t w0 = a->w_norm >> 1 >> gn_min32(gn_max32(larger, 0), 31), w1 = b->w_norm >> 1 >> gn_min32(gn_max32(-larger, 0), 31);
+    uint32_t w0 = a->w_norm >> 1 >> gn_min32(gn_max32(larger, 0), 31),
+             w1 = b->w_norm >> 1 >> gn_min32(gn_max32(-larger, 0), 31);
     int32_t bend_q30 = (int32_t)gn_quotient_q30(w0 < w1 ? w1 - w0 : w0 - w1, w0 + w1);
     return w0 < w1 ? -bend_q30 : bend_q30;
 }
@@ -84,14 +86,16 @@ static int step_coord(gn_alpha_steps *steps, int axis, int64_t d, int32_t n, int
 {
     uint32_t bend_q16 = (gn_abs32(bend_q30) >> 14) + 1; /* at most 2^13.6 */
     if (gn_abs64(d) >> 25) return 0;
-    if (gn_abs64(d) * (bend_q16 * bend_q16) > (uint64_t)1 << (34 + 20 - GN_ALPHA_TEXEL_LOG2 - size_log2)) return 0; /* a^2/4 */
+    if (gn_abs64(d) * (bend_q16 * bend_q16) > (uint64_t)1 << (34 + 20 - GN_ALPHA_TEXEL_LOG2 - size_log2))
+        return 0; /* a^2/4 */
     int32_t d_q24 = (int32_t)d * 16, per_px_q30 = 4 * bend_q30 / (n * n);
     steps->bend_q24[axis] = (int32_t)gn_shr64((int64_t)d_q24 * per_px_q30, 30);
     steps->step_q24[axis] = (d_q24 - steps->bend_q24[axis] * (n * (n - 1) / 2)) / n; /* 2^29 + 2^29 * 3/8 */
     return 1;
 }
 
-/* From one exact place to the next, around x: at multiples of the step in the picture, or where the triangle's row begins and ends. */
+/* From one exact place to the next, around x: at multiples of the step in the picture, or where the triangle's row
+ * begins and ends. */
 static void find_steps(gn_alpha_cut *cut, int32_t x)
 {
     const gn_texture *texture = cut->object->texture;
@@ -125,7 +129,8 @@ void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2])
         if (steps->hold) {
             int32_t k = x - steps->first, bends = k * (k - 1) / 2;
             for (int i = 0; i < 2; i++)
-                uv_q20[i] = (int32_t)((uint32_t)steps->from_q20[i] + (uint32_t)((k * steps->step_q24[i] + bends * steps->bend_q24[i] + 8) >> 4));
+                uv_q20[i] = (int32_t)((uint32_t)steps->from_q20[i] +
+                                      (uint32_t)((k * steps->step_q24[i] + bends * steps->bend_q24[i] + 8) >> 4));
             return;
         }
     }

@@ -1,4 +1,5 @@
-/* Triangles that alpha cuts: clip and dither (M1, M8, DESIGN 1.6, 1.8), as the camera or a light sees them, along the rows that are walked. */
+/* Triangles that alpha cuts: clip and dither (M1, M8, DESIGN 1.6, 1.8), as the camera or a light sees them, along the
+ * rows that are walked. */
 #ifndef GN_ALPHA_H
 #define GN_ALPHA_H
 
@@ -11,7 +12,8 @@
 void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, const uint16_t idx[3]);
 
 /* Its corners, as gn_plane_setup takes them, in a picture `width` pixels wide. */
-void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16, int32_t width, int32_t newton_steps);
+void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16, int32_t width,
+                    int32_t newton_steps);
 
 /* Row y, seen along the ray py, of which the triangle covers x_begin <= x < x_end, inside the screen tile or not. */
 static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py, int32_t x_begin, int32_t x_end)
@@ -32,7 +34,8 @@ static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py, int32_
 int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x);
 
 #if GN_ALPHA_STEPS
-/* Texture coordinates there. With persp_step > 1 they come from exact ones at most 8 pixels apart, within 2^-8 texel (NUMERICS 4.9). */
+/* Texture coordinates there. With persp_step > 1 they come from exact ones at most 8 pixels apart, within 2^-8 texel
+ * (NUMERICS 4.9). */
 void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2]);
 #endif
 

@@ -50,7 +50,7 @@ static int casts_here(const gn_frame *frame, const gn_light_view *view, uint32_t
     return !*culled;
 }
 
-/* ---- Drawing ------------------------------------------------------------------------------------------------------ */
+/* ---- Drawing ----------------------------------------------------------------------------------------------------- */
 
 #if GN_CASTER_BIAS
 /* World normals of a triangle's corners, or of its face. */
@@ -90,7 +90,8 @@ static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int
         if (job->view->perspective) {
             const gn_persp_fit *fit = &job->view->fit.persp;
             int64_t z = gn_clamp64(corner[i][2], fit->near_q16, INT32_MAX);
-            /* 2^19 * 2^31. A move by 2^32 leaves the range of perspective views whatever its direction: no need for more */
+            /* 2^19 * 2^31. A move by 2^32 leaves the range of perspective views whatever its direction: no need for
+             * more */
             by_q16 = gn_clamp64(gn_bf_apply(by_q16 * z, fit->texel_per_z, -16), 0, (int64_t)1 << 32);
         }
 #endif
@@ -103,7 +104,8 @@ static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int
 #endif
 
 #if GN_LARGE_CASTERS
-/* Corners as the view sees them: in texels for orthographic views, in world units from the light for perspective ones. */
+/* Corners as the view sees them: in texels for orthographic views, in world units from the light for perspective ones.
+ */
 static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
 {
     const gn_mesh *mesh = job->object->mesh;
@@ -244,7 +246,8 @@ static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
     else
 #endif
         status = draw_large(casting, idx, &n_texels);
-    if (!GN_CASTER_CLIPPING && n_texels == GN_ORTHO_TOO_FAR) return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
+    if (!GN_CASTER_CLIPPING && n_texels == GN_ORTHO_TOO_FAR)
+        return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
     if (n_texels < 0) return status;
     job->frame->stats.n_caster_triangles++;
     job->frame->stats.n_texels_drawn += (uint32_t)n_texels;
@@ -252,7 +255,8 @@ static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
 }
 
 /* Not inlined: gcc 12 at -Os takes the view's axes for a part of what it computes a pointer to, and warns of them. */
-static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, const gn_light_view *view, uint32_t object_idx)
+static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, const gn_light_view *view,
+                                         uint32_t object_idx)
 {
     caster_job *job = &casting->job;
     job->frame = frame;
@@ -270,7 +274,8 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
 #endif
 #if GN_CASTER_BIAS
     job->shrink_q16 = frame->scene->lights[view->light_idx].bias_caster_q16;
-    if (job->shrink_q16 && GN_VERTEX_NORMALS && job->object->mesh->nrm_q15) gn_xform_normal_matrix(job->normal_matrix, job->object);
+    if (job->shrink_q16 && GN_VERTEX_NORMALS && job->object->mesh->nrm_q15)
+        gn_xform_normal_matrix(job->normal_matrix, job->object);
 #endif
     const gn_mesh *mesh = job->object->mesh;
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {
@@ -298,10 +303,13 @@ static void clear(const gn_light_view *view)
 {
     int32_t bits = GN_VIEW_BITS(view);
     size_t n_bytes = (size_t)view->tile_texels * view->tile_texels * (size_t)(bits / 8);
-    memset(bits == 8 ? (void *)view->depth.d8 : bits == 16 ? (void *)view->depth.d16 : (void *)view->depth.d32, 255, n_bytes);
+    memset(bits == 8    ? (void *)view->depth.d8
+           : bits == 16 ? (void *)view->depth.d16
+                        : (void *)view->depth.d32,
+           255, n_bytes);
 }
 
-/* ---- What is kept (A5) -------------------------------------------------------------------------------------------- */
+/* ---- What is kept (A5) ------------------------------------------------------------------------------------------- */
 
 #if GN_INCREMENTAL
 static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
@@ -333,7 +341,8 @@ static uint64_t object_signature(uint64_t s, const gn_object *object)
                                 (uint64_t)mesh->pos_frac_bits << 8 | (uint64_t)object->caster_alpha << 4);
     s = gn_signature_words(s, &object->to_world.m_q30[0][0], 9);
     s = gn_signature_words(s, object->to_world.t_q16, 3);
-    s = gn_signature_add(s, (uint64_t)(uint32_t)object->to_world.exp << 32 | (object->flags & ~(uint32_t)GN_OBJECT_HIDDEN));
+    s = gn_signature_add(s, (uint64_t)(uint32_t)object->to_world.exp << 32 |
+                                (object->flags & ~(uint32_t)GN_OBJECT_HIDDEN));
 #if GN_CASTER_ALPHA
     if (object->caster_alpha == GN_ALPHA_OPAQUE) return s;
     s = gn_signature_add(s, (uint64_t)object->alpha_uq16 << 32 | object->alpha_cutoff_uq16);
@@ -382,7 +391,8 @@ static void copy_texels(const gn_light_view *to, gn_texels from)
 }
 
 /* Static casters into the static layer, unless it holds them already. */
-static gn_status static_layer(gn_frame *frame, gn_casting *casting, gn_light_view *view, gn_texels below, uint32_t view_idx)
+static gn_status static_layer(gn_frame *frame, gn_casting *casting, gn_light_view *view, gn_texels below,
+                              uint32_t view_idx)
 {
 #if GN_INCREMENTAL
     uint64_t signature = layer_signature(frame, view, LAYER_STATIC);
@@ -423,7 +433,8 @@ static gn_status draw_view(gn_frame *frame, gn_casting *casting, gn_light_view *
 #endif
 }
 
-gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory, uint32_t n_words)
+gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory,
+                               uint32_t n_words)
 {
 #if SMALL_CASTERS
     uint32_t n = 256;

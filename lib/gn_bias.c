@@ -20,7 +20,8 @@ static int32_t auto_delta_q16(const gn_frame *frame)
     return (1 << (15 - GN_K(frame, shadow_subpixel_bits))) + (1 << (15 - GN_K(frame, weight_bits))) + 2;
 }
 
-/* nu: sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits what steps of depth add along the normal. */
+/* nu: sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits what steps of depth add along the
+ * normal. */
 static int32_t auto_reach_q16(const gn_frame *frame, const gn_light_view *view)
 {
     return gn_mul_shr(65536 + auto_delta_q16(frame), GN_SQRT2_Q16, 16) +
@@ -60,8 +61,8 @@ static bias_terms bias_at(const gn_light_view *view, const gn_light *light, gn_a
     bias_terms bias = {view->offset_q16, 0};
 #if GN_AUTO_BIAS
     if (automatic) { /* curved */
-        bias.along_q16 =
-            view->perspective ? gn_mul_shr(view->offset_q16 + smooth_more_q16(view), GN_SQRT2_Q16, 16) : view->auto_place;
+        bias.along_q16 = view->perspective ? gn_mul_shr(view->offset_q16 + smooth_more_q16(view), GN_SQRT2_Q16, 16)
+                                           : view->auto_place;
         return bias;
     }
 #else
@@ -138,7 +139,7 @@ void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const 
 }
 #endif
 
-/* ---- Automatic bias (B6) ---------------------------------------------------------------------------------------------- */
+/* ---- Automatic bias (B6) ----------------------------------------------------------------------------------------- */
 
 #if GN_AUTO_BIAS
 /* How far the centre of a texel that the filter reads can be, along each axis; texels, Q16. */
@@ -149,8 +150,8 @@ static int32_t taps_q16(const gn_light_view *view)
     return (view->filter_idx + 1) << 16;
 }
 
-/* Stored depth, rounded to half a step after up to T rounded ones, and the receiver's, rounded to half of its own finer step, as a share of
- * the range: 2^-(bits + 1) + 2^-(bits + frac + 1) + (T + 2) 2^-32 + 2^-29, Q32 */
+/* Stored depth, rounded to half a step after up to T rounded ones, and the receiver's, rounded to half of its own finer
+ * step, as a share of the range: 2^-(bits + 1) + 2^-(bits + frac + 1) + (T + 2) 2^-32 + 2^-29, Q32 */
 static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view *view)
 {
     const int64_t half = (int64_t)1 << 31;
@@ -159,8 +160,8 @@ static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view *view)
     return (half >> bits) + (bits == 32 ? 0 : half >> (bits + GN_K(frame, shadow_depth_frac))) + view->tile_texels + 11;
 }
 
-/* sqrt(1 + k^2) times the relative error of view depths, and of a pixel's ray, whose three coefficients are rounded in each axis: 2^-28
- * of W + H. Q40: 2^7 * (2^-17 + 2^-16) at the most. */
+/* sqrt(1 + k^2) times the relative error of view depths, and of a pixel's ray, whose three coefficients are rounded in
+ * each axis: 2^-28 of W + H. Q40: 2^7 * (2^-17 + 2^-16) at the most. */
 static int32_t ray_error_q40(const gn_frame *frame)
 {
     uint64_t ray2_q48 = (((uint64_t)1 << 24) + (uint64_t)gn_cascade_tan2_q24(frame)) << 24; /* <= (2^24 + 2^38) 2^24 */
@@ -181,8 +182,10 @@ static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
         int64_t end_q16 = (int64_t)cascade->centre_q16 + (int64_t)gn_isqrt64(cascade->radius2_q32);
         farthest_q16 = end_q16 < farthest_q16 ? end_q16 : farthest_q16;
     }
-    int64_t error_q32 = gn_shr64(farthest_q16 * ray_error_q40(frame), 24) + ((int64_t)GN_AUTO_UNITS << 16); /* 2^30 * 2^31 */
-    int64_t texels_q16 = gn_bf_apply(error_q32, view->fit.ortho.inv_texel, -16) + 17; /* 2^-12: planes of large casters */
+    int64_t error_q32 =
+        gn_shr64(farthest_q16 * ray_error_q40(frame), 24) + ((int64_t)GN_AUTO_UNITS << 16); /* 2^30 * 2^31 */
+    int64_t texels_q16 =
+        gn_bf_apply(error_q32, view->fit.ortho.inv_texel, -16) + 17; /* 2^-12: planes of large casters */
     return (int32_t)gn_clamp64(texels_q16, 0, 8 << 16);
 }
 
@@ -193,18 +196,22 @@ void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
         /* coordinates are as wrong as the reciprocal: by 2^-17 of half a tile, or 2^-29; and so is n / z */
         int one_step = GN_K(frame, newton_steps) == 1;
         view->offset_q16 += one_step ? (view->tile_texels + 3) >> 2 : 1;
-        view->offset_q16 += (int32_t)(((view->fit.persp.focal2_q16 >> 29) + 1) >> 1); /* x / z is rounded to 2^-30 of T / t */
+        view->offset_q16 +=
+            (int32_t)(((view->fit.persp.focal2_q16 >> 29) + 1) >> 1); /* x / z is rounded to 2^-30 of T / t */
         /* its plane is rounded to 2^-27 and, in place, 2^-28 */
         view->auto_step = (int32_t)(depth_step_q32(frame, view) + (one_step ? 32768 : 8) + 64);
         view->auto_place = ray_error_q40(frame);
         return;
     }
     int32_t place_q16 = place_error_q16(frame, view);
-    int64_t step_q16 = gn_scale64(depth_step_q32(frame, view), 16 - view->tile_log2 - view->depth_log2) + 1; /* 2^25 * 2^4 */
+    int64_t step_q16 =
+        gn_scale64(depth_step_q32(frame, view), 16 - view->tile_log2 - view->depth_log2) + 1; /* 2^25 * 2^4 */
     view->offset_q16 += place_q16;
     view->auto_step = (int32_t)gn_clamp64(step_q16 + 3 + place_q16, 0, INT32_MAX);
-    /* curved: sqrt(2 r^2 + e^2) is what any plane through its normal needs; < 2^21, and steps of more are beyond any range */
-    int64_t r_q16 = view->offset_q16 + smooth_more_q16(view), step = view->auto_step < 1 << 28 ? view->auto_step : 1 << 28;
+    /* curved: sqrt(2 r^2 + e^2) is what any plane through its normal needs; < 2^21, and steps of more are beyond any
+     * range */
+    int64_t r_q16 = view->offset_q16 + smooth_more_q16(view),
+            step = view->auto_step < 1 << 28 ? view->auto_step : 1 << 28;
     view->auto_place = (int32_t)gn_isqrt64((uint64_t)(2 * r_q16 * r_q16 + step * step)) + 1;
 }
 
@@ -226,7 +233,8 @@ void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int3
     if (form == GN_AUTO_BIAS_NORMAL) {
         out_q16[2] = -INT32_MAX; /* too steep for the map */
         if ((u > v ? u : v) >> (range_log2 + 1) > (int64_t)gn_abs32(face[2])) return;
-        int64_t lift_q16 = ((reach_q16 * (u + v) + view->auto_step * (int64_t)gn_abs32(face[2])) >> 30) + 1; /* 2^53 + 2^61 */
+        int64_t lift_q16 =
+            ((reach_q16 * (u + v) + view->auto_step * (int64_t)gn_abs32(face[2])) >> 30) + 1; /* 2^53 + 2^61 */
         for (int i = 0; i < 3; i++) out_q16[i] = gn_sat32(gn_shr64(lift_q16 * face[i], 30));
         return;
     }
@@ -237,12 +245,14 @@ void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int3
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* Normal: the way off the plane that a tap's reach and the rounding of depths take, in units of the light-plane distance, Q30:
- * A / (1 - A max(0, m_w)), A = reach * tau * (|m_u| + |m_v|) + D_s h / n. Returns -1 where it would be above 2, or the divisor below 1/2. */
+/* Normal: the way off the plane that a tap's reach and the rounding of depths take, in units of the light-plane
+ * distance, Q30: A / (1 - A max(0, m_w)), A = reach * tau * (|m_u| + |m_v|) + D_s h / n. Returns -1 where it would be
+ * above 2, or the divisor below 1/2. */
 static int64_t lift_share_q30(const gn_light_view *view, int64_t across_q30, int64_t m_w_q30, int64_t h_q16)
 {
     const int64_t two = (int64_t)2 << 30;
-    int64_t share = gn_bf_apply(view->offset_q16 * across_q30 >> 16, view->fit.persp.texel_per_z, 0) + 2; /* 2^21 * 2^31 */
+    int64_t share =
+        gn_bf_apply(view->offset_q16 * across_q30 >> 16, view->fit.persp.texel_per_z, 0) + 2; /* 2^21 * 2^31 */
     share += gn_bf_apply((h_q16 + 2) * view->auto_step, view->fit.persp.per_near, -2); /* 2^32 * 2^24; h is rounded */
     if (share > two) return -1;
     if (m_w_q30 <= 0) return share;
@@ -263,7 +273,7 @@ static int64_t slope_share_q32(const gn_light_view *view, int64_t across_q30, in
 {
     const gn_persp_fit *fit = &view->fit.persp;
     gn_bfloat per_h = gn_bf_mul(gn_bf_recip(gn_bf_from_u64((uint64_t)h_q16 | 1U)), fit->texel_per_z);
-    int64_t reach_q26 = view->offset_q16 * across_q30 >> 20;                                      /* 2^21 * 2^31 * 2^-20 */
+    int64_t reach_q26 = view->offset_q16 * across_q30 >> 20; /* 2^21 * 2^31 * 2^-20 */
     return gn_clamp64(gn_bf_apply(reach_q26 * fit->near_q16, per_h, 6) + 1, 0, (int64_t)1 << 33); /* 2^32 * 2^29 */
 }
 

@@ -8,17 +8,17 @@
 
 #define GN_DISK_INDEX_MAX 8 /* largest filter index of the disk */
 
-/* nu of DESIGN 1.4: how far a light's receiver bias can move a point across the light's axis, in texels per (k + 1), Q16. Of the view
- * it takes the tile and the bits of its depths. */
+/* nu of DESIGN 1.4: how far a light's receiver bias can move a point across the light's axis, in texels per (k + 1),
+ * Q16. Of the view it takes the tile and the bits of its depths. */
 int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light);
 
-/* How far a light's receiver is moved, for the interpolated normal as it is: in texels along the view's axes, Q16; the same in every
- * cascade whose filter index is the same. */
+/* How far a light's receiver is moved, for the interpolated normal as it is: in texels along the view's axes, Q16; the
+ * same in every cascade whose filter index is the same. */
 void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3], int32_t out_q16[3]);
 
 #if GN_PUNCTUAL_LIGHTS
-/* For spot and point lights: along the world's axes in its units, Q16. `from_q16` is the surface point minus the light, seen at view
- * depth `depth_q16`. */
+/* For spot and point lights: along the world's axes in its units, Q16. `from_q16` is the surface point minus the light,
+ * seen at view depth `depth_q16`. */
 void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], int32_t depth_q16,
                       const int32_t from_q16[3], int32_t out_q16[3]);
 #endif
@@ -27,17 +27,17 @@ void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const 
 /* B6 (DESIGN 1.7), once per view, after its fit and filter. */
 void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view);
 
-/* Once per triangle and directional light: what gn_bias_auto_ortho takes. face_q30: the face's normal in the world, towards
- * the viewer. Normal: its parts along the light's axes, Q30; depth: |dD/dU|, |dD/dV|, Q10. */
+/* Once per triangle and directional light: what gn_bias_auto_ortho takes. face_q30: the face's normal in the world,
+ * towards the viewer. Normal: its parts along the light's axes, Q30; depth: |dD/dU|, |dD/dV|, Q10. */
 void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3]);
 
 /* How far the receiver is moved, in texels along the view's axes, Q16. */
 void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int32_t face[3], int32_t out_q16[3]);
 
 #if GN_PUNCTUAL_LIGHTS
-/* A point of a spot or point light's view, `from_q16` the light and seen at view depth `depth_q16`: moves it, and returns by how much
- * its depth in the map is less than that of the moved point, Q32. The normal form gives way to the depth form, in *form, where it would
- * move the point by more than twice its depth. */
+/* A point of a spot or point light's view, `from_q16` the light and seen at view depth `depth_q16`: moves it, and
+ * returns by how much its depth in the map is less than that of the moved point, Q32. The normal form gives way to the
+ * depth form, in *form, where it would move the point by more than twice its depth. */
 int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias *form, const int32_t face_q30[3], int32_t depth_q16,
                            const int32_t from_q16[3], int32_t moved_q16[3]);
 #endif

@@ -1,6 +1,5 @@
 /* Counting sort of triangles into screen tiles, in triangle order. */
 #include "gnomon.h"
-#if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_bin.h"
 #include "gn_count.h"
 #include "gn_q.h"
@@ -17,6 +16,7 @@ gn_rect gn_bin_tile_rect(const gn_frame *frame, uint32_t tile_idx)
     return r;
 }
 
+#if !GN_COMPACT /* its own: gn_compact_*.c */
 /* Puts a triangle into the bins of the screen tiles within its bounds. */
 static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)
 {

@@ -1,13 +1,14 @@
-/* Bounds of shadow depth over blocks of texels, so that most filter lookups are decided without a single compare of texels.
+/* Bounds of shadow depth over blocks of texels, so that most filter lookups are decided without a single compare of
+ * texels.
  *
- * For each block of 8x8 texels: the smallest and largest stored depth over that block and its neighbours to the right, below
- * and diagonally, i.e. over 16x16 texels. Whatever place in its block a texel has, that block's bounds hold for the 9x9 texels
- * from it on. A tent reads at most 8 per axis; larger footprints ask several blocks. If the receiver is in front of the
- * smallest, or behind the largest, the answer is exactly 1 or 0: the picture is the same with and without (a test compares).
- * 4 bytes per 64 texels.
+ * For each block of 8x8 texels: the smallest and largest stored depth over that block and its neighbours to the right,
+ * below and diagonally, i.e. over 16x16 texels. Whatever place in its block a texel has, that block's bounds hold for
+ * the 9x9 texels from it on. A tent reads at most 8 per axis; larger footprints ask several blocks. If the receiver is
+ * in front of the smallest, or behind the largest, the answer is exactly 1 or 0: the picture is the same with and
+ * without (a test compares). 4 bytes per 64 texels.
  *
- * Bounds are the upper 16 bits of a depth of 32: lo << 16 .. hi << 16 | 0xFFFF contain every texel of 32 bits, and those of 8 and
- * 16 bits lie in lo << 16 .. hi << 16, see gn_block_highest().
+ * Bounds are the upper 16 bits of a depth of 32: lo << 16 .. hi << 16 | 0xFFFF contain every texel of 32 bits, and
+ * those of 8 and 16 bits lie in lo << 16 .. hi << 16, see gn_block_highest().
  */
 #ifndef GN_BLOCKS_H
 #define GN_BLOCKS_H

@@ -20,7 +20,8 @@ int64_t gn_cascade_tan2_q24(const gn_frame *frame)
     return (int64_t)(k2 < limit ? k2 : limit);
 }
 
-void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t *centre_q24, int64_t *radius_q24)
+void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t *centre_q24,
+                       int64_t *radius_q24)
 {
     const int64_t one = (int64_t)1 << 24;
     int64_t k2 = gn_cascade_tan2_q24(frame);
@@ -49,7 +50,8 @@ void gn_cascade_slice(const gn_frame *frame, uint32_t i, int32_t *near_q16, int3
     const gn_shadow_settings *shadow = &frame->scene->shadow;
     int32_t m = shadow->max_distance_q16;
     *near_q16 = frame->scene->camera.near_q16;
-    if (i > 0) *near_q16 = gn_max32(*near_q16, (int32_t)(((int64_t)m * shadow->cascade_ratio_uq16[i - 1] + 0x8000) >> 16));
+    if (i > 0)
+        *near_q16 = gn_max32(*near_q16, (int32_t)(((int64_t)m * shadow->cascade_ratio_uq16[i - 1] + 0x8000) >> 16));
     *far_q16 = m;
     if (GN_MANY_CASCADES && i + 1 < GN_N_CASCADES(frame))
         *far_q16 = (int32_t)(((int64_t)m * shadow->cascade_ratio_uq16[i] + 0x8000) >> 16);
@@ -74,13 +76,15 @@ static void setup_spheres(gn_frame *frame)
         gn_cascade_sphere(frame, near_q16, far_q16, &centre_q24, &radius_q24);
         cascade->centre_q16 = (int32_t)gn_shr64(centre_q24 * far_q16, 24);
         /* radius < 2^30 in Q16: a sphere that wide holds all that view coordinates can reach */
-        uint64_t radius_q16 =
-            (uint64_t)gn_clamp64(gn_bf_apply(radius_q24, gn_bf_from_u64((uint64_t)(uint32_t)far_q16), -24), 1, (1 << 30) - 1);
+        uint64_t radius_q16 = (uint64_t)gn_clamp64(
+            gn_bf_apply(radius_q24, gn_bf_from_u64((uint64_t)(uint32_t)far_q16), -24), 1, (1 << 30) - 1);
         cascade->radius2_q32 = radius_q16 * radius_q16;
         /* r^2 (1 - (1 - fade)^2) */
-        gn_bfloat width = gn_bf_mul(gn_bf_from_u64(cascade->radius2_q32), gn_bf_from_u64(((uint64_t)1 << 32) - keep_q32));
+        gn_bfloat width =
+            gn_bf_mul(gn_bf_from_u64(cascade->radius2_q32), gn_bf_from_u64(((uint64_t)1 << 32) - keep_q32));
         cascade->fade_scale = gn_bf_recip(width);
-        cascade->inner2_q32 = (cascade->radius2_q32 >> 32) * keep_q32 + (((cascade->radius2_q32 & UINT32_MAX) * keep_q32) >> 32);
+        cascade->inner2_q32 =
+            (cascade->radius2_q32 >> 32) * keep_q32 + (((cascade->radius2_q32 & UINT32_MAX) * keep_q32) >> 32);
         frame->cascade[GN_LAST_CASCADE(frame)].next = (int32_t)i;
         frame->last_cascade = (uint8_t)i;
     }

@@ -7,8 +7,8 @@
 #if GN_SHADOWS
 
 /* Of a single cascade nothing is unused: builds with and without more than one agree. */
-#define GN_CASCADE_UNUSED(frame, i) \
-    (GN_MANY_CASCADES && (frame)->n_cascades > 1 && ((frame)->scene->shadow.cascades_unused >> (i) & 1U) != 0)
+#define GN_CASCADE_UNUSED(frame, i)                                                                                    \
+    (GN_MANY_CASCADES && (frame)->n_cascades > 1 && ((frame)->scene->shadow.cascades_unused >> (i)&1U) != 0)
 
 /* Fills frame->cascade and the distance fade. */
 void gn_cascade_setup(gn_frame *frame);
@@ -17,7 +17,8 @@ void gn_cascade_setup(gn_frame *frame);
 void gn_cascade_slice(const gn_frame *frame, uint32_t i, int32_t *near_q16, int32_t *far_q16);
 
 /* Bounding sphere of a slice of the frustum, as fractions of its far end: depth of the centre and radius, Q8.24. */
-void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t *centre_q24, int64_t *radius_q24);
+void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t *centre_q24,
+                       int64_t *radius_q24);
 
 /* The same in world units: returns the view depth of the centre, Q16. */
 int32_t gn_cascade_fit_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, gn_bfloat *radius);

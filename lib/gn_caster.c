@@ -28,8 +28,8 @@ static void store(gn_texels row, int32_t bits, int32_t u, int64_t z, gn_alpha_cu
 }
 
 #if !GN_SIZE_FIRST
-/* Depth of a caster in 16-bit texels, if it is nowhere cut off, nor so steep that it could leave its range by half of all depths: all of it
- * fits 32 bits then, and steps may be taken modulo 2^32. */
+/* Depth of a caster in 16-bit texels, if it is nowhere cut off, nor so steep that it could leave its range by half of
+ * all depths: all of it fits 32 bits then, and steps may be taken modulo 2^32. */
 typedef struct {
     uint32_t z_corner; /* in texel (0, 0), above the least */
     uint32_t dz_du, dz_dv;
@@ -38,15 +38,15 @@ typedef struct {
     int usable;
 } caster_depth16;
 
-#define GN_TEXEL_(i)                                                                                                               \
-    do {                                                                                                                           \
-        uint32_t depth = z >> 16;                                                                                                  \
-        if (depth < texel[i]) {                                                                                                    \
-            GN_KEEP(depth);                                                                                                        \
-            texel[i] = (uint16_t)depth;                                                                                            \
-        }                                                                                                                          \
-        z += dz;                                                                                                                   \
-        GN_KEEP(z);                                                                                                                \
+#define GN_TEXEL_(i)                                                                                                   \
+    do {                                                                                                               \
+        uint32_t depth = z >> 16;                                                                                      \
+        if (depth < texel[i]) {                                                                                        \
+            GN_KEEP(depth);                                                                                            \
+            texel[i] = (uint16_t)depth;                                                                                \
+        }                                                                                                              \
+        z += dz;                                                                                                       \
+        GN_KEEP(z);                                                                                                    \
     } while (0)
 
 static inline void span16(uint16_t *texel, int32_t n, uint32_t z, uint32_t dz)
@@ -67,8 +67,9 @@ static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *
 {
     const int64_t steep = 1 << 30;
     caster_depth16 d;
-    d.usable = GN_VIEW_BITS(view) == 16 && caster->lo > 0 && caster->hi + caster->bias + 0x8000 <= (int64_t)UINT32_MAX &&
-               caster->dz_du < steep && -caster->dz_du < steep && caster->dz_dv < steep && -caster->dz_dv < steep;
+    d.usable = GN_VIEW_BITS(view) == 16 && caster->lo > 0 &&
+               caster->hi + caster->bias + 0x8000 <= (int64_t)UINT32_MAX && caster->dz_du < steep &&
+               -caster->dz_du < steep && caster->dz_dv < steep && -caster->dz_dv < steep;
     d.dz_du = (uint32_t)caster->dz_du;
     d.dz_dv = (uint32_t)caster->dz_dv;
     d.z_corner = (uint32_t)caster->z_corner - (uint32_t)caster->lo;
@@ -79,8 +80,8 @@ static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *
 #endif
 
 /* Any row of texels, one at a time. */
-static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster, gn_alpha_cut *alpha, int32_t v, int32_t u,
-                             int32_t u_end)
+static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster, gn_alpha_cut *alpha, int32_t v,
+                             int32_t u, int32_t u_end)
 {
     int32_t bits = GN_VIEW_BITS(view);
     int64_t z = caster->z_corner + u * caster->dz_du + v * caster->dz_dv;
@@ -92,13 +93,13 @@ static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster,
     }
 }
 
-int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_walk *walk, const int32_t x[3], const int32_t y[3])
+int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_walk *walk, const int32_t x[3],
+                        const int32_t y[3])
 {
     int32_t bits = GN_K(frame, shadow_subpixel_bits), size = view->tile_texels;
     GN_COUNT(caster_walks, 1);
-    if (!GN_SIZE_FIRST &&
-        gn_first_px(gn_min32(x[0], gn_min32(x[1], x[2])), bits) >=
-            gn_min32(gn_first_px(gn_max32(x[0], gn_max32(x[1], x[2])), bits), size))
+    if (!GN_SIZE_FIRST && gn_first_px(gn_min32(x[0], gn_min32(x[1], x[2])), bits) >=
+                              gn_min32(gn_first_px(gn_max32(x[0], gn_max32(x[1], x[2])), bits), size))
         return 0;
     int32_t n_rows = gn_walk_begin(walk, x, y, bits, 0, size);
     if (GN_SIZE_FIRST || walk->row < walk->row_end[0]) return n_rows; /* more than one batch: something will be there */
@@ -140,8 +141,8 @@ int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_wa
     return n_texels;
 }
 
-int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, gn_walk *walk, const int32_t x[3],
-                       const int32_t y[3], gn_alpha_cut *alpha)
+int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, gn_walk *walk,
+                       const int32_t x[3], const int32_t y[3], gn_alpha_cut *alpha)
 {
     int32_t n_rows = gn_caster_begin(frame, view, walk, x, y);
     return n_rows ? gn_caster_rows(view, caster, walk, n_rows, alpha) : 0;

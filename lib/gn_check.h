@@ -7,7 +7,7 @@
 #define GN_STATIC_ASSERT(name, condition) typedef char gn_assert_##name[(condition) ? 1 : -1]
 #define GN_IS_POWER_OF_TWO(n)             (((n) & ((n)-1)) == 0)
 
-#define GN_CHECK_RANGE_(name, MACRO, lo, hi, meaning, cost)                                                                        \
+#define GN_CHECK_RANGE_(name, MACRO, lo, hi, meaning, cost)                                                            \
     GN_STATIC_ASSERT(name##_out_of_range, GN_##MACRO >= (lo) && GN_##MACRO <= (hi));
 GN_QUALITY_KNOBS(GN_CHECK_RANGE_)
 GN_CAPACITY_KNOBS(GN_CHECK_RANGE_)
@@ -15,7 +15,8 @@ GN_FEATURE_KNOBS(GN_CHECK_RANGE_)
 GN_ARITHMETIC_KNOBS(GN_CHECK_RANGE_)
 
 GN_STATIC_ASSERT(preset_unknown, GN_PRESET >= GN_PRESET_TINY && GN_PRESET <= GN_PRESET_ACCURATE);
-GN_STATIC_ASSERT(persp_step_not_1_4_8_16, GN_PERSP_STEP == 1 || GN_PERSP_STEP == 4 || GN_PERSP_STEP == 8 || GN_PERSP_STEP == 16);
+GN_STATIC_ASSERT(persp_step_not_1_4_8_16,
+                 GN_PERSP_STEP == 1 || GN_PERSP_STEP == 4 || GN_PERSP_STEP == 8 || GN_PERSP_STEP == 16);
 GN_STATIC_ASSERT(atten_bits_not_8_or_16, GN_ATTEN_BITS == 8 || GN_ATTEN_BITS == 16);
 GN_STATIC_ASSERT(atlas_size_not_power_of_two, GN_IS_POWER_OF_TWO(GN_ATLAS_SIZE));
 GN_STATIC_ASSERT(other_atlas_size_not_power_of_two, GN_IS_POWER_OF_TWO(GN_OTHER_ATLAS_SIZE));
@@ -27,17 +28,25 @@ GN_STATIC_ASSERT(position_bits_not_16_or_32, GN_POSITION_BITS == 16 || GN_POSITI
 GN_STATIC_ASSERT(normal_bits_not_8_or_16, GN_NORMAL_BITS == 8 || GN_NORMAL_BITS == 16);
 GN_STATIC_ASSERT(vertex_cache_not_power_of_two, GN_IS_POWER_OF_TWO(GN_VERTEX_CACHE));
 GN_STATIC_ASSERT(tile_width_not_multiple_of_8, GN_TILE_WIDTH % 8 == 0);
-GN_STATIC_ASSERT(tile_has_more_than_65536_pixels, GN_TILE_WIDTH * GN_TILE_HEIGHT <= 65536); /* gn_runs.h links cells by 16 bits */
+GN_STATIC_ASSERT(tile_has_more_than_65536_pixels,
+                 GN_TILE_WIDTH *GN_TILE_HEIGHT <= 65536); /* gn_runs.h links cells by 16 bits */
 
-/* Compact arithmetic: of features it has shadows, and may have automatic bias and validation. Clipping it always has. */
+/* Compact arithmetic: of features it has shadows, and may have automatic bias and validation. Clipping it always has.
+ */
 #define GN_COMPACT_IS_(condition) (!GN_COMPACT || (condition))
 GN_STATIC_ASSERT(compact_has_pictures_up_to_256, GN_COMPACT_IS_(GN_MAX_WIDTH <= 256 && GN_MAX_HEIGHT <= 256));
-GN_STATIC_ASSERT(compact_has_one_light_and_one_shadow_tile, GN_COMPACT_IS_(GN_SHADOWS && GN_MAX_LIGHTS == 1 && GN_MAX_SHADOW_TILES == 1));
+GN_STATIC_ASSERT(compact_has_one_light_and_one_shadow_tile,
+                 GN_COMPACT_IS_(GN_SHADOWS &&GN_MAX_LIGHTS == 1 && GN_MAX_SHADOW_TILES == 1));
 GN_STATIC_ASSERT(compact_has_an_atlas_up_to_256, GN_COMPACT_IS_(GN_ATLAS_SIZE <= 256 && GN_DEPTH_BITS == 16));
-GN_STATIC_ASSERT(compact_has_no_lights_but_directional_ones, GN_COMPACT_IS_(!GN_PUNCTUAL_LIGHTS && !GN_MAIN_LIGHT && !GN_TILE_LIGHTS && !GN_MASKS && !GN_BAKED_LIGHT));
-GN_STATIC_ASSERT(compact_has_the_hard_filter, GN_COMPACT_IS_(!GN_FILTER_MAX && !GN_DISK_FILTER && !GN_LINEAR_KERNELS && !GN_DEPTH_BLOCKS));
-GN_STATIC_ASSERT(compact_has_one_cascade, GN_COMPACT_IS_(!GN_MANY_CASCADES && !GN_BLENDED_CASCADES && !GN_CASTER_CULLING && !GN_TILE_IMPORTANCE));
-GN_STATIC_ASSERT(compact_has_flat_colours, GN_COMPACT_IS_(!GN_TEXTURES && !GN_SPECULAR && !GN_VERTEX_NORMALS && !GN_VERTEX_COLOURS && !GN_VISIBLE_ALPHA && !GN_CASTER_ALPHA));
+GN_STATIC_ASSERT(compact_has_no_lights_but_directional_ones,
+                 GN_COMPACT_IS_(!GN_PUNCTUAL_LIGHTS && !GN_MAIN_LIGHT && !GN_TILE_LIGHTS && !GN_MASKS &&
+                                !GN_BAKED_LIGHT));
+GN_STATIC_ASSERT(compact_has_the_hard_filter,
+                 GN_COMPACT_IS_(!GN_FILTER_MAX && !GN_DISK_FILTER && !GN_LINEAR_KERNELS && !GN_DEPTH_BLOCKS));
+GN_STATIC_ASSERT(compact_has_one_cascade, GN_COMPACT_IS_(!GN_MANY_CASCADES && !GN_BLENDED_CASCADES &&
+                                                         !GN_CASTER_CULLING && !GN_TILE_IMPORTANCE));
+GN_STATIC_ASSERT(compact_has_flat_colours, GN_COMPACT_IS_(!GN_TEXTURES && !GN_SPECULAR && !GN_VERTEX_NORMALS &&
+                                                          !GN_VERTEX_COLOURS && !GN_VISIBLE_ALPHA && !GN_CASTER_ALPHA));
 GN_STATIC_ASSERT(compact_has_no_such_bias, GN_COMPACT_IS_(!GN_RECEIVER_BIAS && !GN_CASTER_BIAS && !GN_RECEIVER_PLANE));
 GN_STATIC_ASSERT(compact_keeps_nothing, GN_COMPACT_IS_(!GN_INCREMENTAL && !GN_STATIC_LAYER && !GN_OBJECT_BOXES));
 GN_STATIC_ASSERT(compact_has_rgb565, GN_COMPACT_IS_(!GN_OTHER_FORMATS && !GN_RAW_VIEWS && !GN_RUNTIME_KNOBS));

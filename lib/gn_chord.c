@@ -1,25 +1,27 @@
 /* Values between two exact samples of a run.
  *
- * A value that is linear on the surface goes from v0 to v1, where depth goes from z0 to z1, as v0 + (v1 - v0)(1 + s)/2 with
- * s = (u + a)/(1 + a u), u = -1..1 along the pixels, a = (z1 - z0)/(z1 + z0). The parabola s = u + a (1 - u^2) meets both ends and the
- * middle; it errs by a^2 u (1 - u^2)/(1 + a u), which is at most 0.385 a^2/(1 - |a|): of v1 - v0, a^2/4 up to |a| = 3/16. The line s = u
- * errs by a/2 of v1 - v0: where that will do, nothing is added to the steps. */
+ * A value that is linear on the surface goes from v0 to v1, where depth goes from z0 to z1, as v0 + (v1 - v0)(1 + s)/2
+ * with s = (u + a)/(1 + a u), u = -1..1 along the pixels, a = (z1 - z0)/(z1 + z0). The parabola s = u + a (1 - u^2)
+ * meets both ends and the middle; it errs by a^2 u (1 - u^2)/(1 + a u), which is at most 0.385 a^2/(1 - |a|): of v1 -
+ * v0, a^2/4 up to |a| = 3/16. The line s = u errs by a/2 of v1 - v0: where that will do, nothing is added to the steps.
+ */
 #include "gnomon.h"
 #if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_chord.h"
 #include "gn_math.h"
 #include "gn_q.h"
 
-#define GN_BEND_MAX_Q16    12288 /* 3/16 */
-#define GN_SHARE_LOG2      10    /* values of range 1, colours and normals, may be off by 2^-10 */
-#define GN_SHADOW_LOG2     8     /* tile coordinates of a directional light: 2^-8 texel */
-#define GN_PERSP_LOG2      7     /* of spot and point lights: 2^-7 texel */
-#define GN_TEXTURE_LOG2    7     /* texture coordinates: 2^-7 texel */
-#define GN_IRRADIANCE_LOG2 11    /* a point as seen from a spot or point light: 2^-11 of its distance, 0.15 % of what arrives */
-#define GN_TURN_MAX_LOG2   4     /* normals: angle^2 up to 1/16 */
-#define GN_TURN_LEAST_LOG2 11    /* below, cosines leave a line by 2^-14 */
+#define GN_BEND_MAX_Q16 12288 /* 3/16 */
+#define GN_SHARE_LOG2   10    /* values of range 1, colours and normals, may be off by 2^-10 */
+#define GN_SHADOW_LOG2  8     /* tile coordinates of a directional light: 2^-8 texel */
+#define GN_PERSP_LOG2   7     /* of spot and point lights: 2^-7 texel */
+#define GN_TEXTURE_LOG2 7     /* texture coordinates: 2^-7 texel */
+#define GN_IRRADIANCE_LOG2                                                                                             \
+    11 /* a point as seen from a spot or point light: 2^-11 of its distance, 0.15 % of what arrives */
+#define GN_TURN_MAX_LOG2   4  /* normals: angle^2 up to 1/16 */
+#define GN_TURN_LEAST_LOG2 11 /* below, cosines leave a line by 2^-14 */
 
-/* ---- Normals ------------------------------------------------------------------------------------------------------------ */
+/* ---- Normals ----------------------------------------------------------------------------------------------------- */
 
 /* From normal n0 to n1: |n1|^2 / |n0|^2 - 1, and the square of the angle; Q16. */
 typedef struct {
@@ -51,7 +53,7 @@ static int turn_between(turning *out, const int32_t a_q15[3], const int32_t b_q1
     return 1;
 }
 
-/* ---- Whether parabolas hold --------------------------------------------------------------------------------------------- */
+/* ---- Whether parabolas hold -------------------------------------------------------------------------------------- */
 
 /* The share of its change by which a value leaves its line or parabola: num / den, num < 2^31, den < 2^35. */
 typedef struct {
@@ -67,8 +69,8 @@ static int holds(int64_t d, share error, uint64_t most)
 
 #if GN_PUNCTUAL_LIGHTS
 /* The distance, here in the largest component, is at least z / sqrt(3). */
-static int punctual_holds(const gn_frame *frame, const gn_light_state *light, int shadowed, const int32_t *a, const int32_t *b,
-                          share error)
+static int punctual_holds(const gn_frame *frame, const gn_light_state *light, int shadowed, const int32_t *a,
+                          const int32_t *b, share error)
 {
     uint64_t distance = 0, moved = 0; /* in the largest component */
     for (int i = GN_LIGHT_POINT_AT; i < GN_LIGHT_POINT_AT + 3; i++) {
@@ -97,10 +99,10 @@ static int directional_holds(const int32_t *a, const int32_t *b, share error)
 }
 
 #if GN_SHADOWS && GN_RECEIVER_BIAS
-/* B3's terms along the light, its tangent and sine are no lines: of 1/8 in the normal, of 1/32 in the light's direction they bend by
- * 2^-6 of themselves up to 80 degrees. */
-static int terms_hold(const gn_frame *frame, const gn_surface *surface, uint32_t slot, const int32_t *a, const int32_t *b,
-                      const turning *turned)
+/* B3's terms along the light, its tangent and sine are no lines: of 1/8 in the normal, of 1/32 in the light's direction
+ * they bend by 2^-6 of themselves up to 80 degrees. */
+static int terms_hold(const gn_frame *frame, const gn_surface *surface, uint32_t slot, const int32_t *a,
+                      const int32_t *b, const turning *turned)
 {
     const int32_t *terms = frame->scene->lights[surface->light[slot].idx].bias_receiver_q16;
     if (!surface->shadowed || !(terms[0] | terms[1] | terms[3])) return 1;
@@ -115,8 +117,8 @@ static int terms_hold(const gn_frame *frame, const gn_surface *surface, uint32_t
 }
 #endif
 
-static int lights_hold(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b, share error,
-                       const turning *turned)
+static int lights_hold(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b,
+                       share error, const turning *turned)
 {
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i;
@@ -149,8 +151,8 @@ static int texture_holds(const gn_surface *surface, const gn_sample *a, const gn
 }
 #endif
 
-static int all_hold(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b, share error,
-                    const turning *turned)
+static int all_hold(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b,
+                    share error, const turning *turned)
 {
     int ranged = GN_SMOOTH(surface) | GN_COLOURED(surface) | surface->masked | surface->baked;
     if (ranged && error.num > error.den >> GN_SHARE_LOG2) return 0;
@@ -160,7 +162,7 @@ static int all_hold(const gn_frame *frame, const gn_surface *surface, const gn_s
     return lights_hold(frame, surface, a, b, error, turned);
 }
 
-/* ---- Steps -------------------------------------------------------------------------------------------------------------- */
+/* ---- Steps ------------------------------------------------------------------------------------------------------- */
 
 /* d / n rounded towards zero, n = 2^log2 unless log2 is negative; |d / n| < 2^31 */
 static int32_t share_of(int64_t d, int32_t n, int32_t log2)
@@ -180,7 +182,8 @@ static int32_t first_step(int64_t d, int32_t bend, int32_t n, int32_t log2)
 }
 
 /* With t = k/n along the pixels, v0 + (v1 - v0)(t - 2a t (1 - t)). */
-static void set_steps(gn_chord *chord, const gn_surface *surface, const gn_sample *a, const gn_sample *b, int32_t n, int32_t bend)
+static void set_steps(gn_chord *chord, const gn_surface *surface, const gn_sample *a, const gn_sample *b, int32_t n,
+                      int32_t bend)
 {
     int32_t log2 = log2_of(n), per_px_q30 = 4 * bend / (n * n);
     chord->end = surface->n_values;
@@ -188,7 +191,8 @@ static void set_steps(gn_chord *chord, const gn_surface *surface, const gn_sampl
     chord->bend_end = per_px_q30 ? surface->n_values : chord->bend_first;
     for (int32_t i = surface->first_value; i < (int32_t)surface->n_values; i++) {
         int64_t d = gn_sat32((int64_t)b->value[i] - a->value[i]);
-        if (per_px_q30) chord->bend[i] = (int32_t)gn_shr64(d * per_px_q30, 30); /* at most 3/4 d / n^2: no value passes v1 */
+        if (per_px_q30)
+            chord->bend[i] = (int32_t)gn_shr64(d * per_px_q30, 30); /* at most 3/4 d / n^2: no value passes v1 */
         chord->step[i] = per_px_q30 ? first_step(d, chord->bend[i], n, log2) : share_of(d, n, log2);
     }
 }
@@ -197,9 +201,10 @@ static void set_steps(gn_chord *chord, const gn_surface *surface, const gn_sampl
  *
  *     (longer/2 (v1 - v0) + angle^2/2 v - (n1 - n0) . (p1 - p0)) t (1 - t)
  *
- * for n = n0 + t (n1 - n0) is shorter by angle^2/2 t (1 - t) than between its ends, and not as long at one as at the other. */
-static void turn_cosines(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b, int32_t n,
-                         const turning *t)
+ * for n = n0 + t (n1 - n0) is shorter by angle^2/2 t (1 - t) than between its ends, and not as long at one as at the
+ * other. */
+static void turn_cosines(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a,
+                         const gn_sample *b, int32_t n, const turning *t)
 {
     int32_t log2 = log2_of(n);
     if (chord->bend_end == chord->bend_first) { /* the cosines alone bend */
@@ -210,21 +215,23 @@ static void turn_cosines(gn_chord *chord, const gn_frame *frame, const gn_surfac
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i;
         int64_t v0 = a->value[at], v1 = b->value[at], d = v1 - v0;
-        if (GN_K(frame, vertex_light) && surface->light[i].state->kind == GN_LIGHT_DIRECTIONAL) continue; /* no cosine of this normal */
+        if (GN_K(frame, vertex_light) && surface->light[i].state->kind == GN_LIGHT_DIRECTIONAL)
+            continue;                                      /* no cosine of this normal */
         if ((gn_abs64(v0) | gn_abs64(v1)) >> 30) continue; /* lights so far away are dark, and this must not overflow */
         int64_t more = gn_shr64(t->longer_q16 * d + t->angle2_q16 * ((v0 + v1) >> 1), 16);
 #if GN_PUNCTUAL_LIGHTS
         const int32_t *p0 = a->value + at + GN_LIGHT_POINT_AT, *p1 = b->value + at + GN_LIGHT_POINT_AT;
         if (surface->light[i].state->kind != GN_LIGHT_DIRECTIONAL)
-            for (int k = 0; k < 3; k++) more += gn_shr64((b->normal_q15[k] - a->normal_q15[k]) * ((int64_t)p1[k] - p0[k]), 14);
+            for (int k = 0; k < 3; k++)
+                more += gn_shr64((b->normal_q15[k] - a->normal_q15[k]) * ((int64_t)p1[k] - p0[k]), 14);
 #endif
         chord->bend[at] -= share_of(more, n * n, log2 < 0 ? log2 : 2 * log2);
         chord->step[at] = first_step(d, chord->bend[at], n, log2);
     }
 }
 
-int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b,
-                     int32_t n)
+int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a,
+                     const gn_sample *b, int32_t n)
 {
     uint32_t za = (uint32_t)a->value[GN_VALUE_Z], zb = (uint32_t)b->value[GN_VALUE_Z], dz = za < zb ? zb - za : za - zb;
     int32_t bend_q30 = 0;

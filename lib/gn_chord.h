@@ -4,9 +4,10 @@
 
 #include "gn_sample.h"
 
-/* From sample a to sample b, n > 1 pixels further on in the row. 0: what lies between strays from any parabola (NUMERICS 4.4). */
-int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b,
-                     int32_t n);
+/* From sample a to sample b, n > 1 pixels further on in the row. 0: what lies between strays from any parabola
+ * (NUMERICS 4.4). */
+int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a,
+                     const gn_sample *b, int32_t n);
 
 /* One pixel further on. */
 static inline void gn_chord_next(gn_chord *chord, int32_t *value, int32_t first)

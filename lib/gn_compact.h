@@ -1,8 +1,10 @@
-/* Compact arithmetic (GN_COMPACT): one directional light with one shadow tile, the hard filter and flat colours, in few bytes of flash.
+/* Compact arithmetic (GN_COMPACT): one directional light with one shadow tile, the hard filter and flat colours, in few
+ * bytes of flash.
  *
- * Camera and light are projectors of one kind (gn_compact_view): the same code transforms, projects, sets up and draws triangles into a
- * screen tile and into the shadow tile. Lengths are 32 bits, products 64, and what is divided by is normalised first. Ranges, and the errors that
- * follow, are in docs/NUMERICS.md 4.15; whatever lies outside is refused, whether or not validation is built.
+ * Camera and light are projectors of one kind (gn_compact_view): the same code transforms, projects, sets up and draws
+ * triangles into a screen tile and into the shadow tile. Lengths are 32 bits, products 64, and what is divided by is
+ * normalised first. Ranges, and the errors that follow, are in docs/NUMERICS.md 4.15; whatever lies outside is refused,
+ * whether or not validation is built.
  */
 #ifndef GN_COMPACT_H
 #define GN_COMPACT_H
@@ -11,9 +13,10 @@
 
 #if GN_COMPACT
 
-#define GN_COMPACT_LENGTH_Q16 (1 << 29)    /* view coordinates and view depths are below: 8192 units; places in the world below half of it */
-#define GN_COMPACT_BITS       8            /* subpixel bits */
-#define GN_COMPACT_REACH_Q16  (1440 << 16) /* pixels or texels from the raster's middle: (2 * 1440 * 2^8)^2 < 2^39 */
+#define GN_COMPACT_LENGTH_Q16                                                                                          \
+    (1 << 29) /* view coordinates and view depths are below: 8192 units; places in the world below half of it */
+#define GN_COMPACT_BITS      8            /* subpixel bits */
+#define GN_COMPACT_REACH_Q16 (1440 << 16) /* pixels or texels from the raster's middle: (2 * 1440 * 2^8)^2 < 2^39 */
 
 /* ---- gn_compact_point.c ---- */
 
@@ -26,7 +29,8 @@ uint32_t gn_compact_mul(uint32_t a, uint32_t b, int32_t shift);
 /* Rotation, place and scale of an affine transform: whether they are in range. */
 int gn_compact_affine_ok(const gn_affine *a);
 
-/* From what `affine` transforms to the projector's axes; both are gn_compact_affine_ok. Returns 0 if a place is out of range. */
+/* From what `affine` transforms to the projector's axes; both are gn_compact_affine_ok. Returns 0 if a place is out of
+ * range. */
 int gn_compact_compose(gn_compact_xform *out, const gn_compact_view *view, const gn_affine *affine, int32_t frac_bits);
 
 /* Returns 0 if the result is out of range. */
@@ -37,11 +41,12 @@ int gn_compact_project(gn_compact_corner *corner, const gn_compact_view *view, c
 
 /* ---- gn_compact_clip.c ---- */
 
-/* Cuts the polygon of n points to the guard band, and of the camera to the near plane. Returns how many points are left, 0 or 3 to 8. */
+/* Cuts the polygon of n points to the guard band, and of the camera to the near plane. Returns how many points are
+ * left, 0 or 3 to 8. */
 int gn_compact_clip(gn_compact_polygon *polygon, gn_compact_polygon *spare, int n, const gn_compact_view *view);
 
 /* From keys of the light, Q18 texels, to steps of depth: a tile's width is 2^16 of them. */
-#define GN_COMPACT_TILE_LOG2                                                                                                       \
+#define GN_COMPACT_TILE_LOG2                                                                                           \
     (GN_ATLAS_SIZE == 16 ? 4 : GN_ATLAS_SIZE == 32 ? 5 : GN_ATLAS_SIZE == 64 ? 6 : GN_ATLAS_SIZE == 128 ? 7 : 8)
 #define GN_COMPACT_STEP_SHIFT (GN_COMPACT_TILE_LOG2 + 2)
 

@@ -18,7 +18,8 @@ static void cut(int32_t out[3], const int32_t from[3], const int32_t to[3], int6
 {
     uint64_t whole = (uint64_t)(a - b);
     int32_t clz = gn_clz64(whole);
-    int64_t t = gn_compact_mul((uint32_t)((uint64_t)a << clz >> 32), gn_recip_norm((uint32_t)(whole << clz >> 32), 2), 0);
+    int64_t t =
+        gn_compact_mul((uint32_t)((uint64_t)a << clz >> 32), gn_recip_norm((uint32_t)(whole << clz >> 32), 2), 0);
     for (int i = 0; i < 3; i++) out[i] = from[i] + (int32_t)(((to[i] - from[i]) * t) >> 31); /* 2^30 * 2^31 */
 }
 

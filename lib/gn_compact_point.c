@@ -67,7 +67,8 @@ int gn_compact_transform(int32_t out_q16[3], const gn_compact_xform *xform, cons
     for (int r = 0; r < 3; r++) {
         const int32_t *m = xform->m_q28[r];
         /* three times 2^31 * 3 * 2^28: below 2^63 */
-        int64_t v = (((int64_t)m[0] * p[0] + (int64_t)m[1] * p[1] + (int64_t)m[2] * p[2]) >> xform->shift) + xform->t_q16[r];
+        int64_t v =
+            (((int64_t)m[0] * p[0] + (int64_t)m[1] * p[1] + (int64_t)m[2] * p[2]) >> xform->shift) + xform->t_q16[r];
         beyond |= (uint32_t)((uint64_t)(v + GN_COMPACT_LENGTH_Q16) >> 30);
         beyond |= (uint32_t)((uint64_t)v >> 32) ^ (uint32_t)((int32_t)v >> 31);
         out_q16[r] = (int32_t)v;
@@ -79,7 +80,9 @@ int gn_compact_transform(int32_t out_q16[3], const gn_compact_xform *xform, cons
 static int32_t scaled(int32_t v, uint32_t scale, int32_t shift)
 {
     int64_t r = ((int64_t)v * (int64_t)scale) >> shift; /* 2^30 * 2^32 */
-    return r > GN_COMPACT_REACH_Q16 ? GN_COMPACT_REACH_Q16 : r < -GN_COMPACT_REACH_Q16 ? -GN_COMPACT_REACH_Q16 : (int32_t)r;
+    return r > GN_COMPACT_REACH_Q16    ? GN_COMPACT_REACH_Q16
+           : r < -GN_COMPACT_REACH_Q16 ? -GN_COMPACT_REACH_Q16
+                                       : (int32_t)r;
 }
 
 int gn_compact_project(gn_compact_corner *corner, const gn_compact_view *view, const int32_t v_q16[3])

@@ -14,10 +14,10 @@
 
 /* What the pixels of a triangle have in common. */
 typedef struct {
-    const gn_tri *tri;    /* NULL: no shadow can fall on it */
-    uint32_t base_q20[3]; /* radiance without the light, */
-    uint32_t lit_q20[3];  /* and what the light adds */
-    int32_t offset_q16[3];  /* of the receiver, texels */
+    const gn_tri *tri;     /* NULL: no shadow can fall on it */
+    uint32_t base_q20[3];  /* radiance without the light, */
+    uint32_t lit_q20[3];   /* and what the light adds */
+    int32_t offset_q16[3]; /* of the receiver, texels */
 } surface;
 
 /* B2, or B6: r (|n_u| + |n_v|) + eps_0 |n_w| along the normal. */
@@ -27,7 +27,8 @@ static void move_receiver(const gn_frame *frame, surface *s, const gn_tri *tri)
     int64_t along_q16 = frame->offset_q16;
 #if GN_AUTO_BIAS
     if (frame->flat_offset_q16)
-        along_q16 = (along_q16 * (int64_t)(gn_abs32(n[0]) + gn_abs32(n[1])) + (int64_t)frame->flat_offset_q16 * -n[2]) >> 14;
+        along_q16 =
+            (along_q16 * (int64_t)(gn_abs32(n[0]) + gn_abs32(n[1])) + (int64_t)frame->flat_offset_q16 * -n[2]) >> 14;
 #endif
     for (int i = 0; i < 3; i++) s->offset_q16[i] = (int32_t)((along_q16 * n[i]) >> 14);
     s->tri = tri;
@@ -52,7 +53,8 @@ static void surface_begin(const gn_frame *frame, surface *s, uint32_t id)
         s->base_q20[i] = own[i] << 4;
         s->lit_q20[i] = 0;
         if (object) s->base_q20[i] = (uint32_t)(((uint64_t)own[i] * scene->ambient_uq16[i]) >> 12); /* 2^17 * 2^24 */
-        if (cosine_q14) s->lit_q20[i] = (uint32_t)((((uint64_t)own[i] * scene->lights->colour_uq16[i]) >> 12) * cosine_q14 >> 14);
+        if (cosine_q14)
+            s->lit_q20[i] = (uint32_t)((((uint64_t)own[i] * scene->lights->colour_uq16[i]) >> 12) * cosine_q14 >> 14);
     }
 }
 

@@ -1,5 +1,5 @@
-/* The layout of a compact renderer's state (GN_COMPACT), in place of what gn_state.h and gn_shading.h have. Private; gn_compact.h says what the
- * arithmetic is.
+/* The layout of a compact renderer's state (GN_COMPACT), in place of what gn_state.h and gn_shading.h have. Private;
+ * gn_compact.h says what the arithmetic is.
  */
 #ifndef GN_COMPACT_STATE_H
 #define GN_COMPACT_STATE_H
@@ -24,7 +24,8 @@ typedef struct {
     int32_t shift;
 } gn_compact_xform;
 
-/* What projects points to a raster: the camera, or the light. Both look along the third of their axes, with x to the right and y down. */
+/* What projects points to a raster: the camera, or the light. Both look along the third of their axes, with x to the
+ * right and y down. */
 typedef struct {
     int32_t axis_q30[3][3]; /* in the world */
     int32_t eye_q16[3];     /* where the raster's middle lies, at depth 0 */
@@ -33,10 +34,10 @@ typedef struct {
     uint32_t near_norm;     /* camera: near in [2^31, 2^32); light: 0 */
     int32_t near_q16;
     int32_t near_clz;
-    int32_t size[2];        /* of the raster */
-    int32_t guard;          /* camera: |x|, |y| <= guard * z after clipping; light: <= guard, Q16 */
-    uint32_t flags, mask;   /* objects are drawn whose flags & mask are these */
-    uint32_t two_sided;     /* flags of those whose backs are drawn */
+    int32_t size[2];      /* of the raster */
+    int32_t guard;        /* camera: |x|, |y| <= guard * z after clipping; light: <= guard, Q16 */
+    uint32_t flags, mask; /* objects are drawn whose flags & mask are these */
+    uint32_t two_sided;   /* flags of those whose backs are drawn */
 } gn_compact_view;
 
 /* 1 / width, of what is divided by it to a share. */
@@ -61,12 +62,12 @@ typedef struct {
 
 /* A triangle of a raster: corners from its top left corner, Q8; keys grow towards the viewer. */
 typedef struct {
-    int32_t x[3], y[3]; /* seen from the front: of negative area, y down */
-    uint32_t key;       /* at the centre of pixel (x0, y0) */
-    int32_t key_dx, key_dy; /* per pixel, with frac_bits */
+    int32_t x[3], y[3];       /* seen from the front: of negative area, y down */
+    uint32_t key;             /* at the centre of pixel (x0, y0) */
+    int32_t key_dx, key_dy;   /* per pixel, with frac_bits */
     int16_t begin[2], end[2]; /* pixels that it can cover, of x and y */
     int32_t frac_bits;        /* 8, or 0 where steep */
-    int16_t normal_q14[3]; /* of the face, in the light's axes, towards the viewer */
+    int16_t normal_q14[3];    /* of the face, in the light's axes, towards the viewer */
     uint16_t object_idx;
 } gn_tri;
 
@@ -77,7 +78,7 @@ typedef struct {
 
 /* A projected corner. */
 typedef struct {
-    int32_t at_q16[2];  /* of the raster */
+    int32_t at_q16[2]; /* of the raster */
     int32_t key;
 } gn_compact_corner;
 
@@ -112,13 +113,13 @@ typedef struct gn_frame {
     uint16_t n_views;
     uint16_t tiles_x, tiles_y;
     gn_compact_view cam;
-    int32_t per_px_q29;         /* 1 / 2F: rays are (2x + 1 - W, H - 1 - 2y, -2F) */
-    gn_compact_xform to_light;  /* from the camera's space */
+    int32_t per_px_q29;                /* 1 / 2F: rays are (2x + 1 - W, H - 1 - 2y, -2F) */
+    gn_compact_xform to_light;         /* from the camera's space */
     gn_compact_share distance, sphere; /* D5: Q16; D6: texels^2, Q16 */
-    int32_t centre_q16[3];      /* of the sphere: U, V, D */
-    uint64_t radius2_q32;       /* texels^2 */
-    int32_t offset_q16;         /* B2, texels; B6: r */
-    int32_t flat_offset_q16;    /* B6: eps_0; 0: B2 */
+    int32_t centre_q16[3];             /* of the sphere: U, V, D */
+    uint64_t radius2_q32;              /* texels^2 */
+    int32_t offset_q16;                /* B2, texels; B6: r */
+    int32_t flat_offset_q16;           /* B6: eps_0; 0: B2 */
     gn_stats stats;
     gn_detail detail;
     gn_light_state light[GN_MAX_LIGHTS];
@@ -141,8 +142,9 @@ typedef struct {
 } gn_pixel_rows;
 
 typedef struct gn_scratch {
-    uint32_t cell[GN_TILE_PIXELS_MAX]; /* nearest surface: key in the high bits, the triangle in the low id_bits; 0: none */
-    gn_tile_pixels pixel;              /* finished pixels in the picture's format */
+    uint32_t
+        cell[GN_TILE_PIXELS_MAX]; /* nearest surface: key in the high bits, the triangle in the low id_bits; 0: none */
+    gn_tile_pixels pixel;         /* finished pixels in the picture's format */
     gn_work work;
 } gn_scratch;
 

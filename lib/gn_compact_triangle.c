@@ -16,7 +16,7 @@
 #define ONE_PX    (1 << GN_COMPACT_BITS)
 #define STEEP_MAX ((int64_t)1 << 36) /* change of key per pixel, Q8: beyond, a triangle has one key */
 
-/* ---- Setup --------------------------------------------------------------------------------------------------------- */
+/* ---- Setup ------------------------------------------------------------------------------------------------------- */
 
 /* First pixel whose centre is at or after a coordinate. */
 static int32_t first_px(int32_t at)
@@ -55,7 +55,8 @@ static void plane(gn_tri *tri, const gn_compact_corner c[3], uint64_t area)
         ka = gn_max32(gn_max32(ka, c[1].key), c[2].key);
     }
     /* to the first pixel's centre: 2^36 * 2^19.5 */
-    int64_t step = dx * (tri->begin[0] * ONE_PX + ONE_PX / 2 - x[0]) + dy * (tri->begin[1] * ONE_PX + ONE_PX / 2 - y[0]);
+    int64_t step =
+        dx * (tri->begin[0] * ONE_PX + ONE_PX / 2 - x[0]) + dy * (tri->begin[1] * ONE_PX + ONE_PX / 2 - y[0]);
     tri->key = (uint32_t)ka + (uint32_t)(step >> (8 + GN_COMPACT_BITS));
     tri->frac_bits = 8;
     if (((uint64_t)(dx + (1 << 30)) | (uint64_t)(dy + (1 << 30))) >> 31) { /* rounding must fit, too */
@@ -91,7 +92,7 @@ static int setup(gn_tri *tri, gn_compact_corner c[3], const gn_compact_view *vie
     return 1;
 }
 
-/* ---- Objects ------------------------------------------------------------------------------------------------------- */
+/* ---- Objects ----------------------------------------------------------------------------------------------------- */
 
 /* Towards the viewer, in the light's axes; zero where the corners lie in a line. */
 static void face_normal(int16_t out_q14[3], const gn_frame *frame, int32_t (*v)[3])
@@ -136,7 +137,8 @@ static gn_status fetch(gn_compact_job *job, const gn_mesh *mesh, const uint16_t 
 }
 
 /* Draws job->corner, or without a raster keeps it. */
-static void emit(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, gn_compact_raster *raster, uint32_t object_idx)
+static void emit(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, gn_compact_raster *raster,
+                 uint32_t object_idx)
 {
     gn_tri *tri = &job->tri;
     if (!raster && frame->stats.n_triangles < GN_MAX_TRIANGLES) tri = &frame->tri[frame->stats.n_triangles];
@@ -196,7 +198,8 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
     return status;
 }
 
-gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory, uint32_t n_words)
+gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory,
+                               uint32_t n_words)
 {
     (void)memory, (void)n_words;
     const gn_light_view *view = &frame->view[view_idx];
@@ -205,7 +208,7 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
     return objects(frame, casting, &view->project, &raster);
 }
 
-/* ---- Drawing ------------------------------------------------------------------------------------------------------- */
+/* ---- Drawing ----------------------------------------------------------------------------------------------------- */
 
 /* Where an edge's pixels begin to lie inside: f >= 0, by the top-left rule; its steps are those of a pixel. */
 typedef struct {
@@ -216,8 +219,10 @@ static void edge_begin(edge *e, const gn_tri *tri, int i, int32_t px, int32_t py
 {
     int j = i == 2 ? 0 : i + 1;
     int32_t dx = tri->x[j] - tri->x[i], dy = tri->y[j] - tri->y[i], left_or_top = dy > 0 || (dy == 0 && dx < 0);
-    /* corners and pixels are in a box of 2880 pixels: below 2^39. A pixel's step is a multiple of 2^8, so that nothing is lost */
-    int64_t f = (int64_t)(px * ONE_PX + ONE_PX / 2 - tri->x[i]) * dy - (int64_t)(py * ONE_PX + ONE_PX / 2 - tri->y[i]) * dx;
+    /* corners and pixels are in a box of 2880 pixels: below 2^39. A pixel's step is a multiple of 2^8, so that nothing
+     * is lost */
+    int64_t f =
+        (int64_t)(px * ONE_PX + ONE_PX / 2 - tri->x[i]) * dy - (int64_t)(py * ONE_PX + ONE_PX / 2 - tri->y[i]) * dx;
     e->f = (int32_t)((f - !left_or_top) >> GN_COMPACT_BITS);
     e->dx = dy;
     e->dy = -dx;
@@ -230,8 +235,10 @@ void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri)
     int32_t y0 = gn_max32(tri->begin[1], rect->y0), y1 = gn_min32(tri->end[1], rect->y1);
     if (x0 >= x1) return;
     /* whole steps, so that the key does not depend on where the rectangle begins */
-    int32_t half = (1 << tri->frac_bits) >> 1, key_dx = (tri->key_dx + half) >> tri->frac_bits, key_dy = (tri->key_dy + half) >> tri->frac_bits;
-    uint32_t row = tri->key + (uint32_t)(x0 - tri->begin[0]) * (uint32_t)key_dx + (uint32_t)(y0 - tri->begin[1]) * (uint32_t)key_dy;
+    int32_t half = (1 << tri->frac_bits) >> 1, key_dx = (tri->key_dx + half) >> tri->frac_bits,
+            key_dy = (tri->key_dy + half) >> tri->frac_bits;
+    uint32_t row = tri->key + (uint32_t)(x0 - tri->begin[0]) * (uint32_t)key_dx +
+                   (uint32_t)(y0 - tri->begin[1]) * (uint32_t)key_dy;
     edge e[3];
     for (int i = 0; i < 3; i++) edge_begin(&e[i], tri, i, x0, y0);
     for (; y0 < y1; y0++) {
@@ -241,7 +248,8 @@ void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri)
         for (int32_t n = x1 - x0; n > 0; n--, at++) {
             if ((f0 | f1 | f2) >= 0) {
                 if (raster->cell) {
-                    uint32_t cell = ((uint32_t)gn_max32((int32_t)key, 0) << 1 >> raster->id_bits << raster->id_bits) + raster->id;
+                    uint32_t cell =
+                        ((uint32_t)gn_max32((int32_t)key, 0) << 1 >> raster->id_bits << raster->id_bits) + raster->id;
                     if (cell > raster->cell[at]) raster->cell[at] = cell;
                 } else { /* D9: pancaking; what lies beyond the range stays out */
                     uint32_t depth = (uint32_t)(gn_max32(-(int32_t)key, 0) + raster->bias) >> GN_COMPACT_STEP_SHIFT;
@@ -264,16 +272,6 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
         raster.id = gn_raster_id(frame, i);
         gn_compact_draw(&raster, &frame->tri[i]);
     }
-}
-
-gn_rect gn_bin_tile_rect(const gn_frame *frame, uint32_t tile_idx)
-{
-    gn_rect r;
-    r.x0 = (int32_t)(tile_idx % frame->tiles_x) * GN_TILE_WIDTH;
-    r.y0 = (int32_t)(tile_idx / frame->tiles_x) * GN_TILE_HEIGHT;
-    r.x1 = gn_min32(r.x0 + GN_TILE_WIDTH, frame->picture.width);
-    r.y1 = gn_min32(r.y0 + GN_TILE_HEIGHT, frame->picture.height);
-    return r;
 }
 
 gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch) /* each screen tile looks at all of them */

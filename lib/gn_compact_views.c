@@ -9,10 +9,10 @@
 #include "gn_q.h"
 #include "gn_scene.h"
 
-#define ONE_Q28 (1 << 28)
+#define ONE_Q28  (1 << 28)
 #define GUARD_PX 1400 /* pixels or texels from the middle: within GN_COMPACT_REACH_Q16 */
 
-/* ---- Arithmetic of a frame ------------------------------------------------------------------------------------------ */
+/* ---- Arithmetic of a frame --------------------------------------------------------------------------------------- */
 
 static int32_t mul_q28(int32_t a, int32_t b)
 {
@@ -39,13 +39,14 @@ static int32_t texels_q16(const gn_compact_view *view, int32_t v_q16)
     return (int32_t)(((int64_t)v_q16 * (int64_t)view->scale) >> view->shift);
 }
 
-/* ---- Camera --------------------------------------------------------------------------------------------------------- */
+/* ---- Camera ------------------------------------------------------------------------------------------------------ */
 
 void gn_cam_setup(gn_frame *frame)
 {
     const gn_camera *camera = &frame->scene->camera;
     gn_compact_view *cam = &frame->cam;
-    for (int i = 0; i < 3; i++) { /* gn_views_setup checks the ranges; the unsigned differences are those of a matrix that it refuses */
+    for (int i = 0; i < 3;
+         i++) { /* gn_views_setup checks the ranges; the unsigned differences are those of a matrix that it refuses */
         cam->axis_q30[0][i] = camera->to_world.m_q30[i][0];
         cam->axis_q30[1][i] = (int32_t)(0U - (uint32_t)camera->to_world.m_q30[i][1]);
         cam->axis_q30[2][i] = (int32_t)(0U - (uint32_t)camera->to_world.m_q30[i][2]);
@@ -65,14 +66,16 @@ static gn_status lens(gn_frame *frame)
     uint32_t focal2_q16 = (uint32_t)(((uint64_t)camera->focal_q24 * frame->picture.height + 128U) >> 8);
     int32_t clz;
     if (!gn_compact_affine_ok(&camera->to_world) || camera->to_world.exp) return GN_ERR_CAMERA_TRANSFORM;
-    if (camera->focal_q24 >> 29 || focal2_q16 < 1U << 16) return GN_ERR_CAMERA_FOCAL; /* 1 <= 2F, and at most 2800 pixels */
+    if (camera->focal_q24 >> 29 || focal2_q16 < 1U << 16)
+        return GN_ERR_CAMERA_FOCAL; /* 1 <= 2F, and at most 2800 pixels */
     cam->guard = (int32_t)((2U * GUARD_PX << 16) / focal2_q16);
     if (!cam->guard) return GN_ERR_CAMERA_FOCAL;
     cam->shift = clz = gn_clz32(focal2_q16);
     cam->scale = focal2_q16 << clz;
     frame->per_px_q29 = (int32_t)(gn_recip_norm(cam->scale, 2) >> (18 - clz));
     /* the half angles' tangents, together below 2: squares fit Q28 */
-    if ((uint64_t)(uint32_t)frame->per_px_q29 * (uint32_t)(cam->size[0] + cam->size[1]) >= 1U << 30) return GN_ERR_CAMERA_FOCAL;
+    if ((uint64_t)(uint32_t)frame->per_px_q29 * (uint32_t)(cam->size[0] + cam->size[1]) >= 1U << 30)
+        return GN_ERR_CAMERA_FOCAL;
     if (camera->near_q16 < 1 << 8 || camera->near_q16 > GN_COMPACT_LENGTH_Q16 / 4) return GN_ERR_CAMERA_DEPTH;
     cam->near_q16 = camera->near_q16;
     cam->near_clz = gn_clz32((uint32_t)camera->near_q16);
@@ -80,7 +83,7 @@ static gn_status lens(gn_frame *frame)
     return GN_OK;
 }
 
-/* ---- Light ---------------------------------------------------------------------------------------------------------- */
+/* ---- Light ------------------------------------------------------------------------------------------------------- */
 
 /* Whether the light has a bias that is built. B6 along the normal; the general arithmetic's other form is not there. */
 static int bias_ok(const gn_light *light)
@@ -92,16 +95,18 @@ static int bias_ok(const gn_light *light)
 #endif
 }
 
-/* What is not built is refused: biases but B1 and B2, a near plane that is pulled back, what lies beyond the range of a colour. */
+/* What is not built is refused: biases but B1 and B2, a near plane that is pulled back, what lies beyond the range of a
+ * colour. */
 static gn_status check_light(const gn_frame *frame, const gn_light *light)
 {
     const int32_t *b = light->bias_receiver_q16;
-    int32_t none = b[0] | b[1] | b[2] | b[3] | light->bias_caster_q16 | (int32_t)light->receiver_plane | light->near_offset_q16 | light->colour_exp;
-    uint32_t bias = (uint32_t)(light->bias_constant_q16 | light->bias_slope_q16) >> 6 | (uint32_t)light->bias_normal_q16 >> 3;
+    int32_t none = b[0] | b[1] | b[2] | b[3] | light->bias_caster_q16 | (int32_t)light->receiver_plane |
+                   light->near_offset_q16 | light->colour_exp;
+    uint32_t bias =
+        (uint32_t)(light->bias_constant_q16 | light->bias_slope_q16) >> 6 | (uint32_t)light->bias_normal_q16 >> 3;
     if (frame->scene->n_lights > 1) return GN_ERR_TOO_MANY_LIGHTS;
     if (light->kind || light->mode || light->softness == GN_SOFTNESS_SOFT) return GN_ERR_LIGHT_KIND;
-    if (none || bias >> 16 || !bias_ok(light))
-        return GN_ERR_LIGHT_BIAS;
+    if (none || bias >> 16 || !bias_ok(light)) return GN_ERR_LIGHT_BIAS;
     return GN_OK;
 }
 
@@ -116,14 +121,16 @@ static gn_status check_shadow(const gn_frame *frame, const gn_shadow_settings *s
     return shadow->n_cascades > 1 ? GN_ERR_SHADOW_CASCADES : GN_OK;
 }
 
-/* Centre and radius of the slice's sphere as shares of the max distance (DESIGN 1.4), Q28. Returns 0 if near is beyond q^2 of it. */
+/* Centre and radius of the slice's sphere as shares of the max distance (DESIGN 1.4), Q28. Returns 0 if near is beyond
+ * q^2 of it. */
 static int fit_sphere(const gn_frame *frame, int32_t *centre, int32_t *radius)
 {
     const gn_shadow_settings *shadow = &frame->scene->shadow;
-    int32_t tan_x = (frame->per_px_q29 * frame->cam.size[0]) >> 1, tan_y = (frame->per_px_q29 * frame->cam.size[1]) >> 1;
-    int32_t k2 = mul_q28(tan_x, tan_x) + mul_q28(tan_y, tan_y); /* < 4 */
-    int32_t n = div_q28(frame->cam.near_q16, shadow->max_distance_q16), n2 = mul_q28(n, n); /* < 1 */
-    int32_t q = ONE_Q28 - (int32_t)(shadow->cascade_fade_uq16 << 12), q2 = mul_q28(q, q);   /* >= 1/2 */
+    int32_t tan_x = (frame->per_px_q29 * frame->cam.size[0]) >> 1,
+            tan_y = (frame->per_px_q29 * frame->cam.size[1]) >> 1;
+    int32_t k2 = mul_q28(tan_x, tan_x) + mul_q28(tan_y, tan_y);                                /* < 4 */
+    int32_t n = div_q28(frame->cam.near_q16, shadow->max_distance_q16), n2 = mul_q28(n, n);    /* < 1 */
+    int32_t q = ONE_Q28 - (int32_t)(shadow->cascade_fade_uq16 << 12), q2 = mul_q28(q, q);      /* >= 1/2 */
     int32_t a = ONE_Q28 - q2, b = n - q2, big_c = mul_q28(ONE_Q28 + k2, q2 - n2), c = ONE_Q28; /* C > 0 */
     if (b > 0) return 0; /* of b < 0 differences are not small */
     int32_t s = (int32_t)gn_isqrt64((uint64_t)((int64_t)b * b + (int64_t)a * big_c)) - b; /* 1 + 1 * 5; both >= 0 */
@@ -134,14 +141,16 @@ static int fit_sphere(const gn_frame *frame, int32_t *centre, int32_t *radius)
     return 1;
 }
 
-/* Texel size: ceil8 of (1 - 2^-20) * 2 r / D, of which view->scale and shift are the reciprocal. Returns its significant digits. */
+/* Texel size: ceil8 of (1 - 2^-20) * 2 r / D, of which view->scale and shift are the reciprocal. Returns its
+ * significant digits. */
 static uint32_t fit_texel(const gn_frame *frame, gn_compact_view *view, int32_t radius_q28, int32_t reach_q16)
 {
     const int32_t t_q16 = GN_ATLAS_SIZE << 16;
     uint64_t product = (uint64_t)(uint32_t)radius_q28 * (uint32_t)frame->scene->shadow.max_distance_q16; /* Q44 */
     int32_t sphere_q16 = gn_max32(t_q16 - 2 * (65536 + reach_q16) - 65536, t_q16 / 4);
     int32_t product_clz = gn_clz64(product), clz = gn_clz32((uint32_t)sphere_q16), exp = 37 - product_clz + clz;
-    uint32_t texel = gn_compact_mul((uint32_t)(product << product_clz >> 32), gn_recip_norm((uint32_t)sphere_q16 << clz, 2), 0);
+    uint32_t texel =
+        gn_compact_mul((uint32_t)(product << product_clz >> 32), gn_recip_norm((uint32_t)sphere_q16 << clz, 2), 0);
     texel -= texel >> 20;
     if (!(texel >> 31)) {
         texel <<= 1;
@@ -157,7 +166,8 @@ static uint32_t fit_texel(const gn_frame *frame, gn_compact_view *view, int32_t 
     return digits;
 }
 
-/* Whole texels around the sphere's centre: the eye is where the tile's middle lies at depth 0. Returns 0 if that is out of range. */
+/* Whole texels around the sphere's centre: the eye is where the tile's middle lies at depth 0. Returns 0 if that is out
+ * of range. */
 static int place_tile(const gn_frame *frame, gn_compact_view *view, uint32_t digits, int32_t centre_q16)
 {
     int64_t along_q16[3];
@@ -167,7 +177,9 @@ static int place_tile(const gn_frame *frame, gn_compact_view *view, uint32_t dig
             sum += (int64_t)view->axis_q30[k][i] *
                    (frame->cam.eye_q16[i] + (int32_t)(((int64_t)centre_q16 * frame->cam.axis_q30[2][i]) >> 30));
         int32_t place_q16 = (int32_t)(sum >> 30);
-        int32_t part = (int32_t)((uint32_t)((((int64_t)place_q16 * (int64_t)view->scale) >> view->shift) + 32768) & 65535U) - 32768;
+        int32_t part =
+            (int32_t)((uint32_t)((((int64_t)place_q16 * (int64_t)view->scale) >> view->shift) + 32768) & 65535U) -
+            32768;
         if (k == 2) part += GN_ATLAS_SIZE << 15;
         along_q16[k] = place_q16 - (((int64_t)part * (int64_t)(digits << 8)) >> (47 - view->shift));
     }
@@ -199,10 +211,12 @@ static int compose_to_light(gn_frame *frame)
     return gn_compact_compose(&frame->to_light, &frame->view[0].project, &frame->scene->camera.to_world, 16);
 }
 
-/* How far a receiver moves along its face's normal: by B2, or by B6 (NUMERICS 4.15). nu of DESIGN 1.7, which the tile's reach must hold. */
+/* How far a receiver moves along its face's normal: by B2, or by B6 (NUMERICS 4.15). nu of DESIGN 1.7, which the tile's
+ * reach must hold. */
 static int32_t receiver_reach(gn_frame *frame, const gn_light *light)
 {
-    frame->offset_q16 = (int32_t)gn_compact_mul((uint32_t)light->bias_normal_q16, 0xB504F334U, 0) << 1; /* sqrt(2) 2^31 */
+    frame->offset_q16 = (int32_t)gn_compact_mul((uint32_t)light->bias_normal_q16, 0xB504F334U, 0)
+                        << 1; /* sqrt(2) 2^31 */
     frame->flat_offset_q16 = 0;
 #if GN_AUTO_BIAS
     if (gn_scene_auto_bias(light)) return 92877 + GN_ATLAS_SIZE; /* sqrt(2) (1 + delta) + T 2^-16 */
@@ -215,7 +229,8 @@ static void auto_offsets(gn_frame *frame, const gn_light *light, int32_t max_q16
 {
     const gn_compact_view *view = &frame->view[0].project;
     if (!gn_scene_auto_bias(light)) return;
-    int32_t epsilon = 512 + texels_q16(view, 8) + (int32_t)(((int64_t)texels_q16(view, max_q16) * frame->per_px_q29) >> 36);
+    int32_t epsilon =
+        512 + texels_q16(view, 8) + (int32_t)(((int64_t)texels_q16(view, max_q16) * frame->per_px_q29) >> 36);
     frame->offset_q16 = 32768 + 138 + epsilon; /* R + delta + epsilon_r */
     frame->flat_offset_q16 = GN_ATLAS_SIZE + GN_ATLAS_SIZE / 64 + 11 + epsilon;
 }
@@ -278,7 +293,8 @@ gn_status gn_views_setup(gn_frame *frame)
         compose_to_light(frame); /* for normals where there is no shadow */
     }
     frame->stats.n_shadow_tiles = frame->n_views;
-    frame->light[0].n_views = frame->light[0].shadow_state = (uint8_t)frame->n_views; /* GN_SHADOW_NOT_WANTED or _REALTIME; the first view */
+    frame->light[0].n_views = frame->light[0].shadow_state =
+        (uint8_t)frame->n_views; /* GN_SHADOW_NOT_WANTED or _REALTIME; the first view */
     return status ? gn_fail(frame, status, 0) : GN_OK;
 }
 

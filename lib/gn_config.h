@@ -1,7 +1,8 @@
-/* Every knob's default. Override any of them in one file of your own, named by -DGN_USER_CONFIG='"my_config.h"', or with -D.
+/* Every knob's default. Override any of them in one file of your own, named by -DGN_USER_CONFIG='"my_config.h"', or
+ * with -D.
  *
- * GN_PRESET picks the defaults of the quality knobs together. Ranges are checked at compile time in gn_check.h; what each
- * knob means, its range and what it costs is listed once, in gn_knobs.h, from which docs/CONFIG.md is generated.
+ * GN_PRESET picks the defaults of the quality knobs together. Ranges are checked at compile time in gn_check.h; what
+ * each knob means, its range and what it costs is listed once, in gn_knobs.h, from which docs/CONFIG.md is generated.
  */
 #ifndef GN_CONFIG_H
 #define GN_CONFIG_H
@@ -18,7 +19,7 @@
 #define GN_PRESET GN_PRESET_BALANCED
 #endif
 
-#define GN_PICK_(tiny, balanced, accurate)                                                                                         \
+#define GN_PICK_(tiny, balanced, accurate)                                                                             \
     (GN_PRESET == GN_PRESET_TINY ? (tiny) : GN_PRESET == GN_PRESET_BALANCED ? (balanced) : (accurate))
 #define GN_PICK(...) GN_PICK_(__VA_ARGS__)
 
@@ -28,13 +29,13 @@
 #endif
 #if GN_COMPACT
 #ifndef GN_MAX_WIDTH
-#  define GN_MAX_WIDTH 256
+#define GN_MAX_WIDTH 256
 #endif
 #ifndef GN_MAX_LIGHTS
-#  define GN_MAX_LIGHTS 1
+#define GN_MAX_LIGHTS 1
 #endif
 #ifndef GN_MAX_SHADOW_TILES
-#  define GN_MAX_SHADOW_TILES 1
+#define GN_MAX_SHADOW_TILES 1
 #endif
 #endif
 
@@ -250,7 +251,7 @@
 #endif
 
 /* Whether surfaces may be shaded piece by piece (gn_piece.h): not where every pixel is to be exact. */
-#define GN_PIECES (GN_RUNTIME_KNOBS || (GN_PERSP_STEP > 1 && !GN_COMPACT))
+#define GN_PIECES  (GN_RUNTIME_KNOBS || (GN_PERSP_STEP > 1 && !GN_COMPACT))
 #define GN_TURNING (GN_PIECES && GN_VERTEX_NORMALS && (GN_RUNTIME_KNOBS || !GN_VERTEX_LIGHT))
 
 /* Whether what arrives from spot and point lights is stepped between samples. */

@@ -1,5 +1,6 @@
-/* What the library did, counted for the host tool's model of cost (gnomon sweep): never in a firmware build, where GN_COUNT is
- * nothing. Whoever compiles lib/ with GN_COUNTERS=1 defines gn_count(), so that the library keeps no state of its own.
+/* What the library did, counted for the host tool's model of cost (gnomon sweep): never in a firmware build, where
+ * GN_COUNT is nothing. Whoever compiles lib/ with GN_COUNTERS=1 defines gn_count(), so that the library keeps no state
+ * of its own.
  */
 #ifndef GN_COUNT_H
 #define GN_COUNT_H
@@ -11,44 +12,44 @@
 #endif
 
 /* X(event, what one of them is): in the order of the stages */
-#define GN_COUNT_EVENTS(X)                                                                                                         \
-    X(tile_texels, "texel of a shadow tile that was cleared, and bounded by blocks")                                               \
-    X(casters, "caster triangle seen by an orthographic view")                                                                     \
-    X(casters_persp, "caster triangle seen by a perspective view")                                                                 \
-    X(caster_walks, "caster triangle, or a piece of one, that is walked")                                                          \
-    X(caster_rows, "row of texels of a caster")                                                                                    \
-    X(texels, "texel of a caster, 16 bits")                                                                                        \
-    X(texels_wide, "texel of a caster, 8 or 32 bits")                                                                              \
-    X(texels_cut, "texel of a caster that alpha may cut")                                                                          \
-    X(triangles, "triangle given")                                                                                                 \
-    X(visible, "visible triangle")                                                                                                 \
-    X(tile_refs, "triangle met by a screen tile")                                                                                  \
-    X(screen_tiles, "screen tile")                                                                                                 \
-    X(pixels, "pixel of the picture")                                                                                              \
-    X(rows, "row of pixels of a triangle in a screen tile")                                                                        \
-    X(covered, "pixel covered by a triangle")                                                                                      \
-    X(covered_cut, "pixel covered by a triangle that alpha may cut")                                                               \
-    X(surfaces, "triangle with a pixel to shade in a screen tile")                                                                 \
-    X(runs, "run of pixels of one surface")                                                                                        \
-    X(filled, "pixel of a surface that looks the same all over")                                                                   \
-    X(samples, "place where a surface is evaluated with a perspective divide")                                                     \
-    X(samples_smooth, "the same with interpolated normals, colours or texture coordinates")                                        \
-    X(sample_lights, "directional light at such a place")                                                                          \
-    X(sample_lights_punctual, "spot or point light at such a place")                                                               \
-    X(shaded, "pixel shaded")                                                                                                      \
-    X(stepped, "value stepped from one pixel to the next")                                                                         \
-    X(lights, "light that arrives at a pixel")                                                                                     \
-    X(lights_punctual, "spot or point light that faces a pixel")                                                                   \
-    X(highlights, "specular highlight of a light at a pixel")                                                                      \
-    X(textured, "pixel whose colour is a texture's")                                                                               \
-    X(masked, "look-up in a mask image")                                                                                           \
-    X(packed, "colour encoded")                                                                                                    \
-    X(lookups, "shadow lookup in an orthographic view")                                                                            \
-    X(lookups_persp, "shadow lookup in a perspective view")                                                                        \
-    X(undecided, "lookup by 3x3 and up, or the disk, that bounds did not decide")                                                  \
-    X(lookups_2x2, "lookup by 2x2")                                                                                                \
-    X(taps_tent, "tap of 3x3, 5x5 or 7x7")                                                                                         \
-    X(taps_lone, "tap of the hard filter or the disk")                                                                             \
+#define GN_COUNT_EVENTS(X)                                                                                             \
+    X(tile_texels, "texel of a shadow tile that was cleared, and bounded by blocks")                                   \
+    X(casters, "caster triangle seen by an orthographic view")                                                         \
+    X(casters_persp, "caster triangle seen by a perspective view")                                                     \
+    X(caster_walks, "caster triangle, or a piece of one, that is walked")                                              \
+    X(caster_rows, "row of texels of a caster")                                                                        \
+    X(texels, "texel of a caster, 16 bits")                                                                            \
+    X(texels_wide, "texel of a caster, 8 or 32 bits")                                                                  \
+    X(texels_cut, "texel of a caster that alpha may cut")                                                              \
+    X(triangles, "triangle given")                                                                                     \
+    X(visible, "visible triangle")                                                                                     \
+    X(tile_refs, "triangle met by a screen tile")                                                                      \
+    X(screen_tiles, "screen tile")                                                                                     \
+    X(pixels, "pixel of the picture")                                                                                  \
+    X(rows, "row of pixels of a triangle in a screen tile")                                                            \
+    X(covered, "pixel covered by a triangle")                                                                          \
+    X(covered_cut, "pixel covered by a triangle that alpha may cut")                                                   \
+    X(surfaces, "triangle with a pixel to shade in a screen tile")                                                     \
+    X(runs, "run of pixels of one surface")                                                                            \
+    X(filled, "pixel of a surface that looks the same all over")                                                       \
+    X(samples, "place where a surface is evaluated with a perspective divide")                                         \
+    X(samples_smooth, "the same with interpolated normals, colours or texture coordinates")                            \
+    X(sample_lights, "directional light at such a place")                                                              \
+    X(sample_lights_punctual, "spot or point light at such a place")                                                   \
+    X(shaded, "pixel shaded")                                                                                          \
+    X(stepped, "value stepped from one pixel to the next")                                                             \
+    X(lights, "light that arrives at a pixel")                                                                         \
+    X(lights_punctual, "spot or point light that faces a pixel")                                                       \
+    X(highlights, "specular highlight of a light at a pixel")                                                          \
+    X(textured, "pixel whose colour is a texture's")                                                                   \
+    X(masked, "look-up in a mask image")                                                                               \
+    X(packed, "colour encoded")                                                                                        \
+    X(lookups, "shadow lookup in an orthographic view")                                                                \
+    X(lookups_persp, "shadow lookup in a perspective view")                                                            \
+    X(undecided, "lookup by 3x3 and up, or the disk, that bounds did not decide")                                      \
+    X(lookups_2x2, "lookup by 2x2")                                                                                    \
+    X(taps_tent, "tap of 3x3, 5x5 or 7x7")                                                                             \
+    X(taps_lone, "tap of the hard filter or the disk")                                                                 \
     X(taps_edge, "row of taps, or lone tap, at a tile's border or against a plane")
 
 #define GN_COUNT_ENUM_(event, what) GN_COUNT_##event,

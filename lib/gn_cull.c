@@ -46,7 +46,8 @@ static int persp_sees(const gn_frame *frame, const gn_light_view *view, const gn
     }
     int64_t deepest = c[2] + e[2], bias = frame->scene->lights[view->light_idx].bias_caster_q16;
     /* B4 may move casters away from the light too, into the view: 2^19 * 2^33 */
-    if (bias) deepest += gn_bf_apply(bias * (deepest > fit->near_q16 ? deepest : fit->near_q16), fit->texel_per_z, -16) + 1;
+    if (bias)
+        deepest += gn_bf_apply(bias * (deepest > fit->near_q16 ? deepest : fit->near_q16), fit->texel_per_z, -16) + 1;
     if (deepest < fit->near_q16) return 0;
     /* half-width of the tile at that depth, a texel and the casters' bias (B4) more */
     int64_t width = gn_bf_apply(deepest, fit->texel_per_z, view->tile_log2 - 1); /* deepest * t */
@@ -94,13 +95,15 @@ static uint64_t distance_q16(const int64_t a[3], const int64_t b[3])
 }
 
 /* How far the object's shadow, `radius` wide, travels along w until it is past every receiver, Q16. -1: no bound. */
-static int64_t shadow_length_q16(const gn_frame *frame, const gn_light_view *view, const int64_t centre[3], int64_t radius)
+static int64_t shadow_length_q16(const gn_frame *frame, const gn_light_view *view, const int64_t centre[3],
+                                 int64_t radius)
 {
     int64_t length = -1;
     for (int k = 0; k < 3; k++) {
         int32_t w = view->axis_q30[2][k];
         if (gn_abs32(w) < 1U << 16) continue;
-        int64_t way = w > 0 ? frame->receivers_q16[1][k] + radius - centre[k] : centre[k] - frame->receivers_q16[0][k] + radius;
+        int64_t way =
+            w > 0 ? frame->receivers_q16[1][k] + radius - centre[k] : centre[k] - frame->receivers_q16[0][k] + radius;
         if (way < 0) way = 0;
         gn_bfloat per_w = gn_bf_recip(gn_bf_from_u64(gn_abs32(w)));
         int64_t steps = gn_bf_apply(way, per_w, 30) + 2;
@@ -113,8 +116,9 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, const
 {
     const gn_light *light = &frame->scene->lights[view->light_idx];
     int64_t share_uq16 = 52429 - (int64_t)frame->scene->shadow.cascade_fade_uq16; /* 0.8 - c */
-    if (share_uq16 <= 0 || light->receiver_plane) return 0; /* B5: a tap may compare with a depth far from the receiver's */
-    for (uint32_t i = 0; i < GN_N_CASCADES(frame); i++)        /* A5: an old tile may lack what a new one shows */
+    if (share_uq16 <= 0 || light->receiver_plane)
+        return 0;                                       /* B5: a tap may compare with a depth far from the receiver's */
+    for (uint32_t i = 0; i < GN_N_CASCADES(frame); i++) /* A5: an old tile may lack what a new one shows */
         if (frame->scene->shadow.refresh[i] > 1) return 0;
     const int64_t zero[3] = {0, 0, 0};
     int64_t c[3], end[3], half[3];
@@ -123,10 +127,10 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, const
         half[k] = object->half_q16[k];
     }
     /* the sphere around the object, widened by what a lookup in this view can reach beyond it */
-    int64_t reach_texels_q16 =
-        (view->filter_idx + 1) * (int64_t)(65536 + gn_bias_reach_q16(frame, view, light)) + 131072 + light->bias_caster_q16;
-    int64_t radius =
-        (int64_t)distance_q16(half, zero) + gn_bf_apply(reach_texels_q16, gn_bf_recip(view->fit.ortho.inv_texel), 0) + 2;
+    int64_t reach_texels_q16 = (view->filter_idx + 1) * (int64_t)(65536 + gn_bias_reach_q16(frame, view, light)) +
+                               131072 + light->bias_caster_q16;
+    int64_t radius = (int64_t)distance_q16(half, zero) +
+                     gn_bf_apply(reach_texels_q16, gn_bf_recip(view->fit.ortho.inv_texel), 0) + 2;
     int64_t length = shadow_length_q16(frame, view, c, radius);
     if (length < 0 || length > (int64_t)1 << 31) return 0;
     for (int k = 0; k < 3; k++) end[k] = c[k] + gn_shr64(length * view->axis_q30[2][k], 30);
@@ -137,7 +141,8 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, const
         for (int k = 0; k < 3; k++)
             centre[k] = frame->cam.eye_q16[k] + gn_shr64((int64_t)cascade->centre_q16 * frame->cam.axis_q30[2][k], 30);
         /* both ends of the shadow inside: then all of it */
-        if ((int64_t)distance_q16(c, centre) + radius <= r && (int64_t)distance_q16(end, centre) + radius <= r) return 1;
+        if ((int64_t)distance_q16(c, centre) + radius <= r && (int64_t)distance_q16(end, centre) + radius <= r)
+            return 1;
     }
     return 0;
 }

@@ -15,7 +15,8 @@ int gn_cull_sees(const gn_frame *frame, const gn_light_view *view, const gn_obje
 /* Box of all receiving objects, for gn_cull_shown_nearer. */
 void gn_cull_begin(gn_frame *frame);
 
-/* Whether every point that the object can shadow is looked up in a smaller cascade than the view's: then it may be left out. */
+/* Whether every point that the object can shadow is looked up in a smaller cascade than the view's: then it may be left
+ * out. */
 int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, const gn_object_state *object);
 #endif
 

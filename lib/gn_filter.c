@@ -1,4 +1,5 @@
-/* Percentage-closer filtering. Compares come first, weights are exact integers, one division by multiplication ends it. */
+/* Percentage-closer filtering. Compares come first, weights are exact integers, one division by multiplication ends it.
+ */
 #include "gnomon.h"
 #if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_filter.h"
@@ -19,8 +20,8 @@
 #define BORDER_LIT(view) ((void)(view), 0)
 #endif
 
-/* A receiver made ready for its taps. A texel, in the upper bits of 32, is lit if it is not below `least`: the receiver's depth
- * rounded to the bits of the view and depth_frac, at most that of an empty texel. */
+/* A receiver made ready for its taps. A texel, in the upper bits of 32, is lit if it is not below `least`: the
+ * receiver's depth rounded to the bits of the view and depth_frac, at most that of an empty texel. */
 typedef struct {
     const gn_light_view *view;
     int32_t u_q16, v_q16;
@@ -32,7 +33,7 @@ typedef struct {
 #endif
 } lookup;
 
-/* ---- The receiver's depth ----------------------------------------------------------------------------------------- */
+/* ---- The receiver's depth ---------------------------------------------------------------------------------------- */
 
 /* Bits of depth_q32 that rounding drops: 0, or at least 12. */
 static int32_t dropped_bits(const gn_frame *frame, const gn_light_view *view)
@@ -49,10 +50,10 @@ static uint32_t rounded_depth(uint32_t depth_q32, int32_t dropped, uint32_t far)
 }
 
 #if GN_RECEIVER_PLANE
-/* With x the depth at a tap in Q44, h half a step of rounding, s a texel, hence a whole number of steps: s >= round(x) if and only
- * if s > x - h, and, s being also a multiple of 2^12, if and only if s >= floor((x - h) / 2^12) + 1. From a texel to the next, x
- * changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. Slopes are below 2^29.1, a receiver is at most
- * 2^31.1 away from the texel nearest to it, both axes together: |x| < 2^62. */
+/* With x the depth at a tap in Q44, h half a step of rounding, s a texel, hence a whole number of steps: s >= round(x)
+ * if and only if s > x - h, and, s being also a multiple of 2^12, if and only if s >= floor((x - h) / 2^12) + 1. From a
+ * texel to the next, x changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. Slopes are
+ * below 2^29.1, a receiver is at most 2^31.1 away from the texel nearest to it, both axes together: |x| < 2^62. */
 static int64_t plane_rise_q44(int32_t slope_q28, int32_t tap_q16, int32_t c_q16)
 {
     /* to the centre of the texel that tap_q16 lies in */
@@ -90,10 +91,10 @@ static uint32_t limited(const gn_light_view *view, int64_t least_q32)
 #define SLOPED(l) 0
 #endif
 
-/* ---- Compares ----------------------------------------------------------------------------------------------------- */
+/* ---- Compares ---------------------------------------------------------------------------------------------------- */
 
-/* Whether n x n texels from (u, v) on lie in the tile and compare with one depth: nothing to look after at each tap. Where size comes
- * first it is looked after all the same. */
+/* Whether n x n texels from (u, v) on lie in the tile and compare with one depth: nothing to look after at each tap.
+ * Where size comes first it is looked after all the same. */
 static inline int plain(const lookup *l, int32_t u, int32_t v, int32_t n)
 {
     uint32_t room = (uint32_t)(l->view->tile_texels - n);
@@ -184,7 +185,7 @@ static int decided(const lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *a
 }
 #endif
 
-/* ---- Filters with weights ----------------------------------------------------------------------------------------- */
+/* ---- Filters with weights ---------------------------------------------------------------------------------------- */
 
 #if GN_FILTER_MAX >= 1
 /* round to weight_bits; F itself is allowed: the weights are continuous there */
@@ -256,21 +257,23 @@ void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 }
 #endif
 
-/* Which of n x n texels from (u, v) on keep the receiver dark: bit i of dark[j] for texel i of row j. Returns what any row has, and in
- * the upper half what all have. */
+/* Which of n x n texels from (u, v) on keep the receiver dark: bit i of dark[j] for texel i of row j. Returns what any
+ * row has, and in the upper half what all have. */
 static uint32_t find_dark(const lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark)
 {
     int32_t depth_bits = GN_VIEW_BITS(l->view);
     int is_plain = plain(l, u, v, n);
     uint32_t any = 0, all = 255;
     if (is_plain && depth_bits == 16)
-        return n == 4 && !GN_SIZE_FIRST ? gn_kernel_dark_texels16(texels_at(l->view, u, v).d16, l->view->tile_texels, l->least, 4, dark)
-                                        : gn_kernel_dark_texels16(texels_at(l->view, u, v).d16, l->view->tile_texels, l->least, n, dark);
+        return n == 4 && !GN_SIZE_FIRST
+                   ? gn_kernel_dark_texels16(texels_at(l->view, u, v).d16, l->view->tile_texels, l->least, 4, dark)
+                   : gn_kernel_dark_texels16(texels_at(l->view, u, v).d16, l->view->tile_texels, l->least, n, dark);
     for (int32_t j = 0; j < n; j++) {
         uint32_t row_dark = 0;
         if (is_plain) {
             gn_texels row = texels_at(l->view, u, v + j);
-            for (int32_t i = 0; i < n; i++) row_dark |= (uint32_t)(gn_texel_load(row, depth_bits, (uint32_t)i) < l->least) << i;
+            for (int32_t i = 0; i < n; i++)
+                row_dark |= (uint32_t)(gn_texel_load(row, depth_bits, (uint32_t)i) < l->least) << i;
         } else row_dark = dark_anywhere(l, u, v + j, n);
         dark[j] = (uint8_t)row_dark;
         any |= row_dark;
@@ -358,7 +361,7 @@ static uint32_t tent(const gn_frame *frame, const lookup *l, int32_t k, int32_t 
 }
 #endif
 
-/* ---- Rotated disk ------------------------------------------------------------------------------------------------- */
+/* ---- Rotated disk ------------------------------------------------------------------------------------------------ */
 
 #if GN_DISK_FILTER
 #define DISK_RADIUS_MAX_Q16 (8 << 16)
@@ -371,14 +374,16 @@ static uint16_t rotation_turn(int32_t pixel_x, int32_t pixel_y)
     return (uint16_t)(v >> 16);
 }
 
-/* Offsets have 27 fraction bits: a radius and a rotation in Q12 (|.| <= 2^15 + 1) times a point in Q15 (|.| <= 2^15 + 1) stay below
- * 2^30.1, plus a fraction of a texel. They err by at most 2^-12.5 texels by the rotation's rounding and radius * 2^-15.5 by the
- * table's: below 2^-11 together, by which the footprint is widened before bounds are asked. */
+/* Offsets have 27 fraction bits: a radius and a rotation in Q12 (|.| <= 2^15 + 1) times a point in Q15 (|.| <= 2^15 +
+ * 1) stay below 2^30.1, plus a fraction of a texel. They err by at most 2^-12.5 texels by the rotation's rounding and
+ * radius * 2^-15.5 by the table's: below 2^-11 together, by which the footprint is widened before bounds are asked. */
 static uint32_t disk(const gn_frame *frame, const lookup *l, const gn_receiver *receiver)
 {
     uint32_t n_samples = frame->scene->shadow.disk_samples, n_lit = 0, answer;
-    int32_t radius_q16 = gn_max32(0, gn_min32(l->view->disk_radius_q16, DISK_RADIUS_MAX_Q16)), reach_q16 = radius_q16 + 32;
-    if (decided(l, (l->u_q16 - reach_q16) >> 16, (l->v_q16 - reach_q16) >> 16, (2 * reach_q16 >> 16) + 2, &answer)) return answer;
+    int32_t radius_q16 = gn_max32(0, gn_min32(l->view->disk_radius_q16, DISK_RADIUS_MAX_Q16)),
+            reach_q16 = radius_q16 + 32;
+    if (decided(l, (l->u_q16 - reach_q16) >> 16, (l->v_q16 - reach_q16) >> 16, (2 * reach_q16 >> 16) + 2, &answer))
+        return answer;
     GN_COUNT(undecided, 1);
     uint16_t turn = rotation_turn(receiver->pixel_x, receiver->pixel_y);
     int32_t c_q12 = gn_mul_shr(radius_q16, gn_cos_q30(turn), 34), s_q12 = gn_mul_shr(radius_q16, gn_sin_q30(turn), 34);
@@ -387,15 +392,17 @@ static uint32_t disk(const gn_frame *frame, const lookup *l, const gn_receiver *
     const int16_t *point_q15 = gn_disk_table_q15;
     for (uint32_t i = 0; i < n_samples; i++, point_q15 += 2) {
         int32_t x = point_q15[0], y = point_q15[1];
-        n_lit += lone_tap(l, u + ((fu_q27 + c_q12 * x - s_q12 * y) >> 27), v + ((fv_q27 + s_q12 * x + c_q12 * y) >> 27));
+        n_lit +=
+            lone_tap(l, u + ((fu_q27 + c_q12 * x - s_q12 * y) >> 27), v + ((fv_q27 + s_q12 * x + c_q12 * y) >> 27));
     }
     return ((n_lit << 16) + n_samples / 2) / n_samples;
 }
 #endif
 
-/* ---- Any filter --------------------------------------------------------------------------------------------------- */
+/* ---- Any filter -------------------------------------------------------------------------------------------------- */
 
-/* A coordinate may lie far outside after a steep offset: the border's answer holds there, but its fraction still weighs. */
+/* A coordinate may lie far outside after a steep offset: the border's answer holds there, but its fraction still
+ * weighs. */
 static int32_t near_tile(int32_t c_q16)
 {
     if ((uint32_t)c_q16 + (64U << 16) < 1152U << 16) return c_q16; /* from -64 to 1088: most are */
@@ -441,7 +448,7 @@ uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view,
 }
 
 #if GN_PIECES
-/* ---- Rows of receivers -------------------------------------------------------------------------------------------- */
+/* ---- Rows of receivers ------------------------------------------------------------------------------------------- */
 
 /* The texels that a row of receivers reads along an axis: first, and the last. */
 static void reads(const gn_light_view *view, int32_t a_q16, int32_t b_q16, int32_t *first, int32_t *last)
@@ -458,8 +465,8 @@ static uint32_t least_of(const gn_frame *frame, const gn_light_view *view, int32
 }
 
 /* Whether texels first .. last along both axes are all lit or all dark to every depth from `least` to `most`. */
-static int texels_agree(const gn_light_view *view, const int32_t first[2], const int32_t last[2], uint32_t least, uint32_t most,
-                        uint32_t *attenuation)
+static int texels_agree(const gn_light_view *view, const int32_t first[2], const int32_t last[2], uint32_t least,
+                        uint32_t most, uint32_t *attenuation)
 {
     int32_t bits = GN_VIEW_BITS(view), end = view->tile_texels - 1;
     uint32_t lit = 0, dark = 0, n = (uint32_t)(last[0] - first[0]) + 1;
@@ -485,8 +492,8 @@ static int texels_agree(const gn_light_view *view, const int32_t first[2], const
     return 1;
 }
 
-int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *a, const gn_receiver_step *b,
-                      uint32_t *attenuation)
+int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *a,
+                      const gn_receiver_step *b, uint32_t *attenuation)
 {
     int32_t first[2], last[2];
     reads(view, a->u_q16, b->u_q16, &first[0], &last[0]);
@@ -511,16 +518,19 @@ int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn
 }
 
 #if GN_FILTER_MAX >= 1
-/* 2x2 of 16 bits whose texels all lie in the tile. Coordinates half a texel up and left: what is shifted out is the fraction. */
-static void bilinear_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at, const gn_receiver_step *step, int32_t n,
-                         uint32_t *attenuation)
+/* 2x2 of 16 bits whose texels all lie in the tile. Coordinates half a texel up and left: what is shifted out is the
+ * fraction. */
+static void bilinear_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at,
+                         const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
 {
     const uint16_t *texel = view->depth.d16;
     int32_t bits = GN_K(frame, weight_bits), dropped = dropped_bits(frame, view);
     uint32_t pitch = view->tile_texels, log2 = view->tile_log2, one = 1U << bits;
     at.u_q16 -= 32768;
     at.v_q16 -= 32768;
-    at.depth_q31 -= 1 << (dropped - 2); /* half a step is added, and a step taken off: a texel above is not below the depth rounded */
+    at.depth_q31 -=
+        1 << (dropped -
+              2); /* half a step is added, and a step taken off: a texel above is not below the depth rounded */
     for (uint32_t *end = attenuation + n; attenuation < end; attenuation++) {
         const uint16_t *p = texel + (((uint32_t)at.v_q16 >> 16) << log2) + ((uint32_t)at.u_q16 >> 16), *q = p + pitch;
         int32_t below = at.depth_q31 >> 15; /* lit: the texel is above */
@@ -544,18 +554,20 @@ static void bilinear_row(const gn_frame *frame, const gn_light_view *view, gn_re
 
 #if GN_FILTER_MAX >= 2 && !GN_SIZE_FIRST
 /* The same of 3x3: what tent() does, but for its looks at bounds. */
-static void tent3_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at, const gn_receiver_step *step, int32_t n,
-                      uint32_t *attenuation)
+static void tent3_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at,
+                      const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
 {
     int32_t bits = GN_K(frame, weight_bits);
     at.u_q16 -= 98304;
     at.v_q16 -= 98304;
     at.depth_q31 -= 1 << (dropped_bits(frame, view) - 2);
     for (uint32_t *end = attenuation + n; attenuation < end; attenuation++) {
-        const uint16_t *texel = view->depth.d16 + (((uint32_t)at.v_q16 >> 16) << view->tile_log2) + ((uint32_t)at.u_q16 >> 16);
+        const uint16_t *texel =
+            view->depth.d16 + (((uint32_t)at.v_q16 >> 16) << view->tile_log2) + ((uint32_t)at.u_q16 >> 16);
         uint32_t wu[4], wv[4];
         uint8_t dark[4];
-        uint32_t found = gn_kernel_dark_texels16(texel, view->tile_texels, (uint32_t)gn_max32((at.depth_q31 >> 15) + 1, 0) << 16, 4, dark);
+        uint32_t found = gn_kernel_dark_texels16(texel, view->tile_texels,
+                                                 (uint32_t)gn_max32((at.depth_q31 >> 15) + 1, 0) << 16, 4, dark);
         GN_COUNT(undecided, 1);
         GN_COUNT(taps_tent, 16);
         *attenuation = (found & 0xFFFFU) ? 0 : 65536;
@@ -573,7 +585,8 @@ static void tent3_row(const gn_frame *frame, const gn_light_view *view, gn_recei
 #endif
 
 /* Whether that is all there is to do. */
-static int is_simple(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from, const gn_receiver_step *to)
+static int is_simple(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
+                     const gn_receiver_step *to)
 {
     int32_t u, u_last, v, v_last;
     if (GN_VIEW_BITS(view) != 16) return 0;
@@ -586,8 +599,8 @@ static int is_simple(const gn_frame *frame, const gn_light_view *view, const gn_
 }
 #endif
 
-void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from, const gn_receiver_step *to,
-                   const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
+void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
+                   const gn_receiver_step *to, const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
 {
     gn_receiver_step at = *from;
 #if GN_FILTER_MAX >= 1

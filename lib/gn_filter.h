@@ -8,8 +8,8 @@
 
 #define GN_TENT_TAPS_MAX 8
 
-/* Weights of the 2 (k + 1) texels of a tent along one axis, k = 1, 2, 3: exact rationals over (2k + 1)^2 F^2, which they sum to.
- * u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
+/* Weights of the 2 (k + 1) texels of a tent along one axis, k = 1, 2, 3: exact rationals over (2k + 1)^2 F^2, which
+ * they sum to. u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
 void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
 
 /* The same for the linear kernels (F6): over 4 F, 12 F, 52 F. */
@@ -17,29 +17,31 @@ void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
 
 /* A surface point as a light view sees it. */
 typedef struct {
-    int32_t u_q16, v_q16; /* tile coordinates in texels */
-    uint32_t depth_q32;   /* share of the view's depth range */
-    int32_t slope_q28[2]; /* B5: change of that share per texel along u and v, within +-2; 0: compare with depth_q32 everywhere */
+    int32_t u_q16, v_q16;     /* tile coordinates in texels */
+    uint32_t depth_q32;       /* share of the view's depth range */
+    int32_t slope_q28[2];     /* B5: change of that share per texel along u and v, within +-2; 0: compare with depth_q32
+                                 everywhere */
     int32_t pixel_x, pixel_y; /* where it is seen: turns the disk (F4) */
 } gn_receiver;
 
-/* Attenuation 0 (shadowed) .. 65536 (lit). Texels outside the tile repeat its border, or are lit if the view says so (D10). */
+/* Attenuation 0 (shadowed) .. 65536 (lit). Texels outside the tile repeat its border, or are lit if the view says so
+ * (D10). */
 uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver);
 
 #if GN_PIECES
-/* A receiver on the way from pixel to pixel: tile coordinates in texels, Q16, and its share of the view's depth range, Q31; negative
- * before the near plane. Coordinates within +-2^28. */
+/* A receiver on the way from pixel to pixel: tile coordinates in texels, Q16, and its share of the view's depth range,
+ * Q31; negative before the near plane. Coordinates within +-2^28. */
 typedef struct {
     int32_t u_q16, v_q16, depth_q31;
 } gn_receiver_step;
 
 /* Whether bounds of depth tell the attenuation of all receivers on the line between two; never for the disk. */
-int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *a, const gn_receiver_step *b,
-                      uint32_t *attenuation);
+int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *a,
+                      const gn_receiver_step *b, uint32_t *attenuation);
 
 /* Attenuations of n receivers from `from` on, all between `from` and `to`, which the steps may not quite reach. */
-void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from, const gn_receiver_step *to,
-                   const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
+void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
+                   const gn_receiver_step *to, const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
 #endif
 
 #endif

@@ -2,21 +2,21 @@
  *
  *   gn_begin        gn_scene    validate what the caller describes
  *                   gn_xform    camera
- *                   gn_views    lights: which reach which object (gn_object), which get how many shadow tiles (gn_tiles),
- *                               and how each lies in the world (gn_cascade and gn_ortho, or gn_persp; gn_bias: filter reach)
+ *                   gn_views    lights: which reach which object (gn_object), which get how many shadow tiles
+ *                               (gn_tiles), and how each lies in the world (gn_cascade and gn_ortho, or gn_persp;
+ *                               gn_bias: filter reach)
  *   gn_shadow_tile  gn_atlas    casters (gn_cull: which) as depth seen from the light (gn_ortho, gn_persp: projection;
- *                               gn_caster: spans, cut by alpha: gn_alpha, gn_texture); bounds of depth per block (gn_blocks)
+ *                               gn_caster: spans, cut by alpha: gn_alpha, gn_texture); bounds of depth per block
+ *                               (gn_blocks)
  *   gn_prepare      gn_setup    visible triangles: transform, cull, clip (gn_clip), project, depth plane (gn_plane)
  *                   gn_bin      triangles to screen tiles
  *   gn_screen_tile  gn_raster   visible surfaces: depth and triangle per pixel, by exact edge walkers (gn_walk)
  *                   gn_runs     what is visible of each triangle, as runs of pixels
- *                   gn_shade    a triangle at a time (gn_surface), piece by piece (gn_piece, gn_piecerow, gn_turn) or by pixels (gn_sample,
- *                               gn_chord between them): light (gn_light, gn_arrival, gn_punctual), shadow (gn_shadow, gn_filter),
- *                               encode (gn_pixel)
- *                   flush
- *   GN_COMPACT      behind the same calls, in 32 bits: camera and light (gn_compact_views), casters and visible triangles
- *                   (gn_compact_triangle: setup and drawing; gn_compact_point: transform and projection; gn_compact_clip), shading
- *                   (gn_compact_shade)
+ *                   gn_shade    a triangle at a time (gn_surface), piece by piece (gn_piece, gn_piecerow, gn_turn) or
+ * by pixels (gn_sample, gn_chord between them): light (gn_light, gn_arrival, gn_punctual), shadow (gn_shadow,
+ * gn_filter), encode (gn_pixel) flush GN_COMPACT      behind the same calls, in 32 bits: camera and light
+ * (gn_compact_views), casters and visible triangles (gn_compact_triangle: setup and drawing; gn_compact_point:
+ * transform and projection; gn_compact_clip), shading (gn_compact_shade)
  */
 #include <string.h>
 
@@ -38,8 +38,9 @@
 enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED };
 
 #if GN_RUNTIME_KNOBS
-#define GN_KNOB_DEFAULT_(name, MACRO, lo, hi, meaning, cost)  frame->knobs.name = GN_##MACRO;
-#define GN_KNOB_IN_RANGE_(name, MACRO, lo, hi, meaning, cost) ok = ok && frame->knobs.name >= (lo) && frame->knobs.name <= (hi);
+#define GN_KNOB_DEFAULT_(name, MACRO, lo, hi, meaning, cost) frame->knobs.name = GN_##MACRO;
+#define GN_KNOB_IN_RANGE_(name, MACRO, lo, hi, meaning, cost)                                                          \
+    ok = ok && frame->knobs.name >= (lo) && frame->knobs.name <= (hi);
 
 /* What gn_check.h asserts at compile time, at run time; sizes must also fit what was compiled in. */
 static int knobs_ok(const gn_frame *frame)
@@ -59,7 +60,8 @@ static int knobs_ok(const gn_frame *frame)
 static int picture_format_ok(const gn_picture *picture)
 {
     if (picture->format == GN_FORMAT_RAW32) return GN_RAW_VIEWS && (uint32_t)picture->view - 1U < GN_VIEW_TRIANGLE;
-    if (!GN_OTHER_FORMATS && picture->format != GN_FORMAT_RGB565 && picture->format != GN_FORMAT_RGB565_SWAPPED) return 0;
+    if (!GN_OTHER_FORMATS && picture->format != GN_FORMAT_RGB565 && picture->format != GN_FORMAT_RGB565_SWAPPED)
+        return 0;
     return picture->view == GN_VIEW_COLOUR && (uint32_t)picture->format <= GN_FORMAT_MONO1;
 }
 
@@ -121,7 +123,8 @@ gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx)
     if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, GN_ERR_ORDER, 0);
     if (tile_idx >= frame->n_views) return gn_fail(frame, GN_ERR_INDEX, tile_idx);
 #if GN_SHADOWS
-    gn_status status = gn_atlas_render_tile(frame, &r->scratch.work.casting, tile_idx, r->scratch.cell, GN_TILE_PIXELS_MAX);
+    gn_status status =
+        gn_atlas_render_tile(frame, &r->scratch.work.casting, tile_idx, r->scratch.cell, GN_TILE_PIXELS_MAX);
     frame->view[tile_idx].tile_done = !status; /* gn_prepare does not go on with half a tile */
     return status;
 #else
@@ -141,7 +144,8 @@ gn_status gn_prepare(gn_renderer *r)
     gn_status status = gn_setup_triangles(frame, &r->scratch);
     if (status) return status;
     /* cells hold triangle + 1; what the identity leaves is depth */
-    frame->id_bits = (uint8_t)(32 - gn_clz32(frame->stats.n_triangles + 1)); /* and for one that no triangle has: gn_runs */
+    frame->id_bits =
+        (uint8_t)(32 - gn_clz32(frame->stats.n_triangles + 1)); /* and for one that no triangle has: gn_runs */
     status = gn_bin_triangles(frame, &r->scratch);
     if (status) return status;
     frame->stage = GN_STAGE_PREPARED;
@@ -164,7 +168,8 @@ static gn_status begin_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t
 }
 
 /* Apart, so that drawing does not go on top of its frame. */
-static GN_NOINLINE void flush_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
+static GN_NOINLINE void flush_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush,
+                                   void *user)
 {
     gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
     flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
@@ -303,8 +308,8 @@ void gn_forget_shadows(gn_renderer *r)
 const char *gn_status_text(gn_status status)
 {
     switch (status) {
-#define GN_STATUS_CASE_(name, text)                                                                                                \
-    case name:                                                                                                                     \
+#define GN_STATUS_CASE_(name, text)                                                                                    \
+    case name:                                                                                                         \
         return text;
         GN_STATUS_LIST(GN_STATUS_CASE_)
     case GN_STATUS_COUNT:

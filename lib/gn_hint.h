@@ -3,8 +3,8 @@
 #define GN_HINT_H
 
 #if defined(__GNUC__)
-/* v is taken for changed here, and neither computed before nor from what was. It keeps what an unrolled loop steps in one register,
- * and a branch a branch, where four registers and predicated instructions would cost more. */
+/* v is taken for changed here, and neither computed before nor from what was. It keeps what an unrolled loop steps in
+ * one register, and a branch a branch, where four registers and predicated instructions would cost more. */
 #define GN_KEEP(v) __asm__ volatile("" : "+r"(v))
 /* Of a function that is seldom called from a hot one: inlined, it would take registers. */
 #define GN_NOINLINE __attribute__((noinline))

@@ -1,106 +1,120 @@
 /* The one list of knobs. Compile-time checks (gn_check.h), the host tool's --set and docs/CONFIG.md are made from it.
  *
  * Quality knobs change pixels. On a target they are constants, so that what is not chosen is not built. With
- * GN_RUNTIME_KNOBS (the host tool) the same expressions read them from the renderer, with the same bits: a test holds both
- * against each other. Columns: name, macro, smallest, largest, meaning, cost.
+ * GN_RUNTIME_KNOBS (the host tool) the same expressions read them from the renderer, with the same bits: a test holds
+ * both against each other. Columns: name, macro, smallest, largest, meaning, cost.
  */
 #ifndef GN_KNOBS_H
 #define GN_KNOBS_H
 
 #include "gn_config.h"
 
-#define GN_QUALITY_KNOBS(X)                                                                                                        \
-    X(subpixel_bits, SUBPIXEL_BITS, 2, 8, "fraction bits of screen coordinates",                                                   \
-      "12 more bytes per triangle where 16 bits do not hold them: 8, or 7 above 490 pixels")                                                                \
-    X(persp_step, PERSP_STEP, 1, 16, "most pixels between perspective divides (1, 4, 8 or 16), parabolas between",                    \
-      "1: a divide and all attributes per pixel")                                                                                  \
-    X(newton_steps, NEWTON_STEPS, 1, 2, "Newton steps of per-pixel reciprocals: 2^-17 or 2^-30 relative",                          \
-      "two multiplications per divide")                                                                                            \
-    X(shadow_subpixel_bits, SHADOW_SUBPIXEL_BITS, 4, 12, "fraction bits of caster coordinates in texels", "none")                  \
-    X(shadow_depth_frac, SHADOW_DEPTH_FRAC, 0, 4, "fraction bits of the receiver's depth below one depth step", "none")            \
-    X(weight_bits, WEIGHT_BITS, 4, 12, "fraction bits of filter positions", "none")                                                \
-    X(atten_bits, ATTEN_BITS, 8, 16, "bits of attenuation (8 or 16)", "none")                                                      \
-    X(atlas_size, ATLAS_SIZE, 16, 1024, "texels per side of the directional atlas, a power of two",                                \
-      "depth_bits / 8 bytes per texel of RAM, and the time to fill them")                                                          \
-    X(other_atlas_size, OTHER_ATLAS_SIZE, 16, 1024, "texels per side of the atlas of spot and point lights, a power of two",       \
-      "other_depth_bits / 8 bytes per texel of RAM, and the time to fill them")                                                    \
-    X(depth_bits, DEPTH_BITS, 8, 32, "bits per texel of the directional atlas (8, 16 or 32)", "RAM")                               \
-    X(other_depth_bits, OTHER_DEPTH_BITS, 8, 32, "bits per texel of the other atlas (8, 16 or 32)", "RAM")                         \
-    X(tile_width, TILE_WIDTH, 8, 2048, "screen tile width in pixels, a multiple of 8", "RAM: 7 bytes per tile pixel")              \
-    X(tile_height, TILE_HEIGHT, 1, 2048, "screen tile height in pixels", "RAM: 7 bytes per tile pixel")                            \
-    X(srgb, SRGB, 0, 1, "encode the output with the sRGB curve", "1154 bytes of flash, 10 instructions per channel")                \
-    X(vertex_light, VERTEX_LIGHT, 0, 1, "1: Gouraud shading: n . L of directional lights is found at vertices and interpolated",   \
-      "saves a root per sample; 12 bytes per light of a surface")                               \
-    X(position_bits, POSITION_BITS, 16, 32, "bits of a mesh's coordinates (16 or 32)", "flash: 6 or 12 bytes per vertex") \
+#define GN_QUALITY_KNOBS(X)                                                                                            \
+    X(subpixel_bits, SUBPIXEL_BITS, 2, 8, "fraction bits of screen coordinates",                                       \
+      "12 more bytes per triangle where 16 bits do not hold them: 8, or 7 above 490 pixels")                           \
+    X(persp_step, PERSP_STEP, 1, 16, "most pixels between perspective divides (1, 4, 8 or 16), parabolas between",     \
+      "1: a divide and all attributes per pixel")                                                                      \
+    X(newton_steps, NEWTON_STEPS, 1, 2, "Newton steps of per-pixel reciprocals: 2^-17 or 2^-30 relative",              \
+      "two multiplications per divide")                                                                                \
+    X(shadow_subpixel_bits, SHADOW_SUBPIXEL_BITS, 4, 12, "fraction bits of caster coordinates in texels", "none")      \
+    X(shadow_depth_frac, SHADOW_DEPTH_FRAC, 0, 4, "fraction bits of the receiver's depth below one depth step",        \
+      "none")                                                                                                          \
+    X(weight_bits, WEIGHT_BITS, 4, 12, "fraction bits of filter positions", "none")                                    \
+    X(atten_bits, ATTEN_BITS, 8, 16, "bits of attenuation (8 or 16)", "none")                                          \
+    X(atlas_size, ATLAS_SIZE, 16, 1024, "texels per side of the directional atlas, a power of two",                    \
+      "depth_bits / 8 bytes per texel of RAM, and the time to fill them")                                              \
+    X(other_atlas_size, OTHER_ATLAS_SIZE, 16, 1024,                                                                    \
+      "texels per side of the atlas of spot and point lights, a power of two",                                         \
+      "other_depth_bits / 8 bytes per texel of RAM, and the time to fill them")                                        \
+    X(depth_bits, DEPTH_BITS, 8, 32, "bits per texel of the directional atlas (8, 16 or 32)", "RAM")                   \
+    X(other_depth_bits, OTHER_DEPTH_BITS, 8, 32, "bits per texel of the other atlas (8, 16 or 32)", "RAM")             \
+    X(tile_width, TILE_WIDTH, 8, 2048, "screen tile width in pixels, a multiple of 8", "RAM: 7 bytes per tile pixel")  \
+    X(tile_height, TILE_HEIGHT, 1, 2048, "screen tile height in pixels", "RAM: 7 bytes per tile pixel")                \
+    X(srgb, SRGB, 0, 1, "encode the output with the sRGB curve", "1154 bytes of flash, 10 instructions per channel")   \
+    X(vertex_light, VERTEX_LIGHT, 0, 1,                                                                                \
+      "1: Gouraud shading: n . L of directional lights is found at vertices and interpolated",                         \
+      "saves a root per sample; 12 bytes per light of a surface")                                                      \
+    X(position_bits, POSITION_BITS, 16, 32, "bits of a mesh's coordinates (16 or 32)",                                 \
+      "flash: 6 or 12 bytes per vertex")                                                                               \
     X(normal_bits, NORMAL_BITS, 8, 16, "bits of a mesh's normals (8 or 16)", "flash: 3 or 6 bytes per vertex")
 
-#define GN_CAPACITY_KNOBS(X)                                                                                                       \
-    X(max_width, MAX_WIDTH, 1, 2048, "largest picture width in pixels", "2 bytes per screen tile")                                 \
-    X(max_height, MAX_HEIGHT, 1, 2048, "largest picture height in pixels", "2 bytes per screen tile")                              \
-    X(max_triangles, MAX_TRIANGLES, 1, 65534, "visible triangles per frame, after culling and clipping",                           \
-      "32 bytes each, 44 with wider screen coordinates")                                                                                  \
-    X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")                       \
-    X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")                      \
-    X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "141 bytes of stack each")                       \
-    X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "36 bytes each, 24 without spot and point lights")                 \
-    X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",                          \
-      "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                                     \
-    X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the other atlas: 1 per spot, 6 per point light",                          \
-      "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                                     \
-    X(atlas_texels, ATLAS_TEXELS, 64, 1048576, "texels that the tiles of the directional atlas take, a multiple of 64; by default all of it", \
-      "depth_bits / 8 bytes each: tiles take all of an atlas only where they are 1, 4 or 16, or sized by importance")              \
-    X(other_atlas_texels, OTHER_ATLAS_TEXELS, 64, 1048576, "the same of the other atlas", "other_depth_bits / 8 bytes each")       \
+#define GN_CAPACITY_KNOBS(X)                                                                                           \
+    X(max_width, MAX_WIDTH, 1, 2048, "largest picture width in pixels", "2 bytes per screen tile")                     \
+    X(max_height, MAX_HEIGHT, 1, 2048, "largest picture height in pixels", "2 bytes per screen tile")                  \
+    X(max_triangles, MAX_TRIANGLES, 1, 65534, "visible triangles per frame, after culling and clipping",               \
+      "32 bytes each, 44 with wider screen coordinates")                                                               \
+    X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")           \
+    X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")          \
+    X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "141 bytes of stack each")           \
+    X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "36 bytes each, 24 without spot and point lights")     \
+    X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",              \
+      "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
+    X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the other atlas: 1 per spot, 6 per point light",              \
+      "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
+    X(atlas_texels, ATLAS_TEXELS, 64, 1048576,                                                                         \
+      "texels that the tiles of the directional atlas take, a multiple of 64; by default all of it",                   \
+      "depth_bits / 8 bytes each: tiles take all of an atlas only where they are 1, 4 or 16, or sized by importance")  \
+    X(other_atlas_texels, OTHER_ATLAS_TEXELS, 64, 1048576, "the same of the other atlas",                              \
+      "other_depth_bits / 8 bytes each")                                                                               \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
 
 /* Another arithmetic (gn_compact.h): constant in every build. */
-#define GN_ARITHMETIC_KNOBS(X)                                                                                                     \
-    X(compact, COMPACT, 0, 1,                                                                                                      \
-      "32-bit arithmetic for one directional light with one hard shadow tile and flat colours, in pictures up to 256x256; features are off", \
+#define GN_ARITHMETIC_KNOBS(X)                                                                                         \
+    X(compact, COMPACT, 0, 1,                                                                                          \
+      "32-bit arithmetic for one directional light with one hard shadow tile and flat colours, in pictures up to "     \
+      "256x256; features are off",                                                                                     \
       "none: the least flash; a scene beyond its range is refused")
 
-#define GN_FEATURE_KNOBS(X)                                                                                                        \
-    X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                                      \
-    X(depth_blocks, DEPTH_BLOCKS, 0, 1, "bounds of shadow depth per 8x8 texels decide most lookups at once",                       \
-      "4 bytes of RAM per 64 texels; the same picture with and without")                                                           \
-    X(blended_cascades, BLENDED_CASCADES, 0, 1, "soft and dithered blending between cascades (D7)",                                \
-      "three more values per light and sample")                                                                                    \
-    X(filter_max, FILTER_MAX, 0, 4, "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7", "flash")                           \
-    X(disk_filter, DISK_FILTER, 0, 1, "rotated disk filter (F4)", "flash; a table of 256 bytes")                                   \
-    X(linear_kernels, LINEAR_KERNELS, 0, 1, "the cheaper linear kernels (F6)", "flash")                                            \
-    X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights (P1-P10)", "flash; the other atlas")                          \
-    X(main_light, MAIN_LIGHT, 0, 1, "a main light beside single tiles (D10)", "flash; the other atlas")                            \
-    X(tile_lights, TILE_LIGHTS, 0, 1, "lists of lights per screen tile (R9)", "flash; the same picture with and without")          \
-    X(caster_culling, CASTER_CULLING, 0, 1, "casters that a smaller cascade shows are not drawn into larger ones (D8)", "flash")   \
-    X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither (M1)", "flash")                                     \
-    X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither (M8)", "flash")                                  \
-    X(textures, TEXTURES, 0, 1, "textures: colour and alpha (M3)", "flash; a table of 512 bytes; a divide per pixel")              \
-    X(specular, SPECULAR, 0, 1, "specular highlights (M3)", "flash; a reciprocal root per light and pixel of such objects")        \
-    X(masks, MASKS, 0, 1, "baked shadow masks and their mixing (M5, M6)", "flash")                                                 \
-    X(baked_light, BAKED_LIGHT, 0, 1, "baked irradiance per vertex (M9)", "flash; three values per sample")                        \
-    X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias (B3)", "flash")                                             \
-    X(caster_bias, CASTER_BIAS, 0, 1, "casters shrunk along their normals (B4)", "flash")                                          \
-    X(receiver_plane, RECEIVER_PLANE, 0, 1, "depth of the receiver's plane per tap (B5)", "flash")                                 \
-    X(auto_bias, AUTO_BIAS, 0, 1, "automatic bias (B6)", "flash")                                                                  \
-    X(incremental, INCREMENTAL, 0, 1,                                                                                              \
-      "shadow tiles are kept from frame to frame while nothing in them changes: a single picture shows nothing of it (A5)",        \
-      "16 bytes per tile; the same picture with and without")                                                                      \
-    X(static_layer, STATIC_LAYER, 0, 1,                                                                                            \
-      "static casters are kept apart from moving ones, from frame to frame: a single picture shows nothing of it (A5)",            \
-      "the atlases' RAM twice")                                                                                                    \
-    X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")                  \
-    X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")               \
-    X(validation, VALIDATION, 0, 1,                                                                                                \
-      "scenes are checked before they are drawn; without, what would be refused may do anything", "flash")                         \
-    X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats but RGB565: RGB888, grey, one bit", "flash")                              \
-    X(many_cascades, MANY_CASCADES, 0, 1, "more than one cascade per light (D3)", "flash")                                                   \
-    X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance (A2)", "flash")                                            \
-    X(object_boxes, OBJECT_BOXES, 0, 1,                                                                                            \
-      "casters whose box a shadow tile does not see are passed over", "flash, 24 bytes per object; the same picture with and without")\
-    X(clipping, CLIPPING, 0, 1,                                                                                                    \
-      "visible triangles may come nearer than the near plane, or reach far beyond the picture; without, the frame is refused", "flash") \
-    X(caster_clipping, CASTER_CLIPPING, 0, 1,                                                                                      \
-      "directional casters may reach more than 8192 texels beyond their tile; without, they may be refused", "flash")                \
-    X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")                   \
+#define GN_FEATURE_KNOBS(X)                                                                                            \
+    X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \
+    X(depth_blocks, DEPTH_BLOCKS, 0, 1, "bounds of shadow depth per 8x8 texels decide most lookups at once",           \
+      "4 bytes of RAM per 64 texels; the same picture with and without")                                               \
+    X(blended_cascades, BLENDED_CASCADES, 0, 1, "soft and dithered blending between cascades (D7)",                    \
+      "three more values per light and sample")                                                                        \
+    X(filter_max, FILTER_MAX, 0, 4, "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7", "flash")               \
+    X(disk_filter, DISK_FILTER, 0, 1, "rotated disk filter (F4)", "flash; a table of 256 bytes")                       \
+    X(linear_kernels, LINEAR_KERNELS, 0, 1, "the cheaper linear kernels (F6)", "flash")                                \
+    X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights (P1-P10)", "flash; the other atlas")              \
+    X(main_light, MAIN_LIGHT, 0, 1, "a main light beside single tiles (D10)", "flash; the other atlas")                \
+    X(tile_lights, TILE_LIGHTS, 0, 1, "lists of lights per screen tile (R9)",                                          \
+      "flash; the same picture with and without")                                                                      \
+    X(caster_culling, CASTER_CULLING, 0, 1,                                                                            \
+      "casters that a smaller cascade shows are not drawn into larger ones (D8)", "flash")                             \
+    X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither (M1)", "flash")                         \
+    X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither (M8)", "flash")                      \
+    X(textures, TEXTURES, 0, 1, "textures: colour and alpha (M3)", "flash; a table of 512 bytes; a divide per pixel")  \
+    X(specular, SPECULAR, 0, 1, "specular highlights (M3)",                                                            \
+      "flash; a reciprocal root per light and pixel of such objects")                                                  \
+    X(masks, MASKS, 0, 1, "baked shadow masks and their mixing (M5, M6)", "flash")                                     \
+    X(baked_light, BAKED_LIGHT, 0, 1, "baked irradiance per vertex (M9)", "flash; three values per sample")            \
+    X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias (B3)", "flash")                                 \
+    X(caster_bias, CASTER_BIAS, 0, 1, "casters shrunk along their normals (B4)", "flash")                              \
+    X(receiver_plane, RECEIVER_PLANE, 0, 1, "depth of the receiver's plane per tap (B5)", "flash")                     \
+    X(auto_bias, AUTO_BIAS, 0, 1, "automatic bias (B6)", "flash")                                                      \
+    X(incremental, INCREMENTAL, 0, 1,                                                                                  \
+      "shadow tiles are kept from frame to frame while nothing in them changes: a single picture shows nothing of it " \
+      "(A5)",                                                                                                          \
+      "16 bytes per tile; the same picture with and without")                                                          \
+    X(static_layer, STATIC_LAYER, 0, 1,                                                                                \
+      "static casters are kept apart from moving ones, from frame to frame: a single picture shows nothing of it "     \
+      "(A5)",                                                                                                          \
+      "the atlases' RAM twice")                                                                                        \
+    X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
+    X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")   \
+    X(validation, VALIDATION, 0, 1,                                                                                    \
+      "scenes are checked before they are drawn; without, what would be refused may do anything", "flash")             \
+    X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats but RGB565: RGB888, grey, one bit", "flash")                  \
+    X(many_cascades, MANY_CASCADES, 0, 1, "more than one cascade per light (D3)", "flash")                             \
+    X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance (A2)", "flash")                                \
+    X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box a shadow tile does not see are passed over",                \
+      "flash, 24 bytes per object; the same picture with and without")                                                 \
+    X(clipping, CLIPPING, 0, 1,                                                                                        \
+      "visible triangles may come nearer than the near plane, or reach far beyond the picture; without, the frame is " \
+      "refused",                                                                                                       \
+      "flash")                                                                                                         \
+    X(caster_clipping, CASTER_CLIPPING, 0, 1,                                                                          \
+      "directional casters may reach more than 8192 texels beyond their tile; without, they may be refused", "flash")  \
+    X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")       \
     X(runtime_knobs, RUNTIME_KNOBS, 0, 1, "quality knobs as data (host tools)", "everything is built")
 
 #if GN_RUNTIME_KNOBS

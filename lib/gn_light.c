@@ -25,7 +25,8 @@ static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample,
 }
 
 /* The same times what arrives, Q24. */
-static GN_NOINLINE uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot)
+static GN_NOINLINE uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                         uint32_t slot)
 {
     const gn_light_state *light = surface->light[slot].state;
 #if GN_PUNCTUAL_LIGHTS
@@ -66,7 +67,8 @@ static void add(uint64_t sum_q20[3], const uint32_t colour_uq16[3], uint32_t irr
 static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sample, uint64_t sum[3])
 {
     if (GN_COLOURED(surface))
-        for (int c = 0; c < 3; c++) sum[c] = (sum[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_RGB + c], 0) + 0x8000U) >> 16;
+        for (int c = 0; c < 3; c++)
+            sum[c] = (sum[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_RGB + c], 0) + 0x8000U) >> 16;
 #if GN_TEXTURES
     uint32_t texture[3];
     if (!surface->textured) return;
@@ -76,16 +78,19 @@ static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sam
 #endif
 }
 
-void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t radiance_q20[3])
+void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                       uint32_t radiance_q20[3])
 {
-    uint64_t sum[3] = {surface->base_q20[0], surface->base_q20[1], surface->base_q20[2]}; /* < 2^28 and 2^35 per light */
+    uint64_t sum[3] = {surface->base_q20[0], surface->base_q20[1],
+                       surface->base_q20[2]}; /* < 2^28 and 2^35 per light */
 #if GN_SPECULAR
     uint64_t highlights[3] = {0, 0, 0};
 #endif
     uint32_t g = surface->shadowed ? gn_shadow_distance(frame, surface, sample) : 0;
 #if GN_BAKED_LIGHT
     for (int c = 0; surface->baked && c < 3; c++) /* 2^20 * 2^17 */
-        sum[c] += (uint64_t)surface->object->albedo_uq16[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_BAKED + c], 0) >> 12;
+        sum[c] +=
+            (uint64_t)surface->object->albedo_uq16[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_BAKED + c], 0) >> 12;
 #endif
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         const gn_surface_light *light = &surface->light[i];
@@ -103,7 +108,8 @@ void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const g
         if (surface->specular) {
             GN_COUNT(highlights, 1);
             uint32_t colour[3];
-            for (int c = 0; c < 3; c++) colour[c] = gn_mul_uq16(light->state->colour_uq16[c], surface->object->specular_uq16[c]);
+            for (int c = 0; c < 3; c++)
+                colour[c] = gn_mul_uq16(light->state->colour_uq16[c], surface->object->specular_uq16[c]);
             add(highlights, colour, gn_mul_uq16(specular_q24(frame, surface, sample, i), shadow));
         }
 #endif

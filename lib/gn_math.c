@@ -22,7 +22,8 @@ uint64_t gn_bf_from_u64_bits(uint64_t v)
     return gn_bf_bits(out);
 }
 
-/* Entry i of gn_recip_table is 2^25 / (2i + 513), rounded. Where size comes first and the core divides, it is computed. */
+/* Entry i of gn_recip_table is 2^25 / (2i + 513), rounded. Where size comes first and the core divides, it is computed.
+ */
 #if defined(GN_FAR) && GN_CORE_DIVIDES
 #define RECIP_START(i) (((1U << 25) + (i) + 256U) / (2U * (i) + 513U))
 #elif defined(GN_FAR)
@@ -40,7 +41,8 @@ uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
 uint32_t gn_quotient_q30(uint32_t num, uint32_t den)
 {
     int32_t clz = gn_clz32(den);
-    return (uint32_t)((uint64_t)num * gn_recip_norm(den << clz, 1) >> (33 - clz)); /* num <= den: 2^30 at most, and 2^13 */
+    return (uint32_t)((uint64_t)num * gn_recip_norm(den << clz, 1) >>
+                      (33 - clz)); /* num <= den: 2^30 at most, and 2^13 */
 }
 
 uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
@@ -174,7 +176,8 @@ int gn_det_sign(const int32_t m[3][3])
     }
     gn_cross64(wide, row[1], row[2]);
     gn_norm_vec(n, wide);
-    int64_t det = gn_dot64(row[0], n); /* rows and n have a component of at least 2^29, so the angle's sine is det / 2^60 */
+    int64_t det =
+        gn_dot64(row[0], n); /* rows and n have a component of at least 2^29, so the angle's sine is det / 2^60 */
     return det > (int64_t)1 << 32 ? 1 : det < -((int64_t)1 << 32) ? -1 : 0;
 }
 
@@ -185,8 +188,9 @@ int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
     /* squares sum below 3 * 2^60; the largest component is at least 2^29 */
     uint64_t sum = (uint64_t)gn_dot64(n, n);
     if (!sum) return 0;
-    int32_t s = gn_clz64(sum) & ~1;                              /* even shift to [2^62, 2^64) */
-    uint32_t r = gn_rsqrt_norm((uint32_t)((sum << s) >> 32), 2); /* 2^47 / sqrt(sum << s >> 32) = 2^63 / sqrt(sum << s) */
+    int32_t s = gn_clz64(sum) & ~1; /* even shift to [2^62, 2^64) */
+    uint32_t r =
+        gn_rsqrt_norm((uint32_t)((sum << s) >> 32), 2); /* 2^47 / sqrt(sum << s >> 32) = 2^63 / sqrt(sum << s) */
     for (int i = 0; i < 3; i++) {
         /* n / sqrt(sum) = n * r * 2^(s/2 - 63), s = 2 or 4; the factor r, from 2^31 on, as r - 2^32 and once more */
         int32_t twice = s == 4 ? 2 * n[i] : n[i];

@@ -1,4 +1,5 @@
-/* Number core: reciprocals, roots, sine, vectors. Formats, ranges and errors are proved in docs/NUMERICS.md section 2. */
+/* Number core: reciprocals, roots, sine, vectors. Formats, ranges and errors are proved in docs/NUMERICS.md section 2.
+ */
 #ifndef GN_MATH_H
 #define GN_MATH_H
 
@@ -9,8 +10,8 @@
 #include "gn_tables.h"
 #include "gnomon.h"
 
-/* Block floats and lengths go through calls as 64 bits, the mantissa low: two registers on every core, where the calling convention
- * of ARM returns a structure of 8 bytes in memory. */
+/* Block floats and lengths go through calls as 64 bits, the mantissa low: two registers on every core, where the
+ * calling convention of ARM returns a structure of 8 bytes in memory. */
 GN_INLINE uint64_t gn_bf_bits(gn_bfloat a)
 {
     return (uint64_t)(uint32_t)a.exp << 32 | a.mant;
@@ -33,11 +34,12 @@ GN_INLINE gn_bfloat gn_bf_from_u64(uint64_t v)
     return gn_bf_of_bits(gn_bf_from_u64_bits(v));
 }
 
-/* 2^63 / m for a normalised m in [2^31, 2^32). newton_steps 1: relative error < 2^-17, 2: < 2^-29, and then within [2^31, 2^32). */
+/* 2^63 / m for a normalised m in [2^31, 2^32). newton_steps 1: relative error < 2^-17, 2: < 2^-29, and then within
+ * [2^31, 2^32). */
 uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps);
 
-/* One step of Newton's method towards 1 / x, x = m / 2^32 in [1/2, 1), y in Q1.31: y(2 - xy) exceeds 1 / x only by truncation, so only x near 1/2
- * reaches 2^32. */
+/* One step of Newton's method towards 1 / x, x = m / 2^32 in [1/2, 1), y in Q1.31: y(2 - xy) exceeds 1 / x only by
+ * truncation, so only x near 1/2 reaches 2^32. */
 static inline uint32_t gn_recip_step(uint32_t m, uint32_t y)
 {
     uint32_t two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32); /* Q1.31, near 1: xy is within 2^-8 of 1 */
@@ -51,7 +53,8 @@ static inline uint32_t gn_recip_step(uint32_t m, uint32_t y)
 #else
 static inline uint32_t gn_recip_norm2(uint32_t m)
 {
-    uint32_t y = (uint32_t)gn_recip_table[(m >> 23) & 255U] << 16, two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32);
+    uint32_t y = (uint32_t)gn_recip_table[(m >> 23) & 255U] << 16,
+             two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32);
     /* the first step ends below 2^32: the entry for x next to 1/2 is too far from 2 */
     y = (uint32_t)(((uint64_t)y * two_minus_xy) >> 31);
     GN_KEEP(y); /* 32 bits, of which it knows */
@@ -66,7 +69,8 @@ static inline uint32_t gn_recip_norm2(uint32_t m)
 /* num / den to 2^-17 of it, Q30; num <= den */
 uint32_t gn_quotient_q30(uint32_t num, uint32_t den);
 
-/* 2^47 / sqrt(m) for m in [2^30, 2^32). newton_steps 1: relative error < 2^-15, 2: < 2^-28, and then within [2^31, 2^32). */
+/* 2^47 / sqrt(m) for m in [2^30, 2^32). newton_steps 1: relative error < 2^-15, 2: < 2^-28, and then within [2^31,
+ * 2^32). */
 uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps);
 
 /* Relative error < 2^-29 */
@@ -81,7 +85,8 @@ GN_INLINE gn_bfloat gn_bf_mul(gn_bfloat a, gn_bfloat b)
     return gn_bf_of_bits(gn_bf_mul_bits(gn_bf_bits(a), gn_bf_bits(b)));
 }
 
-/* round(a * b.mant * 2^(b.exp + shift)), saturating at +-2^63. Error at most 1 LSB or 2^-31 of the result, the larger. */
+/* round(a * b.mant * 2^(b.exp + shift)), saturating at +-2^63. Error at most 1 LSB or 2^-31 of the result, the larger.
+ */
 GN_INLINE int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift)
 {
     b.exp += shift;
@@ -90,12 +95,13 @@ GN_INLINE int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift)
 
 uint32_t gn_isqrt64(uint64_t v); /* floor(sqrt(v)) */
 
-/* floor(a / b), b > 0, and what is left. A step per bit of the quotient: never per pixel; where it is short, no slower than the compiler's
- * helper, which takes ten times the flash. */
+/* floor(a / b), b > 0, and what is left. A step per bit of the quotient: never per pixel; where it is short, no slower
+ * than the compiler's helper, which takes ten times the flash. */
 uint64_t gn_udiv64_rest(uint64_t a, uint64_t b, uint64_t *rest);
 uint64_t gn_udiv64(uint64_t a, uint64_t b);
 
-/* round(a * 2^q30 / |a|); a any length but zero. Each component errs by at most 3 LSB of Q1.30. Returns 0 if a is zero. */
+/* round(a * 2^q30 / |a|); a any length but zero. Each component errs by at most 3 LSB of Q1.30. Returns 0 if a is zero.
+ */
 int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3]);
 
 /* Exact; |components| < 2^30 so that the result fits. */
@@ -122,7 +128,8 @@ static inline int64_t gn_dot_q30_inline(const int32_t a[3], const int32_t b[3])
 #define gn_dot_q30 gn_dot_q30_inline
 #endif
 
-/* 1 / |n| of a vector of Q1.30 components, |n| <= 1 but for rounding: 2^(63 - shift / 2) = root * sqrt(n . n). Zero stays zero. */
+/* 1 / |n| of a vector of Q1.30 components, |n| <= 1 but for rounding: 2^(63 - shift / 2) = root * sqrt(n . n). Zero
+ * stays zero. */
 typedef struct {
     uint32_t root;
     int32_t shift;
@@ -137,8 +144,9 @@ GN_INLINE gn_length gn_length_of(int32_t newton_steps, const int32_t n_q30[3])
     return length;
 }
 
-int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], const int32_t unit_q30[3]); /* n . unit / |n|, within +-1 */
-void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3]);                 /* n / |n| */
+int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3],
+                             const int32_t unit_q30[3]);                           /* n . unit / |n|, within +-1 */
+void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3]); /* n / |n| */
 
 /* Round Q1.30 cross product of unit vectors. */
 void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q30[3]);
@@ -146,8 +154,8 @@ void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q3
 /* Sign of the determinant of three rows, exact but for rows within 2^-28 of a common plane, which count as 0. */
 int gn_det_sign(const int32_t m[3][3]);
 
-/* Shifts a vector so that its largest component has its top bit at bit 29: |out| < 2^30. Returns e with a = out * 2^e (rounded
- * when e > 0, exact when e <= 0). A zero vector gives zero and e = 0. */
+/* Shifts a vector so that its largest component has its top bit at bit 29: |out| < 2^30. Returns e with a = out * 2^e
+ * (rounded when e > 0, exact when e <= 0). A zero vector gives zero and e = 0. */
 int32_t gn_norm_vec(int32_t out[3], const int64_t a[3]);
 
 #endif

@@ -91,7 +91,8 @@ static int heavier(gn_bfloat a, gn_bfloat b)
     return a.exp != b.exp ? a.exp > b.exp : a.mant > b.mant;
 }
 
-/* Keeps the heaviest `limit` lights in order of weight; of equals the first come stay first. Returns 1 if one had to go. */
+/* Keeps the heaviest `limit` lights in order of weight; of equals the first come stay first. Returns 1 if one had to
+ * go. */
 static int keep_heaviest(gn_object_state *object, light_list *list, uint32_t light_idx, gn_bfloat weight)
 {
     uint32_t at = list->n;
@@ -125,13 +126,15 @@ static uint32_t list_lights(gn_frame *frame, uint32_t object_idx)
     const gn_scene *scene = frame->scene;
     gn_object_state *object = &frame->object[object_idx];
     GN_ELEMENT(object);
-    light_list list = {.n = 0, .limit = scene->shadow.object_lights ? scene->shadow.object_lights : GN_OBJECT_LIGHTS_MAX};
+    light_list list = {.n = 0,
+                       .limit = scene->shadow.object_lights ? scene->shadow.object_lights : GN_OBJECT_LIGHTS_MAX};
     uint32_t n_reaching = 0;
     for (uint32_t l = 0; l < scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
         if (light->off || light->kind == GN_LIGHT_DIRECTIONAL || !gn_object_is_reached(frame, object_idx, l)) continue;
         n_reaching++;
-        gn_bfloat weight = gn_punctual_weight(light, gn_object_distance2_q32(object, light->position_q16), frame->min2_q32);
+        gn_bfloat weight =
+            gn_punctual_weight(light, gn_object_distance2_q32(object, light->position_q16), frame->min2_q32);
         int one_left = keep_heaviest(object, &list, l, weight);
         if (scene->shadow.object_lights) frame->stats.n_lights_left_out += (uint32_t)one_left;
     }

@@ -20,11 +20,12 @@ int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_
 }
 
 /* Texel size from the sphere: ceil8 of (1 - 2^-20) * 2 r / D. Returns its reciprocal. */
-static gn_bfloat inverse_texel(const gn_frame *frame, const gn_light_view *view, const gn_light *light, uint32_t filter_idx,
-                               gn_bfloat radius, int *clamped)
+static gn_bfloat inverse_texel(const gn_frame *frame, const gn_light_view *view, const gn_light *light,
+                               uint32_t filter_idx, gn_bfloat radius, int *clamped)
 {
     int64_t t_q16 = (int64_t)view->tile_texels << 16;
-    int64_t sphere_q16 = t_q16 - 2 * (int64_t)(filter_idx + 1) * (65536 + gn_bias_reach_q16(frame, view, light)) - 65536;
+    int64_t sphere_q16 =
+        t_q16 - 2 * (int64_t)(filter_idx + 1) * (65536 + gn_bias_reach_q16(frame, view, light)) - 65536;
     *clamped = sphere_q16 < t_q16 / 4;
     if (*clamped) sphere_q16 = t_q16 / 4;
     gn_bfloat texel = gn_bf_mul(radius, gn_bf_recip(gn_bf_from_u64((uint64_t)sphere_q16)));
@@ -113,9 +114,10 @@ void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
 #endif
 }
 
-/* ---- Casters ------------------------------------------------------------------------------------------------------ */
+/* ---- Casters ----------------------------------------------------------------------------------------------------- */
 
-#define GN_TILE_REACH_Q16 ((int64_t)16384 << 16) /* casters are cut at this distance in texels: keeps gn_walk in range */
+#define GN_TILE_REACH_Q16                                                                                              \
+    ((int64_t)16384 << 16) /* casters are cut at this distance in texels: keeps gn_walk in range */
 
 /* Object space to tile coordinates: as gn_xform_compose, with 1 / texel folded into the matrix. */
 void gn_ortho_compose(gn_xform *out, const gn_light_view *view, const gn_object *object)
@@ -125,7 +127,8 @@ void gn_ortho_compose(gn_xform *out, const gn_light_view *view, const gn_object 
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++)
             out->m[r][c] = (int32_t)gn_shr64((int64_t)out->m[r][c] * (int64_t)view->fit.ortho.inv_texel.mant, 32);
-        out->t_q16[r] = gn_light_coord_q16(view, r, object->to_world.t_q16) - (int64_t)view->fit.ortho.origin[r] * 65536;
+        out->t_q16[r] =
+            gn_light_coord_q16(view, r, object->to_world.t_q16) - (int64_t)view->fit.ortho.origin[r] * 65536;
     }
     out->shift -= view->fit.ortho.inv_texel.exp + 32;
 }
@@ -213,17 +216,18 @@ static inline int64_t depth_q32(const gn_light_view *view, int64_t texels_q16)
     return up >= 0 ? gn_shl64(texels_q16, up) : gn_shr64(texels_q16, -up);
 }
 
-/* Plane, bias (B1) and range of a triangle with this normal, whose depths are lo .. hi, texels. Returns 0 if it cannot be seen from
- * the light. */
-static GN_NOINLINE int caster_begin(gn_caster *out, const gn_light_view *view, const int32_t nn[3], int two_sided, int64_t lo,
-                                    int64_t hi)
+/* Plane, bias (B1) and range of a triangle with this normal, whose depths are lo .. hi, texels. Returns 0 if it cannot
+ * be seen from the light. */
+static GN_NOINLINE int caster_begin(gn_caster *out, const gn_light_view *view, const int32_t nn[3], int two_sided,
+                                    int64_t lo, int64_t hi)
 {
     if (nn[2] == 0 || (nn[2] > 0 && !two_sided)) return 0; /* along w: away from the light */
     int32_t to_steps = 16 - view->tile_log2 - view->depth_log2;
     gn_bfloat per_n = gn_bf_recip(gn_bf_from_u64(gn_abs32(nn[2])));
     int32_t nu = nn[2] < 0 ? nn[0] : -nn[0], nv = nn[2] < 0 ? nn[1] : -nn[1];
-    int64_t steepest = gn_clamp64(apply((int32_t)(gn_abs32(nu) > gn_abs32(nv) ? gn_abs32(nu) : gn_abs32(nv)), per_n, 16), 0,
-                                  (int64_t)1 << 31);                                        /* texels per texel, Q16 */
+    int64_t steepest =
+        gn_clamp64(apply((int32_t)(gn_abs32(nu) > gn_abs32(nv) ? gn_abs32(nu) : gn_abs32(nv)), per_n, 16), 0,
+                   (int64_t)1 << 31);                                                       /* texels per texel, Q16 */
     int64_t bias = view->bias_constant_q16 + gn_shr64(steepest * view->bias_slope_q16, 16); /* 2^31 * 2^22 */
     out->bias = depth_q32(view, bias);
     out->dz_du = gn_clamp64(apply(nu, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
@@ -253,7 +257,8 @@ static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *vi
 }
 
 /* Depth at the centre of texel (0, 0) from the plane through one vertex, which is within reach: below 2^48. */
-static int64_t depth_at_corner(const gn_light_view *view, const gn_caster *caster, int64_t u_q16, int64_t v_q16, int64_t depth_q16)
+static int64_t depth_at_corner(const gn_light_view *view, const gn_caster *caster, int64_t u_q16, int64_t v_q16,
+                               int64_t depth_q16)
 {
     int64_t du_q16 = 32768 - u_q16, dv_q16 = 32768 - v_q16; /* <= 2^30 */
     int64_t z = depth_q32(view, depth_q16);
@@ -295,7 +300,8 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
     gn_caster caster;
     gn_light_polygon *polygon = &casting->polygon;
     polygon->n = 3;
-    if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.two_sided)) return -1;
+    if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.two_sided))
+        return -1;
 #if GN_CASTER_ALPHA
     if (alpha && alpha->textured) alpha_plane(frame, view, alpha, polygon->p);
 #endif
@@ -304,7 +310,8 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
 #else
     if (!within_reach(polygon->p)) return GN_ORTHO_TOO_FAR;
 #endif
-    if (polygon->n >= 3) caster.z_corner = depth_at_corner(view, &caster, polygon->p[0][0], polygon->p[0][1], polygon->p[0][2]);
+    if (polygon->n >= 3)
+        caster.z_corner = depth_at_corner(view, &caster, polygon->p[0][0], polygon->p[0][1], polygon->p[0][2]);
     int32_t bits = GN_K(frame, shadow_subpixel_bits), n_texels = 0;
     for (int i = 1; i + 1 < polygon->n; i++) {
         const int64_t *p[3] = {polygon->p[0], polygon->p[i], polygon->p[i + 1]};
@@ -318,12 +325,15 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
     return n_texels;
 }
 
-int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, const int32_t *const c[3])
+int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
+                                const int32_t *const c[3])
 {
     int two_sided = casting->job.two_sided;
-    int32_t end = view->tile_texels << 16, sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3], y[3];
+    int32_t end = view->tile_texels << 16, sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3],
+            y[3];
     for (int axis = 0; axis < 2; axis++) /* misses the tile: a sign of all three */
-        if (((c[0][axis] & c[1][axis] & c[2][axis]) | ((end - c[0][axis]) & (end - c[1][axis]) & (end - c[2][axis]))) < 0)
+        if (((c[0][axis] & c[1][axis] & c[2][axis]) | ((end - c[0][axis]) & (end - c[1][axis]) & (end - c[2][axis]))) <
+            0)
             return -1;
     int32_t e1[3], e2[3], nn[3];
     for (int i = 0; i < 3; i++) {

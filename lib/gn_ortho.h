@@ -1,4 +1,5 @@
-/* Orthographic light views: how a tile lies in the world, and casters as it sees them (D2, D3, D9, B1, DESIGN 1.4, 1.6). */
+/* Orthographic light views: how a tile lies in the world, and casters as it sees them (D2, D3, D9, B1,
+ * DESIGN 1.4, 1.6). */
 #ifndef GN_ORTHO_H
 #define GN_ORTHO_H
 
@@ -13,7 +14,8 @@ void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
 /* The planes from which light coordinates along this frame's rays follow; all else of the fit stays. */
 void gn_ortho_rays(const gn_frame *frame, gn_light_view *view);
 
-/* Tile coordinates of a world point before the origin is taken off: p . axis / texel, Q16, within 1 LSB + 2^-29 of the value. */
+/* Tile coordinates of a world point before the origin is taken off: p . axis / texel, Q16, within 1 LSB + 2^-29 of the
+ * value. */
 int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_t p_q16[3]);
 
 /* Object space to tile coordinates U, V, D in texels, Q16, |.| <= 2^46. */
@@ -24,7 +26,8 @@ void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh,
 int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha);
 
 /* The same for corners within 2^29 (8192 texels), without alpha. */
-int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, const int32_t *const c[3]);
+int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
+                                const int32_t *const c[3]);
 
 #define GN_ORTHO_TOO_FAR (-2) /* without GN_CASTER_CLIPPING: it reaches too far beyond the tile */
 

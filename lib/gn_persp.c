@@ -27,7 +27,7 @@ int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texel
 {
     const int64_t one = 1 << 24, two = 2 << 24;
     int64_t a = (int64_t)gn_udiv64((uint64_t)(2 * (filter_idx + 1)) << 24, (uint64_t)tile_texels); /* <= 2.25 */
-    int64_t p = gn_shr64((int64_t)nu_q16 * 46341 * a, 32);             /* nu / sqrt(2) * A: 2^21 * 2^16 * 2^26 */
+    int64_t p = gn_shr64((int64_t)nu_q16 * 46341 * a, 32); /* nu / sqrt(2) * A: 2^21 * 2^16 * 2^26 */
     int64_t b = one - p - a, product = gn_shr64(p * (one - a), 24);
     int64_t under = b * b - 4 * product * one;
     *clamped = 1;
@@ -55,24 +55,28 @@ void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
     for (int i = 0; i < 3; i++) fit->eye_q16[i] = light->position_q16[i];
     fit->near_q16 = light->near_q16;
     if (light->kind == GN_LIGHT_SPOT) /* tan(a / 2) = sin a / (1 + cos a) */
-        fit->focal2_q16 =
-            focal2_q16(view->tile_texels, gn_sin_q30(light->outer_turn), ((int64_t)1 << 30) + gn_cos_q30(light->outer_turn));
+        fit->focal2_q16 = focal2_q16(view->tile_texels, gn_sin_q30(light->outer_turn),
+                                     ((int64_t)1 << 30) + gn_cos_q30(light->outer_turn));
     else
         fit->focal2_q16 = focal2_q16(
             view->tile_texels,
-            gn_persp_face_q24(view->filter_idx, gn_bias_reach_q16(frame, view, light), view->tile_texels, &clamped), 1 << 24);
+            gn_persp_face_q24(view->filter_idx, gn_bias_reach_q16(frame, view, light), view->tile_texels, &clamped),
+            1 << 24);
     frame->stats.n_reach_clamped += (uint32_t)clamped;
     fit->texel_per_z = gn_bf_recip(gn_bf_from_u64(fit->focal2_q16));
     fit->per_near = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16));
     fit->texel_per_z.exp += 17; /* 2 / (T / t), T / t in Q16 */
-    fit->guard_q16[0] = fit->guard_q16[1] = gn_sat32((int64_t)gn_udiv64((uint64_t)(2 * GN_GUARD_TEXELS) << 32, fit->focal2_q16));
-    fit->side_q16[0] = fit->side_q16[1] = gn_sat32((int64_t)gn_udiv64((uint64_t)view->tile_texels << 32, fit->focal2_q16) + 2);
+    fit->guard_q16[0] = fit->guard_q16[1] =
+        gn_sat32((int64_t)gn_udiv64((uint64_t)(2 * GN_GUARD_TEXELS) << 32, fit->focal2_q16));
+    fit->side_q16[0] = fit->side_q16[1] =
+        gn_sat32((int64_t)gn_udiv64((uint64_t)view->tile_texels << 32, fit->focal2_q16) + 2);
     fit->ratio_max_q28 = (int64_t)gn_udiv64((uint64_t)1 << 62, fit->focal2_q16);
     /* min(1, constant * 2t / T): T / t has 16 fraction bits */
-    fit->constant_share_q30 = (int32_t)gn_clamp64((int64_t)gn_udiv64((uint64_t)(uint32_t)light->bias_constant_q16 << 31, fit->focal2_q16), 0, 1 << 30);
+    fit->constant_share_q30 = (int32_t)gn_clamp64(
+        (int64_t)gn_udiv64((uint64_t)(uint32_t)light->bias_constant_q16 << 31, fit->focal2_q16), 0, 1 << 30);
 }
 
-/* ---- Casters ------------------------------------------------------------------------------------------------------ */
+/* ---- Casters ----------------------------------------------------------------------------------------------------- */
 
 /* n / z, Q32, saturated below 1 */
 static int64_t inverse_depth_q32(const gn_persp_fit *fit, int32_t z_q16)
@@ -106,7 +110,8 @@ static int caster_begin(gn_caster *caster, gn_plane *plane, const gn_light_view 
     gn_plane_setup(plane, v[0], v[1], v[2]);
     /* u x v = w: a face that looks at the light has its normal against the view, and was turned by gn_plane_setup */
     if (plane->det == 0 || (!plane->back && !two_sided)) return 0;
-    gn_bfloat scale = gn_bf_mul(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16), fit->texel_per_z); /* n / (T / t): 2^17 of it, which is taken off below */
+    gn_bfloat scale = gn_bf_mul(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16),
+                                fit->texel_per_z); /* n / (T / t): 2^17 of it, which is taken off below */
     scale = gn_bf_mul(scale, gn_bf_recip(gn_bf_from_u64((uint64_t)plane->det)));
     int32_t px = 1 - view->tile_texels, z_min = v[0][2], z_max = v[0][2];
     const int64_t most = GN_CASTER_GRADIENT_MAX;
@@ -125,9 +130,11 @@ static int caster_begin(gn_caster *caster, gn_plane *plane, const gn_light_view 
 }
 
 /* Texels from the tile's corner; v is inside the guard band and not nearer than near. */
-static void project_corner(const gn_frame *frame, const gn_light_view *view, const int32_t v_q16[3], int32_t *x, int32_t *y)
+static void project_corner(const gn_frame *frame, const gn_light_view *view, const int32_t v_q16[3], int32_t *x,
+                           int32_t *y)
 {
-    int32_t bits = GN_K(frame, shadow_subpixel_bits), clz = gn_clz32((uint32_t)v_q16[2]), centre = (view->tile_texels << bits) >> 1;
+    int32_t bits = GN_K(frame, shadow_subpixel_bits), clz = gn_clz32((uint32_t)v_q16[2]),
+            centre = (view->tile_texels << bits) >> 1;
     const int64_t most = (int64_t)(2 * GN_GUARD_TEXELS) << bits;
     uint32_t recip = gn_recip_norm((uint32_t)v_q16[2] << clz, 2);
     int64_t texel[2];

@@ -10,7 +10,8 @@
 /* Fits a view, whose axes, tile and filter are known, to its light. */
 void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light);
 
-/* Half-width of a cube's face, t = tan(fov / 2), Q24, between 1 and 2 (P6); *clamped where 2 is all there is. nu: gn_bias_reach_q16. */
+/* Half-width of a cube's face, t = tan(fov / 2), Q24, between 1 and 2 (P6); *clamped where 2 is all there is. nu:
+ * gn_bias_reach_q16. */
 int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped);
 
 /* The cube's face that a point lies in, from where it is seen from the light (P5). */

@@ -21,10 +21,10 @@ int32_t gn_step_of(int32_t a, int32_t b, int32_t n)
     return b < a ? -size : size;
 }
 
-/* ---- Once per surface --------------------------------------------------------------------------------------------- */
+/* ---- Once per surface -------------------------------------------------------------------------------------------- */
 
-/* A linear form of view space, at least 2^29 long, on the screen: at the middle of `rect` times 2^-shift. Returns 0 if it leaves +-2^31
- * within `rect`, as it does everywhere with a small shift. */
+/* A linear form of view space, at least 2^29 long, on the screen: at the middle of `rect` times 2^-shift. Returns 0 if
+ * it leaves +-2^31 within `rect`, as it does everywhere with a small shift. */
 static int form_on_screen(gn_slope *out, const gn_pieces *p, const int32_t form[3], int32_t shift, const gn_rect *rect)
 {
     const gn_frame *frame = p->frame;
@@ -36,7 +36,8 @@ static int form_on_screen(gn_slope *out, const gn_pieces *p, const int32_t form[
     out->at = ((int32_t)at + 1) >> 1;
     out->dx = ((form[0] >> (s - 1)) + 1) >> 1;
     out->dy = -(((form[1] >> (s - 1)) + 1) >> 1);
-    uint32_t dx = gn_abs32(out->dx), dy = gn_abs32(out->dy), w = (uint32_t)(rect->x1 - rect->x0), h = (uint32_t)(rect->y1 - rect->y0);
+    uint32_t dx = gn_abs32(out->dx), dy = gn_abs32(out->dy), w = (uint32_t)(rect->x1 - rect->x0),
+             h = (uint32_t)(rect->y1 - rect->y0);
     return gn_abs32(out->at) < 1U << 30 && (dx | dy) < 1U << 28 && (uint64_t)dx * w + (uint64_t)dy * h < 1U << 30;
 }
 
@@ -84,9 +85,9 @@ static int find_shadow(gn_pieces *p)
 }
 #endif
 
-/* Light of all lamps together, from straight ahead, that 32 bits of colours in Q24 are made for: 4. Factors that are found between
- * vertices, cosines and colours of vertices, stay within +-2 all over a piece (stays_within_2): 2^27 for what arrives, 2^28 times a
- * colour, and a row of that, stepped from end to end, below 2^30. */
+/* Light of all lamps together, from straight ahead, that 32 bits of colours in Q24 are made for: 4. Factors that are
+ * found between vertices, cosines and colours of vertices, stay within +-2 all over a piece (stays_within_2): 2^27 for
+ * what arrives, 2^28 times a colour, and a row of that, stepped from end to end, below 2^30. */
 #define GN_PIECE_LIGHT_Q20 (1U << 22)
 
 int gn_pieces_fit(const gn_frame *frame, const gn_surface *s)
@@ -112,7 +113,7 @@ int gn_pieces_begin(gn_pieces *p, const gn_frame *frame, const gn_surface *s, co
     return forms(p, rect);
 }
 
-/* ---- Once per piece ----------------------------------------------------------------------------------------------- */
+/* ---- Once per piece ---------------------------------------------------------------------------------------------- */
 
 /* The surface in the middle of a piece. */
 typedef struct {
@@ -120,7 +121,7 @@ typedef struct {
     int32_t clz;
     int32_t z_q16;
     gn_slope b_q28[2];
-    gn_slope n_q28[3]; /* interpolated normal of smooth surfaces */
+    gn_slope n_q28[3];          /* interpolated normal of smooth surfaces */
     int32_t w_dx_q30, w_dy_q30; /* change of w per pixel, relative to w */
 } middle;
 
@@ -159,8 +160,8 @@ static int find_middle(const gn_pieces *p, middle *m)
     return 1;
 }
 
-/* v0 + b1 d1 + b2 d2 with `drop` of the 28 fraction bits of b dropped, on to the unit of v0. With |v0| <= 1 and |d| <= 2 in that unit it
- * is within +-7, its slopes within +-6.75: below 2^31 for a unit of 2^28. */
+/* v0 + b1 d1 + b2 d2 with `drop` of the 28 fraction bits of b dropped, on to the unit of v0. With |v0| <= 1 and |d| <=
+ * 2 in that unit it is within +-7, its slopes within +-6.75: below 2^31 for a unit of 2^28. */
 static gn_slope interpolate(const middle *m, int32_t v0, int32_t d1, int32_t d2, int32_t drop)
 {
     const gn_slope *a = &m->b_q28[0], *b = &m->b_q28[1];
@@ -182,8 +183,8 @@ typedef struct {
     uint32_t w, h;
 } half_size;
 
-/* By how much a value changes from the middle of a piece to its corners, without the lower `drop` bits. Halves are at most 32 and 4: it
- * fits for slopes below 2^26, or 2^31 with 5 bits dropped. */
+/* By how much a value changes from the middle of a piece to its corners, without the lower `drop` bits. Halves are at
+ * most 32 and 4: it fits for slopes below 2^26, or 2^31 with 5 bits dropped. */
 static uint32_t change_of(const gn_slope *s, half_size half, int32_t drop)
 {
     return (gn_abs32(s->dx) >> drop) * half.w + (gn_abs32(s->dy) >> drop) * half.h;
@@ -206,7 +207,8 @@ static int32_t tolerance_log2(const gn_frame *frame)
 /* The interpolated normal in the middle, Q28; what is outside of +-1 there is looked at no further. */
 static void find_normal(const gn_surface *s, middle *m)
 {
-    for (int i = 0; i < 3; i++) m->n_q28[i] = interpolate(m, s->normal_q30[0][i] / 4, s->normal_q30[1][i], s->normal_q30[2][i], 30);
+    for (int i = 0; i < 3; i++)
+        m->n_q28[i] = interpolate(m, s->normal_q30[0][i] / 4, s->normal_q30[1][i], s->normal_q30[2][i], 30);
 }
 #endif
 
@@ -277,7 +279,8 @@ static int is_even(const gn_pieces *p, half_size half)
     return (uint64_t)gn_abs32(p->w_dx_q30) * half.w + (uint64_t)gn_abs32(p->w_dy_q30) * half.h <= 1U << 27;
 }
 
-/* How many pixels n a ramp may have, a power of two, if it bends by n^2 / 4 of `bend`: n^2 / 4 of that is below 2^(46 - tolerance). */
+/* How many pixels n a ramp may have, a power of two, if it bends by n^2 / 4 of `bend`: n^2 / 4 of that is below 2^(46 -
+ * tolerance). */
 static int32_t longest_ramp(uint64_t bend_q46, int32_t tolerance, int32_t least_log2)
 {
     int32_t bits = 64 - gn_clz64(bend_q46 | 1U), log2 = (48 - tolerance - bits) >> 1;
@@ -285,10 +288,10 @@ static int32_t longest_ramp(uint64_t bend_q46, int32_t tolerance, int32_t least_
     return 1 << gn_max32(least_log2, gn_min32(log2, GN_PIECE_WIDTH_LOG2));
 }
 
-
 #if GN_TURNING
-/* How long ramps may be where normals turn: over n pixels a colour bends by a quarter of the product of what it and w, relative to w, or
- * two factors change over them, and a cosine by an eighth of the square of the angle. Returns 0 if something changes too fast. */
+/* How long ramps may be where normals turn: over n pixels a colour bends by a quarter of the product of what it and w,
+ * relative to w, or two factors change over them, and a cosine by an eighth of the square of the angle. Returns 0 if
+ * something changes too fast. */
 static int turning_ramps(gn_pieces *p)
 {
     int32_t tolerance = tolerance_log2(p->frame);
@@ -306,7 +309,8 @@ static int turning_ramps(gn_pieces *p)
 }
 #endif
 
-/* v or -1 - v, whichever is not negative: what several have set together is at least all of them, and less than twice the largest. */
+/* v or -1 - v, whichever is not negative: what several have set together is at least all of them, and less than twice
+ * the largest. */
 static inline uint32_t size_of(int32_t v)
 {
     return (uint32_t)(v ^ (v >> 31));
@@ -323,8 +327,8 @@ static inline void include(steepness *all, const gn_slope *s)
     all->dy |= size_of(s->dy);
 }
 
-/* A colour times that of the vertices. Slopes of factors are below 1 per pixel, and within 8 and 2 at the place: those of the product below
- * 2^28. */
+/* A colour times that of the vertices. Slopes of factors are below 1 per pixel, and within 8 and 2 at the place: those
+ * of the product below 2^28. */
 static void tint_curve(gn_curve *curve, const gn_slope *tint)
 {
     gn_slope *s = &curve->slope_q24;
@@ -356,9 +360,10 @@ static inline uint32_t change_q16(const steepness *s, half_size half)
     return (s->dx >> 8) * half.w + (s->dy >> 8) * half.h;
 }
 
-/* Whether what lies beyond the second order, g t^2 / (1 + t), and up to 5/2 t times the product of the factors' changes, is within the
- * tolerance all over a piece. */
-static int curves_hold(const gn_pieces *p, const steepness *light, const steepness *tint, const steepness *both, half_size half)
+/* Whether what lies beyond the second order, g t^2 / (1 + t), and up to 5/2 t times the product of the factors'
+ * changes, is within the tolerance all over a piece. */
+static int curves_hold(const gn_pieces *p, const steepness *light, const steepness *tint, const steepness *both,
+                       half_size half)
 {
     uint32_t t_q15 = (gn_abs32(p->w_dx_q30) * half.w + gn_abs32(p->w_dy_q30) * half.h) >> 15; /* 2^12 */
     uint64_t linear_q34 = (uint64_t)change_q16(both, half) * ((t_q15 * t_q15) >> 12);
@@ -464,11 +469,13 @@ static int reach_of_cascades(const gn_frame *frame, const extent *e, int32_t *ca
     return REACH_NONE;
 }
 
-/* The point of a ray's plane at depth z, and its changes. With z in Q30 and `shift` bits more than 32 to drop from products, they are below
- * 2^29 and 2^30; the sum with the origin fits. */
-static gn_slope on_ray(const gn_ray_plane *ray, int32_t px, int32_t py, int32_t z_q30, int32_t z_dx_q30, int32_t z_dy_q30, int32_t shift)
+/* The point of a ray's plane at depth z, and its changes. With z in Q30 and `shift` bits more than 32 to drop from
+ * products, they are below 2^29 and 2^30; the sum with the origin fits. */
+static gn_slope on_ray(const gn_ray_plane *ray, int32_t px, int32_t py, int32_t z_q30, int32_t z_dx_q30,
+                       int32_t z_dy_q30, int32_t shift)
 {
-    int32_t a = (int32_t)((uint32_t)ray->a0 + (uint32_t)ray->ax * (uint32_t)px + (uint32_t)ray->ay * (uint32_t)py); /* < 2^31 */
+    int32_t a =
+        (int32_t)((uint32_t)ray->a0 + (uint32_t)ray->ax * (uint32_t)px + (uint32_t)ray->ay * (uint32_t)py); /* < 2^31 */
     gn_slope out = {(int32_t)((uint32_t)(gn_mul_high(z_q30, a) >> shift) + (uint32_t)ray->d_q16),
                     (gn_mul_high(z_dx_q30, a) + 2 * gn_mul_high(z_q30, ray->ax)) >> shift,
                     (gn_mul_high(z_dy_q30, a) - 2 * gn_mul_high(z_q30, ray->ay)) >> shift};
@@ -480,7 +487,8 @@ static gn_slope on_ray(const gn_ray_plane *ray, int32_t px, int32_t py, int32_t 
 static void move_along_normal(gn_slope place[3], const middle *m, const int32_t axis_q30[3][3], int32_t along_q16)
 {
     const gn_slope *n = m->n_q28; /* within +-7: 3 * 2^61 */
-    const int32_t at[3] = {n[0].at, n[1].at, n[2].at}, dx[3] = {n[0].dx, n[1].dx, n[2].dx}, dy[3] = {n[0].dy, n[1].dy, n[2].dy};
+    const int32_t at[3] = {n[0].at, n[1].at, n[2].at}, dx[3] = {n[0].dx, n[1].dx, n[2].dx},
+                  dy[3] = {n[0].dy, n[1].dy, n[2].dy};
     int32_t along_q22 = along_q16 * 64; /* < 2^23 * 2^6; products of Q26 and Q22 */
     for (int i = 0; i < 3; i++) {
         place[i].at += gn_mul_high((int32_t)(gn_dot64(at, axis_q30[i]) >> 32), along_q22);
@@ -518,7 +526,8 @@ static int find_place(gn_pieces *p, const middle *m, half_size half)
     if ((uint64_t)most * ((bend_q15 * bend_q15) >> 15) >> 15 > 2048) return 0;
     p->chunk_px = GN_K(p->frame, persp_step);
     while (p->chunk_px > 1 &&
-           ((uint64_t)fastest * (uint32_t)p->chunk_px * ((gn_abs32(m->w_dx_q30) * (uint32_t)p->chunk_px) >> 8)) >> 22 > 4 * 2048)
+           ((uint64_t)fastest * (uint32_t)p->chunk_px * ((gn_abs32(m->w_dx_q30) * (uint32_t)p->chunk_px) >> 8)) >> 22 >
+               4 * 2048)
         p->chunk_px >>= 1;
     return 1;
 }

@@ -1,6 +1,6 @@
-/* A surface piece by piece: parts of the screen over which its colours are linear, closely enough. Within a piece a row of pixels
- * is stepped by additions, and only a shadow's edge is looked up pixel by pixel. Not every surface can be shaded so; the rest, and
- * everything where every pixel is to be exact, is sampled (gn_sample). */
+/* A surface piece by piece: parts of the screen over which its colours are linear, closely enough. Within a piece a row
+ * of pixels is stepped by additions, and only a shadow's edge is looked up pixel by pixel. Not every surface can be
+ * shaded so; the rest, and everything where every pixel is to be exact, is sampled (gn_sample). */
 #ifndef GN_PIECE_H
 #define GN_PIECE_H
 
@@ -36,10 +36,10 @@ static inline int32_t gn_per_w(int32_t t_q30)
     return (1 << 30) - t_q30 + t2_q30 - 4 * gn_mul_high(t2_q30, t_q30);
 }
 
-/* A colour at (x, y), and its change per pixel there: v + g / (1 + t), g the change by the slope and t that of w. `right` and `down` are
- * from the middle of the piece, in half pixels. */
-static inline int32_t gn_colour_near(const gn_pieces *p, const gn_slope *colour, int32_t right, int32_t down, int32_t per_w_q30,
-                                     int32_t *step)
+/* A colour at (x, y), and its change per pixel there: v + g / (1 + t), g the change by the slope and t that of w.
+ * `right` and `down` are from the middle of the piece, in half pixels. */
+static inline int32_t gn_colour_near(const gn_pieces *p, const gn_slope *colour, int32_t right, int32_t down,
+                                     int32_t per_w_q30, int32_t *step)
 {
     int32_t g = 4 * gn_mul_high((colour->dx * right + colour->dy * down) >> 1, per_w_q30);
     *step = 4 * gn_mul_high(colour->dx - 4 * gn_mul_high(g, p->w_dx_q30), per_w_q30);

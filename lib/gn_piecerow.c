@@ -13,13 +13,16 @@
 enum { CELL_UNKNOWN, CELL_LIT, CELL_DARK, CELL_MIXED };
 #endif
 
-/* v + s g + s^2 q in the middle of a row, with g its first and q its second order and s = 1 / (1 + t), and its slope there. */
-static GN_NOINLINE void steep_ramp(const gn_pieces *p, const gn_curve *colour, int32_t right, int32_t down, int32_t n, gn_ramp *ramp)
+/* v + s g + s^2 q in the middle of a row, with g its first and q its second order and s = 1 / (1 + t), and its slope
+ * there. */
+static GN_NOINLINE void steep_ramp(const gn_pieces *p, const gn_curve *colour, int32_t right, int32_t down, int32_t n,
+                                   gn_ramp *ramp)
 {
     int32_t scale_q30 = gn_per_w((p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1); /* right, down: in half pixels */
     for (int c = 0; c < 3; c++, colour++) {
         const gn_slope *v = &colour->slope_q24;
-        int32_t across = right * colour->dxx_q28 >> 5, slope = across + (down * colour->dxy_q28 >> 5), g = (right * v->dx + down * v->dy) >> 1;
+        int32_t across = right * colour->dxx_q28 >> 5, slope = across + (down * colour->dxy_q28 >> 5),
+                g = (right * v->dx + down * v->dy) >> 1;
         int32_t q = 4 * gn_mul_high((right * slope + down * (down * colour->dyy_q28 >> 5)) >> 1, scale_q30);
         int32_t bent = slope + across - 4 * gn_mul_high(g + 2 * q, p->w_dx_q30);
         int32_t step = 4 * gn_mul_high(v->dx + 4 * gn_mul_high(bent, scale_q30), scale_q30);
@@ -85,7 +88,8 @@ static void colours_of(const gn_pieces *p, const gn_curve *colour, int32_t x, in
     }
 }
 
-/* Where the light sees the surface at a pixel: v + g / (1 + t), g the change by the slope, t that of w, is v + g - g t but for g t^2. */
+/* Where the light sees the surface at a pixel: v + g / (1 + t), g the change by the slope, t that of w, is v + g - g t
+ * but for g t^2. */
 GN_INLINE int32_t place_at(const gn_slope *place, int32_t dx, int32_t dy, int32_t t_q30)
 {
     int32_t g = place->dx * dx + place->dy * dy;
@@ -97,7 +101,8 @@ static void receiver_at(const gn_pieces *p, int32_t x, int32_t y, gn_receiver_st
     int32_t dx = x - p->x, dy = y - p->y, t_q30 = p->w_dx_q30 * dx + p->w_dy_q30 * dy;
     out->u_q16 = place_at(&p->place[0], dx, dy, t_q30);
     out->v_q16 = place_at(&p->place[1], dx, dy, t_q30);
-    out->depth_q31 = gn_max32(p->depth_least, gn_min32(place_at(&p->place[2], dx, dy, t_q30), p->depth_most)) * (1 << p->depth_up);
+    out->depth_q31 =
+        gn_max32(p->depth_least, gn_min32(place_at(&p->place[2], dx, dy, t_q30), p->depth_most)) * (1 << p->depth_up);
 }
 
 /* (b - a) / n of two values that were limited */
@@ -108,7 +113,8 @@ static GN_NOINLINE int32_t limited_step(const gn_pieces *p, gn_receiver_step *fr
     return gn_step_of(from->depth_q31 * (1 << p->depth_up), to->depth_q31 * (1 << p->depth_up), n);
 }
 
-/* From a place's value where g and t are what they are to the one `n` pixels on: the chord of v + g - g t, whose step is that of the middle. */
+/* From a place's value where g and t are what they are to the one `n` pixels on: the chord of v + g - g t, whose step
+ * is that of the middle. */
 GN_INLINE int32_t place_step(const gn_pieces *p, const gn_slope *place, int32_t both, int32_t down, int32_t t2_q30)
 {
     int32_t g2 = place->dx * both + place->dy * 2 * down;
@@ -116,9 +122,11 @@ GN_INLINE int32_t place_step(const gn_pieces *p, const gn_slope *place, int32_t 
 }
 
 /* The first and the last of n > 1 receivers, and the step from each to the next. */
-static GN_SHARED void receivers(const gn_pieces *p, int32_t x, int32_t y, int32_t n, gn_receiver_step *from, gn_receiver_step *to, gn_receiver_step *step)
+static GN_SHARED void receivers(const gn_pieces *p, int32_t x, int32_t y, int32_t n, gn_receiver_step *from,
+                                gn_receiver_step *to, gn_receiver_step *step)
 {
-    int32_t right = x - p->x, down = y - p->y, both = 2 * right + n, t2_q30 = p->w_dx_q30 * both + p->w_dy_q30 * 2 * down;
+    int32_t right = x - p->x, down = y - p->y, both = 2 * right + n,
+            t2_q30 = p->w_dx_q30 * both + p->w_dy_q30 * 2 * down;
     int32_t t_q30 = p->w_dx_q30 * right + p->w_dy_q30 * down;
     from->u_q16 = place_at(&p->place[0], right, down, t_q30);
     from->v_q16 = place_at(&p->place[1], right, down, t_q30);
@@ -129,14 +137,17 @@ static GN_SHARED void receivers(const gn_pieces *p, int32_t x, int32_t y, int32_
     to->u_q16 = from->u_q16 + n * step->u_q16;
     to->v_q16 = from->v_q16 + n * step->v_q16;
     to->depth_q31 = from->depth_q31 + n * step->depth_q31;
-    if (gn_min32(from->depth_q31, to->depth_q31) < p->depth_least || gn_max32(from->depth_q31, to->depth_q31) > p->depth_most)
+    if (gn_min32(from->depth_q31, to->depth_q31) < p->depth_least ||
+        gn_max32(from->depth_q31, to->depth_q31) > p->depth_most)
         step->depth_q31 = limited_step(p, from, to, n);
     else step->depth_q31 *= 1 << p->depth_up;
     from->depth_q31 *= 1 << p->depth_up;
     to->depth_q31 *= 1 << p->depth_up;
 }
 
-static GN_SHARED void partly_lit_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation)
+/* n pixels, each as far between two ramps as the light is let through. */
+static GN_SHARED void partly_lit_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n,
+                                     const uint32_t *attenuation)
 {
     gn_ramp dark, lit;
     colours_of(p, p->dark, x, y, n, &dark);
@@ -146,7 +157,8 @@ static GN_SHARED void partly_lit_row(const gn_pieces *p, const gn_pixel_rows *ro
 
 enum { ROW_DRAWN, ROW_DARK, ROW_LIT };
 
-/* n <= 17 pixels from x on, looked up one by one; if all are alike, which most short rows are, they are left to be drawn so. */
+/* n <= 17 pixels from x on, looked up one by one; if all are alike, which most short rows are, they are left to be
+ * drawn so. */
 static GN_SHARED int looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n)
 {
     uint32_t attenuation[17];

@@ -12,7 +12,8 @@ static inline uint32_t srgb_encode(uint32_t linear_q20)
     if (linear_q20 < 1U << 11) return (linear_q20 * 52920U + 0x8000U) >> 16;
     int32_t octave = 20 - gn_clz32(linear_q20); /* 0..8: linear in [2^(octave - 9), 2^(octave - 8)) */
     int32_t shift = octave + 5;                 /* bits below the 64 steps of an octave */
-    uint32_t i = ((uint32_t)octave << 6) + ((linear_q20 >> shift) & 63U), here = gn_srgb_entry(i), next = gn_srgb_entry(i + 1);
+    uint32_t i = ((uint32_t)octave << 6) + ((linear_q20 >> shift) & 63U), here = gn_srgb_entry(i),
+             next = gn_srgb_entry(i + 1);
     uint32_t rest = linear_q20 & ((1U << shift) - 1);
     return here + (((next - here) * rest + ((1U << shift) >> 1)) >> shift); /* 2^11 * 2^14 */
 }
@@ -52,11 +53,13 @@ static uint32_t luminance_q20(const uint32_t c[3])
 
 static uint32_t by_curve_565(const gn_frame *frame, const uint32_t c[3])
 {
-    return quantise(encode(frame, c[0]), 31) << 11 | quantise(encode(frame, c[1]), 63) << 5 | quantise(encode(frame, c[2]), 31);
+    return quantise(encode(frame, c[0]), 31) << 11 | quantise(encode(frame, c[1]), 63) << 5 |
+           quantise(encode(frame, c[2]), 31);
 }
 
 #if GN_LEVEL_TABLES
-/* A colour below 1 is of the level where its cell begins, or the next. One less: what has not reached the level's end is below 0. */
+/* A colour below 1 is of the level where its cell begins, or the next. One less: what has not reached the level's end
+ * is below 0. */
 static inline uint32_t level_before(const uint8_t *levels, uint32_t v_q24, int shift)
 {
     uint32_t level = levels[v_q24 >> shift];
@@ -66,7 +69,8 @@ static inline uint32_t level_before(const uint8_t *levels, uint32_t v_q24, int s
 static inline uint32_t pack_565(uint32_t r_q24, uint32_t g_q24, uint32_t b_q24)
 {
     uint32_t red = level_before(gn_level_31_table, r_q24, 15), green = level_before(gn_level_63_table, g_q24, 14);
-    return (red << 11) + (green << 5) + level_before(gn_level_31_table, b_q24, 15) + (1U << 11) + (1U << 5) + 1 - 64; /* 64 << 11 lies above */
+    return (red << 11) + (green << 5) + level_before(gn_level_31_table, b_q24, 15) + (1U << 11) + (1U << 5) + 1 -
+           64; /* 64 << 11 lies above */
 }
 
 static inline uint32_t limited_q24(int32_t v)
@@ -115,7 +119,8 @@ uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
 }
 
 #if GN_OTHER_FORMATS
-/* The threshold of an 8x8 ordered dither at a pixel, 1..127 of 128: the bits of x ^ y and y, interleaved and reversed. */
+/* The threshold of an 8x8 ordered dither at a pixel, 1..127 of 128: the bits of x ^ y and y, interleaved and reversed.
+ */
 static uint32_t threshold(int32_t x, int32_t y)
 {
     uint32_t a = (uint32_t)(x ^ y), b = (uint32_t)y;
@@ -200,7 +205,8 @@ static inline int stays_inside(const gn_ramp *ramp, int32_t n)
 {
     const int32_t *from = ramp->from_q24, *step = ramp->step_q24;
     int32_t last = n - 1;
-    int32_t all = from[0] | (from[0] + last * step[0]) | from[1] | (from[1] + last * step[1]) | from[2] | (from[2] + last * step[2]);
+    int32_t all = from[0] | (from[0] + last * step[0]) | from[1] | (from[1] + last * step[1]) | from[2] |
+                  (from[2] + last * step[2]);
     return (uint32_t)all < 1U << 24;
 }
 
@@ -218,17 +224,22 @@ static inline uint32_t above(uint32_t left, uint32_t level, int c)
     return c == 0 ? level << 11 : left + (c == 1 ? level << 5 : level + (1U << 11) + (1U << 5) + 1 - 64);
 }
 
-static inline void mix_channel(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c, const uint32_t *share_uq16)
+static inline void mix_channel(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c,
+                               const uint32_t *share_uq16)
 {
-    int32_t from = dark->from_q24[c], step = dark->step_q24[c], more = lit->from_q24[c] - from, more_step = lit->step_q24[c] - step;
+    int32_t from = dark->from_q24[c], step = dark->step_q24[c], more = lit->from_q24[c] - from,
+            more_step = lit->step_q24[c] - step;
     for (uint16_t *end = out + n; out < end; from += step, more += more_step, out++) {
         int32_t v = mixed_q24(from, more, *share_uq16++);
-        *out = (uint16_t)above(c == 0 ? 0 : *out, level_before(c == 1 ? gn_level_63_table : gn_level_31_table, limited_q24(v), c == 1 ? 14 : 15), c);
+        *out = (uint16_t)above(
+            c == 0 ? 0 : *out,
+            level_before(c == 1 ? gn_level_63_table : gn_level_31_table, limited_q24(v), c == 1 ? 14 : 15), c);
     }
 }
 
 /* The same of colours that stay inside: in 31 bits. */
-static inline void mix_inside(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c, const uint32_t *share_uq16)
+static inline void mix_inside(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c,
+                              const uint32_t *share_uq16)
 {
     const uint8_t *levels = c == 1 ? gn_level_63_table : gn_level_31_table;
     uint32_t from = (uint32_t)dark->from_q24[c] << 7, step = (uint32_t)dark->step_q24[c] << 7;
@@ -240,14 +251,16 @@ static inline void mix_inside(uint16_t *out, int32_t n, const gn_ramp *dark, con
 }
 #endif
 
-static void slow_pixel(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3])
+static void slow_pixel(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
+                       const int32_t colour_q24[3])
 {
     uint32_t q20[3];
     for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour_q24[c], 0) >> 4;
     gn_pixel_store(frame, rows, x, y, gn_pixel_pack(frame, q20));
 }
 
-void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const gn_ramp *ramp)
+void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
+                   const gn_ramp *ramp)
 {
 #if GN_LEVEL_TABLES
     if (has_levels(frame)) {
@@ -264,8 +277,8 @@ void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
     }
 }
 
-void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const gn_ramp *dark,
-                  const gn_ramp *lit, const uint32_t *share_uq16)
+void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
+                  const gn_ramp *dark, const gn_ramp *lit, const uint32_t *share_uq16)
 {
 #if GN_LEVEL_TABLES
     if (has_levels(frame)) {
@@ -285,7 +298,8 @@ void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, i
     for (int32_t i = 0; i < n; i++) {
         int32_t colour[3];
         for (int c = 0; c < 3; c++) {
-            int32_t from = dark->from_q24[c] + i * dark->step_q24[c], more = lit->from_q24[c] + i * lit->step_q24[c] - from;
+            int32_t from = dark->from_q24[c] + i * dark->step_q24[c],
+                    more = lit->from_q24[c] + i * lit->step_q24[c] - from;
             colour[c] = mixed_q24(from, more, share_uq16[i]);
         }
         slow_pixel(frame, rows, x + i, y, colour);

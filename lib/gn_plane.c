@@ -21,7 +21,7 @@ void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v1[3], c
         e2[i] = v2[i] - v0[i];
         wide |= ((uint32_t)e1[i] ^ (uint32_t)e1[i] << 1) | ((uint32_t)e2[i] ^ (uint32_t)e2[i] << 1);
     }
-    if (wide >> 31) exp = shorten(e1) + shorten(e2); /* 2^30 or more */
+    if (wide >> 31) exp = shorten(e1) + shorten(e2);        /* 2^30 or more */
     n[0] = (int64_t)e1[1] * e2[2] - (int64_t)e1[2] * e2[1]; /* exact: 2 * 2^30 * 2^30 */
     n[1] = (int64_t)e1[2] * e2[0] - (int64_t)e1[0] * e2[2];
     n[2] = (int64_t)e1[0] * e2[1] - (int64_t)e1[1] * e2[0];
@@ -55,7 +55,8 @@ void gn_bary_setup(gn_bary *bary, const gn_plane *plane, const int32_t v0[3], co
     }
 }
 
-int gn_plane_recip(gn_ray_recip *out, const gn_plane *plane, int32_t px, int32_t py, uint32_t focal2_px_q16, int32_t newton_steps)
+int gn_plane_recip(gn_ray_recip *out, const gn_plane *plane, int32_t px, int32_t py, uint32_t focal2_px_q16,
+                   int32_t newton_steps)
 {
     int64_t w = plane->det > 0 ? gn_plane_at(plane->n, px, py, focal2_px_q16) : 0;
     if (w <= 0) return 0;
@@ -76,7 +77,8 @@ static inline uint32_t share(int64_t b, int32_t s, uint32_t most)
     return t < most ? t : most;
 }
 
-void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip, int32_t px, int32_t py, uint32_t focal2_px_q16)
+void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip, int32_t px, int32_t py,
+                uint32_t focal2_px_q16)
 {
     const int32_t one = 1 << 30;
     for (int k = 0; k < 2; k++) {

@@ -1,4 +1,5 @@
-/* Spot and point lights. Distances squared are Q32 in 64 bits: components are below 2^31, so three squares stay below 2^64. */
+/* Spot and point lights. Distances squared are Q32 in 64 bits: components are below 2^31, so three squares stay below
+ * 2^64. */
 #include "gnomon.h"
 #if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_punctual.h"
@@ -103,7 +104,8 @@ static uint32_t angle_q30(const gn_light_state *light, int32_t cosine_q30)
     return (uint32_t)gn_mul_q30(share, share);
 }
 
-/* One Newton step leaves 2^-15 of a cosine: as a share of a cone's edge that is too much where the edge is narrower than 2^-6. */
+/* One Newton step leaves 2^-15 of a cosine: as a share of a cone's edge that is too much where the edge is narrower
+ * than 2^-6. */
 #define GN_NARROW_EXP (-55) /* of its reciprocal in Q30 */
 
 static int32_t root_steps(const gn_frame *frame, const gn_light_state *light)
@@ -111,7 +113,8 @@ static int32_t root_steps(const gn_frame *frame, const gn_light_state *light)
     return light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_K(frame, newton_steps);
 }
 
-int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3], gn_punctual_point *out)
+int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3],
+                   gn_punctual_point *out)
 {
     uint64_t d2 = 0;
     for (int i = 0; i < 3; i++) d2 += (uint64_t)((int64_t)from_light_q16[i] * from_light_q16[i]);
@@ -146,17 +149,20 @@ uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosi
     int64_t share_q30 = gn_mul_q30((int32_t)point->factor_q30, cosine_q30);
     /* 1 / d^2 = 2^32 / d2 = root^2 * 2^(shift - 94); 32 bits of root^2 */
     uint64_t inverse = ((uint64_t)point->scale_root * point->scale_root) >> 32;
-    int64_t q24 = gn_scale64(share_q30 * (int64_t)(inverse >> 1), 30 + 61 - 24 - point->scale_shift - point->colour_exp);
+    int64_t q24 =
+        gn_scale64(share_q30 * (int64_t)(inverse >> 1), 30 + 61 - 24 - point->scale_shift - point->colour_exp);
     return (uint32_t)gn_clamp64(q24, 0, INT32_MAX);
 }
 
 #if GN_TILE_LIGHTS
-/* Whether a sphere lies outside the plane through the camera that holds a line of pixels: `edge` is the line's place, twice its
- * distance from the picture's centre in pixels, `across` the centre's coordinate, both positive towards the outside. */
+/* Whether a sphere lies outside the plane through the camera that holds a line of pixels: `edge` is the line's place,
+ * twice its distance from the picture's centre in pixels, `across` the centre's coordinate, both positive towards the
+ * outside. */
 static int beyond_edge(const gn_frame *frame, int32_t edge, int32_t across_q16, int32_t depth_q16, uint64_t radius_q16)
 {
     uint64_t focal2 = (frame->cam.focal2_px_q16 >> 16) + 1; /* 2F, rounded up: the norm must not be too short */
-    int64_t out = gn_shr64((int64_t)across_q16 * (int64_t)frame->cam.focal2_px_q16, 16) - (int64_t)edge * depth_q16; /* 2^47 */
+    int64_t out =
+        gn_shr64((int64_t)across_q16 * (int64_t)frame->cam.focal2_px_q16, 16) - (int64_t)edge * depth_q16; /* 2^47 */
     uint64_t norm = (uint64_t)gn_isqrt64(focal2 * focal2 + (uint64_t)((int64_t)edge * edge)) + 1;
     return out > 0 && (uint64_t)out > norm * (radius_q16 + 4);
 }

@@ -24,8 +24,10 @@ typedef struct {
     int32_t within_inner; /* a spot's inner cone, where its angle has no effect */
 } gn_punctual_point;
 
-/* `from_light` is the surface point minus the light's position, world axes, Q16. Returns 0 where no light arrives (P10). */
-int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3], gn_punctual_point *out);
+/* `from_light` is the surface point minus the light's position, world axes, Q16. Returns 0 where no light arrives
+ * (P10). */
+int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3],
+                   gn_punctual_point *out);
 
 /* A length along the light's ray, Q16, as a share of the distance: Q30, saturated at +-1. */
 int32_t gn_punctual_cosine_q30(const gn_punctual_point *point, int32_t length_q16);

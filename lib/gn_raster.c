@@ -14,14 +14,14 @@
 
 /* What a triangle's rows have in common. A candidate cell is its depth above its identity. */
 typedef struct {
-    uint32_t minus_dx; /* from a cell to the one before it */
+    uint32_t minus_dx;  /* from a cell to the one before it */
     uint32_t lo, range; /* depth inside the triangle: lo .. lo + range */
     uint32_t id_mask;
     uint32_t below; /* from a cell of all depth and no identity's bits clear to the triangle's: id_mask - id */
 } raster_depth;
 
-/* Depth is linear over a row; inside the triangle it stays within its range. A snapped edge can reach past the unsnapped plane
- * by a fraction of a pixel, so a value outside is brought back to the nearer end (modulo 2^32). */
+/* Depth is linear over a row; inside the triangle it stays within its range. A snapped edge can reach past the
+ * unsnapped plane by a fraction of a pixel, so a value outside is brought back to the nearer end (modulo 2^32). */
 static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
 {
     uint32_t above = v - depth->lo;
@@ -29,17 +29,17 @@ static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
     return 0U - above < above - depth->range ? depth->lo : depth->lo + depth->range;
 }
 
-/* Identities in a tile ascend as it is drawn, so that a candidate wins where its depth is at least the cell's: all that is compared
- * is its depth with the bits of the identity set. */
-#define GN_CELL_(cell)                                                                                                             \
-    do {                                                                                                                           \
-        uint32_t candidate = iz | id_mask;                                                                                         \
-        if (candidate >= (cell)) {                                                                                                 \
-            GN_KEEP(candidate);                                                                                                    \
-            (cell) = candidate - below;                                                                                            \
-        }                                                                                                                          \
-        iz += minus_dx;                                                                                                            \
-        GN_KEEP(iz);                                                                                                               \
+/* Identities in a tile ascend as it is drawn, so that a candidate wins where its depth is at least the cell's: all that
+ * is compared is its depth with the bits of the identity set. */
+#define GN_CELL_(cell)                                                                                                 \
+    do {                                                                                                               \
+        uint32_t candidate = iz | id_mask;                                                                             \
+        if (candidate >= (cell)) {                                                                                     \
+            GN_KEEP(candidate);                                                                                        \
+            (cell) = candidate - below;                                                                                \
+        }                                                                                                              \
+        iz += minus_dx;                                                                                                \
+        GN_KEEP(iz);                                                                                                   \
     } while (0)
 
 #if !GN_SIZE_FIRST
@@ -48,16 +48,31 @@ GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_
 {
     GN_COUNT(covered, n);
     uint32_t minus_dx = depth->minus_dx, id_mask = depth->id_mask, below = depth->below, *at = cell + (n & ~7);
-    GN_KEEP(at); /* one pointer */
+    GN_KEEP(at);     /* one pointer */
     switch (n & 7) { /* each goes on with those after it */
-    case 7: GN_CELL_(at[6]); GN_GOES_ON;
-    case 6: GN_CELL_(at[5]); GN_GOES_ON;
-    case 5: GN_CELL_(at[4]); GN_GOES_ON;
-    case 4: GN_CELL_(at[3]); GN_GOES_ON;
-    case 3: GN_CELL_(at[2]); GN_GOES_ON;
-    case 2: GN_CELL_(at[1]); GN_GOES_ON;
-    case 1: GN_CELL_(at[0]); GN_GOES_ON;
-    default: break;
+    case 7:
+        GN_CELL_(at[6]);
+        GN_GOES_ON;
+    case 6:
+        GN_CELL_(at[5]);
+        GN_GOES_ON;
+    case 5:
+        GN_CELL_(at[4]);
+        GN_GOES_ON;
+    case 4:
+        GN_CELL_(at[3]);
+        GN_GOES_ON;
+    case 3:
+        GN_CELL_(at[2]);
+        GN_GOES_ON;
+    case 2:
+        GN_CELL_(at[1]);
+        GN_GOES_ON;
+    case 1:
+        GN_CELL_(at[0]);
+        GN_GOES_ON;
+    default:
+        break;
     }
     while (at != cell) {
         at -= 8;
@@ -74,9 +89,11 @@ GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_
 }
 
 /* Apart, so that it takes no registers of short spans. */
-static GN_NOINLINE void raster_long_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t minus_dx, uint32_t id_mask, uint32_t below)
+static GN_NOINLINE void raster_long_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t minus_dx, uint32_t id_mask,
+                                         uint32_t below)
 {
-    const raster_depth depth = {minus_dx, 0, 0, id_mask, below}; /* by their values: a pointer would keep them in memory */
+    const raster_depth depth = {minus_dx, 0, 0, id_mask,
+                                below}; /* by their values: a pointer would keep them in memory */
     raster_span(cell, n, iz, &depth);
 }
 
@@ -86,14 +103,30 @@ GN_INLINE void raster_short_span(uint32_t *cell, int32_t n, uint32_t iz, const r
     uint32_t minus_dx = depth->minus_dx, id_mask = depth->id_mask, below = depth->below;
     GN_COUNT(covered, n > 0 && n <= 8 ? n : 0);
     switch (n) {
-    case 8: GN_CELL_(cell[7]); GN_GOES_ON;
-    case 7: GN_CELL_(cell[6]); GN_GOES_ON;
-    case 6: GN_CELL_(cell[5]); GN_GOES_ON;
-    case 5: GN_CELL_(cell[4]); GN_GOES_ON;
-    case 4: GN_CELL_(cell[3]); GN_GOES_ON;
-    case 3: GN_CELL_(cell[2]); GN_GOES_ON;
-    case 2: GN_CELL_(cell[1]); GN_GOES_ON;
-    case 1: GN_CELL_(cell[0]); break;
+    case 8:
+        GN_CELL_(cell[7]);
+        GN_GOES_ON;
+    case 7:
+        GN_CELL_(cell[6]);
+        GN_GOES_ON;
+    case 6:
+        GN_CELL_(cell[5]);
+        GN_GOES_ON;
+    case 5:
+        GN_CELL_(cell[4]);
+        GN_GOES_ON;
+    case 4:
+        GN_CELL_(cell[3]);
+        GN_GOES_ON;
+    case 3:
+        GN_CELL_(cell[2]);
+        GN_GOES_ON;
+    case 2:
+        GN_CELL_(cell[1]);
+        GN_GOES_ON;
+    case 1:
+        GN_CELL_(cell[0]);
+        break;
     default:
         if (n > 0) raster_long_span(cell, n, iz, minus_dx, id_mask, below);
     }
@@ -107,8 +140,10 @@ typedef struct {
     uint32_t *row;
 } stepped_rows;
 
-/* The rows before `end`, of which there are some; borders have `fraction` bits. Rows are cut to the tile's width, if not all of them lie inside. */
-GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stride, int32_t fraction, int inside, int32_t width, const raster_depth *depth)
+/* The rows before `end`, of which there are some; borders have `fraction` bits. Rows are cut to the tile's width, if
+ * not all of them lie inside. */
+GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stride, int32_t fraction, int inside,
+                           int32_t width, const raster_depth *depth)
 {
     uint32_t left = rows->left.x, right = rows->right.x, iz = rows->iz;
     uint32_t *row = rows->row;
@@ -119,7 +154,8 @@ GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stri
             xb = gn_min32(xb, width);
         }
         GN_COUNT(rows, xb > xa);
-        if (fraction == GN_NARROW_BITS) raster_short_span(row + xa, xb - xa, iz - (uint32_t)xb * depth->minus_dx, depth);
+        if (fraction == GN_NARROW_BITS)
+            raster_short_span(row + xa, xb - xa, iz - (uint32_t)xb * depth->minus_dx, depth);
         else if (xb > xa) raster_span(row + xa, xb - xa, iz - (uint32_t)xb * depth->minus_dx, depth);
         left += rows->left.step;
         right += rows->right.step;
@@ -158,16 +194,17 @@ typedef struct {
     const gn_frame *frame;
     gn_scratch *scratch;
     gn_rect rect;
-    int32_t width, height; /* pixels */
-    int32_t x, y;          /* of the picture's centre from the tile's corner, as corners of triangles */
+    int32_t width, height;   /* pixels */
+    int32_t x, y;            /* of the picture's centre from the tile's corner, as corners of triangles */
     int32_t column_x, row_y; /* the same, less half a pixel and with the rounding of gn_first_px: of narrow triangles */
     uint32_t inside;         /* coordinates below it, a power of two, are left of the right border */
     uint32_t id_mask;
 } raster_tile;
 
-/* Pixels of a row that need a look each: alpha may cut them, or depth leaves the triangle's range. Where alpha cuts, it is looked up only
- * where the surface would be the nearest. */
-static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz, gn_alpha_cut *cut, int32_t x)
+/* Pixels of a row that need a look each: alpha may cut them, or depth leaves the triangle's range. Where alpha cuts, it
+ * is looked up only where the surface would be the nearest. */
+static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz,
+                                         gn_alpha_cut *cut, int32_t x)
 {
     for (int32_t i = 0; i < n; i++, cell++, iz -= depth->minus_dx) {
         uint32_t candidate = clamp_depth(iz, depth) | depth->id_mask;
@@ -184,20 +221,27 @@ static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *ce
 }
 
 #if !GN_SIZE_FIRST
-/* A small triangle that nothing cuts and whose depth needs no look (gn_tri): its edges are stepped in fixed point, row by row. */
+/* A small triangle that nothing cuts and whose depth needs no look (gn_tri): its edges are stepped in fixed point, row
+ * by row. */
 static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
-    /* top, left and right of it, as a ring: left edges lead down from one to the next, right ones from one to the last */
-    const gn_walk_corner ring[4] = {{tri->x[0] + tile->x, tri->y[0] + tile->y}, {tri->x[1] + tile->x, tri->y[1] + tile->y},
-                                    {tri->x[2] + tile->x, tri->y[2] + tile->y}, {tri->x[0] + tile->x, tri->y[0] + tile->y}};
-    const int32_t bits = GN_K(tile->frame, subpixel_bits), stride = GN_K(tile->frame, tile_width), lasts = tri->iz_min - 1;
-    int32_t at = gn_max32(gn_first_px(ring[0].y, bits), 0), bend[2] = {gn_first_px(ring[1].y, bits), gn_first_px(ring[2].y, bits)};
+    /* top, left and right of it, as a ring: left edges lead down from one to the next, right ones from one to the last
+     */
+    const gn_walk_corner ring[4] = {{tri->x[0] + tile->x, tri->y[0] + tile->y},
+                                    {tri->x[1] + tile->x, tri->y[1] + tile->y},
+                                    {tri->x[2] + tile->x, tri->y[2] + tile->y},
+                                    {tri->x[0] + tile->x, tri->y[0] + tile->y}};
+    const int32_t bits = GN_K(tile->frame, subpixel_bits), stride = GN_K(tile->frame, tile_width),
+                  lasts = tri->iz_min - 1;
+    int32_t at = gn_max32(gn_first_px(ring[0].y, bits), 0),
+            bend[2] = {gn_first_px(ring[1].y, bits), gn_first_px(ring[2].y, bits)};
     int32_t end = gn_min32(gn_max32(bend[0], bend[1]), tile->height), left_end = at, right_end = at;
     uint32_t minus_dx = 0U - (uint32_t)tri->iz_dx;
     GN_KEEP(minus_dx); /* one of the two */
     const raster_depth depth = {minus_dx, 0, 0, tile->id_mask, tile->id_mask - id};
     stepped_rows rows = {{0, 0}, {0, 0}, 0, (uint32_t)tri->iz_dy, GN_CELLS(tile->scratch) + at * stride};
-    rows.iz = tri->iz_ref + (uint32_t)(at - (ring[0].y >> bits)) * rows.iz_dy + (uint32_t)((ring[0].x >> bits) + 1) * minus_dx;
+    rows.iz = tri->iz_ref + (uint32_t)(at - (ring[0].y >> bits)) * rows.iz_dy +
+              (uint32_t)((ring[0].x >> bits) + 1) * minus_dx;
     while (at < end) {
         if (at == left_end) {
             const gn_walk_corner *from = ring + (at >= bend[0]);
@@ -220,12 +264,14 @@ static inline gn_walk_line narrow_line(gn_walk_corner from, gn_walk_corner to, i
     return gn_walk_narrow_at(from.x, from.y, to.x, to.y, y, bits, GN_CORE_DIVIDES);
 }
 
-/* A triangle of a few pixels, that nothing cuts and whose depth needs no look: of most of them all is in one or two screen tiles. Its corners have what
- * rounds them to rows, and to the centres of columns, in them. */
+/* A triangle of a few pixels, that nothing cuts and whose depth needs no look: of most of them all is in one or two
+ * screen tiles. Its corners have what rounds them to rows, and to the centres of columns, in them. */
 static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
-    const int32_t bits = GN_K(tile->frame, subpixel_bits), one = 1 << bits, half = one >> 1, stride = GN_K(tile->frame, tile_width);
-    const gn_walk_corner top = {tri->x[0] + tile->column_x, tri->y[0] + tile->row_y}, left = {tri->x[1] + tile->column_x, tri->y[1] + tile->row_y},
+    const int32_t bits = GN_K(tile->frame, subpixel_bits), one = 1 << bits, half = one >> 1,
+                  stride = GN_K(tile->frame, tile_width);
+    const gn_walk_corner top = {tri->x[0] + tile->column_x, tri->y[0] + tile->row_y},
+                         left = {tri->x[1] + tile->column_x, tri->y[1] + tile->row_y},
                          right = {tri->x[2] + tile->column_x, tri->y[2] + tile->row_y};
     int32_t at = gn_max32(top.y >> bits, 0), left_end = left.y >> bits, right_end = right.y >> bits;
     int32_t end = gn_min32(gn_max32(left_end, right_end), tile->height), bend = gn_min32(left_end, right_end);
@@ -236,7 +282,8 @@ static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri
     const raster_depth depth = {minus_dx, 0, 0, tile->id_mask, tile->id_mask - id};
     stepped_rows rows;
     rows.iz_dy = (uint32_t)tri->iz_dy;
-    rows.iz = tri->iz_ref + (uint32_t)(at - ((top.y - half + 1) >> bits)) * rows.iz_dy + (uint32_t)((top.x + half + one) >> bits) * minus_dx;
+    rows.iz = tri->iz_ref + (uint32_t)(at - ((top.y - half + 1) >> bits)) * rows.iz_dy +
+              (uint32_t)((top.x + half + one) >> bits) * minus_dx;
     rows.row = cells + at * stride;
     int32_t y = at * one + one - 1;
     rows.left = at < left_end ? narrow_line(top, left, y, bits) : narrow_line(left, right, y, bits);
@@ -260,7 +307,8 @@ static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri
 static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const gn_span *span)
 {
     int32_t y = tile->rect.y0 + v;
-    gn_alpha_row(cut, y, tile->frame->picture.height - 1 - 2 * y, tile->rect.x0 + span->x_begin, tile->rect.x0 + span->x_end);
+    gn_alpha_row(cut, y, tile->frame->picture.height - 1 - 2 * y, tile->rect.x0 + span->x_begin,
+                 tile->rect.x0 + span->x_end);
 }
 #endif
 
@@ -283,7 +331,8 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
     depth.id_mask = tile->id_mask;
     depth.below = tile->id_mask - id;
     uint32_t iz_dy = (uint32_t)tri->iz_dy;
-    /* at the tile's left border, above the least; inside the triangle below its range, but for the last value there is */
+    /* at the tile's left border, above the least; inside the triangle below its range, but for the last value there is
+     */
     uint32_t iz_row =
         tri->iz_ref - depth.lo - (uint32_t)(x[0] >> bits) * iz_dx + (uint32_t)(walk.first - (y[0] >> bits)) * iz_dy;
     uint32_t *row = GN_CELLS(tile->scratch) + walk.first * stride;
@@ -362,7 +411,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
 #if GN_VISIBLE_ALPHA
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
 #endif
-    /* backwards: identities ascend */
+        /* backwards: identities ascend */
 #if GN_SIZE_FIRST
     for (uint32_t i = frame->tile_first[tile_idx + 1]; i-- > frame->tile_first[tile_idx];) {
         uint32_t tri_idx = frame->tile_ref[i];
@@ -371,7 +420,8 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
         raster_one(&tile, tri, gn_raster_id(frame, tri_idx));
     }
 #else
-    const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]], *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
+    const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]],
+                   *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
     const gn_tri *first = frame->tri;
     uint32_t n_triangles = frame->stats.n_triangles;
     GN_KEEP(first); /* found once */

@@ -1,8 +1,8 @@
 /* What is visible in a screen tile, triangle by triangle: runs of pixels of one row that show the same triangle (R2).
  *
- * Runs are linked in the cells themselves. A run's first cell, once its depth is no longer needed, holds the index of the list's
- * next run above the triangle's identity, its own index if it is the last; the second, if there is one, the run's length above the
- * identity. So triangles need not be walked again to find what is left of them.
+ * Runs are linked in the cells themselves. A run's first cell, once its depth is no longer needed, holds the index of
+ * the list's next run above the triangle's identity, its own index if it is the last; the second, if there is one, the
+ * run's length above the identity. So triangles need not be walked again to find what is left of them.
  */
 #ifndef GN_RUNS_H
 #define GN_RUNS_H
@@ -33,7 +33,8 @@ static inline uint32_t *gn_runs_first(uint32_t *last, uint32_t id_mask)
     return last + 1;
 }
 
-/* Links a run at the head of its list: runs come from the tile's last to its first, so that each list begins with what comes first. */
+/* Links a run at the head of its list: runs come from the tile's last to its first, so that each list begins with what
+ * comes first. */
 static inline void gn_runs_link(gn_scratch *scratch, uint32_t id, uint32_t first, uint32_t n_px)
 {
     gn_run_idx *list = &scratch->run_list[id & (GN_RUN_LISTS - 1)];

@@ -14,8 +14,8 @@ typedef struct {
     int32_t b_q30[2];
 } hit;
 
-/* Where the ray through a pixel centre meets the plane. Values are clamped to the triangle: a snapped edge may cover a centre
- * just outside the unsnapped triangle. */
+/* Where the ray through a pixel centre meets the plane. Values are clamped to the triangle: a snapped edge may cover a
+ * centre just outside the unsnapped triangle. */
 static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, hit *h)
 {
     gn_ray_recip r;
@@ -48,7 +48,8 @@ static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
 
 #if GN_SHADOWS || GN_PUNCTUAL_LIGHTS
 /* A point at depth z on a pixel's ray, along three axes. |z| * |a| < 2^31 * 2^31 by the choice of the shift */
-static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t px, int32_t py, int32_t z_q16, int64_t out_q16[3])
+static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t px, int32_t py, int32_t z_q16,
+                         int64_t out_q16[3])
 {
     for (int i = 0; i < 3; i++) {
         int64_t a = ray[i].a0 + (int64_t)ray[i].ax * px + (int64_t)ray[i].ay * py; /* < 2^31 */
@@ -85,7 +86,8 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
     sample->cascade = GN_CASCADE_NONE;
     sample->value[GN_VALUE_FADE] = 0;
     int64_t m = frame->scene->shadow.max_distance_q16;
-    sample->in_reach = frame->scene->shadow.distance_mode != GN_DISTANCE_RADIUS || across + (uint64_t)(z * z) <= (uint64_t)(m * m);
+    sample->in_reach =
+        frame->scene->shadow.distance_mode != GN_DISTANCE_RADIUS || across + (uint64_t)(z * z) <= (uint64_t)(m * m);
     if (!sample->in_reach) return;
     for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
         const gn_cascade_state *cascade = &frame->cascade[i];
@@ -104,7 +106,8 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
 
 #if GN_AUTO_BIAS
 /* B6 of curved surfaces: along what the point moves. */
-static const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light, const int32_t n_q30[3], int32_t out_q30[3])
+static const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light, const int32_t n_q30[3],
+                                    int32_t out_q30[3])
 {
     if (!GN_CURVED(s) || !light->auto_bias) return n_q30;
     for (int i = 0; i < 3; i++) out_q30[i] = s->lift_q30[i] + (GN_BENT(s) ? 0 : n_q30[i]);
@@ -114,8 +117,8 @@ static const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *l
 #define lifted_normal(s, light, n_q30, out_q30) ((void)(out_q30), (n_q30))
 #endif
 
-/* The surface's offset in a view, where it is not one for all views of the light: of smooth surfaces, of the disk, whose index and
- * reach are the cascade's own, and of B6, whose steps of depth are. */
+/* The surface's offset in a view, where it is not one for all views of the light: of smooth surfaces, of the disk,
+ * whose index and reach are the cascade's own, and of B6, whose steps of depth are. */
 static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot, const gn_light_view *view,
                                  const int32_t n_q30[3], int32_t moved_q16[3])
 {
@@ -146,7 +149,8 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
     int32_t moved[3];
     const int32_t *offset = own_offset(frame, s, slot, view, n_q30, moved);
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out);
-    if (!GN_BLENDED_CASCADES || !cascaded || frame->scene->shadow.blend == GN_BLEND_HARD || sample->cascade == GN_LAST_CASCADE(frame))
+    if (!GN_BLENDED_CASCADES || !cascaded || frame->scene->shadow.blend == GN_BLEND_HARD ||
+        sample->cascade == GN_LAST_CASCADE(frame))
         return;
     view += frame->cascade[sample->cascade].next - sample->cascade;
     int same = view->filter != GN_FILTER_DISK && !(GN_AUTO_BIAS && light->auto_bias);
@@ -168,8 +172,8 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
     int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* B6: per pixel */
     int32_t lifted[3];
     if (light->view_idx >= 0 && s->shadowed && !own)
-        gn_bias_punctual(frame, light, lifted_normal(s, light, n_q30, lifted), sample->value[GN_VALUE_Z], out + GN_LIGHT_POINT_AT,
-                         out + GN_LIGHT_OFFSET);
+        gn_bias_punctual(frame, light, lifted_normal(s, light, n_q30, lifted), sample->value[GN_VALUE_Z],
+                         out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
 #else
     (void)frame, (void)n_q30;
 #endif
@@ -177,8 +181,8 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
 #endif
 
 /* n . L of a directional light: of the interpolated normal, or interpolated. */
-static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s, const gn_surface_light *light, const hit *h,
-                                      gn_length length, const int32_t n_q30[3])
+static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s, const gn_surface_light *light,
+                                      const hit *h, gn_length length, const int32_t n_q30[3])
 {
     (void)frame, (void)h;
     if (!GN_SMOOTH(s)) return light->flat_cosine_q24;
@@ -189,8 +193,8 @@ static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s
     return gn_length_cosine_q24(length, n_q30, light->state->to_light_q30);
 }
 
-static void light_values(const gn_frame *frame, const gn_surface *s, const hit *h, int32_t px, int32_t py, const int32_t n_q30[3],
-                         gn_sample *sample)
+static void light_values(const gn_frame *frame, const gn_surface *s, const hit *h, int32_t px, int32_t py,
+                         const int32_t n_q30[3], gn_sample *sample)
 {
     gn_length length = {0, 0};
     int needs_length = !GN_K(frame, vertex_light) || s->n_punctual || s->specular;
@@ -238,16 +242,19 @@ static void to_eye(const gn_frame *frame, int32_t px, int32_t py, int32_t out_q3
 static void extra_values(const gn_surface *s, const hit *h, int32_t *value)
 {
 #if GN_TEXTURES
-    for (int i = 0; s->textured && i < 2; i++) value[GN_VALUE_UV + i] = gn_texture_coord(&s->uv, s->object->texture, h->b_q30, i);
+    for (int i = 0; s->textured && i < 2; i++)
+        value[GN_VALUE_UV + i] = gn_texture_coord(&s->uv, s->object->texture, h->b_q30, i);
     for (int i = 0; !s->textured && i < 2; i++) value[GN_VALUE_UV + i] = 0;
 #endif
 #if GN_MASKS
     for (int i = 0; i < 4; i++)
-        value[GN_VALUE_MASK + i] = s->masked ? interpolate(h, s->mask_q16[0][i], s->mask_q16[1][i], s->mask_q16[2][i]) : 0;
+        value[GN_VALUE_MASK + i] =
+            s->masked ? interpolate(h, s->mask_q16[0][i], s->mask_q16[1][i], s->mask_q16[2][i]) : 0;
 #endif
 #if GN_BAKED_LIGHT
     for (int i = 0; i < 3; i++)
-        value[GN_VALUE_BAKED + i] = s->baked ? interpolate(h, s->baked_q16[0][i], s->baked_q16[1][i], s->baked_q16[2][i]) : 0;
+        value[GN_VALUE_BAKED + i] =
+            s->baked ? interpolate(h, s->baked_q16[0][i], s->baked_q16[1][i], s->baked_q16[2][i]) : 0;
 #endif
     (void)s, (void)h, (void)value;
 }
@@ -264,7 +271,8 @@ void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t
     sample->cascade = GN_CASCADE_NONE;
     sample->in_reach = 1;
     for (int i = 0; i < 3; i++)
-        sample->value[GN_VALUE_RGB + i] = GN_COLOURED(s) ? interpolate(&h, s->rgb_q16[0][i], s->rgb_q16[1][i], s->rgb_q16[2][i]) : 0;
+        sample->value[GN_VALUE_RGB + i] =
+            GN_COLOURED(s) ? interpolate(&h, s->rgb_q16[0][i], s->rgb_q16[1][i], s->rgb_q16[2][i]) : 0;
     if (s->first_value < GN_VALUE_Z) extra_values(s, &h, sample->value);
     if (!s->n_lights) return;
     int32_t n[3];

@@ -52,7 +52,8 @@ static int position_ok(const gn_affine *a)
     return 1;
 }
 
-/* Rows of unit length and at right angles within 2^-20: some hundred products of rotations without gn_affine_orthonormalise. */
+/* Rows of unit length and at right angles within 2^-20: some hundred products of rotations without
+ * gn_affine_orthonormalise. */
 static int is_rotation(const gn_affine *a)
 {
     if (a->exp != 0) return 0;
@@ -78,7 +79,8 @@ static int object_transform_ok(const gn_affine *a)
 
 static gn_status check_camera(gn_frame *frame, const gn_camera *camera)
 {
-    if (!is_rotation(&camera->to_world) || !position_ok(&camera->to_world)) return gn_fail(frame, GN_ERR_CAMERA_TRANSFORM, 0);
+    if (!is_rotation(&camera->to_world) || !position_ok(&camera->to_world))
+        return gn_fail(frame, GN_ERR_CAMERA_TRANSFORM, 0);
     /* the focal length in pixels must also fit: focal * height / 2 < 2^15 */
     if (camera->focal_q24 < 1U << 19 || (uint64_t)camera->focal_q24 * frame->picture.height >= (uint64_t)1 << 40)
         return gn_fail(frame, GN_ERR_CAMERA_FOCAL, 0);
@@ -105,8 +107,8 @@ static gn_status check_material(gn_frame *frame, const gn_object *object, uint32
     const gn_mesh *mesh = object->mesh;
     if (above(object->albedo_uq16, 65536)) return gn_fail(frame, GN_ERR_COLOUR, idx);
     int visible = (int)object->visible_alpha, caster = (int)object->caster_alpha;
-    if (visible < GN_ALPHA_OPAQUE || visible > (GN_VISIBLE_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE) || caster < GN_ALPHA_OPAQUE ||
-        caster > (GN_CASTER_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE))
+    if (visible < GN_ALPHA_OPAQUE || visible > (GN_VISIBLE_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE) ||
+        caster < GN_ALPHA_OPAQUE || caster > (GN_CASTER_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE))
         return gn_fail(frame, GN_ERR_MATERIAL, idx);
     if (object->alpha_uq16 > 65536 || object->alpha_cutoff_uq16 > 65536 || object->shininess_log2 > 7 ||
         above(object->specular_uq16, GN_SPECULAR ? 65536 : 0))
@@ -115,7 +117,8 @@ static gn_status check_material(gn_frame *frame, const gn_object *object, uint32
         return gn_fail(frame, GN_ERR_TEXTURE, idx);
     if (object->mask_image && (!GN_MASKS || !mesh->mask_uv_uq16 || !texture_ok(object->mask_image)))
         return gn_fail(frame, GN_ERR_MASK, idx);
-    if ((object->mask_u8 && !GN_MASKS) || (object->baked_uq12 && !GN_BAKED_LIGHT)) return gn_fail(frame, GN_ERR_MASK, idx);
+    if ((object->mask_u8 && !GN_MASKS) || (object->baked_uq12 && !GN_BAKED_LIGHT))
+        return gn_fail(frame, GN_ERR_MASK, idx);
     return GN_OK;
 }
 
@@ -138,16 +141,17 @@ static gn_status check_punctual(gn_frame *frame, const gn_light *light, uint32_t
 {
     for (int i = 0; i < 3; i++)
         if (gn_abs32(light->position_q16[i]) > GN_POSITION_LIMIT_Q16) return gn_fail(frame, GN_ERR_LIGHT_POSITION, idx);
-    if ((light->range_q16 && light->range_q16 < 256) || light->near_q16 < 1 || light->near_q16 > GN_POSITION_LIMIT_Q16 ||
-        (light->range_q16 && (uint32_t)light->near_q16 >= light->range_q16))
+    if ((light->range_q16 && light->range_q16 < 256) || light->near_q16 < 1 ||
+        light->near_q16 > GN_POSITION_LIMIT_Q16 || (light->range_q16 && (uint32_t)light->near_q16 >= light->range_q16))
         return gn_fail(frame, GN_ERR_LIGHT_RANGE, idx);
-    if (light->kind == GN_LIGHT_SPOT &&
-        (light->outer_turn < GN_SPOT_TURN_MIN || light->outer_turn > GN_SPOT_TURN_MAX || light->inner_turn > light->outer_turn))
+    if (light->kind == GN_LIGHT_SPOT && (light->outer_turn < GN_SPOT_TURN_MIN || light->outer_turn > GN_SPOT_TURN_MAX ||
+                                         light->inner_turn > light->outer_turn))
         return gn_fail(frame, GN_ERR_LIGHT_ANGLE, idx);
     return GN_OK;
 }
 
-/* B6. Where it is not built it is missed by who asks for it, and by a light that casts shadows and has no other bias. */
+/* B6. Where it is not built it is missed by who asks for it, and by a light that casts shadows and has no other bias.
+ */
 static int bias_is_built(const gn_light *light)
 {
     if ((uint32_t)light->auto_bias > GN_AUTO_BIAS_OFF) return 0;
@@ -160,16 +164,15 @@ static int biases_ok(const gn_light *light)
 {
     int32_t lo = gn_min32(gn_min32(light->bias_constant_q16, light->bias_slope_q16),
                           gn_min32(light->bias_normal_q16, light->near_offset_q16));
-    int ok = light->bias_constant_q16 <= 64 << 16 && light->bias_slope_q16 <= 64 << 16 && light->bias_normal_q16 <= 8 << 16 &&
-             light->near_offset_q16 <= GN_POSITION_LIMIT_Q16;
+    int ok = light->bias_constant_q16 <= 64 << 16 && light->bias_slope_q16 <= 64 << 16 &&
+             light->bias_normal_q16 <= 8 << 16 && light->near_offset_q16 <= GN_POSITION_LIMIT_Q16;
     for (int i = 0; i < 4; i++) {
         lo = gn_min32(lo, light->bias_receiver_q16[i]);
         ok = ok && light->bias_receiver_q16[i] <= (GN_RECEIVER_BIAS ? 8 << 16 : 0);
     }
     lo = gn_min32(lo, light->bias_caster_q16);
     return ok && lo >= 0 && light->bias_caster_q16 <= (GN_CASTER_BIAS ? 8 << 16 : 0) &&
-           light->receiver_plane <= (GN_RECEIVER_PLANE ? 1U : 0U) &&
-           bias_is_built(light);
+           light->receiver_plane <= (GN_RECEIVER_PLANE ? 1U : 0U) && bias_is_built(light);
 }
 
 static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t idx)
@@ -180,8 +183,8 @@ static gn_status check_light(gn_frame *frame, const gn_light *light, uint32_t id
     if (light->kind != GN_LIGHT_POINT && !light->direction[0] && !light->direction[1] && !light->direction[2])
         return gn_fail(frame, GN_ERR_LIGHT_DIRECTION, idx);
     if (above(light->colour_uq16, GN_COLOUR_LIMIT_UQ16)) return gn_fail(frame, GN_ERR_COLOUR, idx);
-    if (!biases_ok(light) || light->shadow_strength_uq16 > 65536 || light->colour_exp < -100 || light->colour_exp > 100 ||
-        light->mask_channel < -1 || light->mask_channel > 3)
+    if (!biases_ok(light) || light->shadow_strength_uq16 > 65536 || light->colour_exp < -100 ||
+        light->colour_exp > 100 || light->mask_channel < -1 || light->mask_channel > 3)
         return gn_fail(frame, GN_ERR_LIGHT_BIAS, idx);
     return light->kind == GN_LIGHT_DIRECTIONAL ? GN_OK : check_punctual(frame, light, idx);
 }
@@ -214,7 +217,8 @@ static int softness_ok(const gn_light *light, gn_filter filter)
 static gn_status check_softness(gn_frame *frame, const gn_scene *scene)
 {
     for (uint32_t i = 0; i < scene->n_lights; i++)
-        if (!softness_ok(&scene->lights[i], scene->shadow.filter) || !softness_ok(&scene->lights[i], scene->shadow.other_filter))
+        if (!softness_ok(&scene->lights[i], scene->shadow.filter) ||
+            !softness_ok(&scene->lights[i], scene->shadow.other_filter))
             return gn_fail(frame, GN_ERR_LIGHT_KIND, i);
     return GN_OK;
 }
@@ -228,11 +232,12 @@ static gn_status check_filters(gn_frame *frame, const gn_shadow_settings *shadow
 {
     int disk = shadow->filter == GN_FILTER_DISK || shadow->other_filter == GN_FILTER_DISK;
     if (!filter_ok(shadow->filter) || !filter_ok(shadow->other_filter) ||
-        (uint32_t)shadow->kernel > (GN_LINEAR_KERNELS ? GN_KERNEL_LINEAR : GN_KERNEL_TENT) || shadow->penumbra_uq16 > 64 << 16 ||
-        (disk && (shadow->disk_samples < 1 || shadow->disk_samples > 64)))
+        (uint32_t)shadow->kernel > (GN_LINEAR_KERNELS ? GN_KERNEL_LINEAR : GN_KERNEL_TENT) ||
+        shadow->penumbra_uq16 > 64 << 16 || (disk && (shadow->disk_samples < 1 || shadow->disk_samples > 64)))
         return gn_fail(frame, GN_ERR_SHADOW_FILTER, 0);
     if ((uint32_t)shadow->mixing > (GN_MASKS ? GN_MIXING_DISTANCE : GN_MIXING_NONE) ||
-        (uint32_t)shadow->tile_sizes > (GN_TILE_IMPORTANCE ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL) || shadow->main_light > (GN_MAIN_LIGHT ? 1U : 0U) || !refresh_ok(shadow->refresh))
+        (uint32_t)shadow->tile_sizes > (GN_TILE_IMPORTANCE ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL) ||
+        shadow->main_light > (GN_MAIN_LIGHT ? 1U : 0U) || !refresh_ok(shadow->refresh))
         return gn_fail(frame, GN_ERR_SHADOW_MODE, 0);
     return GN_OK;
 }
@@ -245,8 +250,7 @@ static gn_status check_shadow(gn_frame *frame, const gn_scene *scene)
     if (shadow->distance_fade_uq16 < GN_FADE_MIN_UQ16 || shadow->distance_fade_uq16 > 65536 ||
         shadow->cascade_fade_uq16 < GN_FADE_MIN_UQ16 || shadow->cascade_fade_uq16 > 65536)
         return gn_fail(frame, GN_ERR_SHADOW_FADE, 0);
-    if ((uint32_t)shadow->distance_mode > GN_DISTANCE_RADIUS)
-        return gn_fail(frame, GN_ERR_SHADOW_DISTANCE, 0);
+    if ((uint32_t)shadow->distance_mode > GN_DISTANCE_RADIUS) return gn_fail(frame, GN_ERR_SHADOW_DISTANCE, 0);
     if (!cascades_ok(shadow)) return gn_fail(frame, GN_ERR_SHADOW_CASCADES, 0);
     gn_status status = check_filters(frame, shadow);
     return status || GN_FILTER_MAX >= 3 ? status : check_softness(frame, scene);
@@ -256,10 +260,12 @@ gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene)
 {
     gn_status status = check_camera(frame, &scene->camera);
     if (status) return status;
-    if ((scene->n_objects && !scene->objects) || (scene->n_lights && !scene->lights)) return gn_fail(frame, GN_ERR_NULL, 0);
+    if ((scene->n_objects && !scene->objects) || (scene->n_lights && !scene->lights))
+        return gn_fail(frame, GN_ERR_NULL, 0);
     if (scene->n_objects > GN_MAX_OBJECTS)
         return gn_fail_capacity(frame, GN_ERR_TOO_MANY_OBJECTS, scene->n_objects, GN_MAX_OBJECTS);
-    if (scene->n_lights > GN_MAX_LIGHTS) return gn_fail_capacity(frame, GN_ERR_TOO_MANY_LIGHTS, scene->n_lights, GN_MAX_LIGHTS);
+    if (scene->n_lights > GN_MAX_LIGHTS)
+        return gn_fail_capacity(frame, GN_ERR_TOO_MANY_LIGHTS, scene->n_lights, GN_MAX_LIGHTS);
     if (scene->unit_log2 < -30 || scene->unit_log2 > 30) return gn_fail(frame, GN_ERR_CAMERA_DEPTH, 0);
     if (scene->shadow.object_lights > GN_OBJECT_LIGHTS_MAX) return gn_fail(frame, GN_ERR_SHADOW_MODE, 0);
     if (above(scene->ambient_uq16, GN_COLOUR_LIMIT_UQ16) || above(scene->background_uq16, 65536))

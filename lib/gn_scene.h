@@ -4,7 +4,8 @@
 
 #include "gnomon.h"
 
-/* GN_OK, or the first thing that is wrong, with frame->detail filled. Vertex positions are checked when they are transformed. */
+/* GN_OK, or the first thing that is wrong, with frame->detail filled. Vertex positions are checked when they are
+ * transformed. */
 gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene);
 
 /* Whether a position is within +-2^30, as the transforms rely on. */

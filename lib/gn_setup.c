@@ -24,8 +24,8 @@ static int view_position(int32_t out_q16[3], const gn_xform *xform, const gn_mes
     return 1;
 }
 
-int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *xform, const gn_mesh *mesh, uint32_t object_idx,
-                    uint32_t vertex_idx)
+int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
+                    uint32_t object_idx, uint32_t vertex_idx)
 {
     gn_vcache_entry *entry = &cache[vertex_idx & (GN_VERTEX_CACHE - 1)];
     GN_ELEMENT(entry);
@@ -53,7 +53,7 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *
 #define SELDOM GN_NOINLINE
 #endif
 
-/* ---- Vertices ------------------------------------------------------------------------------------------------------ */
+/* ---- Vertices ---------------------------------------------------------------------------------------------------- */
 
 /* A vertex on the screen, in the guard band. */
 typedef struct {
@@ -68,7 +68,7 @@ typedef struct {
 typedef struct {
     uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
     int32_t v_q16[3];
-    uint32_t out;    /* outside of which planes: of the picture, of the guard band << 8 */
+    uint32_t out; /* outside of which planes: of the picture, of the guard band << 8 */
 #if CACHED_PROJECTION
     projected at; /* if in the guard band */
 #endif
@@ -80,9 +80,9 @@ typedef struct {
     gn_clipping *clipping;
     corner *cache;
     uint32_t cache_mask;
-    uint16_t *place;     /* see gn_setup.h */
+    uint16_t *place; /* see gn_setup.h */
     gn_ref_offset *tile_first;
-    int32_t add_px[2]; /* see gn_setup_bounds_of */
+    int32_t add_px[2];   /* see gn_setup_bounds_of */
     uint32_t focal_norm; /* 2F, normalised */
     int32_t focal_up;    /* see project */
     uint32_t near_norm;  /* near, normalised */
@@ -102,10 +102,11 @@ typedef struct {
 /* near / Z, Q32, truncated, below 1; recip is that of Z * 2^clz */
 static inline uint32_t inverse_depth(const setup_job *job, uint32_t recip, int32_t clz)
 {
-    uint32_t q = (uint32_t)(((uint64_t)job->near_norm * recip) >> 32); /* near * 2^near_clz * 2^63 / (Z * 2^clz) / 2^32 */
-    int32_t down = job->near_down - clz;                               /* Z is not nearer than near: -1 at the least */
+    uint32_t q =
+        (uint32_t)(((uint64_t)job->near_norm * recip) >> 32); /* near * 2^near_clz * 2^63 / (Z * 2^clz) / 2^32 */
+    int32_t down = job->near_down - clz;                      /* Z is not nearer than near: -1 at the least */
     if (GN_SELDOM(down < 0)) return q >> 31 ? UINT32_MAX : q << 1 | 1U; /* Z is near, and the quotient exact */
-    GN_KEEP(q); /* a branch */
+    GN_KEEP(q);                                                         /* a branch */
     return q >> down;
 }
 
@@ -122,7 +123,8 @@ GN_INLINE void project(const setup_job *job, const int32_t v_q16[3], projected *
 {
     int32_t clz = gn_clz32((uint32_t)v_q16[2]), up = job->focal_up + clz; /* clz 2..23 */
     uint32_t recip = gn_recip_norm2((uint32_t)v_q16[2] << clz);
-    /* 2F / Z with 31 bits: 2^63 / (Z 2^clz) * (2F 2^focal_clz) / 2^33, in [2^29, 2^31); results are below 2^27, so that |v| * 2^up < 2^30 */
+    /* 2F / Z with 31 bits: 2^63 / (Z 2^clz) * (2F 2^focal_clz) / 2^33, in [2^29, 2^31); results are below 2^27, so that
+     * |v| * 2^up < 2^30 */
     int32_t scale = (int32_t)(((uint64_t)recip * job->focal_norm) >> 33), x = v_q16[0], y = v_q16[1];
     if (up >= 0) {
         x = (int32_t)((uint32_t)x << up);
@@ -168,7 +170,8 @@ static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
     return !is_beyond(v, half) ? 0 : v < 0 ? low : low << 1;
 }
 
-/* A corner nearer than near, beyond what is projected or near the border of the guard band, or out of range: returns 0 then. */
+/* A corner nearer than near, beyond what is projected or near the border of the guard band, or out of range: returns 0
+ * then. */
 static GN_NOINLINE int fill_far_corner(const setup_job *job, corner *c)
 {
     const gn_cam *cam = &job->frame->cam;
@@ -193,7 +196,8 @@ GN_INLINE int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
     }
     for (int k = 0; k < 3; k++) c->v_q16[k] = v[k];
     uint32_t z = (uint32_t)v[2] >> job->near_guard;
-    if ((uint32_t)v[2] - (uint32_t)job->near_q16 >= job->z_range || (uint32_t)v[0] + z > 2 * z || (uint32_t)v[1] + z > 2 * z)
+    if ((uint32_t)v[2] - (uint32_t)job->near_q16 >= job->z_range || (uint32_t)v[0] + z > 2 * z ||
+        (uint32_t)v[1] + z > 2 * z)
         return fill_far_corner(job, c);
     project(job, v, &c->at);
     uint32_t half_x = job->half_q16[0], half_y = job->half_q16[1];
@@ -204,7 +208,7 @@ GN_INLINE int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
 }
 #endif
 
-/* ---- Depth --------------------------------------------------------------------------------------------------------- */
+/* ---- Depth ------------------------------------------------------------------------------------------------------- */
 
 /* near / Z over a triangle. */
 typedef struct {
@@ -224,20 +228,22 @@ static inline int gradient(int32_t *out, int64_t n, int32_t f, int32_t s)
     return v == *out;
 }
 
-/* The plane through three projected corners, all of the screen in Q16 pixels: |x|, |y| < 2^27. Where it is too steep, a pixel spans half of all
- * depths: the nearest stands for it. */
-static inline void depth_of_corners(depth_range *depth, const projected *c0, const projected *c1, const projected *c2, int32_t to_x_q16,
-                                    int32_t to_y_q16)
+/* The plane through three projected corners, all of the screen in Q16 pixels: |x|, |y| < 2^27. Where it is too steep, a
+ * pixel spans half of all depths: the nearest stands for it. */
+static inline void depth_of_corners(depth_range *depth, const projected *c0, const projected *c1, const projected *c2,
+                                    int32_t to_x_q16, int32_t to_y_q16)
 {
     uint32_t i0 = c0->iz_q32, i1 = c1->iz_q32, i2 = c2->iz_q32;
     uint32_t largest = i0 > i1 ? i0 : i1, least = i0 > i1 ? i1 : i0;
     depth->largest = i2 > largest ? i2 : largest;
     depth->least = i2 < least ? i2 : least;
-    int32_t ax = c1->x_q16 - c0->x_q16, ay = c1->y_q16 - c0->y_q16, bx = c2->x_q16 - c0->x_q16, by = c2->y_q16 - c0->y_q16;
+    int32_t ax = c1->x_q16 - c0->x_q16, ay = c1->y_q16 - c0->y_q16, bx = c2->x_q16 - c0->x_q16,
+            by = c2->y_q16 - c0->y_q16;
     int32_t a = (int32_t)(i1 >> 1) - (int32_t)(i0 >> 1), b = (int32_t)(i2 >> 1) - (int32_t)(i0 >> 1);
     int64_t area = (int64_t)ax * by - (int64_t)bx * ay; /* 2^57 */
     uint64_t size = gn_abs64(area) | 1U;
-    int32_t clz = gn_clz64(size), s = 45 - clz; /* gradients are n / area * 2^17 = n * (2^63 / norm) / 2^(78 - clz), in halves */
+    int32_t clz = gn_clz64(size),
+            s = 45 - clz; /* gradients are n / area * 2^17 = n * (2^63 / norm) / 2^(78 - clz), in halves */
     int32_t recip = (int32_t)(gn_recip_norm2((uint32_t)(size << clz >> 32)) >> 1);
     if (area < 0) recip = -recip;
     GN_KEEP(recip);
@@ -258,8 +264,9 @@ typedef struct {
     int32_t x, y;
 } grid_corner;
 
-/* A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel grid along each axis: by so much may depth leave
- * the triangle's own range. Where that is little, and neither end of all depths is near, it has no bounds. */
+/* A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel grid along each axis:
+ * by so much may depth leave the triangle's own range. Where that is little, and neither end of all depths is near, it
+ * has no bounds. */
 static inline uint32_t depth_reach(int32_t dx, int32_t dy, int32_t bits)
 {
     return (((gn_abs32(dx) >> 1) + (gn_abs32(dy) >> 1)) >> bits) + 4096; /* and roundings of 2^13 steps */
@@ -268,8 +275,8 @@ static inline uint32_t depth_reach(int32_t dx, int32_t dy, int32_t bits)
 #define REACH_MAX (1U << 18)
 
 /* Depth of any triangle, from c to the centre of the pixel that holds it. */
-static SELDOM void general_depth(gn_tri *tri, const projected *c0, const projected *c1, const projected *c2, int32_t to_x_q16, int32_t to_y_q16,
-                                 int32_t lasts, int32_t bits)
+static SELDOM void general_depth(gn_tri *tri, const projected *c0, const projected *c1, const projected *c2,
+                                 int32_t to_x_q16, int32_t to_y_q16, int32_t lasts, int32_t bits)
 {
     depth_range depth;
     depth_of_corners(&depth, c0, c1, c2, to_x_q16, to_y_q16);
@@ -293,12 +300,14 @@ static inline int quick_gradient(int32_t *out, int64_t n, int32_t f, int32_t s)
     return (int32_t)(v >> 32) >> s == *out >> 31;
 }
 
-/* The same for a triangle that faces the camera, has more than half a pixel and less than 2^17, and needs no bounds. Returns 0 for others. */
-static inline int quick_depth(gn_tri *tri, const projected *c0, const projected *c1, const projected *c2, int32_t to_x_q16, int32_t to_y_q16,
-                              int32_t lasts, int32_t bits)
+/* The same for a triangle that faces the camera, has more than half a pixel and less than 2^17, and needs no bounds.
+ * Returns 0 for others. */
+static inline int quick_depth(gn_tri *tri, const projected *c0, const projected *c1, const projected *c2,
+                              int32_t to_x_q16, int32_t to_y_q16, int32_t lasts, int32_t bits)
 {
-    int32_t ax = c1->x_q16 - c0->x_q16, ay = c1->y_q16 - c0->y_q16, minus_bx = c0->x_q16 - c2->x_q16, by = c2->y_q16 - c0->y_q16;
-    uint64_t size = (uint64_t)-((int64_t)ax * by + (int64_t)minus_bx * ay) | 1U;
+    int32_t ax = c1->x_q16 - c0->x_q16, ay = c1->y_q16 - c0->y_q16, minus_bx = c0->x_q16 - c2->x_q16,
+            by = c2->y_q16 - c0->y_q16;
+    uint64_t size = (uint64_t) - ((int64_t)ax * by + (int64_t)minus_bx * ay) | 1U;
     uint32_t hi = (uint32_t)(size >> 32), i0 = c0->iz_q32, i1 = c1->iz_q32, i2 = c2->iz_q32;
     if (hi - 1 >= (1U << 18) - 1) return 0;
     int32_t clz = gn_clz32(hi), s = 45 - clz, dx, dy;
@@ -320,7 +329,7 @@ static inline int quick_depth(gn_tri *tri, const projected *c0, const projected 
 }
 #endif
 
-/* ---- Triangles ----------------------------------------------------------------------------------------------------- */
+/* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3])
 {
@@ -337,10 +346,14 @@ static inline void count_tiles(const setup_job *job, const gn_rect *px, uint32_t
 {
     gn_frame *frame = job->frame;
 #if !GN_SIZE_FIRST
-    uint32_t w = (uint32_t)GN_K(frame, tile_width), h = (uint32_t)GN_K(frame, tile_height), tiles_x = frame->tiles_x; /* nothing is negative */
+    uint32_t w = (uint32_t)GN_K(frame, tile_width), h = (uint32_t)GN_K(frame, tile_height),
+             tiles_x = frame->tiles_x; /* nothing is negative */
     uint32_t one = (uint32_t)px->y0 / h * tiles_x + (uint32_t)px->x0 / w;
     uint32_t apart = (uint32_t)(px->y1 - 1) / h * tiles_x + (uint32_t)(px->x1 - 1) / w - one;
-    uint32_t way = !apart ? GN_PLACE_ONE : apart == 1 ? GN_PLACE_NEXT : apart == tiles_x ? GN_PLACE_BELOW : GN_PLACE_MANY;
+    uint32_t way = !apart             ? GN_PLACE_ONE
+                   : apart == 1       ? GN_PLACE_NEXT
+                   : apart == tiles_x ? GN_PLACE_BELOW
+                                      : GN_PLACE_MANY;
     if (tri_idx < GN_PLACES) job->place[tri_idx] = (uint16_t)(one << 2 | way);
     if (way != GN_PLACE_MANY) {
         gn_ref_offset *n_first = &job->tile_first[one];
@@ -369,7 +382,8 @@ static inline grid_corner on_grid(const projected *at, int32_t bits)
 }
 
 /* A triangle in the guard band: nothing if it faces away or covers no pixel centre. */
-static GN_NOINLINE void emit(const setup_job *job, const projected *p0, const projected *p1, const projected *p2, uint32_t triangle_idx)
+static GN_NOINLINE void emit(const setup_job *job, const projected *p0, const projected *p1, const projected *p2,
+                             uint32_t triangle_idx)
 {
     gn_frame *frame = job->frame;
     GN_ELEMENT(frame);
@@ -382,9 +396,11 @@ static GN_NOINLINE void emit(const setup_job *job, const projected *p0, const pr
     }
     if (c.y < a.y && c.y < b.y) swap = a, a = c, c = b, b = swap; /* rotated, to begin with the top */
     else if (b.y < a.y) swap = a, a = b, b = c, c = swap;
-    int32_t left = gn_min32(gn_min32(a.x, b.x), c.x), right = gn_max32(gn_max32(a.x, b.x), c.x), bottom = gn_max32(b.y, c.y);
-    const gn_rect bounds = gn_setup_bounds_of(frame, left, right, a.y, bottom, GN_SIZE_FIRST ? gn_setup_add(frame->picture.width, bits) : job->add_px[0],
-                                              GN_SIZE_FIRST ? gn_setup_add(frame->picture.height, bits) : job->add_px[1]);
+    int32_t left = gn_min32(gn_min32(a.x, b.x), c.x), right = gn_max32(gn_max32(a.x, b.x), c.x),
+            bottom = gn_max32(b.y, c.y);
+    const gn_rect bounds = gn_setup_bounds_of(
+        frame, left, right, a.y, bottom, GN_SIZE_FIRST ? gn_setup_add(frame->picture.width, bits) : job->add_px[0],
+        GN_SIZE_FIRST ? gn_setup_add(frame->picture.height, bits) : job->add_px[1]);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
     uint32_t n = frame->stats.n_triangles++; /* counted on, to say how many would have been enough */
     if (n >= GN_MAX_TRIANGLES) return;
@@ -398,11 +414,13 @@ static GN_NOINLINE void emit(const setup_job *job, const projected *p0, const pr
     tri->object_idx = (uint16_t)job->object_idx;
     tri->triangle_idx = (uint16_t)triangle_idx;
     /* from the top to the centre of the pixel that holds it */
-    int32_t one = 1 << bits, x = a.x + ((frame->picture.width << bits) >> 1), y = a.y + ((frame->picture.height << bits) >> 1);
+    int32_t one = 1 << bits, x = a.x + ((frame->picture.width << bits) >> 1),
+            y = a.y + ((frame->picture.height << bits) >> 1);
     int32_t to_x_q16 = ((a.x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->x_q16;
     int32_t to_y_q16 = ((a.y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->y_q16;
     int32_t width = right - left, height = bottom - a.y, lasts = GN_NARROW;
-    if (GN_SIZE_FIRST || width >= job->narrow || height >= job->narrow) lasts = job->lasts_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height);
+    if (GN_SIZE_FIRST || width >= job->narrow || height >= job->narrow)
+        lasts = job->lasts_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height);
 #if !GN_SIZE_FIRST
     if (quick_depth(tri, a.at, b.at, c.at, to_x_q16, to_y_q16, lasts, bits)) return;
 #endif
@@ -419,8 +437,10 @@ static GN_NOINLINE void project_cut(const setup_job *job, const int32_t v_q16[3]
     at->y_q16 = gn_max32(gn_min32(at->y_q16, most), -most);
 }
 
-/* Any triangle: what leaves the guard band, or comes nearer than near, is clipped. Where size comes first, it does all of them. */
-static GN_NOINLINE void general_triangle(const setup_job *job, const corner *const c[3], uint32_t outside, uint32_t triangle_idx)
+/* Any triangle: what leaves the guard band, or comes nearer than near, is clipped. Where size comes first, it does all
+ * of them. */
+static GN_NOINLINE void general_triangle(const setup_job *job, const corner *const c[3], uint32_t outside,
+                                         uint32_t triangle_idx)
 {
     gn_frame *frame = job->frame;
     gn_polygon *polygon = &job->clipping->polygon;
@@ -461,7 +481,7 @@ static gn_status setup_triangle(const setup_job *job, const corner *const c[3], 
     return GN_OK;
 }
 
-/* ---- Objects ------------------------------------------------------------------------------------------------------- */
+/* ---- Objects ----------------------------------------------------------------------------------------------------- */
 
 /* The corners of a triangle, through the cache: c[2 .. 4]. */
 static inline gn_status fetch_corners(const setup_job *job, const uint16_t *idx, corner spare[3], const corner *c[5])
@@ -472,7 +492,8 @@ static inline gn_status fetch_corners(const setup_job *job, const uint16_t *idx,
         if (vertex_idx >= n_vertices) return gn_fail(job->frame, GN_ERR_MESH_INDEX, job->object_idx);
         corner *entry = &job->cache[vertex_idx & job->cache_mask];
         if (entry->tag != tag) {
-            if (entry == at[-1] || entry == at[-2]) entry = &spare[at - c - 2]; /* the triangle itself needs what is there */
+            if (entry == at[-1] || entry == at[-2])
+                entry = &spare[at - c - 2]; /* the triangle itself needs what is there */
             if (!fill_corner(job, entry, vertex_idx)) return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
             entry->tag = tag;
         }

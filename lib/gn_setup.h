@@ -6,26 +6,28 @@
 #include "gn_walk.h"
 #include "gnomon.h"
 
-/* Fills frame->tri from the scene, and counts the triangles of each screen tile. The scratch is used for a cache of vertices, and for what
- * gn_bin_triangles need not find again. */
+/* Fills frame->tri from the scene, and counts the triangles of each screen tile. The scratch is used for a cache of
+ * vertices, and for what gn_bin_triangles need not find again. */
 gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch);
 
-/* In the scratch's pixels, of the first triangles: the first screen tile that one may have pixels in, above two bits: that alone, the next one, the
- * one below, or others too. Where size comes first there is none of this. */
+/* In the scratch's pixels, of the first triangles: the first screen tile that one may have pixels in, above two bits:
+ * that alone, the next one, the one below, or others too. Where size comes first there is none of this. */
 #define GN_PLACES GN_TILE_PIXELS_MAX
 enum { GN_PLACE_ONE, GN_PLACE_NEXT, GN_PLACE_BELOW, GN_PLACE_MANY };
 
 /* View position of an object's vertex through the cache. Returns 0 if it is beyond +-16384 units, or
  * its position beyond +-2^30. */
-int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *xform, const gn_mesh *mesh, uint32_t object_idx,
-                    uint32_t vertex_idx);
+int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
+                    uint32_t object_idx, uint32_t vertex_idx);
 
 /* Screen coordinates of the corners from the picture's top left corner, subpixel_bits fraction bits. */
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3]);
 
-/* Pixels whose centres lie between the least and largest coordinates, from the picture's centre, in the subpixel grid: cut to the picture. What is
- * added before they are shifted is the picture's centre, and the rounding of gn_first_px. */
-static inline gn_rect gn_setup_bounds_of(const gn_frame *frame, int32_t left, int32_t right, int32_t top, int32_t bottom, int32_t add_x, int32_t add_y)
+/* Pixels whose centres lie between the least and largest coordinates, from the picture's centre, in the subpixel grid:
+ * cut to the picture. What is added before they are shifted is the picture's centre, and the rounding of gn_first_px.
+ */
+static inline gn_rect gn_setup_bounds_of(const gn_frame *frame, int32_t left, int32_t right, int32_t top,
+                                         int32_t bottom, int32_t add_x, int32_t add_y)
 {
     int32_t bits = GN_K(frame, subpixel_bits);
     gn_rect r;
@@ -44,11 +46,13 @@ static inline int32_t gn_setup_add(int32_t size_px, int32_t bits)
 static inline gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
 {
     int32_t x0 = tri->x[0], x1 = tri->x[1], x2 = tri->x[2], bits = GN_K(frame, subpixel_bits);
-    return gn_setup_bounds_of(frame, gn_min32(gn_min32(x0, x1), x2), gn_max32(gn_max32(x0, x1), x2), tri->y[0], gn_max32(tri->y[1], tri->y[2]),
-                              gn_setup_add(frame->picture.width, bits), gn_setup_add(frame->picture.height, bits));
+    return gn_setup_bounds_of(frame, gn_min32(gn_min32(x0, x1), x2), gn_max32(gn_max32(x0, x1), x2), tri->y[0],
+                              gn_max32(tri->y[1], tri->y[2]), gn_setup_add(frame->picture.width, bits),
+                              gn_setup_add(frame->picture.height, bits));
 }
 
-/* The screen tiles that pixels of the picture lie in, some at least: `height` rows of `width` tiles, with `skip` others between. */
+/* The screen tiles that pixels of the picture lie in, some at least: `height` rows of `width` tiles, with `skip` others
+ * between. */
 typedef struct {
     uint32_t first;
     int32_t width, height, skip;

@@ -113,8 +113,9 @@ static void shade_chord(shading *s, gn_sample *from, const gn_sample *to, int32_
 }
 #endif
 
-/* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every persp_step
- * pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the triangle. */
+/* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every
+ * persp_step pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the
+ * triangle. */
 static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
 #if !GN_RUNTIME_KNOBS && GN_PERSP_STEP == 1 /* nothing lies between */
@@ -164,7 +165,8 @@ static uint32_t constant_pixel(gn_shading *s)
 }
 
 #if GN_PIECES
-/* Takes the triangle's runs and links them one after the other, from the first; s->spanned is the part of the screen that they span. */
+/* Takes the triangle's runs and links them one after the other, from the first; s->spanned is the part of the screen
+ * that they span. */
 static GN_NOINLINE void link_runs(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
 {
     uint32_t stride = (uint32_t)GN_K(s->frame, tile_width), at = first, *cell = GN_CELLS(s->scratch);
@@ -177,14 +179,16 @@ static GN_NOINLINE void link_runs(gn_shading *s, gn_run_taker *taker, uint32_t f
         x1 = gn_max32(x1, x + n_px);
     }
     cell[at] = at << 16 | taker->id;
-    const gn_rect spanned = {x0 + s->rect.x0, y0 + s->rect.y0, x1 + s->rect.x0, (int32_t)(at / stride) + 1 + s->rect.y0};
+    const gn_rect spanned = {x0 + s->rect.x0, y0 + s->rect.y0, x1 + s->rect.x0,
+                             (int32_t)(at / stride) + 1 + s->rect.y0};
     s->spanned = spanned;
 }
 
 /* Shades what lies in a part of the screen of the runs that are linked from `first` on. */
 static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *part)
 {
-    const uint32_t *cells = GN_CELLS(s->scratch), stride = (uint32_t)GN_K(s->frame, tile_width), id = cells[first] & 0xFFFFU;
+    const uint32_t *cells = GN_CELLS(s->scratch), stride = (uint32_t)GN_K(s->frame, tile_width),
+                   id = cells[first] & 0xFFFFU;
 #if GN_SIZE_FIRST
     const gn_rect *const r = part;
 #else
@@ -210,7 +214,8 @@ static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, const g
     }
 }
 
-/* From left to right, piece by piece, each as wide as it may be; where the first of a band is none, in bands of half the height. */
+/* From left to right, piece by piece, each as wide as it may be; where the first of a band is none, in bands of half
+ * the height. */
 static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *all)
 {
     gn_rect *part = &s->part;
@@ -276,11 +281,12 @@ static void shade_triangle(gn_shading *s, uint32_t tri_idx)
     } while (gn_runs_take(&taker, stride, &first, &n_px));
 }
 
-/* ---- Runs ---------------------------------------------------------------------------------------------------------- */
+/* ---- Runs -------------------------------------------------------------------------------------------------------- */
 
 enum { NOT_PLAIN, PLAIN, PLAIN_565 };
 
-/* An object whose triangles all look alike, wherever they are: unlit, of one colour. Its pixels are filled in as its runs are found. */
+/* An object whose triangles all look alike, wherever they are: unlit, of one colour. Its pixels are filled in as its
+ * runs are found. */
 typedef struct {
     uint32_t object_idx;
     int plain;
@@ -296,8 +302,8 @@ static const object_look *look_at(gn_shading *s, object_look looks[LOOKS], uint3
     uint32_t q20[3];
     if (look->object_idx != object_idx) {
         look->object_idx = object_idx;
-        int plain = object->flags & GN_OBJECT_UNLIT && !(GN_VERTEX_COLOURS && object->mesh->rgb_uq16) && !(GN_TEXTURES && object->texture) &&
-                    s->frame->picture.format != GN_FORMAT_RAW32;
+        int plain = object->flags & GN_OBJECT_UNLIT && !(GN_VERTEX_COLOURS && object->mesh->rgb_uq16) &&
+                    !(GN_TEXTURES && object->texture) && s->frame->picture.format != GN_FORMAT_RAW32;
         look->plain = !plain ? NOT_PLAIN : s->frame->picture.format == GN_FORMAT_RGB565 ? PLAIN_565 : PLAIN;
         for (int c = 0; c < 3; c++) q20[c] = object->albedo_uq16[c] << 4;
         if (plain) look->packed = pack(s, q20);
@@ -344,7 +350,8 @@ static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
     const gn_frame *frame = s->frame;
     const gn_tri *end = gn_raster_tri(frame, 0);
     run_sorter sorter;
-    uint32_t id_mask = (1U << frame->id_bits) - 1, width = (uint32_t)s->rows.width, plain_idx = UINT32_MAX, lit_idx = UINT32_MAX, packed = 0;
+    uint32_t id_mask = (1U << frame->id_bits) - 1, width = (uint32_t)s->rows.width, plain_idx = UINT32_MAX,
+             lit_idx = UINT32_MAX, packed = 0;
     uint32_t *cells = GN_CELLS(s->scratch), *row = cells + n_rows * GN_K(frame, tile_width), n_linked = 0;
     uint16_t *pixel = s->scratch->pixel.rgb565 + (uint32_t)n_rows * width;
     sorter.s = s;
@@ -401,7 +408,8 @@ static void clear_background(gn_shading *s)
     /* bits after a row's last pixel are flushed with it and count when tiles are compared (R6) */
     if (GN_OTHER_FORMATS && (frame->picture.format == GN_FORMAT_GREY4 || frame->picture.format == GN_FORMAT_MONO1))
         memset(s->scratch->pixel.bytes, 0, gn_pixel_bytes(frame, s->rows.width, s->rect.y1 - s->rect.y0));
-    for (int32_t y = s->rect.y0; y < s->rect.y1; y++) gn_pixel_fill(frame, &s->rows, s->rect.x0, y, s->rows.width, s->last_pixel);
+    for (int32_t y = s->rect.y0; y < s->rect.y1; y++)
+        gn_pixel_fill(frame, &s->rows, s->rect.x0, y, s->rows.width, s->last_pixel);
 }
 
 void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
@@ -423,7 +431,8 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     s->cache.lights = gn_punctual_in_tile(frame, &s->rect);
 #endif
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
-    for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++) shade_triangle(s, frame->tile_ref[i]);
+    for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++)
+        shade_triangle(s, frame->tile_ref[i]);
 }
 
 #endif

@@ -1,6 +1,6 @@
-/* What a core keeps while it works on a tile: in its gn_scratch, for a stack is small. Private, like gn_state.h, which includes it. The
- * functions that use these types say what they mean: gn_plane.h, gn_texture.h, gn_surface.h, gn_sample.h, gn_chord.h, gn_pixel.h, gn_shade.c,
- * gn_alpha.h, gn_caster.h, gn_ortho.c, gn_atlas.c.
+/* What a core keeps while it works on a tile: in its gn_scratch, for a stack is small. Private, like gn_state.h, which
+ * includes it. The functions that use these types say what they mean: gn_plane.h, gn_texture.h, gn_surface.h,
+ * gn_sample.h, gn_chord.h, gn_pixel.h, gn_shade.c, gn_alpha.h, gn_caster.h, gn_ortho.c, gn_atlas.c.
  */
 #ifndef GN_SHADING_H
 #define GN_SHADING_H
@@ -38,11 +38,13 @@ typedef struct {
     const gn_light_state *state;
     uint32_t idx;
     uint32_t radiance_uq16[3]; /* albedo times colour */
-    /* where the normal is constant, for directional lights: n . L, and the receiver's offset in texels; B6: what gn_bias_auto_face says */
+    /* where the normal is constant, for directional lights: n . L, and the receiver's offset in texels; B6: what
+     * gn_bias_auto_face says */
     int32_t flat_cosine_q24;
     int32_t flat_offset_q16[3];
 #if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
-    int32_t vertex_cosine_q24[3]; /* at vertex 0, and differences of the others to it; smooth surfaces and directional lights only */
+    int32_t vertex_cosine_q24[3]; /* at vertex 0, and differences of the others to it; smooth surfaces and directional
+                                     lights only */
 #endif
 } gn_surface_light;
 
@@ -52,13 +54,15 @@ typedef struct {
     uint8_t shadowed; /* some light's shadow may fall on it */
     int32_t first_value, n_values;
     uint32_t n_lights, n_punctual;
-    uint32_t base_q20[3]; /* albedo times ambient: with the lights' radiance_uq16, weighted, it sums up to the radiance */
+    uint32_t
+        base_q20[3]; /* albedo times ambient: with the lights' radiance_uq16, weighted, it sums up to the radiance */
     gn_plane plane;
     gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
     int32_t z_min_q16, z_max_q16;
     gn_bary bary;
-    int32_t normal_q30[3][3]; /* vertex 0, then differences of vertices 1 and 2 to it; flat: the face normal and zeros */
-    int32_t rgb_q16[3][3];    /* likewise for vertex colours */
+    int32_t normal_q30[3]
+                      [3]; /* vertex 0, then differences of vertices 1 and 2 to it; flat: the face normal and zeros */
+    int32_t rgb_q16[3][3]; /* likewise for vertex colours */
 #if GN_TEXTURES
     gn_texture_triangle uv;
 #endif
@@ -78,11 +82,12 @@ typedef struct {
 } gn_surface;
 
 /* What a build without any cannot have. */
-#define GN_SMOOTH(s)   (GN_VERTEX_NORMALS && (s)->smooth)
-#define GN_CURVED(s)   (GN_VERTEX_NORMALS && (s)->smooth > 1) /* by 2^-10 or more: B6 takes the interpolated normal, with */
-#define GN_BENT(s)     ((s)->smooth > 2)                      /* corners that turn away from the face: only lift_q30 */
+#define GN_SMOOTH(s) (GN_VERTEX_NORMALS && (s)->smooth)
+#define GN_CURVED(s)                                                                                                   \
+    (GN_VERTEX_NORMALS && (s)->smooth > 1) /* by 2^-10 or more: B6 takes the interpolated normal, with */
+#define GN_BENT(s)     ((s)->smooth > 2)   /* corners that turn away from the face: only lift_q30 */
 #define GN_COLOURED(s) (GN_VERTEX_COLOURS && (s)->coloured)
-#define GN_HAS_BARY(s)                                                                                                             \
+#define GN_HAS_BARY(s)                                                                                                 \
     ((GN_VERTEX_NORMALS || GN_VERTEX_COLOURS || GN_TEXTURES || GN_MASKS || GN_BAKED_LIGHT) && (s)->has_bary)
 
 /* Keeps what neighbouring triangles of a screen tile share. */
@@ -98,9 +103,9 @@ typedef struct {
 
 /* Values sampled at a pixel and stepped linearly between samples. The first groups only where a surface has them. */
 enum {
-    GN_VALUE_UV = 0,                                        /* 2: texture coordinates, Q20 */
-    GN_VALUE_MASK = GN_VALUE_UV + (GN_TEXTURES ? 2 : 0),    /* 4: shadow masks, Q16; or 2: coordinates of the mask image */
-    GN_VALUE_BAKED = GN_VALUE_MASK + (GN_MASKS ? 4 : 0),    /* 3: irradiance, Q16 */
+    GN_VALUE_UV = 0,                                     /* 2: texture coordinates, Q20 */
+    GN_VALUE_MASK = GN_VALUE_UV + (GN_TEXTURES ? 2 : 0), /* 4: shadow masks, Q16; or 2: coordinates of the mask image */
+    GN_VALUE_BAKED = GN_VALUE_MASK + (GN_MASKS ? 4 : 0), /* 3: irradiance, Q16 */
     GN_VALUE_Z = GN_VALUE_BAKED + (GN_BAKED_LIGHT ? 3 : 0), /* view depth, Q16 */
     GN_VALUE_FADE,                                          /* D6 factor of the cascade, Q16 */
     GN_VALUE_RGB,                                           /* 3: interpolated vertex colour, Q16 */
@@ -111,8 +116,9 @@ enum {
     GN_VALUE_COUNT = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * GN_SURFACE_LIGHTS
 };
 
-/* Values of a light. Directional: n . L in Q24, tile coordinates U, V, D in Q16 texels, and those of the next cascade. Spot and point:
- * n . (light - point), the point from the light, and the receiver's offset, all in world axes and Q16 units. */
+/* Values of a light. Directional: n . L in Q24, tile coordinates U, V, D in Q16 texels, and those of the next cascade.
+ * Spot and point: n . (light - point), the point from the light, and the receiver's offset, all in world axes and Q16
+ * units. */
 enum { GN_LIGHT_FACING, GN_LIGHT_POINT_AT, GN_LIGHT_OFFSET = 4 };
 
 #if GN_PUNCTUAL_LIGHTS
@@ -125,11 +131,11 @@ typedef struct {
 #endif
     uint8_t reaches; /* 0: nothing arrives, and the rest means nothing */
 #if GN_SHADOWS
-    uint8_t face;    /* of the light's views */
+    uint8_t face; /* of the light's views */
 #endif
 #if GN_ARRIVAL_STEPS
-    uint8_t side; /* of what nothing is stepped across */
-    uint8_t shadow;       /* what bounds of depth say */
+    uint8_t side;   /* of what nothing is stepped across */
+    uint8_t shadow; /* what bounds of depth say */
 #endif
 } gn_arrival;
 
@@ -197,9 +203,10 @@ typedef struct {
 /* N, the normal times n . ray over that of the middle, is linear over a piece, with (x, y) from the middle. */
 typedef struct {
     gn_slope facing_q28[GN_SURFACE_LIGHTS]; /* N . L */
-    uint32_t size_q28, size_dx, size_dy, size_dxx, size_dxy, size_dyy; /* |N|^2: size + x (dx + x dxx + y dxy) + y (dy + y dyy) */
-    uint32_t per_px_q16;                    /* how far it turns from pixel to pixel, at most; radians */
-    uint32_t keep_uq16;                     /* of the light that casts a shadow, what this leaves */
+    uint32_t size_q28, size_dx, size_dy, size_dxx, size_dxy,
+        size_dyy;        /* |N|^2: size + x (dx + x dxx + y dxy) + y (dy + y dyy) */
+    uint32_t per_px_q16; /* how far it turns from pixel to pixel, at most; radians */
+    uint32_t keep_uq16;  /* of the light that casts a shadow, what this leaves */
 } gn_turning;
 #endif
 
@@ -212,30 +219,30 @@ typedef struct {
     int32_t shadow_slot;  /* in the surface's list, of the light whose shadow may fall on it; -1: none */
     /* the piece: around (x, y) */
     int32_t x, y;
-    int varies;                            /* colours are not one all over */
-    int32_t ramp_px;                       /* how long a row of pixels may be of one ramp */
-    int turns;                             /* normals do: what arrives is not in the slopes */
+    int varies;      /* colours are not one all over */
+    int32_t ramp_px; /* how long a row of pixels may be of one ramp */
+    int turns;       /* normals do: what arrives is not in the slopes */
 #if GN_TURNING
-    int32_t tint_px;                       /* how long the colours of vertices are linear in a row */
+    int32_t tint_px; /* how long the colours of vertices are linear in a row */
     gn_turning turning;
 #endif
-    int looks_up;                          /* 0: dark all over */
-    int tinted;                            /* times the colours of vertices; otherwise these are in it */
-    int steep;                             /* curves are of factors times 1 / (1 + t), t the change of w; else of it all */
-    gn_curve dark[3], lit[3];              /* without and with the light */
+    int looks_up;             /* 0: dark all over */
+    int tinted;               /* times the colours of vertices; otherwise these are in it */
+    int steep;                /* curves are of factors times 1 / (1 + t), t the change of w; else of it all */
+    gn_curve dark[3], lit[3]; /* without and with the light */
     gn_slope tint_q24[3];
-    uint32_t dark_pixel, lit_pixel;        /* packed, where nothing varies */
-    int32_t w_dx_q30, w_dy_q30;            /* change of w per pixel, relative to w */
+    uint32_t dark_pixel, lit_pixel; /* packed, where nothing varies */
+    int32_t w_dx_q30, w_dy_q30;     /* change of w per pixel, relative to w */
 #if GN_SHADOWS
     const gn_light_view *view;
-    int32_t offset_q16[3];    /* the receiver's in texels: what is the same all over, */
-    int32_t along_q16;        /* and along the interpolated normal as it is */
-    gn_slope place[3];        /* where the light sees the piece: texels, Q16; U, V and depth D */
+    int32_t offset_q16[3];                     /* the receiver's in texels: what is the same all over, */
+    int32_t along_q16;                         /* and along the interpolated normal as it is */
+    gn_slope place[3];                         /* where the light sees the piece: texels, Q16; U, V and depth D */
     int32_t depth_up, depth_least, depth_most; /* D to a share of the range, Q31, by a shift, and its limits */
-    int32_t chunk_px;      /* how many pixels may be stepped from end to end */
-    int32_t x0, y0;        /* the corner of the piece */
-    uint32_t cells;        /* what is known of its cells, 2 bits each */
-    int32_t cell_reach[3]; /* of U, V, D from the middle of a cell to its corners */
+    int32_t chunk_px;                          /* how many pixels may be stepped from end to end */
+    int32_t x0, y0;                            /* the corner of the piece */
+    uint32_t cells;                            /* what is known of its cells, 2 bits each */
+    int32_t cell_reach[3];                     /* of U, V, D from the middle of a cell to its corners */
 #endif
 } gn_pieces;
 #endif
@@ -266,7 +273,7 @@ typedef struct {
     } by; /* how the surface is shaded */
 } gn_shading;
 
-/* ---- Triangles that alpha cuts ------------------------------------------------------------------------------------- */
+/* ---- Triangles that alpha cuts ----------------------------------------------------------------------------------- */
 
 #if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
 #if GN_ALPHA_STEPS
@@ -308,7 +315,7 @@ typedef struct {
 typedef void gn_alpha_cut;
 #endif
 
-/* ---- Clipping -------------------------------------------------------------------------------------------------------- */
+/* ---- Clipping ---------------------------------------------------------------------------------------------------- */
 
 #define GN_CLIP_VERTICES_MAX 8 /* a triangle against five planes */
 
@@ -323,7 +330,7 @@ typedef struct {
     int32_t x[GN_CLIP_VERTICES_MAX], y[GN_CLIP_VERTICES_MAX]; /* projected */
 } gn_clipping;
 
-/* ---- Casters --------------------------------------------------------------------------------------------------------- */
+/* ---- Casters ----------------------------------------------------------------------------------------------------- */
 
 #if GN_SHADOWS
 /* A vertex as a view sees it, if it is within 2^29. */

@@ -35,13 +35,15 @@ uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, co
     if (frame->scene->shadow.distance_mode == GN_DISTANCE_DEPTH) g = distance_fade(frame, sample->value[GN_VALUE_Z]);
     if (!frame->has_cascades) return g;
     if (sample->cascade == GN_CASCADE_NONE) return 0;
-    return sample->cascade == GN_LAST_CASCADE(frame) ? gn_mul_uq16(g, (uint32_t)sample->value[GN_VALUE_FADE]) : g; /* D6 */
+    return sample->cascade == GN_LAST_CASCADE(frame) ? gn_mul_uq16(g, (uint32_t)sample->value[GN_VALUE_FADE])
+                                                     : g; /* D6 */
 }
 
-/* ---- Lookups --------------------------------------------------------------------------------------------------------- */
+/* ---- Lookups ----------------------------------------------------------------------------------------------------- */
 
 #if GN_RECEIVER_PLANE
-/* B5: the slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the range. */
+/* B5: the slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the
+ * range. */
 static int32_t limit_slope(const gn_light_view *view, int64_t slope_q28)
 {
     int64_t most = (int64_t)1 << (32 - view->tile_log2);
@@ -84,7 +86,8 @@ static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *su
 {
     const gn_light_view *view = first + sample->cascade;
     uint32_t factor = (uint32_t)sample->value[GN_VALUE_FADE];
-    gn_blend blend = GN_BLENDED_CASCADES && sample->cascade != GN_LAST_CASCADE(frame) ? frame->scene->shadow.blend : GN_BLEND_HARD;
+    gn_blend blend =
+        GN_BLENDED_CASCADES && sample->cascade != GN_LAST_CASCADE(frame) ? frame->scene->shadow.blend : GN_BLEND_HARD;
     if (blend == GN_BLEND_HARD || factor >= GN_ONE_UQ16) return ortho_attenuation(frame, surface, sample, view, coord);
     const gn_light_view *next = first + frame->cascade[sample->cascade].next;
     if (blend == GN_BLEND_DITHER && factor >= gn_noise_uq16(sample->x, sample->y))
@@ -98,7 +101,8 @@ static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *su
 #if GN_PUNCTUAL_LIGHTS
 #if GN_RECEIVER_PLANE
 /* With m . P = h on the face: n / z = n (m_u x/z + m_v y/z + m_w) / h is linear over the tile. */
-static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3], int32_t slope_q28[2])
+static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
+                         int32_t slope_q28[2])
 {
     const gn_persp_fit *fit = &view->fit.persp;
     int64_t h = gn_dot_q30(face_q30, from_q16);
@@ -110,7 +114,8 @@ static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], c
 }
 #endif
 
-static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot)
+static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                              uint32_t slot)
 {
     const gn_arrival *at = &sample->arrival[slot];
     GN_COUNT(lookups_persp, 1);
@@ -148,7 +153,7 @@ uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, co
 }
 #endif
 
-/* ---- Mixing ---------------------------------------------------------------------------------------------------------- */
+/* ---- Mixing ------------------------------------------------------------------------------------------------------ */
 
 /* M5: the mask of a light's channel, 65536: lit, or no mask. */
 static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int32_t channel)
@@ -156,7 +161,8 @@ static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int3
 #if GN_MASKS
     if (!surface->masked || channel < 0) return GN_ONE_UQ16;
     const int32_t *value = &sample->value[GN_VALUE_MASK];
-    if (surface->object->mask_image) return gn_texture_mask(surface->object->mask_image, value[0], value[1], (uint32_t)channel);
+    if (surface->object->mask_image)
+        return gn_texture_mask(surface->object->mask_image, value[0], value[1], (uint32_t)channel);
     return (uint32_t)gn_max32(0, gn_min32(value[channel], 65536));
 #else
     (void)surface, (void)sample, (void)channel;
@@ -164,7 +170,8 @@ static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int3
 #endif
 }
 
-uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot, uint32_t g_uq16)
+uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot,
+                          uint32_t g_uq16)
 {
     if (!(surface->shadowed | surface->masked)) return GN_ONE_UQ16;
     const gn_light_state *light = surface->light[slot].state;

@@ -1,7 +1,8 @@
-/* The layout of a renderer's state. Private: it may change with every version; included by gnomon.h so that it has a size.
+/* The layout of a renderer's state. Private: it may change with every version; included by gnomon.h so that it has a
+ * size.
  *
- * gn_frame is written by begin, shadow tiles and prepare, and read only while screen tiles are drawn. gn_scratch is what one
- * core needs to draw a screen tile.
+ * gn_frame is written by begin, shadow tiles and prepare, and read only while screen tiles are drawn. gn_scratch is
+ * what one core needs to draw a screen tile.
  */
 #ifndef GN_STATE_H
 #define GN_STATE_H
@@ -13,14 +14,16 @@ typedef struct {
     int32_t shift;
 } gn_xform;
 
-/* The same for many vertices: what can be, is added up beforehand, and all is times 2^up so that results are the upper words. Sums stay below 2^63. */
+/* The same for many vertices: what can be, is added up beforehand, and all is times 2^up so that results are the upper
+ * words. Sums stay below 2^63. */
 typedef struct {
     struct {
         int64_t sum; /* half of the last bit and, up to 32 bits of shift, the translation */
         int32_t m[3];
         int32_t t_q16; /* the translation above that, 0 below */
     } row[3];
-    uint32_t reach;   /* of positions, a power of two; 0: the transform or its translation is out of the ordinary, gn_xform_vertex does it */
+    uint32_t reach;   /* of positions, a power of two; 0: the transform or its translation is out of the ordinary,
+                         gn_xform_vertex does it */
     uint8_t up, down; /* 32 bits of shift are the upper word: what they are less, and more */
 } gn_xform_fast;
 
@@ -99,12 +102,13 @@ typedef struct {
 /* Perspective: a camera at the light, whose picture is the tile. */
 typedef struct {
     int32_t eye_q16[3];
-    int32_t near_q16;           /* n: depth is 1 - n / z */
-    uint32_t focal2_q16;        /* T / t: twice the focal length in texels */
-    gn_bfloat per_near;         /* 1 / n, n in Q16 */
-    gn_bfloat texel_per_z;      /* 2t / T: width of a texel at light-plane distance 1 */
-    int32_t guard_q16[2];       /* |x|, |y| <= guard * z after clipping to the guard band */
-    int32_t side_q16[2];        /* the same for the tile's own border, a little wider: what is outside all of it casts nothing here */
+    int32_t near_q16;      /* n: depth is 1 - n / z */
+    uint32_t focal2_q16;   /* T / t: twice the focal length in texels */
+    gn_bfloat per_near;    /* 1 / n, n in Q16 */
+    gn_bfloat texel_per_z; /* 2t / T: width of a texel at light-plane distance 1 */
+    int32_t guard_q16[2];  /* |x|, |y| <= guard * z after clipping to the guard band */
+    int32_t side_q16[2]; /* the same for the tile's own border, a little wider: what is outside all of it casts nothing
+                            here */
     int64_t ratio_max_q28;      /* x / z beyond this would overflow, times focal2 */
     int32_t constant_share_q30; /* B1: min(1, constant bias * 2t / T) */
 } gn_persp_fit;
@@ -112,10 +116,12 @@ typedef struct {
 typedef struct {
     gn_texels depth;      /* T * T, row by row, inside the atlas */
     uint32_t first_texel; /* of the tile in its atlas */
-    int32_t offset_q16;   /* B2 and b_z of B3: receiver offset along the normal, texels; B6: the reach of a tap, texels */
+    int32_t offset_q16; /* B2 and b_z of B3: receiver offset along the normal, texels; B6: the reach of a tap, texels */
 #if GN_AUTO_BIAS
-    int32_t auto_step;    /* B6: what rounding of depths takes, directional: texels, Q16; spot, point: share of the range, Q32 */
-    int32_t auto_place;   /* B6, directional: offset of curved surfaces, texels, Q16; spot, point: error of a point per view depth, Q40 */
+    int32_t auto_step;  /* B6: what rounding of depths takes, directional: texels, Q16; spot, point: share of the range,
+                           Q32 */
+    int32_t auto_place; /* B6, directional: offset of curved surfaces, texels, Q16; spot, point: error of a point per
+                           view depth, Q40 */
 #endif
     int32_t disk_radius_q16; /* F4, texels */
     int32_t bias_constant_q16, bias_slope_q16;
@@ -134,7 +140,7 @@ typedef struct {
     uint8_t tile_done;
     uint8_t stale; /* A5: by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
 #if GN_DEPTH_BLOCKS
-    gn_depth_block *block; /* (T / 8) * (T / 8) */
+    gn_depth_block *block;  /* (T / 8) * (T / 8) */
 #endif
     int32_t axis_q30[3][3]; /* u, v, w in the world */
     union {
@@ -206,13 +212,15 @@ typedef int32_t gn_coord;
 typedef int16_t gn_coord;
 #endif
 
-/* A visible triangle on the screen, ready to be walked. Coordinates are from the picture's centre (y down), with subpixel_bits
- * fraction bits: up to 7 of them fit 16 bits in most pictures, as the guard band sees to. */
+/* A visible triangle on the screen, ready to be walked. Coordinates are from the picture's centre (y down), with
+ * subpixel_bits fraction bits: up to 7 of them fit 16 bits in most pictures, as the guard band sees to. */
 typedef struct {
-    gn_coord x[3], y[3];     /* top, left and right of it: counter-clockwise in the world, its signed area on the screen (y down) is negative */
-    uint32_t iz_ref;         /* near / Z at the centre of the pixel that holds vertex 0, Q0.32, modulo 2^32 */
-    int32_t iz_dx, iz_dy;    /* per pixel, modulo 2^32 */
-    uint16_t iz_min, iz_max; /* bounds of near / Z, Q0.16, rounded outwards; where none are needed, 1 + gn_walk_lasts or GN_NARROW, and 0 */
+    gn_coord x[3], y[3];  /* top, left and right of it: counter-clockwise in the world, its signed area on the screen (y
+                             down) is negative */
+    uint32_t iz_ref;      /* near / Z at the centre of the pixel that holds vertex 0, Q0.32, modulo 2^32 */
+    int32_t iz_dx, iz_dy; /* per pixel, modulo 2^32 */
+    uint16_t iz_min, iz_max; /* bounds of near / Z, Q0.16, rounded outwards; where none are needed, 1 + gn_walk_lasts or
+                                GN_NARROW, and 0 */
     uint16_t object_idx;
     uint16_t triangle_idx;
 } gn_tri;
@@ -257,9 +265,9 @@ typedef struct gn_frame {
     gn_detail detail;
 #if GN_SHADOWS
     uint8_t n_cascades;
-    uint8_t last_cascade;             /* the last that is not empty */
-    uint8_t has_cascades;             /* some directional light has tiles in the directional atlas: D6 applies */
-    uint32_t frame_count;             /* A5: for the schedule of cascades */
+    uint8_t last_cascade; /* the last that is not empty */
+    uint8_t has_cascades; /* some directional light has tiles in the directional atlas: D6 applies */
+    uint32_t frame_count; /* A5: for the schedule of cascades */
     gn_cascade_state cascade[4];
 #endif
     gn_light_state light[GN_MAX_LIGHTS];
@@ -318,8 +326,9 @@ typedef uint16_t gn_run_idx;
 #define GN_CELLS(scratch) ((scratch)->cell + 1)
 
 typedef struct gn_scratch {
-    uint32_t cell[1 + GN_TILE_PIXELS_MAX]; /* one before the first, then rows of tile_width: nearest surface, near / Z in the high bits, the triangle in the low id_bits; 0: none */
-    gn_tile_pixels pixel;              /* finished pixels in the picture's format */
+    uint32_t cell[1 + GN_TILE_PIXELS_MAX]; /* one before the first, then rows of tile_width: nearest surface, near / Z
+                                              in the high bits, the triangle in the low id_bits; 0: none */
+    gn_tile_pixels pixel;                  /* finished pixels in the picture's format */
     gn_vcache_entry vertex[GN_VERTEX_CACHE];
     gn_run_idx run_list[GN_RUN_LISTS]; /* first runs, by the low bits of their triangles; see gn_runs.h */
     gn_work work;

@@ -20,7 +20,7 @@ static int without_light(const gn_frame *frame, const gn_surface *s)
     return !GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32 || frame->picture.view != GN_VIEW_SHADOW;
 }
 
-/* ---- Once per triangle: attributes ----------------------------------------------------------------------------------- */
+/* ---- Once per triangle: attributes ------------------------------------------------------------------------------- */
 
 /* The face normal in the world, towards the viewer: the plane's n points away from him in view space. */
 static void face_normal(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
@@ -51,7 +51,8 @@ void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_
 {
     int64_t a[3];
     for (int r = 0; r < 3; r++)
-        a[r] = (int64_t)matrix[r][0] * nrm_q15[0] + (int64_t)matrix[r][1] * nrm_q15[1] + (int64_t)matrix[r][2] * nrm_q15[2];
+        a[r] = (int64_t)matrix[r][0] * nrm_q15[0] + (int64_t)matrix[r][1] * nrm_q15[1] +
+               (int64_t)matrix[r][2] * nrm_q15[2];
     uint64_t any = (uint64_t)(absolute(a[0]) | absolute(a[1]) | absolute(a[2]));
     uint32_t high = (uint32_t)(any >> 32);
     int32_t s = high ? gn_clz32(high) - 1 : 31;
@@ -180,7 +181,7 @@ static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_
     s->first_value = s->textured | s->masked | s->baked ? 0 : GN_VALUE_Z;
 }
 
-/* ---- Once per triangle: lights --------------------------------------------------------------------------------------- */
+/* ---- Once per triangle: lights ----------------------------------------------------------------------------------- */
 
 static void add_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
 {
@@ -201,7 +202,9 @@ static int reaches(const gn_surface *s, const gn_light_state *light, int32_t v[3
     uint64_t d2 = 0;
     for (int k = 0; k < 3; k++) {
         int64_t lo = gn_min32(v[0][k], gn_min32(v[1][k], v[2][k])), hi = gn_max32(v[0][k], gn_max32(v[1][k], v[2][k]));
-        int64_t d = light->eye_q16[k] < lo ? lo - light->eye_q16[k] : light->eye_q16[k] > hi ? light->eye_q16[k] - hi : 0;
+        int64_t d = light->eye_q16[k] < lo   ? lo - light->eye_q16[k]
+                    : light->eye_q16[k] > hi ? light->eye_q16[k] - hi
+                                             : 0;
         d = d > 8 ? d - 8 : 0; /* roundings of view space */
         if (d > (int64_t)1 << 31) return 0;
         d2 += (uint64_t)(d * d); /* 3 * 2^62 */
@@ -209,7 +212,8 @@ static int reaches(const gn_surface *s, const gn_light_state *light, int32_t v[3
     return d2 < light->range2_q32;
 }
 
-static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3], uint32_t light_idx)
+static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3],
+                         uint32_t light_idx)
 {
     if (GN_TILE_LIGHTS && !(cache->lights >> light_idx & 1U)) return;
     if (s->n_lights == GN_SURFACE_LIGHTS || !reaches(s, &frame->light[light_idx], v)) return;
@@ -230,8 +234,8 @@ static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache
 }
 #endif
 
-/* A face that is edge-on to a light but for the last bits of its normal takes none of it: walls along the light's way are common, and a
- * highlight is not small there. */
+/* A face that is edge-on to a light but for the last bits of its normal takes none of it: walls along the light's way
+ * are common, and a highlight is not small there. */
 #define GN_GRAZING_Q24 8
 
 #if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
@@ -258,7 +262,7 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
     if (!GN_SMOOTH(s)) length = gn_length_of(GN_K(frame, newton_steps), s->normal_q30[0]);
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
-    GN_ELEMENT(light);
+        GN_ELEMENT(light);
         if (light->kind != GN_LIGHT_DIRECTIONAL || light->off) continue;
         if (!GN_SMOOTH(s)) {
             int32_t cosine = gn_length_cosine_q24(length, s->normal_q30[0], light->to_light_q30);
@@ -266,7 +270,8 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
             s->light[s->n_lights].flat_cosine_q24 = cosine;
         }
 #if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
-        int lit = !s->smooth || !GN_K(frame, vertex_light) || vertex_cosines(s, light, s->light[s->n_lights].vertex_cosine_q24);
+        int lit = !s->smooth || !GN_K(frame, vertex_light) ||
+                  vertex_cosines(s, light, s->light[s->n_lights].vertex_cosine_q24);
         if (!lit) continue;
 #endif
         add_light(frame, s, l);
@@ -277,8 +282,8 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
 #if GN_AUTO_BIAS
 #define GN_LEAST_ALONG_Q28 (7 << 25)
 
-/* B6, curved: with this the interpolated normal has a part of 1 or more along the face's everywhere. Where a corner's is too far from the
- * face's, that alone is taken. */
+/* B6, curved: with this the interpolated normal has a part of 1 or more along the face's everywhere. Where a corner's
+ * is too far from the face's, that alone is taken. */
 static void lift_normal(gn_surface *s)
 {
     int32_t least = -4; /* Q28; roundings */
@@ -297,7 +302,8 @@ static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
 {
     const gn_light_state *light = s->light[slot].state;
     const gn_light_view *view = &frame->view[light->view_idx];
-    if (light->kind == GN_LIGHT_DIRECTIONAL && !view->border_lit) view += GN_LAST_CASCADE(frame); /* the first may be empty */
+    if (light->kind == GN_LIGHT_DIRECTIONAL && !view->border_lit)
+        view += GN_LAST_CASCADE(frame); /* the first may be empty */
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     const gn_light *scene_light = &frame->scene->lights[s->light[slot].idx];
     if (scene_light->receiver_plane || light->auto_bias) face_normal(frame, s, s->face_q30);
@@ -333,7 +339,8 @@ static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache,
     const uint32_t *albedo = s->object->albedo_uq16;
     GN_ELEMENT(albedo);
     for (int c = 0; c < 3; c++) /* 2^17 * 2^24 */
-        s->base_q20[c] = unlit ? albedo[c] << 4 : (uint32_t)(((uint64_t)albedo[c] * scene->ambient_uq16[c] + (1U << 11)) >> 12);
+        s->base_q20[c] =
+            unlit ? albedo[c] << 4 : (uint32_t)(((uint64_t)albedo[c] * scene->ambient_uq16[c] + (1U << 11)) >> 12);
     s->shadowed = 0;
     s->n_lights = s->n_punctual = 0;
     s->n_values = GN_VALUE_LIGHT;
@@ -346,7 +353,8 @@ static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache,
 #endif
     s->n_values += GN_VALUES_PER_LIGHT * (int32_t)s->n_lights;
     for (uint32_t i = 0; i < s->n_lights; i++)
-        for (int c = 0; c < 3; c++) s->light[i].radiance_uq16[c] = gn_mul_uq16(s->light[i].state->colour_uq16[c], albedo[c]);
+        for (int c = 0; c < 3; c++)
+            s->light[i].radiance_uq16[c] = gn_mul_uq16(s->light[i].state->colour_uq16[c], albedo[c]);
 #if GN_SHADOWS
     shadows(frame, s);
 #endif
@@ -364,7 +372,8 @@ static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_
 }
 
 /* A vertex of a transform or a position out of the ordinary. */
-static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch, const gn_tri *tri, uint32_t vertex_idx)
+static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch, const gn_tri *tri,
+                                    uint32_t vertex_idx)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     gn_xform to_view;
@@ -372,7 +381,8 @@ static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, g
     gn_setup_vertex(out_q16, scratch->vertex, &to_view, object->mesh, tri->object_idx, vertex_idx);
 }
 
-void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s, const gn_tri *tri)
+void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
+                      const gn_tri *tri)
 {
     GN_COUNT(surfaces, 1);
     s->object = &frame->scene->objects[tri->object_idx];
@@ -385,7 +395,8 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
     colours(s, idx);
     for (int i = 0; i < 3; i++) {
         if (GN_SIZE_FIRST) gn_setup_vertex(v[i], scratch->vertex, &cache->by.to_view, mesh, tri->object_idx, idx[i]);
-        else if (!gn_xform_fast_vertex(v[i], &cache->by.fast, mesh->pos + 3 * (size_t)idx[i])) slow_vertex(v[i], frame, scratch, tri, idx[i]);
+        else if (!gn_xform_fast_vertex(v[i], &cache->by.fast, mesh->pos + 3 * (size_t)idx[i]))
+            slow_vertex(v[i], frame, scratch, tri, idx[i]);
     }
     gn_plane_setup(&s->plane, v[0], v[1], v[2]);
     s->z_min_q16 = gn_max32(gn_min32(v[0][2], gn_min32(v[1][2], v[2][2])), frame->cam.near_q16);

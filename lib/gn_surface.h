@@ -8,7 +8,8 @@
 #include "gn_xform.h"
 #include "gnomon.h"
 
-void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface, const gn_tri *tri);
+void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface,
+                      const gn_tri *tri);
 
 /* gn_xform_normal(), in one piece where time counts. */
 #if GN_SIZE_FIRST
@@ -20,7 +21,8 @@ void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_
 /* 1: one radiance all over, no need to sample it. */
 static inline int gn_surface_is_constant(const gn_surface *s)
 {
-    return !(s->smooth | s->coloured | s->shadowed | s->textured | s->masked | s->baked | s->specular) && !s->n_punctual;
+    return !(s->smooth | s->coloured | s->shadowed | s->textured | s->masked | s->baked | s->specular) &&
+           !s->n_punctual;
 }
 
 #endif

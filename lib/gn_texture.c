@@ -1,5 +1,6 @@
 /* Textures. Positions are exact: coordinates have 20 fraction bits, texels 16. Values are 65535 = 1
- * until the end, so that a product with a weight fits 32 bits: a step to 16 bits after each axis, and one to 65536 = 1. */
+ * until the end, so that a product with a weight fits 32 bits: a step to 16 bits after each axis, and one to 65536 = 1.
+ */
 #include "gnomon.h"
 #if !GN_COMPACT /* its own: gn_compact_*.c */
 #include "gn_texture.h"
@@ -81,7 +82,8 @@ static uint32_t to_uq16(uint32_t v)
 static inline int is_even(const footprint *f, uint32_t channel)
 {
     const uint8_t *const *t = f->texel;
-    return !GN_SIZE_FIRST && !((t[0][channel] ^ t[1][channel]) | (t[0][channel] ^ t[2][channel]) | (t[0][channel] ^ t[3][channel]));
+    return !GN_SIZE_FIRST &&
+           !((t[0][channel] ^ t[1][channel]) | (t[0][channel] ^ t[2][channel]) | (t[0][channel] ^ t[3][channel]));
 }
 
 static uint32_t blend(const footprint *f, const uint32_t value[4])
@@ -130,14 +132,16 @@ void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_
 {
     for (int i = 0; i < 2; i++) {
         int64_t uv[3];
-        for (int k = 0; k < 3; k++) uv[k] = (int64_t)mesh->uv[2 * (size_t)idx[k] + (size_t)i] * (1 << (16 - mesh->uv_frac_bits));
+        for (int k = 0; k < 3; k++)
+            uv[k] = (int64_t)mesh->uv[2 * (size_t)idx[k] + (size_t)i] * (1 << (16 - mesh->uv_frac_bits));
         out->uv_q16[0][i] = gn_texture_clamps(texture, i) ? uv[0] : uv[0] & 0xFFFF; /* whole turns change nothing */
         out->uv_q16[1][i] = uv[1] - uv[0];
         out->uv_q16[2][i] = uv[2] - uv[0];
     }
 }
 
-int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *texture, const int32_t b_q30[2], int32_t which)
+int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *texture, const int32_t b_q30[2],
+                         int32_t which)
 {
     int64_t at = triangle->uv_q16[0][which], e1 = triangle->uv_q16[1][which], e2 = triangle->uv_q16[2][which];
     /* 2^30 * 2^33 would not fit; the lowest bit of differences of at most 15 fraction bits is zero */

@@ -104,7 +104,8 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
 static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity)
 {
     uint32_t n_tiles = 0, n_lights = 0, limit = capacity < GN_ATLAS_TILES_MAX ? capacity : GN_ATLAS_TILES_MAX;
-    for (uint32_t l = 0; l < frame->scene->n_lights && l < GN_MAX_LIGHTS; l++) { /* the second for the compiler, which does not know */
+    for (uint32_t l = 0; l < frame->scene->n_lights && l < GN_MAX_LIGHTS;
+         l++) { /* the second for the compiler, which does not know */
         if (!plan[l].n_tiles || plan[l].in_other != in_other) continue;
         if (n_tiles + plan[l].n_tiles > limit || (!in_other && n_lights == GN_CASCADED_LIGHTS_MAX)) {
             plan[l].n_tiles = 0;
@@ -118,7 +119,8 @@ static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, ui
     return n_tiles;
 }
 
-static void equal_sizes(const gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t n_tiles, int32_t atlas_log2)
+static void equal_sizes(const gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t n_tiles,
+                        int32_t atlas_log2)
 {
     int32_t tile_log2 = atlas_log2 - (n_tiles > 4 ? 2 : n_tiles > 1 ? 1 : 0);
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
@@ -137,7 +139,8 @@ static int more_generous(const gn_tile_plan *a, const gn_tile_plan *b)
     return ((uint32_t)b->weight << a->tile_log2) > ((uint32_t)a->weight << b->tile_log2);
 }
 
-/* The light to halve (the most generous above 8 texels, later ones first) or to double (the least generous whose tiles then fit). */
+/* The light to halve (the most generous above 8 texels, later ones first) or to double (the least generous whose tiles
+ * then fit). */
 static uint32_t pick(const gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other, int halve, int32_t atlas_log2,
                      uint32_t left)
 {
@@ -146,7 +149,8 @@ static uint32_t pick(const gn_frame *frame, const gn_tile_plan *plan, uint32_t i
         if (!plan[l].n_tiles || plan[l].in_other != in_other) continue;
         if (halve && plan[l].tile_log2 <= 3) continue;
         if (!halve && (plan[l].tile_log2 >= atlas_log2 || 3 * texels_of(&plan[l]) > left)) continue;
-        if (best == GN_MAX_LIGHTS || (halve ? !more_generous(&plan[best], &plan[l]) : more_generous(&plan[best], &plan[l])))
+        if (best == GN_MAX_LIGHTS ||
+            (halve ? !more_generous(&plan[best], &plan[l]) : more_generous(&plan[best], &plan[l])))
             best = l;
     }
     return best;
@@ -176,15 +180,18 @@ static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint3
 {
     uint32_t needed = 0, available = in_other ? GN_OTHER_ATLAS_TEXELS : GN_ATLAS_TEXELS;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
-        if (plan[l].n_tiles && plan[l].in_other == in_other) needed += (uint32_t)plan[l].n_drawn << (2 * plan[l].tile_log2);
+        if (plan[l].n_tiles && plan[l].in_other == in_other)
+            needed += (uint32_t)plan[l].n_drawn << (2 * plan[l].tile_log2);
     return needed <= available ? GN_OK : gn_fail_capacity(frame, GN_ERR_ATLAS_FULL, needed, available);
 }
 
-static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity, int32_t atlas_size)
+static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity,
+                            int32_t atlas_size)
 {
     int32_t atlas_log2 = 31 - gn_clz32((uint32_t)atlas_size);
     uint32_t n_tiles = serve(frame, plan, in_other, capacity);
-    if (n_tiles > 4U << (2 * (atlas_log2 - 4))) return gn_fail(frame, GN_ERR_SHADOW_TILE, 0); /* more than size^2 / 64 */
+    if (n_tiles > 4U << (2 * (atlas_log2 - 4)))
+        return gn_fail(frame, GN_ERR_SHADOW_TILE, 0); /* more than size^2 / 64 */
 #if GN_TILE_IMPORTANCE
     if (frame->scene->shadow.tile_sizes == GN_TILES_IMPORTANCE) sizes_by_importance(frame, plan, in_other, atlas_log2);
     else

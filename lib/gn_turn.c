@@ -8,7 +8,7 @@
 
 #if GN_TURNING
 
-/* ---- Once per piece ----------------------------------------------------------------------------------------------- */
+/* ---- Once per piece ---------------------------------------------------------------------------------------------- */
 
 /* At least the length of a vector of absolute values. */
 static uint32_t length_below(const uint32_t a[3])
@@ -61,12 +61,12 @@ int gn_turn_select(gn_pieces *p, const gn_slope n_q28[3], uint32_t half_w, uint3
     /* 1 / sqrt(s) is below 1 + (1 - s) 4/3 from 1/4 to 1 */
     uint32_t left_q16 = size_q28 < 1U << 28 ? ((1U << 28) - size_q28) >> 12 : 0;
     t->per_px_q16 = length_below(along) * (256 + (left_q16 >> 8) * 4 / 3) >> 8; /* 2^18 * 2^9 */
-    if (turned_q16 * (turned_q16 >> 4) > size_q28 >> 2) t->per_px_q16 = 65535; /* |N| is less than half elsewhere */
+    if (turned_q16 * (turned_q16 >> 4) > size_q28 >> 2) t->per_px_q16 = 65535;  /* |N| is less than half elsewhere */
     find_facing(p, at, dx, dy);
     return 1;
 }
 
-/* ---- Rows --------------------------------------------------------------------------------------------------------- */
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
 /* A part of a row over which vertex colours are linear. */
 typedef struct {
@@ -97,28 +97,33 @@ static void begin_row(tinted_row *r, const gn_pieces *p, int32_t x, int32_t y, i
         r->tint_step[0] = r->tint_step[1] = r->tint_step[2] = 0;
         return;
     }
-    int32_t half_right = 2 * r->x + n - 1, per_w_q30 = gn_per_w((p->w_dx_q30 * half_right + p->w_dy_q30 * 2 * r->y) >> 1);
+    int32_t half_right = 2 * r->x + n - 1,
+            per_w_q30 = gn_per_w((p->w_dx_q30 * half_right + p->w_dy_q30 * 2 * r->y) >> 1);
     begin_tint(r, 0, n, half_right, per_w_q30);
     begin_tint(r, 1, n, half_right, per_w_q30);
     begin_tint(r, 2, n, half_right, per_w_q30);
 }
 
-/* The colour at its pixel i, `share` of the light with the shadow let through. Returns a bit per light that shines on it. */
+/* The colour at its pixel i, `share` of the light with the shadow let through. Returns a bit per light that shines on
+ * it. */
 static uint32_t colour_at(const tinted_row *r, int32_t i, uint32_t share_uq16, int32_t colour_q24[3])
 {
     const gn_pieces *p = r->p;
     const gn_surface *s = p->surface;
-    uint32_t lit = 0, n_lights = s->n_lights, size_q28 = r->size_q28 + (uint32_t)i * (r->size_dx + (uint32_t)i * p->turning.size_dxx);
+    uint32_t lit = 0, n_lights = s->n_lights,
+             size_q28 = r->size_q28 + (uint32_t)i * (r->size_dx + (uint32_t)i * p->turning.size_dxx);
     if (size_q28 < 65536) size_q28 = 65536;
-    int32_t up = gn_clz32(size_q28) & 30; /* 14 at most, for |N| of 2^-6 */
+    int32_t up = gn_clz32(size_q28) & 30;                                        /* 14 at most, for |N| of 2^-6 */
     uint32_t root = gn_rsqrt_norm(size_q28 << up, GN_K(p->frame, newton_steps)); /* 2^(33 - up / 2) / |N| */
-    int32_t red = (int32_t)(s->base_q20[0] << 8), green = (int32_t)(s->base_q20[1] << 8), blue = (int32_t)(s->base_q20[2] << 8);
+    int32_t red = (int32_t)(s->base_q20[0] << 8), green = (int32_t)(s->base_q20[1] << 8),
+            blue = (int32_t)(s->base_q20[2] << 8);
     for (uint32_t k = 0; k < n_lights; k++) { /* colours in Q28, below 2^30 and 2^-13 of that */
         int32_t facing = gn_along(&p->turning.facing_q28[k], r->x + i, r->y);
         if (facing <= 0) continue;
         lit |= 1U << (k & 31);
         int32_t cosine_q30 = gn_mul_high(facing, (int32_t)(root >> 1)) * (4 << (up >> 1)); /* 2^(28 - up / 2) */
-        if ((int32_t)k == p->shadow_slot && share_uq16 < 65536) cosine_q30 = gn_mul_high(cosine_q30, (int32_t)(share_uq16 << 14)) * 4;
+        if ((int32_t)k == p->shadow_slot && share_uq16 < 65536)
+            cosine_q30 = gn_mul_high(cosine_q30, (int32_t)(share_uq16 << 14)) * 4;
         const uint32_t *radiance_uq16 = s->light[k].radiance_uq16;
         red += 4 * gn_mul_high((int32_t)(radiance_uq16[0] << 12), cosine_q30);
         green += 4 * gn_mul_high((int32_t)(radiance_uq16[1] << 12), cosine_q30);
@@ -147,7 +152,8 @@ static inline void find_steps(gn_ramp *ramp, const int32_t to_q24[3], int32_t ah
     for (int c = 0; c < 3; c++) step[c] = (to_q24[c] - from[c]) >> log2;
 }
 
-/* Ramps as long as they may be, shorter where a light begins or ends to shine. One ends where the next begins, the last on its last pixel. */
+/* Ramps as long as they may be, shorter where a light begins or ends to shine. One ends where the next begins, the last
+ * on its last pixel. */
 static void ramps(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, uint32_t share)
 {
     gn_ramp ramp;
@@ -172,8 +178,8 @@ static void ramps(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int
     }
 }
 
-static void each_pixel(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t n, const uint32_t *attenuation,
-                       uint32_t share)
+static void each_pixel(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t n,
+                       const uint32_t *attenuation, uint32_t share)
 {
     for (; n > 0; n--, i++) {
         int32_t colour[3];
@@ -190,11 +196,13 @@ static void dark_at(const tinted_row *r, int32_t i, int32_t colour_q24[3])
         colour_at(r, i, r->p->turning.keep_uq16, colour_q24);
         return;
     }
-    for (int c = 0; c < 3; c++) colour_q24[c] = gn_mul_high((int32_t)(s->base_q20[c] << 8), r->tint_q28[c] + i * r->tint_step[c]);
+    for (int c = 0; c < 3; c++)
+        colour_q24[c] = gn_mul_high((int32_t)(s->base_q20[c] << 8), r->tint_q28[c] + i * r->tint_step[c]);
 }
 
 /* n <= 17 pixels from i on, no longer than a ramp, each as far between two ramps as its light is let through. */
-static void mixed_row(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t n, const uint32_t *attenuation)
+static void mixed_row(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t n,
+                      const uint32_t *attenuation)
 {
     gn_ramp dark, lit;
     int32_t ahead = n - 1, dark_to[3], lit_to[3];
@@ -209,7 +217,8 @@ static void mixed_row(const tinted_row *r, const gn_pixel_rows *rows, int32_t y,
     gn_pixel_mix(r->p->frame, rows, x + i, y, n, &dark, &lit, attenuation + i);
 }
 
-void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, const uint32_t *attenuation, int all)
+void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n,
+                 const uint32_t *attenuation, int all)
 {
     uint32_t share = share_of(p, all ? 65536 : 0);
     tinted_row r;
@@ -219,7 +228,8 @@ void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32
         if (p->ramp_px < 4) each_pixel(&r, rows, y, x, 0, n, attenuation, share);
         else if (!attenuation) ramps(&r, rows, y, x, n, share);
         else
-            for (int32_t i = 0; i < n; i += p->ramp_px) mixed_row(&r, rows, y, x, i, gn_min32(n - i, p->ramp_px), attenuation);
+            for (int32_t i = 0; i < n; i += p->ramp_px)
+                mixed_row(&r, rows, y, x, i, gn_min32(n - i, p->ramp_px), attenuation);
         if (attenuation) attenuation += n;
     }
 }

@@ -79,7 +79,8 @@ static void set_filter(const gn_frame *frame, gn_light_view *view, const gn_ligh
 #if GN_DISK_FILTER
     if (filter != GN_FILTER_DISK) return;
     /* 0.004 T for views that are a share of their tile; an orthographic fit says otherwise */
-    int64_t radius_q16 = gn_shr64((int64_t)shadow->penumbra_uq16 * view->tile_texels * 17179869, 32); /* 2^22 * 2^10 * 2^25 */
+    int64_t radius_q16 =
+        gn_shr64((int64_t)shadow->penumbra_uq16 * view->tile_texels * 17179869, 32); /* 2^22 * 2^10 * 2^25 */
     view->filter_idx = (uint8_t)gn_clamp64((radius_q16 + 65535) >> 16, 1, GN_DISK_INDEX_MAX);
     view->disk_radius_q16 = (int32_t)gn_clamp64(radius_q16, 0, (int64_t)view->filter_idx << 16);
 #endif
@@ -143,8 +144,8 @@ static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int
 }
 
 #if GN_INCREMENTAL
-/* A5: whether the schedule lets a cascade keep its tile of an earlier frame, which slot `idx` still holds. After a frame that was
- * begun but not drawn the slot holds a fit that its texels do not belong to. */
+/* A5: whether the schedule lets a cascade keep its tile of an earlier frame, which slot `idx` still holds. After a
+ * frame that was begun but not drawn the slot holds a fit that its texels do not belong to. */
 static int stays(const gn_frame *frame, uint32_t idx, uint32_t light_idx, uint32_t cascade_idx)
 {
     uint32_t period = frame->scene->shadow.refresh[cascade_idx];
@@ -159,21 +160,24 @@ static int stays(const gn_frame *frame, uint32_t idx, uint32_t light_idx, uint32
 /* Tiles that move within the atlas would be found overwritten: then nothing is kept. */
 static void check_layout(gn_frame *frame, const gn_tile_plan *plan)
 {
-    uint64_t layout =
-        gn_signature_add(GN_SIGNATURE_SEED, (uint64_t)GN_K(frame, depth_bits) << 8 | (uint64_t)GN_K(frame, atlas_size) << 32);
+    uint64_t layout = gn_signature_add(GN_SIGNATURE_SEED, (uint64_t)GN_K(frame, depth_bits) << 8 |
+                                                              (uint64_t)GN_K(frame, atlas_size) << 32);
 #if GN_OTHER_ATLAS
-    layout = gn_signature_add(layout, (uint64_t)GN_K(frame, other_depth_bits) << 8 | (uint64_t)GN_K(frame, other_atlas_size) << 32);
+    layout = gn_signature_add(layout, (uint64_t)GN_K(frame, other_depth_bits) << 8 |
+                                          (uint64_t)GN_K(frame, other_atlas_size) << 32);
 #endif
     layout = gn_signature_add(layout, frame->scene->shadow.cascades_unused);
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
-        layout = gn_signature_add(layout, (uint64_t)plan[l].n_tiles << 32 | (uint64_t)plan[l].in_other << 16 | plan[l].tile_log2);
+        layout = gn_signature_add(layout, (uint64_t)plan[l].n_tiles << 32 | (uint64_t)plan[l].in_other << 16 |
+                                              plan[l].tile_log2);
     if (layout == frame->layout) return;
     frame->layout = layout;
     for (uint32_t i = 0; i < GN_VIEWS_MAX; i++) frame->memory[i].signature = frame->memory[i].static_signature = 0;
 }
 #endif
 
-static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *plan, uint32_t cascade_idx, uint32_t *first_texel)
+static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *plan, uint32_t cascade_idx,
+                     uint32_t *first_texel)
 {
     gn_light_view *view = &frame->view[frame->n_views];
     GN_ELEMENT(view);
@@ -208,7 +212,7 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
 /* Tiles of one atlas lie one behind the other, larger ones first, so that each begins at a multiple of its size. */
 static void add_views(gn_frame *frame, const gn_tile_plan *plan)
 {
-    uint32_t first[GN_MAX_LIGHTS] = {0}, next[2] = {0, 0}; /* every light with tiles gets its first */
+    uint32_t first[GN_MAX_LIGHTS] = {0}, next[2] = {0, 0};                /* every light with tiles gets its first */
     for (int32_t log2 = GN_TILE_IMPORTANCE ? 10 : 3; log2 >= 3; log2--) { /* else one size per atlas */
         for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
             if (!plan[l].n_tiles || (GN_TILE_IMPORTANCE && plan[l].tile_log2 != log2)) continue;

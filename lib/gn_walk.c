@@ -6,7 +6,7 @@
 #include "gn_hint.h"
 #include "gn_q.h"
 
-/* ---- Quotient and remainder ---------------------------------------------------------------------------------------- */
+/* ---- Quotient and remainder -------------------------------------------------------------------------------------- */
 
 /* Rounded towards minus infinity; b > 0 */
 static void floor_div(int64_t a, int32_t b, int32_t *q, int32_t *r)
@@ -63,7 +63,7 @@ static inline int16_t exact_step(gn_edge *edge)
     return x;
 }
 
-/* ---- Fixed point --------------------------------------------------------------------------------------------------- */
+/* ---- Fixed point ------------------------------------------------------------------------------------------------- */
 
 /* How many rows fixed point lasts for a triangle with these corners. */
 static inline int32_t fixed_for(const int32_t x[3], int32_t height, int32_t subpixel_bits)
@@ -74,8 +74,8 @@ static inline int32_t fixed_for(const int32_t x[3], int32_t height, int32_t subp
 }
 
 /* Where an edge down crosses rows y <= .. < y_end, not empty, into every other int16_t from `at` on. */
-static GN_NOINLINE void fixed_rows(const gn_walk *walk, int16_t *at, const gn_walk_corner *from, const gn_walk_corner *to,
-                                   int32_t y, int32_t y_end)
+static GN_NOINLINE void fixed_rows(const gn_walk *walk, int16_t *at, const gn_walk_corner *from,
+                                   const gn_walk_corner *to, int32_t y, int32_t y_end)
 {
     gn_walk_line line = gn_walk_line_at(from->x, from->y, to->x, to->y, y, walk->fixed, walk->subpixel_bits);
     uint32_t x = line.x, step = line.step;
@@ -102,7 +102,7 @@ static inline void fixed_border(gn_walk *walk, int side, int32_t end)
     if (row < end) fixed_rows(walk, at, &p[1 + side], &p[2 - side], row, end);
 }
 
-/* ---- Walking ------------------------------------------------------------------------------------------------------- */
+/* ---- Walking ----------------------------------------------------------------------------------------------------- */
 
 /* Begins an edge at the current row: corners are 0 top, 1 left, 2 right. */
 static void edge_begin(gn_walk *walk, int side, int from, int to)
@@ -135,7 +135,8 @@ static GN_NOINLINE void exact_border(gn_walk *walk, int side, int32_t end)
         gn_edge edge = walk->edge[side];
         int32_t n = (row < bend ? gn_min32(bend, end) : end) - row;
         row += n;
-        if ((uint32_t)edge.q + (1U << 14) < 1U << 15 && (uint32_t)edge.dq + (1U << 9) < 1U << 10) { /* 16 bits hold it for 16 rows */
+        if ((uint32_t)edge.q + (1U << 14) < 1U << 15 &&
+            (uint32_t)edge.dq + (1U << 9) < 1U << 10) { /* 16 bits hold it for 16 rows */
             do {
                 *at = (int16_t)edge.q;
                 at += 2;
@@ -161,7 +162,8 @@ static inline void exact_rows(gn_walk *walk, int32_t end)
 
 static inline int32_t walk_rows(gn_walk *walk)
 {
-    int32_t fixed = GN_SIZE_FIRST ? 0 : walk->fixed, end = gn_min32(walk->row_end[0], walk->row + (fixed ? fixed : GN_WALK_ROWS)), n = end - walk->row;
+    int32_t fixed = GN_SIZE_FIRST ? 0 : walk->fixed,
+            end = gn_min32(walk->row_end[0], walk->row + (fixed ? fixed : GN_WALK_ROWS)), n = end - walk->row;
     walk->first = walk->row;
     if (fixed) {
         fixed_border(walk, 0, end);
@@ -179,12 +181,14 @@ int32_t gn_walk_next(gn_walk *walk)
     return walk_rows(walk);
 }
 
-int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo, int32_t y_hi)
+int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo,
+                      int32_t y_hi)
 {
     int top = y[1] < y[0] ? 1 : 0;
     if (y[2] < y[top]) top = 2;
     int left = top == 2 ? 0 : top + 1, right = 3 - top - left;
-    int64_t turn = (int64_t)(x[left] - x[top]) * (y[right] - y[top]) - (int64_t)(x[right] - x[top]) * (y[left] - y[top]);
+    int64_t turn =
+        (int64_t)(x[left] - x[top]) * (y[right] - y[top]) - (int64_t)(x[right] - x[top]) * (y[left] - y[top]);
     if (turn > 0) {
         left = right;
         right = 3 - top - left;

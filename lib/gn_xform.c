@@ -5,9 +5,9 @@
 #include "gn_math.h"
 #include "gn_q.h"
 
-/* How far from the picture's centre a clipped vertex may lie, in pixels. Up to 7 subpixel bits it must fit 16 bits where the
- * picture allows (NUMERICS 4.2); otherwise 1000 pixels around the picture. The choice does not depend on the type that stores
- * it, so that every build clips alike. */
+/* How far from the picture's centre a clipped vertex may lie, in pixels. Up to 7 subpixel bits it must fit 16 bits
+ * where the picture allows (NUMERICS 4.2); otherwise 1000 pixels around the picture. The choice does not depend on the
+ * type that stores it, so that every build clips alike. */
 static int fits_16_bits(int32_t subpixel_bits, int32_t size_px)
 {
     return subpixel_bits <= 7 && size_px <= 2 * ((32767 >> subpixel_bits) - 10);
@@ -44,12 +44,13 @@ void gn_cam_setup(gn_frame *frame)
     cam->inv_focal2 = inverse;
     cam->near_over_focal2 = ratio;
     int32_t size[2] = {frame->picture.width, frame->picture.height}, bits = GN_K(frame, subpixel_bits);
-    cam->coord_max_q16 = fits_16_bits(bits, gn_max32(size[0], size[1])) ? gn_min32(32767 << (16 - bits), 1 << 27) : 1 << 27;
+    cam->coord_max_q16 =
+        fits_16_bits(bits, gn_max32(size[0], size[1])) ? gn_min32(32767 << (16 - bits), 1 << 27) : 1 << 27;
     for (int i = 0; i < 2; i++) {
         int32_t guard = guard_px(bits, gn_max32(size[0], size[1]));
         cam->guard_q16[i] = slope_q16(2 * (uint32_t)guard, cam->focal2_px_q16);
-        cam->tan_q16[i] =
-            gn_sat32((int64_t)slope_q16((uint32_t)size[i], cam->focal2_px_q16) + 1); /* rounded up: only for rejection */
+        cam->tan_q16[i] = gn_sat32((int64_t)slope_q16((uint32_t)size[i], cam->focal2_px_q16) +
+                                   1); /* rounded up: only for rejection */
     }
 }
 
@@ -98,7 +99,8 @@ void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform)
     }
     fast->up = (uint8_t)up;
     fast->down = (uint8_t)down;
-    fast->reach = 1U << (31 - gn_max32(up, 1)); /* a position may have 30 bits, whatever the transform: gn_scene_position_ok */
+    fast->reach =
+        1U << (31 - gn_max32(up, 1)); /* a position may have 30 bits, whatever the transform: gn_scene_position_ok */
 }
 
 int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
@@ -108,7 +110,8 @@ int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn
 
 void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object)
 {
-    /* The cofactors are the inverse transpose times the determinant: only their direction and the determinant's sign matter. */
+    /* The cofactors are the inverse transpose times the determinant: only their direction and the determinant's sign
+     * matter. */
     const int32_t(*m)[3] = object->to_world.m_q30;
     int64_t cofactor[3][3];
     uint64_t any = 1;
@@ -134,7 +137,8 @@ void gn_xform_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_no
 {
     int64_t n[3]; /* 3 * 2^30 * 2^15 */
     for (int r = 0; r < 3; r++)
-        n[r] = (int64_t)matrix[r][0] * nrm_q15[0] + (int64_t)matrix[r][1] * nrm_q15[1] + (int64_t)matrix[r][2] * nrm_q15[2];
+        n[r] = (int64_t)matrix[r][0] * nrm_q15[0] + (int64_t)matrix[r][1] * nrm_q15[1] +
+               (int64_t)matrix[r][2] * nrm_q15[2];
     if (!gn_normalise_q30(out_q30, n)) out_q30[0] = out_q30[1] = out_q30[2] = 0;
 }
 

@@ -10,7 +10,8 @@
 void gn_cam_setup(gn_frame *frame);
 
 /* Object space to axes (rows, unit, Q1.30) through `origin_q16`: out = axis * (to_world * p - origin). */
-void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t origin_q16[3], const gn_object *object);
+void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t origin_q16[3],
+                      const gn_object *object);
 
 /* out_q16 = xform of a mesh vertex, |out| exact to 1 LSB plus the composition's 3 * |p| * 2^-30. Not range checked. */
 void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx);
@@ -18,12 +19,14 @@ void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *m
 /* Adds up what can be beforehand, for many vertices. */
 void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform);
 
-/* What gn_xform_vertex gives. Returns 0 where it does not: where the result may be 2^29 or more, or the position 2^30. */
+/* What gn_xform_vertex gives. Returns 0 where it does not: where the result may be 2^29 or more, or the position 2^30.
+ */
 int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3]);
 
 /* Row r times p, with what is added up beforehand */
-#define GN_FAST_ROW_(r)                                                                                                            \
-    (fast->row[r].sum + (int64_t)fast->row[r].m[0] * p0 + (int64_t)fast->row[r].m[1] * p1 + (int64_t)fast->row[r].m[2] * p2)
+#define GN_FAST_ROW_(r)                                                                                                \
+    (fast->row[r].sum + (int64_t)fast->row[r].m[0] * p0 + (int64_t)fast->row[r].m[1] * p1 +                            \
+     (int64_t)fast->row[r].m[2] * p2)
 
 /* The same, spelled out where it is called, and however large the result is. */
 GN_INLINE int gn_xform_fast_wide(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
@@ -54,10 +57,12 @@ GN_INLINE int gn_xform_fast_inline(int32_t out_q16[3], const gn_xform_fast *fast
 {
     const uint32_t limit = 1U << 29;
     return gn_xform_fast_wide(out_q16, fast, position) &&
-           (((uint32_t)out_q16[0] + limit) | ((uint32_t)out_q16[1] + limit) | ((uint32_t)out_q16[2] + limit)) < 2 * limit;
+           (((uint32_t)out_q16[0] + limit) | ((uint32_t)out_q16[1] + limit) | ((uint32_t)out_q16[2] + limit)) <
+               2 * limit;
 }
 
-/* The inverse transpose of the object's rotation and scale, up to a positive factor: largest entry near 1.0 in Q1.30. */
+/* The inverse transpose of the object's rotation and scale, up to a positive factor: largest entry near 1.0 in Q1.30.
+ */
 void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object);
 
 /* A vertex's unit world normal, Q1.30, within 3 LSB + the matrix's error; zero where the mesh's normal is zero. */

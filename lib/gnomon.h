@@ -4,13 +4,14 @@
  * - right-handed world, +Y up; a camera looks along its local -Z; row-major 3x4 transforms, column vectors
  * - lengths and coordinates are Q15.16 (`_q16`); unit quantities Q1.30 (`_q30`); fractions 0..1 are 0..65536 (`_uq16`)
  * - angles are in turns, Q0.16 unsigned (`_turn`): they wrap
- * - pixel (0, 0) is the top left one, its centre at (1/2, 1/2); top-left fill rule; counter-clockwise faces are front faces
+ * - pixel (0, 0) is the top left one, its centre at (1/2, 1/2); top-left fill rule; counter-clockwise faces are front
+ * faces
  * - colours are linear light; the output is sRGB-encoded unless GN_SRGB is 0
  * - every call returns a status; gn_status_text() says it in words, gn_detail names what and where
  *
- * A frame: describe a gn_scene, call gn_render() with a flush callback. Nothing is allocated, nothing is global: all state is
- * in gn_renderer (one static object, about 101 KB as configured by default, of which 34 KB serve the atlas of spot and point lights:
- * 64 KB with GN_PUNCTUAL_LIGHTS 0 and GN_MAIN_LIGHT 0), so several can run in one program.
+ * A frame: describe a gn_scene, call gn_render() with a flush callback. Nothing is allocated, nothing is global: all
+ * state is in gn_renderer (one static object, about 101 KB as configured by default, of which 34 KB serve the atlas of
+ * spot and point lights: 64 KB with GN_PUNCTUAL_LIGHTS 0 and GN_MAIN_LIGHT 0), so several can run in one program.
  */
 #ifndef GNOMON_H
 #define GNOMON_H
@@ -33,50 +34,54 @@ extern "C" {
 #define GN_UQ16(x)       ((uint32_t)GN_FIX_(x, 65536.0))
 #define GN_TURN(degrees) ((uint16_t)(int32_t)GN_FIX_((degrees) / 360.0, 65536.0))
 
-/* ---- Status ------------------------------------------------------------------------------------------------------- */
+/* ---- Status ------------------------------------------------------------------------------------------------------ */
 
-#define GN_STATUS_LIST(X)                                                                                                          \
-    X(GN_OK, "ok")                                                                                                                 \
-    X(GN_ERR_NULL, "a required pointer is null")                                                                                   \
-    X(GN_ERR_PICTURE_SIZE, "picture width or height is 0 or above GN_MAX_WIDTH x GN_MAX_HEIGHT")                                   \
-    X(GN_ERR_FORMAT, "unknown pixel format or view, or one that is not built in")                                                  \
-    X(GN_ERR_KNOB, "a run-time knob is out of its range")                                                                          \
-    X(GN_ERR_ORDER, "call out of order: begin, shadow tiles, prepare, screen tiles")                                               \
-    X(GN_ERR_INDEX, "no such tile or light")                                                                                       \
-    X(GN_ERR_CAMERA_FOCAL, "camera focal length outside 1/32 .. 255.99")                                                           \
-    X(GN_ERR_CAMERA_DEPTH, "camera near plane outside 1/256 .. 8192 units, or far not beyond near")                                \
-    X(GN_ERR_CAMERA_TRANSFORM, "camera transform is not a rotation with a position inside +-8192")                                 \
-    X(GN_ERR_OBJECT_TRANSFORM, "object transform has exponent outside 0..14, an entry above 1.0, a position outside +-8192, "      \
-                               "or no inverse")                                                                                    \
-    X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, or more than 30 fraction bits")                              \
-    X(GN_ERR_MESH_INDEX, "mesh index is not below its vertex count")                                                               \
-    X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera or a spot or point light, or a triangle would have to " \
-                             "be clipped and that is not built in")                                                              \
-    X(GN_ERR_COLOUR, "colour, albedo or ambient out of range")                                                                     \
-    X(GN_ERR_TEXTURE,                                                                                                              \
-      "texture without texels or above 4096 per side, or texture coordinates are missing or have more than 15 fraction bits")      \
-    X(GN_ERR_MATERIAL,                                                                                                             \
-      "alpha, cutoff, specular colour or shininess out of range, or an alpha mode or caster mode that is not built in")            \
-    X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")                          \
-    X(GN_ERR_TOO_MANY_OBJECTS, "more objects than GN_MAX_OBJECTS")                                                                 \
-    X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                                    \
-    X(GN_ERR_LIGHT_KIND, "unknown kind, mode or softness of light, or one that is not built in")                                   \
-    X(GN_ERR_LIGHT_DIRECTION, "light direction is zero")                                                                           \
-    X(GN_ERR_LIGHT_POSITION, "light position outside +-8192 units")                                                                \
-    X(GN_ERR_LIGHT_RANGE,                                                                                                          \
-      "light range, or distance of its near plane, below 1/256 unit, or near above 8192 units or not below range")                 \
-    X(GN_ERR_LIGHT_ANGLE, "spot angles outside 1 .. 179 degrees, or inner above outer")                                            \
-    X(GN_ERR_LIGHT_BIAS,                                                                                                           \
-      "light strength, bias, near offset, colour exponent or mask channel out of range, or a bias that is not built in")           \
-    X(GN_ERR_SURFACE_LIGHTS, "more lights can reach one surface than GN_SURFACE_LIGHTS")                                           \
-    X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 units, or not beyond the camera's near plane")                \
-    X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                                      \
-    X(GN_ERR_SHADOW_FILTER, "unknown shadow filter or kernel, one that is not built in, or disk samples outside 1..64")            \
-    X(GN_ERR_SHADOW_MODE, "unknown mixing, tile sizes, refresh or list length, or one that is not built in")                       \
-    X(GN_ERR_SHADOW_CASCADES, "more than 4 cascades, ratios above 1 or not ascending, or a blend that is not built in")            \
-    X(GN_ERR_SHADOW_TILE, "shadow tile would be smaller than 8 texels")                                                            \
-    X(GN_ERR_ATLAS_FULL, "shadow tiles take more texels than GN_ATLAS_TEXELS or GN_OTHER_ATLAS_TEXELS")                            \
-    X(GN_ERR_TRIANGLES_FULL, "more visible triangles than GN_MAX_TRIANGLES")                                                       \
+#define GN_STATUS_LIST(X)                                                                                              \
+    X(GN_OK, "ok")                                                                                                     \
+    X(GN_ERR_NULL, "a required pointer is null")                                                                       \
+    X(GN_ERR_PICTURE_SIZE, "picture width or height is 0 or above GN_MAX_WIDTH x GN_MAX_HEIGHT")                       \
+    X(GN_ERR_FORMAT, "unknown pixel format or view, or one that is not built in")                                      \
+    X(GN_ERR_KNOB, "a run-time knob is out of its range")                                                              \
+    X(GN_ERR_ORDER, "call out of order: begin, shadow tiles, prepare, screen tiles")                                   \
+    X(GN_ERR_INDEX, "no such tile or light")                                                                           \
+    X(GN_ERR_CAMERA_FOCAL, "camera focal length outside 1/32 .. 255.99")                                               \
+    X(GN_ERR_CAMERA_DEPTH, "camera near plane outside 1/256 .. 8192 units, or far not beyond near")                    \
+    X(GN_ERR_CAMERA_TRANSFORM, "camera transform is not a rotation with a position inside +-8192")                     \
+    X(GN_ERR_OBJECT_TRANSFORM,                                                                                         \
+      "object transform has exponent outside 0..14, an entry above 1.0, a position outside +-8192, "                   \
+      "or no inverse")                                                                                                 \
+    X(GN_ERR_MESH, "mesh has no vertices, no triangles, a null array, or more than 30 fraction bits")                  \
+    X(GN_ERR_MESH_INDEX, "mesh index is not below its vertex count")                                                   \
+    X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera or a spot or point "    \
+                           "light, or a triangle would have to "                                                       \
+                           "be clipped and that is not built in")                                                      \
+    X(GN_ERR_COLOUR, "colour, albedo or ambient out of range")                                                         \
+    X(GN_ERR_TEXTURE, "texture without texels or above 4096 per side, or texture coordinates are missing or have "     \
+                      "more than 15 fraction bits")                                                                    \
+    X(GN_ERR_MATERIAL, "alpha, cutoff, specular colour or shininess out of range, or an alpha mode or caster mode "    \
+                       "that is not built in")                                                                         \
+    X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")              \
+    X(GN_ERR_TOO_MANY_OBJECTS, "more objects than GN_MAX_OBJECTS")                                                     \
+    X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                        \
+    X(GN_ERR_LIGHT_KIND, "unknown kind, mode or softness of light, or one that is not built in")                       \
+    X(GN_ERR_LIGHT_DIRECTION, "light direction is zero")                                                               \
+    X(GN_ERR_LIGHT_POSITION, "light position outside +-8192 units")                                                    \
+    X(GN_ERR_LIGHT_RANGE,                                                                                              \
+      "light range, or distance of its near plane, below 1/256 unit, or near above 8192 units or not below range")     \
+    X(GN_ERR_LIGHT_ANGLE, "spot angles outside 1 .. 179 degrees, or inner above outer")                                \
+    X(GN_ERR_LIGHT_BIAS, "light strength, bias, near offset, colour exponent or mask channel out of range, or a bias " \
+                         "that is not built in")                                                                       \
+    X(GN_ERR_SURFACE_LIGHTS, "more lights can reach one surface than GN_SURFACE_LIGHTS")                               \
+    X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 units, or not beyond the camera's near plane")    \
+    X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                          \
+    X(GN_ERR_SHADOW_FILTER,                                                                                            \
+      "unknown shadow filter or kernel, one that is not built in, or disk samples outside 1..64")                      \
+    X(GN_ERR_SHADOW_MODE, "unknown mixing, tile sizes, refresh or list length, or one that is not built in")           \
+    X(GN_ERR_SHADOW_CASCADES,                                                                                          \
+      "more than 4 cascades, ratios above 1 or not ascending, or a blend that is not built in")                        \
+    X(GN_ERR_SHADOW_TILE, "shadow tile would be smaller than 8 texels")                                                \
+    X(GN_ERR_ATLAS_FULL, "shadow tiles take more texels than GN_ATLAS_TEXELS or GN_OTHER_ATLAS_TEXELS")                \
+    X(GN_ERR_TRIANGLES_FULL, "more visible triangles than GN_MAX_TRIANGLES")                                           \
     X(GN_ERR_TILE_REFS_FULL, "more tile references than GN_MAX_TILE_REFS")
 
 #define GN_STATUS_ENUM_(name, text) name,
@@ -92,7 +97,7 @@ typedef struct {
 
 const char *gn_status_text(gn_status status);
 
-/* ---- Transforms --------------------------------------------------------------------------------------------------- */
+/* ---- Transforms -------------------------------------------------------------------------------------------------- */
 
 /* p' = m * 2^(exp - 30) * p + t. Entries |m| <= 2^30 (1.0); the shared exponent 0..14 carries scales up to 16384. */
 typedef struct {
@@ -104,16 +109,18 @@ typedef struct {
 /* Rotations are exact to 8 units of Q1.30. Results are rounded to nearest; translations saturate at the Q15.16 range.
  * Products of many rotations drift by about one unit each: turn by absolute angles, or orthonormalise now and then. */
 void gn_affine_identity(gn_affine *out);
-void gn_affine_rotation(gn_affine *out, uint16_t yaw_turn, uint16_t pitch_turn, uint16_t roll_turn); /* Y, then X, then Z */
+void gn_affine_rotation(gn_affine *out, uint16_t yaw_turn, uint16_t pitch_turn,
+                        uint16_t roll_turn);                                /* Y, then X, then Z */
 void gn_affine_scale(gn_affine *inout, int32_t scale_q16);                  /* object space, 2^-16 < scale < 8192 */
 void gn_affine_mul(gn_affine *out, const gn_affine *a, const gn_affine *b); /* out = a * b; out may be a or b */
-void gn_affine_orthonormalise(gn_affine *inout); /* a rotation (exp 0) back to right angles; the third axis keeps its direction */
+void gn_affine_orthonormalise(
+    gn_affine *inout); /* a rotation (exp 0) back to right angles; the third axis keeps its direction */
 void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t target_q16[3]); /* +Y up */
 uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn); /* 1 / tan(fov / 2), Q8.24, saturates */
 int32_t gn_sin_q30(uint16_t angle_turn);                    /* |error| <= 2 LSB */
 int32_t gn_cos_q30(uint16_t angle_turn);
 
-/* ---- Scene: described by the caller, read only during a call ------------------------------------------------------ */
+/* ---- Scene: described by the caller, read only during a call ----------------------------------------------------- */
 
 /* With quality knobs as data the wide types hold what the narrow ones do. */
 #if GN_POSITION_BITS == 16 && !GN_RUNTIME_KNOBS
@@ -128,10 +135,10 @@ typedef int16_t gn_normal;
 #endif
 
 typedef struct {
-    const gn_position *pos;       /* 3 per vertex, |pos| <= 2^30, `pos_frac_bits` fraction bits */
-    const gn_normal *nrm_q15;     /* 3 per vertex, a direction (its length does not matter), or NULL: face normals */
-    const uint16_t *rgb_uq16;     /* 3 per vertex, linear, 65535 = 1, or NULL: white */
-    const int16_t *uv;            /* 2 per vertex, texture coordinates with `uv_frac_bits` fraction bits, v downwards, or NULL */
+    const gn_position *pos;   /* 3 per vertex, |pos| <= 2^30, `pos_frac_bits` fraction bits */
+    const gn_normal *nrm_q15; /* 3 per vertex, a direction (its length does not matter), or NULL: face normals */
+    const uint16_t *rgb_uq16; /* 3 per vertex, linear, 65535 = 1, or NULL: white */
+    const int16_t *uv; /* 2 per vertex, texture coordinates with `uv_frac_bits` fraction bits, v downwards, or NULL */
     const uint16_t *mask_uv_uq16; /* 2 per vertex, of the mask image, 65535 = 1, or NULL */
     const uint16_t *idx;          /* 3 per triangle */
     uint16_t n_vertices;
@@ -172,16 +179,18 @@ typedef struct {
     gn_affine to_world;
     uint32_t albedo_uq16[3]; /* linear, 0..65536 */
     uint32_t flags;
-    gn_alpha visible_alpha;       /* M8: clip: no surface where alpha is below the cutoff; dither: where it is below the noise */
-    gn_alpha caster_alpha;        /* M1: the same for its shadow */
-    uint32_t alpha_uq16;          /* 0..65536, times the texture's; matters where an alpha mode does */
-    uint32_t alpha_cutoff_uq16;   /* 0..65536 */
-    uint32_t specular_uq16[3];    /* linear, 0..65536; 0: none */
-    uint8_t shininess_log2;       /* exponent 2^0 .. 2^7 */
-    const gn_texture *texture;    /* or NULL */
-    const gn_texture *mask_image; /* M5: four channels of shadow masks at the mesh's mask_uv_uq16, bilinear and clamped, or NULL */
-    const uint8_t *mask_u8;       /* M5: 4 per vertex of the mesh, or NULL */
-    const uint16_t *baked_uq12;   /* M9: 3 per vertex of the mesh, irradiance of the baked lights, 4.12, or NULL */
+    gn_alpha
+        visible_alpha; /* M8: clip: no surface where alpha is below the cutoff; dither: where it is below the noise */
+    gn_alpha caster_alpha;      /* M1: the same for its shadow */
+    uint32_t alpha_uq16;        /* 0..65536, times the texture's; matters where an alpha mode does */
+    uint32_t alpha_cutoff_uq16; /* 0..65536 */
+    uint32_t specular_uq16[3];  /* linear, 0..65536; 0: none */
+    uint8_t shininess_log2;     /* exponent 2^0 .. 2^7 */
+    const gn_texture *texture;  /* or NULL */
+    const gn_texture
+        *mask_image; /* M5: four channels of shadow masks at the mesh's mask_uv_uq16, bilinear and clamped, or NULL */
+    const uint8_t *mask_u8;     /* M5: 4 per vertex of the mesh, or NULL */
+    const uint16_t *baked_uq12; /* M9: 3 per vertex of the mesh, irradiance of the baked lights, 4.12, or NULL */
 } gn_object;
 
 typedef enum { GN_LIGHT_DIRECTIONAL, GN_LIGHT_SPOT, GN_LIGHT_POINT } gn_light_kind;
@@ -196,8 +205,8 @@ typedef enum {
     GN_SOFTNESS_SOFT
 } gn_softness; /* F5: the atlas's filter, 2x2, at least 5x5 */
 typedef enum {
-    GN_AUTO_BIAS_DEFAULT, /* normal, unless bias_normal_q16 or bias_receiver_q16 is set: that ends it. A light that casts shadows must
-                             set one of them, or say off, where automatic bias is not built */
+    GN_AUTO_BIAS_DEFAULT, /* normal, unless bias_normal_q16 or bias_receiver_q16 is set: that ends it. A light that
+                             casts shadows must set one of them, or say off, where automatic bias is not built */
     GN_AUTO_BIAS_DEPTH,   /* less depth */
     GN_AUTO_BIAS_NORMAL,  /* along the face's normal: detaches least */
     GN_AUTO_BIAS_OFF
@@ -209,7 +218,8 @@ typedef struct {
     int32_t direction[3];    /* directional: of travel, spot: of the axis; any length but zero */
     int32_t position_q16[3]; /* spot, point */
     uint32_t colour_uq16[3]; /* linear colour * intensity, 0..255.99; spot, point: at distance 1 */
-    int32_t colour_exp; /* times 2^colour_exp, -100..100: spots and points need a wide range; directional: up to 255.99 in all */
+    int32_t colour_exp; /* times 2^colour_exp, -100..100: spots and points need a wide range; directional: up to 255.99
+                           in all */
     uint32_t range_q16; /* spot, point: no light beyond; 0: unlimited */
     int32_t near_q16;   /* spot, point: nothing nearer than this light-plane distance casts; > 0 */
     uint16_t inner_turn, outer_turn; /* spot: full light within, none beyond; edge to edge, 1..179 degrees */
@@ -222,8 +232,8 @@ typedef struct {
     int32_t bias_receiver_q16[4]; /* B3, 0..8 each */
     int32_t bias_caster_q16;      /* B4, texels, 0..8 */
     uint32_t receiver_plane;      /* B5: 1: every tap compares with the depth of the receiver's plane */
-    gn_auto_bias auto_bias;       /* B6: the least bias that leaves a plane no acne, in place of B2 and B3; on by default */
-    int32_t near_offset_q16;      /* D9, directional: pulls the light's near plane back, world units, 0..8192 */
+    gn_auto_bias auto_bias;  /* B6: the least bias that leaves a plane no acne, in place of B2 and B3; on by default */
+    int32_t near_offset_q16; /* D9, directional: pulls the light's near plane back, world units, 0..8192 */
 } gn_light;
 
 typedef struct {
@@ -252,13 +262,16 @@ typedef struct {
     uint32_t disk_samples;  /* F4: 1..64 */
     gn_mixing mixing;
     gn_tile_sizes tile_sizes;
-    uint32_t main_light; /* D10: 1: only the brightest directional light has cascades; others take one tile of the other atlas */
-    uint32_t caster_culling;        /* D8: 1: the same pixels, fewer casters */
-    uint32_t object_lights;         /* P9: most spot and point lights per object, 0 (no limit) .. 8 */
-    uint32_t refresh[4];            /* A5: cascade i is drawn anew every refresh[i]th frame; 0 as 1 */
-    uint32_t n_cascades;            /* 0 (as 1) .. 4; each takes a tile of the atlas */
-    uint32_t cascades_unused;       /* bit i: cascade i has no tile, and pixels in it look into the next: for scenes that never do */
-    uint32_t cascade_ratio_uq16[3]; /* where cascades 0, 1, 2 end, as shares of the max distance, ascending; the last ends there */
+    uint32_t main_light; /* D10: 1: only the brightest directional light has cascades; others take one tile of the other
+                            atlas */
+    uint32_t caster_culling;  /* D8: 1: the same pixels, fewer casters */
+    uint32_t object_lights;   /* P9: most spot and point lights per object, 0 (no limit) .. 8 */
+    uint32_t refresh[4];      /* A5: cascade i is drawn anew every refresh[i]th frame; 0 as 1 */
+    uint32_t n_cascades;      /* 0 (as 1) .. 4; each takes a tile of the atlas */
+    uint32_t cascades_unused; /* bit i: cascade i has no tile, and pixels in it look into the next: for scenes that
+                                 never do */
+    uint32_t cascade_ratio_uq16[3]; /* where cascades 0, 1, 2 end, as shares of the max distance, ascending; the last
+                                       ends there */
     gn_blend blend;                 /* anything but hard needs GN_BLENDED_CASCADES */
     gn_distance_mode distance_mode;
 } gn_shadow_settings;
@@ -269,13 +282,14 @@ typedef struct {
     uint32_t n_objects; /* up to 65535 */
     uint32_t n_lights;
     gn_camera camera;
-    int32_t unit_log2; /* one unit of length is 2^-unit_log2 of the model's: scales the 10^-4 of P2 and the 0.02 of F4; -30 .. 30 */
+    int32_t unit_log2; /* one unit of length is 2^-unit_log2 of the model's: scales the 10^-4 of P2 and the 0.02 of F4;
+                          -30 .. 30 */
     uint32_t ambient_uq16[3];    /* 0..255.99 */
     uint32_t background_uq16[3]; /* 0..65536 */
     gn_shadow_settings shadow;
 } gn_scene;
 
-/* ---- Rendering ---------------------------------------------------------------------------------------------------- */
+/* ---- Rendering --------------------------------------------------------------------------------------------------- */
 
 typedef enum {
     GN_FORMAT_RGB565,         /* uint16_t per pixel, native byte order, red in the high bits */
@@ -283,7 +297,8 @@ typedef enum {
     GN_FORMAT_RGB565_SWAPPED, /* RGB565 with its two bytes exchanged, as many panels want it */
     GN_FORMAT_GREY8,          /* a byte per pixel */
     GN_FORMAT_GREY4,          /* two pixels per byte, the left one in the high bits; rows begin on a byte */
-    GN_FORMAT_MONO1, /* eight pixels per byte, the left one in the highest bit, 1 = light; rows begin on a byte; ordered dither */
+    GN_FORMAT_MONO1, /* eight pixels per byte, the left one in the highest bit, 1 = light; rows begin on a byte; ordered
+                        dither */
     GN_FORMAT_RAW32  /* with GN_RAW_VIEWS: uint32_t per pixel, see gn_view; all ones where there is no surface */
 } gn_format;
 
@@ -303,8 +318,8 @@ typedef struct {
     uint8_t view_light;
 } gn_picture;
 
-/* A finished screen tile: w * h pixels, row after row without gaps (GREY4 and MONO1: rows of whole bytes), top left at (x, y), x a
- * multiple of the tile's width. The buffer is reused after the call returns. */
+/* A finished screen tile: w * h pixels, row after row without gaps (GREY4 and MONO1: rows of whole bytes), top left at
+ * (x, y), x a multiple of the tile's width. The buffer is reused after the call returns. */
 typedef void (*gn_flush_fn)(void *user, int x, int y, int w, int h, const void *pixels);
 
 /* Bytes of w * h pixels as they are flushed, rows of whole bytes; w and h below 2^15. */
@@ -332,8 +347,8 @@ typedef struct {
     uint32_t n_tile_refs;
     uint32_t n_clipped; /* triangles that met the near plane or the guard band */
     uint32_t n_shadow_tiles;
-    uint32_t n_caster_triangles;    /* drawn into shadow tiles */
-    uint32_t n_reach_clamped;       /* views whose filter reach does not fit their tile: taps are clamped at its border */
+    uint32_t n_caster_triangles; /* drawn into shadow tiles */
+    uint32_t n_reach_clamped;    /* views whose filter reach does not fit their tile: taps are clamped at its border */
     uint32_t n_lights_without_room; /* A3: lights that wanted a shadow and got no tile */
     uint32_t n_lights_left_out;     /* P9: over all objects */
     uint32_t n_tiles_drawn;         /* A5: shadow tiles that were drawn, not kept */
@@ -378,7 +393,8 @@ const gn_detail *gn_get_detail(const gn_renderer *r);
 typedef enum { GN_SHADOW_NOT_WANTED, GN_SHADOW_REALTIME, GN_SHADOW_NO_ROOM } gn_shadow_state;
 gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, uint32_t *n_tiles, uint32_t *tile_texels);
 
-/* A6: the shadow tile of a light's cascade or face: texels per side (0: none), its depths row by row, all ones = empty. */
+/* A6: the shadow tile of a light's cascade or face: texels per side (0: none), its depths row by row, all ones = empty.
+ */
 typedef struct {
     uint32_t texels;
     uint32_t depth_bits; /* 8, 16 or 32: uint8_t, uint16_t or uint32_t per texel */
@@ -389,13 +405,15 @@ uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t v
 /* Forgets what is kept of shadow tiles (A5): call it after changing mesh or texture data in place. */
 void gn_forget_shadows(gn_renderer *r);
 
-/* R6: what a panel shows, as a signature per screen tile. Clear it (memset 0) when the panel's content is unknown. A tile whose
- * pixels did not change is drawn but not flushed; two different tiles have the same signature with probability 2^-64. */
+/* R6: what a panel shows, as a signature per screen tile. Clear it (memset 0) when the panel's content is unknown. A
+ * tile whose pixels did not change is drawn but not flushed; two different tiles have the same signature with
+ * probability 2^-64. */
 typedef struct {
     uint64_t signature[GN_TILES_MAX];
 } gn_panel;
 gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
-                                    gn_flush_fn flush, void *user, uint32_t *flushed); /* *flushed is 1 or 0; may be NULL */
+                                    gn_flush_fn flush, void *user,
+                                    uint32_t *flushed); /* *flushed is 1 or 0; may be NULL */
 gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *panel, gn_flush_fn flush, void *user,
                             uint32_t *n_flushed);
 

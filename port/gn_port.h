@@ -1,8 +1,9 @@
-/* The port contract: what a port to a core may provide. Everything has a portable default, so that a port begins empty and grows where
- * it pays. docs/PORTING.md says how to write one and how it is tested; port/template is one that compiles.
+/* The port contract: what a port to a core may provide. Everything has a portable default, so that a port begins empty
+ * and grows where it pays. docs/PORTING.md says how to write one and how it is tested; port/template is one that
+ * compiles.
  *
- * A port is a folder port/NAME with gn_port_NAME.h, which includes this header, and .c files. The library is compiled with
- * -DGN_PORT='"gn_port_NAME.h"' -Iport -Iport/NAME, and the folder's .c files are linked.
+ * A port is a folder port/NAME with gn_port_NAME.h, which includes this header, and .c files. The library is compiled
+ * with -DGN_PORT='"gn_port_NAME.h"' -Iport -Iport/NAME, and the folder's .c files are linked.
  */
 #ifndef GN_PORT_H
 #define GN_PORT_H
@@ -10,10 +11,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* ---- Placement ----------------------------------------------------------------------------------------------------- *
- * Hot code: the files that run per pixel, row and texel, and what they call, are listed in port/hot.ld, for linker scripts to include.
- * Buffers: a program marks what should live in fast memory (the screen tile's gn_scratch above all, then the gn_renderer), and what a
- * DMA engine reads. The linker script places .fast; the alignment of DMA buffers is that of the largest cache line there is.
+/* ---- Placement -----------------------------------------------------------------------------------------------------
+ *
+ * Hot code: the files that run per pixel, row and texel, and what they call, are listed in port/hot.ld, for linker
+ * scripts to include. Buffers: a program marks what should live in fast memory (the screen tile's gn_scratch above all,
+ * then the gn_renderer), and what a DMA engine reads. The linker script places .fast; the alignment of DMA buffers is
+ * that of the largest cache line there is.
  */
 #if defined(__GNUC__)
 #define GN_PORT_FAST __attribute__((section(".fast")))
@@ -23,22 +26,27 @@
 #define GN_PORT_DMA
 #endif
 
-/* ---- Cache maintenance --------------------------------------------------------------------------------------------- *
- * Called with what the library or a display driver has written, before a DMA engine reads it. Owes: when it returns, n_bytes from
- * `bytes` on are in memory, not only in a data cache or a write buffer. n_bytes may be 0; `bytes` may have any alignment.
+/* ---- Cache maintenance ---------------------------------------------------------------------------------------------
+ *
+ * Called with what the library or a display driver has written, before a DMA engine reads it. Owes: when it returns,
+ * n_bytes from `bytes` on are in memory, not only in a data cache or a write buffer. n_bytes may be 0; `bytes` may have
+ * any alignment.
  */
 void gn_port_before_dma(const void *bytes, size_t n_bytes);
 
-/* ---- Kernels ------------------------------------------------------------------------------------------------------- *
- * Each owes the same bits as its portable definition for every argument within the preconditions, touches nothing else, needs no
- * alignment beyond that of the types, and may be called from several cores at once.
+/* ---- Kernels -------------------------------------------------------------------------------------------------------
+ *
+ * Each owes the same bits as its portable definition for every argument within the preconditions, touches nothing
+ * else, needs no alignment beyond that of the types, and may be called from several cores at once.
  *
  * Replaced by name, in the port's header:
- *   #define gn_kernel_dark_texels16 gn_port_dark_texels16     16-bit shadow texels under a tent; lib/gn_kernel.h defines it
+ *   #define gn_kernel_dark_texels16 gn_port_dark_texels16
+ *                     16-bit shadow texels under a tent; lib/gn_kernel.h defines it
  *
  * Replaced by linking:
- *   memset            clears screen tiles and shadow tiles: whole words, many of them. The C library's is the definition
- *   __aeabi_lmul      a 64-bit product modulo 2^64: on cores without a wide multiplication every product of two 32-bit values is one
+ *   memset            clears screen tiles and shadow tiles: whole words, many of them. The C library's defines it
+ *   __aeabi_lmul      a 64-bit product modulo 2^64: on cores without a wide multiplication, every product of two
+ *                     32-bit values
  */
 uint32_t gn_port_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark);
 

@@ -61,7 +61,8 @@ static void unproject(bench_triangle *out, const candidate *c)
     int clockwise = signed_area(c) > 0;
     for (int i = 0; i < 3; i++) {
         int from = clockwise && i ? 3 - i : i;
-        long z = lround(c->z[i]); /* depths stay with their places: turning a triangle round moves its corners on the screen */
+        long z = lround(
+            c->z[i]); /* depths stay with their places: turning a triangle round moves its corners on the screen */
         out->v[i][0] = (int32_t)lround((c->x[from] - BENCH_WIDTH / 2) / BENCH_FOCAL_PX * (double)z);
         out->v[i][1] = (int32_t)lround((BENCH_HEIGHT / 2 - c->y[from]) / BENCH_FOCAL_PX * (double)z);
         out->v[i][2] = (int32_t)z;

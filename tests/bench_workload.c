@@ -1,6 +1,7 @@
-/* The workload of tests/bench.sh, drawn through the public API by the library as firmware has it: constants, no run-time knobs.
+/* The workload of tests/bench.sh, drawn through the public API by the library as firmware has it: constants, no
+ * run-time knobs.
  *
- *   bench_workload count           checks the triangles and the coverage, prints the counts by which instructions are divided
+ *   bench_workload count           checks triangles and coverage, prints the counts that instructions are divided by
  *   bench_workload meshes          prints the sets as arrays in C
  *   bench_workload ram             prints sizeof(gn_renderer) of this build
  *   bench_workload draw CASE SET   draws once; what counts happens inside bench_shadow_tiles and bench_draw
@@ -46,7 +47,7 @@ static void check(gn_status status)
     if (status) fail(gn_status_text(status));
 }
 
-/* ---- Scene -------------------------------------------------------------------------------------------------------- */
+/* ---- Scene ------------------------------------------------------------------------------------------------------- */
 
 /* The face normal of a triangle of the mesh, of unit length. */
 static void face_normal(const int32_t *p, double n[3])
@@ -70,7 +71,8 @@ static void lean_normals(const int32_t *p, int16_t *nrm_q15)
             out[v][i] = p[3 * v + i] - (p[i] + p[3 + i] + p[6 + i]) / 3.0;
             length += out[v][i] * out[v][i];
         }
-        for (int i = 0; i < 3; i++) nrm_q15[3 * v + i] = (int16_t)lround(24000 * (n[i] + 0.25 * out[v][i] / sqrt(length)));
+        for (int i = 0; i < 3; i++)
+            nrm_q15[3 * v + i] = (int16_t)lround(24000 * (n[i] + 0.25 * out[v][i] / sqrt(length)));
     }
 }
 
@@ -105,7 +107,7 @@ static void build_scene(const bench_case *c, const bench_set *set)
     check(gn_begin(&renderer, &bench.scene));
 }
 
-/* ---- What is counted ---------------------------------------------------------------------------------------------- */
+/* ---- What is counted --------------------------------------------------------------------------------------------- */
 
 /* Functions of their own, by whose names callgrind switches counting on and off. */
 void bench_shadow_tiles(void);
@@ -128,7 +130,7 @@ static void drop(void *user, int x, int y, int w, int h, const void *pixels)
     (void)user, (void)x, (void)y, (void)w, (void)h, (void)pixels;
 }
 
-/* ---- Coverage ----------------------------------------------------------------------------------------------------- */
+/* ---- Coverage ---------------------------------------------------------------------------------------------------- */
 
 typedef struct {
     double x[3], y[3]; /* in pixels or texels, y down or up */
@@ -137,7 +139,8 @@ typedef struct {
 /* Smallest signed distance of a point to the lines of the three sides, positive inside. */
 static double depth_inside(const outline *o, double x, double y)
 {
-    double area = (o->x[1] - o->x[0]) * (o->y[2] - o->y[0]) - (o->x[2] - o->x[0]) * (o->y[1] - o->y[0]), least = HUGE_VAL;
+    double area = (o->x[1] - o->x[0]) * (o->y[2] - o->y[0]) - (o->x[2] - o->x[0]) * (o->y[1] - o->y[0]),
+           least = HUGE_VAL;
     for (int i = 0; i < 3; i++) {
         int a = (i + 1) % 3, b = (i + 2) % 3;
         double cross = (o->x[a] - x) * (o->y[b] - y) - (o->x[b] - x) * (o->y[a] - y);
@@ -151,12 +154,14 @@ static int clamped(double v, int end)
     return v < 0 ? 0 : v > end ? end : (int)v;
 }
 
-/* Centres inside the outline, of a grid of w x h. With `covered` (w x h, or NULL): also counts in *n_wrong the centres that it has
- * wrong although they lie further than `slack` from the outline. */
+/* Centres inside the outline, of a grid of w x h. With `covered` (w x h, or NULL): also counts in *n_wrong the centres
+ * that it has wrong although they lie further than `slack` from the outline. */
 static uint32_t count_inside(const outline *o, int w, int h, const uint8_t *covered, double slack, uint32_t *n_wrong)
 {
-    int x0 = clamped(fmin(o->x[0], fmin(o->x[1], o->x[2])) - 1, w), x1 = clamped(fmax(o->x[0], fmax(o->x[1], o->x[2])) + 2, w);
-    int y0 = clamped(fmin(o->y[0], fmin(o->y[1], o->y[2])) - 1, h), y1 = clamped(fmax(o->y[0], fmax(o->y[1], o->y[2])) + 2, h);
+    int x0 = clamped(fmin(o->x[0], fmin(o->x[1], o->x[2])) - 1, w),
+        x1 = clamped(fmax(o->x[0], fmax(o->x[1], o->x[2])) + 2, w);
+    int y0 = clamped(fmin(o->y[0], fmin(o->y[1], o->y[2])) - 1, h),
+        y1 = clamped(fmax(o->y[0], fmax(o->y[1], o->y[2])) + 2, h);
     uint32_t n = 0;
     for (int y = y0; y < y1; y++) {
         for (int x = x0; x < x1; x++) {
@@ -207,8 +212,8 @@ typedef struct {
     uint32_t texels;
 } counts;
 
-/* Rounding moves a corner by half a step per axis; a triangle whose corners move by at most d gains and loses only points within d
- * of its outline. The projection's own error is far below 2^-12 px. */
+/* Rounding moves a corner by half a step per axis; a triangle whose corners move by at most d gains and loses only
+ * points within d of its outline. The projection's own error is far below 2^-12 px. */
 static void count_pixels(const bench_set *set, counts *out)
 {
     static uint8_t covered[BENCH_WIDTH * BENCH_HEIGHT];
@@ -221,7 +226,8 @@ static void count_pixels(const bench_set *set, counts *out)
     bench_draw(count_visible, &seen);
     out->visible_px = seen.n;
     const gn_frame *frame = &renderer.frame;
-    if (gn_get_stats(&renderer)->n_triangles != set->n || gn_get_stats(&renderer)->n_clipped) fail("triangles lost or clipped");
+    if (gn_get_stats(&renderer)->n_triangles != set->n || gn_get_stats(&renderer)->n_clipped)
+        fail("triangles lost or clipped");
     for (uint32_t t = 0; t < set->n; t++) {
         outline o;
         for (int i = 0; i < 3; i++) {
@@ -251,7 +257,8 @@ static void count_texels(const bench_set *set, counts *out)
             for (int k = 0; k < 2; k++) {
                 double along = 0;
                 for (int j = 0; j < 3; j++) along += ldexp((double)view->axis_q30[k][j] * p[j], -30 - BENCH_FRAC_BITS);
-                c[k][i] = ldexp(along * view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp) - view->fit.ortho.origin[k];
+                c[k][i] = ldexp(along * view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp) -
+                          view->fit.ortho.origin[k];
             }
             o.x[i] = c[0][i];
             o.y[i] = c[1][i];
@@ -280,13 +287,15 @@ static void print_counts(void)
     printf("count caster_texels %u %u\n", n[0].texels, n[1].texels);
 }
 
-/* ---- For other machines ------------------------------------------------------------------------------------------- */
+/* ---- For other machines ------------------------------------------------------------------------------------------ */
 
 static void print_array(const char *type, const char *name, const char *set, const void *data, size_t n, int width)
 {
     printf("static const %s %s_%s[] = {", type, name, set);
     for (size_t i = 0; i < n; i++) {
-        long v = width == 4 ? (long)((const int32_t *)data)[i] : width == -2 ? (long)((const int16_t *)data)[i] : (long)((const uint16_t *)data)[i];
+        long v = width == 4    ? (long)((const int32_t *)data)[i]
+                 : width == -2 ? (long)((const int16_t *)data)[i]
+                               : (long)((const uint16_t *)data)[i];
         printf("%s%ld,", i % 16 ? " " : "\n    ", v);
     }
     printf("\n};\n");
@@ -304,13 +313,14 @@ static void print_meshes(void)
         print_array("int16_t", "nrm_q15", sets[i].name, bench.mesh.nrm_q15, 3 * n, -2);
         print_array("uint16_t", "rgb_uq16", sets[i].name, bench.mesh.rgb_uq16, 3 * n, 2);
         print_array("uint16_t", "idx", sets[i].name, bench.mesh.idx, n, 2);
-        printf("static const gn_mesh mesh_%s = {.pos = pos_%s, .nrm_q15 = nrm_q15_%s, .rgb_uq16 = rgb_uq16_%s, .idx = idx_%s, "
+        printf("static const gn_mesh mesh_%s = {.pos = pos_%s, .nrm_q15 = nrm_q15_%s, .rgb_uq16 = rgb_uq16_%s, .idx = "
+               "idx_%s, "
                ".pos_frac_bits = %d, .n_vertices = %zu, .n_triangles = %u};\n",
                sets[i].name, sets[i].name, sets[i].name, sets[i].name, sets[i].name, BENCH_FRAC_BITS, n, sets[i].n);
     }
 }
 
-/* ---- Main --------------------------------------------------------------------------------------------------------- */
+/* ---- Main -------------------------------------------------------------------------------------------------------- */
 
 static void make_triangles(void)
 {
@@ -348,6 +358,7 @@ int main(int argc, char **argv)
     if (argc == 2 && !strcmp(argv[1], "count")) print_counts();
     else if (argc == 2 && !strcmp(argv[1], "meshes")) print_meshes();
     else if (argc == 2 && !strcmp(argv[1], "ram")) printf("%lu\n", (unsigned long)sizeof renderer);
-    else if (argc != 4 || strcmp(argv[1], "draw") || !draw(argv[2], argv[3])) fail("count | ram | meshes | draw CASE SET");
+    else if (argc != 4 || strcmp(argv[1], "draw") || !draw(argv[2], argv[3]))
+        fail("count | ram | meshes | draw CASE SET");
     return 0;
 }

@@ -34,9 +34,10 @@ static const char *const filter_name[6] = {"hard", "2x2", "3x3", "5x5", "7x7", "
 static gn_renderer renderer;
 static uint32_t raw[128 * 96];
 static int raw_width, world_exp;
-static double light_scale = 1; /* of the light's distance, directional: of the view; the view of a wall is never smaller */
+static double light_scale =
+    1; /* of the light's distance, directional: of the view; the view of a wall is never smaller */
 
-/* ---- Pictures --------------------------------------------------------------------------------------------------------- */
+/* ---- Pictures ---------------------------------------------------------------------------------------------------- */
 
 static inline void flush(void *user, int x, int y, int w, int h, const void *pixels)
 {
@@ -59,7 +60,8 @@ static inline void set_knobs(const cell *c)
     renderer.frame.knobs = set.quality;
 }
 
-/* raw[]: the shadow factors of light 0. Clearing the renderer anew would take most of the time: it keeps nothing else. */
+/* raw[]: the shadow factors of light 0. Clearing the renderer anew would take most of the time: it keeps nothing else.
+ */
 static inline int draw(const fixture *f, const cell *c, int width, int height)
 {
     static int begun_width;
@@ -106,7 +108,7 @@ static inline void light_from(fixture *f, const cell *c, const double from[3], c
     f->s.shadow.distance_fade = f->s.shadow.cascade_fade = 0.001;
 }
 
-/* ---- Planes ----------------------------------------------------------------------------------------------------------- */
+/* ---- Planes ------------------------------------------------------------------------------------------------------ */
 
 #define PLANE_HALF 40.0
 
@@ -115,14 +117,16 @@ typedef struct {
     double max_distance;
 } plane_scene;
 
-static inline void combine(double out[3], double a, const double x[3], double b, const double y[3], double c, const double z[3])
+static inline void combine(double out[3], double a, const double x[3], double b, const double y[3], double c,
+                           const double z[3])
 {
     for (int i = 0; i < 3; i++) out[i] = a * x[i] + b * y[i] + c * z[i];
 }
 
-/* The normal is `angle` away from the light, tilted towards `azimuth` from its axis u: 45 degrees are a filter's worst. Pictures lie
- * across a seam between two faces of a point light's cube. */
-static inline void plane_scene_begin(fixture *f, plane_scene *p, const cell *c, const bias *b, double angle, double azimuth)
+/* The normal is `angle` away from the light, tilted towards `azimuth` from its axis u: 45 degrees are a filter's worst.
+ * Pictures lie across a seam between two faces of a point light's cube. */
+static inline void plane_scene_begin(fixture *f, plane_scene *p, const cell *c, const bias *b, double angle,
+                                     double azimuth)
 {
     static const double distance[3] = {1, 8, 3};
     double light[3] = {0.62, 0.68, 0.39}, a[3], d[3], t[3], s[3], eye[3], corners[12];
@@ -136,7 +140,8 @@ static inline void plane_scene_begin(fixture *f, plane_scene *p, const cell *c, 
     normalise(s);
     cross(t, p->normal, s);
     for (int i = 0; i < 4; i++)
-        combine(corners + 3 * i, i == 1 || i == 2 ? PLANE_HALF : -PLANE_HALF, s, i >= 2 ? PLANE_HALF : -PLANE_HALF, t, 0, t);
+        combine(corners + 3 * i, i == 1 || i == 2 ? PLANE_HALF : -PLANE_HALF, s, i >= 2 ? PLANE_HALF : -PLANE_HALF, t,
+                0, t);
     combine(p->from, distance[c->kind] * light_scale, light, 0, a, 0, a);
     begin(f);
     add_quad(f, corners);
@@ -152,8 +157,10 @@ typedef struct {
     double world[3], depth, to_light[3], cosine;
 } plane_point;
 
-/* Where a pixel sees the plane. 0: it does not, or the light does not reach it, by a margin that no rounding crosses. */
-static inline int plane_point_in(plane_point *h, const fixture *f, const plane_scene *p, int i, int j, int width, int height)
+/* Where a pixel sees the plane. 0: it does not, or the light does not reach it, by a margin that no rounding crosses.
+ */
+static inline int plane_point_in(plane_point *h, const fixture *f, const plane_scene *p, int i, int j, int width,
+                                 int height)
 {
     const scene_light *light = f->lights;
     const double focal_px = f->s.camera.focal * height / 2.0, x = (i + 0.5 - width / 2.0) / focal_px,
@@ -172,7 +179,8 @@ static inline int plane_point_in(plane_point *h, const fixture *f, const plane_s
     h->cosine = dot(h->to_light, p->normal);
     for (int k = 0; k < 3; k++)
         if (fabs(h->world[k]) > 0.9 * PLANE_HALF) return 0;
-    if (light->kind == SCENE_LIGHT_SPOT && -dot(h->to_light, light->direction) < cos(light->outer * PI) + 0.003) return 0;
+    if (light->kind == SCENE_LIGHT_SPOT && -dot(h->to_light, light->direction) < cos(light->outer * PI) + 0.003)
+        return 0;
     return h->cosine > 0.002;
 }
 
@@ -181,12 +189,13 @@ static inline int plane_point_at(plane_point *h, const fixture *f, const plane_s
     return plane_point_in(h, f, p, i, j, WIDTH, HEIGHT);
 }
 
-/* ---- A wall on the ground ----------------------------------------------------------------------------------------------- */
+/* ---- A wall on the ground ---------------------------------------------------------------------------------------- */
 
-/* A sheet stands on the plane y = 0 along z, `WALL` high, lit from in front at 45 degrees, seen from above. A point behind its foot is
- * lit where the biases take it before the sheet: c texels along the light, c sin 45, in texels on the plane. A shift along the plane's
- * normal leaves a point behind the sheet wherever it was: B2 opens no gap at the foot; its length times tan 45 is what the shadow's
- * far end loses. B4 moves the sheet itself, and its shadow with it. */
+/* A sheet stands on the plane y = 0 along z, `WALL` high, lit from in front at 45 degrees, seen from above. A point
+ * behind its foot is lit where the biases take it before the sheet: c texels along the light, c sin 45, in texels on
+ * the plane. A shift along the plane's normal leaves a point behind the sheet wherever it was: B2 opens no gap at the
+ * foot; its length times tan 45 is what the shadow's far end loses. B4 moves the sheet itself, and its shadow with it.
+ */
 #define WALL        2.0
 #define WALL_HALF   3.0
 #define WALL_TEXELS 128
@@ -215,7 +224,8 @@ static inline double wall_scene_begin(fixture *f, const cell *c, const bias *b, 
     begin(f);
     for (int i = 0; i < 4; i++) turn_about(quad + 3 * i, i == 1 || i == 2 ? 20 : -20, 0, i >= 2 ? -20 : 20);
     add_quad(f, quad);
-    for (int i = 0; i < 4; i++) turn_about(quad + 3 * i, 0, i >= 2 ? height : 0, i == 1 || i == 2 ? WALL_HALF : -WALL_HALF);
+    for (int i = 0; i < 4; i++)
+        turn_about(quad + 3 * i, 0, i >= 2 ? height : 0, i == 1 || i == 2 ? WALL_HALF : -WALL_HALF);
     add_quad(f, quad);
     turn_about(from, -x, y, 0);
     turn_about(eye, 1.2, 7, 0.1);
@@ -248,8 +258,9 @@ static inline detachment detach_at(const cell *c, const bias *b, double degrees,
         const gn_light_view *view = &renderer.frame.view[renderer.frame.light[0].view_idx];
         const double from = light_scale * (c->kind == SCENE_LIGHT_SPOT ? 12 : c->kind == SCENE_LIGHT_POINT ? 6 : 0);
         const double unit = 7 / (f.s.camera.focal * WALL_HEIGHT / 2.0);
-        texel = from > 0 ? 2 * 65536.0 / view->fit.persp.focal2_q16 * from
-                         : ldexp(1 / (double)view->fit.ortho.inv_texel.mant, -view->fit.ortho.inv_texel.exp - world_exp);
+        texel = from > 0
+                    ? 2 * 65536.0 / view->fit.persp.focal2_q16 * from
+                    : ldexp(1 / (double)view->fit.ortho.inv_texel.mant, -view->fit.ortho.inv_texel.exp - world_exp);
         for (int i = 0; i < WALL_WIDTH * WALL_HEIGHT; i++) {
             double at[3];
             for (int k = 0; k < 3; k++) {

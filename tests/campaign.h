@@ -13,7 +13,8 @@ static inline long option(const char *name, long otherwise)
     return value && *value ? strtol(value, NULL, 0) : otherwise;
 }
 
-/* Once a second, on a terminal alone. Under `make soak` also, in its log, every 8192 scenes: where to look again (FIRST=n) if it ends early. */
+/* Once a second, on a terminal alone. Under `make soak` also, in its log, every 8192 scenes: where to look again
+ * (FIRST=n) if it ends early. */
 static inline void show_progress(const char *what, long seed, long done, long all)
 {
     static time_t last, start;

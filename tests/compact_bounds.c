@@ -1,5 +1,5 @@
-/* The error bounds of docs/NUMERICS.md 4.15, stage by stage, against double precision. Compiled with GN_COMPACT and the whole library as one file,
- * LIBRARY, of which it asks the stages. */
+/* The error bounds of docs/NUMERICS.md 4.15, stage by stage, against double precision. Compiled with GN_COMPACT and the
+ * whole library as one file, LIBRARY, of which it asks the stages. */
 #include LIBRARY
 
 #include <stdlib.h>
@@ -54,11 +54,13 @@ static void units(void)
     bounded("unit vectors, LSB of Q30", worst, 8);
 }
 
-/* ---- Points ------------------------------------------------------------------------------------------------------------- */
+/* ---- Points ------------------------------------------------------------------------------------------------------ */
 
 static gn_camera random_camera(void)
 {
-    gn_camera c = {.focal_q24 = (uint32_t)(uniform(1.6, 8) * 16777216), .near_q16 = (int32_t)any_size(65536, 1 << 22), .far_q16 = INT32_MAX};
+    gn_camera c = {.focal_q24 = (uint32_t)(uniform(1.6, 8) * 16777216),
+                   .near_q16 = (int32_t)any_size(65536, 1 << 22),
+                   .far_q16 = INT32_MAX};
     gn_affine_rotation(&c.to_world, (uint16_t)rnd(), (uint16_t)rnd(), (uint16_t)rnd());
     for (int i = 0; i < 3; i++) c.to_world.t_q16[i] = (int32_t)uniform(-268435456, 268435456);
     return c;
@@ -68,7 +70,8 @@ static gn_camera random_camera(void)
 static gn_status setup_frame(gn_scene *scene, gn_light *sun, int width, int height)
 {
     const gn_picture picture = {(uint16_t)width, (uint16_t)height, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
-    *sun = (gn_light){.direction = {(int32_t)rnd() >> 1, (int32_t)rnd() >> 1, (int32_t)rnd() >> 1}, .shadow_strength_uq16 = 65536,
+    *sun = (gn_light){.direction = {(int32_t)rnd() >> 1, (int32_t)rnd() >> 1, (int32_t)rnd() >> 1},
+                      .shadow_strength_uq16 = 65536,
                       .bias_normal_q16 = (int32_t)uniform(1, 1 << 18)};
     *scene = (gn_scene){.lights = sun, .n_lights = 1, .camera = random_camera()};
     scene->shadow.max_distance_q16 = (int32_t)fmin(1 << 28, scene->camera.near_q16 * any_size(2, 1000));
@@ -118,7 +121,7 @@ static void points(void)
     bounded("keys, LSB of Q30", key, 2);
 }
 
-/* ---- Planes of keys -------------------------------------------------------------------------------------------------------- */
+/* ---- Planes of keys ---------------------------------------------------------------------------------------------- */
 
 static void planes(void)
 {
@@ -129,7 +132,8 @@ static void planes(void)
         gn_tri tri;
         double reach = any_size(1, 1400);
         for (int i = 0; i < 3; i++) {
-            for (int k = 0; k < 2; k++) c[i].at_q16[k] = (int32_t)((128 + uniform(-reach, reach)) * 65536) & ~255; /* on the subpixel grid */
+            for (int k = 0; k < 2; k++)
+                c[i].at_q16[k] = (int32_t)((128 + uniform(-reach, reach)) * 65536) & ~255; /* on the subpixel grid */
             c[i].key = (int32_t)any_size(1, 1 << 30);
         }
         if (!setup(&tri, c, &view, 1)) continue;
@@ -140,16 +144,20 @@ static void planes(void)
         double dy = ((k[2] - k[0]) * (x[1] - x[0]) - (k[1] - k[0]) * (x[2] - x[0])) / area;
         if (fmax(fabs(dx), fabs(dy)) > 1 << 27) continue; /* one key for all of it */
         for (int i = 0; i < 8; i++) {
-            int px = tri.begin[0] + (int)(rnd() % (uint32_t)(tri.end[0] - tri.begin[0])), py = tri.begin[1] + (int)(rnd() % (uint32_t)(tri.end[1] - tri.begin[1]));
+            int px = tri.begin[0] + (int)(rnd() % (uint32_t)(tri.end[0] - tri.begin[0])),
+                py = tri.begin[1] + (int)(rnd() % (uint32_t)(tri.end[1] - tri.begin[1]));
             double exact = k[0] + dx * (px + 0.5 - x[0]) + dy * (py + 0.5 - y[0]);
-            double steps = px - tri.begin[0] + py - tri.begin[1], far = fabs(dx) * fabs(px - x[0]) + fabs(dy) * fabs(py - y[0]);
-            if (fabs(exact) < 1 << 30) most(&worst, ((int32_t)gn_compact_key(&tri, px, py) - exact) / (steps / (tri.frac_bits ? 256 : 2) + 16 + ldexp(far, -27)));
+            double steps = px - tri.begin[0] + py - tri.begin[1],
+                   far = fabs(dx) * fabs(px - x[0]) + fabs(dy) * fabs(py - y[0]);
+            if (fabs(exact) < 1 << 30)
+                most(&worst, ((int32_t)gn_compact_key(&tri, px, py) - exact) /
+                                 (steps / (tri.frac_bits ? 256 : 2) + 16 + ldexp(far, -27)));
         }
     }
     bounded("keys of a triangle, of their bound", worst, 1);
 }
 
-/* ---- The light's tile ------------------------------------------------------------------------------------------------------- */
+/* ---- The light's tile -------------------------------------------------------------------------------------------- */
 
 /* Texel, place and sphere by the formulas of DESIGN 1.4, in Q16 units of length. */
 static void tiles(void)
@@ -162,12 +170,15 @@ static void tiles(void)
         if (setup_frame(&scene, &sun, 160, 120)) continue;
         const gn_frame *frame = &renderer.frame;
         const gn_compact_view *light = &frame->view[0].project;
-        double focal = ldexp(scene.camera.focal_q24, -24), k2 = (160.0 * 160 + 120.0 * 120) / (120.0 * focal * 120.0 * focal);
-        double m = scene.shadow.max_distance_q16, near = scene.camera.near_q16, q = fmax(1 - scene.shadow.cascade_fade_uq16 / 65536.0, 0.125);
+        double focal = ldexp(scene.camera.focal_q24, -24),
+               k2 = (160.0 * 160 + 120.0 * 120) / (120.0 * focal * 120.0 * focal);
+        double m = scene.shadow.max_distance_q16, near = scene.camera.near_q16,
+               q = fmax(1 - scene.shadow.cascade_fade_uq16 / 65536.0, 0.125);
         double a = 1 - q * q, b = near - q * q * m, big_c = (1 + k2) * (q * q * m * m - near * near), c = m;
         if (b * b + a * big_c >= 0 && big_c > 0) c = fmin(m, big_c / (sqrt(b * b + a * big_c) - b));
         double r = sqrt(fmax((m - c) * (m - c) + k2 * m * m, ((c - near) * (c - near) + k2 * near * near) / (q * q)));
-        double d = fmax(GN_ATLAS_SIZE - 2 * (1 + sqrt(2) * sun.bias_normal_q16 / 65536) - 1, GN_ATLAS_SIZE / 4.0), exact = (1 - ldexp(1, -20)) * 2 * r / d;
+        double d = fmax(GN_ATLAS_SIZE - 2 * (1 + sqrt(2) * sun.bias_normal_q16 / 65536) - 1, GN_ATLAS_SIZE / 4.0),
+               exact = (1 - ldexp(1, -20)) * 2 * r / d;
         int e;
         double digits = frexp(exact, &e) * 256, t = ldexp(ceil(digits), e - 8);
         if (fabs(digits - floor(digits + 0.5)) < 1e-4) continue; /* which of two texels is a matter of the last bits */

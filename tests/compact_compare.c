@@ -1,5 +1,6 @@
-/* Compact arithmetic against the reference: own scenes and random ones of what it can draw. tests/test_compact.sh builds it beside the host's own library.
- *   compact_compare [--table] [-o PREFIX]    PREFIX: pictures of each scene's first view */
+/* Compact arithmetic against the reference: own scenes and random ones of what it can draw. tests/test_compact.sh
+ * builds it beside the host's own library. compact_compare [--table] [-o PREFIX]    PREFIX: pictures of each scene's
+ * first view */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,7 @@ enum { N_VIEWS = 20, N_RANDOM = 60, WIDTH = 256, HEIGHT = 192 };
 static int table;
 static const char *prefix;
 
-/* ---- Pictures ---------------------------------------------------------------------------------------------------------- */
+/* ---- Pictures ---------------------------------------------------------------------------------------------------- */
 
 static void expand(engine_picture *p)
 {
@@ -72,7 +73,7 @@ static gn_status compare(metrics *m, const scene *s, settings *set, const char *
     return status;
 }
 
-/* ---- Floors ------------------------------------------------------------------------------------------------------------ */
+/* ---- Floors ------------------------------------------------------------------------------------------------------ */
 
 typedef struct {
     double identical[N_RANDOM], psnr_db[N_RANDOM], mismatch[N_RANDOM], within1;
@@ -85,13 +86,14 @@ static int ascending(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Those of the preset balanced, in every view; of random scenes, where a pixel more or less can be one of black and white, 36 dB. */
+/* Those of the preset balanced, in every view; of random scenes, where a pixel more or less can be one of black and
+ * white, 36 dB. */
 static void add(series *all, const metrics *m, double psnr_db, const char *what, int view)
 {
     int ok = m->identical >= 0.985 && m->within1 >= 0.998 && m->psnr_db >= psnr_db && m->shadow_mismatch <= 0.004;
     if (!CHECK(ok))
-        printf("  %s, view %d: identical %g within1 %g psnr %g shadow_mismatch %g\n", what, view, m->identical, m->within1, m->psnr_db,
-               m->shadow_mismatch);
+        printf("  %s, view %d: identical %g within1 %g psnr %g shadow_mismatch %g\n", what, view, m->identical,
+               m->within1, m->psnr_db, m->shadow_mismatch);
     all->identical[all->n] = m->identical;
     all->psnr_db[all->n] = m->psnr_db;
     all->mismatch[all->n++] = m->shadow_mismatch;
@@ -106,19 +108,22 @@ static void report(series *all, const char *what)
     qsort(all->mismatch, (size_t)n, sizeof(double), ascending);
     CHECK(all->identical[n / 2] >= 0.998 && all->psnr_db[n / 2] >= 48);
     if (table)
-        printf("| %s | %d | %.5f | %.5f | %.5f | %.1f | %.1f | %.5f |\n", what, n, all->identical[n / 2], all->identical[0], all->within1,
-               all->psnr_db[n / 2], all->psnr_db[0], all->mismatch[n - 1]);
+        printf("| %s | %d | %.5f | %.5f | %.5f | %.1f | %.1f | %.5f |\n", what, n, all->identical[n / 2],
+               all->identical[0], all->within1, all->psnr_db[n / 2], all->psnr_db[0], all->mismatch[n - 1]);
 }
 
-/* ---- Own scenes -------------------------------------------------------------------------------------------------------- */
+/* ---- Own scenes -------------------------------------------------------------------------------------------------- */
 
 static settings settings_for(scene *s)
 {
-    static const char *const sets[] = {"filter=hard", "cascades=1", "atlas_size=128", SRGB, "shadow_subpixel_bits=8", "weight_bits=12", "newton_steps=1"};
+    static const char *const sets[] = {
+        "filter=hard",    "cascades=1",    "atlas_size=128", SRGB, "shadow_subpixel_bits=8",
+        "weight_bits=12", "newton_steps=1"};
     char error[512] = "";
     settings set;
     settings_init(&set);
-    if (!CHECK_EQ_INT(settings_apply_all(&set, s, sets, sizeof sets / sizeof *sets, error, sizeof error), 0)) printf("  %s\n", error);
+    if (!CHECK_EQ_INT(settings_apply_all(&set, s, sets, sizeof sets / sizeof *sets, error, sizeof error), 0))
+        printf("  %s\n", error);
     return set;
 }
 
@@ -177,12 +182,14 @@ static void own_scene(const char *name, int frame)
     scene_free(&s);
 }
 
-/* ---- Random scenes ------------------------------------------------------------------------------------------------------ */
+/* ---- Random scenes ----------------------------------------------------------------------------------------------- */
 
 static void turn_and_place(scene_affine *a)
 {
     const double yaw = random_between(0, 2 * PI), tilt = random_between(-0.6, 0.6), size = random_between(0.3, 1.2);
-    const double r[3][3] = {{cos(yaw), sin(yaw) * sin(tilt), sin(yaw) * cos(tilt)}, {0, cos(tilt), -sin(tilt)}, {-sin(yaw), cos(yaw) * sin(tilt), cos(yaw) * cos(tilt)}};
+    const double r[3][3] = {{cos(yaw), sin(yaw) * sin(tilt), sin(yaw) * cos(tilt)},
+                            {0, cos(tilt), -sin(tilt)},
+                            {-sin(yaw), cos(yaw) * sin(tilt), cos(yaw) * cos(tilt)}};
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) a->m[i][k] = size * r[i][k];
         a->m[i][3] = i == 1 ? random_between(0.2, 1.5) : random_between(-3, 3);
@@ -205,7 +212,8 @@ static void random_scene(fixture *f)
     light->bias_constant = random_between(0, 1);
     light->bias_slope = random_between(0, 1);
     light->strength = random_between(0.5, 1);
-    const double from[3] = {random_between(-6, 6), random_between(1, 6), random_between(3, 8)}, at[3] = {random_between(-1, 1), 0.5, random_between(-1, 1)};
+    const double from[3] = {random_between(-6, 6), random_between(1, 6), random_between(3, 8)},
+                 at[3] = {random_between(-1, 1), 0.5, random_between(-1, 1)};
     const double up[3] = {random_between(-0.5, 0.5), 1, random_between(-0.2, 0.2)};
     look(f, from, at, up);
     f->s.camera.focal = random_between(1.3, 4);
@@ -251,8 +259,12 @@ static void planes_without_acne(void)
         turn_and_place(&f.objects[0].to_world);
         f.objects[0].two_sided = n % 2;
         scene_light *light = &f.lights[0];
-        *light = (scene_light){.name = no_name, .direction = {light->direction[0], light->direction[1], light->direction[2]}, .colour = {1, 1, 1}, .shadow = true,
-                               .strength = 0.5, .auto_bias = SCENE_AUTO_BIAS_NORMAL};
+        *light = (scene_light){.name = no_name,
+                               .direction = {light->direction[0], light->direction[1], light->direction[2]},
+                               .colour = {1, 1, 1},
+                               .shadow = true,
+                               .strength = 0.5,
+                               .auto_bias = SCENE_AUTO_BIAS_NORMAL};
         if (quantise_scene(&fixed, &f.s, error, sizeof error)) abort();
         if (CHECK_EQ_INT(draw(&p, &fixed.scene), GN_OK)) {
             for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
@@ -274,7 +286,9 @@ int main(int argc, char **argv)
         if (!strcmp(argv[i], "--table")) table = 1;
         if (!strcmp(argv[i], "-o") && i + 1 < argc) prefix = argv[++i];
     }
-    if (table) printf("| scene | views | identical, median | worst | within1, worst | PSNR dB, median | worst | shadow mismatch, worst |\n|---|---|---|---|---|---|---|---|\n");
+    if (table)
+        printf("| scene | views | identical, median | worst | within1, worst | PSNR dB, median | worst | shadow "
+               "mismatch, worst |\n|---|---|---|---|---|---|---|---|\n");
     own_scene("sundial", 48);
     own_scene("avenue", 0);
     own_scene("fence", 0);

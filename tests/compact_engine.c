@@ -13,7 +13,8 @@ typedef struct {
 static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 {
     const canvas *c = user;
-    for (int row = 0; row < h; row++) memcpy(c->rgb565 + (y + row) * c->width + x, (const uint16_t *)pixels + row * w, 2 * (size_t)w);
+    for (int row = 0; row < h; row++)
+        memcpy(c->rgb565 + (y + row) * c->width + x, (const uint16_t *)pixels + row * w, 2 * (size_t)w);
 }
 
 /* Visible triangles once more, one by one, to see which they are. */
@@ -41,17 +42,21 @@ static void look(int64_t *shown, uint32_t *shadow_uq16, int width)
         gn_raster_tile(frame, &renderer.scratch, tile);
         for (int y = r.y0; y < r.y1; y++) {
             for (int x = r.x0; x < r.x1; x++) {
-                uint32_t id = renderer.scratch.cell[(y - r.y0) * (r.x1 - r.x0) + x - r.x0] & ((1U << frame->id_bits) - 1);
+                uint32_t id =
+                    renderer.scratch.cell[(y - r.y0) * (r.x1 - r.x0) + x - r.x0] & ((1U << frame->id_bits) - 1);
                 surface s = {0};
                 if (id) surface_begin(frame, &s, id);
                 shown[y * width + x] = id ? identity[gn_raster_tri(frame, id) - frame->tri] : -1;
-                shadow_uq16[y * width + x] = s.tri ? shadow_at(frame, &s, x, y) : id && gn_raster_tri(frame, id)->normal_q14[2] < 0 ? 65536 : 0;
+                shadow_uq16[y * width + x] = s.tri ? shadow_at(frame, &s, x, y)
+                                             : id && gn_raster_tri(frame, id)->normal_q14[2] < 0 ? 65536
+                                                                                                 : 0;
             }
         }
     }
 }
 
-gn_status compact_render(const gn_scene *scene, int width, int height, uint16_t *rgb565, int64_t *shown, uint32_t *shadow_uq16)
+gn_status compact_render(const gn_scene *scene, int width, int height, uint16_t *rgb565, int64_t *shown,
+                         uint32_t *shadow_uq16)
 {
     gn_picture picture = {(uint16_t)width, (uint16_t)height, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
     canvas c = {rgb565, width};

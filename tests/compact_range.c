@@ -1,5 +1,5 @@
-/* Compact arithmetic without validation: what lies outside of its range is refused, by the status that names it, and no scene leads to undefined
- * behaviour, whatever its numbers: run under sanitizers. */
+/* Compact arithmetic without validation: what lies outside of its range is refused, by the status that names it, and no
+ * scene leads to undefined behaviour, whatever its numbers: run under sanitizers. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,7 +20,8 @@ static gn_scene scene;
 /* A ground and a pyramid, seen from above. */
 static void begin(void)
 {
-    static const int32_t at[27] = {-4, 0, 4, 4, 0, 4, 4, 0, -4, -4, 0, -4, -1, 0, 1, 1, 0, 1, 1, 0, -1, -1, 0, -1, 0, 2, 0};
+    static const int32_t at[27] = {-4, 0, 4, 4, 0, 4, 4,  0,  -4, -4, 0, -4, -1, 0,
+                                   1,  1, 0, 1, 1, 0, -1, -1, 0,  -1, 0, 2,  0};
     static const int32_t eye[3] = {GN_Q16(3), GN_Q16(3), GN_Q16(7)}, target[3] = {0, GN_Q16(0.5), 0};
     for (int i = 0; i < 27; i++) pos[i] = at[i] * 65536;
     mesh = (gn_mesh){.pos = pos, .idx = idx, .n_vertices = 9, .n_triangles = 6, .pos_frac_bits = 16};
@@ -28,14 +29,18 @@ static void begin(void)
         object[i] = (gn_object){.mesh = &mesh, .albedo_uq16 = {60000, 50000, 40000}, .flags = GN_OBJECT_DEFAULT};
         gn_affine_identity(&object[i].to_world);
     }
-    sun = (gn_light){.direction = {-2, -3, -1}, .colour_uq16 = {60000, 60000, 50000}, .shadow_strength_uq16 = 65536, .bias_normal_q16 = GN_Q16(1)};
-    scene = (gn_scene){.objects = object,
-                       .n_objects = 2,
-                       .lights = &sun,
-                       .n_lights = 1,
-                       .ambient_uq16 = {9000, 9000, 12000},
-                       .camera = {.focal_q24 = GN_Q24(2.7), .near_q16 = GN_Q16(1), .far_q16 = GN_Q16(50)},
-                       .shadow = {.max_distance_q16 = GN_Q16(14), .distance_fade_uq16 = 6554, .cascade_fade_uq16 = 6554}};
+    sun = (gn_light){.direction = {-2, -3, -1},
+                     .colour_uq16 = {60000, 60000, 50000},
+                     .shadow_strength_uq16 = 65536,
+                     .bias_normal_q16 = GN_Q16(1)};
+    scene =
+        (gn_scene){.objects = object,
+                   .n_objects = 2,
+                   .lights = &sun,
+                   .n_lights = 1,
+                   .ambient_uq16 = {9000, 9000, 12000},
+                   .camera = {.focal_q24 = GN_Q24(2.7), .near_q16 = GN_Q16(1), .far_q16 = GN_Q16(50)},
+                   .shadow = {.max_distance_q16 = GN_Q16(14), .distance_fade_uq16 = 6554, .cascade_fade_uq16 = 6554}};
     gn_camera_look_at(&scene.camera.to_world, eye, target);
 }
 
@@ -49,7 +54,8 @@ static canvas drawn;
 static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 {
     canvas *c = user;
-    for (int row = 0; row < h; row++) memcpy(c->pixel + (y + row) * WIDTH + x, (const uint16_t *)pixels + row * w, 2 * (size_t)w);
+    for (int row = 0; row < h; row++)
+        memcpy(c->pixel + (y + row) * WIDTH + x, (const uint16_t *)pixels + row * w, 2 * (size_t)w);
     c->n += w * h;
 }
 
@@ -63,14 +69,14 @@ static gn_status draw(void)
     return status;
 }
 
-/* ---- Refused ----------------------------------------------------------------------------------------------------------- */
+/* ---- Refused ----------------------------------------------------------------------------------------------------- */
 
 /* EXPECTED with the scene changed; without, it is drawn. */
-#define REFUSED(change, expected)                                                                                                  \
-    do {                                                                                                                           \
-        begin();                                                                                                                   \
-        change;                                                                                                                    \
-        CHECK_EQ_INT(draw(), expected);                                                                                            \
+#define REFUSED(change, expected)                                                                                      \
+    do {                                                                                                               \
+        begin();                                                                                                       \
+        change;                                                                                                        \
+        CHECK_EQ_INT(draw(), expected);                                                                                \
     } while (0)
 #define ACCEPTED(change) REFUSED(change, GN_OK)
 
@@ -114,7 +120,8 @@ static void refusals(void)
     REFUSED(sun.colour_exp = -1, GN_ERR_LIGHT_BIAS);
     REFUSED(scene.shadow.max_distance_q16 = GN_Q16(1.1), GN_ERR_SHADOW_DISTANCE); /* near beyond q^2 of it */
     REFUSED(scene.shadow.max_distance_q16 = GN_Q16(1025), GN_ERR_SHADOW_DISTANCE);
-    REFUSED(scene.camera.near_q16 = 300; scene.shadow.max_distance_q16 = 2000, GN_ERR_SHADOW_DISTANCE); /* texels below 2^-8 units */
+    REFUSED(scene.camera.near_q16 = 300;
+            scene.shadow.max_distance_q16 = 2000, GN_ERR_SHADOW_DISTANCE); /* texels below 2^-8 units */
     REFUSED(scene.shadow.distance_mode = GN_DISTANCE_RADIUS, GN_ERR_SHADOW_DISTANCE);
     REFUSED(scene.shadow.cascade_fade_uq16 = 32769, GN_ERR_SHADOW_FADE);
     REFUSED(scene.shadow.filter = GN_FILTER_2X2, GN_ERR_SHADOW_FILTER);
@@ -152,8 +159,8 @@ static void after_a_refusal(void)
     CHECK(!memcmp(first.pixel, drawn.pixel, sizeof first.pixel));
 }
 
-/* A square with its corners on pixel centres has those of its left and top edges, and not those of its right and bottom ones; each of those on its diagonal
- * belongs to one of its triangles, whichever is drawn first. */
+/* A square with its corners on pixel centres has those of its left and top edges, and not those of its right and bottom
+ * ones; each of those on its diagonal belongs to one of its triangles, whichever is drawn first. */
 static void fill_rule(void)
 {
     static canvas first;
@@ -180,7 +187,8 @@ static void fill_rule(void)
         gn_affine_identity(&scene.camera.to_world);
         CHECK_EQ_INT(draw(), GN_OK);
         for (int y = 0; y < HEIGHT; y++)
-            for (int x = 0; x < WIDTH; x++) wrong += (drawn.pixel[y * WIDTH + x] != 0) != (x >= 15 && x < 31 && y >= 8 && y < 24);
+            for (int x = 0; x < WIDTH; x++)
+                wrong += (drawn.pixel[y * WIDTH + x] != 0) != (x >= 15 && x < 31 && y >= 8 && y < 24);
         CHECK_EQ_INT(wrong, 0);
         if (order) CHECK(!memcmp(first.pixel, drawn.pixel, sizeof first.pixel));
         first = drawn;
@@ -209,7 +217,7 @@ static void tile_of_the_light(void)
     CHECK(n_tiles == 0 && texels == 0 && gn_get_shadow_tile(&renderer, 0, 0, &info) == 0);
 }
 
-/* ---- Random numbers ----------------------------------------------------------------------------------------------------- */
+/* ---- Random numbers ---------------------------------------------------------------------------------------------- */
 
 static uint32_t rnd(void)
 {
@@ -231,26 +239,69 @@ static void spoil(void)
 {
     gn_object *o = &object[rnd() % 2];
     switch (rnd() % 20) {
-    case 0: pos[rnd() % 27] = any(); break;
-    case 1: for (int i = 0; i < 27; i++) pos[i] = any() >> 8; break;
-    case 2: o->to_world.t_q16[rnd() % 3] = any(); break;
-    case 3: o->to_world.m_q30[rnd() % 3][rnd() % 3] = any(); break;
-    case 4: o->to_world.exp = rnd() % 4 ? (int32_t)(rnd() % 16) : any(); break;
-    case 5: mesh.pos_frac_bits = (uint8_t)(rnd() % 36); break;
-    case 6: o->flags = rnd(); break;
-    case 7: o->albedo_uq16[rnd() % 3] = (uint32_t)any(); break;
-    case 8: sun.direction[rnd() % 3] = any(); break;
-    case 9: sun.colour_uq16[rnd() % 3] = (uint32_t)any(); break;
-    case 10: sun.shadow_strength_uq16 = (uint32_t)any(); break;
-    case 11: sun.bias_normal_q16 = any(); sun.bias_slope_q16 = any(); break;
-    case 12: sun.bias_constant_q16 = any(); sun.auto_bias = GN_AUTO_BIAS_NORMAL; break;
-    case 13: scene.camera.to_world.m_q30[rnd() % 3][rnd() % 3] = any(); break;
-    case 14: scene.camera.to_world.t_q16[rnd() % 3] = any(); break;
-    case 15: scene.camera.focal_q24 = (uint32_t)any(); break;
-    case 16: scene.camera.near_q16 = any(); break;
-    case 17: scene.shadow.max_distance_q16 = any(); break;
-    case 18: scene.shadow.distance_fade_uq16 = (uint32_t)any(); scene.shadow.cascade_fade_uq16 = (uint32_t)any(); break;
-    default: scene.ambient_uq16[rnd() % 3] = scene.background_uq16[rnd() % 3] = (uint32_t)any(); break;
+    case 0:
+        pos[rnd() % 27] = any();
+        break;
+    case 1:
+        for (int i = 0; i < 27; i++) pos[i] = any() >> 8;
+        break;
+    case 2:
+        o->to_world.t_q16[rnd() % 3] = any();
+        break;
+    case 3:
+        o->to_world.m_q30[rnd() % 3][rnd() % 3] = any();
+        break;
+    case 4:
+        o->to_world.exp = rnd() % 4 ? (int32_t)(rnd() % 16) : any();
+        break;
+    case 5:
+        mesh.pos_frac_bits = (uint8_t)(rnd() % 36);
+        break;
+    case 6:
+        o->flags = rnd();
+        break;
+    case 7:
+        o->albedo_uq16[rnd() % 3] = (uint32_t)any();
+        break;
+    case 8:
+        sun.direction[rnd() % 3] = any();
+        break;
+    case 9:
+        sun.colour_uq16[rnd() % 3] = (uint32_t)any();
+        break;
+    case 10:
+        sun.shadow_strength_uq16 = (uint32_t)any();
+        break;
+    case 11:
+        sun.bias_normal_q16 = any();
+        sun.bias_slope_q16 = any();
+        break;
+    case 12:
+        sun.bias_constant_q16 = any();
+        sun.auto_bias = GN_AUTO_BIAS_NORMAL;
+        break;
+    case 13:
+        scene.camera.to_world.m_q30[rnd() % 3][rnd() % 3] = any();
+        break;
+    case 14:
+        scene.camera.to_world.t_q16[rnd() % 3] = any();
+        break;
+    case 15:
+        scene.camera.focal_q24 = (uint32_t)any();
+        break;
+    case 16:
+        scene.camera.near_q16 = any();
+        break;
+    case 17:
+        scene.shadow.max_distance_q16 = any();
+        break;
+    case 18:
+        scene.shadow.distance_fade_uq16 = (uint32_t)any();
+        scene.shadow.cascade_fade_uq16 = (uint32_t)any();
+        break;
+    default:
+        scene.ambient_uq16[rnd() % 3] = scene.background_uq16[rnd() % 3] = (uint32_t)any();
+        break;
     }
 }
 

@@ -1,4 +1,5 @@
-/* A whole firmware around what gnomon compile wrote, printing pictures as binary PPM: compiled_picture FRAME. tests/test_compile.sh. */
+/* A whole firmware around what gnomon compile wrote, printing pictures as binary PPM: compiled_picture FRAME.
+ * tests/test_compile.sh. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,8 @@ static unsigned char picture[SCENE_HEIGHT][SCENE_WIDTH][3];
 static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 {
     (void)user;
-    for (int row = 0; row < h; row++) memcpy(picture[y + row][x], (const unsigned char *)pixels + 3 * row * w, 3 * (size_t)w);
+    for (int row = 0; row < h; row++)
+        memcpy(picture[y + row][x], (const unsigned char *)pixels + 3 * row * w, 3 * (size_t)w);
 }
 
 int main(int argc, char **argv)
@@ -27,8 +29,8 @@ int main(int argc, char **argv)
     }
     if (status) {
         const gn_detail *d = gn_get_detail(&renderer);
-        fprintf(stderr, "%s (%u, needed %u, available %u)\n", gn_status_text(status), (unsigned)d->index, (unsigned)d->needed,
-                (unsigned)d->available);
+        fprintf(stderr, "%s (%u, needed %u, available %u)\n", gn_status_text(status), (unsigned)d->index,
+                (unsigned)d->needed, (unsigned)d->available);
     }
     return status != 0;
 }

@@ -1,7 +1,9 @@
-/* Pictures of a scene that uses everything that is built in, a line with a CRC each, and what is not built in is refused.
+/* Pictures of a scene that uses everything that is built in, a line with a CRC each, and what is not built in is
+ * refused.
  *
- * A build for a target runs without arguments. The host build, which has everything and its quality knobs as data, is given the
- * target's flags: it leaves out of the scene what they leave out of the library, and must print the same lines. */
+ * A build for a target runs without arguments. The host build, which has everything and its quality knobs as data, is
+ * given the target's flags: it leaves out of the scene what they leave out of the library, and must print the same
+ * lines. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -9,7 +11,7 @@
 
 enum { WIDTH = 56, HEIGHT = 44, VARIANTS = 6, LIGHTS = 4 };
 
-/* ---- What to use ----------------------------------------------------------------------------------------------------- */
+/* ---- What to use ------------------------------------------------------------------------------------------------- */
 
 #define FIELD(name, MACRO, lo, hi, meaning, cost) int32_t name;
 static struct {
@@ -26,10 +28,10 @@ static void use_what_is_built(void)
 
 static void use_preset(int preset)
 {
-#define PRESET(name, MACRO, lo, hi, meaning, cost)                                                                                 \
-    {                                                                                                                              \
-        const int32_t of_preset[3] = {GN_PRESETS_##MACRO};                                                                         \
-        use.name = of_preset[preset];                                                                                              \
+#define PRESET(name, MACRO, lo, hi, meaning, cost)                                                                     \
+    {                                                                                                                  \
+        const int32_t of_preset[3] = {GN_PRESETS_##MACRO};                                                             \
+        use.name = of_preset[preset];                                                                                  \
     }
     GN_QUALITY_KNOBS(PRESET)
 }
@@ -40,13 +42,13 @@ static void use_flag(const char *flag)
     if (strncmp(flag, "-DGN_", 5) != 0 || !value) return;
     size_t n = (size_t)(value - flag) - 5;
     if (n == 6 && strncmp(flag + 5, "PRESET", n) == 0) use_preset(atoi(value + 1));
-#define NAMED(name, MACRO, lo, hi, meaning, cost)                                                                                  \
+#define NAMED(name, MACRO, lo, hi, meaning, cost)                                                                      \
     if (n == sizeof #MACRO - 1 && strncmp(flag + 5, #MACRO, n) == 0) use.name = atoi(value + 1);
     GN_QUALITY_KNOBS(NAMED)
     GN_FEATURE_KNOBS(NAMED)
 }
 
-/* ---- The scene ------------------------------------------------------------------------------------------------------- */
+/* ---- The scene --------------------------------------------------------------------------------------------------- */
 
 static gn_renderer renderer;
 static demo_scene demo;
@@ -127,7 +129,8 @@ static void use_materials(int variant)
     /* a build without them does not look at these; this one would */
     if (GN_VERTEX_NORMALS && !use.vertex_normals) demo.ball.nrm_q15 = NULL;
     if (GN_VERTEX_COLOURS && !use.vertex_colours) demo.ball.rgb_uq16 = demo.box.rgb_uq16 = NULL;
-    for (int i = 0; GN_SHADOWS && !use.shadows && i < DEMO_OBJECTS; i++) demo.object[i].flags &= ~(uint32_t)GN_OBJECT_CASTS;
+    for (int i = 0; GN_SHADOWS && !use.shadows && i < DEMO_OBJECTS; i++)
+        demo.object[i].flags &= ~(uint32_t)GN_OBJECT_CASTS;
 }
 
 static gn_filter filter_of(int variant)
@@ -149,7 +152,8 @@ static void use_shadow_settings(int variant)
     s->main_light = use.main_light && variant > 1;
     s->caster_culling = 1;
     s->object_lights = (uint32_t)variant % 3;
-    s->n_cascades = s->main_light ? 1U + (uint32_t)variant % 4 : 1U + (uint32_t)variant % 2; /* of two lights: 4 tiles */
+    s->n_cascades =
+        s->main_light ? 1U + (uint32_t)variant % 4 : 1U + (uint32_t)variant % 2; /* of two lights: 4 tiles */
     if (!use.many_cascades) s->n_cascades = 1;
     s->blend = use.blended_cascades ? (gn_blend)(variant % 3) : GN_BLEND_HARD;
     s->distance_mode = variant == 3 ? GN_DISTANCE_RADIUS : GN_DISTANCE_DEPTH;
@@ -166,7 +170,7 @@ static void make_scene(int variant, int moved)
     use_shadow_settings(variant);
 }
 
-/* ---- Pictures -------------------------------------------------------------------------------------------------------- */
+/* ---- Pictures ---------------------------------------------------------------------------------------------------- */
 
 static uint32_t crc;
 
@@ -197,7 +201,8 @@ static int pictures(gn_format format, gn_view view, uint8_t light)
         make_scene(i / 2, i % 2);
         crc = 0;
         status = gn_render(&renderer, &demo.scene, flush, &picture);
-        if (!status) printf("format %d view %d light %d scene %d: %08x\n", (int)format, (int)view, light, i, (unsigned)crc);
+        if (!status)
+            printf("format %d view %d light %d scene %d: %08x\n", (int)format, (int)view, light, i, (unsigned)crc);
         if (!status && gn_get_stats(&renderer)->n_lights_without_room)
             printf("without room: %u\n", gn_get_stats(&renderer)->n_lights_without_room);
     }
@@ -206,7 +211,7 @@ static int pictures(gn_format format, gn_view view, uint8_t light)
     return status != GN_OK;
 }
 
-/* ---- Refusals -------------------------------------------------------------------------------------------------------- */
+/* ---- Refusals ---------------------------------------------------------------------------------------------------- */
 
 static void ask_blend(void)
 {

@@ -1,5 +1,5 @@
-/* One scene, built in C, that uses every feature of the library: a box and a ball above a ground, one light, vertex normals
- * and colours, smooth and flat faces, casters and receivers. `frame` moves camera, box and light. */
+/* One scene, built in C, that uses every feature of the library: a box and a ball above a ground, one light, vertex
+ * normals and colours, smooth and flat faces, casters and receivers. `frame` moves camera, box and light. */
 #ifndef GNOMON_TESTS_DEMO_SCENE_H
 #define GNOMON_TESTS_DEMO_SCENE_H
 
@@ -35,8 +35,12 @@ static inline void demo_box(demo_scene *d)
             d->box_rgb[3 * i + k] = i >> k & 1 ? 65535 : 9000;
         }
     }
-    gn_mesh mesh = {
-        .pos = d->box_pos, .rgb_uq16 = d->box_rgb, .idx = demo_box_idx, .n_vertices = 8, .n_triangles = 12, .pos_frac_bits = 16};
+    gn_mesh mesh = {.pos = d->box_pos,
+                    .rgb_uq16 = d->box_rgb,
+                    .idx = demo_box_idx,
+                    .n_vertices = 8,
+                    .n_triangles = 12,
+                    .pos_frac_bits = 16};
     d->box = mesh;
 }
 
@@ -73,7 +77,8 @@ static inline void demo_ball(demo_scene *d)
 
 static inline void demo_objects(demo_scene *d, uint32_t frame)
 {
-    gn_mesh ground = {.pos = demo_ground_pos, .idx = demo_ground_idx, .n_vertices = 4, .n_triangles = 2, .pos_frac_bits = 16};
+    gn_mesh ground = {
+        .pos = demo_ground_pos, .idx = demo_ground_idx, .n_vertices = 4, .n_triangles = 2, .pos_frac_bits = 16};
     d->ground = ground;
     const gn_mesh *mesh[DEMO_OBJECTS] = {&d->box, &d->ball, &d->ground};
     for (int i = 0; i < DEMO_OBJECTS; i++) {
@@ -93,7 +98,8 @@ static inline void demo_objects(demo_scene *d, uint32_t frame)
 static inline void demo_scene_make(demo_scene *d, uint32_t frame)
 {
     static const int32_t target_q16[3] = {0, GN_Q16(0.8), 0};
-    const int32_t eye_q16[3] = {GN_Q16(2.5) - (int32_t)frame * GN_Q16(0.5), GN_Q16(3.5), GN_Q16(6) - (int32_t)frame * GN_Q16(0.4)};
+    const int32_t eye_q16[3] = {GN_Q16(2.5) - (int32_t)frame * GN_Q16(0.5), GN_Q16(3.5),
+                                GN_Q16(6) - (int32_t)frame * GN_Q16(0.4)};
     memset(d, 0, sizeof *d);
     demo_box(d);
     demo_ball(d);

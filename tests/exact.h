@@ -43,10 +43,12 @@ static inline int64_t exact_area(const int32_t x[3], const int32_t y[3])
     return (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
 }
 
-/* Whether a triangle of any orientation covers the centre of a pixel, by its edge functions and the top-left rule (y down). */
+/* Whether a triangle of any orientation covers the centre of a pixel, by its edge functions and the top-left rule (y
+ * down). */
 static inline int exact_covers(const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t px, int32_t py)
 {
-    int64_t area = exact_area(x, y), one = (int64_t)1 << subpixel_bits, cx = px * one + one / 2, cy = py * one + one / 2;
+    int64_t area = exact_area(x, y), one = (int64_t)1 << subpixel_bits, cx = px * one + one / 2,
+            cy = py * one + one / 2;
     if (area == 0) return 0;
     for (int i = 0; i < 3; i++) {
         int a = area > 0 ? i : 2 - i, b = area > 0 ? (i + 1) % 3 : (4 - i) % 3; /* the inside lies at e > 0 */
@@ -62,10 +64,10 @@ typedef struct {
     char first[300];
 } tally;
 
-#define HOLDS(t, condition, ...)                                                                                                   \
-    do {                                                                                                                           \
-        (t)->n++;                                                                                                                  \
-        if (!(condition) && !(t)->n_bad++) snprintf((t)->first, sizeof(t)->first, __VA_ARGS__);                                    \
+#define HOLDS(t, condition, ...)                                                                                       \
+    do {                                                                                                               \
+        (t)->n++;                                                                                                      \
+        if (!(condition) && !(t)->n_bad++) snprintf((t)->first, sizeof(t)->first, __VA_ARGS__);                        \
     } while (0)
 
 static inline int tally_check(const tally *t, const char *what, const char *file, int line)
@@ -83,13 +85,13 @@ typedef struct {
     char at[200];
 } worst;
 
-#define WORST(w, e, ...)                                                                                                           \
-    do {                                                                                                                           \
-        long double worst_error_ = (e);                                                                                            \
-        if (worst_error_ > (w)->error) {                                                                                           \
-            (w)->error = worst_error_;                                                                                             \
-            snprintf((w)->at, sizeof(w)->at, __VA_ARGS__);                                                                         \
-        }                                                                                                                          \
+#define WORST(w, e, ...)                                                                                               \
+    do {                                                                                                               \
+        long double worst_error_ = (e);                                                                                \
+        if (worst_error_ > (w)->error) {                                                                               \
+            (w)->error = worst_error_;                                                                                 \
+            snprintf((w)->at, sizeof(w)->at, __VA_ARGS__);                                                             \
+        }                                                                                                              \
     } while (0)
 
 #endif

@@ -1,5 +1,5 @@
-/* What test_extremes.c and its like are written in: scenes of row_scenes.h, drawn by both engines or by the library alone, measured, and put down as a
- * line of docs/EXTREMES.md. */
+/* What test_extremes.c and its like are written in: scenes of row_scenes.h, drawn by both engines or by the library
+ * alone, measured, and put down as a line of docs/EXTREMES.md. */
 #ifndef GNOMON_TESTS_EXTREME_CASES_H
 #define GNOMON_TESTS_EXTREME_CASES_H
 
@@ -17,7 +17,8 @@ enum { WIDTH = 64, HEIGHT = 48, N_PIXELS = WIDTH * HEIGHT };
 static bool table; /* print lines of the document instead of nothing */
 
 /* One line: the case, what is expected, what was measured. */
-__attribute__((format(printf, 3, 4))) static void line(const char *what, const char *expected, const char *measured, ...)
+__attribute__((format(printf, 3, 4))) static void line(const char *what, const char *expected, const char *measured,
+                                                       ...)
 {
     va_list list;
     if (!table) return;
@@ -33,7 +34,7 @@ static inline void heading(const char *text)
     if (table) printf("\n**%s**\n\n| case | expected | measured |\n|---|---|---|\n", text);
 }
 
-/* ---- Scenes ---------------------------------------------------------------------------------------------------------- */
+/* ---- Scenes ------------------------------------------------------------------------------------------------------ */
 
 typedef struct {
     fixture f;
@@ -52,7 +53,7 @@ static inline void open_stage(stage *st, const char *scene_name, const char *wor
     CHECK_EQ_INT(apply_words(&st->f, &st->set, words), 0);
 }
 
-/* ---- The library ----------------------------------------------------------------------------------------------------- */
+/* ---- The library ------------------------------------------------------------------------------------------------- */
 
 static gn_renderer renderer;
 
@@ -153,7 +154,7 @@ static inline engine_picture reference(const stage *st)
     return p;
 }
 
-/* ---- Comparing ------------------------------------------------------------------------------------------------------- */
+/* ---- Comparing --------------------------------------------------------------------------------------------------- */
 
 /* The worst of some pictures. */
 typedef struct {
@@ -168,7 +169,8 @@ static inline worst nothing_yet(void)
     return (worst){.identical = 1};
 }
 
-/* Of the pixels where both show the same triangle: in a picture as small as these, one pixel at an edge would decide. */
+/* Of the pixels where both show the same triangle: in a picture as small as these, one pixel at an edge would decide.
+ */
 static inline double psnr_of_surfaces(const engine_picture *a, const engine_picture *b)
 {
     double sum = 0;
@@ -230,13 +232,13 @@ static inline void finish(const worst *w, const char *what, double allowed)
         printf("  %s: %.3f of the floors, %.5f identical, %.5f shadow\n", what, w->share, w->identical, w->mismatch);
     char expected[64];
     snprintf(expected, sizeof expected, allowed == 1 ? WITHIN : "within %g × the floors", allowed);
-    line(what, expected, "%d picture%s: %.2f %% identical, shadows off in %.2f %%; %.2f of the floors", w->n, w->n == 1 ? "" : "s",
-         100 * w->identical, 100 * w->mismatch, w->share);
+    line(what, expected, "%d picture%s: %.2f %% identical, shadows off in %.2f %%; %.2f of the floors", w->n,
+         w->n == 1 ? "" : "s", 100 * w->identical, 100 * w->mismatch, w->share);
 }
 
 /* One scene under several words, each after those for all. */
-static inline void within(const char *what, const char *scene_name, const char *common, const char *const *variants, size_t n,
-                   double allowed)
+static inline void within(const char *what, const char *scene_name, const char *common, const char *const *variants,
+                          size_t n, double allowed)
 {
     worst w = nothing_yet();
     for (size_t i = 0; i < n; i++) {
@@ -252,10 +254,10 @@ static inline void within(const char *what, const char *scene_name, const char *
     finish(&w, what, allowed);
 }
 
-#define WITHIN_ALL(what, scene_name, common, allowed, ...)                                                                         \
-    do {                                                                                                                           \
-        static const char *const variants_[] = {__VA_ARGS__};                                                                      \
-        within(what, scene_name, common, variants_, sizeof variants_ / sizeof *variants_, allowed);                                \
+#define WITHIN_ALL(what, scene_name, common, allowed, ...)                                                             \
+    do {                                                                                                               \
+        static const char *const variants_[] = {__VA_ARGS__};                                                          \
+        within(what, scene_name, common, variants_, sizeof variants_ / sizeof *variants_, allowed);                    \
     } while (0)
 
 static inline bool same_bytes(const engine_picture *a, const engine_picture *b)
@@ -304,7 +306,7 @@ static inline void same_picture(equals *e, const char *scene_name, const char *w
     end(&b.f);
 }
 
-/* ---- What is refused ------------------------------------------------------------------------------------------------- */
+/* ---- What is refused --------------------------------------------------------------------------------------------- */
 
 /* The yard with all lights, spoiled on the way to the library: the status, and words that its text must have. */
 static inline void refused(const char *what, void (*spoil)(fixed_scene *), gn_status status, const char *text)

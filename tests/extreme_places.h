@@ -90,5 +90,4 @@ static inline engine_picture picture_at_edge(const stage *st, int k, int corner,
     return p;
 }
 
-
 #endif

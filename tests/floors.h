@@ -1,4 +1,5 @@
-/* What the project promises of a picture by the library against the same by the reference, and how much of that a picture needs. */
+/* What the project promises of a picture by the library against the same by the reference, and how much of that a
+ * picture needs. */
 #ifndef GNOMON_TESTS_FLOORS_H
 #define GNOMON_TESTS_FLOORS_H
 

@@ -1,4 +1,5 @@
-/* Scenes with lights of every kind, built in C: a ground, boxes, balls and a card with holes, and random lights among them. */
+/* Scenes with lights of every kind, built in C: a ground, boxes, balls and a card with holes, and random lights among
+ * them. */
 #ifndef GNOMON_TESTS_LIGHT_SCENE_H
 #define GNOMON_TESTS_LIGHT_SCENE_H
 
@@ -43,7 +44,8 @@ static inline gn_object *ls_add_object(light_scene *s, const gn_mesh *mesh)
     return o;
 }
 
-static inline void ls_place(gn_object *o, int32_t x_q16, int32_t y_q16, int32_t z_q16, uint16_t yaw, uint16_t pitch, double scale)
+static inline void ls_place(gn_object *o, int32_t x_q16, int32_t y_q16, int32_t z_q16, uint16_t yaw, uint16_t pitch,
+                            double scale)
 {
     gn_affine_rotation(&o->to_world, yaw, pitch, 0);
     gn_affine_scale(&o->to_world, GN_Q16(scale));
@@ -139,7 +141,8 @@ static inline void ls_add_random_objects(light_scene *s, rng *r, uint32_t n)
 {
     for (; n > 0; n--) {
         gn_object *o = ls_add_object(s, n & 1 ? &s->demo.box : &s->demo.ball);
-        ls_place(o, ls_q16(r, -5, 5), ls_q16(r, 0.3, 2), ls_q16(r, -5, 5), (uint16_t)rng_u32(r), (uint16_t)rng_u32(r), 0.4);
+        ls_place(o, ls_q16(r, -5, 5), ls_q16(r, 0.3, 2), ls_q16(r, -5, 5), (uint16_t)rng_u32(r), (uint16_t)rng_u32(r),
+                 0.4);
     }
 }
 

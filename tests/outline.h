@@ -1,6 +1,6 @@
-/* Outlines of triangles, exactly, and how far a place is from them: what a rasteriser may have wrong near an edge. Who moves corners by no
- * more than e along each axis moves every place of the outline by no more than that, so it decides otherwise only of places that are no
- * farther than e from it, the larger of both coordinates counted. */
+/* Outlines of triangles, exactly, and how far a place is from them: what a rasteriser may have wrong near an edge. Who
+ * moves corners by no more than e along each axis moves every place of the outline by no more than that, so it decides
+ * otherwise only of places that are no farther than e from it, the larger of both coordinates counted. */
 #ifndef GNOMON_TESTS_OUTLINE_H
 #define GNOMON_TESTS_OUTLINE_H
 
@@ -13,7 +13,8 @@ typedef struct {
     real p[4][2];
 } outline;
 
-/* The larger of both coordinates' distances from the nearest point of a side: convex along it, so least where two of them meet, at 0, or an end. */
+/* The larger of both coordinates' distances from the nearest point of a side: convex along it, so least where two of
+ * them meet, at 0, or an end. */
 static inline real side_distance(const real a[2], const real b[2], const real q[2])
 {
     const real x = a[0] - q[0], y = a[1] - q[1], dx = b[0] - a[0], dy = b[1] - a[1];

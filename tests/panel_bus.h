@@ -1,5 +1,6 @@
-/* A bus between a panel driver and a model: transfers take time and go on behind the driver's back; any of them can be made slow,
- * late or fail. The bytes are read when a transfer ends, as DMA might: whoever changes them before is caught. */
+/* A bus between a panel driver and a model: transfers take time and go on behind the driver's back; any of them can be
+ * made slow, late or fail. The bytes are read when a transfer ends, as DMA might: whoever changes them before is
+ * caught. */
 #ifndef GNOMON_TESTS_PANEL_BUS_H
 #define GNOMON_TESTS_PANEL_BUS_H
 

@@ -5,15 +5,16 @@
 
 static const model_rules *rules_of(const panel_model *m)
 {
-    static const model_rules *const all[] = {&model_st7789, &model_ili9341, &model_ssd1306, &model_ssd1327, &model_ssd0323};
+    static const model_rules *const all[] = {&model_st7789, &model_ili9341, &model_ssd1306, &model_ssd1327,
+                                             &model_ssd0323};
     return all[m->chip];
 }
 
 void model_reject(panel_model *m, const char *what, unsigned value)
 {
     if (m->n_rejected++ == 0)
-        snprintf(m->rejected, sizeof m->rejected, "command %02X at %llu us: %s (%02X)", m->command, (unsigned long long)m->now_us,
-                 what, value);
+        snprintf(m->rejected, sizeof m->rejected, "command %02X at %llu us: %s (%02X)", m->command,
+                 (unsigned long long)m->now_us, what, value);
 }
 
 static void start_over(panel_model *m)
@@ -35,7 +36,7 @@ void model_init(panel_model *m, model_chip chip, const model_glass *glass)
     start_over(m);
 }
 
-/* ---- In the middle of other work -------------------------------------------------------------------------------------------- */
+/* ---- In the middle of other work --------------------------------------------------------------------------------- */
 
 enum { WARM_TRIES = 40, WARM_STEP_US = 200000 };
 
@@ -79,10 +80,11 @@ void model_warm_up(panel_model *m, rng *random)
     if (m->chip == MODEL_SSD1327) m->locked = (int)rng_below(random, 2);
     if (rng_below(random, 2)) send_random(m, longest_command(m), 0, random);
     model_break(m); /* whoever did all this is gone */
-    if (rules_of(m)->parameters_are_data) m->ready_us = m->now_us + 5000, m->may_sleep_us = m->may_wake_us = m->now_us + 120000;
+    if (rules_of(m)->parameters_are_data)
+        m->ready_us = m->now_us + 5000, m->may_sleep_us = m->may_wake_us = m->now_us + 120000;
 }
 
-/* ---- What arrives ----------------------------------------------------------------------------------------------------------- */
+/* ---- What arrives ------------------------------------------------------------------------------------------------ */
 
 void model_reset_line(panel_model *m, int held)
 {

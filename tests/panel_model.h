@@ -1,6 +1,6 @@
-/* Models of display controllers: they take what arrives on the bus, byte by byte and with its time, keep registers and memory as
- * the data sheets say, and tell what the glass shows. What a data sheet forbids is rejected: counted, and the first case kept in
- * words. */
+/* Models of display controllers: they take what arrives on the bus, byte by byte and with its time, keep registers and
+ * memory as the data sheets say, and tell what the glass shows. What a data sheet forbids is rejected: counted, and the
+ * first case kept in words. */
 #ifndef GNOMON_TESTS_PANEL_MODEL_H
 #define GNOMON_TESTS_PANEL_MODEL_H
 
@@ -52,16 +52,19 @@ typedef struct panel_model {
 void model_init(panel_model *m, model_chip chip, const model_glass *glass); /* powered, memory full of noise */
 void model_reset_line(panel_model *m, int held);
 
-/* In the middle of other work: about half of the commands that it knows were sent, each with random parameters of those that it
- * allows, the last perhaps cut off before its parameters; noise on a glass that is perhaps lit; an SSD1327 perhaps locked. */
+/* In the middle of other work: about half of the commands that it knows were sent, each with random parameters of those
+ * that it allows, the last perhaps cut off before its parameters; noise on a glass that is perhaps lit; an SSD1327
+ * perhaps locked. */
 void model_warm_up(panel_model *m, rng *random);
 void model_byte(panel_model *m, int is_data, uint8_t byte); /* data/command line and byte, at m->now_us */
 void model_break(panel_model *m);                           /* the bus was abandoned */
 
-/* What the glass shows at (x, y) of the upright, unturned glass: RGB565, grey 0..15, or 0..1; MODEL_DARK where nothing is driven. */
+/* What the glass shows at (x, y) of the upright, unturned glass: RGB565, grey 0..15, or 0..1; MODEL_DARK where nothing
+ * is driven. */
 int model_pixel(const panel_model *m, int x, int y);
 
-/* ---- For the chips' own files -------------------------------------------------------------------------------------------------
+/* ---- For the chips' own files
+ * -------------------------------------------------------------------------------------------------
  */
 
 void model_reject(panel_model *m, const char *what, unsigned value);
@@ -69,7 +72,8 @@ void model_open_window(panel_model *m);         /* pointer to the window's begin
 int model_step(panel_model *m, int down_first); /* pointer to the next unit; 0: the window was full already */
 
 typedef struct {
-    int (*n_parameters)(const panel_model *m, uint8_t command); /* -1: no such command, or one that a driver has no business with */
+    int (*n_parameters)(const panel_model *m,
+                        uint8_t command); /* -1: no such command, or one that a driver has no business with */
     void (*reset)(panel_model *m);
     void (*execute)(panel_model *m, uint8_t command, const uint8_t *parameters); /* all parameters are there */
     void (*pixels)(panel_model *m, uint8_t byte);

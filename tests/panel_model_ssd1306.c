@@ -1,8 +1,9 @@
-/* SSD1306: 128x64 bits in 8 pages. Column and page addresses of the window (21h, 22h) belong to the horizontal and vertical modes;
- * remapping of the columns (A0h, A1h) acts on what is written from then on, that of the rows (C0h, C8h) at once. The charge pump
- * runs before the display is switched on, unless the glass has its voltage from outside. Nothing may be written to the memory while
- * it scrolls. A frame has the rows' number times the clocks of a row: both precharge phases and 50; slower than 60 in a second it
- * flickers. The data sheet gives the oscillator's frequency at its reset value, 8, and it rises with the value. */
+/* SSD1306: 128x64 bits in 8 pages. Column and page addresses of the window (21h, 22h) belong to the horizontal and
+ * vertical modes; remapping of the columns (A0h, A1h) acts on what is written from then on, that of the rows (C0h, C8h)
+ * at once. The charge pump runs before the display is switched on, unless the glass has its voltage from outside.
+ * Nothing may be written to the memory while it scrolls. A frame has the rows' number times the clocks of a row: both
+ * precharge phases and 50; slower than 60 in a second it flickers. The data sheet gives the oscillator's frequency at
+ * its reset value, 8, and it rises with the value. */
 #include "panel_model.h"
 
 enum { COLUMNS = 128, PAGES = 8, ROWS = 64 };
@@ -108,7 +109,8 @@ static void switch_to(panel_model *m, int on)
     m->on = on;
     if (!on) return;
     if (frames_hz(m) < LEAST_FRAMES_HZ) model_reject(m, "flickers", m->reg[0xD5][0]);
-    if (!m->glass.external_vcc && m->reg[0x8D][0] != 0x14) model_reject(m, "on without the panel's voltage", m->reg[0x8D][0]);
+    if (!m->glass.external_vcc && m->reg[0x8D][0] != 0x14)
+        model_reject(m, "on without the panel's voltage", m->reg[0x8D][0]);
     if (((m->reg[0xDA][0] & 0x10) == 0) != m->glass.sequential_com)
         model_reject(m, "COM pins are not the glass's", m->reg[0xDA][0]);
     if (m->reg[0xA8][0] + 1 != m->glass.height) model_reject(m, "multiplex ratio is not the glass's", m->reg[0xA8][0]);

@@ -1,8 +1,8 @@
-/* SSD1327 (128x128) and SSD0323 (128x80): two pixels of 4 bits per byte. A column address counts bytes, 0 .. 63. Remapping of
- * columns and nibbles acts on what is written from then on, that of the rows at once. A locked SSD1327 takes nothing but its unlock
- * command; a NOP that it does not take does no harm. Its glasses have no supply for the logic but the controller's own regulator.
- * A row of the SSD0323 is to last for both precharge phases and the pulse of the brightest level, whose width is that of level 1
- * and, for each further level, its parameter and one. */
+/* SSD1327 (128x128) and SSD0323 (128x80): two pixels of 4 bits per byte. A column address counts bytes, 0 .. 63.
+ * Remapping of columns and nibbles acts on what is written from then on, that of the rows at once. A locked SSD1327
+ * takes nothing but its unlock command; a NOP that it does not take does no harm. Its glasses have no supply for the
+ * logic but the controller's own regulator. A row of the SSD0323 is to last for both precharge phases and the pulse of
+ * the brightest level, whose width is that of level 1 and, for each further level, its parameter and one. */
 #include <string.h>
 
 #include "panel_model.h"
@@ -181,7 +181,8 @@ static void switch_on(panel_model *m)
     if (m->reg[0xA2][0] != m->glass.first_com) model_reject(m, "display offset is not the glass's", m->reg[0xA2][0]);
     if (m->reg[0xA8][0] + 1 != m->glass.height) model_reject(m, "multiplex ratio is not the glass's", m->reg[0xA8][0]);
     if (!(m->reg[0xA0][0] & SPLIT)) model_reject(m, "COM pins are not the glass's", m->reg[0xA0][0]);
-    if (m->chip == MODEL_SSD0323 && m->reg[0xB2][0] < row_clocks(m)) model_reject(m, "rows are too short", m->reg[0xB2][0]);
+    if (m->chip == MODEL_SSD0323 && m->reg[0xB2][0] < row_clocks(m))
+        model_reject(m, "rows are too short", m->reg[0xB2][0]);
     m->on = 1;
 }
 
@@ -237,7 +238,8 @@ static void pixels(panel_model *m, uint8_t byte)
     m->memory[row][even + 1] = high_first ? byte & 15 : byte >> 4;
 }
 
-/* Upright: the last row driver at the top; SSD1327 glasses have the last segment at the left, those of the SSD0323 the first. */
+/* Upright: the last row driver at the top; SSD1327 glasses have the last segment at the left, those of the SSD0323 the
+ * first. */
 static int shown(const panel_model *m, int x, int y)
 {
     int n = m->reg[0xA8][0] + 1, com = m->glass.height - 1 - y;

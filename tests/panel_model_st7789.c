@@ -5,8 +5,8 @@
  * - after a reset a pixel has 18 bits, until COLMOD says 16
  * - SWRESET resets all registers but not the memory, and not within 120 ms after SLPOUT
  * - in partial mode the rows outside PTLAR's are dark
- * - ILI9341's B6h: the order of the source drivers (SS), of the gate drivers (GS, SM), the polarity of the glass (REV), 8 (NL + 1)
- *   rows */
+ * - ILI9341's B6h: the order of the source drivers (SS), of the gate drivers (GS, SM), the polarity of the glass (REV),
+ * 8 (NL + 1) rows */
 #include <string.h>
 
 #include "panel_model.h"
@@ -243,7 +243,8 @@ static void pixels(panel_model *m, uint8_t byte)
     else m->memory[y][x] = (uint16_t)(m->half_byte << 8 | byte);
 }
 
-/* The row of the memory that gate driver `gate` shows, or -1: none. With SM the odd gates come first, counted from 1. */
+/* The row of the memory that gate driver `gate` shows, or -1: none. With SM the odd gates come first, counted from 1.
+ */
 static int row_of_gate(const panel_model *m, int gate)
 {
     int order = m->reg[0xB6][1], n = 8 * (m->reg[0xB6][2] + 1);
@@ -257,8 +258,8 @@ static int is_partial_out(const panel_model *m, int row)
     return m->reg[0x12][1] && (row < word(m->reg[0x30]) || row > word(m->reg[0x30] + 2));
 }
 
-/* The glasses of the ILI9341 are normally white, and wired gate by gate from the top, source by source from the last on: without SS
- * in B6h the picture is its mirror image. */
+/* The glasses of the ILI9341 are normally white, and wired gate by gate from the top, source by source from the last
+ * on: without SS in B6h the picture is its mirror image. */
 static int shown(const panel_model *m, int x, int y)
 {
     int column = x + m->glass.ram_x, row = y + m->glass.ram_y, complement = m->inverted != m->glass.inverted;

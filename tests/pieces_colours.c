@@ -21,10 +21,12 @@ void colours_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, i
 {
     (void)frame, (void)rows, (void)y, (void)packed;
     for (int32_t i = 0; i < n; i++)
-        for (int c = 0; c < 3; c++) out_q24[x - first_x + i][c] = at_hand->dark[c].slope_q24.at; /* no shadow: one colour all over */
+        for (int c = 0; c < 3; c++)
+            out_q24[x - first_x + i][c] = at_hand->dark[c].slope_q24.at; /* no shadow: one colour all over */
 }
 
-void colours_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, const gn_ramp *ramp)
+void colours_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
+                  const gn_ramp *ramp)
 {
     (void)frame, (void)rows, (void)y;
     for (int32_t i = 0; i < n; i++)

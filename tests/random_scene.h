@@ -1,5 +1,5 @@
-/* Random scenes: every field valid mostly, at the ends of its range often, spoiled now and then. Pointers are never spoiled: they are
- * either null or lead to arrays of exactly the size that the library may read. */
+/* Random scenes: every field valid mostly, at the ends of its range often, spoiled now and then. Pointers are never
+ * spoiled: they are either null or lead to arrays of exactly the size that the library may read. */
 #ifndef GNOMON_TESTS_RANDOM_SCENE_H
 #define GNOMON_TESTS_RANDOM_SCENE_H
 
@@ -14,7 +14,8 @@ enum { RANDOM_TEXELS_LOG2 = 12, RANDOM_LIMIT_Q16 = 8192 << 16 };
 typedef struct {
     int32_t pos[RANDOM_VERTICES * 3];
     int16_t nrm[RANDOM_VERTICES * 3], uv[RANDOM_VERTICES * 2];
-    uint16_t rgb[RANDOM_VERTICES * 3], mask_uv[RANDOM_VERTICES * 2], idx[RANDOM_TRIANGLES * 3], baked[RANDOM_VERTICES * 3];
+    uint16_t rgb[RANDOM_VERTICES * 3], mask_uv[RANDOM_VERTICES * 2], idx[RANDOM_TRIANGLES * 3],
+        baked[RANDOM_VERTICES * 3];
     uint8_t mask[RANDOM_VERTICES * 4];
     uint8_t *rgba[RANDOM_TEXTURES];
     gn_texture texture[RANDOM_TEXTURES];
@@ -74,7 +75,9 @@ static void random_textures(random_scene *g)
     for (int i = 0; i < RANDOM_TEXTURES; i++) {
         gn_texture *t = &g->texture[i];
         t->width_log2 = (uint8_t)pick(0, one_in(20) ? RANDOM_TEXELS_LOG2 : 4);
-        t->height_log2 = (uint8_t)pick(0, one_in(20) ? RANDOM_TEXELS_LOG2 - t->width_log2 : 12 - t->width_log2 < 4 ? 0 : 4);
+        t->height_log2 = (uint8_t)pick(0, one_in(20)               ? RANDOM_TEXELS_LOG2 - t->width_log2
+                                          : 12 - t->width_log2 < 4 ? 0
+                                                                   : 4);
         t->flags = (uint8_t)rnd();
         size_t n = (size_t)4 << (t->width_log2 + t->height_log2);
         free(g->rgba[i]);
@@ -108,7 +111,8 @@ static void random_arrays(random_scene *g, int32_t size)
 
 static void random_meshes(random_scene *g)
 {
-    int32_t bits = pick(one_in(10) ? 0 : 16, one_in(50) ? 255 : 30), log2_size = bits + pick(-4, 6); /* a few units mostly */
+    int32_t bits = pick(one_in(10) ? 0 : 16, one_in(50) ? 255 : 30),
+            log2_size = bits + pick(-4, 6); /* a few units mostly */
     random_arrays(g, 1 << (one_in(8) ? rnd() % 31 : (uint32_t)(log2_size < 0 ? 0 : log2_size > 30 ? 30 : log2_size)));
     for (int i = 0; i < RANDOM_MESHES; i++) {
         gn_mesh mesh = {.pos = g->pos,
@@ -125,7 +129,8 @@ static void random_meshes(random_scene *g)
     }
 }
 
-/* One after the other: the order of arguments is the compiler's choice, and a seed must mean the same scenes everywhere. */
+/* One after the other: the order of arguments is the compiler's choice, and a seed must mean the same scenes
+ * everywhere. */
 static void random_rotation(gn_affine *out)
 {
     uint16_t yaw = (uint16_t)rnd(), pitch = (uint16_t)rnd(), roll = (uint16_t)rnd();
@@ -137,7 +142,8 @@ static void random_place(int32_t out_q16[3], const gn_affine *camera)
 {
     int64_t ahead_q16 = one_in(3) ? pick(0, 20 << 16) : (1 << 16) + (int64_t)(rnd() % (8 << 16)); /* often in view */
     for (int k = 0; k < 3; k++) {
-        int64_t near_camera = camera->t_q16[k] - ahead_q16 * camera->m_q30[k][2] / (1 << 30) + pick(-(2 << 16), 2 << 16);
+        int64_t near_camera =
+            camera->t_q16[k] - ahead_q16 * camera->m_q30[k][2] / (1 << 30) + pick(-(2 << 16), 2 << 16);
         int anywhere = one_in(30) || near_camera > RANDOM_LIMIT_Q16 || near_camera < -RANDOM_LIMIT_Q16;
         out_q16[k] = anywhere ? pick(-RANDOM_LIMIT_Q16, RANDOM_LIMIT_Q16) : (int32_t)near_camera;
     }
@@ -186,7 +192,9 @@ static void vertex_place(const random_scene *g, int32_t out_q16[3])
         double sum = 0;
         for (int c = 0; c < 3; c++) sum += (double)o->to_world.m_q30[r][c] * (double)p[c];
         sum = sum * scale * (double)(1 << (o->to_world.exp & 15)) + (double)o->to_world.t_q16[r];
-        out_q16[r] = sum > RANDOM_LIMIT_Q16 ? RANDOM_LIMIT_Q16 : sum < -RANDOM_LIMIT_Q16 ? -RANDOM_LIMIT_Q16 : (int32_t)sum;
+        out_q16[r] = sum > RANDOM_LIMIT_Q16    ? RANDOM_LIMIT_Q16
+                     : sum < -RANDOM_LIMIT_Q16 ? -RANDOM_LIMIT_Q16
+                                               : (int32_t)sum;
     }
 }
 
@@ -266,7 +274,8 @@ static void random_shadows(gn_shadow_settings *s, int32_t near_q16)
     s->kernel = (gn_kernel)(rnd() % 2);
     s->penumbra_uq16 = (uint32_t)pick(0, 64 << 16);
     s->disk_samples = (uint32_t)pick(1, one_in(4) ? 64 : 8);
-    if (s->filter != GN_FILTER_DISK && s->other_filter != GN_FILTER_DISK && one_in(2)) s->disk_samples = one_in(2) ? 0 : rnd();
+    if (s->filter != GN_FILTER_DISK && s->other_filter != GN_FILTER_DISK && one_in(2))
+        s->disk_samples = one_in(2) ? 0 : rnd();
     s->mixing = (gn_mixing)(rnd() % 3);
     s->tile_sizes = (gn_tile_sizes)(rnd() % 2);
     s->main_light = rnd() % 2;

@@ -107,7 +107,8 @@ static inline double *copy(const double *values, size_t n)
 }
 
 /* A mesh and a white object that casts and receives. */
-static inline scene_mesh *add_mesh(fixture *f, size_t n_vertices, const double *pos, size_t n_triangles, const uint32_t *idx)
+static inline scene_mesh *add_mesh(fixture *f, size_t n_vertices, const double *pos, size_t n_triangles,
+                                   const uint32_t *idx)
 {
     scene_mesh *mesh = &f->meshes[f->s.n_meshes];
     *mesh = (scene_mesh){.name = no_name, .n_vertices = n_vertices, .n_triangles = n_triangles};

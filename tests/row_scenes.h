@@ -1,5 +1,5 @@
-/* Scenes for test_rows.c, small enough to see what a row does in them, and a language of one-word tweaks for what no setting of the tool
- * reaches: ".light=spot .camera=0,2,7". */
+/* Scenes for test_rows.c, small enough to see what a row does in them, and a language of one-word tweaks for what no
+ * setting of the tool reaches: ".light=spot .camera=0,2,7". */
 #ifndef GNOMON_TESTS_ROW_SCENES_H
 #define GNOMON_TESTS_ROW_SCENES_H
 
@@ -70,7 +70,8 @@ static inline void set_albedo(fixture *f, double r, double g, double b)
     albedo[2] = b;
 }
 
-/* Shears the last object: an edge that ran along a column of texels would be covered or not as a whole, by the last bit. */
+/* Shears the last object: an edge that ran along a column of texels would be covered or not as a whole, by the last
+ * bit. */
 static inline void lean(fixture *f)
 {
     double(*m)[4] = f->objects[f->s.n_objects - 1].to_world.m;
@@ -80,7 +81,7 @@ static inline void lean(fixture *f)
     m[1][0] = 0.03;
 }
 
-/* ---- Scenes ---------------------------------------------------------------------------------------------------------- */
+/* ---- Scenes ------------------------------------------------------------------------------------------------------ */
 
 static inline void finish_light(scene_light *light, double colour, double range)
 {
@@ -203,7 +204,8 @@ static inline void lane(fixture *f)
     add_quad(f, ground);
     set_albedo(f, 0.7, 0.7, 0.65);
     for (int i = 0; i < 12; i++) {
-        const double x = i % 2 ? 3 : -3, z = -1.0 - 5 * (i / 2), low[3] = {x - 0.4, 0, z - 0.4}, high[3] = {x + 0.4, 3, z + 0.4};
+        const double x = i % 2 ? 3 : -3, z = -1.0 - 5 * (i / 2), low[3] = {x - 0.4, 0, z - 0.4},
+                     high[3] = {x + 0.4, 3, z + 0.4};
         add_box(f, low, high);
         set_albedo(f, 0.8, 0.6, 0.5);
     }
@@ -219,7 +221,7 @@ typedef struct {
 
 static const row_scene row_scenes[] = {{"yard", yard}, {"room", room}, {"lane", lane}};
 
-/* ---- Tweaks ---------------------------------------------------------------------------------------------------------- */
+/* ---- Tweaks ------------------------------------------------------------------------------------------------------ */
 
 /* n numbers, separated by commas. */
 static inline void numbers(double *out, int n, const char *value)
@@ -242,7 +244,8 @@ static inline void two_suns(fixture *f)
 static inline void dozen(fixture *f)
 {
     f->s.n_lights = 0;
-    for (int i = 0; i < 12; i++) add_lamp(f, -4 + 1.6 * (i % 6), 1.6 + 0.3 * (i % 5), i < 6 ? 1.5 : -4, 1.2 + 0.2 * (i % 4), 6);
+    for (int i = 0; i < 12; i++)
+        add_lamp(f, -4 + 1.6 * (i % 6), 1.6 + 0.3 * (i % 5), i < 6 ? 1.5 : -4, 1.2 + 0.2 * (i % 4), 6);
 }
 
 /* One light more than the other atlas has tiles. */
@@ -330,7 +333,8 @@ static inline void add_colours(fixture *f)
 static inline bool add_pattern(fixture *f, const char *value)
 {
     if (strcmp(value, "pickets") == 0) f->objects[SUBJECT].texture_idx = add_texture(f, picket_rgba, 32, false);
-    else if (strcmp(value, "soft_pickets") == 0) f->objects[SUBJECT].texture_idx = add_texture(f, picket_rgba, 32, true);
+    else if (strcmp(value, "soft_pickets") == 0)
+        f->objects[SUBJECT].texture_idx = add_texture(f, picket_rgba, 32, true);
     else {
         const size_t i = add_texture(f, checker_rgba, 16, strcmp(value, "bilinear") == 0);
         f->objects[GROUND].texture_idx = f->objects[SUBJECT].texture_idx = i;
@@ -373,7 +377,8 @@ static inline bool tweak_objects(fixture *f, const char *key, const char *value)
     else if (strcmp(key, "baked") == 0) add_baked(f);
     else if (strcmp(key, "colours") == 0) add_colours(f);
     else if (strcmp(key, "texture") == 0) add_pattern(f, value);
-    else if (strcmp(key, "wrap") == 0) f->textures[0].clamp_u = value[0] == 'c', f->textures[0].clamp_v = value[1] == 'c';
+    else if (strcmp(key, "wrap") == 0)
+        f->textures[0].clamp_u = value[0] == 'c', f->textures[0].clamp_v = value[1] == 'c';
     else if (strcmp(key, "specular") == 0) {
         for (size_t o = 0; o < f->s.n_objects; o++) {
             for (int k = 0; k < 3; k++) f->objects[o].specular[k] = 0.6;
@@ -418,8 +423,8 @@ static inline int apply_words(fixture *f, settings *set, const char *words)
             continue;
         }
         *equals = 0;
-        const int failed =
-            word[0] == '.' ? !tweak(f, word + 1, equals + 1) : settings_apply(set, &f->s, word, equals + 1, error, sizeof error);
+        const int failed = word[0] == '.' ? !tweak(f, word + 1, equals + 1)
+                                          : settings_apply(set, &f->s, word, equals + 1, error, sizeof error);
         if (failed) {
             printf("  %s=%s: %s\n", word, equals + 1, error);
             CHECK_EQ_INT(0 /* a setting that applies */, 1);

@@ -1,8 +1,10 @@
 /* RAM by part: objects whose sizes nm reads. */
 #include "gnomon.h"
 
-#define PART(name, n) extern char ram_##name[n]; char ram_##name[n]
-#define OF(member)    sizeof(((gn_renderer *)0)->member)
+#define PART(name, n)                                                                                                  \
+    extern char ram_##name[n];                                                                                         \
+    char ram_##name[n]
+#define OF(member) sizeof(((gn_renderer *)0)->member)
 
 PART(total, sizeof(gn_renderer));
 PART(triangles, OF(frame.tri));

@@ -1,5 +1,5 @@
-/* What the tests of stages share: how errors and bounds are recorded, random scenes, exact planes. Who includes it has defined STAGE_COUNT and
- * stage_name[]. */
+/* What the tests of stages share: how errors and bounds are recorded, random scenes, exact planes. Who includes it has
+ * defined STAGE_COUNT and stage_name[]. */
 #ifndef GNOMON_TESTS_STAGES_H
 #define GNOMON_TESTS_STAGES_H
 
@@ -16,6 +16,14 @@
 #define N_SCENES 300
 #define WIDTH    160
 #define HEIGHT   120
+
+/* The presets' knobs, as the library has them. */
+static const char *const preset_name[] = {"tiny", "balanced", "accurate"};
+static inline gn_knobs preset_knobs(int preset)
+{
+#define PRESET_KNOB(name, MACRO, lo, hi, meaning, cost) (int32_t[]){GN_PRESETS_##MACRO}[preset],
+    return (gn_knobs){GN_QUALITY_KNOBS(PRESET_KNOB)};
+}
 
 static struct {
     double error, share;
@@ -39,14 +47,18 @@ static inline double uniform(double lo, double hi)
     return lo + (hi - lo) * (state >> 8) / 16777216.0;
 }
 
-/* ---- A random scene: a few triangles around the origin, a rolled camera, one light ------------------------------------ */
+/* ---- A random scene: a few triangles around the origin, a rolled camera, one light ------------------------------- */
 
 #define N_TRIANGLES 12
 static int32_t pos[9 * N_TRIANGLES];
 static int16_t nrm[9 * N_TRIANGLES];
 static uint16_t idx[3 * N_TRIANGLES];
-static gn_mesh mesh = {
-    .pos = pos, .nrm_q15 = nrm, .idx = idx, .n_vertices = 3 * N_TRIANGLES, .n_triangles = N_TRIANGLES, .pos_frac_bits = 24};
+static gn_mesh mesh = {.pos = pos,
+                       .nrm_q15 = nrm,
+                       .idx = idx,
+                       .n_vertices = 3 * N_TRIANGLES,
+                       .n_triangles = N_TRIANGLES,
+                       .pos_frac_bits = 24};
 static gn_object object;
 static gn_light light;
 static gn_scene fixed;
@@ -93,7 +105,8 @@ static inline void random_scene(void)
     random_rotation(&fixed.camera.to_world);
     double away = radius * uniform(4, 20);
     for (int k = 0; k < 3; k++) /* behind the object as the camera sees it */
-        fixed.camera.to_world.t_q16[k] = object.to_world.t_q16[k] + (int32_t)(away * fixed.camera.to_world.m_q30[k][2] / 16384.0);
+        fixed.camera.to_world.t_q16[k] =
+            object.to_world.t_q16[k] + (int32_t)(away * fixed.camera.to_world.m_q30[k][2] / 16384.0);
     fixed.camera.focal_q24 = (uint32_t)(uniform(0.8, 4) * 16777216);
     fixed.camera.near_q16 = (int32_t)(away * 0.05 * 65536);
     fixed.camera.far_q16 = INT32_MAX;
@@ -109,7 +122,7 @@ static inline void random_scene(void)
     fixed.n_objects = fixed.n_lights = 1;
 }
 
-/* ---- The stages ------------------------------------------------------------------------------------------------------ */
+/* ---- The stages -------------------------------------------------------------------------------------------------- */
 
 static inline double dot(const double *a, const double *b)
 {
@@ -196,7 +209,8 @@ static inline void cross_at(crossing *c, const plane *p, int x, int y)
 /* NUMERICS 4.3: how far barycentrics may be off. */
 static inline double bary_bound(const gn_frame *frame, const crossing *c)
 {
-    return ldexp(c->kappa_b + c->kappa, -29) + (frame->knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -29)) + ldexp(1, -29);
+    return ldexp(c->kappa_b + c->kappa, -29) + (frame->knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -29)) +
+           ldexp(1, -29);
 }
 
 /* The interpolated normal, not of unit length; returns the largest change of a component from corner to corner. */
@@ -223,15 +237,18 @@ static inline void ignore(void *user, int x, int y, int w, int h, const void *pi
     (void)user, (void)x, (void)y, (void)w, (void)h, (void)pixels;
 }
 
-/* Rows of the document's table, and the checks: no error above its bound, and no bound that is more than 8 times what is ever seen. */
+/* Rows of the document's table, and the checks: no error above its bound, and no bound that is more than 8 times what
+ * is ever seen. */
 static inline void report_stages(int table, const char *what)
 {
-    if (table) printf("\n**%s**\n\n| stage | cases | largest error | largest share of its bound |\n|---|---|---|---|\n", what);
+    if (table)
+        printf("\n**%s**\n\n| stage | cases | largest error | largest share of its bound |\n|---|---|---|---|\n", what);
     for (int s = 0; s < STAGE_COUNT; s++) {
         if (table) printf("| %s | %ld | %.3g | %.2f |\n", stage_name[s], seen[s].n, seen[s].error, seen[s].share);
         CHECK(seen[s].n > 100);
         CHECK_EQ_INT(violations[s], 0);
-        if (!CHECK(seen[s].share > 1 / 8.0)) printf("%s: %.3f of its bound at the most\n", stage_name[s], seen[s].share);
+        if (!CHECK(seen[s].share > 1 / 8.0))
+            printf("%s: %.3f of its bound at the most\n", stage_name[s], seen[s].share);
     }
     memset(seen, 0, sizeof seen);
     memset(violations, 0, sizeof violations);

@@ -1,5 +1,5 @@
-/* The library against the reference on the own scenes: their own cameras, and views from around with roll. "--table" prints
- * docs/ACCURACY.md's table. Floors are the project's promises, not what happened to come out. */
+/* The library against the reference on the own scenes: their own cameras, and views from around with roll. "--table"
+ * prints docs/ACCURACY.md's table. Floors are the project's promises, not what happened to come out. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,8 +13,9 @@ typedef struct {
     double identical, within1, psnr_db, shadow_mismatch; /* of every view */
     double median_identical, median_psnr_db, median_atten_rms;
 } floors;
-static const floors floor_of[SETTINGS_PRESETS] = {
-    {0, 0, 0, 1, 0, 0, 1}, {0.985, 0.998, 41, 0.004, 0.995, 48, 1 / 256.0}, {0.997, 0.9995, 46, 0.0015, 0.999, 54, 1 / 512.0}};
+static const floors floor_of[SETTINGS_PRESETS] = {{0, 0, 0, 1, 0, 0, 1},
+                                                  {0.985, 0.998, 41, 0.004, 0.995, 48, 1 / 256.0},
+                                                  {0.997, 0.9995, 46, 0.0015, 0.999, 54, 1 / 512.0}};
 
 /* Of scenes whose lights are replaced: they were not made for them. */
 static const floors any_light[SETTINGS_PRESETS] = {
@@ -78,8 +79,8 @@ static void check_floors(const metrics *m, const floors *f, int preset, const ch
     int ok = m->identical >= f->identical && m->within1 >= f->within1 && m->psnr_db >= f->psnr_db &&
              m->shadow_mismatch <= f->shadow_mismatch;
     if (!CHECK(ok))
-        printf("  %s, %s: identical %g within1 %g psnr %g shadow_mismatch %g\n", what, settings_preset_name[preset], m->identical,
-               m->within1, m->psnr_db, m->shadow_mismatch);
+        printf("  %s, %s: identical %g within1 %g psnr %g shadow_mismatch %g\n", what, settings_preset_name[preset],
+               m->identical, m->within1, m->psnr_db, m->shadow_mismatch);
 }
 
 /* The scene with its lights replaced by one of each kind in turn: what --set lights=KIND does. */
@@ -104,8 +105,8 @@ static void run_kinds(const char *path, int preset)
     }
 }
 
-/* Chunks are bounded in texels: with a map eight times as fine, steps of eight pixels still cost less than 1 pixel in 250 (1 in a
- * thousand is seen, 5 without that bound). */
+/* Chunks are bounded in texels: with a map eight times as fine, steps of eight pixels still cost less than 1 pixel in
+ * 250 (1 in a thousand is seen, 5 without that bound). */
 static void run_fine_map(void)
 {
     const char *const sets[2] = {"other_atlas_size=1024", "persp_step=1"};
@@ -135,8 +136,8 @@ static void check_medians(int preset, const char *what, double identical, double
 {
     const floors *f = &floor_of[preset];
     if (!CHECK(identical >= f->median_identical && psnr_db >= f->median_psnr_db && atten_rms <= f->median_atten_rms))
-        printf("  %s, %s: medians: identical %g psnr %g atten_rms %g\n", what, settings_preset_name[preset], identical, psnr_db,
-               atten_rms);
+        printf("  %s, %s: medians: identical %g psnr %g atten_rms %g\n", what, settings_preset_name[preset], identical,
+               psnr_db, atten_rms);
 }
 
 static void run(const char *path, int preset, int table)
@@ -145,7 +146,8 @@ static void run(const char *path, int preset, int table)
     scene s;
     settings set;
     metrics m;
-    double identical[N_VIEWS] = {0}, psnr[N_VIEWS] = {0}, rms[N_VIEWS] = {0}, worst_identical = 1, worst_psnr = (double)INFINITY, within1 = 1, mismatch = 0;
+    double identical[N_VIEWS] = {0}, psnr[N_VIEWS] = {0}, rms[N_VIEWS] = {0}, worst_identical = 1,
+           worst_psnr = (double)INFINITY, within1 = 1, mismatch = 0;
     scene_options options = {.frame = 48, .width = 320, .height = 240};
     if (!CHECK_EQ_INT(scene_load(&s, path, &options, error, sizeof error), 0)) {
         printf("  %s\n", error);
@@ -169,8 +171,9 @@ static void run(const char *path, int preset, int table)
         within1 = fmin(within1, m.within1);
         mismatch = fmax(mismatch, m.shadow_mismatch);
         if (n == 0 && table)
-            printf("| %s | %s | %.5f | %.2f | %ld, %ld, %ld, %ld |", strrchr(path, '/') ? strrchr(path, '/') + 1 : path, settings_preset_name[preset], m.identical,
-                   m.psnr_db, m.by_coverage, m.by_shadow, m.by_light, m.by_rounding);
+            printf("| %s | %s | %.5f | %.2f | %ld, %ld, %ld, %ld |", strrchr(path, '/') ? strrchr(path, '/') + 1 : path,
+                   settings_preset_name[preset], m.identical, m.psnr_db, m.by_coverage, m.by_shadow, m.by_light,
+                   m.by_rounding);
     }
     qsort(identical, N_VIEWS, sizeof *identical, ascending);
     qsort(psnr, N_VIEWS, sizeof *psnr, ascending);
@@ -193,7 +196,8 @@ static void run_models(const char *models, int table)
 
 static void print_head(void)
 {
-    printf("\n| scene | preset | identical | PSNR dB | differing: coverage, shadow, light, rounding | identical, median of %d views | "
+    printf("\n| scene | preset | identical | PSNR dB | differing: coverage, shadow, light, rounding | identical, "
+           "median of %d views | "
            "worst view | within1, worst "
            "| PSNR, median | worst | attenuation RMS, median | shadow mismatch, worst "
            "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
@@ -203,9 +207,11 @@ static void print_head(void)
 /* "--models": only those that MODELS names */
 int main(int argc, char **argv)
 {
-    static const char *const scenes[] = {"host/scenes/sundial.gltf", "host/scenes/avenue.gltf", "host/scenes/desk.gltf",
-                                         "host/scenes/room.gltf",    "host/scenes/fence.gltf",  "host/scenes/mixed.gltf"};
-    int table = argc > 1 && strcmp(argv[argc - 1], "--table") == 0, only_models = argc > 1 && strcmp(argv[1], "--models") == 0;
+    static const char *const scenes[] = {"host/scenes/sundial.gltf", "host/scenes/avenue.gltf",
+                                         "host/scenes/desk.gltf",    "host/scenes/room.gltf",
+                                         "host/scenes/fence.gltf",   "host/scenes/mixed.gltf"};
+    int table = argc > 1 && strcmp(argv[argc - 1], "--table") == 0,
+        only_models = argc > 1 && strcmp(argv[1], "--models") == 0;
     if (table) print_head();
     if (!table || only_models) run_models(getenv("MODELS"), table);
     if (only_models) return table ? 0 : check_report();

@@ -1,4 +1,5 @@
-/* Transforms for callers: rotations, products, scales and the camera, against long double; what products lose over time. */
+/* Transforms for callers: rotations, products, scales and the camera, against long double; what products lose over
+ * time. */
 #include <stdint.h>
 
 #include "exact.h"
@@ -73,8 +74,8 @@ static void test_rotation(void)
             for (int c = 0; c < 3; c++) {
                 long double e = fabsl((long double)a.m_q30[r][c] - ONE * m[r][c]);
                 WORST(&w, e, "%u %u %u [%d][%d]", (unsigned)yaw, (unsigned)pitch, (unsigned)roll, r, c);
-                HOLDS(&error, e <= ROTATION_LSB && a.exp == 0 && a.t_q16[r] == 0, "%u %u %u [%d][%d] errs by %.3Lf", (unsigned)yaw,
-                      (unsigned)pitch, (unsigned)roll, r, c, e);
+                HOLDS(&error, e <= ROTATION_LSB && a.exp == 0 && a.t_q16[r] == 0, "%u %u %u [%d][%d] errs by %.3Lf",
+                      (unsigned)yaw, (unsigned)pitch, (unsigned)roll, r, c, e);
             }
         long double g = gram_error(&a);
         WORST(&worst_gram, g, "%u %u %u", (unsigned)yaw, (unsigned)pitch, (unsigned)roll);
@@ -82,11 +83,11 @@ static void test_rotation(void)
     }
     CHECK_TALLY(error, "entries of a rotation");
     CHECK_TALLY(gram, "orthonormal within 2^-26");
-    printf("gn_affine_rotation: %.3Lf LSB at %s; rows off orthonormal by %.3Lf LSB at %s\n", w.error, w.at, worst_gram.error,
-           worst_gram.at);
+    printf("gn_affine_rotation: %.3Lf LSB at %s; rows off orthonormal by %.3Lf LSB at %s\n", w.error, w.at,
+           worst_gram.error, worst_gram.at);
 }
 
-/* ---- Products and scales ------------------------------------------------------------------------------------------ */
+/* ---- Products and scales ----------------------------------------------------------------------------------------- */
 
 static gn_affine random_affine(int32_t max_exp, uint32_t t_bits)
 {
@@ -114,8 +115,8 @@ static int32_t smallest_exp(i128 m[3][3], int bits, int slack)
     return 14;
 }
 
-/* The matrix is m / 2^bits under the smallest exponent. It is rounded twice (a product to Q58 first): entries may differ from
- * the exact rounding by one, and so may the exponent where an entry lies half an LSB above 1.0. */
+/* The matrix is m / 2^bits under the smallest exponent. It is rounded twice (a product to Q58 first): entries may
+ * differ from the exact rounding by one, and so may the exponent where an entry lies half an LSB above 1.0. */
 static int matrix_ok(const gn_affine *a, i128 m[3][3], int bits)
 {
     int ok = a->exp >= smallest_exp(m, bits, 1) && a->exp <= smallest_exp(m, bits, -1);
@@ -152,7 +153,8 @@ static void test_mul(void)
         HOLDS(&matrix, matrix_ok(&out, m, 30), "case %u: exponent %d", (unsigned)i, (int)out.exp);
         for (int r = 0; r < 3; r++) {
             i128 exact = i128_clamp(i128_round_shr(t[r], 30), INT32_MIN, INT32_MAX);
-            HOLDS(&translation, i128_abs(out.t_q16[r] - exact) <= 1, "case %u: t[%d] = %d", (unsigned)i, r, (int)out.t_q16[r]);
+            HOLDS(&translation, i128_abs(out.t_q16[r] - exact) <= 1, "case %u: t[%d] = %d", (unsigned)i, r,
+                  (int)out.t_q16[r]);
         }
         same = a;
         gn_affine_mul(&same, &same, &b);
@@ -174,7 +176,8 @@ static void test_scale(void)
     tally t = {0};
     for (uint32_t i = 0; i < 100000; i++) {
         gn_affine a = random_affine(14, 30), out = a;
-        int32_t scale = i & 1 ? (int32_t)(rng_wide_u64(&random_state, 29)) : rng_range(&random_state, 1, 8192 * 65536 - 1);
+        int32_t scale =
+            i & 1 ? (int32_t)(rng_wide_u64(&random_state, 29)) : rng_range(&random_state, 1, 8192 * 65536 - 1);
         i128 m[3][3];
         for (int k = 0; k < 9; k++) m[k / 3][k % 3] = (i128)a.m_q30[k / 3][k % 3] * scale * ((i128)1 << a.exp);
         gn_affine_scale(&out, scale);
@@ -198,7 +201,8 @@ static void test_composition(void)
     tally t = {0};
     for (uint32_t i = 0; i < 20000; i++) {
         gn_affine a = random_rotation(), b = random_rotation(), ab;
-        for (int r = 0; r < 3; r++) a.t_q16[r] = rng_wide_i32(&random_state, 26), b.t_q16[r] = rng_wide_i32(&random_state, 26);
+        for (int r = 0; r < 3; r++)
+            a.t_q16[r] = rng_wide_i32(&random_state, 26), b.t_q16[r] = rng_wide_i32(&random_state, 26);
         gn_affine_scale(&b, rng_range(&random_state, 1 << 14, 1 << 18));
         gn_affine_mul(&ab, &a, &b);
         long double p[3], q[3], lsb = ldexpl(1.0L, ab.exp - 30);
@@ -208,15 +212,16 @@ static void test_composition(void)
         for (int r = 0; r < 3; r++) {
             long double once =
                 entry(&ab, r, 0) * p[0] + entry(&ab, r, 1) * p[1] + entry(&ab, r, 2) * p[2] + (long double)ab.t_q16[r];
-            long double twice = entry(&a, r, 0) * q[0] + entry(&a, r, 1) * q[1] + entry(&a, r, 2) * q[2] + (long double)a.t_q16[r];
-            HOLDS(&t, fabsl(once - twice) <= lsb * (fabsl(p[0]) + fabsl(p[1]) + fabsl(p[2])) + 1.0L, "case %u: %Lf, not %Lf",
-                  (unsigned)i, once, twice);
+            long double twice =
+                entry(&a, r, 0) * q[0] + entry(&a, r, 1) * q[1] + entry(&a, r, 2) * q[2] + (long double)a.t_q16[r];
+            HOLDS(&t, fabsl(once - twice) <= lsb * (fabsl(p[0]) + fabsl(p[1]) + fabsl(p[2])) + 1.0L,
+                  "case %u: %Lf, not %Lf", (unsigned)i, once, twice);
         }
     }
     CHECK_TALLY(t, "composition");
 }
 
-/* ---- Camera ------------------------------------------------------------------------------------------------------- */
+/* ---- Camera ------------------------------------------------------------------------------------------------------ */
 
 static void random_eye_target(int32_t eye[3], int32_t target[3], uint32_t i)
 {
@@ -270,10 +275,10 @@ static void test_look_at(void)
            worst_gram.error, worst_gram.at);
 }
 
-/* ---- Drift -------------------------------------------------------------------------------------------------------- */
+/* ---- Drift ------------------------------------------------------------------------------------------------------- */
 
-/* Rotating by products loses orthonormality: at worst the step's own error once per product, with steps that differ much less.
- * gn_scene accepts 2^-20 (1024 LSB) in a camera. */
+/* Rotating by products loses orthonormality: at worst the step's own error once per product, with steps that differ
+ * much less. gn_scene accepts 2^-20 (1024 LSB) in a camera. */
 static void test_drift(void)
 {
     worst worst_same = {0};
@@ -290,7 +295,8 @@ static void test_drift(void)
         WORST(&worst_same, gram_error(&a), "step %u %u 17, camera refused after %u", (unsigned)yaw, (unsigned)pitch,
               (unsigned)refused);
     }
-    printf("10^4 products with the same rotation: rows off orthonormal by %.1Lf LSB (%s)\n", worst_same.error, worst_same.at);
+    printf("10^4 products with the same rotation: rows off orthonormal by %.1Lf LSB (%s)\n", worst_same.error,
+           worst_same.at);
     CHECK(worst_same.error <= 10000 * 16.0L);
     gn_affine a;
     uint32_t refused = 0;

@@ -1,4 +1,5 @@
-/* Texture coordinates along the rows of triangles that alpha cuts (gn_alpha.h), against double precision: found one by one, and in steps. */
+/* Texture coordinates along the rows of triangles that alpha cuts (gn_alpha.h), against double precision: found one by
+ * one, and in steps. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -21,6 +22,9 @@ typedef struct {
     int uv_frac_bits;
     int32_t v[3][3];
     double focal2; /* in half pixels */
+    gn_object object;
+    gn_mesh mesh;
+    gn_alpha_cut cut;
 } triangle;
 
 static double exponential(double lo, double hi)
@@ -30,7 +34,9 @@ static double exponential(double lo, double hi)
 
 static void random_triangle(triangle *t)
 {
-    t->texture = (gn_texture){NULL, (uint8_t)rng_below(&random_state, 11), (uint8_t)rng_below(&random_state, 11), (uint8_t)(rng_u32(&random_state) & 7U)};
+    memset(t, 0, sizeof *t);
+    t->texture = (gn_texture){NULL, (uint8_t)rng_below(&random_state, 11), (uint8_t)rng_below(&random_state, 11),
+                              (uint8_t)(rng_u32(&random_state) & 7U)};
     t->uv_frac_bits = rng_range(&random_state, 8, 15);
     for (int k = 0; k < 6; k++) t->uv[k] = (int16_t)rng_range(&random_state, -32768, 32767);
     t->focal2 = rng_range(&random_state, 200, 1200);
@@ -41,6 +47,10 @@ static void random_triangle(triangle *t)
         t->v[i][1] = (int32_t)(depth * rng_range(&random_state, -HEIGHT, HEIGHT) / t->focal2);
         t->v[i][2] = (int32_t)depth;
     }
+    t->mesh = (gn_mesh){.uv = t->uv, .n_vertices = 3, .uv_frac_bits = (uint8_t)t->uv_frac_bits};
+    t->object = (gn_object){.texture = &t->texture, .mesh = &t->mesh};
+    gn_alpha_begin(&t->cut, &t->object, GN_ALPHA_CLIP, (const uint16_t[]){0, 1, 2});
+    gn_alpha_plane(&t->cut, &frame, t->v, (uint32_t)t->focal2 << 16, WIDTH, 2);
 }
 
 static double det3(const double a[3], const double b[3], const double c[3])
@@ -71,7 +81,8 @@ static double coordinate(const triangle *t, const double b[3], int k)
     return ldexp(b[0] * t->uv[k] + b[1] * t->uv[2 + k] + b[2] * t->uv[4 + k], -t->uv_frac_bits);
 }
 
-/* What the coordinates may be off by: b, to 2^-28 and as ill as they are conditioned; each side of 2^-8 texel; a unit of each step. */
+/* What the coordinates may be off by: b, to 2^-28 and as ill as they are conditioned; each side of 2^-8 texel; a unit
+ * of each step. */
 static double bound(const triangle *t, double ill, int k, int step)
 {
     double spread = ldexp(abs(t->uv[2 + k] - t->uv[k]) + abs(t->uv[4 + k] - t->uv[k]), -t->uv_frac_bits);
@@ -97,24 +108,25 @@ static int inside(const triangle *t, int32_t y, int32_t *x0)
 
 typedef struct {
     tally close;
-    double most;  /* error / bound */
+    double most; /* error / bound */
     unsigned long n, n_held;
 } outcome;
 
-static void try_row(outcome *out, const triangle *t, gn_alpha_cut *cut, int32_t y, int32_t x0, int n, int step)
+static void try_row(outcome *out, triangle *t, int32_t y, int32_t x0, int n, int step)
 {
-    gn_alpha_row(cut, y, HEIGHT - 1 - 2 * y, x0, x0 + n);
+    gn_alpha_row(&t->cut, y, HEIGHT - 1 - 2 * y, x0, x0 + n);
     for (int32_t x = x0; x < x0 + n; x += 1 + (int32_t)rng_below(&random_state, 2)) { /* as some are hidden */
         int32_t uv_q20[2];
         double b[3], ill = barycentrics(t, x, y, b);
-        gn_alpha_coords(cut, x, uv_q20);
+        gn_alpha_coords(&t->cut, x, uv_q20);
         out->n++;
-        out->n_held += step > 1 && cut->steps.hold;
+        out->n_held += step > 1 && t->cut.steps.hold;
         for (int k = 0; k < 2; k++) {
             double off = ldexp(uv_q20[k], -20) - coordinate(t, b, k), most = bound(t, ill, k, step);
             if (!gn_texture_clamps(&t->texture, k)) off -= floor(off + 0.5);
             if (fabs(off) / most > out->most) out->most = fabs(off) / most;
-            HOLDS(&out->close, fabs(off) <= most, "x %d, axis %d, step %d: off by %g, not %g", (int)x, k, step, off, most);
+            HOLDS(&out->close, fabs(off) <= most, "x %d, axis %d, step %d: off by %g, not %g", (int)x, k, step, off,
+                  most);
         }
     }
 }
@@ -124,23 +136,16 @@ static void test_rows(int step)
     outcome out = {{0}, 0, 0, 0};
     frame.knobs.persp_step = step;
     for (int i = 0; i < 3000; i++) {
-        const uint16_t idx[3] = {0, 1, 2};
         triangle t;
         random_triangle(&t);
-        gn_object object = {.texture = &t.texture};
-        gn_mesh mesh = {.uv = t.uv, .n_vertices = 3, .uv_frac_bits = (uint8_t)t.uv_frac_bits};
-        gn_alpha_cut cut;
-        object.mesh = &mesh;
-        memset(&cut, 0, sizeof cut);
-        gn_alpha_begin(&cut, &object, GN_ALPHA_CLIP, idx);
-        gn_alpha_plane(&cut, &frame, t.v, (uint32_t)t.focal2 << 16, WIDTH, 2);
         for (int row = 0; row < ROWS_MAX; row++) {
             int32_t y = (int32_t)rng_below(&random_state, HEIGHT), x0 = 0;
             int n = inside(&t, y, &x0);
-            if (n) try_row(&out, &t, &cut, y, x0, n, step);
+            if (n) try_row(&out, &t, y, x0, n, step);
         }
     }
-    printf("steps of %d: %.3f of the bound, %.0f %% of %lu pixels stepped\n", step, out.most, 100.0 * (double)out.n_held / (double)out.n, out.n);
+    printf("steps of %d: %.3f of the bound, %.0f %% of %lu pixels stepped\n", step, out.most,
+           100.0 * (double)out.n_held / (double)out.n, out.n);
     CHECK_TALLY(out.close, "gn_alpha_coords");
     CHECK(out.most > 0.125);
     CHECK(step == 1 || out.n_held * 4 > out.n);
@@ -152,24 +157,17 @@ static void test_tiles(void)
     tally same = {0};
     frame.knobs.persp_step = 16;
     for (int i = 0; i < 3000; i++) {
-        const uint16_t idx[3] = {0, 1, 2};
         triangle t;
         random_triangle(&t);
-        gn_object object = {.texture = &t.texture};
-        gn_mesh mesh = {.uv = t.uv, .n_vertices = 3, .uv_frac_bits = (uint8_t)t.uv_frac_bits};
-        gn_alpha_cut cut;
-        object.mesh = &mesh;
-        memset(&cut, 0, sizeof cut);
-        gn_alpha_begin(&cut, &object, GN_ALPHA_CLIP, idx);
-        gn_alpha_plane(&cut, &frame, t.v, (uint32_t)t.focal2 << 16, WIDTH, 2);
         int32_t y = (int32_t)rng_below(&random_state, HEIGHT), x0 = 0, whole[WIDTH][2];
         int n = inside(&t, y, &x0);
         if (!n) continue;
-        gn_alpha_row(&cut, y, HEIGHT - 1 - 2 * y, x0, x0 + n);
-        for (int32_t x = x0; x < x0 + n; x++) gn_alpha_coords(&cut, x, whole[x]);
-        for (int32_t x = x0 + n - 1; x >= x0; x -= 1 + (int32_t)rng_below(&random_state, 12)) { /* in any order, with any left out */
+        gn_alpha_row(&t.cut, y, HEIGHT - 1 - 2 * y, x0, x0 + n);
+        for (int32_t x = x0; x < x0 + n; x++) gn_alpha_coords(&t.cut, x, whole[x]);
+        for (int32_t x = x0 + n - 1; x >= x0;
+             x -= 1 + (int32_t)rng_below(&random_state, 12)) { /* in any order, with any left out */
             int32_t uv_q20[2];
-            gn_alpha_coords(&cut, x, uv_q20);
+            gn_alpha_coords(&t.cut, x, uv_q20);
             HOLDS(&same, memcmp(uv_q20, whole[x], sizeof uv_q20) == 0, "x %d", (int)x);
         }
     }

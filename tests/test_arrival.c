@@ -1,5 +1,6 @@
-/* What arrives from spot and point lights between two samples (gn_arrival) against the formulas at every pixel, in double: what NUMERICS
- * 4.13 allows. The points lie on a plane, a chord apart; the formulas are those of the specification, with nothing of the library's. */
+/* What arrives from spot and point lights between two samples (gn_arrival) against the formulas at every pixel, in
+ * double: what NUMERICS 4.13 allows. The points lie on a plane, a chord apart; the formulas are those of the
+ * specification, with nothing of the library's. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -37,10 +38,12 @@ static double clamped(double v)
 /* P2, P3 of a light of colour 1 */
 static double irradiance_of(const gn_light *light, const double axis[3], const double p[3], double facing)
 {
-    const double d2 = dot(p, p), ratio = d2 / pow(light->range_q16 / 65536.0, 2), window = pow(clamped(1 - ratio * ratio), 2);
+    const double d2 = dot(p, p), ratio = d2 / pow(light->range_q16 / 65536.0, 2),
+                 window = pow(clamped(1 - ratio * ratio), 2);
     double angle = 1;
     if (light->kind == GN_LIGHT_SPOT) {
-        const double outer = cos(light->outer_turn * 3.14159265358979323846 / 65536), inner = cos(light->inner_turn * 3.14159265358979323846 / 65536);
+        const double outer = cos(light->outer_turn * 3.14159265358979323846 / 65536),
+                     inner = cos(light->inner_turn * 3.14159265358979323846 / 65536);
         angle = pow(clamped((dot(p, axis) / sqrt(d2) - outer) / fmax(inner - outer, 1e-4)), 2);
     }
     return window * angle * facing / sqrt(d2) / fmax(d2, 1e-4) * ldexp(1, fresh.frame.light[0].colour_exp);
@@ -69,7 +72,8 @@ static double off_plane(const gn_light *light, int face, const gn_arrival *at, c
     const double x = (at->u_q16 / 65536.0 - half) / scale, y = (at->v_q16 / 65536.0 - half) / scale;
     const double z = light->near_q16 / 65536.0 / (1 - at->depth_q32 * 0x1p-32);
     double p[3];
-    for (int i = 0; i < 3; i++) p[i] = z * (view->axis_q30[0][i] * x + view->axis_q30[1][i] * y + view->axis_q30[2][i]) * 0x1p-30;
+    for (int i = 0; i < 3; i++)
+        p[i] = z * (view->axis_q30[0][i] * x + view->axis_q30[1][i] * y + view->axis_q30[2][i]) * 0x1p-30;
     return fabs(dot(n, p) + height) * 65536;
 }
 
@@ -86,7 +90,8 @@ static void begin_light(rng *r)
     fresh.frame.knobs.persp_step = 16;
     fresh.frame.knobs.other_atlas_size = light->kind == GN_LIGHT_POINT ? 512 : 128; /* 128 texels a tile */
     CHECK_EQ_INT(gn_begin(&fresh, &ls.scene), GN_OK);
-    for (size_t i = 0; i < sizeof fresh.frame.other_block / sizeof *fresh.frame.other_block; i++) fresh.frame.other_block[i] = (gn_depth_block){0, UINT16_MAX}; /* nothing is decided */
+    for (size_t i = 0; i < sizeof fresh.frame.other_block / sizeof *fresh.frame.other_block; i++)
+        fresh.frame.other_block[i] = (gn_depth_block){0, UINT16_MAX}; /* nothing is decided */
 }
 
 /* A sample at a point of the plane n . p = -height as the light sees it. Returns n . (light - point). */
@@ -108,11 +113,12 @@ static struct {
 static struct {
     long held, tried; /* of those that are dark all along */
     long wrong;       /* pixels that something is said to arrive at nevertheless */
-    double brightest;  /* of 1 / d^2, in those that held */
+    double brightest; /* of 1 / d^2, in those that held */
 } dark_of[2], *dark = dark_of;
 
 /* Nothing arrives at either end: nothing must where that is taken for all that lies between. */
-static void check_dark(gn_chord *chord, gn_sample *here, const gn_sample *next, const double a[3], const double b[3], const double n[3], int32_t px)
+static void check_dark(gn_chord *chord, gn_sample *here, const gn_sample *next, const double a[3], const double b[3],
+                       const double n[3], int32_t px)
 {
     double brightest = 0;
     gn_arrivals_between(chord, &fresh.frame, &surface, here, next, px);
@@ -153,7 +159,8 @@ static void check_chord(rng *r)
     if (!gn_chord_between(&chord, &fresh.frame, &surface, &here, &next, px)) return;
     gn_arrivals_at(&fresh.frame, &surface, &here);
     gn_arrivals_at(&fresh.frame, &surface, &next);
-    if (!here.arrival[0].reaches && !next.arrival[0].reaches && dot(n, a) < -0x1p-12) check_dark(&chord, &here, &next, a, b, n, px);
+    if (!here.arrival[0].reaches && !next.arrival[0].reaches && dot(n, a) < -0x1p-12)
+        check_dark(&chord, &here, &next, a, b, n, px);
     if (!here.arrival[0].reaches) return;
     const int face = here.arrival[0].face;
     seen->tried++;
@@ -170,7 +177,8 @@ static void check_chord(rng *r)
         const double scale = ldexp(1, fresh.frame.light[0].colour_exp) / dot(p, p);
         seen->irradiance = fmax(seen->irradiance, fabs(is->irradiance_q24 * 0x1p-24 - exact.irradiance) / scale);
         if (is->shadow != GN_SHADOW_UNDECIDED) continue;
-        seen->texels = fmax(seen->texels, fmax(fabs(is->u_q16 / 65536.0 - exact.u), fabs(is->v_q16 / 65536.0 - exact.v)));
+        seen->texels =
+            fmax(seen->texels, fmax(fabs(is->u_q16 / 65536.0 - exact.u), fabs(is->v_q16 / 65536.0 - exact.v)));
         seen->off_plane = fmax(seen->off_plane, off_plane(light, face, is, n, -dot(n, a)) / px);
     }
 }
@@ -190,13 +198,16 @@ int main(void)
     }
     for (int k = 0; k < 2; k++) {
         seen = &seen_of[k];
-        printf("%s, between samples, %ld of %ld chords: irradiance off by %.5f of 1 / d^2, places by %.4f texels; %.2f LSB per pixel of the chord off the plane\n",
+        printf("%s, between samples, %ld of %ld chords: irradiance off by %.5f of 1 / d^2, places by %.4f texels; %.2f "
+               "LSB per pixel of the chord off the plane\n",
                k ? "point" : "spot", seen->held, seen->tried, seen->irradiance, seen->texels, seen->off_plane);
         CHECK(2 * seen->held > seen->tried);
         CHECK(seen->irradiance <= 0x1p-8 && 0x1p-8 < 8 * seen->irradiance);
         CHECK(seen->texels <= 0x1p-6 && 0x1p-6 < 8 * seen->texels);
         CHECK(seen->off_plane <= 1 && 1 < 8 * seen->off_plane);
-        printf("    dark at both ends: %ld of %ld that are dark all along are known to be, with %g of 1 / d^2 at most\n", dark_of[k].held, dark_of[k].tried, dark_of[k].brightest);
+        printf(
+            "    dark at both ends: %ld of %ld that are dark all along are known to be, with %g of 1 / d^2 at most\n",
+            dark_of[k].held, dark_of[k].tried, dark_of[k].brightest);
         CHECK(dark_of[k].brightest == 0 && dark_of[k].wrong == 0);
         CHECK(2 * dark_of[k].held > dark_of[k].tried);
     }

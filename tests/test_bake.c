@@ -1,5 +1,5 @@
-/* Baking (M5, M9): charts that do not overlap, channels that do not meet, masks that are what rays find; and scenes written as glTF are the
- * scenes that they were. */
+/* Baking (M5, M9): charts that do not overlap, channels that do not meet, masks that are what rays find; and scenes
+ * written as glTF are the scenes that they were. */
 #include <string.h>
 #include <sys/stat.h>
 
@@ -12,7 +12,7 @@
 
 static rng random_state = {5};
 
-/* ---- Charts ----------------------------------------------------------------------------------------------------------------- */
+/* ---- Charts ------------------------------------------------------------------------------------------------------ */
 
 enum { MOST = 40 * 40 };
 
@@ -22,7 +22,8 @@ typedef struct {
     uint32_t idx[6 * MOST];
 } surface;
 
-/* A grid of n x n quads, bent: 0 flat, 1 hilly, 2 a ball, 3 folded along its middle. Vertices shared, or each triangle's own. */
+/* A grid of n x n quads, bent: 0 flat, 1 hilly, 2 a ball, 3 folded along its middle. Vertices shared, or each
+ * triangle's own. */
 static void make_surface(surface *s, int n, int kind, bool shared)
 {
     static surface grid;
@@ -70,9 +71,10 @@ static void check_charts(const surface *s, const chart_set *set)
         for (size_t k = 0; k < c->n_triangles; k++, n++) {
             const size_t t = set->order[c->first + k];
             CHECK(set->chart_of[t] == i);
-            /* no larger than the surface, and not much smaller; wound as it is, unless the chart was turned over as a whole */
-            const vec3 a = s->world[s->idx[3 * t]],
-                       normal = vec3_cross(vec3_sub(s->world[s->idx[3 * t + 1]], a), vec3_sub(s->world[s->idx[3 * t + 2]], a));
+            /* no larger than the surface, and not much smaller; wound as it is, unless the chart was turned over as a
+             * whole */
+            const vec3 a = s->world[s->idx[3 * t]], normal = vec3_cross(vec3_sub(s->world[s->idx[3 * t + 1]], a),
+                                                                        vec3_sub(s->world[s->idx[3 * t + 2]], a));
             const double real = sqrt(vec3_dot(normal, normal)), flat = fabs(area2(set->corner + 3 * t));
             twisted += !(flat <= real * 1.000001 + 1e-12 && flat >= 0.85 * real - 1e-12);
             for (int p = 0; p < 3; p++) {
@@ -80,7 +82,8 @@ static void check_charts(const surface *s, const chart_set *set)
                 twisted += !(at.x > -1e-9 && at.x < c->width + 1e-9 && at.y > -1e-9 && at.y < c->height + 1e-9);
             }
             const vec2 *corner = set->corner + 3 * t;
-            const vec2 middle = {(corner[0].x + corner[1].x + corner[2].x) / 3, (corner[0].y + corner[1].y + corner[2].y) / 3};
+            const vec2 middle = {(corner[0].x + corner[1].x + corner[2].x) / 3,
+                                 (corner[0].y + corner[1].y + corner[2].y) / 3};
             for (size_t j = 0; j < c->n_triangles; j++)
                 if (j != k) {
                     vec2 turned[3];
@@ -118,7 +121,8 @@ static void check_packing(const chart_set *set, int side)
             wrong += a->x < b->x + b->w && b->x < a->x + a->w && a->y < b->y + b->h && b->y < a->y + a->h;
         }
         /* what is interpolated at the far corner reads texels of this chart alone */
-        const vec2 first = chart_to_atlas(a, (vec2){0, 0}, density), last = chart_to_atlas(a, (vec2){a->width, a->height}, density);
+        const vec2 first = chart_to_atlas(a, (vec2){0, 0}, density),
+                   last = chart_to_atlas(a, (vec2){a->width, a->height}, density);
         wrong += first.x - 0.5 < a->x + 0.99 || last.x + 0.5 > a->x + a->w - 0.99 || last.y + 0.5 > a->y + a->h - 0.99;
     }
     CHECK_EQ_INT(wrong, 0);
@@ -144,7 +148,7 @@ static void test_charts(void)
             }
 }
 
-/* ---- Channels --------------------------------------------------------------------------------------------------------------- */
+/* ---- Channels ---------------------------------------------------------------------------------------------------- */
 
 static void test_channels(void)
 {
@@ -173,7 +177,8 @@ static void test_channels(void)
                 if (channel[i] >= 0 && bake_ranges_meet(&lights[i], &lights[l])) taken |= 1U << channel[i];
                 n_shared += channel[i] >= 0 && channel[i] == channel[l];
             }
-            if (fate[l] == BAKE_MASKED) CHECK(!(taken >> channel[l] & 1) && taken % (1U << channel[l]) == (1U << channel[l]) - 1);
+            if (fate[l] == BAKE_MASKED)
+                CHECK(!(taken >> channel[l] & 1) && taken % (1U << channel[l]) == (1U << channel[l]) - 1);
             if (fate[l] == BAKE_WHOLE) CHECK_EQ_INT(taken, 15);
             n_masked += fate[l] == BAKE_MASKED;
             n_whole += fate[l] == BAKE_WHOLE;
@@ -182,7 +187,7 @@ static void test_channels(void)
     CHECK(n_masked > 1000 && n_whole > 100 && n_shared > 1000);
 }
 
-/* ---- The fit ---------------------------------------------------------------------------------------------------------------- */
+/* ---- The fit ----------------------------------------------------------------------------------------------------- */
 
 static double error_of(const bake_fit *f, double edge_x, double edge_y)
 {
@@ -218,8 +223,13 @@ static bake_fit make_edge(double edge_x, double edge_y, bool unknown)
             masks[BAKE_CHANNELS * t + c] += (c || lit) / (float)(N * N);
         }
     }
-    return (bake_fit){
-        .w = SIDE, .h = SIDE, .n = N, .masks = masks, .sample = sample_of, .samples = samples, .n_sampled = SIDE * SIDE};
+    return (bake_fit){.w = SIDE,
+                      .h = SIDE,
+                      .n = N,
+                      .masks = masks,
+                      .sample = sample_of,
+                      .samples = samples,
+                      .n_sampled = SIDE * SIDE};
 }
 
 /* Edges of all directions: what was fitted comes nearer than what was averaged; what is even stays. */
@@ -251,7 +261,7 @@ static void test_unknown(void)
     }
 }
 
-/* ---- A wall and its shadow -------------------------------------------------------------------------------------------------- */
+/* ---- A wall and its shadow --------------------------------------------------------------------------------------- */
 
 static uint8_t mask_at(const scene *s, double x, double z)
 {
@@ -278,11 +288,13 @@ static uint8_t mask_at(const scene *s, double x, double z)
     return 77;
 }
 
-/* The sun is in the west at 45 degrees: the shadow of a wall of 1 lies from x = 0 to 1. A chest stands on the floor at x = -2. */
+/* The sun is in the west at 45 degrees: the shadow of a wall of 1 lies from x = 0 to 1. A chest stands on the floor at
+ * x = -2. */
 static void test_wall(bool with_moving)
 {
     static fixture f;
-    const double floor[12] = {-4, 0, 4, 4, 0, 4, 4, 0, -4, -4, 0, -4}, wall[12] = {0, 0, -2, 0, 0, 2, 0, 1, 2, 0, 1, -2};
+    const double floor[12] = {-4, 0, 4, 4, 0, 4, 4, 0, -4, -4, 0, -4},
+                 wall[12] = {0, 0, -2, 0, 0, 2, 0, 1, 2, 0, 1, -2};
     const ref_options frame = {.width = 8, .height = 8, .atlas_size = 64};
     const bake_options options = {.side = 128};
     bake_result result;
@@ -297,7 +309,8 @@ static void test_wall(bool with_moving)
     f.lights[0].shadow = true;
     f.lights[0].strength = 1;
     const scene_write_setting none = {"", ""};
-    CHECK_EQ_INT(scene_write(&f.s, "build/tmp/bake_wall.gltf", "", &none, 0, error, sizeof error), 0); /* the loader's own memory */
+    CHECK_EQ_INT(scene_write(&f.s, "build/tmp/bake_wall.gltf", "", &none, 0, error, sizeof error),
+                 0); /* the loader's own memory */
     const scene_options as = {.width = 8, .height = 8};
     if (!CHECK_EQ_INT(scene_load(&s, "build/tmp/bake_wall.gltf", &as, error, sizeof error), 0)) printf("  %s\n", error);
     else if (CHECK_EQ_INT(bake_scene(&s, &frame, &options, &result, error, sizeof error), 0)) {
@@ -315,7 +328,7 @@ static void test_wall(bool with_moving)
     end(&f);
 }
 
-/* ---- Scenes as glTF --------------------------------------------------------------------------------------------------------- */
+/* ---- Scenes as glTF ---------------------------------------------------------------------------------------------- */
 
 static void same_pictures(const char *path, const char *copy, int size)
 {
@@ -339,7 +352,8 @@ static void same_pictures(const char *path, const char *copy, int size)
             scene_write_setting own[64];
             size_t n = 0;
             for (size_t k = 0; k < s.n_settings && n < 64; k++)
-                if (!settings_of_scene(s.settings[k].key)) own[n++] = (scene_write_setting){s.settings[k].key, s.settings[k].value};
+                if (!settings_of_scene(s.settings[k].key))
+                    own[n++] = (scene_write_setting){s.settings[k].key, s.settings[k].value};
             CHECK_EQ_INT(scene_write(&s, copy, "\"quoted\"\n", own, n, error, sizeof error), 0);
         }
         if (CHECK_EQ_INT(engine_fixed(&p, &s, &set, size, size, ENGINE_COLOUR_ONLY, error, sizeof error), 0)) {
@@ -351,16 +365,17 @@ static void same_pictures(const char *path, const char *copy, int size)
     }
     CHECK_EQ_INT(n_objects[0], n_objects[1]);
     CHECK_EQ_INT(n_lights[0], n_lights[1]);
-    if (!CHECK(pixels[0] && pixels[1] && memcmp(pixels[0], pixels[1], (size_t)(3 * size * size)) == 0)) printf("  %s\n", path);
+    if (!CHECK(pixels[0] && pixels[1] && memcmp(pixels[0], pixels[1], (size_t)(3 * size * size)) == 0))
+        printf("  %s\n", path);
     free(pixels[0]);
     free(pixels[1]);
 }
 
 static void test_written(void)
 {
-    static const char *const names[] = {"host/scenes/sundial", "host/scenes/avenue",   "host/scenes/desk",  "host/scenes/room",
-                                        "host/scenes/fence",   "host/scenes/mixed",    "docs/scenes/baked", "docs/scenes/cones",
-                                        "docs/scenes/lamps",   "docs/scenes/materials"};
+    static const char *const names[] = {
+        "host/scenes/sundial", "host/scenes/avenue", "host/scenes/desk",  "host/scenes/room",  "host/scenes/fence",
+        "host/scenes/mixed",   "docs/scenes/baked",  "docs/scenes/cones", "docs/scenes/lamps", "docs/scenes/materials"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char path[80];
         snprintf(path, sizeof path, "%s.gltf", names[i]);

@@ -36,8 +36,10 @@ for name in room desk sundial mixed; do
     holds "$name, attenuation" "$(field masks atten_rms) <= $(field maps atten_rms)"
     holds "$name, mismatch" "$(field masks shadow_mismatch) <= $(field maps shadow_mismatch)"
     holds "$name, RAM" "$(field masks ram_bytes) < $(field maps ram_bytes) / 2"
-    # a mask is looked up at every pixel; a shadow map, where its bounds decide, is not, and where no light arrives nothing is: most of the desk
-    [ $name = sundial ] || holds "$name, instructions" "$(field masks instructions_per_pixel) < 0.9 * $(field maps instructions_per_pixel)"
+    # A mask is looked up at every pixel; a shadow map, where its bounds decide, is not. Neither is where the lamp does not reach, which is most of the desk:
+    # there is less to save.
+    case $name in desk) share=0.85 ;; *) share=0.8 ;; esac
+    [ $name = sundial ] || holds "$name, instructions" "$(field masks instructions_per_pixel) < $share * $(field maps instructions_per_pixel)"
     good compare "$tmp/$name.gltf" --size 160x120 --json
     holds "$name, fixed against reference" "$(sed -n 's/.*"identical": \([0-9.]*\), "within1.*/\1/p' "$tmp/out") > 0.98"
 done

@@ -1,26 +1,29 @@
-/* Acne and detachment of every bias (B1-B5): a lit plane, caster and receiver at once, swept over all angles to the light, and a wall
- * that stands on it. "--table" prints docs/BIAS.md's table.
+/* Acne and detachment of every bias (B1-B5): a lit plane, caster and receiver at once, swept over all angles to the
+ * light, and a wall that stands on it. "--table" prints docs/BIAS.md's table.
  *
- * WHEN A PLANE IS FREE OF ACNE. Let N be the plane's normal, n_u n_v n_w its components along the light's axes, g = the slope of the
- * plane's depth per texel, the receiver moved by `lift` off the plane (the normal part of all that moves it), and a tap at (du, dv)
- * texels from where the moved point lands. The plane's depth there lies before the receiver's by
+ * WHEN A PLANE IS FREE OF ACNE. Let N be the plane's normal, n_u n_v n_w its components along the light's axes, g = the
+ * slope of the plane's depth per texel, the receiver moved by `lift` off the plane (the normal part of all that moves
+ * it), and a tap at (du, dv) texels from where the moved point lands. The plane's depth there lies before the
+ * receiver's by
  *
  *     directional:  lift / |n_w| + g . (du, dv)               g = -(n_u, n_v) / n_w                       texels
  *     perspective:  near * lift / (z h) + g . (du, dv)        g = near * tau * (n_u, n_v) / h             of the range
  *
- * (h: the light's distance from the plane, z: the moved point's light-plane distance; both follow from writing the plane as N.P = -h
- * and dividing by z.) What a bias adds to the stored depth counts on the left. A filter of index k reads texels whose centres are
- * less than R away on each axis: 1/2 for one texel, else k + 1. So every tap lets the receiver be lit if
+ * (h: the light's distance from the plane, z: the moved point's light-plane distance; both follow from writing the
+ * plane as N.P = -h and dividing by z.) What a bias adds to the stored depth counts on the left. A filter of index k
+ * reads texels whose centres are less than R away on each axis: 1/2 for one texel, else k + 1. So every tap lets the
+ * receiver be lit if
  *
  *     supply = lift's share + constant + slope * max |g|  >=  demand = R (|g_u| + |g_v|) + errors
  *
- * and with B5, which takes g off the receiver's depth, if supply >= errors (+ what the limit of its slopes leaves). For B2 alone in a
- * directional view this is beta * sqrt2 * (k + 1) >= R (|n_u| + |n_v|), and |n_u| + |n_v| <= sqrt2 * sin(angle): beta = 1 is what a
- * plane needs at any angle, and no less is enough at a diagonal one. Errors are those of docs/NUMERICS.md 4.3, 4.4, 4.6, 4.8.
+ * and with B5, which takes g off the receiver's depth, if supply >= errors (+ what the limit of its slopes leaves). For
+ * B2 alone in a directional view this is beta * sqrt2 * (k + 1) >= R (|n_u| + |n_v|), and |n_u| + |n_v| <= sqrt2 *
+ * sin(angle): beta = 1 is what a plane needs at any angle, and no less is enough at a diagonal one. Errors are those of
+ * docs/NUMERICS.md 4.3, 4.4, 4.6, 4.8.
  */
 #include "bias_scene.h"
 
-/* ---- Supply and demand -------------------------------------------------------------------------------------------------- */
+/* ---- Supply and demand ------------------------------------------------------------------------------------------- */
 
 typedef struct {
     double axis[3][3];
@@ -60,10 +63,11 @@ typedef struct {
 } balance;
 
 /* How far the biases move a point, in world units. */
-static void receiver_shift(double out[3], const light_frame *l, const bias *b, const plane_scene *p, const plane_point *h,
-                           double texel)
+static void receiver_shift(double out[3], const light_frame *l, const bias *b, const plane_scene *p,
+                           const plane_point *h, double texel)
 {
-    const double sine = sqrt(1 - h->cosine * h->cosine), tangent = fmin(50, sine / h->cosine), scale = texel * l->reach[1];
+    const double sine = sqrt(1 - h->cosine * h->cosine), tangent = fmin(50, sine / h->cosine),
+                 scale = texel * l->reach[1];
     combine(out, scale * (b->receiver[0] + b->receiver[1] * tangent), h->to_light,
             scale * (sqrt(2) * b->normal + b->receiver[2] + b->receiver[3] * sine), p->normal, 0, p->normal);
 }
@@ -80,7 +84,8 @@ static double off_plane(const light_frame *l, const plane_point *h)
     return 1.5 * h->depth * l->relative + 16 * l->unit + ldexp(2 * PLANE_HALF, -27);
 }
 
-static balance balance_ortho(const light_frame *l, const cell *c, const bias *b, const plane_scene *p, const plane_point *h)
+static balance balance_ortho(const light_frame *l, const cell *c, const bias *b, const plane_scene *p,
+                             const plane_point *h)
 {
     const double n[3] = {dot(p->normal, l->axis[0]), dot(p->normal, l->axis[1]), fabs(dot(p->normal, l->axis[2]))};
     const double g[2] = {fabs(n[0]) / n[2], fabs(n[1]) / n[2]}, coordinate = ldexp(1, -11);
@@ -95,9 +100,10 @@ static balance balance_ortho(const light_frame *l, const cell *c, const bias *b,
     return out;
 }
 
-/* B4 makes of the plane N.P = -h the plane (N + m w).P = -h, m = b tau / (1 - b tau n_w): corners move in proportion to their z.
- * Those behind the light move as those at its near distance do, which only lowers the plane more. */
-static balance balance_persp(const light_frame *l, const cell *c, const bias *b, const plane_scene *p, const plane_point *h)
+/* B4 makes of the plane N.P = -h the plane (N + m w).P = -h, m = b tau / (1 - b tau n_w): corners move in proportion to
+ * their z. Those behind the light move as those at its near distance do, which only lowers the plane more. */
+static balance balance_persp(const light_frame *l, const cell *c, const bias *b, const plane_scene *p,
+                             const plane_point *h)
 {
     const double coordinate = 2 * c->texels * l->relative + ldexp(1, -11);
     double from[3], shift[3], moved[3], n[3];
@@ -114,10 +120,11 @@ static balance balance_persp(const light_frame *l, const cell *c, const bias *b,
     if (b->caster > 0) out.supply += per_h * steps / (1 - steps * n[2]);
     out.more = b->caster > 0;
     for (int i = 0; i < 2; i++) out.demand += l->reach[0] * left_by_plane(l, b, g[i], c->texels);
-    if (b->plane) out.error += (g[0] + g[1]) * ldexp(1, -9);                     /* of its slopes, seen from close to the plane */
-    if (renderer.frame.knobs.persp_step > 1) out.error += ldexp(out.supply, -8); /* its chords: 1/512 of the light's distance */
-    out.error +=
-        per_h * off_plane(l, h) / z_moved + l->near / z_moved * l->relative * 2 + (coordinate + l->reach[2]) * (g[0] + g[1]);
+    if (b->plane) out.error += (g[0] + g[1]) * ldexp(1, -9); /* of its slopes, seen from close to the plane */
+    if (renderer.frame.knobs.persp_step > 1)
+        out.error += ldexp(out.supply, -8); /* its chords: 1/512 of the light's distance */
+    out.error += per_h * off_plane(l, h) / z_moved + l->near / z_moved * l->relative * 2 +
+                 (coordinate + l->reach[2]) * (g[0] + g[1]);
     out.error += l->lsb * (c->bits == 32 ? 8 : 0.52 + ldexp(0.5, -renderer.frame.knobs.shadow_depth_frac));
     return out;
 }
@@ -129,7 +136,7 @@ static balance balance_at(const fixture *f, const cell *c, const bias *b, const 
     return c->kind == SCENE_LIGHT_DIRECTIONAL ? balance_ortho(&l, c, b, p, h) : balance_persp(&l, c, b, p, h);
 }
 
-/* ---- The census --------------------------------------------------------------------------------------------------------- */
+/* ---- The census -------------------------------------------------------------------------------------------------- */
 
 typedef struct {
     long pixels, acne;          /* acne: darker than 31/32 */
@@ -152,8 +159,8 @@ static int near_seam(const fixture *f, const plane_point *h)
     return second > 0.97 * most;
 }
 
-static void take_pixel(census *t, const fixture *f, const cell *c, const bias *b, const plane_scene *p, const plane_point *h,
-                       uint32_t shadow, long *dark)
+static void take_pixel(census *t, const fixture *f, const cell *c, const bias *b, const plane_scene *p,
+                       const plane_point *h, uint32_t shadow, long *dark)
 {
     const balance at = balance_at(f, c, b, p, h);
     const bool safe = at.supply >= at.demand + at.error, doomed = at.supply < at.demand / 2 - at.error && !at.more;
@@ -199,7 +206,7 @@ static census sweep(const cell *c, const bias *b, const double *degrees, int n)
     return t;
 }
 
-/* ---- What the sweeps must show ---------------------------------------------------------------------------------------- */
+/* ---- What the sweeps must show ----------------------------------------------------------------------------------- */
 
 static const bias settings_of[] = {
     {.name = "none"},
@@ -249,7 +256,7 @@ static void test_planes(void)
             }
 }
 
-/* ---- Settings against each other, pixel by pixel ------------------------------------------------------------------------ */
+/* ---- Settings against each other, pixel by pixel ----------------------------------------------------------------- */
 
 static uint32_t kept[WIDTH * HEIGHT];
 
@@ -283,7 +290,8 @@ static void test_x_term(void)
     }
 }
 
-/* What is stored only grows with B1, and a directional receiver only comes nearer with b_x and b_y: no pixel gets darker. */
+/* What is stored only grows with B1, and a directional receiver only comes nearer with b_x and b_y: no pixel gets
+ * darker. */
 static void test_monotone(void)
 {
     static const double step[] = {0, 0.25, 0.5, 1, 2, 4};
@@ -302,7 +310,8 @@ static void test_monotone(void)
             }
 }
 
-/* The same share of acne from the reference, which rounds nothing: within what errors of 2^-8 texels of a slope of 1 can turn. */
+/* The same share of acne from the reference, which rounds nothing: within what errors of 2^-8 texels of a slope of 1
+ * can turn. */
 static void test_reference(void)
 {
     static const int settings_idx[4] = {0, 1, 4, 5};
@@ -334,10 +343,11 @@ static void test_reference(void)
         }
 }
 
-/* ---- Detachment --------------------------------------------------------------------------------------------------------- */
+/* ---- Detachment -------------------------------------------------------------------------------------------------- */
 
-/* Hard filter: a texel's depth is that of its centre, up to half its diagonal away, so each figure is its theory's within that: the
- * light's angle makes it sqrt(1/2) * sin 45 or cos 45 of a texel at the foot, sqrt(1/2) / cos 45 at the far end. */
+/* Hard filter: a texel's depth is that of its centre, up to half its diagonal away, so each figure is its theory's
+ * within that: the light's angle makes it sqrt(1/2) * sin 45 or cos 45 of a texel at the foot, sqrt(1/2) / cos 45 at
+ * the far end. */
 static void check_detachment(const bias *b, double gap, double shrink)
 {
     const cell c = {SCENE_LIGHT_DIRECTIONAL, SCENE_FILTER_HARD, 32, SETTINGS_ACCURATE, WALL_TEXELS};
@@ -362,11 +372,13 @@ static void test_detachment(void)
     }
 }
 
-/* sqrt2 * beta is what b_z says: in the library's numbers, to the bit. The far end of the wall's shadow shows any difference. */
+/* sqrt2 * beta is what b_z says: in the library's numbers, to the bit. The far end of the wall's shadow shows any
+ * difference. */
 static void test_z_term(void)
 {
     static uint32_t normal[WALL_WIDTH * WALL_HEIGHT];
-    const bias z = {.name = "z", .receiver = {0, 0, 92682 / 65536.0, 0}}, less = {.name = "less", .receiver = {0, 0, 1.3, 0}};
+    const bias z = {.name = "z", .receiver = {0, 0, 92682 / 65536.0, 0}},
+               less = {.name = "less", .receiver = {0, 0, 1.3, 0}};
     for (int kind = 0; kind < 3; kind++)
         for (int filter = 0; filter < 5; filter++) {
             const cell c = {(scene_light_kind)kind, (scene_filter)filter, 16, SETTINGS_BALANCED, WALL_TEXELS};
@@ -379,7 +391,7 @@ static void test_z_term(void)
         }
 }
 
-/* ---- The table ---------------------------------------------------------------------------------------------------------- */
+/* ---- The table --------------------------------------------------------------------------------------------------- */
 
 static void print_cell(const cell *c, const bias *b)
 {

@@ -1,6 +1,7 @@
-/* Casters on their way into a shadow tile, for every kind of light: corners in the tile, coverage, stored depth. Random triangles are drawn
- * by the library, one at a time, and every texel is compared with the exact one, found in long double (64 bits of mantissa hold the products
- * of what the library is given). NUMERICS 4.6 derives the bounds; "--table" prints the largest errors seen. */
+/* Casters on their way into a shadow tile, for every kind of light: corners in the tile, coverage, stored depth. Random
+ * triangles are drawn by the library, one at a time, and every texel is compared with the exact one, found in long
+ * double (64 bits of mantissa hold the products of what the library is given). NUMERICS 4.6 derives the bounds;
+ * "--table" prints the largest errors seen. */
 #include "../lib/gn_ortho.h"
 
 enum {
@@ -55,7 +56,7 @@ static real dot3(const real a[3], const real b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* ---- Triangles, in the mesh --------------------------------------------------------------------------------------------- */
+/* ---- Triangles, in the mesh -------------------------------------------------------------------------------------- */
 
 /* A world point as a vertex of the object's mesh, rounded to what a mesh can hold. */
 static void put_vertex(int i, const double world[3])
@@ -88,7 +89,8 @@ static void exact_vertex(const gn_light_view *view, int i, const int32_t eye_q16
     real world[3];
     for (int r = 0; r < 3; r++) {
         world[r] = ((real)object.to_world.t_q16[r] - eye_q16[r]) / 65536;
-        for (int c = 0; c < 3; c++) world[r] += ldexpl((real)object.to_world.m_q30[r][c] * pos[3 * i + c], object.to_world.exp - 30 - 24);
+        for (int c = 0; c < 3; c++)
+            world[r] += ldexpl((real)object.to_world.m_q30[r][c] * pos[3 * i + c], object.to_world.exp - 30 - 24);
     }
     for (int a = 0; a < 3; a++) {
         out[a] = 0;
@@ -118,10 +120,11 @@ static void finish_caster(caster *q)
         for (int i = 0; i < 2; i++) e[i][k] = q->p[i + 1][k] - q->p[0][k];
         for (int i = 0; i < 3; i++) q->longest = fmax(q->longest, (double)fabsl(q->p[i][k] - q->p[(i + 1) % 3][k]));
     }
-    for (int k = 0; k < 3; k++) q->normal[k] = e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3];
+    for (int k = 0; k < 3; k++)
+        q->normal[k] = e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3];
 }
 
-/* ---- Texels ------------------------------------------------------------------------------------------------------------- */
+/* ---- Texels ------------------------------------------------------------------------------------------------------ */
 
 /* A texel of the view's tile as a share of the depth range; 1: empty. */
 static double stored_at(const gn_light_view *view, int i)
@@ -135,7 +138,7 @@ static double stored_at(const gn_light_view *view, int i)
 typedef struct {
     int edge, depth; /* stages; depth -1: that is another's */
     double edge_bound;
-    real (*depth_at)(const gn_light_view *view, const caster *q, const real at[2]);               /* share of the range */
+    real (*depth_at)(const gn_light_view *view, const caster *q, const real at[2]); /* share of the range */
     double (*depth_bound)(const gn_light_view *view, const caster *q, const real at[2], real depth);
 } tile_check;
 
@@ -158,7 +161,8 @@ static void check_tile(const gn_light_view *view, const caster *q, const outline
     }
 }
 
-/* The corners that were walked, against the nearest of the outline: which is which depends on their order from top to bottom. */
+/* The corners that were walked, against the nearest of the outline: which is which depends on their order from top to
+ * bottom. */
 static void check_corners(const outline *o, const tile_check *check)
 {
     const gn_walk *walk = &renderer.scratch.work.casting.walk;
@@ -166,7 +170,8 @@ static void check_corners(const outline *o, const tile_check *check)
     for (int i = 0; walk->subpixel_bits && i < 3; i++) {
         real best = HUGE_VALL;
         for (int k = 0; k < o->n; k++)
-            best = fminl(best, fmaxl(fabsl(walk->corner[i].x * (real)unit - o->p[k][0]), fabsl(walk->corner[i].y * (real)unit - o->p[k][1])));
+            best = fminl(best, fmaxl(fabsl(walk->corner[i].x * (real)unit - o->p[k][0]),
+                                     fabsl(walk->corner[i].y * (real)unit - o->p[k][1])));
         record(check->edge, (double)best, check->edge_bound, unit);
     }
 }
@@ -197,19 +202,23 @@ static int begin(const gn_knobs *knobs, int bits)
     return CHECK_EQ_INT(gn_begin(&renderer, &fixed), GN_OK);
 }
 
-/* Where the corners of a triangle lie in the tile: one side passes a texel's centre nearer than `unit`, where it shows by how much it is off. */
+/* Where the corners of a triangle lie in the tile: one side passes a texel's centre nearer than `unit`, where it shows
+ * by how much it is off. */
 static void aim(double out[3][2], double nearest, double farthest, double unit)
 {
     const double turn = uniform(0, 6.2831853);
-    const double through[2] = {floor(uniform(4, TEXELS - 4)) + 0.5 + uniform(-unit, unit), floor(uniform(4, TEXELS - 4)) + 0.5 + uniform(-unit, unit)};
+    const double through[2] = {floor(uniform(4, TEXELS - 4)) + 0.5 + uniform(-unit, unit),
+                               floor(uniform(4, TEXELS - 4)) + 0.5 + uniform(-unit, unit)};
     for (int i = 0; i < 3; i++) {
-        const double far = exp(uniform(log(nearest), log(farthest))), way = turn + (i == 0 ? 0 : i == 1 ? 3.14159265358979 : uniform(0.3, 2.8));
+        const double far = exp(uniform(log(nearest), log(farthest))), way = turn + (i == 0   ? 0
+                                                                                    : i == 1 ? 3.14159265358979
+                                                                                             : uniform(0.3, 2.8));
         out[i][0] = through[0] + far * cos(way);
         out[i][1] = through[1] + far * sin(way);
     }
 }
 
-/* ---- Directional -------------------------------------------------------------------------------------------------------- */
+/* ---- Directional ------------------------------------------------------------------------------------------------- */
 
 static double texel_of(const gn_light_view *view)
 {
@@ -229,7 +238,8 @@ static double sun_depth_bound(const gn_light_view *view, const caster *q, const 
     const double away = q->longest + TEXELS, range = ldexp(1, view->tile_log2 + view->depth_log2);
     (void)at, (void)depth;
     if (slopes > 2 * range) return 1; /* gradients are limited there */
-    return 0.5 * ldexp(1, -GN_VIEW_BITS(view)) + (q->corner[2] + away * size * ldexp(1, -29)) * slopes / range + (TEXELS + 2) * ldexp(1, -32);
+    return 0.5 * ldexp(1, -GN_VIEW_BITS(view)) + (q->corner[2] + away * size * ldexp(1, -29)) * slopes / range +
+           (TEXELS + 2) * ldexp(1, -32);
 }
 
 /* NUMERICS 4.6: axes, texel and origin are the view's own. */
@@ -246,9 +256,11 @@ static void see_sun(caster *q, const gn_light_view *view, double shrunk)
         exact_vertex(view, i, nowhere, q->p[i]);
         for (int a = 0; a < 3; a++) {
             real origin = 0;
-            for (int k = 0; k < 3; k++) origin += ldexpl((real)object.to_world.t_q16[k] * view->axis_q30[a][k], -46) * inv_texel;
+            for (int k = 0; k < 3; k++)
+                origin += ldexpl((real)object.to_world.t_q16[k] * view->axis_q30[a][k], -46) * inv_texel;
             q->p[i][a] = q->p[i][a] * inv_texel - view->fit.ortho.origin[a];
-            const double bound = LSB16 + ldexp((double)fabsl(origin), -32) + ldexp(1.5 * reach_of(i) * (double)inv_texel, -30);
+            const double bound =
+                LSB16 + ldexp((double)fabsl(origin), -32) + ldexp(1.5 * reach_of(i) * (double)inv_texel, -30);
             record(STAGE_CORNER, (double)fabsl(got[a] / 65536.0L - q->p[i][a]), bound, LSB16);
             q->corner[i] = fmax(q->corner[i], bound);
         }
@@ -267,15 +279,19 @@ static void see_sun(caster *q, const gn_light_view *view, double shrunk)
 /* Any slope, any size up to the tile's, or with corners up to a million texels outside, which cuts it at 16384. */
 static void sun_caster(const gn_light_view *view, int far, double shrunk)
 {
-    const double texel = texel_of(view), range = ldexp(1, view->tile_log2 + view->depth_log2), steep = far ? 1e-5 : exp(uniform(log(1e-3), log(8)));
+    const double texel = texel_of(view), range = ldexp(1, view->tile_log2 + view->depth_log2),
+                 steep = far ? 1e-5 : exp(uniform(log(1e-3), log(8)));
     const double slope[2] = {uniform(-steep, steep), uniform(-steep, steep)};
     double origin[3], corner[3][2];
     for (int a = 0; a < 3; a++) origin[a] = view->fit.ortho.origin[a];
     aim(corner, far ? 3e3 : 1, far ? 1e6 : 2 * TEXELS, ldexp(0.7, -renderer.frame.knobs.shadow_subpixel_bits));
-    const double turned = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) - (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
-    const double back = copysign(shrunk / sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]), turned); /* B4 brings it where it was aimed at */
+    const double turned = (corner[1][0] - corner[0][0]) * (corner[2][1] - corner[0][1]) -
+                          (corner[1][1] - corner[0][1]) * (corner[2][0] - corner[0][0]);
+    const double back = copysign(shrunk / sqrt(1 + slope[0] * slope[0] + slope[1] * slope[1]),
+                                 turned); /* B4 brings it where it was aimed at */
     for (int i = 0; i < 3; i++) {
-        const double u = corner[i][0], v = corner[i][1], w = range / 2 + slope[0] * (u - TEXELS / 2) + slope[1] * (v - TEXELS / 2);
+        const double u = corner[i][0], v = corner[i][1],
+                     w = range / 2 + slope[0] * (u - TEXELS / 2) + slope[1] * (v - TEXELS / 2);
         const double at[3] = {u - slope[0] * back, v - slope[1] * back, w + back};
         put_seen(i, view, at, origin, texel);
     }
@@ -312,8 +328,13 @@ static void check_sun(const gn_knobs *knobs, int far, double shrunk)
         see_sun(&q, view, light.bias_caster_q16 * LSB16);
         if (q.normal[2] == 0) continue;
         const double half = ldexp(0.5, -knobs->shadow_subpixel_bits);
-        tile_check check = {far ? STAGE_SUN_FAR_EDGE : shrunk > 0 ? STAGE_SUN_SHRUNK_EDGE : STAGE_SUN_EDGE,
-                            far || shrunk > 0 ? -1 : bits == 16 ? STAGE_SUN_DEPTH : STAGE_SUN_DEPTH_32, half + (far ? q.corner[1] + 5 * LSB16 : q.corner[2]), sun_depth, sun_depth_bound};
+        tile_check check = {far          ? STAGE_SUN_FAR_EDGE
+                            : shrunk > 0 ? STAGE_SUN_SHRUNK_EDGE
+                                         : STAGE_SUN_EDGE,
+                            far || shrunk > 0 ? -1
+                            : bits == 16      ? STAGE_SUN_DEPTH
+                                              : STAGE_SUN_DEPTH_32,
+                            half + (far ? q.corner[1] + 5 * LSB16 : q.corner[2]), sun_depth, sun_depth_bound};
         const outline o = sun_outline(&q);
         check_tile(view, &q, &o, &check);
         if (!far) check_corners(&o, &check);
@@ -322,7 +343,7 @@ static void check_sun(const gn_knobs *knobs, int far, double shrunk)
     mesh.nrm_q15 = normals;
 }
 
-/* ---- Spot and point ----------------------------------------------------------------------------------------------------- */
+/* ---- Spot and point ---------------------------------------------------------------------------------------------- */
 
 static double focal_of(const gn_light_view *view) /* T / t, exact in either type */
 {
@@ -376,7 +397,8 @@ static outline lamp_outline(const gn_light_view *view, const caster *q)
             o.n++;
         }
         if ((a[2] >= near) == (b[2] >= near)) continue;
-        for (int k = 0; k < 2; k++) o.p[o.n][k] = TEXELS / 2 + half * (a[k] + (near - a[2]) / (b[2] - a[2]) * (b[k] - a[k])) / near;
+        for (int k = 0; k < 2; k++)
+            o.p[o.n][k] = TEXELS / 2 + half * (a[k] + (near - a[2]) / (b[2] - a[2]) * (b[k] - a[k])) / near;
         o.n++;
     }
     return o;
@@ -385,10 +407,13 @@ static outline lamp_outline(const gn_light_view *view, const caster *q)
 /* NUMERICS 4.6: half a unit of the grid, the quotient's 2^-29, and what a corner's own error is in the tile. */
 static double lamp_edge_bound(const gn_light_view *view, const caster *q, int cut)
 {
-    const double near = view->fit.persp.near_q16 * LSB16, half = focal_of(view) / 2, grid = ldexp(0.5, -renderer.frame.knobs.shadow_subpixel_bits);
+    const double near = view->fit.persp.near_q16 * LSB16, half = focal_of(view) / 2,
+                 grid = ldexp(0.5, -renderer.frame.knobs.shadow_subpixel_bits);
     double bound = 0;
     for (int i = 0; i < 3; i++) {
-        const double z = fmax(near, (double)q->p[i][2]), side = cut ? fmax(TEXELS / half / 2, 1) : fmax(fabs((double)q->p[i][0]), fabs((double)q->p[i][1])) / z;
+        const double z = fmax(near, (double)q->p[i][2]),
+                     side = cut ? fmax(TEXELS / half / 2, 1)
+                                : fmax(fabs((double)q->p[i][0]), fabs((double)q->p[i][1])) / z;
         bound = fmax(bound, half * (side * ldexp(1, -29) + ldexp(1, -29) + q->corner[2] * (1 + side) / z * 1.01));
     }
     if (cut) bound += half * (0.5 * LSB16 + ldexp(q->longest, -28)) / near;
@@ -403,7 +428,8 @@ static void lamp_caster(const gn_light_view *view, int cut)
         origin[a] = 0;
         for (int k = 0; k < 3; k++) origin[a] += view->fit.persp.eye_q16[k] * LSB16 * ldexp(view->axis_q30[a][k], -30);
     }
-    aim(corner, 1, cut ? 2 * TEXELS : TEXELS, ldexp(0.7, -renderer.frame.knobs.shadow_subpixel_bits) + 2 * focal_of(view) / (cut ? near : z0) * LSB16);
+    aim(corner, 1, cut ? 2 * TEXELS : TEXELS,
+        ldexp(0.7, -renderer.frame.knobs.shadow_subpixel_bits) + 2 * focal_of(view) / (cut ? near : z0) * LSB16);
     for (int i = 0; i < 3; i++) {
         const double z = cut ? near * (i == 0 ? uniform(0.2, 0.9) : uniform(1.05, 2)) : z0 * uniform(0.7, 1.4);
         double at[3] = {0, 0, z};
@@ -435,8 +461,13 @@ static void check_lamp(const gn_knobs *knobs, gn_light_kind kind, int cut)
         lamp_caster(view, cut);
         if (!draw_tile(face)) break;
         see_lamp(&q, view);
-        tile_check check = {cut ? (point ? STAGE_POINT_CUT_EDGE : STAGE_SPOT_CUT_EDGE) : point ? STAGE_POINT_EDGE : STAGE_SPOT_EDGE,
-                            cut ? -1 : point ? (bits == 16 ? STAGE_POINT_DEPTH : STAGE_POINT_DEPTH_32) : bits == 16 ? STAGE_SPOT_DEPTH : STAGE_SPOT_DEPTH_32,
+        tile_check check = {cut     ? (point ? STAGE_POINT_CUT_EDGE : STAGE_SPOT_CUT_EDGE)
+                            : point ? STAGE_POINT_EDGE
+                                    : STAGE_SPOT_EDGE,
+                            cut          ? -1
+                            : point      ? (bits == 16 ? STAGE_POINT_DEPTH : STAGE_POINT_DEPTH_32)
+                            : bits == 16 ? STAGE_SPOT_DEPTH
+                                         : STAGE_SPOT_DEPTH_32,
                             lamp_edge_bound(view, &q, cut), lamp_depth, lamp_depth_bound};
         const outline o = lamp_outline(view, &q);
         check_tile(view, &q, &o, &check);
@@ -447,11 +478,9 @@ static void check_lamp(const gn_knobs *knobs, gn_light_kind kind, int cut)
 
 int main(int argc, char **argv)
 {
-#define PRESET_KNOB(name, MACRO, lo, hi, meaning, cost) (int32_t[]){GN_PRESETS_##MACRO}[preset],
-    static const char *const name[] = {"tiny", "balanced", "accurate"};
     const int table = argc > 1 && strcmp(argv[1], "--table") == 0;
     for (int preset = 0; preset < 3; preset++) {
-        const gn_knobs knobs = {GN_QUALITY_KNOBS(PRESET_KNOB)};
+        const gn_knobs knobs = preset_knobs(preset);
         for (int i = 0; i < 30; i++) {
             check_sun(&knobs, 0, 0);
             check_sun(&knobs, 1, 0);
@@ -461,7 +490,7 @@ int main(int argc, char **argv)
                 check_lamp(&knobs, GN_LIGHT_POINT, cut);
             }
         }
-        report_stages(table, name[preset]);
+        report_stages(table, preset_name[preset]);
     }
     return table ? (check_n_failed ? 1 : 0) : check_report();
 }

@@ -1,7 +1,7 @@
-/* The census of the automatic bias (B6): lit planes, casters and receivers at once, at every angle and distance to every kind of light,
- * through every filter, at every depth and preset. No point of them may be shadowed, not by one tap. And what it costs: how far shadows
- * are detached, beside the other biases, at every angle. "--table" prints docs/BIAS.md's tables, "--plots DIR" draws the pictures
- * beside them.
+/* The census of the automatic bias (B6): lit planes, casters and receivers at once, at every angle and distance to
+ * every kind of light, through every filter, at every depth and preset. No point of them may be shadowed, not by one
+ * tap. And what it costs: how far shadows are detached, beside the other biases, at every angle. "--table" prints
+ * docs/BIAS.md's tables, "--plots DIR" draws the pictures beside them.
  */
 #include "../host/tool/plot.h"
 #include "bias_scene.h"
@@ -14,7 +14,7 @@ static const bias forms[2] = {{.name = "auto depth", .automatic = SCENE_AUTO_BIA
 static const int depth_bits[3] = {8, 16, 32};
 static const double scales[3] = {0.4, 1, 3};
 
-/* ---- Planes ----------------------------------------------------------------------------------------------------------- */
+/* ---- Planes ------------------------------------------------------------------------------------------------------ */
 
 typedef struct {
     long pixels, dark; /* lit by the light; less than wholly so */
@@ -55,8 +55,9 @@ static void check_cell(const cell *c, const bias *b, int n_planes)
     tally t = {.first = 90, .worst = 1};
     for (int i = 0; i < n_planes; i++) any_plane(&t, c, b);
     if (!CHECK_EQ_INT(t.dark, 0))
-        printf("  %s, %s, %d bits, preset %d, %d texels, %s: %ld of %ld, from %.1f degrees, down to %.4f\n", kind_name[c->kind],
-               filter_name[c->filter], c->bits, c->preset, c->texels, b->name, t.dark, t.pixels, t.first, t.worst);
+        printf("  %s, %s, %d bits, preset %d, %d texels, %s: %ld of %ld, from %.1f degrees, down to %.4f\n",
+               kind_name[c->kind], filter_name[c->filter], c->bits, c->preset, c->texels, b->name, t.dark, t.pixels,
+               t.first, t.worst);
     CHECK(t.pixels > 0 || n_planes < 4);
 }
 
@@ -73,7 +74,8 @@ static void test_planes(int n_planes)
             for (int bits = 0; bits < 3; bits++)
                 for (int preset = 0; preset < 3; preset++)
                     for (int form = 0; form < 2; form++) {
-                        const int texels = least_texels(kind) << (int)random_between(0, kind == SCENE_LIGHT_POINT ? 4 : 5);
+                        const int texels = least_texels(kind)
+                                           << (int)random_between(0, kind == SCENE_LIGHT_POINT ? 4 : 5);
                         const cell c = {(scene_light_kind)kind, (scene_filter)filter, depth_bits[bits], preset, texels};
                         check_cell(&c, &forms[form], n_planes);
                     }
@@ -105,7 +107,8 @@ static void test_cut_planes(int n_planes)
         f.objects[0].alpha = 0.5;
         if (draw(&f, &c, SMALL_WIDTH, SMALL_HEIGHT))
             for (int k = 0; k < SMALL_WIDTH * SMALL_HEIGHT; k++)
-                dark += plane_point_in(&h, &f, &p, k % SMALL_WIDTH, k / SMALL_WIDTH, SMALL_WIDTH, SMALL_HEIGHT) && raw[k] < 65536;
+                dark += plane_point_in(&h, &f, &p, k % SMALL_WIDTH, k / SMALL_WIDTH, SMALL_WIDTH, SMALL_HEIGHT) &&
+                        raw[k] < 65536;
         CHECK_EQ_INT(dark, 0);
         end(&f);
     }
@@ -144,7 +147,7 @@ static void test_reference(void)
         }
 }
 
-/* ---- Curved surfaces -------------------------------------------------------------------------------------------------- */
+/* ---- Curved surfaces --------------------------------------------------------------------------------------------- */
 
 enum { BALL, WAVES };
 
@@ -192,7 +195,8 @@ typedef struct {
 /* A lit point is one whose smooth normal looks at the light. */
 static void count_curved(curved_points *out, fixture *f, const cell *c, const double from[3], uint32_t least)
 {
-    const ref_options options = {.width = SMALL_WIDTH * 2, .height = SMALL_HEIGHT * 2, .atlas_size = 64, .other_atlas_size = 256};
+    const ref_options options = {
+        .width = SMALL_WIDTH * 2, .height = SMALL_HEIGHT * 2, .atlas_size = 64, .other_atlas_size = 256};
     ref_picture r = render_with(f, &options); /* for triangles and normals */
     if (draw(f, c, options.width, options.height))
         for (int k = 0; k < options.width * options.height; k++) {
@@ -237,7 +241,7 @@ static curved curved_acne(const cell *c, const bias *b, int shape, int n, bool s
                     p.sum / (double)(p.lit[0] + p.lit[1])};
 }
 
-/* ---- Convex bodies of a few faces, shaded smoothly --------------------------------------------------------------------- */
+/* ---- Convex bodies of a few faces, shaded smoothly --------------------------------------------------------------- */
 
 enum { TETRAHEDRON, OCTAHEDRON, BOX, SLAB, N_BODIES };
 static const char *const body_name[N_BODIES] = {"tetrahedron", "octahedron", "box", "slab"};
@@ -298,22 +302,24 @@ static void count_body(curved_points *p, const cell *c, const bias *b, int body)
     end(&f);
 }
 
-/* Wherever corners' normals point, a face that looks at the light has no dark points but single ones, where the two engines give a pixel at
- * an edge to different faces, and where a texel at an edge holds the plane of a face that the light grazes: flat bodies have those too. */
+/* Wherever corners' normals point, a face that looks at the light has no dark points but single ones, where the two
+ * engines give a pixel at an edge to different faces, and where a texel at an edge holds the plane of a face that the
+ * light grazes: flat bodies have those too. */
 static void test_bodies(int n)
 {
     long lit = 0, dark = 0;
     for (int kind = 0; kind < 3; kind++)
         for (int filter = 0; filter < 6; filter++)
             for (int i = 0; i < 2 * N_BODIES; i++) {
-                const cell c = {(scene_light_kind)kind, (scene_filter)filter, i < N_BODIES ? 16 : 8, (i + filter) % 3, 64};
+                const cell c = {(scene_light_kind)kind, (scene_filter)filter, i < N_BODIES ? 16 : 8, (i + filter) % 3,
+                                64};
                 const bias *b = &forms[(i + kind) % 2 ? 0 : 1];
                 curved_points p = {0};
                 for (int k = 0; k < n / 2; k++) count_body(&p, &c, b, i % N_BODIES);
                 lit += p.lit[0], dark += p.dark[0];
                 if (!CHECK(p.dark[0] <= p.lit[0] / 500))
-                    printf("  %s, %s, %s, %d bits, preset %d, %s: %ld of %ld\n", body_name[i % N_BODIES], kind_name[kind],
-                           filter_name[filter], c.bits, c.preset, b->name, p.dark[0], p.lit[0]);
+                    printf("  %s, %s, %s, %d bits, preset %d, %s: %ld of %ld\n", body_name[i % N_BODIES],
+                           kind_name[kind], filter_name[filter], c.bits, c.preset, b->name, p.dark[0], p.lit[0]);
             }
     CHECK(dark <= lit / 20000);
     CHECK(lit > 1000 * 3 * 6 * N_BODIES);
@@ -327,12 +333,14 @@ static void test_balls(void)
             for (int n = 8; n <= 64; n *= 2) {
                 const cell c = {(scene_light_kind)kind, (scene_filter)(n / 16), 16, SETTINGS_ACCURATE, 64};
                 const curved t = curved_acne(&c, &forms[form], BALL, n, true);
-                if (!CHECK(t.facing <= 0)) printf("  %s, %d segments, %s: %g\n", kind_name[kind], n, forms[form].name, t.facing);
+                if (!CHECK(t.facing <= 0))
+                    printf("  %s, %d segments, %s: %g\n", kind_name[kind], n, forms[form].name, t.facing);
             }
 }
 
-/* Hollow and coarse: faces within a filter's reach rise over the plane of this one. A curved surface moves along its interpolated normal,
- * as far as any plane would have to: by what B2 with 1 does, and a little; where that is enough, so is this. */
+/* Hollow and coarse: faces within a filter's reach rise over the plane of this one. A curved surface moves along its
+ * interpolated normal, as far as any plane would have to: by what B2 with 1 does, and a little; where that is enough,
+ * so is this. */
 static void test_waves(void)
 {
     static const bias b2 = {.name = "B2 1", .normal = 1};
@@ -342,14 +350,16 @@ static void test_waves(void)
                 const cell c = {(scene_light_kind)kind, (scene_filter)filter, i & 1 ? 8 : 16,
                                 i & 2 ? SETTINGS_ACCURATE : SETTINGS_BALANCED, 64};
                 const int n = 64 >> (i + filter) % 3;
-                const curved t = curved_acne(&c, &forms[1], WAVES, n, false), by_hand = curved_acne(&c, &b2, WAVES, n, false);
-                if (!CHECK(t.facing <= by_hand.facing && t.averted <= by_hand.averted && (c.bits < 16 || t.facing <= 0)))
-                    printf("  %s, %s, %d segments, %d bits: %g, %g; B2 1: %g, %g\n", kind_name[kind], filter_name[filter], n,
-                           c.bits, t.facing, t.averted, by_hand.facing, by_hand.averted);
+                const curved t = curved_acne(&c, &forms[1], WAVES, n, false),
+                             by_hand = curved_acne(&c, &b2, WAVES, n, false);
+                if (!CHECK(t.facing <= by_hand.facing && t.averted <= by_hand.averted &&
+                           (c.bits < 16 || t.facing <= 0)))
+                    printf("  %s, %s, %d segments, %d bits: %g, %g; B2 1: %g, %g\n", kind_name[kind],
+                           filter_name[filter], n, c.bits, t.facing, t.averted, by_hand.facing, by_hand.averted);
             }
 }
 
-/* ---- Detachment ------------------------------------------------------------------------------------------------------- */
+/* ---- Detachment -------------------------------------------------------------------------------------------------- */
 
 static const bias beside[] = {
     {.name = "B2 1", .normal = 1},
@@ -372,7 +382,8 @@ static detachment wall_at(const cell *c, const bias *b, double degrees)
     return detach_at(c, b, degrees, fmin(WALL, height));
 }
 
-/* The normal form leaves less of a shadow lit than B2's default does, at every angle, and opens no wider a gap at the foot. */
+/* The normal form leaves less of a shadow lit than B2's default does, at every angle, and opens no wider a gap at the
+ * foot. */
 static void test_detachment(void)
 {
     for (int kind = 0; kind < 3; kind++)
@@ -383,12 +394,12 @@ static void test_detachment(void)
             const detachment now = wall_at(&c, &beside[DEFAULT], degrees), then = wall_at(&c, &beside[NORMAL], degrees);
             CHECK(!now.acne && !then.acne);
             if (!CHECK(then.wrong <= now.wrong + 0.001 && then.gap <= now.gap + 0.1))
-                printf("  %s, %s, %.0f degrees: %g, gap %g; default %g, %g\n", kind_name[kind], filter_name[c.filter], degrees,
-                       then.wrong, then.gap, now.wrong, now.gap);
+                printf("  %s, %s, %.0f degrees: %g, gap %g; default %g, %g\n", kind_name[kind], filter_name[c.filter],
+                       degrees, then.wrong, then.gap, now.wrong, now.gap);
         }
 }
 
-/* ---- Tables ----------------------------------------------------------------------------------------------------------- */
+/* ---- Tables ------------------------------------------------------------------------------------------------------ */
 
 static double tidy(double v, double least)
 {
@@ -440,7 +451,8 @@ static void print_bodies(void)
     for (int body = 0; body < N_BODIES; body++)
         for (int kind = 0; kind < 3; kind++)
             for (int filter = SCENE_FILTER_2X2; filter <= SCENE_FILTER_5X5; filter += 2) {
-                printf("| smooth %s | %s | %s |", body_name[body], kind_name[kind], filter == SCENE_FILTER_2X2 ? "2×2" : "5×5");
+                printf("| smooth %s | %s | %s |", body_name[body], kind_name[kind],
+                       filter == SCENE_FILTER_2X2 ? "2×2" : "5×5");
                 for (int i = 0; i < N_BESIDE; i++) {
                     const cell c = {(scene_light_kind)kind, (scene_filter)filter, 16, SETTINGS_BALANCED, 64};
                     curved_points p = {0};
@@ -460,14 +472,15 @@ static void print_acne(void)
         for (int i = 0; i < 6 * 3 * 3 * 10; i++, planes++)
             for (int form = 0; form < 2; form++) {
                 const int texels = least_texels(kind) << (i % (kind == SCENE_LIGHT_POINT ? 4 : 5));
-                const cell c = {(scene_light_kind)kind, (scene_filter)(i % 6), depth_bits[i / 6 % 3], i / 18 % 3, texels};
+                const cell c = {(scene_light_kind)kind, (scene_filter)(i % 6), depth_bits[i / 6 % 3], i / 18 % 3,
+                                texels};
                 any_plane(&t[form], &c, &forms[form]);
             }
         printf("| %s | %ld | %ld | %ld | %ld |\n", kind_name[kind], planes, t[0].pixels, t[0].dark, t[1].dark);
     }
 }
 
-/* ---- Plots ------------------------------------------------------------------------------------------------------------ */
+/* ---- Plots ------------------------------------------------------------------------------------------------------- */
 
 static const bias shown[] = {
     {.name = "B1: constant 0.5, slope 1", .constant = 0.5, .slope = 1},
@@ -478,7 +491,8 @@ static const bias shown[] = {
 enum { N_SHOWN = sizeof shown / sizeof *shown, N_MAPS = 9, N_ROWS = 18 };
 
 typedef struct {
-    double acne, lit, gap, shrink; /* shares of points and of the shadow; texels; NaN: nothing to see, or acne hides it */
+    double acne, lit, gap,
+        shrink; /* shares of points and of the shadow; texels; NaN: nothing to see, or acne hides it */
 } census;
 
 /* Planes tilted along an axis of the texels and along their diagonal, and a wall. */
@@ -503,8 +517,8 @@ static void take_census(void)
         for (int map = 0; map < N_MAPS; map++)
             for (int row = 0; row < N_ROWS; row++)
                 for (int a = 0; a < N_DEGREES; a++) {
-                    const cell c = {(scene_light_kind)(map / 3), (scene_filter)(row / 3), depth_bits[row % 3], SETTINGS_BALANCED,
-                                    WALL_TEXELS};
+                    const cell c = {(scene_light_kind)(map / 3), (scene_filter)(row / 3), depth_bits[row % 3],
+                                    SETTINGS_BALANCED, WALL_TEXELS};
                     light_scale = scales[map % 3];
                     all[i][map][row][a] = census_of(&c, &shown[i], wall_degrees[a]);
                 }
@@ -578,8 +592,8 @@ static int write_curves(const char *folder)
             }
         }
     snprintf(path, sizeof path, "%s/census.svg", folder);
-    const int failed = plot_curves_write(path, "Acne and detachment over the angle of the light, 5x5, 16 bits", names, N_SHOWN,
-                                         panels, 3 * METRICS, 3, error, sizeof error);
+    const int failed = plot_curves_write(path, "Acne and detachment over the angle of the light, 5x5, 16 bits", names,
+                                         N_SHOWN, panels, 3 * METRICS, 3, error, sizeof error);
     if (failed) fprintf(stderr, "%s: %s\n", path, error);
     return failed;
 }

@@ -1,12 +1,14 @@
-/* Screen tiles that changed (R6): what is flushed, replayed onto a panel, is every frame's picture; what did not change is not
- * flushed. */
+/* Screen tiles that changed (R6): what is flushed, replayed onto a panel, is every frame's picture; what did not change
+ * is not flushed. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "check.h"
 #include "light_scene.h"
 
-#define W 51 /* the last column of tiles is narrower, and not a whole number of bytes in packed formats; the last tile is 3 x 1 */
+#define W                                                                                                              \
+    51 /* the last column of tiles is narrower, and not a whole number of bytes in packed formats; the last tile is 3  \
+          x 1 */
 #define H 33
 
 static gn_renderer renderer, whole;
@@ -77,7 +79,8 @@ static int tile_differs(const display *a, const display *b, int tile_x, int tile
 {
     int differs = 0;
     for (int y = tile_y * 8; y < (tile_y + 1) * 8 && y < H; y++)
-        for (int x = tile_x * 16; x < (tile_x + 1) * 16 && x < W; x++) differs |= a->pixel[y * W + x] != b->pixel[y * W + x];
+        for (int x = tile_x * 16; x < (tile_x + 1) * 16 && x < W; x++)
+            differs |= a->pixel[y * W + x] != b->pixel[y * W + x];
     return differs;
 }
 
@@ -149,13 +152,16 @@ static void test_other_scratch(gn_format format)
     CHECK_EQ_INT(ls_prepare(&renderer, &ls.scene), GN_OK);
     uint32_t calls = 0, flushed, n = gn_screen_tile_count(&renderer);
     for (uint32_t i = 0; i < n; i++)
-        CHECK_EQ_INT(gn_screen_tile_if_changed(&renderer.frame, &renderer.scratch, i, &panel, flush_nothing, &calls, &flushed),
-                     GN_OK);
+        CHECK_EQ_INT(
+            gn_screen_tile_if_changed(&renderer.frame, &renderer.scratch, i, &panel, flush_nothing, &calls, &flushed),
+            GN_OK);
     CHECK_EQ_INT(calls, n);
     memset(&other_scratch, 0xA5, sizeof other_scratch);
     for (uint32_t i = n; i-- > 0;) {
         flushed = 9;
-        CHECK_EQ_INT(gn_screen_tile_if_changed(&renderer.frame, &other_scratch, i, &panel, flush_nothing, &calls, &flushed), GN_OK);
+        CHECK_EQ_INT(
+            gn_screen_tile_if_changed(&renderer.frame, &other_scratch, i, &panel, flush_nothing, &calls, &flushed),
+            GN_OK);
         CHECK_EQ_INT(flushed, 0);
     }
     CHECK_EQ_INT(calls, n);
@@ -173,7 +179,8 @@ static void test_failures(void)
     CHECK_EQ_INT(gn_render_changes(NULL, &ls.scene, &panel, flush_nothing, &calls, NULL), GN_ERR_NULL);
     ls.scene.camera.near_q16 = 0;
     n_flushed = 9;
-    CHECK_EQ_INT(gn_render_changes(&renderer, &ls.scene, &panel, flush_nothing, &calls, &n_flushed), GN_ERR_CAMERA_DEPTH);
+    CHECK_EQ_INT(gn_render_changes(&renderer, &ls.scene, &panel, flush_nothing, &calls, &n_flushed),
+                 GN_ERR_CAMERA_DEPTH);
     CHECK_EQ_INT(n_flushed, 0);
     CHECK_EQ_INT(gn_screen_tile_if_changed(&renderer.frame, &renderer.scratch, 0, &panel, flush_nothing, &calls, NULL),
                  GN_ERR_ORDER);

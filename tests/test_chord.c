@@ -1,4 +1,5 @@
-/* Values between two exact samples (gn_chord) against the perspective they stand for, in double: what NUMERICS 4.4 allows them. */
+/* Values between two exact samples (gn_chord) against the perspective they stand for, in double: what NUMERICS 4.4
+ * allows them. */
 #include <math.h>
 #include <string.h>
 
@@ -21,7 +22,8 @@ static int32_t rounded(double v)
     return (int32_t)floor(v + 0.5);
 }
 
-/* A flat surface with vertex colours and a directional light that casts shadows: all that is stepped is linear on it. */
+/* A flat surface with vertex colours and a directional light that casts shadows: all that is stepped is linear on it.
+ */
 static void flat_ends(gn_sample *a, gn_sample *b, double bend)
 {
     const double z = between(1, 300);
@@ -81,8 +83,8 @@ static void test_perspective(void)
                                      n * n / 16.0 + n;
                 worst = fmax(worst, fabs(here.value[i] - exact) / bound);
                 over += i > GN_VALUE_LIGHT && !(fabs(here.value[i] - exact) < 65536.0 / 256 + n * n / 16.0 + n);
-                over +=
-                    i >= GN_VALUE_RGB && i < GN_VALUE_LIGHT && !(fabs(here.value[i] - exact) < 65536.0 / 1024 + n * n / 16.0 + n);
+                over += i >= GN_VALUE_RGB && i < GN_VALUE_LIGHT &&
+                        !(fabs(here.value[i] - exact) < 65536.0 / 1024 + n * n / 16.0 + n);
             }
         }
     }
@@ -91,7 +93,8 @@ static void test_perspective(void)
     CHECK(held > tried / 4 && near_line > held / 4);
 }
 
-/* Cosines of an interpolated normal that turns by up to a quarter, under a directional light and for n . p of a spot or point light. */
+/* Cosines of an interpolated normal that turns by up to a quarter, under a directional light and for n . p of a spot or
+ * point light. */
 static void test_turning(void)
 {
     double worst = 0, straight = 0;
@@ -129,8 +132,8 @@ static void test_turning(void)
         for (int e = 0; e < 2; e++) {
             const double *n = e ? n1 : n0, *p = e ? p1 : p0;
             const double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-            const double cosine =
-                punctual ? -(n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) / size : (n[0] * l[0] + n[1] * l[1] + n[2] * l[2]) / size;
+            const double cosine = punctual ? -(n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) / size
+                                           : (n[0] * l[0] + n[1] * l[1] + n[2] * l[2]) / size;
             (e ? &b : &a)->value[GN_VALUE_LIGHT] = rounded(cosine * (punctual ? 65536 : 1 << 24));
         }
         const int32_t steps = 8;
@@ -148,7 +151,8 @@ static void test_turning(void)
             }
             const double unit = punctual ? 65536 * far : 1 << 24;
             const double got = here.value[GN_VALUE_LIGHT] / unit, want = exact / sqrt(size) / (punctual ? far : 1);
-            const double line = (a.value[GN_VALUE_LIGHT] + t * ((double)b.value[GN_VALUE_LIGHT] - a.value[GN_VALUE_LIGHT])) / unit;
+            const double line =
+                (a.value[GN_VALUE_LIGHT] + t * ((double)b.value[GN_VALUE_LIGHT] - a.value[GN_VALUE_LIGHT])) / unit;
             worst = fmax(worst, fabs(got - want));
             straight = fmax(straight, fabs(line - want));
         }

@@ -1,4 +1,5 @@
-/* Clipping in view space: what comes out lies inside, is convex, and neighbours stay neighbours, down to the last bit. */
+/* Clipping in view space: what comes out lies inside, is convex, and neighbours stay neighbours, down to the last bit.
+ */
 #include <stdint.h>
 #include <string.h>
 
@@ -26,10 +27,11 @@ static frustum random_frustum(void)
 {
     static const int32_t hard_side[4] = {1, 65536, INT32_MAX, 1 << 20}, hard_near[2] = {256, 8192 << 16};
     frustum f;
-    f.near =
-        rng_below(&random_state, 4) ? (int32_t)(rng_wide_u64(&random_state, 22) + 256) : hard_near[rng_below(&random_state, 2)];
+    f.near = rng_below(&random_state, 4) ? (int32_t)(rng_wide_u64(&random_state, 22) + 256)
+                                         : hard_near[rng_below(&random_state, 2)];
     for (int i = 0; i < 2; i++)
-        f.side[i] = rng_below(&random_state, 4) ? (int32_t)rng_wide_u64(&random_state, 22) : hard_side[rng_below(&random_state, 4)];
+        f.side[i] = rng_below(&random_state, 4) ? (int32_t)rng_wide_u64(&random_state, 22)
+                                                : hard_side[rng_below(&random_state, 4)];
     return f;
 }
 
@@ -64,8 +66,8 @@ static void tight_triangle(gn_polygon *p, const frustum *f)
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 2; k++) {
             int64_t reach = (int64_t)near * f->side[k] / 65536 * 4;
-            p->v_q16[i][k] =
-                rng_range(&random_state, -(int32_t)(reach < LIMIT ? reach : LIMIT), (int32_t)(reach < LIMIT ? reach : LIMIT));
+            p->v_q16[i][k] = rng_range(&random_state, -(int32_t)(reach < LIMIT ? reach : LIMIT),
+                                       (int32_t)(reach < LIMIT ? reach : LIMIT));
         }
         p->v_q16[i][2] = rng_range(&random_state, -2 * near, 4 * near);
     }
@@ -78,7 +80,7 @@ static uint32_t outcodes(const gn_polygon *p, const frustum *f)
     return planes;
 }
 
-/* ---- One triangle ------------------------------------------------------------------------------------------------- */
+/* ---- One triangle ------------------------------------------------------------------------------------------------ */
 
 static void test_outcode(void)
 {
@@ -95,7 +97,8 @@ static void test_outcode(void)
     CHECK_TALLY(t, "gn_outcode");
 }
 
-/* How far outside of a plane a vertex lies, in LSB of its coordinates: moving each by one changes the distance by side + 1. */
+/* How far outside of a plane a vertex lies, in LSB of its coordinates: moving each by one changes the distance by side
+ * + 1. */
 static long double overshoot(const int32_t v[3], uint32_t plane, const frustum *f)
 {
     i128 d = plane_distance(v, plane, f);
@@ -184,7 +187,8 @@ static void test_triangles(void)
         uint32_t bits = 3 + rng_below(&random_state, 28);
         for (int k = 0; k < 3; k++) random_point(triangle.v_q16[k], bits, &f);
         if (i % 2 == 0) tight_triangle(&triangle, &f);
-        if (i % 7 == 0) memcpy(triangle.v_q16[2], triangle.v_q16[rng_below(&random_state, 2)], sizeof triangle.v_q16[2]);
+        if (i % 7 == 0)
+            memcpy(triangle.v_q16[2], triangle.v_q16[rng_below(&random_state, 2)], sizeof triangle.v_q16[2]);
         uint32_t planes = outcodes(&triangle, &f);
         p = q = triangle;
         gn_clip(&p, &uncut, planes, f.near, f.side);
@@ -198,10 +202,11 @@ static void test_triangles(void)
             for (uint32_t plane = GN_OUT_NEAR; plane <= GN_OUT_TOP; plane <<= 1) {
                 long double e = overshoot(p.v_q16[k], plane, &f);
                 WORST(&w, e, "case %u, plane %u", (unsigned)i, (unsigned)plane);
-                HOLDS(&inside, e <= (plane == GN_OUT_NEAR ? NEAR_LSB : CUT_LSB), "case %u: vertex %d outside plane %u by %.3Lf LSB",
-                      (unsigned)i, k, (unsigned)plane, e);
+                HOLDS(&inside, e <= (plane == GN_OUT_NEAR ? NEAR_LSB : CUT_LSB),
+                      "case %u: vertex %d outside plane %u by %.3Lf LSB", (unsigned)i, k, (unsigned)plane, e);
             }
-            for (int c = 0; c < 3; c++) HOLDS(&inside, i128_abs(p.v_q16[k][c]) <= LIMIT, "case %u: beyond the limit", (unsigned)i);
+            for (int c = 0; c < 3; c++)
+                HOLDS(&inside, i128_abs(p.v_q16[k][c]) <= LIMIT, "case %u: beyond the limit", (unsigned)i);
         }
         HOLDS(&shape, flat_and_convex(&p, &triangle), "case %u", (unsigned)i);
     }
@@ -212,10 +217,11 @@ static void test_triangles(void)
     printf("gn_clip: outside by at most %.3Lf LSB (%s); up to %d vertices\n", w.error, w.at, most);
 }
 
-/* ---- Two triangles on an edge ------------------------------------------------------------------------------------- */
+/* ---- Two triangles on an edge ------------------------------------------------------------------------------------ */
 
-/* The triangle (a, b, c) from any of its vertices on, cut by all planes. By those alone that its own vertices are outside of would
- * not do: a cut vertex may be rounded to the far side of another plane, and then one neighbour cuts once more. */
+/* The triangle (a, b, c) from any of its vertices on, cut by all planes. By those alone that its own vertices are
+ * outside of would not do: a cut vertex may be rounded to the far side of another plane, and then one neighbour cuts
+ * once more. */
 static gn_polygon clipped(const int32_t a[3], const int32_t b[3], const int32_t c[3], uint32_t first, const frustum *f)
 {
     gn_polygon p = {.n = 3};
@@ -245,13 +251,13 @@ static void test_shared_edge(void)
         gn_polygon left = clipped(v[0], v[1], v[2], rng_below(&random_state, 3), &f);
         gn_polygon right = clipped(v[3], v[2], v[1], rng_below(&random_state, 3), &f);
         for (int k = 0; k < alone.n; k++)
-            HOLDS(&t, has_vertex(&left, alone.v_q16[k]) && has_vertex(&right, alone.v_q16[k]), "case %u: (%d, %d, %d)", (unsigned)i,
-                  (int)alone.v_q16[k][0], (int)alone.v_q16[k][1], (int)alone.v_q16[k][2]);
+            HOLDS(&t, has_vertex(&left, alone.v_q16[k]) && has_vertex(&right, alone.v_q16[k]), "case %u: (%d, %d, %d)",
+                  (unsigned)i, (int)alone.v_q16[k][0], (int)alone.v_q16[k][1], (int)alone.v_q16[k][2]);
     }
     CHECK_TALLY(t, "both triangles get the same vertices on their edge");
 }
 
-/* ---- Coverage ----------------------------------------------------------------------------------------------------- */
+/* ---- Coverage ---------------------------------------------------------------------------------------------------- */
 
 enum { SIZE = 64, GUARD_PX = 1000 };
 
@@ -296,7 +302,8 @@ static exact_triangle exact_of(const int32_t a[3], const int32_t b[3], const int
 {
     exact_triangle t;
     long double e1[3], e2[3];
-    for (int k = 0; k < 3; k++) t.v[0][k] = (long double)a[k], t.v[1][k] = (long double)b[k], t.v[2][k] = (long double)c[k];
+    for (int k = 0; k < 3; k++)
+        t.v[0][k] = (long double)a[k], t.v[1][k] = (long double)b[k], t.v[2][k] = (long double)c[k];
     for (int i = 0; i < 3; i++) cross(t.edge[i], t.v[i], t.v[(i + 1) % 3]);
     for (int k = 0; k < 3; k++) e1[k] = t.v[1][k] - t.v[0][k], e2[k] = t.v[2][k] - t.v[0][k];
     cross(t.n, e1, e2);
@@ -311,8 +318,9 @@ static long double line_px(const long double l[3], long double value, const long
     return slope > 0 ? (dot(l, ray) - value) / slope : 1e9L;
 }
 
-/* +1 or -1 where the triangle is hit beyond the near plane, by orientation; 0 where it is not; 2 too close to its border or to the
- * near plane to say. Edge 1, the shared one, has no margin: whatever is decided there, the neighbour decides the other way. */
+/* +1 or -1 where the triangle is hit beyond the near plane, by orientation; 0 where it is not; 2 too close to its
+ * border or to the near plane to say. Edge 1, the shared one, has no margin: whatever is decided there, the neighbour
+ * decides the other way. */
 static int exact_hit(const exact_triangle *t, const long double ray[3], int32_t near)
 {
     int sign = t->det > 0 ? 1 : -1, inside = 1;
@@ -332,10 +340,10 @@ static void check_coverage(tally *t, unsigned long *n_folded, const camera *c, i
     static canvas out;
     exact_triangle exact[2] = {exact_of(v[0], v[1], v[2]), exact_of(v[3], v[2], v[1])};
     for (int i = 0; i < 2; i++)
-        if (face_of(
-                &(gn_polygon){
-                    .v_q16 = {{v[3 * i][0], v[3 * i][1], v[3 * i][2]}, {v[1][0], v[1][1], v[1][2]}, {v[2][0], v[2][1], v[2][2]}},
-                    .n = 3})
+        if (face_of(&(gn_polygon){.v_q16 = {{v[3 * i][0], v[3 * i][1], v[3 * i][2]},
+                                            {v[1][0], v[1][1], v[1][2]},
+                                            {v[2][0], v[2][1], v[2][2]}},
+                                  .n = 3})
                 .height < 64)
             return;
     gn_polygon left = clipped(v[0], v[1], v[2], rng_below(&random_state, 3), &c->f);
@@ -354,7 +362,8 @@ static void check_coverage(tally *t, unsigned long *n_folded, const camera *c, i
         }
 }
 
-/* Two triangles on an edge that crosses the picture, some of their corners behind the camera or far beyond the guard band. */
+/* Two triangles on an edge that crosses the picture, some of their corners behind the camera or far beyond the guard
+ * band. */
 static void test_coverage(void)
 {
     tally t = {0};
@@ -367,7 +376,8 @@ static void test_coverage(void)
         c.f.near = rng_range(&random_state, 1 << 13, 1 << 17);
         for (int k = 0; k < 2; k++) c.f.side[k] = (int32_t)(((int64_t)(SIZE + 2 * GUARD_PX) << 32) / c.focal2_q16) + 1;
         /* the middle of the shared edge is in sight, its ends lie in opposite directions from there */
-        int32_t depth = c.f.near * 2 + rng_range(&random_state, 0, 1 << 22), reach = 1 << rng_range(&random_state, 16, 27);
+        int32_t depth = c.f.near * 2 + rng_range(&random_state, 0, 1 << 22),
+                reach = 1 << rng_range(&random_state, 16, 27);
         for (int k = 0; k < 3; k++) {
             int32_t centre = k == 2 ? depth : rng_range(&random_state, -depth / 8, depth / 8),
                     along = rng_range(&random_state, -reach, reach);

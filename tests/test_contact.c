@@ -1,6 +1,7 @@
-/* Detachment at the contact, beside acne: the gap behind the foot of a wall, under the automatic bias (B6) and under the defaults of B1 and B2
- * (constant and slope 0, normal 1), at every angle and for every kind of light. How wide a gap is depends on where the wall stands in the
- * light's grid, by a tenth of a texel or so either way: what is compared are means over many places. "--table" prints docs/BIAS.md's table. */
+/* Detachment at the contact, beside acne: the gap behind the foot of a wall, under the automatic bias (B6) and under
+ * the defaults of B1 and B2 (constant and slope 0, normal 1), at every angle and for every kind of light. How wide a
+ * gap is depends on where the wall stands in the light's grid, by a tenth of a texel or so either way: what is compared
+ * are means over many places. "--table" prints docs/BIAS.md's table. */
 #include "bias_scene.h"
 
 static const bias beside[] = {
@@ -10,7 +11,7 @@ static const bias beside[] = {
 };
 enum { DEFAULT, DEPTH, NORMAL, N_BESIDE };
 
-/* ---- The gap ---------------------------------------------------------------------------------------------------------- */
+/* ---- The gap ----------------------------------------------------------------------------------------------------- */
 
 #define EYE_HIGH 7.0
 #define FOCAL    8.8 /* four pixels to a texel */
@@ -35,7 +36,8 @@ static void contact_scene(fixture *f, const cell *c, const bias *b, double degre
     static const double distance[3] = {1, 12, 6};
     const double s = sin(degrees * DEGREE), cosine = cos(degrees * DEGREE), d = distance[c->kind];
     double eye[3], at[3], up[3];
-    wall_scene_begin(f, c, b, degrees, c->kind == SCENE_LIGHT_DIRECTIONAL ? 2 * cosine / s : 2 * d * cosine / (d * s + 2));
+    wall_scene_begin(f, c, b, degrees,
+                     c->kind == SCENE_LIGHT_DIRECTIONAL ? 2 * cosine / s : 2 * d * cosine / (d * s + 2));
     turn_about(eye, 0.6, EYE_HIGH, 0.1);
     turn_about(at, 0.6, 0, 0.1);
     turn_about(up, 1, 0, 0.4);
@@ -48,7 +50,8 @@ static double texel_at_foot(const cell *c)
 {
     static const double distance[3] = {0, 12, 6};
     const gn_light_view *view = &renderer.frame.view[renderer.frame.light[0].view_idx];
-    if (c->kind == SCENE_LIGHT_DIRECTIONAL) return ldexp(1 / (double)view->fit.ortho.inv_texel.mant, -view->fit.ortho.inv_texel.exp - world_exp);
+    if (c->kind == SCENE_LIGHT_DIRECTIONAL)
+        return ldexp(1 / (double)view->fit.ortho.inv_texel.mant, -view->fit.ortho.inv_texel.exp - world_exp);
     return 2 * 65536.0 / view->fit.persp.focal2_q16 * distance[c->kind];
 }
 
@@ -81,11 +84,12 @@ static double gap_of(const cell *c, const bias *b, double degrees, double x, dou
 static double mean_gap(const cell *c, const bias *b, double degrees, int n)
 {
     double sum = 0;
-    for (int i = 0; i < n; i++) sum += gap_of(c, b, degrees, 0.4 * fmod(i * 0.6180339887, 1), 0.4 * fmod(i * 0.7548776662, 1));
+    for (int i = 0; i < n; i++)
+        sum += gap_of(c, b, degrees, 0.4 * fmod(i * 0.6180339887, 1), 0.4 * fmod(i * 0.7548776662, 1));
     return sum / n;
 }
 
-/* ---- Acne ------------------------------------------------------------------------------------------------------------- */
+/* ---- Acne -------------------------------------------------------------------------------------------------------- */
 
 /* Points of planes at that angle that are not wholly lit. */
 static long acne_of(const cell *wall, const bias *b, double degrees, int n)
@@ -110,9 +114,10 @@ static long acne_of(const cell *wall, const bias *b, double degrees, int n)
     return dark;
 }
 
-/* ---- Side by side ----------------------------------------------------------------------------------------------------- */
+/* ---- Side by side ------------------------------------------------------------------------------------------------ */
 
-/* What the automatic bias may lose to one that has acne nowhere either: the mean of ten places is good to a hundredth of a texel. */
+/* What the automatic bias may lose to one that has acne nowhere either: the mean of ten places is good to a hundredth
+ * of a texel. */
 static void test_contact(void)
 {
     static const double degrees[] = {10, 30, 60};
@@ -121,10 +126,12 @@ static void test_contact(void)
         for (int k = 0; k < 2; k++)
             for (int a = 0; a < 3; a++) {
                 const cell c = {(scene_light_kind)kind, filters[k], 16, SETTINGS_ACCURATE, WALL_TEXELS};
-                const double now = mean_gap(&c, &beside[DEFAULT], degrees[a], 10), then = mean_gap(&c, &beside[NORMAL], degrees[a], 10);
+                const double now = mean_gap(&c, &beside[DEFAULT], degrees[a], 10),
+                             then = mean_gap(&c, &beside[NORMAL], degrees[a], 10);
                 CHECK_EQ_INT(acne_of(&c, &beside[NORMAL], degrees[a], 2), 0);
                 if (!CHECK(then <= now + 0.02))
-                    printf("  %s, %s, %.0f degrees: %.3f, default %.3f\n", kind_name[kind], filter_name[c.filter], degrees[a], then, now);
+                    printf("  %s, %s, %.0f degrees: %.3f, default %.3f\n", kind_name[kind], filter_name[c.filter],
+                           degrees[a], then, now);
             }
 }
 
@@ -142,7 +149,8 @@ static void print_table(void)
                 for (int k = 0; k < 3; k++)
                     for (int i = 0; i < N_BESIDE; i++) {
                         const cell c = {(scene_light_kind)kind, filters[k], bits, SETTINGS_ACCURATE, WALL_TEXELS};
-                        printf(" %ld, %.2f |", acne_of(&c, &beside[i], degrees, 8), mean_gap(&c, &beside[i], degrees, 24));
+                        printf(" %ld, %.2f |", acne_of(&c, &beside[i], degrees, 8),
+                               mean_gap(&c, &beside[i], degrees, 24));
                     }
                 printf("\n");
             }

@@ -1,5 +1,5 @@
-/* Many cores (R7): screen tiles of one prepared frame drawn by 1, 2, 4 and 8 threads, each with its own scratch, give the same bytes.
- * run.sh also runs this under ThreadSanitizer. */
+/* Many cores (R7): screen tiles of one prepared frame drawn by 1, 2, 4 and 8 threads, each with its own scratch, give
+ * the same bytes. run.sh also runs this under ThreadSanitizer. */
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +27,8 @@ static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 {
     uint16_t *picture = user;
     for (int row = 0; row < h; row++)
-        memcpy(picture + (size_t)(y + row) * WIDTH + (size_t)x, (const uint16_t *)pixels + (size_t)row * (size_t)w, (size_t)w * 2);
+        memcpy(picture + (size_t)(y + row) * WIDTH + (size_t)x, (const uint16_t *)pixels + (size_t)row * (size_t)w,
+               (size_t)w * 2);
 }
 
 static void *draw(void *user)

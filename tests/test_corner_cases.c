@@ -1,5 +1,6 @@
-/* Corners of the library that whole scenes seldom reach: casters across the far border of a shadow tile, casters before the
- * light's near plane under a bias, steep and edge-on triangles, mirrored objects. Both engines draw scenes built for each. */
+/* Corners of the library that whole scenes seldom reach: casters across the far border of a shadow tile, casters before
+ * the light's near plane under a bias, steep and edge-on triangles, mirrored objects. Both engines draw scenes built
+ * for each. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,10 +33,12 @@ static void begin(void)
     f.s.objects = f.object;
     f.s.lights = &f.light;
     f.s.n_lights = 1;
-    f.light = (scene_light){.name = no_name, .direction = {0, -1, 0}, .colour = {1, 1, 1}, .shadow = true, .strength = 1};
-    f.s.camera = (scene_camera){.to_world = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, .focal = FOCAL, .near = 0.9, .far = 100};
-    f.s.shadow =
-        (scene_shadow){.max_distance = 20, .distance_fade = 0.1, .cascade_fade = 0.1, .n_cascades = 1, .cascade_ratio = {1, 1, 1}};
+    f.light =
+        (scene_light){.name = no_name, .direction = {0, -1, 0}, .colour = {1, 1, 1}, .shadow = true, .strength = 1};
+    f.s.camera = (scene_camera){
+        .to_world = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, .focal = FOCAL, .near = 0.9, .far = 100};
+    f.s.shadow = (scene_shadow){
+        .max_distance = 20, .distance_fade = 0.1, .cascade_fade = 0.1, .n_cascades = 1, .cascade_ratio = {1, 1, 1}};
     settings_init(&f.set);
     settings_preset(&f.set, SETTINGS_ACCURATE);
     f.set.quality.atlas_size = 64;
@@ -48,8 +51,11 @@ static scene_object *add(int n_corners, const double *corners)
     size_t i = f.s.n_objects++;
     f.s.n_meshes++;
     memcpy(f.pos[i], corners, (size_t)n_corners * 3 * sizeof *corners);
-    f.mesh[i] = (scene_mesh){
-        .name = no_name, .n_vertices = (size_t)n_corners, .n_triangles = (size_t)n_corners - 2, .pos = f.pos[i], .idx = idx};
+    f.mesh[i] = (scene_mesh){.name = no_name,
+                             .n_vertices = (size_t)n_corners,
+                             .n_triangles = (size_t)n_corners - 2,
+                             .pos = f.pos[i],
+                             .idx = idx};
     f.object[i] = (scene_object){.name = no_name,
                                  .mesh_idx = i,
                                  .to_world = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
@@ -81,13 +87,14 @@ static engine_picture draw_reference(void)
     return p;
 }
 
-/* ---- Shadow tiles ---------------------------------------------------------------------------------------------------- */
+/* ---- Shadow tiles ------------------------------------------------------------------------------------------------ */
 
 typedef struct {
     long cast, coverage, depth;
 } tile_difference;
 
-/* Texels that hold a caster in the reference, that only one of both has covered, and whose depths differ by more than two steps. */
+/* Texels that hold a caster in the reference, that only one of both has covered, and whose depths differ by more than
+ * two steps. */
 static tile_difference compare_tiles(void)
 {
     engine_picture fixed = draw_fixed(), reference = draw_reference();
@@ -156,7 +163,7 @@ static void test_pancaking_under_a_bias(void)
     engine_free(&p);
 }
 
-/* ---- Visible surfaces ------------------------------------------------------------------------------------------------ */
+/* ---- Visible surfaces -------------------------------------------------------------------------------------------- */
 
 /* The point at a depth on the ray through a place of the picture, in pixels; `swap` exchanges the axes. */
 static void at(double out[3], double px, double py, double depth, int swap)
@@ -177,8 +184,8 @@ static void add_wall(double edge_px, double width_px, int swap)
     add(3, corner)->two_sided = true;
 }
 
-/* Pixels that the wall covers when it is alone and looks nearer than `depth` there (`all`: wherever), and how many of them it
- * loses to a backdrop at that depth. */
+/* Pixels that the wall covers when it is alone and looks nearer than `depth` there (`all`: wherever), and how many of
+ * them it loses to a backdrop at that depth. */
 static void against_a_backdrop(double depth, int all, long *covered, long *lost)
 {
     static const double corners[12] = {-100, -100, 0, 100, -100, 0, 100, 100, 0, -100, 100, 0};
@@ -194,8 +201,8 @@ static void against_a_backdrop(double depth, int all, long *covered, long *lost)
     engine_free(&both);
 }
 
-/* A corner snapped to the coarsest grid lets an edge reach a pixel that its plane does not: depth there is the nearest of the
- * triangle, not the farthest. */
+/* A corner snapped to the coarsest grid lets an edge reach a pixel that its plane does not: depth there is the nearest
+ * of the triangle, not the farthest. */
 static void test_depth_past_the_near_edge(void)
 {
     long covered = 0, lost = 0;
@@ -212,7 +219,8 @@ static void test_depth_past_the_near_edge(void)
     CHECK_EQ_INT(lost, 0);
 }
 
-/* Steeper than half of all depths per pixel: there is no plane to step along, and the nearest point stands for the triangle. */
+/* Steeper than half of all depths per pixel: there is no plane to step along, and the nearest point stands for the
+ * triangle. */
 static void test_edge_on(void)
 {
     long covered = 0, lost = 0;
@@ -227,7 +235,7 @@ static void test_edge_on(void)
     CHECK_EQ_INT(lost, 0);
 }
 
-/* ---- Mirrored objects ------------------------------------------------------------------------------------------------ */
+/* ---- Mirrored objects -------------------------------------------------------------------------------------------- */
 
 /* A quad before the camera with slanted vertex normals, as an object scaled by `scale` and moved. */
 static void add_scaled(const double scale[3])
@@ -263,7 +271,8 @@ static void compare_pictures(const engine_picture *a, const engine_picture *b, l
     }
 }
 
-/* A mirroring matrix turns a triangle's winding but not its normals: the picture is that of the mesh which needs no mirror. */
+/* A mirroring matrix turns a triangle's winding but not its normals: the picture is that of the mesh which needs no
+ * mirror. */
 static void test_mirrored(void)
 {
     static const double scales[][3] = {{-1, 1, 1},     {1, -1, 1},    {1, 1, -1}, {-1, -1, -1},

@@ -1,6 +1,6 @@
-/* D2: edges of static shadows do not crawl. The camera moves and turns by less than a texel per frame over a static scene; points fixed in
- * the world are looked up in each frame's shadow tiles. How many change from lit to shadowed or back, with the grid fixed in the world and
- * without? "--table" prints it. */
+/* D2: edges of static shadows do not crawl. The camera moves and turns by less than a texel per frame over a static
+ * scene; points fixed in the world are looked up in each frame's shadow tiles. How many change from lit to shadowed or
+ * back, with the grid fixed in the world and without? "--table" prints it. */
 #include "../host/tool/quantise.h"
 #include "../lib/gn_ortho.h"
 #include "../lib/gn_texel.h"
@@ -30,7 +30,7 @@ static void step_camera(fixture *f, int frame)
     camera(f, 0.5 + way, 4 + 0.3 * way, 9 - 0.7 * way, 30 * sin(angle), 0, 9 - 30 * cos(angle));
 }
 
-/* ---- The reference ------------------------------------------------------------------------------------------------------ */
+/* ---- The reference ----------------------------------------------------------------------------------------------- */
 
 static int cascade_of(const ref_picture *p, const double point[3])
 {
@@ -66,7 +66,7 @@ static ref_picture reference(const fixture *f, bool unsnapped)
     return render_with(f, &options);
 }
 
-/* ---- The library -------------------------------------------------------------------------------------------------------- */
+/* ---- The library ------------------------------------------------------------------------------------------------- */
 
 static bool lit_by_library(const gn_light_view *view, int world_exp, const double point[3])
 {
@@ -109,7 +109,7 @@ static void see_library(sight *out, const fixture *f, const sight *choice)
     quantise_free(&fixed);
 }
 
-/* ---- Flips -------------------------------------------------------------------------------------------------------------- */
+/* ---- Flips ------------------------------------------------------------------------------------------------------- */
 
 enum { SNAPPED, UNSNAPPED, LIBRARY, N_WAYS };
 
@@ -157,7 +157,8 @@ static void walk(tally out[N_WAYS], int n_frames)
 
 int main(int argc, char **argv)
 {
-    static const char *const names[N_WAYS] = {"reference, grid fixed in the world", "reference, grid moving with the camera",
+    static const char *const names[N_WAYS] = {"reference, grid fixed in the world",
+                                              "reference, grid moving with the camera",
                                               "library, grid fixed in the world"};
     tally t[N_WAYS] = {{0, 0, 0, 0}};
     const bool table = argc > 1 && strcmp(argv[1], "--table") == 0;
@@ -179,8 +180,8 @@ int main(int argc, char **argv)
            "|\n|---|---|---|---|---|\n");
     for (int way = 0; way < N_WAYS; way++) {
         const double n = n_frames - 1;
-        printf("| %s | %.0f | %.0f | %.2f | %.2f |\n", names[way], (double)t[way].points / n, (double)t[way].shadowed / n,
-               (double)t[way].flips / n, (double)t[way].changed_cascade / n);
+        printf("| %s | %.0f | %.0f | %.2f | %.2f |\n", names[way], (double)t[way].points / n,
+               (double)t[way].shadowed / n, (double)t[way].flips / n, (double)t[way].changed_cascade / n);
     }
     return 0;
 }

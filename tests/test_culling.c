@@ -14,7 +14,8 @@ static gn_renderer renderer;
 static light_scene ls;
 
 typedef struct {
-    unsigned long pictures, culled, drawn, drawn_without; /* casters left out; triangles drawn with culling and without */
+    unsigned long pictures, culled, drawn,
+        drawn_without; /* casters left out; triangles drawn with culling and without */
 } tally;
 
 static void render(gn_scene *s, uint32_t culling, int atlas_size, uint8_t *pixels)
@@ -40,7 +41,7 @@ static int check_culling(gn_scene *s, int atlas_size, tally *t)
     return CHECK(memcmp(with, without, sizeof with) == 0);
 }
 
-/* ---- Cascades that no pixel looks into --------------------------------------------------------------------------------------- */
+/* ---- Cascades that no pixel looks into --------------------------------------------------------------------------- */
 
 /* The cascades of the picture's pixels, and those that they are blended with. */
 static uint32_t cascades_in_use(gn_scene *s, int atlas_size)
@@ -60,7 +61,8 @@ static uint32_t cascades_in_use(gn_scene *s, int atlas_size)
     return used & ((1U << s->shadow.n_cascades) - 1);
 }
 
-/* Without the tiles of the others the picture is the same, and the tiles that are left take the first texels of the atlas. */
+/* Without the tiles of the others the picture is the same, and the tiles that are left take the first texels of the
+ * atlas. */
 static int check_unused(gn_scene *s, int atlas_size, unsigned long *n_unused)
 {
     static uint8_t with[W * H * BYTES], without[W * H * BYTES];
@@ -108,7 +110,7 @@ static void any_bias(gn_light *light, rng *r)
     light->near_offset_q16 = rng_below(r, 3) ? 0 : rng_range(r, 0, GN_Q16(20));
 }
 
-/* ---- The avenue ------------------------------------------------------------------------------------------------------------ */
+/* ---- The avenue -------------------------------------------------------------------------------------------------- */
 
 static void walk(gn_camera *camera, const gn_camera *start, uint32_t i, uint32_t n)
 {
@@ -140,18 +142,19 @@ static void test_avenue(void)
         walk(&fixed.scene.camera, &start, i, 24);
         any_settings(&fixed.scene.shadow, &r);
         for (size_t l = 0; l < s.n_lights; l++) any_bias(&fixed.lights[l], &r);
-        if (!check_culling(&fixed.scene, 64 << rng_below(&r, 4), &any)) printf("  avenue, any settings, camera %u\n", i);
+        if (!check_culling(&fixed.scene, 64 << rng_below(&r, 4), &any))
+            printf("  avenue, any settings, camera %u\n", i);
     }
     CHECK(plain.culled > 0 && plain.drawn < plain.drawn_without);
-    printf("avenue, %lu pictures: %lu casters left out of cascades, %lu triangles drawn instead of %lu\n", plain.pictures,
-           plain.culled, plain.drawn, plain.drawn_without);
-    printf("avenue, any settings, %lu pictures: %lu casters left out, %lu triangles instead of %lu\n", any.pictures, any.culled,
-           any.drawn, any.drawn_without);
+    printf("avenue, %lu pictures: %lu casters left out of cascades, %lu triangles drawn instead of %lu\n",
+           plain.pictures, plain.culled, plain.drawn, plain.drawn_without);
+    printf("avenue, any settings, %lu pictures: %lu casters left out, %lu triangles instead of %lu\n", any.pictures,
+           any.culled, any.drawn, any.drawn_without);
     quantise_free(&fixed);
     scene_free(&s);
 }
 
-/* ---- Random scenes ----------------------------------------------------------------------------------------------------------- */
+/* ---- Random scenes ----------------------------------------------------------------------------------------------- */
 
 static void random_scene(rng *r)
 {
@@ -215,11 +218,12 @@ static void test_random(void)
     }
     CHECK(t.culled > 0 && n_unused > 20);
     printf("random scenes: %lu tiles of cascades that no pixel looks into\n", n_unused);
-    printf("random scenes, %lu pictures: %lu casters left out, %lu triangles instead of %lu\n", t.pictures, t.culled, t.drawn,
-           t.drawn_without);
+    printf("random scenes, %lu pictures: %lu casters left out, %lu triangles instead of %lu\n", t.pictures, t.culled,
+           t.drawn, t.drawn_without);
 }
 
-/* The first of two cascades ends anywhere: where the second is not needed, shadows do not fade at the end of the first (D6). */
+/* The first of two cascades ends anywhere: where the second is not needed, shadows do not fade at the end of the first
+ * (D6). */
 static void test_last(void)
 {
     rng r = {78};
@@ -232,7 +236,8 @@ static void test_last(void)
         ls.scene.shadow.distance_mode = GN_DISTANCE_RADIUS;
         ls.scene.shadow.max_distance_q16 = GN_Q16(60);
         ls.scene.shadow.cascade_ratio_uq16[0] = GN_UQ16(0.1) + rng_below(&r, GN_UQ16(0.3));
-        if (!check_unused(&ls.scene, 256, &n_unused)) printf("  first cascade to %u / 65536\n", (unsigned)ls.scene.shadow.cascade_ratio_uq16[0]);
+        if (!check_unused(&ls.scene, 256, &n_unused))
+            printf("  first cascade to %u / 65536\n", (unsigned)ls.scene.shadow.cascade_ratio_uq16[0]);
     }
     CHECK(n_unused > 0);
 }

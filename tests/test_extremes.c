@@ -1,12 +1,12 @@
-/* Section 10 of the specification, line by line: numerical extremes, each with an expectation that follows from the contract (docs/DESIGN.md
- * section 1, docs/NUMERICS.md). Lines 1 to 3, of geometry, are here; the others in test_extremes_light.c and test_extremes_many.c. "--table"
- * prints their part of docs/EXTREMES.md.
+/* Section 10 of the specification, line by line: numerical extremes, each with an expectation that follows from the
+ * contract (docs/DESIGN.md section 1, docs/NUMERICS.md). Lines 1 to 3, of geometry, are here; the others in
+ * test_extremes_light.c and test_extremes_many.c. "--table" prints their part of docs/EXTREMES.md.
  *
- * What other tests measure already is not repeated: bias and acne are test_bias.c's, crawling edges test_crawl.c's, every refusal and every
- * limit of a field test_refused.c's. */
+ * What other tests measure already is not repeated: bias and acne are test_bias.c's, crawling edges test_crawl.c's,
+ * every refusal and every limit of a field test_refused.c's. */
 #include "extreme_places.h"
 
-/* ---- 1: scale, place, depth ratio, shape -------------------------------------------------------------------------------- */
+/* ---- 1: scale, place, depth ratio, shape ------------------------------------------------------------------------- */
 
 static void scale_stage(fixture *f, double k)
 {
@@ -19,7 +19,8 @@ static void scale_stage(fixture *f, double k)
         f->lights[l].near_offset *= k;
         for (int i = 0; i < 3; i++) {
             f->lights[l].position[i] *= k;
-            if (f->lights[l].kind != SCENE_LIGHT_DIRECTIONAL) f->lights[l].colour[i] *= k * k; /* it falls off with the square */
+            if (f->lights[l].kind != SCENE_LIGHT_DIRECTIONAL)
+                f->lights[l].colour[i] *= k * k; /* it falls off with the square */
         }
     }
     for (int i = 0; i < 3; i++) s->camera.to_world.m[i][3] *= k;
@@ -28,8 +29,8 @@ static void scale_stage(fixture *f, double k)
     s->shadow.max_distance *= k;
 }
 
-/* The host brings every scene to the same unit of length, so that a power of two changes nothing; only the 10^-4 of P2 is a length, and it
- * takes a lamp within 0.01 units of a surface to see it. */
+/* The host brings every scene to the same unit of length, so that a power of two changes nothing; only the 10^-4 of P2
+ * is a length, and it takes a lamp within 0.01 units of a surface to see it. */
 static void test_scaled_by_the_host(void)
 {
     worst w = nothing_yet();
@@ -68,8 +69,8 @@ static void test_scaled_in_the_library(void)
         CHECK_EQ_INT(draw_library(&p, &fixed.scene, &st.set), GN_OK);
         engine_picture r = reference(&st);
         take(&w, &p, &r, st.preset);
-        snprintf(what, sizeof what, "the same within %g units of the library: positions to 2^%d of it", 3200 * ldexp(1, k),
-                 -28 - k);
+        snprintf(what, sizeof what, "the same within %g units of the library: positions to 2^%d of it",
+                 3200 * ldexp(1, k), -28 - k);
         finish(&w, what, 1);
         engine_free(&p);
         engine_free(&r);
@@ -114,8 +115,8 @@ static void test_depth_ratio(void)
     finish(&w, "far / near 10³, 10⁴, 10⁵, four cascades", 1);
 }
 
-/* The smallest step in depth that a wall before another keeps, over the picture, in the middle of the range: near / Z is kept in Q0.32 less
- * the bits of a triangle's number. */
+/* The smallest step in depth that a wall before another keeps, over the picture, in the middle of the range: near / Z
+ * is kept in Q0.32 less the bits of a triangle's number. */
 static void test_depth_resolution(void)
 {
     for (int far = 10; far <= 1000; far *= 10) {
@@ -209,7 +210,8 @@ static void test_needles(void)
     }
     CHECK(covered > 10000);
     CHECK_EQ_INT(holes, 0);
-    line("fans of 800 needles, 1/10 pixel at their broad ends", "no pixel left out", "%ld of %ld pixels", holes, covered);
+    line("fans of 800 needles, 1/10 pixel at their broad ends", "no pixel left out", "%ld of %ld pixels", holes,
+         covered);
 }
 
 static void test_line_1(void)
@@ -217,7 +219,8 @@ static void test_line_1(void)
     heading("1. Scale, place, depth ratio, huge and needle triangles");
     test_scaled_by_the_host();
     test_scaled_in_the_library();
-    refused("a unit so coarse that the near plane is below 1/256", near_too_small, GN_ERR_CAMERA_DEPTH, "near plane outside 1/256");
+    refused("a unit so coarse that the near plane is below 1/256", near_too_small, GN_ERR_CAMERA_DEPTH,
+            "near plane outside 1/256");
     test_edge_of_the_range();
     test_depth_ratio();
     test_depth_resolution();
@@ -225,7 +228,7 @@ static void test_line_1(void)
     test_needles();
 }
 
-/* ---- 2: degenerate triangles, exact places ------------------------------------------------------------------------------ */
+/* ---- 2: degenerate triangles, exact places ----------------------------------------------------------------------- */
 
 /* One object more, of these triangles. */
 static void add_triangles(fixture *f, size_t n, const double *pos)
@@ -263,7 +266,8 @@ static void test_nothing_added(const char *what, size_t n, const double *pos, bo
 static void test_degenerate(void)
 {
     static const double points[] = {0, 1, 1, 0, 1, 1, 0, 1, 1, 1, 2, 0, 1, 2, 0, -1, 1, 2};
-    static const double lines[] = {-2, 1, 1, 0, 1, 1, 2, 1, 1, -1, 0.5, 0, 0, 1, 0.5, 1, 1.5, 1, 0, 0, 0, 0, 3, 0, 0, 6, 0};
+    static const double lines[] = {-2,  1, 1,   0, 1, 1, 2, 1, 1, -1, 0.5, 0, 0, 1,
+                                   0.5, 1, 1.5, 1, 0, 0, 0, 0, 3, 0,  0,   6, 0};
     static const double tiny[] = {0.5, 1, 1, 0.5001, 1, 1, 0.5, 1.0001, 1};
     test_nothing_added("triangles with two or three equal corners", 2, points, false);
     test_nothing_added("triangles of three points in a line", 3, lines, false);
@@ -372,7 +376,8 @@ static void test_tile_borders(void)
 /* Whatever reaches over the picture, and ends at the guard band, just before or behind it, or beyond it. */
 static void test_guard_band(void)
 {
-    static const double reach[] = {476, 477, 477 + 1.0 / 64, 509, 512, 999.9375, 1000, 1000.0625, 1023, 1024, 1032, 2047.5, 3000};
+    static const double reach[] = {476,       477,  477 + 1.0 / 64, 509,  512,    999.9375, 1000,
+                                   1000.0625, 1023, 1024,           1032, 2047.5, 3000};
     long holes = 0, n = 0;
     for (int bits = 2; bits <= 8; bits += 2)
         for (size_t i = 0; i < sizeof reach / sizeof *reach; i++) {
@@ -388,8 +393,8 @@ static void test_guard_band(void)
             end(&st.f);
         }
     CHECK_EQ_INT(holes, 0);
-    line("quads that end at the guard band, before and beyond it", "the picture is covered", "%ld of %ld pixels left out", holes,
-         n);
+    line("quads that end at the guard band, before and beyond it", "the picture is covered",
+         "%ld of %ld pixels left out", holes, n);
 }
 
 /* How far a pixel's centre is from the nearest side of a triangle, in pixels. */
@@ -403,7 +408,8 @@ static double distance_to_sides(const double t[6], double x, double y)
     return least;
 }
 
-/* Sides that are cut at the guard band get new corners, which are rounded like any others: by half a step of the grid. */
+/* Sides that are cut at the guard band get new corners, which are rounded like any others: by half a step of the grid.
+ */
 static void test_cut_at_the_guard_band(void)
 {
     double farthest = 0;
@@ -429,8 +435,8 @@ static void test_cut_at_the_guard_band(void)
     }
     const double allowed = sqrt(2) * (0.5 + 1.0 / 64) / 16;
     CHECK(farthest <= allowed);
-    line("random triangles out to 4000 pixels, 4 subpixel bits", "wrong only within √2·(½ + 1/64)/16 = 0.046 pixels of a side",
-         "%.4f pixels", farthest);
+    line("random triangles out to 4000 pixels, 4 subpixel bits",
+         "wrong only within √2·(½ + 1/64)/16 = 0.046 pixels of a side", "%.4f pixels", farthest);
 }
 
 /* A grid of triangles, each 0.4 pixels across, over most of the picture: every pixel in it belongs to one. */
@@ -473,7 +479,7 @@ static void test_line_2(void)
     test_cut_at_the_guard_band();
 }
 
-/* ---- 3: near planes, lights and cameras inside things, w -> 0 ----------------------------------------------------------- */
+/* ---- 3: near planes, lights and cameras inside things, w -> 0 ---------------------------------------------------- */
 
 static void test_near_planes(void)
 {
@@ -518,9 +524,11 @@ static void test_w_zero(void)
     }
     finish(&w, "triangles with corners in the camera's plane, at it, behind it", 1);
     WITHIN_ALL("lights at the height of the ground, on a corner of a box", "yard", ".light=point", 1,
-               ".position=3,0,2 .intensity=3", ".position=2.4,1.2,-2.4 .intensity=1", ".position=3,0.001,2 .intensity=3");
+               ".position=3,0,2 .intensity=3", ".position=2.4,1.2,-2.4 .intensity=1",
+               ".position=3,0.001,2 .intensity=3");
     WITHIN_ALL("a spot light of 179° in the plane of the ground", "yard", ".light=spot .cone=100,179 .intensity=6", 1,
-               ".position=3,0,2 .direction=-1,0,-1", ".position=3,0.01,3 .direction=-1,0,-1", ".position=3,1,3 .direction=-1,0,-1");
+               ".position=3,0,2 .direction=-1,0,-1", ".position=3,0.01,3 .direction=-1,0,-1",
+               ".position=3,1,3 .direction=-1,0,-1");
 }
 
 /* A shadow picture has nothing brighter than `most` outside one object. */
@@ -532,7 +540,8 @@ static double brightest_outside(const engine_picture *p, size_t light, int64_t o
     return most;
 }
 
-/* The ball of the yard is object 2. One-sided, it does not stop a light from inside (its faces face away); two-sided, it stops all of it. */
+/* The ball of the yard is object 2. One-sided, it does not stop a light from inside (its faces face away); two-sided,
+ * it stops all of it. */
 static void test_light_inside(void)
 {
     static const char *const words[] = {".light=point .position=0.9,0.9,-0.6 .intensity=3",
@@ -560,9 +569,10 @@ static void test_light_inside(void)
 static void test_inside(void)
 {
     test_light_inside();
-    WITHIN_ALL("camera in a lamp's place, in its range, and inside a mesh", "yard", ".light=point", 1, ".position=1.2,3.4,7.5",
-               ".position=1.2,3.41,7.5", ".position=1.2,3.4,7.3 .intensity=2", ".camera=0.9,0.9,-0.6,0,0.4,-5",
-               ".camera=1.6,3.1,2.2,0,0,-1.5", ".camera=0.9,0.9,-0.6,0,0.4,-5 .two_sided=1");
+    WITHIN_ALL("camera in a lamp's place, in its range, and inside a mesh", "yard", ".light=point", 1,
+               ".position=1.2,3.4,7.5", ".position=1.2,3.41,7.5", ".position=1.2,3.4,7.3 .intensity=2",
+               ".camera=0.9,0.9,-0.6,0,0.4,-5", ".camera=1.6,3.1,2.2,0,0,-1.5",
+               ".camera=0.9,0.9,-0.6,0,0.4,-5 .two_sided=1");
     WITHIN_ALL("the same in a room whose lamp is where the camera is", "room", "", 1, ".camera=0.1,2.3,0.15,1,1,-2",
                ".camera=0.1,2.3,0.15,-1,2,2", ".camera=0.1,2.3,0.15,0.1,-1,0.2");
 }
@@ -608,8 +618,8 @@ static void test_lamp_in_a_plane(void)
     }
     CHECK(w.identical >= floor_of[SETTINGS_ACCURATE].identical);
     line("a lamp in the plane of the panel, of the ground, of a box, on a corner",
-         "colours within the floors (whether 0 is lit is open)", "%d pictures: %.2f %% identical, largest error %d of 255", w.n,
-         100 * w.identical, w.max_error);
+         "colours within the floors (whether 0 is lit is open)",
+         "%d pictures: %.2f %% identical, largest error %d of 255", w.n, 100 * w.identical, w.max_error);
 }
 
 static void test_line_3(void)
@@ -621,7 +631,6 @@ static void test_line_3(void)
     test_lamp_in_a_plane();
     test_inside();
 }
-
 
 int main(int argc, char **argv)
 {

@@ -4,9 +4,10 @@
 #include "../host/scene/loader.h"
 #include "../lib/gn_q.h"
 
-/* ---- 4: directions, angles, ranges, intensities -------------------------------------------------------------------------- */
+/* ---- 4: directions, angles, ranges, intensities ------------------------------------------------------------------ */
 
-/* The share of an object's pixels that are not as bright as `level` in all channels, in thousandths... of pixels seen. */
+/* The share of an object's pixels that are not as bright as `level` in all channels, in thousandths... of pixels seen.
+ */
 static long not_as(const engine_picture *p, int64_t object, const uint8_t level[3], long *seen)
 {
     long n = 0;
@@ -81,11 +82,12 @@ static void test_length_of_directions(void)
 
 static void test_directions(void)
 {
-    WITHIN_ALL("sun straight down, straight up, along the ground, along an axis", "yard", "cascades=2", 1, ".direction=0,-1,0",
-               ".direction=0,1,0", ".direction=1,0,0", ".direction=0,0,1", ".direction=-1,0,0", ".direction=0,0,-1");
+    WITHIN_ALL("sun straight down, straight up, along the ground, along an axis", "yard", "cascades=2", 1,
+               ".direction=0,-1,0", ".direction=0,1,0", ".direction=1,0,0", ".direction=0,0,1", ".direction=-1,0,0",
+               ".direction=0,0,-1");
     WITHIN_ALL("nearly so: 10⁻⁵ beside it, and where the axes are chosen anew (15/16)", "yard", "cascades=2", 1,
-               ".direction=0.00001,-1,0", ".direction=1,-0.00001,0", ".direction=0,-0.9375,-0.348", ".direction=0,-0.9374,-0.3483",
-               ".direction=0,-0.9376,-0.3477");
+               ".direction=0.00001,-1,0", ".direction=1,-0.00001,0", ".direction=0,-0.9375,-0.348",
+               ".direction=0,-0.9374,-0.3483", ".direction=0,-0.9376,-0.3477");
     WITHIN_ALL("spot straight down, straight up, along the ground", "yard",
                ".light=spot .cone=60,80 .position=0.4,3,0.5 .intensity=9", 1, ".direction=0,-1,0", ".direction=0,1,0",
                ".direction=-1,0,0", ".direction=0,0,-1", ".direction=0.00001,-1,0");
@@ -111,10 +113,10 @@ static void inner_above_outer(fixed_scene *f)
 static void test_angles(void)
 {
     WITHIN_ALL("spot of 1° … 179°, inner = outer", "yard", ".light=spot .intensity=40 .normals=0", 1,
-               ".cone=1,1 .camera=0,0.6,0.4,0,0,-1.5", ".cone=2,2", ".cone=5,5", ".cone=20,20", ".cone=60,60", ".cone=90,90",
-               ".cone=120,120", ".cone=150,150", ".cone=170,170", ".cone=178,178", ".cone=179,179");
-    WITHIN_ALL("inner 0, and within one step (1/65536 turn) of outer", "yard", ".light=spot .intensity=40", 1, ".cone=0,1",
-               ".cone=0,90", ".cone=0,179", ".cone=59.995,60", ".cone=178.995,179");
+               ".cone=1,1 .camera=0,0.6,0.4,0,0,-1.5", ".cone=2,2", ".cone=5,5", ".cone=20,20", ".cone=60,60",
+               ".cone=90,90", ".cone=120,120", ".cone=150,150", ".cone=170,170", ".cone=178,178", ".cone=179,179");
+    WITHIN_ALL("inner 0, and within one step (1/65536 turn) of outer", "yard", ".light=spot .intensity=40", 1,
+               ".cone=0,1", ".cone=0,90", ".cone=0,179", ".cone=59.995,60", ".cone=178.995,179");
     refused("spot below 1°", too_narrow, GN_ERR_LIGHT_ANGLE, "outside 1 .. 179 degrees");
     refused("spot above 179°", too_wide, GN_ERR_LIGHT_ANGLE, "outside 1 .. 179 degrees");
     refused("inner above outer", inner_above_outer, GN_ERR_LIGHT_ANGLE, "inner above outer");
@@ -182,8 +184,8 @@ static void test_ranges(void)
     same_picture(&e, "yard", ".light=spot range=100000", ".light=spot range=0");
     finish_equal(&e, "range of 65 000 and 100 000 units", "an unlimited one");
     test_ranges_beyond_scene();
-    WITHIN_ALL("range that ends on the ground, 0.01 units (r² = 10⁻⁴), 0.3, 2, 10⁴ units", "yard", ".light=point .intensity=3", 1,
-               "range=3.1", ".position=1,0.005,2 range=0.01 near=0.004 .intensity=1",
+    WITHIN_ALL("range that ends on the ground, 0.01 units (r² = 10⁻⁴), 0.3, 2, 10⁴ units", "yard",
+               ".light=point .intensity=3", 1, "range=3.1", ".position=1,0.005,2 range=0.01 near=0.004 .intensity=1",
                ".position=1,0.1,2 range=0.3 near=0.05 .intensity=0.1", "range=2", "range=10000");
     refused("range below 1/256 unit", range_tiny, GN_ERR_LIGHT_RANGE, "below 1/256 unit");
     refused("range not beyond the near plane", range_is_near, GN_ERR_LIGHT_RANGE, "not below range");
@@ -201,7 +203,8 @@ static void test_saturation(void)
         open_stage(&st, "yard", lights[l], SETTINGS_ACCURATE);
         engine_picture p = library(&st), r = reference(&st);
         for (size_t i = 0; i < N_PIXELS; i++) {
-            if (p.triangle[i] != r.triangle[i] || p.triangle[i] < 0 || r.ndotl[0][i] < 0.1 || r.shadow[0][i] < 1) continue;
+            if (p.triangle[i] != r.triangle[i] || p.triangle[i] < 0 || r.ndotl[0][i] < 0.1 || r.shadow[0][i] < 1)
+                continue;
             double distance = r.rgb8[3 * i]; /* the edge of the cone is dim */
             if (distance < 255) continue;
             lit++;
@@ -213,8 +216,8 @@ static void test_saturation(void)
     }
     CHECK(lit > 1000);
     CHECK_EQ_INT(wrong, 0);
-    line("intensity 250 (sun), 10⁹ (point, spot): what faces the light and is lit", "255, 255, 255", "%ld of %ld pixels differ",
-         wrong, lit);
+    line("intensity 250 (sun), 10⁹ (point, spot): what faces the light and is lit", "255, 255, 255",
+         "%ld of %ld pixels differ", wrong, lit);
 }
 
 static void too_bright(fixed_scene *f)
@@ -229,10 +232,10 @@ static void test_intensities(void)
     same_picture(&e, "yard", ".light=point .intensity=1e-30", ".light=spot .intensity=0");
     finish_equal(&e, "intensity 0, and 10⁻³⁰", "no light");
     test_saturation();
-    WITHIN_ALL("intensity 0 … 250 (sun)", "yard", "", 1, ".intensity=0", ".intensity=0.001", ".intensity=0.05", ".intensity=20",
-               ".intensity=250");
-    WITHIN_ALL("intensity 10⁻⁶ … 10¹² (point)", "yard", ".light=point", 1, ".intensity=1e-6", ".intensity=0.01", ".intensity=1e3",
-               ".intensity=1e6", ".intensity=1e12");
+    WITHIN_ALL("intensity 0 … 250 (sun)", "yard", "", 1, ".intensity=0", ".intensity=0.001", ".intensity=0.05",
+               ".intensity=20", ".intensity=250");
+    WITHIN_ALL("intensity 10⁻⁶ … 10¹² (point)", "yard", ".light=point", 1, ".intensity=1e-6", ".intensity=0.01",
+               ".intensity=1e3", ".intensity=1e6", ".intensity=1e12");
     refused("intensity of 256", too_bright, GN_ERR_COLOUR, "out of range");
 }
 
@@ -245,7 +248,7 @@ static void test_line_4(void)
     test_intensities();
 }
 
-/* ---- 5: filters at borders of tiles, how many tiles, how small ----------------------------------------------------------- */
+/* ---- 5: filters at borders of tiles, how many tiles, how small --------------------------------------------------- */
 
 static const char *const filters[] = {"hard", "2x2", "3x3", "5x5", "7x7", "disk penumbra=20"};
 enum { N_FILTERS = sizeof filters / sizeof *filters };
@@ -261,8 +264,8 @@ static void test_corners_of_cubes(void)
             char words[160];
             const int at[3] = {way % 3 - 1, way / 3 % 3 - 1, way / 9 - 1}, axes = abs(at[0]) + abs(at[1]) + abs(at[2]);
             if (axes < 2) continue; /* the middle of a face */
-            snprintf(words, sizeof words, "filter=%s other_atlas_size=64 .focal=0.8 .camera=0.4,2.5,0.3,%g,%g,%g", filters[filter],
-                     0.1 + 3 * at[0], 2.3 + 3 * at[1] + 0.01, 0.15 + 3 * at[2]);
+            snprintf(words, sizeof words, "filter=%s other_atlas_size=64 .focal=0.8 .camera=0.4,2.5,0.3,%g,%g,%g",
+                     filters[filter], 0.1 + 3 * at[0], 2.3 + 3 * at[1] + 0.01, 0.15 + 3 * at[2]);
             open_stage(&st, "room", words, SETTINGS_ACCURATE);
             compare(&w, &st);
             end(&st.f);
@@ -272,30 +275,35 @@ static void test_corners_of_cubes(void)
     }
 }
 
+/* One scene with every `step`th filter; with all of them where the program is optimised. */
+static void over_filters(const char *scene_name, const char *words, int step, const char *what)
+{
+    worst w = nothing_yet();
+    char all[160];
+    for (int filter = 0; filter < N_FILTERS; filter += optimised ? 1 : step) {
+        stage st;
+        char with[256];
+        snprintf(with, sizeof with, "%s filter=%s", words, filters[filter]);
+        open_stage(&st, scene_name, with, SETTINGS_ACCURATE);
+        compare(&w, &st);
+        end(&st.f);
+    }
+    snprintf(all, sizeof all, "%s, all filters", what);
+    finish(&w, all, 1);
+}
+
 /* What is seen lies within the tile's border, outside it, or as near to it as its fit allows. */
 static void test_borders_of_tiles(void)
 {
     static const char *const views[][3] = {
-        {"yard", ".light=spot .cone=60,60 other_atlas_size=16", "border of a spot's tile, 16 texels, cone to its edges"},
+        {"yard", ".light=spot .cone=60,60 other_atlas_size=16",
+         "border of a spot's tile, 16 texels, cone to its edges"},
         {"yard", ".light=spot .cone=30,100 other_atlas_size=32", "the same, 32 texels, 100°"},
         {"lane", ".light=suns main_light=1 max_distance=12 other_atlas_size=32",
          "a sun beside the main light, lit outside its tile"},
         {"lane", "cascades=4 atlas_size=32", "four cascades of 16 texels"},
         {"lane", "cascades=2 atlas_size=64 bias_normal=6 cascade_blend=soft", "two cascades, an offset of six texels"}};
-    for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
-        worst w = nothing_yet();
-        char what[128];
-        for (int filter = 0; filter < N_FILTERS; filter += optimised ? 1 : 2) {
-            stage st;
-            char words[200];
-            snprintf(words, sizeof words, "%s filter=%s", views[v][1], filters[filter]);
-            open_stage(&st, views[v][0], words, SETTINGS_ACCURATE);
-            compare(&w, &st);
-            end(&st.f);
-        }
-        snprintf(what, sizeof what, "%s, all filters", views[v][2]);
-        finish(&w, what, 1);
-    }
+    for (size_t v = 0; v < sizeof views / sizeof *views; v++) over_filters(views[v][0], views[v][1], 2, views[v][2]);
 }
 
 /* n spots ('s') and points ('p') in this order. */
@@ -334,8 +342,8 @@ static void test_budget(const char *kinds, const char *granted, int texels)
 }
 
 /* Both engines refuse. */
-static void refused_by_both(const char *what, const char *scene_name, const char *words, void (*spoil)(stage *), gn_status status,
-                            const char *text)
+static void refused_by_both(const char *what, const char *scene_name, const char *words, void (*spoil)(stage *),
+                            gn_status status, const char *text)
 {
     stage st;
     engine_picture p;
@@ -376,8 +384,8 @@ static void test_small_tiles(void)
     }
     refused_by_both("five tiles in an atlas of 16", "yard", "other_atlas_size=16", five_spots, GN_ERR_SHADOW_TILE,
                     "less than 8 texels");
-    refused_by_both("two suns with four cascades each in an atlas of 16", "yard", ".light=suns cascades=4 atlas_size=16", NULL,
-                    GN_ERR_SHADOW_TILE, "less than 8 texels");
+    refused_by_both("two suns with four cascades each in an atlas of 16", "yard",
+                    ".light=suns cascades=4 atlas_size=16", NULL, GN_ERR_SHADOW_TILE, "less than 8 texels");
 }
 
 static void test_line_5(void)
@@ -397,7 +405,7 @@ static void test_line_5(void)
     test_small_tiles();
 }
 
-/* ---- 6: cascades, fades, distances --------------------------------------------------------------------------------------- */
+/* ---- 6: cascades, fades, distances ------------------------------------------------------------------------------- */
 
 static void unsorted(stage *st)
 {
@@ -462,34 +470,38 @@ static void test_distance_just_beyond_near(void)
     }
     CHECK(n > 1000);
     CHECK(least == 1);
-    line("max distance 1/1024 beyond near", "nothing that is seen is in shadow", "least shadow factor of %ld pixels: %g", n, least);
+    line("max distance 1/1024 beyond near", "nothing that is seen is in shadow",
+         "least shadow factor of %ld pixels: %g", n, least);
 }
 
 static void test_line_6(void)
 {
     heading("6. Cascade ratios, fades, max distance");
-    WITHIN_ALL("ratios 0, 1, equal, next to 0 and to 1", "lane", "cascades=4", 1, "cascade_ratios=0,0,0", "cascade_ratios=1,1,1",
-               "cascade_ratios=0,0.5,1", "cascade_ratios=0.3,0.3,0.3", "cascade_ratios=0,0.3,0.3",
-               "cascade_ratios=0.00002,0.00003,0.2", "cascade_ratios=0.2,0.99997,0.99998");
+    WITHIN_ALL("ratios 0, 1, equal, next to 0 and to 1", "lane", "cascades=4", 1, "cascade_ratios=0,0,0",
+               "cascade_ratios=1,1,1", "cascade_ratios=0,0.5,1", "cascade_ratios=0.3,0.3,0.3",
+               "cascade_ratios=0,0.3,0.3", "cascade_ratios=0.00002,0.00003,0.2", "cascade_ratios=0.2,0.99997,0.99998");
     test_empty_cascades();
     refused_by_both("ratios that descend", "lane", "cascades=4", unsorted, GN_ERR_SHADOW_CASCADES, "not ascending");
     refused_by_both("a ratio above 1", "lane", "cascades=4", above_one, GN_ERR_SHADOW_CASCADES, "not ascending");
-    WITHIN_ALL("fades 0.001 and 1, hard, soft, dithered", "lane", "cascades=3 max_distance=30", 1, "distance_fade=0.001",
-               "distance_fade=1", "cascade_fade=0.001", "cascade_fade=1", "distance_fade=1 cascade_fade=1 cascade_blend=soft",
+    WITHIN_ALL("fades 0.001 and 1, hard, soft, dithered", "lane", "cascades=3 max_distance=30", 1,
+               "distance_fade=0.001", "distance_fade=1", "cascade_fade=0.001", "cascade_fade=1",
+               "distance_fade=1 cascade_fade=1 cascade_blend=soft",
                "distance_fade=0.001 cascade_fade=0.001 cascade_blend=soft", "cascade_fade=1 cascade_blend=dither",
                "cascade_fade=0.001 cascade_blend=dither");
     refused("distance fade below 0.001", distance_fade_low, GN_ERR_SHADOW_FADE, "outside 0.001 .. 1");
     refused("cascade fade 0", cascade_fade_low, GN_ERR_SHADOW_FADE, "outside 0.001 .. 1");
     refused("distance fade above 1", fade_high, GN_ERR_SHADOW_FADE, "outside 0.001 .. 1");
-    refused("max distance equal to near", distance_is_near, GN_ERR_SHADOW_DISTANCE, "not beyond the camera's near plane");
-    refused("max distance below near", distance_below_near, GN_ERR_SHADOW_DISTANCE, "not beyond the camera's near plane");
+    refused("max distance equal to near", distance_is_near, GN_ERR_SHADOW_DISTANCE,
+            "not beyond the camera's near plane");
+    refused("max distance below near", distance_below_near, GN_ERR_SHADOW_DISTANCE,
+            "not beyond the camera's near plane");
     test_distance_just_beyond_near();
 }
 
-/* ---- 7: biases ------------------------------------------------------------------------------------------------------------ */
+/* ---- 7: biases --------------------------------------------------------------------------------------------------- */
 
-/* A plane at right angles to the light has one depth: without any bias it is lit, whatever the filter. Depths of 32 bits show how receivers are
- * rounded (NUMERICS 4.4: a few LSB of Q16 texels): these take 1/4096 texel. */
+/* A plane at right angles to the light has one depth: without any bias it is lit, whatever the filter. Depths of 32
+ * bits show how receivers are rounded (NUMERICS 4.4: a few LSB of Q16 texels): these take 1/4096 texel. */
 static void test_no_bias_at_right_angles(void)
 {
     long dark = 0, n = 0;
@@ -509,8 +521,8 @@ static void test_no_bias_at_right_angles(void)
         }
     CHECK(n > 10000);
     CHECK_EQ_INT(dark, 0);
-    line("no bias (32 bits of depth: constant 1/4096 texel), a plane at right angles to a sun; filters × depth bits", "no acne",
-         "%ld of %ld pixels", dark, n);
+    line("no bias (32 bits of depth: constant 1/4096 texel), a plane at right angles to a sun; filters × depth bits",
+         "no acne", "%ld of %ld pixels", dark, n);
 }
 
 /* No bias where casters do not receive: nothing can shadow itself, and edges are exact. */
@@ -562,18 +574,10 @@ static void test_largest_biases(const char *light)
         {"bias_constant=64 bias_slope=64 bias_normal=8 bias_receiver=8,8,8,8 bias_caster=8 receiver_plane=1",
          "all of them and B5"}};
     for (size_t b = 0; b < sizeof biases / sizeof *biases; b++) {
-        worst w = nothing_yet();
-        char what[96];
-        for (int filter = 0; filter < N_FILTERS; filter += optimised ? 1 : 3) {
-            stage st;
-            char words[256];
-            snprintf(words, sizeof words, ".light=%s filter=%s %s", light, filters[filter], biases[b][0]);
-            open_stage(&st, "yard", words, SETTINGS_ACCURATE);
-            compare(&w, &st);
-            end(&st.f);
-        }
-        snprintf(what, sizeof what, "%s: %s, all filters", light, biases[b][1]);
-        finish(&w, what, 1);
+        char words[200], what[96];
+        snprintf(words, sizeof words, ".light=%s %s", light, biases[b][0]);
+        snprintf(what, sizeof what, "%s: %s", light, biases[b][1]);
+        over_filters("yard", words, 3, what);
     }
 }
 
@@ -590,7 +594,6 @@ static void test_line_7(void)
     refused("B3 below 0", receiver_negative, GN_ERR_LIGHT_BIAS, "bias");
     refused("B4 above 8", caster_high, GN_ERR_LIGHT_BIAS, "bias");
 }
-
 
 int main(int argc, char **argv)
 {

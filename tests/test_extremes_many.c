@@ -1,9 +1,9 @@
-/* Lines 8 and 9 of the extremes (test_extremes.c): a million frames, random scenes. SOAK=1: more of these; SCENES=n SEED=n: how many, and
- * others; "--random": only these. */
+/* Lines 8 and 9 of the extremes (test_extremes.c): a million frames, random scenes. SOAK=1: more of these; SCENES=n
+ * SEED=n: how many, and others; "--random": only these. */
 #include "campaign.h"
 #include "extreme_places.h"
 
-/* ---- 8: many frames ------------------------------------------------------------------------------------------------------- */
+/* ---- 8: many frames ---------------------------------------------------------------------------------------------- */
 
 enum { FRAMES = 1000000 };
 
@@ -39,7 +39,8 @@ static void compare_turned(worst *w, equals *e, uint32_t frame)
         gn_affine a;
         turned(&a, k ? frame % 65536 : frame);
         memcpy(fixed.objects[2].to_world.m_q30, a.m_q30, sizeof a.m_q30);
-        for (int i = 0; i < 9; i++) fixed.objects[2].to_world.m_q30[i / 3][i % 3] /= 2; /* the exponent stays the host's */
+        for (int i = 0; i < 9; i++)
+            fixed.objects[2].to_world.m_q30[i / 3][i % 3] /= 2; /* the exponent stays the host's */
         CHECK_EQ_INT(draw_library(&p[k], &fixed.scene, &st.set), GN_OK);
     }
     for (int i = 0; i < 9; i++)
@@ -84,7 +85,8 @@ static double off_orthonormal(const gn_affine *a)
     return most;
 }
 
-/* By products: each is off by a unit or so, and orthonormalising every 64 frames keeps a camera one that is accepted. */
+/* By products: each is off by a unit or so, and orthonormalising every 64 frames keeps a camera one that is accepted.
+ */
 static void test_accumulated_rotation(void)
 {
     gn_affine step, a;
@@ -110,14 +112,17 @@ static void test_accumulated_rotation(void)
     CHECK(most < 1024); /* 2^-20 */
     CHECK_EQ_INT(accepted, rendered);
     CHECK(fabs(way) < FRAMES * ldexp(2, -30));
-    line("a million products of rotations, made orthonormal every 64", "orthonormal within 2⁻²⁰, so accepted as a camera",
-         "2^%.1f; %d of %d frames", log2(most) - 30, accepted, rendered);
-    line("the angle after a million products", "off by at most 2 units each: 0.0019 radians", "%.6f radians", fabs(way));
+    line("a million products of rotations, made orthonormal every 64",
+         "orthonormal within 2⁻²⁰, so accepted as a camera", "2^%.1f; %d of %d frames", log2(most) - 30, accepted,
+         rendered);
+    line("the angle after a million products", "off by at most 2 units each: 0.0019 radians", "%.6f radians",
+         fabs(way));
     quantise_free(&fixed);
     end(&st.f);
 }
 
-/* A spot light's map does not know the camera: steps of it draw no tile anew, and change no texel. Flips of a sun's edges are in ACCURACY. */
+/* A spot light's map does not know the camera: steps of it draw no tile anew, and change no texel. Flips of a sun's
+ * edges are in ACCURACY. */
 static void test_camera_steps(void)
 {
     worst w = nothing_yet();
@@ -148,7 +153,9 @@ static void test_camera_steps(void)
         compare(&w, &st);
         end(&st.f);
     }
-    finish(&w, "a sun with three cascades, the camera moved in steps of about 1/10 texel (flips: ACCURACY.md, 0 per frame)", 1);
+    finish(&w,
+           "a sun with three cascades, the camera moved in steps of about 1/10 texel (flips: ACCURACY.md, 0 per frame)",
+           1);
 }
 
 static void test_line_8(void)
@@ -159,7 +166,7 @@ static void test_line_8(void)
     test_camera_steps();
 }
 
-/* ---- 9: random scenes ----------------------------------------------------------------------------------------------------- */
+/* ---- 9: random scenes -------------------------------------------------------------------------------------------- */
 
 enum { COARSEST = 4 }; /* units are up to 2^4 times as coarse as the host's */
 
@@ -170,7 +177,8 @@ static const char *choose(const char *const *of, size_t n)
     return of[rng_below(&dice, (uint32_t)n)];
 }
 
-#define CHOOSE(...) choose((const char *const[]){__VA_ARGS__}, sizeof((const char *const[]){__VA_ARGS__}) / sizeof(const char *))
+#define CHOOSE(...)                                                                                                    \
+    choose((const char *const[]){__VA_ARGS__}, sizeof((const char *const[]){__VA_ARGS__}) / sizeof(const char *))
 
 static double roll(double low, double high)
 {
@@ -204,11 +212,13 @@ static void random_shadow(char *words, size_t n)
     add_words(words, n, "filter=%s other_filter=%s kernel=%s ", CHOOSE("hard", "2x2", "3x3", "5x5", "7x7", "disk"),
               CHOOSE("hard", "2x2", "3x3", "5x5", "7x7", "disk"), CHOOSE("tent", "linear"));
     add_words(words, n, "penumbra=%g disk_samples=%u ", roll(0, 40), 1 + rng_below(&dice, 32));
-    add_words(words, n, "atlas_size=%s other_atlas_size=%s ", CHOOSE("64", "128", "256", "512"), CHOOSE("64", "128", "256", "512"));
+    add_words(words, n, "atlas_size=%s other_atlas_size=%s ", CHOOSE("64", "128", "256", "512"),
+              CHOOSE("64", "128", "256", "512"));
     add_words(words, n, "bias_normal=%g bias_constant=%g ", roll(1, 4), roll(0.05, 2));
     add_words(words, n, "%s ",
               CHOOSE("", "", "bias_slope=1", "bias_receiver=0.5,0.2,0.3,0.4", "bias_caster=1", "receiver_plane=1"));
-    add_words(words, n, "cascades=%u cascade_blend=%s cascade_fade=%g distance_fade=%g max_distance=%g distance_mode=%s ",
+    add_words(words, n,
+              "cascades=%u cascade_blend=%s cascade_fade=%g distance_fade=%g max_distance=%g distance_mode=%s ",
               1 + rng_below(&dice, 4), CHOOSE("hard", "soft", "dither"), roll(0.001, 1), roll(0.001, 1),
               exp(roll(log(1), log(200))), CHOOSE("depth", "depth", "radius"));
 }
@@ -217,7 +227,8 @@ static void random_surface(char *words, size_t n, bool images)
 {
     add_words(words, n, "%s ",
               !images ? CHOOSE("", ".masks=vertex mixing=always", ".masks=vertex mixing=distance", ".colours=1")
-                      : CHOOSE("", "", ".masks=vertex mixing=always", ".masks=image mixing=distance", ".colours=1", ".baked=1"));
+                      : CHOOSE("", "", ".masks=vertex mixing=always", ".masks=image mixing=distance", ".colours=1",
+                               ".baked=1"));
     add_words(words, n, "%s ",
               CHOOSE("", "", ".normals=0", ".specular=3", ".receives=0", ".flip=1 .two_sided=1", ".casts_two_sided=1"));
 }
@@ -234,15 +245,15 @@ static void random_words(char *words, size_t n, const char **scene_name)
         add_words(words, n, ".camera=%g,%g,%g,%g,%g,%g ", roll(-3, 3), roll(1, 4), roll(-3, 3), roll(-4, 4), roll(0, 4),
                   roll(-4, 4));
     else
-        add_words(words, n, ".camera=%g,%g,%g,%g,%g,%g ", roll(-9, 9), roll(0.5, 8), roll(2, 11), roll(-3, 3), roll(0, 2),
-                  roll(-8, 0));
+        add_words(words, n, ".camera=%g,%g,%g,%g,%g,%g ", roll(-9, 9), roll(0.5, 8), roll(2, 11), roll(-3, 3),
+                  roll(0, 2), roll(-8, 0));
     add_words(words, n, ".focal=%g", exp(roll(log(0.4), log(8))));
 }
 
 /* What random scenes needed: of all, and by the unit of length. */
 typedef struct {
     worst all;
-    double identical;                       /* sum */
+    double identical;           /* sum */
     double share[COARSEST + 1]; /* sums, by how coarse the unit is */
     long n[COARSEST + 1], beyond;
 } tried;
@@ -268,8 +279,8 @@ static void random_picture(tried *t, long i, double allowed)
     engine_free(&r);
     end(&st.f);
     if (one.share > allowed || one.coverage > 0.03)
-        printf("  %ld: units %d times as coarse, %.2f of the floors, %.5f identical, %.5f shadow, %d: %s %s\n", i, 1 << coarse, one.share, one.identical, one.mismatch,
-               one.max_error, scene_name, words);
+        printf("  %ld: units %d times as coarse, %.2f of the floors, %.5f identical, %.5f shadow, %d: %s %s\n", i,
+               1 << coarse, one.share, one.identical, one.mismatch, one.max_error, scene_name, words);
     t->beyond += one.share > allowed;
     t->identical += one.identical;
     t->share[coarse] += one.share;
@@ -292,12 +303,14 @@ static void check_units(const tried *t, long n)
     }
     if (n >= 2000)
         for (int k = 1; k <= COARSEST; k++) CHECK(mean[k] <= 1.5 * mean[0]);
-    line("the mean of what they needed of the floors, in units 1, 2, 4, 8, 16 times as coarse", "no more in one than in another", "%s", text);
+    line("the mean of what they needed of the floors, in units 1, 2, 4, 8, 16 times as coarse",
+         "no more in one than in another", "%s", text);
 }
 
-/* Whatever a user may set, within what bias makes well posed. Floors are promised of whole scenes: a picture as small as these may be all
- * soft shadow, which the balanced preset keeps in 8 bits, and may then need twice as much; and a texel whose centre lies within rounding of a
- * caster's edge (NUMERICS 4.6) may be, of a coarse map under a wide filter, a dozen of its pixels: one scene in 500 may need twice that. */
+/* Whatever a user may set, within what bias makes well posed. Floors are promised of whole scenes: a picture as small
+ * as these may be all soft shadow, which the balanced preset keeps in 8 bits, and may then need twice as much; and a
+ * texel whose centre lies within rounding of a caster's edge (NUMERICS 4.6) may be, of a coarse map under a wide
+ * filter, a dozen of its pixels: one scene in 500 may need twice that. */
 static void test_random(long n)
 {
     for (int preset = SETTINGS_ACCURATE; preset >= SETTINGS_BALANCED; preset--) {
@@ -309,12 +322,15 @@ static void test_random(long n)
             show_progress(settings_preset_name[preset], option("SEED", 1), i + 1, n);
         }
         const long may = n / 2 / 500;
-        snprintf(what, sizeof what, "random lights, shadows, surfaces, cameras, in a corner of ±8192 units, in units to 16 times as coarse; %s",
-                 settings_preset_name[preset]);
+        snprintf(
+            what, sizeof what,
+            "random lights, shadows, surfaces, cameras, in a corner of ±8192 units, in units to 16 times as coarse; %s",
+            settings_preset_name[preset]);
         if (!CHECK(t.beyond <= may)) printf("  %ld scenes beyond %g of the floors\n", t.beyond, allowed);
         finish(&t.all, what, may ? 2 * allowed : allowed);
         CHECK(t.all.coverage <= 0.03);
-        line("pixels that show another surface there", "at most 3 %: a row or a column at an edge", "%.2f %%", 100 * t.all.coverage);
+        line("pixels that show another surface there", "at most 3 %: a row or a column at an edge", "%.2f %%",
+             100 * t.all.coverage);
         check_units(&t, n);
         line("the same on average", "", "%.3f %% identical", 100 * t.identical / t.all.n);
     }
@@ -325,7 +341,6 @@ static void test_line_9(void)
     heading("9. Random scenes");
     test_random(option("SCENES", option("SOAK", 0) ? 20000 : optimised ? 300 : 24));
 }
-
 
 int main(int argc, char **argv)
 {

@@ -1,5 +1,5 @@
-/* Shadow filters against exact rationals: tent weights as integrals, attenuation as sums of weights over compares; the disk against
- * its formula in reals and against the area of a disk. */
+/* Shadow filters against exact rationals: tent weights as integrals, attenuation as sums of weights over compares; the
+ * disk against its formula in reals and against the area of a disk. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 
 static rng random_state = {4};
 
-/* ---- Weights ------------------------------------------------------------------------------------------------------ */
+/* ---- Weights ----------------------------------------------------------------------------------------------------- */
 
 /* Twice the integral of max(0, h - |t - c|) from minus infinity to x. */
 static int64_t twice_tent_integral(int64_t x, int64_t c, int64_t h)
@@ -25,7 +25,8 @@ static int64_t twice_tent_integral(int64_t x, int64_t c, int64_t h)
 }
 
 /* The weight of texel i of 2 (k + 1), over (2k + 1)^2 F^2. In units of 1 / 2F texel, counted from the texel border that
- * floor(centre + 1/2) names, the tent's centre is 2u - F, its half width (2k + 1) F, and texel i begins at 2F (i - k - 1). */
+ * floor(centre + 1/2) names, the tent's centre is 2u - F, its half width (2k + 1) F, and texel i begins at 2F (i - k -
+ * 1). */
 static int64_t exact_weight(int32_t k, int32_t i, int64_t u, int64_t f)
 {
     int64_t c = 2 * u - f, h = (2 * k + 1) * f, from = 2 * f * (i - k - 1);
@@ -45,12 +46,12 @@ static void test_weights(void)
                 gn_tent_weights(w, k, u, bits);
                 for (int32_t i = 0; i < n; i++) {
                     int64_t exact = exact_weight(k, i, u, f);
-                    HOLDS(&weight, w[i] == exact, "k %d, F 2^%d, u %u, texel %d: %u, not %lld", (int)k, (int)bits, (unsigned)u,
-                          (int)i, (unsigned)w[i], (long long)exact);
+                    HOLDS(&weight, w[i] == exact, "k %d, F 2^%d, u %u, texel %d: %u, not %lld", (int)k, (int)bits,
+                          (unsigned)u, (int)i, (unsigned)w[i], (long long)exact);
                     total += w[i];
                 }
-                HOLDS(&sum, total == (2 * k + 1) * (2 * k + 1) * f * f && w[n] == 0xDEADBEEFU, "k %d, F 2^%d, u %u: %lld", (int)k,
-                      (int)bits, (unsigned)u, (long long)total);
+                HOLDS(&sum, total == (2 * k + 1) * (2 * k + 1) * f * f && w[n] == 0xDEADBEEFU,
+                      "k %d, F 2^%d, u %u: %lld", (int)k, (int)bits, (unsigned)u, (long long)total);
             }
     CHECK_TALLY(weight, "tent weights are the integral");
     CHECK_TALLY(sum, "tent weights sum to the whole and end where they should");
@@ -84,12 +85,12 @@ static void test_linear_weights(void)
                 gn_linear_weights(w, k, u, bits);
                 for (int32_t i = 0; i < n; i++) {
                     int64_t exact = exact_linear_weight(k, i, u, f);
-                    HOLDS(&weight, w[i] == exact, "k %d, F 2^%d, u %u, texel %d: %u, not %lld", (int)k, (int)bits, (unsigned)u,
-                          (int)i, (unsigned)w[i], (long long)exact);
+                    HOLDS(&weight, w[i] == exact, "k %d, F 2^%d, u %u, texel %d: %u, not %lld", (int)k, (int)bits,
+                          (unsigned)u, (int)i, (unsigned)w[i], (long long)exact);
                     total += w[i];
                 }
-                HOLDS(&sum, total == linear_kernel[k - 1].whole * f && w[n] == 0xDEADBEEFU, "k %d, F 2^%d, u %u: %lld", (int)k,
-                      (int)bits, (unsigned)u, (long long)total);
+                HOLDS(&sum, total == linear_kernel[k - 1].whole * f && w[n] == 0xDEADBEEFU, "k %d, F 2^%d, u %u: %lld",
+                      (int)k, (int)bits, (unsigned)u, (long long)total);
             }
     CHECK_TALLY(weight, "linear weights are those of the model");
     CHECK_TALLY(sum, "linear weights sum to the whole and end where they should");
@@ -108,18 +109,21 @@ static void test_linear_against_tent(void)
             double prefix = 0;
             for (int32_t i = 0; i < n; i++) {
                 tent[u][i] = (double)exact_weight(k, i, u, F) / ((2 * k + 1) * (2 * k + 1) * F * F);
-                difference[u][i] = (double)exact_linear_weight(k, i, u, F) / (linear_kernel[k - 1].whole * F) - tent[u][i];
+                difference[u][i] =
+                    (double)exact_linear_weight(k, i, u, F) / (linear_kernel[k - 1].whole * F) - tent[u][i];
                 prefix += difference[u][i];
                 edge = fmax(edge, fabs(prefix));
             }
         }
         for (int32_t u = 0; u <= F; u += 4)
             for (int32_t v = 0; v <= F; v += 4) {
-                double half = 0; /* weights sum to 1 both ways: the worst pattern takes all that gain, or all that lose */
+                double half =
+                    0; /* weights sum to 1 both ways: the worst pattern takes all that gain, or all that lose */
                 for (int32_t j = 0; j < n; j++)
                     for (int32_t i = 0; i < n; i++)
-                        half +=
-                            fabs((tent[u][i] + difference[u][i]) * (tent[v][j] + difference[v][j]) - tent[u][i] * tent[v][j]) / 2;
+                        half += fabs((tent[u][i] + difference[u][i]) * (tent[v][j] + difference[v][j]) -
+                                     tent[u][i] * tent[v][j]) /
+                                2;
                 any = fmax(any, half);
             }
         printf("linear kernel against tent, k = %d: %.4f over edges, %.4f over any pattern\n", (int)k, edge, any);
@@ -128,7 +132,7 @@ static void test_linear_against_tent(void)
     }
 }
 
-/* ---- Attenuation, exactly ----------------------------------------------------------------------------------------- */
+/* ---- Attenuation, exactly ---------------------------------------------------------------------------------------- */
 
 static gn_frame frame;
 static gn_scene scene;
@@ -157,8 +161,8 @@ static void store(size_t at, uint32_t depth)
     else view.depth.d32[at] = depth;
 }
 
-/* Whether the texel (i, j) lets the receiver be lit: its depth at the texel that is read, rounded to nearest in steps of 2^-(bits + frac), limited to
- * the far value. */
+/* Whether the texel (i, j) lets the receiver be lit: its depth at the texel that is read, rounded to nearest in steps
+ * of 2^-(bits + frac), limited to the far value. */
 static int exact_lit(const gn_receiver *r, int64_t i, int64_t j)
 {
     if (view.border_lit && (outside(i) || outside(j))) return 1;
@@ -192,7 +196,8 @@ static int32_t exact_taps(int64_t *first, int64_t w[GN_TENT_TAPS_MAX], i128 *who
         return 2;
     }
     *whole = linear ? linear_kernel[k - 1].whole * f : (2 * k + 1) * (2 * k + 1) * f * f;
-    for (int32_t i = 0; i < 2 * (k + 1); i++) w[i] = linear ? exact_linear_weight(k, i, u, f) : exact_weight(k, i, u, f);
+    for (int32_t i = 0; i < 2 * (k + 1); i++)
+        w[i] = linear ? exact_linear_weight(k, i, u, f) : exact_weight(k, i, u, f);
     return 2 * (k + 1);
 }
 
@@ -209,7 +214,7 @@ static i128 exact_attenuation(i128 *numerator, const gn_receiver *r)
     return whole_u * whole_v;
 }
 
-/* ---- The disk, from its formula ----------------------------------------------------------------------------------- */
+/* ---- The disk, from its formula ---------------------------------------------------------------------------------- */
 
 static long double disk_x[64], disk_y[64];
 
@@ -229,13 +234,15 @@ static void build_disk(void)
     }
 }
 
-/* The fewest and the most lit samples: a sample within 2^-11 texels of a border between texels may fall on either side. */
+/* The fewest and the most lit samples: a sample within 2^-11 texels of a border between texels may fall on either side.
+ */
 static void disk_lit_range(const gn_receiver *r, uint32_t *fewest, uint32_t *most)
 {
     uint32_t v = ((uint32_t)r->pixel_x * 0x8DA6B343U) ^ ((uint32_t)r->pixel_y * 0xD8163841U);
     v = (v ^ (v >> 15)) * 0x2C1B3C6DU;
     v = v ^ (v >> 13);
-    long double turn = EXACT_TAU * (long double)(v >> 16) / 65536.0L, c = cosl(turn), s = sinl(turn), slack = 1 / 2048.0L;
+    long double turn = EXACT_TAU * (long double)(v >> 16) / 65536.0L, c = cosl(turn), s = sinl(turn),
+                slack = 1 / 2048.0L;
     long double radius = (long double)i128_clamp(view.disk_radius_q16, 0, 8 * 65536) / 65536.0L;
     *fewest = *most = 0;
     for (uint32_t k = 0; k < scene.shadow.disk_samples; k++) {
@@ -253,7 +260,7 @@ static void disk_lit_range(const gn_receiver *r, uint32_t *fewest, uint32_t *mos
     }
 }
 
-/* ---- Random tiles and receivers ----------------------------------------------------------------------------------- */
+/* ---- Random tiles and receivers ---------------------------------------------------------------------------------- */
 
 /* The bounds that belong to the tile's present texels. */
 static void build_blocks(void)
@@ -333,8 +340,12 @@ static int32_t random_position(void)
 /* A depth at, just before and just behind a stored one near the receiver; sometimes anything. */
 static gn_receiver random_receiver(void)
 {
-    gn_receiver r = {
-        random_position(), random_position(), 0, {0, 0}, rng_range(&random_state, 0, 2047), rng_range(&random_state, 0, 2047)};
+    gn_receiver r = {random_position(),
+                     random_position(),
+                     0,
+                     {0, 0},
+                     rng_range(&random_state, 0, 2047),
+                     rng_range(&random_state, 0, 2047)};
     uint32_t kind = rng_below(&random_state, 8);
     int32_t near_u = rng_range(&random_state, -4, 4), near_v = rng_range(&random_state, -4, 4);
     int64_t at = stored((r.u_q16 >> 16) + near_u, (r.v_q16 >> 16) + near_v);
@@ -349,7 +360,7 @@ static gn_receiver random_receiver(void)
     return r;
 }
 
-/* ---- Tests -------------------------------------------------------------------------------------------------------- */
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 typedef struct {
     tally error, ends, disk, same, neighbours;
@@ -361,11 +372,13 @@ static const char *described(const gn_receiver *r)
 {
     static char text[240];
     snprintf(text, sizeof text,
-             "filter %d%s, T %d, %d bits + %d, F 2^%d, border %d, disk %d of %u, at (%d, %d), depth %u, slopes %d %d, pixel %d %d",
+             "filter %d%s, T %d, %d bits + %d, F 2^%d, border %d, disk %d of %u, at (%d, %d), depth %u, slopes %d %d, "
+             "pixel %d %d",
              (int)view.filter, scene.shadow.kernel == GN_KERNEL_LINEAR ? " linear" : "", (int)view.tile_texels,
-             (int)view.depth_bits, (int)frame.knobs.shadow_depth_frac, (int)frame.knobs.weight_bits, (int)view.border_lit,
-             (int)view.disk_radius_q16, (unsigned)scene.shadow.disk_samples, (int)r->u_q16, (int)r->v_q16, (unsigned)r->depth_q32,
-             (int)r->slope_q28[0], (int)r->slope_q28[1], (int)r->pixel_x, (int)r->pixel_y);
+             (int)view.depth_bits, (int)frame.knobs.shadow_depth_frac, (int)frame.knobs.weight_bits,
+             (int)view.border_lit, (int)view.disk_radius_q16, (unsigned)scene.shadow.disk_samples, (int)r->u_q16,
+             (int)r->v_q16, (unsigned)r->depth_q32, (int)r->slope_q28[0], (int)r->slope_q28[1], (int)r->pixel_x,
+             (int)r->pixel_y);
     return text;
 }
 
@@ -383,7 +396,8 @@ static void try_disk(verdict *result, const gn_receiver *r, uint32_t a)
     result->n_disk_open += most - fewest;
     int found = 0;
     for (uint32_t n_lit = fewest; n_lit <= most; n_lit++) found |= a == rounded_share(n_lit, n);
-    HOLDS(&result->disk, found, "%u is not %u .. %u lit samples: %s", (unsigned)a, (unsigned)fewest, (unsigned)most, described(r));
+    HOLDS(&result->disk, found, "%u is not %u .. %u lit samples: %s", (unsigned)a, (unsigned)fewest, (unsigned)most,
+          described(r));
 }
 
 static void try_point(verdict *result, const gn_receiver *r)
@@ -397,7 +411,8 @@ static void try_point(verdict *result, const gn_receiver *r)
     long double error = (long double)i128_abs((i128)a * denominator - numerator) / (long double)denominator;
     int eight = frame.knobs.atten_bits == 8;
     /* within half an LSB and a little; 8 bits: half a step of 256 more, and a multiple of it */
-    HOLDS(&result->error, error <= (eight ? 128.52L : 0.52L) && (!eight || a % 256 == 0), "errs by %.4Lf: %s", error, described(r));
+    HOLDS(&result->error, error <= (eight ? 128.52L : 0.52L) && (!eight || a % 256 == 0), "errs by %.4Lf: %s", error,
+          described(r));
     if (!eight) WORST(&result->w, error, "%s", described(r));
     if (numerator == 0) HOLDS(&result->ends, a == 0, "shadowed is %u: %s", (unsigned)a, described(r));
     if (numerator == 65536 * denominator) HOLDS(&result->ends, a == 65536, "lit is %u: %s", (unsigned)a, described(r));
@@ -438,7 +453,8 @@ static void test_attenuation(void)
     CHECK_TALLY(result.disk, "attenuation of the disk is a rounded count of its samples");
     CHECK_TALLY(result.ends, "fully lit is 65536, fully shadowed is 0");
     CHECK_TALLY(result.same, "the same with and without bounds of blocks");
-    CHECK(result.n_disk_open * 200 < result.n_disk_samples); /* few samples lie so near to a border that they may go either way */
+    CHECK(result.n_disk_open * 200 <
+          result.n_disk_samples); /* few samples lie so near to a border that they may go either way */
     printf("gn_filter_attenuation, 16 bits: %.4Lf LSB of Q16 with %s\n", result.w.error, result.w.at);
 }
 
@@ -450,7 +466,8 @@ static void test_neighbours(void)
     for (uint32_t i = 0; i < 600; i++) {
         random_shape(5);
         size_t n = (size_t)(view.depth_bits / 8) << 2 * view.tile_log2; /* bytes */
-        size_t first = n * rng_below(&random_state, (uint32_t)(sizeof frame.atlas / n)), after = sizeof frame.atlas - first - n;
+        size_t first = n * rng_below(&random_state, (uint32_t)(sizeof frame.atlas / n)),
+               after = sizeof frame.atlas - first - n;
         size_t poisoned_before = first < 4096 ? first : 4096, poisoned_after = after < 4096 ? after : 4096;
         random_view(atlas + first, i);
         view.filter = (uint8_t)(i % 6);
@@ -493,7 +510,8 @@ static void test_lit_and_shadowed(void)
                 frame.knobs.weight_bits = bits;
                 frame.knobs.atten_bits = i & 1 ? 8 : 16;
                 frame.knobs.shadow_depth_frac = (int32_t)(i % 5);
-                gn_receiver r = {random_position(), random_position(), 0xFFFFFFFFU, {0, 0}, (int32_t)i, (int32_t)filter};
+                gn_receiver r = {random_position(), random_position(), 0xFFFFFFFFU, {0, 0},
+                                 (int32_t)i,        (int32_t)filter};
                 memset(texels, 0xFF, sizeof texels);
                 build_blocks();
                 HOLDS(&t, gn_filter_attenuation(&frame, &view, &r) == 65536, "empty tile: %s", described(&r));
@@ -511,7 +529,8 @@ static void test_lit_and_shadowed(void)
     CHECK_TALLY(t, "empty and full tiles");
 }
 
-/* Bounds are those of the 16x16 texels from the block on, cut at the tile's border, and hold for 9x9 texels from anywhere in it. */
+/* Bounds are those of the 16x16 texels from the block on, cut at the tile's border, and hold for 9x9 texels from
+ * anywhere in it. */
 static void test_blocks(void)
 {
     static uint32_t texels[64 * 64];
@@ -536,7 +555,8 @@ static void test_blocks(void)
         for (int32_t k = 0; k < 50; k++) {
             int32_t n = rng_range(&random_state, 1, 18);
             int32_t u = rng_range(&random_state, -20, size + 20), v = rng_range(&random_state, -20, size + 20);
-            gn_depth_block b = n <= GN_BLOCK_REACH && (k & 1) ? *gn_blocks_at(&view, u, v) : gn_blocks_over(&view, u, v, n);
+            gn_depth_block b =
+                n <= GN_BLOCK_REACH && (k & 1) ? *gn_blocks_at(&view, u, v) : gn_blocks_over(&view, u, v, n);
             for (int32_t t = 0; t < n * n; t++) {
                 uint32_t depth = stored(u + t % n, v + t / n);
                 HOLDS(&holds, (uint32_t)b.lo << 16 <= depth && depth <= gn_block_highest(&b, view.depth_bits),
@@ -558,14 +578,14 @@ static void test_blocks(void)
         gn_depth_block b = gn_blocks_over(&view, u, v, n);
         odd = stored(at_u, at_v);
         HOLDS(&holds, (uint32_t)b.lo << 16 <= odd && odd <= gn_block_highest(&b, view.depth_bits),
-              "%d bits, T %d, %d texels from %d, %d, one at %d, %d", (int)view.depth_bits, (int)last + 1, (int)n, (int)u, (int)v,
-              (int)at_u, (int)at_v);
+              "%d bits, T %d, %d texels from %d, %d, one at %d, %d", (int)view.depth_bits, (int)last + 1, (int)n,
+              (int)u, (int)v, (int)at_u, (int)at_v);
     }
     CHECK_TALLY(tight, "bounds of blocks");
     CHECK_TALLY(holds, "bounds hold for every texel they answer for");
 }
 
-/* ---- The disk against the area of a disk -------------------------------------------------------------------------- */
+/* ---- The disk against the area of a disk ------------------------------------------------------------------------- */
 
 /* Share of the disk's area over lit texels. */
 static double disk_area_lit(const gn_receiver *r)
@@ -577,12 +597,14 @@ static double disk_area_lit(const gn_receiver *r)
             double x = (2 * i + 1.0) / N - 1, y = (2 * j + 1.0) / N - 1, radius = view.disk_radius_q16 / 65536.0;
             if (x * x + y * y >= 1) continue;
             n++;
-            n_lit += stored((int64_t)floor(r->u_q16 / 65536.0 + radius * x), (int64_t)floor(r->v_q16 / 65536.0 + radius * y)) != 0;
+            n_lit += stored((int64_t)floor(r->u_q16 / 65536.0 + radius * x),
+                            (int64_t)floor(r->v_q16 / 65536.0 + radius * y)) != 0;
         }
     return (double)n_lit / n;
 }
 
-/* Half planes at any angle: the more samples, the nearer to the area; every count of samples is no worse than random ones. */
+/* Half planes at any angle: the more samples, the nearer to the area; every count of samples is no worse than random
+ * ones. */
 static void test_disk_accuracy(void)
 {
     enum { CASES = 600, N = 64 };
@@ -607,7 +629,8 @@ static void test_disk_accuracy(void)
                          rng_range(&random_state, 0, 319),
                          rng_range(&random_state, 0, 239)};
         for (int32_t t = 0; t < 64 * 64; t++)
-            texels[t] = c * (t % 64 + 0.5 - r.u_q16 / 65536.0) + s * (t / 64 + 0.5 - r.v_q16 / 65536.0) > shift ? 255 : 0;
+            texels[t] =
+                c * (t % 64 + 0.5 - r.u_q16 / 65536.0) + s * (t / 64 + 0.5 - r.v_q16 / 65536.0) > shift ? 255 : 0;
         build_blocks();
         double area = disk_area_lit(&r);
         random2 += area * (1 - area);
@@ -622,11 +645,11 @@ static void test_disk_accuracy(void)
     printf("\n");
     tally falls = {0}, fair = {0};
     for (uint32_t n = 1; n <= N; n++)
-        HOLDS(&fair, sum2[n] <= 1.15 * random2 / n, "%u samples: %.4f, random ones %.4f", (unsigned)n, sqrt(sum2[n] / CASES),
-              sqrt(random2 / CASES / n));
+        HOLDS(&fair, sum2[n] <= 1.15 * random2 / n, "%u samples: %.4f, random ones %.4f", (unsigned)n,
+              sqrt(sum2[n] / CASES), sqrt(random2 / CASES / n));
     for (uint32_t n = 1; n < N; n *= 2)
-        HOLDS(&falls, sum2[2 * n] <= 0.64 * sum2[n], "from %u samples to %u: %.4f to %.4f", (unsigned)n, (unsigned)(2 * n),
-              sqrt(sum2[n] / CASES), sqrt(sum2[2 * n] / CASES));
+        HOLDS(&falls, sum2[2 * n] <= 0.64 * sum2[n], "from %u samples to %u: %.4f to %.4f", (unsigned)n,
+              (unsigned)(2 * n), sqrt(sum2[n] / CASES), sqrt(sum2[2 * n] / CASES));
     CHECK_TALLY(fair, "no number of samples is worse than random ones");
     CHECK_TALLY(falls, "twice the samples: at most 4/5 of the error");
     CHECK(sqrt(sum2[64] / CASES) < 0.02);

@@ -1,5 +1,5 @@
-/* The public interface: the same bytes whatever was drawn before, whatever the tiles, in whatever order; two renderers; what a light's
- * fields do to a frame. What is refused is in test_refused.c. */
+/* The public interface: the same bytes whatever was drawn before, whatever the tiles, in whatever order; two renderers;
+ * what a light's fields do to a frame. What is refused is in test_refused.c. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +16,8 @@ static void test_same_again(void)
         demo_scene_make(&demo, f);
         first[f] = crc_of(&one, &demo.scene, 160, 120, GN_FORMAT_RGB888);
         CHECK(first[f] != 0);
-        for (uint32_t k = 0; k < f; k++) CHECK(first[f] != first[k]); /* the frames differ: the comparison means something */
+        for (uint32_t k = 0; k < f; k++)
+            CHECK(first[f] != first[k]); /* the frames differ: the comparison means something */
     }
     gn_picture p = picture_of(160, 120, GN_FORMAT_RGB888);
     canvas c;
@@ -51,7 +52,8 @@ static void test_empty_cascade(void)
     canvas_end(&c);
 }
 
-/* A5: a frame that is abandoned fits its views, but its tiles are not drawn: the next must not keep those of the frame before. */
+/* A5: a frame that is abandoned fits its views, but its tiles are not drawn: the next must not keep those of the frame
+ * before. */
 static void test_abandoned_frame(void)
 {
     gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
@@ -91,9 +93,14 @@ static void test_automatic_by_default(void)
     static const struct {
         gn_auto_bias automatic;
         int32_t normal_q16, receiver_q16;
-    } set[] = {{GN_AUTO_BIAS_DEFAULT, 0, 0},    {GN_AUTO_BIAS_NORMAL, 0, 0},          {GN_AUTO_BIAS_NORMAL, GN_Q16(3), GN_Q16(2)},
-               {GN_AUTO_BIAS_OFF, 0, 0},        {GN_AUTO_BIAS_DEFAULT, GN_Q16(3), 0}, {GN_AUTO_BIAS_OFF, GN_Q16(3), 0},
-               {GN_AUTO_BIAS_DEFAULT, 0, GN_Q16(2)}, {GN_AUTO_BIAS_OFF, 0, GN_Q16(2)}};
+    } set[] = {{GN_AUTO_BIAS_DEFAULT, 0, 0},
+               {GN_AUTO_BIAS_NORMAL, 0, 0},
+               {GN_AUTO_BIAS_NORMAL, GN_Q16(3), GN_Q16(2)},
+               {GN_AUTO_BIAS_OFF, 0, 0},
+               {GN_AUTO_BIAS_DEFAULT, GN_Q16(3), 0},
+               {GN_AUTO_BIAS_OFF, GN_Q16(3), 0},
+               {GN_AUTO_BIAS_DEFAULT, 0, GN_Q16(2)},
+               {GN_AUTO_BIAS_OFF, 0, GN_Q16(2)}};
     uint32_t crc[sizeof set / sizeof *set];
     for (size_t i = 0; i < sizeof set / sizeof *set; i++) {
         demo_scene_make(&demo, 0);
@@ -117,7 +124,8 @@ static void test_many_bright_lights(void)
 {
     enum { N_LIGHTS = 32 };
     static gn_light lights[N_LIGHTS];
-    static const uint16_t rgb[4 * 3] = {65535, 30000, 30000, 30000, 65535, 30000, 30000, 30000, 65535, 50000, 50000, 50000};
+    static const uint16_t rgb[4 * 3] = {65535, 30000, 30000, 30000, 65535, 30000,
+                                        30000, 30000, 65535, 50000, 50000, 50000};
     uint32_t crc[3];
     for (int i = 0; i < 3; i++) {
         gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
@@ -342,8 +350,8 @@ static int difference(const canvas *a, const canvas *b)
     return largest;
 }
 
-/* Tiles do not matter with a divide at every pixel, nor to what is visible; with longer steps a piece of a surface, or a
- * run of pixels, ends at the tile's border, and the linear part in between differs by what the step costs. */
+/* Tiles do not matter with a divide at every pixel, nor to what is visible; with longer steps a piece of a surface, or
+ * a run of pixels, ends at the tile's border, and the linear part in between differs by what the step costs. */
 static void test_tile_sizes(void)
 {
     static const int32_t sizes[][2] = {{64, 16}, {64, 1},   {64, 7},    {64, 200},  {64, 1024}, {8, 1},    {8, 8},
@@ -351,7 +359,8 @@ static void test_tile_sizes(void)
     static const struct {
         gn_format format;
         gn_view view;
-    } kinds[] = {{GN_FORMAT_RGB565, GN_VIEW_COLOUR}, {GN_FORMAT_RGB888, GN_VIEW_COLOUR}, {GN_FORMAT_RAW32, GN_VIEW_TRIANGLE}};
+    } kinds[] = {
+        {GN_FORMAT_RGB565, GN_VIEW_COLOUR}, {GN_FORMAT_RGB888, GN_VIEW_COLOUR}, {GN_FORMAT_RAW32, GN_VIEW_TRIANGLE}};
     demo_scene_make(&demo, 1);
     for (int n = 0; n < 6; n++) {
         int32_t persp_step = n < 3 ? 1 : 8;
@@ -371,8 +380,8 @@ static void test_tile_sizes(void)
             int d = i ? difference(&first, &c) : 0;
             if (p.format == GN_FORMAT_RGB565 && !same) d = 0; /* its bytes are no levels */
             if (!CHECK(d <= (same ? 0 : 2)))
-                printf("tiles of %dx%d, format %d, persp_step %d: %d\n", (int)sizes[i][0], (int)sizes[i][1], (int)p.format,
-                       (int)persp_step, d);
+                printf("tiles of %dx%d, format %d, persp_step %d: %d\n", (int)sizes[i][0], (int)sizes[i][1],
+                       (int)p.format, (int)persp_step, d);
             canvas_end(&c);
         }
         canvas_end(&first);
@@ -381,7 +390,8 @@ static void test_tile_sizes(void)
 
 static void test_picture_sizes(void)
 {
-    static const int sizes[][2] = {{1, 1}, {3, 2}, {319, 239}, {2048, 2048}, {2048, 1}, {1, 2048}, {64, 16}, {65, 17}, {63, 15}};
+    static const int sizes[][2] = {{1, 1},    {3, 2},   {319, 239}, {2048, 2048}, {2048, 1},
+                                   {1, 2048}, {64, 16}, {65, 17},   {63, 15}};
     demo_scene_make(&demo, 0);
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         for (int f = GN_FORMAT_RGB565; f <= GN_FORMAT_RGB888; f++)

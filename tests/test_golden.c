@@ -1,5 +1,6 @@
-/* Golden frames: the library's pictures of the own scenes, as CRC-32 of their bytes, are the same with every compiler and
- * optimisation level. "--write" prints the file anew: a deliberate change of pixels changes tests/golden.txt in the same commit. */
+/* Golden frames: the library's pictures of the own scenes, as CRC-32 of their bytes, are the same with every compiler
+ * and optimisation level. "--write" prints the file anew: a deliberate change of pixels changes tests/golden.txt in the
+ * same commit. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-/* What is kept from frame to frame (A5, R6, R8) and what is left out (D8) changes no picture: a renderer that lives through an
- * animation against one that was just begun, byte for byte in pixels and shadow texels. */
+/* What is kept from frame to frame (A5, R6, R8) and what is left out (D8) changes no picture: a renderer that lives
+ * through an animation against one that was just begun, byte for byte in pixels and shadow texels. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,7 +62,8 @@ static int check_frame(const gn_scene *scene, const char *what, uint32_t idx)
     render(&kept, scene, kept_pixels);
     render_fresh(scene);
     int same_picture = memcmp(kept_pixels, fresh_pixels, sizeof kept_pixels) == 0, same_tiles = same_texels(scene);
-    if (!CHECK(same_picture && same_tiles)) printf("  frame %u, %s: picture %d, texels %d\n", idx, what, same_picture, same_tiles);
+    if (!CHECK(same_picture && same_tiles))
+        printf("  frame %u, %s: picture %d, texels %d\n", idx, what, same_picture, same_tiles);
     total.frames++;
     total.kept_texels += gn_get_stats(&kept)->n_texels_drawn;
     total.fresh_texels += gn_get_stats(&fresh)->n_texels_drawn;
@@ -84,7 +85,7 @@ static void every_kind(void)
     ls.scene.shadow.filter = ls.scene.shadow.other_filter = GN_FILTER_3X3;
 }
 
-/* ---- A scripted animation ------------------------------------------------------------------------------------------------- */
+/* ---- A scripted animation ---------------------------------------------------------------------------------------- */
 
 static int32_t texel_of_first_cascade(void)
 {
@@ -300,8 +301,8 @@ static void test_script(void)
     play(change_settings);
     play(change_objects);
     printf("script: %lu frames; texels drawn per frame %lu instead of %lu, tiles %.1f instead of %.1f\n", total.frames,
-           total.kept_texels / total.frames, total.fresh_texels / total.frames, (double)total.kept_tiles / (double)total.frames,
-           (double)total.fresh_tiles / (double)total.frames);
+           total.kept_texels / total.frames, total.fresh_texels / total.frames,
+           (double)total.kept_tiles / (double)total.frames, (double)total.fresh_tiles / (double)total.frames);
 }
 
 /* What a game does: the camera glides on, one object moves, the rest stands. */
@@ -326,7 +327,7 @@ static void test_glide(void)
            total.fresh_texels / total.frames);
 }
 
-/* ---- Anything at random, with failures in between -------------------------------------------------------------------------- */
+/* ---- Anything at random, with failures in between ---------------------------------------------------------------- */
 
 static void mutate_light(rng *r)
 {
@@ -413,7 +414,8 @@ static void mutate_settings(rng *r)
     }
 }
 
-/* Frames that come to nothing: refused, begun and left, a shadow tile that fails. None of them may leave a wrong tile behind. */
+/* Frames that come to nothing: refused, begun and left, a shadow tile that fails. None of them may leave a wrong tile
+ * behind. */
 static void spoil(rng *r)
 {
     static const uint16_t bad_idx[3] = {0, 1, 60000};
@@ -486,7 +488,7 @@ static void test_random(void)
            total.fresh_texels / total.frames);
 }
 
-/* ---- Static and moving casters ---------------------------------------------------------------------------------------------- */
+/* ---- Static and moving casters ----------------------------------------------------------------------------------- */
 
 /* Texels that the moving casters alone are worth. */
 static uint32_t texels_of_moving(void)
@@ -510,20 +512,22 @@ static void test_layers(void)
     memset(&total, 0, sizeof total);
     for (uint32_t i = 1; i < 8; i++) {
         ls.object[2].to_world.t_q16[0] -= 9000;
-        ls.object[2].to_world.t_q16[1] += i == 5 ? GN_Q16(40) : i == 6 ? GN_Q16(-40) : 0; /* out of most tiles and back */
+        ls.object[2].to_world.t_q16[1] += i == 5   ? GN_Q16(40)
+                                          : i == 6 ? GN_Q16(-40)
+                                                   : 0; /* out of most tiles and back */
         check_frame(&ls.scene, "a moving caster", i);
         uint32_t drawn = gn_get_stats(&kept)->n_texels_drawn;
         if (i != 5 && i != 6) CHECK_EQ_INT(drawn, texels_of_moving());
     }
-    printf("one moving caster over the static layer: texels drawn per frame %lu instead of %lu\n", total.kept_texels / total.frames,
-           total.fresh_texels / total.frames);
+    printf("one moving caster over the static layer: texels drawn per frame %lu instead of %lu\n",
+           total.kept_texels / total.frames, total.fresh_texels / total.frames);
     ls.object[1].to_world.t_q16[0] += 9000;
     check_frame(&ls.scene, "a static caster moved", 8);
     ls.object[2].flags &= ~(uint32_t)GN_OBJECT_MOVING;
     check_frame(&ls.scene, "none is moving", 9);
 }
 
-/* ---- A schedule of cascades --------------------------------------------------------------------------------------------------- */
+/* ---- A schedule of cascades -------------------------------------------------------------------------------------- */
 
 static void schedule_scene(void)
 {
@@ -564,9 +568,10 @@ static void cascade_view(uint32_t *cascade)
     CHECK_EQ_INT(gn_render(&fresh, &ls.scene, ls_flush, &canvas), GN_OK);
 }
 
-/* A moving camera, and in the second run a moving caster: what the three fresh cascades show is the same to the byte. Where the
- * fourth is up to three frames old its shadows stand where they were, so that pixels change only at their edges: fewer than one in
- * twenty-five of the picture; by the camera alone hardly any, as the grid of texels is fixed in the world. */
+/* A moving camera, and in the second run a moving caster: what the three fresh cascades show is the same to the byte.
+ * Where the fourth is up to three frames old its shadows stand where they were, so that pixels change only at their
+ * edges: fewer than one in twenty-five of the picture; by the camera alone hardly any, as the grid of texels is fixed
+ * in the world. */
 static void check_schedule_moving(int caster_moves)
 {
     static uint32_t cascade[W * H];
@@ -641,7 +646,7 @@ static void test_forget(void)
     }
 }
 
-/* ---- Drift (R8) ----------------------------------------------------------------------------------------------------------------- */
+/* ---- Drift (R8) -------------------------------------------------------------------------------------------------- */
 
 static void turn(uint32_t frame)
 {

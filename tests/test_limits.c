@@ -1,5 +1,5 @@
-/* Scenes at the limits of their fields, with every preset and filter: drawn, each pixel once. Run under sanitizers this is also the
- * search for undefined behaviour. */
+/* Scenes at the limits of their fields, with every preset and filter: drawn, each pixel once. Run under sanitizers this
+ * is also the search for undefined behaviour. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -238,7 +238,8 @@ static void all_flags(gn_scene *s)
 /* A quad and a needle that reach the edge of what a vertex may be. */
 static void huge_triangles(gn_scene *s)
 {
-    static const int32_t pos[12] = {-(1 << 30), 0, -(1 << 30), -(1 << 30), 0, 1 << 30, 1 << 30, 1, 1 << 30, 1 << 30, 0, -(1 << 30)};
+    static const int32_t pos[12] = {-(1 << 30), 0, -(1 << 30), -(1 << 30), 0, 1 << 30,
+                                    1 << 30,    1, 1 << 30,    1 << 30,    0, -(1 << 30)};
     (void)s;
     demo.ground.pos = pos;
     demo.ground.pos_frac_bits = 17;
@@ -248,9 +249,9 @@ static const struct {
     void (*set)(gn_scene *);
     const char *name;
 } extreme[] = {
-#define EXTREME(set)                                                                                                               \
-    {                                                                                                                              \
-        set, #set                                                                                                                  \
+#define EXTREME(set)                                                                                                   \
+    {                                                                                                                  \
+        set, #set                                                                                                      \
     }
     EXTREME(limit_focal_low),
     EXTREME(limit_focal_high),
@@ -299,10 +300,10 @@ static const struct {
 
 static void set_preset_knobs(gn_knobs *k, int preset)
 {
-#define PRESET_(name, MACRO, lo, hi, meaning, cost)                                                                                \
-    {                                                                                                                              \
-        static const int32_t v[3] = {GN_PRESETS_##MACRO};                                                                          \
-        k->name = v[preset];                                                                                                       \
+#define PRESET_(name, MACRO, lo, hi, meaning, cost)                                                                    \
+    {                                                                                                                  \
+        static const int32_t v[3] = {GN_PRESETS_##MACRO};                                                              \
+        k->name = v[preset];                                                                                           \
     }
     GN_QUALITY_KNOBS(PRESET_)
 }

@@ -1,5 +1,5 @@
-/* Light lists (P9, P10, R9): which lights an object and a screen tile keep, against doubles; and that the picture is that of all
- * lights wherever the lists hold all that reach. */
+/* Light lists (P9, P10, R9): which lights an object and a screen tile keep, against doubles; and that the picture is
+ * that of all lights wherever the lists hold all that reach. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,7 +34,8 @@ static void random_scene(rng *r, uint32_t n_lights, double least_range, double l
     ls_add_random_objects(&ls, r, 6);
     ls_look(&ls, ls_q16(r, -6, 6), ls_q16(r, 1, 5), GN_Q16(5));
     for (uint32_t i = 0; i < n_lights; i++) {
-        gn_light *light = ls_add_random_light(&ls, r, i == 0 ? GN_LIGHT_DIRECTIONAL : (gn_light_kind)rng_range(r, 1, 2));
+        gn_light *light =
+            ls_add_random_light(&ls, r, i == 0 ? GN_LIGHT_DIRECTIONAL : (gn_light_kind)rng_range(r, 1, 2));
         if (i == 0) continue;
         light->range_q16 = rng_below(r, 12) ? (uint32_t)ls_q16(r, least_range, largest_range) : 0;
         light->colour_exp = rng_range(r, -3, 4);
@@ -42,7 +43,7 @@ static void random_scene(rng *r, uint32_t n_lights, double least_range, double l
     }
 }
 
-/* ---- Lists of objects (P9) ------------------------------------------------------------------------------------------------- */
+/* ---- Lists of objects (P9) --------------------------------------------------------------------------------------- */
 
 typedef struct {
     double weight;
@@ -116,7 +117,8 @@ static int check_list(uint32_t object_idx, uint32_t limit)
         if (listed) lightest_kept = fmin(lightest_kept, all[l].weight);
         else if (all[l].reaches) heaviest_left = fmax(heaviest_left, all[l].weight);
     }
-    for (uint32_t i = 1; i < state->n_lights; i++) n_bad += state->light[i] <= state->light[i - 1]; /* in order, each once */
+    for (uint32_t i = 1; i < state->n_lights; i++)
+        n_bad += state->light[i] <= state->light[i - 1]; /* in order, each once */
     if (n_unsure) return -1;
     int expected = n_reaching < (int)limit ? n_reaching : (int)limit;
     CHECK_EQ_INT(state->n_lights, expected);
@@ -191,7 +193,8 @@ static void test_lists_show_all(void)
             if (triangle[k] == UINT32_MAX) continue;
             for (uint32_t l = 0; l < ls.scene.n_lights; l++) {
                 candidate c = judge(&ls.light[l], &ls.object[triangle[k] >> 16]);
-                reach += ls.light[l].kind != GN_LIGHT_DIRECTIONAL && ls.light[l].mode != GN_LIGHT_BAKED && (c.reaches || c.unsure);
+                reach += ls.light[l].kind != GN_LIGHT_DIRECTIONAL && ls.light[l].mode != GN_LIGHT_BAKED &&
+                         (c.reaches || c.unsure);
             }
             n_wrong += reach <= 8 && !same;
             n_whole += reach > 0 && reach <= 8;
@@ -222,11 +225,13 @@ static void test_out_of_reach(void)
         CHECK(memcmp(with, without, sizeof with) == 0);
         CHECK_EQ_INT(gn_get_stats(&two)->n_shadow_tiles, gn_get_stats(&one)->n_shadow_tiles);
         CHECK_EQ_INT(gn_get_stats(&two)->n_lights_left_out, gn_get_stats(&one)->n_lights_left_out);
-        for (uint32_t o = 0; o < ls.scene.n_objects; o++) CHECK_EQ_INT(two.frame.object[o].n_lights, one.frame.object[o].n_lights);
+        for (uint32_t o = 0; o < ls.scene.n_objects; o++)
+            CHECK_EQ_INT(two.frame.object[o].n_lights, one.frame.object[o].n_lights);
     }
 }
 
-/* P10: a light that every surface turns its back to, or whose cone misses all, does not change a byte, shadow or not. */
+/* P10: a light that every surface turns its back to, or whose cone misses all, does not change a byte, shadow or not.
+ */
 static void test_early_outs(void)
 {
     static uint8_t without[W * H * 3], with[W * H * 3];
@@ -242,7 +247,7 @@ static void test_early_outs(void)
     CHECK(memcmp(with, without, sizeof with) == 0);
 }
 
-/* ---- Lists of screen tiles (R9) ------------------------------------------------------------------------------------------------ */
+/* ---- Lists of screen tiles (R9) ---------------------------------------------------------------------------------- */
 
 /* The world point of a pixel at a view depth. */
 static void point_at(int x, int y, double depth, double out[3])
@@ -251,14 +256,15 @@ static void point_at(int x, int y, double depth, double out[3])
     double focal2 = cam->focal2_px_q16 / 65536.0;
     double right = (2 * x + 1 - W) * depth / focal2, up = (H - 1 - 2 * y) * depth / focal2;
     for (int k = 0; k < 3; k++)
-        out[k] = cam->eye_q16[k] / 65536.0 + ldexp(cam->axis_q30[0][k], -30) * right + ldexp(cam->axis_q30[1][k], -30) * up +
-                 ldexp(cam->axis_q30[2][k], -30) * depth;
+        out[k] = cam->eye_q16[k] / 65536.0 + ldexp(cam->axis_q30[0][k], -30) * right +
+                 ldexp(cam->axis_q30[1][k], -30) * up + ldexp(cam->axis_q30[2][k], -30) * depth;
 }
 
 static double distance2(const gn_light *light, const double p[3])
 {
     double d2 = 0;
-    for (int k = 0; k < 3; k++) d2 += (p[k] - light->position_q16[k] / 65536.0) * (p[k] - light->position_q16[k] / 65536.0);
+    for (int k = 0; k < 3; k++)
+        d2 += (p[k] - light->position_q16[k] / 65536.0) * (p[k] - light->position_q16[k] / 65536.0);
     return d2;
 }
 
@@ -275,7 +281,8 @@ static double nearest_depth(const gn_light *light, int x, int y)
     return fmax(along / length2, one.frame.cam.near_q16 / 65536.0);
 }
 
-/* Whether the light reaches the surface of some pixel of the tile; with `depth` NULL: whether any surface could be reached there. */
+/* Whether the light reaches the surface of some pixel of the tile; with `depth` NULL: whether any surface could be
+ * reached there. */
 static int reaches_pixels(const gn_light *light, const gn_rect *rect, const uint32_t *depth)
 {
     double range = light->range_q16 / 65536.0, p[3];
@@ -312,8 +319,8 @@ static void check_tile(const gn_rect *rect, const uint32_t *depth, tile_tally *t
     CHECK(lights >> ls.scene.n_lights == 0);
 }
 
-/* No light that reaches a pixel is missing, and most that could reach none are: those a tile lists beyond the exact answer (some
- * point of some pixel's ray in range) are those behind corners of its frustum, at most a fifth. */
+/* No light that reaches a pixel is missing, and most that could reach none are: those a tile lists beyond the exact
+ * answer (some point of some pixel's ray in range) are those behind corners of its frustum, at most a fifth. */
 static void test_tile_lists(void)
 {
     static uint32_t depth[W * H];
@@ -332,8 +339,8 @@ static void test_tile_lists(void)
     }
     CHECK(t.n_reaching > 100 && t.n_listed < t.n_all / 2);
     CHECK(t.n_listed - t.n_possible <= t.n_possible / 5);
-    printf("tile lists: %u of %u lights listed, %u could reach a pixel's ray, %u reach a surface\n", t.n_listed, t.n_all,
-           t.n_possible, t.n_reaching);
+    printf("tile lists: %u of %u lights listed, %u could reach a pixel's ray, %u reach a surface\n", t.n_listed,
+           t.n_all, t.n_possible, t.n_reaching);
 }
 
 /* The picture does not know of screen tiles: persp_step 1, every size. */

@@ -1,4 +1,5 @@
-/* The number core against exact arithmetic. `test_math soak`, or SOAK in the environment, tries every operand of the reciprocal and of the root. */
+/* The number core against exact arithmetic. `test_math soak`, or SOAK in the environment, tries every operand of the
+ * reciprocal and of the root. */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,11 +14,12 @@
 
 static rng random_state = {1};
 
-/* ---- gn_q.h ------------------------------------------------------------------------------------------------------- */
+/* ---- gn_q.h ------------------------------------------------------------------------------------------------------ */
 
 static const int64_t edges[] = {
     /* clang-format off */
-    0, 1, -1, 2, -2, 3, INT32_MAX, INT32_MIN, UINT32_MAX, (int64_t)1 << 32, 0x3FFFFFFF, 0x40000000, -0x40000000, INT64_MAX,
+    0, 1, -1, 2, -2, 3, INT32_MAX, INT32_MIN, UINT32_MAX,
+    (int64_t)1 << 32, 0x3FFFFFFF, 0x40000000, -0x40000000, INT64_MAX,
     INT64_MAX - 1, INT64_MIN, INT64_MIN + 1, (int64_t)1 << 62, -((int64_t)1 << 62), ((int64_t)1 << 62) - 1,
     /* clang-format on */
 };
@@ -71,7 +73,8 @@ static void test_shifts(void)
         int64_t v = operand(i);
         for (int32_t s = 0; s <= 62; s++) {
             i128 up = (i128)v * ((i128)1 << s);
-            if (up >= INT64_MIN && up <= INT64_MAX) HOLDS(&shl, gn_shl64(v, s) == up, "gn_shl64(%lld, %d)", (long long)v, (int)s);
+            if (up >= INT64_MIN && up <= INT64_MAX)
+                HOLDS(&shl, gn_shl64(v, s) == up, "gn_shl64(%lld, %d)", (long long)v, (int)s);
             if (gn_abs64(v) <= (uint64_t)1 << 62)
                 HOLDS(&shr, gn_shr64(v, s) == i128_round_shr(v, s), "gn_shr64(%lld, %d)", (long long)v, (int)s);
         }
@@ -89,22 +92,25 @@ static void test_products(void)
 {
     tally mul = {0};
     for (uint32_t i = 0; i < 400000; i++) {
-        int32_t a = i < 32 ? INT32_MIN : rng_wide_i32(&random_state, 31), b = i & 1 ? a : rng_wide_i32(&random_state, 31);
+        int32_t a = i < 32 ? INT32_MIN : rng_wide_i32(&random_state, 31),
+                b = i & 1 ? a : rng_wide_i32(&random_state, 31);
         int32_t s = rng_range(&random_state, 1, 62);
         i128 exact = i128_round_shr((i128)a * b, s);
         if (exact == gn_sat32((int64_t)exact))
             HOLDS(&mul, gn_mul_shr(a, b, s) == exact, "gn_mul_shr(%d, %d, %d)", (int)a, (int)b, (int)s);
         exact = i128_round_shr((i128)a * b, 30);
-        if (exact == gn_sat32((int64_t)exact)) HOLDS(&mul, gn_mul_q30(a, b) == exact, "gn_mul_q30(%d, %d)", (int)a, (int)b);
+        if (exact == gn_sat32((int64_t)exact))
+            HOLDS(&mul, gn_mul_q30(a, b) == exact, "gn_mul_q30(%d, %d)", (int)a, (int)b);
         uint32_t ua = (uint32_t)rng_wide_u64(&random_state, 32), ub = (uint32_t)rng_wide_u64(&random_state, 32);
         if (i == 0) ua = UINT32_MAX, ub = 65536;
         exact = i128_round_shr((i128)ua * ub, 16);
-        if (exact <= UINT32_MAX) HOLDS(&mul, gn_mul_uq16(ua, ub) == exact, "gn_mul_uq16(%u, %u)", (unsigned)ua, (unsigned)ub);
+        if (exact <= UINT32_MAX)
+            HOLDS(&mul, gn_mul_uq16(ua, ub) == exact, "gn_mul_uq16(%u, %u)", (unsigned)ua, (unsigned)ub);
     }
     CHECK_TALLY(mul, "products");
 }
 
-/* ---- Reciprocal and root ------------------------------------------------------------------------------------------ */
+/* ---- Reciprocal and root ----------------------------------------------------------------------------------------- */
 
 typedef struct {
     tally bound[2], range;   /* with one step a mantissa may fall short of 2^31, near m = 2^32, by the step's error */
@@ -117,9 +123,11 @@ static void test_udiv(void)
     tally quotients = {0};
     rng random = {64};
     for (int i = 0; i < 1000000; i++) {
-        uint64_t a = rng_u64(&random) >> rng_below(&random, 64), b = (rng_u64(&random) >> rng_below(&random, 64)) | 1U, rest;
+        uint64_t a = rng_u64(&random) >> rng_below(&random, 64), b = (rng_u64(&random) >> rng_below(&random, 64)) | 1U,
+                 rest;
         uint64_t q = gn_udiv64_rest(a, b, &rest);
-        HOLDS(&quotients, q == a / b && rest == a % b && gn_udiv64(a, b) == q, "%llu / %llu", (unsigned long long)a, (unsigned long long)b);
+        HOLDS(&quotients, q == a / b && rest == a % b && gn_udiv64(a, b) == q, "%llu / %llu", (unsigned long long)a,
+              (unsigned long long)b);
     }
     CHECK_TALLY(quotients, "quotients");
 }
@@ -154,7 +162,8 @@ static void try_rsqrt(newton *t, uint32_t m)
     for (int k = 0; k < 2; k++) {
         uint64_t y = gn_rsqrt_norm(m, k + 1), grid = (uint64_t)1 << bits[k];
         u128 square = (u128)(y * y) * m, one = (u128)1 << 94;
-        u128 lo = (u128)((grid - 1) * (grid - 1)) << (94 - 2 * bits[k]), hi = (u128)((grid + 1) * (grid + 1)) << (94 - 2 * bits[k]);
+        u128 lo = (u128)((grid - 1) * (grid - 1)) << (94 - 2 * bits[k]), hi = (u128)((grid + 1) * (grid + 1))
+                                                                              << (94 - 2 * bits[k]);
         HOLDS(&t->bound[k], square > lo && square < hi, "m = %u, %d steps: %u", (unsigned)m, k + 1, (unsigned)y);
         if (k == 1) HOLDS(&t->range, y >= (uint64_t)1 << 31, "m = %u, %d steps: %u", (unsigned)m, k + 1, (unsigned)y);
         if (square < one && one - square > t->below[k]) t->below[k] = one - square, t->m_below[k] = m;
@@ -177,7 +186,8 @@ static void sweep(newton *t, void (*try)(newton *, uint32_t), uint32_t first, ui
 {
     for (uint64_t m = first; m <= UINT32_MAX; m += stride) try(t, (uint32_t)m);
     try(t, UINT32_MAX);
-    for (uint64_t start = first; start <= UINT32_MAX; start += (uint64_t)1 << 23) /* both ends of every table interval */
+    for (uint64_t start = first; start <= UINT32_MAX;
+         start += (uint64_t)1 << 23) /* both ends of every table interval */
         for (int32_t d = 0; d < 64; d++) {
             try(t, (uint32_t)(start + (uint32_t)d));
             try(t, (uint32_t)(start + ((uint64_t)1 << 23) - 1 - (uint32_t)d));
@@ -197,7 +207,7 @@ static void test_newton(int soak)
     report_newton(&rsqrt, "gn_rsqrt_norm", 95);
 }
 
-/* ---- gn_bfloat ---------------------------------------------------------------------------------------------------- */
+/* ---- gn_bfloat --------------------------------------------------------------------------------------------------- */
 
 static void test_bf(void)
 {
@@ -207,7 +217,8 @@ static void test_bf(void)
         gn_bfloat a = gn_bf_from_u64(u), b = gn_bf_from_u64(rng_wide_u64(&random_state, 64));
         /* in units of 2^-32: exact for every exponent -31 .. 32 */
         u128 value = (u128)a.mant << (a.exp + 32), whole = (u128)u << 32;
-        HOLDS(&from, a.mant >> 31 && value <= whole && whole - value < (whole >> 31) + 1, "%#llx", (unsigned long long)u);
+        HOLDS(&from, a.mant >> 31 && value <= whole && whole - value < (whole >> 31) + 1, "%#llx",
+              (unsigned long long)u);
         gn_bfloat inverse = gn_bf_recip(a);
         uint64_t one = (uint64_t)1 << 63, product = (uint64_t)inverse.mant * a.mant;
         uint64_t error = product > one ? product - one : one - product;
@@ -218,7 +229,8 @@ static void test_bf(void)
         int32_t d = p.exp - a.exp - b.exp;
         int ok = p.mant >> 31 && (d == 31 || d == 32);
         uint64_t stored = ok ? (uint64_t)p.mant << d : 0;
-        HOLDS(&mul, ok && stored <= exact && exact - stored < exact >> 31, "%u * %u", (unsigned)a.mant, (unsigned)b.mant);
+        HOLDS(&mul, ok && stored <= exact && exact - stored < exact >> 31, "%u * %u", (unsigned)a.mant,
+              (unsigned)b.mant);
     }
     CHECK_TALLY(from, "gn_bf_from_u64");
     CHECK_TALLY(recip, "gn_bf_recip");
@@ -258,14 +270,14 @@ static void test_bf_apply(void)
         HOLDS(&t, apply_ok(result, a, b.mant, s), "%lld * %u * 2^%d: %lld", (long long)a, (unsigned)b.mant, (int)s,
               (long long)result);
         if (s >= 0 && a && (s > 31 || i128_abs((i128)a * b.mant) >> (63 - s)))
-            HOLDS(&saturated, result == (a < 0 ? -INT64_MAX : INT64_MAX), "%lld * %u * 2^%d: %lld", (long long)a, (unsigned)b.mant,
-                  (int)s, (long long)result);
+            HOLDS(&saturated, result == (a < 0 ? -INT64_MAX : INT64_MAX), "%lld * %u * 2^%d: %lld", (long long)a,
+                  (unsigned)b.mant, (int)s, (long long)result);
     }
     CHECK_TALLY(t, "gn_bf_apply");
     CHECK_TALLY(saturated, "gn_bf_apply saturates");
 }
 
-/* ---- Roots and vectors -------------------------------------------------------------------------------------------- */
+/* ---- Roots and vectors ------------------------------------------------------------------------------------------- */
 
 static void test_isqrt(void)
 {
@@ -304,7 +316,8 @@ static void random_vector(int64_t a[3], uint32_t i)
     }
 }
 
-/* Normals of meshes, of unit length and of others, by matrices whose largest entry has 30 bits: one way as the other. */
+/* Normals of meshes, of unit length and of others, by matrices whose largest entry has 30 bits: one way as the other.
+ */
 static void test_mesh_normals(void)
 {
     tally t = {0};
@@ -319,8 +332,8 @@ static void test_mesh_normals(void)
         if (i % 22 == 0) n[(i + 1) % 3] = n[(i + 2) % 3] = 0;
         gn_surface_normal(out, (const int32_t(*)[3])m, n);
         gn_xform_normal(want, (const int32_t(*)[3])m, n);
-        HOLDS(&t, memcmp(out, want, sizeof out) == 0, "%lu: %ld %ld %ld, not %ld %ld %ld", (unsigned long)i, (long)out[0], (long)out[1], (long)out[2],
-              (long)want[0], (long)want[1], (long)want[2]);
+        HOLDS(&t, memcmp(out, want, sizeof out) == 0, "%lu: %ld %ld %ld, not %ld %ld %ld", (unsigned long)i,
+              (long)out[0], (long)out[1], (long)out[2], (long)want[0], (long)want[1], (long)want[2]);
     }
     CHECK_TALLY(t, "gn_surface_normal is gn_xform_normal");
 }
@@ -334,13 +347,16 @@ static void test_normalise(void)
         int32_t out[3] = {0, 0, 0};
         random_vector(a, i);
         if (!a[0] && !a[1] && !a[2]) a[0] = 1;
-        HOLDS(&zero, gn_normalise_q30(out, a) == 1, "%lld %lld %lld", (long long)a[0], (long long)a[1], (long long)a[2]);
+        HOLDS(&zero, gn_normalise_q30(out, a) == 1, "%lld %lld %lld", (long long)a[0], (long long)a[1],
+              (long long)a[2]);
         long double l = 0;
-        for (int k = 0; k < 3; k++) l += (long double)a[k] * (long double)a[k]; /* 2^-62 relative: far below the bound */
+        for (int k = 0; k < 3; k++)
+            l += (long double)a[k] * (long double)a[k]; /* 2^-62 relative: far below the bound */
         l = 1073741824.0L / sqrtl(l);
         for (int k = 0; k < 3; k++) {
             long double e = fabsl((long double)out[k] - (long double)a[k] * l);
-            HOLDS(&t, e <= 3.0L, "%lld %lld %lld: [%d] errs by %.3Lf", (long long)a[0], (long long)a[1], (long long)a[2], k, e);
+            HOLDS(&t, e <= 3.0L, "%lld %lld %lld: [%d] errs by %.3Lf", (long long)a[0], (long long)a[1],
+                  (long long)a[2], k, e);
             WORST(&w, e, "%lld %lld %lld", (long long)a[0], (long long)a[1], (long long)a[2]);
         }
     }
@@ -375,8 +391,8 @@ static void test_norm_vec(void)
         random_vector(a, i);
         int32_t e = gn_norm_vec(out, a);
         int ok = a[0] || a[1] || a[2] ? norm_vec_ok(out, a, e) : !e && !out[0] && !out[1] && !out[2];
-        HOLDS(&t, ok, "%lld %lld %lld: %d %d %d, %d", (long long)a[0], (long long)a[1], (long long)a[2], (int)out[0], (int)out[1],
-              (int)out[2], (int)e);
+        HOLDS(&t, ok, "%lld %lld %lld: %d %d %d, %d", (long long)a[0], (long long)a[1], (long long)a[2], (int)out[0],
+              (int)out[1], (int)out[2], (int)e);
     }
     int64_t null[3] = {0, 0, 0};
     int32_t out[3] = {1, 1, 1};
@@ -407,12 +423,13 @@ static void test_cross_dot(void)
         HOLDS(&t, gn_dot64(a, b) == dot, "dot of case %u", (unsigned)i);
         if (!unit) continue;
         gn_cross_q30(c30, a, b);
-        for (int k = 0; k < 3; k++) HOLDS(&t, c30[k] == i128_round_shr(c[k], 30), "rounded cross of case %u", (unsigned)i);
+        for (int k = 0; k < 3; k++)
+            HOLDS(&t, c30[k] == i128_round_shr(c[k], 30), "rounded cross of case %u", (unsigned)i);
     }
     CHECK_TALLY(t, "cross and dot products");
 }
 
-/* ---- Angles ------------------------------------------------------------------------------------------------------- */
+/* ---- Angles ------------------------------------------------------------------------------------------------------ */
 
 static void test_sine(void)
 {
@@ -453,7 +470,8 @@ static void test_focal(void)
         HOLDS(&t, relative <= allowed, "%u: %u errs by %Lg", (unsigned)i, (unsigned)focal, relative);
     }
     HOLDS(&t, gn_focal_from_fov_q24(0) == UINT32_MAX, "no angle saturates");
-    for (uint32_t i = 32768; i < 65536; i++) HOLDS(&t, gn_focal_from_fov_q24((uint16_t)i) == 0, "%u: no focal length", (unsigned)i);
+    for (uint32_t i = 32768; i < 65536; i++)
+        HOLDS(&t, gn_focal_from_fov_q24((uint16_t)i) == 0, "%u: no focal length", (unsigned)i);
     CHECK_TALLY(t, "gn_focal_from_fov_q24");
     printf("gn_focal_from_fov_q24: relative 2^%.2Lf at %s\n", log2l(w.error), w.at);
 }

@@ -1,6 +1,7 @@
-/* Panel drivers against models of their controllers: every tile of a picture arrives where it should, through both buffers, in
- * every orientation; nothing is sent that a data sheet forbids; slow, late and failing transfers end in a clear status, and panel_init()
- * leads out of all of them. --picture PANEL ZOOM prints what the glass of a model shows, as a PPM. */
+/* Panel drivers against models of their controllers: every tile of a picture arrives where it should, through both
+ * buffers, in every orientation; nothing is sent that a data sheet forbids; slow, late and failing transfers end in a
+ * clear status, and panel_init() leads out of all of them. --picture PANEL ZOOM prints what the glass of a model shows,
+ * as a PPM. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,7 +43,12 @@ static const specimen specimens[] = {
      {240, 320, 0, 0, 1, 0, 0, 0, 0},
      {240, 320, 0, 0, 0, PANEL_BGR, 0, 0, 0},
      GN_FORMAT_RGB565},
-    {"ssd1306", &panel_ssd1306, MODEL_SSD1306, {128, 64, 0, 0, 0, 0, 0, 0, 0}, {128, 64, 0, 0, 0, 0, 0, 0, 0}, GN_FORMAT_MONO1},
+    {"ssd1306",
+     &panel_ssd1306,
+     MODEL_SSD1306,
+     {128, 64, 0, 0, 0, 0, 0, 0, 0},
+     {128, 64, 0, 0, 0, 0, 0, 0, 0},
+     GN_FORMAT_MONO1},
     {"ssd1306 128x32",
      &panel_ssd1306,
      MODEL_SSD1306,
@@ -55,8 +61,18 @@ static const specimen specimens[] = {
      {72, 40, 28, 0, 0, 1, 0, 0, 0},
      {72, 40, 28, 0, 0, PANEL_INVERT, 0, 0, 0},
      GN_FORMAT_MONO1},
-    {"ssd1306 96x39", &panel_ssd1306, MODEL_SSD1306, {96, 39, 0, 0, 0, 0, 0, 0, 0}, {96, 39, 0, 0, 0, 0, 0, 0, 0}, GN_FORMAT_MONO1},
-    {"ssd1327", &panel_ssd1327, MODEL_SSD1327, {128, 128, 0, 0, 0, 0, 0, 0, 0}, {128, 128, 0, 0, 0, 0, 0, 0, 0}, GN_FORMAT_GREY4},
+    {"ssd1306 96x39",
+     &panel_ssd1306,
+     MODEL_SSD1306,
+     {96, 39, 0, 0, 0, 0, 0, 0, 0},
+     {96, 39, 0, 0, 0, 0, 0, 0, 0},
+     GN_FORMAT_MONO1},
+    {"ssd1327",
+     &panel_ssd1327,
+     MODEL_SSD1327,
+     {128, 128, 0, 0, 0, 0, 0, 0, 0},
+     {128, 128, 0, 0, 0, 0, 0, 0, 0},
+     GN_FORMAT_GREY4},
     {"ssd1327 96x96",
      &panel_ssd1327,
      MODEL_SSD1327,
@@ -78,7 +94,7 @@ static const specimen specimens[] = {
 };
 enum { N_SPECIMENS = sizeof specimens / sizeof *specimens };
 
-/* ---- A rig: model, bus, panel, display, and the picture that the glass is to show ------------------------------------------- */
+/* ---- A rig: model, bus, panel, display, and the picture that the glass is to show -------------------------------- */
 
 typedef struct {
     const specimen *s;
@@ -158,7 +174,8 @@ static void flush_random(rig *r, int x, int y, int w, int h)
         for (int i = 0; i < w; i++) {
             unsigned v = rng_below(&r->random, most_value(r) + 1);
             store(r, tile, w, i, j, v);
-            if (x + i < r->panel.width && y + j < r->panel.height) r->picture[(y + j) * r->panel.width + x + i] = (uint16_t)v;
+            if (x + i < r->panel.width && y + j < r->panel.height)
+                r->picture[(y + j) * r->panel.width + x + i] = (uint16_t)v;
         }
     }
     display_flush(&r->display, x, y, w, h, tile);
@@ -213,11 +230,13 @@ static void check_picture(const rig *r, const char *what)
     CHECK(ok);
 }
 
-/* ---- Pictures --------------------------------------------------------------------------------------------------------------- */
+/* ---- Pictures ---------------------------------------------------------------------------------------------------- */
 
 static int can_turn(const specimen *s, int turn)
 {
-    return s->driver == &panel_st7789 || s->driver == &panel_ili9341 ? 1 : turn == 0 || (turn == 2 && s->config.width % 2 == 0);
+    return s->driver == &panel_st7789 || s->driver == &panel_ili9341
+               ? 1
+               : turn == 0 || (turn == 2 && s->config.width % 2 == 0);
 }
 
 static void test_whole_pictures(const specimen *s)
@@ -266,7 +285,8 @@ static void test_alignment(const specimen *s)
     rig *r = rig_make(s, 1);
     CHECK_EQ_INT(rig_init(r, 0), PANEL_OK);
     CHECK_EQ_INT(draw(r, 64, 16), PANEL_OK);
-    int w = r->panel.width, h = r->panel.height, grey = s->format == GN_FORMAT_GREY4, mono = s->format == GN_FORMAT_MONO1;
+    int w = r->panel.width, h = r->panel.height, grey = s->format == GN_FORMAT_GREY4,
+        mono = s->format == GN_FORMAT_MONO1;
     const struct {
         int x, y, w, h, bad;
     } cases[] = {{0, 0, w, h, 0},
@@ -344,7 +364,7 @@ static void test_without_buffers(const specimen *s)
     CHECK_EQ_INT(display_init(&r->display), PANEL_ERR_BUFFER);
 }
 
-/* ---- Order of calls, and mistakes of the caller ----------------------------------------------------------------------------- */
+/* ---- Order of calls, and mistakes of the caller ------------------------------------------------------------------ */
 
 static void test_sleep(const specimen *s)
 {
@@ -378,18 +398,21 @@ static void check_outside(rig *r)
 {
     int w = r->panel.width, h = r->panel.height;
     uint32_t calls = r->bus.n_calls;
-    const int outside[][4] = {{-2, 0, 8, 8},         {0, -8, 8, 8},          {0, 0, 0, 8},     {0, 0, 8, 0}, {w, 0, 8, 8},
-                              {0, h, 8, 8},          {0, 0, w + 2, 8},       {0, 0, 8, h + 8}, {8, 0, w, 8}, {2, 8, 0x7FFFFFFE, 8},
-                              {2, 8, 8, 0x7FFFFFF8}, {-2147483647, 0, 8, 8}, {0, 0, -8, 8}};
+    const int outside[][4] = {{-2, 0, 8, 8}, {0, -8, 8, 8},         {0, 0, 0, 8},          {0, 0, 8, 0},
+                              {w, 0, 8, 8},  {0, h, 8, 8},          {0, 0, w + 2, 8},      {0, 0, 8, h + 8},
+                              {8, 0, w, 8},  {2, 8, 0x7FFFFFFE, 8}, {2, 8, 8, 0x7FFFFFF8}, {-2147483647, 0, 8, 8},
+                              {0, 0, -8, 8}};
     for (size_t i = 0; i < sizeof outside / sizeof *outside; i++) {
-        CHECK_EQ_INT(panel_window(&r->panel, outside[i][0], outside[i][1], outside[i][2], outside[i][3]), PANEL_ERR_WINDOW);
+        CHECK_EQ_INT(panel_window(&r->panel, outside[i][0], outside[i][1], outside[i][2], outside[i][3]),
+                     PANEL_ERR_WINDOW);
         display_flush(&r->display, outside[i][0], outside[i][1], outside[i][2], outside[i][3], some_bytes);
         CHECK_EQ_INT(r->display.status, PANEL_ERR_WINDOW);
         CHECK_EQ_INT(display_finish(&r->display), PANEL_ERR_WINDOW); /* and forgotten */
         CHECK_EQ_INT(display_finish(&r->display), PANEL_OK);
     }
-    CHECK_EQ_INT(panel_stream(&r->panel, some_bytes, 2), PANEL_ERR_ORDER);        /* no window */
-    CHECK_EQ_INT(r->bus.n_calls - calls, 2 * (sizeof outside / sizeof *outside)); /* the waiting of display_finish alone */
+    CHECK_EQ_INT(panel_stream(&r->panel, some_bytes, 2), PANEL_ERR_ORDER); /* no window */
+    CHECK_EQ_INT(r->bus.n_calls - calls,
+                 2 * (sizeof outside / sizeof *outside)); /* the waiting of display_finish alone */
 }
 
 /* Leaves a window that was not filled. */
@@ -425,7 +448,8 @@ static void test_mistakes(const specimen *s)
     check_picture(r, "after mistakes");
     r->display.buffer_bytes = 63;
     display_flush(&r->display, 0, 0, r->panel.width > 128 ? 128 : r->panel.width, 8, some_bytes);
-    CHECK_EQ_INT(display_finish(&r->display), s->format == GN_FORMAT_GREY4 && r->panel.width < 127 ? PANEL_OK : PANEL_ERR_BUFFER);
+    CHECK_EQ_INT(display_finish(&r->display),
+                 s->format == GN_FORMAT_GREY4 && r->panel.width < 127 ? PANEL_OK : PANEL_ERR_BUFFER);
     CHECK_EQ_INT(r->model.n_rejected, 0);
 }
 
@@ -488,7 +512,8 @@ static void test_configurations(const specimen *s)
     CHECK_EQ_INT(panel_init(NULL, d, &s->config, &bus), PANEL_ERR_NULL);
     CHECK_EQ_INT(rig_init(r, 0), PANEL_OK);
     for (int format = 0; format <= GN_FORMAT_RAW32; format++) {
-        int same = (format <= GN_FORMAT_RGB565_SWAPPED && format != GN_FORMAT_RGB888) == (s->format <= GN_FORMAT_RGB565_SWAPPED) &&
+        int same = (format <= GN_FORMAT_RGB565_SWAPPED && format != GN_FORMAT_RGB888) ==
+                       (s->format <= GN_FORMAT_RGB565_SWAPPED) &&
                    (format == (int)s->format || s->format <= GN_FORMAT_RGB565_SWAPPED);
         r->display.format = (gn_format)format;
         CHECK_EQ_INT(display_init(&r->display), same ? PANEL_OK : PANEL_ERR_FORMAT);
@@ -496,7 +521,7 @@ static void test_configurations(const specimen *s)
     for (int i = 0; i < PANEL_N_STATUS; i++) CHECK(strlen(panel_status_text((panel_status)i)) > 1);
 }
 
-/* ---- Slow, late and failing transfers --------------------------------------------------------------------------------------- */
+/* ---- Slow, late and failing transfers ---------------------------------------------------------------------------- */
 
 /* A small glass in a corner of the memory, so that every transfer of a session can be made to fail. */
 static specimen small_specimen(const specimen *s)
@@ -599,19 +624,22 @@ static void test_failures(const specimen *s)
                 r = rig_make(&small, with_reset);
                 r->bus.fault_at = at;
                 r->bus.fault = (bus_fault)fault;
-                panel_status expected = fault == FAULT_STUCK || fault == FAULT_HANGS ? PANEL_ERR_TIMEOUT : PANEL_ERR_BUS,
+                panel_status expected =
+                                 fault == FAULT_STUCK || fault == FAULT_HANGS ? PANEL_ERR_TIMEOUT : PANEL_ERR_BUS,
                              status = session(r);
-                int ok = status == expected && r->bus.n_calls <= most_calls && r->model.n_rejected == 0 && recovers(r, &healthy);
+                int ok = status == expected && r->bus.n_calls <= most_calls && r->model.n_rejected == 0 &&
+                         recovers(r, &healthy);
                 if (!ok && n_bad++ == 0)
-                    printf("%s%s: transfer %u, fault %d: %s; %u rejected: %s\n", s->name, with_reset ? ", reset line" : "", at,
-                           fault, panel_status_text(status), r->model.n_rejected, r->model.rejected);
+                    printf("%s%s: transfer %u, fault %d: %s; %u rejected: %s\n", s->name,
+                           with_reset ? ", reset line" : "", at, fault, panel_status_text(status), r->model.n_rejected,
+                           r->model.rejected);
             }
         }
         CHECK_EQ_INT(n_bad, 0);
     }
 }
 
-/* ---- The models reject what they should ------------------------------------------------------------------------------------- */
+/* ---- The models reject what they should -------------------------------------------------------------------------- */
 
 static void rejects(const char *what, panel_model *m, const char *expected)
 {
@@ -741,7 +769,7 @@ static void test_models(void)
     test_times(&m, &glass[MODEL_ST7789]);
 }
 
-/* ---- A frame buffer in memory ----------------------------------------------------------------------------------------------- */
+/* ---- A frame buffer in memory ------------------------------------------------------------------------------------ */
 
 static void test_framebuffer(void)
 {
@@ -775,7 +803,7 @@ static void test_framebuffer(void)
     CHECK_EQ_INT(panel_init(&r->panel, &panel_linear, &config, &bus), PANEL_ERR_CONFIG);
 }
 
-/* ---- What a glass shows, to look at ----------------------------------------------------------------------------------------- */
+/* ---- What a glass shows, to look at ------------------------------------------------------------------------------ */
 
 static void put_pixel(const specimen *s, int v)
 {
@@ -799,7 +827,8 @@ static int print_picture(const char *name, int zoom)
         test_library_frame(s);
         printf("P6\n%d %d\n255\n", zoom * s->glass.width, zoom * s->glass.height);
         for (int y = 0; y < zoom * s->glass.height; y++)
-            for (int x = 0; x < zoom * s->glass.width; x++) put_pixel(s, model_pixel(&the_rig.model, x / zoom, y / zoom));
+            for (int x = 0; x < zoom * s->glass.width; x++)
+                put_pixel(s, model_pixel(&the_rig.model, x / zoom, y / zoom));
         return check_n_failed > 0;
     }
     fprintf(stderr, "test_panels: no panel %s\n", name);

@@ -47,7 +47,8 @@ static void test_curves(void)
     for (uint32_t i = 0; i < 256; i++) HOLDS(&recip, gn_far_recip_entry(i) == gn_recip_table[i], "%u", (unsigned)i);
     for (uint32_t i = 0; i < 192; i++) HOLDS(&rsqrt, gn_far_rsqrt_entry(i) == gn_rsqrt_table[i], "%u", (unsigned)i);
     for (uint32_t i = 0; i < 577; i++) HOLDS(&encode, gn_far_srgb_entry(i) == gn_srgb_table[i], "%u", (unsigned)i);
-    for (uint32_t i = 0; i < 256; i++) HOLDS(&decode, gn_far_srgb_decode_entry(i) == gn_srgb_decode_table[i], "%u", (unsigned)i);
+    for (uint32_t i = 0; i < 256; i++)
+        HOLDS(&decode, gn_far_srgb_decode_entry(i) == gn_srgb_decode_table[i], "%u", (unsigned)i);
     CHECK_TALLY(recip, "reciprocals");
     CHECK_TALLY(rsqrt, "reciprocal roots");
     CHECK_TALLY(encode, "the sRGB curve");
@@ -77,8 +78,10 @@ static int packed_ok(const uint32_t q20[3])
 {
     uint32_t packed = gn_pixel_pack(&frame, q20);
     if (frame.picture.format == GN_FORMAT_RGB565)
-        return packed == nearest(encoded(q20[0]), 31) * 2048 + nearest(encoded(q20[1]), 63) * 32 + nearest(encoded(q20[2]), 31);
-    return packed == nearest(encoded(q20[0]), 255) + nearest(encoded(q20[1]), 255) * 256 + nearest(encoded(q20[2]), 255) * 65536;
+        return packed ==
+               nearest(encoded(q20[0]), 31) * 2048 + nearest(encoded(q20[1]), 63) * 32 + nearest(encoded(q20[2]), 31);
+    return packed ==
+           nearest(encoded(q20[0]), 255) + nearest(encoded(q20[1]), 255) * 256 + nearest(encoded(q20[2]), 255) * 65536;
 }
 
 /* Without the curve every 16-bit value occurs; each passes through every channel. */
@@ -90,9 +93,10 @@ static void test_pack(void)
             frame.picture.format = format ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565;
             frame.knobs.srgb = curve;
             for (uint32_t i = 0; i <= ONE_Q20 + 64; i += 4) {
-                uint32_t q20[3] = {i, (i * 5 + 1) & (ONE_Q20 - 1), rng_u32(&random_state) >> rng_below(&random_state, 13)};
-                HOLDS(&t, packed_ok(q20), "format %d, curve %d: %u %u %u", format, curve, (unsigned)q20[0], (unsigned)q20[1],
-                      (unsigned)q20[2]);
+                uint32_t q20[3] = {i, (i * 5 + 1) & (ONE_Q20 - 1),
+                                   rng_u32(&random_state) >> rng_below(&random_state, 13)};
+                HOLDS(&t, packed_ok(q20), "format %d, curve %d: %u %u %u", format, curve, (unsigned)q20[0],
+                      (unsigned)q20[1], (unsigned)q20[2]);
             }
         }
     CHECK_TALLY(t, "pixels are the nearest levels");
@@ -147,21 +151,23 @@ static void test_greys(void)
         for (int bits = 4; bits <= 8; bits += 4) {
             double level = curve(y) * (bits == 4 ? 15 : 255);
             frame.picture.format = bits == 4 ? GN_FORMAT_GREY4 : GN_FORMAT_GREY8;
-            /* half a level, the weights' 16 bits (2^-17 each, steepened by the curve) and the encoding's 1.5 of 65535 */
-            HOLDS(&grey, fabs(gn_pixel_pack(&frame, q20) - level) <= 0.5 + 255 * (1.5 / 65535 + 12.92 * 3 / 131072.0), "%u bits",
-                  (unsigned)bits);
+            /* half a level, the weights' 16 bits (2^-17 each, steepened by the curve) and the encoding's 1.5 of 65535
+             */
+            HOLDS(&grey, fabs(gn_pixel_pack(&frame, q20) - level) <= 0.5 + 255 * (1.5 / 65535 + 12.92 * 3 / 131072.0),
+                  "%u bits", (unsigned)bits);
         }
         frame.picture.format = GN_FORMAT_RGB565;
         uint32_t straight = gn_pixel_pack(&frame, q20);
         frame.picture.format = GN_FORMAT_RGB565_SWAPPED;
-        HOLDS(&swapped, gn_pixel_pack(&frame, q20) == (straight >> 8 | (straight & 255U) << 8), "%06x", (unsigned)straight);
+        HOLDS(&swapped, gn_pixel_pack(&frame, q20) == (straight >> 8 | (straight & 255U) << 8), "%06x",
+              (unsigned)straight);
     }
     CHECK_TALLY(grey, "grey levels");
     CHECK_TALLY(swapped, "byte order of RGB565");
 }
 
-/* Packed rows: each pixel in its own bits, rows on bytes, nothing else touched; the dither lights the share of pixels that the
- * luminance says, in every 8x8 block, wherever the block lies. */
+/* Packed rows: each pixel in its own bits, rows on bytes, nothing else touched; the dither lights the share of pixels
+ * that the luminance says, in every 8x8 block, wherever the block lies. */
 static void test_packed_rows(void)
 {
     uint8_t *bytes = tile.bytes;
@@ -187,7 +193,8 @@ static void test_packed_rows(void)
         for (int32_t y = 0; y < 8; y++) gn_pixel_fill(&frame, &rows, 24, 40 + y, 16, luminance);
         for (int32_t p = 0; p < 16; p++)
             for (int bit = 0; bit < 8; bit++) lit += bytes[p] >> bit & 1;
-        HOLDS(&share, abs(lit - (int)lround(luminance * 128 / 65535.0)) <= 1, "%u of 65535: %d of 128", (unsigned)luminance, lit);
+        HOLDS(&share, abs(lit - (int)lround(luminance * 128 / 65535.0)) <= 1, "%u of 65535: %d of 128",
+              (unsigned)luminance, lit);
     }
     CHECK_TALLY(share, "share of lit pixels");
 }
@@ -212,7 +219,8 @@ static uint32_t q20_of(int32_t q24)
     return q24 < 0 ? 0 : (uint32_t)q24 >> 4;
 }
 
-/* Ramps of RGB565 are packed by tables; every light from black to white, and what lies beyond, as gn_pixel_pack() has it. */
+/* Ramps of RGB565 are packed by tables; every light from black to white, and what lies beyond, as gn_pixel_pack() has
+ * it. */
 static void test_ramp(void)
 {
     enum { N = 1024 };
@@ -227,11 +235,10 @@ static void test_ramp(void)
             gn_pixel_ramp(&frame, &rows, 0, 0, N, &ramp);
             for (int32_t i = 0; i < N; i++) {
                 uint32_t q20[3];
-                for (int c = 0; c < 3; c++) {
-                    q20[c] = q20_of(ramp.from_q24[c] + i * ramp.step_q24[c]);
-                }
+                for (int c = 0; c < 3; c++) { q20[c] = q20_of(ramp.from_q24[c] + i * ramp.step_q24[c]); }
                 uint32_t is = k < 2 ? pixels.rgb565[i] : pixels.bytes[i], want = gn_pixel_pack(&frame, q20);
-                HOLDS(&same, is == want, "%d, format %d: %x, not %x", (int)(first + i), (int)k, (unsigned)is, (unsigned)want);
+                HOLDS(&same, is == want, "%d, format %d: %x, not %x", (int)(first + i), (int)k, (unsigned)is,
+                      (unsigned)want);
             }
         }
     }
@@ -266,7 +273,9 @@ static void test_mix(void)
     for (int k = 0; k < 20000; k++) {
         gn_ramp ramp[2];
         uint32_t share[N];
-        for (int i = 0; i < N; i++) share[i] = (uint32_t)random_below(4) == 0 ? (uint32_t)random_below(2) * 65536 : (uint32_t)random_below(65537);
+        for (int i = 0; i < N; i++)
+            share[i] =
+                (uint32_t)random_below(4) == 0 ? (uint32_t)random_below(2) * 65536 : (uint32_t)random_below(65537);
         for (int side = 0; side < 2; side++)
             for (int c = 0; c < 3; c++) {
                 int32_t last = random_below(1 << 24) + (k % 4 ? 0 : random_below(1 << 24) - (1 << 23));
@@ -277,14 +286,15 @@ static void test_mix(void)
         for (int i = 0; i < N; i++) {
             uint32_t q20[3], below[3];
             for (int c = 0; c < 3; c++) {
-                int32_t dark = ramp[0].from_q24[c] + i * ramp[0].step_q24[c], lit = ramp[1].from_q24[c] + i * ramp[1].step_q24[c];
+                int32_t dark = ramp[0].from_q24[c] + i * ramp[0].step_q24[c],
+                        lit = ramp[1].from_q24[c] + i * ramp[1].step_q24[c];
                 int32_t v = dark + (int32_t)((int64_t)(lit - dark) * (int32_t)share[i] >> 16);
                 q20[c] = q20_of(v);
                 below[c] = q20_of(v - 512);
             }
             uint32_t want = gn_pixel_pack(&frame, q20);
-            HOLDS(&same, between(pixels.rgb565[i], want, gn_pixel_pack(&frame, below)), "%d of row %d: %x, not %x", i, k, (unsigned)pixels.rgb565[i],
-                  (unsigned)want);
+            HOLDS(&same, between(pixels.rgb565[i], want, gn_pixel_pack(&frame, below)), "%d of row %d: %x, not %x", i,
+                  k, (unsigned)pixels.rgb565[i], (unsigned)want);
         }
     }
     CHECK_TALLY(same, "pixels between dark and lit");

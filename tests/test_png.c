@@ -1,4 +1,5 @@
-/* PNG: what is written reads back; what others write reads; what is damaged is refused. Run from the project's folder. */
+/* PNG: what is written reads back; what others write reads; what is damaged is refused. Run from the project's folder.
+ */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdbool.h>
@@ -75,7 +76,8 @@ static void test_round_trips(void)
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         for (int kind = 0; kind < 4; kind++) round_trip(sizes[i][0], sizes[i][1], kind);
     }
-    for (int i = 0; i < 200; i++) round_trip(1 + (int)(random_u32() % 40), 1 + (int)(random_u32() % 40), (int)(random_u32() % 4));
+    for (int i = 0; i < 200; i++)
+        round_trip(1 + (int)(random_u32() % 40), 1 + (int)(random_u32() % 40), (int)(random_u32() % 4));
     CHECK(round_trip(320, 240, 0) < 2500);
     CHECK(round_trip(320, 240, 2) < 5000);
     CHECK(round_trip(240, 240, 1) < 240 * 240 * 3 * 17 / 16);
@@ -131,8 +133,8 @@ static void test_colour_types(void)
 }
 
 /* w x 1 pixels and their RGBA. */
-static void check_rgba(uint32_t w, uint8_t depth, uint8_t colour, const char *trns, size_t n_trns, const uint8_t *raw, size_t n_raw,
-                       const uint8_t *expected)
+static void check_rgba(uint32_t w, uint8_t depth, uint8_t colour, const char *trns, size_t n_trns, const uint8_t *raw,
+                       size_t n_raw, const uint8_t *expected)
 {
     static const uint8_t palette[12] = {10, 20, 30, 40, 50, 60, 70, 80, 90, 1, 2, 3};
     png_picture picture;
@@ -142,7 +144,8 @@ static void check_rgba(uint32_t w, uint8_t depth, uint8_t colour, const char *tr
     put_pixels(raw, n_raw);
     put_chunk("IEND", NULL, 0);
     if (!CHECK(png_decode_rgba8(made, n_made, 100, &picture, error, sizeof error))) return (void)puts(error);
-    CHECK(picture.w == (int)w && picture.h == 1 && picture.depth == depth && memcmp(picture.rgba, expected, 4 * (size_t)w) == 0);
+    CHECK(picture.w == (int)w && picture.h == 1 && picture.depth == depth &&
+          memcmp(picture.rgba, expected, 4 * (size_t)w) == 0);
     free(picture.rgba);
 }
 
@@ -152,7 +155,8 @@ static void test_depths_and_alpha(void)
     check_rgba(1, 8, 4, NULL, 0, (const uint8_t[]){0, 1, 2}, 3, (const uint8_t[]){1, 1, 1, 2});
     check_rgba(1, 8, 6, "ignored", 7, (const uint8_t[]){0, 1, 2, 3, 4}, 5, (const uint8_t[]){1, 2, 3, 4});
     check_rgba(2, 8, 0, "\0\x05", 2, (const uint8_t[]){0, 5, 6}, 3, (const uint8_t[]){5, 5, 5, 0, 6, 6, 6, 255});
-    check_rgba(2, 8, 2, "\0\1\0\2\0\3", 6, (const uint8_t[]){0, 1, 2, 3, 1, 2, 4}, 7, (const uint8_t[]){1, 2, 3, 0, 1, 2, 4, 255});
+    check_rgba(2, 8, 2, "\0\1\0\2\0\3", 6, (const uint8_t[]){0, 1, 2, 3, 1, 2, 4}, 7,
+               (const uint8_t[]){1, 2, 3, 0, 1, 2, 4, 255});
     check_rgba(3, 8, 3, "\x07\x08", 2, (const uint8_t[]){0, 1, 2, 0}, 4,
                (const uint8_t[]){40, 50, 60, 8, 70, 80, 90, 255, 10, 20, 30, 7});
     check_rgba(3, 1, 0, NULL, 0, (const uint8_t[]){0, 0xA0}, 2,
@@ -164,15 +168,18 @@ static void test_depths_and_alpha(void)
     /* 16 bits: 0x8000 is 127.5 of 255 and rounds up to 128; the transparent colour is compared in full. */
     check_rgba(2, 16, 0, "\x80\0", 2, (const uint8_t[]){0, 0x80, 0, 0x80, 1}, 5,
                (const uint8_t[]){128, 128, 128, 0, 128, 128, 128, 255});
-    check_rgba(1, 16, 2, NULL, 0, (const uint8_t[]){0, 0xFF, 0xFF, 0, 0x80, 0, 0x81}, 7, (const uint8_t[]){255, 0, 1, 255});
+    check_rgba(1, 16, 2, NULL, 0, (const uint8_t[]){0, 0xFF, 0xFF, 0, 0x80, 0, 0x81}, 7,
+               (const uint8_t[]){255, 0, 1, 255});
     check_rgba(1, 16, 4, NULL, 0, (const uint8_t[]){0, 1, 1, 2, 2}, 5, (const uint8_t[]){1, 1, 1, 2});
     check_rgba(1, 16, 6, NULL, 0, (const uint8_t[]){0, 1, 1, 2, 2, 3, 3, 4, 4}, 9, (const uint8_t[]){1, 2, 3, 4});
 }
 
-/* Pixel (x, y) has the value 16 y + x; the passes written as the format describes them: a 8 x 8 tile numbered 1 to 7. */
+/* Pixel (x, y) has the value 16 y + x; the passes written as the format describes them: a 8 x 8 tile numbered 1 to 7.
+ */
 static void check_interlaced(uint32_t w, uint32_t h)
 {
-    static const char tile[8][9] = {"16462646", "77777777", "56565656", "77777777", "36463646", "77777777", "56565656", "77777777"};
+    static const char tile[8][9] = {"16462646", "77777777", "56565656", "77777777",
+                                    "36463646", "77777777", "56565656", "77777777"};
     uint8_t raw[400];
     size_t n = 0;
     png_picture picture;
@@ -191,7 +198,8 @@ static void check_interlaced(uint32_t w, uint32_t h)
     put_pixels(raw, n);
     put_chunk("IEND", NULL, 0);
     if (!CHECK(png_decode_rgba8(made, n_made, 100, &picture, error, sizeof error))) return (void)puts(error);
-    for (uint32_t i = 0; i < w * h; i++) CHECK(picture.rgba[4 * i + 1] == 16 * (i / w) + i % w && picture.rgba[4 * i + 3] == 255);
+    for (uint32_t i = 0; i < w * h; i++)
+        CHECK(picture.rgba[4 * i + 1] == 16 * (i / w) + i % w && picture.rgba[4 * i + 3] == 255);
     free(picture.rgba);
 }
 
@@ -313,7 +321,8 @@ static void test_inflate(void)
     CHECK(strstr(zlib_expand(damaged, sizeof damaged, out, 3), "checksum"));
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *problem = zlib_expand(cases[i].bytes, cases[i].n, out, 3);
-        if (!CHECK(problem && strstr(problem, cases[i].why))) printf("  case %zu: %s\n", i, problem ? problem : "accepted");
+        if (!CHECK(problem && strstr(problem, cases[i].why)))
+            printf("  case %zu: %s\n", i, problem ? problem : "accepted");
     }
 }
 
@@ -335,7 +344,8 @@ static void test_foreign_file(void)
     CHECK(png_read_rgb8("tests/data", &w, &h, error, sizeof error) == NULL);
 }
 
-/* Chunk checksums catch nearly every flipped byte: mended afterwards, so that the damage gets through to what lies behind. */
+/* Chunk checksums catch nearly every flipped byte: mended afterwards, so that the damage gets through to what lies
+ * behind. */
 static void mend_checksums(uint8_t *bytes, size_t n_bytes)
 {
     for (size_t at = 8; n_bytes - at >= 12;) {

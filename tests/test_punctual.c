@@ -1,5 +1,5 @@
-/* Spot and point lights: their arithmetic against double precision, within the bounds of NUMERICS 4.10; ties and edges of the rules
- * (P2, P5, P10); what kept tiles (A5) and culled casters (D8) must not miss. */
+/* Spot and point lights: their arithmetic against double precision, within the bounds of NUMERICS 4.10; ties and edges
+ * of the rules (P2, P5, P10); what kept tiles (A5) and culled casters (D8) must not miss. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,8 +44,14 @@ static double ratio_of(double error, double bound, worst *largest)
 /* Says what was seen, in units of the last place, and sees to it that the bound is not a lazy one. */
 static void report_worst(worst *w, double lsb, const char *what, int newton_steps)
 {
-    if (table) printf("| %s | %s | %.3g | %.2f |\n", what, newton_steps == 0 ? "" : newton_steps == 1 ? "1" : "2", w->error / lsb, w->share);
-    if (!CHECK(w->share > LAZY)) printf("%s, %d Newton steps: %.3f of its bound at the most\n", what, newton_steps, w->share);
+    if (table)
+        printf("| %s | %s | %.3g | %.2f |\n", what,
+               newton_steps == 0   ? ""
+               : newton_steps == 1 ? "1"
+                                   : "2",
+               w->error / lsb, w->share);
+    if (!CHECK(w->share > LAZY))
+        printf("%s, %d Newton steps: %.3f of its bound at the most\n", what, newton_steps, w->share);
     w->error = w->share = 0;
 }
 
@@ -109,7 +115,8 @@ static double delta_root(void)
     return fresh.frame.knobs.newton_steps == 1 ? 0x1p-15 : 0x1p-28;
 }
 
-/* P2: square of the least distance, and how far off the library's is, relatively: 10^-4 is rounded, then its scaled value. */
+/* P2: square of the least distance, and how far off the library's is, relatively: 10^-4 is rounded, then its scaled
+ * value. */
 static double least2(void)
 {
     return 1e-4 * pow(4, ls.scene.unit_log2);
@@ -197,7 +204,8 @@ static const gn_light_state *any_light(rng *r, int newton_steps, int32_t unit_lo
     light->shadow_strength_uq16 = 0;
     light->colour_exp = rng_range(r, -3, 6);
     light->range_q16 = rng_below(r, 4) ? (uint32_t)rng_range(r, 512, GN_Q16(30)) : 0;
-    if (light->range_q16 && rng_below(r, 6) == 0) light->range_q16 = (uint32_t)rng_range(r, 256, 700); /* below a centimetre */
+    if (light->range_q16 && rng_below(r, 6) == 0)
+        light->range_q16 = (uint32_t)rng_range(r, 256, 700); /* below a centimetre */
     light->near_q16 = 1;
     light->outer_turn = (uint16_t)rng_range(r, GN_TURN(1) + 1, GN_TURN(179) - 1);
     light->inner_turn = (uint16_t)rng_below(r, light->outer_turn + 1U);
@@ -239,12 +247,13 @@ static void any_point(rng *r, const gn_light *light, int32_t out_q16[3])
     for (int k = 0; k < 3; k++) out_q16[k] = (int32_t)(way[k] / sqrt(sum) * d * 65536);
 }
 
-/* A cone whose edge is narrow turns the last bit of a cosine into much light, and a point next to the light is rounded to some of its
- * bits: errors there are told apart. */
+/* A cone whose edge is narrow turns the last bit of a cosine into much light, and a point next to the light is rounded
+ * to some of its bits: errors there are told apart. */
 static int is_sharp(const gn_light *light, double d)
 {
     const double edge = cos(light->inner_turn * turn / 2) - cos(light->outer_turn * turn / 2);
-    return d < 1 / 16.0 || (light->kind == GN_LIGHT_SPOT && edge < 0.01) || (light->range_q16 && light->range_q16 < 4096);
+    return d < 1 / 16.0 || (light->kind == GN_LIGHT_SPOT && edge < 0.01) ||
+           (light->range_q16 && light->range_q16 < 4096);
 }
 
 static void check_irradiance(rng *r, const gn_punctual_point *point, approx factor, double d, int sharp)
@@ -262,7 +271,8 @@ static void check_irradiance(rng *r, const gn_punctual_point *point, approx fact
     double irradiance = gn_punctual_irradiance_q24(point, got) * 0x1p-24;
     if (e.v * scale - e.e * scale > all) CHECK(irradiance == all);
     else if (e.v * scale + e.e * scale < all)
-        CHECK(ratio_of(fabs(irradiance - e.v * scale), e.e * scale + 0x1p-25, sharp || e.v * scale > 1 ? &seen->bright : &seen->irradiance) <= 1);
+        CHECK(ratio_of(fabs(irradiance - e.v * scale), e.e * scale + 0x1p-25,
+                       sharp || e.v * scale > 1 ? &seen->bright : &seen->irradiance) <= 1);
 }
 
 static void check_point(rng *r, const gn_light_state *state)
@@ -295,7 +305,8 @@ static void check_point(rng *r, const gn_light_state *state)
     }
     points.lit++;
     CHECK(point.factor_q30 > 0);
-    CHECK(ratio_of(fabs(point.factor_q30 * q30 - factor.v), factor.e, is_sharp(light, sqrt(d2)) ? &seen->sharp : &seen->factor) <= 1);
+    CHECK(ratio_of(fabs(point.factor_q30 * q30 - factor.v), factor.e,
+                   is_sharp(light, sqrt(d2)) ? &seen->sharp : &seen->factor) <= 1);
     check_irradiance(r, &point, factor, sqrt(d2), is_sharp(light, sqrt(d2)));
 }
 
@@ -315,7 +326,9 @@ static void test_attenuation(void)
         for (int k = 0; k < 2; k++) {
             seen = &seen_of[k];
             report_kind(&seen->factor, q30, k, "factor: window times angle, LSB of Q30", steps);
-            report_kind(&seen->sharp, q30, k, "the same, edge of the cone narrower than 1/100, or range or distance below 1/16, LSB of Q30", steps);
+            report_kind(&seen->sharp, q30, k,
+                        "the same, edge of the cone narrower than 1/100, or range or distance below 1/16, LSB of Q30",
+                        steps);
             report_kind(&seen->cosine, q30, k, "cosine at the light, LSB of Q30", steps);
             report_kind(&seen->irradiance, 0x1p-24, k, "irradiance up to 1, LSB of Q24", steps);
             report_kind(&seen->bright, 0x1p-24, k, "irradiance above, up to 128, and there, LSB of Q24", steps);
@@ -325,8 +338,8 @@ static void test_attenuation(void)
 
 /* ---- P10 in a picture ------------------------------------------------------------------------------------------ */
 
-/* A camera that looks straight down on the ground, a spot above the ground at the same place: outside its cone, and out of its
- * range, the view of its shadow is 0 although nothing casts one. */
+/* A camera that looks straight down on the ground, a spot above the ground at the same place: outside its cone, and out
+ * of its range, the view of its shadow is 0 although nothing casts one. */
 static void raw_from_above(uint32_t *raw, uint32_t range_q16)
 {
     static const int32_t eye[3] = {0, GN_Q16(5), 0}, target[3] = {0, 0, GN_Q16(-0.001)};
@@ -338,7 +351,8 @@ static void raw_from_above(uint32_t *raw, uint32_t range_q16)
     light->outer_turn = range_q16 ? GN_TURN(170) : GN_TURN(60);
     light->range_q16 = range_q16;
     for (uint32_t i = 1; i < ls.scene.n_objects; i++) ls.object[i].flags = GN_OBJECT_CASTS | GN_OBJECT_HIDDEN;
-    for (uint32_t i = 1; i < ls.scene.n_objects; i++) ls.object[i].to_world.t_q16[1] = GN_Q16(-3); /* below the ground */
+    for (uint32_t i = 1; i < ls.scene.n_objects; i++)
+        ls.object[i].to_world.t_q16[1] = GN_Q16(-3); /* below the ground */
     gn_camera_look_at(&ls.scene.camera.to_world, eye, target);
     CHECK_EQ_INT(gn_init(&fresh, &p), GN_OK);
     CHECK_EQ_INT(gn_render(&fresh, &ls.scene, ls_flush, &canvas), GN_OK);
@@ -398,7 +412,8 @@ static size_t texels_of(const gn_renderer *r, uint32_t light_idx, uint8_t *out)
     return n;
 }
 
-/* The long-lived renderer after a change against one that was just begun; the change must show in the light's texels. */
+/* The long-lived renderer after a change against one that was just begun; the change must show in the light's texels.
+ */
 static void check_changed(uint32_t light_idx, const char *what)
 {
     static uint8_t before[1 << 17], a[1 << 17], b[1 << 17];
@@ -413,7 +428,8 @@ static void check_changed(uint32_t light_idx, const char *what)
         size_t n_a = texels_of(&kept, l, a), n_b = texels_of(&fresh, l, b);
         int same_texels = n_a == n_b && n_a > 0 && memcmp(a, b, n_a) == 0;
         if (!CHECK(same_texels)) printf("  light %u after %s of light %u\n", l, what, light_idx);
-        if (l == light_idx && !CHECK(n_b == n_before && memcmp(before, b, n_b) != 0)) printf("  %s changes nothing\n", what);
+        if (l == light_idx && !CHECK(n_b == n_before && memcmp(before, b, n_b) != 0))
+            printf("  %s changes nothing\n", what);
     }
     if (!CHECK(same)) printf("  picture after %s of light %u\n", what, light_idx);
 }
@@ -468,8 +484,9 @@ static void test_kept_fields(void)
 
 /* ---- D8: a shadow that leaves its cascade ---------------------------------------------------------------------- */
 
-/* In a room around the camera, a ball close to it, inside the first cascade; light along y throws its shadow on the floor far down
- * (side -1) or on the ceiling far up (1), outside the first cascade: the shadow goes on past the middle of the receivers' box. */
+/* In a room around the camera, a ball close to it, inside the first cascade; light along y throws its shadow on the
+ * floor far down (side -1) or on the ceiling far up (1), outside the first cascade: the shadow goes on past the middle
+ * of the receivers' box. */
 static void far_shadow_scene(int side)
 {
     const int32_t eye[3] = {0, 0, 0}, target[3] = {0, side * GN_Q16(2), GN_Q16(-1)};
@@ -553,8 +570,8 @@ static approx focal_of(const gn_light *light, const gn_light_view *view)
 }
 
 /* Texels whose index along `axis` is below `from` are dark, all others lit; the light's shadow of the point then. */
-static uint32_t probe(gn_light_view *view, int axis, uint32_t from, uint32_t dark, uint32_t lit, const gn_surface *surface,
-                      const gn_sample *sample)
+static uint32_t probe(gn_light_view *view, int axis, uint32_t from, uint32_t dark, uint32_t lit,
+                      const gn_surface *surface, const gn_sample *sample)
 {
     uint32_t t = view->tile_texels;
     for (uint32_t i = 0; i < t * t; i++) view->depth.d32[i] = (axis ? i / t : i % t) < from ? dark : lit;
@@ -564,13 +581,17 @@ static uint32_t probe(gn_light_view *view, int axis, uint32_t from, uint32_t dar
 
 static worst receiver_seen[2][2]; /* place and depth; spot, point */
 
-static void check_coords(gn_light_view *view, const gn_surface *surface, const gn_sample *sample, const double at[3], approx focal)
+static void check_coords(gn_light_view *view, const gn_surface *surface, const gn_sample *sample, const double at[3],
+                         approx focal)
 {
-    const int is_point = ls.light[0].kind == GN_LIGHT_POINT; /* whose axes are the world's: nothing is rounded along them */
-    double z_q16 = at[2] * 65536, t = view->tile_texels, half = is_point ? 0 : 0.5, delta = fresh.frame.knobs.newton_steps == 1 ? 0x1p-17 : 0x1p-29;
+    const int is_point =
+        ls.light[0].kind == GN_LIGHT_POINT; /* whose axes are the world's: nothing is rounded along them */
+    double z_q16 = at[2] * 65536, t = view->tile_texels, half = is_point ? 0 : 0.5,
+           delta = fresh.frame.knobs.newton_steps == 1 ? 0x1p-17 : 0x1p-29;
     for (int axis = 0; axis < 2; axis++) {
         double beside = focal.v / 2 * at[axis] / at[2], u = t / 2 + beside;
-        double bound = (fabs(beside) * (delta + focal.e + half / z_q16) + half * focal.v / 2 / z_q16) * 1.004 + focal.v * q30 + 0x1p-17;
+        double bound = (fabs(beside) * (delta + focal.e + half / z_q16) + half * focal.v / 2 / z_q16) * 1.004 +
+                       focal.v * q30 + 0x1p-17;
         double first = floor(u - 0.5);
         double got = first + 0.5 + probe(view, axis, (uint32_t)first + 1, 0, UINT32_MAX, surface, sample) / 65536.0;
         CHECK(ratio_of(fabs(got - u), bound + 0x1p-13, &receiver_seen[0][is_point]) <= 1); /* 12 bits of weight */
@@ -675,7 +696,8 @@ static void plate_normal(plate *q)
     for (int k = 0; k < 3; k++) q->normal[k] /= length;
 }
 
-/* B4. The normal is that of rounded corners, so it tilts by 2 sqrt(3) of their error over the triangle's smallest altitude. */
+/* B4. The normal is that of rounded corners, so it tilts by 2 sqrt(3) of their error over the triangle's smallest
+ * altitude. */
 static void plate_shrink(plate *q, const gn_light_view *view, double bias, double side)
 {
     double per_z = bias * 2 * 65536 / view->fit.persp.focal2_q16, most = 0;
@@ -685,7 +707,8 @@ static void plate_shrink(plate *q, const gn_light_view *view, double bias, doubl
         for (int k = 0; k < 3; k++) q->p[i][k] -= q->normal[k] * by;
     }
     plate_normal(q); /* what is farther moves more: the plane turns */
-    if (bias > 0) q->vertex += 0x1p-15 + most * (0x1p-26 + 2 * sqrt(3) * sqrt(2) * q->vertex / side) + per_z * q->vertex;
+    if (bias > 0)
+        q->vertex += 0x1p-15 + most * (0x1p-26 + 2 * sqrt(3) * sqrt(2) * q->vertex / side) + per_z * q->vertex;
 }
 
 /* The card as the light sees it, exactly. */
@@ -696,7 +719,8 @@ static void plate_of(plate *q, const gn_object *card, const gn_light_view *view)
         double from[3];
         for (int r = 0; r < 3; r++) {
             from[r] = (card->to_world.t_q16[r] - view->fit.persp.eye_q16[r]) / 65536.0;
-            for (int c = 0; c < 3; c++) from[r] += card->to_world.m_q30[r][c] * scale * card->mesh->pos[3 * i + c] / 65536.0;
+            for (int c = 0; c < 3; c++)
+                from[r] += card->to_world.m_q30[r][c] * scale * card->mesh->pos[3 * i + c] / 65536.0;
         }
         along_axes(view, from, q->p[i]);
     }
@@ -733,7 +757,8 @@ static int check_stored(const plate *q, const gn_light_view *view, const gn_tile
         for (uint32_t u = 0; u < tile->texels; u++) {
             if (!inside(tile, u, v)) continue;
             const double ray[3] = {(2.0 * u + 1 - tile->texels) / focal, (2.0 * v + 1 - tile->texels) / focal, 1};
-            double per_ray = fabs(dot3(q->normal, ray)), share = near * per_ray / h, kappa = sqrt(dot3(ray, ray)) / per_ray;
+            double per_ray = fabs(dot3(q->normal, ray)), share = near * per_ray / h,
+                   kappa = sqrt(dot3(ray, ray)) / per_ray;
             double bound = ldexp(0.5, -(int)tile->depth_bits) + (tile->texels + 2) * q32 +
                            share * ((kappa + length0 / h) * 0x1p-29 + 0x1p-27 + sqrt(3) * q->vertex / h);
             double got = stored_at(tile, v * tile->texels + u) * q32;
@@ -795,7 +820,8 @@ static void test_stored(void)
             for (int i = 0; i < 20; i++) check_plate(&r, bits[b], shrunk ? rng_range(&r, 1, 64) / 8.0 : 0, &n_texels);
             CHECK(n_texels > 1000);
             char what[80];
-            snprintf(what, sizeof what, "stored depth%s, LSB of %d bits", shrunk ? " of casters that shrink (B4)" : "", bits[b]);
+            snprintf(what, sizeof what, "stored depth%s, LSB of %d bits", shrunk ? " of casters that shrink (B4)" : "",
+                     bits[b]);
             report_worst(&stored_seen, ldexp(1, -bits[b]), what, 0);
         }
 }
@@ -816,14 +842,17 @@ static void test_mask_image(void)
     gn_texture image = {.rgba = rgba, .width_log2 = 3, .height_log2 = 3};
     rng r = {3};
     worst largest = {0, 0};
-    for (size_t i = 0; i < sizeof rgba; i++) rgba[i] = (uint8_t)(rng_below(&r, 3) ? rng_u32(&r) : rng_below(&r, 2) * 255);
+    for (size_t i = 0; i < sizeof rgba; i++)
+        rgba[i] = (uint8_t)(rng_below(&r, 3) ? rng_u32(&r) : rng_below(&r, 2) * 255);
     for (int i = 0; i < 4000; i++) {
         int32_t u = rng_range(&r, -9000, 75000), v = rng_range(&r, -9000, 75000);
         int channel = (int)rng_below(&r, 4);
         double x = u / 65536.0 * SIZE - 0.5, y = v / 65536.0 * SIZE - 0.5, fx = x - floor(x), fy = y - floor(y);
         int x0 = (int)floor(x), y0 = (int)floor(y);
-        double upper = texel_of(rgba, SIZE, x0, y0, channel) * (1 - fx) + texel_of(rgba, SIZE, x0 + 1, y0, channel) * fx;
-        double lower = texel_of(rgba, SIZE, x0, y0 + 1, channel) * (1 - fx) + texel_of(rgba, SIZE, x0 + 1, y0 + 1, channel) * fx;
+        double upper =
+            texel_of(rgba, SIZE, x0, y0, channel) * (1 - fx) + texel_of(rgba, SIZE, x0 + 1, y0, channel) * fx;
+        double lower =
+            texel_of(rgba, SIZE, x0, y0 + 1, channel) * (1 - fx) + texel_of(rgba, SIZE, x0 + 1, y0 + 1, channel) * fx;
         double exact = 65536 * (upper * (1 - fy) + lower * fy);
         CHECK(ratio_of(fabs(gn_texture_mask(&image, u, v, (uint32_t)channel) - exact), 1.5, &largest) <= 1);
     }
@@ -878,7 +907,8 @@ static double ground_at(int x, int y, double at[2])
 {
     const gn_cam *cam = &fresh.frame.cam;
     double ray[3], px = 2 * x + 1 - W, py = H - 1 - 2 * y, focal2 = cam->focal2_px_q16 / 65536.0;
-    for (int k = 0; k < 3; k++) ray[k] = (cam->axis_q30[0][k] * px + cam->axis_q30[1][k] * py + cam->axis_q30[2][k] * focal2) * q30;
+    for (int k = 0; k < 3; k++)
+        ray[k] = (cam->axis_q30[0][k] * px + cam->axis_q30[1][k] * py + cam->axis_q30[2][k] * focal2) * q30;
     double along = -(cam->eye_q16[1] / 65536.0) / ray[1];
     for (int k = 0; k < 2; k++) at[k] = cam->eye_q16[2 * k] / 65536.0 + along * ray[2 * k];
     return sqrt(dot3(ray, ray)) / fabs(ray[1]); /* kappa */
@@ -893,8 +923,8 @@ static void check_mask_pixel(const uint8_t *mask, int x, int y, uint32_t got, in
     double m[3] = {mask[2], mask[second ? 10 : 6], mask[second ? 14 : 10]};
     double b1 = second ? share_z : share_z - share_x, b2 = second ? share_x - share_z : share_x;
     double exact = 65536 / 255.0 * (m[0] + b1 * (m[1] - m[0]) + b2 * (m[2] - m[0]));
-    /* forms of the barycentrics: an edge, at most 17 long, crossed with a corner, at most 12 away, over twice the area, 144;
-     * corners are off by 1.1 LSB per coordinate in the view, altitudes are 8.4 */
+    /* forms of the barycentrics: an edge, at most 17 long, crossed with a corner, at most 12 away, over twice the area,
+     * 144; corners are off by 1.1 LSB per coordinate in the view, altitudes are 8.4 */
     double kappa_b = kappa * 17 * 12 / 144.0, delta = newton_steps == 1 ? 0x1p-17 : 0x1p-29;
     double b = (kappa_b + kappa) * 0x1p-29 + delta + 0x1p-29 + 2 * sqrt(3) * kappa * 1.1 * 0x1p-16 / 8.4;
     double bound = 1 + (fabs(m[1] - m[0]) + fabs(m[2] - m[0])) * 65536 / 255.0 * b;

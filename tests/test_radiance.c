@@ -1,5 +1,6 @@
-/* The stages from the shadow's filter to radiance, and the receiver's offset of spot and point lights, each against the formula it stands
- * for, in double, from the same quantised inputs and within the bound of docs/NUMERICS.md. "--table": the largest error seen, per stage. */
+/* The stages from the shadow's filter to radiance, and the receiver's offset of spot and point lights, each against the
+ * formula it stands for, in double, from the same quantised inputs and within the bound of docs/NUMERICS.md. "--table":
+ * the largest error seen, per stage. */
 #include "../lib/gn_bias.h"
 #include "../lib/gn_blocks.h"
 #include "../lib/gn_filter.h"
@@ -67,7 +68,7 @@ static int begin(const gn_knobs *knobs)
     return CHECK_EQ_INT(gn_begin(&renderer, &fixed), GN_OK);
 }
 
-/* ---- Filter (NUMERICS 4.7, 4.8) ---------------------------------------------------------------------------------------- */
+/* ---- Filter (NUMERICS 4.7, 4.8) ---------------------------------------------------------------------------------- */
 
 /* Integral of max(0, h - |t|) from minus infinity to x. */
 static double tent_integral(double x, double h)
@@ -80,7 +81,8 @@ static double tent_integral(double x, double h)
 /* Weight of a texel along an axis for a receiver at `at`. */
 static double weight_of(const gn_light_view *view, gn_kernel kernel, int texel, double at)
 {
-    static const double linear[3][8] = {{0, 1, 2, 1}, {0, 1, 3, 4, 3, 1}, {0, 1, 5, 12, 16, 12, 5, 1}}; /* at f = 0; f on is the one before */
+    static const double linear[3][8] = {
+        {0, 1, 2, 1}, {0, 1, 3, 4, 3, 1}, {0, 1, 5, 12, 16, 12, 5, 1}}; /* at f = 0; f on is the one before */
     static const double sum[3] = {4, 12, 52};
     const int k = view->filter_idx;
     if (k == 0) return fmax(0, 1 - fabs(texel + 0.5 - at));
@@ -128,7 +130,12 @@ static void check_filter(const gn_knobs *knobs)
     fill_texels(view, lit);
     gn_blocks_build(view);
     for (int i = 0; i < 60; i++) {
-        gn_receiver r = {(int32_t)(uniform(reach, t - reach) * 65536), (int32_t)(uniform(reach, t - reach) * 65536), 1U << 31, {0, 0}, 0, 0};
+        gn_receiver r = {(int32_t)(uniform(reach, t - reach) * 65536),
+                         (int32_t)(uniform(reach, t - reach) * 65536),
+                         1U << 31,
+                         {0, 0},
+                         0,
+                         0};
         const double u = r.u_q16 * LSB16, v = r.v_q16 * LSB16;
         double want = 0;
         for (int y = (int)v - reach; y <= (int)v + reach; y++)
@@ -136,12 +143,14 @@ static void check_filter(const gn_knobs *knobs)
                 if (x >= 0 && y >= 0 && x < t && y < t && lit[y * t + x])
                     want += weight_of(view, fixed.shadow.kernel, x, u) * weight_of(view, fixed.shadow.kernel, y, v);
         const double got = gn_filter_attenuation(&renderer.frame, view, &r) * LSB16;
-        const int stage = view->filter_idx == 0 ? STAGE_FILTER : fixed.shadow.kernel == GN_KERNEL_LINEAR ? STAGE_FILTER_LINEAR : STAGE_FILTER_TENT;
+        const int stage = view->filter_idx == 0                     ? STAGE_FILTER
+                          : fixed.shadow.kernel == GN_KERNEL_LINEAR ? STAGE_FILTER_LINEAR
+                                                                    : STAGE_FILTER_TENT;
         record(stage, fabs(got - want), filter_bound(knobs, view, fixed.shadow.kernel), LSB16);
     }
 }
 
-/* ---- Attenuation: strength, distance and mask (M4, M6, D5; NUMERICS 4.13) ---------------------------------------------- */
+/* ---- Attenuation: strength, distance and mask (M4, M6, D5; NUMERICS 4.13) ---------------------------------------- */
 
 static double lerp1(double x, double k) /* lerp(1, x, k) */
 {
@@ -152,7 +161,8 @@ static void check_mixing(gn_surface *surface, gn_sample *sample)
 {
     gn_frame *frame = &renderer.frame;
     const gn_mixing mixing = (gn_mixing)uniform(0, 3);
-    const uint32_t strength = one_in(4) ? 65536 : (uint32_t)uniform(1, 65536), g = one_in(4) ? 65536 : (uint32_t)uniform(0, 65537);
+    const uint32_t strength = one_in(4) ? 65536 : (uint32_t)uniform(1, 65536),
+                   g = one_in(4) ? 65536 : (uint32_t)uniform(0, 65537);
     frame->light[0].strength_uq16 = 65536;
     fixed.shadow.mixing = GN_MIXING_NONE;
     const double realtime = gn_shadow_factor(frame, surface, sample, 0, 65536) * LSB16;
@@ -194,10 +204,12 @@ static void check_attenuation(const gn_knobs *knobs)
         sample.value[GN_VALUE_MASK] = one_in(4) ? 65536 : (int32_t)uniform(0, 65537);
         sample.value[GN_VALUE_FADE] = 65536;
         sample.value[GN_VALUE_Z] = (int32_t)(uniform(one_in(2) ? 0 : 1 - fade, 1.05) * far * 65536);
-        for (int k = 0; k < 2; k++) sample.value[GN_VALUE_LIGHT + 1 + k] = (int32_t)(uniform(8, frame->view[0].tile_texels - 8) * 65536);
+        for (int k = 0; k < 2; k++)
+            sample.value[GN_VALUE_LIGHT + 1 + k] = (int32_t)(uniform(8, frame->view[0].tile_texels - 8) * 65536);
         sample.value[GN_VALUE_LIGHT + 3] = frame->view[0].tile_texels * 32768;
         check_mixing(&surface, &sample);
-        const double want = (1 - sample.value[GN_VALUE_Z] * LSB16 / far) / fade, got = gn_shadow_distance(frame, &surface, &sample) * LSB16;
+        const double want = (1 - sample.value[GN_VALUE_Z] * LSB16 / far) / fade,
+                     got = gn_shadow_distance(frame, &surface, &sample) * LSB16;
         record(STAGE_DISTANCE, fabs(got - fmin(1, fmax(0, want))), LSB16, LSB16);
     }
     light.mask_channel = -1;
@@ -205,7 +217,7 @@ static void check_attenuation(const gn_knobs *knobs)
     fixed.shadow.distance_fade_uq16 = 6554;
 }
 
-/* ---- Radiance (NUMERICS 4.5, 4.12) ------------------------------------------------------------------------------------- */
+/* ---- Radiance (NUMERICS 4.5, 4.12) ------------------------------------------------------------------------------- */
 
 static gn_light lamps[3];
 
@@ -235,11 +247,13 @@ static void lit_scene(void)
 /* What a pixel should be, and what it may be off by but for what pieces add. */
 typedef struct {
     double want[3], bound[3];
-    double smooth[3], most[3]; /* light that varies with the normal; the larger of what arrives and the tint, at least 1 */
+    double smooth[3],
+        most[3]; /* light that varies with the normal; the larger of what arrives and the tint, at least 1 */
 } shade;
 
 /* Knob vertex_light: the cosine of the corners, interpolated, and what it may be off by. */
-static double corner_cosine(const gn_surface *s, const crossing *c, const double to_light[3], double bary_off, double *off)
+static double corner_cosine(const gn_surface *s, const crossing *c, const double to_light[3], double bary_off,
+                            double *off)
 {
     double at[3];
     for (int k = 0; k < 3; k++) {
@@ -261,7 +275,8 @@ static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing 
             double to_light[3], colour = albedo * lamps[l].colour_uq16[k] * LSB16;
             axis_of(frame->light[l].to_light_q30, to_light);
             double cosine = fmax(0, dot(n, to_light) / length), cosine_off = cosine_bound(frame, c, n, change) + more;
-            if (frame->knobs.vertex_light && s->smooth) cosine = corner_cosine(s, c, to_light, bary_bound(frame, c) + more_b, &cosine_off);
+            if (frame->knobs.vertex_light && s->smooth)
+                cosine = corner_cosine(s, c, to_light, bary_bound(frame, c) + more_b, &cosine_off);
             sum += colour * cosine;
             smooth += colour;
             off += cosine * LSB16 / 2 + (colour + LSB16 / 2) * cosine_off + LSB20 / 2;
@@ -270,7 +285,8 @@ static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing 
         if (s->coloured) {
             const int32_t *at[3] = {s->rgb_q16[0], s->rgb_q16[1], s->rgb_q16[2]};
             tint = (at[0][k] + c->b[0] * at[1][k] + c->b[1] * at[2][k]) * LSB16;
-            tint_off = LSB16 + (fabs((double)at[1][k]) + fabs((double)at[2][k])) * LSB16 * (bary_bound(frame, c) + more_b);
+            tint_off =
+                LSB16 + (fabs((double)at[1][k]) + fabs((double)at[2][k])) * LSB16 * (bary_bound(frame, c) + more_b);
         }
         out->want[k] = sum * tint;
         out->bound[k] = off * (tint + tint_off) + sum * tint_off + LSB20 / 2;
@@ -299,11 +315,13 @@ static void check_samples(const gn_surface *s, const plane *p, const gn_rect *r)
             gn_sample_at(frame, s, x, y, &sample);
             gn_light_radiance(frame, s, &sample, got);
             shade_at(frame, s, &c, 0, &want);
-            for (int k = 0; k < 3; k++) record(STAGE_RADIANCE, fabs(got[k] * LSB20 - want.want[k]), want.bound[k], LSB20);
+            for (int k = 0; k < 3; k++)
+                record(STAGE_RADIANCE, fabs(got[k] * LSB20 - want.want[k]), want.bound[k], LSB20);
         }
 }
 
-/* 4.12: what ramps may stray by, slopes, the forms of the barycentrics, stepped from the middle of all, and the square of N. */
+/* 4.12: what ramps may stray by, slopes, the forms of the barycentrics, stepped from the middle of all, and the square
+ * of N. */
 static void check_row(gn_pieces *pieces, const plane *p, double tolerance, int y, int x_begin, int x_end)
 {
     static int32_t got[GN_PIECE_WIDTH][3];
@@ -318,9 +336,12 @@ static void check_row(gn_pieces *pieces, const plane *p, double tolerance, int y
         const double units = 0.5 * (1 + abs(dx) + abs(dy)), w = gn_along(&pieces->w, dx, dy);
         shade_at(&renderer.frame, pieces->surface, &c, 2.5 * units / w + ldexp(64, -28), &want);
         normal_at(pieces->surface, &c, n);
-        const double of_normal = pieces->turns ? ldexp(1, -17) / dot(n, n) : 0, ramp = !pieces->turns ? 5 : pieces->tinted ? 4 : 1;
+        const double of_normal = pieces->turns ? ldexp(1, -17) / dot(n, n) : 0, ramp = !pieces->turns   ? 5
+                                                                                       : pieces->tinted ? 4
+                                                                                                        : 1;
         for (int k = 0; k < 3; k++) {
-            const double stray = want.most[k] * (tolerance * ramp + ldexp(1, -12)) + ldexp(1, -17) + of_normal * want.smooth[k];
+            const double stray =
+                want.most[k] * (tolerance * ramp + ldexp(1, -12)) + ldexp(1, -17) + of_normal * want.smooth[k];
             const double bound = want.bound[k] + (pieces->varies ? stray : 0);
             record(STAGE_PIECES, fabs(fmax(0, ldexp(got[x - x_begin][k], -24)) - want.want[k]), bound, LSB20);
         }
@@ -331,7 +352,9 @@ static void check_pieces(const gn_surface *s, const plane *p, const gn_rect *r)
 {
     gn_frame *frame = &renderer.frame;
     static gn_pieces pieces;
-    const double tolerance = frame->knobs.persp_step == 16 ? ldexp(1, -7) : frame->knobs.persp_step == 8 ? ldexp(1, -9) : ldexp(1, -10);
+    const double tolerance = frame->knobs.persp_step == 16  ? ldexp(1, -7)
+                             : frame->knobs.persp_step == 8 ? ldexp(1, -9)
+                                                            : ldexp(1, -10);
     if (!gn_pieces_fit(frame, s) || !gn_pieces_begin(&pieces, frame, s, r)) return;
     for (int y = r->y0; y < r->y1; y += GN_PIECE_ROWS)
         for (int x = r->x0; x < r->x1;) {
@@ -368,7 +391,8 @@ static void check_radiance(const gn_knobs *knobs)
             const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
             check_samples(&surface, &p, &r);
             const int32_t step = renderer.frame.knobs.persp_step;
-            if (step == 1) renderer.frame.knobs.persp_step = 4; /* the accurate preset has no pieces: the finest there are */
+            if (step == 1)
+                renderer.frame.knobs.persp_step = 4; /* the accurate preset has no pieces: the finest there are */
             check_pieces(&surface, &p, &r);
             renderer.frame.knobs.persp_step = step;
         }
@@ -379,7 +403,7 @@ static void check_radiance(const gn_knobs *knobs)
     fixed.n_lights = 1;
 }
 
-/* ---- The receiver's offset, spot and point lights (B2, B3, B6; NUMERICS 4.10, 4.11) ------------------------------------ */
+/* ---- The receiver's offset, spot and point lights (B2, B3, B6; NUMERICS 4.10, 4.11) ------------------------------ */
 
 static gn_light lamp;
 
@@ -439,7 +463,8 @@ typedef struct {
 
 static void random_receiver(const gn_light_view *view, receiver *r)
 {
-    const double half = view->tile_texels * 65536.0 / view->fit.persp.focal2_q16, side = lamp.kind == GN_LIGHT_POINT ? 0.95 : 0.95 * half, z = uniform(0.5, 20);
+    const double half = view->tile_texels * 65536.0 / view->fit.persp.focal2_q16,
+                 side = lamp.kind == GN_LIGHT_POINT ? 0.95 : 0.95 * half, z = uniform(0.5, 20);
     const double in[3] = {uniform(-side, side) * z, uniform(-side, side) * z, z};
     for (int k = 0; k < 3; k++) {
         double at = 0;
@@ -463,8 +488,8 @@ static void slope_of(double cosine, double *sine, double *tangent)
     *tangent = *sine < 50 * cosine ? *sine / cosine : 50;
 }
 
-/* The error of the view's axes, 3 LSB per component, 5.2 in all, is in the light-plane distance; sine and tangent are as wrong as the
- * cosine that they are of. */
+/* The error of the view's axes, 3 LSB per component, 5.2 in all, is in the light-plane distance; sine and tangent are
+ * as wrong as the cosine that they are of. */
 static void check_offset(const gn_light_view *view, const receiver *r, const int32_t n_q30[3], const double n[3])
 {
     const gn_frame *frame = &renderer.frame;
@@ -476,8 +501,10 @@ static void check_offset(const gn_light_view *view, const receiver *r, const int
     slope_of(cosine, &sine, &tangent);
     for (int i = 0; i < 2; i++) slope_of(cosine + (i ? off : -off), &other[i][0], &other[i][1]);
     const double sine_off = fmax(fabs(other[0][0] - sine), fabs(other[1][0] - sine)) + ldexp(1, -30);
-    const double tangent_off = fmax(fabs(other[0][1] - tangent), fabs(other[1][1] - tangent)) + LSB16 + tangent * ldexp(1, -28);
-    const double along = beta + reach * (b[2] + b[3] * sine), to = reach * (b[0] + b[1] * tangent), wide = r->tau * r->z;
+    const double tangent_off =
+        fmax(fabs(other[0][1] - tangent), fabs(other[1][1] - tangent)) + LSB16 + tangent * ldexp(1, -28);
+    const double along = beta + reach * (b[2] + b[3] * sine), to = reach * (b[0] + b[1] * tangent),
+                 wide = r->tau * r->z;
     const double z_off = LSB16 / 2 + r->distance * ldexp(5.2, -30);
     const double along_off = LSB16 * (1 + (b[3] > 0 ? reach : 0)) + beta * ldexp(1, -20) + reach * b[3] * sine_off;
     const double to_off = (b[1] > 0 ? LSB16 * reach : 0) + reach * b[1] * tangent_off;
@@ -485,9 +512,11 @@ static void check_offset(const gn_light_view *view, const receiver *r, const int
     gn_bias_punctual(frame, &frame->light[0], n_q30, r->depth_q16, r->from_q16, got);
     for (int k = 0; k < 3; k++) {
         const double want = wide * (along * n[k] + to * towards[k]);
-        const double bound = fabs(n[k]) * (wide * along_off + along * r->tau * z_off + along * wide * ldexp(1, -28) + LSB16) +
-                             fabs(towards[k]) * (wide * to_off + to * r->tau * z_off + to * wide * ldexp(1, -28) + (to > 0 ? LSB16 : 0)) +
-                             wide * to * ldexp(3, -30) + (to > 0 ? 2 : 1) * LSB16 / 2;
+        const double bound =
+            fabs(n[k]) * (wide * along_off + along * r->tau * z_off + along * wide * ldexp(1, -28) + LSB16) +
+            fabs(towards[k]) *
+                (wide * to_off + to * r->tau * z_off + to * wide * ldexp(1, -28) + (to > 0 ? LSB16 : 0)) +
+            wide * to * ldexp(3, -30) + (to > 0 ? 2 : 1) * LSB16 / 2;
         record(STAGE_OFFSET + is_point(), fabs(got[k] * LSB16 - want), bound, LSB16);
     }
 }
@@ -511,7 +540,8 @@ static void check_curved(const gn_light_view *view, const receiver *r, const int
 }
 
 /* The plane m . P = -h through the point, seen from its front. */
-static void check_automatic(const gn_light_view *view, const receiver *r, const int32_t face_q30[3], const double face[3])
+static void check_automatic(const gn_light_view *view, const receiver *r, const int32_t face_q30[3],
+                            const double face[3])
 {
     double m[3], reach = view->offset_q16 * LSB16, h = fabs(dot(face, r->from));
     for (int i = 0; i < 3; i++) {
@@ -519,27 +549,34 @@ static void check_automatic(const gn_light_view *view, const receiver *r, const 
         axis_of(view->axis_q30[i], axis);
         m[i] = dot(face, axis);
     }
-    const double near = view->fit.persp.near_q16 * LSB16, rounded = ldexp(view->auto_step, -32) / near; /* per distance from the plane */
+    const double near = view->fit.persp.near_q16 * LSB16,
+                 rounded = ldexp(view->auto_step, -32) / near; /* per distance from the plane */
     const int is_normal = lamp.auto_bias == GN_AUTO_BIAS_NORMAL;
     const double across = reach * r->tau * (fabs(m[0]) + fabs(m[1])) + (is_normal ? rounded * h : 0);
     if (across > 0.4 || h < 0.05 || near * r->tau * fmax(fabs(m[0]), fabs(m[1])) > 1.9 * h) return; /* edge on */
-    const double share = across / (1 - across * fmax(0, m[2])), lift = place_of(view, r) + (is_normal ? r->z * share : 0);
+    const double share = across / (1 - across * fmax(0, m[2])),
+                 lift = place_of(view, r) + (is_normal ? r->z * share : 0);
     int32_t moved[3];
     gn_auto_bias form = lamp.auto_bias;
     const int64_t less = gn_bias_auto_persp(view, &form, face_q30, r->depth_q16, r->from_q16, moved);
     CHECK(!is_normal || less == 0);
-    /* roundings upwards: 1 of the place, 2 + 2 of the share, 1 of the lift; axes and face are rounded, h is by 1.5 LSB and 2 more */
-    const double off = 4 * LSB16 + r->z * (ldexp(5, -30) + (is_normal ? 3.5 * LSB16 + r->distance * ldexp(5.2, -30) : 0) * rounded) + share * (LSB16 / 2 + r->distance * ldexp(5.2, -30)) + r->z * share * ldexp(1, -26);
+    /* roundings upwards: 1 of the place, 2 + 2 of the share, 1 of the lift; axes and face are rounded, h is by 1.5 LSB
+     * and 2 more */
+    const double off =
+        4 * LSB16 + r->z * (ldexp(5, -30) + (is_normal ? 3.5 * LSB16 + r->distance * ldexp(5.2, -30) : 0) * rounded) +
+        share * (LSB16 / 2 + r->distance * ldexp(5.2, -30)) + r->z * share * ldexp(1, -26);
     for (int k = 0; k < 3; k++)
-        record(STAGE_LIFT + is_point(), fabs((moved[k] - r->from_q16[k]) * LSB16 - lift * face[k]), fabs(face[k]) * off + LSB16 / 2, LSB16);
+        record(STAGE_LIFT + is_point(), fabs((moved[k] - r->from_q16[k]) * LSB16 - lift * face[k]),
+               fabs(face[k]) * off + LSB16 / 2, LSB16);
     const double slope = near * across / h, lsb = ldexp(1, -32);
     if (is_normal || slope > 1.9) return;
-    const double bound = slope * ((1.5 * LSB16 + r->distance * ldexp(5.2, -30)) / h + ldexp(1, -26)) + near / h * r->tau * ldexp(1, -26) + 3 * lsb;
+    const double bound = slope * ((1.5 * LSB16 + r->distance * ldexp(5.2, -30)) / h + ldexp(1, -26)) +
+                         near / h * r->tau * ldexp(1, -26) + 3 * lsb;
     record(STAGE_LESS + is_point(), fabs((double)(less - view->auto_step) * lsb - slope), bound, lsb);
 }
 
-/* What gn_bias takes for all that errs, against the sum of the stages' bounds (NUMERICS 4.3, 4.4, 4.10): no less, and no more than its
- * own roundings. */
+/* What gn_bias takes for all that errs, against the sum of the stages' bounds (NUMERICS 4.3, 4.4, 4.10): no less, and
+ * no more than its own roundings. */
 static void check_sum(const gn_knobs *knobs, const gn_light_view *view)
 {
     static const double taps[] = {0.5, 1, 2, 3, 4};
@@ -548,15 +585,18 @@ static void check_sum(const gn_knobs *knobs, const gn_light_view *view)
     const double divide = one_step ? ldexp(1, -17) : ldexp(1, -29);
     const double snap = ldexp(1, -knobs->shadow_subpixel_bits - 1) + ldexp(1, -knobs->weight_bits - 1) + 2 * LSB16;
     const double half_diagonal = sqrt(WIDTH * WIDTH + HEIGHT * HEIGHT) / (renderer.frame.cam.focal2_px_q16 * LSB16);
-    const double ray = sqrt(1 + half_diagonal * half_diagonal) * ((one_step ? ldexp(1, -17) : ldexp(1, -28)) + ldexp(WIDTH + HEIGHT, -28));
-    const double rounded = ldexp(1, -knobs->other_depth_bits - 1) +
-                           (knobs->other_depth_bits < 32 ? ldexp(1, -knobs->other_depth_bits - knobs->shadow_depth_frac - 1) : 0);
+    const double ray = sqrt(1 + half_diagonal * half_diagonal) *
+                       ((one_step ? ldexp(1, -17) : ldexp(1, -28)) + ldexp(WIDTH + HEIGHT, -28));
+    const double rounded =
+        ldexp(1, -knobs->other_depth_bits - 1) +
+        (knobs->other_depth_bits < 32 ? ldexp(1, -knobs->other_depth_bits - knobs->shadow_depth_frac - 1) : 0);
     const double want[3] = {taps[view->filter] + snap + t / 2 * divide + focal * ldexp(1, -30),
                             rounded + ldexp(1, -29) + divide + ldexp(t + 5, -32) + ldexp(1, -27), ray};
     const double got[3] = {view->offset_q16 * LSB16, ldexp(view->auto_step, -32), ldexp(view->auto_place, -40)};
     const double unit[3] = {LSB16, ldexp(32, -32), ldexp(1, -40)}; /* of the second: half of 64 units */
     for (int i = 0; i < 3; i++)
-        if (!CHECK(got[i] >= want[i] * (1 - ldexp(1, -20)) - unit[i] / 2 && got[i] <= want[i] * (1 + ldexp(1, -12)) + 4 * unit[i]))
+        if (!CHECK(got[i] >= want[i] * (1 - ldexp(1, -20)) - unit[i] / 2 &&
+                   got[i] <= want[i] * (1 + ldexp(1, -12)) + 4 * unit[i]))
             printf("term %d of B6 for spot and point lights: %.9f, the stages add up to %.9f\n", i, got[i], want[i]);
 }
 
@@ -579,24 +619,23 @@ static void check_view(const gn_knobs *knobs, const gn_light_view *view)
 
 static void check_offsets(const gn_knobs *knobs, gn_light_kind kind)
 {
-    if (lamp_scene(knobs, kind)) check_view(knobs, &renderer.frame.view[kind == GN_LIGHT_POINT ? (int)uniform(0, 6) : 0]);
+    if (lamp_scene(knobs, kind))
+        check_view(knobs, &renderer.frame.view[kind == GN_LIGHT_POINT ? (int)uniform(0, 6) : 0]);
     fixed.lights = &light;
 }
 
 int main(int argc, char **argv)
 {
-#define PRESET_KNOB(name, MACRO, lo, hi, meaning, cost) (int32_t[]){GN_PRESETS_##MACRO}[preset],
-    static const char *const name[] = {"tiny", "balanced", "accurate"};
     int table = argc > 1 && strcmp(argv[1], "--table") == 0;
     for (int preset = 0; preset < 3; preset++) {
-        const gn_knobs knobs = {GN_QUALITY_KNOBS(PRESET_KNOB)};
+        const gn_knobs knobs = preset_knobs(preset);
         for (int i = 0; i < N_SCENES / 2; i++) {
             check_filter(&knobs);
             check_attenuation(&knobs);
             check_radiance(&knobs);
             check_offsets(&knobs, i & 1 ? GN_LIGHT_POINT : GN_LIGHT_SPOT);
         }
-        report_stages(table, name[preset]);
+        report_stages(table, preset_name[preset]);
     }
     return table ? (check_n_failed ? 1 : 0) : check_report();
 }

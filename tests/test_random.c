@@ -39,10 +39,12 @@ static int same_afresh(campaign *r, int32_t tile_size, int culling)
     gn_forget_shadows(&two);
     two.frame.knobs = one.frame.knobs;
     if (tile_size) two.frame.knobs.tile_width = two.frame.knobs.tile_height = tile_size;
-    return gn_render(&two, &other, flush, &r->fresh) == GN_OK && !memcmp(r->kept.pixels, r->fresh.pixels, r->kept.n_bytes);
+    return gn_render(&two, &other, flush, &r->fresh) == GN_OK &&
+           !memcmp(r->kept.pixels, r->fresh.pixels, r->kept.n_bytes);
 }
 
-/* What must not change a pixel: forgetting what was kept, culling casters, other screen tiles where each pixel has its divide. */
+/* What must not change a pixel: forgetting what was kept, culling casters, other screen tiles where each pixel has its
+ * divide. */
 static void compare_with_fresh(campaign *r, long frame)
 {
     const gn_shadow_settings *s = &r->scene.scene.shadow;
@@ -115,8 +117,8 @@ static void test_random_scenes(long n_scenes)
     int kinds = 0;
     for (int i = 1; i < GN_STATUS_COUNT; i++) kinds += r.count[i] > 0;
     CHECK(kinds >= 15 || n_scenes < 3000);
-    printf("seed %ld, scenes %ld to %ld: %ld drawn with shadows, %ld refused, %ld compared with a fresh frame\n", seed, first,
-           first + n_scenes - 1, r.drawn, n_scenes - r.count[GN_OK], r.compared);
+    printf("seed %ld, scenes %ld to %ld: %ld drawn with shadows, %ld refused, %ld compared with a fresh frame\n", seed,
+           first, first + n_scenes - 1, r.drawn, n_scenes - r.count[GN_OK], r.compared);
     if (getenv("VERBOSE"))
         for (int i = 0; i < GN_STATUS_COUNT; i++) printf("%7ld %s\n", r.count[i], gn_status_text((gn_status)i));
     canvas_end(&r.kept);

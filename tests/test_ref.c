@@ -6,8 +6,8 @@
 
 /* ---- visibility ---- */
 
-/* 32x32, F = 16: at depth 16 a world unit is a pixel, and the quad's edges run through pixel centres: left and top columns are in,
- * right and bottom ones are out. */
+/* 32x32, F = 16: at depth 16 a world unit is a pixel, and the quad's edges run through pixel centres: left and top
+ * columns are in, right and bottom ones are out. */
 static void test_quad_coverage(void)
 {
     static const uint32_t diagonals[2][6] = {{0, 1, 2, 0, 2, 3}, {0, 1, 3, 1, 2, 3}};
@@ -58,7 +58,8 @@ static void test_plane_depth(void)
 }
 
 /* How often each pixel of a 40x40 picture is covered when the triangles are drawn one by one. */
-static void count_coverage(int count[1600], const double *pos, size_t n_vertices, const uint32_t *idx, size_t n_triangles)
+static void count_coverage(int count[1600], const double *pos, size_t n_vertices, const uint32_t *idx,
+                           size_t n_triangles)
 {
     memset(count, 0, 1600 * sizeof *count);
     for (size_t t = 0; t < n_triangles; t++) {
@@ -72,8 +73,8 @@ static void count_coverage(int count[1600], const double *pos, size_t n_vertices
     }
 }
 
-/* Grids that fill the picture, jittered in the picture, with random depths per vertex. snap: vertices on pixel centres and edges
- * through them, at depths that keep the products exact. */
+/* Grids that fill the picture, jittered in the picture, with random depths per vertex. snap: vertices on pixel centres
+ * and edges through them, at depths that keep the products exact. */
 static void test_exactly_once_grid(void)
 {
     uint32_t idx[3 * GRID_TRIANGLES];
@@ -125,10 +126,12 @@ static void test_exactly_once_fan(void)
     CHECK_EQ_INT(n_wrong, 0);
 }
 
-/* A ground plane from far behind the camera: every pixel whose ray meets it at near or beyond is covered, and no other. */
+/* A ground plane from far behind the camera: every pixel whose ray meets it at near or beyond is covered, and no other.
+ */
 static void test_near_plane(void)
 {
-    const double ats[4][3] = {{0, 1, -10}, {0, -3, -10}, {3, -9, -2}, {0.1, -5, 0.3}}, up[3] = {0, 1, 0}, from[3] = {0, 1, 0};
+    const double ats[4][3] = {{0, 1, -10}, {0, -3, -10}, {3, -9, -2}, {0.1, -5, 0.3}}, up[3] = {0, 1, 0},
+                 from[3] = {0, 1, 0};
     for (int c = 0; c < 4; c++) {
         fixture f;
         begin(&f);
@@ -140,7 +143,8 @@ static void test_near_plane(void)
         for (int j = 0; j < 48; j++)
             for (int i = 0; i < 64; i++) {
                 const double x = (i + 0.5 - 32) / 24, y = (24 - j - 0.5) / 24, *row = f.s.camera.to_world.m[1];
-                const double fall = -(row[0] * x + row[1] * y - row[2]); /* per unit of view depth; the camera is at height 1 */
+                const double fall =
+                    -(row[0] * x + row[1] * y - row[2]); /* per unit of view depth; the camera is at height 1 */
                 const bool expected = fall > 1e-4 && 1 / fall >= 1.02, covered = p.triangle[j * 64 + i] >= 0;
                 n_wrong += fall > 1e-4 && fabs(1 / fall - 1.02) > 1e-9 && covered != expected;
                 n_wrong += covered && fabs(p.depth[j * 64 + i] * fall - 1) > 1e-9;
@@ -230,7 +234,8 @@ static void test_shading(void)
     end(&f);
 }
 
-/* Normals of a mirrored, sheared, unevenly scaled object stay perpendicular to its faces; vertex normals that cancel fall back. */
+/* Normals of a mirrored, sheared, unevenly scaled object stay perpendicular to its faces; vertex normals that cancel
+ * fall back. */
 static void test_normals(void)
 {
     const double quad[12] = {-9, -9, 0, 9, -9, 0, 9, 9, 0, -9, 9, 0};
@@ -315,7 +320,8 @@ static void test_attenuation_step(void)
     double depth[64];
     for (int i = 0; i < 64; i++) depth[i] = i % 8 < 4 ? 1 : 8;
     const ref_light_view view = {.active = true, .tile_texels = 8, .texel = 1, .depth_range = 8, .depth = depth};
-    const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5, SCENE_FILTER_7X7};
+    const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5,
+                                     SCENE_FILTER_7X7};
     for (int k = 0; k < 5; k++)
         for (int step = -32; step < 160; step++) {
             const double u = step / 16.0;
@@ -338,7 +344,8 @@ static void test_attenuation_step(void)
 /* Taps are clamped to the border texels, not dropped and not wrapped: closed borders darken everything beyond them. */
 static void test_attenuation_border(void)
 {
-    const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5, SCENE_FILTER_7X7};
+    const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5,
+                                     SCENE_FILTER_7X7};
     for (int side = 0; side < 4; side++) {
         double depth[64];
         for (int i = 0; i < 64; i++) {
@@ -349,7 +356,8 @@ static void test_attenuation_border(void)
         const double u[4] = {-4, 12, 4, 4}, v[4] = {4, 4, -4, 12};
         for (int k = 0; k < 5; k++) {
             CHECK_NEAR(ref_attenuation(&view, filters[k], u[side], v[side], 2), 0, 1e-13);
-            CHECK_NEAR(ref_attenuation(&view, filters[k], 4, 4, 2), 1, k < 4 ? 1e-13 : 1.0 / 97); /* 7x7 reaches the border: 1/98 */
+            CHECK_NEAR(ref_attenuation(&view, filters[k], 4, 4, 2), 1,
+                       k < 4 ? 1e-13 : 1.0 / 97); /* 7x7 reaches the border: 1/98 */
         }
     }
 }
@@ -393,7 +401,8 @@ static void test_errors(void)
     f.s.n_lights = REF_MAX_LIGHTS + 1;
     CHECK_EQ_INT(ref_render(&p, &f.s, &options, error, sizeof error), -1);
     for (int c = 0; c < 6; c++) {
-        static const double ratios[6][3] = {{0.1, 0.2, 0.3}, {0.2, 0.1, 0.3}, {0.1, 0.2, 1.1}, {-0.1, 0, 1}, {0, 0, 0}, {0, 0, 0}};
+        static const double ratios[6][3] = {{0.1, 0.2, 0.3}, {0.2, 0.1, 0.3}, {0.1, 0.2, 1.1},
+                                            {-0.1, 0, 1},    {0, 0, 0},       {0, 0, 0}};
         f.s.n_lights = 1;
         f.s.shadow.n_cascades = c < 4 ? 4 : 5 * (c - 4);
         memcpy(f.s.shadow.cascade_ratio, ratios[c], sizeof ratios[c]);

@@ -13,8 +13,10 @@ static double radius2_at(double c, double n, double m, double k, double q)
     return fmax((m - c) * (m - c) + k * k * m * m, ((c - n) * (c - n) + k * k * n * n) / (q * q));
 }
 
-/* How far from the sphere's centre the point of the frustum at depth z is that the picture shows at (x, y), -1 ... 1. */
-static double distance_to_centre(const fixture *f, const ref_light_view *view, double aspect, double x, double y, double z)
+/* How far from the sphere's centre the point of the frustum at depth z is that the picture shows at (x, y), -1 ... 1.
+ */
+static double distance_to_centre(const fixture *f, const ref_light_view *view, double aspect, double x, double y,
+                                 double z)
 {
     const double v[3] = {x * aspect * z / f->s.camera.focal, y * z / f->s.camera.focal, z};
     double d[3];
@@ -36,7 +38,8 @@ static int corners_outside(const fixture *f, const ref_light_view *view, double 
     int n_outside = 0;
     for (int corner = 0; corner < 8; corner++) {
         const double z = corner & 4 ? m : n, limit = view->sphere_radius * (corner & 4 ? 1 : inner_share(f));
-        n_outside += distance_to_centre(f, view, aspect, corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, z) > limit * (1 + 1e-9);
+        n_outside +=
+            distance_to_centre(f, view, aspect, corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, z) > limit * (1 + 1e-9);
     }
     return n_outside;
 }
@@ -49,7 +52,8 @@ static void check_sphere(const fixture *f, const ref_light_view *view, int width
     double best2 = HUGE_VAL;
     const double k = hypot(width, height) / (height * f->s.camera.focal);
     for (int step = 0; step <= 20000; step++) best2 = fmin(best2, radius2_at(m * step / 20000, n, m, k, q));
-    if (n < q * m) CHECK(r * r <= best2 * (1 + 1e-9)); /* a slice that is hardly deeper than near takes what is simple */
+    if (n < q * m)
+        CHECK(r * r <= best2 * (1 + 1e-9)); /* a slice that is hardly deeper than near takes what is simple */
 }
 
 static void test_fit_sphere(void)
@@ -193,7 +197,8 @@ static void test_tiles(void)
                 CHECK_EQ_INT(view->active, expected);
                 CHECK_EQ_INT(view->depth != NULL, expected);
                 if (expected) CHECK_EQ_INT(view->tile_texels, n_tiles == 1 ? 64 : n_tiles <= 4 ? 32 : 16);
-                const ref_light_view *other = &p.view[n_lights < 4 ? n_lights - 1 : 3][c]; /* lights share the spheres */
+                const ref_light_view *other =
+                    &p.view[n_lights < 4 ? n_lights - 1 : 3][c]; /* lights share the spheres */
                 CHECK_NEAR(view->sphere_radius, other->sphere_radius, 0);
                 for (int k = 0; k < 3; k++) CHECK_NEAR(view->sphere_centre[k], other->sphere_centre[k], 0);
             }
@@ -244,8 +249,8 @@ static double slice_end(const scene_shadow *shadow, int cascade)
 }
 
 /* Every slice is in its sphere, and a cascade is active if and only if its slice has any depth. */
-static void fit_cascades(ref_light_view view[REF_MAX_CASCADES], const fixture *f, const scene_light *light, int width, int height,
-                         int tile_texels)
+static void fit_cascades(ref_light_view view[REF_MAX_CASCADES], const fixture *f, const scene_light *light, int width,
+                         int height, int tile_texels)
 {
     int n_outside = 0;
     for (int c = 0; c < f->s.shadow.n_cascades; c++) {
@@ -274,16 +279,18 @@ static void test_no_hole(void)
         for (int c = 0; c < 4; c++) n_active += view[c].active;
         for (int i = 0; i < 200; i++) {
             double x = random_between(-1, 1), y = random_between(-1, 1);
-            double z =
-                i & 1 ? random_log(f.s.camera.near, shadow->max_distance) : random_between(f.s.camera.near, shadow->max_distance);
+            double z = i & 1 ? random_log(f.s.camera.near, shadow->max_distance)
+                             : random_between(f.s.camera.near, shadow->max_distance);
             const int end_of = (int)(4 * random_unit());
             if (random_unit() < 0.4) x = x < 0 ? -1 : 1;
             if (random_unit() < 0.4) y = y < 0 ? -1 : 1;
-            if (i % 8 == 0 && end_of < shadow->n_cascades) z = slice_end(shadow, end_of) * (1 + (i & 16 ? 1e-7 : -1e-7));
+            if (i % 8 == 0 && end_of < shadow->n_cascades)
+                z = slice_end(shadow, end_of) * (1 + (i & 16 ? 1e-7 : -1e-7));
             z = fmin(fmax(z, f.s.camera.near), shadow->max_distance * (1 - 1e-7));
             int n_in = 0;
             for (int c = 0; c < shadow->n_cascades; c++)
-                n_in += view[c].active && distance_to_centre(&f, &view[c], (double)width / height, x, y, z) < view[c].sphere_radius;
+                n_in += view[c].active &&
+                        distance_to_centre(&f, &view[c], (double)width / height, x, y, z) < view[c].sphere_radius;
             n_holes += n_in == 0 && z >= f.s.camera.near;
         }
     }
@@ -291,7 +298,8 @@ static void test_no_hole(void)
     CHECK(n_active > 4000);
 }
 
-/* A tap with weight beyond the tile, after the offset along any N, or a depth outside its range. (u: any of U and V.) */
+/* A tap with weight beyond the tile, after the offset along any N, or a depth outside its range. (u: any of U and V.)
+ */
 static bool leaves_tile(const ref_light_view *view, scene_filter filter, double u)
 {
     const double reach[5] = {0, 0.5, 1.5, 2.5, 3.5};
@@ -313,7 +321,8 @@ static void test_samples_stay(void)
         light->bias_normal = random_between(0, 2);
         light->near_offset = random_unit() < 0.5 ? 0 : random_log(0.01, 100);
         const double reach = (k_f[filter] + 1) * (1 + sqrt(2.0) * light->bias_normal);
-        if (tile_texels - 2 * reach - 1 < tile_texels / 4.0) continue; /* DESIGN 1.4: the least share that the sphere gets */
+        if (tile_texels - 2 * reach - 1 < tile_texels / 4.0)
+            continue; /* DESIGN 1.4: the least share that the sphere gets */
         ref_light_view view[REF_MAX_CASCADES];
         memset(view, 0, sizeof view);
         fit_cascades(view, &f, light, width, height, tile_texels);
@@ -325,13 +334,16 @@ static void test_samples_stay(void)
             if (i & 4) memcpy(n, d, sizeof n); /* outwards */
             if (i & 8) memcpy(d, v->axis[i >> 4 & 1], sizeof d);
             const double r = v->sphere_radius * (i & 1 ? 1 : random_unit());
-            const double offset = (i & 2 ? 1 : random_unit()) * light->bias_normal * sqrt(2.0) * (k_f[filter] + 1) * v->texel;
+            const double offset =
+                (i & 2 ? 1 : random_unit()) * light->bias_normal * sqrt(2.0) * (k_f[filter] + 1) * v->texel;
             double uvd[3];
             for (int k = 0; k < 3; k++) {
                 uvd[k] = -v->origin[k];
-                for (int j = 0; j < 3; j++) uvd[k] += (v->sphere_centre[j] + r * d[j] + offset * n[j]) * v->axis[k][j] / v->texel;
+                for (int j = 0; j < 3; j++)
+                    uvd[k] += (v->sphere_centre[j] + r * d[j] + offset * n[j]) * v->axis[k][j] / v->texel;
             }
-            n_out += leaves_tile(v, filter, uvd[0]) || leaves_tile(v, filter, uvd[1]) || uvd[2] < 0 || uvd[2] > v->depth_range;
+            n_out += leaves_tile(v, filter, uvd[0]) || leaves_tile(v, filter, uvd[1]) || uvd[2] < 0 ||
+                     uvd[2] > v->depth_range;
             n_tested++;
         }
     }
@@ -405,7 +417,8 @@ static int count_wrong_cascades(const fixture *f, const ref_picture *p, int seen
     return n_wrong;
 }
 
-/* The first sphere that holds the point, whatever the lights and the blend; none beyond and where there is no surface. */
+/* The first sphere that holds the point, whatever the lights and the blend; none beyond and where there is no surface.
+ */
 static void test_selection(void)
 {
     int seen[5] = {0};
@@ -414,7 +427,8 @@ static void test_selection(void)
         begin_floor(&f);
         f.s.shadow.n_cascades = 1 + round % 4;
         f.s.shadow.blend = (scene_blend)(round / 4 % 3);
-        if (round == 3) f.s.shadow.cascade_ratio[0] = 0.1, f.s.shadow.cascade_ratio[1] = 0.3, f.s.shadow.cascade_ratio[2] = 0.6;
+        if (round == 3)
+            f.s.shadow.cascade_ratio[0] = 0.1, f.s.shadow.cascade_ratio[1] = 0.3, f.s.shadow.cascade_ratio[2] = 0.6;
         else random_ratios(&f.s.shadow);
         scene_light *light = add_light(&f, 0.1, -1, 0.1);
         ref_picture p = render(&f, 64, 96, 64);
@@ -429,8 +443,9 @@ static void test_selection(void)
     for (int c = 0; c < 5; c++) CHECK(seen[c] > 100);
 }
 
-/* A roof over everything, so that the floor is dark in each cascade; with `contrast`, biased so that of two cascades only the first sees
- * it: attenuation 0 here, 1 in the next. The camera radius decides: g is 1 wherever the tests look. */
+/* A roof over everything, so that the floor is dark in each cascade; with `contrast`, biased so that of two cascades
+ * only the first sees it: attenuation 0 here, 1 in the next. The camera radius decides: g is 1 wherever the tests look.
+ */
 static void begin_roofed(fixture *f, bool contrast)
 {
     begin_floor(f);
@@ -486,8 +501,8 @@ static void test_blends(void)
     }
 }
 
-/* Down a picture's columns, through the boundary between two cascades that disagree completely: a soft blend changes no faster than
- * F does, which t bounds; a hard one jumps. */
+/* Down a picture's columns, through the boundary between two cascades that disagree completely: a soft blend changes no
+ * faster than F does, which t bounds; a hard one jumps. */
 static void test_soft_is_continuous(void)
 {
     for (int blend = 0; blend < 2; blend++) {
@@ -521,15 +536,18 @@ static void check_same_picture(const ref_picture *a, const ref_picture *b, const
     CHECK_EQ_INT(n_wrong, 0);
 }
 
-/* Empty cascades before, between and after change nothing but the count: what is last and what is next passes over them. */
+/* Empty cascades before, between and after change nothing but the count: what is last and what is next passes over
+ * them. */
 static void test_empty_cascades(void)
 {
     const struct {
         int n;
         double ratio[3];
         int cascade[2];
-    } with_empty[4] = {
-        {3, {0.25, 1, 1}, {0, 1}}, {4, {0, 0.25, 0.25}, {1, 3}}, {4, {0.001, 0.25, 1}, {1, 2}}, {3, {0.25, 0.25, 1}, {0, 2}}};
+    } with_empty[4] = {{3, {0.25, 1, 1}, {0, 1}},
+                       {4, {0, 0.25, 0.25}, {1, 3}},
+                       {4, {0.001, 0.25, 1}, {1, 2}},
+                       {3, {0.25, 0.25, 1}, {0, 2}}};
     for (int blend = 0; blend < 3; blend++)
         for (int c = 0; c < 4; c++) {
             fixture f;
@@ -546,8 +564,8 @@ static void test_empty_cascades(void)
         }
 }
 
-/* All dark: the last cascade fades out towards its sphere (D6), the first never does, and the cut is at the max distance from the camera
- * or by the view depth. */
+/* All dark: the last cascade fades out towards its sphere (D6), the first never does, and the cut is at the max
+ * distance from the camera or by the view depth. */
 static void test_distance_modes(void)
 {
     for (int c = 0; c < 24; c++) {

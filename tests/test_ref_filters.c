@@ -1,5 +1,5 @@
-/* The reference engine's filters and biases against closed forms (DESIGN 1.6, 1.7; rows F3 to F6, B1 to B5, D2 without its
- * stability). */
+/* The reference engine's filters and biases against closed forms (DESIGN 1.6, 1.7; rows F3 to F6, B1 to B5, D2 without
+ * its stability). */
 #include "ref_fixture.h"
 
 static const double straight_up[3] = {0, 1, 0};
@@ -30,8 +30,8 @@ static void test_linear_weights(void)
                 CHECK(w >= 0);
                 CHECK_NEAR(w, ref_linear_weight(size, -centre, -1 - i), 1e-14);
                 CHECK_NEAR(w, ref_linear_weight(size, centre + 1, i + 1), 1e-14);
-                CHECK_NEAR(ref_linear_weight(size, floor(centre) + 0.5 - 1e-12, i), ref_linear_weight(size, floor(centre) + 0.5, i),
-                           1e-11);
+                CHECK_NEAR(ref_linear_weight(size, floor(centre) + 0.5 - 1e-12, i),
+                           ref_linear_weight(size, floor(centre) + 0.5, i), 1e-11);
                 sum += w;
                 moment += w * (i + 0.5);
             }
@@ -74,7 +74,8 @@ static double rotation_at(int x, int y)
     return (double)(v >> 16) / 65536;
 }
 
-/* Each power of two of samples has one in every cell of equal area, whatever the cell's shape: 2^a rings by 2^b sectors. */
+/* Each power of two of samples has one in every cell of equal area, whatever the cell's shape: 2^a rings by 2^b
+ * sectors. */
 static void test_disk_samples(void)
 {
     for (int bits = 0; bits <= 6; bits++)
@@ -84,7 +85,8 @@ static void test_disk_samples(void)
                 double at[2];
                 ref_disk_sample(at, i, 0, 0); /* not rotated: the hash of 0 is 0 */
                 const double area = at[0] * at[0] + at[1] * at[1];
-                const int ring = (int)floor(ldexp(area, rings) + 1e-9), sector = (int)floor(ldexp(turns(at), bits - rings) + 1e-9);
+                const int ring = (int)floor(ldexp(area, rings) + 1e-9),
+                          sector = (int)floor(ldexp(turns(at), bits - rings) + 1e-9);
                 CHECK(area <= 1);
                 count[(ring << (bits - rings)) + sector]++;
             }
@@ -118,9 +120,11 @@ static void test_disk_step(void)
     const double radii[6] = {0.7, 2.5, 5, 0.7, 2.5, 5};
     for (int c = 0; c < 6; c++)
         for (int step = -10; step <= 10; step++) {
-            const ref_light_view view = {.tile_texels = 16, .depth_range = 16, .depth = depth[c / 3], .disk_radius = radii[c]};
+            const ref_light_view view = {
+                .tile_texels = 16, .depth_range = 16, .depth = depth[c / 3], .disk_radius = radii[c]};
             const double h = step / 9.0, inside = fabs(h) >= 1 ? 0 : (acos(h) - h * sqrt(1 - h * h)) / PI;
-            const double open = h <= -1 ? 1 : inside; /* the edge is h radii away, on the open side's near side for h < 0 */
+            const double open =
+                h <= -1 ? 1 : inside; /* the edge is h radii away, on the open side's near side for h < 0 */
             double mean = 0, worst = 0;
             for (int k = 0; k < 400; k++) {
                 const ref_lookup how = {.filter = SCENE_FILTER_DISK, .disk_samples = 64, .x = k % 20, .y = k / 20};
@@ -147,7 +151,8 @@ static void test_disk_corner(void)
     CHECK_NEAR(mean, 0.75, 0.004);
 }
 
-/* The penumbra is as wide whatever the map: in world units for directional lights, in shares of the tile for the others. */
+/* The penumbra is as wide whatever the map: in world units for directional lights, in shares of the tile for the
+ * others. */
 static void test_disk_radius(void)
 {
     const double sigmas[5] = {0, 0.5, 4, 16, 64}, from[3] = {0, 2, 0}, at[3] = {0, 0, 0};
@@ -173,8 +178,8 @@ static void test_disk_radius(void)
             CHECK_NEAR(view.disk_radius, fmin(0.02 * sigmas[c] / view.texel, view.filter_index), 1e-12);
             const double reach = 2 * (view.filter_index + 1) * (1 + sqrt(2)) + 1;
             CHECK(view.texel * fmax(tile - reach, tile / 4.0) >= 2 * view.sphere_radius * (1 - 1e-6));
-            f.s.shadow.filter =
-                SCENE_FILTER_DISK; /* hardly more than a texel of the narrowest reach, less than one of the disk's own */
+            f.s.shadow.filter = SCENE_FILTER_DISK; /* hardly more than a texel of the narrowest reach, less than one of
+                                                      the disk's own */
             f.s.shadow.penumbra = 1.001 * thin.texel / 0.02;
             CHECK_EQ_INT(ref_fit_light(&view, &f.s, light, 0, 320, 240, tile), 0);
             CHECK_EQ_INT(view.filter_index, 2);
@@ -204,8 +209,9 @@ static void test_light_filter(void)
                 scene_light *light = kind < 2 ? add_light(&f, 0, -1, 0) : add_spot(&f, from, at, 60);
                 light->softness = (scene_softness)choice;
                 const scene_filter expected = choice == 0 ? (scene_filter)own : choice == 1 ? hard[own] : soft[own];
-                const int status = kind < 2 ? ref_fit_light(&view, &f.s, light, kind == 0 ? 0 : REF_SINGLE_TILE, 8, 8, 64)
-                                            : ref_fit_punctual(&view, &f.s, light, 0, 64);
+                const int status = kind < 2
+                                       ? ref_fit_light(&view, &f.s, light, kind == 0 ? 0 : REF_SINGLE_TILE, 8, 8, 64)
+                                       : ref_fit_punctual(&view, &f.s, light, 0, 64);
                 CHECK_EQ_INT(status, 0);
                 CHECK_EQ_INT(view.filter, expected);
                 CHECK_EQ_INT(view.filter_index, index[expected]);
@@ -245,7 +251,8 @@ static void test_reach_of_bias(void)
 
 /* ---- caster bias ---- */
 
-/* B4: a quad that faces the light recedes by so many texels. By vertex normals along the quad it moves sideways instead. */
+/* B4: a quad that faces the light recedes by so many texels. By vertex normals along the quad it moves sideways
+ * instead. */
 static void test_caster_shrinks(void)
 {
     for (int c = 0; c < 6; c++) {
@@ -271,8 +278,10 @@ static void test_caster_shrinks(void)
         for (int j = 0; j < 128; j++)
             for (int i = 0; i < 128; i++) {
                 if (view->depth[j * 128 + i] >= view->depth_range) continue;
-                const double u = spot ? (2 * (i + 0.5) / 128 - 1) * view->t * 6 : (i + 0.5 + view->origin[0]) * view->texel;
-                const double v = spot ? (2 * (j + 0.5) / 128 - 1) * view->t * 6 : (j + 0.5 + view->origin[1]) * view->texel;
+                const double u =
+                    spot ? (2 * (i + 0.5) / 128 - 1) * view->t * 6 : (i + 0.5 + view->origin[0]) * view->texel;
+                const double v =
+                    spot ? (2 * (j + 0.5) / 128 - 1) * view->t * 6 : (j + 0.5 + view->origin[1]) * view->texel;
                 axis_x = u * view->axis[0][0] + v * view->axis[1][0];
                 low = fmin(low, axis_x);
                 high = fmax(high, axis_x);
@@ -327,8 +336,8 @@ static int count_light(const fixture *f)
     return n;
 }
 
-/* B5: against a plane itself the receiver's plane leaves nothing but rounding, whatever the filter, the angle and the kind of
- * light: a breath of bias decides between light and dark everywhere. Without it the plane is full of acne. */
+/* B5: against a plane itself the receiver's plane leaves nothing but rounding, whatever the filter, the angle and the
+ * kind of light: a breath of bias decides between light and dark everywhere. Without it the plane is full of acne. */
 static void test_receiver_plane(void)
 {
     const double tilts[4] = {5, 40, 70, 82};
@@ -345,7 +354,8 @@ static void test_receiver_plane(void)
                 f.lights[0].receiver_plane = true;
                 CHECK_EQ_INT(count_acne(&f), 0);
                 f.lights[0].bias_constant = -1e-6;
-                if (c < 3) CHECK_EQ_INT(count_light(&f), 0); /* lower lights see past the horizon, where nothing is stored */
+                if (c < 3)
+                    CHECK_EQ_INT(count_light(&f), 0); /* lower lights see past the horizon, where nothing is stored */
                 end(&f);
             }
 }
@@ -414,8 +424,8 @@ static void check_same_shadow(const fixture *a, const fixture *b, int n_least)
     ref_free(&q);
 }
 
-/* Terms of B3 that are another bias by another name. In directional light a move along L is a constant bias of (k_f + 1) texels,
- * and the one with tan is that times the tangent, up to 50. */
+/* Terms of B3 that are another bias by another name. In directional light a move along L is a constant bias of (k_f +
+ * 1) texels, and the one with tan is that times the tangent, up to 50. */
 static void test_receiver_terms(void)
 {
     for (int c = 0; c < 40; c++) {
@@ -450,7 +460,8 @@ static void test_receiver_terms(void)
     end(&a);
 }
 
-/* The lookup of one pixel, stated once more: B2 and B3 with a normal that is shorter than 1, the map by what the engine stored. */
+/* The lookup of one pixel, stated once more: B2 and B3 with a normal that is shorter than 1, the map by what the engine
+ * stored. */
 static double looked_up(const fixture *f, const ref_picture *p, int pixel, const double n[3])
 {
     const scene_light *light = &f->lights[0];
@@ -462,13 +473,17 @@ static double looked_up(const fixture *f, const ref_picture *p, int pixel, const
     normalise(to_light);
     for (int k = 0; k < 3; k++) d[k] = -d[k];
     const ref_light_view *view = &p->view[0][light->kind == SCENE_LIGHT_POINT ? ref_point_face(d) : 0];
-    const double cosine = fmin(fmax(dot(n, to_light), 0), 1), sine = sqrt(1 - cosine * cosine), tangent = fmin(50, sine / cosine);
+    const double cosine = fmin(fmax(dot(n, to_light), 0), 1), sine = sqrt(1 - cosine * cosine),
+                 tangent = fmin(50, sine / cosine);
     const double texel = (view->perspective ? dot(d, view->axis[2]) : 1) * view->texel * (view->filter_index + 1);
     for (int k = 0; k < 3; k++)
-        moved[k] =
-            w[k] + texel * ((b[0] + b[1] * tangent) * to_light[k] + (sqrt(2) * light->bias_normal + b[2] + b[3] * sine) * n[k]);
-    const ref_lookup how = {
-        .filter = view->filter, .kernel = f->s.shadow.kernel, .disk_samples = 16, .x = pixel % p->width, .y = pixel / p->width};
+        moved[k] = w[k] + texel * ((b[0] + b[1] * tangent) * to_light[k] +
+                                   (sqrt(2) * light->bias_normal + b[2] + b[3] * sine) * n[k]);
+    const ref_lookup how = {.filter = view->filter,
+                            .kernel = f->s.shadow.kernel,
+                            .disk_samples = 16,
+                            .x = pixel % p->width,
+                            .y = pixel / p->width};
     if (!view->perspective) {
         for (int k = 0; k < 3; k++) q[k] = dot(moved, view->axis[k]) / view->texel - view->origin[k];
         return ref_filtered(view, &how, q[0], q[1], q[2]);
@@ -507,7 +522,8 @@ static void test_lookup_again(void)
             double w[3];
             if (p.triangle[k] >> 32 != 0 || !(p.ndotl[0][k] > 0)) continue;
             world_at(w, &f, &p, k % 40, k / 40);
-            if (round % 3 == 0 && (p.cascade[k] < 0 || hypot(hypot(w[0] - eye[0], w[1] - eye[1]), w[2] - eye[2]) > 8)) continue;
+            if (round % 3 == 0 && (p.cascade[k] < 0 || hypot(hypot(w[0] - eye[0], w[1] - eye[1]), w[2] - eye[2]) > 8))
+                continue;
             const double n[3] = {0.8 * w[0] / 300, 0.6, 0};
             const double expected = looked_up(&f, &p, k, n);
             n_wrong += fabs(p.shadow[0][k] - expected) > 1e-6;

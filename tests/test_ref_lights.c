@@ -1,5 +1,5 @@
-/* The reference engine's lights against closed forms: attenuation, cube faces and their width, perspective maps, who gets which
- * tiles, light lists (DESIGN 1.4 to 1.8; rows P, A, D10). */
+/* The reference engine's lights against closed forms: attenuation, cube faces and their width, perspective maps, who
+ * gets which tiles, light lists (DESIGN 1.4 to 1.8; rows P, A, D10). */
 #include "ref_fixture.h"
 
 static const double straight_up[3] = {0, 1, 0};
@@ -157,9 +157,9 @@ static void test_face_width(void)
     CHECK(clamped);
 }
 
-/* The texels that a filter of index k_f reads around a point lie in the tile, wherever on its face the point is: for normals
- * along the face's diagonal, which P6 is about, exactly; for the worst ones, tan(45 degrees + asin e) instead of (1 + e) / (1 -
- * e) aside. */
+/* The texels that a filter of index k_f reads around a point lie in the tile, wherever on its face the point is: for
+ * normals along the face's diagonal, which P6 is about, exactly; for the worst ones, tan(45 degrees + asin e) instead
+ * of (1 + e) / (1 - e) aside. */
 static void test_faces_hold_samples(void)
 {
     int n_out = 0, n_at_border = 0;
@@ -167,7 +167,8 @@ static void test_faces_hold_samples(void)
         const int k_f = (int)(5 * random_unit()), tile = 64 << (int)(4 * random_unit());
         const double nu = random_between(0, 2);
         bool clamped;
-        const double t = ref_face_half_width(k_f, nu, tile, &clamped), tau = 2 * t / tile, e = nu / sqrt(2) * tau * (k_f + 1);
+        const double t = ref_face_half_width(k_f, nu, tile, &clamped), tau = 2 * t / tile,
+                     e = nu / sqrt(2) * tau * (k_f + 1);
         double n[3], p[3] = {random_between(-1, 1), random_between(-1, 1), 1};
         if (clamped) continue;
         const double worst = tile / (2 * t) * (tan(PI / 4 + asin(e)) - (1 + e) / (1 - e));
@@ -187,7 +188,8 @@ static void test_faces_hold_samples(void)
 
 /* ---- perspective maps ---- */
 
-/* s of the plane n . p = c (in the view's axes, from the light) at a point of the map; NAN where the plane is not in front. */
+/* s of the plane n . p = c (in the view's axes, from the light) at a point of the map; NAN where the plane is not in
+ * front. */
 static double plane_s(const ref_light_view *view, const double n[3], double c, double u, double v)
 {
     const double a = view->t * (2 * u / view->tile_texels - 1), b = view->t * (2 * v / view->tile_texels - 1);
@@ -195,7 +197,8 @@ static double plane_s(const ref_light_view *view, const double n[3], double c, d
     return z >= view->near ? 1 - view->near / z : (double)NAN;
 }
 
-/* A huge tilted triangle that passes through the light's plane and its near plane: depth, bias, and nothing before near. */
+/* A huge tilted triangle that passes through the light's plane and its near plane: depth, bias, and nothing before
+ * near. */
 static void check_perspective_depth(double constant, double slope, const double tilt[3])
 {
     static const uint32_t idx[6] = {0, 1, 2, 0, 2, 1}; /* both ways round: one of them faces the light */
@@ -216,7 +219,8 @@ static void check_perspective_depth(double constant, double slope, const double 
         const double angle = 2 * PI * k / 3 + 0.3;
         for (int i = 0; i < 3; i++) {
             double sum = from[i];
-            for (int j = 0; j < 3; j++) sum += view.axis[j][i] * ((j == 2 ? 2 : 0) + 400 * (cos(angle) * a[j] + sin(angle) * b[j]));
+            for (int j = 0; j < 3; j++)
+                sum += view.axis[j][i] * ((j == 2 ? 2 : 0) + 400 * (cos(angle) * a[j] + sin(angle) * b[j]));
             pos[3 * k + i] = sum;
         }
     }
@@ -271,8 +275,8 @@ static void turned(double out[3], const scene_affine *a, double x, double y, dou
     for (int r = 0; r < 3; r++) out[r] = a->m[r][0] * x + a->m[r][1] * y + a->m[r][2] * z;
 }
 
-/* Light in the origin, a quad at y = -1 that is not seen, its shadow on the floor y = -3 across the seam between two faces.
- * Everything turned by `which`. */
+/* Light in the origin, a quad at y = -1 that is not seen, its shadow on the floor y = -3 across the seam between two
+ * faces. Everything turned by `which`. */
 typedef struct {
     int which;
     scene_filter filter;
@@ -343,7 +347,8 @@ static void test_seams(void)
 {
     const scene_filter filters[3] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3};
     for (int which = 0; which < 24; which++) {
-        seam_case c = {.which = which, .filter = filters[which % 3], .reach = which % 3 == 2 ? 2 : 1, .normal_bias = which % 2};
+        seam_case c = {
+            .which = which, .filter = filters[which % 3], .reach = which % 3 == 2 ? 2 : 1, .normal_bias = which % 2};
         for (int kind = 0; kind < 2; kind++) {
             c.spot = kind;
             check_seam(&c);
@@ -355,8 +360,8 @@ static void test_seams(void)
     }
 }
 
-/* Closed boxes: around the light nothing faces it and everything outside is lit; inside out, everything is dark. Beside the
- * light a box shades what is behind it. */
+/* Closed boxes: around the light nothing faces it and everything outside is lit; inside out, everything is dark. Beside
+ * the light a box shades what is behind it. */
 static void test_closed_boxes(void)
 {
     const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5}, from[3] = {9, 9, 9}, at[3] = {0, -3, 0};
@@ -402,11 +407,12 @@ static void test_closed_boxes(void)
     }
 }
 
-/* A room that casts on itself, lit from inside: the default normal bias leaves no acne on its walls, seams between faces included.
- * Corners are left out: texels of one wall are in the way of the other there. */
+/* A room that casts on itself, lit from inside: the default normal bias leaves no acne on its walls, seams between
+ * faces included. Corners are left out: texels of one wall are in the way of the other there. */
 static void test_no_acne_in_room(void)
 {
-    const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5, SCENE_FILTER_7X7};
+    const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5,
+                                     SCENE_FILTER_7X7};
     const double low[3] = {-4, -3, -5}, high[3] = {4, 3, 5}, from[3] = {-3, 2, -4}, at[3] = {3, -2, 4};
     for (int c = 0; c < 10; c++) {
         fixture f;
@@ -486,7 +492,8 @@ static void begin_lights(fixture *f)
 
 static ref_picture assign(const fixture *f, int atlas_size, int other_atlas_size)
 {
-    const ref_options options = {.width = 4, .height = 4, .atlas_size = atlas_size, .other_atlas_size = other_atlas_size};
+    const ref_options options = {
+        .width = 4, .height = 4, .atlas_size = atlas_size, .other_atlas_size = other_atlas_size};
     return render_with(f, &options);
 }
 
@@ -583,7 +590,9 @@ static void test_who_asks(void)
         if (c == 3) l->mode = SCENE_BAKED;
         if (c == 4) l->range = 2;         /* the floor is at distance 2: not less than the range */
         if (c == 5) l->position[1] = -90; /* reaches from wherever it is, whatever it sees */
-        if (c == 6) l->range = 1, l->position[0] = 5.7, l->position[2] = 5.8, l->position[1] = -1; /* past the corner of the box */
+        if (c == 6)
+            l->range = 1, l->position[0] = 5.7, l->position[2] = 5.8,
+            l->position[1] = -1; /* past the corner of the box */
         if (c == 7) l->mode = SCENE_MIXED;
         check_grants(&f, &options, c == 0 || c == 5 || c == 7 ? "111100" : "101110");
         end(&f);
@@ -689,7 +698,8 @@ static void test_importance_sizes(void)
             n_mixed += t[l] != t[0];
         }
         CHECK(area <= (long)side * side);
-        for (int l = 0; l < n; l++) CHECK(t[l] == side || area + 3L * tiles[l] * t[l] * t[l] > (long)side * side); /* no waste */
+        for (int l = 0; l < n; l++)
+            CHECK(t[l] == side || area + 3L * tiles[l] * t[l] * t[l] > (long)side * side); /* no waste */
         n_full += area == (long)side * side;
         ref_free(&p);
         end(&f);
@@ -697,8 +707,8 @@ static void test_importance_sizes(void)
     CHECK(n_mixed > 100 && n_full > 30);
 }
 
-/* By hand: three equal lights of an atlas of 64 get 32 each, as another doubling has no room; a fourth fills it. A point light
- * far away yields to a spot. */
+/* By hand: three equal lights of an atlas of 64 get 32 each, as another doubling has no room; a fourth fills it. A
+ * point light far away yields to a spot. */
 static void test_importance_by_hand(void)
 {
     fixture f;
@@ -719,7 +729,8 @@ static void test_importance_by_hand(void)
     end(&f);
 }
 
-/* D10: the brightest one that asks has the cascades; ties: the first. The others have a tile with a clear border each. */
+/* D10: the brightest one that asks has the cascades; ties: the first. The others have a tile with a clear border each.
+ */
 static void test_main_light(void)
 {
     fixture f;
@@ -846,7 +857,8 @@ static void test_light_lists(void)
 /* Directional lights take no place, and each object has a list of its own. */
 static void test_lists_per_object(void)
 {
-    const double left[12] = {-9, -1, -4, -1, -1, -4, -1, 1, -4, -9, 1, -4}, right[12] = {1, -1, -4, 9, -1, -4, 9, 1, -4, 1, 1, -4};
+    const double left[12] = {-9, -1, -4, -1, -1, -4, -1, 1, -4, -9, 1, -4},
+                 right[12] = {1, -1, -4, 9, -1, -4, 9, 1, -4, 1, 1, -4};
     fixture f;
     begin(&f);
     add_quad(&f, left);

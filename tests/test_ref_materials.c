@@ -1,5 +1,5 @@
-/* The reference engine's materials and mixing against closed forms: textures, alpha of surfaces and casters, specular, baked
- * light, masks (DESIGN 1.3, 1.6, 1.8, 1.9; rows M1 to M9, P7). */
+/* The reference engine's materials and mixing against closed forms: textures, alpha of surfaces and casters, specular,
+ * baked light, masks (DESIGN 1.3, 1.6, 1.8, 1.9; rows M1 to M9, P7). */
 #include "ref_fixture.h"
 
 static const double facing[12] = {-9, -9, -4, 9, -9, -4, 9, 9, -4, -9, 9, -4};
@@ -55,7 +55,8 @@ static void test_bilinear(void)
     uint8_t rgba[4 * 32];
     for (int i = 0; i < 4 * 32; i++) rgba[i] = random_byte();
     for (int c = 0; c < 4; c++) {
-        const scene_texture t = {.width = 4, .height = 8, .rgba = rgba, .clamp_u = c & 1, .clamp_v = c >> 1, .bilinear = true};
+        const scene_texture t = {
+            .width = 4, .height = 8, .rgba = rgba, .clamp_u = c & 1, .clamp_v = c >> 1, .bilinear = true};
         for (int n = 0; n < 500; n++) {
             const int i = (int)random_between(-9, 9), j = (int)random_between(-17, 17);
             const double fx = n % 3 ? random_unit() : 0, fy = n % 5 ? random_unit() : 0;
@@ -74,8 +75,8 @@ static void test_bilinear(void)
     }
 }
 
-/* A textured plane that runs into the distance: the texel is that of the world point, and vertex colour, object colour and texture
- * multiply. */
+/* A textured plane that runs into the distance: the texel is that of the world point, and vertex colour, object colour
+ * and texture multiply. */
 static void test_textured_plane(void)
 {
     uint8_t rgba[4 * 64];
@@ -105,7 +106,8 @@ static void test_textured_plane(void)
             if (fabs(u - floor(u + 0.5)) < 1e-6 || fabs(v - floor(v + 0.5)) < 1e-6) continue;
             const uint8_t *t = rgba + 4 * (((int)floor(v) & 7) * 8 + ((int)floor(u) & 7));
             const double factor[3] = {0.5, 0.25, 1};
-            for (int i = 0; i < 3; i++) n_wrong += fabs(p.rgb[3 * k + i] - factor[i] * (c == 0 ? decoded(t[i]) : 1)) > 1e-9;
+            for (int i = 0; i < 3; i++)
+                n_wrong += fabs(p.rgb[3 * k + i] - factor[i] * (c == 0 ? decoded(t[i]) : 1)) > 1e-9;
             n++;
         }
         CHECK_EQ_INT(n_wrong, 0);
@@ -117,7 +119,8 @@ static void test_textured_plane(void)
 
 /* ---- visible alpha ---- */
 
-/* A quad whose alpha runs from 0 to 1 over the picture, times the object's, before another: where it is cut the other is seen. */
+/* A quad whose alpha runs from 0 to 1 over the picture, times the object's, before another: where it is cut the other
+ * is seen. */
 static void test_visible_alpha(void)
 {
     uint8_t rgba[4 * 16];
@@ -176,8 +179,8 @@ static void test_hidden(void)
 
 /* ---- casters with alpha ---- */
 
-/* A roof with alpha in strips along x, 8 texels of the image over 4 units; every texel of the map holds the roof or nothing, by the
- * alpha of the roof's point at the texel's centre. spot: in perspective, the roof tilted. */
+/* A roof with alpha in strips along x, 8 texels of the image over 4 units; every texel of the map holds the roof or
+ * nothing, by the alpha of the roof's point at the texel's centre. spot: in perspective, the roof tilted. */
 static void check_cut_caster(scene_caster mode, bool spot, bool textured)
 {
     static uint8_t rgba[4 * 8] = {0, 0, 0, 0,   0, 0, 0, 36,  0, 0, 0, 73,  0, 0, 0, 109,
@@ -213,7 +216,8 @@ static void check_cut_caster(scene_caster mode, bool spot, bool textured)
             const double t = (x[0] + 2) / 4 * 8;
             if (fabs(edge - 2) < 1e-9 || fabs(t - floor(t + 0.5)) < 1e-9) continue;
             const double alpha = edge > 2 ? 0 : textured ? rgba[4 * (int)floor(t) + 3] / 255.0 : 0.3;
-            const bool cut = mode == SCENE_CASTER_CLIP ? alpha < 0.5 : mode == SCENE_CASTER_DITHER && alpha < noise_at(i, j);
+            const bool cut =
+                mode == SCENE_CASTER_CLIP ? alpha < 0.5 : mode == SCENE_CASTER_DITHER && alpha < noise_at(i, j);
             const bool expected = edge < 2 && !cut, got = view->depth[j * 128 + i] < view->depth_range;
             n_wrong += expected != got;
             n_stored += expected;
@@ -235,8 +239,8 @@ static void test_cut_casters(void)
         for (int c = 0; c < 4; c++) check_cut_caster(modes[m], c & 1, c >> 1);
 }
 
-/* What is seen of an object and what it casts are independent: a quad that is cut away for the camera still casts, and the other
- * way round. */
+/* What is seen of an object and what it casts are independent: a quad that is cut away for the camera still casts, and
+ * the other way round. */
 static void test_caster_and_sight(void)
 {
     const double eye[3] = {0, 3, 0}, at[3] = {0, 0, -1}, up[3] = {0, 1, 0};
@@ -255,7 +259,8 @@ static void test_caster_and_sight(void)
         CHECK_EQ_INT(p.triangle[100] >> 32, c);
         int n_stored = 0;
         for (int i = 0; i < 256 * 256; i++) /* the roof is a unit nearer than the floor */
-            n_stored += p.view[0][0].depth[i] * p.view[0][0].texel < -1 - p.view[0][0].origin[2] * p.view[0][0].texel + 0.5;
+            n_stored +=
+                p.view[0][0].depth[i] * p.view[0][0].texel < -1 - p.view[0][0].origin[2] * p.view[0][0].texel + 0.5;
         CHECK_EQ_INT(n_stored, c ? 0 : 256 * 256);
         ref_free(&p);
         end(&f);
@@ -398,7 +403,8 @@ static void test_mix_table(void)
 static void begin_masked(fixture *f, int channel, bool image)
 {
     static uint8_t rgba[4 * 4];
-    const double eye[3] = {0, 2, 0}, at[3] = {0, 0, -3}, up[3] = {0, 1, 0}, uv[8] = {0.125, 0, 0.875, 0, 0.875, 0, 0.125, 0};
+    const double eye[3] = {0, 2, 0}, at[3] = {0, 0, -3}, up[3] = {0, 1, 0},
+                 uv[8] = {0.125, 0, 0.875, 0, 0.875, 0, 0.125, 0};
     begin(f);
     scene_mesh *mesh = add_floor(f, 20, 0);
     add_floor(f, 100, 5);
@@ -415,7 +421,8 @@ static void begin_masked(fixture *f, int channel, bool image)
         f->objects[0].mask = malloc(16);
         if (!f->objects[0].mask) abort();
         for (int v = 0; v < 4; v++)
-            for (int k = 0; k < 4; k++) f->objects[0].mask[4 * v + k] = (uint8_t)(k != channel ? 99 : v == 1 || v == 2 ? 255 : 0);
+            for (int k = 0; k < 4; k++)
+                f->objects[0].mask[4 * v + k] = (uint8_t)(k != channel ? 99 : v == 1 || v == 2 ? 255 : 0);
     }
     scene_light *light = add_light(f, 0, -1, 0);
     light->mode = SCENE_MIXED;
@@ -468,7 +475,8 @@ static void test_mixing(void)
     for (int mixing = 0; mixing < 3; mixing++)
         for (int channel = 0; channel < 4; channel++)
             for (int image = 0; image < 2; image++)
-                for (int variant = 0; variant < 6; variant++) check_mixing((scene_mixing)mixing, channel, image, variant);
+                for (int variant = 0; variant < 6; variant++)
+                    check_mixing((scene_mixing)mixing, channel, image, variant);
 }
 
 /* A directional light past its cascades and past the budget keeps its mask; an object without one has 1. */

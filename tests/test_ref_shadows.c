@@ -14,7 +14,8 @@ static void from_light(double out[3], const ref_light_view *view, double u, doub
         out[k] = view->texel * (t[0] * view->axis[0][k] + t[1] * view->axis[1][k] + t[2] * view->axis[2][k]);
 }
 
-/* One triangle given in light coordinates, rendered into a 64-texel map. Axis-aligned light: texels and axes are exact. */
+/* One triangle given in light coordinates, rendered into a 64-texel map. Axis-aligned light: texels and axes are exact.
+ */
 static ref_picture cast_one(const double uvd[9], bool two_sided, double bias_constant, double bias_slope)
 {
     static const uint32_t idx[3] = {0, 1, 2};
@@ -70,7 +71,8 @@ static void test_cast_rule(void)
     ref_free(&p);
 }
 
-/* D = 2 + U/2 - V/4: plane depths, slope bias, flattening where it passes the near plane, cut where it passes the far end. */
+/* D = 2 + U/2 - V/4: plane depths, slope bias, flattening where it passes the near plane, cut where it passes the far
+ * end. */
 static void test_cast_depth(void)
 {
     for (int c = 0; c < 3; c++) {
@@ -143,9 +145,10 @@ static void test_cast_exactly_once(void)
 
 /* ---- shadows in pictures ---- */
 
-/* A box above a floor that does not cast, light at 45 degrees: the shadow is the rectangle x 0..3, z -1..1. Without biases the
- * edge lies where the texel of the map says, so pixels further than a texel from the true edge must agree with it. lift: how far
- * the box and with it the shadow's x are raised, to pull the box through the near plane of the map and beyond. */
+/* A box above a floor that does not cast, light at 45 degrees: the shadow is the rectangle x 0..3, z -1..1. Without
+ * biases the edge lies where the texel of the map says, so pixels further than a texel from the true edge must agree
+ * with it. lift: how far the box and with it the shadow's x are raised, to pull the box through the near plane of the
+ * map and beyond. */
 static void check_box_shadow(double lift, double near_offset, double normal_bias)
 {
     const double low[3] = {-1 - lift, 1 + lift, -1}, high[3] = {1 - lift, 2 + lift, 1};
@@ -236,11 +239,12 @@ static void test_two_sided_caster(void)
     }
 }
 
-/* A floor that casts on itself, with the default normal bias alone: no pixel may darken, whatever the filter and the light's
- * angle from the normal. */
+/* A floor that casts on itself, with the default normal bias alone: no pixel may darken, whatever the filter and the
+ * light's angle from the normal. */
 static void test_no_acne(void)
 {
-    const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5, SCENE_FILTER_7X7};
+    const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5,
+                                     SCENE_FILTER_7X7};
     const double angles[9] = {0, 5, 20, 45, 60, 75, 85, 89, 89.9};
     const double from[3] = {0, 2, 0}, at[3] = {1, 0, -3}, up[3] = {0, 1, 0};
     for (int k = 0; k < 5; k++)
@@ -257,7 +261,9 @@ static void test_no_acne(void)
                 ref_picture p = render(&f, 48, 36, 128);
                 int n_acne = 0;
                 for (int i = 0; i < 48 * 36; i++) n_acne += p.triangle[i] >= 0 && p.shadow[0][i] < 1 - 1e-9;
-                if (n_acne) fprintf(stderr, "acne: filter %d, %g degrees, azimuth %g: %d pixels\n", k, angles[a], azimuth, n_acne);
+                if (n_acne)
+                    fprintf(stderr, "acne: filter %d, %g degrees, azimuth %g: %d pixels\n", k, angles[a], azimuth,
+                            n_acne);
                 CHECK_EQ_INT(n_acne, 0);
                 ref_free(&p);
                 end(&f);

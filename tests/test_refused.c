@@ -1,5 +1,5 @@
-/* Everything that is refused: every status, every field beyond its range, combinations, pictures, knobs, null pointers, call order.
- * Capacity errors of a small build are in test_config.sh. */
+/* Everything that is refused: every status, every field beyond its range, combinations, pictures, knobs, null pointers,
+ * call order. Capacity errors of a small build are in test_config.sh. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 
 static gn_renderer one;
 
-/* ---- Every status ------------------------------------------------------------------------------------------------- */
+/* ---- Every status ------------------------------------------------------------------------------------------------ */
 
 static uint16_t many_idx[3 * 40000];
 static gn_mesh many_mesh;
@@ -272,9 +272,9 @@ static const struct {
     gn_status status;
     uint32_t index, needed, available;
 } refused[] = {
-#define REFUSED(spoil, status, ...)                                                                                                \
-    {                                                                                                                              \
-        spoil, #spoil, status, __VA_ARGS__                                                                                         \
+#define REFUSED(spoil, status, ...)                                                                                    \
+    {                                                                                                                  \
+        spoil, #spoil, status, __VA_ARGS__                                                                             \
     }
     REFUSED(no_objects, GN_ERR_NULL, 0, 0, 0),
     REFUSED(no_lights, GN_ERR_NULL, 0, 0, 0),
@@ -343,14 +343,15 @@ static gn_status note(gn_status status)
 }
 
 /* A call on `one` that must fail with this status, and say what it was about. */
-static int fails(gn_status got, gn_status expected, uint32_t index, uint32_t needed, uint32_t available, const char *name)
+static int fails(gn_status got, gn_status expected, uint32_t index, uint32_t needed, uint32_t available,
+                 const char *name)
 {
     const gn_detail *d = gn_get_detail(&one);
     note(got);
     if (got == expected && d->status == got && d->index == index && d->needed == needed && d->available == available)
         return CHECK(1);
-    printf("%s: status %d, detail %d, index %u, needed %u, available %u\n", name, (int)got, (int)d->status, d->index, d->needed,
-           d->available);
+    printf("%s: status %d, detail %d, index %u, needed %u, available %u\n", name, (int)got, (int)d->status, d->index,
+           d->needed, d->available);
     return check_note(0, __FILE__, __LINE__, "refused with the right status and detail");
 }
 
@@ -374,7 +375,7 @@ static void test_refused_scenes(void)
     }
 }
 
-/* ---- Every field of a scene beyond its range ---------------------------------------------------------------------- */
+/* ---- Every field of a scene beyond its range --------------------------------------------------------------------- */
 
 /* A field, the ends of its range, and what is said beyond them. */
 typedef struct {
@@ -387,9 +388,9 @@ typedef struct {
     uint32_t index;
 } bounded;
 
-#define BOUNDED_(x, lo, hi, is_signed, status, index)                                                                              \
-    {                                                                                                                              \
-        &(x), #x, sizeof(x), is_signed, lo, hi, status, index                                                                      \
+#define BOUNDED_(x, lo, hi, is_signed, status, index)                                                                  \
+    {                                                                                                                  \
+        &(x), #x, sizeof(x), is_signed, lo, hi, status, index                                                          \
     }
 #define SIGNED(x, lo, hi, status, index)   BOUNDED_(x, lo, hi, 1, status, index)
 #define UNSIGNED(x, lo, hi, status, index) BOUNDED_(x, lo, hi, 0, status, index)
@@ -450,7 +451,8 @@ static void set_field(const bounded *b, int64_t value)
     else memcpy(b->field, &(uint32_t){(uint32_t)value}, 4);
 }
 
-/* Each field at both ends of its range: drawn; next to them and at the ends of its type: refused, and the object or light named. */
+/* Each field at both ends of its range: drawn; next to them and at the ends of its type: refused, and the object or
+ * light named. */
 static void test_bounds(void)
 {
     gn_picture p = picture_of(24, 16, GN_FORMAT_RGB565);
@@ -459,7 +461,8 @@ static void test_bounds(void)
     CHECK(gn_init(&one, &p) == GN_OK);
     for (size_t i = 0; i < sizeof bounds / sizeof *bounds; i++) {
         const bounded *b = &bounds[i];
-        int64_t type_lo = b->is_signed ? INT32_MIN : 0, type_hi = b->is_signed ? INT32_MAX : ((int64_t)1 << 8 * b->size) - 1;
+        int64_t type_lo = b->is_signed ? INT32_MIN : 0,
+                type_hi = b->is_signed ? INT32_MAX : ((int64_t)1 << 8 * b->size) - 1;
         const int64_t values[] = {b->lo, b->hi, b->lo - 1, b->hi + 1, type_lo, type_hi};
         for (int k = 0; k < 6; k++) {
             int inside = values[k] >= b->lo && values[k] <= b->hi;
@@ -468,7 +471,8 @@ static void test_bounds(void)
             set_field(b, values[k]);
             gn_status status = gn_render(&one, &demo.scene, flush, &c);
             if (!inside) fails(status, b->status, b->index, 0, 0, b->name);
-            else if (!CHECK(status == GN_OK)) printf("%s = %lld: %s\n", b->name, (long long)values[k], gn_status_text(status));
+            else if (!CHECK(status == GN_OK))
+                printf("%s = %lld: %s\n", b->name, (long long)values[k], gn_status_text(status));
         }
     }
     canvas_end(&c);
@@ -561,7 +565,8 @@ static void fine_long_range(void)
 }
 static void fine_no_disk(void)
 {
-    demo.scene.shadow.filter = demo.scene.shadow.other_filter = GN_FILTER_2X2, demo.scene.shadow.disk_samples = UINT32_MAX;
+    demo.scene.shadow.filter = demo.scene.shadow.other_filter = GN_FILTER_2X2,
+    demo.scene.shadow.disk_samples = UINT32_MAX;
 }
 static void fine_unknown_flags(void)
 {
@@ -684,7 +689,8 @@ static void test_knobs(void)
     }
     static const struct {
         int32_t persp_step, atten_bits, atlas_size, tile_width, tile_height;
-    } odd[] = {{2, 8, 128, 64, 16}, {8, 9, 128, 64, 16}, {8, 8, 96, 64, 16}, {8, 8, 128, 65, 16}, {8, 8, 128, 2048, 33}};
+    } odd[] = {
+        {2, 8, 128, 64, 16}, {8, 9, 128, 64, 16}, {8, 8, 96, 64, 16}, {8, 8, 128, 65, 16}, {8, 8, 128, 2048, 33}};
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
         gn_init(&one, &p);
         one.frame.knobs.persp_step = odd[i].persp_step;
@@ -727,7 +733,7 @@ static void test_status_texts(void)
         if (!CHECK(provoked[i])) printf("%s was not provoked\n", names[i]);
 }
 
-/* ---- Null pointers, order ----------------------------------------------------------------------------------------- */
+/* ---- Null pointers, order ---------------------------------------------------------------------------------------- */
 
 static void test_nulls(void)
 {
@@ -737,7 +743,8 @@ static void test_nulls(void)
     canvas_begin(&c, 8, 8, GN_FORMAT_RGB565);
     demo_scene_make(&demo, 0);
     CHECK(note(gn_init(NULL, &p)) == GN_ERR_NULL);
-    CHECK(gn_begin(NULL, &demo.scene) == GN_ERR_NULL && gn_shadow_tile(NULL, 0) == GN_ERR_NULL && gn_prepare(NULL) == GN_ERR_NULL);
+    CHECK(gn_begin(NULL, &demo.scene) == GN_ERR_NULL && gn_shadow_tile(NULL, 0) == GN_ERR_NULL &&
+          gn_prepare(NULL) == GN_ERR_NULL);
     CHECK(gn_shadow_tile_count(NULL) == 0 && gn_screen_tile_count(NULL) == 0);
     CHECK(gn_screen_tile(NULL, &one.scratch, 0, flush, &c) == GN_ERR_NULL);
     CHECK(gn_render(NULL, &demo.scene, flush, &c) == GN_ERR_NULL);

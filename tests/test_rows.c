@@ -1,9 +1,9 @@
-/* Every feature row (docs/DESIGN.md section 1) through the whole pipeline: the library against the reference, on a scene in which the row
- * matters. "--list" prints what each line measures.
+/* Every feature row (docs/DESIGN.md section 1) through the whole pipeline: the library against the reference, on a
+ * scene in which the row matters. "--list" prints what each line measures.
  *
- * A line says what it compares and what the picture is without it. That the row matters is tested too: the reference with and without must
- * differ, and the library must come closer to the reference with the row than the one without is. So a setting that one engine ignores
- * fails, however few pixels it changes. */
+ * A line says what it compares and what the picture is without it. That the row matters is tested too: the reference
+ * with and without must differ, and the library must come closer to the reference with the row than the one without is.
+ * So a setting that one engine ignores fails, however few pixels it changes. */
 #include "floors.h"
 #include "row_scenes.h"
 
@@ -24,7 +24,7 @@ typedef struct {
 #define MOST_TEXELS   0.004 /* of a shadow tile whose depth differs: its edges */
 #define LEAST_CHANGED 12    /* pixels that the row changes by more than 2 of 255 levels */
 
-/* ---- A scene with its settings ---------------------------------------------------------------------------------------- */
+/* ---- A scene with its settings ----------------------------------------------------------------------------------- */
 
 typedef struct {
     fixture f;  /* scenes built here */
@@ -79,7 +79,7 @@ static void close_stage(stage *st)
     else end(&st->f);
 }
 
-/* ---- One line --------------------------------------------------------------------------------------------------------- */
+/* ---- One line ---------------------------------------------------------------------------------------------------- */
 
 typedef struct {
     engine_picture fixed, reference;
@@ -116,13 +116,15 @@ static double squared_distance(const engine_picture *a, const engine_picture *b,
     return sum;
 }
 
-/* How near the library comes with the row, against how near the picture without it is: 0 is perfect, 1 no better. Edges of triangles are
- * another matter. */
+/* How near the library comes with the row, against how near the picture without it is: 0 is perfect, 1 no better. Edges
+ * of triangles are another matter. */
 static double closeness(const pair *with, const engine_picture *without)
 {
     static bool seen[WIDTH * HEIGHT];
-    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++) seen[i] = with->fixed.triangle[i] == with->reference.triangle[i];
-    return squared_distance(&with->fixed, &with->reference, seen) / fmax(squared_distance(without, &with->reference, seen), 1e-9);
+    for (size_t i = 0; i < (size_t)WIDTH * HEIGHT; i++)
+        seen[i] = with->fixed.triangle[i] == with->reference.triangle[i];
+    return squared_distance(&with->fixed, &with->reference, seen) /
+           fmax(squared_distance(without, &with->reference, seen), 1e-9);
 }
 
 /* Both say the same of tiles (A2, A3, D1, D10, P5). */
@@ -196,12 +198,14 @@ static int measure(result *out, const row *r, int preset, bool matters)
 
 static void print_result(const row *r, int preset, const result *x)
 {
-    printf("%-4s %-8s %s | %s | %s: share %.3f identical %.5f within1 %.5f psnr %.1f mismatch %.5f atten %.4f atlas %.5f changed "
+    printf("%-4s %-8s %s | %s | %s: share %.3f identical %.5f within1 %.5f psnr %.1f mismatch %.5f atten %.4f atlas "
+           "%.5f changed "
            "%ld close %.4f; "
            "%ld coverage %ld shadow %ld light %ld rounding, worst %d at %d,%d %s\n",
-           r->id, settings_preset_name[preset], r->scene, r->words, r->with ? r->with : "", x->share, x->m.identical, x->m.within1,
-           x->m.psnr_db, x->m.shadow_mismatch, x->m.atten_max, x->atlas, x->changed, x->closeness, x->m.by_coverage, x->m.by_shadow,
-           x->m.by_light, x->m.by_rounding, x->m.max_error, x->m.worst_x, x->m.worst_y, x->m.worst_cause);
+           r->id, settings_preset_name[preset], r->scene, r->words, r->with ? r->with : "", x->share, x->m.identical,
+           x->m.within1, x->m.psnr_db, x->m.shadow_mismatch, x->m.atten_max, x->atlas, x->changed, x->closeness,
+           x->m.by_coverage, x->m.by_shadow, x->m.by_light, x->m.by_rounding, x->m.max_error, x->m.worst_x,
+           x->m.worst_y, x->m.worst_cause);
 }
 
 /* That the row matters is asked once, where little else differs. */
@@ -223,44 +227,44 @@ static void check_row(const row *r, int preset, bool list)
     if (list || check_n_failed > failed) print_result(r, preset, &x);
 }
 
-/* ---- The table -------------------------------------------------------------------------------------------------------- */
+/* ---- The table --------------------------------------------------------------------------------------------------- */
 
-#define FILTERED(id, light, name)                                                                                                  \
-    {                                                                                                                              \
-        id, "yard", ".light=" light, "filter=" name, "filter=2x2", 0.25                                                            \
+#define FILTERED(id, light, name)                                                                                      \
+    {                                                                                                                  \
+        id, "yard", ".light=" light, "filter=" name, "filter=2x2", 0.25                                                \
     }
-#define LINEAR(light, name)                                                                                                        \
-    {                                                                                                                              \
-        "F6", "yard", ".light=" light " filter=" name, "kernel=linear", "kernel=tent", 0.25                                        \
+#define LINEAR(light, name)                                                                                            \
+    {                                                                                                                  \
+        "F6", "yard", ".light=" light " filter=" name, "kernel=linear", "kernel=tent", 0.25                            \
     }
-#define DISK(light, penumbra, samples)                                                                                             \
-    {                                                                                                                              \
-        "F4", "yard", ".light=" light, "filter=disk penumbra=" penumbra " disk_samples=" samples, "filter=2x2", 0.5                \
+#define DISK(light, penumbra, samples)                                                                                 \
+    {                                                                                                                  \
+        "F4", "yard", ".light=" light, "filter=disk penumbra=" penumbra " disk_samples=" samples, "filter=2x2", 0.5    \
     }
-#define SOFTNESS(light)                                                                                                            \
-    {"F5", "yard", ".light=" light " filter=3x3", "softness=hard", "", 0.25},                                                      \
-    {                                                                                                                              \
-        "F5", "yard", ".light=" light " filter=3x3", "softness=soft", "", 0.25                                                     \
+#define SOFTNESS(light)                                                                                                \
+    {"F5", "yard", ".light=" light " filter=3x3", "softness=hard", "", 0.25},                                          \
+    {                                                                                                                  \
+        "F5", "yard", ".light=" light " filter=3x3", "softness=soft", "", 0.25                                         \
     }
-#define BIASES(light)                                                                                                              \
-    {"B1", "yard", ".light=" light " bias_normal=0", "bias_constant=1.5", "", 1},                                                  \
-        {"B1", "yard", ".light=" light " bias_normal=0 bias_constant=0.3", "bias_slope=1.5", "", 0.25},                            \
-        {"B2", "yard", ".light=" light " bias_normal=0", "bias_normal=1", "", 0.25},                                               \
-        {"B2", "yard", ".light=" light " bias_normal=0 filter=5x5", "bias_normal=2", "", 0.25},                                    \
-        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=2,0,0,0", "", 0.5},                                        \
-        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=0,1.5,0,0", "", 0.75},                                     \
-        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=0,0,1.5,0", "", 0.25},                                     \
-        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=0,0,0,2", "", 0.25},                                       \
-        {"B3", "yard", ".light=" light " bias_normal=0 filter=3x3", "bias_receiver=0.5,0.4,0.3,0.6", "", 0.25},                    \
-        {"B4", "yard", ".light=" light " bias_normal=0", "bias_caster=1.5", "", 0.25},                                             \
-        {"B4", "yard", ".light=" light " bias_normal=0 .normals=0", "bias_caster=1.5", "", 0.25},                                  \
-        {"B5", "yard", ".light=" light " bias_normal=0 bias_constant=0.4", "receiver_plane=1", "", 0.25},                          \
-        {"B5", "yard", ".light=" light " bias_normal=0.3 filter=5x5", "receiver_plane=1", "", 0.25},                               \
-        {"B6", "yard", ".light=" light " bias_normal=0", "auto_bias=normal", "", 0.25},                                            \
-        {"B6", "yard", ".light=" light " bias_normal=0 filter=5x5", "auto_bias=depth", "", 0.25},                                  \
-        {"B6", "yard", ".light=" light " bias_normal=0 filter=disk penumbra=6", "auto_bias=normal", "", 0.5},                      \
-    {                                                                                                                              \
-        "B6", "yard", ".light=" light " bias_normal=0 .normals=0", "auto_bias=normal", "", 0.25                                    \
+#define BIASES(light)                                                                                                  \
+    {"B1", "yard", ".light=" light " bias_normal=0", "bias_constant=1.5", "", 1},                                      \
+        {"B1", "yard", ".light=" light " bias_normal=0 bias_constant=0.3", "bias_slope=1.5", "", 0.25},                \
+        {"B2", "yard", ".light=" light " bias_normal=0", "bias_normal=1", "", 0.25},                                   \
+        {"B2", "yard", ".light=" light " bias_normal=0 filter=5x5", "bias_normal=2", "", 0.25},                        \
+        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=2,0,0,0", "", 0.5},                            \
+        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=0,1.5,0,0", "", 0.75},                         \
+        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=0,0,1.5,0", "", 0.25},                         \
+        {"B3", "yard", ".light=" light " bias_normal=0", "bias_receiver=0,0,0,2", "", 0.25},                           \
+        {"B3", "yard", ".light=" light " bias_normal=0 filter=3x3", "bias_receiver=0.5,0.4,0.3,0.6", "", 0.25},        \
+        {"B4", "yard", ".light=" light " bias_normal=0", "bias_caster=1.5", "", 0.25},                                 \
+        {"B4", "yard", ".light=" light " bias_normal=0 .normals=0", "bias_caster=1.5", "", 0.25},                      \
+        {"B5", "yard", ".light=" light " bias_normal=0 bias_constant=0.4", "receiver_plane=1", "", 0.25},              \
+        {"B5", "yard", ".light=" light " bias_normal=0.3 filter=5x5", "receiver_plane=1", "", 0.25},                   \
+        {"B6", "yard", ".light=" light " bias_normal=0", "auto_bias=normal", "", 0.25},                                \
+        {"B6", "yard", ".light=" light " bias_normal=0 filter=5x5", "auto_bias=depth", "", 0.25},                      \
+        {"B6", "yard", ".light=" light " bias_normal=0 filter=disk penumbra=6", "auto_bias=normal", "", 0.5},          \
+    {                                                                                                                  \
+        "B6", "yard", ".light=" light " bias_normal=0 .normals=0", "auto_bias=normal", "", 0.25                        \
     }
 
 static const row rows[] = {
@@ -284,18 +288,19 @@ static const row rows[] = {
     {"D7", "lane", "cascades=2 atlas_size=64", "cascade_blend=dither cascade_fade=0.6", "cascade_fade=0.6", 0.5},
     {"D7", "lane", "cascades=3 filter=5x5", "cascade_blend=soft cascade_fade=0.5", "cascade_fade=0.5", 0.5},
     {"D7", "lane", "cascades=3 filter=5x5", "cascade_blend=dither cascade_fade=0.5", "cascade_fade=0.5", 0.5},
-    {"D7", "lane", ".camera=0.5,2,6,0,0.5,-8 cascades=4 filter=5x5 atlas_size=64", "cascade_blend=soft cascade_fade=0.6",
-     "cascade_fade=0.6", 0.25},
-    {"D7", "lane", ".camera=0.5,2,6,0,0.5,-8 cascades=4 filter=5x5 atlas_size=64", "cascade_blend=dither cascade_fade=0.6",
-     "cascade_fade=0.6", 0.25},
+    {"D7", "lane", ".camera=0.5,2,6,0,0.5,-8 cascades=4 filter=5x5 atlas_size=64",
+     "cascade_blend=soft cascade_fade=0.6", "cascade_fade=0.6", 0.25},
+    {"D7", "lane", ".camera=0.5,2,6,0,0.5,-8 cascades=4 filter=5x5 atlas_size=64",
+     "cascade_blend=dither cascade_fade=0.6", "cascade_fade=0.6", 0.25},
     {"D9", "yard", "", "near_offset=100", NULL, 0.1},
     {"D9", "yard", "max_distance=3", ".direction=-0.2,-0.3,1", "", 0.25},
     {"D10", "yard", ".light=suns", "main_light=1", "", 0.25},
     {"D10", "yard", ".light=suns max_distance=9", "main_light=1", "", 0.25},
-    {"D10", "lane", ".light=suns cascades=4 filter=5x5", "main_light=1 cascade_blend=soft cascade_fade=0.4", "cascade_fade=0.4",
-     0.5},
+    {"D10", "lane", ".light=suns cascades=4 filter=5x5", "main_light=1 cascade_blend=soft cascade_fade=0.4",
+     "cascade_fade=0.4", 0.5},
     {"D10", "yard", ".light=suns", "main_light=1 other_filter=7x7", "main_light=1", 0.25},
-    {"D11", "lane", ".camera=0,6,2,3,0,-6 .focal=0.5 max_distance=10", "distance_mode=radius", "distance_fade=0.001", 0.1},
+    {"D11", "lane", ".camera=0,6,2,3,0,-6 .focal=0.5 max_distance=10", "distance_mode=radius", "distance_fade=0.001",
+     0.1},
     {"D11", "yard", ".light=spot max_distance=9", "distance_mode=radius", "", 0.1},
     {"D11", "yard", ".light=all max_distance=9", "distance_mode=radius", "", 0.1},
     {"D5", "yard", ".light=spot max_distance=11", "distance_fade=0.5", "distance_fade=0.02", 0.1},
@@ -313,7 +318,8 @@ static const row rows[] = {
     {"P3", "yard", ".light=spot", ".cone=30,40", "", 0.1},
     {"P3", "yard", ".light=spot", ".cone=50,50", "", 0.1},
     {"P3", "yard", ".light=spot", ".cone=0,70", "", 0.1},
-    {"P4", "yard", ".light=spot", ".cone=1,1 .intensity=200 .camera=0,0.6,0.4,0,0,-1.5", ".camera=0,0.6,0.4,0,0,-1.5", 0.1},
+    {"P4", "yard", ".light=spot", ".cone=1,1 .intensity=200 .camera=0,0.6,0.4,0,0,-1.5", ".camera=0,0.6,0.4,0,0,-1.5",
+     0.1},
     {"P4", "yard", ".light=spot .intensity=60", ".cone=100,130", "", 0.1},
     {"P4", "yard", ".light=spot .intensity=60", ".cone=179,179 other_atlas_size=1024", "", 0.1},
     {"P4", "yard", ".light=spot .position=-1.3,2.9,1.9 .intensity=12", "near=2.4", "near=0.1", 0.25},
@@ -400,7 +406,8 @@ static const row rows[] = {
     DISK("spot", "64", "32"),
     DISK("point", "64", "32"),
     {"F4", "lane", "cascades=3", "filter=disk penumbra=20", "filter=2x2", 0.25},
-    {"F4", "lane", "cascades=4", "filter=disk penumbra=6 disk_samples=8 cascade_blend=soft cascade_fade=0.5", "filter=2x2", 0.25},
+    {"F4", "lane", "cascades=4", "filter=disk penumbra=6 disk_samples=8 cascade_blend=soft cascade_fade=0.5",
+     "filter=2x2", 0.25},
     SOFTNESS("sun"),
     SOFTNESS("spot"),
     SOFTNESS("point"),
@@ -464,9 +471,12 @@ static const row rows[] = {
     {"M6", "yard", ".masks=vertex mixing=always", "strength=0.5", "", 0.1},
     {"M6", "yard", ".masks=vertex mixing=distance", "strength=0.5", "", 0.1},
     {"M6", "yard", ".masks=vertex mixing=distance", "strength=0", "", 0.1},
-    {"M6", "yard", ".light=spot .masks=image max_distance=10 distance_fade=0.6", "mixing=distance", "mixing=always", 0.1},
-    {"M6", "yard", ".light=point .masks=image max_distance=10 distance_fade=0.6", "mixing=always", "mixing=distance", 0.1},
-    {"M6", "yard", ".light=dozen .masks=vertex object_lights=0", "mixing=always", "mixing=none", 0.1}, /* ten without a tile */
+    {"M6", "yard", ".light=spot .masks=image max_distance=10 distance_fade=0.6", "mixing=distance", "mixing=always",
+     0.1},
+    {"M6", "yard", ".light=point .masks=image max_distance=10 distance_fade=0.6", "mixing=always", "mixing=distance",
+     0.1},
+    {"M6", "yard", ".light=dozen .masks=vertex object_lights=0", "mixing=always", "mixing=none",
+     0.1}, /* ten without a tile */
     {"M6", "yard", ".light=seventeen .masks=vertex object_lights=0", "mixing=always", "mixing=none", 0.1},
     {"M6", "yard", ".masks=vertex mixing=always", "receiver_plane=1 filter=5x5", "", 0.1},
     {"M6", "mixed.gltf", "", "mixing=always", "mixing=none", 0.25},
@@ -502,7 +512,7 @@ static const row rows[] = {
     {"all", "mixed.gltf", "", "filter=7x7", "filter=hard", 0.1},
 };
 
-/* ---- Rows that change no picture, or not its colours ------------------------------------------------------------------- */
+/* ---- Rows that change no picture, or not its colours ------------------------------------------------------------- */
 
 /* R5: what each panel shows. */
 static void test_outputs(void)
@@ -531,7 +541,8 @@ static void test_caster_culling(void)
     engine_picture picture[2];
     for (int i = 0; i < 2; i++) {
         stage st;
-        if (!CHECK_EQ_INT(open_stage(&st, &r, i ? r.with : r.without, SETTINGS_BALANCED) || draw(&picture[i], &st, true), 0))
+        if (!CHECK_EQ_INT(
+                open_stage(&st, &r, i ? r.with : r.without, SETTINGS_BALANCED) || draw(&picture[i], &st, true), 0))
             return;
         close_stage(&st);
     }
@@ -550,7 +561,8 @@ static void test_statistics(void)
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         stage st;
         engine_picture p;
-        if (!CHECK_EQ_INT(open_stage(&st, &lines[i], lines[i].with, SETTINGS_BALANCED) || draw(&p, &st, true), 0)) return;
+        if (!CHECK_EQ_INT(open_stage(&st, &lines[i], lines[i].with, SETTINGS_BALANCED) || draw(&p, &st, true), 0))
+            return;
         CHECK_EQ_INT(p.stats.n_lights_without_room, i == 0 ? 1 : 0);
         CHECK((p.stats.n_lights_left_out > 0) == (i == 1));
         CHECK_EQ_INT(p.stats.n_reach_clamped, i == 2 ? 6 : 0);
@@ -559,7 +571,7 @@ static void test_statistics(void)
     }
 }
 
-/* ---- The tables of docs/ACCURACY.md ------------------------------------------------------------------------------------- */
+/* ---- The tables of docs/ACCURACY.md ------------------------------------------------------------------------------ */
 
 typedef struct {
     double rms, mismatch; /* of the first light's attenuation, where it is lit; off by more than 1/16 */
@@ -617,9 +629,11 @@ static void print_depth_bits(void)
             for (int bits = 8; bits <= 32; bits *= 2) {
                 char words[160];
                 long ram = 0;
-                snprintf(words, sizeof words, ".light=%s %s%s %s=%d", lights[l][0], lights[l][2], biases[b][0], lights[l][1], bits);
+                snprintf(words, sizeof words, ".light=%s %s%s %s=%d", lights[l][0], lights[l][2], biases[b][0],
+                         lights[l][1], bits);
                 const attenuation_error e = error_of(words, words, true, &ram);
-                printf("| %s | %s | %d | %ld | %.5f | %.3f %% |\n", lights[l][0], biases[b][1], bits, ram, e.rms, 100 * e.mismatch);
+                printf("| %s | %s | %d | %ld | %.5f | %.3f %% |\n", lights[l][0], biases[b][1], bits, ram, e.rms,
+                       100 * e.mismatch);
             }
 }
 
@@ -676,7 +690,8 @@ int main(int argc, char **argv)
     }
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         for (int preset = SETTINGS_ACCURATE; preset >= SETTINGS_BALANCED; preset--)
-            if (only ? strcmp(only, rows[i].id) == 0 : optimised || (int)(i % 4) == preset) check_row(&rows[i], preset, list);
+            if (only ? strcmp(only, rows[i].id) == 0 : optimised || (int)(i % 4) == preset)
+                check_row(&rows[i], preset, list);
     test_outputs();
     test_caster_culling();
     test_statistics();

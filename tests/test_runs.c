@@ -47,7 +47,8 @@ static int take(const tile *t, uint32_t id)
         int32_t x = (int32_t)(first % (uint32_t)t->stride);
         if (first < end || n_px < 1 || x + n_px > t->width) return 0;
         end = first + (uint32_t)n_px;
-        if ((x > 0 && expected[first - 1] == id) || (x + n_px < t->width && expected[end] == id)) return 0; /* not all of it */
+        if ((x > 0 && expected[first - 1] == id) || (x + n_px < t->width && expected[end] == id))
+            return 0; /* not all of it */
         for (uint32_t i = first; i < end; i++) {
             if (expected[i] != id) return 0;
             expected[i] = 0;
@@ -56,7 +57,8 @@ static int take(const tile *t, uint32_t id)
     return 1;
 }
 
-/* As shading does: all runs, from the last to the first, but for those of the plain triangle. Returns 0 if a run of it is wrong. */
+/* As shading does: all runs, from the last to the first, but for those of the plain triangle. Returns 0 if a run of it
+ * is wrong. */
 static int sort(const tile *t, uint32_t plain)
 {
     gn_scratch *scratch = &renderer.scratch;

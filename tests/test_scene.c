@@ -1,4 +1,5 @@
-/* Scene loaders: what a file means, what it lacks, and that no file, however damaged, does harm. Run from the project's folder. */
+/* Scene loaders: what a file means, what it lacks, and that no file, however damaged, does harm. Run from the project's
+ * folder. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdint.h>
@@ -11,14 +12,16 @@
 #include "check.h"
 #include "data/scene_fixture.h"
 
-/* --- JSON ------------------------------------------------------------------------------------------------------------ */
+/* --- JSON ------------------------------------------------------------------------------------------------------------
+ */
 
 static void test_json_errors(void)
 {
     for (size_t i = 0; i < sizeof json_errors / sizeof *json_errors; i++) {
         json_doc doc;
         int result = json_parse(&doc, json_errors[i].text, strlen(json_errors[i].text), error, sizeof error);
-        if (!CHECK(result == -1 && strstr(error, json_errors[i].why))) printf("  case %zu: %s\n", i, result ? error : "accepted");
+        if (!CHECK(result == -1 && strstr(error, json_errors[i].why)))
+            printf("  case %zu: %s\n", i, result ? error : "accepted");
         if (result == 0) json_free(&doc);
     }
 }
@@ -39,7 +42,8 @@ static void test_json_depth(void)
 
 static void test_json_values(void)
 {
-    static const char text[] = " {\"a\": [1, -2.5e1, true, null, \"\\u00e9\\ud83d\\ude00\\n\xC3\xA9\"], \"b/c~\": {\"d\": [[0]]}} ";
+    static const char text[] =
+        " {\"a\": [1, -2.5e1, true, null, \"\\u00e9\\ud83d\\ude00\\n\xC3\xA9\"], \"b/c~\": {\"d\": [[0]]}} ";
     json_doc doc;
     char path[64];
     if (!CHECK_EQ_INT(json_parse(&doc, text, sizeof text - 1, error, sizeof error), 0)) return;
@@ -49,7 +53,8 @@ static void test_json_values(void)
     CHECK_EQ_INT(json_at(a, 2)->type, JSON_BOOL);
     CHECK_EQ_INT(json_at(a, 3)->type, JSON_NULL);
     CHECK(strcmp(json_at(a, 4)->string, "\xC3\xA9\xF0\x9F\x98\x80\n\xC3\xA9") == 0);
-    CHECK(!json_at(a, 5) && !json_get(doc.root, "x") && !json_get(a, "a") && !json_at(doc.root, 0) && !json_get(NULL, "a"));
+    CHECK(!json_at(a, 5) && !json_get(doc.root, "x") && !json_get(a, "a") && !json_at(doc.root, 0) &&
+          !json_get(NULL, "a"));
     json_path(json_at(json_at(json_get(json_get(doc.root, "b/c~"), "d"), 0), 0), path, sizeof path);
     CHECK(strcmp(path, "/b~1c~0/d/0/0") == 0);
     json_path(json_at(a, 4), path, 4);
@@ -59,7 +64,8 @@ static void test_json_values(void)
     json_free(&doc);
 }
 
-/* --- glTF ------------------------------------------------------------------------------------------------------------ */
+/* --- glTF ------------------------------------------------------------------------------------------------------------
+ */
 
 static void check_rows(const scene_affine *a, const double expected[12])
 {
@@ -99,7 +105,8 @@ static void test_gltf_base(void)
     CHECK_NEAR(light->bias_slope, 2, 0);
     CHECK_NEAR(light->bias_normal, 1, 0);
     CHECK_NEAR(light->near_offset, 3, 0);
-    static const char *const settings[][2] = {{"filter", "5x5"}, {"srgb", "1"}, {"max_distance", "0.1"}, {"ratios", "0.25,1,0"}};
+    static const char *const settings[][2] = {
+        {"filter", "5x5"}, {"srgb", "1"}, {"max_distance", "0.1"}, {"ratios", "0.25,1,0"}};
     if (CHECK_EQ_INT(s.n_settings, 4)) {
         for (int i = 0; i < 4; i++)
             CHECK(!strcmp(s.settings[i].key, settings[i][0]) && !strcmp(s.settings[i].value, settings[i][1]));
@@ -143,11 +150,13 @@ static void check_frame(int frame, double x, double turn_deg, double scale)
     write_file(TMP ".gltf", base_json, sizeof base_json - 1);
     if (!CHECK_EQ_INT(load(TMP ".gltf", &at), 0)) return;
     double a = turn_deg * 3.14159265358979 / 180, c = scale * cos(a), n = scale * sin(a);
-    check_rows(&s.objects[0].to_world, (const double[12]){c, -n, 0, x, n, c, 0, s.objects[0].to_world.m[1][3], 0, 0, scale, 0});
+    check_rows(&s.objects[0].to_world,
+               (const double[12]){c, -n, 0, x, n, c, 0, s.objects[0].to_world.m[1][3], 0, 0, scale, 0});
     scene_free(&s);
 }
 
-/* fps 2; keys at 1, 2 and 4 s. Cubic x: 1, 2, 3 with flat tangents; the shorter way round from 0 to 90 degrees, then to 180. */
+/* fps 2; keys at 1, 2 and 4 s. Cubic x: 1, 2, 3 with flat tangents; the shorter way round from 0 to 90 degrees, then to
+ * 180. */
 static void test_animation(void)
 {
     check_frame(0, 1, 0, 1);
@@ -168,26 +177,30 @@ static void test_animation(void)
     scene_free(&s);
 }
 
-/* The bytes as a one-mesh file: attributes and accessors as given, one buffer view per accessor offset by the caller. */
+/* The bytes as a one-mesh file: attributes and accessors as given, one buffer view per accessor offset by the caller.
+ */
 static int load_bytes(const char *attributes, const char *accessors, const char *views, const void *bytes, size_t n)
 {
     char text[4096], base64[2048];
     put_base64(base64, bytes, n);
-    snprintf(text, sizeof text,
-             "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{%s}]}],\"accessors\":[%s],"
-             "\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data:application/octet-stream;base64,%s\"}]}",
-             attributes, accessors, views, n, base64);
+    snprintf(
+        text, sizeof text,
+        "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{%s}]}],\"accessors\":["
+        "%s],"
+        "\"bufferViews\":[%s],\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data:application/octet-stream;base64,%s\"}]}",
+        attributes, accessors, views, n, base64);
     return load_text(TMP ".gltf", text);
 }
 
-static void check_position_type(int type, const char *normalized, const void *bytes, size_t n, double first, double second,
-                                double third)
+static void check_position_type(int type, const char *normalized, const void *bytes, size_t n, double first,
+                                double second, double third)
 {
     char accessor[200], view[100];
     snprintf(accessor, sizeof accessor, "{\"bufferView\":0,\"componentType\":%d,%s\"count\":3,\"type\":\"VEC3\"}", type,
              normalized);
     snprintf(view, sizeof view, "{\"buffer\":0,\"byteLength\":%zu,\"byteStride\":%zu}", n, n / 3);
-    if (!CHECK_EQ_INT(load_bytes("\"attributes\":{\"POSITION\":0}", accessor, view, bytes, n), 0)) return (void)puts(error);
+    if (!CHECK_EQ_INT(load_bytes("\"attributes\":{\"POSITION\":0}", accessor, view, bytes, n), 0))
+        return (void)puts(error);
     check_invariants();
     CHECK_NEAR(s.meshes[0].pos[0], first, 1e-15);
     CHECK_NEAR(s.meshes[0].pos[4], second, 1e-15);
@@ -214,9 +227,9 @@ static void test_accessor_types(void)
     check_position_type(5126, "", f, sizeof f, 1.5, -0.25, (double)1e18f);
 }
 
-static const char *const six_points =
-    "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\",\"sparse\":{\"count\":2,"
-    "\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0,\"byteOffset\":4,\"componentType\":5126}}}";
+static const char *const six_points = "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\",\"sparse\":{\"count\":2,"
+                                      "\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{"
+                                      "\"bufferView\":0,\"byteOffset\":4,\"componentType\":5126}}}";
 static const char *const view_28 = "{\"buffer\":0,\"byteLength\":28}";
 
 static void test_sparse(void)
@@ -237,10 +250,12 @@ static void test_sparse(void)
     }
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *accessor = replaced(six_points, cases[i].find, cases[i].put);
-        CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", accessor, view_28, bytes, sizeof bytes), cases[i].expected));
+        CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", accessor, view_28, bytes, sizeof bytes),
+                      cases[i].expected));
     }
     bytes[1] = 1;
-    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes), "does not increase"));
+    CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes),
+                  "does not increase"));
     bytes[1] = 4;
     memcpy(bytes + 4, &(float){NAN}, sizeof(float));
     CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0}", six_points, view_28, bytes, sizeof bytes),
@@ -250,7 +265,8 @@ static void test_sparse(void)
                   "vertex 1: coordinate 2e+18"));
 }
 
-static void check_mode(int mode, int index_type, const void *idx, size_t index_bytes, const uint32_t *expected, size_t n_triangles)
+static void check_mode(int mode, int index_type, const void *idx, size_t index_bytes, const uint32_t *expected,
+                       size_t n_triangles)
 {
     char attributes[100], accessors[300];
     uint8_t bytes[28] = {0};
@@ -263,7 +279,8 @@ static void check_mode(int mode, int index_type, const void *idx, size_t index_b
              index_type);
     if (!CHECK_EQ_INT(load_bytes(attributes, accessors, view_28, bytes, sizeof bytes), 0)) return (void)puts(error);
     CHECK_EQ_INT(s.meshes[0].n_triangles, n_triangles);
-    CHECK(s.meshes[0].n_triangles == n_triangles && memcmp(s.meshes[0].idx, expected, n_triangles * 3 * sizeof *expected) == 0);
+    CHECK(s.meshes[0].n_triangles == n_triangles &&
+          memcmp(s.meshes[0].idx, expected, n_triangles * 3 * sizeof *expected) == 0);
     scene_free(&s);
 }
 
@@ -279,8 +296,9 @@ static void test_modes(void)
     check_mode(4, 5123, (const uint16_t[]){5, 4, 3, 2, 1, 0}, 12, list, 2);
     check_mode(4, 5125, (const uint32_t[]){5, 4, 3, 2, 1, 0}, 24, list, 2);
     check_mode(6, 5121, (const uint8_t[]){3, 1, 5, 0, 2, 4}, 6, fan, 4);
-    static const char accessors[] = "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},{\"bufferView\":0,\"componentType\":"
-                                    "5125,\"count\":3,\"type\":\"SCALAR\"}";
+    static const char accessors[] =
+        "{\"componentType\":5126,\"count\":6,\"type\":\"VEC3\"},{\"bufferView\":0,\"componentType\":"
+        "5125,\"count\":3,\"type\":\"SCALAR\"}";
     const uint32_t idx[7] = {0, 6, 1};
     CHECK(refused(load_bytes("\"attributes\":{\"POSITION\":0},\"indices\":1", accessors, view_28, idx, sizeof idx),
                   "indices: index 1 is 6, there are 6"));
@@ -290,7 +308,8 @@ static void test_modes(void)
 static void test_instances(void)
 {
     const char *text = replaced(without_animation(base_json), "\"nodes\":[0,2,3]", "\"nodes\":[0,2,3,4,5]");
-    text = replaced(text, "{\"strength\":0.5,\"near_offset\":3}}}]", "{}}},{\"mesh\":0},{\"mesh\":0,\"scale\":[-1,1,1]}]");
+    text =
+        replaced(text, "{\"strength\":0.5,\"near_offset\":3}}}]", "{}}},{\"mesh\":0},{\"mesh\":0,\"scale\":[-1,1,1]}]");
     if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
     if (CHECK(s.n_objects == 3 && s.n_meshes == 2)) {
         const uint32_t *a = s.meshes[0].idx, *b = s.meshes[1].idx;
@@ -307,13 +326,15 @@ static void test_gltf_options(void)
     with.ground = true;
     write_file(TMP ".gltf", base_json, sizeof base_json - 1);
     if (CHECK_EQ_INT(load(TMP ".gltf", &with), 0)) {
-        CHECK(s.n_objects == 2 && strcmp(s.objects[1].name, "ground") == 0 && s.objects[1].caster == SCENE_CASTER_OFF && s.objects[1].receives);
+        CHECK(s.n_objects == 2 && strcmp(s.objects[1].name, "ground") == 0 && s.objects[1].caster == SCENE_CASTER_OFF &&
+              s.objects[1].receives);
         scene_free(&s);
     }
     const char *no_material = replaced(base_json, ",\"material\":0", ",\"extensions\":{}");
     no_material = replaced(no_material, "{\"casts\":0}", "{\"casts\":true,\"unlit\":1}");
     if (CHECK_EQ_INT(load_text(TMP ".gltf", no_material), 0)) {
-        CHECK(s.objects[0].caster == SCENE_CASTER_ON && s.objects[0].receives && s.objects[0].unlit && !s.objects[0].two_sided);
+        CHECK(s.objects[0].caster == SCENE_CASTER_ON && s.objects[0].receives && s.objects[0].unlit &&
+              !s.objects[0].two_sided);
         CHECK_NEAR(s.objects[0].albedo[0], 1, 0);
         scene_free(&s);
     }
@@ -321,15 +342,18 @@ static void test_gltf_options(void)
         CHECK(s.objects[0].unlit);
         scene_free(&s);
     }
-    CHECK(refused(load_changed("\"scale\":[2,2,2]", "\"scale\":[2,2,2],\"matrix\":[1e200,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]"),
-                  "cannot be animated"));
+    CHECK(
+        refused(load_changed("\"scale\":[2,2,2]", "\"scale\":[2,2,2],\"matrix\":[1e200,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]"),
+                "cannot be animated"));
     const char *huge = replaced(without_animation(base_json), "\"scale\":[2,2,2]", "\"scale\":[1e19,2,2]");
     CHECK(refused(load_text(TMP ".gltf", huge), "object 'inner', vertex 2: world coordinate -1e+19"));
-    huge = replaced(without_animation(base_json), "\"name\":\"inner\"", "\"scale\":[1e308,1,1],\"translation\":[1e308,0,0]");
+    huge = replaced(without_animation(base_json), "\"name\":\"inner\"",
+                    "\"scale\":[1e308,1,1],\"translation\":[1e308,0,0]");
     CHECK(refused(load_text(TMP ".gltf", huge), "/nodes/1: the transform is too large"));
 }
 
-/* --- GLB ------------------------------------------------------------------------------------------------------------- */
+/* --- GLB -------------------------------------------------------------------------------------------------------------
+ */
 
 static uint8_t glb[16384];
 static size_t n_glb;
@@ -395,7 +419,8 @@ static void test_glb(void)
     }
 }
 
-/* --- OBJ ------------------------------------------------------------------------------------------------------------- */
+/* --- OBJ -------------------------------------------------------------------------------------------------------------
+ */
 
 static const char obj_text[] =
     "# a comment\r\nmtllib test_scene.mtl\r\nv 0 0 0 1 0 0\r\nv 2 0 0 0 1 0 # blue\r\nv 2 2 0\nv 0 2 0\nv 0 0 1\n"
@@ -446,7 +471,8 @@ static void test_obj_errors(void)
     }
     for (size_t i = 0; i < sizeof mtl_errors / sizeof *mtl_errors; i++) {
         write_file(TMP ".mtl", mtl_errors[i].text, strlen(mtl_errors[i].text));
-        if (!CHECK(refused(load_text(TMP ".obj", "mtllib test_scene.mtl\n"), mtl_errors[i].why))) printf("  case %zu\n", i);
+        if (!CHECK(refused(load_text(TMP ".obj", "mtllib test_scene.mtl\n"), mtl_errors[i].why)))
+            printf("  case %zu\n", i);
     }
     snprintf(text, sizeof text, "mtllib a.mtl b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 0\nf 1 2 3 4\nf 1 2 3");
     if (CHECK_EQ_INT(load_text(TMP ".obj", text), 0)) {
@@ -466,7 +492,8 @@ static void test_obj_errors(void)
     }
 }
 
-/* --- meshes and defaults --------------------------------------------------------------------------------------------- */
+/* --- meshes and defaults ---------------------------------------------------------------------------------------------
+ */
 
 static void test_normals(void)
 {
@@ -522,9 +549,11 @@ static double picture_share(int w, int h)
         for (size_t v = 0; v < m->n_vertices; v++) {
             double local[3] = {0, 0, 0};
             for (int k = 0; k < 3; k++) {
-                for (int j = 0; j < 3; j++) local[k] += (m->pos[3 * v + (size_t)j] - c->to_world.m[j][3]) * c->to_world.m[j][k];
+                for (int j = 0; j < 3; j++)
+                    local[k] += (m->pos[3 * v + (size_t)j] - c->to_world.m[j][3]) * c->to_world.m[j][k];
             }
-            CHECK(-local[2] > c->near && -local[2] <= s.shadow.max_distance * (1 - s.shadow.distance_fade) * (1 + 1e-9));
+            CHECK(-local[2] > c->near &&
+                  -local[2] <= s.shadow.max_distance * (1 - s.shadow.distance_fade) * (1 + 1e-9));
             double pixels = fmax(fabs(local[0]), fabs(local[1])) / -local[2] * c->focal * h;
             largest = fmax(largest, pixels / fmin(w, h));
         }
@@ -548,7 +577,8 @@ static void check_cascades(int n_cascades)
 static void check_defaults(int w, int h, double size)
 {
     char text[300];
-    snprintf(text, sizeof text, "v 0 0 0\nv %g 0 0\nv 0 %g 0\nv 0 0 %g\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", size, size, size);
+    snprintf(text, sizeof text, "v 0 0 0\nv %g 0 0\nv 0 %g 0\nv 0 0 %g\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", size,
+             size, size);
     write_file(TMP ".obj", text, strlen(text));
     if (!CHECK_EQ_INT(load(TMP ".obj", &(scene_options){.width = w, .height = h}), 0)) return;
     check_invariants();
@@ -588,7 +618,8 @@ static void test_defaults(void)
     scene_free(&s);
 }
 
-/* --- damage ---------------------------------------------------------------------------------------------------------- */
+/* --- damage ----------------------------------------------------------------------------------------------------------
+ */
 
 static void test_damage(void)
 {

@@ -17,7 +17,8 @@ static int load_light(const char *members, const char *node_members)
 
 static void test_spot(void)
 {
-    static const char members[] = "\"type\":\"spot\",\"range\":32,\"spot\":{\"innerConeAngle\":0.3,\"outerConeAngle\":0.6}";
+    static const char members[] =
+        "\"type\":\"spot\",\"range\":32,\"spot\":{\"innerConeAngle\":0.3,\"outerConeAngle\":0.6}";
     if (!CHECK_EQ_INT(load_light(members, "\"translation\":[1,2,3],\"scale\":[5,5,5]"), 0)) return (void)puts(error);
     check_invariants();
     const scene_light *l = &s.lights[0];
@@ -30,7 +31,7 @@ static void test_spot(void)
     CHECK_NEAR(l->colour[1], 1, 1e-12);
     CHECK_NEAR(l->range, 32, 0);
     CHECK_NEAR(l->near, sqrt(9 * 9 + 2 * 2 + 3 * 3) / 64, 1e-15); /* corner (10, 0, 0) */
-    CHECK_NEAR(l->inner, 6258 / 65536.0, 0); /* 0.3 / pi turns: 6258.23 steps */
+    CHECK_NEAR(l->inner, 6258 / 65536.0, 0);                      /* 0.3 / pi turns: 6258.23 steps */
     CHECK_NEAR(l->outer, 12516 / 65536.0, 0);
     CHECK(l->shadow && l->mode == SCENE_REALTIME && l->mask_channel == -1 && l->softness == SCENE_SOFT_DEFAULT &&
           !l->receiver_plane && l->auto_bias == SCENE_AUTO_BIAS_NORMAL);
@@ -66,7 +67,8 @@ static void test_cones(void)
 /* Of an unlimited range; the scene's box is x 8..10, y 0..2, z 0. */
 static void test_point(void)
 {
-    if (!CHECK_EQ_INT(load_light("\"type\":\"point\"", "\"translation\":[8,0,1],\"scale\":[0,0,0]"), 0)) return (void)puts(error);
+    if (!CHECK_EQ_INT(load_light("\"type\":\"point\"", "\"translation\":[8,0,1],\"scale\":[0,0,0]"), 0))
+        return (void)puts(error);
     check_invariants();
     const scene_light *l = &s.lights[0];
     CHECK(l->kind == SCENE_LIGHT_POINT && isinf(l->range) && l->range > 0);
@@ -81,13 +83,15 @@ static void test_point(void)
     scene_free(&s);
 }
 
-/* The near distance is of what the light can light: a finite range beyond the scene makes no difference, one within it does. */
+/* The near distance is of what the light can light: a finite range beyond the scene makes no difference, one within it
+ * does. */
 static void test_near_of_ranges(void)
 {
     static const struct {
         const char *range;
         double near;
-    } cases[] = {{"3.5", 3 / 64.0}, {"1000", 3 / 64.0}, {"1e7", 3 / 64.0}, {"1e17", 3 / 64.0}, {"3", 3 / 64.0}, {"2", 2 / 64.0}};
+    } cases[] = {{"3.5", 3 / 64.0},  {"1000", 3 / 64.0}, {"1e7", 3 / 64.0},
+                 {"1e17", 3 / 64.0}, {"3", 3 / 64.0},    {"2", 2 / 64.0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char members[64];
         snprintf(members, sizeof members, "\"type\":\"point\",\"range\":%s", cases[i].range);
@@ -112,15 +116,18 @@ static void test_light_errors(void)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         if (!CHECK(refused(load_light(cases[i][0], "\"name\":\"x\""), cases[i][1]))) printf("  case %zu\n", i);
     }
-    CHECK(refused(load_light("\"type\":\"point\"", "\"translation\":[0,1e19,0]"), "/nodes/3: the light's position 1e+19"));
-    CHECK(refused(load_light("\"type\":\"spot\",\"spot\":{}", "\"scale\":[0,0,0]"), "the light's transform has no direction"));
+    CHECK(refused(load_light("\"type\":\"point\"", "\"translation\":[0,1e19,0]"),
+                  "/nodes/3: the light's position 1e+19"));
+    CHECK(refused(load_light("\"type\":\"spot\",\"spot\":{}", "\"scale\":[0,0,0]"),
+                  "the light's transform has no direction"));
 }
 
 static void test_light_knobs(void)
 {
-    static const char knobs[] = "\"bias_constant\":0.5,\"bias_caster\":0.25,\"bias_receiver\":[1,2,3,4],\"receiver_plane\":1,"
-                                "\"near\":0.125,\"auto_bias\":\"depth\","
-                                "\"softness\":\"soft\",\"mode\":\"mixed\",\"mask_channel\":3,\"shadow\":false,\"bias_normal\":0";
+    static const char knobs[] =
+        "\"bias_constant\":0.5,\"bias_caster\":0.25,\"bias_receiver\":[1,2,3,4],\"receiver_plane\":1,"
+        "\"near\":0.125,\"auto_bias\":\"depth\","
+        "\"softness\":\"soft\",\"mode\":\"mixed\",\"mask_channel\":3,\"shadow\":false,\"bias_normal\":0";
     const char *text = replaced(without_animation(base_json), "\"strength\":0.9,\"bias_slope\":2", knobs);
     text = replaced(text, "\"type\":\"directional\"", "\"type\":\"point\"");
     text = replaced(text, "\"strength\":0.5,", "\"strength\":0.5,\"softness\":\"hard\",");
@@ -132,9 +139,11 @@ static void test_light_knobs(void)
     CHECK_NEAR(l->near, 0.125, 0);
     for (int i = 0; i < 4; i++) CHECK_NEAR(l->bias_receiver[i], ((const double[]){1, 2, 3, 4})[i], 0);
     CHECK_EQ_INT(l->auto_bias, SCENE_AUTO_BIAS_DEPTH);
-    CHECK(l->receiver_plane && !l->shadow && l->softness == SCENE_SOFT_HARD && l->mode == SCENE_MIXED && l->mask_channel == 3);
+    CHECK(l->receiver_plane && !l->shadow && l->softness == SCENE_SOFT_HARD && l->mode == SCENE_MIXED &&
+          l->mask_channel == 3);
     scene_free(&s);
-    if (CHECK_EQ_INT(load_changed("\"strength\":0.9", "\"mode\":\"baked\",\"mask_channel\":-1,\"softness\":\"default\""), 0)) {
+    if (CHECK_EQ_INT(
+            load_changed("\"strength\":0.9", "\"mode\":\"baked\",\"mask_channel\":-1,\"softness\":\"default\""), 0)) {
         CHECK(s.lights[0].mode == SCENE_BAKED && s.lights[0].mask_channel == -1);
         scene_free(&s);
     }
@@ -165,7 +174,8 @@ static void test_light_knobs(void)
     CHECK(refused(load_changed("\"bias_slope\":2", "\"bias_slope\":64.5"), "bias_slope: 64.5 is not in 0..64"));
 }
 
-/* --- added lights ---------------------------------------------------------------------------------------------------- */
+/* --- added lights ----------------------------------------------------------------------------------------------------
+ */
 
 /* DESIGN 1.8: what arrives at a point. */
 static double arrives(const scene_light *l, const double *p)
@@ -196,7 +206,8 @@ static void load_cube(double half, double x, double y, double z)
         n += snprintf(text + n, sizeof text - (size_t)n, "v %.9g %.9g %.9g\n", x + (i & 4 ? half : -half),
                       y + (i & 2 ? half : -half), z + (i & 1 ? half : -half));
     for (int i = 0; i < 6; i++)
-        n += snprintf(text + n, sizeof text - (size_t)n, "f %d %d %d %d\n", faces[i][0], faces[i][1], faces[i][2], faces[i][3]);
+        n += snprintf(text + n, sizeof text - (size_t)n, "f %d %d %d %d\n", faces[i][0], faces[i][1], faces[i][2],
+                      faces[i][3]);
     CHECK_EQ_INT(load_text(TMP ".obj", text), 0);
 }
 
@@ -251,7 +262,8 @@ static void test_added_lights(void)
     check_added(20, 100, -7, 3);
     check_added(1.0 / 256, 0, 0, 0);
     scene empty = {.camera = {.focal = 1, .near = 1, .far = 2}, .shadow = {.max_distance = 2}};
-    for (int kind = 0; kind < 3; kind++) CHECK_EQ_INT(scene_add_light(&empty, (scene_light_kind)kind, error, sizeof error), 0);
+    for (int kind = 0; kind < 3; kind++)
+        CHECK_EQ_INT(scene_add_light(&empty, (scene_light_kind)kind, error, sizeof error), 0);
     CHECK_EQ_INT(empty.n_lights, 3);
     scene_free(&empty);
 }
@@ -282,13 +294,15 @@ static void test_shadow_defaults(void)
 {
     load_cube(1, 0, 0, 0);
     const scene_shadow *w = &s.shadow;
-    CHECK(w->other_filter == w->filter && w->kernel == SCENE_KERNEL_TENT && w->disk_samples == 16 && w->mixing == SCENE_MIX_NONE);
+    CHECK(w->other_filter == w->filter && w->kernel == SCENE_KERNEL_TENT && w->disk_samples == 16 &&
+          w->mixing == SCENE_MIX_NONE);
     CHECK(!w->main_light && w->caster_culling && w->tiles == SCENE_TILES_EQUAL && w->object_lights == 8);
     for (int i = 0; i < 4; i++) CHECK_EQ_INT(w->refresh[i], 1);
     CHECK_NEAR(w->penumbra, 1, 0);
     for (size_t i = 0; i < s.n_objects; i++) {
         const scene_object *o = &s.objects[i];
-        CHECK(o->texture_idx == SCENE_NONE && o->mask_texture_idx == SCENE_NONE && !o->mask && !o->baked && o->shininess_log2 == 5);
+        CHECK(o->texture_idx == SCENE_NONE && o->mask_texture_idx == SCENE_NONE && !o->mask && !o->baked &&
+              o->shininess_log2 == 5);
         CHECK(o->visible_alpha == SCENE_ALPHA_OPAQUE && !o->hidden && !o->moving && !o->casts_two_sided && o->receives);
         CHECK_NEAR(o->alpha, 1, 0);
         CHECK_NEAR(o->alpha_cutoff, 0.5, 0);

@@ -10,25 +10,30 @@
 #include "data/png_fixture.h"
 #include "data/scene_fixture.h"
 
-/* A quad with two sets of texture coordinates and baked light; two textures of one image (the second one clamped and nearest), a
- * spot and a point light. %s: the image's base64. */
+/* A quad with two sets of texture coordinates and baked light; two textures of one image (the second one clamped and
+ * nearest), a spot and a point light. %s: the image's base64. */
 static const char textured_json[] =
     "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],\n"
-    "\"nodes\":[{\"mesh\":0,\"name\":\"a\"},{\"mesh\":1,\"name\":\"b\",\"scale\":[-1,1,1]},{\"mesh\":0,\"name\":\"c\"},\n"
+    "\"nodes\":[{\"mesh\":0,\"name\":\"a\"},{\"mesh\":1,\"name\":\"b\",\"scale\":[-1,1,1]},{\"mesh\":0,\"name\":\"c\"},"
+    "\n"
     "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}},\"translation\":[0,0,3]},"
     "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":1}},\"translation\":[1,2,3]}],\n"
     "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"spot\",\"intensity\":9,\"range\":20,\"spot\":{"
     "\"innerConeAngle\":0.2,"
     "\"outerConeAngle\":0.5},\"extras\":{\"gnomon\":{\"softness\":\"hard\",\"bias_receiver\":[0,0,1,0]}}},"
-    "{\"type\":\"point\",\"intensity\":9,\"extras\":{\"gnomon\":{\"near\":0.1,\"mask_channel\":2,\"mode\":\"mixed\"}}}]}},\n"
+    "{\"type\":\"point\",\"intensity\":9,\"extras\":{\"gnomon\":{\"near\":0.1,\"mask_channel\":2,\"mode\":\"mixed\"}}}]"
+    "}},\n"
     "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":2,\"TEXCOORD_1\":3,\"_GNOMON_MASK\":4,"
     "\"_GNOMON_BAKED\":5},\"indices\":1,\"material\":0}]},\n"
-    "{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":2,\"TEXCOORD_1\":3},\"indices\":1,\"material\":1}]}],\n"
+    "{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":2,\"TEXCOORD_1\":3},\"indices\":1,\"material\":1}]"
+    "}],\n"
     "\"materials\":[{\"name\":\"paint\",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}},"
-    "{\"name\":\"glass\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,0.25],\"baseColorTexture\":{\"index\":1,\"texCoord\":"
+    "{\"name\":\"glass\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,1,1,0.25],\"baseColorTexture\":{\"index\":1,"
+    "\"texCoord\":"
     "1}},"
     "\"alphaMode\":\"BLEND\"}],\n"
-    "\"textures\":[{\"source\":0},{\"source\":0,\"sampler\":0}],\"samplers\":[{\"wrapS\":33071,\"wrapT\":10497,\"magFilter\":9728},"
+    "\"textures\":[{\"source\":0},{\"source\":0,\"sampler\":0}],\"samplers\":[{\"wrapS\":33071,\"wrapT\":10497,"
+    "\"magFilter\":9728},"
     "{\"wrapS\":33071}]"
     ",\n"
     "\"images\":[{\"name\":\"checks\",\"uri\":\"data:image/png;base64,%s\"}],\n"
@@ -106,7 +111,8 @@ static void test_textured(void)
     const scene_object *a = &s.objects[0], *b = &s.objects[1], *c = &s.objects[2];
     const scene_texture *t = &s.textures[0], *u = &s.textures[1];
     CHECK(a->texture_idx == 0 && b->texture_idx == 1 && c->texture_idx == 0 && a->mesh_idx == c->mesh_idx);
-    CHECK(strcmp(t->name, "checks") == 0 && t->width == 2 && t->height == 2 && !t->clamp_u && !t->clamp_v && t->bilinear);
+    CHECK(strcmp(t->name, "checks") == 0 && t->width == 2 && t->height == 2 && !t->clamp_u && !t->clamp_v &&
+          t->bilinear);
     CHECK(u->clamp_u && !u->clamp_v && !u->bilinear);
     for (int i = 0; i < 16; i++) CHECK(t->rgba[i] == i + 1 && u->rgba[i] == i + 1);
     CHECK(a->visible_alpha == SCENE_ALPHA_OPAQUE && a->caster == SCENE_CASTER_ON);
@@ -138,7 +144,8 @@ static void test_image_places(void)
     CHECK(refused(load_text(TMP ".gltf", replaced(json, "%201", "_none")),
                   "/images/0/uri: build/tmp/test_scene_surfaces_none.png cannot"));
     json = replaced(json, "\"uri\":\"test_scene_surfaces%201.png\"", "\"bufferView\":2,\"mimeType\":\"image/png\"");
-    json = replaced(json, "\"byteLength\":12}", "\"byteLength\":12},{\"buffer\":1,\"byteOffset\":3,\"byteLength\":%zu}");
+    json =
+        replaced(json, "\"byteLength\":12}", "\"byteLength\":12},{\"buffer\":1,\"byteOffset\":3,\"byteLength\":%zu}");
     json = replaced(json, "\"uri\":\"test_scene_surfaces.bin\"}",
                     "\"uri\":\"test_scene_surfaces.bin\"},{\"byteLength\":%zu,\"uri\":\"test_scene_surfaces.2\"}");
     snprintf(text, sizeof text, json, n_made, n_made + 3);
@@ -155,12 +162,15 @@ static void test_texture_changes(void)
 {
     static const change notes[] = {
         {"\"wrapS\":33071", "\"wrapS\":33648", "mirrored repeat of texture 'checks'"},
-        {"{\"source\":0}", "{\"extensions\":{\"EXT_texture_webp\":{}}}", "texture 'texture 0' ignored: it has no image"},
+        {"{\"source\":0}", "{\"extensions\":{\"EXT_texture_webp\":{}}}",
+         "texture 'texture 0' ignored: it has no image"},
         {"data:image/png;base64,", "data:image/jpeg;base64,/9j/", "texture 'checks' ignored: only PNG"},
         {"\"texCoord\":1", "\"texCoord\":2", "base colour texture of material 'glass' ignored: it takes TEXCOORD_2"},
-        {"\"texCoord\":1", "\"texCoord\":0,\"extensions\":{\"KHR_texture_transform\":{}}", "texture transform of material 'glass'"},
+        {"\"texCoord\":1", "\"texCoord\":0,\"extensions\":{\"KHR_texture_transform\":{}}",
+         "texture transform of material 'glass'"},
         {"\"TEXCOORD_0\":2", "\"x\":2", "base colour texture of mesh 'mesh 0' ignored: it has no texture coordinates"},
-        {"\"baseColorFactor\":[1,1,1,0.25]", "\"baseColorFactor\":[1,1,1,2]", "base colour of material 'glass' outside 0..1"},
+        {"\"baseColorFactor\":[1,1,1,0.25]", "\"baseColorFactor\":[1,1,1,2]",
+         "base colour of material 'glass' outside 0..1"},
     };
     static const change errors[] = {
         {"\"wrapS\":33071", "\"wrapS\":1", "/samplers/0/wrapS: wrap mode 1"},
@@ -185,7 +195,8 @@ static void test_texture_changes(void)
         scene_free(&s);
     }
     for (size_t i = 0; i + 2 < sizeof errors / sizeof *errors; i++) {
-        if (!CHECK(refused(load_textured(errors[i].find, errors[i].put), errors[i].expected))) printf("  case %zu\n", i);
+        if (!CHECK(refused(load_textured(errors[i].find, errors[i].put), errors[i].expected)))
+            printf("  case %zu\n", i);
     }
     CHECK(refused(load_textured("\"uri\":\"data", "\"x\":\"data"), "/images/0: uri or bufferView is needed"));
     CHECK(refused(load_textured("\"images\":[", "\"images\":[0,"), "/images/0: an object"));
@@ -222,16 +233,18 @@ static void test_shared_textures(void)
     CHECK_EQ_INT(count_textures("\"textures\":[{\"source\":0},{\"source\":1}]", second), 2);
 }
 
-/* --- sizes ----------------------------------------------------------------------------------------------------------- */
+/* --- sizes -----------------------------------------------------------------------------------------------------------
+ */
 
 /* Three texels in a row become four: texel centres at -1/8, 5/8, 11/8 and 17/8 of the old ones. */
-static void check_resampled(const uint8_t *row, const char *find, const char *put, const uint8_t *colour, const uint8_t *alpha)
+static void check_resampled(const uint8_t *row, const char *find, const char *put, const uint8_t *colour,
+                            const uint8_t *alpha)
 {
     make_png(3, 1, row);
     if (!CHECK_EQ_INT(load_text(TMP ".gltf", replaced(textured(), find, put)), 0)) return (void)puts(error);
     check_invariants();
-    const scene_texture *t =
-        &s.textures[s.objects[0].mask_texture_idx == SCENE_NONE ? s.objects[0].texture_idx : s.objects[0].mask_texture_idx];
+    const scene_texture *t = &s.textures[s.objects[0].mask_texture_idx == SCENE_NONE ? s.objects[0].texture_idx
+                                                                                     : s.objects[0].mask_texture_idx];
     CHECK(t->width == 4 && t->height == 1 && has_note("texture 'checks' of 3x1 is resampled to 4x1"));
     for (int i = 0; i < 4; i++) {
         CHECK_EQ_INT(t->rgba[4 * i], colour[i]);
@@ -248,8 +261,10 @@ static void test_resampling(void)
     static const uint8_t faint[13] = {0, 9, 9, 9, 0, 8, 8, 8, 1, 7, 7, 7, 2};
     static const uint8_t left[13] = {0, 255, 255, 255, 255, 0, 0, 0, 0, 0, 0, 0, 0};
     static const char same[] = "{\"source\":0}", clamped[] = "{\"source\":0,\"sampler\":1}",
-                      nearest[] = "{\"source\":0,\"sampler\":0}", mask[] = "\"extras\":{\"gnomon\":{\"mask_texture\":0}},";
-    /* 5/8 in linear light is 207 of sRGB, 7/8 is 240, 3/8 is 165; alpha 159, 223 and 96. Clear texels have no colour to give. */
+                      nearest[] = "{\"source\":0,\"sampler\":0}",
+                      mask[] = "\"extras\":{\"gnomon\":{\"mask_texture\":0}},";
+    /* 5/8 in linear light is 207 of sRGB, 7/8 is 240, 3/8 is 165; alpha 159, 223 and 96. Clear texels have no colour to
+     * give. */
     check_resampled(opaque, same, same, (const uint8_t[]){0, 207, 207, 0}, (const uint8_t[]){255, 255, 255, 255});
     check_resampled(middle, same, same, (const uint8_t[]){0, 255, 255, 0}, (const uint8_t[]){0, 159, 159, 0});
     check_resampled(left, same, same, (const uint8_t[]){255, 255, 0, 255}, (const uint8_t[]){223, 96, 0, 32});
@@ -258,7 +273,8 @@ static void test_resampling(void)
     check_resampled(faint, same, nearest, (const uint8_t[]){9, 8, 8, 7}, (const uint8_t[]){0, 1, 1, 2});
     char put[100]; /* a mask image holds plain numbers, and is clamped */
     snprintf(put, sizeof put, "%s\"name\":\"paint\"", mask);
-    check_resampled(left, "\"name\":\"paint\"", put, (const uint8_t[]){255, 96, 0, 0}, (const uint8_t[]){255, 96, 0, 0});
+    check_resampled(left, "\"name\":\"paint\"", put, (const uint8_t[]){255, 96, 0, 0},
+                    (const uint8_t[]){255, 96, 0, 0});
     static const uint8_t upper[15] = {0, 0, 0, 0, 255, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     make_png(1, 3, upper);
     if (CHECK_EQ_INT(load_text(TMP ".gltf", replaced(textured(), same, clamped)), 0)) { /* in one direction only */
@@ -283,30 +299,33 @@ static void test_resampling(void)
     CHECK(refused(load_text(TMP ".gltf", textured()), "/images/0: the picture size is out of range"));
 }
 
-/* --- knobs ----------------------------------------------------------------------------------------------------------- */
+/* --- knobs -----------------------------------------------------------------------------------------------------------
+ */
 
 static void test_surface_knobs(void)
 {
     static const char all[] =
-        "\"name\":\"paint\",\"extras\":{\"gnomon\":{\"caster\":\"clip\",\"casts_two_sided\":1,\"hidden\":true,\"moving\":1,"
+        "\"name\":\"paint\",\"extras\":{\"gnomon\":{\"caster\":\"clip\",\"casts_two_sided\":1,\"hidden\":true,"
+        "\"moving\":1,"
         "\"receives\":0,\"unlit\":1,\"visible_alpha\":\"clip\",\"alpha_cutoff\":0.75,\"specular\":[0.25,0.5,1],"
         "\"shininess_log2\":7,\"mask_texture\":1}},\"doubleSided\":true";
-    static const char node[] =
-        "\"name\":\"c\",\"extras\":{\"gnomon\":{\"caster\":\"off\",\"hidden\":0,\"specular\":0.125,\"visible_alpha\":\"opaque\"}}";
+    static const char node[] = "\"name\":\"c\",\"extras\":{\"gnomon\":{\"caster\":\"off\",\"hidden\":0,\"specular\":0."
+                               "125,\"visible_alpha\":\"opaque\"}}";
     make_png(2, 2, checks);
     const char *text = replaced(textured(), "\"name\":\"paint\"", all);
     if (!CHECK_EQ_INT(load_text(TMP ".gltf", replaced(text, "\"name\":\"c\"", node)), 0)) return (void)puts(error);
     check_invariants();
     const scene_object *a = &s.objects[0], *c = &s.objects[2];
-    CHECK(a->caster == SCENE_CASTER_CLIP && a->casts_two_sided && a->two_sided && a->hidden && a->moving && !a->receives &&
-          a->unlit);
+    CHECK(a->caster == SCENE_CASTER_CLIP && a->casts_two_sided && a->two_sided && a->hidden && a->moving &&
+          !a->receives && a->unlit);
     CHECK(a->visible_alpha == SCENE_ALPHA_CLIP && a->shininess_log2 == 7);
     CHECK_NEAR(a->alpha_cutoff, 0.75, 0);
     for (int i = 0; i < 3; i++) CHECK_NEAR(a->specular[i], ((const double[]){0.25, 0.5, 1})[i], 0);
     CHECK(c->caster == SCENE_CASTER_OFF && !c->hidden && c->visible_alpha == SCENE_ALPHA_OPAQUE && c->unlit);
     CHECK_NEAR(c->specular[2], 0.125, 0);
     const scene_texture *mask = &s.textures[a->mask_texture_idx]; /* apart from the picture: it is clamped and smooth */
-    CHECK(a->mask_texture_idx != a->texture_idx && mask->clamp_u && mask->clamp_v && mask->bilinear && s.n_textures == 3);
+    CHECK(a->mask_texture_idx != a->texture_idx && mask->clamp_u && mask->clamp_v && mask->bilinear &&
+          s.n_textures == 3);
     CHECK(s.meshes[0].mask_uv && s.meshes[0].mask_uv[1] >= 1 && s.shadow.mixing == SCENE_MIX_DISTANCE);
     scene_free(&s);
     const char *bare = replaced(textured(), "\"_GNOMON_MASK\":4", "\"x\":4");
@@ -343,7 +362,8 @@ static void test_casting(void)
     check_casting("\"alphaMode\":\"MASK\",\"extras\":{\"gnomon\":{\"casts\":0}}", "\"casts\":1", SCENE_CASTER_CLIP);
     check_casting("\"alphaMode\":\"MASK\"", "\"caster\":\"on\"", SCENE_CASTER_ON);
     check_casting("\"alphaMode\":\"BLEND\"", "\"casts\":0,\"caster\":\"dither\"", SCENE_CASTER_DITHER);
-    if (!CHECK_EQ_INT(load_textured("\"alphaMode\":\"BLEND\"", "\"alphaMode\":\"MASK\",\"alphaCutoff\":0.125"), 0)) return;
+    if (!CHECK_EQ_INT(load_textured("\"alphaMode\":\"BLEND\"", "\"alphaMode\":\"MASK\",\"alphaCutoff\":0.125"), 0))
+        return;
     CHECK(s.objects[1].visible_alpha == SCENE_ALPHA_CLIP);
     CHECK_NEAR(s.objects[1].alpha_cutoff, 0.125, 0);
     CHECK_NEAR(s.objects[0].alpha_cutoff, 0.5, 0);
@@ -369,12 +389,14 @@ static void test_moving(void)
     CHECK_EQ_INT(moves(replaced(base_json, "{\"casts\":0}", "{\"moving\":0}")), 0);
     CHECK_EQ_INT(moves(replaced(base_json, "\"receives\":false", "\"moving\":false")), 0);
     CHECK_EQ_INT(moves(replaced(without_animation(base_json), "\"receives\":false", "\"moving\":true")), 1);
-    const char *text = replaced(base_json, "\"target\":{\"node\":0,\"path\":\"tr", "\"target\":{\"node\":2,\"path\":\"tr");
+    const char *text =
+        replaced(base_json, "\"target\":{\"node\":0,\"path\":\"tr", "\"target\":{\"node\":2,\"path\":\"tr");
     text = replaced(text, "\"target\":{\"node\":1,", "\"target\":{\"node\":2,");
     CHECK_EQ_INT(moves(replaced(text, "\"target\":{\"node\":0,", "\"target\":{\"node\":2,")), 0);
 }
 
-/* --- many vertices ---------------------------------------------------------------------------------------------------- */
+/* --- many vertices
+ * ---------------------------------------------------------------------------------------------------- */
 
 enum { N_STRIP = 70002, STRIP_BYTES = N_STRIP * 36 };
 /* Per vertex i: position (i / 2, i % 2, 0), texture coordinate (i, -i), mask the bytes of i, baked (i, 2 i, 0.5). */
@@ -393,14 +415,16 @@ static void write_strip(void)
 static void test_split_attributes(void)
 {
     static const char format[] =
-        "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"mode\":5,\"material\":0,"
+        "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"mode\":5,"
+        "\"material\":0,"
         "\"attributes\":{"
         "\"POSITION\":0,\"TEXCOORD_0\":1,\"_GNOMON_MASK\":2,\"_GNOMON_BAKED\":3}}]}],"
         "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],\"textures\":[{\"source\":0}],"
         "\"images\":[{\"uri\":\"test_scene_surfaces.png\"}],\"accessors\":["
         "{\"bufferView\":0,\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\"},"
         "{\"bufferView\":0,\"byteOffset\":12,\"componentType\":5126,\"count\":%d,\"type\":\"VEC2\"},"
-        "{\"bufferView\":0,\"byteOffset\":32,\"componentType\":5121,\"normalized\":true,\"count\":%d,\"type\":\"VEC4\"},"
+        "{\"bufferView\":0,\"byteOffset\":32,\"componentType\":5121,\"normalized\":true,\"count\":%d,\"type\":\"VEC4\"}"
+        ","
         "{\"bufferView\":0,\"byteOffset\":20,\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\"}],"
         "\"bufferViews\":[{\"buffer\":0,\"byteLength\":%d,\"byteStride\":36}],"
         "\"buffers\":[{\"byteLength\":%d,\"uri\":\"test_scene_surfaces.bin\"}]}";
@@ -430,16 +454,18 @@ static void test_split_attributes(void)
 
 static void test_baked_ranges(void)
 {
-    static const char as_float[] = "{\"bufferView\":0,\"byteOffset\":124,\"componentType\":5126,\"count\":4,\"type\":\"VEC4\"}";
+    static const char as_float[] =
+        "{\"bufferView\":0,\"byteOffset\":124,\"componentType\":5126,\"count\":4,\"type\":\"VEC4\"}";
     const float values[16] = {0.5f, -1, 2, 1, 0.25f, 0, 0, 0};
     memcpy(bin + 124, values, sizeof values);
     write_file(TMP ".bin", bin, sizeof bin);
     const char *text = replaced(textured(), ",\"_GNOMON_BAKED\":5", "");
     text = replaced(text, "\"byteLength\":172}", "\"byteLength\":188}");
     text = replaced(text, "\"byteLength\":172,", "\"byteLength\":188,");
-    text = replaced(
-        text, "{\"bufferView\":0,\"byteOffset\":108,\"componentType\":5121,\"normalized\":true,\"count\":4,\"type\":\"VEC4\"}",
-        as_float);
+    text = replaced(text,
+                    "{\"bufferView\":0,\"byteOffset\":108,\"componentType\":5121,\"normalized\":true,\"count\":4,"
+                    "\"type\":\"VEC4\"}",
+                    as_float);
     if (CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) {
         static const uint8_t expected[5] = {128, 0, 255, 255, 64};
         CHECK(memcmp(s.objects[0].mask, expected, 5) == 0 && has_note("shadow masks of 'mesh 0' outside 0..1"));
@@ -449,12 +475,15 @@ static void test_baked_ranges(void)
     write_bin();
 }
 
-/* --- OBJ ------------------------------------------------------------------------------------------------------------- */
+/* --- OBJ -------------------------------------------------------------------------------------------------------------
+ */
 
-static const char obj_text[] = "mtllib test_scene_surfaces.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0.25\nvt 1 0 0\nvt 0.5\n"
-                               "usemtl wood\nf 1/1 2/2 3/3\nf 1/2 3/3 4\nusemtl plain\nf 1/1 2/2 3/3\nf 1/3 3/1 4/1\n";
-static const char mtl_text[] = "newmtl plain\nTr 0.75\nnewmtl wood\nmap_Kd -clamp on -s 1 1 1 -bm 2 test_scene_surfaces.png\n"
-                               "newmtl other\nmap_Kd -clamp on .\\/test_scene_surfaces.png\nmap_d x.png\nnewmtl clear\nd 2\n";
+static const char obj_text[] =
+    "mtllib test_scene_surfaces.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0.25\nvt 1 0 0\nvt 0.5\n"
+    "usemtl wood\nf 1/1 2/2 3/3\nf 1/2 3/3 4\nusemtl plain\nf 1/1 2/2 3/3\nf 1/3 3/1 4/1\n";
+static const char mtl_text[] =
+    "newmtl plain\nTr 0.75\nnewmtl wood\nmap_Kd -clamp on -s 1 1 1 -bm 2 test_scene_surfaces.png\n"
+    "newmtl other\nmap_Kd -clamp on .\\/test_scene_surfaces.png\nmap_d x.png\nnewmtl clear\nd 2\n";
 
 static void test_obj_texture(void)
 {
@@ -487,7 +516,8 @@ static void test_obj_texture(void)
     CHECK(refused(load(TMP ".obj", &plain), TMP ".png: a chunk is cut off"));
 }
 
-/* --- damage ---------------------------------------------------------------------------------------------------------- */
+/* --- damage ----------------------------------------------------------------------------------------------------------
+ */
 
 static void test_damage(void)
 {
@@ -496,7 +526,8 @@ static void test_damage(void)
     size_t n = strlen(text);
     static char valid[16384];
     memcpy(valid,
-           replaced(text, "\"name\":\"paint\"", "\"extras\":{\"gnomon\":{\"mask_texture\":1,\"specular\":0.5}},\"name\":\"paint\""),
+           replaced(text, "\"name\":\"paint\"",
+                    "\"extras\":{\"gnomon\":{\"mask_texture\":1,\"specular\":0.5}},\"name\":\"paint\""),
            sizeof valid);
     n = strlen(valid);
     if (CHECK_EQ_INT(load_text(TMP ".gltf", valid), 0)) scene_free(&s);

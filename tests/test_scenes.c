@@ -1,5 +1,6 @@
-/* The project's own scenes: the committed files are what the generator writes, casters are closed, budgets hold, every scene shows
- * what it is there for, baked masks agree with rays, and the sundial tells the time. Run from the project's folder. */
+/* The project's own scenes: the committed files are what the generator writes, casters are closed, budgets hold, every
+ * scene shows what it is there for, baked masks agree with rays, and the sundial tells the time. Run from the project's
+ * folder. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +24,8 @@ static int load(scene *s, const char *path, int frame)
     return ok;
 }
 
-/* --- The files ------------------------------------------------------------------------------------------------------- */
+/* --- The files -------------------------------------------------------------------------------------------------------
+ */
 
 static void test_committed_bytes(const char *path, int (*write)(FILE *))
 {
@@ -76,7 +78,8 @@ static int is_in_view(const scene *s, double corner[3][3], double aspect)
     for (int k = 0; k < 3; k++) {
         for (int axis = 0; axis < 3; axis++) {
             v[k][axis] = 0;
-            for (int i = 0; i < 3; i++) v[k][axis] += (corner[k][i] - c->m[i][3]) * c->m[i][axis] * (axis == 2 ? -1 : 1);
+            for (int i = 0; i < 3; i++)
+                v[k][axis] += (corner[k][i] - c->m[i][3]) * c->m[i][axis] * (axis == 2 ? -1 : 1);
         }
         v[k][0] *= s->camera.focal / aspect;
         v[k][1] *= s->camera.focal;
@@ -89,8 +92,10 @@ static int is_in_view(const scene *s, double corner[3][3], double aspect)
         }
         beyond &= out | (unsigned)(v[k][2] < s->camera.near) << 4;
     }
-    /* The triangle's plane and the eye, in view coordinates with depth positive: that mirrors, so outside is negative. */
-    double volume = v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) - v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
+    /* The triangle's plane and the eye, in view coordinates with depth positive: that mirrors, so outside is negative.
+     */
+    double volume = v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) -
+                    v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
                     v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
     return beyond == 0 && volume > 0;
 }
@@ -122,7 +127,8 @@ static void test_budget(const char *path, size_t n_lights, size_t n_most, size_t
     scene_free(&s);
 }
 
-/* --- Closed casters -------------------------------------------------------------------------------------------------- */
+/* --- Closed casters --------------------------------------------------------------------------------------------------
+ */
 
 typedef struct {
     double from[3], to[3];
@@ -166,8 +172,8 @@ static size_t find_body(size_t *body, size_t triangle)
     return triangle;
 }
 
-/* Every edge is used once, and once in the other direction: no hole, no crack, no face turned the wrong way. And every body has its
- * outside outside. */
+/* Every edge is used once, and once in the other direction: no hole, no crack, no face turned the wrong way. And every
+ * body has its outside outside. */
 static void check_bodies(directed_edge *edges, size_t n, double *volume, size_t *body)
 {
     size_t n_doubled = 0, n_open = 0, n_inside_out = 0;
@@ -211,7 +217,8 @@ static void test_closed_casters(const char *path)
     scene_free(&s);
 }
 
-/* --- The hour -------------------------------------------------------------------------------------------------------- */
+/* --- The hour --------------------------------------------------------------------------------------------------------
+ */
 
 typedef struct {
     double east, north;
@@ -232,7 +239,8 @@ static plan cast(const double *p, const double *light)
     return (plan){p[0] + t * light[0], -(p[2] + t * light[2])};
 }
 
-/* The shadows of the two ends of the style's edge on one side of the gnomon: its tip, and its foot, the southernmost corner. */
+/* The shadows of the two ends of the style's edge on one side of the gnomon: its tip, and its foot, the southernmost
+ * corner. */
 static void cast_style(const scene *s, double side, plan *foot, plan *tip)
 {
     const scene_mesh *m = &s->meshes[find_object(s, "gnomon", 0)->mesh_idx];
@@ -293,7 +301,8 @@ static void test_hours(void)
     for (int frame = 0; frame <= last; frame += 4) check_frame(frame);
 }
 
-/* --- Rays ------------------------------------------------------------------------------------------------------------ */
+/* --- Rays ------------------------------------------------------------------------------------------------------------
+ */
 
 static double dot(const double *a, const double *b)
 {
@@ -305,7 +314,8 @@ static void subtract(double *out, const double *a, const double *b)
     for (int i = 0; i < 3; i++) out[i] = a[i] - b[i];
 }
 
-/* Where the ray from p meets the triangle, in lengths of the ray; negative: nowhere. *front: is it seen from its front? */
+/* Where the ray from p meets the triangle, in lengths of the ray; negative: nowhere. *front: is it seen from its front?
+ */
 static double meet(const double *p, const double *ray, double corner[3][3], int *front)
 {
     double v[3][3], w[3], total = 0;
@@ -326,7 +336,8 @@ typedef struct {
     double at, normal[3];       /* at: in lengths of the ray; normal: to the front, of any length */
 } hit;
 
-/* The first triangle along the ray up to its length. Casters, from either side, that `casts` asks for; else what is seen. */
+/* The first triangle along the ray up to its length. Casters, from either side, that `casts` asks for; else what is
+ * seen. */
 static hit cast_ray(const scene *s, const double *p, const double *ray, int (*casts)(const scene_object *))
 {
     hit best = {.at = casts ? 1 : HUGE_VAL};
@@ -342,7 +353,8 @@ static hit cast_ray(const scene *s, const double *p, const double *ray, int (*ca
             best = (hit){.object = o, .at = at};
             subtract(ab, corner[1], corner[0]);
             subtract(ac, corner[2], corner[0]);
-            for (int k = 0; k < 3; k++) best.normal[k] = ab[(k + 1) % 3] * ac[(k + 2) % 3] - ab[(k + 2) % 3] * ac[(k + 1) % 3];
+            for (int k = 0; k < 3; k++)
+                best.normal[k] = ab[(k + 1) % 3] * ac[(k + 2) % 3] - ab[(k + 2) % 3] * ac[(k + 1) % 3];
         }
     }
     return best;
@@ -370,7 +382,8 @@ static void way_to_light(const scene_light *light, const double *p, double *out)
     for (int i = 0; i < 3; i++) out[i] *= 1 - light->near / length;
 }
 
-/* --- What each scene is for ------------------------------------------------------------------------------------------ */
+/* --- What each scene is for ------------------------------------------------------------------------------------------
+ */
 
 static const scene_object *need_object(const scene *s, const char *name)
 {
@@ -444,7 +457,8 @@ static void test_room(void)
     const double eye[3] = {c->m[0][3], c->m[1][3], c->m[2][3]};
     CHECK(s.lights[0].kind == SCENE_LIGHT_POINT && s.lights[0].shadow);
     for (int i = 0; i < W * H; i++) {
-        double x = ((i % W + 0.5) / W * 2 - 1) * 4 / 3 / s.camera.focal, y = (1 - (i / W + 0.5) / H * 2) / s.camera.focal;
+        double x = ((i % W + 0.5) / W * 2 - 1) * 4 / 3 / s.camera.focal,
+               y = (1 - (i / W + 0.5) / H * 2) / s.camera.focal;
         double ray[3], p[3], way[3];
         for (int k = 0; k < 3; k++) ray[k] = x * c->m[k][0] + y * c->m[k][1] - c->m[k][2];
         hit seen = cast_ray(&s, eye, ray, NULL);
@@ -463,7 +477,8 @@ static void test_room(void)
     scene_free(&s);
 }
 
-static void check_surface(const scene *s, const char *name, size_t nth, scene_alpha alpha, scene_caster caster, int two_sided)
+static void check_surface(const scene *s, const char *name, size_t nth, scene_alpha alpha, scene_caster caster,
+                          int two_sided)
 {
     const scene_object *o = find_object(s, name, nth);
     if (!CHECK(o != NULL)) return;
@@ -481,7 +496,8 @@ static void test_fence(void)
     check_surface(&s, "film", 0, SCENE_ALPHA_DITHER, SCENE_CASTER_DITHER, 1);
     check_surface(&s, "towel", 0, SCENE_ALPHA_OPAQUE, SCENE_CASTER_ON, 1);
     check_surface(&s, "post", 0, SCENE_ALPHA_OPAQUE, SCENE_CASTER_ON, 0);
-    const scene_object *tree = need_object(&s, "tree"), *lantern = find_object(&s, "lantern", 1), *film = need_object(&s, "film");
+    const scene_object *tree = need_object(&s, "tree"), *lantern = find_object(&s, "lantern", 1),
+                       *film = need_object(&s, "film");
     const scene_object *towel = need_object(&s, "towel");
     if (tree) CHECK(tree->hidden && tree->caster == SCENE_CASTER_ON);
     if (CHECK(lantern != NULL)) CHECK(lantern->unlit && lantern->caster == SCENE_CASTER_ON);
@@ -507,7 +523,8 @@ static void check_masks(const scene *s, const scene_light *light, size_t *n_chec
             triangle_corners(s, o, t, corner);
             subtract(ab, corner[1], corner[0]);
             subtract(ac, corner[2], corner[0]);
-            for (int k = 0; k < 3; k++) normal[k] = ab[(k + 1) % 3] * ac[(k + 2) % 3] - ab[(k + 2) % 3] * ac[(k + 1) % 3];
+            for (int k = 0; k < 3; k++)
+                normal[k] = ab[(k + 1) % 3] * ac[(k + 2) % 3] - ab[(k + 2) % 3] * ac[(k + 1) % 3];
             double p[3], way[3], lift = 1e-3 / sqrt(dot(normal, normal));
             for (int k = 0; k < 3; k++) p[k] = corner[0][k] + 0.11 * ab[k] + 0.13 * ac[k] + lift * normal[k];
             way_to_light(light, p, way);
@@ -532,8 +549,8 @@ static void test_masks(const scene *s)
             }
         }
         check_masks(s, light, &n_checked, &n_wrong);
-        printf("mixed: masks of %s: %zu dark, %zu between, %zu lit; %zu of %zu rays disagree\n", light->name, n_values[0],
-               n_values[1], n_values[2], n_wrong, n_checked);
+        printf("mixed: masks of %s: %zu dark, %zu between, %zu lit; %zu of %zu rays disagree\n", light->name,
+               n_values[0], n_values[1], n_values[2], n_wrong, n_checked);
         CHECK(n_values[0] > 20 && n_values[1] > 20 && n_values[2] > 20);
         CHECK(n_checked > 100 && n_wrong * 50 <= n_checked);
     }
@@ -543,8 +560,8 @@ static void test_mixed(void)
 {
     scene s, later;
     if (!load(&s, mixed_path, 0)) return;
-    static const scene_light_kind kind[5] = {SCENE_LIGHT_DIRECTIONAL, SCENE_LIGHT_SPOT, SCENE_LIGHT_POINT, SCENE_LIGHT_POINT,
-                                             SCENE_LIGHT_POINT};
+    static const scene_light_kind kind[5] = {SCENE_LIGHT_DIRECTIONAL, SCENE_LIGHT_SPOT, SCENE_LIGHT_POINT,
+                                             SCENE_LIGHT_POINT, SCENE_LIGHT_POINT};
     for (size_t i = 0; i < 5 && i < s.n_lights; i++) {
         CHECK(s.lights[i].kind == kind[i] && s.lights[i].shadow == (i < 3));
         CHECK(i == 0 || s.lights[i].range <= 5);
@@ -580,12 +597,14 @@ int main(void)
     static const struct {
         const char *path;
         int (*write)(FILE *);
-    } gallery[] = {{"docs/scenes/edge.gltf", gallery_edge_write},           {"docs/scenes/slopes.gltf", gallery_slopes_write},
-                   {"docs/scenes/cones.gltf", gallery_cones_write},         {"docs/scenes/lamps.gltf", gallery_lamps_write},
-                   {"docs/scenes/materials.gltf", gallery_materials_write}, {"docs/scenes/near.gltf", gallery_near_write},
-                   {"docs/scenes/baked.gltf", gallery_baked_write},         {"docs/scenes/suns.gltf", gallery_suns_write},
-                   {"docs/scenes/sheets.gltf", gallery_sheets_write}};
-    for (size_t i = 0; i < sizeof gallery / sizeof *gallery; i++) test_committed_bytes(gallery[i].path, gallery[i].write);
+    } gallery[] = {
+        {"docs/scenes/edge.gltf", gallery_edge_write},           {"docs/scenes/slopes.gltf", gallery_slopes_write},
+        {"docs/scenes/cones.gltf", gallery_cones_write},         {"docs/scenes/lamps.gltf", gallery_lamps_write},
+        {"docs/scenes/materials.gltf", gallery_materials_write}, {"docs/scenes/near.gltf", gallery_near_write},
+        {"docs/scenes/baked.gltf", gallery_baked_write},         {"docs/scenes/suns.gltf", gallery_suns_write},
+        {"docs/scenes/sheets.gltf", gallery_sheets_write}};
+    for (size_t i = 0; i < sizeof gallery / sizeof *gallery; i++)
+        test_committed_bytes(gallery[i].path, gallery[i].write);
     test_hours();
     test_desk();
     test_room();

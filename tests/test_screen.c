@@ -1,5 +1,5 @@
-/* What is drawn a screen tile at a time (R1, R2, R5, R6, R9): against the reference, which has no tiles, formats, panels or lists, and
- * against the library itself with other tiles. */
+/* What is drawn a screen tile at a time (R1, R2, R5, R6, R9): against the reference, which has no tiles, formats,
+ * panels or lists, and against the library itself with other tiles. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,7 +14,8 @@ static int load(scene *s, settings *set, const char *path, int frame)
 {
     char error[512] = "";
     settings_init(set);
-    if (CHECK_EQ_INT(scene_load(s, path, &(scene_options){.frame = frame, .width = WIDTH, .height = HEIGHT}, error, sizeof error),
+    if (CHECK_EQ_INT(scene_load(s, path, &(scene_options){.frame = frame, .width = WIDTH, .height = HEIGHT}, error,
+                                sizeof error),
                      0) &&
         CHECK_EQ_INT(settings_apply_all(set, s, NULL, 0, error, sizeof error), 0))
         return 1;
@@ -94,7 +95,8 @@ static void test_outputs(const char *path)
     if (!load(&s, &set, path, 96)) return;
     for (int format = 0; output_names[format]; format++) {
         set.output = (gn_format)format;
-        if (!CHECK_EQ_INT(engine_fixed(&fixed, &s, &set, WIDTH, HEIGHT, ENGINE_COLOUR_ONLY, error, sizeof error), 0)) break;
+        if (!CHECK_EQ_INT(engine_fixed(&fixed, &s, &set, WIDTH, HEIGHT, ENGINE_COLOUR_ONLY, error, sizeof error), 0))
+            break;
         if (!CHECK_EQ_INT(engine_reference(&reference, &s, &set, WIDTH, HEIGHT, error, sizeof error), 0)) break;
         size_t n_near = 0, n_levels = 0, worst = 0;
         bool seen[256] = {false};
@@ -105,7 +107,8 @@ static void test_outputs(const char *path)
             seen[fixed.rgb8[i]] = true;
         }
         for (int v = 0; v < 256; v++) n_levels += seen[v];
-        if (!CHECK(n_near > 3 * PIXELS * 995 / 1000)) printf("  %s: %zu of %d near\n", output_names[format], n_near, 3 * PIXELS);
+        if (!CHECK(n_near > 3 * PIXELS * 995 / 1000))
+            printf("  %s: %zu of %d near\n", output_names[format], n_near, 3 * PIXELS);
         if (format == GN_FORMAT_MONO1) CHECK_EQ_INT(n_levels, 2);
         else if (format == GN_FORMAT_GREY4) CHECK(n_levels > 4 && n_levels <= 16);
         else CHECK(n_levels > 16);
@@ -115,7 +118,7 @@ static void test_outputs(const char *path)
     scene_free(&s);
 }
 
-/* ---- R6 ----------------------------------------------------------------------------------------------------------------- */
+/* ---- R6 ---------------------------------------------------------------------------------------------------------- */
 
 typedef struct {
     uint16_t pixels[PIXELS];
@@ -130,7 +133,8 @@ static void flush(void *user, int x, int y, int w, int h, const void *pixels)
         memcpy(p->pixels + (y + row) * WIDTH + x, (const uint16_t *)pixels + row * w, (size_t)w * sizeof *p->pixels);
 }
 
-/* A panel that is only sent what changed shows what one shows that is sent everything; what stands still is not sent. */
+/* A panel that is only sent what changed shows what one shows that is sent everything; what stands still is not sent.
+ */
 static void test_changes(const char *path)
 {
     static panel_copy kept, whole;
@@ -141,7 +145,8 @@ static void test_changes(const char *path)
     char error[512] = "";
     memset(&panel, 0, sizeof panel);
     memset(kept.pixels, 0xA5, sizeof kept.pixels);
-    if (!CHECK(changes && all) || !CHECK(gn_init(changes, &picture) == GN_OK && gn_init(all, &picture) == GN_OK)) return;
+    if (!CHECK(changes && all) || !CHECK(gn_init(changes, &picture) == GN_OK && gn_init(all, &picture) == GN_OK))
+        return;
     for (int step = 0; step < 24; step++) {
         int frame = 2 * (step / 2); /* each twice */
         uint32_t n = 0;
@@ -162,7 +167,8 @@ static void test_changes(const char *path)
             n_sent += n;
             n_frames++;
         }
-        if (step == 23) printf("%s: %.1f of %u screen tiles sent per frame\n", path, (double)n_sent / n_frames, whole.n_flushed);
+        if (step == 23)
+            printf("%s: %.1f of %u screen tiles sent per frame\n", path, (double)n_sent / n_frames, whole.n_flushed);
         quantise_free(&fixed);
         scene_free(&s);
     }

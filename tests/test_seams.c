@@ -1,5 +1,6 @@
-/* P6: seams between the faces of a point light's cube do not show. Random triangles around a lamp in a closed room throw their shadows on
- * all walls; the truth is a ray to the lamp. Near the borders of faces the error is no larger than elsewhere. "--table" prints it. */
+/* P6: seams between the faces of a point light's cube do not show. Random triangles around a lamp in a closed room
+ * throw their shadows on all walls; the truth is a ray to the lamp. Near the borders of faces the error is no larger
+ * than elsewhere. "--table" prints it. */
 #include "../host/tool/engine.h"
 #include "ref_fixture.h"
 
@@ -7,11 +8,11 @@ enum { WIDTH = 160, HEIGHT = 120, N_SPLINTERS = 60, N_SETS = 4, N_CAMERAS = 4, S
 
 static const double lamp[3] = {0.13, 0.07, -0.11};
 
-/* Turns the room against the cube, so that seams run anywhere over the walls: in the corners of a room, where light falls askew, the normal
- * offset alone makes larger errors. */
+/* Turns the room against the cube, so that seams run anywhere over the walls: in the corners of a room, where light
+ * falls askew, the normal offset alone makes larger errors. */
 static const double turned[3][3] = {{0.8, -0.36, 0.48}, {0, 0.8, 0.6}, {-0.6, -0.48, 0.64}};
 
-/* ---- The room ---------------------------------------------------------------------------------------------------------- */
+/* ---- The room ---------------------------------------------------------------------------------------------------- */
 
 static void add_walls(fixture *f)
 {
@@ -34,7 +35,8 @@ static void throw_splinters(void)
             double out[3];
             random_direction(out);
             const double distance = random_between(0.9, 1.7);
-            for (int k = 0; k < 9; k++) splinters[set][9 * i + k] = lamp[k % 3] + distance * out[k % 3] + random_between(-0.3, 0.3);
+            for (int k = 0; k < 9; k++)
+                splinters[set][9 * i + k] = lamp[k % 3] + distance * out[k % 3] + random_between(-0.3, 0.3);
         }
 }
 
@@ -62,12 +64,13 @@ static void build(fixture *f, scene_filter filter, int set)
 /* From a corner through the middle. */
 static void place_camera(fixture *f, int n)
 {
-    const double corner[3] = {n & 1 ? 2.8 : -2.8, n & 2 ? 2.7 : -2.7, n == 1 || n == 2 ? 2.75 : -2.75}, up[3] = {0, 1, 0};
+    const double corner[3] = {n & 1 ? 2.8 : -2.8, n & 2 ? 2.7 : -2.7, n == 1 || n == 2 ? 2.75 : -2.75},
+                 up[3] = {0, 1, 0};
     const double at[3] = {0, 0, 0}, from[3] = {dot(turned[0], corner), dot(turned[1], corner), dot(turned[2], corner)};
     look(f, from, at, up);
 }
 
-/* ---- The truth --------------------------------------------------------------------------------------------------------- */
+/* ---- The truth --------------------------------------------------------------------------------------------------- */
 
 /* Whether the way from a to b crosses the triangle. */
 static bool crosses(const double a[3], const double b[3], const double p[9])
@@ -111,7 +114,7 @@ static double to_border(const double p[3], double t, int texels)
     return (1 - across) * texels / (2 * t);
 }
 
-/* ---- Errors ------------------------------------------------------------------------------------------------------------ */
+/* ---- Errors ------------------------------------------------------------------------------------------------------ */
 
 typedef struct {
     double sum[2]; /* interior, seam */
@@ -203,7 +206,8 @@ int main(int argc, char **argv)
 #endif
     const bool table = argc > 1 && strcmp(argv[1], "--table") == 0;
     if (table)
-        printf("\n| filter | texels per face | engine | mean error inside faces | along seams | ratio | step to the next pixel "
+        printf("\n| filter | texels per face | engine | mean error inside faces | along seams | ratio | step to the "
+               "next pixel "
                "inside | from face to face |\n|---|---|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < sizeof filters / sizeof *filters; i++)
         for (int texels = 64; texels <= 128; texels *= 2)

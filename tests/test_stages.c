@@ -1,5 +1,6 @@
-/* Each stage of the library against the formula it stands for, in double, from the same quantised inputs: the error must stay
- * within the bound that docs/NUMERICS.md derives for the case at hand. With "--table": the largest error seen, per stage. */
+/* Each stage of the library against the formula it stands for, in double, from the same quantised inputs: the error
+ * must stay within the bound that docs/NUMERICS.md derives for the case at hand. With "--table": the largest error
+ * seen, per stage. */
 #include "../host/ref/ref.h"
 #include "../lib/gn_cascade.h"
 #include "../lib/gn_light.h"
@@ -39,7 +40,7 @@ static const char *const stage_name[STAGE_COUNT] = {
 #include "outline.h"
 #include "stages.h"
 
-/* ---- The stages ------------------------------------------------------------------------------------------------------ */
+/* ---- The stages -------------------------------------------------------------------------------------------------- */
 
 /* NUMERICS 4.1 */
 static void check_view(const gn_frame *frame, int32_t view[][3])
@@ -103,7 +104,8 @@ static void check_edges(const gn_frame *frame, int32_t view[][3])
         while (gn_walk_row(&walk, &row, &from, &to))
             for (int x = from - 2; x < to + 2; x++) {
                 const real at[2] = {x + 0.5L, row + 0.5L};
-                if (outline_has(&o, at) != (x >= from && x < to)) record(STAGE_EDGE, (double)outline_distance(&o, at), bound, unit);
+                if (outline_has(&o, at) != (x >= from && x < to))
+                    record(STAGE_EDGE, (double)outline_distance(&o, at), bound, unit);
             }
     }
 }
@@ -118,9 +120,11 @@ static void check_depth(const gn_frame *frame, const gn_tri *tri, const plane *p
     int dx = x - (sx[0] >> bits), dy = y - (sy[0] >> bits);
     uint32_t got = tri->iz_ref + (uint32_t)dx * (uint32_t)tri->iz_dx + (uint32_t)dy * (uint32_t)tri->iz_dy;
     double want = ldexp(fixed.camera.near_q16 * LSB16 / c->z, 32);
-    double focal2 = frame->cam.focal2_px_q16 * LSB16, slope = ldexp(fixed.camera.near_q16 * LSB16, 33) / (focal2 * fabs(p->det)) * (fabs(p->n[0]) + fabs(p->n[1]));
+    double focal2 = frame->cam.focal2_px_q16 * LSB16,
+           slope = ldexp(fixed.camera.near_q16 * LSB16, 33) / (focal2 * fabs(p->det)) * (fabs(p->n[0]) + fabs(p->n[1]));
     double bound = 4 + abs(dx) + abs(dy) + 1.5 * ldexp(slope, -16) + ldexp(want, -27);
-    if (frame->stats.n_clipped) bound += ldexp(2.6 * LSB16 * sqrt(dot(p->n, p->n)) / fabs(p->det), 32); /* cut corners are off the plane */
+    if (frame->stats.n_clipped)
+        bound += ldexp(2.6 * LSB16 * sqrt(dot(p->n, p->n)) / fabs(p->det), 32); /* cut corners are off the plane */
     record(STAGE_DEPTH, fabs((double)got - want), bound, 1);
 }
 
@@ -136,7 +140,8 @@ static void check_cosine(const gn_frame *frame, const gn_surface *s, const gn_sa
     double n[3], to_light[3], change = normal_at(s, c, n);
     axis_of(frame->light[0].to_light_q30, to_light);
     double got = ldexp(sample->value[GN_VALUE_LIGHT], -24);
-    record(STAGE_COSINE, fabs(got - dot(n, to_light) / sqrt(dot(n, n))), cosine_bound(frame, c, n, change), ldexp(1, -24));
+    record(STAGE_COSINE, fabs(got - dot(n, to_light) / sqrt(dot(n, n))), cosine_bound(frame, c, n, change),
+           ldexp(1, -24));
 }
 
 /* NUMERICS 4.4 */
@@ -161,24 +166,27 @@ static void check_light_coords(const gn_frame *frame, const gn_surface *s, const
             point += n[k] * axis[k];
         }
         double want = (z_got * along + eye) / texel - view->fit.ortho.origin[i] + point * view->offset_q16 * LSB16;
-        double bound = 3 * LSB16 + z_got * ldexp(1 + 0.5 * (abs(px) + abs(py)), -view->fit.ortho.ray_shift) +
-                       ldexp(fabs(z_got * along / texel) + fabs(eye / texel) + fabs((double)view->fit.ortho.origin[i]), -27) +
-                       view->offset_q16 * LSB16 *
-                           (ldexp(c->kappa_b + c->kappa, -27) + (frame->knobs.newton_steps == 1 ? ldexp(1, -14) : ldexp(1, -26)));
+        double bound =
+            3 * LSB16 + z_got * ldexp(1 + 0.5 * (abs(px) + abs(py)), -view->fit.ortho.ray_shift) +
+            ldexp(fabs(z_got * along / texel) + fabs(eye / texel) + fabs((double)view->fit.ortho.origin[i]), -27) +
+            view->offset_q16 * LSB16 *
+                (ldexp(c->kappa_b + c->kappa, -27) + (frame->knobs.newton_steps == 1 ? ldexp(1, -14) : ldexp(1, -26)));
         record(STAGE_LIGHT_UV, fabs(sample->value[GN_VALUE_LIGHT + 1 + i] * LSB16 - want), bound, LSB16);
     }
 }
 
-/* The sum of the stages that B6 counts on (NUMERICS 4.11): how far off its plane a receiver lies. Corners, depth and ray err on their own;
- * the light's coordinates add what 4.4 says of them. */
+/* The sum of the stages that B6 counts on (NUMERICS 4.11): how far off its plane a receiver lies. Corners, depth and
+ * ray err on their own; the light's coordinates add what 4.4 says of them. */
 static double place_bound(const gn_frame *frame, double z)
 {
     const double half_diagonal = sqrt(WIDTH * WIDTH + HEIGHT * HEIGHT) / (renderer.frame.cam.focal2_px_q16 * LSB16);
-    const double relative = (frame->knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -28)) + ldexp(WIDTH + HEIGHT, -28);
+    const double relative =
+        (frame->knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -28)) + ldexp(WIDTH + HEIGHT, -28);
     return z * sqrt(1 + half_diagonal * half_diagonal) * relative + 8 * LSB16;
 }
 
-static void check_place(const gn_frame *frame, const gn_surface *s, const gn_sample *sample, const plane *p, const crossing *c)
+static void check_place(const gn_frame *frame, const gn_surface *s, const gn_sample *sample, const plane *p,
+                        const crossing *c)
 {
     const gn_light_view *view = &frame->view[0];
     double texel = 1 / ldexp(view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp), off = 0, sum = 0, n[3],
@@ -235,8 +243,9 @@ static void check_samples(const gn_frame *frame, int32_t view[][3])
     }
 }
 
-/* The light's view against the reference's fit (DESIGN 1.4): the same texel to the last bit, the same axes, and the same grid, of
- * which the two may take windows that differ by a texel where the sphere's centre lies next to a rounding threshold. */
+/* The light's view against the reference's fit (DESIGN 1.4): the same texel to the last bit, the same axes, and the
+ * same grid, of which the two may take windows that differ by a texel where the sphere's centre lies next to a rounding
+ * threshold. */
 static long fits, shifted_fits;
 
 static void check_fit(const gn_frame *frame)
@@ -304,7 +313,8 @@ static void check_packing(const gn_frame *frame)
     }
 }
 
-/* What gn_bias takes off for all that errs, against the sum of the stages' bounds: no less, and no more than its own roundings. */
+/* What gn_bias takes off for all that errs, against the sum of the stages' bounds: no less, and no more than its own
+ * roundings. */
 static void check_sum(const gn_knobs *knobs)
 {
     gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
@@ -319,9 +329,11 @@ static void check_sum(const gn_knobs *knobs)
     const double end = frame->cascade[0].centre_q16 * LSB16 + sqrt(ldexp((double)frame->cascade[0].radius2_q32, -32));
     const double place = place_bound(frame, fmin(end, fixed.shadow.max_distance_q16 * LSB16)) / texel + ldexp(1, -12);
     const double snap = ldexp(1, -knobs->shadow_subpixel_bits - 1) + ldexp(1, -knobs->weight_bits - 1) + 2 * LSB16;
-    const double rounded = ldexp(1, -knobs->depth_bits - 1) + ldexp(1, -knobs->depth_bits - knobs->shadow_depth_frac - 1);
+    const double rounded =
+        ldexp(1, -knobs->depth_bits - 1) + ldexp(1, -knobs->depth_bits - knobs->shadow_depth_frac - 1);
     const double stored =
-        (rounded + ldexp(view->tile_texels + 2, -32) + ldexp(1, -29)) * ldexp(view->tile_texels, view->depth_log2) + 3 * LSB16;
+        (rounded + ldexp(view->tile_texels + 2, -32) + ldexp(1, -29)) * ldexp(view->tile_texels, view->depth_log2) +
+        3 * LSB16;
     const double reach = 2 + snap + place, step = stored + place, both = sqrt(2 * reach * reach + step * step);
     const double got[3] = {view->offset_q16 * LSB16, view->auto_step * LSB16, view->auto_place * LSB16},
                  want[3] = {reach, step, both};
@@ -331,8 +343,8 @@ static void check_sum(const gn_knobs *knobs)
     light.auto_bias = GN_AUTO_BIAS_OFF;
 }
 
-/* A camera that moves and turns by less than a texel a frame: the grid stays where it is in the world (D2). What a world point's tile
- * coordinates are modulo whole texels does not change, so edges of static shadows cannot crawl. */
+/* A camera that moves and turns by less than a texel a frame: the grid stays where it is in the world (D2). What a
+ * world point's tile coordinates are modulo whole texels does not change, so edges of static shadows cannot crawl. */
 static void test_grid_does_not_crawl(const gn_knobs *knobs)
 {
     gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
@@ -364,11 +376,9 @@ static void test_grid_does_not_crawl(const gn_knobs *knobs)
 
 int main(int argc, char **argv)
 {
-#define PRESET_KNOB(name, MACRO, lo, hi, meaning, cost) (int32_t[]){GN_PRESETS_##MACRO}[preset],
-    static const char *const name[] = {"tiny", "balanced", "accurate"};
     int table = argc > 1 && strcmp(argv[1], "--table") == 0;
     for (int preset = 0; preset < 3; preset++) {
-        const gn_knobs knobs = {GN_QUALITY_KNOBS(PRESET_KNOB)};
+        const gn_knobs knobs = preset_knobs(preset);
         if (preset == GN_PRESET_ACCURATE) test_grid_does_not_crawl(&knobs);
         for (int i = 0; i < N_SCENES; i++) {
             run_scene(&knobs);
@@ -376,10 +386,11 @@ int main(int argc, char **argv)
             renderer.frame.picture.format = GN_FORMAT_RGB888;
             check_packing(&renderer.frame);
         }
-        report_stages(table, name[preset]);
+        report_stages(table, preset_name[preset]);
     }
 
-    /* two of a hundred axes at most: the centre errs by some 2^-15 texel, so thresholds are met about once in ten thousand */
+    /* two of a hundred axes at most: the centre errs by some 2^-15 texel, so thresholds are met about once in ten
+     * thousand */
     CHECK(shifted_fits * 50 < fits);
     return table ? (check_n_failed ? 1 : 0) : check_report();
 }

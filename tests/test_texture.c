@@ -16,7 +16,7 @@ static double linear(double v)
     return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
 }
 
-/* ---- The oracle --------------------------------------------------------------------------------------------------- */
+/* ---- The oracle -------------------------------------------------------------------------------------------------- */
 
 static int64_t addressed(int64_t i, int64_t size, int clamped)
 {
@@ -36,17 +36,19 @@ static double texel_value(const gn_texture *t, int64_t i, int64_t j, int channel
 static double exact_value(const gn_texture *t, int32_t u_q20, int32_t v_q20, int channel, int decoded)
 {
     double x = ldexp(u_q20, t->width_log2 - 20), y = ldexp(v_q20, t->height_log2 - 20); /* exact */
-    if (!(t->flags & GN_TEXTURE_BILINEAR)) return 65536 * texel_value(t, (int64_t)floor(x), (int64_t)floor(y), channel, decoded);
+    if (!(t->flags & GN_TEXTURE_BILINEAR))
+        return 65536 * texel_value(t, (int64_t)floor(x), (int64_t)floor(y), channel, decoded);
     x -= 0.5;
     y -= 0.5;
     int64_t i = (int64_t)floor(x), j = (int64_t)floor(y);
     double fu = x - (double)i, fv = y - (double)j;
     double upper = (1 - fu) * texel_value(t, i, j, channel, decoded) + fu * texel_value(t, i + 1, j, channel, decoded);
-    double lower = (1 - fu) * texel_value(t, i, j + 1, channel, decoded) + fu * texel_value(t, i + 1, j + 1, channel, decoded);
+    double lower =
+        (1 - fu) * texel_value(t, i, j + 1, channel, decoded) + fu * texel_value(t, i + 1, j + 1, channel, decoded);
     return 65536 * ((1 - fv) * upper + fv * lower);
 }
 
-/* ---- Random textures and coordinates ------------------------------------------------------------------------------ */
+/* ---- Random textures and coordinates ----------------------------------------------------------------------------- */
 
 /* Memory of exactly the texture's size, so that a sanitizer sees a texel outside. */
 static uint8_t *random_texels(gn_texture *t, int32_t width_log2, int32_t height_log2)
@@ -82,7 +84,7 @@ static int32_t random_coordinate(int32_t size_log2)
     }
 }
 
-/* ---- Tests -------------------------------------------------------------------------------------------------------- */
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
 
 typedef struct {
     tally nearest, bilinear, colour_nearest, colour_bilinear;
@@ -99,19 +101,22 @@ static void try_lookup(verdict *result, const gn_texture *t)
     HOLDS(&result->colour_nearest, rgb[3] == 0xDEADBEEFU, "more than three channels written");
     for (int c = 0; c < 4; c++) {
         double exact = exact_value(t, u, v, c, 0), decoded = exact_value(t, u, v, c, 1);
-        double a = gn_texture_channel(t, u, v, (uint32_t)c), error = fabs(a - exact), colour_error = fabs(rgb[c % 3] - decoded);
+        double a = gn_texture_channel(t, u, v, (uint32_t)c), error = fabs(a - exact),
+               colour_error = fabs(rgb[c % 3] - decoded);
         if (bilinear) {
-            HOLDS(&result->bilinear, error <= 1.5001 + small, "2^%d x 2^%d, flags %d, (%d, %d): channel %d is %.0f, not %.3f",
-                  (int)t->width_log2, (int)t->height_log2, (int)t->flags, (int)u, (int)v, c, a, exact);
+            HOLDS(&result->bilinear, error <= 1.5001 + small,
+                  "2^%d x 2^%d, flags %d, (%d, %d): channel %d is %.0f, not %.3f", (int)t->width_log2,
+                  (int)t->height_log2, (int)t->flags, (int)u, (int)v, c, a, exact);
             WORST(&result->w, (long double)error, "flags %d", (int)t->flags);
         } else {
             HOLDS(&result->nearest, error <= 0.5, "2^%d x 2^%d, flags %d, (%d, %d): channel %d is %.0f, not %.3f",
                   (int)t->width_log2, (int)t->height_log2, (int)t->flags, (int)u, (int)v, c, a, exact);
         }
         if (c == 3) continue;
-        HOLDS(bilinear ? &result->colour_bilinear : &result->colour_nearest, colour_error <= (bilinear ? 2.0001 + small : 1.0001),
-              "2^%d x 2^%d, flags %d, (%d, %d): colour %d is %u, not %.3f", (int)t->width_log2, (int)t->height_log2, (int)t->flags,
-              (int)u, (int)v, c, (unsigned)rgb[c], decoded);
+        HOLDS(bilinear ? &result->colour_bilinear : &result->colour_nearest,
+              colour_error <= (bilinear ? 2.0001 + small : 1.0001),
+              "2^%d x 2^%d, flags %d, (%d, %d): colour %d is %u, not %.3f", (int)t->width_log2, (int)t->height_log2,
+              (int)t->flags, (int)u, (int)v, c, (unsigned)rgb[c], decoded);
         WORST(&result->colour, (long double)colour_error, "flags %d", (int)t->flags);
     }
 }
@@ -136,7 +141,8 @@ static void test_lookups(void)
     CHECK_TALLY(result.bilinear, "bilinear, one channel");
     CHECK_TALLY(result.colour_nearest, "nearest colour");
     CHECK_TALLY(result.colour_bilinear, "bilinear colour");
-    printf("gn_texture_channel, bilinear: %.3Lf LSB of Q16; gn_texture_colour: %.3Lf\n", result.w.error, result.colour.error);
+    printf("gn_texture_channel, bilinear: %.3Lf LSB of Q16; gn_texture_colour: %.3Lf\n", result.w.error,
+           result.colour.error);
 }
 
 /* Every value of a texel: black and white are exact, values ascend, equal texels blend to themselves. */
@@ -156,7 +162,8 @@ static void test_values(void)
             int32_t u = rng_wide_i32(&random_state, 31), v = rng_wide_i32(&random_state, 31);
             gn_texture_colour(&t, u, v, blended);
             HOLDS(&flat, blended[0] == rgb[0] && blended[1] == rgb[1] && blended[2] == rgb[2], "%d", value);
-            HOLDS(&flat, gn_texture_channel(&t, u, v, GN_CHANNEL_ALPHA) == (uint32_t)lround(value * 65536 / 255.0), "%d", value);
+            HOLDS(&flat, gn_texture_channel(&t, u, v, GN_CHANNEL_ALPHA) == (uint32_t)lround(value * 65536 / 255.0),
+                  "%d", value);
         }
         HOLDS(&rises, value == 0 ? rgb[0] == 0 : rgb[0] > before[0], "%d", value);
         memcpy(before, rgb, sizeof before);
@@ -168,7 +175,8 @@ static void test_values(void)
     CHECK_TALLY(flat, "equal texels blend to themselves");
 }
 
-/* Coordinates between corners: to the last bit of 2^-20, whole turns aside where they repeat, however large the texture. */
+/* Coordinates between corners: to the last bit of 2^-20, whole turns aside where they repeat, however large the
+ * texture. */
 static void test_coordinates(void)
 {
     tally close = {0};
@@ -180,7 +188,8 @@ static void test_coordinates(void)
         gn_texture_triangle triangle;
         mesh.uv_frac_bits = (uint8_t)rng_range(&random_state, 6, 15); /* within 512 turns */
         for (int k = 0; k < 6; k++) uv[k] = (int16_t)rng_range(&random_state, -32768, 32767);
-        const int32_t b1 = rng_range(&random_state, 0, 1 << 30), b2 = rng_range(&random_state, 0, (1 << 30) - b1), b[2] = {b1, b2};
+        const int32_t b1 = rng_range(&random_state, 0, 1 << 30), b2 = rng_range(&random_state, 0, (1 << 30) - b1),
+                      b[2] = {b1, b2};
         gn_texture_corners(&triangle, &mesh, &t, idx);
         for (int k = 0; k < 2; k++) {
             double at = uv[k] + ldexp(b1, -30) * (uv[2 + k] - uv[k]) + ldexp(b2, -30) * (uv[4 + k] - uv[k]);

@@ -1,5 +1,5 @@
-/* Shadow tiles (D1, D10, A1-A3, P5, P8): who gets which, by a plan made again here from DESIGN 1.6; where they lie; that no light
- * ever reads another's. */
+/* Shadow tiles (D1, D10, A1-A3, P5, P8): who gets which, by a plan made again here from DESIGN 1.6; where they lie;
+ * that no light ever reads another's. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,15 +12,15 @@ static light_scene ls, ls2;
 
 static void init(gn_renderer *r, int width, int height, gn_view view, int light)
 {
-    gn_picture p = {(uint16_t)width, (uint16_t)height, view == GN_VIEW_COLOUR ? GN_FORMAT_RGB888 : GN_FORMAT_RAW32, view,
-                    (uint8_t)light};
+    gn_picture p = {(uint16_t)width, (uint16_t)height, view == GN_VIEW_COLOUR ? GN_FORMAT_RGB888 : GN_FORMAT_RAW32,
+                    view, (uint8_t)light};
     CHECK_EQ_INT(gn_init(r, &p), GN_OK);
 }
 
-/* ---- The plan ----------------------------------------------------------------------------------------------------------- */
+/* ---- The plan ---------------------------------------------------------------------------------------------------- */
 
-/* Everything on grids so coarse that no comparison of the plan is a matter of rounding: boxes and lights on quarters of a unit,
- * ranges on odd eighths. Lengths here are in eighths. */
+/* Everything on grids so coarse that no comparison of the plan is a matter of rounding: boxes and lights on quarters of
+ * a unit, ranges on odd eighths. Lengths here are in eighths. */
 typedef struct {
     int at[3], half; /* of a box */
     int casts, receives;
@@ -151,13 +151,14 @@ static void make_plan(plan *p)
     }
 }
 
-/* ---- The same as a scene ------------------------------------------------------------------------------------------------ */
+/* ---- The same as a scene ----------------------------------------------------------------------------------------- */
 
 #define EIGHTH (65536 / 8)
 
 static void scene_of_plan(light_scene *s, const plan *p)
 {
-    static const int32_t unit_box[8 * 3] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1, -1, -1, 1, 1, -1, 1, -1, 1, 1, 1, 1, 1};
+    static const int32_t unit_box[8 * 3] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1,
+                                            -1, -1, 1,  1, -1, 1,  -1, 1, 1,  1, 1, 1};
     static gn_mesh box;
     ls_begin(s);
     box = s->demo.box;
@@ -231,7 +232,9 @@ static void check_granted(const plan *p)
     for (int l = 0; l < p->n_lights; l++) {
         const plan_tile *t = &p->tile[l];
         uint32_t n, texels;
-        gn_shadow_state expected = !t->wanted ? GN_SHADOW_NOT_WANTED : t->served ? GN_SHADOW_REALTIME : GN_SHADOW_NO_ROOM;
+        gn_shadow_state expected = !t->wanted  ? GN_SHADOW_NOT_WANTED
+                                   : t->served ? GN_SHADOW_REALTIME
+                                               : GN_SHADOW_NO_ROOM;
         n_bad += gn_get_light_shadow(&one, (uint32_t)l, &n, &texels) != expected;
         n_bad += n != (t->served ? (uint32_t)t->n : 0) || texels != (t->served ? (uint32_t)t->t : 0);
         n_tiles += t->served ? t->n : 0;
@@ -242,7 +245,8 @@ static void check_granted(const plan *p)
     CHECK_EQ_INT(gn_get_stats(&one)->n_lights_without_room, p->n_left);
 }
 
-/* Sizes by importance: no light's tiles could be doubled in what is left, and a lighter one never has the larger tiles. */
+/* Sizes by importance: no light's tiles could be doubled in what is left, and a lighter one never has the larger tiles.
+ */
 static void check_importance(const plan *p)
 {
     int n_bad = 0;
@@ -311,7 +315,8 @@ static void test_random_plans(void)
     }
 }
 
-/* Lights by letter: d, s, p; small letters want a shadow, capital ones have strength 0. Expected: served 1, left out 0, - not asked. */
+/* Lights by letter: d, s, p; small letters want a shadow, capital ones have strength 0. Expected: served 1, left out 0,
+ * - not asked. */
 static void check_kinds(const char *kinds, const char *expected, int n_cascades, int main_light, int size)
 {
     static plan p;
@@ -321,8 +326,12 @@ static void check_kinds(const char *kinds, const char *expected, int n_cascades,
     p.n_lights = (int)strlen(kinds);
     for (int l = 0; l < p.n_lights; l++) {
         char c = kinds[l] < 'a' ? (char)(kinds[l] - 'A' + 'a') : kinds[l];
-        plan_light light = {
-            c == 'd' ? GN_LIGHT_DIRECTIONAL : c == 's' ? GN_LIGHT_SPOT : GN_LIGHT_POINT, 0, kinds[l] == c, {0, 40, 0}, 0, 9000};
+        plan_light light = {c == 'd' ? GN_LIGHT_DIRECTIONAL : c == 's' ? GN_LIGHT_SPOT : GN_LIGHT_POINT,
+                            0,
+                            kinds[l] == c,
+                            {0, 40, 0},
+                            0,
+                            9000};
         p.light[l] = light;
     }
     p.n_cascades = n_cascades;
@@ -344,14 +353,14 @@ static void test_budget_by_hand(void)
     check_kinds("ssssssssssssssss", "1111111111111111", 1, 0, 64);   /* exactly sixteen */
     check_kinds("sssssssssssssssss", "11111111111111110", 1, 0, 64); /* the seventeenth not */
     check_kinds("ppssss", "111111", 1, 0, 64);                       /* sixteen by points too */
-    check_kinds("pppssss", "1101111", 1, 0, 64);                     /* six or none, and later ones that fit are served */
-    check_kinds("sssssssssssps", "1111111111101", 1, 0, 64);         /* five left are not enough for a point light */
-    check_kinds("ssssssssssps", "111111111110", 1, 0, 64);           /* ten and six */
-    check_kinds("SpSpSpSs", "-1-1-0-1", 1, 0, 64);                   /* strength 0 asks for nothing */
-    check_kinds("dddd", "1111", 4, 0, 64);                           /* D1: four times four is exactly full */
-    check_kinds("ddddd", "11110", 1, 0, 64);                         /* at most four, however few tiles */
-    check_kinds("DdDdDdDdD", "-1-1-1-1-", 3, 0, 64);                 /* unshadowed ones beside them */
-    check_kinds("dddddd", "111111", 4, 1, 64);                       /* D10: the main light's four; the others one each */
+    check_kinds("pppssss", "1101111", 1, 0, 64);             /* six or none, and later ones that fit are served */
+    check_kinds("sssssssssssps", "1111111111101", 1, 0, 64); /* five left are not enough for a point light */
+    check_kinds("ssssssssssps", "111111111110", 1, 0, 64);   /* ten and six */
+    check_kinds("SpSpSpSs", "-1-1-0-1", 1, 0, 64);           /* strength 0 asks for nothing */
+    check_kinds("dddd", "1111", 4, 0, 64);                   /* D1: four times four is exactly full */
+    check_kinds("ddddd", "11110", 1, 0, 64);                 /* at most four, however few tiles */
+    check_kinds("DdDdDdDdD", "-1-1-1-1-", 3, 0, 64);         /* unshadowed ones beside them */
+    check_kinds("dddddd", "111111", 4, 1, 64);               /* D10: the main light's four; the others one each */
     check_kinds("dsssssssssssssssd", "11111111111111111", 4, 1, 64);
     check_kinds("dssssssssssssssssd", "111111111111111110", 4, 1, 64);
 }
@@ -376,7 +385,7 @@ static void test_too_small(void)
     }
 }
 
-/* ---- Two atlases (A1) ---------------------------------------------------------------------------------------------------- */
+/* ---- Two atlases (A1) -------------------------------------------------------------------------------------------- */
 
 /* Two directional lights, two spots and a point light. */
 static void two_atlases(light_scene *s, uint64_t seed)
@@ -405,12 +414,14 @@ static int same_tiles(uint32_t a, uint32_t b)
     for (uint32_t i = 0; i < n_a; i++) {
         gn_tile_info ta, tb;
         if (!gn_get_shadow_tile(&one, a, i, &ta) || !gn_get_shadow_tile(&two, b, i, &tb)) return 0;
-        if (ta.texels != tb.texels || ta.depth_bits != tb.depth_bits || memcmp(ta.depth, tb.depth, ls_tile_bytes(&ta))) return 0;
+        if (ta.texels != tb.texels || ta.depth_bits != tb.depth_bits || memcmp(ta.depth, tb.depth, ls_tile_bytes(&ta)))
+            return 0;
     }
     return 1;
 }
 
-/* Changes what concerns spot and point lights (or, the other way round, directional ones) and expects the other atlas unmoved. */
+/* Changes what concerns spot and point lights (or, the other way round, directional ones) and expects the other atlas
+ * unmoved. */
 static void check_independence(int change_other, uint64_t seed)
 {
     two_atlases(&ls, seed);
@@ -451,7 +462,7 @@ static void test_independence(void)
     }
 }
 
-/* ---- No light reads another's tile (P8) ----------------------------------------------------------------------------------- */
+/* ---- No light reads another's tile (P8) -------------------------------------------------------------------------- */
 
 #define PW 40
 #define PH 30
@@ -510,7 +521,8 @@ static void poison_all_but(uint32_t light, uint8_t value)
             used += ls_tile_bytes(&tile);
         }
         if (back) break;
-        memset(&one.frame.atlas, value, (size_t)one.frame.knobs.atlas_size * (size_t)one.frame.knobs.atlas_size * 4 + 4096);
+        memset(&one.frame.atlas, value,
+               (size_t)one.frame.knobs.atlas_size * (size_t)one.frame.knobs.atlas_size * 4 + 4096);
         memset(&one.frame.other_atlas, value,
                (size_t)one.frame.knobs.other_atlas_size * (size_t)one.frame.knobs.other_atlas_size * 4 + 4096);
     }
@@ -558,7 +570,8 @@ static void test_poison(void)
 /* The poison is not harmless: in the light's own tiles it shows. */
 static void test_poison_shows(void)
 {
-    static const poison_case c = {GN_FILTER_3X3, GN_KERNEL_TENT, GN_SOFTNESS_DEFAULT, 0, 0, 16, 1, 0, 0, 0, GN_BLEND_HARD, 0, 32};
+    static const poison_case c = {
+        GN_FILTER_3X3, GN_KERNEL_TENT, GN_SOFTNESS_DEFAULT, 0, 0, 16, 1, 0, 0, 0, GN_BLEND_HARD, 0, 32};
     static uint32_t clean[PW * PH], poisoned[PW * PH];
     poison_scene(&c, 40);
     for (uint32_t light = 0; light < ls.scene.n_lights; light++) {

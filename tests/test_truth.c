@@ -1,4 +1,5 @@
-/* Pictures by the truth engine: no surface shadows itself, closed forms, casters of every mode, and the reference as its maps grow. */
+/* Pictures by the truth engine: no surface shadows itself, closed forms, casters of every mode, and the reference as
+ * its maps grow. */
 #include "truth_fixture.h"
 
 /* ---- no surface shadows itself ---- */
@@ -55,15 +56,16 @@ static double edge_weight(void)
     return pick < 0.3 ? 0 : pick < 0.5 ? random_log(1e-30, 1e-3) : random_unit();
 }
 
-/* Points all over a convex body: lit where the face is turned to the light, dark where it is turned away; the tracer is not told
- * which triangle a point lies on. */
+/* Points all over a convex body: lit where the face is turned to the light, dark where it is turned away; the tracer is
+ * not told which triangle a point lies on. */
 static void check_convex(fixture *f, scene_light *light, double scale, double offset)
 {
     traced t;
     rotate_randomly(&f->objects[0].to_world, scale, offset);
     const double *m[3] = {f->objects[0].to_world.m[0], f->objects[0].to_world.m[1], f->objects[0].to_world.m[2]};
     random_direction(light->direction);
-    for (int k = 0; k < 3; k++) light->position[k] = m[k][3] - random_between(1.01, 4) * scale * 1.8 * light->direction[k];
+    for (int k = 0; k < 3; k++)
+        light->position[k] = m[k][3] - random_between(1.01, 4) * scale * 1.8 * light->direction[k];
     light->near = 1e-6 * scale;
     begin_tracer(&t, &f->s);
     const scene_mesh *mesh = &f->meshes[0];
@@ -78,7 +80,8 @@ static void check_convex(fixture *f, scene_light *light, double scale, double of
         const double ndotl = vec3_dot(ref_face_normal(&triangle), ref_light_at(light, p).to_light);
         if (fabs(ndotl) < 1e-4) continue;
         if (ndotl < 0)
-            for (int k = 0; k < 3; k++) origin.weight[k] = fmax(origin.weight[k], 1e-4); /* edges may belong to a lit face */
+            for (int k = 0; k < 3; k++)
+                origin.weight[k] = fmax(origin.weight[k], 1e-4); /* edges may belong to a lit face */
         const double arrives = truth_transmittance(&t.tracer, &origin, truth_vertex_error(&triangle), NULL, light);
         n_sides[ndotl > 0]++;
         n_dark += ndotl > 0 && arrives < 1;
@@ -157,7 +160,8 @@ static void test_coplanar_objects(void)
             f.objects[1].to_world.m[r][3] = turn.m[r][0] * 0.1 + turn.m[r][2] * 0.1;
             f.objects[0].two_sided = f.objects[1].two_sided = true;
         }
-        const double up[3] = {turn.m[0][1], turn.m[1][1], turn.m[2][1]}, side[3] = {turn.m[0][0], turn.m[1][0], turn.m[2][0]};
+        const double up[3] = {turn.m[0][1], turn.m[1][1], turn.m[2][1]},
+                     side[3] = {turn.m[0][0], turn.m[1][0], turn.m[2][0]};
         double eye[3], origin[3] = {0, 0, 0}, travel[3];
         for (int k = 0; k < 3; k++) {
             eye[k] = 2 * up[k] + 0.7 * side[k];
@@ -196,7 +200,8 @@ static int crosses_box(const double p[3], const double to[3], double end_t, cons
 
 static void way_to_light(double out[3], const scene_light *light, const double p[3])
 {
-    for (int k = 0; k < 3; k++) out[k] = light->kind == SCENE_LIGHT_DIRECTIONAL ? -light->direction[k] : light->position[k] - p[k];
+    for (int k = 0; k < 3; k++)
+        out[k] = light->kind == SCENE_LIGHT_DIRECTIONAL ? -light->direction[k] : light->position[k] - p[k];
 }
 
 static const double eye_above[3] = {0.5, 6, 7}, floor_centre[3] = {0, 0, 0}, y_up[3] = {0, 1, 0};
@@ -289,7 +294,8 @@ static double shade_floor(const fixture *f, double x, double z)
     begin_tracer(&t, &f->s);
     const exact_point origin = corner_point((vec3){x, 0, z});
     const ref_triangle floor_triangle = ref_triangle_of(&t.frame, 0, 0);
-    const double arrives = truth_transmittance(&t.tracer, &origin, truth_vertex_error(&floor_triangle), NULL, &f->lights[0]);
+    const double arrives =
+        truth_transmittance(&t.tracer, &origin, truth_vertex_error(&floor_triangle), NULL, &f->lights[0]);
     end_tracer(&t);
     return arrives;
 }
@@ -346,7 +352,8 @@ static void test_alpha_texture(void)
     const double uv[8] = {0, 1, 1, 1, 1, 0, 0, 0};
     fixture f;
     begin_stack(&f, 1);
-    for (int i = 0; i < 16; i++) rgba[4 * i + 3] = (i + i / 4) % 2 ? 255 : 0; /* a chequerboard of 4 x 4 over a unit square */
+    for (int i = 0; i < 16; i++)
+        rgba[4 * i + 3] = (i + i / 4) % 2 ? 255 : 0; /* a chequerboard of 4 x 4 over a unit square */
     f.textures[0] = (scene_texture){.name = no_name, .width = 4, .height = 4, .rgba = rgba};
     f.s.n_textures = 1;
     f.meshes[1].uv = copy(uv, 8);
@@ -354,7 +361,8 @@ static void test_alpha_texture(void)
     f.objects[1].caster = SCENE_CASTER_CLIP;
     for (int j = 0; j < 40; j++) {
         const double x = random_between(-0.5, 0.5), z = random_between(-0.5, 0.5);
-        const int i = (int)floor((x + 0.5) * 4), k = (int)floor((z + 0.5) * 4); /* corners run from (-x, +z): v downwards is +z */
+        const int i = (int)floor((x + 0.5) * 4),
+                  k = (int)floor((z + 0.5) * 4); /* corners run from (-x, +z): v downwards is +z */
         CHECK_NEAR(shade_floor(&f, x, z), (i + k) % 2 ? 0 : 1, 0);
     }
     f.objects[1].caster = SCENE_CASTER_DITHER;
@@ -372,7 +380,8 @@ static void test_near_plane(void)
         add_floor(&f, 3, 0);
         const double slope[12] = {-1, 1, 1, 1, 3, 1, 1, 3, -1, -1, 1, -1}; /* from height 1 at x = -1 to 3 at x = 1 */
         add_quad(&f, slope);
-        scene_light *light = kind ? add_spot(&f, (double[3]){0, 4, 0}, (double[3]){0, 0, 0}, 150) : add_point(&f, 0, 4, 0);
+        scene_light *light =
+            kind ? add_spot(&f, (double[3]){0, 4, 0}, (double[3]){0, 0, 0}, 150) : add_point(&f, 0, 4, 0);
         light->near = 1.5; /* what is above height 2.5 casts nothing: the line x = 0.5 */
         for (int n = 0; n < 200; n++) {
             const double x = random_between(-2, 2), z = random_between(-2, 2);
@@ -434,7 +443,8 @@ static void test_same_but_shadows(void)
     end(&f);
 }
 
-/* Strength, the distance's fade, receivers and masks are the model's: with a caster over everything, what is left is the mixing. */
+/* Strength, the distance's fade, receivers and masks are the model's: with a caster over everything, what is left is
+ * the mixing. */
 static void test_mixing(void)
 {
     fixture f;
@@ -536,7 +546,8 @@ static void test_limits(void)
     fixture f;
     ref_picture p;
     char error[200] = "";
-    const ref_options options = {.width = 4, .height = 4, .atlas_size = 256}, wrong = {.width = 0, .height = 4, .atlas_size = 256};
+    const ref_options options = {.width = 4, .height = 4, .atlas_size = 256},
+                      wrong = {.width = 0, .height = 4, .atlas_size = 256};
     begin(&f);
     CHECK_EQ_INT(truth_render(&p, &f.s, &options, 0, error, sizeof error), -1);
     CHECK(strstr(error, "samples") != NULL);

@@ -1,4 +1,5 @@
-/* The truth engine's intersections: against exact integers, against brute force, and through the joints of closed surfaces. */
+/* The truth engine's intersections: against exact integers, against brute force, and through the joints of closed
+ * surfaces. */
 #include "truth_fixture.h"
 
 /* ---- exact arithmetic, against 128-bit integers ---- */
@@ -43,7 +44,8 @@ static int sign_of(double v)
 /* Few different coordinates, far from the origin: a good part of the determinants is 0. */
 static void test_exact(void)
 {
-    static const int64_t bases[] = {0, 1, -77, 1 << 20, ((int64_t)1 << 50) + 1}, spreads[] = {1, 3, 40, 1 << 20, 1 << 26};
+    static const int64_t bases[] = {0, 1, -77, 1 << 20, ((int64_t)1 << 50) + 1},
+                         spreads[] = {1, 3, 40, 1 << 20, 1 << 26};
     long n_zero = 0, n_wrong = 0;
     for (int n = 0; n < 50000; n++) {
         const int64_t base = bases[n % 5], spread = spreads[n / 5 % 5];
@@ -60,8 +62,10 @@ static void test_exact(void)
             volume += w * det64(minus(a, v[k]), minus(b, v[k]), minus(c, v[k]));
         }
         const exact_target target = {.at = to_vec3(at)};
-        const double e = exact_edge(&p, &target, to_vec3(a), to_vec3(b)), d = exact_volume(&p, to_vec3(a), to_vec3(b), to_vec3(c));
-        n_wrong += fabs(e - (double)edge) > 1e-15 * fabs((double)edge) || fabs(d - (double)volume) > 1e-15 * fabs((double)volume);
+        const double e = exact_edge(&p, &target, to_vec3(a), to_vec3(b)),
+                     d = exact_volume(&p, to_vec3(a), to_vec3(b), to_vec3(c));
+        n_wrong += fabs(e - (double)edge) > 1e-15 * fabs((double)edge) ||
+                   fabs(d - (double)volume) > 1e-15 * fabs((double)volume);
         n_wrong += sign_of(e) != (edge > 0) - (edge < 0) || sign_of(d) != (volume > 0) - (volume < 0);
         n_zero += edge == 0;
         const int side = exact_side(&p, &target, to_vec3(a), to_vec3(b));
@@ -77,8 +81,8 @@ static void test_exact_direction(void)
     long n_wrong = 0, n_zero = 0;
     for (int n = 0; n < 30000; n++) {
         const int64_t base = n % 2 ? (int64_t)1 << 45 : 3;
-        const point64 l = random_lattice_point(0, 3), a = random_lattice_point(base, 3), b = random_lattice_point(base, 3),
-                      v = random_lattice_point(base, 3);
+        const point64 l = random_lattice_point(0, 3), a = random_lattice_point(base, 3),
+                      b = random_lattice_point(base, 3), v = random_lattice_point(base, 3);
         const exact_point p = corner_point(to_vec3(v));
         const exact_target target = {.at = to_vec3(l), .infinite = true};
         const wide edge = det64(l, minus(a, v), minus(b, v));
@@ -152,7 +156,8 @@ static void test_one_triangle(void)
         if (!meets) continue;
         n_hits++;
         truth_meets(&hit, &ray, p, 0, true);
-        const vec3 a = vec3_add(ray.from, vec3_scale(ray.to, hit.t)), b = vec3_mix(hit.bary, p[0], p[1], p[2]), d = vec3_sub(a, b);
+        const vec3 a = vec3_add(ray.from, vec3_scale(ray.to, hit.t)), b = vec3_mix(hit.bary, p[0], p[1], p[2]),
+                   d = vec3_sub(a, b);
         n_wrong += fabs(hit.t - (double)t) > 1e-9 * (1 + hit.t) || sqrt(vec3_dot(d, d)) > 1e-9 * (1 + hit.t);
     }
     CHECK_EQ_INT(n_wrong, 0);
@@ -160,8 +165,8 @@ static void test_one_triangle(void)
     CHECK(n_open < 200);
 }
 
-/* The bounds of the arithmetic in doubles hold: what they decide is what exact arithmetic says, for points that are nearly on edges
- * and planes. */
+/* The bounds of the arithmetic in doubles hold: what they decide is what exact arithmetic says, for points that are
+ * nearly on edges and planes. */
 static void test_filter_is_safe(void)
 {
     long n_wrong = 0;
@@ -172,9 +177,11 @@ static void test_filter_is_safe(void)
             p[k] = vec3_add(random_point(scale), (vec3){offset, -offset, offset});
             own[k] = vec3_add(random_point(scale), (vec3){offset, -offset, offset});
         }
-        exact_point origin = {.vertex = {own[0], own[1], own[2]}, .weight = {random_unit(), random_unit(), n % 3 ? 1e-15 : 0}};
+        exact_point origin = {.vertex = {own[0], own[1], own[2]},
+                              .weight = {random_unit(), random_unit(), n % 3 ? 1e-15 : 0}};
         if (n % 2) origin.vertex[0] = p[0], origin.vertex[1] = p[1]; /* on the edge, or nearly */
-        const exact_target target = {.at = n % 5 ? random_point(scale) : vec3_mix((double[3]){0.3, 0.3, 0.4}, p[0], p[1], own[2]),
+        const exact_target target = {.at = n % 5 ? random_point(scale)
+                                                 : vec3_mix((double[3]){0.3, 0.3, 0.4}, p[0], p[1], own[2]),
                                      .infinite = n % 7 == 0};
         const truth_ray ray = truth_make_ray(&origin, target, 0);
         truth_hit hit;
@@ -193,8 +200,8 @@ static void test_filter_is_safe(void)
 
 #define GRID 9 /* vertices along an edge of the bumpy cube */
 
-/* A closed surface in integers: a cube of 8 units around the origin times `unit`, its sides cut into triangles, every vertex pulled
- * out along its own direction by a random share, so that it stays star-shaped. */
+/* A closed surface in integers: a cube of 8 units around the origin times `unit`, its sides cut into triangles, every
+ * vertex pulled out along its own direction by a random share, so that it stays star-shaped. */
 static int lattice_index(int i, int j, int k)
 {
     return (i * GRID + j) * GRID + k;
@@ -248,8 +255,8 @@ static bool count_crossing(void *user, const truth_caster *c)
     return true;
 }
 
-/* From the inside every way out crosses the surface once more outwards (seen: a face that faces the target) than inwards. The ways
- * go exactly through vertices, through the middles of edges, and along edges. */
+/* From the inside every way out crosses the surface once more outwards (seen: a face that faces the target) than
+ * inwards. The ways go exactly through vertices, through the middles of edges, and along edges. */
 static void test_watertight(void)
 {
     for (int n = 0; n < 6; n++) {
@@ -263,7 +270,8 @@ static void test_watertight(void)
         for (size_t i = 0; i < 3 * mesh->n_triangles; i++) {
             const vec3 a = as_vec3(mesh->pos + 3 * (size_t)mesh->idx[i]);
             const vec3 b = as_vec3(mesh->pos + 3 * (size_t)mesh->idx[i % 3 == 2 ? i - 2 : i + 1]);
-            const vec3 through[3] = {a, vec3_scale(vec3_add(a, b), 0.5), vec3_add(vec3_scale(a, 0.25), vec3_scale(b, 0.75))};
+            const vec3 through[3] = {a, vec3_scale(vec3_add(a, b), 0.5),
+                                     vec3_add(vec3_scale(a, 0.25), vec3_scale(b, 0.75))};
             const vec3 centre = {n % 3, 0, -(n % 3)}; /* an integer: what lies between is exact */
             for (int k = 0; k < 6; k++) {
                 const vec3 way = vec3_sub(through[k % 3], centre);
@@ -284,7 +292,8 @@ static void test_watertight(void)
     }
 }
 
-/* Rays that run in the plane of a grid's edges, and hit vertex after vertex: seen from above, each crosses a flat grid once. */
+/* Rays that run in the plane of a grid's edges, and hit vertex after vertex: seen from above, each crosses a flat grid
+ * once. */
 static void test_grid_from_above(void)
 {
     enum { SIDE = 12 };
@@ -347,8 +356,9 @@ static int depth_of(const truth_tracer *t, uint32_t node, bool *boxes_hold)
     int deepest = 0;
     for (uint32_t side = 0; side < 2; side++) {
         const truth_node *child = &t->nodes[n->first + side];
-        *boxes_hold = *boxes_hold && child->low.x >= n->low.x && child->high.x <= n->high.x && child->low.y >= n->low.y &&
-                      child->high.y <= n->high.y && child->low.z >= n->low.z && child->high.z <= n->high.z;
+        *boxes_hold = *boxes_hold && child->low.x >= n->low.x && child->high.x <= n->high.x &&
+                      child->low.y >= n->low.y && child->high.y <= n->high.y && child->low.z >= n->low.z &&
+                      child->high.z <= n->high.z;
         const int depth = 1 + depth_of(t, n->first + side, boxes_hold);
         deepest = depth > deepest ? depth : deepest;
     }
@@ -371,7 +381,8 @@ static void test_hierarchy(void)
         CHECK(boxes_hold);
         for (int n = 0; n < 4000; n++) {
             const vec3 axes[4] = {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {1, 0, -1}};
-            const exact_target target = {.at = n % 2 ? axes[n / 2 % 4] : random_point(4), .infinite = n % 2 || n % 4 == 0};
+            const exact_target target = {.at = n % 2 ? axes[n / 2 % 4] : random_point(4),
+                                         .infinite = n % 2 || n % 4 == 0};
             const exact_point origin =
                 corner_point(counts[c] && n % 3 == 0 ? t.tracer.casters[(size_t)n % counts[c]].p[0] : random_point(4));
             const truth_ray ray = truth_make_ray(&origin, target, 0);

@@ -14,7 +14,8 @@ typedef struct {
 static double transmittance_at(const suspect *s, vec3 p)
 {
     const exact_point origin = corner_point(p);
-    return truth_transmittance(s->tracer, &origin, 1e-14 * s->tracer->extent, s->skips_own ? &s->at.triangle : NULL, s->light);
+    return truth_transmittance(s->tracer, &origin, 1e-14 * s->tracer->extent, s->skips_own ? &s->at.triangle : NULL,
+                               s->light);
 }
 
 /* The world point at the depth of `moved`, in ref_to_light's coordinates, and the middle of a texel. */
@@ -26,15 +27,15 @@ static vec3 texel_point(const ref_light_view *view, vec3 moved, double i, double
                              (moved.z + view->origin[2]) * view->texel};
         return vec3_mix(f, u, v, w);
     }
-    const double t = view->tile_texels,
-                 f[3] = {(2 * (i + 0.5) / t - 1) * view->t * moved.z, (2 * (j + 0.5) / t - 1) * view->t * moved.z, moved.z};
+    const double t = view->tile_texels, f[3] = {(2 * (i + 0.5) / t - 1) * view->t * moved.z,
+                                                (2 * (j + 0.5) / t - 1) * view->t * moved.z, moved.z};
     return vec3_add(as_vec3(view->position), vec3_mix(f, u, v, w));
 }
 
-/* With no bias in depth, what the map stores in a texel is where the true shadow begins on the ray through its middle, and a tap
- * says whether the point at the moved point's depth on that ray is in true shadow. All of these points lie as near as the filter
- * reaches and the receiver bias moves. If the light arrives at none of them otherwise than at the visible point, the map has no
- * right to say something else: there is no edge of the true shadow near. */
+/* With no bias in depth, what the map stores in a texel is where the true shadow begins on the ray through its middle,
+ * and a tap says whether the point at the moved point's depth on that ray is in true shadow. All of these points lie as
+ * near as the filter reaches and the receiver bias moves. If the light arrives at none of them otherwise than at the
+ * visible point, the map has no right to say something else: there is no edge of the true shadow near. */
 static bool is_near_edge(const suspect *s, const ref_light_view *view)
 {
     const double k = view->filter_index, steep = sqrt(2.0) * s->light->bias_normal;

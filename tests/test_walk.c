@@ -12,7 +12,7 @@ static rng random_state = {3};
 
 static const int32_t tried_bits[] = {2, 4, 8, 12};
 
-/* ---- One triangle ------------------------------------------------------------------------------------------------- */
+/* ---- One triangle ------------------------------------------------------------------------------------------------ */
 
 /* A coordinate in a box of pixels: anywhere, on a pixel centre, on a pixel border, or next to one of these. */
 static int32_t random_coord(int32_t lo_px, int32_t hi_px, int32_t bits)
@@ -97,8 +97,8 @@ static void test_small_triangles(void)
         }
         make_awkward(x, y);
         window w = {left - 2, top - 2, left + size + 2, top + size + 2};
-        HOLDS(&t, walk_equals_oracle(x, y, bits, w), "bits %d: (%d, %d) (%d, %d) (%d, %d)", (int)bits, (int)x[0], (int)y[0],
-              (int)x[1], (int)y[1], (int)x[2], (int)y[2]);
+        HOLDS(&t, walk_equals_oracle(x, y, bits, w), "bits %d: (%d, %d) (%d, %d) (%d, %d)", (int)bits, (int)x[0],
+              (int)y[0], (int)x[1], (int)y[1], (int)x[2], (int)y[2]);
     }
     CHECK_TALLY(t, "small triangles");
 }
@@ -121,14 +121,14 @@ static void test_huge_triangles(void)
         int32_t cy = (int32_t)((y[a] * f + y[b] * (256 - f)) / 256 / (1 << bits)) + rng_range(&random_state, -6, 6);
         cx = cx < -32000 ? -32000 : cx > 32000 ? 32000 : cx; /* spans are limited to 16 bits */
         window w = {cx - 8, cy - 8, cx + 8, cy + 8};
-        HOLDS(&t, walk_equals_oracle(x, y, bits, w), "bits %d: (%d, %d) (%d, %d) (%d, %d) at (%d, %d)", (int)bits, (int)x[0],
-              (int)y[0], (int)x[1], (int)y[1], (int)x[2], (int)y[2], (int)cx, (int)cy);
+        HOLDS(&t, walk_equals_oracle(x, y, bits, w), "bits %d: (%d, %d) (%d, %d) (%d, %d) at (%d, %d)", (int)bits,
+              (int)x[0], (int)y[0], (int)x[1], (int)y[1], (int)x[2], (int)y[2], (int)cx, (int)cy);
     }
     CHECK_TALLY(t, "huge triangles");
 }
 
-/* Triangles as large as fixed point steps them, whose edge crosses the first or the last row within 1 / dy of a pixel centre: the smallest
- * error shows there. */
+/* Triangles as large as fixed point steps them, whose edge crosses the first or the last row within 1 / dy of a pixel
+ * centre: the smallest error shows there. */
 static void test_fixed_point_limits(void)
 {
     enum { LARGEST = (1 << 14) - 1 };
@@ -148,31 +148,39 @@ static void test_fixed_point_limits(void)
         int32_t x[3] = {x0, x0 + dx, other}, y[3] = {y0, y0 + dy, y0 + dy};
         int32_t px = (int32_t)(x0 + row * dx / dy) >> bits;
         window w = {px - 2, first, px + 3, first + n_rows};
-        HOLDS(&t, walk_equals_oracle(x, y, bits, w), "bits %d: (%d, %d) + (%d, %d)", (int)bits, (int)x0, (int)y0, (int)dx, (int)dy);
+        HOLDS(&t, walk_equals_oracle(x, y, bits, w), "bits %d: (%d, %d) + (%d, %d)", (int)bits, (int)x0, (int)y0,
+              (int)dx, (int)dy);
     }
     CHECK(t.n > 300);
     CHECK_TALLY(t, "limits of fixed point");
 }
 
-/* The edges of narrow triangles: every row of many, and rows within 1 / dy of a pixel centre of those that are as high as they may be. */
+/* The edges of narrow triangles: every row of many, and rows within 1 / dy of a pixel centre of those that are as high
+ * as they may be. */
 static void test_narrow_edges(void)
 {
     tally t = {0};
     for (uint32_t i = 0; i < 400000; i++) {
         int32_t bits = rng_range(&random_state, 2, 8), one = 1 << bits, most = gn_walk_narrow(bits) - 1;
-        int32_t dy = i & 1 ? most - rng_range(&random_state, 0, 20) : rng_range(&random_state, 1, most), dx = rng_range(&random_state, -most, most);
+        int32_t dy = i & 1 ? most - rng_range(&random_state, 0, 20) : rng_range(&random_state, 1, most),
+                dx = rng_range(&random_state, -most, most);
         if (i & 2) dx = dx < 0 ? -most : most;
-        int32_t x0 = rng_range(&random_state, -4000, 4000) * (i & 4 ? 16 : 1), y0 = rng_range(&random_state, -3000, 3000);
-        int32_t first = gn_first_px(y0, bits), end = gn_first_px(y0 + dy, bits), from = rng_range(&random_state, first, end > first ? end - 1 : first);
+        int32_t x0 = rng_range(&random_state, -4000, 4000) * (i & 4 ? 16 : 1),
+                y0 = rng_range(&random_state, -3000, 3000);
+        int32_t first = gn_first_px(y0, bits), end = gn_first_px(y0 + dy, bits),
+                from = rng_range(&random_state, first, end > first ? end - 1 : first);
         if (from >= end) continue;
-        gn_walk_line line = gn_walk_narrow_at(x0 - one / 2, y0, x0 - one / 2 + dx, y0 + dy, from * one + one / 2, bits, i & 8 ? 1 : 0);
+        gn_walk_line line =
+            gn_walk_narrow_at(x0 - one / 2, y0, x0 - one / 2 + dx, y0 + dy, from * one + one / 2, bits, i & 8 ? 1 : 0);
         int good = 1;
         for (int32_t row = from; row < end; row++, line.x += line.step) {
-            int64_t over = ((int64_t)x0 - one / 2) * dy + ((int64_t)row * one + one / 2 - y0) * dx, centre = (int64_t)dy * one; /* ceil(over / centre) */
+            int64_t over = ((int64_t)x0 - one / 2) * dy + ((int64_t)row * one + one / 2 - y0) * dx,
+                    centre = (int64_t)dy * one; /* ceil(over / centre) */
             int64_t exact = over >= 0 ? (over + centre - 1) / centre : -(-over / centre);
             good = good && (int32_t)line.x >> GN_NARROW_BITS == exact;
         }
-        HOLDS(&t, good, "bits %d: (%d, %d) + (%d, %d) from row %d", (int)bits, (int)x0, (int)y0, (int)dx, (int)dy, (int)from);
+        HOLDS(&t, good, "bits %d: (%d, %d) + (%d, %d) from row %d", (int)bits, (int)x0, (int)y0, (int)dx, (int)dy,
+              (int)from);
     }
     CHECK(t.n > 100000);
     CHECK_TALLY(t, "edges of narrow triangles");
@@ -201,8 +209,8 @@ static void test_tile_borders(void)
                     ok = ok && row == expected++ && row < hi && xa == span[row][0] && xb == span[row][1];
                 }
             for (; expected < hi; expected++) ok = ok && span[expected][0] >= span[expected][1];
-            HOLDS(&t, ok, "bits %d, rows %d..%d: (%d, %d) (%d, %d) (%d, %d)", (int)bits, (int)lo, (int)hi, (int)x[0], (int)y[0],
-                  (int)x[1], (int)y[1], (int)x[2], (int)y[2]);
+            HOLDS(&t, ok, "bits %d, rows %d..%d: (%d, %d) (%d, %d) (%d, %d)", (int)bits, (int)lo, (int)hi, (int)x[0],
+                  (int)y[0], (int)x[1], (int)y[1], (int)x[2], (int)y[2]);
         }
     }
     CHECK_TALLY(t, "walks cut at tile borders");
@@ -219,7 +227,7 @@ static void test_first_px(void)
     CHECK_TALLY(t, "gn_first_px");
 }
 
-/* ---- Meshes ------------------------------------------------------------------------------------------------------- */
+/* ---- Meshes ------------------------------------------------------------------------------------------------------ */
 
 enum { CANVAS = 64, GRID = 9 };
 
@@ -241,16 +249,17 @@ static void draw(canvas *c, const int32_t x[3], const int32_t y[3], int32_t bits
         }
 }
 
-/* Inner vertices are shaken, border vertices stay: without folds each pixel of the rectangle is covered once; with folds the
- * triangles that lie the right way round still outnumber the others by one, everywhere. */
+/* Inner vertices are shaken, border vertices stay: without folds each pixel of the rectangle is covered once; with
+ * folds the triangles that lie the right way round still outnumber the others by one, everywhere. */
 static void test_grid(void)
 {
     tally once = {0}, folded = {0};
     for (uint32_t i = 0; i < 400; i++) {
         static canvas c;
-        int32_t bits = tried_bits[i & 3], one = 1 << bits, cell = rng_range(&random_state, one, 7 * one - 1), x[GRID][GRID],
-                y[GRID][GRID];
-        int32_t left = random_coord(-4, 2, bits), top = random_coord(-4, 2, bits), shake = i & 4 ? 2 * cell : (cell - 1) / 4;
+        int32_t bits = tried_bits[i & 3], one = 1 << bits, cell = rng_range(&random_state, one, 7 * one - 1),
+                x[GRID][GRID], y[GRID][GRID];
+        int32_t left = random_coord(-4, 2, bits), top = random_coord(-4, 2, bits),
+                shake = i & 4 ? 2 * cell : (cell - 1) / 4;
         memset(&c, 0, sizeof c);
         for (int v = 0; v < GRID; v++)
             for (int u = 0; u < GRID; u++) {
@@ -312,13 +321,14 @@ static void test_fan(void)
             for (int32_t px = 0; px < CANVAS; px++) {
                 int64_t dx = px * one + one / 2 - cx, dy = py * one + one / 2 - cy, near = 11 * one;
                 int n_here = c.once[py][px], inside = dx * dx + dy * dy < near * near;
-                HOLDS(&t, inside ? n_here == 1 : n_here <= 1, "fan %u at (%d, %d): %d", (unsigned)i, (int)px, (int)py, n_here);
+                HOLDS(&t, inside ? n_here == 1 : n_here <= 1, "fan %u at (%d, %d): %d", (unsigned)i, (int)px, (int)py,
+                      n_here);
             }
     }
     CHECK_TALLY(t, "a fan covers each pixel once");
 }
 
-/* ---- Pictures ----------------------------------------------------------------------------------------------------- */
+/* ---- Pictures ---------------------------------------------------------------------------------------------------- */
 
 enum { WIDTH = 96, HEIGHT = 72, SIDE = 13, N_VERTICES = SIDE * SIDE, N_TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1) };
 
@@ -334,13 +344,15 @@ static void flush(void *user, int x, int y, int w, int h, const void *pixels)
     for (int row = 0; row < h; row++) memcpy(&picture[y + row][x], from + row * w, (size_t)(unsigned)w * sizeof *from);
 }
 
-/* A sheet of SIDE x SIDE vertices: column u, row v at pos[3 * (v * SIDE + u)]; u, v in Q16, -1 .. 1. `closed` joins the ends. */
+/* A sheet of SIDE x SIDE vertices: column u, row v at pos[3 * (v * SIDE + u)]; u, v in Q16, -1 .. 1. `closed` joins the
+ * ends. */
 static void sheet_triangles(void)
 {
     uint16_t *out = idx;
     for (int v = 0; v + 1 < SIDE; v++)
         for (int u = 0; u + 1 < SIDE; u++) {
-            uint16_t a = (uint16_t)(v * SIDE + u), b = (uint16_t)(a + 1), c = (uint16_t)(a + SIDE), d = (uint16_t)(c + 1);
+            uint16_t a = (uint16_t)(v * SIDE + u), b = (uint16_t)(a + 1), c = (uint16_t)(a + SIDE),
+                     d = (uint16_t)(c + 1);
             uint16_t cut[2][6] = {{a, b, d, a, d, c}, {a, b, c, b, d, c}};
             memcpy(out, cut[rng_below(&random_state, 2)], 6 * sizeof *out);
             out += 6;
@@ -352,8 +364,10 @@ static gn_status render(const gn_affine *camera, uint32_t focal_q24, int32_t nea
     static const int32_t steps[4] = {1, 4, 8, 16};
     gn_picture p = {WIDTH, HEIGHT, GN_FORMAT_RAW32, GN_VIEW_TRIANGLE, 0};
     gn_mesh mesh = {.pos = pos, .idx = idx, .n_vertices = N_VERTICES, .n_triangles = N_TRIANGLES, .pos_frac_bits = 16};
-    gn_object object = {
-        .mesh = &mesh, .to_world = *to_world, .albedo_uq16 = {65536, 65536, 65536}, .flags = GN_OBJECT_TWO_SIDED | GN_OBJECT_UNLIT};
+    gn_object object = {.mesh = &mesh,
+                        .to_world = *to_world,
+                        .albedo_uq16 = {65536, 65536, 65536},
+                        .flags = GN_OBJECT_TWO_SIDED | GN_OBJECT_UNLIT};
     gn_scene scene = {0};
     scene.objects = &object;
     scene.n_objects = 1;
@@ -437,7 +451,8 @@ static void pixel_ray(long double ray[3], const gn_affine *camera, long double f
     long double x = ((long double)px + 0.5L - WIDTH / 2) / (focal * (HEIGHT / 2)),
                 y = (HEIGHT / 2 - (long double)py - 0.5L) / (focal * (HEIGHT / 2));
     for (int k = 0; k < 3; k++)
-        ray[k] = ((long double)camera->m_q30[k][0] * x + (long double)camera->m_q30[k][1] * y - (long double)camera->m_q30[k][2]) /
+        ray[k] = ((long double)camera->m_q30[k][0] * x + (long double)camera->m_q30[k][1] * y -
+                  (long double)camera->m_q30[k][2]) /
                  1073741824.0L;
 }
 
@@ -506,7 +521,8 @@ static void test_sphere(void)
             for (int px = 0; px < WIDTH; px++) {
                 long double ray[3], centre = -(long double)to_world.t_q16[2] / 65536;
                 pixel_ray(ray, &camera, 1.5L, px, py);
-                long double across = ray[0] * ray[0] + ray[1] * ray[1]; /* distance^2 of the ray from the sphere's centre */
+                long double across =
+                    ray[0] * ray[0] + ray[1] * ray[1]; /* distance^2 of the ray from the sphere's centre */
                 if (centre * centre * across / (1 + across) < 4.0L * 0.8L)
                     HOLDS(&t, picture[py][px] != UINT32_MAX, "sphere %u at (%d, %d)", (unsigned)i, px, py);
             }

@@ -2,7 +2,8 @@
  *
  *   make emulate BOARD=... APP=bench ARGS="CASE SET"     a case and a set of the workload
  *   make emulate BOARD=... APP=bench SCENE=FILE ARGS=N   frame N of a scene, configured for it
- *   make emulate BOARD=... APP=bench SCENE=FILE ARGS="N M"   from frame N to frame M, shadow tiles being kept; beyond the last it is still
+ *   make emulate BOARD=... APP=bench SCENE=FILE ARGS="N M"
+ *                                                        from frame N to M, shadow tiles kept; then still
  *
  * Prints by what the instructions are divided.
  */
@@ -70,7 +71,8 @@ int app_main(void)
     const gn_scene *scene = scene_frame(&state, frame < 0 ? 0 : (uint32_t)frame);
     gn_status status = gn_init(&renderer, &picture);
     if (!status) status = gn_render(&renderer, scene, bench_flush, NULL);
-    while (!status && ++frame <= last) status = gn_render(&renderer, scene_frame(&state, (uint32_t)frame), bench_flush, NULL);
+    while (!status && ++frame <= last)
+        status = gn_render(&renderer, scene_frame(&state, (uint32_t)frame), bench_flush, NULL);
     return report(status, picture);
 }
 

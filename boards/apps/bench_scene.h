@@ -1,5 +1,5 @@
-/* The scene of the speed measurement, around a mesh: an object, one light from beside the camera, everything within its shadows. The
- * host's benchmark (tests/bench_workload.c) and the boards' (bench.c) draw it. */
+/* The scene of the speed measurement, around a mesh: an object, one light from beside the camera, everything within its
+ * shadows. The host's benchmark (tests/bench_workload.c) and the boards' (bench.c) draw it. */
 #ifndef GNOMON_BOARDS_BENCH_SCENE_H
 #define GNOMON_BOARDS_BENCH_SCENE_H
 
@@ -15,7 +15,8 @@ typedef struct {
     int shadowed; /* one light; otherwise the object is unlit */
 } bench_case;
 
-static const bench_case bench_cases[] = {{"flat", 0, 0}, {"gouraud", 1, 0}, {"flat-shadow", 0, 1}, {"gouraud-shadow", 1, 1}};
+static const bench_case bench_cases[] = {
+    {"flat", 0, 0}, {"gouraud", 1, 0}, {"flat-shadow", 0, 1}, {"gouraud-shadow", 1, 1}};
 enum { BENCH_N_CASES = sizeof bench_cases / sizeof *bench_cases };
 
 typedef struct {

@@ -1,7 +1,9 @@
-/* A clock: the sundial, whose shadow shows the hour, on the board's display. Tiles that look as they did are not sent again.
+/* A clock: the sundial, whose shadow shows the hour, on the board's display. Tiles that look as they did are not sent
+ * again.
  *
- * ARGS="07:00 13:00" runs from the one time to the other in steps of five minutes, says READY and keeps the picture; one time alone is
- * both. Without any the clock runs through the day, for ever. An error of the display is told, and the display is opened anew. */
+ * ARGS="07:00 13:00" runs from the one time to the other in steps of five minutes, says READY and keeps the picture;
+ * one time alone is both. Without any the clock runs through the day, for ever. An error of the display is told, and
+ * the display is opened anew. */
 #include "board.h"
 #include "day.h"
 #include "../displays/screen.h"

@@ -1,4 +1,5 @@
-/* Random scenes by compact arithmetic: a line with a CRC-32 for each, or with the status that refuses it. The same on every machine. */
+/* Random scenes by compact arithmetic: a line with a CRC-32 for each, or with the status that refuses it. The same on
+ * every machine. */
 #include "crc32.h"
 
 #include "board.h"
@@ -8,8 +9,9 @@ enum { WIDTH = 64, HEIGHT = 48, FRAMES = 24, OBJECTS = 4 };
 
 static gn_renderer renderer;
 
-static const int32_t pos[] = {GN_Q16(-4), 0, GN_Q16(4), GN_Q16(4), 0, GN_Q16(4), GN_Q16(4), 0, GN_Q16(-4), GN_Q16(-4), 0, GN_Q16(-4),
-                              GN_Q16(-1), 0, GN_Q16(1), GN_Q16(1), 0, GN_Q16(1), GN_Q16(1), 0, GN_Q16(-1), GN_Q16(-1), 0, GN_Q16(-1), 0, GN_Q16(2), 0};
+static const int32_t pos[] = {GN_Q16(-4), 0, GN_Q16(4),  GN_Q16(4),  0, GN_Q16(4),  GN_Q16(4), 0,         GN_Q16(-4),
+                              GN_Q16(-4), 0, GN_Q16(-4), GN_Q16(-1), 0, GN_Q16(1),  GN_Q16(1), 0,         GN_Q16(1),
+                              GN_Q16(1),  0, GN_Q16(-1), GN_Q16(-1), 0, GN_Q16(-1), 0,         GN_Q16(2), 0};
 static const uint16_t ground_idx[] = {0, 1, 2, 0, 2, 3}, idx[] = {4, 5, 8, 5, 6, 8, 6, 7, 8, 7, 4, 8};
 static const gn_mesh ground = {.pos = pos, .idx = ground_idx, .n_vertices = 9, .n_triangles = 2, .pos_frac_bits = 15};
 static const gn_mesh pyramid = {.pos = pos, .idx = idx, .n_vertices = 9, .n_triangles = 4, .pos_frac_bits = 16};

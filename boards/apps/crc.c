@@ -13,9 +13,9 @@ GN_PORT_FAST
 #endif
 static gn_renderer renderer;
 
-static const int32_t pos[] = {GN_Q16(-4), 0,          GN_Q16(4), GN_Q16(4), 0,          GN_Q16(4),  GN_Q16(4),  0,          GN_Q16(-4),
-                              GN_Q16(-4), 0,          GN_Q16(-4), GN_Q16(-1), 0,         GN_Q16(1),  GN_Q16(1),  0,          GN_Q16(1),
-                              GN_Q16(1),  0,          GN_Q16(-1), GN_Q16(-1), 0,         GN_Q16(-1), 0,          GN_Q16(2),  0};
+static const int32_t pos[] = {GN_Q16(-4), 0, GN_Q16(4),  GN_Q16(4),  0, GN_Q16(4),  GN_Q16(4), 0,         GN_Q16(-4),
+                              GN_Q16(-4), 0, GN_Q16(-4), GN_Q16(-1), 0, GN_Q16(1),  GN_Q16(1), 0,         GN_Q16(1),
+                              GN_Q16(1),  0, GN_Q16(-1), GN_Q16(-1), 0, GN_Q16(-1), 0,         GN_Q16(2), 0};
 static const uint16_t idx[] = {0, 1, 2, 0, 2, 3, 4, 5, 8, 5, 6, 8, 6, 7, 8, 7, 4, 8};
 static const gn_mesh mesh = {.pos = pos, .idx = idx, .n_vertices = 9, .n_triangles = 6, .pos_frac_bits = 16};
 

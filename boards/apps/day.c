@@ -17,7 +17,8 @@ int32_t day_frame(const char **text)
 
 void day_text(uint32_t frame, char text[6])
 {
-    uint32_t hour = frame / DAY_FRAMES_PER_HOUR + DAY_FIRST_HOUR, minute = frame % DAY_FRAMES_PER_HOUR * DAY_MINUTES_PER_FRAME;
+    uint32_t hour = frame / DAY_FRAMES_PER_HOUR + DAY_FIRST_HOUR,
+             minute = frame % DAY_FRAMES_PER_HOUR * DAY_MINUTES_PER_FRAME;
     text[0] = (char)('0' + hour / 10);
     text[1] = (char)('0' + hour % 10);
     text[2] = ':';

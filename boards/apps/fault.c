@@ -1,5 +1,5 @@
-/* What the guards of a board are for: ARGS=trap executes an undefined instruction, ARGS=stack runs over the stack, ARGS=none does
- * nothing wrong. The board must report the first two. */
+/* What the guards of a board are for: ARGS=trap executes an undefined instruction, ARGS=stack runs over the stack,
+ * ARGS=none does nothing wrong. The board must report the first two. */
 #include <string.h>
 
 #include "board.h"

@@ -1,5 +1,6 @@
-/* What features cost at run time: make emulate BOARD=... APP=features ARGS=CASE draws one small scene, of a box, a ball and a ground, with that case of
- * features in use; without, it prints the cases, each with the one that it is held against. Every feature is built in. docs/matrix.sh counts. */
+/* What features cost at run time: make emulate BOARD=... APP=features ARGS=CASE draws one small scene, of a box, a ball
+ * and a ground, with that case of features in use; without, it prints the cases, each with the one that it is held
+ * against. Every feature is built in. docs/matrix.sh counts. */
 #include "board.h"
 #include "demo_scene.h"
 
@@ -13,7 +14,7 @@ static uint16_t baked[3 * DEMO_BALL_VERTICES];
 static int16_t uv[2 * 8];
 static const gn_texture nearest = {texels, 3, 3, 0}, bilinear = {texels, 3, 3, GN_TEXTURE_BILINEAR};
 
-/* ---- Cases: each adds to what the one before it in the chain has ------------------------------------------------------- */
+/* ---- Cases: each adds to what the one before it in the chain has ------------------------------------------------- */
 
 static void plain(void)
 {
@@ -30,17 +31,35 @@ static void plain(void)
     for (int i = 0; i < DEMO_OBJECTS; i++) demo.object[i].alpha_uq16 = 50000, demo.object[i].alpha_cutoff_uq16 = 30000;
 }
 
-static void normals(void) { demo.ball.nrm_q15 = demo.ball_nrm; }
-static void colours(void) { demo.ball.rgb_uq16 = demo.ball_rgb, demo.box.rgb_uq16 = demo.box_rgb; }
+static void normals(void)
+{
+    demo.ball.nrm_q15 = demo.ball_nrm;
+}
+static void colours(void)
+{
+    demo.ball.rgb_uq16 = demo.ball_rgb, demo.box.rgb_uq16 = demo.box_rgb;
+}
 static void specular(void)
 {
     for (int k = 0; k < 3; k++) demo.object[1].specular_uq16[k] = 30000;
     demo.object[1].shininess_log2 = 4;
 }
-static void texture(void) { demo.object[0].texture = demo.object[2].texture = &nearest; }
-static void smooth_texture(void) { demo.object[0].texture = demo.object[2].texture = &bilinear; }
-static void cut(void) { demo.object[0].visible_alpha = demo.object[1].visible_alpha = GN_ALPHA_DITHER; }
-static void baked_light(void) { demo.object[1].baked_uq12 = baked; }
+static void texture(void)
+{
+    demo.object[0].texture = demo.object[2].texture = &nearest;
+}
+static void smooth_texture(void)
+{
+    demo.object[0].texture = demo.object[2].texture = &bilinear;
+}
+static void cut(void)
+{
+    demo.object[0].visible_alpha = demo.object[1].visible_alpha = GN_ALPHA_DITHER;
+}
+static void baked_light(void)
+{
+    demo.object[1].baked_uq12 = baked;
+}
 
 static void lamp(gn_light_kind kind)
 {
@@ -56,28 +75,73 @@ static void lamp(gn_light_kind kind)
     l->outer_turn = GN_TURN(70);
     l->range_q16 = GN_Q16(12);
 }
-static void spot(void) { lamp(GN_LIGHT_SPOT); }
-static void point(void) { lamp(GN_LIGHT_POINT); }
-static void lamp_shadow(void) { lights[1].shadow_strength_uq16 = GN_UQ16(1); }
+static void spot(void)
+{
+    lamp(GN_LIGHT_SPOT);
+}
+static void point(void)
+{
+    lamp(GN_LIGHT_POINT);
+}
+static void lamp_shadow(void)
+{
+    lights[1].shadow_strength_uq16 = GN_UQ16(1);
+}
 
-static void shadow(void) { lights[0].shadow_strength_uq16 = GN_UQ16(1); }
-static void filter(gn_filter f) { demo.scene.shadow.filter = demo.scene.shadow.other_filter = f; }
-static void filter_2x2(void) { filter(GN_FILTER_2X2); }
-static void filter_3x3(void) { filter(GN_FILTER_3X3); }
-static void filter_5x5(void) { filter(GN_FILTER_5X5); }
-static void filter_7x7(void) { filter(GN_FILTER_7X7); }
+static void shadow(void)
+{
+    lights[0].shadow_strength_uq16 = GN_UQ16(1);
+}
+static void filter(gn_filter f)
+{
+    demo.scene.shadow.filter = demo.scene.shadow.other_filter = f;
+}
+static void filter_2x2(void)
+{
+    filter(GN_FILTER_2X2);
+}
+static void filter_3x3(void)
+{
+    filter(GN_FILTER_3X3);
+}
+static void filter_5x5(void)
+{
+    filter(GN_FILTER_5X5);
+}
+static void filter_7x7(void)
+{
+    filter(GN_FILTER_7X7);
+}
 static void disk(void)
 {
     filter(GN_FILTER_DISK);
     demo.scene.shadow.penumbra_uq16 = GN_UQ16(6);
     demo.scene.shadow.disk_samples = 12;
 }
-static void linear(void) { demo.scene.shadow.kernel = GN_KERNEL_LINEAR; }
-static void cascades(void) { demo.scene.shadow.n_cascades = 2; }
-static void soft_blend(void) { demo.scene.shadow.blend = GN_BLEND_SOFT; }
-static void dithered_blend(void) { demo.scene.shadow.blend = GN_BLEND_DITHER; }
-static void culling(void) { demo.scene.shadow.caster_culling = 1; }
-static void cut_casters(void) { demo.object[0].caster_alpha = demo.object[1].caster_alpha = GN_ALPHA_DITHER; }
+static void linear(void)
+{
+    demo.scene.shadow.kernel = GN_KERNEL_LINEAR;
+}
+static void cascades(void)
+{
+    demo.scene.shadow.n_cascades = 2;
+}
+static void soft_blend(void)
+{
+    demo.scene.shadow.blend = GN_BLEND_SOFT;
+}
+static void dithered_blend(void)
+{
+    demo.scene.shadow.blend = GN_BLEND_DITHER;
+}
+static void culling(void)
+{
+    demo.scene.shadow.caster_culling = 1;
+}
+static void cut_casters(void)
+{
+    demo.object[0].caster_alpha = demo.object[1].caster_alpha = GN_ALPHA_DITHER;
+}
 static void masks(void)
 {
     lights[0].mode = GN_LIGHT_MIXED;
@@ -89,9 +153,18 @@ static void receiver_bias(void)
 {
     for (int i = 0; i < 4; i++) lights[0].bias_receiver_q16[i] = GN_Q16(0.1);
 }
-static void caster_bias(void) { lights[0].bias_caster_q16 = GN_Q16(0.4); }
-static void receiver_plane(void) { lights[0].receiver_plane = 1; }
-static void auto_bias(void) { lights[0].auto_bias = GN_AUTO_BIAS_NORMAL; }
+static void caster_bias(void)
+{
+    lights[0].bias_caster_q16 = GN_Q16(0.4);
+}
+static void receiver_plane(void)
+{
+    lights[0].receiver_plane = 1;
+}
+static void auto_bias(void)
+{
+    lights[0].auto_bias = GN_AUTO_BIAS_NORMAL;
+}
 
 static const struct {
     const char *name, *over;
@@ -148,7 +221,7 @@ static void use(int i)
     cases[i].use();
 }
 
-/* ---- Drawing ------------------------------------------------------------------------------------------------------------ */
+/* ---- Drawing ----------------------------------------------------------------------------------------------------- */
 
 /* The counter takes this for the end of what it counts. */
 void bench_flush(void *user, int x, int y, int w, int h, const void *pixels);

@@ -1,5 +1,6 @@
-/* The golden frames: all own scenes with every preset, an animation, and settings that take other ways through the library. One line
- * each, with the CRC-32 of the bytes of its tiles as they come, which is the same on every machine, compiler and optimisation. */
+/* The golden frames: all own scenes with every preset, an animation, and settings that take other ways through the
+ * library. One line each, with the CRC-32 of the bytes of its tiles as they come, which is the same on every machine,
+ * compiler and optimisation. */
 #include "golden.h"
 
 #include <string.h>
@@ -10,10 +11,10 @@
 enum { WIDTH = 160, HEIGHT = 120, MAX_LIGHTS = 8 };
 
 static gn_renderer renderer;
-static gn_scene scene; /* the frame, to be changed, */
+static gn_scene scene;              /* the frame, to be changed, */
 static gn_light lights[MAX_LIGHTS]; /* and its lights */
 
-/* ---- Settings -------------------------------------------------------------------------------------------------------- */
+/* ---- Settings ---------------------------------------------------------------------------------------------------- */
 
 #define PRESET_(name, MACRO, lo, hi, meaning, cost) (int32_t[]){GN_PRESETS_##MACRO}[preset],
 static void use_preset(int preset)
@@ -102,7 +103,7 @@ static void narrow_tiles(gn_scene *s)
     renderer.frame.knobs.srgb = 0;
 }
 
-/* ---- The list -------------------------------------------------------------------------------------------------------- */
+/* ---- The list ---------------------------------------------------------------------------------------------------- */
 
 typedef struct {
     const golden_scene *scene;
@@ -146,7 +147,7 @@ static const golden_frame frames[] = {
     {&golden_room, 0, 0, 0, GN_FORMAT_RGB565, 0, "24x5 tiles, no sRGB", narrow_tiles},
 };
 
-/* ---- Running --------------------------------------------------------------------------------------------------------- */
+/* ---- Running ----------------------------------------------------------------------------------------------------- */
 
 static const char *const format_names[] = {"RGB565", "RGB888", "RGB565 swapped", "grey8", "grey4", "mono1"};
 static const char *const preset_names[] = {"tiny", "balanced", "accurate"};
@@ -214,7 +215,8 @@ int app_main(void)
 {
     int failed = 0;
     for (size_t i = 0; i < sizeof frames / sizeof *frames; i++) {
-        int first = frames[i].presets ? 0 : GN_PRESET_BALANCED, last = frames[i].presets ? frames[i].presets - 1 : GN_PRESET_BALANCED;
+        int first = frames[i].presets ? 0 : GN_PRESET_BALANCED,
+            last = frames[i].presets ? frames[i].presets - 1 : GN_PRESET_BALANCED;
         for (int preset = first; preset <= last; preset++) failed |= draw(&frames[i], preset) != GN_OK;
     }
     return failed;

@@ -1,5 +1,5 @@
-/* Every feature, and quality knobs as data: one image draws all golden frames. Images with constant knobs draw the same bits, which
- * the app "play" is held against. */
+/* Every feature, and quality knobs as data: one image draws all golden frames. Images with constant knobs draw the same
+ * bits, which the app "play" is held against. */
 #define GN_RUNTIME_KNOBS    1
 #define GN_MAX_WIDTH        160
 #define GN_MAX_HEIGHT       120

@@ -1,5 +1,5 @@
-/* A compiled scene with a library that was configured for it: make firmware BOARD=... APP=play SCENE=FILE. Prints the CRC-32 of
- * every frame's bytes, or of the first N with ARGS=N. */
+/* A compiled scene with a library that was configured for it: make firmware BOARD=... APP=play SCENE=FILE. Prints the
+ * CRC-32 of every frame's bytes, or of the first N with ARGS=N. */
 #include "scene.h"
 
 #include "board.h"
@@ -18,7 +18,8 @@ static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 static uint32_t n_frames(void)
 {
     uint32_t n = 0;
-    for (const char *digit = board_args(); *digit >= '0' && *digit <= '9'; digit++) n = 10 * n + (uint32_t)(*digit - '0');
+    for (const char *digit = board_args(); *digit >= '0' && *digit <= '9'; digit++)
+        n = 10 * n + (uint32_t)(*digit - '0');
     return n && n < SCENE_FRAMES ? n : SCENE_FRAMES;
 }
 

@@ -1,5 +1,5 @@
-/* A lit scene with a filtered shadow in 16 KB of RAM: a pocket sundial, streamed strip by strip as to a serial panel. ARGS=FILE
- * writes the strips of the first hour to a file of the machine that runs the emulator, RGB565, 128 x 128. */
+/* A lit scene with a filtered shadow in 16 KB of RAM: a pocket sundial, streamed strip by strip as to a serial panel.
+ * ARGS=FILE writes the strips of the first hour to a file of the machine that runs the emulator, RGB565, 128 x 128. */
 #include "crc32.h"
 
 #include "board.h"
@@ -11,24 +11,25 @@ static gn_renderer renderer;
 static gn_light sun = {.colour_uq16 = {GN_UQ16(1.5), GN_UQ16(1.35), GN_UQ16(1.1)},
                        .shadow_strength_uq16 = GN_UQ16(1),
                        .bias_normal_q16 = GN_Q16(1)};
-static const gn_scene scene = {.objects = pocket_objects,
-                         .n_objects = POCKET_OBJECTS,
-                         .lights = &sun,
-                         .n_lights = 1,
-                         .ambient_uq16 = {9000, 11000, 16000},
-                         .background_uq16 = {20000, 32000, 50000},
-                         /* from (2.2, 5, 5.6) to (0, 0.35, -0.1), as gn_camera_look_at has it: a constant costs no RAM */
-                         .camera = {.to_world = {.m_q30 = {{1001719042, -234149502, 307659678},
-                                                           {0, 854433424, 650280731},
-                                                           {-386627038, -606662213, 797121069}},
-                                                 .t_q16 = {XYZ(2.2, 5, 5.6)}},
-                                    .focal_q24 = GN_Q24(2.4),
-                                    .near_q16 = GN_Q16(1),
-                                    .far_q16 = GN_Q16(30)},
-                         .shadow = {.max_distance_q16 = GN_Q16(11),
-                                    .distance_fade_uq16 = GN_UQ16(0.1),
-                                    .cascade_fade_uq16 = GN_UQ16(0.1),
-                                    .filter = GN_FILTER_3X3}};
+static const gn_scene scene = {
+    .objects = pocket_objects,
+    .n_objects = POCKET_OBJECTS,
+    .lights = &sun,
+    .n_lights = 1,
+    .ambient_uq16 = {9000, 11000, 16000},
+    .background_uq16 = {20000, 32000, 50000},
+    /* from (2.2, 5, 5.6) to (0, 0.35, -0.1), as gn_camera_look_at has it: a constant costs no RAM */
+    .camera = {.to_world = {.m_q30 = {{1001719042, -234149502, 307659678},
+                                      {0, 854433424, 650280731},
+                                      {-386627038, -606662213, 797121069}},
+                            .t_q16 = {XYZ(2.2, 5, 5.6)}},
+               .focal_q24 = GN_Q24(2.4),
+               .near_q16 = GN_Q16(1),
+               .far_q16 = GN_Q16(30)},
+    .shadow = {.max_distance_q16 = GN_Q16(11),
+               .distance_fade_uq16 = GN_UQ16(0.1),
+               .cascade_fade_uq16 = GN_UQ16(0.1),
+               .filter = GN_FILTER_3X3}};
 
 typedef struct {
     uint32_t crc;

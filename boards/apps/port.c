@@ -1,5 +1,5 @@
-/* Holds the port's kernels against the portable ones, bit for bit: every length and alignment that occurs, values at the edges and
- * many between. Prints how many differed. */
+/* Holds the port's kernels against the portable ones, bit for bit: every length and alignment that occurs, values at
+ * the edges and many between. Prints how many differed. */
 #include "gn_port_portable.h"
 
 #include <string.h>
@@ -24,7 +24,7 @@ static void check(int ok)
     if (!ok) n_wrong++;
 }
 
-/* ---- Texels under a tent --------------------------------------------------------------------------------------------- */
+/* ---- Texels under a tent ----------------------------------------------------------------------------------------- */
 
 enum { TEXELS_MAX = 8, PITCH_MAX = 16 };
 
@@ -62,7 +62,8 @@ static int same(kernel *of, const uint16_t *texel, size_t pitch, uint32_t least,
     uint8_t is[TEXELS_MAX + 1], want[TEXELS_MAX + 1];
     memset(is, 0xA5, sizeof is);
     memset(want, 0xA5, sizeof want);
-    return of(texel, pitch, least, n, is) == gn_oracle_dark_texels16(texel, pitch, least, n, want) && memcmp(is, want, sizeof is) == 0;
+    return of(texel, pitch, least, n, is) == gn_oracle_dark_texels16(texel, pitch, least, n, want) &&
+           memcmp(is, want, sizeof is) == 0;
 }
 
 static uint32_t kernel_of_port(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark)
@@ -83,13 +84,14 @@ static void check_dark_texels(void)
         uint32_t least = random_least(), alike = random32() & 3U;
         int32_t n = 4 + 2 * (turn % 3);
         size_t pitch = turn % 5 ? PITCH_MAX : TEXELS_MAX;
-        for (size_t i = 0; i < TEXELS_MAX * pitch; i++) first[i] = i > 1 && alike ? first[i - alike] : random_texel(least);
+        for (size_t i = 0; i < TEXELS_MAX * pitch; i++)
+            first[i] = i > 1 && alike ? first[i - alike] : random_texel(least);
         check(same(kernel_of_port, first, pitch, least, n));
         check(same(kernel_of_library, first, pitch, least, n));
     }
 }
 
-/* ---- memset ---------------------------------------------------------------------------------------------------------- */
+/* ---- memset ------------------------------------------------------------------------------------------------------ */
 
 /* All of a buffer is compared: what lies around must stay. */
 static void check_memset(void)
@@ -108,7 +110,7 @@ static void check_memset(void)
     }
 }
 
-/* ---- Products -------------------------------------------------------------------------------------------------------- */
+/* ---- Products ---------------------------------------------------------------------------------------------------- */
 
 /* Half of them of few bits, so that carries meet zeros and ones. */
 static uint64_t random64(void)
@@ -131,10 +133,11 @@ static void check_products(void)
     }
 }
 
-/* ---- Before DMA ------------------------------------------------------------------------------------------------------ */
+/* ---- Before DMA -------------------------------------------------------------------------------------------------- */
 
 #ifdef GN_PORT
-/* What is in memory afterwards an emulator without caches cannot show; that any alignment and length is taken, and nothing changed, it can. */
+/* What is in memory afterwards an emulator without caches cannot show; that any alignment and length is taken, and
+ * nothing changed, it can. */
 static void check_before_dma(void)
 {
     static uint8_t bytes[200];

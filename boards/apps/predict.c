@@ -1,5 +1,5 @@
-/* What the clock must show: ARGS="13:00 FILE" draws that one frame, with the library alone and no display, and writes it as the PPM
- * that the emulator makes of its screen. Grey displays come out four times as large. */
+/* What the clock must show: ARGS="13:00 FILE" draws that one frame, with the library alone and no display, and writes
+ * it as the PPM that the emulator makes of its screen. Grey displays come out four times as large. */
 #include "board.h"
 #include "day.h"
 

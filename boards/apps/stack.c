@@ -1,5 +1,5 @@
-/* How deep the stack really gets: a scene that comes to the deepest calls, and what the startup code's paint says afterwards. Runs with
- * every configuration: lights that are not built in are left out. */
+/* How deep the stack really gets: a scene that comes to the deepest calls, and what the startup code's paint says
+ * afterwards. Runs with every configuration: lights that are not built in are left out. */
 #include "board.h"
 #include "gnomon.h"
 
@@ -7,17 +7,24 @@ enum { WIDTH = 96, HEIGHT = 64 };
 
 static gn_renderer renderer;
 
-/* A floor that reaches behind the camera and far beyond the tile, so that it is clipped both ways; a roof that casts. */
-static const int32_t pos[] = {GN_Q16(-40), 0,         GN_Q16(40), GN_Q16(40), 0,         GN_Q16(40), GN_Q16(40), 0,         GN_Q16(-40),
-                              GN_Q16(-40), 0,         GN_Q16(-40), GN_Q16(-1), GN_Q16(1), GN_Q16(1),  GN_Q16(1),  GN_Q16(1), GN_Q16(1),
-                              GN_Q16(1),   GN_Q16(1), GN_Q16(-1), GN_Q16(-1), GN_Q16(1), GN_Q16(-1)};
+/* A floor that reaches behind the camera and far beyond the tile, so that it is clipped both ways; a roof that casts.
+ */
+static const int32_t pos[] = {GN_Q16(-40), 0,         GN_Q16(40),  GN_Q16(40),  0,         GN_Q16(40),
+                              GN_Q16(40),  0,         GN_Q16(-40), GN_Q16(-40), 0,         GN_Q16(-40),
+                              GN_Q16(-1),  GN_Q16(1), GN_Q16(1),   GN_Q16(1),   GN_Q16(1), GN_Q16(1),
+                              GN_Q16(1),   GN_Q16(1), GN_Q16(-1),  GN_Q16(-1),  GN_Q16(1), GN_Q16(-1)};
 static const int16_t nrm[] = {1, 9, 1, -1, 9, 1, -1, 9, -1, 1, 9, -1, 1, 9, 1, -1, 9, 1, -1, 9, -1, 1, 9, -1};
 static const uint16_t idx[] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
-static const gn_mesh mesh = {.pos = pos, .nrm_q15 = nrm, .idx = idx, .n_vertices = 8, .n_triangles = 4, .pos_frac_bits = 16};
+static const gn_mesh mesh = {
+    .pos = pos, .nrm_q15 = nrm, .idx = idx, .n_vertices = 8, .n_triangles = 4, .pos_frac_bits = 16};
 
-static gn_object object = {.mesh = &mesh, .albedo_uq16 = {60000, 50000, 40000}, .flags = GN_OBJECT_DEFAULT | GN_OBJECT_CASTS_TWO_SIDED};
+static gn_object object = {
+    .mesh = &mesh, .albedo_uq16 = {60000, 50000, 40000}, .flags = GN_OBJECT_DEFAULT | GN_OBJECT_CASTS_TWO_SIDED};
 static gn_light lights[] = {
-    {.direction = {-1, -3, -1}, .colour_uq16 = {60000, 60000, 50000}, .shadow_strength_uq16 = GN_UQ16(1), .bias_normal_q16 = GN_Q16(1)},
+    {.direction = {-1, -3, -1},
+     .colour_uq16 = {60000, 60000, 50000},
+     .shadow_strength_uq16 = GN_UQ16(1),
+     .bias_normal_q16 = GN_Q16(1)},
 #if GN_PUNCTUAL_LIGHTS
     {.kind = GN_LIGHT_POINT,
      .position_q16 = {0, GN_Q16(3), 0},

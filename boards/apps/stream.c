@@ -1,5 +1,5 @@
-/* A compiled scene to a panel that takes rows in order; here the panel is a file: make emulate APP=stream SCENE=FILE ARGS=OUT with tiles
- * as wide as the picture (docs/TUTORIAL.md). */
+/* A compiled scene to a panel that takes rows in order; here the panel is a file: make emulate APP=stream SCENE=FILE
+ * ARGS=OUT with tiles as wide as the picture (docs/TUTORIAL.md). */
 #include "scene.h"
 
 #include "board.h"

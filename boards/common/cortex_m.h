@@ -12,13 +12,14 @@ typedef struct {
 } cortex_m_vectors;
 
 /* Every exception is a fault: nothing here is interrupt driven. */
-#define CORTEX_M_VECTORS(reset)                                                                                                    \
-    {                                                                                                                              \
-        board_stack_top,                                                                                                           \
-        {                                                                                                                          \
-            reset, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, \
-                cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault     \
-        }                                                                                                                          \
+#define CORTEX_M_VECTORS(reset)                                                                                        \
+    {                                                                                                                  \
+        board_stack_top,                                                                                               \
+        {                                                                                                              \
+            reset, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault,     \
+                cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault, cortex_m_fault,        \
+                cortex_m_fault, cortex_m_fault                                                                         \
+        }                                                                                                              \
     }
 
 void cortex_m_fault(void);

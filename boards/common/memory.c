@@ -1,4 +1,5 @@
-/* The four functions of string.h that the library and the compiler call. Word by word where both ends allow it; never unaligned. */
+/* The four functions of string.h that the library and the compiler call. Word by word where both ends allow it; never
+ * unaligned. */
 #include <stdint.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
-/* For a board that runs alone: what is printed is kept in RAM, where a debugger reads it (x/s board_console.text), and the end of the run is
- * a loop. A reset leaves it: what a fault reported is there after the next start, too. */
+/* For a board that runs alone: what is printed is kept in RAM, where a debugger reads it (x/s board_console.text), and
+ * the end of the run is a loop. A reset leaves it: what a fault reported is there after the next start, too. */
 #include "board.h"
 
 enum { TEXT_BYTES = 240 };

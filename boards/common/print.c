@@ -1,6 +1,7 @@
 #include "board.h"
 
-/* By subtraction: Cortex-M0 has no divider, and the console is no place for a library call that has to be linked for it. */
+/* By subtraction: Cortex-M0 has no divider, and the console is no place for a library call that has to be linked for
+ * it. */
 void board_print_u32(uint32_t value)
 {
     static const uint32_t power[] = {1000000000, 100000000, 10000000, 1000000, 100000, 10000, 1000, 100, 10, 1};

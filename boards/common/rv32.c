@@ -3,11 +3,12 @@
 
 #include "board.h"
 
-/* Nobody may touch what lies below the stack: entry 0 of the physical memory protection, locked, so that it holds for machine mode. A core
- * without it traps to the label behind, and goes on unguarded. */
+/* Nobody may touch what lies below the stack: entry 0 of the physical memory protection, locked, so that it holds for
+ * machine mode. A core without it traps to the label behind, and goes on unguarded. */
 void board_guard_stack(void)
 {
-    const uint32_t region = ((uint32_t)(uintptr_t)board_stack_bottom - BOARD_GUARD_BYTES) >> 2 | (BOARD_GUARD_BYTES / 8 - 1);
+    const uint32_t region =
+        ((uint32_t)(uintptr_t)board_stack_bottom - BOARD_GUARD_BYTES) >> 2 | (BOARD_GUARD_BYTES / 8 - 1);
     const uint32_t locked_naturally_aligned_no_access = 0x98;
     __asm__ volatile(".option push\n.option arch,+zicsr\n"
                      "la t0, 1f\n"
@@ -24,7 +25,8 @@ void board_guard_stack(void)
 
 void rv32_report(uint32_t stack_pointer, uint32_t return_address) __attribute__((noreturn, used));
 
-#define READ_CSR(name, value) __asm__ volatile(".option push\n.option arch,+zicsr\ncsrr %0, " name "\n.option pop" : "=r"(value))
+#define READ_CSR(name, value)                                                                                          \
+    __asm__ volatile(".option push\n.option arch,+zicsr\ncsrr %0, " name "\n.option pop" : "=r"(value))
 
 void rv32_report(uint32_t stack_pointer, uint32_t return_address)
 {

@@ -1,5 +1,5 @@
-/* The console through semihosting: a trap that the emulator or the debugger answers. Without either it would fault: boards that run
- * alone link no_console.c instead. */
+/* The console through semihosting: a trap that the emulator or the debugger answers. Without either it would fault:
+ * boards that run alone link no_console.c instead. */
 #include "start.h"
 
 #include "board.h"
@@ -20,7 +20,8 @@ intptr_t board_semihosting_trap(intptr_t operation, const void *argument);
 
 /* Three instructions that must be uncompressed and on one page. */
 __asm__(".section .text.semihosting,\"ax\",@progbits\n.option push\n.option norvc\n.option norelax\n.balign 16\n"
-        ".globl board_semihosting_trap\nboard_semihosting_trap:\nslli x0,x0,0x1f\nebreak\nsrai x0,x0,7\nret\n.option pop\n.previous");
+        ".globl board_semihosting_trap\nboard_semihosting_trap:\nslli x0,x0,0x1f\nebreak\nsrai x0,x0,7\nret\n.option "
+        "pop\n.previous");
 
 static intptr_t semihosting(intptr_t operation, const void *argument)
 {

@@ -45,7 +45,8 @@ int board_canary_ok(void)
 /* From the first byte to the last: what alignment leaves between them is taken, too. */
 static uint32_t ram_bytes(void)
 {
-    uintptr_t first = (uintptr_t)board_stack_bottom, end = (uintptr_t)board_bss_end, fast_end = (uintptr_t)board_fast_bss_end;
+    uintptr_t first = (uintptr_t)board_stack_bottom, end = (uintptr_t)board_bss_end,
+              fast_end = (uintptr_t)board_fast_bss_end;
     if (fast_end >= end && fast_end <= (uintptr_t)board_ram_end) return (uint32_t)(fast_end - first);
     return (uint32_t)(end - first + fast_end - (uintptr_t)board_fast_bss_start);
 }
@@ -89,7 +90,8 @@ void board_fault_exit(uint32_t stack_pointer, int ran_over)
 {
     board_fault_value("sp", stack_pointer);
     board_print("\n");
-    if (ran_over || stack_pointer < (uintptr_t)board_stack_bottom + 4 * CANARY_WORDS) board_print("fault: the stack ran over\n");
+    if (ran_over || stack_pointer < (uintptr_t)board_stack_bottom + 4 * CANARY_WORDS)
+        board_print("fault: the stack ran over\n");
     else if (!board_canary_ok()) board_print("fault: the canary is gone\n");
     board_exit(BOARD_STATUS_FAULT);
 }

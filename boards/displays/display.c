@@ -65,7 +65,8 @@ static panel_status send(display *d, const rectangle *r, fill_fn fill, const uin
 
 static void fill_from_tile(const display *d, uint8_t *out, const rectangle *r, int y, int n_rows, const uint8_t *in)
 {
-    display_pack(out, in + (size_t)y * display_row_bytes(d->format, r->w), d->format, panel_pixel_format(d->panel), r->w, n_rows);
+    display_pack(out, in + (size_t)y * display_row_bytes(d->format, r->w), d->format, panel_pixel_format(d->panel),
+                 r->w, n_rows);
 }
 
 /* Rows (pages: groups of eight) of the shadow, from column r->x on. */

@@ -1,12 +1,13 @@
 /* From the library's screen tiles to a panel: display_flush is a gn_flush_fn, its `user` a display.
  *
- * Two buffers take turns: a tile, or as many of its rows as fit, is converted into one while the other is under way, and the
- * library draws its next tile meanwhile. The bytes that DMA reads are in these buffers alone, so that they are what has to lie in
- * memory that it reaches. Without buffers a tile is sent from where the library drew it, and waited for.
+ * Two buffers take turns: a tile, or as many of its rows as fit, is converted into one while the other is under way,
+ * and the library draws its next tile meanwhile. The bytes that DMA reads are in these buffers alone, so that they are
+ * what has to lie in memory that it reaches. Without buffers a tile is sent from where the library drew it, and waited
+ * for.
  *
- * The panels of 4 bits and of 1 bit per pixel keep several pixels in a byte. Tiles whose borders cut such bytes need the `shadow`,
- * a copy of the panel's memory: the byte's other pixels come from there. With tiles that respect the borders (x and w even; for
- * pages y and h multiples of 8, that is GN_TILE_HEIGHT 8 or 16) there is no need of one.
+ * The panels of 4 bits and of 1 bit per pixel keep several pixels in a byte. Tiles whose borders cut such bytes need
+ * the `shadow`, a copy of the panel's memory: the byte's other pixels come from there. With tiles that respect the
+ * borders (x and w even; for pages y and h multiples of 8, that is GN_TILE_HEIGHT 8 or 16) there is no need of one.
  */
 #ifndef DISPLAY_H
 #define DISPLAY_H
@@ -31,7 +32,8 @@ size_t display_shadow_bytes(const panel *p);
 /* After an error it does nothing: the frame goes on, and display_finish() tells. */
 void display_flush(void *d, int x, int y, int w, int h, const void *pixels);
 
-/* Waits for the last tile; the frame's first error, which it forgets. After an error of the bus: panel_init(), and draw anew. */
+/* Waits for the last tile; the frame's first error, which it forgets. After an error of the bus: panel_init(), and draw
+ * anew. */
 panel_status display_finish(display *d);
 
 #endif

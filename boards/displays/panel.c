@@ -17,7 +17,7 @@ const char *panel_status_text(panel_status status)
     return (unsigned)status < PANEL_N_STATUS ? text[status] : "unknown status";
 }
 
-/* ---- Bounded waiting -------------------------------------------------------------------------------------------------------- */
+/* ---- Bounded waiting --------------------------------------------------------------------------------------------- */
 
 static panel_status lose(panel *p, panel_status status)
 {
@@ -47,7 +47,7 @@ static panel_status start(panel *p, const uint8_t *bytes, size_t n, int is_data)
     return lose(p, PANEL_ERR_TIMEOUT);
 }
 
-/* ---- For the drivers -------------------------------------------------------------------------------------------------------- */
+/* ---- For the drivers --------------------------------------------------------------------------------------------- */
 
 panel_status panel_send(panel *p, const uint8_t *bytes, size_t n)
 {
@@ -99,7 +99,7 @@ unsigned panel_mirrors(uint8_t turn)
     return mirrors[turn & 3];
 }
 
-/* ---- Set-up ----------------------------------------------------------------------------------------------------------------- */
+/* ---- Set-up ------------------------------------------------------------------------------------------------------ */
 
 static uint32_t align_x(const panel_driver *d)
 {
@@ -111,14 +111,16 @@ static uint32_t align_y(const panel_driver *d)
     return d->pixels == PANEL_PIXELS_PAGE1 ? 8 : 1;
 }
 
-/* Where the glass lies in the controller's memory, in the coordinates that the controller counts in when it is turned. */
+/* Where the glass lies in the controller's memory, in the coordinates that the controller counts in when it is turned.
+ */
 static panel_status place(panel *p)
 {
     const panel_config *c = &p->config;
     const panel_driver *d = p->driver;
     if (c->turn > 3 || ((c->turn & 1) && !d->quarter_turns)) return PANEL_ERR_CONFIG;
     if (c->width == 0 || c->height == 0) return PANEL_ERR_CONFIG;
-    if ((uint32_t)c->ram_x + c->width > d->ram_width || (uint32_t)c->ram_y + c->height > d->ram_height) return PANEL_ERR_CONFIG;
+    if ((uint32_t)c->ram_x + c->width > d->ram_width || (uint32_t)c->ram_y + c->height > d->ram_height)
+        return PANEL_ERR_CONFIG;
     unsigned mirrors = panel_mirrors(c->turn);
     uint32_t x = mirrors & PANEL_MIRROR_X ? (uint32_t)d->ram_width - c->ram_x - c->width : c->ram_x;
     uint32_t y = c->ram_y;
@@ -159,7 +161,7 @@ panel_status panel_init(panel *p, const panel_driver *driver, const panel_config
     return status;
 }
 
-/* ---- The interface ---------------------------------------------------------------------------------------------------------- */
+/* ---- The interface ----------------------------------------------------------------------------------------------- */
 
 static panel_status usable(const panel *p, int state)
 {

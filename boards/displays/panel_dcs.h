@@ -19,7 +19,8 @@ enum {
     DCS_COLMOD = 0x3A
 };
 
-/* After a reset, and between falling asleep and waking, SLPOUT has to wait 120 ms; after SLPOUT the voltages take as long. */
+/* After a reset, and between falling asleep and waking, SLPOUT has to wait 120 ms; after SLPOUT the voltages take as
+ * long. */
 enum { DCS_SLEEP_MS = 120 };
 
 panel_status panel_dcs_soft_reset(panel *p);

@@ -7,13 +7,15 @@
 struct panel_driver {
     panel_pixels pixels;
     uint16_t ram_width, ram_height;
-    uint8_t quarter_turns;                   /* 1: it can exchange rows and columns */
-    uint8_t parameters_are_data;             /* 1: the data/command line is high while a command's parameters are sent */
-    uint16_t reset_ms;                       /* from the end of a reset to the first command */
-    int (*fits)(const panel_config *config); /* 0: this controller cannot; NULL: what panel.c checks is all there is to it */
-    panel_status (*soft_reset)(panel *p);    /* where the board has no reset line */
-    panel_status (*set_up)(panel *p);        /* everything between reset and the first window; the display stays off */
-    panel_status (*window)(panel *p, uint32_t x, uint32_t y, uint32_t w, uint32_t h); /* in the controller's memory, pixels */
+    uint8_t quarter_turns;       /* 1: it can exchange rows and columns */
+    uint8_t parameters_are_data; /* 1: the data/command line is high while a command's parameters are sent */
+    uint16_t reset_ms;           /* from the end of a reset to the first command */
+    int (*fits)(
+        const panel_config *config); /* 0: this controller cannot; NULL: what panel.c checks is all there is to it */
+    panel_status (*soft_reset)(panel *p); /* where the board has no reset line */
+    panel_status (*set_up)(panel *p);     /* everything between reset and the first window; the display stays off */
+    panel_status (*window)(panel *p, uint32_t x, uint32_t y, uint32_t w,
+                           uint32_t h); /* in the controller's memory, pixels */
     panel_status (*show)(panel *p, int on);
     panel_status (*sleep)(panel *p, int asleep);
 };
@@ -22,7 +24,8 @@ struct panel_driver {
 enum { PANEL_MIRROR_X = 1, PANEL_MIRROR_Y = 2, PANEL_EXCHANGE_XY = 4 };
 unsigned panel_mirrors(uint8_t turn);
 
-/* A command byte and its parameters, as the controller wants them; waits for what is under way, and is under way itself afterwards.
+/* A command byte and its parameters, as the controller wants them; waits for what is under way, and is under way itself
+ * afterwards.
  */
 panel_status panel_send(panel *p, const uint8_t *bytes, size_t n);
 panel_status panel_send_1(panel *p, uint8_t command);

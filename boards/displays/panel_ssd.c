@@ -1,7 +1,7 @@
 #include "panel_ssd.h"
 
-/* A command may have been cut off before its last parameter. As many NOPs as the longest has parameters end it, whatever it was:
- * the set-up that follows writes every register that they may have spoilt. */
+/* A command may have been cut off before its last parameter. As many NOPs as the longest has parameters end it,
+ * whatever it was: the set-up that follows writes every register that they may have spoilt. */
 panel_status panel_ssd_soft_reset(panel *p)
 {
     for (int i = 0; i < PANEL_COMMAND_MAX; i++) {

@@ -1,5 +1,5 @@
-/* What the OLED controllers have in common: parameters are sent like commands, one command to light and darken, and no reset by
- * command. */
+/* What the OLED controllers have in common: parameters are sent like commands, one command to light and darken, and no
+ * reset by command. */
 #ifndef PANEL_SSD_H
 #define PANEL_SSD_H
 

@@ -1,7 +1,15 @@
 /* SSD1306: 128x64, 1 bit per pixel, in pages of eight rows. */
 #include "panel_ssd.h"
 
-enum { COLUMNS = 0x21, PAGES = 0x22, COLUMNS_NORMAL = 0xA0, ROWS_NORMAL = 0xC0, INVERT_OFF = 0xA6, OFFSET = 0xD3, COM_PINS = 0xDA };
+enum {
+    COLUMNS = 0x21,
+    PAGES = 0x22,
+    COLUMNS_NORMAL = 0xA0,
+    ROWS_NORMAL = 0xC0,
+    INVERT_OFF = 0xA6,
+    OFFSET = 0xD3,
+    COM_PINS = 0xDA
+};
 enum { CHARGE_PUMP = 0x8D, PRECHARGE = 0xD9 };
 
 /* clang-format off */

@@ -33,7 +33,8 @@ static int fits_1327(const panel_config *c)
 
 static int fits_0323(const panel_config *c)
 {
-    return c->ram_y == 0 && c->height >= SSD_LEAST_ROWS && c->first_com < ROWS_0323 && c->contrast <= MOST_CONTRAST_0323;
+    return c->ram_y == 0 && c->height >= SSD_LEAST_ROWS && c->first_com < ROWS_0323 &&
+           c->contrast <= MOST_CONTRAST_0323;
 }
 
 static panel_status set_up(panel *p, const uint8_t *registers, unsigned remap, uint8_t contrast)
@@ -48,7 +49,8 @@ static panel_status set_up(panel *p, const uint8_t *registers, unsigned remap, u
     return status;
 }
 
-/* The glasses differ in where their first column is wired; the nibbles follow, so that the left pixel is in the high one. */
+/* The glasses differ in where their first column is wired; the nibbles follow, so that the left pixel is in the high
+ * one. */
 static panel_status set_up_1327(panel *p)
 {
     return set_up(p, registers_1327, REMAP_COLUMNS | REMAP_ROWS, p->config.contrast ? p->config.contrast : 0x80);
@@ -58,7 +60,9 @@ static panel_status set_up_0323(panel *p)
 {
     panel_status status = panel_send_1(p, SSD_OFF);
     if (!status) status = panel_send_2(p, DC_DC, p->config.flags & PANEL_EXTERNAL_VCC ? 0x02 : 0x03);
-    return status ? status : set_up(p, registers_0323, REMAP_NIBBLES | REMAP_ROWS, p->config.contrast ? p->config.contrast : 0x40);
+    return status
+               ? status
+               : set_up(p, registers_0323, REMAP_NIBBLES | REMAP_ROWS, p->config.contrast ? p->config.contrast : 0x40);
 }
 
 static panel_status window(panel *p, uint32_t x, uint32_t y, uint32_t w, uint32_t h)

@@ -1,4 +1,5 @@
-/* ST7789: 240x320, 16 bits per pixel. Voltages and gamma stay at their reset values, which suit the glasses that it is sold with.
+/* ST7789: 240x320, 16 bits per pixel. Voltages and gamma stay at their reset values, which suit the glasses that it is
+ * sold with.
  */
 #include "panel_dcs.h"
 

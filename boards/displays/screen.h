@@ -1,5 +1,5 @@
-/* What a board with a display defines in its folder `screen`, for apps that show pictures. SCREEN_WIDTH, SCREEN_HEIGHT and
- * SCREEN_FORMAT come from its board.mk. */
+/* What a board with a display defines in its folder `screen`, for apps that show pictures. SCREEN_WIDTH, SCREEN_HEIGHT
+ * and SCREEN_FORMAT come from its board.mk. */
 #ifndef SCREEN_H
 #define SCREEN_H
 

@@ -58,7 +58,9 @@ int board_canary_ok(void)
     return 1;
 }
 
-void board_print_memory(void) {}
+void board_print_memory(void)
+{
+}
 
 int main(int argc, char **argv)
 {

@@ -1,6 +1,7 @@
-/* The second boot stage. The boot ROM copies the first 256 bytes of flash to RAM, checks the CRC in their last word, and jumps to
- * them. This one sets the flash interface to plain 24-bit reads, which every serial flash understands, and starts the image.
- * The CRC covers what stands before it: it changes with that, and the test of the boards says what it must be. */
+/* The second boot stage. The boot ROM copies the first 256 bytes of flash to RAM, checks the CRC in their last word,
+ * and jumps to them. This one sets the flash interface to plain 24-bit reads, which every serial flash understands, and
+ * starts the image. The CRC covers what stands before it: it changes with that, and the test of the boards says what it
+ * must be. */
 __asm__(".section .boot,\"ax\",%progbits\n"
         ".syntax unified\n"
         ".thumb\n"

@@ -18,9 +18,9 @@ static void reset(void)
 {
     REGISTER(RCC_CR) |= HSE_ON;
     while (!(REGISTER(RCC_CR) & HSE_READY)) continue;
-    REGISTER(FLASH_ACR) = 7U << 8 | 5U;                               /* both caches and prefetch, five wait states */
-    REGISTER(RCC_PLLCFGR) = 7U << 24 | 1U << 22 | 336U << 6 | 8U;      /* 8 MHz / 8 * 336 / 2; 48 MHz by 7 */
-    REGISTER(RCC_CFGR) = 4U << 13 | 5U << 10;                         /* APB2 by 2, APB1 by 4 */
+    REGISTER(FLASH_ACR) = 7U << 8 | 5U;                           /* both caches and prefetch, five wait states */
+    REGISTER(RCC_PLLCFGR) = 7U << 24 | 1U << 22 | 336U << 6 | 8U; /* 8 MHz / 8 * 336 / 2; 48 MHz by 7 */
+    REGISTER(RCC_CFGR) = 4U << 13 | 5U << 10;                     /* APB2 by 2, APB1 by 4 */
     REGISTER(RCC_CR) |= PLL_ON;
     while (!(REGISTER(RCC_CR) & PLL_READY)) continue;
     REGISTER(RCC_CFGR) |= 2U;

@@ -1,6 +1,6 @@
-/* capture SECONDS TEXT OUT.ppm EMULATOR ARGUMENT...: runs the emulator, waits until the firmware has printed TEXT, has the
- * emulator's monitor write what is on the screen to OUT.ppm, and ends it. What the firmware prints goes to stdout. Exit status 0:
- * the picture is there; 1: it is not, and stderr says why; 2: usage. */
+/* capture SECONDS TEXT OUT.ppm EMULATOR ARGUMENT...: runs the emulator, waits until the firmware has printed TEXT, has
+ * the emulator's monitor write what is on the screen to OUT.ppm, and ends it. What the firmware prints goes to stdout.
+ * Exit status 0: the picture is there; 1: it is not, and stderr says why; 2: usage. */
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -29,7 +29,7 @@ static int fail(const char *what)
     return -1;
 }
 
-/* ---- The emulator ----------------------------------------------------------------------------------------------------------- */
+/* ---- The emulator ------------------------------------------------------------------------------------------------ */
 
 static void run_emulator(char **arguments, int n_arguments, int in, int out, int err)
 {
@@ -66,7 +66,7 @@ static int start(session *s, char **arguments, int n_arguments)
     return 0;
 }
 
-/* ---- Listening -------------------------------------------------------------------------------------------------------------- */
+/* ---- Listening --------------------------------------------------------------------------------------------------- */
 
 static int take(session *s, int which)
 {
@@ -97,7 +97,8 @@ static int tell(session *s, const char *command, const char *argument)
 {
     char line[600];
     int n = snprintf(line, sizeof line, "%s %s\n", command, argument);
-    if (n < 0 || (size_t)n >= sizeof line || write(s->to_monitor, line, (size_t)n) != n) return fail("the monitor does not listen");
+    if (n < 0 || (size_t)n >= sizeof line || write(s->to_monitor, line, (size_t)n) != n)
+        return fail("the monitor does not listen");
     return 0;
 }
 

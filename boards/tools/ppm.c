@@ -1,4 +1,5 @@
-/* ppm compare A B: says where two pictures differ, and exits with 1; ppm png IN OUT: writes a PNG. Pictures are binary PPM. */
+/* ppm compare A B: says where two pictures differ, and exits with 1; ppm png IN OUT: writes a PNG. Pictures are binary
+ * PPM. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,10 +1,10 @@
-/* A plugin of the emulator: counts the instructions that firmware executes, by stage. A stage lasts from the first instruction of
- * its function to that of another stage's; what runs before the first is stage 0.
+/* A plugin of the emulator: counts the instructions that firmware executes, by stage. A stage lasts from the first
+ * instruction of its function to that of another stage's; what runs before the first is stage 0.
  *
  *   qemu-system-arm ... -plugin libstages.so,out=FILE,stage=ADDRESS,stage=ADDRESS...
  *
- * writes one line per stage to FILE: "stage NUMBER INSTRUCTIONS", in the order of the arguments, counted from 1. Without out= it prints
- * "instructions N", of the whole run: make emulate COUNT=1.
+ * writes one line per stage to FILE: "stage NUMBER INSTRUCTIONS", in the order of the arguments, counted from 1.
+ * Without out= it prints "instructions N", of the whole run: make emulate COUNT=1.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -59,14 +59,16 @@ static void write_out(qemu_plugin_id_t id, void *user)
 extern __attribute__((visibility("default"))) int qemu_plugin_version;
 int qemu_plugin_version = 1;
 
-__attribute__((visibility("default"))) int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info *info, int argc, char **argv);
+__attribute__((visibility("default"))) int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info *info, int argc,
+                                                               char **argv);
 
 int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info *info, int argc, char **argv)
 {
     (void)info;
     for (int i = 0; i < argc; i++) {
         if (!strncmp(argv[i], "out=", 4)) snprintf(out_path, sizeof out_path, "%s", argv[i] + 4);
-        else if (!strncmp(argv[i], "stage=", 6) && n_stages < MAX_STAGES) address[++n_stages] = strtoull(argv[i] + 6, NULL, 16) & ~(uint64_t)1;
+        else if (!strncmp(argv[i], "stage=", 6) && n_stages < MAX_STAGES)
+            address[++n_stages] = strtoull(argv[i] + 6, NULL, 16) & ~(uint64_t)1;
         else {
             fprintf(stderr, "stages: unknown argument %s\n", argv[i]);
             return 1;

@@ -1,4 +1,5 @@
-/* What boards/tools/stage_plugin.c uses of the emulator's plugin interface, version 1. Debian's packages have no header for it. */
+/* What boards/tools/stage_plugin.c uses of the emulator's plugin interface, version 1. Debian's packages have no header
+ * for it. */
 #ifndef GNOMON_BOARDS_TCG_PLUGIN_H
 #define GNOMON_BOARDS_TCG_PLUGIN_H
 

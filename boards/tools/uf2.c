@@ -1,5 +1,5 @@
-/* A flat image of flash (standard input) as UF2 (standard output), what boards with a USB boot loader take by copying: blocks of 512 bytes
- * that each say where 256 bytes go. usage: uf2 FLASH_ADDRESS FAMILY <image.bin >image.uf2 */
+/* A flat image of flash (standard input) as UF2 (standard output), what boards with a USB boot loader take by copying:
+ * blocks of 512 bytes that each say where 256 bytes go. usage: uf2 FLASH_ADDRESS FAMILY <image.bin >image.uf2 */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,9 +12,11 @@ static void put_u32(uint8_t *at, uint32_t value)
     for (int i = 0; i < 4; i++) at[i] = (uint8_t)(value >> 8 * i);
 }
 
-static void make_block(uint8_t block[BLOCK], const uint8_t *bytes, size_t n_bytes, uint32_t idx, uint32_t n_blocks, uint32_t address, uint32_t family)
+static void make_block(uint8_t block[BLOCK], const uint8_t *bytes, size_t n_bytes, uint32_t idx, uint32_t n_blocks,
+                       uint32_t address, uint32_t family)
 {
-    const uint32_t header[] = {0x0A324655, 0x9E5D5157, FAMILY_PRESENT, address + PAYLOAD * idx, PAYLOAD, idx, n_blocks, family};
+    const uint32_t header[] = {0x0A324655, 0x9E5D5157, FAMILY_PRESENT, address + PAYLOAD * idx,
+                               PAYLOAD,    idx,        n_blocks,       family};
     memset(block, 0, BLOCK);
     for (size_t i = 0; i < sizeof header / sizeof header[0]; i++) put_u32(block + 4 * i, header[i]);
     memcpy(block + HEADER, bytes, n_bytes);

@@ -234,7 +234,8 @@ static void free_objects(baker *b)
     free(b->image);
 }
 
-int bake_scene(scene *s, const ref_options *frame, const bake_options *options, bake_result *out, char *error, size_t error_bytes)
+int bake_scene(scene *s, const ref_options *frame, const bake_options *options, bake_result *out, char *error,
+               size_t error_bytes)
 {
     baker b = {.s = s, .options = options, .result = out};
     memset(out, 0, sizeof *out);

@@ -1,5 +1,5 @@
-/* Least squares over the points of the texels, in a few steps: each texel moves by the mean of what is missing around it, weighted as
- * it weighs there. Rows of weights sum to 1, so steps below 2 converge; values end at 0 and 1. */
+/* Least squares over the points of the texels, in a few steps: each texel moves by the mean of what is missing around
+ * it, weighted as it weighs there. Rows of weights sum to 1, so steps below 2 converge; values end at 0 and 1. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,7 +40,8 @@ static void add_point(const bake_fit *fit, const taps *t, const float *wanted, f
     for (int c = 0; c < BAKE_CHANNELS; c++) {
         float have = 0;
         for (int i = 0; i < 4; i++) have += t->weight[i] * fit->masks[BAKE_CHANNELS * t->texel[i] + (size_t)c];
-        for (int i = 0; i < 4; i++) missing[BAKE_CHANNELS * t->texel[i] + (size_t)c] += t->weight[i] * (wanted[c] - have);
+        for (int i = 0; i < 4; i++)
+            missing[BAKE_CHANNELS * t->texel[i] + (size_t)c] += t->weight[i] * (wanted[c] - have);
     }
     for (int i = 0; i < 4; i++) weight[t->texel[i]] += t->weight[i];
 }
@@ -65,7 +66,8 @@ int bake_fit_masks(bake_fit *fit)
         for (size_t i = 0; i < n; i++)
             for (size_t k = 0; fit->sample[i] && k < n_points; k++) {
                 const taps t = taps_of(fit, (int)(i % (size_t)fit->w), (int)(i / (size_t)fit->w), (int)k);
-                add_point(fit, &t, fit->samples + BAKE_CHANNELS * (n_points * (fit->sample[i] - 1) + k), missing, weight);
+                add_point(fit, &t, fit->samples + BAKE_CHANNELS * (n_points * (fit->sample[i] - 1) + k), missing,
+                          weight);
             }
         move(fit, missing, weight);
     }

@@ -30,8 +30,9 @@ typedef struct {
     uint8_t *image;       /* masks per texel: 4 x side x side */
 } baker;
 
-/* bake_light.c: at a point of a triangle, 1 lit: what arrives of the lights of each channel; and the irradiance of the lights that
- * are baked whole. bary: not negative. False, if asked to look: the point is inside something, where nobody sees it. */
+/* bake_light.c: at a point of a triangle, 1 lit: what arrives of the lights of each channel; and the irradiance of the
+ * lights that are baked whole. bary: not negative. False, if asked to look: the point is inside something, where nobody
+ * sees it. */
 bool bake_masks_at(const baker *b, const ref_triangle *t, const double bary[3], bool look, double mask[BAKE_CHANNELS]);
 vec3 bake_light_at(const baker *b, const ref_triangle *t, const double bary[3]);
 
@@ -41,7 +42,8 @@ int bake_vertices(baker *b, size_t object);
 /* bake_texels.c: charts, coordinates and the image. 0, or -1 with one line in error. */
 int bake_texels(baker *b, char *error, size_t error_bytes);
 
-/* bake_fit.c: a chart's masks, such that what is interpolated between its texels comes nearest to what the rays found. */
+/* bake_fit.c: a chart's masks, such that what is interpolated between its texels comes nearest to what the rays found.
+ */
 typedef struct {
     int w, h, n;    /* texels; points per side of a texel */
     float *masks;   /* BAKE_CHANNELS per texel, 0..1: as first guessed, and then fitted */

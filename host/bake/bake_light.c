@@ -51,19 +51,21 @@ static bool meet_nearest(void *user, const truth_caster *c)
 
 static bool meets_a_back(const baker *b, const ref_triangle *t, const exact_point *origin, vec3 direction)
 {
-    const truth_ray ray = truth_make_ray(origin, (exact_target){.at = direction, .infinite = true}, truth_vertex_error(t));
+    const truth_ray ray =
+        truth_make_ray(origin, (exact_target){.at = direction, .infinite = true}, truth_vertex_error(t));
     outlook out = {.ray = &ray, .from = t, .nearest = HUGE_VAL};
     truth_visit(&b->tracer, &ray, meet_nearest, &out);
     return out.behind;
 }
 
-/* Wherever one looks from the surface, the first thing is the back of something: the point lies inside it, as a floor does under a
- * chest. */
+/* Wherever one looks from the surface, the first thing is the back of something: the point lies inside it, as a floor
+ * does under a chest. */
 static bool is_inside(const baker *b, const ref_triangle *t, const double bary[3])
 {
     enum { AROUND = 6 };
     const exact_point origin = origin_of(t, bary);
-    const vec3 up = ref_face_normal(t), x = vec3_unit(vec3_cross(up, fabs(up.y) < 0.9 ? (vec3){0, 1, 0} : (vec3){1, 0, 0}));
+    const vec3 up = ref_face_normal(t),
+               x = vec3_unit(vec3_cross(up, fabs(up.y) < 0.9 ? (vec3){0, 1, 0} : (vec3){1, 0, 0}));
     const vec3 y = vec3_cross(up, x);
     if (t->object->two_sided || !meets_a_back(b, t, &origin, up)) return false;
     for (int i = 0; i < AROUND; i++) {
@@ -74,7 +76,8 @@ static bool is_inside(const baker *b, const ref_triangle *t, const double bary[3
     return true;
 }
 
-/* A surface that looks away from a light gets nothing from it; a little less than edge-on counts, for what is interpolated. */
+/* A surface that looks away from a light gets nothing from it; a little less than edge-on counts, for what is
+ * interpolated. */
 static bool looks_away(const ref_triangle *t, const double bary[3], vec3 to_light)
 {
     if (t->object->two_sided) return false;
@@ -107,7 +110,8 @@ vec3 bake_light_at(const baker *b, const ref_triangle *t, const double bary[3])
         const ref_incidence in = ref_light_at(light, at);
         const double share = in.attenuation * fmax(0.0, vec3_dot(n, in.to_light));
         if (!(share > 0)) continue;
-        sum = vec3_add(sum, vec3_scale(vec3_load(light->colour), share * lerp(1.0, arrives(b, t, bary, l), light->strength)));
+        sum = vec3_add(
+            sum, vec3_scale(vec3_load(light->colour), share * lerp(1.0, arrives(b, t, bary, l), light->strength)));
     }
     return sum;
 }

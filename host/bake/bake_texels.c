@@ -17,7 +17,8 @@ static int make_charts(baker *b)
         bake_object *o = &b->objects[i];
         const scene_mesh *mesh = &b->s->meshes[b->s->objects[i].mesh_idx];
         if (!o->wanted) continue;
-        if (charts_make(&o->set, b->frame.instances[i].world, mesh->n_vertices, mesh->idx, mesh->n_triangles)) return -1;
+        if (charts_make(&o->set, b->frame.instances[i].world, mesh->n_vertices, mesh->idx, mesh->n_triangles))
+            return -1;
         b->result->n_charts += o->set.n_charts;
     }
     return 0;
@@ -33,8 +34,8 @@ static int place_charts(baker *b, char *error, size_t bytes)
     const bool fits = charts_pack(all, n, b->options->side, &b->result->density);
     free(all);
     if (fits) return 0;
-    snprintf(error, bytes, "%zu charts do not fit into %dx%d texels: more texels, or masks per vertex", n, b->options->side,
-             b->options->side);
+    snprintf(error, bytes, "%zu charts do not fit into %dx%d texels: more texels, or masks per vertex", n,
+             b->options->side, b->options->side);
     return -1;
 }
 
@@ -196,10 +197,10 @@ static walk begin_walk(const baker *b, size_t object, size_t k)
 
 /* ---- Where the texels go ----
  *
- * Points all over the surfaces tell where edges of shadows are. The picture's error there is as long as the edge and as wide as a
- * texel, each as large as the camera sees it: over all charts it is least if the density goes with the cube root of what edges a
- * chart has per area, in squares of what the camera makes of a length. Where edges are dense they run into each other, and texels
- * gain less: the fourth root did best on all scenes tried.
+ * Points all over the surfaces tell where edges of shadows are. The picture's error there is as long as the edge and as
+ * wide as a texel, each as large as the camera sees it: over all charts it is least if the density goes with the cube
+ * root of what edges a chart has per area, in squares of what the camera makes of a length. Where edges are dense they
+ * run into each other, and texels gain less: the fourth root did best on all scenes tried.
  */
 
 enum { POINTS = 1 << 17, LEAST_POINTS = 4, MOST_POINTS = 512 }; /* in all; along a side of a chart */
@@ -213,7 +214,8 @@ static double seen_size2(const baker *b, vec3 at)
     const ref_camera *camera = &b->frame.camera;
     const vec3 d = vec3_sub(at, camera->position);
     const double z = vec3_dot(d, camera->forward), distance = fmax(sqrt(vec3_dot(d, d)), camera->near);
-    const double x = fabs(vec3_dot(d, camera->right)) * camera->focal_px, y = fabs(vec3_dot(d, camera->up)) * camera->focal_px;
+    const double x = fabs(vec3_dot(d, camera->right)) * camera->focal_px,
+                 y = fabs(vec3_dot(d, camera->up)) * camera->focal_px;
     const bool seen = z > camera->near && x <= z * camera->half_width_px && y <= z * camera->half_height_px;
     return (seen ? 1 : unseen) / (distance * distance);
 }
@@ -362,7 +364,8 @@ static int bake_chart(walk *w)
                     .masks = calloc(n, BAKE_CHANNELS * sizeof(float)),
                     .sample = calloc(n, sizeof *fit.sample)};
     if ((ok = mixed && fit.masks && fit.sample)) {
-        for (size_t i = 0; i < n; i++) mixed[i] = !sample_few(w, (int)i % fit.w, (int)i / fit.w, fit.masks + BAKE_CHANNELS * i);
+        for (size_t i = 0; i < n; i++)
+            mixed[i] = !sample_few(w, (int)i % fit.w, (int)i / fit.w, fit.masks + BAKE_CHANNELS * i);
         const size_t n_edges = count_edges(w->c, fit.masks, mixed);
         fit.samples = calloc(n_edges + 1, BAKE_CHANNELS * MANY * MANY * sizeof *fit.samples);
         ok = fit.samples != NULL;

@@ -1,4 +1,5 @@
-/* A vertex takes the mean over points of its triangles near it: what is interpolated between vertices had better be smooth. */
+/* A vertex takes the mean over points of its triangles near it: what is interpolated between vertices had better be
+ * smooth. */
 #include <stdlib.h>
 
 #include "bake_internal.h"

@@ -159,7 +159,8 @@ static void take(maker *m, chart *c, size_t triangle)
     m->out->order[c->first + c->n_triangles++] = triangle;
 }
 
-/* Turns the chart's corners so that it needs the least area among the directions of its first triangle's sides, and lies wide. */
+/* Turns the chart's corners so that it needs the least area among the directions of its first triangle's sides, and
+ * lies wide. */
 static double extent(const maker *m, const chart *c, vec2 x, vec2 low_high[2])
 {
     low_high[0] = (vec2){HUGE_VAL, HUGE_VAL};
@@ -213,7 +214,8 @@ static void grow_chart(maker *m, size_t seed)
     for (size_t i = 0; i < n_queued; i++)
         for (size_t k = 0; k < 3; k++) {
             const edge e = edge_of(m, m->queue[i], k);
-            for (size_t at = find_edge(m, &e); at < 3 * m->n_triangles && m->edges[at].a == e.a && m->edges[at].b == e.b; at++) {
+            for (size_t at = find_edge(m, &e);
+                 at < 3 * m->n_triangles && m->edges[at].a == e.a && m->edges[at].b == e.b; at++) {
                 const size_t next = m->edges[at].triangle;
                 if (m->out->chart_of[next] != SIZE_MAX || !fits(m, &p, c, next)) continue;
                 take(m, c, next);
@@ -235,7 +237,8 @@ static bool allocate(maker *m, size_t n_vertices)
     m->out->order = calloc(n, sizeof *m->out->order);
     m->out->chart_of = calloc(n, sizeof *m->out->chart_of);
     m->out->corner = calloc(3 * n, sizeof *m->out->corner);
-    return m->welded && m->edges && m->normal && m->queue && m->out->charts && m->out->order && m->out->chart_of && m->out->corner;
+    return m->welded && m->edges && m->normal && m->queue && m->out->charts && m->out->order && m->out->chart_of &&
+           m->out->corner;
 }
 
 int charts_make(chart_set *out, const vec3 *world, size_t n_vertices, const uint32_t *idx, size_t n_triangles)

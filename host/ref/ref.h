@@ -1,8 +1,8 @@
 /* The reference engine: the whole pipeline of docs/DESIGN.md section 1 in double precision, written from the formulas.
  *
- * It is the oracle of the accuracy tests. It includes nothing from lib/ and shares no arithmetic with it: no snapping, no
- * quantisation, no stepping. The only inputs are the scene and the picture's size, and,
- * for the automatic bias alone, how finely the library counts.
+ * It is the oracle of the accuracy tests. It includes nothing from lib/ and shares no arithmetic with it: no snapping,
+ * no quantisation, no stepping. The only inputs are the scene and the picture's size, and, for the automatic bias
+ * alone, how finely the library counts.
  */
 #ifndef GNOMON_REF_H
 #define GNOMON_REF_H
@@ -21,8 +21,9 @@ typedef struct {
     int other_atlas_size; /* of the other atlas; 0: the same */
     int max_tiles;        /* capacity of the directional atlas, 1..16; 0: 16 (A3) */
     int max_other_tiles;  /* of the other */
-    bool unsnapped;       /* directional texels and origins are not rounded: a map without D2's stability, for comparison */
-    /* Of the engine whose automatic bias this is (B6): what it rounds decides how much bias is enough. 0: it does not. */
+    bool unsnapped; /* directional texels and origins are not rounded: a map without D2's stability, for comparison */
+    /* Of the engine whose automatic bias this is (B6): what it rounds decides how much bias is enough. 0: it does not.
+     */
     int shadow_subpixel_bits, weight_bits, depth_bits, other_depth_bits, shadow_depth_frac, newton_steps;
     double unit; /* its least step of length */
 } ref_options;
@@ -31,21 +32,22 @@ typedef struct {
 typedef struct {
     bool active; /* it has a shadow tile, and its cascade is not empty */
     bool perspective;
-    bool clear_border;                      /* texels outside the tile are lit (D10), instead of repeating the border (P8) */
-    bool clamped;                           /* point lights: P6 has no solution, t is 2 */
-    int tile_texels;                        /* T */
-    double texel;                           /* world units per texel; perspective: at distance 1 */
-    double axis[3][3];                      /* u, v, w */
-    double origin[3];                       /* directional: o_u, o_v, o_w, texels */
-    double position[3];                     /* perspective: the light's */
-    double t;                               /* perspective: half-width at distance 1 */
-    double near;                            /* perspective: nothing nearer casts */
-    double depth_range;                     /* directional: T * 2^J texels; perspective: 1 */
+    bool clear_border;  /* texels outside the tile are lit (D10), instead of repeating the border (P8) */
+    bool clamped;       /* point lights: P6 has no solution, t is 2 */
+    int tile_texels;    /* T */
+    double texel;       /* world units per texel; perspective: at distance 1 */
+    double axis[3][3];  /* u, v, w */
+    double origin[3];   /* directional: o_u, o_v, o_w, texels */
+    double position[3]; /* perspective: the light's */
+    double t;           /* perspective: half-width at distance 1 */
+    double near;        /* perspective: nothing nearer casts */
+    double depth_range; /* directional: T * 2^J texels; perspective: 1 */
     double sphere_centre[3], sphere_radius; /* directional: the cascade's, whatever the light */
     scene_filter filter;                    /* after the light's own choice (F5) */
     int filter_index;                       /* k_f */
     double disk_radius;                     /* R, texels */
-    double *depth; /* T*T depths with bias, row-major [v][u]: directional D in texels, perspective s; empty = depth_range */
+    double *
+        depth; /* T*T depths with bias, row-major [v][u]: directional D in texels, perspective s; empty = depth_range */
 } ref_light_view;
 
 typedef enum { REF_NO_ATLAS, REF_DIRECTIONAL_ATLAS, REF_OTHER_ATLAS } ref_atlas;
@@ -65,8 +67,8 @@ typedef struct {
     int64_t *triangle; /* object << 32 | triangle, -1 where there is no surface */
     size_t n_lights;
     double *shadow[REF_MAX_LIGHTS]; /* DESIGN 1.10, per pixel; 0 where there is no surface */
-    double
-        *ndotl[REF_MAX_LIGHTS]; /* n . L, unclamped; -1 where a_l = 0 or next to it, and where the light is baked or not in the object's list */
+    double *ndotl[REF_MAX_LIGHTS];  /* n . L, unclamped; -1 where a_l = 0 or next to it, and where the light is baked or
+                                       not in the object's list */
     ref_grant grant[REF_MAX_LIGHTS];
     ref_light_view view[REF_MAX_LIGHTS][REF_MAX_VIEWS];
     int8_t *cascade; /* selected by t_i, before any blending; -1 where there is no surface or no cascade */
@@ -80,8 +82,8 @@ void ref_free(ref_picture *p);
 
 #define REF_SINGLE_TILE (-1) /* as a cascade: the one tile beside a main light (D10) */
 
-/* Fits leave view->depth alone and return 0; -1 if no finite view fits. An empty cascade stays inactive. face: 0..5 of a point
- * light, 0 of a spot. */
+/* Fits leave view->depth alone and return 0; -1 if no finite view fits. An empty cascade stays inactive. face: 0..5 of
+ * a point light, 0 of a spot. */
 int ref_fit_light(ref_light_view *view, const scene *s, const scene_light *light, int cascade, int width, int height,
                   int tile_texels);
 int ref_fit_punctual(ref_light_view *view, const scene *s, const scene_light *light, int face, int tile_texels);
@@ -102,16 +104,17 @@ typedef struct {
 } ref_lookup;
 
 double ref_filtered(const ref_light_view *view, const ref_lookup *how, double u, double v, double d);
-double ref_attenuation(const ref_light_view *view, scene_filter filter, double u, double v, double d); /* tent, no disk, no B5 */
+double ref_attenuation(const ref_light_view *view, scene_filter filter, double u, double v,
+                       double d);                                    /* tent, no disk, no B5 */
 double ref_tent_weight(int filter_size, double centre, int texel);   /* filter_size 3, 5, 7 (F3) */
 double ref_linear_weight(int filter_size, double centre, int texel); /* the same for F6 */
-void ref_disk_sample(double out[2], int i, int x, int y);            /* sample i at pixel (x, y), in the unit disk (F4) */
+void ref_disk_sample(double out[2], int i, int x, int y); /* sample i at pixel (x, y), in the unit disk (F4) */
 
 /* shadow_l of DESIGN 1.9 for strength > 0 and a light with a tile: rt attenuation, m mask. */
 double ref_mix(scene_mixing mixing, double strength, double g, double m, double rt);
 void ref_sample_texture(double rgba[4], const scene_texture *texture, double u, double v); /* linear light */
-double ref_fade_factor(double t, double cascade_fade);                                     /* F_i of DESIGN 1.4 from t_i */
-double ref_dither_noise(int x, int y); /* of DESIGN 1.4, at the centre of pixel (x, y): 0..1 */
+double ref_fade_factor(double t, double cascade_fade); /* F_i of DESIGN 1.4 from t_i */
+double ref_dither_noise(int x, int y);                 /* of DESIGN 1.4, at the centre of pixel (x, y): 0..1 */
 double ref_srgb_encode(double linear);
 
 #endif

@@ -1,8 +1,8 @@
 /* Shadow maps: the smallest biased depth at each texel centre (DESIGN 1.6).
  *
- * Both kinds of view are drawn in homogeneous map coordinates (U w, V w, w), w = 1 in directional views and the light-plane
- * distance in perspective ones. As in ref_raster.c nothing is divided by w: a triangle that passes through the light's plane
- * needs no clipping, and the depth at a texel says whether that point casts.
+ * Both kinds of view are drawn in homogeneous map coordinates (U w, V w, w), w = 1 in directional views and the
+ * light-plane distance in perspective ones. As in ref_raster.c nothing is divided by w: a triangle that passes through
+ * the light's plane needs no clipping, and the depth at a texel says whether that point casts.
  */
 #include "ref_internal.h"
 
@@ -18,8 +18,8 @@ typedef struct {
     ref_triangle source;
 } caster_triangle;
 
-/* +1, -1: covered with that orientation in (U, V); 0: not covered. Top is small V, left is small U. weight: the barycentrics
- * times a common factor. */
+/* +1, -1: covered with that orientation in (U, V); 0: not covered. Top is small V, left is small U. weight: the
+ * barycentrics times a common factor. */
 static int texel_coverage(const caster_triangle *t, double u, double v, double weight[3])
 {
     vec2 q[3];
@@ -32,8 +32,8 @@ static int texel_coverage(const caster_triangle *t, double u, double v, double w
     return sides == 3 ? 1 : sides == -3 ? -1 : 0;
 }
 
-/* The triangle's plane. Interpolation keeps slivers within the triangle's own depth range, where their gradients would not; the
- * clamp takes what rounding leaves. */
+/* The triangle's plane. Interpolation keeps slivers within the triangle's own depth range, where their gradients would
+ * not; the clamp takes what rounding leaves. */
 static double mix_depth(const double depth[3], const double bary[3])
 {
     const double low = fmin(depth[0], fmin(depth[1], depth[2])), high = fmax(depth[0], fmax(depth[1], depth[2]));
@@ -44,7 +44,8 @@ static double mix_depth(const double depth[3], const double bary[3])
 static double cast_depth(const ref_light_view *view, const caster_triangle *t, const double bary[3])
 {
     const double depth = mix_depth(t->depth, bary);
-    if (!view->perspective) return depth < view->depth_range ? fmax(0.0, depth) + t->bias : HUGE_VAL; /* D9: pancaking */
+    if (!view->perspective)
+        return depth < view->depth_range ? fmax(0.0, depth) + t->bias : HUGE_VAL; /* D9: pancaking */
     if (!(depth >= view->near)) return HUGE_VAL;
     const double share = view->near / depth; /* 1 - s */
     return 1.0 - share + t->constant * share + t->bias;
@@ -79,8 +80,8 @@ static void grow_box(vec2 *low, vec2 *high, vec3 p)
     *high = (vec2){fmax(high->x, p.x / p.z), fmax(high->y, p.y / p.z)};
 }
 
-/* Bounds of the part that is not nearer than the near plane: its corners there, and where its edges cross the plane. w of
- * directional views is never nearer. */
+/* Bounds of the part that is not nearer than the near plane: its corners there, and where its edges cross the plane. w
+ * of directional views is never nearer. */
 static ref_box caster_box(const ref_light_view *view, const vec3 p[3])
 {
     vec2 low = {HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL};
@@ -170,7 +171,8 @@ const char *ref_render_atlas(ref_frame *frame)
     for (size_t l = 0; l < frame->s->n_lights; l++)
         for (int i = 0; i < REF_MAX_VIEWS; i++) {
             ref_light_view *view = &frame->picture->view[l][i];
-            if (view->active && !render_tile(view, frame, &frame->s->lights[l])) return "out of memory for the shadow map";
+            if (view->active && !render_tile(view, frame, &frame->s->lights[l]))
+                return "out of memory for the shadow map";
         }
     return NULL;
 }

@@ -94,13 +94,15 @@ static double smooth_reach(const ref_light_view *view, double reach)
     return view->filter == SCENE_FILTER_HARD ? reach + 0.5 : reach;
 }
 
-static vec3 ortho_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at, vec3 n)
+static vec3 ortho_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
+                       vec3 n)
 {
     const double error = place_error(frame, farthest(frame, view)) / view->texel + PLANE_ERROR;
     const double reach = tap_reach(view) + tap_error(frame->options) + error, most = 2.0 * view->depth_range;
     const double step = view->depth_range * step_error(frame->options, view) + 3.0 * COORDINATE_LSB + error;
     if (at->curved) return vec3_scale(n, hypot(sqrt(2.0) * smooth_reach(view, reach), step));
-    if (form == SCENE_AUTO_BIAS_NORMAL && fmax(fabs(n.x), fabs(n.y)) > most * fabs(n.z)) return (vec3){0.0, 0.0, -2.0 * most};
+    if (form == SCENE_AUTO_BIAS_NORMAL && fmax(fabs(n.x), fabs(n.y)) > most * fabs(n.z))
+        return (vec3){0.0, 0.0, -2.0 * most};
     if (form == SCENE_AUTO_BIAS_NORMAL) return vec3_scale(n, reach * (fabs(n.x) + fabs(n.y)) + step * fabs(n.z));
     return (vec3){0.0, 0.0, -reach * (steepness(n.x, n.z, most) + steepness(n.y, n.z, most)) - step};
 }
@@ -111,15 +113,16 @@ static double plane_error(const ref_options *o, const ref_light_view *view)
     return view_bits(o, view) > 0 ? ldexp(64.0, -32) : 0.0;
 }
 
-static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at, vec3 m,
-                       vec3 point, double view_depth, double *less)
+static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
+                       vec3 m, vec3 point, double view_depth, double *less)
 {
     const ref_options *o = frame->options;
     const double reach = tap_reach(view) + tap_error(o) + view->tile_texels / 2.0 * quotient_error(o);
     const double across = fabs(m.x) + fabs(m.y), lift = place_error(frame, view_depth), h = fabs(vec3_dot(m, point));
     *less = step_error(o, view) + quotient_error(o) + plane_error(o, view);
     if (at->curved) return vec3_scale(m, lift + point.z * view->texel * sqrt(2.0) * smooth_reach(view, reach));
-    const double a = reach * view->texel * across + *less * h / view->near, left = 1.0 - a * fmax(0.0, m.z), share = a / left;
+    const double a = reach * view->texel * across + *less * h / view->near, left = 1.0 - a * fmax(0.0, m.z),
+                 share = a / left;
     if (form == SCENE_AUTO_BIAS_DEPTH || a > MOST_SHARE || left < 0.5 || share > MOST_SHARE) {
         *less += fmin(2.0, reach * view->near * view->texel * across / h);
         return vec3_scale(m, lift);
@@ -141,10 +144,11 @@ static vec3 curved_normal(const ref_surface *at, vec3 face)
     return vec3_add(at->interpolated, vec3_scale(face, 1.0 - least));
 }
 
-vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at, vec3 in_light,
-                   double *less)
+vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
+                   vec3 in_light, double *less)
 {
-    const vec3 face = vec3_dot(at->face, vec3_sub(frame->camera.position, at->world)) < 0.0 ? vec3_scale(at->face, -1.0) : at->face;
+    const vec3 face =
+        vec3_dot(at->face, vec3_sub(frame->camera.position, at->world)) < 0.0 ? vec3_scale(at->face, -1.0) : at->face;
     const vec3 f = at->curved ? curved_normal(at, face) : face;
     const vec3 n = {vec3_dot(f, vec3_load(view->axis[0])), vec3_dot(f, vec3_load(view->axis[1])),
                     vec3_dot(f, vec3_load(view->axis[2]))};

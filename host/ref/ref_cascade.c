@@ -1,9 +1,9 @@
-/* Directional views: the cascades' spheres in the camera's frustum, how the views fit around them, which cascade a point is
- * looked up in (DESIGN 1.4). */
+/* Directional views: the cascades' spheres in the camera's frustum, how the views fit around them, which cascade a
+ * point is looked up in (DESIGN 1.4). */
 #include "ref_internal.h"
 
-/* The smallest m * 2^e >= x with 128 <= m <= 255, for x > 0. frexp gives x = f * 2^e with f in [1/2, 1); m = 256 is the same number
- * as 128 * 2 and needs no case of its own. */
+/* The smallest m * 2^e >= x with 128 <= m <= 255, for x > 0. frexp gives x = f * 2^e with f in [1/2, 1); m = 256 is the
+ * same number as 128 * 2 and needs no case of its own. */
 static double ceil8(double x)
 {
     int e;
@@ -28,8 +28,8 @@ bool ref_ratios_ascend(const scene_shadow *shadow)
     return true;
 }
 
-/* The sphere of the slice of the frustum from depth n to m: centre depth c and radius r of DESIGN 1.4. A single tile takes them
- * all. */
+/* The sphere of the slice of the frustum from depth n to m: centre depth c and radius r of DESIGN 1.4. A single tile
+ * takes them all. */
 static ref_sphere fit_sphere(const scene *s, int cascade, int width, int height)
 {
     const double m = cascade == REF_SINGLE_TILE ? s->shadow.max_distance : cascade_end(&s->shadow, cascade);
@@ -53,9 +53,10 @@ static ref_sphere fit_sphere(const scene *s, int cascade, int width, int height)
                         .radius = sqrt(fmax(far_corner, near_corner))};
 }
 
-/* The texel with which a filter of index k_f keeps inside the tile. The factor just below 1 keeps the texel of a radius that is a
- * round number off the edge between two of ceil8's steps. */
-static double fit_texel(const ref_light_view *view, const scene_light *light, int filter_index, const ref_options *options)
+/* The texel with which a filter of index k_f keeps inside the tile. The factor just below 1 keeps the texel of a radius
+ * that is a round number off the edge between two of ceil8's steps. */
+static double fit_texel(const ref_light_view *view, const scene_light *light, int filter_index,
+                        const ref_options *options)
 {
     const double reach = 2.0 * (filter_index + 1) * (1.0 + ref_lateral_reach(options, view, light));
     const double sphere_texels = fmax(view->tile_texels - reach - 1.0, view->tile_texels / 4.0);
@@ -63,8 +64,10 @@ static double fit_texel(const ref_light_view *view, const scene_light *light, in
     return options->unsnapped ? texel : ceil8(texel);
 }
 
-/* The disk's radius in texels follows from the texel, which depends on how far it reaches: the texel of filter index 0 decides. */
-static void fit_filter(ref_light_view *view, const scene_shadow *shadow, const scene_light *light, const ref_options *options)
+/* The disk's radius in texels follows from the texel, which depends on how far it reaches: the texel of filter index 0
+ * decides. */
+static void fit_filter(ref_light_view *view, const scene_shadow *shadow, const scene_light *light,
+                       const ref_options *options)
 {
     const double width = 0.02 * shadow->penumbra;
     view->filter_index = ref_filter_index(view->filter, width / fit_texel(view, light, 0, options));
@@ -72,7 +75,8 @@ static void fit_filter(ref_light_view *view, const scene_shadow *shadow, const s
     view->disk_radius = fmin(width / view->texel, view->filter_index);
 }
 
-/* Integer origins around the sphere's centre; the near offset pulls the depth origin back, and the range grows with it. */
+/* Integer origins around the sphere's centre; the near offset pulls the depth origin back, and the range grows with it.
+ */
 static void fit_grid(ref_light_view *view, double near_offset, bool unsnapped)
 {
     const double half = view->tile_texels / 2.0;
@@ -88,15 +92,16 @@ static void fit_grid(ref_light_view *view, double near_offset, bool unsnapped)
 }
 
 /* Leaves view->depth alone: the atlas stage owns it. */
-static int fit_directional(ref_light_view *view, const scene *s, const scene_light *light, int cascade, const ref_options *options,
-                           int tile_texels)
+static int fit_directional(ref_light_view *view, const scene *s, const scene_light *light, int cascade,
+                           const ref_options *options, int tile_texels)
 {
     const ref_sphere sphere = fit_sphere(s, cascade, options->width, options->height);
     view->active = view->perspective = false;
     if (sphere.empty) return 0;
     view->tile_texels = tile_texels;
     view->clear_border = cascade == REF_SINGLE_TILE;
-    view->filter = ref_light_filter(&s->shadow, light, cascade == REF_SINGLE_TILE ? REF_OTHER_ATLAS : REF_DIRECTIONAL_ATLAS);
+    view->filter =
+        ref_light_filter(&s->shadow, light, cascade == REF_SINGLE_TILE ? REF_OTHER_ATLAS : REF_DIRECTIONAL_ATLAS);
     vec3_store(view->sphere_centre, sphere.centre);
     view->sphere_radius = sphere.radius;
     fit_filter(view, &s->shadow, light, options);
@@ -119,7 +124,8 @@ static int fit_view(ref_frame *frame, size_t l, int i)
     const scene_light *light = &frame->s->lights[l];
     const ref_grant *grant = &frame->picture->grant[l];
     ref_light_view *view = &frame->picture->view[l][i];
-    if (light->kind != SCENE_LIGHT_DIRECTIONAL) return ref_fit_face(view, frame->s, light, i, frame->options, grant->tile_texels);
+    if (light->kind != SCENE_LIGHT_DIRECTIONAL)
+        return ref_fit_face(view, frame->s, light, i, frame->options, grant->tile_texels);
     const int cascade = grant->atlas == REF_OTHER_ATLAS ? REF_SINGLE_TILE : i;
     return fit_directional(view, frame->s, light, cascade, frame->options, grant->tile_texels);
 }

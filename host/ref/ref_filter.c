@@ -55,8 +55,8 @@ static double axis_weight(const ref_lookup *how, double x, int i)
     return 0.0;
 }
 
-/* The point that is looked up: indices are clamped to the tile (P8), and the receiver's plane (B5) is taken at the texel that is
- * read. Beyond the far end an empty texel still lets it be lit. */
+/* The point that is looked up: indices are clamped to the tile (P8), and the receiver's plane (B5) is taken at the
+ * texel that is read. Beyond the far end an empty texel still lets it be lit. */
 static double compare(const ref_light_view *view, const ref_lookup *how, vec3 p, int i, int j)
 {
     const int last = view->tile_texels - 1;
@@ -123,13 +123,14 @@ static double disk(const ref_light_view *view, const ref_lookup *how, vec3 p)
     for (int i = 0; i < how->disk_samples; i++) {
         double at[2];
         ref_disk_sample(at, i, how->x, how->y);
-        sum += compare(view, how, p, (int)floor(p.x + view->disk_radius * at[0]), (int)floor(p.y + view->disk_radius * at[1]));
+        sum += compare(view, how, p, (int)floor(p.x + view->disk_radius * at[0]),
+                       (int)floor(p.y + view->disk_radius * at[1]));
     }
     return sum / how->disk_samples;
 }
 
-/* Further out than its reach a filter meets the border texel alone: moving the point back along the receiver's plane only keeps the
- * int in range. */
+/* Further out than its reach a filter meets the border texel alone: moving the point back along the receiver's plane
+ * only keeps the int in range. */
 double ref_filtered(const ref_light_view *view, const ref_lookup *how, double u, double v, double d)
 {
     const double margin = 32.0, last = view->tile_texels + margin;

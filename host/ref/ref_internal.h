@@ -1,4 +1,5 @@
-/* What the stages of the reference engine share. Stages run in the order of the declarations below; none knows a later one.
+/* What the stages of the reference engine share. Stages run in the order of the declarations below; none knows a later
+ * one.
  *
  * A stage returns NULL, or the text of what went wrong.
  */
@@ -122,16 +123,18 @@ double ref_mask(const scene *s, const ref_triangle *triangle, const double bary[
 scene_filter ref_light_filter(const scene_shadow *shadow, const scene_light *light, ref_atlas atlas);
 int ref_filter_index(scene_filter filter, double wanted_radius); /* k_f; wanted_radius: R', for the disk */
 void ref_fit_axes(ref_light_view *view, vec3 w);
-vec3 ref_to_light(const ref_light_view *view, vec3 world);      /* directional: (U, V, D) in texels; perspective: (x, y, z) */
-vec3 ref_project(const ref_light_view *view, vec3 p);           /* of ref_to_light's points, z > 0: (U, V, D) or (U, V, s) */
+vec3 ref_to_light(const ref_light_view *view,
+                  vec3 world);                        /* directional: (U, V, D) in texels; perspective: (x, y, z) */
+vec3 ref_project(const ref_light_view *view, vec3 p); /* of ref_to_light's points, z > 0: (U, V, D) or (U, V, s) */
 double ref_texel_at(const ref_light_view *view, vec3 in_light); /* world units */
-vec2 ref_depth_gradient(const ref_light_view *view, vec3 normal, vec3 on_plane); /* depth per texel; all in ref_to_light's axes */
+vec2 ref_depth_gradient(const ref_light_view *view, vec3 normal,
+                        vec3 on_plane); /* depth per texel; all in ref_to_light's axes */
 
 /* ref_bias.c */
 double ref_lateral_reach(const ref_options *options, const ref_light_view *view, const scene_light *light); /* nu */
 /* B6: how far a point is moved, in ref_to_light's axes, and by how much less its depth s is then. */
-vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at, vec3 in_light,
-                   double *less);
+vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
+                   vec3 in_light, double *less);
 int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light, int face, const ref_options *options,
                  int tile_texels);
 

@@ -9,8 +9,8 @@ static double highlight(const ref_frame *frame, const ref_surface *at, vec3 to_l
     return pow(fmax(0.0, ndoth), ldexp(1.0, at->triangle.object->shininess_log2));
 }
 
-/* At the rim of a cone or a range the library's light ends a rounding earlier or later: what is darker than this share of the light is
- * not shown (DESIGN 1.10). */
+/* At the rim of a cone or a range the library's light ends a rounding earlier or later: what is darker than this share
+ * of the light is not shown (DESIGN 1.10). */
 #define RIM 0x1p-20
 
 static bool at_rim(const scene_light *light, const ref_surface *at, double attenuation)
@@ -32,7 +32,8 @@ static double vertex_cosine(const ref_surface *at, vec3 to_light)
 
 static double cosine(const ref_frame *frame, const ref_surface *at, size_t l, vec3 to_light)
 {
-    const bool interpolate = frame->options->vertex_light && at->triangle.instance->normal && frame->s->lights[l].kind == SCENE_LIGHT_DIRECTIONAL;
+    const bool interpolate = frame->options->vertex_light && at->triangle.instance->normal &&
+                             frame->s->lights[l].kind == SCENE_LIGHT_DIRECTIONAL;
     return interpolate ? vertex_cosine(at, to_light) : vec3_dot(at->normal, to_light);
 }
 

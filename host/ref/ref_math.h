@@ -47,8 +47,8 @@ static inline vec3 vec3_cross(vec3 a, vec3 b)
     return (vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/* The zero vector stays zero: callers choose their own fallback. Divided by the largest component first, so that the squares of
- * the area vectors of tiny or huge triangles neither vanish nor overflow. */
+/* The zero vector stays zero: callers choose their own fallback. Divided by the largest component first, so that the
+ * squares of the area vectors of tiny or huge triangles neither vanish nor overflow. */
 static inline vec3 vec3_unit(vec3 a)
 {
     const double largest = fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
@@ -78,17 +78,17 @@ static inline double frac(double x)
     return x - floor(x);
 }
 
-/* a x b in the plane. The operands are ordered first, so that cross2(b, a) is bit for bit -cross2(a, b) even where the compiler
- * fuses multiply and add: two triangles that share an edge then always disagree about the side of a point. */
+/* a x b in the plane. The operands are ordered first, so that cross2(b, a) is bit for bit -cross2(a, b) even where the
+ * compiler fuses multiply and add: two triangles that share an edge then always disagree about the side of a point. */
 static inline double cross2(vec2 a, vec2 b)
 {
     if (a.x < b.x || (!(b.x < a.x) && a.y < b.y)) return a.x * b.y - a.y * b.x;
     return -(b.x * a.y - b.y * a.x);
 }
 
-/* The top-left rule as a perturbation: a sample on an edge is judged as if it lay infinitesimally to the right, and by less still
- * below. edge: value of the edge function at the sample; d_right, d_down: its derivatives. Returns -1 or 1; 0 if the edge is a
- * point. */
+/* The top-left rule as a perturbation: a sample on an edge is judged as if it lay infinitesimally to the right, and by
+ * less still below. edge: value of the edge function at the sample; d_right, d_down: its derivatives. Returns -1 or 1;
+ * 0 if the edge is a point. */
 static inline int edge_side(double edge, double d_right, double d_down)
 {
     if (edge > 0.0 || edge < 0.0) return edge > 0.0 ? 1 : -1;

@@ -1,5 +1,5 @@
-/* Spot and point lights: attenuation, which objects they reach, light lists, and their perspective views (DESIGN 1.5, 1.8; rows
- * P2 to P6, P9). */
+/* Spot and point lights: attenuation, which objects they reach, light lists, and their perspective views
+ * (DESIGN 1.5, 1.8; rows P2 to P6, P9). */
 #include "ref_internal.h"
 
 #define LEAST_DISTANCE2 1e-4 /* epsilon of P2: keeps the light's own position finite */
@@ -143,7 +143,8 @@ int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light,
     vec3_store(view->position, vec3_load(light->position));
     view->near = light->near;
     view->depth_range = 1.0;
-    view->t = point ? ref_face_half_width(view->filter_index, ref_lateral_reach(options, view, light), tile_texels, &view->clamped)
+    view->t = point ? ref_face_half_width(view->filter_index, ref_lateral_reach(options, view, light), tile_texels,
+                                          &view->clamped)
                     : fmax(tan(PI * light->outer), tile_texels / 65535.0);
     view->texel = 2.0 * view->t / tile_texels;
     ref_fit_axes(view, point ? face_axis(face) : vec3_load(light->direction));

@@ -1,9 +1,10 @@
 /* The visible surface at each pixel (DESIGN 1.1, 1.2), by homogeneous edge functions in view space.
  *
- * The ray through a pixel centre is (s, t, F) with s = sx - W/2, t = H/2 - sy. Relative to the ray, a vertex (X, Y, Z) lies at
- * q = (F X - s Z, F Y - t Z), and q_a x q_b is, up to a positive factor, the determinant of ray, a, b: the edge function, and the
- * weight of the vertex opposite. Nothing is divided by a vertex's depth, so vertices behind the camera need no clipping: where
- * the three weights have one sign, the ray's line meets the triangle, and the depth there says whether in front of near.
+ * The ray through a pixel centre is (s, t, F) with s = sx - W/2, t = H/2 - sy. Relative to the ray, a vertex (X, Y, Z)
+ * lies at q = (F X - s Z, F Y - t Z), and q_a x q_b is, up to a positive factor, the determinant of ray, a, b: the edge
+ * function, and the weight of the vertex opposite. Nothing is divided by a vertex's depth, so vertices behind the
+ * camera need no clipping: where the three weights have one sign, the ray's line meets the triangle, and the depth
+ * there says whether in front of near.
  */
 #include "ref_internal.h"
 
@@ -14,8 +15,8 @@ typedef struct {
     ref_triangle source;
 } view_triangle;
 
-/* Indices of the samples at half-integers inside [low, high]; one too many on each side at most. Clamped before the conversion:
- * the corners of huge triangles fit no int. */
+/* Indices of the samples at half-integers inside [low, high]; one too many on each side at most. Clamped before the
+ * conversion: the corners of huge triangles fit no int. */
 ref_box ref_clip_box(vec2 low, vec2 high, int width, int height)
 {
     return (ref_box){.x0 = (int)clamp(floor(low.x - 0.5), 0.0, width),
@@ -48,8 +49,8 @@ static ref_box triangle_box(const vec3 p[3], const ref_camera *camera, int width
     return ref_clip_box(low, high, width, height);
 }
 
-/* +1: covered, front face; -1: covered, back face; 0: not covered. Where the line meets the triangle behind the camera the sign
- * is the other one, and the caller's depth test refuses it. */
+/* +1: covered, front face; -1: covered, back face; 0: not covered. Where the line meets the triangle behind the camera
+ * the sign is the other one, and the caller's depth test refuses it. */
 static int pixel_coverage(const view_triangle *triangle, double s, double t, double focal_px, double weight[3])
 {
     const vec3 *p = triangle->p;
@@ -63,8 +64,8 @@ static int pixel_coverage(const view_triangle *triangle, double s, double t, dou
     return sides == 3 ? 1 : sides == -3 ? -1 : 0;
 }
 
-/* The nearest depth wins, the first drawn at equal depths. Where alpha cuts (M8) there is no surface, and what is behind is
- * seen. */
+/* The nearest depth wins, the first drawn at equal depths. Where alpha cuts (M8) there is no surface, and what is
+ * behind is seen. */
 static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i, int j)
 {
     const ref_camera *camera = &frame->camera;
@@ -77,18 +78,21 @@ static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i
     if (!(fabs(sum) > 0.0)) return;
     ref_hit hit = {.behind = facing < 0};
     for (int k = 0; k < 3; k++) hit.bary[k] = weight[k] / sum;
-    const double depth = hit.bary[0] * triangle->p[0].z + hit.bary[1] * triangle->p[1].z + hit.bary[2] * triangle->p[2].z;
+    const double depth =
+        hit.bary[0] * triangle->p[0].z + hit.bary[1] * triangle->p[1].z + hit.bary[2] * triangle->p[2].z;
     const size_t pixel = (size_t)j * (size_t)frame->picture->width + (size_t)i;
     if (!(depth >= camera->near) || !(depth < frame->picture->depth[pixel])) return;
     if (object->visible_alpha != SCENE_ALPHA_OPAQUE &&
-        ref_alpha_cuts(object->visible_alpha, ref_alpha(frame->s, &triangle->source, hit.bary), object->alpha_cutoff, i, j))
+        ref_alpha_cuts(object->visible_alpha, ref_alpha(frame->s, &triangle->source, hit.bary), object->alpha_cutoff, i,
+                       j))
         return;
     frame->picture->depth[pixel] = depth;
     frame->picture->triangle[pixel] = triangle->id;
     frame->hits[pixel] = hit;
 }
 
-/* The derivatives to s and t are x and y of a x b; by cross2 they change sign with the edge's direction and nothing else. */
+/* The derivatives to s and t are x and y of a x b; by cross2 they change sign with the edge's direction and nothing
+ * else. */
 static void draw_triangle(ref_frame *frame, view_triangle *triangle)
 {
     for (int k = 0; k < 3; k++) {
@@ -107,7 +111,8 @@ void ref_find_surfaces(ref_frame *frame)
     for (size_t i = 0; i < n_pixels; i++) {
         frame->picture->depth[i] = HUGE_VAL;
         frame->picture->triangle[i] = -1;
-        for (size_t l = 0; l < frame->picture->n_lights; l++) frame->picture->shadow[l][i] = frame->picture->ndotl[l][i] = 0.0;
+        for (size_t l = 0; l < frame->picture->n_lights; l++)
+            frame->picture->shadow[l][i] = frame->picture->ndotl[l][i] = 0.0;
     }
     for (size_t o = 0; o < frame->s->n_objects; o++) {
         const scene_object *object = &frame->s->objects[o];

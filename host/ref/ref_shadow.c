@@ -31,7 +31,8 @@ static vec3 receiver_offset(const scene_light *light, vec3 n, vec3 to_light)
                     vec3_scale(n, sqrt(2.0) * light->bias_normal + b[2] + b[3] * sine));
 }
 
-static vec3 moved_point(const ref_light_view *view, const scene_light *light, const ref_surface *at, vec3 unmoved, vec3 to_light)
+static vec3 moved_point(const ref_light_view *view, const scene_light *light, const ref_surface *at, vec3 unmoved,
+                        vec3 to_light)
 {
     const double texels = ref_texel_at(view, unmoved) * (view->filter_index + 1);
     const vec3 offset = vec3_scale(receiver_offset(light, at->interpolated, to_light), texels);
@@ -69,7 +70,8 @@ static double attenuation_in(const ref_frame *frame, const ref_surface *at, size
     if (light->receiver_plane) set_plane(&how, view, at, unmoved);
     vec3 p = ref_project(view, moved);
     const double end = view->tile_texels;
-    if (view->perspective && light->auto_bias == SCENE_AUTO_BIAS_NORMAL && !at->curved && (p.x < 0.0 || p.y < 0.0 || p.x > end || p.y > end)) {
+    if (view->perspective && light->auto_bias == SCENE_AUTO_BIAS_NORMAL && !at->curved &&
+        (p.x < 0.0 || p.y < 0.0 || p.x > end || p.y > end)) {
         const vec3 along = vec3_add(unmoved, ref_auto_bias(frame, view, SCENE_AUTO_BIAS_DEPTH, at, unmoved, &less));
         if (!(along.z > view->near)) return 1.0;
         p = ref_project(view, along);
@@ -100,8 +102,8 @@ static double mapped_attenuation(const ref_frame *frame, const ref_surface *at, 
     return attenuation_in(frame, at, l, ref_point_face(from_light), to_light);
 }
 
-/* A single tile around an empty slice is none; an empty cascade is never selected. Who does without maps serves every light that
- * asks. */
+/* A single tile around an empty slice is none; an empty cascade is never selected. Who does without maps serves every
+ * light that asks. */
 static bool is_served(const ref_frame *frame, size_t l)
 {
     if (frame->visibility) return ref_asks_for_tiles(frame, l);
@@ -133,6 +135,7 @@ double ref_shadow(const ref_frame *frame, const ref_surface *at, size_t l, vec3 
     const double g = is_served(frame, l) ? distance_strength(frame, at) : 0.0;
     double rt = 1.0;
     if (light->strength * g > 0.0)
-        rt = frame->visibility ? frame->visibility(frame->visibility_user, at, l) : mapped_attenuation(frame, at, l, to_light);
+        rt = frame->visibility ? frame->visibility(frame->visibility_user, at, l)
+                               : mapped_attenuation(frame, at, l, to_light);
     return ref_mix(frame->s->shadow.mixing, light->strength, g, m, rt);
 }

@@ -15,7 +15,8 @@ static int wrap(double i, int size, bool clamped)
 
 static footprint nearest(const scene_texture *t, double u, double v)
 {
-    const int i = wrap(floor(u * t->width), t->width, t->clamp_u), j = wrap(floor(v * t->height), t->height, t->clamp_v);
+    const int i = wrap(floor(u * t->width), t->width, t->clamp_u),
+              j = wrap(floor(v * t->height), t->height, t->clamp_v);
     return (footprint){.texel = {(size_t)j * (size_t)t->width + (size_t)i}, .weight = {1.0}};
 }
 

@@ -142,7 +142,8 @@ static void size_by_importance(ref_frame *frame, const budget *b)
     ref_grant *g;
     for (size_t l = 0; l < frame->s->n_lights; l++)
         if (frame->picture->grant[l].atlas == b->which) frame->picture->grant[l].tile_texels = b->size;
-    while (area_taken(frame, b) > (int64_t)b->size * b->size && (g = next_to_halve(frame, b)) != NULL) g->tile_texels /= 2;
+    while (area_taken(frame, b) > (int64_t)b->size * b->size && (g = next_to_halve(frame, b)) != NULL)
+        g->tile_texels /= 2;
     while ((g = next_to_double(frame, b)) != NULL) g->tile_texels *= 2;
 }
 
@@ -151,7 +152,8 @@ static bool sizes_fit(ref_frame *frame, const budget *b)
     if (frame->s->shadow.tiles == SCENE_TILES_IMPORTANCE) size_by_importance(frame, b);
     else size_equally(frame, b);
     for (size_t l = 0; l < frame->s->n_lights; l++)
-        if (frame->picture->grant[l].atlas == b->which && frame->picture->grant[l].tile_texels < LEAST_TILE) return false;
+        if (frame->picture->grant[l].atlas == b->which && frame->picture->grant[l].tile_texels < LEAST_TILE)
+            return false;
     return area_taken(frame, b) <= (int64_t)b->size * b->size;
 }
 
@@ -171,5 +173,6 @@ const char *ref_assign_tiles(ref_frame *frame)
     for (size_t l = 0; l < frame->s->n_lights; l++)
         if (ref_asks_for_tiles(frame, l)) serve(frame, l, has_cascades(frame, l) ? &directional : &other);
     frame->cascades_in_use = directional.n_tiles > 0;
-    return sizes_fit(frame, &directional) && sizes_fit(frame, &other) ? NULL : "shadow tiles of less than 8 texels a side";
+    return sizes_fit(frame, &directional) && sizes_fit(frame, &other) ? NULL
+                                                                      : "shadow tiles of less than 8 texels a side";
 }

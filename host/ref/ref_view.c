@@ -1,4 +1,5 @@
-/* What all light views share: filters and their reach, axes, and the way from the world into the map (DESIGN 1.4, 1.5, 1.7). */
+/* What all light views share: filters and their reach, axes, and the way from the world into the map
+ * (DESIGN 1.4, 1.5, 1.7). */
 #include "ref_internal.h"
 
 #define WIDEST_DISK 8 /* texels (F4) */
@@ -82,7 +83,8 @@ static double slope(double part, double along)
     return fabs(part) > 0.0 ? -part / along : 0.0;
 }
 
-/* Perspective: on the plane N . P = c, 1/z = (N_x x/z + N_y y/z + N_z) / c, and x/z grows by a texel at distance 1 per texel. */
+/* Perspective: on the plane N . P = c, 1/z = (N_x x/z + N_y y/z + N_z) / c, and x/z grows by a texel at distance 1 per
+ * texel. */
 vec2 ref_depth_gradient(const ref_light_view *view, vec3 normal, vec3 on_plane)
 {
     if (!view->perspective) return (vec2){slope(normal.x, normal.z), slope(normal.y, normal.z)};

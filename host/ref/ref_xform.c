@@ -35,8 +35,8 @@ static vec3 to_view(const ref_camera *camera, vec3 world)
     return (vec3){vec3_dot(p, camera->right), vec3_dot(p, camera->up), vec3_dot(p, camera->forward)};
 }
 
-/* Inverse transpose = cofactors / determinant. Only the determinant's sign survives the renormalisation, and a flattened object
- * (determinant 0) keeps the normals of the plane it lies in. */
+/* Inverse transpose = cofactors / determinant. Only the determinant's sign survives the renormalisation, and a
+ * flattened object (determinant 0) keeps the normals of the plane it lies in. */
 static vec3 transform_normal(const scene_affine *a, vec3 n)
 {
     const vec3 c0 = column(a, 0), c1 = column(a, 1), c2 = column(a, 2);
@@ -46,7 +46,8 @@ static vec3 transform_normal(const scene_affine *a, vec3 n)
     return vec3_unit(vec3_mix(f, k0, k1, k2));
 }
 
-static bool transform_object(ref_instance *out, const scene_object *object, const scene_mesh *mesh, const ref_camera *camera)
+static bool transform_object(ref_instance *out, const scene_object *object, const scene_mesh *mesh,
+                             const ref_camera *camera)
 {
     const size_t n = mesh->n_vertices;
     out->world = calloc(n + 1, sizeof *out->world);

@@ -50,7 +50,8 @@ static void put_base64(FILE *page, const uint8_t *bytes, size_t n)
     static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < n; i += 3) {
         const size_t left = n - i;
-        const uint32_t v = (uint32_t)bytes[i] << 16 | (uint32_t)(left > 1 ? bytes[i + 1] : 0) << 8 | (left > 2 ? bytes[i + 2] : 0);
+        const uint32_t v =
+            (uint32_t)bytes[i] << 16 | (uint32_t)(left > 1 ? bytes[i + 1] : 0) << 8 | (left > 2 ? bytes[i + 2] : 0);
         fputc(digit[v >> 18], page);
         fputc(digit[v >> 12 & 63], page);
         fputc(left > 1 ? digit[v >> 6 & 63] : '=', page);

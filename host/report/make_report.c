@@ -1,10 +1,9 @@
-/* One page of what fixed point and shadow maps cost: pictures, metrics, plots. No other file, nothing from the network; without
- * JavaScript all is there but the slider.
+/* One page of what fixed point and shadow maps cost: pictures, metrics, plots. No other file, nothing from the network;
+ * without JavaScript all is there but the slider.
  *
  * usage: make_report PAGE FOLDER PLOTS PARTS SCENE...
- *   FOLDER/SCENE/PRESET.json, of balanced and accurate, and the pictures in FOLDER/SCENE/balanced: of gnomon compare --with truth
- *   PLOTS: trade-SCENE.svg and the census; left out where they are missing
- *   PARTS: page.css, page.js
+ *   FOLDER/SCENE/PRESET.json, of balanced and accurate, and the pictures in FOLDER/SCENE/balanced: of gnomon compare
+ * --with truth PLOTS: trade-SCENE.svg and the census; left out where they are missing PARTS: page.css, page.js
  */
 #include <ctype.h>
 #include <math.h>
@@ -80,7 +79,7 @@ put(const report *r, const char *format, ...)
     va_end(arguments);
 }
 
-/* ---- Numbers ---------------------------------------------------------------------------------------------------------------- */
+/* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
 static double number(const json_value *object, const char *key)
 {
@@ -124,7 +123,7 @@ static void put_title(const report *r, const char *name)
     if (*name) embed_text(r->page, name + 1);
 }
 
-/* ---- The summary ------------------------------------------------------------------------------------------------------------ */
+/* ---- The summary ------------------------------------------------------------------------------------------------- */
 
 static void put_summary_row(const report *r, const report_scene *s, int preset)
 {
@@ -151,14 +150,19 @@ static void put_summary_row(const report *r, const report_scene *s, int preset)
 static void put_summary(const report *r)
 {
     put(r, "<section id=\"summary\"><h2>At a glance</h2>\n"
-           "<p>Identical: pixels of the same RGB565. PSNR over 8-bit colours. Mismatch: points where a light's attenuation is off "
+           "<p>Identical: pixels of the same RGB565. PSNR over 8-bit colours. Mismatch: points where a light's "
+           "attenuation is off "
            "by more than "
-           "one sixteenth. RAM: all that the library needs for the scene. The presets stand above what a scene&#8217;s file sets itself "
-           "(<code>--set preset=</code>); in docs/ACCURACY.md the file&#8217;s knobs win, so its figures differ. Shadow maps are held against "
-           "a ray tracer that keeps to the same light: near planes, the shadow distance and its fade, casters of one side.</p>\n"
+           "one sixteenth. RAM: all that the library needs for the scene. The presets stand above what a scene&#8217;s "
+           "file sets itself "
+           "(<code>--set preset=</code>); in docs/ACCURACY.md the file&#8217;s knobs win, so its figures differ. "
+           "Shadow maps are held against "
+           "a ray tracer that keeps to the same light: near planes, the shadow distance and its fade, casters of one "
+           "side.</p>\n"
            "<div class=\"wide\" role=\"region\" aria-label=\"Metrics of all scenes\" tabindex=\"0\"><table><thead>"
            "<tr><th rowspan=\"2\" scope=\"col\">Scene</th><th rowspan=\"2\" scope=\"col\" class=\"word\">Preset</th>"
-           "<th colspan=\"3\" scope=\"colgroup\">What fixed point costs</th><th colspan=\"2\" scope=\"colgroup\">What shadow maps "
+           "<th colspan=\"3\" scope=\"colgroup\">What fixed point costs</th><th colspan=\"2\" scope=\"colgroup\">What "
+           "shadow maps "
            "cost</th>"
            "<th rowspan=\"2\" scope=\"col\">RAM</th></tr>\n"
            "<tr><th scope=\"col\">Identical</th><th scope=\"col\">PSNR</th><th scope=\"col\">Mismatch</th>"
@@ -171,7 +175,7 @@ static void put_summary(const report *r)
     put(r, "</table></div></section>\n");
 }
 
-/* ---- A scene ---------------------------------------------------------------------------------------------------------------- */
+/* ---- A scene ----------------------------------------------------------------------------------------------------- */
 
 static int put_pictures(const report *r, const report_scene *s)
 {
@@ -205,7 +209,8 @@ static void put_metrics(const report *r, const report_scene *s)
         {"shadow_mismatch", "Shadow mismatch", PERCENT},
         {"coverage_mismatch", "Coverage mismatch", PERCENT},
     };
-    put(r, "<div class=\"wide\" role=\"region\" aria-label=\"Metrics\" tabindex=\"0\"><table><thead><tr><th scope=\"col\">Preset "
+    put(r, "<div class=\"wide\" role=\"region\" aria-label=\"Metrics\" tabindex=\"0\"><table><thead><tr><th "
+           "scope=\"col\">Preset "
            "balanced</th>");
     for (int i = 0; i < N_PAIRS; i++) put(r, "<th scope=\"col\">%s against %s</th>", pairs[i].judged, pairs[i].against);
     put(r, "</tr></thead><tbody>\n");
@@ -242,7 +247,8 @@ static int put_scene(const report *r, const report_scene *s)
     embed_text(r->page, s->name);
     put(r, "\"><h2>");
     put_title(r, s->name);
-    put(r, "</h2>\n<p>%.0f × %.0f pixels, preset balanced, ", number(s->doc[0].root, "width"), number(s->doc[0].root, "height"));
+    put(r, "</h2>\n<p>%.0f × %.0f pixels, preset balanced, ", number(s->doc[0].root, "width"),
+        number(s->doc[0].root, "height"));
     put_bytes(r, number(s->doc[0].root, "ram_bytes"));
     put(r, " of RAM. Fixed point: ");
     put_number(r, number(pair_of(s, BALANCED, FIXED_REFERENCE), "psnr_db"), DECIBEL);
@@ -257,14 +263,14 @@ static int put_scene(const report *r, const report_scene *s)
     return 0;
 }
 
-/* ---- The page --------------------------------------------------------------------------------------------------------------- */
+/* ---- The page ---------------------------------------------------------------------------------------------------- */
 
 static void put_bias(const report *r)
 {
-    put(r,
-        "<section id=\"bias\"><h2>Acne and detachment</h2>\n"
-        "<p>A shadow map knows one depth per texel. A bias keeps lit surfaces from shadowing themselves (acne), and lets light in "
-        "behind casters (detachment). The census counts both, pixel by pixel.</p>\n");
+    put(r, "<section id=\"bias\"><h2>Acne and detachment</h2>\n"
+           "<p>A shadow map knows one depth per texel. A bias keeps lit surfaces from shadowing themselves (acne), and "
+           "lets light in "
+           "behind casters (detachment). The census counts both, pixel by pixel.</p>\n");
     put_plot(r, "Four biases over the angle of the light", "census", "h3");
     put_plot(r, "Wrongly shadowed points: acne", "census-acne", "h3");
     put_plot(r, "Wrongly lit points", "census-lit", "h3");
@@ -277,13 +283,17 @@ static int put_head(const report *r)
     put(r, "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
            "<meta name=\"color-scheme\" content=\"light dark\">\n"
-           "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; "
+           "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+           "'unsafe-inline'; "
            "script-src 'unsafe-inline'\">\n<title>Gnomon: what fixed point costs</title>\n<style>\n");
-    if (embed_file(r->page, path_of(r->parts, "page.css", "", ""))) return complain(r->parts, "page.css cannot be read");
+    if (embed_file(r->page, path_of(r->parts, "page.css", "", "")))
+        return complain(r->parts, "page.css cannot be read");
     put(r, "</style>\n</head>\n<body>\n<header><p class=\"brand\">Gnomon</p><h1>What fixed point costs</h1>\n"
-           "<p>Every picture three times: by the library, in fixed point, as a microcontroller draws it; by the same formulas in "
+           "<p>Every picture three times: by the library, in fixed point, as a microcontroller draws it; by the same "
+           "formulas in "
            "double "
-           "precision; and by a ray tracer with exact shadows. Slide one over the other.</p>\n<nav aria-label=\"Scenes\">");
+           "precision; and by a ray tracer with exact shadows. Slide one over the other.</p>\n<nav "
+           "aria-label=\"Scenes\">");
     for (size_t i = 0; i < r->n_scenes; i++) {
         put(r, "<a href=\"#");
         embed_text(r->page, r->scenes[i].name);

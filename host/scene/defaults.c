@@ -13,7 +13,7 @@ static const double camera_fov_deg = 40;
 static const double camera_fill = 0.7; /* of the smaller picture dimension */
 static const double ground_albedo = 0.55;
 static const double ground_half_size_radii = 8;
-static const double shadow_reach_radii = 3; /* behind the object's centre, at most: a low sun casts without end */
+static const double shadow_reach_radii = 3;       /* behind the object's centre, at most: a low sun casts without end */
 static const double shadow_fade = 6554.0 / 65536; /* scene_share(0.1) */
 
 static bool check_object(loader *l, const scene_object *object)
@@ -24,8 +24,8 @@ static bool check_object(loader *l, const scene_object *object)
         affine_point(p, &object->to_world, mesh->pos + 3 * i);
         for (int k = 0; k < 3; k++) {
             if (fabs(p[k]) <= LOADER_MAX_COORDINATE) continue;
-            return loader_fail(l, "%s: object '%s', vertex %zu: world coordinate %g is out of range", l->path, object->name, i,
-                               p[k]);
+            return loader_fail(l, "%s: object '%s', vertex %zu: world coordinate %g is out of range", l->path,
+                               object->name, i, p[k]);
         }
     }
     return true;
@@ -101,16 +101,17 @@ static void make_camera(loader *l, const bounds *b)
     }
     camera->focal = 1 / tan(camera_fov_deg * VEC_PI / 360);
     double smaller = fmin(options->width, options->height);
-    double distance = fit_distance(l->s, b, &camera->to_world, camera->focal * options->height / (camera_fill * smaller));
+    double distance =
+        fit_distance(l->s, b, &camera->to_world, camera->focal * options->height / (camera_fill * smaller));
     for (int i = 0; i < 3; i++) camera->to_world.m[i][3] = b->centre[i] + distance * back[i];
-    /* The ground at the bottom of the picture is at least 0.56 distances away: the camera is distance * sin(elevation) or
-     * more above it, and looks down by at most elevation + fov / 2. */
+    /* The ground at the bottom of the picture is at least 0.56 distances away: the camera is distance * sin(elevation)
+     * or more above it, and looks down by at most elevation + fov / 2. */
     camera->far = distance + sqrt(2) * ground_half_size_radii * b->radius;
     camera->near = fmax(0.5 * (distance - b->radius), camera->far / 1000);
 }
 
-/* For the default camera: the depth up to which objects, and their shadows on the ground if there is one, are to be seen whole.
- * The fade starts behind it. No farther: the texels of the shadow map spread over this distance. */
+/* For the default camera: the depth up to which objects, and their shadows on the ground if there is one, are to be
+ * seen whole. The fade starts behind it. No farther: the texels of the shadow map spread over this distance. */
 static double find_shadow_distance(const loader *l, const bounds *b)
 {
     const scene *s = l->s;

@@ -1,5 +1,5 @@
-/* Deflate: LZ77 with hash chains, coded with the fixed Huffman code. Rendered pictures are mostly flat after PNG's filters, so
- * matches do the work; a code fitted to each picture would save little. */
+/* Deflate: LZ77 with hash chains, coded with the fixed Huffman code. Rendered pictures are mostly flat after PNG's
+ * filters, so matches do the work; a code fitted to each picture would save little. */
 #include "zlib_stream.h"
 
 #include <stdlib.h>
@@ -104,7 +104,8 @@ static size_t find_match(const match_finder *f, size_t at, size_t *distance)
             *distance = at - (candidate - 1);
             if (n == ZLIB_MAX_MATCH) break;
         }
-        candidate = f->previous[(candidate - 1) % ZLIB_WINDOW]; /* within the window no newer position has overwritten it */
+        candidate =
+            f->previous[(candidate - 1) % ZLIB_WINDOW]; /* within the window no newer position has overwritten it */
     }
     return best >= ZLIB_MIN_MATCH ? best : 0;
 }
@@ -126,7 +127,8 @@ static void put_block(bit_writer *w, match_finder *f)
 
 uint8_t *zlib_compress(const uint8_t *bytes, size_t n_bytes, size_t *n_out)
 {
-    /* A literal takes at most 9 bits, a match of 3 bytes at most 8 + 5 + 5 + 13 = 31 bits; header, end and checksum 16 bytes. */
+    /* A literal takes at most 9 bits, a match of 3 bytes at most 8 + 5 + 5 + 13 = 31 bits; header, end and checksum 16
+     * bytes. */
     if (n_bytes > SIZE_MAX / 2 - 16) return NULL;
     size_t worst_case = n_bytes + n_bytes / 3 + 16;
     bit_writer w = {.out = malloc(worst_case)};

@@ -95,8 +95,8 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
     gltf g = {.l = l, .root = doc.root, .glb = glb, .fps = DEFAULT_FPS};
     const json_value *used_scene;
     bool ok = check_asset(&g) && find_arrays(&g) && gltf_load_buffers(&g) && find_scene(&g, &used_scene) &&
-              gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) && gltf_animate(&g) && gltf_place_nodes(&g, used_scene) &&
-              emit_nodes(&g);
+              gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) && gltf_animate(&g) &&
+              gltf_place_nodes(&g, used_scene) && emit_nodes(&g);
     json_free(&doc);
     l->wants_ground = l->options->ground;
     return ok;
@@ -106,7 +106,8 @@ bool loader_load_gltf(loader *l)
 {
     uint8_t *bytes;
     size_t n_bytes;
-    return loader_read_file(l, l->path, &bytes, &n_bytes) && load_json(l, (const char *)bytes, n_bytes, (gltf_bytes){0});
+    return loader_read_file(l, l->path, &bytes, &n_bytes) &&
+           load_json(l, (const char *)bytes, n_bytes, (gltf_bytes){0});
 }
 
 static size_t word_at(const uint8_t *bytes)
@@ -117,11 +118,13 @@ static size_t word_at(const uint8_t *bytes)
 /* The chunk at *at, which moves behind it. */
 static bool read_chunk(loader *l, const uint8_t *file, size_t n_bytes, size_t *at, size_t *type, gltf_bytes *out)
 {
-    if (n_bytes - *at < GLB_CHUNK_HEADER_BYTES) return loader_fail(l, "%s: byte %zu: a chunk header is cut off", l->path, *at);
+    if (n_bytes - *at < GLB_CHUNK_HEADER_BYTES)
+        return loader_fail(l, "%s: byte %zu: a chunk header is cut off", l->path, *at);
     size_t length = word_at(file + *at);
     *type = word_at(file + *at + 4);
     *out = (gltf_bytes){file + *at + GLB_CHUNK_HEADER_BYTES, length};
-    if (length % 4 != 0) return loader_fail(l, "%s: byte %zu: chunk length %zu is not a multiple of 4", l->path, *at, length);
+    if (length % 4 != 0)
+        return loader_fail(l, "%s: byte %zu: chunk length %zu is not a multiple of 4", l->path, *at, length);
     if (length > n_bytes - *at - GLB_CHUNK_HEADER_BYTES) {
         return loader_fail(l, "%s: byte %zu: a chunk of %zu bytes reaches beyond the end", l->path, *at, length);
     }
@@ -131,7 +134,8 @@ static bool read_chunk(loader *l, const uint8_t *file, size_t n_bytes, size_t *a
 
 static bool check_glb_header(loader *l, const uint8_t *file, size_t n_file, size_t *n_bytes)
 {
-    if (n_file < GLB_HEADER_BYTES || memcmp(file, "glTF", 4) != 0) return loader_fail(l, "%s: not a .glb file", l->path);
+    if (n_file < GLB_HEADER_BYTES || memcmp(file, "glTF", 4) != 0)
+        return loader_fail(l, "%s: not a .glb file", l->path);
     if (word_at(file + 4) != 2) return loader_fail(l, "%s: .glb version %zu is not 2", l->path, word_at(file + 4));
     *n_bytes = word_at(file + 8);
     if (*n_bytes > n_file || *n_bytes < GLB_HEADER_BYTES) {

@@ -1,6 +1,7 @@
-/* The glTF loader's inside: gltf.c reads the file and drives, gltf_json.c reads typed members, gltf_buffer.c and gltf_accessor.c turn
- * bytes into numbers, gltf_attribute.c and gltf_mesh.c make meshes, gltf_material.c, gltf_texture.c and gltf_light.c what they say,
- * gltf_node.c the hierarchy and the camera, gltf_animation.c moves nodes before that, gltf_knobs.c reads extras.gnomon. */
+/* The glTF loader's inside: gltf.c reads the file and drives, gltf_json.c reads typed members, gltf_buffer.c and
+ * gltf_accessor.c turn bytes into numbers, gltf_attribute.c and gltf_mesh.c make meshes, gltf_material.c,
+ * gltf_texture.c and gltf_light.c what they say, gltf_node.c the hierarchy and the camera, gltf_animation.c moves nodes
+ * before that, gltf_knobs.c reads extras.gnomon. */
 #ifndef GNOMON_HOST_GLTF_H
 #define GNOMON_HOST_GLTF_H
 
@@ -49,8 +50,8 @@ typedef struct {
     const json_value *root;
     gltf_bytes glb; /* BIN chunk of a .glb */
     /* Top-level arrays of objects, NULL where absent. */
-    const json_value *accessors, *animations, *buffers, *buffer_views, *cameras, *images, *lights, *materials, *meshes, *nodes,
-        *samplers, *scenes, *textures;
+    const json_value *accessors, *animations, *buffers, *buffer_views, *cameras, *images, *lights, *materials, *meshes,
+        *nodes, *samplers, *scenes, *textures;
     gltf_bytes *buffer;
     gltf_node *node;
     gltf_primitive **primitive; /* [mesh][primitive], rows made on first use */
@@ -97,7 +98,8 @@ typedef struct {
     size_t uv_set; /* 0, 1 or GLTF_NONE */
     bool mask_uv;
 } gltf_wants;
-bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out, mesh_light *light);
+bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out,
+                          mesh_light *light);
 
 /* gltf_texture.c. data: a mask image. *out SCENE_NONE: ignored, with a note. */
 bool gltf_load_texture(gltf *g, size_t texture_idx, bool is_data, size_t *out);

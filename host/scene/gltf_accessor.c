@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Without a buffer view an accessor is all zeros and costs no bytes in the file: a bound on what a short file can ask for. */
+/* Without a buffer view an accessor is all zeros and costs no bytes in the file: a bound on what a short file can ask
+ * for. */
 enum { MAX_ZEROS = 1 << 20 };
 
 static size_t component_bytes(size_t type)
@@ -66,7 +67,8 @@ static bool locate(gltf *g, const json_value *owner, size_t element_bytes, size_
 {
     size_t view = GLTF_NONE, offset = 0;
     gltf_bytes bytes;
-    if (!gltf_get_ref(g, owner, "bufferView", g->buffer_views, &view) || !gltf_get_size(g, owner, "byteOffset", &offset))
+    if (!gltf_get_ref(g, owner, "bufferView", g->buffer_views, &view) ||
+        !gltf_get_size(g, owner, "byteOffset", &offset))
         return false;
     if (view == GLTF_NONE) return gltf_fail(g, owner, "bufferView is missing");
     if (!gltf_view_bytes(g, g->buffer_views->children[view], &bytes, &out->stride)) return false;
@@ -76,13 +78,15 @@ static bool locate(gltf *g, const json_value *owner, size_t element_bytes, size_
     }
     if (offset > bytes.n_bytes || bytes.n_bytes - offset < element_bytes ||
         (bytes.n_bytes - offset - element_bytes) / out->stride < count - 1) {
-        return gltf_fail(g, owner, "%zu elements reach beyond buffer view %zu of %zu bytes", count, view, bytes.n_bytes);
+        return gltf_fail(g, owner, "%zu elements reach beyond buffer view %zu of %zu bytes", count, view,
+                         bytes.n_bytes);
     }
     out->bytes = bytes.bytes + offset;
     return true;
 }
 
-static bool read_element(gltf *g, const json_value *where, const gltf_array *a, const uint8_t *bytes, size_t element, double *out)
+static bool read_element(gltf *g, const json_value *where, const gltf_array *a, const uint8_t *bytes, size_t element,
+                         double *out)
 {
     for (size_t i = 0; i < a->n_components; i++) {
         out[i] = read_component(bytes + i * component_bytes(a->component_type), a->component_type, a->normalized);
@@ -98,7 +102,8 @@ static bool read_dense(gltf *g, const json_value *accessor, gltf_array *out)
     out->values = loader_alloc(g->l, out->count * out->n_components, sizeof *out->values);
     if (!out->values) return false;
     for (size_t i = 0; i < out->count; i++) {
-        if (!read_element(g, accessor, out, run.bytes + i * run.stride, i, out->values + i * out->n_components)) return false;
+        if (!read_element(g, accessor, out, run.bytes + i * run.stride, i, out->values + i * out->n_components))
+            return false;
     }
     return true;
 }
@@ -111,8 +116,8 @@ static bool read_zeros(gltf *g, const json_value *accessor, gltf_array *out)
     return out->values != NULL;
 }
 
-static bool sparse_parts(gltf *g, const json_value *sparse, const json_value **indices, const json_value **values, size_t *count,
-                         size_t *index_type)
+static bool sparse_parts(gltf *g, const json_value *sparse, const json_value **indices, const json_value **values,
+                         size_t *count, size_t *index_type)
 {
     if (!gltf_get_size(g, sparse, "count", count) || !gltf_get(g, sparse, "indices", JSON_OBJECT, indices) ||
         !gltf_get(g, sparse, "values", JSON_OBJECT, values) || !gltf_get_size(g, *indices, "componentType", index_type))
@@ -149,8 +154,8 @@ static bool read_type(gltf *g, const json_value *accessor, gltf_array *out)
 {
     static const char *const names[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     const char *type = "";
-    if (!gltf_get_size(g, accessor, "componentType", &out->component_type) || !gltf_get_string(g, accessor, "type", &type) ||
-        !gltf_get_bool(g, accessor, "normalized", &out->normalized))
+    if (!gltf_get_size(g, accessor, "componentType", &out->component_type) ||
+        !gltf_get_string(g, accessor, "type", &type) || !gltf_get_bool(g, accessor, "normalized", &out->normalized))
         return false;
     if (component_bytes(out->component_type) == 0)
         return gltf_fail(g, accessor, "componentType %zu is unknown", out->component_type);

@@ -1,5 +1,6 @@
-/* glTF animation of node translation, rotation and scale, at one moment: time = frame / fps, clamped to the ends of each sampler.
- * All animations of the file play at once; where two move the same property of a node, the first in the file wins. */
+/* glTF animation of node translation, rotation and scale, at one moment: time = frame / fps, clamped to the ends of
+ * each sampler. All animations of the file play at once; where two move the same property of a node, the first in the
+ * file wins. */
 #include "gltf.h"
 
 #include <math.h>
@@ -87,7 +88,8 @@ static bool evaluate(const sampler *s, double time, double *out)
 
 static bool check_times(gltf *g, const json_value *where, const gltf_array *times)
 {
-    if (times->n_components != 1 || times->component_type != GLTF_FLOAT) return gltf_fail(g, where, "times must be SCALAR floats");
+    if (times->n_components != 1 || times->component_type != GLTF_FLOAT)
+        return gltf_fail(g, where, "times must be SCALAR floats");
     for (size_t i = 1; i < times->count; i++) {
         if (!(times->values[i] > times->values[i - 1])) return gltf_fail(g, where, "time %zu does not increase", i);
     }
@@ -99,7 +101,8 @@ static bool check_values(gltf *g, const json_value *where, const sampler *s)
     const gltf_array *v = &s->values;
     size_t n = s->times.count * (s->kind == LERP_CUBIC ? 3 : 1);
     if (v->n_components != s->width) return gltf_fail(g, where, "%zu components are expected", s->width);
-    if (v->component_type != GLTF_FLOAT && !(s->width == 4 && v->normalized)) return gltf_fail(g, where, "floats are expected");
+    if (v->component_type != GLTF_FLOAT && !(s->width == 4 && v->normalized))
+        return gltf_fail(g, where, "floats are expected");
     return v->count == n || gltf_fail(g, where, "%zu values are expected, %zu are there", n, v->count);
 }
 
@@ -107,8 +110,8 @@ static bool read_sampler(gltf *g, const json_value *json, sampler *out)
 {
     size_t input = GLTF_NONE, output = GLTF_NONE;
     const char *kind = "LINEAR";
-    if (!gltf_get_ref(g, json, "input", g->accessors, &input) || !gltf_get_ref(g, json, "output", g->accessors, &output) ||
-        !gltf_get_string(g, json, "interpolation", &kind))
+    if (!gltf_get_ref(g, json, "input", g->accessors, &input) ||
+        !gltf_get_ref(g, json, "output", g->accessors, &output) || !gltf_get_string(g, json, "interpolation", &kind))
         return false;
     if (input == GLTF_NONE || output == GLTF_NONE) return gltf_fail(g, json, "input and output are needed");
     if (strcmp(kind, "LINEAR") == 0) out->kind = LERP_LINEAR;
@@ -134,9 +137,11 @@ static bool read_target(gltf *g, const json_value *target, channel *out)
     if (!gltf_get_ref(g, target, "node", g->nodes, &node) || !gltf_get_string(g, target, "path", &path)) return false;
     if (node == GLTF_NONE) return true; /* allowed: an extension's business */
     out->node = &g->node[node];
-    if (strcmp(path, "weights") == 0) return loader_note(g->l, "animation of morph weights ignored: it is not supported");
+    if (strcmp(path, "weights") == 0)
+        return loader_note(g->l, "animation of morph weights ignored: it is not supported");
     bool translation = strcmp(path, "translation") == 0, rotation = strcmp(path, "rotation") == 0;
-    if (!translation && !rotation && strcmp(path, "scale") != 0) return gltf_fail(g, target, "path '%s' is unknown", path);
+    if (!translation && !rotation && strcmp(path, "scale") != 0)
+        return gltf_fail(g, target, "path '%s' is unknown", path);
     if (out->node->has_matrix) return gltf_fail(g, target, "node %zu has a matrix and cannot be animated", node);
     out->property = translation ? out->node->translation : rotation ? out->node->rotation : out->node->scale;
     out->width = rotation ? 4 : 3;
@@ -169,13 +174,15 @@ static bool play_channel(gltf *g, const channel *c, const char *animation, unsig
 {
     sampler s = {.width = c->width};
     if (*moved & c->bit) {
-        return loader_note(g->l, "animation '%s': a channel is ignored, an earlier one moves the same property", animation);
+        return loader_note(g->l, "animation '%s': a channel is ignored, an earlier one moves the same property",
+                           animation);
     }
     *moved = (unsigned char)(*moved | c->bit);
     arena_block *mark = g->l->memory.blocks;
     bool ok = read_sampler(g, c->sampler, &s);
     if (ok) note_duration(g, &s.times);
-    if (ok && !evaluate(&s, g->l->options->frame / g->fps, c->property)) ok = gltf_fail(g, c->sampler, "a rotation is zero");
+    if (ok && !evaluate(&s, g->l->options->frame / g->fps, c->property))
+        ok = gltf_fail(g, c->sampler, "a rotation is zero");
     arena_release(&g->l->memory, mark);
     return ok;
 }
@@ -184,7 +191,8 @@ static bool play_animation(gltf *g, const json_value *json, unsigned char *moved
 {
     const json_value *channels = NULL, *samplers = NULL;
     const char *name = gltf_name(g, json, "animation");
-    if (!name || !gltf_get(g, json, "channels", JSON_ARRAY, &channels) || !gltf_get(g, json, "samplers", JSON_ARRAY, &samplers))
+    if (!name || !gltf_get(g, json, "channels", JSON_ARRAY, &channels) ||
+        !gltf_get(g, json, "samplers", JSON_ARRAY, &samplers))
         return false;
     for (size_t i = 0; channels && i < channels->n_children; i++) {
         channel c;

@@ -45,14 +45,16 @@ static bool read_position(gltf *g, const json_value *attributes, scene_mesh *out
 }
 
 /* Float or normalised, of a fixed number of components. */
-static bool read_real(gltf *g, const json_value *attributes, const char *name, size_t n_components, size_t n_vertices, double **out)
+static bool read_real(gltf *g, const json_value *attributes, const char *name, size_t n_components, size_t n_vertices,
+                      double **out)
 {
     gltf_array a;
     if (!read_attribute(g, attributes, name, n_vertices, &a)) return false;
     *out = a.values;
     if (!a.values) return true;
     if (a.n_components != n_components || !is_float_or_normalized(&a)) {
-        return gltf_fail(g, json_get(attributes, name), "VEC%zu of float or normalized integers is expected", n_components);
+        return gltf_fail(g, json_get(attributes, name), "VEC%zu of float or normalized integers is expected",
+                         n_components);
     }
     return check_range(g, json_get(attributes, name), &a, "value");
 }
@@ -63,10 +65,12 @@ static bool read_colour(gltf *g, const json_value *attributes, scene_mesh *out)
     if (!read_attribute(g, attributes, "COLOR_0", out->n_vertices, &a)) return false;
     if (!a.values) return true;
     if (a.n_components < 3 || !is_float_or_normalized(&a)) {
-        return gltf_fail(g, json_get(attributes, "COLOR_0"), "VEC3 or VEC4 of float or normalized integers is expected");
+        return gltf_fail(g, json_get(attributes, "COLOR_0"),
+                         "VEC3 or VEC4 of float or normalized integers is expected");
     }
     out->rgb = a.values;
-    for (size_t i = 1; a.n_components == 4 && i < a.count; i++) memmove(a.values + 3 * i, a.values + 4 * i, 3 * sizeof *a.values);
+    for (size_t i = 1; a.n_components == 4 && i < a.count; i++)
+        memmove(a.values + 3 * i, a.values + 4 * i, 3 * sizeof *a.values);
     if (loader_clamp_colour(out->rgb, 3 * a.count)) return true;
     return loader_note(g->l, "vertex colours of '%s' outside 0..1 are clamped", out->name);
 }
@@ -85,20 +89,24 @@ static bool read_baked(gltf *g, const json_value *attributes, const scene_mesh *
 {
     double *mask;
     size_t n = mesh->n_vertices;
-    if (!read_real(g, attributes, "_GNOMON_MASK", 4, n, &mask) || !read_real(g, attributes, "_GNOMON_BAKED", 3, n, &out->baked))
+    if (!read_real(g, attributes, "_GNOMON_MASK", 4, n, &mask) ||
+        !read_real(g, attributes, "_GNOMON_BAKED", 3, n, &out->baked))
         return false;
     for (size_t i = 0; out->baked && i < 3 * n; i++) {
-        if (out->baked[i] < 0) return gltf_fail(g, json_get(attributes, "_GNOMON_BAKED"), "vertex %zu is negative", i / 3);
+        if (out->baked[i] < 0)
+            return gltf_fail(g, json_get(attributes, "_GNOMON_BAKED"), "vertex %zu is negative", i / 3);
     }
     if (!mask) return true;
-    if (!loader_clamp_colour(mask, 4 * n) && !loader_note(g->l, "shadow masks of '%s' outside 0..1 are clamped", mesh->name))
+    if (!loader_clamp_colour(mask, 4 * n) &&
+        !loader_note(g->l, "shadow masks of '%s' outside 0..1 are clamped", mesh->name))
         return false;
     out->mask = loader_alloc(g->l, n, 4);
     for (size_t i = 0; out->mask && i < 4 * n; i++) out->mask[i] = (uint8_t)(mask[i] * 255 + 0.5);
     return out->mask != NULL;
 }
 
-bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out, mesh_light *light)
+bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out,
+                          mesh_light *light)
 {
     return read_position(g, attributes, out) && read_real(g, attributes, "NORMAL", 3, out->n_vertices, &out->nrm) &&
            read_colour(g, attributes, out) && read_texture_coordinates(g, attributes, wants, out) &&

@@ -95,7 +95,8 @@ static bool load_buffer(gltf *g, const json_value *json, gltf_bytes *out)
     if (!uri && json->child_idx == 0) *out = g->glb;
     if (uri && !gltf_load_uri(g, json_get(json, "uri"), uri, out)) return false;
     if (!out->bytes) return true; /* an error only if something reads it */
-    if (out->n_bytes < n_bytes) return gltf_fail(g, json, "%zu bytes are announced, %zu are there", n_bytes, out->n_bytes);
+    if (out->n_bytes < n_bytes)
+        return gltf_fail(g, json, "%zu bytes are announced, %zu are there", n_bytes, out->n_bytes);
     out->n_bytes = n_bytes;
     return true;
 }
@@ -126,8 +127,8 @@ bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *s
     const gltf_bytes *source = &g->buffer[buffer];
     if (!source->bytes) return gltf_fail(g, view, "buffer %zu has no data", buffer);
     if (offset > source->n_bytes || n_bytes > source->n_bytes - offset) {
-        return gltf_fail(g, view, "bytes %zu to %zu lie outside buffer %zu of %zu bytes", offset, offset + n_bytes, buffer,
-                         source->n_bytes);
+        return gltf_fail(g, view, "bytes %zu to %zu lie outside buffer %zu of %zu bytes", offset, offset + n_bytes,
+                         buffer, source->n_bytes);
     }
     *out = (gltf_bytes){source->bytes + offset, n_bytes};
     return true;

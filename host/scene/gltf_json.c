@@ -66,7 +66,8 @@ bool gltf_get_string(gltf *g, const json_value *parent, const char *key, const c
 bool gltf_to_size(gltf *g, const json_value *value, size_t *out)
 {
     double number = value->type == JSON_NUMBER ? value->number : -1;
-    if (!(number >= 0 && number <= INT32_MAX)) return gltf_fail(g, value, "an integer from 0 to %d is expected", INT32_MAX);
+    if (!(number >= 0 && number <= INT32_MAX))
+        return gltf_fail(g, value, "an integer from 0 to %d is expected", INT32_MAX);
     *out = (size_t)number;
     if ((double)*out < number) return gltf_fail(g, value, "an integer is expected");
     return true;
@@ -91,7 +92,8 @@ bool gltf_get_extension(gltf *g, const json_value *parent, const char *name, con
 {
     const json_value *extensions = NULL;
     *out = NULL;
-    return gltf_get(g, parent, "extensions", JSON_OBJECT, &extensions) && gltf_get(g, extensions, name, JSON_OBJECT, out);
+    return gltf_get(g, parent, "extensions", JSON_OBJECT, &extensions) &&
+           gltf_get(g, extensions, name, JSON_OBJECT, out);
 }
 
 const char *gltf_name(gltf *g, const json_value *parent, const char *kind)

@@ -26,9 +26,10 @@ static bool is_one_of(const char *key, const char *const *keys)
     return false;
 }
 
-static const char *const light_keys[] = {"shadow",        "strength",    "bias_constant", "bias_slope",   "bias_normal",
-                                         "bias_receiver", "bias_caster", "near_offset",   "near",         "receiver_plane",
-                                         "auto_bias",     "softness",    "mode",          "mask_channel", NULL};
+static const char *const light_keys[] = {
+    "shadow",        "strength",    "bias_constant", "bias_slope",   "bias_normal",
+    "bias_receiver", "bias_caster", "near_offset",   "near",         "receiver_plane",
+    "auto_bias",     "softness",    "mode",          "mask_channel", NULL};
 static const char *const surface_keys[] = {
     "casts",         "caster",       "casts_two_sided", "hidden",         "moving",       "receives", "unlit",
     "visible_alpha", "alpha_cutoff", "specular",        "shininess_log2", "mask_texture", NULL};
@@ -75,7 +76,8 @@ static bool get_range(gltf *g, const json_value *knobs, const char *key, double 
 static const char *join_words(gltf *g, const char *const *words)
 {
     const char *joined = words[0];
-    for (int i = 1; joined && words[i]; i++) joined = loader_format(g->l, "%s%s%s", joined, words[i + 1] ? ", " : " or ", words[i]);
+    for (int i = 1; joined && words[i]; i++)
+        joined = loader_format(g->l, "%s%s%s", joined, words[i + 1] ? ", " : " or ", words[i]);
     return joined;
 }
 
@@ -149,7 +151,8 @@ bool gltf_light_knobs(gltf *g, const json_value *owner, scene_light *light)
            get_range(g, k, "bias_constant", depth_bias_max, &light->bias_constant) &&
            get_range(g, k, "bias_slope", depth_bias_max, &light->bias_slope) &&
            get_range(g, k, "bias_normal", bias_max, &light->bias_normal) &&
-           get_range(g, k, "bias_caster", bias_max, &light->bias_caster) && get_receiver_bias(g, k, light->bias_receiver) &&
+           get_range(g, k, "bias_caster", bias_max, &light->bias_caster) &&
+           get_receiver_bias(g, k, light->bias_receiver) &&
            get_switch(g, k, "receiver_plane", &light->receiver_plane) &&
            get_range(g, k, "near_offset", LOADER_MAX_COORDINATE, &light->near_offset) && get_near(g, k, &light->near) &&
            get_light_words(g, k, light);

@@ -13,7 +13,8 @@ static const double narrowest_step = 183, widest_step = 32585;
 static bool read_colour(gltf *g, const json_value *json, scene_light *out)
 {
     double colour[3] = {1, 1, 1}, intensity = 1;
-    if (!gltf_get_numbers(g, json, "color", colour, 3) || !gltf_get_number(g, json, "intensity", &intensity)) return false;
+    if (!gltf_get_numbers(g, json, "color", colour, 3) || !gltf_get_number(g, json, "intensity", &intensity))
+        return false;
     for (int i = 0; i < 3; i++) {
         out->colour[i] = colour[i] * intensity / VEC_PI;
         if (colour[i] < 0 || intensity < 0) return gltf_fail(g, json, "colour and intensity must not be negative");
@@ -56,7 +57,8 @@ static bool read_cone(gltf *g, const json_value *json, const char *name, scene_l
     double inner = 0, outer = VEC_PI / 4;
     if (!gltf_get(g, json, "spot", JSON_OBJECT, &spot)) return false;
     if (!spot) return gltf_fail(g, json, "spot is missing");
-    if (!gltf_get_number(g, spot, "innerConeAngle", &inner) || !gltf_get_number(g, spot, "outerConeAngle", &outer)) return false;
+    if (!gltf_get_number(g, spot, "innerConeAngle", &inner) || !gltf_get_number(g, spot, "outerConeAngle", &outer))
+        return false;
     if (!(inner >= 0)) return gltf_fail(g, spot, "innerConeAngle %g is negative", inner);
     if (!(outer <= VEC_PI / 2 + 1e-6)) return gltf_fail(g, spot, "outerConeAngle %g exceeds pi / 2", outer);
     if (!(inner <= outer)) return gltf_fail(g, spot, "innerConeAngle %g exceeds outerConeAngle %g", inner, outer);

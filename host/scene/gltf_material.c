@@ -6,7 +6,8 @@
 static bool note_texture(gltf *g, const json_value *owner, const char *key, const char *what, const char *material)
 {
     if (!json_get(owner, key)) return true;
-    return loader_note(g->l, "%s texture of material '%s' ignored: only base colour textures are supported", what, material);
+    return loader_note(g->l, "%s texture of material '%s' ignored: only base colour textures are supported", what,
+                       material);
 }
 
 static bool read_texture(gltf *g, const json_value *pbr, const char *name, gltf_material *out)
@@ -19,8 +20,10 @@ static bool read_texture(gltf *g, const json_value *pbr, const char *name, gltf_
         !gltf_get_extension(g, info, "KHR_texture_transform", &transform))
         return false;
     if (idx == GLTF_NONE) return gltf_fail(g, info, "index is missing");
-    if (transform && !loader_note(g->l, "texture transform of material '%s' ignored: it is not supported", name)) return false;
-    if (set > 1) return loader_note(g->l, "base colour texture of material '%s' ignored: it takes TEXCOORD_%zu", name, set);
+    if (transform && !loader_note(g->l, "texture transform of material '%s' ignored: it is not supported", name))
+        return false;
+    if (set > 1)
+        return loader_note(g->l, "base colour texture of material '%s' ignored: it takes TEXCOORD_%zu", name, set);
     if (!gltf_load_texture(g, idx, false, &out->surface.texture_idx)) return false;
     if (out->surface.texture_idx != SCENE_NONE) out->uv_set = set;
     return true;
@@ -32,12 +35,15 @@ static bool read_colour(gltf *g, const json_value *json, const char *name, gltf_
     double factor[4] = {1, 1, 1, 1};
     if (!gltf_get(g, json, "pbrMetallicRoughness", JSON_OBJECT, &pbr)) return false;
     if (!gltf_get_numbers(g, pbr, "baseColorFactor", factor, 4)) return false;
-    if (!loader_clamp_colour(factor, 4) && !loader_note(g->l, "base colour of material '%s' outside 0..1 is clamped", name))
+    if (!loader_clamp_colour(factor, 4) &&
+        !loader_note(g->l, "base colour of material '%s' outside 0..1 is clamped", name))
         return false;
     memcpy(out->surface.albedo, factor, sizeof out->surface.albedo);
     out->surface.alpha = factor[3];
-    return read_texture(g, pbr, name, out) && note_texture(g, pbr, "metallicRoughnessTexture", "metallic-roughness", name) &&
-           note_texture(g, json, "normalTexture", "normal", name) && note_texture(g, json, "occlusionTexture", "occlusion", name) &&
+    return read_texture(g, pbr, name, out) &&
+           note_texture(g, pbr, "metallicRoughnessTexture", "metallic-roughness", name) &&
+           note_texture(g, json, "normalTexture", "normal", name) &&
+           note_texture(g, json, "occlusionTexture", "occlusion", name) &&
            note_texture(g, json, "emissiveTexture", "emissive", name);
 }
 
@@ -54,7 +60,8 @@ static bool read_alpha(gltf *g, const json_value *json, const char *name, gltf_m
     const char *mode = "OPAQUE";
     double *cutoff = &out->surface.alpha_cutoff;
     if (!gltf_get_string(g, json, "alphaMode", &mode) || !gltf_get_number(g, json, "alphaCutoff", cutoff)) return false;
-    if (!loader_clamp_colour(cutoff, 1) && !loader_note(g->l, "alpha cutoff of material '%s' outside 0..1 is clamped", name))
+    if (!loader_clamp_colour(cutoff, 1) &&
+        !loader_note(g->l, "alpha cutoff of material '%s' outside 0..1 is clamped", name))
         return false;
     for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
         if (strcmp(mode, modes[i].mode) != 0) continue;

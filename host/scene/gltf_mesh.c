@@ -1,9 +1,9 @@
 /* glTF primitives -> scene meshes, and mesh nodes -> scene objects.
  *
- * Nodes that instance a mesh share its scene meshes, one per primitive (more if it is too large for 16-bit indices). glTF
- * reverses the winding where a node's transform mirrors (negative determinant). The engines cull by the winding on the
- * screen, after the transform, and know nothing of determinants: so a mirroring instance gets a copy of the mesh whose index
- * order is reversed beforehand. Vertex normals need nothing: the inverse transpose keeps them outward. */
+ * Nodes that instance a mesh share its scene meshes, one per primitive (more if it is too large for 16-bit indices).
+ * glTF reverses the winding where a node's transform mirrors (negative determinant). The engines cull by the winding on
+ * the screen, after the transform, and know nothing of determinants: so a mirroring instance gets a copy of the mesh
+ * whose index order is reversed beforehand. Vertex normals need nothing: the inverse transpose keeps them outward. */
 #include "gltf.h"
 
 #include "vec.h"
@@ -59,8 +59,8 @@ static bool assemble(gltf *g, const json_value *primitive, size_t mode, scene_me
 }
 
 /* n_triangles stays 0 for what is skipped, with a note. */
-static bool read_primitive(gltf *g, const json_value *primitive, const char *name, const gltf_wants *wants, scene_mesh *out,
-                           mesh_light *light)
+static bool read_primitive(gltf *g, const json_value *primitive, const char *name, const gltf_wants *wants,
+                           scene_mesh *out, mesh_light *light)
 {
     const json_value *attributes = NULL;
     size_t mode = MODE_TRIANGLES;
@@ -70,15 +70,19 @@ static bool read_primitive(gltf *g, const json_value *primitive, const char *nam
         return false;
     if (!attributes) return gltf_fail(g, primitive, "attributes is missing");
     if (mode > MODE_FAN) return gltf_fail(g, json_get(primitive, "mode"), "mode %zu is unknown", mode);
-    if (mode < MODE_TRIANGLES) return loader_note(g->l, "points and lines of mesh '%s' ignored: only triangles are drawn", name);
-    if (!json_get(attributes, "POSITION")) return loader_note(g->l, "primitive of mesh '%s' ignored: it has no POSITION", name);
-    if (json_get(primitive, "targets") && !loader_note(g->l, "morph targets of mesh '%s' ignored: they are not supported", name))
+    if (mode < MODE_TRIANGLES)
+        return loader_note(g->l, "points and lines of mesh '%s' ignored: only triangles are drawn", name);
+    if (!json_get(attributes, "POSITION"))
+        return loader_note(g->l, "primitive of mesh '%s' ignored: it has no POSITION", name);
+    if (json_get(primitive, "targets") &&
+        !loader_note(g->l, "morph targets of mesh '%s' ignored: they are not supported", name))
         return false;
     return gltf_read_attributes(g, attributes, wants, out, light) && assemble(g, primitive, mode, out) &&
            (out->n_triangles == 0 || mesh_prepare_normals(g->l, out));
 }
 
-static bool load_primitive(gltf *g, const json_value *json, const char *name, size_t uv_set, bool flip, gltf_primitive *out)
+static bool load_primitive(gltf *g, const json_value *json, const char *name, size_t uv_set, bool flip,
+                           gltf_primitive *out)
 {
     const gltf_wants wants = {.uv_set = uv_set, .mask_uv = g->has_mask_texture};
     scene_mesh mesh;
@@ -91,7 +95,8 @@ static bool load_primitive(gltf *g, const json_value *json, const char *name, si
     if (ok && mesh.n_triangles > 0) {
         ok = mesh_splitter_init(&splitter, g->l, &mesh);
         splitter.light = light;
-        ok = ok && mesh_split(&splitter, name, mesh.idx, mesh.n_triangles, flip, &out->first_mesh[flip], &out->n_meshes[flip]);
+        ok = ok && mesh_split(&splitter, name, mesh.idx, mesh.n_triangles, flip, &out->first_mesh[flip],
+                              &out->n_meshes[flip]);
     }
     arena_release(&g->l->memory, mark); /* many primitives may share one large vertex buffer */
     return ok;
@@ -108,11 +113,13 @@ static bool check_coordinates(gltf *g, const json_value *json, const scene_mesh 
     return loader_note(g->l, "base colour texture of mesh '%s' ignored: it has no texture coordinates", mesh->name);
 }
 
-static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *json, const char *mesh_name, gltf_primitive *primitive)
+static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *json, const char *mesh_name,
+                           gltf_primitive *primitive)
 {
     bool flip = affine_mirrors(&node->world);
     gltf_material material;
-    if (!gltf_read_material(g, json, node->moves, &material) || !gltf_material_knobs(g, node->json, &material)) return false;
+    if (!gltf_read_material(g, json, node->moves, &material) || !gltf_material_knobs(g, node->json, &material))
+        return false;
     if (!load_primitive(g, json, mesh_name, material.uv_set, flip, primitive)) return false;
     if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
     scene_object object = material.surface;
@@ -142,7 +149,8 @@ bool gltf_emit_mesh(gltf *g, size_t node_idx)
     if (mesh_idx == GLTF_NONE) return true;
     const char *name = gltf_name(g, g->meshes->children[mesh_idx], "mesh");
     if (!name || !mesh_primitives(g, mesh_idx, &primitives)) return false;
-    if (json_get(node->json, "skin") && !loader_note(g->l, "skin of mesh '%s' ignored: it is shown in its rest pose", name))
+    if (json_get(node->json, "skin") &&
+        !loader_note(g->l, "skin of mesh '%s' ignored: it is shown in its rest pose", name))
         return false;
     for (size_t i = 0; i < primitives->n_children; i++) {
         const json_value *json = primitives->children[i];

@@ -25,7 +25,8 @@ static bool read_node(gltf *g, const json_value *json, gltf_node *node)
 {
     *node = (gltf_node){.json = json, .parent = GLTF_NONE, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
     return read_matrix(g, node) && gltf_get_numbers(g, json, "translation", node->translation, 3) &&
-           gltf_get_numbers(g, json, "rotation", node->rotation, 4) && gltf_get_numbers(g, json, "scale", node->scale, 3);
+           gltf_get_numbers(g, json, "rotation", node->rotation, 4) &&
+           gltf_get_numbers(g, json, "scale", node->scale, 3);
 }
 
 static bool link_children(gltf *g, size_t node_idx)
@@ -36,8 +37,10 @@ static bool link_children(gltf *g, size_t node_idx)
         const json_value *child = children->children[i];
         size_t child_idx;
         if (!gltf_to_size(g, child, &child_idx)) return false;
-        if (child_idx >= g->nodes->n_children) return gltf_fail(g, child, "there are only %zu nodes", g->nodes->n_children);
-        if (g->node[child_idx].parent != GLTF_NONE) return gltf_fail(g, child, "node %zu has a parent already", child_idx);
+        if (child_idx >= g->nodes->n_children)
+            return gltf_fail(g, child, "there are only %zu nodes", g->nodes->n_children);
+        if (g->node[child_idx].parent != GLTF_NONE)
+            return gltf_fail(g, child, "node %zu has a parent already", child_idx);
         g->node[child_idx].parent = node_idx;
     }
     return true;
@@ -107,8 +110,8 @@ static bool place_node(gltf *g, gltf_node *node)
     return affine_is_finite(&node->world) || gltf_fail(g, node->json, "the transform is too large");
 }
 
-/* Parents before children, without recursion: a chain of nodes may be as long as the file. Every node has at most one parent,
- * so a node that no root reaches is on a cycle or below one. */
+/* Parents before children, without recursion: a chain of nodes may be as long as the file. Every node has at most one
+ * parent, so a node that no root reaches is on a cycle or below one. */
 static bool order_nodes(gltf *g, size_t *order, size_t n)
 {
     size_t n_reached = 0;
@@ -120,7 +123,8 @@ static bool order_nodes(gltf *g, size_t *order, size_t n)
     for (size_t i = 0; i < n_reached; i++) {
         const json_value *children = json_get(g->node[order[i]].json, "children");
         reached[order[i]] = true;
-        for (size_t k = 0; children && k < children->n_children; k++) order[n_reached++] = (size_t)children->children[k]->number;
+        for (size_t k = 0; children && k < children->n_children; k++)
+            order[n_reached++] = (size_t)children->children[k]->number;
     }
     for (size_t i = 0; i < n; i++) {
         if (!reached[i]) return gltf_fail(g, g->node[i].json, "the hierarchy has a cycle");
@@ -186,7 +190,8 @@ bool gltf_emit_camera(gltf *g, size_t node_idx)
     if (idx == GLTF_NONE) return true;
     const json_value *camera = g->cameras->children[idx];
     const char *name = gltf_name(g, camera, "camera"), *type = "";
-    if (!name || !gltf_get_string(g, camera, "type", &type) || !gltf_get(g, camera, "perspective", JSON_OBJECT, &perspective))
+    if (!name || !gltf_get_string(g, camera, "type", &type) ||
+        !gltf_get(g, camera, "perspective", JSON_OBJECT, &perspective))
         return false;
     if (strcmp(type, "orthographic") == 0)
         return loader_note(g->l, "camera '%s' ignored: orthographic cameras are not supported", name);

@@ -10,8 +10,10 @@ static bool read_wrap(gltf *g, const json_value *sampler, const char *key, const
     size_t wrap = WRAP_REPEAT;
     if (!gltf_get_size(g, sampler, key, &wrap)) return false;
     *clamp = wrap == WRAP_CLAMP;
-    if (wrap == WRAP_MIRROR) return loader_note(g->l, "mirrored repeat of texture '%s' ignored: it repeats plainly", name);
-    return wrap == WRAP_CLAMP || wrap == WRAP_REPEAT || gltf_fail(g, json_get(sampler, key), "wrap mode %zu is unknown", wrap);
+    if (wrap == WRAP_MIRROR)
+        return loader_note(g->l, "mirrored repeat of texture '%s' ignored: it repeats plainly", name);
+    return wrap == WRAP_CLAMP || wrap == WRAP_REPEAT ||
+           gltf_fail(g, json_get(sampler, key), "wrap mode %zu is unknown", wrap);
 }
 
 static bool read_sampler(gltf *g, const json_value *texture, const char *name, texture_use *out)
@@ -30,7 +32,8 @@ static bool image_bytes(gltf *g, const json_value *image, gltf_bytes *out)
 {
     size_t view = GLTF_NONE, stride;
     const char *uri = NULL;
-    if (!gltf_get_ref(g, image, "bufferView", g->buffer_views, &view) || !gltf_get_string(g, image, "uri", &uri)) return false;
+    if (!gltf_get_ref(g, image, "bufferView", g->buffer_views, &view) || !gltf_get_string(g, image, "uri", &uri))
+        return false;
     if (uri) return gltf_load_uri(g, json_get(image, "uri"), uri, out);
     if (view == GLTF_NONE) return gltf_fail(g, image, "uri or bufferView is needed");
     return gltf_view_bytes(g, g->buffer_views->children[view], out, &stride);
@@ -42,7 +45,8 @@ static bool load_image(gltf *g, const json_value *image, const char *name, const
     png_picture picture;
     char problem[200];
     if (!image_bytes(g, image, &bytes)) return false;
-    if (!png_is(bytes.bytes, bytes.n_bytes)) return loader_note(g->l, "texture '%s' ignored: only PNG images are supported", name);
+    if (!png_is(bytes.bytes, bytes.n_bytes))
+        return loader_note(g->l, "texture '%s' ignored: only PNG images are supported", name);
     if (!png_decode_rgba8(bytes.bytes, bytes.n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
         return gltf_fail(g, image, "%s", problem);
     return texture_add(g->l, name, &picture, use, out);
@@ -50,7 +54,8 @@ static bool load_image(gltf *g, const json_value *image, const char *name, const
 
 static bool same_use(const texture_use *a, const texture_use *b)
 {
-    return a->clamp_u == b->clamp_u && a->clamp_v == b->clamp_v && a->bilinear == b->bilinear && a->is_data == b->is_data;
+    return a->clamp_u == b->clamp_u && a->clamp_v == b->clamp_v && a->bilinear == b->bilinear &&
+           a->is_data == b->is_data;
 }
 
 /* What another glTF texture made of the same image, if it did the same. */
@@ -70,10 +75,13 @@ static bool load_texture(gltf *g, const json_value *json, bool is_data, gltf_tex
     const json_value *image = json_at(g->images, wanted.image_idx);
     const char *name = image ? gltf_name(g, image, "image") : gltf_name(g, json, "texture");
     if (!name || !read_sampler(g, json, name, &wanted.use)) return false;
-    if (is_data) wanted.use = (texture_use){.clamp_u = true, .clamp_v = true, .bilinear = true, .is_data = true}; /* DESIGN 1.9 */
+    if (is_data)
+        wanted.use =
+            (texture_use){.clamp_u = true, .clamp_v = true, .bilinear = true, .is_data = true}; /* DESIGN 1.9 */
     const gltf_texture *loaded = find_loaded(g, &wanted);
     if (loaded) wanted.scene_idx = loaded->scene_idx;
-    else if (!image && !loader_note(g->l, "texture '%s' ignored: it has no image of the core format", name)) return false;
+    else if (!image && !loader_note(g->l, "texture '%s' ignored: it has no image of the core format", name))
+        return false;
     else if (image && !load_image(g, image, name, &wanted.use, &wanted.scene_idx)) return false;
     wanted.loaded = true;
     *out = wanted;

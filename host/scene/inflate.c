@@ -184,7 +184,8 @@ const char *zlib_expand(const uint8_t *bytes, size_t n_bytes, uint8_t *out, size
 {
     inflater z = {.bytes = bytes, .n_bytes = n_bytes, .at = 2, .out = out, .n_out = n_out};
     if (n_bytes < 6) return "compressed data is cut off";
-    if ((bytes[0] & 0x0F) != 8 || (bytes[0] * 256 + bytes[1]) % 31 != 0 || (bytes[1] & 0x20) != 0) return "not a zlib stream";
+    if ((bytes[0] & 0x0F) != 8 || (bytes[0] * 256 + bytes[1]) % 31 != 0 || (bytes[1] & 0x20) != 0)
+        return "not a zlib stream";
     for (bool last = false; !last;) {
         if (!expand_block(&z, &last)) return z.problem;
     }

@@ -128,7 +128,10 @@ static bool parse_hex4(parser *p, uint32_t *code)
     *code = 0;
     for (int i = 0; i < 4; i++) {
         int c = peek(p);
-        int digit = is_digit(c) ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+        int digit = is_digit(c)            ? c - '0'
+                    : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                    : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                           : -1;
         if (digit < 0) return fail(p, "four hexadecimal digits are expected after \\u");
         *code = *code * 16 + (uint32_t)digit;
         p->at++;
@@ -145,7 +148,8 @@ static bool parse_unicode(parser *p, char *out, size_t *n_out)
     if (code == 0) return fail_at(p, start, "\\u0000 is not supported");
     if (code >= 0xDC00 && code < 0xE000) return fail_at(p, start, "lone low surrogate");
     if (code >= 0xD800 && code < 0xDC00) {
-        if (p->n_bytes - p->at < 2 || memcmp(p->text + p->at, "\\u", 2) != 0) return fail_at(p, start, "lone high surrogate");
+        if (p->n_bytes - p->at < 2 || memcmp(p->text + p->at, "\\u", 2) != 0)
+            return fail_at(p, start, "lone high surrogate");
         p->at += 2;
         if (!parse_hex4(p, &low)) return false;
         if (low < 0xDC00 || low >= 0xE000) return fail_at(p, start, "lone high surrogate");

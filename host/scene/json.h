@@ -1,5 +1,6 @@
-/* A small strict JSON parser (RFC 8259). Beyond the grammar: no byte order mark, well-formed UTF-8 only, duplicate keys are
- * refused, \u0000 is refused (strings are C strings), numbers must fit a double, nesting is at most JSON_MAX_DEPTH deep. */
+/* A small strict JSON parser (RFC 8259). Beyond the grammar: no byte order mark, well-formed UTF-8 only, duplicate keys
+ * are refused, \u0000 is refused (strings are C strings), numbers must fit a double, nesting is at most JSON_MAX_DEPTH
+ * deep. */
 #ifndef GNOMON_HOST_JSON_H
 #define GNOMON_HOST_JSON_H
 

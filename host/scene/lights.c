@@ -16,7 +16,8 @@ static const double lamp_light = 0.8;           /* of spot and point lights, at 
 static const double spot_distance_radii = 3;    /* far enough that the cone is not wide ... */
 static const double point_distance_radii = 1.6; /* ... and near enough that shadows spread */
 static const double range_distances = 3;
-static const double spot_inner_margin = 1.15, spot_outer_margin = 1.7; /* times the angle that just covers the casters */
+static const double spot_inner_margin = 1.15,
+                    spot_outer_margin = 1.7; /* times the angle that just covers the casters */
 static const double near_share = 1.0 / 64;
 static const double angle_steps = 65536;
 
@@ -69,13 +70,15 @@ static bool is_seen_caster(const scene *s, const scene_object *object, const dou
         local[k] = vec_dot(out, axis);
     }
     double depth = -local[2], half = depth / s->camera.focal;
-    return is_caster(s, object, point) && depth <= s->shadow.max_distance && fabs(local[0]) <= 1.5 * half && fabs(local[1]) <= half;
+    return is_caster(s, object, point) && depth <= s->shadow.max_distance && fabs(local[0]) <= 1.5 * half &&
+           fabs(local[1]) <= half;
 }
 
 /* What casts; not the ground, which mostly does not, and is far larger than what stands on it. */
 static void find_subject(const scene *s, bounds *out)
 {
-    if (bounds_of_scene(out, s, is_seen_caster) || bounds_of_scene(out, s, is_caster) || bounds_of_scene(out, s, NULL)) return;
+    if (bounds_of_scene(out, s, is_seen_caster) || bounds_of_scene(out, s, is_caster) || bounds_of_scene(out, s, NULL))
+        return;
     *out = (bounds){.radius = 1}; /* an empty scene */
 }
 

@@ -1,7 +1,8 @@
 /* What the loaders share: the scene being built, errors and notes, files, and the mesh pipeline. Private to host/scene.
  *
- * Functions that return bool return false after they have written the error. Temporary memory comes from the arena; what the
- * scene owns hangs on the scene as soon as it exists. So a failure path just returns: scene_load frees both. */
+ * Functions that return bool return false after they have written the error. Temporary memory comes from the arena;
+ * what the scene owns hangs on the scene as soon as it exists. So a failure path just returns: scene_load frees both.
+ */
 #ifndef GNOMON_HOST_LOADER_H
 #define GNOMON_HOST_LOADER_H
 
@@ -49,7 +50,8 @@ void *loader_grow(loader *l, void *array, size_t n, size_t size);
 /* printf into temporary memory. NULL: failed. */
 char *loader_format(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
 
-/* The whole file, with a terminating zero behind its n_bytes. loader_try_file: a file that does not open is not an error. */
+/* The whole file, with a terminating zero behind its n_bytes. loader_try_file: a file that does not open is not an
+ * error. */
 bool loader_read_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes);
 bool loader_try_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes, bool *opened);
 
@@ -89,8 +91,8 @@ bool texture_add(loader *l, const char *name, png_picture *picture, const textur
 /* Unit normals: given ones are normalised (zero ones replaced), smooth ones made if the options ask for them. */
 bool mesh_prepare_normals(loader *l, scene_mesh *input);
 
-/* Cuts index lists over one vertex array into meshes of the scene that hold no unused vertex and at most LOADER_MAX_MESH
- * vertices and triangles each. */
+/* Cuts index lists over one vertex array into meshes of the scene that hold no unused vertex and at most
+ * LOADER_MAX_MESH vertices and triangles each. */
 typedef struct {
     loader *l;
     const scene_mesh *input;
@@ -103,17 +105,17 @@ typedef struct {
 
 bool mesh_splitter_init(mesh_splitter *splitter, loader *l, const scene_mesh *input);
 
-/* Adds triangles (3 * n_triangles indices of the input, all in range) as the meshes *first ... *first + *n_meshes - 1. With flip their
- * winding is reversed: for instances whose transform mirrors (see gltf_mesh.c). */
-bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip, size_t *first,
-                size_t *n_meshes);
+/* Adds triangles (3 * n_triangles indices of the input, all in range) as the meshes *first ... *first + *n_meshes - 1.
+ * With flip their winding is reversed: for instances whose transform mirrors (see gltf_mesh.c). */
+bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip,
+                size_t *first, size_t *n_meshes);
 
 /* lights.c */
 #define LIGHT_MIN_RANGE 0.01
 /* Everything that has a default but the kind and the name; range unlimited, near 0: to be found by lights_set_near. */
 void light_set_defaults(scene_light *light);
-/* Spot and point lights without a near distance get one: a share of how far they light anything, the range or the box's farthest
- * corner. A range far beyond the scene says nothing of what is in it. */
+/* Spot and point lights without a near distance get one: a share of how far they light anything, the range or the box's
+ * farthest corner. A range far beyond the scene says nothing of what is in it. */
 void lights_set_near(scene *s, const double *low, const double *high);
 bool lights_add(loader *l, const char *name, scene_light_kind kind);
 

@@ -6,7 +6,8 @@
 
 #include "vec.h"
 
-/* Unit face normal by the winding; false for a triangle without area. Edges are normalised first: tiny triangles keep theirs. */
+/* Unit face normal by the winding; false for a triangle without area. Edges are normalised first: tiny triangles keep
+ * theirs. */
 static bool face_normal(const scene_mesh *mesh, size_t triangle, double *normal)
 {
     const uint32_t *t = mesh->idx + 3 * triangle;
@@ -18,7 +19,8 @@ static bool face_normal(const scene_mesh *mesh, size_t triangle, double *normal)
     return vec_normalise(normal);
 }
 
-/* Replaces the normals that are still zero: by a face normal of a triangle at the vertex, or up if all of those are flat. */
+/* Replaces the normals that are still zero: by a face normal of a triangle at the vertex, or up if all of those are
+ * flat. */
 static void fill_zero_normals(scene_mesh *mesh, bool *zero)
 {
     for (size_t i = 0; i < mesh->n_triangles; i++) {
@@ -184,7 +186,8 @@ static bool gather_all(mesh_splitter *sp, size_t n_vertices, scene_mesh *mesh, m
     return ok || loader_fail(sp->l, "%s: out of memory", sp->l->path);
 }
 
-static bool add_taken(mesh_splitter *sp, const char *name, const uint32_t *idx, size_t n_triangles, size_t n_vertices, bool flip)
+static bool add_taken(mesh_splitter *sp, const char *name, const uint32_t *idx, size_t n_triangles, size_t n_vertices,
+                      bool flip)
 {
     scene_mesh *mesh = loader_add_mesh(sp->l, name);
     if (!mesh) return false;
@@ -200,8 +203,8 @@ static bool add_taken(mesh_splitter *sp, const char *name, const uint32_t *idx, 
     return gather_all(sp, n_vertices, mesh, &sp->l->light_of_mesh[sp->l->s->n_meshes - 1]);
 }
 
-bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip, size_t *first,
-                size_t *n_meshes)
+bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip,
+                size_t *first, size_t *n_meshes)
 {
     loader *l = splitter->l;
     *first = l->s->n_meshes;

@@ -1,5 +1,5 @@
-/* Wavefront OBJ: vertices, texture coordinates, normals and faces. Vertex colours (v x y z r g b) are taken as linear light.
- * Polygons are cut into fans, which is only right for convex ones (a note tells of others). */
+/* Wavefront OBJ: vertices, texture coordinates, normals and faces. Vertex colours (v x y z r g b) are taken as linear
+ * light. Polygons are cut into fans, which is only right for convex ones (a note tells of others). */
 #include "obj.h"
 
 #include <stdlib.h>
@@ -15,14 +15,17 @@ static bool read_vertex(obj_file *o, obj_text *t)
     size_t n;
     if (!obj_numbers(t, x, 7, &n)) return false;
     if (n != 3 && n != 4 && n != 6 && n != 7) return obj_fail(t, "v takes 3 numbers, and 3 more for a colour");
-    double *v = loader_grow(o->l, o->v, o->n_v, 3 * sizeof *v), *rgb = loader_grow(o->l, o->rgb, o->n_v, 3 * sizeof *rgb);
+    double *v = loader_grow(o->l, o->v, o->n_v, 3 * sizeof *v),
+           *rgb = loader_grow(o->l, o->rgb, o->n_v, 3 * sizeof *rgb);
     if (!v || !rgb) return false;
     o->v = v;
     o->rgb = rgb;
     memcpy(v + 3 * o->n_v, x, 3 * sizeof *v);
-    for (size_t i = 0; i < 3; i++) rgb[3 * o->n_v + i] = n < 6 ? 1 : x[n - 3 + i]; /* 4 and 7: a weight, which is ignored */
+    for (size_t i = 0; i < 3; i++)
+        rgb[3 * o->n_v + i] = n < 6 ? 1 : x[n - 3 + i]; /* 4 and 7: a weight, which is ignored */
     o->has_rgb = o->has_rgb || n >= 6;
-    if (!loader_clamp_colour(rgb + 3 * o->n_v, 3) && !loader_note(o->l, "vertex colours outside 0..1 are clamped")) return false;
+    if (!loader_clamp_colour(rgb + 3 * o->n_v, 3) && !loader_note(o->l, "vertex colours outside 0..1 are clamped"))
+        return false;
     o->n_v++;
     return o->n_v < INT32_MAX || obj_fail(t, "too many vertices");
 }
@@ -130,7 +133,8 @@ static bool read_face(obj_file *o, obj_text *t)
         if (!read_corner(o, t, word, &corners[n++])) return false;
     }
     if (n < 3) return obj_fail(t, "a face needs 3 corners, this one has %zu", n);
-    if (n > 3 && fan_folds(o, corners, n) && !obj_note(t, "a concave polygon is cut into a fan: it may look wrong")) return false;
+    if (n > 3 && fan_folds(o, corners, n) && !obj_note(t, "a concave polygon is cut into a fan: it may look wrong"))
+        return false;
     for (size_t i = 1; i + 1 < n; i++) {
         if (!add_triangle(o, &corners[0], &corners[i], &corners[i + 1])) return false;
     }

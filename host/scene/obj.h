@@ -1,4 +1,5 @@
-/* The OBJ loader's inside: obj_text.c reads lines, obj_mtl.c materials, obj.c statements, obj_mesh.c makes the meshes. */
+/* The OBJ loader's inside: obj_text.c reads lines, obj_mtl.c materials, obj.c statements, obj_mesh.c makes the meshes.
+ */
 #ifndef GNOMON_HOST_OBJ_H
 #define GNOMON_HOST_OBJ_H
 
@@ -43,11 +44,12 @@ typedef struct {
 typedef struct {
     loader *l;
     size_t n_v, n_vt, n_vn, n_triangles, n_materials;
-    double *v, *vt, *rgb, *vn; /* vt: 2 each, v upwards as in the file; rgb: per v, white where a vertex has no colour */
-    bool has_rgb, has_vn;      /* a vertex has a colour; a corner has a normal */
-    obj_corner *corner;        /* 3 * n_triangles */
-    uint32_t *material_of;     /* per triangle */
-    obj_material *material;    /* in order of first use or definition; [0]: triangles before any usemtl */
+    double *v, *vt, *rgb,
+        *vn;                /* vt: 2 each, v upwards as in the file; rgb: per v, white where a vertex has no colour */
+    bool has_rgb, has_vn;   /* a vertex has a colour; a corner has a normal */
+    obj_corner *corner;     /* 3 * n_triangles */
+    uint32_t *material_of;  /* per triangle */
+    obj_material *material; /* in order of first use or definition; [0]: triangles before any usemtl */
     uint32_t current_material;
 } obj_file;
 

@@ -5,8 +5,9 @@
 
 #include "vec.h"
 
-/* Corners with the same position, normal and (if their material has a texture) texture coordinate share a vertex. In a file
- * that has normals, a corner without one takes its face's, and shares with nobody: vn is then OBJ_NONE and tag tells the triangle. */
+/* Corners with the same position, normal and (if their material has a texture) texture coordinate share a vertex. In a
+ * file that has normals, a corner without one takes its face's, and shares with nobody: vn is then OBJ_NONE and tag
+ * tells the triangle. */
 typedef struct {
     uint32_t v, vt, vn, tag;
 } vertex_key;

@@ -15,8 +15,8 @@ bool obj_find_material(obj_file *o, const char *name, uint32_t *out)
     if (!grown) return false;
     o->material = grown;
     *out = (uint32_t)o->n_materials;
-    o->material[o->n_materials] =
-        (obj_material){.name = loader_format(o->l, "%s", name), .albedo = {0.8, 0.8, 0.8}, .alpha = 1, .texture_idx = SCENE_NONE};
+    o->material[o->n_materials] = (obj_material){
+        .name = loader_format(o->l, "%s", name), .albedo = {0.8, 0.8, 0.8}, .alpha = 1, .texture_idx = SCENE_NONE};
     return o->material[o->n_materials++].name != NULL;
 }
 
@@ -32,7 +32,8 @@ static bool read_kd(obj_text *t, obj_material *material)
     if (n != 1 && n != 3) return obj_fail(t, "Kd takes 3 numbers");
     if (n == 1) rgb[1] = rgb[2] = rgb[0];
     memcpy(material->albedo, rgb, sizeof rgb);
-    return loader_clamp_colour(material->albedo, 3) || obj_note(t, "Kd of material '%s' outside 0..1 is clamped", material->name);
+    return loader_clamp_colour(material->albedo, 3) ||
+           obj_note(t, "Kd of material '%s' outside 0..1 is clamped", material->name);
 }
 
 /* d is opacity, Tr is what lacks of it. */
@@ -168,7 +169,8 @@ bool obj_read_libraries(obj_file *o, obj_text *t)
     t->at = rest;
     for (const char *name = obj_next_word(t); name; name = obj_next_word(t)) {
         if (!read_library(o, name, &opened)) return false;
-        if (!opened && !obj_note(t, "material library '%s' cannot be opened: its colours are missing", name)) return false;
+        if (!opened && !obj_note(t, "material library '%s' cannot be opened: its colours are missing", name))
+            return false;
     }
     return true;
 }

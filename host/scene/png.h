@@ -1,4 +1,5 @@
-/* PNG files: 8-bit RGB and RGBA out; every kind in. 16 bits are rounded to 8; gamma and colour profiles are ignored: it is all sRGB. */
+/* PNG files: 8-bit RGB and RGBA out; every kind in. 16 bits are rounded to 8; gamma and colour profiles are ignored: it
+ * is all sRGB. */
 #ifndef GNOMON_HOST_PNG_H
 #define GNOMON_HOST_PNG_H
 
@@ -6,8 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* rgb: 3 * w * h bytes, rows from the top. Returns 0; on failure -1, with one line in error. A file that could only be written in
- * part stays: path may be a device or a pipe, which must not be removed. */
+/* rgb: 3 * w * h bytes, rows from the top. Returns 0; on failure -1, with one line in error. A file that could only be
+ * written in part stays: path may be a device or a pipe, which must not be removed. */
 int png_write_rgb8(const char *path, int w, int h, const uint8_t *rgb, char *error, size_t error_bytes);
 
 /* The bytes of a file with this picture, 4 * w * h bytes in, to free(); NULL if memory runs out or that is no size. */
@@ -22,8 +23,10 @@ typedef struct {
     uint8_t *rgba; /* 4 * w * h bytes to free(), rows from the top */
 } png_picture;
 
-/* False, with out->rgba NULL and one line in error (without a place), if the bytes are no valid PNG file or a side is longer. */
-bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error, size_t error_bytes);
+/* False, with out->rgba NULL and one line in error (without a place), if the bytes are no valid PNG file or a side is
+ * longer. */
+bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error,
+                      size_t error_bytes);
 
 /* Whether the bytes begin like a PNG file. */
 bool png_is(const uint8_t *bytes, size_t n_bytes);

@@ -1,4 +1,5 @@
-/* Reading PNG. The file may be anything: sizes are checked against the bytes that are there before memory is asked for. */
+/* Reading PNG. The file may be anything: sizes are checked against the bytes that are there before memory is asked for.
+ */
 #include "png.h"
 
 #include <stdbool.h>
@@ -88,7 +89,8 @@ static bool read_header(reader *r, const uint8_t *b, size_t n)
     r->h = word_at(b + 4);
     r->depth = b[8];
     r->colour = b[9];
-    if (r->w == 0 || r->h == 0 || r->w > r->max_side || r->h > r->max_side) return fail(r, "the picture size is out of range");
+    if (r->w == 0 || r->h == 0 || r->w > r->max_side || r->h > r->max_side)
+        return fail(r, "the picture size is out of range");
     if (b[9] > RGB_ALPHA || n_channels[b[9]] == 0) return fail(r, "the colour type is unknown");
     if (!depth_is_known(r->colour, r->depth)) return fail(r, "the bits per channel do not go with the colour type");
     if (b[10] != 0 || b[11] != 0) return fail(r, "the compression or filter method is unknown");
@@ -143,7 +145,8 @@ static bool read_chunks(reader *r)
         const uint8_t *chunk = r->bytes + at;
         size_t n = word_at(chunk);
         if (n > r->n_bytes - at - CHUNK_FRAME_BYTES) return fail(r, "a chunk is cut off");
-        if (word_at(chunk + 8 + n) != zlib_crc32(0, chunk + 4, n + 4)) return fail(r, "the checksum of a chunk is wrong");
+        if (word_at(chunk + 8 + n) != zlib_crc32(0, chunk + 4, n + 4))
+            return fail(r, "the checksum of a chunk is wrong");
         if (!read_chunk(r, chunk + 4, chunk + 8, n, &end)) return false;
         at += n + CHUNK_FRAME_BYTES;
     }
@@ -190,7 +193,8 @@ typedef struct {
     uint32_t x, y, step_x, step_y;
 } pass;
 static const pass whole[1] = {{0, 0, 1, 1}};
-static const pass adam7[7] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
+static const pass adam7[7] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
+                              {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
 
 static size_t pass_width(const reader *r, const pass *p)
 {
@@ -303,9 +307,11 @@ bool png_is(const uint8_t *bytes, size_t n_bytes)
     return n_bytes >= SIGNATURE_BYTES && memcmp(bytes, signature, SIGNATURE_BYTES) == 0;
 }
 
-bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error, size_t error_bytes)
+bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error,
+                      size_t error_bytes)
 {
-    reader r = {.bytes = bytes, .n_bytes = n_bytes, .max_side = (uint32_t)max_side, .error = error, .error_bytes = error_bytes};
+    reader r = {
+        .bytes = bytes, .n_bytes = n_bytes, .max_side = (uint32_t)max_side, .error = error, .error_bytes = error_bytes};
     uint8_t *rgba = read_picture(&r);
     *out = (png_picture){.w = (int)r.w, .h = (int)r.h, .depth = (int)r.depth, .rgba = rgba};
     arena_release(&r.memory, NULL);

@@ -16,8 +16,10 @@ static int paeth(int a, int b, int c)
     return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
 }
 
-/* previous: the row above, zeros for the first. Returns the sum of absolute differences, by which the best filter is picked. */
-static unsigned long filter_row(int filter, const uint8_t *row, const uint8_t *previous, size_t n, size_t pixel_bytes, uint8_t *out)
+/* previous: the row above, zeros for the first. Returns the sum of absolute differences, by which the best filter is
+ * picked. */
+static unsigned long filter_row(int filter, const uint8_t *row, const uint8_t *previous, size_t n, size_t pixel_bytes,
+                                uint8_t *out)
 {
     unsigned long sum = 0;
     for (size_t i = 0; i < n; i++) {
@@ -72,7 +74,7 @@ static uint8_t *put_chunk(uint8_t *out, const char *type, const uint8_t *bytes, 
 /* The whole file, to free(). NULL: out of memory. */
 static uint8_t *pack(int w, int h, int n_channels, const uint8_t *pixels, size_t *n_out)
 {
-    enum { FRAME_BYTES = 8 + 3 * 12 };                             /* the signature and what is around the data of three chunks */
+    enum { FRAME_BYTES = 8 + 3 * 12 }; /* the signature and what is around the data of three chunks */
     uint8_t header[13] = {[8] = 8, [9] = n_channels == 4 ? 6 : 2}; /* bits per channel, RGBA or RGB */
     size_t row_bytes = (size_t)w * (size_t)n_channels, n_packed = 0;
     uint8_t *filtered = filter_picture(pixels, row_bytes, (size_t)n_channels, (size_t)h), *out = NULL;

@@ -21,7 +21,8 @@ static bool ends_with(const char *path, const char *ending)
 static bool load_any(loader *l)
 {
     if (l->options->width <= 0 || l->options->height <= 0) {
-        return loader_fail(l, "%s: the picture size %dx%d is not positive", l->path, l->options->width, l->options->height);
+        return loader_fail(l, "%s: the picture size %dx%d is not positive", l->path, l->options->width,
+                           l->options->height);
     }
     if (ends_with(l->path, ".obj")) return loader_load_obj(l);
     if (ends_with(l->path, ".gltf")) return loader_load_gltf(l);

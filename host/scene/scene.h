@@ -50,7 +50,8 @@ typedef struct {
     double specular[3];      /* linear 0..1, default 0 */
     int shininess_log2;      /* 0..7, default 5 */
     size_t texture_idx;      /* SCENE_NONE: no texture */
-    size_t mask_texture_idx; /* of a mask image (M5), red..alpha = channels 0..3, looked up at mask_uv; SCENE_NONE: no image */
+    size_t mask_texture_idx; /* of a mask image (M5), red..alpha = channels 0..3, looked up at mask_uv; SCENE_NONE: no
+                                image */
     uint8_t *mask;           /* 4 per vertex of the mesh (M5), or NULL */
     double *baked;           /* 3 per vertex of the mesh, irradiance (M9), or NULL */
     scene_alpha visible_alpha;
@@ -128,10 +129,12 @@ typedef struct {
     bool main_light;     /* D10 */
     bool caster_culling; /* D8; changes no pixel */
     scene_tiles tiles;
-    int refresh[4];    /* A5: cascade i is drawn anew every refresh[i]th frame; default 1. Changes single pictures not at all */
-    int object_lights; /* P9: 0 (no limit) .. 8, default 8 */
-    int n_cascades;    /* 1..4; default 1 with the default camera, else 4 */
-    double cascade_ratio[3]; /* of the max distance, ascending; the last cascade always reaches it, and what is not used is 1 */
+    int refresh[4]; /* A5: cascade i is drawn anew every refresh[i]th frame; default 1. Changes single pictures not at
+                       all */
+    int object_lights;       /* P9: 0 (no limit) .. 8, default 8 */
+    int n_cascades;          /* 1..4; default 1 with the default camera, else 4 */
+    double cascade_ratio[3]; /* of the max distance, ascending; the last cascade always reaches it, and what is not used
+                                is 1 */
     scene_blend blend;       /* D7, default hard */
     scene_distance_mode distance_mode; /* D5 or D11, default depth */
 } scene_shadow;
@@ -157,8 +160,8 @@ typedef struct {
     size_t n_file_notes; /* those of the file; behind them are those of settings */
     size_t n_files;      /* that it was read from, the scene file first */
     char **files;
-    double fps;          /* frames per second of its animation; 0: it has none */
-    double duration;     /* seconds until everything in it has come to rest */
+    double fps;      /* frames per second of its animation; 0: it has none */
+    double duration; /* seconds until everything in it has come to rest */
 } scene;
 
 typedef struct {
@@ -174,15 +177,17 @@ double scene_share(double v);
 /* The ratios that go with n_cascades: 0.1, 0.25, 0.5 for 4; 0.1, 0.25 for 3; 0.25 for 2. */
 void scene_default_ratios(scene_shadow *shadow);
 
-/* Loads .obj, .gltf or .glb by the file's ending. Returns 0; on failure returns -1 with one line in error (what, and where:
- * file, line or JSON path) and leaves *s empty. */
+/* Loads .obj, .gltf or .glb by the file's ending. Returns 0; on failure returns -1 with one line in error (what, and
+ * where: file, line or JSON path) and leaves *s empty. */
 int scene_load(scene *s, const char *path, const scene_options *options, char *error, size_t error_bytes);
 void scene_free(scene *s);
 
-/* One more line, cleaned as utf8.h does; not if it is there already. Returns 0; -1 with one line in error if memory runs out. */
+/* One more line, cleaned as utf8.h does; not if it is there already. Returns 0; -1 with one line in error if memory
+ * runs out. */
 int scene_add_note(scene *s, const char *text, char *error, size_t error_bytes);
 
-/* Appends a light of this kind, placed so that it lights the scene as the camera sees it and throws a shadow into the picture: what
+/* Appends a light of this kind, placed so that it lights the scene as the camera sees it and throws a shadow into the
+ * picture: what
  * --set lights and --set add_light ask for. Returns 0; -1 with one line in error if memory runs out. */
 int scene_add_light(scene *s, scene_light_kind kind, char *error, size_t error_bytes);
 void scene_remove_lights(scene *s);

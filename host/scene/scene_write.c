@@ -16,8 +16,9 @@ enum { UBYTE = 5121, USHORT = 5123, FLOAT = 5126, ARRAY_BUFFER = 34962, ELEMENT_
 
 typedef struct {
     const scene *s;
-    write_buffer bytes;                                                                          /* of the one glTF buffer */
-    write_buffer views, accessors, meshes, nodes, materials, images, samplers, textures, lights; /* elements, separated by commas */
+    write_buffer bytes; /* of the one glTF buffer */
+    write_buffer views, accessors, meshes, nodes, materials, images, samplers, textures,
+        lights; /* elements, separated by commas */
     size_t n_views, n_accessors, n_meshes, n_nodes;
 } writer;
 
@@ -28,7 +29,8 @@ static void put_string(write_buffer *b, const char *text)
     write_text(b, "\"");
     while (*text) {
         const unsigned char c = (unsigned char)*text;
-        const size_t length = utf8_length((const unsigned char *)text, 4); /* the terminating zero continues no sequence */
+        const size_t length =
+            utf8_length((const unsigned char *)text, 4); /* the terminating zero continues no sequence */
         if (length == 0) write_text(b, "\\ufffd");
         else if (c == '"' || c == '\\') write_format(b, "\\%c", c);
         else if (c < 32) write_format(b, "\\u%04x", c);
@@ -87,8 +89,8 @@ static size_t add_accessor(writer *w, size_t view, int component, bool normalise
                            const char *bounds)
 {
     begin_item(&w->accessors, w->n_accessors);
-    write_format(&w->accessors, "\"bufferView\": %zu, \"componentType\": %d, \"count\": %zu, \"type\": \"%s\"%s%s}", view,
-                 component, count, type, normalised ? ", \"normalized\": true" : "", bounds);
+    write_format(&w->accessors, "\"bufferView\": %zu, \"componentType\": %d, \"count\": %zu, \"type\": \"%s\"%s%s}",
+                 view, component, count, type, normalised ? ", \"normalized\": true" : "", bounds);
     return w->n_accessors++;
 }
 
@@ -156,7 +158,8 @@ static size_t add_mesh(writer *w, const scene_object *o, size_t material)
     if (m->mask_uv) write_format(b, ", \"TEXCOORD_1\": %zu", add_floats(w, m->mask_uv, n, 2, false));
     if (o->mask) write_format(b, ", \"_GNOMON_MASK\": %zu", add_masks(w, o->mask, n));
     if (o->baked) write_format(b, ", \"_GNOMON_BAKED\": %zu", add_floats(w, o->baked, n, 3, false));
-    write_format(b, "}, \"indices\": %zu, \"material\": %zu}]}", add_indices(w, m, affine_mirrors(&o->to_world)), material);
+    write_format(b, "}, \"indices\": %zu, \"material\": %zu}]}", add_indices(w, m, affine_mirrors(&o->to_world)),
+                 material);
     return w->n_meshes++;
 }
 
@@ -171,10 +174,12 @@ static void add_material(writer *w, const scene_object *o, size_t idx)
     write_text(b, ", \"pbrMetallicRoughness\": {");
     put_numbers(b, "baseColorFactor", factor, 4);
     if (o->texture_idx != SCENE_NONE) write_format(b, ", \"baseColorTexture\": {\"index\": %zu}", o->texture_idx);
-    write_format(b, ", \"metallicFactor\": 0}, \"alphaMode\": \"%s\"%s, \"extras\": {\"gnomon\": {", modes[o->visible_alpha],
-                 o->two_sided ? ", \"doubleSided\": true" : "");
-    write_format(b, "\"caster\": \"%s\", \"casts_two_sided\": %d, \"hidden\": %d, \"moving\": %d, \"receives\": %d, \"unlit\": %d",
-                 casters[o->caster], o->casts_two_sided, o->hidden, o->moving, o->receives, o->unlit);
+    write_format(b, ", \"metallicFactor\": 0}, \"alphaMode\": \"%s\"%s, \"extras\": {\"gnomon\": {",
+                 modes[o->visible_alpha], o->two_sided ? ", \"doubleSided\": true" : "");
+    write_format(
+        b,
+        "\"caster\": \"%s\", \"casts_two_sided\": %d, \"hidden\": %d, \"moving\": %d, \"receives\": %d, \"unlit\": %d",
+        casters[o->caster], o->casts_two_sided, o->hidden, o->moving, o->receives, o->unlit);
     put_member(b, "alpha_cutoff", o->alpha_cutoff);
     write_text(b, ", ");
     put_numbers(b, "specular", o->specular, 3);
@@ -236,8 +241,9 @@ static void put_light_knobs(write_buffer *b, const scene_light *l)
 {
     static const char *const softness[] = {"default", "hard", "soft"}, *const modes[] = {"realtime", "mixed", "baked"};
     static const char *const automatic[] = {"off", "depth", "normal"};
-    write_format(b, ", \"extras\": {\"gnomon\": {\"shadow\": %d, \"mode\": \"%s\", \"mask_channel\": %d, \"softness\": \"%s\"",
-                 l->shadow, modes[l->mode], l->mask_channel, softness[l->softness]);
+    write_format(
+        b, ", \"extras\": {\"gnomon\": {\"shadow\": %d, \"mode\": \"%s\", \"mask_channel\": %d, \"softness\": \"%s\"",
+        l->shadow, modes[l->mode], l->mask_channel, softness[l->softness]);
     put_member(b, "strength", l->strength);
     put_member(b, "bias_constant", l->bias_constant);
     put_member(b, "bias_slope", l->bias_slope);
@@ -312,16 +318,20 @@ static void add_camera(writer *w)
 
 static void put_shadow(write_buffer *b, const scene *s)
 {
-    static const char *const filters[] = {"hard", "2x2", "3x3", "5x5", "7x7", "disk"}, *const kernels[] = {"tent", "linear"};
+    static const char *const filters[] = {"hard", "2x2", "3x3", "5x5", "7x7", "disk"}, *const kernels[] = {"tent",
+                                                                                                           "linear"};
     static const char *const mixing[] = {"none", "always", "distance"}, *const tiles[] = {"equal", "importance"};
     static const char *const blends[] = {"hard", "soft", "dither"}, *const distances[] = {"depth", "radius"};
     const scene_shadow *w = &s->shadow;
-    write_format(b, ", \"filter\": \"%s\", \"other_filter\": \"%s\", \"kernel\": \"%s\", \"mixing\": \"%s\", \"tiles\": \"%s\"",
-                 filters[w->filter], filters[w->other_filter], kernels[w->kernel], mixing[w->mixing], tiles[w->tiles]);
-    write_format(b, ", \"cascade_blend\": \"%s\", \"distance_mode\": \"%s\", \"disk_samples\": %d, \"object_lights\": %d",
+    write_format(
+        b, ", \"filter\": \"%s\", \"other_filter\": \"%s\", \"kernel\": \"%s\", \"mixing\": \"%s\", \"tiles\": \"%s\"",
+        filters[w->filter], filters[w->other_filter], kernels[w->kernel], mixing[w->mixing], tiles[w->tiles]);
+    write_format(b,
+                 ", \"cascade_blend\": \"%s\", \"distance_mode\": \"%s\", \"disk_samples\": %d, \"object_lights\": %d",
                  blends[w->blend], distances[w->distance_mode], w->disk_samples, w->object_lights);
-    write_format(b, ", \"main_light\": %d, \"caster_culling\": %d, \"refresh\": [%d, %d, %d, %d], \"cascades\": %d", w->main_light,
-                 w->caster_culling, w->refresh[0], w->refresh[1], w->refresh[2], w->refresh[3], w->n_cascades);
+    write_format(b, ", \"main_light\": %d, \"caster_culling\": %d, \"refresh\": [%d, %d, %d, %d], \"cascades\": %d",
+                 w->main_light, w->caster_culling, w->refresh[0], w->refresh[1], w->refresh[2], w->refresh[3],
+                 w->n_cascades);
     if (w->n_cascades > 1) {
         write_text(b, ", ");
         put_numbers(b, "cascade_ratios", w->cascade_ratio, (size_t)w->n_cascades - 1);
@@ -417,8 +427,8 @@ static void put_base64(write_buffer *out, const write_buffer *bytes)
     static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < bytes->n; i += 3) {
         const size_t left = bytes->n - i;
-        const uint32_t v =
-            (uint32_t)bytes->at[i] << 16 | (uint32_t)(left > 1 ? bytes->at[i + 1] : 0) << 8 | (left > 2 ? bytes->at[i + 2] : 0);
+        const uint32_t v = (uint32_t)bytes->at[i] << 16 | (uint32_t)(left > 1 ? bytes->at[i + 1] : 0) << 8 |
+                           (left > 2 ? bytes->at[i + 2] : 0);
         const char four[4] = {digit[v >> 18], digit[v >> 12 & 63], left > 1 ? digit[v >> 6 & 63] : '=',
                               left > 2 ? digit[v & 63] : '='};
         write_bytes(out, four, 4);
@@ -454,12 +464,13 @@ static bool fill(writer *w)
     return true;
 }
 
-int scene_write(const scene *s, const char *path, const char *comment, const scene_write_setting *settings, size_t n_settings,
-                char *error, size_t error_bytes)
+int scene_write(const scene *s, const char *path, const char *comment, const scene_write_setting *settings,
+                size_t n_settings, char *error, size_t error_bytes)
 {
     writer w = {.s = s};
-    write_buffer json = {0}, binary = {0}, *const all[] = {&w.bytes,  &w.views,    &w.accessors, &w.meshes, &w.nodes, &w.materials,
-                                                           &w.images, &w.samplers, &w.textures,  &w.lights, &json,    &binary};
+    write_buffer json = {0},
+                 binary = {0}, *const all[] = {&w.bytes,  &w.views,    &w.accessors, &w.meshes, &w.nodes, &w.materials,
+                                               &w.images, &w.samplers, &w.textures,  &w.lights, &json,    &binary};
     bool failed = !fill(&w);
     put_head(&w, &json, comment, settings, n_settings);
     put_lists(&w, &json);

@@ -70,8 +70,8 @@ typedef struct {
     bool by_alpha;
 } weighing;
 
-/* A colour shows as far as its alpha says, so it counts that much: what a transparent texel is coloured must not bleed into its
- * neighbours. Where all are transparent nothing shows; the colours are then weighed alike. */
+/* A colour shows as far as its alpha says, so it counts that much: what a transparent texel is coloured must not bleed
+ * into its neighbours. Where all are transparent nothing shows; the colours are then weighed alike. */
 static void resample_texel(const uint8_t *rgba, size_t w, tap x, tap y, const weighing *weigh, uint8_t *out)
 {
     const uint8_t *texel[4] = {rgba + 4 * (y.a * w + x.a), rgba + 4 * (y.a * w + x.b), rgba + 4 * (y.b * w + x.a),
@@ -91,8 +91,8 @@ static void resample_texel(const uint8_t *rgba, size_t w, tap x, tap y, const we
     out[3] = to_level(&weigh->alpha, alpha);
 }
 
-/* As the texture is looked up, nearest or bilinear: bilinear in linear light, and around the corner where the texture repeats. At
- * most halves a side (of a picture up to TEXTURE_MAX_PICTURE): bilinear, no texel is skipped. */
+/* As the texture is looked up, nearest or bilinear: bilinear in linear light, and around the corner where the texture
+ * repeats. At most halves a side (of a picture up to TEXTURE_MAX_PICTURE): bilinear, no texel is skipped. */
 static void resample(const png_picture *from, const texture_use *use, scene_texture *to)
 {
     weighing weigh = {.by_alpha = !use->is_data};
@@ -120,8 +120,8 @@ static bool fit_sides(loader *l, png_picture *picture, const texture_use *use, s
     texture->rgba = malloc((size_t)texture->width * (size_t)texture->height * 4);
     if (!texture->rgba) return loader_fail(l, "%s: out of memory", l->path);
     resample(picture, use, texture);
-    return loader_note(l, "texture '%s' of %dx%d is resampled to %dx%d: sides must be powers of two up to %d", texture->name,
-                       picture->w, picture->h, texture->width, texture->height, (int)MAX_TEXTURE_SIDE);
+    return loader_note(l, "texture '%s' of %dx%d is resampled to %dx%d: sides must be powers of two up to %d",
+                       texture->name, picture->w, picture->h, texture->width, texture->height, (int)MAX_TEXTURE_SIDE);
 }
 
 bool texture_add(loader *l, const char *name, png_picture *picture, const texture_use *use, size_t *out)

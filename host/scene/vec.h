@@ -27,8 +27,8 @@ static inline void vec_cross(double *out, const double *a, const double *b)
     out[2] = z;
 }
 
-/* Scales by the largest component first, so that neither 1e300 nor 1e-300 is lost. False, and v unchanged, for a zero or
- * non-finite vector. */
+/* Scales by the largest component first, so that neither 1e300 nor 1e-300 is lost. False, and v unchanged, for a zero
+ * or non-finite vector. */
 static inline bool vec_normalise(double *v)
 {
     double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
@@ -59,7 +59,9 @@ static inline scene_affine affine_multiply(const scene_affine *a, const scene_af
 {
     scene_affine out;
     for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 4; j++) { out.m[i][j] = a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j]; }
+        for (int j = 0; j < 4; j++) {
+            out.m[i][j] = a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j];
+        }
         out.m[i][3] += a->m[i][3];
     }
     return out;

@@ -1,5 +1,6 @@
-/* A long avenue: a straight road to the north (-Z), two rows of trees, an arch at its end, and the low sun of a late afternoon from
- * the left, so that the shadows cross the road. One tree and one kerb are instanced; the strips of ground meet without overlap. */
+/* A long avenue: a straight road to the north (-Z), two rows of trees, an arch at its end, and the low sun of a late
+ * afternoon from the left, so that the shadows cross the road. One tree and one kerb are instanced; the strips of
+ * ground meet without overlap. */
 #include <math.h>
 
 #include "gltf_writer.h"
@@ -62,7 +63,8 @@ static void make_tree(mesh_builder *trunk, mesh_builder *crown)
     for (unsigned i = 0; i < N_RINGS; i++) {
         for (unsigned k = 0; k <= N_CROWN; k++) {
             unsigned seed = i * 31 + k % N_CROWN;
-            double bulge = 0.86 + 0.28 * scatter(seed), lift = crown_profile[i].r > 0 ? 0.4 * (scatter(seed + 500) - 0.5) : 0;
+            double bulge = 0.86 + 0.28 * scatter(seed),
+                   lift = crown_profile[i].r > 0 ? 0.4 * (scatter(seed + 500) - 0.5) : 0;
             p[i][k] = mesh_ring_point(crown_profile[i].r * bulge, crown_profile[i].y + lift, k, N_CROWN);
         }
     }
@@ -100,7 +102,8 @@ static void add_ring_section(mesh_builder *m, mesh_point in0, mesh_point in1, me
 static void make_arch(mesh_builder *m)
 {
     enum { LAST = N_ARCH + 2 };
-    mesh_point in = on_arch(0, true), out = on_arch(0, false), in_back = {in.x, in.y, -in.z}, out_back = {out.x, out.y, -out.z};
+    mesh_point in = on_arch(0, true), out = on_arch(0, false), in_back = {in.x, in.y, -in.z},
+               out_back = {out.x, out.y, -out.z};
     mesh_begin(m, MESH_FACE_NORMALS);
     for (int i = 0; i < LAST; i++)
         add_ring_section(m, on_arch(i, true), on_arch(i + 1, true), on_arch(i, false), on_arch(i + 1, false));
@@ -134,7 +137,8 @@ static void add_trees(gltf_document *d)
     make_tree(&trunk, &crown);
     size_t mesh = gltf_add_mesh(d, "tree", (gltf_surface[]){{&trunk, bark}, {&crown, leaves}}, 2);
     for (unsigned i = 0; i < 2 * N_TREES_PER_ROW; i++) {
-        double scale = 0.9 + 0.2 * scatter(i + 900), x = i % 2 ? row_x : -row_x, z = 0 - tree_spacing * (i / 2); /* not -0 */
+        double scale = 0.9 + 0.2 * scatter(i + 900), x = i % 2 ? row_x : -row_x,
+               z = 0 - tree_spacing * (i / 2); /* not -0 */
         gltf_rotation q = gltf_turn((mesh_point){0, 1, 0}, 360 * scatter(i + 700));
         gltf_add_node(d, i % 2 ? "right tree" : "left tree",
                       "\"mesh\": %zu, \"translation\": [%g, %g, %g], \"rotation\": "
@@ -157,11 +161,13 @@ static void add_sun(gltf_document *d)
     static const mesh_point x_axis = {1, 0, 0}, y_axis = {0, 1, 0};
     const double yaw_deg = -68, elevation_deg = 30;
     gltf_rotation q = gltf_multiply(gltf_turn(y_axis, yaw_deg), gltf_turn(x_axis, -elevation_deg));
-    size_t light = gltf_add_light(d, &(gltf_light_text){.name = "sun",
-                                                        .rgb = {1, 0.9, 0.74},
-                                                        .intensity = 3.2,
-                                                        .knobs = "\"bias_normal\": 0.2, \"bias_slope\": 1, \"bias_constant\": 1"});
-    gltf_add_node(d, "sun", "\"rotation\": [%.6g, %.6g, %.6g, %.6g], \"extensions\": {\"KHR_lights_punctual\": {\"light\": %zu}}",
+    size_t light =
+        gltf_add_light(d, &(gltf_light_text){.name = "sun",
+                                             .rgb = {1, 0.9, 0.74},
+                                             .intensity = 3.2,
+                                             .knobs = "\"bias_normal\": 0.2, \"bias_slope\": 1, \"bias_constant\": 1"});
+    gltf_add_node(d, "sun",
+                  "\"rotation\": [%.6g, %.6g, %.6g, %.6g], \"extensions\": {\"KHR_lights_punctual\": {\"light\": %zu}}",
                   q.x, q.y, q.z, q.w, light);
 }
 
@@ -169,18 +175,23 @@ int avenue_write(FILE *file)
 {
     static gltf_document d;
     static const gltf_scene_text text = {
-        .comment = "A long avenue under a low sun: shadows from a few steps to beyond the shadow distance. No animation.",
-        .settings = "\"max_distance\": 46, \"distance_fade\": 0.25, \"filter\": \"3x3\", \"atlas_size\": 256, \"cascades\": 4, "
-                    "\"cascade_ratios\": [0.22, 0.4, 0.6], \"cascade_blend\": \"soft\", "
-                    "\"ambient\": [0.2, 0.22, 0.28], \"background\": [0.42, 0.58, 0.82]",
+        .comment =
+            "A long avenue under a low sun: shadows from a few steps to beyond the shadow distance. No animation.",
+        .settings =
+            "\"max_distance\": 46, \"distance_fade\": 0.25, \"filter\": \"3x3\", \"atlas_size\": 256, \"cascades\": 4, "
+            "\"cascade_ratios\": [0.22, 0.4, 0.6], \"cascade_blend\": \"soft\", "
+            "\"ambient\": [0.2, 0.22, 0.28], \"background\": [0.42, 0.58, 0.82]",
     };
     gltf_begin(&d);
     add_ground(&d);
     add_trees(&d);
     add_arch(&d);
     add_sun(&d);
-    gltf_add_camera(
-        &d, &(gltf_camera){
-                .fov_deg = 40, .near_distance = 0.5, .far_distance = 300, .target = {0.7, 2.3, 9}, .yaw_deg = 1, .pitch_deg = -2});
+    gltf_add_camera(&d, &(gltf_camera){.fov_deg = 40,
+                                       .near_distance = 0.5,
+                                       .far_distance = 300,
+                                       .target = {0.7, 2.3, 9},
+                                       .yaw_deg = 1,
+                                       .pitch_deg = -2});
     return gltf_write(&d, &text, file);
 }

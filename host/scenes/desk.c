@@ -1,6 +1,7 @@
-/* A desk at night, lit by its lamp alone: a spot whose arm swings from side to side, so that the shadows of a mug, a pencil pot and
- * a stack of books sweep over the desk and up the wall. The origin is on the desk's top; the lamp's light leaves its shade's mouth,
- * before everything that belongs to the lamp, and the bulb, which is only seen, does not cast. */
+/* A desk at night, lit by its lamp alone: a spot whose arm swings from side to side, so that the shadows of a mug, a
+ * pencil pot and a stack of books sweep over the desk and up the wall. The origin is on the desk's top; the lamp's
+ * light leaves its shade's mouth, before everything that belongs to the lamp, and the bulb, which is only seen, does
+ * not cast. */
 #include <math.h>
 
 #include "gltf_writer.h"
@@ -65,7 +66,8 @@ static void add_handle(mesh_builder *m, double wall_x)
         }
     }
     for (int i = 0; i < N_BENDS; i++) {
-        for (int k = 0; k < 4; k++) mesh_quad(m, ring[i][k], ring[i + 1][k], ring[i + 1][(k + 1) % 4], ring[i][(k + 1) % 4]);
+        for (int k = 0; k < 4; k++)
+            mesh_quad(m, ring[i][k], ring[i + 1][k], ring[i + 1][(k + 1) % 4], ring[i][(k + 1) % 4]);
     }
     mesh_quad(m, ring[0][0], ring[0][1], ring[0][2], ring[0][3]);
     mesh_quad(m, ring[N_BENDS][3], ring[N_BENDS][2], ring[N_BENDS][1], ring[N_BENDS][0]);
@@ -116,8 +118,8 @@ static void make_apple(mesh_builder *m)
 /* Two posts, two bars that stand back a step, and the picture between them. */
 static void make_picture(mesh_builder *frame, mesh_builder *picture)
 {
-    const double x0 = 0.08, x1 = 0.36, y0 = 0.3, y1 = 0.5, bar = 0.022, z0 = wall_z, z1 = wall_z + 0.022, back = wall_z + 0.006,
-                 step = 0.002;
+    const double x0 = 0.08, x1 = 0.36, y0 = 0.3, y1 = 0.5, bar = 0.022, z0 = wall_z, z1 = wall_z + 0.022,
+                 back = wall_z + 0.006, step = 0.002;
     mesh_begin(frame, MESH_FACE_NORMALS);
     mesh_box(frame, (mesh_point){x0, y0, z0}, (mesh_point){x0 + bar, y1, z1});
     mesh_box(frame, (mesh_point){x1 - bar, y0, z0}, (mesh_point){x1, y1, z1});
@@ -129,8 +131,8 @@ static void make_picture(mesh_builder *frame, mesh_builder *picture)
     mesh_quad(picture, (mesh_point){left, low, back}, (mesh_point){right, low, back}, (mesh_point){right, shore, back},
               (mesh_point){left, shore, back});
     mesh_paint(picture, 0.8, 0.62, 0.4); /* and the sky */
-    mesh_quad(picture, (mesh_point){left, shore, back}, (mesh_point){right, shore, back}, (mesh_point){right, high, back},
-              (mesh_point){left, high, back});
+    mesh_quad(picture, (mesh_point){left, shore, back}, (mesh_point){right, shore, back},
+              (mesh_point){right, high, back}, (mesh_point){left, high, back});
 }
 
 static void add_still_life(gltf_document *d)
@@ -141,15 +143,16 @@ static void add_still_life(gltf_document *d)
     size_t brew = gltf_add_material(d, "coffee", (double[]){0.06, 0.03, 0.015}, NULL);
     size_t tin = gltf_add_material(d, "tin", (double[]){0.2, 0.42, 0.42}, NULL);
     size_t lacquer = gltf_add_material(d, "pencil", (double[]){1, 1, 1}, NULL);
-    size_t skin =
-        gltf_add_material(d, "apple", (double[]){0.55, 0.1, 0.05}, "\"specular\": [0.15, 0.15, 0.15], \"shininess_log2\": 4");
+    size_t skin = gltf_add_material(d, "apple", (double[]){0.55, 0.1, 0.05},
+                                    "\"specular\": [0.15, 0.15, 0.15], \"shininess_log2\": 4");
     size_t sheet = gltf_add_material(d, "paper", (double[]){0.85, 0.84, 0.8}, "\"casts\": 0");
     make_books(&books);
     gltf_add_node(d, "books", "\"mesh\": %zu, \"translation\": [0.42, 0, -0.12]",
                   gltf_add_mesh(d, "books", &(gltf_surface){&books, cloth}, 1));
     make_mug(&china, &coffee);
     size_t mug = gltf_add_mesh(d, "mug", (gltf_surface[]){{&china, glaze}, {&coffee, brew}}, 2);
-    gltf_add_node(d, "mug", "\"mesh\": %zu, \"translation\": [0.02, 0, 0.02], \"rotation\": [0, -0.258819, 0, 0.965926]", mug);
+    gltf_add_node(d, "mug",
+                  "\"mesh\": %zu, \"translation\": [0.02, 0, 0.02], \"rotation\": [0, -0.258819, 0, 0.965926]", mug);
     make_pot(&pot, &pencils);
     size_t full_pot = gltf_add_mesh(d, "pencil pot", (gltf_surface[]){{&pot, tin}, {&pencils, lacquer}}, 2);
     gltf_add_node(d, "pencil pot", "\"mesh\": %zu, \"translation\": [0.06, 0, -0.27]", full_pot);
@@ -157,8 +160,8 @@ static void add_still_life(gltf_document *d)
     gltf_add_node(d, "apple", "\"mesh\": %zu, \"translation\": [0.27, 0, 0.13]",
                   gltf_add_mesh(d, "apple", &(gltf_surface){&apple, skin}, 1));
     mesh_begin(&paper, MESH_FACE_NORMALS);
-    mesh_quad(&paper, (mesh_point){-0.105, 0.0015, 0.148}, (mesh_point){0.105, 0.0015, 0.148}, (mesh_point){0.105, 0.0015, -0.148},
-              (mesh_point){-0.105, 0.0015, -0.148});
+    mesh_quad(&paper, (mesh_point){-0.105, 0.0015, 0.148}, (mesh_point){0.105, 0.0015, 0.148},
+              (mesh_point){0.105, 0.0015, -0.148}, (mesh_point){-0.105, 0.0015, -0.148});
     gltf_add_node(d, "paper", "\"mesh\": %zu, \"translation\": [-0.19, 0, 0.1], \"rotation\": [0, 0.13, 0, 0.991514]",
                   gltf_add_mesh(d, "paper", &(gltf_surface){&paper, sheet}, 1));
 }
@@ -186,7 +189,8 @@ static void make_arm(mesh_builder *foot, mesh_builder *arm)
     mesh_begin(arm, MESH_NORMALS);
     mesh_rod(arm, (mesh_point){0, 0.015, 0}, arm_elbow, rod, 6);
     mesh_rod(arm, arm_elbow, arm_end, rod, 6);
-    mesh_rod(arm, (mesh_point){arm_elbow.x, arm_elbow.y, -joint}, (mesh_point){arm_elbow.x, arm_elbow.y, joint}, joint, 8);
+    mesh_rod(arm, (mesh_point){arm_elbow.x, arm_elbow.y, -joint}, (mesh_point){arm_elbow.x, arm_elbow.y, joint}, joint,
+             8);
 }
 
 /* One swing to each side and back in 12 seconds of 4 frames. */
@@ -220,7 +224,8 @@ static void add_lamp(gltf_document *d)
                                                           .inner_deg = 30,
                                                           .outer_deg = 52,
                                                           .knobs = "\"near\": 0.06, \"bias_normal\": 0.4"});
-    size_t head_mesh = gltf_add_mesh(d, "head", (gltf_surface[]){{&shade, enamel}, {&lining, glow}, {&bulb, filament}}, 3);
+    size_t head_mesh =
+        gltf_add_mesh(d, "head", (gltf_surface[]){{&shade, enamel}, {&lining, glow}, {&bulb, filament}}, 3);
     gltf_rotation tilt = gltf_turn(z_axis, head_tilt_deg), yaw = gltf_turn(y_axis, arm_yaw_deg);
     /* The arm ends inside the top of the shade. */
     const double neck = 0.105;
@@ -230,11 +235,11 @@ static void add_lamp(gltf_document *d)
                                 "\"mesh\": %zu, \"translation\": [%.6g, %.6g, 0], \"rotation\": [0, 0, %.6g, %.6g], "
                                 "\"children\": [%zu]",
                                 head_mesh, mouth_x, mouth_y, tilt.z, tilt.w, light);
-    size_t arm_node =
-        gltf_add_node(d, "arm",
-                      "\"mesh\": %zu, \"translation\": [%g, 0, %g], \"rotation\": [0, %.6g, 0, %.6g], "
-                      "\"children\": [%zu]",
-                      gltf_add_mesh(d, "arm", &(gltf_surface){&arm, steel}, 1), lamp_foot.x, lamp_foot.z, yaw.y, yaw.w, head);
+    size_t arm_node = gltf_add_node(d, "arm",
+                                    "\"mesh\": %zu, \"translation\": [%g, 0, %g], \"rotation\": [0, %.6g, 0, %.6g], "
+                                    "\"children\": [%zu]",
+                                    gltf_add_mesh(d, "arm", &(gltf_surface){&arm, steel}, 1), lamp_foot.x, lamp_foot.z,
+                                    yaw.y, yaw.w, head);
     gltf_add_node(d, "foot", "\"mesh\": %zu, \"translation\": [%g, 0, %g]",
                   gltf_add_mesh(d, "foot", &(gltf_surface){&foot, enamel}, 1), lamp_foot.x, lamp_foot.z);
     gltf_mark_child(d, light);

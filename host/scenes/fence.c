@@ -1,6 +1,7 @@
-/* A garden in the sun with every mode of a caster: pickets, a trellis and leaves cut out by their texture's alpha, a sheet of film
- * that dithers, a towel that is seen and casts from both sides, a paper lantern that is not lit itself, and a small tree of which
- * only the shadow is seen. Pickets, trellis, film, towel and leaves are single sheets; the rest is closed. */
+/* A garden in the sun with every mode of a caster: pickets, a trellis and leaves cut out by their texture's alpha, a
+ * sheet of film that dithers, a towel that is seen and casts from both sides, a paper lantern that is not lit itself,
+ * and a small tree of which only the shadow is seen. Pickets, trellis, film, towel and leaves are single sheets; the
+ * rest is closed. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +13,8 @@ enum { MAX_SIDE = GLTF_MAX_TEXTURE_SIDE };
 
 static const double corner_x = 2.2, fence_z = -2.2, panel = 1.3, post_half = 0.045;
 
-/* --- Textures -------------------------------------------------------------------------------------------------------- */
+/* --- Textures --------------------------------------------------------------------------------------------------------
+ */
 
 typedef struct {
     int side;
@@ -46,7 +48,8 @@ static void paint_pickets(canvas *c)
     c->side = 64;
     for (int y = 0; y < 64; y++) {
         for (int x = 0; x < 64; x++) {
-            int from_axis = abs(2 * (x % CELL) + 1 - CELL), half = y < HEAD ? y * HALF / HEAD : HALF; /* in half pixels */
+            int from_axis = abs(2 * (x % CELL) + 1 - CELL),
+                half = y < HEAD ? y * HALF / HEAD : HALF; /* in half pixels */
             bool is_picket = y > 0 && from_axis < 2 * half, is_rail = (y >= 16 && y < 22) || (y >= 46 && y < 52);
             int grain = scatter((unsigned)(x * 131 + y / 7)) % 17 - 8 + scatter((unsigned)(x / CELL + 900)) % 21 - 10;
             put_pixel(c, x, y, is_picket ? wood : rail, grain, is_picket || is_rail);
@@ -73,7 +76,8 @@ static void paint_towel(canvas *c)
     static const int colour[4][3] = {{226, 214, 184}, {182, 52, 40}, {226, 214, 184}, {38, 84, 140}};
     c->side = 32;
     for (int y = 0; y < 32; y++) {
-        for (int x = 0; x < 32; x++) put_pixel(c, x, y, colour[y / 4 % 4], scatter((unsigned)(x + y * 32)) % 9 - 4, true);
+        for (int x = 0; x < 32; x++)
+            put_pixel(c, x, y, colour[y / 4 % 4], scatter((unsigned)(x + y * 32)) % 9 - 4, true);
     }
 }
 
@@ -86,12 +90,14 @@ static void paint_leaves(canvas *c)
     for (int i = 0; i < 32 * 32; i++) put_pixel(c, i % 32, i / 32, green, 0, false);
     for (int i = 0; i < N_LEAVES; i++) {
         unsigned seed = (unsigned)i * 17 + 5;
-        int cx = 5 + scatter(seed) * 21 / 255, cy = 4 + scatter(seed + 1) * 22 / 255, shade = scatter(seed + 2) % 61 - 34;
+        int cx = 5 + scatter(seed) * 21 / 255, cy = 4 + scatter(seed + 1) * 22 / 255,
+            shade = scatter(seed + 2) % 61 - 34;
         int slope = scatter(seed + 3) % 3 - 1; /* the leaf leans to one side */
         for (int y = -3; y <= 3; y++) {
             for (int x = -4; x <= 4; x++) {
                 int px = cx + x, py = cy + y, across = 2 * abs(y - slope * x / 2), along = abs(x);
-                if (along + across <= 4 && px > 0 && px < 31 && py > 0 && py < 31) put_pixel(c, px, py, green, shade, true);
+                if (along + across <= 4 && px > 0 && px < 31 && py > 0 && py < 31)
+                    put_pixel(c, px, py, green, shade, true);
             }
         }
     }
@@ -105,7 +111,8 @@ static size_t add_texture(gltf_document *d, const char *name, void (*paint)(canv
     return gltf_add_texture(d, &(gltf_image){name, c.side, c.rgba, nearest, clamp});
 }
 
-/* --- Things ---------------------------------------------------------------------------------------------------------- */
+/* --- Things ----------------------------------------------------------------------------------------------------------
+ */
 
 /* From a to b on the ground, upright from y0 to y1. */
 static void add_sheet(mesh_builder *m, mesh_point a, mesh_point b, double y0, double y1, mesh_uv low, mesh_uv high)
@@ -144,8 +151,8 @@ static void add_pickets(gltf_document *d)
     size_t white = gltf_add_material(d, "post", (double[]){0.62, 0.59, 0.53}, NULL);
     make_post(&post, 1.16);
     mesh_begin(&sheet, MESH_UVS);
-    add_sheet(&sheet, (mesh_point){post_half, 0, 0}, (mesh_point){panel - post_half, 0, 0}, 0.04, 1.1, (mesh_uv){0, half_texel},
-              (mesh_uv){n_pickets / 4, 1 - half_texel});
+    add_sheet(&sheet, (mesh_point){post_half, 0, 0}, (mesh_point){panel - post_half, 0, 0}, 0.04, 1.1,
+              (mesh_uv){0, half_texel}, (mesh_uv){n_pickets / 4, 1 - half_texel});
     size_t post_mesh = gltf_add_mesh(d, "post", &(gltf_surface){&post, white}, 1);
     size_t sheet_mesh = gltf_add_mesh(d, "pickets", &(gltf_surface){&sheet, boards}, 1);
     for (int i = 0; i < N_PANELS; i++) {
@@ -328,8 +335,10 @@ int fence_write(FILE *file)
 {
     static gltf_document d;
     static const gltf_scene_text text = {
-        .comment = "A garden fence: casters that are cut out, dithered, two-sided, unlit, and a hidden one. No animation.",
-        .settings = "\"max_distance\": 9.5, \"distance_fade\": 0.15, \"filter\": \"3x3\", \"atlas_size\": 512, \"cascades\": 1, "
+        .comment =
+            "A garden fence: casters that are cut out, dithered, two-sided, unlit, and a hidden one. No animation.",
+        .settings = "\"max_distance\": 9.5, \"distance_fade\": 0.15, \"filter\": \"3x3\", \"atlas_size\": 512, "
+                    "\"cascades\": 1, "
                     "\"ambient\": [0.26, 0.29, 0.35], \"background\": [0.4, 0.58, 0.82]",
     };
     gltf_begin(&d);
@@ -340,8 +349,9 @@ int fence_write(FILE *file)
     add_towel(&d);
     add_plant(&d);
     add_lantern_and_tree(&d);
-    gltf_add_light_node(&d, (mesh_point){0, 0, 0}, gltf_look((mesh_point){0.62, -0.66, 0.5}),
-                        &(gltf_light_text){.name = "sun", .rgb = {1, 0.95, 0.86}, .intensity = 3, .knobs = "\"bias_normal\": 0.6"});
+    gltf_add_light_node(
+        &d, (mesh_point){0, 0, 0}, gltf_look((mesh_point){0.62, -0.66, 0.5}),
+        &(gltf_light_text){.name = "sun", .rgb = {1, 0.95, 0.86}, .intensity = 3, .knobs = "\"bias_normal\": 0.6"});
     gltf_add_camera(&d, &(gltf_camera){.fov_deg = 38,
                                        .near_distance = 2.5,
                                        .far_distance = 30,

@@ -1,5 +1,6 @@
-/* Small pieces for docs/GALLERY.md, where the scenes of host/scenes do not show a feature closely enough: the edge of one shadow,
- * slopes that invite acne, cones of spot lights, many lamps, materials, a floor through the near plane, baked light. */
+/* Small pieces for docs/GALLERY.md, where the scenes of host/scenes do not show a feature closely enough: the edge of
+ * one shadow, slopes that invite acne, cones of spot lights, many lamps, materials, a floor through the near plane,
+ * baked light. */
 #include <math.h>
 #include <string.h>
 
@@ -31,7 +32,8 @@ static void add_sun(gltf_document *d, mesh_point direction, double intensity)
                         &(gltf_light_text){.name = "sun", .rgb = {1, 0.95, 0.86}, .intensity = intensity});
 }
 
-/* A leaning slab far taller than what the camera's sphere covers, and a thin rod: their shadows' edges from close by. */
+/* A leaning slab far taller than what the camera's sphere covers, and a thin rod: their shadows' edges from close by.
+ */
 int gallery_edge_write(FILE *file)
 {
     static gltf_document d;
@@ -54,12 +56,12 @@ int gallery_edge_write(FILE *file)
                                        .distance = 3,
                                        .yaw_deg = 12,
                                        .pitch_deg = -42});
-    return gltf_write(&d,
-                      &(gltf_scene_text){.comment = "The edge of one shadow from close by, and of a rod's. No animation.",
-                                         .settings =
-                                             "\"max_distance\": 5, \"filter\": \"2x2\", \"atlas_size\": 64, \"cascades\": 1, "
-                                             "\"ambient\": [0.2, 0.22, 0.28], \"background\": [0.4, 0.58, 0.82]"},
-                      file);
+    return gltf_write(
+        &d,
+        &(gltf_scene_text){.comment = "The edge of one shadow from close by, and of a rod's. No animation.",
+                           .settings = "\"max_distance\": 5, \"filter\": \"2x2\", \"atlas_size\": 64, \"cascades\": 1, "
+                                       "\"ambient\": [0.2, 0.22, 0.28], \"background\": [0.4, 0.58, 0.82]"},
+        file);
 }
 
 /* A ball, a wedge and a wall that the sun grazes. */
@@ -94,20 +96,21 @@ int gallery_slopes_write(FILE *file)
                                        .yaw_deg = -12,
                                        .pitch_deg = -22});
     return gltf_write(&d,
-                      &(gltf_scene_text){.comment = "Surfaces that a low sun grazes: a ball, a wedge, a wall. No animation.",
-                                         .settings =
-                                             "\"max_distance\": 8, \"filter\": \"3x3\", \"atlas_size\": 128, \"cascades\": 1, "
-                                             "\"ambient\": [0.12, 0.13, 0.17], \"background\": [0.4, 0.58, 0.82]"},
+                      &(gltf_scene_text){
+                          .comment = "Surfaces that a low sun grazes: a ball, a wedge, a wall. No animation.",
+                          .settings = "\"max_distance\": 8, \"filter\": \"3x3\", \"atlas_size\": 128, \"cascades\": 1, "
+                                      "\"ambient\": [0.12, 0.13, 0.17], \"background\": [0.4, 0.58, 0.82]"},
                       file);
 }
 
-/* Three spot lights before a wall: inner angle 0, half, and all of the outer; a bar across the light of each; point lights at three
- * distances from the floor. */
+/* Three spot lights before a wall: inner angle 0, half, and all of the outer; a bar across the light of each; point
+ * lights at three distances from the floor. */
 int gallery_cones_write(FILE *file)
 {
     static gltf_document d;
     static const double inner_deg[3] = {0, 18, 29.9};
-    static const char *const spot_name[3] = {"soft", "medium", "sharp"}, *const lamp_name[3] = {"low", "middle", "high"};
+    static const char *const spot_name[3] = {"soft", "medium", "sharp"}, *const lamp_name[3] = {"low", "middle",
+                                                                                                "high"};
     static mesh_builder wall, bulb;
     gltf_begin(&d);
     add_floor(&d, 4, -1, 3, (double[]){0.6, 0.6, 0.6});
@@ -141,13 +144,16 @@ int gallery_cones_write(FILE *file)
         mesh_ball(&bulb, (mesh_point){x, y, 0.35}, 0.04, 5, 8);
         gltf_add_object(&d, "bulb", &bulb, glow);
     }
-    gltf_add_camera(
-        &d,
-        &(gltf_camera){
-            .fov_deg = 40, .near_distance = 1, .far_distance = 30, .target = {0, 0.85, -0.4}, .distance = 4.4, .pitch_deg = -20});
+    gltf_add_camera(&d, &(gltf_camera){.fov_deg = 40,
+                                       .near_distance = 1,
+                                       .far_distance = 30,
+                                       .target = {0, 0.85, -0.4},
+                                       .distance = 4.4,
+                                       .pitch_deg = -20});
     return gltf_write(
         &d,
-        &(gltf_scene_text){.comment = "Three cones with three inner angles, and three small lamps over a floor. No animation.",
+        &(gltf_scene_text){.comment =
+                               "Three cones with three inner angles, and three small lamps over a floor. No animation.",
                            .settings = "\"max_distance\": 12, \"filter\": \"3x3\", \"other_atlas_size\": 256, "
                                        "\"ambient\": 0.03, \"background\": [0.02, 0.02, 0.03]"},
         file);
@@ -191,7 +197,8 @@ int gallery_lamps_write(FILE *file)
                                        .pitch_deg = -42});
     return gltf_write(
         &d,
-        &(gltf_scene_text){.comment = "Sixteen lamps over sixteen flagstones; two of the lamps cast shadows. No animation.",
+        &(gltf_scene_text){.comment =
+                               "Sixteen lamps over sixteen flagstones; two of the lamps cast shadows. No animation.",
                            .settings = "\"max_distance\": 12, \"filter\": \"3x3\", \"other_atlas_size\": 512, "
                                        "\"ambient\": 0.03, \"background\": [0.02, 0.02, 0.03]"},
         file);
@@ -219,7 +226,8 @@ static size_t textured(gltf_document *d, const char *name, bool nearest)
         d, &(gltf_material_text){.name = name, .rgb = {1, 1, 1}, .has_texture = true, .texture_idx = texture});
 }
 
-static void add_upright_quad(gltf_document *d, const char *name, mesh_point low, double width, double height, size_t material)
+static void add_upright_quad(gltf_document *d, const char *name, mesh_point low, double width, double height,
+                             size_t material)
 {
     static mesh_builder quad;
     const mesh_point p[4] = {
@@ -237,8 +245,8 @@ static void rainbow(mesh_point at, double *rgb)
     for (int k = 0; k < 3; k++) rgb[k] = 0.55 + 0.4 * cos(angle - 2.0944 * k);
 }
 
-/* Balls: smooth, faceted, of vertex colours, dull and sharp highlights. Behind: panels with a texture, nearest and bilinear, one that
- * does not receive and an unlit one; a pole throws its shadow over them all. */
+/* Balls: smooth, faceted, of vertex colours, dull and sharp highlights. Behind: panels with a texture, nearest and
+ * bilinear, one that does not receive and an unlit one; a pole throws its shadow over them all. */
 int gallery_materials_write(FILE *file)
 {
     static gltf_document d;
@@ -261,29 +269,35 @@ int gallery_materials_write(FILE *file)
                        gltf_add_material(&d, "does not receive", pale, "\"receives\": 0"),
                        gltf_add_material(&d, "unlit", pale, "\"unlit\": 1")};
     static const char *const panel_name[4] = {"nearest", "bilinear", "does not receive", "unlit"};
-    for (int i = 0; i < 4; i++) add_upright_quad(&d, panel_name[i], (mesh_point){-1.7 + 0.86 * i, 0, -0.6}, 0.8, 0.9, panel[i]);
+    for (int i = 0; i < 4; i++)
+        add_upright_quad(&d, panel_name[i], (mesh_point){-1.7 + 0.86 * i, 0, -0.6}, 0.8, 0.9, panel[i]);
     size_t iron = gltf_add_material(&d, "iron", (double[]){0.2, 0.2, 0.22}, "\"hidden\": 1");
     add_box(&d, "pole", (mesh_point){-3, 1.2, 0}, (mesh_point){3, 1.28, 0.08}, iron); /* seen by its shadow alone */
     add_sun(&d, (mesh_point){0.3, -0.7, -0.6}, 3);
-    gltf_add_camera(
-        &d, &(gltf_camera){
-                .fov_deg = 27, .near_distance = 1, .far_distance = 30, .target = {0, 0.38, 0}, .distance = 5.2, .pitch_deg = -16});
+    gltf_add_camera(&d, &(gltf_camera){.fov_deg = 27,
+                                       .near_distance = 1,
+                                       .far_distance = 30,
+                                       .target = {0, 0.38, 0},
+                                       .distance = 5.2,
+                                       .pitch_deg = -16});
     return gltf_write(
         &d,
-        &(gltf_scene_text){.comment = "Balls and panels of every material; the pole above is hidden and casts. No animation.",
-                           .settings = "\"max_distance\": 9, \"filter\": \"3x3\", \"atlas_size\": 256, \"cascades\": 1, "
-                                       "\"ambient\": [0.2, 0.21, 0.25], \"background\": [0.4, 0.58, 0.82]"},
+        &(gltf_scene_text){
+            .comment = "Balls and panels of every material; the pole above is hidden and casts. No animation.",
+            .settings = "\"max_distance\": 9, \"filter\": \"3x3\", \"atlas_size\": 256, \"cascades\": 1, "
+                        "\"ambient\": [0.2, 0.21, 0.25], \"background\": [0.4, 0.58, 0.82]"},
         file);
 }
 
-/* One floor of two triangles from far behind the camera to far before it, and a wall beside the eye: both pass through the near plane
- * and out of the guard band. */
+/* One floor of two triangles from far behind the camera to far before it, and a wall beside the eye: both pass through
+ * the near plane and out of the guard band. */
 int gallery_near_write(FILE *file)
 {
     static gltf_document d;
     static mesh_builder floor, wall;
     gltf_begin(&d);
-    size_t tiles = textured(&d, "tiles", false), brick = gltf_add_material(&d, "brick", (double[]){0.55, 0.25, 0.18}, NULL);
+    size_t tiles = textured(&d, "tiles", false),
+           brick = gltf_add_material(&d, "brick", (double[]){0.55, 0.25, 0.18}, NULL);
     const mesh_point p[4] = {{-20, 0, 40}, {20, 0, 40}, {20, 0, -40}, {-20, 0, -40}};
     mesh_begin(&floor, MESH_UVS);
     mesh_polygon_uv(&floor, p, (mesh_uv[]){{0, 40}, {20, 40}, {20, 0}, {0, 0}}, 4);
@@ -291,7 +305,8 @@ int gallery_near_write(FILE *file)
     mesh_begin(&wall, MESH_FACE_NORMALS);
     mesh_box(&wall, (mesh_point){-1.2, 0, -14}, (mesh_point){-0.6, 2.4, 30});
     gltf_add_object(&d, "wall", &wall, brick);
-    for (int i = 0; i < 4; i++) add_box(&d, "post", (mesh_point){1.2, 0, -2.0 - 3 * i}, (mesh_point){1.4, 2, -1.8 - 3 * i}, brick);
+    for (int i = 0; i < 4; i++)
+        add_box(&d, "post", (mesh_point){1.2, 0, -2.0 - 3 * i}, (mesh_point){1.4, 2, -1.8 - 3 * i}, brick);
     add_sun(&d, (mesh_point){-0.6, -0.7, -0.35}, 3);
     gltf_add_camera(&d, &(gltf_camera){.fov_deg = 70,
                                        .near_distance = 0.1,
@@ -303,8 +318,9 @@ int gallery_near_write(FILE *file)
     return gltf_write(
         &d,
         &(gltf_scene_text){.comment = "A floor and a wall that pass the camera on their way to the back. No animation.",
-                           .settings = "\"max_distance\": 16, \"filter\": \"3x3\", \"atlas_size\": 256, \"cascades\": 2, "
-                                       "\"ambient\": [0.2, 0.22, 0.28], \"background\": [0.4, 0.58, 0.82]"},
+                           .settings =
+                               "\"max_distance\": 16, \"filter\": \"3x3\", \"atlas_size\": 256, \"cascades\": 2, "
+                               "\"ambient\": [0.2, 0.22, 0.28], \"background\": [0.4, 0.58, 0.82]"},
         file);
 }
 
@@ -314,7 +330,8 @@ static const mesh_point baked_lamp = {-0.7, 1.1, 0.35}, pillar_low = {-0.15, 0, 
 static bool reaches_lamp(mesh_point p)
 {
     const double from[3] = {p.x, p.y, p.z}, to[3] = {baked_lamp.x, baked_lamp.y, baked_lamp.z};
-    const double low[3] = {pillar_low.x, pillar_low.y, pillar_low.z}, high[3] = {pillar_high.x, pillar_high.y, pillar_high.z};
+    const double low[3] = {pillar_low.x, pillar_low.y, pillar_low.z},
+                 high[3] = {pillar_high.x, pillar_high.y, pillar_high.z};
     double first = 0, last = 1;
     for (int k = 0; k < 3; k++) {
         double step = to[k] - from[k];
@@ -343,8 +360,8 @@ static void bake_floor(mesh_builder *m)
     }
 }
 
-/* A floor of many small squares with a lamp baked into it, a pillar, and a dim sun that is not baked. The lamp is in the file as a
- * light of mode baked: it costs nothing at run time. */
+/* A floor of many small squares with a lamp baked into it, a pillar, and a dim sun that is not baked. The lamp is in
+ * the file as a light of mode baked: it costs nothing at run time. */
 int gallery_baked_write(FILE *file)
 {
     enum { N = 20 };
@@ -356,7 +373,8 @@ int gallery_baked_write(FILE *file)
     for (int i = 0; i < N * N; i++) {
         double x0 = half * (2.0 * (i % N) / N - 1), x1 = half * (2.0 * (i % N + 1) / N - 1);
         double z0 = half * (2.0 * (i / N) / N - 1), z1 = half * (2.0 * (i / N + 1) / N - 1);
-        mesh_quad(&floor, (mesh_point){x0, 0, z1}, (mesh_point){x1, 0, z1}, (mesh_point){x1, 0, z0}, (mesh_point){x0, 0, z0});
+        mesh_quad(&floor, (mesh_point){x0, 0, z1}, (mesh_point){x1, 0, z1}, (mesh_point){x1, 0, z0},
+                  (mesh_point){x0, 0, z0});
     }
     bake_floor(&floor);
     gltf_add_object(&d, "floor", &floor, gltf_add_material(&d, "floor", (double[]){0.6, 0.6, 0.6}, "\"casts\": 0"));
@@ -378,10 +396,10 @@ int gallery_baked_write(FILE *file)
                                        .pitch_deg = -35});
     return gltf_write(
         &d,
-        &(gltf_scene_text){.comment =
-                               "A lamp baked into the floor's vertices, with the pillar's shadow, beside a sun. No animation.",
-                           .settings = "\"max_distance\": 9, \"filter\": \"3x3\", \"atlas_size\": 128, \"other_atlas_size\": 128, "
-                                       "\"cascades\": 1, \"ambient\": 0.03, \"background\": [0.02, 0.02, 0.03]"},
+        &(gltf_scene_text){
+            .comment = "A lamp baked into the floor's vertices, with the pillar's shadow, beside a sun. No animation.",
+            .settings = "\"max_distance\": 9, \"filter\": \"3x3\", \"atlas_size\": 128, \"other_atlas_size\": 128, "
+                        "\"cascades\": 1, \"ambient\": 0.03, \"background\": [0.02, 0.02, 0.03]"},
         file);
 }
 
@@ -391,7 +409,8 @@ int gallery_suns_write(FILE *file)
     static gltf_document d;
     static mesh_builder post;
     static const char *const name[5] = {"east", "north", "west", "south", "fill"};
-    static const double rgb[5][3] = {{1, 0.12, 0.08}, {0.1, 0.8, 0.15}, {0.12, 0.2, 1}, {0.7, 0.55, 0.05}, {0.3, 0.3, 0.3}};
+    static const double rgb[5][3] = {
+        {1, 0.12, 0.08}, {0.1, 0.8, 0.15}, {0.12, 0.2, 1}, {0.7, 0.55, 0.05}, {0.3, 0.3, 0.3}};
     static const mesh_point to[5] = {
         {0.6, -0.75, -0.25}, {0.25, -0.75, 0.6}, {-0.6, -0.75, 0.25}, {-0.25, -0.75, -0.6}, {0, -1, 0}};
     gltf_begin(&d);
@@ -415,13 +434,15 @@ int gallery_suns_write(FILE *file)
                                        .pitch_deg = -40});
     return gltf_write(
         &d,
-        &(gltf_scene_text){.comment = "Four directional lights with shadows and one without. No animation.",
-                           .settings = "\"max_distance\": 9, \"filter\": \"3x3\", \"atlas_size\": 512, \"other_atlas_size\": 256, "
-                                       "\"cascades\": 1, \"ambient\": 0.03, \"background\": [0.4, 0.58, 0.82]"},
+        &(gltf_scene_text){
+            .comment = "Four directional lights with shadows and one without. No animation.",
+            .settings = "\"max_distance\": 9, \"filter\": \"3x3\", \"atlas_size\": 512, \"other_atlas_size\": 256, "
+                        "\"cascades\": 1, \"ambient\": 0.03, \"background\": [0.4, 0.58, 0.82]"},
         file);
 }
 
-/* Six sheets around a lamp: by turns the front side faces it or is turned away; the sixth is turned away and two-sided. */
+/* Six sheets around a lamp: by turns the front side faces it or is turned away; the sixth is turned away and two-sided.
+ */
 int gallery_sheets_write(FILE *file)
 {
     enum { N = 6 };
@@ -431,7 +452,8 @@ int gallery_sheets_write(FILE *file)
     add_floor(&d, 4, -4, 4, (double[]){0.6, 0.6, 0.6});
     size_t green = gltf_add_material(&d, "towards the lamp", (double[]){0.2, 0.5, 0.25}, NULL);
     size_t red = gltf_add_material(&d, "away from it", (double[]){0.6, 0.2, 0.15}, NULL);
-    size_t blue = gltf_add_material(&d, "away, casts with both sides", (double[]){0.2, 0.3, 0.6}, "\"casts_two_sided\": 1");
+    size_t blue =
+        gltf_add_material(&d, "away, casts with both sides", (double[]){0.2, 0.3, 0.6}, "\"casts_two_sided\": 1");
     for (int i = 0; i < N; i++) {
         double middle = 2 * MESH_PI * (i + 0.25) / N, half = 0.3;
         mesh_point a = {cos(middle - half), 0, sin(middle - half)}, b = {cos(middle + half), 0, sin(middle + half)};
@@ -441,13 +463,17 @@ int gallery_sheets_write(FILE *file)
         else mesh_quad(&sheet, p[0], p[1], p[2], p[3]);
         gltf_add_object(&d, "sheet", &sheet, i == N - 1 ? blue : i % 2 ? red : green);
     }
-    gltf_add_light_node(
-        &d, (mesh_point){0, 0.9, 0}, upright,
-        &(gltf_light_text){
-            .name = "lamp", .kind = GLTF_POINT, .rgb = {1, 0.95, 0.85}, .intensity = 5, .range = 5, .knobs = "\"near\": 0.05"});
+    gltf_add_light_node(&d, (mesh_point){0, 0.9, 0}, upright,
+                        &(gltf_light_text){.name = "lamp",
+                                           .kind = GLTF_POINT,
+                                           .rgb = {1, 0.95, 0.85},
+                                           .intensity = 5,
+                                           .range = 5,
+                                           .knobs = "\"near\": 0.05"});
     mesh_begin(&bulb, MESH_NORMALS);
     mesh_ball(&bulb, (mesh_point){0, 0.9, 0}, 0.06, 6, 10);
-    gltf_add_object(&d, "bulb", &bulb, gltf_add_material(&d, "bulb", (double[]){1, 0.9, 0.7}, "\"unlit\": 1, \"casts\": 0"));
+    gltf_add_object(&d, "bulb", &bulb,
+                    gltf_add_material(&d, "bulb", (double[]){1, 0.9, 0.7}, "\"unlit\": 1, \"casts\": 0"));
     gltf_add_camera(&d, &(gltf_camera){.fov_deg = 40,
                                        .near_distance = 1,
                                        .far_distance = 30,
@@ -455,9 +481,10 @@ int gallery_sheets_write(FILE *file)
                                        .distance = 5.2,
                                        .yaw_deg = 0,
                                        .pitch_deg = -52});
-    return gltf_write(&d,
-                      &(gltf_scene_text){.comment = "Single sheets around a lamp, their fronts towards it or away. No animation.",
-                                         .settings = "\"max_distance\": 12, \"filter\": \"3x3\", \"other_atlas_size\": 512, "
-                                                     "\"ambient\": 0.06, \"background\": [0.02, 0.02, 0.03]"},
-                      file);
+    return gltf_write(
+        &d,
+        &(gltf_scene_text){.comment = "Single sheets around a lamp, their fronts towards it or away. No animation.",
+                           .settings = "\"max_distance\": 12, \"filter\": \"3x3\", \"other_atlas_size\": 512, "
+                                       "\"ambient\": 0.06, \"background\": [0.02, 0.02, 0.03]"},
+        file);
 }

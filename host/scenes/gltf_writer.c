@@ -1,4 +1,5 @@
-/* Writes glTF 2.0 as one readable JSON file. Numbers in the text have six digits, so that the last bits of a sine do not show. */
+/* Writes glTF 2.0 as one readable JSON file. Numbers in the text have six digits, so that the last bits of a sine do
+ * not show. */
 #include "gltf_writer.h"
 
 #include <math.h>
@@ -67,8 +68,8 @@ size_t gltf_add_surface_material(gltf_document *d, const gltf_material_text *m)
     static const char *const mode[] = {[GLTF_MASK] = "MASK", [GLTF_BLEND] = "BLEND"};
     gltf_list *list = &d->materials;
     size_t idx = next_item(d, list);
-    add_text(d, list, "{\"name\": \"%s\", \"pbrMetallicRoughness\": {\"baseColorFactor\": [%g, %g, %g, %g], ", m->name, m->rgb[0],
-             m->rgb[1], m->rgb[2], m->alpha_mode == GLTF_BLEND ? m->alpha : 1);
+    add_text(d, list, "{\"name\": \"%s\", \"pbrMetallicRoughness\": {\"baseColorFactor\": [%g, %g, %g, %g], ", m->name,
+             m->rgb[0], m->rgb[1], m->rgb[2], m->alpha_mode == GLTF_BLEND ? m->alpha : 1);
     if (m->has_texture) add_text(d, list, "\"baseColorTexture\": {\"index\": %zu}, ", m->texture_idx);
     add_text(d, list, "\"metallicFactor\": 0}");
     if (m->alpha_mode != GLTF_OPAQUE) add_text(d, list, ", \"alphaMode\": \"%s\"", mode[m->alpha_mode]);
@@ -80,7 +81,8 @@ size_t gltf_add_surface_material(gltf_document *d, const gltf_material_text *m)
 
 size_t gltf_add_material(gltf_document *d, const char *name, const double *rgb, const char *knobs)
 {
-    return gltf_add_surface_material(d, &(gltf_material_text){.name = name, .rgb = {rgb[0], rgb[1], rgb[2]}, .knobs = knobs});
+    return gltf_add_surface_material(
+        d, &(gltf_material_text){.name = name, .rgb = {rgb[0], rgb[1], rgb[2]}, .knobs = knobs});
 }
 
 static void add_base64(gltf_document *d, gltf_list *list, const uint8_t *bytes, size_t n)
@@ -99,13 +101,16 @@ size_t gltf_add_texture(gltf_document *d, const gltf_image *image)
     size_t n_bytes = 0, image_idx = next_item(d, &d->images), sampler_idx = next_item(d, &d->samplers);
     uint8_t *png = png_pack_rgba8(image->side, image->side, image->rgba, &n_bytes);
     if (!png) d->overflow = true;
-    add_text(d, &d->images, "{\"name\": \"%s\", \"mimeType\": \"image/png\", \"uri\": \"data:image/png;base64,", image->name);
+    add_text(d, &d->images, "{\"name\": \"%s\", \"mimeType\": \"image/png\", \"uri\": \"data:image/png;base64,",
+             image->name);
     add_base64(d, &d->images, png, n_bytes);
     add_text(d, &d->images, "\"}");
     free(png);
-    add_text(d, &d->samplers, "{\"magFilter\": %d, \"minFilter\": %d, \"wrapS\": %d, \"wrapT\": %d}", filter, filter, wrap, wrap);
+    add_text(d, &d->samplers, "{\"magFilter\": %d, \"minFilter\": %d, \"wrapS\": %d, \"wrapT\": %d}", filter, filter,
+             wrap, wrap);
     size_t idx = next_item(d, &d->textures);
-    add_text(d, &d->textures, "{\"name\": \"%s\", \"sampler\": %zu, \"source\": %zu}", image->name, sampler_idx, image_idx);
+    add_text(d, &d->textures, "{\"name\": \"%s\", \"sampler\": %zu, \"source\": %zu}", image->name, sampler_idx,
+             image_idx);
     return idx;
 }
 
@@ -137,13 +142,13 @@ static size_t add_view(gltf_document *d, size_t start, int target)
 }
 
 /* low, high: n_components values each, or NULL. */
-static size_t add_accessor(gltf_document *d, size_t view, int component, size_t count, const char *type, const float *low,
-                           const float *high)
+static size_t add_accessor(gltf_document *d, size_t view, int component, size_t count, const char *type,
+                           const float *low, const float *high)
 {
     gltf_list *list = &d->accessors;
     size_t idx = next_item(d, list), n = type[0] == 'S' ? 1 : 3;
-    add_text(d, list, "{\"bufferView\": %zu, \"componentType\": %d, \"count\": %zu, \"type\": \"%s\"", view, component, count,
-             type);
+    add_text(d, list, "{\"bufferView\": %zu, \"componentType\": %d, \"count\": %zu, \"type\": \"%s\"", view, component,
+             count, type);
     if (component == UBYTE_COMPONENT) add_text(d, list, ", \"normalized\": true");
     for (int side = 0; low && side < 2; side++) {
         add_text(d, list, ", \"%s\": [", side ? "max" : "min");
@@ -169,7 +174,8 @@ static size_t add_attribute(gltf_document *d, const mesh_builder *m, size_t offs
         }
     }
     size_t view = add_view(d, start, ARRAY_BUFFER);
-    return add_accessor(d, view, FLOAT_COMPONENT, m->n_vertices, width == 2 ? "VEC2" : "VEC3", with_bounds ? low : NULL, high);
+    return add_accessor(d, view, FLOAT_COMPONENT, m->n_vertices, width == 2 ? "VEC2" : "VEC3", with_bounds ? low : NULL,
+                        high);
 }
 
 static size_t add_masks(gltf_document *d, const mesh_builder *m)
@@ -230,21 +236,25 @@ size_t gltf_add_mesh(gltf_document *d, const char *name, const gltf_surface *sur
 void gltf_add_camera(gltf_document *d, const gltf_camera *c)
 {
     static const mesh_point x_axis = {1, 0, 0}, y_axis = {0, 1, 0};
-    const double yaw = c->yaw_deg * MESH_PI / 180, pitch = c->pitch_deg * MESH_PI / 180, flat = c->distance * cos(pitch);
-    const mesh_point p = {c->target.x + flat * sin(yaw), c->target.y - c->distance * sin(pitch), c->target.z + flat * cos(yaw)};
+    const double yaw = c->yaw_deg * MESH_PI / 180, pitch = c->pitch_deg * MESH_PI / 180,
+                 flat = c->distance * cos(pitch);
+    const mesh_point p = {c->target.x + flat * sin(yaw), c->target.y - c->distance * sin(pitch),
+                          c->target.z + flat * cos(yaw)};
     gltf_rotation q = gltf_multiply(gltf_turn(y_axis, c->yaw_deg), gltf_turn(x_axis, c->pitch_deg));
     size_t idx = next_item(d, &d->cameras);
     add_text(d, &d->cameras,
              "{\"type\": \"perspective\", \"perspective\": {\"yfov\": %.6g, \"aspectRatio\": 1.33333, \"znear\": %g, "
              "\"zfar\": %g}}",
              c->fov_deg * MESH_PI / 180, c->near_distance, c->far_distance);
-    gltf_add_node(d, "camera", "\"camera\": %zu, \"translation\": [%.6g, %.6g, %.6g], \"rotation\": [%.6g, %.6g, %.6g, %.6g]", idx,
+    gltf_add_node(d, "camera",
+                  "\"camera\": %zu, \"translation\": [%.6g, %.6g, %.6g], \"rotation\": [%.6g, %.6g, %.6g, %.6g]", idx,
                   p.x, p.y, p.z, q.x, q.y, q.z, q.w);
 }
 
 size_t gltf_add_light(gltf_document *d, const gltf_light_text *light)
 {
-    static const char *const kind[] = {[GLTF_DIRECTIONAL] = "directional", [GLTF_SPOT] = "spot", [GLTF_POINT] = "point"};
+    static const char *const kind[] = {
+        [GLTF_DIRECTIONAL] = "directional", [GLTF_SPOT] = "spot", [GLTF_POINT] = "point"};
     const double degree = MESH_PI / 180;
     gltf_list *list = &d->lights;
     size_t idx = next_item(d, list);
@@ -294,8 +304,8 @@ void gltf_mark_child(gltf_document *d, size_t node_idx)
     if (node_idx < GLTF_MAX_NODES) d->is_root[node_idx] = false;
 }
 
-void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx, double seconds, const gltf_rotation *keys,
-                            size_t n)
+void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx, double seconds,
+                            const gltf_rotation *keys, size_t n)
 {
     size_t start = d->n_bytes;
     float first = 0, last = (float)((double)(n - 1) * seconds);
@@ -310,10 +320,11 @@ void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx,
     }
     size_t values = add_accessor(d, add_view(d, start, 0), FLOAT_COMPONENT, n, "VEC4", NULL, NULL);
     next_item(d, &d->animations);
-    add_text(d, &d->animations,
-             "{\"name\": \"%s\",\n      \"channels\": [{\"sampler\": 0, \"target\": {\"node\": %zu, \"path\": "
-             "\"rotation\"}}],\n      \"samplers\": [{\"input\": %zu, \"output\": %zu, \"interpolation\": \"LINEAR\"}]}",
-             name, node_idx, times, values);
+    add_text(
+        d, &d->animations,
+        "{\"name\": \"%s\",\n      \"channels\": [{\"sampler\": 0, \"target\": {\"node\": %zu, \"path\": "
+        "\"rotation\"}}],\n      \"samplers\": [{\"input\": %zu, \"output\": %zu, \"interpolation\": \"LINEAR\"}]}",
+        name, node_idx, times, values);
 }
 
 static void write_list(FILE *file, const char *key, const gltf_list *list)
@@ -346,7 +357,8 @@ int gltf_write(const gltf_document *d, const gltf_scene_text *scene, FILE *file)
 {
     if (d->overflow) return -1;
     fprintf(file,
-            "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"host/scenes/make_scenes.c\",\n    \"extras\": {\"comment\": "
+            "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"host/scenes/make_scenes.c\",\n    \"extras\": "
+            "{\"comment\": "
             "\"%s\"}},\n  \"extensionsUsed\": [\"KHR_lights_punctual\"],\n",
             scene->comment);
     write_scene(file, d, scene->settings);
@@ -383,5 +395,6 @@ gltf_rotation gltf_look(mesh_point direction)
 gltf_rotation gltf_multiply(gltf_rotation a, gltf_rotation b)
 {
     return (gltf_rotation){a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-                           a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+                           a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
+                           a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }

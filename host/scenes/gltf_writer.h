@@ -1,7 +1,8 @@
 /* Writes glTF 2.0 as one readable JSON file, the buffer inside as base64.
  *
- * A document is filled from the leaves up: materials, meshes, nodes, and last the scene. Everything that is added is turned into
- * text at once; indices are counted here. Nothing stays allocated. What does not fit sets `overflow`, and gltf_write refuses. */
+ * A document is filled from the leaves up: materials, meshes, nodes, and last the scene. Everything that is added is
+ * turned into text at once; indices are counted here. Nothing stays allocated. What does not fit sets `overflow`, and
+ * gltf_write refuses. */
 #ifndef GNOMON_HOST_GLTF_WRITER_H
 #define GNOMON_HOST_GLTF_WRITER_H
 
@@ -102,7 +103,8 @@ void gltf_add_camera(gltf_document *d, const gltf_camera *camera);
 
 size_t gltf_add_light(gltf_document *d, const gltf_light_text *light);
 
-/* The node's other members, as JSON. A node that is named in "children" of a later one must be given to gltf_mark_child too. */
+/* The node's other members, as JSON. A node that is named in "children" of a later one must be given to gltf_mark_child
+ * too. */
 size_t gltf_add_node(gltf_document *d, const char *name, const char *format, ...) GLTF_WRITER_PRINTF(3, 4);
 /* A mesh of one surface and a node that has it as it is. */
 size_t gltf_add_object(gltf_document *d, const char *name, const mesh_builder *m, size_t material_idx);
@@ -110,8 +112,8 @@ size_t gltf_add_light_node(gltf_document *d, mesh_point at, gltf_rotation rotati
 void gltf_mark_child(gltf_document *d, size_t node_idx);
 
 /* Rotates a node: a key every so many seconds from time 0, LINEAR. */
-void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx, double seconds, const gltf_rotation *keys,
-                            size_t n);
+void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx, double seconds,
+                            const gltf_rotation *keys, size_t n);
 
 /* 0, or -1: the document overflowed or the file could not be written. */
 int gltf_write(const gltf_document *d, const gltf_scene_text *scene, FILE *file);

@@ -1,5 +1,5 @@
-/* Shadow masks by casting rays. Nothing but sums, products, quotients and roots of coordinates on the mesh grid, so that every
- * machine writes the same bytes; the sample points are uneven, so that no ray runs along an edge. */
+/* Shadow masks by casting rays. Nothing but sums, products, quotients and roots of coordinates on the mesh grid, so
+ * that every machine writes the same bytes; the sample points are uneven, so that no ray runs along an edge. */
 #include "mask_bake.h"
 
 #include <math.h>
@@ -50,8 +50,8 @@ static bool is_lit(mesh_point p, const mask_light *light, mesh_builder *const *c
 }
 
 /* Adds the samples of the triangle that are nearest to its corner k. */
-static void sample_triangle(const mesh_builder *m, size_t first, size_t k, const mask_light *light, mesh_builder *const *casters,
-                            size_t n_casters, size_t *n_lit)
+static void sample_triangle(const mesh_builder *m, size_t first, size_t k, const mask_light *light,
+                            mesh_builder *const *casters, size_t n_casters, size_t *n_lit)
 {
     mesh_point a = corner(m, first + k), b = corner(m, first + (k + 1) % 3), c = corner(m, first + (k + 2) % 3);
     mesh_point ab = mesh_sub(b, a), ac = mesh_sub(c, a), off = mesh_scale(mesh_unit(mesh_cross(ab, ac)), lift);

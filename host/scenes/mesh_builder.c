@@ -195,7 +195,8 @@ void mesh_lathe(mesh_builder *m, const mesh_profile *profile, size_t n, size_t n
 void mesh_box(mesh_builder *m, mesh_point low, mesh_point high)
 {
     mesh_point p[8];
-    for (int i = 0; i < 8; i++) p[i] = (mesh_point){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+    for (int i = 0; i < 8; i++)
+        p[i] = (mesh_point){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
     mesh_quad(m, p[0], p[4], p[6], p[2]);
     mesh_quad(m, p[1], p[3], p[7], p[5]);
     mesh_quad(m, p[0], p[1], p[5], p[4]);

@@ -1,7 +1,8 @@
 /* Triangle meshes for the scene generator: right-handed, +Y up, counter-clockwise seen from outside.
  *
- * Every coordinate is rounded to MESH_GRID when it enters a mesh: a last bit that differs between compilers or C libraries does
- * not reach the file, and equal points become the same vertex, so that neighbouring faces meet without a crack. */
+ * Every coordinate is rounded to MESH_GRID when it enters a mesh: a last bit that differs between compilers or C
+ * libraries does not reach the file, and equal points become the same vertex, so that neighbouring faces meet without a
+ * crack. */
 #ifndef GNOMON_HOST_MESH_BUILDER_H
 #define GNOMON_HOST_MESH_BUILDER_H
 
@@ -78,7 +79,8 @@ mesh_frame mesh_frame_at(mesh_point origin, double yaw_deg, double tip_deg);
 /* +Y along a unit vector, the other axes anyhow. */
 mesh_frame mesh_frame_along(mesh_point origin, mesh_point unit_y);
 
-/* Convex, cut into a fan from its first point. Repeated points are left out. MESH_NORMALS: every corner has the face's normal. */
+/* Convex, cut into a fan from its first point. Repeated points are left out. MESH_NORMALS: every corner has the face's
+ * normal. */
 void mesh_polygon(mesh_builder *m, const mesh_point *p, size_t n);
 /* uv: of each point, for MESH_UVS. */
 void mesh_polygon_uv(mesh_builder *m, const mesh_point *p, const mesh_uv *uv, size_t n);
@@ -88,8 +90,8 @@ void mesh_quad(mesh_builder *m, mesh_point a, mesh_point b, mesh_point c, mesh_p
 /* Point k of a ring of n_segments about +Y; k may be n_segments, which is 0 again. */
 mesh_point mesh_ring_point(double r, double y, size_t k, size_t n_segments);
 
-/* Solid of revolution. The profile runs from the bottom outwards, up and inwards. With MESH_NORMALS each of its sections is smooth
- * around the axis, and the edges between sections are sharp. */
+/* Solid of revolution. The profile runs from the bottom outwards, up and inwards. With MESH_NORMALS each of its
+ * sections is smooth around the axis, and the edges between sections are sharp. */
 void mesh_lathe(mesh_builder *m, const mesh_profile *profile, size_t n, size_t n_segments);
 
 /* All six faces. */

@@ -1,6 +1,7 @@
-/* A mill at night, with every kind of light: the moon, a spot under the cottage's eaves, a lantern in the yard, and two small glows
- * without shadows. What stands still carries shadow masks, baked here, into which the shadows of the three mixed lights pass over
- * with the distance from the camera; the sails turn, and cast by the shadow map alone. All static meshes are in world coordinates. */
+/* A mill at night, with every kind of light: the moon, a spot under the cottage's eaves, a lantern in the yard, and two
+ * small glows without shadows. What stands still carries shadow masks, baked here, into which the shadows of the three
+ * mixed lights pass over with the distance from the camera; the sails turn, and cast by the shadow map alone. All
+ * static meshes are in world coordinates. */
 #include <math.h>
 
 #include "gltf_writer.h"
@@ -57,12 +58,14 @@ static void make_mill(mesh_builder *tower, mesh_builder *cap)
     mesh_rod(cap, (mesh_point){hub.x, hub.y, mill.z + 0.6}, (mesh_point){hub.x, hub.y, hub.z - 0.06}, 0.06, 6);
 }
 
-static const double cottage_x0 = 1.5, cottage_x1 = 3.9, cottage_z0 = -3.4, cottage_z1 = -1.5, eaves_y = 1.7, ridge_y = 2.7;
+static const double cottage_x0 = 1.5, cottage_x1 = 3.9, cottage_z0 = -3.4, cottage_z1 = -1.5, eaves_y = 1.7,
+                    ridge_y = 2.7;
 
 /* Walls with gables to both sides of X, and the roof as a slab over them. */
 static void make_cottage(mesh_builder *walls, mesh_builder *roof)
 {
-    const double x0 = cottage_x0, x1 = cottage_x1, z0 = cottage_z0, z1 = cottage_z1, y1 = eaves_y, middle = (z0 + z1) / 2;
+    const double x0 = cottage_x0, x1 = cottage_x1, z0 = cottage_z0, z1 = cottage_z1, y1 = eaves_y,
+                 middle = (z0 + z1) / 2;
     const double overhang = 0.22, thick = 0.1, slope = (ridge_y - eaves_y) / (z1 - middle);
     mesh_begin(walls, MESH_NORMALS);
     for (int side = 0; side < 2; side++) {
@@ -79,13 +82,15 @@ static void make_cottage(mesh_builder *walls, mesh_builder *roof)
     }
     /* The roof's section, clockwise seen from +X: the lower side lies a little inside the gables. */
     const double in = 0.02, a = x0 - overhang, b = x1 + overhang, reach = z1 - middle + overhang, drop = reach * slope;
-    const mesh_point section[6] = {{0, ridge_y - in - drop, middle + reach}, {0, ridge_y - in - drop + thick, middle + reach},
-                                   {0, ridge_y - in + thick, middle},        {0, ridge_y - in - drop + thick, middle - reach},
-                                   {0, ridge_y - in - drop, middle - reach}, {0, ridge_y - in, middle}};
+    const mesh_point section[6] = {
+        {0, ridge_y - in - drop, middle + reach}, {0, ridge_y - in - drop + thick, middle + reach},
+        {0, ridge_y - in + thick, middle},        {0, ridge_y - in - drop + thick, middle - reach},
+        {0, ridge_y - in - drop, middle - reach}, {0, ridge_y - in, middle}};
     mesh_begin(roof, MESH_NORMALS);
     for (int i = 0; i < 6; i++) {
         mesh_point p = section[i], q = section[(i + 1) % 6];
-        mesh_quad(roof, (mesh_point){a, p.y, p.z}, (mesh_point){b, p.y, p.z}, (mesh_point){b, q.y, q.z}, (mesh_point){a, q.y, q.z});
+        mesh_quad(roof, (mesh_point){a, p.y, p.z}, (mesh_point){b, p.y, p.z}, (mesh_point){b, q.y, q.z},
+                  (mesh_point){a, q.y, q.z});
     }
     for (int side = 0; side < 2; side++) {
         for (int half = 0; half < 2; half++) { /* the section is not convex: two halves at the ridge */
@@ -136,7 +141,8 @@ static void make_post(mesh_builder *m)
     mesh_rod(m, (mesh_point){foot.x, 1.26, foot.z}, (mesh_point){lantern_at.x, 1.26, lantern_at.z}, 0.025, 5);
     for (size_t i = 0; i < sizeof stump / sizeof *stump; i++) {
         double angle = stump[i].angle_deg * MESH_PI / 180, r = stump[i].radius, h = stump[i].height;
-        mesh_point at = {lantern_at.x + stump[i].distance * cos(angle), 0, lantern_at.z + stump[i].distance * sin(angle)};
+        mesh_point at = {lantern_at.x + stump[i].distance * cos(angle), 0,
+                         lantern_at.z + stump[i].distance * sin(angle)};
         mesh_place(m, mesh_frame_at(at, stump[i].angle_deg, 0));
         mesh_lathe(m, (mesh_profile[]){{0, 0}, {r, 0}, {r * 0.9, h}, {0, h}}, 4, 7);
     }
@@ -201,9 +207,9 @@ static void add_sails(gltf_document *d)
                                    gltf_turn(z_axis, start_deg + 90)};
     size_t canvas = gltf_add_material(d, "sails", (double[]){0.62, 0.56, 0.46}, "\"moving\": 1");
     make_sails(&sails);
-    size_t node =
-        gltf_add_node(d, "sails", "\"mesh\": %zu, \"translation\": [%g, %g, %g], \"rotation\": [0, 0, %.6g, %.6g]",
-                      gltf_add_mesh(d, "sails", &(gltf_surface){&sails, canvas}, 1), hub.x, hub.y, hub.z, keys[0].z, keys[0].w);
+    size_t node = gltf_add_node(
+        d, "sails", "\"mesh\": %zu, \"translation\": [%g, %g, %g], \"rotation\": [0, 0, %.6g, %.6g]",
+        gltf_add_mesh(d, "sails", &(gltf_surface){&sails, canvas}, 1), hub.x, hub.y, hub.z, keys[0].z, keys[0].w);
     gltf_add_rotation_keys(d, "turn", node, 1, keys, 3);
 }
 
@@ -288,8 +294,9 @@ int mixed_write(FILE *file)
     static gltf_document d;
     static yard y;
     static const gltf_scene_text text = {
-        .comment = "A mill at night: a directional light, a spot and a point light with baked masks, two small point lights "
-                   "without shadows. The sails make a quarter turn over 48 frames.",
+        .comment =
+            "A mill at night: a directional light, a spot and a point light with baked masks, two small point lights "
+            "without shadows. The sails make a quarter turn over 48 frames.",
         .settings = "\"max_distance\": 10.5, \"distance_fade\": 0.3, \"filter\": \"3x3\", \"atlas_size\": 512, "
                     "\"other_atlas_size\": 512, \"cascades\": 2, \"cascade_ratios\": [0.6], \"mixing\": \"distance\", "
                     "\"ambient\": [0.035, 0.045, 0.075], \"background\": [0.012, 0.02, 0.05]",

@@ -1,6 +1,6 @@
-/* A room from inside, lit by a hanging lamp alone: a point light whose six cube faces all meet something that is seen. Shadows cross
- * their seams: the coat stand's in the corner, the beams' and the lamp's own hood's on the ceiling, the chairs' from floor to wall.
- * Walls, floor and ceiling receive and do not cast: nothing is behind them. */
+/* A room from inside, lit by a hanging lamp alone: a point light whose six cube faces all meet something that is seen.
+ * Shadows cross their seams: the coat stand's in the corner, the beams' and the lamp's own hood's on the ceiling, the
+ * chairs' from floor to wall. Walls, floor and ceiling receive and do not cast: nothing is behind them. */
 #include <math.h>
 
 #include "gltf_writer.h"
@@ -24,7 +24,8 @@ static void make_floor(mesh_builder *m)
         double x0 = left + (right - left) * i / N_BOARDS, x1 = left + (right - left) * (i + 1) / N_BOARDS;
         double shade = 0.8 + 0.04 * (i * 7 % 5);
         mesh_paint(m, shade, shade * 0.98, shade * 0.96);
-        mesh_quad(m, (mesh_point){x0, 0, front}, (mesh_point){x1, 0, front}, (mesh_point){x1, 0, back}, (mesh_point){x0, 0, back});
+        mesh_quad(m, (mesh_point){x0, 0, front}, (mesh_point){x1, 0, front}, (mesh_point){x1, 0, back},
+                  (mesh_point){x0, 0, back});
     }
 }
 
@@ -98,8 +99,8 @@ static void make_chair(mesh_builder *m)
 static void add_chair(gltf_document *d, size_t mesh, mesh_point at, double yaw_deg)
 {
     gltf_rotation q = gltf_turn((mesh_point){0, 1, 0}, yaw_deg);
-    gltf_add_node(d, "chair", "\"mesh\": %zu, \"translation\": [%g, 0, %g], \"rotation\": [0, %.6g, 0, %.6g]", mesh, at.x, at.z,
-                  q.y, q.w);
+    gltf_add_node(d, "chair", "\"mesh\": %zu, \"translation\": [%g, 0, %g], \"rotation\": [0, %.6g, 0, %.6g]", mesh,
+                  at.x, at.z, q.y, q.w);
 }
 
 static void add_seats(gltf_document *d)
@@ -144,7 +145,8 @@ static void make_books(mesh_builder *m)
     for (size_t i = 0; i < sizeof block / sizeof *block; i++) {
         double y = 0.06 + (top - 0.06 - board) * block[i].level / 4 + board;
         mesh_paint(m, block[i].rgb[0], block[i].rgb[1], block[i].rgb[2]);
-        mesh_box(m, (mesh_point){block[i].x, y, z0}, (mesh_point){block[i].x + block[i].width, y + block[i].height, z1});
+        mesh_box(m, (mesh_point){block[i].x, y, z0},
+                 (mesh_point){block[i].x + block[i].width, y + block[i].height, z1});
     }
 }
 
@@ -191,7 +193,8 @@ static void add_furniture(gltf_document *d)
     make_hat(&hat);
     gltf_add_node(d, "coat stand", "\"mesh\": %zu, \"translation\": [-1.33, 0, -1.83]",
                   gltf_add_mesh(d, "coat stand", &(gltf_surface){&stand, iron}, 1));
-    gltf_add_node(d, "hat", "\"mesh\": %zu, \"translation\": [-1.33, 1.7, -1.83], \"rotation\": [0.08, 0, 0.05, 0.995540]",
+    gltf_add_node(d, "hat",
+                  "\"mesh\": %zu, \"translation\": [-1.33, 1.7, -1.83], \"rotation\": [0.08, 0, 0.05, 0.995540]",
                   gltf_add_mesh(d, "hat", &(gltf_surface){&hat, felt}, 1));
     make_vase(&vase);
     gltf_add_node(d, "vase", "\"mesh\": %zu, \"translation\": [0.42, 0.735, -0.5]",
@@ -202,8 +205,8 @@ static void add_furniture(gltf_document *d)
 static void add_window(gltf_document *d)
 {
     static mesh_builder frame, pane;
-    const double x0 = -0.75, x1 = 0.45, y0 = 1.05, y1 = 2.0, bar = 0.06, z = back, z1 = back + 0.05, middle = (x0 + x1) / 2,
-                 step = 0.004;
+    const double x0 = -0.75, x1 = 0.45, y0 = 1.05, y1 = 2.0, bar = 0.06, z = back, z1 = back + 0.05,
+                 middle = (x0 + x1) / 2, step = 0.004;
     size_t white = gltf_add_material(d, "window", (double[]){0.7, 0.68, 0.62}, NULL);
     size_t night = gltf_add_material(d, "night", (double[]){0.02, 0.03, 0.08}, "\"unlit\": 1, \"casts\": 0");
     mesh_begin(&frame, MESH_FACE_NORMALS);
@@ -256,8 +259,8 @@ static void add_lamp(gltf_document *d)
                                                           .range = 8,
                                                           .knobs = "\"near\": 0.05, \"bias_normal\": 0.4"});
     gltf_add_node(d, "hanging lamp", "\"mesh\": %zu, \"translation\": [%g, %g, %g], \"children\": [%zu]",
-                  gltf_add_mesh(d, "hanging lamp", (gltf_surface[]){{&hood, tin}, {&bulb, glow}}, 2), bulb_at.x, bulb_at.y,
-                  bulb_at.z, light);
+                  gltf_add_mesh(d, "hanging lamp", (gltf_surface[]){{&hood, tin}, {&bulb, glow}}, 2), bulb_at.x,
+                  bulb_at.y, bulb_at.z, light);
     gltf_mark_child(d, light);
 }
 
@@ -265,7 +268,8 @@ int room_write(FILE *file)
 {
     static gltf_document d;
     static const gltf_scene_text text = {
-        .comment = "A room with a hanging lamp: a point light, whose six cube faces are all in the picture. No animation.",
+        .comment =
+            "A room with a hanging lamp: a point light, whose six cube faces are all in the picture. No animation.",
         .settings = "\"max_distance\": 12, \"filter\": \"3x3\", \"other_atlas_size\": 512, "
                     "\"ambient\": [0.05, 0.05, 0.055], \"background\": [0, 0, 0]",
     };

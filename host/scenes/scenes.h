@@ -4,9 +4,10 @@
 
 #include <stdio.h>
 
-/* A horizontal sundial over a summer's day. The hour line of h hours after noon leaves (east, north) = (+-SUNDIAL_STYLE_HALF_WIDTH,
- * SUNDIAL_STYLE_FOOT_NORTH) of the dial plate's top, at the height SUNDIAL_PLATE_TOP, under the angle atan(sin(latitude) tan(15 deg h))
- * from north: the morning's lines from the style's west edge, the afternoon's from its east edge. World: east +X, up +Y, north -Z. */
+/* A horizontal sundial over a summer's day. The hour line of h hours after noon leaves (east, north) =
+ * (+-SUNDIAL_STYLE_HALF_WIDTH, SUNDIAL_STYLE_FOOT_NORTH) of the dial plate's top, at the height SUNDIAL_PLATE_TOP,
+ * under the angle atan(sin(latitude) tan(15 deg h)) from north: the morning's lines from the style's west edge, the
+ * afternoon's from its east edge. World: east +X, up +Y, north -Z. */
 #define SUNDIAL_LATITUDE_DEG     48.0
 #define SUNDIAL_DECLINATION_DEG  23.44
 #define SUNDIAL_PLATE_TOP        0.36

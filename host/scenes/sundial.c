@@ -1,5 +1,5 @@
-/* A horizontal sundial. Its dial lies flat in the plate: hour lines, plate and outer band are cut out of one plane, so that nothing
- * lies on anything. Plans of the plate are drawn in (east, north) about its centre. */
+/* A horizontal sundial. Its dial lies flat in the plate: hour lines, plate and outer band are cut out of one plane, so
+ * that nothing lies on anything. Plans of the plate are drawn in (east, north) about its centre. */
 #include <math.h>
 
 #include "gltf_writer.h"
@@ -7,7 +7,14 @@
 
 #define RAD (MESH_PI / 180)
 
-enum { N_SEGMENTS = 32, N_SLABS = 24, N_LINES = 6, N_SOUTH = 9, N_EAST = 1 + 3 * N_LINES, N_CIRCLE = 2 * N_EAST + N_SOUTH };
+enum {
+    N_SEGMENTS = 32,
+    N_SLABS = 24,
+    N_LINES = 6,
+    N_SOUTH = 9,
+    N_EAST = 1 + 3 * N_LINES,
+    N_CIRCLE = 2 * N_EAST + N_SOUTH
+};
 
 static const double plate_bottom = 0.341, drum_top = 0.345, plate_radius = 1.045, band_outer = 0.965, band_inner = 0.83;
 static const double line_width = 0.03, style_length = 1.0;
@@ -26,7 +33,8 @@ static plan mirrored(plan p)
     return (plan){-p.e, p.n};
 }
 
-/* The east half of the hour fan. Line h = 0 is the noon bar, as wide as the style, of which this is the half; it has no left edge. */
+/* The east half of the hour fan. Line h = 0 is the noon bar, as wide as the style, of which this is the half; it has no
+ * left edge. */
 typedef struct {
     plan corner;            /* where the lines meet: the foot of the style's edge */
     plan left[N_LINES + 1]; /* ends of the line's edges on the band's inner circle, seen looking outwards */
@@ -77,7 +85,8 @@ static hour_fan make_fan(void)
         if (h < N_LINES) f.fork[h] = meet_edges(right, line_edge(h + 1, -line_width / 2));
     }
     for (int h = 0; h < N_LINES; h++) {
-        double e = f.right[h].e + f.left[h + 1].e, n = f.right[h].n + f.left[h + 1].n, stretch = band_inner / sqrt(e * e + n * n);
+        double e = f.right[h].e + f.left[h + 1].e, n = f.right[h].n + f.left[h + 1].n,
+               stretch = band_inner / sqrt(e * e + n * n);
         f.middle[h] = (plan){e * stretch, n * stretch};
     }
     f.foot = (plan){f.corner.e, f.corner.n - line_width / 2};
@@ -104,7 +113,8 @@ static void add_noon_bar(mesh_builder *m, const hour_fan *f)
 {
     const plan east[4] = {f->foot, f->corner, f->fork[0], f->right[0]};
     for (int i = 0; i < 3; i++) {
-        mesh_quad(m, on_plate(mirrored(east[i])), on_plate(east[i]), on_plate(east[i + 1]), on_plate(mirrored(east[i + 1])));
+        mesh_quad(m, on_plate(mirrored(east[i])), on_plate(east[i]), on_plate(east[i + 1]),
+                  on_plate(mirrored(east[i + 1])));
     }
 }
 
@@ -119,7 +129,8 @@ static void make_circle(const hour_fan *f, plan *out)
         if (h < N_LINES) east[n++] = f->middle[h];
     }
     for (size_t i = 0; i < n; i++) *out++ = mirrored(east[i]);
-    double first = atan2(east[n - 1].n, -east[n - 1].e) + 2 * MESH_PI, last = atan2(east[n - 1].n, east[n - 1].e) + 2 * MESH_PI;
+    double first = atan2(east[n - 1].n, -east[n - 1].e) + 2 * MESH_PI,
+           last = atan2(east[n - 1].n, east[n - 1].e) + 2 * MESH_PI;
     for (int i = 1; i <= N_SOUTH; i++) {
         double angle = first + (last - first) * i / (N_SOUTH + 1);
         *out++ = (plan){band_inner * cos(angle), band_inner * sin(angle)};
@@ -138,7 +149,8 @@ static void add_fields(mesh_builder *m, const hour_fan *f, const plan *circle)
     const plan *south = circle + N_EAST - 1; /* N_SOUTH + 2 points */
     enum { MIDDLE = (N_SOUTH + 1) / 2 };
     mesh_point west = on_plate(mirrored(f->foot)), east = on_plate(f->foot);
-    for (int i = 0; i <= N_SOUTH; i++) mesh_triangle(m, i < MIDDLE ? west : east, on_plate(south[i]), on_plate(south[i + 1]));
+    for (int i = 0; i <= N_SOUTH; i++)
+        mesh_triangle(m, i < MIDDLE ? west : east, on_plate(south[i]), on_plate(south[i + 1]));
     mesh_triangle(m, west, on_plate(south[MIDDLE]), east);
 }
 
@@ -156,14 +168,16 @@ static void add_band(mesh_builder *m, const plan *circle)
         mesh_point b = mesh_ring_point(band_outer, SUNDIAL_PLATE_TOP, 3 * N_SEGMENTS / 4 + N_SEGMENTS - j, N_SEGMENTS);
         if (inner) mesh_triangle(m, a, b, on_plate(circle[++i % N_CIRCLE]));
         else
-            mesh_triangle(m, a, b,
-                          mesh_ring_point(band_outer, SUNDIAL_PLATE_TOP, 3 * N_SEGMENTS / 4 + N_SEGMENTS - ++j, N_SEGMENTS));
+            mesh_triangle(
+                m, a, b,
+                mesh_ring_point(band_outer, SUNDIAL_PLATE_TOP, 3 * N_SEGMENTS / 4 + N_SEGMENTS - ++j, N_SEGMENTS));
     }
 }
 
 static void make_plate(mesh_builder *rim, mesh_builder *band, mesh_builder *fields, mesh_builder *lines)
 {
-    static const mesh_profile profile[] = {{0, plate_bottom}, {plate_radius, plate_bottom}, {band_outer, SUNDIAL_PLATE_TOP}};
+    static const mesh_profile profile[] = {
+        {0, plate_bottom}, {plate_radius, plate_bottom}, {band_outer, SUNDIAL_PLATE_TOP}};
     hour_fan fan = make_fan();
     plan circle[N_CIRCLE];
     make_circle(&fan, circle);
@@ -192,8 +206,8 @@ static plan on_curve(plan a, plan b, plan c, double t)
     return (plan){wa * a.e + wb * b.e + wc * c.e, wa * a.n + wb * b.n + wc * c.n};
 }
 
-/* Its upper edge, the style, passes through the fan's corners on the plate and points to the celestial pole; the foot is sunk into
- * the plate along the style. The back is hollow, so that the faces are fans about the foot. */
+/* Its upper edge, the style, passes through the fan's corners on the plate and points to the celestial pole; the foot
+ * is sunk into the plate along the style. The back is hollow, so that the faces are fans about the foot. */
 static void make_gnomon(mesh_builder *m)
 {
     enum { N_CURVE = 6, N_OUTLINE = N_CURVE + 2 };
@@ -217,7 +231,8 @@ static void make_gnomon(mesh_builder *m)
 static void add_stud(mesh_builder *m, mesh_point at, plan along, double half_length, double half_width, double height)
 {
     const double sunk = 0.01;
-    const double le = along.e * half_length, ln = along.n * half_length, we = -along.n * half_width, wn = along.e * half_width;
+    const double le = along.e * half_length, ln = along.n * half_length, we = -along.n * half_width,
+                 wn = along.e * half_width;
     const mesh_point apex = {at.x, at.y + height, at.z};
     const mesh_point base[4] = {{at.x + le, at.y - sunk, at.z - ln},
                                 {at.x + we, at.y - sunk, at.z - wn},
@@ -290,7 +305,8 @@ static void add_plate(gltf_document *d, size_t brass)
     size_t bronze = gltf_add_material(d, "band", (double[]){0.42, 0.37, 0.28}, NULL);
     size_t inlay = gltf_add_material(d, "inlay", (double[]){0.1, 0.09, 0.09}, NULL);
     make_plate(&rim, &band, &fields, &lines);
-    add_node_with_mesh(d, "plate", (gltf_surface[]){{&rim, bronze}, {&band, bronze}, {&fields, plate}, {&lines, inlay}}, 4);
+    add_node_with_mesh(d, "plate", (gltf_surface[]){{&rim, bronze}, {&band, bronze}, {&fields, plate}, {&lines, inlay}},
+                       4);
     make_gnomon(&gnomon);
     add_one(d, "gnomon", &gnomon, brass);
     make_studs(&studs);
@@ -311,25 +327,28 @@ static void add_base(gltf_document *d)
     add_one(d, "drum", &drum, stone);
 }
 
-/* A mount that points to the celestial pole, a clockwork that turns about it, and on that the sun at its declination: so the light
- * moves at an even rate between keys, however few. Frame 0 is 06:00 solar time; an hour is a second of the animation. */
+/* A mount that points to the celestial pole, a clockwork that turns about it, and on that the sun at its declination:
+ * so the light moves at an even rate between keys, however few. Frame 0 is 06:00 solar time; an hour is a second of the
+ * animation. */
 static void add_sun(gltf_document *d)
 {
     static const mesh_point x_axis = {1, 0, 0}, y_axis = {0, 1, 0};
     enum { N_KEYS = SUNDIAL_LAST_HOUR - SUNDIAL_FIRST_HOUR + 1 };
     gltf_rotation keys[N_KEYS];
     for (int i = 0; i < N_KEYS; i++) keys[i] = gltf_turn(y_axis, 15.0 * (12 - SUNDIAL_FIRST_HOUR - i));
-    size_t light =
-        gltf_add_light(d, &(gltf_light_text){.name = "sun",
-                                             .rgb = {1, 0.95, 0.86},
-                                             .intensity = 2.9,
-                                             .knobs = "\"bias_normal\": 0.3, \"bias_slope\": 1, \"bias_constant\": 0.5"});
-    gltf_rotation tilt = gltf_turn(x_axis, -SUNDIAL_DECLINATION_DEG), mount = gltf_turn(x_axis, SUNDIAL_LATITUDE_DEG - 90);
-    size_t sun =
-        gltf_add_node(d, "sun", "\"rotation\": [%.6g, 0, 0, %.6g], \"extensions\": {\"KHR_lights_punctual\": {\"light\": %zu}}",
-                      tilt.x, tilt.w, light);
+    size_t light = gltf_add_light(
+        d, &(gltf_light_text){.name = "sun",
+                              .rgb = {1, 0.95, 0.86},
+                              .intensity = 2.9,
+                              .knobs = "\"bias_normal\": 0.3, \"bias_slope\": 1, \"bias_constant\": 0.5"});
+    gltf_rotation tilt = gltf_turn(x_axis, -SUNDIAL_DECLINATION_DEG),
+                  mount = gltf_turn(x_axis, SUNDIAL_LATITUDE_DEG - 90);
+    size_t sun = gltf_add_node(
+        d, "sun", "\"rotation\": [%.6g, 0, 0, %.6g], \"extensions\": {\"KHR_lights_punctual\": {\"light\": %zu}}",
+        tilt.x, tilt.w, light);
     size_t clock = gltf_add_node(d, "hour angle", "\"rotation\": [0, 0, 0, 1], \"children\": [%zu]", sun);
-    gltf_add_node(d, "celestial pole", "\"rotation\": [%.6g, 0, 0, %.6g], \"children\": [%zu]", mount.x, mount.w, clock);
+    gltf_add_node(d, "celestial pole", "\"rotation\": [%.6g, 0, 0, %.6g], \"children\": [%zu]", mount.x, mount.w,
+                  clock);
     gltf_mark_child(d, sun);
     gltf_mark_child(d, clock);
     gltf_add_rotation_keys(d, "day", clock, 1, keys, N_KEYS);
@@ -339,7 +358,8 @@ int sundial_write(FILE *file)
 {
     static gltf_document d;
     static const gltf_scene_text text = {
-        .comment = "A sundial at 48 degrees north on the day of the summer solstice. Frame N is 06:00 + 5 N minutes, solar time: "
+        .comment = "A sundial at 48 degrees north on the day of the summer solstice. Frame N is 06:00 + 5 N minutes, "
+                   "solar time: "
                    "frame 0 06:00, 72 noon, 144 18:00.",
         .settings = "\"fps\": 12, \"max_distance\": 5.8, \"distance_fade\": 0.1, \"filter\": \"3x3\", \"cascades\": 1, "
                     "\"ambient\": [0.2, 0.21, 0.25], \"background\": [0.35, 0.5, 0.75]",

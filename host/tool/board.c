@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum { TEXT_BYTES = 16384 };
-enum { OWN_FLASH_BYTES = 3000 }; /* start, console, the app play, libgcc */
+enum { OWN_FLASH_BYTES = 3000 };         /* start, console, the app play, libgcc */
 enum { RISCV_OS = 121, RISCV_O2 = 191 }; /* per cent of a Cortex-M4 with -Os */
 
 /* The file's text with a terminating zero; NULL: it does not open. */
@@ -104,8 +104,8 @@ int board_read(board *out, const char *name, char *error, size_t error_bytes)
     }
     bool ok = script && out->ram > 0 && out->flash > 0 && out->stack >= 0;
     if (!script)
-        snprintf(error, error_bytes, "--board %s: there is no %s/link.ld; --ram and --flash say the same of any board", name,
-                 folder);
+        snprintf(error, error_bytes, "--board %s: there is no %s/link.ld; --ram and --flash say the same of any board",
+                 name, folder);
     else if (!ok) snprintf(error, error_bytes, "--board %s: the memory in %s/link.ld is not understood", name, folder);
     free(script);
     free(settings_text);

@@ -6,11 +6,11 @@
 
 typedef struct {
     char name[64];
-    long ram, flash; /* bytes */
-    long stack;      /* of ram */
+    long ram, flash;         /* bytes */
+    long stack;              /* of ram */
     long own_ram, own_flash; /* that the board and its app take beside the renderer and the library; flash: about */
     bool fast_in_ram, hot_in_ram; /* fast buffers, hot code: in ram */
-    int code_percent; /* of the library with -Os, as the board is built */
+    int code_percent;             /* of the library with -Os, as the board is built */
     flash_core core;
     bool riscv;
     bool short_enums; /* as Arm's compilers have them */

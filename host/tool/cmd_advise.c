@@ -64,8 +64,9 @@ static size_t smallest(const sweep *w, const budget *b, bool ram)
     return best;
 }
 
-/* ---- The search -------------------------------------------------------------------------------------------------------------
- * It knows no budget: that only chooses among the rows. So a larger budget never gets a worse answer. */
+/* ---- The search
+ * ------------------------------------------------------------------------------------------------------------- It
+ * knows no budget: that only chooses among the rows. So a larger budget never gets a worse answer. */
 
 /* What an explored row covers: rows that are better by less than that. Halved as long as rows may be added. */
 static const double coarsest = 0.64, finest = 0.002, ram_share = 2, db_share = 4;
@@ -77,8 +78,8 @@ typedef struct {
 
 static bool covers(const sweep_row *a, const sweep_row *b, const grain *g)
 {
-    return (double)a->ram_bytes <= (double)b->ram_bytes * (1 + ram_share * g->tolerance) && a->db >= b->db - db_share * g->tolerance &&
-           (g->any_cost || a->cost <= b->cost * (1 + g->tolerance));
+    return (double)a->ram_bytes <= (double)b->ram_bytes * (1 + ram_share * g->tolerance) &&
+           a->db >= b->db - db_share * g->tolerance && (g->any_cost || a->cost <= b->cost * (1 + g->tolerance));
 }
 
 static bool is_open(const sweep *w, const sweep_row *r, const grain *g)
@@ -88,7 +89,8 @@ static bool is_open(const sweep *w, const sweep_row *r, const grain *g)
     for (size_t i = 0; i < w->n_rows; i++) {
         const sweep_row *other = &w->rows[i];
         if (other->is_explored && covers(other, r, g)) return false;
-        if (g->any_cost && covers(other, r, &exact) && (other->db > r->db || other->ram_bytes < r->ram_bytes)) return false;
+        if (g->any_cost && covers(other, r, &exact) && (other->db > r->db || other->ram_bytes < r->ram_bytes))
+            return false;
     }
     return true;
 }
@@ -132,13 +134,14 @@ static int explore_least(sweep *w)
 static int explore(sweep *w, size_t rows_max)
 {
     w->is_open = true;
-    int failed = explore_least(w) || explore_all(w, true, rows_max - rows_max / 3) < 0 || explore_all(w, false, rows_max) < 0;
+    int failed =
+        explore_least(w) || explore_all(w, true, rows_max - rows_max / 3) < 0 || explore_all(w, false, rows_max) < 0;
     w->is_open = false;
     sweep_show_progress(w);
     return failed ? -1 : 0;
 }
 
-/* ---- On a target: what is counted, and for the rest the model in proportion ------------------------------------------------ */
+/* ---- On a target: what is counted, and for the rest the model in proportion -------------------------------------- */
 
 static void count(sweep *w, size_t row)
 {
@@ -147,7 +150,8 @@ static void count(sweep *w, size_t row)
     sweep_target_scale(w);
 }
 
-/* What a budget of instructions is held against before anything is near it: the best and the cheapest of what fits into the RAM. */
+/* What a budget of instructions is held against before anything is near it: the best and the cheapest of what fits into
+ * the RAM. */
 static void count_ends(sweep *w, const budget *b)
 {
     budget of_ram = *b;
@@ -178,7 +182,7 @@ static int search(sweep *w, const budget *b, bool quick)
     return 0;
 }
 
-/* ---- Arguments -------------------------------------------------------------------------------------------------------------- */
+/* ---- Arguments --------------------------------------------------------------------------------------------------- */
 
 static void make_arguments(const sweep *w, const sweep_row *r, char *out, size_t bytes)
 {
@@ -194,7 +198,7 @@ static void make_arguments(const sweep *w, const sweep_row *r, char *out, size_t
     if (!n) snprintf(out, bytes, "no --set");
 }
 
-/* ---- Results ---------------------------------------------------------------------------------------------------------------- */
+/* ---- Results ----------------------------------------------------------------------------------------------------- */
 
 static void print_text(const sweep *w, const sweep_row *r)
 {
@@ -203,20 +207,23 @@ static void print_text(const sweep *w, const sweep_row *r)
     make_arguments(w, r, arguments, sizeof arguments);
     printf("%s\n", arguments);
     printf("  RAM                      %8ld bytes\n", r->ram_bytes);
-    printf("  instructions             %8.1f per pixel (model), every shadow tile drawn; %.1f in %s\n", r->instructions, r->played.instructions,
-           w->moves ? "later frames" : "a later frame, which keeps them");
+    printf("  instructions             %8.1f per pixel (model), every shadow tile drawn; %.1f in %s\n", r->instructions,
+           r->played.instructions, w->moves ? "later frames" : "a later frame, which keeps them");
     if (r->is_counted)
-        printf("  on %-22s %7.1f per pixel, every shadow tile drawn; %.1f in %s\n", o->target, r->target, r->target_later,
-               w->moves ? "later frames" : "a later frame");
+        printf("  on %-22s %7.1f per pixel, every shadow tile drawn; %.1f in %s\n", o->target, r->target,
+               r->target_later, w->moves ? "later frames" : "a later frame");
     if (w->moves)
-        printf("  over frames %d to %-9d %7.2f dB against exact shadows, %.2f dB the worst; %.1f instructions per pixel at most\n", o->frame + 1,
-               o->frame + SWEEP_PLAYED, r->played.truth.mean_db, r->played.truth.worst_db, r->played.most);
-    printf("  against exact shadows    %8.2f dB, attenuation RMS %.4f, shadow mismatch %.3f %%%s\n", r->truth.psnr_db, r->truth.atten_rms,
-           100 * r->truth.shadow_mismatch, w->moves ? ", in the first frame" : "");
-    printf("  against the same in double %6.2f dB, %.3f %% identical%s\n", r->reference.psnr_db, 100 * r->reference.identical,
-           w->moves ? ", in the first frame" : "");
+        printf("  over frames %d to %-9d %7.2f dB against exact shadows, %.2f dB the worst; %.1f instructions per "
+               "pixel at most\n",
+               o->frame + 1, o->frame + SWEEP_PLAYED, r->played.truth.mean_db, r->played.truth.worst_db,
+               r->played.most);
+    printf("  against exact shadows    %8.2f dB, attenuation RMS %.4f, shadow mismatch %.3f %%%s\n", r->truth.psnr_db,
+           r->truth.atten_rms, 100 * r->truth.shadow_mismatch, w->moves ? ", in the first frame" : "");
+    printf("  against the same in double %6.2f dB, %.3f %% identical%s\n", r->reference.psnr_db,
+           100 * r->reference.identical, w->moves ? ", in the first frame" : "");
     printf("  the best of %zu configurations, at %dx%d\n", w->n_rows, o->width, o->height);
-    if (w->n_uncounted) printf("  %zu could not be counted on %s, the first: %s\n", w->n_uncounted, o->target, w->uncounted);
+    if (w->n_uncounted)
+        printf("  %zu could not be counted on %s, the first: %s\n", w->n_uncounted, o->target, w->uncounted);
 }
 
 static void print_json(const sweep *w, const sweep_row *r)
@@ -226,7 +233,8 @@ static void print_json(const sweep *w, const sweep_row *r)
     make_arguments(w, r, arguments, sizeof arguments);
     printf("{\"scene\": ");
     tool_json_string(o->scene_path);
-    printf(", \"width\": %d, \"height\": %d, \"ram_budget\": %d, \"instructions_budget\": ", o->width, o->height, o->ram);
+    printf(", \"width\": %d, \"height\": %d, \"ram_budget\": %d, \"instructions_budget\": ", o->width, o->height,
+           o->ram);
     if (o->instructions_per_pixel) printf("%d", o->instructions_per_pixel);
     else printf("null");
     printf(", \"tried\": %zu, \"arguments\": ", w->n_rows);
@@ -242,8 +250,8 @@ static void describe(const sweep *w, size_t row, char *out, size_t bytes)
     char arguments[NEED_BYTES - 128];
     const sweep_row *r = &w->rows[row];
     make_arguments(w, r, arguments, sizeof arguments);
-    snprintf(out, bytes, "%ld bytes and %.1f instructions per pixel%s%s by %s", r->ram_bytes, r->cost, w->counts ? " on " : "",
-             w->counts ? w->options->target : "", arguments);
+    snprintf(out, bytes, "%ld bytes and %.1f instructions per pixel%s%s by %s", r->ram_bytes, r->cost,
+             w->counts ? " on " : "", w->counts ? w->options->target : "", arguments);
 }
 
 /* What would do: each budget's least where the other is kept, or where both are missed, what comes nearest. */
@@ -256,14 +264,17 @@ static int refuse(sweep *w, const budget *b)
         count(w, smallest(w, b, false));
     }
     size_t ram = smallest(w, b, true), cost = smallest(w, b, false);
-    if (o->instructions_per_pixel) snprintf(limit, sizeof limit, " and %d instructions per pixel", o->instructions_per_pixel);
-    snprintf(message, sizeof message, "no configuration fits into %d bytes%s at %dx%d", o->ram, limit, o->width, o->height);
+    if (o->instructions_per_pixel)
+        snprintf(limit, sizeof limit, " and %d instructions per pixel", o->instructions_per_pixel);
+    snprintf(message, sizeof message, "no configuration fits into %d bytes%s at %dx%d", o->ram, limit, o->width,
+             o->height);
     const struct {
         size_t row;
         const char *what;
-    } needs[] = {{ram, o->instructions_per_pixel ? "the least RAM found within the instructions" : "the least RAM found"},
-                 {cost, "the fewest instructions found within the RAM"},
-                 {ram == SIZE_MAX && cost == SIZE_MAX ? least_load(w, b) : SIZE_MAX, "the nearest"}};
+    } needs[] = {
+        {ram, o->instructions_per_pixel ? "the least RAM found within the instructions" : "the least RAM found"},
+        {cost, "the fewest instructions found within the RAM"},
+        {ram == SIZE_MAX && cost == SIZE_MAX ? least_load(w, b) : SIZE_MAX, "the nearest"}};
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++) {
         size_t used = strlen(message);
         if (needs[i].row == SIZE_MAX) continue;
@@ -272,7 +283,8 @@ static int refuse(sweep *w, const budget *b)
     }
     size_t used = strlen(message);
     if (w->n_uncounted)
-        snprintf(message + used, sizeof message - used, "; %zu could not be counted on %s, the first: %s", w->n_uncounted, o->target, w->uncounted);
+        snprintf(message + used, sizeof message - used, "; %zu could not be counted on %s, the first: %s",
+                 w->n_uncounted, o->target, w->uncounted);
     return tool_fail(o->scene_path, message);
 }
 
@@ -282,7 +294,8 @@ static int begin_target(sweep *w)
     const tool_options *o = w->options;
     if (sweep_target_begin(w)) return -1;
     if (!o->target || w->counts || !o->instructions_per_pixel) return 0;
-    tool_error("--instructions-per-pixel %d is of %s: without --target it is of the model", o->instructions_per_pixel, o->target);
+    tool_error("--instructions-per-pixel %d is of %s: without --target it is of the model", o->instructions_per_pixel,
+               o->target);
     return -1;
 }
 

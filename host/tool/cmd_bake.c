@@ -1,4 +1,5 @@
-/* gnomon bake: shadow masks by the ray tracer, what they cost at run time, and how true they are beside the shadow maps. */
+/* gnomon bake: shadow masks by the ray tracer, what they cost at run time, and how true they are beside the shadow
+ * maps. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,7 +53,8 @@ static size_t list_settings(const scene *s, const tool_options *o, scene_write_s
 {
     size_t n = 0;
     for (size_t i = 0; i < s->n_settings; i++)
-        if (!settings_of_scene(s->settings[i].key)) out[n++] = (scene_write_setting){s->settings[i].key, s->settings[i].value};
+        if (!settings_of_scene(s->settings[i].key))
+            out[n++] = (scene_write_setting){s->settings[i].key, s->settings[i].value};
     for (int i = 0; i < o->n_sets; i++) {
         const char *equals = strchr(o->sets[i], '=');
         snprintf(text[i], sizeof text[i], "%.*s", (int)(equals - o->sets[i]), o->sets[i]);
@@ -180,7 +182,10 @@ static int read_back(job *j, char *error, size_t bytes)
     settings set;
     o.scene_path = j->o->out_path;
     o.frame = 0;
-    return tool_load_with(&o, NULL, 0, &j->baked, &set, error, bytes) || draw(&j->after, &j->baked, &set, &o, error, bytes) ? -1 : 0;
+    return tool_load_with(&o, NULL, 0, &j->baked, &set, error, bytes) ||
+                   draw(&j->after, &j->baked, &set, &o, error, bytes)
+               ? -1
+               : 0;
 }
 
 static int bake_and_compare(job *j, int texels, char *error, size_t bytes)
@@ -202,7 +207,8 @@ static bool is_as_true(const job *j)
     return j->after.m.psnr_db >= j->before.m.psnr_db && j->after.m.atten_rms <= j->before.m.atten_rms;
 }
 
-/* What is not as true as the shadow maps, more texels no longer make truer: it is wrong elsewhere, as in lights baked into the vertices. */
+/* What is not as true as the shadow maps, more texels no longer make truer: it is wrong elsewhere, as in lights baked
+ * into the vertices. */
 static bool is_no_truer(const job *j, const metrics *smaller)
 {
     const metrics *now = &j->after.m, *maps = &j->before.m;
@@ -210,7 +216,8 @@ static bool is_no_truer(const job *j, const metrics *smaller)
     return colours || (now->atten_rms > maps->atten_rms && now->atten_rms > 0.95 * smaller->atten_rms);
 }
 
-/* The least of some sizes that is as true as the shadow maps; if none is, the one beyond which nothing is gained, else the last. */
+/* The least of some sizes that is as true as the shadow maps; if none is, the one beyond which nothing is gained, else
+ * the last. */
 static int bake_as_true(job *j, char *error, size_t bytes)
 {
     static const int sides[] = {256, 512, 1024};
@@ -233,23 +240,26 @@ static void name_lights(const job *j)
 {
     for (size_t l = 0; l < j->baked.n_lights; l++) {
         const scene_light *light = &j->baked.lights[l];
-        if (j->result.fate[l] == BAKE_MASKED) printf("  light %zu '%s': channel %d\n", l, light->name, light->mask_channel);
+        if (j->result.fate[l] == BAKE_MASKED)
+            printf("  light %zu '%s': channel %d\n", l, light->name, light->mask_channel);
         if (j->result.fate[l] == BAKE_WHOLE)
-            printf("  light %zu '%s': baked whole, into the vertices: its range meets those of lights in all %d channels\n", l,
-                   light->name, (int)BAKE_CHANNELS);
+            printf("  light %zu '%s': baked whole, into the vertices: its range meets those of lights in all %d "
+                   "channels\n",
+                   l, light->name, (int)BAKE_CHANNELS);
     }
 }
 
 static void print_row(const char *name, const drawn *d)
 {
-    printf("  %-12s %9.2f %10.6f %9.4f %% %10ld %10.1f %12llu\n", name, d->m.psnr_db, d->m.atten_rms, 100 * d->m.shadow_mismatch,
-           d->ram_bytes, d->instructions, d->tile_texels);
+    printf("  %-12s %9.2f %10.6f %9.4f %% %10ld %10.1f %12llu\n", name, d->m.psnr_db, d->m.atten_rms,
+           100 * d->m.shadow_mismatch, d->ram_bytes, d->instructions, d->tile_texels);
 }
 
 static void print_text(const job *j)
 {
     const bake_result *r = &j->result;
-    printf("%s: %zu objects with masks in %d of %d channels, ", j->o->out_path, r->n_objects, r->n_channels, (int)BAKE_CHANNELS);
+    printf("%s: %zu objects with masks in %d of %d channels, ", j->o->out_path, r->n_objects, r->n_channels,
+           (int)BAKE_CHANNELS);
     if (j->texels)
         printf("%dx%d texels, %zu charts, %.3g texels per unit, %zu vertices instead of %zu\n", j->texels, j->texels,
                r->n_charts, r->density, r->n_vertices, r->n_vertices_before);
@@ -257,9 +267,12 @@ static void print_text(const job *j)
     printf("  flash: %zu bytes of masks%s\n", r->mask_bytes, j->texels ? " and their coordinates" : "");
     name_lights(j);
     if (r->n_moving)
-        printf("  %zu moving object%s no mask%s\n", r->n_moving, r->n_moving == 1 ? " has" : "s have", r->n_moving == 1 ? "" : "s");
-    if (r->casters_kept) printf("  something moves and receives: what stands still goes on casting (--still: nothing moves)\n");
-    printf("  against exact shadows, %dx%d\n                   PSNR   atten RMS    mismatch        RAM   instr/px shadow texels\n",
+        printf("  %zu moving object%s no mask%s\n", r->n_moving, r->n_moving == 1 ? " has" : "s have",
+               r->n_moving == 1 ? "" : "s");
+    if (r->casters_kept)
+        printf("  something moves and receives: what stands still goes on casting (--still: nothing moves)\n");
+    printf("  against exact shadows, %dx%d\n                   PSNR   atten RMS    mismatch        RAM   instr/px "
+           "shadow texels\n",
            j->o->width, j->o->height);
     print_row("shadow maps", &j->before);
     print_row("masks", &j->after);
@@ -286,9 +299,10 @@ static void print_json(const job *j)
     tool_json_string(j->o->scene_path);
     printf(", \"width\": %d, \"height\": %d, \"texels\": %d, \"channels\": %d, \"objects\": %zu, \"moving\": %zu, "
            "\"casters_kept\": %s",
-           j->o->width, j->o->height, j->texels, r->n_channels, r->n_objects, r->n_moving, r->casters_kept ? "true" : "false");
-    printf(", \"charts\": %zu, \"mask_bytes\": %zu, \"vertices\": %zu, \"vertices_before\": %zu, \"lights\": [", r->n_charts,
-           r->mask_bytes, r->n_vertices, r->n_vertices_before);
+           j->o->width, j->o->height, j->texels, r->n_channels, r->n_objects, r->n_moving,
+           r->casters_kept ? "true" : "false");
+    printf(", \"charts\": %zu, \"mask_bytes\": %zu, \"vertices\": %zu, \"vertices_before\": %zu, \"lights\": [",
+           r->n_charts, r->mask_bytes, r->n_vertices, r->n_vertices_before);
     for (size_t l = 0; l < j->baked.n_lights; l++) {
         printf("%s{\"name\": ", l ? ", " : "");
         tool_json_string(j->baked.lights[l].name);
@@ -306,7 +320,8 @@ static const char *what_to_do(const job *j)
     size_t n_whole = 0;
     for (size_t l = 0; l < j->baked.n_lights; l++) n_whole += j->result.fate[l] == BAKE_WHOLE;
     if (!j->texels_do_not_help) return "more --texels, or shadow maps";
-    return n_whole ? "more texels do not help, as lights are baked whole, into the vertices: fewer lights that overlap, or shadow maps"
+    return n_whole ? "more texels do not help, as lights are baked whole, into the vertices: fewer lights that "
+                     "overlap, or shadow maps"
                    : "more texels do not help: shadow maps";
 }
 
@@ -314,13 +329,16 @@ static void warn(const job *j)
 {
     const metrics *before = &j->before.m, *after = &j->after.m;
     if (j->was_animated)
-        tool_error("%s: the animation, of objects, lights and camera, is not kept: all is as at frame %d", j->o->out_path, j->o->frame);
+        tool_error("%s: the animation, of objects, lights and camera, is not kept: all is as at frame %d",
+                   j->o->out_path, j->o->frame);
     if (!is_as_true(j))
-        tool_error("%s: the masks are farther from exact shadows than the shadow maps, PSNR %.2f dB after %.2f, RMS error of the shadow %.3f after %.3f: "
+        tool_error("%s: the masks are farther from exact shadows than the shadow maps, PSNR %.2f dB after %.2f, RMS "
+                   "error of the shadow %.3f after %.3f: "
                    "%s",
                    j->o->out_path, after->psnr_db, before->psnr_db, after->atten_rms, before->atten_rms, what_to_do(j));
     else if (after->shadow_mismatch > before->shadow_mismatch)
-        tool_error("%s: edges of shadows are softer than with shadow maps, by more than 1/16 at %.1f %% of points after %.1f %%, but less wrong on the average: "
+        tool_error("%s: edges of shadows are softer than with shadow maps, by more than 1/16 at %.1f %% of points "
+                   "after %.1f %%, but less wrong on the average: "
                    "more --texels make them sharper",
                    j->o->out_path, 100 * after->shadow_mismatch, 100 * before->shadow_mismatch);
 }
@@ -333,7 +351,8 @@ int tool_bake(const tool_options *o)
     j->o = o;
     int status = look(j, error, sizeof error);
     if (!status) {
-        const int failed = o->texels == TOOL_TEXELS_AUTO ? bake_as_true(j, error, sizeof error) : bake_and_compare(j, o->texels, error, sizeof error);
+        const int failed = o->texels == TOOL_TEXELS_AUTO ? bake_as_true(j, error, sizeof error)
+                                                         : bake_and_compare(j, o->texels, error, sizeof error);
         if (failed) status = tool_fail(j->about, error);
     }
     if (!status) {

@@ -67,10 +67,11 @@ static void print_details(const metrics *m)
 {
     printf(", \"lights\": [");
     for (size_t l = 0; l < m->n_lights; l++)
-        printf("%s{\"atten_rms\": %.9g, \"atten_max\": %.9g, \"shadow_mismatch\": %.9g, \"pixels\": %ld}", l ? ", " : "",
-               m->light[l].atten_rms, m->light[l].atten_max, m->light[l].shadow_mismatch, m->light[l].pixels);
-    printf("], \"differing_pixels\": {\"coverage\": %ld, \"shadow\": %ld, \"light\": %ld, \"rounding\": %ld}", m->by_coverage,
-           m->by_shadow, m->by_light, m->by_rounding);
+        printf("%s{\"atten_rms\": %.9g, \"atten_max\": %.9g, \"shadow_mismatch\": %.9g, \"pixels\": %ld}",
+               l ? ", " : "", m->light[l].atten_rms, m->light[l].atten_max, m->light[l].shadow_mismatch,
+               m->light[l].pixels);
+    printf("], \"differing_pixels\": {\"coverage\": %ld, \"shadow\": %ld, \"light\": %ld, \"rounding\": %ld}",
+           m->by_coverage, m->by_shadow, m->by_light, m->by_rounding);
     printf(", \"worst_pixel\": {\"x\": %d, \"y\": %d, \"cause\": \"%s\"}", m->worst_x, m->worst_y, m->worst_cause);
 }
 
@@ -101,12 +102,13 @@ static void print_metrics(const metrics *m)
     printf("  within one step       %8.4f %%\n", 100 * m->within1);
     if (isinf(m->psnr_db)) printf("  PSNR (8-bit)               inf\n");
     else printf("  PSNR (8-bit)          %8.2f dB\n", m->psnr_db);
-    printf("  largest error         %8d levels of 255, at (%d, %d): %s\n", m->max_error, m->worst_x, m->worst_y, m->worst_cause);
+    printf("  largest error         %8d levels of 255, at (%d, %d): %s\n", m->max_error, m->worst_x, m->worst_y,
+           m->worst_cause);
     printf("  attenuation RMS, max  %8.6f, %.4f\n", m->atten_rms, m->atten_max);
     printf("  shadow mismatch       %8.4f %%   (attenuation off by more than 1/16)\n", 100 * m->shadow_mismatch);
     printf("  coverage mismatch     %8.4f %%   (another triangle is visible)\n", 100 * m->coverage_mismatch);
-    printf("  differing pixels      %ld coverage, %ld shadow, %ld light, %ld rounding\n", m->by_coverage, m->by_shadow, m->by_light,
-           m->by_rounding);
+    printf("  differing pixels      %ld coverage, %ld shadow, %ld light, %ld rounding\n", m->by_coverage, m->by_shadow,
+           m->by_light, m->by_rounding);
 }
 
 static void print_text(const tool_options *o, const comparison *c)
@@ -140,7 +142,8 @@ static bool draw_engines(sheets *p, const tool_options *o, const comparison *c, 
         s->rgb8 = view_draw(&c->picture[i], (view_kind)o->view, o->light, &s->width, &s->height, error, bytes);
         if (!s->rgb8) return false;
         if (s->width == first->width && s->height == first->height) continue;
-        snprintf(error, bytes, "the views differ in size: %dx%d and %dx%d", first->width, first->height, s->width, s->height);
+        snprintf(error, bytes, "the views differ in size: %dx%d and %dx%d", first->width, first->height, s->width,
+                 s->height);
         return false;
     }
     return true;
@@ -150,7 +153,8 @@ static bool draw_errors(sheets *p, const comparison *c)
 {
     for (int i = 0; i < c->n_pairs; i++) {
         const sheet *a = &p->engine[pairs[i].judged], *b = &p->engine[pairs[i].against];
-        p->error[i] = (sheet){.width = a->width, .height = a->height, .rgb8 = view_error(a->rgb8, b->rgb8, a->width, a->height)};
+        p->error[i] =
+            (sheet){.width = a->width, .height = a->height, .rgb8 = view_error(a->rgb8, b->rgb8, a->width, a->height)};
         if (!p->error[i].rgb8) return false;
     }
     return true;
@@ -171,7 +175,8 @@ static bool draw_beside(sheets *p, const comparison *c)
     sheet row[2];
     for (int i = 0; i < 2; i++) row[i].rgb8 = view_beside(all + 3 * i, 3, w, h, &row[i].width, &row[i].height);
     const uint8_t *const rows[2] = {row[0].rgb8, row[1].rgb8};
-    if (rows[0] && rows[1]) p->beside.rgb8 = view_beside(rows, 2, row[0].width, row[0].height, &p->beside.width, &p->beside.height);
+    if (rows[0] && rows[1])
+        p->beside.rgb8 = view_beside(rows, 2, row[0].width, row[0].height, &p->beside.width, &p->beside.height);
     free(row[0].rgb8);
     free(row[1].rgb8);
     return p->beside.rgb8 != NULL;
@@ -199,7 +204,8 @@ static int write_all(const sheets *p, const tool_options *o, const comparison *c
         if (write_png(o->out_path, name, &p->engine[i], error, bytes)) return -1;
     }
     for (int i = 0; i < c->n_pairs; i++)
-        if (write_png(o->out_path, is_with_truth(o) ? pairs[i].error : "error.png", &p->error[i], error, bytes)) return -1;
+        if (write_png(o->out_path, is_with_truth(o) ? pairs[i].error : "error.png", &p->error[i], error, bytes))
+            return -1;
     return write_png(o->out_path, "beside.png", &p->beside, error, bytes);
 }
 
@@ -217,7 +223,8 @@ static int write_pictures(const tool_options *o, const comparison *c, char *erro
 /* ---- the command ---- */
 
 /* Engines that were not reached stay empty. */
-static int draw_all(comparison *c, const tool_options *o, const scene *s, const settings *set, char *error, size_t bytes)
+static int draw_all(comparison *c, const tool_options *o, const scene *s, const settings *set, char *error,
+                    size_t bytes)
 {
     const int w = o->width, h = o->height;
     if (engine_fixed(&c->picture[FIXED], s, set, w, h, ENGINE_ALL, error, bytes)) return -1;
@@ -243,7 +250,8 @@ static int compare(comparison *c, const tool_options *o)
     if (failed) return tool_fail(o->scene_path, error);
     settings_fit(&set, &c->picture[FIXED].demand);
     c->ram_bytes = settings_ram(&set).total;
-    for (int i = 0; i < c->n_pairs; i++) metrics_compute(&c->m[i], &c->picture[pairs[i].judged], &c->picture[pairs[i].against]);
+    for (int i = 0; i < c->n_pairs; i++)
+        metrics_compute(&c->m[i], &c->picture[pairs[i].judged], &c->picture[pairs[i].against]);
     if (o->out_path && write_pictures(o, c, error, sizeof error)) return tool_fail(o->out_path, error);
     return TOOL_OK;
 }

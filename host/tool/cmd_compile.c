@@ -13,8 +13,10 @@ typedef struct {
     void (*write)(FILE *, const compiled *);
 } output_file;
 
-static const output_file outputs[] = {
-    {"scene.c", compile_write_scene}, {"scene.h", compile_write_header}, {"gn_scene_config.h", compile_write_config}, {"scene.d", compile_write_rule}};
+static const output_file outputs[] = {{"scene.c", compile_write_scene},
+                                      {"scene.h", compile_write_header},
+                                      {"gn_scene_config.h", compile_write_config},
+                                      {"scene.d", compile_write_rule}};
 enum { N_OUTPUTS = sizeof outputs / sizeof *outputs, PATH_BYTES = 4096 };
 
 static int path_of(const compiled *c, const output_file *out, const char *suffix, char path[PATH_BYTES])
@@ -64,7 +66,8 @@ static int write_all(const compiled *c, char *error, size_t bytes)
 /* Where the scene must fit; without a board, in --ram and --flash. 1: somewhere; 0: nowhere. */
 int compile_read_board(const tool_options *o, board *out, char *error, size_t bytes)
 {
-    *out = (board){.name = "", .ram = 1L << 30, .flash = 1L << 30, .stack = 1536, .core = FLASH_CORTEX_M0, .short_enums = true};
+    *out = (board){
+        .name = "", .ram = 1L << 30, .flash = 1L << 30, .stack = 1536, .core = FLASH_CORTEX_M0, .short_enums = true};
     if (o->board && board_read(out, o->board, error, bytes)) return -1;
     if (o->optimise) board_set_optimisation(out, o->optimise);
     if (o->ram) out->ram = o->ram;
@@ -88,8 +91,10 @@ static void say_if_close(const compiled *c, const board *b)
 {
     const compile_memory m = compile_measure(c, b);
     if (!compile_is_close(&m, b)) return;
-    fprintf(stderr, "gnomon: about %ld bytes of the %ld of flash or of the %ld of RAM on %s: code is estimated to %d per cent, and may not fit\n", compile_rom_bytes(&m), b->flash,
-            b->ram, b->name, COMPILE_CODE_TOLERANCE);
+    fprintf(stderr,
+            "gnomon: about %ld bytes of the %ld of flash or of the %ld of RAM on %s: code is estimated to %d per cent, "
+            "and may not fit\n",
+            compile_rom_bytes(&m), b->flash, b->ram, b->name, COMPILE_CODE_TOLERANCE);
 }
 
 static void print_summary(const compiled *c, const board *b)
@@ -102,8 +107,9 @@ static void print_summary(const compiled *c, const board *b)
     }
     printf("{\"out\": ");
     tool_json_string(c->options->out_path);
-    printf(", \"frames\": %d, \"renderer_bytes\": %ld, \"state_bytes\": %ld, \"data_bytes\": %ld, \"code_bytes\": %ld}\n",
-           c->n_frames, m.renderer, m.state, m.data, m.code);
+    printf(
+        ", \"frames\": %d, \"renderer_bytes\": %ld, \"state_bytes\": %ld, \"data_bytes\": %ld, \"code_bytes\": %ld}\n",
+        c->n_frames, m.renderer, m.state, m.data, m.code);
 }
 
 int compile_all(compiled *c, const tool_options *o, char *error, size_t bytes)
@@ -121,7 +127,9 @@ int compile_all(compiled *c, const tool_options *o, char *error, size_t bytes)
 static void say_if_beyond(const compiled *c)
 {
     const double last = c->scene.fps > 0 ? ceil(c->scene.duration * c->scene.fps - 1e-6) : 0;
-    if (c->options->last_frame > last) tool_error("--frames %d-%d: the animation ends with frame %.0f", c->options->frame, c->options->last_frame, last);
+    if (c->options->last_frame > last)
+        tool_error("--frames %d-%d: the animation ends with frame %.0f", c->options->frame, c->options->last_frame,
+                   last);
 }
 
 int tool_compile(const tool_options *o)

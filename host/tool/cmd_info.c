@@ -76,7 +76,7 @@ static void preset_ram(const settings *set, const settings_demand *demand, const
     }
 }
 
-/* ---- JSON --------------------------------------------------------------------------------------------------------------- */
+/* ---- JSON -------------------------------------------------------------------------------------------------------- */
 
 static void json_lights(const report *r)
 {
@@ -85,16 +85,17 @@ static void json_lights(const report *r)
         const scene_light *l = &r->scene->lights[i];
         printf("%s{\"name\": ", i ? ", " : "");
         tool_json_string(l->name);
-        printf(", \"kind\": \"%s\", \"mode\": \"%s\", \"shadow\": \"%s\", \"tiles\": %d, \"tile_texels\": %d}", kind_names[l->kind],
-               mode_names[l->mode], shadow_names[r->picture->shadow_state[i]], r->picture->n_tiles[i], r->picture->atlas_texels[i]);
+        printf(", \"kind\": \"%s\", \"mode\": \"%s\", \"shadow\": \"%s\", \"tiles\": %d, \"tile_texels\": %d}",
+               kind_names[l->kind], mode_names[l->mode], shadow_names[r->picture->shadow_state[i]],
+               r->picture->n_tiles[i], r->picture->atlas_texels[i]);
     }
     printf("]");
 }
 
 static void json_needs(const counts *c)
 {
-    printf(", \"features\": {\"vertex_normals\": %d, \"vertex_colours\": %d, \"two_sided\": %d, \"unlit\": %d}", c->smooth,
-           c->coloured, c->two_sided > 0, c->unlit > 0);
+    printf(", \"features\": {\"vertex_normals\": %d, \"vertex_colours\": %d, \"two_sided\": %d, \"unlit\": %d}",
+           c->smooth, c->coloured, c->two_sided > 0, c->unlit > 0);
     printf(", \"needs\": {");
     for (int i = 0; i < c->n_needs; i++) printf("\"%s\": %d, ", c->needs[i].knob, c->needs[i].value);
     printf("\"vertex_normals\": %d, \"vertex_colours\": %d}", c->smooth, c->coloured);
@@ -105,10 +106,10 @@ static void json_objects(const counts *c)
     printf(", \"textured_objects\": %zu, \"masked_objects\": %zu, \"baked_objects\": %zu, \"hidden_objects\": %zu, "
            "\"moving_objects\": %zu",
            c->textured, c->masked, c->baked, c->hidden, c->moving);
-    printf(
-        ", \"alpha\": {\"clip\": %zu, \"dither\": %zu}, \"casters\": {\"on\": %zu, \"clip\": %zu, \"dither\": %zu, \"off\": %zu}",
-        c->visible[SCENE_ALPHA_CLIP], c->visible[SCENE_ALPHA_DITHER], c->casters[SCENE_CASTER_ON], c->casters[SCENE_CASTER_CLIP],
-        c->casters[SCENE_CASTER_DITHER], c->casters[SCENE_CASTER_OFF]);
+    printf(", \"alpha\": {\"clip\": %zu, \"dither\": %zu}, \"casters\": {\"on\": %zu, \"clip\": %zu, \"dither\": %zu, "
+           "\"off\": %zu}",
+           c->visible[SCENE_ALPHA_CLIP], c->visible[SCENE_ALPHA_DITHER], c->casters[SCENE_CASTER_ON],
+           c->casters[SCENE_CASTER_CLIP], c->casters[SCENE_CASTER_DITHER], c->casters[SCENE_CASTER_OFF]);
 }
 
 static void print_json(const report *r)
@@ -118,9 +119,11 @@ static void print_json(const report *r)
     const settings_demand *demand = &r->picture->demand;
     printf("{\"scene\": ");
     tool_json_string(r->options->scene_path);
-    printf(", \"objects\": %zu, \"meshes\": %zu, \"triangles\": %zu, \"vertices\": %zu, \"lights\": %zu, \"shadow_lights\": %zu, "
+    printf(", \"objects\": %zu, \"meshes\": %zu, \"triangles\": %zu, \"vertices\": %zu, \"lights\": %zu, "
+           "\"shadow_lights\": %zu, "
            "\"textures\": %zu",
-           s->n_objects, s->n_meshes, r->counts.triangles, r->counts.vertices, s->n_lights, r->counts.shadow_lights, s->n_textures);
+           s->n_objects, s->n_meshes, r->counts.triangles, r->counts.vertices, s->n_lights, r->counts.shadow_lights,
+           s->n_textures);
     json_lights(r);
     json_objects(&r->counts);
     json_needs(&r->counts);
@@ -131,7 +134,8 @@ static void print_json(const report *r)
            demand->shadow_tiles, demand->other_tiles, demand->surface_lights, stats->n_lights_without_room,
            stats->n_lights_left_out, stats->n_reach_clamped, stats->n_casters_culled);
     printf(", \"ram_bytes\": {");
-    for (int i = 0; i < SETTINGS_PRESETS; i++) printf("%s\"%s\": %ld", i ? ", " : "", settings_preset_name[i], r->ram[i].total);
+    for (int i = 0; i < SETTINGS_PRESETS; i++)
+        printf("%s\"%s\": %ld", i ? ", " : "", settings_preset_name[i], r->ram[i].total);
     printf("}");
     info_memory_json(&r->memory);
     printf(", \"notes\": [");
@@ -142,7 +146,7 @@ static void print_json(const report *r)
     printf("]}\n");
 }
 
-/* ---- Text --------------------------------------------------------------------------------------------------------------- */
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
 
 static void text_light(const report *r, size_t i)
 {
@@ -150,7 +154,8 @@ static void text_light(const report *r, size_t i)
     int n = r->picture->n_tiles[i], t = r->picture->atlas_texels[i];
     printf("    %zu '%s': %s, ", i, l->name, kind_names[l->kind]);
     if (l->mode != SCENE_REALTIME) printf("%s, ", mode_names[l->mode]);
-    if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME) printf("%d shadow tile%s of %dx%d\n", n, n == 1 ? "" : "s", t, t);
+    if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME)
+        printf("%d shadow tile%s of %dx%d\n", n, n == 1 ? "" : "s", t, t);
     else if (r->picture->shadow_state[i] == GN_SHADOW_NO_ROOM) printf("no room for its shadow\n");
     else printf("no shadow\n");
 }
@@ -169,15 +174,17 @@ static void text_counts(const char *what, const char *const *names, const size_t
 
 static void text_objects(const counts *c)
 {
-    static const char *const special[] = {"textured", "with a shadow mask", "with baked light", "hidden", "moving", "two-sided",
-                                          "unlit"};
+    static const char *const special[] = {
+        "textured", "with a shadow mask", "with baked light", "hidden", "moving", "two-sided", "unlit"};
     static const char *const cut[] = {"clip", "dither"};
     static const char *const casting[] = {"clip", "dither", "off"};
     text_counts("  objects: ", special,
                 (const size_t[]){c->textured, c->masked, c->baked, c->hidden, c->moving, c->two_sided, c->unlit}, 7);
     text_counts("  objects cut by alpha: ", cut, &c->visible[SCENE_ALPHA_CLIP], 2);
-    text_counts("  casters: ", casting,
-                (const size_t[]){c->casters[SCENE_CASTER_CLIP], c->casters[SCENE_CASTER_DITHER], c->casters[SCENE_CASTER_OFF]}, 3);
+    text_counts(
+        "  casters: ", casting,
+        (const size_t[]){c->casters[SCENE_CASTER_CLIP], c->casters[SCENE_CASTER_DITHER], c->casters[SCENE_CASTER_OFF]},
+        3);
 }
 
 static void text_needs(const counts *c)
@@ -195,10 +202,11 @@ static void text_ram(const report *r)
     printf("  RAM with features and capacities for just that:\n");
     for (int i = 0; i < SETTINGS_PRESETS; i++) {
         const settings_ram_parts *ram = &r->ram[i];
-        printf("    %-9s %7ld bytes: atlas %ld, other atlas %ld, triangles %ld, tile references %ld, objects and lights %ld, "
+        printf("    %-9s %7ld bytes: atlas %ld, other atlas %ld, triangles %ld, tile references %ld, objects and "
+               "lights %ld, "
                "screen tile %ld, rest %ld\n",
-               settings_preset_name[i], ram->total, ram->atlas, ram->other_atlas, ram->triangles, ram->tile_refs + ram->tiles,
-               ram->objects + ram->lights, ram->cells + ram->pixels, ram->rest);
+               settings_preset_name[i], ram->total, ram->atlas, ram->other_atlas, ram->triangles,
+               ram->tile_refs + ram->tiles, ram->objects + ram->lights, ram->cells + ram->pixels, ram->rest);
     }
 }
 
@@ -208,14 +216,15 @@ static void print_text(const report *r)
     const tool_options *o = r->options;
     const gn_stats *stats = &r->picture->stats;
     printf("%s\n", o->scene_path);
-    printf("  %zu objects, %zu meshes, %zu triangles, %zu vertices, %zu textures\n", s->n_objects, s->n_meshes, r->counts.triangles,
-           r->counts.vertices, s->n_textures);
+    printf("  %zu objects, %zu meshes, %zu triangles, %zu vertices, %zu textures\n", s->n_objects, s->n_meshes,
+           r->counts.triangles, r->counts.vertices, s->n_textures);
     text_objects(&r->counts);
     printf("  %zu lights, %zu with a shadow\n", s->n_lights, r->counts.shadow_lights);
     for (size_t i = 0; i < s->n_lights; i++) text_light(r, i);
     text_needs(&r->counts);
-    printf("  at %dx%d, frame %d: %u visible triangles (%u clipped), %u tile references, %u caster triangles\n", o->width,
-           o->height, o->frame, stats->n_triangles, stats->n_clipped, stats->n_tile_refs, stats->n_caster_triangles);
+    printf("  at %dx%d, frame %d: %u visible triangles (%u clipped), %u tile references, %u caster triangles\n",
+           o->width, o->height, o->frame, stats->n_triangles, stats->n_clipped, stats->n_tile_refs,
+           stats->n_caster_triangles);
     if (stats->n_lights_left_out) printf("  lights left out of objects' lists: %u\n", stats->n_lights_left_out);
     if (stats->n_reach_clamped) printf("  views whose filter does not fit their tile: %u\n", stats->n_reach_clamped);
     text_ram(r);

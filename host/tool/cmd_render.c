@@ -7,9 +7,11 @@
 #include "remarks.h"
 #include "tool.h"
 
-static int draw(engine_picture *p, const tool_options *o, const scene *s, const settings *set, char *error, size_t bytes)
+static int draw(engine_picture *p, const tool_options *o, const scene *s, const settings *set, char *error,
+                size_t bytes)
 {
-    if (strcmp(o->engine, "truth") == 0) return engine_truth(p, s, set, o->width, o->height, tool_samples(o), error, bytes);
+    if (strcmp(o->engine, "truth") == 0)
+        return engine_truth(p, s, set, o->width, o->height, tool_samples(o), error, bytes);
     if (strcmp(o->engine, "reference") == 0) return engine_reference(p, s, set, o->width, o->height, error, bytes);
     return engine_fixed(p, s, set, o->width, o->height, o->view != VIEW_COLOUR, error, bytes);
 }
@@ -32,8 +34,8 @@ int tool_render(const tool_options *o)
     }
     if (tool_load(o, &s, &set)) return TOOL_FAILED;
     engine_picture p;
-    int failed = draw(&p, o, &s, &set, error, sizeof error) ||
-                 remarks_on_shadows(&s, o->width, o->height, error, sizeof error);
+    int failed =
+        draw(&p, o, &s, &set, error, sizeof error) || remarks_on_shadows(&s, o->width, o->height, error, sizeof error);
     if (!failed && !o->json) say_remarks(o, &s, &p);
     scene_free(&s);
     if (failed) return tool_fail(o->scene_path, error);

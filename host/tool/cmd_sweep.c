@@ -10,7 +10,7 @@
 
 enum { NAME_BYTES = 256 };
 
-/* ---- For people ------------------------------------------------------------------------------------------------------------- */
+/* ---- For people -------------------------------------------------------------------------------------------------- */
 
 static int by_ram(const void *a, const void *b)
 {
@@ -46,7 +46,8 @@ static void print_row(const sweep *w, const sweep_row *r)
     printf(" %7.3f%%  %s\n", 100 * r->reference.identical, name);
 }
 
-/* Three lines. Later frames have what the first has, and a mean; of a scene in which nothing moves they are one, with its tiles kept. */
+/* Three lines. Later frames have what the first has, and a mean; of a scene in which nothing moves they are one, with
+ * its tiles kept. */
 static void print_head(const sweep *w)
 {
     const bool moves = w->moves;
@@ -89,10 +90,10 @@ static void print_schedule(const sweep *w, const sweep_row *r, const sweep_row *
     char name[NAME_BYTES];
     const sweep_played *now = &r->played, *then = &base->played;
     sweep_name(w, r, name, sizeof name);
-    printf("  %8.1f %+7.2f %% %8.2f %+6.2f dB %8.2f %+7.2f dB %8.2f dB  %s\n", now->instructions, percent(now->instructions, then->instructions),
-           now->truth.mean_db, gain_db(now->truth.mean_db, then->truth.mean_db), now->reference.mean_db,
-           gain_db(now->reference.mean_db, then->reference.mean_db),
-           now->reference.worst_db, name);
+    printf("  %8.1f %+7.2f %% %8.2f %+6.2f dB %8.2f %+7.2f dB %8.2f dB  %s\n", now->instructions,
+           percent(now->instructions, then->instructions), now->truth.mean_db,
+           gain_db(now->truth.mean_db, then->truth.mean_db), now->reference.mean_db,
+           gain_db(now->reference.mean_db, then->reference.mean_db), now->reference.worst_db, name);
 }
 
 /* What each schedule of cascades saves, and what that costs: the configuration without one first. */
@@ -117,10 +118,15 @@ static void print_text(const sweep *w)
     const tool_options *o = w->options;
     size_t n_front = 0;
     for (size_t i = 0; i < w->n_rows; i++) n_front += w->rows[i].on_front;
-    printf("%s, %dx%d: %zu configurations, %zu of them on the front (*: no other is as good in RAM, instructions and PSNR)\n",
+    printf("%s, %dx%d: %zu configurations, %zu of them on the front (*: no other is as good in RAM, instructions and "
+           "PSNR)\n",
            o->scene_path, o->width, o->height, w->n_rows, n_front);
-    if (w->moves) printf("frame %d, then frames %d to %d by the same renderer: the front is of these\n", o->frame, o->frame + 1, o->frame + SWEEP_PLAYED);
-    else printf("nothing moves: shadow tiles are drawn once, and a schedule of cascades (refresh) has nothing to save\n");
+    if (w->moves)
+        printf("frame %d, then frames %d to %d by the same renderer: the front is of these\n", o->frame, o->frame + 1,
+               o->frame + SWEEP_PLAYED);
+    else
+        printf(
+            "nothing moves: shadow tiles are drawn once, and a schedule of cascades (refresh) has nothing to save\n");
     printf("instructions per pixel by a model of the host");
     if (w->counts) printf(", and counted in the emulator of %s", o->target);
     printf("; PSNR in dB\n");
@@ -128,11 +134,14 @@ static void print_text(const sweep *w)
     for (size_t i = 0; i < w->n_rows; i++)
         if (w->rows[i].on_front || o->all) print_row(w, &w->rows[i]);
     print_schedules(w);
-    if (w->n_refused) printf("%zu of the configurations cannot draw this scene, the first: %s\n", w->n_refused, w->refusal);
-    if (w->n_uncounted) printf("%zu of the configurations could not be counted on %s, the first: %s\n", w->n_uncounted, o->target, w->uncounted);
+    if (w->n_refused)
+        printf("%zu of the configurations cannot draw this scene, the first: %s\n", w->n_refused, w->refusal);
+    if (w->n_uncounted)
+        printf("%zu of the configurations could not be counted on %s, the first: %s\n", w->n_uncounted, o->target,
+               w->uncounted);
 }
 
-/* ---- JSON ------------------------------------------------------------------------------------------------------------------- */
+/* ---- JSON -------------------------------------------------------------------------------------------------------- */
 
 static void print_metrics(const char *name, const metrics *m)
 {
@@ -167,12 +176,10 @@ static void print_later(const sweep *w, const sweep_row *r)
     const struct {
         const char *name;
         double value;
-    } members[] = {{"instructions_per_pixel", r->played.instructions},
-                   {"most_instructions_per_pixel", r->played.most},
-                   {"truth_psnr_db", r->played.truth.mean_db},
-                   {"truth_worst_psnr_db", r->played.truth.worst_db},
-                   {"reference_psnr_db", r->played.reference.mean_db},
-                   {"reference_worst_psnr_db", r->played.reference.worst_db}};
+    } members[] = {
+        {"instructions_per_pixel", r->played.instructions}, {"most_instructions_per_pixel", r->played.most},
+        {"truth_psnr_db", r->played.truth.mean_db},         {"truth_worst_psnr_db", r->played.truth.worst_db},
+        {"reference_psnr_db", r->played.reference.mean_db}, {"reference_worst_psnr_db", r->played.reference.worst_db}};
     printf(", \"later\": {\"frames\": %zu", w->n_played);
     for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
         printf(", ");
@@ -213,7 +220,7 @@ static void print_json(const sweep *w)
     printf("]}\n");
 }
 
-/* ---- CSV -------------------------------------------------------------------------------------------------------------------- */
+/* ---- CSV --------------------------------------------------------------------------------------------------------- */
 
 static void csv_text(FILE *f, const char *text)
 {
@@ -272,8 +279,8 @@ static int write_csv(const sweep *w, const char *path, char *error, size_t bytes
     }
     fprintf(f, "configuration,front,ram_bytes,instructions_per_pixel");
     for (int i = 0; i < 2; i++)
-        fprintf(f, ",%s_identical,%s_within1,%s_psnr_db,%s_atten_rms,%s_shadow_mismatch", kinds[i], kinds[i], kinds[i], kinds[i],
-                kinds[i]);
+        fprintf(f, ",%s_identical,%s_within1,%s_psnr_db,%s_atten_rms,%s_shadow_mismatch", kinds[i], kinds[i], kinds[i],
+                kinds[i], kinds[i]);
     fprintf(f, ",later_frames,later_instructions_per_pixel,later_most_instructions_per_pixel");
     for (int i = 0; i < 2; i++) fprintf(f, ",later_%s_psnr_db,later_%s_worst_psnr_db", kinds[i], kinds[i]);
     fprintf(f, ",target_instructions_per_pixel,target_later_instructions_per_pixel");
@@ -286,19 +293,20 @@ static int write_csv(const sweep *w, const char *path, char *error, size_t bytes
     return failed ? -1 : 0;
 }
 
-/* ---- SVG -------------------------------------------------------------------------------------------------------------------- */
+/* ---- SVG --------------------------------------------------------------------------------------------------------- */
 
 /* Short enough for a plot: "tiny 3x3 64 cascades 4". */
 static void shorten(char *name)
 {
     static const char *const drop[] = {"preset=", "filter=", "kernel=", "other_atlas_size=", "atlas_size="};
     static const char *const shrink[][2] = {
-        {"other_depth_bits=", "o.depth "}, {"depth_bits=", "depth "}, {"cascades=", "casc. "}, {"persp_step=", "step "},
-        {"subpixel_bits=", "sub "},        {"tile_width=", "tw "},    {"tile_height=", "th "},
-        {"refresh=", "ref. "},             {"static_layer=", "layer "},
+        {"other_depth_bits=", "o.depth "}, {"depth_bits=", "depth "},  {"cascades=", "casc. "},
+        {"persp_step=", "step "},          {"subpixel_bits=", "sub "}, {"tile_width=", "tw "},
+        {"tile_height=", "th "},           {"refresh=", "ref. "},      {"static_layer=", "layer "},
     };
     for (size_t i = 0; i < sizeof drop / sizeof *drop; i++)
-        for (char *at; (at = strstr(name, drop[i]));) memmove(at, at + strlen(drop[i]), strlen(at + strlen(drop[i])) + 1);
+        for (char *at; (at = strstr(name, drop[i]));)
+            memmove(at, at + strlen(drop[i]), strlen(at + strlen(drop[i])) + 1);
     for (size_t i = 0; i < sizeof shrink / sizeof *shrink; i++)
         for (char *at; (at = strstr(name, shrink[i][0]));) {
             size_t old = strlen(shrink[i][0]), now = strlen(shrink[i][1]);
@@ -351,16 +359,17 @@ static int write_svg(const sweep *w, const char *path, char *error, size_t bytes
              slash ? slash + 1 : w->options->scene_path, w->options->width, w->options->height);
     int failed = gather(&d, w);
     if (failed) snprintf(error, bytes, "out of memory");
-    const plot_panel panels[PANELS_MAX] = {{"RAM against error", "RAM of the library, bytes", error_axis, d.points[0], d.n[0]},
-                                           {"Cost against error", cost_axis, error_axis, d.points[1], d.n[1]},
-                                           {target, target_axis, error_axis, d.points[2], d.n[2]}};
+    const plot_panel panels[PANELS_MAX] = {
+        {"RAM against error", "RAM of the library, bytes", error_axis, d.points[0], d.n[0]},
+        {"Cost against error", cost_axis, error_axis, d.points[1], d.n[1]},
+        {target, target_axis, error_axis, d.points[2], d.n[2]}};
     if (!failed) failed = plot_write(path, title, panels, d.n[2] ? 3 : 2, error, bytes);
     for (size_t i = 0; i < PANELS_MAX; i++) free(d.points[i]);
     free(d.names);
     return failed ? -1 : 0;
 }
 
-/* ---- The command ------------------------------------------------------------------------------------------------------------ */
+/* ---- The command ------------------------------------------------------------------------------------------------- */
 
 static int show(const sweep *w)
 {
@@ -395,9 +404,7 @@ int tool_sweep(const tool_options *o)
         qsort(w.rows, w.n_rows, sizeof *w.rows, by_ram);
         if (count(&w)) status = tool_fail(o->scene_path, "out of memory");
     }
-    if (status == TOOL_OK) {
-        status = show(&w);
-    }
+    if (status == TOOL_OK) { status = show(&w); }
     sweep_end(&w);
     return status;
 }

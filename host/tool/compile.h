@@ -1,6 +1,7 @@
-/* gnomon compile: a scene file as C for flash, and the configuration that it needs. Private to host/tool/compile_*.c and
- * cmd_compile.c. In order: compile_play.c loads every frame, compile_frames.c draws them, compile_casters.c looks at their shadow tiles, compile_simplify.c and compile_mesh.c take
- * away what no picture shows, compile_config.c chooses the configuration, compile_scene.c writes the scene. */
+/* gnomon compile: a scene file as C for flash, and the configuration that it needs. Private to host/tool/compile_*.c
+ * and cmd_compile.c. In order: compile_play.c loads every frame, compile_frames.c draws them, compile_casters.c looks
+ * at their shadow tiles, compile_simplify.c and compile_mesh.c take away what no picture shows, compile_config.c
+ * chooses the configuration, compile_scene.c writes the scene. */
 #ifndef GNOMON_COMPILE_H
 #define GNOMON_COMPILE_H
 
@@ -49,8 +50,9 @@ typedef struct {
     size_t culled;                      /* casters left out by D8 */
     size_t caster_triangles;
     double instructions, lookups; /* by the model of cost; of shadows */
-    size_t casters_unseen; /* by boxes: casters that a shadow tile does not see */
-    int64_t reach_q16, reach_seen_q16; /* how far casters lie from the corner of a directional light's tile: all, and those it sees */
+    size_t casters_unseen;        /* by boxes: casters that a shadow tile does not see */
+    int64_t reach_q16,
+        reach_seen_q16; /* how far casters lie from the corner of a directional light's tile: all, and those it sees */
 } compile_run;
 
 /* Something that was taken away, and what that saved. */
@@ -71,13 +73,14 @@ typedef struct {
 
 typedef struct {
     const tool_options *options;
-    int first_frame, n_frames;                                           /* of the scene file's animation */
-    scene scene;                                                         /* as the first frame has it */
-    fixed_scene fixed;                                                   /* the same; what tracks change is the first frame's */
-    const char **object_name, **light_name, **mesh_name, **texture_name; /* beside the arrays of fixed, whose elements may go */
-    size_t n_textures;                                                   /* of fixed.textures */
-    settings asked;                                                      /* what was set */
-    settings set;                                                        /* the configuration that is chosen */
+    int first_frame, n_frames; /* of the scene file's animation */
+    scene scene;               /* as the first frame has it */
+    fixed_scene fixed;         /* the same; what tracks change is the first frame's */
+    const char **object_name, **light_name, **mesh_name,
+        **texture_name; /* beside the arrays of fixed, whose elements may go */
+    size_t n_textures;  /* of fixed.textures */
+    settings asked;     /* what was set */
+    settings set;       /* the configuration that is chosen */
     compile_run run;
     size_t kept_tiles; /* from frame to frame, all frames */
     compile_reason reasons[COMPILE_REASONS_MAX];
@@ -123,8 +126,9 @@ void compile_stage_close(compile_stage *st);
 /* The scene at a frame (from 0), as scene_frame() of the firmware gives it. */
 const gn_scene *compile_frame(compile_stage *st, const compiled *c, int i);
 
-/* One frame's picture, as RGB888 and RGB565, and the grey format that was set: what rounds to the same bytes in one may not in
- * another; no more than the first format if that is not the one wanted. 0, or -1: the library refuses, and its detail says why. */
+/* One frame's picture, as RGB888 and RGB565, and the grey format that was set: what rounds to the same bytes in one may
+ * not in another; no more than the first format if that is not the one wanted. 0, or -1: the library refuses, and its
+ * detail says why. */
 int compile_draw(compile_stage *st, const compiled *c, int i, const compile_hash *wanted, compile_hash *hash);
 bool compile_same(const compile_hash *a, const compile_hash *b);
 
@@ -162,9 +166,11 @@ void compile_drop_objects(compiled *c, const bool *gone);
 void compile_drop_lights(compiled *c, const bool *gone);
 void compile_keep_triangles(gn_mesh *mesh, const uint16_t *idx, size_t n_triangles, const bool *gone);
 
-/* compile_narrow.c: positions in 16 bits, normals in 8, if every frame stays the wanted one, and if nothing is rounded or that is allowed. */
+/* compile_narrow.c: positions in 16 bits, normals in 8, if every frame stays the wanted one, and if nothing is rounded
+ * or that is allowed. */
 enum { COMPILE_NARROW_NOT, COMPILE_NARROW_EXACT, COMPILE_NARROW_ROUNDED };
-int compile_narrow(compiled *c, compile_stage *st, compile_narrowed what, bool rounded, const compile_run *wanted, compile_run *now);
+int compile_narrow(compiled *c, compile_stage *st, compile_narrowed what, bool rounded, const compile_run *wanted,
+                   compile_run *now);
 
 /* compile_config.c: makes c->set the least configuration for what was played, and writes it. */
 void compile_choose(compiled *c);
@@ -191,7 +197,8 @@ bool compile_fits(const compile_memory *m, const board *b);
 bool compile_is_close(const compile_memory *m, const board *b);
 /* What is too much. */
 void compile_say_memory(const compile_memory *m, const board *b, char *out, size_t bytes);
-/* compile_search.c: the settings of the configuration that fits and changes the picture least, as options; false: none. */
+/* compile_search.c: the settings of the configuration that fits and changes the picture least, as options; false: none.
+ */
 bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t bytes);
 
 /* cmd_compile.c: all of it but the files; 1: there is a board, 0: none was asked for, -1. */

@@ -1,10 +1,11 @@
-/* What shadow tiles have to do with casters in the frame that was drawn last: which features of theirs it could have been without. */
+/* What shadow tiles have to do with casters in the frame that was drawn last: which features of theirs it could have
+ * been without. */
 #include "../../lib/gn_cull.h"
 #include "../../lib/gn_ortho.h"
 #include "compile.h"
 
-/* The furthest that a coordinate of the caster lies from the tile's corner, Q16 texels. All vertices, whatever triangles use them:
- * what is found holds for those that are drawn. */
+/* The furthest that a coordinate of the caster lies from the tile's corner, Q16 texels. All vertices, whatever
+ * triangles use them: what is found holds for those that are drawn. */
 static int64_t reach_of(const gn_light_view *view, const gn_object *object)
 {
     const gn_mesh *mesh = object->mesh;
@@ -54,13 +55,15 @@ int compile_reach_texels(const compile_run *run, bool boxes)
 int compile_check_reach(const compiled *c, char *error, size_t error_bytes)
 {
     if (!c->asked.feature.clipping && c->run.clipped) {
-        snprintf(error, error_bytes, "setting 'clipping': 0, and %zu triangles of all frames are clipped", c->run.clipped);
+        snprintf(error, error_bytes, "setting 'clipping': 0, and %zu triangles of all frames are clipped",
+                 c->run.clipped);
         return -1;
     }
     const bool boxes = c->asked.feature.object_boxes && c->run.casters_unseen;
     const int reach = compile_reach_texels(&c->run, boxes);
     if (c->asked.feature.caster_clipping || !c->asked.feature.shadows || reach < COMPILE_REACH_MAX) return 0;
-    snprintf(error, error_bytes, "setting 'caster_clipping': 0, and casters lie up to %d texels from a shadow tile's corner, of %d", reach,
+    snprintf(error, error_bytes,
+             "setting 'caster_clipping': 0, and casters lie up to %d texels from a shadow tile's corner, of %d", reach,
              COMPILE_REACH_MAX);
     return -1;
 }

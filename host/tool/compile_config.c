@@ -30,7 +30,7 @@ static void because(compiled *c, const char *knob, const char *format, ...)
     va_end(arguments);
 }
 
-/* ---- Capacities --------------------------------------------------------------------------------------------------------- */
+/* ---- Capacities -------------------------------------------------------------------------------------------------- */
 
 static size_t with_margin(const compiled *c, size_t n)
 {
@@ -38,12 +38,14 @@ static size_t with_margin(const compiled *c, size_t n)
 }
 
 /* A capacity that was set stays as it is. */
-static void fit(compiled *c, const char *knob, int *capacity, size_t n, int most, const char *what, int peak_frame, bool margin)
+static void fit(compiled *c, const char *knob, int *capacity, size_t n, int most, const char *what, int peak_frame,
+                bool margin)
 {
     if (*capacity) return;
     size_t room = margin ? with_margin(c, n) : n;
     *capacity = room < 1 ? 1 : room > (size_t)most ? most : (int)room;
-    if (margin) because(c, knob, "%zu %s at most, in frame %d, and %d %% more", n, what, peak_frame, c->options->margin);
+    if (margin)
+        because(c, knob, "%zu %s at most, in frame %d, and %d %% more", n, what, peak_frame, c->options->margin);
     else because(c, knob, "%zu %s", n, what);
 }
 
@@ -63,7 +65,8 @@ static settings_demand with_all_tiles(const compiled *c)
     for (uint32_t i = 0; i < now->n_lights; i++) {
         const gn_light *l = &now->lights[i];
         if (!l->shadow_strength_uq16 || l->mode == GN_LIGHT_BAKED) continue;
-        if (l->kind == GN_LIGHT_DIRECTIONAL && !(shadow->main_light && directional)) directional += shadow->n_cascades ? shadow->n_cascades : 1;
+        if (l->kind == GN_LIGHT_DIRECTIONAL && !(shadow->main_light && directional))
+            directional += shadow->n_cascades ? shadow->n_cascades : 1;
         else other += tiles_of(l->kind);
     }
     directional = directional < TILES_MAX ? directional : TILES_MAX;
@@ -92,17 +95,19 @@ static void choose_capacities(compiled *c)
     fit(c, "max_height", &s->capacity.max_height, (size_t)d->height, 2048, "pixels: the picture", 0, false);
     fit(c, "max_triangles", &s->capacity.max_triangles, d->triangles, 65534, "visible triangles",
         c->first_frame + c->run.peak_triangles, true);
-    fit(c, "max_tile_refs", &s->capacity.max_tile_refs, d->tile_refs, 1000000, "references", c->first_frame + c->run.peak_tile_refs,
-        true);
+    fit(c, "max_tile_refs", &s->capacity.max_tile_refs, d->tile_refs, 1000000, "references",
+        c->first_frame + c->run.peak_tile_refs, true);
     fit(c, "max_lights", &s->capacity.max_lights, d->lights, 64, "lights in the scene", 0, false);
-    fit(c, "surface_lights", &s->capacity.surface_lights, d->surface_lights, 64, "lights reach one object at most", 0, false);
-    fit(c, "max_objects", &s->capacity.max_objects, d->objects, 65535, "objects in the scene", 0, false);
-    fit(c, "max_shadow_tiles", &s->capacity.max_shadow_tiles, d->shadow_tiles, 16, "tiles at most in a frame", 0, false);
-    fit(c, "max_other_tiles", &s->capacity.max_other_tiles, d->other_tiles, 16, "tiles at most in a frame", 0, false);
-    fit(c, "atlas_texels", &s->capacity.atlas_texels, d->atlas_texels < 64 ? 64 : d->atlas_texels, 1 << 20, "texels: the tiles", 0,
+    fit(c, "surface_lights", &s->capacity.surface_lights, d->surface_lights, 64, "lights reach one object at most", 0,
         false);
-    fit(c, "other_atlas_texels", &s->capacity.other_atlas_texels, d->other_atlas_texels < 64 ? 64 : d->other_atlas_texels, 1 << 20,
+    fit(c, "max_objects", &s->capacity.max_objects, d->objects, 65535, "objects in the scene", 0, false);
+    fit(c, "max_shadow_tiles", &s->capacity.max_shadow_tiles, d->shadow_tiles, 16, "tiles at most in a frame", 0,
+        false);
+    fit(c, "max_other_tiles", &s->capacity.max_other_tiles, d->other_tiles, 16, "tiles at most in a frame", 0, false);
+    fit(c, "atlas_texels", &s->capacity.atlas_texels, d->atlas_texels < 64 ? 64 : d->atlas_texels, 1 << 20,
         "texels: the tiles", 0, false);
+    fit(c, "other_atlas_texels", &s->capacity.other_atlas_texels,
+        d->other_atlas_texels < 64 ? 64 : d->other_atlas_texels, 1 << 20, "texels: the tiles", 0, false);
 }
 
 /* An atlas that no frame uses is as small as can be, and as deep as the other: depths are then of one type. */
@@ -125,7 +130,7 @@ static void shrink_atlases(compiled *c)
     }
 }
 
-/* ---- Features ----------------------------------------------------------------------------------------------------------- */
+/* ---- Features ---------------------------------------------------------------------------------------------------- */
 
 /* A feature that something of the scene uses: the largest value counts, and what first needed it is named. */
 static void use(compiled *c, const char *knob, int *value, int needed, const char *format, const char *name)
@@ -135,7 +140,8 @@ static void use(compiled *c, const char *knob, int *value, int needed, const cha
     because(c, knob, format, name);
 }
 
-#define USE(feature_name, needed, format, name) use(c, #feature_name, &c->set.feature.feature_name, needed, format, name)
+#define USE(feature_name, needed, format, name)                                                                        \
+    use(c, #feature_name, &c->set.feature.feature_name, needed, format, name)
 
 static void use_filter(compiled *c, gn_filter filter, const char *what)
 {
@@ -186,8 +192,8 @@ static void use_shadows(compiled *c)
 /* Everything that a scene can use to 0; the rest makes the same picture with and without. */
 static void use_nothing(compiled *c)
 {
-#define NOTHING(name)                                                                                                              \
-    c->set.feature.name = 0;                                                                                                       \
+#define NOTHING(name)                                                                                                  \
+    c->set.feature.name = 0;                                                                                           \
     because(c, #name, "nothing uses it")
     NOTHING(shadows);
     NOTHING(blended_cascades);
@@ -242,7 +248,8 @@ static void choose_speed(compiled *c)
         s->feature.depth_blocks = s->feature.static_layer = 0;
         because(c, "static_layer", "no shadows");
     }
-    because(c, "depth_blocks", s->feature.depth_blocks ? "faster shadows, the same picture" : "no shadows, or not wanted");
+    because(c, "depth_blocks",
+            s->feature.depth_blocks ? "faster shadows, the same picture" : "no shadows, or not wanted");
     if (punctual < 2) s->feature.tile_lights = 0;
     because(c, "tile_lights", "%zu spot and point lights", punctual);
     if (!s->feature.shadows || !c->run.culled) s->feature.caster_culling = 0;
@@ -252,8 +259,8 @@ static void choose_speed(compiled *c)
     else because(c, "incremental", "shadow tiles kept from the frame before, all frames: %zu", c->kept_tiles);
 }
 
-/* Casters of directional lights are drawn without ado up to COMPILE_REACH_MAX texels from their tile: none that comes up to half of that
- * needs the code that cuts them. Without it, what would be too far is refused, not misdrawn. */
+/* Casters of directional lights are drawn without ado up to COMPILE_REACH_MAX texels from their tile: none that comes
+ * up to half of that needs the code that cuts them. Without it, what would be too far is refused, not misdrawn. */
 enum { REACH_ENOUGH = COMPILE_REACH_MAX / 2 };
 
 static void choose_casters(compiled *c)
@@ -261,14 +268,18 @@ static void choose_casters(compiled *c)
     settings *s = &c->set;
     const bool path = c->options->simplify == TOOL_SIMPLIFY_PATH;
     if (path && !c->run.clipped) s->feature.clipping = 0;
-    because(c, "clipping", path ? "visible triangles that are clipped, all frames: %zu" : "scenes of --simplify none and safe may be moved otherwise",
+    because(c, "clipping",
+            path ? "visible triangles that are clipped, all frames: %zu"
+                 : "scenes of --simplify none and safe may be moved otherwise",
             c->run.clipped);
     if (!s->feature.shadows || !c->run.casters_unseen) s->feature.object_boxes = 0;
     because(c, "object_boxes", "casters that a shadow tile does not see, all frames: %zu", c->run.casters_unseen);
     const int reach = compile_reach_texels(&c->run, s->feature.object_boxes);
     if (!s->feature.shadows || (path && reach <= REACH_ENOUGH)) s->feature.caster_clipping = 0;
     if (!c->run.reach_q16) because(c, "caster_clipping", "no caster of a directional light");
-    else if (path) because(c, "caster_clipping", "casters lie up to %d texels from a tile's corner, of %d without", reach, REACH_ENOUGH);
+    else if (path)
+        because(c, "caster_clipping", "casters lie up to %d texels from a tile's corner, of %d without", reach,
+                REACH_ENOUGH);
     else because(c, "caster_clipping", "scenes of --simplify none and safe may be moved otherwise");
 }
 
@@ -304,7 +315,7 @@ void compile_choose(compiled *c)
     explain_bits(c, COMPILE_NORMALS, "normal_bits", c->set.quality.normal_bits, c->asked.quality.normal_bits);
 }
 
-/* ---- gn_scene_config.h -------------------------------------------------------------------------------------------------- */
+/* ---- gn_scene_config.h ------------------------------------------------------------------------------------------- */
 
 static void write_knob(FILE *f, const compiled *c, const char *knob, const char *macro, int value)
 {
@@ -341,11 +352,13 @@ static void write_costs(FILE *f, const compiled *c)
 {
     long ram = settings_ram(&c->set).total;
     fprintf(f,
-            " *\n * RAM, bytes: gn_renderer %ld, scene_state %ld; on Arm, where enumerations are short, %ld and %ld. Stack beside "
+            " *\n * RAM, bytes: gn_renderer %ld, scene_state %ld; on Arm, where enumerations are short, %ld and %ld. "
+            "Stack beside "
             "that.\n",
             ram, compile_state_bytes(c, false), ram - COMPILE_SHORT_ENUMS_LESS, compile_state_bytes(c, true));
     fprintf(f, " * Flash, bytes: scene.c %ld; the library with -Os about %ld on Cortex-M0, %ld on Cortex-M4.\n",
-            compile_flash_bytes(c, true), flash_estimate(&c->set, FLASH_CORTEX_M0), flash_estimate(&c->set, FLASH_CORTEX_M4));
+            compile_flash_bytes(c, true), flash_estimate(&c->set, FLASH_CORTEX_M0),
+            flash_estimate(&c->set, FLASH_CORTEX_M4));
     write_narrow(f, c);
     if (c->n_savings) fprintf(f, " *\n * Left out, and every frame is the same picture, byte for byte:\n");
 }
@@ -365,8 +378,9 @@ void compile_write_config(FILE *f, const compiled *c)
 {
     fprintf(f, "/* ");
     compile_write_origin(f, c);
-    fprintf(f, ".\n *\n * The library as this scene needs it, from %d frame%s played at %dx%d: frames %d to %d.\n", c->n_frames,
-            c->n_frames == 1 ? "" : "s", c->options->width, c->options->height, c->first_frame, c->first_frame + c->n_frames - 1);
+    fprintf(f, ".\n *\n * The library as this scene needs it, from %d frame%s played at %dx%d: frames %d to %d.\n",
+            c->n_frames, c->n_frames == 1 ? "" : "s", c->options->width, c->options->height, c->first_frame,
+            c->first_frame + c->n_frames - 1);
     write_costs(f, c);
     write_savings(f, c);
     fprintf(f, " */\n#ifndef GN_SCENE_CONFIG_H\n#define GN_SCENE_CONFIG_H\n");

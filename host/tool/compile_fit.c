@@ -48,10 +48,11 @@ void compile_say_memory(const compile_memory *m, const board *b, char *out, size
     int n = 0;
     const long ram = compile_ram_bytes(m, b);
     if (ram > b->ram)
-        n = snprintf(out, bytes, "it takes %ld bytes of RAM (renderer %ld, what moves %ld, stack %ld%s%ld) of %ld", ram, m->renderer, m->state,
-                     b->stack, b->hot_in_ram ? ", code that runs from RAM and the board about " : ", the board and alignment ",
+        n = snprintf(out, bytes, "it takes %ld bytes of RAM (renderer %ld, what moves %ld, stack %ld%s%ld) of %ld", ram,
+                     m->renderer, m->state, b->stack,
+                     b->hot_in_ram ? ", code that runs from RAM and the board about " : ", the board and alignment ",
                      ram - m->renderer - m->state - b->stack, b->ram);
     if (compile_rom_bytes(m) > b->flash && n >= 0 && (size_t)n < bytes)
-        snprintf(out + n, bytes - (size_t)n, "%s %ld bytes of flash (scene %ld, code about %ld) of %ld", n ? " and" : "it takes",
-                 compile_rom_bytes(m), m->data, m->code, b->flash);
+        snprintf(out + n, bytes - (size_t)n, "%s %ld bytes of flash (scene %ld, code about %ld) of %ld",
+                 n ? " and" : "it takes", compile_rom_bytes(m), m->data, m->code, b->flash);
 }

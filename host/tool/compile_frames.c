@@ -42,7 +42,7 @@ const gn_scene *compile_frame(compile_stage *st, const compiled *c, int i)
     return &st->scene;
 }
 
-/* ---- Pictures ----------------------------------------------------------------------------------------------------------- */
+/* ---- Pictures ---------------------------------------------------------------------------------------------------- */
 
 /* FNV-1a over tiles in the order in which they come: it is the same for the same picture. */
 static void hash_tile(void *user, int x, int y, int w, int h, const void *pixels)
@@ -97,7 +97,8 @@ int compile_draw(compile_stage *st, const compiled *c, int i, const compile_hash
     if (!status) status = draw_tiles(st, GN_FORMAT_RGB888);
     st->counts = count_get();
     hash->first = st->hash;
-    if (!status && wanted && wanted->first != hash->first) return 0; /* another picture, whatever it is in the other formats */
+    if (!status && wanted && wanted->first != hash->first)
+        return 0; /* another picture, whatever it is in the other formats */
     if (!status) status = draw_tiles(st, GN_FORMAT_RGB565);
     if (!status && grey) status = draw_tiles(st, c->set.output);
     hash->all = st->hash;
@@ -109,7 +110,7 @@ bool compile_same(const compile_hash *a, const compile_hash *b)
     return a->first == b->first && a->all == b->all;
 }
 
-/* ---- Runs --------------------------------------------------------------------------------------------------------------- */
+/* ---- Runs -------------------------------------------------------------------------------------------------------- */
 
 static void most(size_t *of, size_t value)
 {
@@ -174,7 +175,7 @@ int compile_run_all(compile_run *run, compile_stage *st, const compiled *c, cons
     return 0;
 }
 
-/* ---- What is seen ------------------------------------------------------------------------------------------------------- */
+/* ---- What is seen ------------------------------------------------------------------------------------------------ */
 
 typedef struct {
     const compiled *c;
@@ -206,7 +207,9 @@ int compile_see(compile_stage *st, const compiled *c, bool **seen)
 int compile_show(compile_stage *st, const compiled *c, int i, gn_flush_fn to, void *user)
 {
     st->begun = false;
-    return begin(st, c, GN_FORMAT_RGB888, GN_VIEW_COLOUR) || gn_render(st->renderer, compile_frame(st, c, i), to, user) ? -1 : 0;
+    return begin(st, c, GN_FORMAT_RGB888, GN_VIEW_COLOUR) || gn_render(st->renderer, compile_frame(st, c, i), to, user)
+               ? -1
+               : 0;
 }
 
 static size_t tiles_of(const gn_renderer *r)

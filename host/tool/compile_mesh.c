@@ -1,4 +1,5 @@
-/* Taking vertices, triangles, meshes, textures, objects and lights out of a compiled scene. Arrays only shrink: in place. */
+/* Taking vertices, triangles, meshes, textures, objects and lights out of a compiled scene. Arrays only shrink: in
+ * place. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +11,7 @@ static void *own(const void *array)
     return (void *)(uintptr_t)array;
 }
 
-/* ---- Vertices ----------------------------------------------------------------------------------------------------------- */
+/* ---- Vertices ---------------------------------------------------------------------------------------------------- */
 
 /* All that belongs to a vertex: of its mesh, and of every object of that mesh. */
 typedef struct {
@@ -44,8 +45,8 @@ static attribute *attributes_of(const compiled *c, const gn_mesh *mesh, size_t *
 }
 
 /* Moves each vertex to its place in to[]; vertices of one place are alike, and a place is never behind its vertex. */
-static void move_vertices(gn_mesh *mesh, const attribute *all, size_t n_attributes, const uint16_t *to, const bool *used,
-                          size_t n_left)
+static void move_vertices(gn_mesh *mesh, const attribute *all, size_t n_attributes, const uint16_t *to,
+                          const bool *used, size_t n_left)
 {
     uint16_t *idx = own(mesh->idx);
     for (size_t v = 0; v < mesh->n_vertices; v++)
@@ -73,8 +74,8 @@ static bool alike(const attribute *all, size_t n, size_t a, size_t b)
 enum { BUCKETS = 65536 };
 
 /* The first vertex like each; merge: else every vertex is its own. Places are given to those that triangles use. */
-static size_t place_vertices(const gn_mesh *mesh, const attribute *all, size_t n_attributes, bool merge, uint16_t *to, bool *used,
-                             uint32_t *bucket, uint32_t *next)
+static size_t place_vertices(const gn_mesh *mesh, const attribute *all, size_t n_attributes, bool merge, uint16_t *to,
+                             bool *used, uint32_t *bucket, uint32_t *next)
 {
     size_t n_left = 0;
     memset(bucket, 0xFF, BUCKETS * sizeof *bucket);
@@ -120,7 +121,7 @@ size_t compile_merge_vertices(compiled *c)
     return n;
 }
 
-/* ---- Triangles ---------------------------------------------------------------------------------------------------------- */
+/* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
 void compile_keep_triangles(gn_mesh *mesh, const uint16_t *idx, size_t n_triangles, const bool *gone)
 {
@@ -149,7 +150,8 @@ size_t compile_drop_degenerate(compiled *c)
         bool *gone = calloc(n + 1, sizeof *gone);
         for (size_t t = 0; gone && t < n; t++) {
             const uint16_t *v = mesh->idx + 3 * t;
-            gone[t] = same_position(mesh, v[0], v[1]) || same_position(mesh, v[1], v[2]) || same_position(mesh, v[2], v[0]);
+            gone[t] =
+                same_position(mesh, v[0], v[1]) || same_position(mesh, v[1], v[2]) || same_position(mesh, v[2], v[0]);
             n_gone += gone[t];
         }
         if (gone && n_gone < n) { /* a mesh without triangles is refused */
@@ -161,7 +163,7 @@ size_t compile_drop_degenerate(compiled *c)
     return n_dropped;
 }
 
-/* ---- Objects, lights, meshes, textures ---------------------------------------------------------------------------------- */
+/* ---- Objects, lights, meshes, textures --------------------------------------------------------------------------- */
 
 /* The tracks of what goes, go; the others follow their owners. */
 static void renumber_tracks(compiled *c, compile_owner of, const bool *gone)

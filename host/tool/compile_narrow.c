@@ -1,7 +1,8 @@
 /* Vertices in half the bytes: taken where no byte of any frame changes by it, else measured.
  *
- * Coordinates whose lower 15 bits are 0 are the same number in 16 bits at a scale 2^15 coarser, and the library's sums with them are
- * the same bits whatever the camera. Where they are not 0 they are rounded, and that is taken only if every frame stays as it is. */
+ * Coordinates whose lower 15 bits are 0 are the same number in 16 bits at a scale 2^15 coarser, and the library's sums
+ * with them are the same bits whatever the camera. Where they are not 0 they are rounded, and that is taken only if
+ * every frame stays as it is. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -113,7 +114,7 @@ static bool take(vertices *v, compiled *c)
     return fits;
 }
 
-/* ---- What it would change -------------------------------------------------------------------------------------------------- */
+/* ---- What it would change ---------------------------------------------------------------------------------------- */
 
 typedef struct {
     uint8_t *pixels;
@@ -160,7 +161,7 @@ static int measure(vertices *v, compiled *c, compile_stage *st, compile_change *
     return failed ? -1 : 0;
 }
 
-/* ---- All ------------------------------------------------------------------------------------------------------------------- */
+/* ---- All --------------------------------------------------------------------------------------------------------- */
 
 static bool asked_for(const compiled *c, const char *knob)
 {
@@ -178,7 +179,8 @@ static bool wanted_narrow(const compiled *c, compile_narrowed what)
     return any && c->set.quality.normal_bits == 16 && !asked_for(c, "normal_bits");
 }
 
-int compile_narrow(compiled *c, compile_stage *st, compile_narrowed what, bool rounded, const compile_run *wanted, compile_run *now)
+int compile_narrow(compiled *c, compile_stage *st, compile_narrowed what, bool rounded, const compile_run *wanted,
+                   compile_run *now)
 {
     vertices v = {.what = what};
     int status = COMPILE_NARROW_NOT;

@@ -5,17 +5,17 @@
 
 #include "compile.h"
 
-#define OBJECT_(name, n)                                                                                                           \
-    {                                                                                                                              \
-        COMPILE_OF_OBJECT, #name, offsetof(gn_object, name), n                                                                     \
+#define OBJECT_(name, n)                                                                                               \
+    {                                                                                                                  \
+        COMPILE_OF_OBJECT, #name, offsetof(gn_object, name), n                                                         \
     }
-#define LIGHT_(name, n)                                                                                                            \
-    {                                                                                                                              \
-        COMPILE_OF_LIGHT, #name, offsetof(gn_light, name), n                                                                       \
+#define LIGHT_(name, n)                                                                                                \
+    {                                                                                                                  \
+        COMPILE_OF_LIGHT, #name, offsetof(gn_light, name), n                                                           \
     }
-#define SCENE_(name, n)                                                                                                            \
-    {                                                                                                                              \
-        COMPILE_OF_SCENE, #name, offsetof(gn_scene, name), n                                                                       \
+#define SCENE_(name, n)                                                                                                \
+    {                                                                                                                  \
+        COMPILE_OF_SCENE, #name, offsetof(gn_scene, name), n                                                           \
     }
 
 /* All that the loaders and the choice of the unit of length can make differ from frame to frame. */
@@ -51,7 +51,7 @@ static size_t count_of(const fixed_scene *f, compile_owner of)
     return of == COMPILE_OF_OBJECT ? f->scene.n_objects : of == COMPILE_OF_LIGHT ? f->scene.n_lights : 1;
 }
 
-/* ---- What may not change ------------------------------------------------------------------------------------------------ */
+/* ---- What may not change ----------------------------------------------------------------------------------------- */
 
 /* Frames differ in fields alone. */
 static int check_same(const compiled *c, const fixed_scene *f, int frame, char *error, size_t bytes)
@@ -66,14 +66,14 @@ static int check_same(const compiled *c, const fixed_scene *f, int frame, char *
     for (size_t i = 0; !what && i < f->scene.n_objects; i++)
         if (f->objects[i].mesh - f->meshes != base->objects[i].mesh - base->meshes) what = "meshes";
     if (!what) return 0;
-    snprintf(
-        error, bytes,
-        "frame %d has other %s than frame %d (a transform that mirrors, or a ground that follows): leave one out with --frames",
-        frame, what, c->first_frame);
+    snprintf(error, bytes,
+             "frame %d has other %s than frame %d (a transform that mirrors, or a ground that follows): leave one out "
+             "with --frames",
+             frame, what, c->first_frame);
     return -1;
 }
 
-/* ---- Tracks ------------------------------------------------------------------------------------------------------------- */
+/* ---- Tracks ------------------------------------------------------------------------------------------------------ */
 
 static compile_track *find_track(compiled *c, const compile_field *field, size_t idx)
 {
@@ -83,7 +83,8 @@ static compile_track *find_track(compiled *c, const compile_field *field, size_t
 }
 
 /* A track that stood still up to this frame; NULL: out of memory. */
-static compile_track *add_track(compiled *c, const compile_field *field, size_t idx, int frames_before, const void *first)
+static compile_track *add_track(compiled *c, const compile_field *field, size_t idx, int frames_before,
+                                const void *first)
 {
     compile_track *grown = realloc(c->tracks, (c->n_tracks + 1) * sizeof *grown);
     if (!grown) return NULL;
@@ -116,7 +117,7 @@ static int track_frame(compiled *c, const fixed_scene *f, int i)
     return 0;
 }
 
-/* ---- Frames ------------------------------------------------------------------------------------------------------------- */
+/* ---- Frames ------------------------------------------------------------------------------------------------------ */
 
 static int play_frame(compiled *c, const fixed_scene *f, int i, char *error, size_t bytes)
 {
@@ -157,7 +158,8 @@ static int choose_frames(compiled *c, char *error, size_t bytes)
         c->n_frames = last - o->frame < COMPILE_FRAMES_MAX ? (int)last - o->frame + 1 : COMPILE_FRAMES_MAX + 1;
     }
     if (c->n_frames <= COMPILE_FRAMES_MAX) return 0;
-    snprintf(error, bytes, "%g frames are more than %d: choose some with --frames FIRST-LAST", last, (int)COMPILE_FRAMES_MAX);
+    snprintf(error, bytes, "%g frames are more than %d: choose some with --frames FIRST-LAST", last,
+             (int)COMPILE_FRAMES_MAX);
     return -1;
 }
 
@@ -182,7 +184,8 @@ int compile_play(compiled *c, const tool_options *o, char *error, size_t error_b
     *c = (compiled){.options = o};
     if (tool_load_with(o, o->sets, o->n_sets, &c->scene, &c->set, error, error_bytes)) return -1;
     c->asked = c->set;
-    if (choose_frames(c, error, error_bytes) || quantise_scene_for(&c->fixed, &c->scene, &c->set.quality, error, error_bytes)) {
+    if (choose_frames(c, error, error_bytes) ||
+        quantise_scene_for(&c->fixed, &c->scene, &c->set.quality, error, error_bytes)) {
         scene_free(&c->scene);
         return -1;
     }

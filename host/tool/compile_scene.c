@@ -12,7 +12,7 @@ void compile_write_text(FILE *file, const char *text)
     for (; *text; text++) fputc(*text == '*' || *text < 32 || *text > 126 || *text == '\\' ? '.' : *text, file);
 }
 
-/* ---- Arrays ------------------------------------------------------------------------------------------------------------- */
+/* ---- Arrays ------------------------------------------------------------------------------------------------------ */
 
 typedef enum { I32, I16, U16, U8, POSITION, NORMAL } number_type;
 static const char *const type_names[] = {"int32_t", "int16_t", "uint16_t", "uint8_t", "gn_position", "gn_normal"};
@@ -42,8 +42,8 @@ static void write_numbers(FILE *f, number_type type, const void *array, size_t n
 }
 
 /* static const TYPE KIND_IDX_NAME[N] = {...}; nothing if there is no array */
-static void write_array(FILE *f, number_type type, const char *kind, size_t idx, const char *name, const void *array, size_t n,
-                        size_t per_line)
+static void write_array(FILE *f, number_type type, const char *kind, size_t idx, const char *name, const void *array,
+                        size_t n, size_t per_line)
 {
     if (!array || !n) return;
     fprintf(f, "static const %s %s_%zu_%s[%zu] = {", type_names[type], kind, idx, name, n);
@@ -57,7 +57,7 @@ static void write_pointer(FILE *f, const char *field, const char *kind, size_t i
     if (array) fprintf(f, ", .%s = %s_%zu_%s", field, kind, idx, name);
 }
 
-/* ---- Meshes and textures ------------------------------------------------------------------------------------------------ */
+/* ---- Meshes and textures ----------------------------------------------------------------------------------------- */
 
 static void write_mesh_arrays(FILE *f, const gn_mesh *m, size_t i, const char *name)
 {
@@ -115,7 +115,7 @@ static void write_textures(FILE *f, const compiled *c)
     fprintf(f, "};\n");
 }
 
-/* ---- Objects, lights, scene --------------------------------------------------------------------------------------------- */
+/* ---- Objects, lights, scene -------------------------------------------------------------------------------------- */
 
 /* ", .NAME = {a, b, c}" */
 static void write_signed(FILE *f, const char *name, const int32_t *v, size_t n)
@@ -136,7 +136,8 @@ static void write_affine(FILE *f, const gn_affine *a)
 {
     fprintf(f, ".to_world = {.exp = %" PRId32 ", .m_q30 = {", a->exp);
     for (int r = 0; r < 3; r++)
-        fprintf(f, "%s{%" PRId32 ", %" PRId32 ", %" PRId32 "}", r ? ", " : "", a->m_q30[r][0], a->m_q30[r][1], a->m_q30[r][2]);
+        fprintf(f, "%s{%" PRId32 ", %" PRId32 ", %" PRId32 "}", r ? ", " : "", a->m_q30[r][0], a->m_q30[r][1],
+                a->m_q30[r][2]);
     fprintf(f, "}");
     write_signed(f, "t_q16", a->t_q16, 3);
     fprintf(f, "}");
@@ -185,8 +186,10 @@ static void write_objects(FILE *f, const compiled *c)
 static void write_light(FILE *f, const gn_light *l, const char *name)
 {
     write_name(f, name);
-    fprintf(f, ".kind = (gn_light_kind)%d, .mode = (gn_light_mode)%d, .softness = (gn_softness)%d, .mask_channel = %" PRId32,
-            (int)l->kind, (int)l->mode, (int)l->softness, l->mask_channel);
+    fprintf(
+        f,
+        ".kind = (gn_light_kind)%d, .mode = (gn_light_mode)%d, .softness = (gn_softness)%d, .mask_channel = %" PRId32,
+        (int)l->kind, (int)l->mode, (int)l->softness, l->mask_channel);
     write_signed(f, "direction", l->direction, 3);
     write_signed(f, "position_q16", l->position_q16, 3);
     write_unsigned(f, "colour_uq16", l->colour_uq16, 3);
@@ -215,14 +218,14 @@ static void write_lights(FILE *f, const compiled *c)
 
 static void write_shadow(FILE *f, const gn_shadow_settings *s)
 {
-    fprintf(
-        f, "    .shadow = {.max_distance_q16 = %" PRId32 ", .distance_fade_uq16 = %" PRIu32 ", .cascade_fade_uq16 = %" PRIu32 ",\n",
-        s->max_distance_q16, s->distance_fade_uq16, s->cascade_fade_uq16);
-    fprintf(
-        f,
-        "               .filter = (gn_filter)%d, .other_filter = (gn_filter)%d, .kernel = (gn_kernel)%d, .penumbra_uq16 = %" PRIu32
-        ", .disk_samples = %" PRIu32 ",\n",
-        (int)s->filter, (int)s->other_filter, (int)s->kernel, s->penumbra_uq16, s->disk_samples);
+    fprintf(f,
+            "    .shadow = {.max_distance_q16 = %" PRId32 ", .distance_fade_uq16 = %" PRIu32
+            ", .cascade_fade_uq16 = %" PRIu32 ",\n",
+            s->max_distance_q16, s->distance_fade_uq16, s->cascade_fade_uq16);
+    fprintf(f,
+            "               .filter = (gn_filter)%d, .other_filter = (gn_filter)%d, .kernel = (gn_kernel)%d, "
+            ".penumbra_uq16 = %" PRIu32 ", .disk_samples = %" PRIu32 ",\n",
+            (int)s->filter, (int)s->other_filter, (int)s->kernel, s->penumbra_uq16, s->disk_samples);
     fprintf(f,
             "               .mixing = (gn_mixing)%d, .tile_sizes = (gn_tile_sizes)%d, .main_light = %" PRIu32
             ", .caster_culling = %" PRIu32 ", .object_lights = %" PRIu32,
@@ -231,7 +234,8 @@ static void write_shadow(FILE *f, const gn_shadow_settings *s)
     fprintf(f, ",\n               .n_cascades = %" PRIu32, s->n_cascades);
     if (s->cascades_unused) fprintf(f, ", .cascades_unused = 0x%" PRIx32, s->cascades_unused);
     write_unsigned(f, "cascade_ratio_uq16", s->cascade_ratio_uq16, 3);
-    fprintf(f, ", .blend = (gn_blend)%d, .distance_mode = (gn_distance_mode)%d},\n", (int)s->blend, (int)s->distance_mode);
+    fprintf(f, ", .blend = (gn_blend)%d, .distance_mode = (gn_distance_mode)%d},\n", (int)s->blend,
+            (int)s->distance_mode);
 }
 
 static void write_scene_struct(FILE *f, const compiled *c)
@@ -253,7 +257,7 @@ static void write_scene_struct(FILE *f, const compiled *c)
     fprintf(f, "};\n");
 }
 
-/* ---- Frames ------------------------------------------------------------------------------------------------------------- */
+/* ---- Frames ------------------------------------------------------------------------------------------------------ */
 
 static void write_tracks(FILE *f, const compiled *c)
 {
@@ -291,7 +295,9 @@ static void write_frame_function(FILE *f, const compiled *c)
         fprintf(f, "    (void)now, (void)frame; /* nothing moves */\n    return &still;\n}\n");
         return;
     }
-    fprintf(f, "    if (frame >= SCENE_FRAMES) frame = SCENE_FRAMES - 1;\n    memcpy(&now->scene, &still, sizeof still);\n");
+    fprintf(
+        f,
+        "    if (frame >= SCENE_FRAMES) frame = SCENE_FRAMES - 1;\n    memcpy(&now->scene, &still, sizeof still);\n");
     if (compile_moves(c, COMPILE_OF_OBJECT))
         fprintf(f, "    memcpy(now->objects, objects, sizeof objects);\n    now->scene.objects = now->objects;\n");
     if (compile_moves(c, COMPILE_OF_LIGHT))
@@ -332,17 +338,20 @@ void compile_write_header(FILE *f, const compiled *c)
     static const char *const format_names[] = {"RGB565", "RGB888", "RGB565_SWAPPED", "GREY8", "GREY4", "MONO1"};
     fprintf(f, "/* ");
     compile_write_origin(f, c);
-    fprintf(f, ".\n *\n * Compile the library, scene.c and your program with -DGN_USER_CONFIG='\"gn_scene_config.h\"'.\n */\n"
-               "#ifndef SCENE_H\n#define SCENE_H\n\n#include \"gnomon.h\"\n\n"
-               "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n");
-    fprintf(f, "#define SCENE_WIDTH  %d\n#define SCENE_HEIGHT %d\n#define SCENE_FORMAT GN_FORMAT_%s\n", c->options->width,
-            c->options->height, format_names[c->set.output]);
-    fprintf(f, "#define SCENE_FRAMES %d\n#define SCENE_FRAME_US %ld /* microseconds from frame to frame */\n\n", c->n_frames,
-            c->scene.fps > 0 ? (long)(1e6 / c->scene.fps + 0.5) : 0L);
+    fprintf(
+        f,
+        ".\n *\n * Compile the library, scene.c and your program with -DGN_USER_CONFIG='\"gn_scene_config.h\"'.\n */\n"
+        "#ifndef SCENE_H\n#define SCENE_H\n\n#include \"gnomon.h\"\n\n"
+        "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n");
+    fprintf(f, "#define SCENE_WIDTH  %d\n#define SCENE_HEIGHT %d\n#define SCENE_FORMAT GN_FORMAT_%s\n",
+            c->options->width, c->options->height, format_names[c->set.output]);
+    fprintf(f, "#define SCENE_FRAMES %d\n#define SCENE_FRAME_US %ld /* microseconds from frame to frame */\n\n",
+            c->n_frames, c->scene.fps > 0 ? (long)(1e6 / c->scene.fps + 0.5) : 0L);
     fprintf(f, "/* What moves: RAM. */\ntypedef struct {\n");
     if (c->n_tracks) fprintf(f, "    gn_scene scene;\n");
     else fprintf(f, "    uint8_t nothing;\n");
-    if (compile_moves(c, COMPILE_OF_OBJECT)) fprintf(f, "    gn_object objects[%" PRIu32 "];\n", c->fixed.scene.n_objects);
+    if (compile_moves(c, COMPILE_OF_OBJECT))
+        fprintf(f, "    gn_object objects[%" PRIu32 "];\n", c->fixed.scene.n_objects);
     if (compile_moves(c, COMPILE_OF_LIGHT)) fprintf(f, "    gn_light lights[%" PRIu32 "];\n", c->fixed.scene.n_lights);
     fprintf(f, "} scene_state;\n\n"
                "/* The scene at a frame, 0 .. SCENE_FRAMES - 1, in any order; valid until the next call. */\n"

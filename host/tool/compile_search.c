@@ -1,9 +1,10 @@
 /* The nearest configuration that fits a board: of those whose memory would, the one whose picture changes least.
  *
- * What changes the picture (shadow maps, depth, fractions of pixels, filters) is tried in every combination by the prediction of memory
- * alone; of those that fit, all that could be had with less change are dropped, and the others are drawn and compared with what was
- * asked for. What changes no picture but costs instructions (screen tiles, caches, bounds) is then given up as far as it must be. Only
- * where nothing fits, or shadows would be lost, the picture gets smaller. */
+ * What changes the picture (shadow maps, depth, fractions of pixels, filters) is tried in every combination by the
+ * prediction of memory alone; of those that fit, all that could be had with less change are dropped, and the others are
+ * drawn and compared with what was asked for. What changes no picture but costs instructions (screen tiles, caches,
+ * bounds) is then given up as far as it must be. Only where nothing fits, or shadows would be lost, the picture gets
+ * smaller. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -32,10 +33,10 @@ typedef struct {
     variant list[LISTED_MAX];
     size_t n;
     long least_ram, least_flash; /* of all that was tried, each by itself */
-    double change; /* of what was found, RMS */
+    double change;               /* of what was found, RMS */
 } search;
 
-/* ---- Variants --------------------------------------------------------------------------------------------------------------- */
+/* ---- Variants ---------------------------------------------------------------------------------------------------- */
 
 static int halved(int side, int times)
 {
@@ -60,7 +61,8 @@ static void find_losses(search *s, bool flash_is_short)
     const gn_knobs *q = &s->c->asked.quality;
     const settings_demand *d = &s->c->run.demand;
     const gn_shadow_settings *shadow = &s->c->fixed.scene.shadow;
-    const bool weighs = flash_is_short && shadow->filter != GN_FILTER_DISK, other_weighs = flash_is_short && shadow->other_filter != GN_FILTER_DISK;
+    const bool weighs = flash_is_short && shadow->filter != GN_FILTER_DISK,
+               other_weighs = flash_is_short && shadow->other_filter != GN_FILTER_DISK;
     memset(s->most, 0, sizeof s->most);
     if (d->shadow_tiles) {
         s->most[ATLAS] = halvings(q->atlas_size);
@@ -94,8 +96,11 @@ static compiled apply(const search *s, const variant *v)
     if (v->tile_height && v->tile_height < q->tile_height) q->tile_height = v->tile_height;
     c.fixed.scene.shadow.filter = (gn_filter)((int)c.fixed.scene.shadow.filter - v->loss[FILTER]);
     c.fixed.scene.shadow.other_filter = (gn_filter)((int)c.fixed.scene.shadow.other_filter - v->loss[OTHER_FILTER]);
-    if (v->lean >= 1 && c.set.capacity.vertex_cache > SMALL_VERTEX_CACHE) c.set.capacity.vertex_cache = SMALL_VERTEX_CACHE;
-    if (v->lean >= 2) c.set.feature.depth_blocks = c.set.feature.object_boxes = c.set.feature.incremental = c.set.feature.caster_culling = 0;
+    if (v->lean >= 1 && c.set.capacity.vertex_cache > SMALL_VERTEX_CACHE)
+        c.set.capacity.vertex_cache = SMALL_VERTEX_CACHE;
+    if (v->lean >= 2)
+        c.set.feature.depth_blocks = c.set.feature.object_boxes = c.set.feature.incremental =
+            c.set.feature.caster_culling = 0;
     return c;
 }
 
@@ -138,7 +143,7 @@ static int play(const search *s, const variant *v, compile_memory *out)
     return 0;
 }
 
-/* ---- Those that fit --------------------------------------------------------------------------------------------------------- */
+/* ---- Those that fit ---------------------------------------------------------------------------------------------- */
 
 static bool costs_less(const variant *a, const variant *b)
 {
@@ -178,7 +183,7 @@ static void list_fitting(search *s)
     }
 }
 
-/* ---- What they change ------------------------------------------------------------------------------------------------------- */
+/* ---- What they change -------------------------------------------------------------------------------------------- */
 
 typedef struct {
     uint8_t *pixels;
@@ -189,7 +194,8 @@ static void put_tile(void *user, int x, int y, int w, int h, const void *pixels)
 {
     const canvas *to = user;
     for (int row = 0; row < h; row++)
-        memcpy(to->pixels + 3 * ((size_t)(y + row) * (size_t)to->width + (size_t)x), (const uint8_t *)pixels + 3 * (size_t)row * (size_t)w, 3 * (size_t)w);
+        memcpy(to->pixels + 3 * ((size_t)(y + row) * (size_t)to->width + (size_t)x),
+               (const uint8_t *)pixels + 3 * (size_t)row * (size_t)w, 3 * (size_t)w);
 }
 
 static size_t frame_bytes(const search *s)
@@ -234,13 +240,14 @@ static int order(search *s)
     uint8_t *both = malloc(2 * bytes);
     int failed = !both || show_samples(s, &asked, both);
     for (size_t i = 0; !failed && i < s->n; i++)
-        s->list[i].change = show_samples(s, &s->list[i], both + bytes) ? HUGE_VAL : mean_square(both, both + bytes, bytes);
+        s->list[i].change =
+            show_samples(s, &s->list[i], both + bytes) ? HUGE_VAL : mean_square(both, both + bytes, bytes);
     free(both);
     if (!failed) qsort(s->list, s->n, sizeof *s->list, by_change);
     return failed;
 }
 
-/* ---- The nearest ------------------------------------------------------------------------------------------------------------ */
+/* ---- The nearest ------------------------------------------------------------------------------------------------- */
 
 /* What changes no picture: as much of it as fits. */
 static bool spare(const search *s, variant *v, compile_memory *m)
@@ -273,14 +280,15 @@ static void say(char *out, size_t bytes, size_t *n, const char *format, ...)
     if (written > 0) *n += (size_t)written;
 }
 
-static void say_variant(const search *s, const variant *v, const compile_memory *m, bool smaller, char *out, size_t bytes)
+static void say_variant(const search *s, const variant *v, const compile_memory *m, bool smaller, char *out,
+                        size_t bytes)
 {
     const compiled c = apply(s, v);
     const settings *is = &c.set, *was = &s->c->asked, *on = &s->c->set;
     size_t n = 0;
     say(out, bytes, &n, "nearest that does:");
     if (smaller) say(out, bytes, &n, " --size %dx%d", c.options->width, c.options->height);
-#define SAY_(kind, knob) \
+#define SAY_(kind, knob)                                                                                               \
     if (is->kind.knob != was->kind.knob) say(out, bytes, &n, " --set " #knob "=%d", is->kind.knob)
     SAY_(quality, atlas_size);
     SAY_(quality, other_atlas_size);
@@ -291,7 +299,8 @@ static void say_variant(const search *s, const variant *v, const compile_memory 
     SAY_(quality, tile_width);
     SAY_(quality, tile_height);
     if (v->loss[FILTER]) say(out, bytes, &n, " --set filter=%s", settings_filter_names[c.fixed.scene.shadow.filter]);
-    if (v->loss[OTHER_FILTER]) say(out, bytes, &n, " --set other_filter=%s", settings_filter_names[c.fixed.scene.shadow.other_filter]);
+    if (v->loss[OTHER_FILTER])
+        say(out, bytes, &n, " --set other_filter=%s", settings_filter_names[c.fixed.scene.shadow.other_filter]);
     SAY_(capacity, vertex_cache);
     if (v->lean == LEAN_MAX) {
         if (on->feature.depth_blocks) say(out, bytes, &n, " --set depth_blocks=0");
@@ -299,8 +308,8 @@ static void say_variant(const search *s, const variant *v, const compile_memory 
         if (on->feature.incremental) say(out, bytes, &n, " --set incremental=0");
         if (on->feature.caster_culling) say(out, bytes, &n, " --set caster_culling=0");
     }
-    say(out, bytes, &n, ": %ld bytes of RAM, %ld of flash, colours off by %.1f of 255 (RMS)", compile_ram_bytes(m, s->b), compile_rom_bytes(m),
-        sqrt(v->change));
+    say(out, bytes, &n, ": %ld bytes of RAM, %ld of flash, colours off by %.1f of 255 (RMS)",
+        compile_ram_bytes(m, s->b), compile_rom_bytes(m), sqrt(v->change));
 }
 
 /* In the size of s->c. */
@@ -345,7 +354,8 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
     narrow.ram -= b->ram / 64;
     narrow.flash -= b->flash / 64;
     const compile_memory asked = compile_measure(c, b);
-    search s = {.c = c, .b = &narrow, .least_ram = compile_ram_bytes(&asked, b), .least_flash = compile_rom_bytes(&asked)};
+    search s = {
+        .c = c, .b = &narrow, .least_ram = compile_ram_bytes(&asked, b), .least_flash = compile_rom_bytes(&asked)};
     find_losses(&s, compile_rom_bytes(&asked) > narrow.flash);
     bool found = find(&s, false, out, bytes);
     if (found && s.change <= MUCH) return true;
@@ -356,7 +366,8 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
         if (s.change <= MUCH) return true;
     }
     if (found) return true;
-    snprintf(out, bytes, "no settings do: the least that was found, each by itself, is %ld bytes of RAM and %ld of flash",
+    snprintf(out, bytes,
+             "no settings do: the least that was found, each by itself, is %ld bytes of RAM and %ld of flash",
              s.least_ram, s.least_flash);
     return false;
 }

@@ -1,8 +1,9 @@
-/* Taking away what changes no byte of any frame. Nothing is taken on belief: every frame is drawn again without it, and compared.
+/* Taking away what changes no byte of any frame. Nothing is taken on belief: every frame is drawn again without it, and
+ * compared.
  *
- * A candidate is something that a scene can be without: a light, a caster, a feature of a material. Candidates of one kind are first
- * tried on a few frames, each upon those that were taken before it, then all together on every frame; a frame that differs gives
- * back those that it needs. */
+ * A candidate is something that a scene can be without: a light, a caster, a feature of a material. Candidates of one
+ * kind are first tried on a few frames, each upon those that were taken before it, then all together on every frame; a
+ * frame that differs gives back those that it needs. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,7 +73,7 @@ typedef struct {
     bool no_memory;
 } trial;
 
-/* ---- Taking and giving back --------------------------------------------------------------------------------------------- */
+/* ---- Taking and giving back -------------------------------------------------------------------------------------- */
 
 static gn_light *light_of(const trial *b, const candidate *d)
 {
@@ -215,7 +216,7 @@ static void give_back(trial *b, candidate *d)
     else give_back_to_object(object_of(b, d), &d->was.object, d->kind);
 }
 
-/* ---- Trying ------------------------------------------------------------------------------------------------------------- */
+/* ---- Trying ------------------------------------------------------------------------------------------------------ */
 
 /* A frame that the library refuses is another picture. */
 static bool same_frame(trial *b, int i)
@@ -319,7 +320,7 @@ static void clear(trial *b, const char *what)
 
 enum { NAMES_MAX = 8 };
 
-/* ---- Reporting ---------------------------------------------------------------------------------------------------------- */
+/* ---- Reporting --------------------------------------------------------------------------------------------------- */
 
 static long ram_of(const compiled *c, const compile_run *run)
 {
@@ -342,8 +343,9 @@ static measure measure_now(const trial *b)
 /* A setting; NULL: something of an object, a light or a mesh. */
 static const char *setting_of(kind k)
 {
-    static const char *const names[] = {[FILTER] = "filter", [OTHER_FILTER] = "other_filter", [KERNEL] = "kernel", [MIXING] = "mixing", [MAIN_LIGHT] = "main_light",
-                                        [BLEND] = "cascade_blend", [CASCADES] = "cascades"};
+    static const char *const names[] = {
+        [FILTER] = "filter",         [OTHER_FILTER] = "other_filter", [KERNEL] = "kernel",    [MIXING] = "mixing",
+        [MAIN_LIGHT] = "main_light", [BLEND] = "cascade_blend",       [CASCADES] = "cascades"};
     return (size_t)k < sizeof names / sizeof *names ? names[k] : NULL;
 }
 
@@ -358,7 +360,8 @@ static const char *name_of(const trial *b, const candidate *d)
 static bool named_before(const trial *b, size_t i)
 {
     for (size_t k = 0; k < i; k++)
-        if (b->list[k].taken && b->list[k].kind != UNUSED_CASCADE && strcmp(name_of(b, &b->list[k]), name_of(b, &b->list[i])) == 0)
+        if (b->list[k].taken && b->list[k].kind != UNUSED_CASCADE &&
+            strcmp(name_of(b, &b->list[k]), name_of(b, &b->list[i])) == 0)
             return true;
     return false;
 }
@@ -389,10 +392,11 @@ static void report(trial *b, const char *what, size_t n, const measure *before)
     s->n = n;
     s->flash_bytes = before->flash - now.flash;
     s->ram_bytes = before->ram - now.ram;
-    s->instructions = b->wanted.instructions > 0 ? (before->instructions - now.instructions) / b->wanted.instructions : 0;
+    s->instructions =
+        b->wanted.instructions > 0 ? (before->instructions - now.instructions) / b->wanted.instructions : 0;
 }
 
-/* ---- Kinds -------------------------------------------------------------------------------------------------------------- */
+/* ---- Kinds ------------------------------------------------------------------------------------------------------- */
 
 static void try_lights(trial *b)
 {
@@ -436,8 +440,7 @@ static void try_cascades(trial *b)
     char what[100] = "cascades that no pixel looks into:";
     clear(b, "cascades");
     const uint32_t n_cascades = b->c->fixed.scene.shadow.n_cascades;
-    for (uint32_t i = 0; n_cascades > 1 && b->now.demand.shadow_tiles && i < n_cascades; i++)
-        add(b, UNUSED_CASCADE, i);
+    for (uint32_t i = 0; n_cascades > 1 && b->now.demand.shadow_tiles && i < n_cascades; i++) add(b, UNUSED_CASCADE, i);
     size_t n = try_all(b);
     for (size_t i = 0; i < b->n; i++)
         if (b->list[i].taken) snprintf(what + strlen(what), sizeof what - strlen(what), " %zu", b->list[i].idx);
@@ -466,7 +469,7 @@ static void drop_objects(trial *b)
     free(gone);
 }
 
-/* ---- Triangles ---------------------------------------------------------------------------------------------------------- */
+/* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
 /* Unseen triangles are tried together, then in halves, down to a share of them all. */
 enum { CHUNKS = 64 };
@@ -583,7 +586,7 @@ static void try_triangles(trial *b)
     report(b, what, n, &before);
 }
 
-/* ---- What features are for ---------------------------------------------------------------------------------------------- */
+/* ---- What features are for --------------------------------------------------------------------------------------- */
 
 static void add_object_features(trial *b, size_t i)
 {
@@ -600,7 +603,8 @@ static void add_light_features(trial *b, size_t i)
     const gn_light *l = &b->c->fixed.lights[i];
     const int32_t *r = l->bias_receiver_q16;
     if (l->softness != GN_SOFTNESS_DEFAULT) add(b, LIGHT_SOFTNESS, i);
-    if (r[0] || r[1] || r[2] || r[3] || l->bias_caster_q16 || l->receiver_plane || l->auto_bias != GN_AUTO_BIAS_OFF) add(b, LIGHT_BIAS, i);
+    if (r[0] || r[1] || r[2] || r[3] || l->bias_caster_q16 || l->receiver_plane || l->auto_bias != GN_AUTO_BIAS_OFF)
+        add(b, LIGHT_BIAS, i);
 }
 
 static void try_features(trial *b)
@@ -654,8 +658,9 @@ static void merge(trial *b)
 /* Vertices in fewer bits. For firmware that moves the camera, only where nothing is rounded. */
 static void narrow(trial *b)
 {
-    static const char *const names[2][2] = {{"positions that 16 bits hold exactly", "positions that 16 bits hold as far as any frame shows"},
-                                            {"normals that 8 bits hold exactly", "normals that 8 bits hold as far as any frame shows"}};
+    static const char *const names[2][2] = {
+        {"positions that 16 bits hold exactly", "positions that 16 bits hold as far as any frame shows"},
+        {"normals that 8 bits hold exactly", "normals that 8 bits hold as far as any frame shows"}};
     const bool rounded = b->c->options->simplify == TOOL_SIMPLIFY_PATH;
     for (int what = COMPILE_POSITIONS; what <= COMPILE_NORMALS; what++) {
         measure before = measure_now(b);
@@ -667,7 +672,7 @@ static void narrow(trial *b)
     }
 }
 
-/* ---- All ---------------------------------------------------------------------------------------------------------------- */
+/* ---- All --------------------------------------------------------------------------------------------------------- */
 
 static void choose_samples(trial *b)
 {
@@ -696,7 +701,8 @@ static void simplify_path(trial *b)
 static int say_refused(const trial *b, char *error, size_t bytes)
 {
     const gn_detail *d = gn_get_detail(b->st->renderer);
-    if (d->needed) snprintf(error, bytes, "%s: %u needed, %u available", gn_status_text(d->status), d->needed, d->available);
+    if (d->needed)
+        snprintf(error, bytes, "%s: %u needed, %u available", gn_status_text(d->status), d->needed, d->available);
     else snprintf(error, bytes, "%s", gn_status_text(d->status));
     return -1;
 }

@@ -1,4 +1,5 @@
-/* What the compiled scene takes on a 32-bit target, to the byte: as its compilers lay out the structures of gnomon.h. */
+/* What the compiled scene takes on a 32-bit target, to the byte: as its compilers lay out the structures of gnomon.h.
+ */
 #include "compile.h"
 
 enum { MESH_BYTES = 32, TEXTURE_BYTES = 8 };

@@ -4,8 +4,8 @@
 
 #include "count.h"
 
-/* Instructions of one frame with nothing kept from another: shadow tiles, setup and binning, rasterising, shading. Weights and their
- * error: cost_table.h. */
+/* Instructions of one frame with nothing kept from another: shadow tiles, setup and binning, rasterising, shading.
+ * Weights and their error: cost_table.h. */
 double cost_instructions(const count_all *counts);
 
 #endif

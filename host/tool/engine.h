@@ -1,4 +1,5 @@
-/* What the commands draw with: a picture by the library (fixed), by the reference or by the ray tracer (truth), in one shape. */
+/* What the commands draw with: a picture by the library (fixed), by the reference or by the ray tracer (truth), in one
+ * shape. */
 #ifndef GNOMON_ENGINE_H
 #define GNOMON_ENGINE_H
 
@@ -33,7 +34,8 @@ typedef struct {
     settings_demand demand;
 } engine_picture;
 
-_Static_assert(ENGINE_LIGHTS_MAX == GN_MAX_LIGHTS && ENGINE_LIGHTS_MAX == REF_MAX_LIGHTS && ENGINE_TILES_MAX == REF_MAX_VIEWS,
+_Static_assert(ENGINE_LIGHTS_MAX == GN_MAX_LIGHTS && ENGINE_LIGHTS_MAX == REF_MAX_LIGHTS &&
+                   ENGINE_TILES_MAX == REF_MAX_VIEWS,
                "the same limits everywhere");
 
 /* What to fill besides the colours. */
@@ -43,23 +45,24 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
                  size_t error_bytes);
 int engine_reference(engine_picture *out, const scene *s, const settings *set, int width, int height, char *error,
                      size_t error_bytes);
-int engine_truth(engine_picture *out, const scene *s, const settings *set, int width, int height, int samples, char *error,
-                 size_t error_bytes);
+int engine_truth(engine_picture *out, const scene *s, const settings *set, int width, int height, int samples,
+                 char *error, size_t error_bytes);
 void engine_free(engine_picture *p);
 
-/* The library's frames one after the other, colours alone, by one renderer: it keeps shadow tiles as firmware does (A5), and follows
- * the schedule of cascades. Calls each for every frame, the first of which is 0, with what drawing it took; that returns 0, or -1
- * with one line in error, like this. */
+/* The library's frames one after the other, colours alone, by one renderer: it keeps shadow tiles as firmware does
+ * (A5), and follows the schedule of cascades. Calls each for every frame, the first of which is 0, with what drawing it
+ * took; that returns 0, or -1 with one line in error, like this. */
 enum { ENGINE_FRAMES_MAX = 16 };
-typedef int (*engine_each)(void *user, size_t frame, const uint8_t *rgb8, const count_all *counts, char *error, size_t error_bytes);
+typedef int (*engine_each)(void *user, size_t frame, const uint8_t *rgb8, const count_all *counts, char *error,
+                           size_t error_bytes);
 int engine_play(const scene *frames, size_t n, const settings *set, int width, int height, engine_each each, void *user,
                 char *error, size_t error_bytes);
 
 /* What the frame that was rendered last took. */
 void engine_demand(const gn_renderer *renderer, settings_demand *out);
 
-/* What the engines in double precision share: options for a configuration, and their picture after the same quantisation as the
- * library's. Takes the arrays of ref, which is empty afterwards; -1: out of memory. */
+/* What the engines in double precision share: options for a configuration, and their picture after the same
+ * quantisation as the library's. Takes the arrays of ref, which is empty afterwards; -1: out of memory. */
 ref_options engine_ref_options(const scene *s, const settings *set, int width, int height);
 int engine_take(engine_picture *out, ref_picture *ref, const scene *s, const settings *set);
 

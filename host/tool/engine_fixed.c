@@ -85,14 +85,15 @@ static int explain(const job *j, gn_status status)
     const scene *s = j->scene;
     subject about = subject_of(status);
     if (d->needed)
-        snprintf(j->error, j->error_bytes, "%s: %u needed, %u available", gn_status_text(status), d->needed, d->available);
+        snprintf(j->error, j->error_bytes, "%s: %u needed, %u available", gn_status_text(status), d->needed,
+                 d->available);
     else if (about == ABOUT_OBJECT && d->index < s->n_objects)
         snprintf(j->error, j->error_bytes, "object '%s': %s", s->objects[d->index].name, gn_status_text(status));
     else if (about == ABOUT_LIGHT && d->index < s->n_lights)
         snprintf(j->error, j->error_bytes, "light '%s': %s", s->lights[d->index].name, gn_status_text(status));
     else if (status == GN_ERR_SHADOW_DISTANCE)
-        snprintf(j->error, j->error_bytes, "%s: it is %g, the near plane %g; --set max_distance=...", gn_status_text(status),
-                 s->shadow.max_distance, s->camera.near);
+        snprintf(j->error, j->error_bytes, "%s: it is %g, the near plane %g; --set max_distance=...",
+                 gn_status_text(status), s->shadow.max_distance, s->camera.near);
     else snprintf(j->error, j->error_bytes, "%s", gn_status_text(status));
     if (status == GN_ERR_CAMERA_DEPTH || status == GN_ERR_SHADOW_DISTANCE || status == GN_ERR_LIGHT_RANGE ||
         status == GN_ERR_LIGHT_POSITION)
@@ -221,7 +222,8 @@ void engine_demand(const gn_renderer *renderer, settings_demand *out)
         uint32_t n = 0, side = 0, n_unused = 0;
         if (gn_get_light_shadow(renderer, l, &n, &side) != GN_SHADOW_REALTIME) continue;
         const bool in_other = frame->view[frame->light[l].view_idx].in_other;
-        for (uint32_t i = 0; !in_other && i < n && n > 1; i++) n_unused += frame->scene->shadow.cascades_unused >> i & 1;
+        for (uint32_t i = 0; !in_other && i < n && n > 1; i++)
+            n_unused += frame->scene->shadow.cascades_unused >> i & 1;
         *(in_other ? &out->other_tiles : &out->shadow_tiles) += n;
         *(in_other ? &out->other_atlas_texels : &out->atlas_texels) += (size_t)(n - n_unused) * side * side;
     }

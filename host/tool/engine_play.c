@@ -11,7 +11,8 @@ typedef struct {
     gn_renderer *renderer;
     const settings *set;
     gn_picture picture;
-    fixed_scene fixed[ENGINE_FRAMES_MAX]; /* all of them: an address that is used anew would look like a mesh that stands still */
+    fixed_scene fixed[ENGINE_FRAMES_MAX]; /* all of them: an address that is used anew would look like a mesh that
+                                             stands still */
     size_t n_fixed;
     uint8_t *rgb8;
 } player;
@@ -28,7 +29,8 @@ static int prepare(player *p, const scene *s, char *error, size_t error_bytes)
     if (quantise_scene_for(f, s, &p->set->quality, error, error_bytes)) return -1;
     if (p->n_fixed++) quantise_share(f, &p->fixed[0]);
     /* a build without the layer knows no such hint */
-    for (size_t i = 0; !p->set->feature.static_layer && i < f->scene.n_objects; i++) f->objects[i].flags &= ~(uint32_t)GN_OBJECT_MOVING;
+    for (size_t i = 0; !p->set->feature.static_layer && i < f->scene.n_objects; i++)
+        f->objects[i].flags &= ~(uint32_t)GN_OBJECT_MOVING;
     return 0;
 }
 

@@ -4,8 +4,8 @@
 #include "../truth/truth.h"
 #include "engine.h"
 
-int engine_truth(engine_picture *out, const scene *s, const settings *set, int width, int height, int samples, char *error,
-                 size_t error_bytes)
+int engine_truth(engine_picture *out, const scene *s, const settings *set, int width, int height, int samples,
+                 char *error, size_t error_bytes)
 {
     ref_picture truth;
     const ref_options options = engine_ref_options(s, set, width, height);

@@ -8,7 +8,8 @@
 /* As if the preset were set last. */
 static void try_preset(info_memory *out, const tool_options *o, int preset)
 {
-    static const board m0 = {.core = FLASH_CORTEX_M0, .short_enums = true}, m4 = {.core = FLASH_CORTEX_M4, .short_enums = true};
+    static const board m0 = {.core = FLASH_CORTEX_M0, .short_enums = true},
+                       m4 = {.core = FLASH_CORTEX_M4, .short_enums = true};
     char set[32], error[TOOL_ERROR_BYTES] = "out of memory";
     tool_options with = *o;
     compiled c;
@@ -33,8 +34,9 @@ static int judge(info_memory *out, const tool_options *o, const board *b, char *
     compile_memory m = compile_measure(&c, b);
     out->fits = compile_fits(&m, b);
     if (out->fits) {
-        snprintf(out->verdict, sizeof out->verdict, "fits %s: %ld bytes of RAM (stack %ld) of %ld, about %ld of flash of %ld",
-                 b->name, compile_ram_bytes(&m, b), b->stack, b->ram, compile_rom_bytes(&m), b->flash);
+        snprintf(out->verdict, sizeof out->verdict,
+                 "fits %s: %ld bytes of RAM (stack %ld) of %ld, about %ld of flash of %ld", b->name,
+                 compile_ram_bytes(&m, b), b->stack, b->ram, compile_rom_bytes(&m), b->flash);
     } else {
         char much[240], nearest[400];
         compile_say_memory(&m, b, much, sizeof much);
@@ -69,7 +71,8 @@ int info_memory_find(info_memory *out, const tool_options *o, char *error, size_
     if (judge(out, &frames, &b, error, error_bytes)) return -1;
     if (o->last_frame < 0 && out->frames > 1) {
         const size_t n = strlen(out->verdict);
-        snprintf(out->verdict + n, sizeof out->verdict - n, " (frame %d alone; --frames 0-%d for all)", frames.frame, out->frames - 1);
+        snprintf(out->verdict + n, sizeof out->verdict - n, " (frame %d alone; --frames 0-%d for all)", frames.frame,
+                 out->frames - 1);
     }
     return 0;
 }
@@ -84,7 +87,8 @@ void info_memory_text(const info_memory *m)
             printf("    %-9s %s\n", settings_preset_name[i], m->refused[i]);
             continue;
         }
-        printf("    %-9s RAM %ld bytes: renderer %ld, what moves %ld; flash: scene %ld, code about %ld (Cortex-M0), %ld (M4)\n",
+        printf("    %-9s RAM %ld bytes: renderer %ld, what moves %ld; flash: scene %ld, code about %ld (Cortex-M0), "
+               "%ld (M4)\n",
                settings_preset_name[i], a->renderer + a->state, a->renderer, a->state, a->data, a->code, b->code);
     }
     if (m->verdict[0]) printf("  %s\n", m->verdict);

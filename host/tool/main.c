@@ -11,21 +11,29 @@ static const char usage_text[] =
     "usage: gnomon COMMAND SCENE [options]        SCENE: .gltf, .glb or .obj\n"
     "\n"
     "  render SCENE -o OUT.png   one picture\n"
-    "  compare SCENE [-o DIR]    the library against the double-precision reference; DIR gets fixed.png, reference.png,\n"
+    "  compare SCENE [-o DIR]    the library against the double-precision reference; DIR gets fixed.png, "
+    "reference.png,\n"
     "                            error.png, and beside.png, the three side by side. --with truth adds the ray tracer\n"
-    "                            (truth.png), and reports apart what fixed point costs (fixed against reference), what the\n"
-    "                            shadow maps cost (reference against truth), and both; an error picture for each; near\n"
+    "                            (truth.png), and reports apart what fixed point costs (fixed against reference), what "
+    "the\n"
+    "                            shadow maps cost (reference against truth), and both; an error picture for each; "
+    "near\n"
     "                            planes, max_distance and one-sided casters are part of the scene, in truth too\n"
     "  info SCENE                what the scene needs, and what in the file was ignored\n"
-    "  sweep SCENE               many configurations: RAM, instructions and error, and the front of those that no other beats;\n"
-    "                            of a scene that moves over frame N and the eight after it, with the tiles that are kept\n"
+    "  sweep SCENE               many configurations: RAM, instructions and error, and the front of those that no "
+    "other beats;\n"
+    "                            of a scene that moves over frame N and the eight after it, with the tiles that are "
+    "kept\n"
     "  advise SCENE --ram BYTES  the most accurate configuration within a budget, as --set arguments\n"
-    "  compile SCENE -o DIR      C for flash: scene.c and scene.h, and gn_scene_config.h, the library with just what it needs\n"
-    "  bake SCENE -o OUT.gltf    the shadows of what stands still as masks, by the ray tracer; what they cost and how true they "
+    "  compile SCENE -o DIR      C for flash: scene.c and scene.h, and gn_scene_config.h, the library with just what "
+    "it needs\n"
+    "  bake SCENE -o OUT.gltf    the shadows of what stands still as masks, by the ray tracer; what they cost and how "
+    "true they "
     "are\n"
     "  knobs                     every knob and setting, as docs/CONFIG.md lists them\n"
     "\n"
-    "  --engine NAME             render: fixed, the library; reference, the same in double precision; truth, a ray tracer\n"
+    "  --engine NAME             render: fixed, the library; reference, the same in double precision; truth, a ray "
+    "tracer\n"
     "                            with exact shadows (fixed)\n"
     "  --with reference|truth    compare: against what (reference)\n"
     "  --samples N               N x N samples per pixel of truth; 1: pixel centres, as the other engines (1)\n"
@@ -35,26 +43,42 @@ static const char usage_text[] =
     "  --frame N                 animation frame (0)\n"
     "  --frames FIRST-LAST       compile, info: these frames (compile: all of the animation; info: frame 0 alone)\n"
     "  --board NAME              compile, info: must fit the memory of boards/NAME; or --ram, --flash BYTES\n"
-    "  --optimise -Os|-O2        compile, info: how the library is built, for the estimate of flash (as the board says)\n"
+    "  --optimise -Os|-O2        compile, info: how the library is built, for the estimate of flash (as the board "
+    "says)\n"
     "  --margin PERCENT          compile: room for more triangles and tile references than the frames took (10)\n"
-    "  --simplify none|safe|path  compile: leave out what changes no picture of any camera, or none of the frames (path)\n"
+    "  --simplify none|safe|path  compile: leave out what changes no picture of any camera, or none of the frames "
+    "(path)\n"
     "  --set KEY=VALUE           any knob or setting, in order; preset=tiny|balanced|accurate sets many;\n"
     "                            KEY@LIGHT=VALUE for one light, by its number or name\n"
     "  --csv FILE, --svg FILE    sweep: every configuration as a table and a picture\n"
     "  --all                     sweep: print every configuration, not only the front\n"
     "  --quick                   sweep, advise: a few configurations only\n"
     "  --ram BYTES               advise: the most RAM\n"
-    "  --instructions-per-pixel N  advise: the most instructions per pixel: of the host, by the model of docs/TRADE.md, or with\n"
-    "                            --target of that board. Of a scene that moves their mean over the later frames, else with\n"
+    "  --instructions-per-pixel N  advise: the most instructions per pixel: of the host, by the model of "
+    "docs/TRADE.md, or with\n"
+    "                            --target of that board. Of a scene that moves their mean over the later frames, else "
+    "with\n"
     "                            every shadow tile drawn (no limit)\n"
-    "  --target NAME             sweep: count the instructions of what is printed, the front or with --all everything, as firmware\n"
-    "                            for boards/NAME in its emulator; advise: those of the advice. Seconds for each configuration\n"
-    "  --texels N                bake: side of the mask image, a power of two from 16 to 4096; 0: masks per vertex; auto:\n"
+    "  --target NAME             sweep: count the instructions of what is printed, the front or with --all everything, "
+    "as firmware\n"
+    "                            for boards/NAME in its emulator; advise: those of the advice. Seconds for each "
+    "configuration\n"
+    "  --texels N                bake: side of the mask image, a power of two from 16 to 4096; 0: masks per vertex; "
+    "auto:\n"
     "                            the least of 256, 512 and 1024 that is as true as shadow maps are (auto)\n"
     "  --still                   bake: objects marked as moving stand still too\n"
     "  --json                    one JSON object on stdout and nothing else\n";
 
-enum { BY_RENDER = 1, BY_COMPARE = 2, BY_INFO = 4, BY_SWEEP = 8, BY_ADVISE = 16, BY_COMPILE = 32, BY_BAKE = 64, BY_ALL = 127 };
+enum {
+    BY_RENDER = 1,
+    BY_COMPARE = 2,
+    BY_INFO = 4,
+    BY_SWEEP = 8,
+    BY_ADVISE = 16,
+    BY_COMPILE = 32,
+    BY_BAKE = 64,
+    BY_ALL = 127
+};
 
 enum { BUDGET_MAX = 1000000000 };
 
@@ -92,7 +116,8 @@ static const option options[] = {
     {"--quick", BY_SWEEP | BY_ADVISE, NULL},
     {"--json", BY_ALL, NULL},
 };
-_Static_assert(GN_MAX_WIDTH == 2048 && GN_MAX_HEIGHT == 2048 && GN_MAX_LIGHTS == 64 && TOOL_SETS_MAX == 64, "as said above");
+_Static_assert(GN_MAX_WIDTH == 2048 && GN_MAX_HEIGHT == 2048 && GN_MAX_LIGHTS == 64 && TOOL_SETS_MAX == 64,
+               "as said above");
 
 static int usage_error(void)
 {
@@ -165,7 +190,8 @@ static int take_value(tool_options *o, const char *name, char *value)
 {
     int light = 0, failed = 0;
     if (strcmp(name, "-o") == 0) failed = !*(o->out_path = value);
-    else if (strcmp(name, "--engine") == 0) failed = strcmp(o->engine = value, "fixed") != 0 && is_no_double_engine(value);
+    else if (strcmp(name, "--engine") == 0)
+        failed = strcmp(o->engine = value, "fixed") != 0 && is_no_double_engine(value);
     else if (strcmp(name, "--with") == 0) failed = is_no_double_engine(o->with = value);
     else if (strcmp(name, "--samples") == 0) failed = parse_int(value, 1, TRUTH_MAX_SAMPLES, &o->samples);
     else if (strcmp(name, "--size") == 0) failed = parse_size(value, o);
@@ -185,7 +211,8 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--svg") == 0) failed = !*(o->svg_path = value);
     else if (strcmp(name, "--texels") == 0) failed = parse_texels(value, &o->texels);
     else if (strcmp(name, "--ram") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->ram);
-    else if (strcmp(name, "--instructions-per-pixel") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->instructions_per_pixel);
+    else if (strcmp(name, "--instructions-per-pixel") == 0)
+        failed = parse_int(value, 1, BUDGET_MAX, &o->instructions_per_pixel);
     else if (strcmp(name, "--set") == 0) {
         if (o->n_sets == TOOL_SETS_MAX) return -1;
         o->sets[o->n_sets++] = value;

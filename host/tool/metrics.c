@@ -11,7 +11,8 @@ static int steps565(uint16_t a, uint16_t b)
     return r > g ? (r > blue ? r : blue) : (g > blue ? g : blue);
 }
 
-/* Below this cosine a surface is edge-on to a light: which side it faces is rounding, and it receives nothing that could be seen. */
+/* Below this cosine a surface is edge-on to a light: which side it faces is rounding, and it receives nothing that
+ * could be seen. */
 #define FACING_LEAST 1e-5
 
 static int comparable(const engine_picture *fixed, const engine_picture *other, size_t light, size_t i)
@@ -53,7 +54,8 @@ static void attenuation(metrics *m, const engine_picture *fixed, const engine_pi
 static const char *const cause_names[] = {"coverage", "shadow", "light", "rounding"};
 typedef enum { COVERAGE, SHADOW, LIGHT, ROUNDING } cause;
 
-/* Rounding is what one step explains: where colours are farther apart under the same shadow, the light itself differs. */
+/* Rounding is what one step explains: where colours are farther apart under the same shadow, the light itself differs.
+ */
 static cause cause_of(const metrics *m, const engine_picture *fixed, const engine_picture *other, size_t i, int steps)
 {
     if (fixed->triangle[i] != other->triangle[i]) return COVERAGE;
@@ -102,7 +104,8 @@ void metrics_compute(metrics *m, const engine_picture *fixed, const engine_pictu
     long same = 0, near = 0, other_triangle = 0;
     double squares = 0;
     for (size_t i = 0; i < (size_t)m->pixels; i++) {
-        int steps = steps565(fixed->rgb565[i], other->rgb565[i]), worst = worst_channel(fixed->rgb8, other->rgb8, i, &squares);
+        int steps = steps565(fixed->rgb565[i], other->rgb565[i]),
+            worst = worst_channel(fixed->rgb8, other->rgb8, i, &squares);
         same += steps == 0;
         near += steps <= 1;
         other_triangle += fixed->triangle[i] != other->triangle[i];

@@ -47,7 +47,7 @@ static axis fit_axis(const plot_panel *p, bool of_x, double from, double to)
     return a;
 }
 
-/* ---- Axes ------------------------------------------------------------------------------------------------------------------- */
+/* ---- Axes -------------------------------------------------------------------------------------------------------- */
 
 static void format_tick(char *out, size_t bytes, double v)
 {
@@ -63,12 +63,15 @@ static void draw_tick(const chart *c, bool of_x, double v)
     if (of_x) {
         double x = place(&c->x, v);
         fprintf(c->file,
-                "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/><text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n", x,
-                c->y.from, c->y.to, x, c->y.from + 15, text);
+                "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/><text x=\"%.1f\" y=\"%.1f\" "
+                "text-anchor=\"middle\">%s</text>\n",
+                x, c->y.from, c->y.to, x, c->y.from + 15, text);
     } else {
         double y = place(&c->y, v);
-        fprintf(c->file, "<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/><text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n",
-                c->x.from, y, c->x.to, c->x.from - 6, y + 4, text);
+        fprintf(
+            c->file,
+            "<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/><text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n",
+            c->x.from, y, c->x.to, c->x.from - 6, y + 4, text);
     }
 }
 
@@ -93,8 +96,8 @@ static void draw_frame(const chart *c)
     double mid_x = (c->x.from + c->x.to) / 2, mid_y = (c->y.from + c->y.to) / 2;
     draw_ticks(c, true);
     draw_ticks(c, false);
-    fprintf(c->file, "<rect class=\"frame\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", c->x.from, c->y.to,
-            c->x.to - c->x.from, c->y.from - c->y.to);
+    fprintf(c->file, "<rect class=\"frame\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", c->x.from,
+            c->y.to, c->x.to - c->x.from, c->y.from - c->y.to);
     fprintf(c->file, "<text class=\"head\" x=\"%.1f\" y=\"%.1f\">", c->x.from, c->y.to - 10);
     svg_text(c->file, p->title);
     fprintf(c->file, "</text>\n<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", mid_x, c->y.from + 34);
@@ -104,7 +107,7 @@ static void draw_frame(const chart *c)
     fprintf(c->file, "</text>\n");
 }
 
-/* ---- The front -------------------------------------------------------------------------------------------------------------- */
+/* ---- The front --------------------------------------------------------------------------------------------------- */
 
 static bool beats(const plot_point *a, const plot_point *b)
 {
@@ -146,12 +149,12 @@ static void draw_line(const chart *c, const plot_point *const *front, size_t n)
     fprintf(c->file, "H%.1f\"/>\n", c->x.to);
 }
 
-/* ---- Points and labels ------------------------------------------------------------------------------------------------------ */
+/* ---- Points and labels ------------------------------------------------------------------------------------------- */
 
 static void draw_point(const chart *c, const plot_point *p)
 {
-    fprintf(c->file, "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>", p->strong ? "on" : "off", place(&c->x, p->x),
-            place(&c->y, p->y), p->strong ? "4" : "3");
+    fprintf(c->file, "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>", p->strong ? "on" : "off",
+            place(&c->x, p->x), place(&c->y, p->y), p->strong ? "4" : "3");
     svg_text(c->file, p->label);
     fprintf(c->file, "</title></circle>\n");
 }
@@ -182,7 +185,8 @@ static bool is_free(const chart *c, const box *b)
     return true;
 }
 
-/* Beside the point where there is room, farther away if need be, with a thin line to it; nowhere: the point has its hover text. */
+/* Beside the point where there is room, farther away if need be, with a thin line to it; nowhere: the point has its
+ * hover text. */
 static void draw_label(chart *c, const plot_point *p)
 {
     static const double away[][2] = {{-1, 1}, {-1, -1}, {1, 1}, {1, -1}};
@@ -226,11 +230,13 @@ static int draw_panel(FILE *file, const plot_panel *p, double top)
     return 0;
 }
 
-int plot_write(const char *path, const char *title, const plot_panel *panels, size_t n_panels, char *error, size_t error_bytes)
+int plot_write(const char *path, const char *title, const plot_panel *panels, size_t n_panels, char *error,
+               size_t error_bytes)
 {
     int failed = 0;
     FILE *f = svg_begin(path, title, SVG_TITLE + PANEL * (int)n_panels, error, error_bytes);
     if (!f) return -1;
-    for (size_t i = 0; i < n_panels && !failed; i++) failed = draw_panel(f, &panels[i], SVG_TITLE + (double)PANEL * (double)i);
+    for (size_t i = 0; i < n_panels && !failed; i++)
+        failed = draw_panel(f, &panels[i], SVG_TITLE + (double)PANEL * (double)i);
     return svg_end(f, failed, error, error_bytes);
 }

@@ -13,8 +13,8 @@ typedef struct {
     const char *label;
 } plot_point;
 
-/* Less is better along both axes; both are logarithmic. A line joins the points that no other beats in both; they carry their labels,
- * and every point tells its own on hover. */
+/* Less is better along both axes; both are logarithmic. A line joins the points that no other beats in both; they carry
+ * their labels, and every point tells its own on hover. */
 typedef struct {
     const char *title, *x_label, *y_label;
     const plot_point *points;
@@ -22,7 +22,8 @@ typedef struct {
 } plot_panel;
 
 /* Panels one below the other. 0, or -1 with one line in error. */
-int plot_write(const char *path, const char *title, const plot_panel *panels, size_t n_panels, char *error, size_t error_bytes);
+int plot_write(const char *path, const char *title, const plot_panel *panels, size_t n_panels, char *error,
+               size_t error_bytes);
 
 /* ---- Curves: plot_curves.c ---- */
 
@@ -38,9 +39,10 @@ typedef struct {
     size_t n;
 } plot_curves;
 
-/* Panels in rows of n_columns, all of them with the same curves; the key is in the first line. 0, or -1 with one line in error. */
-int plot_curves_write(const char *path, const char *title, const char *const *names, size_t n_names, const plot_curves *panels,
-                      size_t n_panels, size_t n_columns, char *error, size_t error_bytes);
+/* Panels in rows of n_columns, all of them with the same curves; the key is in the first line. 0, or -1 with one line
+ * in error. */
+int plot_curves_write(const char *path, const char *title, const char *const *names, size_t n_names,
+                      const plot_curves *panels, size_t n_panels, size_t n_columns, char *error, size_t error_bytes);
 
 /* ---- Tables as colours: plot_heat.c ---- */
 

@@ -69,8 +69,8 @@ static void draw_key(FILE *f, const char *const *names, size_t n)
     }
 }
 
-int plot_curves_write(const char *path, const char *title, const char *const *names, size_t n_names, const plot_curves *panels,
-                      size_t n_panels, size_t n_columns, char *error, size_t error_bytes)
+int plot_curves_write(const char *path, const char *title, const char *const *names, size_t n_names,
+                      const plot_curves *panels, size_t n_panels, size_t n_columns, char *error, size_t error_bytes)
 {
     const double width = (SVG_WIDTH - SVG_LEFT - SVG_RIGHT - GAP * (double)(n_columns - 1)) / (double)n_columns;
     const size_t n_rows = (n_panels + n_columns - 1) / n_columns;

@@ -61,20 +61,22 @@ static void draw_level(const sheet *s, size_t band, size_t map, int level)
 
 static void draw_map(const sheet *s, size_t band, size_t map, double x, double y)
 {
-    fprintf(s->file, "<g shape-rendering=\"crispEdges\" transform=\"translate(%.1f %.1f) scale(%.2f %d)\">\n", x, y, s->cell_x,
-            CELL_Y);
+    fprintf(s->file, "<g shape-rendering=\"crispEdges\" transform=\"translate(%.1f %.1f) scale(%.2f %d)\">\n", x, y,
+            s->cell_x, CELL_Y);
     for (int level = 1; level <= NO_VALUE; level++) draw_level(s, band, map, level);
-    fprintf(s->file, "</g><rect class=\"frame\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", x, y, map_width(s),
-            map_height(s->h));
+    fprintf(s->file, "</g><rect class=\"frame\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", x, y,
+            map_width(s), map_height(s->h));
 }
 
 static void draw_band(const sheet *s, size_t band, double top)
 {
     const plot_heat *h = s->h;
     svg_label(s->file, "head", SVG_LEFT, top - 6, "start", h->bands[band]);
-    for (size_t map = 0; map < h->n_maps; map++) draw_map(s, band, map, SVG_LEFT + (map_width(s) + GAP) * (double)map, top);
+    for (size_t map = 0; map < h->n_maps; map++)
+        draw_map(s, band, map, SVG_LEFT + (map_width(s) + GAP) * (double)map, top);
     for (size_t row = 0; row < h->n_rows; row++)
-        if (h->rows[row]) svg_label(s->file, NULL, SVG_LEFT - 6, top + CELL_Y * (double)row + SVG_FONT, "end", h->rows[row]);
+        if (h->rows[row])
+            svg_label(s->file, NULL, SVG_LEFT - 6, top + CELL_Y * (double)row + SVG_FONT, "end", h->rows[row]);
 }
 
 static void draw_columns(const sheet *s, double y)
@@ -96,7 +98,8 @@ static void draw_key(const sheet *s, double y)
     for (int i = 0; i <= KEY_STEPS; i++) {
         const double v = h->high * i * i / (KEY_STEPS * KEY_STEPS);
         x = SVG_WIDTH - SVG_RIGHT - 62.0 * (KEY_STEPS + 1 - i);
-        fprintf(s->file, "<path class=\"heat\" opacity=\"%.2f\" d=\"M%.1f %.1fh14v12h-14z\"/>", opacity(level_of(h, v)), x, y);
+        fprintf(s->file, "<path class=\"heat\" opacity=\"%.2f\" d=\"M%.1f %.1fh14v12h-14z\"/>", opacity(level_of(h, v)),
+                x, y);
         fprintf(s->file, "<path class=\"frame\" d=\"M%.1f %.1fh14v12h-14z\"/>", x, y);
         snprintf(text, sizeof text, "%.2g", v);
         svg_label(s->file, NULL, x + 18, y + 10, "start", text);

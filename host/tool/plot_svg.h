@@ -7,7 +7,8 @@
 /* Layout of all plots, pixels. */
 enum { SVG_WIDTH = 960, SVG_TITLE = 34, SVG_LEFT = 70, SVG_RIGHT = 24, SVG_FONT = 11, SVG_LETTER = 6 };
 
-/* The file with the head and the title; NULL with one line in error. svg_end closes it: 0, or -1 with one line in error. */
+/* The file with the head and the title; NULL with one line in error. svg_end closes it: 0, or -1 with one line in
+ * error. */
 FILE *svg_begin(const char *path, const char *title, int height, char *error, size_t error_bytes);
 int svg_end(FILE *f, int failed, char *error, size_t error_bytes);
 

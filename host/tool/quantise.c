@@ -19,13 +19,15 @@
 
 _Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7X7 == (int)SCENE_FILTER_7X7 &&
                    (int)GN_BLEND_DITHER == (int)SCENE_BLEND_DITHER && (int)GN_BLEND_SOFT == (int)SCENE_BLEND_SOFT &&
-                   (int)GN_DISTANCE_RADIUS == (int)SCENE_DISTANCE_RADIUS && (int)GN_KERNEL_LINEAR == (int)SCENE_KERNEL_LINEAR &&
-                   (int)GN_MIXING_ALWAYS == (int)SCENE_MIX_ALWAYS && (int)GN_MIXING_DISTANCE == (int)SCENE_MIX_DISTANCE &&
-                   (int)GN_TILES_IMPORTANCE == (int)SCENE_TILES_IMPORTANCE && (int)GN_LIGHT_SPOT == (int)SCENE_LIGHT_SPOT &&
-                   (int)GN_LIGHT_POINT == (int)SCENE_LIGHT_POINT && (int)GN_LIGHT_MIXED == (int)SCENE_MIXED &&
-                   (int)GN_LIGHT_BAKED == (int)SCENE_BAKED && (int)GN_SOFTNESS_HARD == (int)SCENE_SOFT_HARD &&
-                   (int)GN_SOFTNESS_SOFT == (int)SCENE_SOFT_SOFT && (int)GN_ALPHA_CLIP == (int)SCENE_ALPHA_CLIP &&
-                   (int)GN_ALPHA_DITHER == (int)SCENE_ALPHA_DITHER,
+                   (int)GN_DISTANCE_RADIUS == (int)SCENE_DISTANCE_RADIUS &&
+                   (int)GN_KERNEL_LINEAR == (int)SCENE_KERNEL_LINEAR &&
+                   (int)GN_MIXING_ALWAYS == (int)SCENE_MIX_ALWAYS &&
+                   (int)GN_MIXING_DISTANCE == (int)SCENE_MIX_DISTANCE &&
+                   (int)GN_TILES_IMPORTANCE == (int)SCENE_TILES_IMPORTANCE &&
+                   (int)GN_LIGHT_SPOT == (int)SCENE_LIGHT_SPOT && (int)GN_LIGHT_POINT == (int)SCENE_LIGHT_POINT &&
+                   (int)GN_LIGHT_MIXED == (int)SCENE_MIXED && (int)GN_LIGHT_BAKED == (int)SCENE_BAKED &&
+                   (int)GN_SOFTNESS_HARD == (int)SCENE_SOFT_HARD && (int)GN_SOFTNESS_SOFT == (int)SCENE_SOFT_SOFT &&
+                   (int)GN_ALPHA_CLIP == (int)SCENE_ALPHA_CLIP && (int)GN_ALPHA_DITHER == (int)SCENE_ALPHA_DITHER,
                "the scene's enumerations are the library's");
 
 /* How a mesh is stored. */
@@ -70,7 +72,7 @@ static double rounded(double v, double scale, double lo, double hi)
     return fmax(lo, fmin(hi, floor(v * scale + 0.5)));
 }
 
-/* ---- The unit of length ----------------------------------------------------------------------------------------------- */
+/* ---- The unit of length ------------------------------------------------------------------------------------------ */
 
 static double reach_of_object(const scene *s, const scene_object *o)
 {
@@ -114,7 +116,8 @@ quantise_reach quantise_farthest(const scene *s)
     take_farther(&most, reach_of_camera(&s->camera), QUANTISE_CAMERA, 0);
     take_farther(&most, s->camera.near, QUANTISE_CAMERA_NEAR, 0);
     take_farther(&most, s->shadow.max_distance, QUANTISE_MAX_DISTANCE, 0);
-    for (size_t i = 0; i < s->n_objects; i++) take_farther(&most, reach_of_object(s, &s->objects[i]), QUANTISE_OBJECT, i);
+    for (size_t i = 0; i < s->n_objects; i++)
+        take_farther(&most, reach_of_object(s, &s->objects[i]), QUANTISE_OBJECT, i);
     for (size_t i = 0; i < s->n_lights; i++) take_farther(&most, reach_of_light(&s->lights[i]), QUANTISE_LIGHT, i);
     return most;
 }
@@ -126,14 +129,16 @@ int quantise_world_exp(const scene *s)
     return -e;
 }
 
-/* The library takes lengths of the model from the unit in two places: what is near a light, and the disk filter's radius. */
+/* The library takes lengths of the model from the unit in two places: what is near a light, and the disk filter's
+ * radius. */
 static int quantise_unit(gn_scene *out, const scene *s, int world_exp, char *error, size_t error_bytes)
 {
     int needed = s->shadow.filter == SCENE_FILTER_DISK || s->shadow.other_filter == SCENE_FILTER_DISK;
     for (size_t i = 0; i < s->n_lights; i++) needed |= s->lights[i].kind != SCENE_LIGHT_DIRECTIONAL;
     int small = world_exp > UNIT_LOG2_MAX, large = world_exp < -UNIT_LOG2_MAX;
     if (needed && (small || large)) {
-        snprintf(error, error_bytes, "the scene is too %s for spot and point lights and the disk filter: it must reach %s %g units",
+        snprintf(error, error_bytes,
+                 "the scene is too %s for spot and point lights and the disk filter: it must reach %s %g units",
                  small ? "small" : "large", small ? "at least" : "at most",
                  ldexp(WORLD_REACH, small ? -UNIT_LOG2_MAX - 1 : UNIT_LOG2_MAX));
         return -1;
@@ -142,7 +147,7 @@ static int quantise_unit(gn_scene *out, const scene *s, int world_exp, char *err
     return 0;
 }
 
-/* ---- Meshes and textures ---------------------------------------------------------------------------------------------- */
+/* ---- Meshes and textures ----------------------------------------------------------------------------------------- */
 
 /* The largest number of fraction bits that keeps every coordinate of the mesh within 2^30. */
 static int position_bits(const scene_mesh *mesh)
@@ -171,8 +176,8 @@ static mesh_plan *plan_meshes(const scene *s, const gn_knobs *knobs)
     return plan;
 }
 
-/* As many fraction bits as 16-bit texture coordinates can have; less than 0: they do not fit at all. Textures that repeat do not
- * mind a whole number of periods: without it, coordinates far from 0 keep their fractions. */
+/* As many fraction bits as 16-bit texture coordinates can have; less than 0: they do not fit at all. Textures that
+ * repeat do not mind a whole number of periods: without it, coordinates far from 0 keep their fractions. */
 static int plan_texture_coordinates(mesh_plan *plan, const scene_mesh *mesh)
 {
     double largest = 0;
@@ -241,8 +246,8 @@ static int quantise_mesh(gn_mesh *out, const scene_mesh *mesh, mesh_plan *plan, 
     }
     int bits = plan->pos_bits, uv_bits = mesh->uv && n ? plan_texture_coordinates(plan, mesh) : 0;
     if (uv_bits < 0) {
-        snprintf(error, error_bytes, "mesh '%s': its texture coordinates are farther from 0, or from each other, than 32767",
-                 mesh->name);
+        snprintf(error, error_bytes,
+                 "mesh '%s': its texture coordinates are farther from 0, or from each other, than 32767", mesh->name);
         return -1;
     }
     out->n_vertices = (uint16_t)n;
@@ -255,8 +260,8 @@ static int quantise_mesh(gn_mesh *out, const scene_mesh *mesh, mesh_plan *plan, 
     if (mesh->rgb) out->rgb_uq16 = fixed_words(mesh->rgb, 3 * n, 65535);
     if (mesh->uv) out->uv = fixed_texture_coordinates(mesh, plan, uv_bits);
     if (mesh->mask_uv) out->mask_uv_uq16 = fixed_words(mesh->mask_uv, 2 * n, 65535);
-    if (!out->pos || !out->idx || (mesh->nrm && !out->nrm_q15) || (mesh->rgb && !out->rgb_uq16) || (mesh->uv && !out->uv) ||
-        (mesh->mask_uv && !out->mask_uv_uq16))
+    if (!out->pos || !out->idx || (mesh->nrm && !out->nrm_q15) || (mesh->rgb && !out->rgb_uq16) ||
+        (mesh->uv && !out->uv) || (mesh->mask_uv && !out->mask_uv_uq16))
         return no_memory(error, error_bytes);
     return 0;
 }
@@ -273,8 +278,8 @@ static int quantise_texture(gn_texture *out, const scene_texture *t, char *error
 {
     int width = side_log2(t->width), height = side_log2(t->height);
     if (width < 0 || height < 0) {
-        snprintf(error, error_bytes, "texture '%s': its sides, %d and %d, are not powers of two up to 4096", t->name, t->width,
-                 t->height);
+        snprintf(error, error_bytes, "texture '%s': its sides, %d and %d, are not powers of two up to 4096", t->name,
+                 t->width, t->height);
         return -1;
     }
     out->rgba = t->rgba;
@@ -306,7 +311,8 @@ static int pack_mask_image(gn_texture *out, const scene *s, size_t texture)
 {
     int n_channels = 0;
     for (size_t l = 0; l < s->n_lights; l++)
-        if (s->lights[l].mode == SCENE_MIXED && s->lights[l].mask_channel >= n_channels) n_channels = s->lights[l].mask_channel + 1;
+        if (s->lights[l].mode == SCENE_MIXED && s->lights[l].mask_channel >= n_channels)
+            n_channels = s->lights[l].mask_channel + 1;
     if (n_channels > 2 || !is_mask_image(s, texture)) return 0;
     const size_t bytes = n_channels > 1 ? 2 : 1, n = (size_t)1 << (out->width_log2 + out->height_log2);
     uint8_t *packed = malloc(bytes * n);
@@ -317,9 +323,10 @@ static int pack_mask_image(gn_texture *out, const scene *s, size_t texture)
     return 0;
 }
 
-/* ---- Objects ---------------------------------------------------------------------------------------------------------- */
+/* ---- Objects ----------------------------------------------------------------------------------------------------- */
 
-/* What the library asks of a transform, at the largest scale that fits: objects too small for their scene are another matter. */
+/* What the library asks of a transform, at the largest scale that fits: objects too small for their scene are another
+ * matter. */
 static int is_flat(const scene_affine *a, int exp)
 {
     int32_t m[3][3];
@@ -328,9 +335,10 @@ static int is_flat(const scene_affine *a, int exp)
     return !gn_det_sign(m);
 }
 
-/* Matrix entries become a Q1.30 mantissa under one exponent. A mesh's fraction bits beyond 0..30 move into that exponent. */
-static int quantise_transform(gn_affine *out, const scene_object *o, int mesh_bits, int stored_bits, int world_exp, char *error,
-                              size_t error_bytes)
+/* Matrix entries become a Q1.30 mantissa under one exponent. A mesh's fraction bits beyond 0..30 move into that
+ * exponent. */
+static int quantise_transform(gn_affine *out, const scene_object *o, int mesh_bits, int stored_bits, int world_exp,
+                              char *error, size_t error_bytes)
 {
     double largest = 0;
     int e;
@@ -338,7 +346,8 @@ static int quantise_transform(gn_affine *out, const scene_object *o, int mesh_bi
         for (int c = 0; c < 3; c++) largest = fmax(largest, fabs(o->to_world.m[r][c]));
     frexp(largest, &e);
     if (is_flat(&o->to_world, e)) {
-        snprintf(error, error_bytes, "object '%s': a scale of zero or almost zero along an axis cannot be drawn", o->name);
+        snprintf(error, error_bytes, "object '%s': a scale of zero or almost zero along an axis cannot be drawn",
+                 o->name);
         return -1;
     }
     int shift = world_exp + stored_bits - mesh_bits; /* object space as stored = true * 2^(mesh_bits - stored_bits) */
@@ -374,7 +383,8 @@ static void quantise_material(gn_object *out, const scene_object *o)
                  (o->moving ? GN_OBJECT_MOVING : 0U);
 }
 
-static int quantise_object(fixed_scene *f, size_t i, const scene *s, const mesh_plan *plan, char *error, size_t error_bytes)
+static int quantise_object(fixed_scene *f, size_t i, const scene *s, const mesh_plan *plan, char *error,
+                           size_t error_bytes)
 {
     const scene_object *o = &s->objects[i];
     gn_object *out = &f->objects[i];
@@ -385,11 +395,11 @@ static int quantise_object(fixed_scene *f, size_t i, const scene *s, const mesh_
     out->mask_u8 = o->mask;
     if (o->baked) out->baked_uq12 = fixed_words(o->baked, 3 * s->meshes[o->mesh_idx].n_vertices, 4096);
     if (o->baked && !out->baked_uq12) return no_memory(error, error_bytes);
-    return quantise_transform(&out->to_world, o, plan[o->mesh_idx].pos_bits, out->mesh->pos_frac_bits, f->world_exp, error,
-                              error_bytes);
+    return quantise_transform(&out->to_world, o, plan[o->mesh_idx].pos_bits, out->mesh->pos_frac_bits, f->world_exp,
+                              error, error_bytes);
 }
 
-/* ---- Lights ----------------------------------------------------------------------------------------------------------- */
+/* ---- Lights ------------------------------------------------------------------------------------------------------ */
 
 /* Light falls off with the square of distance, and distances are scaled: so is the intensity at distance 1. */
 static int quantise_colour(gn_light *out, const scene_light *l, int world_exp, char *error, size_t error_bytes)
@@ -401,7 +411,8 @@ static int quantise_colour(gn_light *out, const scene_light *l, int world_exp, c
         out->colour_exp = e + 2 * world_exp;
     }
     if (out->colour_exp > COLOUR_EXP_MAX) {
-        snprintf(error, error_bytes, "light '%s': its intensity, %g, is too large in a scene of this size", l->name, largest);
+        snprintf(error, error_bytes, "light '%s': its intensity, %g, is too large in a scene of this size", l->name,
+                 largest);
         return -1;
     }
     if (out->colour_exp < -COLOUR_EXP_MAX) out->colour_exp = -COLOUR_EXP_MAX; /* black all the same */
@@ -409,8 +420,8 @@ static int quantise_colour(gn_light *out, const scene_light *l, int world_exp, c
     return 0;
 }
 
-/* Where light ends and where shadows begin, as far as the library resolves either. A near plane that is not below the range casts
- * nothing onto anything lit: one just below it does neither. */
+/* Where light ends and where shadows begin, as far as the library resolves either. A near plane that is not below the
+ * range casts nothing onto anything lit: one just below it does neither. */
 static void quantise_range(gn_light *out, const scene_light *l, int world_exp)
 {
     double near = fmax(LIGHT_NEAREST_Q16, floor(ldexp(l->near, 16 + world_exp) + 0.5));
@@ -448,7 +459,7 @@ static int quantise_light(gn_light *out, const scene_light *l, int world_exp, ch
     return quantise_colour(out, l, world_exp, error, error_bytes);
 }
 
-/* ---- The rest of the scene -------------------------------------------------------------------------------------------- */
+/* ---- The rest of the scene --------------------------------------------------------------------------------------- */
 
 static void quantise_view(gn_scene *out, const scene *s, int world_exp)
 {
@@ -563,7 +574,7 @@ void quantise_free(fixed_scene *f)
     memset(f, 0, sizeof *f);
 }
 
-/* ---- Frames of one animation ------------------------------------------------------------------------------------------ */
+/* ---- Frames of one animation ------------------------------------------------------------------------------------- */
 
 static bool same_array(const void *a, const void *b, size_t bytes)
 {
@@ -574,16 +585,18 @@ bool quantise_same_mesh(const gn_mesh *a, const gn_mesh *b)
 {
     size_t n = a->n_vertices;
     return a->n_vertices == b->n_vertices && a->n_triangles == b->n_triangles && a->pos_frac_bits == b->pos_frac_bits &&
-           a->uv_frac_bits == b->uv_frac_bits && same_array(a->pos, b->pos, 12 * n) && same_array(a->nrm_q15, b->nrm_q15, 6 * n) &&
-           same_array(a->rgb_uq16, b->rgb_uq16, 6 * n) && same_array(a->uv, b->uv, 4 * n) &&
-           same_array(a->mask_uv_uq16, b->mask_uv_uq16, 4 * n) && same_array(a->idx, b->idx, 6 * (size_t)a->n_triangles);
+           a->uv_frac_bits == b->uv_frac_bits && same_array(a->pos, b->pos, 12 * n) &&
+           same_array(a->nrm_q15, b->nrm_q15, 6 * n) && same_array(a->rgb_uq16, b->rgb_uq16, 6 * n) &&
+           same_array(a->uv, b->uv, 4 * n) && same_array(a->mask_uv_uq16, b->mask_uv_uq16, 4 * n) &&
+           same_array(a->idx, b->idx, 6 * (size_t)a->n_triangles);
 }
 
 static bool same_texture(const gn_texture *a, const gn_texture *b)
 {
     const size_t texels = (size_t)1 << (a->width_log2 + a->height_log2);
     return a->width_log2 == b->width_log2 && a->height_log2 == b->height_log2 && a->flags == b->flags &&
-           quantise_texel_bytes(a) == quantise_texel_bytes(b) && same_array(a->rgba, b->rgba, texels * quantise_texel_bytes(a));
+           quantise_texel_bytes(a) == quantise_texel_bytes(b) &&
+           same_array(a->rgba, b->rgba, texels * quantise_texel_bytes(a));
 }
 
 bool quantise_share(fixed_scene *f, const fixed_scene *first)

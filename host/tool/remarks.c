@@ -46,8 +46,8 @@ void remarks_on_picture(const scene *s, const engine_picture *p)
     char names[NAMES_BYTES];
     uint32_t left_out = p->stats.n_lights_left_out, no_room = p->stats.n_lights_without_room;
     if (left_out)
-        tool_error("%u time%s a light was left out of an object's list of %d: --set object_lights=0 keeps all", left_out,
-                   left_out == 1 ? "" : "s", s->shadow.object_lights);
+        tool_error("%u time%s a light was left out of an object's list of %d: --set object_lights=0 keeps all",
+                   left_out, left_out == 1 ? "" : "s", s->shadow.object_lights);
     if (!no_room) return;
     name_lights_without_room(s, p, names, sizeof names);
     tool_error("%u light%s no shadow tile, so no shadow: %s", no_room, no_room == 1 ? " has" : "s have", names);
@@ -74,8 +74,9 @@ static int note_shared_channels(scene *s, size_t first, char *error, size_t byte
     for (size_t i = first + 1; i < s->n_lights; i++) {
         const scene_light *b = &s->lights[i];
         if (!is_masked(a) || !is_masked(b) || a->mask_channel != b->mask_channel || !reach_overlaps(a, b)) continue;
-        snprintf(note, sizeof note, "mixed lights %zu '%.64s' and %zu '%.64s' share mask channel %d, and their ranges overlap",
-                 first, a->name, i, b->name, a->mask_channel);
+        snprintf(note, sizeof note,
+                 "mixed lights %zu '%.64s' and %zu '%.64s' share mask channel %d, and their ranges overlap", first,
+                 a->name, i, b->name, a->mask_channel);
         if (scene_add_note(s, note, error, bytes)) return -1;
     }
     return 0;
@@ -92,8 +93,8 @@ static int note_useless_baked(scene *s, size_t light, char *error, size_t bytes)
 {
     char note[NOTE_BYTES];
     if (s->lights[light].mode != SCENE_BAKED || has_baked_light(s)) return 0;
-    snprintf(note, sizeof note, "light %zu '%.64s' is baked, but no object has baked light: it contributes nothing", light,
-             s->lights[light].name);
+    snprintf(note, sizeof note, "light %zu '%.64s' is baked, but no object has baked light: it contributes nothing",
+             light, s->lights[light].name);
     return scene_add_note(s, note, error, bytes);
 }
 

@@ -1,4 +1,5 @@
-/* Shadows that are switched on and yet in no picture: all casters before a light's near plane, all surfaces beyond the shadow distance. */
+/* Shadows that are switched on and yet in no picture: all casters before a light's near plane, all surfaces beyond the
+ * shadow distance. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +21,7 @@ static bool wants_shadow(const scene_light *l)
     return l->shadow && l->strength > 0 && l->mode != SCENE_BAKED;
 }
 
-/* ---- Near planes ------------------------------------------------------------------------------------------------------------ */
+/* ---- Near planes ------------------------------------------------------------------------------------------------- */
 
 /* Distance as near planes have it: along a spot's axis, along the nearest axis of a point light's cube. */
 static double plane_distance(const scene_light *l, const double *p)
@@ -55,13 +56,14 @@ static int note_near_plane(scene *s, size_t light, char *error, size_t bytes)
     if (l->kind == SCENE_LIGHT_DIRECTIONAL || !wants_shadow(l)) return 0;
     const double farthest = farthest_caster(s, l);
     if (!(farthest > 0) || farthest >= l->near) return 0;
-    snprintf(note, sizeof note,
-             "light %zu '%.64s' casts no shadow: its near plane is %.6g away, no caster more than %.6g; --set near@%zu=%.6g",
-             light, l->name, l->near, farthest, light, fmax(0.001, about(farthest / 64)));
+    snprintf(
+        note, sizeof note,
+        "light %zu '%.64s' casts no shadow: its near plane is %.6g away, no caster more than %.6g; --set near@%zu=%.6g",
+        light, l->name, l->near, farthest, light, fmax(0.001, about(farthest / 64)));
     return scene_add_note(s, note, error, bytes);
 }
 
-/* ---- The shadow distance ---------------------------------------------------------------------------------------------------- */
+/* ---- The shadow distance ----------------------------------------------------------------------------------------- */
 
 /* What a file without a shadow distance gets at most. One that somebody chose needs no remark. */
 static const double default_distance = 100;
@@ -173,9 +175,12 @@ static int note_distance(scene *s, double aspect, char *error, size_t bytes)
     if (!any || s->shadow.max_distance != default_distance) return 0;
     const view_reach reach = find_reach(s, aspect);
     if (!(reach.area > 0) || reach.near_area >= few * reach.area) return 0;
-    if (reach.near_area > 0) snprintf(share, sizeof share, "only %.2g %% of what is in view is", 100 * reach.near_area / reach.area);
-    snprintf(note, sizeof note, "%s nearer than %g, beyond which there are no shadows: it is %.6g to %.6g away; --set max_distance=%.6g",
-             share, default_distance, reach.nearest, reach.deepest, fmin(8192, about(fmin(reach.deepest, s->camera.far))));
+    if (reach.near_area > 0)
+        snprintf(share, sizeof share, "only %.2g %% of what is in view is", 100 * reach.near_area / reach.area);
+    snprintf(note, sizeof note,
+             "%s nearer than %g, beyond which there are no shadows: it is %.6g to %.6g away; --set max_distance=%.6g",
+             share, default_distance, reach.nearest, reach.deepest,
+             fmin(8192, about(fmin(reach.deepest, s->camera.far))));
     return scene_add_note(s, note, error, bytes);
 }
 

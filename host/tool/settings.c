@@ -16,16 +16,19 @@ typedef struct {
     int preset[SETTINGS_PRESETS];
 } knob;
 
-#define KNOB_QUALITY_(name, MACRO, lo, hi, meaning, cost)                                                                          \
+#define KNOB_QUALITY_(name, MACRO, lo, hi, meaning, cost)                                                              \
     {#name, lo, hi, offsetof(settings, quality.name), meaning, cost, {GN_PRESETS_##MACRO}},
-#define KNOB_CAPACITY_(name, MACRO, lo, hi, meaning, cost) {#name, lo, hi, offsetof(settings, capacity.name), meaning, cost, {0}},
-#define KNOB_FEATURE_(name, MACRO, lo, hi, meaning, cost)  {#name, lo, hi, offsetof(settings, feature.name), meaning, cost, {0}},
+#define KNOB_CAPACITY_(name, MACRO, lo, hi, meaning, cost)                                                             \
+    {#name, lo, hi, offsetof(settings, capacity.name), meaning, cost, {0}},
+#define KNOB_FEATURE_(name, MACRO, lo, hi, meaning, cost)                                                              \
+    {#name, lo, hi, offsetof(settings, feature.name), meaning, cost, {0}},
 
 static const knob quality_knobs[] = {GN_QUALITY_KNOBS(KNOB_QUALITY_)};
 static const knob capacity_knobs[] = {GN_CAPACITY_KNOBS(KNOB_CAPACITY_)};
 static const knob feature_knobs[] = {GN_FEATURE_KNOBS(KNOB_FEATURE_)};
 /* Of targets alone: see refine. */
-#define KNOB_ARITHMETIC_(name, MACRO, lo, hi, meaning, cost) {#name, lo, hi, offsetof(settings, arithmetic.name), meaning, cost, {0}},
+#define KNOB_ARITHMETIC_(name, MACRO, lo, hi, meaning, cost)                                                           \
+    {#name, lo, hi, offsetof(settings, arithmetic.name), meaning, cost, {0}},
 static const knob arithmetic_knobs[] = {GN_ARITHMETIC_KNOBS(KNOB_ARITHMETIC_)};
 
 enum { QUALITY, CAPACITY, FEATURE, ARITHMETIC, N_GROUPS };
@@ -78,7 +81,7 @@ void settings_init(settings *out)
     settings_preset(out, SETTINGS_BALANCED);
 }
 
-/* ---- Capacities --------------------------------------------------------------------------------------------------------- */
+/* ---- Capacities -------------------------------------------------------------------------------------------------- */
 
 static void fit(int *capacity, size_t needed)
 {
@@ -121,17 +124,19 @@ int settings_suffice(const settings *s, const settings_demand *demand, char *err
         {"max_shadow_tiles", "tiles of the directional atlas", s->capacity.max_shadow_tiles, demand->shadow_tiles},
         {"max_other_tiles", "tiles of the other atlas", s->capacity.max_other_tiles, demand->other_tiles},
         {"atlas_texels", "texels of the directional atlas's tiles", s->capacity.atlas_texels, demand->atlas_texels},
-        {"other_atlas_texels", "texels of the other atlas's tiles", s->capacity.other_atlas_texels, demand->other_atlas_texels},
+        {"other_atlas_texels", "texels of the other atlas's tiles", s->capacity.other_atlas_texels,
+         demand->other_atlas_texels},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         if (!all[i].available || all[i].needed <= (size_t)all[i].available) continue;
-        snprintf(error, error_bytes, "%s: %zu needed, %s is %d", all[i].what, all[i].needed, all[i].knob, all[i].available);
+        snprintf(error, error_bytes, "%s: %zu needed, %s is %d", all[i].what, all[i].needed, all[i].knob,
+                 all[i].available);
         return -1;
     }
     return 0;
 }
 
-/* ---- Reading values ----------------------------------------------------------------------------------------------------- */
+/* ---- Reading values ---------------------------------------------------------------------------------------------- */
 
 int settings_fail(char *error, size_t error_bytes, const char *key, const char *value, const char *expected)
 {
@@ -202,22 +207,25 @@ int settings_load_option(scene_options *options, const char *key, const char *va
     return 0;
 }
 
-/* ---- Applying ----------------------------------------------------------------------------------------------------------- */
+/* ---- Applying ---------------------------------------------------------------------------------------------------- */
 
 /* What the range alone does not say; NULL: nothing is wrong. */
 static const char *refine(const settings *s, const void *changed, int n)
 {
     if (changed == &s->arithmetic.compact && n)
-        return "0: here knobs are data, which compact arithmetic has not; build lib/ with -DGN_COMPACT=1, and the host draws the same bits";
+        return "0: here knobs are data, which compact arithmetic has not; build lib/ with -DGN_COMPACT=1, and the host "
+               "draws the same bits";
     if (changed == &s->quality.persp_step && n != 1 && n != 4 && n != 8 && n != 16) return "1, 4, 8 or 16";
     if (changed == &s->quality.atten_bits && n != 8 && n != 16) return "8 or 16";
     if ((changed == &s->quality.depth_bits || changed == &s->quality.other_depth_bits) && n != 8 && n != 16 && n != 32)
         return "8, 16 or 32";
-    if ((changed == &s->quality.atlas_size || changed == &s->quality.other_atlas_size) && (n & (n - 1))) return "a power of two";
+    if ((changed == &s->quality.atlas_size || changed == &s->quality.other_atlas_size) && (n & (n - 1)))
+        return "a power of two";
     if (changed == &s->quality.position_bits && n != 16 && n != 32) return "16 or 32";
     if (changed == &s->quality.normal_bits && n != 8 && n != 16) return "8 or 16";
     if (changed == &s->quality.tile_width && n % 8) return "a multiple of 8";
-    if ((changed == &s->capacity.atlas_texels || changed == &s->capacity.other_atlas_texels) && n % 64) return "a multiple of 64";
+    if ((changed == &s->capacity.atlas_texels || changed == &s->capacity.other_atlas_texels) && n % 64)
+        return "a multiple of 64";
     if (changed == &s->capacity.vertex_cache && (n & (n - 1))) return "a power of two";
     return NULL;
 }
@@ -293,7 +301,8 @@ static const char *as_knob(const char *value)
 }
 
 /* KEY@LIGHT */
-static int apply_to_light(settings *out, scene *s, const char *key, const char *at, const char *value, char *error, size_t bytes)
+static int apply_to_light(settings *out, scene *s, const char *key, const char *at, const char *value, char *error,
+                          size_t bytes)
 {
     char plain[64];
     size_t light;
@@ -329,10 +338,12 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     if ((taken = apply_own(out, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
     const char *at = strchr(key, '@');
     if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
-    /* main_light, caster_culling, receiver_plane and auto_bias are built and used, or neither: knobs and settings of the scene at once */
+    /* main_light, caster_culling, receiver_plane and auto_bias are built and used, or neither: knobs and settings of
+     * the scene at once */
     const knob *k = find_knob(key);
     const char *word = as_word(key, value);
-    if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, word, error, error_bytes)) < 0) return -1;
+    if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, word, error, error_bytes)) < 0)
+        return -1;
     if (k) return apply_knob(out, k, as_knob(value), error, error_bytes);
     if (taken) return 0;
     snprintf(error, error_bytes, "unknown setting '%s' ('gnomon knobs' lists them)", key);
@@ -358,14 +369,15 @@ int settings_apply_all(settings *out, scene *s, const char *const *sets, int n, 
     return 0;
 }
 
-/* ---- The tables of docs/CONFIG.md ------------------------------------------------------------------------------------------ */
+/* ---- The tables of docs/CONFIG.md -------------------------------------------------------------------------------- */
 
 void settings_print_table(void)
 {
     for (size_t g = 0; g < N_GROUPS; g++) {
         printf("\n### %s knobs\n\n", groups[g].title);
-        printf(g == QUALITY ? "| knob | range | tiny | balanced | accurate | meaning | cost |\n|---|---|---|---|---|---|---|\n"
-                            : "| knob | range | meaning | cost |\n|---|---|---|---|\n");
+        printf(g == QUALITY
+                   ? "| knob | range | tiny | balanced | accurate | meaning | cost |\n|---|---|---|---|---|---|---|\n"
+                   : "| knob | range | meaning | cost |\n|---|---|---|---|\n");
         for (size_t i = 0; i < groups[g].n; i++) {
             const knob *k = &groups[g].knobs[i];
             printf("| `%s` | %d…%d |", k->name, k->lo, k->hi);
@@ -375,7 +387,8 @@ void settings_print_table(void)
     }
     settings_print_scene();
     printf("\n### Settings of the tool\n\n| setting | values | meaning |\n|---|---|---|\n");
-    printf("| `output` | rgb888, rgb565, rgb565_swapped, grey8, grey4, mono1 | the panel that pictures are made for (R5) |\n");
+    printf("| `output` | rgb888, rgb565, rgb565_swapped, grey8, grey4, mono1 | the panel that pictures are made for "
+           "(R5) |\n");
     printf("| `preset` | tiny, balanced, accurate | all quality knobs together |\n");
     printf("| `ground` | 0, 1 | add a ground plane to a glTF file (an OBJ always gets one) |\n");
     printf("| `normals` | face, smooth | for meshes without normals |\n");

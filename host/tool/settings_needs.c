@@ -48,7 +48,8 @@ size_t settings_shadow_lights(const scene *s)
 static void needs_of_filter(need_list *list, const char *setting, scene_filter filter)
 {
     if (filter == SCENE_FILTER_DISK) need(list, "disk_filter", 1, "%s disk", setting);
-    else if (filter > SCENE_FILTER_HARD) need(list, "filter_max", (int)filter, "%s %s", setting, settings_filter_names[filter]);
+    else if (filter > SCENE_FILTER_HARD)
+        need(list, "filter_max", (int)filter, "%s %s", setting, settings_filter_names[filter]);
 }
 
 static void needs_of_shadows(need_list *list, const scene *s)
@@ -102,7 +103,8 @@ static void needs_of_object(need_list *list, const scene_object *o)
     if (o->mask || o->mask_texture_idx != SCENE_NONE) need(list, "masks", 1, "the shadow mask of object '%s'", o->name);
 }
 
-/* A build refuses what it lacks even where nothing comes of it; only what shadows alone are made with it does not look at. */
+/* A build refuses what it lacks even where nothing comes of it; only what shadows alone are made with it does not look
+ * at. */
 int settings_needs(const scene *s, bool shadows, settings_need *needs)
 {
     need_list list = {needs, 0};
@@ -161,7 +163,8 @@ int settings_enforce(const settings *set, scene *s, int width, int height, char 
     for (int i = 0; i < n; i++) {
         int value = settings_feature(set, needs[i].knob);
         if (value >= needs[i].value) continue;
-        snprintf(error, error_bytes, "setting '%s': %d, and %s needs %d", needs[i].knob, value, needs[i].what, needs[i].value);
+        snprintf(error, error_bytes, "setting '%s': %d, and %s needs %d", needs[i].knob, value, needs[i].what,
+                 needs[i].value);
         return -1;
     }
     return 0;

@@ -21,8 +21,8 @@ int settings_word(const char *word, const char *const *words);
 /* "a, b or c" (joint " or ") */
 void settings_join(char *out, size_t bytes, const char *const *words, const char *joint);
 
-/* Settings of the scene: those of its shadows, lights and colours. light: only that one; SCENE_NONE: all. 1: taken; 0: not one of
- * them, or of single lights; -1 with one line in error. */
+/* Settings of the scene: those of its shadows, lights and colours. light: only that one; SCENE_NONE: all. 1: taken; 0:
+ * not one of them, or of single lights; -1 with one line in error. */
 int settings_apply_scene(scene *s, const char *key, size_t light, const char *value, char *error, size_t error_bytes);
 bool settings_of_lights(const char *key);
 

@@ -44,9 +44,11 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
 {
     int other = s->feature.punctual_lights || s->feature.main_light;
     long views = s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
-    if (s->feature.incremental) put(l, 2 * views + 1, 8, 8);                                  /* memory, layout */
+    if (s->feature.incremental) put(l, 2 * views + 1, 8, 8); /* memory, layout */
     r->atlas = put_atlas(l, s, s->quality.atlas_size, s->capacity.atlas_texels, s->quality.depth_bits);
-    if (other) r->other_atlas = put_atlas(l, s, s->quality.other_atlas_size, s->capacity.other_atlas_texels, s->quality.other_depth_bits);
+    if (other)
+        r->other_atlas =
+            put_atlas(l, s, s->quality.other_atlas_size, s->capacity.other_atlas_texels, s->quality.other_depth_bits);
 }
 
 /* gn_alpha_cut of lib/gn_shading.h */
@@ -68,7 +70,9 @@ static long casting_bytes(const settings *s)
 static void put_work(layout *out, const settings *s)
 {
     layout surface = {0, 8}, all = {0, 8};
-    int per_light = (s->feature.shadows && s->feature.blended_cascades) || s->feature.punctual_lights ? 7 : s->feature.shadows ? 4 : 1;
+    int per_light = (s->feature.shadows && s->feature.blended_cascades) || s->feature.punctual_lights ? 7
+                    : s->feature.shadows                                                              ? 4
+                                                                                                      : 1;
     long values = (s->feature.textures ? 2 : 0) + (s->feature.masks ? 4 : 0) + (s->feature.baked_light ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
     put(&surface, 1, 192, 8); /* object to rgb_q16 */
@@ -83,11 +87,13 @@ static void put_work(layout *out, const settings *s)
     put(&all, 1, 136, 8); /* cache */
     put(&all, 1, surface.size, 8);
     put(&all, s->quality.persp_step == 1 ? 8 : 16, 4, 4); /* tri to part */
-    long arrival = s->feature.punctual_lights ? s->capacity.surface_lights : 0, n_steps = s->quality.persp_step == 1 ? 0 : arrival;
+    long arrival = s->feature.punctual_lights ? s->capacity.surface_lights : 0,
+         n_steps = s->quality.persp_step == 1 ? 0 : arrival;
     arrival *= s->feature.shadows ? 20 : 8;
     long run = 2 * (4 * values + 28 + arrival + (s->feature.specular ? 24 : 0)) + 8 * values + 12 + 52 * n_steps;
     long pieces = s->feature.shadows ? 384 : 288;
-    if (s->feature.vertex_normals && !s->quality.vertex_light) pieces += 36 + 12 * s->capacity.surface_lights; /* turning */
+    if (s->feature.vertex_normals && !s->quality.vertex_light)
+        pieces += 36 + 12 * s->capacity.surface_lights; /* turning */
     if (s->quality.persp_step == 1) pieces = 0;
     put(&all, 1, run > pieces ? run : pieces, 4); /* by */
     pad(&all, all.align);
@@ -95,7 +101,8 @@ static void put_work(layout *out, const settings *s)
     put(out, 1, all.size > least ? all.size : least, 8);
 }
 
-/* Mirrors lib/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against sizeof(gn_renderer). */
+/* Mirrors lib/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against
+ * sizeof(gn_renderer). */
 /* Screen coordinates of more than 16 bits. */
 static int wide_coordinates(const settings *s)
 {
@@ -133,6 +140,7 @@ settings_ram_parts settings_ram(const settings *s)
     put_work(&all, s);
     pad(&all, all.align);
     r.total = all.size;
-    r.rest = r.total - r.atlas - r.other_atlas - r.objects - r.lights - r.triangles - r.tile_refs - r.tiles - r.cells - r.pixels;
+    r.rest = r.total - r.atlas - r.other_atlas - r.objects - r.lights - r.triangles - r.tile_refs - r.tiles - r.cells -
+             r.pixels;
     return r;
 }

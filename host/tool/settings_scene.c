@@ -30,17 +30,17 @@ typedef struct {
     const char *meaning;
 } scene_knob;
 
-#define SCENE_(name, type, field, lo, hi, meaning)                                                                                 \
-    {                                                                                                                              \
-        name, OF_SCENE, type, offsetof(scene, field), lo, hi, NULL, meaning                                                        \
+#define SCENE_(name, type, field, lo, hi, meaning)                                                                     \
+    {                                                                                                                  \
+        name, OF_SCENE, type, offsetof(scene, field), lo, hi, NULL, meaning                                            \
     }
-#define SHADOW_(name, type, field, lo, hi, meaning)                                                                                \
-    {                                                                                                                              \
-        name, OF_SHADOW, type, offsetof(scene_shadow, field), lo, hi, NULL, meaning                                                \
+#define SHADOW_(name, type, field, lo, hi, meaning)                                                                    \
+    {                                                                                                                  \
+        name, OF_SHADOW, type, offsetof(scene_shadow, field), lo, hi, NULL, meaning                                    \
     }
-#define LIGHT_(name, type, field, lo, hi, meaning)                                                                                 \
-    {                                                                                                                              \
-        name, OF_LIGHTS, type, offsetof(scene_light, field), lo, hi, NULL, meaning                                                 \
+#define LIGHT_(name, type, field, lo, hi, meaning)                                                                     \
+    {                                                                                                                  \
+        name, OF_LIGHTS, type, offsetof(scene_light, field), lo, hi, NULL, meaning                                     \
     }
 
 static const scene_knob scene_knobs[] = {
@@ -61,7 +61,8 @@ static const scene_knob scene_knobs[] = {
     LIGHT_("bias_caster", NUMBER, bias_caster, 0, 8, "casters shrunk along their normals, in texels (B4)"),
     LIGHT_("near_offset", NUMBER, near_offset, 0, 8192, "pulls a directional light's near plane back (D9)"),
     LIGHT_("near", NUMBER, near, 0.001, 8192,
-           "nothing nearer to a spot or point light casts; unset, 1/64 of its range or of the scene's farthest corner, the nearer (P4)"),
+           "nothing nearer to a spot or point light casts; unset, 1/64 of its range or of the scene's farthest corner, "
+           "the nearer (P4)"),
     LIGHT_("range", REACH, range, 0, 100000, "reach of a spot or point light, at least 0.01; 0: unlimited (P2)"),
     LIGHT_("mask_channel", WHOLE, mask_channel, -1, 3, "channel of the baked shadow mask; -1: none (M5)"),
     SCENE_("ambient", COLOUR, ambient, 0, 255, "ambient light: one number or R,G,B"),
@@ -70,7 +71,8 @@ static const scene_knob scene_knobs[] = {
      "shadow filter of both atlases (F1-F4)"},
     {"other_filter", OF_SHADOW, WORD, offsetof(scene_shadow, other_filter), 0, 0, settings_filter_names,
      "of the other atlas alone; after filter"},
-    {"kernel", OF_SHADOW, WORD, offsetof(scene_shadow, kernel), 0, 0, kernel_names, "weights of 3x3, 5x5 and 7x7 (F3, F6)"},
+    {"kernel", OF_SHADOW, WORD, offsetof(scene_shadow, kernel), 0, 0, kernel_names,
+     "weights of 3x3, 5x5 and 7x7 (F3, F6)"},
     {"cascade_blend", OF_SHADOW, WORD, offsetof(scene_shadow, blend), 0, 0, settings_blend_names,
      "from one cascade to the next (D7)"},
     {"distance_mode", OF_SHADOW, WORD, offsetof(scene_shadow, distance_mode), 0, 0, distance_names,
@@ -81,13 +83,16 @@ static const scene_knob scene_knobs[] = {
             "only the brightest directional light has cascades, others one tile each (D10); also the feature"),
     SHADOW_("caster_culling", SWITCH, caster_culling, 0, 1, "as the feature (D8)"),
     LIGHT_("shadow", SWITCH, shadow, 0, 1, "the light wants a shadow"),
-    LIGHT_("receiver_plane", SWITCH, receiver_plane, 0, 1, "every tap compares with the receiver's plane (B5); also the feature"),
+    LIGHT_("receiver_plane", SWITCH, receiver_plane, 0, 1,
+           "every tap compares with the receiver's plane (B5); also the feature"),
     {"auto_bias", OF_LIGHTS, WORD, offsetof(scene_light, auto_bias), 0, 0, auto_names,
-     "the least bias that leaves a plane no acne (B6), normal by default; setting bias_normal or bias_receiver ends it; also the "
+     "the least bias that leaves a plane no acne (B6), normal by default; setting bias_normal or bias_receiver ends "
+     "it; also the "
      "feature"},
     {"softness", OF_LIGHTS, WORD, offsetof(scene_light, softness), 0, 0, softness_names,
      "the atlas's filter, 2x2, or at least 5x5 (F5)"},
-    {"mode", OF_LIGHTS, WORD, offsetof(scene_light, mode), 0, 0, mode_names, "baked lights contribute nothing at run time (M9)"},
+    {"mode", OF_LIGHTS, WORD, offsetof(scene_light, mode), 0, 0, mode_names,
+     "baked lights contribute nothing at run time (M9)"},
 };
 #define N_SCENE_KNOBS (sizeof scene_knobs / sizeof *scene_knobs)
 
@@ -103,7 +108,8 @@ static const scene_knob *find(const char *key)
 
 bool settings_of_scene(const char *key)
 {
-    static const char *const others[] = {"cascades", "cascade_ratios", "refresh", "lights", "add_light", "ground", "normals"};
+    static const char *const others[] = {"cascades",  "cascade_ratios", "refresh", "lights",
+                                         "add_light", "ground",         "normals"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (strcmp(key, others[i]) == 0) return true;
     return strchr(key, '@') || find(key);
@@ -190,7 +196,7 @@ static void store(scene *s, const scene_knob *k, size_t light, const stored *v)
     }
 }
 
-/* ---- Settings with rules of their own ------------------------------------------------------------------------------------- */
+/* ---- Settings with rules of their own ---------------------------------------------------------------------------- */
 
 static int apply_cascades(scene *s, const char *value, char *error, size_t bytes)
 {
@@ -208,8 +214,10 @@ static int apply_ratios(scene *s, const char *value, char *error, size_t bytes)
     if (want <= 0)
         return settings_fail(error, bytes, "cascade_ratios", value,
                              "possible: the only cascade covers everything; set cascades first");
-    snprintf(expected, sizeof expected, "%d number%s from 0 to 1, which %d cascades take", want, want > 1 ? "s" : "", want + 1);
-    if (settings_numbers(value, ratio, want, 0, 1) != want) return settings_fail(error, bytes, "cascade_ratios", value, expected);
+    snprintf(expected, sizeof expected, "%d number%s from 0 to 1, which %d cascades take", want, want > 1 ? "s" : "",
+             want + 1);
+    if (settings_numbers(value, ratio, want, 0, 1) != want)
+        return settings_fail(error, bytes, "cascade_ratios", value, expected);
     for (int i = 1; i < want; i++)
         if (ratio[i] < ratio[i - 1]) return settings_fail(error, bytes, "cascade_ratios", value, "in ascending order");
     for (int i = 0; i < want; i++) s->shadow.cascade_ratio[i] = scene_share(ratio[i]);
@@ -227,7 +235,8 @@ static int apply_refresh(scene *s, const char *value, char *error, size_t bytes)
     return 0;
 }
 
-/* Kinds separated by commas: checked as a whole before the first is added. Returns how many; -1 with one line in error. */
+/* Kinds separated by commas: checked as a whole before the first is added. Returns how many; -1 with one line in error.
+ */
 static int read_kinds(const char *key, const char *value, size_t room, int *kinds, char *error, size_t bytes)
 {
     char expected[96], word[16];
@@ -268,7 +277,8 @@ static int apply_special(scene *s, const char *key, const char *value, char *err
     if (strcmp(key, "cascades") == 0) status = apply_cascades(s, value, error, bytes);
     else if (strcmp(key, "cascade_ratios") == 0) status = apply_ratios(s, value, error, bytes);
     else if (strcmp(key, "refresh") == 0) status = apply_refresh(s, value, error, bytes);
-    else if (strcmp(key, "lights") == 0 || strcmp(key, "add_light") == 0) status = add_lights(s, key, value, error, bytes);
+    else if (strcmp(key, "lights") == 0 || strcmp(key, "add_light") == 0)
+        status = add_lights(s, key, value, error, bytes);
     else return 0;
     return status ? -1 : 1;
 }
@@ -288,7 +298,7 @@ int settings_apply_scene(scene *s, const char *key, size_t light, const char *va
     return 1;
 }
 
-/* ---- The table ---------------------------------------------------------------------------------------------------------- */
+/* ---- The table --------------------------------------------------------------------------------------------------- */
 
 static void print_row(const scene_knob *k)
 {
@@ -310,15 +320,17 @@ void settings_print_scene(void)
     printf("\n### Scene settings\n\n| setting | range | meaning |\n|---|---|---|\n");
     print_owner(false);
     printf("| `cascades` | 1…4 | cascades of every directional light; sets the default ratios (D3) |\n");
-    printf("| `cascade_ratios` | one less than cascades, comma-separated | shares of max_distance where they end, 0 to 1, "
-           "ascending; after cascades (D3) |\n");
-    printf("| `refresh` | one to four numbers from 1, comma-separated | cascade i is drawn anew every so many frames; the last "
+    printf(
+        "| `cascade_ratios` | one less than cascades, comma-separated | shares of max_distance where they end, 0 to 1, "
+        "ascending; after cascades (D3) |\n");
+    printf("| `refresh` | one to four numbers from 1, comma-separated | cascade i is drawn anew every so many frames; "
+           "the last "
            "number holds for the rest; a single picture shows nothing of it (A5) |\n");
     printf("\n### Settings of lights\n\nOf every light, or of one: `KEY@LIGHT`, by its number from 0 or its name.\n\n");
     printf("| setting | range | meaning |\n|---|---|---|\n");
     print_owner(true);
-    printf(
-        "| `lights` | directional, spot, point, comma-separated | replaces all lights by these, placed to light the scene; later "
-        "settings are about them |\n");
+    printf("| `lights` | directional, spot, point, comma-separated | replaces all lights by these, placed to light the "
+           "scene; later "
+           "settings are about them |\n");
     printf("| `add_light` | directional, spot, point | one more |\n");
 }

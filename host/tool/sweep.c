@@ -27,7 +27,9 @@ static const struct {
     [SWEEP_SUBPIXEL_BITS] = {"subpixel_bits", NULL, {"4", "6", "8"}},
     [SWEEP_TILE_WIDTH] = {"tile_width", NULL, {"16", "32", "64", "128"}},
     [SWEEP_TILE_HEIGHT] = {"tile_height", NULL, {"2", "4", "8", "16", "32"}},
-    [SWEEP_REFRESH] = {"refresh", "incremental", {"8", "4", "1,8", "1,4", "1,2,4,8", "2", "1,2", "1,1,1,8", "1,1,1,4", "1,1,1,2", "1"}},
+    [SWEEP_REFRESH] = {"refresh",
+                       "incremental",
+                       {"8", "4", "1,8", "1,4", "1,2,4,8", "2", "1,2", "1,1,1,8", "1,1,1,4", "1,1,1,2", "1"}},
     [SWEEP_STATIC_LAYER] = {"static_layer", "incremental", {"0", "1"}},
 };
 
@@ -37,7 +39,7 @@ static int fail(const sweep *w, const char *error)
     return -1;
 }
 
-/* ---- A configuration as settings -------------------------------------------------------------------------------------------- */
+/* ---- A configuration as settings --------------------------------------------------------------------------------- */
 
 static int n_levels(sweep_knob k)
 {
@@ -99,7 +101,8 @@ void sweep_name(const sweep *w, const sweep_row *row, char *out, size_t bytes)
     snprintf(out, bytes, "the scene's own");
     for (int k = 0; k < SWEEP_KNOBS && used < bytes; k++)
         if (is_used(w, &row->config, (sweep_knob)k))
-            used += (size_t)snprintf(out + used, bytes - used, "%s%s", used ? " " : "", say(&row->config, (sweep_knob)k, &text));
+            used += (size_t)snprintf(out + used, bytes - used, "%s%s", used ? " " : "",
+                                     say(&row->config, (sweep_knob)k, &text));
 }
 
 static sweep_config nothing_set(void)
@@ -109,7 +112,7 @@ static sweep_config nothing_set(void)
     return c;
 }
 
-/* ---- Measuring -------------------------------------------------------------------------------------------------------------- */
+/* ---- Measuring --------------------------------------------------------------------------------------------------- */
 
 void sweep_show_progress(const sweep *w)
 {
@@ -126,7 +129,8 @@ static int level_of_schedule(const scene_shadow *s)
     char text[64];
     int n = s->n_cascades;
     while (n > 1 && s->refresh[n - 1] == s->refresh[n - 2]) n--;
-    for (int i = 0, used = 0; i < n; i++) used += snprintf(text + used, sizeof text - (size_t)used, i ? ",%d" : "%d", s->refresh[i]);
+    for (int i = 0, used = 0; i < n; i++)
+        used += snprintf(text + used, sizeof text - (size_t)used, i ? ",%d" : "%d", s->refresh[i]);
     return level_of(SWEEP_REFRESH, text);
 }
 
@@ -157,9 +161,9 @@ static void find_levels(sweep_row *row)
 
 static bool same_but_schedule(const sweep_row *a, const sweep_row *b)
 {
-    return a->static_layer == b->static_layer && memcmp(&a->quality, &b->quality, sizeof a->quality) == 0 && a->shadow.filter == b->shadow.filter &&
-           a->shadow.other_filter == b->shadow.other_filter && a->shadow.kernel == b->shadow.kernel &&
-           a->shadow.n_cascades == b->shadow.n_cascades;
+    return a->static_layer == b->static_layer && memcmp(&a->quality, &b->quality, sizeof a->quality) == 0 &&
+           a->shadow.filter == b->shadow.filter && a->shadow.other_filter == b->shadow.other_filter &&
+           a->shadow.kernel == b->shadow.kernel && a->shadow.n_cascades == b->shadow.n_cascades;
 }
 
 /* Configurations that differ in nothing that is varied are one. */
@@ -200,7 +204,8 @@ static void take_needs(const sweep *w, sweep_row *row, const scene *s, const set
 }
 
 /* What advice goes by: colours alone, against exact shadows alone. */
-static int measure_colours(const sweep *w, sweep_row *row, const scene *s, const settings *set, char *error, size_t bytes)
+static int measure_colours(const sweep *w, sweep_row *row, const scene *s, const settings *set, char *error,
+                           size_t bytes)
 {
     engine_picture fixed;
     const int width = w->options->width, height = w->options->height;
@@ -305,7 +310,8 @@ static int add(sweep *w, const sweep_config *c)
     row->static_layer = set.feature.static_layer;
     find_levels(row);
     if (!is_known(w, row)) {
-        int failed = w->colours_only ? measure_colours(w, row, &s, &set, error, sizeof error) : measure(w, row, &s, &set, error, sizeof error);
+        int failed = w->colours_only ? measure_colours(w, row, &s, &set, error, sizeof error)
+                                     : measure(w, row, &s, &set, error, sizeof error);
         if (failed || play(w, row, &set, error, sizeof error)) refuse(w, error);
         else w->n_rows++;
     }
@@ -330,7 +336,7 @@ int sweep_complete(sweep *w, size_t i)
     return 0;
 }
 
-/* ---- Which configurations --------------------------------------------------------------------------------------------------- */
+/* ---- Which configurations ---------------------------------------------------------------------------------------- */
 
 enum { CONFIGS_MAX = 256 };
 typedef struct {
@@ -385,7 +391,8 @@ static sweep_config with_depth(sweep_config c, const char *bits)
 static void plan_presets(config_list *list)
 {
     list->all[list->n++] = nothing_set();
-    for (int i = 0; i < n_levels(SWEEP_PRESET); i++) plan(list, with(nothing_set(), SWEEP_PRESET, knobs[SWEEP_PRESET].levels[i]));
+    for (int i = 0; i < n_levels(SWEEP_PRESET); i++)
+        plan(list, with(nothing_set(), SWEEP_PRESET, knobs[SWEEP_PRESET].levels[i]));
 }
 
 static void plan_one_at_a_time(config_list *list, sweep_config base)
@@ -413,7 +420,8 @@ static void plan_one_at_a_time(config_list *list, sweep_config base)
         plan(list, with(with(base, SWEEP_FILTER, tents[i]), SWEEP_KERNEL, "linear"));
 }
 
-/* Filter, atlas and preset in full; the number of cascades is a half fraction of it: 1 or 4 by the parity of the others. */
+/* Filter, atlas and preset in full; the number of cascades is a half fraction of it: 1 or 4 by the parity of the
+ * others. */
 static void plan_factorial(config_list *list)
 {
     static const char *const presets[] = {"tiny", "balanced"}, *const filters[] = {"hard", "2x2", "3x3", "5x5"};
@@ -429,7 +437,8 @@ static void plan_factorial(config_list *list)
 
 static void plan_extremes(config_list *list)
 {
-    sweep_config tiny = with(nothing_set(), SWEEP_PRESET, "tiny"), accurate = with(nothing_set(), SWEEP_PRESET, "accurate");
+    sweep_config tiny = with(nothing_set(), SWEEP_PRESET, "tiny"),
+                 accurate = with(nothing_set(), SWEEP_PRESET, "accurate");
     tiny = with(tiny, SWEEP_FILTER, "hard");
     plan(list, with_atlases(tiny, "32"));
     plan(list, with_depth(with_atlases(tiny, "64"), "8"));
@@ -510,7 +519,7 @@ int sweep_least(sweep *w)
     return measure_all(w, &list);
 }
 
-/* ---- The front -------------------------------------------------------------------------------------------------------------- */
+/* ---- The front --------------------------------------------------------------------------------------------------- */
 
 double sweep_error(double psnr_db)
 {
@@ -532,7 +541,7 @@ void sweep_mark_front(sweep *w)
     }
 }
 
-/* ---- Beginning and end ------------------------------------------------------------------------------------------------------ */
+/* ---- Beginning and end ------------------------------------------------------------------------------------------- */
 
 static void look_at_lights(sweep *w, const scene *s)
 {
@@ -555,7 +564,8 @@ static void look_at_sets(sweep *w)
 {
     for (int i = 0; i < w->options->n_sets; i++)
         for (int k = 0; k < SWEEP_KNOBS; k++)
-            w->held[k] |= sets_key(w->options->sets[i], knobs[k].key) || sets_key(w->options->sets[i], knobs[k].held_by);
+            w->held[k] |=
+                sets_key(w->options->sets[i], knobs[k].key) || sets_key(w->options->sets[i], knobs[k].held_by);
 }
 
 int sweep_begin(sweep *w, const tool_options *o)

@@ -26,7 +26,8 @@ typedef enum {
 
 #define SWEEP_LEVELS_MAX 12
 
-/* Frames that are played after the first: the least number in which every schedule of 1, 2, 4 and 8 comes round equally often. */
+/* Frames that are played after the first: the least number in which every schedule of 1, 2, 4 and 8 comes round equally
+ * often. */
 enum { SWEEP_PLAYED = 8 };
 
 /* A place in each knob's list of levels; -1: as the preset, or else the scene has it. */
@@ -39,8 +40,8 @@ typedef struct {
     double mean_db, worst_db;
 } sweep_error_db;
 
-/* The frames after the first, by a renderer that keeps shadow tiles (A5) and refreshes cascades by their schedule. Of a scene in
- * which nothing moves that is the first once more, with every tile kept. */
+/* The frames after the first, by a renderer that keeps shadow tiles (A5) and refreshes cascades by their schedule. Of a
+ * scene in which nothing moves that is the first once more, with every tile kept. */
 typedef struct {
     double instructions, most; /* per pixel: mean, and of the frame that takes most */
     sweep_error_db truth, reference;
@@ -57,11 +58,12 @@ typedef struct {
     double instructions; /* per pixel, of the first frame: every shadow tile is drawn */
     count_all counts;    /* of the first frame */
     sweep_played played;
-    double cost, db; /* what the front is made of, and advice: of a scene that moves, what is played; else the first frame. The
-                      * cost by the model, or after sweep_target_scale on the target */
+    double cost, db; /* what the front is made of, and advice: of a scene that moves, what is played; else the first
+                      * frame. The cost by the model, or after sweep_target_scale on the target */
     int static_layer;
     bool is_counted, is_uncountable; /* on --target: it was; it failed */
-    double target, target_later; /* instructions per pixel on --target: of the first frame, and the mean of the later ones */
+    double target,
+        target_later; /* instructions per pixel on --target: of the first frame, and the mean of the later ones */
     bool on_front, is_explored; /* explored: its neighbours were measured */
 } sweep_row;
 
@@ -69,8 +71,8 @@ typedef struct {
     const tool_options *options;
     bool directional, punctual, other; /* shadows in the directional atlas, lights of the other, shadows in it */
     bool held[SWEEP_KNOBS];            /* set on the command line: not varied */
-    bool moves, layers;                /* frames differ; some caster moves and is known to, so that a static layer has a use */
-    engine_picture common;             /* exact shadows */
+    bool moves, layers;    /* frames differ; some caster moves and is known to, so that a static layer has a use */
+    engine_picture common; /* exact shadows */
     size_t n_played;
     uint8_t *truth_rgb8[SWEEP_PLAYED]; /* exact shadows in the frames that are played, if anything moves */
     sweep_row *rows;
@@ -80,10 +82,10 @@ typedef struct {
     double scale;                   /* of the model, for what is not counted */
     size_t n_uncounted;
     char uncounted[TOOL_ERROR_BYTES]; /* why the first of them could not be counted */
-    size_t n_done, n_planned;       /* for the display of progress */
-    bool colours_only;              /* of each row only what cost, db and RAM need: sweep_complete has the rest */
-    bool is_open;                   /* progress: how many rows there will be is not known */
-    sweep_config *tried;            /* with colours_only: what was added, rows or not */
+    size_t n_done, n_planned;         /* for the display of progress */
+    bool colours_only;                /* of each row only what cost, db and RAM need: sweep_complete has the rest */
+    bool is_open;                     /* progress: how many rows there will be is not known */
+    sweep_config *tried;              /* with colours_only: what was added, rows or not */
     size_t n_tried, tried_room;
 } sweep;
 
@@ -93,10 +95,12 @@ void sweep_end(sweep *w);
 
 /* What acts from frame to frame: sweep_play.c, for sweep.c alone. */
 int sweep_play_begin(sweep *w, const scene *s, const settings *set, char *error, size_t bytes);
-int sweep_play(const sweep *w, sweep_row *row, const char *const *sets, int n_sets, const settings *set, char *error, size_t bytes);
+int sweep_play(const sweep *w, sweep_row *row, const char *const *sets, int n_sets, const settings *set, char *error,
+               size_t bytes);
 void sweep_play_end(sweep *w);
 
-/* Measures the documented set of configurations (docs/TRADE.md); quick: a few of them. Prints the error and returns -1. */
+/* Measures the documented set of configurations (docs/TRADE.md); quick: a few of them. Prints the error and returns -1.
+ */
 int sweep_run(sweep *w, bool quick);
 
 /* Measures the neighbours of a row: one knob, one level up or down. Prints the error and returns -1. */
@@ -111,12 +115,13 @@ void sweep_show_progress(const sweep *w);
 /* With colours_only: measures the rest of a row. Prints the error and returns -1. */
 int sweep_complete(sweep *w, size_t row);
 
-/* Instructions on the board that --target names: sweep_target.c. Begin prints why nothing counts, if so; -1: the board is none that
- * ever could. Rows that cannot be counted are counted in n_uncounted. */
+/* Instructions on the board that --target names: sweep_target.c. Begin prints why nothing counts, if so; -1: the board
+ * is none that ever could. Rows that cannot be counted are counted in n_uncounted. */
 int sweep_target_begin(sweep *w);
 void sweep_target_count(sweep *w, const size_t *rows, size_t n);
 
-/* Makes the target's instructions the cost of every row: as counted, or the model's times what the counted rows are of theirs. */
+/* Makes the target's instructions the cost of every row: as counted, or the model's times what the counted rows are of
+ * theirs. */
 void sweep_target_scale(sweep *w);
 double sweep_model_cost(const sweep *w, const sweep_row *row);
 
@@ -127,14 +132,15 @@ bool sweep_dominates(const sweep_row *a, const sweep_row *b);
 /* RMS over channels and pixels, in 8-bit levels: what PSNR says, on a scale that ends at 0. */
 double sweep_error(double psnr_db);
 
-/* Of a row with a schedule of cascades: the row that differs in nothing else and has none; NULL: there is no such pair. */
+/* Of a row with a schedule of cascades: the row that differs in nothing else and has none; NULL: there is no such pair.
+ */
 const sweep_row *sweep_unscheduled(const sweep *w, const sweep_row *row);
 
 /* The configuration alone, "filter=3x3 atlas_size=64"; "the scene's own" for none. */
 void sweep_name(const sweep *w, const sweep_row *row, char *out, size_t bytes);
 
-/* Every setting that reproduces it, those of the command line included, in order: at most TOOL_SETS_MAX + SWEEP_KNOBS. The
- * strings are valid while text (room for SWEEP_KNOBS) is. Returns how many. */
+/* Every setting that reproduces it, those of the command line included, in order: at most TOOL_SETS_MAX + SWEEP_KNOBS.
+ * The strings are valid while text (room for SWEEP_KNOBS) is. Returns how many. */
 typedef struct {
     char text[SWEEP_KNOBS][32];
 } sweep_text;

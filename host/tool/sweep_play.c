@@ -1,4 +1,5 @@
-/* What a configuration costs, and shows, from frame to frame: shadow tiles that are kept, and cascades on a schedule (A5). */
+/* What a configuration costs, and shows, from frame to frame: shadow tiles that are kept, and cascades on a schedule
+ * (A5). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,9 +10,10 @@
 
 _Static_assert((int)SWEEP_PLAYED < (int)ENGINE_FRAMES_MAX, "the first frame, too");
 
-/* ---- The frames ------------------------------------------------------------------------------------------------------------- */
+/* ---- The frames -------------------------------------------------------------------------------------------------- */
 
-static int load_frame(const sweep *w, int frame, const char *const *sets, int n_sets, scene *s, char *error, size_t bytes)
+static int load_frame(const sweep *w, int frame, const char *const *sets, int n_sets, scene *s, char *error,
+                      size_t bytes)
 {
     tool_options o = *w->options;
     settings set;
@@ -35,7 +37,7 @@ static int load_frames(const sweep *w, const char *const *sets, int n_sets, scen
     return 0;
 }
 
-/* ---- Beginning and end ------------------------------------------------------------------------------------------------------ */
+/* ---- Beginning and end ------------------------------------------------------------------------------------------- */
 
 /* Exact shadows in each frame. */
 static int draw_truth(sweep *w, const settings *set, char *error, size_t bytes)
@@ -69,7 +71,7 @@ void sweep_play_end(sweep *w)
     for (size_t i = 0; i < SWEEP_PLAYED; i++) free(w->truth_rgb8[i]);
 }
 
-/* ---- Playing ---------------------------------------------------------------------------------------------------------------- */
+/* ---- Playing ----------------------------------------------------------------------------------------------------- */
 
 typedef struct {
     const sweep *w;
@@ -117,17 +119,20 @@ double sweep_model_cost(const sweep *w, const sweep_row *row)
     return w->moves ? row->played.instructions : row->instructions;
 }
 
-static int play_frames(const sweep *w, sweep_row *row, const char *const *sets, int n_sets, const settings *set, char *error, size_t bytes)
+static int play_frames(const sweep *w, sweep_row *row, const char *const *sets, int n_sets, const settings *set,
+                       char *error, size_t bytes)
 {
     scene frames[SWEEP_PLAYED + 1];
     play p = {w, frames, set, &row->played};
     if (load_frames(w, sets, n_sets, frames, error, bytes)) return -1;
-    int failed = engine_play(frames, w->n_played + 1, set, w->options->width, w->options->height, take_frame, &p, error, bytes);
+    int failed =
+        engine_play(frames, w->n_played + 1, set, w->options->width, w->options->height, take_frame, &p, error, bytes);
     free_frames(frames, w->n_played + 1);
     return failed;
 }
 
-int sweep_play(const sweep *w, sweep_row *row, const char *const *sets, int n_sets, const settings *set, char *error, size_t bytes)
+int sweep_play(const sweep *w, sweep_row *row, const char *const *sets, int n_sets, const settings *set, char *error,
+               size_t bytes)
 {
     const sweep_error_db none = {(double)INFINITY, (double)INFINITY};
     row->played = (sweep_played){.truth = none, .reference = none};

@@ -1,4 +1,5 @@
-/* Instructions of a configuration on a target: compiled for it, built, and run in the emulator by boards/tools/count.sh. */
+/* Instructions of a configuration on a target: compiled for it, built, and run in the emulator by
+ * boards/tools/count.sh. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +30,7 @@ static void cut_line(char *line)
     line[strcspn(line, "\r\n")] = 0;
 }
 
-/* ---- Whether anything counts ------------------------------------------------------------------------------------------------ */
+/* ---- Whether anything counts ------------------------------------------------------------------------------------- */
 
 static int run_ready(const char *target, char *line, size_t bytes)
 {
@@ -53,11 +54,13 @@ int sweep_target_begin(sweep *w)
     }
     int status = run_ready(target, why, sizeof why);
     w->counts = status == 0;
-    if (status) tool_error("--target %s: %s%s", target, why, status == STATUS_ABSENT ? "; its instructions are not counted" : "");
+    if (status)
+        tool_error("--target %s: %s%s", target, why,
+                   status == STATUS_ABSENT ? "; its instructions are not counted" : "");
     return status && status != STATUS_ABSENT ? -1 : 0;
 }
 
-/* ---- One configuration ------------------------------------------------------------------------------------------------------ */
+/* ---- One configuration ------------------------------------------------------------------------------------------- */
 
 /* For make, which reads $$ as $, and then for the shell. */
 static void append_setting(char *flags, size_t bytes, const char *set)
@@ -73,14 +76,17 @@ static void append_setting(char *flags, size_t bytes, const char *set)
     flags[used] = 0;
 }
 
-/* Only what changes no picture of any camera is left out: a few frames say nothing of the others. The bench draws RGB565. */
+/* Only what changes no picture of any camera is left out: a few frames say nothing of the others. The bench draws
+ * RGB565. */
 static void make_flags(const sweep *w, const sweep_row *row, char *flags, size_t bytes)
 {
     const tool_options *o = w->options;
     const char *sets[TOOL_SETS_MAX + SWEEP_KNOBS];
     sweep_text text;
-    int n = sweep_sets(w, row, &text, sets), last = o->frame + (int)w->n_played; /* two frames, if nothing moves: one alone would keep no tiles */
-    snprintf(flags, bytes, "SCENE_FLAGS=--size %dx%d --frames %d-%d --simplify safe", o->width, o->height, o->frame, last);
+    int n = sweep_sets(w, row, &text, sets),
+        last = o->frame + (int)w->n_played; /* two frames, if nothing moves: one alone would keep no tiles */
+    snprintf(flags, bytes, "SCENE_FLAGS=--size %dx%d --frames %d-%d --simplify safe", o->width, o->height, o->frame,
+             last);
     for (int i = 0; i < n; i++) append_setting(flags, bytes, sets[i]);
     append_setting(flags, bytes, "output=rgb565");
 }
@@ -129,7 +135,9 @@ static void finish(sweep *w, const job *j)
     }
     if (status_of(j->output) || run != RUNS - 1 || sum[1] <= sum[0]) {
         w->rows[j->row].is_uncountable = true;
-        if (!w->n_uncounted++) snprintf(w->uncounted, sizeof w->uncounted, "%s", strncmp(reason, "gnomon: ", 8) == 0 ? reason + 8 : reason);
+        if (!w->n_uncounted++)
+            snprintf(w->uncounted, sizeof w->uncounted, "%s",
+                     strncmp(reason, "gnomon: ", 8) == 0 ? reason + 8 : reason);
         return;
     }
     const double pixels = (double)w->options->width * w->options->height;
@@ -139,7 +147,7 @@ static void finish(sweep *w, const job *j)
     row->is_counted = true;
 }
 
-/* ---- Many of them ----------------------------------------------------------------------------------------------------------- */
+/* ---- Many of them ------------------------------------------------------------------------------------------------ */
 
 static void show_progress(const sweep *w, size_t done, size_t n)
 {
@@ -183,7 +191,7 @@ void sweep_target_count(sweep *w, const size_t *rows, size_t n)
     clean(w, slots);
 }
 
-/* ---- As the cost ------------------------------------------------------------------------------------------------------------ */
+/* ---- As the cost ------------------------------------------------------------------------------------------------- */
 
 static double counted_cost(const sweep *w, const sweep_row *row)
 {
@@ -202,6 +210,8 @@ void sweep_target_scale(sweep *w)
     if (model > 0) w->scale = sum / model;
     for (size_t i = 0; i < w->n_rows; i++) {
         sweep_row *r = &w->rows[i];
-        r->cost = r->is_uncountable ? (double)INFINITY : r->is_counted ? counted_cost(w, r) : w->scale * sweep_model_cost(w, r);
+        r->cost = r->is_uncountable ? (double)INFINITY
+                  : r->is_counted   ? counted_cost(w, r)
+                                    : w->scale * sweep_model_cost(w, r);
     }
 }

@@ -71,7 +71,8 @@ int tool_load(const tool_options *o, scene *s, settings *set)
 void tool_append_quoted(char *out, size_t bytes, const char *text)
 {
     size_t used = strlen(out);
-    bool plain = *text && !text[strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_=.,@+-/:")];
+    bool plain =
+        *text && !text[strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_=.,@+-/:")];
     if (plain) {
         snprintf(out + used, bytes - used, "%s", text);
         return;

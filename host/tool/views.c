@@ -55,7 +55,8 @@ static void colour_of_cascade(uint8_t *out, int cascade)
     else memcpy(out, colours[cascade], 3);
 }
 
-/* The stored depths that are drawn black and nearly white. A perspective depth crowds below 1: there it is what was stored. */
+/* The stored depths that are drawn black and nearly white. A perspective depth crowds below 1: there it is what was
+ * stored. */
 static void depth_span(const engine_picture *p, size_t light, double *lo, double *hi)
 {
     size_t t = (size_t)p->atlas_texels[light];
@@ -98,7 +99,8 @@ static uint8_t *draw_atlas(const engine_picture *p, size_t light, int *w, int *h
     return out;
 }
 
-uint8_t *view_draw(const engine_picture *p, view_kind view, size_t light, int *w, int *h, char *error, size_t error_bytes)
+uint8_t *view_draw(const engine_picture *p, view_kind view, size_t light, int *w, int *h, char *error,
+                   size_t error_bytes)
 {
     size_t n = (size_t)p->width * (size_t)p->height;
     if ((view == VIEW_SHADOW || view == VIEW_ATLAS) && light >= p->n_lights) {

@@ -1,7 +1,8 @@
 /* A hierarchy of boxes over the casting triangles.
  *
- * Built over a stack of its own, by the surface-area heuristic over bins of the boxes' centres; in equal halves below a depth of
- * 32, and where the centres coincide, so that 2^32 triangles end before depth 64. The order of the scene alone decides the tree.
+ * Built over a stack of its own, by the surface-area heuristic over bins of the boxes' centres; in equal halves below a
+ * depth of 32, and where the centres coincide, so that 2^32 triangles end before depth 64. The order of the scene alone
+ * decides the tree.
  */
 #include "truth.h"
 
@@ -201,10 +202,11 @@ void truth_end(truth_tracer *tracer)
 
 /* ---- the way of a ray ---- */
 
-/* A ray against boxes: in or out is decided in doubles, so the boxes are made larger by what rounding can do. The subtraction of
- * the origin is off by the origin's error and a unit of the difference; the division by the way, and the way's own error, move the
- * point where a side is met along the other axes by less than four units of the distance gone, which is at most the sum of the
- * scene's extent and the origin's coordinate. Twice that is added to every side. */
+/* A ray against boxes: in or out is decided in doubles, so the boxes are made larger by what rounding can do. The
+ * subtraction of the origin is off by the origin's error and a unit of the difference; the division by the way, and the
+ * way's own error, move the point where a side is met along the other axes by less than four units of the distance
+ * gone, which is at most the sum of the scene's extent and the origin's coordinate. Twice that is added to every side.
+ */
 typedef struct {
     double from[3], inverse[3], margin;
     bool flat[3]; /* no way along this axis, or too short to divide by */

@@ -4,10 +4,11 @@
 #include <float.h>
 #include <string.h>
 
-_Static_assert(FLT_EVAL_METHOD == 0 && FLT_RADIX == 2 && DBL_MANT_DIG == 53, "exact arithmetic stands on plain IEEE doubles");
+_Static_assert(FLT_EVAL_METHOD == 0 && FLT_RADIX == 2 && DBL_MANT_DIG == 53,
+               "exact arithmetic stands on plain IEEE doubles");
 
-/* Components that each step needs at most: a difference of doubles 2, a minor 2 * (2 * 2 * 2), a determinant 3 * (2 * 2 * 16), with
- * its weight twice that, and the sum of three of them. */
+/* Components that each step needs at most: a difference of doubles 2, a minor 2 * (2 * 2 * 2), a determinant
+ * 3 * (2 * 2 * 16), with its weight twice that, and the sum of three of them. */
 enum { DIFFERENCE = 2, PRODUCT = 8, MINOR = 16, TERM = 64, DETERMINANT = 192, WEIGHTED = 384, SUM = 1152 };
 
 /* x + y = a + b, x the rounded sum */
@@ -77,7 +78,8 @@ typedef struct {
 static int multiply(double *h, const double *e, int ne, const difference *f)
 {
     double first[TERM], second[TERM];
-    const int n_first = f->n > 0 ? scale(first, e, ne, f->c[0]) : 0, n_second = f->n > 1 ? scale(second, e, ne, f->c[1]) : 0;
+    const int n_first = f->n > 0 ? scale(first, e, ne, f->c[0]) : 0,
+              n_second = f->n > 1 ? scale(second, e, ne, f->c[1]) : 0;
     return add(h, first, n_first, second, n_second);
 }
 
@@ -160,7 +162,8 @@ double exact_edge(const exact_point *p, const exact_target *target, vec3 a, vec3
     int n = 0;
     for (int k = 0; k < 3; k++) {
         const vec3 v = p->vertex[k];
-        const row to = row_between(target->at, target->infinite ? zero : v), ra = row_between(a, v), rb = row_between(b, v);
+        const row to = row_between(target->at, target->infinite ? zero : v), ra = row_between(a, v),
+                  rb = row_between(b, v);
         n = add_weighted(sum, n, det, determinant(det, &to, &ra, &rb), p->weight[k]);
     }
     return approximate(sum, n);

@@ -1,28 +1,29 @@
 /* Does a ray from a surface point meet a triangle?
  *
- * With a, b, c the corners relative to the origin and L the way to the target, the line meets the triangle if the three edge
- * functions
+ * With a, b, c the corners relative to the origin and L the way to the target, the line meets the triangle if the three
+ * edge functions
  *
  *     e0 = det(L, b, c)    e1 = det(L, c, a)    e2 = det(L, a, b)
  *
- * have one sign, at t = det(a, b, c) / (e0 + e1 + e2), with barycentrics e / (e0 + e1 + e2); positive ones belong to a triangle
- * that faces the target. All that is decided here are signs of determinants. Each is computed in doubles along with a bound on its
- * error (below), and where the bound leaves the sign open, again without rounding (exact.c).
+ * have one sign, at t = det(a, b, c) / (e0 + e1 + e2), with barycentrics e / (e0 + e1 + e2); positive ones belong to a
+ * triangle that faces the target. All that is decided here are signs of determinants. Each is computed in doubles along
+ * with a bound on its error (below), and where the bound leaves the sign open, again without rounding (exact.c).
  *
- * Watertight: the sign of an edge function is thus the true one, so two triangles that share an edge, each from its own side, never
- * both see the line outside of it; there is no gap. Where an edge function is exactly 0 the line is judged as one moved infinitely
- * little, the same way for every edge (exact_side), so of the triangles around an edge or a vertex that a line passes through it
- * meets just those that the moved line meets: none twice, and none missed. Dither casters multiply, and need the first as well.
+ * Watertight: the sign of an edge function is thus the true one, so two triangles that share an edge, each from its own
+ * side, never both see the line outside of it; there is no gap. Where an edge function is exactly 0 the line is judged
+ * as one moved infinitely little, the same way for every edge (exact_side), so of the triangles around an edge or a
+ * vertex that a line passes through it meets just those that the moved line meets: none twice, and none missed. Dither
+ * casters multiply, and need the first as well.
  *
- * Self-hits: the origin is not a rounded point but the exact combination of its triangle's corners with the weights of the visible
- * surface. It lies in the plane of its own triangle without any error (det(a, b, c) is 0, which is no hit), on the edges of
- * its neighbours if a weight is 0, and behind or before them as the corners say. There is no distance that a ray would have to
- * start off by. (That its own triangle is skipped by name only saves the exact determinant.)
+ * Self-hits: the origin is not a rounded point but the exact combination of its triangle's corners with the weights of
+ * the visible surface. It lies in the plane of its own triangle without any error (det(a, b, c) is 0, which is no hit),
+ * on the edges of its neighbours if a weight is 0, and behind or before them as the corners say. There is no distance
+ * that a ray would have to start off by. (That its own triangle is skipped by name only saves the exact determinant.)
  *
- * What is left is that the corners themselves are rounded, where an object's transform put them into the world: faces of two
- * objects that should lie in one plane miss each other by such roundings. A hit counts if the origin is farther behind the caster's
- * plane than the two errors together: less, and rounding may have made it. That distance, det(a, b, c) / |(B - A) x (C - A)|, is
- * compared with the sum of the bounds of truth_vertex_error().
+ * What is left is that the corners themselves are rounded, where an object's transform put them into the world: faces
+ * of two objects that should lie in one plane miss each other by such roundings. A hit counts if the origin is farther
+ * behind the caster's plane than the two errors together: less, and rounding may have made it. That distance, det(a, b,
+ * c) / |(B - A) x (C - A)|, is compared with the sum of the bounds of truth_vertex_error().
  */
 #include "truth.h"
 
@@ -40,8 +41,8 @@ static double length(vec3 a)
     return sqrt(vec3_dot(a, a));
 }
 
-/* m0 x + m1 y + m2 z + m3 as ref_xform.c computes it: three products and three sums, none of the four terms in more than four of
- * them. gamma_4 is 4 u (1 + 4 u + ...): the 5 pays for that and for the roundings here. */
+/* m0 x + m1 y + m2 z + m3 as ref_xform.c computes it: three products and three sums, none of the four terms in more
+ * than four of them. gamma_4 is 4 u (1 + 4 u + ...): the 5 pays for that and for the roundings here. */
 double truth_vertex_error(const ref_triangle *triangle)
 {
     double worst = 0.0;
@@ -67,8 +68,8 @@ static exact_point without_dust(const exact_point *p)
     return out;
 }
 
-/* The numerator has a product and two sums, the divisor two sums, then the division: gamma_6 of the largest corner; and the
- * subtraction of the origin one more unit. */
+/* The numerator has a product and two sums, the divisor two sums, then the division: gamma_6 of the largest corner; and
+ * the subtraction of the origin one more unit. */
 truth_ray truth_make_ray(const exact_point *origin, exact_target target, double uncertainty)
 {
     truth_ray ray = {.origin = without_dust(origin), .target = target, .uncertainty = uncertainty};
@@ -85,10 +86,11 @@ truth_ray truth_make_ray(const exact_point *origin, exact_target target, double 
 
 /* A triangle seen from the ray's origin, in doubles.
  *
- * Bounds: let M be the largest coordinate of a, b, c, in error by at most e each (the origin's error, and u M of the subtraction),
- * and L's largest by d. A determinant is six products of three. Errors of its entries change each by at most (L + d)(M + e)^2 - L
- * M^2 = d (M + e)^2 + L (2 M e + e^2); its own roundings, at most six on the way of any product, by 6 u of L M^2 <= L M e * 6.
- * Seven times the sum, for six, covers the second order and the roundings of the bound itself. */
+ * Bounds: let M be the largest coordinate of a, b, c, in error by at most e each (the origin's error, and u M of the
+ * subtraction), and L's largest by d. A determinant is six products of three. Errors of its entries change each by at
+ * most (L + d)(M + e)^2 - L M^2 = d (M + e)^2 + L (2 M e + e^2); its own roundings, at most six on the way of any
+ * product, by 6 u of L M^2 <= L M e * 6. Seven times the sum, for six, covers the second order and the roundings of the
+ * bound itself. */
 typedef struct {
     vec3 a, b, c;
     double edge_bound;   /* of e0, e1, e2 */
@@ -105,8 +107,8 @@ static seen look_at(const truth_ray *ray, const vec3 p[3])
     return s;
 }
 
-/* Where one edge function is surely positive and another surely negative the line passes by: the common case, and the only one that
- * costs no more than nine products. */
+/* Where one edge function is surely positive and another surely negative the line passes by: the common case, and the
+ * only one that costs no more than nine products. */
 static bool passes_by(const double edge[3], double bound)
 {
     const double low = fmin(edge[0], fmin(edge[1], edge[2])), high = fmax(edge[0], fmax(edge[1], edge[2]));

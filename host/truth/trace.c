@@ -32,7 +32,8 @@ static bool meet_caster(void *user, const truth_caster *c)
     truth_hit hit;
     if (way->skip && c->source.object == way->skip->object && c->source.idx == way->skip->idx) return true;
     if (!truth_meets(&hit, way->ray, c->p, c->uncertainty, c->two_sided)) return true;
-    /* P4: the light-plane distance shrinks evenly on the way to the light. Directional lights have no near plane (D9). */
+    /* P4: the light-plane distance shrinks evenly on the way to the light. Directional lights have no near plane (D9).
+     */
     if (!way->ray->target.infinite && !(way->plane_from * (1.0 - hit.t) >= way->near)) return true;
     way->transmittance *= passes(way->tracer->s, &c->source, hit.bary);
     return way->transmittance > 0.0;
@@ -48,8 +49,8 @@ static double light_plane_distance(const scene_light *light, vec3 point)
     return fabs(v[ref_point_face(v) / 2]);
 }
 
-double truth_transmittance(const truth_tracer *tracer, const exact_point *origin, double uncertainty, const ref_triangle *skip,
-                           const scene_light *light)
+double truth_transmittance(const truth_tracer *tracer, const exact_point *origin, double uncertainty,
+                           const ref_triangle *skip, const scene_light *light)
 {
     const bool directional = light->kind == SCENE_LIGHT_DIRECTIONAL;
     const vec3 at = directional ? vec3_scale(vec3_load(light->direction), -1.0) : vec3_load(light->position);

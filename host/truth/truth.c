@@ -63,8 +63,8 @@ static void add_picture(sums *sum, const ref_picture *p)
         }
 }
 
-/* A pixel whose centre faces a light, and none of its samples, keeps its centre's shadow; where the centre does not, the shadow is
- * 0. */
+/* A pixel whose centre faces a light, and none of its samples, keeps its centre's shadow; where the centre does not,
+ * the shadow is 0. */
 static void take_means(ref_picture *p, const sums *sum, int samples)
 {
     const size_t n = (size_t)p->width * (size_t)p->height;
@@ -72,11 +72,12 @@ static void take_means(ref_picture *p, const sums *sum, int samples)
     for (size_t i = 0; i < 3 * n; i++) p->rgb[i] = sum->rgb[i] * share;
     for (size_t l = 0; l < p->n_lights; l++)
         for (size_t i = 0; i < n; i++)
-            if (p->ndotl[l][i] > 0.0 && sum->n_shadows[l][i] > 0) p->shadow[l][i] = sum->shadow[l][i] / sum->n_shadows[l][i];
+            if (p->ndotl[l][i] > 0.0 && sum->n_shadows[l][i] > 0)
+                p->shadow[l][i] = sum->shadow[l][i] / sum->n_shadows[l][i];
 }
 
-/* The sample (i, j) of every pixel: the picture moves under the grid of its centres, so the dither of a pixel is that of all its
- * samples. */
+/* The sample (i, j) of every pixel: the picture moves under the grid of its centres, so the dither of a pixel is that
+ * of all its samples. */
 static void draw_sample(ref_frame *frame, int i, int j, int samples)
 {
     const ref_camera centred = frame->camera;
@@ -113,7 +114,8 @@ static void forget_views(ref_picture *p)
     memset(p->view, 0, sizeof p->view);
 }
 
-int truth_render(ref_picture *out, const scene *s, const ref_options *options, int samples, char *error, size_t error_bytes)
+int truth_render(ref_picture *out, const scene *s, const ref_options *options, int samples, char *error,
+                 size_t error_bytes)
 {
     ref_frame frame;
     truth_tracer tracer = {0};

@@ -1,6 +1,6 @@
-/* The truth engine: DESIGN section 1 with exact visibility instead of shadow maps. Camera, surfaces, shading, attenuation, fades
- * and masks are the reference's own (host/ref); what a light's shadow is, is traced: no texels, no filter, no bias, no budget of
- * tiles.
+/* The truth engine: DESIGN section 1 with exact visibility instead of shadow maps. Camera, surfaces, shading,
+ * attenuation, fades and masks are the reference's own (host/ref); what a light's shadow is, is traced: no texels, no
+ * filter, no bias, no budget of tiles.
  */
 #ifndef GNOMON_TRUTH_H
 #define GNOMON_TRUTH_H
@@ -10,11 +10,13 @@
 
 #define TRUTH_MAX_SAMPLES 16
 
-/* Renders the scene with samples x samples rays per pixel. One is through the pixel's centre: the very point that the reference
- * shades. With more, colours are means in linear light, shadows means over the samples that show the surface of the pixel's centre
- * and face the light; everything else is the centre's. The atlas options decide nothing but which configurations are errors, and
- * whether cascades end shadows (DESIGN 1.4). Returns 0; -1 with one line in error. Free it with ref_free; it has no views. */
-int truth_render(ref_picture *out, const scene *s, const ref_options *options, int samples, char *error, size_t error_bytes);
+/* Renders the scene with samples x samples rays per pixel. One is through the pixel's centre: the very point that the
+ * reference shades. With more, colours are means in linear light, shadows means over the samples that show the surface
+ * of the pixel's centre and face the light; everything else is the centre's. The atlas options decide nothing but which
+ * configurations are errors, and whether cascades end shadows (DESIGN 1.4). Returns 0; -1 with one line in error. Free
+ * it with ref_free; it has no views. */
+int truth_render(ref_picture *out, const scene *s, const ref_options *options, int samples, char *error,
+                 size_t error_bytes);
 
 /* ---- stages, exposed for tests ---- */
 
@@ -76,9 +78,9 @@ void truth_end(truth_tracer *tracer);
 typedef bool truth_visitor(void *user, const truth_caster *caster);
 void truth_visit(const truth_tracer *tracer, const truth_ray *ray, truth_visitor *meet, void *user);
 
-/* The share of a light's rays that arrives at a point: 1 lit, 0 in shadow, between behind casters of mode dither. skip: the
- * triangle that the point lies on, or NULL. */
-double truth_transmittance(const truth_tracer *tracer, const exact_point *origin, double uncertainty, const ref_triangle *skip,
-                           const scene_light *light);
+/* The share of a light's rays that arrives at a point: 1 lit, 0 in shadow, between behind casters of mode dither. skip:
+ * the triangle that the point lies on, or NULL. */
+double truth_transmittance(const truth_tracer *tracer, const exact_point *origin, double uncertainty,
+                           const ref_triangle *skip, const scene_light *light);
 
 #endif

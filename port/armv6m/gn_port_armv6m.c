@@ -7,8 +7,9 @@ void gn_port_before_dma(const void *bytes, size_t n_bytes)
     __asm__ volatile("dmb" ::: "memory");
 }
 
-/* (r1:r0) * (r3:r2) modulo 2^64, in 24 instructions; the compiler's own takes 44. With a = a1 * 2^16 + a0 and b likewise for the lower words,
- * a * b = a1 b1 * 2^32 + (a1 b0 + a0 b1) * 2^16 + a0 b0; the upper words meet the lower ones modulo 2^32 alone. */
+/* (r1:r0) * (r3:r2) modulo 2^64, in 24 instructions; the compiler's own takes 44. With a = a1 * 2^16 + a0 and b
+ * likewise for the lower words, a * b = a1 b1 * 2^32 + (a1 b0 + a0 b1) * 2^16 + a0 b0; the upper words meet the lower
+ * ones modulo 2^32 alone. */
 uint64_t __aeabi_lmul(uint64_t a, uint64_t b);
 __attribute__((naked, used)) uint64_t __aeabi_lmul(uint64_t a, uint64_t b)
 {

@@ -1,4 +1,5 @@
-/* A port that compiles and does nothing better than the portable code. Copy the folder, rename it, and fill in what pays. */
+/* A port that compiles and does nothing better than the portable code. Copy the folder, rename it, and fill in what
+ * pays. */
 #ifndef GN_PORT_TEMPLATE_H
 #define GN_PORT_TEMPLATE_H
 

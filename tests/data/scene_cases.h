@@ -47,23 +47,31 @@ static const struct {
 
 static const char base_json[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\n"
-    "\"extensionsUsed\":[\"KHR_lights_punctual\",\"KHR_materials_unlit\"],\"extensionsRequired\":[\"KHR_lights_punctual\"],\n"
-    "\"scenes\":[{\"nodes\":[0,2,3],\"extras\":{\"gnomon\":{\"fps\":2,\"filter\":\"5x5\",\"srgb\":true,\"max_distance\":0.1,"
+    "\"extensionsUsed\":[\"KHR_lights_punctual\",\"KHR_materials_unlit\"],\"extensionsRequired\":[\"KHR_lights_"
+    "punctual\"],\n"
+    "\"scenes\":[{\"nodes\":[0,2,3],\"extras\":{\"gnomon\":{\"fps\":2,\"filter\":\"5x5\",\"srgb\":true,\"max_"
+    "distance\":0.1,"
     "\"ratios\":[0.25,1,false]}}}],\n"
     "\"nodes\":[{\"name\":\"outer\",\"translation\":[10,0,0],\"scale\":[2,2,2],\"children\":[1]},\n"
-    "{\"name\":\"inner\",\"mesh\":0,\"rotation\":[0,0,0.7071067811865476,0.7071067811865476],\"extras\":{\"gnomon\":{\"casts\":0}}}"
+    "{\"name\":\"inner\",\"mesh\":0,\"rotation\":[0,0,0.7071067811865476,0.7071067811865476],\"extras\":{\"gnomon\":{"
+    "\"casts\":0}}}"
     ",\n"
     "{\"name\":\"eye\",\"camera\":0,\"translation\":[0,0,50]},\n"
-    "{\"name\":\"sun\",\"rotation\":[-0.7071067811865476,0,0,0.7071067811865476],\"extensions\":{\"KHR_lights_punctual\":{"
+    "{\"name\":\"sun\",\"rotation\":[-0.7071067811865476,0,0,0.7071067811865476],\"extensions\":{\"KHR_lights_"
+    "punctual\":{"
     "\"light\":0}},"
     "\"extras\":{\"gnomon\":{\"strength\":0.5,\"near_offset\":3}}}],\n"
-    "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1.5707963267948966,\"znear\":0.5,\"zfar\":80}}],\n"
-    "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"name\":\"sol\",\"type\":\"directional\",\"color\":[1,0.5,0.25],"
+    "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1.5707963267948966,\"znear\":0.5,\"zfar\":80}}],"
+    "\n"
+    "\"extensions\":{\"KHR_lights_punctual\":{\"lights\":[{\"name\":\"sol\",\"type\":\"directional\",\"color\":[1,0.5,"
+    "0.25],"
     "\"intensity\":6.283185307179586,"
     "\"extras\":{\"gnomon\":{\"strength\":0.9,\"bias_slope\":2}}}]}},\n"
-    "\"materials\":[{\"name\":\"paint\",\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,1,1]},"
+    "\"materials\":[{\"name\":\"paint\",\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,1,"
+    "1]},"
     "\"extras\":{\"gnomon\":{\"receives\":false}}}],\n"
-    "\"meshes\":[{\"name\":\"quad\",\"primitives\":[{\"mode\":4,\"attributes\":{\"POSITION\":0,\"NORMAL\":2,\"COLOR_0\":3},"
+    "\"meshes\":[{\"name\":\"quad\",\"primitives\":[{\"mode\":4,\"attributes\":{\"POSITION\":0,\"NORMAL\":2,\"COLOR_"
+    "0\":3},"
     "\"indices\":1,\"material\":0}]}],\n"
     "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},\n"
     "{\"bufferView\":1,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"},\n"
@@ -73,9 +81,12 @@ static const char base_json[] =
     "{\"bufferView\":4,\"byteOffset\":12,\"componentType\":5126,\"count\":9,\"type\":\"VEC3\"},\n"
     "{\"bufferView\":4,\"byteOffset\":120,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"},\n"
     "{\"bufferView\":4,\"byteOffset\":168,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\n"
-    "\"animations\":[{\"name\":\"swing\",\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"translation\"}},"
-    "{\"sampler\":1,\"target\":{\"node\":1,\"path\":\"rotation\"}},{\"sampler\":2,\"target\":{\"node\":0,\"path\":\"scale\"}}],\n"
-    "\"samplers\":[{\"input\":4,\"output\":5,\"interpolation\":\"CUBICSPLINE\"},{\"input\":4,\"output\":6},{\"input\":4,\"output\":"
+    "\"animations\":[{\"name\":\"swing\",\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"translation\"}}"
+    ","
+    "{\"sampler\":1,\"target\":{\"node\":1,\"path\":\"rotation\"}},{\"sampler\":2,\"target\":{\"node\":0,\"path\":"
+    "\"scale\"}}],\n"
+    "\"samplers\":[{\"input\":4,\"output\":5,\"interpolation\":\"CUBICSPLINE\"},{\"input\":4,\"output\":6},{\"input\":"
+    "4,\"output\":"
     "7,\"interpolation\":\"STEP\"}]}],\n"
     "\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":48,\"byteLength\":12},\n"
     "{\"buffer\":0,\"byteOffset\":60,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":108,\"byteLength\":16},"
@@ -139,7 +150,8 @@ static const change gltf_errors[] = {
     {"\"baseColorFactor\":", "\"baseColorTexture\":{},\"baseColorFactor\":", "/baseColorTexture: index is missing"},
     {"\"baseColorFactor\":", "\"baseColorTexture\":{\"index\":0},\"baseColorFactor\":", "index: there are only 0"},
     {"\"doubleSided\":true", "\"alphaMode\":\"GLASS\"", "/materials/0: alphaMode 'GLASS'"},
-    {"\"receives\":false", "\"caster\":\"never\"", "/materials/0/extras/gnomon/caster: 'never' is not off, on, clip or dither"},
+    {"\"receives\":false", "\"caster\":\"never\"",
+     "/materials/0/extras/gnomon/caster: 'never' is not off, on, clip or dither"},
     {"\"receives\":false", "\"visible_alpha\":\"on\"", "visible_alpha: 'on' is not opaque, clip or dither"},
     {"\"receives\":false", "\"alpha_cutoff\":2", "alpha_cutoff: 2 is not in 0..1"},
     {"\"receives\":false", "\"specular\":-1", "specular: -1 is not in 0..1"},
@@ -166,7 +178,8 @@ static const change gltf_errors[] = {
     {"\"count\":4", "\"count\":5", "5 elements reach beyond"},
     {"\"count\":4", "\"count\":2000000000", "reach beyond"},
     {"\"count\":4", "\"count\":1e19", "an integer"},
-    {"\"bufferView\":0,\"componentType\":5126,\"count\":4", "\"componentType\":5126,\"count\":2000000000", "without a bufferView"},
+    {"\"bufferView\":0,\"componentType\":5126,\"count\":4", "\"componentType\":5126,\"count\":2000000000",
+     "without a bufferView"},
     {"\"componentType\":5126", "\"componentType\":5124", "componentType 5124"},
     {"\"componentType\":5126", "\"componentType\":5125", "VEC3 of float"},
     {"\"componentType\":5126", "\"normalized\":true,\"componentType\":5126", "cannot be normalized"},
@@ -205,7 +218,8 @@ static const change gltf_errors[] = {
     {"\"bufferView\":4,\"byteOffset\":120,", "", "a rotation is zero"},
     {"{\"bufferView\":4,\"componentType\"", "{\"componentType\"", "time 1 does not increase"},
     {"\"channels\":[", "\"channels\":[0,", "/animations/0/channels/0: an object"},
-    {"\"translation\":[10,0,0],\"scale\":[2,2,2]", "\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]", "cannot be animated"},
+    {"\"translation\":[10,0,0],\"scale\":[2,2,2]", "\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]",
+     "cannot be animated"},
 };
 
 /* What is accepted, with a note. */
@@ -214,7 +228,8 @@ static const change gltf_notes[] = {
     {"\"mode\":4", "\"mode\":4,\"targets\":[]", "morph targets"},
     {"\"pbrMetallicRoughness\":{", "\"pbrMetallicRoughness\":{\"metallicRoughnessTexture\":{},",
      "metallic-roughness texture of material 'paint' ignored: only base colour"},
-    {"\"doubleSided\":true", "\"alphaMode\":\"MASK\",\"alphaCutoff\":1.5", "alpha cutoff of material 'paint' outside 0..1"},
+    {"\"doubleSided\":true", "\"alphaMode\":\"MASK\",\"alphaCutoff\":1.5",
+     "alpha cutoff of material 'paint' outside 0..1"},
     {"\"doubleSided\":true", "\"emissiveFactor\":[1,0,0]", "emissive colour"},
     {"[0.5,0.25,1,1]", "[0.5,0.25,2,1]", "outside 0..1"},
     {"\"type\":\"perspective\"", "\"type\":\"orthographic\"", "orthographic cameras"},
@@ -272,10 +287,14 @@ static const struct {
 static const struct {
     const char *text, *why;
 } mtl_errors[] = {
-    {"Kd 1 1 1\n", ".mtl:1: Kd before any newmtl"}, {"newmtl\n", "newmtl without"},
-    {"newmtl a\nKd 1 2\n", ".mtl:2: Kd takes 3"},   {"newmtl a\nKd 1 2 red\n", "'red' is not"},
-    {"newmtl a\nd\n", "d takes a number"},          {"newmtl a\nTr 1 2\n", "more than 1"},
-    {"newmtl a\nmap_Kd\n", "map_Kd without"},      {"map_Kd a.png\n", "map_Kd before any newmtl"},
+    {"Kd 1 1 1\n", ".mtl:1: Kd before any newmtl"},
+    {"newmtl\n", "newmtl without"},
+    {"newmtl a\nKd 1 2\n", ".mtl:2: Kd takes 3"},
+    {"newmtl a\nKd 1 2 red\n", "'red' is not"},
+    {"newmtl a\nd\n", "d takes a number"},
+    {"newmtl a\nTr 1 2\n", "more than 1"},
+    {"newmtl a\nmap_Kd\n", "map_Kd without"},
+    {"map_Kd a.png\n", "map_Kd before any newmtl"},
     {"newmtl a\nmap_Kd -s 1 1 1 -clamp on\n", "map_Kd without"},
 };
 

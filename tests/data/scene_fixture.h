@@ -97,7 +97,8 @@ static unsigned last_texels; /* read for the sanitizer's sake */
 static inline int texture_is_sound(const scene_texture *t)
 {
     int w = t->width, h = t->height;
-    int ok = t->name && w >= 1 && w <= 4096 && (w & (w - 1)) == 0 && h >= 1 && h <= 4096 && (h & (h - 1)) == 0 && t->rgba;
+    int ok =
+        t->name && w >= 1 && w <= 4096 && (w & (w - 1)) == 0 && h >= 1 && h <= 4096 && (h & (h - 1)) == 0 && t->rgba;
     if (ok) last_texels += t->rgba[(size_t)w * (size_t)h * 4 - 1];
     return ok;
 }
@@ -112,14 +113,15 @@ static inline int object_is_sound(const scene_object *o)
         ok = ok && (!m->uv || isfinite(m->uv[k])) && (!m->mask_uv || (m->mask_uv[k] >= 0 && m->mask_uv[k] <= 1));
     }
     for (size_t k = 0; o->baked && k < 3 * m->n_vertices; k++) ok = ok && o->baked[k] >= 0 && isfinite(o->baked[k]);
-    return ok && o->alpha >= 0 && o->alpha <= 1 && o->alpha_cutoff >= 0 && o->alpha_cutoff <= 1 && o->specular[0] >= 0 &&
-           o->specular[0] <= 1 && o->shininess_log2 >= 0 && o->shininess_log2 <= 7;
+    return ok && o->alpha >= 0 && o->alpha <= 1 && o->alpha_cutoff >= 0 && o->alpha_cutoff <= 1 &&
+           o->specular[0] >= 0 && o->specular[0] <= 1 && o->shininess_log2 >= 0 && o->shininess_log2 <= 7;
 }
 
 /* What the engines may rely on, whatever the file was. */
 static inline void check_invariants(void)
 {
-    int ok = s.n_objects > 0 && s.n_lights > 0 && s.camera.near > 0 && s.camera.far > s.camera.near && s.camera.focal > 0;
+    int ok =
+        s.n_objects > 0 && s.n_lights > 0 && s.camera.near > 0 && s.camera.far > s.camera.near && s.camera.focal > 0;
     for (size_t i = 0; i < s.n_meshes; i++) {
         const scene_mesh *m = &s.meshes[i];
         ok = ok && m->n_triangles > 0 && m->n_triangles <= 65535 && m->n_vertices <= 65535 && m->name;
@@ -134,8 +136,8 @@ static inline void check_invariants(void)
     for (size_t i = 0; i < s.n_lights; i++) {
         const scene_light *l = &s.lights[i];
         const double *d = l->direction;
-        ok =
-            ok && fabs(hypot(hypot(d[0], d[1]), d[2]) - 1) < 1e-9 && isfinite(l->colour[0]) && l->strength >= 0 && l->strength <= 1;
+        ok = ok && fabs(hypot(hypot(d[0], d[1]), d[2]) - 1) < 1e-9 && isfinite(l->colour[0]) && l->strength >= 0 &&
+             l->strength <= 1;
         if (l->kind == SCENE_LIGHT_DIRECTIONAL) continue;
         ok = ok && l->range >= 0.01 && l->near > 0 && isfinite(l->near) &&
              isfinite(l->position[0] + l->position[1] + l->position[2]);
@@ -150,7 +152,8 @@ static inline size_t put_base64(char *out, const uint8_t *bytes, size_t n)
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     size_t n_out = 0;
     for (size_t i = 0; i < n; i += 3) {
-        uint32_t bits = (uint32_t)bytes[i] << 16 | (i + 1 < n ? (uint32_t)bytes[i + 1] << 8 : 0) | (i + 2 < n ? bytes[i + 2] : 0);
+        uint32_t bits =
+            (uint32_t)bytes[i] << 16 | (i + 1 < n ? (uint32_t)bytes[i + 1] << 8 : 0) | (i + 2 < n ? bytes[i + 2] : 0);
         for (int k = 0; k < 4; k++) out[n_out++] = i + (size_t)k > n ? '=' : digits[bits >> (18 - 6 * k) & 63];
     }
     out[n_out] = '\0';

@@ -10,8 +10,8 @@ extern "C" {
 unsigned char *oiio_read_rgb8(const char *path, int *w, int *h, char *error, int error_bytes);
 void oiio_free(unsigned char *pixels);
 
-/* Two picture files over values 0..1: mean, RMS and largest difference over all channels, where that is, and in how many pixels some
- * channel differs by more than the threshold. 0, or -1. */
+/* Two picture files over values 0..1: mean, RMS and largest difference over all channels, where that is, and in how
+ * many pixels some channel differs by more than the threshold. 0, or -1. */
 typedef struct {
     double mean, rms, largest;
     int x, y;

@@ -19,7 +19,8 @@ static uint8_t random_byte(void)
 /* Flat, smooth, noisy: kind 0, 1, 2 */
 static void fill(uint8_t *rgb, int w, int h, int kind)
 {
-    for (int i = 0; i < 3 * w * h; i++) rgb[i] = kind == 0 ? 77 : kind == 1 ? (uint8_t)(i / 3 % w + i / (3 * w)) : random_byte();
+    for (int i = 0; i < 3 * w * h; i++)
+        rgb[i] = kind == 0 ? 77 : kind == 1 ? (uint8_t)(i / 3 % w + i / (3 * w)) : random_byte();
 }
 
 static void read_back(int w, int h, int kind)
@@ -31,12 +32,13 @@ static void read_back(int w, int h, int kind)
     fill(rgb, w, h, kind);
     CHECK_EQ_INT(png_write_rgb8(path, w, h, rgb, error, sizeof error), 0);
     unsigned char *read = oiio_read_rgb8(path, &got_w, &got_h, error, sizeof error);
-    if (CHECK(read != NULL) && CHECK_EQ_INT(got_w, w) && CHECK_EQ_INT(got_h, h)) CHECK(memcmp(read, rgb, (size_t)(3 * w * h)) == 0);
+    if (CHECK(read != NULL) && CHECK_EQ_INT(got_w, w) && CHECK_EQ_INT(got_h, h))
+        CHECK(memcmp(read, rgb, (size_t)(3 * w * h)) == 0);
     oiio_free(read);
     free(rgb);
 }
 
-/* ---- Pictures of all engines -------------------------------------------------------------------------------------------------- */
+/* ---- Pictures of all engines ------------------------------------------------------------------------------------- */
 
 enum { FIXED, REFERENCE, TRUTH, N_ENGINES };
 static const char *const engine_names[N_ENGINES] = {"fixed", "reference", "truth"};

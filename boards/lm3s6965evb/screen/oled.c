@@ -1,5 +1,5 @@
-/* OSRAM Pictiva 128x64 with an SSD0323 on SSI0: clock PA2, select PA3, data PA5; data/command PC7, 15 V supply PC6. PD0 is the SD
- * card's select on the same bus, and stays high. No reset line.
+/* OSRAM Pictiva 128x64 with an SSD0323 on SSI0: clock PA2, select PA3, data PA5; data/command PC7, 15 V supply PC6. PD0
+ * is the SD card's select on the same bus, and stays high. No reset line.
  *
  * No DMA: wait() refills the transmitter's FIFO, eight bytes at a time, and the core draws in between. */
 #include "../../common/systick.h"
@@ -56,12 +56,13 @@ static void set_up_pins(void)
     REGISTER(GPIO_A + GPIO_AFSEL) |= 0x2CU;
     REGISTER(GPIO_A + GPIO_DEN) |= 0x2CU;
     REGISTER(SSI0_CR1) = 0;
-    REGISTER(SSI0_CPSR) = 4;    /* 3 MHz; the controller takes 4 */
-    REGISTER(SSI0_CR0) = 0x47U; /* 8 bits; the clock rests high, data changes on its rising edge: as the board's maker has it */
+    REGISTER(SSI0_CPSR) = 4; /* 3 MHz; the controller takes 4 */
+    REGISTER(SSI0_CR0) =
+        0x47U; /* 8 bits; the clock rests high, data changes on its rising edge: as the board's maker has it */
     REGISTER(SSI0_CR1) = 2;
 }
 
-/* ---- The bus ---------------------------------------------------------------------------------------------------------------- */
+/* ---- The bus ----------------------------------------------------------------------------------------------------- */
 
 typedef struct {
     const uint8_t *next;
@@ -103,16 +104,13 @@ panel_status screen_open(panel *p, display *d)
 {
     static transfer t;
     static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.user = &t,
-                           .write = write,
-                           .wait = wait,
-                           .delay_us = delay_us,
-                           .abandon = abandon,
-                           .max_polls = POLLS};
+    const panel_bus bus = {
+        .user = &t, .write = write, .wait = wait, .delay_us = delay_us, .abandon = abandon, .max_polls = POLLS};
     const panel_config config = {.width = 128, .height = 64, .flags = PANEL_EXTERNAL_VCC, .first_com = 0x4C};
     set_up_pins();
     panel_status status = panel_init(p, &panel_ssd0323, &config, &bus);
     if (status) return status;
-    *d = (display){.panel = p, .format = GN_FORMAT_GREY4, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
+    *d = (display){
+        .panel = p, .format = GN_FORMAT_GREY4, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
     return display_init(d);
 }

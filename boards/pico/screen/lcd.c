@@ -1,5 +1,5 @@
-/* Pimoroni Pico Display Pack 2.0: ST7789, 320x240, on SPI0: select GP17, clock GP18, data GP19, data/command GP16, backlight GP20.
- * It has no reset line. DMA channel 0 feeds the transmitter. */
+/* Pimoroni Pico Display Pack 2.0: ST7789, 320x240, on SPI0: select GP17, clock GP18, data GP19, data/command GP16,
+ * backlight GP20. It has no reset line. DMA channel 0 feeds the transmitter. */
 #include "../../common/systick.h"
 #include "../../displays/screen.h"
 #include "gn_port.h"
@@ -32,7 +32,8 @@ enum {
     DMA_COUNT = 0x50000008,
     DMA_CONTROL = 0x5000000C,
     DMA_ABORT = 0x50000444,
-    DMA_ON_BYTES = 1 | 1 << 4 | 16 << 15, /* enabled, reads step, paced by SPI0's transmitter, chained to itself: to none */
+    DMA_ON_BYTES =
+        1 | 1 << 4 | 16 << 15, /* enabled, reads step, paced by SPI0's transmitter, chained to itself: to none */
     DMA_BUSY = 1 << 24,
     PIN_COMMAND = 16,
     PIN_SELECT = 17,
@@ -83,7 +84,7 @@ static void set_up_pins(void)
     REGISTER(SPI_CR1) = SPI_ENABLE;
 }
 
-/* ---- The bus ---------------------------------------------------------------------------------------------------------------- */
+/* ---- The bus ----------------------------------------------------------------------------------------------------- */
 
 static panel_status write(void *user, const uint8_t *bytes, size_t n, int is_data)
 {
@@ -124,15 +125,12 @@ static void delay_us(void *user, uint32_t us)
 panel_status screen_open(panel *p, display *d)
 {
     GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.write = write,
-                           .wait = wait,
-                           .delay_us = delay_us,
-                           .abandon = abandon,
-                           .max_polls = POLLS};
+    const panel_bus bus = {.write = write, .wait = wait, .delay_us = delay_us, .abandon = abandon, .max_polls = POLLS};
     const panel_config config = {.width = 240, .height = 320, .turn = 1, .flags = PANEL_INVERT};
     set_up_pins();
     panel_status status = panel_init(p, &panel_st7789, &config, &bus);
     if (status) return status;
-    *d = (display){.panel = p, .format = GN_FORMAT_SCREEN, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
+    *d = (display){
+        .panel = p, .format = GN_FORMAT_SCREEN, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
     return display_init(d);
 }

@@ -1,5 +1,5 @@
-/* The VGA card on the machine's PCI bus, through the registers of its "dispi" interface: 16 bits per pixel, a linear frame buffer.
- * The firmware hands out the addresses itself: there is no one else. */
+/* The VGA card on the machine's PCI bus, through the registers of its "dispi" interface: 16 bits per pixel, a linear
+ * frame buffer. The firmware hands out the addresses itself: there is no one else. */
 #include "../../displays/framebuffer.h"
 #include "../../displays/screen.h"
 
@@ -56,8 +56,10 @@ static void set_mode(uint32_t config)
 
 panel_status screen_open(panel *p, display *d)
 {
-    static framebuffer f = {
-        .pixels = (uint8_t *)FRAME_BUFFER, .pitch_bytes = 2 * SCREEN_WIDTH, .width = SCREEN_WIDTH, .height = SCREEN_HEIGHT};
+    static framebuffer f = {.pixels = (uint8_t *)FRAME_BUFFER,
+                            .pitch_bytes = 2 * SCREEN_WIDTH,
+                            .width = SCREEN_WIDTH,
+                            .height = SCREEN_HEIGHT};
     const panel_config config = {.width = SCREEN_WIDTH, .height = SCREEN_HEIGHT};
     panel_bus bus;
     uint32_t card;
@@ -67,6 +69,7 @@ panel_status screen_open(panel *p, display *d)
     framebuffer_bus(&f, &bus);
     status = panel_init(p, &panel_linear, &config, &bus);
     if (status) return status;
-    *d = (display){.panel = p, .format = GN_FORMAT_RGB565}; /* no buffers: memory is there at once, nothing to overlap with */
+    *d = (display){.panel = p,
+                   .format = GN_FORMAT_RGB565}; /* no buffers: memory is there at once, nothing to overlap with */
     return display_init(d);
 }

@@ -1,5 +1,5 @@
-/* The board's own LCD: ILI9341, 240x320, on SPI5: select PC2, clock PF7, data PF9, data/command PD13; the read strobe PD12 stays
- * high. Its reset line is the board's. Stream 4 of DMA2 feeds the transmitter. */
+/* The board's own LCD: ILI9341, 240x320, on SPI5: select PC2, clock PF7, data PF9, data/command PD13; the read strobe
+ * PD12 stays high. Its reset line is the board's. Stream 4 of DMA2 feeds the transmitter. */
 #include "../../common/systick.h"
 #include "../../displays/screen.h"
 #include "gn_port.h"
@@ -89,7 +89,7 @@ static void set_up_pins(void)
     REGISTER(SPI_CR1) = SPI_ON; /* 5.25 MHz; the controller's data sheet says up to 10 */
 }
 
-/* ---- The bus ---------------------------------------------------------------------------------------------------------------- */
+/* ---- The bus ----------------------------------------------------------------------------------------------------- */
 
 static panel_status write(void *user, const uint8_t *bytes, size_t n, int is_data)
 {
@@ -134,15 +134,12 @@ static void delay_us(void *user, uint32_t us)
 panel_status screen_open(panel *p, display *d)
 {
     GN_PORT_DMA static uint8_t buffer[2][TILE_BYTES];
-    const panel_bus bus = {.write = write,
-                           .wait = wait,
-                           .delay_us = delay_us,
-                           .abandon = abandon,
-                           .max_polls = POLLS};
+    const panel_bus bus = {.write = write, .wait = wait, .delay_us = delay_us, .abandon = abandon, .max_polls = POLLS};
     const panel_config config = {.width = 240, .height = 320, .turn = 1, .flags = PANEL_BGR};
     set_up_pins();
     panel_status status = panel_init(p, &panel_ili9341, &config, &bus);
     if (status) return status;
-    *d = (display){.panel = p, .format = GN_FORMAT_SCREEN, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
+    *d = (display){
+        .panel = p, .format = GN_FORMAT_SCREEN, .buffer = {buffer[0], buffer[1]}, .buffer_bytes = sizeof buffer[0]};
     return display_init(d);
 }
