@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "gn_bin.h"
-#include "gn_punctual.h"
+#include "visible/gn_bin.h"
+#include "light/gn_punctual.h"
 #include "light_scene.h"
 
 #define W 48
