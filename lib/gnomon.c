@@ -19,6 +19,10 @@
 #include "geometry/gn_affine.c"
 #include "scene/gn_scene.c"
 
+/* Screen tiles and pixels. */
+#include "shade/gn_pixel.c"
+#include "visible/gn_screen_rect.c"
+
 #if GN_COMPACT
 #include "compact/gn_compact_clip.c"
 #include "compact/gn_compact_point.c"
@@ -69,7 +73,6 @@
 #include "shade/gn_surface.c"
 #include "shade/gn_turn.c"
 #endif
-#include "shade/gn_pixel.c"
 
 /* The calls of gnomon.h: a frame, stage by stage. */
 #include "frame/gn_frame.c"

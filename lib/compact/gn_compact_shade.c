@@ -1,5 +1,6 @@
 /* Compact arithmetic: shading of a screen tile, flat colours under one light. */
 #include "gn_internal.h"
+#include "visible/gn_screen_rect.h"
 #include "compact/gn_compact.h"
 #include "shade/gn_shade.h"
 
@@ -106,7 +107,7 @@ static uint32_t shadow_at(const gn_frame *frame, const surface *s, int32_t x, in
 
 void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
-    gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
+    gn_rect rect = gn_screen_rect(frame, tile_idx);
     uint32_t last = UINT32_MAX, light = ONE_UQ16, packed = 0;
     const uint32_t *cell = scratch->cell;
     uint16_t *pixel = scratch->pixel.rgb565;

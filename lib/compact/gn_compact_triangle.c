@@ -1,5 +1,6 @@
 /* Compact arithmetic: triangles into screen tiles and into the shadow tile. */
 #include "gn_internal.h"
+#include "visible/gn_screen_rect.h"
 #include <string.h>
 
 #include "shadow/gn_atlas.h"
@@ -266,7 +267,7 @@ void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri)
 
 void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
-    gn_compact_raster raster = {gn_bin_tile_rect(frame, tile_idx), scratch->cell, NULL, 0, frame->id_bits, 0};
+    gn_compact_raster raster = {gn_screen_rect(frame, tile_idx), scratch->cell, NULL, 0, frame->id_bits, 0};
     memset(scratch->cell, 0, sizeof scratch->cell);
     for (uint32_t i = 0; i < frame->stats.n_triangles; i++) {
         raster.id = gn_raster_id(frame, i);

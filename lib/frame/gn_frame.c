@@ -19,6 +19,7 @@
  * transform and projection; gn_compact_clip), shading (gn_compact_shade)
  */
 #include "gn_internal.h"
+#include "visible/gn_screen_rect.h"
 #include <string.h>
 
 #include "shadow/gn_atlas.h"
@@ -171,7 +172,7 @@ static gn_status begin_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t
 static GN_NOINLINE void flush_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush,
                                    void *user)
 {
-    gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
+    gn_rect rect = gn_screen_rect(frame, tile_idx);
     flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
 }
 
@@ -187,7 +188,7 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
 /* Of a finished tile's bytes. */
 static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch, uint32_t tile_idx)
 {
-    gn_rect rect = gn_bin_tile_rect(frame, tile_idx);
+    gn_rect rect = gn_screen_rect(frame, tile_idx);
     uint64_t signature = GN_SIGNATURE_SEED;
     size_t n = gn_pixel_bytes(frame, rect.x1 - rect.x0, rect.y1 - rect.y0), i = 0;
     const uint8_t *bytes = scratch->pixel.bytes;

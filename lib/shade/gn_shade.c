@@ -1,5 +1,6 @@
 /* Shading of a screen tile. */
 #include "gn_internal.h"
+#include "visible/gn_screen_rect.h"
 #include <string.h>
 
 #include "shade/gn_shade.h"
@@ -417,7 +418,7 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     GN_ELEMENT(s);
     s->frame = frame;
     s->scratch = scratch;
-    s->rect = gn_bin_tile_rect(frame, tile_idx);
+    s->rect = gn_screen_rect(frame, tile_idx);
     s->rows.pixels = &scratch->pixel;
     s->rows.width = s->rect.x1 - s->rect.x0;
     s->rows.x0 = s->rect.x0;

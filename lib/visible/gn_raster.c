@@ -1,5 +1,6 @@
 /* Visible surfaces of a screen tile. */
 #include "gn_internal.h"
+#include "visible/gn_screen_rect.h"
 #include <string.h>
 
 #include "visible/gn_raster.h"
@@ -393,7 +394,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     raster_tile tile;
     tile.frame = frame;
     tile.scratch = scratch;
-    tile.rect = gn_bin_tile_rect(frame, tile_idx);
+    tile.rect = gn_screen_rect(frame, tile_idx);
     tile.width = tile.rect.x1 - tile.rect.x0;
     tile.height = tile.rect.y1 - tile.rect.y0;
     tile.x = ((frame->picture.width << bits) >> 1) - tile.rect.x0 * (1 << bits);
