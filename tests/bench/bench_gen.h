@@ -1,5 +1,5 @@
 /* The workload of the speed measurement: two sets of random triangles for a 320x240 picture with a horizontal field of
- * view of 90 degrees, deterministic (tests/bench_workload.c holds their checksum). */
+ * view of 90 degrees, deterministic (tests/bench/bench_workload.c holds their checksum). */
 #ifndef GNOMON_TESTS_BENCH_GEN_H
 #define GNOMON_TESTS_BENCH_GEN_H
 

@@ -1,4 +1,4 @@
-/* The workload of tests/bench.sh, drawn through the public API by the library as firmware has it: constants, no
+/* The workload of tests/bench/bench.sh, drawn through the public API by the library as firmware has it: constants, no
  * run-time knobs.
  *
  *   bench_workload count           checks triangles and coverage, prints the counts that instructions are divided by

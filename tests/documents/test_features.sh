@@ -1,9 +1,9 @@
 #!/bin/sh
 # Every row of the feature list has code, reference, settings, a test and pictures that exist (docs/FEATURES.md, docs/GALLERY.md); every
 # picture is drawn again by both engines, which must agree. usage: test_features.sh [TOOL]
-cd "$(dirname "$0")/.." || exit 1
+cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
-. tests/check.sh
+. tests/support/check.sh
 features=docs/FEATURES.md gallery=docs/GALLERY.md
 
 "$tool" knobs | sed -n 's/^| `\([a-z_0-9]*\)`.*/\1/p' >"$tmp/knobs"
@@ -57,12 +57,13 @@ tests() {
     names "$2" >"$tmp/names"
     [ -s "$tmp/names" ] && pass || fail "$1 names no test"
     while read -r file && read -r function; do
-        if [ ! -f "tests/$file" ]; then
-            fail "$1 names tests/$file, which does not exist"
+        path=$(ls tests/*/"$file" 2>/dev/null)
+        if [ -z "$path" ]; then
+            fail "$1 names the test $file, which does not exist"
             continue
         fi
-        grep -q "\<$function\>" "tests/$file" && pass || fail "$1 names $function, which tests/$file does not have"
-        mentions "$1" "tests/$file" && mentioned=1
+        grep -q "\<$function\>" "$path" && pass || fail "$1 names $function, which $path does not have"
+        mentions "$1" "$path" && mentioned=1
     done <"$tmp/names"
     [ $mentioned = 1 ] && pass || fail "none of the tests of $1 mentions it"
 }

@@ -1,8 +1,8 @@
 #!/bin/sh
 # docs/MATRIX.md is what its figures make it and has every feature; an image made for one scene leaves out what it should. usage: test_matrix.sh [TOOL]
-cd "$(dirname "$0")/.." || exit 1
+cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
-. tests/check.sh
+. tests/support/check.sh
 
 sh docs/matrix.sh --tables >"$tmp/tables" 2>"$tmp/err" || fail "docs/matrix.sh: $(head -n 1 "$tmp/err")"
 awk '$0 == "<!-- end -->" { on = 0 } on { print } $0 == "<!-- generated: matrix -->" { on = 1 }' docs/MATRIX.md | cmp -s - "$tmp/tables" && pass ||

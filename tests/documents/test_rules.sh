@@ -1,7 +1,7 @@
 #!/bin/sh
 # The rules that no compiler checks: no floating point, no hidden state, who may include whom, sizes, and documents in step.
-cd "$(dirname "$0")/.." || exit 1
-. tests/check.sh
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
 # none WHAT FILE: the file must be empty; each of its lines is named
 none() {
     if [ -s "$2" ]; then fail "$1: $(head -n 5 "$2" | tr '\n' ';')"; else pass; fi

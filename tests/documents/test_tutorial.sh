@@ -1,8 +1,8 @@
 #!/bin/sh
 # docs/TUTORIAL.md: every command of it does what it should, in the document's order; the program is that of boards/apps. usage: test_tutorial.sh [TOOL]
-cd "$(dirname "$0")/.." || exit 1
+cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
-. tests/check.sh
+. tests/support/check.sh
 doc=docs/TUTORIAL.md
 
 block() { awk -v kind="$1" '$0 == "```" { on = 0 } on { print } $0 == "```" kind { on = 1 }' "$doc"; } # block sh|c

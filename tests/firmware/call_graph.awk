@@ -1,5 +1,5 @@
 # Worst-case stack of every function of a linked image, and who calls whom.
-#   awk -f tests/call_graph.awk FILE.su... - <disassembly
+#   awk -f tests/firmware/call_graph.awk FILE.su... - <disassembly
 #
 # Frames are the compiler's (-fstack-usage); of what comes without, the runtime library's helpers, everything that is pushed counts. Calls
 # are what the image's disassembly shows (objdump -d), so that nothing the linker put in is missed. Prints, one per line:

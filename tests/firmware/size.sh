@@ -1,18 +1,18 @@
 #!/bin/sh
 # What the library takes on the targets: flash, RAM by part, worst-case stack.
-#   sh tests/size.sh                     measures all of it; prints it as tables
-#   sh tests/size.sh --figures [some]    one figure per line: flash|whole|ram|stack|fault CORE CONFIGURATION NAME VALUE; some: what the test needs
-#   sh tests/size.sh --tables FILE       tables, in Markdown, of figures measured before
-#   sh tests/size.sh --write             makes the figures tests/size_baseline.txt, and writes docs/MEMORY.md
-#   sh tests/size.sh --files CORE CONFIGURATION        flash by file of lib/
-#   sh tests/size.sh --list FILE CORE...    figures of configurations of a file: lines NAME FLAGS...
-#   sh tests/size.sh --flags CONFIGURATION   its compiler flags
-#   sh tests/size.sh --document          writes docs/MEMORY.md alone
-#   sh tests/size.sh --functions CORE CONFIGURATION    the largest functions and tables of an image
+#   sh tests/firmware/size.sh                     measures all of it; prints it as tables
+#   sh tests/firmware/size.sh --figures [some]    one figure per line: flash|whole|ram|stack|fault CORE CONFIGURATION NAME VALUE; some: what the test needs
+#   sh tests/firmware/size.sh --tables FILE       tables, in Markdown, of figures measured before
+#   sh tests/firmware/size.sh --write             makes the figures tests/firmware/size_baseline.txt, and writes docs/MEMORY.md
+#   sh tests/firmware/size.sh --files CORE CONFIGURATION        flash by file of lib/
+#   sh tests/firmware/size.sh --list FILE CORE...    figures of configurations of a file: lines NAME FLAGS...
+#   sh tests/firmware/size.sh --flags CONFIGURATION   its compiler flags
+#   sh tests/firmware/size.sh --document          writes docs/MEMORY.md alone
+#   sh tests/firmware/size.sh --functions CORE CONFIGURATION    the largest functions and tables of an image
 # Cores are those of boards/*/board.mk. Everything is compiled as boards/boards.mk does it, -Os.
 set -eu
-cd "$(dirname "$0")/.."
-BASELINE=tests/size_baseline.txt
+cd "$(dirname "$0")/../.."
+BASELINE=tests/firmware/size_baseline.txt
 DOC=docs/MEMORY.md
 mkdir -p build/tmp
 work=$(mktemp -d build/tmp/size.XXXXXX)
@@ -79,14 +79,14 @@ image() {
     compile="$prefix"
     core_flags=$(shift 3 && echo "$*")
     compile="${prefix}gcc $core_flags -std=c99 -Os -ffreestanding -isystem boards/common/include -ffunction-sections -fdata-sections -Ilib $(flags_of "$2")"
-    (cd "$dir" && for source in ../../../../lib/*.c ../../../../tests/size_app.c; do echo "$source"; done) | sed 's|^\(../\)*||' >"$dir/sources"
+    (cd "$dir" && for source in ../../../../lib/*.c ../../../../tests/firmware/size_app.c; do echo "$source"; done) | sed 's|^\(../\)*||' >"$dir/sources"
     while read -r source; do
         object "$source" "$dir/$(basename "$source" .c)"
     done <"$dir/sources"
     $compile -fno-tree-loop-distribute-patterns -fno-builtin -c boards/common/memory.c -o "$dir/memory.o"
-    $compile -c tests/size_parts.c -o "$dir/parts.obj"
+    $compile -c tests/firmware/size_parts.c -o "$dir/parts.obj"
     ${prefix}gcc $core_flags -Os -nostdlib -nostartfiles -Wl,--gc-sections -Wl,-e,size_main -Wl,--no-warn-rwx-segments -o "$dir/image" "$dir"/*.o -lgcc
-    ${prefix}objdump -d --no-show-raw-insn "$dir/image" | awk -f tests/call_graph.awk "$dir"/gn_*.su - >"$dir/graph"
+    ${prefix}objdump -d --no-show-raw-insn "$dir/image" | awk -f tests/firmware/call_graph.awk "$dir"/gn_*.su - >"$dir/graph"
     ${prefix}nm -S --radix=d "$dir/image" | awk '{ print $2 + 0, $3, $4 }' >"$dir/symbols"
 }
 
@@ -269,7 +269,7 @@ case ${1:-} in
 --tables) tables "$2" ;;
 --document) document ;;
 --write)
-    { echo "# Written by sh tests/size.sh --write: bytes."; measure all; } >"$work/baseline"
+    { echo "# Written by sh tests/firmware/size.sh --write: bytes."; measure all; } >"$work/baseline"
     cp "$work/baseline" "$BASELINE"
     document ;;
 --functions)

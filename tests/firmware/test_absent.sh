@@ -1,11 +1,11 @@
 #!/bin/sh
 # Off means absent: a feature that is not built leaves no symbol and takes no flash. And no call of the compiler's library but for what a core lacks.
 # Sizes are of Cortex-M3 where its compiler is installed, else of this machine. "--table" prints them.
-cd "$(dirname "$0")/.." || exit 1
-. tests/check.sh
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS)
-sh tests/one_file.sh lib >"$tmp/lib.c"
+sh tests/support/one_file.sh lib >"$tmp/lib.c"
 cc=gcc prefix=
 if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
     cc="arm-none-eabi-gcc -mcpu=cortex-m3 -mthumb" prefix=arm-none-eabi-
@@ -109,7 +109,7 @@ LIST
 
 # ---- Divisions -------------------------------------------------------------------------------------------------------------
 
-# The library has its own 64-bit division (that no pixel reaches it is tests/test_size.sh's to say) and calls no other.
+# The library has its own 64-bit division (that no pixel reaches it is tests/firmware/test_size.sh's to say) and calls no other.
 if [ -n "$prefix" ]; then
     object divide -Os -fno-inline -DGN_PRESET=2 $(but all 0)
     ${prefix}nm "$tmp/divide.o" | awk '$1 == "U" { print $2 }' | grep -v -x -E 'mem(set|cpy|cmp|move)|__aeabi_u?idivmod|__aeabi_u?idiv|__aeabi_(mem|l?l[as][rl]).*' >"$tmp/found"

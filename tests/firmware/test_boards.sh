@@ -1,8 +1,8 @@
 #!/bin/sh
 # The same bits on every host build and on six cores in the emulator, as docs/BOARDS.md lists them; 16 KB of RAM; guards that report;
 # boards that are built and not run.
-cd "$(dirname "$0")/.." || exit 1
-if [ "${1:-}" = job ]; then tmp=$2; else . tests/check.sh; fi # a job is this script, called by xargs below
+cd "$(dirname "$0")/../.." || exit 1
+if [ "${1:-}" = job ]; then tmp=$2; else . tests/support/check.sh; fi # a job is this script, called by xargs below
 
 setting() { sed -n "s/^$2 := *//p" "boards/$1/board.mk"; }
 boards=$(for file in boards/*/board.mk; do basename "$(dirname "$file")"; done)
@@ -192,7 +192,7 @@ for word in -m64 -m32; do
 done
 [ $scenes_ok = 1 ] && pass || fail "a scene does not compile: $(tail -n 1 "$tmp/log")"
 make -s build/rgb565_png >"$tmp/log" 2>&1 && pass || fail "rgb565_png does not build"
-sh tests/one_file.sh lib >"$tmp/lib.c"
+sh tests/support/one_file.sh lib >"$tmp/lib.c"
 
 {
     for board in $emulated; do
@@ -213,7 +213,7 @@ sh tests/one_file.sh lib >"$tmp/lib.c"
     for board in $built_only; do echo "built $board"; done
     echo pocket
 } >"$tmp/jobs"
-xargs -P 2 -I '{}' sh -c 'sh tests/test_boards.sh job "$1" $2' run "$tmp" '{}' <"$tmp/jobs" >"$tmp/results" 2>&1
+xargs -P 2 -I '{}' sh -c 'sh tests/firmware/test_boards.sh job "$1" $2' run "$tmp" '{}' <"$tmp/jobs" >"$tmp/results" 2>&1
 { hot; fast; pico_boot; pico_uf2; } >>"$tmp/results" 2>&1
 passed=$((passed + $(grep -c '^ok$' "$tmp/results")))
 failed=$((failed + $(grep -v -c '^ok$' "$tmp/results")))

@@ -2,8 +2,8 @@
 # Displays end to end: the clock's picture on the emulator's screen, driven over its bus by the board's own code, is the one that the
 # library draws on the host, pixel for pixel. The clock runs for half an hour before each picture and sends what changed. Boards that
 # nothing emulates are built in full.
-cd "$(dirname "$0")/.." || exit 1
-. tests/check.sh
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
 
 hours="07:00 10:00 13:00 17:30"
 from() { case $1 in 07:00) echo 06:30 ;; 10:00) echo 09:30 ;; 13:00) echo 12:30 ;; *) echo 17:00 ;; esac; }

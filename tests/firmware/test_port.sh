@@ -1,7 +1,7 @@
 #!/bin/sh
 # Every port's kernels, on every emulated board and on the host, give the oracle's bits; a port that is wrong in one bit is found.
-cd "$(dirname "$0")/.." || exit 1
-. tests/check.sh
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
 
 setting() { sed -n "s/^$2 := *//p" "boards/$1/board.mk"; }
 # run NAME MAKE_ARGUMENTS...: what the comparison printed

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Memory: the tool predicts sizeof(gn_renderer) on a 32-bit target to the byte, and the promised size holds.
-cd "$(dirname "$0")/.." || exit 1
-. tests/check.sh
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
 
 variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)

@@ -1,14 +1,14 @@
 #!/bin/sh
-# Budgets of flash, RAM and stack on the targets, and what linked images must not hold. Figures: tests/size.sh.
-cd "$(dirname "$0")/.." || exit 1
-. tests/check.sh
+# Budgets of flash, RAM and stack on the targets, and what linked images must not hold. Figures: tests/firmware/size.sh.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
 
 if ! command -v arm-none-eabi-gcc >/dev/null 2>&1; then
     echo "arm-none-eabi-gcc is not installed"
     echo "0 passed, 1 failed"
     exit 1
 fi
-sh tests/size.sh --figures some >"$tmp/now" || fail "tests/size.sh fails"
+sh tests/firmware/size.sh --figures some >"$tmp/now" || fail "tests/firmware/size.sh fails"
 
 # within: KIND CORE CONFIGURATION NAME LIMIT
 within() {
@@ -47,7 +47,7 @@ int entry(int n) { return (int)slow(n, 3) + deep(n, entry); }
 EOF_C
 if arm-none-eabi-gcc -mcpu=cortex-m3 -mthumb -O1 -ffreestanding -fstack-usage -nostdlib -Wl,-e,entry -o "$tmp/bad" "$tmp/bad.c" -lgcc 2>"$tmp/log"; then
     find "$tmp" build/tmp -maxdepth 1 -name '*bad.su' >"$tmp/su"
-    arm-none-eabi-objdump -d --no-show-raw-insn "$tmp/bad" | awk -f tests/call_graph.awk $(cat "$tmp/su") - >"$tmp/graph"
+    arm-none-eabi-objdump -d --no-show-raw-insn "$tmp/bad" | awk -f tests/firmware/call_graph.awk $(cat "$tmp/su") - >"$tmp/graph"
     for line in "recursion deep" "unbounded deep" "indirect deep" "call slow __aeabi_ldivmod"; do
         grep -q -x "$line" "$tmp/graph" && pass || fail "the call graph does not see: $line"
     done
@@ -63,13 +63,13 @@ emulated() {
     shift
     at=build/firmware/mps2-an385/stack-$name
     measured=$(make -s --no-print-directory emulate BOARD=mps2-an385 APP=stack IMAGE="stack-$name" FW_OPT=-Os FW_FLAGS="-fstack-usage $*" 2>&1 | tee "$tmp/log" | sed -n 's/^stack \([0-9]*\) tiles [1-9].*/\1/p')
-    bound=$(arm-none-eabi-objdump -d --no-show-raw-insn "$at.elf" | awk -f tests/call_graph.awk $(find "$at.obj" -name '*.su') - |
+    bound=$(arm-none-eabi-objdump -d --no-show-raw-insn "$at.elf" | awk -f tests/firmware/call_graph.awk $(find "$at.obj" -name '*.su') - |
         awk '$1 == "stack" && $2 == "board_start" { print $3 }')
     if [ "${measured:-99999}" -le "${bound:-0}" ] && [ $((measured * 10)) -ge $((bound * 7)) ]; then pass
     else fail "stack, $name: measured ${measured:-nothing: $(tail -n 1 "$tmp/log")}, bound ${bound:-none}"; fi
 }
 emulated balanced
-emulated small "$(sh tests/size.sh --flags small | sed 's/-DGN_CLIPPING=0/-DGN_CLIPPING=1/')" # the app's scene is clipped
+emulated small "$(sh tests/firmware/size.sh --flags small | sed 's/-DGN_CLIPPING=0/-DGN_CLIPPING=1/')" # the app's scene is clipped
 
 # ---- Budgets ----------------------------------------------------------------------------------------------------------------
 
@@ -89,14 +89,14 @@ awk '
     $1 != "fault" && ($1, $2, $3, $4) in was {
         n++
         if ($5 * 100 > was[$1, $2, $3, $4] * 102 && $5 - was[$1, $2, $3, $4] > 8)
-            print $1 ", " $2 ", " $3 ", " $4 ": " $5 ", was " was[$1, $2, $3, $4] ": more than 2 % (sh tests/size.sh --write accepts it)"
+            print $1 ", " $2 ", " $3 ", " $4 ": " $5 ", was " was[$1, $2, $3, $4] ": more than 2 % (sh tests/firmware/size.sh --write accepts it)"
     }
-    END { if (n < 50) print "only " n + 0 " figures of the baseline were measured" }' tests/size_baseline.txt "$tmp/now" >"$tmp/grown"
+    END { if (n < 50) print "only " n + 0 " figures of the baseline were measured" }' tests/firmware/size_baseline.txt "$tmp/now" >"$tmp/grown"
 if [ -s "$tmp/grown" ]; then while read -r line; do fail "$line"; done <"$tmp/grown"; else pass; fi
 
-sh tests/size.sh --tables tests/size_baseline.txt >"$tmp/tables"
+sh tests/firmware/size.sh --tables tests/firmware/size_baseline.txt >"$tmp/tables"
 awk '$0 == "<!-- end -->" { on = 0 } on { print } $0 == "<!-- generated: sizes -->" { on = 1 }' docs/MEMORY.md | cmp -s - "$tmp/tables" && pass ||
-    fail "docs/MEMORY.md is not what tests/size_baseline.txt makes it"
+    fail "docs/MEMORY.md is not what tests/firmware/size_baseline.txt makes it"
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

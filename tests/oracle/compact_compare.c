@@ -1,4 +1,4 @@
-/* Compact arithmetic against the reference: own scenes and random ones of what it can draw. tests/test_compact.sh
+/* Compact arithmetic against the reference: own scenes and random ones of what it can draw. tests/oracle/test_compact.sh
  * builds it beside the host's own library. compact_compare [--table] [-o PREFIX]    PREFIX: pictures of each scene's
  * first view */
 #include <math.h>

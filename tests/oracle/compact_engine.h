@@ -1,5 +1,5 @@
 /* The library with compact arithmetic as one function beside the host's, of which it shares no symbol:
- * tests/test_compact.sh. */
+ * tests/oracle/test_compact.sh. */
 #ifndef GNOMON_TESTS_COMPACT_ENGINE_H
 #define GNOMON_TESTS_COMPACT_ENGINE_H
 

@@ -1,11 +1,11 @@
 #!/bin/sh
 # Compact arithmetic: the reference's pictures, the same bits on every machine, and nothing but a refusal out of its range. --table: what docs/ACCURACY.md shows.
-cd "$(dirname "$0")/.." || exit 1
-. tests/check.sh
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
 
 variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
-sh tests/one_file.sh lib >"$tmp/lib.c"
+sh tests/support/one_file.sh lib >"$tmp/lib.c"
 flags="-DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_PRESET=0 -DGN_SRGB=0"
 # program STATUS_OF WHAT...: its counts are added
 counted() {
@@ -21,8 +21,8 @@ counted() {
 
 comparison() { # with the sRGB curve or without: $1
     gcc -std=c11 -w -O2 $flags -UGN_SRGB -DGN_SRGB=$1 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=2000 -DGN_MAX_OBJECTS=100 -DGN_MAX_HEIGHT=256 -Ilib -I. "-DLIBRARY=\"$tmp/lib.c\"" \
-        -c tests/compact_engine.c -o "$tmp/all.o" && objcopy --keep-global-symbol=compact_render "$tmp/all.o" "$tmp/engine.o" &&
-        gcc -std=c11 -D_POSIX_C_SOURCE=200809L $warn -O2 "-DSRGB=\"srgb=$1\"" -Ilib $(variable HOST_KNOBS) -c tests/compact_compare.c -o "$tmp/compare.o" &&
+        -c tests/oracle/compact_engine.c -o "$tmp/all.o" && objcopy --keep-global-symbol=compact_render "$tmp/all.o" "$tmp/engine.o" &&
+        gcc -std=c11 -D_POSIX_C_SOURCE=200809L $warn -O2 "-DSRGB=\"srgb=$1\"" -Ilib -Itests -Itests/support $(variable HOST_KNOBS) -c tests/oracle/compact_compare.c -o "$tmp/compare.o" &&
         gcc -o "$tmp/compare" "$tmp/compare.o" "$tmp/engine.o" $(variable HOST_OBJ) $(variable LIB_OBJ) -lm || fail "the comparison does not build"
 }
 comparison 0
@@ -34,15 +34,15 @@ counted "$tmp/compare"
 comparison 1
 counted "$tmp/compare"
 
-gcc -std=c11 -w -O2 -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_ATLAS_SIZE=128 -Ilib -I. -Itests "-DLIBRARY=\"$tmp/lib.c\"" \
-    -o "$tmp/bounds" tests/compact_bounds.c -lm || fail "compact_bounds does not build"
+gcc -std=c11 -w -O2 -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_ATLAS_SIZE=128 -Ilib -I. -Itests -Itests/support "-DLIBRARY=\"$tmp/lib.c\"" \
+    -o "$tmp/bounds" tests/oracle/compact_bounds.c -lm || fail "compact_bounds does not build"
 counted "$tmp/bounds"
 
 # ---- Range: the compilers of the test suite, with sanitizers -----------------------------------------------------------------------
 
 for how in "gcc -O2 -DGN_AUTO_BIAS=0" "clang -O0"; do
-    if $how -std=c11 -w -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -Ilib -Itests \
-        -o "$tmp/range" tests/compact_range.c "$tmp/lib.c" -lm 2>"$tmp/log"; then counted "$tmp/range" 5000
+    if $how -std=c11 -w -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -Ilib -Itests/support \
+        -o "$tmp/range" tests/oracle/compact_range.c "$tmp/lib.c" -lm 2>"$tmp/log"; then counted "$tmp/range" 5000
     else fail "$how: $(grep -m 1 error "$tmp/log")"; fi
 done
 for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=2 -DGN_VALIDATION=0" "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0"; do
@@ -58,8 +58,8 @@ grep -q 'GN_COMPACT' "$tmp/log" && pass || fail "the tool does not say why not: 
 # ---- The same bits ------------------------------------------------------------------------------------------------------------------
 
 same() { # same WHAT FILE
-    if grep '^frame' "$2" | cmp -s - tests/compact_golden.txt; then pass
-    else fail "$1: $(grep '^frame' "$2" | diff - tests/compact_golden.txt | sed -n 2,3p | tr '\n' ';') $(grep -m 1 -i error "$2")"; fi
+    if grep '^frame' "$2" | cmp -s - tests/oracle/compact_golden.txt; then pass
+    else fail "$1: $(grep '^frame' "$2" | diff - tests/oracle/compact_golden.txt | sed -n 2,3p | tr '\n' ';') $(grep -m 1 -i error "$2")"; fi
 }
 for how in "gcc -O0 -m64" "gcc -Os -m32" "gcc -O3 -m64" "clang -O2 -m32" "clang -Os -m64"; do
     $how -std=c99 -w -Ilib -Iboards/common -Iboards/apps '-DGN_USER_CONFIG="compact_config.h"' -o "$tmp/golden" "$tmp/lib.c" boards/apps/compact.c \

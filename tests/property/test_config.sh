@@ -1,14 +1,14 @@
 #!/bin/sh
 # Every configuration builds without a warning with two compilers and draws what the host build draws of the same scene; what is
 # not built in is refused; wrong configurations do not build, and say why; capacities that are too small say how many they lack.
-cd "$(dirname "$0")/.." || exit 1
-. tests/check.sh
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
 
 variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
 host_knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1//') # the tool alone counts
 strict="-std=c99 -pedantic $warn -Ilib"
-sh tests/one_file.sh lib >"$tmp/lib.c"
+sh tests/support/one_file.sh lib >"$tmp/lib.c"
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e VALIDATION -e "^CLIPPING")
 # flags WORD...: "none" and "all" of the features, "tiny"..., NAME=VALUE of a knob, or a flag as it is; of a name the last value counts
@@ -93,7 +93,7 @@ draws() {
     shift 3
     words=$*
     set -- $(flags "$@")
-    if ! $compiler $strict -O0 "$@" -Itests -o "$tmp/run$n" "$tmp/lib.c" tests/config_picture.c 2>"$tmp/log$n" ||
+    if ! $compiler $strict -O0 "$@" -Itests/support -o "$tmp/run$n" "$tmp/lib.c" tests/property/config_picture.c 2>"$tmp/log$n" ||
         ! $checker $strict "$@" -fsyntax-only "$tmp/lib.c" 2>"$tmp/log$n"; then
         echo "$compiler, $checker: does not build: $words"
         grep -m 3 -E 'error|warning|undefined' "$tmp/log$n"
@@ -119,7 +119,7 @@ some_draw() {
     done <"$tmp/wanted"
 }
 
-if gcc $strict -O1 $host_knobs -Itests -o "$tmp/host_picture" "$tmp/lib.c" tests/config_picture.c 2>"$tmp/log"; then
+if gcc $strict -O1 $host_knobs -Itests/support -o "$tmp/host_picture" "$tmp/lib.c" tests/property/config_picture.c 2>"$tmp/log"; then
     (
         trap - EXIT # it is not this subshell that cleans up
         some_draw 0 >"$tmp/drawn0"
@@ -273,7 +273,7 @@ EOF_C
 program() {
     program_name=$1
     shift
-    gcc $strict -Itests -O0 "$@" -o "$tmp/$program_name.run" "$tmp/picture.c" "$tmp/lib.c" >"$tmp/$program_name.log" 2>&1 || {
+    gcc $strict -Itests/support -O0 "$@" -o "$tmp/$program_name.run" "$tmp/picture.c" "$tmp/lib.c" >"$tmp/$program_name.log" 2>&1 || {
         fail "no program with $*: $(grep -m 1 error "$tmp/$program_name.log")"
         return 1
     }
@@ -317,8 +317,8 @@ if [ "$("$tmp/host.run" 160 120 0 - 0)" = "$("$tmp/host.run" 160 120 0 - 1)" ]; 
 # status name -> number, from the order of the list
 number() { sed -n 's/^ *X(\(GN_[A-Z_]*\),.*/\1/p' lib/gnomon.h | awk -v name="$1" '$1 == name { print NR - 1 }'; }
 
-small() { # small FLAGS...: the last line of what the scene of tests/config_picture.c prints
-    gcc $strict -Itests -O0 $(flags "$@") -o "$tmp/small" "$tmp/lib.c" tests/config_picture.c 2>"$tmp/log" || { head -n 1 "$tmp/log"; return; }
+small() { # small FLAGS...: the last line of what the scene of tests/property/config_picture.c prints
+    gcc $strict -Itests/support -O0 $(flags "$@") -o "$tmp/small" "$tmp/lib.c" tests/property/config_picture.c 2>"$tmp/log" || { head -n 1 "$tmp/log"; return; }
     "$tmp/small" | tail -n 1
 }
 

@@ -1,5 +1,5 @@
 /* A whole firmware around what gnomon compile wrote, printing pictures as binary PPM: compiled_picture FRAME.
- * tests/test_compile.sh. */
+ * tests/tool/test_compile.sh. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

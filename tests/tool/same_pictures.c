@@ -1,4 +1,4 @@
-/* same_pictures PNG...: the PPM pictures on stdin, as tests/compiled_picture.c prints them, are those of the files.
+/* same_pictures PNG...: the PPM pictures on stdin, as tests/tool/compiled_picture.c prints them, are those of the files.
  * Prints nothing if so. */
 #include <stdio.h>
 #include <stdlib.h>

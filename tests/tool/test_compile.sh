@@ -1,21 +1,21 @@
 #!/bin/sh
 # gnomon compile: what it writes builds without a warning and draws the very bytes of gnomon render. usage: test_compile.sh [TOOL]
-cd "$(dirname "$0")/.." || exit 1
+cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
-. tests/check.sh
+. tests/support/check.sh
 
 variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
 strict="-std=c99 -pedantic-errors $warn -Ilib"
-TMPDIR=$tmp sh tests/one_file.sh lib >"$tmp/lib.c"
-if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -o "$tmp/same" tests/same_pictures.c host/scene/*.c -lm \
+TMPDIR=$tmp sh tests/support/one_file.sh lib >"$tmp/lib.c"
+if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -Itests -o "$tmp/same" tests/tool/same_pictures.c host/scene/*.c -lm \
     >"$tmp/log" 2>&1; then pass; else fail "same_pictures: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
 
 # build NAME: the firmware of build/tmp/.../NAME as a program; what was written, without a warning
 build() {
     gcc $strict -fsyntax-only -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' "$tmp/$1/scene.c" 2>"$tmp/$1/log" &&
         gcc -std=c99 -w -O0 -Ilib -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/$1/run" "$tmp/lib.c" "$tmp/$1/scene.c" \
-            tests/compiled_picture.c 2>"$tmp/$1/log"
+            tests/tool/compiled_picture.c 2>"$tmp/$1/log"
 }
 
 # same NAME SCENE "FRAMES" "COMPILE-OPTIONS" OPTIONS...: what the compiled scene shows at frames of its own is what the tool renders

@@ -1,8 +1,8 @@
 #!/bin/sh
 # make report: the page has everything in itself, says what the metrics say, and is shown as it should be. usage: test_report.sh [TOOL]
-cd "$(dirname "$0")/.." || exit 1
+cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
-. tests/check.sh
+. tests/support/check.sh
 make -s "$(dirname "$tool")/make_report" >/dev/null || fail "make_report is not built"
 scenes="sundial avenue desk room fence mixed"
 page=$tmp/report/index.html

@@ -1,8 +1,8 @@
 #!/bin/sh
 # gnomon sweep and gnomon advise: the front, budgets kept, what they promise reproduced by gnomon compare. usage: test_sweep.sh [TOOL]
-cd "$(dirname "$0")/.." || exit 1
+cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
-. tests/check.sh
+. tests/support/check.sh
 size=48x36
 
 run() { timeout 300 "$tool" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null; }

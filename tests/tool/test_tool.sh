@@ -1,8 +1,8 @@
 #!/bin/sh
 # The command line: exit codes, one clear line per error, JSON, pictures of every view, every knob. usage: test_tool.sh [TOOL]
-cd "$(dirname "$0")/.." || exit 1
+cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
-. tests/check.sh
+. tests/support/check.sh
 
 run() { timeout 60 "$tool" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null; }
 

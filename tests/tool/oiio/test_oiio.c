@@ -3,10 +3,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "../../host/scene/png.h"
-#include "../../host/tool/metrics.h"
-#include "../../host/tool/views.h"
-#include "../check.h"
+#include "../host/scene/png.h"
+#include "../host/tool/metrics.h"
+#include "../host/tool/views.h"
+#include "check.h"
 #include "oiio_shim.h"
 
 static uint32_t state = 7;
