@@ -42,7 +42,11 @@ help: ## list the targets
 run: $(BUILD)/gnomon ## render and compare the main scenes (and SCENES=...); pictures under build/run/
 	@sh host/run.sh $(BUILD)/gnomon $(SIZE) $(BUILD)/run $(OWN_SCENES) $(SCENES)
 
-test: ## run every test; installs what is missing (needs root or sudo)
+deps: ## install what the tests need, as root or with sudo
+	@sh tests/deps.sh
+
+test: deps ## run every test
+	@sh tests/run.sh
 	@sh tests/run.sh
 
 soak: ## the longer campaigns, minutes to hours: [SEED=n] [SCENES=n] [CAMPAIGNS="random census"]
@@ -156,5 +160,5 @@ endif
 
 -include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
 
-.PHONY: all help run test soak bench size matrix firmware emulate screen boards docs tables scenes clean test-programs
+.PHONY: all help run deps test soak bench size matrix firmware emulate screen boards docs report tables scenes coverage clean test-programs
 .SECONDARY:

@@ -1,6 +1,6 @@
-/* Compact arithmetic against the reference: own scenes and random ones of what it can draw. tests/oracle/test_compact.sh
- * builds it beside the host's own library. compact_compare [--table] [-o PREFIX]    PREFIX: pictures of each scene's
- * first view */
+/* Compact arithmetic against the reference: own scenes and random ones of what it can draw.
+ * tests/oracle/test_compact.sh builds it beside the host's own library. compact_compare [--table] [-o PREFIX] PREFIX:
+ * pictures of each scene's first view */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* same_pictures PNG...: the PPM pictures on stdin, as tests/tool/compiled_picture.c prints them, are those of the files.
- * Prints nothing if so. */
+/* same_pictures PNG...: the PPM pictures on stdin, as tests/tool/compiled_picture.c prints them, are those of the
+ * files. Prints nothing if so. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
