@@ -63,7 +63,7 @@ predicted() {
     flags="-DGN_PRESET=$preset" sets=
     for key in max_width max_height max_triangles max_tile_refs max_lights surface_lights max_objects max_shadow_tiles max_other_tiles vertex_cache; do
         macro=GN_$(echo $key | tr a-z A-Z)
-        sets="$sets $key=$(sed -n "s/^#define $macro \([0-9]*\)$/\1/p" lib/gn_config.h)"
+        sets="$sets $key=$(sed -n "s/^#define $macro *\([0-9]*\)$/\1/p" lib/gn_config.h)"
     done
     for set in "$@"; do flags="$flags -DGN_$(echo "${set%%=*}" | tr a-z A-Z)=${set#*=}"; done
     ram=$("$tmp/ram" "$preset" $sets "$@")
