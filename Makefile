@@ -21,7 +21,8 @@ LIB_CFLAGS := -std=c99 -pedantic $(OPT) -g $(WARN) $(SAN) -Ilib
 HOST_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(HOST_OPT) -g $(WARN) $(SAN) -Ilib $(HOST_KNOBS) \
   -DSLOW_LIBRARY=$(if $(filter -O0,$(OPT)),1,0)
 
-LIB_SRC := $(wildcard lib/*.c)
+# The library, part by part: what changes is compiled again, and tests see its functions. Users compile lib/gnomon.c.
+LIB_SRC := $(filter-out lib/compact/%, $(wildcard lib/*/*.c))
 HOST_SRC := $(wildcard host/ref/*.c host/truth/*.c host/scene/*.c host/bake/*.c) $(filter-out host/tool/main.c host/tool/gen_%.c, $(wildcard host/tool/*.c))
 SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/scenes/*.c))
 TEST_SRC := $(wildcard tests/*/test_*.c)
@@ -79,8 +80,8 @@ report: $(BUILD)/gnomon $(BUILD)/make_report ## one page of pictures, metrics an
 	@sh host/report/report.sh $(BUILD)/gnomon $(SIZE) $(BUILD)/report $(patsubst %sundial.gltf,%sundial.gltf@48,$(OWN_SCENES)) $(SCENES)
 	@echo $(BUILD)/report/index.html
 
-tables: $(BUILD)/gen_tables ## regenerate lib/gn_tables.c
-	$(BUILD)/gen_tables > lib/gn_tables.c
+tables: $(BUILD)/gen_tables ## regenerate lib/base/gn_tables.c
+	$(BUILD)/gen_tables > lib/base/gn_tables.c
 
 scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf and docs/scenes/*.gltf
 	$(BUILD)/make_scenes host/scenes docs/scenes
@@ -145,7 +146,7 @@ $(BUILD)/obj/tests/tool/oiio/oiio_shim.o: tests/tool/oiio/oiio_shim.cpp tests/to
 $(BUILD)/obj/lib/%.o: lib/%.c
 	@mkdir -p $(@D)
 	@echo '  CC $<'
-	@$(CC) $(LIB_CFLAGS) $(HOST_KNOBS) -MMD -MP -c -o $@ $<
+	@$(CC) $(LIB_CFLAGS) $(HOST_KNOBS) -DGN_SEPARATE_FILES -MMD -MP -c -o $@ $<
 
 $(BUILD)/obj/tests/%.o: HOST_CFLAGS += -Itests -Itests/support
 

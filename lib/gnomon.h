@@ -364,7 +364,7 @@ typedef struct {
 #endif
 
 /* The layout of the state is private; it stands here so that the caller can make it static. */
-#include "gn_state.h"
+#include "frame/gn_state.h"
 
 typedef struct gn_renderer {
     gn_frame frame;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../lib/gn_count.h"
+#include "../../lib/base/gn_count.h"
 
 enum { SAMPLES_MAX = 2000, SCENES_MAX = 64, STAGES = 4, PASSES = 20000 };
 

@@ -1,4 +1,4 @@
-/* Writes lib/gn_tables.c to stdout. */
+/* Writes lib/base/gn_tables.c to stdout. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

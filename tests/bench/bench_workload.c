@@ -14,8 +14,8 @@
 #include "../boards/apps/bench_scene.h"
 #include "../host/scene/zlib_stream.h"
 #include "bench_gen.h"
-#include "gn_setup.h"
-#include "gn_walk.h"
+#include "visible/gn_setup.h"
+#include "geometry/gn_walk.h"
 #include "gnomon.h"
 
 enum { N_TRIANGLES_MAX = BENCH_N_SMALL };

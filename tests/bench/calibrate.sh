@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes host/tool/cost_table.h anew: what the library's counted events (lib/gn_count.h) cost in instructions, by callgrind.
+# Makes host/tool/cost_table.h anew: what the library's counted events (lib/base/gn_count.h) cost in instructions, by callgrind.
 #   sh tests/bench/calibrate.sh           minutes; the counts come from gnomon sweep, the instructions from a build without counters
 # The build that is measured is the host's, so that one program draws every configuration; without its static layer, which firmware rarely has.
 # Environment: CC, BUILD.

@@ -95,12 +95,12 @@ awk 'FNR > 1 && /\*\// { exit } /^ \*   / {
         else if (word == ")") depth--
         else if (!seen[word]++ && word !~ /^gn_(begin|shadow_tile|prepare|screen_tile)$/) print word, FNR, depth ? "service" : "stage"
     }
-}' lib/gn_frame.c >"$tmp/order"
+}' lib/frame/gn_frame.c >"$tmp/order"
 for stage in gn_scene gn_xform gn_views gn_atlas gn_setup gn_bin gn_raster gn_shade; do
-    grep -q "^$stage [0-9]* stage$" "$tmp/order" && pass || fail "lib/gn_frame.c's table of contents has no stage $stage"
+    grep -q "^$stage [0-9]* stage$" "$tmp/order" && pass || fail "lib/frame/gn_frame.c's table of contents has no stage $stage"
 done
 while read -r name rank kind; do
-    [ -f "lib/$name.c" ] || echo "$name is named in lib/gn_frame.c, and there is no such file"
+    [ -f "lib/$name.c" ] || echo "$name is named in lib/frame/gn_frame.c, and there is no such file"
     for file in "lib/$name.c" "lib/$name.h"; do
         [ -f "$file" ] || continue
         for header in $(sed -n 's/^#include "\(gn_[a-z]*\)\.h"/\1/p' "$file"); do
@@ -115,7 +115,7 @@ for file in lib/*.c; do # and nobody below the frame includes it, nor is left ou
     case $name in gn_frame | gn_affine | gn_curves | gn_math | gn_q | gn_tables) continue ;; esac
     grep -q "^$name " "$tmp/order" || echo "$name"
 done >"$tmp/found"
-none "not named in lib/gn_frame.c's table of contents" "$tmp/found"
+none "not named in lib/frame/gn_frame.c's table of contents" "$tmp/found"
 
 grep -H -E '#[[:space:]]*include[^"<]*["<][^">]*(lib/|gnomon\.h|gn_)' host/ref/*.[ch] host/truth/*.[ch] >"$tmp/found"
 none "host/ref/ or host/truth/ includes from lib/" "$tmp/found"
@@ -193,7 +193,7 @@ none "tabs outside Makefile" "$tmp/found"
 # ---- Generated files and documents -----------------------------------------------------------------------------------------
 
 if make -s BUILD="$tmp/gen" "$tmp/gen/gen_tables" >"$tmp/log" 2>&1 && "$tmp/gen/gen_tables" >"$tmp/gn_tables.c"; then
-    if cmp -s "$tmp/gn_tables.c" lib/gn_tables.c; then pass; else fail "lib/gn_tables.c is not what host/tool/gen_tables.c writes: make tables"; fi
+    if cmp -s "$tmp/gn_tables.c" lib/base/gn_tables.c; then pass; else fail "lib/base/gn_tables.c is not what host/tool/gen_tables.c writes: make tables"; fi
 else
     fail "gen_tables does not build: $(grep -m 1 error "$tmp/log")"
 fi

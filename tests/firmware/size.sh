@@ -78,7 +78,7 @@ image() {
     prefix=$3
     compile="$prefix"
     core_flags=$(shift 3 && echo "$*")
-    compile="${prefix}gcc $core_flags -std=c99 -Os -ffreestanding -isystem boards/common/include -ffunction-sections -fdata-sections -Ilib $(flags_of "$2")"
+    compile="${prefix}gcc $core_flags -std=c99 -Os -g -ffreestanding -isystem boards/common/include -ffunction-sections -fdata-sections -Ilib $(flags_of "$2")"
     (cd "$dir" && for source in ../../../../lib/*.c ../../../../tests/firmware/size_app.c; do echo "$source"; done) | sed 's|^\(../\)*||' >"$dir/sources"
     while read -r source; do
         object "$source" "$dir/$(basename "$source" .c)"
@@ -86,7 +86,7 @@ image() {
     $compile -fno-tree-loop-distribute-patterns -fno-builtin -c boards/common/memory.c -o "$dir/memory.o"
     $compile -c tests/firmware/size_parts.c -o "$dir/parts.obj"
     ${prefix}gcc $core_flags -Os -nostdlib -nostartfiles -Wl,--gc-sections -Wl,-e,size_main -Wl,--no-warn-rwx-segments -o "$dir/image" "$dir"/*.o -lgcc
-    ${prefix}objdump -d --no-show-raw-insn "$dir/image" | awk -f tests/firmware/call_graph.awk "$dir"/gn_*.su - >"$dir/graph"
+    ${prefix}objdump -d --no-show-raw-insn "$dir/image" | awk -f tests/firmware/call_graph.awk "$dir"/gnomon.su - >"$dir/graph"
     ${prefix}nm -S --radix=d "$dir/image" | awk '{ print $2 + 0, $3, $4 }' >"$dir/symbols"
 }
 
@@ -95,8 +95,8 @@ figures() { # figures CORE CONFIGURATION
     image "$1" "$2"
     # of the image, all but the program and the four functions of string.h
     ${prefix}size "$dir/image" | awk -v f="flash $1 $2 linked" -v app="$(awk '$3 ~ /^(size_.*|mem(set|cpy|move|cmp))$/ && $2 ~ /[tTrR]/ { n += $1 } END { print n + 0 }' "$dir/symbols")" 'NR == 2 { print f, $1 - app }'
-    ${prefix}size -A "$dir"/gn_*.o | awk -v f="whole $1 $2 all" '/^\.(text|rodata|srodata)/ { n += $2 } END { print f, n }'
-    ${prefix}size "$dir"/gn_*.o | awk -v f="fault $1 $2 data+bss" 'NR > 1 { n += $2 + $3 } END { print f, n }'
+    ${prefix}size -A "$dir"/gnomon.o | awk -v f="whole $1 $2 all" '/^\.(text|rodata|srodata)/ { n += $2 } END { print f, n }'
+    ${prefix}size "$dir"/gnomon.o | awk -v f="fault $1 $2 data+bss" 'NR > 1 { n += $2 + $3 } END { print f, n }'
     ${prefix}nm -S --radix=d "$dir/parts.obj" | sed -n 's/^[0-9]* 0*\([0-9][0-9]*\) . ram_/\1 /p' | awk -v f="ram $1 $2" '{ print f, $2, $1 }'
     for root in $ROOTS; do awk -v f="stack $1 $2" -v root="$root" '$1 == "stack" && $2 == root { print f, root, $3 }' "$dir/graph"; done
     for fault in recursion unbounded; do
@@ -130,9 +130,8 @@ slow_divisions() {
 
 # Flash of the image by the file that a function or table comes from; of names that several files have, the first.
 files() {
-    for object in "$dir"/gn_*.o; do
-        ${prefix}nm --defined-only "$object" | awk -v file="$(basename "$object" .o)" '{ print "in", $3, file }'
-    done | awk '
+    ${prefix}nm -l --defined-only "$dir/gnomon.o" |
+        sed -n 's|^[0-9a-f]* . \([^\t ]*\)[\t ].*/lib/\(.*\)\.[ch]:[0-9]*$|in \1 \2|p' | awk '
         $1 == "in" { if (!($2 in file)) file[$2] = $3; next }
         $2 ~ /[tTrR]/ && $3 !~ /^(size_|mem(set|cpy|move|cmp)$)/ { n[$3 in file ? file[$3] : "runtime"] += $1 }
         END { for (f in n) print n[f], f }' - "$dir/symbols" | sort -rn

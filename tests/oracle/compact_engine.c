@@ -38,7 +38,7 @@ static void look(int64_t *shown, uint32_t *shadow_uq16, int width)
 {
     const gn_frame *frame = &renderer.frame;
     for (uint32_t tile = 0; tile < gn_screen_tile_count(&renderer); tile++) {
-        gn_rect r = gn_bin_tile_rect(frame, tile);
+        gn_rect r = gn_screen_rect(frame, tile);
         gn_raster_tile(frame, &renderer.scratch, tile);
         for (int y = r.y0; y < r.y1; y++) {
             for (int x = r.x0; x < r.x1; x++) {

@@ -3,7 +3,7 @@
 #define GNOMON_TESTS_EXTREME_PLACES_H
 
 #include "extreme_cases.h"
-#include "../lib/gn_q.h"
+#include "../lib/base/gn_q.h"
 
 /* v * 2^k, halves up */
 static inline int32_t scaled(int32_t v, int k)

@@ -49,7 +49,7 @@ for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=2 -DGN_VALIDATION=0" "
     gcc -std=c99 -pedantic $warn -O2 -Ilib $knobs -c -o "$tmp/warnings.o" "$tmp/lib.c" 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
 for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS RAW_VIEWS OTHER_FORMATS INCREMENTAL STATIC_LAYER; do
-    gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction=1 -fsyntax-only lib/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
+    gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction=1 -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
     grep -q 'error.*compact_' "$tmp/log" && pass || fail "$contradiction: the message does not name compact: $(grep -m 1 error "$tmp/log")"
 done
 build/gnomon render host/scenes/sundial.gltf -o "$tmp/no.png" --set compact=1 2>"$tmp/log" && fail "the tool renders with compact=1"

@@ -2,8 +2,8 @@
  * scene; points fixed in the world are looked up in each frame's shadow tiles. How many change from lit to shadowed or
  * back, with the grid fixed in the world and without? "--table" prints it. */
 #include "../host/tool/quantise.h"
-#include "../lib/gn_ortho.h"
-#include "../lib/gn_texel.h"
+#include "../lib/shadow/gn_ortho.h"
+#include "../lib/shadow/gn_texel.h"
 #include "row_scenes.h"
 
 enum { N_FRAMES = 60, SIDE = 90, N_POINTS = SIDE * SIDE, WIDTH = 16, HEIGHT = 12, ATLAS = 256 };

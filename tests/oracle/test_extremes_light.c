@@ -2,7 +2,7 @@
 #include "extreme_cases.h"
 #include "../host/scene/bounds.h"
 #include "../host/scene/loader.h"
-#include "../lib/gn_q.h"
+#include "../lib/base/gn_q.h"
 
 /* ---- 4: directions, angles, ranges, intensities ------------------------------------------------------------------ */
 

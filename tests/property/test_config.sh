@@ -150,9 +150,9 @@ refused() {
     fi
 }
 
-grep -q '"gn_check.h"' lib/gn_frame.c && pass || fail "lib/gn_frame.c does not include the checks"
-echo '#include "gn_check.h"' >"$tmp/check.c"
-if gcc -std=c99 -Ilib -fsyntax-only "$tmp/check.c"; then pass; else fail "lib/gn_check.h does not stand alone"; fi
+grep -q '"gn_check.h"' lib/frame/gn_frame.c && pass || fail "lib/frame/gn_frame.c does not include the checks"
+echo '#include "frame/gn_check.h"' >"$tmp/check.c"
+if gcc -std=c99 -Ilib -fsyntax-only "$tmp/check.c"; then pass; else fail "lib/frame/gn_check.h does not stand alone"; fi
 sed -n 's/^ *X(\([a-z_]*\), \([A-Z_]*\), \([0-9]*\), \([0-9]*\),.*/\1 \2 \3 \4/p' lib/gn_knobs.h >"$tmp/knobs"
 [ "$(wc -l <"$tmp/knobs")" = "$(grep -c '^ *X(' lib/gn_knobs.h)" ] && pass || fail "the list of knobs in lib/gn_knobs.h is not understood"
 while read -r name macro low high; do

@@ -8,9 +8,9 @@
 #define gn_pieces_row  colours_pieces_row
 
 #define row turn_row /* a variable elsewhere */
-#include "../lib/gn_turn.c"
+#include "../lib/shade/gn_turn.c"
 #undef row
-#include "../lib/gn_piecerow.c"
+#include "../lib/shade/gn_piecerow.c"
 
 #include "pieces_colours.h"
 

@@ -2,7 +2,7 @@
 #ifndef GNOMON_TESTS_PIECES_COLOURS_H
 #define GNOMON_TESTS_PIECES_COLOURS_H
 
-#include "gn_piece.h"
+#include "shade/gn_piece.h"
 
 /* Pixels x_begin <= x < x_end of a row of a piece, colour_q24[0] the first's. */
 void pieces_colours(gn_pieces *pieces, int32_t y, int32_t x_begin, int32_t x_end, int32_t colour_q24[][3]);

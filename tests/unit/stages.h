@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gn_xform.h"
+#include "geometry/gn_xform.h"
 #include "gnomon.h"
 #include "check.h"
 

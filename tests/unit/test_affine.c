@@ -3,7 +3,7 @@
 #include <stdint.h>
 
 #include "exact.h"
-#include "gn_q.h"
+#include "base/gn_q.h"
 #include "gnomon.h"
 #include "rng.h"
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "exact.h"
-#include "gn_alpha.h"
+#include "geometry/gn_alpha.h"
 #include "gnomon.h"
 #include "rng.h"
 

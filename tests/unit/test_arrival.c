@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "gn_arrival.h"
-#include "gn_chord.h"
+#include "shade/gn_arrival.h"
+#include "shade/gn_chord.h"
 #include "light_scene.h"
 
 enum { W = 96, H = 64 };

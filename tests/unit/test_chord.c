@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../lib/gn_chord.h"
+#include "../lib/shade/gn_chord.h"
 #include "check.h"
 #include "rng.h"
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "exact.h"
-#include "gn_clip.h"
-#include "gn_walk.h"
+#include "geometry/gn_clip.h"
+#include "geometry/gn_walk.h"
 #include "rng.h"
 
 static rng random_state = {6};

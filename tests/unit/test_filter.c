@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "exact.h"
-#include "gn_blocks.h"
-#include "gn_filter.h"
-#include "gn_texel.h"
+#include "shadow/gn_blocks.h"
+#include "shadow/gn_filter.h"
+#include "shadow/gn_texel.h"
 #include "gnomon.h"
 #include "rng.h"
 

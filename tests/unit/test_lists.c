@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "gn_bin.h"
-#include "gn_punctual.h"
+#include "visible/gn_screen_rect.h"
+#include "light/gn_punctual.h"
 #include "light_scene.h"
 
 #define W 48
@@ -333,7 +333,7 @@ static void test_tile_lists(void)
         one.frame.knobs.tile_height = 6;
         draw(&one, (uint8_t *)depth);
         for (uint32_t tile = 0; tile < gn_screen_tile_count(&one); tile++) {
-            gn_rect rect = gn_bin_tile_rect(&one.frame, tile);
+            gn_rect rect = gn_screen_rect(&one.frame, tile);
             check_tile(&rect, depth, &t);
         }
     }

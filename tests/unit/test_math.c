@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "exact.h"
-#include "gn_math.h"
-#include "gn_q.h"
-#include "gn_surface.h"
-#include "gn_tables.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "shade/gn_surface.h"
+#include "base/gn_tables.h"
 #include "gnomon.h"
 #include "rng.h"
 

@@ -5,8 +5,8 @@
 #include "exact.h"
 #include <stdlib.h>
 
-#include "gn_pixel.h"
-#include "gn_tables.h"
+#include "shade/gn_pixel.h"
+#include "base/gn_tables.h"
 #include "gnomon.h"
 #include "rng.h"
 

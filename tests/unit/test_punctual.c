@@ -6,12 +6,12 @@
 #include "check.h"
 #include "light_scene.h"
 
-#include "gn_arrival.h"
-#include "gn_blocks.h"
-#include "gn_persp.h"
-#include "gn_punctual.h"
-#include "gn_shadow.h"
-#include "gn_texture.h"
+#include "shade/gn_arrival.h"
+#include "shadow/gn_blocks.h"
+#include "shadow/gn_persp.h"
+#include "light/gn_punctual.h"
+#include "shade/gn_shadow.h"
+#include "geometry/gn_texture.h"
 
 #define LAZY (1 / 8.0) /* a bound that is more than 8 times what is ever seen says nothing */
 

@@ -1,13 +1,13 @@
 /* The stages from the shadow's filter to radiance, and the receiver's offset of spot and point lights, each against the
  * formula it stands for, in double, from the same quantised inputs and within the bound of docs/NUMERICS.md. "--table":
  * the largest error seen, per stage. */
-#include "../lib/gn_bias.h"
-#include "../lib/gn_blocks.h"
-#include "../lib/gn_filter.h"
-#include "../lib/gn_light.h"
-#include "../lib/gn_punctual.h"
-#include "../lib/gn_scene.h"
-#include "../lib/gn_shadow.h"
+#include "../lib/light/gn_bias.h"
+#include "../lib/shadow/gn_blocks.h"
+#include "../lib/shadow/gn_filter.h"
+#include "../lib/shade/gn_light.h"
+#include "../lib/light/gn_punctual.h"
+#include "../lib/scene/gn_scene.h"
+#include "../lib/shade/gn_shadow.h"
 
 enum {
     STAGE_FILTER,

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "gn_runs.h"
+#include "visible/gn_runs.h"
 #include "rng.h"
 
 enum { SIDE_MAX = 256 };

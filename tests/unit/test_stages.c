@@ -2,15 +2,15 @@
  * must stay within the bound that docs/NUMERICS.md derives for the case at hand. With "--table": the largest error
  * seen, per stage. */
 #include "../host/ref/ref.h"
-#include "../lib/gn_cascade.h"
-#include "../lib/gn_light.h"
-#include "../lib/gn_ortho.h"
-#include "../lib/gn_pixel.h"
-#include "../lib/gn_plane.h"
-#include "../lib/gn_q.h"
-#include "../lib/gn_raster.h"
-#include "../lib/gn_surface.h"
-#include "../lib/gn_walk.h"
+#include "../lib/light/gn_cascade.h"
+#include "../lib/shade/gn_light.h"
+#include "../lib/shadow/gn_ortho.h"
+#include "../lib/shade/gn_pixel.h"
+#include "../lib/geometry/gn_plane.h"
+#include "../lib/base/gn_q.h"
+#include "../lib/visible/gn_raster.h"
+#include "../lib/shade/gn_surface.h"
+#include "../lib/geometry/gn_walk.h"
 
 enum {
     STAGE_VIEW,

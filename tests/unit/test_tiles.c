@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "gn_blocks.h"
+#include "shadow/gn_blocks.h"
 #include "light_scene.h"
 
 static gn_renderer one, two;

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "exact.h"
-#include "gn_setup.h"
-#include "gn_walk.h"
+#include "visible/gn_setup.h"
+#include "geometry/gn_walk.h"
 #include "gnomon.h"
 #include "rng.h"
 
