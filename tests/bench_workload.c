@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "../boards/apps/bench_scene.h"
-#include "../host/scene/zlib_stream.h"
+#include "../host/scene/image/zlib_stream.h"
 #include "bench_gen.h"
 #include "gn_setup.h"
 #include "gn_walk.h"

@@ -8,7 +8,7 @@ variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; 
 warn=$(variable WARN)
 strict="-std=c99 -pedantic-errors $warn -Ilib"
 TMPDIR=$tmp sh tests/one_file.sh lib >"$tmp/lib.c"
-if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -o "$tmp/same" tests/same_pictures.c host/scene/*.c -lm \
+if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -o "$tmp/same" tests/same_pictures.c host/scene/image/*.c host/base/arena.c -lm \
     >"$tmp/log" 2>&1; then pass; else fail "same_pictures: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
 
 # build NAME: the firmware of build/tmp/.../NAME as a program; what was written, without a warning
@@ -102,9 +102,9 @@ for name in sundial room mixed-tiny short; do
     data=$(arm-none-eabi-size -A "$tmp/data.o" | awk '$1 ~ /^\.rodata/ { n += $2 } END { print n + 0 }')
     said=$(sed -n 's/^ \* Flash, bytes: scene\.c \([0-9]*\); .* about \([0-9]*\) on Cortex-M0.*/\1 \2/p' "$tmp/$name/gn_scene_config.h")
     if [ $((${said% *} - data)) -ge 0 ] && [ $((${said% *} - data)) -le 64 ]; then pass; else fail "$name: data is said to be ${said% *} bytes, is $data"; fi
-    code=$(sh host/tool/gen_flash.sh -- cortex-m0 -I"$tmp/$name" '-DGN_USER_CONFIG="gn_scene_config.h"')
+    code=$(sh host/generate/gen_flash.sh -- cortex-m0 -I"$tmp/$name" '-DGN_USER_CONFIG="gn_scene_config.h"')
     if [ $((5 * ${said#* })) -ge $((4 * code)) ] && [ $((5 * ${said#* })) -le $((6 * code)) ]; then pass
-    else fail "$name: code is said to be ${said#* } bytes, is $code: sh host/tool/gen_flash.sh > host/tool/flash_table.h"; fi
+    else fail "$name: code is said to be ${said#* } bytes, is $code: sh host/generate/gen_flash.sh > host/tool/cost/flash_table.h"; fi
 done
 
 # the library for it, where size comes first: no warning

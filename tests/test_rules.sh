@@ -141,7 +141,7 @@ none "a function is too long" "$tmp/found"
 # ---- Generated files and documents -----------------------------------------------------------------------------------------
 
 if make -s BUILD="$tmp/gen" "$tmp/gen/gen_tables" >"$tmp/log" 2>&1 && "$tmp/gen/gen_tables" >"$tmp/gn_tables.c"; then
-    if cmp -s "$tmp/gn_tables.c" lib/gn_tables.c; then pass; else fail "lib/gn_tables.c is not what host/tool/gen_tables.c writes: make tables"; fi
+    if cmp -s "$tmp/gn_tables.c" lib/gn_tables.c; then pass; else fail "lib/gn_tables.c is not what host/generate/gen_tables.c writes: make tables"; fi
 else
     fail "gen_tables does not build: $(grep -m 1 error "$tmp/log")"
 fi

@@ -1,4 +1,4 @@
-/* Writes host/tool/cost_table.h: weights of the counted events, fitted to instructions. From stdin, per line: the
+/* Writes host/tool/cost/cost_table.h: weights of the counted events, fitted to instructions. From stdin, per line: the
  * scene, instructions of shadow tiles, setup and binning, rasterising, shading, and the events in their order.
  * tests/calibrate.sh feeds it.
  *
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../lib/gn_count.h"
+#include "gn_count.h"
 
 enum { SAMPLES_MAX = 2000, SCENES_MAX = 64, STAGES = 4, PASSES = 20000 };
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Prints flash_table.h: bytes of the library's code and constants, built with -Os for Cortex-M0 and Cortex-M4 and linked with what it needs of
-# libgcc and libc, and what each feature adds to a typical build. Run by hand when the library's size has changed: sh host/tool/gen_flash.sh > host/tool/flash_table.h
+# libgcc and libc, and what each feature adds to a typical build. Run by hand when the library's size has changed: sh host/generate/gen_flash.sh > host/tool/cost/flash_table.h
 # usage: gen_flash.sh [-- CPU FLAGS...]: the size of one build
 cd "$(dirname "$0")/../.." || exit 1
 work=$(mktemp -d)
@@ -58,7 +58,7 @@ without() { # without FEATURE: of the typical ones
 }
 
 m0=$(size cortex-m0 $(flags $typical)) m4=$(size cortex-m4 $(flags $typical))
-echo "/* Made by host/tool/gen_flash.sh with $(arm-none-eabi-gcc -dumpversion). Bytes of flash: on Cortex-M0, on Cortex-M4. */"
+echo "/* Made by host/generate/gen_flash.sh with $(arm-none-eabi-gcc -dumpversion). Bytes of flash: on Cortex-M0, on Cortex-M4. */"
 echo "FLASH(typical, $m0, $m4) /* shadows, depth_blocks, vertex_normals, filter_max 2, preset balanced */"
 row no_shadows "without shadows, and what is of shadows" $(flags VERTEX_NORMALS)
 for feature in DEPTH_BLOCKS VERTEX_NORMALS; do

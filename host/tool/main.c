@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "../truth/truth.h"
-#include "tool.h"
+#include "cli/tool.h"
 
 static const char usage_text[] =
     "usage: gnomon COMMAND SCENE [options]        SCENE: .gltf, .glb or .obj\n"

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../scene/png.h"
+#include "../../scene/image/png.h"
 
 enum {
     ARRAY_BUFFER = 34962,
@@ -357,7 +357,7 @@ int gltf_write(const gltf_document *d, const gltf_scene_text *scene, FILE *file)
 {
     if (d->overflow) return -1;
     fprintf(file,
-            "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"host/scenes/make_scenes.c\",\n    \"extras\": "
+            "{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"gnomon make_scenes\",\n    \"extras\": "
             "{\"comment\": "
             "\"%s\"}},\n  \"extensionsUsed\": [\"KHR_lights_punctual\"],\n",
             scene->comment);

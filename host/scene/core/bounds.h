@@ -2,7 +2,7 @@
 #ifndef GNOMON_HOST_BOUNDS_H
 #define GNOMON_HOST_BOUNDS_H
 
-#include "scene.h"
+#include "model.h"
 
 typedef struct {
     double low[3], high[3], centre[3];

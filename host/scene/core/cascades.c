@@ -1,7 +1,7 @@
 /* Where cascades end unless the scene says so (D3). */
 #include <math.h>
 
-#include "scene.h"
+#include "model.h"
 
 double scene_share(double v)
 {

@@ -1,6 +1,6 @@
 /* What the loaders share: errors, notes, files, and growing the scene. */
 #include "loader.h"
-#include "utf8.h"
+#include "../../base/utf8.h"
 #include "vec.h"
 
 #include <math.h>

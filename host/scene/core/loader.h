@@ -6,9 +6,9 @@
 #ifndef GNOMON_HOST_LOADER_H
 #define GNOMON_HOST_LOADER_H
 
-#include "arena.h"
-#include "png.h"
-#include "scene.h"
+#include "../../base/arena.h"
+#include "../image/png.h"
+#include "model.h"
 
 #if defined(__GNUC__)
 #define LOADER_PRINTF(format_idx, first_idx) __attribute__((format(printf, format_idx, first_idx)))
@@ -121,10 +121,5 @@ bool lights_add(loader *l, const char *name, scene_light_kind kind);
 
 /* defaults.c: completes what the file lacks; the last step of a load. */
 bool loader_add_defaults(loader *l);
-
-/* The formats. */
-bool loader_load_obj(loader *l);
-bool loader_load_gltf(loader *l);
-bool loader_load_glb(loader *l);
 
 #endif

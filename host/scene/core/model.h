@@ -3,8 +3,8 @@
  * Conventions as in docs/DESIGN.md section 1: right-handed, +Y up, row-major 3x4 transforms, colours in linear light.
  * Loaders fill it; the fixed-point path quantises it (host/tool); the reference engine reads it as it is.
  */
-#ifndef GNOMON_HOST_SCENE_H
-#define GNOMON_HOST_SCENE_H
+#ifndef GNOMON_HOST_MODEL_H
+#define GNOMON_HOST_MODEL_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -177,9 +177,6 @@ double scene_share(double v);
 /* The ratios that go with n_cascades: 0.1, 0.25, 0.5 for 4; 0.1, 0.25 for 3; 0.25 for 2. */
 void scene_default_ratios(scene_shadow *shadow);
 
-/* Loads .obj, .gltf or .glb by the file's ending. Returns 0; on failure returns -1 with one line in error (what, and
- * where: file, line or JSON path) and leaves *s empty. */
-int scene_load(scene *s, const char *path, const scene_options *options, char *error, size_t error_bytes);
 void scene_free(scene *s);
 
 /* One more line, cleaned as utf8.h does; not if it is there already. Returns 0; -1 with one line in error if memory

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "scene.h"
+#include "model.h"
 
 #define VEC_PI 3.14159265358979323846
 

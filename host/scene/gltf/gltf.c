@@ -102,7 +102,7 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
     return ok;
 }
 
-bool loader_load_gltf(loader *l)
+bool gltf_load(loader *l)
 {
     uint8_t *bytes;
     size_t n_bytes;
@@ -145,7 +145,7 @@ static bool check_glb_header(loader *l, const uint8_t *file, size_t n_file, size
 }
 
 /* Chunks after JSON and BIN, and of unknown type, are skipped as the format demands. */
-bool loader_load_glb(loader *l)
+bool gltf_load_glb(loader *l)
 {
     static const size_t type_json = 0x4E4F534A, type_bin = 0x004E4942;
     uint8_t *file;

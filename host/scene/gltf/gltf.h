@@ -5,8 +5,8 @@
 #ifndef GNOMON_HOST_GLTF_H
 #define GNOMON_HOST_GLTF_H
 
-#include "json.h"
-#include "loader.h"
+#include "../../base/json.h"
+#include "../core/loader.h"
 
 #define GLTF_NONE SIZE_MAX
 

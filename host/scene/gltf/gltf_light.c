@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "vec.h"
+#include "../core/vec.h"
 
 static const double angle_steps = 65536; /* per turn: both engines see the same cone */
 /* 1 and 179 degrees, rounded inwards to steps. */

@@ -6,7 +6,7 @@
  * whose index order is reversed beforehand. Vertex normals need nothing: the inverse transpose keeps them outward. */
 #include "gltf.h"
 
-#include "vec.h"
+#include "../core/vec.h"
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 

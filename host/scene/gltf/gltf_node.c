@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "vec.h"
+#include "../core/vec.h"
 
 static bool read_matrix(gltf *g, gltf_node *node)
 {

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "png.h"
-#include "utf8.h"
-#include "vec.h"
-#include "write_buffer.h"
+#include "../image/png.h"
+#include "../../base/utf8.h"
+#include "../core/vec.h"
+#include "../../base/write_buffer.h"
 
 enum { UBYTE = 5121, USHORT = 5123, FLOAT = 5126, ARRAY_BUFFER = 34962, ELEMENT_ARRAY_BUFFER = 34963 };
 

@@ -3,7 +3,7 @@
 #ifndef GNOMON_HOST_SCENE_WRITE_H
 #define GNOMON_HOST_SCENE_WRITE_H
 
-#include "scene.h"
+#include "../core/model.h"
 
 /* A setting of extras.gnomon beside those that say what the scene itself holds; in order. */
 typedef struct {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "vec.h"
+#include "../core/vec.h"
 
 enum { MAX_CORNERS = 4096 };
 
@@ -164,7 +164,7 @@ static bool read_statement(obj_file *o, obj_text *t)
     return loader_note(o->l, "'%.40s' statements ignored: only v, vt, vn, f, usemtl and mtllib count", word);
 }
 
-bool loader_load_obj(loader *l)
+bool obj_load(loader *l)
 {
     obj_file o = {.l = l};
     obj_text t;

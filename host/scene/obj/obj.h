@@ -3,7 +3,7 @@
 #ifndef GNOMON_HOST_OBJ_H
 #define GNOMON_HOST_OBJ_H
 
-#include "loader.h"
+#include "../core/loader.h"
 
 /* A cursor over a text file, one logical line at a time. */
 typedef struct {

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "vec.h"
+#include "../core/vec.h"
 
 /* Corners with the same position, normal and (if their material has a texture) texture coordinate share a vertex. In a
  * file that has normals, a corner without one takes its face's, and shares with nobody: vn is then OBJ_NONE and tag

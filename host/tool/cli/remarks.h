@@ -3,7 +3,7 @@
 #ifndef GNOMON_REMARKS_H
 #define GNOMON_REMARKS_H
 
-#include "engine.h"
+#include "../engine/engine.h"
 
 /* To stderr, a line each: what settings came to nothing, which cones had to be others; what the library left out of a
  * picture of its own. */

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../scene/vec.h"
+#include "../../scene/core/vec.h"
 #include "remarks.h"
 
 enum { NOTE_BYTES = 300 };

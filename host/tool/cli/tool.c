@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../scene/utf8.h"
+#include "../../base/utf8.h"
 
 enum { LINE_BYTES = 8192 };
 

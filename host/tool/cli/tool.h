@@ -2,8 +2,8 @@
 #ifndef GNOMON_TOOL_H
 #define GNOMON_TOOL_H
 
-#include "engine.h"
-#include "views.h"
+#include "../engine/engine.h"
+#include "../picture/views.h"
 
 #define TOOL_SETS_MAX    64
 #define TOOL_TEXELS_AUTO (-1)

@@ -6,13 +6,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../bake/bake.h"
-#include "../scene/scene_write.h"
-#include "../scene/vec.h"
-#include "cost.h"
-#include "metrics.h"
-#include "remarks.h"
-#include "tool.h"
+#include "../../bake/bake.h"
+#include "../../scene/gltf/scene_write.h"
+#include "../../scene/core/vec.h"
+#include "../cost/cost.h"
+#include "../picture/metrics.h"
+#include "../cli/remarks.h"
+#include "../cli/tool.h"
 
 /* One of the two: shadow maps, or masks. */
 #define LEAST_GAIN_DB 0.1 /* PSNR, of twice the texels */

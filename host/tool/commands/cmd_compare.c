@@ -6,10 +6,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "../scene/png.h"
-#include "metrics.h"
-#include "remarks.h"
-#include "tool.h"
+#include "../../scene/image/png.h"
+#include "../picture/metrics.h"
+#include "../cli/remarks.h"
+#include "../cli/tool.h"
 
 /* The engines in the order of their pictures. */
 enum { FIXED, REFERENCE, TRUTH, N_ENGINES };

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "info_memory.h"
-#include "remarks.h"
-#include "tool.h"
+#include "../cli/remarks.h"
+#include "../cli/tool.h"
 
 typedef struct {
     size_t triangles, vertices, shadow_lights;

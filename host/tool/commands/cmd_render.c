@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../scene/png.h"
-#include "remarks.h"
-#include "tool.h"
+#include "../../scene/image/png.h"
+#include "../cli/remarks.h"
+#include "../cli/tool.h"
 
 static int draw(engine_picture *p, const tool_options *o, const scene *s, const settings *set, char *error,
                 size_t bytes)

@@ -2,7 +2,7 @@
 #ifndef GNOMON_INFO_MEMORY_H
 #define GNOMON_INFO_MEMORY_H
 
-#include "compile.h"
+#include "../compile/compile.h"
 
 typedef struct {
     compile_memory memory[SETTINGS_PRESETS][FLASH_CORES]; /* on Arm's cores */

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 
 #include "compile.h"
-#include "remarks.h"
+#include "../cli/remarks.h"
 
 typedef struct {
     const char *name;

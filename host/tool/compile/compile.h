@@ -1,4 +1,4 @@
-/* gnomon compile: a scene file as C for flash, and the configuration that it needs. Private to host/tool/compile_*.c
+/* gnomon compile: a scene file as C for flash, and the configuration that it needs. Private to this folder
  * and cmd_compile.c. In order: compile_play.c loads every frame, compile_frames.c draws them, compile_casters.c looks
  * at their shadow tiles, compile_simplify.c and compile_mesh.c take away what no picture shows, compile_config.c
  * chooses the configuration, compile_scene.c writes the scene. */
@@ -7,9 +7,9 @@
 
 #include <stdio.h>
 
-#include "board.h"
-#include "quantise.h"
-#include "tool.h"
+#include "../cost/board.h"
+#include "../fixed/quantise.h"
+#include "../cli/tool.h"
 
 enum { COMPILE_FRAMES_MAX = 20000 };
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "compile.h"
-#include "cost.h"
+#include "../cost/cost.h"
 
 int compile_stage_open(compile_stage *st, const compiled *c)
 {

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "compile.h"
-#include "settings_parse.h"
+#include "../settings/settings_parse.h"
 
 enum { SAMPLES = 3, LISTED_MAX = 48, EIGHTHS = 8, LEAN_MAX = 2, SMALL_VERTEX_CACHE = 8 };
 #define MUCH 16.0 /* a change, RMS of 255, for which a picture of down to half the sides is looked for instead */

@@ -2,7 +2,7 @@
 #ifndef GNOMON_FLASH_H
 #define GNOMON_FLASH_H
 
-#include "settings.h"
+#include "../settings/settings.h"
 
 typedef enum { FLASH_CORTEX_M0, FLASH_CORTEX_M4, FLASH_CORES } flash_core;
 

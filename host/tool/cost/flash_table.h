@@ -1,4 +1,4 @@
-/* Made by host/tool/gen_flash.sh with 12.2.1. Bytes of flash: on Cortex-M0, on Cortex-M4. */
+/* Made by host/generate/gen_flash.sh with 12.2.1. Bytes of flash: on Cortex-M0, on Cortex-M4. */
 FLASH(typical, 34792, 30720)             /* shadows, depth_blocks, vertex_normals, filter_max 2, preset balanced */
 FLASH(no_shadows, -14344, -12892)        /* without shadows, and what is of shadows */
 FLASH(no_depth_blocks, -744, -704)       /* without */

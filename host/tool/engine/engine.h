@@ -3,10 +3,10 @@
 #ifndef GNOMON_ENGINE_H
 #define GNOMON_ENGINE_H
 
-#include "../ref/ref.h"
-#include "../scene/scene.h"
-#include "count.h"
-#include "settings.h"
+#include "../../ref/ref.h"
+#include "../../scene/scene.h"
+#include "../cost/count.h"
+#include "../settings/settings.h"
 
 #define ENGINE_LIGHTS_MAX 64
 #define ENGINE_TILES_MAX  6

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "engine.h"
-#include "output.h"
-#include "quantise.h"
+#include "../fixed/output.h"
+#include "../fixed/quantise.h"
 
 typedef struct {
     uint8_t *pixels;

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "engine.h"
-#include "output.h"
-#include "quantise.h"
+#include "../fixed/output.h"
+#include "../fixed/quantise.h"
 
 typedef struct {
     gn_renderer *renderer;

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "engine.h"
-#include "output.h"
-#include "quantise.h"
+#include "../fixed/output.h"
+#include "../fixed/quantise.h"
 
 static unsigned level(double v, double levels)
 {

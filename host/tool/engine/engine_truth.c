@@ -1,7 +1,7 @@
 /* Pictures by the ray tracer, quantised to the same outputs. */
 #include <string.h>
 
-#include "../truth/truth.h"
+#include "../../truth/truth.h"
 #include "engine.h"
 
 int engine_truth(engine_picture *out, const scene *s, const settings *set, int width, int height, int samples,

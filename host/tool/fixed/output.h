@@ -2,7 +2,7 @@
 #ifndef GNOMON_OUTPUT_H
 #define GNOMON_OUTPUT_H
 
-#include "../../lib/gnomon.h"
+#include "gnomon.h"
 
 extern const char *const output_names[]; /* by gn_format; ends with NULL */
 

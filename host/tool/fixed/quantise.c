@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../lib/gn_math.h"
+#include "gn_math.h"
 
 /* Everything must stay within +-8192 units of the origin and 16384 of the camera; half of that leaves room for both. */
 #define WORLD_REACH 4096.0

@@ -2,8 +2,8 @@
 #ifndef GNOMON_QUANTISE_H
 #define GNOMON_QUANTISE_H
 
-#include "../../lib/gnomon.h"
-#include "../scene/scene.h"
+#include "gnomon.h"
+#include "../../scene/scene.h"
 
 /* Texels and masks stay the scene's: it must live as long. But of a mask image whose last channels no light uses, only
  * what is used is kept. */

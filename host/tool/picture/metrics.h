@@ -2,7 +2,7 @@
 #ifndef GNOMON_METRICS_H
 #define GNOMON_METRICS_H
 
-#include "engine.h"
+#include "../engine/engine.h"
 
 typedef struct {
     double atten_rms, atten_max, shadow_mismatch;

@@ -2,7 +2,7 @@
 #ifndef GNOMON_VIEWS_H
 #define GNOMON_VIEWS_H
 
-#include "engine.h"
+#include "../engine/engine.h"
 
 typedef enum { VIEW_COLOUR, VIEW_SHADOW, VIEW_DEPTH, VIEW_NORMAL, VIEW_ATLAS, VIEW_CASCADE } view_kind;
 

@@ -1,6 +1,6 @@
 /* Every knob by one name. */
 #include "settings.h"
-#include "output.h"
+#include "../fixed/output.h"
 #include "settings_parse.h"
 
 #include <math.h>

@@ -2,8 +2,8 @@
 #ifndef GNOMON_SETTINGS_H
 #define GNOMON_SETTINGS_H
 
-#include "../../lib/gnomon.h"
-#include "../scene/scene.h"
+#include "gnomon.h"
+#include "../../scene/scene.h"
 
 #define SETTINGS_FIELD_(name, MACRO, lo, hi, meaning, cost) int32_t name;
 typedef struct {

@@ -1,4 +1,4 @@
-/* How settings are read. Private to host/tool/settings*.c. */
+/* How settings are read. Private to this folder. */
 #ifndef GNOMON_SETTINGS_PARSE_H
 #define GNOMON_SETTINGS_PARSE_H
 

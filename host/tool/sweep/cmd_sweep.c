@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "plot.h"
+#include "../plot/plot.h"
 #include "sweep.h"
 
 enum { NAME_BYTES = 256 };

@@ -1,6 +1,6 @@
 /* Configurations of one scene, measured. */
 #include "sweep.h"
-#include "cost.h"
+#include "../cost/cost.h"
 
 #include <math.h>
 #include <stdio.h>

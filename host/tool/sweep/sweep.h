@@ -2,8 +2,8 @@
 #ifndef GNOMON_SWEEP_H
 #define GNOMON_SWEEP_H
 
-#include "metrics.h"
-#include "tool.h"
+#include "../picture/metrics.h"
+#include "../cli/tool.h"
 
 /* The knobs that are varied. */
 typedef enum {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cost.h"
+#include "../cost/cost.h"
 #include "sweep.h"
 
 _Static_assert((int)SWEEP_PLAYED < (int)ENGINE_FRAMES_MAX, "the first frame, too");
