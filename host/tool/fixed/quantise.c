@@ -1,5 +1,5 @@
 /* A scene in double precision to the library's fixed-point scene. */
-#include "quantise.h"
+#include "quantise_internal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,14 +8,10 @@
 
 #include "gn_math.h"
 
-/* Everything must stay within +-8192 units of the origin and 16384 of the camera; half of that leaves room for both. */
-#define WORLD_REACH 4096.0
-
 /* Of the library: the shortest range and nearest near plane, in units; the widest range. */
 #define LIGHT_NEAREST_Q16  256
 #define LIGHT_FARTHEST_Q16 (65535.0 * 65536.0)
 #define COLOUR_EXP_MAX     100
-#define UNIT_LOG2_MAX      30
 
 _Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7X7 == (int)SCENE_FILTER_7X7 &&
                    (int)GN_BLEND_DITHER == (int)SCENE_BLEND_DITHER && (int)GN_BLEND_SOFT == (int)SCENE_BLEND_SOFT &&
@@ -30,29 +26,6 @@ _Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7
                    (int)GN_ALPHA_CLIP == (int)SCENE_ALPHA_CLIP && (int)GN_ALPHA_DITHER == (int)SCENE_ALPHA_DITHER,
                "the scene's enumerations are the library's");
 
-/* How a mesh is stored. */
-typedef struct {
-    int pos_bits;         /* fraction bits of coordinates; what is outside 0..30 goes to the objects' exponents */
-    bool short_positions; /* 16 bits */
-    double normal_one;    /* 1 in normals */
-    int clamped[2];       /* per axis of texture coordinates: some texture on this mesh does not repeat */
-    double uv_periods[2]; /* whole ones, taken off the texture coordinates */
-} mesh_plan;
-
-static int no_memory(char *error, size_t error_bytes)
-{
-    snprintf(error, error_bytes, "out of memory");
-    return -1;
-}
-
-static int64_t fixed(double v, int bits)
-{
-    double scaled = floor(ldexp(v, bits) + 0.5);
-    if (scaled > 2147483647.0) return INT32_MAX;
-    if (scaled < -2147483648.0) return INT32_MIN;
-    return (int64_t)scaled;
-}
-
 /* Q1.30, kept within +-1.0 */
 static int32_t fixed_unit(double v, int bits)
 {
@@ -64,263 +37,6 @@ static int32_t fixed_unit(double v, int bits)
 static uint32_t fixed_share(double v)
 {
     return (uint32_t)fixed(fmax(0, fmin(1, v)), 16);
-}
-
-/* v * scale, rounded and kept within lo..hi */
-static double rounded(double v, double scale, double lo, double hi)
-{
-    return fmax(lo, fmin(hi, floor(v * scale + 0.5)));
-}
-
-/* ---- The unit of length ------------------------------------------------------------------------------------------ */
-
-static double reach_of_object(const scene *s, const scene_object *o)
-{
-    const scene_mesh *mesh = &s->meshes[o->mesh_idx];
-    double reach = 0;
-    for (size_t i = 0; i < mesh->n_vertices; i++) {
-        const double *p = mesh->pos + 3 * i;
-        for (int r = 0; r < 3; r++) {
-            const double *m = o->to_world.m[r];
-            reach = fmax(reach, fabs(m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3]));
-        }
-    }
-    for (int r = 0; r < 3; r++) reach = fmax(reach, fabs(o->to_world.m[r][3]));
-    return reach;
-}
-
-/* Not the range: a light may reach farther than there are surfaces. */
-static double reach_of_light(const scene_light *l)
-{
-    if (l->kind == SCENE_LIGHT_DIRECTIONAL) return l->near_offset;
-    double reach = l->near;
-    for (int r = 0; r < 3; r++) reach = fmax(reach, fabs(l->position[r]));
-    return reach;
-}
-
-static double reach_of_camera(const scene_camera *camera)
-{
-    double reach = 0;
-    for (int r = 0; r < 3; r++) reach = fmax(reach, fabs(camera->to_world.m[r][3]));
-    return reach;
-}
-
-static void take_farther(quantise_reach *most, double reach, quantise_subject subject, size_t idx)
-{
-    if (reach > most->reach) *most = (quantise_reach){reach, subject, idx};
-}
-
-quantise_reach quantise_farthest(const scene *s)
-{
-    quantise_reach most = {.subject = QUANTISE_CAMERA};
-    take_farther(&most, reach_of_camera(&s->camera), QUANTISE_CAMERA, 0);
-    take_farther(&most, s->camera.near, QUANTISE_CAMERA_NEAR, 0);
-    take_farther(&most, s->shadow.max_distance, QUANTISE_MAX_DISTANCE, 0);
-    for (size_t i = 0; i < s->n_objects; i++)
-        take_farther(&most, reach_of_object(s, &s->objects[i]), QUANTISE_OBJECT, i);
-    for (size_t i = 0; i < s->n_lights; i++) take_farther(&most, reach_of_light(&s->lights[i]), QUANTISE_LIGHT, i);
-    return most;
-}
-
-int quantise_world_exp(const scene *s)
-{
-    int e;
-    frexp(quantise_farthest(s).reach / WORLD_REACH, &e);
-    return -e;
-}
-
-/* The library takes lengths of the model from the unit in two places: what is near a light, and the disk filter's
- * radius. */
-static int quantise_unit(gn_scene *out, const scene *s, int world_exp, char *error, size_t error_bytes)
-{
-    int needed = s->shadow.filter == SCENE_FILTER_DISK || s->shadow.other_filter == SCENE_FILTER_DISK;
-    for (size_t i = 0; i < s->n_lights; i++) needed |= s->lights[i].kind != SCENE_LIGHT_DIRECTIONAL;
-    int small = world_exp > UNIT_LOG2_MAX, large = world_exp < -UNIT_LOG2_MAX;
-    if (needed && (small || large)) {
-        snprintf(error, error_bytes,
-                 "the scene is too %s for spot and point lights and the disk filter: it must reach %s %g units",
-                 small ? "small" : "large", small ? "at least" : "at most",
-                 ldexp(WORLD_REACH, small ? -UNIT_LOG2_MAX - 1 : UNIT_LOG2_MAX));
-        return -1;
-    }
-    out->unit_log2 = small ? UNIT_LOG2_MAX : large ? -UNIT_LOG2_MAX : world_exp;
-    return 0;
-}
-
-/* ---- Meshes and textures ----------------------------------------------------------------------------------------- */
-
-/* The largest number of fraction bits that keeps every coordinate of the mesh within 2^30. */
-static int position_bits(const scene_mesh *mesh)
-{
-    double largest = 0;
-    int e;
-    for (size_t i = 0; i < 3 * mesh->n_vertices; i++) largest = fmax(largest, fabs(mesh->pos[i]));
-    frexp(largest, &e);
-    return largest > 0 ? 30 - e : 30;
-}
-
-static mesh_plan *plan_meshes(const scene *s, const gn_knobs *knobs)
-{
-    mesh_plan *plan = calloc(s->n_meshes + 1, sizeof *plan);
-    for (size_t i = 0; plan && i < s->n_meshes; i++) {
-        plan[i].short_positions = knobs->position_bits == 16;
-        plan[i].normal_one = knobs->normal_bits == 8 ? 127 : 32767;
-        plan[i].pos_bits = position_bits(&s->meshes[i]) - (plan[i].short_positions ? 15 : 0);
-    }
-    for (size_t i = 0; plan && i < s->n_objects; i++) {
-        const scene_object *o = &s->objects[i];
-        if (o->texture_idx >= s->n_textures) continue;
-        plan[o->mesh_idx].clamped[0] |= s->textures[o->texture_idx].clamp_u;
-        plan[o->mesh_idx].clamped[1] |= s->textures[o->texture_idx].clamp_v;
-    }
-    return plan;
-}
-
-/* As many fraction bits as 16-bit texture coordinates can have; less than 0: they do not fit at all. Textures that
- * repeat do not mind a whole number of periods: without it, coordinates far from 0 keep their fractions. */
-static int plan_texture_coordinates(mesh_plan *plan, const scene_mesh *mesh)
-{
-    double largest = 0;
-    int e;
-    for (int k = 0; k < 2; k++) {
-        double low = mesh->uv[k], high = mesh->uv[k];
-        for (size_t i = 0; i < mesh->n_vertices; i++) {
-            low = fmin(low, mesh->uv[2 * i + (size_t)k]);
-            high = fmax(high, mesh->uv[2 * i + (size_t)k]);
-        }
-        plan->uv_periods[k] = plan->clamped[k] ? 0 : floor(low / 2 + high / 2);
-        largest = fmax(largest, fmax(fabs(low - plan->uv_periods[k]), fabs(high - plan->uv_periods[k])));
-    }
-    frexp(largest, &e);
-    return largest > 0 && e > 0 ? 15 - e : 15;
-}
-
-static int32_t *fixed_positions(const scene_mesh *mesh, int bits, bool short_positions)
-{
-    const double most = short_positions ? 32767 : 1073741824.0;
-    size_t n = 3 * mesh->n_vertices;
-    int32_t *pos = malloc(n * sizeof *pos);
-    for (size_t i = 0; pos && i < n; i++) pos[i] = (int32_t)rounded(ldexp(mesh->pos[i], bits), 1, -most, most);
-    return pos;
-}
-
-static int16_t *fixed_normals(const scene_mesh *mesh, double one)
-{
-    size_t n = 3 * mesh->n_vertices;
-    int16_t *nrm = malloc(n * sizeof *nrm);
-    for (size_t i = 0; nrm && i < n; i++) nrm[i] = (int16_t)rounded(mesh->nrm[i], one, -one, one);
-    return nrm;
-}
-
-static int16_t *fixed_texture_coordinates(const scene_mesh *mesh, const mesh_plan *plan, int bits)
-{
-    size_t n = 2 * mesh->n_vertices;
-    int16_t *uv = malloc(n * sizeof *uv);
-    for (size_t i = 0; uv && i < n; i++)
-        uv[i] = (int16_t)rounded(mesh->uv[i] - plan->uv_periods[i & 1], ldexp(1, bits), -32768, 32767);
-    return uv;
-}
-
-/* n numbers, 1 as `one`, kept within 0..65535 */
-static uint16_t *fixed_words(const double *v, size_t n, double one)
-{
-    uint16_t *out = malloc(n * sizeof *out);
-    for (size_t i = 0; out && i < n; i++) out[i] = (uint16_t)rounded(v[i], one, 0, 65535);
-    return out;
-}
-
-static uint16_t *fixed_indices(const scene_mesh *mesh)
-{
-    size_t n = 3 * mesh->n_triangles;
-    uint16_t *idx = malloc(n * sizeof *idx);
-    for (size_t i = 0; idx && i < n; i++) idx[i] = (uint16_t)mesh->idx[i];
-    return idx;
-}
-
-static int quantise_mesh(gn_mesh *out, const scene_mesh *mesh, mesh_plan *plan, char *error, size_t error_bytes)
-{
-    size_t n = mesh->n_vertices;
-    if (n > 65535 || mesh->n_triangles > 65535) {
-        snprintf(error, error_bytes, "mesh '%s': more than 65535 vertices or triangles", mesh->name);
-        return -1;
-    }
-    int bits = plan->pos_bits, uv_bits = mesh->uv && n ? plan_texture_coordinates(plan, mesh) : 0;
-    if (uv_bits < 0) {
-        snprintf(error, error_bytes,
-                 "mesh '%s': its texture coordinates are farther from 0, or from each other, than 32767", mesh->name);
-        return -1;
-    }
-    out->n_vertices = (uint16_t)n;
-    out->n_triangles = (uint16_t)mesh->n_triangles;
-    out->pos_frac_bits = (uint8_t)(bits < 0 ? 0 : bits > 30 ? 30 : bits);
-    out->uv_frac_bits = (uint8_t)uv_bits;
-    out->pos = fixed_positions(mesh, bits, plan->short_positions);
-    out->idx = fixed_indices(mesh);
-    if (mesh->nrm) out->nrm_q15 = fixed_normals(mesh, plan->normal_one);
-    if (mesh->rgb) out->rgb_uq16 = fixed_words(mesh->rgb, 3 * n, 65535);
-    if (mesh->uv) out->uv = fixed_texture_coordinates(mesh, plan, uv_bits);
-    if (mesh->mask_uv) out->mask_uv_uq16 = fixed_words(mesh->mask_uv, 2 * n, 65535);
-    if (!out->pos || !out->idx || (mesh->nrm && !out->nrm_q15) || (mesh->rgb && !out->rgb_uq16) ||
-        (mesh->uv && !out->uv) || (mesh->mask_uv && !out->mask_uv_uq16))
-        return no_memory(error, error_bytes);
-    return 0;
-}
-
-/* -1: not a power of two up to 4096 */
-static int side_log2(int texels)
-{
-    for (int i = 0; i <= 12; i++)
-        if (texels == 1 << i) return i;
-    return -1;
-}
-
-static int quantise_texture(gn_texture *out, const scene_texture *t, char *error, size_t error_bytes)
-{
-    int width = side_log2(t->width), height = side_log2(t->height);
-    if (width < 0 || height < 0) {
-        snprintf(error, error_bytes, "texture '%s': its sides, %d and %d, are not powers of two up to 4096", t->name,
-                 t->width, t->height);
-        return -1;
-    }
-    out->rgba = t->rgba;
-    out->width_log2 = (uint8_t)width;
-    out->height_log2 = (uint8_t)height;
-    out->flags = (uint8_t)((t->clamp_u ? GN_TEXTURE_CLAMP_U : 0) | (t->clamp_v ? GN_TEXTURE_CLAMP_V : 0) |
-                           (t->bilinear ? GN_TEXTURE_BILINEAR : 0));
-    return 0;
-}
-
-size_t quantise_texel_bytes(const gn_texture *t)
-{
-    return t->flags & GN_TEXTURE_MASK_1 ? 1 : t->flags & GN_TEXTURE_MASK_2 ? 2 : 4;
-}
-
-/* Whether the texture is a mask image and nothing else. */
-static bool is_mask_image(const scene *s, size_t texture)
-{
-    bool mask = false;
-    for (size_t i = 0; i < s->n_objects; i++) {
-        if (s->objects[i].texture_idx == texture) return false;
-        mask = mask || s->objects[i].mask_texture_idx == texture;
-    }
-    return mask;
-}
-
-/* Drops the channels of a mask image behind the last that a light uses. 0, or -1: out of memory. */
-static int pack_mask_image(gn_texture *out, const scene *s, size_t texture)
-{
-    int n_channels = 0;
-    for (size_t l = 0; l < s->n_lights; l++)
-        if (s->lights[l].mode == SCENE_MIXED && s->lights[l].mask_channel >= n_channels)
-            n_channels = s->lights[l].mask_channel + 1;
-    if (n_channels > 2 || !is_mask_image(s, texture)) return 0;
-    const size_t bytes = n_channels > 1 ? 2 : 1, n = (size_t)1 << (out->width_log2 + out->height_log2);
-    uint8_t *packed = malloc(bytes * n);
-    if (!packed) return -1;
-    for (size_t i = 0; i < bytes * n; i++) packed[i] = out->rgba[4 * (i / bytes) + i % bytes];
-    out->rgba = packed;
-    out->flags = (uint8_t)(out->flags | (bytes == 1 ? GN_TEXTURE_MASK_1 : GN_TEXTURE_MASK_2));
-    return 0;
 }
 
 /* ---- Objects ----------------------------------------------------------------------------------------------------- */
@@ -393,8 +109,8 @@ static int quantise_object(fixed_scene *f, size_t i, const scene *s, const mesh_
     out->texture = o->texture_idx < s->n_textures ? &f->textures[o->texture_idx] : NULL;
     out->mask_image = o->mask_texture_idx < s->n_textures ? &f->textures[o->mask_texture_idx] : NULL;
     out->mask_u8 = o->mask;
-    if (o->baked) out->baked_uq12 = fixed_words(o->baked, 3 * s->meshes[o->mesh_idx].n_vertices, 4096);
-    if (o->baked && !out->baked_uq12) return no_memory(error, error_bytes);
+    if (o->baked) out->baked_uq12 = quantise_words(o->baked, 3 * s->meshes[o->mesh_idx].n_vertices, 4096);
+    if (o->baked && !out->baked_uq12) return quantise_no_memory(error, error_bytes);
     return quantise_transform(&out->to_world, o, plan[o->mesh_idx].pos_bits, out->mesh->pos_frac_bits, f->world_exp,
                               error, error_bytes);
 }
@@ -523,13 +239,14 @@ int quantise_scene_for(fixed_scene *out, const scene *s, const gn_knobs *knobs, 
 {
     memset(out, 0, sizeof *out);
     out->world_exp = quantise_world_exp(s);
-    mesh_plan *plan = plan_meshes(s, knobs);
+    mesh_plan *plan = quantise_plan_meshes(s, knobs);
     int failed = allocate(out, s) || !plan;
-    if (failed) no_memory(error, error_bytes);
+    if (failed) quantise_no_memory(error, error_bytes);
     else failed = quantise_unit(&out->scene, s, out->world_exp, error, error_bytes);
     for (size_t i = 0; !failed && i < s->n_textures; i++) {
         failed = quantise_texture(&out->textures[i], &s->textures[i], error, error_bytes);
-        if (!failed && pack_mask_image(&out->textures[i], s, i)) failed = no_memory(error, error_bytes);
+        if (!failed && quantise_pack_mask_image(&out->textures[i], s, i))
+            failed = quantise_no_memory(error, error_bytes);
     }
     for (size_t i = 0; !failed && i < s->n_meshes; i++)
         failed = quantise_mesh(&out->meshes[i], &s->meshes[i], &plan[i], error, error_bytes);

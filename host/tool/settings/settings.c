@@ -1,194 +1,12 @@
-/* Every knob by one name. */
+/* Every setting by one name: of the library, the scene, or the tool itself. */
 #include "settings.h"
-#include "../fixed/output.h"
-#include "settings_parse.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct {
-    const char *name;
-    int lo, hi;
-    size_t offset; /* in settings */
-    const char *meaning, *cost;
-    int preset[SETTINGS_PRESETS];
-} knob;
-
-#define KNOB_QUALITY_(name, MACRO, lo, hi, meaning, cost)                                                              \
-    {#name, lo, hi, offsetof(settings, quality.name), meaning, cost, {GN_PRESETS_##MACRO}},
-#define KNOB_CAPACITY_(name, MACRO, lo, hi, meaning, cost)                                                             \
-    {#name, lo, hi, offsetof(settings, capacity.name), meaning, cost, {0}},
-#define KNOB_FEATURE_(name, MACRO, lo, hi, meaning, cost)                                                              \
-    {#name, lo, hi, offsetof(settings, feature.name), meaning, cost, {0}},
-
-static const knob quality_knobs[] = {GN_QUALITY_KNOBS(KNOB_QUALITY_)};
-static const knob capacity_knobs[] = {GN_CAPACITY_KNOBS(KNOB_CAPACITY_)};
-static const knob feature_knobs[] = {GN_FEATURE_KNOBS(KNOB_FEATURE_)};
-/* Of targets alone: see refine. */
-#define KNOB_ARITHMETIC_(name, MACRO, lo, hi, meaning, cost)                                                           \
-    {#name, lo, hi, offsetof(settings, arithmetic.name), meaning, cost, {0}},
-static const knob arithmetic_knobs[] = {GN_ARITHMETIC_KNOBS(KNOB_ARITHMETIC_)};
-
-enum { QUALITY, CAPACITY, FEATURE, ARITHMETIC, N_GROUPS };
-static const struct {
-    const knob *knobs;
-    size_t n;
-    const char *title;
-} groups[N_GROUPS] = {
-    {quality_knobs, sizeof quality_knobs / sizeof *quality_knobs, "Quality"},
-    {capacity_knobs, sizeof capacity_knobs / sizeof *capacity_knobs, "Capacity"},
-    {feature_knobs, sizeof feature_knobs / sizeof *feature_knobs, "Feature"},
-    {arithmetic_knobs, sizeof arithmetic_knobs / sizeof *arithmetic_knobs, "Arithmetic"},
-};
-
-const char *const settings_preset_name[SETTINGS_PRESETS + 1] = {"tiny", "balanced", "accurate", NULL};
-
-static int *field(settings *s, const knob *k)
-{
-    return (int *)(void *)((char *)s + k->offset);
-}
-
-/* NULL: no knob has this name. */
-static const knob *find_knob(const char *name)
-{
-    for (size_t g = 0; g < N_GROUPS; g++)
-        for (size_t i = 0; i < groups[g].n; i++)
-            if (strcmp(name, groups[g].knobs[i].name) == 0) return &groups[g].knobs[i];
-    return NULL;
-}
-
-int settings_feature(const settings *set, const char *name)
-{
-    settings copy = *set;
-    for (size_t i = 0; i < groups[FEATURE].n; i++)
-        if (strcmp(name, feature_knobs[i].name) == 0) return *field(&copy, &feature_knobs[i]);
-    return -1;
-}
-
-void settings_preset(settings *out, int preset)
-{
-    for (size_t i = 0; i < groups[QUALITY].n; i++) *field(out, &quality_knobs[i]) = quality_knobs[i].preset[preset];
-}
-
-void settings_init(settings *out)
-{
-    static const settings defaults = {.output = GN_FORMAT_RGB888, .capacity.vertex_cache = 32};
-    *out = defaults;
-    for (size_t i = 0; i < groups[FEATURE].n; i++) *field(out, &feature_knobs[i]) = feature_knobs[i].hi;
-    out->feature.static_layer = out->feature.raw_views = out->feature.runtime_knobs = 0; /* no picture needs these */
-    settings_preset(out, SETTINGS_BALANCED);
-}
-
-/* ---- Capacities -------------------------------------------------------------------------------------------------- */
-
-static void fit(int *capacity, size_t needed)
-{
-    if (!*capacity) *capacity = needed > 0 ? (int)needed : 1;
-}
-
-/* A tile has at least 8 x 8. */
-static void fit_texels(int *capacity, size_t needed)
-{
-    fit(capacity, needed > 64 ? needed : 64);
-}
-
-void settings_fit(settings *s, const settings_demand *demand)
-{
-    fit(&s->capacity.max_width, (size_t)demand->width);
-    fit(&s->capacity.max_height, (size_t)demand->height);
-    fit(&s->capacity.max_triangles, demand->triangles);
-    fit(&s->capacity.max_tile_refs, demand->tile_refs);
-    fit(&s->capacity.max_lights, demand->lights);
-    fit(&s->capacity.surface_lights, demand->surface_lights);
-    fit(&s->capacity.max_objects, demand->objects);
-    fit(&s->capacity.max_shadow_tiles, demand->shadow_tiles);
-    fit(&s->capacity.max_other_tiles, demand->other_tiles);
-    fit_texels(&s->capacity.atlas_texels, demand->atlas_texels);
-    fit_texels(&s->capacity.other_atlas_texels, demand->other_atlas_texels);
-}
-
-int settings_suffice(const settings *s, const settings_demand *demand, char *error, size_t error_bytes)
-{
-    const struct {
-        const char *knob, *what;
-        int available;
-        size_t needed;
-    } all[] = {
-        {"max_triangles", "visible triangles", s->capacity.max_triangles, demand->triangles},
-        {"max_tile_refs", "tile references", s->capacity.max_tile_refs, demand->tile_refs},
-        {"max_lights", "lights", s->capacity.max_lights, demand->lights},
-        {"surface_lights", "lights that reach one surface", s->capacity.surface_lights, demand->surface_lights},
-        {"max_objects", "objects", s->capacity.max_objects, demand->objects},
-        {"max_shadow_tiles", "tiles of the directional atlas", s->capacity.max_shadow_tiles, demand->shadow_tiles},
-        {"max_other_tiles", "tiles of the other atlas", s->capacity.max_other_tiles, demand->other_tiles},
-        {"atlas_texels", "texels of the directional atlas's tiles", s->capacity.atlas_texels, demand->atlas_texels},
-        {"other_atlas_texels", "texels of the other atlas's tiles", s->capacity.other_atlas_texels,
-         demand->other_atlas_texels},
-    };
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        if (!all[i].available || all[i].needed <= (size_t)all[i].available) continue;
-        snprintf(error, error_bytes, "%s: %zu needed, %s is %d", all[i].what, all[i].needed, all[i].knob,
-                 all[i].available);
-        return -1;
-    }
-    return 0;
-}
-
-/* ---- Reading values ---------------------------------------------------------------------------------------------- */
-
-int settings_fail(char *error, size_t error_bytes, const char *key, const char *value, const char *expected)
-{
-    snprintf(error, error_bytes, "setting '%s': '%s' is not %s", key, value, expected);
-    return -1;
-}
-
-/* strtod alone would also take leading blanks, hexadecimal, inf and nan. */
-int settings_number(const char *text, double *out, const char **end)
-{
-    char *stop;
-    *out = strtod(text, &stop);
-    if (end) *end = stop;
-    if (stop == text || (!end && *stop) || !isfinite(*out)) return -1;
-    return strspn(text, "+-.0123456789eE") >= (size_t)(stop - text) ? 0 : -1;
-}
-
-int settings_numbers(const char *text, double *out, int max, double lo, double hi)
-{
-    const char *end = text;
-    int n = 0;
-    for (;;) {
-        if (n == max || settings_number(end, &out[n], &end) || out[n] < lo || out[n] > hi) return 0;
-        n++;
-        if (*end != ',') return *end ? 0 : n;
-        end++;
-    }
-}
-
-int settings_whole(const char *text, int lo, int hi, int *out)
-{
-    double v;
-    if (settings_number(text, &v, NULL) || floor(v) != v || v < lo || v > hi) return -1;
-    *out = (int)v;
-    return 0;
-}
-
-int settings_word(const char *word, const char *const *words)
-{
-    for (int i = 0; words[i]; i++)
-        if (strcmp(word, words[i]) == 0) return i;
-    return -1;
-}
-
-void settings_join(char *out, size_t bytes, const char *const *words, const char *joint)
-{
-    size_t used = 0;
-    for (int i = 0; words[i] && used < bytes; i++) {
-        const char *before = i == 0 ? "" : words[i + 1] ? ", " : joint;
-        used += (size_t)snprintf(out + used, bytes - used, "%s%s", before, words[i]);
-    }
-}
+#include "../fixed/output.h"
+#include "settings_parse.h"
 
 int settings_load_option(scene_options *options, const char *key, const char *value, char *error, size_t error_bytes)
 {
@@ -208,39 +26,6 @@ int settings_load_option(scene_options *options, const char *key, const char *va
 }
 
 /* ---- Applying ---------------------------------------------------------------------------------------------------- */
-
-/* What the range alone does not say; NULL: nothing is wrong. */
-static const char *refine(const settings *s, const void *changed, int n)
-{
-    if (changed == &s->arithmetic.compact && n)
-        return "0: here knobs are data, which compact arithmetic has not; build lib/ with -DGN_COMPACT=1, and the host "
-               "draws the same bits";
-    if (changed == &s->quality.persp_step && n != 1 && n != 4 && n != 8 && n != 16) return "1, 4, 8 or 16";
-    if (changed == &s->quality.atten_bits && n != 8 && n != 16) return "8 or 16";
-    if ((changed == &s->quality.depth_bits || changed == &s->quality.other_depth_bits) && n != 8 && n != 16 && n != 32)
-        return "8, 16 or 32";
-    if ((changed == &s->quality.atlas_size || changed == &s->quality.other_atlas_size) && (n & (n - 1)))
-        return "a power of two";
-    if (changed == &s->quality.position_bits && n != 16 && n != 32) return "16 or 32";
-    if (changed == &s->quality.normal_bits && n != 8 && n != 16) return "8 or 16";
-    if (changed == &s->quality.tile_width && n % 8) return "a multiple of 8";
-    if ((changed == &s->capacity.atlas_texels || changed == &s->capacity.other_atlas_texels) && n % 64)
-        return "a multiple of 64";
-    if (changed == &s->capacity.vertex_cache && (n & (n - 1))) return "a power of two";
-    return NULL;
-}
-
-static int apply_knob(settings *out, const knob *k, const char *value, char *error, size_t bytes)
-{
-    char range[48];
-    int n;
-    snprintf(range, sizeof range, "a whole number from %d to %d", k->lo, k->hi);
-    if (settings_whole(value, k->lo, k->hi, &n)) return settings_fail(error, bytes, k->name, value, range);
-    const char *wrong = refine(out, field(out, k), n);
-    if (wrong) return settings_fail(error, bytes, k->name, value, wrong);
-    *field(out, k) = n;
-    return 0;
-}
 
 /* Settings of the tool itself. 1: taken; 0: not one of them; -1: bad value. */
 static int apply_own(settings *out, const char *key, const char *value, char *error, size_t bytes)
@@ -307,7 +92,7 @@ static int apply_to_light(settings *out, scene *s, const char *key, const char *
     char plain[64];
     size_t light;
     snprintf(plain, sizeof plain, "%.*s", (int)(at - key), key);
-    const knob *k = find_knob(plain);
+    const bool is_knob = settings_is_knob(plain);
     if (!settings_of_lights(plain)) {
         snprintf(error, bytes, "setting '%s': '%s' is not a setting of lights", key, plain);
         return -1;
@@ -315,8 +100,8 @@ static int apply_to_light(settings *out, scene *s, const char *key, const char *
     if (find_light(s, key, at + 1, &light, error, bytes)) return -1;
     if (settings_apply_scene(s, plain, light, value, error, bytes) < 0) return -1;
     if (note_useless(s, plain, light, error, bytes)) return -1;
-    return k && strcmp(as_knob(value), "0") != 0 ? apply_knob(out, k, as_knob(value), error, bytes)
-                                                 : 0; /* what one light uses must be built */
+    return is_knob && strcmp(as_knob(value), "0") != 0 ? settings_apply_knob(out, plain, as_knob(value), error, bytes)
+                                                       : 0; /* what one light uses must be built */
 }
 
 /* Built or not; without it no light uses it. */
@@ -340,11 +125,11 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
     /* main_light, caster_culling, receiver_plane and auto_bias are built and used, or neither: knobs and settings of
      * the scene at once */
-    const knob *k = find_knob(key);
+    const bool is_knob = settings_is_knob(key);
     const char *word = as_word(key, value);
     if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, word, error, error_bytes)) < 0)
         return -1;
-    if (k) return apply_knob(out, k, as_knob(value), error, error_bytes);
+    if (is_knob) return settings_apply_knob(out, key, as_knob(value), error, error_bytes);
     if (taken) return 0;
     snprintf(error, error_bytes, "unknown setting '%s' ('gnomon knobs' lists them)", key);
     return -1;
@@ -373,18 +158,7 @@ int settings_apply_all(settings *out, scene *s, const char *const *sets, int n, 
 
 void settings_print_table(void)
 {
-    for (size_t g = 0; g < N_GROUPS; g++) {
-        printf("\n### %s knobs\n\n", groups[g].title);
-        printf(g == QUALITY
-                   ? "| knob | range | tiny | balanced | accurate | meaning | cost |\n|---|---|---|---|---|---|---|\n"
-                   : "| knob | range | meaning | cost |\n|---|---|---|---|\n");
-        for (size_t i = 0; i < groups[g].n; i++) {
-            const knob *k = &groups[g].knobs[i];
-            printf("| `%s` | %d…%d |", k->name, k->lo, k->hi);
-            if (g == QUALITY) printf(" %d | %d | %d |", k->preset[0], k->preset[1], k->preset[2]);
-            printf(" %s | %s |\n", k->meaning, k->cost);
-        }
-    }
+    settings_print_knobs();
     settings_print_scene();
     printf("\n### Settings of the tool\n\n| setting | values | meaning |\n|---|---|---|\n");
     printf("| `output` | rgb888, rgb565, rgb565_swapped, grey8, grey4, mono1 | the panel that pictures are made for "

@@ -4,6 +4,8 @@
 
 #include "settings.h"
 
+/* settings_value.c */
+
 /* "setting KEY: VALUE is not EXPECTED"; returns -1. */
 int settings_fail(char *error, size_t error_bytes, const char *key, const char *value, const char *expected);
 
@@ -20,6 +22,13 @@ int settings_word(const char *word, const char *const *words);
 
 /* "a, b or c" (joint " or ") */
 void settings_join(char *out, size_t bytes, const char *const *words, const char *joint);
+
+/* settings_knobs.c: knobs of the library. Applying one that there is: 0, or -1 with one line in error. */
+bool settings_is_knob(const char *name);
+int settings_apply_knob(settings *out, const char *name, const char *value, char *error, size_t error_bytes);
+void settings_print_knobs(void); /* their tables */
+
+/* settings_scene.c */
 
 /* Settings of the scene: those of its shadows, lights and colours. light: only that one; SCENE_NONE: all. 1: taken; 0:
  * not one of them, or of single lights; -1 with one line in error. */
