@@ -130,6 +130,27 @@ if [ -d port ]; then
     none "port/ includes a private header of lib/" "$tmp/found"
 fi
 
+# ---- Folders of the host: host/README.md lists them, each above those that may include it ---------------------------------
+
+sed -n 's/^| `\([a-z/]*\)\/` .*/host\/\1/p' host/README.md >"$tmp/rooms"
+find host -name '*.[ch]' | sed 's|/[^/]*$||' | sort -u | grep -v -x -F -f "$tmp/rooms" >"$tmp/found"
+none "a folder that host/README.md does not list" "$tmp/found"
+# "folder folder" for every include of another folder, the path of the header resolved
+find host -name '*.[ch]' | xargs awk '/^#[[:space:]]*include "[^"]*\// {
+    match($0, /"[^"]*"/)
+    n = split(FILENAME, path, "/") - 1 # without the file itself
+    m = split(substr($0, RSTART + 1, RLENGTH - 2), part, "/")
+    for (i = 1; i < m; i++) if (part[i] == "..") n--; else path[++n] = part[i]
+    folder = path[1]
+    for (i = 2; i <= n; i++) folder = folder "/" path[i]
+    from = FILENAME
+    sub(/\/[^\/]*$/, "", from)
+    if (folder ~ /^host/) print from, folder
+}' | sort -u >"$tmp/arrows"
+[ "$(wc -l <"$tmp/arrows")" -gt 30 ] && pass || fail "the folders of the host have $(wc -l <"$tmp/arrows") arrows"
+awk 'NR == FNR { rank[$1] = FNR; next } !($2 in rank) || rank[$2] >= rank[$1] { print $1 " includes " $2 }' "$tmp/rooms" "$tmp/arrows" >"$tmp/found"
+none "a folder of the host includes one that stands below it in host/README.md" "$tmp/found"
+
 # ---- Sizes -----------------------------------------------------------------------------------------------------------------
 
 find lib port -name '*.[chS]' 2>/dev/null | xargs awk 'FNR == 1 { n = 0 } ++n == 701 { print FILENAME ": over 700 lines" }' >"$tmp/found"

@@ -63,18 +63,6 @@ static int write_all(const compiled *c, char *error, size_t bytes)
     return -1;
 }
 
-/* Where the scene must fit; without a board, in --ram and --flash. 1: somewhere; 0: nowhere. */
-int compile_read_board(const tool_options *o, board *out, char *error, size_t bytes)
-{
-    *out = (board){
-        .name = "", .ram = 1L << 30, .flash = 1L << 30, .stack = 1536, .core = FLASH_CORTEX_M0, .short_enums = true};
-    if (o->board && board_read(out, o->board, error, bytes)) return -1;
-    if (o->optimise) board_set_optimisation(out, o->optimise);
-    if (o->ram) out->ram = o->ram;
-    if (o->flash) out->flash = o->flash;
-    return o->board || o->ram || o->flash;
-}
-
 static int check_fit(const compiled *c, const board *b, char *error, size_t bytes)
 {
     char much[240], nearest[400];
@@ -110,17 +98,6 @@ static void print_summary(const compiled *c, const board *b)
     printf(
         ", \"frames\": %d, \"renderer_bytes\": %ld, \"state_bytes\": %ld, \"data_bytes\": %ld, \"code_bytes\": %ld}\n",
         c->n_frames, m.renderer, m.state, m.data, m.code);
-}
-
-int compile_all(compiled *c, const tool_options *o, char *error, size_t bytes)
-{
-    compile_stage st;
-    if (compile_play(c, o, error, bytes)) return -1;
-    int failed = compile_stage_open(&st, c) || compile_simplify(c, &st, error, bytes);
-    compile_stage_close(&st);
-    if (failed) compile_free(c);
-    else compile_choose(c);
-    return failed ? -1 : 0;
 }
 
 /* The loader holds the last frame: what was asked for is compiled, and takes flash for nothing. */

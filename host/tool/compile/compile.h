@@ -201,7 +201,7 @@ void compile_say_memory(const compile_memory *m, const board *b, char *out, size
  */
 bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t bytes);
 
-/* cmd_compile.c: all of it but the files; 1: there is a board, 0: none was asked for, -1. */
+/* compile.c: all of it but the files; 1: there is a board, 0: none was asked for, -1. */
 int compile_all(compiled *c, const tool_options *o, char *error, size_t error_bytes);
 int compile_read_board(const tool_options *o, board *out, char *error, size_t error_bytes);
 
