@@ -81,7 +81,7 @@ static bool narrow_mesh(vertices *v, gn_mesh *m)
     if (m->pos_frac_bits < DROPPED_BITS) return false;
     for (size_t i = 0; i < n; i++) {
         int32_t narrowed = narrow_position(pos[i]);
-        v->exact = v->exact && (int64_t)narrowed << DROPPED_BITS == pos[i];
+        v->exact = v->exact && (int64_t)narrowed * (1 << DROPPED_BITS) == pos[i];
         pos[i] = narrowed;
     }
     m->pos_frac_bits = (uint8_t)(m->pos_frac_bits - DROPPED_BITS);
