@@ -22,6 +22,12 @@
 #include "gn_config.h"
 #include "gn_knobs.h"
 
+/* The version of this library. */
+#define GN_VERSION_MAJOR  0
+#define GN_VERSION_MINOR  2
+#define GN_VERSION_PATCH  0
+#define GN_VERSION_STRING "0.2.0"
+
 #ifdef __cplusplus
 extern "C" {
 #endif

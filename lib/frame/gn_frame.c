@@ -1,22 +1,28 @@
-/* A frame, stage by stage. Read this file first: it is the table of contents of the library.
+/* A frame, stage by stage. Read this file first: it is the table of contents of the library. gn_stages.h declares the
+ * stages; lib/README.md says what each folder is for.
  *
- *   gn_begin        gn_scene    validate what the caller describes
- *                   gn_xform    camera
- *                   gn_views    lights: which reach which object (gn_object), which get how many shadow tiles
- *                               (gn_tiles), and how each lies in the world (gn_cascade and gn_ortho, or gn_persp;
- *                               gn_bias: filter reach)
- *   gn_shadow_tile  gn_atlas    casters (gn_cull: which) as depth seen from the light (gn_ortho, gn_persp: projection;
- *                               gn_caster: spans, cut by alpha: gn_alpha, gn_texture); bounds of depth per block
- *                               (gn_blocks)
- *   gn_prepare      gn_setup    visible triangles: transform, cull, clip (gn_clip), project, depth plane (gn_plane)
- *                   gn_bin      triangles to screen tiles
- *   gn_screen_tile  gn_raster   visible surfaces: depth and triangle per pixel, by exact edge walkers (gn_walk)
- *                   gn_runs     what is visible of each triangle, as runs of pixels
- *                   gn_shade    a triangle at a time (gn_surface), piece by piece (gn_piece, gn_piecerow, gn_turn) or
- * by pixels (gn_sample, gn_chord between them): light (gn_light, gn_arrival, gn_punctual), shadow (gn_shadow,
- * gn_filter), encode (gn_pixel) flush GN_COMPACT      behind the same calls, in 32 bits: camera and light
- * (gn_compact_views), casters and visible triangles (gn_compact_triangle: setup and drawing; gn_compact_point:
- * transform and projection; gn_compact_clip), shading (gn_compact_shade)
+ * gn_begin
+ * - gn_scene_validate: refuses what the caller describes wrongly (scene/)
+ * - gn_cam_setup: the camera (geometry/gn_xform)
+ * - gn_views_setup: which light reaches which object (light/gn_object), which gets how many shadow tiles
+ *   (shadow/gn_tiles), and how each lies in the world (light/gn_cascade; shadow/gn_ortho, gn_persp; light/gn_bias)
+ *
+ * gn_shadow_tile
+ * - gn_atlas_render_tile: casters (shadow/gn_cull: which) as depth seen from the light (gn_ortho, gn_persp: projection;
+ *   gn_caster: spans, cut by alpha: geometry/gn_alpha); bounds of depth per block (gn_blocks)
+ *
+ * gn_prepare
+ * - gn_setup_triangles: visible triangles: transform, cull, clip (geometry/gn_clip), project, depth plane (gn_plane)
+ * - gn_bin_triangles: triangles to screen tiles (visible/gn_bin)
+ *
+ * gn_screen_tile
+ * - gn_raster_tile: depth and triangle per pixel, by exact edge walks (geometry/gn_walk)
+ * - gn_shade_tile: the visible spans (visible/gn_runs) of a triangle at a time (shade/gn_surface), piece by piece
+ *   (gn_piece, gn_piecerow, gn_turn) or by pixels (gn_sample, gn_chord between them): light (gn_light, gn_arrival,
+ *   light/gn_punctual), shadow (gn_shadow, shadow/gn_filter), encoded pixels (gn_pixel)
+ * - flush
+ *
+ * With GN_COMPACT, compact/ has all stages but the first, in 32 bits, behind the same calls.
  */
 #include "gn_internal.h"
 

@@ -29,9 +29,9 @@ code() {
 
 # ---- The library's objects -------------------------------------------------------------------------------------------------
 
-for file in lib/*.[ch]; do code "$file"; done | grep -E '\<(float|double|_Complex|long double)\>' >"$tmp/found"
+for file in $(find lib -name '*.[ch]'); do code "$file"; done | grep -E '\<(float|double|_Complex|long double)\>' >"$tmp/found"
 none "floating-point type in lib/" "$tmp/found"
-for file in lib/*.[ch]; do code "$file"; done | grep -E '[^A-Za-z0-9_.](([0-9]+\.[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?|[0-9]+[eE][-+]?[0-9]+)[fFlL]?' |
+for file in $(find lib -name '*.[ch]'); do code "$file"; done | grep -E '[^A-Za-z0-9_.](([0-9]+\.[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?|[0-9]+[eE][-+]?[0-9]+)[fFlL]?' |
     grep -v -E '^lib/gnomon\.h:[0-9]+:#define GN_(FIX_|U?Q[0-9]+|TURN)\(' >"$tmp/found"
 none "floating-point constant in lib/ outside the macros of gnomon.h" "$tmp/found"
 
@@ -45,7 +45,7 @@ for variant in general strict; do
     if (cd "$tmp/$variant" && gcc -std=c99 -pedantic $warn -I"$root/lib" -DGN_RAW_VIEWS=1 $flags -c "$root"/lib/*.c) >"$tmp/log" 2>&1; then pass
     else fail "lib/ does not compile with $flags: $(grep -m 1 error "$tmp/log")"; fi
 done
-objdump -d --no-show-raw-insn "$tmp"/general/*.o | grep -E '%[xyz]mm|%st|[[:space:]]f(ld|st|add|mul|div|sub|ild|ist)' >"$tmp/found"
+objdump -d --no-show-raw-insn "$tmp"/general/*.o | cut -s -f 2- | grep -E '%[xyz]mm|%st|^f(ld|st|add|mul|div|sub|ild|ist)' >"$tmp/found"
 none "floating-point instruction" "$tmp/found"
 [ "$(objdump -d "$tmp"/general/*.o | wc -l)" -gt 1000 ] && pass || fail "objdump shows no instructions"
 
@@ -60,7 +60,7 @@ none "writable static data in lib/" "$tmp/found"
 size -A "$tmp"/strict/*.o | awk '/:$/ { f = $1 } $1 ~ /^\.(data|bss|tdata|tbss)/ && $2 > 0 { print f, $1, $2 }' >"$tmp/found"
 none ".data or .bss in lib/ is not empty" "$tmp/found"
 size -A "$tmp"/strict/*.o | grep -q '^\.text' && pass || fail "size lists no sections"
-for file in lib/*.[ch]; do code "$file"; done | grep -E '\<(malloc|calloc|realloc|free|alloca|setjmp|longjmp|goto)\>' >"$tmp/found"
+for file in $(find lib -name '*.[ch]'); do code "$file"; done | grep -E '\<(malloc|calloc|realloc|free|alloca|setjmp|longjmp|goto)\>' >"$tmp/found"
 none "malloc and the like in lib/" "$tmp/found"
 
 # No recursion: the graph of calls, from the relocations of each function compiled into its own section, has no cycle.
@@ -77,45 +77,51 @@ none "recursion in lib/" "$tmp/found"
 
 # ---- Who includes whom -----------------------------------------------------------------------------------------------------
 
-grep -H -E '^[[:space:]]*#[[:space:]]*include' lib/*.[ch] | grep -v -E '<(stdint|stddef|string)\.h>|"(gnomon|gn_[a-z_]+)\.h"|(GN_USER_CONFIG|GN_PORT)$' >"$tmp/found"
+find lib -name '*.[ch]' | xargs grep -H -E '^[[:space:]]*#[[:space:]]*include' | grep -v -E '<(stdint|stddef|string)\.h>|"([a-z]+/)?(gnomon|gn_[a-z_]+)\.[ch]"|(GN_USER_CONFIG|GN_PORT)$' >"$tmp/found"
 none "lib/ includes more than itself, stdint.h, stddef.h and string.h" "$tmp/found"
-grep -h -E '^ *#include "gn' lib/*.[ch] | sed 's/.*"\(.*\)".*/\1/' | sort -u | while read -r header; do
+find lib -name '*.[ch]' | xargs grep -h -E '^ *#include "' | sed 's/.*"\(.*\)".*/\1/' | sort -u | while read -r header; do
     [ -f "lib/$header" ] || echo "$header"
 done >"$tmp/found"
 none "lib/ includes a header that it does not have" "$tmp/found"
 
-# gn_frame.c's table of contents, as "name rank kind": its lines are in the order of the stages; what stands in parentheses is a
-# service, which ranks as the stage that it is first named for. Nobody includes a stage of a later rank.
-awk 'FNR > 1 && /\*\// { exit } /^ \*   / {
-    line = $0 # parentheses may go on in the next
-    while (match(line, /[()]|gn_[a-z_]+/)) {
-        word = substr(line, RSTART, RLENGTH)
-        line = substr(line, RSTART + RLENGTH)
-        if (word == "(") depth++
-        else if (word == ")") depth--
-        else if (!seen[word]++ && word !~ /^gn_(begin|shadow_tile|prepare|screen_tile)$/) print word, FNR, depth ? "service" : "stage"
-    }
-}' lib/frame/gn_frame.c >"$tmp/order"
-for stage in gn_scene gn_xform gn_views gn_atlas gn_setup gn_bin gn_raster gn_shade; do
-    grep -q "^$stage [0-9]* stage$" "$tmp/order" && pass || fail "lib/frame/gn_frame.c's table of contents has no stage $stage"
+# Folders, as lib/README.md and host/README.md list them: none includes from one that stands below it. An include is looked up in
+# the roots, then beside the file that has it.
+arrows() { # arrows TREE: "FOLDER FOLDER" for every include of another folder of the tree
+    find "$1" -name '*.[ch]' | xargs awk -v tree="$1" '/^[[:space:]]*#[[:space:]]*include "/ {
+        match($0, /"[^"]*"/)
+        name = substr($0, RSTART + 1, RLENGTH - 2)
+        from = FILENAME
+        sub(/\/[^\/]*$/, "", from)
+        if (tree == "host" && name ~ /(^|\/)gn_/) next # of the library
+        if (tree == "lib") path = name ~ /\// ? "lib/" name : ""
+        else path = from "/" name
+        n = split(path, part, "/") - 1
+        folder = ""
+        m = 0
+        for (i = 1; i <= n; i++) if (part[i] == "..") m--; else kept[++m] = part[i]
+        for (i = 1; i <= m; i++) folder = folder (i > 1 ? "/" : "") kept[i]
+        if (index(folder, tree "/") == 1 && folder != from && from != tree) print from, folder
+    }' | sort -u
+}
+for tree in lib host; do
+    sed -n "s/^| \`\([a-z/]*\)\/\` .*/$tree\/\1/p" $tree/README.md >"$tmp/rooms"
+    find $tree -mindepth 2 -name '*.[ch]' | sed 's|/[^/]*$||' | sort -u | grep -v -x -F -f "$tmp/rooms" >"$tmp/found"
+    none "a folder that $tree/README.md does not list" "$tmp/found"
+    arrows $tree >"$tmp/arrows"
+    [ "$(wc -l <"$tmp/arrows")" -gt 20 ] && pass || fail "the folders of $tree/ have $(wc -l <"$tmp/arrows") arrows"
+    awk 'NR == FNR { rank[$1] = FNR; next } !($2 in rank) || rank[$2] >= rank[$1] { print $1 " includes " $2 }' "$tmp/rooms" "$tmp/arrows" >"$tmp/found"
+    none "a folder of $tree/ includes one that stands below it in $tree/README.md" "$tmp/found"
 done
-while read -r name rank kind; do
-    [ -f "lib/$name.c" ] || echo "$name is named in lib/frame/gn_frame.c, and there is no such file"
-    for file in "lib/$name.c" "lib/$name.h"; do
-        [ -f "$file" ] || continue
-        for header in $(sed -n 's/^#include "\(gn_[a-z]*\)\.h"/\1/p' "$file"); do
-            awk -v header="$header" -v rank="$rank" -v file="$file" \
-                '$1 == header && $2 > rank && $3 == "stage" { print file " includes " header ".h" }' "$tmp/order"
-        done
-    done
-done <"$tmp/order" >"$tmp/found"
-none "a stage includes a later one" "$tmp/found"
-for file in lib/*.c; do # and nobody below the frame includes it, nor is left out of the table of contents
-    name=$(basename "$file" .c)
-    case $name in gn_frame | gn_affine | gn_curves | gn_math | gn_q | gn_tables) continue ;; esac
-    grep -q "^$name " "$tmp/order" || echo "$name"
-done >"$tmp/found"
-none "not named in lib/frame/gn_frame.c's table of contents" "$tmp/found"
+
+# gnomon.c includes every part once; in gn_frame.c the table of contents names the stages in the order of gn_stages.h.
+find lib -mindepth 2 -name "*.c" | sed "s|^lib/||" | sort >"$tmp/parts"
+sed -n "s/^#include \"\(.*\.c\)\"/\1/p" lib/gnomon.c | sort | diff "$tmp/parts" - >"$tmp/found"
+none "not what lib/gnomon.c includes" "$tmp/found"
+sed -n "s/.*[ *]\(gn_[a-z_]*\)(gn_frame .*/\1/p; s/.*[ *]\(gn_[a-z_]*\)(const gn_frame .*/\1/p" lib/gn_stages.h >"$tmp/stages"
+[ "$(wc -l <"$tmp/stages")" = 8 ] && pass || fail "lib/gn_stages.h declares $(wc -l <"$tmp/stages") stages, not 8"
+awk "NR == FNR { name[NR] = \$1; n = NR; next } /\*\// { exit } at < n && index(\$0, name[at + 1] \":\") { at++ } END { for (i = at + 1; i <= n; i++) print name[i] }" \
+    "$tmp/stages" lib/frame/gn_frame.c >"$tmp/found"
+none "stages that are not named in order in the table of contents of lib/frame/gn_frame.c" "$tmp/found"
 
 grep -H -E '#[[:space:]]*include[^"<]*["<][^">]*(lib/|gnomon\.h|gn_)' host/ref/*.[ch] host/truth/*.[ch] >"$tmp/found"
 none "host/ref/ or host/truth/ includes from lib/" "$tmp/found"
@@ -188,12 +194,12 @@ files | xargs -0 grep -I -n -H -E '[[:space:]]$' 2>/dev/null | cut -c 1-100 >"$t
 none "trailing white space" "$tmp/found"
 files | xargs -0 grep -I -l -P '\t' 2>/dev/null | grep -v -E '(^|/)(Makefile|[^/]*\.mk)$' >"$tmp/found"
 none "tabs outside Makefile" "$tmp/found"
-[ "$(grep -c '^{' lib/gn_frame.c)" -gt 10 ] && pass || fail "functions do not begin with a brace in the first column"
+[ "$(grep -c '^{' lib/frame/gn_frame.c)" -gt 10 ] && pass || fail "functions do not begin with a brace in the first column"
 
 # ---- Generated files and documents -----------------------------------------------------------------------------------------
 
 if make -s BUILD="$tmp/gen" "$tmp/gen/gen_tables" >"$tmp/log" 2>&1 && "$tmp/gen/gen_tables" >"$tmp/gn_tables.c"; then
-    if cmp -s "$tmp/gn_tables.c" lib/base/gn_tables.c; then pass; else fail "lib/base/gn_tables.c is not what host/tool/gen_tables.c writes: make tables"; fi
+    if cmp -s "$tmp/gn_tables.c" lib/base/gn_tables.c; then pass; else fail "lib/base/gn_tables.c is not what host/generate/gen_tables.c writes: make tables"; fi
 else
     fail "gen_tables does not build: $(grep -m 1 error "$tmp/log")"
 fi
