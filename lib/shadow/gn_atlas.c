@@ -9,6 +9,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "base/gn_signature.h"
+#include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
 #include "shadow/gn_blocks.h"
@@ -163,18 +164,19 @@ static inline int caster_corner(int32_t out[3], const caster_job *job, uint32_t 
 static inline int cached_corners(caster_job *job, const uint16_t idx[3], const int32_t *c[3])
 {
     const gn_mesh *mesh = job->object->mesh;
+    gn_vertex_entry *before[2] = {job->spare, job->spare}; /* no entries of the cache */
     for (int i = 0; i < 3; i++) {
-        uint32_t vertex_idx = idx[i], tag = (job->object_idx << 16 | vertex_idx) + 1U;
+        uint32_t vertex_idx = idx[i], tag = gn_vertex_tag(job->object_idx, vertex_idx);
         if (vertex_idx >= mesh->n_vertices) return 0;
-        gn_caster_corner *entry = &job->cache[vertex_idx & job->cache_mask];
-        if (entry->tag != tag) {
-            if ((i > 0 && entry->c == c[0]) || (i > 1 && entry->c == c[1]))
-                entry = &job->spare[i]; /* needed by the triangle itself */
-            entry->tag = 0;
-            if (!caster_corner(entry->c, job, vertex_idx)) return 0;
-            entry->tag = tag;
+        gn_vertex_entry *entry = gn_vertex_corner(&job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)], tag,
+                                                  before[0], before[1], &job->spare[i]);
+        if (!gn_vertex_hit(entry, tag) && !caster_corner(entry->v_q16, job, vertex_idx)) {
+            gn_vertex_drop(entry);
+            return 0;
         }
-        c[i] = entry->c;
+        c[i] = entry->v_q16;
+        before[1] = before[0];
+        before[0] = entry;
     }
     return 1;
 }
@@ -288,7 +290,8 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
 static gn_status draw_layer(gn_frame *frame, gn_casting *casting, const gn_light_view *view, layer which)
 {
 #if SMALL_CASTERS
-    for (uint32_t i = 0; i <= casting->job.cache_mask; i++) casting->job.cache[i].tag = 0;
+    for (uint32_t i = 0; i <= casting->job.cache_mask; i++) gn_vertex_drop(&casting->job.cache[i]);
+    for (int i = 0; i < 3; i++) gn_vertex_drop(&casting->job.spare[i]);
 #endif
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
         int culled, drawn = casts_here(frame, view, o, which, &culled);
@@ -437,10 +440,8 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
                                uint32_t n_words)
 {
 #if SMALL_CASTERS
-    uint32_t n = 256;
-    while (n > 1 && n * (sizeof(gn_caster_corner) / 4) > n_words) n >>= 1;
-    casting->job.cache = (gn_caster_corner *)(void *)memory;
-    casting->job.cache_mask = n - 1;
+    casting->job.cache = (gn_vertex_entry *)(void *)memory;
+    casting->job.cache_mask = gn_vertex_mask(n_words * sizeof *memory, sizeof(gn_vertex_entry));
 #else
     (void)memory, (void)n_words;
 #endif

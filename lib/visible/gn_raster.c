@@ -412,7 +412,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     GN_COUNT(pixels, tile.width * tile.height);
     memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
 #if GN_VISIBLE_ALPHA
-    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
+    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
 #endif
         /* backwards: identities ascend */
 #if GN_SIZE_FIRST

@@ -7,6 +7,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_clip.h"
+#include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
@@ -25,16 +26,15 @@ static int view_position(int32_t out_q16[3], const gn_xform *xform, const gn_mes
     return 1;
 }
 
-int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
+int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
                     uint32_t object_idx, uint32_t vertex_idx)
 {
-    gn_vcache_entry *entry = &cache[vertex_idx & (GN_VERTEX_CACHE - 1)];
+    gn_vertex_entry *entry = &cache[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
     GN_ELEMENT(entry);
-    uint32_t tag = (object_idx << 16 | vertex_idx) + 1U;
-    if (entry->tag != tag) {
-        entry->tag = 0;
-        if (!view_position(entry->v_q16, xform, mesh, vertex_idx)) return 0;
-        entry->tag = tag;
+    if (!gn_vertex_hit(entry, gn_vertex_tag(object_idx, vertex_idx)) &&
+        !view_position(entry->v_q16, xform, mesh, vertex_idx)) {
+        gn_vertex_drop(entry);
+        return 0;
     }
     for (int i = 0; i < 3; i++) out_q16[i] = entry->v_q16[i];
     return 1;
@@ -67,8 +67,7 @@ typedef struct {
 
 /* A vertex as triangles need it. */
 typedef struct {
-    uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
-    int32_t v_q16[3];
+    gn_vertex_entry vertex;
     uint32_t out; /* outside of which planes: of the picture, of the guard band << 8 */
 #if CACHED_PROJECTION
     projected at; /* if in the guard band */
@@ -150,8 +149,8 @@ static inline int32_t snap(int32_t q16, int32_t bits)
 static GN_NOINLINE int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
 {
     const gn_cam *cam = &job->frame->cam;
-    const int32_t *v = c->v_q16;
-    if (!view_position(c->v_q16, &job->xform, job->object->mesh, vertex_idx)) return 0;
+    const int32_t *v = c->vertex.v_q16;
+    if (!view_position(c->vertex.v_q16, &job->xform, job->object->mesh, vertex_idx)) return 0;
     c->out = gn_outcode(v, cam->near_q16, cam->tan_q16) | gn_outcode(v, cam->near_q16, cam->guard_q16) << 8;
 #if CACHED_PROJECTION
     if (!(c->out >> 8)) project(job, v, &c->at);
@@ -176,7 +175,7 @@ static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
 static GN_NOINLINE int fill_far_corner(const setup_job *job, corner *c)
 {
     const gn_cam *cam = &job->frame->cam;
-    const int32_t *v = c->v_q16;
+    const int32_t *v = c->vertex.v_q16;
     for (int k = 0; k < 3; k++)
         if (v[k] <= -GN_VIEW_LIMIT_Q16 || v[k] >= GN_VIEW_LIMIT_Q16) return 0;
     c->out = gn_outcode(v, cam->near_q16, cam->tan_q16);
@@ -192,10 +191,10 @@ GN_INLINE int fill_corner(const setup_job *job, corner *c, uint32_t vertex_idx)
     const gn_mesh *mesh = job->object->mesh;
     int32_t v[3];
     if (!gn_xform_fast_wide(v, &job->fast, mesh->pos + 3 * (size_t)vertex_idx)) {
-        if (!view_position(c->v_q16, &job->xform, mesh, vertex_idx)) return 0;
-        for (int k = 0; k < 3; k++) v[k] = c->v_q16[k];
+        if (!view_position(c->vertex.v_q16, &job->xform, mesh, vertex_idx)) return 0;
+        for (int k = 0; k < 3; k++) v[k] = c->vertex.v_q16[k];
     }
-    for (int k = 0; k < 3; k++) c->v_q16[k] = v[k];
+    for (int k = 0; k < 3; k++) c->vertex.v_q16[k] = v[k];
     uint32_t z = (uint32_t)v[2] >> job->near_guard;
     if ((uint32_t)v[2] - (uint32_t)job->near_q16 >= job->z_range || (uint32_t)v[0] + z > 2 * z ||
         (uint32_t)v[1] + z > 2 * z)
@@ -447,7 +446,7 @@ static GN_NOINLINE void general_triangle(const setup_job *job, const corner *con
     gn_polygon *polygon = &job->clipping->polygon;
     polygon->n = 3;
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) polygon->v_q16[i][k] = c[i]->v_q16[k];
+        for (int k = 0; k < 3; k++) polygon->v_q16[i][k] = c[i]->vertex.v_q16[k];
     if (outside) {
         gn_clip(polygon, &job->clipping->uncut, GN_OUT_ALL, frame->cam.near_q16, frame->cam.guard_q16);
         frame->stats.n_clipped++;
@@ -487,17 +486,15 @@ static gn_status setup_triangle(const setup_job *job, const corner *const c[3], 
 /* The corners of a triangle, through the cache: c[2 .. 4]. */
 static inline gn_status fetch_corners(const setup_job *job, const uint16_t *idx, corner spare[3], const corner *c[5])
 {
-    uint32_t n_vertices = job->object->mesh->n_vertices, first_tag = (job->object_idx << 16) + 1;
+    uint32_t n_vertices = job->object->mesh->n_vertices, first_tag = gn_vertex_tag(job->object_idx, 0);
     for (const corner **at = c + 2; at != c + 5; at++) {
         uint32_t vertex_idx = *idx++, tag = first_tag + vertex_idx;
         if (vertex_idx >= n_vertices) return gn_fail(job->frame, GN_ERR_MESH_INDEX, job->object_idx);
-        corner *entry = &job->cache[vertex_idx & job->cache_mask];
-        if (entry->tag != tag) {
-            if (entry == at[-1] || entry == at[-2])
-                entry = &spare[at - c - 2]; /* the triangle itself needs what is there */
-            if (!fill_corner(job, entry, vertex_idx)) return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
-            entry->tag = tag;
-        }
+        corner *slot = &job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)];
+        corner *entry =
+            (corner *)gn_vertex_corner(&slot->vertex, tag, &at[-1]->vertex, &at[-2]->vertex, &spare[at - c - 2].vertex);
+        if (!gn_vertex_hit(&entry->vertex, tag) && !fill_corner(job, entry, vertex_idx))
+            return gn_fail(job->frame, GN_ERR_VERTEX_RANGE, job->object_idx);
         *at = entry;
     }
     return GN_OK;
@@ -509,7 +506,8 @@ static gn_status setup_object(setup_job *job)
     const gn_mesh *mesh = job->object->mesh;
     corner spare[3];
     const corner *c[5];
-    c[0] = c[1] = NULL; /* before the first there is none */
+    c[0] = c[1] = spare; /* no entry of the cache: before the first corner there is none */
+    for (int i = 0; i < 3; i++) gn_vertex_drop(&spare[i].vertex);
     gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->object);
     if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
     job->lasts_mask = GN_VISIBLE_ALPHA && job->object->visible_alpha != GN_ALPHA_OPAQUE ? 0 : -1;
@@ -525,13 +523,11 @@ static gn_status setup_object(setup_job *job)
 gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
 {
     setup_job job;
-    uint32_t n = 256;
     int32_t clz = gn_clz32(frame->cam.focal2_px_q16);
-    while (n > 1 && n * (sizeof(corner) / 4) > sizeof scratch->cell / 4) n >>= 1;
     job.frame = frame;
     job.clipping = &scratch->work.clipping;
     job.cache = (corner *)(void *)scratch->cell;
-    job.cache_mask = n - 1;
+    job.cache_mask = gn_vertex_mask(sizeof scratch->cell, sizeof(corner));
     job.focal_norm = frame->cam.focal2_px_q16 << clz;
     job.focal_up = 1 - clz;
     job.near_down = gn_clz32((uint32_t)frame->cam.near_q16) - 1;
@@ -551,7 +547,7 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
     frame->stats.n_triangles = 0;
     frame->stats.n_clipped = 0;
     for (uint32_t i = 0; i <= (uint32_t)frame->tiles_x * frame->tiles_y; i++) frame->tile_first[i] = 0;
-    for (uint32_t i = 0; i < n; i++) job.cache[i].tag = 0;
+    for (uint32_t i = 0; i <= job.cache_mask; i++) gn_vertex_drop(&job.cache[i].vertex);
     for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
         job.object_idx = i;
         job.object = &frame->scene->objects[i];

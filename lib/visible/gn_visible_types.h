@@ -26,11 +26,6 @@ typedef struct {
     uint16_t triangle_idx;
 } gn_tri;
 
-typedef struct {
-    uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
-    int32_t v_q16[3];
-} gn_vcache_entry;
-
 #if GN_MAX_TILE_REFS > 65535
 typedef uint32_t gn_ref_offset;
 #else
