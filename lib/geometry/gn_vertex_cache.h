@@ -9,8 +9,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/gn_q.h"
-
 typedef struct {
     uint32_t tag;     /* of the vertex that it holds, 0: of none */
     int32_t v_q16[3]; /* its position as the view sees it */
@@ -36,12 +34,15 @@ static inline uint32_t gn_vertex_mask(size_t memory_bytes, size_t entry_bytes)
     return n - 1;
 }
 
-/* Whether the entry holds the vertex. If not, it is the vertex's from now on: the caller puts it in, or drops it. */
-GN_INLINE int gn_vertex_hit(gn_vertex_entry *entry, uint32_t tag)
+static inline int gn_vertex_hit(const gn_vertex_entry *entry, uint32_t tag)
 {
-    if (entry->tag == tag) return 1;
+    return entry->tag == tag;
+}
+
+/* The entry is the vertex's from now on: the caller puts its position in, or drops it. */
+static inline void gn_vertex_claim(gn_vertex_entry *entry, uint32_t tag)
+{
     entry->tag = tag;
-    return 0;
 }
 
 static inline void gn_vertex_drop(gn_vertex_entry *entry)
@@ -49,12 +50,14 @@ static inline void gn_vertex_drop(gn_vertex_entry *entry)
     entry->tag = 0;
 }
 
-/* The entry for a corner of a triangle: the slot of its vertex, or `spare` if that holds another corner of the same
- * triangle. Those that were found before it are in a and b. */
-GN_INLINE gn_vertex_entry *gn_vertex_corner(gn_vertex_entry *slot, uint32_t tag, const gn_vertex_entry *a,
-                                            const gn_vertex_entry *b, gn_vertex_entry *spare)
+/* The same for a corner of a triangle, in its slot; or in `spare` if the slot holds another corner of that triangle.
+ * Those that were found before it are in a and b. Returns the entry. */
+static inline gn_vertex_entry *gn_vertex_claim_corner(gn_vertex_entry *slot, uint32_t tag, const gn_vertex_entry *a,
+                                                      const gn_vertex_entry *b, gn_vertex_entry *spare)
 {
-    return slot->tag != tag && (slot == a || slot == b) ? spare : slot;
+    gn_vertex_entry *entry = slot == a || slot == b ? spare : slot;
+    gn_vertex_claim(entry, tag);
+    return entry;
 }
 
 #endif

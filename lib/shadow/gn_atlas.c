@@ -168,11 +168,13 @@ static inline int cached_corners(caster_job *job, const uint16_t idx[3], const i
     for (int i = 0; i < 3; i++) {
         uint32_t vertex_idx = idx[i], tag = gn_vertex_tag(job->object_idx, vertex_idx);
         if (vertex_idx >= mesh->n_vertices) return 0;
-        gn_vertex_entry *entry = gn_vertex_corner(&job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)], tag,
-                                                  before[0], before[1], &job->spare[i]);
-        if (!gn_vertex_hit(entry, tag) && !caster_corner(entry->v_q16, job, vertex_idx)) {
-            gn_vertex_drop(entry);
-            return 0;
+        gn_vertex_entry *entry = &job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)];
+        if (!gn_vertex_hit(entry, tag)) {
+            entry = gn_vertex_claim_corner(entry, tag, before[0], before[1], &job->spare[i]);
+            if (!caster_corner(entry->v_q16, job, vertex_idx)) {
+                gn_vertex_drop(entry);
+                return 0;
+            }
         }
         c[i] = entry->v_q16;
         before[1] = before[0];
@@ -291,7 +293,6 @@ static gn_status draw_layer(gn_frame *frame, gn_casting *casting, const gn_light
 {
 #if SMALL_CASTERS
     for (uint32_t i = 0; i <= casting->job.cache_mask; i++) gn_vertex_drop(&casting->job.cache[i]);
-    for (int i = 0; i < 3; i++) gn_vertex_drop(&casting->job.spare[i]);
 #endif
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
         int culled, drawn = casts_here(frame, view, o, which, &culled);

@@ -114,7 +114,7 @@ typedef struct {
     int two_sided;
     gn_vertex_entry *cache; /* of vertices as the view sees them, within 2^29 */
     uint32_t cache_mask;
-    gn_vertex_entry spare[3]; /* see gn_vertex_corner */
+    gn_vertex_entry spare[3]; /* see gn_vertex_claim_corner */
     gn_xform to_light;
     gn_xform_fast fast;
 #if GN_CASTER_BIAS
