@@ -5,7 +5,15 @@
 #include "shadow/gn_blocks.h"
 #include "shadow/gn_texel.h"
 
-#if GN_SHADOWS && GN_DEPTH_BLOCKS
+void gn_blocks_find(gn_frame *frame, gn_light_view *view)
+{
+    uint32_t first = view->first_texel / 64;
+#if GN_OTHER_ATLAS
+    view->block = view->in_other ? frame->other_block + first : frame->block + first;
+#else
+    view->block = frame->block + first;
+#endif
+}
 
 static void widen_block(gn_depth_block *block, const gn_depth_block *other)
 {
@@ -92,5 +100,3 @@ gn_depth_block gn_blocks_over(const gn_light_view *view, int32_t u, int32_t v, i
     }
     return bounds;
 }
-
-#endif

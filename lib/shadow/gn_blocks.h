@@ -15,9 +15,10 @@
 
 #include "gnomon.h"
 
-#if GN_SHADOWS && GN_DEPTH_BLOCKS
-
 #define GN_BLOCK_REACH 9 /* texels per axis that one block answers for */
+
+/* Points a view that has its place in an atlas to its blocks there. */
+void gn_blocks_find(gn_frame *frame, gn_light_view *view);
 
 void gn_blocks_build(gn_light_view *view);
 
@@ -44,5 +45,4 @@ static inline uint32_t gn_block_highest(const gn_depth_block *block, int32_t dep
     return (uint32_t)block->hi << 16 | (depth_bits > 16 ? 0xFFFFU : 0U);
 }
 
-#endif
 #endif

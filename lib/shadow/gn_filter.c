@@ -11,8 +11,6 @@
 #include "shadow/gn_filter.h"
 #include "shadow/gn_texel.h"
 
-#if GN_SHADOWS
-
 /* Whether texels outside the tile are lit (D10). */
 #if GN_MAIN_LIGHT
 #define BORDER_LIT(view) ((view)->border_lit)
@@ -636,6 +634,4 @@ void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_re
         at.depth_q31 += step->depth_q31;
     }
 }
-#endif
-
 #endif

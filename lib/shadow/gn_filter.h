@@ -4,8 +4,6 @@
 
 #include "gnomon.h"
 
-#if GN_SHADOWS
-
 #define GN_TENT_TAPS_MAX 8
 
 /* Weights of the 2 (k + 1) texels of a tent along one axis, k = 1, 2, 3: exact rationals over (2k + 1)^2 F^2, which
@@ -28,7 +26,6 @@ typedef struct {
  * (D10). */
 uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver);
 
-#if GN_PIECES
 /* A receiver on the way from pixel to pixel: tile coordinates in texels, Q16, and its share of the view's depth range,
  * Q31; negative before the near plane. Coordinates within +-2^28. */
 typedef struct {
@@ -42,7 +39,5 @@ int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn
 /* Attenuations of n receivers from `from` on, all between `from` and `to`, which the steps may not quite reach. */
 void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
                    const gn_receiver_step *to, const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
-#endif
 
-#endif
 #endif

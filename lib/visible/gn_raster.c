@@ -174,18 +174,23 @@ GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stri
 }
 
 #if GN_VISIBLE_ALPHA
+static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_object *object,
+                             uint32_t object_idx, const uint16_t idx[3])
+{
+    gn_xform to_view;
+    int32_t v[3][3];
+    gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
+    for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &to_view, object->mesh, object_idx, idx[i]);
+    gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
+}
+
 static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     GN_ELEMENT(object);
     const uint16_t *idx = object->mesh->idx + 3 * (size_t)tri->triangle_idx;
     gn_alpha_begin(cut, object, object->visible_alpha, idx);
-    if (!cut->textured) return;
-    gn_xform to_view;
-    int32_t v[3][3];
-    gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
-    for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &to_view, object->mesh, tri->object_idx, idx[i]);
-    gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
+    if (GN_TEXTURES && cut->textured) cut_plane(frame, scratch, cut, object, tri->object_idx, idx);
 }
 
 #endif
