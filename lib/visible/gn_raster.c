@@ -173,7 +173,6 @@ GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stri
     rows->row = row;
 }
 
-#if GN_VISIBLE_ALPHA
 static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_object *object,
                              uint32_t object_idx, const uint16_t idx[3])
 {
@@ -184,7 +183,7 @@ static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, gn_alph
     gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
 }
 
-static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
+static inline void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     GN_ELEMENT(object);
@@ -192,8 +191,6 @@ static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *
     gn_alpha_begin(cut, object, object->visible_alpha, idx);
     if (GN_TEXTURES && cut->textured) cut_plane(frame, scratch, cut, object, tri->object_idx, idx);
 }
-
-#endif
 
 /* A screen tile. */
 typedef struct {
@@ -215,11 +212,7 @@ static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *ce
     for (int32_t i = 0; i < n; i++, cell++, iz -= depth->minus_dx) {
         uint32_t candidate = clamp_depth(iz, depth) | depth->id_mask;
         if (candidate < *cell) continue;
-#if GN_VISIBLE_ALPHA
-        if (cut && gn_alpha_cuts(cut, x + i)) continue;
-#else
-        (void)cut, (void)x;
-#endif
+        if (GN_VISIBLE_ALPHA && cut && gn_alpha_cuts(cut, x + i)) continue;
         *cell = candidate - depth->below;
     }
     GN_COUNT(covered_cut, cut ? n : 0);
@@ -305,7 +298,6 @@ static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri
     }
 }
 
-#if GN_VISIBLE_ALPHA
 /* Row v of the tile. */
 static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const gn_span *span)
 {
@@ -313,7 +305,6 @@ static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const
     gn_alpha_row(cut, y, tile->frame->picture.height - 1 - 2 * y, tile->rect.x0 + span->x_begin,
                  tile->rect.x0 + span->x_end);
 }
-#endif
 
 /* Walks a triangle that `cut` cuts, if it is not NULL. */
 static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, gn_alpha_cut *cut)
@@ -350,23 +341,23 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
                 raster_span(row + xa, n, above + depth.lo + (uint32_t)(n - 1) * iz_dx, &depth);
                 continue;
             }
-#if GN_VISIBLE_ALPHA
-            if (cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
-#endif
+            if (GN_VISIBLE_ALPHA && cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
             /* with the same results */
             raster_span_slow(&depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
         }
     }
 }
 
-#if GN_VISIBLE_ALPHA
 static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
+#if GN_VISIBLE_ALPHA
     gn_alpha_cut *cut = &tile->scratch->work.cut;
     cut_begin(tile->frame, tile->scratch, cut, tri);
     raster_triangle(tile, tri, id, cut);
-}
+#else
+    (void)tile, (void)tri, (void)id;
 #endif
+}
 
 /* A triangle that a screen tile meets. */
 static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
@@ -376,12 +367,10 @@ static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32
         else raster_small(tile, tri, id);
         return;
     }
-#if GN_VISIBLE_ALPHA
-    if (tile->frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
+    if (GN_VISIBLE_ALPHA && tile->frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
         raster_cut_triangle(tile, tri, id);
         return;
     }
-#endif
     raster_triangle(tile, tri, id, NULL);
 }
 
@@ -405,9 +394,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     GN_COUNT(screen_tiles, 1);
     GN_COUNT(pixels, tile.width * tile.height);
     memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
-#if GN_VISIBLE_ALPHA
-    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
-#endif
+    for (uint32_t i = 0; GN_VISIBLE_ALPHA && i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
     const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]],
                    *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
     const gn_tri *first = frame->tri;
