@@ -43,4 +43,10 @@ static inline uint32_t gn_texel_far(int32_t depth_bits)
     return (uint32_t)(GN_DEPTH_EMPTY_Q32 << (32 - depth_bits));
 }
 
+/* Whether texels outside the tile are lit (D10). */
+static inline int gn_border_lit(const gn_light_view *view)
+{
+    return GN_MAIN_LIGHT && view->border_lit;
+}
+
 #endif
