@@ -108,6 +108,7 @@
 #include "visible/gn_bin.c"
 #include "visible/gn_raster.c"
 #include "visible/gn_runs.c"
+#include "visible/gn_screen_triangle.c"
 #include "visible/gn_setup.c"
 
 /* Their colours. */

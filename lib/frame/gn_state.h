@@ -93,7 +93,7 @@ typedef struct gn_scratch {
     uint32_t cell[1 + GN_TILE_PIXELS_MAX]; /* one before the first, then rows of tile_width: nearest surface, near / Z
                                               in the high bits, the triangle in the low id_bits; 0: none */
     gn_tile_pixels pixel;                  /* finished pixels in the picture's format */
-    gn_vcache_entry vertex[GN_VERTEX_CACHE];
+    gn_vertex_entry vertex[GN_VERTEX_CACHE];
     gn_run_idx run_list[GN_RUN_LISTS]; /* first runs, by the low bits of their triangles; see gn_runs.h */
     gn_work work;
 } gn_scratch;

@@ -3,6 +3,7 @@
 #define GN_GEOMETRY_TYPES_H
 
 #include "base/gn_base_types.h"
+#include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_walk.h"
 
 /* A transform composed for one object: out = round((m * p) / 2^shift) + t, t and out with 16 fraction bits. */

@@ -8,6 +8,7 @@
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
 #include "shadow/gn_blocks.h"
@@ -122,18 +123,21 @@ static inline int caster_corner(int32_t out[3], const caster_job *job, uint32_t 
 static inline int cached_corners(caster_job *job, const uint16_t idx[3], const int32_t *c[3])
 {
     const gn_mesh *mesh = job->object->mesh;
+    gn_vertex_entry *before[2] = {job->spare, job->spare}; /* no entries of the cache */
     for (int i = 0; i < 3; i++) {
-        uint32_t vertex_idx = idx[i], tag = (job->object_idx << 16 | vertex_idx) + 1U;
+        uint32_t vertex_idx = idx[i], tag = gn_vertex_tag(job->object_idx, vertex_idx);
         if (vertex_idx >= mesh->n_vertices) return 0;
-        gn_caster_corner *entry = &job->cache[vertex_idx & job->cache_mask];
-        if (entry->tag != tag) {
-            if ((i > 0 && entry->c == c[0]) || (i > 1 && entry->c == c[1]))
-                entry = &job->spare[i]; /* needed by the triangle itself */
-            entry->tag = 0;
-            if (!caster_corner(entry->c, job, vertex_idx)) return 0;
-            entry->tag = tag;
+        gn_vertex_entry *entry = &job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)];
+        if (!gn_vertex_hit(entry, tag)) {
+            entry = gn_vertex_claim_corner(entry, tag, before[0], before[1], &job->spare[i]);
+            if (!caster_corner(entry->v_q16, job, vertex_idx)) {
+                gn_vertex_drop(entry);
+                return 0;
+            }
         }
-        c[i] = entry->c;
+        c[i] = entry->v_q16;
+        before[1] = before[0];
+        before[0] = entry;
     }
     return 1;
 }
@@ -239,7 +243,7 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
 
 static gn_status draw_layer(gn_frame *frame, gn_casting *casting, const gn_light_view *view, gn_layer layer)
 {
-    for (uint32_t i = 0; SMALL_CASTERS && i <= casting->job.cache_mask; i++) casting->job.cache[i].tag = 0;
+    for (uint32_t i = 0; SMALL_CASTERS && i <= casting->job.cache_mask; i++) gn_vertex_drop(&casting->job.cache[i]);
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
         int culled, drawn = gn_cull_draws(frame, view, o, layer, &culled);
         frame->stats.n_casters_culled += (uint32_t)culled;
@@ -294,10 +298,8 @@ static gn_status draw_view(gn_frame *frame, gn_casting *casting, gn_light_view *
 
 static void use_cache(gn_caster_job *job, uint32_t *memory, uint32_t n_words)
 {
-    uint32_t n = 256;
-    while (n > 1 && n * (sizeof(gn_caster_corner) / 4) > n_words) n >>= 1;
-    job->cache = (gn_caster_corner *)(void *)memory;
-    job->cache_mask = n - 1;
+    job->cache = (gn_vertex_entry *)(void *)memory;
+    job->cache_mask = gn_vertex_mask(n_words * sizeof *memory, sizeof(gn_vertex_entry));
 }
 
 gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory,

@@ -100,11 +100,6 @@ typedef union {
     uint16_t d16[GN_OTHER_ATLAS_BYTES / 2];
     uint32_t d32[GN_OTHER_ATLAS_BYTES / 4];
 } gn_other_texels;
-/* A vertex as a view sees it, if it is within 2^29. */
-typedef struct {
-    uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
-    int32_t c[3];
-} gn_caster_corner;
 
 /* One caster and one view. */
 typedef struct {
@@ -113,10 +108,10 @@ typedef struct {
     const gn_object *object;
     uint32_t object_idx;
     int two_sided;
-    gn_caster_corner *cache;
+    gn_vertex_entry *cache; /* of vertices as the view sees them, within 2^29 */
     uint32_t cache_mask;
-    gn_caster_corner spare[3]; /* where a triangle's corners share an entry */
-    int32_t shrink_q16;        /* B4, texels */
+    gn_vertex_entry spare[3]; /* see gn_vertex_claim_corner */
+    int32_t shrink_q16;       /* B4, texels */
     gn_xform to_light;
     union {
         gn_xform_fast fast;          /* of what is not shrunk */
