@@ -68,6 +68,7 @@
 #include "shadow/gn_cull.c"
 #include "shadow/gn_filter.c"
 #include "shadow/gn_light_views.c"
+#include "shadow/gn_lookup.c"
 #include "shadow/gn_ortho.c"
 #include "shadow/gn_tiles.c"
 #if GN_AUTO_BIAS
@@ -82,8 +83,18 @@
 #if GN_CASTER_CULLING
 #include "shadow/gn_cull_cascades.c"
 #endif
+#if GN_FILTER_MAX >= 2
+#include "shadow/gn_tent.c"
+#endif
+#if GN_DISK_FILTER
+#include "shadow/gn_disk.c"
+#endif
+#if GN_PIECES
+#include "shadow/gn_filter_rows.c"
+#endif
 #if GN_DEPTH_BLOCKS
 #include "shadow/gn_blocks.c"
+#include "shadow/gn_lookup_bounds.c"
 #endif
 #if GN_INCREMENTAL
 #include "shadow/gn_kept.c"

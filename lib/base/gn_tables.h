@@ -29,14 +29,20 @@ uint32_t gn_far_recip_entry(uint32_t i);
 uint32_t gn_far_rsqrt_entry(uint32_t i);
 uint32_t gn_far_srgb_entry(uint32_t i);
 uint32_t gn_far_srgb_decode_entry(uint32_t i);
-#if GN_SIZE_FIRST
-#define gn_rsqrt_entry       gn_far_rsqrt_entry
-#define gn_srgb_entry        gn_far_srgb_entry
-#define gn_srgb_decode_entry gn_far_srgb_decode_entry
-#else
-#define gn_rsqrt_entry(i)       ((uint32_t)gn_rsqrt_table[i])
-#define gn_srgb_entry(i)        ((uint32_t)gn_srgb_table[i])
-#define gn_srgb_decode_entry(i) ((uint32_t)gn_srgb_decode_table[i])
-#endif
+
+GN_INLINE uint32_t gn_rsqrt_entry(uint32_t i)
+{
+    return GN_SIZE_FIRST ? gn_far_rsqrt_entry(i) : gn_rsqrt_table[i];
+}
+
+GN_INLINE uint32_t gn_srgb_entry(uint32_t i)
+{
+    return GN_SIZE_FIRST ? gn_far_srgb_entry(i) : gn_srgb_table[i];
+}
+
+GN_INLINE uint32_t gn_srgb_decode_entry(uint32_t i)
+{
+    return GN_SIZE_FIRST ? gn_far_srgb_decode_entry(i) : gn_srgb_decode_table[i];
+}
 
 #endif

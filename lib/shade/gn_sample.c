@@ -16,7 +16,7 @@ typedef struct {
 
 /* Where the ray through a pixel centre meets the plane. Values are clamped to the triangle: a snapped edge may cover a
  * centre just outside the unsnapped triangle. */
-static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, hit *h)
+GN_HOT static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, hit *h)
 {
     gn_ray_recip r;
     if (!gn_plane_recip(&r, &s->plane, px, py, frame->cam.focal2_px_q16, GN_K(frame, newton_steps))) {
@@ -33,12 +33,12 @@ static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, in
 }
 
 /* a0 + b1 * a1 + b2 * a2 */
-static int32_t at_hit(const hit *h, int32_t a0, int32_t a1, int32_t a2)
+GN_HOT static int32_t at_hit(const hit *h, int32_t a0, int32_t a1, int32_t a2)
 {
     return gn_sat32(a0 + gn_shr64((int64_t)h->b_q30[0] * a1 + (int64_t)h->b_q30[1] * a2, 30));
 }
 
-static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
+GN_HOT static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
 {
     for (int i = 0; i < 3; i++) {
         const int32_t n0 = s->normal_q30[0][i];
@@ -48,8 +48,8 @@ static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
 
 #if GN_SHADOWS || GN_PUNCTUAL_LIGHTS
 /* A point at depth z on a pixel's ray, along three axes. |z| * |a| < 2^31 * 2^31 by the choice of the shift */
-static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t px, int32_t py, int32_t z_q16,
-                         int64_t out_q16[3])
+GN_HOT static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t px, int32_t py, int32_t z_q16,
+                                int64_t out_q16[3])
 {
     for (int i = 0; i < 3; i++) {
         int64_t a = ray[i].a0 + (int64_t)ray[i].ax * px + (int64_t)ray[i].ay * py; /* < 2^31 */
@@ -59,8 +59,8 @@ static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t p
 #endif
 
 /* Along what the receiver moves: the normal, or what B6 takes of a curved surface. */
-static inline const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light, const int32_t n_q30[3],
-                                           int32_t out_q30[3])
+GN_HOT static inline const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light,
+                                                  const int32_t n_q30[3], int32_t out_q30[3])
 {
     if (!GN_AUTO_BIAS || !GN_CURVED(s) || !light->auto_bias) return n_q30;
 #if GN_AUTO_BIAS
@@ -71,8 +71,8 @@ static inline const int32_t *lifted_normal(const gn_surface *s, const gn_light_s
 
 #if GN_SHADOWS
 /* Tile coordinates of the point at depth z on a pixel's ray. */
-static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16, const int32_t offset_q16[3],
-                         int32_t *out)
+GN_HOT static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16,
+                                const int32_t offset_q16[3], int32_t *out)
 {
     int64_t at[3];
     point_on_ray(view->fit.ortho.ray, view->fit.ortho.ray_shift, px, py, z_q16, at);
@@ -80,14 +80,14 @@ static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int3
 }
 
 /* Whether a light has cascades, or shadows end at a distance from the camera. */
-static int asks_for_cascades(const gn_frame *frame)
+GN_HOT static int asks_for_cascades(const gn_frame *frame)
 {
     if (GN_SIZE_FIRST && !GN_PIECES) return 1; /* the same, for nothing depends on it */
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 
 /* D4, D6, D11: the cascade of the surface point and its fade factor. */
-static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
 {
     gn_bfloat per_px = frame->cam.inv_focal2;
     const int64_t most = 1 << 30; /* of a point of a triangle; a plane seen edge on may be drawn where it is not */
@@ -117,8 +117,8 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
 
 /* The surface's offset in a view, where it is not one for all views of the light: of smooth surfaces, of the disk,
  * whose index and reach are the cascade's own, and of B6, whose steps of depth are. */
-static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot, const gn_light_view *view,
-                                 const int32_t n_q30[3], int32_t moved_q16[3])
+GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                        const gn_light_view *view, const int32_t n_q30[3], int32_t moved_q16[3])
 {
     const int32_t *flat = s->light[slot].flat_offset_q16;
     gn_auto_bias form = (gn_auto_bias)s->light[slot].state->auto_bias;
@@ -133,8 +133,8 @@ static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uin
 }
 
 /* Where a directional light's view sees the point; in cascades also where the next one does. */
-static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
-                               const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
+GN_HOT static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                      const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
 {
     const gn_light_state *light = s->light[slot].state;
     if (light->view_idx < 0) return;
@@ -154,27 +154,28 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
 }
 #else
-static int asks_for_cascades(const gn_frame *frame)
+GN_HOT static int asks_for_cascades(const gn_frame *frame)
 {
     (void)frame;
     return 0;
 }
 
-static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
 {
     (void)frame, (void)px, (void)py, (void)sample;
 }
 
-static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
-                               const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
+GN_HOT static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                      const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
 {
     (void)frame, (void)s, (void)slot, (void)px, (void)py, (void)n_q30, (void)sample, (void)out;
 }
 #endif
 
 #if GN_PUNCTUAL_LIGHTS
-static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
-                            const int32_t n_q30[3], const int32_t unit_q30[3], const gn_sample *sample, int32_t *out)
+GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                   const int32_t n_q30[3], const int32_t unit_q30[3], const gn_sample *sample,
+                                   int32_t *out)
 {
     const gn_light_state *light = s->light[slot].state;
     int64_t at[3];
@@ -188,8 +189,9 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
                          out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
 }
 #else
-static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
-                            const int32_t n_q30[3], const int32_t unit_q30[3], const gn_sample *sample, int32_t *out)
+GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                   const int32_t n_q30[3], const int32_t unit_q30[3], const gn_sample *sample,
+                                   int32_t *out)
 {
     (void)frame, (void)s, (void)slot, (void)px, (void)py, (void)n_q30, (void)unit_q30, (void)sample, (void)out;
 }
@@ -197,7 +199,8 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
 
 #if GN_SPECULAR
 /* The normal, and against the pixel's ray, in the world. */
-static void specular_values(const gn_frame *frame, int32_t px, int32_t py, const int32_t unit_q30[3], gn_sample *sample)
+GN_HOT static void specular_values(const gn_frame *frame, int32_t px, int32_t py, const int32_t unit_q30[3],
+                                   gn_sample *sample)
 {
     const gn_cam *cam = &frame->cam;
     int64_t towards[3];
@@ -209,15 +212,16 @@ static void specular_values(const gn_frame *frame, int32_t px, int32_t py, const
     gn_normalise_q30(sample->to_eye_q30, towards);
 }
 #else
-static void specular_values(const gn_frame *frame, int32_t px, int32_t py, const int32_t unit_q30[3], gn_sample *sample)
+GN_HOT static void specular_values(const gn_frame *frame, int32_t px, int32_t py, const int32_t unit_q30[3],
+                                   gn_sample *sample)
 {
     (void)frame, (void)px, (void)py, (void)unit_q30, (void)sample;
 }
 #endif
 
 /* n . L of a directional light: of the interpolated normal, or interpolated. */
-static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s, const gn_surface_light *light,
-                                      const hit *h, gn_length length, const int32_t n_q30[3])
+GN_HOT static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s, const gn_surface_light *light,
+                                             const hit *h, gn_length length, const int32_t n_q30[3])
 {
     const int32_t *at = light->cosine_q24;
     if (!GN_SMOOTH(s)) return at[0];
@@ -225,8 +229,8 @@ static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s
     return gn_length_cosine_q24(length, n_q30, light->state->to_light_q30);
 }
 
-static void light_values(const gn_frame *frame, const gn_surface *s, const hit *h, int32_t px, int32_t py,
-                         const int32_t n_q30[3], gn_sample *sample)
+GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, const hit *h, int32_t px, int32_t py,
+                                const int32_t n_q30[3], gn_sample *sample)
 {
     gn_length length = {0, 0};
     int needs_length = !GN_K(frame, vertex_light) || s->n_punctual || s->specular;
@@ -248,12 +252,12 @@ static void light_values(const gn_frame *frame, const gn_surface *s, const hit *
     if (s->specular) specular_values(frame, px, py, unit_q30, sample);
 }
 
-static int32_t attribute_at(const gn_surface *s, const hit *h, int i)
+GN_HOT static int32_t attribute_at(const gn_surface *s, const hit *h, int i)
 {
     return at_hit(h, s->attribute_q16[0][i], s->attribute_q16[1][i], s->attribute_q16[2][i]);
 }
 
-static void extra_values(const gn_surface *s, const hit *h, int32_t *value)
+GN_HOT static void extra_values(const gn_surface *s, const hit *h, int32_t *value)
 {
 #if GN_TEXTURES
     for (int i = 0; s->textured && i < 2; i++)
@@ -266,7 +270,7 @@ static void extra_values(const gn_surface *s, const hit *h, int32_t *value)
         value[GN_VALUE_BAKED + i] = s->baked ? attribute_at(s, h, GN_ATTRIBUTE_BAKED + i) : 0;
 }
 
-void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
+GN_HOT void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
 {
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
     hit h;
@@ -288,7 +292,7 @@ void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t
     light_values(frame, s, &h, px, py, n, sample);
 }
 
-uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
+GN_HOT uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
 {
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
     hit h;
@@ -300,7 +304,7 @@ uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *s, int32_t x
     return (uint32_t)sample.cascade;
 }
 
-void gn_sample_normal(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, int32_t normal_q30[3])
+GN_HOT void gn_sample_normal(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, int32_t normal_q30[3])
 {
     hit h;
     intersect(frame, s, 2 * x + 1 - frame->picture.width, frame->picture.height - 1 - 2 * y, &h);

@@ -4,15 +4,6 @@
 
 #include "gnomon.h"
 
-#define GN_TENT_TAPS_MAX 8
-
-/* Weights of the 2 (k + 1) texels of a tent along one axis, k = 1, 2, 3: exact rationals over (2k + 1)^2 F^2, which
- * they sum to. u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
-void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
-
-/* The same for the linear kernels (F6): over 4 F, 12 F, 52 F. */
-void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
-
 /* A surface point as a light view sees it. */
 typedef struct {
     int32_t u_q16, v_q16;     /* tile coordinates in texels */
