@@ -35,6 +35,7 @@ typedef struct {
     engine_picture picture[N_ENGINES];
     metrics m[N_PAIRS];
     long ram_bytes;
+    bool shadow_is_drawn; /* attenuation is measured on what the picture is drawn with */
 } comparison;
 
 static bool is_with_truth(const tool_options *o)
@@ -79,7 +80,8 @@ static void print_json(const tool_options *o, const comparison *c)
 {
     printf("{\"scene\": ");
     tool_json_string(o->scene_path);
-    printf(", \"with\": \"%s\", \"width\": %d, \"height\": %d, ", o->with, o->width, o->height);
+    printf(", \"with\": \"%s\", \"width\": %d, \"height\": %d, \"attenuation_path\": \"%s\", ", o->with, o->width,
+           o->height, c->shadow_is_drawn ? "picture" : "general");
     if (!is_with_truth(o)) {
         print_shares(&c->m[0]);
         printf(", \"ram_bytes\": %ld", c->ram_bytes);
@@ -121,6 +123,9 @@ static void print_text(const tool_options *o, const comparison *c)
         print_metrics(&c->m[i]);
     }
     printf("  library RAM           %8ld bytes\n", c->ram_bytes);
+    if (!c->shadow_is_drawn)
+        printf("  attenuation and shadow mismatch are of the general path, pixel by pixel: with persp_step above 1"
+               " the picture itself is drawn cell by cell\n");
 }
 
 /* ---- pictures ---- */
@@ -245,6 +250,7 @@ static int compare(comparison *c, const tool_options *o)
         remarks_on_settings(&s);
         remarks_on_picture(&s, &c->picture[FIXED]);
     }
+    c->shadow_is_drawn = engine_shadow_is_drawn(&set);
     settings_trim(&set, &s);
     scene_free(&s);
     if (failed) return tool_fail(o->scene_path, error);
