@@ -52,7 +52,7 @@ static void print_number(const char *name, double v)
 }
 
 /* The members of a pair's object before and after "ram_bytes". */
-static void print_shares(const metrics *m)
+static void print_summary(const metrics *m)
 {
     printf("\"identical\": %.9g", m->identical);
     print_number("within1", m->within1);
@@ -83,14 +83,14 @@ static void print_json(const tool_options *o, const comparison *c)
     printf(", \"with\": \"%s\", \"width\": %d, \"height\": %d, \"attenuation_path\": \"%s\", ", o->with, o->width,
            o->height, c->shadow_is_drawn ? "picture" : "general");
     if (!is_with_truth(o)) {
-        print_shares(&c->m[0]);
+        print_summary(&c->m[0]);
         printf(", \"ram_bytes\": %ld", c->ram_bytes);
         print_details(&c->m[0]);
     } else {
         printf("\"samples\": %d, \"ram_bytes\": %ld", tool_samples(o), c->ram_bytes);
         for (int i = 0; i < c->n_pairs; i++) {
             printf(", \"%s\": {", pairs[i].key);
-            print_shares(&c->m[i]);
+            print_summary(&c->m[i]);
             print_details(&c->m[i]);
             printf("}");
         }

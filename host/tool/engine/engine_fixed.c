@@ -33,7 +33,7 @@ typedef struct {
 
 static void name_farthest(const scene *s, const quantise_reach *farthest, char *out, size_t bytes)
 {
-    static const char *const names[] = {[QUANTISE_CAMERA] = "the camera's place",
+    static const char *const names[] = {[QUANTISE_CAMERA] = "the camera's position",
                                         [QUANTISE_CAMERA_NEAR] = "the camera's near plane",
                                         [QUANTISE_MAX_DISTANCE] = "max_distance"};
     if (farthest->subject == QUANTISE_OBJECT) snprintf(out, bytes, "object '%.64s'", s->objects[farthest->idx].name);
