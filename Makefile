@@ -14,23 +14,25 @@ OWN_SCENES := $(foreach s,sundial avenue desk room fence mixed,host/scenes/$(s).
 
 WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef -Werror
 # The host build of the library: every knob at run time, room for any scene. The pixels are the target's, bit for bit.
-HOST_KNOBS := -DGN_COUNTERS=1 -DGN_RUNTIME_KNOBS=1 -DGN_RAW_VIEWS=1 -DGN_STATIC_LAYER=1 -DGN_ATLAS_SIZE=1024 \
+HOST_KNOBS := -DGN_SEPARATE_FILES -DGN_COUNTERS=1 -DGN_RUNTIME_KNOBS=1 -DGN_RAW_VIEWS=1 -DGN_STATIC_LAYER=1 -DGN_ATLAS_SIZE=1024 \
   -DGN_OTHER_ATLAS_SIZE=1024 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 -DGN_MAX_TILE_REFS=1000000 \
   -DGN_MAX_LIGHTS=64 -DGN_SURFACE_LIGHTS=64 -DGN_MAX_OBJECTS=65535 -DGN_MAX_SHADOW_TILES=16 -DGN_MAX_OTHER_TILES=16 -DGN_VERTEX_CACHE=1024
 LIB_CFLAGS := -std=c99 -pedantic $(OPT) -g $(WARN) $(SAN) -Ilib
 HOST_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(HOST_OPT) -g $(WARN) $(SAN) -Ilib $(HOST_KNOBS) \
   -DSLOW_LIBRARY=$(if $(filter -O0,$(OPT)),1,0)
 
-LIB_SRC := $(wildcard lib/*.c)
+# The library, part by part: what changes is compiled again, and tests see its functions. Users compile lib/gnomon.c.
+LIB_SRC := $(filter-out lib/compact/%, $(wildcard lib/*/*.c))
 # main.c has no place beside a test's main(); generators and the report page are programs of their own.
 HOST_SRC := $(filter-out host/tool/main.c host/generate/% host/report/%, $(sort $(shell find host -name '*.c')))
 SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/generate/scenes/*.c))
-TESTS := $(basename $(notdir $(wildcard tests/test_*.c)))
+TEST_SRC := $(wildcard tests/*/test_*.c)
+TESTS := $(basename $(notdir $(TEST_SRC)))
 
 LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/obj/%.o)
 HOST_OBJ := $(HOST_SRC:%.c=$(BUILD)/obj/%.o)
 SCENE_OBJ := $(SCENE_SRC:%.c=$(BUILD)/obj/%.o)
-PANEL_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o, $(wildcard boards/displays/*.c) $(wildcard tests/panel_*.c))
+PANEL_OBJ := $(patsubst %.c,$(BUILD)/obj/%.o, $(wildcard boards/displays/*.c) $(wildcard tests/firmware/panel_*.c))
 
 all: $(BUILD)/gnomon ## build the host tool, build/gnomon (default)
 
@@ -42,15 +44,19 @@ help: ## list the targets
 run: $(BUILD)/gnomon ## render and compare the main scenes (and SCENES=...); pictures under build/run/
 	@sh host/run.sh $(BUILD)/gnomon $(SIZE) $(BUILD)/run $(OWN_SCENES) $(SCENES)
 
-test: ## run every test; installs what is missing (needs root or sudo)
+deps: ## install what the tests need, as root or with sudo
+	@sh tests/deps.sh
+
+test: deps ## run every test
+	@sh tests/run.sh
 	@sh tests/run.sh
 
 soak: ## the longer campaigns, minutes to hours: [SEED=n] [SCENES=n] [CAMPAIGNS="random census"]
 	@sh tests/soak.sh
 
 bench: $(BUILD)/gnomon ## count instructions on the host and on four target cores against the committed baselines; WRITE=1 renews them
-	@sh tests/bench.sh $(if $(WRITE),--write)
-	@sh tests/bench_target.sh $(if $(WRITE),--write)
+	@sh tests/bench/bench.sh $(if $(WRITE),--write)
+	@sh tests/bench/bench_target.sh $(if $(WRITE),--write)
 
 firmware: $(if $(BOARD),,boards) ## build the image of a board: BOARD=mps2-an385 [APP=crc] [SCENE=FILE: APP=play] [PRESET=tiny]
 
@@ -63,7 +69,7 @@ boards: ## list the boards
 	@$(if $(filter firmware emulate screen,$(MAKECMDGOALS)),echo "Which of them? BOARD=..." >&2; exit 1)
 
 size: ## measure flash, RAM and worst-case stack on the targets; WRITE=1 renews baseline and docs/MEMORY.md
-	@sh tests/size.sh $(if $(WRITE),--write)
+	@sh tests/firmware/size.sh $(if $(WRITE),--write)
 
 docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages casters radiance punctual accuracy bias contact census rows seams crawl kept culling lists changes extremes extremes_light extremes_many) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
@@ -75,14 +81,14 @@ report: $(BUILD)/gnomon $(BUILD)/make_report ## one page of pictures, metrics an
 	@sh host/report/report.sh $(BUILD)/gnomon $(SIZE) $(BUILD)/report $(patsubst %sundial.gltf,%sundial.gltf@48,$(OWN_SCENES)) $(SCENES)
 	@echo $(BUILD)/report/index.html
 
-tables: $(BUILD)/gen_tables ## regenerate lib/gn_tables.c
-	$(BUILD)/gen_tables > lib/gn_tables.c
+tables: $(BUILD)/gen_tables ## regenerate lib/base/gn_tables.c
+	$(BUILD)/gen_tables > lib/base/gn_tables.c
 
 scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf and docs/scenes/*.gltf
 	$(BUILD)/make_scenes host/scenes docs/scenes
 
-clean: ## remove build/
-	rm -rf build
+clean: ## remove the build folder
+	rm -rf $(BUILD)
 
 $(BUILD)/gnomon: $(BUILD)/obj/host/tool/main.o $(HOST_OBJ) $(LIB_OBJ)
 	@echo '  LD $@'
@@ -107,7 +113,7 @@ test-programs: $(TESTS:%=$(BUILD)/%) $(BUILD)/gnomon
 
 $(BUILD)/test_scenes: $(SCENE_OBJ)
 $(BUILD)/test_panels: $(PANEL_OBJ)
-$(BUILD)/test_radiance: $(BUILD)/obj/tests/pieces_colours.o
+$(BUILD)/test_radiance: $(BUILD)/obj/tests/unit/pieces_colours.o
 
 # What a board streamed, as a picture.
 $(BUILD)/rgb565_png: $(BUILD)/obj/boards/tools/rgb565_png.o $(SCENE_PNG)
@@ -122,16 +128,18 @@ $(BUILD)/capture: $(BUILD)/obj/boards/tools/capture.o
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^
 
-$(BUILD)/test_%: $(BUILD)/obj/tests/test_%.o $(HOST_OBJ) $(LIB_OBJ)
+# A test program is found by its name, whatever folder of tests/ its source is in.
+$(foreach source,$(TEST_SRC),$(eval $(BUILD)/$(basename $(notdir $(source))): $(source:%.c=$(BUILD)/obj/%.o)))
+$(TESTS:%=$(BUILD)/%): $(HOST_OBJ) $(LIB_OBJ)
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
 
 # OpenImageIO judges our PNG files: a C test over a small C++ shim.
-$(BUILD)/test_oiio: $(BUILD)/obj/tests/oiio/test_oiio.o $(BUILD)/obj/tests/oiio/oiio_shim.o $(HOST_OBJ) $(LIB_OBJ)
+$(BUILD)/test_oiio: $(BUILD)/obj/tests/tool/oiio/test_oiio.o $(BUILD)/obj/tests/tool/oiio/oiio_shim.o $(HOST_OBJ) $(LIB_OBJ)
 	@echo '  LD $@'
 	@$(CXX) -o $@ $^ $$(pkg-config --libs OpenImageIO) -lm
 
-$(BUILD)/obj/tests/oiio/oiio_shim.o: tests/oiio/oiio_shim.cpp tests/oiio/oiio_shim.h
+$(BUILD)/obj/tests/tool/oiio/oiio_shim.o: tests/tool/oiio/oiio_shim.cpp tests/tool/oiio/oiio_shim.h
 	@mkdir -p $(@D)
 	@echo '  CXX $<'
 	@$(CXX) -std=c++17 -O1 -w $$(pkg-config --cflags OpenImageIO) -c -o $@ $<
@@ -140,6 +148,8 @@ $(BUILD)/obj/lib/%.o: lib/%.c
 	@mkdir -p $(@D)
 	@echo '  CC $<'
 	@$(CC) $(LIB_CFLAGS) $(HOST_KNOBS) -MMD -MP -c -o $@ $<
+
+$(BUILD)/obj/tests/%.o: HOST_CFLAGS += -Itests -Itests/support
 
 $(BUILD)/obj/%.o: %.c
 	@mkdir -p $(@D)
@@ -152,5 +162,5 @@ endif
 
 -include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
 
-.PHONY: all help run test soak bench size matrix firmware emulate screen boards docs tables scenes clean test-programs
+.PHONY: all help run deps test soak bench size matrix firmware emulate screen boards docs report tables scenes coverage clean test-programs
 .SECONDARY:

@@ -42,7 +42,7 @@ FW := $(BUILD)/firmware/$(BOARD)
 FIRMWARE := $(FW)/$(IMAGE).elf
 FW_OBJ_DIR := $(FW)/$(IMAGE).obj
 
-APP_LIB := $(LIB_SRC)
+APP_LIB := lib/gnomon.c
 -include boards/apps/$(APP).mk
 
 # The host links a program; boards link without a C library.

@@ -30,7 +30,7 @@ if [ -n "$MODELS" ]; then # meshes that are not the project's
     "$build/test_accuracy" --models --table >"$work/models"
     replace ACCURACY.md models "$work/models"
 fi
-sh tests/test_compact.sh --table >"$work/compact"
+sh tests/oracle/test_compact.sh --table >"$work/compact"
 replace ACCURACY.md compact "$work/compact"
 "$build/test_bias" --table >"$work/bias"
 replace BIAS.md bias "$work/bias"

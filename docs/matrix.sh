@@ -102,10 +102,10 @@ instructions() {
 # ---- Documents ----------------------------------------------------------------------------------------------------------------
 
 measure() {
-    echo "# Written by sh docs/matrix.sh: bytes of the library, as tests/size.sh measures them."
+    echo "# Written by sh docs/matrix.sh: bytes of the library, as tests/firmware/size.sh measures them."
     configurations >"$work/list"
     for name in $SCENES; do scene "$name"; done >>"$work/list"
-    sh tests/size.sh --list "$work/list" $CORES >"$work/sizes"
+    sh tests/firmware/size.sh --list "$work/list" $CORES >"$work/sizes"
     [ "$(grep -c "^flash" "$work/sizes")" = $((2 * $(wc -l <"$work/list"))) ] || exit 1
     awk '$1 == "flash" || ($1 == "ram" && $4 == "total") || ($1 == "stack" && $4 == "gn_render")' "$work/sizes"
     for name in $SCENES; do
@@ -195,7 +195,7 @@ case ${1:-} in
 --scene) # figures of one scene's images on one core: TOOL SCENE CORE
     tool=$2
     scene "$3" >"$work/list"
-    sh tests/size.sh --list "$work/list" "$4" ;;
+    sh tests/firmware/size.sh --list "$work/list" "$4" ;;
 *)
     tool=${1:?usage: matrix.sh TOOL}
     measure >"$work/figures"

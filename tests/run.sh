@@ -100,7 +100,7 @@ variant() { # variant COMPILER OPTIMISATION [1: with the tests that run once]
     dir=build/test/$1$2 host=$2
     [ "$2" = -O0 ] && host=-O1 # the oracles and the tests; the library itself stays without optimisation
     build test-programs BUILD="$dir" CC="$1" OPT="$2" HOST_OPT="$host" SAN="-fsanitize=address,undefined -fno-sanitize-recover=all"
-    for program in tests/test_*.c; do
+    for program in tests/*/test_*.c; do
         name=$(basename "$program" .c)
         case " $once " in *" $name "*) [ "${3:-0}" = 1 ] || continue ;; esac
         echo "$name $dir/$name"
@@ -117,11 +117,11 @@ variant clang -O0
 build build/test/threads/test_cores BUILD=build/test/threads SAN=-fsanitize=thread
 build build/test/memory/test_random BUILD=build/test/memory CC=clang SAN=-fsanitize=memory
 {
-    for script in tests/test_*.sh; do echo "$(basename "$script" .sh) sh $script build/gnomon"; done
+    for script in tests/*/test_*.sh; do echo "$(basename "$script" .sh) sh $script build/gnomon"; done
     echo "test_oiio build/test_oiio"
     echo "threads build/test/threads/test_cores"
     echo "memory build/test/memory/test_random"
-    echo 'bench sh tests/bench.sh >build/tmp/bench.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/bench.log; exit 1; }'
+    echo 'bench sh tests/bench/bench.sh >build/tmp/bench.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/bench.log; exit 1; }'
     echo 'run make -s run >build/tmp/run.log 2>&1 && echo "1 passed, 0 failed" || { cat build/tmp/run.log; exit 1; }'
 } >build/tmp/jobs
 together

@@ -2,12 +2,12 @@
 # The campaigns, each in a build of its own under the address and undefined-behaviour sanitizers, with progress on a terminal. What was run
 # goes to build/soak.log: date, campaign, seed, scenes, result. usage: [SEED=n] [SCENES=n] [MODELS="a.obj b.glb"] [CAMPAIGNS="random census"] soak.sh
 #
-# random    10^6 random scenes: nothing undefined, nothing changed that was kept (tests/test_random.c), some minutes
-# extremes  20000 random scenes against the reference (tests/test_extremes_many.c), about an hour
-# census    planes at 100 times as many angles (tests/test_census.c)
-# culling   casters left out at many more places (tests/test_culling.c)
-# math      every operand of the reciprocal and of the root (tests/test_math.c)
-# models    the accuracy of meshes that MODELS names (tests/test_accuracy.c), a minute each
+# random    10^6 random scenes: nothing undefined, nothing changed that was kept (tests/property/test_random.c), some minutes
+# extremes  20000 random scenes against the reference (tests/oracle/test_extremes_many.c), about an hour
+# census    planes at 100 times as many angles (tests/oracle/test_census.c)
+# culling   casters left out at many more places (tests/property/test_culling.c)
+# math      every operand of the reciprocal and of the root (tests/unit/test_math.c)
+# models    the accuracy of meshes that MODELS names (tests/oracle/test_accuracy.c), a minute each
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
 : "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random math culling census ${MODELS:+models }extremes}"

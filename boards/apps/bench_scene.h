@@ -1,5 +1,5 @@
 /* The scene of the speed measurement, around a mesh: an object, one light from beside the camera, everything within its
- * shadows. The host's benchmark (tests/bench_workload.c) and the boards' (bench.c) draw it. */
+ * shadows. The host's benchmark (tests/bench/bench_workload.c) and the boards' (bench.c) draw it. */
 #ifndef GNOMON_BOARDS_BENCH_SCENE_H
 #define GNOMON_BOARDS_BENCH_SCENE_H
 

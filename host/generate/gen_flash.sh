@@ -5,7 +5,7 @@
 cd "$(dirname "$0")/../.." || exit 1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-TMPDIR=$work sh tests/one_file.sh lib >"$work/lib.c"
+TMPDIR=$work sh tests/support/one_file.sh lib >"$work/lib.c"
 cat >"$work/main.c" <<'E_C'
 #include "gnomon.h"
 static gn_renderer renderer;

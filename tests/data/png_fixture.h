@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "../../host/scene/image/zlib_stream.h"
-#include "../check.h"
+#include "check.h"
 
 static uint8_t made[1 << 14];
 static size_t n_made;

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "../../host/scene/scene.h"
-#include "../check.h"
-#include "../rng.h"
+#include "check.h"
+#include "rng.h"
 #include "scene_cases.h"
 
 #ifndef TMP

@@ -1,7 +1,7 @@
 /* What shadow tiles have to do with casters in the frame that was drawn last: which features of theirs it could have
  * been without. */
-#include "gn_cull.h"
-#include "gn_ortho.h"
+#include "shadow/gn_cull.h"
+#include "shadow/gn_ortho.h"
 #include "compile.h"
 
 /* The furthest that a coordinate of the caster lies from the tile's corner, Q16 texels. All vertices, whatever

@@ -2,7 +2,7 @@
 #ifndef GNOMON_COUNT_H
 #define GNOMON_COUNT_H
 
-#include "gn_count.h"
+#include "base/gn_count.h"
 
 typedef struct {
     uint64_t n[GN_COUNT_N];

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gn_math.h"
+#include "base/gn_math.h"
 
 /* Of the library: the shortest range and nearest near plane, in units; the widest range. */
 #define LIGHT_NEAREST_Q16  256

@@ -1,0 +1,271 @@
+/* Number core. Every step states the range that keeps it from overflowing. */
+#include "gn_internal.h"
+
+#include "base/gn_hint.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "base/gn_tables.h"
+
+int64_t gn_far_dot64(const int32_t a[3], const int32_t b[3])
+{
+    return gn_dot64_inline(a, b);
+}
+
+int64_t gn_far_dot_q30(const int32_t a[3], const int32_t b[3])
+{
+    return gn_dot_q30_inline(a, b);
+}
+
+uint64_t gn_bf_from_u64_bits(uint64_t v)
+{
+    int32_t clz = gn_clz64(v);
+    gn_bfloat out = {(uint32_t)((v << clz) >> 32), 32 - clz};
+    return gn_bf_bits(out);
+}
+
+/* Entry i of gn_recip_table is 2^25 / (2i + 513), rounded. Where size comes first and the core divides, it is computed.
+ */
+#if defined(GN_FAR) && GN_CORE_DIVIDES
+#define RECIP_START(i) (((1U << 25) + (i) + 256U) / (2U * (i) + 513U))
+#elif defined(GN_FAR)
+#define RECIP_START(i) gn_far_recip_entry(i)
+#else
+#define RECIP_START(i) ((uint32_t)gn_recip_table[i])
+#endif
+
+uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
+{
+    uint32_t y = gn_recip_step(m, RECIP_START((m >> 23) & 255U) << 16);
+    return newton_steps > 1 ? gn_recip_step(m, y) : y;
+}
+
+uint32_t gn_quotient_q30(uint32_t num, uint32_t den)
+{
+    int32_t clz = gn_clz32(den);
+    return (uint32_t)((uint64_t)num * gn_recip_norm(den << clz, 1) >>
+                      (33 - clz)); /* num <= den: 2^30 at most, and 2^13 */
+}
+
+uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
+{
+    /* x = m / 2^32 in [1/4, 1); y ~ 1/sqrt(x) in Q1.31; y(3 - xy^2)/2 */
+    uint64_t y = (uint64_t)gn_rsqrt_entry((m >> 24) - 64U) << 16;
+    for (int32_t i = 0; i < newton_steps; i++) {
+        uint32_t yy = (uint32_t)((y * y) >> 32);     /* Q2.30, <= 4 (table entries are < 2 in Q1.15) */
+        uint64_t xyy = ((uint64_t)m * yy) >> 32;     /* Q2.30, near 1 */
+        y = (y * (((uint64_t)3 << 30) - xyy)) >> 31; /* 32 bits * 32 bits */
+        if (y > UINT32_MAX) y = UINT32_MAX;
+    }
+    return (uint32_t)y;
+}
+
+uint64_t gn_bf_recip_bits(uint64_t bits)
+{
+    gn_bfloat a = gn_bf_of_bits(bits);
+    gn_bfloat out = {gn_recip_norm(a.mant, 2), -a.exp - 63};
+    return gn_bf_bits(out);
+}
+
+uint64_t gn_bf_mul_bits(uint64_t a_bits, uint64_t b_bits)
+{
+    gn_bfloat a = gn_bf_of_bits(a_bits), b = gn_bf_of_bits(b_bits);
+    gn_bfloat out = gn_bf_from_u64((uint64_t)a.mant * b.mant);
+    out.exp += a.exp + b.exp;
+    return gn_bf_bits(out);
+}
+
+int64_t gn_bf_apply_bits(int64_t a, uint64_t b_bits)
+{
+    gn_bfloat b = gn_bf_of_bits(b_bits);
+    if (a == 0) return 0;
+    uint64_t ua = gn_abs64(a);
+    int32_t s = b.exp;
+    uint64_t r;
+    if (ua >> 32) {
+        /* the 96-bit product without its low 32 bits: (hi * 2^32 + lo) * mant / 2^32 */
+        uint64_t lo = (ua & UINT32_MAX) * b.mant;
+        r = (ua >> 32) * b.mant + ((lo + 0x80000000U) >> 32);
+        s += 32;
+    } else {
+        r = ua * b.mant;
+    }
+    if (s >= 0) {
+        r = (s > 62 || (r && gn_clz64(r) <= s)) ? (uint64_t)INT64_MAX : r << s;
+    } else {
+        /* truncate, then round by the last bit dropped: no addition that could carry out */
+        r = s < -64 ? 0 : s == -64 ? r >> 63 : (r >> -s) + ((r >> (-s - 1)) & 1U);
+        if (r > (uint64_t)INT64_MAX) r = (uint64_t)INT64_MAX;
+    }
+    return a < 0 ? -(int64_t)r : (int64_t)r;
+}
+
+uint64_t gn_udiv64_rest(uint64_t a, uint64_t b, uint64_t *rest)
+{
+    uint64_t quotient = 0;
+    int32_t bit = a ? gn_clz64(b) - gn_clz64(a) : -1;
+    for (b = bit > 0 ? b << bit : b; bit >= 0; bit--, b >>= 1) {
+        quotient <<= 1;
+        if (a >= b) {
+            a -= b;
+            quotient |= 1U;
+        }
+    }
+    *rest = a;
+    return quotient;
+}
+
+uint64_t gn_udiv64(uint64_t a, uint64_t b)
+{
+    return gn_udiv64_rest(a, b, &a);
+}
+
+uint32_t gn_isqrt64(uint64_t v)
+{
+    uint64_t root = 0;
+    for (uint64_t bit = (uint64_t)1 << 62; bit; bit >>= 2) {
+        if (v >= root + bit) {
+            v -= root + bit;
+            root = (root >> 1) + bit;
+        } else {
+            root >>= 1;
+        }
+    }
+    return (uint32_t)root;
+}
+
+/* The upper 32 bits of a * 2^s, 0 <= s < 64; what is above them is the sign's. */
+static inline int32_t upper32(int64_t a, int32_t s)
+{
+    uint32_t hi = (uint32_t)((uint64_t)a >> 32), lo = (uint32_t)a;
+    return (int32_t)(s < 32 ? hi << s | (lo >> 1) >> (31 - s) : lo << (s - 32));
+}
+
+/* Half of it, rounded */
+static inline int32_t halved(int32_t v)
+{
+    return (v >> 1) + (v & 1);
+}
+
+int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
+{
+    uint64_t any = gn_abs64(a[0]) | gn_abs64(a[1]) | gn_abs64(a[2]);
+    if (!any) {
+        out[0] = out[1] = out[2] = 0;
+        return 0;
+    }
+    int32_t clz = gn_clz64(any), s = clz - 1;         /* one bit more than is kept is 2^s of it */
+    if (s < 0 || (any << clz) >> 33 == 0x7FFFFFFFU) { /* may be rounded up to 2^30 */
+        for (int i = 0; i < 3; i++) {
+            int32_t v = halved(s < 0 ? (int32_t)(a[i] >> 33) : upper32(a[i], s));
+            out[i] = v == 1 << 30 ? v - 1 : v == -(1 << 30) ? v + 1 : v;
+        }
+    } else {
+        out[0] = halved(upper32(a[0], s));
+        out[1] = halved(upper32(a[1], s));
+        out[2] = halved(upper32(a[2], s));
+    }
+    return 34 - clz; /* bits above 30 */
+}
+
+int gn_det_sign(const int32_t m[3][3])
+{
+    int32_t row[3][3], n[3];
+    int64_t wide[3];
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) wide[c] = m[r][c];
+        gn_norm_vec(row[r], wide);
+    }
+    gn_cross64(wide, row[1], row[2]);
+    gn_norm_vec(n, wide);
+    int64_t det =
+        gn_dot64(row[0], n); /* rows and n have a component of at least 2^29, so the angle's sine is det / 2^60 */
+    return det > (int64_t)1 << 32 ? 1 : det < -((int64_t)1 << 32) ? -1 : 0;
+}
+
+int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
+{
+    int32_t n[3];
+    gn_norm_vec(n, a);
+    /* squares sum below 3 * 2^60; the largest component is at least 2^29 */
+    uint64_t sum = (uint64_t)gn_dot64(n, n);
+    if (!sum) return 0;
+    int32_t s = gn_clz64(sum) & ~1; /* even shift to [2^62, 2^64) */
+    uint32_t r =
+        gn_rsqrt_norm((uint32_t)((sum << s) >> 32), 2); /* 2^47 / sqrt(sum << s >> 32) = 2^63 / sqrt(sum << s) */
+    for (int i = 0; i < 3; i++) {
+        /* n / sqrt(sum) = n * r * 2^(s/2 - 63), s = 2 or 4; the factor r, from 2^31 on, as r - 2^32 and once more */
+        int32_t twice = s == 4 ? 2 * n[i] : n[i];
+        int64_t p = (int64_t)twice * (int32_t)(r - 0x80000000U - 0x80000000U);
+        int32_t v = (int32_t)(p >> 32) + twice + (int32_t)((uint32_t)p >> 31);
+        out_q30[i] = gn_max32(-(1 << 30), gn_min32(v, 1 << 30));
+    }
+    return 1;
+}
+
+void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3])
+{
+    out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
+    out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];
+    out[2] = (int64_t)a[0] * b[1] - (int64_t)a[1] * b[0];
+}
+
+void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q30[3])
+{
+    int64_t c[3];
+    gn_cross64(c, a_q30, b_q30);
+    for (int i = 0; i < 3; i++) out_q30[i] = (int32_t)gn_shr64(c[i], 30);
+}
+
+int32_t gn_sin_q30(uint16_t angle_turn)
+{
+    /* fold to the first quarter, then sin(A + b) with A on a grid of 1/256 turn and |b| <= 1/512 turn = 0.0123 rad */
+    uint32_t a = angle_turn & 0x7FFFU;
+    if (a > 0x4000U) a = 0x8000U - a;
+    uint32_t i = (a + 128U) >> 8;
+    int32_t b_turn = (int32_t)a - (int32_t)(i << 8);
+    int32_t b = (int32_t)gn_shr64((int64_t)b_turn * 105414358, 10); /* radians, Q30: 2 pi * 2^40 / 2^16 = 105414357.9 */
+    int32_t b2 = gn_mul_q30(b, b);
+    int32_t sin_b = b - gn_mul_q30(gn_mul_q30(b2, b), 178956971);                                    /* 2^30 / 6 */
+    int32_t cos_b = (1 << 30) - (int32_t)gn_shr64(b2, 1) + gn_mul_q30(gn_mul_q30(b2, b2), 44739243); /* 2^30 / 24 */
+    int64_t s = (int64_t)gn_sin_table_q30[i] * cos_b + (int64_t)gn_sin_table_q30[64U - i] * sin_b;
+    int32_t v = gn_min32((int32_t)gn_shr64(s, 30), 1 << 30);
+    return angle_turn & 0x8000U ? -v : v;
+}
+
+int32_t gn_cos_q30(uint16_t angle_turn)
+{
+    return gn_sin_q30((uint16_t)(angle_turn + 0x4000U));
+}
+
+uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn)
+{
+    /* 1 / tan(a / 2) = (1 + cos a) / sin a needs no half angle */
+    int32_t s = gn_sin_q30(vertical_fov_turn);
+    if (s <= 0) return vertical_fov_turn ? 0 : UINT32_MAX;
+    int64_t numerator = ((int64_t)(1 << 30) + gn_cos_q30(vertical_fov_turn)) << 24;
+    uint64_t q = gn_udiv64((uint64_t)numerator + (uint32_t)s / 2, (uint32_t)s);
+    return q > UINT32_MAX ? UINT32_MAX : (uint32_t)q;
+}
+
+uint64_t gn_length_bits(int32_t newton_steps, const int32_t n_q30[3])
+{
+    uint64_t nn = (uint64_t)gn_dot64(n_q30, n_q30); /* Q60, at most 1 + rounding */
+    uint32_t shift = nn ? (uint32_t)gn_clz64(nn) & ~1U : 0;
+    uint32_t root = nn ? gn_rsqrt_norm((uint32_t)((nn << shift) >> 32), newton_steps) : 0;
+    return (uint64_t)shift << 32 | root;
+}
+
+int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], const int32_t unit_q30[3])
+{
+    int64_t dot_q30 = gn_dot_q30(n_q30, unit_q30);
+    int64_t cosine = gn_scale64(dot_q30 * (int64_t)length.root, 63 - 24 - length.shift / 2);
+    return (int32_t)gn_clamp64(cosine, -(1 << 24), 1 << 24);
+}
+
+void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3])
+{
+    for (int i = 0; i < 3; i++) {
+        int64_t v = gn_scale64((int64_t)n_q30[i] * (int64_t)length.root, 63 - 30 - length.shift / 2);
+        out_q30[i] = (int32_t)gn_clamp64(v, -(1 << 30), 1 << 30);
+    }
+}

@@ -1,0 +1,33 @@
+/* 64-bit signatures of what a shadow tile or a screen tile was made from (A5, R6). Two different inputs share one with
+ * probability 2^-64. Not for adversaries. */
+#ifndef GN_SIGNATURE_H
+#define GN_SIGNATURE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/gn_q.h"
+
+#define GN_SIGNATURE_SEED 0x9E3779B97F4A7C15U
+
+/* Every step is a bijection of the signature for a given word, so that a difference never cancels but by chance. */
+static inline uint64_t gn_signature_add_inline(uint64_t signature, uint64_t word)
+{
+    signature = (signature ^ word) * 0xFF51AFD7ED558CCDU;
+    return signature ^ signature >> 32;
+}
+
+uint64_t gn_far_signature_add(uint64_t signature, uint64_t word);
+#if defined(GN_FAR)
+#define gn_signature_add gn_far_signature_add
+#else
+#define gn_signature_add gn_signature_add_inline
+#endif
+
+static inline uint64_t gn_signature_words(uint64_t signature, const int32_t *words, size_t n)
+{
+    for (size_t i = 0; i < n; i++) signature = gn_signature_add(signature, (uint32_t)words[i]);
+    return signature;
+}
+
+#endif

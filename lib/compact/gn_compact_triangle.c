@@ -1,0 +1,280 @@
+/* Compact arithmetic: triangles into screen tiles and into the shadow tile. */
+#include "gn_internal.h"
+
+#include <string.h>
+
+#include "gn_stages.h"
+#include "base/gn_hint.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "compact/gn_compact.h"
+#include "scene/gn_scene.h"
+#include "visible/gn_cell.h"
+#include "visible/gn_screen_rect.h"
+
+#define ONE_PX    (1 << GN_COMPACT_BITS)
+#define STEEP_MAX ((int64_t)1 << 36) /* change of key per pixel, Q8: beyond, a triangle has one key */
+
+/* ---- Setup ------------------------------------------------------------------------------------------------------- */
+
+/* First pixel whose centre is at or after a coordinate. */
+static int32_t first_px(int32_t at)
+{
+    return (at + ONE_PX / 2 - 1) >> GN_COMPACT_BITS;
+}
+
+/* Pixels along an axis: 0 x, 1 y. */
+static void bound(gn_tri *tri, int axis, const int32_t at[3], int32_t size)
+{
+    tri->begin[axis] = (int16_t)gn_max32(first_px(gn_min32(gn_min32(at[0], at[1]), at[2])), 0);
+    tri->end[axis] = (int16_t)gn_min32(first_px(gn_max32(gn_max32(at[0], at[1]), at[2])), size);
+}
+
+/* n * 2^16 / area: per pixel, Q8; |n| < 2^50.5 */
+static int64_t gradient(int64_t n, uint64_t area, int32_t clz)
+{
+    uint32_t recip = gn_recip_norm((uint32_t)(area << clz >> 32), 2); /* 2^(95 - clz) / area */
+    n = gn_shl64(n, 12);
+    n = (n >> 32) * (int64_t)recip + (int64_t)(((uint64_t)(uint32_t)n * recip) >> 32);
+    return n >> (59 - clz);
+}
+
+/* The key's plane. */
+static void plane(gn_tri *tri, const gn_compact_corner c[3], uint64_t area)
+{
+    const int32_t *x = tri->x, *y = tri->y;
+    int32_t clz = gn_clz64(area), ka = c[0].key, kb = c[1].key - ka, kc = c[2].key - ka;
+    int64_t dx = STEEP_MAX, dy = 0;
+    if (clz <= 59) { /* less than that is a few subpixels */
+        dx = gradient((int64_t)kc * (y[1] - y[0]) - (int64_t)kb * (y[2] - y[0]), area, clz);
+        dy = gradient((int64_t)kb * (x[2] - x[0]) - (int64_t)kc * (x[1] - x[0]), area, clz);
+    }
+    if (dx >= STEEP_MAX || dx <= -STEEP_MAX || dy >= STEEP_MAX || dy <= -STEEP_MAX) {
+        dx = dy = 0;
+        ka = gn_max32(gn_max32(ka, c[1].key), c[2].key);
+    }
+    /* to the first pixel's centre: 2^36 * 2^19.5 */
+    int64_t step =
+        dx * (tri->begin[0] * ONE_PX + ONE_PX / 2 - x[0]) + dy * (tri->begin[1] * ONE_PX + ONE_PX / 2 - y[0]);
+    tri->key = (uint32_t)ka + (uint32_t)(step >> (8 + GN_COMPACT_BITS));
+    tri->frac_bits = 8;
+    if (((uint64_t)(dx + (1 << 30)) | (uint64_t)(dy + (1 << 30))) >> 31) { /* rounding must fit, too */
+        tri->frac_bits = 0;
+        dx = (dx + 128) >> 8;
+        dy = (dy + 128) >> 8;
+    }
+    tri->key_dx = (int32_t)dx;
+    tri->key_dy = (int32_t)dy;
+}
+
+/* Returns 0 if the triangle faces away or covers no pixel. */
+static int setup(gn_tri *tri, gn_compact_corner c[3], const gn_compact_view *view, uint32_t flags)
+{
+    for (int i = 0; i < 3; i++) {
+        tri->x[i] = (c[i].at_q16[0] + 128) >> (16 - GN_COMPACT_BITS);
+        tri->y[i] = (c[i].at_q16[1] + 128) >> (16 - GN_COMPACT_BITS);
+    }
+    int32_t *x = tri->x, *y = tri->y;
+    int64_t area = (int64_t)(x[1] - x[0]) * (y[2] - y[0]) - (int64_t)(x[2] - x[0]) * (y[1] - y[0]);
+    if (area >= 0) {
+        if (!area || !(flags & view->two_sided)) return 0;
+        gn_compact_corner swap = c[1];
+        int32_t sx = x[1], sy = y[1];
+        c[1] = c[2], x[1] = x[2], y[1] = y[2];
+        c[2] = swap, x[2] = sx, y[2] = sy;
+        area = -area;
+    }
+    bound(tri, 0, x, view->size[0]);
+    bound(tri, 1, y, view->size[1]);
+    if (tri->begin[0] >= tri->end[0] || tri->begin[1] >= tri->end[1]) return 0;
+    plane(tri, c, (uint64_t)-area);
+    return 1;
+}
+
+/* ---- Objects ----------------------------------------------------------------------------------------------------- */
+
+/* Towards the viewer, in the light's axes; zero where the corners lie in a line. */
+static void face_normal(int16_t out_q14[3], const gn_frame *frame, int32_t (*v)[3])
+{
+    int32_t a[3], b[3], n[3];
+    int64_t normal[3];
+    for (int i = 0; i < 3; i++) {
+        a[i] = v[1][i] - v[0][i];
+        b[i] = v[2][i] - v[0][i];
+        out_q14[i] = 0;
+    }
+    gn_cross64(normal, a, b); /* 2^61 */
+    if (!gn_compact_unit(n, normal)) return;
+    int64_t seen = gn_dot64(n, v[0]); /* from the eye, which is at 0: 2^60 */
+    n[1] = -n[1];                     /* the camera's own axes: up, back */
+    n[2] = -n[2];
+    for (int i = 0; i < 3; i++) {
+        int16_t q14 = (int16_t)(gn_dot64(frame->to_light.m_q28[i], n) >> 44);
+        out_q14[i] = seen < 0 ? q14 : (int16_t)-q14;
+    }
+}
+
+/* B1, in steps of keys. */
+static int32_t caster_bias(const gn_tri *tri, const gn_light *light)
+{
+    uint32_t dx = gn_abs32(tri->key_dx) >> tri->frac_bits, dy = gn_abs32(tri->key_dy) >> tri->frac_bits;
+    uint64_t slope = ((uint64_t)(dx > dy ? dx : dy) * (uint32_t)light->bias_slope_q16) >> 16; /* 2^28 * 2^22 */
+    slope += (uint32_t)light->bias_constant_q16 << 2;
+    return slope < 1U << 29 ? (int32_t)slope : 1 << 29;
+}
+
+/* Corners along the projector's axes. */
+static gn_status fetch(gn_compact_job *job, const gn_mesh *mesh, const uint16_t *idx)
+{
+    for (int i = 0; i < 3; i++) {
+        if (idx[i] >= mesh->n_vertices) return GN_ERR_MESH_INDEX;
+        const gn_position *at = mesh->pos + 3 * (uint32_t)idx[i];
+        const int32_t p[3] = {at[0], at[1], at[2]};
+        if (!gn_compact_transform(job->polygon.v_q16[i], &job->xform, p)) return GN_ERR_VERTEX_RANGE;
+    }
+    return GN_OK;
+}
+
+/* Draws job->corner, or without a raster keeps it. */
+static void emit(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, gn_compact_raster *raster,
+                 uint32_t object_idx)
+{
+    gn_tri *tri = &job->tri;
+    if (!raster && frame->stats.n_triangles < GN_MAX_TRIANGLES) tri = &frame->tri[frame->stats.n_triangles];
+    if (!setup(tri, job->corner, view, frame->scene->objects[object_idx].flags)) return;
+    if (raster) {
+        raster->bias = caster_bias(tri, frame->scene->lights);
+        frame->stats.n_caster_triangles++;
+        gn_compact_draw(raster, tri);
+    } else {
+        tri->object_idx = (uint16_t)object_idx;
+        for (int i = 0; i < 3; i++) tri->normal_q14[i] = job->normal_q14[i];
+        frame->stats.n_triangles++;
+    }
+}
+
+static gn_status triangle(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, gn_compact_raster *raster,
+                          uint32_t object_idx, const uint16_t *idx)
+{
+    gn_status status = fetch(job, frame->scene->objects[object_idx].mesh, idx);
+    if (status) return status;
+    if (!raster) face_normal(job->normal_q14, frame, job->polygon.v_q16);
+    int n = gn_compact_clip(&job->polygon, &job->spare, 3, view);
+    for (int i = 0; i < n; i++) { /* a fan */
+        if (!gn_compact_project(&job->corner[gn_min32(i, 2)], view, job->polygon.v_q16[i])) return GN_ERR_VERTEX_RANGE;
+        if (i < 2) continue;
+        gn_compact_corner last = job->corner[2], first = job->corner[0];
+        emit(frame, job, view, raster, object_idx);
+        job->corner[0] = first; /* which may have been exchanged */
+        job->corner[1] = last;
+    }
+    return GN_OK;
+}
+
+/* All objects that a projector sees: drawn, or without a raster kept. */
+static gn_status objects(gn_frame *frame, gn_compact_job *job, const gn_compact_view *view, gn_compact_raster *raster)
+{
+    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+        const gn_object *object = &frame->scene->objects[i];
+        if ((object->flags ^ view->flags) & view->mask) continue;
+        if (!gn_compact_affine_ok(&object->to_world) ||
+            !gn_compact_compose(&job->xform, view, &object->to_world, object->mesh->pos_frac_bits))
+            return gn_fail(frame, GN_ERR_OBJECT_TRANSFORM, i);
+        for (uint32_t t = 0; t < object->mesh->n_triangles; t++) {
+            gn_status status = triangle(frame, job, view, raster, i, object->mesh->idx + 3 * t);
+            if (status) return gn_fail(frame, status, i);
+        }
+    }
+    return GN_OK;
+}
+
+gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
+{
+    frame->stats.n_triangles = 0;
+    gn_status status = objects(frame, &scratch->work.clipping, &frame->cam, NULL);
+    if (!status && frame->stats.n_triangles > GN_MAX_TRIANGLES)
+        return gn_fail_capacity(frame, GN_ERR_TRIANGLES_FULL, frame->stats.n_triangles, GN_MAX_TRIANGLES);
+    return status;
+}
+
+gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory,
+                               uint32_t n_words)
+{
+    (void)memory, (void)n_words;
+    const gn_light_view *view = &frame->view[view_idx];
+    gn_compact_raster raster = {{0, 0, GN_ATLAS_SIZE, GN_ATLAS_SIZE}, NULL, frame->atlas, 0, 0, 0};
+    memset(frame->atlas, 0xFF, sizeof frame->atlas);
+    return objects(frame, casting, &view->project, &raster);
+}
+
+/* ---- Drawing ----------------------------------------------------------------------------------------------------- */
+
+/* Where an edge's pixels begin to lie inside: f >= 0, by the top-left rule; its steps are those of a pixel. */
+typedef struct {
+    int32_t f, dx, dy;
+} edge;
+
+static void edge_begin(edge *e, const gn_tri *tri, int i, int32_t px, int32_t py)
+{
+    int j = i == 2 ? 0 : i + 1;
+    int32_t dx = tri->x[j] - tri->x[i], dy = tri->y[j] - tri->y[i], left_or_top = dy > 0 || (dy == 0 && dx < 0);
+    /* corners and pixels are in a box of 2880 pixels: below 2^39. A pixel's step is a multiple of 2^8, so that nothing
+     * is lost */
+    int64_t f =
+        (int64_t)(px * ONE_PX + ONE_PX / 2 - tri->x[i]) * dy - (int64_t)(py * ONE_PX + ONE_PX / 2 - tri->y[i]) * dx;
+    e->f = (int32_t)((f - !left_or_top) >> GN_COMPACT_BITS);
+    e->dx = dy;
+    e->dy = -dx;
+}
+
+void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri)
+{
+    const gn_rect *rect = &raster->rect;
+    int32_t x0 = gn_max32(tri->begin[0], rect->x0), x1 = gn_min32(tri->end[0], rect->x1);
+    int32_t y0 = gn_max32(tri->begin[1], rect->y0), y1 = gn_min32(tri->end[1], rect->y1);
+    if (x0 >= x1) return;
+    /* whole steps, so that the key does not depend on where the rectangle begins */
+    int32_t half = (1 << tri->frac_bits) >> 1, key_dx = (tri->key_dx + half) >> tri->frac_bits,
+            key_dy = (tri->key_dy + half) >> tri->frac_bits;
+    uint32_t row = tri->key + (uint32_t)(x0 - tri->begin[0]) * (uint32_t)key_dx +
+                   (uint32_t)(y0 - tri->begin[1]) * (uint32_t)key_dy;
+    edge e[3];
+    for (int i = 0; i < 3; i++) edge_begin(&e[i], tri, i, x0, y0);
+    for (; y0 < y1; y0++) {
+        int32_t f0 = e[0].f, f1 = e[1].f, f2 = e[2].f;
+        uint32_t key = row;
+        int32_t at = (y0 - rect->y0) * (rect->x1 - rect->x0) + x0 - rect->x0;
+        for (int32_t n = x1 - x0; n > 0; n--, at++) {
+            if ((f0 | f1 | f2) >= 0) {
+                if (raster->cell) {
+                    uint32_t cell =
+                        ((uint32_t)gn_max32((int32_t)key, 0) << 1 >> raster->id_bits << raster->id_bits) + raster->id;
+                    if (cell > raster->cell[at]) raster->cell[at] = cell;
+                } else { /* D9: pancaking; what lies beyond the range stays out */
+                    uint32_t depth = (uint32_t)(gn_max32(-(int32_t)key, 0) + raster->bias) >> GN_COMPACT_STEP_SHIFT;
+                    if (depth < raster->texel[at]) raster->texel[at] = (uint16_t)depth;
+                }
+            }
+            f0 += e[0].dx, f1 += e[1].dx, f2 += e[2].dx;
+            key += (uint32_t)key_dx;
+        }
+        for (int i = 0; i < 3; i++) e[i].f += e[i].dy;
+        row += (uint32_t)key_dy;
+    }
+}
+
+void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
+{
+    gn_compact_raster raster = {gn_screen_rect(frame, tile_idx), scratch->cell, NULL, 0, frame->id_bits, 0};
+    memset(scratch->cell, 0, sizeof scratch->cell);
+    for (uint32_t i = 0; i < frame->stats.n_triangles; i++) {
+        raster.id = gn_cell_id(frame, i);
+        gn_compact_draw(&raster, &frame->tri[i]);
+    }
+}
+
+gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch) /* each screen tile looks at all of them */
+{
+    (void)frame, (void)scratch;
+    return GN_OK;
+}

@@ -1,0 +1,321 @@
+/* A frame, stage by stage. Read this file first: it is the table of contents of the library. gn_stages.h declares the
+ * stages; lib/README.md says what each folder is for.
+ *
+ * gn_begin
+ * - gn_scene_validate: refuses what the caller describes wrongly (scene/)
+ * - gn_cam_setup: the camera (geometry/gn_xform)
+ * - gn_views_setup: which light reaches which object (light/gn_object), which gets how many shadow tiles
+ *   (shadow/gn_tiles), and how each lies in the world (light/gn_cascade; shadow/gn_ortho, gn_persp; light/gn_bias)
+ *
+ * gn_shadow_tile
+ * - gn_atlas_render_tile: casters (shadow/gn_cull: which) as depth seen from the light (gn_ortho, gn_persp: projection;
+ *   gn_caster: spans, cut by alpha: geometry/gn_alpha); bounds of depth per block (gn_blocks)
+ *
+ * gn_prepare
+ * - gn_setup_triangles: visible triangles: transform, cull, clip (geometry/gn_clip), project, depth plane (gn_plane)
+ * - gn_bin_triangles: triangles to screen tiles (visible/gn_bin)
+ *
+ * gn_screen_tile
+ * - gn_raster_tile: depth and triangle per pixel, by exact edge walks (geometry/gn_walk)
+ * - gn_shade_tile: the visible spans (visible/gn_runs) of a triangle at a time (shade/gn_surface), piece by piece
+ *   (gn_piece, gn_piecerow, gn_turn) or by pixels (gn_sample, gn_chord between them): light (gn_light, gn_arrival,
+ *   light/gn_punctual), shadow (gn_shadow, shadow/gn_filter), encoded pixels (gn_pixel)
+ * - flush
+ *
+ * With GN_COMPACT, compact/ has all stages but the first, in 32 bits, behind the same calls.
+ */
+#include "gn_internal.h"
+
+#include <string.h>
+
+#include "gn_stages.h"
+#include "base/gn_hint.h"
+#include "base/gn_q.h"
+#include "base/gn_signature.h"
+#include "frame/gn_check.h"
+#include "scene/gn_scene.h"
+#include "shade/gn_pixel.h"
+#include "visible/gn_screen_rect.h"
+
+enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED };
+
+#if GN_RUNTIME_KNOBS
+#define GN_KNOB_DEFAULT_(name, MACRO, lo, hi, meaning, cost) frame->knobs.name = GN_##MACRO;
+#define GN_KNOB_IN_RANGE_(name, MACRO, lo, hi, meaning, cost)                                                          \
+    ok = ok && frame->knobs.name >= (lo) && frame->knobs.name <= (hi);
+
+/* What gn_check.h asserts at compile time, at run time; sizes must also fit what was compiled in. */
+static int knobs_ok(const gn_frame *frame)
+{
+    int ok = 1;
+    GN_QUALITY_KNOBS(GN_KNOB_IN_RANGE_)
+    const gn_knobs *k = &frame->knobs;
+    ok = ok && (k->persp_step == 1 || k->persp_step == 4 || k->persp_step == 8 || k->persp_step == 16);
+    ok = ok && (k->atten_bits == 8 || k->atten_bits == 16) && k->atlas_size <= GN_ATLAS_SIZE;
+    ok = ok && (k->atlas_size & (k->atlas_size - 1)) == 0 && k->tile_width % 8 == 0;
+    ok = ok && (k->other_atlas_size & (k->other_atlas_size - 1)) == 0 && k->other_atlas_size <= GN_OTHER_ATLAS_SIZE;
+    ok = ok && (k->depth_bits & (k->depth_bits - 1)) == 0 && (k->other_depth_bits & (k->other_depth_bits - 1)) == 0;
+    return ok && k->tile_width * k->tile_height <= GN_TILE_PIXELS_MAX;
+}
+#endif
+
+static int picture_format_ok(const gn_picture *picture)
+{
+    if (picture->format == GN_FORMAT_RAW32) return GN_RAW_VIEWS && (uint32_t)picture->view - 1U < GN_VIEW_TRIANGLE;
+    if (!GN_OTHER_FORMATS && picture->format != GN_FORMAT_RGB565 && picture->format != GN_FORMAT_RGB565_SWAPPED)
+        return 0;
+    return picture->view == GN_VIEW_COLOUR && (uint32_t)picture->format <= GN_FORMAT_MONO1;
+}
+
+gn_status gn_init(gn_renderer *r, const gn_picture *picture)
+{
+    if (!r) return GN_ERR_NULL;
+    memset(r, 0, sizeof *r);
+    gn_frame *frame = &r->frame;
+    if (!picture) return gn_fail(frame, GN_ERR_NULL, 0);
+#if GN_RUNTIME_KNOBS
+    GN_QUALITY_KNOBS(GN_KNOB_DEFAULT_)
+#endif
+    if (!picture->width || !picture->height || picture->width > GN_MAX_WIDTH || picture->height > GN_MAX_HEIGHT)
+        return gn_fail(frame, GN_ERR_PICTURE_SIZE, 0);
+    if (!picture_format_ok(picture)) return gn_fail(frame, GN_ERR_FORMAT, 0);
+    frame->picture = *picture;
+    frame->stage = GN_STAGE_INIT;
+    return GN_OK;
+}
+
+gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
+{
+    if (!r) return GN_ERR_NULL;
+    gn_frame *frame = &r->frame;
+    if (frame->stage == GN_STAGE_NONE) return gn_fail(frame, GN_ERR_ORDER, 0);
+    frame->stage = GN_STAGE_INIT;
+    frame->n_views = 0;
+    if (!scene) return gn_fail(frame, GN_ERR_NULL, 0);
+#if GN_RUNTIME_KNOBS
+    if (!knobs_ok(frame)) return gn_fail(frame, GN_ERR_KNOB, 0);
+#endif
+    memset(&frame->stats, 0, sizeof frame->stats);
+    memset(&frame->detail, 0, sizeof frame->detail);
+    frame->tiles_x = (uint16_t)((frame->picture.width + GN_K(frame, tile_width) - 1) / GN_K(frame, tile_width));
+    frame->tiles_y = (uint16_t)((frame->picture.height + GN_K(frame, tile_height) - 1) / GN_K(frame, tile_height));
+    if ((uint32_t)frame->tiles_x * frame->tiles_y > GN_TILES_MAX) return gn_fail(frame, GN_ERR_KNOB, 0);
+    gn_status status = GN_OK;
+#if GN_VALIDATION
+    status = gn_scene_validate(frame, scene);
+    if (status) return status;
+#endif
+    frame->scene = scene;
+    gn_cam_setup(frame);
+    status = gn_views_setup(frame);
+    if (status) return status;
+    frame->stage = GN_STAGE_BEGUN;
+    return GN_OK;
+}
+
+uint32_t gn_shadow_tile_count(const gn_renderer *r)
+{
+    return r ? r->frame.n_views : 0;
+}
+
+gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx)
+{
+    if (!r) return GN_ERR_NULL;
+    gn_frame *frame = &r->frame;
+    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, GN_ERR_ORDER, 0);
+    if (tile_idx >= frame->n_views) return gn_fail(frame, GN_ERR_INDEX, tile_idx);
+#if GN_SHADOWS
+    gn_status status =
+        gn_atlas_render_tile(frame, &r->scratch.work.casting, tile_idx, r->scratch.cell, GN_TILE_PIXELS_MAX);
+    frame->view[tile_idx].tile_done = !status; /* gn_prepare does not go on with half a tile */
+    return status;
+#else
+    return GN_OK;
+#endif
+}
+
+gn_status gn_prepare(gn_renderer *r)
+{
+    if (!r) return GN_ERR_NULL;
+    gn_frame *frame = &r->frame;
+    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, GN_ERR_ORDER, 0);
+#if GN_SHADOWS
+    for (uint32_t i = 0; i < frame->n_views; i++)
+        if (!frame->view[i].tile_done) return gn_fail(frame, GN_ERR_ORDER, i);
+#endif
+    gn_status status = gn_setup_triangles(frame, &r->scratch);
+    if (status) return status;
+    /* cells hold triangle + 1; what the identity leaves is depth */
+    frame->id_bits =
+        (uint8_t)(32 - gn_clz32(frame->stats.n_triangles + 1)); /* and for one that no triangle has: gn_runs */
+    status = gn_bin_triangles(frame, &r->scratch);
+    if (status) return status;
+    frame->stage = GN_STAGE_PREPARED;
+    return GN_OK;
+}
+
+uint32_t gn_screen_tile_count(const gn_renderer *r)
+{
+    return r ? (uint32_t)r->frame.tiles_x * r->frame.tiles_y : 0;
+}
+
+/* What is visible. */
+static gn_status begin_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush)
+{
+    if (!frame || !scratch || !flush) return GN_ERR_NULL;
+    if (frame->stage != GN_STAGE_PREPARED) return GN_ERR_ORDER;
+    if (tile_idx >= (uint32_t)frame->tiles_x * frame->tiles_y) return GN_ERR_INDEX;
+    gn_raster_tile(frame, scratch, tile_idx);
+    return GN_OK;
+}
+
+/* Apart, so that drawing does not go on top of its frame. */
+static GN_NOINLINE void flush_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush,
+                                   void *user)
+{
+    gn_rect rect = gn_screen_rect(frame, tile_idx);
+    flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
+}
+
+gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
+{
+    gn_status status = begin_tile(frame, scratch, tile_idx, flush);
+    if (status) return status;
+    gn_shade_tile(frame, scratch, tile_idx);
+    flush_tile(frame, scratch, tile_idx, flush, user);
+    return GN_OK;
+}
+
+/* Of a finished tile's bytes. */
+static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch, uint32_t tile_idx)
+{
+    gn_rect rect = gn_screen_rect(frame, tile_idx);
+    uint64_t signature = GN_SIGNATURE_SEED;
+    size_t n = gn_pixel_bytes(frame, rect.x1 - rect.x0, rect.y1 - rect.y0), i = 0;
+    const uint8_t *bytes = scratch->pixel.bytes;
+    for (; i + 4 <= n; i += 4) {
+        uint32_t word;
+        memcpy(&word, bytes + i, 4);
+        signature = gn_signature_add(signature, word);
+    }
+    for (; i < n; i++) signature = gn_signature_add(signature, bytes[i]);
+    return signature ? signature : 1;
+}
+
+gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
+                                    gn_flush_fn flush, void *user, uint32_t *flushed)
+{
+    if (flushed) *flushed = 0;
+    if (!panel) return GN_ERR_NULL;
+    gn_status status = begin_tile(frame, scratch, tile_idx, flush);
+    if (status) return status;
+    gn_shade_tile(frame, scratch, tile_idx);
+    uint64_t signature = tile_signature(frame, scratch, tile_idx);
+    if (panel->signature[tile_idx] == signature) return GN_OK;
+    panel->signature[tile_idx] = signature;
+    flush_tile(frame, scratch, tile_idx, flush, user);
+    if (flushed) *flushed = 1;
+    return GN_OK;
+}
+
+/* Everything of a frame before its screen tiles. */
+static gn_status prepare_frame(gn_renderer *r, const gn_scene *scene)
+{
+    gn_status status = gn_begin(r, scene);
+    for (uint32_t i = 0; !status && i < gn_shadow_tile_count(r); i++) status = gn_shadow_tile(r, i);
+    return status ? status : gn_prepare(r);
+}
+
+gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *panel, gn_flush_fn flush, void *user,
+                            uint32_t *n_flushed)
+{
+    uint32_t n = 0, one;
+    if (n_flushed) *n_flushed = 0;
+    if (!r) return GN_ERR_NULL;
+    if (!flush || !panel) return gn_fail(&r->frame, GN_ERR_NULL, 0);
+    gn_status status = prepare_frame(r, scene);
+    for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++) {
+        status = gn_screen_tile_if_changed(&r->frame, &r->scratch, i, panel, flush, user, &one);
+        n += one;
+    }
+    if (n_flushed) *n_flushed = n;
+    return status;
+}
+
+gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user)
+{
+    if (!r) return GN_ERR_NULL;
+    if (!flush) return gn_fail(&r->frame, GN_ERR_NULL, 0);
+    gn_status status = prepare_frame(r, scene);
+    for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++)
+        status = gn_screen_tile(&r->frame, &r->scratch, i, flush, user);
+    return status;
+}
+
+const gn_stats *gn_get_stats(const gn_renderer *r)
+{
+    return r ? &r->frame.stats : NULL;
+}
+
+const gn_detail *gn_get_detail(const gn_renderer *r)
+{
+    return r ? &r->frame.detail : NULL;
+}
+
+gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, uint32_t *n_tiles, uint32_t *tile_texels)
+{
+    if (n_tiles) *n_tiles = 0;
+    if (tile_texels) *tile_texels = 0;
+#if GN_SHADOWS
+    if (!r || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.scene->n_lights) return GN_SHADOW_NOT_WANTED;
+    const gn_light_state *light = &r->frame.light[light_idx];
+    if (n_tiles) *n_tiles = light->n_views;
+    if (tile_texels && light->n_views) *tile_texels = r->frame.view[light->view_idx].tile_texels;
+    return (gn_shadow_state)light->shadow_state;
+#else
+    (void)r, (void)light_idx;
+    return GN_SHADOW_NOT_WANTED;
+#endif
+}
+
+uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info)
+{
+#if GN_SHADOWS
+    if (!r || !info || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.scene->n_lights) return 0;
+    const gn_light_state *light = &r->frame.light[light_idx];
+    if (view_idx >= light->n_views) return 0;
+    const gn_light_view *view = &r->frame.view[(uint32_t)light->view_idx + view_idx];
+    if (view->empty) return 0;
+    info->texels = view->tile_texels;
+    info->depth_bits = (uint32_t)GN_VIEW_BITS(view);
+    info->depth = info->depth_bits == 8    ? (const void *)view->depth.d8
+                  : info->depth_bits == 16 ? (const void *)view->depth.d16
+                                           : (const void *)view->depth.d32;
+    return info->texels;
+#else
+    (void)r, (void)light_idx, (void)view_idx, (void)info;
+    return 0;
+#endif
+}
+
+void gn_forget_shadows(gn_renderer *r)
+{
+#if GN_SHADOWS && GN_INCREMENTAL
+    if (r) memset(r->frame.memory, 0, sizeof r->frame.memory);
+#else
+    (void)r;
+#endif
+}
+
+const char *gn_status_text(gn_status status)
+{
+    switch (status) {
+#define GN_STATUS_CASE_(name, text)                                                                                    \
+    case name:                                                                                                         \
+        return text;
+        GN_STATUS_LIST(GN_STATUS_CASE_)
+    case GN_STATUS_COUNT:
+        break;
+    }
+    return "unknown status";
+}

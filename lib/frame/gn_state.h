@@ -1,0 +1,102 @@
+/* The layout of a renderer's state. Private: it may change with every version; included by gnomon.h so that it has a
+ * size.
+ *
+ * gn_frame is written by begin, shadow tiles and prepare, and read only while screen tiles are drawn. gn_scratch is
+ * what one core needs to draw a screen tile.
+ */
+#ifndef GN_STATE_H
+#define GN_STATE_H
+
+#if GN_COMPACT
+#include "compact/gn_compact_types.h"
+#else
+#include "shade/gn_shade_types.h"
+
+typedef struct gn_frame {
+#if GN_RUNTIME_KNOBS
+    gn_knobs knobs;
+#endif
+    /* what is small goes first: instructions reach it without an address of its own */
+    const gn_scene *scene;
+    gn_picture picture;
+    uint8_t stage;   /* gn_stage in gn_frame.c */
+    uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
+    uint16_t n_views;
+    uint16_t tiles_x, tiles_y;
+    gn_cam cam;
+    uint64_t min2_q32;           /* P2: the least distance^2 of spot and point lights, 10^-4 of the model's */
+    int32_t receivers_q16[2][3]; /* box of all receiving objects: least, largest corner; D8 */
+    uint32_t fade_start_q16;     /* D5: strength = (max_distance - z) * fade_scale */
+    gn_bfloat fade_scale;
+    gn_stats stats;
+    gn_detail detail;
+#if GN_SHADOWS
+    uint8_t n_cascades;
+    uint8_t last_cascade; /* the last that is not empty */
+    uint8_t has_cascades; /* some directional light has tiles in the directional atlas: D6 applies */
+    uint32_t frame_count; /* A5: for the schedule of cascades */
+    gn_cascade_state cascade[4];
+#endif
+    gn_light_state light[GN_MAX_LIGHTS];
+#if GN_SHADOWS
+    gn_light_view view[GN_VIEWS_MAX]; /* light by light, cascade by cascade or face by face */
+#endif
+#if GN_BOXES
+    gn_object_state object[GN_MAX_OBJECTS];
+#endif
+    gn_tri tri[GN_MAX_TRIANGLES];
+    gn_ref_offset tile_first[GN_TILES_MAX + 1];
+    uint16_t tile_ref[GN_MAX_TILE_REFS];
+#if GN_SHADOWS
+#if GN_INCREMENTAL
+    gn_tile_memory memory[GN_VIEWS_MAX];
+    uint64_t layout; /* signature of where the tiles lie: what is kept is forgotten when that changes */
+#endif
+    gn_atlas_texels atlas;
+#if GN_STATIC_LAYER
+    gn_atlas_texels static_atlas;
+#endif
+#if GN_DEPTH_BLOCKS
+    gn_depth_block block[GN_ATLAS_TEXELS / 64];
+#endif
+#if GN_OTHER_ATLAS
+    gn_other_texels other_atlas;
+#if GN_STATIC_LAYER
+    gn_other_texels static_other_atlas;
+#endif
+#if GN_DEPTH_BLOCKS
+    gn_depth_block other_block[GN_OTHER_ATLAS_TEXELS / 64];
+#endif
+#endif
+#endif
+} gn_frame;
+
+#define GN_N_CASCADES(frame)   (GN_MANY_CASCADES ? (frame)->n_cascades : 1)
+#define GN_LAST_CASCADE(frame) (GN_MANY_CASCADES ? (frame)->last_cascade : 0)
+
+/* What one core does at a time. */
+typedef union {
+    gn_shading shading;
+    gn_clipping clipping;
+#if GN_VISIBLE_ALPHA
+    gn_alpha_cut cut;
+#endif
+#if GN_SHADOWS
+    gn_casting casting;
+#endif
+} gn_work;
+
+/* The cells of a screen tile. */
+#define GN_CELLS(scratch) ((scratch)->cell + 1)
+
+typedef struct gn_scratch {
+    uint32_t cell[1 + GN_TILE_PIXELS_MAX]; /* one before the first, then rows of tile_width: nearest surface, near / Z
+                                              in the high bits, the triangle in the low id_bits; 0: none */
+    gn_tile_pixels pixel;                  /* finished pixels in the picture's format */
+    gn_vcache_entry vertex[GN_VERTEX_CACHE];
+    gn_run_idx run_list[GN_RUN_LISTS]; /* first runs, by the low bits of their triangles; see gn_runs.h */
+    gn_work work;
+} gn_scratch;
+
+#endif
+#endif

@@ -1,0 +1,43 @@
+/* Triangles that alpha cuts: clip and dither (M1, M8, DESIGN 1.6, 1.8), as the camera or a light sees them, along the
+ * rows that are walked. */
+#ifndef GN_ALPHA_H
+#define GN_ALPHA_H
+
+#include "geometry/gn_texture.h"
+#include "gnomon.h"
+
+#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+
+/* A triangle of an object. If it has a texture, cut->textured, gn_alpha_plane comes next. */
+void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, const uint16_t idx[3]);
+
+/* Its corners, as gn_plane_setup takes them, in a picture `width` pixels wide. */
+void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16, int32_t width,
+                    int32_t newton_steps);
+
+/* Row y, seen along the ray py, of which the triangle covers x_begin <= x < x_end, inside the screen tile or not. */
+static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py, int32_t x_begin, int32_t x_end)
+{
+    cut->y = y;
+    cut->py = py;
+#if GN_ALPHA_STEPS
+    cut->x_begin = x_begin;
+    cut->x_end = x_end;
+    cut->steps.end = x_begin; /* none yet */
+    cut->exact.x = x_end;     /* nor this: never the first of any */
+#else
+    (void)x_begin, (void)x_end;
+#endif
+}
+
+/* Whether pixel x of the row is cut, x_begin <= x < x_end; (x, y) picks the noise of the dither. */
+int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x);
+
+#if GN_ALPHA_STEPS
+/* Texture coordinates there. With persp_step > 1 they come from exact ones at most 8 pixels apart, within 2^-8 texel
+ * (NUMERICS 4.9). */
+void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2]);
+#endif
+
+#endif
+#endif

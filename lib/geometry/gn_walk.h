@@ -1,0 +1,165 @@
+/* Walks the pixels of a triangle row by row, by the top-left rule, exactly.
+ *
+ * Coordinates have `subpixel_bits` fraction bits, |coordinate| < 2^29. A row of pixels at y crosses an edge at x(y +
+ * 1/2); the first pixel whose centre is at or right of it is ceil(x - 1/2) = ceil(M / dy) with an integer M that grows
+ * by dx per row (NUMERICS 4.2). Of small triangles M / dy is stepped in fixed point, in so few rows that its error
+ * cannot reach the next multiple of 1 / dy; of others as quotient and remainder. Either way nothing is ever off, and
+ * two triangles that share an edge get the same numbers: each pixel belongs to exactly one of them.
+ */
+#ifndef GN_WALK_H
+#define GN_WALK_H
+
+#include <stdint.h>
+
+#include "base/gn_hint.h"
+#include "base/gn_q.h"
+
+/* M / dy of the current row, rounded up to a pixel in q. */
+typedef struct {
+    int32_t q, r;   /* quotient and remainder, 0 <= r < dy */
+    int32_t dq, dr; /* their steps */
+    int32_t dy;
+} gn_edge;
+
+typedef struct {
+    int16_t x_begin, x_end; /* limited to what 16 bits hold: no picture or tile is as wide */
+} gn_span;
+
+typedef struct {
+    int32_t x, y;
+} gn_walk_corner;
+
+#define GN_WALK_ROWS 16 /* that are walked at a time */
+
+typedef struct {
+    gn_walk_corner corner[3]; /* top, left and right of it */
+    int32_t row;              /* the next to be walked */
+    int32_t row_end[3];       /* first row after the triangle, after the edge from the top to the left, to the right */
+    int32_t subpixel_bits;
+    int32_t fixed;         /* rows that fixed point lasts, 0: the triangle is too large for it */
+    gn_edge edge[2];       /* of others: left, right */
+    int32_t first, n_left; /* for gn_walk_row: row of span[0], spans not taken yet */
+    gn_span span[GN_WALK_ROWS];
+} gn_walk;
+
+/* First row or column whose pixel centre is at or after a coordinate: ceil(c - 1/2). */
+static inline int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
+{
+    return (coord + ((1 << subpixel_bits) >> 1) - 1) >>
+           subpixel_bits; /* ceil((c - half) / 2^s), as 2^s - 1 - half = half - 1 */
+}
+
+/* ---- Fixed point ------------------------------------------------------------------------------------------------- */
+
+/* 18 fraction bits leave 14 for pixels. Start and step err by less than one unit each, upwards or downwards: after n
+ * rows x is within n of M / dy. What it must not be is below a multiple of 1 / dy that M / dy has reached, or at one
+ * that it has not: so it starts n higher, and 2 n * dy <= 2^18. */
+#define GN_FIXED_BITS  18
+#define GN_FIXED_SMALL (1 << 13) /* dx, dy of edges that are walked 16 rows at a time; twice that: 8 rows */
+
+/* How many rows fixed point lasts for a triangle of that size, dx | dy of its edges, not further than 2^12 pixels from
+ * 0: 16, 8 or none. */
+static inline int32_t gn_walk_lasts(uint32_t size)
+{
+    if (GN_SIZE_FIRST) return 0; /* exact steps do all */
+    return size >= 2 * GN_FIXED_SMALL ? 0 : size >= GN_FIXED_SMALL ? GN_WALK_ROWS / 2 : GN_WALK_ROWS;
+}
+
+/* a * 2^18 / b modulo 2^32, within one unit; 0 < b < 2^14 */
+static inline uint32_t gn_walk_ratio(int32_t a, int32_t b)
+{
+    const int32_t unit = 1 << GN_FIXED_BITS, most = 1 << (31 - GN_FIXED_BITS);
+    GN_KEEP(a); /* a constant in what it is made of would not fit an instruction */
+    if (a < most && a >= -most) return (uint32_t)(a * unit / b);
+    int32_t q = a / b, r = a - q * b;
+    if (r < 0) {
+        r += b;
+        q--;
+    }
+    return ((uint32_t)q << GN_FIXED_BITS) + ((uint32_t)r << GN_FIXED_BITS) / (uint32_t)b;
+}
+
+/* Where an edge crosses a row, as the first pixel at or right of it above GN_FIXED_BITS, modulo 2^32; its step per row.
+ */
+typedef struct {
+    uint32_t x, step;
+} gn_walk_line;
+
+/* The edge from (x0, y0) down to (x1, y1), y0 < y1, at row y, which it crosses; it lasts for n_rows, gn_walk_lasts of
+ * them. */
+static inline gn_walk_line gn_walk_line_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y, int32_t n_rows,
+                                           int32_t subpixel_bits)
+{
+    int32_t one = 1 << subpixel_bits, half = one >> 1, dx = x1 - x0, dy = y1 - y0,
+            row = y * one + half - y0; /* 0 .. dy */
+    x0 -= half;
+    /* ceil(M) + dy - 1, from the upper end's pixel; 2^26 + 2^28 */
+    int32_t m = dy + (((x0 & (one - 1)) * dy + row * dx - 1) >> subpixel_bits);
+    gn_walk_line line;
+    line.x = ((uint32_t)(x0 >> subpixel_bits) << GN_FIXED_BITS) + gn_walk_ratio(m, dy) + (uint32_t)n_rows;
+    line.step = gn_walk_ratio(dx, dy);
+    return line;
+}
+
+/* The same of triangles whose width and height are so small that no edge has more than 15 rows, and 16 fraction bits
+ * are enough: dy is at most 1900 units of the subpixel grid, and m of the functions below, at most 2 dy + dx dy /
+ * 2^subpixel_bits, less than 2^15. */
+#define GN_NARROW_BITS 16
+#define GN_NARROW      1 /* in place of gn_walk_lasts */
+static inline int32_t gn_walk_narrow(int32_t subpixel_bits)
+{
+    return subpixel_bits < 7 ? 15 << subpixel_bits : 1900;
+}
+
+/* a * 2^16 / b by recip = 2^31 / b: one division for two quotients, where cores have no instruction for it. */
+static inline uint32_t gn_walk_share(int32_t a, uint32_t recip)
+{
+    return (uint32_t)(a * (int32_t)(recip >> 15) + (a * (int32_t)(recip & 0x7FFFU) >> 15));
+}
+
+/* `y` is the row's centre; of x, and of both y alike, anything may have been added beforehand, but half a pixel must
+ * have been taken from x. What is added lasts for 15 rows, as above: quotients err by less than one unit each; by way
+ * of the reciprocal downwards by less than 2 in the first row and 17/16 from each to the next, upwards by less than 1
+ * and 1/16. 2^16 / dy is 34.5 at the least. */
+static inline gn_walk_line gn_walk_narrow_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y,
+                                             int32_t subpixel_bits, int divides)
+{
+    GN_KEEP(x0); /* nothing is found before it is wanted */
+    GN_KEEP(y0);
+    const int32_t unit = 1 << GN_NARROW_BITS;
+    int32_t one = 1 << subpixel_bits, dx = x1 - x0, dy = y1 - y0;
+    int32_t m = dy + (((x0 & (one - 1)) * dy + (y - y0) * dx - 1) >> subpixel_bits);
+    uint32_t pixel = (uint32_t)(x0 >> subpixel_bits) << GN_NARROW_BITS,
+             recip = divides ? 0 : 0x80000000U / (uint32_t)dy;
+    const gn_walk_line line = {pixel + (divides ? 16U + (uint32_t)(m * unit / dy) : 20U + gn_walk_share(m, recip)),
+                               divides ? (uint32_t)(dx * unit / dy) : gn_walk_share(dx, recip)};
+    return line;
+}
+
+/* Walks the first of rows y_lo <= y < y_hi of a triangle of any orientation, from walk->first on: walk->span[0 .. n -
+ * 1], empty ones among them. Returns n, 0 if there are none. */
+int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo,
+                      int32_t y_hi);
+
+/* Walks the next rows, of which there are some. */
+int32_t gn_walk_next(gn_walk *walk);
+
+/* Walks the next rows; the same as gn_walk_begin. */
+static inline int32_t gn_walk_on(gn_walk *walk)
+{
+    return walk->row < walk->row_end[0] ? gn_walk_next(walk) : 0;
+}
+
+/* One row at a time, after gn_walk_begin: the span x_begin <= x < x_end (possibly empty) of row *y. Returns 0 after the
+ * last row. */
+static inline int gn_walk_row(gn_walk *walk, int32_t *y, int32_t *x_begin, int32_t *x_end)
+{
+    if (!walk->n_left && !gn_walk_on(walk)) return 0;
+    const gn_span *span = &walk->span[walk->row - walk->first - walk->n_left];
+    *y = walk->row - walk->n_left--;
+    *x_begin = span->x_begin;
+    *x_end = span->x_end;
+    return 1;
+}
+
+#endif

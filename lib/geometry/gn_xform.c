@@ -1,0 +1,144 @@
+/* Transforms of the frame. */
+#include "gn_internal.h"
+
+#include "gn_stages.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "geometry/gn_xform.h"
+
+/* How far from the picture's centre a clipped vertex may lie, in pixels. Up to 7 subpixel bits it must fit 16 bits
+ * where the picture allows (NUMERICS 4.2); otherwise 1000 pixels around the picture. The choice does not depend on the
+ * type that stores it, so that every build clips alike. */
+static int fits_16_bits(int32_t subpixel_bits, int32_t size_px)
+{
+    return subpixel_bits <= 7 && size_px <= 2 * ((32767 >> subpixel_bits) - 10);
+}
+
+static int32_t guard_px(int32_t subpixel_bits, int32_t size_px)
+{
+    int32_t wide = size_px / 2 + 1000;
+    return fits_16_bits(subpixel_bits, size_px) ? gn_min32((32767 >> subpixel_bits) - 2, wide) : wide;
+}
+
+/* Pixels from the centre over the focal length: Q16, rounded down so that a clipped vertex stays within. */
+static int32_t slope_q16(uint32_t twice_px, uint32_t focal2_px_q16)
+{
+    return gn_sat32((int64_t)gn_udiv64((uint64_t)twice_px << 32, focal2_px_q16));
+}
+
+void gn_cam_setup(gn_frame *frame)
+{
+    const gn_camera *camera = &frame->scene->camera;
+    gn_cam *cam = &frame->cam;
+    for (int i = 0; i < 3; i++) {
+        /* columns of the rotation are the axes; the camera looks along -Z */
+        cam->axis_q30[0][i] = camera->to_world.m_q30[i][0];
+        cam->axis_q30[1][i] = camera->to_world.m_q30[i][1];
+        cam->axis_q30[2][i] = -camera->to_world.m_q30[i][2];
+        cam->eye_q16[i] = camera->to_world.t_q16[i];
+    }
+    cam->near_q16 = camera->near_q16;
+    /* 2F = focal * H: Q8.24 * up to 2048 < 2^43, Q16 needs it >> 8, saturated by validation of focal * H < 2^15 */
+    cam->focal2_px_q16 = (uint32_t)(((uint64_t)camera->focal_q24 * frame->picture.height + 128U) >> 8);
+    gn_bfloat near = gn_bf_from_u64((uint64_t)(uint32_t)cam->near_q16);
+    gn_bfloat inverse = gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16)), ratio = gn_bf_mul(near, inverse);
+    cam->inv_focal2 = inverse;
+    cam->near_over_focal2 = ratio;
+    int32_t size[2] = {frame->picture.width, frame->picture.height}, bits = GN_K(frame, subpixel_bits);
+    cam->coord_max_q16 =
+        fits_16_bits(bits, gn_max32(size[0], size[1])) ? gn_min32(32767 << (16 - bits), 1 << 27) : 1 << 27;
+    for (int i = 0; i < 2; i++) {
+        int32_t guard = guard_px(bits, gn_max32(size[0], size[1]));
+        cam->guard_q16[i] = slope_q16(2 * (uint32_t)guard, cam->focal2_px_q16);
+        cam->tan_q16[i] = gn_sat32((int64_t)slope_q16((uint32_t)size[i], cam->focal2_px_q16) +
+                                   1); /* rounded up: only for rejection */
+    }
+}
+
+void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t origin_q16[3], const gn_object *object)
+{
+    const gn_affine *a = &object->to_world;
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) {
+            int32_t column[3] = {a->m_q30[0][c], a->m_q30[1][c], a->m_q30[2][c]};
+            /* |axis| = 1, |column| <= sqrt(3): the sum is below 2^61, the result below 2^31 */
+            out->m[r][c] = gn_sat32(gn_dot_q30(axis_q30[r], column));
+        }
+        int64_t t = 0; /* |difference| <= 2^30 each, times 2^30, three of them with a unit row: below 2^62 */
+        for (int c = 0; c < 3; c++) t += ((int64_t)a->t_q16[c] - origin_q16[c]) * axis_q30[r][c];
+        out->t_q16[r] = gn_shr64(t, 30);
+    }
+    /* m has 30 - exp fraction bits, positions pos_frac_bits; the result 16. 0 <= shift <= 44 by validation. */
+    out->shift = 30 - a->exp + object->mesh->pos_frac_bits - 16;
+}
+
+void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
+{
+    const gn_position *at = mesh->pos + 3 * (size_t)vertex_idx;
+    const int32_t p[3] = {at[0], at[1], at[2]};
+    for (int r = 0; r < 3; r++) {
+        /* |row| <= sqrt(3) * 2^30, |p| <= sqrt(3) * 2^30: below 3 * 2^60 */
+        out_q16[r] = gn_shr64(gn_dot64(xform->m[r], p), xform->shift) + xform->t_q16[r];
+    }
+}
+
+void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform)
+{
+    int32_t s = xform->shift, up = gn_max32(32 - s, 0), down = gn_max32(s - 32, 0);
+    fast->reach = 0;
+    if (s < 3 || s > 62) return;
+    for (int r = 0; r < 3; r++) {
+        uint64_t t = gn_abs64(xform->t_q16[r]), reach = 2 * t + 1;
+        for (int c = 0; c < 3; c++) {
+            fast->row[r].m[c] = xform->m[r][c];
+            reach += gn_abs32(xform->m[r][c]);
+        }
+        /* sum + m . p in 63 bits, p in 31: 2^31 + t * 2^32 + the row's entries * 2^31 */
+        if (t >> 30 || reach >> 32) return;
+        fast->row[r].t_q16 = down ? (int32_t)xform->t_q16[r] : 0;
+        fast->row[r].sum = ((int64_t)1 << (31 + down)) + (down ? 0 : gn_shl64(xform->t_q16[r], 32));
+    }
+    fast->up = (uint8_t)up;
+    fast->down = (uint8_t)down;
+    fast->reach =
+        1U << (31 - gn_max32(up, 1)); /* a position may have 30 bits, whatever the transform: gn_scene_position_ok */
+}
+
+int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
+{
+    return gn_xform_fast_inline(out_q16, fast, position);
+}
+
+void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object)
+{
+    /* The cofactors are the inverse transpose times the determinant: only their direction and the determinant's sign
+     * matter. */
+    const int32_t(*m)[3] = object->to_world.m_q30;
+    int64_t cofactor[3][3];
+    uint64_t any = 1;
+    for (int r = 0; r < 3; r++) {
+        int r1 = (r + 1) % 3, r2 = (r + 2) % 3;
+        for (int c = 0; c < 3; c++) {
+            int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+            cofactor[r][c] = (int64_t)m[r1][c1] * m[r2][c2] - (int64_t)m[r1][c2] * m[r2][c1]; /* <= 2^61 */
+            any |= gn_abs64(cofactor[r][c]);
+        }
+    }
+    int mirrored = gn_det_sign(m) < 0;
+    int32_t e = 34 - gn_clz64(any);
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) {
+            int64_t v = gn_clamp64(gn_scale64(cofactor[r][c], e), -(1 << 30), 1 << 30);
+            out[r][c] = (int32_t)(mirrored ? -v : v);
+        }
+    }
+}
+
+void gn_xform_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
+{
+    int64_t n[3]; /* 3 * 2^30 * 2^15 */
+    for (int r = 0; r < 3; r++)
+        n[r] = (int64_t)matrix[r][0] * nrm_q15[0] + (int64_t)matrix[r][1] * nrm_q15[1] +
+               (int64_t)matrix[r][2] * nrm_q15[2];
+    if (!gn_normalise_q30(out_q30, n)) out_q30[0] = out_q30[1] = out_q30[2] = 0;
+}

@@ -1,0 +1,71 @@
+/* Transforms of the frame: camera, object to view, object to light. */
+#ifndef GN_XFORM_H
+#define GN_XFORM_H
+
+#include "base/gn_hint.h"
+#include "base/gn_q.h"
+#include "gnomon.h"
+
+/* Object space to axes (rows, unit, Q1.30) through `origin_q16`: out = axis * (to_world * p - origin). */
+void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t origin_q16[3],
+                      const gn_object *object);
+
+/* out_q16 = xform of a mesh vertex, |out| exact to 1 LSB plus the composition's 3 * |p| * 2^-30. Not range checked. */
+void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx);
+
+/* Adds up what can be beforehand, for many vertices. */
+void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform);
+
+/* What gn_xform_vertex gives. Returns 0 where it does not: where the result may be 2^29 or more, or the position 2^30.
+ */
+int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3]);
+
+/* Row r times p, with what is added up beforehand */
+#define GN_FAST_ROW_(r)                                                                                                \
+    (fast->row[r].sum + (int64_t)fast->row[r].m[0] * p0 + (int64_t)fast->row[r].m[1] * p1 +                            \
+     (int64_t)fast->row[r].m[2] * p2)
+
+/* The same, spelled out where it is called, and however large the result is. */
+GN_INLINE int gn_xform_fast_wide(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
+{
+    uint32_t reach = fast->reach, up = fast->up, down = fast->down;
+    int32_t p0 = position[0], p1 = position[1], p2 = position[2];
+    if ((((uint32_t)p0 + reach) | ((uint32_t)p1 + reach) | ((uint32_t)p2 + reach)) >= 2 * reach) return 0;
+    p0 = (int32_t)((uint32_t)p0 << up);
+    p1 = (int32_t)((uint32_t)p1 << up);
+    p2 = (int32_t)((uint32_t)p2 << up);
+    /* row by row: together they take more registers than there are */
+    int32_t x = (int32_t)(GN_FAST_ROW_(0) >> 32);
+    GN_KEEP(x);
+    int32_t y = (int32_t)(GN_FAST_ROW_(1) >> 32);
+    GN_KEEP(y);
+    int32_t z = (int32_t)(GN_FAST_ROW_(2) >> 32);
+    if (down) {
+        x = (x >> down) + fast->row[0].t_q16;
+        y = (y >> down) + fast->row[1].t_q16;
+        z = (z >> down) + fast->row[2].t_q16;
+    }
+    out_q16[0] = x, out_q16[1] = y, out_q16[2] = z;
+    return 1;
+}
+#undef GN_FAST_ROW_
+
+GN_INLINE int gn_xform_fast_inline(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])
+{
+    const uint32_t limit = 1U << 29;
+    return gn_xform_fast_wide(out_q16, fast, position) &&
+           (((uint32_t)out_q16[0] + limit) | ((uint32_t)out_q16[1] + limit) | ((uint32_t)out_q16[2] + limit)) <
+               2 * limit;
+}
+
+/* The inverse transpose of the object's rotation and scale, up to a positive factor: largest entry near 1.0 in Q1.30.
+ */
+void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object);
+
+/* A vertex's unit world normal, Q1.30, within 3 LSB + the matrix's error; zero where the mesh's normal is zero. */
+void gn_xform_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3]);
+
+/* Number of bits that view coordinates may use: |v| < 2^30, i.e. +-16384 units. */
+#define GN_VIEW_LIMIT_Q16 ((int64_t)1 << 30)
+
+#endif

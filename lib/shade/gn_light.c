@@ -1,0 +1,124 @@
+/* Lighting of one surface point. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_hint.h"
+#include "base/gn_q.h"
+#include "geometry/gn_texture.h"
+#include "light/gn_punctual.h"
+#include "shade/gn_light.h"
+#include "shade/gn_shadow.h"
+
+#if GN_SPECULAR
+/* max(0, n . h)^(2^k), Q30 */
+static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample, const int32_t to_light_q30[3])
+{
+    int32_t h[3];
+    for (int i = 0; i < 3; i++) h[i] = (to_light_q30[i] >> 1) + (sample->to_eye_q30[i] >> 1); /* |h| <= 1 */
+    int64_t wide[3] = {h[0], h[1], h[2]};
+    if (!gn_normalise_q30(h, wide)) return 0;
+    int64_t dot = gn_dot_q30(sample->normal_q30, h);
+    if (dot <= 0) return 0;
+    int32_t power = (int32_t)gn_clamp64(dot, 0, 1 << 30);
+    for (int32_t k = 0; k < surface->object->shininess_log2; k++) power = gn_mul_q30(power, power);
+    return power;
+}
+
+/* The same times what arrives, Q24. */
+static GN_NOINLINE uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                         uint32_t slot)
+{
+    const gn_light_state *light = surface->light[slot].state;
+#if GN_PUNCTUAL_LIGHTS
+    const int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];
+    if (light->kind != GN_LIGHT_DIRECTIONAL) {
+        gn_punctual_point point;
+        int32_t to_light[3];
+        if (!gn_punctual_at(frame, light, from, &point)) return 0;
+        for (int i = 0; i < 3; i++) to_light[i] = gn_punctual_cosine_q30(&point, -from[i]);
+        return gn_punctual_irradiance_q24(&point, highlight_q30(surface, sample, to_light));
+    }
+#endif
+    (void)frame;
+    return (uint32_t)(highlight_q30(surface, sample, light->to_light_q30) >> 6);
+}
+#endif
+
+uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t light_idx)
+{
+    uint32_t slot = 0;
+    while (slot < surface->n_lights && surface->light[slot].idx != light_idx) slot++;
+    if (slot == surface->n_lights) return 0;
+    const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
+    if (value[GN_LIGHT_FACING] <= 0) return 0;
+#if GN_PUNCTUAL_LIGHTS
+    if (surface->light[slot].state->kind != GN_LIGHT_DIRECTIONAL && !sample->arrival[slot].reaches) return 0;
+#endif
+    return gn_shadow_factor(frame, surface, sample, slot, gn_shadow_distance(frame, surface, sample));
+}
+
+/* Light of Q24 irradiance times a colour, Q16, to Q20; 2^24 * 2^31 */
+static void add(uint64_t sum_q20[3], const uint32_t colour_uq16[3], uint32_t irradiance_q24)
+{
+    for (int c = 0; c < 3; c++) sum_q20[c] += ((uint64_t)colour_uq16[c] * irradiance_q24 + (1U << 19)) >> 20;
+}
+
+/* Vertex colour and texture. */
+static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sample, uint64_t sum[3])
+{
+    if (GN_COLOURED(surface))
+        for (int c = 0; c < 3; c++)
+            sum[c] = (sum[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_RGB + c], 0) + 0x8000U) >> 16;
+#if GN_TEXTURES
+    uint32_t texture[3];
+    if (!surface->textured) return;
+    GN_COUNT(textured, 1);
+    gn_texture_colour(surface->object->texture, sample->value[GN_VALUE_UV], sample->value[GN_VALUE_UV + 1], texture);
+    for (int c = 0; c < 3; c++) sum[c] = (sum[c] * texture[c] + 0x8000U) >> 16;
+#endif
+}
+
+void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                       uint32_t radiance_q20[3])
+{
+    uint64_t sum[3] = {surface->base_q20[0], surface->base_q20[1],
+                       surface->base_q20[2]}; /* < 2^28 and 2^35 per light */
+#if GN_SPECULAR
+    uint64_t highlights[3] = {0, 0, 0};
+#endif
+    uint32_t g = surface->shadowed ? gn_shadow_distance(frame, surface, sample) : 0;
+#if GN_BAKED_LIGHT
+    for (int c = 0; surface->baked && c < 3; c++) /* 2^20 * 2^17 */
+        sum[c] +=
+            (uint64_t)surface->object->albedo_uq16[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_BAKED + c], 0) >> 12;
+#endif
+    for (uint32_t i = 0; i < surface->n_lights; i++) {
+        const gn_surface_light *light = &surface->light[i];
+        const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
+        uint32_t diffuse = (uint32_t)gn_max32(value[GN_LIGHT_FACING], 0);
+#if GN_PUNCTUAL_LIGHTS
+        if (light->state->kind != GN_LIGHT_DIRECTIONAL) diffuse = sample->arrival[i].irradiance_q24;
+#endif
+        if (!diffuse) continue;
+        uint32_t shadow = gn_shadow_factor(frame, surface, sample, i, g);
+        GN_COUNT(lights, 1);
+        if (!shadow) continue;
+        add(sum, light->radiance_uq16, shadow == 65536 ? diffuse : gn_mul_uq16(diffuse, shadow));
+#if GN_SPECULAR
+        if (surface->specular) {
+            GN_COUNT(highlights, 1);
+            uint32_t colour[3];
+            for (int c = 0; c < 3; c++)
+                colour[c] = gn_mul_uq16(light->state->colour_uq16[c], surface->object->specular_uq16[c]);
+            add(highlights, colour, gn_mul_uq16(specular_q24(frame, surface, sample, i), shadow));
+        }
+#endif
+    }
+    modulate(surface, sample, sum);
+    for (int c = 0; c < 3; c++) {
+#if GN_SPECULAR
+        sum[c] += highlights[c];
+#endif
+        radiance_q20[c] = sum[c] > UINT32_MAX ? UINT32_MAX : (uint32_t)sum[c];
+    }
+}

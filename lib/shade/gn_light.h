@@ -1,0 +1,15 @@
+/* Lighting of one surface point (DESIGN 1.3). */
+#ifndef GN_LIGHT_H
+#define GN_LIGHT_H
+
+#include "shade/gn_sample.h"
+
+/* Shadow factor of a light at a sample: 0..65536, 65536 where it casts none; 0 where the surface faces away or no light
+ * arrives. */
+uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t light_idx);
+
+/* Radiance towards the viewer, Q20 per channel, not clamped to 1. */
+void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                       uint32_t radiance_q20[3]);
+
+#endif

@@ -1,0 +1,64 @@
+/* Linear colour to output pixels (R5, M7). */
+#ifndef GN_PIXEL_H
+#define GN_PIXEL_H
+
+#include "base/gn_q.h"
+#include "gnomon.h"
+
+/* 65535 * srgb(x), x in Q20 clamped to 1; error below 1.5 LSB. */
+uint32_t gn_srgb_encode(uint32_t linear_q20);
+
+/* Encodes a colour for the picture's format: RGB565 as stored; red | green << 8 | blue << 16; grey as 8 or 4 bits; for
+ * MONO1 the luminance in linear light, 0..65535, which the dither compares. Greys are of the luminance 0.2126 R +
+ * 0.7152 G + 0.0722 B. */
+uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3]);
+
+/* Bytes of a tile of finished pixels. */
+size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
+
+/* Stores a packed pixel n times from (x, y) of the picture on, within one row. */
+void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
+
+#if GN_PIECES
+/* A colour that grows by a step per pixel; |from + i step| < 2^30. */
+typedef struct {
+    int32_t from_q24[3], step_q24[3];
+} gn_ramp;
+
+/* Stores n pixels from (x, y) of the picture on, within one row. */
+void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
+                   const gn_ramp *ramp);
+
+/* The same of pixels between two colours: share[i] of 65536 on the way from dark to lit. */
+void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
+                  const gn_ramp *dark, const gn_ramp *lit, const uint32_t *share_uq16);
+
+/* Stores one pixel at (x, y); |colour| < 2^30. */
+void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3]);
+#endif
+
+/* Stores a 16-bit pixel n times from index i of the tile on, two a word where there are many. */
+static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)
+{
+    uint32_t end = i + n;
+    if (!GN_SIZE_FIRST && n >= 8) {
+        uint32_t both = packed | packed << 16, word = (i + 1) >> 1, words = end >> 1;
+        if (i & 1U) pixels->rgb565[i] = (uint16_t)packed;
+        for (; word + 4 <= words; word += 4)
+            pixels->raw[word] = pixels->raw[word + 1] = pixels->raw[word + 2] = pixels->raw[word + 3] = both;
+        for (; word < words; word++) pixels->raw[word] = both;
+        i = 2 * words;
+    }
+    for (; i < end; i++) pixels->rgb565[i] = (uint16_t)packed;
+}
+
+/* Stores one packed pixel at (x, y) of the picture; RGB565 is what most panels take, so it goes first. */
+static inline void gn_pixel_store(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
+                                  uint32_t packed)
+{
+    if (frame->picture.format == GN_FORMAT_RGB565 || !GN_OTHER_FORMATS)
+        rows->pixels->rgb565[(y - rows->y0) * rows->width + x - rows->x0] = (uint16_t)packed;
+    else gn_pixel_fill(frame, rows, x, y, 1, packed);
+}
+
+#endif

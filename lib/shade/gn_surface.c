@@ -1,0 +1,409 @@
+/* A visible triangle as a surface. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_hint.h"
+#include "base/gn_q.h"
+#include "geometry/gn_texture.h"
+#include "geometry/gn_xform.h"
+#include "light/gn_bias.h"
+#include "shade/gn_sample.h"
+#include "shade/gn_surface.h"
+#include "visible/gn_setup.h"
+
+#define GN_ONE_Q30 (1 << 30)
+
+/* Nothing arrives at an unlit surface; only the shadow view asks which lights it faces. */
+static int without_light(const gn_frame *frame, const gn_surface *s)
+{
+    if (!(s->object->flags & GN_OBJECT_UNLIT)) return 0;
+    return !GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32 || frame->picture.view != GN_VIEW_SHADOW;
+}
+
+/* ---- Once per triangle: attributes ------------------------------------------------------------------------------- */
+
+/* The face normal in the world, towards the viewer: the plane's n points away from him in view space. */
+static void face_normal(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
+{
+    int64_t world[3];
+    for (int i = 0; i < 3; i++) {
+        world[i] = 0;
+        for (int k = 0; k < 3; k++) world[i] -= gn_shr64((int64_t)s->plane.n[k] * frame->cam.axis_q30[k][i], 2);
+    }
+    if (!gn_normalise_q30(out_q30, world))
+        for (int i = 0; i < 3; i++) out_q30[i] = -frame->cam.axis_q30[2][i];
+}
+
+#if !GN_SIZE_FIRST
+static inline int64_t absolute(int64_t v)
+{
+    return (v ^ (v >> 63)) - (v >> 63);
+}
+
+/* Bits s .. s + 31 below the sign of 64, rounded to 31. */
+static inline int32_t rounded_high(int64_t v, int32_t s)
+{
+    uint32_t high = (uint32_t)((uint64_t)v >> 32) << s | (uint32_t)v >> (32 - s);
+    return (int32_t)(((int32_t)high >> 1) + (int32_t)(high & 1U));
+}
+
+void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
+{
+    int64_t a[3];
+    for (int r = 0; r < 3; r++)
+        a[r] = (int64_t)matrix[r][0] * nrm_q15[0] + (int64_t)matrix[r][1] * nrm_q15[1] +
+               (int64_t)matrix[r][2] * nrm_q15[2];
+    uint64_t any = (uint64_t)(absolute(a[0]) | absolute(a[1]) | absolute(a[2]));
+    uint32_t high = (uint32_t)(any >> 32);
+    int32_t s = high ? gn_clz32(high) - 1 : 31;
+    if (!high || (uint32_t)(any >> (32 - s)) >= 0x7FFFFFFEU) { /* short, or rounded up to 2^30 */
+        gn_xform_normal(out_q30, matrix, nrm_q15);
+        return;
+    }
+    int32_t n[3] = {rounded_high(a[0], s), rounded_high(a[1], s), rounded_high(a[2], s)};
+    uint64_t sum = (uint64_t)gn_dot64(n, n); /* 2^58 to 3 * 2^60 */
+    int32_t up = gn_clz32((uint32_t)(sum >> 32)) & 30;
+    uint32_t root = gn_rsqrt_norm((uint32_t)((sum << up) >> 32), 2);
+    for (int i = 0; i < 3; i++) { /* as gn_normalise_q30() does it */
+        int32_t twice = up == 4 ? 2 * n[i] : n[i];
+        int64_t p = (int64_t)twice * (int32_t)(root - 0x80000000U - 0x80000000U);
+        int32_t v = (int32_t)(p >> 32) + twice + (int32_t)((uint32_t)p >> 31);
+        out_q30[i] = gn_max32(-(1 << 30), gn_min32(v, 1 << 30));
+    }
+}
+#endif
+
+static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
+{
+    const gn_mesh *mesh = s->object->mesh;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++) s->normal_q30[k][i] = 0;
+    s->smooth = 0;
+    if (s->object->flags & GN_OBJECT_UNLIT && !GN_RAW_VIEWS) return;
+    s->smooth = GN_VERTEX_NORMALS && mesh->nrm_q15;
+    if (!GN_SMOOTH(s)) {
+        face_normal(frame, s, s->normal_q30[0]);
+        return;
+    }
+    int32_t n[3][3];
+    for (int k = 0; k < 3; k++) {
+        gn_surface_normal(n[k], cache->normal_matrix, mesh->nrm_q15 + 3 * (size_t)idx[k]);
+        if (s->plane.back)
+            for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
+    }
+    uint32_t any = 0;
+    for (int i = 0; i < 3; i++) {
+        s->normal_q30[0][i] = n[0][i];
+        for (int k = 1; k < 3; k++) {
+            s->normal_q30[k][i] = gn_sat32((int64_t)n[k][i] - n[0][i]);
+            any |= gn_abs32(s->normal_q30[k][i]);
+        }
+    }
+    s->smooth = any ? any >> 20 ? 2 : 1 : 0; /* three equal normals: a flat triangle after all */
+}
+
+static void vertex_colours(gn_surface *s, const uint16_t *idx)
+{
+    const gn_mesh *mesh = s->object->mesh;
+    s->coloured = GN_VERTEX_COLOURS && mesh->rgb_uq16;
+    if (!GN_COLOURED(s)) return;
+    for (int i = 0; i < 3; i++) {
+        int32_t c[3];
+        for (int k = 0; k < 3; k++) c[k] = mesh->rgb_uq16[3 * (size_t)idx[k] + (size_t)i];
+        for (int k = 0; k < 3; k++) c[k] += c[k] >> 15; /* 65535 means 1 */
+        s->rgb_q16[0][i] = c[0];
+        s->rgb_q16[1][i] = c[1] - c[0];
+        s->rgb_q16[2][i] = c[2] - c[0];
+    }
+}
+
+#if GN_TEXTURES
+static void texture_coords(gn_surface *s, const uint16_t *idx)
+{
+    s->textured = s->object->texture != NULL;
+    if (s->textured) gn_texture_corners(&s->uv, s->object->mesh, s->object->texture, idx);
+}
+#endif
+
+#if GN_MASKS
+static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
+{
+    const gn_object *object = s->object;
+    s->masked = frame->scene->shadow.mixing != GN_MIXING_NONE && (object->flags & GN_OBJECT_RECEIVES) &&
+                !(object->flags & GN_OBJECT_UNLIT) && (object->mask_u8 || object->mask_image);
+    if (!s->masked) return;
+    for (int i = 0; i < (object->mask_image ? 2 : 4); i++) {
+        int32_t m[3];
+        for (int k = 0; k < 3; k++) {
+            if (object->mask_image) m[k] = object->mesh->mask_uv_uq16[2 * (size_t)idx[k] + (size_t)i];
+            else m[k] = object->mask_u8[4 * (size_t)idx[k] + (size_t)i] * 257; /* 255 to 65535 */
+            m[k] += m[k] >> 15;
+        }
+        s->mask_q16[0][i] = m[0];
+        s->mask_q16[1][i] = m[1] - m[0];
+        s->mask_q16[2][i] = m[2] - m[0];
+    }
+}
+#endif
+
+#if GN_BAKED_LIGHT
+static void baked_light(gn_surface *s, const uint16_t *idx)
+{
+    s->baked = s->object->baked_uq12 != NULL && !(s->object->flags & GN_OBJECT_UNLIT);
+    for (int i = 0; s->baked && i < 3; i++) {
+        int32_t b[3];
+        for (int k = 0; k < 3; k++) b[k] = s->object->baked_uq12[3 * (size_t)idx[k] + (size_t)i] << 4;
+        s->baked_q16[0][i] = b[0];
+        s->baked_q16[1][i] = b[1] - b[0];
+        s->baked_q16[2][i] = b[2] - b[0];
+    }
+}
+#endif
+
+static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
+{
+    s->textured = s->masked = s->baked = s->specular = 0;
+#if GN_TEXTURES
+    texture_coords(s, idx);
+#endif
+    normals(frame, cache, s, idx);
+#if GN_MASKS
+    masks(frame, s, idx);
+#endif
+#if GN_BAKED_LIGHT
+    baked_light(s, idx);
+#endif
+#if GN_SPECULAR
+    const uint32_t *specular = s->object->specular_uq16;
+    s->specular = (specular[0] | specular[1] | specular[2]) != 0 && !(s->object->flags & GN_OBJECT_UNLIT);
+#endif
+    s->has_bary = s->smooth | s->coloured | s->textured | s->masked | s->baked;
+    s->first_value = s->textured | s->masked | s->baked ? 0 : GN_VALUE_Z;
+}
+
+/* ---- Once per triangle: lights ----------------------------------------------------------------------------------- */
+
+static void list_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
+{
+    s->light[s->n_lights].state = &frame->light[light_idx];
+    s->light[s->n_lights++].idx = light_idx;
+}
+
+#if GN_PUNCTUAL_LIGHTS
+/* Whether a light can reach the triangle: not from behind a flat one, and not from beyond its range. */
+static int reaches(const gn_surface *s, const gn_light_state *light, int32_t v[3][3])
+{
+    if (!GN_SMOOTH(s)) {
+        int64_t side = 0; /* n points away from the viewer: negative is in front */
+        for (int k = 0; k < 3; k++) side += (int64_t)s->plane.n[k] * (((int64_t)light->eye_q16[k] - v[0][k]) >> 2);
+        if (side >= 0 && s->plane.det > 0) return 0;
+    }
+    if (light->range2_q32 == UINT64_MAX) return 1;
+    uint64_t d2 = 0;
+    for (int k = 0; k < 3; k++) {
+        int64_t lo = gn_min32(v[0][k], gn_min32(v[1][k], v[2][k])), hi = gn_max32(v[0][k], gn_max32(v[1][k], v[2][k]));
+        int64_t d = light->eye_q16[k] < lo   ? lo - light->eye_q16[k]
+                    : light->eye_q16[k] > hi ? light->eye_q16[k] - hi
+                                             : 0;
+        d = d > 8 ? d - 8 : 0; /* roundings of view space */
+        if (d > (int64_t)1 << 31) return 0;
+        d2 += (uint64_t)(d * d); /* 3 * 2^62 */
+    }
+    return d2 < light->range2_q32;
+}
+
+static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3],
+                         uint32_t light_idx)
+{
+    if (GN_TILE_LIGHTS && !(cache->lights >> light_idx & 1U)) return;
+    if (s->n_lights == GN_SURFACE_LIGHTS || !reaches(s, &frame->light[light_idx], v)) return;
+    list_light(frame, s, light_idx);
+    s->n_punctual++;
+}
+
+/* The object's list, or all lights where none is kept. */
+static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+{
+    const gn_object_state *object = &frame->object[s->object - frame->scene->objects];
+    if (object->n_lights != GN_OBJECT_LIGHTS_ALL) {
+        for (uint32_t i = 0; i < object->n_lights; i++) add_punctual(frame, cache, s, v, object->light[i]);
+        return;
+    }
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++)
+        if (frame->light[l].kind != GN_LIGHT_DIRECTIONAL && !frame->light[l].off) add_punctual(frame, cache, s, v, l);
+}
+#endif
+
+/* A face that is edge-on to a light but for the last bits of its normal takes none of it: walls along the light's way
+ * are common, and a highlight is not small there. */
+#define GN_GRAZING_Q24 8
+
+#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
+/* n . L at the vertices, where it is not below 0. Returns 0 if it is nowhere above. */
+static int vertex_cosines(const gn_surface *s, const gn_light_state *light, int32_t out_q24[3])
+{
+    int32_t any = 0, at[3];
+    for (int k = 0; k < 3; k++) {
+        int64_t dot = gn_dot64(s->normal_q30[0], light->to_light_q30);
+        if (k > 0) dot += gn_dot64(s->normal_q30[k], light->to_light_q30);
+        at[k] = (int32_t)gn_clamp64(gn_shr64(dot, 36), 0, 1 << 24);
+        any |= at[k];
+    }
+    out_q24[0] = at[0];
+    out_q24[1] = at[1] - at[0];
+    out_q24[2] = at[2] - at[0];
+    return any;
+}
+#endif
+
+static void directional_lights(const gn_frame *frame, gn_surface *s)
+{
+    gn_length length = {0, 0};
+    if (!GN_SMOOTH(s)) length = gn_length_of(GN_K(frame, newton_steps), s->normal_q30[0]);
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        const gn_light_state *light = &frame->light[l];
+        GN_ELEMENT(light);
+        if (light->kind != GN_LIGHT_DIRECTIONAL || light->off) continue;
+        if (!GN_SMOOTH(s)) {
+            int32_t cosine = gn_length_cosine_q24(length, s->normal_q30[0], light->to_light_q30);
+            if (cosine <= GN_GRAZING_Q24) continue;
+            s->light[s->n_lights].flat_cosine_q24 = cosine;
+        }
+#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
+        int lit = !s->smooth || !GN_K(frame, vertex_light) ||
+                  vertex_cosines(s, light, s->light[s->n_lights].vertex_cosine_q24);
+        if (!lit) continue;
+#endif
+        list_light(frame, s, l);
+    }
+}
+
+#if GN_SHADOWS
+#if GN_AUTO_BIAS
+#define GN_LEAST_ALONG_Q28 (7 << 25)
+
+/* B6, curved: with this the interpolated normal has a part of 1 or more along the face's everywhere. Where a corner's
+ * is too far from the face's, that alone is taken. */
+static void lift_normal(gn_surface *s)
+{
+    int32_t least = -4; /* Q28; roundings */
+    for (int k = 2; k >= 0; k--) {
+        int32_t along = (int32_t)(gn_dot64(s->normal_q30[k], s->face_q30) >> 32);
+        if (k == 0) least += along;
+        else if (along < least) least = along;
+    }
+    if (least < GN_LEAST_ALONG_Q28) s->smooth = 3, least = 0;
+    for (int i = 0; i < 3; i++) s->lift_q30[i] = (int32_t)(((1 << 30) - 4 * (int64_t)least) * s->face_q30[i] >> 32) * 4;
+}
+#endif
+
+/* What a light's bias takes from the surface, once for all of it: the face's normal, a directional light's offset. */
+static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
+{
+    const gn_light_state *light = s->light[slot].state;
+    const gn_light_view *view = &frame->view[light->view_idx];
+    if (light->kind == GN_LIGHT_DIRECTIONAL && !view->border_lit)
+        view += GN_LAST_CASCADE(frame); /* the first may be empty */
+#if GN_RECEIVER_PLANE || GN_AUTO_BIAS
+    const gn_light *scene_light = &frame->scene->lights[s->light[slot].idx];
+    if (scene_light->receiver_plane || light->auto_bias) face_normal(frame, s, s->face_q30);
+#endif
+#if GN_AUTO_BIAS
+    if (light->auto_bias) {
+        if (GN_CURVED(s)) lift_normal(s);
+        else if (light->kind == GN_LIGHT_DIRECTIONAL)
+            gn_bias_auto_face(view, (gn_auto_bias)light->auto_bias, s->face_q30, s->light[slot].flat_offset_q16);
+        return;
+    }
+#endif
+    if (!GN_SMOOTH(s) && light->kind == GN_LIGHT_DIRECTIONAL)
+        gn_bias_directional(frame, view, s->normal_q30[0], s->light[slot].flat_offset_q16);
+}
+
+static void shadows(const gn_frame *frame, gn_surface *s)
+{
+    if (!(s->object->flags & GN_OBJECT_RECEIVES) || s->object->flags & GN_OBJECT_UNLIT) return;
+    for (uint32_t i = 0; i < s->n_lights; i++) {
+        if (s->light[i].state->view_idx < 0) continue;
+        s->shadowed = 1;
+        bias(frame, s, i);
+    }
+}
+#endif
+
+/* Albedo times ambient and light colours; what shadows and a constant normal allow to know beforehand. */
+static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+{
+    const gn_scene *scene = frame->scene;
+    int unlit = without_light(frame, s);
+    const uint32_t *albedo = s->object->albedo_uq16;
+    GN_ELEMENT(albedo);
+    for (int c = 0; c < 3; c++) /* 2^17 * 2^24 */
+        s->base_q20[c] =
+            unlit ? albedo[c] << 4 : (uint32_t)(((uint64_t)albedo[c] * scene->ambient_uq16[c] + (1U << 11)) >> 12);
+    s->shadowed = 0;
+    s->n_lights = s->n_punctual = 0;
+    s->n_values = GN_VALUE_LIGHT;
+    if (unlit) return;
+    directional_lights(frame, s);
+#if GN_PUNCTUAL_LIGHTS
+    punctual_lights(frame, cache, s, v);
+#else
+    (void)cache, (void)v;
+#endif
+    s->n_values += GN_VALUES_PER_LIGHT * (int32_t)s->n_lights;
+    for (uint32_t i = 0; i < s->n_lights; i++)
+        for (int c = 0; c < 3; c++)
+            s->light[i].radiance_uq16[c] = gn_mul_uq16(s->light[i].state->colour_uq16[c], albedo[c]);
+#if GN_SHADOWS
+    shadows(frame, s);
+#endif
+}
+
+static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_object *object)
+{
+    if (cache->object == object) return;
+    cache->object = object;
+    gn_xform to_view;
+    gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
+    if (GN_SIZE_FIRST) cache->by.to_view = to_view;
+    else gn_xform_fast_begin(&cache->by.fast, &to_view);
+    if (GN_VERTEX_NORMALS && object->mesh->nrm_q15) gn_xform_normal_matrix(cache->normal_matrix, object);
+}
+
+/* A vertex of a transform or a position out of the ordinary. */
+static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch, const gn_tri *tri,
+                                    uint32_t vertex_idx)
+{
+    const gn_object *object = &frame->scene->objects[tri->object_idx];
+    gn_xform to_view;
+    gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
+    gn_setup_vertex(out_q16, scratch->vertex, &to_view, object->mesh, tri->object_idx, vertex_idx);
+}
+
+void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
+                      const gn_tri *tri)
+{
+    GN_COUNT(surfaces, 1);
+    s->object = &frame->scene->objects[tri->object_idx];
+    use_object(frame, cache, s->object);
+    const gn_mesh *mesh = s->object->mesh;
+    const uint16_t *idx = mesh->idx + 3 * (size_t)tri->triangle_idx;
+    int32_t v[3][3];
+    s->smooth = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
+    s->first_value = GN_VALUE_Z;
+    vertex_colours(s, idx);
+    for (int i = 0; i < 3; i++) {
+        if (GN_SIZE_FIRST) gn_setup_vertex(v[i], scratch->vertex, &cache->by.to_view, mesh, tri->object_idx, idx[i]);
+        else if (!gn_xform_fast_vertex(v[i], &cache->by.fast, mesh->pos + 3 * (size_t)idx[i]))
+            slow_vertex(v[i], frame, scratch, tri, idx[i]);
+    }
+    gn_plane_setup(&s->plane, v[0], v[1], v[2]);
+    s->z_min_q16 = gn_max32(gn_min32(v[0][2], gn_min32(v[1][2], v[2][2])), frame->cam.near_q16);
+    s->z_max_q16 = gn_max32(v[0][2], gn_max32(v[1][2], v[2][2]));
+    if (s->plane.det > 0)
+        s->depth_scale = gn_bf_mul(gn_bf_from_u64((uint64_t)s->plane.det), gn_bf_from_u64(frame->cam.focal2_px_q16));
+    attributes(frame, cache, s, idx);
+    if (GN_HAS_BARY(s)) gn_bary_setup(&s->bary, &s->plane, v[0], v[1], v[2]);
+    begin_lighting(frame, cache, s, v);
+}

@@ -1,0 +1,361 @@
+/* Orthographic light views. */
+#include "gn_internal.h"
+
+#include <string.h>
+
+#include "base/gn_hint.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "geometry/gn_xform.h"
+#include "light/gn_bias.h"
+#include "light/gn_cascade.h"
+#include "shadow/gn_ortho.h"
+
+#if GN_SHADOWS
+
+int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_t p_q16[3])
+{
+    /* |p| <= 2^30 per component times a unit axis: below sqrt(3) * 2^60 */
+    return gn_bf_apply(gn_dot64(p_q16, view->axis_q30[axis_idx]), view->fit.ortho.inv_texel, 16 - 46);
+}
+
+/* Texel size from the sphere: ceil8 of (1 - 2^-20) * 2 r / D. Returns its reciprocal. */
+static gn_bfloat inverse_texel(const gn_frame *frame, const gn_light_view *view, const gn_light *light,
+                               uint32_t filter_idx, gn_bfloat radius, int *clamped)
+{
+    int64_t t_q16 = (int64_t)view->tile_texels << 16;
+    int64_t sphere_q16 =
+        t_q16 - 2 * (int64_t)(filter_idx + 1) * (65536 + gn_bias_reach_q16(frame, view, light)) - 65536;
+    *clamped = sphere_q16 < t_q16 / 4;
+    if (*clamped) sphere_q16 = t_q16 / 4;
+    gn_bfloat texel = gn_bf_mul(radius, gn_bf_recip(gn_bf_from_u64((uint64_t)sphere_q16)));
+    texel.exp += 1 + 16;
+    texel.mant -= texel.mant >> 20;
+    uint32_t top = (uint32_t)(((uint64_t)texel.mant + 0xFFFFFFU) >> 24); /* 128..256 */
+    if (texel.mant < 0x80000000U) top = 128;                             /* the slack crossed a power of two */
+    texel.mant = top == 256 ? 0x80000000U : top << 24;
+    if (top == 256) texel.exp++;
+    return gn_bf_recip(texel);
+}
+
+#if GN_DISK_FILTER
+/* F4: 0.02 * penumbra of the model's units, in texels, Q16. */
+static int64_t disk_radius_q16(const gn_frame *frame, gn_bfloat inv_texel)
+{
+    int64_t world_q48 = (int64_t)frame->scene->shadow.penumbra_uq16 * 85899346; /* 0.02 * 2^32; 2^22 * 2^27 */
+    return gn_clamp64(gn_bf_apply(world_q48, inv_texel, frame->scene->unit_log2 - 32), 0, (int64_t)1 << 30);
+}
+
+/* Filter index of the disk: from the texel that the narrowest filter would have; a wider one only grows the texel. */
+static void disk_index(const gn_frame *frame, gn_light_view *view, const gn_light *light, gn_bfloat radius)
+{
+    int clamped;
+    int64_t texels_q16 = disk_radius_q16(frame, inverse_texel(frame, view, light, 0, radius, &clamped));
+    view->filter_idx = (uint8_t)gn_clamp64((texels_q16 + 65535) >> 16, 1, GN_DISK_INDEX_MAX);
+}
+#endif
+
+/* The planes from which light coordinates along a pixel's ray follow: see gn_ray_plane. */
+void gn_ortho_rays(const gn_frame *frame, gn_light_view *view)
+{
+    const gn_cam *cam = &frame->cam;
+    gn_ortho_fit *fit = &view->fit.ortho;
+    gn_bfloat inv_texel = fit->inv_texel;
+    gn_bfloat per_px = gn_bf_mul(inv_texel, gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16)));
+    per_px.exp += 16;
+    /* |a0 + ax px + ay py| <= |ray| / texel, |ray|^2 = 1 + k^2 */
+    uint64_t ray2_q24 = ((uint64_t)1 << 24) + (uint64_t)gn_cascade_tan2_q24(frame);
+    int32_t ray_log2 = (64 - gn_clz64(ray2_q24) - 24 + 1) / 2;
+    fit->ray_shift = 30 - (inv_texel.exp + 32) - ray_log2;
+    for (int i = 0; i < 3; i++) {
+        const int32_t *axis = view->axis_q30[i];
+        gn_ray_plane *ray = &fit->ray[i];
+        ray->a0 = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[2], axis), inv_texel, fit->ray_shift - 60));
+        ray->ax = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[0], axis), per_px, fit->ray_shift - 60));
+        ray->ay = gn_sat32(gn_bf_apply(gn_dot64(cam->axis_q30[1], axis), per_px, fit->ray_shift - 60));
+        ray->d_q16 = gn_light_coord_q16(view, i, cam->eye_q16) - (int64_t)fit->origin[i] * 65536;
+    }
+}
+
+/* Whole-texel origins around the sphere's centre; the depth range grows by the near offset. */
+static void place_tile(const gn_frame *frame, gn_light_view *view, const gn_light *light, int64_t depth_q16)
+{
+    gn_ortho_fit *fit = &view->fit.ortho;
+    const gn_cam *cam = &frame->cam;
+    int32_t centre[3];
+    for (int i = 0; i < 3; i++)
+        centre[i] = cam->eye_q16[i] + (int32_t)gn_shr64(depth_q16 * cam->axis_q30[2][i], 30); /* |.| <= 2^30 */
+    for (int i = 0; i < 3; i++) {
+        int64_t c = gn_light_coord_q16(view, i, centre);
+        fit->origin[i] = (int32_t)gn_clamp64((c + 32768) >> 16, -(1 << 30), 1 << 30) - view->tile_texels / 2;
+    }
+    int64_t pull_q16 = gn_bf_apply(light->near_offset_q16, fit->inv_texel, 0);
+    int64_t pull = gn_clamp64((pull_q16 + 65535) >> 16, 0, (int64_t)view->tile_texels << 10);
+    fit->origin[2] -= (int32_t)pull;
+    view->depth_log2 = 0;
+    while (((int64_t)view->tile_texels << view->depth_log2) < view->tile_texels + pull) view->depth_log2++;
+}
+
+void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16)
+{
+    gn_bfloat radius;
+    int clamped;
+    int32_t centre_q16 = gn_cascade_fit_sphere(frame, near_q16, far_q16, &radius);
+#if GN_DISK_FILTER
+    if (view->filter == GN_FILTER_DISK) disk_index(frame, view, light, radius);
+#endif
+    view->fit.ortho.inv_texel = inverse_texel(frame, view, light, view->filter_idx, radius, &clamped);
+    frame->stats.n_reach_clamped += (uint32_t)clamped;
+    place_tile(frame, view, light, centre_q16);
+    gn_ortho_rays(frame, view);
+#if GN_DISK_FILTER
+    view->disk_radius_q16 =
+        (int32_t)gn_clamp64(disk_radius_q16(frame, view->fit.ortho.inv_texel), 0, (int64_t)view->filter_idx << 16);
+#endif
+}
+
+/* ---- Casters ----------------------------------------------------------------------------------------------------- */
+
+#define GN_TILE_REACH_Q16                                                                                              \
+    ((int64_t)16384 << 16) /* casters are cut at this distance in texels: keeps gn_walk in range */
+
+/* Object space to tile coordinates: as gn_xform_compose, with 1 / texel folded into the matrix. */
+void gn_ortho_compose(gn_xform *out, const gn_light_view *view, const gn_object *object)
+{
+    const int32_t nowhere[3] = {0, 0, 0};
+    gn_xform_compose(out, view->axis_q30, nowhere, object);
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++)
+            out->m[r][c] = (int32_t)gn_shr64((int64_t)out->m[r][c] * (int64_t)view->fit.ortho.inv_texel.mant, 32);
+        out->t_q16[r] =
+            gn_light_coord_q16(view, r, object->to_world.t_q16) - (int64_t)view->fit.ortho.origin[r] * 65536;
+    }
+    out->shift -= view->fit.ortho.inv_texel.exp + 32;
+}
+
+void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
+{
+    const gn_position *at = mesh->pos + 3 * (size_t)vertex_idx;
+    const int32_t p[3] = {at[0], at[1], at[2]};
+    for (int r = 0; r < 3; r++) {
+        /* both terms below 2^60 */
+        const int64_t limit = (int64_t)1 << 60;
+        int64_t v = gn_clamp64(gn_scale64(gn_dot64(xform->m[r], p), xform->shift), -limit, limit) + xform->t_q16[r];
+        out[r] = gn_clamp64(v, -((int64_t)1 << 46), (int64_t)1 << 46);
+    }
+}
+
+#if GN_CASTER_CLIPPING
+/* Cuts at sign * c[axis] <= reach. */
+static GN_NOINLINE void clip_side(gn_light_polygon *polygon, gn_light_polygon *in, int axis, int64_t sign)
+{
+    *in = *polygon;
+    polygon->n = 0;
+    for (int i = 0; i < in->n; i++) {
+        const int64_t *a = in->p[i], *b = in->p[(i + 1) % in->n];
+        GN_ELEMENT(a);
+        int64_t da = GN_TILE_REACH_Q16 - sign * a[axis], db = GN_TILE_REACH_Q16 - sign * b[axis];
+        if (da >= 0 && polygon->n < GN_ORTHO_POLYGON_MAX) memcpy(polygon->p[polygon->n++], a, sizeof in->p[0]);
+        if ((da >= 0) == (db >= 0) || polygon->n >= GN_ORTHO_POLYGON_MAX) continue;
+        if (da < 0) { /* from the inside end, for the sake of shared edges */
+            const int64_t *swap = a;
+            a = b;
+            b = swap;
+            int64_t d = da;
+            da = db;
+            db = d;
+        }
+        gn_bfloat t = gn_bf_recip(gn_bf_from_u64((uint64_t)(da - db)));
+        int64_t *cut = polygon->p[polygon->n++];
+        for (int k = 0; k < 3; k++) {
+            int64_t step = gn_bf_apply(gn_bf_apply(da, t, 31), gn_bf_from_u64(gn_abs64(b[k] - a[k]) | 1U), -31);
+            cut[k] = a[k] + (b[k] < a[k] ? -step : step);
+        }
+    }
+}
+
+static void clip_to_reach(gn_light_polygon *polygon, gn_light_polygon *uncut)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        int64_t lo = 0, hi = 0;
+        for (int i = 0; i < polygon->n; i++) {
+            lo = polygon->p[i][axis] < lo ? polygon->p[i][axis] : lo;
+            hi = polygon->p[i][axis] > hi ? polygon->p[i][axis] : hi;
+        }
+        if (hi > GN_TILE_REACH_Q16) clip_side(polygon, uncut, axis, 1);
+        if (lo < -GN_TILE_REACH_Q16) clip_side(polygon, uncut, axis, -1);
+    }
+}
+#else
+static int within_reach(int64_t p[3][3])
+{
+    for (int i = 0; i < 3; i++)
+        if (gn_abs64(p[i][0]) > GN_TILE_REACH_Q16 || gn_abs64(p[i][1]) > GN_TILE_REACH_Q16) return 0;
+    return 1;
+}
+#endif
+
+#if defined(GN_FAR)
+#define apply gn_bf_apply
+#else
+/* round(a * b * 2^shift), as gn_bf_apply gives it */
+static inline int64_t apply(int32_t a, gn_bfloat b, int32_t shift)
+{
+    int32_t s = -(b.exp + shift);
+    if (s < 1 || s > 62) return gn_bf_apply(a, b, shift);
+    uint64_t r = (uint64_t)gn_abs32(a) * b.mant; /* 2^30 * 2^32 */
+    int64_t v = (int64_t)((r >> s) + ((r >> (s - 1)) & 1U));
+    return a < 0 ? -v : v;
+}
+#endif
+
+/* Texels along w, Q16, as a share of the depth range, Q32. |.| < 2^49 */
+static inline int64_t depth_q32(const gn_light_view *view, int64_t texels_q16)
+{
+    int32_t up = 16 - view->tile_log2 - view->depth_log2; /* at most 13 */
+    return up >= 0 ? gn_shl64(texels_q16, up) : gn_shr64(texels_q16, -up);
+}
+
+/* Plane, bias (B1) and range of a triangle with this normal, whose depths are lo .. hi, texels. Returns 0 if it cannot
+ * be seen from the light. */
+static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, const int32_t nn[3], int two_sided,
+                                    int64_t lo, int64_t hi)
+{
+    if (nn[2] == 0 || (nn[2] > 0 && !two_sided)) return 0; /* along w: away from the light */
+    int32_t to_steps = 16 - view->tile_log2 - view->depth_log2;
+    gn_bfloat per_n = gn_bf_recip(gn_bf_from_u64(gn_abs32(nn[2])));
+    int32_t nu = nn[2] < 0 ? nn[0] : -nn[0], nv = nn[2] < 0 ? nn[1] : -nn[1];
+    int64_t steepest =
+        gn_clamp64(apply((int32_t)(gn_abs32(nu) > gn_abs32(nv) ? gn_abs32(nu) : gn_abs32(nv)), per_n, 16), 0,
+                   (int64_t)1 << 31);                                                       /* texels per texel, Q16 */
+    int64_t bias = view->bias_constant_q16 + gn_shr64(steepest * view->bias_slope_q16, 16); /* 2^31 * 2^22 */
+    out->bias = depth_q32(view, bias);
+    out->dz_du = gn_clamp64(apply(nu, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
+    out->dz_dv = gn_clamp64(apply(nv, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
+    const int64_t far = (int64_t)1 << 32;
+    out->lo = gn_clamp64(depth_q32(view, lo), 0, far); /* D9: pancaking */
+    out->hi = gn_clamp64(depth_q32(view, hi), 0, far);
+    return out->lo < far;
+}
+
+/* Of corners anywhere. */
+static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3], int two_sided)
+{
+    int64_t e1[3], e2[3], n[3], lo = p[0][2], hi = lo;
+    int32_t e1n[3], e2n[3], nn[3];
+    for (int i = 0; i < 3; i++) {
+        e1[i] = p[1][i] - p[0][i];
+        e2[i] = p[2][i] - p[0][i];
+        lo = p[i][2] < lo ? p[i][2] : lo;
+        hi = p[i][2] > hi ? p[i][2] : hi;
+    }
+    gn_norm_vec(e1n, e1);
+    gn_norm_vec(e2n, e2);
+    gn_cross64(n, e1n, e2n);
+    gn_norm_vec(nn, n);
+    return ortho_caster(out, view, nn, two_sided, lo, hi);
+}
+
+/* Depth at the centre of texel (0, 0) from the plane through one vertex, which is within reach: below 2^48. */
+static int64_t depth_at_corner(const gn_light_view *view, const gn_caster *caster, int64_t u_q16, int64_t v_q16,
+                               int64_t depth_q16)
+{
+    int64_t du_q16 = 32768 - u_q16, dv_q16 = 32768 - v_q16; /* <= 2^30 */
+    int64_t z = depth_q32(view, depth_q16);
+    /* gradient <= 2^33 times 2^31 would not fit: split the offset into whole texels and a fraction */
+    z += caster->dz_du * (du_q16 >> 16) + gn_shr64(caster->dz_du * (du_q16 & 65535), 16);
+    return z + caster->dz_dv * (dv_q16 >> 16) + gn_shr64(caster->dz_dv * (dv_q16 & 65535), 16);
+}
+
+static int misses_tile(const gn_light_view *view, int64_t p[3][3])
+{
+    int64_t end = (int64_t)view->tile_texels << 16;
+    for (int axis = 0; axis < 2; axis++) {
+        if (p[0][axis] < 0 && p[1][axis] < 0 && p[2][axis] < 0) return 1;
+        if (p[0][axis] > end && p[1][axis] > end && p[2][axis] > end) return 1;
+    }
+    return 0;
+}
+
+#if GN_CASTER_ALPHA
+/* Parallel projection as a perspective one: all corners at the same depth, so that barycentrics are affine. */
+static void alpha_plane(const gn_frame *frame, const gn_light_view *view, gn_alpha_cut *alpha, int64_t p[3][3])
+{
+    int32_t v[3][3], shift = 0;
+    int64_t centre = (int64_t)view->tile_texels << 15;
+    uint64_t any = 0;
+    for (int i = 0; i < 3; i++) any |= gn_abs64(p[i][0] - centre) | gn_abs64(p[i][1] - centre);
+    while (any >> shift >= (uint64_t)1 << 29) shift++;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 2; k++) v[i][k] = (int32_t)gn_scale64(p[i][k] - centre, shift);
+        v[i][2] = (1 << 23) >> shift; /* shift <= 18 */
+    }
+    /* x / z = px / 2F: 2F = 256 half texels where z is 128 texels */
+    gn_alpha_plane(alpha, frame, v, 1U << 24, view->tile_texels, 2);
+}
+#endif
+
+int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha)
+{
+    gn_caster caster;
+    gn_light_polygon *polygon = &casting->polygon;
+    polygon->n = 3;
+    if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.two_sided))
+        return -1;
+#if GN_CASTER_ALPHA
+    if (alpha && alpha->textured) alpha_plane(frame, view, alpha, polygon->p);
+#endif
+#if GN_CASTER_CLIPPING
+    clip_to_reach(polygon, &casting->with.uncut);
+#else
+    if (!within_reach(polygon->p)) return GN_ORTHO_TOO_FAR;
+#endif
+    if (polygon->n >= 3)
+        caster.z_corner = depth_at_corner(view, &caster, polygon->p[0][0], polygon->p[0][1], polygon->p[0][2]);
+    int32_t bits = GN_K(frame, shadow_subpixel_bits), n_texels = 0;
+    for (int i = 1; i + 1 < polygon->n; i++) {
+        const int64_t *p[3] = {polygon->p[0], polygon->p[i], polygon->p[i + 1]};
+        int32_t x[3], y[3];
+        for (int k = 0; k < 3; k++) {
+            x[k] = (int32_t)gn_shr64(p[k][0], 16 - bits); /* 2^14 texels * 2^12 */
+            y[k] = (int32_t)gn_shr64(p[k][1], 16 - bits);
+        }
+        n_texels += gn_caster_draw(frame, view, &caster, &casting->walk, x, y, alpha);
+    }
+    return n_texels;
+}
+
+int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
+                                const int32_t *const c[3])
+{
+    int two_sided = casting->job.two_sided;
+    int32_t end = view->tile_texels << 16, sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3],
+            y[3];
+    for (int axis = 0; axis < 2; axis++) /* misses the tile: a sign of all three */
+        if (((c[0][axis] & c[1][axis] & c[2][axis]) | ((end - c[0][axis]) & (end - c[1][axis]) & (end - c[2][axis]))) <
+            0)
+            return -1;
+    int32_t e1[3], e2[3], nn[3];
+    for (int i = 0; i < 3; i++) {
+        e1[i] = c[1][i] - c[0][i]; /* < 2^30 */
+        e2[i] = c[2][i] - c[0][i];
+    }
+    int64_t n[3] = {0, 0, (int64_t)e1[0] * e2[1] - (int64_t)e1[1] * e2[0]};
+    if (n[2] == 0 || (n[2] > 0 && !two_sided)) return -1;
+    for (int k = 0; k < 3; k++) {
+        x[k] = (c[k][0] + half) >> sub;
+        y[k] = (c[k][1] + half) >> sub;
+    }
+    int32_t n_rows = gn_caster_begin(frame, view, &casting->walk, x, y);
+    if (!n_rows) return 0;
+    gn_caster caster;
+    gn_cross64(n, e1, e2);
+    gn_norm_vec(nn, n);
+    if (!ortho_caster(&caster, view, nn, two_sided, gn_min32(c[0][2], gn_min32(c[1][2], c[2][2])),
+                      gn_max32(c[0][2], gn_max32(c[1][2], c[2][2]))))
+        return -1;
+    caster.z_corner = depth_at_corner(view, &caster, c[0][0], c[0][1], c[0][2]);
+    return gn_caster_rows(view, &caster, &casting->walk, n_rows, NULL);
+}
+
+#endif

@@ -1,0 +1,214 @@
+/* Tile budgets. A tile is a run of T * T texels of its atlas, so tiles of any power-of-two sizes pack without waste. */
+#include "gn_internal.h"
+
+#include "base/gn_hint.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "light/gn_cascade.h"
+#include "light/gn_object.h"
+#include "scene/gn_scene.h"
+#include "shadow/gn_tiles.h"
+
+#if GN_SHADOWS
+
+#define GN_ATLAS_TILES_MAX     16U
+#define GN_CASCADED_LIGHTS_MAX 4U /* D1 */
+
+/* Whether some caster and some receiver are within the light's reach. */
+static int shadow_possible(const gn_frame *frame, uint32_t light_idx)
+{
+    uint32_t flags = 0;
+    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+        uint32_t wanted = frame->scene->objects[i].flags & (GN_OBJECT_CASTS | GN_OBJECT_RECEIVES);
+        if ((wanted & ~flags) && gn_object_is_reached(frame, i, light_idx)) flags |= wanted;
+        if (flags == (GN_OBJECT_CASTS | GN_OBJECT_RECEIVES)) return 1;
+    }
+    return 0;
+}
+
+#if GN_MAIN_LIGHT
+/* D10: the brightest shadowed directional light, by its largest channel. */
+static uint32_t main_light(const gn_frame *frame)
+{
+    uint32_t best = GN_MAX_LIGHTS, brightest = 0;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        const gn_light_state *light = &frame->light[l];
+        if (light->kind != GN_LIGHT_DIRECTIONAL || light->shadow_state == GN_SHADOW_NOT_WANTED) continue;
+        for (int c = 0; c < 3; c++) {
+            if (best < GN_MAX_LIGHTS && light->colour_uq16[c] <= brightest) continue;
+            best = l;
+            brightest = light->colour_uq16[c];
+        }
+    }
+    return best;
+}
+#endif
+
+#if GN_TILE_IMPORTANCE
+/* ceil(64 * min(1, range / distance to the camera)) */
+static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
+{
+#if GN_PUNCTUAL_LIGHTS
+    if (light->kind == GN_LIGHT_DIRECTIONAL || light->range2_q32 == UINT64_MAX) return 64;
+    uint64_t d2 = 0;
+    for (int k = 0; k < 3; k++) {
+        int64_t d = (int64_t)light->position_q16[k] - frame->cam.eye_q16[k];
+        d2 += (uint64_t)(d * d); /* 3 * 2^62 */
+    }
+    if (d2 <= light->range2_q32) return 64;
+    uint8_t weight = 1; /* the least w with w * distance >= 64 * range: w^2 d2 >= 4096 range2, both scaled to fit */
+    uint64_t range2 = light->range2_q32 >> 6;
+    d2 >>= 6;
+    while (weight < 64 && (d2 >> 12) * weight * weight + (((d2 & 4095U) * weight * weight) >> 12) < range2) weight++;
+    return weight;
+#else
+    (void)frame, (void)light;
+    return 64;
+#endif
+}
+#endif
+
+static void wish(gn_frame *frame, gn_tile_plan *plan)
+{
+    const gn_scene *scene = frame->scene;
+    for (uint32_t l = 0; l < scene->n_lights; l++) {
+        gn_light_state *light = &frame->light[l];
+        int wanted = !light->off && scene->lights[l].shadow_strength_uq16 > 0 && shadow_possible(frame, l);
+        light->shadow_state = wanted ? GN_SHADOW_NO_ROOM : GN_SHADOW_NOT_WANTED;
+    }
+#if GN_MAIN_LIGHT
+    uint32_t main = scene->shadow.main_light ? main_light(frame) : GN_MAX_LIGHTS;
+#endif
+    for (uint32_t l = 0; l < scene->n_lights; l++) {
+        const gn_light_state *light = &frame->light[l];
+        GN_ELEMENT(light);
+        gn_tile_plan none = {0, 0, 0, 0, 0, 0};
+        plan[l] = none;
+        if (light->shadow_state == GN_SHADOW_NOT_WANTED) continue;
+#if GN_TILE_IMPORTANCE
+        plan[l].weight = weight_of(frame, light);
+#endif
+        plan[l].cascaded = light->kind == GN_LIGHT_DIRECTIONAL;
+#if GN_MAIN_LIGHT
+        if (scene->shadow.main_light && l != main) plan[l].cascaded = 0;
+#endif
+        plan[l].in_other = !plan[l].cascaded;
+        plan[l].n_tiles = plan[l].cascaded ? GN_N_CASCADES(frame) : light->kind == GN_LIGHT_POINT ? 6 : 1;
+        plan[l].n_drawn = plan[l].n_tiles;
+        for (uint32_t i = 0; plan[l].cascaded && i < GN_N_CASCADES(frame); i++)
+            if (GN_CASCADE_UNUSED(frame, i)) plan[l].n_drawn--;
+    }
+}
+
+/* A3: in the order given; what does not fit has none, and later lights are still tried. Returns the number of tiles. */
+static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity)
+{
+    uint32_t n_tiles = 0, n_lights = 0, limit = capacity < GN_ATLAS_TILES_MAX ? capacity : GN_ATLAS_TILES_MAX;
+    for (uint32_t l = 0; l < frame->scene->n_lights && l < GN_MAX_LIGHTS;
+         l++) { /* the second for the compiler, which does not know */
+        if (!plan[l].n_tiles || plan[l].in_other != in_other) continue;
+        if (n_tiles + plan[l].n_tiles > limit || (!in_other && n_lights == GN_CASCADED_LIGHTS_MAX)) {
+            plan[l].n_tiles = 0;
+            frame->stats.n_lights_without_room++;
+            continue;
+        }
+        n_tiles += plan[l].n_tiles;
+        n_lights++;
+        frame->light[l].shadow_state = GN_SHADOW_REALTIME;
+    }
+    return n_tiles;
+}
+
+static void equal_sizes(const gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t n_tiles,
+                        int32_t atlas_log2)
+{
+    int32_t tile_log2 = atlas_log2 - (n_tiles > 4 ? 2 : n_tiles > 1 ? 1 : 0);
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++)
+        if (plan[l].n_tiles && plan[l].in_other == in_other) plan[l].tile_log2 = (uint8_t)tile_log2;
+}
+
+#if GN_TILE_IMPORTANCE
+static uint32_t texels_of(const gn_tile_plan *plan)
+{
+    return (uint32_t)plan->n_tiles << (2 * plan->tile_log2); /* 16 * 2^20 */
+}
+
+/* T / w of a against T / w of b: tiles that are larger than their light is worth come first. */
+static int more_generous(const gn_tile_plan *a, const gn_tile_plan *b)
+{
+    return ((uint32_t)b->weight << a->tile_log2) > ((uint32_t)a->weight << b->tile_log2);
+}
+
+/* The light to halve (the most generous above 8 texels, later ones first) or to double (the least generous whose tiles
+ * then fit). */
+static uint32_t pick(const gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other, int halve, int32_t atlas_log2,
+                     uint32_t left)
+{
+    uint32_t best = GN_MAX_LIGHTS;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        if (!plan[l].n_tiles || plan[l].in_other != in_other) continue;
+        if (halve && plan[l].tile_log2 <= 3) continue;
+        if (!halve && (plan[l].tile_log2 >= atlas_log2 || 3 * texels_of(&plan[l]) > left)) continue;
+        if (best == GN_MAX_LIGHTS ||
+            (halve ? !more_generous(&plan[best], &plan[l]) : more_generous(&plan[best], &plan[l])))
+            best = l;
+    }
+    return best;
+}
+
+static void sizes_by_importance(const gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, int32_t atlas_log2)
+{
+    uint32_t room = 1U << (2 * atlas_log2), used = 0, l;
+    for (l = 0; l < frame->scene->n_lights; l++) {
+        if (!plan[l].n_tiles || plan[l].in_other != in_other) continue;
+        plan[l].tile_log2 = (uint8_t)atlas_log2;
+        used += texels_of(&plan[l]);
+    }
+    while (used > room && (l = pick(frame, plan, in_other, 1, atlas_log2, 0)) < GN_MAX_LIGHTS) {
+        used -= texels_of(&plan[l]) / 4 * 3;
+        plan[l].tile_log2--;
+    }
+    while (used < room && (l = pick(frame, plan, in_other, 0, atlas_log2, room - used)) < GN_MAX_LIGHTS) {
+        used += 3 * texels_of(&plan[l]);
+        plan[l].tile_log2++;
+    }
+}
+#endif
+
+/* With the default capacities they always do: an atlas holds what it is divided into. */
+static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other)
+{
+    uint32_t needed = 0, available = in_other ? GN_OTHER_ATLAS_TEXELS : GN_ATLAS_TEXELS;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++)
+        if (plan[l].n_tiles && plan[l].in_other == in_other)
+            needed += (uint32_t)plan[l].n_drawn << (2 * plan[l].tile_log2);
+    return needed <= available ? GN_OK : gn_fail_capacity(frame, GN_ERR_ATLAS_FULL, needed, available);
+}
+
+static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity,
+                            int32_t atlas_size)
+{
+    int32_t atlas_log2 = 31 - gn_clz32((uint32_t)atlas_size);
+    uint32_t n_tiles = serve(frame, plan, in_other, capacity);
+    if (n_tiles > 4U << (2 * (atlas_log2 - 4)))
+        return gn_fail(frame, GN_ERR_SHADOW_TILE, 0); /* more than size^2 / 64 */
+#if GN_TILE_IMPORTANCE
+    if (frame->scene->shadow.tile_sizes == GN_TILES_IMPORTANCE) sizes_by_importance(frame, plan, in_other, atlas_log2);
+    else
+#endif
+        equal_sizes(frame, plan, in_other, n_tiles, atlas_log2);
+    frame->stats.n_shadow_tiles += n_tiles;
+    return texels_suffice(frame, plan, in_other);
+}
+
+gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS])
+{
+    wish(frame, plan);
+    gn_status status = plan_atlas(frame, plan, 0, GN_MAX_SHADOW_TILES, GN_K(frame, atlas_size));
+#if GN_OTHER_ATLAS
+    if (!status) status = plan_atlas(frame, plan, 1, GN_MAX_OTHER_TILES, GN_K(frame, other_atlas_size));
+#endif
+    return status;
+}
+
+#endif

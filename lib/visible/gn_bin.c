@@ -1,0 +1,53 @@
+/* Counting sort of triangles into screen tiles, in triangle order. */
+#include "gn_internal.h"
+
+#include "gn_stages.h"
+#include "base/gn_count.h"
+#include "base/gn_q.h"
+#include "scene/gn_scene.h"
+#include "visible/gn_setup.h"
+
+/* Puts a triangle into the bins of the screen tiles within its bounds. */
+static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)
+{
+    gn_rect px = gn_setup_bounds(frame, &frame->tri[tri_idx]);
+    gn_tile_walk tiles = gn_setup_tiles(frame, &px);
+    gn_ref_offset *at = frame->tile_first + tiles.first;
+    do {
+        int32_t n = tiles.width;
+        do frame->tile_ref[--*at++] = (uint16_t)tri_idx;
+        while (--n);
+        at += tiles.skip;
+    } while (--tiles.height);
+}
+
+gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch)
+{
+    uint32_t n_tiles = (uint32_t)frame->tiles_x * frame->tiles_y;
+    uint64_t n_refs = 0;
+    gn_ref_offset *first = frame->tile_first;
+    for (uint32_t i = 0; i < n_tiles; i++) n_refs += first[i];
+    frame->stats.n_tile_refs = n_refs > UINT32_MAX ? UINT32_MAX : (uint32_t)n_refs;
+    if (n_refs > GN_MAX_TILE_REFS)
+        return gn_fail_capacity(frame, GN_ERR_TILE_REFS_FULL, frame->stats.n_tile_refs, GN_MAX_TILE_REFS);
+    GN_COUNT(tile_refs, n_refs);
+    /* to the end of each bin, then filled backwards so that each bin starts where it should, in triangle order */
+    for (uint32_t i = 1; i <= n_tiles; i++) first[i] = (gn_ref_offset)(first[i] + first[i - 1]);
+    for (uint32_t t = frame->stats.n_triangles; t-- > 0;) {
+#if !GN_SIZE_FIRST
+        uint32_t place = t < GN_PLACES ? scratch->pixel.rgb565[t] : GN_PLACE_MANY, way = place & 3;
+        if (way != GN_PLACE_MANY) {
+            gn_ref_offset *at = first + (place >> 2);
+            frame->tile_ref[--*at] = (uint16_t)t;
+            if (way == GN_PLACE_ONE) continue;
+            at += way == GN_PLACE_NEXT ? 1 : frame->tiles_x;
+            frame->tile_ref[--*at] = (uint16_t)t;
+            continue;
+        }
+#else
+        (void)scratch;
+#endif
+        bin_by_bounds(frame, t);
+    }
+    return GN_OK;
+}

@@ -1,0 +1,436 @@
+/* Visible surfaces of a screen tile. */
+#include "gn_internal.h"
+
+#include <string.h>
+
+#include "gn_stages.h"
+#include "base/gn_count.h"
+#include "base/gn_hint.h"
+#include "base/gn_q.h"
+#include "geometry/gn_alpha.h"
+#include "geometry/gn_plane.h"
+#include "geometry/gn_walk.h"
+#include "geometry/gn_xform.h"
+#include "visible/gn_cell.h"
+#include "visible/gn_screen_rect.h"
+#include "visible/gn_setup.h"
+
+/* What a triangle's rows have in common. A candidate cell is its depth above its identity. */
+typedef struct {
+    uint32_t minus_dx;  /* from a cell to the one before it */
+    uint32_t lo, range; /* depth inside the triangle: lo .. lo + range */
+    uint32_t id_mask;
+    uint32_t below; /* from a cell of all depth and no identity's bits clear to the triangle's: id_mask - id */
+} raster_depth;
+
+/* Depth is linear over a row; inside the triangle it stays within its range. A snapped edge can reach past the
+ * unsnapped plane by a fraction of a pixel, so a value outside is brought back to the nearer end (modulo 2^32). */
+static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
+{
+    uint32_t above = v - depth->lo;
+    if (above <= depth->range) return v;
+    return 0U - above < above - depth->range ? depth->lo : depth->lo + depth->range;
+}
+
+/* Identities in a tile ascend as it is drawn, so that a candidate wins where its depth is at least the cell's: all that
+ * is compared is its depth with the bits of the identity set. */
+#define GN_CELL_(cell)                                                                                                 \
+    do {                                                                                                               \
+        uint32_t candidate = iz | id_mask;                                                                             \
+        if (candidate >= (cell)) {                                                                                     \
+            GN_KEEP(candidate);                                                                                        \
+            (cell) = candidate - below;                                                                                \
+        }                                                                                                              \
+        iz += minus_dx;                                                                                                \
+        GN_KEEP(iz);                                                                                                   \
+    } while (0)
+
+#if !GN_SIZE_FIRST
+/* n > 0 cells, from the last, whose depth is iz, to the first: those that eights leave, then eights. */
+GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
+{
+    GN_COUNT(covered, n);
+    uint32_t minus_dx = depth->minus_dx, id_mask = depth->id_mask, below = depth->below, *at = cell + (n & ~7);
+    GN_KEEP(at);     /* one pointer */
+    switch (n & 7) { /* each goes on with those after it */
+    case 7:
+        GN_CELL_(at[6]);
+        GN_GOES_ON;
+    case 6:
+        GN_CELL_(at[5]);
+        GN_GOES_ON;
+    case 5:
+        GN_CELL_(at[4]);
+        GN_GOES_ON;
+    case 4:
+        GN_CELL_(at[3]);
+        GN_GOES_ON;
+    case 3:
+        GN_CELL_(at[2]);
+        GN_GOES_ON;
+    case 2:
+        GN_CELL_(at[1]);
+        GN_GOES_ON;
+    case 1:
+        GN_CELL_(at[0]);
+        GN_GOES_ON;
+    default:
+        break;
+    }
+    while (at != cell) {
+        at -= 8;
+        GN_KEEP(at);
+        GN_CELL_(at[7]);
+        GN_CELL_(at[6]);
+        GN_CELL_(at[5]);
+        GN_CELL_(at[4]);
+        GN_CELL_(at[3]);
+        GN_CELL_(at[2]);
+        GN_CELL_(at[1]);
+        GN_CELL_(at[0]);
+    }
+}
+
+/* Apart, so that it takes no registers of short spans. */
+static GN_NOINLINE void raster_long_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t minus_dx, uint32_t id_mask,
+                                         uint32_t below)
+{
+    const raster_depth depth = {minus_dx, 0, 0, id_mask,
+                                below}; /* by their values: a pointer would keep them in memory */
+    raster_span(cell, n, iz, &depth);
+}
+
+/* The same of no cells if n is not positive, and seldom more than eight. */
+GN_INLINE void raster_short_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
+{
+    uint32_t minus_dx = depth->minus_dx, id_mask = depth->id_mask, below = depth->below;
+    GN_COUNT(covered, n > 0 && n <= 8 ? n : 0);
+    switch (n) {
+    case 8:
+        GN_CELL_(cell[7]);
+        GN_GOES_ON;
+    case 7:
+        GN_CELL_(cell[6]);
+        GN_GOES_ON;
+    case 6:
+        GN_CELL_(cell[5]);
+        GN_GOES_ON;
+    case 5:
+        GN_CELL_(cell[4]);
+        GN_GOES_ON;
+    case 4:
+        GN_CELL_(cell[3]);
+        GN_GOES_ON;
+    case 3:
+        GN_CELL_(cell[2]);
+        GN_GOES_ON;
+    case 2:
+        GN_CELL_(cell[1]);
+        GN_GOES_ON;
+    case 1:
+        GN_CELL_(cell[0]);
+        break;
+    default:
+        if (n > 0) raster_long_span(cell, n, iz, minus_dx, id_mask, below);
+    }
+}
+#undef GN_CELL_
+
+/* What is stepped from row to row of a triangle. */
+typedef struct {
+    gn_walk_line left, right;
+    uint32_t iz, iz_dy; /* left of the tile's first column */
+    uint32_t *row;
+} stepped_rows;
+
+/* The rows before `end`, of which there are some; borders have `fraction` bits. Rows are cut to the tile's width, if
+ * not all of them lie inside. */
+GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stride, int32_t fraction, int inside,
+                           int32_t width, const raster_depth *depth)
+{
+    uint32_t left = rows->left.x, right = rows->right.x, iz = rows->iz;
+    uint32_t *row = rows->row;
+    do {
+        int32_t xa = (int32_t)left >> fraction, xb = (int32_t)right >> fraction;
+        if (!inside) {
+            xa = gn_max32(xa, 0);
+            xb = gn_min32(xb, width);
+        }
+        GN_COUNT(rows, xb > xa);
+        if (fraction == GN_NARROW_BITS)
+            raster_short_span(row + xa, xb - xa, iz - (uint32_t)xb * depth->minus_dx, depth);
+        else if (xb > xa) raster_span(row + xa, xb - xa, iz - (uint32_t)xb * depth->minus_dx, depth);
+        left += rows->left.step;
+        right += rows->right.step;
+        iz += rows->iz_dy;
+        row += stride;
+        GN_KEEP(left); /* stepped, not found again after the loop */
+        GN_KEEP(right);
+        GN_KEEP(iz);
+        GN_KEEP(row);
+    } while (row != end);
+    rows->left.x = left, rows->right.x = right;
+    rows->iz = iz;
+    rows->row = row;
+}
+#endif
+
+#if GN_VISIBLE_ALPHA
+static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
+{
+    const gn_object *object = &frame->scene->objects[tri->object_idx];
+    GN_ELEMENT(object);
+    const uint16_t *idx = object->mesh->idx + 3 * (size_t)tri->triangle_idx;
+    gn_alpha_begin(cut, object, object->visible_alpha, idx);
+    if (!cut->textured) return;
+    gn_xform to_view;
+    int32_t v[3][3];
+    gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
+    for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &to_view, object->mesh, tri->object_idx, idx[i]);
+    gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
+}
+
+#endif
+
+/* A screen tile. */
+typedef struct {
+    const gn_frame *frame;
+    gn_scratch *scratch;
+    gn_rect rect;
+    int32_t width, height;   /* pixels */
+    int32_t x, y;            /* of the picture's centre from the tile's corner, as corners of triangles */
+    int32_t column_x, row_y; /* the same, less half a pixel and with the rounding of gn_first_px: of narrow triangles */
+    uint32_t inside;         /* coordinates below it, a power of two, are left of the right border */
+    uint32_t id_mask;
+} raster_tile;
+
+/* Pixels of a row that need a look each: alpha may cut them, or depth leaves the triangle's range. Where alpha cuts, it
+ * is looked up only where the surface would be the nearest. */
+static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz,
+                                         gn_alpha_cut *cut, int32_t x)
+{
+    for (int32_t i = 0; i < n; i++, cell++, iz -= depth->minus_dx) {
+        uint32_t candidate = clamp_depth(iz, depth) | depth->id_mask;
+        if (candidate < *cell) continue;
+#if GN_VISIBLE_ALPHA
+        if (cut && gn_alpha_cuts(cut, x + i)) continue;
+#else
+        (void)cut, (void)x;
+#endif
+        *cell = candidate - depth->below;
+    }
+    GN_COUNT(covered_cut, cut ? n : 0);
+    GN_COUNT(covered, cut ? 0 : n);
+}
+
+#if !GN_SIZE_FIRST
+/* A small triangle that nothing cuts and whose depth needs no look (gn_tri): its edges are stepped in fixed point, row
+ * by row. */
+static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+{
+    /* top, left and right of it, as a ring: left edges lead down from one to the next, right ones from one to the last
+     */
+    const gn_walk_corner ring[4] = {{tri->x[0] + tile->x, tri->y[0] + tile->y},
+                                    {tri->x[1] + tile->x, tri->y[1] + tile->y},
+                                    {tri->x[2] + tile->x, tri->y[2] + tile->y},
+                                    {tri->x[0] + tile->x, tri->y[0] + tile->y}};
+    const int32_t bits = GN_K(tile->frame, subpixel_bits), stride = GN_K(tile->frame, tile_width),
+                  lasts = tri->iz_min - 1;
+    int32_t at = gn_max32(gn_first_px(ring[0].y, bits), 0),
+            bend[2] = {gn_first_px(ring[1].y, bits), gn_first_px(ring[2].y, bits)};
+    int32_t end = gn_min32(gn_max32(bend[0], bend[1]), tile->height), left_end = at, right_end = at;
+    uint32_t minus_dx = 0U - (uint32_t)tri->iz_dx;
+    GN_KEEP(minus_dx); /* one of the two */
+    const raster_depth depth = {minus_dx, 0, 0, tile->id_mask, tile->id_mask - id};
+    stepped_rows rows = {{0, 0}, {0, 0}, 0, (uint32_t)tri->iz_dy, GN_CELLS(tile->scratch) + at * stride};
+    rows.iz = tri->iz_ref + (uint32_t)(at - (ring[0].y >> bits)) * rows.iz_dy +
+              (uint32_t)((ring[0].x >> bits) + 1) * minus_dx;
+    while (at < end) {
+        if (at == left_end) {
+            const gn_walk_corner *from = ring + (at >= bend[0]);
+            left_end = gn_min32(at < bend[0] ? gn_min32(bend[0], end) : end, at + lasts);
+            rows.left = gn_walk_line_at(from[0].x, from[0].y, from[1].x, from[1].y, at, lasts, bits);
+        }
+        if (at == right_end) {
+            const gn_walk_corner *from = ring + 3 - (at >= bend[1]);
+            right_end = gn_min32(at < bend[1] ? gn_min32(bend[1], end) : end, at + lasts);
+            rows.right = gn_walk_line_at(from[0].x, from[0].y, from[-1].x, from[-1].y, at, lasts, bits);
+        }
+        int32_t stop = gn_min32(left_end, right_end);
+        raster_rows(&rows, rows.row + (stop - at) * stride, stride, GN_FIXED_BITS, 0, tile->width, &depth);
+        at = stop;
+    }
+}
+
+static inline gn_walk_line narrow_line(gn_walk_corner from, gn_walk_corner to, int32_t y, int32_t bits)
+{
+    return gn_walk_narrow_at(from.x, from.y, to.x, to.y, y, bits, GN_CORE_DIVIDES);
+}
+
+/* A triangle of a few pixels, that nothing cuts and whose depth needs no look: of most of them all is in one or two
+ * screen tiles. Its corners have what rounds them to rows, and to the centres of columns, in them. */
+static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+{
+    const int32_t bits = GN_K(tile->frame, subpixel_bits), one = 1 << bits, half = one >> 1,
+                  stride = GN_K(tile->frame, tile_width);
+    const gn_walk_corner top = {tri->x[0] + tile->column_x, tri->y[0] + tile->row_y},
+                         left = {tri->x[1] + tile->column_x, tri->y[1] + tile->row_y},
+                         right = {tri->x[2] + tile->column_x, tri->y[2] + tile->row_y};
+    int32_t at = gn_max32(top.y >> bits, 0), left_end = left.y >> bits, right_end = right.y >> bits;
+    int32_t end = gn_min32(gn_max32(left_end, right_end), tile->height), bend = gn_min32(left_end, right_end);
+    if (at >= end) return;
+    int inside = (uint32_t)(top.x | left.x | right.x) < tile->inside;
+    uint32_t minus_dx = 0U - (uint32_t)tri->iz_dx, *cells = GN_CELLS(tile->scratch);
+    GN_KEEP(minus_dx); /* one of the two */
+    const raster_depth depth = {minus_dx, 0, 0, tile->id_mask, tile->id_mask - id};
+    stepped_rows rows;
+    rows.iz_dy = (uint32_t)tri->iz_dy;
+    rows.iz = tri->iz_ref + (uint32_t)(at - ((top.y - half + 1) >> bits)) * rows.iz_dy +
+              (uint32_t)((top.x + half + one) >> bits) * minus_dx;
+    rows.row = cells + at * stride;
+    int32_t y = at * one + one - 1;
+    rows.left = at < left_end ? narrow_line(top, left, y, bits) : narrow_line(left, right, y, bits);
+    rows.right = at < right_end ? narrow_line(top, right, y, bits) : narrow_line(right, left, y, bits);
+    if (bend <= at || bend > end) bend = end;
+    for (;;) {
+        if (inside) raster_rows(&rows, cells + bend * stride, stride, GN_NARROW_BITS, 1, 0, &depth);
+        else raster_rows(&rows, cells + bend * stride, stride, GN_NARROW_BITS, 0, tile->width, &depth);
+        if (bend == end) return;
+        y = bend * one + one - 1;
+        if (bend == left_end) rows.left = narrow_line(left, right, y, bits);
+        else rows.right = narrow_line(right, left, y, bits);
+        bend = end;
+    }
+}
+
+#endif
+
+#if GN_VISIBLE_ALPHA
+/* Row v of the tile. */
+static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const gn_span *span)
+{
+    int32_t y = tile->rect.y0 + v;
+    gn_alpha_row(cut, y, tile->frame->picture.height - 1 - 2 * y, tile->rect.x0 + span->x_begin,
+                 tile->rect.x0 + span->x_end);
+}
+#endif
+
+/* Walks a triangle that `cut` cuts, if it is not NULL. */
+static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, gn_alpha_cut *cut)
+{
+    const int32_t x[3] = {tri->x[0] + tile->x, tri->x[1] + tile->x, tri->x[2] + tile->x};
+    const int32_t y[3] = {tri->y[0] + tile->y, tri->y[1] + tile->y, tri->y[2] + tile->y};
+    int32_t bits = GN_K(tile->frame, subpixel_bits);
+    gn_walk walk;
+    int32_t n_rows = gn_walk_begin(&walk, x, y, bits, 0, tile->height);
+    int32_t stride = GN_K(tile->frame, tile_width), width = tile->width;
+    if (!n_rows) return;
+    raster_depth depth;
+    const uint32_t iz_dx = (uint32_t)tri->iz_dx;
+    depth.minus_dx = 0U - iz_dx;
+    int bounded = tri->iz_min <= tri->iz_max;
+    depth.lo = bounded ? (uint32_t)tri->iz_min << 16 : 0;
+    depth.range = bounded ? ((uint32_t)tri->iz_max << 16 | 0xFFFFU) - depth.lo : UINT32_MAX;
+    depth.id_mask = tile->id_mask;
+    depth.below = tile->id_mask - id;
+    uint32_t iz_dy = (uint32_t)tri->iz_dy;
+    /* at the tile's left border, above the least; inside the triangle below its range, but for the last value there is
+     */
+    uint32_t iz_row =
+        tri->iz_ref - depth.lo - (uint32_t)(x[0] >> bits) * iz_dx + (uint32_t)(walk.first - (y[0] >> bits)) * iz_dy;
+    uint32_t *row = GN_CELLS(tile->scratch) + walk.first * stride;
+    for (; n_rows > 0; n_rows = gn_walk_on(&walk)) {
+        for (const gn_span *span = walk.span; n_rows > 0; n_rows--, span++, row += stride, iz_row += iz_dy) {
+            int32_t xa = gn_max32(span->x_begin, 0), n = gn_min32(span->x_end, width) - xa;
+            if (n <= 0) continue;
+            uint32_t above = iz_row + (uint32_t)xa * iz_dx;
+            GN_COUNT(rows, 1);
+#if !GN_SIZE_FIRST /* the slow way has the same results */
+            uint32_t end = cut ? 0 : depth.range;
+            if (above < end && above + (uint32_t)(n - 1) * iz_dx < end) {
+                raster_span(row + xa, n, above + depth.lo + (uint32_t)(n - 1) * iz_dx, &depth);
+                continue;
+            }
+#endif
+#if GN_VISIBLE_ALPHA
+            if (cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
+#endif
+            raster_span_slow(&depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
+        }
+    }
+}
+
+#if GN_VISIBLE_ALPHA
+static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+{
+    gn_alpha_cut *cut = &tile->scratch->work.cut;
+    cut_begin(tile->frame, tile->scratch, cut, tri);
+    raster_triangle(tile, tri, id, cut);
+}
+#endif
+
+/* A triangle that a screen tile meets. */
+static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+{
+#if !GN_SIZE_FIRST
+    if (tri->iz_min == GN_NARROW + 1 && !tri->iz_max) {
+        raster_narrow(tile, tri, id);
+        return;
+    }
+    if (tri->iz_min > 1 && !tri->iz_max) {
+        raster_small(tile, tri, id);
+        return;
+    }
+#endif
+#if GN_VISIBLE_ALPHA
+    if (tile->frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
+        raster_cut_triangle(tile, tri, id);
+        return;
+    }
+#endif
+    raster_triangle(tile, tri, id, NULL);
+}
+
+void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
+{
+    int32_t bits = GN_K(frame, subpixel_bits);
+    raster_tile tile;
+    tile.frame = frame;
+    tile.scratch = scratch;
+    tile.rect = gn_screen_rect(frame, tile_idx);
+    tile.width = tile.rect.x1 - tile.rect.x0;
+    tile.height = tile.rect.y1 - tile.rect.y0;
+    tile.x = ((frame->picture.width << bits) >> 1) - tile.rect.x0 * (1 << bits);
+    tile.y = ((frame->picture.height << bits) >> 1) - tile.rect.y0 * (1 << bits);
+    tile.id_mask = (1U << frame->id_bits) - 1;
+    if (!GN_SIZE_FIRST) {
+        tile.column_x = tile.x - ((1 << bits) >> 1);
+        tile.row_y = tile.y + ((1 << bits) >> 1) - 1;
+        tile.inside = 1U << (31 - gn_clz32((uint32_t)tile.width) + bits);
+    }
+    GN_COUNT(screen_tiles, 1);
+    GN_COUNT(pixels, tile.width * tile.height);
+    memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
+#if GN_VISIBLE_ALPHA
+    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
+#endif
+        /* backwards: identities ascend */
+#if GN_SIZE_FIRST
+    for (uint32_t i = frame->tile_first[tile_idx + 1]; i-- > frame->tile_first[tile_idx];) {
+        uint32_t tri_idx = frame->tile_ref[i];
+        const gn_tri *tri = &frame->tri[tri_idx];
+        GN_ELEMENT(tri);
+        raster_one(&tile, tri, gn_cell_id(frame, tri_idx));
+    }
+#else
+    const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]],
+                   *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
+    const gn_tri *first = frame->tri;
+    uint32_t n_triangles = frame->stats.n_triangles;
+    GN_KEEP(first); /* found once */
+    while (ref != none) {
+        uint32_t tri_idx = *--ref;
+        raster_one(&tile, first + tri_idx, n_triangles - tri_idx); /* gn_cell_id */
+    }
+#endif
+}

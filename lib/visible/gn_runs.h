@@ -1,0 +1,91 @@
+/* What is visible in a screen tile, triangle by triangle: runs of pixels of one row that show the same triangle (R2).
+ *
+ * Runs are linked in the cells themselves. A run's first cell, once its depth is no longer needed, holds the index of
+ * the list's next run above the triangle's identity, its own index if it is the last; the second, if there is one, the
+ * run's length above the identity. So triangles need not be walked again to find what is left of them.
+ */
+#ifndef GN_RUNS_H
+#define GN_RUNS_H
+
+#include "base/gn_hint.h"
+#include "gnomon.h"
+
+#define GN_RUN_NONE ((gn_run_idx) ~(gn_run_idx)0)
+
+/* Begins a tile: its lists are empty. */
+void gn_runs_clear(gn_scratch *scratch);
+
+/* The last cell before `end` that something covers: the background's are 0. Stops at the one before the row. */
+static inline uint32_t *gn_runs_last(uint32_t *end)
+{
+    do end--;
+    while (!*end);
+    return end;
+}
+
+/* The first cell of the run that ends with `last`. The one before the row must be of no triangle: UINT32_MAX. */
+static inline uint32_t *gn_runs_first(uint32_t *last, uint32_t id_mask)
+{
+    uint32_t id = *last, before;
+    do before = *--last;
+    while (!((before ^ id) & id_mask));
+    GN_KEEP(last); /* one pointer */
+    return last + 1;
+}
+
+/* Links a run at the head of its list: runs come from the tile's last to its first, so that each list begins with what
+ * comes first. */
+static inline void gn_runs_link(gn_scratch *scratch, uint32_t id, uint32_t first, uint32_t n_px)
+{
+    gn_run_idx *list = &scratch->run_list[id & (GN_RUN_LISTS - 1)];
+    uint32_t next = *list == GN_RUN_NONE ? first : *list;
+    GN_CELLS(scratch)[first] = next << 16 | id;
+    if (n_px > 1) GN_CELLS(scratch)[first + 1] = n_px << 16 | id;
+    *list = (gn_run_idx)first;
+}
+
+/* Leaves a run out: nothing that is linked goes on in its cells. */
+static inline void gn_runs_drop(uint32_t *first)
+{
+    *first = 0;
+}
+
+/* Walks the runs of one triangle, top down and left to right, and takes them from their list. */
+typedef struct {
+    uint32_t *cell;
+    gn_run_idx *list;
+    uint32_t id;
+    uint32_t at, prev; /* GN_RUN_NONE: at its end, at its beginning */
+} gn_run_taker;
+
+static inline void gn_runs_begin(gn_run_taker *taker, gn_scratch *scratch, uint32_t id)
+{
+    taker->cell = GN_CELLS(scratch);
+    taker->list = &scratch->run_list[id & (GN_RUN_LISTS - 1)];
+    taker->id = id;
+    taker->at = *taker->list;
+    taker->prev = GN_RUN_NONE;
+}
+
+/* The next run: *n_px pixels from cell *first on. Returns 0 if there is none. */
+static inline int gn_runs_take(gn_run_taker *taker, uint32_t stride, uint32_t *first, int32_t *n_px)
+{
+    while (taker->at != GN_RUN_NONE) {
+        uint32_t *cell = taker->cell, i = taker->at, next = cell[i] >> 16;
+        if (next == i) next = GN_RUN_NONE;
+        taker->at = next;
+        if ((cell[i] & 0xFFFFU) != taker->id) {
+            taker->prev = i;
+            continue;
+        }
+        if (taker->prev == GN_RUN_NONE) *taker->list = (gn_run_idx)next;
+        else cell[taker->prev] = (next == GN_RUN_NONE ? taker->prev : next) << 16 | (cell[taker->prev] & 0xFFFFU);
+        *first = i;
+        /* one pixel, or a second whose cell names the same triangle: what begins there otherwise is another's */
+        *n_px = (i + 1) % stride && (cell[i + 1] & 0xFFFFU) == taker->id ? (int32_t)(cell[i + 1] >> 16) : 1;
+        return 1;
+    }
+    return 0;
+}
+
+#endif

@@ -1,0 +1,69 @@
+/* Visible triangles: transform, cull, clip, project, and set up edges and depth (R2, R3). */
+#ifndef GN_SETUP_H
+#define GN_SETUP_H
+
+#include "base/gn_q.h"
+#include "geometry/gn_walk.h"
+#include "gnomon.h"
+
+/* In the scratch's pixels, of the first triangles: the first screen tile that one may have pixels in, above two bits:
+ * that alone, the next one, the one below, or others too. Where size comes first there is none of this. */
+#define GN_PLACES GN_TILE_PIXELS_MAX
+enum { GN_PLACE_ONE, GN_PLACE_NEXT, GN_PLACE_BELOW, GN_PLACE_MANY };
+
+/* View position of an object's vertex through the cache. Returns 0 if it is beyond +-16384 units, or
+ * its position beyond +-2^30. */
+int gn_setup_vertex(int32_t out_q16[3], gn_vcache_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
+                    uint32_t object_idx, uint32_t vertex_idx);
+
+/* Screen coordinates of the corners from the picture's top left corner, subpixel_bits fraction bits. */
+void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3]);
+
+/* Pixels whose centres lie between the least and largest coordinates, from the picture's centre, in the subpixel grid:
+ * cut to the picture. What is added before they are shifted is the picture's centre, and the rounding of gn_first_px.
+ */
+static inline gn_rect gn_setup_bounds_of(const gn_frame *frame, int32_t left, int32_t right, int32_t top,
+                                         int32_t bottom, int32_t add_x, int32_t add_y)
+{
+    int32_t bits = GN_K(frame, subpixel_bits);
+    gn_rect r;
+    r.x0 = gn_max32((left + add_x) >> bits, 0);
+    r.x1 = gn_min32((right + add_x) >> bits, frame->picture.width);
+    r.y0 = gn_max32((top + add_y) >> bits, 0);
+    r.y1 = gn_min32((bottom + add_y) >> bits, frame->picture.height);
+    return r;
+}
+
+static inline int32_t gn_setup_add(int32_t size_px, int32_t bits)
+{
+    return ((size_px << bits) >> 1) + ((1 << bits) >> 1) - 1;
+}
+
+static inline gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
+{
+    int32_t x0 = tri->x[0], x1 = tri->x[1], x2 = tri->x[2], bits = GN_K(frame, subpixel_bits);
+    return gn_setup_bounds_of(frame, gn_min32(gn_min32(x0, x1), x2), gn_max32(gn_max32(x0, x1), x2), tri->y[0],
+                              gn_max32(tri->y[1], tri->y[2]), gn_setup_add(frame->picture.width, bits),
+                              gn_setup_add(frame->picture.height, bits));
+}
+
+/* The screen tiles that pixels of the picture lie in, some at least: `height` rows of `width` tiles, with `skip` others
+ * between. */
+typedef struct {
+    uint32_t first;
+    int32_t width, height, skip;
+} gn_tile_walk;
+
+static inline gn_tile_walk gn_setup_tiles(const gn_frame *frame, const gn_rect *px)
+{
+    uint32_t w = (uint32_t)GN_K(frame, tile_width), h = (uint32_t)GN_K(frame, tile_height); /* nothing is negative */
+    uint32_t x = (uint32_t)px->x0 / w, y = (uint32_t)px->y0 / h, tiles_x = frame->tiles_x;
+    gn_tile_walk tiles;
+    tiles.first = y * tiles_x + x;
+    tiles.width = (int32_t)((uint32_t)(px->x1 - 1) / w - x) + 1;
+    tiles.height = (int32_t)((uint32_t)(px->y1 - 1) / h - y) + 1;
+    tiles.skip = (int32_t)tiles_x - tiles.width;
+    return tiles;
+}
+
+#endif

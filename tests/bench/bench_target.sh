@@ -1,0 +1,170 @@
+#!/bin/sh
+# Counts the instructions of firmware in the emulator, stage by stage, and holds them against tests/bench/bench_target_baseline.txt.
+#   sh tests/bench/bench_target.sh            fails if a total is more than 2 % above the baseline
+#   sh tests/bench/bench_target.sh --quick    the workload on the Cortex-M3 alone
+#   sh tests/bench/bench_target.sh --document writes the baseline's figures into docs/SPEED.md
+#   sh tests/bench/bench_target.sh --write    makes the new figures the baseline, and writes them into docs/SPEED.md
+# Environment: BUILD, GNOMON.
+set -eu
+cd "$(dirname "$0")/../.."
+
+BUILD=${BUILD:-build}
+DIR=$BUILD/bench
+BASELINE=tests/bench/bench_target_baseline.txt
+DOC=docs/SPEED.md
+CASES="flat gouraud flat-shadow gouraud-shadow"
+SCENES="sundial avenue desk room fence mixed"
+STAGES=$(sh boards/tools/count.sh --stages)
+
+# core, board, and what it is configured by: light found at vertices alone, the longest steps, bands as wide as the picture
+CORES="M3 mps2-an385
+M3-fast mps2-an385 -DGN_VERTEX_LIGHT=1 -DGN_PERSP_STEP=16 -DGN_TILE_WIDTH=320 -DGN_TILE_HEIGHT=16
+M0 nrf51-large
+M4 mps2-an386
+RV32 rv32-virt"
+
+mkdir -p "$DIR"
+
+board_of() { echo "$CORES" | sed -n "s/^$1 \\([^ ]*\\).*/\\1/p"; }
+flags_of() { echo "$CORES" | sed -n "s/^$1 [^ ]* *//p"; }
+for core in M3 RV32; do sh boards/tools/count.sh --ready "$(board_of $core)"; done
+
+# one "run CORE NAME" IMAGE CORE ARGS VARIABLE...: a line with the instructions of every stage, in the order of STAGES, then the
+# counts that the app prints
+one() {
+    label=$1 image=$2 core=$3 args=$4
+    shift 4
+    sh boards/tools/count.sh "$(board_of "$core")" "$image" "$args" FW_OPT=-O2 FW_FLAGS="$(flags_of "$core")" "$@" </dev/null >"$DIR/log"
+    echo "$label $(awk '$1 == "stage" { printf "%s ", $3 } /^[a-z_]+ [0-9]+$/ { printf "%s ", $2 }' "$DIR/log")" | sed 's, *$,,'
+}
+
+workload() { # workload CORE
+    for case in $CASES; do
+        for set in L S; do one "work $1 $case $set" "bench-$1" "$1" "$case $set"; done
+    done
+    one "work $1 flat-shadow empty" "bench-$1" "$1" "flat-shadow empty"
+}
+
+scenes() { # scenes CORE PRESET...
+    core=$1
+    shift
+    presets=$*
+    for scene in $SCENES; do
+        for preset in $presets; do
+            one "scene $core $scene $preset" "bench-$core-$scene-$preset" "$core" 0 SCENE="host/scenes/$scene.gltf" PRESET="$preset"
+        done
+    done
+}
+
+measure() { # measure QUICK
+    echo "# Written by tests/bench/bench_target.sh --write. Instructions of: $STAGES; then pixels, triangles, caster triangles, shadow texels drawn."
+    echo "compiler $(arm-none-eabi-gcc --version | sed 1q); $(riscv64-unknown-elf-gcc --version | sed 1q)"
+    "$BUILD/firmware/bench/workload" count
+    workload M3
+    [ "$1" = quick ] && return
+    for core in M3-fast M0 M4 RV32; do workload "$core"; done
+    scenes M3 tiny balanced accurate
+    for core in M0 M4 RV32; do scenes "$core" balanced; done
+}
+
+# The total leaves out what runs before the first stage.
+tables() {
+    awk '
+        function total(    i, sum) { sum = 0; for (i = 5; i <= 12; i++) sum += $i; return sum }
+        $1 == "compiler" { compiler = substr($0, 10) }
+        $1 == "count" { n[$2, "L"] = $3; n[$2, "S"] = $4 }
+        $1 == "work" {
+            for (i = 5; i <= 12; i++) work[$2, $3, $4, i] = $i
+            if (!(($2) in core_seen)) { core_seen[$2] = 1; core[++n_cores] = $2 }
+        }
+        $1 == "scene" {
+            key = $3 " " $4
+            if (!(key in seen)) { seen[key] = 1; name[++n_names] = key }
+            sum[$2, key] = total(); pixels = $13
+            shadow[$2, key] = $7; begin[$2, key] = $5 + $6; prep[$2, key] = $8 + $9; raster[$2, key] = $10; shade[$2, key] = $11
+            px[key] = $13; tri[key] = $14; caster[key] = $15; texels[key] = $16
+        }
+        function net(c, what, set, i) {
+            return work[c, what, set, i] - work[c, "flat-shadow", "empty", i] * (1 - n["visible_px", set] / (320 * 240))
+        }
+        function drawing(c, what, set,    i, s) { s = 0; for (i = 8; i <= 11; i++) s += net(c, what, set, i); return s }
+        function solve(l, s, pixels,    det) {
+            det = n["triangles", "L"] * n[pixels, "S"] - n["triangles", "S"] * n[pixels, "L"]
+            a = (l * n[pixels, "S"] - s * n[pixels, "L"]) / det
+            b = (n["triangles", "L"] * s - n["triangles", "S"] * l) / det
+            return sprintf("%.0f + %.1f", a, b)
+        }
+        END {
+            print "Compilers: " compiler "; -O2, preset balanced for the workload. M3-fast has `vertex_light` 1 (Gouraud shading: light is"
+            print "found at vertices), `persp_step` 16 and screen tiles of 320x16, which take 28 KB more than those of 64x16.\n"
+            print "The workload. Instructions per triangle + per covered pixel of everything from `gn_prepare` to the last flush; visible surfaces"
+            print "are setup, binning and rasterising; shading is per triangle + per *visible* pixel.\n"
+            print "| core | case | everything | visible surfaces | shading | shading, L, per visible pixel | shadow tile, L, per caster | everything, L | everything, S |"
+            print "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+            split("flat gouraud flat-shadow gouraud-shadow", cases, " ")
+            for (c = 1; c <= n_cores; c++) for (k = 1; k <= 4; k++) {
+                q = core[c]; w = cases[k]
+                l = s = 0
+                for (i = 8; i <= 10; i++) { l += net(q, w, "L", i); s += net(q, w, "S", i) }
+                printf "| %s | %s | %s | %s | %s | %.1f | %s | %.2f M | %.2f M |\n", q, w, solve(drawing(q, w, "L"), drawing(q, w, "S"), "covered_px"),
+                    solve(l, s, "covered_px"), solve(net(q, w, "L", 11), net(q, w, "S", 11), "visible_px"), net(q, w, "L", 11) / n["visible_px", "L"],
+                    w ~ /shadow/ ? sprintf("%.0f", (work[q, w, "L", 7] - work[q, "flat-shadow", "empty", 7]) / n["casters", "L"]) : "",
+                    drawing(q, w, "L") / 1e6, drawing(q, w, "S") / 1e6
+            }
+            if (!n_names) exit
+            print "\nThe own scenes, frame 0 as `gnomon compile` configures it: a first frame, with every shadow tile drawn. Instructions per picture pixel:\n"
+            head = "| scene | preset |"; rule = "| --- | --- |"
+            for (c = 1; c <= n_cores; c++) { head = head " " core[c] " |"; rule = rule " --- |" }
+            print head " begin, M3 | shadow tiles, M3: per caster triangle | setup and bins, M3: per triangle | raster, M3: per pixel | shading, M3: per pixel | triangles | caster triangles | texels drawn |"
+            print rule " --- | --- | --- | --- | --- | --- | --- | --- |"
+            for (i = 1; i <= n_names; i++) {
+                k = name[i]; split(k, part, " ")
+                line = "| " part[1] " | " part[2] " |"
+                for (c = 1; c <= n_cores; c++) line = line ((core[c], k) in sum ? sprintf(" %.0f |", sum[core[c], k] / px[k]) : " |")
+                printf "%s %.0f K | %s | %.0f | %.1f | %.1f | %d | %d | %d |\n", line, begin["M3", k] / 1e3,
+                    caster[k] ? sprintf("%.0f", shadow["M3", k] / caster[k]) : "", tri[k] ? prep["M3", k] / tri[k] : 0,
+                    raster["M3", k] / px[k], shade["M3", k] / px[k], tri[k], caster[k], texels[k]
+            }
+        }' "$1"
+}
+
+BEGIN_MARK='<!-- begin: generated by tests/bench/bench_target.sh --write -->'
+END_MARK='<!-- end: target -->'
+
+. tests/bench/bench_part.sh
+
+if [ "${1:-}" = --document ]; then
+    rewrite_document
+    exit 0
+fi
+make -s BOARD=mps2-an385 APP=bench BUILD="$BUILD" "$BUILD/firmware/bench/bench_meshes.h" >/dev/null # makes the workload
+if [ "${1:-}" = --write ]; then
+    measure all >"$DIR/target.txt"
+    cp "$DIR/target.txt" "$BASELINE"
+    rewrite_document
+    echo "bench: wrote $BASELINE and $DOC"
+    exit 0
+fi
+quick=all
+[ "${1:-}" = --quick ] && quick=quick
+measure $quick >"$DIR/target.txt"
+
+status=0
+[ "$(grep '^compiler' "$BASELINE")" = "$(grep '^compiler' "$DIR/target.txt")" ] || echo "bench: the baseline is of other compilers"
+awk '
+    function total(    i, sum) { sum = 0; for (i = 5; i <= 12; i++) sum += $i; return sum }
+    $1 != "work" && $1 != "scene" { next }
+    { key = $1 " " $2 " " $3 " " $4 }
+    FNR == NR { then[key] = total(); next }
+    {
+        compared++
+        now = total()
+        change = then[key] ? 100 * (now - then[key]) / then[key] : 100
+        if (change > 2 || change < -2) printf "%-36s %12d %12d %+7.2f %%%s\n", key, then[key], now, change, change > 2 ? "  WORSE" : "  better: --write"
+        worse += change > 2
+    }
+    END {
+        printf "bench: %d runs on targets, %d worse than the baseline by more than 2 %%\n", compared, worse
+        exit worse > 0 || compared < 9
+    }' "$BASELINE" "$DIR/target.txt" || status=1
+finish $status

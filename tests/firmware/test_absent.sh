@@ -1,0 +1,120 @@
+#!/bin/sh
+# Off means absent: a feature that is not built leaves no symbol and takes no flash. And no call of the compiler's library but for what a core lacks.
+# Sizes are of Cortex-M3 where its compiler is installed, else of this machine. "--table" prints them.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
+
+features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS)
+cc=gcc prefix=
+if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
+    cc="arm-none-eabi-gcc -mcpu=cortex-m3 -mthumb" prefix=arm-none-eabi-
+    printf '#include <stddef.h>\nvoid *memset(void *, int, size_t);\nvoid *memcpy(void *, const void *, size_t);\n' >"$tmp/string.h"
+fi
+most() { if [ "$1" = FILTER_MAX ]; then echo 4; else echo 1; fi; }
+# but WORD VALUE FEATURE...: all features off (none) or on (all), but these VALUE
+but() {
+    base=$1 value=$2
+    shift 2
+    for f in $features; do
+        v=0
+        [ "$base" = none ] || v=$(most "$f")
+        for one in "$@"; do
+            [ "$one" != "$f" ] || v=$value
+            [ "$one" != "$f" ] || [ "$value" = 0 ] || v=$(most "$f")
+        done
+        echo "-DGN_$f=$v"
+    done
+}
+object() { # object NAME FLAGS...
+    name=$1
+    shift
+    $cc -std=c99 -ffreestanding -I"$tmp" -Ilib "$@" -c lib/gnomon.c -o "$tmp/$name.o" 2>"$tmp/log" || fail "$*: $(grep -m 1 error "$tmp/log")"
+}
+bytes() { # of flash: code and constants
+    object size -Os "$@"
+    ${prefix}size -A "$tmp/size.o" | awk '/^\.(text|rodata)/ { n += $2 } END { print n }'
+}
+
+# ---- Flash -----------------------------------------------------------------------------------------------------------------
+
+# What a feature stands on: alone it has nothing to do.
+under() {
+    case $1 in
+    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS) ;;
+    TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
+    LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
+    *) echo SHADOWS ;;
+    esac
+}
+none=$(bytes $(but none 0)) shadows=$(bytes $(but none 1 SHADOWS)) all=$(bytes $(but all 0))
+[ "$1" = --table ] && printf '%-18s %8s %14s %14s\n' feature alone "on its basis" "off, of all" "" "$none" "" "$all"
+for feature in $features; do
+    alone=$(($(bytes $(but none 1 $feature)) - none))
+    basis=$alone
+    case "$(under $feature)" in
+    "") ;;
+    SHADOWS) basis=$(($(bytes $(but none 1 $feature SHADOWS)) - shadows)) ;;
+    *) basis=$(($(bytes $(but none 1 $feature $(under $feature))) - $(bytes $(but none 1 $(under $feature))))) ;;
+    esac
+    saved=$((all - $(bytes $(but all 0 $feature))))
+    [ "$1" = --table ] && printf '%-18s %8s %14s %14s\n' "$feature" $alone $basis $saved
+    # inlining may tip by a few bytes either way; a constant that a check compares with is no code
+    if [ $alone -ge -64 ] && [ $basis -ge -64 ] && [ $saved -ge -256 ]; then pass
+    else fail "$feature: $alone bytes alone, $basis on what it stands on; off saves $saved of all"; fi
+    case $feature in
+    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_LIGHTS) ;;
+    *) if [ $alone -le 32 ] || [ $feature = CASTER_ALPHA ]; then pass; else fail "$feature without shadows: $alone bytes"; fi ;;
+    esac
+done
+
+# ---- Symbols ---------------------------------------------------------------------------------------------------------------
+
+symbols() { # of all that is built with one feature off, nothing inlined
+    object symbols -O0 $(but all 0 $1)
+    ${prefix}nm --defined-only "$tmp/symbols.o" | awk '{ print $3 }'
+}
+symbols NOTHING >"$tmp/all_symbols"
+while read -r feature pattern; do
+    grep -q -x -E "$pattern" "$tmp/all_symbols" && pass || fail "$feature: there is no symbol $pattern at all"
+    symbols "$feature" | grep -x -E "$pattern" | sort -u >"$tmp/found"
+    if [ -s "$tmp/found" ]; then fail "$feature is off, and there is $(tr '\n' ' ' <"$tmp/found")"; else pass; fi
+done <<'LIST'
+SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|gn_.*weights|gn_disk_.*
+PUNCTUAL_LIGHTS gn_(persp|punctual)_.*
+DEPTH_BLOCKS gn_blocks_.*
+FILTER_MAX gn_tent_weights|gn_linear_weights
+DISK_FILTER gn_disk_.*|disk.*
+CASTER_CULLING gn_cull_shown_nearer
+CASTER_ALPHA alpha_plane
+VISIBLE_ALPHA cut_begin|cut_row
+TILE_LIGHTS gn_punctual_in_tile
+TEXTURES gn_texture_colour|gn_srgb_decode_table
+SPECULAR highlight_q30
+MASKS masks
+BAKED_LIGHT baked_light
+CASTER_BIAS corner_normals
+RECEIVER_PLANE .*_slopes|lit_row_on_plane
+AUTO_BIAS gn_bias_auto_.*|.*_share_q3[02]|auto_.*
+INCREMENTAL check_layout|view_signature|stays
+STATIC_LAYER copy_texels
+MAIN_LIGHT main_light
+VALIDATION gn_scene_validate|check_.*light
+OTHER_FORMATS luminance_q20|fill_(grey4|mono)
+TILE_IMPORTANCE sizes_by_importance|weight_of
+OBJECT_BOXES gn_cull_sees|.*_sees
+CLIPPING project_cut|general_triangle
+CASTER_CLIPPING clip_side|clip_to_reach
+LIST
+
+# ---- Divisions -------------------------------------------------------------------------------------------------------------
+
+# The library has its own 64-bit division (that no pixel reaches it is tests/firmware/test_size.sh's to say) and calls no other.
+if [ -n "$prefix" ]; then
+    object divide -Os -fno-inline -DGN_PRESET=2 $(but all 0)
+    ${prefix}nm "$tmp/divide.o" | awk '$1 == "U" { print $2 }' | grep -v -x -E 'mem(set|cpy|cmp|move)|__aeabi_u?idivmod|__aeabi_u?idiv|__aeabi_(mem|l?l[as][rl]).*' >"$tmp/found"
+    if [ -s "$tmp/found" ]; then fail "the library calls $(tr '\n' ' ' <"$tmp/found")"; else pass; fi
+    ${prefix}size "$tmp/divide.o" | awk 'NR == 2 { exit $2 + $3 != 0 }' && pass || fail ".data or .bss is not empty"
+fi
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]

@@ -1,0 +1,225 @@
+#!/bin/sh
+# The same bits on every host build and on six cores in the emulator, as docs/BOARDS.md lists them; 16 KB of RAM; guards that report;
+# boards that are built and not run.
+cd "$(dirname "$0")/../.." || exit 1
+if [ "${1:-}" = job ]; then tmp=$2; else . tests/support/check.sh; fi # a job is this script, called by xargs below
+
+setting() { sed -n "s/^$2 := *//p" "boards/$1/board.mk"; }
+boards=$(for file in boards/*/board.mk; do basename "$(dirname "$file")"; done)
+emulated=$(for board in $boards; do if [ "$(setting "$board" BOARD_RUNS)" = qemu ]; then echo "$board"; fi; done)
+built_only=$(for board in $boards; do if [ "$(setting "$board" BOARD_RUNS)" = no ]; then echo "$board"; fi; done)
+firmware() { make -s --no-print-directory "$@"; }
+
+# ---- Jobs: each prints "ok" or what is wrong, a line each ------------------------------------------------------------------
+
+same_frames() { # same_frames WHAT FILE
+    if cmp -s "$2" "$tmp/golden"; then echo ok
+    else echo "$1: $(diff "$2" "$tmp/golden" | head -n 3 | tr '\n' ';')"; fi
+}
+
+# The whole library as one file; scenes as objects of one word size.
+host_golden() { # host_golden COMPILER OPTIMISATION WORD
+    out=$tmp/host$1$2$3
+    if $1 $3 -std=c99 -w $2 -Ilib -Iboards/common -Iboards/apps '-DGN_USER_CONFIG="golden_config.h"' -o "$out" lib/gnomon.c \
+        boards/apps/golden.c boards/host/startup.c boards/common/print.c "$tmp"/scene"$3"_*.o 2>"$out.log"; then
+        "$out" >"$out.txt" 2>&1
+        same_frames "$*" "$out.txt"
+    else echo "$*: $(grep -m 1 -E 'error|undefined' "$out.log")"; fi
+}
+
+board_golden() { # board_golden BOARD
+    if firmware firmware BOARD="$1" APP=golden >"$tmp/$1.log" 2>&1 && firmware emulate BOARD="$1" APP=golden >"$tmp/$1.txt" 2>&1; then
+        same_frames "$1" "$tmp/$1.txt"
+    else echo "$1: golden: $(grep -h -m 1 -i -E 'error|undefined|fault' "$tmp/$1.log" "$tmp/$1.txt")"; fi
+}
+
+# Knobs as constants, and only what the scene needs.
+board_play() { # board_play BOARD SCENE FRAME PRESET
+    crc=$(grep " $2 frame $3 $4 RGB565\$" "$tmp/golden" | head -n 1 | cut -d' ' -f1)
+    firmware emulate BOARD="$1" APP=play SCENE="host/scenes/$2.gltf" PRESET="$4" \
+        SCENE_FLAGS="--size 160x120 --frames $3-$3 --set output=rgb565" >"$tmp/play$1" 2>&1
+    if [ -n "$crc" ] && grep -q "^$crc frame 0\$" "$tmp/play$1"; then echo ok
+    else echo "$1: $*: $(grep -v '^  ' "$tmp/play$1" | head -n 2 | tr '\n' ';') instead of $crc"; fi
+}
+
+board_guards() { # board_guards BOARD
+    firmware firmware BOARD="$1" APP=fault >"$tmp/guard$1" 2>&1
+    for args in none trap stack; do
+        firmware emulate BOARD="$1" APP=fault ARGS=$args >"$tmp/guard$1" 2>&1
+        status=$?
+        case $args in
+        none) expected='^stack [0-9]* bytes$' ;;
+        trap) expected='^fault: exception [0-9]* pc=[0-9a-f]* lr=' ;;
+        stack) expected='the stack ran over' ;;
+        esac
+        if [ $((status != 0)) = "$([ $args = none ] && echo 0 || echo 1)" ] && grep -q "$expected" "$tmp/guard$1"; then echo ok
+        else echo "$1: fault $args: $(grep -v '^  ' "$tmp/guard$1" | tr '\n' ';')"; fi
+    done
+}
+
+# A scene on a stack that is too small for it, where a bus drops what is written below the RAM, where other memory lies there, and where
+# nothing does: a fault at once, not a run that goes wrong.
+board_overrun() { # board_overrun BOARD
+    firmware emulate BOARD="$1" APP=pocket FW_OPT=-Os LINK_FLAGS=-Wl,--defsym=STACK=768 IMAGE=pocket-overrun TIMEOUT=30 >"$tmp/overrun$1" 2>&1
+    if grep -q '^fault: exception' "$tmp/overrun$1" && grep -q '^fault: the stack ran over' "$tmp/overrun$1"; then echo ok
+    else echo "$1: no report of an overrun: $(grep -v '^  ' "$tmp/overrun$1" | tr '\n' ';')"; fi
+}
+
+# The library without a warning at every optimisation: what the compiler sees differs with it.
+board_warnings() { # board_warnings BOARD OPTIMISATION CONFIGURATION
+    root=$PWD dir=$tmp/warnings$1$2$3
+    cc="$(setting "$1" BOARD_CROSS)gcc $(setting "$1" BOARD_CPU) -std=c99 $2 $(sed -n 's/^WARN := //p' Makefile) -ffreestanding"
+    mkdir -p "$dir"
+    if (cd "$dir" && $cc -isystem "$root/boards/common/include" -I"$root/lib" -I"$root/boards/apps" "-DGN_USER_CONFIG=\"$3_config.h\"" \
+        -c "$root"/lib/*.c) 2>"$dir.log"; then echo ok
+    else echo "$*: $(grep -m 1 -E 'error|warning' "$dir.log")"; fi
+}
+
+built() { # built BOARD
+    if firmware firmware BOARD="$1" APP=crc >"$tmp/built$1" 2>&1 && [ -s "build/firmware/$1/crc.elf" ]; then echo ok
+    else echo "$1: $(grep -m 1 -E 'error|undefined' "$tmp/built$1")"; fi
+    [ -s "build/firmware/$1/crc.bin" ] && echo ok || echo "$1 has no flat image"
+    sed -n 1p "boards/$1/board.mk" | grep -q 'Built, not run' && echo ok || echo "$1 is not labelled as built, not run"
+}
+
+# The micro:bit's 16 KB: the pictures and the strips are the host's, and what does not fit is refused.
+pocket() {
+    for board in host microbit; do
+        firmware emulate BOARD=$board APP=pocket ARGS="$tmp/strips.$board" >"$tmp/pocket.$board" 2>&1
+    done
+    grep '^hour' "$tmp/pocket.host" >"$tmp/hours.host"
+    grep '^hour' "$tmp/pocket.microbit" >"$tmp/hours.microbit"
+    if [ "$(wc -l <"$tmp/hours.host")" = 3 ] && cmp -s "$tmp/hours.host" "$tmp/hours.microbit"; then echo ok
+    else echo "pocket: $(grep -v '^  ' "$tmp/pocket.microbit" | tr '\n' ';')"; fi
+    sed 's/hour \([0-9]\) crc \(.*\)/| \1 | `\2` |/' "$tmp/hours.microbit" >"$tmp/hours.rows"
+    [ "$(grep -c -x -F -f "$tmp/hours.rows" docs/BOARDS.md)" = 3 ] && echo ok || echo "docs/BOARDS.md has other CRCs of the pocket sundial"
+    if build/rgb565_png 128 128 "$tmp/pocket.png" <"$tmp/strips.microbit" && cmp -s "$tmp/pocket.png" docs/pictures/pocket.png; then echo ok
+    else echo "pocket: the streamed picture is not docs/pictures/pocket.png"; fi
+    bytes=$(sed -n 's/^RAM \([0-9]*\) bytes.*/\1/p' "$tmp/pocket.microbit")
+    [ "${bytes:-99999}" -le 16384 ] && echo ok || echo "pocket: $bytes bytes of RAM"
+    # A comma is the emulator's, what is too long is refused, and so is a file that cannot be.
+    firmware emulate BOARD=microbit APP=pocket ARGS="$tmp/a,b" >/dev/null 2>&1 && cmp -s "$tmp/a,b" "$tmp/strips.microbit" && echo ok || echo "pocket: no file with a comma"
+    long=$tmp/$(printf '%0110d' 0)
+    for board in host microbit; do
+        firmware emulate BOARD=$board APP=pocket ARGS="$long" >"$tmp/long.$board" 2>&1 && echo "$board: ARGS of 110 characters"
+        grep -q '^ARGS are too long' "$tmp/long.$board" && echo ok || echo "$board: ARGS of 110 characters: $(head -n 1 "$tmp/long.$board")"
+        firmware emulate BOARD=$board APP=pocket ARGS=/no/such/folder >"$tmp/no.$board" 2>&1 && echo "$board: a file in no folder"
+        grep -q '^cannot create /no/such/folder' "$tmp/no.$board" && echo ok || echo "$board: a file in no folder: $(head -n 1 "$tmp/no.$board")"
+    done
+    if firmware firmware BOARD=microbit APP=pocket LINK_FLAGS=-Wl,--defsym=RAM_BYTES=12K IMAGE=pocket >"$tmp/pocket.12" 2>&1; then echo "12 KB are enough for the pocket sundial"
+    elif grep -q 'overflowed by' "$tmp/pocket.12"; then echo ok
+    else echo "pocket with 12 KB: $(head -n 1 "$tmp/pocket.12")"; fi
+}
+
+# What is hot stands in .hot, which runs from the instruction memory where a board has one; nothing else does.
+hot() {
+    arm-none-eabi-objdump -t build/firmware/mps3-an547/golden.elf | awk '$3 == "F" && $4 == ".hot" && $1 < "00080000" { print $NF }' >"$tmp/hot"
+    for function in gn_raster_tile gn_shade_tile; do
+        grep -q -x $function "$tmp/hot" && echo ok || echo "$function is not in the instruction memory of mps3-an547"
+    done
+    grep -q -x gn_scene_validate "$tmp/hot" && echo "gn_scene_validate is hot" || echo ok
+    # What it calls elsewhere goes through a veneer: per vertex, object, tile and light is rare enough, per pixel is not.
+    for image in mps3-an547/golden pico/crc; do
+        arm-none-eabi-objdump -t "build/firmware/$image.elf" | sed -n 's/.* \.hot.* __\(.*\)_veneer$/\1/p' |
+            grep -v -x -E 'gn_(bin_tile_rect|setup_vertex|xform_[a-z_]*|cascade_tan2_q24|scene_auto_bias)' >"$tmp/away"
+        [ -s "$tmp/away" ] && echo "$image: hot code calls $(tr '\n' ' ' <"$tmp/away")outside of .hot" || echo ok
+    done
+}
+
+# What is marked as fast lies in the memory that is.
+fast() {
+    for place in pico:2004 stm32f429-discovery:1000; do
+        arm-none-eabi-nm "build/firmware/${place%:*}/crc.elf" | grep -q "^${place#*:}.* renderer\$" && echo ok || echo "the renderer is not in the fast memory of ${place%:*}"
+    done
+}
+
+# The boot ROM of the RP2040 wants CRC-32/MPEG-2 of the first 252 bytes in the next four.
+pico_boot() {
+    arm-none-eabi-objcopy -O binary -j .boot build/firmware/pico/crc.elf "$tmp/boot"
+    cat >"$tmp/boot.c" <<'EOF_C'
+#include <stdint.h>
+#include <stdio.h>
+int main(void)
+{
+    uint32_t crc = ~0U, stored = 0;
+    for (int i = 0; i < 252; i++) {
+        crc ^= (uint32_t)getchar() << 24;
+        for (int bit = 0; bit < 8; bit++) crc = crc << 1 ^ (crc >> 31 ? 0x04C11DB7U : 0);
+    }
+    for (int i = 0; i < 4; i++) stored |= (uint32_t)getchar() << 8 * i;
+    if (crc != stored || getchar() != EOF) printf("pico: the boot stage's CRC is %08x, not %08x\n", (unsigned)crc, (unsigned)stored);
+    else printf("ok\n");
+}
+EOF_C
+    gcc -o "$tmp/boot_crc" "$tmp/boot.c" && "$tmp/boot_crc" <"$tmp/boot"
+}
+
+# UF2: blocks of 512 bytes with 256 of the flat image each, in order, for an RP2040.
+pico_uf2() {
+    bin=build/firmware/pico/crc.bin uf2=build/firmware/pico/crc.uf2
+    n=$((($(wc -c <$bin) + 255) / 256))
+    [ "$(wc -c <$uf2)" = $((512 * n)) ] && echo ok || echo "crc.uf2 has not $n blocks"
+    last=$(od -A n -v -t x4 -j $((512 * (n - 1))) -N 32 $uf2 | tr -d ' \n')
+    expected=$(printf '0a3246559e5d515700002000%08x00000100%08x%08xe48bff56' $((0x10000000 + 256 * (n - 1))) $((n - 1)) $n)
+    [ "$last" = "$expected" ] && echo ok || echo "crc.uf2: $last, not $expected"
+    od -A n -v -w512 -t x1 $uf2 | cut -c 97-864 | tr -d ' \n' >"$tmp/uf2"
+    od -A n -v -w256 -t x1 $bin | tr -d ' \n' >"$tmp/bin"
+    head -c "$(wc -c <"$tmp/bin")" "$tmp/uf2" | cmp -s - "$tmp/bin" && echo ok || echo "crc.uf2 holds other bytes than crc.bin"
+}
+
+# ---- Running, two at a time ------------------------------------------------------------------------------------------------
+
+if [ "${1:-}" = job ]; then
+    shift 2
+    "$@"
+    exit
+fi
+
+# Lines "CRC SCENE frame N PRESET PICTURE" from the document's table
+sed -n 's/^| \([a-z]*\) | \([0-9]*\) | \([a-z]*\) | \(.*\) | `\([0-9a-f]*\)` |$/\5 \1 frame \2 \3 \4/p' docs/BOARDS.md >"$tmp/golden"
+[ "$(wc -l <"$tmp/golden")" -gt 40 ] && pass || fail "docs/BOARDS.md has no table of golden frames"
+
+sh docs/boards.sh --boards | grep -v -x -F -f docs/BOARDS.md >"$tmp/rows"
+[ -s "$tmp/rows" ] && fail "docs/BOARDS.md has other boards: $(head -n 1 "$tmp/rows")" || pass
+
+scenes_ok=1
+for scene in sundial avenue desk room fence mixed; do firmware BOARD=host APP=golden "build/firmware/scenes/$scene/scene.c" >"$tmp/log" 2>&1 || scenes_ok=0; done
+for word in -m64 -m32; do
+    for scene in sundial avenue desk room fence mixed; do
+        gcc $word -std=c99 -w -O1 -Ilib -Iboards/apps "-Ibuild/firmware/scenes/$scene" '-DGN_USER_CONFIG="golden_config.h"' -DGOLDEN_SCENE=$scene \
+            -c -o "$tmp/scene${word}_$scene.o" boards/apps/golden_scene.c || scenes_ok=0
+    done
+done
+[ $scenes_ok = 1 ] && pass || fail "a scene does not compile: $(tail -n 1 "$tmp/log")"
+make -s build/rgb565_png >"$tmp/log" 2>&1 && pass || fail "rgb565_png does not build"
+
+{
+    for board in $emulated; do
+        grep -q "RAM_BYTES : [0-9]*M" "boards/$board/link.ld" && echo "board_golden $board"
+    done
+    for compiler in gcc clang; do for opt in -O3 -O2 -Os -O0; do for word in -m64 -m32; do echo "host_golden $compiler $opt $word"; done; done; done
+    echo "board_play mps2-an385 sundial 24 tiny"
+    echo "board_play mps2-an386 desk 0 balanced"
+    echo "board_play mps2-an505 fence 0 accurate"
+    echo "board_play mps3-an547 mixed 0 balanced"
+    echo "board_play nrf51-large avenue 0 tiny"
+    echo "board_play rv32-virt room 0 accurate"
+    for board in $emulated; do echo "board_guards $board"; done
+    for board in lm3s6965evb rv32-virt microbit; do echo "board_overrun $board"; done
+    for board in mps2-an385 rv32-virt; do for opt in -O3 -O0 -Os; do echo "board_warnings $board $opt crc"; done; done
+    echo "board_warnings mps3-an547 -O3 crc"
+    echo "board_warnings mps2-an385 -O3 golden"
+    for board in $built_only; do echo "built $board"; done
+    echo pocket
+} >"$tmp/jobs"
+xargs -P 2 -I '{}' sh -c 'sh tests/firmware/test_boards.sh job "$1" $2' run "$tmp" '{}' <"$tmp/jobs" >"$tmp/results" 2>&1
+{ hot; fast; pico_boot; pico_uf2; } >>"$tmp/results" 2>&1
+passed=$((passed + $(grep -c '^ok$' "$tmp/results")))
+failed=$((failed + $(grep -v -c '^ok$' "$tmp/results")))
+grep -v '^ok$' "$tmp/results"
+[ "$(echo "$emulated" | grep -c .)" -ge 7 ] && pass || fail "the emulated boards are $emulated"
+[ "$(echo "$built_only" | grep -c .)" -ge 2 ] && pass || fail "the boards that are built only are $built_only"
+[ "$(grep -c '^ok$' "$tmp/results")" -ge 83 ] && pass || fail "jobs are missing"
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]

@@ -1,0 +1,298 @@
+/* Compact arithmetic against the reference: own scenes and random ones of what it can draw.
+ * tests/oracle/test_compact.sh builds it beside the host's own library. compact_compare [--table] [-o PREFIX] PREFIX:
+ * pictures of each scene's first view */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../host/scene/image/png.h"
+#include "../host/tool/picture/metrics.h"
+#include "../host/tool/fixed/quantise.h"
+#include "compact_engine.h"
+#include "ref_fixture.h"
+
+enum { N_VIEWS = 20, N_RANDOM = 60, WIDTH = 256, HEIGHT = 192 };
+
+static int table;
+static const char *prefix;
+
+/* ---- Pictures ---------------------------------------------------------------------------------------------------- */
+
+static void expand(engine_picture *p)
+{
+    for (size_t i = 0; i < (size_t)(p->width * p->height); i++) {
+        unsigned v = p->rgb565[i];
+        p->rgb8[3 * i] = (uint8_t)(((v >> 11) * 255 + 15) / 31);
+        p->rgb8[3 * i + 1] = (uint8_t)(((v >> 5 & 63) * 255 + 31) / 63);
+        p->rgb8[3 * i + 2] = (uint8_t)(((v & 31) * 255 + 15) / 31);
+    }
+}
+
+static gn_status draw(engine_picture *out, const gn_scene *what)
+{
+    const size_t n = WIDTH * HEIGHT;
+    uint32_t *shadow = malloc(4 * n);
+    *out = (engine_picture){.width = WIDTH, .height = HEIGHT, .n_lights = 1};
+    out->rgb565 = malloc(2 * n);
+    out->rgb8 = malloc(3 * n);
+    out->triangle = malloc(8 * n);
+    out->shadow[0] = malloc(8 * n);
+    if (!shadow || !out->rgb565 || !out->rgb8 || !out->triangle || !out->shadow[0]) abort();
+    gn_status status = compact_render(what, WIDTH, HEIGHT, out->rgb565, out->triangle, shadow);
+    for (size_t i = 0; !status && i < n; i++) out->shadow[0][i] = shadow[i] / 65536.0;
+    if (!status) expand(out);
+    free(shadow);
+    return status;
+}
+
+static void write_pictures(const engine_picture *fixed, const engine_picture *reference, const char *name)
+{
+    char path[600], error[200];
+    snprintf(path, sizeof path, "%s%s-compact.png", prefix, name);
+    CHECK_EQ_INT(png_write_rgb8(path, WIDTH, HEIGHT, fixed->rgb8, error, sizeof error), 0);
+    snprintf(path, sizeof path, "%s%s-reference.png", prefix, name);
+    CHECK_EQ_INT(png_write_rgb8(path, WIDTH, HEIGHT, reference->rgb8, error, sizeof error), 0);
+}
+
+static gn_status compare(metrics *m, const scene *s, settings *set, const char *name)
+{
+    char error[512] = "";
+    fixed_scene f;
+    engine_picture fixed, reference;
+    if (quantise_scene(&f, s, error, sizeof error)) abort();
+    gn_status status = draw(&fixed, &f.scene);
+    quantise_free(&f);
+    if (!status) {
+        if (engine_reference(&reference, s, set, WIDTH, HEIGHT, error, sizeof error)) abort();
+        expand(&reference); /* the same 8 bits of 5 or 6 for both */
+        metrics_compute(m, &fixed, &reference);
+        if (prefix && name) write_pictures(&fixed, &reference, name);
+        engine_free(&reference);
+    }
+    engine_free(&fixed);
+    return status;
+}
+
+/* ---- Floors ------------------------------------------------------------------------------------------------------ */
+
+typedef struct {
+    double identical[N_RANDOM], psnr_db[N_RANDOM], mismatch[N_RANDOM], within1;
+    int n;
+} series;
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* Those of the preset balanced, in every view; of random scenes, where a pixel more or less can be one of black and
+ * white, 36 dB. */
+static void add(series *all, const metrics *m, double psnr_db, const char *what, int view)
+{
+    int ok = m->identical >= 0.985 && m->within1 >= 0.998 && m->psnr_db >= psnr_db && m->shadow_mismatch <= 0.004;
+    if (!CHECK(ok))
+        printf("  %s, view %d: identical %g within1 %g psnr %g shadow_mismatch %g\n", what, view, m->identical,
+               m->within1, m->psnr_db, m->shadow_mismatch);
+    all->identical[all->n] = m->identical;
+    all->psnr_db[all->n] = m->psnr_db;
+    all->mismatch[all->n++] = m->shadow_mismatch;
+    all->within1 = fmin(all->within1, m->within1);
+}
+
+static void report(series *all, const char *what)
+{
+    int n = all->n;
+    qsort(all->identical, (size_t)n, sizeof(double), ascending);
+    qsort(all->psnr_db, (size_t)n, sizeof(double), ascending);
+    qsort(all->mismatch, (size_t)n, sizeof(double), ascending);
+    CHECK(all->identical[n / 2] >= 0.998 && all->psnr_db[n / 2] >= 48);
+    if (table)
+        printf("| %s | %d | %.5f | %.5f | %.5f | %.1f | %.1f | %.5f |\n", what, n, all->identical[n / 2],
+               all->identical[0], all->within1, all->psnr_db[n / 2], all->psnr_db[0], all->mismatch[n - 1]);
+}
+
+/* ---- Own scenes -------------------------------------------------------------------------------------------------- */
+
+static settings settings_for(scene *s)
+{
+    static const char *const sets[] = {
+        "filter=hard",    "cascades=1",    "atlas_size=128", SRGB, "shadow_subpixel_bits=8",
+        "weight_bits=12", "newton_steps=1"};
+    char error[512] = "";
+    settings set;
+    settings_init(&set);
+    if (!CHECK_EQ_INT(settings_apply_all(&set, s, sets, sizeof sets / sizeof *sets, error, sizeof error), 0))
+        printf("  %s\n", error);
+    return set;
+}
+
+/* Flat, opaque and without highlights. */
+static void flatten(scene *s)
+{
+    for (size_t i = 0; i < s->n_meshes; i++) {
+        free(s->meshes[i].nrm);
+        free(s->meshes[i].rgb);
+        s->meshes[i].nrm = s->meshes[i].rgb = NULL;
+    }
+    for (size_t i = 0; i < s->n_objects; i++) {
+        scene_object *o = &s->objects[i];
+        o->texture_idx = o->mask_texture_idx = SCENE_NONE;
+        o->visible_alpha = SCENE_ALPHA_OPAQUE;
+        if (o->caster > SCENE_CASTER_ON) o->caster = SCENE_CASTER_ON;
+        for (int k = 0; k < 3; k++) o->specular[k] = 0;
+    }
+}
+
+/* View n: the scene's camera swung round the point it looks at, and rolled. */
+static void swing(scene *s, int n, const scene_camera *original)
+{
+    const double yaw = 0.9 * sin(2.4 * n), roll = 0.8 * sin(1.7 * n + 0.5), distance = s->shadow.max_distance * 0.5;
+    const double turn[3][3] = {{cos(yaw), 0, sin(yaw)}, {0, 1, 0}, {-sin(yaw), 0, cos(yaw)}};
+    s->camera = *original;
+    for (int i = 0; i < 3; i++) {
+        double m[3] = {0, 0, 0}, target = original->to_world.m[i][3] - distance * original->to_world.m[i][2];
+        for (int k = 0; k < 3; k++)
+            for (int j = 0; j < 3; j++) m[k] += turn[i][j] * original->to_world.m[j][k];
+        double *row = s->camera.to_world.m[i];
+        row[0] = m[0] * cos(roll) + m[1] * sin(roll);
+        row[1] = m[1] * cos(roll) - m[0] * sin(roll);
+        row[2] = m[2];
+        row[3] = target + distance * m[2];
+    }
+}
+
+static void own_scene(const char *name, int frame)
+{
+    char error[512] = "", path[200];
+    scene s;
+    series all = {.within1 = 1};
+    scene_options options = {.frame = frame, .width = WIDTH, .height = HEIGHT};
+    snprintf(path, sizeof path, "host/scenes/%s.gltf", name);
+    if (!CHECK_EQ_INT(scene_load(&s, path, &options, error, sizeof error), 0)) return;
+    settings set = settings_for(&s);
+    flatten(&s);
+    scene_camera original = s.camera;
+    for (int n = 0; n < N_VIEWS; n++) {
+        metrics m;
+        if (n) swing(&s, n, &original);
+        if (CHECK_EQ_INT(compare(&m, &s, &set, n ? NULL : name), GN_OK)) add(&all, &m, 41, name, n);
+    }
+    report(&all, name);
+    scene_free(&s);
+}
+
+/* ---- Random scenes ----------------------------------------------------------------------------------------------- */
+
+static void turn_and_place(scene_affine *a)
+{
+    const double yaw = random_between(0, 2 * PI), tilt = random_between(-0.6, 0.6), size = random_between(0.3, 1.2);
+    const double r[3][3] = {{cos(yaw), sin(yaw) * sin(tilt), sin(yaw) * cos(tilt)},
+                            {0, cos(tilt), -sin(tilt)},
+                            {-sin(yaw), cos(yaw) * sin(tilt), cos(yaw) * cos(tilt)}};
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) a->m[i][k] = size * r[i][k];
+        a->m[i][3] = i == 1 ? random_between(0.2, 1.5) : random_between(-3, 3);
+    }
+}
+
+/* Boxes over a ground, any camera above it, any sun. */
+static void random_scene(fixture *f)
+{
+    static const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5};
+    begin(f);
+    add_floor(f, random_log(4, 40), 0);
+    for (int n = 1 + (int)random_between(0, 8); n > 0; n--) {
+        add_box(f, low, high);
+        turn_and_place(&f->objects[f->s.n_objects - 1].to_world);
+    }
+    for (size_t i = 0; i < f->s.n_objects; i++)
+        for (int k = 0; k < 3; k++) f->objects[i].albedo[k] = random_between(0.2, 1);
+    scene_light *light = add_light(f, random_between(-1, 1), random_between(-2, -0.5), random_between(-1, 1));
+    light->bias_constant = random_between(0, 1);
+    light->bias_slope = random_between(0, 1);
+    light->strength = random_between(0.5, 1);
+    const double from[3] = {random_between(-6, 6), random_between(1, 6), random_between(3, 8)},
+                 at[3] = {random_between(-1, 1), 0.5, random_between(-1, 1)};
+    const double up[3] = {random_between(-0.5, 0.5), 1, random_between(-0.2, 0.2)};
+    look(f, from, at, up);
+    f->s.camera.focal = random_between(1.3, 4);
+    f->s.camera.near = random_log(0.1, 2);
+    f->s.shadow.max_distance = random_log(8, 30);
+    f->s.shadow.distance_fade = scene_share(random_between(0.001, 0.5));
+    f->s.shadow.cascade_fade = scene_share(random_between(0.001, 0.5));
+    for (int k = 0; k < 3; k++) {
+        f->s.ambient[k] = random_between(0.05, 0.3);
+        f->s.background[k] = random_between(0, 1);
+    }
+}
+
+static void random_scenes(void)
+{
+    series all = {.within1 = 1};
+    while (all.n < N_RANDOM) {
+        fixture f;
+        metrics m;
+        random_scene(&f);
+        settings set = settings_for(&f.s);
+        f.lights[0].bias_normal = all.n % 2 ? random_between(1, 2) : 0;
+        f.lights[0].auto_bias = all.n % 2 ? SCENE_AUTO_BIAS_OFF : SCENE_AUTO_BIAS_NORMAL;
+        gn_status status = compare(&m, &f.s, &set, all.n ? NULL : "random");
+        if (CHECK_EQ_INT(status, GN_OK)) add(&all, &m, 36, "random", all.n);
+        else break;
+        end(&f);
+    }
+    report(&all, "random scenes");
+}
+
+/* B6: a plane has no shadow of its own, however it lies. */
+static void planes_without_acne(void)
+{
+    long seen = 0, dark = 0;
+    for (int n = 0; n < 60; n++) {
+        fixture f;
+        fixed_scene fixed;
+        engine_picture p;
+        char error[200];
+        random_scene(&f);
+        f.s.n_objects = 1;
+        turn_and_place(&f.objects[0].to_world);
+        f.objects[0].two_sided = n % 2;
+        scene_light *light = &f.lights[0];
+        *light = (scene_light){.name = no_name,
+                               .direction = {light->direction[0], light->direction[1], light->direction[2]},
+                               .colour = {1, 1, 1},
+                               .shadow = true,
+                               .strength = 0.5,
+                               .auto_bias = SCENE_AUTO_BIAS_NORMAL};
+        if (quantise_scene(&fixed, &f.s, error, sizeof error)) abort();
+        if (CHECK_EQ_INT(draw(&p, &fixed.scene), GN_OK)) {
+            for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
+                seen += p.triangle[i] >= 0 && p.shadow[0][i] > 0;
+                dark += p.triangle[i] >= 0 && p.shadow[0][i] > 0 && p.shadow[0][i] < 1;
+            }
+        }
+        engine_free(&p);
+        quantise_free(&fixed);
+        end(&f);
+    }
+    CHECK(seen > 200000);
+    if (!CHECK_EQ_INT(dark, 0)) printf("  %ld of %ld pixels\n", dark, seen);
+}
+
+int main(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++) {
+        if (!strcmp(argv[i], "--table")) table = 1;
+        if (!strcmp(argv[i], "-o") && i + 1 < argc) prefix = argv[++i];
+    }
+    if (table)
+        printf("| scene | views | identical, median | worst | within1, worst | PSNR dB, median | worst | shadow "
+               "mismatch, worst |\n|---|---|---|---|---|---|---|---|\n");
+    own_scene("sundial", 48);
+    own_scene("avenue", 0);
+    own_scene("fence", 0);
+    random_scenes();
+    if (!table) planes_without_acne();
+    return check_report();
+}

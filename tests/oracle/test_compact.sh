@@ -1,0 +1,74 @@
+#!/bin/sh
+# Compact arithmetic: the reference's pictures, the same bits on every machine, and nothing but a refusal out of its range. --table: what docs/ACCURACY.md shows.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
+
+variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+warn=$(variable WARN)
+flags="-DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_PRESET=0 -DGN_SRGB=0"
+# program STATUS_OF WHAT...: its counts are added
+counted() {
+    "$@" >"$tmp/out" 2>&1
+    line=$(tail -n 1 "$tmp/out" | grep -E '^[0-9]+ passed, [0-9]+ failed$')
+    passed=$((passed + ${line%% *} + 0))
+    failed=$((failed + $(echo "${line:-0 passed, 1 failed}" | cut -d' ' -f3)))
+    [ -n "$line" ] && grep -v '^[0-9]* passed' "$tmp/out" | head -n 10
+    [ -n "$line" ] || tail -n 5 "$tmp/out"
+}
+
+# ---- Accuracy: beside the host's own library, of which the engine shares no symbol ------------------------------------------------
+
+comparison() { # with the sRGB curve or without: $1
+    gcc -std=c11 -w -O2 $flags -UGN_SRGB -DGN_SRGB=$1 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=2000 -DGN_MAX_OBJECTS=100 -DGN_MAX_HEIGHT=256 -Ilib -I. "-DLIBRARY=\"$tmp/lib.c\"" \
+        -c tests/oracle/compact_engine.c -o "$tmp/all.o" && objcopy --keep-global-symbol=compact_render "$tmp/all.o" "$tmp/engine.o" &&
+        gcc -std=c11 -D_POSIX_C_SOURCE=200809L $warn -O2 "-DSRGB=\"srgb=$1\"" -Ilib -Itests -Itests/support $(variable HOST_KNOBS) -c tests/oracle/compact_compare.c -o "$tmp/compare.o" &&
+        gcc -o "$tmp/compare" "$tmp/compare.o" "$tmp/engine.o" $(variable HOST_OBJ) $(variable LIB_OBJ) -lm || fail "the comparison does not build"
+}
+comparison 0
+if [ "${1:-}" = --table ]; then
+    "$tmp/compare" --table | grep '^|'
+    exit
+fi
+counted "$tmp/compare"
+comparison 1
+counted "$tmp/compare"
+
+gcc -std=c11 -w -O2 -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_ATLAS_SIZE=128 -Ilib -I. -Itests -Itests/support "-DLIBRARY=\"$tmp/lib.c\"" \
+    -o "$tmp/bounds" tests/oracle/compact_bounds.c -lm || fail "compact_bounds does not build"
+counted "$tmp/bounds"
+
+# ---- Range: the compilers of the test suite, with sanitizers -----------------------------------------------------------------------
+
+for how in "gcc -O2 -DGN_AUTO_BIAS=0" "clang -O0"; do
+    if $how -std=c11 -w -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -Ilib -Itests/support \
+        -o "$tmp/range" tests/oracle/compact_range.c lib/gnomon.c -lm 2>"$tmp/log"; then counted "$tmp/range" 5000
+    else fail "$how: $(grep -m 1 error "$tmp/log")"; fi
+done
+for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=2 -DGN_VALIDATION=0" "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0"; do
+    gcc -std=c99 -pedantic $warn -O2 -Ilib $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
+done
+for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS RAW_VIEWS OTHER_FORMATS INCREMENTAL STATIC_LAYER; do
+    gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction=1 -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
+    grep -q 'error.*compact_' "$tmp/log" && pass || fail "$contradiction: the message does not name compact: $(grep -m 1 error "$tmp/log")"
+done
+build/gnomon render host/scenes/sundial.gltf -o "$tmp/no.png" --set compact=1 2>"$tmp/log" && fail "the tool renders with compact=1"
+grep -q 'GN_COMPACT' "$tmp/log" && pass || fail "the tool does not say why not: $(cat "$tmp/log")"
+
+# ---- The same bits ------------------------------------------------------------------------------------------------------------------
+
+same() { # same WHAT FILE
+    if grep '^frame' "$2" | cmp -s - tests/oracle/compact_golden.txt; then pass
+    else fail "$1: $(grep '^frame' "$2" | diff - tests/oracle/compact_golden.txt | sed -n 2,3p | tr '\n' ';') $(grep -m 1 -i error "$2")"; fi
+}
+for how in "gcc -O0 -m64" "gcc -Os -m32" "gcc -O3 -m64" "clang -O2 -m32" "clang -Os -m64"; do
+    $how -std=c99 -w -Ilib -Iboards/common -Iboards/apps '-DGN_USER_CONFIG="compact_config.h"' -o "$tmp/golden" lib/gnomon.c boards/apps/compact.c \
+        boards/host/startup.c boards/common/print.c >"$tmp/log" 2>&1 && "$tmp/golden" >"$tmp/log" 2>&1
+    same "$how" "$tmp/log"
+done
+for board in microbit mps2-an385 mps3-an547 rv32-virt; do
+    make -s --no-print-directory emulate BOARD=$board APP=compact >"$tmp/log" 2>&1
+    same $board "$tmp/log"
+done
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]

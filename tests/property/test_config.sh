@@ -1,0 +1,365 @@
+#!/bin/sh
+# Every configuration builds without a warning with two compilers and draws what the host build draws of the same scene; what is
+# not built in is refused; wrong configurations do not build, and say why; capacities that are too small say how many they lack.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
+
+variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+warn=$(variable WARN)
+host_knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1//') # the tool alone counts
+strict="-std=c99 -pedantic $warn -Ilib"
+
+features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e VALIDATION -e "^CLIPPING")
+# flags WORD...: "none" and "all" of the features, "tiny"..., NAME=VALUE of a knob, or a flag as it is; of a name the last value counts
+flags() {
+    for word in "$@"; do
+        case $word in
+        none) for feature in $features; do echo "-DGN_$feature=0"; done ;;
+        all) for feature in $features; do echo "-DGN_$feature=$(most "$feature")"; done ;;
+        tiny) echo -DGN_PRESET=0 ;;
+        balanced) echo -DGN_PRESET=1 ;;
+        accurate) echo -DGN_PRESET=2 ;;
+        -*) echo "$word" ;;
+        *) echo "-DGN_$word" ;;
+        esac
+    done | awk -F= '!($1 in at) { at[$1] = ++n } { flag[at[$1]] = $0 } END { for (i = 1; i <= n; i++) print flag[i] }'
+}
+most() { if [ "$1" = FILTER_MAX ]; then echo 4; else echo 1; fi; }
+none=$(flags none) all=$(flags all)
+
+# ---- What must build, and draw the same ------------------------------------------------------------------------------------
+
+{
+    echo
+    echo "none"
+    echo "all"
+    for feature in $features; do
+        value=$(most "$feature")
+        echo "none $feature=$value"
+        case $feature in # alone they have nothing to do: over shadows, or lights
+        *FILTER* | *CASC* | *BIAS | *PLANE | MAIN* | INCREM* | STATIC* | *BLOCKS | CASTER* | LINEAR* | TILE_IMP* | OBJECT_B*)
+            echo "none SHADOWS=1 $feature=$value" ;;
+        TILE_LIGHTS) echo "none PUNCTUAL_LIGHTS=1 TILE_LIGHTS=1" ;;
+        esac
+        echo "all $feature=0"
+    done
+    echo "all VALIDATION=0"
+    echo "none SHADOWS=1 VALIDATION=0 tiny SRGB=0"
+    for cut in VISIBLE_ALPHA CASTER_ALPHA MASKS; do
+        echo "none SHADOWS=1 TEXTURES=1 $cut=1"
+        echo "all TEXTURES=0 VISIBLE_ALPHA=0 CASTER_ALPHA=0 MASKS=0 $cut=1"
+    done
+    echo "none SHADOWS=1 PUNCTUAL_LIGHTS=1"
+    echo "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 RECEIVER_PLANE=1"
+    echo "all PUNCTUAL_LIGHTS=0 BLENDED_CASCADES=0"
+    echo "all PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0"
+    echo "all STATIC_LAYER=1 INCREMENTAL=0"
+    echo "none SHADOWS=1 STATIC_LAYER=1 INCREMENTAL=1"
+    for max in 0 1 2 3; do # with what builds upon kernels
+        echo "all FILTER_MAX=$max"
+        echo "all FILTER_MAX=$max DISK_FILTER=0 RECEIVER_PLANE=$((max % 2))"
+        echo "all FILTER_MAX=$max LINEAR_KERNELS=0 DEPTH_BLOCKS=$((max % 2)) RECEIVER_PLANE=0"
+    done
+    echo "all FILTER_MAX=0 DISK_FILTER=0 LINEAR_KERNELS=0 DEPTH_BLOCKS=0"
+    echo "all DISK_FILTER=0 LINEAR_KERNELS=0 RECEIVER_PLANE=0"
+    for bits in 8 16 32; do for other in 8 16 32; do
+        echo "DEPTH_BITS=$bits OTHER_DEPTH_BITS=$other DEPTH_BLOCKS=$((bits / 16 % 2))"
+    done; done
+    echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
+    echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 STATIC_LAYER=1"
+    echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
+    for preset in tiny balanced accurate; do
+        echo "$preset"
+        echo "$preset none"
+        echo "$preset all SRGB=0"
+        echo "-m32 $preset"
+    done
+    echo "-m32 none"
+    echo "-m32 all"
+    echo "-m32 all SHADOWS=0"
+    echo "-m32 all PUNCTUAL_LIGHTS=0 DEPTH_BITS=32"
+    echo "RUNTIME_KNOBS=1"
+    echo "RUNTIME_KNOBS=1 SHADOWS=0"
+    echo "RUNTIME_KNOBS=1 FILTER_MAX=0"
+    echo "SUBPIXEL_BITS=8 MAX_TILE_REFS=65535"
+    echo "MAX_TILE_REFS=65536 VERTEX_CACHE=4 MAX_LIGHTS=4 SURFACE_LIGHTS=4 MAX_OBJECTS=3"
+    echo "MAX_WIDTH=56 MAX_HEIGHT=44 TILE_WIDTH=8 TILE_HEIGHT=1"
+} >"$tmp/wanted"
+
+# draws N COMPILER CHECKER FLAGS...: built by the one without a warning, and looked through by the other; the same lines as the host
+draws() {
+    n=$1 compiler=$2 checker=$3
+    shift 3
+    words=$*
+    set -- $(flags "$@")
+    if ! $compiler $strict -O0 "$@" -Itests/support -o "$tmp/run$n" lib/gnomon.c tests/property/config_picture.c 2>"$tmp/log$n" ||
+        ! $checker $strict "$@" -fsyntax-only lib/gnomon.c 2>"$tmp/log$n"; then
+        echo "$compiler, $checker: does not build: $words"
+        grep -m 3 -E 'error|warning|undefined' "$tmp/log$n"
+        return
+    fi
+    "$tmp/run$n" >"$tmp/target$n" 2>&1
+    "$tmp/host_picture" -DGN_PRESET=1 "$@" >"$tmp/host$n" 2>&1
+    if cmp -s "$tmp/target$n" "$tmp/host$n" && grep -q '^format' "$tmp/host$n" && ! grep -q -v '^format' "$tmp/host$n"; then echo ok
+    else
+        echo "$compiler: draws something else than the host: $words"
+        diff "$tmp/target$n" "$tmp/host$n" | sed -n 2p
+    fi
+    rm -f "$tmp/run$n" "$tmp/target$n" "$tmp/host$n"
+}
+
+# every second line, from line $1 on; the compilers take turns, the faster one more often
+some_draw() {
+    line=0
+    while read -r words; do
+        line=$((line + 1))
+        [ $((line % 2)) = "$1" ] || continue
+        if [ $((line / 2 % 3)) = 0 ]; then draws "$1" gcc clang $words; else draws "$1" clang gcc $words; fi
+    done <"$tmp/wanted"
+}
+
+if gcc $strict -O1 $host_knobs -Itests/support -o "$tmp/host_picture" lib/gnomon.c tests/property/config_picture.c 2>"$tmp/log"; then
+    (
+        trap - EXIT # it is not this subshell that cleans up
+        some_draw 0 >"$tmp/drawn0"
+    ) &
+    some_draw 1 >"$tmp/drawn1"
+    wait
+    passed=$((passed + $(cat "$tmp"/drawn? | grep -c '^ok$')))
+    failed=$((failed + $(wc -l <"$tmp/wanted") - passed))
+    grep -hv '^ok$' "$tmp"/drawn?
+else fail "the host build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
+
+# file by file, as users build it: what each needs, it includes itself
+for flags in "" "$none" "$all" "$(flags MAX_WIDTH=1 MAX_HEIGHT=1 MAX_TRIANGLES=1 MAX_TILE_REFS=1 TILE_WIDTH=8 TILE_HEIGHT=1 ATLAS_SIZE=16 OTHER_ATLAS_SIZE=16 \
+    MAX_LIGHTS=1 SURFACE_LIGHTS=1 MAX_OBJECTS=1 MAX_SHADOW_TILES=1 MAX_OTHER_TILES=1)"; do
+    for compiler in gcc clang; do
+        if $compiler $strict $flags -O1 -ffreestanding -fsyntax-only lib/*.c >"$tmp/log" 2>&1; then pass
+        else fail "$compiler $flags: $(grep -m 1 -E 'error|warning' "$tmp/log")"; fi
+    done
+done
+
+# ---- What must not ---------------------------------------------------------------------------------------------------------
+
+# refused NAME FLAG: the build stops and its message names the knob
+refused() {
+    if gcc -std=c99 -Ilib $2 -fsyntax-only "$tmp/check.c" >"$tmp/message" 2>&1; then fail "builds with $2"
+    elif grep -q "error.*$1" "$tmp/message"; then pass
+    else fail "$2: the message does not name $1: $(grep -m 1 error "$tmp/message")"
+    fi
+}
+
+grep -q '"gn_check.h"' lib/frame/gn_frame.c && pass || fail "lib/frame/gn_frame.c does not include the checks"
+echo '#include "frame/gn_check.h"' >"$tmp/check.c"
+if gcc -std=c99 -Ilib -fsyntax-only "$tmp/check.c"; then pass; else fail "lib/frame/gn_check.h does not stand alone"; fi
+sed -n 's/^ *X(\([a-z_]*\), \([A-Z_]*\), \([0-9]*\), \([0-9]*\),.*/\1 \2 \3 \4/p' lib/gn_knobs.h >"$tmp/knobs"
+[ "$(wc -l <"$tmp/knobs")" = "$(grep -c '^ *X(' lib/gn_knobs.h)" ] && pass || fail "the list of knobs in lib/gn_knobs.h is not understood"
+while read -r name macro low high; do
+    refused "${name}_out_of_range" "-DGN_$macro=$((low - 1))"
+    refused "${name}_out_of_range" "-DGN_$macro=$((high + 1))"
+done <"$tmp/knobs"
+refused preset_unknown -DGN_PRESET=3
+refused preset_unknown -DGN_PRESET=-1
+refused persp_step -DGN_PERSP_STEP=2
+refused atten_bits -DGN_ATTEN_BITS=12
+refused atlas_size -DGN_ATLAS_SIZE=96
+refused other_atlas_size -DGN_OTHER_ATLAS_SIZE=96
+refused depth_bits -DGN_DEPTH_BITS=24
+refused other_depth_bits -DGN_OTHER_DEPTH_BITS=12
+refused vertex_cache -DGN_VERTEX_CACHE=33
+refused tile_width -DGN_TILE_WIDTH=68
+
+# ---- The user's own header; C++ --------------------------------------------------------------------------------------------
+
+cat >"$tmp/my_config.h" <<'EOF_C'
+#define GN_PRESET GN_PRESET_TINY
+#define GN_MAX_TRIANGLES 77
+#define GN_SHADOWS 0
+EOF_C
+cat >"$tmp/user.c" <<'EOF_C'
+#include "gnomon.h"
+typedef char tiny_tile[GN_TILE_HEIGHT == 8 && GN_WEIGHT_BITS == 6 ? 1 : -1];
+typedef char own_capacity[GN_MAX_TRIANGLES == 77 && sizeof(((gn_frame *)0)->tri) == 77 * sizeof(gn_tri) ? 1 : -1];
+typedef char no_shadows[GN_SHADOWS == 0 ? 1 : -1];
+EOF_C
+if gcc $strict -I"$tmp" '-DGN_USER_CONFIG="my_config.h"' -fsyntax-only "$tmp/user.c" 2>"$tmp/message"; then pass
+else fail "GN_USER_CONFIG: $(grep -m 1 error "$tmp/message")"; fi
+if gcc $strict -I"$tmp" '-DGN_USER_CONFIG="my_config.h"' -O1 -ffreestanding -c -o "$tmp/user.o" lib/gnomon.c 2>"$tmp/user.log"; then pass
+else fail "GN_USER_CONFIG: $(grep -m 1 error "$tmp/user.log")"; fi
+
+cat >"$tmp/user.cpp" <<'EOF_C'
+#include "gnomon.h"
+static gn_renderer renderer;
+static const int32_t pos[9] = {GN_Q16(-1), 0, 0, GN_Q16(1.5), 0, 0, 0, GN_Q16(1), 0};
+static const uint16_t idx[3] = {0, 1, 2};
+static void flush(void *, int, int, int, int, const void *) {}
+gn_status draw()
+{
+    gn_mesh mesh = {pos, nullptr, nullptr, nullptr, nullptr, idx, 3, 1, 16, 0};
+    gn_object object = gn_object();
+    object.mesh = &mesh;
+    object.flags = GN_OBJECT_DEFAULT;
+    gn_affine_rotation(&object.to_world, GN_TURN(-90), 0, 0);
+    gn_affine_scale(&object.to_world, GN_Q16(2));
+    gn_scene scene = gn_scene();
+    scene.objects = &object;
+    scene.n_objects = 1;
+    scene.camera.focal_q24 = gn_focal_from_fov_q24(GN_TURN(50));
+    scene.shadow.filter = GN_FILTER_2X2;
+    gn_picture picture = {32, 32, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    gn_status status = gn_init(&renderer, &picture);
+    if (status == GN_OK) status = gn_render(&renderer, &scene, flush, nullptr);
+    return gn_get_detail(&renderer)->needed ? GN_ERR_ORDER : gn_status_text(status)[0] ? status : GN_OK;
+}
+EOF_C
+for words in "" none all "SHADOWS=0 RAW_VIEWS=1" RUNTIME_KNOBS=1 accurate; do
+    if g++ -std=c++11 -Wall -Wextra -pedantic -Werror -Ilib $(flags $words) -fsyntax-only "$tmp/user.cpp" 2>"$tmp/message"; then pass
+    else fail "C++ $words: $(grep -m 1 error "$tmp/message")"; fi
+done
+
+# ---- Pictures of the demo scene --------------------------------------------------------------------------------------------
+
+cat >"$tmp/picture.c" <<'EOF_C'
+/* picture WIDTH HEIGHT FORMAT FILTER FRAME [PRESET]: prints the CRC of the picture, or the status and what it needs. */
+#include <stdio.h>
+#include <stdlib.h>
+#include "demo_scene.h"
+static uint8_t canvas[2048 * 512 * 3];
+static gn_picture picture;
+static gn_renderer renderer;
+static demo_scene demo;
+static void flush(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    size_t bytes = picture.format == GN_FORMAT_RGB565 ? 2 : 3;
+    (void)user;
+    for (int row = 0; row < h; row++)
+        memcpy(canvas + ((size_t)(y + row) * picture.width + (size_t)x) * bytes,
+               (const uint8_t *)pixels + (size_t)(row * w) * bytes, (size_t)w * bytes);
+}
+int main(int argc, char **argv)
+{
+    if (argc < 6) return 2;
+    picture.width = (uint16_t)atoi(argv[1]);
+    picture.height = (uint16_t)atoi(argv[2]);
+    picture.format = (gn_format)atoi(argv[3]);
+    uint32_t frame = (uint32_t)atoi(argv[5]);
+    demo_scene_make(&demo, frame);
+    if (argv[4][0] != '-') demo.scene.shadow.filter = (gn_filter)atoi(argv[4]);
+    if (frame == 9) { /* a vertex next to the near plane at the longest focal length: coordinates round far */
+        demo_scene_make(&demo, 0);
+        demo.scene.camera.near_q16 = 256;
+        demo.scene.camera.focal_q24 = 0xFFFFFF00U;
+        demo.scene.camera.to_world.t_q16[1] = GN_Q16(0.01);
+        demo.scene.camera.to_world = demo.object[2].to_world;
+        demo.scene.camera.to_world.t_q16[1] = 200;
+    }
+    if (gn_init(&renderer, &picture)) return 1;
+#if GN_RUNTIME_KNOBS
+    int preset = argc > 6 ? atoi(argv[6]) : 1;
+#define PRESET_(name, MACRO, lo, hi, meaning, cost) { static const int32_t v[3] = {GN_PRESETS_##MACRO}; renderer.frame.knobs.name = v[preset]; }
+    GN_QUALITY_KNOBS(PRESET_)
+#endif
+    gn_status status = gn_render(&renderer, &demo.scene, flush, NULL);
+    const gn_detail *d = gn_get_detail(&renderer);
+    size_t n = (size_t)picture.width * picture.height * (picture.format == GN_FORMAT_RGB565 ? 2 : 3);
+    if (status) printf("%d %u %u\n", (int)status, d->needed, d->available);
+    else printf("%08x\n", demo_crc32(0, canvas, n));
+    return 0;
+}
+EOF_C
+
+# program NAME FLAGS...: $tmp/NAME.run
+program() {
+    program_name=$1
+    shift
+    gcc $strict -Itests/support -O0 "$@" -o "$tmp/$program_name.run" "$tmp/picture.c" lib/gnomon.c >"$tmp/$program_name.log" 2>&1 || {
+        fail "no program with $*: $(grep -m 1 error "$tmp/$program_name.log")"
+        return 1
+    }
+}
+
+# same NAME "ARGUMENTS" OTHER "ARGUMENTS" WHAT
+same() {
+    a=$("$tmp/$1.run" $2 2>&1) b=$("$tmp/$3.run" $4 2>&1)
+    case $a in
+    ????????) if [ "$a" = "$b" ]; then pass; else fail "$5: $a, not $b ($2)"; fi ;;
+    *) fail "$5: no picture: $a ($2)" ;;
+    esac
+}
+
+(
+    trap - EXIT
+    program host $host_knobs
+    program wide -DGN_MAX_WIDTH=2048 -DGN_PRESET=0
+) &
+for preset in tiny balanced accurate; do program $preset -DGN_PRESET=GN_PRESET_$(echo $preset | tr a-z A-Z); done
+wait
+for name in host wide tiny balanced accurate; do
+    if [ -x "$tmp/$name.run" ]; then pass; else fail "no program '$name': $(grep -m 1 error "$tmp/$name.log")"; fi
+done
+preset=0
+for name in tiny balanced accurate; do
+    for frame in 0 1 2 3 4; do
+        same $name "160 120 0 - $frame" host "160 120 0 - $frame $preset" "preset $name at compile time against run time"
+        same $name "95 71 1 $frame $frame" host "95 71 1 $frame $frame $preset" "preset $name at compile time against run time"
+    done
+    same $name "320 240 1 4 9" host "320 240 1 4 9 $preset" "preset $name at compile time against run time, focal length 255.99"
+    preset=$((preset + 1))
+done
+# screen coordinates of a wide picture: the guard band reaches beyond it
+for frame in 0 1 2 3 4; do same wide "2048 80 1 - $frame" host "2048 80 1 - $frame 0" "2048 pixels wide at compile time against run time"; done
+if [ "$("$tmp/host.run" 160 120 0 - 0)" = "$("$tmp/host.run" 160 120 0 - 1)" ]; then fail "the demo's frames do not differ"; else pass; fi
+
+
+# ---- Capacities ------------------------------------------------------------------------------------------------------------
+
+# status name -> number, from the order of the list
+number() { sed -n 's/^ *X(\(GN_[A-Z_]*\),.*/\1/p' lib/gnomon.h | awk -v name="$1" '$1 == name { print NR - 1 }'; }
+
+small() { # small FLAGS...: the last line of what the scene of tests/property/config_picture.c prints
+    gcc $strict -Itests/support -O0 $(flags "$@") -o "$tmp/small" lib/gnomon.c tests/property/config_picture.c 2>"$tmp/log" || { head -n 1 "$tmp/log"; return; }
+    "$tmp/small" | tail -n 1
+}
+
+# full STATUS MACRO TOO-FEW FLAGS...: too few; as many as are said to be needed; one less
+full() {
+    status=$(number "$1") macro=$2 few=$3
+    shift 3
+    message=$(small "-D$macro=$few" "$@")
+    needed=$(echo "$message" | cut -d ' ' -f 4)
+    if [ "$message" = "status $status needed ${needed:-0} available $few" ]; then pass
+    else fail "$macro=$few: $message, not status $status"; return; fi
+    for enough in 1 2 3 4 5 6 7 8; do # the scenes that follow may need more
+        message=$(small "-D$macro=$needed" "$@")
+        case $message in "status $status "*) needed=$(echo "$message" | cut -d ' ' -f 4) ;; *) break ;; esac
+    done
+    message=$(small "-D$macro=$needed" "$@")
+    if [ "$message" = "$(small "$@")" ]; then pass; else fail "$macro=$needed, as needed: $message"; fi
+    message=$(small "-D$macro=$((needed - 1))" "$@")
+    if [ "$message" = "status $status needed $needed available $((needed - 1))" ]; then pass; else fail "$macro=$((needed - 1)): $message"; fi
+}
+
+full GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES 3
+full GN_ERR_TILE_REFS_FULL GN_MAX_TILE_REFS 3
+full GN_ERR_TOO_MANY_OBJECTS GN_MAX_OBJECTS 1
+full GN_ERR_TOO_MANY_LIGHTS GN_MAX_LIGHTS 1 PUNCTUAL_LIGHTS=0
+full GN_ERR_SURFACE_LIGHTS GN_SURFACE_LIGHTS 1
+# texels come in blocks of 64: as many as are needed, and a block less
+for macro in GN_ATLAS_TEXELS GN_OTHER_ATLAS_TEXELS; do
+    needed=64
+    for enough in 1 2 3 4 5 6 7 8; do
+        message=$(small -D$macro=$needed)
+        case $message in "status $(number GN_ERR_ATLAS_FULL) "*) needed=$(echo "$message" | cut -d ' ' -f 4) ;; *) break ;; esac
+    done
+    if [ "$needed" -gt 64 ] && [ "$message" = "$(small)" ]; then pass; else fail "$macro=$needed, as needed: $message"; fi
+    message=$(small -D$macro=$((needed - 64)))
+    if [ "$message" = "status $(number GN_ERR_ATLAS_FULL) needed $needed available $((needed - 64))" ]; then pass; else fail "$macro: $message"; fi
+done
+# shadow tiles are no capacity that a frame fails for: lights go without, and are counted (A3)
+message=$(small MAX_SHADOW_TILES=1)
+if [ "$message" = "without room: 1" ]; then pass; else fail "GN_MAX_SHADOW_TILES=1: $message"; fi
+message=$(small MAX_OTHER_TILES=1)
+if [ "$message" = "without room: 2" ]; then pass; else fail "GN_MAX_OTHER_TILES=1: $message"; fi
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]

@@ -1,0 +1,269 @@
+#!/bin/sh
+# gnomon sweep and gnomon advise: the front, budgets kept, what they promise reproduced by gnomon compare. usage: test_sweep.sh [TOOL]
+cd "$(dirname "$0")/../.." || exit 1
+tool=${1:-build/gnomon}
+. tests/support/check.sh
+size=48x36
+
+run() { timeout 300 "$tool" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null; }
+
+good() { # good ARGUMENTS...: exit 0, nothing on stderr: no progress either
+    run "$@"
+    status=$?
+    if [ $status != 0 ]; then fail "'$*' exits with $status: $(head -n 1 "$tmp/err")"
+    elif [ -s "$tmp/err" ]; then fail "'$*' succeeds and writes to stderr: $(head -n 1 "$tmp/err")"
+    else pass; fi
+}
+
+bad() { # bad STATUS WORD ARGUMENTS...: that exit status, nothing on stdout, a first line with that word
+    expected=$1 word=$2
+    shift 2
+    run "$@"
+    status=$?
+    if [ $status != "$expected" ]; then fail "'$*' exits with $status, not $expected: $(head -n 1 "$tmp/err")"
+    elif ! head -n 1 "$tmp/err" | grep -q -e "^gnomon: .*$word"; then fail "'$*' does not name '$word': $(head -n 1 "$tmp/err")"
+    elif [ "$(grep -v -c "^'gnomon help'" "$tmp/err")" != 1 ]; then fail "'$*' complains in several lines"
+    elif [ -s "$tmp/out" ]; then fail "'$*' fails and prints: $(head -n 1 "$tmp/out")"
+    else pass; fi
+}
+
+# field NAME [OBJECT]: a number of the JSON object on one line in $tmp/out, outside its lists; of one of the objects in it
+field() {
+    sed 's/"lights": \[[^]]*\]//g; s/"sets": \[[^]]*\]//g' "$tmp/out" | sed "s/.*\"${2:-xx no such object}\": {/{/" |
+        sed -n "s/^[^}]*\"$1\": \([-+.0-9a-z]*\).*/\1/p"
+}
+
+# ---- The sweep -----------------------------------------------------------------------------------------------------------------
+
+head='configuration,front,ram_bytes,instructions_per_pixel,truth_identical,truth_within1,truth_psnr_db,truth_atten_rms,truth_shadow_mismatch,reference_identical,reference_within1,reference_psnr_db,reference_atten_rms,reference_shadow_mismatch,later_frames,later_instructions_per_pixel,later_most_instructions_per_pixel,later_truth_psnr_db,later_truth_worst_psnr_db,later_reference_psnr_db,later_reference_worst_psnr_db,target_instructions_per_pixel,target_later_instructions_per_pixel,n_tile_texels,'
+for name in sundial desk mixed; do
+    scene=host/scenes/$name.gltf csv=$tmp/$name.csv
+    good sweep "$scene" --quick --size $size --csv "$csv" --svg "$tmp/$name.svg"
+    grep -q "configurations, [0-9]* of them on the front" "$tmp/out" && pass || fail "sweep of $name does not say how many are on the front"
+    case $(head -n 1 "$csv") in "$head"*) pass ;; *) fail "columns of the CSV: $(head -n 1 "$csv")" ;; esac
+    rows=$(($(wc -l <"$csv") - 1))
+    [ $rows -ge 8 ] && pass || fail "sweep of $name has $rows rows"
+    [ "$(sed 's/"[^"]*"//' "$csv" | awk -F, '{ print NF }' | sort -u | wc -l)" = 1 ] && pass || fail "rows of the CSV differ in length"
+
+    # the front is one, of the frames that are played: nothing dominates what is on it, something dominates whatever is not
+    awk -F '"' 'NR > 1 { split($3, v, ","); n++; front[n] = v[2]; ram[n] = v[3]; cost[n] = v[16]; db[n] = v[18] == "inf" ? 1e9 : v[18] + 0; if (v[15] != 8) print "row " n " frames" }
+        END {
+            for (i = 1; i <= n; i++) {
+                beaten = 0
+                for (k = 1; k <= n; k++)
+                    if (ram[k] <= ram[i] && cost[k] <= cost[i] && db[k] >= db[i] && (ram[k] < ram[i] || cost[k] < cost[i] || db[k] > db[i])) beaten = 1
+                if (beaten == front[i]) print "row " i
+                on += front[i]
+            }
+            if (!on) print "no row"
+        }' "$csv" >"$tmp/found"
+    [ -s "$tmp/found" ] && fail "front of $name: wrong about $(head -n 3 "$tmp/found" | tr '\n' ' ')" || pass
+
+    # more accurate is not worse
+    awk -F '"' '$2 ~ /^preset=tiny( atlas_size=16)?$/ { split($3, tiny, ",") } $2 ~ /^preset=accurate( atlas_size=16)?$/ { split($3, best, ",") }
+        END { exit !(best[7] >= tiny[7] && best[10] >= tiny[10] && best[3] >= tiny[3] && tiny[3] > 0) }' "$csv" &&
+        pass || fail "sweep of $name: the accurate preset is not better than tiny"
+
+    # every number of two rows is what compare says of these settings
+    for row in 3 $rows; do
+        line=$(sed -n "${row}p" "$csv")
+        settings=$(echo "$line" | awk -F '"' '{ print $2 }')
+        [ "$settings" = "the scene's own" ] && settings=
+        set --
+        for setting in $settings; do set -- "$@" --set "$setting"; done
+        good compare "$scene" --size $size --json --with truth "$@"
+        got="$(field ram_bytes) $(field psnr_db fixed_truth) $(field shadow_mismatch fixed_truth) $(field psnr_db fixed_reference) $(field identical fixed_reference)"
+        want=$(echo "$line" | awk -F '"' '{ split($3, v, ","); print v[3], v[7], v[9], v[12], v[10] }')
+        [ "$got" = "$want" ] && pass || fail "$name with '$settings': compare says $got, the sweep $want"
+    done
+
+    # the picture: one root, all points in both panels, nothing that runs or is fetched
+    [ "$(grep -c '<circle' "$tmp/$name.svg")" = $((2 * rows)) ] && pass || fail "$name.svg has $(grep -c '<circle' "$tmp/$name.svg") points"
+    [ "$(tail -n 1 "$tmp/$name.svg")" = '</svg>' ] && [ "$(grep -c '<svg' "$tmp/$name.svg")" = 1 ] && pass || fail "$name.svg does not end"
+    grep -q -i -E '<script|<image|href|@import|url\(|nan|inf' "$tmp/$name.svg" && fail "$name.svg is not self-contained, or has no number" || pass
+    if command -v xmllint >/dev/null; then xmllint --noout "$tmp/$name.svg" 2>"$tmp/found" && pass || fail "$name.svg: $(head -n 1 "$tmp/found")"; fi
+done
+
+good sweep host/scenes/sundial.gltf --quick --size $size --json
+[ "$(grep -o '"front": ' "$tmp/out" | wc -l)" = $(($(wc -l <"$tmp/sundial.csv") - 1)) ] && [ "$(wc -l <"$tmp/out")" = 1 ] && pass || fail "sweep --json has other rows than the CSV"
+good sweep host/scenes/sundial.gltf --quick --size $size --set filter=5x5 --set preset=tiny --all
+grep -q 'filter=\|preset=' "$tmp/out" && fail "sweep varies what --set holds" || pass
+good sweep host/scenes/sundial.gltf --quick --size $size --set shadows=0
+
+# ---- From frame to frame -------------------------------------------------------------------------------------------------------
+
+# what is played, its tiles kept, is what each frame is on its own
+frames=
+for frame in 1 2 3 4 5 6 7 8; do
+    good compare host/scenes/mixed.gltf --size $size --json --with truth --frame $frame
+    frames="$frames $(field psnr_db fixed_truth)"
+done
+awk -F '"' -v frames="$frames" 'NR > 1 && $2 == "the scene'"'"'s own" {
+        split($3, v, ",")
+        n = split(frames, db, " ")
+        worst = db[1]
+        for (i = 1; i <= n; i++) { sum += 10 ^ (-db[i] / 10) / n; if (db[i] < worst) worst = db[i] }
+        apart = v[18] + 10 * log(sum) / log(10)
+        exit !(n == 8 && apart < 1e-6 && apart > -1e-6 && v[19] == worst && v[17] >= v[16])
+    }
+    END { if (!NR) exit 1 }' "$tmp/mixed.csv" && pass || fail "the frames that are played of mixed are not those that compare draws: $frames"
+
+# a schedule changes nothing in the first frame, and saves in later ones
+for name in sundial mixed; do
+    awk -F '"' 'NR > 1 {
+            m = split($3, v, ",")
+            key = v[3]; for (i = 5; i <= 14; i++) key = key "," v[i]
+            if ($2 ~ / refresh=4$/) { n++; scheduled = key; cost = v[16]; most = v[17] }
+            else later[key] = v[16] " " v[17]
+        }
+        END { split(later[scheduled], base, " "); exit !(n == 1 && cost < base[1] && most <= base[2]) }' "$tmp/$name.csv" &&
+        pass || fail "refresh=4 of $name is not the same first frame for less"
+done
+good sweep host/scenes/mixed.gltf --quick --size $size
+grep -q 'Cascades on a schedule' "$tmp/out" && grep -q ' dB  preset=balanced refresh=4$' "$tmp/out" && pass || fail "the sweep of mixed says nothing of schedules"
+good sweep host/scenes/mixed.gltf --quick --size $size --set refresh=2 --all
+grep -q 'refresh=' "$tmp/out" && fail "sweep varies the schedule that --set holds" || pass
+good sweep host/scenes/mixed.gltf --quick --size $size --set incremental=0 --csv "$tmp/each.csv"
+awk -F '"' 'NR > 1 { split($3, v, ","); if ($2 ~ /refresh/ || v[16] < 0.9 * v[4]) exit 1 }' "$tmp/each.csv" && pass || fail "without incremental something is kept"
+
+# nothing moves: the second frame has its tiles, and there is no schedule to look at
+good sweep host/scenes/avenue.gltf --quick --size $size --csv "$tmp/avenue.csv" --all
+grep -q '^nothing moves' "$tmp/out" && ! grep -q 'refresh=' "$tmp/out" && pass || fail "the sweep of avenue does not say that nothing moves"
+awk -F '"' 'NR > 1 { split($3, v, ","); if (v[15] != 1 || v[16] >= v[4] || v[16] != v[17] || v[18] != v[7] || v[20] != v[12]) exit 1 }' "$tmp/avenue.csv" &&
+    pass || fail "what a later frame of avenue costs"
+
+# ---- Advice --------------------------------------------------------------------------------------------------------------------
+
+for name in sundial desk mixed; do
+    scene=host/scenes/$name.gltf csv=$tmp/$name.csv
+    least=$(awk -F '"' 'NR > 1 { split($3, v, ","); if (!n++ || v[3] < least) least = v[3] } END { print least }' "$csv")
+    for factor in 11 20 60; do
+        budget=$((least * factor / 10))
+        good advise "$scene" --quick --size $size --ram $budget --json
+        arguments=$(sed -n 's/.*"arguments": "\([^"]*\)".*/\1/p' "$tmp/out")
+        ram=$(field ram_bytes) cost=$(field instructions_per_pixel later) db=$(field truth_psnr_db later) first=$(field psnr_db truth)
+        promised="$ram $(field psnr_db reference) $(field shadow_mismatch reference)"
+        [ "$ram" -le $budget ] && pass || fail "advice for $name: $ram bytes do not fit into $budget"
+        awk -F '"' -v ram="$ram" -v cost="$cost" -v db="$db" -v budget=$budget 'NR > 1 {
+                split($3, v, ",")
+                if (v[3] <= budget && v[18] > db + 1e-6) exit 1
+                if (v[3] <= ram && v[16] <= cost && v[18] >= db && (v[3] < ram || v[16] < cost - 1e-6 || v[18] > db + 1e-6)) exit 1
+            }' "$csv" && pass || fail "advice for $name in $budget bytes is not on the front: $arguments"
+        # shellcheck disable=SC2086
+        good compare "$scene" --size $size --json $arguments
+        got="$(field ram_bytes) $(field psnr_db) $(field shadow_mismatch)"
+        [ "$got" = "$promised" ] && pass || fail "$name with $arguments: promised $promised, compare says $got"
+        case $arguments in *cascades*) continue ;; esac # where shadows end depends on them, in the truth too
+        # shellcheck disable=SC2086
+        good compare "$scene" --size $size --json --with truth $arguments
+        [ "$(field psnr_db fixed_truth)" = "$first" ] && pass || fail "$name with $arguments: promised $first dB against the truth, compare says $(field psnr_db fixed_truth)"
+    done
+done
+
+# more of either budget is never worse, and no row of the sweep that fits is better than the advice
+for name in fence avenue; do
+    case $name in fence) costs='2500 3200 5000' ;; *) costs='4600 5200 7000' ;; esac
+    scene=host/scenes/$name.gltf csv=$tmp/$name.csv
+    good sweep "$scene" --quick --size 32x24 --csv "$csv"
+    : >"$tmp/answers"
+    for ram in 20000 60000 400000; do
+        for cost in $costs; do
+            run advise "$scene" --quick --size 32x24 --ram $ram --instructions-per-pixel $cost --json
+            [ $? = 2 ] && fail "advice for $name in $ram bytes: $(head -n 1 "$tmp/err")"
+            echo "$ram $cost $(field ram_bytes) $(field instructions_per_pixel) $(field truth_psnr_db later)" >>"$tmp/answers"
+        done
+    done
+    awk -F '"' 'NR == FNR { split($0, v, " "); n++; ram[n] = v[1]; cost[n] = v[2]; db[n] = v[5] == "" ? -1 : v[5] + 0; answers += db[n] > 0
+                    if (v[3] + 0 > v[1] || v[4] + 0 > v[2]) print "beyond " $0
+                    next }
+        FNR > 1 { split($3, v, ","); for (i = 1; i <= n; i++) if (v[3] <= ram[i] && v[4] <= cost[i] && v[18] > db[i] + 1e-6) print "sweep: " $2 " in " ram[i], cost[i] }
+        END {
+            if (answers < 6) print answers " answers"
+            for (i = 1; i <= n; i++) for (k = 1; k <= n; k++)
+                if (ram[k] >= ram[i] && cost[k] >= cost[i] && db[k] < db[i]) print ram[k], cost[k] ": " db[k] ", but in " ram[i], cost[i] ": " db[i]
+        }' "$tmp/answers" "$csv" >"$tmp/found"
+    [ -s "$tmp/found" ] && fail "advice for $name: $(head -n 3 "$tmp/found" | tr '\n' ';')" || pass
+done
+
+# a budget of both kinds, and those that nothing fits: what is named would do, and a byte less would not
+good advise host/scenes/desk.gltf --quick --size $size --ram 100000 --instructions-per-pixel 100000
+bad 1 'no configuration fits into 1000 bytes at 48x36; the least RAM found: [0-9]* bytes and .* by --set' advise host/scenes/desk.gltf --quick --size $size --ram 1000
+least=$(sed -n 's/.*the least RAM found: \([0-9]*\) bytes.*/\1/p' "$tmp/err")
+good advise host/scenes/desk.gltf --quick --size $size --ram "$least"
+bad 1 'no configuration fits' advise host/scenes/desk.gltf --quick --size $size --ram $((least - 1))
+bad 1 'the fewest instructions found within the RAM: [0-9]* bytes' advise host/scenes/desk.gltf --quick --size $size --ram 100000 --instructions-per-pixel 5
+bad 1 'the nearest: [0-9]* bytes' advise host/scenes/desk.gltf --quick --size $size --ram 1000 --instructions-per-pixel 5 --json
+
+# ---- On a target ---------------------------------------------------------------------------------------------------------------
+
+# one configuration of a still scene, so that one image is built; a terminal sees what is at work
+one="--set preset=tiny --set filter=hard --set atlas_size=64"
+counted="$tool sweep host/scenes/fence.gltf --quick --size $size $one --target mps2-an385 --csv $tmp/counted.csv --svg $tmp/counted.svg"
+if command -v script >/dev/null; then
+    script -q -e -c "$counted" "$tmp/typescript" >/dev/null 2>&1 </dev/null
+    grep -q '0 of 1 counted on mps2-an385' "$tmp/typescript" && pass || fail "a terminal does not see that something is counted"
+else $counted >/dev/null 2>&1; fi
+sh boards/tools/count.sh mps2-an385 test-sweep "0,0 1" FW_OPT=-O2 SCENE=host/scenes/fence.gltf PRESET=tiny \
+    SCENE_FLAGS="--size $size --frames 0-1 --simplify safe --set filter=hard --set atlas_size=64 --set output=rgb565" >"$tmp/stages" 2>&1
+want=$(awk '/^args:/ { run++ } $1 == "stage" { n[run] += $3 } END { printf "%.3f %.3f", n[1] / 48 / 36, (n[2] - n[1]) / 48 / 36 }' "$tmp/stages")
+got=$(awk -F '"' 'NR == 2 { split($3, v, ","); printf "%.3f %.3f", v[22], v[23] }' "$tmp/counted.csv")
+[ "$got" = "$want" ] && pass || fail "counted on mps2-an385: $got, and by hand $want"
+echo "$got" | awk '{ exit !($1 > 100 && $2 > 100 && $2 < $1) }' && pass || fail "tiles that are kept save nothing on mps2-an385: $got"
+[ "$(grep -c '<circle' "$tmp/counted.svg")" = 3 ] && grep -q 'Cost on mps2-an385' "$tmp/counted.svg" && pass || fail "the plot has no panel of mps2-an385"
+sh boards/tools/count.sh --remove mps2-an385 test-sweep
+ls build/firmware/mps2-an385 | grep -q '^sweep-' && fail "the sweep leaves images behind" || pass
+# shellcheck disable=SC2086
+good advise host/scenes/fence.gltf --quick --size $size $one --set persp_step=8 --set subpixel_bits=4 --set tile_width=32 --set tile_height=8 --set depth_bits=16 --set cascades=1 \
+    --ram 100000 --instructions-per-pixel 100000 --target mps2-an385 --json
+grep -q '"target": {"board": "mps2-an385", "instructions_per_pixel": [0-9.]*, ' "$tmp/out" && pass || fail "advice for mps2-an385 was not counted: $(head -c 300 "$tmp/out")"
+
+# where nothing counts, the reason is said once; a board that there is not, or that nothing emulates, is an error
+scene=host/scenes/fence.gltf
+mkdir -p "$tmp/ghost"
+printf '# A core that nobody has a compiler for.\nBOARD_RUNS := qemu\nBOARD_CROSS := ghost-none-\nBOARD_EMULATOR := qemu-system-ghost\n' >"$tmp/ghost/board.mk"
+run sweep $scene --quick --size 8x8 --target "../$tmp/ghost" --csv "$tmp/ghost.csv" && pass || fail "without a toolchain the sweep fails: $(head -n 1 "$tmp/err")"
+[ "$(grep -c 'ghost-none-gcc is not installed' "$tmp/err")" = 1 ] && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "without a toolchain: $(head -n 2 "$tmp/err")"
+awk -F '"' 'NR > 1 { split($3, v, ","); if (v[22] != "" || v[23] != "" || v[24] == "") exit 1 } END { exit !(NR > 5) }' "$tmp/ghost.csv" && pass || fail "columns that were not counted are not empty"
+run advise $scene --quick --size 8x8 --ram 100000 --instructions-per-pixel 100000 --target "../$tmp/ghost"
+[ $? = 1 ] && grep -q 'is of .*ghost: without --target' "$tmp/err" && pass || fail "a budget that nothing counts is taken: $(tail -n 1 "$tmp/err")"
+bad 1 "no board 'nowhere'" sweep $scene --target nowhere
+bad 1 'no emulator runs pico' sweep $scene --target pico
+bad 1 "no board 'nowhere'" advise $scene --ram 100000 --target nowhere
+bad 2 target compile $scene -o "$tmp/c" --target mps2-an385
+
+# ---- Usage ---------------------------------------------------------------------------------------------------------------------
+
+scene=host/scenes/sundial.gltf
+bad 2 ram advise $scene
+bad 2 ram advise $scene --ram 0
+bad 2 ram advise $scene --ram many
+bad 2 instructions advise $scene --ram 1000 --instructions-per-pixel -1
+bad 2 csv advise $scene --ram 1000 --csv "$tmp/x.csv"
+bad 2 scene sweep
+bad 2 engine sweep $scene --engine fixed
+bad 2 ram sweep $scene --ram 1000
+bad 2 value sweep $scene --csv
+bad 1 missing sweep "$tmp/missing.gltf"
+bad 1 atlas_size sweep $scene --set atlas_size=3
+bad 1 "$tmp/no/x.csv" sweep $scene --quick --size 8x8 --csv "$tmp/no/x.csv"
+bad 1 "$tmp/no/x.svg" sweep $scene --quick --size 8x8 --svg "$tmp/no/x.svg"
+if command -v script >/dev/null; then # a terminal sees progress
+    script -q -e -c "$tool sweep $scene --quick --size 8x8" "$tmp/typescript" >/dev/null 2>&1 </dev/null
+    grep -q '3 of [0-9]* configurations' "$tmp/typescript" && pass || fail "no progress on a terminal"
+fi
+
+# ---- docs/TRADE.md -------------------------------------------------------------------------------------------------------------
+
+# one scene made anew; all of them take minutes: sh docs/trade.sh build/gnomon
+mkdir "$tmp/docs"
+sh docs/trade.sh "$tool" "$tmp/docs" avenue >/dev/null 2>"$tmp/err" && pass || fail "docs/trade.sh: $(head -n 1 "$tmp/err")"
+cmp -s docs/TRADE.md "$tmp/docs/TRADE.md" && pass || fail "docs/TRADE.md is out of date: make docs ($(diff docs/TRADE.md "$tmp/docs/TRADE.md" | sed -n 2p))"
+new=$tmp/docs/pictures/trade-avenue.svg # without what was counted
+grep '<circle' docs/pictures/trade-avenue.svg | head -n "$(grep -c '<circle' "$new")" >"$tmp/points"
+[ -s "$tmp/points" ] && grep '<circle' "$new" | cmp -s - "$tmp/points" && pass || fail "docs/pictures/trade-avenue.svg is out of date: make docs"
+for name in sundial avenue desk room fence mixed; do
+    [ -s docs/pictures/trade-$name.svg ] && grep -q "pictures/trade-$name.svg" docs/TRADE.md && pass || fail "docs/TRADE.md has no picture of $name"
+done
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]

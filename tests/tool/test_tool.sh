@@ -1,0 +1,766 @@
+#!/bin/sh
+# The command line: exit codes, one clear line per error, JSON, pictures of every view, every knob. usage: test_tool.sh [TOOL]
+cd "$(dirname "$0")/../.." || exit 1
+tool=${1:-build/gnomon}
+. tests/support/check.sh
+
+run() { timeout 60 "$tool" "$@" >"$tmp/out" 2>"$tmp/err" </dev/null; }
+
+# good ARGUMENTS...: exit 0, nothing on stderr
+good() {
+    run "$@"
+    status=$?
+    if [ $status != 0 ]; then fail "'$*' exits with $status: $(head -n 1 "$tmp/err")"
+    elif [ -s "$tmp/err" ]; then fail "'$*' succeeds and complains: $(head -n 1 "$tmp/err")"
+    else pass; fi
+}
+
+# said ARGUMENTS...: exit 0, and something on stderr, each line with the name of the tool
+said() {
+    run "$@"
+    status=$?
+    if [ $status != 0 ]; then fail "'$*' exits with $status: $(head -n 1 "$tmp/err")"
+    elif [ ! -s "$tmp/err" ]; then fail "'$*' says nothing"
+    elif grep -v -q '^gnomon: ' "$tmp/err"; then fail "'$*' does not say who speaks: $(head -n 1 "$tmp/err")"
+    else pass; fi
+}
+
+# bad STATUS WORD ARGUMENTS...: that exit status, nothing on stdout, one line on stderr with that word (a regular expression); a usage
+# error may add the line that names 'gnomon help'
+bad() {
+    expected=$1 word=$2
+    shift 2
+    run "$@"
+    status=$?
+    lines=$(grep -v -c "^'gnomon help'" "$tmp/err")
+    if [ $status != "$expected" ]; then fail "'$*' exits with $status, not $expected: $(head -n 1 "$tmp/err")"
+    elif [ "$lines" != 1 ]; then fail "'$*' complains in $lines lines: $(head -n 2 "$tmp/err" | tr '\n' ';')"
+    elif ! head -n 1 "$tmp/err" | grep -q '^gnomon: '; then fail "'$*' does not say who complains: $(head -n 1 "$tmp/err")"
+    elif ! head -n 1 "$tmp/err" | grep -q -e "$word"; then fail "'$*' does not name '$word': $(head -n 1 "$tmp/err")"
+    elif [ -s "$tmp/out" ]; then fail "'$*' fails and prints: $(head -n 1 "$tmp/out")"
+    elif [ "$expected" = 1 ] && [ "$(wc -l <"$tmp/err")" != 1 ]; then fail "'$*' adds a usage hint to a failure of the work"
+    else pass; fi
+}
+
+# ---- Scenes of the test's own ------------------------------------------------------------------------------------------------
+
+cat >"$tmp/cube.obj" <<'OBJ'
+v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 3 4 8 7
+f 2 3 7 6
+f 1 5 8 4
+OBJ
+cube=$tmp/cube.obj
+json='{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36}]}'
+while [ $((${#json} % 4)) != 0 ]; do json="$json "; done
+word() { # little endian, 4 bytes
+    printf "\\$(printf %o $(($1 % 256)))\\$(printf %o $(($1 / 256 % 256)))\\$(printf %o $(($1 / 65536)))\\000"
+}
+{
+    printf glTF && word 2 && word $((12 + 8 + ${#json} + 8 + 36))
+    word ${#json} && printf 'JSON%s' "$json"
+    word 36 && printf 'BIN\000'
+    printf '\000\000\000\000\000\000\000\000\000\000\000\000'           # 0 0 0
+    printf '\000\000\200\077\000\000\000\000\000\000\000\000'           # 1 0 0
+    printf '\000\000\000\000\000\000\200\077\000\000\000\000'           # 0 1 0
+} >"$tmp/triangle.glb"
+glb=$tmp/triangle.glb
+
+# ---- What works --------------------------------------------------------------------------------------------------------------
+
+good help
+grep -q '^usage: gnomon' "$tmp/out" && pass || fail "help does not say how it is used"
+good --help
+good knobs
+cp "$tmp/out" "$tmp/knobs"
+for knob in refresh incremental static_layer; do # they act from frame to frame
+    grep -q "^| \`$knob\` .*a single picture shows nothing of it" "$tmp/knobs" && pass || fail "knobs does not say that $knob shows in no single picture"
+done
+good info "$cube" --size 32x24
+good info "$glb" --size 32x24
+good compare "$cube" --size 32x24
+good render "$glb" -o "$tmp/a.png" --size 32x24
+[ -s "$tmp/out" ] && fail "render prints: $(head -n 1 "$tmp/out")" || pass
+
+# png_size FILE: "WIDTHxHEIGHT" from its header, after checking the signature
+png_size() {
+    od -A n -t u1 -N 24 "$1" 2>/dev/null | tr -s ' \n' '  ' | awk '{
+        if ($0 !~ /^ ?137 80 78 71 13 10 26 10 0 0 0 13 73 72 68 82 /) { print "no PNG"; exit }
+        print (($17 * 256 + $18) * 256 + $19) * 256 + $20 "x" (($21 * 256 + $22) * 256 + $23) * 256 + $24 }'
+}
+is_png() { # is_png FILE SIZE WHAT
+    size=$(png_size "$1")
+    if [ "$size" = "$2" ]; then pass; else fail "$3: $1 is ${size:-missing}, not $2"; fi
+    rm -f "$1"
+}
+
+# every view, by either engine (A6)
+for engine in fixed reference; do
+    for view in colour shadow depth normal cascade atlas; do
+        size=33x21
+        [ $view = atlas ] && size=64x64
+        good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view $view --set atlas_size=64
+        is_png "$tmp/view.png" $size "--engine $engine --view $view"
+    done
+done
+for engine in fixed reference; do # three of four tiles in a row
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --set atlas_size=64 --set cascades=3
+    is_png "$tmp/view.png" 96x32 "--engine $engine --view atlas, three cascades"
+done
+for engine in fixed reference; do # a spot light has one tile, a point light six
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --light 1 --set other_atlas_size=64 --set lights=directional,spot
+    is_png "$tmp/view.png" 64x64 "--engine $engine --view atlas, spot light"
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view atlas --set other_atlas_size=64 --set lights=point
+    is_png "$tmp/view.png" 96x16 "--engine $engine --view atlas, point light"
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine $engine --view shadow --light 2 --set lights=point,directional,spot
+    is_png "$tmp/view.png" 33x21 "--engine $engine --view shadow, the last of three lights"
+done
+for view in colour shadow depth normal; do # truth has no maps to show
+    good render "$cube" -o "$tmp/view.png" --size 33x21 --engine truth --view $view --samples 2
+    is_png "$tmp/view.png" 33x21 "--engine truth --view $view"
+done
+for view in depth normal; do # what is no shadow is the reference's; so is the colour where there are none
+    good render "$cube" -o "$tmp/a.png" --size 33x21 --engine truth --view $view --samples 2
+    good render "$cube" -o "$tmp/b.png" --size 33x21 --engine reference --view $view
+    cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "truth and reference differ in --view $view"
+done
+good render "$cube" -o "$tmp/a.png" --size 33x21 --engine truth --set strength=0
+good render "$cube" -o "$tmp/b.png" --size 33x21 --engine reference --set strength=0
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "truth and reference differ without shadows"
+good render "$cube" -o "$tmp/a.png" --size 33x21 --engine truth
+good render "$cube" -o "$tmp/b.png" --size 33x21 --engine truth --set atlas_size=16 --set filter=7x7 --set bias_normal=5 # of the maps
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "truth depends on the shadow maps"
+good render "$cube" -o "$tmp/b.png" --size 33x21 --engine truth --samples 4
+cmp -s "$tmp/a.png" "$tmp/b.png" && fail "--samples changes nothing" || pass
+good render "$cube" -o "$tmp/one.png" --size 1x1
+is_png "$tmp/one.png" 1x1 "--size 1x1"
+good compare "$cube" -o "$tmp/new" --size 33x21
+for name in fixed reference error; do is_png "$tmp/new/$name.png" 33x21 "compare -o"; done
+good compare "$cube" -o "$tmp/new" --size 16x16 # into a folder that exists
+is_png "$tmp/new/beside.png" 56x16 "compare -o, side by side"
+for name in fixed reference error; do is_png "$tmp/new/$name.png" 16x16 "compare -o"; done
+good compare "$cube" -o "$tmp/new" --size 33x8 --view depth
+is_png "$tmp/new/beside.png" 33x32 "compare -o, one below the other"
+good compare "$cube" -o "$tmp/new" --size 16x16 --view atlas --set atlas_size=64 --set cascades=3
+for name in fixed reference error; do is_png "$tmp/new/$name.png" 96x32 "compare -o --view atlas"; done
+is_png "$tmp/new/beside.png" 96x104 "compare -o --view atlas"
+bad 1 "no light 1" compare "$cube" -o "$tmp/new" --size 16x16 --view shadow --light 1
+# lamps inside of unlit bulbs: their insides are turned to the light, and what is seen of them is not
+good compare docs/scenes/cones.gltf -o "$tmp/new" --size 64x48 --view shadow --light 3
+cmp -s "$tmp/new/fixed.png" "$tmp/new/reference.png" && pass || fail "unlit surfaces in --view shadow differ"
+
+good compare "$cube" --with truth -o "$tmp/three" --size 33x21
+for pair in 'fixed against reference: what fixed point' 'reference against truth: what the shadow map' 'fixed against truth: both'; do
+    grep -q "$pair" "$tmp/out" && pass || fail "compare --with truth does not report $pair"
+done
+for name in fixed reference truth error_fixed_reference error_reference_truth error_fixed_truth; do
+    is_png "$tmp/three/$name.png" 33x21 "compare --with truth -o"
+done
+is_png "$tmp/three/beside.png" 107x46 "compare --with truth -o"
+# automatic bias at the rim of a spot that grazes, and under one so wide that the normal form would move points too far
+for spot in "rim 32 hard" "wide 16 5x5"; do
+    set -- $spot
+    good compare "tests/data/$1.gltf" --with truth --set "other_atlas_size=$2" --set "other_filter=$3" --json
+    grep -qE '"atten_max": (1|0\.[0-9]+)[,}]' "$tmp/out" && fail "a plane shadows itself: $1: $(tr , '\n' <"$tmp/out" | grep atten_max | head -n 1)" || pass
+done
+# narrow cones, whose edge turns the last bits of a cosine into much light: the floors of the default, in every preset
+for cone in 0.0087 0.0175 0.05 0.1; do
+    sed "s/0.0174532925/$cone/" tests/data/narrow.gltf >"$tmp/narrow.gltf"
+    for preset in tiny balanced accurate; do
+        good compare "$tmp/narrow.gltf" --set preset=$preset --json
+        sed -n 's/.*"identical": *\([0-9.e-]*\).*"shadow_mismatch": *\([0-9.e-]*\).*/\1 \2/p' "$tmp/out" | awk '{ n = 1; exit $1 < 0.985 || $2 > 0.004 } END { if (!n) exit 1 }' &&
+            pass || fail "a spot of $cone around its axis, $preset: $(cut -c 1-200 "$tmp/out")"
+    done
+done
+good compare "$cube" --with truth -o "$tmp/three" --size 60x20 --view shadow # wide pictures: below each other
+is_png "$tmp/three/beside.png" 124x68 "compare --with truth -o, wide"
+
+# ---- JSON --------------------------------------------------------------------------------------------------------------------
+
+cat >"$tmp/json.c" <<'EOF_C'
+/* json KEY...: stdin is one JSON object on one line, with these keys. */
+#include <stdio.h>
+#include "host/base/json.h"
+int main(int argc, char **argv)
+{
+    static char text[1 << 20];
+    size_t n = fread(text, 1, sizeof text, stdin);
+    json_doc doc;
+    char error[200];
+    if (json_parse(&doc, text, n, error, sizeof error)) {
+        printf("%s", error);
+        return 1;
+    }
+    if (doc.root->type != JSON_OBJECT) return printf("no object"), 1;
+    for (int i = 1; i < argc; i++)
+        if (!json_get(doc.root, argv[i])) return printf("no %s", argv[i]), 1;
+    json_free(&doc);
+    return 0;
+}
+EOF_C
+if ${CC:-gcc} -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -I. -o "$tmp/json" "$tmp/json.c" host/base/json.c host/base/arena.c -lm >"$tmp/log" 2>&1; then pass
+else fail "the JSON checker does not build: $(grep -m 1 error "$tmp/log")"; fi
+valid_json() { # valid_json KEYS...: of the last command's output
+    if message=$("$tmp/json" "$@" <"$tmp/out") && [ "$(wc -l <"$tmp/out")" = 1 ]; then pass
+    else fail "JSON: ${message:-more than one line}: $(head -c 100 "$tmp/out")"; fi
+}
+odd="$tmp/odd \"name\" \\ é.obj"
+cp "$cube" "$odd"
+for scene in "$cube" "$odd"; do
+    good render "$scene" -o "$tmp/a.png" --size 32x24 --json
+    valid_json out width height
+    good compare "$scene" --size 32x24 --json
+    valid_json identical within1 max_error atten_rms atten_max shadow_mismatch coverage_mismatch ram_bytes
+    good compare "$scene" --size 32x24 --with truth --samples 2 --json
+    valid_json scene with width height samples ram_bytes fixed_reference reference_truth fixed_truth
+    n=$(grep -o '"shadow_mismatch": [^,]*, "coverage_mismatch"' "$tmp/out" | wc -l)
+    [ "$n" = 3 ] && pass || fail "compare --with truth --json has $n objects of metrics"
+    good info "$scene" --size 32x24 --json
+    valid_json objects triangles lights light_list textures alpha casters needs surface_lights shadow_tiles other_tiles ram_bytes notes
+done
+: >"$tmp/empty"
+"$tmp/json" <"$tmp/empty" >/dev/null && fail "the JSON checker takes nothing for JSON" || pass
+
+# ---- The command line is wrong: exit 2 ---------------------------------------------------------------------------------------
+
+bad 2 command
+bad 2 paint paint "$cube"
+bad 2 RENDER RENDER "$cube"
+bad 2 scene render
+bad 2 scene info --json
+bad 2 '-o' render "$cube"
+bad 2 '-o' render "$cube" -o
+bad 2 '--frobnicate' render "$cube" -o "$tmp/a.png" --frobnicate
+bad 2 '-x' info "$cube" -x
+bad 2 other.obj info "$cube" other.obj
+bad 2 gpu render "$cube" -o "$tmp/a.png" --engine gpu
+bad 2 fixed compare "$cube" --with fixed
+for view in atlas cascade; do
+    bad 2 'no shadow maps' render "$cube" -o "$tmp/a.png" --engine truth --view $view
+    bad 2 'no shadow maps' compare "$cube" --with truth --view $view
+done
+for samples in 0 17 -1 1.5 '' x; do bad 2 '--samples' render "$cube" -o "$tmp/a.png" --engine truth --samples "$samples"; done
+bad 2 'truth, not for fixed' render "$cube" -o "$tmp/a.png" --samples 2
+bad 2 'truth, not for reference' compare "$cube" --samples 2
+bad 2 'info does not use --samples' info "$cube" --samples 2
+bad 2 xray render "$cube" -o "$tmp/a.png" --view xray
+bad 2 knobs knobs "$cube"
+for size in 0x0 99999x1 1x99999 -1x5 5x-1 1e3x4 '' x 10 10x 10x10x10 10X10 10.5x10 2049x1 1x2049 99999999999999999999x1 ' 5x5' '5x 5' +5x5; do
+    bad 2 '--size' info "$cube" --size "$size"
+done
+for frame in -1 1.5 '' x 1e3 99999999999999999999; do bad 2 '--frame' info "$cube" --frame "$frame"; done
+for light in -1 64 '' one 0.5 - 0x1; do bad 2 "^gnomon: --light: bad value '$light'" render "$cube" -o "$tmp/a.png" --light "$light"; done
+bad 2 "^gnomon: --size: bad value 'abc', not WxH" info "$cube" --size abc
+bad 2 "bad value 'a?b'" info "$cube" --size "$(printf 'a\nb')" # still one line
+bad 2 "bad value ''" render "$cube" -o ''
+# what a command does not use
+for option in "--view colour" "--light 0" "--engine fixed"; do bad 2 "info does not use ${option% *}" info "$cube" $option; done
+bad 2 "compare does not use --engine" compare "$cube" --engine fixed
+bad 2 'render does not use --with' render "$cube" -o "$tmp/a.png" --with reference
+bad 2 'info does not use --with' info "$cube" --with reference
+bad 2 'info does not use -o' info "$cube" -o "$tmp/a.png"
+good compare "$cube" --with reference --size 8x8
+set --
+while [ $# -lt 130 ]; do set -- "$@" --set strength=1; done
+bad 2 '--set' info "$cube" "$@"
+
+# ---- The work fails: exit 1 --------------------------------------------------------------------------------------------------
+
+bad 1 missing.obj info "$tmp/missing.obj"
+bad 1 missing.gltf render "$tmp/missing.gltf" -o "$tmp/a.png"
+bad 1 'scene.xyz' info "$tmp/scene.xyz"
+bad 1 "$tmp" info "$tmp"
+mkdir "$tmp/folder.obj" "$tmp/folder.glb" "$tmp/folder.gltf"
+for kind in obj glb gltf; do bad 1 "folder.$kind" info "$tmp/folder.$kind"; done
+cp "$cube" "$tmp/secret.obj"
+chmod 000 "$tmp/secret.obj"
+if [ -r "$tmp/secret.obj" ]; then : # root may read anything
+else bad 1 secret.obj info "$tmp/secret.obj"; fi
+for kind in obj glb gltf; do
+    : >"$tmp/empty.$kind"
+    bad 1 "empty.$kind" info "$tmp/empty.$kind"
+done
+total=$(wc -c <"$glb")
+for bytes in 1 4 11 12 16 19 20 100 $((total - 37)) $((total - 36)) $((total - 1)); do # inside each part of the file
+    head -c "$bytes" "$glb" >"$tmp/cut.glb"
+    bad 1 cut.glb info "$tmp/cut.glb"
+done
+printf '{"asset": {"version": "2.0"},\n "nodes": [1, }\n' >"$tmp/broken.gltf"
+bad 1 'broken.gltf.*2:' info "$tmp/broken.gltf"
+printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[7]}],"nodes":[]}' >"$tmp/broken.gltf"
+bad 1 'broken.gltf.*/scenes/0' info "$tmp/broken.gltf"
+printf '{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":3}]}' >"$tmp/broken.gltf"
+bad 1 'broken.gltf.*/nodes/0/mesh' info "$tmp/broken.gltf"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 x\nf 1 2 3\n' >"$tmp/broken.obj"
+bad 1 'broken.obj:3' info "$tmp/broken.obj"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n' >"$tmp/broken.obj"
+bad 1 'broken.obj:4' info "$tmp/broken.obj"
+cp "$cube" "$tmp/noise.glb"
+bad 1 noise.glb info "$tmp/noise.glb"
+bad 1 'no/such' render "$cube" -o "$tmp/no/such/a.png" --size 8x8
+bad 1 "$tmp/new" render "$cube" -o "$tmp/new" --size 8x8
+bad 1 'cube.obj' compare "$cube" -o "$cube" --size 8x8
+bad 1 'no/such' compare "$cube" -o "$tmp/no/such" --size 8x8
+if [ -w /dev/full ]; then bad 1 /dev/full render "$cube" -o /dev/full --size 8x8; fi
+bad 1 light render "$cube" -o "$tmp/a.png" --size 8x8 --view atlas --light 3
+bad 1 light render "$cube" -o "$tmp/a.png" --size 8x8 --view shadow --light 7
+bad 1 shadow render "$cube" -o "$tmp/a.png" --size 8x8 --view atlas --set strength=0
+[ -e "$tmp/a.png" ] && rm -f "$tmp/a.png"
+bad 1 strength render "$cube" -o "$tmp/a.png" --size 8x8 --set strength=2
+[ -e "$tmp/a.png" ] && fail "a failed render leaves a picture" || pass
+
+for value in nan inf -inf infinity 1e999 '' ' ' x 1x -1 0 9000 1,2,3 ' 1' '1 ' 0x10 0x1p3 "$(printf '\t5')"; do bad 1 max_distance info "$cube" --size 8x8 --set "max_distance=$value"; done
+for value in nan '' 1,2 1,2,3,4 1,,2 -1 red 256 0x1,1,1 1,0x1,1 '1, 2,3' inf,1,1; do bad 1 ambient info "$cube" --size 8x8 --set "ambient=$value"; done
+for value in 4.5 '' nan 1e999 x 3 0x40 ' 64'; do bad 1 atlas_size info "$cube" --size 8x8 --set "atlas_size=$value"; done
+bad 1 'max_distance' info "$cube" --set max_distance
+bad 1 '=1' info "$cube" --set '=1'
+bad 1 KEY=VALUE info "$cube" --set ''
+bad 1 nonsense info "$cube" --set nonsense=1
+bad 1 preset info "$cube" --set preset=huge
+bad 1 filter info "$cube" --set filter=9x9
+bad 1 cascade_blend info "$cube" --set cascade_blend=mild
+bad 1 distance_mode info "$cube" --set distance_mode=far
+bad 1 'cascades first' info "$cube" --set cascades=1 --set cascade_ratios=0.5
+for value in '' 0.1,0.2 0.1,0.2,0.3,0.4 0.1,0.2,1.5 -0.1,0.2,0.3 0.1,,0.3 0.1,0.2,0.3, nan,1,1 0,0x0,1 '0.1, 0.2,0.3'; do
+    bad 1 '3 numbers' info "$cube" --size 8x8 --set cascades=4 --set "cascade_ratios=$value"
+done
+bad 1 ascending info "$cube" --size 8x8 --set cascades=4 --set cascade_ratios=0.2,0.1,0.3
+bad 1 '2 numbers' info "$cube" --size 8x8 --set cascades=3 --set cascade_ratios=0.5
+bad 1 '1 number ' info "$cube" --size 8x8 --set cascades=2 --set cascade_ratios=0.1,0.2
+bad 1 ground info "$cube" --set ground=2
+bad 1 normals info "$cube" --set normals=round
+bad 1 'KEY=VALUE' info "$cube" --set "$(printf '%0100d' 0)=1"
+bad 1 triangles render "$cube" -o "$tmp/a.png" --size 32x24 --set max_triangles=1
+bad 1 references render "$cube" -o "$tmp/a.png" --size 32x24 --set max_tile_refs=1
+
+for value in 1e1 +5 5. .5e1 05; do good info "$cube" --size 8x8 --set "max_distance=$value"; done
+
+# ---- Output that cannot be written, names that are no UTF-8 --------------------------------------------------------------------
+
+if [ -w /dev/full ]; then
+    for command in help knobs "info $cube --size 8x8 --json" "compare $cube --size 8x8" "render $cube -o $tmp/a.png --size 8x8 --json"; do
+        timeout 60 "$tool" $command >/dev/full 2>"$tmp/err" </dev/null
+        status=$?
+        if [ $status = 1 ] && [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q '^gnomon: the output' "$tmp/err"; then pass
+        else fail "'$command' into a full device exits with $status: $(head -n 1 "$tmp/err")"; fi
+    done
+fi
+wrong=$(printf 'a\377\303\050\355\240\200b') # a stray byte, half a letter, a surrogate
+if cp "$cube" "$tmp/$wrong.obj" 2>/dev/null; then
+    good info "$tmp/$wrong.obj" --size 8x8 --json
+    valid_json objects
+    grep -q 'a\\ufffd\\ufffd(\\ufffd\\ufffd\\ufffdb\.obj' "$tmp/out" && pass || fail "no U+FFFD: $(head -c 200 "$tmp/out")"
+fi
+bad 1 '/a??(???b-é\.obj: cannot be opened$' info "$tmp/$wrong-é.obj"
+[ "$(grep -c "$tmp.*$tmp" "$tmp/err")" = 0 ] && pass || fail "the path stands twice: $(head -n 1 "$tmp/err")"
+bad 1 'a??(???b' render "$cube" -o "$tmp/no/$wrong.png" --size 8x8
+bad 1 "unknown setting 'a?" info "$cube" --set "$(printf 'a\377')=1"
+
+# ---- What the configuration lacks, both engines lack ---------------------------------------------------------------------------
+
+# value NAME: of the last command's JSON, before its lights
+value() { sed 's/"lights".*//' "$tmp/out" | sed -n "s/.*\"$1\": *\([-0-9.e+null]*\).*/\1/p"; }
+is() { if [ "$(value "$1")" = "$2" ]; then pass; else fail "$3: $1 is $(value "$1"), not $2"; fi; }
+differ() { # differ SCENE A B: with these settings, in both engines
+    for engine in fixed reference; do
+        good render "$1" -o "$tmp/a.png" --size 64x48 --engine $engine --set "$2"
+        good render "$1" -o "$tmp/b.png" --size 64x48 --engine $engine --set "$3"
+        cmp -s "$tmp/a.png" "$tmp/b.png" && fail "$engine draws $1 alike with $2 and $3" || pass
+    done
+}
+cat >"$tmp/bright.obj" <<'OBJ'
+v -1 0 -1 1 0 0
+v 1 0 -1 0 1 0
+v 0 0 1 0 0 1
+v 0 2 0 1 1 1
+f 1 2 3
+f 1 4 2
+f 2 4 3
+f 3 4 1
+OBJ
+differ "$cube" shadows=0 shadows=1
+differ "$cube" shadows=1 strength=0
+good compare "$cube" --size 64x48 --set shadows=0 --json
+is shadow_mismatch 0 'shadows=0'
+is atten_max 0 'shadows=0'
+for engine in fixed reference; do # no shadows is what lights without a shadow draw
+    good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine --set shadows=0
+    good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine --set strength=0
+    cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$engine: shadows=0 is not strength=0"
+done
+bad 1 shadow render "$cube" -o "$tmp/a.png" --size 8x8 --view atlas --set shadows=0
+differ "$tmp/bright.obj" vertex_colours=0 vertex_colours=1
+good compare "$tmp/bright.obj" --size 64x48 --set vertex_colours=0 --json
+case $(value within1) in 1 | 0.99*) pass ;; *) fail "vertex_colours=0: within1 is $(value within1)" ;; esac
+for engine in fixed reference; do # smooth normals that are not built are face normals
+    good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine --set normals=smooth --set vertex_normals=0
+    good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine --set normals=face
+    cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$engine: vertex_normals=0 does not draw face normals"
+    good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine --set normals=smooth
+    cmp -s "$tmp/a.png" "$tmp/b.png" && fail "$engine: vertex_normals=0 changes nothing" || pass
+done
+for command in info compare; do
+    bad 1 "filter_max.*3x3" $command "$cube" --size 8x8 --set filter=3x3 --set filter_max=1
+    bad 1 "blended_cascades.*soft" $command "$cube" --size 8x8 --set cascades=2 --set cascade_blend=soft --set blended_cascades=0
+    bad 1 "disk_filter.*other_filter" $command "$cube" --size 8x8 --set other_filter=disk --set disk_filter=0
+    bad 1 "linear_kernels.*linear" $command "$cube" --size 8x8 --set kernel=linear --set linear_kernels=0
+    bad 1 "punctual_lights.*spot light" $command "$cube" --size 8x8 --set lights=spot --set punctual_lights=0
+    bad 1 "punctual_lights.*point light" $command "$cube" --size 8x8 --set add_light=point --set punctual_lights=0
+    bad 1 "filter_max.*soft light.*3" $command "$cube" --size 8x8 --set softness=soft --set filter_max=2
+    bad 1 "receiver_bias.*bias_receiver" $command "$cube" --size 8x8 --set bias_receiver=0,0,0,1 --set receiver_bias=0
+    bad 1 "caster_bias.*bias_caster" $command "$cube" --size 8x8 --set bias_caster=1 --set caster_bias=0
+    bad 1 "masks.*mixing" $command "$cube" --size 8x8 --set mixing=always --set masks=0
+    bad 1 "max_other_tiles is 5" $command "$cube" --size 8x8 --set lights=point --set max_other_tiles=5
+    bad 1 "max_width.*8" $command "$cube" --size 8x6 --set max_width=7
+    bad 1 "max_height.*6" $command "$cube" --size 8x6 --set max_height=5
+    bad 1 "4 needed, max_shadow_tiles is 3" $command "$cube" --size 8x8 --set cascades=4 --set max_shadow_tiles=3
+done
+good info "$cube" --size 8x6 --set max_width=8 --set max_height=6 --set cascades=4 --set max_shadow_tiles=4 --set filter=3x3 --set filter_max=2
+good info "$cube" --size 8x6 --set cascades=4 --set cascade_blend=hard --set blended_cascades=0
+good info "$cube" --size 8x6 --set filter=7x7 --set filter_max=0 --set cascades=4 --set max_shadow_tiles=1 --set shadows=0 # no filter, no tiles
+bad 1 'max_objects is 1' compare "$cube" --size 8x8 --set max_objects=1
+bad 1 'max_lights is 2' compare "$cube" --size 8x8 --set lights=spot,point,spot --set max_lights=2
+bad 1 'surface_lights is 1' compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=1
+good compare "$cube" --size 8x8 --set lights=directional,directional --set surface_lights=2 --set max_lights=2 --set max_objects=2
+good info "$cube" --size 8x8 --set receiver_plane=0 --set receiver_plane@0=1 # what one light uses is built
+for knob in raw_views runtime_knobs depth_blocks tile_lights incremental static_layer caster_culling; do
+    for on in 0 1; do
+        good render "$cube" -o "$tmp/b.png" --size 64x48 --set $knob=$on --set shadows=1
+        [ $on = 0 ] && mv "$tmp/b.png" "$tmp/a.png"
+    done
+    cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$knob changes the picture"
+done
+rm -f "$tmp/a.png" "$tmp/b.png"
+sed 's/{"attributes"/{"material":0,"attributes"/; s/"accessors"/"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1]}}],"accessors"/; s/{"byteLength":36}\]/{"byteLength":36,"uri":"black.bin"}]/' >"$tmp/black.gltf" <<EOF_JSON
+$json
+EOF_JSON
+tail -c 36 "$glb" >"$tmp/black.bin"
+good compare "$tmp/black.gltf" --size 16x12 --set background=0 --json # black on black: no error, no PSNR
+valid_json psnr_db
+is psnr_db null 'equal pictures'
+is max_error 0 'equal pictures'
+
+# ---- Lights --------------------------------------------------------------------------------------------------------------------
+
+quiet=       # --json: without remarks
+alike() { # alike A B: settings, separated by blanks, that draw the same picture, in both engines
+    for engine in fixed reference; do
+        good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine $quiet $(for set in $1; do echo --set "$set"; done)
+        good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine $quiet $(for set in $2; do echo --set "$set"; done)
+        cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "$engine draws $1 and $2 differently"
+    done
+}
+unlike() { # the same, and the pictures differ
+    for engine in fixed reference; do
+        good render "$cube" -o "$tmp/a.png" --size 64x48 --engine $engine $quiet $(for set in $1; do echo --set "$set"; done)
+        good render "$cube" -o "$tmp/b.png" --size 64x48 --engine $engine $quiet $(for set in $2; do echo --set "$set"; done)
+        cmp -s "$tmp/a.png" "$tmp/b.png" && fail "$engine draws $1 and $2 alike" || pass
+    done
+}
+unlike 'lights=directional' 'lights=spot'
+unlike 'lights=spot' 'lights=point'
+unlike 'lights=spot' 'lights=spot,point'
+alike 'lights=spot add_light=point' 'lights=spot,point'
+alike 'lights=point lights=spot' 'lights=spot'
+alike 'lights=spot,point strength@1=0' 'lights=spot,point strength@point=0'
+alike 'lights=spot,point strength@1=0' 'lights=spot,point shadow@1=0'
+alike 'lights=spot,point strength@0=0 strength@1=0' 'lights=spot,point strength=0'
+alike 'lights=spot,point strength=0 strength@1=1' 'lights=spot,point strength@0=0'
+unlike 'lights=spot,point strength@0=0' 'lights=spot,point strength@1=0'
+unlike 'lights=spot' 'lights=spot shadows=0'
+alike 'lights=spot shadows=0' 'lights=spot shadow=0'
+unlike 'lights=spot' 'lights=spot mode=baked'
+alike 'lights=spot,point mode@1=baked' 'lights=spot'
+unlike 'lights=spot filter=hard' 'lights=spot filter=7x7'
+alike 'lights=spot filter=hard other_filter=7x7' 'lights=spot filter=7x7'    # other_filter alone is the other atlas's,
+alike 'lights=spot other_filter=hard filter=7x7' 'lights=spot filter=7x7'    # filter sets both
+alike 'filter=7x7 other_filter=hard' 'filter=7x7'                            # a directional light is in the directional one
+alike 'softness=soft filter=hard' 'filter=5x5'
+alike 'softness=hard filter=5x5' 'filter=2x2'
+unlike 'filter=5x5 kernel=linear' 'filter=5x5'
+unlike 'filter=disk penumbra=64' 'filter=disk penumbra=0.5'
+unlike 'filter=disk penumbra=64 disk_samples=1' 'filter=disk penumbra=64 disk_samples=64'
+alike 'bias_receiver=0,0,1,0' 'bias_receiver@0=0,0,1,0'
+alike 'auto_bias=normal' 'auto_bias=0 bias_normal=4 auto_bias@0=normal'
+unlike 'filter=7x7 auto_bias=off bias_normal=0 bias_constant=0' 'filter=7x7 auto_bias=normal'
+unlike 'filter=7x7 bias_normal=0 bias_constant=0' 'filter=7x7 bias_normal=0 bias_constant=0 bias_receiver=0,0,8,0'
+unlike 'lights=spot' 'lights=spot range=3'
+unlike 'lights=spot range=0' 'lights=spot range=3'
+unlike 'lights=spot' 'lights=spot near=6.8 range=0'
+quiet=--json
+alike 'lights=spot range=8 near=9' 'lights=spot range=8 shadow=0'
+quiet=
+unlike 'lights=directional,directional cascades=4' 'lights=directional,directional cascades=4 main_light=1'
+unlike 'lights=spot other_atlas_size=32' 'lights=spot other_atlas_size=128'
+alike 'refresh=1' 'refresh=2,3'
+alike 'caster_culling=0 cascades=4' 'caster_culling=1 cascades=4'
+for knob in depth_bits other_depth_bits; do # the reference does not round depths
+    kind=directional
+    [ $knob = other_depth_bits ] && kind=spot
+    for bits in 8 16 32; do good render "$cube" -o "$tmp/view$bits.png" --size 64x48 --view atlas --set lights=$kind --set $knob=$bits; done
+    cmp -s "$tmp/view8.png" "$tmp/view16.png" && fail "$knob=8 stores what 16 does" || pass
+    good render "$cube" -o "$tmp/b.png" --size 64x48 --view atlas --set lights=$kind --set $knob=32 --engine reference
+    is_png "$tmp/b.png" "$(png_size "$tmp/view32.png")" "$knob=32"
+done
+
+set --
+while [ $# -lt 64 ]; do set -- "$@" spot; done
+kinds=$(echo "$@" | tr ' ' ,)
+said render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds # more than lists and atlas hold
+grep -q "[0-9] times a light was left out of an object's list of 8: --set object_lights=0 keeps all" "$tmp/err" && pass || fail "render does not say that lights were left out: $(cat "$tmp/err")"
+good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --json
+good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --engine reference
+said render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --set object_lights=0 --set other_atlas_size=32
+grep -q "lights have no shadow tile, so no shadow: [0-9]* 'spot', [0-9]* 'spot'.*, \.\.\.$" "$tmp/err" && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "render does not name lights without a tile: $(cat "$tmp/err")"
+said compare "$cube" --size 8x8 --set lights=spot,point,point,point --set other_atlas_size=64
+[ "$(cat "$tmp/err")" = "gnomon: 1 light has no shadow tile, so no shadow: 3 'point'" ] && pass || fail "compare does not name the light without a tile: $(cat "$tmp/err")"
+good compare "$cube" --size 8x8 --set lights=spot,point,point,point --set other_atlas_size=64 --json
+bad 1 'no more than 64' render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds,spot
+bad 1 'no more than 64' render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=$kinds --set add_light=spot
+for value in '' , spot, ,spot sun spot,sun Spot 'spot, point' directionals; do bad 1 "'lights'.*directional, spot and point" info "$cube" --size 8x8 --set "lights=$value"; done
+for value in '' spot,point lamp; do bad 1 "'add_light'.*directional, spot and point" info "$cube" --size 8x8 --set "add_light=$value"; done
+bad 1 "no light '1', the scene has 1" info "$cube" --size 8x8 --set strength@1=0
+bad 1 "no light 'moon'" info "$cube" --size 8x8 --set strength@moon=0
+bad 1 "no light ''" info "$cube" --size 8x8 --set strength@=0
+bad 1 "no light '99999999999999999999'" info "$cube" --size 8x8 --set strength@99999999999999999999=0
+bad 1 "2 lights are named 'spot'" info "$cube" --size 8x8 --set lights=spot,spot --set strength@spot=0
+bad 1 "'filter' is not a setting of lights" info "$cube" --size 8x8 --set filter@0=hard
+bad 1 "'lights' is not a setting of lights" info "$cube" --size 8x8 --set lights@0=spot
+bad 1 "'atlas_size' is not a setting of lights" info "$cube" --size 8x8 --set atlas_size@0=64
+bad 1 "'nonsense' is not a setting of lights" info "$cube" --size 8x8 --set nonsense@0=1
+bad 1 "'' is not a setting of lights" info "$cube" --size 8x8 --set @0=1
+bad 1 "strength" info "$cube" --size 8x8 --set strength@0=2
+while read -r key says values; do
+    for value in $values; do bad 1 "setting '$key': '$value' is not .*$says" info "$cube" --size 8x8 --set "$key=$value"; done
+done <<'LIST'
+other_filter disk 9x9 soft 1
+kernel linear box 0
+mixing always sometimes 1
+tiles importance 4 big
+softness soft firm 1
+auto_bias normal on 2
+mode baked dead 0
+main_light 1 2 yes
+caster_culling 1 2 -1
+receiver_plane 1 2 0.5
+shadow 1 2 yes
+disk_samples 64 0 65 1.5
+penumbra 64 -1 65 nan
+object_lights 8 -1 9 0.5
+mask_channel 3 -2 4 0.5
+refresh four 0 1,2,3,4,5 1,2.5 1,,2 -1 65536
+bias_receiver four 1,2 1,2,3 1,2,3,4,5 1,2,3,9 -1 1,2,3,x
+bias_caster 8 9 -1
+near 8192 0 -1 8193
+range unlimited 0.001 -1 100001 inf
+depth_bits 8 4 12 24
+depth_bits 32 0 64
+other_depth_bits 8 9 31
+other_atlas_size power 100 17
+LIST
+for set in bias_receiver=1,2,3,4 refresh=1,1,2,4 refresh=3 object_lights=0 mask_channel=-1 range=0.01 range=0 near=0.001 tiles=importance mixing=distance; do
+    good info "$cube" --size 8x8 --set lights=spot --set $set
+done
+
+# what info says of lights
+good info "$cube" --size 16x12 --json --set lights=directional,spot,point,spot --set shadow@3=0 --set other_atlas_size=64 --set atlas_size=64 --set cascades=2
+light() { # light WHAT PATTERN: one entry of the last JSON's light_list
+    grep -q "$2" "$tmp/out" && pass || fail "info of $1: no $2 in $(sed 's/.*"light_list": \(\[[^]]*\]\).*/\1/' "$tmp/out")"
+}
+light 'a directional light' '"kind": "directional", "mode": "realtime", "shadow": "realtime", "tiles": 2, "tile_texels": 32}'
+light 'a spot light' '"kind": "spot", "mode": "realtime", "shadow": "realtime", "tiles": 1, "tile_texels": 16}'
+light 'a point light' '"kind": "point", "mode": "realtime", "shadow": "realtime", "tiles": 6, "tile_texels": 16}'
+light 'a light without a shadow' '"kind": "spot", "mode": "realtime", "shadow": "not_wanted", "tiles": 0, "tile_texels": 0}'
+light 'what it needs' '"needs": {[^}]*"punctual_lights": 1'
+light 'the tiles of each atlas' '"shadow_tiles": 2, "other_tiles": 7'
+good info "$cube" --size 16x12 --json --set lights=point,point,point,spot,spot --set mode@3=baked --set other_atlas_size=64
+light 'a spot light after it' '"kind": "spot", "mode": "realtime", "shadow": "realtime", "tiles": 1, "tile_texels": 16}'
+light 'a point light without room' '"kind": "point", "mode": "realtime", "shadow": "no_room", "tiles": 0, "tile_texels": 0}'
+light 'a baked light' '"kind": "spot", "mode": "baked", "shadow": "not_wanted", "tiles": 0, "tile_texels": 0}'
+light 'lights without room' '"other_tiles": 13.*"lights_without_room": 1'
+good info "$cube" --size 16x12 --set lights=spot,point,point,point --set other_atlas_size=64
+grep -q "3 'point': point, no room for its shadow" "$tmp/out" && grep -q "0 'spot': spot, 1 shadow tile of 16x16" "$tmp/out" && pass || fail "info does not say which light got a tile"
+grep -q 'needs:.* punctual_lights' "$tmp/out" && pass || fail "info does not name punctual_lights"
+good info "$cube" --size 16x12
+grep -q 'needs:.* punctual_lights' "$tmp/out" && fail "info names punctual_lights without a need" || pass
+
+# Settings that a light of its kind has no use for.
+useless() { # useless LIGHTS SETTING PATTERN: render and compare say so, info lists it
+    for command in "render -o $tmp/a.png" compare; do
+        said $command "$cube" --size 8x8 --set "lights=$1" --set "$2"
+        [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q "^gnomon: $3" "$tmp/err" && pass || fail "$command with $2 does not say '$3': $(cat "$tmp/err")"
+    done
+    good info "$cube" --size 8x8 --set "lights=$1" --set "$2"
+    grep -q "ignored: $3" "$tmp/out" && pass || fail "info with $2 does not list '$3'"
+}
+useless directional near@0=1 "near of light 'directional' ignored: a directional light has near_offset"
+useless point,directional range@1=3 "range of light 'directional' ignored: a directional light reaches everything"
+useless spot near_offset@spot=2 "near_offset of light 'spot' ignored: it is not directional"
+useless directional,point near_offset@1=2 "near_offset of light 'point' ignored"
+good render "$cube" -o "$tmp/a.png" --size 8x8 --set lights=directional,spot --set near@1=1 --set range@1=9 --set near_offset@0=1
+good render "$cube" -o "$tmp/a.png" --size 8x8 --set near@0=1 --json
+
+# Lights that cannot do what they are set to: one mask channel for two in one place (M5), baked without anything baked (M9).
+lights_noted() { # lights_noted COUNT PATTERN SETTINGS
+    good info "$cube" --size 8x8 $(for set in $3; do echo --set "$set"; done)
+    [ "$(grep -c "note: .*$2" "$tmp/out")" = "$1" ] && pass || fail "info with $3 does not say '$2' $1 times"
+}
+shared='share mask channel 2, and their ranges overlap'
+lights_noted 1 "lights 0 'spot' and 1 'point' $shared" 'lights=spot,point mode=mixed mask_channel=2'
+lights_noted 1 "lights 0 'directional' and 1 'point' $shared" 'lights=directional,point mode=mixed mask_channel=2 range=0.01'
+lights_noted 0 "$shared" 'lights=spot,point mode=mixed mask_channel=2 range=0.01' # far from each other
+lights_noted 1 "$shared" 'lights=spot,point mode=mixed mask_channel=2 range@0=0.01 range@1=0'
+lights_noted 0 'share mask' 'lights=spot,point mode=mixed mask_channel=2 mask_channel@1=1'
+lights_noted 0 'share mask' 'lights=spot,point mode=mixed mask_channel=-1'
+lights_noted 0 'share mask' 'lights=spot,point mode@0=mixed mask_channel=2'
+lights_noted 3 "$shared" 'lights=spot,point,spot mode=mixed mask_channel=2'
+lights_noted 1 "light 1 'spot' is baked, but no object has baked light: it contributes nothing" 'lights=point,spot mode@1=baked'
+lights_noted 0 'is baked' 'lights=point,spot'
+good info "$cube" --size 8x8 --json --set mode=baked
+grep -q '"notes": \[.*is baked' "$tmp/out" && pass || fail "info --json does not note a useless baked light"
+
+# A cone that the library cannot draw: what it draws is another, and said to be.
+sed 's/"outerConeAngle": [0-9.]*/"outerConeAngle": 1.5707963/' docs/scenes/cones.gltf >"$tmp/cones-wide.gltf"
+said render "$tmp/cones-wide.gltf" -o "$tmp/a.png" --size 16x12
+grep -q "^gnomon: cone of light [0-9]* '[^']*' is limited to 179 degrees" "$tmp/err" && pass || fail "a cone of 180 degrees is not said to be narrower: $(cat "$tmp/err")"
+good render docs/scenes/cones.gltf -o "$tmp/a.png" --size 16x12
+
+# Shadows that are on and in no picture: a near plane beyond all casters, a scene beyond the default shadow distance.
+remarked() { # remarked PATTERN SCENE SETTINGS: render and compare say so in one line, info notes it; all do without
+    for command in "render -o $tmp/a.png" compare; do
+        said $command "$2" --size 16x12 $(for set in $3; do echo --set "$set"; done)
+        [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q "^gnomon: .*$1" "$tmp/err" && pass || fail "$command of $2 with '$3' does not say '$1': $(cat "$tmp/err")"
+    done
+    good info "$2" --size 16x12 $(for set in $3; do echo --set "$set"; done)
+    grep -q "note: .*$1" "$tmp/out" && pass || fail "info of $2 with '$3' does not note '$1'"
+}
+remarked "light 0 'spot' casts no shadow: its near plane is 90 away, no caster more than [0-9.]*; --set near@0=0\.[0-9]*" "$cube" 'lights=spot near=90 range=0'
+remarked "light 1 'point' casts no shadow: .* near@1=" "$cube" 'lights=spot,point near@1=90 range=0'
+for set in 'near=90 range=0 shadow=0' 'near=90 range=0 strength=0' 'near=90 range=0 mode=baked' 'near=1 range=0'; do
+    good render "$cube" -o "$tmp/a.png" --size 16x12 --set lights=point $(for one in $set; do echo --set "$one"; done)
+done
+# The floor of near.gltf, seen through a long lens from above and from a thousand units: in no picture nearer than 100 units, or just.
+far_away() { # far_away HEIGHT: as without a shadow distance of its own
+    sed 's/"max_distance": 16, //; s/"zfar": 60/"zfar": 6000/; s/"yfov": 1.22173/"yfov": 0.05/; s/"translation": \[0, 1.1, 0\], "rotation": \[-0.104465, [^]]*\]/"translation": [0, '"$1"', -8], "rotation": [-0.7071068, 0, 0, 0.7071068]/' docs/scenes/near.gltf >"$tmp/away.gltf"
+}
+far_away 1000
+remarked 'nothing in view is nearer than 100, .* it is [0-9.]* to 1000 away; --set max_distance=1000' "$tmp/away.gltf" ''
+good render "$tmp/away.gltf" -o "$tmp/a.png" --size 16x12 --set max_distance=1000
+good render "$tmp/away.gltf" -o "$tmp/a.png" --size 16x12 --set shadow=0
+far_away 99
+good render "$tmp/away.gltf" -o "$tmp/a.png" --size 16x12
+sed 's/"znear": 0.1/"znear": 100/' "$tmp/away.gltf" >"$tmp/beyond.gltf"
+bad 1 'it is 100, the near plane 100; --set max_distance=.*one is [0-9.]* of the scene.s, for [^,]*, [0-9.]* from the origin or the camera' render "$tmp/beyond.gltf" -o "$tmp/a.png" --size 16x12
+for scene in host/scenes/*.gltf; do
+    good info "$scene" --size 32x24
+    grep -q 'note:' "$tmp/out" && fail "info has a note on $scene" || pass
+    good render "$scene" -o "$tmp/a.png" --size 32x24
+done
+
+# ---- host/run.sh ---------------------------------------------------------------------------------------------------------------
+
+mkdir "$tmp/one" "$tmp/my scenes"
+cp "$cube" "$tmp/one/a b.obj"
+cp "$cube" "$tmp/my scenes/a b.obj"
+sh host/run.sh "$tool" 16x12 "$tmp/run out" "$tmp/one/a b.obj" "$tmp/my scenes/a b.obj" >"$tmp/out" 2>"$tmp/err"
+status=$?
+[ $status = 0 ] && [ ! -s "$tmp/err" ] && pass || fail "run.sh exits with $status: $(head -n 1 "$tmp/err")"
+[ "$(grep -c '^a b\.obj  *\(accurate\|balanced\)  *[0-9]' "$tmp/out")" = 2 ] && pass || fail "run.sh: no rows of 'a b.obj'"
+[ "$(grep -c '^a b\.obj-2  *\(accurate\|balanced\)  *[0-9]' "$tmp/out")" = 2 ] && pass || fail "run.sh: no rows of the second 'a b.obj'"
+for name in 'a b.obj' 'a b.obj-2'; do
+    for preset in accurate balanced; do is_png "$tmp/run out/$name/$preset/fixed.png" 16x12 run.sh; done
+done
+sh host/run.sh "$tool" 16x12 "$tmp/run out" "$tmp/missing.obj" "$cube" >"$tmp/out" 2>"$tmp/err"
+status=$?
+[ $status = 1 ] && pass || fail "run.sh with a missing scene exits with $status"
+[ "$(grep -c missing.obj "$tmp/err")" = 1 ] && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "run.sh names the missing scene in $(wc -l <"$tmp/err") lines"
+[ "$(grep -c '^cube\.obj ' "$tmp/out")" = 2 ] && pass || fail "run.sh stops at a missing scene"
+
+# ---- Every knob at both ends -------------------------------------------------------------------------------------------------
+
+# "| `name` | low…high |"
+sed -n 's/^| `\([a-z_]*\)` | \([0-9.e-]*\)…\([0-9.e-]*\) |.*/\1 \2 \3/p' "$tmp/knobs" >"$tmp/ranges"
+[ "$(wc -l <"$tmp/ranges")" -ge 30 ] && pass || fail "'gnomon knobs' lists only $(wc -l <"$tmp/ranges") knobs with a range"
+while read -r name low high; do
+    for value in "$low" "$high"; do
+        run render "$cube" -o "$tmp/knob.png" --size 16x12 --set "$name=$value"
+        status=$?
+        case $status in
+        0) [ -s "$tmp/err" ] && fail "$name=$value: $(head -n 1 "$tmp/err")" || pass ;;
+        1) # a capacity that is too small for the scene, or a feature that it needs: said in one line
+            if [ "$(wc -l <"$tmp/err")" = 1 ] && grep -q '^gnomon: ' "$tmp/err"; then pass
+            else fail "$name=$value is refused without a clear line: $(head -n 1 "$tmp/err")"; fi
+            case $name in max_* | atlas_texels | shadows | filter_max | vertex_* | persp_step | tile_* | compact) ;;
+            *) fail "$name=$value, an end of its range, is refused: $(head -n 1 "$tmp/err")" ;; esac ;;
+        *) fail "$name=$value exits with $status" ;;
+        esac
+    done
+    case $low in *[.e]*) below=-1 ;; *) below=$((low - 1)) ;; esac
+    bad 1 "$name" info "$cube" --set "$name=$below"
+    bad 1 "$name" info "$cube" --set "$name=$((${high%%.*} + 1))"
+done <"$tmp/ranges"
+for preset in tiny balanced accurate; do good info "$cube" --size 16x12 --set preset=$preset; done
+for ratios in 0,0,0 1,1,1 0.2,0.2,0.9; do good info "$cube" --size 16x12 --set cascades=4 --set cascade_ratios=$ratios; done
+for output in rgb888 rgb565 rgb565_swapped grey8 grey4 mono1; do good compare "$cube" --json --size 33x17 --set output=$output; done
+bad 1 output render "$cube" -o "$tmp/x.png" --set output=cmyk
+for blend in hard soft dither; do good info "$cube" --size 16x12 --set cascades=4 --set cascade_blend=$blend; done
+for mode in depth radius; do good info "$cube" --size 16x12 --set distance_mode=$mode; done
+for filter in hard 2x2 3x3 5x5 7x7; do good info "$cube" --size 16x12 --set filter=$filter; done
+
+# ---- Help and version --------------------------------------------------------------------------------------------------------
+
+for command in render compare info sweep advise compile bake knobs; do
+    good $command --help
+    cp "$tmp/out" "$tmp/help"
+    head -n 1 "$tmp/help" | grep -q "^usage: gnomon $command" && pass || fail "$command --help does not begin with its usage: $(head -n 1 "$tmp/help")"
+    [ "$(grep -c "^  gnomon $command" "$tmp/help")" = 1 ] && pass || fail "$command --help has $(grep -c "^  gnomon $command" "$tmp/help") examples"
+    good help $command
+    cmp -s "$tmp/out" "$tmp/help" && pass || fail "help $command is not $command --help"
+    good $command --set nonsense --help # --help stands above everything else
+    [ "$(awk 'length > 100' "$tmp/help" | wc -l)" = 0 ] && pass || fail "$command --help has a line of more than 100 characters"
+    # every option that help lists is one of the command
+    for option in $(sed -n 's/^  \(--[a-z-]*\).*/\1/p' "$tmp/help"); do
+        run $command "$cube" "$option"
+        grep -q "does not use\|unknown option" "$tmp/err" && fail "$command --help lists $option, which it does not use" || pass
+    done
+done
+good help
+cp "$tmp/out" "$tmp/help"
+good --help
+cmp -s "$tmp/out" "$tmp/help" && pass || fail "gnomon --help is not gnomon help"
+for command in render compare info sweep advise compile bake knobs help; do
+    grep -q "^  $command\>" "$tmp/help" && pass || fail "help does not list $command"
+done
+bad 2 nothing help nothing
+bad 2 also help render bake
+bad 2 nothing nothing --help
+bad 2 alone --version now
+good --version
+wanted=$(sed -n 's/^#define GN_VERSION_STRING "\(.*\)"/gnomon \1/p' lib/gnomon.h)
+[ "$(cat "$tmp/out")" = "$wanted" ] && pass || fail "--version prints '$(cat "$tmp/out")', not '$wanted'"
+numbers=$(sed -n 's/^#define GN_VERSION_M[A-Z]* *\([0-9]*\)$/\1/p; s/^#define GN_VERSION_PATCH *\([0-9]*\)$/\1/p' lib/gnomon.h | tr '\n' . | sed 's/\.$//')
+[ "gnomon $numbers" = "$wanted" ] && pass || fail "GN_VERSION_STRING is '$wanted', the numbers are $numbers"
+
+# ---- What attenuation is measured on -----------------------------------------------------------------------------------------
+
+for path in "8 general" "1 picture"; do
+    set -- $path
+    good compare "$cube" --size 32x24 --set persp_step="$1" --json
+    grep -q "\"attenuation_path\": \"$2\"" "$tmp/out" && pass || fail "persp_step $1: attenuation is not said to be of the path '$2'"
+    good compare "$cube" --size 32x24 --set persp_step="$1"
+    n=$(grep -c 'of the general path' "$tmp/out")
+    [ "$n" = "$([ "$2" = general ] && echo 1 || echo 0)" ] && pass || fail "persp_step $1: $n lines say what attenuation is of"
+done
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]

@@ -1,0 +1,183 @@
+/* Texture coordinates along the rows of triangles that alpha cuts (gn_alpha.h), against double precision: found one by
+ * one, and in steps. */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "exact.h"
+#include "geometry/gn_alpha.h"
+#include "gnomon.h"
+#include "rng.h"
+
+static rng random_state = {31};
+static gn_frame frame;
+
+enum { WIDTH = 320, HEIGHT = 240, ROWS_MAX = 6 };
+
+/* A triangle with a texture, as a camera sees it. */
+typedef struct {
+    gn_texture texture;
+    int16_t uv[6];
+    int uv_frac_bits;
+    int32_t v[3][3];
+    double focal2; /* in half pixels */
+    gn_object object;
+    gn_mesh mesh;
+    gn_alpha_cut cut;
+} triangle;
+
+static double exponential(double lo, double hi)
+{
+    return lo * pow(hi / lo, rng_u32(&random_state) / 4294967296.0);
+}
+
+static void random_triangle(triangle *t)
+{
+    memset(t, 0, sizeof *t);
+    t->texture = (gn_texture){NULL, (uint8_t)rng_below(&random_state, 11), (uint8_t)rng_below(&random_state, 11),
+                              (uint8_t)(rng_u32(&random_state) & 7U)};
+    t->uv_frac_bits = rng_range(&random_state, 8, 15);
+    for (int k = 0; k < 6; k++) t->uv[k] = (int16_t)rng_range(&random_state, -32768, 32767);
+    t->focal2 = rng_range(&random_state, 200, 1200);
+    double z = exponential(0x1p17, 0x1p28), steep = exponential(1, 8);
+    for (int i = 0; i < 3; i++) {
+        double depth = z * exponential(1, steep);
+        t->v[i][0] = (int32_t)(depth * rng_range(&random_state, -WIDTH, WIDTH) / t->focal2);
+        t->v[i][1] = (int32_t)(depth * rng_range(&random_state, -HEIGHT, HEIGHT) / t->focal2);
+        t->v[i][2] = (int32_t)depth;
+    }
+    t->mesh = (gn_mesh){.uv = t->uv, .n_vertices = 3, .uv_frac_bits = (uint8_t)t->uv_frac_bits};
+    t->object = (gn_object){.texture = &t->texture, .mesh = &t->mesh};
+    gn_alpha_begin(&t->cut, &t->object, GN_ALPHA_CLIP, (const uint16_t[]){0, 1, 2});
+    gn_alpha_plane(&t->cut, &frame, t->v, (uint32_t)t->focal2 << 16, WIDTH, 2);
+}
+
+static double det3(const double a[3], const double b[3], const double c[3])
+{
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/* Barycentrics along a ray: the weights of the corners in it. Returns how ill they are conditioned. */
+static double barycentrics(const triangle *t, int32_t x, int32_t y, double b[3])
+{
+    const double ray[3] = {2 * x + 1 - WIDTH, HEIGHT - 1 - 2 * y, t->focal2};
+    double v[3][3], sum = 0, sizes = 0, length = sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) v[i][k] = t->v[i][k];
+    for (int i = 0; i < 3; i++) {
+        const double *p = v[(i + 1) % 3], *q = v[(i + 2) % 3];
+        b[i] = det3(ray, p, q);
+        sum += b[i];
+        sizes += length * (fabs(p[0]) + fabs(p[1]) + fabs(p[2])) * (fabs(q[0]) + fabs(q[1]) + fabs(q[2]));
+    }
+    for (int i = 0; i < 3; i++) b[i] /= sum;
+    return sizes / fabs(sum);
+}
+
+/* Of coordinate k, in turns. */
+static double coordinate(const triangle *t, const double b[3], int k)
+{
+    return ldexp(b[0] * t->uv[k] + b[1] * t->uv[2 + k] + b[2] * t->uv[4 + k], -t->uv_frac_bits);
+}
+
+/* What the coordinates may be off by: b, to 2^-28 and as ill as they are conditioned; each side of 2^-8 texel; a unit
+ * of each step. */
+static double bound(const triangle *t, double ill, int k, int step)
+{
+    double spread = ldexp(abs(t->uv[2 + k] - t->uv[k]) + abs(t->uv[4 + k] - t->uv[k]), -t->uv_frac_bits);
+    double exact = spread * (ill * 0x1p-28 + 0x1p-28) + 0x1p-20;
+    return step > 1 ? exact + ldexp(1, -8 - (k ? t->texture.height_log2 : t->texture.width_log2)) + 2 * 0x1p-20 : exact;
+}
+
+/* A row's pixels that lie inside the triangle: from *x0, how many. */
+static int inside(const triangle *t, int32_t y, int32_t *x0)
+{
+    int n = 0;
+    double b[3];
+    for (int32_t x = 0; x < WIDTH; x++) {
+        barycentrics(t, x, y, b);
+        if (b[0] < 0 || b[1] < 0 || b[2] < 0) {
+            if (n) return n;
+            continue;
+        }
+        if (!n++) *x0 = x;
+    }
+    return n;
+}
+
+typedef struct {
+    tally close;
+    double most; /* error / bound */
+    unsigned long n, n_held;
+} outcome;
+
+static void try_row(outcome *out, triangle *t, int32_t y, int32_t x0, int n, int step)
+{
+    gn_alpha_row(&t->cut, y, HEIGHT - 1 - 2 * y, x0, x0 + n);
+    for (int32_t x = x0; x < x0 + n; x += 1 + (int32_t)rng_below(&random_state, 2)) { /* as some are hidden */
+        int32_t uv_q20[2];
+        double b[3], ill = barycentrics(t, x, y, b);
+        gn_alpha_coords(&t->cut, x, uv_q20);
+        out->n++;
+        out->n_held += step > 1 && t->cut.steps.hold;
+        for (int k = 0; k < 2; k++) {
+            double off = ldexp(uv_q20[k], -20) - coordinate(t, b, k), most = bound(t, ill, k, step);
+            if (!gn_texture_clamps(&t->texture, k)) off -= floor(off + 0.5);
+            if (fabs(off) / most > out->most) out->most = fabs(off) / most;
+            HOLDS(&out->close, fabs(off) <= most, "x %d, axis %d, step %d: off by %g, not %g", (int)x, k, step, off,
+                  most);
+        }
+    }
+}
+
+static void test_rows(int step)
+{
+    outcome out = {{0}, 0, 0, 0};
+    frame.knobs.persp_step = step;
+    for (int i = 0; i < 3000; i++) {
+        triangle t;
+        random_triangle(&t);
+        for (int row = 0; row < ROWS_MAX; row++) {
+            int32_t y = (int32_t)rng_below(&random_state, HEIGHT), x0 = 0;
+            int n = inside(&t, y, &x0);
+            if (n) try_row(&out, &t, y, x0, n, step);
+        }
+    }
+    printf("steps of %d: %.3f of the bound, %.0f %% of %lu pixels stepped\n", step, out.most,
+           100.0 * (double)out.n_held / (double)out.n, out.n);
+    CHECK_TALLY(out.close, "gn_alpha_coords");
+    CHECK(out.most > 0.125);
+    CHECK(step == 1 || out.n_held * 4 > out.n);
+}
+
+/* What is beside the row's pixels must not change them: a row seen in two screen tiles is one row. */
+static void test_tiles(void)
+{
+    tally same = {0};
+    frame.knobs.persp_step = 16;
+    for (int i = 0; i < 3000; i++) {
+        triangle t;
+        random_triangle(&t);
+        int32_t y = (int32_t)rng_below(&random_state, HEIGHT), x0 = 0, whole[WIDTH][2];
+        int n = inside(&t, y, &x0);
+        if (!n) continue;
+        gn_alpha_row(&t.cut, y, HEIGHT - 1 - 2 * y, x0, x0 + n);
+        for (int32_t x = x0; x < x0 + n; x++) gn_alpha_coords(&t.cut, x, whole[x]);
+        for (int32_t x = x0 + n - 1; x >= x0;
+             x -= 1 + (int32_t)rng_below(&random_state, 12)) { /* in any order, with any left out */
+            int32_t uv_q20[2];
+            gn_alpha_coords(&t.cut, x, uv_q20);
+            HOLDS(&same, memcmp(uv_q20, whole[x], sizeof uv_q20) == 0, "x %d", (int)x);
+        }
+    }
+    CHECK_TALLY(same, "coordinates do not depend on what was found before");
+}
+
+int main(void)
+{
+    const int steps[] = {1, 4, 8, 16};
+    for (unsigned i = 0; i < sizeof steps / sizeof *steps; i++) test_rows(steps[i]);
+    test_tiles();
+    return check_report();
+}

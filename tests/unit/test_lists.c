@@ -1,0 +1,376 @@
+/* Light lists (P9, P10, R9): which lights an object and a screen tile keep, against doubles; and that the picture is
+ * that of all lights wherever the lists hold all that reach. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+#include "visible/gn_screen_rect.h"
+#include "light/gn_punctual.h"
+#include "light_scene.h"
+
+#define W 48
+#define H 36
+
+static gn_renderer one, two;
+static light_scene ls;
+
+static void init(gn_renderer *r, gn_view view)
+{
+    gn_picture p = {W, H, view == GN_VIEW_COLOUR ? GN_FORMAT_RGB888 : GN_FORMAT_RAW32, view, 0};
+    CHECK_EQ_INT(gn_init(r, &p), GN_OK);
+    r->frame.knobs.atlas_size = r->frame.knobs.other_atlas_size = 64;
+}
+
+static void draw(gn_renderer *r, uint8_t *pixels)
+{
+    CHECK_EQ_INT(ls_prepare(r, &ls.scene), GN_OK);
+    CHECK_EQ_INT(ls_screen(r, pixels, r->frame.picture.format == GN_FORMAT_RAW32 ? 4 : 3), GN_OK);
+}
+
+/* Lights of any kind and range around some objects. */
+static void random_scene(rng *r, uint32_t n_lights, double least_range, double largest_range)
+{
+    ls_begin(&ls);
+    ls_add_random_objects(&ls, r, 6);
+    ls_look(&ls, ls_q16(r, -6, 6), ls_q16(r, 1, 5), GN_Q16(5));
+    for (uint32_t i = 0; i < n_lights; i++) {
+        gn_light *light =
+            ls_add_random_light(&ls, r, i == 0 ? GN_LIGHT_DIRECTIONAL : (gn_light_kind)rng_range(r, 1, 2));
+        if (i == 0) continue;
+        light->range_q16 = rng_below(r, 12) ? (uint32_t)ls_q16(r, least_range, largest_range) : 0;
+        light->colour_exp = rng_range(r, -3, 4);
+        if (rng_below(r, 9) == 0) light->mode = GN_LIGHT_BAKED;
+    }
+}
+
+/* ---- Lists of objects (P9) --------------------------------------------------------------------------------------- */
+
+typedef struct {
+    double weight;
+    int reaches, unsure; /* unsure: on the very border of the range */
+} candidate;
+
+/* World box by corners of the mesh's box, as DESIGN 1.6 has it. */
+static void world_box(const gn_object *o, double centre[3], double half[3])
+{
+    double lo[3], hi[3];
+    for (int k = 0; k < 3; k++) {
+        lo[k] = hi[k] = ldexp(o->mesh->pos[k], -o->mesh->pos_frac_bits);
+        for (int i = 1; i < o->mesh->n_vertices; i++) {
+            double p = ldexp(o->mesh->pos[3 * i + k], -o->mesh->pos_frac_bits);
+            lo[k] = fmin(lo[k], p);
+            hi[k] = fmax(hi[k], p);
+        }
+    }
+    for (int r = 0; r < 3; r++) {
+        centre[r] = o->to_world.t_q16[r] / 65536.0;
+        half[r] = 0;
+        for (int c = 0; c < 3; c++) {
+            double m = ldexp(o->to_world.m_q30[r][c], o->to_world.exp - 30);
+            centre[r] += m * (lo[c] + hi[c]) / 2;
+            half[r] += fabs(m) * (hi[c] - lo[c]) / 2;
+        }
+    }
+}
+
+static candidate judge(const gn_light *light, const gn_object *object)
+{
+    candidate out = {0, 1, 0};
+    double centre[3], half[3], d2 = 0, e = 0, range = light->range_q16 / 65536.0;
+    world_box(object, centre, half);
+    for (int k = 0; k < 3; k++) {
+        double d = fmax(0, fabs(light->position_q16[k] / 65536.0 - centre[k]) - half[k]);
+        d2 += d * d;
+        e = fmax(e, ldexp(light->colour_uq16[k], light->colour_exp - 16));
+    }
+    out.weight = e / fmax(d2, 1e-4);
+    if (!light->range_q16) return out;
+    out.reaches = d2 < range * range;
+    out.unsure = fabs(sqrt(d2) - range) < 2e-4;
+    double share = d2 / (range * range), window = fmax(0, 1 - share * share);
+    out.weight *= window * window;
+    return out;
+}
+
+static int in_list(const gn_object_state *object, uint32_t light)
+{
+    for (uint32_t i = 0; i < object->n_lights; i++)
+        if (object->light[i] == light) return 1;
+    return 0;
+}
+
+/* The list of one object. Returns how many lights it had to leave out; -1: too close to call. */
+static int check_list(uint32_t object_idx, uint32_t limit)
+{
+    const gn_object_state *state = &one.frame.object[object_idx];
+    candidate all[LS_LIGHTS_MAX];
+    int n_reaching = 0, n_bad = 0, n_unsure = 0;
+    double lightest_kept = 1e300, heaviest_left = 0;
+    for (uint32_t l = 0; l < ls.scene.n_lights; l++) {
+        const gn_light *light = &ls.light[l];
+        int listed = in_list(state, l);
+        all[l] = judge(light, &ls.object[object_idx]);
+        if (light->kind == GN_LIGHT_DIRECTIONAL || light->mode == GN_LIGHT_BAKED) all[l].reaches = all[l].unsure = 0;
+        n_unsure += all[l].unsure;
+        n_reaching += all[l].reaches;
+        n_bad += listed && !all[l].reaches && !all[l].unsure;
+        if (listed) lightest_kept = fmin(lightest_kept, all[l].weight);
+        else if (all[l].reaches) heaviest_left = fmax(heaviest_left, all[l].weight);
+    }
+    for (uint32_t i = 1; i < state->n_lights; i++)
+        n_bad += state->light[i] <= state->light[i - 1]; /* in order, each once */
+    if (n_unsure) return -1;
+    int expected = n_reaching < (int)limit ? n_reaching : (int)limit;
+    CHECK_EQ_INT(state->n_lights, expected);
+    CHECK(heaviest_left <= lightest_kept * (1 + 1e-4)); /* colours and windows are rounded to 16 bits or more */
+    CHECK_EQ_INT(n_bad, 0);
+    return n_reaching - expected;
+}
+
+static void test_object_lists(void)
+{
+    rng r = {19};
+    uint32_t n_full = 0;
+    for (int i = 0; i < 60; i++) {
+        random_scene(&r, (uint32_t)rng_range(&r, 3, LS_LIGHTS_MAX), 0.5, 9);
+        uint32_t limit = (uint32_t)rng_range(&r, 1, 8);
+        int left = 0, sure = 1;
+        ls.scene.shadow.object_lights = limit;
+        init(&one, GN_VIEW_COLOUR);
+        CHECK_EQ_INT(gn_begin(&one, &ls.scene), GN_OK);
+        for (uint32_t o = 0; o < ls.scene.n_objects; o++) {
+            int n = check_list(o, limit);
+            sure = sure && n >= 0;
+            left += n;
+            n_full += n > 0;
+        }
+        if (sure) CHECK_EQ_INT(gn_get_stats(&one)->n_lights_left_out, left);
+    }
+    CHECK(n_full > 50);
+}
+
+/* Equal lights: the first in order stay (ties by index), and an unlimited one is never out of reach. */
+static void test_ties(void)
+{
+    ls_begin(&ls);
+    for (int i = 0; i < 12; i++) ls_add_light(&ls, GN_LIGHT_POINT);
+    ls.light[0].range_q16 = GN_UQ16(0.5); /* reaches none */
+    ls.light[11].range_q16 = 0;           /* a little heavier than those with a window */
+    ls.light[10].colour_uq16[0] /= 2;
+    init(&one, GN_VIEW_COLOUR);
+    CHECK_EQ_INT(gn_begin(&one, &ls.scene), GN_OK);
+    const gn_object_state *ground = &one.frame.object[0];
+    static const uint8_t expected[8] = {1, 2, 3, 4, 5, 6, 7, 11};
+    CHECK_EQ_INT(ground->n_lights, 8);
+    CHECK(memcmp(ground->light, expected, sizeof expected) == 0);
+    CHECK_EQ_INT(gn_get_stats(&one)->n_lights_left_out, 3 * (int)ls.scene.n_objects);
+    ls.scene.shadow.object_lights = 0;
+    CHECK_EQ_INT(gn_begin(&one, &ls.scene), GN_OK);
+    CHECK_EQ_INT(gn_get_stats(&one)->n_lights_left_out, 0);
+    CHECK_EQ_INT(ground->n_lights, GN_OBJECT_LIGHTS_ALL);
+}
+
+/* Lists of 8 against no lists at all: the same bytes on every object that at most 8 lights reach. */
+static void test_lists_show_all(void)
+{
+    static uint8_t listed[W * H * 3], all[W * H * 3];
+    static uint32_t triangle[W * H];
+    rng r = {23};
+    uint32_t n_whole = 0, n_cut = 0;
+    for (int i = 0; i < 14; i++) {
+        random_scene(&r, 6U + 3U * (uint32_t)(i % 4), 1, 6);
+        init(&one, GN_VIEW_COLOUR);
+        draw(&one, listed);
+        init(&two, GN_VIEW_TRIANGLE);
+        draw(&two, (uint8_t *)triangle);
+        init(&two, GN_VIEW_COLOUR);
+        CHECK_EQ_INT(ls_prepare(&two, &ls.scene), GN_OK);
+        for (uint32_t o = 0; o < ls.scene.n_objects; o++) two.frame.object[o].n_lights = GN_OBJECT_LIGHTS_ALL;
+        CHECK_EQ_INT(ls_screen(&two, all, 3), GN_OK);
+        int n_wrong = 0;
+        for (int k = 0; k < W * H; k++) {
+            int reach = 0, same = memcmp(listed + 3 * k, all + 3 * k, 3) == 0;
+            if (triangle[k] == UINT32_MAX) continue;
+            for (uint32_t l = 0; l < ls.scene.n_lights; l++) {
+                candidate c = judge(&ls.light[l], &ls.object[triangle[k] >> 16]);
+                reach += ls.light[l].kind != GN_LIGHT_DIRECTIONAL && ls.light[l].mode != GN_LIGHT_BAKED &&
+                         (c.reaches || c.unsure);
+            }
+            n_wrong += reach <= 8 && !same;
+            n_whole += reach > 0 && reach <= 8;
+            n_cut += reach > 8 && !same;
+        }
+        CHECK_EQ_INT(n_wrong, 0);
+    }
+    CHECK(n_whole > 2000 && n_cut > 100);
+}
+
+/* What reaches nothing costs nothing: the bytes, shadow tiles and lists of the scene without it. */
+static void test_out_of_reach(void)
+{
+    static uint8_t without[W * H * 3], with[W * H * 3];
+    rng r = {29};
+    for (int i = 0; i < 6; i++) {
+        random_scene(&r, 4, 1, 6);
+        init(&one, GN_VIEW_COLOUR);
+        draw(&one, without);
+        for (int n = 0; n < 12; n++) {
+            gn_light *far_off = ls_add_random_light(&ls, &r, (gn_light_kind)rng_range(&r, 1, 2));
+            far_off->position_q16[rng_below(&r, 2) ? 0 : 2] += rng_below(&r, 2) ? GN_Q16(40) : GN_Q16(-40);
+            far_off->range_q16 = GN_UQ16(10);
+            far_off->colour_exp = 10;
+        }
+        init(&two, GN_VIEW_COLOUR);
+        draw(&two, with);
+        CHECK(memcmp(with, without, sizeof with) == 0);
+        CHECK_EQ_INT(gn_get_stats(&two)->n_shadow_tiles, gn_get_stats(&one)->n_shadow_tiles);
+        CHECK_EQ_INT(gn_get_stats(&two)->n_lights_left_out, gn_get_stats(&one)->n_lights_left_out);
+        for (uint32_t o = 0; o < ls.scene.n_objects; o++)
+            CHECK_EQ_INT(two.frame.object[o].n_lights, one.frame.object[o].n_lights);
+    }
+}
+
+/* P10: a light that every surface turns its back to, or whose cone misses all, does not change a byte, shadow or not.
+ */
+static void test_early_outs(void)
+{
+    static uint8_t without[W * H * 3], with[W * H * 3];
+    ls_begin(&ls);
+    ls.scene.n_objects = 1; /* the ground */
+    ls_add_light(&ls, GN_LIGHT_POINT);
+    init(&one, GN_VIEW_COLOUR);
+    draw(&one, without);
+    ls_add_light(&ls, GN_LIGHT_POINT)->position_q16[1] = GN_Q16(-1); /* from below */
+    ls_add_light(&ls, GN_LIGHT_SPOT)->direction[1] = GN_Q16(1);      /* upwards */
+    ls_add_light(&ls, GN_LIGHT_DIRECTIONAL)->direction[1] = GN_Q16(1);
+    draw(&one, with);
+    CHECK(memcmp(with, without, sizeof with) == 0);
+}
+
+/* ---- Lists of screen tiles (R9) ---------------------------------------------------------------------------------- */
+
+/* The world point of a pixel at a view depth. */
+static void point_at(int x, int y, double depth, double out[3])
+{
+    const gn_cam *cam = &one.frame.cam;
+    double focal2 = cam->focal2_px_q16 / 65536.0;
+    double right = (2 * x + 1 - W) * depth / focal2, up = (H - 1 - 2 * y) * depth / focal2;
+    for (int k = 0; k < 3; k++)
+        out[k] = cam->eye_q16[k] / 65536.0 + ldexp(cam->axis_q30[0][k], -30) * right +
+                 ldexp(cam->axis_q30[1][k], -30) * up + ldexp(cam->axis_q30[2][k], -30) * depth;
+}
+
+static double distance2(const gn_light *light, const double p[3])
+{
+    double d2 = 0;
+    for (int k = 0; k < 3; k++)
+        d2 += (p[k] - light->position_q16[k] / 65536.0) * (p[k] - light->position_q16[k] / 65536.0);
+    return d2;
+}
+
+/* The view depth of a pixel's ray that is nearest to the light, beyond the near plane. */
+static double nearest_depth(const gn_light *light, int x, int y)
+{
+    double a[3], b[3], along = 0, length2 = 0;
+    point_at(x, y, 0, a);
+    point_at(x, y, 1, b);
+    for (int k = 0; k < 3; k++) {
+        along += (light->position_q16[k] / 65536.0 - a[k]) * (b[k] - a[k]);
+        length2 += (b[k] - a[k]) * (b[k] - a[k]);
+    }
+    return fmax(along / length2, one.frame.cam.near_q16 / 65536.0);
+}
+
+/* Whether the light reaches the surface of some pixel of the tile; with `depth` NULL: whether any surface could be
+ * reached there. */
+static int reaches_pixels(const gn_light *light, const gn_rect *rect, const uint32_t *depth)
+{
+    double range = light->range_q16 / 65536.0, p[3];
+    for (int y = rect->y0; y < rect->y1; y++) {
+        for (int x = rect->x0; x < rect->x1; x++) {
+            if (depth && depth[y * W + x] == UINT32_MAX) continue;
+            point_at(x, y, depth ? depth[y * W + x] / 65536.0 : nearest_depth(light, x, y), p);
+            if (distance2(light, p) < range * range) return 1;
+        }
+    }
+    return 0;
+}
+
+typedef struct {
+    uint32_t n_listed, n_reaching, n_possible, n_all;
+} tile_tally;
+
+static void check_tile(const gn_rect *rect, const uint32_t *depth, tile_tally *t)
+{
+    uint64_t lights = gn_punctual_in_tile(&one.frame, rect);
+    for (uint32_t l = 0; l < ls.scene.n_lights; l++) {
+        uint32_t listed = lights >> l & 1U;
+        if (ls.light[l].kind == GN_LIGHT_DIRECTIONAL || !ls.light[l].range_q16) {
+            CHECK_EQ_INT(listed, 1);
+            continue;
+        }
+        int reaching = reaches_pixels(&ls.light[l], rect, depth), possible = reaches_pixels(&ls.light[l], rect, NULL);
+        if ((reaching || possible) && !listed) CHECK(listed);
+        t->n_listed += listed;
+        t->n_reaching += (uint32_t)reaching;
+        t->n_possible += (uint32_t)possible;
+        t->n_all++;
+    }
+    CHECK(lights >> ls.scene.n_lights == 0);
+}
+
+/* No light that reaches a pixel is missing, and most that could reach none are: those a tile lists beyond the exact
+ * answer (some point of some pixel's ray in range) are those behind corners of its frustum, at most a fifth. */
+static void test_tile_lists(void)
+{
+    static uint32_t depth[W * H];
+    rng r = {37};
+    tile_tally t = {0, 0, 0, 0};
+    for (int i = 0; i < 6; i++) {
+        random_scene(&r, 20, 0.3, 3);
+        init(&one, GN_VIEW_DEPTH);
+        one.frame.knobs.tile_width = 8 << i % 2;
+        one.frame.knobs.tile_height = 6;
+        draw(&one, (uint8_t *)depth);
+        for (uint32_t tile = 0; tile < gn_screen_tile_count(&one); tile++) {
+            gn_rect rect = gn_screen_rect(&one.frame, tile);
+            check_tile(&rect, depth, &t);
+        }
+    }
+    CHECK(t.n_reaching > 100 && t.n_listed < t.n_all / 2);
+    CHECK(t.n_listed - t.n_possible <= t.n_possible / 5);
+    printf("tile lists: %u of %u lights listed, %u could reach a pixel's ray, %u reach a surface\n", t.n_listed,
+           t.n_all, t.n_possible, t.n_reaching);
+}
+
+/* The picture does not know of screen tiles: persp_step 1, every size. */
+static void test_tile_sizes(void)
+{
+    static const int sizes[5][2] = {{8, 1}, {8, 8}, {16, 6}, {24, 36}, {64, 64}};
+    static uint8_t first[W * H * 3], other[W * H * 3];
+    rng r = {41};
+    for (int i = 0; i < 5; i++) {
+        random_scene(&r, 16, 0.5, 4);
+        for (int k = 0; k < 5; k++) {
+            init(&one, GN_VIEW_COLOUR);
+            one.frame.knobs.persp_step = 1;
+            one.frame.knobs.tile_width = sizes[k][0];
+            one.frame.knobs.tile_height = sizes[k][1];
+            draw(&one, k ? other : first);
+            if (k && !CHECK(memcmp(first, other, sizeof first) == 0))
+                printf("  scene %d, tiles of %d x %d\n", i, sizes[k][0], sizes[k][1]);
+        }
+    }
+}
+
+int main(void)
+{
+    test_object_lists();
+    test_ties();
+    test_lists_show_all();
+    test_out_of_reach();
+    test_early_outs();
+    test_tile_lists();
+    test_tile_sizes();
+    return check_report();
+}

@@ -1,0 +1,315 @@
+/* Linear colour to pixels: the sRGB curve over its whole range, and rounding to the output's levels. */
+#include <stdint.h>
+#include <string.h>
+
+#include "exact.h"
+#include <stdlib.h>
+
+#include "shade/gn_pixel.h"
+#include "base/gn_tables.h"
+#include "gnomon.h"
+#include "rng.h"
+
+static rng random_state = {5};
+static gn_frame frame;
+
+enum { ONE_Q20 = 1 << 20 };
+
+static long double srgb(long double x)
+{
+    return x <= 0.0031308L ? 12.92L * x : 1.055L * powl(x, 1.0L / 2.4L) - 0.055L;
+}
+
+static void test_encode(void)
+{
+    tally bound = {0}, monotone = {0};
+    worst w = {0};
+    uint32_t before = 0;
+    for (uint32_t i = 0; i <= ONE_Q20; i++) {
+        uint32_t v = gn_srgb_encode(i);
+        long double e = fabsl((long double)v - 65535.0L * srgb((long double)i / ONE_Q20));
+        WORST(&w, e, "%u", (unsigned)i);
+        HOLDS(&bound, e < 1.5L, "%u: %u errs by %.3Lf", (unsigned)i, (unsigned)v, e);
+        HOLDS(&monotone, v >= before && v <= 65535, "%u: %u after %u", (unsigned)i, (unsigned)v, (unsigned)before);
+        before = v;
+    }
+    CHECK_TALLY(bound, "gn_srgb_encode within 1.5 LSB");
+    CHECK_TALLY(monotone, "gn_srgb_encode is monotone");
+    CHECK(gn_srgb_encode(0) == 0 && gn_srgb_encode(ONE_Q20) == 65535);
+    CHECK(gn_srgb_encode(ONE_Q20 + 1) == 65535 && gn_srgb_encode(UINT32_MAX) == 65535);
+    printf("gn_srgb_encode: %.3Lf LSB at %s\n", w.error, w.at);
+}
+
+/* What is computed where size comes first is what the tables hold. */
+static void test_curves(void)
+{
+    tally recip = {0}, rsqrt = {0}, encode = {0}, decode = {0};
+    for (uint32_t i = 0; i < 256; i++) HOLDS(&recip, gn_far_recip_entry(i) == gn_recip_table[i], "%u", (unsigned)i);
+    for (uint32_t i = 0; i < 192; i++) HOLDS(&rsqrt, gn_far_rsqrt_entry(i) == gn_rsqrt_table[i], "%u", (unsigned)i);
+    for (uint32_t i = 0; i < 577; i++) HOLDS(&encode, gn_far_srgb_entry(i) == gn_srgb_table[i], "%u", (unsigned)i);
+    for (uint32_t i = 0; i < 256; i++)
+        HOLDS(&decode, gn_far_srgb_decode_entry(i) == gn_srgb_decode_table[i], "%u", (unsigned)i);
+    CHECK_TALLY(recip, "reciprocals");
+    CHECK_TALLY(rsqrt, "reciprocal roots");
+    CHECK_TALLY(encode, "the sRGB curve");
+    CHECK_TALLY(decode, "the sRGB curve, inverted");
+}
+
+/* round(levels * v / 65535), the nearest level of an encoded value: never a tie, as 65535 is odd */
+static uint32_t nearest(uint32_t v, uint32_t levels)
+{
+    uint64_t best = UINT64_MAX;
+    uint32_t level = 0, guess = (uint32_t)((uint64_t)v * levels / 65535U);
+    for (uint32_t n = guess ? guess - 1 : 0; n <= guess + 1 && n <= levels; n++) {
+        int64_t d = (int64_t)n * 65535 - (int64_t)v * levels;
+        uint64_t distance = (uint64_t)(d < 0 ? -d : d);
+        if (distance < best) best = distance, level = n;
+    }
+    return level;
+}
+
+static uint32_t encoded(uint32_t linear_q20)
+{
+    uint64_t clamped = linear_q20 < ONE_Q20 ? linear_q20 : ONE_Q20;
+    return frame.knobs.srgb ? gn_srgb_encode(linear_q20) : (uint32_t)((2 * clamped * 65535 + ONE_Q20) / (2 * ONE_Q20));
+}
+
+static int packed_ok(const uint32_t q20[3])
+{
+    uint32_t packed = gn_pixel_pack(&frame, q20);
+    if (frame.picture.format == GN_FORMAT_RGB565)
+        return packed ==
+               nearest(encoded(q20[0]), 31) * 2048 + nearest(encoded(q20[1]), 63) * 32 + nearest(encoded(q20[2]), 31);
+    return packed ==
+           nearest(encoded(q20[0]), 255) + nearest(encoded(q20[1]), 255) * 256 + nearest(encoded(q20[2]), 255) * 65536;
+}
+
+/* Without the curve every 16-bit value occurs; each passes through every channel. */
+static void test_pack(void)
+{
+    tally t = {0};
+    for (int format = 0; format < 2; format++)
+        for (int curve = 0; curve < 2; curve++) {
+            frame.picture.format = format ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565;
+            frame.knobs.srgb = curve;
+            for (uint32_t i = 0; i <= ONE_Q20 + 64; i += 4) {
+                uint32_t q20[3] = {i, (i * 5 + 1) & (ONE_Q20 - 1),
+                                   rng_u32(&random_state) >> rng_below(&random_state, 13)};
+                HOLDS(&t, packed_ok(q20), "format %d, curve %d: %u %u %u", format, curve, (unsigned)q20[0],
+                      (unsigned)q20[1], (unsigned)q20[2]);
+            }
+        }
+    CHECK_TALLY(t, "pixels are the nearest levels");
+}
+
+static gn_tile_pixels tile;
+
+/* n pixels from pixel i on; what stands around them must stay. */
+static void test_fill(void)
+{
+    enum { PIXELS = 20 };
+    tally t = {0};
+    for (uint32_t k = 0; k < 4 * PIXELS * PIXELS; k++) {
+        uint8_t *buffer = tile.bytes;
+        uint32_t packed = rng_u32(&random_state) & 0xFFFFFFU;
+        uint8_t expected[4 * PIXELS];
+        int32_t i = (int32_t)(k / 2 % PIXELS), n = rng_range(&random_state, 0, PIXELS - i);
+        frame.picture.format = k & 1 ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565;
+        memset(buffer, 0xA5, sizeof expected);
+        memset(expected, 0xA5, sizeof expected);
+        const gn_pixel_rows rows = {&tile, PIXELS, 40, 30};
+        gn_pixel_fill(&frame, &rows, 40 + i, 30, n, packed);
+        for (int32_t p = i; p < i + n; p++) {
+            uint16_t narrow = (uint16_t)packed;
+            if (frame.picture.format == GN_FORMAT_RGB565) memcpy(expected + 2 * p, &narrow, sizeof narrow);
+            else
+                for (int c = 0; c < 3; c++) expected[3 * p + c] = (uint8_t)(packed >> 8 * c);
+        }
+        HOLDS(&t, !memcmp(buffer, expected, sizeof expected), "%d pixels from %d", (int)n, (int)i);
+    }
+    CHECK_TALLY(t, "pixels go where they should");
+}
+
+static double curve(double x)
+{
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
+}
+
+/* Greys are the encoded luminance rounded to the nearest level, and byte-swapped RGB565 is RGB565. */
+static void test_greys(void)
+{
+    tally grey = {0}, swapped = {0};
+    frame.knobs.srgb = 1;
+    for (uint32_t k = 0; k < 300000; k++) {
+        uint32_t q20[3];
+        double y = 0;
+        static const double weight[3] = {0.2126, 0.7152, 0.0722};
+        for (int c = 0; c < 3; c++) {
+            q20[c] = rng_u32(&random_state) % (ONE_Q20 + ONE_Q20 / 4);
+            y += weight[c] * fmin(1, q20[c] / (double)ONE_Q20);
+        }
+        for (int bits = 4; bits <= 8; bits += 4) {
+            double level = curve(y) * (bits == 4 ? 15 : 255);
+            frame.picture.format = bits == 4 ? GN_FORMAT_GREY4 : GN_FORMAT_GREY8;
+            /* half a level, the weights' 16 bits (2^-17 each, steepened by the curve) and the encoding's 1.5 of 65535
+             */
+            HOLDS(&grey, fabs(gn_pixel_pack(&frame, q20) - level) <= 0.5 + 255 * (1.5 / 65535 + 12.92 * 3 / 131072.0),
+                  "%u bits", (unsigned)bits);
+        }
+        frame.picture.format = GN_FORMAT_RGB565;
+        uint32_t straight = gn_pixel_pack(&frame, q20);
+        frame.picture.format = GN_FORMAT_RGB565_SWAPPED;
+        HOLDS(&swapped, gn_pixel_pack(&frame, q20) == (straight >> 8 | (straight & 255U) << 8), "%06x",
+              (unsigned)straight);
+    }
+    CHECK_TALLY(grey, "grey levels");
+    CHECK_TALLY(swapped, "byte order of RGB565");
+}
+
+/* Packed rows: each pixel in its own bits, rows on bytes, nothing else touched; the dither lights the share of pixels
+ * that the luminance says, in every 8x8 block, wherever the block lies. */
+static void test_packed_rows(void)
+{
+    uint8_t *bytes = tile.bytes;
+    tally t = {0}, share = {0};
+    frame.picture.format = GN_FORMAT_GREY4;
+    for (int32_t width = 1; width <= 11; width++) {
+        for (int32_t i = 0; i < 3 * width; i++) {
+            const gn_pixel_rows rows = {&tile, width, 0, 0};
+            memset(bytes, 0x5A, 256);
+            gn_pixel_fill(&frame, &rows, i % width, i / width, 1, 0xC);
+            for (int32_t p = 0; p < 3 * ((width + 1) / 2); p++) {
+                int32_t at = i / width * ((width + 1) / 2) + i % width / 2;
+                unsigned want = p != at ? 0x5AU : i % width & 1 ? 0x5CU : 0xCAU;
+                HOLDS(&t, bytes[p] == want, "width %d pixel %d", (int)width, (int)i);
+            }
+        }
+    }
+    CHECK_TALLY(t, "4-bit rows");
+    frame.picture.format = GN_FORMAT_MONO1;
+    for (uint32_t luminance = 0; luminance <= 65535; luminance += 13) {
+        const gn_pixel_rows rows = {&tile, 16, 24, 40};
+        int lit = 0;
+        for (int32_t y = 0; y < 8; y++) gn_pixel_fill(&frame, &rows, 24, 40 + y, 16, luminance);
+        for (int32_t p = 0; p < 16; p++)
+            for (int bit = 0; bit < 8; bit++) lit += bytes[p] >> bit & 1;
+        HOLDS(&share, abs(lit - (int)lround(luminance * 128 / 65535.0)) <= 1, "%u of 65535: %d of 128",
+              (unsigned)luminance, lit);
+    }
+    CHECK_TALLY(share, "share of lit pixels");
+}
+
+/* Every level is reached, and white and black are exact. */
+static void test_levels(void)
+{
+    static int seen[256];
+    int n = 0;
+    frame.picture.format = GN_FORMAT_RGB888;
+    frame.knobs.srgb = 1;
+    for (uint32_t i = 0; i <= ONE_Q20; i += 16) {
+        uint32_t q20[3] = {i, 0, ONE_Q20}, pixel = gn_pixel_pack(&frame, q20);
+        n += !seen[pixel & 255U]++;
+        if (pixel >> 8 != 0xFF00U) n = -1000; /* green 0, blue 255 */
+    }
+    CHECK_EQ_INT(n, 256);
+}
+
+static uint32_t q20_of(int32_t q24)
+{
+    return q24 < 0 ? 0 : (uint32_t)q24 >> 4;
+}
+
+/* Ramps of RGB565 are packed by tables; every light from black to white, and what lies beyond, as gn_pixel_pack() has
+ * it. */
+static void test_ramp(void)
+{
+    enum { N = 1024 };
+    static const gn_format formats[] = {GN_FORMAT_RGB565, GN_FORMAT_RGB565_SWAPPED, GN_FORMAT_GREY8};
+    static gn_tile_pixels pixels;
+    gn_pixel_rows rows = {&pixels, N, 0, 0};
+    tally same = {0};
+    for (size_t k = 0; k < 3; k++) {
+        frame.picture.format = formats[k];
+        for (int32_t first = -4 * N; first < ONE_Q20 + 4 * N; first += N) {
+            const gn_ramp ramp = {{first * 16 + 15, (ONE_Q20 - first) * 16, (first ^ 0x5555) * 16}, {16, -16, 48}};
+            gn_pixel_ramp(&frame, &rows, 0, 0, N, &ramp);
+            for (int32_t i = 0; i < N; i++) {
+                uint32_t q20[3];
+                for (int c = 0; c < 3; c++) { q20[c] = q20_of(ramp.from_q24[c] + i * ramp.step_q24[c]); }
+                uint32_t is = k < 2 ? pixels.rgb565[i] : pixels.bytes[i], want = gn_pixel_pack(&frame, q20);
+                HOLDS(&same, is == want, "%d, format %d: %x, not %x", (int)(first + i), (int)k, (unsigned)is,
+                      (unsigned)want);
+            }
+        }
+    }
+    CHECK_TALLY(same, "ramps are packed like single pixels");
+}
+
+static uint32_t mix_state = 1;
+
+static int32_t random_below(int32_t n)
+{
+    mix_state = mix_state * 1664525U + 1013904223U;
+    return (int32_t)((uint64_t)mix_state * (uint32_t)n >> 32);
+}
+
+/* Each channel is what lies so far between dark and lit has, or what lies 2^-15 below it. */
+static int between(uint32_t is, uint32_t want, uint32_t below)
+{
+    static const uint32_t channel[3] = {31U << 11, 63U << 5, 31U};
+    for (int c = 0; c < 3; c++)
+        if ((is & channel[c]) > (want & channel[c]) || (is & channel[c]) < (below & channel[c])) return 0;
+    return 1;
+}
+
+/* Rows between two ramps, all of it within 0 .. 1 or not. */
+static void test_mix(void)
+{
+    enum { N = 16 };
+    static gn_tile_pixels pixels;
+    gn_pixel_rows rows = {&pixels, N, 0, 0};
+    tally same = {0};
+    frame.picture.format = GN_FORMAT_RGB565;
+    for (int k = 0; k < 20000; k++) {
+        gn_ramp ramp[2];
+        uint32_t share[N];
+        for (int i = 0; i < N; i++)
+            share[i] =
+                (uint32_t)random_below(4) == 0 ? (uint32_t)random_below(2) * 65536 : (uint32_t)random_below(65537);
+        for (int side = 0; side < 2; side++)
+            for (int c = 0; c < 3; c++) {
+                int32_t last = random_below(1 << 24) + (k % 4 ? 0 : random_below(1 << 24) - (1 << 23));
+                ramp[side].from_q24[c] = random_below(1 << 24);
+                ramp[side].step_q24[c] = (last - ramp[side].from_q24[c]) / (N - 1);
+            }
+        gn_pixel_mix(&frame, &rows, 0, 0, N, &ramp[0], &ramp[1], share);
+        for (int i = 0; i < N; i++) {
+            uint32_t q20[3], below[3];
+            for (int c = 0; c < 3; c++) {
+                int32_t dark = ramp[0].from_q24[c] + i * ramp[0].step_q24[c],
+                        lit = ramp[1].from_q24[c] + i * ramp[1].step_q24[c];
+                int32_t v = dark + (int32_t)((int64_t)(lit - dark) * (int32_t)share[i] >> 16);
+                q20[c] = q20_of(v);
+                below[c] = q20_of(v - 512);
+            }
+            uint32_t want = gn_pixel_pack(&frame, q20);
+            HOLDS(&same, between(pixels.rgb565[i], want, gn_pixel_pack(&frame, below)), "%d of row %d: %x, not %x", i,
+                  k, (unsigned)pixels.rgb565[i], (unsigned)want);
+        }
+    }
+    CHECK_TALLY(same, "pixels between dark and lit");
+}
+
+int main(void)
+{
+    test_encode();
+    test_curves();
+    test_pack();
+    test_fill();
+    test_levels();
+    test_ramp();
+    test_mix();
+    test_greys();
+    test_packed_rows();
+    return check_report();
+}
