@@ -12,7 +12,9 @@ SIZE ?= 320x240
 SCENES ?=
 OWN_SCENES := $(foreach s,sundial avenue desk room fence mixed,host/scenes/$(s).gltf)
 
-WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef -Werror
+# The tests make an error of every warning (WERROR=-Werror); the compiler of a user may know new ones.
+WERROR ?=
+WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef $(WERROR)
 # The host build of the library: every knob at run time, room for any scene. The pixels are the target's, bit for bit.
 HOST_KNOBS := -DGN_SEPARATE_FILES -DGN_COUNTERS=1 -DGN_RUNTIME_KNOBS=1 -DGN_RAW_VIEWS=1 -DGN_STATIC_LAYER=1 -DGN_ATLAS_SIZE=1024 \
   -DGN_OTHER_ATLAS_SIZE=1024 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 -DGN_MAX_TILE_REFS=1000000 \
@@ -83,6 +85,9 @@ report: $(BUILD)/gnomon $(BUILD)/make_report ## one page of pictures, metrics an
 
 tables: $(BUILD)/gen_tables ## regenerate lib/base/gn_tables.c
 	$(BUILD)/gen_tables > lib/base/gn_tables.c
+
+prefix: ## regenerate lib/gn_prefix.h
+	@sh host/generate/gen_prefix.sh >$(BUILD)/gn_prefix.h && mv $(BUILD)/gn_prefix.h lib/gn_prefix.h
 
 scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf and docs/scenes/*.gltf
 	$(BUILD)/make_scenes host/scenes docs/scenes
@@ -162,5 +167,5 @@ endif
 
 -include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
 
-.PHONY: all help run deps test soak bench size matrix firmware emulate screen boards docs report tables scenes coverage clean test-programs
+.PHONY: all help run deps test soak bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs
 .SECONDARY:

@@ -95,8 +95,9 @@ typedef union {
 typedef struct gn_frame {
     const gn_scene *scene;
     gn_picture picture;
-    uint8_t stage;   /* gn_stage in gn_frame.c */
-    uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
+    uint8_t stage;    /* gn_stage in gn_frame.c */
+    uint8_t id_bits;  /* of a visibility cell: enough for n_triangles + 2 */
+    uint8_t n_lights; /* of the scene: may be asked for after the scene is gone */
     uint16_t n_views;
     uint16_t tiles_x, tiles_y;
     gn_compact_view cam;
@@ -116,9 +117,8 @@ typedef struct gn_frame {
 } gn_frame;
 
 typedef struct gn_scratch {
-    uint32_t
-        cell[GN_TILE_PIXELS_MAX]; /* nearest surface: key in the high bits, the triangle in the low id_bits; 0: none */
-    gn_tile_pixels pixel;         /* finished pixels in the picture's format */
+    uint32_t cell[GN_TILE_PIXELS_MAX]; /* nearest surface: key above, triangle in the low id_bits; 0: none */
+    gn_tile_pixels pixel;              /* finished pixels in the picture's format */
     gn_work work;
 } gn_scratch;
 

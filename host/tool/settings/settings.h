@@ -15,8 +15,8 @@ typedef struct {
         GN_FEATURE_KNOBS(SETTINGS_FIELD_)
     } feature;
     struct {
-        GN_ARITHMETIC_KNOBS(SETTINGS_FIELD_)
-    } arithmetic;
+        GN_BUILD_KNOBS(SETTINGS_FIELD_)
+    } build;
     gn_format output; /* of the pictures people see */
 } settings;
 
