@@ -29,23 +29,28 @@ code() {
 
 # ---- The library's objects -------------------------------------------------------------------------------------------------
 
-for file in lib/*.[ch]; do code "$file"; done | grep -E '\<(float|double|_Complex|long double)\>' >"$tmp/found"
+find lib -name '*.[ch]' | sort >"$tmp/lib_files"
+[ "$(wc -l <"$tmp/lib_files")" -gt 60 ] && pass || fail "only $(wc -l <"$tmp/lib_files") files of lib/ are found"
+while read -r file; do code "$file"; done <"$tmp/lib_files" >"$tmp/lib_code"
+grep -E '\<(float|double|_Complex|long double)\>' "$tmp/lib_code" >"$tmp/found"
 none "floating-point type in lib/" "$tmp/found"
-for file in lib/*.[ch]; do code "$file"; done | grep -E '[^A-Za-z0-9_.](([0-9]+\.[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?|[0-9]+[eE][-+]?[0-9]+)[fFlL]?' |
+grep -E '[^A-Za-z0-9_.](([0-9]+\.[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?|[0-9]+[eE][-+]?[0-9]+)[fFlL]?' "$tmp/lib_code" |
     grep -v -E '^lib/gnomon\.h:[0-9]+:#define GN_(FIX_|U?Q[0-9]+|TURN)\(' >"$tmp/found"
 none "floating-point constant in lib/ outside the macros of gnomon.h" "$tmp/found"
 
-root=$PWD
 for variant in general strict; do
     mkdir -p "$tmp/$variant"
     case $variant in
     general) flags="-O2 -mgeneral-regs-only" ;; # any floating-point arithmetic is an error
     strict) flags="-O2 -Wvla -ffreestanding" ;;
     esac
-    if (cd "$tmp/$variant" && gcc -std=c99 -pedantic $warn -I"$root/lib" -DGN_RAW_VIEWS=1 $flags -c "$root"/lib/*.c) >"$tmp/log" 2>&1; then pass
-    else fail "lib/ does not compile with $flags: $(grep -m 1 error "$tmp/log")"; fi
+    for arithmetic in 0 1; do # of either, GN_COMPACT
+        if gcc -std=c99 -pedantic $warn -Ilib -DGN_RAW_VIEWS=$((1 - arithmetic)) -DGN_COMPACT=$arithmetic $flags -c -o "$tmp/$variant/$arithmetic.o" lib/gnomon.c \
+            >"$tmp/log" 2>&1; then pass
+        else fail "lib/ with GN_COMPACT=$arithmetic does not compile with $flags: $(grep -m 1 error "$tmp/log")"; fi
+    done
 done
-objdump -d --no-show-raw-insn "$tmp"/general/*.o | grep -E '%[xyz]mm|%st|[[:space:]]f(ld|st|add|mul|div|sub|ild|ist)' >"$tmp/found"
+objdump -d --no-show-raw-insn "$tmp"/general/*.o | grep -E '%[xyz]mm|%st|'"$(printf '\t')"'f(ld|st|add|mul|div|sub|ild|ist)' >"$tmp/found"
 none "floating-point instruction" "$tmp/found"
 [ "$(objdump -d "$tmp"/general/*.o | wc -l)" -gt 1000 ] && pass || fail "objdump shows no instructions"
 
@@ -60,13 +65,15 @@ none "writable static data in lib/" "$tmp/found"
 size -A "$tmp"/strict/*.o | awk '/:$/ { f = $1 } $1 ~ /^\.(data|bss|tdata|tbss)/ && $2 > 0 { print f, $1, $2 }' >"$tmp/found"
 none ".data or .bss in lib/ is not empty" "$tmp/found"
 size -A "$tmp"/strict/*.o | grep -q '^\.text' && pass || fail "size lists no sections"
-for file in lib/*.[ch]; do code "$file"; done | grep -E '\<(malloc|calloc|realloc|free|alloca|setjmp|longjmp|goto)\>' >"$tmp/found"
+grep -E '\<(malloc|calloc|realloc|free|alloca|setjmp|longjmp|goto)\>' "$tmp/lib_code" >"$tmp/found"
 none "malloc and the like in lib/" "$tmp/found"
 
 # No recursion: the graph of calls, from the relocations of each function compiled into its own section, has no cycle.
 mkdir -p "$tmp/calls"
-(cd "$tmp/calls" && gcc -std=c99 -I"$root/lib" -DGN_RAW_VIEWS=1 -O0 -fno-inline -fdump-rtl-expand -c "$root"/lib/*.c) >"$tmp/log" 2>&1
-cat "$tmp"/calls/*.expand | awk '
+for arithmetic in 0 1; do
+    gcc -std=c99 -Ilib -DGN_RAW_VIEWS=$((1 - arithmetic)) -DGN_COMPACT=$arithmetic -O0 -fno-inline -fdump-rtl-expand -c -o "$tmp/calls/$arithmetic.o" lib/gnomon.c
+done >"$tmp/log" 2>&1
+find "$tmp/calls" -name '*.expand' | xargs cat | awk '
     /^;; Function / { from = $3 }
     /\(call / && match($0, /symbol_ref[^"]*\("[^"]*"/) { to = substr($0, RSTART, RLENGTH); gsub(/.*\("|"/, "", to); print from, to }' |
     sort -u >"$tmp/graph"
@@ -77,45 +84,32 @@ none "recursion in lib/" "$tmp/found"
 
 # ---- Who includes whom -----------------------------------------------------------------------------------------------------
 
-grep -H -E '^[[:space:]]*#[[:space:]]*include' lib/*.[ch] | grep -v -E '<(stdint|stddef|string)\.h>|"(gnomon|gn_[a-z_]+)\.h"|(GN_USER_CONFIG|GN_PORT)$' >"$tmp/found"
+xargs grep -H -E '^[[:space:]]*#[[:space:]]*include' <"$tmp/lib_files" | grep -v '^lib/gnomon\.c:' >"$tmp/includes"
+grep -v -E '<(stdint|stddef|string)\.h>|"(gnomon|([a-z]+/)?gn_[a-z_]+)\.h"|(GN_USER_CONFIG|GN_PORT)$' "$tmp/includes" >"$tmp/found"
 none "lib/ includes more than itself, stdint.h, stddef.h and string.h" "$tmp/found"
-grep -h -E '^ *#include "gn' lib/*.[ch] | sed 's/.*"\(.*\)".*/\1/' | sort -u | while read -r header; do
+sed -n 's|.*"\(.*gn.*\)"|\1|p' "$tmp/includes" | sort -u | while read -r header; do
     [ -f "lib/$header" ] || echo "$header"
 done >"$tmp/found"
 none "lib/ includes a header that it does not have" "$tmp/found"
 
-# gn_frame.c's table of contents, as "name rank kind": its lines are in the order of the stages; what stands in parentheses is a
-# service, which ranks as the stage that it is first named for. Nobody includes a stage of a later rank.
-awk 'FNR > 1 && /\*\// { exit } /^ \*   / {
-    line = $0 # parentheses may go on in the next
-    while (match(line, /[()]|gn_[a-z_]+/)) {
-        word = substr(line, RSTART, RLENGTH)
-        line = substr(line, RSTART + RLENGTH)
-        if (word == "(") depth++
-        else if (word == ")") depth--
-        else if (!seen[word]++ && word !~ /^gn_(begin|shadow_tile|prepare|screen_tile)$/) print word, FNR, depth ? "service" : "stage"
-    }
-}' lib/frame/gn_frame.c >"$tmp/order"
-for stage in gn_scene gn_xform gn_views gn_atlas gn_setup gn_bin gn_raster gn_shade; do
-    grep -q "^$stage [0-9]* stage$" "$tmp/order" && pass || fail "lib/frame/gn_frame.c's table of contents has no stage $stage"
-done
-while read -r name rank kind; do
-    [ -f "lib/$name.c" ] || echo "$name is named in lib/frame/gn_frame.c, and there is no such file"
-    for file in "lib/$name.c" "lib/$name.h"; do
-        [ -f "$file" ] || continue
-        for header in $(sed -n 's/^#include "\(gn_[a-z]*\)\.h"/\1/p' "$file"); do
-            awk -v header="$header" -v rank="$rank" -v file="$file" \
-                '$1 == header && $2 > rank && $3 == "stage" { print file " includes " header ".h" }' "$tmp/order"
-        done
-    done
-done <"$tmp/order" >"$tmp/found"
-none "a stage includes a later one" "$tmp/found"
-for file in lib/*.c; do # and nobody below the frame includes it, nor is left out of the table of contents
-    name=$(basename "$file" .c)
-    case $name in gn_frame | gn_affine | gn_curves | gn_math | gn_q | gn_tables) continue ;; esac
-    grep -q "^$name " "$tmp/order" || echo "$name"
+# lib/gnomon.c includes every part, once, in the direction that data flows: the folder that is named last includes what it
+# likes, no other one a folder that is named after it for the last time. gn_compact stands for several stages: after them.
+sed -n 's|^#include "\(.*/.*\.c\)"|\1|p' lib/gnomon.c >"$tmp/parts"
+(cd lib && find . -mindepth 2 -name '*.c' | sed 's|^\./||') | sort >"$tmp/sources"
+sort "$tmp/parts" | diff - "$tmp/sources" >"$tmp/found"
+none "lib/gnomon.c does not include every part once" "$tmp/found"
+awk -F/ '{ rank[$1] = $1 == "compact" ? 9999 : $1 == "frame" ? 10000 : NR } END { for (folder in rank) print folder, rank[folder] }' "$tmp/parts" >"$tmp/order"
+[ "$(wc -l <"$tmp/order")" -ge 7 ] && pass || fail "lib/gnomon.c names $(wc -l <"$tmp/order") folders"
+sed -n 's|^lib/\([a-z]*\)/\([^:]*\):.*"\([a-z]*\)/\(.*\)"|\1 \3 \2 \4|p' "$tmp/includes" | awk -v order="$tmp/order" '
+    BEGIN { while ((getline line < order) > 0) { split(line, field, " "); rank[field[1]] = field[2] } }
+    rank[$1] < rank[$2] { print "lib/" $1 "/" $3 " includes " $2 "/" $4 }' >"$tmp/found"
+none "a folder of lib/ includes from one further down" "$tmp/found"
+# The table of contents of gn_frame.c names nothing that is gone.
+awk 'FNR > 1 && /\*\// { exit } /^ \*   /' lib/frame/gn_frame.c | grep -o -E 'gn_[a-z_]+' |
+    grep -v -x -E 'gn_(begin|shadow_tile|prepare|screen_tile)' | sort -u | while read -r name; do
+    grep -q "/$name\.c\$" "$tmp/sources" || echo "$name"
 done >"$tmp/found"
-none "not named in lib/frame/gn_frame.c's table of contents" "$tmp/found"
+none "lib/frame/gn_frame.c's table of contents names what is no part" "$tmp/found"
 
 grep -H -E '#[[:space:]]*include[^"<]*["<][^">]*(lib/|gnomon\.h|gn_)' host/ref/*.[ch] host/truth/*.[ch] >"$tmp/found"
 none "host/ref/ or host/truth/ includes from lib/" "$tmp/found"
@@ -188,7 +182,7 @@ files | xargs -0 grep -I -n -H -E '[[:space:]]$' 2>/dev/null | cut -c 1-100 >"$t
 none "trailing white space" "$tmp/found"
 files | xargs -0 grep -I -l -P '\t' 2>/dev/null | grep -v -E '(^|/)(Makefile|[^/]*\.mk)$' >"$tmp/found"
 none "tabs outside Makefile" "$tmp/found"
-[ "$(grep -c '^{' lib/gn_frame.c)" -gt 10 ] && pass || fail "functions do not begin with a brace in the first column"
+[ "$(grep -c '^{' lib/frame/gn_frame.c)" -gt 10 ] && pass || fail "functions do not begin with a brace in the first column"
 
 # ---- Generated files and documents -----------------------------------------------------------------------------------------
 
@@ -202,7 +196,7 @@ if [ -f README.md ]; then
     awk '/^```c$/ { inside = 1; text = ""; next } /^```/ { if (inside && text ~ /gnomon\.h/) { printf "%s", text; exit } inside = 0 }
         inside { text = text $0 "\n" }' README.md >"$tmp/example.c"
     if [ ! -s "$tmp/example.c" ]; then fail "README.md has no C example that includes gnomon.h"
-    elif ! gcc $strict -O1 -o "$tmp/example" "$tmp/example.c" lib/*.c >"$tmp/log" 2>&1; then
+    elif ! gcc $strict -O1 -o "$tmp/example" "$tmp/example.c" lib/gnomon.c >"$tmp/log" 2>&1; then
         fail "README.md's example does not build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"
     elif ! (cd "$tmp" && timeout 20 ./example >example.out 2>&1 </dev/null); then
         fail "README.md's example exits with a failure"
