@@ -27,6 +27,9 @@ HOST_SRC := $(wildcard host/ref/*.c host/truth/*.c host/scene/*.c host/bake/*.c)
 SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/scenes/*.c))
 TEST_SRC := $(wildcard tests/*/test_*.c)
 TESTS := $(basename $(notdir $(TEST_SRC)))
+# Those of unit/ and property/ need no more than the library, but for three.
+ALONE := $(patsubst tests/%.c,$(BUILD)/%,$(subst unit/,,$(subst property/,,$(wildcard tests/unit/test_*.c tests/property/test_*.c))))
+ALONE := $(filter-out %/test_culling %/test_golden %/test_stages,$(ALONE))
 
 LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/obj/%.o)
 HOST_OBJ := $(HOST_SRC:%.c=$(BUILD)/obj/%.o)
@@ -129,7 +132,9 @@ $(BUILD)/capture: $(BUILD)/obj/boards/tools/capture.o
 
 # A test program is found by its name, whatever folder of tests/ its source is in.
 $(foreach source,$(TEST_SRC),$(eval $(BUILD)/$(basename $(notdir $(source))): $(source:%.c=$(BUILD)/obj/%.o)))
-$(TESTS:%=$(BUILD)/%): $(HOST_OBJ) $(LIB_OBJ)
+$(filter-out $(ALONE),$(TESTS:%=$(BUILD)/%)): $(HOST_OBJ)
+$(ALONE): $(filter %/count.o,$(HOST_OBJ))
+$(TESTS:%=$(BUILD)/%): $(LIB_OBJ)
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
 
