@@ -14,7 +14,7 @@ OWN_SCENES := $(foreach s,sundial avenue desk room fence mixed,host/scenes/$(s).
 
 WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef -Werror
 # The host build of the library: every knob at run time, room for any scene. The pixels are the target's, bit for bit.
-HOST_KNOBS := -DGN_COUNTERS=1 -DGN_RUNTIME_KNOBS=1 -DGN_RAW_VIEWS=1 -DGN_STATIC_LAYER=1 -DGN_ATLAS_SIZE=1024 \
+HOST_KNOBS := -DGN_SEPARATE_FILES -DGN_COUNTERS=1 -DGN_RUNTIME_KNOBS=1 -DGN_RAW_VIEWS=1 -DGN_STATIC_LAYER=1 -DGN_ATLAS_SIZE=1024 \
   -DGN_OTHER_ATLAS_SIZE=1024 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 -DGN_MAX_TILE_REFS=1000000 \
   -DGN_MAX_LIGHTS=64 -DGN_SURFACE_LIGHTS=64 -DGN_MAX_OBJECTS=65535 -DGN_MAX_SHADOW_TILES=16 -DGN_MAX_OTHER_TILES=16 -DGN_VERTEX_CACHE=1024
 LIB_CFLAGS := -std=c99 -pedantic $(OPT) -g $(WARN) $(SAN) -Ilib
@@ -151,7 +151,7 @@ $(BUILD)/obj/tests/tool/oiio/oiio_shim.o: tests/tool/oiio/oiio_shim.cpp tests/to
 $(BUILD)/obj/lib/%.o: lib/%.c
 	@mkdir -p $(@D)
 	@echo '  CC $<'
-	@$(CC) $(LIB_CFLAGS) $(HOST_KNOBS) -DGN_SEPARATE_FILES -MMD -MP -c -o $@ $<
+	@$(CC) $(LIB_CFLAGS) $(HOST_KNOBS) -MMD -MP -c -o $@ $<
 
 $(BUILD)/obj/tests/%.o: HOST_CFLAGS += -Itests -Itests/support
 

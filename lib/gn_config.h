@@ -250,6 +250,9 @@
 #define GN_RUNTIME_KNOBS 0
 #endif
 
+/* Whether the boxes of objects are needed. */
+#define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING)))
+
 /* Whether surfaces may be shaded piece by piece (gn_piece.h): not where every pixel is to be exact. */
 #define GN_PIECES  (GN_RUNTIME_KNOBS || (GN_PERSP_STEP > 1 && !GN_COMPACT))
 #define GN_TURNING (GN_PIECES && GN_VERTEX_NORMALS && (GN_RUNTIME_KNOBS || !GN_VERTEX_LIGHT))

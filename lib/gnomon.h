@@ -251,6 +251,8 @@ typedef enum { GN_TILES_EQUAL, GN_TILES_IMPORTANCE } gn_tile_sizes;             
 typedef enum { GN_BLEND_HARD, GN_BLEND_SOFT, GN_BLEND_DITHER } gn_blend; /* D7 */
 typedef enum { GN_DISTANCE_DEPTH, GN_DISTANCE_RADIUS } gn_distance_mode; /* D5, D11 */
 
+#define GN_OBJECT_LIGHTS_MAX 8
+
 typedef struct {
     int32_t max_distance_q16;    /* D5 */
     uint32_t distance_fade_uq16; /* D5, 66 (0.001) .. 65536 */

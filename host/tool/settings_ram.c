@@ -51,7 +51,7 @@ static void put_shadows(layout *l, const settings *s, settings_ram_parts *r)
             put_atlas(l, s, s->quality.other_atlas_size, s->capacity.other_atlas_texels, s->quality.other_depth_bits);
 }
 
-/* gn_alpha_cut of lib/shade/gn_shading.h */
+/* gn_alpha_cut of lib/geometry/gn_geometry_types.h */
 static long cut_bytes(const settings *s)
 {
     if (!s->feature.caster_alpha) return 0;
@@ -59,14 +59,14 @@ static long cut_bytes(const settings *s)
     return s->quality.persp_step > 1 ? 216 : 152;
 }
 
-/* gn_casting of lib/shade/gn_shading.h */
+/* gn_casting of lib/geometry/gn_geometry_types.h */
 static long casting_bytes(const settings *s)
 {
     if (!s->feature.shadows) return 0;
     return 856 + (s->feature.caster_bias ? 40 : 0) + cut_bytes(s);
 }
 
-/* gn_work of lib/shade/gn_shading.h: the largest of what one core does at a time, shading or casting */
+/* gn_work of lib/geometry/gn_geometry_types.h: the largest of what one core does at a time, shading or casting */
 static void put_work(layout *out, const settings *s)
 {
     layout surface = {0, 8}, all = {0, 8};

@@ -2,6 +2,7 @@
  * holds each against its table). Coefficients are least squares of the curve at the table's places, weighted towards
  * the least largest error, and moved by last bits until every entry is rounded as the table has it. */
 #include "gn_internal.h"
+
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
 

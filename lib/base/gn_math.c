@@ -1,7 +1,8 @@
 /* Number core. Every step states the range that keeps it from overflowing. */
 #include "gn_internal.h"
-#include "base/gn_math.h"
+
 #include "base/gn_hint.h"
+#include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
 

@@ -1,5 +1,6 @@
 /* Calls in place of inline code, where size comes first: see gn_q.h. The linker drops what is not called. */
 #include "gn_internal.h"
+
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
 #include "base/gn_signature.h"

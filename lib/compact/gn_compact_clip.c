@@ -1,9 +1,9 @@
 /* Compact arithmetic: polygons cut to what can be projected. */
 #include "gn_internal.h"
-#include "compact/gn_compact.h"
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "compact/gn_compact.h"
 
 /* How far a point is inside of a side of the guard band, 0 .. 3, or beyond the near plane: below 2^42. */
 static int64_t inside(const gn_compact_view *view, const int32_t v_q16[3], int plane)

@@ -1,10 +1,10 @@
 /* Compact arithmetic: points, from an object's space to a raster. */
 #include "gn_internal.h"
-#include "compact/gn_compact.h"
 
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "compact/gn_compact.h"
 
 int gn_compact_unit(int32_t out_q30[3], const int64_t a[3])
 {

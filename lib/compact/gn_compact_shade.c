@@ -1,15 +1,14 @@
 /* Compact arithmetic: shading of a screen tile, flat colours under one light. */
 #include "gn_internal.h"
-#include "visible/gn_screen_rect.h"
-#include "compact/gn_compact.h"
-#include "shade/gn_shade.h"
 
-#include "visible/gn_bin.h"
+#include "gn_stages.h"
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
-#include "shade/gn_pixel.h"
 #include "base/gn_q.h"
-#include "visible/gn_raster.h"
+#include "compact/gn_compact.h"
+#include "shade/gn_pixel.h"
+#include "visible/gn_cell.h"
+#include "visible/gn_screen_rect.h"
 
 #define ONE_UQ16 65536U
 
@@ -43,7 +42,7 @@ static void surface_begin(const gn_frame *frame, surface *s, uint32_t id)
     uint32_t cosine_q14 = 0;
     s->tri = NULL;
     if (id) {
-        const gn_tri *tri = gn_raster_tri(frame, id);
+        const gn_tri *tri = gn_cell_tri(frame, id);
         object = &scene->objects[tri->object_idx];
         own = object->albedo_uq16;
         if (object->flags & GN_OBJECT_UNLIT) object = NULL;

@@ -1,18 +1,16 @@
 /* Compact arithmetic: triangles into screen tiles and into the shadow tile. */
 #include "gn_internal.h"
-#include "visible/gn_screen_rect.h"
+
 #include <string.h>
 
-#include "shadow/gn_atlas.h"
-#include "visible/gn_bin.h"
-#include "compact/gn_compact.h"
-#include "visible/gn_raster.h"
-#include "visible/gn_setup.h"
-
+#include "gn_stages.h"
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "compact/gn_compact.h"
 #include "scene/gn_scene.h"
+#include "visible/gn_cell.h"
+#include "visible/gn_screen_rect.h"
 
 #define ONE_PX    (1 << GN_COMPACT_BITS)
 #define STEEP_MAX ((int64_t)1 << 36) /* change of key per pixel, Q8: beyond, a triangle has one key */
@@ -270,7 +268,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     gn_compact_raster raster = {gn_screen_rect(frame, tile_idx), scratch->cell, NULL, 0, frame->id_bits, 0};
     memset(scratch->cell, 0, sizeof scratch->cell);
     for (uint32_t i = 0; i < frame->stats.n_triangles; i++) {
-        raster.id = gn_raster_id(frame, i);
+        raster.id = gn_cell_id(frame, i);
         gn_compact_draw(&raster, &frame->tri[i]);
     }
 }

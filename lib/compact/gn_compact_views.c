@@ -1,12 +1,11 @@
 /* Compact arithmetic: the camera, and where the light's tile lies in the world (DESIGN 1.4). */
 #include "gn_internal.h"
-#include "compact/gn_compact.h"
-#include "shadow/gn_views.h"
-#include "geometry/gn_xform.h"
 
+#include "gn_stages.h"
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "compact/gn_compact.h"
 #include "scene/gn_scene.h"
 
 #define ONE_Q28  (1 << 28)

@@ -19,22 +19,17 @@
  * transform and projection; gn_compact_clip), shading (gn_compact_shade)
  */
 #include "gn_internal.h"
-#include "visible/gn_screen_rect.h"
+
 #include <string.h>
 
-#include "shadow/gn_atlas.h"
-#include "visible/gn_bin.h"
-#include "frame/gn_check.h"
+#include "gn_stages.h"
 #include "base/gn_hint.h"
-#include "shade/gn_pixel.h"
 #include "base/gn_q.h"
-#include "visible/gn_raster.h"
-#include "scene/gn_scene.h"
-#include "visible/gn_setup.h"
-#include "shade/gn_shade.h"
 #include "base/gn_signature.h"
-#include "shadow/gn_views.h"
-#include "geometry/gn_xform.h"
+#include "frame/gn_check.h"
+#include "scene/gn_scene.h"
+#include "shade/gn_pixel.h"
+#include "visible/gn_screen_rect.h"
 
 enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED };
 

@@ -1,5 +1,6 @@
 /* Transforms for callers: built from rotations and scales, multiplied with rounding (R8). */
 #include "gn_internal.h"
+
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 

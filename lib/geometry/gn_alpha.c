@@ -1,10 +1,11 @@
 /* Triangles that alpha cuts. */
 #include "gn_internal.h"
-#include "geometry/gn_alpha.h"
+
 #include "base/gn_math.h"
 #include "base/gn_noise.h"
-#include "geometry/gn_plane.h"
 #include "base/gn_q.h"
+#include "geometry/gn_alpha.h"
+#include "geometry/gn_plane.h"
 #include "geometry/gn_texture.h"
 
 #if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA

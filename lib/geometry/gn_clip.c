@@ -1,8 +1,9 @@
 /* Sutherland-Hodgman in view space. */
 #include "gn_internal.h"
-#include "geometry/gn_clip.h"
+
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_clip.h"
 
 /* Signed distance to a plane, positive inside, up to a positive factor; Q32. |v| < 2^30, side < 2^31: below 2^62. */
 static int64_t distance(const int32_t v[3], uint32_t plane, int32_t near_q16, const int32_t side_q16[2])

@@ -1,7 +1,8 @@
 /* The projective plane of a triangle. */
 #include "gn_internal.h"
-#include "geometry/gn_plane.h"
+
 #include "base/gn_q.h"
+#include "geometry/gn_plane.h"
 
 /* Brings an edge to 30 bits. Returns the exponent that it lost. */
 static int32_t shorten(int32_t e[3])

@@ -2,11 +2,12 @@
  * until the end, so that a product with a weight fits 32 bits: a step to 16 bits after each axis, and one to 65536 = 1.
  */
 #include "gn_internal.h"
-#include "geometry/gn_texture.h"
+
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
+#include "geometry/gn_texture.h"
 
 #if GN_TEXTURES || GN_MASKS || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
 

@@ -1,9 +1,10 @@
 /* Exact edge walkers. */
 #include "gn_internal.h"
-#include "geometry/gn_walk.h"
-#include "base/gn_math.h"
+
 #include "base/gn_hint.h"
+#include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_walk.h"
 
 /* ---- Quotient and remainder -------------------------------------------------------------------------------------- */
 

@@ -1,8 +1,10 @@
 /* Transforms of the frame. */
 #include "gn_internal.h"
-#include "geometry/gn_xform.h"
+
+#include "gn_stages.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_xform.h"
 
 /* How far from the picture's centre a clipped vertex may lie, in pixels. Up to 7 subpixel bits it must fit 16 bits
  * where the picture allows (NUMERICS 4.2); otherwise 1000 pixels around the picture. The choice does not depend on the

@@ -6,9 +6,6 @@
 #include "base/gn_q.h"
 #include "gnomon.h"
 
-/* Fills frame->cam from the scene's camera and the picture; the camera has been validated. */
-void gn_cam_setup(gn_frame *frame);
-
 /* Object space to axes (rows, unit, Q1.30) through `origin_q16`: out = axis * (to_world * p - origin). */
 void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t origin_q16[3],
                       const gn_object *object);

@@ -1,10 +1,11 @@
 /* Receiver bias. */
 #include "gn_internal.h"
+
+#include "base/gn_hint.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
 #include "light/gn_bias.h"
 #include "light/gn_cascade.h"
-#include "base/gn_math.h"
-#include "base/gn_hint.h"
-#include "base/gn_q.h"
 #include "scene/gn_scene.h"
 
 #if GN_SHADOWS

@@ -1,8 +1,9 @@
 /* Cascades: slices of the frustum, their spheres, and how shadows end with distance. */
 #include "gn_internal.h"
-#include "light/gn_cascade.h"
+
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "light/gn_cascade.h"
 
 #if GN_SHADOWS
 

@@ -1,12 +1,13 @@
 /* Boxes and light lists of objects. */
 #include "gn_internal.h"
-#include "light/gn_object.h"
-#include "base/gn_math.h"
-#include "light/gn_punctual.h"
+
 #include "base/gn_hint.h"
+#include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "scene/gn_scene.h"
 #include "geometry/gn_xform.h"
+#include "light/gn_object.h"
+#include "light/gn_punctual.h"
+#include "scene/gn_scene.h"
 
 #if GN_BOXES
 /* Twice the centre and the half extents of the mesh's coordinates; 0: a position is out of range. */

@@ -1,10 +1,11 @@
 /* Spot and point lights. Distances squared are Q32 in 64 bits: components are below 2^31, so three squares stay below
  * 2^64. */
 #include "gn_internal.h"
-#include "light/gn_punctual.h"
-#include "base/gn_math.h"
+
 #include "base/gn_hint.h"
+#include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "light/gn_punctual.h"
 
 #if GN_PUNCTUAL_LIGHTS
 

@@ -1,8 +1,10 @@
 /* Validation: every precondition of the later stages is checked here, once a frame, so that they need not. */
 #include "gn_internal.h"
-#include "scene/gn_scene.h"
+
+#include "gn_stages.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "scene/gn_scene.h"
 
 #define GN_POSITION_LIMIT_Q16 (8192 << 16)
 #define GN_COLOUR_LIMIT_UQ16  0xFFFFFFU /* 255.99 */

@@ -4,10 +4,6 @@
 
 #include "gnomon.h"
 
-/* GN_OK, or the first thing that is wrong, with frame->detail filled. Vertex positions are checked when they are
- * transformed. */
-gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene);
-
 /* Whether a position is within +-2^30, as the transforms rely on. */
 int gn_scene_position_ok(const gn_mesh *mesh, uint32_t vertex_idx);
 

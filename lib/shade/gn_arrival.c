@@ -1,14 +1,15 @@
 /* What arrives from spot and point lights. */
 #include "gn_internal.h"
-#include "shade/gn_arrival.h"
-#include "light/gn_bias.h"
+
 #include "base/gn_count.h"
-#include "shadow/gn_filter.h"
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
-#include "shadow/gn_persp.h"
-#include "light/gn_punctual.h"
 #include "base/gn_q.h"
+#include "light/gn_bias.h"
+#include "light/gn_punctual.h"
+#include "shade/gn_arrival.h"
+#include "shadow/gn_filter.h"
+#include "shadow/gn_persp.h"
 
 #if GN_PUNCTUAL_LIGHTS
 

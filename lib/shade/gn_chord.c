@@ -6,9 +6,10 @@
  * v0, a^2/4 up to |a| = 3/16. The line s = u errs by a/2 of v1 - v0: where that will do, nothing is added to the steps.
  */
 #include "gn_internal.h"
-#include "shade/gn_chord.h"
+
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "shade/gn_chord.h"
 
 #define GN_BEND_MAX_Q16 12288 /* 3/16 */
 #define GN_SHARE_LOG2   10    /* values of range 1, colours and normals, may be off by 2^-10 */

@@ -1,12 +1,13 @@
 /* Lighting of one surface point. */
 #include "gn_internal.h"
-#include "shade/gn_light.h"
+
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
-#include "light/gn_punctual.h"
 #include "base/gn_q.h"
-#include "shade/gn_shadow.h"
 #include "geometry/gn_texture.h"
+#include "light/gn_punctual.h"
+#include "shade/gn_light.h"
+#include "shade/gn_shadow.h"
 
 #if GN_SPECULAR
 /* max(0, n . h)^(2^k), Q30 */

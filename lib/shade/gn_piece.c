@@ -1,12 +1,13 @@
 /* Surfaces piece by piece. Scales and errors: NUMERICS 4.12. */
 #include "gn_internal.h"
-#include "shade/gn_piece.h"
-#include "light/gn_bias.h"
+
 #include "base/gn_count.h"
-#include "shadow/gn_filter.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "light/gn_bias.h"
+#include "shade/gn_piece.h"
 #include "shade/gn_turn.h"
+#include "shadow/gn_filter.h"
 
 #if GN_PIECES
 

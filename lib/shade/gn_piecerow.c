@@ -1,10 +1,11 @@
 /* Rows of pieces. */
 #include "gn_internal.h"
+
 #include "base/gn_count.h"
-#include "shadow/gn_filter.h"
-#include "shade/gn_piece.h"
 #include "base/gn_q.h"
+#include "shade/gn_piece.h"
 #include "shade/gn_turn.h"
+#include "shadow/gn_filter.h"
 
 #if GN_PIECES
 

@@ -1,8 +1,9 @@
 /* Linear colour to output pixels. */
 #include "gn_internal.h"
-#include "shade/gn_pixel.h"
+
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
+#include "shade/gn_pixel.h"
 
 #define GN_ONE_Q20 (1U << 20)
 

@@ -1,10 +1,11 @@
 /* A surface at a pixel's centre. */
 #include "gn_internal.h"
-#include "shade/gn_sample.h"
-#include "light/gn_bias.h"
+
 #include "base/gn_count.h"
 #include "base/gn_q.h"
 #include "geometry/gn_texture.h"
+#include "light/gn_bias.h"
+#include "shade/gn_sample.h"
 
 #define GN_ONE_Q30 (1 << 30)
 

@@ -1,20 +1,21 @@
 /* Shading of a screen tile. */
 #include "gn_internal.h"
-#include "visible/gn_screen_rect.h"
+
 #include <string.h>
 
-#include "shade/gn_shade.h"
-#include "shade/gn_arrival.h"
-#include "shade/gn_chord.h"
+#include "gn_stages.h"
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
+#include "base/gn_q.h"
+#include "light/gn_punctual.h"
+#include "shade/gn_arrival.h"
+#include "shade/gn_chord.h"
 #include "shade/gn_light.h"
 #include "shade/gn_piece.h"
 #include "shade/gn_pixel.h"
-#include "light/gn_punctual.h"
-#include "base/gn_q.h"
-#include "visible/gn_raster.h"
+#include "visible/gn_cell.h"
 #include "visible/gn_runs.h"
+#include "visible/gn_screen_rect.h"
 
 typedef gn_shading shading;
 
@@ -255,7 +256,7 @@ static void shade_triangle(gn_shading *s, uint32_t tri_idx)
     int32_t n_px;
     int constant;
     gn_run_taker taker;
-    gn_runs_begin(&taker, s->scratch, gn_raster_id(frame, tri_idx));
+    gn_runs_begin(&taker, s->scratch, gn_cell_id(frame, tri_idx));
     if (!gn_runs_take(&taker, stride, &first, &n_px)) return;
     s->tri = &frame->tri[tri_idx];
     gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
@@ -326,7 +327,7 @@ static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uint32_t i
     gn_shading *s = sorter->s;
     uint32_t at = (uint32_t)(first - GN_CELLS(s->scratch));
     if (!GN_SIZE_FIRST) {
-        const object_look *look = look_at(s, sorter->looks, gn_raster_tri(s->frame, id)->object_idx);
+        const object_look *look = look_at(s, sorter->looks, gn_cell_tri(s->frame, id)->object_idx);
         if (look->plain != NOT_PLAIN) {
             int32_t stride = GN_K(s->frame, tile_width), x = (int32_t)at % stride, y = (int32_t)at / stride;
             GN_COUNT(runs, 1);
@@ -338,7 +339,7 @@ static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uint32_t i
             sorter->packed = look->packed;
             return;
         }
-        sorter->lit_idx = gn_raster_tri(s->frame, id)->object_idx;
+        sorter->lit_idx = gn_cell_tri(s->frame, id)->object_idx;
     }
     gn_runs_link(s->scratch, id, at, n_px);
     sorter->n_linked++;
@@ -348,7 +349,7 @@ static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uint32_t i
 static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
 {
     const gn_frame *frame = s->frame;
-    const gn_tri *end = gn_raster_tri(frame, 0);
+    const gn_tri *end = gn_cell_tri(frame, 0);
     run_sorter sorter;
     uint32_t id_mask = (1U << frame->id_bits) - 1, width = (uint32_t)s->rows.width, plain_idx = UINT32_MAX,
              lit_idx = UINT32_MAX, packed = 0;

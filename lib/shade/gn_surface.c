@@ -1,14 +1,15 @@
 /* A visible triangle as a surface. */
 #include "gn_internal.h"
-#include "shade/gn_surface.h"
-#include "light/gn_bias.h"
+
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
-#include "shade/gn_sample.h"
-#include "visible/gn_setup.h"
 #include "geometry/gn_texture.h"
 #include "geometry/gn_xform.h"
+#include "light/gn_bias.h"
+#include "shade/gn_sample.h"
+#include "shade/gn_surface.h"
+#include "visible/gn_setup.h"
 
 #define GN_ONE_Q30 (1 << 30)
 

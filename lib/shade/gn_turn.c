@@ -1,9 +1,10 @@
 /* Pieces of smooth surfaces. Ranges and errors: NUMERICS 4.12. */
 #include "gn_internal.h"
-#include "shade/gn_turn.h"
+
 #include "base/gn_math.h"
-#include "shade/gn_piece.h"
 #include "base/gn_q.h"
+#include "shade/gn_piece.h"
+#include "shade/gn_turn.h"
 
 #if GN_TURNING
 

@@ -1,21 +1,22 @@
 /* Shadow tiles. */
 #include "gn_internal.h"
+
 #include <string.h>
 
-#include "shadow/gn_atlas.h"
-#include "shadow/gn_blocks.h"
-#include "shadow/gn_caster.h"
+#include "gn_stages.h"
 #include "base/gn_count.h"
-#include "shadow/gn_cull.h"
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "base/gn_signature.h"
+#include "geometry/gn_xform.h"
+#include "scene/gn_scene.h"
+#include "shadow/gn_blocks.h"
+#include "shadow/gn_caster.h"
+#include "shadow/gn_cull.h"
 #include "shadow/gn_ortho.h"
 #include "shadow/gn_persp.h"
-#include "base/gn_q.h"
-#include "scene/gn_scene.h"
-#include "base/gn_signature.h"
 #include "shadow/gn_texel.h"
-#include "geometry/gn_xform.h"
 
 #if GN_SHADOWS
 

@@ -1,7 +1,8 @@
 /* Bounds of shadow depth over blocks of texels. */
 #include "gn_internal.h"
-#include "shadow/gn_blocks.h"
+
 #include "base/gn_q.h"
+#include "shadow/gn_blocks.h"
 #include "shadow/gn_texel.h"
 
 #if GN_SHADOWS && GN_DEPTH_BLOCKS

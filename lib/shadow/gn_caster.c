@@ -1,12 +1,13 @@
 /* Spans of shadow texels. */
 #include "gn_internal.h"
-#include "shadow/gn_caster.h"
-#include "shadow/gn_blocks.h"
+
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
-#include "shadow/gn_texel.h"
 #include "geometry/gn_walk.h"
+#include "shadow/gn_blocks.h"
+#include "shadow/gn_caster.h"
+#include "shadow/gn_texel.h"
 
 #if GN_SHADOWS
 

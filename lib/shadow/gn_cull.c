@@ -1,10 +1,11 @@
 /* Caster culling. */
 #include "gn_internal.h"
-#include "shadow/gn_cull.h"
-#include "light/gn_bias.h"
+
 #include "base/gn_math.h"
-#include "shadow/gn_ortho.h"
 #include "base/gn_q.h"
+#include "light/gn_bias.h"
+#include "shadow/gn_cull.h"
+#include "shadow/gn_ortho.h"
 
 #if GN_SHADOWS
 

@@ -1,13 +1,14 @@
 /* Percentage-closer filtering. Compares come first, weights are exact integers, one division by multiplication ends it.
  */
 #include "gn_internal.h"
-#include "shadow/gn_filter.h"
-#include "shadow/gn_blocks.h"
+
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
 #include "base/gn_kernel.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
+#include "shadow/gn_blocks.h"
+#include "shadow/gn_filter.h"
 #include "shadow/gn_texel.h"
 
 #if GN_SHADOWS

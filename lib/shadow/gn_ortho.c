@@ -1,14 +1,15 @@
 /* Orthographic light views. */
 #include "gn_internal.h"
+
 #include <string.h>
 
-#include "shadow/gn_ortho.h"
-#include "light/gn_bias.h"
-#include "light/gn_cascade.h"
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_xform.h"
+#include "light/gn_bias.h"
+#include "light/gn_cascade.h"
+#include "shadow/gn_ortho.h"
 
 #if GN_SHADOWS
 

@@ -1,10 +1,11 @@
 /* Perspective light views. */
 #include "gn_internal.h"
-#include "shadow/gn_persp.h"
-#include "light/gn_bias.h"
-#include "geometry/gn_clip.h"
+
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_clip.h"
+#include "light/gn_bias.h"
+#include "shadow/gn_persp.h"
 
 #if GN_SHADOWS && GN_PUNCTUAL_LIGHTS
 

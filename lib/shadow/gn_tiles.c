@@ -1,12 +1,13 @@
 /* Tile budgets. A tile is a run of T * T texels of its atlas, so tiles of any power-of-two sizes pack without waste. */
 #include "gn_internal.h"
-#include "shadow/gn_tiles.h"
-#include "light/gn_cascade.h"
+
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
-#include "light/gn_object.h"
 #include "base/gn_q.h"
+#include "light/gn_cascade.h"
+#include "light/gn_object.h"
 #include "scene/gn_scene.h"
+#include "shadow/gn_tiles.h"
 
 #if GN_SHADOWS
 

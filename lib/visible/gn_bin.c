@@ -1,9 +1,11 @@
 /* Counting sort of triangles into screen tiles, in triangle order. */
 #include "gn_internal.h"
-#include "visible/gn_bin.h"
+
+#include "gn_stages.h"
 #include "base/gn_count.h"
 #include "base/gn_q.h"
 #include "scene/gn_scene.h"
+#include "visible/gn_setup.h"
 
 /* Puts a triangle into the bins of the screen tiles within its bounds. */
 static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)

@@ -1,16 +1,19 @@
 /* Visible surfaces of a screen tile. */
 #include "gn_internal.h"
-#include "visible/gn_screen_rect.h"
+
 #include <string.h>
 
-#include "visible/gn_raster.h"
-#include "geometry/gn_alpha.h"
+#include "gn_stages.h"
 #include "base/gn_count.h"
-#include "geometry/gn_plane.h"
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
+#include "geometry/gn_alpha.h"
+#include "geometry/gn_plane.h"
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
+#include "visible/gn_cell.h"
+#include "visible/gn_screen_rect.h"
+#include "visible/gn_setup.h"
 
 /* What a triangle's rows have in common. A candidate cell is its depth above its identity. */
 typedef struct {
@@ -417,7 +420,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
         uint32_t tri_idx = frame->tile_ref[i];
         const gn_tri *tri = &frame->tri[tri_idx];
         GN_ELEMENT(tri);
-        raster_one(&tile, tri, gn_raster_id(frame, tri_idx));
+        raster_one(&tile, tri, gn_cell_id(frame, tri_idx));
     }
 #else
     const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]],
@@ -427,7 +430,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     GN_KEEP(first); /* found once */
     while (ref != none) {
         uint32_t tri_idx = *--ref;
-        raster_one(&tile, first + tri_idx, n_triangles - tri_idx); /* gn_raster_id */
+        raster_one(&tile, first + tri_idx, n_triangles - tri_idx); /* gn_cell_id */
     }
 #endif
 }

@@ -1,5 +1,6 @@
 /* Runs of visible pixels. */
 #include "gn_internal.h"
+
 #include "visible/gn_runs.h"
 
 void gn_runs_clear(gn_scratch *scratch)

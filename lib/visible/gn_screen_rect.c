@@ -1,5 +1,6 @@
 /* Where a screen tile lies in the picture. */
 #include "gn_internal.h"
+
 #include "base/gn_q.h"
 #include "visible/gn_screen_rect.h"
 

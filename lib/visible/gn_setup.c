@@ -1,14 +1,16 @@
 /* Visible triangles. */
 #include "gn_internal.h"
-#include "visible/gn_setup.h"
-#include "geometry/gn_clip.h"
+
+#include "gn_stages.h"
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
-#include "scene/gn_scene.h"
+#include "geometry/gn_clip.h"
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
+#include "scene/gn_scene.h"
+#include "visible/gn_setup.h"
 
 /* View position of a vertex, without a cache. */
 static int view_position(int32_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)

@@ -6,10 +6,6 @@
 #include "geometry/gn_walk.h"
 #include "gnomon.h"
 
-/* Fills frame->tri from the scene, and counts the triangles of each screen tile. The scratch is used for a cache of
- * vertices, and for what gn_bin_triangles need not find again. */
-gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch);
-
 /* In the scratch's pixels, of the first triangles: the first screen tile that one may have pixels in, above two bits:
  * that alone, the next one, the one below, or others too. Where size comes first there is none of this. */
 #define GN_PLACES GN_TILE_PIXELS_MAX

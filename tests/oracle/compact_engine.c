@@ -46,10 +46,10 @@ static void look(int64_t *shown, uint32_t *shadow_uq16, int width)
                     renderer.scratch.cell[(y - r.y0) * (r.x1 - r.x0) + x - r.x0] & ((1U << frame->id_bits) - 1);
                 surface s = {0};
                 if (id) surface_begin(frame, &s, id);
-                shown[y * width + x] = id ? identity[gn_raster_tri(frame, id) - frame->tri] : -1;
+                shown[y * width + x] = id ? identity[gn_cell_tri(frame, id) - frame->tri] : -1;
                 shadow_uq16[y * width + x] = s.tri ? shadow_at(frame, &s, x, y)
-                                             : id && gn_raster_tri(frame, id)->normal_q14[2] < 0 ? 65536
-                                                                                                 : 0;
+                                             : id && gn_cell_tri(frame, id)->normal_q14[2] < 0 ? 65536
+                                                                                               : 0;
             }
         }
     }

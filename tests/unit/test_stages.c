@@ -8,9 +8,10 @@
 #include "../lib/shade/gn_pixel.h"
 #include "../lib/geometry/gn_plane.h"
 #include "../lib/base/gn_q.h"
-#include "../lib/visible/gn_raster.h"
+#include "../lib/gn_stages.h"
 #include "../lib/shade/gn_surface.h"
 #include "../lib/geometry/gn_walk.h"
+#include "../lib/visible/gn_setup.h"
 
 enum {
     STAGE_VIEW,

@@ -1,37 +1,9 @@
-/* What a core keeps while it works on a tile: in its gn_scratch, for a stack is small. Private, like gn_state.h, which
- * includes it. The functions that use these types say what they mean: gn_plane.h, gn_texture.h, gn_surface.h,
- * gn_sample.h, gn_chord.h, gn_pixel.h, gn_shade.c, gn_alpha.h, gn_caster.h, gn_ortho.c, gn_atlas.c.
- */
-#ifndef GN_SHADING_H
-#define GN_SHADING_H
+/* Surfaces, samples of them, and what lies between samples. */
+#ifndef GN_SHADE_TYPES_H
+#define GN_SHADE_TYPES_H
 
-#include "base/gn_q.h"
-#include "geometry/gn_walk.h"
-
-/* Pixels whose centres lie in the triangle's bounding box, cut to the picture: x0 <= x < x1, y0 <= y < y1. */
-typedef struct {
-    int32_t x0, y0, x1, y1;
-} gn_rect;
-
-typedef struct {
-    int32_t n[3]; /* face normal, away from the viewer for a front face, |n| < 2^30, power-of-two scale n_exp */
-    int32_t n_exp;
-    int64_t det;  /* n . v0, positive after gn_plane_setup; 0: edge on or degenerate */
-    int32_t back; /* 1: seen from behind (n has been negated) */
-} gn_plane;
-
-/* Perspective-correct barycentrics b1, b2 of a triangle: (form . ray) / (n . ray) * 2^exp, NUMERICS 4.3. */
-typedef struct {
-    int32_t form[2][3];
-    int32_t exp[2];
-} gn_bary;
-
-#if GN_TEXTURES
-/* Texture coordinates of a triangle: vertex 0, then differences of vertices 1 and 2 to it. */
-typedef struct {
-    int64_t uv_q16[3][2];
-} gn_texture_triangle;
-#endif
+#include "shadow/gn_shadow_types.h"
+#include "visible/gn_visible_types.h"
 
 /* A light of the surface's list. */
 typedef struct {
@@ -180,13 +152,6 @@ typedef struct {
 #endif
 } gn_chord;
 
-/* Where a screen tile's pixels are stored. */
-typedef struct {
-    gn_tile_pixels *pixels;
-    int32_t width;  /* pixels per row of the tile */
-    int32_t x0, y0; /* of the tile in the picture: the dither's pattern stands still in the picture */
-} gn_pixel_rows;
-
 #if GN_PIECES
 /* Linear on the screen: at a place, and its change per pixel to the right and down. */
 typedef struct {
@@ -272,127 +237,5 @@ typedef struct {
 #endif
     } by; /* how the surface is shaded */
 } gn_shading;
-
-/* ---- Triangles that alpha cuts ----------------------------------------------------------------------------------- */
-
-#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
-#if GN_ALPHA_STEPS
-/* An exact place in a row; n . ray there as gn_ray_recip has it, w_norm 0: nothing is seen. */
-typedef struct {
-    int32_t x, uv_q20[2];
-    uint32_t w_norm;
-    int32_t clz;
-} gn_alpha_exact;
-
-/* Texture coordinates of first <= x < end, k pixels on: from + k step + k (k - 1) / 2 bend. */
-typedef struct {
-    int32_t first, end;
-    int32_t hold; /* 0: they are found one by one */
-    int32_t from_q20[2], step_q24[2], bend_q24[2];
-} gn_alpha_steps;
-#endif
-
-/* One triangle of an object, as the camera or a light sees it, and a row of it: gn_alpha.h. */
-typedef struct {
-    const gn_object *object;
-    gn_alpha mode;
-    int textured; /* 0: the object's own alpha all over */
-    int32_t y, py;
-#if GN_TEXTURES
-    gn_texture_triangle uv;
-    gn_plane plane;
-    gn_bary bary;
-    uint32_t focal2_px_q16;
-    int32_t width, newton_steps;
-#endif
-#if GN_ALPHA_STEPS
-    int32_t px_per_step, x_begin, x_end;
-    gn_alpha_exact exact; /* the last one found */
-    gn_alpha_steps steps;
-#endif
-} gn_alpha_cut;
-#else
-typedef void gn_alpha_cut;
-#endif
-
-/* ---- Clipping ---------------------------------------------------------------------------------------------------- */
-
-#define GN_CLIP_VERTICES_MAX 8 /* a triangle against five planes */
-
-typedef struct {
-    int32_t v_q16[GN_CLIP_VERTICES_MAX][3]; /* X right, Y up, Z forward */
-    int n;
-} gn_polygon;
-
-/* A triangle of the camera's or of a perspective light's. */
-typedef struct {
-    gn_polygon polygon, uncut;
-    int32_t x[GN_CLIP_VERTICES_MAX], y[GN_CLIP_VERTICES_MAX]; /* projected */
-} gn_clipping;
-
-/* ---- Casters ----------------------------------------------------------------------------------------------------- */
-
-#if GN_SHADOWS
-/* A vertex as a view sees it, if it is within 2^29. */
-typedef struct {
-    uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
-    int32_t c[3];
-} gn_caster_corner;
-
-/* One caster and one view. */
-typedef struct {
-    struct gn_frame *frame;
-    const gn_light_view *view;
-    const gn_object *object;
-    uint32_t object_idx;
-    int two_sided;
-    gn_caster_corner *cache;
-    uint32_t cache_mask;
-    gn_caster_corner spare[3]; /* where a triangle's corners share an entry */
-    gn_xform to_light;
-    gn_xform_fast fast;
-#if GN_CASTER_BIAS
-    int32_t shrink_q16; /* B4, texels */
-    int32_t normal_matrix[3][3];
-#endif
-} gn_caster_job;
-
-#define GN_ORTHO_POLYGON_MAX 8 /* a triangle against four sides has 7; rounding may bend it once more */
-
-/* Corners as a view sees them: U, V, D in texels, Q16; of perspective views in world units from the light. */
-typedef struct {
-    int64_t p[GN_ORTHO_POLYGON_MAX][3];
-    int n;
-} gn_light_polygon;
-
-/* Whether casters are drawn that gn_ortho_small_triangle does not take. */
-#define GN_LARGE_CASTERS (GN_CASTER_CLIPPING || GN_CASTER_ALPHA || GN_CASTER_BIAS || GN_PUNCTUAL_LIGHTS)
-
-/* One triangle into one shadow tile. */
-typedef struct {
-    gn_caster_job job;
-    gn_walk walk;
-    gn_light_polygon polygon;
-    union {
-        gn_light_polygon uncut; /* orthographic */
-        gn_clipping clipping;   /* perspective */
-    } with;
-#if GN_CASTER_ALPHA
-    gn_alpha_cut alpha;
-#endif
-} gn_casting;
-#endif
-
-/* What one core does at a time. */
-typedef union {
-    gn_shading shading;
-    gn_clipping clipping;
-#if GN_VISIBLE_ALPHA
-    gn_alpha_cut cut;
-#endif
-#if GN_SHADOWS
-    gn_casting casting;
-#endif
-} gn_work;
 
 #endif

@@ -1,13 +1,10 @@
-/* The layout of a compact renderer's state (GN_COMPACT), in place of what gn_state.h and gn_shading.h have. Private;
- * gn_compact.h says what the arithmetic is.
+/* A compact renderer (GN_COMPACT): its frame and scratch, in place of those of gn_state.h. Private; gn_compact.h says
+ * what the arithmetic is.
  */
-#ifndef GN_COMPACT_STATE_H
-#define GN_COMPACT_STATE_H
+#ifndef GN_COMPACT_TYPES_H
+#define GN_COMPACT_TYPES_H
 
-/* Pixels: x0 <= x < x1, y0 <= y < y1. */
-typedef struct {
-    int32_t x0, y0, x1, y1;
-} gn_rect;
+#include "visible/gn_screen_types.h"
 
 /* Texels of the one tile. */
 typedef union {
@@ -89,21 +86,11 @@ typedef struct {
     gn_tri tri;
     int16_t normal_q14[3];
 } gn_compact_job;
-typedef gn_compact_job gn_casting, gn_clipping;
+typedef gn_compact_job gn_casting;
 
 typedef union {
     gn_compact_job casting, clipping;
 } gn_work;
-
-typedef struct {
-    uint32_t tag;
-    int32_t v_q16[3];
-} gn_vcache_entry; /* of interfaces that have one */
-
-#define GN_TILES_X_MAX     ((GN_MAX_WIDTH + GN_TILE_WIDTH - 1) / GN_TILE_WIDTH)
-#define GN_TILES_Y_MAX     ((GN_MAX_HEIGHT + GN_TILE_HEIGHT - 1) / GN_TILE_HEIGHT)
-#define GN_TILES_MAX       (GN_TILES_X_MAX * GN_TILES_Y_MAX)
-#define GN_TILE_PIXELS_MAX (GN_TILE_WIDTH * GN_TILE_HEIGHT)
 
 typedef struct gn_frame {
     const gn_scene *scene;
@@ -127,19 +114,6 @@ typedef struct gn_frame {
     gn_tri tri[GN_MAX_TRIANGLES];
     uint16_t atlas[GN_ATLAS_SIZE * GN_ATLAS_SIZE];
 } gn_frame;
-
-typedef union {
-    uint8_t bytes[GN_TILE_PIXELS_MAX * 2];
-    uint16_t rgb565[GN_TILE_PIXELS_MAX];
-    uint32_t raw[GN_TILE_PIXELS_MAX / 2];
-} gn_tile_pixels;
-
-/* Where a screen tile's pixels are stored: see gn_pixel.h. */
-typedef struct {
-    gn_tile_pixels *pixels;
-    int32_t width;
-    int32_t x0, y0;
-} gn_pixel_rows;
 
 typedef struct gn_scratch {
     uint32_t

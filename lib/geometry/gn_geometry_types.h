@@ -1,0 +1,123 @@
+/* Transforms, the camera, planes of triangles, clipping, and triangles that alpha cuts. */
+#ifndef GN_GEOMETRY_TYPES_H
+#define GN_GEOMETRY_TYPES_H
+
+#include "base/gn_base_types.h"
+#include "geometry/gn_walk.h"
+
+/* A transform composed for one object: out = round((m * p) / 2^shift) + t, t and out with 16 fraction bits. */
+typedef struct {
+    int32_t m[3][3]; /* |row| <= 2^30 */
+    int64_t t_q16[3];
+    int32_t shift;
+} gn_xform;
+
+/* The same for many vertices: what can be, is added up beforehand, and all is times 2^up so that results are the upper
+ * words. Sums stay below 2^63. */
+typedef struct {
+    struct {
+        int64_t sum; /* half of the last bit and, up to 32 bits of shift, the translation */
+        int32_t m[3];
+        int32_t t_q16; /* the translation above that, 0 below */
+    } row[3];
+    uint32_t reach;   /* of positions, a power of two; 0: the transform or its translation is out of the ordinary,
+                         gn_xform_vertex does it */
+    uint8_t up, down; /* 32 bits of shift are the upper word: what they are less, and more */
+} gn_xform_fast;
+
+typedef struct {
+    int32_t axis_q30[3][3]; /* right, up, forward in the world */
+    int32_t eye_q16[3];
+    int32_t near_q16;
+    uint32_t focal2_px_q16;     /* 2F, twice the focal length in pixels: rays are (2x + 1 - W, H - 1 - 2y, 2F) */
+    gn_bfloat near_over_focal2; /* near / 2F */
+    gn_bfloat inv_focal2;       /* 1 / 2F, 2F in Q16 */
+    int32_t guard_q16[2];       /* |X| <= guard[0] * Z and |Y| <= guard[1] * Z hold after clipping to the guard band */
+    int32_t coord_max_q16;      /* of screen coordinates from the picture's centre, pixels */
+    int32_t tan_q16[2];         /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
+} gn_cam;
+
+/* A point at view depth z on the ray through a pixel, along some axis: z * (a0 + ax * px + ay * py) + d. */
+typedef struct {
+    int32_t a0, ax, ay;
+    int64_t d_q16;
+} gn_ray_plane;
+
+typedef struct {
+    int32_t n[3]; /* face normal, away from the viewer for a front face, |n| < 2^30, power-of-two scale n_exp */
+    int32_t n_exp;
+    int64_t det;  /* n . v0, positive after gn_plane_setup; 0: edge on or degenerate */
+    int32_t back; /* 1: seen from behind (n has been negated) */
+} gn_plane;
+
+/* Perspective-correct barycentrics b1, b2 of a triangle: (form . ray) / (n . ray) * 2^exp, NUMERICS 4.3. */
+typedef struct {
+    int32_t form[2][3];
+    int32_t exp[2];
+} gn_bary;
+
+#if GN_TEXTURES
+/* Texture coordinates of a triangle: vertex 0, then differences of vertices 1 and 2 to it. */
+typedef struct {
+    int64_t uv_q16[3][2];
+} gn_texture_triangle;
+#endif
+
+/* ---- Triangles that alpha cuts ----------------------------------------------------------------------------------- */
+
+#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+#if GN_ALPHA_STEPS
+/* An exact place in a row; n . ray there as gn_ray_recip has it, w_norm 0: nothing is seen. */
+typedef struct {
+    int32_t x, uv_q20[2];
+    uint32_t w_norm;
+    int32_t clz;
+} gn_alpha_exact;
+
+/* Texture coordinates of first <= x < end, k pixels on: from + k step + k (k - 1) / 2 bend. */
+typedef struct {
+    int32_t first, end;
+    int32_t hold; /* 0: they are found one by one */
+    int32_t from_q20[2], step_q24[2], bend_q24[2];
+} gn_alpha_steps;
+#endif
+
+/* One triangle of an object, as the camera or a light sees it, and a row of it: gn_alpha.h. */
+typedef struct {
+    const gn_object *object;
+    gn_alpha mode;
+    int textured; /* 0: the object's own alpha all over */
+    int32_t y, py;
+#if GN_TEXTURES
+    gn_texture_triangle uv;
+    gn_plane plane;
+    gn_bary bary;
+    uint32_t focal2_px_q16;
+    int32_t width, newton_steps;
+#endif
+#if GN_ALPHA_STEPS
+    int32_t px_per_step, x_begin, x_end;
+    gn_alpha_exact exact; /* the last one found */
+    gn_alpha_steps steps;
+#endif
+} gn_alpha_cut;
+#else
+typedef void gn_alpha_cut;
+#endif
+
+/* ---- Clipping ---------------------------------------------------------------------------------------------------- */
+
+#define GN_CLIP_VERTICES_MAX 8 /* a triangle against five planes */
+
+typedef struct {
+    int32_t v_q16[GN_CLIP_VERTICES_MAX][3]; /* X right, Y up, Z forward */
+    int n;
+} gn_polygon;
+
+/* A triangle of the camera's or of a perspective light's. */
+typedef struct {
+    gn_polygon polygon, uncut;
+    int32_t x[GN_CLIP_VERTICES_MAX], y[GN_CLIP_VERTICES_MAX]; /* projected */
+} gn_clipping;
+
+#endif

@@ -1,0 +1,38 @@
+/* The stages of a frame, in their order. gn_frame.c calls them; GN_COMPACT has its own of all but the first. */
+#ifndef GN_STAGES_H
+#define GN_STAGES_H
+
+#include "gnomon.h"
+
+/* GN_OK, or the first thing that is wrong, with frame->detail filled. Vertex positions are checked when they are
+ * transformed. */
+gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene);
+
+/* Fills frame->cam from the scene's camera and the picture; the camera has been validated. */
+void gn_cam_setup(gn_frame *frame);
+
+/* Fills frame->light, frame->object and frame->view. The scene has been validated and the camera set up. */
+gn_status gn_views_setup(gn_frame *frame);
+
+#if GN_SHADOWS
+/* Brings one view's tile up to date: draws it, unless it still holds what would be drawn. The memory is scratch, for a
+ * cache of vertices: at least 4 words. */
+gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory,
+                               uint32_t n_words);
+#endif
+
+/* Fills frame->tri from the scene, and counts the triangles of each screen tile. The scratch is used for a cache of
+ * vertices, and for what gn_bin_triangles need not find again. */
+gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch);
+
+/* Sorts what gn_setup_triangles counted in tile_first, with what it left in the scratch. */
+gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch);
+
+/* Fills scratch->cell, rows of rect.x1 - rect.x0. A cell is near / Z in its high bits and the triangle's identity in
+ * its low id_bits; the larger cell wins, whatever the order of drawing. */
+void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx);
+
+/* From scratch->cell to scratch->pixel. */
+void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx);
+
+#endif

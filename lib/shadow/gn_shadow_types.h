@@ -1,0 +1,158 @@
+/* Views of lights, their tiles in the atlases, and casters on their way there. */
+#ifndef GN_SHADOW_TYPES_H
+#define GN_SHADOW_TYPES_H
+
+#include "light/gn_light_types.h"
+
+#if GN_SHADOWS
+#define GN_OTHER_ATLAS (GN_PUNCTUAL_LIGHTS || GN_MAIN_LIGHT) /* whether there is one */
+#define GN_VIEWS_MAX   (GN_MAX_SHADOW_TILES + (GN_OTHER_ATLAS ? GN_MAX_OTHER_TILES : 0))
+
+/* Texels of a tile at the depth_bits of its atlas: it is accessed only as the type that they name. */
+typedef union {
+    uint8_t *d8;
+    uint16_t *d16;
+    uint32_t *d32;
+} gn_texels;
+
+/* Bits of depth: a constant where the configuration leaves no choice. */
+#if !GN_RUNTIME_KNOBS && (!GN_OTHER_ATLAS || GN_DEPTH_BITS == GN_OTHER_DEPTH_BITS)
+#define GN_VIEW_BITS(view) ((void)(view), GN_DEPTH_BITS)
+#else
+#define GN_VIEW_BITS(view) ((view)->depth_bits)
+#endif
+
+typedef struct {
+    uint16_t lo, hi; /* the upper 16 bits of depth, whatever depth_bits */
+} gn_depth_block;    /* see gn_blocks.h */
+
+/* Orthographic: whole texels of a grid that is fixed in the world. */
+typedef struct {
+    gn_bfloat inv_texel; /* texels per world unit */
+    int32_t origin[3];   /* whole texels */
+    gn_ray_plane ray[3];
+    int32_t ray_shift; /* fraction bits of a0, ax, ay */
+} gn_ortho_fit;
+
+/* Perspective: a camera at the light, whose picture is the tile. */
+typedef struct {
+    int32_t eye_q16[3];
+    int32_t near_q16;      /* n: depth is 1 - n / z */
+    uint32_t focal2_q16;   /* T / t: twice the focal length in texels */
+    gn_bfloat per_near;    /* 1 / n, n in Q16 */
+    gn_bfloat texel_per_z; /* 2t / T: width of a texel at light-plane distance 1 */
+    int32_t guard_q16[2];  /* |x|, |y| <= guard * z after clipping to the guard band */
+    int32_t side_q16[2]; /* the same for the tile's own border, a little wider: what is outside all of it casts nothing
+                            here */
+    int64_t ratio_max_q28;      /* x / z beyond this would overflow, times focal2 */
+    int32_t constant_share_q30; /* B1: min(1, constant bias * 2t / T) */
+} gn_persp_fit;
+
+typedef struct {
+    gn_texels depth;      /* T * T, row by row, inside the atlas */
+    uint32_t first_texel; /* of the tile in its atlas */
+    int32_t offset_q16; /* B2 and b_z of B3: receiver offset along the normal, texels; B6: the reach of a tap, texels */
+#if GN_AUTO_BIAS
+    int32_t auto_step;  /* B6: what rounding of depths takes, directional: texels, Q16; spot, point: share of the range,
+                           Q32 */
+    int32_t auto_place; /* B6, directional: offset of curved surfaces, texels, Q16; spot, point: error of a point per
+                           view depth, Q40 */
+#endif
+    int32_t disk_radius_q16; /* F4, texels */
+    int32_t bias_constant_q16, bias_slope_q16;
+    uint16_t tile_texels; /* T */
+    uint16_t light_idx;
+    uint8_t tile_log2;   /* T = 2^tile_log2 */
+    uint8_t depth_log2;  /* J: an orthographic depth range is T * 2^J texels */
+    uint8_t depth_bits;  /* 8, 16 or 32: that of the atlas; see GN_VIEW_BITS */
+    uint8_t filter;      /* gn_filter, resolved (F5) */
+    uint8_t filter_idx;  /* k */
+    uint8_t cascade_idx; /* or face of the cube */
+    uint8_t perspective;
+    uint8_t border_lit; /* texels outside the tile count as lit (D10) */
+    uint8_t in_other;   /* it lies in the other atlas */
+    uint8_t empty;      /* its cascade has no slice: never drawn, never selected */
+    uint8_t tile_done;
+    uint8_t stale; /* A5: by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
+#if GN_DEPTH_BLOCKS
+    gn_depth_block *block; /* (T / 8) * (T / 8) */
+#endif
+    int32_t axis_q30[3][3]; /* u, v, w in the world */
+    union {
+        gn_ortho_fit ortho;
+        gn_persp_fit persp;
+    } fit;
+} gn_light_view;
+
+/* What a view's tile holds from one frame to the next (A5). */
+typedef struct {
+    uint64_t signature;        /* of everything that its texels depend on; 0: nothing is kept */
+    uint64_t static_signature; /* the same for the static layer */
+} gn_tile_memory;
+
+#define GN_ATLAS_BYTES (GN_ATLAS_TEXELS * ((GN_RUNTIME_KNOBS ? 32 : GN_DEPTH_BITS) / 8))
+typedef union {
+    uint8_t d8[GN_ATLAS_BYTES];
+    uint16_t d16[GN_ATLAS_BYTES / 2];
+    uint32_t d32[GN_ATLAS_BYTES / 4];
+} gn_atlas_texels;
+
+#if GN_OTHER_ATLAS
+#define GN_OTHER_ATLAS_BYTES (GN_OTHER_ATLAS_TEXELS * ((GN_RUNTIME_KNOBS ? 32 : GN_OTHER_DEPTH_BITS) / 8))
+typedef union {
+    uint8_t d8[GN_OTHER_ATLAS_BYTES];
+    uint16_t d16[GN_OTHER_ATLAS_BYTES / 2];
+    uint32_t d32[GN_OTHER_ATLAS_BYTES / 4];
+} gn_other_texels;
+#endif
+/* A vertex as a view sees it, if it is within 2^29. */
+typedef struct {
+    uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
+    int32_t c[3];
+} gn_caster_corner;
+
+/* One caster and one view. */
+typedef struct {
+    struct gn_frame *frame;
+    const gn_light_view *view;
+    const gn_object *object;
+    uint32_t object_idx;
+    int two_sided;
+    gn_caster_corner *cache;
+    uint32_t cache_mask;
+    gn_caster_corner spare[3]; /* where a triangle's corners share an entry */
+    gn_xform to_light;
+    gn_xform_fast fast;
+#if GN_CASTER_BIAS
+    int32_t shrink_q16; /* B4, texels */
+    int32_t normal_matrix[3][3];
+#endif
+} gn_caster_job;
+
+#define GN_ORTHO_POLYGON_MAX 8 /* a triangle against four sides has 7; rounding may bend it once more */
+
+/* Corners as a view sees them: U, V, D in texels, Q16; of perspective views in world units from the light. */
+typedef struct {
+    int64_t p[GN_ORTHO_POLYGON_MAX][3];
+    int n;
+} gn_light_polygon;
+
+/* Whether casters are drawn that gn_ortho_small_triangle does not take. */
+#define GN_LARGE_CASTERS (GN_CASTER_CLIPPING || GN_CASTER_ALPHA || GN_CASTER_BIAS || GN_PUNCTUAL_LIGHTS)
+
+/* One triangle into one shadow tile. */
+typedef struct {
+    gn_caster_job job;
+    gn_walk walk;
+    gn_light_polygon polygon;
+    union {
+        gn_light_polygon uncut; /* orthographic */
+        gn_clipping clipping;   /* perspective */
+    } with;
+#if GN_CASTER_ALPHA
+    gn_alpha_cut alpha;
+#endif
+} gn_casting;
+#endif
+
+#endif

@@ -1,0 +1,32 @@
+/* Screen tiles: how many there are, and where their finished pixels lie. */
+#ifndef GN_SCREEN_TYPES_H
+#define GN_SCREEN_TYPES_H
+
+#include "base/gn_base_types.h"
+
+#define GN_TILES_X_MAX ((GN_MAX_WIDTH + GN_TILE_WIDTH - 1) / GN_TILE_WIDTH)
+#define GN_TILES_Y_MAX ((GN_MAX_HEIGHT + GN_TILE_HEIGHT - 1) / GN_TILE_HEIGHT)
+#if GN_RUNTIME_KNOBS
+#define GN_TILES_MAX       16384
+#define GN_TILE_PIXELS_MAX 65536
+#else
+#define GN_TILES_MAX       (GN_TILES_X_MAX * GN_TILES_Y_MAX)
+#define GN_TILE_PIXELS_MAX (GN_TILE_WIDTH * GN_TILE_HEIGHT)
+#endif
+
+#define GN_PIXEL_BYTES_MAX (GN_RAW_VIEWS ? 4 : GN_COMPACT ? 2 : 3)
+
+typedef union {
+    uint8_t bytes[GN_TILE_PIXELS_MAX * GN_PIXEL_BYTES_MAX];
+    uint16_t rgb565[GN_TILE_PIXELS_MAX];
+    uint32_t raw[GN_TILE_PIXELS_MAX * GN_PIXEL_BYTES_MAX / 4];
+} gn_tile_pixels;
+
+/* Where a screen tile's pixels are stored. */
+typedef struct {
+    gn_tile_pixels *pixels;
+    int32_t width;  /* pixels per row of the tile */
+    int32_t x0, y0; /* of the tile in the picture: the dither's pattern stands still in the picture */
+} gn_pixel_rows;
+
+#endif
