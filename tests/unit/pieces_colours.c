@@ -1,5 +1,4 @@
 /* What emits pixels is this file's; what is included is built a second time under other names. */
-#define GN_SEPARATE_FILES 1
 #define gn_pixel_fill  colours_fill
 #define gn_pixel_ramp  colours_ramp
 #define gn_pixel_mix   colours_mix
