@@ -62,6 +62,9 @@ test: deps ## run every test
 soak: ## the longer campaigns, minutes to hours: [SEED=n] [SCENES=n] [CAMPAIGNS="random census"]
 	@sh tests/soak.sh
 
+coverage: ## print the lines and branches of lib/ that the C tests run, in some minutes
+	@sh tests/coverage.sh
+
 bench: $(BUILD)/gnomon ## count instructions on the host and on four target cores against the committed baselines; WRITE=1 renews them
 	@sh tests/bench/bench.sh $(if $(WRITE),--write)
 	@sh tests/bench/bench_target.sh $(if $(WRITE),--write)
@@ -122,6 +125,9 @@ test-programs: $(TESTS:%=$(BUILD)/%) $(BUILD)/gnomon
 # Of one configuration with constants: make constant-programs BUILD=build/tiny CONSTANTS=-DGN_PRESET=0
 constant-programs: $(CONSTANT)
 
+# Those that need no more than the library.
+alone-programs: $(ALONE)
+
 $(BUILD)/test_scenes: $(SCENE_OBJ)
 $(BUILD)/test_panels: $(PANEL_OBJ)
 $(BUILD)/test_radiance: $(BUILD)/obj/tests/unit/pieces_colours.o
@@ -175,5 +181,5 @@ endif
 
 -include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
 
-.PHONY: all help run deps test soak bench size matrix firmware emulate screen boards docs report tables scenes coverage clean test-programs constant-programs
+.PHONY: all help run deps test soak bench size matrix firmware emulate screen boards docs report tables scenes coverage clean test-programs constant-programs alone-programs
 .SECONDARY:

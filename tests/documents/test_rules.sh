@@ -216,7 +216,7 @@ mkdir -p "$tmp/clean/obj"
 make -s clean BUILD="$tmp/clean" >"$tmp/log" 2>&1 && [ ! -e "$tmp/clean" ] && [ -d build ] && pass || fail "make clean BUILD=... does not remove that folder alone"
 make -s help >"$tmp/help" 2>&1
 for target in $(sed -n 's/^\.PHONY: *//p' Makefile); do
-    [ "$target" = test-programs ] && continue # for the test runner
+    case $target in *-programs) continue ;; esac # for the test runner
     grep -q "make $target " "$tmp/help" && pass || fail "make help does not list $target"
 done
 
