@@ -12,7 +12,9 @@ SIZE ?= 320x240
 SCENES ?=
 OWN_SCENES := $(foreach s,sundial avenue desk room fence mixed,host/scenes/$(s).gltf)
 
-WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef -Werror
+# The tests make an error of every warning (WERROR=-Werror); the compiler of a user may know new ones.
+WERROR ?=
+WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef $(WERROR)
 # Room for any scene.
 ROOM := -DGN_SEPARATE_FILES -DGN_RAW_VIEWS=1 -DGN_STATIC_LAYER=1 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 \
   -DGN_MAX_TILE_REFS=1000000 -DGN_MAX_LIGHTS=64 -DGN_SURFACE_LIGHTS=64 -DGN_MAX_OBJECTS=65535 -DGN_MAX_SHADOW_TILES=16 \
@@ -26,8 +28,9 @@ HOST_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(HOST_OPT) -g $(WARN) $(SAN) 
 
 # The library, part by part: what changes is compiled again, and tests see its functions. Users compile lib/gnomon.c.
 LIB_SRC := $(filter-out lib/compact/%, $(wildcard lib/*/*.c))
-HOST_SRC := $(wildcard host/ref/*.c host/truth/*.c host/scene/*.c host/bake/*.c) $(filter-out host/tool/main.c host/tool/gen_%.c, $(wildcard host/tool/*.c))
-SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/scenes/*.c))
+# main.c has no place beside a test's main(); generators and the report page are programs of their own.
+HOST_SRC := $(filter-out host/tool/main.c host/generate/% host/report/%, $(sort $(shell find host -name '*.c')))
+SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/generate/scenes/*.c))
 TEST_SRC := $(wildcard tests/*/test_*.c)
 TESTS := $(basename $(notdir $(TEST_SRC)))
 # Those of unit/ and property/ need no more than the library, but for three.
@@ -105,17 +108,17 @@ $(BUILD)/gnomon: $(BUILD)/obj/host/tool/main.o $(HOST_OBJ) $(LIB_OBJ)
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
 
-$(BUILD)/gen_tables: host/tool/gen_tables.c
+$(BUILD)/gen_tables: host/generate/gen_tables.c
 	@mkdir -p $(@D)
 	$(CC) $(HOST_CFLAGS) -o $@ $< -lm
 
-$(BUILD)/make_report: $(patsubst %,$(BUILD)/obj/host/%.o, report/make_report report/embed scene/json scene/arena)
+$(BUILD)/make_report: $(patsubst %,$(BUILD)/obj/host/%.o, report/make_report report/embed base/json base/arena)
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
 
 # Of the host's scene code the generator has the PNG writer alone.
-SCENE_PNG := $(patsubst %,$(BUILD)/obj/host/scene/%.o, png_write deflate zlib_tables)
-$(BUILD)/make_scenes: $(BUILD)/obj/host/scenes/make_scenes.o $(SCENE_OBJ) $(SCENE_PNG)
+SCENE_PNG := $(patsubst %,$(BUILD)/obj/host/scene/image/%.o, png_write deflate zlib_tables)
+$(BUILD)/make_scenes: $(BUILD)/obj/host/generate/scenes/make_scenes.o $(SCENE_OBJ) $(SCENE_PNG)
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
 

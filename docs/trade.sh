@@ -89,10 +89,10 @@ done
 
 {
     echo
-    sed -n '/^\/\*/,/\*\//p' host/tool/cost_table.h | sed -n '1,/^ \*\//p' | sed 's|^/\* ||; s|^ \*/||; s|^ \*   |- |; s|^ \* ||; s|:$|:\n|'
+    sed -n '/^\/\*/,/\*\//p' host/tool/cost/cost_table.h | sed -n '1,/^ \*\//p' | sed 's|^/\* ||; s|^ \*/||; s|^ \*   |- |; s|^ \* ||; s|:$|:\n|'
     echo "| event | instructions | one of them is |"
     echo "|---|---|---|"
-    sed -n 's|^COST(\([a-z0-9_]*\), \([0-9.e+]*\)) /\* \(.*\) \*/$|\| `\1` \| \2 \| \3 \||p' host/tool/cost_table.h
+    sed -n 's|^COST(\([a-z0-9_]*\), \([0-9.e+]*\)) /\* \(.*\) \*/$|\| `\1` \| \2 \| \3 \||p' host/tool/cost/cost_table.h
     echo
 } >"$work/weights.md"
 replace weights "$work/weights.md"

@@ -250,6 +250,15 @@
 #define GN_RUNTIME_KNOBS 0
 #endif
 
+/* How it is built. A program need not agree with the library on size_first: no type depends on it. */
+#ifndef GN_SIZE_FIRST
+#ifdef __OPTIMIZE_SIZE__
+#define GN_SIZE_FIRST 1
+#else
+#define GN_SIZE_FIRST 0
+#endif
+#endif
+
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING)))
 

@@ -58,12 +58,16 @@
       "other_depth_bits / 8 bytes each")                                                                               \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
 
-/* Another arithmetic (gn_compact.h): constant in every build. */
-#define GN_ARITHMETIC_KNOBS(X)                                                                                         \
+/* How the library is built: constant in every build. */
+#define GN_BUILD_KNOBS(X)                                                                                              \
     X(compact, COMPACT, 0, 1,                                                                                          \
       "32-bit arithmetic for one directional light with one hard shadow tile and flat colours, in pictures up to "     \
       "256x256; features are off",                                                                                     \
-      "none: the least flash; a scene beyond its range is refused")
+      "none: the least flash; a scene beyond its range is refused")                                                    \
+    X(size_first, SIZE_FIRST, 0, 1,                                                                                    \
+      "less flash rather than fewer instructions: one way where there are two with the same bits, calls in place of "  \
+      "inline code; by default 1 where the compiler optimises for size (-Os)",                                         \
+      "instructions; the same picture")
 
 #define GN_FEATURE_KNOBS(X)                                                                                            \
     X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \

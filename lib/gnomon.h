@@ -22,6 +22,12 @@
 #include "gn_config.h"
 #include "gn_knobs.h"
 
+/* The version of this library. */
+#define GN_VERSION_MAJOR  0
+#define GN_VERSION_MINOR  2
+#define GN_VERSION_PATCH  0
+#define GN_VERSION_STRING "0.2.0"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -39,6 +45,8 @@ extern "C" {
 #define GN_STATUS_LIST(X)                                                                                              \
     X(GN_OK, "ok")                                                                                                     \
     X(GN_ERR_NULL, "a required pointer is null")                                                                       \
+    X(GN_ERR_CONFIG,                                                                                                   \
+      "program and library were compiled with different configurations: the size of gn_renderer or a knob differs")    \
     X(GN_ERR_PICTURE_SIZE, "picture width or height is 0 or above GN_MAX_WIDTH x GN_MAX_HEIGHT")                       \
     X(GN_ERR_FORMAT, "unknown pixel format or view, or one that is not built in")                                      \
     X(GN_ERR_KNOB, "a run-time knob is out of its range")                                                              \
@@ -291,6 +299,38 @@ typedef struct {
     gn_shadow_settings shadow;
 } gn_scene;
 
+/* ---- Defaults: what a user need not set ---------------------------------------------------------------------------
+ */
+
+/* Everything that is not given has a value that shows: white or light grey, lit, casting and receiving shadows. Change
+ * what should differ afterwards. */
+
+/* A mesh of two arrays: 3 coordinates per vertex, written with GN_Q16, and 3 indices per triangle. Face normals. */
+#define GN_MESH(pos, idx)                                                                                              \
+    {                                                                                                                  \
+        pos, NULL, NULL, NULL, NULL, idx, sizeof(pos) / (3 * sizeof((pos)[0])), sizeof(idx) / (3 * sizeof((idx)[0])),  \
+            16, 0                                                                                                      \
+    }
+
+/* Grey of albedo 0.8 at the origin, opaque, casts and receives shadows. */
+gn_object gn_object_default(const gn_mesh *mesh);
+
+/* Lights are white and cast full shadows with automatic bias (or a normal bias of 1, where that is not built).
+ * The sun shines along a direction of any length, with irradiance 1. Spots and points have intensity 16: irradiance 1
+ * at a distance of 4; their range is unlimited, and what is nearer than 0.1 casts no shadow. A spot shines from a
+ * position at a target; `outer_turn` is its whole cone, edge to edge, of which the inner half has the full light. */
+gn_light gn_light_sun(int32_t x, int32_t y, int32_t z);
+gn_light gn_light_spot(const int32_t position_q16[3], const int32_t target_q16[3], uint16_t outer_turn);
+gn_light gn_light_point(const int32_t position_q16[3]);
+
+/* At `eye` towards `target`, +Y up, 45 degrees high, near plane 0.1, far plane 100. */
+gn_camera gn_camera_default(const int32_t eye_q16[3], const int32_t target_q16[3]);
+
+/* Ambient light 0.15, a dark blue background. Shadows up to a distance of 100 (the last tenth fades), by four cascades
+ * where they are built and their tiles fit, else one; filtered 2x2 where that is built. */
+gn_scene gn_scene_default(const gn_camera *camera, const gn_object *objects, uint32_t n_objects, const gn_light *lights,
+                          uint32_t n_lights);
+
 /* ---- Rendering --------------------------------------------------------------------------------------------------- */
 
 typedef enum {
@@ -373,8 +413,37 @@ typedef struct gn_renderer {
     gn_scratch scratch;
 } gn_renderer;
 
-/* Clears the renderer and sets what it draws. Must be the first call. */
-gn_status gn_init(gn_renderer *r, const gn_picture *picture);
+/* What gn_init compares: a sum over all knobs, the version, and the sizes of what the caller fills in. */
+#define GN_SIGN_(index, value)                                                                                         \
+    (((uint64_t)(value) + 1U) * (((uint64_t)(index)*0x9E3779B97F4A7C15U ^ 0xD1B54A32D192ED03U) | 1U))
+#define GN_KNOB_INDEX_(name, MACRO, lo, hi, meaning, cost) gn_knob_index_##name,
+#define GN_KNOB_SIGN_(name, MACRO, lo, hi, meaning, cost)  +GN_SIGN_(gn_knob_index_##name, GN_##MACRO)
+enum {
+    gn_knob_index_none,
+    gn_knob_index_version,
+    gn_knob_index_scene,
+    gn_knob_index_object,
+    gn_knob_index_light,
+    gn_knob_index_mesh,
+    GN_QUALITY_KNOBS(GN_KNOB_INDEX_) GN_CAPACITY_KNOBS(GN_KNOB_INDEX_) GN_FEATURE_KNOBS(GN_KNOB_INDEX_)
+        gn_knob_index_compact
+};
+#define GN_CONFIG_SIGNATURE                                                                                            \
+    (GN_SIGN_(gn_knob_index_version, GN_VERSION_MAJOR * 65536 + GN_VERSION_MINOR * 256 + GN_VERSION_PATCH) +           \
+     GN_SIGN_(gn_knob_index_scene, sizeof(gn_scene)) + GN_SIGN_(gn_knob_index_object, sizeof(gn_object)) +             \
+     GN_SIGN_(gn_knob_index_light, sizeof(gn_light)) + GN_SIGN_(gn_knob_index_mesh, sizeof(gn_mesh)) +                 \
+     GN_SIGN_(gn_knob_index_compact, GN_COMPACT) GN_QUALITY_KNOBS(GN_KNOB_SIGN_) GN_CAPACITY_KNOBS(GN_KNOB_SIGN_)      \
+         GN_FEATURE_KNOBS(GN_KNOB_SIGN_))
+
+/* gn_init below, with the caller's configuration. */
+gn_status gn_init_as(gn_renderer *r, const gn_picture *picture, size_t renderer_bytes, uint64_t config_signature);
+
+/* Clears the renderer and sets what it draws. Must be the first call. A program and a library that were compiled with
+ * different configurations would overwrite each other's memory: GN_ERR_CONFIG, and nothing is written. */
+static inline gn_status gn_init(gn_renderer *r, const gn_picture *picture)
+{
+    return gn_init_as(r, picture, sizeof(gn_renderer), GN_CONFIG_SIGNATURE);
+}
 
 /* One frame: begin, all shadow tiles, prepare, all screen tiles. Nothing is flushed if it fails. */
 gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user);

@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.." || exit 1
 build=build/coverage
 for program in tests/*/test_*.c; do basename "$program" .c; done >build/coverage.names
 [ $# = 0 ] || printf '%s\n' "$@" >build/coverage.names
-make -s -j2 $(sed "s|^|$build/|" build/coverage.names) BUILD=$build OPT=-O0 HOST_OPT=-O1 SAN=--coverage >build/coverage.log 2>&1 || { tail -n 5 build/coverage.log; exit 1; }
+make -s -j2 WERROR=-Werror $(sed "s|^|$build/|" build/coverage.names) BUILD=$build OPT=-O0 HOST_OPT=-O1 SAN=--coverage >build/coverage.log 2>&1 || { tail -n 5 build/coverage.log; exit 1; }
 find $build -name '*.gcda' -delete
 xargs -P 2 -I '{}' sh -c "SCENES=\${SCENES:-20000} $build/{} >/dev/null || echo '{} failed'" <build/coverage.names
 find $build/obj/lib -name '*.gcda' | sort | while read -r data; do gcov -n -b -o "$(dirname "$data")" "$data"; done 2>/dev/null | awk '

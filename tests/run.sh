@@ -12,6 +12,7 @@
 #   bench/      instructions against baselines
 cd "$(dirname "$0")/.." || exit 1
 run=build/tmp/run
+export WERROR=-Werror # of every make
 
 # ---- run.sh --job KEY COMMAND: one test. Without its closing line, or with an exit status that contradicts it, it failed. -----
 

@@ -5,6 +5,6 @@ $(FW_OBJ_DIR)/boards/apps/bench.o: $(BUILD)/firmware/bench/bench_meshes.h
 $(BUILD)/firmware/bench/bench_meshes.h: tests/bench/bench_workload.c tests/bench/bench_gen.c boards/apps/bench_scene.h
 	@mkdir -p $(@D)
 	@gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -Ilib -Itests -DGN_MAX_TRIANGLES=1000 -DGN_MAX_TILE_REFS=8000 -o $(@D)/workload \
-	  tests/bench/bench_workload.c tests/bench/bench_gen.c host/scene/zlib_tables.c lib/*.c -lm
+	  tests/bench/bench_workload.c tests/bench/bench_gen.c host/scene/image/zlib_tables.c lib/*.c -lm
 	@$(@D)/workload meshes >$@
 endif

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../host/scene/png.h"
+#include "../../host/scene/image/png.h"
 
 enum { MOST_SIDE = 4096 };
 

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../../host/scene/png.h"
+#include "../../host/scene/image/png.h"
 
 enum { MAX_SIDE = 4096 };
 

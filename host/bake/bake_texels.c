@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../scene/loader.h"
+#include "../scene/core/loader.h"
 #include "bake_internal.h"
 
 /* Points per side of a texel: first a few, and more where they differ. */

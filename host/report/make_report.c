@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../scene/json.h"
+#include "../base/json.h"
 #include "embed.h"
 
 enum { PATH_BYTES = 4096 };

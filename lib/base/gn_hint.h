@@ -2,6 +2,8 @@
 #ifndef GN_HINT_H
 #define GN_HINT_H
 
+#include "gn_config.h"
+
 #if defined(__GNUC__)
 /* v is taken for changed here, and neither computed before nor from what was. It keeps what an unrolled loop steps in
  * one register, and a branch a branch, where four registers and predicated instructions would cost more. */
@@ -24,14 +26,14 @@
 #endif
 
 /* Where size comes first, a pointer to an element is computed once: v is not known to be what it was computed from. */
-#if defined(__OPTIMIZE_SIZE__) && defined(__GNUC__)
+#if GN_SIZE_FIRST && defined(__GNUC__)
 #define GN_ELEMENT(v) __asm__("" : "+r"(v))
 #else
 #define GN_ELEMENT(v) ((void)0)
 #endif
 
 /* Of a function that is called from few places: shared where size comes first, inlined otherwise. */
-#if defined(__OPTIMIZE_SIZE__)
+#if GN_SIZE_FIRST
 #define GN_SHARED GN_NOINLINE
 #else
 #define GN_SHARED inline

@@ -1,22 +1,28 @@
-/* A frame, stage by stage. Read this file first: it is the table of contents of the library.
+/* A frame, stage by stage. Read this file first: it is the table of contents of the library. gn_stages.h declares the
+ * stages; lib/README.md says what each folder is for.
  *
- *   gn_begin        gn_scene    validate what the caller describes
- *                   gn_xform    camera
- *                   gn_views    lights: which reach which object (gn_object), which get how many shadow tiles
- *                               (gn_tiles), and how each lies in the world (gn_cascade and gn_ortho, or gn_persp;
- *                               gn_bias: filter reach)
- *   gn_shadow_tile  gn_atlas    casters (gn_cull: which) as depth seen from the light (gn_ortho, gn_persp: projection;
- *                               gn_caster: spans, cut by alpha: gn_alpha, gn_texture); bounds of depth per block
- *                               (gn_blocks)
- *   gn_prepare      gn_setup    visible triangles: transform, cull, clip (gn_clip), project, depth plane (gn_plane)
- *                   gn_bin      triangles to screen tiles
- *   gn_screen_tile  gn_raster   visible surfaces: depth and triangle per pixel, by exact edge walkers (gn_walk)
- *                   gn_runs     what is visible of each triangle, as runs of pixels
- *                   gn_shade    a triangle at a time (gn_surface), piece by piece (gn_piece, gn_piecerow, gn_turn) or
- * by pixels (gn_sample, gn_chord between them): light (gn_light, gn_arrival, gn_punctual), shadow (gn_shadow,
- * gn_filter), encode (gn_pixel) flush GN_COMPACT      behind the same calls, in 32 bits: camera and light
- * (gn_compact_views), casters and visible triangles (gn_compact_triangle: setup and drawing; gn_compact_point:
- * transform and projection; gn_compact_clip), shading (gn_compact_shade)
+ * gn_begin
+ * - gn_scene_validate: refuses what the caller describes wrongly (scene/)
+ * - gn_cam_setup: the camera (geometry/gn_xform)
+ * - gn_views_setup: which light reaches which object (light/gn_object), which gets how many shadow tiles
+ *   (shadow/gn_tiles), and how each lies in the world (light/gn_cascade; shadow/gn_ortho, gn_persp; light/gn_bias)
+ *
+ * gn_shadow_tile
+ * - gn_atlas_render_tile: casters (shadow/gn_cull: which) as depth seen from the light (gn_ortho, gn_persp: projection;
+ *   gn_caster: spans, cut by alpha: geometry/gn_alpha); bounds of depth per block (gn_blocks)
+ *
+ * gn_prepare
+ * - gn_setup_triangles: visible triangles: transform, cull, clip (geometry/gn_clip), project, depth plane (gn_plane)
+ * - gn_bin_triangles: triangles to screen tiles (visible/gn_bin)
+ *
+ * gn_screen_tile
+ * - gn_raster_tile: depth and triangle per pixel, by exact edge walks (geometry/gn_walk)
+ * - gn_shade_tile: the visible spans (visible/gn_runs) of a triangle at a time (shade/gn_surface), piece by piece
+ *   (gn_piece, gn_piecerow, gn_turn) or by pixels (gn_sample, gn_chord between them): light (gn_light, gn_arrival,
+ *   light/gn_punctual), shadow (gn_shadow, shadow/gn_filter), encoded pixels (gn_pixel)
+ * - flush
+ *
+ * With GN_COMPACT, compact/ has all stages but the first, in 32 bits, behind the same calls.
  */
 #include "gn_internal.h"
 
@@ -61,9 +67,10 @@ static int picture_format_ok(const gn_picture *picture)
     return picture->view == GN_VIEW_COLOUR && (uint32_t)picture->format <= GN_FORMAT_MONO1;
 }
 
-gn_status gn_init(gn_renderer *r, const gn_picture *picture)
+gn_status gn_init_as(gn_renderer *r, const gn_picture *picture, size_t renderer_bytes, uint64_t config_signature)
 {
     if (!r) return GN_ERR_NULL;
+    if (renderer_bytes != sizeof *r || config_signature != GN_CONFIG_SIGNATURE) return GN_ERR_CONFIG;
     memset(r, 0, sizeof *r);
     gn_frame *frame = &r->frame;
     if (!picture) return gn_fail(frame, GN_ERR_NULL, 0);
@@ -100,6 +107,7 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
     if (status) return status;
 #endif
     frame->scene = scene;
+    frame->n_lights = (uint8_t)scene->n_lights;
     gn_cam_setup(frame);
     status = gn_views_setup(frame);
     if (status) return status;
@@ -261,7 +269,7 @@ gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, ui
     if (n_tiles) *n_tiles = 0;
     if (tile_texels) *tile_texels = 0;
 #if GN_SHADOWS
-    if (!r || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.scene->n_lights) return GN_SHADOW_NOT_WANTED;
+    if (!r || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.n_lights) return GN_SHADOW_NOT_WANTED;
     const gn_light_state *light = &r->frame.light[light_idx];
     if (n_tiles) *n_tiles = light->n_views;
     if (tile_texels && light->n_views) *tile_texels = r->frame.view[light->view_idx].tile_texels;
@@ -275,7 +283,7 @@ gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, ui
 uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info)
 {
 #if GN_SHADOWS
-    if (!r || !info || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.scene->n_lights) return 0;
+    if (!r || !info || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.n_lights) return 0;
     const gn_light_state *light = &r->frame.light[light_idx];
     if (view_idx >= light->n_views) return 0;
     const gn_light_view *view = &r->frame.view[(uint32_t)light->view_idx + view_idx];

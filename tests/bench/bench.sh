@@ -15,7 +15,7 @@ CASES="flat gouraud flat-shadow gouraud-shadow"
 CFLAGS="-std=c11 -D_POSIX_C_SOURCE=200809L -O2 -gdwarf-4 -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow \
   -Wundef -Werror -Ilib -Itests"
 ROOM="-DGN_MAX_TRIANGLES=1000 -DGN_MAX_TILE_REFS=8000"
-SOURCES="tests/bench/bench_workload.c tests/bench/bench_gen.c host/scene/zlib_tables.c"
+SOURCES="tests/bench/bench_workload.c tests/bench/bench_gen.c host/scene/image/zlib_tables.c"
 
 command -v valgrind >/dev/null || { echo "bench: valgrind is not installed" >&2; exit 1; }
 mkdir -p "$DIR"

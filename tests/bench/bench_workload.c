@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "../boards/apps/bench_scene.h"
-#include "../host/scene/zlib_stream.h"
+#include "../host/scene/image/zlib_stream.h"
 #include "bench_gen.h"
 #include "visible/gn_setup.h"
 #include "geometry/gn_walk.h"

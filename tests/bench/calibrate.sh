@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes host/tool/cost_table.h anew: what the library's counted events (lib/base/gn_count.h) cost in instructions, by callgrind.
+# Makes host/tool/cost/cost_table.h anew: what the library's counted events (lib/base/gn_count.h) cost in instructions, by callgrind.
 #   sh tests/bench/calibrate.sh           minutes; the counts come from gnomon sweep, the instructions from a build without counters
 # The build that is measured is the host's, so that one program draws every configuration; without its static layer, which firmware rarely has.
 # Environment: CC, BUILD.
@@ -16,13 +16,13 @@ EVERY=4 # of the sweep's configurations
 
 command -v valgrind >/dev/null || { echo "calibrate: valgrind is not installed" >&2; exit 1; }
 mkdir -p "$DIR"
-variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1/-DGN_COUNTERS=0/; s/-DGN_STATIC_LAYER=1/-DGN_STATIC_LAYER=0/')
 make -s CC="$CC" "$TOOL"
 "$TOOL" bake host/scenes/room.gltf -o "$DIR/baked.gltf" --size $SIZE >/dev/null # nothing else has a mask image
 SCENES="$SCENES $DIR/baked.gltf"
 make -s CC="$CC" BUILD="$DIR/build" HOST_KNOBS="$knobs" "$DIR/build/gnomon" >/dev/null
-$CC -std=c11 -O2 -o "$DIR/gen_costs" host/tool/gen_costs.c -lm
+$CC -std=c11 -O2 -o "$DIR/gen_costs" host/generate/gen_costs.c -lm
 
 # instructions SCENE SETTING...: of shadow tiles, setup and binning, rasterising, shading (glibc's memset: see bench.sh)
 instructions() {
@@ -71,5 +71,5 @@ for scene in $SCENES; do
     done <"$DIR/rows.txt" >>"$DIR/samples.txt"
 done
 "$DIR/gen_costs" "$($CC --version | sed 1q)" <"$DIR/samples.txt" >"$DIR/cost_table.h"
-cp "$DIR/cost_table.h" host/tool/cost_table.h
-sed -n '1,/^ \*\//p' host/tool/cost_table.h
+cp "$DIR/cost_table.h" host/tool/cost/cost_table.h
+sed -n '1,/^ \*\//p' host/tool/cost/cost_table.h

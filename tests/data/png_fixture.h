@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../host/scene/zlib_stream.h"
+#include "../../host/scene/image/zlib_stream.h"
 #include "check.h"
 
 static uint8_t made[1 << 14];

@@ -45,7 +45,7 @@ settings() {
     case $2 in
     *file:*)
         for name in $(names "${2#*file:}"); do
-            grep -q -F "\"$name\"" host/scene/gltf*.c && pass || fail "$1 names $name, which the glTF loader does not know"
+            grep -q -F "\"$name\"" host/scene/gltf/*.c && pass || fail "$1 names $name, which the glTF loader does not know"
         done
         ;;
     esac

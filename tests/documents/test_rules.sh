@@ -7,7 +7,7 @@ none() {
     if [ -s "$2" ]; then fail "$1: $(head -n 5 "$2" | tr '\n' ';')"; else pass; fi
 }
 
-variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
 strict="-std=c99 -pedantic $warn -Ilib"
 
@@ -50,7 +50,7 @@ for variant in general strict; do
         else fail "lib/ with GN_COMPACT=$arithmetic does not compile with $flags: $(grep -m 1 error "$tmp/log")"; fi
     done
 done
-objdump -d --no-show-raw-insn "$tmp"/general/*.o | grep -E '%[xyz]mm|%st|'"$(printf '\t')"'f(ld|st|add|mul|div|sub|ild|ist)' >"$tmp/found"
+objdump -d --no-show-raw-insn "$tmp"/general/*.o | cut -s -f 2- | grep -E '%[xyz]mm|%st|^f(ld|st|add|mul|div|sub|ild|ist)' >"$tmp/found"
 none "floating-point instruction" "$tmp/found"
 [ "$(objdump -d "$tmp"/general/*.o | wc -l)" -gt 1000 ] && pass || fail "objdump shows no instructions"
 
@@ -84,32 +84,51 @@ none "recursion in lib/" "$tmp/found"
 
 # ---- Who includes whom -----------------------------------------------------------------------------------------------------
 
-xargs grep -H -E '^[[:space:]]*#[[:space:]]*include' <"$tmp/lib_files" | grep -v '^lib/gnomon\.c:' >"$tmp/includes"
-grep -v -E '<(stdint|stddef|string)\.h>|"(gnomon|([a-z]+/)?gn_[a-z_]+)\.h"|(GN_USER_CONFIG|GN_PORT)$' "$tmp/includes" >"$tmp/found"
+find lib -name '*.[ch]' | xargs grep -H -E '^[[:space:]]*#[[:space:]]*include' | grep -v -E '<(stdint|stddef|string)\.h>|"([a-z]+/)?(gnomon|gn_[a-z_]+)\.[ch]"|(GN_USER_CONFIG|GN_PORT)$' >"$tmp/found"
 none "lib/ includes more than itself, stdint.h, stddef.h and string.h" "$tmp/found"
-sed -n 's|.*"\(.*gn.*\)"|\1|p' "$tmp/includes" | sort -u | while read -r header; do
+find lib -name '*.[ch]' | xargs grep -h -E '^ *#include "' | sed 's/.*"\(.*\)".*/\1/' | sort -u | while read -r header; do
     [ -f "lib/$header" ] || echo "$header"
 done >"$tmp/found"
 none "lib/ includes a header that it does not have" "$tmp/found"
 
-# lib/gnomon.c includes every part, once, in the direction that data flows: the folder that is named last includes what it
-# likes, no other one a folder that is named after it for the last time. gn_compact stands for several stages: after them.
-sed -n 's|^#include "\(.*/.*\.c\)"|\1|p' lib/gnomon.c >"$tmp/parts"
-(cd lib && find . -mindepth 2 -name '*.c' | sed 's|^\./||') | sort >"$tmp/sources"
-sort "$tmp/parts" | diff - "$tmp/sources" >"$tmp/found"
-none "lib/gnomon.c does not include every part once" "$tmp/found"
-awk -F/ '{ rank[$1] = $1 == "compact" ? 9999 : $1 == "frame" ? 10000 : NR } END { for (folder in rank) print folder, rank[folder] }' "$tmp/parts" >"$tmp/order"
-[ "$(wc -l <"$tmp/order")" -ge 7 ] && pass || fail "lib/gnomon.c names $(wc -l <"$tmp/order") folders"
-sed -n 's|^lib/\([a-z]*\)/\([^:]*\):.*"\([a-z]*\)/\(.*\)"|\1 \3 \2 \4|p' "$tmp/includes" | awk -v order="$tmp/order" '
-    BEGIN { while ((getline line < order) > 0) { split(line, field, " "); rank[field[1]] = field[2] } }
-    rank[$1] < rank[$2] { print "lib/" $1 "/" $3 " includes " $2 "/" $4 }' >"$tmp/found"
-none "a folder of lib/ includes from one further down" "$tmp/found"
-# The table of contents of gn_frame.c names nothing that is gone.
-awk 'FNR > 1 && /\*\// { exit } /^ \*   /' lib/frame/gn_frame.c | grep -o -E 'gn_[a-z_]+' |
-    grep -v -x -E 'gn_(begin|shadow_tile|prepare|screen_tile)' | sort -u | while read -r name; do
-    grep -q "/$name\.c\$" "$tmp/sources" || echo "$name"
-done >"$tmp/found"
-none "lib/frame/gn_frame.c's table of contents names what is no part" "$tmp/found"
+# Folders, as lib/README.md and host/README.md list them: none includes from one that stands below it. An include is looked up in
+# the roots, then beside the file that has it.
+arrows() { # arrows TREE: "FOLDER FOLDER" for every include of another folder of the tree
+    find "$1" -name '*.[ch]' | xargs awk -v tree="$1" '/^[[:space:]]*#[[:space:]]*include "/ {
+        match($0, /"[^"]*"/)
+        name = substr($0, RSTART + 1, RLENGTH - 2)
+        from = FILENAME
+        sub(/\/[^\/]*$/, "", from)
+        if (tree == "host" && name ~ /(^|\/)gn_/) next # of the library
+        if (tree == "lib") path = name ~ /\// ? "lib/" name : ""
+        else path = from "/" name
+        n = split(path, part, "/") - 1
+        folder = ""
+        m = 0
+        for (i = 1; i <= n; i++) if (part[i] == "..") m--; else kept[++m] = part[i]
+        for (i = 1; i <= m; i++) folder = folder (i > 1 ? "/" : "") kept[i]
+        if (index(folder, tree "/") == 1 && folder != from && from != tree) print from, folder
+    }' | sort -u
+}
+for tree in lib host; do
+    sed -n "s/^| \`\([a-z/]*\)\/\` .*/$tree\/\1/p" $tree/README.md >"$tmp/rooms"
+    find $tree -mindepth 2 -name '*.[ch]' | sed 's|/[^/]*$||' | sort -u | grep -v -x -F -f "$tmp/rooms" >"$tmp/found"
+    none "a folder that $tree/README.md does not list" "$tmp/found"
+    arrows $tree >"$tmp/arrows"
+    [ "$(wc -l <"$tmp/arrows")" -gt 20 ] && pass || fail "the folders of $tree/ have $(wc -l <"$tmp/arrows") arrows"
+    awk 'NR == FNR { rank[$1] = FNR; next } !($2 in rank) || rank[$2] >= rank[$1] { print $1 " includes " $2 }' "$tmp/rooms" "$tmp/arrows" >"$tmp/found"
+    none "a folder of $tree/ includes one that stands below it in $tree/README.md" "$tmp/found"
+done
+
+# gnomon.c includes every part once; in gn_frame.c the table of contents names the stages in the order of gn_stages.h.
+find lib -mindepth 2 -name "*.c" | sed "s|^lib/||" | sort >"$tmp/parts"
+sed -n "s/^#include \"\(.*\.c\)\"/\1/p" lib/gnomon.c | sort | diff "$tmp/parts" - >"$tmp/found"
+none "not what lib/gnomon.c includes" "$tmp/found"
+sed -n "s/.*[ *]\(gn_[a-z_]*\)(gn_frame .*/\1/p; s/.*[ *]\(gn_[a-z_]*\)(const gn_frame .*/\1/p" lib/gn_stages.h >"$tmp/stages"
+[ "$(wc -l <"$tmp/stages")" = 8 ] && pass || fail "lib/gn_stages.h declares $(wc -l <"$tmp/stages") stages, not 8"
+awk "NR == FNR { name[NR] = \$1; n = NR; next } /\*\// { exit } at < n && index(\$0, name[at + 1] \":\") { at++ } END { for (i = at + 1; i <= n; i++) print name[i] }" \
+    "$tmp/stages" lib/frame/gn_frame.c >"$tmp/found"
+none "stages that are not named in order in the table of contents of lib/frame/gn_frame.c" "$tmp/found"
 
 grep -H -E '#[[:space:]]*include[^"<]*["<][^">]*(lib/|gnomon\.h|gn_)' host/ref/*.[ch] host/truth/*.[ch] >"$tmp/found"
 none "host/ref/ or host/truth/ includes from lib/" "$tmp/found"
@@ -187,7 +206,7 @@ none "tabs outside Makefile" "$tmp/found"
 # ---- Generated files and documents -----------------------------------------------------------------------------------------
 
 if make -s BUILD="$tmp/gen" "$tmp/gen/gen_tables" >"$tmp/log" 2>&1 && "$tmp/gen/gen_tables" >"$tmp/gn_tables.c"; then
-    if cmp -s "$tmp/gn_tables.c" lib/base/gn_tables.c; then pass; else fail "lib/base/gn_tables.c is not what host/tool/gen_tables.c writes: make tables"; fi
+    if cmp -s "$tmp/gn_tables.c" lib/base/gn_tables.c; then pass; else fail "lib/base/gn_tables.c is not what host/generate/gen_tables.c writes: make tables"; fi
 else
     fail "gen_tables does not build: $(grep -m 1 error "$tmp/log")"
 fi

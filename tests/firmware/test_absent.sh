@@ -5,7 +5,6 @@ cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS)
-sh tests/support/one_file.sh lib >"$tmp/lib.c"
 cc=gcc prefix=
 if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
     cc="arm-none-eabi-gcc -mcpu=cortex-m3 -mthumb" prefix=arm-none-eabi-
@@ -29,7 +28,7 @@ but() {
 object() { # object NAME FLAGS...
     name=$1
     shift
-    $cc -std=c99 -ffreestanding -I"$tmp" -Ilib "$@" -c "$tmp/lib.c" -o "$tmp/$name.o" 2>"$tmp/log" || fail "$*: $(grep -m 1 error "$tmp/log")"
+    $cc -std=c99 -ffreestanding -I"$tmp" -Ilib "$@" -c lib/gnomon.c -o "$tmp/$name.o" 2>"$tmp/log" || fail "$*: $(grep -m 1 error "$tmp/log")"
 }
 bytes() { # of flash: code and constants
     object size -Os "$@"

@@ -20,7 +20,7 @@ same_frames() { # same_frames WHAT FILE
 # The whole library as one file; scenes as objects of one word size.
 host_golden() { # host_golden COMPILER OPTIMISATION WORD
     out=$tmp/host$1$2$3
-    if $1 $3 -std=c99 -w $2 -Ilib -Iboards/common -Iboards/apps '-DGN_USER_CONFIG="golden_config.h"' -o "$out" "$tmp/lib.c" \
+    if $1 $3 -std=c99 -w $2 -Ilib -Iboards/common -Iboards/apps '-DGN_USER_CONFIG="golden_config.h"' -o "$out" lib/gnomon.c \
         boards/apps/golden.c boards/host/startup.c boards/common/print.c "$tmp"/scene"$3"_*.o 2>"$out.log"; then
         "$out" >"$out.txt" 2>&1
         same_frames "$*" "$out.txt"
@@ -192,7 +192,6 @@ for word in -m64 -m32; do
 done
 [ $scenes_ok = 1 ] && pass || fail "a scene does not compile: $(tail -n 1 "$tmp/log")"
 make -s build/rgb565_png >"$tmp/log" 2>&1 && pass || fail "rgb565_png does not build"
-sh tests/support/one_file.sh lib >"$tmp/lib.c"
 
 {
     for board in $emulated; do

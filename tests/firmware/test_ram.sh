@@ -3,7 +3,7 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
-variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
 host_knobs=$(variable HOST_KNOBS)
 
@@ -14,7 +14,7 @@ cat >"$tmp/ram.c" <<'EOF_C'
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "host/tool/settings.h"
+#include "host/tool/settings/settings.h"
 int main(int argc, char **argv)
 {
     settings set;
@@ -31,7 +31,7 @@ int main(int argc, char **argv)
     return 0;
 }
 EOF_C
-if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 $warn -Ilib -I. $host_knobs -o "$tmp/ram" "$tmp/ram.c" host/tool/settings*.c host/tool/output.c host/scene/*.c -lm >"$tmp/ram.log" 2>&1; then
+if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 $warn -Ilib -I. $host_knobs -o "$tmp/ram" "$tmp/ram.c" host/tool/settings/*.c host/tool/fixed/output.c host/scene/core/*.c host/scene/image/*.c host/base/*.c -lm >"$tmp/ram.log" 2>&1; then
     pass
 else
     fail "settings_ram: $(grep -m 1 -E 'error|undefined' "$tmp/ram.log")"

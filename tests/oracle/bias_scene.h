@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../host/tool/quantise.h"
-#include "../host/tool/settings.h"
+#include "../host/tool/fixed/quantise.h"
+#include "../host/tool/settings/settings.h"
 #include "ref_fixture.h"
 
 #define WIDTH  64

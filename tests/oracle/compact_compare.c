@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../host/scene/png.h"
-#include "../host/tool/metrics.h"
-#include "../host/tool/quantise.h"
+#include "../host/scene/image/png.h"
+#include "../host/tool/picture/metrics.h"
+#include "../host/tool/fixed/quantise.h"
 #include "compact_engine.h"
 #include "ref_fixture.h"
 

@@ -6,7 +6,7 @@
 #include "floors.h"
 #include "rng.h"
 #include "row_scenes.h"
-#include "../host/tool/quantise.h"
+#include "../host/tool/fixed/quantise.h"
 
 #include <stdarg.h>
 

@@ -3,7 +3,7 @@
 #ifndef GNOMON_TESTS_FLOORS_H
 #define GNOMON_TESTS_FLOORS_H
 
-#include "../host/tool/metrics.h"
+#include "../host/tool/picture/metrics.h"
 
 #include <math.h>
 

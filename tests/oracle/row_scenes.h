@@ -4,7 +4,7 @@
 #define GNOMON_TESTS_ROW_SCENES_H
 
 #include "ref_fixture.h"
-#include "../host/tool/settings.h"
+#include "../host/tool/settings/settings.h"
 
 /* The object that tweaks of objects are about, and its mesh; the first object of every scene is its ground. */
 enum { GROUND, SUBJECT };

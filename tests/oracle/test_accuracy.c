@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../host/tool/metrics.h"
+#include "../host/tool/picture/metrics.h"
 #include "check.h"
 
 #define N_VIEWS 20 /* with roll, besides the scene's own camera; even, for the median */

@@ -3,7 +3,7 @@
  * tap. And what it costs: how far shadows are detached, beside the other biases, at every angle. "--table" prints
  * docs/BIAS.md's tables, "--plots DIR" draws the pictures beside them.
  */
-#include "../host/tool/plot.h"
+#include "../host/tool/plot/plot.h"
 #include "bias_scene.h"
 
 #define SMALL_WIDTH  48

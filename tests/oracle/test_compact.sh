@@ -3,9 +3,8 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
-variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
-sh tests/support/one_file.sh lib >"$tmp/lib.c"
 flags="-DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_PRESET=0 -DGN_SRGB=0"
 # program STATUS_OF WHAT...: its counts are added
 counted() {
@@ -42,11 +41,11 @@ counted "$tmp/bounds"
 
 for how in "gcc -O2 -DGN_AUTO_BIAS=0" "clang -O0"; do
     if $how -std=c11 -w -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_MAX_TRIANGLES=64 -DGN_MAX_HEIGHT=64 -Ilib -Itests/support \
-        -o "$tmp/range" tests/oracle/compact_range.c "$tmp/lib.c" -lm 2>"$tmp/log"; then counted "$tmp/range" 5000
+        -o "$tmp/range" tests/oracle/compact_range.c lib/gnomon.c -lm 2>"$tmp/log"; then counted "$tmp/range" 5000
     else fail "$how: $(grep -m 1 error "$tmp/log")"; fi
 done
 for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=2 -DGN_VALIDATION=0" "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0"; do
-    gcc -std=c99 -pedantic $warn -O2 -Ilib $knobs -c -o "$tmp/warnings.o" "$tmp/lib.c" 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
+    gcc -std=c99 -pedantic $warn -O2 -Ilib $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
 for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS RAW_VIEWS OTHER_FORMATS INCREMENTAL STATIC_LAYER; do
     gcc -std=c99 -w -Ilib -DGN_COMPACT=1 -DGN_$contradiction=1 -fsyntax-only lib/frame/gn_frame.c 2>"$tmp/log" && fail "compact builds with $contradiction"
@@ -62,7 +61,7 @@ same() { # same WHAT FILE
     else fail "$1: $(grep '^frame' "$2" | diff - tests/oracle/compact_golden.txt | sed -n 2,3p | tr '\n' ';') $(grep -m 1 -i error "$2")"; fi
 }
 for how in "gcc -O0 -m64" "gcc -Os -m32" "gcc -O3 -m64" "clang -O2 -m32" "clang -Os -m64"; do
-    $how -std=c99 -w -Ilib -Iboards/common -Iboards/apps '-DGN_USER_CONFIG="compact_config.h"' -o "$tmp/golden" "$tmp/lib.c" boards/apps/compact.c \
+    $how -std=c99 -w -Ilib -Iboards/common -Iboards/apps '-DGN_USER_CONFIG="compact_config.h"' -o "$tmp/golden" lib/gnomon.c boards/apps/compact.c \
         boards/host/startup.c boards/common/print.c >"$tmp/log" 2>&1 && "$tmp/golden" >"$tmp/log" 2>&1
     same "$how" "$tmp/log"
 done

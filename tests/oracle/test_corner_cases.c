@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../host/tool/engine.h"
+#include "../host/tool/engine/engine.h"
 #include "check.h"
 
 #define WIDTH     64

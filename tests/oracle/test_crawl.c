@@ -1,7 +1,7 @@
 /* D2: edges of static shadows do not crawl. The camera moves and turns by less than a texel per frame over a static
  * scene; points fixed in the world are looked up in each frame's shadow tiles. How many change from lit to shadowed or
  * back, with the grid fixed in the world and without? "--table" prints it. */
-#include "../host/tool/quantise.h"
+#include "../host/tool/fixed/quantise.h"
 #include "../lib/shadow/gn_ortho.h"
 #include "../lib/shadow/gn_texel.h"
 #include "row_scenes.h"

@@ -1,7 +1,7 @@
 /* Lines 4 to 7 of the extremes (test_extremes.c): lights, shadow tiles, cascades, biases. */
 #include "extreme_cases.h"
-#include "../host/scene/bounds.h"
-#include "../host/scene/loader.h"
+#include "../host/scene/core/bounds.h"
+#include "../host/scene/core/loader.h"
 #include "../lib/base/gn_q.h"
 
 /* ---- 4: directions, angles, ranges, intensities ------------------------------------------------------------------ */

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../host/tool/metrics.h"
-#include "../host/tool/output.h"
-#include "../host/tool/quantise.h"
+#include "../host/tool/picture/metrics.h"
+#include "../host/tool/fixed/output.h"
+#include "../host/tool/fixed/quantise.h"
 #include "check.h"
 
 enum { WIDTH = 104, HEIGHT = 76, PIXELS = WIDTH * HEIGHT }; /* not a multiple of any tile */

@@ -1,7 +1,7 @@
 /* P6: seams between the faces of a point light's cube do not show. Random triangles around a lamp in a closed room
  * throw their shadows on all walls; the truth is a ray to the lamp. Near the borders of faces the error is no larger
  * than elsewhere. "--table" prints it. */
-#include "../host/tool/engine.h"
+#include "../host/tool/engine/engine.h"
 #include "ref_fixture.h"
 
 enum { WIDTH = 160, HEIGHT = 120, N_SPLINTERS = 60, N_SETS = 4, N_CAMERAS = 4, SEAM_TEXELS = 3 };

@@ -4,11 +4,10 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
-variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
 host_knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1//') # the tool alone counts
 strict="-std=c99 -pedantic $warn -Ilib"
-sh tests/support/one_file.sh lib >"$tmp/lib.c"
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e VALIDATION -e "^CLIPPING")
 # flags WORD...: "none" and "all" of the features, "tiny"..., NAME=VALUE of a knob, or a flag as it is; of a name the last value counts
@@ -93,8 +92,8 @@ draws() {
     shift 3
     words=$*
     set -- $(flags "$@")
-    if ! $compiler $strict -O0 "$@" -Itests/support -o "$tmp/run$n" "$tmp/lib.c" tests/property/config_picture.c 2>"$tmp/log$n" ||
-        ! $checker $strict "$@" -fsyntax-only "$tmp/lib.c" 2>"$tmp/log$n"; then
+    if ! $compiler $strict -O0 "$@" -Itests/support -o "$tmp/run$n" lib/gnomon.c tests/property/config_picture.c 2>"$tmp/log$n" ||
+        ! $checker $strict "$@" -fsyntax-only lib/gnomon.c 2>"$tmp/log$n"; then
         echo "$compiler, $checker: does not build: $words"
         grep -m 3 -E 'error|warning|undefined' "$tmp/log$n"
         return
@@ -119,7 +118,7 @@ some_draw() {
     done <"$tmp/wanted"
 }
 
-if gcc $strict -O1 $host_knobs -Itests/support -o "$tmp/host_picture" "$tmp/lib.c" tests/property/config_picture.c 2>"$tmp/log"; then
+if gcc $strict -O1 $host_knobs -Itests/support -o "$tmp/host_picture" lib/gnomon.c tests/property/config_picture.c 2>"$tmp/log"; then
     (
         trap - EXIT # it is not this subshell that cleans up
         some_draw 0 >"$tmp/drawn0"
@@ -185,7 +184,7 @@ typedef char no_shadows[GN_SHADOWS == 0 ? 1 : -1];
 EOF_C
 if gcc $strict -I"$tmp" '-DGN_USER_CONFIG="my_config.h"' -fsyntax-only "$tmp/user.c" 2>"$tmp/message"; then pass
 else fail "GN_USER_CONFIG: $(grep -m 1 error "$tmp/message")"; fi
-if gcc $strict -I"$tmp" '-DGN_USER_CONFIG="my_config.h"' -O1 -ffreestanding -c -o "$tmp/user.o" "$tmp/lib.c" 2>"$tmp/user.log"; then pass
+if gcc $strict -I"$tmp" '-DGN_USER_CONFIG="my_config.h"' -O1 -ffreestanding -c -o "$tmp/user.o" lib/gnomon.c 2>"$tmp/user.log"; then pass
 else fail "GN_USER_CONFIG: $(grep -m 1 error "$tmp/user.log")"; fi
 
 cat >"$tmp/user.cpp" <<'EOF_C'
@@ -273,7 +272,7 @@ EOF_C
 program() {
     program_name=$1
     shift
-    gcc $strict -Itests/support -O0 "$@" -o "$tmp/$program_name.run" "$tmp/picture.c" "$tmp/lib.c" >"$tmp/$program_name.log" 2>&1 || {
+    gcc $strict -Itests/support -O0 "$@" -o "$tmp/$program_name.run" "$tmp/picture.c" lib/gnomon.c >"$tmp/$program_name.log" 2>&1 || {
         fail "no program with $*: $(grep -m 1 error "$tmp/$program_name.log")"
         return 1
     }
@@ -318,7 +317,7 @@ if [ "$("$tmp/host.run" 160 120 0 - 0)" = "$("$tmp/host.run" 160 120 0 - 1)" ]; 
 number() { sed -n 's/^ *X(\(GN_[A-Z_]*\),.*/\1/p' lib/gnomon.h | awk -v name="$1" '$1 == name { print NR - 1 }'; }
 
 small() { # small FLAGS...: the last line of what the scene of tests/property/config_picture.c prints
-    gcc $strict -Itests/support -O0 $(flags "$@") -o "$tmp/small" "$tmp/lib.c" tests/property/config_picture.c 2>"$tmp/log" || { head -n 1 "$tmp/log"; return; }
+    gcc $strict -Itests/support -O0 $(flags "$@") -o "$tmp/small" lib/gnomon.c tests/property/config_picture.c 2>"$tmp/log" || { head -n 1 "$tmp/log"; return; }
     "$tmp/small" | tail -n 1
 }
 

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../host/tool/quantise.h"
+#include "../host/tool/fixed/quantise.h"
 #include "check.h"
 #include "light_scene.h"
 

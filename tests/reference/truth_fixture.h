@@ -3,7 +3,7 @@
 #define GNOMON_TESTS_TRUTH_FIXTURE_H
 
 #include "ref_fixture.h"
-#include "../host/tool/engine.h"
+#include "../host/tool/engine/engine.h"
 #include "../host/truth/truth.h"
 
 typedef struct {

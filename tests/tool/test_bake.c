@@ -4,9 +4,9 @@
 #include <sys/stat.h>
 
 #include "../host/bake/bake_internal.h"
-#include "../host/scene/scene_write.h"
-#include "../host/tool/settings.h"
-#include "../host/tool/engine.h"
+#include "../host/scene/gltf/scene_write.h"
+#include "../host/tool/settings/settings.h"
+#include "../host/tool/engine/engine.h"
 #include "ref_fixture.h"
 #include "rng.h"
 

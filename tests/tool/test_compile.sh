@@ -4,17 +4,16 @@ cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
 . tests/support/check.sh
 
-variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
 strict="-std=c99 -pedantic-errors $warn -Ilib"
-TMPDIR=$tmp sh tests/support/one_file.sh lib >"$tmp/lib.c"
-if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -Itests -o "$tmp/same" tests/tool/same_pictures.c host/scene/*.c -lm \
+if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -Itests -o "$tmp/same" tests/tool/same_pictures.c host/scene/image/*.c host/base/arena.c -lm \
     >"$tmp/log" 2>&1; then pass; else fail "same_pictures: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
 
 # build NAME: the firmware of build/tmp/.../NAME as a program; what was written, without a warning
 build() {
     gcc $strict -fsyntax-only -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' "$tmp/$1/scene.c" 2>"$tmp/$1/log" &&
-        gcc -std=c99 -w -O0 -Ilib -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/$1/run" "$tmp/lib.c" "$tmp/$1/scene.c" \
+        gcc -std=c99 -w -O0 -Ilib -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/$1/run" lib/gnomon.c "$tmp/$1/scene.c" \
             tests/tool/compiled_picture.c 2>"$tmp/$1/log"
 }
 
@@ -102,9 +101,9 @@ for name in sundial room mixed-tiny short; do
     data=$(arm-none-eabi-size -A "$tmp/data.o" | awk '$1 ~ /^\.rodata/ { n += $2 } END { print n + 0 }')
     said=$(sed -n 's/^ \* Flash, bytes: scene\.c \([0-9]*\); .* about \([0-9]*\) on Cortex-M0.*/\1 \2/p' "$tmp/$name/gn_scene_config.h")
     if [ $((${said% *} - data)) -ge 0 ] && [ $((${said% *} - data)) -le 64 ]; then pass; else fail "$name: data is said to be ${said% *} bytes, is $data"; fi
-    code=$(sh host/tool/gen_flash.sh -- cortex-m0 -I"$tmp/$name" '-DGN_USER_CONFIG="gn_scene_config.h"')
+    code=$(sh host/generate/gen_flash.sh -- cortex-m0 -I"$tmp/$name" '-DGN_USER_CONFIG="gn_scene_config.h"')
     if [ $((5 * ${said#* })) -ge $((4 * code)) ] && [ $((5 * ${said#* })) -le $((6 * code)) ]; then pass
-    else fail "$name: code is said to be ${said#* } bytes, is $code: sh host/tool/gen_flash.sh > host/tool/flash_table.h"; fi
+    else fail "$name: code is said to be ${said#* } bytes, is $code: sh host/generate/gen_flash.sh > host/tool/cost/flash_table.h"; fi
 done
 
 # the library for it, where size comes first: no warning

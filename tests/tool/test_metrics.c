@@ -1,7 +1,7 @@
 /* The metrics of `gnomon compare` on pictures of a few pixels, made by hand, with the values worked out on paper. */
 #include <string.h>
 
-#include "../host/tool/metrics.h"
+#include "../host/tool/picture/metrics.h"
 #include "check.h"
 
 enum { MAX_PIXELS = 4, MAX_LIGHTS = ENGINE_LIGHTS_MAX };

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "../host/scene/png.h"
-#include "../host/scene/zlib_stream.h"
+#include "../host/scene/image/png.h"
+#include "../host/scene/image/zlib_stream.h"
 #include "check.h"
 #include "data/png_fixture.h"
 #include "rng.h"

@@ -1,7 +1,7 @@
 /* What the library gets for a scene: every field of meshes, textures, objects, lights and settings. */
 #include <string.h>
 
-#include "../host/tool/quantise.h"
+#include "../host/tool/fixed/quantise.h"
 #include "check.h"
 
 /* One triangle, one texture, one object, one light, reaching no farther than the camera's 100 units. */

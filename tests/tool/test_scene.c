@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "../host/scene/json.h"
+#include "../host/base/json.h"
 #include "../host/scene/scene.h"
 #include "check.h"
 #include "data/scene_fixture.h"

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <sys/stat.h>
 
-#include "../host/scene/png.h"
+#include "../host/scene/image/png.h"
 #include "data/png_fixture.h"
 #include "data/scene_fixture.h"
 

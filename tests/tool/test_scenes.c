@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "../host/scene/scene.h"
-#include "../host/scenes/scenes.h"
+#include "../host/generate/scenes/scenes.h"
 #include "check.h"
 
 #define PI 3.14159265358979323846

@@ -190,7 +190,7 @@ is_png "$tmp/three/beside.png" 124x68 "compare --with truth -o, wide"
 cat >"$tmp/json.c" <<'EOF_C'
 /* json KEY...: stdin is one JSON object on one line, with these keys. */
 #include <stdio.h>
-#include "host/scene/json.h"
+#include "host/base/json.h"
 int main(int argc, char **argv)
 {
     static char text[1 << 20];
@@ -208,7 +208,7 @@ int main(int argc, char **argv)
     return 0;
 }
 EOF_C
-if ${CC:-gcc} -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -I. -o "$tmp/json" "$tmp/json.c" host/scene/json.c host/scene/arena.c -lm >"$tmp/log" 2>&1; then pass
+if ${CC:-gcc} -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -I. -o "$tmp/json" "$tmp/json.c" host/base/json.c host/base/arena.c -lm >"$tmp/log" 2>&1; then pass
 else fail "the JSON checker does not build: $(grep -m 1 error "$tmp/log")"; fi
 valid_json() { # valid_json KEYS...: of the last command's output
     if message=$("$tmp/json" "$@" <"$tmp/out") && [ "$(wc -l <"$tmp/out")" = 1 ]; then pass

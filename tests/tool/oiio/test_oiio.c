@@ -3,9 +3,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "../host/scene/png.h"
-#include "../host/tool/metrics.h"
-#include "../host/tool/views.h"
+#include "../host/scene/image/png.h"
+#include "../host/tool/picture/metrics.h"
+#include "../host/tool/picture/views.h"
 #include "check.h"
 #include "oiio_shim.h"
 

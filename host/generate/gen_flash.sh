@@ -1,0 +1,74 @@
+#!/bin/sh
+# Prints flash_table.h: bytes of the library's code and constants, built with -Os for Cortex-M0 and Cortex-M4 and linked with what it needs of
+# libgcc and libc, and what each feature adds to a typical build. Run by hand when the library's size has changed: sh host/generate/gen_flash.sh > host/tool/cost/flash_table.h
+# usage: gen_flash.sh [-- CPU FLAGS...]: the size of one build
+cd "$(dirname "$0")/../.." || exit 1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+TMPDIR=$work sh tests/support/one_file.sh lib >"$work/lib.c"
+cat >"$work/main.c" <<'E_C'
+#include "gnomon.h"
+static gn_renderer renderer;
+const gn_picture *volatile picture;
+const gn_scene *volatile now;
+gn_flush_fn volatile flush;
+int main(void)
+{
+    return gn_init(&renderer, picture) || gn_render(&renderer, now, flush, 0);
+}
+E_C
+
+size() { # size CPU FLAGS...: without main
+    cpu=$1
+    shift
+    arm-none-eabi-gcc -mcpu="$cpu" -mthumb -Os -std=c99 -Ilib -ffunction-sections -fdata-sections -nostartfiles --specs=nosys.specs -Wl,--gc-sections \
+        -Wl,-e,main -Wl,-Ttext=0x8000 "$@" "$work/main.c" "$work/lib.c" -o "$work/elf" 2>"$work/log" || { cat "$work/log" >&2; exit 1; }
+    arm-none-eabi-size "$work/elf" | awk 'NR == 2 { print $1 + $2 }'
+}
+if [ "$1" = -- ]; then
+    shift
+    size "$@"
+    exit
+fi
+
+features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e RAW_VIEWS)
+# One directional light with a filtered shadow on smooth meshes
+typical="SHADOWS DEPTH_BLOCKS VERTEX_NORMALS"
+# flags NAME...: these features; FILTER_MAX as it is given, else 2
+flags() {
+    for feature in $features; do
+        value=0
+        [ "$feature" = FILTER_MAX ] && value=2
+        for name in "$@"; do
+            case $name in
+            "$feature") value=1 ;;
+            "$feature="*) value=${name#*=} ;;
+            esac
+        done
+        echo "-DGN_$feature=$value"
+    done
+}
+row() { # row NAME COMMENT FLAGS...: more than the typical build
+    name=$1 comment=$2
+    shift 2
+    echo "FLASH($name, $(($(size cortex-m0 "$@") - m0)), $(($(size cortex-m4 "$@") - m4))) /* $comment */"
+}
+without() { # without FEATURE: of the typical ones
+    for name in $typical; do [ "$name" = "$1" ] || echo "$name"; done
+}
+
+m0=$(size cortex-m0 $(flags $typical)) m4=$(size cortex-m4 $(flags $typical))
+echo "/* Made by host/generate/gen_flash.sh with $(arm-none-eabi-gcc -dumpversion). Bytes of flash: on Cortex-M0, on Cortex-M4. */"
+echo "FLASH(typical, $m0, $m4) /* shadows, depth_blocks, vertex_normals, filter_max 2, preset balanced */"
+row no_shadows "without shadows, and what is of shadows" $(flags VERTEX_NORMALS)
+for feature in DEPTH_BLOCKS VERTEX_NORMALS; do
+    row no_$(echo $feature | tr A-Z a-z) "without" $(flags $(without $feature))
+done
+for max in 0 1 3 4; do row filter_max_$max "another filter_max" $(flags $typical FILTER_MAX=$max); done
+row punctual_unshadowed "spot and point lights, no shadows: above no_shadows too" $(flags VERTEX_NORMALS PUNCTUAL_LIGHTS)
+for feature in $features; do
+    case " $typical FILTER_MAX " in *" $feature "*) continue ;; esac
+    row $(echo $feature | tr A-Z a-z) "with" $(flags $typical $feature)
+done
+row preset_accurate "quality of preset accurate" $(flags $typical) -DGN_PRESET=2
+row linear "srgb 0" $(flags $typical) -DGN_SRGB=0

@@ -1,0 +1,125 @@
+/* What the loaders share: the scene being built, errors and notes, files, and the mesh pipeline. Private to host/scene.
+ *
+ * Functions that return bool return false after they have written the error. Temporary memory comes from the arena;
+ * what the scene owns hangs on the scene as soon as it exists. So a failure path just returns: scene_load frees both.
+ */
+#ifndef GNOMON_HOST_LOADER_H
+#define GNOMON_HOST_LOADER_H
+
+#include "../../base/arena.h"
+#include "../image/png.h"
+#include "model.h"
+
+#if defined(__GNUC__)
+#define LOADER_PRINTF(format_idx, first_idx) __attribute__((format(printf, format_idx, first_idx)))
+#else
+#define LOADER_PRINTF(format_idx, first_idx)
+#endif
+
+/* World coordinates beyond this are refused: squares and cubes of what is left cannot overflow. */
+#define LOADER_MAX_COORDINATE 1e18
+/* The engines index 16 bits wide. */
+enum { LOADER_MAX_MESH = 65535, LOADER_MAX_SCENE_TRIANGLES = 1 << 24 };
+
+/* Baked light per vertex, of which every object of the mesh gets a copy; NULL: none. */
+typedef struct {
+    uint8_t *mask; /* 4 per vertex */
+    double *baked; /* 3 per vertex */
+} mesh_light;
+
+typedef struct {
+    scene *s;
+    const scene_options *options;
+    const char *path;
+    char *error;
+    size_t error_bytes;
+    arena memory;
+    mesh_light *light_of_mesh; /* beside s->meshes */
+    size_t n_triangles;        /* in s, all meshes */
+    bool has_camera;           /* the file brought one */
+    bool wants_ground;
+} loader;
+
+/* Both write one line, cleaned as utf8.h does. A note that is there already is not repeated. */
+bool loader_fail(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
+bool loader_note(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
+
+void *loader_alloc(loader *l, size_t n, size_t size);
+void *loader_grow(loader *l, void *array, size_t n, size_t size);
+
+/* printf into temporary memory. NULL: failed. */
+char *loader_format(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
+
+/* The whole file, with a terminating zero behind its n_bytes. loader_try_file: a file that does not open is not an
+ * error. */
+bool loader_read_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes);
+bool loader_try_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes, bool *opened);
+
+/* name, as seen from the folder of the scene file. */
+char *loader_relative_path(loader *l, const char *name);
+
+/* New elements of the scene, zeroed but for their name. NULL: failed. */
+scene_mesh *loader_add_mesh(loader *l, const char *name);
+scene_object *loader_add_object(loader *l, const char *name);
+scene_light *loader_add_light(loader *l, const char *name);
+scene_texture *loader_add_texture(loader *l, const char *name);
+bool loader_add_setting(loader *l, const char *key, const char *value);
+
+/* White, opaque, casts and receives; without name and mesh. */
+scene_object object_defaults(void);
+
+/* One object per mesh of the range, all like the pattern (whose name is copied), with the mesh's baked light. */
+bool loader_add_objects(loader *l, const scene_object *pattern, size_t first_mesh, size_t n_meshes);
+
+/* Clamps to 0..1; false if that changed anything. */
+bool loader_clamp_colour(double *rgb, size_t n);
+
+/* Of light_of_mesh; scene_load does it. */
+void loader_free_mesh_light(loader *l);
+
+/* texture.c */
+enum { TEXTURE_MAX_PICTURE = 8192 };
+typedef struct {
+    bool clamp_u, clamp_v, bilinear;
+    bool is_data; /* a mask image: plain numbers, not sRGB */
+} texture_use;
+/* Adds the picture, resampled if its sides need it; the picture's pixels are taken or freed in any case. */
+bool texture_add(loader *l, const char *name, png_picture *picture, const texture_use *use, size_t *out);
+
+/* mesh.c. The input's arrays are temporary ones of the loader. */
+
+/* Unit normals: given ones are normalised (zero ones replaced), smooth ones made if the options ask for them. */
+bool mesh_prepare_normals(loader *l, scene_mesh *input);
+
+/* Cuts index lists over one vertex array into meshes of the scene that hold no unused vertex and at most
+ * LOADER_MAX_MESH vertices and triangles each. */
+typedef struct {
+    loader *l;
+    const scene_mesh *input;
+    mesh_light light; /* of the input; set behind mesh_splitter_init */
+    uint32_t *local;  /* vertex of the input -> vertex of the mesh being filled, if seen[] says so */
+    uint32_t *seen;   /* number of the mesh that last used the vertex */
+    uint32_t *source; /* vertex of the mesh being filled -> vertex of the input */
+    uint32_t serial;
+} mesh_splitter;
+
+bool mesh_splitter_init(mesh_splitter *splitter, loader *l, const scene_mesh *input);
+
+/* Adds triangles (3 * n_triangles indices of the input, all in range) as the meshes *first ... *first + *n_meshes - 1.
+ * With flip their winding is reversed: for instances whose transform mirrors (see gltf_mesh.c). */
+bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip,
+                size_t *first, size_t *n_meshes);
+
+/* lights.c */
+#define LIGHT_MIN_RANGE 0.01
+/* Everything that has a default but the kind and the name; range unlimited, near 0: to be found by lights_set_near. */
+void light_set_defaults(scene_light *light);
+/* Spot and point lights without a near distance get one: a share of how far they light anything, the range or the box's
+ * farthest corner. A range far beyond the scene says nothing of what is in it. */
+void lights_set_near(scene *s, const double *low, const double *high);
+bool lights_add(loader *l, const char *name, scene_light_kind kind);
+
+/* defaults.c: completes what the file lacks; the last step of a load. */
+bool loader_add_defaults(loader *l);
+
+#endif

@@ -1,0 +1,192 @@
+/* The scene as the host tools see it: double precision, every array owned by the scene.
+ *
+ * Conventions as in docs/DESIGN.md section 1: right-handed, +Y up, row-major 3x4 transforms, colours in linear light.
+ * Loaders fill it; the fixed-point path quantises it (host/tool); the reference engine reads it as it is.
+ */
+#ifndef GNOMON_HOST_MODEL_H
+#define GNOMON_HOST_MODEL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct {
+    double m[3][4];
+} scene_affine; /* p' = m[.][0..2] * p + m[.][3] */
+
+typedef struct {
+    char *name; /* for messages; never NULL */
+    size_t n_vertices;
+    size_t n_triangles;
+    double *pos;     /* 3 * n_vertices, object space */
+    double *nrm;     /* 3 * n_vertices, unit length, or NULL: face normals */
+    double *rgb;     /* 3 * n_vertices, linear 0..1, or NULL: white */
+    double *uv;      /* 2 * n_vertices, texture coordinates, v downwards, or NULL */
+    double *mask_uv; /* 2 * n_vertices, of the mask image, 0..1, or NULL */
+    uint32_t *idx;   /* 3 * n_triangles, counter-clockwise seen from outside */
+} scene_mesh;
+
+/* Both engines see these very texels: the loader makes sides powers of two. */
+typedef struct {
+    char *name;
+    int width, height;     /* powers of two, 1..4096 */
+    uint8_t *rgba;         /* 4 per texel, rows from the top: sRGB colour, linear alpha */
+    bool clamp_u, clamp_v; /* else it repeats */
+    bool bilinear;         /* else nearest */
+} scene_texture;
+
+#define SCENE_NONE ((size_t)-1)
+
+typedef enum { SCENE_ALPHA_OPAQUE, SCENE_ALPHA_CLIP, SCENE_ALPHA_DITHER } scene_alpha;                   /* M8 */
+typedef enum { SCENE_CASTER_OFF, SCENE_CASTER_ON, SCENE_CASTER_CLIP, SCENE_CASTER_DITHER } scene_caster; /* M1 */
+
+typedef struct {
+    char *name;
+    size_t mesh_idx;
+    scene_affine to_world;
+    double albedo[3];        /* linear 0..1 */
+    double alpha;            /* 0..1, times the texture's; default 1 */
+    double alpha_cutoff;     /* 0..1, default 0.5 */
+    double specular[3];      /* linear 0..1, default 0 */
+    int shininess_log2;      /* 0..7, default 5 */
+    size_t texture_idx;      /* SCENE_NONE: no texture */
+    size_t mask_texture_idx; /* of a mask image (M5), red..alpha = channels 0..3, looked up at mask_uv; SCENE_NONE: no
+                                image */
+    uint8_t *mask;           /* 4 per vertex of the mesh (M5), or NULL */
+    double *baked;           /* 3 per vertex of the mesh, irradiance (M9), or NULL */
+    scene_alpha visible_alpha;
+    scene_caster caster;
+    bool unlit;
+    bool two_sided;
+    bool casts_two_sided; /* as a caster; two_sided implies it */
+    bool hidden;          /* casts, but is not seen */
+    bool moving;          /* hint (A5): its shadow is kept apart from that of static casters */
+    bool receives;
+} scene_object;
+
+typedef enum { SCENE_LIGHT_DIRECTIONAL, SCENE_LIGHT_SPOT, SCENE_LIGHT_POINT } scene_light_kind;
+typedef enum { SCENE_REALTIME, SCENE_MIXED, SCENE_BAKED } scene_light_mode; /* M9; mixed: realtime with a mask */
+typedef enum { SCENE_AUTO_BIAS_OFF, SCENE_AUTO_BIAS_DEPTH, SCENE_AUTO_BIAS_NORMAL } scene_auto_bias; /* B6 */
+typedef enum { SCENE_SOFT_DEFAULT, SCENE_SOFT_HARD, SCENE_SOFT_SOFT } scene_softness;                /* F5 */
+
+typedef struct {
+    char *name;
+    scene_light_kind kind;
+    double direction[3]; /* unit, direction of travel; spots: of the axis */
+    double position[3];  /* spot, point */
+    double range;        /* spot, point: >= 0.01; INFINITY: unlimited */
+    double inner, outer; /* spot: angles edge to edge in turns, multiples of 1/65536 (DESIGN 1.8) */
+    bool cone_limited;   /* the file's is outside 1 .. 179 degrees */
+    double colour[3];    /* linear, colour x intensity, pi folded in (DESIGN 1.3); spot, point: at distance 1 */
+    scene_light_mode mode;
+    int mask_channel; /* 0..3, -1: none */
+    scene_softness softness;
+    bool shadow;               /* wants a shadow */
+    double strength;           /* 0..1 (M4) */
+    double bias_constant;      /* texels (B1) */
+    double bias_slope;         /* (B1) */
+    double bias_normal;        /* (B2), default 1 */
+    double bias_receiver[4];   /* (B3), default 0 */
+    double bias_caster;        /* (B4), texels, default 0 */
+    bool receiver_plane;       /* (B5) */
+    scene_auto_bias auto_bias; /* (B6), default normal; off for lights that set B2 or B3 */
+    double near_offset;        /* directional: world units (D9), default 0 */
+    double near;               /* spot, point: nothing nearer than this light-plane distance casts; > 0 */
+} scene_light;
+
+typedef struct {
+    scene_affine to_world; /* orthonormal rotation + position; looks along its local -Z */
+    double focal;          /* 1 / tan(vertical field of view / 2) */
+    double near;           /* > 0 */
+    double far;            /* > near; INFINITY where the file gives none */
+} scene_camera;
+
+typedef enum {
+    SCENE_FILTER_HARD,
+    SCENE_FILTER_2X2,
+    SCENE_FILTER_3X3,
+    SCENE_FILTER_5X5,
+    SCENE_FILTER_7X7,
+    SCENE_FILTER_DISK
+} scene_filter;
+typedef enum { SCENE_KERNEL_TENT, SCENE_KERNEL_LINEAR } scene_kernel;               /* F3, F6 */
+typedef enum { SCENE_MIX_NONE, SCENE_MIX_ALWAYS, SCENE_MIX_DISTANCE } scene_mixing; /* M6 */
+typedef enum { SCENE_TILES_EQUAL, SCENE_TILES_IMPORTANCE } scene_tiles;             /* A2 */
+
+typedef enum { SCENE_BLEND_HARD, SCENE_BLEND_SOFT, SCENE_BLEND_DITHER } scene_blend;
+typedef enum { SCENE_DISTANCE_DEPTH, SCENE_DISTANCE_RADIUS } scene_distance_mode;
+
+typedef struct {
+    double max_distance;       /* D5: default min(100, camera far) */
+    double distance_fade;      /* D5: 0.001..1, default 0.1 */
+    double cascade_fade;       /* D3, D6: 0.001..1, default 0.1 */
+    scene_filter filter;       /* of the directional atlas */
+    scene_filter other_filter; /* of the other atlas; the loader makes it the same */
+    scene_kernel kernel;
+    double penumbra;  /* F4, the setting sigma, 0..64, default 1 */
+    int disk_samples; /* F4, 1..64, default 16 */
+    scene_mixing mixing;
+    bool main_light;     /* D10 */
+    bool caster_culling; /* D8; changes no pixel */
+    scene_tiles tiles;
+    int refresh[4]; /* A5: cascade i is drawn anew every refresh[i]th frame; default 1. Changes single pictures not at
+                       all */
+    int object_lights;       /* P9: 0 (no limit) .. 8, default 8 */
+    int n_cascades;          /* 1..4; default 1 with the default camera, else 4 */
+    double cascade_ratio[3]; /* of the max distance, ascending; the last cascade always reaches it, and what is not used
+                                is 1 */
+    scene_blend blend;       /* D7, default hard */
+    scene_distance_mode distance_mode; /* D5 or D11, default depth */
+} scene_shadow;
+
+typedef struct {
+    char *key, *value;
+} scene_setting;
+
+typedef struct {
+    size_t n_meshes, n_objects, n_lights, n_textures;
+    scene_mesh *meshes;
+    scene_object *objects;
+    scene_light *lights;
+    scene_texture *textures;
+    scene_camera camera;
+    double ambient[3];
+    double background[3];
+    scene_shadow shadow;
+    size_t n_settings; /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */
+    scene_setting *settings;
+    size_t n_notes;
+    char **notes;        /* one line each: what the file has and Gnomon ignores, and why */
+    size_t n_file_notes; /* those of the file; behind them are those of settings */
+    size_t n_files;      /* that it was read from, the scene file first */
+    char **files;
+    double fps;      /* frames per second of its animation; 0: it has none */
+    double duration; /* seconds until everything in it has come to rest */
+} scene;
+
+typedef struct {
+    int frame;         /* animation frame; time = frame / fps (extras.gnomon.fps, default 24) */
+    int width, height; /* of the picture: the default camera frames the scene for it */
+    bool ground;       /* add a ground plane to a glTF file too (an OBJ always gets one) */
+    bool smooth;       /* meshes without normals: smooth vertex normals instead of face normals */
+} scene_options;
+
+/* v as a multiple of 1/65536: fades and cascade ratios are such (DESIGN 1.4). */
+double scene_share(double v);
+
+/* The ratios that go with n_cascades: 0.1, 0.25, 0.5 for 4; 0.1, 0.25 for 3; 0.25 for 2. */
+void scene_default_ratios(scene_shadow *shadow);
+
+void scene_free(scene *s);
+
+/* One more line, cleaned as utf8.h does; not if it is there already. Returns 0; -1 with one line in error if memory
+ * runs out. */
+int scene_add_note(scene *s, const char *text, char *error, size_t error_bytes);
+
+/* Appends a light of this kind, placed so that it lights the scene as the camera sees it and throws a shadow into the
+ * picture: what
+ * --set lights and --set add_light ask for. Returns 0; -1 with one line in error if memory runs out. */
+int scene_add_light(scene *s, scene_light_kind kind, char *error, size_t error_bytes);
+void scene_remove_lights(scene *s);
+
+#endif

@@ -1,0 +1,163 @@
+/* glTF 2.0, .gltf and .glb: the file's frame, and the order of the steps. */
+#include "gltf.h"
+
+#include <string.h>
+
+enum { GLB_HEADER_BYTES = 12, GLB_CHUNK_HEADER_BYTES = 8, DEFAULT_FPS = 24 };
+
+static bool is_supported(const char *extension)
+{
+    static const char *const names[] = {"KHR_lights_punctual", "KHR_materials_unlit", "KHR_mesh_quantization"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strcmp(extension, names[i]) == 0) return true;
+    }
+    return false;
+}
+
+static bool check_extensions(gltf *g, const char *key, bool required)
+{
+    const json_value *list = NULL;
+    if (!gltf_get(g, g->root, key, JSON_ARRAY, &list)) return false;
+    for (size_t i = 0; list && i < list->n_children; i++) {
+        const json_value *name = list->children[i];
+        if (name->type != JSON_STRING) return gltf_fail(g, name, "a string is expected");
+        if (is_supported(name->string)) continue;
+        if (required) return gltf_fail(g, name, "the required extension %s is not supported", name->string);
+        if (!loader_note(g->l, "extension %s ignored: it is not supported", name->string)) return false;
+    }
+    return true;
+}
+
+static bool check_asset(gltf *g)
+{
+    const json_value *asset = NULL;
+    const char *version = "";
+    if (g->root->type != JSON_OBJECT) return gltf_fail(g, g->root, "an object is expected");
+    if (!gltf_get(g, g->root, "asset", JSON_OBJECT, &asset)) return false;
+    if (!asset) return gltf_fail(g, g->root, "asset is missing: not a glTF file");
+    if (!gltf_get_string(g, asset, "version", &version)) return false;
+    if (strncmp(version, "2.", 2) != 0) return gltf_fail(g, asset, "version '%s' is not 2.x", version);
+    return check_extensions(g, "extensionsRequired", true) && check_extensions(g, "extensionsUsed", false);
+}
+
+static bool get_objects(gltf *g, const json_value *parent, const char *key, const json_value **out)
+{
+    if (!gltf_get(g, parent, key, JSON_ARRAY, out)) return false;
+    for (size_t i = 0; *out && i < (*out)->n_children; i++) {
+        if ((*out)->children[i]->type != JSON_OBJECT) return gltf_fail(g, (*out)->children[i], "an object is expected");
+    }
+    return true;
+}
+
+static bool find_arrays(gltf *g)
+{
+    const json_value *r = g->root, *punctual;
+    return get_objects(g, r, "accessors", &g->accessors) && get_objects(g, r, "animations", &g->animations) &&
+           get_objects(g, r, "buffers", &g->buffers) && get_objects(g, r, "bufferViews", &g->buffer_views) &&
+           get_objects(g, r, "cameras", &g->cameras) && get_objects(g, r, "images", &g->images) &&
+           get_objects(g, r, "materials", &g->materials) && get_objects(g, r, "meshes", &g->meshes) &&
+           get_objects(g, r, "nodes", &g->nodes) && get_objects(g, r, "samplers", &g->samplers) &&
+           get_objects(g, r, "scenes", &g->scenes) && get_objects(g, r, "textures", &g->textures) &&
+           gltf_get_extension(g, r, "KHR_lights_punctual", &punctual) && get_objects(g, punctual, "lights", &g->lights);
+}
+
+/* NULL if the file has no scenes: then every root node is shown. */
+static bool find_scene(gltf *g, const json_value **out)
+{
+    size_t idx = 0;
+    *out = NULL;
+    if (!gltf_get_ref(g, g->root, "scene", g->scenes, &idx)) return false;
+    *out = json_at(g->scenes, idx);
+    if (g->scenes && g->scenes->n_children > 1) {
+        return loader_note(g->l, "scene %zu of %zu is used, the others are ignored", idx, g->scenes->n_children);
+    }
+    return true;
+}
+
+static bool emit_nodes(gltf *g)
+{
+    size_t n_meshes = g->meshes ? g->meshes->n_children : 0, n_nodes = g->nodes ? g->nodes->n_children : 0;
+    g->has_mask_texture = gltf_any_mask_texture(g);
+    g->primitive = loader_alloc(g->l, n_meshes + 1, sizeof *g->primitive);
+    if (!g->primitive) return false;
+    for (size_t i = 0; i < n_nodes; i++) {
+        if (!g->node[i].in_scene) continue;
+        if (!gltf_emit_camera(g, i) || !gltf_emit_light(g, i) || !gltf_emit_mesh(g, i)) return false;
+    }
+    return true;
+}
+
+static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes glb)
+{
+    json_doc doc;
+    char error[200];
+    if (json_parse(&doc, text, n_bytes, error, sizeof error) != 0) return loader_fail(l, "%s:%s", l->path, error);
+    gltf g = {.l = l, .root = doc.root, .glb = glb, .fps = DEFAULT_FPS};
+    const json_value *used_scene;
+    bool ok = check_asset(&g) && find_arrays(&g) && gltf_load_buffers(&g) && find_scene(&g, &used_scene) &&
+              gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) && gltf_animate(&g) &&
+              gltf_place_nodes(&g, used_scene) && emit_nodes(&g);
+    json_free(&doc);
+    l->wants_ground = l->options->ground;
+    return ok;
+}
+
+bool gltf_load(loader *l)
+{
+    uint8_t *bytes;
+    size_t n_bytes;
+    return loader_read_file(l, l->path, &bytes, &n_bytes) &&
+           load_json(l, (const char *)bytes, n_bytes, (gltf_bytes){0});
+}
+
+static size_t word_at(const uint8_t *bytes)
+{
+    return (size_t)bytes[0] | (size_t)bytes[1] << 8 | (size_t)bytes[2] << 16 | (size_t)bytes[3] << 24;
+}
+
+/* The chunk at *at, which moves behind it. */
+static bool read_chunk(loader *l, const uint8_t *file, size_t n_bytes, size_t *at, size_t *type, gltf_bytes *out)
+{
+    if (n_bytes - *at < GLB_CHUNK_HEADER_BYTES)
+        return loader_fail(l, "%s: byte %zu: a chunk header is cut off", l->path, *at);
+    size_t length = word_at(file + *at);
+    *type = word_at(file + *at + 4);
+    *out = (gltf_bytes){file + *at + GLB_CHUNK_HEADER_BYTES, length};
+    if (length % 4 != 0)
+        return loader_fail(l, "%s: byte %zu: chunk length %zu is not a multiple of 4", l->path, *at, length);
+    if (length > n_bytes - *at - GLB_CHUNK_HEADER_BYTES) {
+        return loader_fail(l, "%s: byte %zu: a chunk of %zu bytes reaches beyond the end", l->path, *at, length);
+    }
+    *at += GLB_CHUNK_HEADER_BYTES + length;
+    return true;
+}
+
+static bool check_glb_header(loader *l, const uint8_t *file, size_t n_file, size_t *n_bytes)
+{
+    if (n_file < GLB_HEADER_BYTES || memcmp(file, "glTF", 4) != 0)
+        return loader_fail(l, "%s: not a .glb file", l->path);
+    if (word_at(file + 4) != 2) return loader_fail(l, "%s: .glb version %zu is not 2", l->path, word_at(file + 4));
+    *n_bytes = word_at(file + 8);
+    if (*n_bytes > n_file || *n_bytes < GLB_HEADER_BYTES) {
+        return loader_fail(l, "%s: the header announces %zu bytes, the file has %zu", l->path, *n_bytes, n_file);
+    }
+    return true;
+}
+
+/* Chunks after JSON and BIN, and of unknown type, are skipped as the format demands. */
+bool gltf_load_glb(loader *l)
+{
+    static const size_t type_json = 0x4E4F534A, type_bin = 0x004E4942;
+    uint8_t *file;
+    size_t n_file, n_bytes = 0, at = GLB_HEADER_BYTES, type;
+    gltf_bytes text, chunk, binary = {0};
+    if (!loader_read_file(l, l->path, &file, &n_file) || !check_glb_header(l, file, n_file, &n_bytes) ||
+        !read_chunk(l, file, n_bytes, &at, &type, &text))
+        return false;
+    if (type != type_json) return loader_fail(l, "%s: the first chunk is not JSON", l->path);
+    while (at < n_bytes) {
+        if (!read_chunk(l, file, n_bytes, &at, &type, &chunk)) return false;
+        if (type == type_bin && !binary.bytes) binary = chunk;
+    }
+    return load_json(l, (const char *)text.bytes, text.n_bytes, binary);
+}

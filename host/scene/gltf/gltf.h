@@ -1,0 +1,132 @@
+/* The glTF loader's inside: gltf.c reads the file and drives, gltf_json.c reads typed members, gltf_buffer.c and
+ * gltf_accessor.c turn bytes into numbers, gltf_attribute.c and gltf_mesh.c make meshes, gltf_material.c,
+ * gltf_texture.c and gltf_light.c what they say, gltf_node.c the hierarchy and the camera, gltf_animation.c moves nodes
+ * before that, gltf_knobs.c reads extras.gnomon. */
+#ifndef GNOMON_HOST_GLTF_H
+#define GNOMON_HOST_GLTF_H
+
+#include "../../base/json.h"
+#include "../core/loader.h"
+
+#define GLTF_NONE SIZE_MAX
+
+typedef struct {
+    const uint8_t *bytes; /* NULL: the file gives no data */
+    size_t n_bytes;
+} gltf_bytes;
+
+typedef struct {
+    const json_value *json;
+    size_t parent; /* GLTF_NONE: a root */
+    bool in_scene;
+    bool moves; /* an animation targets it or an ancestor */
+    bool has_matrix;
+    scene_affine matrix; /* used if has_matrix */
+    double translation[3];
+    double rotation[4]; /* quaternion x y z w */
+    double scale[3];
+    scene_affine world;
+} gltf_node;
+
+typedef struct {
+    bool loaded[2]; /* [1]: with reversed winding, for mirroring instances */
+    size_t first_mesh[2], n_meshes[2];
+} gltf_primitive;
+
+typedef struct {
+    scene_object surface; /* all but name, mesh and place */
+    scene_caster casting; /* what casts = 1 means for it */
+    size_t uv_set;        /* of its texture; GLTF_NONE: none */
+} gltf_material;
+
+typedef struct {
+    bool loaded;
+    texture_use use;
+    size_t image_idx, scene_idx; /* SCENE_NONE: ignored, with a note */
+} gltf_texture;
+
+typedef struct {
+    loader *l;
+    const json_value *root;
+    gltf_bytes glb; /* BIN chunk of a .glb */
+    /* Top-level arrays of objects, NULL where absent. */
+    const json_value *accessors, *animations, *buffers, *buffer_views, *cameras, *images, *lights, *materials, *meshes,
+        *nodes, *samplers, *scenes, *textures;
+    gltf_bytes *buffer;
+    gltf_node *node;
+    gltf_primitive **primitive; /* [mesh][primitive], rows made on first use */
+    gltf_texture *texture;      /* two per texture: as a picture, as data; made on first use */
+    bool has_mask_texture;      /* some material or node names one */
+    double fps;
+} gltf;
+
+/* gltf_json.c. Readers leave *out alone where the member is absent, and fail where it has the wrong type. */
+bool gltf_fail(gltf *g, const json_value *where, const char *format, ...) LOADER_PRINTF(3, 4);
+bool gltf_get(gltf *g, const json_value *parent, const char *key, json_type type, const json_value **out);
+bool gltf_get_number(gltf *g, const json_value *parent, const char *key, double *out);
+bool gltf_get_numbers(gltf *g, const json_value *parent, const char *key, double *out, size_t n);
+bool gltf_get_bool(gltf *g, const json_value *parent, const char *key, bool *out);
+bool gltf_get_string(gltf *g, const json_value *parent, const char *key, const char **out);
+bool gltf_get_size(gltf *g, const json_value *parent, const char *key, size_t *out);
+/* An index into array. */
+bool gltf_get_ref(gltf *g, const json_value *parent, const char *key, const json_value *array, size_t *out);
+bool gltf_to_size(gltf *g, const json_value *value, size_t *out);
+/* The extension's object, or NULL. */
+bool gltf_get_extension(gltf *g, const json_value *parent, const char *name, const json_value **out);
+/* parent.name, or "kind index" in temporary memory. NULL: failed. */
+const char *gltf_name(gltf *g, const json_value *parent, const char *kind);
+
+/* gltf_buffer.c */
+bool gltf_load_buffers(gltf *g);
+/* A data URI or a file beside the scene. */
+bool gltf_load_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out);
+/* The bytes of a buffer view; stride 0: packed. */
+bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *stride);
+
+/* gltf_accessor.c */
+enum { GLTF_BYTE = 5120, GLTF_UBYTE, GLTF_SHORT, GLTF_USHORT, GLTF_UINT = 5125, GLTF_FLOAT };
+typedef struct {
+    size_t count, n_components;
+    size_t component_type;
+    bool normalized;
+    double *values; /* count * n_components, normalised ones in -1..1 or 0..1; finite */
+} gltf_array;
+bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out);
+
+/* gltf_attribute.c: every attribute of ours but texture coordinates, which are read where something looks them up. */
+typedef struct {
+    size_t uv_set; /* 0, 1 or GLTF_NONE */
+    bool mask_uv;
+} gltf_wants;
+bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out,
+                          mesh_light *light);
+
+/* gltf_texture.c. data: a mask image. *out SCENE_NONE: ignored, with a note. */
+bool gltf_load_texture(gltf *g, size_t texture_idx, bool is_data, size_t *out);
+
+/* gltf_mesh.c */
+bool gltf_emit_mesh(gltf *g, size_t node_idx);
+
+/* gltf_material.c: the material of a primitive; whether it is taken for moving unless it says so itself. */
+bool gltf_read_material(gltf *g, const json_value *primitive, bool moves, gltf_material *out);
+
+/* gltf_node.c */
+bool gltf_read_nodes(gltf *g);
+bool gltf_place_nodes(gltf *g, const json_value *used_scene);
+bool gltf_emit_camera(gltf *g, size_t node_idx);
+
+/* gltf_light.c */
+bool gltf_emit_light(gltf *g, size_t node_idx);
+
+/* gltf_animation.c: writes the frame's translation, rotation and scale into the nodes. */
+bool gltf_animate(gltf *g);
+
+/* gltf_knobs.c: extras.gnomon of ... */
+bool gltf_scene_knobs(gltf *g, const json_value *used_scene);
+bool gltf_light_knobs(gltf *g, const json_value *owner, scene_light *light);
+bool gltf_material_knobs(gltf *g, const json_value *owner, gltf_material *material);
+bool gltf_any_mask_texture(const gltf *g);
+/* ... nodes: every key must belong to what the node carries. */
+bool gltf_check_node_knobs(gltf *g, const json_value *node, bool has_light, bool has_mesh);
+
+#endif

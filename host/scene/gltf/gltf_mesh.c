@@ -1,0 +1,161 @@
+/* glTF primitives -> scene meshes, and mesh nodes -> scene objects.
+ *
+ * Nodes that instance a mesh share its scene meshes, one per primitive (more if it is too large for 16-bit indices).
+ * glTF reverses the winding where a node's transform mirrors (negative determinant). The engines cull by the winding on
+ * the screen, after the transform, and know nothing of determinants: so a mirroring instance gets a copy of the mesh
+ * whose index order is reversed beforehand. Vertex normals need nothing: the inverse transpose keeps them outward. */
+#include "gltf.h"
+
+#include "../core/vec.h"
+
+enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
+
+/* The list of vertices that the mode walks over: the indices, or 0, 1, 2 ... */
+static bool read_indices(gltf *g, const json_value *primitive, size_t n_vertices, uint32_t **out, size_t *n)
+{
+    size_t accessor = GLTF_NONE;
+    gltf_array a = {.count = n_vertices};
+    const json_value *where = json_get(primitive, "indices");
+    if (!gltf_get_ref(g, primitive, "indices", g->accessors, &accessor)) return false;
+    if (where && !gltf_read_accessor(g, accessor, &a)) return false;
+    bool is_index = a.component_type == GLTF_UBYTE || a.component_type == GLTF_USHORT || a.component_type == GLTF_UINT;
+    if (where && (a.n_components != 1 || a.normalized || !is_index))
+        return gltf_fail(g, where, "SCALAR of unsigned integers is expected");
+    *n = a.count;
+    *out = loader_alloc(g->l, a.count, sizeof **out);
+    if (!*out) return false;
+    for (size_t i = 0; i < a.count; i++) {
+        double index = where ? a.values[i] : (double)i;
+        if (index >= (double)n_vertices)
+            return gltf_fail(g, where, "index %zu is %.0f, there are %zu vertices", i, index, n_vertices);
+        (*out)[i] = (uint32_t)index;
+    }
+    return true;
+}
+
+/* Corner k of triangle i among the walked vertices. Strips: every other triangle is turned round, so all wind alike. */
+static size_t corner_of(size_t mode, size_t i, size_t k)
+{
+    if (mode == MODE_TRIANGLES) return 3 * i + k;
+    if (mode == MODE_FAN) return k == 0 ? 0 : i + k;
+    return k == 0 ? i : i + (i % 2 == 0 ? k : 3 - k);
+}
+
+static bool assemble(gltf *g, const json_value *primitive, size_t mode, scene_mesh *out)
+{
+    uint32_t *walk = NULL;
+    size_t n = 0;
+    if (!read_indices(g, primitive, out->n_vertices, &walk, &n)) return false;
+    out->n_triangles = mode == MODE_TRIANGLES ? n / 3 : n < 3 ? 0 : n - 2;
+    if (mode == MODE_TRIANGLES && n % 3 != 0 &&
+        !loader_note(g->l, "the last %zu corners of '%s' make no triangle", n % 3, out->name))
+        return false;
+    out->idx = loader_alloc(g->l, out->n_triangles, 3 * sizeof *out->idx);
+    if (!out->idx) return false;
+    for (size_t i = 0; i < out->n_triangles; i++) {
+        for (size_t k = 0; k < 3; k++) out->idx[3 * i + k] = walk[corner_of(mode, i, k)];
+    }
+    return true;
+}
+
+/* n_triangles stays 0 for what is skipped, with a note. */
+static bool read_primitive(gltf *g, const json_value *primitive, const char *name, const gltf_wants *wants,
+                           scene_mesh *out, mesh_light *light)
+{
+    const json_value *attributes = NULL;
+    size_t mode = MODE_TRIANGLES;
+    *out = (scene_mesh){.name = loader_format(g->l, "%s", name)};
+    if (!out->name) return false;
+    if (!gltf_get_size(g, primitive, "mode", &mode) || !gltf_get(g, primitive, "attributes", JSON_OBJECT, &attributes))
+        return false;
+    if (!attributes) return gltf_fail(g, primitive, "attributes is missing");
+    if (mode > MODE_FAN) return gltf_fail(g, json_get(primitive, "mode"), "mode %zu is unknown", mode);
+    if (mode < MODE_TRIANGLES)
+        return loader_note(g->l, "points and lines of mesh '%s' ignored: only triangles are drawn", name);
+    if (!json_get(attributes, "POSITION"))
+        return loader_note(g->l, "primitive of mesh '%s' ignored: it has no POSITION", name);
+    if (json_get(primitive, "targets") &&
+        !loader_note(g->l, "morph targets of mesh '%s' ignored: they are not supported", name))
+        return false;
+    return gltf_read_attributes(g, attributes, wants, out, light) && assemble(g, primitive, mode, out) &&
+           (out->n_triangles == 0 || mesh_prepare_normals(g->l, out));
+}
+
+static bool load_primitive(gltf *g, const json_value *json, const char *name, size_t uv_set, bool flip,
+                           gltf_primitive *out)
+{
+    const gltf_wants wants = {.uv_set = uv_set, .mask_uv = g->has_mask_texture};
+    scene_mesh mesh;
+    mesh_light light = {0};
+    mesh_splitter splitter;
+    if (out->loaded[flip]) return true;
+    out->loaded[flip] = true;
+    arena_block *mark = g->l->memory.blocks;
+    bool ok = read_primitive(g, json, name, &wants, &mesh, &light);
+    if (ok && mesh.n_triangles > 0) {
+        ok = mesh_splitter_init(&splitter, g->l, &mesh);
+        splitter.light = light;
+        ok = ok && mesh_split(&splitter, name, mesh.idx, mesh.n_triangles, flip, &out->first_mesh[flip],
+                              &out->n_meshes[flip]);
+    }
+    arena_release(&g->l->memory, mark); /* many primitives may share one large vertex buffer */
+    return ok;
+}
+
+/* A texture needs coordinates. */
+static bool check_coordinates(gltf *g, const json_value *json, const scene_mesh *mesh, scene_object *object)
+{
+    if (object->mask_texture_idx != SCENE_NONE && !mesh->mask_uv) {
+        return gltf_fail(g, json, "a mask_texture is looked up at TEXCOORD_1, which is missing");
+    }
+    if (object->texture_idx == SCENE_NONE || mesh->uv) return true;
+    object->texture_idx = SCENE_NONE;
+    return loader_note(g->l, "base colour texture of mesh '%s' ignored: it has no texture coordinates", mesh->name);
+}
+
+static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *json, const char *mesh_name,
+                           gltf_primitive *primitive)
+{
+    bool flip = affine_mirrors(&node->world);
+    gltf_material material;
+    if (!gltf_read_material(g, json, node->moves, &material) || !gltf_material_knobs(g, node->json, &material))
+        return false;
+    if (!load_primitive(g, json, mesh_name, material.uv_set, flip, primitive)) return false;
+    if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
+    scene_object object = material.surface;
+    object.to_world = node->world;
+    if (!check_coordinates(g, json, &g->l->s->meshes[primitive->first_mesh[flip]], &object)) return false;
+    const char *name = gltf_name(g, node->json, "node");
+    object.name = name ? loader_format(g->l, "%s", name) : NULL;
+    return object.name && loader_add_objects(g->l, &object, primitive->first_mesh[flip], primitive->n_meshes[flip]);
+}
+
+static bool mesh_primitives(gltf *g, size_t mesh_idx, const json_value **out)
+{
+    const json_value *mesh = g->meshes->children[mesh_idx];
+    if (!gltf_get(g, mesh, "primitives", JSON_ARRAY, out)) return false;
+    if (!*out || (*out)->n_children == 0) return gltf_fail(g, mesh, "primitives are missing");
+    if (g->primitive[mesh_idx]) return true;
+    g->primitive[mesh_idx] = loader_alloc(g->l, (*out)->n_children, sizeof **g->primitive);
+    return g->primitive[mesh_idx] != NULL;
+}
+
+bool gltf_emit_mesh(gltf *g, size_t node_idx)
+{
+    const gltf_node *node = &g->node[node_idx];
+    const json_value *primitives = NULL;
+    size_t mesh_idx = GLTF_NONE;
+    if (!gltf_get_ref(g, node->json, "mesh", g->meshes, &mesh_idx)) return false;
+    if (mesh_idx == GLTF_NONE) return true;
+    const char *name = gltf_name(g, g->meshes->children[mesh_idx], "mesh");
+    if (!name || !mesh_primitives(g, mesh_idx, &primitives)) return false;
+    if (json_get(node->json, "skin") &&
+        !loader_note(g->l, "skin of mesh '%s' ignored: it is shown in its rest pose", name))
+        return false;
+    for (size_t i = 0; i < primitives->n_children; i++) {
+        const json_value *json = primitives->children[i];
+        if (json->type != JSON_OBJECT) return gltf_fail(g, json, "an object is expected");
+        if (!emit_primitive(g, node, json, name, &g->primitive[mesh_idx][i])) return false;
+    }
+    return true;
+}

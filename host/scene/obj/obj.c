@@ -1,0 +1,181 @@
+/* Wavefront OBJ: vertices, texture coordinates, normals and faces. Vertex colours (v x y z r g b) are taken as linear
+ * light. Polygons are cut into fans, which is only right for convex ones (a note tells of others). */
+#include "obj.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../core/vec.h"
+
+enum { MAX_CORNERS = 4096 };
+
+static bool read_vertex(obj_file *o, obj_text *t)
+{
+    double x[7];
+    size_t n;
+    if (!obj_numbers(t, x, 7, &n)) return false;
+    if (n != 3 && n != 4 && n != 6 && n != 7) return obj_fail(t, "v takes 3 numbers, and 3 more for a colour");
+    double *v = loader_grow(o->l, o->v, o->n_v, 3 * sizeof *v),
+           *rgb = loader_grow(o->l, o->rgb, o->n_v, 3 * sizeof *rgb);
+    if (!v || !rgb) return false;
+    o->v = v;
+    o->rgb = rgb;
+    memcpy(v + 3 * o->n_v, x, 3 * sizeof *v);
+    for (size_t i = 0; i < 3; i++)
+        rgb[3 * o->n_v + i] = n < 6 ? 1 : x[n - 3 + i]; /* 4 and 7: a weight, which is ignored */
+    o->has_rgb = o->has_rgb || n >= 6;
+    if (!loader_clamp_colour(rgb + 3 * o->n_v, 3) && !loader_note(o->l, "vertex colours outside 0..1 are clamped"))
+        return false;
+    o->n_v++;
+    return o->n_v < INT32_MAX || obj_fail(t, "too many vertices");
+}
+
+static bool read_normal(obj_file *o, obj_text *t)
+{
+    double x[3];
+    size_t n;
+    if (!obj_numbers(t, x, 3, &n)) return false;
+    if (n != 3) return obj_fail(t, "vn takes 3 numbers");
+    double *vn = loader_grow(o->l, o->vn, o->n_vn, 3 * sizeof *vn);
+    if (!vn) return false;
+    o->vn = vn;
+    memcpy(vn + 3 * o->n_vn++, x, sizeof x);
+    return o->n_vn < INT32_MAX || obj_fail(t, "too many normals");
+}
+
+static bool read_texture_coordinate(obj_file *o, obj_text *t)
+{
+    double x[3] = {0, 0, 0};
+    size_t n;
+    if (!obj_numbers(t, x, 3, &n)) return false;
+    if (n < 1) return obj_fail(t, "vt takes 2 numbers");
+    double *vt = loader_grow(o->l, o->vt, o->n_vt, 2 * sizeof *vt);
+    if (!vt) return false;
+    o->vt = vt;
+    memcpy(vt + 2 * o->n_vt++, x, 2 * sizeof *vt);
+    return o->n_vt < INT32_MAX || obj_fail(t, "too many texture coordinates");
+}
+
+/* One index of a corner: 1 is the first element, -1 the last one so far. */
+static bool read_index(obj_text *t, const char *word, char **end, size_t n, const char *what, uint32_t *out)
+{
+    if (strspn(word, "+-0123456789") == 0) return obj_fail(t, "an index of a %s is missing", what);
+    long long value = strtoll(word, end, 10); /* saturates, and is then out of range */
+    if (value < 0) value = value < -(long long)n ? 0 : value + (long long)n + 1;
+    if (value < 1 || value > (long long)n) {
+        return obj_fail(t, "%s index %.*s is out of range, there are %zu so far", what, (int)(*end - word), word, n);
+    }
+    *out = (uint32_t)(value - 1);
+    return true;
+}
+
+/* v, v/vt, v//vn, v/vt/vn */
+static bool read_corner(obj_file *o, obj_text *t, char *word, obj_corner *out)
+{
+    char *at = word;
+    out->vt = out->vn = OBJ_NONE;
+    if (!read_index(t, word, &at, o->n_v, "vertex", &out->v)) return false;
+    if (*at == '/') {
+        at++;
+        if (*at && *at != '/' && !read_index(t, at, &at, o->n_vt, "texture", &out->vt)) return false;
+        if (*at == '/') {
+            if (!read_index(t, at + 1, &at, o->n_vn, "normal", &out->vn)) return false;
+            o->has_vn = true;
+        }
+    }
+    return *at == '\0' || obj_fail(t, "'%.40s' is not a corner of a face", word);
+}
+
+static bool add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, const obj_corner *c)
+{
+    obj_corner *corner = loader_grow(o->l, o->corner, o->n_triangles, 3 * sizeof *corner);
+    uint32_t *material_of = loader_grow(o->l, o->material_of, o->n_triangles, sizeof *material_of);
+    if (!corner || !material_of) return false;
+    o->corner = corner;
+    o->material_of = material_of;
+    corner[3 * o->n_triangles] = *a;
+    corner[3 * o->n_triangles + 1] = *b;
+    corner[3 * o->n_triangles + 2] = *c;
+    material_of[o->n_triangles++] = o->current_material;
+    if (o->n_triangles <= LOADER_MAX_SCENE_TRIANGLES) return true;
+    return loader_fail(o->l, "%s: more than %d triangles", o->l->path, (int)LOADER_MAX_SCENE_TRIANGLES);
+}
+
+static void fan_normal(const obj_file *o, const obj_corner *corners, size_t i, double *out)
+{
+    double u[3], v[3];
+    vec_sub(u, o->v + 3 * (size_t)corners[i].v, o->v + 3 * (size_t)corners[0].v);
+    vec_sub(v, o->v + 3 * (size_t)corners[i + 1].v, o->v + 3 * (size_t)corners[0].v);
+    vec_cross(out, u, v);
+}
+
+/* A fan is wrong where one of its triangles turns against the sum of all. */
+static bool fan_folds(const obj_file *o, const obj_corner *corners, size_t n)
+{
+    double sum[3] = {0, 0, 0}, normal[3];
+    for (size_t i = 1; i + 1 < n; i++) {
+        fan_normal(o, corners, i, normal);
+        for (int k = 0; k < 3; k++) sum[k] += normal[k];
+    }
+    for (size_t i = 1; i + 1 < n; i++) {
+        fan_normal(o, corners, i, normal);
+        if (vec_dot(normal, sum) < -1e-9 * vec_dot(sum, sum)) return true;
+    }
+    return false;
+}
+
+static bool read_face(obj_file *o, obj_text *t)
+{
+    obj_corner corners[MAX_CORNERS];
+    size_t n = 0;
+    for (char *word = obj_next_word(t); word; word = obj_next_word(t)) {
+        if (n == MAX_CORNERS) return obj_fail(t, "a face of more than %d corners", MAX_CORNERS);
+        if (!read_corner(o, t, word, &corners[n++])) return false;
+    }
+    if (n < 3) return obj_fail(t, "a face needs 3 corners, this one has %zu", n);
+    if (n > 3 && fan_folds(o, corners, n) && !obj_note(t, "a concave polygon is cut into a fan: it may look wrong"))
+        return false;
+    for (size_t i = 1; i + 1 < n; i++) {
+        if (!add_triangle(o, &corners[0], &corners[i], &corners[i + 1])) return false;
+    }
+    return true;
+}
+
+static bool use_material(obj_file *o, obj_text *t)
+{
+    const char *name = obj_rest(t);
+    if (!*name) return obj_fail(t, "usemtl without a name");
+    return obj_find_material(o, name, &o->current_material);
+}
+
+static bool read_statement(obj_file *o, obj_text *t)
+{
+    static const char *const silent[] = {"g", "o", "s"};
+    const char *word = obj_next_word(t);
+    if (strcmp(word, "v") == 0) return read_vertex(o, t);
+    if (strcmp(word, "vn") == 0) return read_normal(o, t);
+    if (strcmp(word, "vt") == 0) return read_texture_coordinate(o, t);
+    if (strcmp(word, "f") == 0) return read_face(o, t);
+    if (strcmp(word, "usemtl") == 0) return use_material(o, t);
+    if (strcmp(word, "mtllib") == 0) return obj_read_libraries(o, t);
+    for (size_t i = 0; i < sizeof silent / sizeof *silent; i++) {
+        if (strcmp(word, silent[i]) == 0) return true;
+    }
+    return loader_note(o->l, "'%.40s' statements ignored: only v, vt, vn, f, usemtl and mtllib count", word);
+}
+
+bool obj_load(loader *l)
+{
+    obj_file o = {.l = l};
+    obj_text t;
+    uint8_t *bytes;
+    size_t n_bytes;
+    l->wants_ground = true;
+    if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !obj_open(&t, l, l->path, bytes, n_bytes)) return false;
+    if (!obj_find_material(&o, "default", &o.current_material)) return false;
+    while (obj_next_line(&t)) {
+        if (!read_statement(&o, &t)) return false;
+    }
+    if (o.n_triangles == 0) return loader_fail(l, "%s: the file has no faces", l->path);
+    return obj_note_undefined_materials(&o) && obj_emit(&o);
+}

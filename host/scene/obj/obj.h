@@ -1,0 +1,64 @@
+/* The OBJ loader's inside: obj_text.c reads lines, obj_mtl.c materials, obj.c statements, obj_mesh.c makes the meshes.
+ */
+#ifndef GNOMON_HOST_OBJ_H
+#define GNOMON_HOST_OBJ_H
+
+#include "../core/loader.h"
+
+/* A cursor over a text file, one logical line at a time. */
+typedef struct {
+    loader *l;
+    const char *path;
+    char *next; /* behind the current line */
+    char *end;
+    char *at;       /* within the current line, which is zero-terminated */
+    size_t line;    /* number of its first line */
+    size_t n_lines; /* lines read so far */
+} obj_text;
+
+bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes);
+/* The next line that is not empty, without comment; backslash at a line's end joins it with the next. */
+bool obj_next_line(obj_text *t);
+/* The next blank-separated word, or NULL. */
+char *obj_next_word(obj_text *t);
+/* The rest of the line without surrounding blanks. */
+char *obj_rest(obj_text *t);
+/* Up to n_max numbers; *n tells how many the line has. Anything else on the line is an error. */
+bool obj_numbers(obj_text *t, double *out, size_t n_max, size_t *n);
+bool obj_fail(obj_text *t, const char *format, ...) LOADER_PRINTF(2, 3);
+bool obj_note(obj_text *t, const char *format, ...) LOADER_PRINTF(2, 3);
+
+typedef struct {
+    const char *name;
+    double albedo[3], alpha;
+    size_t texture_idx; /* of the scene, or SCENE_NONE */
+    bool defined;       /* by a material library */
+} obj_material;
+
+#define OBJ_NONE UINT32_MAX
+
+typedef struct {
+    uint32_t v, vt, vn; /* indices; vt, vn OBJ_NONE where the corner has none */
+} obj_corner;
+
+typedef struct {
+    loader *l;
+    size_t n_v, n_vt, n_vn, n_triangles, n_materials;
+    double *v, *vt, *rgb,
+        *vn;                /* vt: 2 each, v upwards as in the file; rgb: per v, white where a vertex has no colour */
+    bool has_rgb, has_vn;   /* a vertex has a colour; a corner has a normal */
+    obj_corner *corner;     /* 3 * n_triangles */
+    uint32_t *material_of;  /* per triangle */
+    obj_material *material; /* in order of first use or definition; [0]: triangles before any usemtl */
+    uint32_t current_material;
+} obj_file;
+
+/* obj_mtl.c */
+bool obj_find_material(obj_file *o, const char *name, uint32_t *out); /* makes it if need be */
+bool obj_read_libraries(obj_file *o, obj_text *t);
+bool obj_note_undefined_materials(obj_file *o);
+
+/* obj_mesh.c: one object and mesh (more if too large) per used material. */
+bool obj_emit(obj_file *o);
+
+#endif

@@ -1,0 +1,9 @@
+/* Loads Wavefront OBJ with its materials into the scene that is being built. False once the error is written. */
+#ifndef GNOMON_HOST_OBJ_LOAD_H
+#define GNOMON_HOST_OBJ_LOAD_H
+
+#include "../core/loader.h"
+
+bool obj_load(loader *l);
+
+#endif

@@ -1,0 +1,175 @@
+/* OBJ corners -> vertices -> meshes. */
+#include "obj.h"
+
+#include <string.h>
+
+#include "../core/vec.h"
+
+/* Corners with the same position, normal and (if their material has a texture) texture coordinate share a vertex. In a
+ * file that has normals, a corner without one takes its face's, and shares with nobody: vn is then OBJ_NONE and tag
+ * tells the triangle. */
+typedef struct {
+    uint32_t v, vt, vn, tag;
+} vertex_key;
+
+typedef struct {
+    vertex_key key;
+    uint32_t vertex_idx;
+    bool used;
+} vertex_slot;
+
+typedef struct {
+    const obj_file *o;
+    scene_mesh mesh;
+    vertex_slot *slot; /* open addressing, a power of two, at most half full */
+    size_t n_slots;
+} vertex_table;
+
+static bool has_texture(const obj_file *o, size_t triangle)
+{
+    return o->material[o->material_of[triangle]].texture_idx != SCENE_NONE;
+}
+
+static bool any_texture(const obj_file *o)
+{
+    for (size_t i = 0; i < o->n_triangles; i++) {
+        if (has_texture(o, i)) return true;
+    }
+    return false;
+}
+
+static bool table_init(vertex_table *table, const obj_file *o)
+{
+    size_t n_corners = 3 * o->n_triangles;
+    *table = (vertex_table){.o = o, .n_slots = 16};
+    while (table->n_slots < 2 * n_corners) table->n_slots *= 2;
+    table->slot = loader_alloc(o->l, table->n_slots, sizeof *table->slot);
+    table->mesh.name = loader_format(o->l, "%s", o->l->path);
+    table->mesh.n_triangles = o->n_triangles;
+    table->mesh.idx = loader_alloc(o->l, n_corners, sizeof *table->mesh.idx);
+    table->mesh.pos = loader_alloc(o->l, n_corners, 3 * sizeof *table->mesh.pos);
+    if (o->has_vn) table->mesh.nrm = loader_alloc(o->l, n_corners, 3 * sizeof *table->mesh.nrm);
+    if (o->has_rgb) table->mesh.rgb = loader_alloc(o->l, n_corners, 3 * sizeof *table->mesh.rgb);
+    bool has_uv = any_texture(o);
+    if (has_uv) table->mesh.uv = loader_alloc(o->l, n_corners, 2 * sizeof *table->mesh.uv);
+    return (!has_uv || table->mesh.uv) && table->slot && table->mesh.name && table->mesh.idx && table->mesh.pos &&
+           (!o->has_vn || table->mesh.nrm) && (!o->has_rgb || table->mesh.rgb);
+}
+
+static bool same_key(const vertex_key *a, const vertex_key *b)
+{
+    return a->v == b->v && a->vt == b->vt && a->vn == b->vn && a->tag == b->tag;
+}
+
+static vertex_slot *find_slot(vertex_table *table, const vertex_key *key)
+{
+    uint64_t hash = (key->v * UINT64_C(0x9E3779B97F4A7C15)) ^ (key->vt * UINT64_C(0xD6E8FEB86659FD93)) ^
+                    (key->vn * UINT64_C(0xC2B2AE3D27D4EB4F)) ^ (key->tag * UINT64_C(0x165667B19E3779F9));
+    for (size_t at = (size_t)(hash >> 20);; at++) {
+        vertex_slot *slot = &table->slot[at & (table->n_slots - 1)];
+        if (!slot->used || same_key(&slot->key, key)) return slot;
+    }
+}
+
+static void corner_face_normal(const obj_file *o, size_t triangle, double *normal)
+{
+    const obj_corner *c = o->corner + 3 * triangle;
+    double u[3], v[3];
+    vec_sub(u, o->v + 3 * (size_t)c[1].v, o->v + 3 * (size_t)c[0].v);
+    vec_sub(v, o->v + 3 * (size_t)c[2].v, o->v + 3 * (size_t)c[0].v);
+    vec_normalise(u);
+    vec_normalise(v);
+    vec_cross(normal, u, v);
+    if (!vec_normalise(normal)) memcpy(normal, (const double[3]){0, 1, 0}, 3 * sizeof *normal);
+}
+
+static void add_vertex(vertex_table *table, const vertex_key *key, size_t triangle)
+{
+    const obj_file *o = table->o;
+    scene_mesh *mesh = &table->mesh;
+    size_t i = mesh->n_vertices++;
+    memcpy(mesh->pos + 3 * i, o->v + 3 * (size_t)key->v, 3 * sizeof *mesh->pos);
+    if (mesh->rgb) memcpy(mesh->rgb + 3 * i, o->rgb + 3 * (size_t)key->v, 3 * sizeof *mesh->rgb);
+    if (mesh->uv && key->vt != OBJ_NONE) {
+        mesh->uv[2 * i] = o->vt[2 * (size_t)key->vt];
+        mesh->uv[2 * i + 1] = 1 - o->vt[2 * (size_t)key->vt + 1]; /* upwards in the file, downwards in the scene */
+    }
+    if (!mesh->nrm) return;
+    if (key->vn == OBJ_NONE) corner_face_normal(o, triangle, mesh->nrm + 3 * i);
+    else memcpy(mesh->nrm + 3 * i, o->vn + 3 * (size_t)key->vn, 3 * sizeof *mesh->nrm);
+}
+
+static bool join_corners(vertex_table *table)
+{
+    const obj_file *o = table->o;
+    size_t n_bare = 0;
+    for (size_t i = 0; i < 3 * o->n_triangles; i++) {
+        const obj_corner *corner = &o->corner[i];
+        bool textured = has_texture(o, i / 3);
+        uint32_t tag = o->has_vn && corner->vn == OBJ_NONE ? (uint32_t)(i / 3) : 0;
+        const vertex_key key = {corner->v, textured ? corner->vt : OBJ_NONE, corner->vn, tag};
+        vertex_slot *slot = find_slot(table, &key);
+        n_bare += textured && corner->vt == OBJ_NONE;
+        if (!slot->used) {
+            *slot = (vertex_slot){key, (uint32_t)table->mesh.n_vertices, true};
+            add_vertex(table, &key, i / 3);
+        }
+        table->mesh.idx[i] = slot->vertex_idx;
+    }
+    return n_bare == 0 || loader_note(o->l, "%zu corners with a texture have no coordinates: they take 0, 0", n_bare);
+}
+
+static bool emit_material(obj_file *o, mesh_splitter *splitter, const obj_material *material, const uint32_t *idx,
+                          size_t n_triangles)
+{
+    size_t first, n_meshes;
+    scene_object object = object_defaults();
+    memcpy(object.albedo, material->albedo, sizeof object.albedo);
+    object.texture_idx = material->texture_idx;
+    object.alpha = material->alpha;
+    if (material->alpha < 1) {
+        object.visible_alpha = SCENE_ALPHA_DITHER;
+        object.caster = SCENE_CASTER_DITHER;
+    }
+    object.name = loader_format(o->l, "%s", material->name);
+    return object.name && mesh_split(splitter, object.name, idx, n_triangles, false, &first, &n_meshes) &&
+           loader_add_objects(o->l, &object, first, n_meshes);
+}
+
+/* start[m]: first triangle of material m after sorting by material, in file order within one (a counting sort). */
+static uint32_t *sort_by_material(obj_file *o, const scene_mesh *mesh, size_t *start)
+{
+    uint32_t *sorted = loader_alloc(o->l, 3 * mesh->n_triangles, sizeof *sorted);
+    size_t *next = loader_alloc(o->l, o->n_materials, sizeof *next);
+    if (!sorted || !next) return NULL;
+    for (size_t i = 0; i < mesh->n_triangles; i++) start[o->material_of[i] + 1]++;
+    for (size_t m = 0; m < o->n_materials; m++) {
+        start[m + 1] += start[m];
+        next[m] = start[m];
+    }
+    for (size_t i = 0; i < mesh->n_triangles; i++) {
+        memcpy(sorted + 3 * next[o->material_of[i]]++, mesh->idx + 3 * i, 3 * sizeof *sorted);
+    }
+    return sorted;
+}
+
+bool obj_emit(obj_file *o)
+{
+    vertex_table table;
+    mesh_splitter splitter;
+    if (!table_init(&table, o)) return false;
+    if (!join_corners(&table)) return false;
+    /* Before the split by material, so that smooth normals have no seam between materials. */
+    if (!mesh_prepare_normals(o->l, &table.mesh) || !mesh_splitter_init(&splitter, o->l, &table.mesh)) return false;
+    size_t *start = loader_alloc(o->l, o->n_materials + 1, sizeof *start);
+    uint32_t *sorted = start ? sort_by_material(o, &table.mesh, start) : NULL;
+    if (!sorted) return false;
+    scene_mesh plain = table.mesh;
+    plain.uv = NULL;
+    for (size_t m = 0; m < o->n_materials; m++) {
+        size_t n = start[m + 1] - start[m];
+        splitter.input = o->material[m].texture_idx != SCENE_NONE ? &table.mesh : &plain;
+        if (n > 0 && !emit_material(o, &splitter, &o->material[m], sorted + 3 * start[m], n)) return false;
+    }
+    return true;
+}

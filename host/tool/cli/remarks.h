@@ -1,0 +1,21 @@
+/* What no error says and a picture does not show: settings without effect, lights that the library left out, lights
+ * that cannot do what they are set to. */
+#ifndef GNOMON_REMARKS_H
+#define GNOMON_REMARKS_H
+
+#include "../engine/engine.h"
+
+/* To stderr, a line each: what settings came to nothing, which cones had to be others; what the library left out of a
+ * picture of its own. */
+void remarks_on_settings(const scene *s);
+void remarks_on_picture(const scene *s, const engine_picture *p);
+
+/* Adds a note for every pair of lights that one mask channel cannot serve (M5), and for baked lights without anything
+ * baked (M9). 0, or -1 with one line in error. */
+int remarks_on_lights(scene *s, char *error, size_t error_bytes);
+
+/* Adds a note for every light all of whose casters are nearer than its near plane, and one if (nearly) all that is in
+ * view lies beyond the shadow distance that a file gets which sets none. 0, or -1 with one line in error. */
+int remarks_on_shadows(scene *s, int width, int height, char *error, size_t error_bytes);
+
+#endif

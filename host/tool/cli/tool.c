@@ -1,0 +1,111 @@
+/* What the commands share. */
+#include "tool.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../base/utf8.h"
+
+enum { LINE_BYTES = 8192 };
+
+void tool_error(const char *format, ...)
+{
+    char line[LINE_BYTES];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    utf8_clean(line);
+    fprintf(stderr, "gnomon: %s\n", line);
+}
+
+int tool_fail(const char *path, const char *message)
+{
+    /* loaders begin their messages with the path, cleaned, and the line or place in it */
+    char clean[LINE_BYTES];
+    snprintf(clean, sizeof clean, "%s", path);
+    utf8_clean(clean);
+    if (strncmp(message, clean, strlen(clean)) == 0) tool_error("%s", message);
+    else tool_error("%s: %s", path, message);
+    return TOOL_FAILED;
+}
+
+int tool_samples(const tool_options *o)
+{
+    return o->samples ? o->samples : 1;
+}
+
+int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, scene *s, settings *set, char *error,
+                   size_t error_bytes)
+{
+    scene_options options = {.frame = o->frame, .width = o->width, .height = o->height};
+    for (int i = 0; i < n_sets; i++) {
+        char key[32];
+        const char *equals = strchr(sets[i], '=');
+        size_t n = equals ? (size_t)(equals - sets[i]) : sizeof key;
+        if (n >= sizeof key) continue; /* named by settings_apply_all */
+        memcpy(key, sets[i], n);
+        key[n] = 0;
+        if (settings_load_option(&options, key, equals + 1, error, error_bytes) < 0) return -1;
+    }
+    if (scene_load(s, o->scene_path, &options, error, error_bytes)) return -1;
+    settings_init(set);
+    if (settings_apply_all(set, s, sets, n_sets, error, error_bytes) ||
+        settings_enforce(set, s, o->width, o->height, error, error_bytes)) {
+        scene_free(s);
+        return -1;
+    }
+    return 0;
+}
+
+int tool_load(const tool_options *o, scene *s, settings *set)
+{
+    char error[TOOL_ERROR_BYTES] = "failed";
+    if (!tool_load_with(o, o->sets, o->n_sets, s, set, error, sizeof error)) return 0;
+    tool_fail(o->scene_path, error);
+    return -1;
+}
+
+void tool_append_quoted(char *out, size_t bytes, const char *text)
+{
+    size_t used = strlen(out);
+    bool plain =
+        *text && !text[strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_=.,@+-/:")];
+    if (plain) {
+        snprintf(out + used, bytes - used, "%s", text);
+        return;
+    }
+    if (used + 1 < bytes) out[used++] = '\'';
+    for (; *text && used + 6 < bytes; text++) {
+        if (*text != '\'') out[used++] = *text;
+        else {
+            memcpy(out + used, "'\\''", 4);
+            used += 4;
+        }
+    }
+    if (used + 1 < bytes) out[used++] = '\'';
+    out[used < bytes ? used : bytes - 1] = 0;
+}
+
+void tool_json_number(const char *name, double v)
+{
+    if (isinf(v)) printf("\"%s\": null", name);
+    else printf("\"%s\": %.9g", name, v);
+}
+
+void tool_json_string(const char *text)
+{
+    putchar('"');
+    while (*text) {
+        unsigned char c = (unsigned char)*text;
+        size_t length = utf8_length((const unsigned char *)text, 4); /* the terminating zero continues no sequence */
+        if (length == 0) printf("\\ufffd");
+        else if (c == '"' || c == '\\') printf("\\%c", c);
+        else if (c < 32) printf("\\u%04x", c);
+        else fwrite(text, 1, length, stdout);
+        text += length ? length : 1;
+    }
+    putchar('"');
+}

@@ -1,0 +1,260 @@
+/* gnomon info: what a scene needs. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "info_memory.h"
+#include "../cli/remarks.h"
+#include "../cli/tool.h"
+
+typedef struct {
+    size_t triangles, vertices, shadow_lights;
+    size_t textured, masked, baked, hidden, moving, two_sided, unlit; /* objects */
+    size_t visible[3];                                                /* objects by scene_alpha */
+    size_t casters[4];                                                /* objects by scene_caster */
+    int smooth, coloured;
+    settings_need needs[SETTINGS_NEEDS_MAX];
+    int n_needs;
+} counts;
+
+/* All that is printed about one scene. */
+typedef struct {
+    const tool_options *options;
+    const scene *scene;
+    size_t n_ignored; /* of its notes; the rest are about lights that do not do what they are set to */
+    const engine_picture *picture;
+    counts counts;
+    settings_ram_parts ram[SETTINGS_PRESETS];
+    info_memory memory;
+} report;
+
+static const char *const kind_names[] = {"directional", "spot", "point"};
+static const char *const mode_names[] = {"realtime", "mixed", "baked"};
+static const char *const shadow_names[] = {"not_wanted", "realtime", "no_room"};
+
+static void count(const scene *s, counts *c)
+{
+    for (size_t i = 0; i < s->n_objects; i++) {
+        const scene_object *o = &s->objects[i];
+        const scene_mesh *mesh = &s->meshes[o->mesh_idx];
+        c->triangles += mesh->n_triangles;
+        c->smooth |= mesh->nrm != NULL;
+        c->coloured |= mesh->rgb != NULL;
+        c->textured += o->texture_idx != SCENE_NONE;
+        c->masked += o->mask || o->mask_texture_idx != SCENE_NONE;
+        c->baked += o->baked != NULL;
+        c->hidden += o->hidden;
+        c->moving += o->moving;
+        c->two_sided += o->two_sided;
+        c->unlit += o->unlit;
+        c->visible[o->visible_alpha]++;
+        c->casters[o->caster]++;
+    }
+    for (size_t i = 0; i < s->n_meshes; i++) c->vertices += s->meshes[i].n_vertices;
+    c->shadow_lights = settings_shadow_lights(s);
+    c->n_needs = settings_needs(s, c->shadow_lights > 0, c->needs);
+}
+
+/* Tiles of an atlas of another size. */
+static size_t scaled_texels(size_t texels, int side, int measured_side)
+{
+    return texels / (size_t)measured_side * (size_t)side / (size_t)measured_side * (size_t)side;
+}
+
+/* RAM per preset with features and capacities for just this scene at this picture size, where they were not set. */
+static void preset_ram(const settings *set, const settings_demand *demand, const scene *s, settings_ram_parts *ram)
+{
+    for (int i = 0; i < SETTINGS_PRESETS; i++) {
+        settings needed = *set;
+        settings_preset(&needed, i);
+        settings_trim(&needed, s);
+        settings_demand scaled = *demand;
+        scaled.atlas_texels = scaled_texels(demand->atlas_texels, needed.quality.atlas_size, set->quality.atlas_size);
+        scaled.other_atlas_texels =
+            scaled_texels(demand->other_atlas_texels, needed.quality.other_atlas_size, set->quality.other_atlas_size);
+        settings_fit(&needed, &scaled);
+        ram[i] = settings_ram(&needed);
+    }
+}
+
+/* ---- JSON -------------------------------------------------------------------------------------------------------- */
+
+static void json_lights(const report *r)
+{
+    printf(", \"light_list\": [");
+    for (size_t i = 0; i < r->scene->n_lights; i++) {
+        const scene_light *l = &r->scene->lights[i];
+        printf("%s{\"name\": ", i ? ", " : "");
+        tool_json_string(l->name);
+        printf(", \"kind\": \"%s\", \"mode\": \"%s\", \"shadow\": \"%s\", \"tiles\": %d, \"tile_texels\": %d}",
+               kind_names[l->kind], mode_names[l->mode], shadow_names[r->picture->shadow_state[i]],
+               r->picture->n_tiles[i], r->picture->atlas_texels[i]);
+    }
+    printf("]");
+}
+
+static void json_needs(const counts *c)
+{
+    printf(", \"features\": {\"vertex_normals\": %d, \"vertex_colours\": %d, \"two_sided\": %d, \"unlit\": %d}",
+           c->smooth, c->coloured, c->two_sided > 0, c->unlit > 0);
+    printf(", \"needs\": {");
+    for (int i = 0; i < c->n_needs; i++) printf("\"%s\": %d, ", c->needs[i].knob, c->needs[i].value);
+    printf("\"vertex_normals\": %d, \"vertex_colours\": %d}", c->smooth, c->coloured);
+}
+
+static void json_objects(const counts *c)
+{
+    printf(", \"textured_objects\": %zu, \"masked_objects\": %zu, \"baked_objects\": %zu, \"hidden_objects\": %zu, "
+           "\"moving_objects\": %zu",
+           c->textured, c->masked, c->baked, c->hidden, c->moving);
+    printf(", \"alpha\": {\"clip\": %zu, \"dither\": %zu}, \"casters\": {\"on\": %zu, \"clip\": %zu, \"dither\": %zu, "
+           "\"off\": %zu}",
+           c->visible[SCENE_ALPHA_CLIP], c->visible[SCENE_ALPHA_DITHER], c->casters[SCENE_CASTER_ON],
+           c->casters[SCENE_CASTER_CLIP], c->casters[SCENE_CASTER_DITHER], c->casters[SCENE_CASTER_OFF]);
+}
+
+static void print_json(const report *r)
+{
+    const scene *s = r->scene;
+    const gn_stats *stats = &r->picture->stats;
+    const settings_demand *demand = &r->picture->demand;
+    printf("{\"scene\": ");
+    tool_json_string(r->options->scene_path);
+    printf(", \"objects\": %zu, \"meshes\": %zu, \"triangles\": %zu, \"vertices\": %zu, \"lights\": %zu, "
+           "\"shadow_lights\": %zu, "
+           "\"textures\": %zu",
+           s->n_objects, s->n_meshes, r->counts.triangles, r->counts.vertices, s->n_lights, r->counts.shadow_lights,
+           s->n_textures);
+    json_lights(r);
+    json_objects(&r->counts);
+    json_needs(&r->counts);
+    printf(", \"visible_triangles\": %u, \"tile_refs\": %u, \"clipped_triangles\": %u, \"caster_triangles\": %u",
+           stats->n_triangles, stats->n_tile_refs, stats->n_clipped, stats->n_caster_triangles);
+    printf(", \"shadow_tiles\": %zu, \"other_tiles\": %zu, \"surface_lights\": %zu, \"lights_without_room\": %u, "
+           "\"lights_left_out\": %u, \"clamped_views\": %u, \"casters_culled\": %u",
+           demand->shadow_tiles, demand->other_tiles, demand->surface_lights, stats->n_lights_without_room,
+           stats->n_lights_left_out, stats->n_reach_clamped, stats->n_casters_culled);
+    printf(", \"ram_bytes\": {");
+    for (int i = 0; i < SETTINGS_PRESETS; i++)
+        printf("%s\"%s\": %ld", i ? ", " : "", settings_preset_name[i], r->ram[i].total);
+    printf("}");
+    info_memory_json(&r->memory);
+    printf(", \"notes\": [");
+    for (size_t i = 0; i < s->n_notes; i++) {
+        if (i) printf(", ");
+        tool_json_string(s->notes[i]);
+    }
+    printf("]}\n");
+}
+
+/* ---- Text -------------------------------------------------------------------------------------------------------- */
+
+static void text_light(const report *r, size_t i)
+{
+    const scene_light *l = &r->scene->lights[i];
+    int n = r->picture->n_tiles[i], t = r->picture->atlas_texels[i];
+    printf("    %zu '%s': %s, ", i, l->name, kind_names[l->kind]);
+    if (l->mode != SCENE_REALTIME) printf("%s, ", mode_names[l->mode]);
+    if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME)
+        printf("%d shadow tile%s of %dx%d\n", n, n == 1 ? "" : "s", t, t);
+    else if (r->picture->shadow_state[i] == GN_SHADOW_NO_ROOM) printf("no room for its shadow\n");
+    else printf("no shadow\n");
+}
+
+/* "what: N of this, N of that", of what there is; nothing if there is none */
+static void text_counts(const char *what, const char *const *names, const size_t *n, size_t n_names)
+{
+    const char *before = what;
+    for (size_t i = 0; i < n_names; i++) {
+        if (!n[i]) continue;
+        printf("%s%zu %s", before, n[i], names[i]);
+        before = ", ";
+    }
+    if (before != what) printf("\n");
+}
+
+static void text_objects(const counts *c)
+{
+    static const char *const special[] = {
+        "textured", "with a shadow mask", "with baked light", "hidden", "moving", "two-sided", "unlit"};
+    static const char *const cut[] = {"clip", "dither"};
+    static const char *const casting[] = {"clip", "dither", "off"};
+    text_counts("  objects: ", special,
+                (const size_t[]){c->textured, c->masked, c->baked, c->hidden, c->moving, c->two_sided, c->unlit}, 7);
+    text_counts("  objects cut by alpha: ", cut, &c->visible[SCENE_ALPHA_CLIP], 2);
+    text_counts(
+        "  casters: ", casting,
+        (const size_t[]){c->casters[SCENE_CASTER_CLIP], c->casters[SCENE_CASTER_DITHER], c->casters[SCENE_CASTER_OFF]},
+        3);
+}
+
+static void text_needs(const counts *c)
+{
+    printf("  needs:");
+    for (int i = 0; i < c->n_needs; i++) {
+        printf(" %s", c->needs[i].knob);
+        if (c->needs[i].value > 1) printf("=%d", c->needs[i].value);
+    }
+    printf("%s%s\n", c->smooth ? " vertex_normals" : "", c->coloured ? " vertex_colours" : "");
+}
+
+static void text_ram(const report *r)
+{
+    printf("  RAM with features and capacities for just that:\n");
+    for (int i = 0; i < SETTINGS_PRESETS; i++) {
+        const settings_ram_parts *ram = &r->ram[i];
+        printf("    %-9s %7ld bytes: atlas %ld, other atlas %ld, triangles %ld, tile references %ld, objects and "
+               "lights %ld, "
+               "screen tile %ld, rest %ld\n",
+               settings_preset_name[i], ram->total, ram->atlas, ram->other_atlas, ram->triangles,
+               ram->tile_refs + ram->tiles, ram->objects + ram->lights, ram->cells + ram->pixels, ram->rest);
+    }
+}
+
+static void print_text(const report *r)
+{
+    const scene *s = r->scene;
+    const tool_options *o = r->options;
+    const gn_stats *stats = &r->picture->stats;
+    printf("%s\n", o->scene_path);
+    printf("  %zu objects, %zu meshes, %zu triangles, %zu vertices, %zu textures\n", s->n_objects, s->n_meshes,
+           r->counts.triangles, r->counts.vertices, s->n_textures);
+    text_objects(&r->counts);
+    printf("  %zu lights, %zu with a shadow\n", s->n_lights, r->counts.shadow_lights);
+    for (size_t i = 0; i < s->n_lights; i++) text_light(r, i);
+    text_needs(&r->counts);
+    printf("  at %dx%d, frame %d: %u visible triangles (%u clipped), %u tile references, %u caster triangles\n",
+           o->width, o->height, o->frame, stats->n_triangles, stats->n_clipped, stats->n_tile_refs,
+           stats->n_caster_triangles);
+    if (stats->n_lights_left_out) printf("  lights left out of objects' lists: %u\n", stats->n_lights_left_out);
+    if (stats->n_reach_clamped) printf("  views whose filter does not fit their tile: %u\n", stats->n_reach_clamped);
+    text_ram(r);
+    info_memory_text(&r->memory);
+    for (size_t i = 0; i < s->n_notes; i++) printf("  %s%s\n", i < r->n_ignored ? "ignored: " : "note: ", s->notes[i]);
+}
+
+int tool_info(const tool_options *o)
+{
+    char error[TOOL_ERROR_BYTES] = "out of memory";
+    scene s;
+    settings set, unlimited;
+    if (tool_load(o, &s, &set)) return TOOL_FAILED;
+    const size_t n_ignored = s.n_notes;
+    unlimited = set;
+    unlimited.capacity.max_triangles = unlimited.capacity.max_tile_refs = unlimited.capacity.max_lights = 0;
+    unlimited.capacity.surface_lights = unlimited.capacity.max_objects = 0;
+    engine_picture p;
+    int failed = remarks_on_lights(&s, error, sizeof error) ||
+                 remarks_on_shadows(&s, o->width, o->height, error, sizeof error) ||
+                 engine_fixed(&p, &s, &unlimited, o->width, o->height, ENGINE_COLOUR_ONLY, error, sizeof error);
+    if (!failed) {
+        report r = {.options = o, .scene = &s, .n_ignored = n_ignored, .picture = &p};
+        count(&s, &r.counts);
+        preset_ram(&set, &p.demand, &s, r.ram);
+        failed = info_memory_find(&r.memory, o, error, sizeof error);
+        if (!failed && o->json) print_json(&r);
+        else if (!failed) print_text(&r);
+        engine_free(&p);
+    }
+    scene_free(&s);
+    return failed ? tool_fail(o->scene_path, error) : TOOL_OK;
+}

@@ -1,0 +1,25 @@
+/* From the scene file to what is written: every step but the files. */
+#include "compile.h"
+
+/* Where the scene must fit; without a board, in --ram and --flash. 1: somewhere; 0: nowhere. */
+int compile_read_board(const tool_options *o, board *out, char *error, size_t bytes)
+{
+    *out = (board){
+        .name = "", .ram = 1L << 30, .flash = 1L << 30, .stack = 1536, .core = FLASH_CORTEX_M0, .short_enums = true};
+    if (o->board && board_read(out, o->board, error, bytes)) return -1;
+    if (o->optimise) board_set_optimisation(out, o->optimise);
+    if (o->ram) out->ram = o->ram;
+    if (o->flash) out->flash = o->flash;
+    return o->board || o->ram || o->flash;
+}
+
+int compile_all(compiled *c, const tool_options *o, char *error, size_t bytes)
+{
+    compile_stage st;
+    if (compile_play(c, o, error, bytes)) return -1;
+    int failed = compile_stage_open(&st, c) || compile_simplify(c, &st, error, bytes);
+    compile_stage_close(&st);
+    if (failed) compile_free(c);
+    else compile_choose(c);
+    return failed ? -1 : 0;
+}

@@ -1,0 +1,69 @@
+/* What shadow tiles have to do with casters in the frame that was drawn last: which features of theirs it could have
+ * been without. */
+#include "shadow/gn_cull.h"
+#include "shadow/gn_ortho.h"
+#include "compile.h"
+
+/* The furthest that a coordinate of the caster lies from the tile's corner, Q16 texels. All vertices, whatever
+ * triangles use them: what is found holds for those that are drawn. */
+static int64_t reach_of(const gn_light_view *view, const gn_object *object)
+{
+    const gn_mesh *mesh = object->mesh;
+    gn_xform to_tile;
+    int64_t reach = 0;
+    gn_ortho_compose(&to_tile, view, object);
+    for (uint32_t i = 0; i < mesh->n_vertices; i++) {
+        int64_t at[3];
+        gn_ortho_vertex(at, &to_tile, mesh, i);
+        for (int k = 0; k < 3; k++) {
+            int64_t far = at[k] < 0 ? -at[k] : at[k];
+            if (far > reach) reach = far;
+        }
+    }
+    return reach;
+}
+
+static void add_caster(compile_run *run, const gn_renderer *r, const gn_light_view *view, uint32_t object_idx)
+{
+    bool seen = gn_cull_sees(&r->frame, view, &r->frame.object[object_idx]);
+    run->casters_unseen += !seen;
+    if (view->perspective) return; /* these take any caster */
+    /* B4 moves a corner by as many texels at the most */
+    const gn_light *light = &r->frame.scene->lights[view->light_idx];
+    int64_t reach = reach_of(view, &r->frame.scene->objects[object_idx]) + light->bias_caster_q16;
+    if (seen && reach > run->reach_seen_q16) run->reach_seen_q16 = reach;
+    if (reach > run->reach_q16) run->reach_q16 = reach;
+}
+
+void compile_casters(compile_run *run, const gn_renderer *r)
+{
+    const gn_scene *s = r->frame.scene;
+    for (uint32_t v = 0; v < r->frame.n_views; v++) {
+        const gn_light_view *view = &r->frame.view[v];
+        if (view->empty) continue;
+        for (uint32_t i = 0; i < s->n_objects; i++)
+            if (s->objects[i].flags & GN_OBJECT_CASTS) add_caster(run, r, view, i);
+    }
+}
+
+int compile_reach_texels(const compile_run *run, bool boxes)
+{
+    int64_t texels = ((boxes ? run->reach_seen_q16 : run->reach_q16) + 65535) >> 16;
+    return texels < INT32_MAX ? (int)texels : INT32_MAX;
+}
+
+int compile_check_reach(const compiled *c, char *error, size_t error_bytes)
+{
+    if (!c->asked.feature.clipping && c->run.clipped) {
+        snprintf(error, error_bytes, "setting 'clipping': 0, and %zu triangles of all frames are clipped",
+                 c->run.clipped);
+        return -1;
+    }
+    const bool boxes = c->asked.feature.object_boxes && c->run.casters_unseen;
+    const int reach = compile_reach_texels(&c->run, boxes);
+    if (c->asked.feature.caster_clipping || !c->asked.feature.shadows || reach < COMPILE_REACH_MAX) return 0;
+    snprintf(error, error_bytes,
+             "setting 'caster_clipping': 0, and casters lie up to %d texels from a shadow tile's corner, of %d", reach,
+             COMPILE_REACH_MAX);
+    return -1;
+}

@@ -1,0 +1,373 @@
+/* The nearest configuration that fits a board: of those whose memory would, the one whose picture changes least.
+ *
+ * What changes the picture (shadow maps, depth, fractions of pixels, filters) is tried in every combination by the
+ * prediction of memory alone; of those that fit, all that could be had with less change are dropped, and the others are
+ * drawn and compared with what was asked for. What changes no picture but costs instructions (screen tiles, caches,
+ * bounds) is then given up as far as it must be. Only where nothing fits, or shadows would be lost, the picture gets
+ * smaller. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compile.h"
+#include "../settings/settings_parse.h"
+
+enum { SAMPLES = 3, LISTED_MAX = 48, EIGHTHS = 8, LEAN_MAX = 2, SMALL_VERTEX_CACHE = 8 };
+#define MUCH 16.0 /* a change, RMS of 255, for which a picture of down to half the sides is looked for instead */
+
+/* What changes the picture, each from 0: as it was asked for. */
+enum { ATLAS, OTHER_ATLAS, DEPTH, OTHER_DEPTH, SUBPIXEL, FILTER, OTHER_FILTER, STEP, LOSSES };
+
+typedef struct {
+    int loss[LOSSES];
+    int tile_width, tile_height; /* 0: as it is */
+    int lean;                    /* 1: a small vertex cache; 2: nothing that only saves instructions */
+    double change;               /* mean square of the picture's, of 255 */
+} variant;
+
+typedef struct {
+    const compiled *c; /* in the size that is tried */
+    const board *b;
+    int most[LOSSES]; /* steps that there are */
+    variant list[LISTED_MAX];
+    size_t n;
+    long least_ram, least_flash; /* of all that was tried, each by itself */
+    double change;               /* of what was found, RMS */
+} search;
+
+/* ---- Variants ---------------------------------------------------------------------------------------------------- */
+
+static int halved(int side, int times)
+{
+    return side >> times < 16 ? 16 : side >> times;
+}
+
+/* 8 bits less per step: 32, 16, 8 */
+static int fewer_bits(int bits, int steps)
+{
+    return bits >> steps < 8 ? 8 : bits >> steps;
+}
+
+static int halvings(int side)
+{
+    int n = 0;
+    while (side >> n > 16) n++;
+    return n;
+}
+
+static void find_losses(search *s, bool flash_is_short)
+{
+    const gn_knobs *q = &s->c->asked.quality;
+    const settings_demand *d = &s->c->run.demand;
+    const gn_shadow_settings *shadow = &s->c->fixed.scene.shadow;
+    const bool weighs = flash_is_short && shadow->filter != GN_FILTER_DISK,
+               other_weighs = flash_is_short && shadow->other_filter != GN_FILTER_DISK;
+    memset(s->most, 0, sizeof s->most);
+    if (d->shadow_tiles) {
+        s->most[ATLAS] = halvings(q->atlas_size);
+        s->most[DEPTH] = q->depth_bits == 32 ? 2 : q->depth_bits == 16;
+        s->most[FILTER] = weighs ? (int)shadow->filter : 0;
+    }
+    if (d->other_tiles) {
+        s->most[OTHER_ATLAS] = halvings(q->other_atlas_size);
+        s->most[OTHER_DEPTH] = q->other_depth_bits == 32 ? 2 : q->other_depth_bits == 16;
+        s->most[OTHER_FILTER] = other_weighs ? (int)shadow->other_filter : 0;
+    }
+    s->most[SUBPIXEL] = q->subpixel_bits > 7;
+    s->most[STEP] = flash_is_short && q->persp_step > 1;
+}
+
+/* The compiled scene as the variant has it. */
+static compiled apply(const search *s, const variant *v)
+{
+    compiled c = *s->c;
+    c.set = c.asked;
+    gn_knobs *q = &c.set.quality;
+    q->position_bits = s->c->set.quality.position_bits; /* what the meshes hold by now */
+    q->normal_bits = s->c->set.quality.normal_bits;
+    q->atlas_size = halved(q->atlas_size, v->loss[ATLAS]);
+    q->other_atlas_size = halved(q->other_atlas_size, v->loss[OTHER_ATLAS]);
+    q->depth_bits = fewer_bits(q->depth_bits, v->loss[DEPTH]);
+    q->other_depth_bits = fewer_bits(q->other_depth_bits, v->loss[OTHER_DEPTH]);
+    q->subpixel_bits -= v->loss[SUBPIXEL];
+    if (v->loss[STEP]) q->persp_step = 1;
+    if (v->tile_width && v->tile_width < q->tile_width) q->tile_width = v->tile_width;
+    if (v->tile_height && v->tile_height < q->tile_height) q->tile_height = v->tile_height;
+    c.fixed.scene.shadow.filter = (gn_filter)((int)c.fixed.scene.shadow.filter - v->loss[FILTER]);
+    c.fixed.scene.shadow.other_filter = (gn_filter)((int)c.fixed.scene.shadow.other_filter - v->loss[OTHER_FILTER]);
+    if (v->lean >= 1 && c.set.capacity.vertex_cache > SMALL_VERTEX_CACHE)
+        c.set.capacity.vertex_cache = SMALL_VERTEX_CACHE;
+    if (v->lean >= 2)
+        c.set.feature.depth_blocks = c.set.feature.object_boxes = c.set.feature.incremental =
+            c.set.feature.caster_culling = 0;
+    return c;
+}
+
+static size_t scaled(size_t texels, int times)
+{
+    size_t n = texels >> (2 * times);
+    return texels && n < 64 ? 64 : n;
+}
+
+/* What it would take if the frames took as many triangles and references as those asked for do. */
+static compile_memory predict(const search *s, const variant *v)
+{
+    compiled c = apply(s, v);
+    c.run.demand.atlas_texels = scaled(c.run.demand.atlas_texels, v->loss[ATLAS]);
+    c.run.demand.other_atlas_texels = scaled(c.run.demand.other_atlas_texels, v->loss[OTHER_ATLAS]);
+    compile_choose(&c);
+    return compile_measure(&c, s->b);
+}
+
+/* The i-th of the frames that are looked at. */
+static int sample_of(const search *s, int i)
+{
+    return (s->c->n_frames - 1) * i / (SAMPLES - 1);
+}
+
+/* What it takes, from all frames. -1: the library refuses it. */
+static int play(const search *s, const variant *v, compile_memory *out)
+{
+    compiled c = apply(s, v);
+    compile_stage st;
+    compile_run run = {.hash = NULL};
+    if (compile_stage_open(&st, &c)) return -1;
+    int failed = 0;
+    for (int i = 0; !failed && i < c.n_frames; i++) failed = compile_run_one(&run, &st, &c, i);
+    compile_stage_close(&st);
+    if (failed) return -1;
+    c.run = run;
+    compile_choose(&c);
+    *out = compile_measure(&c, s->b);
+    return 0;
+}
+
+/* ---- Those that fit ---------------------------------------------------------------------------------------------- */
+
+static bool costs_less(const variant *a, const variant *b)
+{
+    for (int i = 0; i < LOSSES; i++)
+        if (a->loss[i] > b->loss[i]) return false;
+    return true;
+}
+
+static void keep_least(search *s, const compile_memory *m)
+{
+    const long ram = compile_ram_bytes(m, s->b), flash = compile_rom_bytes(m);
+    if (ram < s->least_ram) s->least_ram = ram;
+    if (flash < s->least_flash) s->least_flash = flash;
+}
+
+static void consider(search *s, variant v)
+{
+    v.lean = LEAN_MAX;
+    v.tile_width = 16;
+    v.tile_height = 4;
+    for (size_t i = 0; i < s->n; i++)
+        if (costs_less(&s->list[i], &v)) return;
+    compile_memory m = predict(s, &v);
+    keep_least(s, &m);
+    if (compile_fits(&m, s->b) && s->n < LISTED_MAX) s->list[s->n++] = v;
+}
+
+/* All combinations: what costs less comes before what costs more. */
+static void list_fitting(search *s)
+{
+    variant v = {.lean = 0};
+    s->n = 0;
+    for (int i = 0; i < LOSSES;) {
+        consider(s, v);
+        for (i = 0; i < LOSSES && v.loss[i] == s->most[i]; i++) v.loss[i] = 0;
+        if (i < LOSSES) v.loss[i]++;
+    }
+}
+
+/* ---- What they change -------------------------------------------------------------------------------------------- */
+
+typedef struct {
+    uint8_t *pixels;
+    int width;
+} canvas;
+
+static void put_tile(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    const canvas *to = user;
+    for (int row = 0; row < h; row++)
+        memcpy(to->pixels + 3 * ((size_t)(y + row) * (size_t)to->width + (size_t)x),
+               (const uint8_t *)pixels + 3 * (size_t)row * (size_t)w, 3 * (size_t)w);
+}
+
+static size_t frame_bytes(const search *s)
+{
+    return 3 * (size_t)s->c->options->width * (size_t)s->c->options->height;
+}
+
+/* The sample frames, one after another. */
+static int show_samples(const search *s, const variant *v, uint8_t *pixels)
+{
+    compiled c = apply(s, v);
+    compile_stage st;
+    const size_t bytes = frame_bytes(s);
+    if (compile_stage_open(&st, &c)) return -1;
+    int failed = 0;
+    for (int i = 0; !failed && i < SAMPLES; i++) {
+        canvas to = {pixels + (size_t)i * bytes, c.options->width};
+        failed = compile_show(&st, &c, sample_of(s, i), put_tile, &to);
+    }
+    compile_stage_close(&st);
+    return failed;
+}
+
+static double mean_square(const uint8_t *a, const uint8_t *b, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += (double)(a[i] - b[i]) * (double)(a[i] - b[i]);
+    return sum / (double)n;
+}
+
+static int by_change(const void *a, const void *b)
+{
+    const double d = ((const variant *)a)->change - ((const variant *)b)->change;
+    return d < 0 ? -1 : d > 0;
+}
+
+/* The least change first; what is refused last. */
+static int order(search *s)
+{
+    const variant asked = {.lean = 0};
+    const size_t bytes = SAMPLES * frame_bytes(s);
+    uint8_t *both = malloc(2 * bytes);
+    int failed = !both || show_samples(s, &asked, both);
+    for (size_t i = 0; !failed && i < s->n; i++)
+        s->list[i].change =
+            show_samples(s, &s->list[i], both + bytes) ? HUGE_VAL : mean_square(both, both + bytes, bytes);
+    free(both);
+    if (!failed) qsort(s->list, s->n, sizeof *s->list, by_change);
+    return failed;
+}
+
+/* ---- The nearest ------------------------------------------------------------------------------------------------- */
+
+/* What changes no picture: as much of it as fits. */
+static bool spare(const search *s, variant *v, compile_memory *m)
+{
+    static const int tiles[][2] = {{0, 0}, {0, 8}, {0, 4}, {32, 8}, {32, 4}, {16, 8}, {16, 4}};
+    for (v->lean = 0; v->lean <= LEAN_MAX; v->lean++) {
+        for (size_t i = 0; i < sizeof tiles / sizeof *tiles; i++) {
+            v->tile_width = tiles[i][0];
+            v->tile_height = tiles[i][1];
+            *m = predict(s, v);
+            if (compile_fits(m, s->b) && !play(s, v, m) && compile_fits(m, s->b)) return true;
+        }
+    }
+    return false;
+}
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+static void
+say(char *out, size_t bytes, size_t *n, const char *format, ...);
+
+static void say(char *out, size_t bytes, size_t *n, const char *format, ...)
+{
+    va_list arguments;
+    if (*n >= bytes) return;
+    va_start(arguments, format);
+    int written = vsnprintf(out + *n, bytes - *n, format, arguments);
+    va_end(arguments);
+    if (written > 0) *n += (size_t)written;
+}
+
+static void say_variant(const search *s, const variant *v, const compile_memory *m, bool smaller, char *out,
+                        size_t bytes)
+{
+    const compiled c = apply(s, v);
+    const settings *is = &c.set, *was = &s->c->asked, *on = &s->c->set;
+    size_t n = 0;
+    say(out, bytes, &n, "nearest that does:");
+    if (smaller) say(out, bytes, &n, " --size %dx%d", c.options->width, c.options->height);
+#define SAY_(kind, knob)                                                                                               \
+    if (is->kind.knob != was->kind.knob) say(out, bytes, &n, " --set " #knob "=%d", is->kind.knob)
+    SAY_(quality, atlas_size);
+    SAY_(quality, other_atlas_size);
+    SAY_(quality, depth_bits);
+    SAY_(quality, other_depth_bits);
+    SAY_(quality, subpixel_bits);
+    SAY_(quality, persp_step);
+    SAY_(quality, tile_width);
+    SAY_(quality, tile_height);
+    if (v->loss[FILTER]) say(out, bytes, &n, " --set filter=%s", settings_filter_names[c.fixed.scene.shadow.filter]);
+    if (v->loss[OTHER_FILTER])
+        say(out, bytes, &n, " --set other_filter=%s", settings_filter_names[c.fixed.scene.shadow.other_filter]);
+    SAY_(capacity, vertex_cache);
+    if (v->lean == LEAN_MAX) {
+        if (on->feature.depth_blocks) say(out, bytes, &n, " --set depth_blocks=0");
+        if (on->feature.object_boxes) say(out, bytes, &n, " --set object_boxes=0");
+        if (on->feature.incremental) say(out, bytes, &n, " --set incremental=0");
+        if (on->feature.caster_culling) say(out, bytes, &n, " --set caster_culling=0");
+    }
+    say(out, bytes, &n, ": %ld bytes of RAM, %ld of flash, colours off by %.1f of 255 (RMS)",
+        compile_ram_bytes(m, s->b), compile_rom_bytes(m), sqrt(v->change));
+}
+
+/* In the size of s->c. */
+static bool find(search *s, bool smaller, char *out, size_t bytes)
+{
+    compile_memory m;
+    list_fitting(s);
+    if (!s->n || order(s)) return false;
+    for (size_t i = 0; i < s->n && s->list[i].change < HUGE_VAL; i++) {
+        if (!spare(s, &s->list[i], &m)) continue;
+        say_variant(s, &s->list[i], &m, smaller, out, bytes);
+        s->change = sqrt(s->list[i].change);
+        return true;
+    }
+    return false;
+}
+
+static int side_of(int side, int eighths)
+{
+    return (side * eighths + EIGHTHS - 1) / EIGHTHS;
+}
+
+/* A smaller picture shows fewer triangles: the scene is compiled anew. */
+static bool find_smaller(search *s, const tool_options *asked, int eighths, char *out, size_t bytes)
+{
+    char error[TOOL_ERROR_BYTES];
+    tool_options o = *asked;
+    compiled c;
+    o.width = side_of(o.width, eighths);
+    o.height = side_of(o.height, eighths);
+    if (compile_all(&c, &o, error, sizeof error)) return false;
+    s->c = &c;
+    const bool found = find(s, true, out, bytes);
+    compile_free(&c);
+    return found;
+}
+
+bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t bytes)
+{
+    char other[400];
+    board narrow = *b; /* other settings may keep triangles that these do not show */
+    narrow.ram -= b->ram / 64;
+    narrow.flash -= b->flash / 64;
+    const compile_memory asked = compile_measure(c, b);
+    search s = {
+        .c = c, .b = &narrow, .least_ram = compile_ram_bytes(&asked, b), .least_flash = compile_rom_bytes(&asked)};
+    find_losses(&s, compile_rom_bytes(&asked) > narrow.flash);
+    bool found = find(&s, false, out, bytes);
+    if (found && s.change <= MUCH) return true;
+    for (int eighths = EIGHTHS - 1; eighths > 0 && !(found && eighths < EIGHTHS / 2); eighths--) {
+        if (!find_smaller(&s, c->options, eighths, other, sizeof other)) continue;
+        if (!found || s.change <= MUCH) snprintf(out, bytes, "%s", other);
+        found = true;
+        if (s.change <= MUCH) return true;
+    }
+    if (found) return true;
+    snprintf(out, bytes,
+             "no settings do: the least that was found, each by itself, is %ld bytes of RAM and %ld of flash",
+             s.least_ram, s.least_flash);
+    return false;
+}

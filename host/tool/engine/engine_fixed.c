@@ -1,0 +1,295 @@
+/* Pictures by the library itself: colours in both formats, then each raw view. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine.h"
+#include "../fixed/output.h"
+#include "../fixed/quantise.h"
+
+typedef struct {
+    uint8_t *pixels;
+    int width;
+    size_t pixel_bytes;
+} canvas;
+
+static void flush(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    canvas *c = user;
+    for (int row = 0; row < h; row++)
+        memcpy(c->pixels + ((size_t)(y + row) * (size_t)c->width + (size_t)x) * c->pixel_bytes,
+               (const uint8_t *)pixels + (size_t)row * (size_t)w * c->pixel_bytes, (size_t)w * c->pixel_bytes);
+}
+
+typedef struct {
+    gn_renderer *renderer;
+    const settings *set;
+    const fixed_scene *fixed;
+    const scene *scene;
+    char *error;
+    size_t error_bytes;
+} job;
+
+static void name_farthest(const scene *s, const quantise_reach *farthest, char *out, size_t bytes)
+{
+    static const char *const names[] = {[QUANTISE_CAMERA] = "the camera's place",
+                                        [QUANTISE_CAMERA_NEAR] = "the camera's near plane",
+                                        [QUANTISE_MAX_DISTANCE] = "max_distance"};
+    if (farthest->subject == QUANTISE_OBJECT) snprintf(out, bytes, "object '%.64s'", s->objects[farthest->idx].name);
+    else if (farthest->subject == QUANTISE_LIGHT) snprintf(out, bytes, "light '%.64s'", s->lights[farthest->idx].name);
+    else snprintf(out, bytes, "%s", names[farthest->subject]);
+}
+
+/* Ranges are the library's: what one of its units is in the scene's own, and what made it so. */
+static void add_units(const job *j)
+{
+    size_t used = strlen(j->error);
+    const quantise_reach farthest = quantise_farthest(j->scene);
+    char name[100];
+    name_farthest(j->scene, &farthest, name, sizeof name);
+    snprintf(j->error + used, j->error_bytes - used,
+             " (in the library's units: one is %g of the scene's, for %s, %g from the origin or the camera, must fit)",
+             ldexp(1, -j->fixed->world_exp), name, farthest.reach);
+}
+
+/* What the index of a status counts. */
+typedef enum { ABOUT_NOTHING, ABOUT_OBJECT, ABOUT_LIGHT } subject;
+
+static subject subject_of(gn_status status)
+{
+    switch (status) {
+    case GN_ERR_OBJECT_TRANSFORM:
+    case GN_ERR_MESH:
+    case GN_ERR_VERTEX_RANGE:
+    case GN_ERR_TEXTURE:
+    case GN_ERR_MATERIAL:
+    case GN_ERR_MASK:
+        return ABOUT_OBJECT;
+    case GN_ERR_LIGHT_KIND:
+    case GN_ERR_LIGHT_DIRECTION:
+    case GN_ERR_LIGHT_POSITION:
+    case GN_ERR_LIGHT_RANGE:
+    case GN_ERR_LIGHT_ANGLE:
+    case GN_ERR_LIGHT_BIAS:
+        return ABOUT_LIGHT;
+    default:
+        return ABOUT_NOTHING;
+    }
+}
+
+/* Names what the status is about as the scene file does. */
+static int explain(const job *j, gn_status status)
+{
+    const gn_detail *d = gn_get_detail(j->renderer);
+    const scene *s = j->scene;
+    subject about = subject_of(status);
+    if (d->needed)
+        snprintf(j->error, j->error_bytes, "%s: %u needed, %u available", gn_status_text(status), d->needed,
+                 d->available);
+    else if (about == ABOUT_OBJECT && d->index < s->n_objects)
+        snprintf(j->error, j->error_bytes, "object '%s': %s", s->objects[d->index].name, gn_status_text(status));
+    else if (about == ABOUT_LIGHT && d->index < s->n_lights)
+        snprintf(j->error, j->error_bytes, "light '%s': %s", s->lights[d->index].name, gn_status_text(status));
+    else if (status == GN_ERR_SHADOW_DISTANCE)
+        snprintf(j->error, j->error_bytes, "%s: it is %g, the near plane %g; --set max_distance=...",
+                 gn_status_text(status), s->shadow.max_distance, s->camera.near);
+    else snprintf(j->error, j->error_bytes, "%s", gn_status_text(status));
+    if (status == GN_ERR_CAMERA_DEPTH || status == GN_ERR_SHADOW_DISTANCE || status == GN_ERR_LIGHT_RANGE ||
+        status == GN_ERR_LIGHT_POSITION)
+        add_units(j);
+    return -1;
+}
+
+/* One pass of the library over the whole picture. */
+static int pass(const job *j, const gn_picture *picture, gn_flush_fn to, void *user)
+{
+    gn_status status = gn_init(j->renderer, picture);
+    if (status) return explain(j, status);
+    j->renderer->frame.knobs = j->set->quality;
+    status = gn_render(j->renderer, &j->fixed->scene, to, user);
+    return status ? explain(j, status) : 0;
+}
+
+static int draw(const job *j, gn_picture picture, void *pixels)
+{
+    canvas c = {pixels, picture.width, picture.format == GN_FORMAT_RGB565 ? 2 : 4};
+    return pass(j, &picture, flush, &c);
+}
+
+static int draw_panel(const job *j, gn_picture picture, uint8_t *rgb8)
+{
+    output_panel p = {rgb8, picture.width, picture.format};
+    return pass(j, &picture, output_flush, &p);
+}
+
+static int draw_raw(const job *j, gn_picture picture, gn_view view, size_t light, uint32_t *raw)
+{
+    picture.format = GN_FORMAT_RAW32;
+    picture.view = view;
+    picture.view_light = (uint8_t)light;
+    return draw(j, picture, raw);
+}
+
+static double unpack_axis(uint32_t bits)
+{
+    return ((double)(bits & 1023U) - 512.0) / 511.0;
+}
+
+static int draw_views(const job *j, gn_picture picture, engine_picture *out, uint32_t *raw)
+{
+    size_t n = (size_t)out->width * (size_t)out->height;
+    if (draw_raw(j, picture, GN_VIEW_DEPTH, 0, raw)) return -1;
+    for (size_t i = 0; i < n; i++)
+        out->depth[i] = raw[i] == UINT32_MAX ? (double)INFINITY : ldexp(raw[i], -16 - j->fixed->world_exp);
+    if (draw_raw(j, picture, GN_VIEW_NORMAL, 0, raw)) return -1;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < 3; k++) out->normal[3 * i + k] = unpack_axis(raw[i] >> (20 - 10 * k));
+    if (draw_raw(j, picture, GN_VIEW_TRIANGLE, 0, raw)) return -1;
+    for (size_t i = 0; i < n; i++)
+        out->triangle[i] = raw[i] == UINT32_MAX ? -1 : (int64_t)(raw[i] >> 16) << 32 | (int64_t)(raw[i] & 65535U);
+    if (draw_raw(j, picture, GN_VIEW_CASCADE, 0, raw)) return -1;
+    for (size_t i = 0; i < n; i++) out->cascade[i] = raw[i] < 4 ? (int8_t)raw[i] : -1;
+    for (size_t l = 0; l < out->n_lights; l++) {
+        if (draw_raw(j, picture, GN_VIEW_SHADOW, l, raw)) return -1;
+        for (size_t i = 0; i < n; i++) out->shadow[l][i] = raw[i] == UINT32_MAX ? 0 : raw[i] / 65536.0;
+    }
+    return 0;
+}
+
+static double depth_of(const gn_tile_info *tile, size_t i)
+{
+    if (tile->depth_bits == 8) return ((const uint8_t *)tile->depth)[i] / 255.0;
+    if (tile->depth_bits == 16) return ((const uint16_t *)tile->depth)[i] / 65535.0;
+    return ((const uint32_t *)tile->depth)[i] / 4294967295.0;
+}
+
+static int copy_tile(const job *j, engine_picture *out, size_t light, size_t idx)
+{
+    gn_tile_info info;
+    size_t t = gn_get_shadow_tile(j->renderer, (uint32_t)light, (uint32_t)idx, &info);
+    if (!t) return 0;
+    double *tile = malloc(t * t * sizeof *tile);
+    out->atlas[light][idx] = tile;
+    for (size_t i = 0; tile && i < t * t; i++) tile[i] = depth_of(&info, i);
+    return tile ? 0 : -1;
+}
+
+static int copy_atlas(const job *j, engine_picture *out, int what)
+{
+    for (size_t l = 0; l < out->n_lights; l++) {
+        uint32_t n_tiles = 0, texels = 0;
+        out->shadow_state[l] = gn_get_light_shadow(j->renderer, (uint32_t)l, &n_tiles, &texels);
+        if (out->shadow_state[l] != GN_SHADOW_REALTIME) continue;
+        out->n_tiles[l] = (int)n_tiles;
+        out->atlas_texels[l] = (int)texels;
+        out->perspective[l] = j->scene->lights[l].kind != SCENE_LIGHT_DIRECTIONAL;
+        for (size_t i = 0; what == ENGINE_ALL && i < n_tiles; i++)
+            if (copy_tile(j, out, l, i)) {
+                snprintf(j->error, j->error_bytes, "out of memory");
+                return -1;
+            }
+    }
+    return 0;
+}
+
+/* The most lights that some object's surfaces take: all directional ones, and those of its list. */
+static size_t surface_lights(const gn_frame *frame)
+{
+    size_t directional = 0, punctual = 0, listed = 0;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        if (frame->light[l].off) continue;
+        if (frame->light[l].kind == GN_LIGHT_DIRECTIONAL) directional++;
+        else punctual++;
+    }
+    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+        size_t n = frame->object[i].n_lights == GN_OBJECT_LIGHTS_ALL ? punctual : frame->object[i].n_lights;
+        listed = n > listed ? n : listed;
+    }
+    return directional + listed;
+}
+
+void engine_demand(const gn_renderer *renderer, settings_demand *out)
+{
+    const gn_frame *frame = &renderer->frame;
+    *out = (settings_demand){.width = frame->picture.width, .height = frame->picture.height};
+    out->objects = frame->scene->n_objects;
+    out->lights = frame->scene->n_lights;
+    out->surface_lights = surface_lights(frame);
+    out->triangles = frame->stats.n_triangles;
+    out->tile_refs = frame->stats.n_tile_refs;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        uint32_t n = 0, side = 0, n_unused = 0;
+        if (gn_get_light_shadow(renderer, l, &n, &side) != GN_SHADOW_REALTIME) continue;
+        const bool in_other = frame->view[frame->light[l].view_idx].in_other;
+        for (uint32_t i = 0; !in_other && i < n && n > 1; i++)
+            n_unused += frame->scene->shadow.cascades_unused >> i & 1;
+        *(in_other ? &out->other_tiles : &out->shadow_tiles) += n;
+        *(in_other ? &out->other_atlas_texels : &out->atlas_texels) += (size_t)(n - n_unused) * side * side;
+    }
+}
+
+static int allocate(engine_picture *out, const scene *s, int width, int height)
+{
+    size_t n = (size_t)width * (size_t)height;
+    memset(out, 0, sizeof *out);
+    out->width = width;
+    out->height = height;
+    out->n_lights = s->n_lights < ENGINE_LIGHTS_MAX ? s->n_lights : ENGINE_LIGHTS_MAX;
+    out->rgb8 = malloc(3 * n);
+    out->rgb565 = malloc(2 * n);
+    out->depth = malloc(n * sizeof(double));
+    out->normal = malloc(3 * n * sizeof(double));
+    out->triangle = malloc(n * sizeof(int64_t));
+    out->cascade = malloc(n);
+    for (size_t l = 0; l < out->n_lights; l++)
+        if (!(out->shadow[l] = malloc(n * sizeof(double)))) return -1;
+    return out->rgb8 && out->rgb565 && out->depth && out->normal && out->triangle && out->cascade ? 0 : -1;
+}
+
+int engine_fixed(engine_picture *out, const scene *s, const settings *set, int width, int height, int what, char *error,
+                 size_t error_bytes)
+{
+    fixed_scene fixed;
+    if (quantise_scene_for(&fixed, s, &set->quality, error, error_bytes)) return -1;
+    gn_renderer *renderer = malloc(sizeof *renderer);
+    uint32_t *raw = malloc((size_t)width * (size_t)height * sizeof *raw);
+    job j = {renderer, set, &fixed, s, error, error_bytes};
+    gn_picture picture = {(uint16_t)width, (uint16_t)height, set->output, GN_VIEW_COLOUR, 0};
+    int failed = allocate(out, s, width, height) || !renderer || !raw;
+    if (failed) snprintf(error, error_bytes, "out of memory");
+    count_reset();
+    if (!failed) failed = draw_panel(&j, picture, out->rgb8);
+    out->counts = count_get();
+    if (!failed) {
+        out->stats = *gn_get_stats(renderer);
+        failed = copy_atlas(&j, out, what);
+    }
+    if (!failed) {
+        engine_demand(renderer, &out->demand);
+        failed = settings_suffice(set, &out->demand, error, error_bytes);
+    }
+    picture.format = GN_FORMAT_RGB565;
+    if (!failed && what == ENGINE_ALL) failed = draw(&j, picture, out->rgb565) || draw_views(&j, picture, out, raw);
+    free(raw);
+    free(renderer);
+    quantise_free(&fixed);
+    if (failed) engine_free(out);
+    return failed ? -1 : 0;
+}
+
+void engine_free(engine_picture *p)
+{
+    free(p->rgb8);
+    free(p->rgb565);
+    free(p->depth);
+    free(p->normal);
+    free(p->triangle);
+    free(p->cascade);
+    for (size_t l = 0; l < ENGINE_LIGHTS_MAX; l++) {
+        free(p->shadow[l]);
+        free(p->ndotl[l]);
+        for (size_t i = 0; i < ENGINE_TILES_MAX; i++) free(p->atlas[l][i]);
+    }
+    memset(p, 0, sizeof *p);
+}

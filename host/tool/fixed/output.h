@@ -1,0 +1,23 @@
+/* The library's output formats as people see them: what a panel of that format would show, as 8-bit RGB. */
+#ifndef GNOMON_OUTPUT_H
+#define GNOMON_OUTPUT_H
+
+#include "gnomon.h"
+
+extern const char *const output_names[]; /* by gn_format; ends with NULL */
+
+/* One screen tile as flushed, at (x, y) of an RGB picture `width` pixels wide. */
+void output_decode(gn_format format, int x, int y, int w, int h, const void *pixels, uint8_t *rgb8, int width);
+
+/* A picture in any format, as seen: gn_flush_fn with one of these as user. */
+typedef struct {
+    uint8_t *rgb8;
+    int width;
+    gn_format format;
+} output_panel;
+void output_flush(void *user, int x, int y, int w, int h, const void *pixels);
+
+/* The reference's way to the same: `encoded` is a colour after the encoding curve, 0..1; (x, y) its pixel. */
+void output_quantise(gn_format format, const double encoded[3], int srgb, int x, int y, uint8_t rgb8[3]);
+
+#endif

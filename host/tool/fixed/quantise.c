@@ -1,0 +1,333 @@
+/* A scene in double precision to the library's fixed-point scene. */
+#include "quantise_internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/gn_math.h"
+
+/* Of the library: the shortest range and nearest near plane, in units; the widest range. */
+#define LIGHT_NEAREST_Q16  256
+#define LIGHT_FARTHEST_Q16 (65535.0 * 65536.0)
+#define COLOUR_EXP_MAX     100
+
+_Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7X7 == (int)SCENE_FILTER_7X7 &&
+                   (int)GN_BLEND_DITHER == (int)SCENE_BLEND_DITHER && (int)GN_BLEND_SOFT == (int)SCENE_BLEND_SOFT &&
+                   (int)GN_DISTANCE_RADIUS == (int)SCENE_DISTANCE_RADIUS &&
+                   (int)GN_KERNEL_LINEAR == (int)SCENE_KERNEL_LINEAR &&
+                   (int)GN_MIXING_ALWAYS == (int)SCENE_MIX_ALWAYS &&
+                   (int)GN_MIXING_DISTANCE == (int)SCENE_MIX_DISTANCE &&
+                   (int)GN_TILES_IMPORTANCE == (int)SCENE_TILES_IMPORTANCE &&
+                   (int)GN_LIGHT_SPOT == (int)SCENE_LIGHT_SPOT && (int)GN_LIGHT_POINT == (int)SCENE_LIGHT_POINT &&
+                   (int)GN_LIGHT_MIXED == (int)SCENE_MIXED && (int)GN_LIGHT_BAKED == (int)SCENE_BAKED &&
+                   (int)GN_SOFTNESS_HARD == (int)SCENE_SOFT_HARD && (int)GN_SOFTNESS_SOFT == (int)SCENE_SOFT_SOFT &&
+                   (int)GN_ALPHA_CLIP == (int)SCENE_ALPHA_CLIP && (int)GN_ALPHA_DITHER == (int)SCENE_ALPHA_DITHER,
+               "the scene's enumerations are the library's");
+
+/* Q1.30, kept within +-1.0 */
+static int32_t fixed_unit(double v, int bits)
+{
+    int64_t f = fixed(v, bits);
+    return (int32_t)(f > 1 << 30 ? 1 << 30 : f < -(1 << 30) ? -(1 << 30) : f);
+}
+
+/* A share 0..1 */
+static uint32_t fixed_share(double v)
+{
+    return (uint32_t)fixed(fmax(0, fmin(1, v)), 16);
+}
+
+/* ---- Objects ----------------------------------------------------------------------------------------------------- */
+
+/* What the library asks of a transform, at the largest scale that fits: objects too small for their scene are another
+ * matter. */
+static int is_flat(const scene_affine *a, int exp)
+{
+    int32_t m[3][3];
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) m[r][c] = fixed_unit(a->m[r][c], 30 - exp);
+    return !gn_det_sign(m);
+}
+
+/* Matrix entries become a Q1.30 mantissa under one exponent. A mesh's fraction bits beyond 0..30 move into that
+ * exponent. */
+static int quantise_transform(gn_affine *out, const scene_object *o, int mesh_bits, int stored_bits, int world_exp,
+                              char *error, size_t error_bytes)
+{
+    double largest = 0;
+    int e;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) largest = fmax(largest, fabs(o->to_world.m[r][c]));
+    frexp(largest, &e);
+    if (is_flat(&o->to_world, e)) {
+        snprintf(error, error_bytes, "object '%s': a scale of zero or almost zero along an axis cannot be drawn",
+                 o->name);
+        return -1;
+    }
+    int shift = world_exp + stored_bits - mesh_bits; /* object space as stored = true * 2^(mesh_bits - stored_bits) */
+    int exp = e + shift < 0 ? 0 : e + shift;
+    if (exp > 14) {
+        snprintf(error, error_bytes, "object '%s': scale too large", o->name);
+        return -1;
+    }
+    out->exp = exp;
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) out->m_q30[r][c] = fixed_unit(o->to_world.m[r][c], 30 + shift - exp);
+        out->t_q16[r] = (int32_t)fixed(o->to_world.m[r][3], 16 + world_exp);
+    }
+    return 0;
+}
+
+static void quantise_material(gn_object *out, const scene_object *o)
+{
+    for (int c = 0; c < 3; c++) {
+        out->albedo_uq16[c] = fixed_share(o->albedo[c]);
+        out->specular_uq16[c] = fixed_share(o->specular[c]);
+    }
+    out->alpha_uq16 = fixed_share(o->alpha);
+    out->alpha_cutoff_uq16 = fixed_share(o->alpha_cutoff);
+    out->shininess_log2 = (uint8_t)o->shininess_log2;
+    out->visible_alpha = (gn_alpha)o->visible_alpha;
+    out->caster_alpha = o->caster == SCENE_CASTER_CLIP     ? GN_ALPHA_CLIP
+                        : o->caster == SCENE_CASTER_DITHER ? GN_ALPHA_DITHER
+                                                           : GN_ALPHA_OPAQUE;
+    out->flags = (o->caster != SCENE_CASTER_OFF ? GN_OBJECT_CASTS : 0U) | (o->receives ? GN_OBJECT_RECEIVES : 0U) |
+                 (o->two_sided ? GN_OBJECT_TWO_SIDED : 0U) | (o->unlit ? GN_OBJECT_UNLIT : 0U) |
+                 (o->hidden ? GN_OBJECT_HIDDEN : 0U) | (o->casts_two_sided ? GN_OBJECT_CASTS_TWO_SIDED : 0U) |
+                 (o->moving ? GN_OBJECT_MOVING : 0U);
+}
+
+static int quantise_object(fixed_scene *f, size_t i, const scene *s, const mesh_plan *plan, char *error,
+                           size_t error_bytes)
+{
+    const scene_object *o = &s->objects[i];
+    gn_object *out = &f->objects[i];
+    out->mesh = &f->meshes[o->mesh_idx];
+    quantise_material(out, o);
+    out->texture = o->texture_idx < s->n_textures ? &f->textures[o->texture_idx] : NULL;
+    out->mask_image = o->mask_texture_idx < s->n_textures ? &f->textures[o->mask_texture_idx] : NULL;
+    out->mask_u8 = o->mask;
+    if (o->baked) out->baked_uq12 = quantise_words(o->baked, 3 * s->meshes[o->mesh_idx].n_vertices, 4096);
+    if (o->baked && !out->baked_uq12) return quantise_no_memory(error, error_bytes);
+    return quantise_transform(&out->to_world, o, plan[o->mesh_idx].pos_bits, out->mesh->pos_frac_bits, f->world_exp,
+                              error, error_bytes);
+}
+
+/* ---- Lights ------------------------------------------------------------------------------------------------------ */
+
+/* Light falls off with the square of distance, and distances are scaled: so is the intensity at distance 1. */
+static int quantise_colour(gn_light *out, const scene_light *l, int world_exp, char *error, size_t error_bytes)
+{
+    double largest = fmax(l->colour[0], fmax(l->colour[1], l->colour[2]));
+    int e = 0;
+    if (l->kind != SCENE_LIGHT_DIRECTIONAL && largest > 0) {
+        frexp(largest, &e);
+        out->colour_exp = e + 2 * world_exp;
+    }
+    if (out->colour_exp > COLOUR_EXP_MAX) {
+        snprintf(error, error_bytes, "light '%s': its intensity, %g, is too large in a scene of this size", l->name,
+                 largest);
+        return -1;
+    }
+    if (out->colour_exp < -COLOUR_EXP_MAX) out->colour_exp = -COLOUR_EXP_MAX; /* black all the same */
+    for (int i = 0; i < 3; i++) out->colour_uq16[i] = (uint32_t)fixed(fmin(ldexp(l->colour[i], -e), 255.99), 16);
+    return 0;
+}
+
+/* Where light ends and where shadows begin, as far as the library resolves either. A near plane that is not below the
+ * range casts nothing onto anything lit: one just below it does neither. */
+static void quantise_range(gn_light *out, const scene_light *l, int world_exp)
+{
+    double near = fmax(LIGHT_NEAREST_Q16, floor(ldexp(l->near, 16 + world_exp) + 0.5));
+    double range = fmax(LIGHT_NEAREST_Q16 + 1, floor(ldexp(l->range, 16 + world_exp) + 0.5)); /* stays infinite */
+    out->near_q16 = (int32_t)fmin(fmin(near, range - 1), 2147483647.0);
+    out->range_q16 = range > LIGHT_FARTHEST_Q16 ? 0 : (uint32_t)range;
+}
+
+static int quantise_light(gn_light *out, const scene_light *l, int world_exp, char *error, size_t error_bytes)
+{
+    static const gn_auto_bias auto_bias[] = {[SCENE_AUTO_BIAS_OFF] = GN_AUTO_BIAS_OFF,
+                                             [SCENE_AUTO_BIAS_DEPTH] = GN_AUTO_BIAS_DEPTH,
+                                             [SCENE_AUTO_BIAS_NORMAL] = GN_AUTO_BIAS_NORMAL};
+    out->kind = (gn_light_kind)l->kind;
+    out->mode = (gn_light_mode)l->mode;
+    out->softness = (gn_softness)l->softness;
+    out->mask_channel = l->mask_channel;
+    for (int i = 0; i < 3; i++) out->direction[i] = (int32_t)fixed(l->direction[i], 30);
+    out->shadow_strength_uq16 = l->shadow ? (uint32_t)fixed(l->strength, 16) : 0;
+    out->bias_constant_q16 = (int32_t)fixed(l->bias_constant, 16);
+    out->bias_slope_q16 = (int32_t)fixed(l->bias_slope, 16);
+    out->bias_normal_q16 = (int32_t)fixed(l->bias_normal, 16);
+    for (int i = 0; i < 4; i++) out->bias_receiver_q16[i] = (int32_t)fixed(l->bias_receiver[i], 16);
+    out->bias_caster_q16 = (int32_t)fixed(l->bias_caster, 16);
+    out->receiver_plane = l->receiver_plane;
+    out->auto_bias = auto_bias[l->auto_bias];
+    if (l->kind == SCENE_LIGHT_DIRECTIONAL) {
+        out->near_offset_q16 = (int32_t)fixed(l->near_offset, 16 + world_exp);
+    } else {
+        for (int i = 0; i < 3; i++) out->position_q16[i] = (int32_t)fixed(l->position[i], 16 + world_exp);
+        out->inner_turn = (uint16_t)fixed(l->inner, 16);
+        out->outer_turn = (uint16_t)fixed(l->outer, 16);
+        quantise_range(out, l, world_exp);
+    }
+    return quantise_colour(out, l, world_exp, error, error_bytes);
+}
+
+/* ---- The rest of the scene --------------------------------------------------------------------------------------- */
+
+static void quantise_view(gn_scene *out, const scene *s, int world_exp)
+{
+    const scene_camera *camera = &s->camera;
+    out->camera.to_world.exp = 0;
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) out->camera.to_world.m_q30[r][c] = fixed_unit(camera->to_world.m[r][c], 30);
+        out->camera.to_world.t_q16[r] = (int32_t)fixed(camera->to_world.m[r][3], 16 + world_exp);
+        out->ambient_uq16[r] = (uint32_t)fixed(fmin(s->ambient[r], 255.99), 16);
+        out->background_uq16[r] = (uint32_t)fixed(s->background[r], 16);
+    }
+    out->camera.focal_q24 = (uint32_t)fmin(4294967295.0, floor(ldexp(camera->focal, 24) + 0.5));
+    out->camera.near_q16 = (int32_t)fixed(camera->near, 16 + world_exp);
+    out->camera.far_q16 = isinf(camera->far) ? INT32_MAX : (int32_t)fixed(camera->far, 16 + world_exp);
+}
+
+static void quantise_shadow(gn_shadow_settings *out, const scene_shadow *shadow, int world_exp)
+{
+    out->max_distance_q16 = (int32_t)fixed(shadow->max_distance, 16 + world_exp);
+    out->distance_fade_uq16 = (uint32_t)fixed(shadow->distance_fade, 16);
+    out->cascade_fade_uq16 = (uint32_t)fixed(shadow->cascade_fade, 16);
+    out->filter = (gn_filter)shadow->filter;
+    out->other_filter = (gn_filter)shadow->other_filter;
+    out->kernel = (gn_kernel)shadow->kernel;
+    out->penumbra_uq16 = (uint32_t)fixed(shadow->penumbra, 16);
+    out->disk_samples = (uint32_t)shadow->disk_samples;
+    out->mixing = (gn_mixing)shadow->mixing;
+    out->tile_sizes = (gn_tile_sizes)shadow->tiles;
+    out->main_light = shadow->main_light;
+    out->caster_culling = shadow->caster_culling;
+    out->object_lights = (uint32_t)shadow->object_lights;
+    for (int i = 0; i < 4; i++) out->refresh[i] = (uint32_t)shadow->refresh[i];
+    out->n_cascades = (uint32_t)shadow->n_cascades;
+    for (int i = 0; i < 3; i++) out->cascade_ratio_uq16[i] = (uint32_t)fixed(shadow->cascade_ratio[i], 16);
+    out->blend = (gn_blend)shadow->blend;
+    out->distance_mode = (gn_distance_mode)shadow->distance_mode;
+}
+
+static int allocate(fixed_scene *f, const scene *s)
+{
+    f->meshes = calloc(s->n_meshes + 1, sizeof *f->meshes);
+    f->objects = calloc(s->n_objects + 1, sizeof *f->objects);
+    f->lights = calloc(s->n_lights + 1, sizeof *f->lights);
+    f->textures = calloc(s->n_textures + 1, sizeof *f->textures);
+    f->n_meshes = s->n_meshes;
+    f->n_textures = s->n_textures;
+    f->scene.objects = f->objects;
+    f->scene.lights = f->lights;
+    f->scene.n_objects = (uint32_t)s->n_objects;
+    f->scene.n_lights = (uint32_t)s->n_lights;
+    return f->meshes && f->objects && f->lights && f->textures ? 0 : -1;
+}
+
+int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_bytes)
+{
+    const gn_knobs wide = {.position_bits = 32, .normal_bits = 16};
+    return quantise_scene_for(out, s, &wide, error, error_bytes);
+}
+
+int quantise_scene_for(fixed_scene *out, const scene *s, const gn_knobs *knobs, char *error, size_t error_bytes)
+{
+    memset(out, 0, sizeof *out);
+    out->world_exp = quantise_world_exp(s);
+    mesh_plan *plan = quantise_plan_meshes(s, knobs);
+    int failed = allocate(out, s) || !plan;
+    if (failed) quantise_no_memory(error, error_bytes);
+    else failed = quantise_unit(&out->scene, s, out->world_exp, error, error_bytes);
+    for (size_t i = 0; !failed && i < s->n_textures; i++) {
+        failed = quantise_texture(&out->textures[i], &s->textures[i], error, error_bytes);
+        if (!failed && quantise_pack_mask_image(&out->textures[i], s, i))
+            failed = quantise_no_memory(error, error_bytes);
+    }
+    for (size_t i = 0; !failed && i < s->n_meshes; i++)
+        failed = quantise_mesh(&out->meshes[i], &s->meshes[i], &plan[i], error, error_bytes);
+    for (size_t i = 0; !failed && i < s->n_objects; i++) failed = quantise_object(out, i, s, plan, error, error_bytes);
+    for (size_t i = 0; !failed && i < s->n_lights; i++)
+        failed = quantise_light(&out->lights[i], &s->lights[i], out->world_exp, error, error_bytes);
+    quantise_view(&out->scene, s, out->world_exp);
+    quantise_shadow(&out->scene.shadow, &s->shadow, out->world_exp);
+    free(plan);
+    if (failed) quantise_free(out);
+    return failed ? -1 : 0;
+}
+
+static void release(const void *array)
+{
+    free((void *)(uintptr_t)array);
+}
+
+/* Texels that are not the scene's. */
+void quantise_free_texture(gn_texture *t)
+{
+    if (quantise_texel_bytes(t) < 4) release(t->rgba);
+    t->rgba = NULL;
+}
+
+void quantise_free(fixed_scene *f)
+{
+    for (size_t i = 0; f->meshes && i < f->n_meshes; i++) {
+        release(f->meshes[i].pos);
+        release(f->meshes[i].nrm_q15);
+        release(f->meshes[i].rgb_uq16);
+        release(f->meshes[i].uv);
+        release(f->meshes[i].mask_uv_uq16);
+        release(f->meshes[i].idx);
+    }
+    for (size_t i = 0; f->objects && i < f->scene.n_objects; i++) release(f->objects[i].baked_uq12);
+    for (size_t i = 0; f->textures && i < f->n_textures; i++) quantise_free_texture(&f->textures[i]);
+    free(f->meshes);
+    free(f->objects);
+    free(f->lights);
+    free(f->textures);
+    memset(f, 0, sizeof *f);
+}
+
+/* ---- Frames of one animation ------------------------------------------------------------------------------------- */
+
+static bool same_array(const void *a, const void *b, size_t bytes)
+{
+    return (!a && !b) || (a && b && memcmp(a, b, bytes) == 0);
+}
+
+bool quantise_same_mesh(const gn_mesh *a, const gn_mesh *b)
+{
+    size_t n = a->n_vertices;
+    return a->n_vertices == b->n_vertices && a->n_triangles == b->n_triangles && a->pos_frac_bits == b->pos_frac_bits &&
+           a->uv_frac_bits == b->uv_frac_bits && same_array(a->pos, b->pos, 12 * n) &&
+           same_array(a->nrm_q15, b->nrm_q15, 6 * n) && same_array(a->rgb_uq16, b->rgb_uq16, 6 * n) &&
+           same_array(a->uv, b->uv, 4 * n) && same_array(a->mask_uv_uq16, b->mask_uv_uq16, 4 * n) &&
+           same_array(a->idx, b->idx, 6 * (size_t)a->n_triangles);
+}
+
+static bool same_texture(const gn_texture *a, const gn_texture *b)
+{
+    const size_t texels = (size_t)1 << (a->width_log2 + a->height_log2);
+    return a->width_log2 == b->width_log2 && a->height_log2 == b->height_log2 && a->flags == b->flags &&
+           quantise_texel_bytes(a) == quantise_texel_bytes(b) &&
+           same_array(a->rgba, b->rgba, texels * quantise_texel_bytes(a));
+}
+
+bool quantise_share(fixed_scene *f, const fixed_scene *first)
+{
+    if (f->n_meshes != first->n_meshes || f->n_textures != first->n_textures) return false;
+    for (size_t i = 0; i < f->n_meshes; i++)
+        if (!quantise_same_mesh(&f->meshes[i], &first->meshes[i])) return false;
+    for (size_t i = 0; i < f->n_textures; i++)
+        if (!same_texture(&f->textures[i], &first->textures[i])) return false;
+    for (size_t i = 0; i < f->scene.n_objects; i++) {
+        gn_object *o = &f->objects[i];
+        o->mesh = first->meshes + (o->mesh - f->meshes);
+        if (o->texture) o->texture = first->textures + (o->texture - f->textures);
+        if (o->mask_image) o->mask_image = first->textures + (o->mask_image - f->textures);
+    }
+    return true;
+}

@@ -1,0 +1,216 @@
+/* Reading a command line. */
+#include "options.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../truth/truth.h"
+
+enum { BUDGET_MAX = 1000000000 };
+
+const option options[] = {
+    {"-o", BY_RENDER | BY_COMPARE | BY_COMPILE | BY_BAKE, "PATH", "a path",
+     "where the result goes: a PNG file (render), a folder (compare, compile), a .gltf or .glb file (bake)"},
+    {"--engine", BY_RENDER, "NAME", "fixed, reference or truth",
+     "fixed, the library; reference, the same in double precision; truth, a ray tracer with exact shadows (fixed)"},
+    {"--with", BY_COMPARE, "NAME", "reference or truth", "what the library is compared with (reference)"},
+    {"--samples", BY_RENDER | BY_COMPARE, "N", "samples from 1 to 16",
+     "N x N samples per pixel of truth; 1: pixel centres, as the other engines (1)"},
+    {"--size", BY_ALL, "WxH", "WxH, up to 2048x2048", "picture size (320x240)"},
+    {"--view", BY_RENDER | BY_COMPARE, "NAME", "colour, shadow, depth, normal, atlas or cascade",
+     "colour, shadow, depth, normal, atlas or cascade (colour)"},
+    {"--light", BY_RENDER | BY_COMPARE, "K", "a light from 0 to 63", "the light of --view shadow and atlas (0)"},
+    {"--frame", BY_ALL & ~BY_COMPILE, "N", "a frame from 0 to 100000000", "animation frame (0)"},
+    {"--frames", BY_COMPILE | BY_INFO, "FIRST-LAST", "FIRST-LAST, frames from 0 to 100000000",
+     "these frames (compile: all of the animation; info: frame 0 alone)"},
+    {"--set", BY_ALL, "KEY=VALUE", "KEY=VALUE, at most 64 times",
+     "any knob or setting, in order: 'gnomon knobs' lists them; preset=tiny|balanced|accurate sets many; "
+     "KEY@LIGHT=VALUE for one light, by its number or name"},
+    {"--csv", BY_SWEEP, "FILE", "a path", "every configuration as a table"},
+    {"--svg", BY_SWEEP, "FILE", "a path", "every configuration as a plot"},
+    {"--all", BY_SWEEP, NULL, NULL, "print every configuration, not only the front"},
+    {"--quick", BY_SWEEP | BY_ADVISE, NULL, NULL, "a few configurations only"},
+    {"--board", BY_COMPILE | BY_INFO, "NAME", "a folder of boards/",
+     "must fit the memory of boards/NAME; or of --ram and --flash"},
+    {"--ram", BY_ADVISE | BY_COMPILE | BY_INFO, "BYTES", "bytes from 1 to 1000000000",
+     "the most RAM: of the renderer (advise), of everything (compile, info)"},
+    {"--flash", BY_COMPILE | BY_INFO, "BYTES", "bytes from 1 to 1000000000", "the most flash"},
+    {"--optimise", BY_COMPILE | BY_INFO, "-Os|-O2", "-Os, -O2, ...",
+     "how the library is built, for the estimate of flash (as the board says)"},
+    {"--margin", BY_COMPILE | BY_INFO, "PERCENT", "per cent from 0 to 1000",
+     "capacity for more triangles and tile references than the frames took (10)"},
+    {"--simplify", BY_COMPILE, "HOW", "none, safe or path",
+     "leave out what changes no picture of any camera (safe), or none of the frames (path), or nothing (none) (path)"},
+    {"--instructions-per-pixel", BY_ADVISE, "N", "a number from 1 to 1000000000",
+     "the most instructions per pixel: of the host, by the model of docs/TRADE.md, or with --target of that board; of "
+     "a scene that moves their mean over the later frames, else with every shadow tile drawn (no limit)"},
+    {"--target", BY_SWEEP | BY_ADVISE, "NAME", "a folder of boards/",
+     "count instructions as firmware for boards/NAME in its emulator: of what sweep prints, of what advise considers; "
+     "seconds for each configuration"},
+    {"--texels", BY_BAKE, "N", "auto, 0 or a power of two from 16 to 4096",
+     "side of the mask image, a power of two from 16 to 4096; 0: masks per vertex; auto: the first of 256, 512 and "
+     "1024 that is as true as shadow maps are (auto)"},
+    {"--still", BY_BAKE, NULL, NULL, "objects marked as moving stand still too"},
+    {"--json", BY_ALL, NULL, NULL, "one JSON object on stdout and nothing else"},
+};
+const size_t n_options = sizeof options / sizeof *options;
+_Static_assert(GN_MAX_WIDTH == 2048 && GN_MAX_HEIGHT == 2048 && GN_MAX_LIGHTS == 64 && TOOL_SETS_MAX == 64,
+               "as said above");
+
+static int say_where_help_is(void)
+{
+    fprintf(stderr, "'gnomon help' says how it is used\n");
+    return TOOL_USAGE;
+}
+
+int options_usage_error(const char *message, const char *what)
+{
+    tool_error("%s%s%s", message, what ? " " : "", what ? what : "");
+    return say_where_help_is();
+}
+
+static int parse_int(const char *text, int lo, int hi, int *out)
+{
+    const char *digits = text + (text[0] == '-');
+    if (!*digits || digits[strspn(digits, "0123456789")]) return -1;
+    errno = 0;
+    long v = strtol(text, NULL, 10);
+    if (errno || v < lo || v > hi) return -1;
+    *out = (int)v;
+    return 0;
+}
+
+static int parse_size(const char *text, tool_options *o)
+{
+    char left[16];
+    const char *x = strchr(text, 'x');
+    size_t n = x ? (size_t)(x - text) : 0;
+    if (!x || n >= sizeof left) return -1;
+    memcpy(left, text, n);
+    left[n] = 0;
+    return parse_int(left, 1, GN_MAX_WIDTH, &o->width) || parse_int(x + 1, 1, GN_MAX_HEIGHT, &o->height) ? -1 : 0;
+}
+
+static int parse_texels(const char *value, int *texels)
+{
+    *texels = TOOL_TEXELS_AUTO;
+    if (strcmp(value, "auto") == 0) return 0;
+    return parse_int(value, 0, 4096, texels) || (*texels & (*texels - 1)) || (*texels && *texels < 16);
+}
+
+static int parse_frames(const char *text, tool_options *o)
+{
+    char first[16];
+    const char *dash = strchr(text, '-');
+    size_t n = dash ? (size_t)(dash - text) : 0;
+    if (!dash || n >= sizeof first) return -1;
+    memcpy(first, text, n);
+    first[n] = 0;
+    if (parse_int(first, 0, 100000000, &o->frame) || parse_int(dash + 1, 0, 100000000, &o->last_frame)) return -1;
+    return o->last_frame < o->frame ? -1 : 0;
+}
+
+static int simplify_from_name(const char *name)
+{
+    static const char *const names[] = {"none", "safe", "path"};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(name, names[i]) == 0) return i;
+    return -1;
+}
+
+static int is_no_double_engine(const char *name)
+{
+    return strcmp(name, "reference") != 0 && strcmp(name, "truth") != 0;
+}
+
+/* One option with a value. 0, or -1 if the value is not one. */
+static int take_value(tool_options *o, const char *name, char *value)
+{
+    int light = 0, failed = 0;
+    if (strcmp(name, "-o") == 0) failed = !*(o->out_path = value);
+    else if (strcmp(name, "--engine") == 0)
+        failed = strcmp(o->engine = value, "fixed") != 0 && is_no_double_engine(value);
+    else if (strcmp(name, "--with") == 0) failed = is_no_double_engine(o->with = value);
+    else if (strcmp(name, "--samples") == 0) failed = parse_int(value, 1, TRUTH_MAX_SAMPLES, &o->samples);
+    else if (strcmp(name, "--size") == 0) failed = parse_size(value, o);
+    else if (strcmp(name, "--view") == 0) failed = (o->view = view_from_name(value)) < 0;
+    else if (strcmp(name, "--frame") == 0) failed = parse_int(value, 0, 100000000, &o->frame);
+    else if (strcmp(name, "--frames") == 0) failed = parse_frames(value, o);
+    else if (strcmp(name, "--board") == 0) failed = !*(o->board = value);
+    else if (strcmp(name, "--target") == 0) failed = !*(o->target = value);
+    else if (strcmp(name, "--flash") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->flash);
+    else if (strcmp(name, "--optimise") == 0) failed = strncmp(o->optimise = value, "-O", 2) != 0;
+    else if (strcmp(name, "--margin") == 0) failed = parse_int(value, 0, 1000, &o->margin);
+    else if (strcmp(name, "--simplify") == 0) failed = (o->simplify = simplify_from_name(value)) < 0;
+    else if (strcmp(name, "--light") == 0) {
+        failed = parse_int(value, 0, GN_MAX_LIGHTS - 1, &light);
+        o->light = (size_t)light;
+    } else if (strcmp(name, "--csv") == 0) failed = !*(o->csv_path = value);
+    else if (strcmp(name, "--svg") == 0) failed = !*(o->svg_path = value);
+    else if (strcmp(name, "--texels") == 0) failed = parse_texels(value, &o->texels);
+    else if (strcmp(name, "--ram") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->ram);
+    else if (strcmp(name, "--instructions-per-pixel") == 0)
+        failed = parse_int(value, 1, BUDGET_MAX, &o->instructions_per_pixel);
+    else if (strcmp(name, "--set") == 0) {
+        if (o->n_sets == TOOL_SETS_MAX) return -1;
+        o->sets[o->n_sets++] = value;
+    }
+    return failed ? -1 : 0;
+}
+
+/* One option without. */
+static void take_switch(tool_options *o, const char *name)
+{
+    if (strcmp(name, "--json") == 0) o->json = 1;
+    if (strcmp(name, "--all") == 0) o->all = 1;
+    if (strcmp(name, "--quick") == 0) o->quick = 1;
+    if (strcmp(name, "--still") == 0) o->still = 1;
+}
+
+static const option *find_option(const char *name)
+{
+    for (size_t i = 0; i < n_options; i++)
+        if (strcmp(name, options[i].name) == 0) return &options[i];
+    return NULL;
+}
+
+/* engine: that render draws with, or compare compares with */
+static int check_truth(const tool_options *o, const char *engine)
+{
+    const int truth = strcmp(engine, "truth") == 0;
+    if (truth && (o->view == VIEW_ATLAS || o->view == VIEW_CASCADE))
+        return options_usage_error("truth has no shadow maps, and no such --view", NULL);
+    return o->samples && !truth ? options_usage_error("--samples is for truth, not for", engine) : TOOL_OK;
+}
+
+int options_parse(tool_options *o, int command, int argc, char **argv)
+{
+    for (int i = 2; i < argc; i++) {
+        const option *found = find_option(argv[i]);
+        if (!found && argv[i][0] == '-') return options_usage_error("unknown option", argv[i]);
+        if (!found) {
+            if (o->scene_path) return options_usage_error("one scene at a time, not also", argv[i]);
+            o->scene_path = argv[i];
+            continue;
+        }
+        if (!(found->commands & command)) {
+            tool_error("%s does not use %s", argv[1], argv[i]);
+            return say_where_help_is();
+        }
+        if (!found->value) {
+            take_switch(o, found->name);
+            continue;
+        }
+        if (++i >= argc) return options_usage_error("a value is missing after", found->name);
+        if (take_value(o, found->name, argv[i])) {
+            tool_error("%s: bad value '%s', not %s", found->name, argv[i], found->value);
+            return say_where_help_is();
+        }
+    }
+    if (!o->scene_path) return options_usage_error("a scene is missing", NULL);
+    if (command == BY_BAKE && !o->out_path) return options_usage_error("-o FILE is missing", NULL);
+    if (command == BY_ADVISE && !o->ram) return options_usage_error("--ram BYTES is missing", NULL);
+    return check_truth(o, command == BY_RENDER ? o->engine : o->with);
+}

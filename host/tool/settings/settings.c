@@ -1,0 +1,169 @@
+/* Every setting by one name: of the library, the scene, or the tool itself. */
+#include "settings.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../fixed/output.h"
+#include "settings_parse.h"
+
+int settings_load_option(scene_options *options, const char *key, const char *value, char *error, size_t error_bytes)
+{
+    int on = strcmp(value, "1") == 0, off = strcmp(value, "0") == 0;
+    if (strcmp(key, "ground") == 0) {
+        if (!on && !off) return settings_fail(error, error_bytes, key, value, "0 or 1");
+        options->ground = on;
+        return 1;
+    }
+    if (strcmp(key, "normals") == 0) {
+        if (strcmp(value, "face") != 0 && strcmp(value, "smooth") != 0)
+            return settings_fail(error, error_bytes, key, value, "face or smooth");
+        options->smooth = value[0] == 's';
+        return 1;
+    }
+    return 0;
+}
+
+/* ---- Applying ---------------------------------------------------------------------------------------------------- */
+
+/* Settings of the tool itself. 1: taken; 0: not one of them; -1: bad value. */
+static int apply_own(settings *out, const char *key, const char *value, char *error, size_t bytes)
+{
+    char expected[96];
+    int preset = strcmp(key, "preset") == 0, i;
+    if (!preset && strcmp(key, "output") != 0) return 0;
+    const char *const *words = preset ? settings_preset_name : output_names;
+    if ((i = settings_word(value, words)) < 0) {
+        settings_join(expected, sizeof expected, words, " or ");
+        return settings_fail(error, bytes, key, value, expected);
+    }
+    if (preset) settings_preset(out, i);
+    else out->output = (gn_format)i;
+    return 1;
+}
+
+/* The light that a setting names: by its number, else by its name. -1 with one line in error. */
+static int find_light(const scene *s, const char *key, const char *light, size_t *out, char *error, size_t bytes)
+{
+    size_t n_found = 0;
+    if (*light && !light[strspn(light, "0123456789")]) {
+        *out = strlen(light) < 6 ? (size_t)atoi(light) : SCENE_NONE;
+        n_found = *out < s->n_lights;
+    } else {
+        for (size_t i = s->n_lights; i-- > 0;) {
+            if (strcmp(s->lights[i].name, light) != 0) continue;
+            *out = i;
+            n_found++;
+        }
+    }
+    if (n_found == 1) return 0;
+    if (n_found) snprintf(error, bytes, "setting '%s': %zu lights are named '%s'", key, n_found, light);
+    else snprintf(error, bytes, "setting '%s': there is no light '%s', the scene has %zu", key, light, s->n_lights);
+    return -1;
+}
+
+/* What a light of this kind has not got is noted, as the glTF loader notes it. */
+static int note_useless(scene *s, const char *key, size_t light, char *error, size_t bytes)
+{
+    const scene_light *l = &s->lights[light];
+    bool directional = l->kind == SCENE_LIGHT_DIRECTIONAL;
+    const char *why = NULL;
+    char note[200];
+    if (directional && strcmp(key, "near") == 0) why = "a directional light has near_offset";
+    if (directional && strcmp(key, "range") == 0) why = "a directional light reaches everything";
+    if (!directional && strcmp(key, "near_offset") == 0) why = "it is not directional";
+    if (!why) return 0;
+    snprintf(note, sizeof note, "%s of light '%.64s' ignored: %s", key, l->name, why);
+    return scene_add_note(s, note, error, bytes);
+}
+
+/* auto_bias: a word for lights, built or not as a knob. */
+static const char *as_knob(const char *value)
+{
+    if (strcmp(value, "off") == 0) return "0";
+    return strcmp(value, "depth") == 0 || strcmp(value, "normal") == 0 ? "1" : value;
+}
+
+/* KEY@LIGHT */
+static int apply_to_light(settings *out, scene *s, const char *key, const char *at, const char *value, char *error,
+                          size_t bytes)
+{
+    char plain[64];
+    size_t light;
+    snprintf(plain, sizeof plain, "%.*s", (int)(at - key), key);
+    const bool is_knob = settings_is_knob(plain);
+    if (!settings_of_lights(plain)) {
+        snprintf(error, bytes, "setting '%s': '%s' is not a setting of lights", key, plain);
+        return -1;
+    }
+    if (find_light(s, key, at + 1, &light, error, bytes)) return -1;
+    if (settings_apply_scene(s, plain, light, value, error, bytes) < 0) return -1;
+    if (note_useless(s, plain, light, error, bytes)) return -1;
+    return is_knob && strcmp(as_knob(value), "0") != 0 ? settings_apply_knob(out, plain, as_knob(value), error, bytes)
+                                                       : 0; /* what one light uses must be built */
+}
+
+/* Built or not; without it no light uses it. */
+static bool of_knob_alone(const char *key, const char *value)
+{
+    return strcmp(key, "auto_bias") == 0 && strcmp(value, "1") == 0;
+}
+
+static const char *as_word(const char *key, const char *value)
+{
+    return strcmp(key, "auto_bias") == 0 && strcmp(value, "0") == 0 ? "off" : value;
+}
+
+int settings_apply(settings *out, scene *s, const char *key, const char *value, char *error, size_t error_bytes)
+{
+    scene_options ignored;
+    int taken = settings_load_option(&ignored, key, value, error, error_bytes);
+    if (taken) return taken < 0 ? -1 : 0; /* done while loading */
+    if ((taken = apply_own(out, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
+    const char *at = strchr(key, '@');
+    if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
+    /* main_light, caster_culling, receiver_plane and auto_bias are built and used, or neither: knobs and settings of
+     * the scene at once */
+    const bool is_knob = settings_is_knob(key);
+    const char *word = as_word(key, value);
+    if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, word, error, error_bytes)) < 0)
+        return -1;
+    if (is_knob) return settings_apply_knob(out, key, as_knob(value), error, error_bytes);
+    if (taken) return 0;
+    snprintf(error, error_bytes, "unknown setting '%s' ('gnomon knobs' lists them)", key);
+    return -1;
+}
+
+int settings_apply_all(settings *out, scene *s, const char *const *sets, int n, char *error, size_t error_bytes)
+{
+    for (size_t i = 0; i < s->n_settings; i++)
+        if (settings_apply(out, s, s->settings[i].key, s->settings[i].value, error, error_bytes)) return -1;
+    for (int i = 0; i < n; i++) {
+        char key[64];
+        const char *equals = strchr(sets[i], '=');
+        size_t length = equals ? (size_t)(equals - sets[i]) : 0;
+        if (!equals || length == 0 || length >= sizeof key) {
+            snprintf(error, error_bytes, "'%s' is not KEY=VALUE", sets[i]);
+            return -1;
+        }
+        memcpy(key, sets[i], length);
+        key[length] = 0;
+        if (settings_apply(out, s, key, equals + 1, error, error_bytes)) return -1;
+    }
+    return 0;
+}
+
+/* ---- The tables of docs/CONFIG.md -------------------------------------------------------------------------------- */
+
+void settings_print_table(void)
+{
+    settings_print_knobs();
+    settings_print_scene();
+    printf("\n### Settings of the tool\n\n| setting | values | meaning |\n|---|---|---|\n");
+    printf("| `output` | rgb888, rgb565, rgb565_swapped, grey8, grey4, mono1 | the panel that pictures are made for "
+           "(R5) |\n");
+    printf("| `preset` | tiny, balanced, accurate | all quality knobs together |\n");
+    printf("| `ground` | 0, 1 | add a ground plane to a glTF file (an OBJ always gets one) |\n");
+    printf("| `normals` | face, smooth | for meshes without normals |\n");
+}

@@ -1,0 +1,48 @@
+/* How settings are read. Private to this folder. */
+#ifndef GNOMON_SETTINGS_PARSE_H
+#define GNOMON_SETTINGS_PARSE_H
+
+#include "settings.h"
+
+/* settings_value.c */
+
+/* "setting KEY: VALUE is not EXPECTED"; returns -1. */
+int settings_fail(char *error, size_t error_bytes, const char *key, const char *value, const char *expected);
+
+/* Decimal numbers only. With end, what follows the number is the caller's; without, nothing may. 0 or -1. */
+int settings_number(const char *text, double *out, const char **end);
+
+/* Numbers separated by commas, each within lo..hi: how many, 1..max; 0 if they are not that. */
+int settings_numbers(const char *text, double *out, int max, double lo, double hi);
+
+int settings_whole(const char *text, int lo, int hi, int *out); /* 0 or -1 */
+
+/* The place of a word in a list that ends with NULL; -1: none. */
+int settings_word(const char *word, const char *const *words);
+
+/* "a, b or c" (joint " or ") */
+void settings_join(char *out, size_t bytes, const char *const *words, const char *joint);
+
+/* settings_knobs.c: knobs of the library. Applying one that there is: 0, or -1 with one line in error. */
+bool settings_is_knob(const char *name);
+int settings_apply_knob(settings *out, const char *name, const char *value, char *error, size_t error_bytes);
+void settings_print_knobs(void); /* their tables */
+
+/* settings_scene.c */
+
+/* Settings of the scene: those of its shadows, lights and colours. light: only that one; SCENE_NONE: all. 1: taken; 0:
+ * not one of them, or of single lights; -1 with one line in error. */
+int settings_apply_scene(scene *s, const char *key, size_t light, const char *value, char *error, size_t error_bytes);
+bool settings_of_lights(const char *key);
+
+/* Rows of the table of scene settings. */
+void settings_print_scene(void);
+
+/* Words of a filter, for messages. */
+extern const char *const settings_filter_names[];
+extern const char *const settings_blend_names[];
+
+/* The value of a feature knob by its name; -1: there is none. */
+int settings_feature(const settings *set, const char *name);
+
+#endif

@@ -1,0 +1,115 @@
+/* The help texts. */
+#include "usage.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "options.h"
+
+typedef struct {
+    const char *name;
+    int bit; /* of its options; 0: it has none */
+    const char *arguments;
+    const char *meaning, *more; /* more: only in the command's own help; or NULL */
+    const char *example;
+} command_help;
+
+static const command_help commands[] = {
+    {"render", BY_RENDER, "SCENE -o OUT.png", "one picture", NULL,
+     "gnomon render host/scenes/sundial.gltf -o sundial.png --frame 48 --set preset=accurate"},
+    {"compare", BY_COMPARE, "SCENE [-o DIR]", "the library against the double-precision reference, or the ray tracer",
+     "DIR gets fixed.png, reference.png, error.png, and beside.png, the three side by side. --with truth adds the ray "
+     "tracer (truth.png), and reports apart what fixed point costs (fixed against reference), what the shadow maps "
+     "cost (reference against truth), and both, with an error picture for each. Near planes, max_distance and "
+     "one-sided casters are part of the scene, in truth too.",
+     "gnomon compare host/scenes/desk.gltf --with truth -o desk"},
+    {"info", BY_INFO, "SCENE", "what the scene needs, and what in the file was ignored", NULL,
+     "gnomon info host/scenes/room.gltf --board mps2-an385"},
+    {"sweep", BY_SWEEP, "SCENE", "many configurations: RAM, instructions, error, and the front that nothing beats",
+     "A scene that moves is measured over frame N and the eight after it, with the shadow tiles that are kept.",
+     "gnomon sweep host/scenes/avenue.gltf --quick --svg avenue.svg"},
+    {"advise", BY_ADVISE, "SCENE --ram BYTES", "the most accurate configuration within a budget, as --set arguments",
+     NULL, "gnomon advise host/scenes/avenue.gltf --ram 48000"},
+    {"compile", BY_COMPILE, "SCENE -o DIR", "C for flash: scene.c, scene.h, and the library's configuration",
+     "DIR gets scene.c and scene.h, and gn_scene_config.h, the library with just what the scene needs.",
+     "gnomon compile host/scenes/sundial.gltf -o firmware --board mps2-an385"},
+    {"bake", BY_BAKE, "SCENE -o OUT.gltf", "the shadows of what stands still as masks, by the ray tracer",
+     "Prints what the masks cost and how true they are.",
+     "gnomon bake host/scenes/room.gltf -o baked.gltf --texels 256"},
+    {"knobs", 0, "", "every knob and setting, as docs/CONFIG.md lists them", NULL, "gnomon knobs"},
+    {"help", 0, "[COMMAND]", "this text, or a command's own", NULL, "gnomon help render"},
+};
+enum { N_COMMANDS = sizeof commands / sizeof *commands, LINE_WIDTH = 100, COMMAND_COLUMN = 28, OPTION_COLUMN = 30 };
+
+/* Prints a text in lines of at most LINE_WIDTH, from `column` on, where the first line stands already. */
+static void print_wrapped(const char *text, int column)
+{
+    int at = column;
+    while (*text) {
+        const int n = (int)strcspn(text, " ");
+        if (at > column && at + 1 + n > LINE_WIDTH) {
+            printf("\n%*s", column, "");
+            at = column;
+        } else if (at > column) {
+            putchar(' ');
+            at++;
+        }
+        printf("%.*s", n, text);
+        at += n;
+        text += n + (text[n] == ' ');
+    }
+    putchar('\n');
+}
+
+/* "  left   " up to the column, or on a line of its own where it is longer. */
+static void print_left(const char *name, const char *argument, int column)
+{
+    const int n = printf("  %s%s%s", name, *argument ? " " : "", argument);
+    if (n >= column) printf("\n%*s", column, "");
+    else printf("%*s", column - n, "");
+}
+
+/* With names, behind the meaning the commands that take it. */
+static void print_option(const option *o, bool names)
+{
+    char text[600];
+    size_t used = 0;
+    if (names && o->commands != BY_ALL) {
+        for (int i = 0; i < N_COMMANDS; i++)
+            if (o->commands & commands[i].bit)
+                used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", commands[i].name);
+        used += (size_t)snprintf(text + used, sizeof text - used, ": ");
+    }
+    snprintf(text + used, sizeof text - used, "%s", o->meaning);
+    print_left(o->name, o->argument ? o->argument : "", OPTION_COLUMN);
+    print_wrapped(text, OPTION_COLUMN);
+}
+
+void usage_print(void)
+{
+    printf("usage: gnomon COMMAND SCENE [options]        SCENE: .gltf, .glb or .obj\n"
+           "       gnomon COMMAND --help                 one command, with an example\n"
+           "       gnomon --version\n\n");
+    for (int i = 0; i < N_COMMANDS; i++) {
+        print_left(commands[i].name, commands[i].arguments, COMMAND_COLUMN);
+        print_wrapped(commands[i].meaning, COMMAND_COLUMN);
+    }
+    printf("\n");
+    for (size_t i = 0; i < n_options; i++) print_option(&options[i], true);
+}
+
+bool usage_print_command(const char *name)
+{
+    const command_help *c = NULL;
+    for (int i = 0; i < N_COMMANDS; i++)
+        if (strcmp(name, commands[i].name) == 0) c = &commands[i];
+    if (!c) return false;
+    printf("usage: gnomon %s%s%s%s\n\n", c->name, *c->arguments ? " " : "", c->arguments, c->bit ? " [options]" : "");
+    print_wrapped(c->meaning, 0);
+    if (c->more) print_wrapped(c->more, 0);
+    if (c->bit) printf("\noptions:\n");
+    for (size_t i = 0; i < n_options; i++)
+        if (options[i].commands & c->bit) print_option(&options[i], false);
+    printf("\nexample:\n  %s\n", c->example);
+    return true;
+}
