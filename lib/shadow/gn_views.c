@@ -92,7 +92,7 @@ static void set_texels(gn_frame *frame, gn_light_view *view)
     view->depth_bits = (uint8_t)GN_K(frame, depth_bits);
     view->depth = GN_TEXELS_OF(frame->atlas, view->depth_bits);
 #if GN_DEPTH_BLOCKS
-    view->block = frame->block + first / 64;
+    if (!view->in_other) view->block = frame->block + first / 64;
 #endif
 #if GN_OTHER_ATLAS
     if (view->in_other) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "canvas.h"
+#include "knobs.h"
 #include "check.h"
 #include "full_scene.h"
 
@@ -145,7 +146,7 @@ static void test_many_bright_lights(void)
         demo.scene.n_objects = 1;
         canvas_begin(&c, p.width, p.height, p.format);
         CHECK(gn_init(&one, &p) == GN_OK);
-        one.frame.knobs.persp_step = i ? 8 : 1;
+        SET_KNOB(&one.frame, persp_step, i ? 8 : 1);
         CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
         crc[i] = canvas_crc(&c);
         canvas_end(&c);
@@ -192,7 +193,7 @@ static void test_caster_moved_into_view(void)
     demo.scene.lights = &spot;
     demo.scene.n_objects = 1;
     CHECK(gn_init(&one, &p) == GN_OK);
-    one.frame.knobs.other_atlas_size = 16;
+    if (!TAKES_KNOB(&one.frame, other_atlas_size, 16)) return;
     CHECK(gn_begin(&one, &demo.scene) == GN_OK && gn_shadow_tile_count(&one) == 1 && gn_shadow_tile(&one, 0) == GN_OK);
     CHECK_EQ_INT(gn_get_stats(&one)->n_caster_triangles, 1);
 }
@@ -371,9 +372,9 @@ static void test_tile_sizes(void)
         for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
             canvas_begin(&c, p.width, p.height, p.format);
             gn_init(&one, &p);
-            one.frame.knobs.tile_width = sizes[i][0];
-            one.frame.knobs.tile_height = sizes[i][1];
-            one.frame.knobs.persp_step = persp_step;
+            SET_KNOB(&one.frame, tile_width, sizes[i][0]);
+            SET_KNOB(&one.frame, tile_height, sizes[i][1]);
+            SET_KNOB(&one.frame, persp_step, persp_step);
             CHECK(gn_render(&one, &demo.scene, flush, i ? &c : &first) == GN_OK);
             CHECK(each_pixel_once(i ? &c : &first));
             int same = persp_step == 1 || p.format == GN_FORMAT_RAW32;

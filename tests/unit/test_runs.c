@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "knobs.h"
 #include "visible/gn_runs.h"
 #include "rng.h"
 
@@ -87,7 +88,7 @@ static int sort(const tile *t, uint32_t plain)
 
 static int check_tile(const tile *t)
 {
-    renderer.frame.knobs.tile_width = t->stride;
+    SET_KNOB(&renderer.frame, tile_width, t->stride);
     renderer.frame.id_bits = (uint8_t)t->id_bits;
     fill(t);
     if (!sort(t, rng_below(&random_state, 4) ? t->n_ids + 1 : 1 + rng_below(&random_state, t->n_ids))) return 0;
