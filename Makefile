@@ -98,6 +98,9 @@ report: $(BUILD)/gnomon $(BUILD)/make_report ## one page of pictures, metrics an
 tables: $(BUILD)/gen_tables ## regenerate lib/base/gn_tables.c
 	$(BUILD)/gen_tables > lib/base/gn_tables.c
 
+prefix: ## regenerate lib/gn_prefix.h
+	@sh host/generate/gen_prefix.sh >$(BUILD)/gn_prefix.h && mv $(BUILD)/gn_prefix.h lib/gn_prefix.h
+
 scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf and docs/scenes/*.gltf
 	$(BUILD)/make_scenes host/scenes docs/scenes
 
@@ -184,5 +187,5 @@ endif
 
 -include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
 
-.PHONY: all help run deps test soak bench size matrix firmware emulate screen boards docs report tables scenes coverage clean test-programs constant-programs alone-programs
+.PHONY: all help run deps test soak bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
 .SECONDARY:

@@ -117,9 +117,8 @@ typedef struct gn_frame {
 } gn_frame;
 
 typedef struct gn_scratch {
-    uint32_t
-        cell[GN_TILE_PIXELS_MAX]; /* nearest surface: key in the high bits, the triangle in the low id_bits; 0: none */
-    gn_tile_pixels pixel;         /* finished pixels in the picture's format */
+    uint32_t cell[GN_TILE_PIXELS_MAX]; /* nearest surface: key above, triangle in the low id_bits; 0: none */
+    gn_tile_pixels pixel;              /* finished pixels in the picture's format */
     gn_work work;
 } gn_scratch;
 

@@ -22,7 +22,7 @@ make -s CC="$CC" "$TOOL"
 "$TOOL" bake host/scenes/room.gltf -o "$DIR/baked.gltf" --size $SIZE >/dev/null # nothing else has a mask image
 SCENES="$SCENES $DIR/baked.gltf"
 make -s CC="$CC" BUILD="$DIR/build" HOST_KNOBS="$knobs" "$DIR/build/gnomon" >/dev/null
-$CC -std=c11 -O2 -o "$DIR/gen_costs" host/generate/gen_costs.c -lm
+$CC -std=c11 -O2 -Ilib -o "$DIR/gen_costs" host/generate/gen_costs.c -lm
 
 # instructions SCENE SETTING...: of shadow tiles, setup and binning, rasterising, shading (glibc's memset: see bench.sh)
 instructions() {

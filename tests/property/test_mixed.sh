@@ -85,5 +85,19 @@ if awk -f boards/packages/one_file.awk -v root=lib lib/gnomon.c >"$tmp/one.c" &&
     [ "$(size "$tmp/one.o" | awk 'NR == 2 { print $4 }')" = "$(size "$tmp/gnomon.o" | awk 'NR == 2 { print $4 }')" ]; then pass
 else fail "the library written into one file: $(grep -m 1 error "$tmp/log")"; fi
 
+# ---- Two libraries in one program ------------------------------------------------------------------------------------------
+
+sh host/generate/gen_prefix.sh >"$tmp/gn_prefix.h"
+cmp -s "$tmp/gn_prefix.h" lib/gn_prefix.h && pass || fail "lib/gn_prefix.h does not name every symbol of the library: make prefix"
+for which in general compact; do
+    flags="-DGN_PREFIX=${which}_"
+    [ $which = general ] || flags="$flags -DGN_COMPACT=1"
+    gcc -std=c99 -w -O1 -Ilib $flags -c lib/gnomon.c -o "$tmp/$which.lib.o" &&
+        gcc -std=c99 -Wall -Wextra -Werror -O1 -Ilib $flags -DDRAW=draw_$which -c tests/property/two_libraries.c -o "$tmp/$which.o"
+done
+if gcc -Wall -o "$tmp/two" tests/property/two_libraries.c "$tmp"/general.o "$tmp"/general.lib.o "$tmp"/compact.o "$tmp"/compact.lib.o 2>"$tmp/log" &&
+    [ "$("$tmp/two")" = "1 1" ]; then pass
+else fail "two libraries in one program: $(head -n 1 "$tmp/log") $("$tmp/two")"; fi
+
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

@@ -22,7 +22,7 @@ int room_write(FILE *file);   /* a point light, all six cube faces in the pictur
 int fence_write(FILE *file);  /* casters that are cut out, dithered, two-sided, unlit, hidden */
 int mixed_write(FILE *file);  /* every kind of light, baked masks, a caster that moves over 48 frames */
 
-/* Small pieces for docs/GALLERY.md. */
+/* Small scenes for docs/GALLERY.md. */
 int gallery_edge_write(FILE *file);
 int gallery_slopes_write(FILE *file);
 int gallery_cones_write(FILE *file);

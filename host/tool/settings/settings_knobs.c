@@ -124,9 +124,9 @@ int settings_suffice(const settings *s, const settings_demand *demand, char *err
         {"surface_lights", "lights that reach one surface", s->capacity.surface_lights, demand->surface_lights},
         {"max_objects", "objects", s->capacity.max_objects, demand->objects},
         {"max_shadow_tiles", "tiles of the directional atlas", s->capacity.max_shadow_tiles, demand->shadow_tiles},
-        {"max_other_tiles", "tiles of the other atlas", s->capacity.max_other_tiles, demand->other_tiles},
+        {"max_other_tiles", "tiles of the local-light atlas", s->capacity.max_other_tiles, demand->other_tiles},
         {"atlas_texels", "texels of the directional atlas's tiles", s->capacity.atlas_texels, demand->atlas_texels},
-        {"other_atlas_texels", "texels of the other atlas's tiles", s->capacity.other_atlas_texels,
+        {"other_atlas_texels", "texels of the local-light atlas's tiles", s->capacity.other_atlas_texels,
          demand->other_atlas_texels},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
