@@ -534,7 +534,11 @@ static void test_light_lists(void)
                 if (p.triangle[k] < 0) continue;
                 double w[3];
                 world_at(w, &f, &p, k % 9, k / 9);
-                const bool lit = listed[l] && ref_light_attenuation(&f.lights[l], w) > 0;
+                /* at the rim of its range a light is not shown (DESIGN 1.10) */
+                const double *lamp = f.lights[l].position, d[3] = {lamp[0] - w[0], lamp[1] - w[1], lamp[2] - w[2]};
+                const double window =
+                    ref_light_attenuation(&f.lights[l], w) * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+                const bool lit = listed[l] && window >= 0x1p-20;
                 n_wrong += (p.ndotl[l][k] > -1) != lit || (p.shadow[l][k] > 0) != lit;
             }
         CHECK_EQ_INT(n_wrong, 0);
