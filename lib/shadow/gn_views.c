@@ -5,7 +5,7 @@
 #include "light/gn_lights.h"
 #include "shadow/gn_light_views.h"
 
-gn_status gn_views_setup(gn_frame *frame)
+GN_NOINLINE gn_status gn_views_setup(gn_frame *frame)
 {
     frame->n_views = 0;
     gn_status status = gn_lights_setup(frame);

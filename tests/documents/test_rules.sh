@@ -82,6 +82,13 @@ awk '$1 == $2 { print $1 " calls itself" }' "$tmp/graph" >"$tmp/found"
 tsort "$tmp/graph" >/dev/null 2>>"$tmp/found"
 none "recursion in lib/" "$tmp/found"
 
+# Hot code, port/gn_port.h: in a file with marked functions all are marked.
+grep -l '^GN_HOT' lib/*/*.c >"$tmp/hot"
+[ "$(wc -l <"$tmp/hot")" -gt 20 ] && pass || fail "$(wc -l <"$tmp/hot") files of hot code"
+xargs awk 'FNR == 1 { head = "" } /^[A-Za-z_]/ && !/;/ { head = $0 }
+    /^\{/ { if (head ~ /\(/ && head !~ /^(GN_HOT|GN_INLINE) /) print FILENAME ": " head; head = "" }' <"$tmp/hot" >"$tmp/found"
+none "a function of a hot file without GN_HOT" "$tmp/found"
+
 # ---- Who includes whom -----------------------------------------------------------------------------------------------------
 
 find lib -name '*.[ch]' | xargs grep -H -E '^[[:space:]]*#[[:space:]]*include' | grep -v -E '<(stdint|stddef|string)\.h>|"([a-z]+/)?(gnomon|gn_[a-z_]+)\.[ch]"|(GN_USER_CONFIG|GN_PORT)$' >"$tmp/found"
