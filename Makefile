@@ -10,7 +10,7 @@ HOST_OPT ?= $(OPT)
 SAN ?=
 SIZE ?= 320x240
 SCENES ?=
-OWN_SCENES := $(foreach s,sundial avenue desk room fence mixed,host/scenes/$(s).gltf)
+OWN_SCENES := $(foreach s,cube sundial avenue desk room fence mixed,host/scenes/$(s).gltf)
 
 # The tests make an error of every warning (WERROR=-Werror); the compiler of a user may know new ones.
 WERROR ?=

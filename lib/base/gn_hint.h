@@ -12,16 +12,12 @@
 #define GN_NOINLINE __attribute__((noinline))
 /* From one case into the next. */
 #define GN_GOES_ON __attribute__((fallthrough))
+/* A condition that is seldom true: what it guards goes out of the way. */
+#define GN_SELDOM(c) __builtin_expect(!!(c), 0)
 #else
 #define GN_KEEP(v) ((void)0)
 #define GN_NOINLINE
-#define GN_GOES_ON ((void)0)
-#endif
-
-/* A condition that is seldom true: what it guards goes out of the way. */
-#if defined(__GNUC__)
-#define GN_SELDOM(c) __builtin_expect(!!(c), 0)
-#else
+#define GN_GOES_ON   ((void)0)
 #define GN_SELDOM(c) (c)
 #endif
 

@@ -25,17 +25,15 @@ uint64_t gn_bf_from_u64_bits(uint64_t v)
 
 /* Entry i of gn_recip_table is 2^25 / (2i + 513), rounded. Where size comes first and the core divides, it is computed.
  */
-#if defined(GN_FAR) && GN_CORE_DIVIDES
-#define RECIP_START(i) (((1U << 25) + (i) + 256U) / (2U * (i) + 513U))
-#elif defined(GN_FAR)
-#define RECIP_START(i) gn_far_recip_entry(i)
-#else
-#define RECIP_START(i) ((uint32_t)gn_recip_table[i])
-#endif
+GN_INLINE uint32_t recip_start(uint32_t i)
+{
+    if (!GN_SIZE_FIRST) return gn_recip_table[i];
+    return GN_CORE_DIVIDES ? ((1U << 25) + i + 256U) / (2U * i + 513U) : gn_far_recip_entry(i);
+}
 
 uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
 {
-    uint32_t y = gn_recip_step(m, RECIP_START((m >> 23) & 255U) << 16);
+    uint32_t y = gn_recip_step(m, recip_start((m >> 23) & 255U) << 16);
     return newton_steps > 1 ? gn_recip_step(m, y) : y;
 }
 

@@ -118,7 +118,6 @@ int32_t gn_far_mul_shr(int32_t a, int32_t b, int32_t s);
 int32_t gn_far_mul_q30(int32_t a, int32_t b);
 uint64_t gn_far_abs64(int64_t v);
 #if GN_SIZE_FIRST && defined(__GNUC__)
-#define GN_FAR          1
 #define GN_IS_INT32_(v) (__builtin_constant_p(v) && (v) >= INT32_MIN && (v) <= INT32_MAX)
 
 GN_INLINE int64_t gn_clamp64(int64_t v, int64_t lo, int64_t hi)

@@ -107,7 +107,9 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
     if (status) return status;
 #endif
     frame->scene = scene;
+#if GN_SHADOWS
     frame->n_lights = (uint8_t)scene->n_lights;
+#endif
     gn_cam_setup(frame);
     status = gn_views_setup(frame);
     if (status) return status;

@@ -105,7 +105,6 @@ static inline gn_walk_line gn_walk_line_at(int32_t x0, int32_t y0, int32_t x1, i
  * are enough: dy is at most 1900 units of the subpixel grid, and m of the functions below, at most 2 dy + dx dy /
  * 2^subpixel_bits, less than 2^15. */
 #define GN_NARROW_BITS 16
-#define GN_NARROW      1 /* in place of gn_walk_lasts */
 static inline int32_t gn_walk_narrow(int32_t subpixel_bits)
 {
     return subpixel_bits < 7 ? 15 << subpixel_bits : 1900;

@@ -7,8 +7,6 @@
 #include "base/gn_q.h"
 #include "light/gn_punctual.h"
 
-#if GN_PUNCTUAL_LIGHTS
-
 #define GN_ONE_Q30 (1 << 30)
 
 /* Coefficients of surface point minus light along a pixel's ray, world axes: see gn_ray_plane. */
@@ -187,6 +185,4 @@ uint64_t gn_punctual_in_tile(const gn_frame *frame, const gn_rect *rect)
         if (in_tile(frame, rect, &frame->light[l])) lights |= (uint64_t)1 << l;
     return lights;
 }
-#endif
-
 #endif

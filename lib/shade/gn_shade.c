@@ -431,7 +431,7 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
 #if GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS
     s->cache.lights = gn_punctual_in_tile(frame, &s->rect);
 #endif
-    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
+    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
     for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++)
         shade_triangle(s, frame->tile_ref[i]);
 }

@@ -5,7 +5,15 @@
 #include "shadow/gn_blocks.h"
 #include "shadow/gn_texel.h"
 
-#if GN_SHADOWS && GN_DEPTH_BLOCKS
+void gn_blocks_find(gn_frame *frame, gn_light_view *view)
+{
+    uint32_t first = view->first_texel / 64;
+#if GN_OTHER_ATLAS
+    view->block = view->in_other ? frame->other_block + first : frame->block + first;
+#else
+    view->block = frame->block + first;
+#endif
+}
 
 static void widen_block(gn_depth_block *block, const gn_depth_block *other)
 {
@@ -79,7 +87,7 @@ const gn_depth_block *gn_blocks_at(const gn_light_view *view, int32_t u, int32_t
     int32_t last = view->tile_texels - 1;
     u = u < 0 ? 0 : u > last ? last : u;
     v = v < 0 ? 0 : v > last ? last : v;
-    return &view->block[((v >> 3) << (view->tile_log2 - 3)) + (u >> 3)];
+    return gn_blocks_inside(view, u, v);
 }
 
 gn_depth_block gn_blocks_over(const gn_light_view *view, int32_t u, int32_t v, int32_t n)
@@ -93,4 +101,13 @@ gn_depth_block gn_blocks_over(const gn_light_view *view, int32_t u, int32_t v, i
     return bounds;
 }
 
-#endif
+int gn_blocks_decide(const gn_light_view *view, int32_t u, int32_t v, int32_t n, uint32_t least, uint32_t most,
+                     uint32_t *attenuation)
+{
+    gn_depth_block bounds = n <= GN_BLOCK_REACH ? *gn_blocks_at(view, u, v) : gn_blocks_over(view, u, v, n);
+    *attenuation = 65536;
+    if (most <= (uint32_t)bounds.lo << 16) return 1;
+    *attenuation = 0;
+    if (least <= gn_block_highest(&bounds, GN_VIEW_BITS(view))) return 0;
+    return !gn_border_lit(view) || (u >= 0 && v >= 0 && u + n <= view->tile_texels && v + n <= view->tile_texels);
+}

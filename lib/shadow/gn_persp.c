@@ -7,8 +7,6 @@
 #include "light/gn_bias.h"
 #include "shadow/gn_persp.h"
 
-#if GN_SHADOWS && GN_PUNCTUAL_LIGHTS
-
 #define GN_GUARD_TEXELS 8192 /* casters are cut at this distance from the tile's centre */
 
 void gn_persp_face_axis(int32_t out_q30[3], int32_t face)
@@ -165,9 +163,8 @@ int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
     gn_caster caster;
     gn_plane plane;
     if (all || !persp_caster(&caster, &plane, view, corner, casting->job.two_sided)) return -1;
-#if GN_CASTER_ALPHA
-    if (alpha && alpha->textured) gn_alpha_plane(alpha, frame, corner, fit->focal2_q16, view->tile_texels, 2);
-#endif
+    if (GN_CASTER_ALPHA && GN_TEXTURES && alpha && alpha->textured)
+        gn_alpha_plane(alpha, frame, corner, fit->focal2_q16, view->tile_texels, 2);
     if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->near_q16, fit->guard_q16);
     int32_t *x = casting->with.clipping.x, *y = casting->with.clipping.y;
     for (int i = 0; i < polygon->n; i++) project_corner(frame, view, polygon->v_q16[i], &x[i], &y[i]);
@@ -178,5 +175,3 @@ int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
     }
     return n_texels;
 }
-
-#endif

@@ -7,8 +7,6 @@
 
 #include "gnomon.h"
 
-#if GN_SHADOWS
-
 #define GN_DEPTH_EMPTY_Q32 0xFFFFFFFFU
 
 /* An atlas as its depth_bits name it. */
@@ -45,5 +43,10 @@ static inline uint32_t gn_texel_far(int32_t depth_bits)
     return (uint32_t)(GN_DEPTH_EMPTY_Q32 << (32 - depth_bits));
 }
 
-#endif
+/* Whether texels outside the tile are lit (D10). */
+static inline int gn_border_lit(const gn_light_view *view)
+{
+    return GN_MAIN_LIGHT && view->border_lit;
+}
+
 #endif

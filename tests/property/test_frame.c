@@ -53,6 +53,27 @@ static void test_empty_cascade(void)
     canvas_end(&c);
 }
 
+/* The scene is the caller's again after the last screen tile: what is asked of its lights later reads none of it. */
+static void test_scene_gone(void)
+{
+    gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
+    gn_scene *scene = malloc(sizeof *scene);
+    gn_tile_info info;
+    uint32_t n_tiles = 0;
+    canvas c;
+    canvas_begin(&c, 48, 32, GN_FORMAT_RGB888);
+    demo_scene_make(&demo, 1);
+    *scene = demo.scene;
+    CHECK(gn_init(&one, &p) == GN_OK);
+    CHECK(gn_render(&one, scene, flush, &c) == GN_OK);
+    memset(scene, 0, sizeof *scene);
+    free(scene); /* the address sanitizer sees who reads it now */
+    CHECK(gn_get_light_shadow(&one, 0, &n_tiles, NULL) == GN_SHADOW_REALTIME && n_tiles > 0);
+    CHECK(gn_get_shadow_tile(&one, 0, 0, &info) > 0);
+    CHECK(gn_get_light_shadow(&one, demo.scene.n_lights, &n_tiles, NULL) == GN_SHADOW_NOT_WANTED && n_tiles == 0);
+    canvas_end(&c);
+}
+
 /* A5: a frame that is abandoned fits its views, but its tiles are not drawn: the next must not keep those of the frame
  * before. */
 static void test_abandoned_frame(void)
@@ -404,6 +425,7 @@ int main(void)
 {
     test_same_again();
     test_empty_cascade();
+    test_scene_gone();
     test_abandoned_frame();
     test_colour_exponent();
     test_automatic_by_default();

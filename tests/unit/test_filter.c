@@ -9,6 +9,7 @@
 #include "knobs.h"
 #include "shadow/gn_blocks.h"
 #include "shadow/gn_filter.h"
+#include "shadow/gn_tent.h"
 #include "shadow/gn_texel.h"
 #include "gnomon.h"
 #include "rng.h"

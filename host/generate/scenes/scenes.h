@@ -16,6 +16,7 @@
 enum { SUNDIAL_FIRST_HOUR = 6, SUNDIAL_LAST_HOUR = 18, SUNDIAL_FRAMES_PER_HOUR = 12 }; /* frame 0 is 06:00 */
 
 int sundial_write(FILE *file);
+int cube_write(FILE *file);   /* a textured cube that turns once in 48 frames */
 int avenue_write(FILE *file); /* a long avenue, for cascades */
 int desk_write(FILE *file);   /* a spot lamp that swings over 48 frames */
 int room_write(FILE *file);   /* a point light, all six cube faces in the picture */
