@@ -2,6 +2,7 @@
 #include "gn_internal.h"
 
 #include "gn_stages.h"
+#include "base/gn_hint.h"
 #include "light/gn_lights.h"
 #include "shadow/gn_light_views.h"
 
