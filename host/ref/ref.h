@@ -18,14 +18,14 @@ typedef struct {
     int atlas_size;       /* texels per side of the directional atlas (A1) */
     bool srgb;            /* encode the output with the sRGB curve */
     bool vertex_light;    /* n . L of directional lights is that of the vertices, interpolated */
-    int other_atlas_size; /* of the other atlas; 0: the same */
+    int other_atlas_size; /* of the local-light atlas; 0: the same */
     int max_tiles;        /* capacity of the directional atlas, 1..16; 0: 16 (A3) */
     int max_other_tiles;  /* of the other */
     bool unsnapped; /* directional texels and origins are not rounded: a map without D2's stability, for comparison */
     /* Of the engine whose automatic bias this is (B6): what it rounds decides how much bias is enough. 0: it does not.
      */
     int shadow_subpixel_bits, weight_bits, depth_bits, other_depth_bits, shadow_depth_frac, newton_steps;
-    double unit; /* its least step of length */
+    double unit; /* its smallest step of length */
 } ref_options;
 
 /* One light view: a cascade, a single directional tile, a spot's cone or a face of a point light's cube. */

@@ -47,8 +47,8 @@ static double cast_depth(const ref_light_view *view, const caster_triangle *t, c
     if (!view->perspective)
         return depth < view->depth_range ? fmax(0.0, depth) + t->bias : HUGE_VAL; /* D9: pancaking */
     if (!(depth >= view->near)) return HUGE_VAL;
-    const double share = view->near / depth; /* 1 - s */
-    return 1.0 - share + t->constant * share + t->bias;
+    const double ratio = view->near / depth; /* 1 - s */
+    return 1.0 - ratio + t->constant * ratio + t->bias;
 }
 
 /* M1 */

@@ -58,8 +58,8 @@ static ref_sphere fit_sphere(const scene *s, int cascade, int width, int height)
 static double fit_texel(const ref_light_view *view, const scene_light *light, int filter_index,
                         const ref_options *options)
 {
-    const double reach = 2.0 * (filter_index + 1) * (1.0 + ref_lateral_reach(options, view, light));
-    const double sphere_texels = fmax(view->tile_texels - reach - 1.0, view->tile_texels / 4.0);
+    const double margin = 2.0 * (filter_index + 1) * (1.0 + ref_lateral_margin(options, view, light));
+    const double sphere_texels = fmax(view->tile_texels - margin - 1.0, view->tile_texels / 4.0);
     const double texel = (1.0 - ldexp(1.0, -20)) * 2.0 * view->sphere_radius / sphere_texels;
     return options->unsnapped ? texel : ceil8(texel);
 }

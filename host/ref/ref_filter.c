@@ -68,8 +68,8 @@ static double compare(const ref_light_view *view, const ref_lookup *how, vec3 p,
 
 static double separable(const ref_light_view *view, const ref_lookup *how, vec3 p)
 {
-    const int reach = ref_filter_index(how->filter, 0.0) + 1, n = 2 * reach + 1;
-    const int i0 = (int)floor(p.x) - reach, j0 = (int)floor(p.y) - reach;
+    const int radius = ref_filter_index(how->filter, 0.0) + 1, n = 2 * radius + 1;
+    const int i0 = (int)floor(p.x) - radius, j0 = (int)floor(p.y) - radius;
     double across[MAX_TAPS], sum = 0.0;
     for (int i = 0; i < n; i++) across[i] = axis_weight(how, p.x, i0 + i);
     for (int j = 0; j < n; j++) {
@@ -129,7 +129,7 @@ static double disk(const ref_light_view *view, const ref_lookup *how, vec3 p)
     return sum / how->disk_samples;
 }
 
-/* Further out than its reach a filter meets the border texel alone: moving the point back along the receiver's plane
+/* Further out than its radius a filter meets the border texel alone: moving the point back along the receiver's plane
  * only keeps the int in range. */
 double ref_filtered(const ref_light_view *view, const ref_lookup *how, double u, double v, double d)
 {

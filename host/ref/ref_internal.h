@@ -41,7 +41,7 @@ typedef struct {
 
 struct ref_surface;
 
-/* Another way to rt of DESIGN 1.9 than shadow maps: at a surface point, of a light that asks for tiles. */
+/* Another way to rt of DESIGN 1.9 than shadow maps: at a surface point, of a light that requests tiles. */
 typedef double ref_visibility(const void *user, const struct ref_surface *at, size_t l);
 
 /* Which cascade a surface point is looked up in, and how far it is from leaving it. */
@@ -131,7 +131,7 @@ vec2 ref_depth_gradient(const ref_light_view *view, vec3 normal,
                         vec3 on_plane); /* depth per texel; all in ref_to_light's axes */
 
 /* ref_bias.c */
-double ref_lateral_reach(const ref_options *options, const ref_light_view *view, const scene_light *light); /* nu */
+double ref_lateral_margin(const ref_options *options, const ref_light_view *view, const scene_light *light); /* nu */
 /* B6: how far a point is moved, in ref_to_light's axes, and by how much less its depth s is then. */
 vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
                    vec3 in_light, double *less);

@@ -1,7 +1,7 @@
 /* The light that each pixel's surface sends to the camera (DESIGN 1.3). */
 #include "ref_internal.h"
 
-/* Blinn and Phong: the share of a light that is mirrored towards the camera, for n . L > 0. */
+/* Blinn and Phong: the fraction of a light that is mirrored towards the camera, for n . L > 0. */
 static double highlight(const ref_frame *frame, const ref_surface *at, vec3 to_light)
 {
     const vec3 to_camera = vec3_unit(vec3_sub(frame->camera.position, at->world));
@@ -9,8 +9,8 @@ static double highlight(const ref_frame *frame, const ref_surface *at, vec3 to_l
     return pow(fmax(0.0, ndoth), ldexp(1.0, at->triangle.object->shininess_log2));
 }
 
-/* At the rim of a cone or a range the library's light ends a rounding earlier or later: what is darker than this share
- * of the light is not shown (DESIGN 1.10). */
+/* At the rim of a cone or a range the library's light ends a rounding earlier or later: what is darker than this
+ * fraction of the light is not shown (DESIGN 1.10). */
 #define RIM 0x1p-20
 
 static bool at_rim(const scene_light *light, const ref_surface *at, double attenuation)

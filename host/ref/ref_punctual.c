@@ -21,8 +21,8 @@ static double cone_factor(const scene_light *light, vec3 to_light)
 {
     if (light->kind != SCENE_LIGHT_SPOT) return 1.0;
     const double outer = cos(PI * light->outer), scale = 1.0 / fmax(cos(PI * light->inner) - outer, LEAST_CONE);
-    const double share = clamp(scale * (-vec3_dot(to_light, vec3_load(light->direction)) - outer), 0.0, 1.0);
-    return share * share;
+    const double ratio = clamp(scale * (-vec3_dot(to_light, vec3_load(light->direction)) - outer), 0.0, 1.0);
+    return ratio * ratio;
 }
 
 ref_incidence ref_light_at(const scene_light *light, vec3 p)
@@ -143,7 +143,7 @@ int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light,
     vec3_store(view->position, vec3_load(light->position));
     view->near = light->near;
     view->depth_range = 1.0;
-    view->t = point ? ref_face_half_width(view->filter_index, ref_lateral_reach(options, view, light), tile_texels,
+    view->t = point ? ref_face_half_width(view->filter_index, ref_lateral_margin(options, view, light), tile_texels,
                                           &view->clamped)
                     : fmax(tan(PI * light->outer), tile_texels / 65535.0);
     view->texel = 2.0 * view->t / tile_texels;

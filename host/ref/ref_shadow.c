@@ -103,7 +103,7 @@ static double mapped_attenuation(const ref_frame *frame, const ref_surface *at, 
 }
 
 /* A single tile around an empty slice is none; an empty cascade is never selected. Who does without maps serves every
- * light that asks. */
+ * light that requests it. */
 static bool is_served(const ref_frame *frame, size_t l)
 {
     if (frame->visibility) return ref_asks_for_tiles(frame, l);

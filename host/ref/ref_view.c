@@ -1,4 +1,4 @@
-/* What all light views share: filters and their reach, axes, and the way from the world into the map
+/* What all light views share: filters and their margins, axes, and the way from the world into the map
  * (DESIGN 1.4, 1.5, 1.7). */
 #include "ref_internal.h"
 

@@ -97,7 +97,8 @@ typedef struct gn_frame {
     gn_picture picture;
     uint8_t stage;   /* gn_stage in gn_frame.c */
     uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
-    uint16_t n_views;
+    uint8_t n_views;
+    uint8_t n_lights; /* of the scene, which may be gone when gn_get_light_shadow is called */
     uint16_t tiles_x, tiles_y;
     gn_compact_view cam;
     int32_t per_px_q29;                /* 1 / 2F: rays are (2x + 1 - W, H - 1 - 2y, -2F) */
@@ -116,9 +117,8 @@ typedef struct gn_frame {
 } gn_frame;
 
 typedef struct gn_scratch {
-    uint32_t
-        cell[GN_TILE_PIXELS_MAX]; /* nearest surface: key in the high bits, the triangle in the low id_bits; 0: none */
-    gn_tile_pixels pixel;         /* finished pixels in the picture's format */
+    uint32_t cell[GN_TILE_PIXELS_MAX]; /* nearest surface: key above, triangle in the low id_bits; 0: none */
+    gn_tile_pixels pixel;              /* finished pixels in the picture's format */
     gn_work work;
 } gn_scratch;
 

@@ -34,6 +34,7 @@ typedef struct gn_frame {
     uint8_t n_cascades;
     uint8_t last_cascade; /* the last that is not empty */
     uint8_t has_cascades; /* some directional light has tiles in the directional atlas: D6 applies */
+    uint8_t n_lights;     /* of the scene, which may be gone when gn_get_light_shadow is called */
     uint32_t frame_count; /* A5: for the schedule of cascades */
     gn_cascade_state cascade[4];
 #endif

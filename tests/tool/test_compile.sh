@@ -4,7 +4,7 @@ cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
 . tests/support/check.sh
 
-variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
 strict="-std=c99 -pedantic-errors $warn -Ilib"
 if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -Itests -o "$tmp/same" tests/tool/same_pictures.c host/scene/image/*.c host/base/arena.c -lm \
@@ -48,6 +48,7 @@ same avenue host/scenes/avenue.gltf 0 ""
 same desk host/scenes/desk.gltf "0 2 3" "--frames 0-3" --size 96x64
 same room host/scenes/room.gltf 0 "" --size 160x120
 same fence host/scenes/fence.gltf 0 "--set output=grey4" --size 160x120
+same cube host/scenes/cube.gltf "9 0 48" "" --size 96x64
 same mixed host/scenes/mixed.gltf "1 0" "--frames 0-1" --size 96x64 --set preset=tiny
 
 # vertices in half the bytes: the tool quantises alike
