@@ -2,8 +2,9 @@
 // boards/pico/screen/lcd.c.
 //   node pico.js IMAGE.uf2 IMAGE.symbols N [OUT.ppm]
 // IMAGE.symbols is what nm says of the image. The run ends after N frames (each begins with scene_frame), or with
-// board_exit; then OUT.ppm is what the glass shows. Printed: what the firmware prints, and each frame's instructions and
-// cycles. Flash takes no time here, the serial bus does. Exit status: the firmware's; 1: the run failed, stderr says why.
+// board_exit; then OUT.ppm is what the glass shows. Printed: what the firmware prints, and each frame's instructions
+// and cycles. Flash takes no time here, the serial bus does. Exit status: the firmware's; 1: the run failed, stderr
+// says why.
 'use strict';
 const fs = require('fs');
 
@@ -17,8 +18,8 @@ function fail(text) {
 
 // ---- The glass ------------------------------------------------------------------------------------------------------
 
-const SLPOUT = 0x11, INVON = 0x21, DISPOFF = 0x28, DISPON = 0x29, CASET = 0x2a, RASET = 0x2b, RAMWR = 0x2c, MADCTL = 0x36,
-  COLMOD = 0x3a, SWRESET = 0x01;
+const SWRESET = 0x01, SLPOUT = 0x11, INVON = 0x21, DISPOFF = 0x28, DISPON = 0x29;
+const CASET = 0x2a, RASET = 0x2b, RAMWR = 0x2c, MADCTL = 0x36, COLMOD = 0x3a;
 const MADCTL_MV = 0x20, COLMOD_16_BITS = 0x55;
 
 // The glass lies on its side (MADCTL_MV), so that windows are in what is seen. What the set-up owes is checked when
