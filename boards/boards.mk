@@ -52,8 +52,9 @@ FW_SRC := $(APP_LIB) boards/apps/$(APP).c $(APP_SRC) $(wildcard boards/$(BOARD)/
 ifeq ($(FW_HOSTED),)
 FW_SRC += boards/common/start.c boards/common/memory.c
 FW_FREE := -ffreestanding -isystem boards/common/include
-FW_LINK := -nostdlib -nostartfiles -Wl,--gc-sections,--fatal-warnings,-Map=$(FIRMWARE:.elf=.map) -Wl,--no-warn-rwx-segments -Lboards/common -Lport -T boards/$(BOARD)/link.ld
+FW_LINK := -nostdlib -nostartfiles -Wl,--gc-sections,--fatal-warnings,-Map=$(FIRMWARE:.elf=.map) -Wl,--no-warn-rwx-segments -Lboards/common -T boards/$(BOARD)/link.ld
 FW_LIBS := -lgcc
+FW_HOT := '-DGN_PORT_HOT_SECTION=".gn_hot"' # common/sections.ld places it
 endif
 ifneq ($(PRESET),)
 FW_PRESET := -DGN_PRESET=GN_PRESET_$(shell echo $(PRESET) | tr a-z A-Z)
@@ -69,10 +70,10 @@ FW_PORT := -Iport/$(firstword $(BOARD_PORT)) '-DGN_PORT="gn_port_$(notdir $(firs
 FW_SRC += $(filter-out port/portable/gn_port_oracle.c,$(foreach port,$(BOARD_PORT),$(wildcard port/$(port)/*.c)))
 endif
 FW_CFLAGS := $(BOARD_CPU) -std=c99 $(FW_OPT) -g $(WARN) $(FW_FREE) -ffunction-sections -fdata-sections -Ilib -Iport -Iboards/common -Iboards/apps \
-  $(FW_SCENE) $(FW_PRESET) $(FW_PORT) $(BOARD_FLAGS) $(APP_FLAGS) $(FW_FLAGS)
+  $(FW_SCENE) $(FW_PRESET) $(FW_PORT) $(FW_HOT) $(BOARD_FLAGS) $(APP_FLAGS) $(FW_FLAGS)
 FW_OBJ := $(FW_SRC:%.c=$(FW_OBJ_DIR)/%.o) $(FW_SCENE_OBJ) $(APP_OBJ)
 
-$(FIRMWARE): $(FW_OBJ) $(wildcard boards/$(BOARD)/*.ld boards/common/*.ld port/*.ld) $(FW_OBJ_DIR)/link.flags
+$(FIRMWARE): $(FW_OBJ) $(wildcard boards/$(BOARD)/*.ld boards/common/*.ld) $(FW_OBJ_DIR)/link.flags
 	@echo '  LD $@'
 	@$(FW_CC) $(BOARD_CPU) $(FW_OPT) $(FW_LINK) $(LINK_FLAGS) -o $@ $(FW_OBJ) $(FW_LIBS)
 

@@ -32,34 +32,84 @@
 #include "compact/gn_compact_views.c"
 #else
 /* Triangles: planes, clipping, edge walks, textures. */
-#include "geometry/gn_alpha.c"
 #include "geometry/gn_clip.c"
 #include "geometry/gn_plane.c"
-#include "geometry/gn_texture.c"
 #include "geometry/gn_walk.c"
 #include "geometry/gn_xform.c"
+#if GN_TEXTURES
+#include "geometry/gn_texture.c"
+#endif
+#if GN_MASKS
+#include "geometry/gn_mask.c"
+#endif
+#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+#include "geometry/gn_alpha.c"
+#if GN_TEXTURES
+#include "geometry/gn_alpha_coords.c"
+#endif
+#endif
 
 /* Lights: which reach which object, cascades, falloff, bias. */
-#include "light/gn_bias.c"
-#include "light/gn_cascade.c"
+#include "light/gn_lights.c"
+#if GN_BOXES
 #include "light/gn_object.c"
+#endif
+#if GN_PUNCTUAL_LIGHTS
+#include "light/gn_light_list.c"
 #include "light/gn_punctual.c"
+#endif
 
 /* Shadow maps: views of lights, casters drawn into the atlas, filtered lookups. */
+#include "shadow/gn_views.c"
+#if GN_SHADOWS
+#include "light/gn_bias.c"
+#include "light/gn_cascade.c"
 #include "shadow/gn_atlas.c"
-#include "shadow/gn_blocks.c"
 #include "shadow/gn_caster.c"
 #include "shadow/gn_cull.c"
 #include "shadow/gn_filter.c"
+#include "shadow/gn_light_views.c"
+#include "shadow/gn_lookup.c"
 #include "shadow/gn_ortho.c"
-#include "shadow/gn_persp.c"
 #include "shadow/gn_tiles.c"
-#include "shadow/gn_views.c"
+#if GN_AUTO_BIAS
+#include "light/gn_auto_bias.c"
+#endif
+#if GN_PUNCTUAL_LIGHTS
+#include "shadow/gn_persp.c"
+#endif
+#if GN_OBJECT_BOXES
+#include "shadow/gn_cull_boxes.c"
+#endif
+#if GN_CASTER_CULLING
+#include "shadow/gn_cull_cascades.c"
+#endif
+#if GN_FILTER_MAX >= 2
+#include "shadow/gn_tent.c"
+#endif
+#if GN_DISK_FILTER
+#include "shadow/gn_disk.c"
+#endif
+#if GN_PIECES
+#include "shadow/gn_filter_rows.c"
+#endif
+#if GN_DEPTH_BLOCKS
+#include "shadow/gn_blocks.c"
+#include "shadow/gn_lookup_bounds.c"
+#endif
+#if GN_INCREMENTAL
+#include "shadow/gn_kept.c"
+#endif
+#if GN_STATIC_LAYER
+#include "shadow/gn_static_layer.c"
+#endif
+#endif
 
 /* Visible surfaces of a screen tile. */
 #include "visible/gn_bin.c"
 #include "visible/gn_raster.c"
 #include "visible/gn_runs.c"
+#include "visible/gn_screen_triangle.c"
 #include "visible/gn_setup.c"
 
 /* Their colours. */

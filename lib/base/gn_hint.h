@@ -4,6 +4,18 @@
 
 #include "gn_config.h"
 
+#ifdef GN_PORT
+#include GN_PORT
+#endif
+
+/* Of a function that runs per pixel, row or texel, or is called by one that does: a port may place it where code is
+ * fetched fastest (port/gn_port.h). In a file that has hot functions all are marked. */
+#ifdef GN_PORT_HOT
+#define GN_HOT GN_PORT_HOT
+#else
+#define GN_HOT
+#endif
+
 #if defined(__GNUC__)
 /* v is taken for changed here, and neither computed before nor from what was. It keeps what an unrolled loop steps in
  * one register, and a branch a branch, where four registers and predicated instructions would cost more. */
@@ -12,16 +24,12 @@
 #define GN_NOINLINE __attribute__((noinline))
 /* From one case into the next. */
 #define GN_GOES_ON __attribute__((fallthrough))
+/* A condition that is seldom true: what it guards goes out of the way. */
+#define GN_SELDOM(c) __builtin_expect(!!(c), 0)
 #else
 #define GN_KEEP(v) ((void)0)
 #define GN_NOINLINE
-#define GN_GOES_ON ((void)0)
-#endif
-
-/* A condition that is seldom true: what it guards goes out of the way. */
-#if defined(__GNUC__)
-#define GN_SELDOM(c) __builtin_expect(!!(c), 0)
-#else
+#define GN_GOES_ON   ((void)0)
 #define GN_SELDOM(c) (c)
 #endif
 

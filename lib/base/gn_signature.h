@@ -18,11 +18,10 @@ static inline uint64_t gn_signature_add_inline(uint64_t signature, uint64_t word
 }
 
 uint64_t gn_far_signature_add(uint64_t signature, uint64_t word);
-#if defined(GN_FAR)
-#define gn_signature_add gn_far_signature_add
-#else
-#define gn_signature_add gn_signature_add_inline
-#endif
+GN_INLINE uint64_t gn_signature_add(uint64_t signature, uint64_t word)
+{
+    return GN_SIZE_FIRST ? gn_far_signature_add(signature, word) : gn_signature_add_inline(signature, word);
+}
 
 static inline uint64_t gn_signature_words(uint64_t signature, const int32_t *words, size_t n)
 {

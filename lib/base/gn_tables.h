@@ -15,19 +15,13 @@ extern const uint16_t gn_rsqrt_table[192]; /* Q1.15: 1/sqrt(x) for x in [1/4 + i
 extern const int32_t gn_sin_table_q30[65]; /* sin(i / 256 turn) */
 extern const uint16_t
     gn_srgb_table[577]; /* 65535 * srgb(x), x = 2^(k-9) (1 + j/64) at entry 64 k + j; see gn_pixel.c */
-#if GN_LEVEL_TABLES
 /* For RGB565, of colours below 1: the level where a cell of 1/1024 or 1/512 begins, and where each level ends; 31
  * levels count from 64. */
 extern const uint8_t gn_level_63_table[1024], gn_level_31_table[512];
 extern const uint32_t gn_level_end_q24[96];
-#endif
-#if GN_SHADOWS && GN_DISK_FILTER
 extern const int16_t
     gn_disk_table_q15[128]; /* x, y of 64 points of the unit disk (F4, DESIGN 1.7), every prefix well spread */
-#endif
-#if GN_TEXTURES
 extern const uint16_t gn_srgb_decode_table[256]; /* 65535 * linear light of an 8-bit sRGB value */
-#endif
 
 /* Entries of tables. Where size comes first, computed: gn_curves.c; reciprocals by the core's divider, if it has one.
  */
@@ -35,14 +29,20 @@ uint32_t gn_far_recip_entry(uint32_t i);
 uint32_t gn_far_rsqrt_entry(uint32_t i);
 uint32_t gn_far_srgb_entry(uint32_t i);
 uint32_t gn_far_srgb_decode_entry(uint32_t i);
-#if GN_SIZE_FIRST
-#define gn_rsqrt_entry       gn_far_rsqrt_entry
-#define gn_srgb_entry        gn_far_srgb_entry
-#define gn_srgb_decode_entry gn_far_srgb_decode_entry
-#else
-#define gn_rsqrt_entry(i)       ((uint32_t)gn_rsqrt_table[i])
-#define gn_srgb_entry(i)        ((uint32_t)gn_srgb_table[i])
-#define gn_srgb_decode_entry(i) ((uint32_t)gn_srgb_decode_table[i])
-#endif
+
+GN_INLINE uint32_t gn_rsqrt_entry(uint32_t i)
+{
+    return GN_SIZE_FIRST ? gn_far_rsqrt_entry(i) : gn_rsqrt_table[i];
+}
+
+GN_INLINE uint32_t gn_srgb_entry(uint32_t i)
+{
+    return GN_SIZE_FIRST ? gn_far_srgb_entry(i) : gn_srgb_table[i];
+}
+
+GN_INLINE uint32_t gn_srgb_decode_entry(uint32_t i)
+{
+    return GN_SIZE_FIRST ? gn_far_srgb_decode_entry(i) : gn_srgb_decode_table[i];
+}
 
 #endif

@@ -11,8 +11,6 @@
 
 #include "gnomon.h"
 
-#if GN_COMPACT
-
 #define GN_COMPACT_LENGTH_Q16                                                                                          \
     (1 << 29) /* view coordinates and view depths are below: 8192 units; places in the world below half of it */
 #define GN_COMPACT_BITS      8            /* subpixel bits */
@@ -79,5 +77,4 @@ static inline uint32_t gn_compact_key(const gn_tri *tri, int32_t x, int32_t y)
     return tri->key + (uint32_t)(step >> tri->frac_bits);
 }
 
-#endif
 #endif

@@ -25,11 +25,9 @@ static void move_receiver(const gn_frame *frame, surface *s, const gn_tri *tri)
 {
     const int16_t *n = tri->normal_q14;
     int64_t along_q16 = frame->offset_q16;
-#if GN_AUTO_BIAS
-    if (frame->flat_offset_q16)
+    if (GN_AUTO_BIAS && frame->flat_offset_q16)
         along_q16 =
             (along_q16 * (int64_t)(gn_abs32(n[0]) + gn_abs32(n[1])) + (int64_t)frame->flat_offset_q16 * -n[2]) >> 14;
-#endif
     for (int i = 0; i < 3; i++) s->offset_q16[i] = (int32_t)((along_q16 * n[i]) >> 14);
     s->tri = tri;
 }

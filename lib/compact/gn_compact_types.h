@@ -95,10 +95,10 @@ typedef union {
 typedef struct gn_frame {
     const gn_scene *scene;
     gn_picture picture;
-    uint8_t stage;    /* gn_stage in gn_frame.c */
-    uint8_t id_bits;  /* of a visibility cell: enough for n_triangles + 2 */
-    uint8_t n_lights; /* of the scene: may be asked for after the scene is gone */
-    uint16_t n_views;
+    uint8_t stage;   /* gn_stage in gn_frame.c */
+    uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
+    uint8_t n_views;
+    uint8_t n_lights; /* of the scene, which may be gone when gn_get_light_shadow is called */
     uint16_t tiles_x, tiles_y;
     gn_compact_view cam;
     int32_t per_px_q29;                /* 1 / 2F: rays are (2x + 1 - W, H - 1 - 2y, -2F) */

@@ -87,11 +87,8 @@ static gn_status lens(gn_frame *frame)
 /* Whether the light has a bias that is built. B6 along the normal; the general arithmetic's other form is not there. */
 static int bias_ok(const gn_light *light)
 {
-#if GN_AUTO_BIAS
-    return gn_scene_auto_bias(light) != GN_AUTO_BIAS_DEPTH;
-#else
+    if (GN_AUTO_BIAS) return gn_scene_auto_bias(light) != GN_AUTO_BIAS_DEPTH;
     return light->auto_bias == GN_AUTO_BIAS_OFF || (!light->auto_bias && light->bias_normal_q16);
-#endif
 }
 
 /* What is not built is refused: biases but B1 and B2, a near plane that is pulled back, what lies beyond the range of a
@@ -217,13 +214,10 @@ static int32_t receiver_reach(gn_frame *frame, const gn_light *light)
     frame->offset_q16 = (int32_t)gn_compact_mul((uint32_t)light->bias_normal_q16, 0xB504F334U, 0)
                         << 1; /* sqrt(2) 2^31 */
     frame->flat_offset_q16 = 0;
-#if GN_AUTO_BIAS
-    if (gn_scene_auto_bias(light)) return 92877 + GN_ATLAS_SIZE; /* sqrt(2) (1 + delta) + T 2^-16 */
-#endif
+    if (GN_AUTO_BIAS && gn_scene_auto_bias(light)) return 92877 + GN_ATLAS_SIZE; /* sqrt(2) (1 + delta) + T 2^-16 */
     return frame->offset_q16;
 }
 
-#if GN_AUTO_BIAS
 static void auto_offsets(gn_frame *frame, const gn_light *light, int32_t max_q16)
 {
     const gn_compact_view *view = &frame->view[0].project;
@@ -233,7 +227,6 @@ static void auto_offsets(gn_frame *frame, const gn_light *light, int32_t max_q16
     frame->offset_q16 = 32768 + 138 + epsilon; /* R + delta + epsilon_r */
     frame->flat_offset_q16 = GN_ATLAS_SIZE + GN_ATLAS_SIZE / 64 + 11 + epsilon;
 }
-#endif
 
 static gn_status fit_light(gn_frame *frame, const gn_light *light)
 {
@@ -266,9 +259,7 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     uint32_t keep = ONE_Q28 / 4096 - shadow->cascade_fade_uq16;
     share_of(&frame->sphere, (int32_t)gn_compact_mul((uint32_t)(frame->radius2_q32 >> 16), 0U - keep * keep, 0));
     share_of(&frame->distance, (int32_t)(((uint64_t)(uint32_t)max_q16 * shadow->distance_fade_uq16) >> 16));
-#if GN_AUTO_BIAS
-    auto_offsets(frame, light, max_q16);
-#endif
+    if (GN_AUTO_BIAS) auto_offsets(frame, light, max_q16);
     view->depth.d16 = frame->atlas;
     view->tile_texels = GN_ATLAS_SIZE;
     view->tile_done = 0;

@@ -19,9 +19,8 @@ typedef struct gn_frame {
     /* what is small goes first: instructions reach it without an address of its own */
     const gn_scene *scene;
     gn_picture picture;
-    uint8_t stage;    /* gn_stage in gn_frame.c */
-    uint8_t id_bits;  /* of a visibility cell: enough for n_triangles + 2 */
-    uint8_t n_lights; /* of the scene: may be asked for after the scene is gone */
+    uint8_t stage;   /* gn_stage in gn_frame.c */
+    uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
     uint16_t n_views;
     uint16_t tiles_x, tiles_y;
     gn_cam cam;
@@ -35,6 +34,7 @@ typedef struct gn_frame {
     uint8_t n_cascades;
     uint8_t last_cascade; /* the last that is not empty */
     uint8_t has_cascades; /* some directional light has tiles in the directional atlas: D6 applies */
+    uint8_t n_lights;     /* of the scene, which may be gone when gn_get_light_shadow is called */
     uint32_t frame_count; /* A5: for the schedule of cascades */
     gn_cascade_state cascade[4];
 #endif
@@ -94,7 +94,7 @@ typedef struct gn_scratch {
     uint32_t cell[1 + GN_TILE_PIXELS_MAX]; /* one before the first, then rows of tile_width: nearest surface, near / Z
                                               in the high bits, the triangle in the low id_bits; 0: none */
     gn_tile_pixels pixel;                  /* finished pixels in the picture's format */
-    gn_vcache_entry vertex[GN_VERTEX_CACHE];
+    gn_vertex_entry vertex[GN_VERTEX_CACHE];
     gn_run_idx run_list[GN_RUN_LISTS]; /* first runs, by the low bits of their triangles; see gn_runs.h */
     gn_work work;
 } gn_scratch;

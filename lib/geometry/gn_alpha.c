@@ -1,162 +1,27 @@
 /* Triangles that alpha cuts. */
 #include "gn_internal.h"
 
-#include "base/gn_math.h"
 #include "base/gn_noise.h"
 #include "base/gn_q.h"
 #include "geometry/gn_alpha.h"
-#include "geometry/gn_plane.h"
 #include "geometry/gn_texture.h"
 
-#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
-
-void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, const uint16_t idx[3])
+GN_HOT void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, const uint16_t idx[3])
 {
     cut->object = object;
     cut->mode = mode;
     cut->textured = GN_TEXTURES && object->texture;
-#if GN_TEXTURES
-    if (cut->textured) gn_texture_corners(&cut->uv, object->mesh, object->texture, idx);
-#else
-    (void)idx;
-#endif
+    if (GN_TEXTURES && cut->textured) gn_alpha_corners(cut, idx);
 }
 
-#define GN_ALPHA_STEP_MAX 8 /* pixels: screen tiles begin at multiples of it */
-
-void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16, int32_t width,
-                    int32_t newton_steps)
-{
-#if GN_TEXTURES
-    gn_plane_setup(&cut->plane, v[0], v[1], v[2]);
-    gn_bary_setup(&cut->bary, &cut->plane, v[0], v[1], v[2]);
-    cut->focal2_px_q16 = focal2_px_q16;
-    cut->width = width;
-    cut->newton_steps = newton_steps;
-#if GN_ALPHA_STEPS
-    cut->px_per_step = gn_min32(GN_K(frame, persp_step), GN_ALPHA_STEP_MAX);
-#else
-    (void)frame;
-#endif
-#else
-    (void)cut, (void)frame, (void)v, (void)focal2_px_q16, (void)width, (void)newton_steps;
-#endif
-}
-
-/* ---- Texture coordinates ----------------------------------------------------------------------------------------- */
-
-#if GN_TEXTURES
-
-/* Found by division. Returns 0 where the plane is edge on or behind: there it is those of vertex 0. */
-static int exact_coords(const gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2], gn_ray_recip *recip)
-{
-    int32_t b_q30[2] = {0, 0}, px = 2 * x + 1 - cut->width;
-    int seen = gn_plane_recip(recip, &cut->plane, px, cut->py, cut->focal2_px_q16, cut->newton_steps);
-    if (seen) gn_bary_at(b_q30, &cut->bary, recip, px, cut->py, cut->focal2_px_q16);
-    for (int i = 0; i < 2; i++) uv_q20[i] = gn_texture_coord(&cut->uv, cut->object->texture, b_q30, i);
-    return seen;
-}
-
-#if GN_ALPHA_STEPS
-#define GN_ALPHA_BEND_MAX_Q30 (3 << 26) /* 3/16: gn_chord.c has the parabola */
-#define GN_ALPHA_TEXEL_LOG2   8         /* and this is how far coordinates may leave it: 2^-8 texel */
-
-static void find_exact(const gn_alpha_cut *cut, gn_alpha_exact *at, int32_t x)
-{
-    gn_ray_recip recip;
-    at->x = x;
-    at->w_norm = 0;
-    if (!exact_coords(cut, x, at->uv_q20, &recip)) return;
-    at->w_norm = recip.w_norm;
-    at->clz = recip.clz;
-}
-
-/* (z1 - z0) / (z1 + z0), Q30, of depths z = 1 / w. */
-static int32_t bend_between(const gn_alpha_exact *a, const gn_alpha_exact *b)
-{
-    int32_t larger = a->clz - b->clz; /* w1, by so many bits */
-    uint32_t w0 = a->w_norm >> 1 >> gn_min32(gn_max32(larger, 0), 31),
-             w1 = b->w_norm >> 1 >> gn_min32(gn_max32(-larger, 0), 31);
-    int32_t bend_q30 = (int32_t)gn_quotient_q30(w0 < w1 ? w1 - w0 : w0 - w1, w0 + w1);
-    return w0 < w1 ? -bend_q30 : bend_q30;
-}
-
-/* A coordinate that changes by d over n pixels. Returns 0 if it leaves the parabola by too much. */
-static int step_coord(gn_alpha_steps *steps, int axis, int64_t d, int32_t n, int32_t bend_q30, uint32_t size_log2)
-{
-    uint32_t bend_q16 = (gn_abs32(bend_q30) >> 14) + 1; /* at most 2^13.6 */
-    if (gn_abs64(d) >> 25) return 0;
-    if (gn_abs64(d) * (bend_q16 * bend_q16) > (uint64_t)1 << (34 + 20 - GN_ALPHA_TEXEL_LOG2 - size_log2))
-        return 0; /* a^2/4 */
-    int32_t d_q24 = (int32_t)d * 16, per_px_q30 = 4 * bend_q30 / (n * n);
-    steps->bend_q24[axis] = (int32_t)gn_shr64((int64_t)d_q24 * per_px_q30, 30);
-    steps->step_q24[axis] = (d_q24 - steps->bend_q24[axis] * (n * (n - 1) / 2)) / n; /* 2^29 + 2^29 * 3/8 */
-    return 1;
-}
-
-/* From one exact place to the next, around x: at multiples of the step in the picture, or where the triangle's row
- * begins and ends. */
-static void alpha_steps(gn_alpha_cut *cut, int32_t x)
-{
-    const gn_texture *texture = cut->object->texture;
-    const int32_t size_log2[2] = {texture->width_log2, texture->height_log2}, at = x & -cut->px_per_step;
-    gn_alpha_steps *steps = &cut->steps;
-    gn_alpha_exact from = cut->exact;
-    steps->first = gn_max32(at, cut->x_begin);
-    steps->end = gn_min32(at + cut->px_per_step, cut->x_end);
-    steps->hold = 0;
-    int32_t last = gn_min32(at + cut->px_per_step, cut->x_end - 1), n = last - steps->first;
-    if (n < 2) return;
-    if (from.x != steps->first) find_exact(cut, &from, steps->first);
-    find_exact(cut, &cut->exact, last);
-    if (!from.w_norm || !cut->exact.w_norm) return;
-    int32_t bend_q30 = bend_between(&from, &cut->exact);
-    if (gn_abs32(bend_q30) > GN_ALPHA_BEND_MAX_Q30) return;
-    for (int i = 0; i < 2; i++) {
-        int64_t d = (int64_t)cut->exact.uv_q20[i] - from.uv_q20[i];
-        if (!gn_texture_clamps(texture, i)) d = (int32_t)(uint32_t)d; /* modulo whole turns */
-        steps->from_q20[i] = from.uv_q20[i];
-        if (!step_coord(steps, i, d, n, bend_q30, (uint32_t)size_log2[i])) return;
-    }
-    steps->hold = 1;
-}
-
-void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2])
-{
-    if (cut->px_per_step > 1) {
-        const gn_alpha_steps *steps = &cut->steps;
-        if (x >= steps->end || x < steps->first) alpha_steps(cut, x);
-        if (steps->hold) {
-            int32_t k = x - steps->first, bends = k * (k - 1) / 2;
-            for (int i = 0; i < 2; i++)
-                uv_q20[i] = (int32_t)((uint32_t)steps->from_q20[i] +
-                                      (uint32_t)((k * steps->step_q24[i] + bends * steps->bend_q24[i] + 8) >> 4));
-            return;
-        }
-    }
-    gn_ray_recip recip;
-    exact_coords(cut, x, uv_q20, &recip);
-}
-#endif
-#endif
-
-int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x)
+GN_HOT int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x)
 {
     uint32_t alpha = cut->object->alpha_uq16;
-#if GN_TEXTURES
-    if (cut->textured) {
+    if (GN_TEXTURES && cut->textured) {
         int32_t uv_q20[2];
-#if GN_ALPHA_STEPS
         gn_alpha_coords(cut, x, uv_q20);
-#else
-        gn_ray_recip recip;
-        exact_coords(cut, x, uv_q20, &recip);
-#endif
         alpha = gn_mul_uq16(alpha, gn_texture_channel(cut->object->texture, uv_q20[0], uv_q20[1], GN_CHANNEL_ALPHA));
     }
-#endif
     if (cut->mode == GN_ALPHA_CLIP) return alpha < cut->object->alpha_cutoff_uq16;
     return alpha < gn_noise_uq16(x, cut->y);
 }
-
-#endif

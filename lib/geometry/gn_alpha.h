@@ -6,8 +6,6 @@
 #include "geometry/gn_texture.h"
 #include "gnomon.h"
 
-#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
-
 /* A triangle of an object. If it has a texture, cut->textured, gn_alpha_plane comes next. */
 void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, const uint16_t idx[3]);
 
@@ -16,11 +14,11 @@ void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], u
                     int32_t newton_steps);
 
 /* Row y, seen along the ray py, of which the triangle covers x_begin <= x < x_end, inside the screen tile or not. */
-static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py, int32_t x_begin, int32_t x_end)
+GN_HOT static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py, int32_t x_begin, int32_t x_end)
 {
     cut->y = y;
     cut->py = py;
-#if GN_ALPHA_STEPS
+#if GN_TEXTURES
     cut->x_begin = x_begin;
     cut->x_end = x_end;
     cut->steps.end = x_begin; /* none yet */
@@ -33,11 +31,13 @@ static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py, int32_
 /* Whether pixel x of the row is cut, x_begin <= x < x_end; (x, y) picks the noise of the dither. */
 int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x);
 
-#if GN_ALPHA_STEPS
-/* Texture coordinates there. With persp_step > 1 they come from exact ones at most 8 pixels apart, within 2^-8 texel
- * (NUMERICS 4.9). */
-void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2]);
-#endif
+/* ---- Textured ones: gn_alpha_coords.c ---------------------------------------------------------------------------- */
 
-#endif
+/* Texture coordinates of the triangle's corners. */
+void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3]);
+
+/* Texture coordinates at pixel x of the row. With persp_step > 1 they come from exact ones at most 8 pixels apart,
+ * within 2^-8 texel (NUMERICS 4.9). */
+void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2]);
+
 #endif

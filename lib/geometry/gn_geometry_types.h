@@ -3,6 +3,7 @@
 #define GN_GEOMETRY_TYPES_H
 
 #include "base/gn_base_types.h"
+#include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_walk.h"
 
 /* A transform composed for one object: out = round((m * p) / 2^shift) + t, t and out with 16 fraction bits. */
@@ -56,17 +57,13 @@ typedef struct {
     int32_t exp[2];
 } gn_bary;
 
-#if GN_TEXTURES
 /* Texture coordinates of a triangle: vertex 0, then differences of vertices 1 and 2 to it. */
 typedef struct {
     int64_t uv_q16[3][2];
 } gn_texture_triangle;
-#endif
 
 /* ---- Triangles that alpha cuts ----------------------------------------------------------------------------------- */
 
-#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
-#if GN_ALPHA_STEPS
 /* An exact place in a row; n . ray there as gn_ray_recip has it, w_norm 0: nothing is seen. */
 typedef struct {
     int32_t x, uv_q20[2];
@@ -80,7 +77,6 @@ typedef struct {
     int32_t hold; /* 0: they are found one by one */
     int32_t from_q20[2], step_q24[2], bend_q24[2];
 } gn_alpha_steps;
-#endif
 
 /* One triangle of an object, as the camera or a light sees it, and a row of it: gn_alpha.h. */
 typedef struct {
@@ -94,16 +90,11 @@ typedef struct {
     gn_bary bary;
     uint32_t focal2_px_q16;
     int32_t width, newton_steps;
-#endif
-#if GN_ALPHA_STEPS
     int32_t px_per_step, x_begin, x_end;
     gn_alpha_exact exact; /* the last one found */
     gn_alpha_steps steps;
 #endif
 } gn_alpha_cut;
-#else
-typedef void gn_alpha_cut;
-#endif
 
 /* ---- Clipping ---------------------------------------------------------------------------------------------------- */
 

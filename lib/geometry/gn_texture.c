@@ -1,34 +1,23 @@
-/* Textures. Positions are exact: coordinates have 20 fraction bits, texels 16. Values are 65535 = 1
- * until the end, so that a product with a weight fits 32 bits: a step to 16 bits after each axis, and one to 65536 = 1.
- */
+/* Textures. Positions are exact: coordinates have 20 fraction bits, texels 16. */
 #include "gn_internal.h"
 
-#include "base/gn_count.h"
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
 #include "geometry/gn_texture.h"
 
-#if GN_TEXTURES || GN_MASKS || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
-
-/* The two texels of an axis and the second one's weight of 65536; nearest: the first alone. */
-typedef struct {
-    uint32_t first, second, weight_uq16;
-} axis_taps;
-
-#if GN_TEXTURES || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
-/* 2^size_log2 <= 4096 texels. */
-/* Texels of a coordinate, Q16. A repeating one is modulo 2^12 turns, whole numbers of texels. */
-static int32_t texels_q16(int32_t c_q20, int32_t size_log2)
+/* Texels of a coordinate, Q16, of 2^size_log2 <= 4096. A repeating one is modulo 2^12 turns, whole numbers of texels.
+ */
+GN_HOT static int32_t texels_q16(int32_t c_q20, int32_t size_log2)
 {
     return size_log2 >= 4 ? (int32_t)((uint32_t)c_q20 << (size_log2 - 4)) : c_q20 >> (4 - size_log2);
 }
 
-static GN_SHARED axis_taps find_taps(int32_t c_q20, int32_t size_log2, int clamped, int bilinear)
+GN_HOT static GN_SHARED gn_texture_taps find_taps(int32_t c_q20, int32_t size_log2, int clamped, int bilinear)
 {
     uint32_t last = (1U << size_log2) - 1;
     int32_t half = bilinear ? 32768 : 0;
-    axis_taps taps;
+    gn_texture_taps taps;
     if (clamped) {
         int32_t at_q16 = texels_q16(gn_max32(0, gn_min32(c_q20, 1 << 20)), size_log2) - half; /* <= 2^28 */
         taps.first = (uint32_t)gn_max32(0, gn_min32(at_q16 >> 16, (int32_t)last));
@@ -49,11 +38,11 @@ typedef struct {
     int bilinear;
 } footprint;
 
-static GN_SHARED void find_texels(footprint *out, const gn_texture *texture, int32_t u_q20, int32_t v_q20)
+GN_HOT static GN_SHARED void find_texels(footprint *out, const gn_texture *texture, int32_t u_q20, int32_t v_q20)
 {
     out->bilinear = (texture->flags & GN_TEXTURE_BILINEAR) != 0;
-    axis_taps u = find_taps(u_q20, texture->width_log2, texture->flags & GN_TEXTURE_CLAMP_U, out->bilinear);
-    axis_taps v = find_taps(v_q20, texture->height_log2, texture->flags & GN_TEXTURE_CLAMP_V, out->bilinear);
+    gn_texture_taps u = find_taps(u_q20, texture->width_log2, texture->flags & GN_TEXTURE_CLAMP_U, out->bilinear);
+    gn_texture_taps v = find_taps(v_q20, texture->height_log2, texture->flags & GN_TEXTURE_CLAMP_V, out->bilinear);
     const uint8_t *upper = texture->rgba + 4 * ((size_t)v.first << texture->width_log2);
     const uint8_t *lower = texture->rgba + 4 * ((size_t)v.second << texture->width_log2);
     out->texel[0] = upper + 4 * u.first;
@@ -63,72 +52,33 @@ static GN_SHARED void find_texels(footprint *out, const gn_texture *texture, int
     out->right_uq16 = u.weight_uq16;
     out->down_uq16 = v.weight_uq16;
 }
-#endif
 
-/* 65535 * 65536 + 32768 < 2^32; two equal values give themselves. */
-static uint32_t mix(uint32_t a, uint32_t b, uint32_t weight_uq16)
-{
-    return (a * (65536U - weight_uq16) + b * weight_uq16 + 32768U) >> 16;
-}
-
-/* round(v * 65536 / 65535) */
-static uint32_t to_uq16(uint32_t v)
-{
-    return v + (v >> 15);
-}
-
-#if GN_TEXTURES || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
 /* Whether all four are the same, as in what has one colour. */
-static inline int is_uniform(const footprint *f, uint32_t channel)
+GN_HOT static inline int is_uniform(const footprint *f, uint32_t channel)
 {
     const uint8_t *const *t = f->texel;
     return !GN_SIZE_FIRST &&
            !((t[0][channel] ^ t[1][channel]) | (t[0][channel] ^ t[2][channel]) | (t[0][channel] ^ t[3][channel]));
 }
 
-static uint32_t blend(const footprint *f, const uint32_t value[4])
+GN_HOT static uint32_t blend(const footprint *f, const uint32_t value[4])
 {
-    return mix(mix(value[0], value[1], f->right_uq16), mix(value[2], value[3], f->right_uq16), f->down_uq16);
+    return gn_texture_mix(gn_texture_mix(value[0], value[1], f->right_uq16),
+                          gn_texture_mix(value[2], value[3], f->right_uq16), f->down_uq16);
 }
 
-uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t channel)
+GN_HOT uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t channel)
 {
     footprint f;
     uint32_t value[4];
     find_texels(&f, texture, u_q20, v_q20);
-    if (!f.bilinear || is_uniform(&f, channel)) return to_uq16(f.texel[0][channel] * 257U);
+    if (!f.bilinear || is_uniform(&f, channel)) return gn_texture_to_uq16(f.texel[0][channel] * 257U);
     for (int i = 0; i < 4; i++) value[i] = f.texel[i][channel] * 257U;
-    return to_uq16(blend(&f, value));
-}
-#endif
-
-#if GN_MASKS
-/* find_taps of a clamped, bilinear image: once per pixel and light, so without a branch. */
-static axis_taps mask_taps(int32_t c_q16, uint32_t size_log2)
-{
-    int32_t last = (1 << size_log2) - 1, at_q16 = gn_max32(0, gn_min32(c_q16, 65536)) * (1 << size_log2) - 32768;
-    int32_t first = at_q16 >> 16; /* -1 .. last */
-    return (axis_taps){(uint32_t)gn_max32(first, 0), (uint32_t)gn_min32(first + 1, last), (uint32_t)at_q16 & 0xFFFFU};
+    return gn_texture_to_uq16(blend(&f, value));
 }
 
-/* Where all four texels are one, as in all that is wholly lit or dark, so is what lies between them. */
-uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel)
-{
-    const uint32_t bytes_log2 = image->flags & GN_TEXTURE_MASK_1 ? 0 : image->flags & GN_TEXTURE_MASK_2 ? 1 : 2;
-    GN_COUNT(masked, 1);
-    if (channel >> bytes_log2) return 65536;
-    const axis_taps u = mask_taps(u_q16, image->width_log2), v = mask_taps(v_q16, image->height_log2);
-    const uint8_t *upper = image->rgba + channel + ((size_t)v.first << image->width_log2 << bytes_log2);
-    const uint8_t *lower = image->rgba + channel + ((size_t)v.second << image->width_log2 << bytes_log2);
-    const uint32_t left = u.first << bytes_log2, right = u.second << bytes_log2;
-    const uint32_t a = upper[left] * 257U, b = upper[right] * 257U, c = lower[left] * 257U, d = lower[right] * 257U;
-    if (!((a ^ b) | (a ^ c) | (a ^ d))) return to_uq16(a);
-    return to_uq16(mix(mix(a, b, u.weight_uq16), mix(c, d, u.weight_uq16), v.weight_uq16));
-}
-#endif
-
-#if GN_TEXTURES
-void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_texture *texture, const uint16_t idx[3])
+GN_HOT void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_texture *texture,
+                               const uint16_t idx[3])
 {
     for (int i = 0; i < 2; i++) {
         int64_t uv[3];
@@ -140,8 +90,8 @@ void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_
     }
 }
 
-int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *texture, const int32_t b_q30[2],
-                         int32_t which)
+GN_HOT int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *texture, const int32_t b_q30[2],
+                                int32_t which)
 {
     int64_t at = triangle->uv_q16[0][which], e1 = triangle->uv_q16[1][which], e2 = triangle->uv_q16[2][which];
     /* 2^30 * 2^33 would not fit; the lowest bit of differences of at most 15 fraction bits is zero */
@@ -149,7 +99,7 @@ int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *
     return gn_texture_clamps(texture, which) ? gn_sat32(c_q20) : (int32_t)(uint32_t)c_q20;
 }
 
-void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3])
+GN_HOT void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3])
 {
     footprint f;
     uint32_t value[4];
@@ -157,12 +107,9 @@ void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, 
     for (int c = 0; c < 3; c++) {
         if (f.bilinear && !is_uniform(&f, (uint32_t)c)) {
             for (int i = 0; i < 4; i++) value[i] = gn_srgb_decode_entry(f.texel[i][c]);
-            rgb_uq16[c] = to_uq16(blend(&f, value));
+            rgb_uq16[c] = gn_texture_to_uq16(blend(&f, value));
         } else {
-            rgb_uq16[c] = to_uq16(gn_srgb_decode_entry(f.texel[0][c]));
+            rgb_uq16[c] = gn_texture_to_uq16(gn_srgb_decode_entry(f.texel[0][c]));
         }
     }
 }
-#endif
-
-#endif

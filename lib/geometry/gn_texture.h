@@ -4,23 +4,17 @@
 
 #include "gnomon.h"
 
-#if GN_TEXTURES || GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
 enum { GN_CHANNEL_RED, GN_CHANNEL_GREEN, GN_CHANNEL_BLUE, GN_CHANNEL_ALPHA };
 
 /* One channel, not decoded: 0..65536. u and v of any value, v downwards, 20 fraction bits: 1/256 of a texel of the
  * largest texture. */
 uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t channel);
-#endif
 
-#if GN_MASKS
 /* The same of a mask image: bilinear and clamped, whatever its flags say, and lit in a channel that it has not. */
 uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel);
-#endif
-
-#if GN_TEXTURES
 
 /* Whether a coordinate (0: u, 1: v) ends at the texture's borders; otherwise it repeats. */
-static inline int gn_texture_clamps(const gn_texture *texture, int axis)
+GN_HOT static inline int gn_texture_clamps(const gn_texture *texture, int axis)
 {
     return (texture->flags & (axis ? GN_TEXTURE_CLAMP_V : GN_TEXTURE_CLAMP_U)) != 0;
 }
@@ -35,6 +29,25 @@ int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *
 
 /* Red, green, blue in linear light, 0..65536 each: decoded before they are filtered. */
 void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3]);
-#endif
+
+/* ---- What textures and masks share ------------------------------------------------------------------------------- */
+
+/* The two texels of an axis and the second one's weight of 65536; nearest: the first alone. */
+typedef struct {
+    uint32_t first, second, weight_uq16;
+} gn_texture_taps;
+
+/* Values are 65535 = 1 until the end, so that a product with a weight fits 32 bits: a step to 16 bits after each axis,
+ * and one to 65536 = 1. 65535 * 65536 + 32768 < 2^32; two equal values give themselves. */
+GN_HOT static inline uint32_t gn_texture_mix(uint32_t a, uint32_t b, uint32_t weight_uq16)
+{
+    return (a * (65536U - weight_uq16) + b * weight_uq16 + 32768U) >> 16;
+}
+
+/* round(v * 65536 / 65535) */
+GN_HOT static inline uint32_t gn_texture_to_uq16(uint32_t v)
+{
+    return v + (v >> 15);
+}
 
 #endif

@@ -8,37 +8,11 @@
 #include "light/gn_cascade.h"
 #include "scene/gn_scene.h"
 
-#if GN_SHADOWS
-
-#define GN_SQRT2_Q16 92682
-
-#if GN_AUTO_BIAS
-/* Half a cell of the positions of casters and of filter weights, and two roundings of coordinates; texels, Q16. */
-static int32_t auto_delta_q16(const gn_frame *frame)
+GN_HOT int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light)
 {
-    (void)frame;
-    return (1 << (15 - GN_K(frame, shadow_subpixel_bits))) + (1 << (15 - GN_K(frame, weight_bits))) + 2;
-}
-
-/* nu: sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits what steps of depth add along the
- * normal. */
-static int32_t auto_reach_q16(const gn_frame *frame, const gn_light_view *view)
-{
-    return gn_mul_shr(65536 + auto_delta_q16(frame), GN_SQRT2_Q16, 16) +
-           (int32_t)((view->tile_texels * (int64_t)65536) >> GN_VIEW_BITS(view)) + 1;
-}
-#endif
-
-int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light)
-{
-#if GN_AUTO_BIAS
-    if (gn_scene_auto_bias(light)) return auto_reach_q16(frame, view);
-#endif
-    (void)frame, (void)view;
+    if (GN_AUTO_BIAS && gn_scene_auto_bias(light)) return gn_bias_auto_reach_q16(frame, view);
     int32_t reach = gn_mul_shr(light->bias_normal_q16, GN_SQRT2_Q16, 16); /* <= 8 * 1.42 */
-#if GN_RECEIVER_BIAS
-    reach += light->bias_receiver_q16[2] + light->bias_receiver_q16[3];
-#endif
+    if (GN_RECEIVER_BIAS) reach += light->bias_receiver_q16[2] + light->bias_receiver_q16[3];
     return reach;
 }
 
@@ -47,30 +21,17 @@ typedef struct {
     int32_t along_q16, towards_q16;
 } bias_terms;
 
-#if GN_AUTO_BIAS
-/* The hard filter reads half a texel away, but what a curved surface does within a texel counts. */
-static int32_t smooth_more_q16(const gn_light_view *view)
-{
-    return view->filter == GN_FILTER_HARD ? 32768 : 0;
-}
-#endif
-
 /* n_dot_l_q30: N . L of the interpolated normal as it is; only the four-term bias needs it. */
-static bias_terms bias_at(const gn_light_view *view, const gn_light *light, gn_auto_bias automatic, int32_t n_dot_l_q30)
+GN_HOT static bias_terms bias_at(const gn_light_view *view, const gn_light *light, gn_auto_bias automatic,
+                                 int32_t n_dot_l_q30)
 {
     bias_terms bias = {view->offset_q16, 0};
-#if GN_AUTO_BIAS
-    if (automatic) { /* curved */
-        bias.along_q16 = view->perspective ? gn_mul_shr(view->offset_q16 + smooth_more_q16(view), GN_SQRT2_Q16, 16)
-                                           : view->auto_place;
+    if (GN_AUTO_BIAS && automatic) { /* curved */
+        bias.along_q16 = gn_bias_auto_curved_q16(view);
         return bias;
     }
-#else
-    (void)automatic;
-#endif
-#if GN_RECEIVER_BIAS
     const int32_t *b = light->bias_receiver_q16;
-    if (!(b[0] | b[1] | b[3])) return bias;
+    if (!GN_RECEIVER_BIAS || !(b[0] | b[1] | b[3])) return bias;
     int32_t reach = view->filter_idx + 1;
     int64_t cosine = gn_clamp64(n_dot_l_q30, 0, 1 << 30);
     int64_t sine = (int64_t)gn_isqrt64((uint64_t)(((int64_t)1 << 60) - cosine * cosine)); /* Q30 */
@@ -78,13 +39,11 @@ static bias_terms bias_at(const gn_light_view *view, const gn_light *light, gn_a
     if (sine < 50 * cosine) tangent_q16 = gn_bf_apply(sine, gn_bf_recip(gn_bf_from_u64((uint64_t)cosine)), 16);
     bias.along_q16 += reach * (int32_t)gn_shr64(b[3] * sine, 30);
     bias.towards_q16 = reach * (b[0] + (int32_t)gn_shr64(b[1] * tangent_q16, 16)); /* 9 * 8 * 51 * 2^16 < 2^28 */
-#else
-    (void)light, (void)n_dot_l_q30;
-#endif
     return bias;
 }
 
-void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3], int32_t out_q16[3])
+GN_HOT void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3],
+                                int32_t out_q16[3])
 {
     const gn_light_state *state = &frame->light[view->light_idx];
     int32_t n_dot_l = GN_RECEIVER_BIAS ? (int32_t)gn_dot_q30(n_q30, state->to_light_q30) : 0;
@@ -97,18 +56,8 @@ void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const
 }
 
 #if GN_PUNCTUAL_LIGHTS
-#if GN_AUTO_BIAS
-#define GN_AUTO_UNITS 8 /* roundings of a point and of its triangle's corners */
-
-/* Distance of a receiver from where it should be, in units of the world. */
-static int64_t place_error_persp_q16(const gn_light_view *view, int32_t depth_q16)
-{
-    return ((int64_t)depth_q16 * view->auto_place >> 40) + GN_AUTO_UNITS + 1;
-}
-#endif
-
-void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], int32_t depth_q16,
-                      const int32_t from_q16[3], int32_t out_q16[3])
+GN_HOT void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3],
+                             int32_t depth_q16, const int32_t from_q16[3], int32_t out_q16[3])
 {
     const gn_light_view *view = &frame->view[light->view_idx];
     GN_ELEMENT(view);
@@ -127,176 +76,10 @@ void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const 
     bias_terms bias = bias_at(view, scene_light, (gn_auto_bias)light->auto_bias, n_dot_l);
     /* texels to units: 2^27 * 2^31 */
     int64_t along = gn_bf_apply(bias.along_q16 * z, view->fit.persp.texel_per_z, -16);
-#if GN_AUTO_BIAS
-    if (light->auto_bias) along += place_error_persp_q16(view, depth_q16);
-#else
-    (void)depth_q16;
-#endif
+    if (GN_AUTO_BIAS && light->auto_bias) along += gn_bias_auto_place_q16(view, depth_q16);
     int64_t towards = gn_bf_apply(bias.towards_q16 * z, view->fit.persp.texel_per_z, -16);
     for (int i = 0; i < 3; i++)
         out_q16[i] = gn_sat32(gn_shr64(gn_clamp64(along, 0, INT32_MAX) * n_q30[i], 30) +
                               gn_shr64(gn_clamp64(towards, 0, INT32_MAX) * to_light[i], 30));
 }
-#endif
-
-/* ---- Automatic bias (B6) ----------------------------------------------------------------------------------------- */
-
-#if GN_AUTO_BIAS
-/* How far the centre of a texel that the filter reads can be, along each axis; texels, Q16. */
-static int32_t taps_q16(const gn_light_view *view)
-{
-    if (view->filter == GN_FILTER_HARD) return 32768;
-    if (view->filter == GN_FILTER_DISK) return view->disk_radius_q16 + 32768;
-    return (view->filter_idx + 1) << 16;
-}
-
-/* Stored depth, rounded to half a step after up to T rounded ones, and the receiver's, rounded to half of its own finer
- * step, as a share of the range: 2^-(bits + 1) + 2^-(bits + frac + 1) + (T + 2) 2^-32 + 2^-29, Q32 */
-static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view *view)
-{
-    const int64_t half = (int64_t)1 << 31;
-    int32_t bits = GN_VIEW_BITS(view);
-    (void)frame;
-    return (half >> bits) + (bits == 32 ? 0 : half >> (bits + GN_K(frame, shadow_depth_frac))) + view->tile_texels + 11;
-}
-
-/* sqrt(1 + k^2) times the relative error of view depths, and of a pixel's ray, whose three coefficients are rounded in
- * each axis: 2^-28 of W + H. Q40: 2^7 * (2^-17 + 2^-16) at the most. */
-static int32_t ray_error_q40(const gn_frame *frame)
-{
-    uint64_t ray2_q48 = (((uint64_t)1 << 24) + (uint64_t)gn_cascade_tan2_q24(frame)) << 24; /* <= (2^24 + 2^38) 2^24 */
-    uint64_t ray_q24 = gn_isqrt64(ray2_q48), pixels = (uint64_t)frame->picture.width + frame->picture.height;
-    return gn_sat32((int64_t)((ray_q24 >> (GN_K(frame, newton_steps) == 1 ? 1 : 12)) + (ray_q24 * pixels >> 12) + 2));
-}
-
-#if !GN_PUNCTUAL_LIGHTS
-#define GN_AUTO_UNITS 8 /* roundings of a point and of its triangle's corners */
-#endif
-
-/* Distance of a receiver from where it should be, in texels, Q16: the farthest that the view's cascade shows. */
-static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
-{
-    int64_t farthest_q16 = frame->scene->shadow.max_distance_q16;
-    if (!view->border_lit) {
-        const gn_cascade_state *cascade = &frame->cascade[view->cascade_idx];
-        int64_t end_q16 = (int64_t)cascade->centre_q16 + (int64_t)gn_isqrt64(cascade->radius2_q32);
-        farthest_q16 = end_q16 < farthest_q16 ? end_q16 : farthest_q16;
-    }
-    int64_t error_q32 =
-        gn_shr64(farthest_q16 * ray_error_q40(frame), 24) + ((int64_t)GN_AUTO_UNITS << 16); /* 2^30 * 2^31 */
-    int64_t texels_q16 =
-        gn_bf_apply(error_q32, view->fit.ortho.inv_texel, -16) + 17; /* 2^-12: planes of large casters */
-    return (int32_t)gn_clamp64(texels_q16, 0, 8 << 16);
-}
-
-void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
-{
-    view->offset_q16 = taps_q16(view) + auto_delta_q16(frame);
-    if (view->perspective) {
-        /* coordinates are as wrong as the reciprocal: by 2^-17 of half a tile, or 2^-29; and so is n / z */
-        int one_step = GN_K(frame, newton_steps) == 1;
-        view->offset_q16 += one_step ? (view->tile_texels + 3) >> 2 : 1;
-        view->offset_q16 +=
-            (int32_t)(((view->fit.persp.focal2_q16 >> 29) + 1) >> 1); /* x / z is rounded to 2^-30 of T / t */
-        /* its plane is rounded to 2^-27 and, in place, 2^-28 */
-        view->auto_step = (int32_t)(depth_step_q32(frame, view) + (one_step ? 32768 : 8) + 64);
-        view->auto_place = ray_error_q40(frame);
-        return;
-    }
-    int32_t place_q16 = place_error_q16(frame, view);
-    int64_t step_q16 =
-        gn_scale64(depth_step_q32(frame, view), 16 - view->tile_log2 - view->depth_log2) + 1; /* 2^25 * 2^4 */
-    view->offset_q16 += place_q16;
-    view->auto_step = (int32_t)gn_clamp64(step_q16 + 3 + place_q16, 0, INT32_MAX);
-    /* curved: sqrt(2 r^2 + e^2) is what any plane through its normal needs; < 2^21, and steps of more are beyond any
-     * range */
-    int64_t r_q16 = view->offset_q16 + smooth_more_q16(view),
-            step = view->auto_step < 1 << 28 ? view->auto_step : 1 << 28;
-    view->auto_place = (int32_t)gn_isqrt64((uint64_t)(2 * r_q16 * r_q16 + step * step)) + 1;
-}
-
-void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3])
-{
-    int64_t n[3];
-    for (int i = 0; i < 3; i++) n[i] = gn_dot_q30(face_q30, view->axis_q30[i]);
-    for (int i = 0; i < 3; i++) out[i] = gn_sat32(n[i]);
-    if (form == GN_AUTO_BIAS_NORMAL) return;
-    gn_bfloat per_w = gn_bf_recip(gn_bf_from_u64(gn_abs64(n[2]) | 1U));
-    for (int i = 0; i < 2; i++) out[i] = gn_sat32(gn_bf_apply((int64_t)gn_abs64(n[i]), per_w, 10) + 1);
-}
-
-void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int32_t face[3], int32_t out_q16[3])
-{
-    int64_t reach_q16 = view->offset_q16, u = gn_abs32(face[0]), v = gn_abs32(face[1]); /* < 2^21 */
-    int32_t range_log2 = view->tile_log2 + view->depth_log2;
-    out_q16[0] = out_q16[1] = 0;
-    if (form == GN_AUTO_BIAS_NORMAL) {
-        out_q16[2] = -INT32_MAX; /* too steep for the map */
-        if ((u > v ? u : v) >> (range_log2 + 1) > (int64_t)gn_abs32(face[2])) return;
-        int64_t lift_q16 =
-            ((reach_q16 * (u + v) + view->auto_step * (int64_t)gn_abs32(face[2])) >> 30) + 1; /* 2^53 + 2^61 */
-        for (int i = 0; i < 3; i++) out_q16[i] = gn_sat32(gn_shr64(lift_q16 * face[i], 30));
-        return;
-    }
-    int64_t most_q10 = (int64_t)1 << (11 + range_log2); /* twice the range: half of that lights all */
-    u = u < most_q10 ? u : most_q10;
-    v = v < most_q10 ? v : most_q10;
-    out_q16[2] = gn_sat32(-((reach_q16 * (u + v) >> 10) + view->auto_step + 1)); /* 2^21 * 2^32 */
-}
-
-#if GN_PUNCTUAL_LIGHTS
-/* Normal: the way off the plane that a tap's reach and the rounding of depths take, in units of the light-plane
- * distance, Q30: A / (1 - A max(0, m_w)), A = reach * tau * (|m_u| + |m_v|) + D_s h / n. Returns -1 where it would be
- * above 2, or the divisor below 1/2. */
-static int64_t lift_share_q30(const gn_light_view *view, int64_t across_q30, int64_t m_w_q30, int64_t h_q16)
-{
-    const int64_t two = (int64_t)2 << 30;
-    int64_t share =
-        gn_bf_apply(view->offset_q16 * across_q30 >> 16, view->fit.persp.texel_per_z, 0) + 2; /* 2^21 * 2^31 */
-    share += gn_bf_apply((h_q16 + 2) * view->auto_step, view->fit.persp.per_near, -2); /* 2^32 * 2^24; h is rounded */
-    if (share > two) return -1;
-    if (m_w_q30 <= 0) return share;
-    int64_t left = ((int64_t)1 << 30) - (share * m_w_q30 >> 30); /* seen from behind the light's plane */
-    if (left < (int64_t)1 << 29) return -1;
-    share = gn_bf_apply(share, gn_bf_recip(gn_bf_from_u64((uint64_t)left)), 30) + 1;
-    return share > two ? -1 : share;
-}
-
-/* Whether depth changes by more than twice the range over a texel, which casters do not: n tau |m_u| > 2 h. */
-static int too_steep(const gn_light_view *view, int64_t m_q30, int64_t h_q16)
-{
-    return gn_bf_apply(m_q30 * view->fit.persp.near_q16, view->fit.persp.texel_per_z, -31) > h_q16; /* 2^31 * 2^29 */
-}
-
-/* Depth: reach * (|ds/dU| + |ds/dV|), Q32, with |ds/dU| = n tau |m_u| / h. */
-static int64_t slope_share_q32(const gn_light_view *view, int64_t across_q30, int64_t h_q16)
-{
-    const gn_persp_fit *fit = &view->fit.persp;
-    gn_bfloat per_h = gn_bf_mul(gn_bf_recip(gn_bf_from_u64((uint64_t)h_q16 | 1U)), fit->texel_per_z);
-    int64_t reach_q26 = view->offset_q16 * across_q30 >> 20; /* 2^21 * 2^31 * 2^-20 */
-    return gn_clamp64(gn_bf_apply(reach_q26 * fit->near_q16, per_h, 6) + 1, 0, (int64_t)1 << 33); /* 2^32 * 2^29 */
-}
-
-int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias *form, const int32_t face_q30[3], int32_t depth_q16,
-                           const int32_t from_q16[3], int32_t moved_q16[3])
-{
-    int64_t h_q16 = (int64_t)gn_abs64(gn_dot_q30(face_q30, from_q16)), m_q30[3]; /* m . P = -h, behind the face +h */
-    for (int i = 0; i < 3; i++) m_q30[i] = gn_dot_q30(face_q30, view->axis_q30[i]);
-    int64_t u_q30 = (int64_t)gn_abs64(m_q30[0]), v_q30 = (int64_t)gn_abs64(m_q30[1]), across_q30 = u_q30 + v_q30;
-    int64_t lift_q16 = place_error_persp_q16(view, depth_q16);
-    int64_t less_q32 = 0;
-    int64_t share_q30 = *form == GN_AUTO_BIAS_NORMAL ? lift_share_q30(view, across_q30, m_q30[2], h_q16) : -1;
-    if (share_q30 < 0) *form = GN_AUTO_BIAS_DEPTH;
-    if (*form == GN_AUTO_BIAS_NORMAL) {
-        int64_t z_q16 = gn_clamp64(gn_dot_q30(from_q16, view->axis_q30[2]), 0, INT32_MAX);
-        if (too_steep(view, u_q30 > v_q30 ? u_q30 : v_q30, h_q16)) less_q32 = (int64_t)1 << 33;
-        lift_q16 += (z_q16 * share_q30 >> 30) + 1; /* 2^31 * 2^31 */
-    } else less_q32 = view->auto_step + slope_share_q32(view, across_q30, h_q16);
-    for (int i = 0; i < 3; i++) /* 2^33 * 2^30 would not fit, but a lift of 2^31 is beyond any light */
-        moved_q16[i] = gn_sat32(from_q16[i] + gn_shr64(gn_clamp64(lift_q16, 0, INT32_MAX) * face_q30[i], 30));
-    return less_q32;
-}
-#endif
-#endif
-
 #endif

@@ -5,8 +5,6 @@
 #include "base/gn_q.h"
 #include "light/gn_cascade.h"
 
-#if GN_SHADOWS
-
 /* k^2 = (W^2 + H^2) / (H focal)^2, Q24, clamped to 2^14 (half-diagonal of 89.5 degrees). */
 int64_t gn_cascade_tan2_q24(const gn_frame *frame)
 {
@@ -117,5 +115,3 @@ int32_t gn_cascade_fit_sphere(const gn_frame *frame, int32_t near_q16, int32_t f
     radius->exp -= 24 + 16;
     return (int32_t)gn_shr64(centre_q24 * far_q16, 24);
 }
-
-#endif

@@ -4,8 +4,6 @@
 
 #include "gnomon.h"
 
-#if GN_SHADOWS
-
 /* Of a single cascade nothing is unused: builds with and without more than one agree. */
 #define GN_CASCADE_UNUSED(frame, i)                                                                                    \
     (GN_MANY_CASCADES && (frame)->n_cascades > 1 && ((frame)->scene->shadow.cascades_unused >> (i)&1U) != 0)
@@ -26,5 +24,4 @@ int32_t gn_cascade_fit_sphere(const gn_frame *frame, int32_t near_q16, int32_t f
 /* Square of the half-diagonal's tangent, Q24, at most 2^14. */
 int64_t gn_cascade_tan2_q24(const gn_frame *frame);
 
-#endif
 #endif

@@ -14,8 +14,6 @@ typedef struct {
 } gn_object_state;
 #define GN_OBJECT_LIGHTS_ALL 255U
 
-#if GN_SHADOWS
-
 /* The bounding sphere of a cascade's slice: on the view axis, shared by all lights (D3). */
 typedef struct {
     int32_t centre_q16;   /* view depth */
@@ -24,7 +22,6 @@ typedef struct {
     gn_bfloat fade_scale; /* D6: factor = (radius2 - dist2) * fade_scale */
     int32_t next;         /* the next cascade that is not empty */
 } gn_cascade_state;
-#endif
 
 typedef struct {
     int32_t to_light_q30[3]; /* unit; directional: surface towards the light, spot: against its axis */

@@ -11,10 +11,8 @@ gn_status gn_object_boxes(gn_frame *frame);
 /* Square of the distance from a point to the nearest point of the object's box, Q32. */
 uint64_t gn_object_distance2_q32(const gn_object_state *object, const int32_t p_q16[3]);
 
-/* Whether a light reaches the object: directional lights always do. */
-int gn_object_is_reached(const gn_frame *frame, uint32_t object_idx, uint32_t light_idx);
-
-/* Light lists of all objects; frame->light must be set up. GN_ERR_SURFACE_LIGHTS if one is too long. */
-gn_status gn_object_lights(gn_frame *frame);
+/* Lists the spot and point lights that reach the object; boxes and frame->light must be set up. Returns how many its
+ * surfaces have to reckon with. gn_light_list.c. */
+uint32_t gn_object_list_lights(gn_frame *frame, uint32_t object_idx);
 
 #endif

@@ -4,8 +4,6 @@
 
 #include "gnomon.h"
 
-#if GN_PUNCTUAL_LIGHTS
-
 /* Fills what frame->light[light_idx] has for spot and point lights; frame->cam must be set up. */
 void gn_punctual_setup(gn_frame *frame, uint32_t light_idx);
 
@@ -34,10 +32,7 @@ int32_t gn_punctual_cosine_q30(const gn_punctual_point *point, int32_t length_q1
 /* factor * cosine / max(d^2, min) * 2^colour_exp: irradiance of a light whose colour is 1, Q24, saturated below 128. */
 uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosine_q30);
 
-#if GN_TILE_LIGHTS
 /* R9: the lights whose spheres meet the frustum of a rectangle of pixels, a bit each; directional lights always. */
 uint64_t gn_punctual_in_tile(const gn_frame *frame, const gn_rect *rect);
-#endif
 
-#endif
 #endif

@@ -11,7 +11,7 @@
 
 #if GN_SPECULAR
 /* max(0, n . h)^(2^k), Q30 */
-static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample, const int32_t to_light_q30[3])
+GN_HOT static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample, const int32_t to_light_q30[3])
 {
     int32_t h[3];
     for (int i = 0; i < 3; i++) h[i] = (to_light_q30[i] >> 1) + (sample->to_eye_q30[i] >> 1); /* |h| <= 1 */
@@ -25,8 +25,8 @@ static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample,
 }
 
 /* The same times what arrives, Q24. */
-static GN_NOINLINE uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                                         uint32_t slot)
+GN_HOT static GN_NOINLINE uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface,
+                                                const gn_sample *sample, uint32_t slot)
 {
     const gn_light_state *light = surface->light[slot].state;
 #if GN_PUNCTUAL_LIGHTS
@@ -44,7 +44,8 @@ static GN_NOINLINE uint32_t specular_q24(const gn_frame *frame, const gn_surface
 }
 #endif
 
-uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t light_idx)
+GN_HOT uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                uint32_t light_idx)
 {
     uint32_t slot = 0;
     while (slot < surface->n_lights && surface->light[slot].idx != light_idx) slot++;
@@ -58,13 +59,13 @@ uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const
 }
 
 /* Light of Q24 irradiance times a colour, Q16, to Q20; 2^24 * 2^31 */
-static void add(uint64_t sum_q20[3], const uint32_t colour_uq16[3], uint32_t irradiance_q24)
+GN_HOT static void add(uint64_t sum_q20[3], const uint32_t colour_uq16[3], uint32_t irradiance_q24)
 {
     for (int c = 0; c < 3; c++) sum_q20[c] += ((uint64_t)colour_uq16[c] * irradiance_q24 + (1U << 19)) >> 20;
 }
 
 /* Vertex colour and texture. */
-static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sample, uint64_t sum[3])
+GN_HOT static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sample, uint64_t sum[3])
 {
     if (GN_COLOURED(surface))
         for (int c = 0; c < 3; c++)
@@ -78,8 +79,8 @@ static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sam
 #endif
 }
 
-void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                       uint32_t radiance_q20[3])
+GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                              uint32_t radiance_q20[3])
 {
     uint64_t sum[3] = {surface->base_q20[0], surface->base_q20[1],
                        surface->base_q20[2]}; /* < 2^28 and 2^35 per light */

@@ -38,7 +38,7 @@ void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, i
 #endif
 
 /* Stores a 16-bit pixel n times from index i of the tile on, two a word where there are many. */
-static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)
+GN_HOT static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)
 {
     uint32_t end = i + n;
     if (!GN_SIZE_FIRST && n >= 8) {
@@ -53,8 +53,8 @@ static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t
 }
 
 /* Stores one packed pixel at (x, y) of the picture; RGB565 is what most panels take, so it goes first. */
-static inline void gn_pixel_store(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
-                                  uint32_t packed)
+GN_HOT static inline void gn_pixel_store(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
+                                         uint32_t packed)
 {
     if (frame->picture.format == GN_FORMAT_RGB565 || !GN_OTHER_FORMATS)
         rows->pixels->rgb565[(y - rows->y0) * rows->width + x - rows->x0] = (uint16_t)packed;

@@ -16,7 +16,7 @@ typedef struct {
 
 /* Where the ray through a pixel centre meets the plane. Values are clamped to the triangle: a snapped edge may cover a
  * centre just outside the unsnapped triangle. */
-static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, hit *h)
+GN_HOT static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, hit *h)
 {
     gn_ray_recip r;
     if (!gn_plane_recip(&r, &s->plane, px, py, frame->cam.focal2_px_q16, GN_K(frame, newton_steps))) {
@@ -33,12 +33,12 @@ static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, in
 }
 
 /* a0 + b1 * a1 + b2 * a2 */
-static int32_t at_hit(const hit *h, int32_t a0, int32_t a1, int32_t a2)
+GN_HOT static int32_t at_hit(const hit *h, int32_t a0, int32_t a1, int32_t a2)
 {
     return gn_sat32(a0 + gn_shr64((int64_t)h->b_q30[0] * a1 + (int64_t)h->b_q30[1] * a2, 30));
 }
 
-static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
+GN_HOT static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
 {
     for (int i = 0; i < 3; i++) {
         const int32_t n0 = s->normal_q30[0][i];
@@ -48,8 +48,8 @@ static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
 
 #if GN_SHADOWS || GN_PUNCTUAL_LIGHTS
 /* A point at depth z on a pixel's ray, along three axes. |z| * |a| < 2^31 * 2^31 by the choice of the shift */
-static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t px, int32_t py, int32_t z_q16,
-                         int64_t out_q16[3])
+GN_HOT static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t px, int32_t py, int32_t z_q16,
+                                int64_t out_q16[3])
 {
     for (int i = 0; i < 3; i++) {
         int64_t a = ray[i].a0 + (int64_t)ray[i].ax * px + (int64_t)ray[i].ay * py; /* < 2^31 */
@@ -60,8 +60,8 @@ static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t p
 
 #if GN_SHADOWS
 /* Tile coordinates of the point at depth z on a pixel's ray. */
-static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16, const int32_t offset_q16[3],
-                         int32_t *out)
+GN_HOT static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16,
+                                const int32_t offset_q16[3], int32_t *out)
 {
     int64_t at[3];
     point_on_ray(view->fit.ortho.ray, view->fit.ortho.ray_shift, px, py, z_q16, at);
@@ -69,14 +69,14 @@ static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int3
 }
 
 /* Whether a light has cascades, or shadows end at a distance from the camera. */
-static int asks_for_cascades(const gn_frame *frame)
+GN_HOT static int asks_for_cascades(const gn_frame *frame)
 {
     if (GN_SIZE_FIRST && !GN_PIECES) return 1; /* the same, for nothing depends on it */
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 
 /* D4, D6, D11: the cascade of the surface point and its fade factor. */
-static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
 {
     gn_bfloat per_px = frame->cam.inv_focal2;
     const int64_t most = 1 << 30; /* of a point of a triangle; a plane seen edge on may be drawn where it is not */
@@ -106,8 +106,8 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
 
 #if GN_AUTO_BIAS
 /* B6 of curved surfaces: along what the point moves. */
-static const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light, const int32_t n_q30[3],
-                                    int32_t out_q30[3])
+GN_HOT static const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light, const int32_t n_q30[3],
+                                           int32_t out_q30[3])
 {
     if (!GN_CURVED(s) || !light->auto_bias) return n_q30;
     for (int i = 0; i < 3; i++) out_q30[i] = s->lift_q30[i] + (GN_BENT(s) ? 0 : n_q30[i]);
@@ -119,8 +119,8 @@ static const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *l
 
 /* The surface's offset in a view, where it is not one for all views of the light: of smooth surfaces, of the disk,
  * whose index and reach are the cascade's own, and of B6, whose steps of depth are. */
-static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot, const gn_light_view *view,
-                                 const int32_t n_q30[3], int32_t moved_q16[3])
+GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                        const gn_light_view *view, const int32_t n_q30[3], int32_t moved_q16[3])
 {
     const int32_t *flat = s->light[slot].flat_offset_q16;
 #if GN_AUTO_BIAS
@@ -137,8 +137,8 @@ static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uin
 }
 
 /* Where a directional light's view sees the point; in cascades also where the next one does. */
-static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
-                               const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
+GN_HOT static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                      const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
 {
     const gn_light_state *light = s->light[slot].state;
     if (light->view_idx < 0) return;
@@ -160,8 +160,9 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
 #endif
 
 #if GN_PUNCTUAL_LIGHTS
-static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
-                            const int32_t n_q30[3], const int32_t unit_q30[3], const gn_sample *sample, int32_t *out)
+GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                   const int32_t n_q30[3], const int32_t unit_q30[3], const gn_sample *sample,
+                                   int32_t *out)
 {
     const gn_light_state *light = s->light[slot].state;
     int64_t at[3];
@@ -181,8 +182,8 @@ static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t
 #endif
 
 /* n . L of a directional light: of the interpolated normal, or interpolated. */
-static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s, const gn_surface_light *light,
-                                      const hit *h, gn_length length, const int32_t n_q30[3])
+GN_HOT static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s, const gn_surface_light *light,
+                                             const hit *h, gn_length length, const int32_t n_q30[3])
 {
     (void)frame, (void)h;
     if (!GN_SMOOTH(s)) return light->flat_cosine_q24;
@@ -193,8 +194,8 @@ static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s
     return gn_length_cosine_q24(length, n_q30, light->state->to_light_q30);
 }
 
-static void light_values(const gn_frame *frame, const gn_surface *s, const hit *h, int32_t px, int32_t py,
-                         const int32_t n_q30[3], gn_sample *sample)
+GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, const hit *h, int32_t px, int32_t py,
+                                const int32_t n_q30[3], gn_sample *sample)
 {
     gn_length length = {0, 0};
     int needs_length = !GN_K(frame, vertex_light) || s->n_punctual || s->specular;
@@ -228,7 +229,7 @@ static void light_values(const gn_frame *frame, const gn_surface *s, const hit *
 
 #if GN_SPECULAR
 /* Against the pixel's ray, in the world. */
-static void to_eye(const gn_frame *frame, int32_t px, int32_t py, int32_t out_q30[3])
+GN_HOT static void to_eye(const gn_frame *frame, int32_t px, int32_t py, int32_t out_q30[3])
 {
     const gn_cam *cam = &frame->cam;
     int64_t towards[3];
@@ -239,7 +240,7 @@ static void to_eye(const gn_frame *frame, int32_t px, int32_t py, int32_t out_q3
 }
 #endif
 
-static void extra_values(const gn_surface *s, const hit *h, int32_t *value)
+GN_HOT static void extra_values(const gn_surface *s, const hit *h, int32_t *value)
 {
 #if GN_TEXTURES
     for (int i = 0; s->textured && i < 2; i++)
@@ -258,7 +259,7 @@ static void extra_values(const gn_surface *s, const hit *h, int32_t *value)
     (void)s, (void)h, (void)value;
 }
 
-void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
+GN_HOT void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
 {
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
     hit h;
@@ -286,7 +287,7 @@ void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t
 #endif
 }
 
-uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
+GN_HOT uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
 {
 #if GN_SHADOWS
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
@@ -302,7 +303,7 @@ uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *s, int32_t x
 #endif
 }
 
-void gn_sample_normal(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, int32_t normal_q30[3])
+GN_HOT void gn_sample_normal(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, int32_t normal_q30[3])
 {
     hit h;
     intersect(frame, s, 2 * x + 1 - frame->picture.width, frame->picture.height - 1 - 2 * y, &h);

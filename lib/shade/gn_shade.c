@@ -21,12 +21,12 @@ typedef gn_shading shading;
 
 #if GN_RAW_VIEWS
 /* Q1.30 to 10 bits, offset 512 */
-static uint32_t pack_axis(int64_t v_q30)
+GN_HOT static uint32_t pack_axis(int64_t v_q30)
 {
     return (uint32_t)(512 + gn_clamp64(gn_shr64(v_q30 * 511, 30), -511, 511));
 }
 
-static uint32_t raw_normal(const gn_shading *s, int32_t x, int32_t y)
+GN_HOT static uint32_t raw_normal(const gn_shading *s, int32_t x, int32_t y)
 {
     int32_t n[3], unit[3];
     gn_sample_normal(s->frame, &s->surface, x, y, n);
@@ -35,7 +35,7 @@ static uint32_t raw_normal(const gn_shading *s, int32_t x, int32_t y)
     return pack_axis(unit[0]) << 20 | pack_axis(unit[1]) << 10 | pack_axis(unit[2]);
 }
 
-static uint32_t raw_value(const gn_shading *s, const gn_sample *sample, int32_t x, int32_t y)
+GN_HOT static uint32_t raw_value(const gn_shading *s, const gn_sample *sample, int32_t x, int32_t y)
 {
     const gn_picture *picture = &s->frame->picture;
     switch (picture->view) {
@@ -53,7 +53,7 @@ static uint32_t raw_value(const gn_shading *s, const gn_sample *sample, int32_t 
 }
 #endif
 
-static uint32_t pack(gn_shading *s, const uint32_t q20[3])
+GN_HOT static uint32_t pack(gn_shading *s, const uint32_t q20[3])
 {
     uint32_t *last = s->last_q20;
     GN_ELEMENT(last);
@@ -67,7 +67,7 @@ static uint32_t pack(gn_shading *s, const uint32_t q20[3])
     return s->last_pixel;
 }
 
-static void shade_pixel(gn_shading *s, gn_sample *sample, int32_t x, int32_t y)
+GN_HOT static void shade_pixel(gn_shading *s, gn_sample *sample, int32_t x, int32_t y)
 {
     sample->x = x;
     sample->y = y;
@@ -83,7 +83,7 @@ static void shade_pixel(gn_shading *s, gn_sample *sample, int32_t x, int32_t y)
 }
 
 /* What arrives there from spot and point lights. */
-static void find_arrivals(shading *s, gn_sample *sample)
+GN_HOT static void find_arrivals(shading *s, gn_sample *sample)
 {
 #if GN_PUNCTUAL_LIGHTS
     gn_arrivals_at(s->frame, &s->surface, sample);
@@ -94,7 +94,7 @@ static void find_arrivals(shading *s, gn_sample *sample)
 
 #if GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1
 /* The n - 1 pixels between two samples, along a chord that is set. */
-static void shade_chord(shading *s, gn_sample *from, const gn_sample *to, int32_t x, int32_t y, int32_t n)
+GN_HOT static void shade_chord(shading *s, gn_sample *from, const gn_sample *to, int32_t x, int32_t y, int32_t n)
 {
     int32_t first = s->surface.first_value;
     gn_chord *chord = &s->by.run.chord;
@@ -117,7 +117,7 @@ static void shade_chord(shading *s, gn_sample *from, const gn_sample *to, int32_
 /* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every
  * persp_step pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the
  * triangle. */
-static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
+GN_HOT static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
 #if !GN_RUNTIME_KNOBS && GN_PERSP_STEP == 1 /* nothing lies between */
     gn_sample *here = &s->by.run.sample[0];
@@ -153,7 +153,7 @@ static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 }
 
 /* The pixel of a surface that looks the same all over. */
-static uint32_t constant_pixel(gn_shading *s)
+GN_HOT static uint32_t constant_pixel(gn_shading *s)
 {
     gn_sample *sample = &s->by.run.sample[0];
     GN_ELEMENT(sample);
@@ -168,7 +168,7 @@ static uint32_t constant_pixel(gn_shading *s)
 #if GN_PIECES
 /* Takes the triangle's runs and links them one after the other, from the first; s->spanned is the part of the screen
  * that they span. */
-static GN_NOINLINE void link_runs(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
+GN_HOT static GN_NOINLINE void link_runs(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
 {
     uint32_t stride = (uint32_t)GN_K(s->frame, tile_width), at = first, *cell = GN_CELLS(s->scratch);
     int32_t x = (int32_t)(first % stride), x0 = x, x1 = x + n_px, y0 = (int32_t)(first / stride);
@@ -186,7 +186,7 @@ static GN_NOINLINE void link_runs(gn_shading *s, gn_run_taker *taker, uint32_t f
 }
 
 /* Shades what lies in a part of the screen of the runs that are linked from `first` on. */
-static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *part)
+GN_HOT static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *part)
 {
     const uint32_t *cells = GN_CELLS(s->scratch), stride = (uint32_t)GN_K(s->frame, tile_width),
                    id = cells[first] & 0xFFFFU;
@@ -217,7 +217,7 @@ static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, const g
 
 /* From left to right, piece by piece, each as wide as it may be; where the first of a band is none, in bands of half
  * the height. */
-static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *all)
+GN_HOT static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *all)
 {
     gn_rect *part = &s->part;
     int32_t height = GN_PIECE_ROWS;
@@ -249,7 +249,7 @@ static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first, const
 }
 #endif
 
-static void shade_triangle(gn_shading *s, uint32_t tri_idx)
+GN_HOT static void shade_triangle(gn_shading *s, uint32_t tri_idx)
 {
     const gn_frame *frame = s->frame;
     uint32_t stride = (uint32_t)GN_K(frame, tile_width), first, packed = 0;
@@ -296,7 +296,7 @@ typedef struct {
 
 #define LOOKS 8 /* a power of two */
 
-static const object_look *look_at(gn_shading *s, object_look looks[LOOKS], uint32_t object_idx)
+GN_HOT static const object_look *look_at(gn_shading *s, object_look looks[LOOKS], uint32_t object_idx)
 {
     const gn_object *object = &s->frame->scene->objects[object_idx];
     object_look *look = &looks[object_idx & (LOOKS - 1)];
@@ -322,7 +322,7 @@ typedef struct {
 } run_sorter;
 
 /* Links a run, or fills it in if its object is plain. */
-static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uint32_t id, uint32_t n_px)
+GN_HOT static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uint32_t id, uint32_t n_px)
 {
     gn_shading *s = sorter->s;
     uint32_t at = (uint32_t)(first - GN_CELLS(s->scratch));
@@ -346,7 +346,7 @@ static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uint32_t i
 }
 
 /* Links the tile's runs, but for those of plain objects, which it fills in. Returns how many are linked. */
-static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
+GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
 {
     const gn_frame *frame = s->frame;
     const gn_tri *end = gn_cell_tri(frame, 0);
@@ -394,7 +394,7 @@ static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
     return sorter.n_linked + n_linked;
 }
 
-static void clear_background(gn_shading *s)
+GN_HOT static void clear_background(gn_shading *s)
 {
     const gn_frame *frame = s->frame;
     for (int c = 0; c < 3; c++) s->last_q20[c] = frame->scene->background_uq16[c] << 4;
@@ -413,7 +413,7 @@ static void clear_background(gn_shading *s)
         gn_pixel_fill(frame, &s->rows, s->rect.x0, y, s->rows.width, s->last_pixel);
 }
 
-void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
+GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     shading *s = &scratch->work.shading;
     GN_ELEMENT(s);
@@ -431,7 +431,7 @@ void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
 #if GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS
     s->cache.lights = gn_punctual_in_tile(frame, &s->rect);
 #endif
-    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
+    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
     for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++)
         shade_triangle(s, frame->tile_ref[i]);
 }

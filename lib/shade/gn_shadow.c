@@ -13,14 +13,14 @@
 #define GN_ONE_UQ16 65536U
 
 /* lerp(1, x, k) */
-static uint32_t faded(uint32_t x_uq16, uint32_t k_uq16)
+GN_HOT static uint32_t faded(uint32_t x_uq16, uint32_t k_uq16)
 {
     return x_uq16 >= GN_ONE_UQ16 ? GN_ONE_UQ16 : GN_ONE_UQ16 - gn_mul_uq16(k_uq16, GN_ONE_UQ16 - x_uq16);
 }
 
 #if GN_SHADOWS
 /* D5: 65536 up to the start of the fade, 0 from the max distance on. */
-static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
+GN_HOT static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
 {
     if ((uint32_t)z_q16 <= frame->fade_start_q16) return GN_ONE_UQ16;
     int64_t left_q16 = (int64_t)frame->scene->shadow.max_distance_q16 - z_q16;
@@ -28,7 +28,7 @@ static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
     return (uint32_t)gn_clamp64(gn_bf_apply(left_q16, frame->fade_scale, 32), 0, GN_ONE_UQ16);
 }
 
-uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
+GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
 {
     if (!surface->shadowed || !sample->in_reach) return 0;
     uint32_t g = GN_ONE_UQ16;
@@ -44,13 +44,13 @@ uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, co
 #if GN_RECEIVER_PLANE
 /* B5: the slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the
  * range. */
-static int32_t limit_slope(const gn_light_view *view, int64_t slope_q28)
+GN_HOT static int32_t limit_slope(const gn_light_view *view, int64_t slope_q28)
 {
     int64_t most = (int64_t)1 << (32 - view->tile_log2);
     return (int32_t)gn_clamp64(slope_q28, -most, most);
 }
 
-static void ortho_slopes(const gn_light_view *view, const int32_t face_q30[3], int32_t slope_q28[2])
+GN_HOT static void ortho_slopes(const gn_light_view *view, const int32_t face_q30[3], int32_t slope_q28[2])
 {
     int64_t w = gn_dot_q30(face_q30, view->axis_q30[2]);
     gn_bfloat per_w = gn_bf_recip(gn_bf_from_u64(gn_abs64(w) | 1U));
@@ -61,8 +61,8 @@ static void ortho_slopes(const gn_light_view *view, const int32_t face_q30[3], i
 }
 #endif
 
-static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                                  const gn_light_view *view, const int32_t coord[3])
+GN_HOT static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                         const gn_light_view *view, const int32_t coord[3])
 {
     GN_COUNT(lookups, 1);
     gn_receiver r = {coord[0], coord[1], 0, {0, 0}, sample->x, sample->y};
@@ -81,8 +81,8 @@ static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface *surfa
 }
 
 /* Attenuation in the sample's cascade, blended with the next one (D7). */
-static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                                     const gn_light_view *first, const int32_t *coord)
+GN_HOT static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                            const gn_light_view *first, const int32_t *coord)
 {
     const gn_light_view *view = first + sample->cascade;
     uint32_t factor = (uint32_t)sample->value[GN_VALUE_FADE];
@@ -101,8 +101,8 @@ static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *su
 #if GN_PUNCTUAL_LIGHTS
 #if GN_RECEIVER_PLANE
 /* With m . P = h on the face: n / z = n (m_u x/z + m_v y/z + m_w) / h is linear over the tile. */
-static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
-                         int32_t slope_q28[2])
+GN_HOT static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
+                                int32_t slope_q28[2])
 {
     const gn_persp_fit *fit = &view->fit.persp;
     int64_t h = gn_dot_q30(face_q30, from_q16);
@@ -114,8 +114,8 @@ static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], c
 }
 #endif
 
-static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                                              uint32_t slot)
+GN_HOT static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface,
+                                                     const gn_sample *sample, uint32_t slot)
 {
     const gn_arrival *at = &sample->arrival[slot];
     GN_COUNT(lookups_persp, 1);
@@ -134,7 +134,8 @@ static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_su
 }
 #endif
 
-static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot)
+GN_HOT static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                      uint32_t slot)
 {
     const gn_light_state *light = surface->light[slot].state;
     const gn_light_view *first = &frame->view[light->view_idx];
@@ -146,7 +147,7 @@ static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *surface,
     return cascaded_attenuation(frame, surface, sample, first, value + 1);
 }
 #else
-uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
+GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
 {
     (void)frame, (void)surface, (void)sample;
     return 0;
@@ -156,7 +157,7 @@ uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, co
 /* ---- Mixing ------------------------------------------------------------------------------------------------------ */
 
 /* M5: the mask of a light's channel, 65536: lit, or no mask. */
-static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int32_t channel)
+GN_HOT static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int32_t channel)
 {
 #if GN_MASKS
     if (!surface->masked || channel < 0) return GN_ONE_UQ16;
@@ -170,8 +171,8 @@ static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int3
 #endif
 }
 
-uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot,
-                          uint32_t g_uq16)
+GN_HOT uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                 uint32_t slot, uint32_t g_uq16)
 {
     if (!(surface->shadowed | surface->masked)) return GN_ONE_UQ16;
     const gn_light_state *light = surface->light[slot].state;

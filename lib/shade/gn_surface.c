@@ -14,7 +14,7 @@
 #define GN_ONE_Q30 (1 << 30)
 
 /* Nothing arrives at an unlit surface; only the shadow view asks which lights it faces. */
-static int without_light(const gn_frame *frame, const gn_surface *s)
+GN_HOT static int without_light(const gn_frame *frame, const gn_surface *s)
 {
     if (!(s->object->flags & GN_OBJECT_UNLIT)) return 0;
     return !GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32 || frame->picture.view != GN_VIEW_SHADOW;
@@ -23,7 +23,7 @@ static int without_light(const gn_frame *frame, const gn_surface *s)
 /* ---- Once per triangle: attributes ------------------------------------------------------------------------------- */
 
 /* The face normal in the world, towards the viewer: the plane's n points away from him in view space. */
-static void face_normal(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
+GN_HOT static void face_normal(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
 {
     int64_t world[3];
     for (int i = 0; i < 3; i++) {
@@ -35,19 +35,19 @@ static void face_normal(const gn_frame *frame, const gn_surface *s, int32_t out_
 }
 
 #if !GN_SIZE_FIRST
-static inline int64_t absolute(int64_t v)
+GN_HOT static inline int64_t absolute(int64_t v)
 {
     return (v ^ (v >> 63)) - (v >> 63);
 }
 
 /* Bits s .. s + 31 below the sign of 64, rounded to 31. */
-static inline int32_t rounded_high(int64_t v, int32_t s)
+GN_HOT static inline int32_t rounded_high(int64_t v, int32_t s)
 {
     uint32_t high = (uint32_t)((uint64_t)v >> 32) << s | (uint32_t)v >> (32 - s);
     return (int32_t)(((int32_t)high >> 1) + (int32_t)(high & 1U));
 }
 
-void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
+GN_HOT void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
 {
     int64_t a[3];
     for (int r = 0; r < 3; r++)
@@ -73,7 +73,7 @@ void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_
 }
 #endif
 
-static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
+GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
     for (int k = 0; k < 3; k++)
@@ -102,7 +102,7 @@ static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_sur
     s->smooth = any ? any >> 20 ? 2 : 1 : 0; /* three equal normals: a flat triangle after all */
 }
 
-static void vertex_colours(gn_surface *s, const uint16_t *idx)
+GN_HOT static void vertex_colours(gn_surface *s, const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
     s->coloured = GN_VERTEX_COLOURS && mesh->rgb_uq16;
@@ -118,7 +118,7 @@ static void vertex_colours(gn_surface *s, const uint16_t *idx)
 }
 
 #if GN_TEXTURES
-static void texture_coords(gn_surface *s, const uint16_t *idx)
+GN_HOT static void texture_coords(gn_surface *s, const uint16_t *idx)
 {
     s->textured = s->object->texture != NULL;
     if (s->textured) gn_texture_corners(&s->uv, s->object->mesh, s->object->texture, idx);
@@ -126,7 +126,7 @@ static void texture_coords(gn_surface *s, const uint16_t *idx)
 #endif
 
 #if GN_MASKS
-static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
+GN_HOT static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
 {
     const gn_object *object = s->object;
     s->masked = frame->scene->shadow.mixing != GN_MIXING_NONE && (object->flags & GN_OBJECT_RECEIVES) &&
@@ -147,7 +147,7 @@ static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
 #endif
 
 #if GN_BAKED_LIGHT
-static void baked_light(gn_surface *s, const uint16_t *idx)
+GN_HOT static void baked_light(gn_surface *s, const uint16_t *idx)
 {
     s->baked = s->object->baked_uq12 != NULL && !(s->object->flags & GN_OBJECT_UNLIT);
     for (int i = 0; s->baked && i < 3; i++) {
@@ -160,7 +160,7 @@ static void baked_light(gn_surface *s, const uint16_t *idx)
 }
 #endif
 
-static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
+GN_HOT static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
 {
     s->textured = s->masked = s->baked = s->specular = 0;
 #if GN_TEXTURES
@@ -183,7 +183,7 @@ static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_
 
 /* ---- Once per triangle: lights ----------------------------------------------------------------------------------- */
 
-static void list_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
+GN_HOT static void list_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
 {
     s->light[s->n_lights].state = &frame->light[light_idx];
     s->light[s->n_lights++].idx = light_idx;
@@ -191,7 +191,7 @@ static void list_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
 
 #if GN_PUNCTUAL_LIGHTS
 /* Whether a light can reach the triangle: not from behind a flat one, and not from beyond its range. */
-static int reaches(const gn_surface *s, const gn_light_state *light, int32_t v[3][3])
+GN_HOT static int reaches(const gn_surface *s, const gn_light_state *light, int32_t v[3][3])
 {
     if (!GN_SMOOTH(s)) {
         int64_t side = 0; /* n points away from the viewer: negative is in front */
@@ -212,8 +212,8 @@ static int reaches(const gn_surface *s, const gn_light_state *light, int32_t v[3
     return d2 < light->range2_q32;
 }
 
-static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3],
-                         uint32_t light_idx)
+GN_HOT static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3],
+                                uint32_t light_idx)
 {
     if (GN_TILE_LIGHTS && !(cache->lights >> light_idx & 1U)) return;
     if (s->n_lights == GN_SURFACE_LIGHTS || !reaches(s, &frame->light[light_idx], v)) return;
@@ -222,7 +222,7 @@ static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, g
 }
 
 /* The object's list, or all lights where none is kept. */
-static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
 {
     const gn_object_state *object = &frame->object[s->object - frame->scene->objects];
     if (object->n_lights != GN_OBJECT_LIGHTS_ALL) {
@@ -240,7 +240,7 @@ static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache
 
 #if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
 /* n . L at the vertices, where it is not below 0. Returns 0 if it is nowhere above. */
-static int vertex_cosines(const gn_surface *s, const gn_light_state *light, int32_t out_q24[3])
+GN_HOT static int vertex_cosines(const gn_surface *s, const gn_light_state *light, int32_t out_q24[3])
 {
     int32_t any = 0, at[3];
     for (int k = 0; k < 3; k++) {
@@ -256,7 +256,7 @@ static int vertex_cosines(const gn_surface *s, const gn_light_state *light, int3
 }
 #endif
 
-static void directional_lights(const gn_frame *frame, gn_surface *s)
+GN_HOT static void directional_lights(const gn_frame *frame, gn_surface *s)
 {
     gn_length length = {0, 0};
     if (!GN_SMOOTH(s)) length = gn_length_of(GN_K(frame, newton_steps), s->normal_q30[0]);
@@ -284,7 +284,7 @@ static void directional_lights(const gn_frame *frame, gn_surface *s)
 
 /* B6, curved: with this the interpolated normal has a part of 1 or more along the face's everywhere. Where a corner's
  * is too far from the face's, that alone is taken. */
-static void lift_normal(gn_surface *s)
+GN_HOT static void lift_normal(gn_surface *s)
 {
     int32_t least = -4; /* Q28; roundings */
     for (int k = 2; k >= 0; k--) {
@@ -298,7 +298,7 @@ static void lift_normal(gn_surface *s)
 #endif
 
 /* What a light's bias takes from the surface, once for all of it: the face's normal, a directional light's offset. */
-static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
+GN_HOT static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
 {
     const gn_light_state *light = s->light[slot].state;
     const gn_light_view *view = &frame->view[light->view_idx];
@@ -320,7 +320,7 @@ static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
         gn_bias_directional(frame, view, s->normal_q30[0], s->light[slot].flat_offset_q16);
 }
 
-static void shadows(const gn_frame *frame, gn_surface *s)
+GN_HOT static void shadows(const gn_frame *frame, gn_surface *s)
 {
     if (!(s->object->flags & GN_OBJECT_RECEIVES) || s->object->flags & GN_OBJECT_UNLIT) return;
     for (uint32_t i = 0; i < s->n_lights; i++) {
@@ -332,7 +332,7 @@ static void shadows(const gn_frame *frame, gn_surface *s)
 #endif
 
 /* Albedo times ambient and light colours; what shadows and a constant normal allow to know beforehand. */
-static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
 {
     const gn_scene *scene = frame->scene;
     int unlit = without_light(frame, s);
@@ -360,7 +360,7 @@ static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache,
 #endif
 }
 
-static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_object *object)
+GN_HOT static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_object *object)
 {
     if (cache->object == object) return;
     cache->object = object;
@@ -372,8 +372,8 @@ static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_
 }
 
 /* A vertex of a transform or a position out of the ordinary. */
-static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch, const gn_tri *tri,
-                                    uint32_t vertex_idx)
+GN_HOT static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch,
+                                           const gn_tri *tri, uint32_t vertex_idx)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     gn_xform to_view;
@@ -381,8 +381,8 @@ static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, g
     gn_setup_vertex(out_q16, scratch->vertex, &to_view, object->mesh, tri->object_idx, vertex_idx);
 }
 
-void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
-                      const gn_tri *tri)
+GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
+                             const gn_tri *tri)
 {
     GN_COUNT(surfaces, 1);
     s->object = &frame->scene->objects[tri->object_idx];

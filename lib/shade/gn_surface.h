@@ -19,7 +19,7 @@ void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_
 #endif
 
 /* 1: one radiance all over, no need to sample it. */
-static inline int gn_surface_is_constant(const gn_surface *s)
+GN_HOT static inline int gn_surface_is_constant(const gn_surface *s)
 {
     return !(s->smooth | s->coloured | s->shadowed | s->textured | s->masked | s->baked | s->specular) &&
            !s->n_punctual;

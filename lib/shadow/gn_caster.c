@@ -9,25 +9,18 @@
 #include "shadow/gn_caster.h"
 #include "shadow/gn_texel.h"
 
-#if GN_SHADOWS
-
 /* Keeps the smaller depth, unless alpha cuts texel u. z in Q32, rounded to the texel's bits. */
-static void store(gn_texels row, int32_t bits, int32_t u, int64_t z, gn_alpha_cut *alpha)
+GN_HOT static void store(gn_texels row, int32_t bits, int32_t u, int64_t z, gn_alpha_cut *alpha)
 {
     const int32_t drop = 32 - bits;
     const uint32_t v = (uint32_t)gn_clamp64((z + ((int64_t)1 << drop >> 1)) >> drop, 0, UINT32_MAX >> drop);
     if (v << drop >= gn_texel_load(row, bits, (size_t)(uint32_t)u)) return;
-#if GN_CASTER_ALPHA
-    if (alpha && gn_alpha_cuts(alpha, u)) return;
-#else
-    (void)alpha;
-#endif
+    if (GN_CASTER_ALPHA && alpha && gn_alpha_cuts(alpha, u)) return;
     if (bits == 16) row.d16[u] = (uint16_t)v;
     else if (bits == 8) row.d8[u] = (uint8_t)v;
     else row.d32[u] = v;
 }
 
-#if !GN_SIZE_FIRST
 /* Depth of a caster in 16-bit texels, if it is nowhere cut off, nor so steep that it could leave its range by half of
  * all depths: all of it fits 32 bits then, and steps may be taken modulo 2^32. */
 typedef struct {
@@ -49,7 +42,7 @@ typedef struct {
         GN_KEEP(z);                                                                                                    \
     } while (0)
 
-static inline void span16(uint16_t *texel, int32_t n, uint32_t z, uint32_t dz)
+GN_HOT static inline void span16(uint16_t *texel, int32_t n, uint32_t z, uint32_t dz)
 {
     GN_COUNT(texels, n);
     for (; n >= 4; n -= 4, texel += 4) {
@@ -63,7 +56,7 @@ static inline void span16(uint16_t *texel, int32_t n, uint32_t z, uint32_t dz)
 }
 #undef GN_TEXEL_
 
-static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *caster)
+GN_HOT static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *caster)
 {
     const int64_t steep = 1 << 30;
     caster_depth16 d;
@@ -77,11 +70,10 @@ static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *
     d.add = (uint32_t)(caster->lo + caster->bias + 0x8000);
     return d;
 }
-#endif
 
 /* Any row of texels, one at a time. */
-static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster, gn_alpha_cut *alpha, int32_t v,
-                             int32_t u, int32_t u_end)
+GN_HOT static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster, gn_alpha_cut *alpha, int32_t v,
+                                    int32_t u, int32_t u_end)
 {
     int32_t bits = GN_VIEW_BITS(view);
     int64_t z = caster->z_corner + u * caster->dz_du + v * caster->dz_dv;
@@ -93,8 +85,8 @@ static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster,
     }
 }
 
-int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_walk *walk, const int32_t x[3],
-                        const int32_t y[3])
+GN_HOT int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_walk *walk, const int32_t x[3],
+                               const int32_t y[3])
 {
     int32_t bits = GN_K(frame, shadow_subpixel_bits), size = view->tile_texels;
     GN_COUNT(caster_walks, 1);
@@ -108,44 +100,35 @@ int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_wal
     return 0;
 }
 
-int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_walk *walk, int32_t n_rows,
-                       gn_alpha_cut *alpha)
+GN_HOT int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_walk *walk, int32_t n_rows,
+                              gn_alpha_cut *alpha)
 {
     int32_t size = view->tile_texels, n_texels = 0, v = walk->first;
-#if !GN_SIZE_FIRST
     caster_depth16 depth = depth16_begin(view, caster);
-    uint32_t range = depth.usable && !alpha ? depth.range : 0;
-#endif
+    uint32_t range =
+        !GN_SIZE_FIRST && depth.usable && !alpha ? depth.range : 0; /* the short way has the same results */
     for (; n_rows > 0; n_rows = gn_walk_on(walk)) {
         for (const gn_span *at = walk->span; n_rows > 0; n_rows--, at++, v++) {
             int32_t u = gn_max32(at->x_begin, 0), n = gn_min32(at->x_end, size) - u;
             if (n <= 0) continue;
             n_texels += n;
-#if GN_DEPTH_BLOCKS
-            gn_blocks_touch(view, u, v, n);
-#endif
+            if (GN_DEPTH_BLOCKS) gn_blocks_touch(view, u, v, n);
             GN_COUNT(caster_rows, 1);
-#if !GN_SIZE_FIRST /* what is longer has the same results */
             uint32_t z = depth.z_corner + (uint32_t)v * depth.dz_dv + (uint32_t)u * depth.dz_du;
             if (z < range && z + (uint32_t)(n - 1) * depth.dz_du < range) {
                 span16(view->depth.d16 + v * size + u, n, z + depth.add, depth.dz_du);
                 continue;
             }
-#endif
-#if GN_CASTER_ALPHA
-            if (alpha) gn_alpha_row(alpha, v, 2 * v + 1 - size, at->x_begin, at->x_end);
-#endif
+            if (GN_CASTER_ALPHA && alpha) gn_alpha_row(alpha, v, 2 * v + 1 - size, at->x_begin, at->x_end);
             span(view, caster, alpha, v, u, u + n);
         }
     }
     return n_texels;
 }
 
-int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, gn_walk *walk,
-                       const int32_t x[3], const int32_t y[3], gn_alpha_cut *alpha)
+GN_HOT int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, gn_walk *walk,
+                              const int32_t x[3], const int32_t y[3], gn_alpha_cut *alpha)
 {
     int32_t n_rows = gn_caster_begin(frame, view, walk, x, y);
     return n_rows ? gn_caster_rows(view, caster, walk, n_rows, alpha) : 0;
 }
-
-#endif

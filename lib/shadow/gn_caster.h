@@ -7,8 +7,6 @@
 #include "geometry/gn_walk.h"
 #include "gnomon.h"
 
-#if GN_SHADOWS
-
 #define GN_CASTER_GRADIENT_MAX ((int64_t)1 << 33) /* twice the whole depth range per texel */
 
 /* Depth over one triangle, in shares of the view's range, Q32. */
@@ -31,5 +29,4 @@ int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_wal
 int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_walk *walk, int32_t n_rows,
                        gn_alpha_cut *alpha);
 
-#endif
 #endif

@@ -1,24 +1,26 @@
-/* Which casters can show in a tile (D8). */
+/* Which casters are drawn into a tile (D8, A5). */
 #ifndef GN_CULL_H
 #define GN_CULL_H
 
 #include "gnomon.h"
 
-#if GN_SHADOWS
+/* Which casters: with a static layer they are drawn apart. */
+typedef enum { GN_LAYER_ALL, GN_LAYER_STATIC, GN_LAYER_MOVING } gn_layer;
 
-#if GN_OBJECT_BOXES
-/* Whether any of an object can lie in the view's tile, by its box. */
-int gn_cull_sees(const gn_frame *frame, const gn_light_view *view, const gn_object_state *object);
-#endif
+/* Whether an object has to be drawn into a layer of a view's tile. *culled: it would have been, but for
+ * gn_cull_shown_nearer. */
+int gn_cull_draws(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx, gn_layer layer, int *culled);
 
-#if GN_CASTER_CULLING
+/* Whether any of an object can lie in the view's tile, by its box: gn_cull_boxes.c. */
+int gn_cull_sees(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx);
+
+/* ---- gn_cull_cascades.c ------------------------------------------------------------------------------------------ */
+
 /* Box of all receiving objects, for gn_cull_shown_nearer. */
 void gn_cull_begin(gn_frame *frame);
 
 /* Whether every point that the object can shadow is looked up in a smaller cascade than the view's: then it may be left
  * out. */
-int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, const gn_object_state *object);
-#endif
+int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx);
 
-#endif
 #endif

@@ -4,17 +4,6 @@
 
 #include "gnomon.h"
 
-#if GN_SHADOWS
-
-#define GN_TENT_TAPS_MAX 8
-
-/* Weights of the 2 (k + 1) texels of a tent along one axis, k = 1, 2, 3: exact rationals over (2k + 1)^2 F^2, which
- * they sum to. u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
-void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
-
-/* The same for the linear kernels (F6): over 4 F, 12 F, 52 F. */
-void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
-
 /* A surface point as a light view sees it. */
 typedef struct {
     int32_t u_q16, v_q16;     /* tile coordinates in texels */
@@ -28,7 +17,6 @@ typedef struct {
  * (D10). */
 uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver);
 
-#if GN_PIECES
 /* A receiver on the way from pixel to pixel: tile coordinates in texels, Q16, and its share of the view's depth range,
  * Q31; negative before the near plane. Coordinates within +-2^28. */
 typedef struct {
@@ -42,7 +30,5 @@ int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn
 /* Attenuations of n receivers from `from` on, all between `from` and `to`, which the steps may not quite reach. */
 void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
                    const gn_receiver_step *to, const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
-#endif
 
-#endif
 #endif

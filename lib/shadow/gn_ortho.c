@@ -11,8 +11,6 @@
 #include "light/gn_cascade.h"
 #include "shadow/gn_ortho.h"
 
-#if GN_SHADOWS
-
 int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_t p_q16[3])
 {
     /* |p| <= 2^30 per component times a unit axis: below sqrt(3) * 2^60 */
@@ -38,7 +36,6 @@ static gn_bfloat inverse_texel(const gn_frame *frame, const gn_light_view *view,
     return gn_bf_recip(texel);
 }
 
-#if GN_DISK_FILTER
 /* F4: 0.02 * penumbra of the model's units, in texels, Q16. */
 static int64_t disk_radius_q16(const gn_frame *frame, gn_bfloat inv_texel)
 {
@@ -53,7 +50,6 @@ static void disk_index(const gn_frame *frame, gn_light_view *view, const gn_ligh
     int64_t texels_q16 = disk_radius_q16(frame, inverse_texel(frame, view, light, 0, radius, &clamped));
     view->filter_idx = (uint8_t)gn_clamp64((texels_q16 + 65535) >> 16, 1, GN_DISK_INDEX_MAX);
 }
-#endif
 
 /* The planes from which light coordinates along a pixel's ray follow: see gn_ray_plane. */
 void gn_ortho_rays(const gn_frame *frame, gn_light_view *view)
@@ -101,17 +97,14 @@ void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
     gn_bfloat radius;
     int clamped;
     int32_t centre_q16 = gn_cascade_fit_sphere(frame, near_q16, far_q16, &radius);
-#if GN_DISK_FILTER
-    if (view->filter == GN_FILTER_DISK) disk_index(frame, view, light, radius);
-#endif
+    if (GN_DISK_FILTER && view->filter == GN_FILTER_DISK) disk_index(frame, view, light, radius);
     view->fit.ortho.inv_texel = inverse_texel(frame, view, light, view->filter_idx, radius, &clamped);
     frame->stats.n_reach_clamped += (uint32_t)clamped;
     place_tile(frame, view, light, centre_q16);
     gn_ortho_rays(frame, view);
-#if GN_DISK_FILTER
-    view->disk_radius_q16 =
-        (int32_t)gn_clamp64(disk_radius_q16(frame, view->fit.ortho.inv_texel), 0, (int64_t)view->filter_idx << 16);
-#endif
+    if (GN_DISK_FILTER)
+        view->disk_radius_q16 =
+            (int32_t)gn_clamp64(disk_radius_q16(frame, view->fit.ortho.inv_texel), 0, (int64_t)view->filter_idx << 16);
 }
 
 /* ---- Casters ----------------------------------------------------------------------------------------------------- */
@@ -145,7 +138,6 @@ void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh,
     }
 }
 
-#if GN_CASTER_CLIPPING
 /* Cuts at sign * c[axis] <= reach. */
 static GN_NOINLINE void clip_side(gn_light_polygon *polygon, gn_light_polygon *in, int axis, int64_t sign)
 {
@@ -186,28 +178,22 @@ static void clip_to_reach(gn_light_polygon *polygon, gn_light_polygon *uncut)
         if (lo < -GN_TILE_REACH_Q16) clip_side(polygon, uncut, axis, -1);
     }
 }
-#else
 static int within_reach(int64_t p[3][3])
 {
     for (int i = 0; i < 3; i++)
         if (gn_abs64(p[i][0]) > GN_TILE_REACH_Q16 || gn_abs64(p[i][1]) > GN_TILE_REACH_Q16) return 0;
     return 1;
 }
-#endif
 
-#if defined(GN_FAR)
-#define apply gn_bf_apply
-#else
 /* round(a * b * 2^shift), as gn_bf_apply gives it */
-static inline int64_t apply(int32_t a, gn_bfloat b, int32_t shift)
+GN_INLINE int64_t apply(int32_t a, gn_bfloat b, int32_t shift)
 {
     int32_t s = -(b.exp + shift);
-    if (s < 1 || s > 62) return gn_bf_apply(a, b, shift);
+    if (GN_SIZE_FIRST || s < 1 || s > 62) return gn_bf_apply(a, b, shift);
     uint64_t r = (uint64_t)gn_abs32(a) * b.mant; /* 2^30 * 2^32 */
     int64_t v = (int64_t)((r >> s) + ((r >> (s - 1)) & 1U));
     return a < 0 ? -v : v;
 }
-#endif
 
 /* Texels along w, Q16, as a share of the depth range, Q32. |.| < 2^49 */
 static inline int64_t depth_q32(const gn_light_view *view, int64_t texels_q16)
@@ -277,9 +263,8 @@ static int misses_tile(const gn_light_view *view, int64_t p[3][3])
     return 0;
 }
 
-#if GN_CASTER_ALPHA
 /* Parallel projection as a perspective one: all corners at the same depth, so that barycentrics are affine. */
-static void alpha_plane(const gn_frame *frame, const gn_light_view *view, gn_alpha_cut *alpha, int64_t p[3][3])
+static inline void alpha_plane(const gn_frame *frame, const gn_light_view *view, gn_alpha_cut *alpha, int64_t p[3][3])
 {
     int32_t v[3][3], shift = 0;
     int64_t centre = (int64_t)view->tile_texels << 15;
@@ -293,7 +278,6 @@ static void alpha_plane(const gn_frame *frame, const gn_light_view *view, gn_alp
     /* x / z = px / 2F: 2F = 256 half texels where z is 128 texels */
     gn_alpha_plane(alpha, frame, v, 1U << 24, view->tile_texels, 2);
 }
-#endif
 
 int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha)
 {
@@ -302,14 +286,9 @@ int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_c
     polygon->n = 3;
     if (misses_tile(view, polygon->p) || !wide_caster_begin(&caster, view, polygon->p, casting->job.two_sided))
         return -1;
-#if GN_CASTER_ALPHA
-    if (alpha && alpha->textured) alpha_plane(frame, view, alpha, polygon->p);
-#endif
-#if GN_CASTER_CLIPPING
-    clip_to_reach(polygon, &casting->with.uncut);
-#else
-    if (!within_reach(polygon->p)) return GN_ORTHO_TOO_FAR;
-#endif
+    if (GN_CASTER_ALPHA && GN_TEXTURES && alpha && alpha->textured) alpha_plane(frame, view, alpha, polygon->p);
+    if (GN_CASTER_CLIPPING) clip_to_reach(polygon, &casting->with.uncut);
+    else if (!within_reach(polygon->p)) return GN_ORTHO_TOO_FAR;
     if (polygon->n >= 3)
         caster.z_corner = depth_at_corner(view, &caster, polygon->p[0][0], polygon->p[0][1], polygon->p[0][2]);
     int32_t bits = GN_K(frame, shadow_subpixel_bits), n_texels = 0;
@@ -357,5 +336,3 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
     caster.z_corner = depth_at_corner(view, &caster, c[0][0], c[0][1], c[0][2]);
     return gn_caster_rows(view, &caster, &casting->walk, n_rows, NULL);
 }
-
-#endif

@@ -6,8 +6,6 @@
 #include "shadow/gn_caster.h"
 #include "gnomon.h"
 
-#if GN_SHADOWS
-
 /* Fits a view, whose light, axes, tile and filter are known, to the sphere of the slice near .. far. */
 void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16);
 
@@ -31,5 +29,4 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
 
 #define GN_ORTHO_TOO_FAR (-2) /* without GN_CASTER_CLIPPING: it reaches too far beyond the tile */
 
-#endif
 #endif

@@ -5,8 +5,6 @@
 #include "shadow/gn_caster.h"
 #include "gnomon.h"
 
-#if GN_SHADOWS && GN_PUNCTUAL_LIGHTS
-
 /* Fits a view, whose axes, tile and filter are known, to its light. */
 void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light);
 
@@ -24,5 +22,4 @@ void gn_persp_face_axis(int32_t out_q30[3], int32_t face);
  * -1 if it cannot show in the tile. */
 int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha);
 
-#endif
 #endif

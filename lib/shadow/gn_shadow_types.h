@@ -4,7 +4,6 @@
 
 #include "light/gn_light_types.h"
 
-#if GN_SHADOWS
 #define GN_OTHER_ATLAS (GN_PUNCTUAL_LIGHTS || GN_MAIN_LIGHT) /* whether there is one */
 #define GN_VIEWS_MAX   (GN_MAX_SHADOW_TILES + (GN_OTHER_ATLAS ? GN_MAX_OTHER_TILES : 0))
 
@@ -74,9 +73,7 @@ typedef struct {
     uint8_t empty;      /* its cascade has no slice: never drawn, never selected */
     uint8_t tile_done;
     uint8_t stale; /* A5: by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
-#if GN_DEPTH_BLOCKS
-    gn_depth_block *block; /* (T / 8) * (T / 8) */
-#endif
+    gn_depth_block *block;  /* (T / 8) * (T / 8) */
     int32_t axis_q30[3][3]; /* u, v, w in the world */
     union {
         gn_ortho_fit ortho;
@@ -97,19 +94,12 @@ typedef union {
     uint32_t d32[GN_ATLAS_BYTES / 4];
 } gn_atlas_texels;
 
-#if GN_OTHER_ATLAS
 #define GN_OTHER_ATLAS_BYTES (GN_OTHER_ATLAS_TEXELS * ((GN_RUNTIME_KNOBS ? 32 : GN_OTHER_DEPTH_BITS) / 8))
 typedef union {
     uint8_t d8[GN_OTHER_ATLAS_BYTES];
     uint16_t d16[GN_OTHER_ATLAS_BYTES / 2];
     uint32_t d32[GN_OTHER_ATLAS_BYTES / 4];
 } gn_other_texels;
-#endif
-/* A vertex as a view sees it, if it is within 2^29. */
-typedef struct {
-    uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
-    int32_t c[3];
-} gn_caster_corner;
 
 /* One caster and one view. */
 typedef struct {
@@ -118,15 +108,15 @@ typedef struct {
     const gn_object *object;
     uint32_t object_idx;
     int two_sided;
-    gn_caster_corner *cache;
+    gn_vertex_entry *cache; /* of vertices as the view sees them, within 2^29 */
     uint32_t cache_mask;
-    gn_caster_corner spare[3]; /* where a triangle's corners share an entry */
+    gn_vertex_entry spare[3]; /* see gn_vertex_claim_corner */
+    int32_t shrink_q16;       /* B4, texels */
     gn_xform to_light;
-    gn_xform_fast fast;
-#if GN_CASTER_BIAS
-    int32_t shrink_q16; /* B4, texels */
-    int32_t normal_matrix[3][3];
-#endif
+    union {
+        gn_xform_fast fast;          /* of what is not shrunk */
+        int32_t normal_matrix[3][3]; /* of what is */
+    } by;
 } gn_caster_job;
 
 #define GN_ORTHO_POLYGON_MAX 8 /* a triangle against four sides has 7; rounding may bend it once more */
@@ -153,6 +143,5 @@ typedef struct {
     gn_alpha_cut alpha;
 #endif
 } gn_casting;
-#endif
 
 #endif

@@ -5,11 +5,9 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "light/gn_cascade.h"
-#include "light/gn_object.h"
+#include "light/gn_lights.h"
 #include "scene/gn_scene.h"
 #include "shadow/gn_tiles.h"
-
-#if GN_SHADOWS
 
 #define GN_ATLAS_TILES_MAX     16U
 #define GN_CASCADED_LIGHTS_MAX 4U /* D1 */
@@ -20,13 +18,12 @@ static int shadow_possible(const gn_frame *frame, uint32_t light_idx)
     uint32_t flags = 0;
     for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
         uint32_t wanted = frame->scene->objects[i].flags & (GN_OBJECT_CASTS | GN_OBJECT_RECEIVES);
-        if ((wanted & ~flags) && gn_object_is_reached(frame, i, light_idx)) flags |= wanted;
+        if ((wanted & ~flags) && gn_light_reaches(frame, light_idx, i)) flags |= wanted;
         if (flags == (GN_OBJECT_CASTS | GN_OBJECT_RECEIVES)) return 1;
     }
     return 0;
 }
 
-#if GN_MAIN_LIGHT
 /* D10: the brightest shadowed directional light, by its largest channel. */
 static uint32_t main_light(const gn_frame *frame)
 {
@@ -42,9 +39,7 @@ static uint32_t main_light(const gn_frame *frame)
     }
     return best;
 }
-#endif
 
-#if GN_TILE_IMPORTANCE
 /* ceil(64 * min(1, range / distance to the camera)) */
 static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
 {
@@ -66,7 +61,6 @@ static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
     return 64;
 #endif
 }
-#endif
 
 static void wish(gn_frame *frame, gn_tile_plan *plan)
 {
@@ -76,22 +70,16 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
         int wanted = !light->off && scene->lights[l].shadow_strength_uq16 > 0 && shadow_possible(frame, l);
         light->shadow_state = wanted ? GN_SHADOW_NO_ROOM : GN_SHADOW_NOT_WANTED;
     }
-#if GN_MAIN_LIGHT
-    uint32_t main = scene->shadow.main_light ? main_light(frame) : GN_MAX_LIGHTS;
-#endif
+    uint32_t main = GN_MAIN_LIGHT && scene->shadow.main_light ? main_light(frame) : GN_MAX_LIGHTS;
     for (uint32_t l = 0; l < scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
         GN_ELEMENT(light);
         gn_tile_plan none = {0, 0, 0, 0, 0, 0};
         plan[l] = none;
         if (light->shadow_state == GN_SHADOW_NOT_WANTED) continue;
-#if GN_TILE_IMPORTANCE
-        plan[l].weight = weight_of(frame, light);
-#endif
+        if (GN_TILE_IMPORTANCE) plan[l].weight = weight_of(frame, light);
         plan[l].cascaded = light->kind == GN_LIGHT_DIRECTIONAL;
-#if GN_MAIN_LIGHT
-        if (scene->shadow.main_light && l != main) plan[l].cascaded = 0;
-#endif
+        if (GN_MAIN_LIGHT && scene->shadow.main_light && l != main) plan[l].cascaded = 0;
         plan[l].in_other = !plan[l].cascaded;
         plan[l].n_tiles = plan[l].cascaded ? GN_N_CASCADES(frame) : light->kind == GN_LIGHT_POINT ? 6 : 1;
         plan[l].n_drawn = plan[l].n_tiles;
@@ -127,7 +115,6 @@ static void equal_sizes(const gn_frame *frame, gn_tile_plan *plan, uint32_t in_o
         if (plan[l].n_tiles && plan[l].in_other == in_other) plan[l].tile_log2 = (uint8_t)tile_log2;
 }
 
-#if GN_TILE_IMPORTANCE
 static uint32_t texels_of(const gn_tile_plan *plan)
 {
     return (uint32_t)plan->n_tiles << (2 * plan->tile_log2); /* 16 * 2^20 */
@@ -173,7 +160,6 @@ static void sizes_by_importance(const gn_frame *frame, gn_tile_plan *plan, uint3
         plan[l].tile_log2++;
     }
 }
-#endif
 
 /* With the default capacities they always do: an atlas holds what it is divided into. */
 static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other)
@@ -192,11 +178,9 @@ static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_oth
     uint32_t n_tiles = serve(frame, plan, in_other, capacity);
     if (n_tiles > 4U << (2 * (atlas_log2 - 4)))
         return gn_fail(frame, GN_ERR_SHADOW_TILE, 0); /* more than size^2 / 64 */
-#if GN_TILE_IMPORTANCE
-    if (frame->scene->shadow.tile_sizes == GN_TILES_IMPORTANCE) sizes_by_importance(frame, plan, in_other, atlas_log2);
-    else
-#endif
-        equal_sizes(frame, plan, in_other, n_tiles, atlas_log2);
+    if (GN_TILE_IMPORTANCE && frame->scene->shadow.tile_sizes == GN_TILES_IMPORTANCE)
+        sizes_by_importance(frame, plan, in_other, atlas_log2);
+    else equal_sizes(frame, plan, in_other, n_tiles, atlas_log2);
     frame->stats.n_shadow_tiles += n_tiles;
     return texels_suffice(frame, plan, in_other);
 }
@@ -205,10 +189,7 @@ gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS])
 {
     wish(frame, plan);
     gn_status status = plan_atlas(frame, plan, 0, GN_MAX_SHADOW_TILES, GN_K(frame, atlas_size));
-#if GN_OTHER_ATLAS
-    if (!status) status = plan_atlas(frame, plan, 1, GN_MAX_OTHER_TILES, GN_K(frame, other_atlas_size));
-#endif
+    if (GN_OTHER_ATLAS && !status)
+        status = plan_atlas(frame, plan, 1, GN_MAX_OTHER_TILES, GN_K(frame, other_atlas_size));
     return status;
 }
-
-#endif

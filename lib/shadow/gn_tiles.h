@@ -4,8 +4,6 @@
 
 #include "gnomon.h"
 
-#if GN_SHADOWS
-
 typedef struct {
     uint8_t n_tiles;  /* 0: none */
     uint8_t n_drawn;  /* without those of unused cascades */
@@ -18,5 +16,4 @@ typedef struct {
 /* One plan per light; sets frame->light[].shadow_state. Needs boxes and light states. */
 gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS]);
 
-#endif
 #endif

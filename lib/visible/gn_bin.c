@@ -34,20 +34,16 @@ gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch)
     /* to the end of each bin, then filled backwards so that each bin starts where it should, in triangle order */
     for (uint32_t i = 1; i <= n_tiles; i++) first[i] = (gn_ref_offset)(first[i] + first[i - 1]);
     for (uint32_t t = frame->stats.n_triangles; t-- > 0;) {
-#if !GN_SIZE_FIRST
-        uint32_t place = t < GN_PLACES ? scratch->pixel.rgb565[t] : GN_PLACE_MANY, way = place & 3;
-        if (way != GN_PLACE_MANY) {
-            gn_ref_offset *at = first + (place >> 2);
-            frame->tile_ref[--*at] = (uint16_t)t;
-            if (way == GN_PLACE_ONE) continue;
-            at += way == GN_PLACE_NEXT ? 1 : frame->tiles_x;
-            frame->tile_ref[--*at] = (uint16_t)t;
+        uint32_t place = !GN_SIZE_FIRST && t < GN_PLACES ? scratch->pixel.rgb565[t] : GN_PLACE_MANY, way = place & 3;
+        if (way == GN_PLACE_MANY) {
+            bin_by_bounds(frame, t);
             continue;
         }
-#else
-        (void)scratch;
-#endif
-        bin_by_bounds(frame, t);
+        gn_ref_offset *at = first + (place >> 2);
+        frame->tile_ref[--*at] = (uint16_t)t;
+        if (way == GN_PLACE_ONE) continue;
+        at += way == GN_PLACE_NEXT ? 1 : frame->tiles_x;
+        frame->tile_ref[--*at] = (uint16_t)t;
     }
     return GN_OK;
 }

@@ -25,7 +25,7 @@ typedef struct {
 
 /* Depth is linear over a row; inside the triangle it stays within its range. A snapped edge can reach past the
  * unsnapped plane by a fraction of a pixel, so a value outside is brought back to the nearer end (modulo 2^32). */
-static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
+GN_HOT static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
 {
     uint32_t above = v - depth->lo;
     if (above <= depth->range) return v;
@@ -45,7 +45,6 @@ static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
         GN_KEEP(iz);                                                                                                   \
     } while (0)
 
-#if !GN_SIZE_FIRST
 /* n > 0 cells, from the last, whose depth is iz, to the first: those that eights leave, then eights. */
 GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
 {
@@ -92,8 +91,8 @@ GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_
 }
 
 /* Apart, so that it takes no registers of short spans. */
-static GN_NOINLINE void raster_long_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t minus_dx, uint32_t id_mask,
-                                         uint32_t below)
+GN_HOT static GN_NOINLINE void raster_long_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t minus_dx,
+                                                uint32_t id_mask, uint32_t below)
 {
     const raster_depth depth = {minus_dx, 0, 0, id_mask,
                                 below}; /* by their values: a pointer would keep them in memory */
@@ -173,21 +172,25 @@ GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stri
     rows->iz = iz;
     rows->row = row;
 }
-#endif
 
 #if GN_VISIBLE_ALPHA
-static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
+GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut,
+                                    const gn_object *object, uint32_t object_idx, const uint16_t idx[3])
+{
+    gn_xform to_view;
+    int32_t v[3][3];
+    gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
+    for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &to_view, object->mesh, object_idx, idx[i]);
+    gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
+}
+
+GN_HOT static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     GN_ELEMENT(object);
     const uint16_t *idx = object->mesh->idx + 3 * (size_t)tri->triangle_idx;
     gn_alpha_begin(cut, object, object->visible_alpha, idx);
-    if (!cut->textured) return;
-    gn_xform to_view;
-    int32_t v[3][3];
-    gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
-    for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &to_view, object->mesh, tri->object_idx, idx[i]);
-    gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
+    if (GN_TEXTURES && cut->textured) cut_plane(frame, scratch, cut, object, tri->object_idx, idx);
 }
 
 #endif
@@ -206,8 +209,8 @@ typedef struct {
 
 /* Pixels of a row that need a look each: alpha may cut them, or depth leaves the triangle's range. Where alpha cuts, it
  * is looked up only where the surface would be the nearest. */
-static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz,
-                                         gn_alpha_cut *cut, int32_t x)
+GN_HOT static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz,
+                                                gn_alpha_cut *cut, int32_t x)
 {
     for (int32_t i = 0; i < n; i++, cell++, iz -= depth->minus_dx) {
         uint32_t candidate = clamp_depth(iz, depth) | depth->id_mask;
@@ -223,10 +226,9 @@ static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *ce
     GN_COUNT(covered, cut ? 0 : n);
 }
 
-#if !GN_SIZE_FIRST
 /* A small triangle that nothing cuts and whose depth needs no look (gn_tri): its edges are stepped in fixed point, row
  * by row. */
-static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+GN_HOT static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
     /* top, left and right of it, as a ring: left edges lead down from one to the next, right ones from one to the last
      */
@@ -235,7 +237,7 @@ static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri,
                                     {tri->x[2] + tile->x, tri->y[2] + tile->y},
                                     {tri->x[0] + tile->x, tri->y[0] + tile->y}};
     const int32_t bits = GN_K(tile->frame, subpixel_bits), stride = GN_K(tile->frame, tile_width),
-                  lasts = tri->iz_min - 1;
+                  lasts = tri->iz.unbounded.walk;
     int32_t at = gn_max32(gn_first_px(ring[0].y, bits), 0),
             bend[2] = {gn_first_px(ring[1].y, bits), gn_first_px(ring[2].y, bits)};
     int32_t end = gn_min32(gn_max32(bend[0], bend[1]), tile->height), left_end = at, right_end = at;
@@ -262,14 +264,14 @@ static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri,
     }
 }
 
-static inline gn_walk_line narrow_line(gn_walk_corner from, gn_walk_corner to, int32_t y, int32_t bits)
+GN_HOT static inline gn_walk_line narrow_line(gn_walk_corner from, gn_walk_corner to, int32_t y, int32_t bits)
 {
     return gn_walk_narrow_at(from.x, from.y, to.x, to.y, y, bits, GN_CORE_DIVIDES);
 }
 
 /* A triangle of a few pixels, that nothing cuts and whose depth needs no look: of most of them all is in one or two
  * screen tiles. Its corners have what rounds them to rows, and to the centres of columns, in them. */
-static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+GN_HOT static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
     const int32_t bits = GN_K(tile->frame, subpixel_bits), one = 1 << bits, half = one >> 1,
                   stride = GN_K(tile->frame, tile_width);
@@ -303,11 +305,9 @@ static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri
     }
 }
 
-#endif
-
 #if GN_VISIBLE_ALPHA
 /* Row v of the tile. */
-static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const gn_span *span)
+GN_HOT static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const gn_span *span)
 {
     int32_t y = tile->rect.y0 + v;
     gn_alpha_row(cut, y, tile->frame->picture.height - 1 - 2 * y, tile->rect.x0 + span->x_begin,
@@ -316,7 +316,7 @@ static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const
 #endif
 
 /* Walks a triangle that `cut` cuts, if it is not NULL. */
-static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, gn_alpha_cut *cut)
+GN_HOT static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, gn_alpha_cut *cut)
 {
     const int32_t x[3] = {tri->x[0] + tile->x, tri->x[1] + tile->x, tri->x[2] + tile->x};
     const int32_t y[3] = {tri->y[0] + tile->y, tri->y[1] + tile->y, tri->y[2] + tile->y};
@@ -328,9 +328,9 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
     raster_depth depth;
     const uint32_t iz_dx = (uint32_t)tri->iz_dx;
     depth.minus_dx = 0U - iz_dx;
-    int bounded = tri->iz_min <= tri->iz_max;
-    depth.lo = bounded ? (uint32_t)tri->iz_min << 16 : 0;
-    depth.range = bounded ? ((uint32_t)tri->iz_max << 16 | 0xFFFFU) - depth.lo : UINT32_MAX;
+    int bounded = gn_tri_is_bounded(tri);
+    depth.lo = bounded ? (uint32_t)tri->iz.bounds.least << 16 : 0;
+    depth.range = bounded ? ((uint32_t)tri->iz.bounds.largest << 16 | 0xFFFFU) - depth.lo : UINT32_MAX;
     depth.id_mask = tile->id_mask;
     depth.below = tile->id_mask - id;
     uint32_t iz_dy = (uint32_t)tri->iz_dy;
@@ -345,23 +345,22 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
             if (n <= 0) continue;
             uint32_t above = iz_row + (uint32_t)xa * iz_dx;
             GN_COUNT(rows, 1);
-#if !GN_SIZE_FIRST /* the slow way has the same results */
             uint32_t end = cut ? 0 : depth.range;
-            if (above < end && above + (uint32_t)(n - 1) * iz_dx < end) {
+            if (!GN_SIZE_FIRST && above < end && above + (uint32_t)(n - 1) * iz_dx < end) {
                 raster_span(row + xa, n, above + depth.lo + (uint32_t)(n - 1) * iz_dx, &depth);
                 continue;
             }
-#endif
 #if GN_VISIBLE_ALPHA
             if (cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
 #endif
+            /* with the same results */
             raster_span_slow(&depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
         }
     }
 }
 
 #if GN_VISIBLE_ALPHA
-static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+GN_HOT static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
     gn_alpha_cut *cut = &tile->scratch->work.cut;
     cut_begin(tile->frame, tile->scratch, cut, tri);
@@ -370,18 +369,13 @@ static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tr
 #endif
 
 /* A triangle that a screen tile meets. */
-static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
-#if !GN_SIZE_FIRST
-    if (tri->iz_min == GN_NARROW + 1 && !tri->iz_max) {
-        raster_narrow(tile, tri, id);
+    if (!GN_SIZE_FIRST && !gn_tri_is_bounded(tri) && tri->iz.unbounded.walk != GN_TRI_EXACT) {
+        if (tri->iz.unbounded.walk == GN_TRI_NARROW) raster_narrow(tile, tri, id);
+        else raster_small(tile, tri, id);
         return;
     }
-    if (tri->iz_min > 1 && !tri->iz_max) {
-        raster_small(tile, tri, id);
-        return;
-    }
-#endif
 #if GN_VISIBLE_ALPHA
     if (tile->frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
         raster_cut_triangle(tile, tri, id);
@@ -391,7 +385,7 @@ static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32
     raster_triangle(tile, tri, id, NULL);
 }
 
-void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
+GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     int32_t bits = GN_K(frame, subpixel_bits);
     raster_tile tile;
@@ -412,25 +406,15 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     GN_COUNT(pixels, tile.width * tile.height);
     memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
 #if GN_VISIBLE_ALPHA
-    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
+    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
 #endif
-        /* backwards: identities ascend */
-#if GN_SIZE_FIRST
-    for (uint32_t i = frame->tile_first[tile_idx + 1]; i-- > frame->tile_first[tile_idx];) {
-        uint32_t tri_idx = frame->tile_ref[i];
-        const gn_tri *tri = &frame->tri[tri_idx];
-        GN_ELEMENT(tri);
-        raster_one(&tile, tri, gn_cell_id(frame, tri_idx));
-    }
-#else
     const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]],
                    *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
     const gn_tri *first = frame->tri;
     uint32_t n_triangles = frame->stats.n_triangles;
-    GN_KEEP(first); /* found once */
-    while (ref != none) {
+    GN_KEEP(first);       /* found once */
+    while (ref != none) { /* backwards: identities ascend */
         uint32_t tri_idx = *--ref;
         raster_one(&tile, first + tri_idx, n_triangles - tri_idx); /* gn_cell_id */
     }
-#endif
 }

@@ -13,6 +13,21 @@ typedef int32_t gn_coord;
 typedef int16_t gn_coord;
 #endif
 
+/* How a triangle is drawn whose depth needs no bounds; other values are the rows that gn_walk_lasts gave. */
+enum { GN_TRI_EXACT = 1, GN_TRI_NARROW = 2 };
+
+/* Whether near / Z of a triangle may leave its range where it is drawn. If so, what that range is; if not, which is the
+ * rule, how the triangle may be drawn. gn_tri_is_bounded tells the two apart. */
+typedef union {
+    struct {
+        uint16_t least, largest; /* Q0.16, rounded outwards: least <= largest */
+    } bounds;
+    struct {
+        uint16_t walk; /* above 0: GN_TRI_EXACT, GN_TRI_NARROW or rows */
+        uint16_t zero;
+    } unbounded;
+} gn_tri_depth;
+
 /* A visible triangle on the screen, ready to be walked. Coordinates are from the picture's centre (y down), with
  * subpixel_bits fraction bits: up to 7 of them fit 16 bits in most pictures, as the guard band sees to. */
 typedef struct {
@@ -20,16 +35,21 @@ typedef struct {
                              down) is negative */
     uint32_t iz_ref;      /* near / Z at the centre of the pixel that holds vertex 0, Q0.32, modulo 2^32 */
     int32_t iz_dx, iz_dy; /* per pixel, modulo 2^32 */
-    uint16_t iz_min, iz_max; /* bounds of near / Z, Q0.16, rounded outwards; where none are needed, 1 + gn_walk_lasts or
-                                GN_NARROW, and 0 */
+    gn_tri_depth iz;
     uint16_t object_idx;
     uint16_t triangle_idx;
 } gn_tri;
 
-typedef struct {
-    uint32_t tag; /* object << 16 | vertex, plus one; 0: empty */
-    int32_t v_q16[3];
-} gn_vcache_entry;
+static inline int gn_tri_is_bounded(const gn_tri *tri)
+{
+    return tri->iz.bounds.least <= tri->iz.bounds.largest;
+}
+
+static inline void gn_tri_set_walk(gn_tri *tri, int32_t walk)
+{
+    tri->iz.unbounded.walk = (uint16_t)walk;
+    tri->iz.unbounded.zero = 0;
+}
 
 #if GN_MAX_TILE_REFS > 65535
 typedef uint32_t gn_ref_offset;

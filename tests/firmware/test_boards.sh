@@ -119,10 +119,24 @@ hot() {
         grep -q -x $function "$tmp/hot" && echo ok || echo "$function is not in the instruction memory of mps3-an547"
     done
     grep -q -x gn_scene_validate "$tmp/hot" && echo "gn_scene_validate is hot" || echo ok
+    # What is marked as hot (GN_HOT) is there, and nothing else of the library; a clone of a function counts as it.
+    sed -n 's|^GN_HOT ([^(]*[ *])([a-z_0-9]*)\(.*|\2|p' -E lib/*/*.[ch] | sort -u >"$tmp/marked"
+    [ "$(wc -l <"$tmp/marked")" -gt 100 ] && echo ok || echo "$(wc -l <"$tmp/marked") functions are marked as hot"
+    for image in mps3-an547/golden pico/crc stm32f429-discovery/crc; do
+        for section in .hot .text; do
+            arm-none-eabi-objdump -t "build/firmware/$image.elf" |
+                awk -v s=$section '$3 == "F" && $4 == s && $NF !~ /_veneer$/ { sub(/\..*/, "", $NF); print $NF }' | sort -u >"$tmp/in$section"
+        done
+        comm -12 "$tmp/marked" "$tmp/in.text" >"$tmp/lost"
+        [ -s "$tmp/lost" ] && echo "$image: marked as hot, but not in .hot: $(tr '\n' ' ' <"$tmp/lost")" || echo ok
+        comm -13 "$tmp/marked" "$tmp/in.hot" | grep -v -E '^(__|mem|copy_up|gn_port_)' >"$tmp/unmarked"
+        [ -s "$tmp/unmarked" ] && echo "$image: in .hot without a mark: $(tr '\n' ' ' <"$tmp/unmarked")" || echo ok
+        comm -12 "$tmp/marked" "$tmp/in.hot" | wc -l | awk -v i=$image '$1 < 50 { print i ": only " $1 " hot functions" } $1 >= 50 { print "ok" }'
+    done
     # What it calls elsewhere goes through a veneer: per vertex, object, tile and light is rare enough, per pixel is not.
     for image in mps3-an547/golden pico/crc; do
         arm-none-eabi-objdump -t "build/firmware/$image.elf" | sed -n 's/.* \.hot.* __\(.*\)_veneer$/\1/p' |
-            grep -v -x -E 'gn_(bin_tile_rect|setup_vertex|xform_[a-z_]*|cascade_tan2_q24|scene_auto_bias)' >"$tmp/away"
+            grep -v -x -E 'gn_(screen_rect|setup_vertex|clip|outcode|xform_[a-z_]*|cascade_tan2_q24|scene_auto_bias)' >"$tmp/away"
         [ -s "$tmp/away" ] && echo "$image: hot code calls $(tr '\n' ' ' <"$tmp/away")outside of .hot" || echo ok
     done
 }

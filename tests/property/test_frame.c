@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "canvas.h"
+#include "knobs.h"
 #include "check.h"
 #include "full_scene.h"
 
@@ -49,6 +50,27 @@ static void test_empty_cascade(void)
     demo.scene.shadow.cascade_ratio_uq16[0] = 0;
     CHECK(gn_render(&two, &demo.scene, flush, &c) == GN_OK);
     CHECK_EQ_INT(canvas_crc(&c), crc_of(&one, &demo.scene, 48, 32, GN_FORMAT_RGB888));
+    canvas_end(&c);
+}
+
+/* The scene is the caller's again after the last screen tile: what is asked of its lights later reads none of it. */
+static void test_scene_gone(void)
+{
+    gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
+    gn_scene *scene = malloc(sizeof *scene);
+    gn_tile_info info;
+    uint32_t n_tiles = 0;
+    canvas c;
+    canvas_begin(&c, 48, 32, GN_FORMAT_RGB888);
+    demo_scene_make(&demo, 1);
+    *scene = demo.scene;
+    CHECK(gn_init(&one, &p) == GN_OK);
+    CHECK(gn_render(&one, scene, flush, &c) == GN_OK);
+    memset(scene, 0, sizeof *scene);
+    free(scene); /* the address sanitizer sees who reads it now */
+    CHECK(gn_get_light_shadow(&one, 0, &n_tiles, NULL) == GN_SHADOW_REALTIME && n_tiles > 0);
+    CHECK(gn_get_shadow_tile(&one, 0, 0, &info) > 0);
+    CHECK(gn_get_light_shadow(&one, demo.scene.n_lights, &n_tiles, NULL) == GN_SHADOW_NOT_WANTED && n_tiles == 0);
     canvas_end(&c);
 }
 
@@ -145,7 +167,7 @@ static void test_many_bright_lights(void)
         demo.scene.n_objects = 1;
         canvas_begin(&c, p.width, p.height, p.format);
         CHECK(gn_init(&one, &p) == GN_OK);
-        one.frame.knobs.persp_step = i ? 8 : 1;
+        SET_KNOB(&one.frame, persp_step, i ? 8 : 1);
         CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
         crc[i] = canvas_crc(&c);
         canvas_end(&c);
@@ -192,7 +214,7 @@ static void test_caster_moved_into_view(void)
     demo.scene.lights = &spot;
     demo.scene.n_objects = 1;
     CHECK(gn_init(&one, &p) == GN_OK);
-    one.frame.knobs.other_atlas_size = 16;
+    if (!TAKES_KNOB(&one.frame, other_atlas_size, 16)) return;
     CHECK(gn_begin(&one, &demo.scene) == GN_OK && gn_shadow_tile_count(&one) == 1 && gn_shadow_tile(&one, 0) == GN_OK);
     CHECK_EQ_INT(gn_get_stats(&one)->n_caster_triangles, 1);
 }
@@ -371,9 +393,9 @@ static void test_tile_sizes(void)
         for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
             canvas_begin(&c, p.width, p.height, p.format);
             gn_init(&one, &p);
-            one.frame.knobs.tile_width = sizes[i][0];
-            one.frame.knobs.tile_height = sizes[i][1];
-            one.frame.knobs.persp_step = persp_step;
+            SET_KNOB(&one.frame, tile_width, sizes[i][0]);
+            SET_KNOB(&one.frame, tile_height, sizes[i][1]);
+            SET_KNOB(&one.frame, persp_step, persp_step);
             CHECK(gn_render(&one, &demo.scene, flush, i ? &c : &first) == GN_OK);
             CHECK(each_pixel_once(i ? &c : &first));
             int same = persp_step == 1 || p.format == GN_FORMAT_RAW32;
@@ -403,6 +425,7 @@ int main(void)
 {
     test_same_again();
     test_empty_cascade();
+    test_scene_gone();
     test_abandoned_frame();
     test_colour_exponent();
     test_automatic_by_default();

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "exact.h"
+#include "knobs.h"
 #include <stdlib.h>
 
 #include "shade/gn_pixel.h"
@@ -71,7 +72,8 @@ static uint32_t nearest(uint32_t v, uint32_t levels)
 static uint32_t encoded(uint32_t linear_q20)
 {
     uint64_t clamped = linear_q20 < ONE_Q20 ? linear_q20 : ONE_Q20;
-    return frame.knobs.srgb ? gn_srgb_encode(linear_q20) : (uint32_t)((2 * clamped * 65535 + ONE_Q20) / (2 * ONE_Q20));
+    return GN_K(&frame, srgb) ? gn_srgb_encode(linear_q20)
+                              : (uint32_t)((2 * clamped * 65535 + ONE_Q20) / (2 * ONE_Q20));
 }
 
 static int packed_ok(const uint32_t q20[3])
@@ -91,7 +93,7 @@ static void test_pack(void)
     for (int format = 0; format < 2; format++)
         for (int curve = 0; curve < 2; curve++) {
             frame.picture.format = format ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565;
-            frame.knobs.srgb = curve;
+            SET_KNOB(&frame, srgb, curve);
             for (uint32_t i = 0; i <= ONE_Q20 + 64; i += 4) {
                 uint32_t q20[3] = {i, (i * 5 + 1) & (ONE_Q20 - 1),
                                    rng_u32(&random_state) >> rng_below(&random_state, 13)};
@@ -139,7 +141,7 @@ static double curve(double x)
 static void test_greys(void)
 {
     tally grey = {0}, swapped = {0};
-    frame.knobs.srgb = 1;
+    SET_KNOB(&frame, srgb, 1);
     for (uint32_t k = 0; k < 300000; k++) {
         uint32_t q20[3];
         double y = 0;
@@ -205,7 +207,7 @@ static void test_levels(void)
     static int seen[256];
     int n = 0;
     frame.picture.format = GN_FORMAT_RGB888;
-    frame.knobs.srgb = 1;
+    SET_KNOB(&frame, srgb, 1);
     for (uint32_t i = 0; i <= ONE_Q20; i += 16) {
         uint32_t q20[3] = {i, 0, ONE_Q20}, pixel = gn_pixel_pack(&frame, q20);
         n += !seen[pixel & 255U]++;

@@ -25,7 +25,7 @@ static int64_t extent_of(const gn_light_view *view, const gn_object *object)
 
 static void add_caster(compile_run *run, const gn_renderer *r, const gn_light_view *view, uint32_t object_idx)
 {
-    bool seen = gn_cull_sees(&r->frame, view, &r->frame.object[object_idx]);
+    bool seen = gn_cull_sees(&r->frame, view, object_idx);
     run->casters_unseen += !seen;
     if (view->perspective) return; /* these take any caster */
     /* B4 moves a corner by as many texels at the most */

@@ -1,0 +1,31 @@
+/* Mask images. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_q.h"
+#include "geometry/gn_texture.h"
+
+/* What find_taps in gn_texture.c gives of a clamped, bilinear image: once per pixel and light, so without a branch. */
+GN_HOT static gn_texture_taps mask_taps(int32_t c_q16, uint32_t size_log2)
+{
+    int32_t last = (1 << size_log2) - 1, at_q16 = gn_max32(0, gn_min32(c_q16, 65536)) * (1 << size_log2) - 32768;
+    int32_t first = at_q16 >> 16; /* -1 .. last */
+    return (gn_texture_taps){(uint32_t)gn_max32(first, 0), (uint32_t)gn_min32(first + 1, last),
+                             (uint32_t)at_q16 & 0xFFFFU};
+}
+
+/* Where all four texels are one, as in all that is wholly lit or dark, so is what lies between them. */
+GN_HOT uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel)
+{
+    const uint32_t bytes_log2 = image->flags & GN_TEXTURE_MASK_1 ? 0 : image->flags & GN_TEXTURE_MASK_2 ? 1 : 2;
+    GN_COUNT(masked, 1);
+    if (channel >> bytes_log2) return 65536;
+    const gn_texture_taps u = mask_taps(u_q16, image->width_log2), v = mask_taps(v_q16, image->height_log2);
+    const uint8_t *upper = image->rgba + channel + ((size_t)v.first << image->width_log2 << bytes_log2);
+    const uint8_t *lower = image->rgba + channel + ((size_t)v.second << image->width_log2 << bytes_log2);
+    const uint32_t left = u.first << bytes_log2, right = u.second << bytes_log2;
+    const uint32_t a = upper[left] * 257U, b = upper[right] * 257U, c = lower[left] * 257U, d = lower[right] * 257U;
+    if (!((a ^ b) | (a ^ c) | (a ^ d))) return gn_texture_to_uq16(a);
+    return gn_texture_to_uq16(
+        gn_texture_mix(gn_texture_mix(a, b, u.weight_uq16), gn_texture_mix(c, d, u.weight_uq16), v.weight_uq16));
+}

@@ -1,0 +1,96 @@
+/* Signatures of shadow tiles. */
+#include "gn_internal.h"
+
+#include "base/gn_signature.h"
+#include "shadow/gn_kept.h"
+
+static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
+{
+    const gn_light *light = &frame->scene->lights[view->light_idx];
+    uint64_t s = gn_signature_words(GN_SIGNATURE_SEED, &view->axis_q30[0][0], 9);
+    const int32_t biases[4] = {view->bias_constant_q16, view->bias_slope_q16, light->bias_caster_q16,
+                               GN_K(frame, shadow_subpixel_bits)};
+    s = gn_signature_words(s, biases, 4);
+    s = gn_signature_add(s, (uint64_t)view->first_texel << 8 | (uint64_t)view->in_other << 1 | view->perspective);
+    s = gn_signature_add(s, (uint64_t)view->tile_texels << 32 | (uint64_t)view->depth_log2 << 8 | view->depth_bits);
+    if (view->perspective) {
+        const gn_persp_fit *fit = &view->fit.persp;
+        s = gn_signature_words(s, fit->eye_q16, 3);
+        return gn_signature_add(s, (uint64_t)(uint32_t)fit->near_q16 << 32 | fit->focal2_q16);
+    }
+    const gn_ortho_fit *fit = &view->fit.ortho;
+    s = gn_signature_words(s, fit->origin, 3);
+    return gn_signature_add(s, (uint64_t)fit->inv_texel.mant << 32 | (uint32_t)fit->inv_texel.exp);
+}
+
+static uint64_t object_signature(uint64_t s, const gn_object *object)
+{
+    const gn_mesh *mesh = object->mesh;
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->pos);
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->idx);
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->nrm_q15);
+    s = gn_signature_add(s, (uint64_t)mesh->n_vertices << 32 | (uint64_t)mesh->n_triangles << 16 |
+                                (uint64_t)mesh->pos_frac_bits << 8 | (uint64_t)object->caster_alpha << 4);
+    s = gn_signature_words(s, &object->to_world.m_q30[0][0], 9);
+    s = gn_signature_words(s, object->to_world.t_q16, 3);
+    s = gn_signature_add(s, (uint64_t)(uint32_t)object->to_world.exp << 32 |
+                                (object->flags & ~(uint32_t)GN_OBJECT_HIDDEN));
+    if (!GN_CASTER_ALPHA || object->caster_alpha == GN_ALPHA_OPAQUE) return s;
+    s = gn_signature_add(s, (uint64_t)object->alpha_uq16 << 32 | object->alpha_cutoff_uq16);
+    if (!object->texture) return s;
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)object->texture->rgba);
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->uv);
+    s = gn_signature_add(s, (uint64_t)object->texture->width_log2 << 24 | (uint64_t)object->texture->height_log2 << 16 |
+                                (uint64_t)object->texture->flags << 8 | mesh->uv_frac_bits);
+    return s;
+}
+
+uint64_t gn_kept_signature(const gn_frame *frame, const gn_light_view *view, gn_layer layer)
+{
+    uint64_t s = view_signature(frame, view);
+    for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
+        int culled;
+        if (gn_cull_draws(frame, view, o, layer, &culled)) s = object_signature(s, &frame->scene->objects[o]);
+    }
+    return s ? s : 1;
+}
+
+void gn_kept_check_layout(gn_frame *frame, const gn_tile_plan *plan)
+{
+    uint64_t layout = gn_signature_add(GN_SIGNATURE_SEED, (uint64_t)GN_K(frame, depth_bits) << 8 |
+                                                              (uint64_t)GN_K(frame, atlas_size) << 32);
+    if (GN_OTHER_ATLAS)
+        layout = gn_signature_add(layout, (uint64_t)GN_K(frame, other_depth_bits) << 8 |
+                                              (uint64_t)GN_K(frame, other_atlas_size) << 32);
+    layout = gn_signature_add(layout, frame->scene->shadow.cascades_unused);
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++)
+        layout = gn_signature_add(layout, (uint64_t)plan[l].n_tiles << 32 | (uint64_t)plan[l].in_other << 16 |
+                                              plan[l].tile_log2);
+    if (layout == frame->layout) return;
+    frame->layout = layout;
+    for (uint32_t i = 0; i < GN_VIEWS_MAX; i++) frame->memory[i].signature = frame->memory[i].static_signature = 0;
+}
+
+int gn_kept_holds(const gn_frame *frame, uint32_t view_idx)
+{
+    return frame->memory[view_idx].signature != 0;
+}
+
+static uint64_t *signature_of(gn_frame *frame, uint32_t view_idx, gn_layer layer)
+{
+    gn_tile_memory *memory = &frame->memory[view_idx];
+    return layer == GN_LAYER_STATIC ? &memory->static_signature : &memory->signature;
+}
+
+int gn_kept_is_same(gn_frame *frame, uint32_t view_idx, gn_layer layer, uint64_t signature)
+{
+    uint64_t *kept = signature_of(frame, view_idx, layer);
+    if (*kept == signature) return 1;
+    *kept = 0;
+    return 0;
+}
+
+void gn_kept_set(gn_frame *frame, uint32_t view_idx, gn_layer layer, uint64_t signature)
+{
+    *signature_of(frame, view_idx, layer) = signature;
+}

@@ -1,0 +1,172 @@
+/* Views of lights: their directions, tiles, filters and biases. */
+#include "gn_internal.h"
+
+#include "base/gn_hint.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "light/gn_bias.h"
+#include "light/gn_cascade.h"
+#include "shadow/gn_blocks.h"
+#include "shadow/gn_cull.h"
+#include "shadow/gn_kept.h"
+#include "shadow/gn_light_views.h"
+#include "shadow/gn_ortho.h"
+#include "shadow/gn_persp.h"
+#include "shadow/gn_texel.h"
+#include "shadow/gn_tiles.h"
+
+/* DESIGN 1.4: u, v, w from the direction of travel. */
+static void view_axes(gn_light_view *view, const int32_t w_q30[3])
+{
+    int32_t(*axis)[3] = view->axis_q30;
+    const uint32_t limit = 15U << 26; /* 15/16 */
+    for (int i = 0; i < 3; i++) axis[2][i] = w_q30[i];
+    int64_t along_y[3] = {w_q30[2], 0, -(int64_t)w_q30[0]}; /* (0, 1, 0) x w */
+    int64_t along_x[3] = {0, -(int64_t)w_q30[2], w_q30[1]}; /* (1, 0, 0) x w */
+    gn_normalise_q30(axis[0], gn_abs32(w_q30[1]) < limit ? along_y : along_x);
+    gn_cross_q30(axis[1], axis[2], axis[0]);
+}
+
+/* F5 */
+static gn_filter resolve_filter(gn_filter atlas, gn_softness softness)
+{
+    if (softness == GN_SOFTNESS_HARD) return atlas == GN_FILTER_HARD ? GN_FILTER_HARD : GN_FILTER_2X2;
+    if (softness == GN_SOFTNESS_SOFT && atlas < GN_FILTER_5X5) return GN_FILTER_5X5;
+    return atlas;
+}
+
+static void set_filter(const gn_frame *frame, gn_light_view *view, const gn_light *light)
+{
+    const gn_shadow_settings *shadow = &frame->scene->shadow;
+    gn_filter filter = resolve_filter(view->in_other ? shadow->other_filter : shadow->filter, light->softness);
+    view->filter = (uint8_t)filter;
+    view->filter_idx = filter > GN_FILTER_2X2 ? (uint8_t)(filter - GN_FILTER_2X2) : 0;
+    view->disk_radius_q16 = 0;
+    if (!GN_DISK_FILTER || filter != GN_FILTER_DISK) return;
+    /* 0.004 T for views that are a share of their tile; an orthographic fit says otherwise */
+    int64_t radius_q16 =
+        gn_shr64((int64_t)shadow->penumbra_uq16 * view->tile_texels * 17179869, 32); /* 2^22 * 2^10 * 2^25 */
+    view->filter_idx = (uint8_t)gn_clamp64((radius_q16 + 65535) >> 16, 1, GN_DISK_INDEX_MAX);
+    view->disk_radius_q16 = (int32_t)gn_clamp64(radius_q16, 0, (int64_t)view->filter_idx << 16);
+}
+
+static void set_texels(gn_frame *frame, gn_light_view *view)
+{
+    view->depth_bits = (uint8_t)GN_K(frame, depth_bits);
+    view->depth = GN_TEXELS_OF(frame->atlas, view->depth_bits);
+#if GN_OTHER_ATLAS
+    if (view->in_other) {
+        view->depth_bits = (uint8_t)GN_K(frame, other_depth_bits);
+        view->depth = GN_TEXELS_OF(frame->other_atlas, view->depth_bits);
+    }
+#endif
+    view->depth = gn_texels_at(view->depth, view->depth_bits, view->first_texel);
+    if (GN_DEPTH_BLOCKS) gn_blocks_find(frame, view);
+}
+
+static void fit_directional(gn_frame *frame, gn_light_view *view, const gn_light *light, int cascaded)
+{
+    int64_t direction[3] = {light->direction[0], light->direction[1], light->direction[2]};
+    int32_t w[3], near_q16 = frame->scene->camera.near_q16, far_q16 = frame->scene->shadow.max_distance_q16;
+    gn_normalise_q30(w, direction);
+    view_axes(view, w);
+    if (cascaded) gn_cascade_slice(frame, view->cascade_idx, &near_q16, &far_q16);
+    gn_ortho_fit_view(frame, view, light, near_q16, far_q16);
+}
+
+static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int cascaded)
+{
+    view->bias_constant_q16 = light->bias_constant_q16;
+    view->bias_slope_q16 = light->bias_slope_q16;
+    set_filter(frame, view, light);
+    if (!view->perspective) fit_directional(frame, view, light, cascaded);
+    if (GN_PUNCTUAL_LIGHTS && view->perspective) {
+        int32_t w[3];
+        for (int i = 0; i < 3; i++) w[i] = -frame->light[view->light_idx].to_light_q30[i];
+        if (light->kind == GN_LIGHT_POINT) gn_persp_face_axis(w, view->cascade_idx);
+        view_axes(view, w);
+        gn_persp_fit_view(frame, view, light);
+    }
+    if (GN_AUTO_BIAS && frame->light[view->light_idx].auto_bias) {
+        gn_bias_auto_view(frame, view);
+        return;
+    }
+    view->offset_q16 = gn_mul_shr(light->bias_normal_q16, 92682 * (view->filter_idx + 1), 16); /* sqrt(2) in Q16 */
+    if (GN_RECEIVER_BIAS) view->offset_q16 += (view->filter_idx + 1) * light->bias_receiver_q16[2];
+}
+
+/* A5: whether the schedule lets a cascade keep its tile of an earlier frame, which slot `idx` still holds. After a
+ * frame that was begun but not drawn the slot holds a fit that its texels do not belong to. */
+static inline int stays(const gn_frame *frame, uint32_t idx, uint32_t light_idx, uint32_t cascade_idx)
+{
+    uint32_t period = frame->scene->shadow.refresh[cascade_idx];
+    const gn_light_view *view = &frame->view[idx];
+    gn_filter filter = resolve_filter(frame->scene->shadow.filter, frame->scene->lights[light_idx].softness);
+    if (period < 2 || frame->frame_count % period == 0 || !gn_kept_holds(frame, idx)) return 0;
+    if (!view->tile_done) return 0;       /* the frame was abandoned: the fit is newer than the texels */
+    if (view->filter != filter) return 0; /* what another filter needs was not validated */
+    return !view->perspective && !view->empty && view->light_idx == light_idx && view->cascade_idx == cascade_idx;
+}
+
+static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *plan, uint32_t cascade_idx,
+                     uint32_t *first_texel)
+{
+    gn_light_view *view = &frame->view[frame->n_views];
+    GN_ELEMENT(view);
+    view->stale = 0;
+    if (GN_INCREMENTAL && plan->cascaded) view->stale = (uint8_t)stays(frame, frame->n_views, light_idx, cascade_idx);
+    frame->n_views++;
+    view->tile_done = 0;
+    view->light_idx = (uint16_t)light_idx;
+    view->cascade_idx = (uint8_t)cascade_idx;
+    view->in_other = plan->in_other;
+    view->tile_log2 = plan->tile_log2;
+    view->tile_texels = (uint16_t)(1U << plan->tile_log2);
+    view->first_texel = *first_texel;
+    if (!plan->cascaded || !GN_CASCADE_UNUSED(frame, cascade_idx)) *first_texel += 1U << (2 * plan->tile_log2);
+    set_texels(frame, view);
+    /* also of an empty one: a light's first view says what kind all of them are */
+    view->perspective = frame->light[light_idx].kind != GN_LIGHT_DIRECTIONAL;
+    view->border_lit = !view->perspective && !plan->cascaded;
+    view->empty = plan->cascaded && frame->cascade[cascade_idx].radius2_q32 == 0;
+    if (view->empty) return;
+    if (view->stale) gn_ortho_rays(frame, view);
+    if (GN_AUTO_BIAS && view->stale && frame->light[light_idx].auto_bias) gn_bias_auto_view(frame, view);
+    /* a texel that was fitted to a far narrower picture can leave a ray no fraction bits */
+    if (view->stale && view->fit.ortho.ray_shift < 0) view->stale = 0;
+    if (!view->stale) fit(frame, view, &frame->scene->lights[light_idx], plan->cascaded);
+}
+
+/* Tiles of one atlas lie one behind the other, larger ones first, so that each begins at a multiple of its size. */
+static void add_views(gn_frame *frame, const gn_tile_plan *plan)
+{
+    uint32_t first[GN_MAX_LIGHTS] = {0}, next[2] = {0, 0};                /* every light with tiles gets its first */
+    for (int32_t log2 = GN_TILE_IMPORTANCE ? 10 : 3; log2 >= 3; log2--) { /* else one size per atlas */
+        for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+            if (!plan[l].n_tiles || (GN_TILE_IMPORTANCE && plan[l].tile_log2 != log2)) continue;
+            first[l] = next[plan[l].in_other];
+            next[plan[l].in_other] += (uint32_t)plan[l].n_drawn << (2 * plan[l].tile_log2);
+        }
+    }
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        if (!plan[l].n_tiles) continue;
+        frame->light[l].view_idx = (int16_t)frame->n_views;
+        frame->light[l].n_views = plan[l].n_tiles;
+        frame->has_cascades |= plan[l].cascaded;
+        for (uint32_t c = 0; c < plan[l].n_tiles; c++) add_view(frame, l, &plan[l], c, &first[l]);
+    }
+}
+
+gn_status gn_light_views_setup(gn_frame *frame)
+{
+    gn_tile_plan plan[GN_MAX_LIGHTS];
+    frame->has_cascades = 0;
+    gn_cascade_setup(frame);
+    gn_status status = gn_tiles_plan(frame, plan);
+    if (status) return status;
+    if (GN_INCREMENTAL) gn_kept_check_layout(frame, plan);
+    add_views(frame, plan);
+    if (GN_CASTER_CULLING) gn_cull_begin(frame);
+    frame->frame_count++;
+    return GN_OK;
+}

@@ -1,0 +1,10 @@
+/* Views of lights: each light that casts shadows gets tiles, and each tile a direction, a filter and a bias. */
+#ifndef GN_LIGHT_VIEWS_H
+#define GN_LIGHT_VIEWS_H
+
+#include "gnomon.h"
+
+/* Fills frame->view, and what frame->light says of shadows. gn_lights_setup has been called. */
+gn_status gn_light_views_setup(gn_frame *frame);
+
+#endif

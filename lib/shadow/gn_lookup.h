@@ -1,0 +1,77 @@
+/* A look at texels of a shadow tile: which of them keep a receiver dark. What all filters are made of. */
+#ifndef GN_LOOKUP_H
+#define GN_LOOKUP_H
+
+#include "base/gn_count.h"
+#include "base/gn_q.h"
+#include "shadow/gn_blocks.h"
+#include "shadow/gn_filter.h"
+#include "shadow/gn_texel.h"
+
+/* A receiver made ready for its taps. A texel, in the upper bits of 32, is lit if it is not below `least`: the
+ * receiver's depth rounded to the bits of the view and depth_frac, at most that of an empty texel. */
+typedef struct {
+    const gn_light_view *view;
+    int32_t u_q16, v_q16;
+    uint32_t least;
+    int32_t sloped; /* B5: with GN_RECEIVER_PLANE alone are this and what follows set */
+    int32_t slope_q28[2];
+    int64_t least_q32; /* on the plane, at the texel that (u, v) lies in, not limited */
+} gn_lookup;
+
+/* Bits of depth_q32 that rounding drops: 0, or at least 12. */
+GN_HOT static inline int32_t gn_dropped_bits(const gn_frame *frame, const gn_light_view *view)
+{
+    (void)frame;
+    return GN_VIEW_BITS(view) == 32 ? 0 : 32 - GN_VIEW_BITS(view) - GN_K(frame, shadow_depth_frac);
+}
+
+/* The far value is a multiple of 2^dropped: nothing below it rounds beyond it. */
+GN_HOT static inline uint32_t gn_rounded_depth(uint32_t depth_q32, int32_t dropped, uint32_t far)
+{
+    if (depth_q32 >= far) return far;
+    return dropped ? (depth_q32 + (1U << (dropped - 1))) >> dropped << dropped : depth_q32;
+}
+
+/* least_q32 at a texel of the tile, at most 64 + 1023 texels away in each axis: 2^50 and twice 2^44. */
+GN_HOT static inline int64_t gn_least_on_plane(const gn_lookup *l, int32_t u, int32_t v)
+{
+    int32_t du = u - (l->u_q16 >> 16), dv = v - (l->v_q16 >> 16);
+    return l->least_q32 + (int64_t)l->slope_q28[0] * (16 * du) + (int64_t)l->slope_q28[1] * (16 * dv);
+}
+
+GN_HOT static inline uint32_t gn_limited_depth(const gn_light_view *view, int64_t least_q32)
+{
+    uint32_t far = gn_texel_far(GN_VIEW_BITS(view));
+    return least_q32 < 0 ? 0 : least_q32 > (int64_t)far ? far : (uint32_t)least_q32;
+}
+
+GN_HOT static inline gn_texels gn_view_texels(const gn_light_view *view, int32_t u, int32_t v)
+{
+    return gn_texels_at(view->depth, GN_VIEW_BITS(view), ((size_t)(uint32_t)v << view->tile_log2) + (uint32_t)u);
+}
+
+/* Whether n x n texels from (u, v) on lie in the tile and compare with one depth: nothing to look after at each tap.
+ * Where size comes first it is looked after all the same. */
+GN_HOT static inline int gn_lookup_is_plain(const gn_lookup *l, int32_t u, int32_t v, int32_t n)
+{
+    uint32_t room = (uint32_t)(l->view->tile_texels - n);
+    return !GN_SIZE_FIRST && !(GN_RECEIVER_PLANE && l->sloped) && (uint32_t)u <= room && (uint32_t)v <= room;
+}
+
+/* Texels of row v, n from u on, wherever they lie: bit i is set where texel i keeps the receiver dark. */
+uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n);
+
+/* A tap of the hard filter, the disk or 2x2 at the border: 1 if it is lit. */
+GN_HOT static inline uint32_t gn_lookup_tap(const gn_lookup *l, int32_t u, int32_t v)
+{
+    GN_COUNT(taps_lone, 1);
+    if (!gn_lookup_is_plain(l, u, v, 1)) return !gn_lookup_dark(l, u, v, 1);
+    return gn_texel_load(gn_view_texels(l->view, u, v), GN_VIEW_BITS(l->view), 0) >= l->least;
+}
+
+/* Whether blocks' bounds tell the answer for all of the n x n <= 18 x 18 texels from (u, v) on, 0 or 65536:
+ * gn_lookup_bounds.c. */
+int gn_lookup_decided(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *answer);
+
+#endif

@@ -1,0 +1,249 @@
+/* Triangles on the screen. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_hint.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "geometry/gn_walk.h"
+#include "visible/gn_screen_triangle.h"
+#include "visible/gn_setup.h"
+
+/* ---- Depth ------------------------------------------------------------------------------------------------------- */
+
+/* near / Z over a triangle. */
+typedef struct {
+    uint32_t ref;   /* at the centre of the pixel that holds the top, modulo 2^32 */
+    int32_t dx, dy; /* per pixel */
+    uint32_t least, largest;
+} depth_range;
+
+/* floor(n * f / 2^(33 + s)), |n| < 2^60, 1 <= s <= 62. Returns 0 if that is more than 32 bits. */
+static inline int gradient(int32_t *out, int64_t n, int32_t f, int32_t s)
+{
+    int32_t hi = (int32_t)(n >> 32), lo = (int32_t)((uint32_t)n >> 1);
+    GN_KEEP(hi); /* 32 bits each: products are one instruction */
+    GN_KEEP(lo);
+    int64_t v = ((int64_t)hi * f + ((int64_t)lo * f >> 31)) >> s;
+    *out = (int32_t)v;
+    return v == *out;
+}
+
+/* The plane through three projected corners, in Q16 pixels: |x|, |y| < 2^27. Where it is too steep, a
+ * pixel spans half of all depths: the nearest stands for it. */
+static inline void depth_of_corners(depth_range *depth, const gn_projected *c0, const gn_projected *c1,
+                                    const gn_projected *c2, int32_t to_x_q16, int32_t to_y_q16)
+{
+    uint32_t i0 = c0->iz_q32, i1 = c1->iz_q32, i2 = c2->iz_q32;
+    uint32_t largest = i0 > i1 ? i0 : i1, least = i0 > i1 ? i1 : i0;
+    depth->largest = i2 > largest ? i2 : largest;
+    depth->least = i2 < least ? i2 : least;
+    int32_t ax = c1->x_q16 - c0->x_q16, ay = c1->y_q16 - c0->y_q16, bx = c2->x_q16 - c0->x_q16,
+            by = c2->y_q16 - c0->y_q16;
+    int32_t a = (int32_t)(i1 >> 1) - (int32_t)(i0 >> 1), b = (int32_t)(i2 >> 1) - (int32_t)(i0 >> 1);
+    int64_t area = (int64_t)ax * by - (int64_t)bx * ay; /* 2^57 */
+    uint64_t size = gn_abs64(area) | 1U;
+    int32_t clz = gn_clz64(size),
+            s = 45 - clz; /* gradients are n / area * 2^17 = n * (2^63 / norm) / 2^(78 - clz), in halves */
+    int32_t recip = (int32_t)(gn_recip_norm2((uint32_t)(size << clz >> 32)) >> 1);
+    if (area < 0) recip = -recip;
+    GN_KEEP(recip);
+    if (s < 1 || !gradient(&depth->dx, (int64_t)a * by - (int64_t)b * ay, recip, s) ||
+        !gradient(&depth->dy, (int64_t)b * ax - (int64_t)a * bx, recip, s)) {
+        depth->dx = depth->dy = 0;
+        depth->ref = depth->largest;
+        return;
+    }
+    /* to the centre: less than two pixels */
+    int64_t step = (int64_t)depth->dx * to_x_q16 + (int64_t)depth->dy * to_y_q16;
+    depth->ref = c0->iz_q32 + (uint32_t)(step >> 16);
+}
+
+/* To the subpixel grid, to nearest. */
+static inline int32_t snap(int32_t q16, int32_t bits)
+{
+    return (q16 + (1 << (15 - bits))) >> (16 - bits);
+}
+
+/* A corner on the subpixel grid. */
+typedef struct {
+    const gn_projected *at;
+    int32_t x, y;
+} grid_corner;
+
+/* A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel grid along each axis:
+ * by so much may depth leave the triangle's own range. */
+static inline uint32_t depth_margin(int32_t dx, int32_t dy, int32_t bits)
+{
+    return (((gn_abs32(dx) >> 1) + (gn_abs32(dy) >> 1)) >> bits) + 4096; /* and roundings of 2^13 steps */
+}
+
+/* Where the margin is smaller, and neither end of all depths is within it, depth needs no bounds. */
+#define MARGIN_MAX (1U << 18)
+
+/* Depth of any triangle, from c0 to the centre of the pixel that holds it. */
+static GN_NOINLINE void general_depth(gn_tri *tri, const gn_projected *c0, const gn_projected *c1,
+                                      const gn_projected *c2, int32_t to_x_q16, int32_t to_y_q16, int32_t walk,
+                                      int32_t bits)
+{
+    depth_range depth;
+    depth_of_corners(&depth, c0, c1, c2, to_x_q16, to_y_q16);
+    tri->iz_ref = depth.ref;
+    tri->iz_dx = depth.dx;
+    tri->iz_dy = depth.dy;
+    uint32_t margin = depth_margin(depth.dx, depth.dy, bits);
+    if (margin < MARGIN_MAX && depth.least > margin && depth.largest < UINT32_MAX - margin) {
+        gn_tri_set_walk(tri, walk);
+        return;
+    }
+    tri->iz.bounds.least = (uint16_t)(depth.least >> 16);
+    tri->iz.bounds.largest = (uint16_t)(depth.largest >> 16);
+}
+
+/* gradient() of a shift below 32: the lower word as a signed one */
+static inline int quick_gradient(int32_t *out, int64_t n, int32_t f, int32_t s)
+{
+    int32_t lo = (int32_t)((uint32_t)n & ~1U), hi = (int32_t)(n >> 32) + (int32_t)((uint32_t)lo >> 31);
+    GN_KEEP(hi);
+    int64_t v = (int64_t)hi * f + (int32_t)((int64_t)lo * f >> 32);
+    *out = (int32_t)((uint32_t)v >> s | (uint32_t)(v >> 32) << (32 - s));
+    return (int32_t)(v >> 32) >> s == *out >> 31;
+}
+
+/* The same for a triangle that faces the camera, has more than half a pixel and less than 2^17, and needs no bounds.
+ * Returns 0 for others. */
+static inline int quick_depth(gn_tri *tri, const gn_projected *c0, const gn_projected *c1, const gn_projected *c2,
+                              int32_t to_x_q16, int32_t to_y_q16, int32_t walk, int32_t bits)
+{
+    int32_t ax = c1->x_q16 - c0->x_q16, ay = c1->y_q16 - c0->y_q16, minus_bx = c0->x_q16 - c2->x_q16,
+            by = c2->y_q16 - c0->y_q16;
+    uint64_t size = (uint64_t) - ((int64_t)ax * by + (int64_t)minus_bx * ay) | 1U;
+    uint32_t hi = (uint32_t)(size >> 32), i0 = c0->iz_q32, i1 = c1->iz_q32, i2 = c2->iz_q32;
+    if (hi - 1 >= (1U << 18) - 1) return 0;
+    int32_t clz = gn_clz32(hi), s = 45 - clz, dx, dy;
+    int32_t recip = -(int32_t)(gn_recip_norm2(hi << clz | (uint32_t)size >> (32 - clz)) >> 1);
+    int32_t a = (int32_t)(i1 >> 1) - (int32_t)(i0 >> 1), b = (int32_t)(i2 >> 1) - (int32_t)(i0 >> 1);
+    if (!quick_gradient(&dx, (int64_t)a * by + (int64_t)-b * ay, recip, s) ||
+        !quick_gradient(&dy, (int64_t)b * ax + (int64_t)a * minus_bx, recip, s))
+        return 0;
+    uint32_t margin = depth_margin(dx, dy, bits), more = margin + 1, range = UINT32_MAX - margin - more;
+    GN_KEEP(more);
+    if (margin >= MARGIN_MAX || i0 - more >= range || i1 - more >= range || i2 - more >= range) return 0;
+    int64_t step = (int64_t)dx * to_x_q16 + (int64_t)dy * to_y_q16; /* less than two pixels */
+    tri->iz_ref = i0 + (uint32_t)(step >> 16);
+    tri->iz_dx = dx;
+    tri->iz_dy = dy;
+    gn_tri_set_walk(tri, walk);
+    return 1;
+}
+
+/* ---- Triangles --------------------------------------------------------------------------------------------------- */
+
+/* Counts a triangle in the screen tiles that it may have pixels in, if these are few, and leaves them for gn_bin.c.
+ * Returns 0 if they are many. */
+static inline int count_few_tiles(const gn_screen_job *job, const gn_rect *px, uint32_t tri_idx)
+{
+    const gn_frame *frame = job->frame;
+    uint32_t w = (uint32_t)GN_K(frame, tile_width), h = (uint32_t)GN_K(frame, tile_height),
+             tiles_x = frame->tiles_x; /* nothing is negative */
+    uint32_t one = (uint32_t)px->y0 / h * tiles_x + (uint32_t)px->x0 / w;
+    uint32_t apart = (uint32_t)(px->y1 - 1) / h * tiles_x + (uint32_t)(px->x1 - 1) / w - one;
+    uint32_t way = !apart             ? GN_PLACE_ONE
+                   : apart == 1       ? GN_PLACE_NEXT
+                   : apart == tiles_x ? GN_PLACE_BELOW
+                                      : GN_PLACE_MANY;
+    if (tri_idx < GN_PLACES) job->place[tri_idx] = (uint16_t)(one << 2 | way);
+    if (way == GN_PLACE_MANY) return 0;
+    gn_ref_offset *n_first = &job->tile_first[one];
+    ++*n_first;
+    if (apart) ++n_first[apart];
+    return 1;
+}
+
+/* The same of any number of tiles. */
+static inline void count_tiles(gn_frame *frame, const gn_rect *px)
+{
+    gn_tile_walk tiles = gn_setup_tiles(frame, px); /* of some tiles */
+    gn_ref_offset *at = frame->tile_first + tiles.first;
+    GN_ELEMENT(at);
+    do {
+        int32_t n = tiles.width;
+        do ++*at++;
+        while (--n);
+        at += tiles.skip;
+    } while (--tiles.height);
+}
+
+static inline grid_corner on_grid(const gn_projected *at, int32_t bits)
+{
+    const grid_corner snapped = {at, snap(at->x_q16, bits), snap(at->y_q16, bits)};
+    return snapped;
+}
+
+GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected *p0, const gn_projected *p1,
+                                    const gn_projected *p2, uint32_t triangle_idx)
+{
+    gn_frame *frame = job->frame;
+    GN_ELEMENT(frame);
+    int32_t bits = GN_K(frame, subpixel_bits);
+    grid_corner a = on_grid(p0, bits), b = on_grid(p1, bits), c = on_grid(p2, bits), swap;
+    int64_t area = (int64_t)(b.x - a.x) * (c.y - a.y) - (int64_t)(c.x - a.x) * (b.y - a.y);
+    if (area >= 0) {
+        if (area == 0 || !(job->object->flags & GN_OBJECT_TWO_SIDED)) return;
+        swap = b, b = c, c = swap;
+    }
+    if (c.y < a.y && c.y < b.y) swap = a, a = c, c = b, b = swap; /* rotated, to begin with the top */
+    else if (b.y < a.y) swap = a, a = b, b = c, c = swap;
+    int32_t left = gn_min32(gn_min32(a.x, b.x), c.x), right = gn_max32(gn_max32(a.x, b.x), c.x),
+            bottom = gn_max32(b.y, c.y);
+    const gn_rect bounds = gn_setup_bounds_of(frame, left, right, a.y, bottom, job->add_px[0], job->add_px[1]);
+    if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
+    uint32_t n = frame->stats.n_triangles++; /* counted on, to say how many would have been enough */
+    if (n >= GN_MAX_TRIANGLES) return;
+    if (GN_SIZE_FIRST || !count_few_tiles(job, &bounds, n)) count_tiles(frame, &bounds);
+    GN_COUNT(visible, 1);
+    gn_tri *tri = &frame->tri[n];
+    GN_KEEP(tri);
+    tri->x[0] = (gn_coord)a.x, tri->x[2] = (gn_coord)c.x, tri->y[1] = (gn_coord)b.y;
+    if (!GN_SIZE_FIRST) GN_KEEP(tri); /* half-words on both sides are not put together to words: that takes longer */
+    tri->x[1] = (gn_coord)b.x, tri->y[0] = (gn_coord)a.y, tri->y[2] = (gn_coord)c.y;
+    tri->object_idx = (uint16_t)job->object_idx;
+    tri->triangle_idx = (uint16_t)triangle_idx;
+    /* from the top to the centre of the pixel that holds it */
+    int32_t one = 1 << bits, x = a.x + ((frame->picture.width << bits) >> 1),
+            y = a.y + ((frame->picture.height << bits) >> 1);
+    int32_t to_x_q16 = ((a.x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->x_q16;
+    int32_t to_y_q16 = ((a.y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->y_q16;
+    int32_t width = right - left, height = bottom - a.y, walk = GN_TRI_NARROW;
+    if (GN_SIZE_FIRST || width >= job->narrow || height >= job->narrow)
+        walk = gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height), GN_TRI_EXACT);
+    if (!GN_SIZE_FIRST && quick_depth(tri, a.at, b.at, c.at, to_x_q16, to_y_q16, walk, bits)) return;
+    general_depth(tri, a.at, b.at, c.at, to_x_q16, to_y_q16, walk, bits);
+}
+
+void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3])
+{
+    int32_t bits = GN_K(frame, subpixel_bits);
+    int32_t centre_x = (frame->picture.width << bits) >> 1, centre_y = (frame->picture.height << bits) >> 1;
+    for (int i = 0; i < 3; i++) {
+        x[i] = tri->x[i] + centre_x;
+        y[i] = tri->y[i] + centre_y;
+    }
+}
+
+/* ---- Jobs -------------------------------------------------------------------------------------------------------- */
+
+void gn_screen_begin(gn_screen_job *job, gn_frame *frame)
+{
+    int32_t bits = GN_K(frame, subpixel_bits);
+    job->frame = frame;
+    job->tile_first = frame->tile_first;
+    job->add_px[0] = gn_setup_add(frame->picture.width, bits);
+    job->add_px[1] = gn_setup_add(frame->picture.height, bits);
+}
+
+void gn_screen_object(gn_screen_job *job)
+{
+    job->fixed_mask = GN_VISIBLE_ALPHA && job->object->visible_alpha != GN_ALPHA_OPAQUE ? 0 : -1;
+    job->narrow = job->fixed_mask & gn_walk_narrow(GN_K(job->frame, subpixel_bits));
+}

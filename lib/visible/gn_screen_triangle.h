@@ -1,0 +1,35 @@
+/* Projected triangles become those that are drawn: snapped, culled, counted in screen tiles, with a plane of depth (R2,
+ * R3). */
+#ifndef GN_SCREEN_TRIANGLE_H
+#define GN_SCREEN_TRIANGLE_H
+
+#include "gnomon.h"
+
+/* A vertex on the screen, in the guard band. */
+typedef struct {
+    int32_t x_q16, y_q16; /* pixels from the picture's centre, y down: below 2^11 pixels */
+    uint32_t iz_q32;      /* near / Z */
+} gn_projected;
+
+/* What triangles of one object have in common. */
+typedef struct {
+    gn_frame *frame;
+    const gn_object *object;
+    uint32_t object_idx;
+    uint16_t *place; /* see gn_setup.h */
+    gn_ref_offset *tile_first;
+    int32_t add_px[2];  /* see gn_setup_bounds_of */
+    int32_t fixed_mask; /* 0 where alpha cuts the object: its triangles are not drawn as gn_raster.c draws small ones */
+    int32_t narrow;     /* gn_walk_narrow, 0 there too */
+} gn_screen_job;
+
+/* Of the frame, and of one of its objects: all but place, and what names the object. */
+void gn_screen_begin(gn_screen_job *job, gn_frame *frame);
+void gn_screen_object(gn_screen_job *job);
+
+/* A triangle in the guard band, counter-clockwise in the world if it faces the camera: nothing if it faces away or
+ * covers no pixel centre. */
+void gn_screen_triangle(const gn_screen_job *job, const gn_projected *p0, const gn_projected *p1,
+                        const gn_projected *p2, uint32_t triangle_idx);
+
+#endif
