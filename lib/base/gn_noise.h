@@ -1,11 +1,11 @@
-/* Interleaved gradient noise (D7), shared by everything that dithers by it. */
+/* Interleaved gradient noise, shared by everything that dithers by it. */
 #ifndef GN_NOISE_H
 #define GN_NOISE_H
 
 #include <stdint.h>
 
 /* frac(52.9829189 * frac(0.06711056 x + 0.00583715 y)) at a pixel's centre, Q0.16: both fractions are wraps of 32 bits.
- */
+ * [D7] */
 static inline uint32_t gn_noise_uq16(int32_t x, int32_t y)
 {
     uint32_t inner =

@@ -10,7 +10,7 @@
 #include "shade/gn_shadow.h"
 
 #if GN_SPECULAR
-/* max(0, n . h)^(2^k), Q30 */
+/* max(0, n . h)^(2^k), Q30 [M3] */
 static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample, const int32_t to_light_q30[3])
 {
     int32_t h[3];
@@ -63,7 +63,7 @@ static void add(uint64_t sum_q20[3], const uint32_t colour_uq16[3], uint32_t irr
     for (int c = 0; c < 3; c++) sum_q20[c] += ((uint64_t)colour_uq16[c] * irradiance_q24 + (1U << 19)) >> 20;
 }
 
-/* Vertex colour and texture. */
+/* Vertex colour and texture. [M3] */
 static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sample, uint64_t sum[3])
 {
     if (GN_COLOURED(surface))
@@ -78,6 +78,7 @@ static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sam
 #endif
 }
 
+/* Baked light and all lights; a shadow is looked up only where light arrives. [P10] [M9] */
 void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                        uint32_t radiance_q20[3])
 {

@@ -38,6 +38,7 @@ static uint32_t linear_encode(uint32_t linear_q20)
     return (uint32_t)(((uint64_t)limited * 65535U + (1U << 19)) >> 20);
 }
 
+/* Linear light as the display takes it. [M7] */
 static uint32_t encode(const gn_frame *frame, uint32_t linear_q20)
 {
     return GN_K(frame, srgb) ? srgb_encode(linear_q20) : linear_encode(linear_q20);
@@ -98,6 +99,7 @@ static uint32_t any_565(const gn_frame *frame, const uint32_t c[3])
     return by_curve_565(frame, c);
 }
 
+/* A colour in the picture's format. [R5] */
 uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
 {
 #if GN_OTHER_FORMATS
@@ -148,6 +150,7 @@ static void fill_grey4(uint8_t *row, int32_t at, int32_t n, uint32_t level)
 }
 #endif
 
+/* n pixels of a packed colour. [R5] */
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed)
 {
     int32_t at = x - rows->x0, row = y - rows->y0, i = row * rows->width + at;

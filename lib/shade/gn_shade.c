@@ -35,6 +35,7 @@ static uint32_t raw_normal(const gn_shading *s, int32_t x, int32_t y)
     return pack_axis(unit[0]) << 20 | pack_axis(unit[1]) << 10 | pack_axis(unit[2]);
 }
 
+/* What a raw view shows of the surface. [A6] */
 static uint32_t raw_value(const gn_shading *s, const gn_sample *sample, int32_t x, int32_t y)
 {
     const gn_picture *picture = &s->frame->picture;
@@ -116,7 +117,7 @@ static void shade_chord(shading *s, gn_sample *from, const gn_sample *to, int32_
 
 /* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every
  * persp_step pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the
- * triangle. */
+ * triangle. [R4] */
 static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
 #if !GN_RUNTIME_KNOBS && GN_PERSP_STEP == 1 /* nothing lies between */
@@ -406,7 +407,7 @@ static void clear_background(gn_shading *s)
         return;
     }
 #endif
-    /* bits after a row's last pixel are flushed with it and count when tiles are compared (R6) */
+    /* bits after a row's last pixel are flushed with it and count when tiles are compared */
     if (GN_OTHER_FORMATS && (frame->picture.format == GN_FORMAT_GREY4 || frame->picture.format == GN_FORMAT_MONO1))
         memset(s->scratch->pixel.bytes, 0, gn_pixel_bytes(frame, s->rows.width, s->rect.y1 - s->rect.y0));
     for (int32_t y = s->rect.y0; y < s->rect.y1; y++)

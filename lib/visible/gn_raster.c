@@ -184,6 +184,7 @@ static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, gn_alph
     gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
 }
 
+/* A triangle that alpha cuts has surface only where it is not cut. [M8] */
 static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
@@ -385,6 +386,7 @@ static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32
     raster_triangle(tile, tri, id, NULL);
 }
 
+/* The nearest surface of every pixel, before anything is shaded. [R2] */
 void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     int32_t bits = GN_K(frame, subpixel_bits);
