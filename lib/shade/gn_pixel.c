@@ -38,6 +38,7 @@ GN_HOT static uint32_t linear_encode(uint32_t linear_q20)
     return (uint32_t)(((uint64_t)limited * 65535U + (1U << 19)) >> 20);
 }
 
+/* Linear light as the display takes it. [M7] */
 GN_HOT static uint32_t encode(const gn_frame *frame, uint32_t linear_q20)
 {
     return GN_K(frame, srgb) ? srgb_encode(linear_q20) : linear_encode(linear_q20);
@@ -92,6 +93,7 @@ GN_HOT static uint32_t any_565(const gn_frame *frame, const uint32_t c[3])
     return by_curve_565(frame, c);
 }
 
+/* A colour in the picture's format. [R5] */
 GN_HOT static uint32_t pack_16(const gn_frame *frame, const uint32_t linear_q20[3])
 {
     uint32_t v = any_565(frame, linear_q20);
@@ -143,6 +145,7 @@ GN_HOT static void fill_grey4(uint8_t *row, int32_t at, int32_t n, uint32_t leve
     }
 }
 
+/* n pixels of a packed colour. [R5] */
 GN_HOT void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
                           uint32_t packed)
 {

@@ -86,7 +86,7 @@ GN_HOT static int asks_for_cascades(const gn_frame *frame)
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 
-/* D4, D6, D11: the cascade of the surface point and its fade factor. */
+/* The cascade of the surface point and its fade factor. [D4] [D6] [D11] */
 GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
 {
     gn_bfloat per_px = frame->cam.inv_focal2;
@@ -270,6 +270,7 @@ GN_HOT static void extra_values(const gn_surface *s, const hit *h, int32_t *valu
         value[GN_VALUE_BAKED + i] = s->baked ? attribute_at(s, h, GN_ATTRIBUTE_BAKED + i) : 0;
 }
 
+/* Everything that shading interpolates, at a pixel's centre. [R4] */
 GN_HOT void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
 {
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;

@@ -34,6 +34,7 @@ GN_HOT static uint32_t raw_normal(const gn_shading *s, int32_t x, int32_t y)
     return pack_axis(unit[0]) << 20 | pack_axis(unit[1]) << 10 | pack_axis(unit[2]);
 }
 
+/* What a raw view shows of the surface. [A6] */
 GN_HOT static uint32_t raw_value(const gn_shading *s, const gn_sample *sample, int32_t x, int32_t y)
 {
     const gn_picture *picture = &s->frame->picture;
@@ -99,7 +100,9 @@ GN_HOT static void shade_chord(shading *s, gn_sample *from, const gn_sample *to,
     }
 }
 
-/* Pixels x_begin <= x < x_end of one row, all of this triangle: every one exact. */
+/* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every
+ * persp_step pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the
+ * triangle. [R4] */
 GN_HOT static inline void shade_run_exact(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     gn_sample *here = &s->by.run.sample[0];
