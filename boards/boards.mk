@@ -52,8 +52,9 @@ FW_SRC := $(APP_LIB) boards/apps/$(APP).c $(APP_SRC) $(wildcard boards/$(BOARD)/
 ifeq ($(FW_HOSTED),)
 FW_SRC += boards/common/start.c boards/common/memory.c
 FW_FREE := -ffreestanding -isystem boards/common/include
-FW_LINK := -nostdlib -nostartfiles -Wl,--gc-sections,--fatal-warnings,-Map=$(FIRMWARE:.elf=.map) -Wl,--no-warn-rwx-segments -Lboards/common -Lport -T boards/$(BOARD)/link.ld
+FW_LINK := -nostdlib -nostartfiles -Wl,--gc-sections,--fatal-warnings,-Map=$(FIRMWARE:.elf=.map) -Wl,--no-warn-rwx-segments -Lboards/common -T boards/$(BOARD)/link.ld
 FW_LIBS := -lgcc
+FW_HOT := '-DGN_PORT_HOT_SECTION=".gn_hot"' # common/sections.ld places it
 endif
 ifneq ($(PRESET),)
 FW_PRESET := -DGN_PRESET=GN_PRESET_$(shell echo $(PRESET) | tr a-z A-Z)
@@ -69,10 +70,10 @@ FW_PORT := -Iport/$(firstword $(BOARD_PORT)) '-DGN_PORT="gn_port_$(notdir $(firs
 FW_SRC += $(filter-out port/portable/gn_port_oracle.c,$(foreach port,$(BOARD_PORT),$(wildcard port/$(port)/*.c)))
 endif
 FW_CFLAGS := $(BOARD_CPU) -std=c99 $(FW_OPT) -g $(WARN) $(FW_FREE) -ffunction-sections -fdata-sections -Ilib -Iport -Iboards/common -Iboards/apps \
-  $(FW_SCENE) $(FW_PRESET) $(FW_PORT) $(BOARD_FLAGS) $(APP_FLAGS) $(FW_FLAGS)
+  $(FW_SCENE) $(FW_PRESET) $(FW_PORT) $(FW_HOT) $(BOARD_FLAGS) $(APP_FLAGS) $(FW_FLAGS)
 FW_OBJ := $(FW_SRC:%.c=$(FW_OBJ_DIR)/%.o) $(FW_SCENE_OBJ) $(APP_OBJ)
 
-$(FIRMWARE): $(FW_OBJ) $(wildcard boards/$(BOARD)/*.ld boards/common/*.ld port/*.ld) $(FW_OBJ_DIR)/link.flags
+$(FIRMWARE): $(FW_OBJ) $(wildcard boards/$(BOARD)/*.ld boards/common/*.ld) $(FW_OBJ_DIR)/link.flags
 	@echo '  LD $@'
 	@$(FW_CC) $(BOARD_CPU) $(FW_OPT) $(FW_LINK) $(LINK_FLAGS) -o $@ $(FW_OBJ) $(FW_LIBS)
 
@@ -105,8 +106,8 @@ always:
 
 -include $(shell test -d $(FW_OBJ_DIR) && find $(FW_OBJ_DIR) -name '*.d')
 
-# What a programmer writes to flash, of boards that nothing emulates; UF2 where the board takes it by copying.
-FW_FLAT := $(if $(filter no,$(BOARD_RUNS)),$(FIRMWARE:.elf=.bin) $(if $(BOARD_UF2),$(FIRMWARE:.elf=.uf2)))
+# What a programmer writes to flash, of boards that QEMU does not run; UF2 where the board takes it by copying.
+FW_FLAT := $(if $(filter no rp2040js,$(BOARD_RUNS)),$(FIRMWARE:.elf=.bin) $(if $(BOARD_UF2),$(FIRMWARE:.elf=.uf2)))
 $(FIRMWARE:.elf=.bin): $(FIRMWARE)
 	@$(BOARD_CROSS)objcopy -O binary $< $@
 $(FIRMWARE:.elf=.uf2): $(FIRMWARE:.elf=.bin) $(BUILD)/uf2
@@ -124,20 +125,41 @@ empty :=
 FW_ARGS = $(APP)$(subst $(empty) $(comma)arg=,$(comma)arg=,$(patsubst %,$(comma)arg=%,$(subst $(comma),$(comma)$(comma),$(ARGS))))
 EMULATE = $(BOARD_EMULATOR) -semihosting-config enable=on,target=native,arg=$(FW_ARGS) -kernel $(FIRMWARE)
 EMULATOR_FLAGS := -display none -monitor none -serial none $(if $(COUNT),-plugin $(abspath $(BUILD)/libstages.so))
-run-firmware: $(FIRMWARE) $(if $(COUNT),$(BUILD)/libstages.so)
+# rp2040js is a package of node: it boots the UF2 of a Pico, and ends after ARGS frames. Tested with this version.
+RP2040JS := $(BUILD)/node_modules/rp2040js
+RP2040JS_VERSION := 1.4.1
+RUN_PICO = NODE_PATH=$(BUILD)/node_modules timeout $(or $(TIMEOUT),300) \
+  node boards/tools/pico.js $(FIRMWARE:.elf=.uf2) $(FIRMWARE:.elf=.symbols) $(or $(ARGS),2)
+PICO_NEEDS := $(if $(filter rp2040js,$(BOARD_RUNS)),$(FIRMWARE:.elf=.uf2) $(FIRMWARE:.elf=.symbols) $(RP2040JS)/package.json)
+$(FIRMWARE:.elf=.symbols): $(FIRMWARE)
+	@$(BOARD_CROSS)nm $< >$@
+$(RP2040JS)/package.json:
+	@command -v node >/dev/null && command -v npm >/dev/null || \
+	  { echo "rp2040js, which runs the $(BOARD), needs node and npm (in Debian: nodejs npm)" >&2; exit 1; }
+	@npm install --silent --no-save --no-audit --no-fund --prefix $(BUILD) rp2040js@$(RP2040JS_VERSION) >/dev/null || \
+	  { echo "npm could not install rp2040js $(RP2040JS_VERSION) in $(BUILD)/node_modules" >&2; exit 1; }
+
+run-firmware: $(FIRMWARE) $(PICO_NEEDS) $(if $(COUNT),$(BUILD)/libstages.so)
 ifneq ($(FW_HOSTED),)
 	@$(FIRMWARE) $(ARGS)
+else ifeq ($(BOARD_RUNS),rp2040js)
+	@$(RUN_PICO)
 else ifneq ($(BOARD_EMULATOR),)
 	@timeout $(or $(TIMEOUT),120) $(EMULATE) $(EMULATOR_FLAGS)
 else
 	@echo "$(BOARD) is built, not run: no emulator has it" && exit 1
 endif
 
-# The display, when the clock has come to the last time of ARGS.
+# The display, when the clock has come to the last time of ARGS; the Pico's after ARGS frames.
 SCREEN_OUT ?= $(FIRMWARE:.elf=.ppm)
+ifneq ($(BOARD_RUNS),rp2040js)
 run-screen: ARGS ?= 09:40 10:00
-run-screen: $(FIRMWARE) $(BUILD)/capture $(BUILD)/ppm
-ifneq ($(BOARD_EMULATOR),)
+endif
+run-screen: $(FIRMWARE) $(PICO_NEEDS) $(BUILD)/capture $(BUILD)/ppm
+ifeq ($(BOARD_RUNS),rp2040js)
+	@$(RUN_PICO) $(SCREEN_OUT)
+	@$(BUILD)/ppm png $(SCREEN_OUT) $(SCREEN_OUT:.ppm=.png) && echo $(SCREEN_OUT:.ppm=.png)
+else ifneq ($(BOARD_EMULATOR),)
 	@$(BUILD)/capture $(or $(TIMEOUT),60) 'READY $(lastword $(ARGS))' $(SCREEN_OUT) $(EMULATE)
 	@$(BUILD)/ppm png $(SCREEN_OUT) $(SCREEN_OUT:.ppm=.png) && echo $(SCREEN_OUT:.ppm=.png)
 else

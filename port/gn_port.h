@@ -13,11 +13,22 @@
 
 /* ---- Placement -----------------------------------------------------------------------------------------------------
  *
- * Hot code: the files that run per pixel, row and texel, and what they call, are listed in port/hot.ld, for linker
- * scripts to include. Buffers: a program marks what should live in fast memory (the screen tile's gn_scratch above all,
- * then the gn_renderer), and what a DMA engine reads. The linker script places .fast; the alignment of DMA buffers is
- * that of the largest cache line there is.
+ * Hot code: what runs per pixel, row and texel, and what it calls, is marked in the library (GN_HOT) and in ports. With
+ * GN_PORT_HOT_SECTION, a string that a port's header or -D defines, each such function has a section of its own,
+ * GN_PORT_HOT_SECTION and a number, which a linker script places and may drop if nothing calls it. On a Raspberry Pi
+ * Pico, whose SDK has the linker script, it is ".time_critical.gnomon". Without it functions stay where they are.
+ *
+ * Buffers: a program marks what should live in fast memory (the screen tile's gn_scratch above all, then the
+ * gn_renderer), and what a DMA engine reads. The linker script places .fast; the alignment of DMA buffers is that of
+ * the largest cache line there is.
  */
+#if defined(GN_PORT_HOT_SECTION) && defined(__GNUC__)
+#define GN_PORT_TEXT__(n) #n
+#define GN_PORT_TEXT_(n)  GN_PORT_TEXT__(n)
+#define GN_PORT_HOT       __attribute__((section(GN_PORT_HOT_SECTION "." GN_PORT_TEXT_(__COUNTER__))))
+#else
+#define GN_PORT_HOT
+#endif
 #if defined(__GNUC__)
 #define GN_PORT_FAST __attribute__((section(".fast")))
 #define GN_PORT_DMA  __attribute__((aligned(32)))

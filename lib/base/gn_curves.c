@@ -7,14 +7,14 @@
 #include "base/gn_tables.h"
 
 /* c[0] + c[1] x + ... + c[n] x^n, rounded down at every step; |x| <= 1 in Q30, and |sums| < 2^31. */
-static int32_t polynomial(const int32_t *c, int32_t n, int32_t x_q30)
+GN_HOT static int32_t polynomial(const int32_t *c, int32_t n, int32_t x_q30)
 {
     int32_t v = c[n];
     while (n-- > 0) v = c[n] + (int32_t)(((int64_t)v * x_q30) >> 30);
     return v;
 }
 
-uint32_t gn_far_recip_entry(uint32_t i)
+GN_HOT uint32_t gn_far_recip_entry(uint32_t i)
 {
     /* 1 / 2x, Q30 */
     static const int32_t c[10] = {714896980, -237989530, 79224729, -26371872, 8792698,
@@ -22,7 +22,7 @@ uint32_t gn_far_recip_entry(uint32_t i)
     return (uint32_t)(polynomial(c, 9, ((int32_t)i - 128) * (1 << 23)) + (1 << 13)) >> 14;
 }
 
-uint32_t gn_far_rsqrt_entry(uint32_t i)
+GN_HOT uint32_t gn_far_rsqrt_entry(uint32_t i)
 {
     /* 1 / 2 sqrt(x), Q30 */
     static const int32_t c[12] = {678035878, -270366371, 161764520, -107673755, 74082433, -51468802,
@@ -30,7 +30,7 @@ uint32_t gn_far_rsqrt_entry(uint32_t i)
     return (uint32_t)(polynomial(c, 11, ((int32_t)i - 96) * (1 << 23)) + (1 << 13)) >> 14;
 }
 
-uint32_t gn_far_srgb_entry(uint32_t i)
+GN_HOT uint32_t gn_far_srgb_entry(uint32_t i)
 {
     /* (1 + j/64)^(1/2.4), Q30; 65535 * 1.055 * 2^((k - 9)/2.4), Q15 */
     static const int32_t root[8] = {1073741852, 447388474, -130398815, 68064408,
@@ -42,7 +42,7 @@ uint32_t gn_far_srgb_entry(uint32_t i)
     return (uint32_t)((v_q29 - 1935110936986 + (1 << 28)) >> 29);                                  /* 65535 * 0.055 */
 }
 
-uint32_t gn_far_srgb_decode_entry(uint32_t i)
+GN_HOT uint32_t gn_far_srgb_decode_entry(uint32_t i)
 {
     /* ((v + 0.055) / 1.055)^2.4, Q29 */
     static const int32_t c[10] = {115889053, 250668534, 158145895, 18998604, -2610766,

@@ -4,6 +4,18 @@
 
 #include "gn_config.h"
 
+#ifdef GN_PORT
+#include GN_PORT
+#endif
+
+/* Of a function that runs per pixel, row or texel, or is called by one that does: a port may place it where code is
+ * fetched fastest (port/gn_port.h). In a file that has hot functions all are marked. */
+#ifdef GN_PORT_HOT
+#define GN_HOT GN_PORT_HOT
+#else
+#define GN_HOT
+#endif
+
 #if defined(__GNUC__)
 /* v is taken for changed here, and neither computed before nor from what was. It keeps what an unrolled loop steps in
  * one register, and a branch a branch, where four registers and predicated instructions would cost more. */

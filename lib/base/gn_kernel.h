@@ -1,8 +1,8 @@
 /* Kernels that a port may replace, and what they must compute, bit for bit.
  *
- * The library is portable without a port. With -DGN_PORT='"gn_port_NAME.h"' that header is included here; for each
- * kernel that the port has, it defines gn_kernel_X as the function that takes the place of gn_portable_X, under the
- * same preconditions: port/gn_port.h is the contract, docs/PORTING.md explains it.
+ * The library is portable without a port. With -DGN_PORT='"gn_port_NAME.h"' that header is included (gn_hint.h); for
+ * each kernel that the port has, it defines gn_kernel_X as the function that takes the place of gn_portable_X, under
+ * the same preconditions: port/gn_port.h is the contract, docs/PORTING.md explains it.
  */
 #ifndef GN_KERNEL_H
 #define GN_KERNEL_H
@@ -10,12 +10,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef GN_PORT
-#include GN_PORT
-#endif
+#include "base/gn_hint.h"
 
 /* The next lower bit: whether a texel is below a level. */
-static inline uint32_t gn_borrow(uint32_t bits, uint32_t texel, uint32_t level)
+GN_HOT static inline uint32_t gn_borrow(uint32_t bits, uint32_t texel, uint32_t level)
 {
     return bits << 1 | (texel - level) >> 31;
 }
@@ -23,8 +21,8 @@ static inline uint32_t gn_borrow(uint32_t bits, uint32_t texel, uint32_t level)
 /* Which of n x n texels, in rows `pitch` apart, keep a receiver in the dark: whose depth, as the upper 16 of 32 bits,
  * is below `least`. Bit i of dark[j] is for texel i of row j. Returns the bits that any row has, plus, 16 bits up,
  * those that all have. n = 4, 6 or 8; least <= 0xFFFF0000. `texel` lies on two bytes, not on four. */
-static inline uint32_t gn_portable_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n,
-                                                 uint8_t *dark)
+GN_HOT static inline uint32_t gn_portable_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n,
+                                                        uint8_t *dark)
 {
     uint32_t level = (least + 0xFFFFU) >> 16, any = 0, all = 255;
     for (uint8_t *end = dark + n; dark < end; dark++, texel += pitch) {

@@ -6,17 +6,17 @@
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
 
-int64_t gn_far_dot64(const int32_t a[3], const int32_t b[3])
+GN_HOT int64_t gn_far_dot64(const int32_t a[3], const int32_t b[3])
 {
     return gn_dot64_inline(a, b);
 }
 
-int64_t gn_far_dot_q30(const int32_t a[3], const int32_t b[3])
+GN_HOT int64_t gn_far_dot_q30(const int32_t a[3], const int32_t b[3])
 {
     return gn_dot_q30_inline(a, b);
 }
 
-uint64_t gn_bf_from_u64_bits(uint64_t v)
+GN_HOT uint64_t gn_bf_from_u64_bits(uint64_t v)
 {
     int32_t clz = gn_clz64(v);
     gn_bfloat out = {(uint32_t)((v << clz) >> 32), 32 - clz};
@@ -31,20 +31,20 @@ GN_INLINE uint32_t recip_start(uint32_t i)
     return GN_CORE_DIVIDES ? ((1U << 25) + i + 256U) / (2U * i + 513U) : gn_far_recip_entry(i);
 }
 
-uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
+GN_HOT uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps)
 {
     uint32_t y = gn_recip_step(m, recip_start((m >> 23) & 255U) << 16);
     return newton_steps > 1 ? gn_recip_step(m, y) : y;
 }
 
-uint32_t gn_quotient_q30(uint32_t num, uint32_t den)
+GN_HOT uint32_t gn_quotient_q30(uint32_t num, uint32_t den)
 {
     int32_t clz = gn_clz32(den);
     return (uint32_t)((uint64_t)num * gn_recip_norm(den << clz, 1) >>
                       (33 - clz)); /* num <= den: 2^30 at most, and 2^13 */
 }
 
-uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
+GN_HOT uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
 {
     /* x = m / 2^32 in [1/4, 1); y ~ 1/sqrt(x) in Q1.31; y(3 - xy^2)/2 */
     uint64_t y = (uint64_t)gn_rsqrt_entry((m >> 24) - 64U) << 16;
@@ -57,14 +57,14 @@ uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
     return (uint32_t)y;
 }
 
-uint64_t gn_bf_recip_bits(uint64_t bits)
+GN_HOT uint64_t gn_bf_recip_bits(uint64_t bits)
 {
     gn_bfloat a = gn_bf_of_bits(bits);
     gn_bfloat out = {gn_recip_norm(a.mant, 2), -a.exp - 63};
     return gn_bf_bits(out);
 }
 
-uint64_t gn_bf_mul_bits(uint64_t a_bits, uint64_t b_bits)
+GN_HOT uint64_t gn_bf_mul_bits(uint64_t a_bits, uint64_t b_bits)
 {
     gn_bfloat a = gn_bf_of_bits(a_bits), b = gn_bf_of_bits(b_bits);
     gn_bfloat out = gn_bf_from_u64((uint64_t)a.mant * b.mant);
@@ -72,7 +72,7 @@ uint64_t gn_bf_mul_bits(uint64_t a_bits, uint64_t b_bits)
     return gn_bf_bits(out);
 }
 
-int64_t gn_bf_apply_bits(int64_t a, uint64_t b_bits)
+GN_HOT int64_t gn_bf_apply_bits(int64_t a, uint64_t b_bits)
 {
     gn_bfloat b = gn_bf_of_bits(b_bits);
     if (a == 0) return 0;
@@ -97,7 +97,7 @@ int64_t gn_bf_apply_bits(int64_t a, uint64_t b_bits)
     return a < 0 ? -(int64_t)r : (int64_t)r;
 }
 
-uint64_t gn_udiv64_rest(uint64_t a, uint64_t b, uint64_t *rest)
+GN_HOT uint64_t gn_udiv64_rest(uint64_t a, uint64_t b, uint64_t *rest)
 {
     uint64_t quotient = 0;
     int32_t bit = a ? gn_clz64(b) - gn_clz64(a) : -1;
@@ -112,12 +112,12 @@ uint64_t gn_udiv64_rest(uint64_t a, uint64_t b, uint64_t *rest)
     return quotient;
 }
 
-uint64_t gn_udiv64(uint64_t a, uint64_t b)
+GN_HOT uint64_t gn_udiv64(uint64_t a, uint64_t b)
 {
     return gn_udiv64_rest(a, b, &a);
 }
 
-uint32_t gn_isqrt64(uint64_t v)
+GN_HOT uint32_t gn_isqrt64(uint64_t v)
 {
     uint64_t root = 0;
     for (uint64_t bit = (uint64_t)1 << 62; bit; bit >>= 2) {
@@ -132,19 +132,19 @@ uint32_t gn_isqrt64(uint64_t v)
 }
 
 /* The upper 32 bits of a * 2^s, 0 <= s < 64; what is above them is the sign's. */
-static inline int32_t upper32(int64_t a, int32_t s)
+GN_HOT static inline int32_t upper32(int64_t a, int32_t s)
 {
     uint32_t hi = (uint32_t)((uint64_t)a >> 32), lo = (uint32_t)a;
     return (int32_t)(s < 32 ? hi << s | (lo >> 1) >> (31 - s) : lo << (s - 32));
 }
 
 /* Half of it, rounded */
-static inline int32_t halved(int32_t v)
+GN_HOT static inline int32_t halved(int32_t v)
 {
     return (v >> 1) + (v & 1);
 }
 
-int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
+GN_HOT int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
 {
     uint64_t any = gn_abs64(a[0]) | gn_abs64(a[1]) | gn_abs64(a[2]);
     if (!any) {
@@ -165,7 +165,7 @@ int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
     return 34 - clz; /* bits above 30 */
 }
 
-int gn_det_sign(const int32_t m[3][3])
+GN_HOT int gn_det_sign(const int32_t m[3][3])
 {
     int32_t row[3][3], n[3];
     int64_t wide[3];
@@ -180,7 +180,7 @@ int gn_det_sign(const int32_t m[3][3])
     return det > (int64_t)1 << 32 ? 1 : det < -((int64_t)1 << 32) ? -1 : 0;
 }
 
-int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
+GN_HOT int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
 {
     int32_t n[3];
     gn_norm_vec(n, a);
@@ -200,21 +200,21 @@ int gn_normalise_q30(int32_t out_q30[3], const int64_t a[3])
     return 1;
 }
 
-void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3])
+GN_HOT void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3])
 {
     out[0] = (int64_t)a[1] * b[2] - (int64_t)a[2] * b[1];
     out[1] = (int64_t)a[2] * b[0] - (int64_t)a[0] * b[2];
     out[2] = (int64_t)a[0] * b[1] - (int64_t)a[1] * b[0];
 }
 
-void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q30[3])
+GN_HOT void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q30[3])
 {
     int64_t c[3];
     gn_cross64(c, a_q30, b_q30);
     for (int i = 0; i < 3; i++) out_q30[i] = (int32_t)gn_shr64(c[i], 30);
 }
 
-int32_t gn_sin_q30(uint16_t angle_turn)
+GN_HOT int32_t gn_sin_q30(uint16_t angle_turn)
 {
     /* fold to the first quarter, then sin(A + b) with A on a grid of 1/256 turn and |b| <= 1/512 turn = 0.0123 rad */
     uint32_t a = angle_turn & 0x7FFFU;
@@ -230,12 +230,12 @@ int32_t gn_sin_q30(uint16_t angle_turn)
     return angle_turn & 0x8000U ? -v : v;
 }
 
-int32_t gn_cos_q30(uint16_t angle_turn)
+GN_HOT int32_t gn_cos_q30(uint16_t angle_turn)
 {
     return gn_sin_q30((uint16_t)(angle_turn + 0x4000U));
 }
 
-uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn)
+GN_HOT uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn)
 {
     /* 1 / tan(a / 2) = (1 + cos a) / sin a needs no half angle */
     int32_t s = gn_sin_q30(vertical_fov_turn);
@@ -245,7 +245,7 @@ uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn)
     return q > UINT32_MAX ? UINT32_MAX : (uint32_t)q;
 }
 
-uint64_t gn_length_bits(int32_t newton_steps, const int32_t n_q30[3])
+GN_HOT uint64_t gn_length_bits(int32_t newton_steps, const int32_t n_q30[3])
 {
     uint64_t nn = (uint64_t)gn_dot64(n_q30, n_q30); /* Q60, at most 1 + rounding */
     uint32_t shift = nn ? (uint32_t)gn_clz64(nn) & ~1U : 0;
@@ -253,14 +253,14 @@ uint64_t gn_length_bits(int32_t newton_steps, const int32_t n_q30[3])
     return (uint64_t)shift << 32 | root;
 }
 
-int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], const int32_t unit_q30[3])
+GN_HOT int32_t gn_length_cosine_q24(gn_length length, const int32_t n_q30[3], const int32_t unit_q30[3])
 {
     int64_t dot_q30 = gn_dot_q30(n_q30, unit_q30);
     int64_t cosine = gn_scale64(dot_q30 * (int64_t)length.root, 63 - 24 - length.shift / 2);
     return (int32_t)gn_clamp64(cosine, -(1 << 24), 1 << 24);
 }
 
-void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3])
+GN_HOT void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3])
 {
     for (int i = 0; i < 3; i++) {
         int64_t v = gn_scale64((int64_t)n_q30[i] * (int64_t)length.root, 63 - 30 - length.shift / 2);

@@ -40,7 +40,7 @@ uint32_t gn_recip_norm(uint32_t m, int32_t newton_steps);
 
 /* One step of Newton's method towards 1 / x, x = m / 2^32 in [1/2, 1), y in Q1.31: y(2 - xy) exceeds 1 / x only by
  * truncation, so only x near 1/2 reaches 2^32. */
-static inline uint32_t gn_recip_step(uint32_t m, uint32_t y)
+GN_HOT static inline uint32_t gn_recip_step(uint32_t m, uint32_t y)
 {
     uint32_t two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32); /* Q1.31, near 1: xy is within 2^-8 of 1 */
     uint64_t better = (uint64_t)y * two_minus_xy;
@@ -48,7 +48,7 @@ static inline uint32_t gn_recip_step(uint32_t m, uint32_t y)
 }
 
 /* gn_recip_norm with two steps, spelled out where it is called per vertex. */
-static inline uint32_t gn_recip_norm2_inline(uint32_t m)
+GN_HOT static inline uint32_t gn_recip_norm2_inline(uint32_t m)
 {
     uint32_t y = (uint32_t)gn_recip_table[(m >> 23) & 255U] << 16,
              two_minus_xy = 0U - (uint32_t)(((uint64_t)m * y) >> 32);
@@ -110,13 +110,13 @@ void gn_cross64(int64_t out[3], const int32_t a[3], const int32_t b[3]);
 /* Exact; |sum| < 2^63 */
 int64_t gn_far_dot64(const int32_t a[3], const int32_t b[3]);
 int64_t gn_far_dot_q30(const int32_t a[3], const int32_t b[3]);
-static inline int64_t gn_dot64_inline(const int32_t a[3], const int32_t b[3])
+GN_HOT static inline int64_t gn_dot64_inline(const int32_t a[3], const int32_t b[3])
 {
     return (int64_t)a[0] * b[0] + (int64_t)a[1] * b[1] + (int64_t)a[2] * b[2];
 }
 
 /* round(a . b / 2^30) */
-static inline int64_t gn_dot_q30_inline(const int32_t a[3], const int32_t b[3])
+GN_HOT static inline int64_t gn_dot_q30_inline(const int32_t a[3], const int32_t b[3])
 {
     return gn_shr64_inline(gn_dot64_inline(a, b), 30);
 }

@@ -5,52 +5,52 @@
 #include "base/gn_q.h"
 #include "base/gn_signature.h"
 
-GN_NOINLINE int64_t gn_far_clamp64(int64_t v, int64_t lo, int64_t hi)
+GN_HOT GN_NOINLINE int64_t gn_far_clamp64(int64_t v, int64_t lo, int64_t hi)
 {
     return gn_clamp64_inline(v, lo, hi);
 }
 
-GN_NOINLINE int32_t gn_far_clamp32(int64_t v, int32_t lo, int32_t hi)
+GN_HOT GN_NOINLINE int32_t gn_far_clamp32(int64_t v, int32_t lo, int32_t hi)
 {
     return (int32_t)gn_clamp64_inline(v, lo, hi);
 }
 
-GN_NOINLINE int32_t gn_far_sat32(int64_t v)
+GN_HOT GN_NOINLINE int32_t gn_far_sat32(int64_t v)
 {
     return v == (int32_t)v ? (int32_t)v : v < 0 ? INT32_MIN : INT32_MAX;
 }
 
-GN_NOINLINE int64_t gn_far_shr64(int64_t v, int32_t s)
+GN_HOT GN_NOINLINE int64_t gn_far_shr64(int64_t v, int32_t s)
 {
     return gn_shr64_inline(v, s);
 }
 
-GN_NOINLINE int64_t gn_far_shr30(int64_t v)
+GN_HOT GN_NOINLINE int64_t gn_far_shr30(int64_t v)
 {
     return gn_shr64_inline(v, 30);
 }
 
-GN_NOINLINE int64_t gn_far_scale64(int64_t v, int32_t s)
+GN_HOT GN_NOINLINE int64_t gn_far_scale64(int64_t v, int32_t s)
 {
     return gn_scale64_inline(v, s);
 }
 
-GN_NOINLINE int32_t gn_far_mul_shr(int32_t a, int32_t b, int32_t s)
+GN_HOT GN_NOINLINE int32_t gn_far_mul_shr(int32_t a, int32_t b, int32_t s)
 {
     return gn_mul_shr_inline(a, b, s);
 }
 
-GN_NOINLINE int32_t gn_far_mul_q30(int32_t a, int32_t b)
+GN_HOT GN_NOINLINE int32_t gn_far_mul_q30(int32_t a, int32_t b)
 {
     return gn_mul_q30_inline(a, b);
 }
 
-GN_NOINLINE uint64_t gn_far_abs64(int64_t v)
+GN_HOT GN_NOINLINE uint64_t gn_far_abs64(int64_t v)
 {
     return gn_abs64_inline(v);
 }
 
-GN_NOINLINE uint64_t gn_far_signature_add(uint64_t signature, uint64_t word)
+GN_HOT GN_NOINLINE uint64_t gn_far_signature_add(uint64_t signature, uint64_t word)
 {
     return gn_signature_add_inline(signature, word);
 }

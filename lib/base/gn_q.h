@@ -9,7 +9,7 @@
 
 #include <stdint.h>
 
-#include "gn_config.h"
+#include "base/gn_hint.h"
 
 typedef char gn_assert_arithmetic_shift[((-5) >> 1) == -3 ? 1 : -1];
 
@@ -21,7 +21,7 @@ typedef char gn_assert_arithmetic_shift[((-5) >> 1) == -3 ? 1 : -1];
 #endif
 
 /* Leading zeros; v != 0. */
-static inline int32_t gn_clz32(uint32_t v)
+GN_HOT static inline int32_t gn_clz32(uint32_t v)
 {
 #if defined(__GNUC__)
     return (int32_t)__builtin_clz((unsigned int)v) - (int32_t)(sizeof(unsigned int) * 8U - 32U);
@@ -35,57 +35,57 @@ static inline int32_t gn_clz32(uint32_t v)
 #endif
 }
 
-static inline int32_t gn_clz64(uint64_t v)
+GN_HOT static inline int32_t gn_clz64(uint64_t v)
 {
     uint32_t hi = (uint32_t)(v >> 32);
     return hi ? gn_clz32(hi) : 32 + gn_clz32((uint32_t)v);
 }
 
-static inline int32_t gn_min32(int32_t a, int32_t b)
+GN_HOT static inline int32_t gn_min32(int32_t a, int32_t b)
 {
     return a < b ? a : b;
 }
 
-static inline int32_t gn_max32(int32_t a, int32_t b)
+GN_HOT static inline int32_t gn_max32(int32_t a, int32_t b)
 {
     return a > b ? a : b;
 }
 
-static inline int64_t gn_clamp64_inline(int64_t v, int64_t lo, int64_t hi)
+GN_HOT static inline int64_t gn_clamp64_inline(int64_t v, int64_t lo, int64_t hi)
 {
     return v < lo ? lo : v > hi ? hi : v;
 }
 
-static inline int32_t gn_sat32_inline(int64_t v)
+GN_HOT static inline int32_t gn_sat32_inline(int64_t v)
 {
     return (int32_t)gn_clamp64_inline(v, INT32_MIN, INT32_MAX);
 }
 
 /* |v| as unsigned: defined for the most negative value too. */
-static inline uint32_t gn_abs32(int32_t v)
+GN_HOT static inline uint32_t gn_abs32(int32_t v)
 {
     return v < 0 ? 0U - (uint32_t)v : (uint32_t)v;
 }
 
-static inline uint64_t gn_abs64_inline(int64_t v)
+GN_HOT static inline uint64_t gn_abs64_inline(int64_t v)
 {
     return v < 0 ? 0U - (uint64_t)v : (uint64_t)v;
 }
 
 /* v * 2^s; 0 <= s <= 62 and the result fits. */
-static inline int64_t gn_shl64(int64_t v, int32_t s)
+GN_HOT static inline int64_t gn_shl64(int64_t v, int32_t s)
 {
     return (int64_t)((uint64_t)v << s);
 }
 
 /* round(v / 2^s); 0 <= s <= 62, |v| < 2^63 - 2^(s - 1). */
-static inline int64_t gn_shr64_inline(int64_t v, int32_t s)
+GN_HOT static inline int64_t gn_shr64_inline(int64_t v, int32_t s)
 {
     return s ? (v + ((int64_t)1 << (s - 1))) >> s : v;
 }
 
 /* round(v * 2^-s) for any s of either sign; saturates. */
-static inline int64_t gn_scale64_inline(int64_t v, int32_t s)
+GN_HOT static inline int64_t gn_scale64_inline(int64_t v, int32_t s)
 {
     if (s > 63) return 0;
     if (s > 0) return (v >> s) + ((v >> (s - 1)) & 1); /* no addition that could overflow */
@@ -96,13 +96,13 @@ static inline int64_t gn_scale64_inline(int64_t v, int32_t s)
 }
 
 /* round(a * b / 2^s); 1 <= s <= 62, |a * b| <= 2^62. */
-static inline int32_t gn_mul_shr_inline(int32_t a, int32_t b, int32_t s)
+GN_HOT static inline int32_t gn_mul_shr_inline(int32_t a, int32_t b, int32_t s)
 {
     return (int32_t)(((int64_t)a * b + ((int64_t)1 << (s - 1))) >> s);
 }
 
 /* round(a * b / 2^30) for Q1.30 factors whose product fits Q1.30. */
-static inline int32_t gn_mul_q30_inline(int32_t a, int32_t b)
+GN_HOT static inline int32_t gn_mul_q30_inline(int32_t a, int32_t b)
 {
     return gn_mul_shr_inline(a, b, 30);
 }
@@ -148,7 +148,7 @@ GN_INLINE int64_t gn_shr64(int64_t v, int32_t s)
 #endif
 
 /* round(a * b / 2^16) of unsigned fractions; the result fits. */
-static inline uint32_t gn_mul_uq16(uint32_t a, uint32_t b)
+GN_HOT static inline uint32_t gn_mul_uq16(uint32_t a, uint32_t b)
 {
     return (uint32_t)(((uint64_t)a * b + 0x8000U) >> 16);
 }

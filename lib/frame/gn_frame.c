@@ -4,8 +4,8 @@
  * gn_begin
  * - gn_scene_validate: refuses what the caller describes wrongly (scene/)
  * - gn_cam_setup: the camera (geometry/gn_xform)
- * - gn_views_setup: which light reaches which object (light/gn_object), which gets how many shadow tiles
- *   (shadow/gn_tiles), and how each lies in the world (light/gn_cascade; shadow/gn_ortho, gn_persp; light/gn_bias)
+ * - gn_views_setup: which light reaches which object (light/gn_lights), which gets how many shadow tiles
+ *   (shadow/gn_tiles), and how each lies in the world (gn_light_views, gn_ortho, gn_persp; light/gn_cascade, gn_bias)
  *
  * gn_shadow_tile
  * - gn_atlas_render_tile: casters (shadow/gn_cull: which) as depth seen from the light (gn_ortho, gn_persp: projection;

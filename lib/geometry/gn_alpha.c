@@ -6,7 +6,7 @@
 #include "geometry/gn_alpha.h"
 #include "geometry/gn_texture.h"
 
-void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, const uint16_t idx[3])
+GN_HOT void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, const uint16_t idx[3])
 {
     cut->object = object;
     cut->mode = mode;
@@ -15,7 +15,7 @@ void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha mode, c
 }
 
 /* Clip cuts below the cutoff, dither below the noise. [M1] [M8] */
-int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x)
+GN_HOT int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x)
 {
     uint32_t alpha = cut->object->alpha_uq16;
     if (GN_TEXTURES && cut->textured) {

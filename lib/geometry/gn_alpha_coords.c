@@ -7,15 +7,15 @@
 #include "geometry/gn_plane.h"
 #include "geometry/gn_texture.h"
 
-void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3])
+GN_HOT void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3])
 {
     gn_texture_corners(&cut->uv, cut->object->mesh, cut->object->texture, idx);
 }
 
 #define GN_ALPHA_STEP_MAX 8 /* pixels: screen tiles begin at multiples of it */
 
-void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16, int32_t width,
-                    int32_t newton_steps)
+GN_HOT void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], uint32_t focal2_px_q16,
+                           int32_t width, int32_t newton_steps)
 {
     gn_plane_setup(&cut->plane, v[0], v[1], v[2]);
     gn_bary_setup(&cut->bary, &cut->plane, v[0], v[1], v[2]);
@@ -26,7 +26,7 @@ void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v)[3], u
 }
 
 /* Found by division. Returns 0 where the plane is edge on or behind: there it is those of vertex 0. */
-static int exact_coords(const gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2], gn_ray_recip *recip)
+GN_HOT static int exact_coords(const gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2], gn_ray_recip *recip)
 {
     int32_t b_q30[2] = {0, 0}, px = 2 * x + 1 - cut->width;
     int seen = gn_plane_recip(recip, &cut->plane, px, cut->py, cut->focal2_px_q16, cut->newton_steps);
@@ -38,7 +38,7 @@ static int exact_coords(const gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2], g
 #define GN_ALPHA_BEND_MAX_Q30 (3 << 26) /* 3/16: gn_chord.c has the parabola */
 #define GN_ALPHA_TEXEL_LOG2   8         /* and this is how far coordinates may leave it: 2^-8 texel */
 
-static void find_exact(const gn_alpha_cut *cut, gn_alpha_exact *at, int32_t x)
+GN_HOT static void find_exact(const gn_alpha_cut *cut, gn_alpha_exact *at, int32_t x)
 {
     gn_ray_recip recip;
     at->x = x;
@@ -49,7 +49,7 @@ static void find_exact(const gn_alpha_cut *cut, gn_alpha_exact *at, int32_t x)
 }
 
 /* (z1 - z0) / (z1 + z0), Q30, of depths z = 1 / w. */
-static int32_t bend_between(const gn_alpha_exact *a, const gn_alpha_exact *b)
+GN_HOT static int32_t bend_between(const gn_alpha_exact *a, const gn_alpha_exact *b)
 {
     int32_t larger = a->clz - b->clz; /* w1, by so many bits */
     uint32_t w0 = a->w_norm >> 1 >> gn_min32(gn_max32(larger, 0), 31),
@@ -59,7 +59,8 @@ static int32_t bend_between(const gn_alpha_exact *a, const gn_alpha_exact *b)
 }
 
 /* A coordinate that changes by d over n pixels. Returns 0 if it leaves the parabola by too much. */
-static int step_coord(gn_alpha_steps *steps, int axis, int64_t d, int32_t n, int32_t bend_q30, uint32_t size_log2)
+GN_HOT static int step_coord(gn_alpha_steps *steps, int axis, int64_t d, int32_t n, int32_t bend_q30,
+                             uint32_t size_log2)
 {
     uint32_t bend_q16 = (gn_abs32(bend_q30) >> 14) + 1; /* at most 2^13.6 */
     if (gn_abs64(d) >> 25) return 0;
@@ -73,7 +74,7 @@ static int step_coord(gn_alpha_steps *steps, int axis, int64_t d, int32_t n, int
 
 /* From one exact place to the next, around x: at multiples of the step in the picture, or where the triangle's row
  * begins and ends. */
-static void alpha_steps(gn_alpha_cut *cut, int32_t x)
+GN_HOT static void alpha_steps(gn_alpha_cut *cut, int32_t x)
 {
     const gn_texture *texture = cut->object->texture;
     const int32_t size_log2[2] = {texture->width_log2, texture->height_log2}, at = x & -cut->px_per_step;
@@ -98,7 +99,7 @@ static void alpha_steps(gn_alpha_cut *cut, int32_t x)
     steps->hold = 1;
 }
 
-void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2])
+GN_HOT void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2])
 {
     if (GN_ALPHA_STEPS && cut->px_per_step > 1) {
         const gn_alpha_steps *steps = &cut->steps;

@@ -5,13 +5,13 @@
 #include "geometry/gn_plane.h"
 
 /* Brings an edge to 30 bits. Returns the exponent that it lost. */
-static int32_t shorten(int32_t e[3])
+GN_HOT static int32_t shorten(int32_t e[3])
 {
     const int64_t wide[3] = {e[0], e[1], e[2]};
     return gn_norm_vec(e, wide);
 }
 
-void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3])
+GN_HOT void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3])
 {
     int32_t e1[3], e2[3], exp = 0;
     int64_t n[3];
@@ -34,7 +34,8 @@ void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v1[3], c
     }
 }
 
-void gn_bary_setup(gn_bary *bary, const gn_plane *plane, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3])
+GN_HOT void gn_bary_setup(gn_bary *bary, const gn_plane *plane, const int32_t v0[3], const int32_t v1[3],
+                          const int32_t v2[3])
 {
     /* b1 = (e2 x v0) . ray / (n . ray), b2 = (v0 x e1) . ray / (n . ray) */
     for (int k = 0; k < 2; k++) {
@@ -56,8 +57,8 @@ void gn_bary_setup(gn_bary *bary, const gn_plane *plane, const int32_t v0[3], co
 }
 
 /* The perspective divide of a pixel. [R4] */
-int gn_plane_recip(gn_ray_recip *out, const gn_plane *plane, int32_t px, int32_t py, uint32_t focal2_px_q16,
-                   int32_t newton_steps)
+GN_HOT int gn_plane_recip(gn_ray_recip *out, const gn_plane *plane, int32_t px, int32_t py, uint32_t focal2_px_q16,
+                          int32_t newton_steps)
 {
     int64_t w = plane->det > 0 ? gn_plane_at(plane->n, px, py, focal2_px_q16) : 0;
     if (w <= 0) return 0;
@@ -68,7 +69,7 @@ int gn_plane_recip(gn_ray_recip *out, const gn_plane *plane, int32_t px, int32_t
 }
 
 /* round(b * 2^-s) within 0 .. most */
-static inline uint32_t bary_fraction(int64_t b, int32_t s, uint32_t most)
+GN_HOT static inline uint32_t bary_fraction(int64_t b, int32_t s, uint32_t most)
 {
     if (GN_SIZE_FIRST || s < 1 || s > 62) return (uint32_t)gn_clamp64(gn_scale64(b, s), 0, most);
     if (b < 0) return 0;
@@ -78,8 +79,8 @@ static inline uint32_t bary_fraction(int64_t b, int32_t s, uint32_t most)
     return t < most ? t : most;
 }
 
-void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip, int32_t px, int32_t py,
-                uint32_t focal2_px_q16)
+GN_HOT void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip, int32_t px, int32_t py,
+                       uint32_t focal2_px_q16)
 {
     const int32_t one = 1 << 30;
     for (int k = 0; k < 2; k++) {

@@ -8,12 +8,12 @@
 
 /* Texels of a coordinate, Q16, of 2^size_log2 <= 4096. A repeating one is modulo 2^12 turns, whole numbers of texels.
  */
-static int32_t texels_q16(int32_t c_q20, int32_t size_log2)
+GN_HOT static int32_t texels_q16(int32_t c_q20, int32_t size_log2)
 {
     return size_log2 >= 4 ? (int32_t)((uint32_t)c_q20 << (size_log2 - 4)) : c_q20 >> (4 - size_log2);
 }
 
-static GN_SHARED gn_texture_taps find_taps(int32_t c_q20, int32_t size_log2, int clamped, int bilinear)
+GN_HOT static GN_SHARED gn_texture_taps find_taps(int32_t c_q20, int32_t size_log2, int clamped, int bilinear)
 {
     uint32_t last = (1U << size_log2) - 1;
     int32_t half = bilinear ? 32768 : 0;
@@ -38,7 +38,7 @@ typedef struct {
     int bilinear;
 } footprint;
 
-static GN_SHARED void find_texels(footprint *out, const gn_texture *texture, int32_t u_q20, int32_t v_q20)
+GN_HOT static GN_SHARED void find_texels(footprint *out, const gn_texture *texture, int32_t u_q20, int32_t v_q20)
 {
     out->bilinear = (texture->flags & GN_TEXTURE_BILINEAR) != 0;
     gn_texture_taps u = find_taps(u_q20, texture->width_log2, texture->flags & GN_TEXTURE_CLAMP_U, out->bilinear);
@@ -54,20 +54,20 @@ static GN_SHARED void find_texels(footprint *out, const gn_texture *texture, int
 }
 
 /* Whether all four are the same, as in what has one colour. */
-static inline int is_uniform(const footprint *f, uint32_t channel)
+GN_HOT static inline int is_uniform(const footprint *f, uint32_t channel)
 {
     const uint8_t *const *t = f->texel;
     return !GN_SIZE_FIRST &&
            !((t[0][channel] ^ t[1][channel]) | (t[0][channel] ^ t[2][channel]) | (t[0][channel] ^ t[3][channel]));
 }
 
-static uint32_t blend(const footprint *f, const uint32_t value[4])
+GN_HOT static uint32_t blend(const footprint *f, const uint32_t value[4])
 {
     return gn_texture_mix(gn_texture_mix(value[0], value[1], f->right_uq16),
                           gn_texture_mix(value[2], value[3], f->right_uq16), f->down_uq16);
 }
 
-uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t channel)
+GN_HOT uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t channel)
 {
     footprint f;
     uint32_t value[4];
@@ -77,7 +77,8 @@ uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_
     return gn_texture_to_uq16(blend(&f, value));
 }
 
-void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_texture *texture, const uint16_t idx[3])
+GN_HOT void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_texture *texture,
+                               const uint16_t idx[3])
 {
     for (int i = 0; i < 2; i++) {
         int64_t uv[3];
@@ -89,8 +90,8 @@ void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_
     }
 }
 
-int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *texture, const int32_t b_q30[2],
-                         int32_t which)
+GN_HOT int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *texture, const int32_t b_q30[2],
+                                int32_t which)
 {
     int64_t at = triangle->uv_q16[0][which], e1 = triangle->uv_q16[1][which], e2 = triangle->uv_q16[2][which];
     /* 2^30 * 2^33 would not fit; the lowest bit of differences of at most 15 fraction bits is zero */
@@ -99,7 +100,7 @@ int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *
 }
 
 /* A colour in linear light. [M3] */
-void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3])
+GN_HOT void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3])
 {
     footprint f;
     uint32_t value[4];

@@ -14,7 +14,7 @@ uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_
 uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel);
 
 /* Whether a coordinate (0: u, 1: v) ends at the texture's borders; otherwise it repeats. */
-static inline int gn_texture_clamps(const gn_texture *texture, int axis)
+GN_HOT static inline int gn_texture_clamps(const gn_texture *texture, int axis)
 {
     return (texture->flags & (axis ? GN_TEXTURE_CLAMP_V : GN_TEXTURE_CLAMP_U)) != 0;
 }
@@ -39,13 +39,13 @@ typedef struct {
 
 /* Values are 65535 = 1 until the end, so that a product with a weight fits 32 bits: a step to 16 bits after each axis,
  * and one to 65536 = 1. 65535 * 65536 + 32768 < 2^32; two equal values give themselves. */
-static inline uint32_t gn_texture_mix(uint32_t a, uint32_t b, uint32_t weight_uq16)
+GN_HOT static inline uint32_t gn_texture_mix(uint32_t a, uint32_t b, uint32_t weight_uq16)
 {
     return (a * (65536U - weight_uq16) + b * weight_uq16 + 32768U) >> 16;
 }
 
 /* round(v * 65536 / 65535) */
-static inline uint32_t gn_texture_to_uq16(uint32_t v)
+GN_HOT static inline uint32_t gn_texture_to_uq16(uint32_t v)
 {
     return v + (v >> 15);
 }

@@ -9,7 +9,7 @@
 /* ---- Quotient and remainder -------------------------------------------------------------------------------------- */
 
 /* Rounded towards minus infinity; b > 0 */
-static void floor_div(int64_t a, int32_t b, int32_t *q, int32_t *r)
+GN_HOT static void floor_div(int64_t a, int32_t b, int32_t *q, int32_t *r)
 {
     int64_t quotient, rest;
     if (a == (int32_t)a) { /* a 32-bit division where it is enough: always at 4 subpixel bits */
@@ -33,7 +33,8 @@ static void floor_div(int64_t a, int32_t b, int32_t *q, int32_t *r)
 }
 
 /* The edge from (x0, y0) down to (x1, y1), y0 < y1, at row y. */
-static void exact_begin(gn_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t subpixel_bits, int32_t y)
+GN_HOT static void exact_begin(gn_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t subpixel_bits,
+                               int32_t y)
 {
     int64_t one = (int64_t)1 << subpixel_bits, half = one >> 1;
     int32_t dx = x1 - x0, dy = y1 - y0; /* < 2^30 */
@@ -46,7 +47,7 @@ static void exact_begin(gn_edge *edge, int32_t x0, int32_t y0, int32_t x1, int32
 }
 
 /* To the next row. */
-static inline void exact_next(gn_edge *edge)
+GN_HOT static inline void exact_next(gn_edge *edge)
 {
     edge->q += edge->dq;
     edge->r += edge->dr;
@@ -56,7 +57,7 @@ static inline void exact_next(gn_edge *edge)
     }
 }
 
-static inline int16_t exact_step(gn_edge *edge)
+GN_HOT static inline int16_t exact_step(gn_edge *edge)
 {
     int16_t x = (int16_t)gn_max32(gn_min32(edge->q, INT16_MAX), INT16_MIN);
     exact_next(edge);
@@ -66,7 +67,7 @@ static inline int16_t exact_step(gn_edge *edge)
 /* ---- Fixed point ------------------------------------------------------------------------------------------------- */
 
 /* How many rows fixed point lasts for a triangle with these corners. */
-static inline int32_t fixed_for(const int32_t x[3], int32_t height, int32_t subpixel_bits)
+GN_HOT static inline int32_t fixed_for(const int32_t x[3], int32_t height, int32_t subpixel_bits)
 {
     uint32_t far = (uint32_t)((x[0] ^ x[0] >> 31) | (x[1] ^ x[1] >> 31) | (x[2] ^ x[2] >> 31)) >> (12 + subpixel_bits);
     int32_t a = x[1] - x[0], b = x[2] - x[0], c = x[2] - x[1];
@@ -74,8 +75,8 @@ static inline int32_t fixed_for(const int32_t x[3], int32_t height, int32_t subp
 }
 
 /* Where an edge down crosses rows y <= .. < y_end, not empty, into every other int16_t from `at` on. */
-static GN_NOINLINE void fixed_rows(const gn_walk *walk, int16_t *at, const gn_walk_corner *from,
-                                   const gn_walk_corner *to, int32_t y, int32_t y_end)
+GN_HOT static GN_NOINLINE void fixed_rows(const gn_walk *walk, int16_t *at, const gn_walk_corner *from,
+                                          const gn_walk_corner *to, int32_t y, int32_t y_end)
 {
     gn_walk_line line = gn_walk_line_at(from->x, from->y, to->x, to->y, y, walk->fixed, walk->subpixel_bits);
     uint32_t x = line.x, step = line.step;
@@ -89,7 +90,7 @@ static GN_NOINLINE void fixed_rows(const gn_walk *walk, int16_t *at, const gn_wa
 }
 
 /* One border of rows up to `end`: 0 left, 1 right. */
-static inline void fixed_border(gn_walk *walk, int side, int32_t end)
+GN_HOT static inline void fixed_border(gn_walk *walk, int side, int32_t end)
 {
     const gn_walk_corner *p = walk->corner;
     int32_t row = walk->row, bend = gn_min32(walk->row_end[1 + side], end);
@@ -105,7 +106,7 @@ static inline void fixed_border(gn_walk *walk, int side, int32_t end)
 /* ---- Walking ----------------------------------------------------------------------------------------------------- */
 
 /* Begins an edge at the current row: corners are 0 top, 1 left, 2 right. */
-static void edge_begin(gn_walk *walk, int side, int from, int to)
+GN_HOT static void edge_begin(gn_walk *walk, int side, int from, int to)
 {
     const gn_walk_corner *a = &walk->corner[from], *b = &walk->corner[to];
     exact_begin(&walk->edge[side], a->x, a->y, b->x, b->y, walk->subpixel_bits, walk->row);
@@ -113,7 +114,7 @@ static void edge_begin(gn_walk *walk, int side, int from, int to)
 
 #if GN_SIZE_FIRST
 /* Rows up to `end`. */
-static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
+GN_HOT static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
 {
     gn_span *span = walk->span;
     for (; walk->row < end; walk->row++, span++) {
@@ -125,7 +126,7 @@ static GN_NOINLINE void exact_rows(gn_walk *walk, int32_t end)
 }
 #else
 /* One border of rows up to `end`: 0 left, 1 right. */
-static GN_NOINLINE void exact_border(gn_walk *walk, int side, int32_t end)
+GN_HOT static GN_NOINLINE void exact_border(gn_walk *walk, int side, int32_t end)
 {
     int16_t *at = side ? &walk->span[0].x_end : &walk->span[0].x_begin;
     int32_t first = walk->row, row = first, bend = walk->row_end[1 + side];
@@ -152,7 +153,7 @@ static GN_NOINLINE void exact_border(gn_walk *walk, int side, int32_t end)
 }
 
 /* Rows up to `end`. */
-static inline void exact_rows(gn_walk *walk, int32_t end)
+GN_HOT static inline void exact_rows(gn_walk *walk, int32_t end)
 {
     exact_border(walk, 0, end);
     exact_border(walk, 1, end);
@@ -160,7 +161,7 @@ static inline void exact_rows(gn_walk *walk, int32_t end)
 }
 #endif
 
-static inline int32_t walk_rows(gn_walk *walk)
+GN_HOT static inline int32_t walk_rows(gn_walk *walk)
 {
     int32_t fixed = GN_SIZE_FIRST ? 0 : walk->fixed,
             end = gn_min32(walk->row_end[0], walk->row + (fixed ? fixed : GN_WALK_ROWS)), n = end - walk->row;
@@ -176,13 +177,13 @@ static inline int32_t walk_rows(gn_walk *walk)
     return n;
 }
 
-int32_t gn_walk_next(gn_walk *walk)
+GN_HOT int32_t gn_walk_next(gn_walk *walk)
 {
     return walk_rows(walk);
 }
 
-int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo,
-                      int32_t y_hi)
+GN_HOT int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo,
+                             int32_t y_hi)
 {
     int top = y[1] < y[0] ? 1 : 0;
     if (y[2] < y[top]) top = 2;

@@ -43,7 +43,7 @@ typedef struct {
 } gn_walk;
 
 /* First row or column whose pixel centre is at or after a coordinate: ceil(c - 1/2). */
-static inline int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
+GN_HOT static inline int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
 {
     return (coord + ((1 << subpixel_bits) >> 1) - 1) >>
            subpixel_bits; /* ceil((c - half) / 2^s), as 2^s - 1 - half = half - 1 */
@@ -59,14 +59,14 @@ static inline int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
 
 /* How many rows fixed point lasts for a triangle of that size, dx | dy of its edges, not further than 2^12 pixels from
  * 0: 16, 8 or none. */
-static inline int32_t gn_walk_lasts(uint32_t size)
+GN_HOT static inline int32_t gn_walk_lasts(uint32_t size)
 {
     if (GN_SIZE_FIRST) return 0; /* exact steps do all */
     return size >= 2 * GN_FIXED_SMALL ? 0 : size >= GN_FIXED_SMALL ? GN_WALK_ROWS / 2 : GN_WALK_ROWS;
 }
 
 /* a * 2^18 / b modulo 2^32, within one unit; 0 < b < 2^14 */
-static inline uint32_t gn_walk_ratio(int32_t a, int32_t b)
+GN_HOT static inline uint32_t gn_walk_ratio(int32_t a, int32_t b)
 {
     const int32_t unit = 1 << GN_FIXED_BITS, most = 1 << (31 - GN_FIXED_BITS);
     GN_KEEP(a); /* a constant in what it is made of would not fit an instruction */
@@ -87,8 +87,8 @@ typedef struct {
 
 /* The edge from (x0, y0) down to (x1, y1), y0 < y1, at row y, which it crosses; it lasts for n_rows, gn_walk_lasts of
  * them. */
-static inline gn_walk_line gn_walk_line_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y, int32_t n_rows,
-                                           int32_t subpixel_bits)
+GN_HOT static inline gn_walk_line gn_walk_line_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y,
+                                                  int32_t n_rows, int32_t subpixel_bits)
 {
     int32_t one = 1 << subpixel_bits, half = one >> 1, dx = x1 - x0, dy = y1 - y0,
             row = y * one + half - y0; /* 0 .. dy */
@@ -105,13 +105,13 @@ static inline gn_walk_line gn_walk_line_at(int32_t x0, int32_t y0, int32_t x1, i
  * are enough: dy is at most 1900 units of the subpixel grid, and m of the functions below, at most 2 dy + dx dy /
  * 2^subpixel_bits, less than 2^15. */
 #define GN_NARROW_BITS 16
-static inline int32_t gn_walk_narrow(int32_t subpixel_bits)
+GN_HOT static inline int32_t gn_walk_narrow(int32_t subpixel_bits)
 {
     return subpixel_bits < 7 ? 15 << subpixel_bits : 1900;
 }
 
 /* a * 2^16 / b by recip = 2^31 / b: one division for two quotients, where cores have no instruction for it. */
-static inline uint32_t gn_walk_share(int32_t a, uint32_t recip)
+GN_HOT static inline uint32_t gn_walk_share(int32_t a, uint32_t recip)
 {
     return (uint32_t)(a * (int32_t)(recip >> 15) + (a * (int32_t)(recip & 0x7FFFU) >> 15));
 }
@@ -120,8 +120,8 @@ static inline uint32_t gn_walk_share(int32_t a, uint32_t recip)
  * have been taken from x. What is added lasts for 15 rows, as above: quotients err by less than one unit each; by way
  * of the reciprocal downwards by less than 2 in the first row and 17/16 from each to the next, upwards by less than 1
  * and 1/16. 2^16 / dy is 34.5 at the least. */
-static inline gn_walk_line gn_walk_narrow_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y,
-                                             int32_t subpixel_bits, int divides)
+GN_HOT static inline gn_walk_line gn_walk_narrow_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y,
+                                                    int32_t subpixel_bits, int divides)
 {
     GN_KEEP(x0); /* nothing is found before it is wanted */
     GN_KEEP(y0);
@@ -144,14 +144,14 @@ int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int
 int32_t gn_walk_next(gn_walk *walk);
 
 /* Walks the next rows; the same as gn_walk_begin. */
-static inline int32_t gn_walk_on(gn_walk *walk)
+GN_HOT static inline int32_t gn_walk_on(gn_walk *walk)
 {
     return walk->row < walk->row_end[0] ? gn_walk_next(walk) : 0;
 }
 
 /* One row at a time, after gn_walk_begin: the span x_begin <= x < x_end (possibly empty) of row *y. Returns 0 after the
  * last row. */
-static inline int gn_walk_row(gn_walk *walk, int32_t *y, int32_t *x_begin, int32_t *x_end)
+GN_HOT static inline int gn_walk_row(gn_walk *walk, int32_t *y, int32_t *x_begin, int32_t *x_end)
 {
     if (!walk->n_left && !gn_walk_on(walk)) return 0;
     const gn_span *span = &walk->span[walk->row - walk->first - walk->n_left];

@@ -10,7 +10,7 @@
 #define GN_AUTO_UNITS 8 /* roundings of a point and of its triangle's corners */
 
 /* Half a cell of the positions of casters and of filter weights, and two roundings of coordinates; texels, Q16. */
-static int32_t auto_delta_q16(const gn_frame *frame)
+GN_HOT static int32_t auto_delta_q16(const gn_frame *frame)
 {
     (void)frame;
     return (1 << (15 - GN_K(frame, shadow_subpixel_bits))) + (1 << (15 - GN_K(frame, weight_bits))) + 2;
@@ -18,26 +18,26 @@ static int32_t auto_delta_q16(const gn_frame *frame)
 
 /* sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits what steps of depth add along the
  * normal. */
-int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view)
+GN_HOT int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view)
 {
     return gn_mul_shr(65536 + auto_delta_q16(frame), GN_SQRT2_Q16, 16) +
            (int32_t)((view->tile_texels * (int64_t)65536) >> GN_VIEW_BITS(view)) + 1;
 }
 
 /* The hard filter reads half a texel away, but what a curved surface does within a texel counts. */
-static int32_t smooth_more_q16(const gn_light_view *view)
+GN_HOT static int32_t smooth_more_q16(const gn_light_view *view)
 {
     return view->filter == GN_FILTER_HARD ? 32768 : 0;
 }
 
-int32_t gn_bias_auto_curved_q16(const gn_light_view *view)
+GN_HOT int32_t gn_bias_auto_curved_q16(const gn_light_view *view)
 {
     return view->perspective ? gn_mul_shr(view->offset_q16 + smooth_more_q16(view), GN_SQRT2_Q16, 16)
                              : view->auto_place;
 }
 
 /* How far the centre of a texel that the filter reads can be, along each axis; texels, Q16. */
-static int32_t taps_q16(const gn_light_view *view)
+GN_HOT static int32_t taps_q16(const gn_light_view *view)
 {
     if (view->filter == GN_FILTER_HARD) return 32768;
     if (view->filter == GN_FILTER_DISK) return view->disk_radius_q16 + 32768;
@@ -46,7 +46,7 @@ static int32_t taps_q16(const gn_light_view *view)
 
 /* Stored depth, rounded to half a step after up to T rounded ones, and the receiver's, rounded to half of its own finer
  * step, as a share of the range: 2^-(bits + 1) + 2^-(bits + frac + 1) + (T + 2) 2^-32 + 2^-29, Q32 */
-static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view *view)
+GN_HOT static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view *view)
 {
     const int64_t half = (int64_t)1 << 31;
     int32_t bits = GN_VIEW_BITS(view);
@@ -56,7 +56,7 @@ static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view *view)
 
 /* sqrt(1 + k^2) times the relative error of view depths, and of a pixel's ray, whose three coefficients are rounded in
  * each axis: 2^-28 of W + H. Q40: 2^7 * (2^-17 + 2^-16) at the most. */
-static int32_t ray_error_q40(const gn_frame *frame)
+GN_HOT static int32_t ray_error_q40(const gn_frame *frame)
 {
     uint64_t ray2_q48 = (((uint64_t)1 << 24) + (uint64_t)gn_cascade_tan2_q24(frame)) << 24; /* <= (2^24 + 2^38) 2^24 */
     uint64_t ray_q24 = gn_isqrt64(ray2_q48), pixels = (uint64_t)frame->picture.width + frame->picture.height;
@@ -64,7 +64,7 @@ static int32_t ray_error_q40(const gn_frame *frame)
 }
 
 /* Distance of a receiver from where it should be, in texels, Q16: the farthest that the view's cascade shows. */
-static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
+GN_HOT static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
 {
     int64_t farthest_q16 = frame->scene->shadow.max_distance_q16;
     if (!view->border_lit) {
@@ -79,7 +79,7 @@ static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
     return (int32_t)gn_clamp64(texels_q16, 0, 8 << 16);
 }
 
-void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
+GN_HOT void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
 {
     view->offset_q16 = taps_q16(view) + auto_delta_q16(frame);
     if (view->perspective) {
@@ -105,7 +105,7 @@ void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
     view->auto_place = (int32_t)gn_isqrt64((uint64_t)(2 * r_q16 * r_q16 + step * step)) + 1;
 }
 
-void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3])
+GN_HOT void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3])
 {
     int64_t n[3];
     for (int i = 0; i < 3; i++) n[i] = gn_dot_q30(face_q30, view->axis_q30[i]);
@@ -115,7 +115,7 @@ void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32
     for (int i = 0; i < 2; i++) out[i] = gn_sat32(gn_bf_apply((int64_t)gn_abs64(n[i]), per_w, 10) + 1);
 }
 
-void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int32_t face[3], int32_t out_q16[3])
+GN_HOT void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int32_t face[3], int32_t out_q16[3])
 {
     int64_t reach_q16 = view->offset_q16, u = gn_abs32(face[0]), v = gn_abs32(face[1]); /* < 2^21 */
     int32_t range_log2 = view->tile_log2 + view->depth_log2;
@@ -135,7 +135,7 @@ void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int3
 }
 
 #if GN_PUNCTUAL_LIGHTS
-int64_t gn_bias_auto_place_q16(const gn_light_view *view, int32_t depth_q16)
+GN_HOT int64_t gn_bias_auto_place_q16(const gn_light_view *view, int32_t depth_q16)
 {
     return ((int64_t)depth_q16 * view->auto_place >> 40) + GN_AUTO_UNITS + 1;
 }
@@ -143,7 +143,7 @@ int64_t gn_bias_auto_place_q16(const gn_light_view *view, int32_t depth_q16)
 /* Normal: the way off the plane that a tap's reach and the rounding of depths take, in units of the light-plane
  * distance, Q30: A / (1 - A max(0, m_w)), A = reach * tau * (|m_u| + |m_v|) + D_s h / n. Returns -1 where it would be
  * above 2, or the divisor below 1/2. */
-static int64_t lift_share_q30(const gn_light_view *view, int64_t across_q30, int64_t m_w_q30, int64_t h_q16)
+GN_HOT static int64_t lift_share_q30(const gn_light_view *view, int64_t across_q30, int64_t m_w_q30, int64_t h_q16)
 {
     const int64_t two = (int64_t)2 << 30;
     int64_t share =
@@ -158,13 +158,13 @@ static int64_t lift_share_q30(const gn_light_view *view, int64_t across_q30, int
 }
 
 /* Whether depth changes by more than twice the range over a texel, which casters do not: n tau |m_u| > 2 h. */
-static int too_steep(const gn_light_view *view, int64_t m_q30, int64_t h_q16)
+GN_HOT static int too_steep(const gn_light_view *view, int64_t m_q30, int64_t h_q16)
 {
     return gn_bf_apply(m_q30 * view->fit.persp.near_q16, view->fit.persp.texel_per_z, -31) > h_q16; /* 2^31 * 2^29 */
 }
 
 /* Depth: reach * (|ds/dU| + |ds/dV|), Q32, with |ds/dU| = n tau |m_u| / h. */
-static int64_t slope_share_q32(const gn_light_view *view, int64_t across_q30, int64_t h_q16)
+GN_HOT static int64_t slope_share_q32(const gn_light_view *view, int64_t across_q30, int64_t h_q16)
 {
     const gn_persp_fit *fit = &view->fit.persp;
     gn_bfloat per_h = gn_bf_mul(gn_bf_recip(gn_bf_from_u64((uint64_t)h_q16 | 1U)), fit->texel_per_z);
@@ -172,8 +172,8 @@ static int64_t slope_share_q32(const gn_light_view *view, int64_t across_q30, in
     return gn_clamp64(gn_bf_apply(reach_q26 * fit->near_q16, per_h, 6) + 1, 0, (int64_t)1 << 33); /* 2^32 * 2^29 */
 }
 
-int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias *form, const int32_t face_q30[3], int32_t depth_q16,
-                           const int32_t from_q16[3], int32_t moved_q16[3])
+GN_HOT int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias *form, const int32_t face_q30[3],
+                                  int32_t depth_q16, const int32_t from_q16[3], int32_t moved_q16[3])
 {
     int64_t h_q16 = (int64_t)gn_abs64(gn_dot_q30(face_q30, from_q16)), m_q30[3]; /* m . P = -h, behind the face +h */
     for (int i = 0; i < 3; i++) m_q30[i] = gn_dot_q30(face_q30, view->axis_q30[i]);

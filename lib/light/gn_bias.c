@@ -8,7 +8,7 @@
 #include "light/gn_cascade.h"
 #include "scene/gn_scene.h"
 
-int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light)
+GN_HOT int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light)
 {
     if (GN_AUTO_BIAS && gn_scene_auto_bias(light)) return gn_bias_auto_reach_q16(frame, view);
     int32_t reach = gn_mul_shr(light->bias_normal_q16, GN_SQRT2_Q16, 16); /* <= 8 * 1.42 */
@@ -22,7 +22,8 @@ typedef struct {
 } bias_terms;
 
 /* n_dot_l_q30: N . L of the interpolated normal as it is; only the four-term bias needs it. [B2] [B3] */
-static bias_terms bias_at(const gn_light_view *view, const gn_light *light, gn_auto_bias automatic, int32_t n_dot_l_q30)
+GN_HOT static bias_terms bias_at(const gn_light_view *view, const gn_light *light, gn_auto_bias automatic,
+                                 int32_t n_dot_l_q30)
 {
     bias_terms bias = {view->offset_q16, 0};
     if (GN_AUTO_BIAS && automatic) { /* curved */
@@ -41,7 +42,8 @@ static bias_terms bias_at(const gn_light_view *view, const gn_light *light, gn_a
     return bias;
 }
 
-void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3], int32_t out_q16[3])
+GN_HOT void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3],
+                                int32_t out_q16[3])
 {
     const gn_light_state *state = &frame->light[view->light_idx];
     int32_t n_dot_l = GN_RECEIVER_BIAS ? (int32_t)gn_dot_q30(n_q30, state->to_light_q30) : 0;
@@ -54,8 +56,8 @@ void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const
 }
 
 #if GN_PUNCTUAL_LIGHTS
-void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], int32_t depth_q16,
-                      const int32_t from_q16[3], int32_t out_q16[3])
+GN_HOT void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3],
+                             int32_t depth_q16, const int32_t from_q16[3], int32_t out_q16[3])
 {
     const gn_light_view *view = &frame->view[light->view_idx];
     GN_ELEMENT(view);

@@ -10,7 +10,7 @@
 #define GN_ONE_Q30 (1 << 30)
 
 /* Coefficients of surface point minus light along a pixel's ray, world axes: see gn_ray_plane. */
-static void ray_planes(const gn_frame *frame, gn_light_state *light)
+GN_HOT static void ray_planes(const gn_frame *frame, gn_light_state *light)
 {
     const gn_cam *cam = &frame->cam;
     gn_bfloat per_px = cam->inv_focal2;
@@ -29,7 +29,7 @@ static void ray_planes(const gn_frame *frame, gn_light_state *light)
 }
 
 /* Colours become mantissas of at most 1: what a channel can lose is below 2^-16 of the largest. */
-static void normalise_colour(gn_light_state *light, const gn_light *from)
+GN_HOT static void normalise_colour(gn_light_state *light, const gn_light *from)
 {
     uint32_t largest = from->colour_uq16[0];
     for (int c = 1; c < 3; c++)
@@ -40,7 +40,7 @@ static void normalise_colour(gn_light_state *light, const gn_light *from)
 }
 
 /* A spot or point light for the frame. [P1] */
-void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
+GN_HOT void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *from = &frame->scene->lights[light_idx];
     gn_light_state *light = &frame->light[light_idx];
@@ -67,7 +67,7 @@ void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
 }
 
 /* (1 - (d^2 / r^2)^2)^2, Q30; d < r [P2] */
-static uint32_t window_q30(const gn_light_state *light, uint64_t d2_q32)
+GN_HOT static uint32_t window_q30(const gn_light_state *light, uint64_t d2_q32)
 {
     if (light->range2_q32 == UINT64_MAX) return GN_ONE_Q30;
     int64_t ratio = gn_clamp64(gn_bf_apply((int64_t)(d2_q32 >> 1), light->inv_range2, 31), 0, GN_ONE_Q30);
@@ -75,7 +75,7 @@ static uint32_t window_q30(const gn_light_state *light, uint64_t d2_q32)
     return (uint32_t)gn_mul_q30(window, window);
 }
 
-gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t distance2_q32, uint64_t min2_q32)
+GN_HOT gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t distance2_q32, uint64_t min2_q32)
 {
     uint32_t largest = 1;
     for (int c = 0; c < 3; c++)
@@ -88,14 +88,14 @@ gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t distance2_q32
 }
 
 /* 2^47 / sqrt(v << shift >> 32); v > 0 */
-static uint32_t inverse_root(uint64_t v, int32_t newton_steps, int32_t *shift)
+GN_HOT static uint32_t inverse_root(uint64_t v, int32_t newton_steps, int32_t *shift)
 {
     *shift = gn_clz64(v) & ~1;
     return gn_rsqrt_norm((uint32_t)((v << *shift) >> 32), newton_steps);
 }
 
 /* clamp((cos - cos outer) / (cos inner - cos outer), 0, 1)^2, Q30 [P3] */
-static uint32_t angle_q30(const gn_light_state *light, int32_t cosine_q30)
+GN_HOT static uint32_t angle_q30(const gn_light_state *light, int32_t cosine_q30)
 {
     int64_t beyond = (int64_t)cosine_q30 - light->cos_outer_q30;
     if (beyond <= 0) return 0;
@@ -107,14 +107,14 @@ static uint32_t angle_q30(const gn_light_state *light, int32_t cosine_q30)
  * than 2^-6. */
 #define GN_NARROW_EXP (-55) /* of its reciprocal in Q30 */
 
-static int32_t root_steps(const gn_frame *frame, const gn_light_state *light)
+GN_HOT static int32_t root_steps(const gn_frame *frame, const gn_light_state *light)
 {
     return light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_K(frame, newton_steps);
 }
 
 /* Distance and cone together. [P2] [P3] */
-int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3],
-                   gn_punctual_point *out)
+GN_HOT int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3],
+                          gn_punctual_point *out)
 {
     uint64_t d2 = 0;
     for (int i = 0; i < 3; i++) d2 += (uint64_t)((int64_t)from_light_q16[i] * from_light_q16[i]);
@@ -136,14 +136,14 @@ int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int
     return out->factor_q30 != 0;
 }
 
-int32_t gn_punctual_cosine_q30(const gn_punctual_point *point, int32_t length_q16)
+GN_HOT int32_t gn_punctual_cosine_q30(const gn_punctual_point *point, int32_t length_q16)
 {
     /* length * 2^16 / (d * 2^16): d = 2^(63 - shift / 2) / root. 2^31 * 2^32 */
     int64_t product = (int64_t)length_q16 * (int64_t)point->inv_root;
     return (int32_t)gn_clamp64(gn_scale64(product, 33 - point->shift / 2), -GN_ONE_Q30, GN_ONE_Q30);
 }
 
-uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosine_q30)
+GN_HOT uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosine_q30)
 {
     if (cosine_q30 <= 0) return 0;
     int64_t share_q30 = gn_mul_q30((int32_t)point->factor_q30, cosine_q30);
@@ -158,7 +158,8 @@ uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosi
 /* Whether a sphere lies outside the plane through the camera that holds a line of pixels: `edge` is the line's place,
  * twice its distance from the picture's centre in pixels, `across` the centre's coordinate, both positive towards the
  * outside. */
-static int beyond_edge(const gn_frame *frame, int32_t edge, int32_t across_q16, int32_t depth_q16, uint64_t radius_q16)
+GN_HOT static int beyond_edge(const gn_frame *frame, int32_t edge, int32_t across_q16, int32_t depth_q16,
+                              uint64_t radius_q16)
 {
     uint64_t focal2 = (frame->cam.focal2_px_q16 >> 16) + 1; /* 2F, rounded up: the norm must not be too short */
     int64_t out =
@@ -167,7 +168,7 @@ static int beyond_edge(const gn_frame *frame, int32_t edge, int32_t across_q16, 
     return out > 0 && (uint64_t)out > norm * (radius_q16 + 4);
 }
 
-static int in_tile(const gn_frame *frame, const gn_rect *rect, const gn_light_state *light)
+GN_HOT static int in_tile(const gn_frame *frame, const gn_rect *rect, const gn_light_state *light)
 {
     if (light->kind == GN_LIGHT_DIRECTIONAL || light->range2_q32 == UINT64_MAX) return 1;
     const int32_t *at = light->eye_q16;
@@ -181,7 +182,7 @@ static int in_tile(const gn_frame *frame, const gn_rect *rect, const gn_light_st
 }
 
 /* The lights of a screen tile. [R9] */
-uint64_t gn_punctual_in_tile(const gn_frame *frame, const gn_rect *rect)
+GN_HOT uint64_t gn_punctual_in_tile(const gn_frame *frame, const gn_rect *rect)
 {
     uint64_t lights = 0;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)

@@ -17,7 +17,7 @@
 
 #if GN_SHADOWS
 /* T / 2 * (1 + x / (z t)), Q16: the clamps keep what is far outside the tile outside. */
-static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t recip, int32_t clz)
+GN_HOT static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t recip, int32_t clz)
 {
 #if !GN_SIZE_FIRST
     if (gn_abs64(x_q16) < (uint64_t)UINT32_MAX >> clz && clz >= 2 &&
@@ -37,8 +37,9 @@ static int32_t persp_coord(const gn_light_view *view, int64_t x_q16, uint32_t re
 
 /* B2 and B3 have moved the point at the sample; B6 does it here, in one of its forms, face by face of a point light.
  * Returns what is to be taken off its depth, Q32. */
-static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, int32_t z_q16, const gn_light_view *view,
-                           gn_auto_bias *form, const int32_t *value, int32_t moved_q16[3])
+GN_HOT static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, int32_t z_q16,
+                                  const gn_light_view *view, gn_auto_bias *form, const int32_t *value,
+                                  int32_t moved_q16[3])
 {
     const int32_t *from = value + GN_LIGHT_POINT_AT, *offset = value + GN_LIGHT_OFFSET;
 #if GN_AUTO_BIAS
@@ -54,8 +55,8 @@ static int64_t moved_point(const gn_frame *frame, const gn_surface *surface, int
 }
 
 /* Where the view sees the point in that form. Returns 0 if it is nearer than its near plane. */
-static int place_in(const gn_frame *frame, const gn_surface *surface, int32_t z_q16, const gn_light_view *view,
-                    gn_auto_bias form, const int32_t *value, gn_arrival *out)
+GN_HOT static int place_in(const gn_frame *frame, const gn_surface *surface, int32_t z_q16, const gn_light_view *view,
+                           gn_auto_bias form, const int32_t *value, gn_arrival *out)
 {
     int32_t moved[3];
     int64_t at[3], less_q32 = moved_point(frame, surface, z_q16, view, &form, value, moved);
@@ -77,8 +78,8 @@ static int place_in(const gn_frame *frame, const gn_surface *surface, int32_t z_
 
 /* Where the light's view sees the point. B6 along the normal would move what is at a spot's rim out of its tile, whose
  * border says nothing of it: there it goes along the ray. */
-static void light_space_point(const gn_frame *frame, const gn_surface *surface, const gn_light_state *light,
-                              int32_t z_q16, const int32_t *value, gn_arrival *out)
+GN_HOT static void light_space_point(const gn_frame *frame, const gn_surface *surface, const gn_light_state *light,
+                                     int32_t z_q16, const int32_t *value, gn_arrival *out)
 {
     /* P5: the face of the unmoved point; the moved one stays in it */
     uint8_t face = light->kind == GN_LIGHT_POINT ? (uint8_t)gn_persp_face(value + GN_LIGHT_POINT_AT) : 0;
@@ -99,8 +100,8 @@ static void light_space_point(const gn_frame *frame, const gn_surface *surface, 
 #endif
 
 /* `value` is the light's slot of a sample, z the view depth. [P10] */
-static void arrive(const gn_frame *frame, const gn_surface *surface, const gn_light_state *light, int32_t z_q16,
-                   const int32_t *value, gn_arrival *out)
+GN_HOT static void arrive(const gn_frame *frame, const gn_surface *surface, const gn_light_state *light, int32_t z_q16,
+                          const int32_t *value, gn_arrival *out)
 {
     gn_punctual_point point;
     out->irradiance_q24 = 0;
@@ -120,7 +121,7 @@ static void arrive(const gn_frame *frame, const gn_surface *surface, const gn_li
 #endif
 }
 
-void gn_arrivals_at(const gn_frame *frame, const gn_surface *surface, gn_sample *sample)
+GN_HOT void gn_arrivals_at(const gn_frame *frame, const gn_surface *surface, gn_sample *sample)
 {
     for (uint32_t i = surface->n_lights - surface->n_punctual; i < surface->n_lights; i++)
         arrive(frame, surface, surface->light[i].state, sample->value[GN_VALUE_Z],
@@ -131,7 +132,7 @@ void gn_arrivals_at(const gn_frame *frame, const gn_surface *surface, gn_sample 
 /* ---- Between two points ------------------------------------------------------------------------------------------ */
 
 /* Value i of a chord after m pixels. */
-static int32_t after(const gn_chord *chord, const int32_t *value, int32_t i, int32_t m)
+GN_HOT static int32_t after(const gn_chord *chord, const int32_t *value, int32_t i, int32_t m)
 {
     int32_t bend = i >= chord->bend_first && i < chord->bend_end ? chord->bend[i] : 0;
     return (int32_t)((uint32_t)value[i] + (uint32_t)m * (uint32_t)chord->step[i] +
@@ -140,7 +141,7 @@ static int32_t after(const gn_chord *chord, const int32_t *value, int32_t i, int
 
 /* A parabola of whole steps through v0, vm after m and vn after n pixels, n <= 16. Returns 0 if they are too far apart,
  * or so large that what lies between, up to 5/3 of the largest, might not fit. */
-static int parabola(int32_t v0, int32_t vm, int32_t vn, int32_t m, int32_t n, int32_t *step, int32_t *bend)
+GN_HOT static int parabola(int32_t v0, int32_t vm, int32_t vn, int32_t m, int32_t n, int32_t *step, int32_t *bend)
 {
     if ((gn_abs32(v0) | gn_abs32(vm) | gn_abs32(vn)) >> 30) return 0;
     int32_t to_m = vm - v0, to_n = vn - v0;
@@ -153,7 +154,7 @@ static int parabola(int32_t v0, int32_t vm, int32_t vn, int32_t m, int32_t n, in
 
 /* NUMERICS 4.13: what is left out is of third order in the way as a share of the distance. That is an eighth at most,
  * an eleventh where a spot fades out. */
-static int is_far(const int32_t *from_q16, const int32_t *to_q16, int fades)
+GN_HOT static int is_far(const int32_t *from_q16, const int32_t *to_q16, int fades)
 {
     uint64_t distance2 = 0, moved2 = 0;
     for (int i = 0; i < 3; i++) {
@@ -167,7 +168,7 @@ static int is_far(const int32_t *from_q16, const int32_t *to_q16, int fades)
 #if GN_SHADOWS
 /* A place is off by no more than 0.08 of how far it moves times the square of how much nearer the light is at one end
  * than at the other, as a share: 1/64 texel is left. */
-static int places_hold(const gn_arrival *a, const gn_arrival *b)
+GN_HOT static int places_hold(const gn_arrival *a, const gn_arrival *b)
 {
     uint64_t moved_q8 = (gn_abs64((int64_t)b->u_q16 - a->u_q16) + gn_abs64((int64_t)b->v_q16 - a->v_q16)) >> 8;
     uint64_t change = gn_abs64((int64_t)b->depth_q32 - a->depth_q32) >> 12,
@@ -175,18 +176,18 @@ static int places_hold(const gn_arrival *a, const gn_arrival *b)
     return moved_q8 < 1U << 20 && change * change * moved_q8 <= rest * rest * 50; /* 2^40 * 2^20 */
 }
 
-static int32_t min_of_three(int32_t a, int32_t b, int32_t c)
+GN_HOT static int32_t min_of_three(int32_t a, int32_t b, int32_t c)
 {
     return gn_min32(a, gn_min32(b, c));
 }
 
-static int32_t most_of(int32_t a, int32_t b, int32_t c)
+GN_HOT static int32_t most_of(int32_t a, int32_t b, int32_t c)
 {
     return gn_max32(a, gn_max32(b, c));
 }
 
 /* Widens lo .. hi of three values by how far the parabola through them goes beyond. */
-static void widen_range(int32_t a, int32_t b, int32_t c, int32_t *lo, int32_t *hi)
+GN_HOT static void widen_range(int32_t a, int32_t b, int32_t c, int32_t *lo, int32_t *hi)
 {
     int32_t beyond = (int32_t)((gn_abs64((int64_t)a - b) + gn_abs64((int64_t)b - c)) >> 2) + 64;
     *lo = gn_sat32((int64_t)min_of_three(a, b, c) - beyond);
@@ -194,8 +195,8 @@ static void widen_range(int32_t a, int32_t b, int32_t c, int32_t *lo, int32_t *h
 }
 
 /* Whether bounds of depth tell the attenuation of all that lies between. */
-static void decide(const gn_frame *frame, const gn_light_state *light, const gn_arrival *a, const gn_arrival *m,
-                   const gn_arrival *b, gn_arrival *out)
+GN_HOT static void decide(const gn_frame *frame, const gn_light_state *light, const gn_arrival *a, const gn_arrival *m,
+                          const gn_arrival *b, gn_arrival *out)
 {
     const gn_light_view *view = &frame->view[light->view_idx + a->face];
     gn_receiver_step lo, hi;
@@ -210,14 +211,14 @@ static void decide(const gn_frame *frame, const gn_light_state *light, const gn_
 }
 
 /* 1 - depth: n / z and the bias, times 2^(up - 2). */
-static int32_t nearness(const gn_arrival *at, int32_t up)
+GN_HOT static int32_t nearness(const gn_arrival *at, int32_t up)
 {
     return (int32_t)(up < 2 ? ~at->depth_q32 >> (2 - up) : ~at->depth_q32 << (up - 2));
 }
 
 /* U, V in Q20 and nearness with all bits that fit, for steps are whole. */
-static int step_places(gn_arrival_steps *steps, const gn_arrival *a, const gn_arrival *m, const gn_arrival *b,
-                       int32_t middle, int32_t n)
+GN_HOT static int step_places(gn_arrival_steps *steps, const gn_arrival *a, const gn_arrival *m, const gn_arrival *b,
+                              int32_t middle, int32_t n)
 {
     const gn_arrival *at[3] = {a, m, b};
     int32_t value[3][3];
@@ -237,9 +238,9 @@ static int step_places(gn_arrival_steps *steps, const gn_arrival *a, const gn_ar
 }
 
 /* The same of places and shadow. */
-static GN_NOINLINE int places_between(const gn_frame *frame, const gn_surface_light *light, gn_arrival_steps *steps,
-                                      gn_arrival *a, const gn_arrival *m, const gn_arrival *b, int32_t middle,
-                                      int32_t n)
+GN_HOT static GN_NOINLINE int places_between(const gn_frame *frame, const gn_surface_light *light,
+                                             gn_arrival_steps *steps, gn_arrival *a, const gn_arrival *m,
+                                             const gn_arrival *b, int32_t middle, int32_t n)
 {
 #if GN_RECEIVER_PLANE
     if (frame->scene->lights[light->idx].receiver_plane) return 0; /* slopes ask for the point */
@@ -256,8 +257,8 @@ static GN_NOINLINE int places_between(const gn_frame *frame, const gn_surface_li
 /* Whether nothing arrives between two points that nothing arrives at. Range and cone are convex: from the middle of the
  * way, which is no farther than half of it from every other point of it, to the surface of one of them it must be
  * farther than that. */
-static GN_NOINLINE int stays_dark(const gn_surface *surface, const gn_light_state *light, const int32_t *a,
-                                  const int32_t *b)
+GN_HOT static GN_NOINLINE int stays_dark(const gn_surface *surface, const gn_light_state *light, const int32_t *a,
+                                         const int32_t *b)
 {
     const int32_t *a_q16 = a + GN_LIGHT_POINT_AT, *b_q16 = b + GN_LIGHT_POINT_AT;
     int32_t middle_q16[3];
@@ -291,8 +292,8 @@ static GN_NOINLINE int stays_dark(const gn_surface *surface, const gn_light_stat
 
 /* Sets the steps of one light. Returns 0 where no parabola will do: at the rim of a cone, at a terminator, from face to
  * face. */
-static int between(const gn_frame *frame, const gn_surface *surface, uint32_t slot, gn_chord *chord, gn_sample *sa,
-                   const gn_sample *sb, int32_t n)
+GN_HOT static int between(const gn_frame *frame, const gn_surface *surface, uint32_t slot, gn_chord *chord,
+                          gn_sample *sa, const gn_sample *sb, int32_t n)
 {
     const gn_surface_light *light = &surface->light[slot];
     gn_arrival *a = &sa->arrival[slot], m = {0};
@@ -317,8 +318,8 @@ static int between(const gn_frame *frame, const gn_surface *surface, uint32_t sl
 #endif
 }
 
-void gn_arrivals_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, gn_sample *a,
-                         const gn_sample *b, int32_t n)
+GN_HOT void gn_arrivals_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, gn_sample *a,
+                                const gn_sample *b, int32_t n)
 {
     int32_t end = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * (int32_t)(surface->n_lights - surface->n_punctual);
     for (uint32_t i = surface->n_lights - surface->n_punctual; i < surface->n_lights; i++) {
@@ -331,7 +332,7 @@ void gn_arrivals_between(gn_chord *chord, const gn_frame *frame, const gn_surfac
 
 #if GN_SHADOWS
 /* A parabola may leave 0 .. 1. */
-static uint32_t stepped_depth(const gn_arrival_steps *steps)
+GN_HOT static uint32_t stepped_depth(const gn_arrival_steps *steps)
 {
     uint32_t near = (uint32_t)gn_max32(steps->at[2], 0);
     if (steps->up >= 2) return ~(near >> (steps->up - 2));
@@ -339,7 +340,7 @@ static uint32_t stepped_depth(const gn_arrival_steps *steps)
 }
 #endif
 
-static void step(gn_arrival_steps *steps, gn_arrival *out)
+GN_HOT static void step(gn_arrival_steps *steps, gn_arrival *out)
 {
     if (!out->reaches) return; /* nor will it */
     out->irradiance_q24 = (uint32_t)gn_max32(0, (int32_t)out->irradiance_q24 + steps->step[0]);
@@ -356,7 +357,7 @@ static void step(gn_arrival_steps *steps, gn_arrival *out)
 #endif
 }
 
-void gn_arrivals_next(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, gn_sample *sample)
+GN_HOT void gn_arrivals_next(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, gn_sample *sample)
 {
     for (uint32_t i = surface->n_lights - surface->n_punctual; i < surface->n_lights; i++) {
         if (chord->arrival[i].holds) step(&chord->arrival[i], &sample->arrival[i]);

@@ -29,14 +29,14 @@ typedef struct {
 } turning;
 
 /* v / of rounded down, Q16; v < of */
-static int32_t quotient_q16(uint32_t v, uint32_t of)
+GN_HOT static int32_t quotient_q16(uint32_t v, uint32_t of)
 {
     int32_t clz = gn_clz32(of);
     return (int32_t)((uint64_t)v * gn_recip_norm(of << clz, 1) >> (47 - clz));
 }
 
 /* 0: too far apart for what turn_cosines leaves, which is of third order. */
-static int turn_between(turning *out, const int32_t a_q15[3], const int32_t b_q15[3])
+GN_HOT static int turn_between(turning *out, const int32_t a_q15[3], const int32_t b_q15[3])
 {
     uint32_t aa = 0, bb = 0, apart = 0; /* components within 2^15: halved differences within 2^15, sums below 2^32 */
     for (int i = 0; i < 3; i++) {
@@ -62,15 +62,15 @@ typedef struct {
 } stray_ratio;
 
 /* Whether a value that changes by d stays within `most` < 2^25 of it. */
-static int holds(int64_t d, stray_ratio error, uint64_t most)
+GN_HOT static int holds(int64_t d, stray_ratio error, uint64_t most)
 {
     return gn_abs64(d) * error.num <= most * error.den; /* 2^32 * 2^31, 2^25 * 2^35 */
 }
 
 #if GN_PUNCTUAL_LIGHTS
 /* The distance, here in the largest component, is at least z / sqrt(3). */
-static int punctual_holds(const gn_frame *frame, const gn_light_state *light, int shadowed, const int32_t *a,
-                          const int32_t *b, stray_ratio error)
+GN_HOT static int punctual_holds(const gn_frame *frame, const gn_light_state *light, int shadowed, const int32_t *a,
+                                 const int32_t *b, stray_ratio error)
 {
     uint64_t distance = 0, moved = 0; /* in the largest component */
     for (int i = GN_LIGHT_POINT_AT; i < GN_LIGHT_POINT_AT + 3; i++) {
@@ -91,7 +91,7 @@ static int punctual_holds(const gn_frame *frame, const gn_light_state *light, in
 }
 #endif
 
-static int directional_holds(const int32_t *a, const int32_t *b, stray_ratio error)
+GN_HOT static int directional_holds(const int32_t *a, const int32_t *b, stray_ratio error)
 {
     for (uint32_t i = 1; i < GN_VALUES_PER_LIGHT; i++)
         if (!holds((int64_t)b[i] - a[i], error, 65536U >> GN_SHADOW_LOG2)) return 0;
@@ -101,8 +101,8 @@ static int directional_holds(const int32_t *a, const int32_t *b, stray_ratio err
 #if GN_SHADOWS && GN_RECEIVER_BIAS
 /* B3's terms along the light, its tangent and sine are no lines: of 1/8 in the normal, of 1/32 in the light's direction
  * they bend by 2^-6 of themselves up to 80 degrees. */
-static int terms_hold(const gn_frame *frame, const gn_surface *surface, uint32_t slot, const int32_t *a,
-                      const int32_t *b, const turning *turned)
+GN_HOT static int terms_hold(const gn_frame *frame, const gn_surface *surface, uint32_t slot, const int32_t *a,
+                             const int32_t *b, const turning *turned)
 {
     const int32_t *terms = frame->scene->lights[surface->light[slot].idx].bias_receiver_q16;
     if (!surface->shadowed || !(terms[0] | terms[1] | terms[3])) return 1;
@@ -117,8 +117,8 @@ static int terms_hold(const gn_frame *frame, const gn_surface *surface, uint32_t
 }
 #endif
 
-static int lights_hold(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b,
-                       stray_ratio error, const turning *turned)
+GN_HOT static int lights_hold(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b,
+                              stray_ratio error, const turning *turned)
 {
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         uint32_t at = GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i;
@@ -139,7 +139,7 @@ static int lights_hold(const gn_frame *frame, const gn_surface *surface, const g
 }
 
 #if GN_TEXTURES
-static int texture_holds(const gn_surface *surface, const gn_sample *a, const gn_sample *b, stray_ratio error)
+GN_HOT static int texture_holds(const gn_surface *surface, const gn_sample *a, const gn_sample *b, stray_ratio error)
 {
     const gn_texture *texture = surface->object->texture;
     const uint8_t log2[2] = {texture->width_log2, texture->height_log2};
@@ -151,8 +151,8 @@ static int texture_holds(const gn_surface *surface, const gn_sample *a, const gn
 }
 #endif
 
-static int all_hold(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b,
-                    stray_ratio error, const turning *turned)
+GN_HOT static int all_hold(const gn_frame *frame, const gn_surface *surface, const gn_sample *a, const gn_sample *b,
+                           stray_ratio error, const turning *turned)
 {
     int ranged = GN_SMOOTH(surface) | GN_COLOURED(surface) | surface->masked | surface->baked;
     if (ranged && error.num > error.den >> GN_SHARE_LOG2) return 0;
@@ -165,25 +165,25 @@ static int all_hold(const gn_frame *frame, const gn_surface *surface, const gn_s
 /* ---- Steps ------------------------------------------------------------------------------------------------------- */
 
 /* d / n rounded towards zero, n = 2^log2 unless log2 is negative; |d / n| < 2^31 */
-static int32_t step_of(int64_t d, int32_t n, int32_t log2)
+GN_HOT static int32_t step_of(int64_t d, int32_t n, int32_t log2)
 {
     return log2 >= 0 ? (int32_t)((d + ((d >> 63) & (n - 1))) >> log2) : gn_sat32(d) / n;
 }
 
-static int32_t log2_of(int32_t n)
+GN_HOT static int32_t log2_of(int32_t n)
 {
     return (n & (n - 1)) == 0 ? 31 - gn_clz32((uint32_t)n) : -1;
 }
 
 /* The step to the first pixel, so that n of them, each by `bend` longer than the one before, add up to d. */
-static int32_t first_step(int64_t d, int32_t bend, int32_t n, int32_t log2)
+GN_HOT static int32_t first_step(int64_t d, int32_t bend, int32_t n, int32_t log2)
 {
     return step_of(d - bend * (int64_t)(n * (n - 1) / 2), n, log2);
 }
 
 /* With t = k/n along the pixels, v0 + (v1 - v0)(t - 2a t (1 - t)). */
-static void set_steps(gn_chord *chord, const gn_surface *surface, const gn_sample *a, const gn_sample *b, int32_t n,
-                      int32_t bend)
+GN_HOT static void set_steps(gn_chord *chord, const gn_surface *surface, const gn_sample *a, const gn_sample *b,
+                             int32_t n, int32_t bend)
 {
     int32_t log2 = log2_of(n), per_px_q30 = 4 * bend / (n * n);
     chord->end = surface->n_values;
@@ -203,8 +203,8 @@ static void set_steps(gn_chord *chord, const gn_surface *surface, const gn_sampl
  *
  * for n = n0 + t (n1 - n0) is shorter by angle^2/2 t (1 - t) than between its ends, and not as long at one as at the
  * other. */
-static void turn_cosines(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a,
-                         const gn_sample *b, int32_t n, const turning *t)
+GN_HOT static void turn_cosines(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a,
+                                const gn_sample *b, int32_t n, const turning *t)
 {
     int32_t log2 = log2_of(n);
     if (chord->bend_end == chord->bend_first) { /* the cosines alone bend */
@@ -230,8 +230,8 @@ static void turn_cosines(gn_chord *chord, const gn_frame *frame, const gn_surfac
     }
 }
 
-int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a,
-                     const gn_sample *b, int32_t n)
+GN_HOT int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, const gn_sample *a,
+                            const gn_sample *b, int32_t n)
 {
     uint32_t za = (uint32_t)a->value[GN_VALUE_Z], zb = (uint32_t)b->value[GN_VALUE_Z], dz = za < zb ? zb - za : za - zb;
     int32_t bend_q30 = 0;

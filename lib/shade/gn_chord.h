@@ -10,7 +10,7 @@ int gn_chord_between(gn_chord *chord, const gn_frame *frame, const gn_surface *s
                      const gn_sample *b, int32_t n);
 
 /* One pixel further on. */
-static inline void gn_chord_next(gn_chord *chord, int32_t *value, int32_t first)
+GN_HOT static inline void gn_chord_next(gn_chord *chord, int32_t *value, int32_t first)
 {
     for (int32_t i = first; i < chord->end; i++) value[i] += chord->step[i];
     for (int32_t i = chord->bend_first; i < chord->bend_end; i++) chord->step[i] += chord->bend[i];

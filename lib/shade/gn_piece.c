@@ -11,7 +11,7 @@
 
 #if GN_PIECES
 
-int32_t gn_step_of(int32_t a, int32_t b, int32_t n)
+GN_HOT int32_t gn_step_of(int32_t a, int32_t b, int32_t n)
 {
     static const uint32_t inverse[17] = {0,           0xFFFFFFFFU, 0x80000000U, 0x55555555U, 0x40000000U, 0x33333333U,
                                          0x2AAAAAAAU, 0x24924924U, 0x20000000U, 0x1C71C71CU, 0x19999999U, 0x1745D174U,
@@ -25,7 +25,8 @@ int32_t gn_step_of(int32_t a, int32_t b, int32_t n)
 
 /* A linear form of view space, at least 2^29 long, on the screen: at the middle of `rect` times 2^-shift. Returns 0 if
  * it leaves +-2^31 within `rect`, as it does everywhere with a small shift. */
-static int form_on_screen(gn_slope *out, const gn_pieces *p, const int32_t form[3], int32_t shift, const gn_rect *rect)
+GN_HOT static int form_on_screen(gn_slope *out, const gn_pieces *p, const int32_t form[3], int32_t shift,
+                                 const gn_rect *rect)
 {
     const gn_frame *frame = p->frame;
     int32_t px = 2 * p->ref_x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * p->ref_y, s = shift - 17;
@@ -42,7 +43,7 @@ static int form_on_screen(gn_slope *out, const gn_pieces *p, const int32_t form[
 }
 
 /* Forms of the surface at a common scale, at which n . ray is below 2^27 on the triangle. */
-static int forms(gn_pieces *p, const gn_rect *rect)
+GN_HOT static int forms(gn_pieces *p, const gn_rect *rect)
 {
     const gn_surface *s = p->surface;
     int32_t shift = s->depth_scale.exp + 32 - (31 - gn_clz32((uint32_t)s->z_min_q16)) - 27;
@@ -57,7 +58,7 @@ static int forms(gn_pieces *p, const gn_rect *rect)
 
 #if GN_SHADOWS
 /* Whether the offset of the only light with a shadow is linear in the interpolated normal. */
-static int shadow_light(gn_pieces *p)
+GN_HOT static int shadow_light(gn_pieces *p)
 {
     const gn_frame *frame = p->frame;
     const gn_surface *s = p->surface;
@@ -73,7 +74,7 @@ static int shadow_light(gn_pieces *p)
 }
 
 /* The light whose shadow may fall here. Returns 0 if there are several. */
-static int find_shadow(gn_pieces *p)
+GN_HOT static int find_shadow(gn_pieces *p)
 {
     const gn_surface *s = p->surface;
     for (uint32_t i = 0; s->shadowed && i < s->n_lights; i++) {
@@ -90,7 +91,7 @@ static int find_shadow(gn_pieces *p)
  * what arrives, 2^28 times a colour, and a row of that, stepped from end to end, below 2^30. */
 #define GN_PIECE_LIGHT_Q20 (1U << 22)
 
-int gn_pieces_fit(const gn_frame *frame, const gn_surface *s)
+GN_HOT int gn_pieces_fit(const gn_frame *frame, const gn_surface *s)
 {
     if (GN_K(frame, persp_step) == 1 || frame->picture.format == GN_FORMAT_RAW32) return 0;
     if ((s->textured | s->masked | s->baked | s->specular) || s->n_punctual || s->plane.det <= 0) return 0;
@@ -102,7 +103,7 @@ int gn_pieces_fit(const gn_frame *frame, const gn_surface *s)
     return 1;
 }
 
-int gn_pieces_begin(gn_pieces *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+GN_HOT int gn_pieces_begin(gn_pieces *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
 {
     p->frame = frame;
     p->surface = s;
@@ -125,7 +126,7 @@ typedef struct {
     int32_t w_dx_q30, w_dy_q30; /* change of w per pixel, relative to w */
 } middle;
 
-static int32_t piece_depth(const gn_pieces *p, uint32_t recip, int32_t clz)
+GN_HOT static int32_t piece_depth(const gn_pieces *p, uint32_t recip, int32_t clz)
 {
     int32_t shift = p->z_shift - clz;
     uint32_t z = (uint32_t)((uint64_t)p->surface->depth_scale.mant * recip >> 32);
@@ -135,7 +136,7 @@ static int32_t piece_depth(const gn_pieces *p, uint32_t recip, int32_t clz)
 }
 
 /* Returns 0 where the plane is seen too steeply. */
-static int find_middle(const gn_pieces *p, middle *m)
+GN_HOT static int find_middle(const gn_pieces *p, middle *m)
 {
     int32_t dx = p->x - p->ref_x, dy = p->y - p->ref_y;
     int32_t w = gn_along(&p->w, dx, dy);
@@ -162,7 +163,7 @@ static int find_middle(const gn_pieces *p, middle *m)
 
 /* v0 + b1 d1 + b2 d2 with `drop` of the 28 fraction bits of b dropped, on to the unit of v0. With |v0| <= 1 and |d| <=
  * 2 in that unit it is within +-7, its slopes within +-6.75: below 2^31 for a unit of 2^28. */
-static gn_slope piece_slope(const middle *m, int32_t v0, int32_t d1, int32_t d2, int32_t drop)
+GN_HOT static gn_slope piece_slope(const middle *m, int32_t v0, int32_t d1, int32_t d2, int32_t drop)
 {
     const gn_slope *a = &m->b_q28[0], *b = &m->b_q28[1];
     gn_slope out = {v0 + (int32_t)(((int64_t)a->at * d1 + (int64_t)b->at * d2) >> drop),
@@ -172,7 +173,7 @@ static gn_slope piece_slope(const middle *m, int32_t v0, int32_t d1, int32_t d2,
 }
 
 /* Times a factor below 8; c stays within +-2. */
-static gn_slope times_q24(const gn_slope *c, int32_t factor)
+GN_HOT static gn_slope times_q24(const gn_slope *c, int32_t factor)
 {
     gn_slope out = {gn_mul_q24(factor, c->at), gn_mul_q24(factor, c->dx), gn_mul_q24(factor, c->dy)};
     return out;
@@ -185,19 +186,19 @@ typedef struct {
 
 /* By how much a value changes from the middle of a piece to its corners, without the lower `drop` bits. Halves are at
  * most 32 and 4: it fits for slopes below 2^26, or 2^31 with 5 bits dropped. */
-static uint32_t change_of(const gn_slope *s, half_size half, int32_t drop)
+GN_HOT static uint32_t change_of(const gn_slope *s, half_size half, int32_t drop)
 {
     return (gn_abs32(s->dx) >> drop) * half.w + (gn_abs32(s->dy) >> drop) * half.h;
 }
 
 /* A factor in Q24, its slopes as piece_slope() leaves them. */
-static int stays_within_2(const gn_slope *factor, half_size half)
+GN_HOT static int stays_within_2(const gn_slope *factor, half_size half)
 {
     return (gn_abs32(factor->at) >> 8) + change_of(factor, half, 8) <= 2U << 16;
 }
 
 /* How far linear colours may stray from the true ones: 2^-this. */
-static int32_t tolerance_log2(const gn_frame *frame)
+GN_HOT static int32_t tolerance_log2(const gn_frame *frame)
 {
     (void)frame;
     return GN_K(frame, persp_step) == 16 ? 7 : GN_K(frame, persp_step) == 8 ? 9 : 10;
@@ -205,7 +206,7 @@ static int32_t tolerance_log2(const gn_frame *frame)
 
 #if GN_VERTEX_NORMALS
 /* The interpolated normal in the middle, Q28; what is outside of +-1 there is looked at no further. */
-static void find_normal(const gn_surface *s, middle *m)
+GN_HOT static void find_normal(const gn_surface *s, middle *m)
 {
     for (int i = 0; i < 3; i++)
         m->n_q28[i] = piece_slope(m, s->normal_q30[0][i] / 4, s->normal_q30[1][i], s->normal_q30[2][i], 30);
@@ -213,7 +214,7 @@ static void find_normal(const gn_surface *s, middle *m)
 #endif
 
 /* All of it within GN_PIECE_LIGHT_Q20 times 2. */
-static void piece_add_light(gn_slope *sum, uint32_t colour_uq16, const gn_slope *cosine_q24)
+GN_HOT static void piece_add_light(gn_slope *sum, uint32_t colour_uq16, const gn_slope *cosine_q24)
 {
     sum->at += (int32_t)((int64_t)(int32_t)colour_uq16 * cosine_q24->at >> 16);
     sum->dx += (int32_t)((int64_t)(int32_t)colour_uq16 * cosine_q24->dx >> 16);
@@ -221,7 +222,7 @@ static void piece_add_light(gn_slope *sum, uint32_t colour_uq16, const gn_slope 
 }
 
 /* What arrives without the light that casts a shadow, and with all of its. Returns 0 if that is not close to linear. */
-static int arriving(gn_pieces *p, const middle *m, half_size half)
+GN_HOT static int arriving(gn_pieces *p, const middle *m, half_size half)
 {
     const gn_surface *s = p->surface;
     (void)m, (void)half;
@@ -231,9 +232,9 @@ static int arriving(gn_pieces *p, const middle *m, half_size half)
     }
     for (uint32_t i = 0; i < s->n_lights; i++) {
         const gn_surface_light *light = &s->light[i];
-        gn_slope facing = {light->flat_cosine_q24, 0, 0};
+        gn_slope facing = {light->cosine_q24[0], 0, 0};
 #if GN_VERTEX_NORMALS && (GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT)
-        const int32_t *at = light->vertex_cosine_q24;
+        const int32_t *at = light->cosine_q24;
         if (GN_SMOOTH(s)) facing = piece_slope(m, at[0], at[1], at[2], 28);
         if (!stays_within_2(&facing, half)) return 0;
 #endif
@@ -246,7 +247,7 @@ static int arriving(gn_pieces *p, const middle *m, half_size half)
 }
 
 /* Times the vertices' colours. Two values that both change are multiplied row by row. */
-static int piece_colours(gn_pieces *p, middle *m, half_size half)
+GN_HOT static int piece_colours(gn_pieces *p, middle *m, half_size half)
 {
     const gn_surface *s = p->surface;
     p->tinted = GN_COLOURED(s) && GN_SMOOTH(s);
@@ -263,7 +264,9 @@ static int piece_colours(gn_pieces *p, middle *m, half_size half)
     if (p->turns && !gn_turn_select(p, m->n_q28, half.w, half.h)) return 0;
 #endif
     for (int c = 0; GN_COLOURED(s) && c < 3; c++) {
-        gn_slope colour = piece_slope(m, s->rgb_q16[0][c] * 256, s->rgb_q16[1][c], s->rgb_q16[2][c], 20);
+        gn_slope colour =
+            piece_slope(m, s->attribute_q16[0][GN_ATTRIBUTE_RGB + c] * 256, s->attribute_q16[1][GN_ATTRIBUTE_RGB + c],
+                        s->attribute_q16[2][GN_ATTRIBUTE_RGB + c], 20);
         if (!stays_within_2(&colour, half)) return 0;
         p->tint_q24[c] = colour;
         if (p->tinted) continue; /* else what arrives is the same all over */
@@ -274,14 +277,14 @@ static int piece_colours(gn_pieces *p, middle *m, half_size half)
 }
 
 /* Whether w changes by at most an eighth over half a piece. */
-static int piece_is_uniform(const gn_pieces *p, half_size half)
+GN_HOT static int piece_is_uniform(const gn_pieces *p, half_size half)
 {
     return (uint64_t)gn_abs32(p->w_dx_q30) * half.w + (uint64_t)gn_abs32(p->w_dy_q30) * half.h <= 1U << 27;
 }
 
 /* How many pixels n a ramp may have, a power of two, if it bends by n^2 / 4 of `bend`: n^2 / 4 of that is below 2^(46 -
  * tolerance). */
-static int32_t longest_ramp(uint64_t bend_q46, int32_t tolerance, int32_t least_log2)
+GN_HOT static int32_t longest_ramp(uint64_t bend_q46, int32_t tolerance, int32_t least_log2)
 {
     int32_t bits = 64 - gn_clz64(bend_q46 | 1U), log2 = (48 - tolerance - bits) >> 1;
     if (log2 < 1) least_log2 = 0; /* 4 pixels would bend by more than 4 times the tolerance */
@@ -292,7 +295,7 @@ static int32_t longest_ramp(uint64_t bend_q46, int32_t tolerance, int32_t least_
 /* How long ramps may be where normals turn: over n pixels a colour bends by a quarter of the product of what it and w,
  * relative to w, or two factors change over them, and a cosine by an eighth of the square of the angle. Returns 0 if
  * something changes too fast. */
-static int turning_ramps(gn_pieces *p)
+GN_HOT static int turning_ramps(gn_pieces *p)
 {
     int32_t tolerance = tolerance_log2(p->frame);
     uint32_t fastest = 0, product = 0, turn = p->turning.per_px_q16;
@@ -311,7 +314,7 @@ static int turning_ramps(gn_pieces *p)
 
 /* v or -1 - v, whichever is not negative: what several have set together is at least all of them, and less than twice
  * the largest. */
-static inline uint32_t size_of(int32_t v)
+GN_HOT static inline uint32_t size_of(int32_t v)
 {
     return (uint32_t)(v ^ (v >> 31));
 }
@@ -321,7 +324,7 @@ typedef struct {
     uint32_t dx, dy;
 } steepness;
 
-static inline void include(steepness *all, const gn_slope *s)
+GN_HOT static inline void include(steepness *all, const gn_slope *s)
 {
     all->dx |= size_of(s->dx);
     all->dy |= size_of(s->dy);
@@ -329,7 +332,7 @@ static inline void include(steepness *all, const gn_slope *s)
 
 /* A colour times that of the vertices. Slopes of factors are below 1 per pixel, and within 8 and 2 at the place: those
  * of the product below 2^28. */
-static void tint_curve(gn_curve *curve, const gn_slope *tint)
+GN_HOT static void tint_curve(gn_curve *curve, const gn_slope *tint)
 {
     gn_slope *s = &curve->slope_q24;
     if (!(s->dx | s->dy)) { /* ambient light */
@@ -346,7 +349,7 @@ static void tint_curve(gn_curve *curve, const gn_slope *tint)
 }
 
 /* What perspective adds: g / (1 + t) is g - g t to the second order. */
-static void bend_curve(const gn_pieces *p, gn_curve *curve)
+GN_HOT static void bend_curve(const gn_pieces *p, gn_curve *curve)
 {
     int32_t dx = curve->slope_q24.dx * 8, dy = curve->slope_q24.dy * 8, w_dx = p->w_dx_q30 * 8, w_dy = p->w_dy_q30 * 8;
     curve->dxx_q28 -= gn_mul_high(dx, w_dx);
@@ -355,15 +358,15 @@ static void bend_curve(const gn_pieces *p, gn_curve *curve)
 }
 
 /* By how much values change from the middle of a piece to its corners, Q16. */
-static inline uint32_t change_q16(const steepness *s, half_size half)
+GN_HOT static inline uint32_t change_q16(const steepness *s, half_size half)
 {
     return (s->dx >> 8) * half.w + (s->dy >> 8) * half.h;
 }
 
 /* Whether what lies beyond the second order, g t^2 / (1 + t), and up to 5/2 t times the product of the factors'
  * changes, is within the tolerance all over a piece. */
-static int curves_hold(const gn_pieces *p, const steepness *light, const steepness *tint, const steepness *both,
-                       half_size half)
+GN_HOT static int curves_hold(const gn_pieces *p, const steepness *light, const steepness *tint, const steepness *both,
+                              half_size half)
 {
     uint32_t t_q15 = (gn_abs32(p->w_dx_q30) * half.w + gn_abs32(p->w_dy_q30) * half.h) >> 15; /* 2^12 */
     uint64_t linear_q34 = (uint64_t)change_q16(both, half) * ((t_q15 * t_q15) >> 12);
@@ -372,7 +375,7 @@ static int curves_hold(const gn_pieces *p, const steepness *light, const steepne
 }
 
 /* Makes colours of what arrives, and finds how long their ramps may be. Returns 0 if they change too fast. */
-static int curves(gn_pieces *p, half_size half)
+GN_HOT static int curves(gn_pieces *p, half_size half)
 {
     steepness light = {0, 0}, tint = {0, 0}, both = {0, 0};
     uint32_t most = 0;
@@ -407,14 +410,14 @@ typedef struct {
 } extent;
 
 /* |2x + 1 - size| over lo <= x < hi */
-static void pixel_range(int32_t lo, int32_t hi, int32_t size, int32_t *least, int32_t *most)
+GN_HOT static void pixel_range(int32_t lo, int32_t hi, int32_t size, int32_t *least, int32_t *most)
 {
     int32_t a = 2 * lo + 1 - size, b = 2 * (hi - 1) + 1 - size;
     *most = gn_max32(-a, b);
     *least = a > 0 ? a : b < 0 ? -b : 0;
 }
 
-static uint64_t across2(const gn_frame *frame, int32_t z_q16, int32_t px, int32_t py)
+GN_HOT static uint64_t across2(const gn_frame *frame, int32_t z_q16, int32_t px, int32_t py)
 {
     int64_t x = gn_bf_apply((int64_t)z_q16 * px, frame->cam.inv_focal2, 16);
     int64_t y = gn_bf_apply((int64_t)z_q16 * py, frame->cam.inv_focal2, 16);
@@ -423,7 +426,7 @@ static uint64_t across2(const gn_frame *frame, int32_t z_q16, int32_t px, int32_
     return (uint64_t)(x * x) + (uint64_t)(y * y);
 }
 
-static void find_extent(const gn_pieces *p, const middle *m, const gn_rect *rect, extent *e)
+GN_HOT static void find_extent(const gn_pieces *p, const middle *m, const gn_rect *rect, extent *e)
 {
     const gn_frame *frame = p->frame;
     int32_t x_lo, x_hi, y_lo, y_hi, half_w = (rect->x1 - rect->x0 + 1) >> 1, half_h = (rect->y1 - rect->y0 + 1) >> 1;
@@ -442,7 +445,7 @@ static void find_extent(const gn_pieces *p, const middle *m, const gn_rect *rect
 enum { REACH_NONE, REACH_ALL, REACH_SOME };
 
 /* D5, D11: whether the distance leaves all or nothing of shadows. */
-static int reach_of_distance(const gn_frame *frame, const extent *e)
+GN_HOT static int reach_of_distance(const gn_frame *frame, const extent *e)
 {
     int64_t m = frame->scene->shadow.max_distance_q16;
     if (frame->scene->shadow.distance_mode == GN_DISTANCE_DEPTH) {
@@ -454,7 +457,7 @@ static int reach_of_distance(const gn_frame *frame, const extent *e)
 }
 
 /* D4, D6, D7: whether one cascade, and all of it, is that of the whole piece. */
-static int reach_of_cascades(const gn_frame *frame, const extent *e, int32_t *cascade)
+GN_HOT static int reach_of_cascades(const gn_frame *frame, const extent *e, int32_t *cascade)
 {
     int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
     for (int32_t i = 0; i < frame->n_cascades; i++) {
@@ -471,8 +474,8 @@ static int reach_of_cascades(const gn_frame *frame, const extent *e, int32_t *ca
 
 /* The point of a ray's plane at depth z, and its changes. With z in Q30 and `shift` bits more than 32 to drop from
  * products, they are below 2^29 and 2^30; the sum with the origin fits. */
-static gn_slope on_ray(const gn_ray_plane *ray, int32_t px, int32_t py, int32_t z_q30, int32_t z_dx_q30,
-                       int32_t z_dy_q30, int32_t shift)
+GN_HOT static gn_slope on_ray(const gn_ray_plane *ray, int32_t px, int32_t py, int32_t z_q30, int32_t z_dx_q30,
+                              int32_t z_dy_q30, int32_t shift)
 {
     int32_t a =
         (int32_t)((uint32_t)ray->a0 + (uint32_t)ray->ax * (uint32_t)px + (uint32_t)ray->ay * (uint32_t)py); /* < 2^31 */
@@ -484,7 +487,8 @@ static gn_slope on_ray(const gn_ray_plane *ray, int32_t px, int32_t py, int32_t 
 
 #if GN_VERTEX_NORMALS
 /* Moves places so many texels, Q16, along the interpolated normal. */
-static void move_along_normal(gn_slope place[3], const middle *m, const int32_t axis_q30[3][3], int32_t along_q16)
+GN_HOT static void move_along_normal(gn_slope place[3], const middle *m, const int32_t axis_q30[3][3],
+                                     int32_t along_q16)
 {
     const gn_slope *n = m->n_q28; /* within +-7: 3 * 2^61 */
     const int32_t at[3] = {n[0].at, n[1].at, n[2].at}, dx[3] = {n[0].dx, n[1].dx, n[2].dx},
@@ -499,7 +503,7 @@ static void move_along_normal(gn_slope place[3], const middle *m, const int32_t 
 #endif
 
 /* Where the light sees the piece. Returns 0 where that is not close enough to linear over the piece. */
-static int piece_light_space(gn_pieces *p, const middle *m, half_size half)
+GN_HOT static int piece_light_space(gn_pieces *p, const middle *m, half_size half)
 {
     const gn_ortho_fit *fit = &p->view->fit.ortho;
     int32_t px = 2 * p->x + 1 - p->frame->picture.width, py = p->frame->picture.height - 1 - 2 * p->y;
@@ -532,7 +536,7 @@ static int piece_light_space(gn_pieces *p, const middle *m, half_size half)
     return 1;
 }
 
-static int pick_view(gn_pieces *p, const gn_surface_light *light, int32_t cascade)
+GN_HOT static int pick_view(gn_pieces *p, const gn_surface_light *light, int32_t cascade)
 {
     const gn_frame *frame = p->frame;
     p->view = &frame->view[light->state->view_idx];
@@ -557,7 +561,7 @@ static int pick_view(gn_pieces *p, const gn_surface_light *light, int32_t cascad
 }
 
 /* What becomes of the light's shadow in the piece. Returns 0 where it fades or changes cascades. */
-static int shadow(gn_pieces *p, const middle *m, const gn_rect *rect, half_size half)
+GN_HOT static int shadow(gn_pieces *p, const middle *m, const gn_rect *rect, half_size half)
 {
     const gn_frame *frame = p->frame;
     const gn_surface_light *light = &p->surface->light[p->shadow_slot];
@@ -583,14 +587,14 @@ static int shadow(gn_pieces *p, const middle *m, const gn_rect *rect, half_size 
 }
 #endif
 
-static uint32_t packed(const gn_frame *frame, const gn_curve *colour)
+GN_HOT static uint32_t packed(const gn_frame *frame, const gn_curve *colour)
 {
     uint32_t q20[3];
     for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour[c].slope_q24.at, 0) >> 4;
     return gn_pixel_pack(frame, q20);
 }
 
-int gn_pieces_select(gn_pieces *p, const gn_rect *rect)
+GN_HOT int gn_pieces_select(gn_pieces *p, const gn_rect *rect)
 {
     middle m;
     p->x = (rect->x0 + rect->x1) >> 1;

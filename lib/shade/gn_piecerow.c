@@ -15,8 +15,8 @@ enum { CELL_UNKNOWN, CELL_LIT, CELL_DARK, CELL_MIXED };
 
 /* v + s g + s^2 q in the middle of a row, with g its first and q its second order and s = 1 / (1 + t), and its slope
  * there. */
-static GN_NOINLINE void steep_ramp(const gn_pieces *p, const gn_curve *colour, int32_t right, int32_t down, int32_t n,
-                                   gn_ramp *ramp)
+GN_HOT static GN_NOINLINE void steep_ramp(const gn_pieces *p, const gn_curve *colour, int32_t right, int32_t down,
+                                          int32_t n, gn_ramp *ramp)
 {
     int32_t scale_q30 = gn_per_w((p->w_dx_q30 * right + p->w_dy_q30 * down) >> 1); /* right, down: in half pixels */
     for (int c = 0; c < 3; c++, colour++) {
@@ -55,7 +55,7 @@ GN_INLINE void ramp_of(const gn_pieces *p, const gn_curve *colour, int32_t x, in
 }
 
 /* A row of pixels that the light reaches all over, or not at all. */
-static void plain_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, int lit)
+GN_HOT static void plain_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, int lit)
 {
     if (!p->varies) {
         gn_pixel_fill(p->frame, rows, x, y, n, lit ? p->lit_pixel : p->dark_pixel);
@@ -76,7 +76,8 @@ static void plain_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, 
 }
 
 #if GN_SHADOWS
-static void colours_of(const gn_pieces *p, const gn_curve *colour, int32_t x, int32_t y, int32_t n, gn_ramp *ramp)
+GN_HOT static void colours_of(const gn_pieces *p, const gn_curve *colour, int32_t x, int32_t y, int32_t n,
+                              gn_ramp *ramp)
 {
     if (p->varies) {
         ramp_of(p, colour, x, y, n, ramp);
@@ -96,7 +97,7 @@ GN_INLINE int32_t place_at(const gn_slope *place, int32_t dx, int32_t dy, int32_
     return place->at + g - gn_mul_high(g, t_q30) * 4;
 }
 
-static void receiver_at(const gn_pieces *p, int32_t x, int32_t y, gn_receiver_step *out)
+GN_HOT static void receiver_at(const gn_pieces *p, int32_t x, int32_t y, gn_receiver_step *out)
 {
     int32_t dx = x - p->x, dy = y - p->y, t_q30 = p->w_dx_q30 * dx + p->w_dy_q30 * dy;
     out->u_q16 = place_at(&p->place[0], dx, dy, t_q30);
@@ -106,7 +107,8 @@ static void receiver_at(const gn_pieces *p, int32_t x, int32_t y, gn_receiver_st
 }
 
 /* (b - a) / n of two values that were limited */
-static GN_NOINLINE int32_t limited_step(const gn_pieces *p, gn_receiver_step *from, gn_receiver_step *to, int32_t n)
+GN_HOT static GN_NOINLINE int32_t limited_step(const gn_pieces *p, gn_receiver_step *from, gn_receiver_step *to,
+                                               int32_t n)
 {
     from->depth_q31 = gn_max32(p->depth_least, gn_min32(from->depth_q31, p->depth_most));
     to->depth_q31 = gn_max32(p->depth_least, gn_min32(to->depth_q31, p->depth_most));
@@ -122,8 +124,8 @@ GN_INLINE int32_t place_step(const gn_pieces *p, const gn_slope *place, int32_t 
 }
 
 /* The first and the last of n > 1 receivers, and the step from each to the next. */
-static GN_SHARED void receivers(const gn_pieces *p, int32_t x, int32_t y, int32_t n, gn_receiver_step *from,
-                                gn_receiver_step *to, gn_receiver_step *step)
+GN_HOT static GN_SHARED void receivers(const gn_pieces *p, int32_t x, int32_t y, int32_t n, gn_receiver_step *from,
+                                       gn_receiver_step *to, gn_receiver_step *step)
 {
     int32_t right = x - p->x, down = y - p->y, both = 2 * right + n,
             t2_q30 = p->w_dx_q30 * both + p->w_dy_q30 * 2 * down;
@@ -146,8 +148,8 @@ static GN_SHARED void receivers(const gn_pieces *p, int32_t x, int32_t y, int32_
 }
 
 /* n pixels, each as far between two ramps as the light is let through. */
-static GN_SHARED void partly_lit_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n,
-                                     const uint32_t *attenuation)
+GN_HOT static GN_SHARED void partly_lit_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x,
+                                            int32_t n, const uint32_t *attenuation)
 {
     gn_ramp dark, lit;
     colours_of(p, p->dark, x, y, n, &dark);
@@ -159,7 +161,8 @@ enum { ROW_DRAWN, ROW_DARK, ROW_LIT };
 
 /* n <= 17 pixels from x on, looked up one by one; if all are alike, which most short rows are, they are left to be
  * drawn so. */
-static GN_SHARED int looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n)
+GN_HOT static GN_SHARED int looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x,
+                                          int32_t n)
 {
     uint32_t attenuation[17];
     gn_receiver_step from, to, step;
@@ -181,7 +184,7 @@ static GN_SHARED int looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows
 enum { CELLS_ACROSS = GN_PIECE_WIDTH / GN_CELL };
 
 /* What bounds of depth say of a cell of the piece. */
-static GN_NOINLINE uint32_t judge_cell(gn_pieces *p, uint32_t cell)
+GN_HOT static GN_NOINLINE uint32_t judge_cell(gn_pieces *p, uint32_t cell)
 {
     int32_t x = p->x0 + (int32_t)(cell % CELLS_ACROSS * GN_CELL), y = p->y0 + (int32_t)(cell / CELLS_ACROSS * GN_CELL);
     gn_receiver_step middle_of, a, b;
@@ -206,7 +209,7 @@ GN_INLINE uint32_t state_of(gn_pieces *p, uint32_t cell)
 }
 
 /* On through cells of one kind at a time. */
-static void shadowed_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t x_end)
+GN_HOT static void shadowed_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t x_end)
 {
     uint32_t across = (uint32_t)(x - p->x0) / GN_CELL, cell = across + (uint32_t)(y - p->y0) / GN_CELL * CELLS_ACROSS;
     int32_t end = p->x0 + (int32_t)across * GN_CELL;
@@ -235,7 +238,7 @@ static void shadowed_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int
 }
 #endif
 
-void gn_pieces_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x_begin, int32_t x_end)
+GN_HOT void gn_pieces_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x_begin, int32_t x_end)
 {
 #if GN_SHADOWS
     if (p->looks_up) {

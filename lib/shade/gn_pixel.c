@@ -7,7 +7,7 @@
 
 #define GN_ONE_Q20 (1U << 20)
 
-static inline uint32_t srgb_encode(uint32_t linear_q20)
+GN_HOT static inline uint32_t srgb_encode(uint32_t linear_q20)
 {
     if (linear_q20 >= GN_ONE_Q20) return 65535;
     /* below 2^-9 the curve is its linear part: 12.92 * 65535 / 2^20 = 0.807494 = 52920 / 2^16 */
@@ -21,92 +21,92 @@ static inline uint32_t srgb_encode(uint32_t linear_q20)
 }
 
 /* round(levels * v / 65535): x / 65535 is (x + 1 + (x >> 16)) >> 16 below 2^32 - 2^16 */
-static inline uint32_t quantise(uint32_t v, uint32_t levels)
+GN_HOT static inline uint32_t quantise(uint32_t v, uint32_t levels)
 {
     uint32_t x = v * levels + 32767U;
     return (x + 1 + (x >> 16)) >> 16;
 }
 
-uint32_t gn_srgb_encode(uint32_t linear_q20)
+GN_HOT uint32_t gn_srgb_encode(uint32_t linear_q20)
 {
     return srgb_encode(linear_q20);
 }
 
-static uint32_t linear_encode(uint32_t linear_q20)
+GN_HOT static uint32_t linear_encode(uint32_t linear_q20)
 {
     uint32_t limited = linear_q20 < GN_ONE_Q20 ? linear_q20 : GN_ONE_Q20;
     return (uint32_t)(((uint64_t)limited * 65535U + (1U << 19)) >> 20);
 }
 
 /* Linear light as the display takes it. [M7] */
-static uint32_t encode(const gn_frame *frame, uint32_t linear_q20)
+GN_HOT static uint32_t encode(const gn_frame *frame, uint32_t linear_q20)
 {
     return GN_K(frame, srgb) ? srgb_encode(linear_q20) : linear_encode(linear_q20);
 }
 
-#if GN_OTHER_FORMATS
 /* Rec. 709 weights in Q16; they sum to 65536. Channels are limited first, so that one cannot outshine the others. */
-static uint32_t luminance_q20(const uint32_t c[3])
+GN_HOT static uint32_t luminance_q20(const uint32_t c[3])
 {
     uint32_t r = c[0] < GN_ONE_Q20 ? c[0] : GN_ONE_Q20, g = c[1] < GN_ONE_Q20 ? c[1] : GN_ONE_Q20,
              b = c[2] < GN_ONE_Q20 ? c[2] : GN_ONE_Q20;
     return (uint32_t)(((uint64_t)r * 13933U + (uint64_t)g * 46871U + (uint64_t)b * 4732U + 0x8000U) >> 16);
 }
-#endif
 
-static uint32_t by_curve_565(const gn_frame *frame, const uint32_t c[3])
+GN_HOT static uint32_t by_curve_565(const gn_frame *frame, const uint32_t c[3])
 {
     return quantise(encode(frame, c[0]), 31) << 11 | quantise(encode(frame, c[1]), 63) << 5 |
            quantise(encode(frame, c[2]), 31);
 }
 
-#if GN_LEVEL_TABLES
 /* A colour below 1 is of the level where its cell begins, or the next. One less: what has not reached the level's end
  * is below 0. */
-static inline uint32_t level_before(const uint8_t *levels, uint32_t v_q24, int shift)
+GN_HOT static inline uint32_t level_before(const uint8_t *levels, uint32_t v_q24, int shift)
 {
     uint32_t level = levels[v_q24 >> shift];
     return level - ((v_q24 - gn_level_end_q24[level]) >> 31);
 }
 
-static inline uint32_t pack_565(uint32_t r_q24, uint32_t g_q24, uint32_t b_q24)
+GN_HOT static inline uint32_t pack_565(uint32_t r_q24, uint32_t g_q24, uint32_t b_q24)
 {
     uint32_t red = level_before(gn_level_31_table, r_q24, 15), green = level_before(gn_level_63_table, g_q24, 14);
     return (red << 11) + (green << 5) + level_before(gn_level_31_table, b_q24, 15) + (1U << 11) + (1U << 5) + 1 -
            64; /* 64 << 11 lies above */
 }
 
-static inline uint32_t limited_q24(int32_t v)
+GN_HOT static inline uint32_t limited_q24(int32_t v)
 {
     return (uint32_t)gn_min32(gn_max32(v, 0), (1 << 24) - 1); /* one instruction, where there is one */
 }
 
-static inline uint32_t limit_and_pack_565(int32_t r_q24, int32_t g_q24, int32_t b_q24)
+GN_HOT static inline uint32_t limit_and_pack_565(int32_t r_q24, int32_t g_q24, int32_t b_q24)
 {
     return pack_565(limited_q24(r_q24), limited_q24(g_q24), limited_q24(b_q24));
 }
-#endif
 
-static uint32_t any_565(const gn_frame *frame, const uint32_t c[3])
+GN_HOT static uint32_t any_565(const gn_frame *frame, const uint32_t c[3])
 {
-#if GN_LEVEL_TABLES
-    if (GN_K(frame, srgb)) {
+    if (GN_LEVEL_TABLES && GN_K(frame, srgb)) {
         uint32_t q24[3];
         for (int i = 0; i < 3; i++) q24[i] = c[i] < GN_ONE_Q20 ? c[i] << 4 : (1U << 24) - 1;
         return pack_565(q24[0], q24[1], q24[2]) & 0xFFFFU;
     }
-#endif
     return by_curve_565(frame, c);
 }
 
-/* A colour in the picture's format. [R5] */
-uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
+GN_HOT static uint32_t pack_16(const gn_frame *frame, const uint32_t linear_q20[3])
 {
-#if GN_OTHER_FORMATS
+    uint32_t v = any_565(frame, linear_q20);
+    return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
+}
+
+/* A colour in the picture's format. [R5] */
+GN_HOT uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
+{
+    if (!GN_OTHER_FORMATS) return pack_16(frame, linear_q20);
     switch (frame->picture.format) {
     case GN_FORMAT_RGB565:
     case GN_FORMAT_RGB565_SWAPPED:
-        break;
+        return pack_16(frame, linear_q20);
     case GN_FORMAT_GREY8:
         return quantise(encode(frame, luminance_q20(linear_q20)), 255);
     case GN_FORMAT_GREY4:
@@ -117,22 +117,18 @@ uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
         return quantise(encode(frame, linear_q20[0]), 255) | quantise(encode(frame, linear_q20[1]), 255) << 8 |
                quantise(encode(frame, linear_q20[2]), 255) << 16;
     }
-#endif
-    uint32_t v = any_565(frame, linear_q20);
-    return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
 }
 
-#if GN_OTHER_FORMATS
 /* The threshold of an 8x8 ordered dither at a pixel, 1..127 of 128: the bits of x ^ y and y, interleaved and reversed.
  */
-static uint32_t threshold(int32_t x, int32_t y)
+GN_HOT static uint32_t threshold(int32_t x, int32_t y)
 {
     uint32_t a = (uint32_t)(x ^ y), b = (uint32_t)y;
     uint32_t rank = (a & 1U) << 5 | (b & 1U) << 4 | (a & 2U) << 2 | (b & 2U) << 1 | (a & 4U) >> 1 | (b & 4U) >> 2;
     return 2 * rank + 1;
 }
 
-static void fill_mono(uint8_t *row, int32_t at, int32_t x, int32_t y, int32_t n, uint32_t luminance)
+GN_HOT static void fill_mono(uint8_t *row, int32_t at, int32_t x, int32_t y, int32_t n, uint32_t luminance)
 {
     for (int32_t i = 0; i < n; i++) {
         uint8_t bit = (uint8_t)(0x80U >> ((at + i) & 7));
@@ -141,22 +137,22 @@ static void fill_mono(uint8_t *row, int32_t at, int32_t x, int32_t y, int32_t n,
     }
 }
 
-static void fill_grey4(uint8_t *row, int32_t at, int32_t n, uint32_t level)
+GN_HOT static void fill_grey4(uint8_t *row, int32_t at, int32_t n, uint32_t level)
 {
     for (int32_t i = at; i < at + n; i++) {
         uint8_t *out = &row[i >> 1];
         *out = i & 1 ? (uint8_t)((*out & 0xF0U) | level) : (uint8_t)((*out & 0x0FU) | level << 4);
     }
 }
-#endif
 
 /* n pixels of a packed colour. [R5] */
-void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed)
+GN_HOT void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
+                          uint32_t packed)
 {
     int32_t at = x - rows->x0, row = y - rows->y0, i = row * rows->width + at;
-#if GN_OTHER_FORMATS
     uint8_t *bytes = rows->pixels->bytes;
-    if (frame->picture.format == GN_FORMAT_RGB565 || frame->picture.format == GN_FORMAT_RGB565_SWAPPED) {
+    if (!GN_OTHER_FORMATS || frame->picture.format == GN_FORMAT_RGB565 ||
+        frame->picture.format == GN_FORMAT_RGB565_SWAPPED) {
         gn_pixel_fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
     } else if (frame->picture.format == GN_FORMAT_GREY8) {
         while (n-- > 0) bytes[i++] = (uint8_t)packed;
@@ -172,41 +168,34 @@ void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
             *out++ = (uint8_t)(packed >> 16);
         }
     }
-#else
-    (void)frame;
-    gn_pixel_fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
-#endif
 }
 
-size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height)
+GN_HOT size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height)
 {
     uint32_t w = (uint32_t)width, h = (uint32_t)height;
-#if !GN_OTHER_FORMATS
-    if (!GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32) return (size_t)2 * w * h;
-#endif
+    if (!GN_OTHER_FORMATS && (!GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32)) return (size_t)2 * w * h;
     return gn_format_bytes(frame->picture.format, w, h);
 }
 
 #if GN_PIECES
 /* Between dark and lit: their difference is rounded down to 15 fraction bits. */
-static inline int32_t mixed_q24(int32_t dark_q24, int32_t more_q24, uint32_t share_uq16)
+GN_HOT static inline int32_t mixed_q24(int32_t dark_q24, int32_t more_q24, uint32_t share_uq16)
 {
     return dark_q24 + (int32_t)((int64_t)(more_q24 >> 9) * (int32_t)share_uq16 >> 7);
 }
 
-#if GN_LEVEL_TABLES
-static int has_levels(const gn_frame *frame)
+GN_HOT static int has_levels(const gn_frame *frame)
 {
     return frame->picture.format == GN_FORMAT_RGB565 && GN_K(frame, srgb);
 }
 
-static uint16_t *pixel_565(const gn_pixel_rows *rows, int32_t x, int32_t y)
+GN_HOT static uint16_t *pixel_565(const gn_pixel_rows *rows, int32_t x, int32_t y)
 {
     return rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0;
 }
 
 /* Whether n colours all lie in 0 .. 1. */
-static inline int stays_inside(const gn_ramp *ramp, int32_t n)
+GN_HOT static inline int stays_inside(const gn_ramp *ramp, int32_t n)
 {
     const int32_t *from = ramp->from_q24, *step = ramp->step_q24;
     int32_t last = n - 1;
@@ -215,7 +204,7 @@ static inline int stays_inside(const gn_ramp *ramp, int32_t n)
     return (uint32_t)all < 1U << 24;
 }
 
-static inline void ramp_565(uint16_t *out, int32_t n, const gn_ramp *ramp, int inside)
+GN_HOT static inline void ramp_565(uint16_t *out, int32_t n, const gn_ramp *ramp, int inside)
 {
     uint32_t r = (uint32_t)ramp->from_q24[0], g = (uint32_t)ramp->from_q24[1], b = (uint32_t)ramp->from_q24[2];
     uint32_t dr = (uint32_t)ramp->step_q24[0], dg = (uint32_t)ramp->step_q24[1], db = (uint32_t)ramp->step_q24[2];
@@ -224,13 +213,13 @@ static inline void ramp_565(uint16_t *out, int32_t n, const gn_ramp *ramp, int i
 }
 
 /* One channel of it, on top of those before; the last adds what level_before leaves out. */
-static inline uint32_t above_linear(uint32_t left, uint32_t level, int c)
+GN_HOT static inline uint32_t above_linear(uint32_t left, uint32_t level, int c)
 {
     return c == 0 ? level << 11 : left + (c == 1 ? level << 5 : level + (1U << 11) + (1U << 5) + 1 - 64);
 }
 
-static inline void mix_channel(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c,
-                               const uint32_t *share_uq16)
+GN_HOT static inline void mix_channel(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c,
+                                      const uint32_t *share_uq16)
 {
     int32_t from = dark->from_q24[c], step = dark->step_q24[c], more = lit->from_q24[c] - from,
             more_step = lit->step_q24[c] - step;
@@ -243,8 +232,8 @@ static inline void mix_channel(uint16_t *out, int32_t n, const gn_ramp *dark, co
 }
 
 /* The same of colours that stay inside: in 31 bits. */
-static inline void mix_inside(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c,
-                              const uint32_t *share_uq16)
+GN_HOT static inline void mix_inside(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c,
+                                     const uint32_t *share_uq16)
 {
     const uint8_t *levels = c == 1 ? gn_level_63_table : gn_level_31_table;
     uint32_t from = (uint32_t)dark->from_q24[c] << 7, step = (uint32_t)dark->step_q24[c] << 7;
@@ -254,27 +243,24 @@ static inline void mix_inside(uint16_t *out, int32_t n, const gn_ramp *dark, con
         *out++ = (uint16_t)above_linear(left, level_before(levels, v >> 7, c == 1 ? 14 : 15), c);
     }
 }
-#endif
 
-static void slow_pixel(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
-                       const int32_t colour_q24[3])
+GN_HOT static void slow_pixel(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
+                              const int32_t colour_q24[3])
 {
     uint32_t q20[3];
     for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour_q24[c], 0) >> 4;
     gn_pixel_store(frame, rows, x, y, gn_pixel_pack(frame, q20));
 }
 
-void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
-                   const gn_ramp *ramp)
+GN_HOT void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
+                          const gn_ramp *ramp)
 {
-#if GN_LEVEL_TABLES
-    if (has_levels(frame)) {
+    if (GN_LEVEL_TABLES && has_levels(frame)) {
         uint16_t *out = pixel_565(rows, x, y);
         if (stays_inside(ramp, n)) ramp_565(out, n, ramp, 1);
         else ramp_565(out, n, ramp, 0);
         return;
     }
-#endif
     for (int32_t i = 0; i < n; i++) {
         int32_t colour[3];
         for (int c = 0; c < 3; c++) colour[c] = ramp->from_q24[c] + i * ramp->step_q24[c];
@@ -282,11 +268,10 @@ void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, 
     }
 }
 
-void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
-                  const gn_ramp *dark, const gn_ramp *lit, const uint32_t *share_uq16)
+GN_HOT void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
+                         const gn_ramp *dark, const gn_ramp *lit, const uint32_t *share_uq16)
 {
-#if GN_LEVEL_TABLES
-    if (has_levels(frame)) {
+    if (GN_LEVEL_TABLES && has_levels(frame)) {
         uint16_t *out = pixel_565(rows, x, y);
         if (stays_inside(dark, n) && stays_inside(lit, n)) {
             mix_inside(out, n, dark, lit, 0, share_uq16);
@@ -299,7 +284,6 @@ void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, i
         mix_channel(out, n, dark, lit, 2, share_uq16);
         return;
     }
-#endif
     for (int32_t i = 0; i < n; i++) {
         int32_t colour[3];
         for (int c = 0; c < 3; c++) {
@@ -311,14 +295,13 @@ void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, i
     }
 }
 
-void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3])
+GN_HOT void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
+                         const int32_t colour_q24[3])
 {
-#if GN_LEVEL_TABLES
-    if (has_levels(frame)) {
+    if (GN_LEVEL_TABLES && has_levels(frame)) {
         *pixel_565(rows, x, y) = (uint16_t)limit_and_pack_565(colour_q24[0], colour_q24[1], colour_q24[2]);
         return;
     }
-#endif
     slow_pixel(frame, rows, x, y, colour_q24);
 }
 #endif

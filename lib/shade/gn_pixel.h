@@ -19,7 +19,6 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
 /* Stores a packed pixel n times from (x, y) of the picture on, within one row. */
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
 
-#if GN_PIECES
 /* A colour that grows by a step per pixel; |from + i step| < 2^30. */
 typedef struct {
     int32_t from_q24[3], step_q24[3];
@@ -35,10 +34,9 @@ void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, i
 
 /* Stores one pixel at (x, y); |colour| < 2^30. */
 void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3]);
-#endif
 
 /* Stores a 16-bit pixel n times from index i of the tile on, two a word where there are many. */
-static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)
+GN_HOT static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)
 {
     uint32_t end = i + n;
     if (!GN_SIZE_FIRST && n >= 8) {
@@ -53,8 +51,8 @@ static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t
 }
 
 /* Stores one packed pixel at (x, y) of the picture; RGB565 is what most panels take, so it goes first. */
-static inline void gn_pixel_store(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
-                                  uint32_t packed)
+GN_HOT static inline void gn_pixel_store(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
+                                         uint32_t packed)
 {
     if (frame->picture.format == GN_FORMAT_RGB565 || !GN_OTHER_FORMATS)
         rows->pixels->rgb565[(y - rows->y0) * rows->width + x - rows->x0] = (uint16_t)packed;

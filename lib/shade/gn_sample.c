@@ -16,7 +16,7 @@ typedef struct {
 
 /* Where the ray through a pixel centre meets the plane. Values are clamped to the triangle: a snapped edge may cover a
  * centre just outside the unsnapped triangle. */
-static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, hit *h)
+GN_HOT static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, hit *h)
 {
     gn_ray_recip r;
     if (!gn_plane_recip(&r, &s->plane, px, py, frame->cam.focal2_px_q16, GN_K(frame, newton_steps))) {
@@ -33,12 +33,12 @@ static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, in
 }
 
 /* a0 + b1 * a1 + b2 * a2 */
-static int32_t at_hit(const hit *h, int32_t a0, int32_t a1, int32_t a2)
+GN_HOT static int32_t at_hit(const hit *h, int32_t a0, int32_t a1, int32_t a2)
 {
     return gn_sat32(a0 + gn_shr64((int64_t)h->b_q30[0] * a1 + (int64_t)h->b_q30[1] * a2, 30));
 }
 
-static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
+GN_HOT static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
 {
     for (int i = 0; i < 3; i++) {
         const int32_t n0 = s->normal_q30[0][i];
@@ -48,8 +48,8 @@ static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
 
 #if GN_SHADOWS || GN_PUNCTUAL_LIGHTS
 /* A point at depth z on a pixel's ray, along three axes. |z| * |a| < 2^31 * 2^31 by the choice of the shift */
-static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t px, int32_t py, int32_t z_q16,
-                         int64_t out_q16[3])
+GN_HOT static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t px, int32_t py, int32_t z_q16,
+                                int64_t out_q16[3])
 {
     for (int i = 0; i < 3; i++) {
         int64_t a = ray[i].a0 + (int64_t)ray[i].ax * px + (int64_t)ray[i].ay * py; /* < 2^31 */
@@ -58,10 +58,21 @@ static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t p
 }
 #endif
 
+/* Along what the receiver moves: the normal, or what automatic bias takes of a curved surface. */
+GN_HOT static inline const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light,
+                                                  const int32_t n_q30[3], int32_t out_q30[3])
+{
+    if (!GN_AUTO_BIAS || !GN_CURVED(s) || !light->auto_bias) return n_q30;
+#if GN_AUTO_BIAS
+    for (int i = 0; i < 3; i++) out_q30[i] = s->lift_q30[i] + (GN_BENT(s) ? 0 : n_q30[i]);
+#endif
+    return out_q30;
+}
+
 #if GN_SHADOWS
 /* Tile coordinates of the point at depth z on a pixel's ray. */
-static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16, const int32_t offset_q16[3],
-                         int32_t *out)
+GN_HOT static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16,
+                                const int32_t offset_q16[3], int32_t *out)
 {
     int64_t at[3];
     point_on_ray(view->fit.ortho.ray, view->fit.ortho.ray_shift, px, py, z_q16, at);
@@ -69,14 +80,14 @@ static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int3
 }
 
 /* Whether a light has cascades, or shadows end at a distance from the camera. */
-static int asks_for_cascades(const gn_frame *frame)
+GN_HOT static int asks_for_cascades(const gn_frame *frame)
 {
     if (GN_SIZE_FIRST && !GN_PIECES) return 1; /* the same, for nothing depends on it */
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 
 /* The cascade of the surface point and its fade factor. [D4] [D6] [D11] */
-static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
 {
     gn_bfloat per_px = frame->cam.inv_focal2;
     const int64_t most = 1 << 30; /* of a point of a triangle; a plane seen edge on may be drawn where it is not */
@@ -104,32 +115,17 @@ static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sam
     }
 }
 
-#if GN_AUTO_BIAS
-/* Automatic bias of curved surfaces: along what the point moves. */
-static const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light, const int32_t n_q30[3],
-                                    int32_t out_q30[3])
-{
-    if (!GN_CURVED(s) || !light->auto_bias) return n_q30;
-    for (int i = 0; i < 3; i++) out_q30[i] = s->lift_q30[i] + (GN_BENT(s) ? 0 : n_q30[i]);
-    return out_q30;
-}
-#else
-#define lifted_normal(s, light, n_q30, out_q30) ((void)(out_q30), (n_q30))
-#endif
-
 /* The surface's offset in a view, where it is not one for all views of the light: of smooth surfaces, of the disk,
  * whose index and reach are the cascade's own, and of automatic bias, whose steps of depth are. */
-static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot, const gn_light_view *view,
-                                 const int32_t n_q30[3], int32_t moved_q16[3])
+GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                        const gn_light_view *view, const int32_t n_q30[3], int32_t moved_q16[3])
 {
     const int32_t *flat = s->light[slot].flat_offset_q16;
-#if GN_AUTO_BIAS
     gn_auto_bias form = (gn_auto_bias)s->light[slot].state->auto_bias;
-    if (form && !GN_CURVED(s)) {
+    if (GN_AUTO_BIAS && form && !GN_CURVED(s)) {
         gn_bias_auto_ortho(view, form, flat, moved_q16);
         return moved_q16;
     }
-#endif
     if (!GN_SMOOTH(s) && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK)) return flat;
     int32_t lifted[3];
     gn_bias_directional(frame, view, lifted_normal(s, s->light[slot].state, n_q30, lifted), moved_q16);
@@ -137,8 +133,8 @@ static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uin
 }
 
 /* Where a directional light's view sees the point; in cascades also where the next one does. */
-static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
-                               const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
+GN_HOT static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                      const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
 {
     const gn_light_state *light = s->light[slot].state;
     if (light->view_idx < 0) return;
@@ -157,109 +153,125 @@ static void directional_coords(const gn_frame *frame, const gn_surface *s, uint3
     if (!same) offset = own_offset(frame, s, slot, view, n_q30, moved);
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
 }
+#else
+GN_HOT static int asks_for_cascades(const gn_frame *frame)
+{
+    (void)frame;
+    return 0;
+}
+
+GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+{
+    (void)frame, (void)px, (void)py, (void)sample;
+}
+
+GN_HOT static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                      const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
+{
+    (void)frame, (void)s, (void)slot, (void)px, (void)py, (void)n_q30, (void)sample, (void)out;
+}
 #endif
 
 #if GN_PUNCTUAL_LIGHTS
-static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
-                            const int32_t n_q30[3], const int32_t unit_q30[3], const gn_sample *sample, int32_t *out)
+GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                   const int32_t n_q30[3], const int32_t unit_q30[3], const gn_sample *sample,
+                                   int32_t *out)
 {
     const gn_light_state *light = s->light[slot].state;
     int64_t at[3];
     point_on_ray(light->from_light, light->ray_shift, px, py, sample->value[GN_VALUE_Z], at);
     for (int i = 0; i < 3; i++) out[GN_LIGHT_POINT_AT + i] = (int32_t)gn_clamp64(at[i], -INT32_MAX, INT32_MAX);
     out[GN_LIGHT_FACING] = gn_sat32(-gn_dot_q30(unit_q30, out + GN_LIGHT_POINT_AT));
-#if GN_SHADOWS
     int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* per pixel */
     int32_t lifted[3];
-    if (light->view_idx >= 0 && s->shadowed && !own)
+    if (GN_SHADOWS && light->view_idx >= 0 && s->shadowed && !own)
         gn_bias_punctual(frame, light, lifted_normal(s, light, n_q30, lifted), sample->value[GN_VALUE_Z],
                          out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
+}
 #else
-    (void)frame, (void)n_q30;
+GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                   const int32_t n_q30[3], const int32_t unit_q30[3], const gn_sample *sample,
+                                   int32_t *out)
+{
+    (void)frame, (void)s, (void)slot, (void)px, (void)py, (void)n_q30, (void)unit_q30, (void)sample, (void)out;
+}
 #endif
+
+#if GN_SPECULAR
+/* The normal, and against the pixel's ray, in the world. */
+GN_HOT static void specular_values(const gn_frame *frame, int32_t px, int32_t py, const int32_t unit_q30[3],
+                                   gn_sample *sample)
+{
+    const gn_cam *cam = &frame->cam;
+    int64_t towards[3];
+    for (int i = 0; i < 3; i++) { /* 2^12 * 2^16 * 2^30, 2^32 * 2^30: halved */
+        towards[i] = -((int64_t)cam->axis_q30[0][i] * px + (int64_t)cam->axis_q30[1][i] * py) * 32768 -
+                     (int64_t)cam->axis_q30[2][i] * (int64_t)(cam->focal2_px_q16 >> 1);
+        sample->normal_q30[i] = unit_q30[i];
+    }
+    gn_normalise_q30(sample->to_eye_q30, towards);
+}
+#else
+GN_HOT static void specular_values(const gn_frame *frame, int32_t px, int32_t py, const int32_t unit_q30[3],
+                                   gn_sample *sample)
+{
+    (void)frame, (void)px, (void)py, (void)unit_q30, (void)sample;
 }
 #endif
 
 /* n . L of a directional light: of the interpolated normal, or interpolated. */
-static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s, const gn_surface_light *light,
-                                      const hit *h, gn_length length, const int32_t n_q30[3])
+GN_HOT static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s, const gn_surface_light *light,
+                                             const hit *h, gn_length length, const int32_t n_q30[3])
 {
-    (void)frame, (void)h;
-    if (!GN_SMOOTH(s)) return light->flat_cosine_q24;
-#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
-    const int32_t *at = light->vertex_cosine_q24;
+    const int32_t *at = light->cosine_q24;
+    if (!GN_SMOOTH(s)) return at[0];
     if (GN_K(frame, vertex_light)) return at_hit(h, at[0], at[1], at[2]);
-#endif
     return gn_length_cosine_q24(length, n_q30, light->state->to_light_q30);
 }
 
-static void light_values(const gn_frame *frame, const gn_surface *s, const hit *h, int32_t px, int32_t py,
-                         const int32_t n_q30[3], gn_sample *sample)
+GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, const hit *h, int32_t px, int32_t py,
+                                const int32_t n_q30[3], gn_sample *sample)
 {
     gn_length length = {0, 0};
     int needs_length = !GN_K(frame, vertex_light) || s->n_punctual || s->specular;
     if (GN_SMOOTH(s) && needs_length) length = gn_length_of(GN_K(frame, newton_steps), n_q30);
-#if GN_PUNCTUAL_LIGHTS || GN_SPECULAR
     int32_t unit_q30[3] = {n_q30[0], n_q30[1], n_q30[2]};
-    if (GN_SMOOTH(s)) gn_length_unit(length, n_q30, unit_q30);
-#endif
+    if ((GN_PUNCTUAL_LIGHTS || GN_SPECULAR) && GN_SMOOTH(s)) gn_length_unit(length, n_q30, unit_q30);
     for (uint32_t i = 0; i < s->n_lights; i++) {
         int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
         for (int k = 1; k < GN_VALUES_PER_LIGHT; k++) out[k] = 0; /* not always used, but stepped */
-#if GN_PUNCTUAL_LIGHTS
-        if (s->light[i].state->kind != GN_LIGHT_DIRECTIONAL) {
+        if (GN_PUNCTUAL_LIGHTS && s->light[i].state->kind != GN_LIGHT_DIRECTIONAL) {
             GN_COUNT(sample_lights_punctual, 1);
             punctual_values(frame, s, i, px, py, n_q30, unit_q30, sample, out);
             continue;
         }
-#endif
         GN_COUNT(sample_lights, 1);
         out[0] = directional_cosine_q24(frame, s, &s->light[i], h, length, n_q30);
-#if GN_SHADOWS
         if (s->shadowed) directional_coords(frame, s, i, px, py, n_q30, sample, out + 1);
-#else
-        (void)px, (void)py;
-#endif
     }
-#if GN_SPECULAR
-    for (int i = 0; s->specular && i < 3; i++) sample->normal_q30[i] = unit_q30[i];
-#endif
+    if (s->specular) specular_values(frame, px, py, unit_q30, sample);
 }
 
-#if GN_SPECULAR
-/* Against the pixel's ray, in the world. */
-static void to_eye(const gn_frame *frame, int32_t px, int32_t py, int32_t out_q30[3])
+GN_HOT static int32_t attribute_at(const gn_surface *s, const hit *h, int i)
 {
-    const gn_cam *cam = &frame->cam;
-    int64_t towards[3];
-    for (int i = 0; i < 3; i++) /* 2^12 * 2^16 * 2^30, 2^32 * 2^30: halved */
-        towards[i] = -((int64_t)cam->axis_q30[0][i] * px + (int64_t)cam->axis_q30[1][i] * py) * 32768 -
-                     (int64_t)cam->axis_q30[2][i] * (int64_t)(cam->focal2_px_q16 >> 1);
-    gn_normalise_q30(out_q30, towards);
+    return at_hit(h, s->attribute_q16[0][i], s->attribute_q16[1][i], s->attribute_q16[2][i]);
 }
-#endif
 
-static void extra_values(const gn_surface *s, const hit *h, int32_t *value)
+GN_HOT static void extra_values(const gn_surface *s, const hit *h, int32_t *value)
 {
 #if GN_TEXTURES
     for (int i = 0; s->textured && i < 2; i++)
         value[GN_VALUE_UV + i] = gn_texture_coord(&s->uv, s->object->texture, h->b_q30, i);
     for (int i = 0; !s->textured && i < 2; i++) value[GN_VALUE_UV + i] = 0;
 #endif
-#if GN_MASKS
-    for (int i = 0; i < 4; i++)
-        value[GN_VALUE_MASK + i] = s->masked ? at_hit(h, s->mask_q16[0][i], s->mask_q16[1][i], s->mask_q16[2][i]) : 0;
-#endif
-#if GN_BAKED_LIGHT
-    for (int i = 0; i < 3; i++)
-        value[GN_VALUE_BAKED + i] =
-            s->baked ? at_hit(h, s->baked_q16[0][i], s->baked_q16[1][i], s->baked_q16[2][i]) : 0;
-#endif
-    (void)s, (void)h, (void)value;
+    for (int i = 0; GN_MASKS && i < 4; i++)
+        value[GN_VALUE_MASK + i] = s->masked ? attribute_at(s, h, GN_ATTRIBUTE_MASK + i) : 0;
+    for (int i = 0; GN_BAKED_LIGHT && i < 3; i++)
+        value[GN_VALUE_BAKED + i] = s->baked ? attribute_at(s, h, GN_ATTRIBUTE_BAKED + i) : 0;
 }
 
 /* Everything that shading interpolates, at a pixel's centre. [R4] */
-void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
+GN_HOT void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
 {
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
     hit h;
@@ -271,39 +283,29 @@ void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t
     sample->cascade = GN_CASCADE_NONE;
     sample->in_reach = 1;
     for (int i = 0; i < 3; i++)
-        sample->value[GN_VALUE_RGB + i] =
-            GN_COLOURED(s) ? at_hit(&h, s->rgb_q16[0][i], s->rgb_q16[1][i], s->rgb_q16[2][i]) : 0;
+        sample->value[GN_VALUE_RGB + i] = GN_COLOURED(s) ? attribute_at(s, &h, GN_ATTRIBUTE_RGB + i) : 0;
     if (s->first_value < GN_VALUE_Z) extra_values(s, &h, sample->value);
     if (!s->n_lights) return;
     int32_t n[3];
     normal_at(s, &h, n);
     for (int i = 0; GN_SMOOTH(s) && i < 3; i++) sample->normal_q15[i] = n[i] >> 15;
-#if GN_SHADOWS
     if (s->shadowed && asks_for_cascades(frame)) select_cascade(frame, px, py, sample);
-#endif
     light_values(frame, s, &h, px, py, n, sample);
-#if GN_SPECULAR
-    if (s->specular) to_eye(frame, px, py, sample->to_eye_q30);
-#endif
 }
 
-uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
+GN_HOT uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
 {
-#if GN_SHADOWS
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
     hit h;
     gn_sample sample;
     intersect(frame, s, px, py, &h);
     sample.value[GN_VALUE_Z] = h.z_q16;
+    sample.cascade = GN_CASCADE_NONE;
     select_cascade(frame, px, py, &sample);
     return (uint32_t)sample.cascade;
-#else
-    (void)frame, (void)s, (void)x, (void)y;
-    return GN_CASCADE_NONE;
-#endif
 }
 
-void gn_sample_normal(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, int32_t normal_q30[3])
+GN_HOT void gn_sample_normal(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, int32_t normal_q30[3])
 {
     hit h;
     intersect(frame, s, 2 * x + 1 - frame->picture.width, frame->picture.height - 1 - 2 * y, &h);

@@ -13,14 +13,14 @@
 #define GN_ONE_UQ16 65536U
 
 /* lerp(1, x, k) */
-static uint32_t faded(uint32_t x_uq16, uint32_t k_uq16)
+GN_HOT static uint32_t faded(uint32_t x_uq16, uint32_t k_uq16)
 {
     return x_uq16 >= GN_ONE_UQ16 ? GN_ONE_UQ16 : GN_ONE_UQ16 - gn_mul_uq16(k_uq16, GN_ONE_UQ16 - x_uq16);
 }
 
 #if GN_SHADOWS
 /* 65536 up to the start of the fade, 0 from the max distance on. [D5] */
-static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
+GN_HOT static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
 {
     if ((uint32_t)z_q16 <= frame->fade_start_q16) return GN_ONE_UQ16;
     int64_t left_q16 = (int64_t)frame->scene->shadow.max_distance_q16 - z_q16;
@@ -29,7 +29,7 @@ static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
 }
 
 /* What distance leaves of shadows; 65536: all. [D5] [D6] [D11] */
-uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
+GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
 {
     if (!surface->shadowed || !sample->in_reach) return 0;
     uint32_t g = GN_ONE_UQ16;
@@ -41,16 +41,26 @@ uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, co
 
 /* ---- Lookups ----------------------------------------------------------------------------------------------------- */
 
+/* Normal of the face, where the receiver's plane is built. */
+GN_HOT static inline const int32_t *face_of(const gn_surface *surface)
+{
 #if GN_RECEIVER_PLANE
+    return surface->face_q30;
+#else
+    (void)surface;
+    return NULL;
+#endif
+}
+
 /* The slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the
  * range. [B5] */
-static int32_t limit_slope(const gn_light_view *view, int64_t slope_q28)
+GN_HOT static int32_t limit_slope(const gn_light_view *view, int64_t slope_q28)
 {
     int64_t most = (int64_t)1 << (32 - view->tile_log2);
     return (int32_t)gn_clamp64(slope_q28, -most, most);
 }
 
-static void ortho_slopes(const gn_light_view *view, const int32_t face_q30[3], int32_t slope_q28[2])
+GN_HOT static void ortho_slopes(const gn_light_view *view, const int32_t face_q30[3], int32_t slope_q28[2])
 {
     int64_t w = gn_dot_q30(face_q30, view->axis_q30[2]);
     gn_bfloat per_w = gn_bf_recip(gn_bf_from_u64(gn_abs64(w) | 1U));
@@ -59,10 +69,9 @@ static void ortho_slopes(const gn_light_view *view, const int32_t face_q30[3], i
         slope_q28[i] = limit_slope(view, gn_bf_apply(w < 0 ? u : -u, per_w, 28 - view->tile_log2 - view->depth_log2));
     }
 }
-#endif
 
-static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                                  const gn_light_view *view, const int32_t coord[3])
+GN_HOT static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                         const gn_light_view *view, const int32_t coord[3])
 {
     GN_COUNT(lookups, 1);
     gn_receiver r = {coord[0], coord[1], 0, {0, 0}, sample->x, sample->y};
@@ -72,17 +81,14 @@ static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface *surfa
         uint64_t share = up >= 0 ? (uint64_t)(uint32_t)coord[2] << up : (uint32_t)coord[2] >> -up;
         r.depth_q32 = share > UINT32_MAX ? UINT32_MAX : (uint32_t)share;
     }
-#if GN_RECEIVER_PLANE
-    if (frame->scene->lights[view->light_idx].receiver_plane) ortho_slopes(view, surface->face_q30, r.slope_q28);
-#else
-    (void)surface;
-#endif
+    if (GN_RECEIVER_PLANE && frame->scene->lights[view->light_idx].receiver_plane)
+        ortho_slopes(view, face_of(surface), r.slope_q28);
     return gn_filter_attenuation(frame, view, &r);
 }
 
 /* Attenuation in the sample's cascade, blended with the next one [D7]. */
-static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                                     const gn_light_view *first, const int32_t *coord)
+GN_HOT static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                            const gn_light_view *first, const int32_t *coord)
 {
     const gn_light_view *view = first + sample->cascade;
     uint32_t factor = (uint32_t)sample->value[GN_VALUE_FADE];
@@ -99,10 +105,9 @@ static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *su
 }
 
 #if GN_PUNCTUAL_LIGHTS
-#if GN_RECEIVER_PLANE
 /* With m . P = h on the face: n / z = n (m_u x/z + m_v y/z + m_w) / h is linear over the tile. */
-static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
-                         int32_t slope_q28[2])
+GN_HOT static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
+                                int32_t slope_q28[2])
 {
     const gn_persp_fit *fit = &view->fit.persp;
     int64_t h = gn_dot_q30(face_q30, from_q16);
@@ -112,10 +117,9 @@ static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], c
         slope_q28[i] = limit_slope(view, gn_bf_apply(h < 0 ? m : -m, per_h, -2));
     }
 }
-#endif
 
-static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                                              uint32_t slot)
+GN_HOT static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface,
+                                                     const gn_sample *sample, uint32_t slot)
 {
     const gn_arrival *at = &sample->arrival[slot];
     GN_COUNT(lookups_persp, 1);
@@ -126,61 +130,67 @@ static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_su
     const gn_light_view *view = &frame->view[surface->light[slot].state->view_idx + at->face];
     GN_ELEMENT(view);
     gn_receiver r = {at->u_q16, at->v_q16, at->depth_q32, {0, 0}, sample->x, sample->y};
-#if GN_RECEIVER_PLANE
     const int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];
-    if (frame->scene->lights[view->light_idx].receiver_plane) persp_slopes(view, surface->face_q30, from, r.slope_q28);
-#endif
+    if (GN_RECEIVER_PLANE && frame->scene->lights[view->light_idx].receiver_plane)
+        persp_slopes(view, face_of(surface), from, r.slope_q28);
     return gn_filter_attenuation(frame, view, &r);
+}
+#else
+GN_HOT static uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                         uint32_t slot)
+{
+    (void)frame, (void)surface, (void)sample, (void)slot;
+    return GN_ONE_UQ16;
 }
 #endif
 
-static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot)
+GN_HOT static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                      uint32_t slot)
 {
     const gn_light_state *light = surface->light[slot].state;
     const gn_light_view *first = &frame->view[light->view_idx];
-#if GN_PUNCTUAL_LIGHTS
-    if (first->perspective) return persp_attenuation(frame, surface, sample, slot);
-#endif
+    if (GN_PUNCTUAL_LIGHTS && first->perspective) return persp_attenuation(frame, surface, sample, slot);
     const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
     if (first->border_lit) return ortho_attenuation(frame, surface, sample, first, value + 1);
     return cascaded_attenuation(frame, surface, sample, first, value + 1);
 }
 #else
-uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
+GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
 {
     (void)frame, (void)surface, (void)sample;
     return 0;
+}
+
+GN_HOT static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                      uint32_t slot)
+{
+    (void)frame, (void)surface, (void)sample, (void)slot;
+    return GN_ONE_UQ16;
 }
 #endif
 
 /* ---- Mixing ------------------------------------------------------------------------------------------------------ */
 
 /* The mask of a light's channel, 65536: lit, or no mask. [M5] */
-static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int32_t channel)
+GN_HOT static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int32_t channel)
 {
-#if GN_MASKS
-    if (!surface->masked || channel < 0) return GN_ONE_UQ16;
+    if (!GN_MASKS || !surface->masked || channel < 0) return GN_ONE_UQ16;
     const int32_t *value = &sample->value[GN_VALUE_MASK];
     if (surface->object->mask_image)
         return gn_texture_mask(surface->object->mask_image, value[0], value[1], (uint32_t)channel);
     return (uint32_t)gn_max32(0, gn_min32(value[channel], 65536));
-#else
-    (void)surface, (void)sample, (void)channel;
-    return GN_ONE_UQ16;
-#endif
 }
 
 /* Realtime shadow and baked mask, by the light's strength. [M4] [M6] */
-uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot,
-                          uint32_t g_uq16)
+GN_HOT uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                 uint32_t slot, uint32_t g_uq16)
 {
     if (!(surface->shadowed | surface->masked)) return GN_ONE_UQ16;
     const gn_light_state *light = surface->light[slot].state;
     uint32_t strength = light->strength_uq16;
     if (!strength) return GN_ONE_UQ16;
     uint32_t mask = mask_of(surface, sample, light->mask_channel);
-#if GN_SHADOWS
-    if (light->view_idx < 0 || !gn_mul_uq16(strength, g_uq16)) return faded(mask, strength);
+    if (!GN_SHADOWS || light->view_idx < 0 || !gn_mul_uq16(strength, g_uq16)) return faded(mask, strength);
     uint32_t realtime = attenuation_of(frame, surface, sample, slot);
     switch (frame->scene->shadow.mixing) {
     case GN_MIXING_ALWAYS:
@@ -191,8 +201,4 @@ uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, cons
     default:
         return faded(realtime, gn_mul_uq16(strength, g_uq16));
     }
-#else
-    (void)frame, (void)g_uq16;
-    return faded(mask, strength);
-#endif
 }

@@ -11,7 +11,7 @@
 /* ---- Once per piece ---------------------------------------------------------------------------------------------- */
 
 /* At least the length of a vector of absolute values. */
-static uint32_t length_below(const uint32_t a[3])
+GN_HOT static uint32_t length_below(const uint32_t a[3])
 {
     uint32_t most = a[0] > a[1] ? a[0] : a[1];
     if (a[2] > most) most = a[2];
@@ -19,13 +19,13 @@ static uint32_t length_below(const uint32_t a[3])
 }
 
 /* a . b / 2^shift; components < 2^30 */
-static int32_t dot(const int32_t a[3], const int32_t b[3], int32_t shift)
+GN_HOT static int32_t dot(const int32_t a[3], const int32_t b[3], int32_t shift)
 {
     return (int32_t)(gn_dot64(a, b) >> shift);
 }
 
 /* N . L, N the normal times n . ray over that of the middle: at, and by how much it changes. */
-static void find_facing(gn_pieces *p, const int32_t at[3], const int32_t dx[3], const int32_t dy[3])
+GN_HOT static void find_facing(gn_pieces *p, const int32_t at[3], const int32_t dx[3], const int32_t dy[3])
 {
     for (uint32_t i = 0; i < p->surface->n_lights; i++) {
         const int32_t *to_light = p->surface->light[i].state->to_light_q30;
@@ -36,7 +36,7 @@ static void find_facing(gn_pieces *p, const int32_t at[3], const int32_t dx[3], 
     }
 }
 
-int gn_turn_select(gn_pieces *p, const gn_slope n_q28[3], uint32_t half_w, uint32_t half_h)
+GN_HOT int gn_turn_select(gn_pieces *p, const gn_slope n_q28[3], uint32_t half_w, uint32_t half_h)
 {
     gn_turning *t = &p->turning;
     int32_t at[3], dx[3], dy[3];
@@ -83,7 +83,7 @@ GN_INLINE void begin_tint(tinted_row *r, int c, int32_t n, int32_t half_right, i
     r->tint_q28[c] = at * 16 - step * 8 * (n - 1);
 }
 
-static void begin_row(tinted_row *r, const gn_pieces *p, int32_t x, int32_t y, int32_t n)
+GN_HOT static void begin_row(tinted_row *r, const gn_pieces *p, int32_t x, int32_t y, int32_t n)
 {
     const gn_turning *t = &p->turning;
     r->p = p;
@@ -106,7 +106,7 @@ static void begin_row(tinted_row *r, const gn_pieces *p, int32_t x, int32_t y, i
 
 /* The colour at its pixel i, `share` of the light with the shadow let through. Returns a bit per light that shines on
  * it. */
-static uint32_t colour_at(const tinted_row *r, int32_t i, uint32_t share_uq16, int32_t colour_q24[3])
+GN_HOT static uint32_t colour_at(const tinted_row *r, int32_t i, uint32_t share_uq16, int32_t colour_q24[3])
 {
     const gn_pieces *p = r->p;
     const gn_surface *s = p->surface;
@@ -135,13 +135,13 @@ static uint32_t colour_at(const tinted_row *r, int32_t i, uint32_t share_uq16, i
     return lit;
 }
 
-static uint32_t lit_fraction(const gn_pieces *p, uint32_t attenuation)
+GN_HOT static uint32_t lit_fraction(const gn_pieces *p, uint32_t attenuation)
 {
     return p->turning.keep_uq16 + ((65536 - p->turning.keep_uq16) * (attenuation >> 1) >> 15);
 }
 
 /* From one colour to another, `ahead` pixels further on: 1 to 16, or a power of two. */
-static inline void ramp_steps(gn_ramp *ramp, const int32_t to_q24[3], int32_t ahead)
+GN_HOT static inline void ramp_steps(gn_ramp *ramp, const int32_t to_q24[3], int32_t ahead)
 {
     const int32_t *from = ramp->from_q24;
     int32_t *step = ramp->step_q24, log2 = 31 - gn_clz32((uint32_t)ahead);
@@ -154,7 +154,8 @@ static inline void ramp_steps(gn_ramp *ramp, const int32_t to_q24[3], int32_t ah
 
 /* Ramps as long as they may be, shorter where a light begins or ends to shine. One ends where the next begins, the last
  * on its last pixel. */
-static void ramps(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, uint32_t share)
+GN_HOT static void ramps(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n,
+                         uint32_t share)
 {
     gn_ramp ramp;
     int32_t *from = ramp.from_q24, to[3];
@@ -178,8 +179,8 @@ static void ramps(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int
     }
 }
 
-static void each_pixel(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t n,
-                       const uint32_t *attenuation, uint32_t share)
+GN_HOT static void each_pixel(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i,
+                              int32_t n, const uint32_t *attenuation, uint32_t share)
 {
     for (; n > 0; n--, i++) {
         int32_t colour[3];
@@ -189,7 +190,7 @@ static void each_pixel(const tinted_row *r, const gn_pixel_rows *rows, int32_t y
 }
 
 /* Without the light that casts a shadow, or with what is left of it. */
-static void dark_at(const tinted_row *r, int32_t i, int32_t colour_q24[3])
+GN_HOT static void dark_at(const tinted_row *r, int32_t i, int32_t colour_q24[3])
 {
     const gn_surface *s = r->p->surface;
     if (s->n_lights > 1 || r->p->turning.keep_uq16) {
@@ -201,8 +202,8 @@ static void dark_at(const tinted_row *r, int32_t i, int32_t colour_q24[3])
 }
 
 /* n <= 17 pixels from i on, no longer than a ramp, each as far between two ramps as its light is let through. */
-static void mixed_row(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t n,
-                      const uint32_t *attenuation)
+GN_HOT static void mixed_row(const tinted_row *r, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t i, int32_t n,
+                             const uint32_t *attenuation)
 {
     gn_ramp dark, lit;
     int32_t ahead = n - 1, dark_to[3], lit_to[3];
@@ -217,8 +218,8 @@ static void mixed_row(const tinted_row *r, const gn_pixel_rows *rows, int32_t y,
     gn_pixel_mix(r->p->frame, rows, x + i, y, n, &dark, &lit, attenuation + i);
 }
 
-void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n,
-                 const uint32_t *attenuation, int all)
+GN_HOT void gn_turn_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n,
+                        const uint32_t *attenuation, int all)
 {
     uint32_t share = lit_fraction(p, all ? 65536 : 0);
     tinted_row r;

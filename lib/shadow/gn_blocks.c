@@ -5,7 +5,7 @@
 #include "shadow/gn_blocks.h"
 #include "shadow/gn_texel.h"
 
-void gn_blocks_find(gn_frame *frame, gn_light_view *view)
+GN_HOT void gn_blocks_find(gn_frame *frame, gn_light_view *view)
 {
     uint32_t first = view->first_texel / 64;
 #if GN_OTHER_ATLAS
@@ -15,14 +15,14 @@ void gn_blocks_find(gn_frame *frame, gn_light_view *view)
 #endif
 }
 
-static void widen_block(gn_depth_block *block, const gn_depth_block *other)
+GN_HOT static void widen_block(gn_depth_block *block, const gn_depth_block *other)
 {
     if (other->lo < block->lo) block->lo = other->lo;
     if (other->hi > block->hi) block->hi = other->hi;
 }
 
 /* Bounds of the 8 texels from u on. Every caller passes depth_bits as a constant: a loop for each. */
-static inline gn_depth_block eight(gn_texels row, int32_t depth_bits, size_t u)
+GN_HOT static inline gn_depth_block eight(gn_texels row, int32_t depth_bits, size_t u)
 {
     uint32_t lo = gn_texel_load(row, depth_bits, u), hi = lo;
     for (size_t i = u + 1; i < u + 8; i++) {
@@ -34,7 +34,7 @@ static inline gn_depth_block eight(gn_texels row, int32_t depth_bits, size_t u)
     return block;
 }
 
-static gn_depth_block bounds_of(const gn_light_view *view, size_t first)
+GN_HOT static gn_depth_block bounds_of(const gn_light_view *view, size_t first)
 {
     gn_depth_block block = {65535, 0};
     int32_t bits = GN_VIEW_BITS(view);
@@ -48,26 +48,26 @@ static gn_depth_block bounds_of(const gn_light_view *view, size_t first)
     return block;
 }
 
-static void set_all(const gn_light_view *view, uint16_t lo, uint16_t hi)
+GN_HOT static void set_all(const gn_light_view *view, uint16_t lo, uint16_t hi)
 {
     const gn_depth_block block = {lo, hi};
     uint32_t n = view->tile_texels >> 3;
     for (uint32_t i = 0; i < n * n; i++) view->block[i] = block;
 }
 
-void gn_blocks_clear(const gn_light_view *view)
+GN_HOT void gn_blocks_clear(const gn_light_view *view)
 {
     uint16_t empty = (uint16_t)(gn_texel_far(GN_VIEW_BITS(view)) >> 16);
     set_all(view, empty, empty);
 }
 
-void gn_blocks_build(gn_light_view *view)
+GN_HOT void gn_blocks_build(gn_light_view *view)
 {
     set_all(view, 65535, 0);
     gn_blocks_build_touched(view);
 }
 
-void gn_blocks_build_touched(gn_light_view *view)
+GN_HOT void gn_blocks_build_touched(gn_light_view *view)
 {
     uint32_t n = view->tile_texels >> 3;
     gn_depth_block *block = view->block;
@@ -82,7 +82,7 @@ void gn_blocks_build_touched(gn_light_view *view)
     for (uint32_t i = n; i < n * n; i++, block++) widen_block(block, block + n);
 }
 
-const gn_depth_block *gn_blocks_at(const gn_light_view *view, int32_t u, int32_t v)
+GN_HOT const gn_depth_block *gn_blocks_at(const gn_light_view *view, int32_t u, int32_t v)
 {
     int32_t last = view->tile_texels - 1;
     u = u < 0 ? 0 : u > last ? last : u;
@@ -90,7 +90,7 @@ const gn_depth_block *gn_blocks_at(const gn_light_view *view, int32_t u, int32_t
     return gn_blocks_inside(view, u, v);
 }
 
-gn_depth_block gn_blocks_over(const gn_light_view *view, int32_t u, int32_t v, int32_t n)
+GN_HOT gn_depth_block gn_blocks_over(const gn_light_view *view, int32_t u, int32_t v, int32_t n)
 {
     gn_depth_block bounds = *gn_blocks_at(view, u, v);
     if (n > GN_BLOCK_REACH) {
@@ -101,8 +101,8 @@ gn_depth_block gn_blocks_over(const gn_light_view *view, int32_t u, int32_t v, i
     return bounds;
 }
 
-int gn_blocks_decide(const gn_light_view *view, int32_t u, int32_t v, int32_t n, uint32_t least, uint32_t most,
-                     uint32_t *attenuation)
+GN_HOT int gn_blocks_decide(const gn_light_view *view, int32_t u, int32_t v, int32_t n, uint32_t least, uint32_t most,
+                            uint32_t *attenuation)
 {
     gn_depth_block bounds = n <= GN_BLOCK_REACH ? *gn_blocks_at(view, u, v) : gn_blocks_over(view, u, v, n);
     *attenuation = 65536;

@@ -27,14 +27,14 @@ void gn_blocks_clear(const gn_light_view *view);
 void gn_blocks_build_touched(gn_light_view *view);
 
 /* Marks the blocks of n > 0 texels from (u, v) on by bounds that no block has. */
-static inline void gn_blocks_touch(const gn_light_view *view, int32_t u, int32_t v, int32_t n)
+GN_HOT static inline void gn_blocks_touch(const gn_light_view *view, int32_t u, int32_t v, int32_t n)
 {
     gn_depth_block *row = view->block + ((v >> 3) << (view->tile_log2 - 3));
     for (int32_t b = u >> 3; b <= (u + n - 1) >> 3; b++) row[b].hi = 0;
 }
 
 /* Bounds over the texels u .. u + 8, v .. v + 8. */
-static inline const gn_depth_block *gn_blocks_inside(const gn_light_view *view, int32_t u, int32_t v)
+GN_HOT static inline const gn_depth_block *gn_blocks_inside(const gn_light_view *view, int32_t u, int32_t v)
 {
     return &view->block[((v >> 3) << (view->tile_log2 - 3)) + (u >> 3)];
 }
@@ -46,7 +46,7 @@ const gn_depth_block *gn_blocks_at(const gn_light_view *view, int32_t u, int32_t
 gn_depth_block gn_blocks_over(const gn_light_view *view, int32_t u, int32_t v, int32_t n);
 
 /* No texel is above it: in the upper bits of 32, as gn_texel_load() returns them. */
-static inline uint32_t gn_block_highest(const gn_depth_block *block, int32_t depth_bits)
+GN_HOT static inline uint32_t gn_block_highest(const gn_depth_block *block, int32_t depth_bits)
 {
     return (uint32_t)block->hi << 16 | (depth_bits > 16 ? 0xFFFFU : 0U);
 }

@@ -10,7 +10,7 @@
 #include "shadow/gn_texel.h"
 
 /* Keeps the smaller depth, unless alpha cuts texel u. z in Q32, rounded to the texel's bits. [A4] */
-static void store(gn_texels row, int32_t bits, int32_t u, int64_t z, gn_alpha_cut *alpha)
+GN_HOT static void store(gn_texels row, int32_t bits, int32_t u, int64_t z, gn_alpha_cut *alpha)
 {
     const int32_t drop = 32 - bits;
     const uint32_t v = (uint32_t)gn_clamp64((z + ((int64_t)1 << drop >> 1)) >> drop, 0, UINT32_MAX >> drop);
@@ -42,7 +42,7 @@ typedef struct {
         GN_KEEP(z);                                                                                                    \
     } while (0)
 
-static inline void span16(uint16_t *texel, int32_t n, uint32_t z, uint32_t dz)
+GN_HOT static inline void span16(uint16_t *texel, int32_t n, uint32_t z, uint32_t dz)
 {
     GN_COUNT(texels, n);
     for (; n >= 4; n -= 4, texel += 4) {
@@ -56,7 +56,7 @@ static inline void span16(uint16_t *texel, int32_t n, uint32_t z, uint32_t dz)
 }
 #undef GN_TEXEL_
 
-static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *caster)
+GN_HOT static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *caster)
 {
     const int64_t steep = 1 << 30;
     caster_depth16 d;
@@ -72,8 +72,8 @@ static caster_depth16 depth16_begin(const gn_light_view *view, const gn_caster *
 }
 
 /* Any row of texels, one at a time. */
-static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster, gn_alpha_cut *alpha, int32_t v,
-                             int32_t u, int32_t u_end)
+GN_HOT static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster, gn_alpha_cut *alpha, int32_t v,
+                                    int32_t u, int32_t u_end)
 {
     int32_t bits = GN_VIEW_BITS(view);
     int64_t z = caster->z_corner + u * caster->dz_du + v * caster->dz_dv;
@@ -85,8 +85,8 @@ static GN_NOINLINE void span(const gn_light_view *view, const gn_caster *caster,
     }
 }
 
-int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_walk *walk, const int32_t x[3],
-                        const int32_t y[3])
+GN_HOT int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_walk *walk, const int32_t x[3],
+                               const int32_t y[3])
 {
     int32_t bits = GN_K(frame, shadow_subpixel_bits), size = view->tile_texels;
     GN_COUNT(caster_walks, 1);
@@ -100,8 +100,8 @@ int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view, gn_wal
     return 0;
 }
 
-int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_walk *walk, int32_t n_rows,
-                       gn_alpha_cut *alpha)
+GN_HOT int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_walk *walk, int32_t n_rows,
+                              gn_alpha_cut *alpha)
 {
     int32_t size = view->tile_texels, n_texels = 0, v = walk->first;
     caster_depth16 depth = depth16_begin(view, caster);
@@ -126,8 +126,8 @@ int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster, gn_wa
     return n_texels;
 }
 
-int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, gn_walk *walk,
-                       const int32_t x[3], const int32_t y[3], gn_alpha_cut *alpha)
+GN_HOT int32_t gn_caster_draw(const gn_frame *frame, const gn_light_view *view, const gn_caster *caster, gn_walk *walk,
+                              const int32_t x[3], const int32_t y[3], gn_alpha_cut *alpha)
 {
     int32_t n_rows = gn_caster_begin(frame, view, walk, x, y);
     return n_rows ? gn_caster_rows(view, caster, walk, n_rows, alpha) : 0;

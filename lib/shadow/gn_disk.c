@@ -9,7 +9,7 @@
 
 #define DISK_RADIUS_MAX_Q16 (8 << 16)
 
-static uint16_t rotation_turn(int32_t pixel_x, int32_t pixel_y)
+GN_HOT static uint16_t rotation_turn(int32_t pixel_x, int32_t pixel_y)
 {
     uint32_t v = ((uint32_t)pixel_x * 0x8DA6B343U) ^ ((uint32_t)pixel_y * 0xD8163841U);
     v = (v ^ (v >> 15)) * 0x2C1B3C6DU;
@@ -21,7 +21,7 @@ static uint16_t rotation_turn(int32_t pixel_x, int32_t pixel_y)
  * 1) stay below 2^30.1, plus a fraction of a texel. They err by at most 2^-12.5 texels by the rotation's rounding and
  * radius * 2^-15.5 by the table's: below 2^-11 together, by which the footprint is widened before bounds are asked.
  * [F4] */
-uint32_t gn_disk_attenuation(const gn_frame *frame, const gn_lookup *l, const gn_receiver *receiver)
+GN_HOT uint32_t gn_disk_attenuation(const gn_frame *frame, const gn_lookup *l, const gn_receiver *receiver)
 {
     uint32_t n_samples = frame->scene->shadow.disk_samples, n_lit = 0, answer;
     int32_t radius_q16 = gn_max32(0, gn_min32(l->view->disk_radius_q16, DISK_RADIUS_MAX_Q16)),

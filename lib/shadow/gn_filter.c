@@ -16,14 +16,14 @@
  * if and only if s > x - h, and, s being also a multiple of 2^12, if and only if s >= floor((x - h) / 2^12) + 1. From a
  * texel to the next, x changes by slope * 2^16, so this by slope * 16: whole numbers, every tap is exact. Slopes are
  * below 2^29.1, a receiver is at most 2^31.1 away from the texel nearest to it, both axes together: |x| < 2^62. */
-static int64_t plane_rise_q44(int32_t slope_q28, int32_t tap_q16, int32_t c_q16)
+GN_HOT static int64_t plane_rise_q44(int32_t slope_q28, int32_t tap_q16, int32_t c_q16)
 {
     /* to the centre of the texel that tap_q16 lies in */
     return slope_q28 * ((int64_t)(tap_q16 >> 16) * 65536 + 0x8000 - c_q16);
 }
 
 /* The depth that the first tap is compared with lies on the receiver's plane. [B5] */
-static GN_NOINLINE void start_plane(gn_lookup *l, const gn_receiver *receiver, int32_t dropped)
+GN_HOT static GN_NOINLINE void start_plane(gn_lookup *l, const gn_receiver *receiver, int32_t dropped)
 {
     int32_t most = 2 << 28;
     l->slope_q28[0] = gn_max32(-most, gn_min32(receiver->slope_q28[0], most));
@@ -39,7 +39,7 @@ static GN_NOINLINE void start_plane(gn_lookup *l, const gn_receiver *receiver, i
 /* ---- Filters ----------------------------------------------------------------------------------------------------- */
 
 /* Four texels are compared first, then weighted. [F2] */
-static uint32_t bilinear(const gn_lookup *l, int32_t bits)
+GN_HOT static uint32_t bilinear(const gn_lookup *l, int32_t bits)
 {
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768;
     int32_t u = (cu >> 16) - 1, v = (cv >> 16) - 1;
@@ -69,14 +69,14 @@ static uint32_t bilinear(const gn_lookup *l, int32_t bits)
 
 /* A coordinate may lie far outside after a steep offset: the border's answer holds there, but its fraction still
  * weighs. */
-static int32_t near_tile(int32_t c_q16)
+GN_HOT static int32_t near_tile(int32_t c_q16)
 {
     if ((uint32_t)c_q16 + (64U << 16) < 1152U << 16) return c_q16; /* from -64 to 1088: most are */
     return (c_q16 < 0 ? -64 : 1088) * 65536 + (c_q16 & 0xFFFF);
 }
 
 /* One texel, hard, unless another filter is set. [F1] */
-static uint32_t filtered(const gn_frame *frame, const gn_lookup *l, const gn_receiver *receiver)
+GN_HOT static uint32_t filtered(const gn_frame *frame, const gn_lookup *l, const gn_receiver *receiver)
 {
     const int32_t filter = l->view->filter;
     if (GN_FILTER_MAX >= 1 && filter == GN_FILTER_2X2) return bilinear(l, GN_K(frame, weight_bits));
@@ -86,7 +86,7 @@ static uint32_t filtered(const gn_frame *frame, const gn_lookup *l, const gn_rec
     return gn_lookup_tap(l, l->u_q16 >> 16, l->v_q16 >> 16) << 16;
 }
 
-uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver)
+GN_HOT uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver)
 {
     gn_lookup l;
     int32_t dropped = gn_dropped_bits(frame, view);

@@ -9,22 +9,22 @@
 #include "shadow/gn_tent.h"
 
 /* The texels that a row of receivers reads along an axis: first, and the last. */
-static void reads(const gn_light_view *view, int32_t a_q16, int32_t b_q16, int32_t *first, int32_t *last)
+GN_HOT static void reads(const gn_light_view *view, int32_t a_q16, int32_t b_q16, int32_t *first, int32_t *last)
 {
     int32_t k = view->filter_idx;
     *first = ((gn_min32(a_q16, b_q16) + 32768) >> 16) - (k + 1);
     *last = ((gn_max32(a_q16, b_q16) + 32768) >> 16) + k;
 }
 
-static uint32_t min_passing_depth(const gn_frame *frame, const gn_light_view *view, int32_t depth_q31)
+GN_HOT static uint32_t min_passing_depth(const gn_frame *frame, const gn_light_view *view, int32_t depth_q31)
 {
     uint32_t depth_q32 = depth_q31 < 0 ? 0 : (uint32_t)depth_q31 << 1;
     return gn_rounded_depth(depth_q32, gn_dropped_bits(frame, view), gn_texel_far(GN_VIEW_BITS(view)));
 }
 
 /* Whether texels first .. last along both axes are all lit or all dark to every depth from `least` to `most`. */
-static int texels_agree(const gn_light_view *view, const int32_t first[2], const int32_t last[2], uint32_t least,
-                        uint32_t most, uint32_t *attenuation)
+GN_HOT static int texels_agree(const gn_light_view *view, const int32_t first[2], const int32_t last[2], uint32_t least,
+                               uint32_t most, uint32_t *attenuation)
 {
     int32_t bits = GN_VIEW_BITS(view), end = view->tile_texels - 1;
     uint32_t lit = 0, dark = 0, n = (uint32_t)(last[0] - first[0]) + 1;
@@ -49,8 +49,8 @@ static int texels_agree(const gn_light_view *view, const int32_t first[2], const
     return 1;
 }
 
-int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *a,
-                      const gn_receiver_step *b, uint32_t *attenuation)
+GN_HOT int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *a,
+                             const gn_receiver_step *b, uint32_t *attenuation)
 {
     int32_t first[2], last[2];
     reads(view, a->u_q16, b->u_q16, &first[0], &last[0]);
@@ -65,8 +65,8 @@ int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn
 
 /* 2x2 of 16 bits whose texels all lie in the tile. Coordinates half a texel up and left: what is shifted out is the
  * fraction. */
-static void bilinear_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at,
-                         const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
+GN_HOT static void bilinear_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at,
+                                const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
 {
     const uint16_t *texel = view->depth.d16;
     int32_t bits = GN_K(frame, weight_bits), dropped = gn_dropped_bits(frame, view);
@@ -98,8 +98,8 @@ static void bilinear_row(const gn_frame *frame, const gn_light_view *view, gn_re
 }
 
 /* The same of 3x3: what tent() does, but for its looks at bounds. */
-static void tent3_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at,
-                      const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
+GN_HOT static void tent3_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at,
+                             const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
 {
     int32_t bits = GN_K(frame, weight_bits);
     at.u_q16 -= 98304;
@@ -129,8 +129,8 @@ static void tent3_row(const gn_frame *frame, const gn_light_view *view, gn_recei
 }
 
 /* Whether that is all there is to do. */
-static int is_simple(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
-                     const gn_receiver_step *to)
+GN_HOT static int is_simple(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
+                            const gn_receiver_step *to)
 {
     int32_t u, u_last, v, v_last;
     if (GN_FILTER_MAX < 1 || GN_VIEW_BITS(view) != 16) return 0;
@@ -142,8 +142,8 @@ static int is_simple(const gn_frame *frame, const gn_light_view *view, const gn_
     return u >= 0 && v >= 0 && u_last < view->tile_texels && v_last < view->tile_texels;
 }
 
-void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
-                   const gn_receiver_step *to, const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
+GN_HOT void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
+                          const gn_receiver_step *to, const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
 {
     gn_receiver_step at = *from;
     int simple = is_simple(frame, view, from, to);

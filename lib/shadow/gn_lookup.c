@@ -5,14 +5,14 @@
 #include "shadow/gn_lookup.h"
 
 /* Taps are limited to the tile [P8]. */
-static int is_dark(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
+GN_HOT static int is_dark(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
 {
     int32_t last = view->tile_texels - 1, in_u = u < 0 ? 0 : u > last ? last : u;
     if (gn_border_lit(view) && in_u != u) return 0;
     return gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)in_u) < least;
 }
 
-static uint32_t dark_on_plane(const gn_lookup *l, gn_texels row, int32_t u, int32_t in_v, int32_t n)
+GN_HOT static uint32_t dark_on_plane(const gn_lookup *l, gn_texels row, int32_t u, int32_t in_v, int32_t n)
 {
     int32_t last = l->view->tile_texels - 1;
     int64_t least_q32 = gn_least_on_plane(l, gn_max32(0, gn_min32(u, last)), in_v); /* of the texel that is read */
@@ -24,7 +24,7 @@ static uint32_t dark_on_plane(const gn_lookup *l, gn_texels row, int32_t u, int3
     return dark;
 }
 
-uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n)
+GN_HOT uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n)
 {
     const gn_light_view *view = l->view;
     int32_t last = view->tile_texels - 1, in_v = v < 0 ? 0 : v > last ? last : v;

@@ -20,40 +20,40 @@ typedef struct {
 } gn_lookup;
 
 /* Bits of depth_q32 that rounding drops: 0, or at least 12. */
-static inline int32_t gn_dropped_bits(const gn_frame *frame, const gn_light_view *view)
+GN_HOT static inline int32_t gn_dropped_bits(const gn_frame *frame, const gn_light_view *view)
 {
     (void)frame;
     return GN_VIEW_BITS(view) == 32 ? 0 : 32 - GN_VIEW_BITS(view) - GN_K(frame, shadow_depth_frac);
 }
 
 /* The far value is a multiple of 2^dropped: nothing below it rounds beyond it. */
-static inline uint32_t gn_rounded_depth(uint32_t depth_q32, int32_t dropped, uint32_t far)
+GN_HOT static inline uint32_t gn_rounded_depth(uint32_t depth_q32, int32_t dropped, uint32_t far)
 {
     if (depth_q32 >= far) return far;
     return dropped ? (depth_q32 + (1U << (dropped - 1))) >> dropped << dropped : depth_q32;
 }
 
 /* least_q32 at a texel of the tile, at most 64 + 1023 texels away in each axis: 2^50 and twice 2^44. */
-static inline int64_t gn_least_on_plane(const gn_lookup *l, int32_t u, int32_t v)
+GN_HOT static inline int64_t gn_least_on_plane(const gn_lookup *l, int32_t u, int32_t v)
 {
     int32_t du = u - (l->u_q16 >> 16), dv = v - (l->v_q16 >> 16);
     return l->least_q32 + (int64_t)l->slope_q28[0] * (16 * du) + (int64_t)l->slope_q28[1] * (16 * dv);
 }
 
-static inline uint32_t gn_limited_depth(const gn_light_view *view, int64_t least_q32)
+GN_HOT static inline uint32_t gn_limited_depth(const gn_light_view *view, int64_t least_q32)
 {
     uint32_t far = gn_texel_far(GN_VIEW_BITS(view));
     return least_q32 < 0 ? 0 : least_q32 > (int64_t)far ? far : (uint32_t)least_q32;
 }
 
-static inline gn_texels gn_view_texels(const gn_light_view *view, int32_t u, int32_t v)
+GN_HOT static inline gn_texels gn_view_texels(const gn_light_view *view, int32_t u, int32_t v)
 {
     return gn_texels_at(view->depth, GN_VIEW_BITS(view), ((size_t)(uint32_t)v << view->tile_log2) + (uint32_t)u);
 }
 
 /* Whether n x n texels from (u, v) on lie in the tile and compare with one depth: nothing to look after at each tap.
  * Where size comes first it is looked after all the same. */
-static inline int gn_lookup_is_plain(const gn_lookup *l, int32_t u, int32_t v, int32_t n)
+GN_HOT static inline int gn_lookup_is_plain(const gn_lookup *l, int32_t u, int32_t v, int32_t n)
 {
     uint32_t room = (uint32_t)(l->view->tile_texels - n);
     return !GN_SIZE_FIRST && !(GN_RECEIVER_PLANE && l->sloped) && (uint32_t)u <= room && (uint32_t)v <= room;
@@ -63,7 +63,7 @@ static inline int gn_lookup_is_plain(const gn_lookup *l, int32_t u, int32_t v, i
 uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n);
 
 /* A tap of the hard filter, the disk or 2x2 at the border: 1 if it is lit. */
-static inline uint32_t gn_lookup_tap(const gn_lookup *l, int32_t u, int32_t v)
+GN_HOT static inline uint32_t gn_lookup_tap(const gn_lookup *l, int32_t u, int32_t v)
 {
     GN_COUNT(taps_lone, 1);
     if (!gn_lookup_is_plain(l, u, v, 1)) return !gn_lookup_dark(l, u, v, 1);

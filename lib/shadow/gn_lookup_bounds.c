@@ -5,7 +5,8 @@
 #include "shadow/gn_lookup.h"
 
 /* The smallest and largest `least` over n x n texels from (u, v) on. */
-static void least_over(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *smallest, uint32_t *largest)
+GN_HOT static void least_over(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *smallest,
+                              uint32_t *largest)
 {
     *smallest = *largest = l->least;
     if (!GN_RECEIVER_PLANE || !l->sloped) return;
@@ -17,7 +18,7 @@ static void least_over(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint
     *largest = gn_limited_depth(l->view, gn_least_on_plane(l, rises_u ? u1 : u0, rises_v ? v1 : v0));
 }
 
-int gn_lookup_decided(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *answer)
+GN_HOT int gn_lookup_decided(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *answer)
 {
     uint32_t smallest, largest;
     least_over(l, u, v, n, &smallest, &largest);

@@ -10,12 +10,12 @@
 #define GN_GUARD_TEXELS 8192 /* casters are cut at this distance from the tile's centre */
 
 /* Faces of a point light's cube: +x, -x, +y, -y, +z, -z. [P5] */
-void gn_persp_face_axis(int32_t out_q30[3], int32_t face)
+GN_HOT void gn_persp_face_axis(int32_t out_q30[3], int32_t face)
 {
     for (int i = 0; i < 3; i++) out_q30[i] = face / 2 == i ? (face & 1 ? -(1 << 30) : 1 << 30) : 0;
 }
 
-int32_t gn_persp_face(const int32_t from_light_q16[3])
+GN_HOT int32_t gn_persp_face(const int32_t from_light_q16[3])
 {
     uint32_t x = gn_abs32(from_light_q16[0]), y = gn_abs32(from_light_q16[1]), z = gn_abs32(from_light_q16[2]);
     int32_t axis = z >= x && z >= y ? 2 : y >= x ? 1 : 0;
@@ -23,7 +23,7 @@ int32_t gn_persp_face(const int32_t from_light_q16[3])
 }
 
 /* With filter and offset a tap at a face's border still lies in its tile. [P6] */
-int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped)
+GN_HOT int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped)
 {
     const int64_t one = 1 << 24, two = 2 << 24;
     int64_t a = (int64_t)gn_udiv64((uint64_t)(2 * (filter_idx + 1)) << 24, (uint64_t)tile_texels); /* <= 2.25 */
@@ -41,7 +41,7 @@ int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texel
 }
 
 /* T / t in Q16 */
-static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int64_t t_denominator)
+GN_HOT static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int64_t t_denominator)
 {
     uint64_t scaled = ((uint64_t)tile_texels << 16) * (uint64_t)t_denominator; /* 2^26 * 2^31 */
     uint64_t focal2 = gn_udiv64(scaled + (uint64_t)t_numerator / 2, (uint64_t)t_numerator);
@@ -49,7 +49,7 @@ static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int64_t t_d
 }
 
 /* A spot's cone, or a face of a point light's cube. [P4] [P5] */
-void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light)
+GN_HOT void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light)
 {
     gn_persp_fit *fit = &view->fit.persp;
     int clamped = 0;
@@ -80,14 +80,14 @@ void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
 /* ---- Casters ----------------------------------------------------------------------------------------------------- */
 
 /* n / z, Q32, saturated below 1 */
-static int64_t inverse_depth_q32(const gn_persp_fit *fit, int32_t z_q16)
+GN_HOT static int64_t inverse_depth_q32(const gn_persp_fit *fit, int32_t z_q16)
 {
     gn_bfloat z = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)gn_max32(z_q16, fit->near_q16)));
     return gn_clamp64(gn_bf_apply(fit->near_q16, z, 32), 0, UINT32_MAX);
 }
 
 /* + constant * tau * (1 - s) + slope * steepest, the first of which keeps the plane a plane. [B1] */
-static void add_bias(const gn_light_view *view, gn_caster *caster)
+GN_HOT static void add_bias(const gn_light_view *view, gn_caster *caster)
 {
     const int64_t one = (int64_t)1 << 32;
     uint64_t u = gn_abs64(caster->dz_du), v = gn_abs64(caster->dz_dv);
@@ -105,7 +105,8 @@ static void add_bias(const gn_light_view *view, gn_caster *caster)
 }
 
 /* Plane and range of a triangle. Returns 0 if it faces away or is edge on. [P7] */
-static int persp_caster(gn_caster *caster, gn_plane *plane, const gn_light_view *view, int32_t v[3][3], int two_sided)
+GN_HOT static int persp_caster(gn_caster *caster, gn_plane *plane, const gn_light_view *view, int32_t v[3][3],
+                               int two_sided)
 {
     const gn_persp_fit *fit = &view->fit.persp;
     gn_plane_setup(plane, v[0], v[1], v[2]);
@@ -131,8 +132,8 @@ static int persp_caster(gn_caster *caster, gn_plane *plane, const gn_light_view 
 }
 
 /* Texels from the tile's corner; v is inside the guard band and not nearer than near. */
-static void project_corner(const gn_frame *frame, const gn_light_view *view, const int32_t v_q16[3], int32_t *x,
-                           int32_t *y)
+GN_HOT static void project_corner(const gn_frame *frame, const gn_light_view *view, const int32_t v_q16[3], int32_t *x,
+                                  int32_t *y)
 {
     int32_t bits = GN_K(frame, shadow_subpixel_bits), clz = gn_clz32((uint32_t)v_q16[2]),
             centre = (view->tile_texels << bits) >> 1;
@@ -152,7 +153,8 @@ static void project_corner(const gn_frame *frame, const gn_light_view *view, con
     *y = (int32_t)gn_clamp64(texel[1], -most, most) + centre;
 }
 
-int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha)
+GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
+                                 gn_alpha_cut *alpha)
 {
     const gn_persp_fit *fit = &view->fit.persp;
     gn_polygon *polygon = &casting->with.clipping.polygon;

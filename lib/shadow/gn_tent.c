@@ -7,14 +7,14 @@
 #include "shadow/gn_tent.h"
 
 /* Weights of a tent along one axis. [F3] */
-void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
+GN_HOT void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 {
     gn_tent_weights_inline(w, k, u, weight_bits);
 }
 
 #if GN_LINEAR_KERNELS
 /* Weights of the linear kernel along one axis. [F6] */
-void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
+GN_HOT void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 {
     /* the left half is a F - b u; the right half is its mirror image at F - u */
     static const uint8_t a[3][4] = {{1, 2, 0, 0}, {1, 3, 4, 0}, {1, 5, 12, 16}};
@@ -29,7 +29,7 @@ void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 
 /* Which of n x n texels from (u, v) on keep the receiver dark: bit i of dark[j] for texel i of row j. Returns what
  * any row has, and in the upper half what all have. */
-static uint32_t find_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark)
+GN_HOT static uint32_t find_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark)
 {
     int32_t depth_bits = GN_VIEW_BITS(l->view);
     int is_plain = gn_lookup_is_plain(l, u, v, n);
@@ -54,7 +54,7 @@ static uint32_t find_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n, u
 }
 
 /* gn_weighted, in few bytes. */
-static uint64_t weighted_texel_by_texel(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv)
+GN_HOT static uint64_t weighted_texel_by_texel(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv)
 {
     uint64_t sum = 0;
     for (int32_t j = 0; j < n; j++) {
@@ -66,12 +66,12 @@ static uint64_t weighted_texel_by_texel(const uint8_t *dark, int32_t n, const ui
     return sum;
 }
 
-static uint64_t weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv, int narrow)
+GN_HOT static uint64_t weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv, int narrow)
 {
     return GN_SIZE_FIRST ? weighted_texel_by_texel(dark, n, wu, wv) : gn_weighted(dark, n, wu, wv, narrow);
 }
 
-static inline uint32_t linear(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv, int32_t bits)
+GN_HOT static inline uint32_t linear_kernel(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv, int32_t bits)
 {
     uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
     gn_linear_weights(wu, k, gn_filter_fraction(cu, bits), bits);
@@ -85,20 +85,20 @@ static inline uint32_t linear(const uint8_t *dark, int32_t k, int32_t cu, int32_
                                          : 1588375U); /* round(2^32 / whole) */
 }
 
-/* Both kernels are done as tents: their reach and their number of texels are the same. */
-uint32_t gn_tent_attenuation(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
+/* Apart from gn_tent_attenuation: its arrays are not on the stack while bounds decide. */
+GN_HOT static GN_NOINLINE uint32_t undecided(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
 {
-    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX], answer;
+    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
     uint8_t dark[GN_TENT_TAPS_MAX];
-    if (GN_DEPTH_BLOCKS && gn_lookup_decided(l, u0, v0, n, &answer)) return answer;
     GN_COUNT(undecided, 1);
     GN_COUNT(taps_tent, n * n);
     uint32_t found = find_dark(l, u0, v0, n, dark);
     if (!(found & 0xFFFFU)) return 65536;
     if (found >> 16 == (1U << n) - 1) return 0;
-    if (GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR) return linear(dark, k, cu, cv, bits);
+    if (GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)
+        return linear_kernel(dark, k, cu, cv, bits);
     gn_tent_weights(wu, k, gn_filter_fraction(cu, bits), bits);
     gn_tent_weights(wv, k, gn_filter_fraction(cv, bits), bits);
     /* along a row <= 49 F^2 < 2^30, all <= (2k + 1)^4 F^4 <= 2401 * 2^48 */
@@ -108,4 +108,13 @@ uint32_t gn_tent_attenuation(const gn_frame *frame, const gn_lookup *l, int32_t 
                                 k == 1   ? 53024288U
                                 : k == 2 ? 6871948U
                                          : 1788824U); /* round(2^32 / whole) */
+}
+
+/* Both kernels are done as tents: their reach and their number of texels are the same. */
+GN_HOT uint32_t gn_tent_attenuation(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
+{
+    int32_t u0 = ((l->u_q16 + 32768) >> 16) - (k + 1), v0 = ((l->v_q16 + 32768) >> 16) - (k + 1);
+    uint32_t answer;
+    if (GN_DEPTH_BLOCKS && gn_lookup_decided(l, u0, v0, 2 * (k + 1), &answer)) return answer;
+    return undecided(frame, l, k, bits);
 }

@@ -19,12 +19,12 @@ uint32_t gn_tent_attenuation(const gn_frame *frame, const gn_lookup *l, int32_t 
 /* ---- What rows of receivers share with single ones --------------------------------------------------------------- */
 
 /* round to weight_bits; F itself is allowed: the weights are continuous there */
-static inline uint32_t gn_filter_fraction(int32_t c_q16, int32_t weight_bits)
+GN_HOT static inline uint32_t gn_filter_fraction(int32_t c_q16, int32_t weight_bits)
 {
     return (((uint32_t)c_q16 & 0xFFFFU) + (0x8000U >> weight_bits)) >> (16 - weight_bits);
 }
 
-static inline void gn_tent_weights_inline(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
+GN_HOT static inline void gn_tent_weights_inline(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 {
     uint32_t f = 1U << weight_bits, ff = f * f, uf4 = 4 * u * f, h = 2 * u;
     uint32_t m = h < f ? f - h : 0, p = h > f ? h - f : 0; /* |2u - F| left and right of the texel's centre */
@@ -39,7 +39,7 @@ static inline void gn_tent_weights_inline(uint32_t *w, int32_t k, uint32_t u, in
 }
 
 /* Sums of the weights in all subsets of four: bit i for weight i. */
-static inline void gn_subset_sums(uint32_t sums[16], const uint32_t w[4])
+GN_HOT static inline void gn_subset_sums(uint32_t sums[16], const uint32_t w[4])
 {
     uint32_t a = w[0], b = w[1], c = w[2], d = w[3], ab = a + b, cd = c + d;
     sums[0] = 0, sums[1] = a, sums[2] = b, sums[3] = ab;
@@ -49,7 +49,8 @@ static inline void gn_subset_sums(uint32_t sums[16], const uint32_t w[4])
 }
 
 /* Sum of the products of weights of the dark texels of n x n. narrow: they stay below 2^32 together. */
-static inline uint64_t gn_weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv, int narrow)
+GN_HOT static inline uint64_t gn_weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv,
+                                          int narrow)
 {
     uint64_t sum = 0;
     uint32_t left[16], right[16];
@@ -65,7 +66,7 @@ static inline uint64_t gn_weighted(const uint8_t *dark, int32_t n, const uint32_
 }
 
 /* sum / (N * 2^scale_bits) in Q16, scale = round(2^32 / N): 20 fraction bits are kept, kept <= N * 2^20 < 2^32. */
-static inline uint32_t gn_weighted_fraction(uint64_t sum, int32_t scale_bits, uint32_t scale)
+GN_HOT static inline uint32_t gn_weighted_fraction(uint64_t sum, int32_t scale_bits, uint32_t scale)
 {
     int32_t drop = scale_bits - 20;
     uint64_t kept = drop >= 0 ? sum >> drop : sum << -drop;

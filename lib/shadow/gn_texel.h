@@ -12,7 +12,7 @@
 /* An atlas as its depth_bits name it. */
 #define GN_TEXELS_OF(atlas, depth_bits) gn_texels_of((atlas).d8, (atlas).d16, (atlas).d32, (depth_bits))
 
-static inline gn_texels gn_texels_of(uint8_t *d8, uint16_t *d16, uint32_t *d32, int32_t depth_bits)
+GN_HOT static inline gn_texels gn_texels_of(uint8_t *d8, uint16_t *d16, uint32_t *d32, int32_t depth_bits)
 {
     gn_texels texels;
     if (depth_bits == 8) texels.d8 = d8;
@@ -21,7 +21,7 @@ static inline gn_texels gn_texels_of(uint8_t *d8, uint16_t *d16, uint32_t *d32, 
     return texels;
 }
 
-static inline gn_texels gn_texels_at(gn_texels texels, int32_t depth_bits, size_t i)
+GN_HOT static inline gn_texels gn_texels_at(gn_texels texels, int32_t depth_bits, size_t i)
 {
     if (depth_bits == 8) texels.d8 += i;
     else if (depth_bits == 16) texels.d16 += i;
@@ -30,7 +30,7 @@ static inline gn_texels gn_texels_at(gn_texels texels, int32_t depth_bits, size_
 }
 
 /* A stored texel, in the upper bits of 32. [A4] */
-static inline uint32_t gn_texel_load(gn_texels row, int32_t depth_bits, size_t i)
+GN_HOT static inline uint32_t gn_texel_load(gn_texels row, int32_t depth_bits, size_t i)
 {
     if (depth_bits == 8) return (uint32_t)row.d8[i] << 24;
     if (depth_bits == 16) return (uint32_t)row.d16[i] << 16;
@@ -38,13 +38,13 @@ static inline uint32_t gn_texel_load(gn_texels row, int32_t depth_bits, size_t i
 }
 
 /* The largest value a texel can hold, in the upper bits of 32: what empty texels compare as. */
-static inline uint32_t gn_texel_far(int32_t depth_bits)
+GN_HOT static inline uint32_t gn_texel_far(int32_t depth_bits)
 {
     return (uint32_t)(GN_DEPTH_EMPTY_Q32 << (32 - depth_bits));
 }
 
 /* Whether texels outside the tile are lit [D10]. */
-static inline int gn_border_lit(const gn_light_view *view)
+GN_HOT static inline int gn_border_lit(const gn_light_view *view)
 {
     return GN_MAIN_LIGHT && view->border_lit;
 }

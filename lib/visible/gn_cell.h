@@ -6,13 +6,13 @@
 
 /* A triangle's identity in a cell: 1 .. n_triangles, larger for earlier triangles, which thereby win where depths are
  * equal. */
-static inline uint32_t gn_cell_id(const gn_frame *frame, uint32_t tri_idx)
+GN_HOT static inline uint32_t gn_cell_id(const gn_frame *frame, uint32_t tri_idx)
 {
     return frame->stats.n_triangles - tri_idx;
 }
 
 /* The triangle of an identity. */
-static inline const gn_tri *gn_cell_tri(const gn_frame *frame, uint32_t id)
+GN_HOT static inline const gn_tri *gn_cell_tri(const gn_frame *frame, uint32_t id)
 {
     return &frame->tri[frame->stats.n_triangles - id];
 }

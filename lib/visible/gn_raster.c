@@ -25,7 +25,7 @@ typedef struct {
 
 /* Depth is linear over a row; inside the triangle it stays within its range. A snapped edge can reach past the
  * unsnapped plane by a fraction of a pixel, so a value outside is brought back to the nearer end (modulo 2^32). */
-static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
+GN_HOT static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
 {
     uint32_t above = v - depth->lo;
     if (above <= depth->range) return v;
@@ -91,8 +91,8 @@ GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_
 }
 
 /* Apart, so that it takes no registers of short spans. */
-static GN_NOINLINE void raster_long_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t minus_dx, uint32_t id_mask,
-                                         uint32_t below)
+GN_HOT static GN_NOINLINE void raster_long_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t minus_dx,
+                                                uint32_t id_mask, uint32_t below)
 {
     const raster_depth depth = {minus_dx, 0, 0, id_mask,
                                 below}; /* by their values: a pointer would keep them in memory */
@@ -173,9 +173,8 @@ GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stri
     rows->row = row;
 }
 
-#if GN_VISIBLE_ALPHA
-static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_object *object,
-                             uint32_t object_idx, const uint16_t idx[3])
+GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut,
+                                    const gn_object *object, uint32_t object_idx, const uint16_t idx[3])
 {
     gn_xform to_view;
     int32_t v[3][3];
@@ -185,7 +184,7 @@ static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, gn_alph
 }
 
 /* A triangle that alpha cuts has surface only where it is not cut. [M8] */
-static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
+GN_HOT static inline void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     GN_ELEMENT(object);
@@ -193,8 +192,6 @@ static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *
     gn_alpha_begin(cut, object, object->visible_alpha, idx);
     if (GN_TEXTURES && cut->textured) cut_plane(frame, scratch, cut, object, tri->object_idx, idx);
 }
-
-#endif
 
 /* A screen tile. */
 typedef struct {
@@ -210,17 +207,13 @@ typedef struct {
 
 /* Pixels of a row that need a look each: alpha may cut them, or depth leaves the triangle's range. Where alpha cuts, it
  * is looked up only where the surface would be the nearest. */
-static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz,
-                                         gn_alpha_cut *cut, int32_t x)
+GN_HOT static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz,
+                                                gn_alpha_cut *cut, int32_t x)
 {
     for (int32_t i = 0; i < n; i++, cell++, iz -= depth->minus_dx) {
         uint32_t candidate = clamp_depth(iz, depth) | depth->id_mask;
         if (candidate < *cell) continue;
-#if GN_VISIBLE_ALPHA
-        if (cut && gn_alpha_cuts(cut, x + i)) continue;
-#else
-        (void)cut, (void)x;
-#endif
+        if (GN_VISIBLE_ALPHA && cut && gn_alpha_cuts(cut, x + i)) continue;
         *cell = candidate - depth->below;
     }
     GN_COUNT(covered_cut, cut ? n : 0);
@@ -229,7 +222,7 @@ static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *ce
 
 /* A small triangle that nothing cuts and whose depth needs no look (gn_tri): its edges are stepped in fixed point, row
  * by row. */
-static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+GN_HOT static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
     /* top, left and right of it, as a ring: left edges lead down from one to the next, right ones from one to the last
      */
@@ -265,14 +258,14 @@ static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri,
     }
 }
 
-static inline gn_walk_line narrow_line(gn_walk_corner from, gn_walk_corner to, int32_t y, int32_t bits)
+GN_HOT static inline gn_walk_line narrow_line(gn_walk_corner from, gn_walk_corner to, int32_t y, int32_t bits)
 {
     return gn_walk_narrow_at(from.x, from.y, to.x, to.y, y, bits, GN_CORE_DIVIDES);
 }
 
 /* A triangle of a few pixels, that nothing cuts and whose depth needs no look: of most of them all is in one or two
  * screen tiles. Its corners have what rounds them to rows, and to the centres of columns, in them. */
-static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+GN_HOT static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
     const int32_t bits = GN_K(tile->frame, subpixel_bits), one = 1 << bits, half = one >> 1,
                   stride = GN_K(tile->frame, tile_width);
@@ -306,18 +299,16 @@ static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri
     }
 }
 
-#if GN_VISIBLE_ALPHA
 /* Row v of the tile. */
-static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const gn_span *span)
+GN_HOT static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const gn_span *span)
 {
     int32_t y = tile->rect.y0 + v;
     gn_alpha_row(cut, y, tile->frame->picture.height - 1 - 2 * y, tile->rect.x0 + span->x_begin,
                  tile->rect.x0 + span->x_end);
 }
-#endif
 
 /* Walks a triangle that `cut` cuts, if it is not NULL. */
-static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, gn_alpha_cut *cut)
+GN_HOT static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, gn_alpha_cut *cut)
 {
     const int32_t x[3] = {tri->x[0] + tile->x, tri->x[1] + tile->x, tri->x[2] + tile->x};
     const int32_t y[3] = {tri->y[0] + tile->y, tri->y[1] + tile->y, tri->y[2] + tile->y};
@@ -351,43 +342,41 @@ static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t
                 raster_span(row + xa, n, above + depth.lo + (uint32_t)(n - 1) * iz_dx, &depth);
                 continue;
             }
-#if GN_VISIBLE_ALPHA
-            if (cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
-#endif
+            if (GN_VISIBLE_ALPHA && cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
             /* with the same results */
             raster_span_slow(&depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
         }
     }
 }
 
-#if GN_VISIBLE_ALPHA
-static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+GN_HOT static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
+#if GN_VISIBLE_ALPHA
     gn_alpha_cut *cut = &tile->scratch->work.cut;
     cut_begin(tile->frame, tile->scratch, cut, tri);
     raster_triangle(tile, tri, id, cut);
-}
+#else
+    (void)tile, (void)tri, (void)id;
 #endif
+}
 
 /* A triangle that a screen tile meets. */
-static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
+GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
     if (!GN_SIZE_FIRST && !gn_tri_is_bounded(tri) && tri->iz.unbounded.walk != GN_TRI_EXACT) {
         if (tri->iz.unbounded.walk == GN_TRI_NARROW) raster_narrow(tile, tri, id);
         else raster_small(tile, tri, id);
         return;
     }
-#if GN_VISIBLE_ALPHA
-    if (tile->frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
+    if (GN_VISIBLE_ALPHA && tile->frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
         raster_cut_triangle(tile, tri, id);
         return;
     }
-#endif
     raster_triangle(tile, tri, id, NULL);
 }
 
 /* The nearest surface of every pixel, before anything is shaded. [R2] */
-void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
+GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     int32_t bits = GN_K(frame, subpixel_bits);
     raster_tile tile;
@@ -407,9 +396,7 @@ void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_id
     GN_COUNT(screen_tiles, 1);
     GN_COUNT(pixels, tile.width * tile.height);
     memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
-#if GN_VISIBLE_ALPHA
-    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
-#endif
+    for (uint32_t i = 0; GN_VISIBLE_ALPHA && i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
     const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]],
                    *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
     const gn_tri *first = frame->tri;

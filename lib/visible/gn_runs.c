@@ -3,7 +3,7 @@
 
 #include "visible/gn_runs.h"
 
-void gn_runs_clear(gn_scratch *scratch)
+GN_HOT void gn_runs_clear(gn_scratch *scratch)
 {
     for (uint32_t i = 0; i < GN_RUN_LISTS; i++) scratch->run_list[i] = GN_RUN_NONE;
 }

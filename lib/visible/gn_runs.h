@@ -16,7 +16,7 @@
 void gn_runs_clear(gn_scratch *scratch);
 
 /* The last cell before `end` that something covers: the background's are 0. Stops at the one before the row. */
-static inline uint32_t *gn_runs_last(uint32_t *end)
+GN_HOT static inline uint32_t *gn_runs_last(uint32_t *end)
 {
     do end--;
     while (!*end);
@@ -24,7 +24,7 @@ static inline uint32_t *gn_runs_last(uint32_t *end)
 }
 
 /* The first cell of the run that ends with `last`. The one before the row must be of no triangle: UINT32_MAX. */
-static inline uint32_t *gn_runs_first(uint32_t *last, uint32_t id_mask)
+GN_HOT static inline uint32_t *gn_runs_first(uint32_t *last, uint32_t id_mask)
 {
     uint32_t id = *last, before;
     do before = *--last;
@@ -35,7 +35,7 @@ static inline uint32_t *gn_runs_first(uint32_t *last, uint32_t id_mask)
 
 /* Links a run at the head of its list: runs come from the tile's last to its first, so that each list begins with what
  * comes first. */
-static inline void gn_runs_link(gn_scratch *scratch, uint32_t id, uint32_t first, uint32_t n_px)
+GN_HOT static inline void gn_runs_link(gn_scratch *scratch, uint32_t id, uint32_t first, uint32_t n_px)
 {
     gn_run_idx *list = &scratch->run_list[id & (GN_RUN_LISTS - 1)];
     uint32_t next = *list == GN_RUN_NONE ? first : *list;
@@ -45,7 +45,7 @@ static inline void gn_runs_link(gn_scratch *scratch, uint32_t id, uint32_t first
 }
 
 /* Leaves a run out: nothing that is linked goes on in its cells. */
-static inline void gn_runs_drop(uint32_t *first)
+GN_HOT static inline void gn_runs_drop(uint32_t *first)
 {
     *first = 0;
 }
@@ -58,7 +58,7 @@ typedef struct {
     uint32_t at, prev; /* GN_RUN_NONE: at its end, at its beginning */
 } gn_run_taker;
 
-static inline void gn_runs_begin(gn_run_taker *taker, gn_scratch *scratch, uint32_t id)
+GN_HOT static inline void gn_runs_begin(gn_run_taker *taker, gn_scratch *scratch, uint32_t id)
 {
     taker->cell = GN_CELLS(scratch);
     taker->list = &scratch->run_list[id & (GN_RUN_LISTS - 1)];
@@ -68,7 +68,7 @@ static inline void gn_runs_begin(gn_run_taker *taker, gn_scratch *scratch, uint3
 }
 
 /* The next run: *n_px pixels from cell *first on. Returns 0 if there is none. */
-static inline int gn_runs_take(gn_run_taker *taker, uint32_t stride, uint32_t *first, int32_t *n_px)
+GN_HOT static inline int gn_runs_take(gn_run_taker *taker, uint32_t stride, uint32_t *first, int32_t *n_px)
 {
     while (taker->at != GN_RUN_NONE) {
         uint32_t *cell = taker->cell, i = taker->at, next = cell[i] >> 16;

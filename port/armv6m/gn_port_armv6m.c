@@ -11,7 +11,7 @@ void gn_port_before_dma(const void *bytes, size_t n_bytes)
  * likewise for the lower words, a * b = a1 b1 * 2^32 + (a1 b0 + a0 b1) * 2^16 + a0 b0; the upper words meet the lower
  * ones modulo 2^32 alone. */
 uint64_t __aeabi_lmul(uint64_t a, uint64_t b);
-__attribute__((naked, used)) uint64_t __aeabi_lmul(uint64_t a, uint64_t b)
+GN_PORT_HOT __attribute__((naked, used)) uint64_t __aeabi_lmul(uint64_t a, uint64_t b)
 {
     (void)a, (void)b;
     __asm__ volatile(".syntax unified\n"

@@ -10,8 +10,8 @@
     "orr r5, r6, r5, lsl #2\n"
 
 /* r1 bytes from row to row, r3 n, r4 dark, r7 rows left, r8 any, r9 all */
-__attribute__((naked)) uint32_t gn_port_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n,
-                                                      uint8_t *dark)
+GN_PORT_HOT __attribute__((naked)) uint32_t gn_port_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least,
+                                                                  int32_t n, uint8_t *dark)
 {
     (void)texel, (void)pitch, (void)least, (void)n, (void)dark;
     __asm__ volatile(".syntax unified\n"

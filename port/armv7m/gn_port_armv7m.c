@@ -19,7 +19,7 @@ void gn_port_before_dma(const void *bytes, size_t n_bytes)
 void *memset(void *to, int value, size_t n);
 
 /* 32 bytes an instruction, two of them a turn: r0 is not touched, r1 is the value in all four bytes, r2 counts. */
-__attribute__((naked, used)) void *memset(void *to, int value, size_t n)
+GN_PORT_HOT __attribute__((naked, used)) void *memset(void *to, int value, size_t n)
 {
     (void)to, (void)value, (void)n;
     __asm__ volatile(".syntax unified\n"

@@ -12,7 +12,8 @@ void gn_port_before_dma(const void *bytes, size_t n_bytes)
  * the bits that any row has, plus, times 65536, those that all rows have. n is 4, 6 or 8; least <= 0xFFFF0000; texel
  * lies on two bytes: a wider load must be one that the core does unaligned. Reads nothing but the n x n texels, and
  * writes nothing but dark[0] to dark[n - 1]. */
-uint32_t gn_port_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark)
+GN_PORT_HOT uint32_t gn_port_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n,
+                                           uint8_t *dark)
 {
     uint32_t any = 0, all = 255;
     for (int32_t j = 0; j < n; j++, texel += pitch) {

@@ -70,9 +70,15 @@ done
 # ---- Symbols ---------------------------------------------------------------------------------------------------------------
 
 symbols() { # of all that is built with one feature off, nothing inlined
-    object symbols -O0 $(but all 0 $1)
+    object symbols -O1 -fno-inline $(but all 0 $1)
     ${prefix}nm --defined-only "$tmp/symbols.o" | awk '{ print $3 }'
 }
+# Without optimisation, too, nothing is called that is not there.
+for feature in $features; do
+    object plain -O0 $(but all 0 "$feature")
+    ${prefix}nm -u "$tmp/plain.o" | awk '$2 ~ /^gn_/ { print $2 }' >"$tmp/found"
+    if [ -s "$tmp/found" ]; then fail "$feature is off, and -O0 calls $(tr '\n' ' ' <"$tmp/found")"; else pass; fi
+done
 symbols NOTHING >"$tmp/all_symbols"
 while read -r feature pattern; do
     grep -q -x -E "$pattern" "$tmp/all_symbols" && pass || fail "$feature: there is no symbol $pattern at all"
@@ -80,7 +86,7 @@ while read -r feature pattern; do
     if [ -s "$tmp/found" ]; then fail "$feature is off, and there is $(tr '\n' ' ' <"$tmp/found")"; else pass; fi
 done <<'LIST'
 SHADOWS gn_(atlas|caster|cascade|ortho|persp|filter|blocks|cull|tiles|bias)_.*|gn_.*weights|gn_disk_.*
-PUNCTUAL_LIGHTS gn_(persp|punctual)_.*
+PUNCTUAL_LIGHTS gn_(persp|punctual|object_list)_.*
 DEPTH_BLOCKS gn_blocks_.*
 FILTER_MAX gn_tent_weights|gn_linear_weights
 DISK_FILTER gn_disk_.*|disk.*
@@ -88,15 +94,15 @@ CASTER_CULLING gn_cull_shown_nearer
 CASTER_ALPHA alpha_plane
 VISIBLE_ALPHA cut_begin|cut_row
 TILE_LIGHTS gn_punctual_in_tile
-TEXTURES gn_texture_colour|gn_srgb_decode_table
+TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
 SPECULAR highlight_q30
-MASKS masks
+MASKS masks|gn_texture_mask
 BAKED_LIGHT baked_light
 CASTER_BIAS corner_normals
 RECEIVER_PLANE .*_slopes|lit_row_on_plane
 AUTO_BIAS gn_bias_auto_.*|.*_share_q3[02]|auto_.*
-INCREMENTAL check_layout|view_signature|stays
-STATIC_LAYER copy_texels
+INCREMENTAL gn_kept_.*|view_signature|stays
+STATIC_LAYER gn_static_layer_.*
 MAIN_LIGHT main_light
 VALIDATION gn_scene_validate|check_.*light
 OTHER_FORMATS luminance_q20|fill_(grey4|mono)

@@ -75,13 +75,13 @@ static void put_work(layout *out, const settings *s)
                                                                                                       : 1;
     long values = (s->feature.textures ? 2 : 0) + (s->feature.masks ? 4 : 0) + (s->feature.baked_light ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
-    put(&surface, 1, 192, 8); /* object to rgb_q16 */
-    if (s->feature.textures) put(&surface, 6, 8, 8);
+    put(&surface, 1, 192, 8); /* object to the colours of attribute_q16 */
     if (s->feature.masks) put(&surface, 12, 4, 4);
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
+    if (s->feature.textures) put(&surface, 6, 8, 8);
     if (s->feature.receiver_plane || s->feature.auto_bias) put(&surface, 3, 4, 4);
     if (s->feature.auto_bias) put(&surface, 3, 4, 4); /* lift_q30 */
-    put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 48 : 36, 4);
+    put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
     put(&all, 1, 136, 8); /* cache */
