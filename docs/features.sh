@@ -42,7 +42,7 @@ tags_of() {
                     rest = substr(rest, RSTART + RLENGTH)
                 } else { code = code rest; rest = "" }
             }
-            if (code ~ /^[a-z].*\(/ && code !~ /;[ \t]*$/) body = name_of(code)
+            if (code ~ /^[A-Za-z].*\(/ && code !~ /;[ \t]*$/) body = name_of(code)
             if (body != "" && n) flush(body)
             else if (empty || code ~ /[^ \t]/) flush("-")
             if (code ~ /^}/) body = ""

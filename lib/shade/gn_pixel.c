@@ -93,13 +93,13 @@ GN_HOT static uint32_t any_565(const gn_frame *frame, const uint32_t c[3])
     return by_curve_565(frame, c);
 }
 
-/* A colour in the picture's format. [R5] */
 GN_HOT static uint32_t pack_16(const gn_frame *frame, const uint32_t linear_q20[3])
 {
     uint32_t v = any_565(frame, linear_q20);
     return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
 }
 
+/* A colour in the picture's format. [R5] */
 GN_HOT uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
 {
     if (!GN_OTHER_FORMATS) return pack_16(frame, linear_q20);

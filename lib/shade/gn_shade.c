@@ -100,9 +100,7 @@ GN_HOT static void shade_chord(shading *s, gn_sample *from, const gn_sample *to,
     }
 }
 
-/* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every
- * persp_step pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the
- * triangle. [R4] */
+/* Pixels x_begin <= x < x_end of one row, all of this triangle: every one exact. */
 GN_HOT static inline void shade_run_exact(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     gn_sample *here = &s->by.run.sample[0];
@@ -140,6 +138,7 @@ GN_HOT static inline void shade_run_stepped(gn_shading *s, int32_t y, int32_t x_
     }
 }
 
+/* Every pixel by division, or steps between exact samples. [R4] */
 GN_HOT static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     if (!GN_RUNTIME_KNOBS && GN_PERSP_STEP == 1) shade_run_exact(s, y, x_begin, x_end);
@@ -414,7 +413,7 @@ GN_HOT static void clear_background(gn_shading *s)
         for (int32_t i = 0; i < n; i++) s->scratch->pixel.raw[i] = UINT32_MAX;
         return;
     }
-    /* bits after a row's last pixel are flushed with it and count when tiles are compared (R6) */
+    /* bits after a row's last pixel are flushed with it and count when tiles are compared */
     if (GN_OTHER_FORMATS && (frame->picture.format == GN_FORMAT_GREY4 || frame->picture.format == GN_FORMAT_MONO1))
         memset(s->scratch->pixel.bytes, 0, gn_pixel_bytes(frame, s->rows.width, s->rect.y1 - s->rect.y0));
     for (int32_t y = s->rect.y0; y < s->rect.y1; y++)

@@ -41,12 +41,10 @@ GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surf
 
 /* ---- Lookups ----------------------------------------------------------------------------------------------------- */
 
-/* Normal of the face, where B5 is built. */
+/* Normal of the face, where the receiver's plane is built. */
 GN_HOT static inline const int32_t *face_of(const gn_surface *surface)
 {
 #if GN_RECEIVER_PLANE
-    /* The slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the
-     * range. [B5] */
     return surface->face_q30;
 #else
     (void)surface;
@@ -54,8 +52,8 @@ GN_HOT static inline const int32_t *face_of(const gn_surface *surface)
 #endif
 }
 
-/* B5: the slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the
- * range. */
+/* The slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the
+ * range. [B5] */
 GN_HOT static int32_t limit_slope(const gn_light_view *view, int64_t slope_q28)
 {
     int64_t most = (int64_t)1 << (32 - view->tile_log2);

@@ -132,6 +132,7 @@ GN_HOT static void texture_coords(gn_surface *s, const uint16_t *idx)
 #endif
 }
 
+/* Shadow masks at the corners: coordinates of an image, or four channels. [M5] */
 GN_HOT static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
 {
     const gn_object *object = s->object;
@@ -148,6 +149,7 @@ GN_HOT static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *i
     }
 }
 
+/* Baked irradiance at the corners. [M9] */
 GN_HOT static void baked_light(gn_surface *s, const uint16_t *idx)
 {
     s->baked = GN_BAKED_LIGHT && s->object->baked_uq12 != NULL && !(s->object->flags & GN_OBJECT_UNLIT);
