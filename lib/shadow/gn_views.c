@@ -2,10 +2,12 @@
 #include "gn_internal.h"
 
 #include "gn_stages.h"
+#include "base/gn_hint.h"
 #include "light/gn_lights.h"
 #include "shadow/gn_light_views.h"
 
-gn_status gn_views_setup(gn_frame *frame)
+/* Not inlined: a stage is counted by its name. */
+GN_NOINLINE gn_status gn_views_setup(gn_frame *frame)
 {
     frame->n_views = 0;
     gn_status status = gn_lights_setup(frame);
