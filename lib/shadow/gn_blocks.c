@@ -100,14 +100,3 @@ GN_HOT gn_depth_block gn_blocks_over(const gn_light_view *view, int32_t u, int32
     }
     return bounds;
 }
-
-GN_HOT int gn_blocks_decide(const gn_light_view *view, int32_t u, int32_t v, int32_t n, uint32_t least, uint32_t most,
-                            uint32_t *attenuation)
-{
-    gn_depth_block bounds = n <= GN_BLOCK_REACH ? *gn_blocks_at(view, u, v) : gn_blocks_over(view, u, v, n);
-    *attenuation = 65536;
-    if (most <= (uint32_t)bounds.lo << 16) return 1;
-    *attenuation = 0;
-    if (least <= gn_block_highest(&bounds, GN_VIEW_BITS(view))) return 0;
-    return !gn_border_lit(view) || (u >= 0 && v >= 0 && u + n <= view->tile_texels && v + n <= view->tile_texels);
-}

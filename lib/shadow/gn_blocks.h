@@ -13,6 +13,7 @@
 #ifndef GN_BLOCKS_H
 #define GN_BLOCKS_H
 
+#include "shadow/gn_texel.h"
 #include "gnomon.h"
 
 #define GN_BLOCK_REACH 9 /* texels per axis that one block answers for */
@@ -53,7 +54,15 @@ GN_HOT static inline uint32_t gn_block_highest(const gn_depth_block *block, int3
 
 /* Whether the bounds over n x n texels, n <= 18, tell of all of them whether they keep in the dark what compares with
  * least .. most: 0 or 65536. */
-int gn_blocks_decide(const gn_light_view *view, int32_t u, int32_t v, int32_t n, uint32_t least, uint32_t most,
-                     uint32_t *attenuation);
+GN_HOT static inline int gn_blocks_decide(const gn_light_view *view, int32_t u, int32_t v, int32_t n, uint32_t least,
+                                          uint32_t most, uint32_t *attenuation)
+{
+    gn_depth_block bounds = n <= GN_BLOCK_REACH ? *gn_blocks_at(view, u, v) : gn_blocks_over(view, u, v, n);
+    *attenuation = 65536;
+    if (most <= (uint32_t)bounds.lo << 16) return 1;
+    *attenuation = 0;
+    if (least <= gn_block_highest(&bounds, GN_VIEW_BITS(view))) return 0;
+    return !gn_border_lit(view) || (u >= 0 && v >= 0 && u + n <= view->tile_texels && v + n <= view->tile_texels);
+}
 
 #endif

@@ -1,7 +1,10 @@
-/* Filters that weigh texels: tents, and the linear kernels of the same width. */
+/* Filters that weigh texels: tents (F3), and the linear kernels of the same width (F6). Compares
+ * come first, weights are exact integers, one division by multiplication ends it. */
 #ifndef GN_TENT_H
 #define GN_TENT_H
 
+#include "base/gn_count.h"
+#include "base/gn_kernel.h"
 #include "shadow/gn_lookup.h"
 
 #define GN_TENT_TAPS_MAX 8
@@ -10,13 +13,8 @@
  * they sum to. u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
 void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
 
-/* The same for the linear kernels: over 4 F, 12 F, 52 F. */
+/* The same for the linear kernels (F6): over 4 F, 12 F, 52 F. */
 void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
-
-/* Attenuation by the kernel of index k that the scene asks for: tent or linear. */
-uint32_t gn_tent_attenuation(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t weight_bits);
-
-/* ---- What rows of receivers share with single ones --------------------------------------------------------------- */
 
 /* round to weight_bits; F itself is allowed: the weights are continuous there */
 GN_HOT static inline uint32_t gn_filter_fraction(int32_t c_q16, int32_t weight_bits)
@@ -48,10 +46,24 @@ GN_HOT static inline void gn_subset_sums(uint32_t sums[16], const uint32_t w[4])
     sums[12] = cd, sums[13] = a + cd, sums[14] = b + cd, sums[15] = ab + cd;
 }
 
-/* Sum of the products of weights of the dark texels of n x n. narrow: they stay below 2^32 together. */
+/* Sum of the products of weights of the dark texels of n x n, in few bytes. */
+GN_HOT static inline uint64_t gn_weighted_slowly(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv)
+{
+    uint64_t sum = 0;
+    for (int32_t j = 0; j < n; j++) {
+        uint32_t across = 0;
+        for (int32_t i = 0; i < n; i++)
+            if (dark[j] >> i & 1U) across += wu[i];
+        sum += (uint64_t)across * wv[j];
+    }
+    return sum;
+}
+
+/* The same by subsets of the weights. narrow: products stay below 2^32 together. */
 GN_HOT static inline uint64_t gn_weighted(const uint8_t *dark, int32_t n, const uint32_t *wu, const uint32_t *wv,
                                           int narrow)
 {
+    if (GN_SIZE_FIRST) return gn_weighted_slowly(dark, n, wu, wv);
     uint64_t sum = 0;
     uint32_t left[16], right[16];
     gn_subset_sums(left, wu);
@@ -71,6 +83,82 @@ GN_HOT static inline uint32_t gn_weighted_fraction(uint64_t sum, int32_t scale_b
     int32_t drop = scale_bits - 20;
     uint64_t kept = drop >= 0 ? sum >> drop : sum << -drop;
     return (uint32_t)((kept * scale + ((uint64_t)1 << 35)) >> 36);
+}
+
+/* Which of n x n texels from (u, v) on keep the receiver dark: bit i of dark[j] for texel i of row j. Returns what
+ * any row has, and in the upper half what all have. */
+GN_HOT static inline uint32_t gn_tent_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark)
+{
+    int32_t depth_bits = GN_VIEW_BITS(l->view);
+    int is_plain = gn_lookup_is_plain(l, u, v, n);
+    uint32_t any = 0, all = 255;
+    if (is_plain && depth_bits == 16)
+        return n == 4 && !GN_SIZE_FIRST
+                   ? gn_kernel_dark_texels16(gn_view_texels(l->view, u, v).d16, l->view->tile_texels, l->least, 4, dark)
+                   : gn_kernel_dark_texels16(gn_view_texels(l->view, u, v).d16, l->view->tile_texels, l->least, n,
+                                             dark);
+    for (int32_t j = 0; j < n; j++) {
+        uint32_t row_dark = 0;
+        if (is_plain) {
+            gn_texels row = gn_view_texels(l->view, u, v + j);
+            for (int32_t i = 0; i < n; i++)
+                row_dark |= (uint32_t)(gn_texel_load(row, depth_bits, (uint32_t)i) < l->least) << i;
+        } else row_dark = gn_lookup_dark(l, u, v + j, n);
+        dark[j] = (uint8_t)row_dark;
+        any |= row_dark;
+        all &= row_dark;
+    }
+    return any | all << 16;
+}
+
+GN_HOT static inline uint32_t gn_linear_attenuation(const uint8_t *dark, int32_t k, int32_t cu, int32_t cv,
+                                                    int32_t bits)
+{
+    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
+    gn_linear_weights(wu, k, gn_filter_fraction(cu, bits), bits);
+    gn_linear_weights(wv, k, gn_filter_fraction(cv, bits), bits);
+    /* products <= 52 F * 16 F, their sum <= 52^2 F^2 <= 2704 * 2^24 */
+    uint32_t whole = k == 1 ? 16 : k == 2 ? 144 : 2704;
+    uint64_t sum = ((uint64_t)whole << 2 * bits) - gn_weighted(dark, 2 * (k + 1), wu, wv, bits <= 11);
+    return gn_weighted_fraction(sum, 2 * bits,
+                                k == 1   ? 268435456U
+                                : k == 2 ? 29826162U
+                                         : 1588375U); /* round(2^32 / whole) */
+}
+
+/* Texel by texel. Where size comes first, its arrays are not on the stack while bounds decide. */
+GN_HOT static GN_SHARED uint32_t gn_tent_by_texels(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
+{
+    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
+    int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
+    int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
+    uint8_t dark[GN_TENT_TAPS_MAX];
+    GN_COUNT(undecided, 1);
+    GN_COUNT(taps_tent, n * n);
+    uint32_t found = gn_tent_dark(l, u0, v0, n, dark);
+    if (!(found & 0xFFFFU)) return 65536;
+    if (found >> 16 == (1U << n) - 1) return 0;
+    if (GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)
+        return gn_linear_attenuation(dark, k, cu, cv, bits);
+    gn_tent_weights(wu, k, gn_filter_fraction(cu, bits), bits);
+    gn_tent_weights(wv, k, gn_filter_fraction(cv, bits), bits);
+    /* along a row <= 49 F^2 < 2^30, all <= (2k + 1)^4 F^4 <= 2401 * 2^48 */
+    uint32_t whole = k == 1 ? 81 : k == 2 ? 625 : 2401;
+    uint64_t sum = ((uint64_t)whole << 4 * bits) - gn_weighted(dark, n, wu, wv, 0);
+    return gn_weighted_fraction(sum, 4 * bits,
+                                k == 1   ? 53024288U
+                                : k == 2 ? 6871948U
+                                         : 1788824U); /* round(2^32 / whole) */
+}
+
+/* Attenuation by the kernel of index k that the scene chooses. Both kinds are done as tents: their radius and their
+ * number of texels are the same. [F3] [F6] */
+GN_HOT static inline uint32_t gn_tent_attenuation(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
+{
+    int32_t u0 = ((l->u_q16 + 32768) >> 16) - (k + 1), v0 = ((l->v_q16 + 32768) >> 16) - (k + 1);
+    uint32_t answer;
+    if (GN_DEPTH_BLOCKS && gn_lookup_decided(l, u0, v0, 2 * (k + 1), &answer)) return answer;
+    return gn_tent_by_texels(frame, l, k, bits);
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include "light/gn_lights.h"
 #include "shadow/gn_light_views.h"
 
+/* Not inlined: a stage is counted by its name. */
 GN_NOINLINE gn_status gn_views_setup(gn_frame *frame)
 {
     frame->n_views = 0;
