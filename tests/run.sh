@@ -59,7 +59,7 @@ sanitizers="-fsanitize=address,undefined -fno-sanitize-recover=all"
 
 # Pictures by the hundred, against floors: they take five times as long under sanitizers, where make soak runs them, too.
 pictures="test_accuracy test_rows test_seams"
-build all $(for name in $(names unit oracle property) make_report gen_tables; do echo "build/$name"; done) build/test_oiio
+build all $(for name in $pictures test_extremes test_extremes_light test_extremes_many test_oiio make_report gen_tables; do echo "build/$name"; done)
 for name in $pictures; do job $name build/$name; done
 
 # Scripts that take long go first, so that none of them is left alone in the end.

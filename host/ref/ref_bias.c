@@ -1,4 +1,4 @@
-/* Receiver bias: the offset of every kind (DESIGN 1.4, 1.5), and the automatic one (DESIGN 1.7, row B6). */
+/* Receiver bias: the offset of every kind (DESIGN 1.4, 1.5), and the automatic one (DESIGN 1.7). */
 #include "ref_internal.h"
 
 #define COORDINATE_LSB 0x1p-16 /* of texels */
@@ -144,6 +144,7 @@ static vec3 curved_normal(const ref_surface *at, vec3 face)
     return vec3_add(at->interpolated, vec3_scale(face, 1.0 - min));
 }
 
+/* The least bias that leaves a plane without a shadow of its own, in two forms. [B6] */
 vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
                    vec3 in_light, double *less)
 {

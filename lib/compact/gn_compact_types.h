@@ -103,11 +103,11 @@ typedef struct gn_frame {
     gn_compact_view cam;
     int32_t per_px_q29;                /* 1 / 2F: rays are (2x + 1 - W, H - 1 - 2y, -2F) */
     gn_compact_xform to_light;         /* from the camera's space */
-    gn_compact_share distance, sphere; /* D5: Q16; D6: texels^2, Q16 */
+    gn_compact_share distance, sphere; /* by view depth: Q16; by the sphere: texels^2, Q16 */
     int32_t centre_q16[3];             /* of the sphere: U, V, D */
     uint64_t radius2_q32;              /* texels^2 */
-    int32_t offset_q16;                /* B2, texels; B6: r */
-    int32_t flat_offset_q16;           /* B6: eps_0; 0: B2 */
+    int32_t offset_q16;                /* along the normal, texels; automatic bias: r */
+    int32_t flat_offset_q16;           /* automatic bias: eps_0; else 0 */
     gn_stats stats;
     gn_detail detail;
     gn_light_state light[GN_MAX_LIGHTS];

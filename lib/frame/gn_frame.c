@@ -181,6 +181,7 @@ static GN_NOINLINE void flush_tile(const gn_frame *frame, gn_scratch *scratch, u
     flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
 }
 
+/* Writes the scratch alone: every core has one, and all share the frame. [R1] [R7] */
 gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
 {
     gn_status status = begin_tile(frame, scratch, tile_idx, flush);
@@ -190,7 +191,7 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
     return GN_OK;
 }
 
-/* Of a finished tile's bytes. */
+/* Of a finished tile's bytes. [R6] */
 static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch, uint32_t tile_idx)
 {
     gn_rect rect = gn_screen_rect(frame, tile_idx);
@@ -206,6 +207,7 @@ static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch,
     return signature ? signature : 1;
 }
 
+/* Flushes a tile whose bytes are not what the panel shows. [R6] */
 gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
                                     gn_flush_fn flush, void *user, uint32_t *flushed)
 {
@@ -282,6 +284,7 @@ gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, ui
 #endif
 }
 
+/* A light's tile, for those who draw the atlas. [A6] */
 uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info)
 {
 #if GN_SHADOWS

@@ -10,7 +10,7 @@
 #include "shade/gn_shadow.h"
 
 #if GN_SPECULAR
-/* max(0, n . h)^(2^k), Q30 */
+/* max(0, n . h)^(2^k), Q30 [M3] */
 GN_HOT static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample, const int32_t to_light_q30[3])
 {
     int32_t h[3];
@@ -79,7 +79,7 @@ GN_HOT static void add(uint64_t sum_q20[3], const uint32_t colour_uq16[3], uint3
     for (int c = 0; c < 3; c++) sum_q20[c] += ((uint64_t)colour_uq16[c] * irradiance_q24 + (1U << 19)) >> 20;
 }
 
-/* Vertex colour and texture. */
+/* Vertex colour and texture. [M3] */
 GN_HOT static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sample, uint64_t sum[3])
 {
     if (GN_COLOURED(surface))
@@ -92,6 +92,7 @@ GN_HOT static GN_NOINLINE void modulate(const gn_surface *surface, const gn_samp
     for (int c = 0; c < 3; c++) sum[c] = (sum[c] * texture[c] + 0x8000U) >> 16;
 }
 
+/* Baked light and all lights; a shadow is looked up only where light arrives. [P10] [M9] */
 GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                               uint32_t radiance_q20[3])
 {

@@ -38,6 +38,7 @@ GN_HOT static uint32_t linear_encode(uint32_t linear_q20)
     return (uint32_t)(((uint64_t)limited * 65535U + (1U << 19)) >> 20);
 }
 
+/* Linear light as the display takes it. [M7] */
 GN_HOT static uint32_t encode(const gn_frame *frame, uint32_t linear_q20)
 {
     return GN_K(frame, srgb) ? srgb_encode(linear_q20) : linear_encode(linear_q20);
@@ -98,6 +99,7 @@ GN_HOT static uint32_t pack_16(const gn_frame *frame, const uint32_t linear_q20[
     return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
 }
 
+/* A colour in the picture's format. [R5] */
 GN_HOT uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
 {
     if (!GN_OTHER_FORMATS) return pack_16(frame, linear_q20);
@@ -143,6 +145,7 @@ GN_HOT static void fill_grey4(uint8_t *row, int32_t at, int32_t n, uint32_t leve
     }
 }
 
+/* n pixels of a packed colour. [R5] */
 GN_HOT void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
                           uint32_t packed)
 {

@@ -1,4 +1,4 @@
-/* Linear colour to output pixels (R5, M7). */
+/* Linear colour to output pixels. */
 #ifndef GN_PIXEL_H
 #define GN_PIXEL_H
 

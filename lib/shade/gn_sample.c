@@ -58,7 +58,7 @@ GN_HOT static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, in
 }
 #endif
 
-/* Along what the receiver moves: the normal, or what B6 takes of a curved surface. */
+/* Along what the receiver moves: the normal, or what automatic bias takes of a curved surface. */
 GN_HOT static inline const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light,
                                                   const int32_t n_q30[3], int32_t out_q30[3])
 {
@@ -86,7 +86,7 @@ GN_HOT static int asks_for_cascades(const gn_frame *frame)
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 
-/* D4, D6, D11: the cascade of the surface point and its fade factor. */
+/* The cascade of the surface point and its fade factor. [D4] [D6] [D11] */
 GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
 {
     gn_bfloat per_px = frame->cam.inv_focal2;
@@ -116,7 +116,7 @@ GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py,
 }
 
 /* The surface's offset in a view, where it is not one for all views of the light: of smooth surfaces, of the disk,
- * whose index and reach are the cascade's own, and of B6, whose steps of depth are. */
+ * whose index and reach are the cascade's own, and of automatic bias, whose steps of depth are. */
 GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                         const gn_light_view *view, const int32_t n_q30[3], int32_t moved_q16[3])
 {
@@ -182,7 +182,7 @@ GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, u
     point_on_ray(light->from_light, light->ray_shift, px, py, sample->value[GN_VALUE_Z], at);
     for (int i = 0; i < 3; i++) out[GN_LIGHT_POINT_AT + i] = (int32_t)gn_clamp64(at[i], -INT32_MAX, INT32_MAX);
     out[GN_LIGHT_FACING] = gn_sat32(-gn_dot_q30(unit_q30, out + GN_LIGHT_POINT_AT));
-    int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* B6: per pixel */
+    int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* per pixel */
     int32_t lifted[3];
     if (GN_SHADOWS && light->view_idx >= 0 && s->shadowed && !own)
         gn_bias_punctual(frame, light, lifted_normal(s, light, n_q30, lifted), sample->value[GN_VALUE_Z],
@@ -270,6 +270,7 @@ GN_HOT static void extra_values(const gn_surface *s, const hit *h, int32_t *valu
         value[GN_VALUE_BAKED + i] = s->baked ? attribute_at(s, h, GN_ATTRIBUTE_BAKED + i) : 0;
 }
 
+/* Everything that shading interpolates, at a pixel's centre. [R4] */
 GN_HOT void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
 {
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;

@@ -34,6 +34,7 @@ GN_HOT static uint32_t raw_normal(const gn_shading *s, int32_t x, int32_t y)
     return pack_axis(unit[0]) << 20 | pack_axis(unit[1]) << 10 | pack_axis(unit[2]);
 }
 
+/* What a raw view shows of the surface. [A6] */
 GN_HOT static uint32_t raw_value(const gn_shading *s, const gn_sample *sample, int32_t x, int32_t y)
 {
     const gn_picture *picture = &s->frame->picture;
@@ -137,6 +138,7 @@ GN_HOT static inline void shade_run_stepped(gn_shading *s, int32_t y, int32_t x_
     }
 }
 
+/* Every pixel by division, or steps between exact samples. [R4] */
 GN_HOT static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     if (!GN_RUNTIME_KNOBS && GN_PERSP_STEP == 1) shade_run_exact(s, y, x_begin, x_end);
@@ -411,7 +413,7 @@ GN_HOT static void clear_background(gn_shading *s)
         for (int32_t i = 0; i < n; i++) s->scratch->pixel.raw[i] = UINT32_MAX;
         return;
     }
-    /* bits after a row's last pixel are flushed with it and count when tiles are compared (R6) */
+    /* bits after a row's last pixel are flushed with it and count when tiles are compared */
     if (GN_OTHER_FORMATS && (frame->picture.format == GN_FORMAT_GREY4 || frame->picture.format == GN_FORMAT_MONO1))
         memset(s->scratch->pixel.bytes, 0, gn_pixel_bytes(frame, s->rows.width, s->rect.y1 - s->rect.y0));
     for (int32_t y = s->rect.y0; y < s->rect.y1; y++)

@@ -19,7 +19,7 @@ GN_HOT static uint32_t faded(uint32_t x_uq16, uint32_t k_uq16)
 }
 
 #if GN_SHADOWS
-/* D5: 65536 up to the start of the fade, 0 from the max distance on. */
+/* 65536 up to the start of the fade, 0 from the max distance on. [D5] */
 GN_HOT static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
 {
     if ((uint32_t)z_q16 <= frame->fade_start_q16) return GN_ONE_UQ16;
@@ -28,6 +28,7 @@ GN_HOT static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
     return (uint32_t)gn_clamp64(gn_bf_apply(left_q16, frame->fade_scale, 32), 0, GN_ONE_UQ16);
 }
 
+/* What distance leaves of shadows; 65536: all. [D5] [D6] [D11] */
 GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
 {
     if (!surface->shadowed || !sample->in_reach) return 0;
@@ -35,13 +36,12 @@ GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surf
     if (frame->scene->shadow.distance_mode == GN_DISTANCE_DEPTH) g = distance_fade_at(frame, sample->value[GN_VALUE_Z]);
     if (!frame->has_cascades) return g;
     if (sample->cascade == GN_CASCADE_NONE) return 0;
-    return sample->cascade == GN_LAST_CASCADE(frame) ? gn_mul_uq16(g, (uint32_t)sample->value[GN_VALUE_FADE])
-                                                     : g; /* D6 */
+    return sample->cascade == GN_LAST_CASCADE(frame) ? gn_mul_uq16(g, (uint32_t)sample->value[GN_VALUE_FADE]) : g;
 }
 
 /* ---- Lookups ----------------------------------------------------------------------------------------------------- */
 
-/* Normal of the face, where B5 is built. */
+/* Normal of the face, where the receiver's plane is built. */
 GN_HOT static inline const int32_t *face_of(const gn_surface *surface)
 {
 #if GN_RECEIVER_PLANE
@@ -52,8 +52,8 @@ GN_HOT static inline const int32_t *face_of(const gn_surface *surface)
 #endif
 }
 
-/* B5: the slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the
- * range. */
+/* The slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the
+ * range. [B5] */
 GN_HOT static int32_t limit_slope(const gn_light_view *view, int64_t slope_q28)
 {
     int64_t most = (int64_t)1 << (32 - view->tile_log2);
@@ -86,7 +86,7 @@ GN_HOT static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface
     return gn_filter_attenuation(frame, view, &r);
 }
 
-/* Attenuation in the sample's cascade, blended with the next one (D7). */
+/* Attenuation in the sample's cascade, blended with the next one [D7]. */
 GN_HOT static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                                             const gn_light_view *first, const int32_t *coord)
 {
@@ -171,7 +171,7 @@ GN_HOT static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *s
 
 /* ---- Mixing ------------------------------------------------------------------------------------------------------ */
 
-/* M5: the mask of a light's channel, 65536: lit, or no mask. */
+/* The mask of a light's channel, 65536: lit, or no mask. [M5] */
 GN_HOT static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int32_t channel)
 {
     if (!GN_MASKS || !surface->masked || channel < 0) return GN_ONE_UQ16;
@@ -181,6 +181,7 @@ GN_HOT static uint32_t mask_of(const gn_surface *surface, const gn_sample *sampl
     return (uint32_t)gn_max32(0, gn_min32(value[channel], 65536));
 }
 
+/* Realtime shadow and baked mask, by the light's strength. [M4] [M6] */
 GN_HOT uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                                  uint32_t slot, uint32_t g_uq16)
 {
@@ -198,6 +199,6 @@ GN_HOT uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surfac
     case GN_MIXING_DISTANCE:
         return faded(gn_mul_uq16(mask, GN_ONE_UQ16 - g_uq16) + gn_mul_uq16(realtime, g_uq16), strength);
     default:
-        return faded(realtime, gn_mul_uq16(strength, g_uq16)); /* M4 */
+        return faded(realtime, gn_mul_uq16(strength, g_uq16));
     }
 }

@@ -13,7 +13,7 @@
 
 #define GN_ONE_Q30 (1 << 30)
 
-/* Nothing arrives at an unlit surface; only the shadow view asks which lights it faces. */
+/* Nothing arrives at an unlit surface; only the shadow view asks which lights it faces. [M2] */
 GN_HOT static int without_light(const gn_frame *frame, const gn_surface *s)
 {
     if (!(s->object->flags & GN_OBJECT_UNLIT)) return 0;
@@ -71,6 +71,7 @@ GN_HOT void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], co
     }
 }
 
+/* Of the vertices, or of the face where they have none. [M3] */
 GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
@@ -131,6 +132,7 @@ GN_HOT static void texture_coords(gn_surface *s, const uint16_t *idx)
 #endif
 }
 
+/* Shadow masks at the corners: coordinates of an image, or four channels. [M5] */
 GN_HOT static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
 {
     const gn_object *object = s->object;
@@ -147,6 +149,7 @@ GN_HOT static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *i
     }
 }
 
+/* Baked irradiance at the corners. [M9] */
 GN_HOT static void baked_light(gn_surface *s, const uint16_t *idx)
 {
     s->baked = GN_BAKED_LIGHT && s->object->baked_uq12 != NULL && !(s->object->flags & GN_OBJECT_UNLIT);
@@ -210,7 +213,7 @@ GN_HOT static void add_punctual(const gn_frame *frame, const gn_surface_cache *c
     s->n_punctual++;
 }
 
-/* The object's list, or all lights where none is kept. */
+/* The object's list, or all lights where none is kept. [P9] */
 GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
 {
     const gn_object_state *object = &frame->object[s->object - frame->scene->objects];
@@ -269,8 +272,8 @@ GN_HOT static void directional_lights(const gn_frame *frame, gn_surface *s)
 #if GN_AUTO_BIAS
 #define GN_LEAST_ALONG_Q28 (7 << 25)
 
-/* B6, curved: with this the interpolated normal has a part of 1 or more along the face's everywhere. Where a corner's
- * is too far from the face's, that alone is taken. */
+/* Curved surfaces: with this the interpolated normal has a part of 1 or more along the face's everywhere. Where a
+ * corner's is too far from the face's, that alone is taken. [B6] */
 GN_HOT static void lift_normal(gn_surface *s)
 {
     int32_t least = -4; /* Q28; roundings */
@@ -307,6 +310,7 @@ GN_HOT static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
         gn_bias_directional(frame, view, s->normal_q30[0], s->light[slot].flat_offset_q16);
 }
 
+/* Which lights' shadows an object receives, if any. [M2] */
 GN_HOT static void shadows(const gn_frame *frame, gn_surface *s)
 {
     if (!(s->object->flags & GN_OBJECT_RECEIVES) || s->object->flags & GN_OBJECT_UNLIT) return;

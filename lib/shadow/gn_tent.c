@@ -6,12 +6,14 @@
 #include "base/gn_q.h"
 #include "shadow/gn_tent.h"
 
+/* Weights of a tent along one axis. [F3] */
 GN_HOT void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 {
     gn_tent_weights_inline(w, k, u, weight_bits);
 }
 
 #if GN_LINEAR_KERNELS
+/* Weights of the linear kernel along one axis. [F6] */
 GN_HOT void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits)
 {
     /* the left half is a F - b u; the right half is its mirror image at F - u */

@@ -1,4 +1,4 @@
-/* Filters that weigh texels: tents (F3), and the linear kernels of the same width (F6). */
+/* Filters that weigh texels: tents, and the linear kernels of the same width. */
 #ifndef GN_TENT_H
 #define GN_TENT_H
 
@@ -10,10 +10,10 @@
  * they sum to. u = F * frac(centre + 1/2), 0 <= u <= F, F = 2^weight_bits <= 4096: everything stays below 2^30. */
 void gn_tent_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
 
-/* The same for the linear kernels (F6): over 4 F, 12 F, 52 F. */
+/* The same for the linear kernels: over 4 F, 12 F, 52 F. */
 void gn_linear_weights(uint32_t *w, int32_t k, uint32_t u, int32_t weight_bits);
 
-/* Attenuation by the kernel of index k that the scene asks for: F3 or F6. */
+/* Attenuation by the kernel of index k that the scene asks for: tent or linear. */
 uint32_t gn_tent_attenuation(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t weight_bits);
 
 /* ---- What rows of receivers share with single ones --------------------------------------------------------------- */

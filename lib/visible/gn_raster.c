@@ -183,6 +183,7 @@ GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, 
     gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
 }
 
+/* A triangle that alpha cuts has surface only where it is not cut. [M8] */
 GN_HOT static inline void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
@@ -374,6 +375,7 @@ GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri,
     raster_triangle(tile, tri, id, NULL);
 }
 
+/* The nearest surface of every pixel, before anything is shaded. [R2] */
 GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     int32_t bits = GN_K(frame, subpixel_bits);

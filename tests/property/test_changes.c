@@ -1,4 +1,4 @@
-/* Screen tiles that changed (R6): what is flushed, replayed onto a panel, is every frame's picture; what did not change
+/* Screen tiles that changed [R6]: what is flushed, replayed onto a panel, is every frame's picture; what did not change
  * is not flushed. */
 #include <stdlib.h>
 #include <string.h>

@@ -74,8 +74,8 @@ static void test_scene_gone(void)
     canvas_end(&c);
 }
 
-/* A5: a frame that is abandoned fits its views, but its tiles are not drawn: the next must not keep those of the frame
- * before. */
+/* A frame that is abandoned fits its views, but its tiles are not drawn: the next must not keep those of the frame
+ * before. [A5] */
 static void test_abandoned_frame(void)
 {
     gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
@@ -109,7 +109,7 @@ static void test_colour_exponent(void)
     CHECK(crc[1] != crc[2]);
 }
 
-/* B6: what a light without any bias has, until another bias of the receiver is set or it is told off. */
+/* What a light without any bias has, until another bias of the receiver is set or it is told off. [B6] */
 static void test_automatic_by_default(void)
 {
     static const struct {
@@ -176,7 +176,7 @@ static void test_many_bright_lights(void)
     CHECK(crc[2] != crc[1]);
 }
 
-/* M5: only mixed lights have masks. */
+/* Only mixed lights have masks. [M5] */
 static void test_mask_of_mixed_lights(void)
 {
     uint32_t crc[3];
@@ -194,7 +194,7 @@ static void test_mask_of_mixed_lights(void)
     CHECK(crc[1] != crc[2]);
 }
 
-/* B4 away from a wide spot light moves a caster into its view from far outside: it must not be culled. */
+/* Caster bias away from a wide spot light moves a caster into its view from far outside: it must not be culled. [B4] */
 static void test_caster_moved_into_view(void)
 {
     static const int32_t pos[9] = {0, 0, 0, GN_Q16(0.02), 0, 0, 0, GN_Q16(0.02), 0};
@@ -236,7 +236,7 @@ static void ground_shadows(canvas *c, int smooth)
     CHECK(gn_init(&one, &p) == GN_OK && gn_render(&one, &demo.scene, flush, c) == GN_OK);
 }
 
-/* F4: the disk's reach differs from cascade to cascade, and so does the receiver's offset; flat or smooth. */
+/* The disk's reach differs from cascade to cascade, and so does the receiver's offset; flat or smooth. [F4] */
 static void test_disk_offset_per_cascade(void)
 {
     canvas flat, smooth;
@@ -289,7 +289,7 @@ static void test_two_renderers(void)
     canvas_end(&cb);
 }
 
-/* R7: any order, each tile with whichever scratch, and the frame stays as it was. */
+/* Any order, each tile with whichever scratch, and the frame stays as it was. [R7] */
 static void test_tile_order(void)
 {
     static gn_scratch scratch[3];
@@ -319,7 +319,7 @@ static void test_tile_order(void)
     CHECK(demo_crc32(0, &one.frame, sizeof one.frame) == frame_crc);
 }
 
-/* D1: a light takes no tile where nothing casts, nothing receives, or its strength is 0. */
+/* A light takes no tile where nothing casts, nothing receives, or its strength is 0. [D1] */
 static void test_no_needless_tiles(void)
 {
     gn_picture p = picture_of(32, 24, GN_FORMAT_RGB565);

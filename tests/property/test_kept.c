@@ -292,6 +292,7 @@ static void play(const char *(*script)(uint32_t n, int *free_of_charge))
     }
 }
 
+/* A renderer that keeps tiles draws what one draws that does not. [A5] [R6] */
 static void test_script(void)
 {
     every_kind();
@@ -655,6 +656,7 @@ static void turn(uint32_t frame)
     ls.light[1].position_q16[0] = gn_sin_q30((uint16_t)(frame * 11U)) >> 13;
 }
 
+/* After a million frames of turning nothing has drifted. [R8] */
 static void test_million_frames(void)
 {
     every_kind();

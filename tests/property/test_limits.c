@@ -329,7 +329,7 @@ static void test_extremes(void)
     }
 }
 
-/* A5: settings and camera may change under a tile that is kept. */
+/* Settings and camera may change under a tile that is kept. [A5] */
 static void test_changes_under_kept_tiles(void)
 {
     gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);

@@ -248,7 +248,7 @@ static void test_importance_by_hand(void)
     end(&f);
 }
 
-/* D10: the brightest one that asks has the cascades; ties: the first. The others have a tile with a clear border each.
+/* The brightest one that asks has the cascades; ties: the first. The others have a tile with a clear border each. [D10]
  */
 static void test_main_light(void)
 {

@@ -553,6 +553,7 @@ static void check_masks(const scene *s, const scene_light *light, size_t *n_chec
     }
 }
 
+/* Baked masks of the mixed scene against rays. [M5] */
 static void test_masks(const scene *s)
 {
     for (int channel = 0; channel < 3; channel++) {

@@ -104,7 +104,7 @@ is_png() { # is_png FILE SIZE WHAT
     rm -f "$1"
 }
 
-# every view, by either engine (A6)
+# every view, by either engine [A6]
 for engine in fixed reference; do
     for view in colour shadow depth normal cascade atlas; do
         size=33x21

@@ -35,6 +35,7 @@ static int64_t exact_weight(int32_t k, int32_t i, int64_t u, int64_t f)
     return (twice_tent_integral(from + 2 * f, c, h) - twice_tent_integral(from, c, h)) / 2;
 }
 
+/* Weights of tents against the integral. [F3] */
 static void test_weights(void)
 {
     tally weight = {0}, sum = {0};
@@ -74,6 +75,7 @@ static int64_t exact_linear_weight(int32_t k, int32_t i, int64_t u, int64_t f)
     return linear_kernel[k - 1].w[i][0] * f + linear_kernel[k - 1].w[i][1] * u;
 }
 
+/* Weights of the linear kernels. [F6] */
 static void test_linear_weights(void)
 {
     tally weight = {0}, sum = {0};
@@ -98,7 +100,7 @@ static void test_linear_weights(void)
     CHECK_TALLY(sum, "linear weights sum to the whole and end where they should");
 }
 
-/* The largest difference between F6 and F3: over edges along an axis, and over any pattern of texels. */
+/* The largest difference between F6 and F3: over edges along an axis, and over any pattern of texels. [F6] */
 static void test_linear_against_tent(void)
 {
     static const double edge_bound[3] = {0.0704, 0.0287, 0.0480}, any_bound[3] = {0.2277, 0.0901, 0.1383};
@@ -472,7 +474,7 @@ static void test_attenuation(void)
     printf("gn_filter_attenuation, 16 bits: %.4Lf LSB of Q16 with %s\n", result.w.error, result.w.at);
 }
 
-/* Whatever its neighbours in the atlas hold, a tile answers the same (P8); at corners, borders and far outside. */
+/* Whatever its neighbours in the atlas hold, a tile answers the same [P8]; at corners, borders and far outside. */
 static void test_neighbours(void)
 {
     static verdict result;
@@ -618,7 +620,7 @@ static double disk_area_lit(const gn_receiver *r)
 }
 
 /* Half planes at any angle: the more samples, the nearer to the area; every count of samples is no worse than random
- * ones. */
+ * ones. [F4] */
 static void test_disk_accuracy(void)
 {
     enum { CASES = 600, N = 64 };

@@ -128,6 +128,7 @@ static int check_list(uint32_t object_idx, uint32_t limit)
     return n_reaching - expected;
 }
 
+/* Against the ranking by doubles. [P9] */
 static void test_object_lists(void)
 {
     rng r = {19};
@@ -231,7 +232,7 @@ static void test_out_of_reach(void)
     }
 }
 
-/* P10: a light that every surface turns its back to, or whose cone misses all, does not change a byte, shadow or not.
+/* A light that every surface turns its back to, or whose cone misses all, does not change a byte, shadow or not. [P10]
  */
 static void test_early_outs(void)
 {
@@ -321,7 +322,7 @@ static void check_tile(const gn_rect *rect, const uint32_t *depth, tile_tally *t
 }
 
 /* No light that reaches a pixel is missing, and most that could reach none are: those a tile lists beyond the exact
- * answer (some point of some pixel's ray in range) are those behind corners of its frustum, at most a fifth. */
+ * answer (some point of some pixel's ray in range) are those behind corners of its frustum, at most a fifth. [R9] */
 static void test_tile_lists(void)
 {
     static uint32_t depth[W * H];

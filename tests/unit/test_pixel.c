@@ -21,6 +21,7 @@ static long double srgb(long double x)
     return x <= 0.0031308L ? 12.92L * x : 1.055L * powl(x, 1.0L / 2.4L) - 0.055L;
 }
 
+/* The sRGB curve against the formula. [M7] */
 static void test_encode(void)
 {
     tally bound = {0}, monotone = {0};
@@ -86,7 +87,7 @@ static int packed_ok(const uint32_t q20[3])
            nearest(encoded(q20[0]), 255) + nearest(encoded(q20[1]), 255) * 256 + nearest(encoded(q20[2]), 255) * 65536;
 }
 
-/* Without the curve every 16-bit value occurs; each passes through every channel. */
+/* Without the curve every 16-bit value occurs; each passes through every channel. [R5] */
 static void test_pack(void)
 {
     tally t = {0};

@@ -74,6 +74,7 @@ static int32_t face_by_rule(const int32_t p[3])
     return 2 * axis + (p[axis] < 0);
 }
 
+/* Every point lies in the face that its largest coordinate says. [P5] */
 static void test_faces(void)
 {
     int n_wrong = 0;
@@ -311,6 +312,7 @@ static void check_point(rng *r, const gn_light_state *state)
     check_irradiance(r, &point, factor, sqrt(d2), is_sharp(light, sqrt(d2)));
 }
 
+/* Distance and cone against doubles. [P2] [P3] */
 static void test_attenuation(void)
 {
     static const int32_t unit_log2[] = {0, 0, 3, -4, 8};
@@ -377,6 +379,7 @@ static void check_disk_of_light(uint32_t range_q16, double radius)
     CHECK(n_in > 100 && n_out > 100);
 }
 
+/* A shadow map is looked up just where light arrives. [P10] */
 static void test_not_looked_up(void)
 {
     check_disk_of_light(0, 3 * tan(GN_TURN(60) * turn / 2));
@@ -456,6 +459,7 @@ static void check_biases(uint32_t light_idx)
     check_changed(light_idx, "bias_caster");
 }
 
+/* A tile is drawn again for every field that its texels depend on. [A5] */
 static void test_kept_fields(void)
 {
     one_of_each_kind();
@@ -536,6 +540,7 @@ static void check_far_shadow(int side)
     if (GN_K(&fresh.frame, atlas_size) == 1024) CHECK_EQ_INT(gn_get_stats(&fresh)->n_casters_culled, 1);
 }
 
+/* A shadow that leaves its cascade keeps its caster. [D8] */
 static void test_far_shadow(void)
 {
     check_far_shadow(-1);
@@ -803,6 +808,7 @@ static void check_plate(rng *r, int depth_bits, double bias, int *n_texels)
     *n_texels += check_stored(&q, view, &tile);
 }
 
+/* Depths as they are stored, at 8, 16 and 32 bits. [A4] [B4] */
 static void test_stored(void)
 {
     static const int bits[] = {8, 16, 32};
@@ -836,6 +842,7 @@ static double texel_of(const uint8_t *rgba, int size, int x, int y, int channel)
     return rgba[4 * (y * size + x) + channel] / 255.0;
 }
 
+/* Masks from an image. [M5] */
 static void test_mask_image(void)
 {
     enum { SIZE = 8 };

@@ -177,6 +177,7 @@ static void check_mixing(gn_surface *surface, gn_sample *sample)
     record(STAGE_ATTENUATION + (int)mixing, fabs(got - want), (mixing == GN_MIXING_DISTANCE ? 1.5 : 1) * LSB16, LSB16);
 }
 
+/* Strength, distance and mask together. [M4] [M6] */
 static void check_attenuation(const gn_knobs *knobs)
 {
     static gn_surface surface;

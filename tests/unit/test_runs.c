@@ -1,4 +1,4 @@
-/* Visible spans of a screen tile (R2), sorted and drawn by gn_shade_tile: whatever the cells hold, every pixel gets the
+/* Visible spans of a screen tile [R2], sorted and drawn by gn_shade_tile: whatever the cells hold, every pixel gets the
  * colour of the triangle that its cell names. Triangles cover the whole picture and are unlit, so that a triangle's
  * colour is one and known; the cells are filled in here, not by the raster. */
 #include <string.h>

@@ -305,6 +305,7 @@ static void random_plan(plan *p, rng *r)
     for (int k = 0; k < 3; k++) p->eye[k] = 2 * rng_range(r, -40, 40);
 }
 
+/* Any lights and any budget: the plan is that of DESIGN 1.6. [A2] [A3] */
 static void test_random_plans(void)
 {
     static plan p;
@@ -348,6 +349,7 @@ static void check_kinds(const char *kinds, const char *expected, int n_cascades,
     }
 }
 
+/* Who gets tiles, by hand. [D1] [D10] [A3] [P5] */
 static void test_budget_by_hand(void)
 {
     init(&one, 16, 16, GN_VIEW_COLOUR, 0);
@@ -455,6 +457,7 @@ static void check_independence(int change_other, uint64_t seed)
     CHECK_EQ_INT(same_tiles(2, 2), !change_other);
 }
 
+/* What changes in one atlas changes nothing in the other. [A1] */
 static void test_independence(void)
 {
     for (uint64_t seed = 1; seed <= 4; seed++) {
@@ -551,6 +554,7 @@ static void check_poison(const poison_case *c, uint64_t seed)
     }
 }
 
+/* What lies beside a tile is never seen. [P8] */
 static void test_poison(void)
 {
     static const poison_case cases[] = {
