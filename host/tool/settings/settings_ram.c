@@ -56,14 +56,14 @@ static long cut_bytes(const settings *s)
 {
     if (!s->feature.caster_alpha) return 0;
     if (!s->feature.textures) return 24;
-    return s->quality.persp_step > 1 ? 216 : 152;
+    return 216;
 }
 
 /* gn_casting of lib/geometry/gn_geometry_types.h */
 static long casting_bytes(const settings *s)
 {
     if (!s->feature.shadows) return 0;
-    return 856 + (s->feature.caster_bias ? 40 : 0) + cut_bytes(s);
+    return 856 + cut_bytes(s);
 }
 
 /* gn_work of lib/geometry/gn_geometry_types.h: the largest of what one core does at a time, shading or casting */
