@@ -10,13 +10,18 @@ HOST_OPT ?= $(OPT)
 SAN ?=
 SIZE ?= 320x240
 SCENES ?=
-OWN_SCENES := $(foreach s,sundial avenue desk room fence mixed,host/scenes/$(s).gltf)
+OWN_SCENES := $(foreach s,cube sundial avenue desk room fence mixed,host/scenes/$(s).gltf)
 
-WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef -Werror
-# The host build of the library: every knob at run time, room for any scene. The pixels are the target's, bit for bit.
-HOST_KNOBS := -DGN_SEPARATE_FILES -DGN_COUNTERS=1 -DGN_RUNTIME_KNOBS=1 -DGN_RAW_VIEWS=1 -DGN_STATIC_LAYER=1 -DGN_ATLAS_SIZE=1024 \
-  -DGN_OTHER_ATLAS_SIZE=1024 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 -DGN_MAX_TILE_REFS=1000000 \
-  -DGN_MAX_LIGHTS=64 -DGN_SURFACE_LIGHTS=64 -DGN_MAX_OBJECTS=65535 -DGN_MAX_SHADOW_TILES=16 -DGN_MAX_OTHER_TILES=16 -DGN_VERTEX_CACHE=1024
+# The tests make an error of every warning (WERROR=-Werror); the compiler of a user may know new ones.
+WERROR ?=
+WARN := -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef $(WERROR)
+# Room for any scene.
+ROOM := -DGN_SEPARATE_FILES -DGN_RAW_VIEWS=1 -DGN_STATIC_LAYER=1 -DGN_MAX_WIDTH=2048 -DGN_MAX_HEIGHT=2048 -DGN_MAX_TRIANGLES=65534 \
+  -DGN_MAX_TILE_REFS=1000000 -DGN_MAX_LIGHTS=64 -DGN_SURFACE_LIGHTS=64 -DGN_MAX_OBJECTS=65535 -DGN_MAX_SHADOW_TILES=16 \
+  -DGN_MAX_OTHER_TILES=16 -DGN_VERTEX_CACHE=1024
+# The host build of the library: every knob at run time. The pixels are the target's, bit for bit. For the tests alone: CONSTANTS.
+CONSTANTS ?=
+HOST_KNOBS := $(ROOM) $(or $(CONSTANTS),-DGN_COUNTERS=1 -DGN_RUNTIME_KNOBS=1 -DGN_ATLAS_SIZE=1024 -DGN_OTHER_ATLAS_SIZE=1024)
 LIB_CFLAGS := -std=c99 -pedantic $(OPT) -g $(WARN) $(SAN) -Ilib
 HOST_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(HOST_OPT) -g $(WARN) $(SAN) -Ilib $(HOST_KNOBS) \
   -DSLOW_LIBRARY=$(if $(filter -O0,$(OPT)),1,0)
@@ -28,6 +33,13 @@ HOST_SRC := $(filter-out host/tool/main.c host/generate/% host/report/%, $(sort 
 SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/generate/scenes/*.c))
 TEST_SRC := $(wildcard tests/*/test_*.c)
 TESTS := $(basename $(notdir $(TEST_SRC)))
+# Those of unit/ and property/ need no more than the library, but for three.
+ALONE := $(patsubst tests/%.c,$(BUILD)/%,$(subst unit/,,$(subst property/,,$(wildcard tests/unit/test_*.c tests/property/test_*.c))))
+ALONE := $(filter-out %/test_culling %/test_golden %/test_stages,$(ALONE))
+# And those that are built with constants for knobs, too. The others choose their knobs: casters
+# and radiance sweep what may be lost over all presets, refused what a knob refuses, runs and tiles have sizes of their own;
+# of the accurate preset there is no arrival.
+CONSTANT := $(filter-out %/test_arrival %/test_casters %/test_radiance %/test_refused %/test_runs %/test_tiles,$(ALONE))
 
 LIB_OBJ := $(LIB_SRC:%.c=$(BUILD)/obj/%.o)
 HOST_OBJ := $(HOST_SRC:%.c=$(BUILD)/obj/%.o)
@@ -53,6 +65,9 @@ test: deps ## run every test
 
 soak: ## the longer campaigns, minutes to hours: [SEED=n] [SCENES=n] [CAMPAIGNS="random census"]
 	@sh tests/soak.sh
+
+coverage: ## print the lines and branches of lib/ that the C tests run, in some minutes
+	@sh tests/coverage.sh
 
 bench: $(BUILD)/gnomon ## count instructions on the host and on four target cores against the committed baselines; WRITE=1 renews them
 	@sh tests/bench/bench.sh $(if $(WRITE),--write)
@@ -84,6 +99,9 @@ report: $(BUILD)/gnomon $(BUILD)/make_report ## one page of pictures, metrics an
 tables: $(BUILD)/gen_tables ## regenerate lib/base/gn_tables.c
 	$(BUILD)/gen_tables > lib/base/gn_tables.c
 
+prefix: ## regenerate lib/gn_prefix.h
+	@sh host/generate/gen_prefix.sh >$(BUILD)/gn_prefix.h && mv $(BUILD)/gn_prefix.h lib/gn_prefix.h
+
 scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf and docs/scenes/*.gltf
 	$(BUILD)/make_scenes host/scenes docs/scenes
 
@@ -111,6 +129,12 @@ $(BUILD)/make_scenes: $(BUILD)/obj/host/generate/scenes/make_scenes.o $(SCENE_OB
 # Test programs of one variant: make test-programs BUILD=build/gcc-O0 CC=gcc OPT=-O0 SAN=-fsanitize=address,undefined
 test-programs: $(TESTS:%=$(BUILD)/%) $(BUILD)/gnomon
 
+# Of one configuration with constants: make constant-programs BUILD=build/tiny CONSTANTS=-DGN_PRESET=0
+constant-programs: $(CONSTANT)
+
+# Those that need no more than the library.
+alone-programs: $(ALONE)
+
 $(BUILD)/test_scenes: $(SCENE_OBJ)
 $(BUILD)/test_panels: $(PANEL_OBJ)
 $(BUILD)/test_radiance: $(BUILD)/obj/tests/unit/pieces_colours.o
@@ -130,7 +154,9 @@ $(BUILD)/capture: $(BUILD)/obj/boards/tools/capture.o
 
 # A test program is found by its name, whatever folder of tests/ its source is in.
 $(foreach source,$(TEST_SRC),$(eval $(BUILD)/$(basename $(notdir $(source))): $(source:%.c=$(BUILD)/obj/%.o)))
-$(TESTS:%=$(BUILD)/%): $(HOST_OBJ) $(LIB_OBJ)
+$(filter-out $(ALONE),$(TESTS:%=$(BUILD)/%)): $(HOST_OBJ)
+$(ALONE): $(filter %/count.o,$(HOST_OBJ))
+$(TESTS:%=$(BUILD)/%): $(LIB_OBJ)
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
 
@@ -162,5 +188,5 @@ endif
 
 -include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
 
-.PHONY: all help run deps test soak bench size matrix firmware emulate screen boards docs report tables scenes coverage clean test-programs
+.PHONY: all help run deps test soak bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
 .SECONDARY:

@@ -106,8 +106,8 @@ always:
 
 -include $(shell test -d $(FW_OBJ_DIR) && find $(FW_OBJ_DIR) -name '*.d')
 
-# What a programmer writes to flash, of boards that nothing emulates; UF2 where the board takes it by copying.
-FW_FLAT := $(if $(filter no,$(BOARD_RUNS)),$(FIRMWARE:.elf=.bin) $(if $(BOARD_UF2),$(FIRMWARE:.elf=.uf2)))
+# What a programmer writes to flash, of boards that QEMU does not run; UF2 where the board takes it by copying.
+FW_FLAT := $(if $(filter no rp2040js,$(BOARD_RUNS)),$(FIRMWARE:.elf=.bin) $(if $(BOARD_UF2),$(FIRMWARE:.elf=.uf2)))
 $(FIRMWARE:.elf=.bin): $(FIRMWARE)
 	@$(BOARD_CROSS)objcopy -O binary $< $@
 $(FIRMWARE:.elf=.uf2): $(FIRMWARE:.elf=.bin) $(BUILD)/uf2
@@ -125,20 +125,41 @@ empty :=
 FW_ARGS = $(APP)$(subst $(empty) $(comma)arg=,$(comma)arg=,$(patsubst %,$(comma)arg=%,$(subst $(comma),$(comma)$(comma),$(ARGS))))
 EMULATE = $(BOARD_EMULATOR) -semihosting-config enable=on,target=native,arg=$(FW_ARGS) -kernel $(FIRMWARE)
 EMULATOR_FLAGS := -display none -monitor none -serial none $(if $(COUNT),-plugin $(abspath $(BUILD)/libstages.so))
-run-firmware: $(FIRMWARE) $(if $(COUNT),$(BUILD)/libstages.so)
+# rp2040js is a package of node: it boots the UF2 of a Pico, and ends after ARGS frames. Tested with this version.
+RP2040JS := $(BUILD)/node_modules/rp2040js
+RP2040JS_VERSION := 1.4.1
+RUN_PICO = NODE_PATH=$(BUILD)/node_modules timeout $(or $(TIMEOUT),300) \
+  node boards/tools/pico.js $(FIRMWARE:.elf=.uf2) $(FIRMWARE:.elf=.symbols) $(or $(ARGS),2)
+PICO_NEEDS := $(if $(filter rp2040js,$(BOARD_RUNS)),$(FIRMWARE:.elf=.uf2) $(FIRMWARE:.elf=.symbols) $(RP2040JS)/package.json)
+$(FIRMWARE:.elf=.symbols): $(FIRMWARE)
+	@$(BOARD_CROSS)nm $< >$@
+$(RP2040JS)/package.json:
+	@command -v node >/dev/null && command -v npm >/dev/null || \
+	  { echo "rp2040js, which runs the $(BOARD), needs node and npm (in Debian: nodejs npm)" >&2; exit 1; }
+	@npm install --silent --no-save --no-audit --no-fund --prefix $(BUILD) rp2040js@$(RP2040JS_VERSION) >/dev/null || \
+	  { echo "npm could not install rp2040js $(RP2040JS_VERSION) in $(BUILD)/node_modules" >&2; exit 1; }
+
+run-firmware: $(FIRMWARE) $(PICO_NEEDS) $(if $(COUNT),$(BUILD)/libstages.so)
 ifneq ($(FW_HOSTED),)
 	@$(FIRMWARE) $(ARGS)
+else ifeq ($(BOARD_RUNS),rp2040js)
+	@$(RUN_PICO)
 else ifneq ($(BOARD_EMULATOR),)
 	@timeout $(or $(TIMEOUT),120) $(EMULATE) $(EMULATOR_FLAGS)
 else
 	@echo "$(BOARD) is built, not run: no emulator has it" && exit 1
 endif
 
-# The display, when the clock has come to the last time of ARGS.
+# The display, when the clock has come to the last time of ARGS; the Pico's after ARGS frames.
 SCREEN_OUT ?= $(FIRMWARE:.elf=.ppm)
+ifneq ($(BOARD_RUNS),rp2040js)
 run-screen: ARGS ?= 09:40 10:00
-run-screen: $(FIRMWARE) $(BUILD)/capture $(BUILD)/ppm
-ifneq ($(BOARD_EMULATOR),)
+endif
+run-screen: $(FIRMWARE) $(PICO_NEEDS) $(BUILD)/capture $(BUILD)/ppm
+ifeq ($(BOARD_RUNS),rp2040js)
+	@$(RUN_PICO) $(SCREEN_OUT)
+	@$(BUILD)/ppm png $(SCREEN_OUT) $(SCREEN_OUT:.ppm=.png) && echo $(SCREEN_OUT:.ppm=.png)
+else ifneq ($(BOARD_EMULATOR),)
 	@$(BUILD)/capture $(or $(TIMEOUT),60) 'READY $(lastword $(ARGS))' $(SCREEN_OUT) $(EMULATE)
 	@$(BUILD)/ppm png $(SCREEN_OUT) $(SCREEN_OUT:.ppm=.png) && echo $(SCREEN_OUT:.ppm=.png)
 else

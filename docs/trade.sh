@@ -89,7 +89,7 @@ done
 
 {
     echo
-    sed -n '/^\/\*/,/\*\//p' host/tool/cost/cost_table.h | sed -n '1,/^ \*\//p' | sed 's|^/\* ||; s|^ \*/||; s|^ \*   |- |; s|^ \* ||; s|:$|:\n|'
+    sed '/clang-format/d; /^ \*\//q' host/tool/cost/cost_table.h | sed 's|^/\* ||; s|^ \*/||; s|^ \*   |- |; s|^ \* ||; s|:$|:\n|'
     echo "| event | instructions | one of them is |"
     echo "|---|---|---|"
     sed -n 's|^COST(\([a-z0-9_]*\), \([0-9.e+]*\)) /\* \(.*\) \*/$|\| `\1` \| \2 \| \3 \||p' host/tool/cost/cost_table.h

@@ -27,17 +27,6 @@
 #ifndef GN_COMPACT
 #define GN_COMPACT 0
 #endif
-#if GN_COMPACT
-#ifndef GN_MAX_WIDTH
-#define GN_MAX_WIDTH 256
-#endif
-#ifndef GN_MAX_LIGHTS
-#define GN_MAX_LIGHTS 1
-#endif
-#ifndef GN_MAX_SHADOW_TILES
-#define GN_MAX_SHADOW_TILES 1
-#endif
-#endif
 
 /* Quality: tiny, balanced, accurate. */
 #define GN_PRESETS_SUBPIXEL_BITS        4, 7, 8
@@ -113,7 +102,7 @@
 
 /* Capacities. */
 #ifndef GN_MAX_WIDTH
-#define GN_MAX_WIDTH 320
+#define GN_MAX_WIDTH (GN_COMPACT ? 256 : 320)
 #endif
 #ifndef GN_MAX_HEIGHT
 #define GN_MAX_HEIGHT 240
@@ -125,10 +114,10 @@
 #define GN_MAX_TILE_REFS 1500
 #endif
 #ifndef GN_MAX_LIGHTS
-#define GN_MAX_LIGHTS 8
+#define GN_MAX_LIGHTS (GN_COMPACT ? 1 : 8)
 #endif
 #ifndef GN_MAX_SHADOW_TILES
-#define GN_MAX_SHADOW_TILES 4
+#define GN_MAX_SHADOW_TILES (GN_COMPACT ? 1 : 4)
 #endif
 #ifndef GN_SURFACE_LIGHTS
 #define GN_SURFACE_LIGHTS 8
@@ -248,6 +237,15 @@
 #endif
 #ifndef GN_RUNTIME_KNOBS
 #define GN_RUNTIME_KNOBS 0
+#endif
+
+/* How it is built. A program need not agree with the library on size_first: no type depends on it. */
+#ifndef GN_SIZE_FIRST
+#ifdef __OPTIMIZE_SIZE__
+#define GN_SIZE_FIRST 1
+#else
+#define GN_SIZE_FIRST 0
+#endif
 #endif
 
 /* Whether the boxes of objects are needed. */

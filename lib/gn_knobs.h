@@ -58,54 +58,54 @@
       "other_depth_bits / 8 bytes each")                                                                               \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
 
-/* Another arithmetic (gn_compact.h): constant in every build. */
-#define GN_ARITHMETIC_KNOBS(X)                                                                                         \
+/* How the library is built: constant in every build. */
+#define GN_BUILD_KNOBS(X)                                                                                              \
     X(compact, COMPACT, 0, 1,                                                                                          \
       "32-bit arithmetic for one directional light with one hard shadow tile and flat colours, in pictures up to "     \
       "256x256; features are off",                                                                                     \
-      "none: the least flash; a scene beyond its range is refused")
+      "none: the least flash; a scene beyond its range is refused")                                                    \
+    X(size_first, SIZE_FIRST, 0, 1,                                                                                    \
+      "less flash rather than fewer instructions: one way where there are two with the same bits, calls in place of "  \
+      "inline code; by default 1 where the compiler optimises for size (-Os)",                                         \
+      "instructions; the same picture")
 
 #define GN_FEATURE_KNOBS(X)                                                                                            \
     X(shadows, SHADOWS, 0, 1, "shadow maps", "atlas, rasteriser and filters")                                          \
     X(depth_blocks, DEPTH_BLOCKS, 0, 1, "bounds of shadow depth per 8x8 texels decide most lookups at once",           \
       "4 bytes of RAM per 64 texels; the same picture with and without")                                               \
-    X(blended_cascades, BLENDED_CASCADES, 0, 1, "soft and dithered blending between cascades (D7)",                    \
+    X(blended_cascades, BLENDED_CASCADES, 0, 1, "soft and dithered blending between cascades",                         \
       "three more values per light and sample")                                                                        \
     X(filter_max, FILTER_MAX, 0, 4, "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7", "flash")               \
-    X(disk_filter, DISK_FILTER, 0, 1, "rotated disk filter (F4)", "flash; a table of 256 bytes")                       \
-    X(linear_kernels, LINEAR_KERNELS, 0, 1, "the cheaper linear kernels (F6)", "flash")                                \
-    X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights (P1-P10)", "flash; the other atlas")              \
-    X(main_light, MAIN_LIGHT, 0, 1, "a main light beside single tiles (D10)", "flash; the other atlas")                \
-    X(tile_lights, TILE_LIGHTS, 0, 1, "lists of lights per screen tile (R9)",                                          \
-      "flash; the same picture with and without")                                                                      \
-    X(caster_culling, CASTER_CULLING, 0, 1,                                                                            \
-      "casters that a smaller cascade shows are not drawn into larger ones (D8)", "flash")                             \
-    X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither (M1)", "flash")                         \
-    X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither (M8)", "flash")                      \
-    X(textures, TEXTURES, 0, 1, "textures: colour and alpha (M3)", "flash; a table of 512 bytes; a divide per pixel")  \
-    X(specular, SPECULAR, 0, 1, "specular highlights (M3)",                                                            \
-      "flash; a reciprocal root per light and pixel of such objects")                                                  \
-    X(masks, MASKS, 0, 1, "baked shadow masks and their mixing (M5, M6)", "flash")                                     \
-    X(baked_light, BAKED_LIGHT, 0, 1, "baked irradiance per vertex (M9)", "flash; three values per sample")            \
-    X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias (B3)", "flash")                                 \
-    X(caster_bias, CASTER_BIAS, 0, 1, "casters shrunk along their normals (B4)", "flash")                              \
-    X(receiver_plane, RECEIVER_PLANE, 0, 1, "depth of the receiver's plane per tap (B5)", "flash")                     \
-    X(auto_bias, AUTO_BIAS, 0, 1, "automatic bias (B6)", "flash")                                                      \
+    X(disk_filter, DISK_FILTER, 0, 1, "rotated disk filter", "flash; a table of 256 bytes")                            \
+    X(linear_kernels, LINEAR_KERNELS, 0, 1, "the cheaper linear kernels", "flash")                                     \
+    X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights", "flash; the other atlas")                       \
+    X(main_light, MAIN_LIGHT, 0, 1, "a main light beside single tiles", "flash; the other atlas")                      \
+    X(tile_lights, TILE_LIGHTS, 0, 1, "lists of lights per screen tile", "flash; the same picture with and without")   \
+    X(caster_culling, CASTER_CULLING, 0, 1, "casters that a smaller cascade shows are not drawn into larger ones",     \
+      "flash")                                                                                                         \
+    X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither", "flash")                              \
+    X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither", "flash")                           \
+    X(textures, TEXTURES, 0, 1, "textures: colour and alpha", "flash; a table of 512 bytes; a divide per pixel")       \
+    X(specular, SPECULAR, 0, 1, "specular highlights", "flash; a reciprocal root per light and pixel of such objects") \
+    X(masks, MASKS, 0, 1, "baked shadow masks and their mixing", "flash")                                              \
+    X(baked_light, BAKED_LIGHT, 0, 1, "baked irradiance per vertex", "flash; three values per sample")                 \
+    X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias", "flash")                                      \
+    X(caster_bias, CASTER_BIAS, 0, 1, "casters shrunk along their normals", "flash")                                   \
+    X(receiver_plane, RECEIVER_PLANE, 0, 1, "depth of the receiver's plane per tap", "flash")                          \
+    X(auto_bias, AUTO_BIAS, 0, 1, "automatic bias", "flash")                                                           \
     X(incremental, INCREMENTAL, 0, 1,                                                                                  \
-      "shadow tiles are kept from frame to frame while nothing in them changes: a single picture shows nothing of it " \
-      "(A5)",                                                                                                          \
+      "shadow tiles are kept from frame to frame while nothing in them changes: a single picture shows nothing of it", \
       "16 bytes per tile; the same picture with and without")                                                          \
     X(static_layer, STATIC_LAYER, 0, 1,                                                                                \
-      "static casters are kept apart from moving ones, from frame to frame: a single picture shows nothing of it "     \
-      "(A5)",                                                                                                          \
+      "static casters are kept apart from moving ones, from frame to frame: a single picture shows nothing of it",     \
       "the atlases' RAM twice")                                                                                        \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")   \
     X(validation, VALIDATION, 0, 1,                                                                                    \
       "scenes are checked before they are drawn; without, what would be refused may do anything", "flash")             \
     X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats but RGB565: RGB888, grey, one bit", "flash")                  \
-    X(many_cascades, MANY_CASCADES, 0, 1, "more than one cascade per light (D3)", "flash")                             \
-    X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance (A2)", "flash")                                \
+    X(many_cascades, MANY_CASCADES, 0, 1, "more than one cascade per light", "flash")                                  \
+    X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance", "flash")                                     \
     X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box a shadow tile does not see are passed over",                \
       "flash, 24 bytes per object; the same picture with and without")                                                 \
     X(clipping, CLIPPING, 0, 1,                                                                                        \

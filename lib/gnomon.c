@@ -17,6 +17,7 @@
 
 /* Transforms; and what the caller describes, validated. */
 #include "geometry/gn_affine.c"
+#include "scene/gn_defaults.c"
 #include "scene/gn_scene.c"
 
 /* Screen tiles and pixels. */

@@ -21,6 +21,9 @@
 
 #include "gn_config.h"
 #include "gn_knobs.h"
+#ifdef GN_PREFIX
+#include "gn_prefix.h"
+#endif
 
 /* The version of this library. */
 #define GN_VERSION_MAJOR  0
@@ -45,6 +48,8 @@ extern "C" {
 #define GN_STATUS_LIST(X)                                                                                              \
     X(GN_OK, "ok")                                                                                                     \
     X(GN_ERR_NULL, "a required pointer is null")                                                                       \
+    X(GN_ERR_CONFIG,                                                                                                   \
+      "program and library were compiled with different configurations: the size of gn_renderer or a knob differs")    \
     X(GN_ERR_PICTURE_SIZE, "picture width or height is 0 or above GN_MAX_WIDTH x GN_MAX_HEIGHT")                       \
     X(GN_ERR_FORMAT, "unknown pixel format or view, or one that is not built in")                                      \
     X(GN_ERR_KNOB, "a run-time knob is out of its range")                                                              \
@@ -174,49 +179,41 @@ enum { /* gn_object.flags */
        GN_OBJECT_UNLIT = 8,
        GN_OBJECT_HIDDEN = 16,          /* casts, but is not seen */
        GN_OBJECT_CASTS_TWO_SIDED = 32, /* two-sided as a caster only */
-       GN_OBJECT_MOVING = 64,          /* A5: with GN_STATIC_LAYER its shadow is drawn over that of the others */
+       GN_OBJECT_MOVING = 64,          /* with GN_STATIC_LAYER its shadow is drawn over a kept one of the others */
        GN_OBJECT_DEFAULT = GN_OBJECT_CASTS | GN_OBJECT_RECEIVES
 };
 
-typedef enum { GN_ALPHA_OPAQUE, GN_ALPHA_CLIP, GN_ALPHA_DITHER } gn_alpha; /* M1, M8 */
+typedef enum { GN_ALPHA_OPAQUE, GN_ALPHA_CLIP, GN_ALPHA_DITHER } gn_alpha;
 
 typedef struct {
     const gn_mesh *mesh;
     gn_affine to_world;
     uint32_t albedo_uq16[3]; /* linear, 0..65536 */
     uint32_t flags;
-    gn_alpha
-        visible_alpha; /* M8: clip: no surface where alpha is below the cutoff; dither: where it is below the noise */
-    gn_alpha caster_alpha;      /* M1: the same for its shadow */
-    uint32_t alpha_uq16;        /* 0..65536, times the texture's; matters where an alpha mode does */
-    uint32_t alpha_cutoff_uq16; /* 0..65536 */
-    uint32_t specular_uq16[3];  /* linear, 0..65536; 0: none */
-    uint8_t shininess_log2;     /* exponent 2^0 .. 2^7 */
-    const gn_texture *texture;  /* or NULL */
-    const gn_texture
-        *mask_image; /* M5: four channels of shadow masks at the mesh's mask_uv_uq16, bilinear and clamped, or NULL */
-    const uint8_t *mask_u8;     /* M5: 4 per vertex of the mesh, or NULL */
-    const uint16_t *baked_uq12; /* M9: 3 per vertex of the mesh, irradiance of the baked lights, 4.12, or NULL */
+    gn_alpha visible_alpha; /* clip: no surface where alpha is below the cutoff; dither: where it is below the noise */
+    gn_alpha caster_alpha;  /* the same for its shadow */
+    uint32_t alpha_uq16;    /* 0..65536, times the texture's; matters where an alpha mode does */
+    uint32_t alpha_cutoff_uq16;   /* 0..65536 */
+    uint32_t specular_uq16[3];    /* linear, 0..65536; 0: none */
+    uint8_t shininess_log2;       /* exponent 2^0 .. 2^7 */
+    const gn_texture *texture;    /* or NULL */
+    const gn_texture *mask_image; /* shadow masks at the mesh's mask_uv_uq16, bilinear and clamped, or NULL */
+    const uint8_t *mask_u8;       /* shadow masks, 4 per vertex of the mesh, or NULL */
+    const uint16_t *baked_uq12;   /* 3 per vertex of the mesh, irradiance of the baked lights, 4.12, or NULL */
 } gn_object;
 
 typedef enum { GN_LIGHT_DIRECTIONAL, GN_LIGHT_SPOT, GN_LIGHT_POINT } gn_light_kind;
-typedef enum {
-    GN_LIGHT_REALTIME,
-    GN_LIGHT_MIXED,
-    GN_LIGHT_BAKED
-} gn_light_mode; /* M9; mixed is realtime with a mask; baked costs nothing */
-typedef enum {
-    GN_SOFTNESS_DEFAULT,
-    GN_SOFTNESS_HARD,
-    GN_SOFTNESS_SOFT
-} gn_softness; /* F5: the atlas's filter, 2x2, at least 5x5 */
+/* Mixed is realtime with a shadow mask; baked costs nothing. */
+typedef enum { GN_LIGHT_REALTIME, GN_LIGHT_MIXED, GN_LIGHT_BAKED } gn_light_mode;
+/* A light's filter: that of its atlas; 2x2; that of its atlas, but at least 5x5. */
+typedef enum { GN_SOFTNESS_DEFAULT, GN_SOFTNESS_HARD, GN_SOFTNESS_SOFT } gn_softness;
 typedef enum {
     GN_AUTO_BIAS_DEFAULT, /* normal, unless bias_normal_q16 or bias_receiver_q16 is set: that ends it. A light that
                              casts shadows must set one of them, or say off, where automatic bias is not built */
     GN_AUTO_BIAS_DEPTH,   /* less depth */
     GN_AUTO_BIAS_NORMAL,  /* along the face's normal: detaches least */
     GN_AUTO_BIAS_OFF
-} gn_auto_bias; /* B6 */
+} gn_auto_bias;
 
 typedef struct {
     gn_light_kind kind;
@@ -231,54 +228,57 @@ typedef struct {
     uint16_t inner_turn, outer_turn; /* spot: full light within, none beyond; edge to edge, 1..179 degrees */
     uint32_t shadow_strength_uq16;   /* 0: casts no shadow and costs nothing; 65536: full */
     gn_softness softness;
-    int32_t mask_channel;         /* M5: 0..3, -1: none; of mixed lights only */
-    int32_t bias_constant_q16;    /* B1, texels, 0..64 */
-    int32_t bias_slope_q16;       /* B1, 0..64 */
-    int32_t bias_normal_q16;      /* B2, 0..8 */
-    int32_t bias_receiver_q16[4]; /* B3, 0..8 each */
-    int32_t bias_caster_q16;      /* B4, texels, 0..8 */
-    uint32_t receiver_plane;      /* B5: 1: every tap compares with the depth of the receiver's plane */
-    gn_auto_bias auto_bias;  /* B6: the least bias that leaves a plane no acne, in place of B2 and B3; on by default */
-    int32_t near_offset_q16; /* D9, directional: pulls the light's near plane back, world units, 0..8192 */
+    int32_t mask_channel;         /* of the shadow masks, 0..3; -1: none; mixed lights only */
+    int32_t bias_constant_q16;    /* of casters, texels, 0..64 */
+    int32_t bias_slope_q16;       /* of casters, times their slope, 0..64 */
+    int32_t bias_normal_q16;      /* receivers move along their normals, texels * sqrt(2) * (filter index + 1), 0..8 */
+    int32_t bias_receiver_q16[4]; /* along the light, its tangent, the normal, its sine; 0..8 each */
+    int32_t bias_caster_q16;      /* casters shrink along their normals, texels, 0..8 */
+    uint32_t receiver_plane;      /* 1: every tap compares with the depth of the receiver's plane */
+    gn_auto_bias auto_bias;       /* the least bias that leaves a plane no acne, in place of normal and receiver bias */
+    int32_t near_offset_q16;      /* directional: pulls the light's near plane back, world units, 0..8192 */
 } gn_light;
 
 typedef struct {
     gn_affine to_world; /* a rotation (exp 0) and a position; looks along its local -Z */
     uint32_t focal_q24; /* 1 / tan(vertical fov / 2), 1/32 .. 255.99 */
     int32_t near_q16;   /* surfaces nearer than this are clipped */
-    int32_t far_q16;    /* only bounds what may be asked of shadows */
+    int32_t far_q16;    /* only limits the shadow distance */
 } gn_camera;
 
 typedef enum { GN_FILTER_HARD, GN_FILTER_2X2, GN_FILTER_3X3, GN_FILTER_5X5, GN_FILTER_7X7, GN_FILTER_DISK } gn_filter;
-typedef enum { GN_KERNEL_TENT, GN_KERNEL_LINEAR } gn_kernel;                     /* F3, F6 */
-typedef enum { GN_MIXING_NONE, GN_MIXING_ALWAYS, GN_MIXING_DISTANCE } gn_mixing; /* M6 */
-typedef enum { GN_TILES_EQUAL, GN_TILES_IMPORTANCE } gn_tile_sizes;              /* A2 */
+typedef enum { GN_KERNEL_TENT, GN_KERNEL_LINEAR } gn_kernel;
+/* Of baked and realtime shadows. */
+typedef enum { GN_MIXING_NONE, GN_MIXING_ALWAYS, GN_MIXING_DISTANCE } gn_mixing;
+typedef enum { GN_TILES_EQUAL, GN_TILES_IMPORTANCE } gn_tile_sizes;
 
-typedef enum { GN_BLEND_HARD, GN_BLEND_SOFT, GN_BLEND_DITHER } gn_blend; /* D7 */
-typedef enum { GN_DISTANCE_DEPTH, GN_DISTANCE_RADIUS } gn_distance_mode; /* D5, D11 */
+/* Between cascades. */
+typedef enum { GN_BLEND_HARD, GN_BLEND_SOFT, GN_BLEND_DITHER } gn_blend;
+/* What the shadow distance is measured by: view depth, or distance from the camera. */
+typedef enum { GN_DISTANCE_DEPTH, GN_DISTANCE_RADIUS } gn_distance_mode;
 
 #define GN_OBJECT_LIGHTS_MAX 8
 
 typedef struct {
-    int32_t max_distance_q16;    /* D5 */
-    uint32_t distance_fade_uq16; /* D5, 66 (0.001) .. 65536 */
-    uint32_t cascade_fade_uq16;  /* D3, D6, 66 .. 65536 */
+    int32_t max_distance_q16;    /* no shadows beyond */
+    uint32_t distance_fade_uq16; /* the last part of that distance, 66 (0.001) .. 65536 */
+    uint32_t cascade_fade_uq16;  /* the last part of the last cascade, 66 .. 65536 */
     gn_filter filter;            /* of the directional atlas */
     gn_filter other_filter;      /* of the other atlas */
     gn_kernel kernel;
-    uint32_t penumbra_uq16; /* F4: directional: radius in 0.02 units; spot, point: in 0.004 of a tile; 0 .. 64.0 */
-    uint32_t disk_samples;  /* F4: 1..64 */
+    uint32_t penumbra_uq16; /* disk radius: directional in 0.02 units, spot and point in 0.004 tiles; 0 .. 64.0 */
+    uint32_t disk_samples;  /* disk filter: 1..64 */
     gn_mixing mixing;
     gn_tile_sizes tile_sizes;
-    uint32_t main_light; /* D10: 1: only the brightest directional light has cascades; others take one tile of the other
-                            atlas */
-    uint32_t caster_culling;  /* D8: 1: the same pixels, fewer casters */
-    uint32_t object_lights;   /* P9: most spot and point lights per object, 0 (no limit) .. 8 */
-    uint32_t refresh[4];      /* A5: cascade i is drawn anew every refresh[i]th frame; 0 as 1 */
+    uint32_t main_light;      /* 1: only the brightest directional light has cascades; others take one tile of the other
+                                 atlas */
+    uint32_t caster_culling;  /* 1: the same pixels, fewer casters */
+    uint32_t object_lights;   /* most spot and point lights per object, 0 (no limit) .. 8 */
+    uint32_t refresh[4];      /* cascade i is drawn anew every refresh[i]th frame; 0 as 1 */
     uint32_t n_cascades;      /* 0 (as 1) .. 4; each takes a tile of the atlas */
     uint32_t cascades_unused; /* bit i: cascade i has no tile, and pixels in it look into the next: for scenes that
                                  never do */
-    uint32_t cascade_ratio_uq16[3]; /* where cascades 0, 1, 2 end, as shares of the max distance, ascending; the last
+    uint32_t cascade_ratio_uq16[3]; /* where cascades 0, 1, 2 end, as fractions of the max distance, ascending; the last
                                        ends there */
     gn_blend blend;                 /* anything but hard needs GN_BLENDED_CASCADES */
     gn_distance_mode distance_mode;
@@ -290,12 +290,44 @@ typedef struct {
     uint32_t n_objects; /* up to 65535 */
     uint32_t n_lights;
     gn_camera camera;
-    int32_t unit_log2; /* one unit of length is 2^-unit_log2 of the model's: scales the 10^-4 of P2 and the 0.02 of F4;
-                          -30 .. 30 */
+    int32_t unit_log2; /* one unit of length is 2^-unit_log2 of the model's: scales the least squared distance 10^-4 of
+                          spot and point lights, and the penumbra; -30 .. 30 */
     uint32_t ambient_uq16[3];    /* 0..255.99 */
     uint32_t background_uq16[3]; /* 0..65536 */
     gn_shadow_settings shadow;
 } gn_scene;
+
+/* ---- Defaults: what a user need not set ---------------------------------------------------------------------------
+ */
+
+/* Everything that is not given has a value that shows: white or light grey, lit, casting and receiving shadows. Change
+ * what should differ afterwards. */
+
+/* A mesh of two arrays: 3 coordinates per vertex, written with GN_Q16, and 3 indices per triangle. Face normals. */
+#define GN_MESH(pos, idx)                                                                                              \
+    {                                                                                                                  \
+        pos, NULL, NULL, NULL, NULL, idx, sizeof(pos) / (3 * sizeof((pos)[0])), sizeof(idx) / (3 * sizeof((idx)[0])),  \
+            16, 0                                                                                                      \
+    }
+
+/* Grey of albedo 0.8 at the origin, opaque, casts and receives shadows. */
+gn_object gn_object_default(const gn_mesh *mesh);
+
+/* Lights are white and cast full shadows with automatic bias (or a normal bias of 1, where that is not built).
+ * The sun shines along a direction of any length, with irradiance 1. Spots and points have intensity 16: irradiance 1
+ * at a distance of 4; their range is unlimited, and what is nearer than 0.1 casts no shadow. A spot shines from a
+ * position at a target; `outer_turn` is its whole cone, edge to edge, of which the inner half has the full light. */
+gn_light gn_light_sun(int32_t x, int32_t y, int32_t z);
+gn_light gn_light_spot(const int32_t position_q16[3], const int32_t target_q16[3], uint16_t outer_turn);
+gn_light gn_light_point(const int32_t position_q16[3]);
+
+/* At `eye` towards `target`, +Y up, 45 degrees high, near plane 0.1, far plane 100. */
+gn_camera gn_camera_default(const int32_t eye_q16[3], const int32_t target_q16[3]);
+
+/* Ambient light 0.15, a dark blue background. Shadows up to a distance of 100 (the last tenth fades), by four cascades
+ * where they are built and their tiles fit, else one; filtered 2x2 where that is built. */
+gn_scene gn_scene_default(const gn_camera *camera, const gn_object *objects, uint32_t n_objects, const gn_light *lights,
+                          uint32_t n_lights);
 
 /* ---- Rendering --------------------------------------------------------------------------------------------------- */
 
@@ -357,11 +389,11 @@ typedef struct {
     uint32_t n_shadow_tiles;
     uint32_t n_caster_triangles; /* drawn into shadow tiles */
     uint32_t n_reach_clamped;    /* views whose filter reach does not fit their tile: taps are clamped at its border */
-    uint32_t n_lights_without_room; /* A3: lights that wanted a shadow and got no tile */
-    uint32_t n_lights_left_out;     /* P9: over all objects */
-    uint32_t n_tiles_drawn;         /* A5: shadow tiles that were drawn, not kept */
+    uint32_t n_lights_without_room; /* lights that requested a shadow and got no tile */
+    uint32_t n_lights_left_out;     /* of lists of lights per object, over all objects */
+    uint32_t n_tiles_drawn;         /* shadow tiles that were drawn, not kept */
     uint32_t n_texels_drawn;        /* of those tiles */
-    uint32_t n_casters_culled;      /* D8: objects not drawn into a cascade */
+    uint32_t n_casters_culled;      /* objects not drawn into a cascade */
 } gn_stats;
 
 #if GN_RUNTIME_KNOBS
@@ -379,8 +411,37 @@ typedef struct gn_renderer {
     gn_scratch scratch;
 } gn_renderer;
 
-/* Clears the renderer and sets what it draws. Must be the first call. */
-gn_status gn_init(gn_renderer *r, const gn_picture *picture);
+/* What gn_init compares: a sum over all knobs, the version, and the sizes of what the caller fills in. */
+#define GN_SIGN_(index, value)                                                                                         \
+    (((uint64_t)(value) + 1U) * (((uint64_t)(index)*0x9E3779B97F4A7C15U ^ 0xD1B54A32D192ED03U) | 1U))
+#define GN_KNOB_INDEX_(name, MACRO, lo, hi, meaning, cost) gn_knob_index_##name,
+#define GN_KNOB_SIGN_(name, MACRO, lo, hi, meaning, cost)  +GN_SIGN_(gn_knob_index_##name, GN_##MACRO)
+enum {
+    gn_knob_index_none,
+    gn_knob_index_version,
+    gn_knob_index_scene,
+    gn_knob_index_object,
+    gn_knob_index_light,
+    gn_knob_index_mesh,
+    GN_QUALITY_KNOBS(GN_KNOB_INDEX_) GN_CAPACITY_KNOBS(GN_KNOB_INDEX_) GN_FEATURE_KNOBS(GN_KNOB_INDEX_)
+        gn_knob_index_compact
+};
+#define GN_CONFIG_SIGNATURE                                                                                            \
+    (GN_SIGN_(gn_knob_index_version, GN_VERSION_MAJOR * 65536 + GN_VERSION_MINOR * 256 + GN_VERSION_PATCH) +           \
+     GN_SIGN_(gn_knob_index_scene, sizeof(gn_scene)) + GN_SIGN_(gn_knob_index_object, sizeof(gn_object)) +             \
+     GN_SIGN_(gn_knob_index_light, sizeof(gn_light)) + GN_SIGN_(gn_knob_index_mesh, sizeof(gn_mesh)) +                 \
+     GN_SIGN_(gn_knob_index_compact, GN_COMPACT) GN_QUALITY_KNOBS(GN_KNOB_SIGN_) GN_CAPACITY_KNOBS(GN_KNOB_SIGN_)      \
+         GN_FEATURE_KNOBS(GN_KNOB_SIGN_))
+
+/* gn_init below, with the caller's configuration. */
+gn_status gn_init_as(gn_renderer *r, const gn_picture *picture, size_t renderer_bytes, uint64_t config_signature);
+
+/* Clears the renderer and sets what it draws. Must be the first call. A program and a library that were compiled with
+ * different configurations would overwrite each other's memory: GN_ERR_CONFIG, and nothing is written. */
+static inline gn_status gn_init(gn_renderer *r, const gn_picture *picture)
+{
+    return gn_init_as(r, picture, sizeof(gn_renderer), GN_CONFIG_SIGNATURE);
+}
 
 /* One frame: begin, all shadow tiles, prepare, all screen tiles. Nothing is flushed if it fails. */
 gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user);
@@ -397,11 +458,11 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
 const gn_stats *gn_get_stats(const gn_renderer *r);
 const gn_detail *gn_get_detail(const gn_renderer *r);
 
-/* A3: what became of a light's wish for a shadow in the frame that was begun last. */
+/* Whether a light got a shadow map in the frame that was begun last. NO_ROOM: requested, but the atlas is full. */
 typedef enum { GN_SHADOW_NOT_WANTED, GN_SHADOW_REALTIME, GN_SHADOW_NO_ROOM } gn_shadow_state;
 gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, uint32_t *n_tiles, uint32_t *tile_texels);
 
-/* A6: the shadow tile of a light's cascade or face: texels per side (0: none), its depths row by row, all ones = empty.
+/* The shadow tile of a light's cascade or face: texels per side (0: none), its depths row by row, all ones = empty.
  */
 typedef struct {
     uint32_t texels;
@@ -410,10 +471,10 @@ typedef struct {
 } gn_tile_info;
 uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info);
 
-/* Forgets what is kept of shadow tiles (A5): call it after changing mesh or texture data in place. */
+/* Forgets what is kept of shadow tiles: call it after changing mesh or texture data in place. */
 void gn_forget_shadows(gn_renderer *r);
 
-/* R6: what a panel shows, as a signature per screen tile. Clear it (memset 0) when the panel's content is unknown. A
+/* What a panel shows, as a signature per screen tile. Clear it (memset 0) when the panel's content is unknown. A
  * tile whose pixels did not change is drawn but not flushed; two different tiles have the same signature with
  * probability 2^-64. */
 typedef struct {

@@ -23,6 +23,7 @@ clang clang
 clang-format clang-format
 /usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-x86_64.a libclang-rt-dev
 valgrind valgrind
+arduino-builder arduino-builder
 arm-none-eabi-gcc gcc-arm-none-eabi
 /usr/lib/arm-none-eabi/lib/nosys.specs libnewlib-arm-none-eabi
 riscv64-unknown-elf-gcc gcc-riscv64-unknown-elf

@@ -8,9 +8,10 @@
 # culling   casters left out at many more places (tests/property/test_culling.c)
 # math      every operand of the reciprocal and of the root (tests/unit/test_math.c)
 # models    the accuracy of meshes that MODELS names (tests/oracle/test_accuracy.c), a minute each
+# accuracy, rows, seams    hundreds of pictures against floors, which make test draws without sanitizers: a quarter of an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random math culling census ${MODELS:+models }extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random math culling census accuracy rows seams ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
@@ -44,7 +45,7 @@ for name in $CAMPAIGNS; do
     case $name in
     random) campaign random 1000000 ;;
     extremes) campaign extremes 20000 ;;
-    census | culling | math | models) campaign $name 0 ;;
+    census | culling | math | models | accuracy | rows | seams) campaign $name 0 ;;
     *) echo "no such campaign: $name" && failed=$((failed + 1)) ;;
     esac
 done

@@ -1,4 +1,4 @@
-/* The golden frames: all own scenes with every preset, an animation, and settings that take other ways through the
+/* The golden frames: six own scenes with every preset, an animation, and settings that take other ways through the
  * library. One line each, with the CRC-32 of the bytes of its tiles as they come, which is the same on every machine,
  * compiler and optimisation. */
 #include "golden.h"

@@ -1,4 +1,4 @@
-# All own scenes in one image, whole: what one preset does not need, another may.
+# Six own scenes in one image, whole: what one preset does not need, another may.
 GOLDEN_SCENES := sundial avenue desk room fence mixed
 GOLDEN_DIR := $(BUILD)/firmware/scenes
 APP_FLAGS := '-DGN_USER_CONFIG="golden_config.h"'

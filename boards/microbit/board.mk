@@ -3,7 +3,6 @@ BOARD_CORE := Cortex-M0
 BOARD_RUNS := qemu
 BOARD_CROSS := arm-none-eabi-
 BOARD_CPU := -mcpu=cortex-m0 -mthumb
-BOARD_OPT := -Os
 BOARD_COMMON := cortex_m vectors semihosting
 BOARD_PORT := armv6m
 BOARD_EMULATOR := qemu-system-arm -M microbit

@@ -1,9 +1,8 @@
-# Raspberry Pi Pico (RP2040): Cortex-M0+. Built, not run: no emulator here has it.
+# Raspberry Pi Pico (RP2040): Cortex-M0+. Runs in rp2040js.
 BOARD_CORE := Cortex-M0+
-BOARD_RUNS := no
+BOARD_RUNS := rp2040js
 BOARD_CROSS := arm-none-eabi-
 BOARD_CPU := -mcpu=cortex-m0plus -mthumb
-BOARD_OPT := -Os
 BOARD_COMMON := cortex_m no_console
 BOARD_PORT := armv6m
 BOARD_EMULATOR :=

@@ -23,7 +23,7 @@ need() { command -v "$1" >/dev/null || { echo "$1 is not installed"; exit 3; }; 
 
 ready() {
     [ -e "boards/$board/board.mk" ] || { echo "there is no board '$board': make boards lists those that there are"; exit 1; }
-    [ "$(setting BOARD_RUNS)" = qemu ] || { echo "no emulator runs $board: there is nothing to count with"; exit 1; }
+    [ "$(setting BOARD_RUNS)" = qemu ] || { echo "QEMU does not run $board: there is nothing to count with"; exit 1; }
     need make
     need "$(setting BOARD_CROSS)gcc"
     need "$(setting 'firstword $(BOARD_EMULATOR)')"

@@ -37,7 +37,7 @@ typedef struct {
  * for which there is none are baked whole. */
 void bake_assign(const scene *s, bake_fate fate[REF_MAX_LIGHTS], int channel[REF_MAX_LIGHTS]);
 
-/* Whether some place is in the range of both. */
+/* Whether some point is in the range of both. */
 bool bake_ranges_meet(const scene_light *a, const scene_light *b);
 
 /* Changes the scene in place: lights become mixed, what stands still gets masks and casts no longer. The frame's

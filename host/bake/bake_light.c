@@ -108,10 +108,10 @@ vec3 bake_light_at(const baker *b, const ref_triangle *t, const double bary[3])
         if (b->result->fate[l] != BAKE_WHOLE) continue;
         const scene_light *light = &b->s->lights[l];
         const ref_incidence in = ref_light_at(light, at);
-        const double share = in.attenuation * fmax(0.0, vec3_dot(n, in.to_light));
-        if (!(share > 0)) continue;
+        const double fraction = in.attenuation * fmax(0.0, vec3_dot(n, in.to_light));
+        if (!(fraction > 0)) continue;
         sum = vec3_add(
-            sum, vec3_scale(vec3_load(light->colour), share * lerp(1.0, arrives(b, t, bary, l), light->strength)));
+            sum, vec3_scale(vec3_load(light->colour), fraction * lerp(1.0, arrives(b, t, bary, l), light->strength)));
     }
     return sum;
 }

@@ -104,7 +104,7 @@ static double nearest_on_side(const vec2 *corner, int k, vec2 at, double bary[3]
 static double nearest_in_triangle(const vec2 *corner, vec2 at, double bary[3])
 {
     const double area = area_of(corner[0], corner[1], corner[2]);
-    double part[3], least = HUGE_VAL;
+    double part[3], min = HUGE_VAL;
     for (int k = 0; k < 3; k++) part[k] = area_of(corner[(k + 1) % 3], corner[(k + 2) % 3], at) / area;
     if (fabs(area) > 0 && part[0] >= 0 && part[1] >= 0 && part[2] >= 0) {
         memcpy(bary, part, sizeof part);
@@ -112,11 +112,11 @@ static double nearest_in_triangle(const vec2 *corner, vec2 at, double bary[3])
     }
     for (int k = 0; k < 3; k++) {
         const double away = nearest_on_side(corner, k, at, part);
-        if (away >= least) continue;
-        least = away;
+        if (away >= min) continue;
+        min = away;
         memcpy(bary, part, sizeof part);
     }
-    return least;
+    return min;
 }
 
 typedef struct {
@@ -131,13 +131,13 @@ typedef struct {
 /* The chart's triangle that is at this place, or the nearest: what lies outside continues its edge. */
 static size_t find_triangle(walk *w, vec2 at, double bary[3])
 {
-    double least = HUGE_VAL, part[3];
+    double min = HUGE_VAL, part[3];
     size_t found = w->set->order[w->c->first];
     for (size_t i = 0; i <= w->c->n_triangles; i++) {
         const size_t triangle = i ? w->set->order[w->c->first + i - 1] : w->last;
         const double away = nearest_in_triangle(w->set->corner + 3 * triangle, at, part);
-        if (away >= least) continue;
-        least = away;
+        if (away >= min) continue;
+        min = away;
         found = triangle;
         memcpy(bary, part, sizeof part);
         if (!(away > 0)) break;
@@ -206,7 +206,7 @@ static walk begin_walk(const baker *b, size_t object, size_t k)
 enum { POINTS = 1 << 17, LEAST_POINTS = 4, MOST_POINTS = 512 }; /* in all; along a side of a chart */
 
 /* Edges that are not in the picture count too: the camera may move. */
-static const double unseen = 0.1, least_weight = 1.0 / 16;
+static const double unseen = 0.1, min_weight = 1.0 / 16;
 
 /* The square of what the camera makes of a length there. */
 static double seen_size2(const baker *b, vec3 at)
@@ -282,7 +282,7 @@ static int weigh_charts(baker *b)
     flat_value *values = calloc(b->result->n_charts + 1, sizeof *values);
     const double per_unit = points_per_unit(b);
     size_t n = 0;
-    double most = 0;
+    double max = 0;
     for (size_t i = 0; values && i < b->s->n_objects; i++) {
         b->objects[i].lit = true;
         for (size_t k = 0; k < b->objects[i].set.n_charts; k++) {
@@ -292,7 +292,7 @@ static int weigh_charts(baker *b)
             if (!is_flat(&w, per_unit, values[n].mask, &edges)) {
                 b->objects[i].lit = false;
                 c->weight = sqrt(sqrt(edges));
-                most = fmax(most, c->weight);
+                max = fmax(max, c->weight);
                 continue;
             }
             size_t at = 0;
@@ -306,7 +306,7 @@ static int weigh_charts(baker *b)
     for (size_t i = 0; i < b->s->n_objects; i++)
         for (size_t k = 0; k < b->objects[i].set.n_charts; k++) {
             chart *c = &b->objects[i].set.charts[k];
-            c->weight = most > 0 ? clamp(c->weight / most, least_weight, 1) : 1;
+            c->weight = max > 0 ? clamp(c->weight / max, min_weight, 1) : 1;
         }
     return values ? 0 : -1;
 }

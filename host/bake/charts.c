@@ -178,14 +178,14 @@ static void settle(const maker *m, chart *c)
 {
     const vec2 *first = m->out->corner + 3 * m->out->order[c->first];
     vec2 best = {1, 0}, box[2];
-    double least = extent(m, c, best, box);
+    double min = extent(m, c, best, box);
     for (int k = 0; k < 3; k++) {
         const vec2 side = {first[(k + 1) % 3].x - first[k].x, first[(k + 1) % 3].y - first[k].y};
         const double length = hypot(side.x, side.y);
         if (!(length > 0)) continue;
         const vec2 x = {side.x / length, side.y / length};
         const double area = extent(m, c, x, box);
-        if (area < least * 0.999) least = area, best = x;
+        if (area < min * 0.999) min = area, best = x;
     }
     extent(m, c, best, box);
     c->width = box[1].x - box[0].x;

@@ -1,4 +1,4 @@
-/* Cuts a surface into charts, flat pieces of it that lie in a plane without overlap, and packs them into a square of
+/* Cuts a surface into charts, flat parts of it that lie in a plane without overlap, and packs them into a square of
  * texels. */
 #ifndef GNOMON_BAKE_CHARTS_H
 #define GNOMON_BAKE_CHARTS_H

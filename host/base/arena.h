@@ -12,7 +12,7 @@ typedef struct {
 /* n x size zeroed bytes, aligned for any type; NULL when memory runs out or the product overflows. */
 void *arena_alloc(arena *a, size_t n, size_t size);
 
-/* Room for one more element behind n: grows by doubling, when n is a power of two. The old copy stays until the
+/* Capacity for one more element behind n: grows by doubling, when n is a power of two. The old copy stays until the
  * release. */
 void *arena_grow(arena *a, void *array, size_t n, size_t size);
 

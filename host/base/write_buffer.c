@@ -8,16 +8,16 @@
 
 static bool make_room(write_buffer *b, size_t n)
 {
-    if (n < b->room - b->n && b->room) return true;
-    size_t room = b->room ? b->room : 256;
-    while (room - b->n <= n) {
-        if (room > SIZE_MAX / 2) return false;
-        room *= 2;
+    if (n < b->capacity - b->n && b->capacity) return true;
+    size_t capacity = b->capacity ? b->capacity : 256;
+    while (capacity - b->n <= n) {
+        if (capacity > SIZE_MAX / 2) return false;
+        capacity *= 2;
     }
-    uint8_t *grown = realloc(b->at, room);
+    uint8_t *grown = realloc(b->at, capacity);
     if (!grown) return false;
     b->at = grown;
-    b->room = room;
+    b->capacity = capacity;
     return true;
 }
 

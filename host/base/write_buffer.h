@@ -8,7 +8,7 @@
 
 typedef struct {
     uint8_t *at; /* n bytes, and a 0 behind them */
-    size_t n, room;
+    size_t n, capacity;
     bool failed; /* memory ran out: what was written since is missing */
 } write_buffer;  /* begins as {0} */
 

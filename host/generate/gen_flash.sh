@@ -5,7 +5,6 @@
 cd "$(dirname "$0")/../.." || exit 1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-TMPDIR=$work sh tests/support/one_file.sh lib >"$work/lib.c"
 cat >"$work/main.c" <<'E_C'
 #include "gnomon.h"
 static gn_renderer renderer;
@@ -22,7 +21,7 @@ size() { # size CPU FLAGS...: without main
     cpu=$1
     shift
     arm-none-eabi-gcc -mcpu="$cpu" -mthumb -Os -std=c99 -Ilib -ffunction-sections -fdata-sections -nostartfiles --specs=nosys.specs -Wl,--gc-sections \
-        -Wl,-e,main -Wl,-Ttext=0x8000 "$@" "$work/main.c" "$work/lib.c" -o "$work/elf" 2>"$work/log" || { cat "$work/log" >&2; exit 1; }
+        -Wl,-e,main -Wl,-Ttext=0x8000 "$@" "$work/main.c" lib/gnomon.c -o "$work/elf" 2>"$work/log" || { cat "$work/log" >&2; exit 1; }
     arm-none-eabi-size "$work/elf" | awk 'NR == 2 { print $1 + $2 }'
 }
 if [ "$1" = -- ]; then

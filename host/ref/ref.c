@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define MAX_SIDE  16384 /* of picture and atlas: products of two sides fit every size_t and int64_t */
-#define MIN_ATLAS 16    /* A1 */
+#define MIN_ATLAS 16
 
 static bool is_atlas_size(int size)
 {
@@ -74,6 +74,7 @@ void ref_end(ref_frame *frame)
     frame->hits = NULL;
 }
 
+/* The whole picture at once: no screen tiles. [R1] */
 int ref_render(ref_picture *out, const scene *s, const ref_options *options, char *error, size_t error_bytes)
 {
     ref_frame frame;

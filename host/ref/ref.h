@@ -15,35 +15,35 @@
 
 typedef struct {
     int width, height;
-    int atlas_size;       /* texels per side of the directional atlas (A1) */
+    int atlas_size;       /* texels per side of the directional atlas */
     bool srgb;            /* encode the output with the sRGB curve */
     bool vertex_light;    /* n . L of directional lights is that of the vertices, interpolated */
-    int other_atlas_size; /* of the other atlas; 0: the same */
-    int max_tiles;        /* capacity of the directional atlas, 1..16; 0: 16 (A3) */
+    int other_atlas_size; /* of the local-light atlas; 0: the same */
+    int max_tiles;        /* capacity of the directional atlas, 1..16; 0: 16 */
     int max_other_tiles;  /* of the other */
-    bool unsnapped; /* directional texels and origins are not rounded: a map without D2's stability, for comparison */
-    /* Of the engine whose automatic bias this is (B6): what it rounds decides how much bias is enough. 0: it does not.
+    bool unsnapped;       /* directional texels and origins are not rounded: a map that crawls, for comparison */
+    /* Of the engine whose automatic bias this is: what it rounds decides how much bias is enough. 0: it does not.
      */
     int shadow_subpixel_bits, weight_bits, depth_bits, other_depth_bits, shadow_depth_frac, newton_steps;
-    double unit; /* its least step of length */
+    double unit; /* its smallest step of length */
 } ref_options;
 
 /* One light view: a cascade, a single directional tile, a spot's cone or a face of a point light's cube. */
 typedef struct {
     bool active; /* it has a shadow tile, and its cascade is not empty */
     bool perspective;
-    bool clear_border;  /* texels outside the tile are lit (D10), instead of repeating the border (P8) */
-    bool clamped;       /* point lights: P6 has no solution, t is 2 */
-    int tile_texels;    /* T */
-    double texel;       /* world units per texel; perspective: at distance 1 */
-    double axis[3][3];  /* u, v, w */
-    double origin[3];   /* directional: o_u, o_v, o_w, texels */
-    double position[3]; /* perspective: the light's */
-    double t;           /* perspective: half-width at distance 1 */
-    double near;        /* perspective: nothing nearer casts */
-    double depth_range; /* directional: T * 2^J texels; perspective: 1 */
+    bool clear_border;                      /* texels outside the tile are lit, instead of repeating the border */
+    bool clamped;                           /* point lights: no half-width is enough, t is 2 */
+    int tile_texels;                        /* T */
+    double texel;                           /* world units per texel; perspective: at distance 1 */
+    double axis[3][3];                      /* u, v, w */
+    double origin[3];                       /* directional: o_u, o_v, o_w, texels */
+    double position[3];                     /* perspective: the light's */
+    double t;                               /* perspective: half-width at distance 1 */
+    double near;                            /* perspective: nothing nearer casts */
+    double depth_range;                     /* directional: T * 2^J texels; perspective: 1 */
     double sphere_centre[3], sphere_radius; /* directional: the cascade's, whatever the light */
-    scene_filter filter;                    /* after the light's own choice (F5) */
+    scene_filter filter;                    /* after the light's own choice */
     int filter_index;                       /* k_f */
     double disk_radius;                     /* R, texels */
     double *
@@ -52,7 +52,7 @@ typedef struct {
 
 typedef enum { REF_NO_ATLAS, REF_DIRECTIONAL_ATLAS, REF_OTHER_ATLAS } ref_atlas;
 
-/* What a light got (A2, A3). */
+/* What a light got. */
 typedef struct {
     ref_atlas atlas;
     int n_tiles;
@@ -80,7 +80,7 @@ void ref_free(ref_picture *p);
 
 /* ---- stages, exposed for tests ---- */
 
-#define REF_SINGLE_TILE (-1) /* as a cascade: the one tile beside a main light (D10) */
+#define REF_SINGLE_TILE (-1) /* as a cascade: the one tile beside a main light */
 
 /* Fits leave view->depth alone and return 0; -1 if no finite view fits. An empty cascade stays inactive. face: 0..5 of
  * a point light, 0 of a spot. */
@@ -88,7 +88,7 @@ int ref_fit_light(ref_light_view *view, const scene *s, const scene_light *light
                   int tile_texels);
 int ref_fit_punctual(ref_light_view *view, const scene *s, const scene_light *light, int face, int tile_texels);
 int ref_point_face(const double from_light[3]);
-/* t of P6: k_f, nu and T of DESIGN 1.5. */
+/* Half-width t of a cube's face: k_f, nu and T of DESIGN 1.5. */
 double ref_face_half_width(int filter_index, double nu, int tile_texels, bool *clamped);
 
 /* a_l of DESIGN 1.8 at a point; 1 for directional lights. */
@@ -100,15 +100,15 @@ typedef struct {
     scene_kernel kernel;
     int disk_samples;   /* n */
     int x, y;           /* of the pixel: the disk's rotation */
-    double gradient[2]; /* B5: of the receiver's depth, per texel along U and V; 0: off */
+    double gradient[2]; /* of the receiver's depth, per texel along U and V; 0: off */
 } ref_lookup;
 
 double ref_filtered(const ref_light_view *view, const ref_lookup *how, double u, double v, double d);
 double ref_attenuation(const ref_light_view *view, scene_filter filter, double u, double v,
-                       double d);                                    /* tent, no disk, no B5 */
-double ref_tent_weight(int filter_size, double centre, int texel);   /* filter_size 3, 5, 7 (F3) */
-double ref_linear_weight(int filter_size, double centre, int texel); /* the same for F6 */
-void ref_disk_sample(double out[2], int i, int x, int y); /* sample i at pixel (x, y), in the unit disk (F4) */
+                       double d);                                    /* tent, no disk, no receiver's plane */
+double ref_tent_weight(int filter_size, double centre, int texel);   /* filter_size 3, 5, 7 */
+double ref_linear_weight(int filter_size, double centre, int texel); /* the same for the linear kernel */
+void ref_disk_sample(double out[2], int i, int x, int y);            /* sample i at pixel (x, y), in the unit disk */
 
 /* shadow_l of DESIGN 1.9 for strength > 0 and a light with a tile: rt attenuation, m mask. */
 double ref_mix(scene_mixing mixing, double strength, double g, double m, double rt);

@@ -14,7 +14,7 @@ typedef struct {
     vec2 growth[3];   /* of the edge function opposite to p[k], along U and V */
     double bias;      /* slope * max gradient, and in directional views the constant */
     double constant;  /* perspective: times 1 - s */
-    bool culled_back; /* facing away from the light casts nothing (P7) */
+    bool culled_back; /* facing away from the light casts nothing */
     ref_triangle source;
 } caster_triangle;
 
@@ -40,18 +40,17 @@ static double mix_depth(const double depth[3], const double bary[3])
     return clamp(bary[0] * depth[0] + bary[1] * depth[1] + bary[2] * depth[2], low, high);
 }
 
-/* What the texel would hold; HUGE_VAL: nothing is cast. */
+/* What the texel would hold; HUGE_VAL: nothing is cast. [D9] */
 static double cast_depth(const ref_light_view *view, const caster_triangle *t, const double bary[3])
 {
     const double depth = mix_depth(t->depth, bary);
-    if (!view->perspective)
-        return depth < view->depth_range ? fmax(0.0, depth) + t->bias : HUGE_VAL; /* D9: pancaking */
+    if (!view->perspective) return depth < view->depth_range ? fmax(0.0, depth) + t->bias : HUGE_VAL; /* pancaking */
     if (!(depth >= view->near)) return HUGE_VAL;
-    const double share = view->near / depth; /* 1 - s */
-    return 1.0 - share + t->constant * share + t->bias;
+    const double ratio = view->near / depth; /* 1 - s */
+    return 1.0 - ratio + t->constant * ratio + t->bias;
 }
 
-/* M1 */
+/* Alpha cuts the caster. [M1] */
 static bool is_cut(const ref_frame *frame, const caster_triangle *t, const double bary[3], int i, int j)
 {
     const scene_object *object = t->source.object;
@@ -60,11 +59,12 @@ static bool is_cut(const ref_frame *frame, const caster_triangle *t, const doubl
     return ref_alpha_cuts(mode, ref_alpha(frame->s, &t->source, bary), object->alpha_cutoff, i, j);
 }
 
+/* Depth is stored as it is, whatever the depth bits. [A4] [P7] */
 static void cast_on_texel(const ref_frame *frame, ref_light_view *view, const caster_triangle *t, int i, int j)
 {
     double bary[3];
     const int orientation = texel_coverage(t, i + 0.5, j + 0.5, bary);
-    /* u x v = w, away from the light: what faces the light turns clockwise in (U, V) (P7). */
+    /* u x v = w, away from the light: what faces the light turns clockwise in (U, V). */
     if (orientation == 0 || (orientation > 0 && t->culled_back)) return;
     const double sum = bary[0] + bary[1] + bary[2];
     if (!(fabs(sum) > 0.0)) return;
@@ -109,7 +109,7 @@ static void cast_triangle(const ref_frame *frame, ref_light_view *view, caster_t
         for (int i = box.x0; i <= box.x1; i++) cast_on_texel(frame, view, t, i, j);
 }
 
-/* The vertex in ref_to_light's coordinates, moved against its normal (B4). */
+/* The vertex in ref_to_light's coordinates, moved against its normal [B4]. */
 static vec3 moved_vertex(const ref_light_view *view, const scene_light *light, const ref_triangle *source, int k)
 {
     const vec3 world = source->instance->world[source->idx[k]];
@@ -127,7 +127,7 @@ static vec3 homogeneous(const ref_light_view *view, vec3 p)
     return (vec3){half * (p.z + p.x / view->t), half * (p.z + p.y / view->t), p.z};
 }
 
-/* B1. A triangle seen edge-on has no finite gradient, and covers no texel. */
+/* A triangle seen edge-on has no finite gradient, and covers no texel. [B1] */
 static void set_bias(caster_triangle *t, const ref_light_view *view, const scene_light *light, const vec3 p[3])
 {
     const vec3 normal = vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]));

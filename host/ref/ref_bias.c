@@ -1,11 +1,11 @@
-/* Receiver bias: the reach of every kind (DESIGN 1.4, 1.5), and the automatic one (DESIGN 1.7, row B6). */
+/* Receiver bias: the offset of every kind (DESIGN 1.4, 1.5), and the automatic one (DESIGN 1.7). */
 #include "ref_internal.h"
 
 #define COORDINATE_LSB 0x1p-16 /* of texels */
 #define PLANE_ERROR    0x1p-12 /* of planes through far corners of large casters, texels */
 #define PLACE_UNITS    8.0     /* roundings of a point and of its triangle's corners, in units of length */
-#define MOST_SHARE     2.0     /* of the light-plane distance: farther no point is moved along its normal */
-#define LEAST_ALONG    0.875   /* of corners' normals along the face's: with less, they say nothing of its place */
+#define MAX_RATIO      2.0     /* of the light-plane distance: farther no point is moved along its normal */
+#define MIN_ALONG      0.875   /* of corners' normals along the face's: with less, they say nothing of its place */
 
 static double half_cell(int bits)
 {
@@ -19,7 +19,7 @@ static double tap_error(const ref_options *o)
 }
 
 /* R */
-static double tap_reach(const ref_light_view *view)
+static double tap_radius(const ref_light_view *view)
 {
     if (view->filter == SCENE_FILTER_HARD) return 0.5;
     if (view->filter == SCENE_FILTER_DISK) return view->disk_radius + 0.5;
@@ -31,7 +31,7 @@ static int view_bits(const ref_options *o, const ref_light_view *view)
     return view->perspective || view->clear_border ? o->other_depth_bits : o->depth_bits;
 }
 
-/* e: a share of the range */
+/* e: a fraction of the range */
 static double step_error(const ref_options *o, const ref_light_view *view)
 {
     const int bits = view_bits(o, view);
@@ -56,7 +56,7 @@ static double quotient_error(const ref_options *o)
     return o->newton_steps == 1 ? ldexp(1.0, -17) : o->newton_steps == 2 ? ldexp(1.0, -29) : 0.0;
 }
 
-double ref_lateral_reach(const ref_options *options, const ref_light_view *view, const scene_light *light)
+double ref_lateral_margin(const ref_options *options, const ref_light_view *view, const scene_light *light)
 {
     if (light->auto_bias == SCENE_AUTO_BIAS_OFF)
         return sqrt(2.0) * light->bias_normal + light->bias_receiver[2] + light->bias_receiver[3];
@@ -76,35 +76,35 @@ static double place_error(const ref_frame *frame, double view_depth)
 /* The farthest view depth that is looked up in a directional view. */
 static double farthest(const ref_frame *frame, const ref_light_view *view)
 {
-    const double most = frame->s->shadow.max_distance;
-    if (view->clear_border) return most;
+    const double max = frame->s->shadow.max_distance;
+    if (view->clear_border) return max;
     const vec3 d = vec3_sub(vec3_load(view->sphere_centre), frame->camera.position);
-    return fmin(most, vec3_dot(d, frame->camera.forward) + view->sphere_radius);
+    return fmin(max, vec3_dot(d, frame->camera.forward) + view->sphere_radius);
 }
 
 /* Slopes are no steeper than twice the range: half of that lets all be lit. */
-static double steepness(double part, double along, double most)
+static double steepness(double part, double along, double max)
 {
-    return fabs(part) > 0.0 ? fmin(most, fabs(part / along)) : 0.0;
+    return fabs(part) > 0.0 ? fmin(max, fabs(part / along)) : 0.0;
 }
 
 /* Of a curved surface: along N', as far as any plane needs. */
-static double smooth_reach(const ref_light_view *view, double reach)
+static double smooth_radius(const ref_light_view *view, double radius)
 {
-    return view->filter == SCENE_FILTER_HARD ? reach + 0.5 : reach;
+    return view->filter == SCENE_FILTER_HARD ? radius + 0.5 : radius;
 }
 
 static vec3 ortho_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
                        vec3 n)
 {
     const double error = place_error(frame, farthest(frame, view)) / view->texel + PLANE_ERROR;
-    const double reach = tap_reach(view) + tap_error(frame->options) + error, most = 2.0 * view->depth_range;
+    const double radius = tap_radius(view) + tap_error(frame->options) + error, max = 2.0 * view->depth_range;
     const double step = view->depth_range * step_error(frame->options, view) + 3.0 * COORDINATE_LSB + error;
-    if (at->curved) return vec3_scale(n, hypot(sqrt(2.0) * smooth_reach(view, reach), step));
-    if (form == SCENE_AUTO_BIAS_NORMAL && fmax(fabs(n.x), fabs(n.y)) > most * fabs(n.z))
-        return (vec3){0.0, 0.0, -2.0 * most};
-    if (form == SCENE_AUTO_BIAS_NORMAL) return vec3_scale(n, reach * (fabs(n.x) + fabs(n.y)) + step * fabs(n.z));
-    return (vec3){0.0, 0.0, -reach * (steepness(n.x, n.z, most) + steepness(n.y, n.z, most)) - step};
+    if (at->curved) return vec3_scale(n, hypot(sqrt(2.0) * smooth_radius(view, radius), step));
+    if (form == SCENE_AUTO_BIAS_NORMAL && fmax(fabs(n.x), fabs(n.y)) > max * fabs(n.z))
+        return (vec3){0.0, 0.0, -2.0 * max};
+    if (form == SCENE_AUTO_BIAS_NORMAL) return vec3_scale(n, radius * (fabs(n.x) + fabs(n.y)) + step * fabs(n.z));
+    return (vec3){0.0, 0.0, -radius * (steepness(n.x, n.z, max) + steepness(n.y, n.z, max)) - step};
 }
 
 /* Of depths in a perspective view: steps over the tile, and the plane that is stepped. */
@@ -117,33 +117,34 @@ static vec3 persp_bias(const ref_frame *frame, const ref_light_view *view, scene
                        vec3 m, vec3 point, double view_depth, double *less)
 {
     const ref_options *o = frame->options;
-    const double reach = tap_reach(view) + tap_error(o) + view->tile_texels / 2.0 * quotient_error(o);
+    const double radius = tap_radius(view) + tap_error(o) + view->tile_texels / 2.0 * quotient_error(o);
     const double across = fabs(m.x) + fabs(m.y), lift = place_error(frame, view_depth), h = fabs(vec3_dot(m, point));
     *less = step_error(o, view) + quotient_error(o) + plane_error(o, view);
-    if (at->curved) return vec3_scale(m, lift + point.z * view->texel * sqrt(2.0) * smooth_reach(view, reach));
-    const double a = reach * view->texel * across + *less * h / view->near, left = 1.0 - a * fmax(0.0, m.z),
-                 share = a / left;
-    if (form == SCENE_AUTO_BIAS_DEPTH || a > MOST_SHARE || left < 0.5 || share > MOST_SHARE) {
-        *less += fmin(2.0, reach * view->near * view->texel * across / h);
+    if (at->curved) return vec3_scale(m, lift + point.z * view->texel * sqrt(2.0) * smooth_radius(view, radius));
+    const double a = radius * view->texel * across + *less * h / view->near, left = 1.0 - a * fmax(0.0, m.z),
+                 ratio = a / left;
+    if (form == SCENE_AUTO_BIAS_DEPTH || a > MAX_RATIO || left < 0.5 || ratio > MAX_RATIO) {
+        *less += fmin(2.0, radius * view->near * view->texel * across / h);
         return vec3_scale(m, lift);
     }
     *less = view->near * view->texel * fmax(fabs(m.x), fabs(m.y)) > 2.0 * h ? 2.0 : 0.0;
-    return vec3_scale(m, lift + point.z * share);
+    return vec3_scale(m, lift + point.z * ratio);
 }
 
 /* N' of a curved triangle: its part along the face's normal is nowhere below 1. */
 static vec3 curved_normal(const ref_surface *at, vec3 face)
 {
     const ref_triangle *t = &at->triangle;
-    double least = 1.0;
+    double min = 1.0;
     for (int k = 0; k < 3; k++) {
         const double along = vec3_dot(t->instance->normal[t->idx[k]], face);
-        least = fmin(least, at->behind ? -along : along);
+        min = fmin(min, at->behind ? -along : along);
     }
-    if (least < LEAST_ALONG) return face;
-    return vec3_add(at->interpolated, vec3_scale(face, 1.0 - least));
+    if (min < MIN_ALONG) return face;
+    return vec3_add(at->interpolated, vec3_scale(face, 1.0 - min));
 }
 
+/* The least bias that leaves a plane without a shadow of its own, in two forms. [B6] */
 vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
                    vec3 in_light, double *less)
 {

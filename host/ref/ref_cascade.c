@@ -11,7 +11,7 @@ static double ceil8(double x)
     return ldexp(ceil(f * 256.0), e - 8);
 }
 
-/* m_i of DESIGN 1.4 */
+/* m_i of DESIGN 1.4 [D3] */
 static double cascade_end(const scene_shadow *shadow, int cascade)
 {
     return shadow->max_distance * (cascade < shadow->n_cascades - 1 ? shadow->cascade_ratio[cascade] : 1.0);
@@ -29,7 +29,7 @@ bool ref_ratios_ascend(const scene_shadow *shadow)
 }
 
 /* The sphere of the slice of the frustum from depth n to m: centre depth c and radius r of DESIGN 1.4. A single tile
- * takes them all. */
+ * takes them all. [D3] */
 static ref_sphere fit_sphere(const scene *s, int cascade, int width, int height)
 {
     const double m = cascade == REF_SINGLE_TILE ? s->shadow.max_distance : cascade_end(&s->shadow, cascade);
@@ -58,8 +58,8 @@ static ref_sphere fit_sphere(const scene *s, int cascade, int width, int height)
 static double fit_texel(const ref_light_view *view, const scene_light *light, int filter_index,
                         const ref_options *options)
 {
-    const double reach = 2.0 * (filter_index + 1) * (1.0 + ref_lateral_reach(options, view, light));
-    const double sphere_texels = fmax(view->tile_texels - reach - 1.0, view->tile_texels / 4.0);
+    const double margin = 2.0 * (filter_index + 1) * (1.0 + ref_lateral_margin(options, view, light));
+    const double sphere_texels = fmax(view->tile_texels - margin - 1.0, view->tile_texels / 4.0);
     const double texel = (1.0 - ldexp(1.0, -20)) * 2.0 * view->sphere_radius / sphere_texels;
     return options->unsnapped ? texel : ceil8(texel);
 }
@@ -76,7 +76,7 @@ static void fit_filter(ref_light_view *view, const scene_shadow *shadow, const s
 }
 
 /* Integer origins around the sphere's centre; the near offset pulls the depth origin back, and the range grows with it.
- */
+ * [D2] [D9] */
 static void fit_grid(ref_light_view *view, double near_offset, bool unsnapped)
 {
     const double half = view->tile_texels / 2.0;
@@ -142,12 +142,14 @@ const char *ref_fit_lights(ref_frame *frame)
     return NULL;
 }
 
+/* 0 at the surface of the sphere. [D6] */
 double ref_fade_factor(double t, double cascade_fade)
 {
     const double inner = 1.0 - fmax(cascade_fade, 0.001);
     return clamp((1.0 - t) / (1.0 - inner * inner), 0.0, 1.0);
 }
 
+/* The first sphere that holds the point. [D4] */
 ref_selection ref_select_cascade(const ref_frame *frame, vec3 world)
 {
     ref_selection selected = {.here = -1, .next = -1};

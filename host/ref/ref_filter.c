@@ -1,4 +1,4 @@
-/* Attenuation: the shadow compare and its filters (DESIGN 1.7, rows F1 to F6, B5). */
+/* Attenuation: the shadow compare and its filters (DESIGN 1.7). */
 #include "ref_internal.h"
 
 #define PI       3.14159265358979323846
@@ -12,12 +12,14 @@ static double tent_integral(double x, double h)
     return x <= 0.0 ? (h + x) * (h + x) / (2.0 * h * h) : 1.0 - (h - x) * (h - x) / (2.0 * h * h);
 }
 
+/* Weight of a texel under a tent. [F3] */
 double ref_tent_weight(int filter_size, double centre, int texel)
 {
     const double h = filter_size / 2.0;
     return tent_integral(texel + 1 - centre, h) - tent_integral(texel - centre, h);
 }
 
+/* Weight of a texel under the linear kernel. [F6] */
 double ref_linear_weight(int filter_size, double centre, int texel)
 {
     /* Each weight is base + slope f. */
@@ -35,7 +37,7 @@ static double kernel_weight(scene_kernel kernel, int filter_size, double x, int 
     return kernel == SCENE_KERNEL_LINEAR ? ref_linear_weight(filter_size, x, i) : ref_tent_weight(filter_size, x, i);
 }
 
-/* Weight of texel i along one axis around x; every filter but the disk is separable. */
+/* Weight of texel i along one axis around x; every filter but the disk is separable. [F1] [F2] */
 static double axis_weight(const ref_lookup *how, double x, int i)
 {
     switch (how->filter) {
@@ -55,7 +57,7 @@ static double axis_weight(const ref_lookup *how, double x, int i)
     return 0.0;
 }
 
-/* The point that is looked up: indices are clamped to the tile (P8), and the receiver's plane (B5) is taken at the
+/* The point that is looked up: indices are clamped to the tile [P8], and the receiver's plane [B5] is taken at the
  * texel that is read. Beyond the far end an empty texel still lets it be lit. */
 static double compare(const ref_light_view *view, const ref_lookup *how, vec3 p, int i, int j)
 {
@@ -68,8 +70,8 @@ static double compare(const ref_light_view *view, const ref_lookup *how, vec3 p,
 
 static double separable(const ref_light_view *view, const ref_lookup *how, vec3 p)
 {
-    const int reach = ref_filter_index(how->filter, 0.0) + 1, n = 2 * reach + 1;
-    const int i0 = (int)floor(p.x) - reach, j0 = (int)floor(p.y) - reach;
+    const int radius = ref_filter_index(how->filter, 0.0) + 1, n = 2 * radius + 1;
+    const int i0 = (int)floor(p.x) - radius, j0 = (int)floor(p.y) - radius;
     double across[MAX_TAPS], sum = 0.0;
     for (int i = 0; i < n; i++) across[i] = axis_weight(how, p.x, i0 + i);
     for (int j = 0; j < n; j++) {
@@ -117,6 +119,7 @@ void ref_disk_sample(double out[2], int i, int x, int y)
     out[1] = rho * sin(phi);
 }
 
+/* The mean over samples of a disk that every pixel turns. [F4] */
 static double disk(const ref_light_view *view, const ref_lookup *how, vec3 p)
 {
     double sum = 0.0;
@@ -129,7 +132,7 @@ static double disk(const ref_light_view *view, const ref_lookup *how, vec3 p)
     return sum / how->disk_samples;
 }
 
-/* Further out than its reach a filter meets the border texel alone: moving the point back along the receiver's plane
+/* Further out than its radius a filter meets the border texel alone: moving the point back along the receiver's plane
  * only keeps the int in range. */
 double ref_filtered(const ref_light_view *view, const ref_lookup *how, double u, double v, double d)
 {

@@ -24,7 +24,7 @@ typedef struct {
     vec3 *normal;             /* unit world normals; NULL: face normals */
     vec3 box_centre;          /* the world box of DESIGN 1.6 */
     vec3 box_half;            /* its half extents */
-    bool lit[REF_MAX_LIGHTS]; /* the object's light list (P9) */
+    bool lit[REF_MAX_LIGHTS]; /* the object's light list */
 } ref_instance;
 
 typedef struct {
@@ -41,7 +41,7 @@ typedef struct {
 
 struct ref_surface;
 
-/* Another way to rt of DESIGN 1.9 than shadow maps: at a surface point, of a light that asks for tiles. */
+/* Another way to rt of DESIGN 1.9 than shadow maps: at a surface point, of a light that requests tiles. */
 typedef double ref_visibility(const void *user, const struct ref_surface *at, size_t l);
 
 /* Which cascade a surface point is looked up in, and how far it is from leaving it. */
@@ -57,7 +57,7 @@ typedef struct {
     ref_picture *picture;
     ref_camera camera;
     ref_instance *instances; /* one per object */
-    size_t main_light;       /* D10; SCENE_NONE: every directional light has cascades */
+    size_t main_light;       /* SCENE_NONE: every directional light has cascades */
     bool cascades_in_use;    /* some light has tiles in the directional atlas */
     ref_sphere sphere[REF_MAX_CASCADES];
     ref_hit *hits;              /* one per pixel; meaningful where picture->triangle >= 0 */
@@ -131,8 +131,8 @@ vec2 ref_depth_gradient(const ref_light_view *view, vec3 normal,
                         vec3 on_plane); /* depth per texel; all in ref_to_light's axes */
 
 /* ref_bias.c */
-double ref_lateral_reach(const ref_options *options, const ref_light_view *view, const scene_light *light); /* nu */
-/* B6: how far a point is moved, in ref_to_light's axes, and by how much less its depth s is then. */
+double ref_lateral_margin(const ref_options *options, const ref_light_view *view, const scene_light *light); /* nu */
+/* Automatic bias: how far a point is moved, in ref_to_light's axes, and by how much less its depth s is then. */
 vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
                    vec3 in_light, double *less);
 int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light, int face, const ref_options *options,

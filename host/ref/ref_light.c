@@ -1,7 +1,7 @@
 /* The light that each pixel's surface sends to the camera (DESIGN 1.3). */
 #include "ref_internal.h"
 
-/* Blinn and Phong: the share of a light that is mirrored towards the camera, for n . L > 0. */
+/* Blinn and Phong: the fraction of a light that is mirrored towards the camera, for n . L > 0. [M3] */
 static double highlight(const ref_frame *frame, const ref_surface *at, vec3 to_light)
 {
     const vec3 to_camera = vec3_unit(vec3_sub(frame->camera.position, at->world));
@@ -9,8 +9,8 @@ static double highlight(const ref_frame *frame, const ref_surface *at, vec3 to_l
     return pow(fmax(0.0, ndoth), ldexp(1.0, at->triangle.object->shininess_log2));
 }
 
-/* At the rim of a cone or a range the library's light ends a rounding earlier or later: what is darker than this share
- * of the light is not shown (DESIGN 1.10). */
+/* At the rim of a cone or a range the library's light ends a rounding earlier or later: what is darker than this
+ * fraction of the light is not shown (DESIGN 1.10). */
 #define RIM 0x1p-20
 
 static bool at_rim(const scene_light *light, const ref_surface *at, double attenuation)
@@ -37,7 +37,7 @@ static double cosine(const ref_frame *frame, const ref_surface *at, size_t l, ve
     return interpolate ? vertex_cosine(at, to_light) : vec3_dot(at->normal, to_light);
 }
 
-/* What one light adds. Lights that contribute nothing anywhere near leave n . L at -1. */
+/* What one light adds. Lights that contribute nothing anywhere near leave n . L at -1. [P10] */
 static vec3 add_light(ref_frame *frame, const ref_surface *at, size_t l, size_t pixel)
 {
     const vec3 none = {0.0, 0.0, 0.0}, specular = vec3_load(at->triangle.object->specular);
@@ -58,6 +58,7 @@ static vec3 add_light(ref_frame *frame, const ref_surface *at, size_t l, size_t 
     return vec3_scale(vec3_mul(vec3_load(frame->s->lights[l].colour), reflected), incidence.attenuation * shadow);
 }
 
+/* Ambient, baked light and what each light adds; there are no lists per screen tile. [M2] [M9] [R9] */
 static vec3 light_surface(ref_frame *frame, const ref_surface *at, size_t pixel)
 {
     const ref_triangle *t = &at->triangle;
@@ -68,6 +69,7 @@ static vec3 light_surface(ref_frame *frame, const ref_surface *at, size_t pixel)
     return t->object->unlit ? at->albedo : radiance;
 }
 
+/* Also what the views of cascades and normals show. [A6] */
 void ref_light_pixels(ref_frame *frame)
 {
     const size_t n_pixels = (size_t)frame->picture->width * (size_t)frame->picture->height;

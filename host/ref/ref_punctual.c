@@ -1,14 +1,14 @@
 /* Spot and point lights: attenuation, which objects they reach, light lists, and their perspective views
- * (DESIGN 1.5, 1.8; rows P2 to P6, P9). */
+ * (DESIGN 1.5, 1.8). */
 #include "ref_internal.h"
 
-#define LEAST_DISTANCE2 1e-4 /* epsilon of P2: keeps the light's own position finite */
+#define LEAST_DISTANCE2 1e-4 /* keeps the light's own position finite */
 #define LEAST_RANGE2    1e-4
-#define LEAST_CONE      1e-4 /* P3: difference of cosines */
-#define WIDEST          2.0  /* P6: the largest half-width of a face */
+#define LEAST_CONE      1e-4 /* difference of cosines */
+#define WIDEST          2.0  /* the largest half-width of a face */
 #define PI              3.14159265358979323846
 
-/* P2 */
+/* 1 / distance^2, faded out towards the light's range. [P2] */
 double ref_distance_factor(const scene_light *light, double distance2)
 {
     const double ratio = isinf(light->range) ? 0.0 : distance2 / fmax(light->range * light->range, LEAST_RANGE2);
@@ -16,15 +16,16 @@ double ref_distance_factor(const scene_light *light, double distance2)
     return window * window / fmax(distance2, LEAST_DISTANCE2);
 }
 
-/* P3. inner and outer are edge to edge, in turns: half of one is pi times as many radians. */
+/* Inner and outer are edge to edge, in turns: half of one is pi times as many radians. [P3] */
 static double cone_factor(const scene_light *light, vec3 to_light)
 {
     if (light->kind != SCENE_LIGHT_SPOT) return 1.0;
     const double outer = cos(PI * light->outer), scale = 1.0 / fmax(cos(PI * light->inner) - outer, LEAST_CONE);
-    const double share = clamp(scale * (-vec3_dot(to_light, vec3_load(light->direction)) - outer), 0.0, 1.0);
-    return share * share;
+    const double ratio = clamp(scale * (-vec3_dot(to_light, vec3_load(light->direction)) - outer), 0.0, 1.0);
+    return ratio * ratio;
 }
 
+/* Where the light is from a point, and what of it arrives. [P1] */
 ref_incidence ref_light_at(const scene_light *light, vec3 p)
 {
     if (light->kind == SCENE_LIGHT_DIRECTIONAL)
@@ -56,7 +57,7 @@ bool ref_reaches(const scene_light *light, const ref_instance *instance)
     return sqrt(ref_box_distance2(instance, vec3_load(light->position))) < light->range;
 }
 
-/* E * A of P9 */
+/* The largest colour channel times the distance factor: what lights are ranked by. */
 static double importance(const scene_light *light, const ref_instance *instance)
 {
     const double largest = fmax(light->colour[0], fmax(light->colour[1], light->colour[2]));
@@ -83,7 +84,7 @@ static size_t next_in_list(const scene *s, const ref_instance *instance)
     return best;
 }
 
-/* Baked lights are in the vertices already: they take no place. */
+/* Baked lights are in the vertices already: they take no place. [P9] */
 void ref_list_lights(ref_frame *frame)
 {
     const scene *s = frame->s;
@@ -102,6 +103,7 @@ void ref_list_lights(ref_frame *frame)
 
 /* ---- views ---- */
 
+/* The cube's face that a point lies in. [P5] */
 int ref_point_face(const double from_light[3])
 {
     const double x = fabs(from_light[0]), y = fabs(from_light[1]), z = fabs(from_light[2]);
@@ -109,7 +111,8 @@ int ref_point_face(const double from_light[3])
     return 2 * axis + (from_light[axis] < 0.0);
 }
 
-/* The smaller root of a t^2 - b t + 1, as 2 / (b + sqrt(b^2 - 4 a)): it does not cancel, and is 1 / b where a = 0. */
+/* The smaller root of a t^2 - b t + 1, as 2 / (b + sqrt(b^2 - 4 a)): it does not cancel, and is 1 / b where a = 0. [P6]
+ */
 double ref_face_half_width(int filter_index, double nu, int tile_texels, bool *clamped)
 {
     const double big_a = 2.0 * (filter_index + 1) / tile_texels;
@@ -128,6 +131,7 @@ static vec3 face_axis(int face)
     return vec3_load(w);
 }
 
+/* The perspective view of a spot, or of a face of a point light. [P4] */
 int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light, int face, const ref_options *options,
                  int tile_texels)
 {
@@ -143,7 +147,7 @@ int ref_fit_face(ref_light_view *view, const scene *s, const scene_light *light,
     vec3_store(view->position, vec3_load(light->position));
     view->near = light->near;
     view->depth_range = 1.0;
-    view->t = point ? ref_face_half_width(view->filter_index, ref_lateral_reach(options, view, light), tile_texels,
+    view->t = point ? ref_face_half_width(view->filter_index, ref_lateral_margin(options, view, light), tile_texels,
                                           &view->clamped)
                     : fmax(tan(PI * light->outer), tile_texels / 65535.0);
     view->texel = 2.0 * view->t / tile_texels;

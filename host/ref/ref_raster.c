@@ -33,7 +33,7 @@ static void grow_box(vec2 *low, vec2 *high, const ref_camera *camera, vec3 p)
     *high = (vec2){fmax(high->x, x), fmax(high->y, y)};
 }
 
-/* Bounds of the part of the triangle with Z >= near: its corners there, and where its edges cross the plane. */
+/* Bounds of the part of the triangle with Z >= near: its corners there, and where its edges cross the plane. [R3] */
 static ref_box triangle_box(const vec3 p[3], const ref_camera *camera, int width, int height)
 {
     vec2 low = {HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL};
@@ -64,8 +64,8 @@ static int pixel_coverage(const view_triangle *triangle, double s, double t, dou
     return sides == 3 ? 1 : sides == -3 ? -1 : 0;
 }
 
-/* The nearest depth wins, the first drawn at equal depths. Where alpha cuts (M8) there is no surface, and what is
- * behind is seen. */
+/* The nearest depth wins, the first drawn at equal depths. Where alpha cuts [M8] there is no surface, and what is
+ * behind is seen. [R2] */
 static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i, int j)
 {
     const ref_camera *camera = &frame->camera;

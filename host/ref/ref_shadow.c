@@ -2,10 +2,10 @@
 #include "ref_internal.h"
 
 #define DEFAULT_SAMPLES 16
-#define STEEPEST        50.0 /* B3: tan theta */
-#define PLANE_LIMIT     16.0 /* B5: the gradient in depth ranges per tile */
+#define STEEPEST        50.0 /* tan theta */
+#define PLANE_LIMIT     16.0 /* the receiver's gradient in depth ranges per tile */
 
-/* g of DESIGN 1.4 (D5, D6, D11). Without cascades in use there is no sphere to leave. */
+/* g of DESIGN 1.4 [D5] [D6] [D11]. Without cascades in use there is no sphere to leave. */
 static double distance_strength(const ref_frame *frame, const ref_surface *at)
 {
     const scene_shadow *shadow = &frame->s->shadow;
@@ -21,7 +21,7 @@ static double distance_strength(const ref_frame *frame, const ref_surface *at)
     return at->selected.next < 0 ? g * at->selected.fade : g;
 }
 
-/* B2, B3 in texels, before the filter's width. N is not renormalised. */
+/* Along the normal [B2], and the four terms [B3], in texels, before the filter's width. N is not renormalised. */
 static vec3 receiver_offset(const scene_light *light, vec3 n, vec3 to_light)
 {
     const double *b = light->bias_receiver;
@@ -39,7 +39,7 @@ static vec3 moved_point(const ref_light_view *view, const scene_light *light, co
     return ref_to_light(view, vec3_add(at->world, offset));
 }
 
-/* B5: of the face's own plane, through the unmoved point. */
+/* Of the face's own plane, through the unmoved point. [B5] */
 static void set_plane(ref_lookup *how, const ref_light_view *view, const ref_surface *at, vec3 in_light)
 {
     const vec3 f = at->face;
@@ -79,7 +79,7 @@ static double attenuation_in(const ref_frame *frame, const ref_surface *at, size
     return ref_filtered(view, &how, p.x, p.y, p.z - less);
 }
 
-/* D7 */
+/* Of two cascades, softly or by the pixel's noise. [D7] */
 static double blended_attenuation(const ref_frame *frame, const ref_surface *at, size_t l, vec3 to_light)
 {
     const ref_selection *selected = &at->selected;
@@ -103,7 +103,7 @@ static double mapped_attenuation(const ref_frame *frame, const ref_surface *at, 
 }
 
 /* A single tile around an empty slice is none; an empty cascade is never selected. Who does without maps serves every
- * light that asks. */
+ * light that requests it. */
 static bool is_served(const ref_frame *frame, size_t l)
 {
     if (frame->visibility) return ref_asks_for_tiles(frame, l);
@@ -111,7 +111,7 @@ static bool is_served(const ref_frame *frame, size_t l)
     return grant->n_tiles > 0 && (grant->atlas == REF_DIRECTIONAL_ATLAS || frame->picture->view[l][0].active);
 }
 
-/* M6 */
+/* The realtime shadow, the baked mask, or both. [M6] [M4] */
 double ref_mix(scene_mixing mixing, double strength, double g, double m, double rt)
 {
     if (!(strength * g > 0.0)) return lerp(1.0, m, strength);
@@ -126,6 +126,7 @@ double ref_mix(scene_mixing mixing, double strength, double g, double m, double 
     return lerp(1.0, rt, strength * g);
 }
 
+/* 1 for surfaces that refuse shadows. [M2] */
 double ref_shadow(const ref_frame *frame, const ref_surface *at, size_t l, vec3 to_light)
 {
     const scene_light *light = &frame->s->lights[l];

@@ -34,6 +34,7 @@ vec3 ref_mix_vertices(const double *attribute, const uint32_t idx[3], const doub
                     vec3_load(attribute + 3 * (size_t)idx[2]));
 }
 
+/* Everything at the pixel's centre: nothing is interpolated between pixels. [R4] */
 ref_surface ref_surface_at(const ref_frame *frame, size_t pixel)
 {
     const int64_t id = frame->picture->triangle[pixel];

@@ -1,4 +1,4 @@
-/* Textures, masks and alpha (DESIGN 1.8, 1.9; rows M1, M3, M5, M8). */
+/* Textures, masks and alpha (DESIGN 1.8, 1.9). */
 #include "ref_internal.h"
 
 /* The texels that a sample mixes; nearest has one. */
@@ -93,6 +93,7 @@ double ref_alpha(const scene *s, const ref_triangle *triangle, const double bary
     return triangle->object->alpha * mix_channel(texture, &f, 3);
 }
 
+/* In linear light. [M3] */
 vec3 ref_texture_colour(const scene *s, const ref_triangle *triangle, const double bary[3])
 {
     const scene_texture *texture = texture_of(s, triangle);
@@ -103,11 +104,13 @@ vec3 ref_texture_colour(const scene *s, const ref_triangle *triangle, const doub
     return vec3_load(rgba);
 }
 
+/* Interleaved gradient noise. [D7] */
 double ref_dither_noise(int x, int y)
 {
     return frac(52.9829189 * frac(0.06711056 * (x + 0.5) + 0.00583715 * (y + 0.5)));
 }
 
+/* Clip cuts below the cutoff, dither below the noise. [M1] [M8] */
 bool ref_alpha_cuts(scene_alpha mode, double alpha, double cutoff, int x, int y)
 {
     switch (mode) {
@@ -121,7 +124,7 @@ bool ref_alpha_cuts(scene_alpha mode, double alpha, double cutoff, int x, int y)
     return false;
 }
 
-/* An image goes before a mask per vertex; it is always bilinear and clamped. */
+/* An image goes before a mask per vertex; it is always bilinear and clamped. [M5] */
 double ref_mask(const scene *s, const ref_triangle *triangle, const double bary[3], int channel)
 {
     const scene_object *object = triangle->object;

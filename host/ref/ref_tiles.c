@@ -1,9 +1,9 @@
-/* Which light gets tiles, of which atlas, and how large (DESIGN 1.6; rows A2, A3, D1, D10). */
+/* Which light gets tiles, of which atlas, and how large (DESIGN 1.6). */
 #include "ref_internal.h"
 
 #define MAX_TILES          16
-#define MAX_CASCADE_LIGHTS 4  /* D1 */
-#define LEAST_TILE         8  /* A2 */
+#define MAX_CASCADE_LIGHTS 4  /* shadowed lights that have cascades [D1] */
+#define LEAST_TILE         8  /* texels */
 #define WEIGHT_STEPS       64 /* weights are multiples of 1/64 */
 
 /* An atlas while it is handed out. */
@@ -34,7 +34,7 @@ bool ref_asks_for_tiles(const ref_frame *frame, size_t l)
     return light->mode != SCENE_BAKED && light->shadow && light->strength > 0.0 && shadows_something(frame, light);
 }
 
-/* D10: the brightest directional light that asks; ties: the first. */
+/* The brightest directional light that asks; ties: the first. [D10] */
 static size_t find_main_light(const ref_frame *frame)
 {
     size_t best = SCENE_NONE;
@@ -50,12 +50,14 @@ static size_t find_main_light(const ref_frame *frame)
     return best;
 }
 
+/* All directional lights, or the main light alone. [D10] */
 static bool has_cascades(const ref_frame *frame, size_t l)
 {
     if (frame->s->lights[l].kind != SCENE_LIGHT_DIRECTIONAL) return false;
     return frame->main_light == SCENE_NONE || frame->main_light == l;
 }
 
+/* One per cascade, six for a point light, else one. [P5] */
 static int tiles_wanted(const ref_frame *frame, size_t l)
 {
     if (has_cascades(frame, l)) return frame->s->shadow.n_cascades;
@@ -64,6 +66,7 @@ static int tiles_wanted(const ref_frame *frame, size_t l)
 
 /* ---- who gets them ---- */
 
+/* In the order given; what does not fit gets nothing, and later lights are still tried. [A3] */
 static void serve(ref_frame *frame, size_t l, budget *b)
 {
     const int n = b->n_tiles + tiles_wanted(frame, l);
@@ -76,6 +79,7 @@ static void serve(ref_frame *frame, size_t l, budget *b)
 
 /* ---- how large ---- */
 
+/* All tiles of an atlas of one size. [A2] */
 static void size_equally(ref_frame *frame, const budget *b)
 {
     const int side = b->n_tiles > 4 ? b->size / 4 : b->n_tiles > 1 ? b->size / 2 : b->size;
@@ -137,6 +141,7 @@ static ref_grant *next_to_double(ref_frame *frame, const budget *b)
     return best;
 }
 
+/* All begin as large as the atlas, are halved until they fit, and doubled while there is room. [A2] */
 static void size_by_importance(ref_frame *frame, const budget *b)
 {
     ref_grant *g;
@@ -162,6 +167,7 @@ static int capacity(int option)
     return option > 0 && option < MAX_TILES ? option : MAX_TILES;
 }
 
+/* Each atlas with a budget of its own. [A1] */
 const char *ref_assign_tiles(ref_frame *frame)
 {
     const ref_options *o = frame->options;

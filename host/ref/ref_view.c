@@ -1,14 +1,15 @@
-/* What all light views share: filters and their reach, axes, and the way from the world into the map
+/* What all light views share: filters and their margins, axes, and the way from the world into the map
  * (DESIGN 1.4, 1.5, 1.7). */
 #include "ref_internal.h"
 
-#define WIDEST_DISK 8 /* texels (F4) */
+#define WIDEST_DISK 8 /* texels */
 
 static int clamp_to_disk(double wanted_radius)
 {
     return (int)clamp(ceil(wanted_radius), 1.0, WIDEST_DISK);
 }
 
+/* The disk is as wide as its radius needs. [F4] */
 int ref_filter_index(scene_filter filter, double wanted_radius)
 {
     switch (filter) {
@@ -27,7 +28,7 @@ int ref_filter_index(scene_filter filter, double wanted_radius)
     return 0;
 }
 
-/* F5: 5x5, 7x7 and the disk are soft. */
+/* 5x5, 7x7 and the disk are soft. [F5] [A1] */
 scene_filter ref_light_filter(const scene_shadow *shadow, const scene_light *light, ref_atlas atlas)
 {
     const scene_filter own = atlas == REF_OTHER_ATLAS ? shadow->other_filter : shadow->filter;

@@ -46,6 +46,7 @@ static vec3 transform_normal(const scene_affine *a, vec3 n)
     return vec3_unit(vec3_mix(f, k0, k1, k2));
 }
 
+/* An instance's vertices in the world. [R8] */
 static bool transform_object(ref_instance *out, const scene_object *object, const scene_mesh *mesh,
                              const ref_camera *camera)
 {

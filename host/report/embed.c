@@ -7,12 +7,12 @@
 
 static char *read_all(FILE *f, size_t *n_bytes)
 {
-    size_t n = 0, room = 1 << 16, got;
-    char *bytes = malloc(room);
-    while (bytes && (got = fread(bytes + n, 1, room - n - 1, f)) > 0) {
+    size_t n = 0, capacity = 1 << 16, got;
+    char *bytes = malloc(capacity);
+    while (bytes && (got = fread(bytes + n, 1, capacity - n - 1, f)) > 0) {
         n += got;
-        if (room - n > 1) continue;
-        char *more = realloc(bytes, room *= 2);
+        if (capacity - n > 1) continue;
+        char *more = realloc(bytes, capacity *= 2);
         if (!more) free(bytes);
         bytes = more;
     }

@@ -59,7 +59,7 @@ static int complain(const char *path, const char *what)
     return -1;
 }
 
-/* A path of pieces; they are short. */
+/* A path of segments; they are short. */
 static const char *path_of(const char *folder, const char *a, const char *b, const char *c)
 {
     static char path[PATH_BYTES];

@@ -219,8 +219,8 @@ static slab_ray make_slab_ray(const truth_ray *ray, double extent)
     double to[3];
     vec3_store(to, ray->to);
     vec3_store(out.from, ray->from);
-    const double reach = extent + fmax(fabs(ray->from.x), fmax(fabs(ray->from.y), fabs(ray->from.z)));
-    out.margin = 2.0 * (ray->from_error + ray->to_error + 8.0 * DBL_EPSILON * reach);
+    const double farthest = extent + fmax(fabs(ray->from.x), fmax(fabs(ray->from.y), fabs(ray->from.z)));
+    out.margin = 2.0 * (ray->from_error + ray->to_error + 8.0 * DBL_EPSILON * farthest);
     out.end = ray->target.infinite ? HUGE_VAL : 1.0 + 4.0 * DBL_EPSILON;
     for (int k = 0; k < 3; k++) {
         out.inverse[k] = 1.0 / to[k];

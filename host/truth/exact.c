@@ -39,7 +39,7 @@ static double take_smaller(const double *e, int ne, int *i, const double *f, int
     return f[(*j)++];
 }
 
-/* h = e + f; room for ne + nf. Shewchuk's fast expansion sum. */
+/* h = e + f; capacity of h: ne + nf. Shewchuk's fast expansion sum. */
 static int add(double *h, const double *e, int ne, const double *f, int nf)
 {
     if (ne + nf == 0) return 0;
@@ -52,7 +52,7 @@ static int add(double *h, const double *e, int ne, const double *f, int nf)
     return append(h, n, q);
 }
 
-/* h = e * b; room for 2 * ne. Shewchuk's scale expansion. */
+/* h = e * b; capacity of h: 2 * ne. Shewchuk's scale expansion. */
 static int scale(double *h, const double *e, int ne, double b)
 {
     if (ne == 0) return 0;
@@ -74,7 +74,7 @@ typedef struct {
     double c[DIFFERENCE];
 } difference;
 
-/* h = e * f; room for 4 * ne, at most TERM. */
+/* h = e * f; capacity of h: 4 * ne, at most TERM. */
 static int multiply(double *h, const double *e, int ne, const difference *f)
 {
     double first[TERM], second[TERM];
@@ -108,7 +108,7 @@ static row row_between(vec3 to, vec3 from)
     return (row){{subtract(to.x, from.x), subtract(to.y, from.y), subtract(to.z, from.z)}};
 }
 
-/* Component k of a x b; room for MINOR. */
+/* Component k of a x b; capacity of h: MINOR. */
 static int minor(double *h, const row *a, const row *b, int k)
 {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -119,7 +119,7 @@ static int minor(double *h, const row *a, const row *b, int k)
     return add(h, plus, n_plus, minus, n_minus);
 }
 
-/* det(a, b, c) = a . (b x c); room for DETERMINANT. */
+/* det(a, b, c) = a . (b x c); capacity of h: DETERMINANT. */
 static int determinant(double *h, const row *a, const row *b, const row *c)
 {
     double sum[DETERMINANT], term[TERM], m[MINOR];

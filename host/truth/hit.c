@@ -62,9 +62,9 @@ double truth_vertex_error(const ref_triangle *triangle)
 static exact_point without_dust(const exact_point *p)
 {
     exact_point out = *p;
-    const double least = ldexp(fmax(p->weight[0], fmax(p->weight[1], p->weight[2])), -100);
+    const double threshold = ldexp(fmax(p->weight[0], fmax(p->weight[1], p->weight[2])), -100);
     for (int k = 0; k < 3; k++)
-        if (!(p->weight[k] > least)) out.weight[k] = 0.0;
+        if (!(p->weight[k] > threshold)) out.weight[k] = 0.0;
     return out;
 }
 
@@ -130,12 +130,12 @@ static int common_side(const truth_ray *ray, const vec3 p[3], const double edge[
 /* Is the origin farther than the uncertainty behind the plane, as seen from the target? */
 static bool lies_behind(const truth_ray *ray, const vec3 p[3], const seen *s, int side, double uncertainty)
 {
-    const double least = uncertainty * length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
+    const double threshold = uncertainty * length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
     const double volume = side * vec3_dot(s->a, vec3_cross(s->b, s->c));
-    if (volume > least + s->volume_bound) return true;
-    if (volume < least - s->volume_bound) return false;
+    if (volume > threshold + s->volume_bound) return true;
+    if (volume < threshold - s->volume_bound) return false;
     const double sum = ray->origin.weight[0] + ray->origin.weight[1] + ray->origin.weight[2];
-    return side * exact_volume(&ray->origin, p[0], p[1], p[2]) / sum > least;
+    return side * exact_volume(&ray->origin, p[0], p[1], p[2]) / sum > threshold;
 }
 
 /* Values only from here on, nothing is decided by them but alpha, and near planes. */

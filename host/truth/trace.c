@@ -10,7 +10,7 @@ typedef struct {
     double transmittance; /* so far */
 } passage;
 
-/* M1. Where dither cuts depends on noise that is evenly spread over 0..1: in the mean the share 1 - alpha. */
+/* M1. Where dither cuts depends on noise that is evenly spread over 0..1: in the mean the fraction 1 - alpha. */
 static double passes(const scene *s, const ref_triangle *t, const double bary[3])
 {
     switch (t->object->caster) {

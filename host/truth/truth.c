@@ -68,8 +68,8 @@ static void add_picture(sums *sum, const ref_picture *p)
 static void take_means(ref_picture *p, const sums *sum, int samples)
 {
     const size_t n = (size_t)p->width * (size_t)p->height;
-    const double share = 1.0 / ((double)samples * samples);
-    for (size_t i = 0; i < 3 * n; i++) p->rgb[i] = sum->rgb[i] * share;
+    const double weight = 1.0 / ((double)samples * samples);
+    for (size_t i = 0; i < 3 * n; i++) p->rgb[i] = sum->rgb[i] * weight;
     for (size_t l = 0; l < p->n_lights; l++)
         for (size_t i = 0; i < n; i++)
             if (p->ndotl[l][i] > 0.0 && sum->n_shadows[l][i] > 0)

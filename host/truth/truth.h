@@ -78,8 +78,8 @@ void truth_end(truth_tracer *tracer);
 typedef bool truth_visitor(void *user, const truth_caster *caster);
 void truth_visit(const truth_tracer *tracer, const truth_ray *ray, truth_visitor *meet, void *user);
 
-/* The share of a light's rays that arrives at a point: 1 lit, 0 in shadow, between behind casters of mode dither. skip:
- * the triangle that the point lies on, or NULL. */
+/* The fraction of a light's rays that arrives at a point: 1 lit, 0 in shadow, between behind casters of mode dither.
+ * skip: the triangle that the point lies on, or NULL. */
 double truth_transmittance(const truth_tracer *tracer, const exact_point *origin, double uncertainty,
                            const ref_triangle *skip, const scene_light *light);
 

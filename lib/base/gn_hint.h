@@ -2,6 +2,8 @@
 #ifndef GN_HINT_H
 #define GN_HINT_H
 
+#include "gn_config.h"
+
 #ifdef GN_PORT
 #include GN_PORT
 #endif
@@ -32,14 +34,14 @@
 #endif
 
 /* Where size comes first, a pointer to an element is computed once: v is not known to be what it was computed from. */
-#if defined(__OPTIMIZE_SIZE__) && defined(__GNUC__)
+#if GN_SIZE_FIRST && defined(__GNUC__)
 #define GN_ELEMENT(v) __asm__("" : "+r"(v))
 #else
 #define GN_ELEMENT(v) ((void)0)
 #endif
 
 /* Of a function that is called from few places: shared where size comes first, inlined otherwise. */
-#if defined(__OPTIMIZE_SIZE__)
+#if GN_SIZE_FIRST
 #define GN_SHARED GN_NOINLINE
 #else
 #define GN_SHARED inline

@@ -1,4 +1,4 @@
-/* Interleaved gradient noise (D7), shared by everything that dithers by it. */
+/* Interleaved gradient noise, shared by everything that dithers by it. */
 #ifndef GN_NOISE_H
 #define GN_NOISE_H
 
@@ -7,7 +7,7 @@
 #include "base/gn_hint.h"
 
 /* frac(52.9829189 * frac(0.06711056 x + 0.00583715 y)) at a pixel's centre, Q0.16: both fractions are wraps of 32 bits.
- */
+ * [D7] */
 GN_HOT static inline uint32_t gn_noise_uq16(int32_t x, int32_t y)
 {
     uint32_t inner =

@@ -117,8 +117,7 @@ int64_t gn_far_scale64(int64_t v, int32_t s);
 int32_t gn_far_mul_shr(int32_t a, int32_t b, int32_t s);
 int32_t gn_far_mul_q30(int32_t a, int32_t b);
 uint64_t gn_far_abs64(int64_t v);
-#if defined(__OPTIMIZE_SIZE__) && defined(__GNUC__)
-#define GN_SIZE_FIRST   1 /* one way of two that give the same bits is enough */
+#if GN_SIZE_FIRST && defined(__GNUC__)
 #define GN_IS_INT32_(v) (__builtin_constant_p(v) && (v) >= INT32_MIN && (v) <= INT32_MAX)
 
 GN_INLINE int64_t gn_clamp64(int64_t v, int64_t lo, int64_t hi)
@@ -139,14 +138,13 @@ GN_INLINE int64_t gn_shr64(int64_t v, int32_t s)
 #define gn_mul_q30 gn_far_mul_q30
 #define gn_abs64   gn_far_abs64
 #else
-#define GN_SIZE_FIRST 0
-#define gn_clamp64    gn_clamp64_inline
-#define gn_shr64      gn_shr64_inline
-#define gn_sat32      gn_sat32_inline
-#define gn_scale64    gn_scale64_inline
-#define gn_mul_shr    gn_mul_shr_inline
-#define gn_mul_q30    gn_mul_q30_inline
-#define gn_abs64      gn_abs64_inline
+#define gn_clamp64 gn_clamp64_inline
+#define gn_shr64   gn_shr64_inline
+#define gn_sat32   gn_sat32_inline
+#define gn_scale64 gn_scale64_inline
+#define gn_mul_shr gn_mul_shr_inline
+#define gn_mul_q30 gn_mul_q30_inline
+#define gn_abs64   gn_abs64_inline
 #endif
 
 /* round(a * b / 2^16) of unsigned fractions; the result fits. */

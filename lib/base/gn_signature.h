@@ -1,4 +1,4 @@
-/* 64-bit signatures of what a shadow tile or a screen tile was made from (A5, R6). Two different inputs share one with
+/* 64-bit signatures of what a shadow tile or a screen tile was made from [A5] [R6]. Two different inputs share one with
  * probability 2^-64. Not for adversaries. */
 #ifndef GN_SIGNATURE_H
 #define GN_SIGNATURE_H

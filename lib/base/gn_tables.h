@@ -20,7 +20,7 @@ extern const uint16_t
 extern const uint8_t gn_level_63_table[1024], gn_level_31_table[512];
 extern const uint32_t gn_level_end_q24[96];
 extern const int16_t
-    gn_disk_table_q15[128]; /* x, y of 64 points of the unit disk (F4, DESIGN 1.7), every prefix well spread */
+    gn_disk_table_q15[128]; /* x, y of 64 points of the unit disk (DESIGN 1.7), every prefix well spread */
 extern const uint16_t gn_srgb_decode_table[256]; /* 65535 * linear light of an 8-bit sRGB value */
 
 /* Entries of tables. Where size comes first, computed: gn_curves.c; reciprocals by the core's divider, if it has one.

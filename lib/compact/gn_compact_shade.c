@@ -20,7 +20,7 @@ typedef struct {
     int32_t offset_q16[3]; /* of the receiver, texels */
 } surface;
 
-/* B2, or B6: r (|n_u| + |n_v|) + eps_0 |n_w| along the normal. */
+/* The normal offset [B2], or by automatic bias [B6] r (|n_u| + |n_v|) + eps_0 |n_w| along the normal. */
 static void move_receiver(const gn_frame *frame, surface *s, const gn_tri *tri)
 {
     const int16_t *n = tri->normal_q14;

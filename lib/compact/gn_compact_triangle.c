@@ -114,7 +114,7 @@ static void face_normal(int16_t out_q14[3], const gn_frame *frame, int32_t (*v)[
     }
 }
 
-/* B1, in steps of keys. */
+/* Constant and slope bias of casters, in steps of keys. [B1] */
 static int32_t caster_bias(const gn_tri *tri, const gn_light *light)
 {
     uint32_t dx = gn_abs32(tri->key_dx) >> tri->frac_bits, dy = gn_abs32(tri->key_dy) >> tri->frac_bits;
@@ -250,7 +250,7 @@ void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri)
                     uint32_t cell =
                         ((uint32_t)gn_max32((int32_t)key, 0) << 1 >> raster->id_bits << raster->id_bits) + raster->id;
                     if (cell > raster->cell[at]) raster->cell[at] = cell;
-                } else { /* D9: pancaking; what lies beyond the range stays out */
+                } else { /* pancaking [D9]; what lies beyond the range stays out */
                     uint32_t depth = (uint32_t)(gn_max32(-(int32_t)key, 0) + raster->bias) >> GN_COMPACT_STEP_SHIFT;
                     if (depth < raster->texel[at]) raster->texel[at] = (uint16_t)depth;
                 }

@@ -97,16 +97,17 @@ typedef struct gn_frame {
     gn_picture picture;
     uint8_t stage;   /* gn_stage in gn_frame.c */
     uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
-    uint16_t n_views;
+    uint8_t n_views;
+    uint8_t n_lights; /* of the scene, which may be gone when gn_get_light_shadow is called */
     uint16_t tiles_x, tiles_y;
     gn_compact_view cam;
     int32_t per_px_q29;                /* 1 / 2F: rays are (2x + 1 - W, H - 1 - 2y, -2F) */
     gn_compact_xform to_light;         /* from the camera's space */
-    gn_compact_share distance, sphere; /* D5: Q16; D6: texels^2, Q16 */
+    gn_compact_share distance, sphere; /* by view depth: Q16; by the sphere: texels^2, Q16 */
     int32_t centre_q16[3];             /* of the sphere: U, V, D */
     uint64_t radius2_q32;              /* texels^2 */
-    int32_t offset_q16;                /* B2, texels; B6: r */
-    int32_t flat_offset_q16;           /* B6: eps_0; 0: B2 */
+    int32_t offset_q16;                /* along the normal, texels; automatic bias: r */
+    int32_t flat_offset_q16;           /* automatic bias: eps_0; else 0 */
     gn_stats stats;
     gn_detail detail;
     gn_light_state light[GN_MAX_LIGHTS];
@@ -116,9 +117,8 @@ typedef struct gn_frame {
 } gn_frame;
 
 typedef struct gn_scratch {
-    uint32_t
-        cell[GN_TILE_PIXELS_MAX]; /* nearest surface: key in the high bits, the triangle in the low id_bits; 0: none */
-    gn_tile_pixels pixel;         /* finished pixels in the picture's format */
+    uint32_t cell[GN_TILE_PIXELS_MAX]; /* nearest surface: key above, triangle in the low id_bits; 0: none */
+    gn_tile_pixels pixel;              /* finished pixels in the picture's format */
     gn_work work;
 } gn_scratch;
 

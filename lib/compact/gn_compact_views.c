@@ -84,15 +84,16 @@ static gn_status lens(gn_frame *frame)
 
 /* ---- Light ------------------------------------------------------------------------------------------------------- */
 
-/* Whether the light has a bias that is built. B6 along the normal; the general arithmetic's other form is not there. */
+/* Whether the light has a bias that is built. Automatic bias along the normal; the general arithmetic's other form is
+ * not there. */
 static int bias_ok(const gn_light *light)
 {
     if (GN_AUTO_BIAS) return gn_scene_auto_bias(light) != GN_AUTO_BIAS_DEPTH;
     return light->auto_bias == GN_AUTO_BIAS_OFF || (!light->auto_bias && light->bias_normal_q16);
 }
 
-/* What is not built is refused: biases but B1 and B2, a near plane that is pulled back, what lies beyond the range of a
- * colour. */
+/* What is not built is refused: biases but those of casters and along the normal, a near plane that is pulled back,
+ * what lies beyond the range of a colour. */
 static gn_status compact_check_light(const gn_frame *frame, const gn_light *light)
 {
     const int32_t *b = light->bias_receiver_q16;
@@ -207,8 +208,8 @@ static int compose_to_light(gn_frame *frame)
     return gn_compact_compose(&frame->to_light, &frame->view[0].project, &frame->scene->camera.to_world, 16);
 }
 
-/* How far a receiver moves along its face's normal: by B2, or by B6 (NUMERICS 4.15). nu of DESIGN 1.7, which the tile's
- * reach must hold. */
+/* How far a receiver moves along its face's normal: by its own offset [B2], or automatically [B6] (NUMERICS 4.15). nu
+ * of DESIGN 1.7, which the tile's reach must hold. */
 static int32_t receiver_reach(gn_frame *frame, const gn_light *light)
 {
     frame->offset_q16 = (int32_t)gn_compact_mul((uint32_t)light->bias_normal_q16, 0xB504F334U, 0)
@@ -255,7 +256,7 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     gn_compact_place(frame->centre_q16, &corner);
     int64_t radius_q16 = texels_q16(project, (int32_t)(((int64_t)radius_q28 * max_q16) >> 28));
     frame->radius2_q32 = (uint64_t)(radius_q16 * radius_q16);
-    /* D6: r^2 (1 - (1 - fade)^2); D5 */
+    /* the sphere's fade [D6]: r^2 (1 - (1 - fade)^2); the fade with distance [D5] */
     uint32_t keep = ONE_Q28 / 4096 - shadow->cascade_fade_uq16;
     share_of(&frame->sphere, (int32_t)gn_compact_mul((uint32_t)(frame->radius2_q32 >> 16), 0U - keep * keep, 0));
     share_of(&frame->distance, (int32_t)(((uint64_t)(uint32_t)max_q16 * shadow->distance_fade_uq16) >> 16));

@@ -67,9 +67,10 @@ static int picture_format_ok(const gn_picture *picture)
     return picture->view == GN_VIEW_COLOUR && (uint32_t)picture->format <= GN_FORMAT_MONO1;
 }
 
-gn_status gn_init(gn_renderer *r, const gn_picture *picture)
+gn_status gn_init_as(gn_renderer *r, const gn_picture *picture, size_t renderer_bytes, uint64_t config_signature)
 {
     if (!r) return GN_ERR_NULL;
+    if (renderer_bytes != sizeof *r || config_signature != GN_CONFIG_SIGNATURE) return GN_ERR_CONFIG;
     memset(r, 0, sizeof *r);
     gn_frame *frame = &r->frame;
     if (!picture) return gn_fail(frame, GN_ERR_NULL, 0);
@@ -106,6 +107,9 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
     if (status) return status;
 #endif
     frame->scene = scene;
+#if GN_SHADOWS
+    frame->n_lights = (uint8_t)scene->n_lights;
+#endif
     gn_cam_setup(frame);
     status = gn_views_setup(frame);
     if (status) return status;
@@ -177,6 +181,7 @@ static GN_NOINLINE void flush_tile(const gn_frame *frame, gn_scratch *scratch, u
     flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
 }
 
+/* Writes the scratch alone: every core has one, and all share the frame. [R1] [R7] */
 gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
 {
     gn_status status = begin_tile(frame, scratch, tile_idx, flush);
@@ -186,7 +191,7 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
     return GN_OK;
 }
 
-/* Of a finished tile's bytes. */
+/* Of a finished tile's bytes. [R6] */
 static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch, uint32_t tile_idx)
 {
     gn_rect rect = gn_screen_rect(frame, tile_idx);
@@ -202,6 +207,7 @@ static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch,
     return signature ? signature : 1;
 }
 
+/* Flushes a tile whose bytes are not what the panel shows. [R6] */
 gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
                                     gn_flush_fn flush, void *user, uint32_t *flushed)
 {
@@ -267,7 +273,7 @@ gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, ui
     if (n_tiles) *n_tiles = 0;
     if (tile_texels) *tile_texels = 0;
 #if GN_SHADOWS
-    if (!r || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.scene->n_lights) return GN_SHADOW_NOT_WANTED;
+    if (!r || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.n_lights) return GN_SHADOW_NOT_WANTED;
     const gn_light_state *light = &r->frame.light[light_idx];
     if (n_tiles) *n_tiles = light->n_views;
     if (tile_texels && light->n_views) *tile_texels = r->frame.view[light->view_idx].tile_texels;
@@ -278,10 +284,11 @@ gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, ui
 #endif
 }
 
+/* A light's tile, for those who draw the atlas. [A6] */
 uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info)
 {
 #if GN_SHADOWS
-    if (!r || !info || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.scene->n_lights) return 0;
+    if (!r || !info || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.n_lights) return 0;
     const gn_light_state *light = &r->frame.light[light_idx];
     if (view_idx >= light->n_views) return 0;
     const gn_light_view *view = &r->frame.view[(uint32_t)light->view_idx + view_idx];

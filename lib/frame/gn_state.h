@@ -24,17 +24,18 @@ typedef struct gn_frame {
     uint16_t n_views;
     uint16_t tiles_x, tiles_y;
     gn_cam cam;
-    uint64_t min2_q32;           /* P2: the least distance^2 of spot and point lights, 10^-4 of the model's */
-    int32_t receivers_q16[2][3]; /* box of all receiving objects: least, largest corner; D8 */
-    uint32_t fade_start_q16;     /* D5: strength = (max_distance - z) * fade_scale */
+    uint64_t min2_q32;           /* the least distance^2 of spot and point lights, 10^-4 of the model's */
+    int32_t receivers_q16[2][3]; /* box of all receiving objects: least, largest corner; for culling */
+    uint32_t fade_start_q16;     /* distance fade: strength = (max_distance - z) * fade_scale */
     gn_bfloat fade_scale;
     gn_stats stats;
     gn_detail detail;
 #if GN_SHADOWS
     uint8_t n_cascades;
     uint8_t last_cascade; /* the last that is not empty */
-    uint8_t has_cascades; /* some directional light has tiles in the directional atlas: D6 applies */
-    uint32_t frame_count; /* A5: for the schedule of cascades */
+    uint8_t has_cascades; /* some directional light has tiles in the directional atlas: the last sphere ends shadows */
+    uint8_t n_lights;     /* of the scene, which may be gone when gn_get_light_shadow is called */
+    uint32_t frame_count; /* for the schedule of cascades */
     gn_cascade_state cascade[4];
 #endif
     gn_light_state light[GN_MAX_LIGHTS];

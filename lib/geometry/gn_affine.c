@@ -1,4 +1,4 @@
-/* Transforms for callers: built from rotations and scales, multiplied with rounding (R8). */
+/* Transforms for callers: built from rotations and scales, multiplied with rounding [R8]. */
 #include "gn_internal.h"
 
 #include "base/gn_math.h"

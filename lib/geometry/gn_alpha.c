@@ -14,6 +14,7 @@ GN_HOT void gn_alpha_begin(gn_alpha_cut *cut, const gn_object *object, gn_alpha 
     if (GN_TEXTURES && cut->textured) gn_alpha_corners(cut, idx);
 }
 
+/* Clip cuts below the cutoff, dither below the noise. [M1] [M8] */
 GN_HOT int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x)
 {
     uint32_t alpha = cut->object->alpha_uq16;

@@ -72,6 +72,7 @@ static void clip_plane(gn_polygon *polygon, gn_polygon *in, uint32_t plane, int3
     polygon->n = n;
 }
 
+/* Cuts at the planes that the polygon crosses, one by one. [R3] */
 void gn_clip(gn_polygon *polygon, gn_polygon *uncut, uint32_t planes, int32_t near_q16, const int32_t side_q16[2])
 {
     for (uint32_t plane = GN_OUT_NEAR; plane <= GN_OUT_TOP && polygon->n >= 3; plane <<= 1)

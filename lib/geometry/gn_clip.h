@@ -1,4 +1,4 @@
-/* Clipping of polygons in view space against the near plane and the guard band (R3). */
+/* Clipping of polygons in view space against the near plane and the guard band. */
 #ifndef GN_CLIP_H
 #define GN_CLIP_H
 

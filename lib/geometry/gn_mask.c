@@ -14,7 +14,7 @@ GN_HOT static gn_texture_taps mask_taps(int32_t c_q16, uint32_t size_log2)
                              (uint32_t)at_q16 & 0xFFFFU};
 }
 
-/* Where all four texels are one, as in all that is wholly lit or dark, so is what lies between them. */
+/* Where all four texels are one, as in all that is wholly lit or dark, so is what lies between them. [M5] */
 GN_HOT uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel)
 {
     const uint32_t bytes_log2 = image->flags & GN_TEXTURE_MASK_1 ? 0 : image->flags & GN_TEXTURE_MASK_2 ? 1 : 2;

@@ -56,6 +56,7 @@ GN_HOT void gn_bary_setup(gn_bary *bary, const gn_plane *plane, const int32_t v0
     }
 }
 
+/* The perspective divide of a pixel. [R4] */
 GN_HOT int gn_plane_recip(gn_ray_recip *out, const gn_plane *plane, int32_t px, int32_t py, uint32_t focal2_px_q16,
                           int32_t newton_steps)
 {

@@ -99,6 +99,7 @@ GN_HOT int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_te
     return gn_texture_clamps(texture, which) ? gn_sat32(c_q20) : (int32_t)(uint32_t)c_q20;
 }
 
+/* A colour in linear light. [M3] */
 GN_HOT void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3])
 {
     footprint f;

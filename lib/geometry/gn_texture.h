@@ -1,4 +1,4 @@
-/* Textures: colour in linear light, and single channels as they are stored (M1, M3, M5, M8, DESIGN 1.8). */
+/* Textures: colour in linear light, and single channels as they are stored (DESIGN 1.8). */
 #ifndef GN_TEXTURE_H
 #define GN_TEXTURE_H
 

@@ -55,6 +55,7 @@ void gn_cam_setup(gn_frame *frame)
     }
 }
 
+/* Transforms of an instance and of the camera in one. [R8] */
 void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t origin_q16[3], const gn_object *object)
 {
     const gn_affine *a = &object->to_world;

@@ -1,4 +1,4 @@
-/* Automatic receiver bias (B6). */
+/* Automatic receiver bias [B6]. */
 #include "gn_internal.h"
 
 #include "base/gn_hint.h"

@@ -1,4 +1,4 @@
-/* Receiver bias (B2, B3, B6, DESIGN 1.7). */
+/* Receiver bias (DESIGN 1.7). */
 #ifndef GN_BIAS_H
 #define GN_BIAS_H
 
@@ -20,7 +20,7 @@ void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const
 void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], int32_t depth_q16,
                       const int32_t from_q16[3], int32_t out_q16[3]);
 
-/* ---- Automatic bias (B6, DESIGN 1.7): gn_auto_bias.c ------------------------------------------------------------ */
+/* ---- Automatic bias (DESIGN 1.7): gn_auto_bias.c ---------------------------------------------------------------- */
 
 /* Once per view, after its fit and filter. */
 void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view);

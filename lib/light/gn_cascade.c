@@ -18,6 +18,7 @@ int64_t gn_cascade_tan2_q24(const gn_frame *frame)
     return (int64_t)(k2 < limit ? k2 : limit);
 }
 
+/* One sphere per cascade: DESIGN 1.4 derives it. [D3] */
 void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t *centre_q24,
                        int64_t *radius_q24)
 {
@@ -43,6 +44,7 @@ void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16,
     *radius_q24 = r2 < (int64_t)1 << 38 ? gn_isqrt64((uint64_t)r2 << 24) : (int64_t)gn_isqrt64((uint64_t)r2) << 12;
 }
 
+/* View depths between which cascade i lies. [D3] */
 void gn_cascade_slice(const gn_frame *frame, uint32_t i, int32_t *near_q16, int32_t *far_q16)
 {
     const gn_shadow_settings *shadow = &frame->scene->shadow;
@@ -55,7 +57,7 @@ void gn_cascade_slice(const gn_frame *frame, uint32_t i, int32_t *near_q16, int3
         *far_q16 = (int32_t)(((int64_t)m * shadow->cascade_ratio_uq16[i] + 0x8000) >> 16);
 }
 
-/* Spheres of all slices; radius_q24 is relative to the slice's end, which slice_of gives again. */
+/* Spheres of all slices; radius_q24 is relative to the slice's end, which slice_of gives again. [D3] [D4] [D6] */
 static void setup_spheres(gn_frame *frame)
 {
     const gn_shadow_settings *shadow = &frame->scene->shadow;
@@ -87,10 +89,10 @@ static void setup_spheres(gn_frame *frame)
         frame->last_cascade = (uint8_t)i;
     }
     gn_cascade_state *last = &frame->cascade[GN_LAST_CASCADE(frame)];
-    if (beyond && last->radius2_q32) last->inner2_q32 = last->radius2_q32 - 1; /* D6: shadows do not end there */
+    if (beyond && last->radius2_q32) last->inner2_q32 = last->radius2_q32 - 1; /* shadows do not end there */
 }
 
-/* D5: strength 1 up to max distance * (1 - fade), then linear to 0 at max distance. */
+/* Strength 1 up to max distance * (1 - fade), then linear to 0 at max distance. [D5] */
 static void setup_distance_fade(gn_frame *frame)
 {
     const gn_shadow_settings *shadow = &frame->scene->shadow;

@@ -1,4 +1,4 @@
-/* The spot and point lights that an object's surfaces have to reckon with (P9). */
+/* The spot and point lights that an object's surfaces have to reckon with [P9]. */
 #include "gn_internal.h"
 
 #include "base/gn_hint.h"

@@ -14,12 +14,12 @@ typedef struct {
 } gn_object_state;
 #define GN_OBJECT_LIGHTS_ALL 255U
 
-/* The bounding sphere of a cascade's slice: on the view axis, shared by all lights (D3). */
+/* The bounding sphere of a cascade's slice: on the view axis, shared by all lights. */
 typedef struct {
     int32_t centre_q16;   /* view depth */
     uint64_t radius2_q32; /* 0: empty */
-    uint64_t inner2_q32;  /* within this distance the D6 factor is 1 */
-    gn_bfloat fade_scale; /* D6: factor = (radius2 - dist2) * fade_scale */
+    uint64_t inner2_q32;  /* within this distance the fade factor is 1 */
+    gn_bfloat fade_scale; /* fade: factor = (radius2 - dist2) * fade_scale */
     int32_t next;         /* the next cascade that is not empty */
 } gn_cascade_state;
 
@@ -32,7 +32,7 @@ typedef struct {
     uint8_t off;          /* baked: contributes nothing at run time */
     uint8_t shadow_state; /* gn_shadow_state */
     uint8_t n_views;      /* cascades, 1, or 6 faces */
-    uint8_t auto_bias;    /* B6: GN_AUTO_BIAS_DEPTH or _NORMAL, 0: none */
+    uint8_t auto_bias;    /* GN_AUTO_BIAS_DEPTH or _NORMAL, 0: none */
     int16_t view_idx;     /* of its first gn_light_view, -1: no shadow */
 #if GN_PUNCTUAL_LIGHTS
     int32_t position_q16[3];
@@ -42,7 +42,7 @@ typedef struct {
     uint64_t range2_q32;   /* all ones: unlimited */
     gn_bfloat inv_range2;  /* of range2 in Q32 */
     int32_t colour_exp;    /* what is left of the colour's exponent, see gn_punctual.c */
-    int32_t cos_outer_q30; /* P3; spot lights only */
+    int32_t cos_outer_q30; /* spot lights only */
     gn_bfloat angle_scale; /* 1 / (cos inner - cos outer) */
 #endif
 } gn_light_state;

@@ -11,6 +11,7 @@
 
 #define GN_COLOUR_MAX_UQ16 0xFFFFFF /* 255.99 */
 
+/* A light for the frame; a baked one is off. [P1] [M9] */
 static void setup_light(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *light = &frame->scene->lights[light_idx];

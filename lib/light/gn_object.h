@@ -1,5 +1,4 @@
-/* What is known of an object before its triangles are looked at: its box in the world, and the lights that reach it
- * (P9). */
+/* What is known of an object before its triangles are looked at: its box in the world, and the lights that reach it. */
 #ifndef GN_OBJECT_H
 #define GN_OBJECT_H
 

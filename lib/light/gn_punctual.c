@@ -39,6 +39,7 @@ GN_HOT static void normalise_colour(gn_light_state *light, const gn_light *from)
     light->colour_exp = from->colour_exp - up;
 }
 
+/* A spot or point light for the frame. [P1] */
 GN_HOT void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
 {
     const gn_light *from = &frame->scene->lights[light_idx];
@@ -65,7 +66,7 @@ GN_HOT void gn_punctual_setup(gn_frame *frame, uint32_t light_idx)
     light->angle_scale = gn_bf_recip(gn_bf_from_u64((uint64_t)width));
 }
 
-/* (1 - (d^2 / r^2)^2)^2, Q30; d < r */
+/* (1 - (d^2 / r^2)^2)^2, Q30; d < r [P2] */
 GN_HOT static uint32_t window_q30(const gn_light_state *light, uint64_t d2_q32)
 {
     if (light->range2_q32 == UINT64_MAX) return GN_ONE_Q30;
@@ -93,7 +94,7 @@ GN_HOT static uint32_t inverse_root(uint64_t v, int32_t newton_steps, int32_t *s
     return gn_rsqrt_norm((uint32_t)((v << *shift) >> 32), newton_steps);
 }
 
-/* P3: clamp((cos - cos outer) / (cos inner - cos outer), 0, 1)^2, Q30 */
+/* clamp((cos - cos outer) / (cos inner - cos outer), 0, 1)^2, Q30 [P3] */
 GN_HOT static uint32_t angle_q30(const gn_light_state *light, int32_t cosine_q30)
 {
     int64_t beyond = (int64_t)cosine_q30 - light->cos_outer_q30;
@@ -111,6 +112,7 @@ GN_HOT static int32_t root_steps(const gn_frame *frame, const gn_light_state *li
     return light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_K(frame, newton_steps);
 }
 
+/* Distance and cone together. [P2] [P3] */
 GN_HOT int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3],
                           gn_punctual_point *out)
 {
@@ -179,6 +181,7 @@ GN_HOT static int in_tile(const gn_frame *frame, const gn_rect *rect, const gn_l
            !beyond_edge(frame, 2 * rect->y1 - h, -at[1], at[2], radius);
 }
 
+/* The lights of a screen tile. [R9] */
 GN_HOT uint64_t gn_punctual_in_tile(const gn_frame *frame, const gn_rect *rect)
 {
     uint64_t lights = 0;

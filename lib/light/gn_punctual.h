@@ -1,4 +1,4 @@
-/* Spot and point lights: attenuation with distance and angle (P2, P3, DESIGN 1.8). */
+/* Spot and point lights: attenuation with distance and angle (DESIGN 1.8). */
 #ifndef GN_PUNCTUAL_H
 #define GN_PUNCTUAL_H
 
@@ -7,7 +7,7 @@
 /* Fills what frame->light[light_idx] has for spot and point lights; frame->cam must be set up. */
 void gn_punctual_setup(gn_frame *frame, uint32_t light_idx);
 
-/* Largest colour channel times the distance factor at distance^2: what lights are ranked by (P9). */
+/* Largest colour channel times the distance factor at distance^2: what lights are ranked by. */
 gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t distance2_q32, uint64_t min2_q32);
 
 /* A surface point in a light's range and cone. */
@@ -21,8 +21,7 @@ typedef struct {
     int32_t within_inner; /* a spot's inner cone, where its angle has no effect */
 } gn_punctual_point;
 
-/* `from_light` is the surface point minus the light's position, world axes, Q16. Returns 0 where no light arrives
- * (P10). */
+/* `from_light` is the surface point minus the light's position, world axes, Q16. Returns 0 where no light arrives. */
 int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3],
                    gn_punctual_point *out);
 
@@ -32,7 +31,7 @@ int32_t gn_punctual_cosine_q30(const gn_punctual_point *point, int32_t length_q1
 /* factor * cosine / max(d^2, min) * 2^colour_exp: irradiance of a light whose colour is 1, Q24, saturated below 128. */
 uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosine_q30);
 
-/* R9: the lights whose spheres meet the frustum of a rectangle of pixels, a bit each; directional lights always. */
+/* The lights whose spheres meet the frustum of a rectangle of pixels, a bit each; directional lights always. */
 uint64_t gn_punctual_in_tile(const gn_frame *frame, const gn_rect *rect);
 
 #endif

@@ -153,8 +153,8 @@ static gn_status check_punctual(gn_frame *frame, const gn_light *light, uint32_t
     return GN_OK;
 }
 
-/* B6. Where it is not built it is missed by who asks for it, and by a light that casts shadows and has no other bias.
- */
+/* Automatic bias. Where it is not built it is missed by who asks for it, and by a light that casts shadows and has no
+ * other bias. */
 static int bias_is_built(const gn_light *light)
 {
     if ((uint32_t)light->auto_bias > GN_AUTO_BIAS_OFF) return 0;
@@ -210,7 +210,7 @@ static int filter_ok(gn_filter filter)
     return (uint32_t)filter <= GN_FILTER_MAX;
 }
 
-/* F5: a light's own filter, in place of that of its atlas, must be built too. */
+/* A light's own filter, in place of that of its atlas, must be built too. [F5] */
 static int softness_ok(const gn_light *light, gn_filter filter)
 {
     if (light->softness == GN_SOFTNESS_HARD) return GN_FILTER_MAX >= 1 || filter == GN_FILTER_HARD;

@@ -7,7 +7,8 @@
 /* Whether a position is within +-2^30, as the transforms rely on. */
 int gn_scene_position_ok(const gn_mesh *mesh, uint32_t vertex_idx);
 
-/* B6: what a light asks for, GN_AUTO_BIAS_DEPTH or _NORMAL; 0: nothing. Lights that set B2 or B3 do not by default. */
+/* The automatic bias that a light requests, GN_AUTO_BIAS_DEPTH or _NORMAL; 0: none. Lights that set another receiver
+ * bias do not by default. */
 gn_auto_bias gn_scene_auto_bias(const gn_light *light);
 
 /* Records a failure and returns its status. */

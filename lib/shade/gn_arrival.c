@@ -99,14 +99,13 @@ GN_HOT static void light_space_point(const gn_frame *frame, const gn_surface *su
 }
 #endif
 
-/* `value` is the light's slot of a sample, z the view depth. */
+/* `value` is the light's slot of a sample, z the view depth. [P10] */
 GN_HOT static void arrive(const gn_frame *frame, const gn_surface *surface, const gn_light_state *light, int32_t z_q16,
                           const int32_t *value, gn_arrival *out)
 {
     gn_punctual_point point;
     out->irradiance_q24 = 0;
-    out->reaches =
-        value[GN_LIGHT_FACING] > 0 && gn_punctual_at(frame, light, value + GN_LIGHT_POINT_AT, &point); /* P10 */
+    out->reaches = value[GN_LIGHT_FACING] > 0 && gn_punctual_at(frame, light, value + GN_LIGHT_POINT_AT, &point);
     if (!out->reaches) return;
     GN_COUNT(lights_punctual, 1);
     out->irradiance_q24 = gn_punctual_irradiance_q24(&point, gn_punctual_cosine_q30(&point, value[GN_LIGHT_FACING]));

@@ -5,14 +5,11 @@
 
 #include "shade/gn_sample.h"
 
-#if GN_PUNCTUAL_LIGHTS
-
 #define GN_FACE_NONE 6 /* nearer to the light than its near plane: lit */
 
 /* Of all the surface's spot and point lights. */
 void gn_arrivals_at(const gn_frame *frame, const gn_surface *surface, gn_sample *sample);
 
-#if GN_ARRIVAL_STEPS
 /* From sample a to sample b, n > 1 pixels further on, along a chord that is set: what arrives in between, as parabolas
  * through three points, for every light for which that is close enough (NUMERICS 4.13). The others keep to the chord,
  * which ends before the others. */
@@ -21,7 +18,5 @@ void gn_arrivals_between(gn_chord *chord, const gn_frame *frame, const gn_surfac
 
 /* One pixel further on; the sample's values already are. */
 void gn_arrivals_next(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, gn_sample *sample);
-#endif
 
-#endif
 #endif

@@ -10,7 +10,7 @@
 #include "shade/gn_shadow.h"
 
 #if GN_SPECULAR
-/* max(0, n . h)^(2^k), Q30 */
+/* max(0, n . h)^(2^k), Q30 [M3] */
 GN_HOT static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample, const int32_t to_light_q30[3])
 {
     int32_t h[3];
@@ -29,20 +29,35 @@ GN_HOT static GN_NOINLINE uint32_t specular_q24(const gn_frame *frame, const gn_
                                                 const gn_sample *sample, uint32_t slot)
 {
     const gn_light_state *light = surface->light[slot].state;
-#if GN_PUNCTUAL_LIGHTS
     const int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];
-    if (light->kind != GN_LIGHT_DIRECTIONAL) {
+    if (GN_PUNCTUAL_LIGHTS && light->kind != GN_LIGHT_DIRECTIONAL) {
         gn_punctual_point point;
         int32_t to_light[3];
         if (!gn_punctual_at(frame, light, from, &point)) return 0;
         for (int i = 0; i < 3; i++) to_light[i] = gn_punctual_cosine_q30(&point, -from[i]);
         return gn_punctual_irradiance_q24(&point, highlight_q30(surface, sample, to_light));
     }
-#endif
-    (void)frame;
     return (uint32_t)(highlight_q30(surface, sample, light->to_light_q30) >> 6);
 }
+#else
+GN_HOT static uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                    uint32_t slot)
+{
+    (void)frame, (void)surface, (void)sample, (void)slot;
+    return 0;
+}
 #endif
+
+/* What arrives from a spot or point light of the list. */
+GN_HOT static inline const gn_arrival *arrival_of(const gn_sample *sample, uint32_t slot)
+{
+#if GN_PUNCTUAL_LIGHTS
+    return &sample->arrival[slot];
+#else
+    (void)sample, (void)slot;
+    return NULL;
+#endif
+}
 
 GN_HOT uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                                 uint32_t light_idx)
@@ -52,9 +67,9 @@ GN_HOT uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface
     if (slot == surface->n_lights) return 0;
     const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
     if (value[GN_LIGHT_FACING] <= 0) return 0;
-#if GN_PUNCTUAL_LIGHTS
-    if (surface->light[slot].state->kind != GN_LIGHT_DIRECTIONAL && !sample->arrival[slot].reaches) return 0;
-#endif
+    if (GN_PUNCTUAL_LIGHTS && surface->light[slot].state->kind != GN_LIGHT_DIRECTIONAL &&
+        !arrival_of(sample, slot)->reaches)
+        return 0;
     return gn_shadow_factor(frame, surface, sample, slot, gn_shadow_distance(frame, surface, sample));
 }
 
@@ -64,62 +79,52 @@ GN_HOT static void add(uint64_t sum_q20[3], const uint32_t colour_uq16[3], uint3
     for (int c = 0; c < 3; c++) sum_q20[c] += ((uint64_t)colour_uq16[c] * irradiance_q24 + (1U << 19)) >> 20;
 }
 
-/* Vertex colour and texture. */
+/* Vertex colour and texture. [M3] */
 GN_HOT static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sample, uint64_t sum[3])
 {
     if (GN_COLOURED(surface))
         for (int c = 0; c < 3; c++)
             sum[c] = (sum[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_RGB + c], 0) + 0x8000U) >> 16;
-#if GN_TEXTURES
     uint32_t texture[3];
-    if (!surface->textured) return;
+    if (!GN_TEXTURES || !surface->textured) return;
     GN_COUNT(textured, 1);
     gn_texture_colour(surface->object->texture, sample->value[GN_VALUE_UV], sample->value[GN_VALUE_UV + 1], texture);
     for (int c = 0; c < 3; c++) sum[c] = (sum[c] * texture[c] + 0x8000U) >> 16;
-#endif
 }
 
+/* Baked light and all lights; a shadow is looked up only where light arrives. [P10] [M9] */
 GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                               uint32_t radiance_q20[3])
 {
     uint64_t sum[3] = {surface->base_q20[0], surface->base_q20[1],
                        surface->base_q20[2]}; /* < 2^28 and 2^35 per light */
-#if GN_SPECULAR
     uint64_t highlights[3] = {0, 0, 0};
-#endif
     uint32_t g = surface->shadowed ? gn_shadow_distance(frame, surface, sample) : 0;
-#if GN_BAKED_LIGHT
-    for (int c = 0; surface->baked && c < 3; c++) /* 2^20 * 2^17 */
+    for (int c = 0; GN_BAKED_LIGHT && surface->baked && c < 3; c++) /* 2^20 * 2^17 */
         sum[c] +=
             (uint64_t)surface->object->albedo_uq16[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_BAKED + c], 0) >> 12;
-#endif
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         const gn_surface_light *light = &surface->light[i];
         const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
         uint32_t diffuse = (uint32_t)gn_max32(value[GN_LIGHT_FACING], 0);
-#if GN_PUNCTUAL_LIGHTS
-        if (light->state->kind != GN_LIGHT_DIRECTIONAL) diffuse = sample->arrival[i].irradiance_q24;
-#endif
+        if (GN_PUNCTUAL_LIGHTS && light->state->kind != GN_LIGHT_DIRECTIONAL)
+            diffuse = arrival_of(sample, i)->irradiance_q24;
         if (!diffuse) continue;
         uint32_t shadow = gn_shadow_factor(frame, surface, sample, i, g);
         GN_COUNT(lights, 1);
         if (!shadow) continue;
         add(sum, light->radiance_uq16, shadow == 65536 ? diffuse : gn_mul_uq16(diffuse, shadow));
-#if GN_SPECULAR
-        if (surface->specular) {
+        if (GN_SPECULAR && surface->specular) {
             GN_COUNT(highlights, 1);
             uint32_t colour[3];
             for (int c = 0; c < 3; c++)
                 colour[c] = gn_mul_uq16(light->state->colour_uq16[c], surface->object->specular_uq16[c]);
             add(highlights, colour, gn_mul_uq16(specular_q24(frame, surface, sample, i), shadow));
         }
-#endif
     }
     modulate(surface, sample, sum);
     for (int c = 0; c < 3; c++) {
-#if GN_SPECULAR
-        sum[c] += highlights[c];
-#endif
+        if (GN_SPECULAR) sum[c] += highlights[c];
         radiance_q20[c] = sum[c] > UINT32_MAX ? UINT32_MAX : (uint32_t)sum[c];
     }
 }

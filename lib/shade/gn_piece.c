@@ -232,9 +232,9 @@ GN_HOT static int arriving(gn_pieces *p, const middle *m, half_size half)
     }
     for (uint32_t i = 0; i < s->n_lights; i++) {
         const gn_surface_light *light = &s->light[i];
-        gn_slope facing = {light->flat_cosine_q24, 0, 0};
+        gn_slope facing = {light->cosine_q24[0], 0, 0};
 #if GN_VERTEX_NORMALS && (GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT)
-        const int32_t *at = light->vertex_cosine_q24;
+        const int32_t *at = light->cosine_q24;
         if (GN_SMOOTH(s)) facing = piece_slope(m, at[0], at[1], at[2], 28);
         if (!stays_within_2(&facing, half)) return 0;
 #endif
@@ -264,7 +264,9 @@ GN_HOT static int piece_colours(gn_pieces *p, middle *m, half_size half)
     if (p->turns && !gn_turn_select(p, m->n_q28, half.w, half.h)) return 0;
 #endif
     for (int c = 0; GN_COLOURED(s) && c < 3; c++) {
-        gn_slope colour = piece_slope(m, s->rgb_q16[0][c] * 256, s->rgb_q16[1][c], s->rgb_q16[2][c], 20);
+        gn_slope colour =
+            piece_slope(m, s->attribute_q16[0][GN_ATTRIBUTE_RGB + c] * 256, s->attribute_q16[1][GN_ATTRIBUTE_RGB + c],
+                        s->attribute_q16[2][GN_ATTRIBUTE_RGB + c], 20);
         if (!stays_within_2(&colour, half)) return 0;
         p->tint_q24[c] = colour;
         if (p->tinted) continue; /* else what arrives is the same all over */

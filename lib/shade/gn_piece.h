@@ -8,8 +8,6 @@
 #include "visible/gn_setup.h"
 #include "shade/gn_surface.h"
 
-#if GN_PIECES
-
 /* Pixels: the largest piece, and parts of it whose shadow is asked for once. */
 enum { GN_PIECE_WIDTH_LOG2 = 6, GN_PIECE_WIDTH = 1 << GN_PIECE_WIDTH_LOG2, GN_PIECE_ROWS = 16, GN_CELL = 8 };
 
@@ -61,5 +59,4 @@ int gn_pieces_select(gn_pieces *pieces, const gn_rect *rect);
 /* Shades pixels x_begin <= x < x_end of one row, all in the piece and of the surface. */
 void gn_pieces_row(gn_pieces *pieces, const gn_pixel_rows *rows, int32_t y, int32_t x_begin, int32_t x_end);
 
-#endif
 #endif

@@ -38,12 +38,12 @@ GN_HOT static uint32_t linear_encode(uint32_t linear_q20)
     return (uint32_t)(((uint64_t)limited * 65535U + (1U << 19)) >> 20);
 }
 
+/* Linear light as the display takes it. [M7] */
 GN_HOT static uint32_t encode(const gn_frame *frame, uint32_t linear_q20)
 {
     return GN_K(frame, srgb) ? srgb_encode(linear_q20) : linear_encode(linear_q20);
 }
 
-#if GN_OTHER_FORMATS
 /* Rec. 709 weights in Q16; they sum to 65536. Channels are limited first, so that one cannot outshine the others. */
 GN_HOT static uint32_t luminance_q20(const uint32_t c[3])
 {
@@ -51,7 +51,6 @@ GN_HOT static uint32_t luminance_q20(const uint32_t c[3])
              b = c[2] < GN_ONE_Q20 ? c[2] : GN_ONE_Q20;
     return (uint32_t)(((uint64_t)r * 13933U + (uint64_t)g * 46871U + (uint64_t)b * 4732U + 0x8000U) >> 16);
 }
-#endif
 
 GN_HOT static uint32_t by_curve_565(const gn_frame *frame, const uint32_t c[3])
 {
@@ -59,7 +58,6 @@ GN_HOT static uint32_t by_curve_565(const gn_frame *frame, const uint32_t c[3])
            quantise(encode(frame, c[2]), 31);
 }
 
-#if GN_LEVEL_TABLES
 /* A colour below 1 is of the level where its cell begins, or the next. One less: what has not reached the level's end
  * is below 0. */
 GN_HOT static inline uint32_t level_before(const uint8_t *levels, uint32_t v_q24, int shift)
@@ -84,27 +82,31 @@ GN_HOT static inline uint32_t limit_and_pack_565(int32_t r_q24, int32_t g_q24, i
 {
     return pack_565(limited_q24(r_q24), limited_q24(g_q24), limited_q24(b_q24));
 }
-#endif
 
 GN_HOT static uint32_t any_565(const gn_frame *frame, const uint32_t c[3])
 {
-#if GN_LEVEL_TABLES
-    if (GN_K(frame, srgb)) {
+    if (GN_LEVEL_TABLES && GN_K(frame, srgb)) {
         uint32_t q24[3];
         for (int i = 0; i < 3; i++) q24[i] = c[i] < GN_ONE_Q20 ? c[i] << 4 : (1U << 24) - 1;
         return pack_565(q24[0], q24[1], q24[2]) & 0xFFFFU;
     }
-#endif
     return by_curve_565(frame, c);
 }
 
+GN_HOT static uint32_t pack_16(const gn_frame *frame, const uint32_t linear_q20[3])
+{
+    uint32_t v = any_565(frame, linear_q20);
+    return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
+}
+
+/* A colour in the picture's format. [R5] */
 GN_HOT uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3])
 {
-#if GN_OTHER_FORMATS
+    if (!GN_OTHER_FORMATS) return pack_16(frame, linear_q20);
     switch (frame->picture.format) {
     case GN_FORMAT_RGB565:
     case GN_FORMAT_RGB565_SWAPPED:
-        break;
+        return pack_16(frame, linear_q20);
     case GN_FORMAT_GREY8:
         return quantise(encode(frame, luminance_q20(linear_q20)), 255);
     case GN_FORMAT_GREY4:
@@ -115,12 +117,8 @@ GN_HOT uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3
         return quantise(encode(frame, linear_q20[0]), 255) | quantise(encode(frame, linear_q20[1]), 255) << 8 |
                quantise(encode(frame, linear_q20[2]), 255) << 16;
     }
-#endif
-    uint32_t v = any_565(frame, linear_q20);
-    return frame->picture.format == GN_FORMAT_RGB565 ? v : (v >> 8 | (v & 255U) << 8);
 }
 
-#if GN_OTHER_FORMATS
 /* The threshold of an 8x8 ordered dither at a pixel, 1..127 of 128: the bits of x ^ y and y, interleaved and reversed.
  */
 GN_HOT static uint32_t threshold(int32_t x, int32_t y)
@@ -146,15 +144,15 @@ GN_HOT static void fill_grey4(uint8_t *row, int32_t at, int32_t n, uint32_t leve
         *out = i & 1 ? (uint8_t)((*out & 0xF0U) | level) : (uint8_t)((*out & 0x0FU) | level << 4);
     }
 }
-#endif
 
+/* n pixels of a packed colour. [R5] */
 GN_HOT void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
                           uint32_t packed)
 {
     int32_t at = x - rows->x0, row = y - rows->y0, i = row * rows->width + at;
-#if GN_OTHER_FORMATS
     uint8_t *bytes = rows->pixels->bytes;
-    if (frame->picture.format == GN_FORMAT_RGB565 || frame->picture.format == GN_FORMAT_RGB565_SWAPPED) {
+    if (!GN_OTHER_FORMATS || frame->picture.format == GN_FORMAT_RGB565 ||
+        frame->picture.format == GN_FORMAT_RGB565_SWAPPED) {
         gn_pixel_fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
     } else if (frame->picture.format == GN_FORMAT_GREY8) {
         while (n-- > 0) bytes[i++] = (uint8_t)packed;
@@ -170,18 +168,12 @@ GN_HOT void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int3
             *out++ = (uint8_t)(packed >> 16);
         }
     }
-#else
-    (void)frame;
-    gn_pixel_fill_16(rows->pixels, (uint32_t)i, (uint32_t)n, packed & 0xFFFFU);
-#endif
 }
 
 GN_HOT size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height)
 {
     uint32_t w = (uint32_t)width, h = (uint32_t)height;
-#if !GN_OTHER_FORMATS
-    if (!GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32) return (size_t)2 * w * h;
-#endif
+    if (!GN_OTHER_FORMATS && (!GN_RAW_VIEWS || frame->picture.format != GN_FORMAT_RAW32)) return (size_t)2 * w * h;
     return gn_format_bytes(frame->picture.format, w, h);
 }
 
@@ -192,7 +184,6 @@ GN_HOT static inline int32_t mixed_q24(int32_t dark_q24, int32_t more_q24, uint3
     return dark_q24 + (int32_t)((int64_t)(more_q24 >> 9) * (int32_t)share_uq16 >> 7);
 }
 
-#if GN_LEVEL_TABLES
 GN_HOT static int has_levels(const gn_frame *frame)
 {
     return frame->picture.format == GN_FORMAT_RGB565 && GN_K(frame, srgb);
@@ -252,7 +243,6 @@ GN_HOT static inline void mix_inside(uint16_t *out, int32_t n, const gn_ramp *da
         *out++ = (uint16_t)above_linear(left, level_before(levels, v >> 7, c == 1 ? 14 : 15), c);
     }
 }
-#endif
 
 GN_HOT static void slow_pixel(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
                               const int32_t colour_q24[3])
@@ -265,14 +255,12 @@ GN_HOT static void slow_pixel(const gn_frame *frame, const gn_pixel_rows *rows, 
 GN_HOT void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
                           const gn_ramp *ramp)
 {
-#if GN_LEVEL_TABLES
-    if (has_levels(frame)) {
+    if (GN_LEVEL_TABLES && has_levels(frame)) {
         uint16_t *out = pixel_565(rows, x, y);
         if (stays_inside(ramp, n)) ramp_565(out, n, ramp, 1);
         else ramp_565(out, n, ramp, 0);
         return;
     }
-#endif
     for (int32_t i = 0; i < n; i++) {
         int32_t colour[3];
         for (int c = 0; c < 3; c++) colour[c] = ramp->from_q24[c] + i * ramp->step_q24[c];
@@ -283,8 +271,7 @@ GN_HOT void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int3
 GN_HOT void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
                          const gn_ramp *dark, const gn_ramp *lit, const uint32_t *share_uq16)
 {
-#if GN_LEVEL_TABLES
-    if (has_levels(frame)) {
+    if (GN_LEVEL_TABLES && has_levels(frame)) {
         uint16_t *out = pixel_565(rows, x, y);
         if (stays_inside(dark, n) && stays_inside(lit, n)) {
             mix_inside(out, n, dark, lit, 0, share_uq16);
@@ -297,7 +284,6 @@ GN_HOT void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32
         mix_channel(out, n, dark, lit, 2, share_uq16);
         return;
     }
-#endif
     for (int32_t i = 0; i < n; i++) {
         int32_t colour[3];
         for (int c = 0; c < 3; c++) {
@@ -312,12 +298,10 @@ GN_HOT void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32
 GN_HOT void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
                          const int32_t colour_q24[3])
 {
-#if GN_LEVEL_TABLES
-    if (has_levels(frame)) {
+    if (GN_LEVEL_TABLES && has_levels(frame)) {
         *pixel_565(rows, x, y) = (uint16_t)limit_and_pack_565(colour_q24[0], colour_q24[1], colour_q24[2]);
         return;
     }
-#endif
     slow_pixel(frame, rows, x, y, colour_q24);
 }
 #endif

@@ -1,4 +1,4 @@
-/* Linear colour to output pixels (R5, M7). */
+/* Linear colour to output pixels. */
 #ifndef GN_PIXEL_H
 #define GN_PIXEL_H
 
@@ -19,7 +19,6 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
 /* Stores a packed pixel n times from (x, y) of the picture on, within one row. */
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
 
-#if GN_PIECES
 /* A colour that grows by a step per pixel; |from + i step| < 2^30. */
 typedef struct {
     int32_t from_q24[3], step_q24[3];
@@ -35,7 +34,6 @@ void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, i
 
 /* Stores one pixel at (x, y); |colour| < 2^30. */
 void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3]);
-#endif
 
 /* Stores a 16-bit pixel n times from index i of the tile on, two a word where there are many. */
 GN_HOT static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)

@@ -58,6 +58,17 @@ GN_HOT static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, in
 }
 #endif
 
+/* Along what the receiver moves: the normal, or what automatic bias takes of a curved surface. */
+GN_HOT static inline const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light,
+                                                  const int32_t n_q30[3], int32_t out_q30[3])
+{
+    if (!GN_AUTO_BIAS || !GN_CURVED(s) || !light->auto_bias) return n_q30;
+#if GN_AUTO_BIAS
+    for (int i = 0; i < 3; i++) out_q30[i] = s->lift_q30[i] + (GN_BENT(s) ? 0 : n_q30[i]);
+#endif
+    return out_q30;
+}
+
 #if GN_SHADOWS
 /* Tile coordinates of the point at depth z on a pixel's ray. */
 GN_HOT static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16,
@@ -75,7 +86,7 @@ GN_HOT static int asks_for_cascades(const gn_frame *frame)
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 
-/* D4, D6, D11: the cascade of the surface point and its fade factor. */
+/* The cascade of the surface point and its fade factor. [D4] [D6] [D11] */
 GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
 {
     gn_bfloat per_px = frame->cam.inv_focal2;
@@ -104,32 +115,17 @@ GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py,
     }
 }
 
-#if GN_AUTO_BIAS
-/* B6 of curved surfaces: along what the point moves. */
-GN_HOT static const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light, const int32_t n_q30[3],
-                                           int32_t out_q30[3])
-{
-    if (!GN_CURVED(s) || !light->auto_bias) return n_q30;
-    for (int i = 0; i < 3; i++) out_q30[i] = s->lift_q30[i] + (GN_BENT(s) ? 0 : n_q30[i]);
-    return out_q30;
-}
-#else
-#define lifted_normal(s, light, n_q30, out_q30) ((void)(out_q30), (n_q30))
-#endif
-
 /* The surface's offset in a view, where it is not one for all views of the light: of smooth surfaces, of the disk,
- * whose index and reach are the cascade's own, and of B6, whose steps of depth are. */
+ * whose index and reach are the cascade's own, and of automatic bias, whose steps of depth are. */
 GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                         const gn_light_view *view, const int32_t n_q30[3], int32_t moved_q16[3])
 {
     const int32_t *flat = s->light[slot].flat_offset_q16;
-#if GN_AUTO_BIAS
     gn_auto_bias form = (gn_auto_bias)s->light[slot].state->auto_bias;
-    if (form && !GN_CURVED(s)) {
+    if (GN_AUTO_BIAS && form && !GN_CURVED(s)) {
         gn_bias_auto_ortho(view, form, flat, moved_q16);
         return moved_q16;
     }
-#endif
     if (!GN_SMOOTH(s) && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK)) return flat;
     int32_t lifted[3];
     gn_bias_directional(frame, view, lifted_normal(s, s->light[slot].state, n_q30, lifted), moved_q16);
@@ -157,6 +153,23 @@ GN_HOT static void directional_coords(const gn_frame *frame, const gn_surface *s
     if (!same) offset = own_offset(frame, s, slot, view, n_q30, moved);
     light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
 }
+#else
+GN_HOT static int asks_for_cascades(const gn_frame *frame)
+{
+    (void)frame;
+    return 0;
+}
+
+GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
+{
+    (void)frame, (void)px, (void)py, (void)sample;
+}
+
+GN_HOT static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                      const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
+{
+    (void)frame, (void)s, (void)slot, (void)px, (void)py, (void)n_q30, (void)sample, (void)out;
+}
 #endif
 
 #if GN_PUNCTUAL_LIGHTS
@@ -169,15 +182,40 @@ GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, u
     point_on_ray(light->from_light, light->ray_shift, px, py, sample->value[GN_VALUE_Z], at);
     for (int i = 0; i < 3; i++) out[GN_LIGHT_POINT_AT + i] = (int32_t)gn_clamp64(at[i], -INT32_MAX, INT32_MAX);
     out[GN_LIGHT_FACING] = gn_sat32(-gn_dot_q30(unit_q30, out + GN_LIGHT_POINT_AT));
-#if GN_SHADOWS
-    int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* B6: per pixel */
+    int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* per pixel */
     int32_t lifted[3];
-    if (light->view_idx >= 0 && s->shadowed && !own)
+    if (GN_SHADOWS && light->view_idx >= 0 && s->shadowed && !own)
         gn_bias_punctual(frame, light, lifted_normal(s, light, n_q30, lifted), sample->value[GN_VALUE_Z],
                          out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
+}
 #else
-    (void)frame, (void)n_q30;
+GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
+                                   const int32_t n_q30[3], const int32_t unit_q30[3], const gn_sample *sample,
+                                   int32_t *out)
+{
+    (void)frame, (void)s, (void)slot, (void)px, (void)py, (void)n_q30, (void)unit_q30, (void)sample, (void)out;
+}
 #endif
+
+#if GN_SPECULAR
+/* The normal, and against the pixel's ray, in the world. */
+GN_HOT static void specular_values(const gn_frame *frame, int32_t px, int32_t py, const int32_t unit_q30[3],
+                                   gn_sample *sample)
+{
+    const gn_cam *cam = &frame->cam;
+    int64_t towards[3];
+    for (int i = 0; i < 3; i++) { /* 2^12 * 2^16 * 2^30, 2^32 * 2^30: halved */
+        towards[i] = -((int64_t)cam->axis_q30[0][i] * px + (int64_t)cam->axis_q30[1][i] * py) * 32768 -
+                     (int64_t)cam->axis_q30[2][i] * (int64_t)(cam->focal2_px_q16 >> 1);
+        sample->normal_q30[i] = unit_q30[i];
+    }
+    gn_normalise_q30(sample->to_eye_q30, towards);
+}
+#else
+GN_HOT static void specular_values(const gn_frame *frame, int32_t px, int32_t py, const int32_t unit_q30[3],
+                                   gn_sample *sample)
+{
+    (void)frame, (void)px, (void)py, (void)unit_q30, (void)sample;
 }
 #endif
 
@@ -185,12 +223,9 @@ GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, u
 GN_HOT static int32_t directional_cosine_q24(const gn_frame *frame, const gn_surface *s, const gn_surface_light *light,
                                              const hit *h, gn_length length, const int32_t n_q30[3])
 {
-    (void)frame, (void)h;
-    if (!GN_SMOOTH(s)) return light->flat_cosine_q24;
-#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
-    const int32_t *at = light->vertex_cosine_q24;
+    const int32_t *at = light->cosine_q24;
+    if (!GN_SMOOTH(s)) return at[0];
     if (GN_K(frame, vertex_light)) return at_hit(h, at[0], at[1], at[2]);
-#endif
     return gn_length_cosine_q24(length, n_q30, light->state->to_light_q30);
 }
 
@@ -200,45 +235,27 @@ GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, cons
     gn_length length = {0, 0};
     int needs_length = !GN_K(frame, vertex_light) || s->n_punctual || s->specular;
     if (GN_SMOOTH(s) && needs_length) length = gn_length_of(GN_K(frame, newton_steps), n_q30);
-#if GN_PUNCTUAL_LIGHTS || GN_SPECULAR
     int32_t unit_q30[3] = {n_q30[0], n_q30[1], n_q30[2]};
-    if (GN_SMOOTH(s)) gn_length_unit(length, n_q30, unit_q30);
-#endif
+    if ((GN_PUNCTUAL_LIGHTS || GN_SPECULAR) && GN_SMOOTH(s)) gn_length_unit(length, n_q30, unit_q30);
     for (uint32_t i = 0; i < s->n_lights; i++) {
         int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
         for (int k = 1; k < GN_VALUES_PER_LIGHT; k++) out[k] = 0; /* not always used, but stepped */
-#if GN_PUNCTUAL_LIGHTS
-        if (s->light[i].state->kind != GN_LIGHT_DIRECTIONAL) {
+        if (GN_PUNCTUAL_LIGHTS && s->light[i].state->kind != GN_LIGHT_DIRECTIONAL) {
             GN_COUNT(sample_lights_punctual, 1);
             punctual_values(frame, s, i, px, py, n_q30, unit_q30, sample, out);
             continue;
         }
-#endif
         GN_COUNT(sample_lights, 1);
         out[0] = directional_cosine_q24(frame, s, &s->light[i], h, length, n_q30);
-#if GN_SHADOWS
         if (s->shadowed) directional_coords(frame, s, i, px, py, n_q30, sample, out + 1);
-#else
-        (void)px, (void)py;
-#endif
     }
-#if GN_SPECULAR
-    for (int i = 0; s->specular && i < 3; i++) sample->normal_q30[i] = unit_q30[i];
-#endif
+    if (s->specular) specular_values(frame, px, py, unit_q30, sample);
 }
 
-#if GN_SPECULAR
-/* Against the pixel's ray, in the world. */
-GN_HOT static void to_eye(const gn_frame *frame, int32_t px, int32_t py, int32_t out_q30[3])
+GN_HOT static int32_t attribute_at(const gn_surface *s, const hit *h, int i)
 {
-    const gn_cam *cam = &frame->cam;
-    int64_t towards[3];
-    for (int i = 0; i < 3; i++) /* 2^12 * 2^16 * 2^30, 2^32 * 2^30: halved */
-        towards[i] = -((int64_t)cam->axis_q30[0][i] * px + (int64_t)cam->axis_q30[1][i] * py) * 32768 -
-                     (int64_t)cam->axis_q30[2][i] * (int64_t)(cam->focal2_px_q16 >> 1);
-    gn_normalise_q30(out_q30, towards);
+    return at_hit(h, s->attribute_q16[0][i], s->attribute_q16[1][i], s->attribute_q16[2][i]);
 }
-#endif
 
 GN_HOT static void extra_values(const gn_surface *s, const hit *h, int32_t *value)
 {
@@ -247,18 +264,13 @@ GN_HOT static void extra_values(const gn_surface *s, const hit *h, int32_t *valu
         value[GN_VALUE_UV + i] = gn_texture_coord(&s->uv, s->object->texture, h->b_q30, i);
     for (int i = 0; !s->textured && i < 2; i++) value[GN_VALUE_UV + i] = 0;
 #endif
-#if GN_MASKS
-    for (int i = 0; i < 4; i++)
-        value[GN_VALUE_MASK + i] = s->masked ? at_hit(h, s->mask_q16[0][i], s->mask_q16[1][i], s->mask_q16[2][i]) : 0;
-#endif
-#if GN_BAKED_LIGHT
-    for (int i = 0; i < 3; i++)
-        value[GN_VALUE_BAKED + i] =
-            s->baked ? at_hit(h, s->baked_q16[0][i], s->baked_q16[1][i], s->baked_q16[2][i]) : 0;
-#endif
-    (void)s, (void)h, (void)value;
+    for (int i = 0; GN_MASKS && i < 4; i++)
+        value[GN_VALUE_MASK + i] = s->masked ? attribute_at(s, h, GN_ATTRIBUTE_MASK + i) : 0;
+    for (int i = 0; GN_BAKED_LIGHT && i < 3; i++)
+        value[GN_VALUE_BAKED + i] = s->baked ? attribute_at(s, h, GN_ATTRIBUTE_BAKED + i) : 0;
 }
 
+/* Everything that shading interpolates, at a pixel's centre. [R4] */
 GN_HOT void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
 {
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
@@ -271,36 +283,26 @@ GN_HOT void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, 
     sample->cascade = GN_CASCADE_NONE;
     sample->in_reach = 1;
     for (int i = 0; i < 3; i++)
-        sample->value[GN_VALUE_RGB + i] =
-            GN_COLOURED(s) ? at_hit(&h, s->rgb_q16[0][i], s->rgb_q16[1][i], s->rgb_q16[2][i]) : 0;
+        sample->value[GN_VALUE_RGB + i] = GN_COLOURED(s) ? attribute_at(s, &h, GN_ATTRIBUTE_RGB + i) : 0;
     if (s->first_value < GN_VALUE_Z) extra_values(s, &h, sample->value);
     if (!s->n_lights) return;
     int32_t n[3];
     normal_at(s, &h, n);
     for (int i = 0; GN_SMOOTH(s) && i < 3; i++) sample->normal_q15[i] = n[i] >> 15;
-#if GN_SHADOWS
     if (s->shadowed && asks_for_cascades(frame)) select_cascade(frame, px, py, sample);
-#endif
     light_values(frame, s, &h, px, py, n, sample);
-#if GN_SPECULAR
-    if (s->specular) to_eye(frame, px, py, sample->to_eye_q30);
-#endif
 }
 
 GN_HOT uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
 {
-#if GN_SHADOWS
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
     hit h;
     gn_sample sample;
     intersect(frame, s, px, py, &h);
     sample.value[GN_VALUE_Z] = h.z_q16;
+    sample.cascade = GN_CASCADE_NONE;
     select_cascade(frame, px, py, &sample);
     return (uint32_t)sample.cascade;
-#else
-    (void)frame, (void)s, (void)x, (void)y;
-    return GN_CASCADE_NONE;
-#endif
 }
 
 GN_HOT void gn_sample_normal(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, int32_t normal_q30[3])

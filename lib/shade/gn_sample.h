@@ -1,10 +1,10 @@
-/* A surface at a pixel's centre: everything that shading interpolates (R4). */
+/* A surface at a pixel's centre: everything that shading interpolates. */
 #ifndef GN_SAMPLE_H
 #define GN_SAMPLE_H
 
 #include "shade/gn_surface.h"
 
-/* Everything at the centre of pixel (x, y), exactly (R4): the perspective divide happens here. */
+/* Everything at the centre of pixel (x, y), exactly: the perspective divide happens here. */
 void gn_sample_at(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, gn_sample *sample);
 
 /* The cascade of the surface point at a pixel's centre, GN_CASCADE_NONE: none. */

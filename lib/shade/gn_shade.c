@@ -19,7 +19,6 @@
 
 typedef gn_shading shading;
 
-#if GN_RAW_VIEWS
 /* Q1.30 to 10 bits, offset 512 */
 GN_HOT static uint32_t pack_axis(int64_t v_q30)
 {
@@ -35,6 +34,7 @@ GN_HOT static uint32_t raw_normal(const gn_shading *s, int32_t x, int32_t y)
     return pack_axis(unit[0]) << 20 | pack_axis(unit[1]) << 10 | pack_axis(unit[2]);
 }
 
+/* What a raw view shows of the surface. [A6] */
 GN_HOT static uint32_t raw_value(const gn_shading *s, const gn_sample *sample, int32_t x, int32_t y)
 {
     const gn_picture *picture = &s->frame->picture;
@@ -51,7 +51,6 @@ GN_HOT static uint32_t raw_value(const gn_shading *s, const gn_sample *sample, i
         return (uint32_t)s->tri->object_idx << 16 | s->tri->triangle_idx;
     }
 }
-#endif
 
 GN_HOT static uint32_t pack(gn_shading *s, const uint32_t q20[3])
 {
@@ -71,68 +70,56 @@ GN_HOT static void shade_pixel(gn_shading *s, gn_sample *sample, int32_t x, int3
 {
     sample->x = x;
     sample->y = y;
-#if GN_RAW_VIEWS
-    if (s->frame->picture.format == GN_FORMAT_RAW32) {
+    if (GN_RAW_VIEWS && s->frame->picture.format == GN_FORMAT_RAW32) {
         s->scratch->pixel.raw[(y - s->rect.y0) * s->rows.width + x - s->rect.x0] = raw_value(s, sample, x, y);
         return;
     }
-#endif
     GN_COUNT(shaded, 1);
     gn_light_radiance(s->frame, &s->surface, sample, s->radiance_q20);
     gn_pixel_store(s->frame, &s->rows, x, y, pack(s, s->radiance_q20));
 }
 
-/* What arrives there from spot and point lights. */
-GN_HOT static void find_arrivals(shading *s, gn_sample *sample)
+/* A sample, with what arrives there from spot and point lights. */
+GN_HOT static inline void sample_with_arrivals(shading *s, int32_t x, int32_t y, gn_sample *sample)
 {
-#if GN_PUNCTUAL_LIGHTS
-    gn_arrivals_at(s->frame, &s->surface, sample);
-#else
-    (void)s, (void)sample;
-#endif
+    gn_sample_at(s->frame, &s->surface, x, y, sample);
+    if (GN_PUNCTUAL_LIGHTS) gn_arrivals_at(s->frame, &s->surface, sample);
 }
 
-#if GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1
 /* The n - 1 pixels between two samples, along a chord that is set. */
 GN_HOT static void shade_chord(shading *s, gn_sample *from, const gn_sample *to, int32_t x, int32_t y, int32_t n)
 {
     int32_t first = s->surface.first_value;
     gn_chord *chord = &s->by.run.chord;
-#if GN_ARRIVAL_STEPS
-    gn_arrivals_between(chord, s->frame, &s->surface, from, to, n);
-#else
-    (void)to;
-#endif
+    if (GN_ARRIVAL_STEPS) gn_arrivals_between(chord, s->frame, &s->surface, from, to, n);
     GN_COUNT(stepped, n * (chord->end - first));
     for (int32_t k = 1; k < n; k++) {
         gn_chord_next(chord, from->value, first);
-#if GN_ARRIVAL_STEPS
-        gn_arrivals_next(chord, s->frame, &s->surface, from);
-#endif
+        if (GN_ARRIVAL_STEPS) gn_arrivals_next(chord, s->frame, &s->surface, from);
         shade_pixel(s, from, x + k, y);
     }
 }
-#endif
 
-/* Pixels x_begin <= x < x_end of one row, all of this triangle. Exact at both ends of the run and at least every
- * persp_step pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the
- * triangle. */
-GN_HOT static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
+/* Pixels x_begin <= x < x_end of one row, all of this triangle: every one exact. */
+GN_HOT static inline void shade_run_exact(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
-#if !GN_RUNTIME_KNOBS && GN_PERSP_STEP == 1 /* nothing lies between */
     gn_sample *here = &s->by.run.sample[0];
     GN_ELEMENT(here);
     for (int32_t x = x_begin; x < x_end; x++) {
-        gn_sample_at(s->frame, &s->surface, x, y, here);
-        find_arrivals(s, here);
+        sample_with_arrivals(s, x, y, here);
         shade_pixel(s, here, x, y);
     }
-#else
+}
+
+/* The same, where pixels may lie between exact ones. Exact at both ends of the run and at least every
+ * persp_step pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the
+ * triangle. */
+GN_HOT static inline void shade_run_stepped(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
+{
     int32_t step_px = s->surface.specular ? 1 : GN_K(s->frame, persp_step); /* a highlight is narrower than its n . h */
     gn_chord *chord = &s->by.run.chord;
     gn_sample *here = &s->by.run.sample[0], *next = &s->by.run.sample[1];
-    gn_sample_at(s->frame, &s->surface, x_begin, y, here);
-    find_arrivals(s, here);
+    sample_with_arrivals(s, x_begin, y, here);
     shade_pixel(s, here, x_begin, y);
     for (int32_t x = x_begin; x < x_end - 1;) {
         int32_t n = gn_min32(step_px, x_end - 1 - x);
@@ -141,7 +128,7 @@ GN_HOT static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t 
             n >>= 1;
             gn_sample_at(s->frame, &s->surface, x + n, y, next);
         }
-        find_arrivals(s, next);
+        if (GN_PUNCTUAL_LIGHTS) gn_arrivals_at(s->frame, &s->surface, next);
         if (n > 1) shade_chord(s, here, next, x, y, n);
         gn_sample *swap = here;
         here = next;
@@ -149,7 +136,13 @@ GN_HOT static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t 
         x += n;
         shade_pixel(s, here, x, y);
     }
-#endif
+}
+
+/* Every pixel by division, or steps between exact samples. [R4] */
+GN_HOT static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
+{
+    if (!GN_RUNTIME_KNOBS && GN_PERSP_STEP == 1) shade_run_exact(s, y, x_begin, x_end);
+    else shade_run_stepped(s, y, x_begin, x_end);
 }
 
 /* The pixel of a surface that looks the same all over. */
@@ -160,7 +153,7 @@ GN_HOT static uint32_t constant_pixel(gn_shading *s)
     uint32_t radiance_q20[3];
     sample->cascade = GN_CASCADE_NONE;
     for (uint32_t i = 0; i < s->surface.n_lights; i++)
-        sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i] = s->surface.light[i].flat_cosine_q24;
+        sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i] = s->surface.light[i].cosine_q24[0];
     gn_light_radiance(s->frame, &s->surface, sample, radiance_q20);
     return pack(s, radiance_q20);
 }
@@ -190,11 +183,7 @@ GN_HOT static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, 
 {
     const uint32_t *cells = GN_CELLS(s->scratch), stride = (uint32_t)GN_K(s->frame, tile_width),
                    id = cells[first] & 0xFFFFU;
-#if GN_SIZE_FIRST
-    const gn_rect *const r = part;
-#else
-    const gn_rect copy = *part, *const r = &copy; /* in registers */
-#endif
+    const gn_rect copy = *part, *const r = GN_SIZE_FIRST ? part : &copy; /* a copy is in registers */
     uint32_t i = first, next, row = first - first % stride;
     int32_t y = s->rect.y0 + (int32_t)(first / stride), left = s->rect.x0;
     for (;; i = next) {
@@ -247,6 +236,24 @@ GN_HOT static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first
         }
     }
 }
+
+/* A triangle whose first run is taken. Returns 0 if its surface cannot be shaded so. */
+GN_HOT static int shade_in_pieces(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
+{
+    gn_pieces *pieces = &s->by.pieces;
+    gn_rect *spanned = &s->spanned;
+    if (!gn_pieces_fit(s->frame, &s->surface)) return 0;
+    link_runs(s, taker, first, n_px);
+    if (!gn_pieces_begin(pieces, s->frame, &s->surface, spanned)) shade_part(s, NULL, first, spanned);
+    else shade_pieces(s, pieces, first, spanned);
+    return 1;
+}
+#else
+GN_HOT static int shade_in_pieces(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
+{
+    (void)s, (void)taker, (void)first, (void)n_px;
+    return 0;
+}
 #endif
 
 GN_HOT static void shade_triangle(gn_shading *s, uint32_t tri_idx)
@@ -262,16 +269,7 @@ GN_HOT static void shade_triangle(gn_shading *s, uint32_t tri_idx)
     gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
     constant = gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32;
     if (constant) packed = constant_pixel(s);
-#if GN_PIECES
-    else if (gn_pieces_fit(frame, &s->surface)) {
-        gn_pieces *pieces = &s->by.pieces;
-        gn_rect *spanned = &s->spanned;
-        link_runs(s, &taker, first, n_px);
-        if (!gn_pieces_begin(pieces, frame, &s->surface, spanned)) shade_part(s, NULL, first, spanned);
-        else shade_pieces(s, pieces, first, spanned);
-        return;
-    }
-#endif
+    else if (shade_in_pieces(s, &taker, first, n_px)) return;
     do {
         int32_t x = s->rect.x0 + (int32_t)(first % stride), y = s->rect.y0 + (int32_t)(first / stride);
         GN_COUNT(runs, 1);
@@ -345,6 +343,27 @@ GN_HOT static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uin
     sorter->n_linked++;
 }
 
+/* Fills a short run of a plain object in, and leaves it out. */
+GN_HOT static inline void fill_short_run(uint16_t *out, uint32_t *first, uint32_t n_px, uint32_t packed)
+{
+    GN_COUNT(runs, 1);
+    GN_COUNT(filled, n_px);
+    gn_runs_drop(first);
+    do {
+        *out++ = (uint16_t)packed;
+        GN_KEEP(out);
+    } while (--n_px);
+}
+
+/* Nothing is known yet. */
+GN_HOT static void sorter_begin(run_sorter *sorter, gn_shading *s)
+{
+    sorter->s = s;
+    sorter->n_linked = 0;
+    sorter->plain_idx = sorter->lit_idx = UINT32_MAX;
+    for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) sorter->looks[i].object_idx = UINT32_MAX;
+}
+
 /* Links the tile's runs, but for those of plain objects, which it fills in. Returns how many are linked. */
 GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
 {
@@ -355,10 +374,7 @@ GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
              lit_idx = UINT32_MAX, packed = 0;
     uint32_t *cells = GN_CELLS(s->scratch), *row = cells + n_rows * GN_K(frame, tile_width), n_linked = 0;
     uint16_t *pixel = s->scratch->pixel.rgb565 + (uint32_t)n_rows * width;
-    sorter.s = s;
-    sorter.n_linked = 0;
-    sorter.plain_idx = sorter.lit_idx = UINT32_MAX;
-    for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) sorter.looks[i].object_idx = UINT32_MAX;
+    sorter_begin(&sorter, s);
     gn_runs_clear(s->scratch);
     while (row > cells) {
         row -= GN_K(frame, tile_width);
@@ -369,14 +385,7 @@ GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
             uint32_t id = *last & id_mask, *first = gn_runs_first(last, id_mask), n_px = (uint32_t)(last - first) + 1;
             last = first;
             if (!GN_SIZE_FIRST && n_px < 8 && (end - id)->object_idx == plain_idx) {
-                uint16_t *out = pixel + (first - row);
-                GN_COUNT(runs, 1);
-                GN_COUNT(filled, n_px);
-                gn_runs_drop(first);
-                do {
-                    *out++ = (uint16_t)packed;
-                    GN_KEEP(out);
-                } while (--n_px);
+                fill_short_run(pixel + (first - row), first, n_px, packed);
                 continue;
             }
             if (!GN_SIZE_FIRST && (end - id)->object_idx == lit_idx) {
@@ -399,14 +408,12 @@ GN_HOT static void clear_background(gn_shading *s)
     const gn_frame *frame = s->frame;
     for (int c = 0; c < 3; c++) s->last_q20[c] = frame->scene->background_uq16[c] << 4;
     s->last_pixel = gn_pixel_pack(frame, s->last_q20);
-#if GN_RAW_VIEWS
-    if (frame->picture.format == GN_FORMAT_RAW32) {
+    if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) {
         int32_t n = s->rows.width * (s->rect.y1 - s->rect.y0);
         for (int32_t i = 0; i < n; i++) s->scratch->pixel.raw[i] = UINT32_MAX;
         return;
     }
-#endif
-    /* bits after a row's last pixel are flushed with it and count when tiles are compared (R6) */
+    /* bits after a row's last pixel are flushed with it and count when tiles are compared */
     if (GN_OTHER_FORMATS && (frame->picture.format == GN_FORMAT_GREY4 || frame->picture.format == GN_FORMAT_MONO1))
         memset(s->scratch->pixel.bytes, 0, gn_pixel_bytes(frame, s->rows.width, s->rect.y1 - s->rect.y0));
     for (int32_t y = s->rect.y0; y < s->rect.y1; y++)
@@ -427,10 +434,7 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     clear_background(s);
     if (!sort_runs(s, s->rect.y1 - s->rect.y0)) return;
     s->cache.object = NULL;
-    s->cache.lights = UINT64_MAX;
-#if GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS
-    s->cache.lights = gn_punctual_in_tile(frame, &s->rect);
-#endif
+    s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
     for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++)
         shade_triangle(s, frame->tile_ref[i]);

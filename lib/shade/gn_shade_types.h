@@ -5,44 +5,48 @@
 #include "shadow/gn_shadow_types.h"
 #include "visible/gn_visible_types.h"
 
+/* n . L of a directional light at the vertices, for Gouraud shading; otherwise at the first. */
+#define GN_VERTEX_COSINES (GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT ? 3 : 1)
+
 /* A light of the surface's list. */
 typedef struct {
     const gn_light_state *state;
     uint32_t idx;
-    uint32_t radiance_uq16[3]; /* albedo times colour */
-    /* where the normal is constant, for directional lights: n . L, and the receiver's offset in texels; B6: what
-     * gn_bias_auto_face says */
-    int32_t flat_cosine_q24;
-    int32_t flat_offset_q16[3];
-#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
-    int32_t vertex_cosine_q24[3]; /* at vertex 0, and differences of the others to it; smooth surfaces and directional
-                                     lights only */
-#endif
+    uint32_t radiance_uq16[3];             /* albedo times colour */
+    int32_t cosine_q24[GN_VERTEX_COSINES]; /* directional: n . L at vertex 0, then differences of vertices 1 and 2 to
+                                              it; smooth surfaces: only for Gouraud shading */
+    int32_t flat_offset_q16[3]; /* directional, where the normal is constant: the receiver's offset in texels; B6: what
+                                   gn_bias_auto_face says */
 } gn_surface_light;
+
+/* What a surface interpolates between its vertices, Q16: colour, shadow masks or coordinates of the mask image, baked
+ * irradiance. Those that are not built take no place. */
+enum {
+    GN_ATTRIBUTE_RGB = 0,
+    GN_ATTRIBUTE_MASK = GN_ATTRIBUTE_RGB + 3,
+    GN_ATTRIBUTE_BAKED = GN_ATTRIBUTE_MASK + (GN_MASKS ? 4 : 0),
+    GN_ATTRIBUTE_COUNT = GN_ATTRIBUTE_BAKED + (GN_BAKED_LIGHT ? 3 : 0)
+};
 
 typedef struct {
     const gn_object *object;
-    uint8_t has_bary, smooth, coloured, textured, masked, baked, specular;
-    uint8_t shadowed; /* some light's shadow may fall on it */
-    int32_t first_value, n_values;
-    uint32_t n_lights, n_punctual;
-    uint32_t
-        base_q20[3]; /* albedo times ambient: with the lights' radiance_uq16, weighted, it sums up to the radiance */
+    uint8_t has_bary, coloured, textured, masked, baked, specular;
+    uint8_t smooth;                /* its vertices' normals differ, */
+    uint8_t curved;                /* by 2^-10 or more: B6 takes the interpolated normal */
+    uint8_t bent;                  /* a corner's turns away from the face: B6 takes lift_q30 alone */
+    uint8_t shadowed;              /* some light's shadow may fall on it */
+    uint16_t n_lights, n_punctual; /* no bytes: those would be loaded again after every store */
+    int16_t first_value, n_values;
+    uint32_t base_q20[3]; /* albedo times ambient: with the lights' radiance_uq16, weighted, it sums up to radiance */
     gn_plane plane;
     gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
     int32_t z_min_q16, z_max_q16;
     gn_bary bary;
-    int32_t normal_q30[3]
-                      [3]; /* vertex 0, then differences of vertices 1 and 2 to it; flat: the face normal and zeros */
-    int32_t rgb_q16[3][3]; /* likewise for vertex colours */
+    /* vertex 0, then differences of vertices 1 and 2 to it */
+    int32_t normal_q30[3][3]; /* flat: the face normal and zeros */
+    int32_t attribute_q16[3][GN_ATTRIBUTE_COUNT];
 #if GN_TEXTURES
     gn_texture_triangle uv;
-#endif
-#if GN_MASKS
-    int32_t mask_q16[3][4];
-#endif
-#if GN_BAKED_LIGHT
-    int32_t baked_q16[3][3];
 #endif
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     int32_t face_q30[3]; /* normal of the face in the world; only where some light of the list asks for it */
@@ -54,10 +58,9 @@ typedef struct {
 } gn_surface;
 
 /* What a build without any cannot have. */
-#define GN_SMOOTH(s) (GN_VERTEX_NORMALS && (s)->smooth)
-#define GN_CURVED(s)                                                                                                   \
-    (GN_VERTEX_NORMALS && (s)->smooth > 1) /* by 2^-10 or more: B6 takes the interpolated normal, with */
-#define GN_BENT(s)     ((s)->smooth > 2)   /* corners that turn away from the face: only lift_q30 */
+#define GN_SMOOTH(s)   (GN_VERTEX_NORMALS && (s)->smooth)
+#define GN_CURVED(s)   (GN_VERTEX_NORMALS && (s)->curved)
+#define GN_BENT(s)     (GN_VERTEX_NORMALS && (s)->bent)
 #define GN_COLOURED(s) (GN_VERTEX_COLOURS && (s)->coloured)
 #define GN_HAS_BARY(s)                                                                                                 \
     ((GN_VERTEX_NORMALS || GN_VERTEX_COLOURS || GN_TEXTURES || GN_MASKS || GN_BAKED_LIGHT) && (s)->has_bary)
@@ -93,7 +96,6 @@ enum {
  * units. */
 enum { GN_LIGHT_FACING, GN_LIGHT_POINT_AT, GN_LIGHT_OFFSET = 4 };
 
-#if GN_PUNCTUAL_LIGHTS
 /* What arrives at a sample from a spot or point light: gn_arrival.h. */
 typedef struct {
     uint32_t irradiance_q24; /* of a light whose colour is 1 */
@@ -123,7 +125,6 @@ typedef struct {
     int32_t at[3]; /* U and V, Q20, and 1 - depth, Q32 * 2^(up - 2) */
     int32_t up;
 } gn_arrival_steps;
-#endif
 
 #define GN_CASCADE_NONE 4
 
@@ -152,7 +153,6 @@ typedef struct {
 #endif
 } gn_chord;
 
-#if GN_PIECES
 /* Linear on the screen: at a place, and its change per pixel to the right and down. */
 typedef struct {
     int32_t at, dx, dy;
@@ -164,7 +164,6 @@ typedef struct {
     int32_t dxx_q28, dxy_q28, dyy_q28;
 } gn_curve;
 
-#if GN_TURNING
 /* N, the normal times n . ray over that of the middle, is linear over a piece, with (x, y) from the middle. */
 typedef struct {
     gn_slope facing_q28[GN_SURFACE_LIGHTS]; /* N . L */
@@ -173,7 +172,6 @@ typedef struct {
     uint32_t per_px_q16; /* how far it turns from pixel to pixel, at most; radians */
     uint32_t keep_uq16;  /* of the light that casts a shadow, what this leaves */
 } gn_turning;
-#endif
 
 typedef struct {
     const struct gn_frame *frame;
@@ -210,7 +208,6 @@ typedef struct {
     int32_t cell_reach[3];                     /* of U, V, D from the middle of a cell to its corners */
 #endif
 } gn_pieces;
-#endif
 
 /* The tile, and the triangle at hand. */
 typedef struct {

@@ -19,7 +19,7 @@ GN_HOT static uint32_t faded(uint32_t x_uq16, uint32_t k_uq16)
 }
 
 #if GN_SHADOWS
-/* D5: 65536 up to the start of the fade, 0 from the max distance on. */
+/* 65536 up to the start of the fade, 0 from the max distance on. [D5] */
 GN_HOT static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
 {
     if ((uint32_t)z_q16 <= frame->fade_start_q16) return GN_ONE_UQ16;
@@ -28,6 +28,7 @@ GN_HOT static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
     return (uint32_t)gn_clamp64(gn_bf_apply(left_q16, frame->fade_scale, 32), 0, GN_ONE_UQ16);
 }
 
+/* What distance leaves of shadows; 65536: all. [D5] [D6] [D11] */
 GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
 {
     if (!surface->shadowed || !sample->in_reach) return 0;
@@ -35,15 +36,24 @@ GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surf
     if (frame->scene->shadow.distance_mode == GN_DISTANCE_DEPTH) g = distance_fade_at(frame, sample->value[GN_VALUE_Z]);
     if (!frame->has_cascades) return g;
     if (sample->cascade == GN_CASCADE_NONE) return 0;
-    return sample->cascade == GN_LAST_CASCADE(frame) ? gn_mul_uq16(g, (uint32_t)sample->value[GN_VALUE_FADE])
-                                                     : g; /* D6 */
+    return sample->cascade == GN_LAST_CASCADE(frame) ? gn_mul_uq16(g, (uint32_t)sample->value[GN_VALUE_FADE]) : g;
 }
 
 /* ---- Lookups ----------------------------------------------------------------------------------------------------- */
 
+/* Normal of the face, where the receiver's plane is built. */
+GN_HOT static inline const int32_t *face_of(const gn_surface *surface)
+{
 #if GN_RECEIVER_PLANE
-/* B5: the slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the
- * range. */
+    return surface->face_q30;
+#else
+    (void)surface;
+    return NULL;
+#endif
+}
+
+/* The slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the
+ * range. [B5] */
 GN_HOT static int32_t limit_slope(const gn_light_view *view, int64_t slope_q28)
 {
     int64_t most = (int64_t)1 << (32 - view->tile_log2);
@@ -59,7 +69,6 @@ GN_HOT static void ortho_slopes(const gn_light_view *view, const int32_t face_q3
         slope_q28[i] = limit_slope(view, gn_bf_apply(w < 0 ? u : -u, per_w, 28 - view->tile_log2 - view->depth_log2));
     }
 }
-#endif
 
 GN_HOT static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                                          const gn_light_view *view, const int32_t coord[3])
@@ -72,15 +81,12 @@ GN_HOT static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface
         uint64_t share = up >= 0 ? (uint64_t)(uint32_t)coord[2] << up : (uint32_t)coord[2] >> -up;
         r.depth_q32 = share > UINT32_MAX ? UINT32_MAX : (uint32_t)share;
     }
-#if GN_RECEIVER_PLANE
-    if (frame->scene->lights[view->light_idx].receiver_plane) ortho_slopes(view, surface->face_q30, r.slope_q28);
-#else
-    (void)surface;
-#endif
+    if (GN_RECEIVER_PLANE && frame->scene->lights[view->light_idx].receiver_plane)
+        ortho_slopes(view, face_of(surface), r.slope_q28);
     return gn_filter_attenuation(frame, view, &r);
 }
 
-/* Attenuation in the sample's cascade, blended with the next one (D7). */
+/* Attenuation in the sample's cascade, blended with the next one [D7]. */
 GN_HOT static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                                             const gn_light_view *first, const int32_t *coord)
 {
@@ -99,7 +105,6 @@ GN_HOT static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surf
 }
 
 #if GN_PUNCTUAL_LIGHTS
-#if GN_RECEIVER_PLANE
 /* With m . P = h on the face: n / z = n (m_u x/z + m_v y/z + m_w) / h is linear over the tile. */
 GN_HOT static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
                                 int32_t slope_q28[2])
@@ -112,7 +117,6 @@ GN_HOT static void persp_slopes(const gn_light_view *view, const int32_t face_q3
         slope_q28[i] = limit_slope(view, gn_bf_apply(h < 0 ? m : -m, per_h, -2));
     }
 }
-#endif
 
 GN_HOT static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface,
                                                      const gn_sample *sample, uint32_t slot)
@@ -126,11 +130,17 @@ GN_HOT static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, cons
     const gn_light_view *view = &frame->view[surface->light[slot].state->view_idx + at->face];
     GN_ELEMENT(view);
     gn_receiver r = {at->u_q16, at->v_q16, at->depth_q32, {0, 0}, sample->x, sample->y};
-#if GN_RECEIVER_PLANE
     const int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];
-    if (frame->scene->lights[view->light_idx].receiver_plane) persp_slopes(view, surface->face_q30, from, r.slope_q28);
-#endif
+    if (GN_RECEIVER_PLANE && frame->scene->lights[view->light_idx].receiver_plane)
+        persp_slopes(view, face_of(surface), from, r.slope_q28);
     return gn_filter_attenuation(frame, view, &r);
+}
+#else
+GN_HOT static uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                         uint32_t slot)
+{
+    (void)frame, (void)surface, (void)sample, (void)slot;
+    return GN_ONE_UQ16;
 }
 #endif
 
@@ -139,9 +149,7 @@ GN_HOT static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *s
 {
     const gn_light_state *light = surface->light[slot].state;
     const gn_light_view *first = &frame->view[light->view_idx];
-#if GN_PUNCTUAL_LIGHTS
-    if (first->perspective) return persp_attenuation(frame, surface, sample, slot);
-#endif
+    if (GN_PUNCTUAL_LIGHTS && first->perspective) return persp_attenuation(frame, surface, sample, slot);
     const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
     if (first->border_lit) return ortho_attenuation(frame, surface, sample, first, value + 1);
     return cascaded_attenuation(frame, surface, sample, first, value + 1);
@@ -152,25 +160,28 @@ GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surf
     (void)frame, (void)surface, (void)sample;
     return 0;
 }
+
+GN_HOT static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                      uint32_t slot)
+{
+    (void)frame, (void)surface, (void)sample, (void)slot;
+    return GN_ONE_UQ16;
+}
 #endif
 
 /* ---- Mixing ------------------------------------------------------------------------------------------------------ */
 
-/* M5: the mask of a light's channel, 65536: lit, or no mask. */
+/* The mask of a light's channel, 65536: lit, or no mask. [M5] */
 GN_HOT static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int32_t channel)
 {
-#if GN_MASKS
-    if (!surface->masked || channel < 0) return GN_ONE_UQ16;
+    if (!GN_MASKS || !surface->masked || channel < 0) return GN_ONE_UQ16;
     const int32_t *value = &sample->value[GN_VALUE_MASK];
     if (surface->object->mask_image)
         return gn_texture_mask(surface->object->mask_image, value[0], value[1], (uint32_t)channel);
     return (uint32_t)gn_max32(0, gn_min32(value[channel], 65536));
-#else
-    (void)surface, (void)sample, (void)channel;
-    return GN_ONE_UQ16;
-#endif
 }
 
+/* Realtime shadow and baked mask, by the light's strength. [M4] [M6] */
 GN_HOT uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                                  uint32_t slot, uint32_t g_uq16)
 {
@@ -179,8 +190,7 @@ GN_HOT uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surfac
     uint32_t strength = light->strength_uq16;
     if (!strength) return GN_ONE_UQ16;
     uint32_t mask = mask_of(surface, sample, light->mask_channel);
-#if GN_SHADOWS
-    if (light->view_idx < 0 || !gn_mul_uq16(strength, g_uq16)) return faded(mask, strength);
+    if (!GN_SHADOWS || light->view_idx < 0 || !gn_mul_uq16(strength, g_uq16)) return faded(mask, strength);
     uint32_t realtime = attenuation_of(frame, surface, sample, slot);
     switch (frame->scene->shadow.mixing) {
     case GN_MIXING_ALWAYS:
@@ -189,10 +199,6 @@ GN_HOT uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surfac
     case GN_MIXING_DISTANCE:
         return faded(gn_mul_uq16(mask, GN_ONE_UQ16 - g_uq16) + gn_mul_uq16(realtime, g_uq16), strength);
     default:
-        return faded(realtime, gn_mul_uq16(strength, g_uq16)); /* M4 */
+        return faded(realtime, gn_mul_uq16(strength, g_uq16));
     }
-#else
-    (void)frame, (void)g_uq16;
-    return faded(mask, strength);
-#endif
 }

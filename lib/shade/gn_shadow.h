@@ -1,5 +1,4 @@
-/* Shadow of one light at a sample: lookup, blending of cascades, mixing with baked masks (D5-D7, P5, M4-M6,
- * DESIGN 1.4, 1.7, 1.9). */
+/* Shadow of one light at a sample: lookup, blending of cascades, mixing with baked masks (DESIGN 1.4, 1.7, 1.9). */
 #ifndef GN_SHADOW_H
 #define GN_SHADOW_H
 

@@ -13,7 +13,7 @@
 
 #define GN_ONE_Q30 (1 << 30)
 
-/* Nothing arrives at an unlit surface; only the shadow view asks which lights it faces. */
+/* Nothing arrives at an unlit surface; only the shadow view asks which lights it faces. [M2] */
 GN_HOT static int without_light(const gn_frame *frame, const gn_surface *s)
 {
     if (!(s->object->flags & GN_OBJECT_UNLIT)) return 0;
@@ -34,7 +34,6 @@ GN_HOT static void face_normal(const gn_frame *frame, const gn_surface *s, int32
         for (int i = 0; i < 3; i++) out_q30[i] = -frame->cam.axis_q30[2][i];
 }
 
-#if !GN_SIZE_FIRST
 GN_HOT static inline int64_t absolute(int64_t v)
 {
     return (v ^ (v >> 63)) - (v >> 63);
@@ -71,23 +70,23 @@ GN_HOT void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], co
         out_q30[i] = gn_max32(-(1 << 30), gn_min32(v, 1 << 30));
     }
 }
-#endif
 
+/* Of the vertices, or of the face where they have none. [M3] */
 GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++) s->normal_q30[k][i] = 0;
-    s->smooth = 0;
     if (s->object->flags & GN_OBJECT_UNLIT && !GN_RAW_VIEWS) return;
-    s->smooth = GN_VERTEX_NORMALS && mesh->nrm_q15;
-    if (!GN_SMOOTH(s)) {
+    if (!GN_VERTEX_NORMALS || !mesh->nrm_q15) {
         face_normal(frame, s, s->normal_q30[0]);
         return;
     }
     int32_t n[3][3];
     for (int k = 0; k < 3; k++) {
-        gn_surface_normal(n[k], cache->normal_matrix, mesh->nrm_q15 + 3 * (size_t)idx[k]);
+        const gn_normal *nrm_q15 = mesh->nrm_q15 + 3 * (size_t)idx[k];
+        if (GN_SIZE_FIRST) gn_xform_normal(n[k], cache->normal_matrix, nrm_q15);
+        else gn_surface_normal(n[k], cache->normal_matrix, nrm_q15);
         if (s->plane.back)
             for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
     }
@@ -99,7 +98,16 @@ GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache,
             any |= gn_abs32(s->normal_q30[k][i]);
         }
     }
-    s->smooth = any ? any >> 20 ? 2 : 1 : 0; /* three equal normals: a flat triangle after all */
+    s->smooth = any != 0; /* three equal normals: a flat triangle after all */
+    s->curved = any >> 20 != 0;
+}
+
+/* Attribute i of the surface, by its values at the three vertices: 65535 means 1. */
+GN_HOT static void set_attribute(gn_surface *s, int i, const int32_t at[3])
+{
+    int32_t first = at[0] + (at[0] >> 15);
+    s->attribute_q16[0][i] = first;
+    for (int k = 1; k < 3; k++) s->attribute_q16[k][i] = at[k] + (at[k] >> 15) - first;
 }
 
 GN_HOT static void vertex_colours(gn_surface *s, const uint16_t *idx)
@@ -110,26 +118,25 @@ GN_HOT static void vertex_colours(gn_surface *s, const uint16_t *idx)
     for (int i = 0; i < 3; i++) {
         int32_t c[3];
         for (int k = 0; k < 3; k++) c[k] = mesh->rgb_uq16[3 * (size_t)idx[k] + (size_t)i];
-        for (int k = 0; k < 3; k++) c[k] += c[k] >> 15; /* 65535 means 1 */
-        s->rgb_q16[0][i] = c[0];
-        s->rgb_q16[1][i] = c[1] - c[0];
-        s->rgb_q16[2][i] = c[2] - c[0];
+        set_attribute(s, GN_ATTRIBUTE_RGB + i, c);
     }
 }
 
-#if GN_TEXTURES
 GN_HOT static void texture_coords(gn_surface *s, const uint16_t *idx)
 {
-    s->textured = s->object->texture != NULL;
+    s->textured = GN_TEXTURES && s->object->texture != NULL;
+#if GN_TEXTURES
     if (s->textured) gn_texture_corners(&s->uv, s->object->mesh, s->object->texture, idx);
-}
+#else
+    (void)idx;
 #endif
+}
 
-#if GN_MASKS
+/* Shadow masks at the corners: coordinates of an image, or four channels. [M5] */
 GN_HOT static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
 {
     const gn_object *object = s->object;
-    s->masked = frame->scene->shadow.mixing != GN_MIXING_NONE && (object->flags & GN_OBJECT_RECEIVES) &&
+    s->masked = GN_MASKS && frame->scene->shadow.mixing != GN_MIXING_NONE && (object->flags & GN_OBJECT_RECEIVES) &&
                 !(object->flags & GN_OBJECT_UNLIT) && (object->mask_u8 || object->mask_image);
     if (!s->masked) return;
     for (int i = 0; i < (object->mask_image ? 2 : 4); i++) {
@@ -137,46 +144,31 @@ GN_HOT static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *i
         for (int k = 0; k < 3; k++) {
             if (object->mask_image) m[k] = object->mesh->mask_uv_uq16[2 * (size_t)idx[k] + (size_t)i];
             else m[k] = object->mask_u8[4 * (size_t)idx[k] + (size_t)i] * 257; /* 255 to 65535 */
-            m[k] += m[k] >> 15;
         }
-        s->mask_q16[0][i] = m[0];
-        s->mask_q16[1][i] = m[1] - m[0];
-        s->mask_q16[2][i] = m[2] - m[0];
+        set_attribute(s, GN_ATTRIBUTE_MASK + i, m);
     }
 }
-#endif
 
-#if GN_BAKED_LIGHT
+/* Baked irradiance at the corners. [M9] */
 GN_HOT static void baked_light(gn_surface *s, const uint16_t *idx)
 {
-    s->baked = s->object->baked_uq12 != NULL && !(s->object->flags & GN_OBJECT_UNLIT);
+    s->baked = GN_BAKED_LIGHT && s->object->baked_uq12 != NULL && !(s->object->flags & GN_OBJECT_UNLIT);
     for (int i = 0; s->baked && i < 3; i++) {
         int32_t b[3];
         for (int k = 0; k < 3; k++) b[k] = s->object->baked_uq12[3 * (size_t)idx[k] + (size_t)i] << 4;
-        s->baked_q16[0][i] = b[0];
-        s->baked_q16[1][i] = b[1] - b[0];
-        s->baked_q16[2][i] = b[2] - b[0];
+        for (int k = 0; k < 3; k++) s->attribute_q16[k][GN_ATTRIBUTE_BAKED + i] = b[k] - (k > 0 ? b[0] : 0);
     }
 }
-#endif
 
 GN_HOT static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
 {
-    s->textured = s->masked = s->baked = s->specular = 0;
-#if GN_TEXTURES
     texture_coords(s, idx);
-#endif
     normals(frame, cache, s, idx);
-#if GN_MASKS
     masks(frame, s, idx);
-#endif
-#if GN_BAKED_LIGHT
     baked_light(s, idx);
-#endif
-#if GN_SPECULAR
     const uint32_t *specular = s->object->specular_uq16;
-    s->specular = (specular[0] | specular[1] | specular[2]) != 0 && !(s->object->flags & GN_OBJECT_UNLIT);
-#endif
+    s->specular =
+        GN_SPECULAR && (specular[0] | specular[1] | specular[2]) != 0 && !(s->object->flags & GN_OBJECT_UNLIT);
     s->has_bary = s->smooth | s->coloured | s->textured | s->masked | s->baked;
     s->first_value = s->textured | s->masked | s->baked ? 0 : GN_VALUE_Z;
 }
@@ -221,7 +213,7 @@ GN_HOT static void add_punctual(const gn_frame *frame, const gn_surface_cache *c
     s->n_punctual++;
 }
 
-/* The object's list, or all lights where none is kept. */
+/* The object's list, or all lights where none is kept. [P9] */
 GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
 {
     const gn_object_state *object = &frame->object[s->object - frame->scene->objects];
@@ -232,13 +224,17 @@ GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
         if (frame->light[l].kind != GN_LIGHT_DIRECTIONAL && !frame->light[l].off) add_punctual(frame, cache, s, v, l);
 }
+#else
+GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+{
+    (void)frame, (void)cache, (void)s, (void)v;
+}
 #endif
 
 /* A face that is edge-on to a light but for the last bits of its normal takes none of it: walls along the light's way
  * are common, and a highlight is not small there. */
 #define GN_GRAZING_Q24 8
 
-#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
 /* n . L at the vertices, where it is not below 0. Returns 0 if it is nowhere above. */
 GN_HOT static int vertex_cosines(const gn_surface *s, const gn_light_state *light, int32_t out_q24[3])
 {
@@ -254,7 +250,6 @@ GN_HOT static int vertex_cosines(const gn_surface *s, const gn_light_state *ligh
     out_q24[2] = at[2] - at[0];
     return any;
 }
-#endif
 
 GN_HOT static void directional_lights(const gn_frame *frame, gn_surface *s)
 {
@@ -267,13 +262,8 @@ GN_HOT static void directional_lights(const gn_frame *frame, gn_surface *s)
         if (!GN_SMOOTH(s)) {
             int32_t cosine = gn_length_cosine_q24(length, s->normal_q30[0], light->to_light_q30);
             if (cosine <= GN_GRAZING_Q24) continue;
-            s->light[s->n_lights].flat_cosine_q24 = cosine;
-        }
-#if GN_RUNTIME_KNOBS || GN_VERTEX_LIGHT
-        int lit = !s->smooth || !GN_K(frame, vertex_light) ||
-                  vertex_cosines(s, light, s->light[s->n_lights].vertex_cosine_q24);
-        if (!lit) continue;
-#endif
+            s->light[s->n_lights].cosine_q24[0] = cosine;
+        } else if (GN_K(frame, vertex_light) && !vertex_cosines(s, light, s->light[s->n_lights].cosine_q24)) continue;
         list_light(frame, s, l);
     }
 }
@@ -282,8 +272,8 @@ GN_HOT static void directional_lights(const gn_frame *frame, gn_surface *s)
 #if GN_AUTO_BIAS
 #define GN_LEAST_ALONG_Q28 (7 << 25)
 
-/* B6, curved: with this the interpolated normal has a part of 1 or more along the face's everywhere. Where a corner's
- * is too far from the face's, that alone is taken. */
+/* Curved surfaces: with this the interpolated normal has a part of 1 or more along the face's everywhere. Where a
+ * corner's is too far from the face's, that alone is taken. [B6] */
 GN_HOT static void lift_normal(gn_surface *s)
 {
     int32_t least = -4; /* Q28; roundings */
@@ -292,7 +282,7 @@ GN_HOT static void lift_normal(gn_surface *s)
         if (k == 0) least += along;
         else if (along < least) least = along;
     }
-    if (least < GN_LEAST_ALONG_Q28) s->smooth = 3, least = 0;
+    if (least < GN_LEAST_ALONG_Q28) s->bent = 1, least = 0;
     for (int i = 0; i < 3; i++) s->lift_q30[i] = (int32_t)(((1 << 30) - 4 * (int64_t)least) * s->face_q30[i] >> 32) * 4;
 }
 #endif
@@ -320,6 +310,7 @@ GN_HOT static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
         gn_bias_directional(frame, view, s->normal_q30[0], s->light[slot].flat_offset_q16);
 }
 
+/* Which lights' shadows an object receives, if any. [M2] */
 GN_HOT static void shadows(const gn_frame *frame, gn_surface *s)
 {
     if (!(s->object->flags & GN_OBJECT_RECEIVES) || s->object->flags & GN_OBJECT_UNLIT) return;
@@ -328,6 +319,11 @@ GN_HOT static void shadows(const gn_frame *frame, gn_surface *s)
         s->shadowed = 1;
         bias(frame, s, i);
     }
+}
+#else
+GN_HOT static void shadows(const gn_frame *frame, gn_surface *s)
+{
+    (void)frame, (void)s;
 }
 #endif
 
@@ -346,18 +342,12 @@ GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache 
     s->n_values = GN_VALUE_LIGHT;
     if (unlit) return;
     directional_lights(frame, s);
-#if GN_PUNCTUAL_LIGHTS
     punctual_lights(frame, cache, s, v);
-#else
-    (void)cache, (void)v;
-#endif
-    s->n_values += GN_VALUES_PER_LIGHT * (int32_t)s->n_lights;
+    s->n_values = (int16_t)(GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * s->n_lights);
     for (uint32_t i = 0; i < s->n_lights; i++)
         for (int c = 0; c < 3; c++)
             s->light[i].radiance_uq16[c] = gn_mul_uq16(s->light[i].state->colour_uq16[c], albedo[c]);
-#if GN_SHADOWS
     shadows(frame, s);
-#endif
 }
 
 GN_HOT static void use_object(const gn_frame *frame, gn_surface_cache *cache, const gn_object *object)
@@ -390,7 +380,7 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surf
     const gn_mesh *mesh = s->object->mesh;
     const uint16_t *idx = mesh->idx + 3 * (size_t)tri->triangle_idx;
     int32_t v[3][3];
-    s->smooth = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
+    s->smooth = s->curved = s->bent = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
     s->first_value = GN_VALUE_Z;
     vertex_colours(s, idx);
     for (int i = 0; i < 3; i++) {

@@ -12,11 +12,7 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
                       const gn_tri *tri);
 
 /* gn_xform_normal(), in one piece where time counts. */
-#if GN_SIZE_FIRST
-#define gn_surface_normal gn_xform_normal
-#else
 void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3]);
-#endif
 
 /* 1: one radiance all over, no need to sample it. */
 GN_HOT static inline int gn_surface_is_constant(const gn_surface *s)

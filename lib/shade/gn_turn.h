@@ -6,8 +6,6 @@
 
 #include "shade/gn_pixel.h"
 
-#if GN_TURNING
-
 /* The normal in the middle of the piece, Q28, and half the sides of the piece, in pixels. Returns 0 if it is shorter
  * than half a unit, or changes by more than two. */
 int gn_turn_select(gn_pieces *pieces, const gn_slope n_q28[3], uint32_t half_w, uint32_t half_h);
@@ -17,5 +15,4 @@ int gn_turn_select(gn_pieces *pieces, const gn_slope n_q28[3], uint32_t half_w, 
 void gn_turn_row(const gn_pieces *pieces, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n,
                  const uint32_t *attenuation, int all);
 
-#endif
 #endif

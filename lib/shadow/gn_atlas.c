@@ -51,7 +51,7 @@ static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t
         }
 }
 
-/* B4: corners move inwards by a share of a texel, which in perspective views grows with distance. */
+/* Corners move inwards by a share of a texel, which in perspective views grows with distance. [B4] */
 static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
 {
     int32_t n[3][3];
@@ -172,6 +172,7 @@ static gn_alpha_cut *alpha_of(gn_casting *casting)
 #endif
 }
 
+/* A caster of any size, shrunk and cut as it is set. [M1] */
 static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
     const caster_job *job = &casting->job;

@@ -9,7 +9,7 @@
 #include "shadow/gn_caster.h"
 #include "shadow/gn_texel.h"
 
-/* Keeps the smaller depth, unless alpha cuts texel u. z in Q32, rounded to the texel's bits. */
+/* Keeps the smaller depth, unless alpha cuts texel u. z in Q32, rounded to the texel's bits. [A4] */
 GN_HOT static void store(gn_texels row, int32_t bits, int32_t u, int64_t z, gn_alpha_cut *alpha)
 {
     const int32_t drop = 32 - bits;

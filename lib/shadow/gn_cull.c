@@ -3,6 +3,7 @@
 
 #include "shadow/gn_cull.h"
 
+/* Whether the object casts at all, and in this layer. [M1] */
 static int in_layer(const gn_object *object, gn_layer layer)
 {
     if (!(object->flags & GN_OBJECT_CASTS)) return 0;
@@ -10,6 +11,7 @@ static int in_layer(const gn_object *object, gn_layer layer)
     return layer == GN_LAYER_ALL || moving == (layer == GN_LAYER_MOVING);
 }
 
+/* By layer, by box, and by what smaller cascades show. [D8] */
 int gn_cull_draws(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx, gn_layer layer, int *culled)
 {
     *culled = 0;

@@ -1,4 +1,4 @@
-/* Which casters are drawn into a tile (D8, A5). */
+/* Which casters are drawn into a tile. */
 #ifndef GN_CULL_H
 #define GN_CULL_H
 

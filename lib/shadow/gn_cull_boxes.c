@@ -14,6 +14,7 @@ static int64_t extent_q16(const int32_t axis_q30[3], const int32_t half_q16[3])
     return (int64_t)(sum >> 30) + 1;
 }
 
+/* Casters before the near plane count, those beyond the range do not. [D9] */
 static int ortho_sees(const gn_frame *frame, const gn_light_view *view, const gn_object_state *object)
 {
     const gn_ortho_fit *fit = &view->fit.ortho;
@@ -22,7 +23,7 @@ static int ortho_sees(const gn_frame *frame, const gn_light_view *view, const gn
         int64_t centre = gn_light_coord_q16(view, i, object->centre_q16) - (int64_t)fit->origin[i] * 65536;
         int64_t half = gn_bf_apply(extent_q16(view->axis_q30[i], object->half_q16), fit->inv_texel, 0) + margin;
         int64_t end = (int64_t)view->tile_texels << (i == 2 ? 16 + view->depth_log2 : 16);
-        if (centre - half > end || (i < 2 && centre + half < 0)) return 0; /* D9: casters before the near plane count */
+        if (centre - half > end || (i < 2 && centre + half < 0)) return 0; /* casters before the near plane count */
     }
     return 1;
 }
@@ -40,11 +41,11 @@ static int persp_sees(const gn_frame *frame, const gn_light_view *view, const gn
         e[i] = extent_q16(view->axis_q30[i], object->half_q16) + 4;
     }
     int64_t deepest = c[2] + e[2], bias = frame->scene->lights[view->light_idx].bias_caster_q16;
-    /* B4 may move casters away from the light too, into the view: 2^19 * 2^33 */
+    /* their bias may move casters away from the light too, into the view: 2^19 * 2^33 */
     if (bias)
         deepest += gn_bf_apply(bias * (deepest > fit->near_q16 ? deepest : fit->near_q16), fit->texel_per_z, -16) + 1;
     if (deepest < fit->near_q16) return 0;
-    /* half-width of the tile at that depth, a texel and the casters' bias (B4) more */
+    /* half-width of the tile at that depth, a texel and the casters' bias more */
     int64_t width = gn_bf_apply(deepest, fit->texel_per_z, view->tile_log2 - 1); /* deepest * t */
     width += (width >> view->tile_log2) * (4 + (2 * bias >> 16)) + 4;
     return (int64_t)gn_abs64(c[0]) - e[0] <= width && (int64_t)gn_abs64(c[1]) - e[1] <= width;

@@ -52,14 +52,14 @@ static int64_t shadow_length_q16(const gn_frame *frame, const gn_light_view *vie
     return length;
 }
 
+/* Leaves casters out of a larger cascade. [D8] */
 int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx)
 {
     const gn_object_state *object = &frame->object[object_idx];
     const gn_light *light = &frame->scene->lights[view->light_idx];
     int64_t share_uq16 = 52429 - (int64_t)frame->scene->shadow.cascade_fade_uq16; /* 0.8 - c */
-    if (share_uq16 <= 0 || light->receiver_plane)
-        return 0;                                       /* B5: a tap may compare with a depth far from the receiver's */
-    for (uint32_t i = 0; i < GN_N_CASCADES(frame); i++) /* A5: an old tile may lack what a new one shows */
+    if (share_uq16 <= 0 || light->receiver_plane) return 0; /* a tap may compare with a depth far from the receiver's */
+    for (uint32_t i = 0; i < GN_N_CASCADES(frame); i++)     /* an old tile may lack what a new one shows */
         if (frame->scene->shadow.refresh[i] > 1) return 0;
     const int64_t zero[3] = {0, 0, 0};
     int64_t c[3], end[3], half[3];

@@ -1,4 +1,4 @@
-/* The rotated disk (F4): taps at points of a disk, which is turned from pixel to pixel. */
+/* The rotated disk: taps at points of a disk, which is turned from pixel to pixel. */
 #ifndef GN_DISK_H
 #define GN_DISK_H
 

@@ -10,7 +10,7 @@
 #include "shadow/gn_tent.h"
 #include "shadow/gn_texel.h"
 
-/* ---- The receiver's plane (B5) ----------------------------------------------------------------------------------- */
+/* ---- The receiver's plane ---------------------------------------------------------------------------------------- */
 
 /* With x the depth at a tap in Q44, h half a step of rounding, s a texel, hence a whole number of steps: s >= round(x)
  * if and only if s > x - h, and, s being also a multiple of 2^12, if and only if s >= floor((x - h) / 2^12) + 1. From a
@@ -22,6 +22,7 @@ GN_HOT static int64_t plane_rise_q44(int32_t slope_q28, int32_t tap_q16, int32_t
     return slope_q28 * ((int64_t)(tap_q16 >> 16) * 65536 + 0x8000 - c_q16);
 }
 
+/* The depth that the first tap is compared with lies on the receiver's plane. [B5] */
 GN_HOT static GN_NOINLINE void start_plane(gn_lookup *l, const gn_receiver *receiver, int32_t dropped)
 {
     int32_t most = 2 << 28;
@@ -37,6 +38,7 @@ GN_HOT static GN_NOINLINE void start_plane(gn_lookup *l, const gn_receiver *rece
 
 /* ---- Filters ----------------------------------------------------------------------------------------------------- */
 
+/* Four texels are compared first, then weighted. [F2] */
 GN_HOT static uint32_t bilinear(const gn_lookup *l, int32_t bits)
 {
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768;
@@ -73,6 +75,7 @@ GN_HOT static int32_t near_tile(int32_t c_q16)
     return (c_q16 < 0 ? -64 : 1088) * 65536 + (c_q16 & 0xFFFF);
 }
 
+/* One texel, hard, unless another filter is set. [F1] */
 GN_HOT static uint32_t filtered(const gn_frame *frame, const gn_lookup *l, const gn_receiver *receiver)
 {
     const int32_t filter = l->view->filter;

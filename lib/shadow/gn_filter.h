@@ -1,4 +1,4 @@
-/* Percentage-closer filtering (F1-F6, B5, DESIGN 1.7). */
+/* Percentage-closer filtering (DESIGN 1.7). */
 #ifndef GN_FILTER_H
 #define GN_FILTER_H
 
@@ -6,15 +6,15 @@
 
 /* A surface point as a light view sees it. */
 typedef struct {
-    int32_t u_q16, v_q16;     /* tile coordinates in texels */
-    uint32_t depth_q32;       /* share of the view's depth range */
-    int32_t slope_q28[2];     /* B5: change of that share per texel along u and v, within +-2; 0: compare with depth_q32
-                                 everywhere */
-    int32_t pixel_x, pixel_y; /* where it is seen: turns the disk (F4) */
+    int32_t u_q16, v_q16; /* tile coordinates in texels */
+    uint32_t depth_q32;   /* share of the view's depth range */
+    int32_t slope_q28[2]; /* receiver's plane: change of that share per texel along u and v, within +-2; 0: compare with
+                             depth_q32 everywhere */
+    int32_t pixel_x, pixel_y; /* where it is seen: turns the disk */
 } gn_receiver;
 
-/* Attenuation 0 (shadowed) .. 65536 (lit). Texels outside the tile repeat its border, or are lit if the view says so
- * (D10). */
+/* Attenuation 0 (shadowed) .. 65536 (lit). Texels outside the tile repeat its border, or are lit if the view says so.
+ */
 uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver);
 
 /* A receiver on the way from pixel to pixel: tile coordinates in texels, Q16, and its share of the view's depth range,

@@ -163,6 +163,7 @@ GN_HOT void gn_filter_row(const gn_frame *frame, const gn_light_view *view, cons
     for (int32_t i = 0; i < n; i++) {
         gn_receiver r = {at.u_q16, at.v_q16, at.depth_q31 < 0 ? 0 : (uint32_t)at.depth_q31 << 1, {0, 0}, 0, 0};
         attenuation[i] = gn_filter_attenuation(frame, view, &r);
+        if (i + 1 == n) return; /* beyond the last pixel the step may leave the range */
         at.u_q16 += step->u_q16;
         at.v_q16 += step->v_q16;
         at.depth_q31 += step->depth_q31;

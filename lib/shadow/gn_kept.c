@@ -45,6 +45,7 @@ static uint64_t object_signature(uint64_t s, const gn_object *object)
     return s;
 }
 
+/* Everything that the texels of a view's tile depend on. [A5] */
 uint64_t gn_kept_signature(const gn_frame *frame, const gn_light_view *view, gn_layer layer)
 {
     uint64_t s = view_signature(frame, view);

@@ -1,4 +1,4 @@
-/* What shadow tiles hold from one frame to the next (A5). */
+/* What shadow tiles hold from one frame to the next. */
 #ifndef GN_KEPT_H
 #define GN_KEPT_H
 

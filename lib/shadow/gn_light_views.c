@@ -27,7 +27,7 @@ static void view_axes(gn_light_view *view, const int32_t w_q30[3])
     gn_cross_q30(axis[1], axis[2], axis[0]);
 }
 
-/* F5 */
+/* The light's softness over the atlas's filter. [F5] */
 static gn_filter resolve_filter(gn_filter atlas, gn_softness softness)
 {
     if (softness == GN_SOFTNESS_HARD) return atlas == GN_FILTER_HARD ? GN_FILTER_HARD : GN_FILTER_2X2;
@@ -50,6 +50,7 @@ static void set_filter(const gn_frame *frame, gn_light_view *view, const gn_ligh
     view->disk_radius_q16 = (int32_t)gn_clamp64(radius_q16, 0, (int64_t)view->filter_idx << 16);
 }
 
+/* Where the view's tile lies, and how many bits its texels have. [A1] [A4] */
 static void set_texels(gn_frame *frame, gn_light_view *view)
 {
     view->depth_bits = (uint8_t)GN_K(frame, depth_bits);
@@ -64,6 +65,7 @@ static void set_texels(gn_frame *frame, gn_light_view *view)
     if (GN_DEPTH_BLOCKS) gn_blocks_find(frame, view);
 }
 
+/* The view of one cascade, or of all of the shadowed distance. [D1] */
 static void fit_directional(gn_frame *frame, gn_light_view *view, const gn_light *light, int cascaded)
 {
     int64_t direction[3] = {light->direction[0], light->direction[1], light->direction[2]};
@@ -95,8 +97,8 @@ static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int
     if (GN_RECEIVER_BIAS) view->offset_q16 += (view->filter_idx + 1) * light->bias_receiver_q16[2];
 }
 
-/* A5: whether the schedule lets a cascade keep its tile of an earlier frame, which slot `idx` still holds. After a
- * frame that was begun but not drawn the slot holds a fit that its texels do not belong to. */
+/* Whether the schedule lets a cascade keep its tile of an earlier frame, which slot `idx` still holds. After a
+ * frame that was begun but not drawn the slot holds a fit that its texels do not belong to. [A5] */
 static inline int stays(const gn_frame *frame, uint32_t idx, uint32_t light_idx, uint32_t cascade_idx)
 {
     uint32_t period = frame->scene->shadow.refresh[cascade_idx];

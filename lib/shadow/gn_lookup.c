@@ -4,7 +4,7 @@
 #include "base/gn_q.h"
 #include "shadow/gn_lookup.h"
 
-/* Taps are limited to the tile (P8). */
+/* Taps are limited to the tile [P8]. */
 GN_HOT static int is_dark(const gn_light_view *view, gn_texels row, int32_t u, uint32_t least)
 {
     int32_t last = view->tile_texels - 1, in_u = u < 0 ? 0 : u > last ? last : u;

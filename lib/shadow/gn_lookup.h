@@ -14,7 +14,7 @@ typedef struct {
     const gn_light_view *view;
     int32_t u_q16, v_q16;
     uint32_t least;
-    int32_t sloped; /* B5: with GN_RECEIVER_PLANE alone are this and what follows set */
+    int32_t sloped; /* receiver's plane: with GN_RECEIVER_PLANE alone are this and what follows set */
     int32_t slope_q28[2];
     int64_t least_q32; /* on the plane, at the texel that (u, v) lies in, not limited */
 } gn_lookup;

@@ -17,7 +17,7 @@ int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_
     return gn_bf_apply(gn_dot64(p_q16, view->axis_q30[axis_idx]), view->fit.ortho.inv_texel, 16 - 46);
 }
 
-/* Texel size from the sphere: ceil8 of (1 - 2^-20) * 2 r / D. Returns its reciprocal. */
+/* Texel size from the sphere: ceil8 of (1 - 2^-20) * 2 r / D. Returns its reciprocal. [D2] */
 static gn_bfloat inverse_texel(const gn_frame *frame, const gn_light_view *view, const gn_light *light,
                                uint32_t filter_idx, gn_bfloat radius, int *clamped)
 {
@@ -36,7 +36,7 @@ static gn_bfloat inverse_texel(const gn_frame *frame, const gn_light_view *view,
     return gn_bf_recip(texel);
 }
 
-/* F4: 0.02 * penumbra of the model's units, in texels, Q16. */
+/* 0.02 * penumbra of the model's units, in texels, Q16. [F4] */
 static int64_t disk_radius_q16(const gn_frame *frame, gn_bfloat inv_texel)
 {
     int64_t world_q48 = (int64_t)frame->scene->shadow.penumbra_uq16 * 85899346; /* 0.02 * 2^32; 2^22 * 2^27 */
@@ -73,7 +73,7 @@ void gn_ortho_rays(const gn_frame *frame, gn_light_view *view)
     }
 }
 
-/* Whole-texel origins around the sphere's centre; the depth range grows by the near offset. */
+/* Whole-texel origins around the sphere's centre; the depth range grows by the near offset. [D2] [D9] */
 static void place_tile(const gn_frame *frame, gn_light_view *view, const gn_light *light, int64_t depth_q16)
 {
     gn_ortho_fit *fit = &view->fit.ortho;
@@ -202,8 +202,8 @@ static inline int64_t depth_q32(const gn_light_view *view, int64_t texels_q16)
     return up >= 0 ? gn_shl64(texels_q16, up) : gn_shr64(texels_q16, -up);
 }
 
-/* Plane, bias (B1) and range of a triangle with this normal, whose depths are lo .. hi, texels. Returns 0 if it cannot
- * be seen from the light. */
+/* Plane, bias [B1] and range of a triangle with this normal, whose depths are lo .. hi, texels. Returns 0 if it cannot
+ * be seen from the light. [P7] [D9] */
 static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, const int32_t nn[3], int two_sided,
                                     int64_t lo, int64_t hi)
 {
@@ -219,7 +219,7 @@ static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, c
     out->dz_du = gn_clamp64(apply(nu, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
     out->dz_dv = gn_clamp64(apply(nv, per_n, 16 + to_steps), -GN_CASTER_GRADIENT_MAX, GN_CASTER_GRADIENT_MAX);
     const int64_t far = (int64_t)1 << 32;
-    out->lo = gn_clamp64(depth_q32(view, lo), 0, far); /* D9: pancaking */
+    out->lo = gn_clamp64(depth_q32(view, lo), 0, far); /* pancaking */
     out->hi = gn_clamp64(depth_q32(view, hi), 0, far);
     return out->lo < far;
 }

@@ -1,5 +1,4 @@
-/* Orthographic light views: how a tile lies in the world, and casters as it sees them (D2, D3, D9, B1,
- * DESIGN 1.4, 1.6). */
+/* Orthographic light views: how a tile lies in the world, and casters as it sees them (DESIGN 1.4, 1.6). */
 #ifndef GN_ORTHO_H
 #define GN_ORTHO_H
 

@@ -9,6 +9,7 @@
 
 #define GN_GUARD_TEXELS 8192 /* casters are cut at this distance from the tile's centre */
 
+/* Faces of a point light's cube: +x, -x, +y, -y, +z, -z. [P5] */
 GN_HOT void gn_persp_face_axis(int32_t out_q30[3], int32_t face)
 {
     for (int i = 0; i < 3; i++) out_q30[i] = face / 2 == i ? (face & 1 ? -(1 << 30) : 1 << 30) : 0;
@@ -21,6 +22,7 @@ GN_HOT int32_t gn_persp_face(const int32_t from_light_q16[3])
     return 2 * axis + (from_light_q16[axis] < 0);
 }
 
+/* With filter and offset a tap at a face's border still lies in its tile. [P6] */
 GN_HOT int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped)
 {
     const int64_t one = 1 << 24, two = 2 << 24;
@@ -46,6 +48,7 @@ GN_HOT static uint32_t focal2_q16(int32_t tile_texels, int64_t t_numerator, int6
     return focal2 > UINT32_MAX ? UINT32_MAX : (uint32_t)focal2;
 }
 
+/* A spot's cone, or a face of a point light's cube. [P4] [P5] */
 GN_HOT void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light)
 {
     gn_persp_fit *fit = &view->fit.persp;
@@ -83,7 +86,7 @@ GN_HOT static int64_t inverse_depth_q32(const gn_persp_fit *fit, int32_t z_q16)
     return gn_clamp64(gn_bf_apply(fit->near_q16, z, 32), 0, UINT32_MAX);
 }
 
-/* B1: + constant * tau * (1 - s) + slope * steepest, the first of which keeps the plane a plane. */
+/* + constant * tau * (1 - s) + slope * steepest, the first of which keeps the plane a plane. [B1] */
 GN_HOT static void add_bias(const gn_light_view *view, gn_caster *caster)
 {
     const int64_t one = (int64_t)1 << 32;
@@ -101,7 +104,7 @@ GN_HOT static void add_bias(const gn_light_view *view, gn_caster *caster)
     caster->z_corner += gn_scale64(left, 15) * (share >> 15) + gn_shr64((left & 32767) * (share >> 15), 15);
 }
 
-/* Plane and range of a triangle. Returns 0 if it faces away or is edge on. */
+/* Plane and range of a triangle. Returns 0 if it faces away or is edge on. [P7] */
 GN_HOT static int persp_caster(gn_caster *caster, gn_plane *plane, const gn_light_view *view, int32_t v[3][3],
                                int two_sided)
 {

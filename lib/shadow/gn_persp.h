@@ -1,4 +1,4 @@
-/* Perspective light views of spot and point lights, and casters as they see them (P4-P7, B1, DESIGN 1.5, 1.6). */
+/* Perspective light views of spot and point lights, and casters as they see them (DESIGN 1.5, 1.6). */
 #ifndef GN_PERSP_H
 #define GN_PERSP_H
 
@@ -8,11 +8,11 @@
 /* Fits a view, whose axes, tile and filter are known, to its light. */
 void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light);
 
-/* Half-width of a cube's face, t = tan(fov / 2), Q24, between 1 and 2 (P6); *clamped where 2 is all there is. nu:
+/* Half-width of a cube's face, t = tan(fov / 2), Q24, between 1 and 2; *clamped where 2 is all there is. nu:
  * gn_bias_reach_q16. */
 int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped);
 
-/* The cube's face that a point lies in, from where it is seen from the light (P5). */
+/* The cube's face that a point lies in, from where it is seen from the light. */
 int32_t gn_persp_face(const int32_t from_light_q16[3]);
 
 /* Axis of travel of a face, Q1.30. */

@@ -44,35 +44,35 @@ typedef struct {
     int32_t side_q16[2]; /* the same for the tile's own border, a little wider: what is outside all of it casts nothing
                             here */
     int64_t ratio_max_q28;      /* x / z beyond this would overflow, times focal2 */
-    int32_t constant_share_q30; /* B1: min(1, constant bias * 2t / T) */
+    int32_t constant_share_q30; /* casters: min(1, constant bias * 2t / T) */
 } gn_persp_fit;
 
 typedef struct {
     gn_texels depth;      /* T * T, row by row, inside the atlas */
     uint32_t first_texel; /* of the tile in its atlas */
-    int32_t offset_q16; /* B2 and b_z of B3: receiver offset along the normal, texels; B6: the reach of a tap, texels */
+    int32_t offset_q16;   /* receiver offset along the normal, texels; automatic bias: the reach of a tap, texels */
 #if GN_AUTO_BIAS
-    int32_t auto_step;  /* B6: what rounding of depths takes, directional: texels, Q16; spot, point: share of the range,
-                           Q32 */
-    int32_t auto_place; /* B6, directional: offset of curved surfaces, texels, Q16; spot, point: error of a point per
-                           view depth, Q40 */
+    int32_t auto_step; /* automatic bias: what rounding of depths takes, directional: texels, Q16; spot, point: share of
+                          the range, Q32 */
+    int32_t auto_place; /* automatic bias, directional: offset of curved surfaces, texels, Q16; spot, point: error of a
+                           point per view depth, Q40 */
 #endif
-    int32_t disk_radius_q16; /* F4, texels */
+    int32_t disk_radius_q16; /* texels */
     int32_t bias_constant_q16, bias_slope_q16;
     uint16_t tile_texels; /* T */
     uint16_t light_idx;
     uint8_t tile_log2;   /* T = 2^tile_log2 */
     uint8_t depth_log2;  /* J: an orthographic depth range is T * 2^J texels */
     uint8_t depth_bits;  /* 8, 16 or 32: that of the atlas; see GN_VIEW_BITS */
-    uint8_t filter;      /* gn_filter, resolved (F5) */
+    uint8_t filter;      /* gn_filter, with the light's own softness */
     uint8_t filter_idx;  /* k */
     uint8_t cascade_idx; /* or face of the cube */
     uint8_t perspective;
-    uint8_t border_lit; /* texels outside the tile count as lit (D10) */
+    uint8_t border_lit; /* texels outside the tile count as lit */
     uint8_t in_other;   /* it lies in the other atlas */
     uint8_t empty;      /* its cascade has no slice: never drawn, never selected */
     uint8_t tile_done;
-    uint8_t stale; /* A5: by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
+    uint8_t stale;          /* by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
     gn_depth_block *block;  /* (T / 8) * (T / 8) */
     int32_t axis_q30[3][3]; /* u, v, w in the world */
     union {
@@ -81,7 +81,7 @@ typedef struct {
     } fit;
 } gn_light_view;
 
-/* What a view's tile holds from one frame to the next (A5). */
+/* What a view's tile holds from one frame to the next. */
 typedef struct {
     uint64_t signature;        /* of everything that its texels depend on; 0: nothing is kept */
     uint64_t static_signature; /* the same for the static layer */
@@ -111,7 +111,7 @@ typedef struct {
     gn_vertex_entry *cache; /* of vertices as the view sees them, within 2^29 */
     uint32_t cache_mask;
     gn_vertex_entry spare[3]; /* see gn_vertex_claim_corner */
-    int32_t shrink_q16;       /* B4, texels */
+    int32_t shrink_q16;       /* caster bias, texels */
     gn_xform to_light;
     union {
         gn_xform_fast fast;          /* of what is not shrunk */

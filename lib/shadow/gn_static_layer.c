@@ -4,6 +4,7 @@
 #include "shadow/gn_static_layer.h"
 #include "shadow/gn_texel.h"
 
+/* The view's tile of the static layer. [A5] */
 gn_texels gn_static_layer_texels(gn_frame *frame, const gn_light_view *view)
 {
     gn_texels texels = GN_TEXELS_OF(frame->static_atlas, view->depth_bits);

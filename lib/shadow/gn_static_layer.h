@@ -1,4 +1,4 @@
-/* The static layer: static casters, kept apart from moving ones from frame to frame (A5). */
+/* The static layer: static casters, kept apart from moving ones from frame to frame. */
 #ifndef GN_STATIC_LAYER_H
 #define GN_STATIC_LAYER_H
 

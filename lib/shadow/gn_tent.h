@@ -126,15 +126,13 @@ GN_HOT static inline uint32_t gn_linear_attenuation(const uint8_t *dark, int32_t
                                          : 1588375U); /* round(2^32 / whole) */
 }
 
-/* Attenuation by the kernel of index k that the scene asks for. Both are done as tents: their reach and their number of
- * texels are the same. */
-GN_HOT static inline uint32_t gn_tent_attenuation(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
+/* Texel by texel. Where size comes first, its arrays are not on the stack while bounds decide. */
+GN_HOT static GN_SHARED uint32_t gn_tent_by_texels(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
 {
-    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX], answer;
+    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
     uint8_t dark[GN_TENT_TAPS_MAX];
-    if (GN_DEPTH_BLOCKS && gn_lookup_decided(l, u0, v0, n, &answer)) return answer;
     GN_COUNT(undecided, 1);
     GN_COUNT(taps_tent, n * n);
     uint32_t found = gn_tent_dark(l, u0, v0, n, dark);
@@ -151,6 +149,16 @@ GN_HOT static inline uint32_t gn_tent_attenuation(const gn_frame *frame, const g
                                 k == 1   ? 53024288U
                                 : k == 2 ? 6871948U
                                          : 1788824U); /* round(2^32 / whole) */
+}
+
+/* Attenuation by the kernel of index k that the scene chooses. Both kinds are done as tents: their radius and their
+ * number of texels are the same. [F3] [F6] */
+GN_HOT static inline uint32_t gn_tent_attenuation(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
+{
+    int32_t u0 = ((l->u_q16 + 32768) >> 16) - (k + 1), v0 = ((l->v_q16 + 32768) >> 16) - (k + 1);
+    uint32_t answer;
+    if (GN_DEPTH_BLOCKS && gn_lookup_decided(l, u0, v0, 2 * (k + 1), &answer)) return answer;
+    return gn_tent_by_texels(frame, l, k, bits);
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* Texels of shadow maps, at 8, 16 or 32 bits (A4). Depth is a share of the view's range, Q0.32 here; a stored texel
+/* Texels of shadow maps, at 8, 16 or 32 bits. Depth is a share of the view's range, Q0.32 here; a stored texel
  * holds its upper bits, rounded to nearest. All ones: empty. */
 #ifndef GN_TEXEL_H
 #define GN_TEXEL_H
@@ -29,7 +29,7 @@ GN_HOT static inline gn_texels gn_texels_at(gn_texels texels, int32_t depth_bits
     return texels;
 }
 
-/* A stored texel, in the upper bits of 32. */
+/* A stored texel, in the upper bits of 32. [A4] */
 GN_HOT static inline uint32_t gn_texel_load(gn_texels row, int32_t depth_bits, size_t i)
 {
     if (depth_bits == 8) return (uint32_t)row.d8[i] << 24;
@@ -43,7 +43,7 @@ GN_HOT static inline uint32_t gn_texel_far(int32_t depth_bits)
     return (uint32_t)(GN_DEPTH_EMPTY_Q32 << (32 - depth_bits));
 }
 
-/* Whether texels outside the tile are lit (D10). */
+/* Whether texels outside the tile are lit [D10]. */
 GN_HOT static inline int gn_border_lit(const gn_light_view *view)
 {
     return GN_MAIN_LIGHT && view->border_lit;

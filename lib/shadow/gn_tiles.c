@@ -10,7 +10,7 @@
 #include "shadow/gn_tiles.h"
 
 #define GN_ATLAS_TILES_MAX     16U
-#define GN_CASCADED_LIGHTS_MAX 4U /* D1 */
+#define GN_CASCADED_LIGHTS_MAX 4U /* shadowed lights that have cascades [D1] */
 
 /* Whether some caster and some receiver are within the light's reach. */
 static int shadow_possible(const gn_frame *frame, uint32_t light_idx)
@@ -24,7 +24,7 @@ static int shadow_possible(const gn_frame *frame, uint32_t light_idx)
     return 0;
 }
 
-/* D10: the brightest shadowed directional light, by its largest channel. */
+/* The brightest shadowed directional light, by its largest channel. [D10] */
 static uint32_t main_light(const gn_frame *frame)
 {
     uint32_t best = GN_MAX_LIGHTS, brightest = 0;
@@ -62,6 +62,8 @@ static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
 #endif
 }
 
+/* Tiles that each light would like: one per cascade of a directional light, six of a point light, else one. [P5] [D1]
+ */
 static void wish(gn_frame *frame, gn_tile_plan *plan)
 {
     const gn_scene *scene = frame->scene;
@@ -88,7 +90,8 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
     }
 }
 
-/* A3: in the order given; what does not fit has none, and later lights are still tried. Returns the number of tiles. */
+/* In the order given; what does not fit has none, and later lights are still tried. Returns the number of tiles. [A3]
+ */
 static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity)
 {
     uint32_t n_tiles = 0, n_lights = 0, limit = capacity < GN_ATLAS_TILES_MAX ? capacity : GN_ATLAS_TILES_MAX;
@@ -107,6 +110,7 @@ static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, ui
     return n_tiles;
 }
 
+/* All tiles of an atlas of one size. [A2] */
 static void equal_sizes(const gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t n_tiles,
                         int32_t atlas_log2)
 {
@@ -143,6 +147,7 @@ static uint32_t pick(const gn_frame *frame, const gn_tile_plan *plan, uint32_t i
     return best;
 }
 
+/* All begin as large as the atlas and are halved until they fit; then what is free doubles some again. [A2] */
 static void sizes_by_importance(const gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, int32_t atlas_log2)
 {
     uint32_t room = 1U << (2 * atlas_log2), used = 0, l;
@@ -171,6 +176,7 @@ static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint3
     return needed <= available ? GN_OK : gn_fail_capacity(frame, GN_ERR_ATLAS_FULL, needed, available);
 }
 
+/* Each of the two atlases has a budget and a size of its own. [A1] */
 static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity,
                             int32_t atlas_size)
 {

@@ -21,6 +21,7 @@ static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)
     } while (--tiles.height);
 }
 
+/* The triangles of every screen tile, in the order of the scene. [R1] */
 gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch)
 {
     uint32_t n_tiles = (uint32_t)frame->tiles_x * frame->tiles_y;

@@ -173,7 +173,6 @@ GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stri
     rows->row = row;
 }
 
-#if GN_VISIBLE_ALPHA
 GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut,
                                     const gn_object *object, uint32_t object_idx, const uint16_t idx[3])
 {
@@ -184,7 +183,8 @@ GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, 
     gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
 }
 
-GN_HOT static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
+/* A triangle that alpha cuts has surface only where it is not cut. [M8] */
+GN_HOT static inline void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     GN_ELEMENT(object);
@@ -192,8 +192,6 @@ GN_HOT static void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alph
     gn_alpha_begin(cut, object, object->visible_alpha, idx);
     if (GN_TEXTURES && cut->textured) cut_plane(frame, scratch, cut, object, tri->object_idx, idx);
 }
-
-#endif
 
 /* A screen tile. */
 typedef struct {
@@ -215,11 +213,7 @@ GN_HOT static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint3
     for (int32_t i = 0; i < n; i++, cell++, iz -= depth->minus_dx) {
         uint32_t candidate = clamp_depth(iz, depth) | depth->id_mask;
         if (candidate < *cell) continue;
-#if GN_VISIBLE_ALPHA
-        if (cut && gn_alpha_cuts(cut, x + i)) continue;
-#else
-        (void)cut, (void)x;
-#endif
+        if (GN_VISIBLE_ALPHA && cut && gn_alpha_cuts(cut, x + i)) continue;
         *cell = candidate - depth->below;
     }
     GN_COUNT(covered_cut, cut ? n : 0);
@@ -305,7 +299,6 @@ GN_HOT static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_t
     }
 }
 
-#if GN_VISIBLE_ALPHA
 /* Row v of the tile. */
 GN_HOT static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v, const gn_span *span)
 {
@@ -313,7 +306,6 @@ GN_HOT static void cut_row(const raster_tile *tile, gn_alpha_cut *cut, int32_t v
     gn_alpha_row(cut, y, tile->frame->picture.height - 1 - 2 * y, tile->rect.x0 + span->x_begin,
                  tile->rect.x0 + span->x_end);
 }
-#endif
 
 /* Walks a triangle that `cut` cuts, if it is not NULL. */
 GN_HOT static void raster_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id, gn_alpha_cut *cut)
@@ -350,23 +342,23 @@ GN_HOT static void raster_triangle(const raster_tile *tile, const gn_tri *tri, u
                 raster_span(row + xa, n, above + depth.lo + (uint32_t)(n - 1) * iz_dx, &depth);
                 continue;
             }
-#if GN_VISIBLE_ALPHA
-            if (cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
-#endif
+            if (GN_VISIBLE_ALPHA && cut) cut_row(tile, cut, (int32_t)(row - GN_CELLS(tile->scratch)) / stride, span);
             /* with the same results */
             raster_span_slow(&depth, row + xa, n, above + depth.lo, cut, tile->rect.x0 + xa);
         }
     }
 }
 
-#if GN_VISIBLE_ALPHA
 GN_HOT static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
+#if GN_VISIBLE_ALPHA
     gn_alpha_cut *cut = &tile->scratch->work.cut;
     cut_begin(tile->frame, tile->scratch, cut, tri);
     raster_triangle(tile, tri, id, cut);
-}
+#else
+    (void)tile, (void)tri, (void)id;
 #endif
+}
 
 /* A triangle that a screen tile meets. */
 GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
@@ -376,15 +368,14 @@ GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri,
         else raster_small(tile, tri, id);
         return;
     }
-#if GN_VISIBLE_ALPHA
-    if (tile->frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
+    if (GN_VISIBLE_ALPHA && tile->frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
         raster_cut_triangle(tile, tri, id);
         return;
     }
-#endif
     raster_triangle(tile, tri, id, NULL);
 }
 
+/* The nearest surface of every pixel, before anything is shaded. [R2] */
 GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
 {
     int32_t bits = GN_K(frame, subpixel_bits);
@@ -405,9 +396,7 @@ GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t 
     GN_COUNT(screen_tiles, 1);
     GN_COUNT(pixels, tile.width * tile.height);
     memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
-#if GN_VISIBLE_ALPHA
-    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
-#endif
+    for (uint32_t i = 0; GN_VISIBLE_ALPHA && i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
     const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]],
                    *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
     const gn_tri *first = frame->tri;

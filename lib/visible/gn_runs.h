@@ -1,4 +1,4 @@
-/* What is visible in a screen tile, triangle by triangle: runs of pixels of one row that show the same triangle (R2).
+/* What is visible in a screen tile, triangle by triangle: runs of pixels of one row that show the same triangle.
  *
  * Runs are linked in the cells themselves. A run's first cell, once its depth is no longer needed, holds the index of
  * the list's next run above the triangle's identity, its own index if it is the last; the second, if there is one, the

@@ -1,5 +1,4 @@
-/* Projected triangles become those that are drawn: snapped, culled, counted in screen tiles, with a plane of depth (R2,
- * R3). */
+/* Projected triangles become those that are drawn: snapped, culled, counted in screen tiles, with a plane of depth. */
 #ifndef GN_SCREEN_TRIANGLE_H
 #define GN_SCREEN_TRIANGLE_H
 

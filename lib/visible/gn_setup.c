@@ -179,7 +179,7 @@ GN_INLINE int fill_corner_fast(const setup_job *job, corner *c, uint32_t vertex_
 
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
-/* A triangle that leaves the guard band, or comes nearer than near. */
+/* A triangle that leaves the guard band, or comes nearer than near. [R3] */
 static GN_NOINLINE void clip_triangle(const setup_job *job, const corner *const c[3], uint32_t triangle_idx)
 {
     gn_frame *frame = job->screen.frame;

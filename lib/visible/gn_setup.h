@@ -1,4 +1,4 @@
-/* Visible triangles: transform, cull, clip, project, and set up edges and depth (R2, R3). */
+/* Visible triangles: transform, cull, clip, project, and set up edges and depth. */
 #ifndef GN_SETUP_H
 #define GN_SETUP_H
 

@@ -16,13 +16,13 @@ EVERY=4 # of the sweep's configurations
 
 command -v valgrind >/dev/null || { echo "calibrate: valgrind is not installed" >&2; exit 1; }
 mkdir -p "$DIR"
-variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1/-DGN_COUNTERS=0/; s/-DGN_STATIC_LAYER=1/-DGN_STATIC_LAYER=0/')
 make -s CC="$CC" "$TOOL"
 "$TOOL" bake host/scenes/room.gltf -o "$DIR/baked.gltf" --size $SIZE >/dev/null # nothing else has a mask image
 SCENES="$SCENES $DIR/baked.gltf"
 make -s CC="$CC" BUILD="$DIR/build" HOST_KNOBS="$knobs" "$DIR/build/gnomon" >/dev/null
-$CC -std=c11 -O2 -o "$DIR/gen_costs" host/generate/gen_costs.c -lm
+$CC -std=c11 -O2 -Ilib -o "$DIR/gen_costs" host/generate/gen_costs.c -lm
 
 # instructions SCENE SETTING...: of shadow tiles, setup and binning, rasterising, shading (glibc's memset: see bench.sh)
 instructions() {

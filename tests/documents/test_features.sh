@@ -1,6 +1,7 @@
 #!/bin/sh
-# Every row of the feature list has code, reference, settings, a test and pictures that exist (docs/FEATURES.md, docs/GALLERY.md); every
-# picture is drawn again by both engines, which must agree. usage: test_features.sh [TOOL]
+# docs/FEATURES.md is what docs/features.sh makes of the tags in the code; every row has code, reference, settings, a
+# test and pictures (docs/GALLERY.md); every picture is drawn again by both engines, which must agree.
+# usage: test_features.sh [TOOL]
 cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
 . tests/support/check.sh
@@ -20,59 +21,46 @@ identifiers() { awk -v p="$1" -v n="$2" 'BEGIN { for (i = 1; i <= n; i++) print 
     identifiers M 9
     identifiers R 9
 } >"$tmp/rows"
-not_yet= # nothing is missing any more
+
+# ---- The page and the tags -------------------------------------------------------------------------------------------
+
+mkdir -p "$tmp/page"
+if sh docs/features.sh "$tmp/page" >"$tmp/log" 2>&1 && cmp -s "$tmp/page/FEATURES.md" $features; then pass
+else
+    diff $features "$tmp/page/FEATURES.md" >"$tmp/diff" 2>&1
+    fail "$features is not what docs/features.sh makes, run it: $(sed -n 2p "$tmp/diff")"
+fi
+sh docs/features.sh --tags >"$tmp/tags"
+[ "$(wc -l <"$tmp/tags")" -gt 200 ] && pass || fail "$(wc -l <"$tmp/tags") tags are found"
+awk 'NR == FNR { row[$1] = 1; next } !($1 in row)' "$tmp/rows" "$tmp/tags" >"$tmp/found"
+[ -s "$tmp/found" ] && fail "tags of rows that are none: $(tr '\n' ';' <"$tmp/found")" || pass
+for header in gnomon gn_config gn_knobs; do
+    sed "s/Cortex-M[0-9]*//g" lib/$header.h | grep -w -n -F -f "$tmp/rows" | sed "s/^/$header.h:/"
+done >"$tmp/found"
+[ -s "$tmp/found" ] && fail "public headers name rows instead of things: $(tr '\n' ';' <"$tmp/found")" || pass
+
+# ---- Row by row ------------------------------------------------------------------------------------------------------
 
 # names CELL: what stands in backquotes
 names() { echo "$1" | grep -o '`[^`]*`' | tr -d '`'; }
-cell() { echo "$line" | awk -F' *[|] *' -v i="$1" '{ print $(i + 1) }'; }
-
-# files ROW FOLDER CELL: at least one, and all exist
-files() {
-    n=0
-    for name in $(names "$3"); do
-        n=$((n + 1))
-        [ -f "$2/$name" ] && pass || fail "$1 names $2/$name, which does not exist"
-    done
-    [ "$n" -gt 0 ] && pass || fail "$1 names no file of $2"
-}
+cell() { echo "$line" | awk -F' *[|] *' -v i="$1" '{ print $i }'; }
+has_tag() { grep -q "^$1 $2/" "$tmp/tags"; } # has_tag ROW FOLDER
 
 # settings ROW CELL: knobs, and after "file:" keys of the loader
 settings() {
     [ -n "$(names "$2")" ] && pass || fail "$1 names no setting"
     for name in $(names "${2%%file:*}"); do
-        grep -q -x -e "$name" "$tmp/knobs" && pass || fail "$1 names the setting $name, which 'gnomon knobs' does not list"
+        grep -q -x -e "$name" "$tmp/knobs" && pass ||
+            fail "$1 names the setting $name, which 'gnomon knobs' does not list"
     done
     case $2 in
     *file:*)
         for name in $(names "${2#*file:}"); do
-            grep -q -F "\"$name\"" host/scene/gltf/*.c && pass || fail "$1 names $name, which the glTF loader does not know"
+            grep -q -F "\"$name\"" host/scene/gltf/*.c && pass ||
+                fail "$1 names $name, which the glTF loader does not know"
         done
         ;;
     esac
-}
-
-# tests ROW CELL: pairs of a file and what it must contain; one of the files mentions the row
-tests() {
-    mentioned=0
-    names "$2" >"$tmp/names"
-    [ -s "$tmp/names" ] && pass || fail "$1 names no test"
-    while read -r file && read -r function; do
-        path=$(ls tests/*/"$file" 2>/dev/null)
-        if [ -z "$path" ]; then
-            fail "$1 names the test $file, which does not exist"
-            continue
-        fi
-        grep -q "\<$function\>" "$path" && pass || fail "$1 names $function, which $path does not have"
-        mentions "$1" "$path" && mentioned=1
-    done <"$tmp/names"
-    [ $mentioned = 1 ] && pass || fail "none of the tests of $1 mentions it"
-}
-
-# mentions ROW FILE: by its name, or within a range as in "P2 to P6" or "A1-A3"
-mentions() {
-    grep -q "\<$1\>" "$2" && return 0
-    letter=${1%%[0-9]*} number=${1#?}
-    grep -o -E "\<$letter[0-9]+( to |-)$letter[0-9]+\>" "$2" | tr -c '0-9\n' ' ' | awk -v n="$number" '$1 <= n && n <= $2 { found = 1 } END { exit !found }'
 }
 
 # section ROW: the part of the gallery
@@ -81,27 +69,31 @@ section() { awk -v row="$1" '/^## / { inside = $2 == row } inside' $gallery; }
 is_png() { [ "$(od -A n -t x1 -N 8 "$1" 2>/dev/null | tr -d ' \n')" = 89504e470d0a1a0a ]; }
 
 while read -r row; do
-    line=$(grep "^| $row |" $features)
+    line=$(grep "^$row |" docs/features.txt)
     case $(printf '%s\n' "$line" | grep -c .) in
-    0) fail "$features has no row $row" && continue ;;
+    0) fail "docs/features.txt has no row $row" && continue ;;
     1) pass ;;
-    *) fail "$features has more than one row $row" ;;
+    *) fail "docs/features.txt has more than one row $row" ;;
     esac
     [ -n "$(cell 2)" ] && pass || fail "$row does not say what it is"
-    if [ "$(cell 3)" = "not yet" ]; then
-        [ "$row" = "$not_yet" ] && pass || fail "$row is not there yet"
-        continue
-    fi
-    files "$row" lib "$(cell 3)"
-    if [ "$(cell 4)" = "none: the same pixels" ]; then pass; else files "$row" host/ref "$(cell 4)"; fi
-    settings "$row" "$(cell 5)"
-    tests "$row" "$(cell 6)"
+    has_tag "$row" lib && pass || fail "no comment in lib/ has the tag [$row]"
+    case $(cell 4) in
+    '') has_tag "$row" host/ref && pass || fail "no comment in host/ref/ has the tag [$row]" ;;
+    'none: the same pixels')
+        has_tag "$row" host/ref && fail "$row has a reference, and says that it has none" || pass
+        ;;
+    *) fail "$row says of its reference: $(cell 4)" ;;
+    esac
+    has_tag "$row" tests && pass || fail "no comment in tests/ has the tag [$row]"
+    settings "$row" "$(cell 3)"
     anchor=$(echo "$row" | tr A-Z a-z)
-    case $(cell 7) in *"(GALLERY.md#$anchor)"*) pass ;; *) fail "$row has no link to its pictures" ;; esac
+    grep -q "^| $row |.*(GALLERY.md#$anchor) |\$" $features && pass || fail "$row has no link to its pictures"
     grep -q -F "<a id=\"$anchor\"></a>" $gallery && pass || fail "$gallery has no place $anchor"
     section "$row" | sed -n 's/^!\[.*\](\(.*\))$/docs\/\1/p' >"$tmp/pictures"
     [ -s "$tmp/pictures" ] && pass || fail "$row has no picture"
-    while read -r picture; do is_png "$picture" && pass || fail "$row shows $picture, which is no PNG file"; done <"$tmp/pictures"
+    while read -r picture; do
+        is_png "$picture" && pass || fail "$row shows $picture, which is no PNG file"
+    done <"$tmp/pictures"
 done <"$tmp/rows"
 
 # nothing beside the list, no picture that no row shows
@@ -113,21 +105,26 @@ for picture in docs/pictures/gallery/*; do
 done
 [ "$(du -sk docs/pictures/gallery | cut -f 1)" -lt 4096 ] && pass || fail "docs/pictures/gallery is larger than 4 MB"
 
-# The gallery drawn again: the same but for digits of its numbers, and both engines agree in every picture. 8 bits of depth, 4 bits and one
-# bit of grey have steps so large that a rounding is seen.
+# ---- The gallery drawn again -----------------------------------------------------------------------------------------
+
+# The same but for digits of its numbers, and both engines agree in every picture. 8 bits of depth, 4 bits and one bit
+# of grey have steps so large that a rounding is seen.
 mkdir -p "$tmp/again"
-if sh docs/gallery.sh "$tool" "$tmp/again" >"$tmp/log" 2>&1; then pass; else fail "docs/gallery.sh fails: $(tail -n 1 "$tmp/log")"; fi
+if sh docs/gallery.sh "$tool" "$tmp/again" >"$tmp/log" 2>&1; then pass
+else fail "docs/gallery.sh fails: $(tail -n 1 "$tmp/log")"; fi
 without_numbers() { sed -E '/^identical /s/[0-9.]+/0/g' "$1"; }
 without_numbers $gallery >"$tmp/committed"
 without_numbers "$tmp/again/GALLERY.md" >"$tmp/drawn" 2>/dev/null
-cmp -s "$tmp/committed" "$tmp/drawn" && pass || fail "$gallery is not what docs/gallery.sh makes: make docs ($(diff "$tmp/committed" "$tmp/drawn" | sed -n 2p))"
+cmp -s "$tmp/committed" "$tmp/drawn" && pass ||
+    fail "$gallery is not what docs/gallery.sh makes: make docs ($(diff "$tmp/committed" "$tmp/drawn" | sed -n 2p))"
 awk '/^`gnomon/ { command = $0 }
     /^identical / {
         identical = $2
         sub(/.*shadow mismatch /, "")
         coarse = command ~ /depth_bits=8/
         n++
-        if (identical < 98 || $1 > (coarse ? 2 : 0.6)) print identical " % identical, shadow mismatch " $1 " %: " command
+        if (identical < 98 || $1 > (coarse ? 2 : 0.6))
+            print identical " % identical, shadow mismatch " $1 " %: " command
     }
     END { if (n < 62) print "the metrics of only " n + 0 " pictures" }' "$tmp/again/GALLERY.md" >"$tmp/found" 2>&1
 [ -s "$tmp/found" ] && fail "the engines differ: $(head -n 3 "$tmp/found" | tr '\n' ';')" || pass

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Displays end to end: the clock's picture on the emulator's screen, driven over its bus by the board's own code, is the one that the
 # library draws on the host, pixel for pixel. The clock runs for half an hour before each picture and sends what changed. Boards that
-# nothing emulates are built in full.
+# QEMU does not run are built in full.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
@@ -63,9 +63,9 @@ build/capture 1 'READY never' "$tmp/none.ppm" qemu-system-arm -M lm3s6965evb -ke
 grep -q 'the firmware did not say it' "$tmp/log" && pass || fail "$(cat "$tmp/log")"
 build/capture 5 READY "$tmp/none.ppm" build/no-such-emulator >/dev/null 2>"$tmp/log" && fail "a capture without an emulator" || pass
 
-# Boards with a display that nothing emulates.
+# Boards with a display that QEMU does not run; test_pico.sh runs the Pico.
 for file in boards/*/board.mk; do
-    grep -q '^SCREEN_SIZE' "$file" && grep -q '^BOARD_RUNS := no' "$file" || continue
+    grep -q '^SCREEN_SIZE' "$file" && grep -q -E '^BOARD_RUNS := (no|rp2040js)$' "$file" || continue
     board=$(basename "$(dirname "$file")")
     build "the clock of $board" firmware BOARD=$board APP=clock
 done

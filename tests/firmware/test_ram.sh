@@ -3,7 +3,7 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
-variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
 host_knobs=$(variable HOST_KNOBS)
 
@@ -63,7 +63,7 @@ predicted() {
     flags="-DGN_PRESET=$preset" sets=
     for key in max_width max_height max_triangles max_tile_refs max_lights surface_lights max_objects max_shadow_tiles max_other_tiles vertex_cache; do
         macro=GN_$(echo $key | tr a-z A-Z)
-        sets="$sets $key=$(sed -n "s/^#define $macro *\([0-9]*\)$/\1/p" lib/gn_config.h)"
+        sets="$sets $key=$(printf '#include "gn_config.h"\nGN_%s\n' "${macro#GN_}" | gcc -E -P -Ilib - | tail -n 1 | sed 's/^(0 ? [0-9]* : \([0-9]*\))$/\1/')"
     done
     for set in "$@"; do flags="$flags -DGN_$(echo "${set%%=*}" | tr a-z A-Z)=${set#*=}"; done
     ram=$("$tmp/ram" "$preset" $sets "$@")

@@ -239,7 +239,8 @@ static void check_census(const cell *c, const bias *b, const census *t)
     if (!ok) printf("  %s, %s, %d bits, %s\n", kind_name[c->kind], filter_name[c->filter], c->bits, b->name);
 }
 
-/* Every setting meets every kind of light and every filter; depth bits and presets take turns. */
+/* Every setting meets every kind of light and every filter; depth bits and presets take turns. [B1] [B2] [B3] [B4] [B5]
+ */
 static void test_planes(void)
 {
     static const double degrees[] = {20, 60, 85, 89.5};
@@ -276,7 +277,7 @@ static void compare_plane(const cell *c, const bias *b, double degrees, long *di
     end(&f);
 }
 
-/* Along a directional light, b_x (k + 1) texels nearer are as many texels more in the map. */
+/* Along a directional light, b_x (k + 1) texels nearer are as many texels more in the map. [B3] */
 static void test_x_term(void)
 {
     long differ, darker;

@@ -67,6 +67,7 @@ static int least_texels(int kind)
     return kind == SCENE_LIGHT_POINT ? 8 : 16;
 }
 
+/* Planes under any light have no shadow of their own. [B6] */
 static void test_planes(int n_planes)
 {
     for (int kind = 0; kind < 3; kind++)

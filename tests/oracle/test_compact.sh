@@ -3,7 +3,7 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
-variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
 flags="-DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_PRESET=0 -DGN_SRGB=0"
 # program STATUS_OF WHAT...: its counts are added

@@ -138,7 +138,7 @@ static void test_casters_across_the_border(void)
     }
 }
 
-/* D9: what lies before the near plane is drawn on it, and biased from there, not from where it was. */
+/* What lies before the near plane is drawn on it, and biased from there, not from where it was. [D9] */
 static void test_pancaking_under_a_bias(void)
 {
     static const double high[12] = {-300, 90, 300, 300, 90, 300, 300, 90, -300, -300, 90, -300};

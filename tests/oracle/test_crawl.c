@@ -1,4 +1,4 @@
-/* D2: edges of static shadows do not crawl. The camera moves and turns by less than a texel per frame over a static
+/* [D2] Edges of static shadows do not crawl. The camera moves and turns by less than a texel per frame over a static
  * scene; points fixed in the world are looked up in each frame's shadow tiles. How many change from lit to shadowed or
  * back, with the grid fixed in the world and without? "--table" prints it. */
 #include "../host/tool/fixed/quantise.h"

@@ -127,7 +127,7 @@ static double closeness(const pair *with, const engine_picture *without)
            fmax(squared_distance(without, &with->reference, seen), 1e-9);
 }
 
-/* Both say the same of tiles (A2, A3, D1, D10, P5). */
+/* Both say the same of tiles [A2] [A3] [D1] [D10] [P5]. */
 static void check_tiles(const engine_picture *fixed, const engine_picture *reference)
 {
     for (size_t l = 0; l < fixed->n_lights; l++) {
@@ -145,7 +145,7 @@ static double tile_difference(const double *a, const double *b, int texels, int 
     return (double)differing / (texels * texels);
 }
 
-/* The share of such texels in the worst tile. */
+/* The share of such texels in the worst tile. [A6] */
 static double atlas_difference(const pair *p, const settings *set)
 {
     double worst = 0;
@@ -514,7 +514,7 @@ static const row rows[] = {
 
 /* ---- Rows that change no picture, or not its colours ------------------------------------------------------------- */
 
-/* R5: what each panel shows. */
+/* What each panel shows. [R5] */
 static void test_outputs(void)
 {
     static const char *const names[] = {"rgb888", "rgb565", "rgb565_swapped", "grey8", "grey4", "mono1"};
@@ -534,7 +534,7 @@ static void test_outputs(void)
     }
 }
 
-/* D8: the same pixels, fewer casters. */
+/* The same pixels, fewer casters. [D8] */
 static void test_caster_culling(void)
 {
     static const row r = {"D8", "lane", "cascades=4 cascade_fade=0.05", "caster_culling=1", "caster_culling=0", 0.1};
@@ -552,7 +552,7 @@ static void test_caster_culling(void)
     for (int i = 0; i < 2; i++) engine_free(&picture[i]);
 }
 
-/* A3, P6, P9: what the statistics say. */
+/* What the statistics say. [A3] [P6] [P9] */
 static void test_statistics(void)
 {
     static const row lines[] = {{"A3", "yard", ".light=seventeen object_lights=0", "", "", 1},

@@ -35,7 +35,7 @@ static int compare(metrics *m, engine_picture *fixed, const scene *s, const sett
     return 1;
 }
 
-/* R1, R9: every tile has its own list of lights, so that other tiles are other lists. */
+/* Every tile has its own list of lights, so that other tiles are other lists. [R1] [R9] */
 static void test_tiles_and_lights(const char *path)
 {
     static const int32_t size[][2] = {{8, 1}, {8, 8}, {64, 16}, {104, 4}, {2048, 2048}};
@@ -58,7 +58,7 @@ static void test_tiles_and_lights(const char *path)
     scene_free(&s);
 }
 
-/* R2: the nearest surface, in whatever order objects come. */
+/* The nearest surface, in whatever order objects come. [R2] */
 static void test_order(const char *path)
 {
     engine_picture fixed, reversed;
@@ -85,7 +85,7 @@ static void test_order(const char *path)
     scene_free(&s);
 }
 
-/* R5: what panels of each format show. */
+/* What panels of each format show. [R5] */
 static void test_outputs(const char *path)
 {
     char error[512] = "";
@@ -134,7 +134,7 @@ static void flush(void *user, int x, int y, int w, int h, const void *pixels)
 }
 
 /* A panel that is only sent what changed shows what one shows that is sent everything; what stands still is not sent.
- */
+ * [R6] */
 static void test_changes(const char *path)
 {
     static panel_copy kept, whole;

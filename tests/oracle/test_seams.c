@@ -1,4 +1,4 @@
-/* P6: seams between the faces of a point light's cube do not show. Random triangles around a lamp in a closed room
+/* [P6] Seams between the faces of a point light's cube do not show. Random triangles around a lamp in a closed room
  * throw their shadows on all walls; the truth is a ray to the lamp. Near the borders of faces the error is no larger
  * than elsewhere. "--table" prints it. */
 #include "../host/tool/engine/engine.h"

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "gnomon.h"
+#include "knobs.h"
 
 enum { RANDOM_VERTICES = 9, RANDOM_TRIANGLES = 14, RANDOM_OBJECTS = 4, RANDOM_MESHES = 2, RANDOM_TEXTURES = 3 };
 enum { RANDOM_TEXELS_LOG2 = 12, RANDOM_LIMIT_Q16 = 8192 << 16 };
@@ -353,27 +354,31 @@ static void random_scene_change(random_scene *g)
     } while (one_in(2));
 }
 
-static void random_knobs(gn_knobs *k)
+static void random_knobs(gn_frame *k)
 {
     static const int32_t persp_steps[] = {1, 4, 8, 16};
-    k->subpixel_bits = 2 + (int32_t)(rnd() % 7);
-    k->persp_step = persp_steps[rnd() % 4];
-    k->newton_steps = 1 + (int32_t)(rnd() % 2);
-    k->shadow_subpixel_bits = 4 + (int32_t)(rnd() % 9);
-    k->shadow_depth_frac = (int32_t)(rnd() % 5);
-    k->weight_bits = 4 + (int32_t)(rnd() % 9);
-    k->atten_bits = one_in(2) ? 8 : 16;
-    k->atlas_size = one_in(200) ? 1024 : one_in(8) ? 16 : 32 << rnd() % 3;
-    k->other_atlas_size = one_in(200) ? 1024 : one_in(8) ? 16 : 32 << rnd() % 4;
-    k->depth_bits = 8 << rnd() % 3;
-    k->other_depth_bits = 8 << rnd() % 3;
-    k->tile_width = 8 + 8 * (int32_t)(rnd() % 8);
-    k->tile_height = 1 + (int32_t)(rnd() % 40);
-    k->srgb = one_in(2);
-    k->vertex_light = one_in(4);
-    k->position_bits = 32; /* may have been spoiled */
-    k->normal_bits = 16;
-    if (one_in(200)) spoil_words(k, 0, sizeof *k);
+    SET_KNOB(k, subpixel_bits, 2 + (int32_t)(rnd() % 7));
+    SET_KNOB(k, persp_step, persp_steps[rnd() % 4]);
+    SET_KNOB(k, newton_steps, 1 + (int32_t)(rnd() % 2));
+    SET_KNOB(k, shadow_subpixel_bits, 4 + (int32_t)(rnd() % 9));
+    SET_KNOB(k, shadow_depth_frac, (int32_t)(rnd() % 5));
+    SET_KNOB(k, weight_bits, 4 + (int32_t)(rnd() % 9));
+    SET_KNOB(k, atten_bits, one_in(2) ? 8 : 16);
+    SET_KNOB(k, atlas_size, one_in(200) ? 1024 : one_in(8) ? 16 : 32 << rnd() % 3);
+    SET_KNOB(k, other_atlas_size, one_in(200) ? 1024 : one_in(8) ? 16 : 32 << rnd() % 4);
+    SET_KNOB(k, depth_bits, 8 << rnd() % 3);
+    SET_KNOB(k, other_depth_bits, 8 << rnd() % 3);
+    SET_KNOB(k, tile_width, 8 + 8 * (int32_t)(rnd() % 8));
+    SET_KNOB(k, tile_height, 1 + (int32_t)(rnd() % 40));
+    SET_KNOB(k, srgb, one_in(2));
+    SET_KNOB(k, vertex_light, one_in(4));
+    SET_KNOB(k, position_bits, 32); /* may have been spoiled */
+    SET_KNOB(k, normal_bits, 16);
+    if (one_in(200)) {
+#if GN_RUNTIME_KNOBS
+        spoil_words(&k->knobs, 0, sizeof k->knobs);
+#endif
+    }
 }
 
 static void random_scene_end(random_scene *g)

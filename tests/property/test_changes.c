@@ -1,9 +1,10 @@
-/* Screen tiles that changed (R6): what is flushed, replayed onto a panel, is every frame's picture; what did not change
+/* Screen tiles that changed [R6]: what is flushed, replayed onto a panel, is every frame's picture; what did not change
  * is not flushed. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "check.h"
+#include "knobs.h"
 #include "light_scene.h"
 
 #define W                                                                                                              \
@@ -62,9 +63,9 @@ static void init(gn_renderer *r, gn_format format)
 {
     gn_picture p = {W, H, format, GN_VIEW_COLOUR, 0};
     CHECK_EQ_INT(gn_init(r, &p), GN_OK);
-    r->frame.knobs.tile_width = 16;
-    r->frame.knobs.tile_height = 8;
-    r->frame.knobs.atlas_size = r->frame.knobs.other_atlas_size = 64;
+    SET_KNOB(&r->frame, tile_width, 16);
+    SET_KNOB(&r->frame, tile_height, 8);
+    SET_KNOB(&r->frame, atlas_size, 64), SET_KNOB(&r->frame, other_atlas_size, 64);
 }
 
 static void scene_begin(void)
@@ -77,9 +78,10 @@ static void scene_begin(void)
 
 static int tile_differs(const display *a, const display *b, int tile_x, int tile_y)
 {
+    const int tw = GN_K(&renderer.frame, tile_width), th = GN_K(&renderer.frame, tile_height);
     int differs = 0;
-    for (int y = tile_y * 8; y < (tile_y + 1) * 8 && y < H; y++)
-        for (int x = tile_x * 16; x < (tile_x + 1) * 16 && x < W; x++)
+    for (int y = tile_y * th; y < (tile_y + 1) * th && y < H; y++)
+        for (int x = tile_x * tw; x < (tile_x + 1) * tw && x < W; x++)
             differs |= a->pixel[y * W + x] != b->pixel[y * W + x];
     return differs;
 }
@@ -87,8 +89,8 @@ static int tile_differs(const display *a, const display *b, int tile_x, int tile
 static uint32_t tiles_apart(const display *a, const display *b)
 {
     uint32_t n = 0;
-    for (int y = 0; y * 8 < H; y++)
-        for (int x = 0; x * 16 < W; x++) n += (uint32_t)tile_differs(a, b, x, y);
+    for (int y = 0; y * GN_K(&renderer.frame, tile_height) < H; y++)
+        for (int x = 0; x * GN_K(&renderer.frame, tile_width) < W; x++) n += (uint32_t)tile_differs(a, b, x, y);
     return n;
 }
 

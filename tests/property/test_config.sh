@@ -4,7 +4,7 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
-variable() { make -s --no-print-directory --eval="print: ; @echo \$($1)" print; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
 host_knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1//') # the tool alone counts
 strict="-std=c99 -pedantic $warn -Ilib"

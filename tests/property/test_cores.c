@@ -1,4 +1,4 @@
-/* Many cores (R7): screen tiles of one prepared frame drawn by 1, 2, 4 and 8 threads, each with its own scratch, give
+/* Many cores [R7]: screen tiles of one prepared frame drawn by 1, 2, 4 and 8 threads, each with its own scratch, give
  * the same bytes. run.sh also runs this under ThreadSanitizer. */
 #include <pthread.h>
 #include <stdlib.h>
@@ -39,6 +39,7 @@ static void *draw(void *user)
     return NULL;
 }
 
+/* Screen tiles on any number of threads. [R7] */
 static void draw_with(int n_threads, uint16_t *picture)
 {
     pthread_t thread[THREADS_MAX];

@@ -1,4 +1,4 @@
-/* Caster culling (D8): fewer casters, the same pixels. Cascades without a tile: the same. */
+/* Caster culling [D8]: fewer casters, the same pixels. Cascades without a tile: the same. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -123,6 +123,7 @@ static void walk(gn_camera *camera, const gn_camera *start, uint32_t i, uint32_t
             start->to_world.t_q16[k] - (int32_t)((int64_t)start->to_world.m_q30[k][2] * (int32_t)(i % 4) * 40 >> 14);
 }
 
+/* Fewer casters, the same pixels. [D8] */
 static void test_avenue(void)
 {
     char error[300] = "";

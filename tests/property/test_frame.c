@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "canvas.h"
+#include "knobs.h"
 #include "check.h"
 #include "full_scene.h"
 
@@ -52,8 +53,29 @@ static void test_empty_cascade(void)
     canvas_end(&c);
 }
 
-/* A5: a frame that is abandoned fits its views, but its tiles are not drawn: the next must not keep those of the frame
- * before. */
+/* The scene is the caller's again after the last screen tile: what is asked of its lights later reads none of it. */
+static void test_scene_gone(void)
+{
+    gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
+    gn_scene *scene = malloc(sizeof *scene);
+    gn_tile_info info;
+    uint32_t n_tiles = 0;
+    canvas c;
+    canvas_begin(&c, 48, 32, GN_FORMAT_RGB888);
+    demo_scene_make(&demo, 1);
+    *scene = demo.scene;
+    CHECK(gn_init(&one, &p) == GN_OK);
+    CHECK(gn_render(&one, scene, flush, &c) == GN_OK);
+    memset(scene, 0, sizeof *scene);
+    free(scene); /* the address sanitizer sees who reads it now */
+    CHECK(gn_get_light_shadow(&one, 0, &n_tiles, NULL) == GN_SHADOW_REALTIME && n_tiles > 0);
+    CHECK(gn_get_shadow_tile(&one, 0, 0, &info) > 0);
+    CHECK(gn_get_light_shadow(&one, demo.scene.n_lights, &n_tiles, NULL) == GN_SHADOW_NOT_WANTED && n_tiles == 0);
+    canvas_end(&c);
+}
+
+/* A frame that is abandoned fits its views, but its tiles are not drawn: the next must not keep those of the frame
+ * before. [A5] */
 static void test_abandoned_frame(void)
 {
     gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
@@ -87,7 +109,7 @@ static void test_colour_exponent(void)
     CHECK(crc[1] != crc[2]);
 }
 
-/* B6: what a light without any bias has, until another bias of the receiver is set or it is told off. */
+/* What a light without any bias has, until another bias of the receiver is set or it is told off. [B6] */
 static void test_automatic_by_default(void)
 {
     static const struct {
@@ -145,7 +167,7 @@ static void test_many_bright_lights(void)
         demo.scene.n_objects = 1;
         canvas_begin(&c, p.width, p.height, p.format);
         CHECK(gn_init(&one, &p) == GN_OK);
-        one.frame.knobs.persp_step = i ? 8 : 1;
+        SET_KNOB(&one.frame, persp_step, i ? 8 : 1);
         CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
         crc[i] = canvas_crc(&c);
         canvas_end(&c);
@@ -154,7 +176,7 @@ static void test_many_bright_lights(void)
     CHECK(crc[2] != crc[1]);
 }
 
-/* M5: only mixed lights have masks. */
+/* Only mixed lights have masks. [M5] */
 static void test_mask_of_mixed_lights(void)
 {
     uint32_t crc[3];
@@ -172,7 +194,7 @@ static void test_mask_of_mixed_lights(void)
     CHECK(crc[1] != crc[2]);
 }
 
-/* B4 away from a wide spot light moves a caster into its view from far outside: it must not be culled. */
+/* Caster bias away from a wide spot light moves a caster into its view from far outside: it must not be culled. [B4] */
 static void test_caster_moved_into_view(void)
 {
     static const int32_t pos[9] = {0, 0, 0, GN_Q16(0.02), 0, 0, 0, GN_Q16(0.02), 0};
@@ -192,7 +214,7 @@ static void test_caster_moved_into_view(void)
     demo.scene.lights = &spot;
     demo.scene.n_objects = 1;
     CHECK(gn_init(&one, &p) == GN_OK);
-    one.frame.knobs.other_atlas_size = 16;
+    if (!TAKES_KNOB(&one.frame, other_atlas_size, 16)) return;
     CHECK(gn_begin(&one, &demo.scene) == GN_OK && gn_shadow_tile_count(&one) == 1 && gn_shadow_tile(&one, 0) == GN_OK);
     CHECK_EQ_INT(gn_get_stats(&one)->n_caster_triangles, 1);
 }
@@ -214,7 +236,7 @@ static void ground_shadows(canvas *c, int smooth)
     CHECK(gn_init(&one, &p) == GN_OK && gn_render(&one, &demo.scene, flush, c) == GN_OK);
 }
 
-/* F4: the disk's reach differs from cascade to cascade, and so does the receiver's offset; flat or smooth. */
+/* The disk's reach differs from cascade to cascade, and so does the receiver's offset; flat or smooth. [F4] */
 static void test_disk_offset_per_cascade(void)
 {
     canvas flat, smooth;
@@ -267,7 +289,7 @@ static void test_two_renderers(void)
     canvas_end(&cb);
 }
 
-/* R7: any order, each tile with whichever scratch, and the frame stays as it was. */
+/* Any order, each tile with whichever scratch, and the frame stays as it was. [R7] */
 static void test_tile_order(void)
 {
     static gn_scratch scratch[3];
@@ -279,8 +301,8 @@ static void test_tile_order(void)
     uint32_t expected = crc_of(&one, &demo.scene, 160, 120, GN_FORMAT_RGB888);
     uint32_t frame_crc = demo_crc32(0, &one.frame, sizeof one.frame);
     uint32_t n = gn_screen_tile_count(&one);
-    static const uint32_t stride[] = {1, 7, 5, 11}; /* coprime to the number of tiles */
-    CHECK_EQ_INT(n, 24);
+    static const uint32_t stride[] = {1, 7, 13, 11}; /* coprime to the number of tiles */
+    CHECK(n > 1 && n % 7 && n % 11 && n % 13);
     for (size_t k = 0; k < sizeof stride / sizeof *stride; k++) {
         canvas c;
         canvas_begin(&c, p.width, p.height, p.format);
@@ -297,7 +319,7 @@ static void test_tile_order(void)
     CHECK(demo_crc32(0, &one.frame, sizeof one.frame) == frame_crc);
 }
 
-/* D1: a light takes no tile where nothing casts, nothing receives, or its strength is 0. */
+/* A light takes no tile where nothing casts, nothing receives, or its strength is 0. [D1] */
 static void test_no_needless_tiles(void)
 {
     gn_picture p = picture_of(32, 24, GN_FORMAT_RGB565);
@@ -371,9 +393,9 @@ static void test_tile_sizes(void)
         for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
             canvas_begin(&c, p.width, p.height, p.format);
             gn_init(&one, &p);
-            one.frame.knobs.tile_width = sizes[i][0];
-            one.frame.knobs.tile_height = sizes[i][1];
-            one.frame.knobs.persp_step = persp_step;
+            SET_KNOB(&one.frame, tile_width, sizes[i][0]);
+            SET_KNOB(&one.frame, tile_height, sizes[i][1]);
+            SET_KNOB(&one.frame, persp_step, persp_step);
             CHECK(gn_render(&one, &demo.scene, flush, i ? &c : &first) == GN_OK);
             CHECK(each_pixel_once(i ? &c : &first));
             int same = persp_step == 1 || p.format == GN_FORMAT_RAW32;
@@ -403,6 +425,7 @@ int main(void)
 {
     test_same_again();
     test_empty_cascade();
+    test_scene_gone();
     test_abandoned_frame();
     test_colour_exponent();
     test_automatic_by_default();

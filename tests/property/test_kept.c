@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "knobs.h"
 #include "light_scene.h"
 
 #define W     48
@@ -18,7 +19,7 @@ static void init(gn_renderer *r, int atlas_size)
 {
     gn_picture p = {W, H, GN_FORMAT_RGB888, GN_VIEW_COLOUR, 0};
     CHECK_EQ_INT(gn_init(r, &p), GN_OK);
-    r->frame.knobs.atlas_size = r->frame.knobs.other_atlas_size = atlas_size;
+    SET_KNOB(&r->frame, atlas_size, atlas_size), SET_KNOB(&r->frame, other_atlas_size, atlas_size);
 }
 
 static void render(gn_renderer *r, const gn_scene *scene, uint8_t *pixels)
@@ -29,9 +30,8 @@ static void render(gn_renderer *r, const gn_scene *scene, uint8_t *pixels)
 
 static void render_fresh(const gn_scene *scene)
 {
-    gn_knobs knobs = kept.frame.knobs;
     init(&fresh, 16);
-    fresh.frame.knobs = knobs;
+    COPY_KNOBS(&fresh.frame, &kept.frame);
     render(&fresh, scene, fresh_pixels);
 }
 
@@ -262,16 +262,16 @@ static const char *change_objects(uint32_t n, int *free_of_charge)
         ls.object[1].mesh = &other.demo.ball;
         return "another mesh";
     case 13:
-        kept.frame.knobs.shadow_subpixel_bits = 12;
+        SET_KNOB(&kept.frame, shadow_subpixel_bits, 12);
         return "finer casters";
     case 14:
-        kept.frame.knobs.depth_bits = 32;
+        SET_KNOB(&kept.frame, depth_bits, 32);
         return "deeper texels";
     case 15:
-        kept.frame.knobs.other_atlas_size = 64;
+        SET_KNOB(&kept.frame, other_atlas_size, 64);
         return "a smaller atlas";
     case 16:
-        kept.frame.knobs.other_atlas_size = 128;
+        SET_KNOB(&kept.frame, other_atlas_size, 128);
         return "and back";
     default:
         return NULL;
@@ -292,6 +292,7 @@ static void play(const char *(*script)(uint32_t n, int *free_of_charge))
     }
 }
 
+/* A renderer that keeps tiles draws what one draws that does not. [A5] [R6] */
 static void test_script(void)
 {
     every_kind();
@@ -561,10 +562,9 @@ static uint32_t pixels_apart(void)
 static void cascade_view(uint32_t *cascade)
 {
     gn_picture p = {W, H, GN_FORMAT_RAW32, GN_VIEW_CASCADE, 0};
-    gn_knobs knobs = kept.frame.knobs;
     ls_canvas canvas = {(uint8_t *)cascade, W, 4};
     CHECK_EQ_INT(gn_init(&fresh, &p), GN_OK);
-    fresh.frame.knobs = knobs;
+    COPY_KNOBS(&fresh.frame, &kept.frame);
     CHECK_EQ_INT(gn_render(&fresh, &ls.scene, ls_flush, &canvas), GN_OK);
 }
 
@@ -656,6 +656,7 @@ static void turn(uint32_t frame)
     ls.light[1].position_q16[0] = gn_sin_q30((uint16_t)(frame * 11U)) >> 13;
 }
 
+/* After a million frames of turning nothing has drifted. [R8] */
 static void test_million_frames(void)
 {
     every_kind();
@@ -678,7 +679,7 @@ static void test_thousands_of_frames(void)
     every_kind();
     ls.scene.n_lights = 2;
     CHECK_EQ_INT(gn_init(&kept, &p), GN_OK);
-    kept.frame.knobs.atlas_size = kept.frame.knobs.other_atlas_size = 32;
+    SET_KNOB(&kept.frame, atlas_size, 32), SET_KNOB(&kept.frame, other_atlas_size, 32);
     for (uint32_t frame = 0; frame < 2000; frame++) {
         turn(frame);
         gn_status status = gn_render(&kept, &ls.scene, ls_flush, &to_a);
@@ -687,7 +688,7 @@ static void test_thousands_of_frames(void)
             continue;
         }
         CHECK_EQ_INT(gn_init(&fresh, &p), GN_OK);
-        fresh.frame.knobs = kept.frame.knobs;
+        COPY_KNOBS(&fresh.frame, &kept.frame);
         CHECK_EQ_INT(gn_render(&fresh, &ls.scene, ls_flush, &to_b), GN_OK);
         CHECK(memcmp(a, b, sizeof a) == 0);
     }

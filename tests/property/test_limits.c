@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "canvas.h"
+#include "knobs.h"
 #include "check.h"
 
 static gn_renderer one;
@@ -298,12 +299,12 @@ static const struct {
     EXTREME(huge_triangles),
 };
 
-static void set_preset_knobs(gn_knobs *k, int preset)
+static void set_preset_knobs(gn_frame *frame, int preset)
 {
 #define PRESET_(name, MACRO, lo, hi, meaning, cost)                                                                    \
     {                                                                                                                  \
         static const int32_t v[3] = {GN_PRESETS_##MACRO};                                                              \
-        k->name = v[preset];                                                                                           \
+        SET_KNOB(frame, name, v[preset]);                                                                              \
     }
     GN_QUALITY_KNOBS(PRESET_)
 }
@@ -311,7 +312,7 @@ static void set_preset_knobs(gn_knobs *k, int preset)
 static void test_extremes(void)
 {
     for (size_t i = 0; i < sizeof extreme / sizeof *extreme; i++) {
-        for (int k = 0; k < 15; k++) { /* presets x filters */
+        for (int k = 0; k < (GN_RUNTIME_KNOBS ? 15 : 5); k++) { /* presets x filters */
             gn_picture p = picture_of(96, 64, GN_FORMAT_RGB888);
             canvas c;
             canvas_begin(&c, 96, 64, p.format);
@@ -319,7 +320,7 @@ static void test_extremes(void)
             demo.scene.shadow.filter = (gn_filter)(k % 5);
             extreme[i].set(&demo.scene);
             gn_init(&one, &p);
-            set_preset_knobs(&one.frame.knobs, k / 5);
+            set_preset_knobs(&one.frame, k / 5);
             gn_status status = gn_render(&one, &demo.scene, flush, &c);
             if (!CHECK(status == GN_OK)) printf("%s: %s\n", extreme[i].name, gn_status_text(status));
             CHECK(each_pixel_once(&c));
@@ -328,7 +329,7 @@ static void test_extremes(void)
     }
 }
 
-/* A5: settings and camera may change under a tile that is kept. */
+/* Settings and camera may change under a tile that is kept. [A5] */
 static void test_changes_under_kept_tiles(void)
 {
     gn_picture p = picture_of(48, 32, GN_FORMAT_RGB888);
@@ -336,7 +337,7 @@ static void test_changes_under_kept_tiles(void)
     canvas_begin(&c, 48, 32, GN_FORMAT_RGB888);
     for (int kind = 0; kind < 3; kind++) {
         CHECK(gn_init(&one, &p) == GN_OK);
-        one.frame.knobs.atlas_size = 1024;
+        SET_KNOB(&one.frame, atlas_size, 1024);
         demo_scene_make(&demo, 0);
         gn_shadow_settings *s = &demo.scene.shadow;
         s->refresh[0] = 2;

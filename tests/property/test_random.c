@@ -37,8 +37,8 @@ static int same_afresh(campaign *r, int32_t tile_size, int culling)
     gn_scene other = r->scene.scene;
     other.shadow.caster_culling = (uint32_t)culling;
     gn_forget_shadows(&two);
-    two.frame.knobs = one.frame.knobs;
-    if (tile_size) two.frame.knobs.tile_width = two.frame.knobs.tile_height = tile_size;
+    COPY_KNOBS(&two.frame, &one.frame);
+    if (tile_size) SET_KNOB(&two.frame, tile_width, tile_size), SET_KNOB(&two.frame, tile_height, tile_size);
     return gn_render(&two, &other, flush, &r->fresh) == GN_OK &&
            !memcmp(r->kept.pixels, r->fresh.pixels, r->kept.n_bytes);
 }
@@ -49,7 +49,7 @@ static void compare_with_fresh(campaign *r, long frame)
 {
     const gn_shadow_settings *s = &r->scene.scene.shadow;
     int culling = !s->caster_culling;
-    int32_t tile_size = one.frame.knobs.persp_step == 1 ? 8 + 8 * (int32_t)(rnd() % 6) : 0;
+    int32_t tile_size = GN_K(&one.frame, persp_step) == 1 ? 8 + 8 * (int32_t)(rnd() % 6) : 0;
     for (int i = 0; i < 4; i++)
         if (s->refresh[i] > 1) return; /* tiles are older than the frame */
     r->compared++;
@@ -102,7 +102,7 @@ static void test_random_scenes(long n_scenes)
             next_picture(&r, (uint32_t)(i / 256 % 11));
         }
         if (i % 4 == 0 || one_in(8)) {
-            random_knobs(&one.frame.knobs);
+            random_knobs(&one.frame);
             random_scene_make(&r.scene);
             gn_forget_shadows(&one); /* arrays have changed in place */
             memset(&r.panel, 0, sizeof r.panel);

@@ -150,6 +150,7 @@ static void test_charts(void)
 
 /* ---- Channels ---------------------------------------------------------------------------------------------------- */
 
+/* Lights that meet get channels of their own. [M9] [M5] */
 static void test_channels(void)
 {
     static scene_light lights[REF_MAX_LIGHTS];
@@ -289,7 +290,7 @@ static uint8_t mask_at(const scene *s, double x, double z)
 }
 
 /* The sun is in the west at 45 degrees: the shadow of a wall of 1 lies from x = 0 to 1. A chest stands on the floor at
- * x = -2. */
+ * x = -2. [M5] */
 static void test_wall(bool with_moving)
 {
     static fixture f;

@@ -217,7 +217,7 @@ good advise host/scenes/fence.gltf --quick --size $size $one --set persp_step=8 
     --ram 100000 --instructions-per-pixel 100000 --target mps2-an385 --json
 grep -q '"target": {"board": "mps2-an385", "instructions_per_pixel": [0-9.]*, ' "$tmp/out" && pass || fail "advice for mps2-an385 was not counted: $(head -c 300 "$tmp/out")"
 
-# where nothing counts, the reason is said once; a board that there is not, or that nothing emulates, is an error
+# where nothing counts, the reason is said once; a board that there is not, or that QEMU does not run, is an error
 scene=host/scenes/fence.gltf
 mkdir -p "$tmp/ghost"
 printf '# A core that nobody has a compiler for.\nBOARD_RUNS := qemu\nBOARD_CROSS := ghost-none-\nBOARD_EMULATOR := qemu-system-ghost\n' >"$tmp/ghost/board.mk"
@@ -227,7 +227,7 @@ awk -F '"' 'NR > 1 { split($3, v, ","); if (v[22] != "" || v[23] != "" || v[24] 
 run advise $scene --quick --size 8x8 --ram 100000 --instructions-per-pixel 100000 --target "../$tmp/ghost"
 [ $? = 1 ] && grep -q 'is of .*ghost: without --target' "$tmp/err" && pass || fail "a budget that nothing counts is taken: $(tail -n 1 "$tmp/err")"
 bad 1 "no board 'nowhere'" sweep $scene --target nowhere
-bad 1 'no emulator runs pico' sweep $scene --target pico
+bad 1 'QEMU does not run pico' sweep $scene --target pico
 bad 1 "no board 'nowhere'" advise $scene --ram 100000 --target nowhere
 bad 2 target compile $scene -o "$tmp/c" --target mps2-an385
 

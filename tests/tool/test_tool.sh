@@ -104,7 +104,7 @@ is_png() { # is_png FILE SIZE WHAT
     rm -f "$1"
 }
 
-# every view, by either engine (A6)
+# every view, by either engine [A6]
 for engine in fixed reference; do
     for view in colour shadow depth normal cascade atlas; do
         size=33x21
@@ -716,6 +716,51 @@ bad 1 output render "$cube" -o "$tmp/x.png" --set output=cmyk
 for blend in hard soft dither; do good info "$cube" --size 16x12 --set cascades=4 --set cascade_blend=$blend; done
 for mode in depth radius; do good info "$cube" --size 16x12 --set distance_mode=$mode; done
 for filter in hard 2x2 3x3 5x5 7x7; do good info "$cube" --size 16x12 --set filter=$filter; done
+
+# ---- Help and version --------------------------------------------------------------------------------------------------------
+
+for command in render compare info sweep advise compile bake knobs; do
+    good $command --help
+    cp "$tmp/out" "$tmp/help"
+    head -n 1 "$tmp/help" | grep -q "^usage: gnomon $command" && pass || fail "$command --help does not begin with its usage: $(head -n 1 "$tmp/help")"
+    [ "$(grep -c "^  gnomon $command" "$tmp/help")" = 1 ] && pass || fail "$command --help has $(grep -c "^  gnomon $command" "$tmp/help") examples"
+    good help $command
+    cmp -s "$tmp/out" "$tmp/help" && pass || fail "help $command is not $command --help"
+    good $command --set nonsense --help # --help stands above everything else
+    [ "$(awk 'length > 100' "$tmp/help" | wc -l)" = 0 ] && pass || fail "$command --help has a line of more than 100 characters"
+    # every option that help lists is one of the command
+    for option in $(sed -n 's/^  \(--[a-z-]*\).*/\1/p' "$tmp/help"); do
+        run $command "$cube" "$option"
+        grep -q "does not use\|unknown option" "$tmp/err" && fail "$command --help lists $option, which it does not use" || pass
+    done
+done
+good help
+cp "$tmp/out" "$tmp/help"
+good --help
+cmp -s "$tmp/out" "$tmp/help" && pass || fail "gnomon --help is not gnomon help"
+for command in render compare info sweep advise compile bake knobs help; do
+    grep -q "^  $command\>" "$tmp/help" && pass || fail "help does not list $command"
+done
+bad 2 nothing help nothing
+bad 2 also help render bake
+bad 2 nothing nothing --help
+bad 2 alone --version now
+good --version
+wanted=$(sed -n 's/^#define GN_VERSION_STRING "\(.*\)"/gnomon \1/p' lib/gnomon.h)
+[ "$(cat "$tmp/out")" = "$wanted" ] && pass || fail "--version prints '$(cat "$tmp/out")', not '$wanted'"
+numbers=$(sed -n 's/^#define GN_VERSION_M[A-Z]* *\([0-9]*\)$/\1/p; s/^#define GN_VERSION_PATCH *\([0-9]*\)$/\1/p' lib/gnomon.h | tr '\n' . | sed 's/\.$//')
+[ "gnomon $numbers" = "$wanted" ] && pass || fail "GN_VERSION_STRING is '$wanted', the numbers are $numbers"
+
+# ---- What attenuation is measured on -----------------------------------------------------------------------------------------
+
+for path in "8 general" "1 picture"; do
+    set -- $path
+    good compare "$cube" --size 32x24 --set persp_step="$1" --json
+    grep -q "\"attenuation_path\": \"$2\"" "$tmp/out" && pass || fail "persp_step $1: attenuation is not said to be of the path '$2'"
+    good compare "$cube" --size 32x24 --set persp_step="$1"
+    n=$(grep -c 'of the general path' "$tmp/out")
+    [ "$n" = "$([ "$2" = general ] && echo 1 || echo 0)" ] && pass || fail "persp_step $1: $n lines say what attenuation is of"
+done
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

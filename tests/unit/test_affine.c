@@ -314,7 +314,7 @@ static void test_drift(void)
     CHECK(gram_error(&a) <= 100000 * 16.0L);
 }
 
-/* A rotation set from an angle has no history: after a million frames frame n is still frame n mod 2^16. */
+/* A rotation set from an angle has no history: after a million frames frame n is still frame n mod 2^16. [R8] */
 static void test_no_drift(void)
 {
     tally t = {0};

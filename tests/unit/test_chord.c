@@ -51,7 +51,7 @@ static void setup(int smooth)
     surface.light[0].state = &light;
 }
 
-/* All that holds stays within what is promised, and much of what hardly bends does hold. */
+/* All that holds stays within what is promised, and much of what hardly bends does hold. [R4] */
 static void test_perspective(void)
 {
     long held = 0, tried = 0, near_line = 0, over = 0;

@@ -176,6 +176,7 @@ static int flat_and_convex(const gn_polygon *p, const gn_polygon *triangle)
     return 1;
 }
 
+/* What clipping leaves lies inside, is flat and convex. [R3] */
 static void test_triangles(void)
 {
     tally inside = {0}, steps = {0}, shape = {0};

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "exact.h"
+#include "knobs.h"
 #include "shadow/gn_blocks.h"
 #include "shadow/gn_filter.h"
 #include "shadow/gn_tent.h"
@@ -34,6 +35,7 @@ static int64_t exact_weight(int32_t k, int32_t i, int64_t u, int64_t f)
     return (twice_tent_integral(from + 2 * f, c, h) - twice_tent_integral(from, c, h)) / 2;
 }
 
+/* Weights of tents against the integral. [F3] */
 static void test_weights(void)
 {
     tally weight = {0}, sum = {0};
@@ -73,6 +75,7 @@ static int64_t exact_linear_weight(int32_t k, int32_t i, int64_t u, int64_t f)
     return linear_kernel[k - 1].w[i][0] * f + linear_kernel[k - 1].w[i][1] * u;
 }
 
+/* Weights of the linear kernels. [F6] */
 static void test_linear_weights(void)
 {
     tally weight = {0}, sum = {0};
@@ -97,10 +100,22 @@ static void test_linear_weights(void)
     CHECK_TALLY(sum, "linear weights sum to the whole and end where they should");
 }
 
-/* The largest difference between F6 and F3: over edges along an axis, and over any pattern of texels. */
+/* The largest difference between F6 and F3: over edges along an axis, and over any pattern of texels. [F6] */
 static void test_linear_against_tent(void)
 {
     static const double edge_bound[3] = {0.0704, 0.0287, 0.0480}, any_bound[3] = {0.2277, 0.0901, 0.1383};
+#if GN_RUNTIME_KNOBS
+#define BUILT_DEPTH_BITS                                                                                               \
+    {                                                                                                                  \
+        8, 16, 32                                                                                                      \
+    }
+#else
+#define BUILT_DEPTH_BITS                                                                                               \
+    {                                                                                                                  \
+        GN_DEPTH_BITS, GN_OTHER_DEPTH_BITS, GN_DEPTH_BITS                                                              \
+    }
+#endif
+
     enum { BITS = 8, F = 1 << BITS };
     for (int32_t k = 1; k <= 3; k++) {
         static double difference[F + 1][GN_TENT_TAPS_MAX], tent[F + 1][GN_TENT_TAPS_MAX];
@@ -167,7 +182,7 @@ static void store(size_t at, uint32_t depth)
 static int exact_lit(const gn_receiver *r, int64_t i, int64_t j)
 {
     if (view.border_lit && (outside(i) || outside(j))) return 1;
-    int frac = view.depth_bits == 32 ? 0 : (int)frame.knobs.shadow_depth_frac, bits = view.depth_bits;
+    int frac = view.depth_bits == 32 ? 0 : (int)GN_K(&frame, shadow_depth_frac), bits = view.depth_bits;
     i128 x_q44 = (i128)r->depth_q32 << 12, two = 2 << 28;
     i128 u = i128_clamp(i, 0, view.tile_texels - 1), v = i128_clamp(j, 0, view.tile_texels - 1);
     x_q44 += i128_clamp(r->slope_q28[0], -two, two) * (65536 * u + 32768 - r->u_q16);
@@ -180,7 +195,7 @@ static int exact_lit(const gn_receiver *r, int64_t i, int64_t j)
 /* Taps of one axis: the first texel and the weights, over `whole`. */
 static int32_t exact_taps(int64_t *first, int64_t w[GN_TENT_TAPS_MAX], i128 *whole, int32_t c_q16)
 {
-    int32_t k = view.filter - 1, bits = frame.knobs.weight_bits, linear = scene.shadow.kernel == GN_KERNEL_LINEAR;
+    int32_t k = view.filter - 1, bits = GN_K(&frame, weight_bits), linear = scene.shadow.kernel == GN_KERNEL_LINEAR;
     int64_t f = (int64_t)1 << bits, c = (int64_t)c_q16 + 32768;
     int64_t texel = (int64_t)i128_floor_div(c, 65536), u = (int64_t)i128_round_shr(c - texel * 65536, 16 - bits);
     if (view.filter == GN_FILTER_HARD) {
@@ -286,7 +301,7 @@ static uint32_t random_depth_value(void)
 
 static void random_shape(int32_t most_log2)
 {
-    static const uint8_t depth_bits[3] = {8, 16, 32};
+    static const uint8_t depth_bits[3] = BUILT_DEPTH_BITS;
     view.tile_log2 = (uint8_t)rng_range(&random_state, 3, most_log2);
     view.tile_texels = (uint16_t)(1U << view.tile_log2);
     view.depth_bits = depth_bits[rng_below(&random_state, 3)];
@@ -295,9 +310,9 @@ static void random_shape(int32_t most_log2)
 static void random_view(void *texels, uint32_t i)
 {
     frame.scene = &scene;
-    frame.knobs.weight_bits = rng_range(&random_state, 4, 12);
-    frame.knobs.shadow_depth_frac = rng_range(&random_state, 0, 4);
-    frame.knobs.atten_bits = i & 1 ? 8 : 16;
+    SET_KNOB(&frame, weight_bits, rng_range(&random_state, 4, 12));
+    SET_KNOB(&frame, shadow_depth_frac, rng_range(&random_state, 0, 4));
+    SET_KNOB(&frame, atten_bits, i & 1 ? 8 : 16);
     scene.shadow.kernel = rng_below(&random_state, 2) ? GN_KERNEL_LINEAR : GN_KERNEL_TENT;
     scene.shadow.disk_samples = 1 + rng_below(&random_state, 64);
     view.filter = (uint8_t)rng_below(&random_state, 6);
@@ -376,7 +391,7 @@ static const char *described(const gn_receiver *r)
              "filter %d%s, T %d, %d bits + %d, F 2^%d, border %d, disk %d of %u, at (%d, %d), depth %u, slopes %d %d, "
              "pixel %d %d",
              (int)view.filter, scene.shadow.kernel == GN_KERNEL_LINEAR ? " linear" : "", (int)view.tile_texels,
-             (int)view.depth_bits, (int)frame.knobs.shadow_depth_frac, (int)frame.knobs.weight_bits,
+             (int)view.depth_bits, (int)GN_K(&frame, shadow_depth_frac), (int)GN_K(&frame, weight_bits),
              (int)view.border_lit, (int)view.disk_radius_q16, (unsigned)scene.shadow.disk_samples, (int)r->u_q16,
              (int)r->v_q16, (unsigned)r->depth_q32, (int)r->slope_q28[0], (int)r->slope_q28[1], (int)r->pixel_x,
              (int)r->pixel_y);
@@ -386,7 +401,7 @@ static const char *described(const gn_receiver *r)
 static uint32_t rounded_share(uint32_t n_lit, uint32_t n)
 {
     uint32_t a = (uint32_t)i128_floor_div(((i128)n_lit * 131072 + n), 2 * n);
-    return frame.knobs.atten_bits == 8 ? (a + 128) & ~255U : a;
+    return GN_K(&frame, atten_bits) == 8 ? (a + 128) & ~255U : a;
 }
 
 static void try_disk(verdict *result, const gn_receiver *r, uint32_t a)
@@ -410,7 +425,7 @@ static void try_point(verdict *result, const gn_receiver *r)
     }
     i128 numerator, denominator = exact_attenuation(&numerator, r);
     long double error = (long double)i128_abs((i128)a * denominator - numerator) / (long double)denominator;
-    int eight = frame.knobs.atten_bits == 8;
+    int eight = GN_K(&frame, atten_bits) == 8;
     /* within half an LSB and a little; 8 bits: half a step of 256 more, and a multiple of it */
     HOLDS(&result->error, error <= (eight ? 128.52L : 0.52L) && (!eight || a % 256 == 0), "errs by %.4Lf: %s", error,
           described(r));
@@ -459,7 +474,7 @@ static void test_attenuation(void)
     printf("gn_filter_attenuation, 16 bits: %.4Lf LSB of Q16 with %s\n", result.w.error, result.w.at);
 }
 
-/* Whatever its neighbours in the atlas hold, a tile answers the same (P8); at corners, borders and far outside. */
+/* Whatever its neighbours in the atlas hold, a tile answers the same [P8]; at corners, borders and far outside. */
 static void test_neighbours(void)
 {
     static verdict result;
@@ -493,7 +508,7 @@ static void test_neighbours(void)
 static void test_lit_and_shadowed(void)
 {
     static uint32_t texels[16 * 16];
-    static const uint8_t depth_bits[3] = {8, 16, 32};
+    static const uint8_t depth_bits[3] = BUILT_DEPTH_BITS;
     tally t = {0};
     frame.scene = &scene;
     scene.shadow.disk_samples = 11;
@@ -508,9 +523,9 @@ static void test_lit_and_shadowed(void)
                 view.depth_bits = depth_bits[i % 3];
                 view.depth = at_bytes(texels);
                 scene.shadow.kernel = i & 2 ? GN_KERNEL_LINEAR : GN_KERNEL_TENT;
-                frame.knobs.weight_bits = bits;
-                frame.knobs.atten_bits = i & 1 ? 8 : 16;
-                frame.knobs.shadow_depth_frac = (int32_t)(i % 5);
+                SET_KNOB(&frame, weight_bits, bits);
+                SET_KNOB(&frame, atten_bits, i & 1 ? 8 : 16);
+                SET_KNOB(&frame, shadow_depth_frac, (int32_t)(i % 5));
                 gn_receiver r = {random_position(), random_position(), 0xFFFFFFFFU, {0, 0},
                                  (int32_t)i,        (int32_t)filter};
                 memset(texels, 0xFF, sizeof texels);
@@ -522,7 +537,7 @@ static void test_lit_and_shadowed(void)
                 memset(texels, 0, sizeof texels);
                 build_blocks();
                 r.depth_q32 = view.depth_bits == 32 ? 1 : 1U << (31 - view.depth_bits);
-                if (r.depth_q32 > 1) r.depth_q32 >>= frame.knobs.shadow_depth_frac; /* half a step: rounds up */
+                if (r.depth_q32 > 1) r.depth_q32 >>= GN_K(&frame, shadow_depth_frac); /* half a step: rounds up */
                 HOLDS(&t, gn_filter_attenuation(&frame, &view, &r) == 0, "full tile: %s", described(&r));
                 r.depth_q32 -= 1;
                 HOLDS(&t, gn_filter_attenuation(&frame, &view, &r) == 65536, "at the light: %s", described(&r));
@@ -605,14 +620,15 @@ static double disk_area_lit(const gn_receiver *r)
 }
 
 /* Half planes at any angle: the more samples, the nearer to the area; every count of samples is no worse than random
- * ones. */
+ * ones. [F4] */
 static void test_disk_accuracy(void)
 {
     enum { CASES = 600, N = 64 };
     static uint8_t texels[64 * 64];
     double sum2[65] = {0}, random2 = 0;
     frame.scene = &scene;
-    frame.knobs.atten_bits = 16;
+    if (!GN_RUNTIME_KNOBS) return; /* its texels are of 8 bits */
+    SET_KNOB(&frame, atten_bits, 16);
     view.filter = GN_FILTER_DISK;
     view.depth_bits = 8;
     view.tile_log2 = 6;

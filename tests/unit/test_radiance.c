@@ -177,6 +177,7 @@ static void check_mixing(gn_surface *surface, gn_sample *sample)
     record(STAGE_ATTENUATION + (int)mixing, fabs(got - want), (mixing == GN_MIXING_DISTANCE ? 1.5 : 1) * LSB16, LSB16);
 }
 
+/* Strength, distance and mask together. [M4] [M6] */
 static void check_attenuation(const gn_knobs *knobs)
 {
     static gn_surface surface;
@@ -283,7 +284,8 @@ static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing 
         }
         double tint = 1, tint_off = 0;
         if (s->coloured) {
-            const int32_t *at[3] = {s->rgb_q16[0], s->rgb_q16[1], s->rgb_q16[2]};
+            const int32_t *at[3] = {s->attribute_q16[0] + GN_ATTRIBUTE_RGB, s->attribute_q16[1] + GN_ATTRIBUTE_RGB,
+                                    s->attribute_q16[2] + GN_ATTRIBUTE_RGB};
             tint = (at[0][k] + c->b[0] * at[1][k] + c->b[1] * at[2][k]) * LSB16;
             tint_off =
                 LSB16 + (fabs((double)at[1][k]) + fabs((double)at[2][k])) * LSB16 * (bary_bound(frame, c) + more_b);

@@ -1,132 +1,116 @@
-/* Runs of visible pixels: of tiles of any cells, every pixel is taken once, by its triangle, in order. */
+/* Visible spans of a screen tile [R2], sorted and drawn by gn_shade_tile: whatever the cells hold, every pixel gets the
+ * colour of the triangle that its cell names. Triangles cover the whole picture and are unlit, so that a triangle's
+ * colour is one and known; the cells are filled in here, not by the raster. */
 #include <string.h>
 
 #include "check.h"
-#include "visible/gn_runs.h"
+#include "gn_stages.h"
+#include "knobs.h"
 #include "rng.h"
+#include "visible/gn_cell.h"
+#include "visible/gn_screen_rect.h"
 
-enum { SIDE_MAX = 256 };
+enum { N_MAX = 1000, SIDE_MAX = 256, BACKGROUND = 0 };
 
 static rng random_state = {17};
 static gn_renderer renderer;
-static uint16_t expected[SIDE_MAX * SIDE_MAX]; /* the triangle of each cell, 0: none */
+static gn_object object[N_MAX];
+static gn_scene scene;
+static uint32_t expected[SIDE_MAX * SIDE_MAX]; /* the triangle of each cell plus 1, or BACKGROUND */
 
-typedef struct {
-    int32_t stride, width, height;
-    uint32_t n_ids, id_bits;
-    uint32_t most_px; /* longest stretch of one identity: stretches go on over the ends of rows */
-} tile;
+static const int32_t far_pos[9] = {GN_Q16(-80), GN_Q16(-11), GN_Q16(-10), GN_Q16(80), GN_Q16(-11),
+                                   GN_Q16(-10), 0,           GN_Q16(50),  GN_Q16(-10)};
+static const uint16_t triangle_idx[3] = {0, 1, 2};
+static const uint16_t white[9] = {65535, 65535, 65535, 65535, 65535, 65535, 65535, 65535, 65535};
+/* Of one look all over, and of vertex colours that happen to be alike: the one is filled in as its spans are found, the
+ * other's are linked and shaded. */
+static const gn_mesh plain = {
+    .pos = far_pos, .idx = triangle_idx, .n_vertices = 3, .n_triangles = 1, .pos_frac_bits = 16};
+static const gn_mesh coloured = {
+    .pos = far_pos, .rgb_uq16 = white, .idx = triangle_idx, .n_vertices = 3, .n_triangles = 1, .pos_frac_bits = 16};
 
-static void fill(const tile *t)
+/* Object i has the colour i + 1, in bits of 8 levels that survive the output's 8 bits. */
+static void make_scene(uint32_t n, uint32_t coloured_in)
+{
+    gn_camera camera = {.focal_q24 = GN_Q24(1), .near_q16 = GN_Q16(1), .far_q16 = GN_Q16(100)};
+    gn_affine_identity(&camera.to_world);
+    scene = gn_scene_default(&camera, object, n, NULL, 0);
+    memset(scene.background_uq16, 0, sizeof scene.background_uq16);
+    for (uint32_t i = 0; i < n; i++) {
+        object[i] = gn_object_default(i % coloured_in == 0 ? &coloured : &plain);
+        object[i].flags = GN_OBJECT_UNLIT | GN_OBJECT_TWO_SIDED;
+        gn_affine_identity(&object[i].to_world);
+        for (int k = 0; k < 3; k++) object[i].albedo_uq16[k] = (uint16_t)(((i + 1) >> 4 * k & 15) * 4369);
+    }
+}
+
+/* What the output says of the scene's colour: the object plus 1. */
+static uint32_t object_at(const uint8_t *rgb)
+{
+    uint32_t number = 0;
+    for (int k = 0; k < 3; k++) number |= (uint32_t)(rgb[k] + 8) / 17 << 4 * k;
+    return number;
+}
+
+/* Cells as the raster leaves them: stretches of one triangle, on over the ends of rows, `most_px` at most. */
+static void fill_cells(const gn_rect *rect, uint32_t n, uint32_t most_px)
 {
     gn_scratch *scratch = &renderer.scratch;
+    const int32_t stride = GN_K(&renderer.frame, tile_width);
+    uint32_t left = 0, triangle = 0, id_bits = renderer.frame.id_bits;
     memset(scratch->cell, 0, sizeof scratch->cell);
-    memset(expected, 0, sizeof expected);
-    uint32_t left = 0, id = 0;
-    for (int32_t y = 0; y < t->height; y++) {
-        for (int32_t x = 0; x < t->width; x++, left--) {
+    for (int32_t y = 0; y < rect->y1 - rect->y0; y++)
+        for (int32_t x = 0; x < rect->x1 - rect->x0; x++, left--) {
             if (!left) {
-                left = 1 + rng_below(&random_state, t->most_px);
-                id = rng_below(&random_state, t->n_ids + 1);
+                left = 1 + rng_below(&random_state, most_px);
+                triangle = rng_below(&random_state, n + 1);
             }
-            uint32_t depth = rng_below(&random_state, 0xFFFFFFFFU) >> t->id_bits << t->id_bits;
-            expected[y * t->stride + x] = (uint16_t)id;
-            GN_CELLS(scratch)[y * t->stride + x] = id ? depth | id : 0;
+            uint32_t depth = rng_u32(&random_state) >> id_bits << id_bits;
+            expected[y * stride + x] = triangle;
+            GN_CELLS(scratch)[y * stride + x] = triangle ? depth | gn_cell_id(&renderer.frame, triangle - 1) : 0;
         }
-    }
 }
 
-/* Takes a triangle's runs. Returns 0 if one is wrong. */
-static int take(const tile *t, uint32_t id)
+/* Draws a tile of random cells. Returns how many of its pixels show another triangle than their cell. */
+static uint32_t wrong_pixels(uint32_t tile_idx, uint32_t n, uint32_t most_px)
 {
-    gn_run_taker taker;
-    uint32_t first, end = 0;
-    int32_t n_px;
-    gn_runs_begin(&taker, &renderer.scratch, id);
-    while (gn_runs_take(&taker, (uint32_t)t->stride, &first, &n_px)) {
-        int32_t x = (int32_t)(first % (uint32_t)t->stride);
-        if (first < end || n_px < 1 || x + n_px > t->width) return 0;
-        end = first + (uint32_t)n_px;
-        if ((x > 0 && expected[first - 1] == id) || (x + n_px < t->width && expected[end] == id))
-            return 0; /* not all of it */
-        for (uint32_t i = first; i < end; i++) {
-            if (expected[i] != id) return 0;
-            expected[i] = 0;
+    const gn_rect rect = gn_screen_rect(&renderer.frame, tile_idx);
+    const int32_t stride = GN_K(&renderer.frame, tile_width), width = rect.x1 - rect.x0;
+    uint32_t n_wrong = 0;
+    fill_cells(&rect, n, most_px);
+    gn_shade_tile(&renderer.frame, &renderer.scratch, tile_idx);
+    for (int32_t y = 0; y < rect.y1 - rect.y0; y++)
+        for (int32_t x = 0; x < width; x++) {
+            const uint32_t triangle = expected[y * stride + x];
+            const uint32_t want = triangle ? renderer.frame.tri[triangle - 1].object_idx + 1U : BACKGROUND;
+            n_wrong += object_at(renderer.scratch.pixel.bytes + 3 * (y * width + x)) != want;
         }
-    }
-    return 1;
+    return n_wrong;
 }
 
-/* As shading does: all runs, from the last to the first, but for those of the plain triangle. Returns 0 if a run of it
- * is wrong. */
-static int sort(const tile *t, uint32_t plain)
+static void check_tiles(uint32_t n, uint32_t coloured_in, int32_t width, int32_t height, uint32_t most_px)
 {
-    gn_scratch *scratch = &renderer.scratch;
-    uint32_t id_mask = (1U << t->id_bits) - 1;
-    gn_runs_clear(scratch);
-    for (int32_t y = t->height; y-- > 0;) {
-        uint32_t *row = GN_CELLS(scratch) + y * t->stride, *end = row + t->width, *first, before = row[-1];
-        row[-1] = UINT32_MAX;
-        for (; (end = gn_runs_last(end)) >= row; end = first) {
-            first = gn_runs_first(end, id_mask);
-            uint32_t id = *first & id_mask, at = (uint32_t)(first - GN_CELLS(scratch));
-            if (id != plain) {
-                gn_runs_link(scratch, id, at, (uint32_t)(end - first) + 1);
-                continue;
-            }
-            gn_runs_drop(first);
-            for (; at <= (uint32_t)(end - GN_CELLS(scratch)); at++) {
-                if (expected[at] != id) return 0;
-                expected[at] = 0;
-            }
-        }
-        row[-1] = before;
-    }
-    return 1;
-}
-
-static int check_tile(const tile *t)
-{
-    renderer.frame.knobs.tile_width = t->stride;
-    renderer.frame.id_bits = (uint8_t)t->id_bits;
-    fill(t);
-    if (!sort(t, rng_below(&random_state, 4) ? t->n_ids + 1 : 1 + rng_below(&random_state, t->n_ids))) return 0;
-    for (uint32_t id = t->n_ids; id > 0; id--)
-        if (!take(t, id)) return 0;
-    for (int32_t i = 0; i < t->stride * t->height; i++)
-        if (expected[i]) return 0;
-    for (uint32_t i = 0; i < GN_RUN_LISTS; i++)
-        if (renderer.scratch.run_list[i] != GN_RUN_NONE) return 0;
-    return 1;
-}
-
-static void test_random_tiles(void)
-{
-    int n_wrong = 0;
-    for (int i = 0; i < 2000; i++) {
-        tile t;
-        t.stride = 8 * rng_range(&random_state, 1, 16);
-        t.width = rng_below(&random_state, 2) ? t.stride : rng_range(&random_state, 1, t.stride);
-        t.height = rng_range(&random_state, 1, 32);
-        t.id_bits = (uint32_t)rng_range(&random_state, 2, 16); /* the largest of id_bits is of no triangle */
-        t.n_ids = 1 + rng_below(&random_state, t.id_bits < 9 ? (1U << t.id_bits) - 2 : 300);
-        t.most_px = rng_below(&random_state, 2) ? 3 : 200;
-        n_wrong += !check_tile(&t);
-    }
-    CHECK_EQ_INT(n_wrong, 0);
-}
-
-/* The last index there is, and the largest identities. */
-static void test_largest(void)
-{
-    const tile all = {SIDE_MAX, SIDE_MAX, SIDE_MAX, 65534, 16, 2}, long_rows = {2048, 2048, 32, 2, 2, 5000};
-    CHECK(check_tile(&all));
-    CHECK(check_tile(&long_rows));
+    gn_picture p = {(uint16_t)width, (uint16_t)height, GN_FORMAT_RGB888, GN_VIEW_COLOUR, 0};
+    make_scene(n, coloured_in);
+    CHECK_EQ_INT(gn_init(&renderer, &p), GN_OK);
+    SET_KNOB(&renderer.frame, srgb, 0);
+    SET_KNOB(&renderer.frame, tile_width, 8 * rng_range(&random_state, 1, 16));
+    SET_KNOB(&renderer.frame, tile_height, rng_range(&random_state, 1, 32));
+    CHECK_EQ_INT(gn_begin(&renderer, &scene), GN_OK);
+    CHECK_EQ_INT(gn_prepare(&renderer), GN_OK);
+    if (!CHECK_EQ_INT(gn_get_stats(&renderer)->n_triangles, n)) return;
+    uint32_t n_wrong = 0;
+    for (uint32_t i = 0; i < gn_screen_tile_count(&renderer); i++) n_wrong += wrong_pixels(i, n, most_px);
+    if (!CHECK_EQ_INT(n_wrong, 0)) printf("  %u triangles, pictures of %d x %d\n", n, width, height);
 }
 
 int main(void)
 {
-    test_random_tiles();
-    test_largest();
+    static const uint32_t counts[] = {1, 2, 7, 60, 300, N_MAX};
+    for (int i = 0; i < 300; i++) {
+        const uint32_t n = counts[rng_below(&random_state, sizeof counts / sizeof *counts)];
+        check_tiles(n, 1 + rng_below(&random_state, 3), rng_range(&random_state, 1, 120),
+                    rng_range(&random_state, 30, 60), rng_below(&random_state, 2) ? 3 : 200);
+    }
     return check_report();
 }

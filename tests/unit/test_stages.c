@@ -344,7 +344,7 @@ static void check_sum(const gn_knobs *knobs)
     light.auto_bias = GN_AUTO_BIAS_OFF;
 }
 
-/* A camera that moves and turns by less than a texel a frame: the grid stays where it is in the world (D2). What a
+/* A camera that moves and turns by less than a texel a frame: the grid stays where it is in the world [D2]. What a
  * world point's tile coordinates are modulo whole texels does not change, so edges of static shadows cannot crawl. */
 static void test_grid_does_not_crawl(const gn_knobs *knobs)
 {

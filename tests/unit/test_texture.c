@@ -145,7 +145,7 @@ static void test_lookups(void)
            result.colour.error);
 }
 
-/* Every value of a texel: black and white are exact, values ascend, equal texels blend to themselves. */
+/* Every value of a texel: black and white are exact, values ascend, equal texels blend to themselves. [M3] */
 static void test_values(void)
 {
     uint8_t texels[4 * 4];

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "knobs.h"
 #include "shadow/gn_blocks.h"
 #include "light_scene.h"
 
@@ -193,8 +194,8 @@ static void scene_of_plan(light_scene *s, const plan *p)
 static gn_status begin_plan(const plan *p)
 {
     scene_of_plan(&ls, p);
-    one.frame.knobs.atlas_size = p->size[0];
-    one.frame.knobs.other_atlas_size = p->size[1];
+    SET_KNOB(&one.frame, atlas_size, p->size[0]);
+    SET_KNOB(&one.frame, other_atlas_size, p->size[1]);
     return gn_begin(&one, &ls.scene);
 }
 
@@ -304,6 +305,7 @@ static void random_plan(plan *p, rng *r)
     for (int k = 0; k < 3; k++) p->eye[k] = 2 * rng_range(r, -40, 40);
 }
 
+/* Any lights and any budget: the plan is that of DESIGN 1.6. [A2] [A3] */
 static void test_random_plans(void)
 {
     static plan p;
@@ -347,6 +349,7 @@ static void check_kinds(const char *kinds, const char *expected, int n_cascades,
     }
 }
 
+/* Who gets tiles, by hand. [D1] [D10] [A3] [P5] */
 static void test_budget_by_hand(void)
 {
     init(&one, 16, 16, GN_VIEW_COLOUR, 0);
@@ -434,14 +437,14 @@ static void check_independence(int change_other, uint64_t seed)
     changed->softness = GN_SOFTNESS_SOFT;
     changed->near_offset_q16 = GN_Q16(3);
     if (change_other) {
-        two.frame.knobs.other_atlas_size = 256;
-        two.frame.knobs.other_depth_bits = 32;
+        SET_KNOB(&two.frame, other_atlas_size, 256);
+        SET_KNOB(&two.frame, other_depth_bits, 32);
         ls2.scene.shadow.other_filter = GN_FILTER_7X7;
         ls_add_light(&ls2, GN_LIGHT_POINT);
         ls2.light[4].shadow_strength_uq16 = 0;
     } else {
-        two.frame.knobs.atlas_size = 64;
-        two.frame.knobs.depth_bits = 8;
+        SET_KNOB(&two.frame, atlas_size, 64);
+        SET_KNOB(&two.frame, depth_bits, 8);
         ls2.scene.shadow.filter = GN_FILTER_5X5;
         ls2.scene.shadow.n_cascades = 4;
         ls2.scene.shadow.max_distance_q16 /= 2;
@@ -454,6 +457,7 @@ static void check_independence(int change_other, uint64_t seed)
     CHECK_EQ_INT(same_tiles(2, 2), !change_other);
 }
 
+/* What changes in one atlas changes nothing in the other. [A1] */
 static void test_independence(void)
 {
     for (uint64_t seed = 1; seed <= 4; seed++) {
@@ -522,9 +526,9 @@ static void poison_all_but(uint32_t light, uint8_t value)
         }
         if (back) break;
         memset(&one.frame.atlas, value,
-               (size_t)one.frame.knobs.atlas_size * (size_t)one.frame.knobs.atlas_size * 4 + 4096);
+               (size_t)GN_K(&one.frame, atlas_size) * (size_t)GN_K(&one.frame, atlas_size) * 4 + 4096);
         memset(&one.frame.other_atlas, value,
-               (size_t)one.frame.knobs.other_atlas_size * (size_t)one.frame.knobs.other_atlas_size * 4 + 4096);
+               (size_t)GN_K(&one.frame, other_atlas_size) * (size_t)GN_K(&one.frame, other_atlas_size) * 4 + 4096);
     }
     for (uint32_t i = 0; i < one.frame.n_views; i++)
         if (one.frame.view[i].light_idx != light && !one.frame.view[i].empty) gn_blocks_build(&one.frame.view[i]);
@@ -536,8 +540,8 @@ static void check_poison(const poison_case *c, uint64_t seed)
     poison_scene(c, seed);
     for (uint32_t light = 0; light < ls.scene.n_lights; light++) {
         init(&one, PW, PH, GN_VIEW_SHADOW, (int)light);
-        one.frame.knobs.atlas_size = one.frame.knobs.other_atlas_size = c->size;
-        one.frame.knobs.depth_bits = one.frame.knobs.other_depth_bits = c->depth_bits;
+        SET_KNOB(&one.frame, atlas_size, c->size), SET_KNOB(&one.frame, other_atlas_size, c->size);
+        SET_KNOB(&one.frame, depth_bits, c->depth_bits), SET_KNOB(&one.frame, other_depth_bits, c->depth_bits);
         CHECK_EQ_INT(ls_prepare(&one, &ls.scene), GN_OK);
         CHECK_EQ_INT(gn_get_light_shadow(&one, light, NULL, NULL), GN_SHADOW_REALTIME);
         CHECK_EQ_INT(ls_screen(&one, clean, 4), GN_OK);
@@ -550,6 +554,7 @@ static void check_poison(const poison_case *c, uint64_t seed)
     }
 }
 
+/* What lies beside a tile is never seen. [P8] */
 static void test_poison(void)
 {
     static const poison_case cases[] = {
@@ -576,7 +581,7 @@ static void test_poison_shows(void)
     poison_scene(&c, 40);
     for (uint32_t light = 0; light < ls.scene.n_lights; light++) {
         init(&one, PW, PH, GN_VIEW_SHADOW, (int)light);
-        one.frame.knobs.atlas_size = one.frame.knobs.other_atlas_size = 64;
+        SET_KNOB(&one.frame, atlas_size, 64), SET_KNOB(&one.frame, other_atlas_size, 64);
         CHECK_EQ_INT(ls_prepare(&one, &ls.scene), GN_OK);
         CHECK_EQ_INT(ls_screen(&one, clean, 4), GN_OK);
         poison_all_but(light == 0, 0); /* keeps one light, but not this one */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "exact.h"
+#include "knobs.h"
 #include "visible/gn_setup.h"
 #include "geometry/gn_walk.h"
 #include "gnomon.h"
@@ -378,11 +379,10 @@ static gn_status render(const gn_affine *camera, uint32_t focal_q24, int32_t nea
     scene.shadow.max_distance_q16 = GN_Q16(8192);
     scene.shadow.distance_fade_uq16 = scene.shadow.cascade_fade_uq16 = 65536;
     gn_init(&renderer, &p);
-    gn_knobs *knobs = &renderer.frame.knobs;
-    knobs->subpixel_bits = rng_range(&random_state, 2, 8);
-    knobs->persp_step = steps[rng_below(&random_state, 4)];
-    knobs->tile_width = 8 * rng_range(&random_state, 2, 12);
-    knobs->tile_height = rng_range(&random_state, 12, 72);
+    SET_KNOB(&renderer.frame, subpixel_bits, rng_range(&random_state, 2, 8));
+    SET_KNOB(&renderer.frame, persp_step, steps[rng_below(&random_state, 4)]);
+    SET_KNOB(&renderer.frame, tile_width, 8 * rng_range(&random_state, 2, 12));
+    SET_KNOB(&renderer.frame, tile_height, rng_range(&random_state, 12, 72));
     memset(picture, 0xA5, sizeof picture);
     return gn_render(&renderer, &scene, flush, NULL);
 }
@@ -391,7 +391,7 @@ static int tri_covers(const gn_tri *tri, int px, int py)
 {
     int32_t x[3], y[3];
     gn_setup_corners(&renderer.frame, tri, x, y);
-    return exact_covers(x, y, renderer.frame.knobs.subpixel_bits, px, py);
+    return exact_covers(x, y, GN_K(&renderer.frame, subpixel_bits), px, py);
 }
 
 /* The surface of every pixel is one whose snapped triangle covers its centre. */

@@ -1,4 +1,4 @@
-/* Small pieces for docs/GALLERY.md, where the scenes of host/scenes do not show a feature closely enough: the edge of
+/* Small scenes for docs/GALLERY.md, where the scenes of host/scenes do not show a feature closely enough: the edge of
  * one shadow, slopes that invite acne, cones of spot lights, many lamps, materials, a floor through the near plane,
  * baked light. */
 #include <math.h>
@@ -326,7 +326,7 @@ int gallery_near_write(FILE *file)
 
 static const mesh_point baked_lamp = {-0.7, 1.1, 0.35}, pillar_low = {-0.15, 0, -0.15}, pillar_high = {0.15, 0.9, 0.15};
 
-/* Share of the segment from p to the lamp that is free of the pillar: 0 or 1. */
+/* Fraction of the segment from p to the lamp that is free of the pillar: 0 or 1. */
 static bool reaches_lamp(mesh_point p)
 {
     const double from[3] = {p.x, p.y, p.z}, to[3] = {baked_lamp.x, baked_lamp.y, baked_lamp.z};
@@ -355,8 +355,8 @@ static void bake_floor(mesh_builder *m)
         const float *at = m->vertex[i].pos;
         mesh_point p = {(double)at[0], (double)at[1], (double)at[2]}, v = mesh_sub(baked_lamp, p);
         double d2 = mesh_dot(v, v), window = 1 - d2 * d2 / 256;
-        double share = reaches_lamp(p) && window > 0 ? window * window / d2 * v.y / sqrt(d2) : 0;
-        for (int k = 0; k < 3; k++) m->baked[i][k] = (float)mesh_on_grid(rgb[k] * share);
+        double light = reaches_lamp(p) && window > 0 ? window * window / d2 * v.y / sqrt(d2) : 0;
+        for (int k = 0; k < 3; k++) m->baked[i][k] = (float)mesh_on_grid(rgb[k] * light);
     }
 }
 

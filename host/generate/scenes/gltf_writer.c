@@ -24,9 +24,9 @@ void gltf_begin(gltf_document *d)
 
 static void add_text_v(gltf_document *d, gltf_list *list, const char *format, va_list arguments)
 {
-    size_t room = sizeof list->chars - list->n_chars;
-    int n = vsnprintf(list->chars + list->n_chars, room, format, arguments);
-    if (n < 0 || (size_t)n >= room) d->overflow = true;
+    size_t n_free = sizeof list->chars - list->n_chars;
+    int n = vsnprintf(list->chars + list->n_chars, n_free, format, arguments);
+    if (n < 0 || (size_t)n >= n_free) d->overflow = true;
     else list->n_chars += (size_t)n;
 }
 

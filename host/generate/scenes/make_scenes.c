@@ -21,6 +21,7 @@ int main(int argc, char **argv)
         return 2;
     }
     int failed = make(argv[1], "sundial.gltf", sundial_write);
+    failed |= make(argv[1], "cube.gltf", cube_write);
     failed |= make(argv[1], "avenue.gltf", avenue_write);
     failed |= make(argv[1], "desk.gltf", desk_write);
     failed |= make(argv[1], "room.gltf", room_write);

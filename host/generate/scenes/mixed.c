@@ -24,8 +24,8 @@ typedef struct {
 static void paint_ground(mesh_point at, double *rgb)
 {
     static const double grass[3] = {0.2, 0.3, 0.14}, trodden[3] = {0.5, 0.43, 0.34};
-    double share = fmax(0, fmin(1, (3.4 - hypot(at.x - 0.2, at.z + 0.2)) / 1.6));
-    for (int i = 0; i < 3; i++) rgb[i] = grass[i] + share * (trodden[i] - grass[i]);
+    double blend = fmax(0, fmin(1, (3.4 - hypot(at.x - 0.2, at.z + 0.2)) / 1.6));
+    for (int i = 0; i < 3; i++) rgb[i] = grass[i] + blend * (trodden[i] - grass[i]);
 }
 
 /* A grid, for the masks. */

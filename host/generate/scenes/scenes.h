@@ -16,13 +16,14 @@
 enum { SUNDIAL_FIRST_HOUR = 6, SUNDIAL_LAST_HOUR = 18, SUNDIAL_FRAMES_PER_HOUR = 12 }; /* frame 0 is 06:00 */
 
 int sundial_write(FILE *file);
+int cube_write(FILE *file);   /* a textured cube that turns once in 48 frames */
 int avenue_write(FILE *file); /* a long avenue, for cascades */
 int desk_write(FILE *file);   /* a spot lamp that swings over 48 frames */
 int room_write(FILE *file);   /* a point light, all six cube faces in the picture */
 int fence_write(FILE *file);  /* casters that are cut out, dithered, two-sided, unlit, hidden */
 int mixed_write(FILE *file);  /* every kind of light, baked masks, a caster that moves over 48 frames */
 
-/* Small pieces for docs/GALLERY.md. */
+/* Small scenes for docs/GALLERY.md. */
 int gallery_edge_write(FILE *file);
 int gallery_slopes_write(FILE *file);
 int gallery_cones_write(FILE *file);

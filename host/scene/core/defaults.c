@@ -13,7 +13,7 @@ static const double camera_fov_deg = 40;
 static const double camera_fill = 0.7; /* of the smaller picture dimension */
 static const double ground_albedo = 0.55;
 static const double ground_half_size_radii = 8;
-static const double shadow_reach_radii = 3;       /* behind the object's centre, at most: a low sun casts without end */
+static const double shadow_extent_radii = 3;      /* behind the object's centre, at most: a low sun casts without end */
 static const double shadow_fade = 6554.0 / 65536; /* scene_share(0.1) */
 
 static bool check_object(loader *l, const scene_object *object)
@@ -117,7 +117,7 @@ static double find_shadow_distance(const loader *l, const bounds *b)
     const scene *s = l->s;
     const scene_affine *camera = &s->camera.to_world;
     const double *light = s->lights[0].direction;
-    double deepest = 0, farthest = shadow_reach_radii * b->radius, back[3], eye[3];
+    double deepest = 0, farthest = shadow_extent_radii * b->radius, back[3], eye[3];
     affine_column(back, camera, 2);
     affine_column(eye, camera, 3);
     for (size_t i = 0; i < s->n_objects; i++) {

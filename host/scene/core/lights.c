@@ -18,7 +18,7 @@ static const double point_distance_radii = 1.6; /* ... and near enough that shad
 static const double range_distances = 3;
 static const double spot_inner_margin = 1.15,
                     spot_outer_margin = 1.7; /* times the angle that just covers the casters */
-static const double near_share = 1.0 / 64;
+static const double near_ratio = 1.0 / 64;
 static const double angle_steps = 65536;
 
 void light_set_defaults(scene_light *light)
@@ -35,8 +35,8 @@ static double farthest_corner(const double *from, const double *low, const doubl
 {
     double sum = 0;
     for (int k = 0; k < 3; k++) {
-        double reach = fmax(fabs(low[k] - from[k]), fabs(high[k] - from[k]));
-        sum += reach * reach;
+        double distance = fmax(fabs(low[k] - from[k]), fabs(high[k] - from[k]));
+        sum += distance * distance;
     }
     return sqrt(sum);
 }
@@ -46,8 +46,8 @@ void lights_set_near(scene *s, const double *low, const double *high)
     for (size_t i = 0; i < s->n_lights; i++) {
         scene_light *light = &s->lights[i];
         if (light->kind == SCENE_LIGHT_DIRECTIONAL || light->near > 0) continue;
-        double reach = fmin(light->range, farthest_corner(light->position, low, high));
-        light->near = near_share * fmax(reach, LIGHT_MIN_RANGE);
+        double distance = fmin(light->range, farthest_corner(light->position, low, high));
+        light->near = near_ratio * fmax(distance, LIGHT_MIN_RANGE);
     }
 }
 
@@ -109,9 +109,9 @@ static void place_lamp(scene_light *light, const bounds *subject, const double *
     double radii = spot ? spot_distance_radii : point_distance_radii, distance = radii * subject->radius;
     for (int i = 0; i < 3; i++) light->position[i] = subject->centre[i] + distance * towards[i];
     light->range = fmax(range_distances * distance, LIGHT_MIN_RANGE);
-    double share = distance * distance / (light->range * light->range), window = 1 - share * share;
+    double ratio = distance * distance / (light->range * light->range), window = 1 - ratio * ratio;
     set_white(light, lamp_light * fmax(distance * distance, 1e-4) / (window * window)); /* DESIGN 1.8, on the axis */
-    light->near = near_share * light->range;
+    light->near = near_ratio * light->range;
     if (!spot) return;
     double covers = asin(1 / radii);
     light->inner = whole_steps(spot_inner_margin * covers);

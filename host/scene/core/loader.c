@@ -33,7 +33,8 @@ static char *duplicate(loader *l, const char *text)
     return copy;
 }
 
-/* Room for element n of an array that the scene owns, grown when n is a power of two. *array stays valid on failure. */
+/* Capacity for element n of an array that the scene owns, grown when n is a power of two. *array stays valid on
+ * failure. */
 static bool scene_grow(loader *l, void **array, size_t n, size_t size)
 {
     if (n != 0 && (n & (n - 1)) != 0) return true;
@@ -95,7 +96,7 @@ char *loader_format(loader *l, const char *format, ...)
     return text;
 }
 
-/* Read to the end rather than by a size asked for beforehand: pipes have none, and a folder opens but does not read. */
+/* Read to the end rather than by a size requested beforehand: pipes have none, and a folder opens but does not read. */
 static bool read_stream(loader *l, FILE *file, const char *path, uint8_t **bytes, size_t *n_bytes)
 {
     size_t capacity = 1 << 13;

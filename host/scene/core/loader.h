@@ -88,7 +88,7 @@ bool texture_add(loader *l, const char *name, png_picture *picture, const textur
 
 /* mesh.c. The input's arrays are temporary ones of the loader. */
 
-/* Unit normals: given ones are normalised (zero ones replaced), smooth ones made if the options ask for them. */
+/* Unit normals: given ones are normalised (zero ones replaced), smooth ones made if the options request them. */
 bool mesh_prepare_normals(loader *l, scene_mesh *input);
 
 /* Cuts index lists over one vertex array into meshes of the scene that hold no unused vertex and at most
@@ -114,8 +114,8 @@ bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, 
 #define LIGHT_MIN_RANGE 0.01
 /* Everything that has a default but the kind and the name; range unlimited, near 0: to be found by lights_set_near. */
 void light_set_defaults(scene_light *light);
-/* Spot and point lights without a near distance get one: a share of how far they light anything, the range or the box's
- * farthest corner. A range far beyond the scene says nothing of what is in it. */
+/* Spot and point lights without a near distance get one: a fraction of how far they light anything, the range or the
+ * box's farthest corner. A range far beyond the scene says nothing of what is in it. */
 void lights_set_near(scene *s, const double *low, const double *high);
 bool lights_add(loader *l, const char *name, scene_light_kind kind);
 

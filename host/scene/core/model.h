@@ -81,7 +81,7 @@ typedef struct {
     scene_light_mode mode;
     int mask_channel; /* 0..3, -1: none */
     scene_softness softness;
-    bool shadow;               /* wants a shadow */
+    bool shadow;               /* requests a shadow */
     double strength;           /* 0..1 (M4) */
     double bias_constant;      /* texels (B1) */
     double bias_slope;         /* (B1) */
@@ -121,7 +121,7 @@ typedef struct {
     double distance_fade;      /* D5: 0.001..1, default 0.1 */
     double cascade_fade;       /* D3, D6: 0.001..1, default 0.1 */
     scene_filter filter;       /* of the directional atlas */
-    scene_filter other_filter; /* of the other atlas; the loader makes it the same */
+    scene_filter other_filter; /* of the local-light atlas; the loader makes it the same */
     scene_kernel kernel;
     double penumbra;  /* F4, the setting sigma, 0..64, default 1 */
     int disk_samples; /* F4, 1..64, default 16 */
@@ -185,7 +185,7 @@ int scene_add_note(scene *s, const char *text, char *error, size_t error_bytes);
 
 /* Appends a light of this kind, placed so that it lights the scene as the camera sees it and throws a shadow into the
  * picture: what
- * --set lights and --set add_light ask for. Returns 0; -1 with one line in error if memory runs out. */
+ * --set lights and --set add_light request. Returns 0; -1 with one line in error if memory runs out. */
 int scene_add_light(scene *s, scene_light_kind kind, char *error, size_t error_bytes);
 void scene_remove_lights(scene *s);
 

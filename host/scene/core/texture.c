@@ -76,13 +76,13 @@ static void resample_texel(const uint8_t *rgba, size_t w, tap x, tap y, const we
 {
     const uint8_t *texel[4] = {rgba + 4 * (y.a * w + x.a), rgba + 4 * (y.a * w + x.b), rgba + 4 * (y.b * w + x.a),
                                rgba + 4 * (y.b * w + x.b)};
-    const double share[4] = {(1 - y.u) * (1 - x.u), (1 - y.u) * x.u, y.u * (1 - x.u), y.u * x.u};
+    const double weight[4] = {(1 - y.u) * (1 - x.u), (1 - y.u) * x.u, y.u * (1 - x.u), y.u * x.u};
     double alpha = 0;
-    for (int i = 0; i < 4; i++) alpha += share[i] * weigh->alpha.level[texel[i][3]];
+    for (int i = 0; i < 4; i++) alpha += weight[i] * weigh->alpha.level[texel[i][3]];
     for (int k = 0; k < 3; k++) {
         double plain = 0, shown = 0;
         for (int i = 0; i < 4; i++) {
-            double part = share[i] * weigh->colour.level[texel[i][k]];
+            double part = weight[i] * weigh->colour.level[texel[i][k]];
             plain += part;
             shown += part * weigh->alpha.level[texel[i][3]];
         }

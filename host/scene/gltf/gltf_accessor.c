@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Without a buffer view an accessor is all zeros and costs no bytes in the file: a bound on what a short file can ask
- * for. */
+/* Without a buffer view an accessor is all zeros and costs no bytes in the file: a bound on what a short file can
+ * request. */
 enum { MAX_ZEROS = 1 << 20 };
 
 static size_t component_bytes(size_t type)

@@ -14,7 +14,7 @@ typedef struct {
     unsigned n_bits;
 } bit_writer;
 
-/* n_bits <= 16; the buffer has room: see worst_case. */
+/* n_bits <= 16; the buffer is large enough: see worst_case. */
 static void put_bits(bit_writer *w, uint32_t value, unsigned n_bits)
 {
     w->bits |= (uint64_t)value << w->n_bits;

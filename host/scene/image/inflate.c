@@ -48,13 +48,13 @@ static uint32_t take_bits(inflater *z, unsigned n)
 static bool build_code(inflater *z, huffman *h, const uint8_t *lengths, size_t n)
 {
     uint16_t first[MAX_CODE_BITS + 2] = {0};
-    int room = 1;
+    int free_codes = 1;
     memset(h, 0, sizeof *h);
     for (size_t i = 0; i < n; i++) h->count[lengths[i]]++;
     h->count[0] = 0;
     for (int bits = 1; bits <= MAX_CODE_BITS; bits++) {
-        room = 2 * room - h->count[bits];
-        if (room < 0) return fail(z, "a Huffman code is over-subscribed");
+        free_codes = 2 * free_codes - h->count[bits];
+        if (free_codes < 0) return fail(z, "a Huffman code is over-subscribed");
         first[bits + 1] = (uint16_t)(first[bits] + h->count[bits]);
     }
     for (size_t i = 0; i < n; i++) {

@@ -1,4 +1,4 @@
-/* Reading PNG. The file may be anything: sizes are checked against the bytes that are there before memory is asked for.
+/* Reading PNG. The file may be anything: sizes are checked against the bytes that are there before memory is requested.
  */
 #include "png.h"
 
@@ -53,10 +53,10 @@ static bool read_stream(reader *r, FILE *file)
         if (!bytes) return fail(r, "out of memory");
         r->bytes = bytes;
         /* n_bytes is 0 or a power of two here: the array was just doubled. */
-        size_t room = r->n_bytes ? r->n_bytes : 1, n = fread(bytes + r->n_bytes, 1, room, file);
+        size_t free_bytes = r->n_bytes ? r->n_bytes : 1, n = fread(bytes + r->n_bytes, 1, free_bytes, file);
         r->n_bytes += n;
         if (ferror(file)) return fail(r, "cannot be read");
-        if (n < room) return true;
+        if (n < free_bytes) return true;
         if (r->n_bytes >= MAX_FILE_BYTES) return fail(r, "larger than 1 GiB");
     }
 }
@@ -75,7 +75,7 @@ static uint32_t word_at(const uint8_t *b)
     return (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3];
 }
 
-/* Palettes have at most 8 bits, several channels at least 8. */
+/* Palettes have at max 8 bits, several channels at least 8. */
 static bool depth_is_known(int colour, unsigned depth)
 {
     bool is_power = depth == 1 || depth == 2 || depth == 4 || depth == 8 || depth == 16;
@@ -222,8 +222,8 @@ static unsigned sample_at(const reader *r, const uint8_t *row, size_t i)
 
 static uint8_t to_8_bits(const reader *r, unsigned sample)
 {
-    unsigned most = (1U << r->depth) - 1;
-    return (uint8_t)((sample * 255 + most / 2) / most);
+    unsigned max = (1U << r->depth) - 1;
+    return (uint8_t)((sample * 255 + max / 2) / max);
 }
 
 static bool is_transparent(const reader *r, const unsigned *samples)
@@ -290,7 +290,7 @@ static uint8_t *read_picture(reader *r)
         const pass *p = r->interlaced ? &adam7[i] : whole;
         n_raw += pass_height(r, p) * (row_bytes(r, p) + 1);
     }
-    /* Deflate shrinks at most 1032 times: a short file cannot ask for much memory. */
+    /* Deflate shrinks at max 1032 times: a short file cannot ask for much memory. */
     if (n_raw / 1033 > r->n_idat) {
         fail(r, "compressed data is too short");
         return NULL;

@@ -71,9 +71,9 @@ static bool read_map_options(obj_text *t, const obj_material *material, texture_
     bool other = false;
     for (size_t n = peek_word(t, word, sizeof word); word[0] == '-'; n = peek_word(t, word, sizeof word)) {
         bool clamp = strcmp(word, "-clamp") == 0, vector = strlen(word) == 2 && strchr("ost", word[1]);
-        size_t most = vector ? 3 : strcmp(word, "-mm") == 0 ? 2 : 1;
+        size_t n_max = vector ? 3 : strcmp(word, "-mm") == 0 ? 2 : 1;
         t->at += n;
-        for (size_t i = 0; i < most; i++) {
+        for (size_t i = 0; i < n_max; i++) {
             n = peek_word(t, word, sizeof word);
             if (vector && !is_number(word)) break;
             if (clamp) out->clamp_u = out->clamp_v = strcmp(word, "on") == 0;

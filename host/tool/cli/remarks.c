@@ -53,8 +53,8 @@ void remarks_on_picture(const scene *s, const engine_picture *p)
     tool_error("%u light%s no shadow tile, so no shadow: %s", no_room, no_room == 1 ? " has" : "s have", names);
 }
 
-/* Whether some place is in the range of both. */
-static bool reach_overlaps(const scene_light *a, const scene_light *b)
+/* Whether some point is in the range of both. */
+static bool ranges_overlap(const scene_light *a, const scene_light *b)
 {
     if (a->kind == SCENE_LIGHT_DIRECTIONAL || b->kind == SCENE_LIGHT_DIRECTIONAL) return true;
     double d[3];
@@ -73,7 +73,7 @@ static int note_shared_channels(scene *s, size_t first, char *error, size_t byte
     const scene_light *a = &s->lights[first];
     for (size_t i = first + 1; i < s->n_lights; i++) {
         const scene_light *b = &s->lights[i];
-        if (!is_masked(a) || !is_masked(b) || a->mask_channel != b->mask_channel || !reach_overlaps(a, b)) continue;
+        if (!is_masked(a) || !is_masked(b) || a->mask_channel != b->mask_channel || !ranges_overlap(a, b)) continue;
         snprintf(note, sizeof note,
                  "mixed lights %zu '%.64s' and %zu '%.64s' share mask channel %d, and their ranges overlap", first,
                  a->name, i, b->name, a->mask_channel);

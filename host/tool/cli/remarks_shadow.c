@@ -122,9 +122,9 @@ static double projected_area(const polygon *p)
 typedef struct {
     double area, near_area;  /* all, nearer than the shadow distance */
     double nearest, deepest; /* view depth */
-} view_reach;
+} view_range;
 
-static void take_triangle(view_reach *out, const scene *s, polygon *p, double aspect, bool two_sided)
+static void take_triangle(view_range *out, const scene *s, polygon *p, double aspect, bool two_sided)
 {
     cut_to_view(p, &s->camera, aspect);
     double area = projected_area(p);
@@ -151,9 +151,9 @@ static void to_view(double *out, const scene *s, const scene_object *o, size_t v
     }
 }
 
-static view_reach find_reach(const scene *s, double aspect)
+static view_range find_range(const scene *s, double aspect)
 {
-    view_reach out = {.nearest = HUGE_VAL};
+    view_range out = {.nearest = HUGE_VAL};
     for (size_t i = 0; i < s->n_objects; i++) {
         const scene_object *o = &s->objects[i];
         const scene_mesh *mesh = &s->meshes[o->mesh_idx];
@@ -169,18 +169,18 @@ static view_reach find_reach(const scene *s, double aspect)
 
 static int note_distance(scene *s, double aspect, char *error, size_t bytes)
 {
-    char note[NOTE_BYTES], share[64] = "nothing in view is";
+    char note[NOTE_BYTES], fraction[64] = "nothing in view is";
     bool any = false;
     for (size_t i = 0; i < s->n_lights; i++) any |= wants_shadow(&s->lights[i]);
     if (!any || s->shadow.max_distance != default_distance) return 0;
-    const view_reach reach = find_reach(s, aspect);
-    if (!(reach.area > 0) || reach.near_area >= few * reach.area) return 0;
-    if (reach.near_area > 0)
-        snprintf(share, sizeof share, "only %.2g %% of what is in view is", 100 * reach.near_area / reach.area);
+    const view_range range = find_range(s, aspect);
+    if (!(range.area > 0) || range.near_area >= few * range.area) return 0;
+    if (range.near_area > 0)
+        snprintf(fraction, sizeof fraction, "only %.2g %% of what is in view is", 100 * range.near_area / range.area);
     snprintf(note, sizeof note,
              "%s nearer than %g, beyond which there are no shadows: it is %.6g to %.6g away; --set max_distance=%.6g",
-             share, default_distance, reach.nearest, reach.deepest,
-             fmin(8192, about(fmin(reach.deepest, s->camera.far))));
+             fraction, default_distance, range.nearest, range.deepest,
+             fmin(8192, about(fmin(range.deepest, s->camera.far))));
     return scene_add_note(s, note, error, bytes);
 }
 

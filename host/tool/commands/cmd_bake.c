@@ -48,7 +48,7 @@ static void show_progress(void *user, size_t n_done, size_t n_all)
 
 /* ---- The file ---- */
 
-/* Settings that are no part of the scene, from its file and then from the command line; text: room for n_sets keys. */
+/* Settings that are no part of the scene, from its file and then from the command line; text: capacity n_sets keys. */
 static size_t list_settings(const scene *s, const tool_options *o, scene_write_setting *out, char (*text)[64])
 {
     size_t n = 0;

@@ -35,6 +35,7 @@ typedef struct {
     engine_picture picture[N_ENGINES];
     metrics m[N_PAIRS];
     long ram_bytes;
+    bool shadow_is_drawn; /* attenuation is measured on what the picture is drawn with */
 } comparison;
 
 static bool is_with_truth(const tool_options *o)
@@ -51,7 +52,7 @@ static void print_number(const char *name, double v)
 }
 
 /* The members of a pair's object before and after "ram_bytes". */
-static void print_shares(const metrics *m)
+static void print_summary(const metrics *m)
 {
     printf("\"identical\": %.9g", m->identical);
     print_number("within1", m->within1);
@@ -79,16 +80,17 @@ static void print_json(const tool_options *o, const comparison *c)
 {
     printf("{\"scene\": ");
     tool_json_string(o->scene_path);
-    printf(", \"with\": \"%s\", \"width\": %d, \"height\": %d, ", o->with, o->width, o->height);
+    printf(", \"with\": \"%s\", \"width\": %d, \"height\": %d, \"attenuation_path\": \"%s\", ", o->with, o->width,
+           o->height, c->shadow_is_drawn ? "picture" : "general");
     if (!is_with_truth(o)) {
-        print_shares(&c->m[0]);
+        print_summary(&c->m[0]);
         printf(", \"ram_bytes\": %ld", c->ram_bytes);
         print_details(&c->m[0]);
     } else {
         printf("\"samples\": %d, \"ram_bytes\": %ld", tool_samples(o), c->ram_bytes);
         for (int i = 0; i < c->n_pairs; i++) {
             printf(", \"%s\": {", pairs[i].key);
-            print_shares(&c->m[i]);
+            print_summary(&c->m[i]);
             print_details(&c->m[i]);
             printf("}");
         }
@@ -121,6 +123,9 @@ static void print_text(const tool_options *o, const comparison *c)
         print_metrics(&c->m[i]);
     }
     printf("  library RAM           %8ld bytes\n", c->ram_bytes);
+    if (!c->shadow_is_drawn)
+        printf("  attenuation and shadow mismatch are of the general path, pixel by pixel: with persp_step above 1"
+               " the picture itself is drawn cell by cell\n");
 }
 
 /* ---- pictures ---- */
@@ -245,6 +250,7 @@ static int compare(comparison *c, const tool_options *o)
         remarks_on_settings(&s);
         remarks_on_picture(&s, &c->picture[FIXED]);
     }
+    c->shadow_is_drawn = engine_shadow_is_drawn(&set);
     settings_trim(&set, &s);
     scene_free(&s);
     if (failed) return tool_fail(o->scene_path, error);

@@ -202,7 +202,7 @@ static void text_ram(const report *r)
     printf("  RAM with features and capacities for just that:\n");
     for (int i = 0; i < SETTINGS_PRESETS; i++) {
         const settings_ram_parts *ram = &r->ram[i];
-        printf("    %-9s %7ld bytes: atlas %ld, other atlas %ld, triangles %ld, tile references %ld, objects and "
+        printf("    %-9s %7ld bytes: atlas %ld, local-light atlas %ld, triangles %ld, tile references %ld, objects and "
                "lights %ld, "
                "screen tile %ld, rest %ld\n",
                settings_preset_name[i], ram->total, ram->atlas, ram->other_atlas, ram->triangles,

@@ -65,8 +65,8 @@ int info_memory_find(info_memory *out, const tool_options *o, char *error, size_
     if (frames.last_frame < 0) frames.last_frame = frames.frame;
     if (count_frames(out, o, error, error_bytes)) return -1;
     for (int i = 0; i < SETTINGS_PRESETS; i++) try_preset(out, &frames, i);
-    int asked = compile_read_board(o, &b, error, error_bytes);
-    if (asked <= 0) return asked;
+    int requested = compile_read_board(o, &b, error, error_bytes);
+    if (requested <= 0) return requested;
     if (!b.name[0]) snprintf(b.name, sizeof b.name, "that");
     if (judge(out, &frames, &b, error, error_bytes)) return -1;
     if (o->last_frame < 0 && out->frames > 1) {

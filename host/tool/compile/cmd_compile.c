@@ -100,7 +100,7 @@ static void print_summary(const compiled *c, const board *b)
         c->n_frames, m.renderer, m.state, m.data, m.code);
 }
 
-/* The loader holds the last frame: what was asked for is compiled, and takes flash for nothing. */
+/* The loader holds the last frame: what was requested is compiled, and takes flash for nothing. */
 static void say_if_beyond(const compiled *c)
 {
     const double last = c->scene.fps > 0 ? ceil(c->scene.duration * c->scene.fps - 1e-6) : 0;

@@ -49,10 +49,10 @@ typedef struct {
     size_t clipped;                     /* visible triangles that were */
     size_t culled;                      /* casters left out by D8 */
     size_t caster_triangles;
-    double instructions, lookups; /* by the model of cost; of shadows */
-    size_t casters_unseen;        /* by boxes: casters that a shadow tile does not see */
-    int64_t reach_q16,
-        reach_seen_q16; /* how far casters lie from the corner of a directional light's tile: all, and those it sees */
+    double instructions, lookups;                      /* by the model of cost; of shadows */
+    size_t casters_unseen;                             /* by boxes: casters that a shadow tile does not see */
+    int64_t caster_extent_q16, caster_extent_seen_q16; /* how far casters lie from the corner of a directional light's
+                                                          tile: all, and those it sees */
 } compile_run;
 
 /* Something that was taken away, and what that saved. */
@@ -60,7 +60,7 @@ typedef struct {
     char what[160];
     size_t n;
     long flash_bytes, ram_bytes;
-    double instructions; /* share of all, 0..1 */
+    double instructions; /* fraction of all, 0..1 */
 } compile_saving;
 enum { COMPILE_SAVINGS_MAX = 24 };
 
@@ -68,7 +68,7 @@ enum { COMPILE_SAVINGS_MAX = 24 };
 typedef enum { COMPILE_POSITIONS, COMPILE_NORMALS } compile_narrowed;
 typedef struct {
     size_t n_pixels, n_changed; /* n_pixels 0: not measured */
-    int most;                   /* of 255 */
+    int max_error;              /* of 255 */
 } compile_change;
 
 typedef struct {
@@ -79,7 +79,7 @@ typedef struct {
     const char **object_name, **light_name, **mesh_name,
         **texture_name; /* beside the arrays of fixed, whose elements may go */
     size_t n_textures;  /* of fixed.textures */
-    settings asked;     /* what was set */
+    settings requested; /* what was set */
     settings set;       /* the configuration that is chosen */
     compile_run run;
     size_t kept_tiles; /* from frame to frame, all frames */
@@ -132,7 +132,7 @@ const gn_scene *compile_frame(compile_stage *st, const compiled *c, int i);
 int compile_draw(compile_stage *st, const compiled *c, int i, const compile_hash *wanted, compile_hash *hash);
 bool compile_same(const compile_hash *a, const compile_hash *b);
 
-/* All frames; with wanted, until one is another picture. run->hash must have room for n_frames. */
+/* All frames; with wanted, until one is another picture. run->hash: capacity n_frames. */
 int compile_run_all(compile_run *run, compile_stage *st, const compiled *c, const compile_run *wanted);
 
 /* One frame by itself, as RGB888. */
@@ -145,9 +145,9 @@ int compile_run_one(compile_run *run, compile_stage *st, const compiled *c, int 
 void compile_casters(compile_run *run, const gn_renderer *r);
 
 /* How far casters lie, of all or of those that boxes let through; and what is refused without caster_clipping. */
-enum { COMPILE_REACH_MAX = 8192 };
-int compile_reach_texels(const compile_run *run, bool boxes);
-int compile_check_reach(const compiled *c, char *error, size_t error_bytes);
+enum { COMPILE_CASTER_TEXELS_MAX = 8192 };
+int compile_caster_texels(const compile_run *run, bool boxes);
+int compile_check_casters(const compiled *c, char *error, size_t error_bytes);
 
 /* Marks the triangles that some frame's picture shows, by mesh. */
 int compile_see(compile_stage *st, const compiled *c, bool **seen);
@@ -172,7 +172,7 @@ enum { COMPILE_NARROW_NOT, COMPILE_NARROW_EXACT, COMPILE_NARROW_ROUNDED };
 int compile_narrow(compiled *c, compile_stage *st, compile_narrowed what, bool rounded, const compile_run *wanted,
                    compile_run *now);
 
-/* compile_config.c: makes c->set the least configuration for what was played, and writes it. */
+/* compile_config.c: makes c->set the minimal configuration for what was played, and writes it. */
 void compile_choose(compiled *c);
 void compile_write_config(FILE *file, const compiled *c);
 
@@ -201,7 +201,7 @@ void compile_say_memory(const compile_memory *m, const board *b, char *out, size
  */
 bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t bytes);
 
-/* compile.c: all of it but the files; 1: there is a board, 0: none was asked for, -1. */
+/* compile.c: all of it but the files; 1: there is a board, 0: none was requested, -1. */
 int compile_all(compiled *c, const tool_options *o, char *error, size_t error_bytes);
 int compile_read_board(const tool_options *o, board *out, char *error, size_t error_bytes);
 

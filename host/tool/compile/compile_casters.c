@@ -6,21 +6,21 @@
 
 /* The furthest that a coordinate of the caster lies from the tile's corner, Q16 texels. All vertices, whatever
  * triangles use them: what is found holds for those that are drawn. */
-static int64_t reach_of(const gn_light_view *view, const gn_object *object)
+static int64_t extent_of(const gn_light_view *view, const gn_object *object)
 {
     const gn_mesh *mesh = object->mesh;
     gn_xform to_tile;
-    int64_t reach = 0;
+    int64_t extent = 0;
     gn_ortho_compose(&to_tile, view, object);
     for (uint32_t i = 0; i < mesh->n_vertices; i++) {
         int64_t at[3];
         gn_ortho_vertex(at, &to_tile, mesh, i);
         for (int k = 0; k < 3; k++) {
             int64_t far = at[k] < 0 ? -at[k] : at[k];
-            if (far > reach) reach = far;
+            if (far > extent) extent = far;
         }
     }
-    return reach;
+    return extent;
 }
 
 static void add_caster(compile_run *run, const gn_renderer *r, const gn_light_view *view, uint32_t object_idx)
@@ -30,9 +30,9 @@ static void add_caster(compile_run *run, const gn_renderer *r, const gn_light_vi
     if (view->perspective) return; /* these take any caster */
     /* B4 moves a corner by as many texels at the most */
     const gn_light *light = &r->frame.scene->lights[view->light_idx];
-    int64_t reach = reach_of(view, &r->frame.scene->objects[object_idx]) + light->bias_caster_q16;
-    if (seen && reach > run->reach_seen_q16) run->reach_seen_q16 = reach;
-    if (reach > run->reach_q16) run->reach_q16 = reach;
+    int64_t extent = extent_of(view, &r->frame.scene->objects[object_idx]) + light->bias_caster_q16;
+    if (seen && extent > run->caster_extent_seen_q16) run->caster_extent_seen_q16 = extent;
+    if (extent > run->caster_extent_q16) run->caster_extent_q16 = extent;
 }
 
 void compile_casters(compile_run *run, const gn_renderer *r)
@@ -46,24 +46,25 @@ void compile_casters(compile_run *run, const gn_renderer *r)
     }
 }
 
-int compile_reach_texels(const compile_run *run, bool boxes)
+int compile_caster_texels(const compile_run *run, bool boxes)
 {
-    int64_t texels = ((boxes ? run->reach_seen_q16 : run->reach_q16) + 65535) >> 16;
+    int64_t texels = ((boxes ? run->caster_extent_seen_q16 : run->caster_extent_q16) + 65535) >> 16;
     return texels < INT32_MAX ? (int)texels : INT32_MAX;
 }
 
-int compile_check_reach(const compiled *c, char *error, size_t error_bytes)
+int compile_check_casters(const compiled *c, char *error, size_t error_bytes)
 {
-    if (!c->asked.feature.clipping && c->run.clipped) {
+    if (!c->requested.feature.clipping && c->run.clipped) {
         snprintf(error, error_bytes, "setting 'clipping': 0, and %zu triangles of all frames are clipped",
                  c->run.clipped);
         return -1;
     }
-    const bool boxes = c->asked.feature.object_boxes && c->run.casters_unseen;
-    const int reach = compile_reach_texels(&c->run, boxes);
-    if (c->asked.feature.caster_clipping || !c->asked.feature.shadows || reach < COMPILE_REACH_MAX) return 0;
+    const bool boxes = c->requested.feature.object_boxes && c->run.casters_unseen;
+    const int extent = compile_caster_texels(&c->run, boxes);
+    if (c->requested.feature.caster_clipping || !c->requested.feature.shadows || extent < COMPILE_CASTER_TEXELS_MAX)
+        return 0;
     snprintf(error, error_bytes,
-             "setting 'caster_clipping': 0, and casters lie up to %d texels from a shadow tile's corner, of %d", reach,
-             COMPILE_REACH_MAX);
+             "setting 'caster_clipping': 0, and casters lie up to %d texels from a shadow tile's corner, of %d", extent,
+             COMPILE_CASTER_TEXELS_MAX);
     return -1;
 }

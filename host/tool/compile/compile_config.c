@@ -38,14 +38,13 @@ static size_t with_margin(const compiled *c, size_t n)
 }
 
 /* A capacity that was set stays as it is. */
-static void fit(compiled *c, const char *knob, int *capacity, size_t n, int most, const char *what, int peak_frame,
+static void fit(compiled *c, const char *knob, int *capacity, size_t n, int max, const char *what, int peak_frame,
                 bool margin)
 {
     if (*capacity) return;
-    size_t room = margin ? with_margin(c, n) : n;
-    *capacity = room < 1 ? 1 : room > (size_t)most ? most : (int)room;
-    if (margin)
-        because(c, knob, "%zu %s at most, in frame %d, and %d %% more", n, what, peak_frame, c->options->margin);
+    size_t value = margin ? with_margin(c, n) : n;
+    *capacity = value < 1 ? 1 : value > (size_t)max ? max : (int)value;
+    if (margin) because(c, knob, "%zu %s at max, in frame %d, and %d %% more", n, what, peak_frame, c->options->margin);
     else because(c, knob, "%zu %s", n, what);
 }
 
@@ -54,7 +53,7 @@ static size_t tiles_of(gn_light_kind kind)
     return kind == GN_LIGHT_POINT ? 6 : 1;
 }
 
-/* Where the scene may be moved, any light may come to reach something: tiles for all that want a shadow. */
+/* Where the scene may be moved, any light may come to light something: tiles for all that request a shadow. */
 static settings_demand with_all_tiles(const compiled *c)
 {
     enum { TILES_MAX = 16 }; /* of an atlas */
@@ -98,12 +97,11 @@ static void choose_capacities(compiled *c)
     fit(c, "max_tile_refs", &s->capacity.max_tile_refs, d->tile_refs, 1000000, "references",
         c->first_frame + c->run.peak_tile_refs, true);
     fit(c, "max_lights", &s->capacity.max_lights, d->lights, 64, "lights in the scene", 0, false);
-    fit(c, "surface_lights", &s->capacity.surface_lights, d->surface_lights, 64, "lights reach one object at most", 0,
+    fit(c, "surface_lights", &s->capacity.surface_lights, d->surface_lights, 64, "lights reach one object at max", 0,
         false);
     fit(c, "max_objects", &s->capacity.max_objects, d->objects, 65535, "objects in the scene", 0, false);
-    fit(c, "max_shadow_tiles", &s->capacity.max_shadow_tiles, d->shadow_tiles, 16, "tiles at most in a frame", 0,
-        false);
-    fit(c, "max_other_tiles", &s->capacity.max_other_tiles, d->other_tiles, 16, "tiles at most in a frame", 0, false);
+    fit(c, "max_shadow_tiles", &s->capacity.max_shadow_tiles, d->shadow_tiles, 16, "tiles at max in a frame", 0, false);
+    fit(c, "max_other_tiles", &s->capacity.max_other_tiles, d->other_tiles, 16, "tiles at max in a frame", 0, false);
     fit(c, "atlas_texels", &s->capacity.atlas_texels, d->atlas_texels < 64 ? 64 : d->atlas_texels, 1 << 20,
         "texels: the tiles", 0, false);
     fit(c, "other_atlas_texels", &s->capacity.other_atlas_texels,
@@ -121,7 +119,7 @@ static void shrink_atlases(compiled *c)
         s->quality.atlas_size = 16;
         s->quality.depth_bits = s->quality.other_depth_bits;
         because(c, "atlas_size", "no frame draws a directional light's shadow");
-        because(c, "depth_bits", "as the other atlas: this one is not used");
+        because(c, "depth_bits", "as the local-light atlas: this one is not used");
     } else if (!d.other_tiles) {
         s->quality.other_atlas_size = 16;
         s->quality.other_depth_bits = s->quality.depth_bits;
@@ -259,9 +257,10 @@ static void choose_speed(compiled *c)
     else because(c, "incremental", "shadow tiles kept from the frame before, all frames: %zu", c->kept_tiles);
 }
 
-/* Casters of directional lights are drawn without ado up to COMPILE_REACH_MAX texels from their tile: none that comes
- * up to half of that needs the code that cuts them. Without it, what would be too far is refused, not misdrawn. */
-enum { REACH_ENOUGH = COMPILE_REACH_MAX / 2 };
+/* Casters of directional lights are drawn without ado up to COMPILE_CASTER_TEXELS_MAX texels from their tile: none that
+ * comes up to half of that needs the code that cuts them. Without it, what would be too far is refused, not misdrawn.
+ */
+enum { CASTER_TEXELS_ENOUGH = COMPILE_CASTER_TEXELS_MAX / 2 };
 
 static void choose_casters(compiled *c)
 {
@@ -274,12 +273,12 @@ static void choose_casters(compiled *c)
             c->run.clipped);
     if (!s->feature.shadows || !c->run.casters_unseen) s->feature.object_boxes = 0;
     because(c, "object_boxes", "casters that a shadow tile does not see, all frames: %zu", c->run.casters_unseen);
-    const int reach = compile_reach_texels(&c->run, s->feature.object_boxes);
-    if (!s->feature.shadows || (path && reach <= REACH_ENOUGH)) s->feature.caster_clipping = 0;
-    if (!c->run.reach_q16) because(c, "caster_clipping", "no caster of a directional light");
+    const int extent = compile_caster_texels(&c->run, s->feature.object_boxes);
+    if (!s->feature.shadows || (path && extent <= CASTER_TEXELS_ENOUGH)) s->feature.caster_clipping = 0;
+    if (!c->run.caster_extent_q16) because(c, "caster_clipping", "no caster of a directional light");
     else if (path)
-        because(c, "caster_clipping", "casters lie up to %d texels from a tile's corner, of %d without", reach,
-                REACH_ENOUGH);
+        because(c, "caster_clipping", "casters lie up to %d texels from a tile's corner, of %d without", extent,
+                CASTER_TEXELS_ENOUGH);
     else because(c, "caster_clipping", "scenes of --simplify none and safe may be moved otherwise");
 }
 
@@ -296,10 +295,10 @@ static void choose_checks(compiled *c)
 }
 
 /* compile_narrow.c has chosen, or measured. */
-static void explain_bits(compiled *c, compile_narrowed what, const char *knob, int bits, int asked)
+static void explain_bits(compiled *c, compile_narrowed what, const char *knob, int bits, int requested)
 {
     const compile_change *change = &c->narrow_change[what];
-    if (bits < asked) because(c, knob, "no frame shows a difference to %d", asked);
+    if (bits < requested) because(c, knob, "no frame shows a difference to %d", requested);
     else if (change->n_pixels) because(c, knob, "%d would change the picture: see above", bits / 2);
 }
 
@@ -311,8 +310,9 @@ void compile_choose(compiled *c)
     choose_casters(c);
     choose_checks(c);
     shrink_atlases(c);
-    explain_bits(c, COMPILE_POSITIONS, "position_bits", c->set.quality.position_bits, c->asked.quality.position_bits);
-    explain_bits(c, COMPILE_NORMALS, "normal_bits", c->set.quality.normal_bits, c->asked.quality.normal_bits);
+    explain_bits(c, COMPILE_POSITIONS, "position_bits", c->set.quality.position_bits,
+                 c->requested.quality.position_bits);
+    explain_bits(c, COMPILE_NORMALS, "normal_bits", c->set.quality.normal_bits, c->requested.quality.normal_bits);
 }
 
 /* ---- gn_scene_config.h ------------------------------------------------------------------------------------------- */
@@ -344,7 +344,7 @@ static void write_narrow(FILE *f, const compiled *c)
         if (!change->n_changed) fprintf(f, "none of these pixels changes.\n");
         else
             fprintf(f, "%.2f %% of these pixels change, by up to %d of 255.\n",
-                    100.0 * (double)change->n_changed / (double)change->n_pixels, change->most);
+                    100.0 * (double)change->n_changed / (double)change->n_pixels, change->max_error);
     }
 }
 

@@ -38,9 +38,9 @@ bool compile_fits(const compile_memory *m, const board *b)
 bool compile_is_close(const compile_memory *m, const board *b)
 {
     const long more = m->code * COMPILE_CODE_TOLERANCE / 100;
-    compile_memory most = *m;
-    most.code += more;
-    return b->name[0] && compile_fits(m, b) && !compile_fits(&most, b);
+    compile_memory larger = *m;
+    larger.code += more;
+    return b->name[0] && compile_fits(m, b) && !compile_fits(&larger, b);
 }
 
 void compile_say_memory(const compile_memory *m, const board *b, char *out, size_t bytes)

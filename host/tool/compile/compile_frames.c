@@ -112,7 +112,7 @@ bool compile_same(const compile_hash *a, const compile_hash *b)
 
 /* ---- Runs -------------------------------------------------------------------------------------------------------- */
 
-static void most(size_t *of, size_t value)
+static void raise_to(size_t *of, size_t value)
 {
     if (value > *of) *of = value;
 }
@@ -124,15 +124,15 @@ static void take_demand(compile_run *run, const settings_demand *frame, int i)
     if (i == 0 || frame->tile_refs > all->tile_refs) run->peak_tile_refs = i;
     all->width = frame->width;
     all->height = frame->height;
-    most(&all->objects, frame->objects);
-    most(&all->lights, frame->lights);
-    most(&all->surface_lights, frame->surface_lights);
-    most(&all->triangles, frame->triangles);
-    most(&all->tile_refs, frame->tile_refs);
-    most(&all->shadow_tiles, frame->shadow_tiles);
-    most(&all->other_tiles, frame->other_tiles);
-    most(&all->atlas_texels, frame->atlas_texels);
-    most(&all->other_atlas_texels, frame->other_atlas_texels);
+    raise_to(&all->objects, frame->objects);
+    raise_to(&all->lights, frame->lights);
+    raise_to(&all->surface_lights, frame->surface_lights);
+    raise_to(&all->triangles, frame->triangles);
+    raise_to(&all->tile_refs, frame->tile_refs);
+    raise_to(&all->shadow_tiles, frame->shadow_tiles);
+    raise_to(&all->other_tiles, frame->other_tiles);
+    raise_to(&all->atlas_texels, frame->atlas_texels);
+    raise_to(&all->other_atlas_texels, frame->other_atlas_texels);
 }
 
 static void take_frame(compile_run *run, const compile_stage *st, int i)

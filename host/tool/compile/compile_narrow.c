@@ -133,10 +133,10 @@ static void add_difference(compile_change *change, const uint8_t *a, const uint8
 {
     change->n_pixels += bytes / 3;
     for (size_t i = 0; i < bytes; i += 3) {
-        int most = 0;
-        for (size_t k = i; k < i + 3; k++) most = abs(a[k] - b[k]) > most ? abs(a[k] - b[k]) : most;
-        change->n_changed += most > 0;
-        if (most > change->most) change->most = most;
+        int max = 0;
+        for (size_t k = i; k < i + 3; k++) max = abs(a[k] - b[k]) > max ? abs(a[k] - b[k]) : max;
+        change->n_changed += max > 0;
+        if (max > change->max_error) change->max_error = max;
     }
 }
 
@@ -163,7 +163,7 @@ static int measure(vertices *v, compiled *c, compile_stage *st, compile_change *
 
 /* ---- All --------------------------------------------------------------------------------------------------------- */
 
-static bool asked_for(const compiled *c, const char *knob)
+static bool was_requested(const compiled *c, const char *knob)
 {
     const size_t n = strlen(knob);
     for (int i = 0; i < c->options->n_sets; i++)
@@ -173,10 +173,10 @@ static bool asked_for(const compiled *c, const char *knob)
 
 static bool wanted_narrow(const compiled *c, compile_narrowed what)
 {
-    if (what == COMPILE_POSITIONS) return c->set.quality.position_bits == 32 && !asked_for(c, "position_bits");
+    if (what == COMPILE_POSITIONS) return c->set.quality.position_bits == 32 && !was_requested(c, "position_bits");
     bool any = false;
     for (size_t i = 0; i < c->fixed.n_meshes; i++) any = any || c->fixed.meshes[i].nrm_q15;
-    return any && c->set.quality.normal_bits == 16 && !asked_for(c, "normal_bits");
+    return any && c->set.quality.normal_bits == 16 && !was_requested(c, "normal_bits");
 }
 
 int compile_narrow(compiled *c, compile_stage *st, compile_narrowed what, bool rounded, const compile_run *wanted,

@@ -145,7 +145,7 @@ static int play_later(compiled *c, int i, char *error, size_t bytes)
     return failed;
 }
 
-/* All frames of the animation, or those that were asked for. */
+/* All frames of the animation, or those that were requested. */
 static int choose_frames(compiled *c, char *error, size_t bytes)
 {
     const tool_options *o = c->options;
@@ -183,7 +183,7 @@ int compile_play(compiled *c, const tool_options *o, char *error, size_t error_b
 {
     *c = (compiled){.options = o};
     if (tool_load_with(o, o->sets, o->n_sets, &c->scene, &c->set, error, error_bytes)) return -1;
-    c->asked = c->set;
+    c->requested = c->set;
     if (choose_frames(c, error, error_bytes) ||
         quantise_scene_for(&c->fixed, &c->scene, &c->set.quality, error, error_bytes)) {
         scene_free(&c->scene);

@@ -2,7 +2,7 @@
  *
  * What changes the picture (shadow maps, depth, fractions of pixels, filters) is tried in every combination by the
  * prediction of memory alone; of those that fit, all that could be had with less change are dropped, and the others are
- * drawn and compared with what was asked for. What changes no picture but costs instructions (screen tiles, caches,
+ * drawn and compared with what was requested. What changes no picture but costs instructions (screen tiles, caches,
  * bounds) is then given up as far as it must be. Only where nothing fits, or shadows would be lost, the picture gets
  * smaller. */
 #include <math.h>
@@ -16,7 +16,7 @@
 enum { SAMPLES = 3, LISTED_MAX = 48, EIGHTHS = 8, LEAN_MAX = 2, SMALL_VERTEX_CACHE = 8 };
 #define MUCH 16.0 /* a change, RMS of 255, for which a picture of down to half the sides is looked for instead */
 
-/* What changes the picture, each from 0: as it was asked for. */
+/* What changes the picture, each from 0: as it was requested. */
 enum { ATLAS, OTHER_ATLAS, DEPTH, OTHER_DEPTH, SUBPIXEL, FILTER, OTHER_FILTER, STEP, LOSSES };
 
 typedef struct {
@@ -29,11 +29,11 @@ typedef struct {
 typedef struct {
     const compiled *c; /* in the size that is tried */
     const board *b;
-    int most[LOSSES]; /* steps that there are */
+    int n_steps[LOSSES]; /* steps that there are */
     variant list[LISTED_MAX];
     size_t n;
-    long least_ram, least_flash; /* of all that was tried, each by itself */
-    double change;               /* of what was found, RMS */
+    long min_ram, min_flash; /* of all that was tried, each by itself */
+    double change;           /* of what was found, RMS */
 } search;
 
 /* ---- Variants ---------------------------------------------------------------------------------------------------- */
@@ -58,31 +58,31 @@ static int halvings(int side)
 
 static void find_losses(search *s, bool flash_is_short)
 {
-    const gn_knobs *q = &s->c->asked.quality;
+    const gn_knobs *q = &s->c->requested.quality;
     const settings_demand *d = &s->c->run.demand;
     const gn_shadow_settings *shadow = &s->c->fixed.scene.shadow;
     const bool weighs = flash_is_short && shadow->filter != GN_FILTER_DISK,
                other_weighs = flash_is_short && shadow->other_filter != GN_FILTER_DISK;
-    memset(s->most, 0, sizeof s->most);
+    memset(s->n_steps, 0, sizeof s->n_steps);
     if (d->shadow_tiles) {
-        s->most[ATLAS] = halvings(q->atlas_size);
-        s->most[DEPTH] = q->depth_bits == 32 ? 2 : q->depth_bits == 16;
-        s->most[FILTER] = weighs ? (int)shadow->filter : 0;
+        s->n_steps[ATLAS] = halvings(q->atlas_size);
+        s->n_steps[DEPTH] = q->depth_bits == 32 ? 2 : q->depth_bits == 16;
+        s->n_steps[FILTER] = weighs ? (int)shadow->filter : 0;
     }
     if (d->other_tiles) {
-        s->most[OTHER_ATLAS] = halvings(q->other_atlas_size);
-        s->most[OTHER_DEPTH] = q->other_depth_bits == 32 ? 2 : q->other_depth_bits == 16;
-        s->most[OTHER_FILTER] = other_weighs ? (int)shadow->other_filter : 0;
+        s->n_steps[OTHER_ATLAS] = halvings(q->other_atlas_size);
+        s->n_steps[OTHER_DEPTH] = q->other_depth_bits == 32 ? 2 : q->other_depth_bits == 16;
+        s->n_steps[OTHER_FILTER] = other_weighs ? (int)shadow->other_filter : 0;
     }
-    s->most[SUBPIXEL] = q->subpixel_bits > 7;
-    s->most[STEP] = flash_is_short && q->persp_step > 1;
+    s->n_steps[SUBPIXEL] = q->subpixel_bits > 7;
+    s->n_steps[STEP] = flash_is_short && q->persp_step > 1;
 }
 
 /* The compiled scene as the variant has it. */
 static compiled apply(const search *s, const variant *v)
 {
     compiled c = *s->c;
-    c.set = c.asked;
+    c.set = c.requested;
     gn_knobs *q = &c.set.quality;
     q->position_bits = s->c->set.quality.position_bits; /* what the meshes hold by now */
     q->normal_bits = s->c->set.quality.normal_bits;
@@ -110,7 +110,7 @@ static size_t scaled(size_t texels, int times)
     return texels && n < 64 ? 64 : n;
 }
 
-/* What it would take if the frames took as many triangles and references as those asked for do. */
+/* What it would take if the frames took as many triangles and references as those requested do. */
 static compile_memory predict(const search *s, const variant *v)
 {
     compiled c = apply(s, v);
@@ -152,11 +152,11 @@ static bool costs_less(const variant *a, const variant *b)
     return true;
 }
 
-static void keep_least(search *s, const compile_memory *m)
+static void keep_min(search *s, const compile_memory *m)
 {
     const long ram = compile_ram_bytes(m, s->b), flash = compile_rom_bytes(m);
-    if (ram < s->least_ram) s->least_ram = ram;
-    if (flash < s->least_flash) s->least_flash = flash;
+    if (ram < s->min_ram) s->min_ram = ram;
+    if (flash < s->min_flash) s->min_flash = flash;
 }
 
 static void consider(search *s, variant v)
@@ -167,7 +167,7 @@ static void consider(search *s, variant v)
     for (size_t i = 0; i < s->n; i++)
         if (costs_less(&s->list[i], &v)) return;
     compile_memory m = predict(s, &v);
-    keep_least(s, &m);
+    keep_min(s, &m);
     if (compile_fits(&m, s->b) && s->n < LISTED_MAX) s->list[s->n++] = v;
 }
 
@@ -178,7 +178,7 @@ static void list_fitting(search *s)
     s->n = 0;
     for (int i = 0; i < LOSSES;) {
         consider(s, v);
-        for (i = 0; i < LOSSES && v.loss[i] == s->most[i]; i++) v.loss[i] = 0;
+        for (i = 0; i < LOSSES && v.loss[i] == s->n_steps[i]; i++) v.loss[i] = 0;
         if (i < LOSSES) v.loss[i]++;
     }
 }
@@ -235,10 +235,10 @@ static int by_change(const void *a, const void *b)
 /* The least change first; what is refused last. */
 static int order(search *s)
 {
-    const variant asked = {.lean = 0};
+    const variant requested = {.lean = 0};
     const size_t bytes = SAMPLES * frame_bytes(s);
     uint8_t *both = malloc(2 * bytes);
-    int failed = !both || show_samples(s, &asked, both);
+    int failed = !both || show_samples(s, &requested, both);
     for (size_t i = 0; !failed && i < s->n; i++)
         s->list[i].change =
             show_samples(s, &s->list[i], both + bytes) ? HUGE_VAL : mean_square(both, both + bytes, bytes);
@@ -284,7 +284,7 @@ static void say_variant(const search *s, const variant *v, const compile_memory 
                         size_t bytes)
 {
     const compiled c = apply(s, v);
-    const settings *is = &c.set, *was = &s->c->asked, *on = &s->c->set;
+    const settings *is = &c.set, *was = &s->c->requested, *on = &s->c->set;
     size_t n = 0;
     say(out, bytes, &n, "nearest that does:");
     if (smaller) say(out, bytes, &n, " --size %dx%d", c.options->width, c.options->height);
@@ -333,10 +333,10 @@ static int side_of(int side, int eighths)
 }
 
 /* A smaller picture shows fewer triangles: the scene is compiled anew. */
-static bool find_smaller(search *s, const tool_options *asked, int eighths, char *out, size_t bytes)
+static bool find_smaller(search *s, const tool_options *requested, int eighths, char *out, size_t bytes)
 {
     char error[TOOL_ERROR_BYTES];
-    tool_options o = *asked;
+    tool_options o = *requested;
     compiled c;
     o.width = side_of(o.width, eighths);
     o.height = side_of(o.height, eighths);
@@ -353,10 +353,10 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
     board narrow = *b; /* other settings may keep triangles that these do not show */
     narrow.ram -= b->ram / 64;
     narrow.flash -= b->flash / 64;
-    const compile_memory asked = compile_measure(c, b);
+    const compile_memory requested = compile_measure(c, b);
     search s = {
-        .c = c, .b = &narrow, .least_ram = compile_ram_bytes(&asked, b), .least_flash = compile_rom_bytes(&asked)};
-    find_losses(&s, compile_rom_bytes(&asked) > narrow.flash);
+        .c = c, .b = &narrow, .min_ram = compile_ram_bytes(&requested, b), .min_flash = compile_rom_bytes(&requested)};
+    find_losses(&s, compile_rom_bytes(&requested) > narrow.flash);
     bool found = find(&s, false, out, bytes);
     if (found && s.change <= MUCH) return true;
     for (int eighths = EIGHTHS - 1; eighths > 0 && !(found && eighths < EIGHTHS / 2); eighths--) {
@@ -368,6 +368,6 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
     if (found) return true;
     snprintf(out, bytes,
              "no settings do: the least that was found, each by itself, is %ld bytes of RAM and %ld of flash",
-             s.least_ram, s.least_flash);
+             s.min_ram, s.min_flash);
     return false;
 }

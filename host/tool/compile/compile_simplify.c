@@ -224,9 +224,9 @@ static int simplify(trial *b, char *error, size_t bytes)
     if (c->options->simplify != TOOL_SIMPLIFY_NONE) narrow(b);
     if (compile_run_all(&b->now, b->st, c, &b->wanted)) return say_refused(b, error, bytes);
     if (b->now.differs >= 0) return say_changed(c, b->now.differs, error, bytes);
-    if (settings_suffice(&c->asked, &b->now.demand, error, bytes)) return -1;
+    if (settings_suffice(&c->requested, &b->now.demand, error, bytes)) return -1;
     c->run = b->now;
-    if (compile_check_reach(c, error, bytes)) return -1;
+    if (compile_check_casters(c, error, bytes)) return -1;
     if (compile_keeps_tiles(b->st, c, &c->kept_tiles)) return say_refused(b, error, bytes);
     if (!b->no_memory) return 0;
     snprintf(error, bytes, "out of memory");

@@ -87,14 +87,14 @@ size_t trial_try_all(trial *b)
 
 void trial_add(trial *b, candidate_kind what, size_t idx)
 {
-    if (b->n == b->room) {
-        candidate *grown = realloc(b->list, (2 * b->room + 16) * sizeof *grown);
+    if (b->n == b->capacity) {
+        candidate *grown = realloc(b->list, (2 * b->capacity + 16) * sizeof *grown);
         if (!grown) {
             b->no_memory = true;
             return;
         }
         b->list = grown;
-        b->room = 2 * b->room + 16;
+        b->capacity = 2 * b->capacity + 16;
     }
     b->list[b->n++] = (candidate){.kind = what, .idx = idx};
 }

@@ -64,7 +64,7 @@ typedef struct {
     int n_samples;
     whole_mesh *whole;
     candidate *list;
-    size_t n, room;
+    size_t n, capacity;
     bool no_memory;
 } trial;
 

@@ -4,7 +4,7 @@
 
 #include "compile_trial.h"
 
-/* Unseen triangles are tried together, then in halves, down to a share of them all. */
+/* Unseen triangles are tried together, then in halves, down to a fraction of them all. */
 enum { CHUNKS = 64 };
 
 static bool **open_seen(const compiled *c)

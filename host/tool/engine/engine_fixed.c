@@ -33,7 +33,7 @@ typedef struct {
 
 static void name_farthest(const scene *s, const quantise_reach *farthest, char *out, size_t bytes)
 {
-    static const char *const names[] = {[QUANTISE_CAMERA] = "the camera's place",
+    static const char *const names[] = {[QUANTISE_CAMERA] = "the camera's position",
                                         [QUANTISE_CAMERA_NEAR] = "the camera's near plane",
                                         [QUANTISE_MAX_DISTANCE] = "max_distance"};
     if (farthest->subject == QUANTISE_OBJECT) snprintf(out, bytes, "object '%.64s'", s->objects[farthest->idx].name);
@@ -276,6 +276,11 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
     quantise_free(&fixed);
     if (failed) engine_free(out);
     return failed ? -1 : 0;
+}
+
+bool engine_shadow_is_drawn(const settings *set)
+{
+    return set->quality.persp_step == 1;
 }
 
 void engine_free(engine_picture *p)

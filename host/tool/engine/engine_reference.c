@@ -12,7 +12,7 @@ static unsigned level(double v, double levels)
     return (unsigned)floor(v * levels + 0.5);
 }
 
-/* Takes a tile's depths, as shares of its range. */
+/* Takes a tile's depths, as fractions of its range. */
 static double *take_tile(ref_light_view *view)
 {
     double *depth = view->depth;

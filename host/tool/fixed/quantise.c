@@ -33,16 +33,16 @@ static int32_t fixed_unit(double v, int bits)
     return (int32_t)(f > 1 << 30 ? 1 << 30 : f < -(1 << 30) ? -(1 << 30) : f);
 }
 
-/* A share 0..1 */
-static uint32_t fixed_share(double v)
+/* A ratio 0..1 */
+static uint32_t fixed_ratio(double v)
 {
     return (uint32_t)fixed(fmax(0, fmin(1, v)), 16);
 }
 
 /* ---- Objects ----------------------------------------------------------------------------------------------------- */
 
-/* What the library asks of a transform, at the largest scale that fits: objects too small for their scene are another
- * matter. */
+/* What the library requires of a transform, at the largest scale that fits: objects too small for their scene are
+ * another matter. */
 static int is_flat(const scene_affine *a, int exp)
 {
     int32_t m[3][3];
@@ -83,11 +83,11 @@ static int quantise_transform(gn_affine *out, const scene_object *o, int mesh_bi
 static void quantise_material(gn_object *out, const scene_object *o)
 {
     for (int c = 0; c < 3; c++) {
-        out->albedo_uq16[c] = fixed_share(o->albedo[c]);
-        out->specular_uq16[c] = fixed_share(o->specular[c]);
+        out->albedo_uq16[c] = fixed_ratio(o->albedo[c]);
+        out->specular_uq16[c] = fixed_ratio(o->specular[c]);
     }
-    out->alpha_uq16 = fixed_share(o->alpha);
-    out->alpha_cutoff_uq16 = fixed_share(o->alpha_cutoff);
+    out->alpha_uq16 = fixed_ratio(o->alpha);
+    out->alpha_cutoff_uq16 = fixed_ratio(o->alpha_cutoff);
     out->shininess_log2 = (uint8_t)o->shininess_log2;
     out->visible_alpha = (gn_alpha)o->visible_alpha;
     out->caster_alpha = o->caster == SCENE_CASTER_CLIP     ? GN_ALPHA_CLIP
@@ -316,7 +316,7 @@ static bool same_texture(const gn_texture *a, const gn_texture *b)
            same_array(a->rgba, b->rgba, texels * quantise_texel_bytes(a));
 }
 
-bool quantise_share(fixed_scene *f, const fixed_scene *first)
+bool quantise_reuse(fixed_scene *f, const fixed_scene *first)
 {
     if (f->n_meshes != first->n_meshes || f->n_textures != first->n_textures) return false;
     for (size_t i = 0; i < f->n_meshes; i++)

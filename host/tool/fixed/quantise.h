@@ -53,6 +53,6 @@ bool quantise_same_mesh(const gn_mesh *a, const gn_mesh *b);
 /* Lets a later frame's objects have the meshes and textures of the first, in the same place of memory as in firmware,
  * so that the library knows shadow tiles again. First must live as long. Returns false, and changes nothing, where they
  * are others. */
-bool quantise_share(fixed_scene *f, const fixed_scene *first);
+bool quantise_reuse(fixed_scene *f, const fixed_scene *first);
 
 #endif

@@ -53,10 +53,10 @@ static int plan_texture_coordinates(mesh_plan *plan, const scene_mesh *mesh)
 
 static int32_t *fixed_positions(const scene_mesh *mesh, int bits, bool short_positions)
 {
-    const double most = short_positions ? 32767 : 1073741824.0;
+    const double max = short_positions ? 32767 : 1073741824.0;
     size_t n = 3 * mesh->n_vertices;
     int32_t *pos = malloc(n * sizeof *pos);
-    for (size_t i = 0; pos && i < n; i++) pos[i] = (int32_t)rounded(ldexp(mesh->pos[i], bits), 1, -most, most);
+    for (size_t i = 0; pos && i < n; i++) pos[i] = (int32_t)rounded(ldexp(mesh->pos[i], bits), 1, -max, max);
     return pos;
 }
 

@@ -5,61 +5,61 @@
 #include <stdio.h>
 
 /* Everything must stay within +-8192 units of the origin and 16384 of the camera; half of that leaves room for both. */
-#define WORLD_REACH   4096.0
+#define WORLD_EXTENT  4096.0
 #define UNIT_LOG2_MAX 30
 
-static double reach_of_object(const scene *s, const scene_object *o)
+static double extent_of_object(const scene *s, const scene_object *o)
 {
     const scene_mesh *mesh = &s->meshes[o->mesh_idx];
-    double reach = 0;
+    double extent = 0;
     for (size_t i = 0; i < mesh->n_vertices; i++) {
         const double *p = mesh->pos + 3 * i;
         for (int r = 0; r < 3; r++) {
             const double *m = o->to_world.m[r];
-            reach = fmax(reach, fabs(m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3]));
+            extent = fmax(extent, fabs(m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3]));
         }
     }
-    for (int r = 0; r < 3; r++) reach = fmax(reach, fabs(o->to_world.m[r][3]));
-    return reach;
+    for (int r = 0; r < 3; r++) extent = fmax(extent, fabs(o->to_world.m[r][3]));
+    return extent;
 }
 
-/* Not the range: a light may reach farther than there are surfaces. */
-static double reach_of_light(const scene_light *l)
+/* Not the range: a light may shine farther than there are surfaces. */
+static double extent_of_light(const scene_light *l)
 {
     if (l->kind == SCENE_LIGHT_DIRECTIONAL) return l->near_offset;
-    double reach = l->near;
-    for (int r = 0; r < 3; r++) reach = fmax(reach, fabs(l->position[r]));
-    return reach;
+    double extent = l->near;
+    for (int r = 0; r < 3; r++) extent = fmax(extent, fabs(l->position[r]));
+    return extent;
 }
 
-static double reach_of_camera(const scene_camera *camera)
+static double extent_of_camera(const scene_camera *camera)
 {
-    double reach = 0;
-    for (int r = 0; r < 3; r++) reach = fmax(reach, fabs(camera->to_world.m[r][3]));
-    return reach;
+    double extent = 0;
+    for (int r = 0; r < 3; r++) extent = fmax(extent, fabs(camera->to_world.m[r][3]));
+    return extent;
 }
 
-static void take_farther(quantise_reach *most, double reach, quantise_subject subject, size_t idx)
+static void take_farther(quantise_reach *farthest, double extent, quantise_subject subject, size_t idx)
 {
-    if (reach > most->reach) *most = (quantise_reach){reach, subject, idx};
+    if (extent > farthest->reach) *farthest = (quantise_reach){extent, subject, idx};
 }
 
 quantise_reach quantise_farthest(const scene *s)
 {
-    quantise_reach most = {.subject = QUANTISE_CAMERA};
-    take_farther(&most, reach_of_camera(&s->camera), QUANTISE_CAMERA, 0);
-    take_farther(&most, s->camera.near, QUANTISE_CAMERA_NEAR, 0);
-    take_farther(&most, s->shadow.max_distance, QUANTISE_MAX_DISTANCE, 0);
+    quantise_reach farthest = {.subject = QUANTISE_CAMERA};
+    take_farther(&farthest, extent_of_camera(&s->camera), QUANTISE_CAMERA, 0);
+    take_farther(&farthest, s->camera.near, QUANTISE_CAMERA_NEAR, 0);
+    take_farther(&farthest, s->shadow.max_distance, QUANTISE_MAX_DISTANCE, 0);
     for (size_t i = 0; i < s->n_objects; i++)
-        take_farther(&most, reach_of_object(s, &s->objects[i]), QUANTISE_OBJECT, i);
-    for (size_t i = 0; i < s->n_lights; i++) take_farther(&most, reach_of_light(&s->lights[i]), QUANTISE_LIGHT, i);
-    return most;
+        take_farther(&farthest, extent_of_object(s, &s->objects[i]), QUANTISE_OBJECT, i);
+    for (size_t i = 0; i < s->n_lights; i++) take_farther(&farthest, extent_of_light(&s->lights[i]), QUANTISE_LIGHT, i);
+    return farthest;
 }
 
 int quantise_world_exp(const scene *s)
 {
     int e;
-    frexp(quantise_farthest(s).reach / WORLD_REACH, &e);
+    frexp(quantise_farthest(s).reach / WORLD_EXTENT, &e);
     return -e;
 }
 
@@ -72,9 +72,9 @@ int quantise_unit(gn_scene *out, const scene *s, int world_exp, char *error, siz
     int small = world_exp > UNIT_LOG2_MAX, large = world_exp < -UNIT_LOG2_MAX;
     if (needed && (small || large)) {
         snprintf(error, error_bytes,
-                 "the scene is too %s for spot and point lights and the disk filter: it must reach %s %g units",
-                 small ? "small" : "large", small ? "at least" : "at most",
-                 ldexp(WORLD_REACH, small ? -UNIT_LOG2_MAX - 1 : UNIT_LOG2_MAX));
+                 "the scene is too %s for spot and point lights and the disk filter: it must extend to %s %g units",
+                 small ? "small" : "large", small ? "at least" : "at farthest",
+                 ldexp(WORLD_EXTENT, small ? -UNIT_LOG2_MAX - 1 : UNIT_LOG2_MAX));
         return -1;
     }
     out->unit_log2 = small ? UNIT_LOG2_MAX : large ? -UNIT_LOG2_MAX : world_exp;

@@ -28,7 +28,7 @@ typedef struct {
     size_t n_taken;
 } chart;
 
-static double place(const axis *a, double v)
+static double position(const axis *a, double v)
 {
     return a->from + (a->to - a->from) * log(v / a->low) / log(a->high / a->low);
 }
@@ -61,13 +61,13 @@ static void draw_tick(const chart *c, bool of_x, double v)
     char text[32];
     format_tick(text, sizeof text, v);
     if (of_x) {
-        double x = place(&c->x, v);
+        double x = position(&c->x, v);
         fprintf(c->file,
                 "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/><text x=\"%.1f\" y=\"%.1f\" "
                 "text-anchor=\"middle\">%s</text>\n",
                 x, c->y.from, c->y.to, x, c->y.from + 15, text);
     } else {
-        double y = place(&c->y, v);
+        double y = position(&c->y, v);
         fprintf(
             c->file,
             "<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/><text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n",
@@ -144,8 +144,10 @@ static size_t find_front(const plot_panel *p, const plot_point **front)
 static void draw_line(const chart *c, const plot_point *const *front, size_t n)
 {
     if (!n) return;
-    fprintf(c->file, "<path class=\"front\" d=\"M%.1f %.1f", place(&c->x, front[0]->x), place(&c->y, front[0]->y));
-    for (size_t i = 1; i < n; i++) fprintf(c->file, "H%.1fV%.1f", place(&c->x, front[i]->x), place(&c->y, front[i]->y));
+    fprintf(c->file, "<path class=\"front\" d=\"M%.1f %.1f", position(&c->x, front[0]->x),
+            position(&c->y, front[0]->y));
+    for (size_t i = 1; i < n; i++)
+        fprintf(c->file, "H%.1fV%.1f", position(&c->x, front[i]->x), position(&c->y, front[i]->y));
     fprintf(c->file, "H%.1f\"/>\n", c->x.to);
 }
 
@@ -154,7 +156,7 @@ static void draw_line(const chart *c, const plot_point *const *front, size_t n)
 static void draw_point(const chart *c, const plot_point *p)
 {
     fprintf(c->file, "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>", p->strong ? "on" : "off",
-            place(&c->x, p->x), place(&c->y, p->y), p->strong ? "4" : "3");
+            position(&c->x, p->x), position(&c->y, p->y), p->strong ? "4" : "3");
     svg_text(c->file, p->label);
     fprintf(c->file, "</title></circle>\n");
 }
@@ -169,7 +171,7 @@ static void draw_points(chart *c, bool strong)
     for (size_t i = 0; i < c->panel->n; i++) {
         const plot_point *p = &c->panel->points[i];
         if (p->strong != strong) continue;
-        double x = place(&c->x, p->x), y = place(&c->y, p->y);
+        double x = position(&c->x, p->x), y = position(&c->y, p->y);
         draw_point(c, p);
         take(c, (box){x - 4, y - 4, x + 4, y + 4});
     }
@@ -190,7 +192,7 @@ static bool is_free(const chart *c, const box *b)
 static void draw_label(chart *c, const plot_point *p)
 {
     static const double away[][2] = {{-1, 1}, {-1, -1}, {1, 1}, {1, -1}};
-    double x = place(&c->x, p->x), y = place(&c->y, p->y), width = (double)(SVG_LETTER * strlen(p->label));
+    double x = position(&c->x, p->x), y = position(&c->y, p->y), width = (double)(SVG_LETTER * strlen(p->label));
     for (int far = 0; far < 9; far++)
         for (size_t i = 0; i < 4; i++) {
             double dx = away[i][0] * (7 + 7 * far), dy = away[i][1] * (3 + 13 * far);

@@ -15,8 +15,8 @@ typedef struct {
         GN_FEATURE_KNOBS(SETTINGS_FIELD_)
     } feature;
     struct {
-        GN_ARITHMETIC_KNOBS(SETTINGS_FIELD_)
-    } arithmetic;
+        GN_BUILD_KNOBS(SETTINGS_FIELD_)
+    } build;
     gn_format output; /* of the pictures people see */
 } settings;
 
@@ -62,18 +62,19 @@ typedef struct {
 } settings_need;
 #define SETTINGS_NEEDS_MAX 32
 
-/* Fills `needs` (room for SETTINGS_NEEDS_MAX), one entry per knob; returns how many. Features that only make the same
+/* Fills `needs` (capacity SETTINGS_NEEDS_MAX), one entry per knob; returns how many. Features that only make the same
  * picture faster are never needed, nor are those without which settings_enforce draws something simpler. shadows: some
  * are drawn. */
 int settings_needs(const scene *s, bool shadows, settings_need *needs);
 
-/* Lights that want a shadow. */
+/* Lights that request a shadow. */
 size_t settings_shadow_lights(const scene *s);
 
 /* Whether anything casts: a scene whose shadows are all in masks needs no shadows to be drawn. */
 bool settings_casts(const scene *s);
 
-/* Switches off the features that cost RAM where the scene does not need them: shadows, and what makes the other atlas.
+/* Switches off the features that cost RAM where the scene does not need them: shadows, and what makes the local-light
+ * atlas.
  */
 void settings_trim(settings *set, const scene *s);
 

@@ -24,11 +24,11 @@ static const knob quality_knobs[] = {GN_QUALITY_KNOBS(KNOB_QUALITY_)};
 static const knob capacity_knobs[] = {GN_CAPACITY_KNOBS(KNOB_CAPACITY_)};
 static const knob feature_knobs[] = {GN_FEATURE_KNOBS(KNOB_FEATURE_)};
 /* Of targets alone: see refine. */
-#define KNOB_ARITHMETIC_(name, MACRO, lo, hi, meaning, cost)                                                           \
-    {#name, lo, hi, offsetof(settings, arithmetic.name), meaning, cost, {0}},
-static const knob arithmetic_knobs[] = {GN_ARITHMETIC_KNOBS(KNOB_ARITHMETIC_)};
+#define KNOB_BUILD_(name, MACRO, lo, hi, meaning, cost)                                                                \
+    {#name, lo, hi, offsetof(settings, build.name), meaning, cost, {0}},
+static const knob build_knobs[] = {GN_BUILD_KNOBS(KNOB_BUILD_)};
 
-enum { QUALITY, CAPACITY, FEATURE, ARITHMETIC, N_GROUPS };
+enum { QUALITY, CAPACITY, FEATURE, BUILD, N_GROUPS };
 static const struct {
     const knob *knobs;
     size_t n;
@@ -37,7 +37,7 @@ static const struct {
     {quality_knobs, sizeof quality_knobs / sizeof *quality_knobs, "Quality"},
     {capacity_knobs, sizeof capacity_knobs / sizeof *capacity_knobs, "Capacity"},
     {feature_knobs, sizeof feature_knobs / sizeof *feature_knobs, "Feature"},
-    {arithmetic_knobs, sizeof arithmetic_knobs / sizeof *arithmetic_knobs, "Arithmetic"},
+    {build_knobs, sizeof build_knobs / sizeof *build_knobs, "Build"},
 };
 
 const char *const settings_preset_name[SETTINGS_PRESETS + 1] = {"tiny", "balanced", "accurate", NULL};
@@ -124,9 +124,9 @@ int settings_suffice(const settings *s, const settings_demand *demand, char *err
         {"surface_lights", "lights that reach one surface", s->capacity.surface_lights, demand->surface_lights},
         {"max_objects", "objects", s->capacity.max_objects, demand->objects},
         {"max_shadow_tiles", "tiles of the directional atlas", s->capacity.max_shadow_tiles, demand->shadow_tiles},
-        {"max_other_tiles", "tiles of the other atlas", s->capacity.max_other_tiles, demand->other_tiles},
+        {"max_other_tiles", "tiles of the local-light atlas", s->capacity.max_other_tiles, demand->other_tiles},
         {"atlas_texels", "texels of the directional atlas's tiles", s->capacity.atlas_texels, demand->atlas_texels},
-        {"other_atlas_texels", "texels of the other atlas's tiles", s->capacity.other_atlas_texels,
+        {"other_atlas_texels", "texels of the local-light atlas's tiles", s->capacity.other_atlas_texels,
          demand->other_atlas_texels},
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
@@ -144,7 +144,7 @@ int settings_suffice(const settings *s, const settings_demand *demand, char *err
 /* What the range alone does not say; NULL: nothing is wrong. */
 static const char *refine(const settings *s, const void *changed, int n)
 {
-    if (changed == &s->arithmetic.compact && n)
+    if (changed == &s->build.compact && n)
         return "0: here knobs are data, which compact arithmetic has not; build lib/ with -DGN_COMPACT=1, and the host "
                "draws the same bits";
     if (changed == &s->quality.persp_step && n != 1 && n != 4 && n != 8 && n != 16) return "1, 4, 8 or 16";

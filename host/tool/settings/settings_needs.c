@@ -33,7 +33,7 @@ static void need(need_list *list, const char *knob, int value, const char *forma
     va_end(arguments);
 }
 
-static bool wants_shadow(const scene_light *l)
+static bool requests_shadow(const scene_light *l)
 {
     return l->shadow && l->strength > 0 && l->mode != SCENE_BAKED;
 }
@@ -41,7 +41,7 @@ static bool wants_shadow(const scene_light *l)
 size_t settings_shadow_lights(const scene *s)
 {
     size_t n = 0;
-    for (size_t i = 0; i < s->n_lights; i++) n += wants_shadow(&s->lights[i]);
+    for (size_t i = 0; i < s->n_lights; i++) n += requests_shadow(&s->lights[i]);
     return n;
 }
 
@@ -86,7 +86,7 @@ static void needs_of_light(need_list *list, const scene *s, const scene_light *l
     if (l->bias_caster > 0) need(list, "caster_bias", 1, "bias_caster of light '%s'", l->name);
     if (l->receiver_plane) need(list, "receiver_plane", 1, "receiver_plane of light '%s'", l->name);
     if (l->auto_bias) need(list, "auto_bias", 1, "auto_bias of light '%s'", l->name);
-    if (!shadows || !wants_shadow(l)) return;
+    if (!shadows || !requests_shadow(l)) return;
     need(list, "shadows", 1, "the shadow of light '%s'", l->name);
     needs_of_softness(list, s, l);
 }

@@ -17,7 +17,7 @@ int settings_numbers(const char *text, double *out, int max, double lo, double h
 
 int settings_whole(const char *text, int lo, int hi, int *out); /* 0 or -1 */
 
-/* The place of a word in a list that ends with NULL; -1: none. */
+/* The index of a word in a list that ends with NULL; -1: none. */
 int settings_word(const char *word, const char *const *words);
 
 /* "a, b or c" (joint " or ") */

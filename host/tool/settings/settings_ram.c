@@ -56,14 +56,14 @@ static long cut_bytes(const settings *s)
 {
     if (!s->feature.caster_alpha) return 0;
     if (!s->feature.textures) return 24;
-    return s->quality.persp_step > 1 ? 216 : 152;
+    return 216;
 }
 
 /* gn_casting of lib/geometry/gn_geometry_types.h */
 static long casting_bytes(const settings *s)
 {
     if (!s->feature.shadows) return 0;
-    return 856 + (s->feature.caster_bias ? 40 : 0) + cut_bytes(s);
+    return 856 + cut_bytes(s);
 }
 
 /* gn_work of lib/geometry/gn_geometry_types.h: the largest of what one core does at a time, shading or casting */
@@ -75,30 +75,30 @@ static void put_work(layout *out, const settings *s)
                                                                                                       : 1;
     long values = (s->feature.textures ? 2 : 0) + (s->feature.masks ? 4 : 0) + (s->feature.baked_light ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
-    put(&surface, 1, 192, 8); /* object to rgb_q16 */
-    if (s->feature.textures) put(&surface, 6, 8, 8);
+    put(&surface, 1, 192, 8); /* object to the colours of attribute_q16 */
     if (s->feature.masks) put(&surface, 12, 4, 4);
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
+    if (s->feature.textures) put(&surface, 6, 8, 8);
     if (s->feature.receiver_plane || s->feature.auto_bias) put(&surface, 3, 4, 4);
     if (s->feature.auto_bias) put(&surface, 3, 4, 4); /* lift_q30 */
-    put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 48 : 36, 4);
+    put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
     pad(&surface, surface.align);
     put(&all, 1, 40, 4);  /* frame to rows */
     put(&all, 1, 136, 8); /* cache */
     put(&all, 1, surface.size, 8);
     put(&all, s->quality.persp_step == 1 ? 8 : 16, 4, 4); /* tri to part */
-    long arrival = s->feature.punctual_lights ? s->capacity.surface_lights : 0,
-         n_steps = s->quality.persp_step == 1 ? 0 : arrival;
-    arrival *= s->feature.shadows ? 20 : 8;
-    long run = 2 * (4 * values + 28 + arrival + (s->feature.specular ? 24 : 0)) + 8 * values + 12 + 52 * n_steps;
-    long pieces = s->feature.shadows ? 384 : 288;
+    long incident = s->feature.punctual_lights ? s->capacity.surface_lights : 0,
+         n_steps = s->quality.persp_step == 1 ? 0 : incident;
+    incident *= s->feature.shadows ? 20 : 8;
+    long spans = 2 * (4 * values + 28 + incident + (s->feature.specular ? 24 : 0)) + 8 * values + 12 + 52 * n_steps;
+    long cells = s->feature.shadows ? 384 : 288;
     if (s->feature.vertex_normals && !s->quality.vertex_light)
-        pieces += 36 + 12 * s->capacity.surface_lights; /* turning */
-    if (s->quality.persp_step == 1) pieces = 0;
-    put(&all, 1, run > pieces ? run : pieces, 4); /* by */
+        cells += 36 + 12 * s->capacity.surface_lights; /* turning */
+    if (s->quality.persp_step == 1) cells = 0;
+    put(&all, 1, spans > cells ? spans : cells, 4); /* by */
     pad(&all, all.align);
-    const long casting = casting_bytes(s), clipping = 264, least = casting > clipping ? casting : clipping;
-    put(out, 1, all.size > least ? all.size : least, 8);
+    const long casting = casting_bytes(s), clipping = 264, largest = casting > clipping ? casting : clipping;
+    put(out, 1, all.size > largest ? all.size : largest, 8);
 }
 
 /* Mirrors lib/frame/gn_state.h for a 32-bit target; a test compiles every preset and holds the sum against
@@ -106,8 +106,8 @@ static void put_work(layout *out, const settings *s)
 /* Screen coordinates of more than 16 bits. */
 static int wide_coordinates(const settings *s)
 {
-    const int bits = s->quality.subpixel_bits, most = 2 * ((32767 >> bits) - 10);
-    return bits > 7 || s->capacity.max_width > most || s->capacity.max_height > most;
+    const int bits = s->quality.subpixel_bits, max = 2 * ((32767 >> bits) - 10);
+    return bits > 7 || s->capacity.max_width > max || s->capacity.max_height > max;
 }
 
 settings_ram_parts settings_ram(const settings *s)

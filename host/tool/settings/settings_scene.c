@@ -17,8 +17,8 @@ static const char *const mode_names[] = {"realtime", "mixed", "baked", NULL};
 static const char *const kind_names[] = {"directional", "spot", "point", NULL};
 
 typedef enum { OF_SCENE, OF_SHADOW, OF_LIGHTS } owner;
-/* SHARE: a multiple of 1/65536; REACH: a distance, 0: unlimited */
-typedef enum { NUMBER, SHARE, COLOUR, BIAS, WHOLE, SWITCH, WORD, REACH } value_type;
+/* RATIO: a multiple of 1/65536; RANGE: a distance, 0: unlimited */
+typedef enum { NUMBER, RATIO, COLOUR, BIAS, WHOLE, SWITCH, WORD, RANGE } value_type;
 
 typedef struct {
     const char *name;
@@ -46,8 +46,8 @@ typedef struct {
 static const scene_knob scene_knobs[] = {
     SHADOW_("max_distance", NUMBER, max_distance, 0.004, 8192,
             "no shadow beyond this view depth; unset, with a camera of the file's, at most 100 (D5)"),
-    SHADOW_("distance_fade", SHARE, distance_fade, 0.001, 1, "share of it over which shadows fade (D5)"),
-    SHADOW_("cascade_fade", SHARE, cascade_fade, 0.001, 1, "margin of the bounding sphere (D3)"),
+    SHADOW_("distance_fade", RATIO, distance_fade, 0.001, 1, "fraction of it over which shadows fade (D5)"),
+    SHADOW_("cascade_fade", RATIO, cascade_fade, 0.001, 1, "margin of the bounding sphere (D3)"),
     SHADOW_("penumbra", NUMBER, penumbra, 0, 64,
             "radius of the disk filter, in 0.02 world units (directional lights) or 0.004 of a tile (F4)"),
     SHADOW_("disk_samples", WHOLE, disk_samples, 1, 64, "samples of the disk filter (F4)"),
@@ -63,14 +63,14 @@ static const scene_knob scene_knobs[] = {
     LIGHT_("near", NUMBER, near, 0.001, 8192,
            "nothing nearer to a spot or point light casts; unset, 1/64 of its range or of the scene's farthest corner, "
            "the nearer (P4)"),
-    LIGHT_("range", REACH, range, 0, 100000, "reach of a spot or point light, at least 0.01; 0: unlimited (P2)"),
+    LIGHT_("range", RANGE, range, 0, 100000, "range of a spot or point light, at least 0.01; 0: unlimited (P2)"),
     LIGHT_("mask_channel", WHOLE, mask_channel, -1, 3, "channel of the baked shadow mask; -1: none (M5)"),
     SCENE_("ambient", COLOUR, ambient, 0, 255, "ambient light: one number or R,G,B"),
     SCENE_("background", COLOUR, background, 0, 1, "background colour: one number or R,G,B"),
     {"filter", OF_SHADOW, WORD, offsetof(scene_shadow, filter), 0, 0, settings_filter_names,
      "shadow filter of both atlases (F1-F4)"},
     {"other_filter", OF_SHADOW, WORD, offsetof(scene_shadow, other_filter), 0, 0, settings_filter_names,
-     "of the other atlas alone; after filter"},
+     "of the local-light atlas alone; after filter"},
     {"kernel", OF_SHADOW, WORD, offsetof(scene_shadow, kernel), 0, 0, kernel_names,
      "weights of 3x3, 5x5 and 7x7 (F3, F6)"},
     {"cascade_blend", OF_SHADOW, WORD, offsetof(scene_shadow, blend), 0, 0, settings_blend_names,
@@ -82,7 +82,7 @@ static const scene_knob scene_knobs[] = {
     SHADOW_("main_light", SWITCH, main_light, 0, 1,
             "only the brightest directional light has cascades, others one tile each (D10); also the feature"),
     SHADOW_("caster_culling", SWITCH, caster_culling, 0, 1, "as the feature (D8)"),
-    LIGHT_("shadow", SWITCH, shadow, 0, 1, "the light wants a shadow"),
+    LIGHT_("shadow", SWITCH, shadow, 0, 1, "the light requests a shadow"),
     LIGHT_("receiver_plane", SWITCH, receiver_plane, 0, 1,
            "every tap compares with the receiver's plane (B5); also the feature"),
     {"auto_bias", OF_LIGHTS, WORD, offsetof(scene_light, auto_bias), 0, 0, auto_names,
@@ -135,7 +135,7 @@ static void say_expected(const scene_knob *k, char *out, size_t bytes)
 {
     if (k->type == WORD) settings_join(out, bytes, k->words, " or ");
     else if (k->type == SWITCH) snprintf(out, bytes, "0 or 1");
-    else if (k->type == REACH) snprintf(out, bytes, "0 (unlimited) or a number from 0.01 to %g", k->hi);
+    else if (k->type == RANGE) snprintf(out, bytes, "0 (unlimited) or a number from 0.01 to %g", k->hi);
     else if (k->type == WHOLE) snprintf(out, bytes, "a whole number from %g to %g", k->lo, k->hi);
     else
         snprintf(out, bytes, "%s from %g to %g",
@@ -152,8 +152,8 @@ static int read_numbers(const scene_knob *k, const char *value, stored *out)
     if (n != 1 && n != want) return -1;
     for (int i = n; i < want; i++) out->as.number[i] = out->as.number[0];
     out->bytes = (size_t)want * sizeof *out->as.number;
-    if (k->type == SHARE) out->as.number[0] = scene_share(out->as.number[0]);
-    if (k->type != REACH || out->as.number[0] >= 0.01) return 0;
+    if (k->type == RATIO) out->as.number[0] = scene_share(out->as.number[0]);
+    if (k->type != RANGE || out->as.number[0] >= 0.01) return 0;
     if (out->as.number[0] > 0) return -1;
     out->as.number[0] = (double)INFINITY;
     return 0;
@@ -237,7 +237,7 @@ static int apply_refresh(scene *s, const char *value, char *error, size_t bytes)
 
 /* Kinds separated by commas: checked as a whole before the first is added. Returns how many; -1 with one line in error.
  */
-static int read_kinds(const char *key, const char *value, size_t room, int *kinds, char *error, size_t bytes)
+static int read_kinds(const char *key, const char *value, size_t n_max, int *kinds, char *error, size_t bytes)
 {
     char expected[96], word[16];
     int n = 0;
@@ -246,7 +246,7 @@ static int read_kinds(const char *key, const char *value, size_t room, int *kind
         snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), at);
         int kind = settings_word(word, kind_names);
         if (kind < 0) return settings_fail(error, bytes, key, value, "a list of directional, spot and point");
-        if ((size_t)n == room) {
+        if ((size_t)n == n_max) {
             snprintf(expected, sizeof expected, "possible: no more than %d lights", GN_MAX_LIGHTS);
             return settings_fail(error, bytes, key, value, expected);
         }
@@ -260,8 +260,8 @@ static int add_lights(scene *s, const char *key, const char *value, char *error,
 {
     int kinds[GN_MAX_LIGHTS];
     bool replace = strcmp(key, "lights") == 0;
-    size_t room = replace ? GN_MAX_LIGHTS : s->n_lights < GN_MAX_LIGHTS ? GN_MAX_LIGHTS - s->n_lights : 0;
-    int n = read_kinds(key, value, room, kinds, error, bytes);
+    size_t n_max = replace ? GN_MAX_LIGHTS : s->n_lights < GN_MAX_LIGHTS ? GN_MAX_LIGHTS - s->n_lights : 0;
+    int n = read_kinds(key, value, n_max, kinds, error, bytes);
     if (n < 0) return -1;
     if (!replace && n != 1) return settings_fail(error, bytes, key, value, "one of directional, spot and point");
     if (replace) scene_remove_lights(s);
@@ -320,9 +320,9 @@ void settings_print_scene(void)
     printf("\n### Scene settings\n\n| setting | range | meaning |\n|---|---|---|\n");
     print_owner(false);
     printf("| `cascades` | 1…4 | cascades of every directional light; sets the default ratios (D3) |\n");
-    printf(
-        "| `cascade_ratios` | one less than cascades, comma-separated | shares of max_distance where they end, 0 to 1, "
-        "ascending; after cascades (D3) |\n");
+    printf("| `cascade_ratios` | one less than cascades, comma-separated | fractions of max_distance where they end, 0 "
+           "to 1, "
+           "ascending; after cascades (D3) |\n");
     printf("| `refresh` | one to four numbers from 1, comma-separated | cascade i is drawn anew every so many frames; "
            "the last "
            "number holds for the rest; a single picture shows nothing of it (A5) |\n");

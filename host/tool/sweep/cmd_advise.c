@@ -69,7 +69,7 @@ static size_t smallest(const sweep *w, const budget *b, bool ram)
  * knows no budget: that only chooses among the rows. So a larger budget never gets a worse answer. */
 
 /* What an explored row covers: rows that are better by less than that. Halved as long as rows may be added. */
-static const double coarsest = 0.64, finest = 0.002, ram_share = 2, db_share = 4;
+static const double coarsest = 0.64, finest = 0.002, ram_ratio = 2, db_ratio = 4;
 
 typedef struct {
     double tolerance;
@@ -78,8 +78,8 @@ typedef struct {
 
 static bool covers(const sweep_row *a, const sweep_row *b, const grain *g)
 {
-    return (double)a->ram_bytes <= (double)b->ram_bytes * (1 + ram_share * g->tolerance) &&
-           a->db >= b->db - db_share * g->tolerance && (g->any_cost || a->cost <= b->cost * (1 + g->tolerance));
+    return (double)a->ram_bytes <= (double)b->ram_bytes * (1 + ram_ratio * g->tolerance) &&
+           a->db >= b->db - db_ratio * g->tolerance && (g->any_cost || a->cost <= b->cost * (1 + g->tolerance));
 }
 
 static bool is_open(const sweep *w, const sweep_row *r, const grain *g)
@@ -124,9 +124,9 @@ static int explore_least(sweep *w)
 {
     const budget any = {DBL_MAX, DBL_MAX};
     for (;;) {
-        size_t least = smallest(w, &any, true);
-        if (w->rows[least].is_explored) return 0;
-        if (sweep_around(w, least)) return -1;
+        size_t smallest_idx = smallest(w, &any, true);
+        if (w->rows[smallest_idx].is_explored) return 0;
+        if (sweep_around(w, smallest_idx)) return -1;
     }
 }
 
@@ -175,7 +175,7 @@ static void settle(sweep *w, const budget *b)
 static int search(sweep *w, const budget *b, bool quick)
 {
     w->colours_only = true;
-    if (sweep_run(w, quick) || sweep_least(w)) return -1;
+    if (sweep_run(w, quick) || sweep_min(w)) return -1;
     if (explore(w, quick ? ROWS_MAX_QUICK : ROWS_MAX)) return -1;
     if (w->counts && b->instructions < DBL_MAX) count_ends(w, b);
     if (w->counts) settle(w, b);
@@ -215,8 +215,7 @@ static void print_text(const sweep *w, const sweep_row *r)
     if (w->moves)
         printf("  over frames %d to %-9d %7.2f dB against exact shadows, %.2f dB the worst; %.1f instructions per "
                "pixel at most\n",
-               o->frame + 1, o->frame + SWEEP_PLAYED, r->played.truth.mean_db, r->played.truth.worst_db,
-               r->played.most);
+               o->frame + 1, o->frame + SWEEP_PLAYED, r->played.truth.mean_db, r->played.truth.worst_db, r->played.max);
     printf("  against exact shadows    %8.2f dB, attenuation RMS %.4f, shadow mismatch %.3f %%%s\n", r->truth.psnr_db,
            r->truth.atten_rms, 100 * r->truth.shadow_mismatch, w->moves ? ", in the first frame" : "");
     printf("  against the same in double %6.2f dB, %.3f %% identical%s\n", r->reference.psnr_db,

@@ -36,7 +36,7 @@ static void print_row(const sweep *w, const sweep_row *r)
     char name[NAME_BYTES];
     sweep_name(w, r, name, sizeof name);
     printf("%c%8ld %8.1f %8.1f", r->on_front ? '*' : ' ', r->ram_bytes, r->instructions, r->played.instructions);
-    if (w->moves) printf(" %8.1f", r->played.most);
+    if (w->moves) printf(" %8.1f", r->played.max);
     if (w->counts) print_target(r);
     print_db(r->played.truth.mean_db);
     if (w->moves) print_db(r->played.truth.worst_db);
@@ -177,7 +177,7 @@ static void print_later(const sweep *w, const sweep_row *r)
         const char *name;
         double value;
     } members[] = {
-        {"instructions_per_pixel", r->played.instructions}, {"most_instructions_per_pixel", r->played.most},
+        {"instructions_per_pixel", r->played.instructions}, {"most_instructions_per_pixel", r->played.max},
         {"truth_psnr_db", r->played.truth.mean_db},         {"truth_worst_psnr_db", r->played.truth.worst_db},
         {"reference_psnr_db", r->played.reference.mean_db}, {"reference_worst_psnr_db", r->played.reference.worst_db}};
     printf(", \"later\": {\"frames\": %zu", w->n_played);
@@ -247,7 +247,7 @@ static void csv_metrics(FILE *f, const metrics *m)
 
 static void csv_later(FILE *f, const sweep *w, const sweep_played *p)
 {
-    fprintf(f, ",%zu,%.9g,%.9g", w->n_played, p->instructions, p->most);
+    fprintf(f, ",%zu,%.9g,%.9g", w->n_played, p->instructions, p->max);
     csv_db(f, p->truth.mean_db);
     csv_db(f, p->truth.worst_db);
     csv_db(f, p->reference.mean_db);

@@ -71,12 +71,12 @@ static bool is_known(const sweep *w, const sweep_row *row)
 
 static void take_needs(const sweep *w, sweep_row *row, const scene *s, const settings *set, const engine_picture *fixed)
 {
-    settings least = *set; /* of features and capacities */
+    settings minimal = *set; /* of features and capacities */
     row->counts = fixed->counts;
     row->instructions = cost_instructions(&row->counts) / ((double)w->options->width * w->options->height);
-    settings_trim(&least, s);
-    settings_fit(&least, &fixed->demand);
-    row->ram_bytes = settings_ram(&least).total;
+    settings_trim(&minimal, s);
+    settings_fit(&minimal, &fixed->demand);
+    row->ram_bytes = settings_ram(&minimal).total;
 }
 
 /* What advice goes by: colours alone, against exact shadows alone. */
@@ -112,12 +112,12 @@ static int measure(const sweep *w, sweep_row *row, const scene *s, const setting
 
 static sweep_row *new_row(sweep *w)
 {
-    if (w->n_rows == w->room) {
-        size_t room = w->room ? 2 * w->room : ROWS_FIRST;
-        sweep_row *grown = realloc(w->rows, room * sizeof *grown);
+    if (w->n_rows == w->rows_capacity) {
+        size_t capacity = w->rows_capacity ? 2 * w->rows_capacity : ROWS_FIRST;
+        sweep_row *grown = realloc(w->rows, capacity * sizeof *grown);
         if (!grown) return NULL;
         w->rows = grown;
-        w->room = room;
+        w->rows_capacity = capacity;
     }
     sweep_row *row = &w->rows[w->n_rows];
     memset(row, 0, sizeof *row);
@@ -155,12 +155,12 @@ static bool was_tried(const sweep *w, const sweep_config *c)
 
 static int keep_tried(sweep *w, const sweep_config *c)
 {
-    if (w->n_tried == w->tried_room) {
-        size_t room = w->tried_room ? 2 * w->tried_room : ROWS_FIRST;
-        sweep_config *grown = realloc(w->tried, room * sizeof *grown);
+    if (w->n_tried == w->tried_capacity) {
+        size_t capacity = w->tried_capacity ? 2 * w->tried_capacity : ROWS_FIRST;
+        sweep_config *grown = realloc(w->tried, capacity * sizeof *grown);
         if (!grown) return -1;
         w->tried = grown;
-        w->tried_room = room;
+        w->tried_capacity = capacity;
     }
     w->tried[w->n_tried++] = *c;
     return 0;
@@ -241,10 +241,10 @@ int sweep_around(sweep *w, size_t i)
     return measure_all(w, &list);
 }
 
-int sweep_least(sweep *w)
+int sweep_min(sweep *w)
 {
     static sweep_plan list;
-    sweep_plan_least(&list, w);
+    sweep_plan_min(&list, w);
     return measure_all(w, &list);
 }
 
@@ -284,7 +284,7 @@ static void look_at_lights(sweep *w, const scene *s)
         w->other |= shadow && !is_directional;
         directional += shadow && is_directional;
     }
-    /* beside a main light the others have their tiles in the other atlas */
+    /* beside a main light the others have their tiles in the local-light atlas */
     w->punctual |= s->shadow.main_light;
     w->other |= s->shadow.main_light && directional > 1;
 }

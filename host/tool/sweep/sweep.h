@@ -26,11 +26,11 @@ typedef enum {
 
 #define SWEEP_LEVELS_MAX 12
 
-/* Frames that are played after the first: the least number in which every schedule of 1, 2, 4 and 8 comes round equally
- * often. */
+/* Frames that are played after the first: the smallest number in which every schedule of 1, 2, 4 and 8 comes round
+ * equally often. */
 enum { SWEEP_PLAYED = 8 };
 
-/* A place in each knob's list of levels; -1: as the preset, or else the scene has it. */
+/* An index into each knob's list of levels; -1: as the preset, or else the scene has it. */
 typedef struct {
     int level[SWEEP_KNOBS];
 } sweep_config;
@@ -43,7 +43,7 @@ typedef struct {
 /* The frames after the first, by a renderer that keeps shadow tiles (A5) and refreshes cascades by their schedule. Of a
  * scene in which nothing moves that is the first once more, with every tile kept. */
 typedef struct {
-    double instructions, most; /* per pixel: mean, and of the frame that takes most */
+    double instructions, max; /* per pixel: mean, and of the frame that takes most */
     sweep_error_db truth, reference;
 } sweep_played;
 
@@ -76,7 +76,7 @@ typedef struct {
     size_t n_played;
     uint8_t *truth_rgb8[SWEEP_PLAYED]; /* exact shadows in the frames that are played, if anything moves */
     sweep_row *rows;
-    size_t n_rows, room, n_refused;
+    size_t n_rows, rows_capacity, n_refused;
     char refusal[TOOL_ERROR_BYTES]; /* why the first of them cannot be drawn */
     bool counts;                    /* --target: something counts */
     double scale;                   /* of the model, for what is not counted */
@@ -86,7 +86,7 @@ typedef struct {
     bool colours_only;                /* of each row only what cost, db and RAM need: sweep_complete has the rest */
     bool is_open;                     /* progress: how many rows there will be is not known */
     sweep_config *tried;              /* with colours_only: what was added, rows or not */
-    size_t n_tried, tried_room;
+    size_t n_tried, tried_capacity;
 } sweep;
 
 /* Loads the scene and draws what everything is compared with. Prints the error and returns -1 if that fails. */
@@ -106,8 +106,8 @@ int sweep_run(sweep *w, bool quick);
 /* Measures the neighbours of a row: one knob, one level up or down. Prints the error and returns -1. */
 int sweep_around(sweep *w, size_t row);
 
-/* The configuration that is least in every knob, with each preset. */
-int sweep_least(sweep *w);
+/* The configuration with the minimum of every knob, with each preset. */
+int sweep_min(sweep *w);
 
 /* On a terminal: how far it is; clears the line where it is through. */
 void sweep_show_progress(const sweep *w);
@@ -140,7 +140,7 @@ const sweep_row *sweep_unscheduled(const sweep *w, const sweep_row *row);
 void sweep_name(const sweep *w, const sweep_row *row, char *out, size_t bytes);
 
 /* Every setting that reproduces it, those of the command line included, in order: at most TOOL_SETS_MAX + SWEEP_KNOBS.
- * The strings are valid while text (room for SWEEP_KNOBS) is. Returns how many. */
+ * The strings are valid while text (capacity SWEEP_KNOBS) is. Returns how many. */
 typedef struct {
     char text[SWEEP_KNOBS][32];
 } sweep_text;

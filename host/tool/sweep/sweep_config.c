@@ -1,4 +1,4 @@
-/* A configuration as places in lists of levels, and as settings. */
+/* A configuration as indices into lists of levels, and as settings. */
 #include "sweep_config.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* A configuration as places in lists of levels, and as settings. Private to this folder. */
+/* A configuration as indices into lists of levels, and as settings. Private to this folder. */
 #ifndef GNOMON_SWEEP_CONFIG_H
 #define GNOMON_SWEEP_CONFIG_H
 

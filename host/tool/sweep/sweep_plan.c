@@ -148,7 +148,7 @@ void sweep_plan_around(sweep_plan *list, const sweep *w, const sweep_row *row)
     }
 }
 
-void sweep_plan_least(sweep_plan *list, const sweep *w)
+void sweep_plan_min(sweep_plan *list, const sweep *w)
 {
     start(list, w);
     for (int i = 0; i < sweep_n_levels(SWEEP_PRESET); i++) {

@@ -110,7 +110,7 @@ static int take_frame(void *user, size_t frame, const uint8_t *rgb8, const count
     if (!frame) return 0;
     const double cost = cost_instructions(counts) / ((double)o->width * o->height);
     p->played->instructions += cost / (double)p->w->n_played;
-    p->played->most = fmax(p->played->most, cost);
+    p->played->max = fmax(p->played->max, cost);
     return p->w->moves ? compare_frame(p, frame, rgb8, error, bytes) : 0;
 }
 

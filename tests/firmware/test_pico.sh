@@ -1,0 +1,53 @@
+#!/bin/sh
+# The Pico, booted from its UF2 file in rp2040js: the display shows what the host predicts, frames have the host's CRCs, and what goes
+# wrong is told. Without node and npm, or where npm cannot install rp2040js, only the images are built, and the reason is printed.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
+
+pico() { make -s --no-print-directory BOARD=pico "$@" >"$tmp/log" 2>&1; }
+host() { make -s --no-print-directory BOARD=host "$@" >"$tmp/host.log" 2>&1; }
+finish() {
+    echo "$passed passed, $failed failed"
+    [ "$failed" = 0 ]
+    exit
+}
+
+cube="APP=play SCENE=host/scenes/cube.gltf PRESET=balanced"
+small="--size 96x64 --frames 9-10 --set output=rgb565"
+pico firmware APP=clock && pass || fail "the clock does not build: $(grep -m 1 -E 'error|region' "$tmp/log")"
+pico firmware $cube IMAGE=test-cube SCENE_FLAGS="$small" && pass || fail "the cube does not build: $(grep -m 1 -E 'error|region' "$tmp/log")"
+if ! make -s build/node_modules/rp2040js/package.json BOARD=pico >"$tmp/log" 2>&1; then
+    echo "not run: $(head -n 1 "$tmp/log")"
+    finish
+fi
+
+# The clock begins at 06:00, and sends what changed from frame to frame.
+make -s build/ppm >/dev/null && host firmware APP=predict SCREEN_OF=pico FW_OPT=-O1 && pass || fail "no prediction: $(tail -n 1 "$tmp/host.log")"
+pico screen APP=clock ARGS=2 SCREEN_OUT="$tmp/pico.ppm" && pass || fail "the clock: $(tail -n 1 "$tmp/log")"
+[ "$(grep -c '^frame [01]: .* instructions, .* cycles' "$tmp/log")" = 2 ] && pass || fail "no counts of the clock's frames: $(cat "$tmp/log")"
+predicted() { build/firmware/host/predict-pico.elf "$1" "$tmp/host.ppm" && build/ppm compare "$tmp/pico.ppm" "$tmp/host.ppm" >"$tmp/differ" 2>&1; }
+predicted 06:05 && pass || fail "the display is not what the host predicts: $(cat "$tmp/differ")"
+predicted 06:00 && fail "the display shows the frame before, too" || pass
+
+# A textured cube, and a scene that the app makes itself, to the last line and the exit status.
+for app in "$cube IMAGE=test-cube" APP=crc; do
+    pico emulate $app SCENE_FLAGS="$small" && host emulate $app SCENE_FLAGS="$small" && pass || fail "$app: $(tail -n 1 "$tmp/log")"
+    grep -E '^[0-9a-f]{8} frame|^frame [0-9] crc' "$tmp/log" >"$tmp/crcs"
+    grep -E '^[0-9a-f]{8} frame|^frame [0-9] crc' "$tmp/host.log" | cmp -s - "$tmp/crcs" && [ -s "$tmp/crcs" ] && pass || fail "$app: other pictures: $(cat "$tmp/crcs")"
+done
+
+# What cannot run says so.
+run() { NODE_PATH=build/node_modules node boards/tools/pico.js "$@" >"$tmp/log" 2>&1; }
+image=build/firmware/pico/crc
+refused() { # refused TEXT ARGUMENT...
+    text=$1
+    shift
+    run "$@" && fail "$text: it ran" || { grep -q "^pico: .*$text" "$tmp/log" && pass || fail "$text: $(head -n 1 "$tmp/log")"; }
+}
+refused usage $image.uf2 $image.symbols
+refused 'not a UF2 file' $image.elf $image.symbols 1
+refused 'no such file' $image.uf2 "$tmp/none" 1
+head -c 512 $image.uf2 >"$tmp/boot.uf2" # the boot stage alone: it jumps to where nothing is
+refused '.' "$tmp/boot.uf2" $image.symbols 1
+
+finish
