@@ -55,9 +55,11 @@ static gn_status list_lights(gn_frame *frame)
     uint32_t n_directional = 0, most = 0;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
         n_directional += frame->light[l].kind == GN_LIGHT_DIRECTIONAL && !frame->light[l].off;
-    for (uint32_t i = 0; GN_PUNCTUAL_LIGHTS && i < frame->scene->n_objects; i++) {
-        uint32_t n = gn_object_list_lights(frame, i);
-        if (n > most) most = n;
+    if (GN_PUNCTUAL_LIGHTS) {
+        for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+            uint32_t n = gn_object_list_lights(frame, i);
+            if (n > most) most = n;
+        }
     }
     if (n_directional + most > GN_SURFACE_LIGHTS)
         return gn_fail_capacity(frame, GN_ERR_SURFACE_LIGHTS, n_directional + most, GN_SURFACE_LIGHTS);

@@ -1,5 +1,5 @@
-/* Filters that weigh texels: tents (F3), and the linear kernels of the same width (F6). Compares
- * come first, weights are exact integers, one division by multiplication ends it. */
+/* Filters that weigh texels: tents (F3), and the linear kernels of the same width (F6). Compares come first,
+ * weights are exact integers, one division by multiplication ends it. Inline, as they have one caller per pixel. */
 #ifndef GN_TENT_H
 #define GN_TENT_H
 
