@@ -1,8 +1,7 @@
-/* Every knob's default. Override any of them in one file of your own, named by -DGN_USER_CONFIG='"my_config.h"', or
- * with -D.
+/* Every knob's default. Override any of them with -D, or in one file of your own: -DGN_USER_CONFIG='"my_config.h"'.
  *
- * GN_PRESET picks the defaults of the quality knobs together. Ranges are checked at compile time in gn_check.h; what
- * each knob means, its range and what it costs is listed once, in gn_knobs.h, from which docs/CONFIG.md is generated.
+ * GN_PRESET picks the defaults of the quality knobs together. gn_check.h checks ranges at compile time. gn_knobs.h
+ * lists every knob's meaning, range and cost; docs/CONFIG.md is generated from it.
  */
 #ifndef GN_CONFIG_H
 #define GN_CONFIG_H
@@ -23,7 +22,7 @@
     (GN_PRESET == GN_PRESET_TINY ? (tiny) : GN_PRESET == GN_PRESET_BALANCED ? (balanced) : (accurate))
 #define GN_PICK(...) GN_PICK_(__VA_ARGS__)
 
-/* A quality of its own (gn_compact.h): what it cannot do is off by default. */
+/* A quality level of its own (gn_compact.h): features that it lacks are off by default. */
 #ifndef GN_COMPACT
 #define GN_COMPACT 0
 #endif
@@ -239,7 +238,8 @@
 #define GN_RUNTIME_KNOBS 0
 #endif
 
-/* How it is built. A program need not agree with the library on size_first: no type depends on it. */
+/* How the library is built. A program may be compiled with another size_first than the library: no type depends on it.
+ */
 #ifndef GN_SIZE_FIRST
 #ifdef __OPTIMIZE_SIZE__
 #define GN_SIZE_FIRST 1
@@ -251,14 +251,14 @@
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING)))
 
-/* Whether surfaces may be shaded piece by piece (gn_piece.h): not where every pixel is to be exact. */
+/* Whether surfaces may be shaded in patches (gn_piece.h). Not built where every pixel must be exact. */
 #define GN_PIECES  (GN_RUNTIME_KNOBS || (GN_PERSP_STEP > 1 && !GN_COMPACT))
 #define GN_TURNING (GN_PIECES && GN_VERTEX_NORMALS && (GN_RUNTIME_KNOBS || !GN_VERTEX_LIGHT))
 
-/* Whether what arrives from spot and point lights is stepped between samples. */
+/* Whether the incident light of spots and points is interpolated between exact samples. */
 #define GN_ARRIVAL_STEPS (GN_PUNCTUAL_LIGHTS && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))
 
-/* Whether texture coordinates that alpha is looked up at are. */
+/* Whether alpha's texture coordinates, too, are interpolated between exact samples. */
 #define GN_ALPHA_STEPS (GN_TEXTURES && (GN_CASTER_ALPHA || GN_VISIBLE_ALPHA) && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))
 
 #endif

@@ -1,8 +1,9 @@
-/* The one list of knobs. Compile-time checks (gn_check.h), the host tool's --set and docs/CONFIG.md are made from it.
+/* The one list of knobs. The compile-time checks (gn_check.h), the host tool's --set and docs/CONFIG.md are made from
+ * it.
  *
- * Quality knobs change pixels. On a target they are constants, so that what is not chosen is not built. With
- * GN_RUNTIME_KNOBS (the host tool) the same expressions read them from the renderer, with the same bits: a test holds
- * both against each other. Columns: name, macro, smallest, largest, meaning, cost.
+ * Quality knobs change pixels. On a target they are constants, so that the compiler drops the unused code. With
+ * GN_RUNTIME_KNOBS (the host tool) the same expressions read them from the renderer. A test checks that both give the
+ * same bits. Columns: name, macro, smallest, largest, meaning, cost.
  */
 #ifndef GN_KNOBS_H
 #define GN_KNOBS_H
@@ -11,8 +12,8 @@
 
 #define GN_QUALITY_KNOBS(X)                                                                                            \
     X(subpixel_bits, SUBPIXEL_BITS, 2, 8, "fraction bits of screen coordinates",                                       \
-      "12 more bytes per triangle where 16 bits do not hold them: 8, or 7 above 490 pixels")                           \
-    X(persp_step, PERSP_STEP, 1, 16, "most pixels between perspective divides (1, 4, 8 or 16), parabolas between",     \
+      "12 more bytes per triangle where 16 bits are too few: at 8, or at 7 above 490 pixels")                          \
+    X(persp_step, PERSP_STEP, 1, 16, "maximum pixels between perspective divides (1, 4, 8 or 16), parabolas between",  \
       "1: a divide and all attributes per pixel")                                                                      \
     X(newton_steps, NEWTON_STEPS, 1, 2, "Newton steps of per-pixel reciprocals: 2^-17 or 2^-30 relative",              \
       "two multiplications per divide")                                                                                \
@@ -24,15 +25,15 @@
     X(atlas_size, ATLAS_SIZE, 16, 1024, "texels per side of the directional atlas, a power of two",                    \
       "depth_bits / 8 bytes per texel of RAM, and the time to fill them")                                              \
     X(other_atlas_size, OTHER_ATLAS_SIZE, 16, 1024,                                                                    \
-      "texels per side of the atlas of spot and point lights, a power of two",                                         \
+      "texels per side of the local-light atlas (spot and point lights), a power of two",                              \
       "other_depth_bits / 8 bytes per texel of RAM, and the time to fill them")                                        \
     X(depth_bits, DEPTH_BITS, 8, 32, "bits per texel of the directional atlas (8, 16 or 32)", "RAM")                   \
-    X(other_depth_bits, OTHER_DEPTH_BITS, 8, 32, "bits per texel of the other atlas (8, 16 or 32)", "RAM")             \
+    X(other_depth_bits, OTHER_DEPTH_BITS, 8, 32, "bits per texel of the local-light atlas (8, 16 or 32)", "RAM")       \
     X(tile_width, TILE_WIDTH, 8, 2048, "screen tile width in pixels, a multiple of 8", "RAM: 7 bytes per tile pixel")  \
     X(tile_height, TILE_HEIGHT, 1, 2048, "screen tile height in pixels", "RAM: 7 bytes per tile pixel")                \
     X(srgb, SRGB, 0, 1, "encode the output with the sRGB curve", "1154 bytes of flash, 10 instructions per channel")   \
     X(vertex_light, VERTEX_LIGHT, 0, 1,                                                                                \
-      "1: Gouraud shading: n . L of directional lights is found at vertices and interpolated",                         \
+      "1: Gouraud shading: n . L of directional lights is computed at vertices and interpolated",                      \
       "saves a root per sample; 12 bytes per light of a surface")                                                      \
     X(position_bits, POSITION_BITS, 16, 32, "bits of a mesh's coordinates (16 or 32)",                                 \
       "flash: 6 or 12 bytes per vertex")                                                                               \
@@ -45,16 +46,17 @@
       "32 bytes each, 44 with wider screen coordinates")                                                               \
     X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")           \
     X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")          \
-    X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can reach one surface", "141 bytes of stack each")           \
+    X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can affect one surface", "141 bytes of stack each")          \
     X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "36 bytes each, 24 without spot and point lights")     \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",              \
       "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
-    X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the other atlas: 1 per spot, 6 per point light",              \
+    X(max_other_tiles, MAX_OTHER_TILES, 1, 16, "tiles of the local-light atlas: 1 per spot, 6 per point light",        \
       "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
     X(atlas_texels, ATLAS_TEXELS, 64, 1048576,                                                                         \
-      "texels that the tiles of the directional atlas take, a multiple of 64; by default all of it",                   \
-      "depth_bits / 8 bytes each: tiles take all of an atlas only where they are 1, 4 or 16, or sized by importance")  \
-    X(other_atlas_texels, OTHER_ATLAS_TEXELS, 64, 1048576, "the same of the other atlas",                              \
+      "texels reserved for the tiles of the directional atlas, a multiple of 64; by default the whole atlas",          \
+      "depth_bits / 8 bytes each: tiles fill an atlas only if there are 1, 4 or 16 of them, or with sizes by "         \
+      "importance")                                                                                                    \
+    X(other_atlas_texels, OTHER_ATLAS_TEXELS, 64, 1048576, "the same of the local-light atlas",                        \
       "other_depth_bits / 8 bytes each")                                                                               \
     X(vertex_cache, VERTEX_CACHE, 4, 1024, "entries of the transformed-vertex caches, a power of two", "16 bytes each")
 
@@ -63,9 +65,9 @@
     X(compact, COMPACT, 0, 1,                                                                                          \
       "32-bit arithmetic for one directional light with one hard shadow tile and flat colours, in pictures up to "     \
       "256x256; features are off",                                                                                     \
-      "none: the least flash; a scene beyond its range is refused")                                                    \
+      "none: the smallest flash; a scene beyond its range is refused")                                                 \
     X(size_first, SIZE_FIRST, 0, 1,                                                                                    \
-      "less flash rather than fewer instructions: one way where there are two with the same bits, calls in place of "  \
+      "less flash rather than fewer instructions: one code path where two give the same bits, calls in place of "      \
       "inline code; by default 1 where the compiler optimises for size (-Os)",                                         \
       "instructions; the same picture")
 
@@ -78,11 +80,12 @@
     X(filter_max, FILTER_MAX, 0, 4, "largest filter built: 0 hard, 1 2x2, 2 3x3, 3 5x5, 4 7x7", "flash")               \
     X(disk_filter, DISK_FILTER, 0, 1, "rotated disk filter", "flash; a table of 256 bytes")                            \
     X(linear_kernels, LINEAR_KERNELS, 0, 1, "the cheaper linear kernels", "flash")                                     \
-    X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights", "flash; the other atlas")                       \
-    X(main_light, MAIN_LIGHT, 0, 1, "a main light beside single tiles", "flash; the other atlas")                      \
+    X(punctual_lights, PUNCTUAL_LIGHTS, 0, 1, "spot and point lights", "flash; the local-light atlas")                 \
+    X(main_light, MAIN_LIGHT, 0, 1, "a main light with cascades; other directional lights take one tile each",         \
+      "flash; the local-light atlas")                                                                                  \
     X(tile_lights, TILE_LIGHTS, 0, 1, "lists of lights per screen tile", "flash; the same picture with and without")   \
-    X(caster_culling, CASTER_CULLING, 0, 1, "casters that a smaller cascade shows are not drawn into larger ones",     \
-      "flash")                                                                                                         \
+    X(caster_culling, CASTER_CULLING, 0, 1,                                                                            \
+      "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones", "flash")                 \
     X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither", "flash")                              \
     X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither", "flash")                           \
     X(textures, TEXTURES, 0, 1, "textures: colour and alpha", "flash; a table of 512 bytes; a divide per pixel")       \
@@ -94,26 +97,26 @@
     X(receiver_plane, RECEIVER_PLANE, 0, 1, "depth of the receiver's plane per tap", "flash")                          \
     X(auto_bias, AUTO_BIAS, 0, 1, "automatic bias", "flash")                                                           \
     X(incremental, INCREMENTAL, 0, 1,                                                                                  \
-      "shadow tiles are kept from frame to frame while nothing in them changes: a single picture shows nothing of it", \
+      "shadow tiles are kept from frame to frame while nothing in them changes: a single picture does not show it",    \
       "16 bytes per tile; the same picture with and without")                                                          \
     X(static_layer, STATIC_LAYER, 0, 1,                                                                                \
-      "static casters are kept apart from moving ones, from frame to frame: a single picture shows nothing of it",     \
+      "static casters are kept apart from moving ones, from frame to frame: a single picture does not show it",        \
       "the atlases' RAM twice")                                                                                        \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")   \
     X(validation, VALIDATION, 0, 1,                                                                                    \
-      "scenes are checked before they are drawn; without, what would be refused may do anything", "flash")             \
-    X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats but RGB565: RGB888, grey, one bit", "flash")                  \
+      "scenes are checked before they are drawn; without, an invalid scene has undefined behaviour", "flash")          \
+    X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats other than RGB565: RGB888, grey, one bit", "flash")           \
     X(many_cascades, MANY_CASCADES, 0, 1, "more than one cascade per light", "flash")                                  \
     X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance", "flash")                                     \
-    X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box a shadow tile does not see are passed over",                \
+    X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box lies outside a shadow tile are skipped",                    \
       "flash, 24 bytes per object; the same picture with and without")                                                 \
     X(clipping, CLIPPING, 0, 1,                                                                                        \
-      "visible triangles may come nearer than the near plane, or reach far beyond the picture; without, the frame is " \
+      "visible triangles may cross the near plane, or extend far beyond the picture; without, the frame is "           \
       "refused",                                                                                                       \
       "flash")                                                                                                         \
     X(caster_clipping, CASTER_CLIPPING, 0, 1,                                                                          \
-      "directional casters may reach more than 8192 texels beyond their tile; without, they may be refused", "flash")  \
+      "directional casters may extend more than 8192 texels beyond their tile; without, they may be refused", "flash") \
     X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")       \
     X(runtime_knobs, RUNTIME_KNOBS, 0, 1, "quality knobs as data (host tools)", "everything is built")
 

@@ -4,8 +4,8 @@
 
 #include "gnomon.h"
 
-/* GN_OK, or the first thing that is wrong, with frame->detail filled. Vertex positions are checked when they are
- * transformed. */
+/* Returns GN_OK or the first error, with frame->detail filled. Vertex positions are checked when they are transformed.
+ */
 gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene);
 
 /* Fills frame->cam from the scene's camera and the picture; the camera has been validated. */
@@ -15,24 +15,24 @@ void gn_cam_setup(gn_frame *frame);
 gn_status gn_views_setup(gn_frame *frame);
 
 #if GN_SHADOWS
-/* Brings one view's tile up to date: draws it, unless it still holds what would be drawn. The memory is scratch, for a
- * cache of vertices: at least 4 words. */
+/* Brings one view's tile up to date: draws it, unless its content is still valid. The memory is scratch, for a vertex
+ * cache: at least 4 words. */
 gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory,
                                uint32_t n_words);
 #endif
 
-/* Fills frame->tri from the scene, and counts the triangles of each screen tile. The scratch is used for a cache of
- * vertices, and for what gn_bin_triangles need not find again. */
+/* Fills frame->tri from the scene, and counts the triangles of each screen tile. The scratch is used for a vertex
+ * cache, and for results that gn_bin_triangles uses again. */
 gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch);
 
-/* Sorts what gn_setup_triangles counted in tile_first, with what it left in the scratch. */
+/* Sorts the references that gn_setup_triangles counted in tile_first, with its results in the scratch. */
 gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch);
 
 /* Fills scratch->cell, rows of rect.x1 - rect.x0. A cell is near / Z in its high bits and the triangle's identity in
- * its low id_bits; the larger cell wins, whatever the order of drawing. */
+ * its low id_bits. The larger cell wins, so that the order of drawing does not matter. */
 void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx);
 
-/* From scratch->cell to scratch->pixel. */
+/* Shades scratch->cell into scratch->pixel. */
 void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx);
 
 #endif

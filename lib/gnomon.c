@@ -2,8 +2,8 @@
  *
  *     cc -Ilib program.c lib/gnomon.c
  *
- * It includes the parts that the configuration needs, folder by folder, in the direction that data flows: no folder
- * includes from one that stands further down (tests/ checks that).
+ * It includes the parts that the configuration needs, folder by folder, in the direction of the data flow. No folder
+ * includes from one further down; a test checks that.
  */
 #define GN_ONE_FILE 1
 #include "frame/gn_check.h"
@@ -15,7 +15,7 @@
 #include "base/gn_q.c"
 #include "base/gn_tables.c"
 
-/* Transforms; and what the caller describes, validated. */
+/* Transforms; validation of the caller's scene. */
 #include "geometry/gn_affine.c"
 #include "scene/gn_defaults.c"
 #include "scene/gn_scene.c"
@@ -49,7 +49,7 @@
 #endif
 #endif
 
-/* Lights: which reach which object, cascades, falloff, bias. */
+/* Lights: which light affects which object, cascades, falloff, bias. */
 #include "light/gn_lights.c"
 #if GN_BOXES
 #include "light/gn_object.c"

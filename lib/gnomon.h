@@ -82,7 +82,7 @@ extern "C" {
     X(GN_ERR_LIGHT_ANGLE, "spot angles outside 1 .. 179 degrees, or inner above outer")                                \
     X(GN_ERR_LIGHT_BIAS, "light strength, bias, near offset, colour exponent or mask channel out of range, or a bias " \
                          "that is not built in")                                                                       \
-    X(GN_ERR_SURFACE_LIGHTS, "more lights can reach one surface than GN_SURFACE_LIGHTS")                               \
+    X(GN_ERR_SURFACE_LIGHTS, "more lights can affect one surface than GN_SURFACE_LIGHTS")                              \
     X(GN_ERR_SHADOW_DISTANCE, "shadow distance outside 1/256 .. 8192 units, or not beyond the camera's near plane")    \
     X(GN_ERR_SHADOW_FADE, "distance fade or cascade fade outside 0.001 .. 1")                                          \
     X(GN_ERR_SHADOW_FILTER,                                                                                            \
@@ -133,7 +133,7 @@ int32_t gn_cos_q30(uint16_t angle_turn);
 
 /* ---- Scene: described by the caller, read only during a call ----------------------------------------------------- */
 
-/* With quality knobs as data the wide types hold what the narrow ones do. */
+/* With quality knobs as data, the wide types are used: every narrow value fits. */
 #if GN_POSITION_BITS == 16 && !GN_RUNTIME_KNOBS
 typedef int16_t gn_position;
 #else
@@ -208,10 +208,10 @@ typedef enum { GN_LIGHT_REALTIME, GN_LIGHT_MIXED, GN_LIGHT_BAKED } gn_light_mode
 /* A light's filter: that of its atlas; 2x2; that of its atlas, but at least 5x5. */
 typedef enum { GN_SOFTNESS_DEFAULT, GN_SOFTNESS_HARD, GN_SOFTNESS_SOFT } gn_softness;
 typedef enum {
-    GN_AUTO_BIAS_DEFAULT, /* normal, unless bias_normal_q16 or bias_receiver_q16 is set: that ends it. A light that
-                             casts shadows must set one of them, or say off, where automatic bias is not built */
+    GN_AUTO_BIAS_DEFAULT, /* normal; off if bias_normal_q16 or bias_receiver_q16 is set. Where automatic bias is not
+                             built, a light that casts shadows must set another bias, or say off */
     GN_AUTO_BIAS_DEPTH,   /* less depth */
-    GN_AUTO_BIAS_NORMAL,  /* along the face's normal: detaches least */
+    GN_AUTO_BIAS_NORMAL,  /* along the face's normal: the smallest gap at a caster's foot */
     GN_AUTO_BIAS_OFF
 } gn_auto_bias;
 
@@ -235,8 +235,8 @@ typedef struct {
     int32_t bias_receiver_q16[4]; /* along the light, its tangent, the normal, its sine; 0..8 each */
     int32_t bias_caster_q16;      /* casters shrink along their normals, texels, 0..8 */
     uint32_t receiver_plane;      /* 1: every tap compares with the depth of the receiver's plane */
-    gn_auto_bias auto_bias;       /* the least bias that leaves a plane no acne, in place of normal and receiver bias */
-    int32_t near_offset_q16;      /* directional: pulls the light's near plane back, world units, 0..8192 */
+    gn_auto_bias auto_bias;  /* the smallest bias that leaves a plane no acne, in place of normal and receiver bias */
+    int32_t near_offset_q16; /* directional: pulls the light's near plane back, world units, 0..8192 */
 } gn_light;
 
 typedef struct {
@@ -264,16 +264,16 @@ typedef struct {
     uint32_t distance_fade_uq16; /* the last part of that distance, 66 (0.001) .. 65536 */
     uint32_t cascade_fade_uq16;  /* the last part of the last cascade, 66 .. 65536 */
     gn_filter filter;            /* of the directional atlas */
-    gn_filter other_filter;      /* of the other atlas */
+    gn_filter other_filter;      /* of the local-light atlas: spot and point lights, and single tiles (main_light) */
     gn_kernel kernel;
     uint32_t penumbra_uq16; /* disk radius: directional in 0.02 units, spot and point in 0.004 tiles; 0 .. 64.0 */
     uint32_t disk_samples;  /* disk filter: 1..64 */
     gn_mixing mixing;
     gn_tile_sizes tile_sizes;
-    uint32_t main_light;      /* 1: only the brightest directional light has cascades; others take one tile of the other
-                                 atlas */
+    uint32_t main_light;      /* 1: only the brightest directional light has cascades; others take one tile of the
+                                 local-light atlas */
     uint32_t caster_culling;  /* 1: the same pixels, fewer casters */
-    uint32_t object_lights;   /* most spot and point lights per object, 0 (no limit) .. 8 */
+    uint32_t object_lights;   /* maximum of spot and point lights per object, 0 (no limit) .. 8 */
     uint32_t refresh[4];      /* cascade i is drawn anew every refresh[i]th frame; 0 as 1 */
     uint32_t n_cascades;      /* 0 (as 1) .. 4; each takes a tile of the atlas */
     uint32_t cascades_unused; /* bit i: cascade i has no tile, and pixels in it look into the next: for scenes that
@@ -290,8 +290,8 @@ typedef struct {
     uint32_t n_objects; /* up to 65535 */
     uint32_t n_lights;
     gn_camera camera;
-    int32_t unit_log2; /* one unit of length is 2^-unit_log2 of the model's: scales the least squared distance 10^-4 of
-                          spot and point lights, and the penumbra; -30 .. 30 */
+    int32_t unit_log2; /* one unit of length is 2^-unit_log2 of the model's: scales the minimum squared distance 10^-4
+                          of spot and point lights, and the penumbra; -30 .. 30 */
     uint32_t ambient_uq16[3];    /* 0..255.99 */
     uint32_t background_uq16[3]; /* 0..65536 */
     gn_shadow_settings shadow;
@@ -300,8 +300,8 @@ typedef struct {
 /* ---- Defaults: what a user need not set ---------------------------------------------------------------------------
  */
 
-/* Everything that is not given has a value that shows: white or light grey, lit, casting and receiving shadows. Change
- * what should differ afterwards. */
+/* Every field gets a value that gives a visible picture: white or light grey, lit, casting and receiving shadows.
+ * Change what should differ afterwards. */
 
 /* A mesh of two arrays: 3 coordinates per vertex, written with GN_Q16, and 3 indices per triangle. Face normals. */
 #define GN_MESH(pos, idx)                                                                                              \
@@ -387,10 +387,10 @@ typedef struct {
     uint32_t n_tile_refs;
     uint32_t n_clipped; /* triangles that met the near plane or the guard band */
     uint32_t n_shadow_tiles;
-    uint32_t n_caster_triangles; /* drawn into shadow tiles */
-    uint32_t n_reach_clamped;    /* views whose filter reach does not fit their tile: taps are clamped at its border */
+    uint32_t n_caster_triangles;    /* drawn into shadow tiles */
+    uint32_t n_reach_clamped;       /* views whose filter radius and bias exceed their tile: taps are clamped */
     uint32_t n_lights_without_room; /* lights that requested a shadow and got no tile */
-    uint32_t n_lights_left_out;     /* of lists of lights per object, over all objects */
+    uint32_t n_lights_left_out;     /* lights dropped from the objects' light lists, summed over all objects */
     uint32_t n_tiles_drawn;         /* shadow tiles that were drawn, not kept */
     uint32_t n_texels_drawn;        /* of those tiles */
     uint32_t n_casters_culled;      /* objects not drawn into a cascade */
@@ -403,7 +403,7 @@ typedef struct {
 } gn_knobs;
 #endif
 
-/* The layout of the state is private; it stands here so that the caller can make it static. */
+/* The layout of the state is private. It is included here so that the caller can declare it static. */
 #include "frame/gn_state.h"
 
 typedef struct gn_renderer {
@@ -411,7 +411,7 @@ typedef struct gn_renderer {
     gn_scratch scratch;
 } gn_renderer;
 
-/* What gn_init compares: a sum over all knobs, the version, and the sizes of what the caller fills in. */
+/* gn_init compares this signature: a sum over all knobs, the version, and the sizes of the caller's structs. */
 #define GN_SIGN_(index, value)                                                                                         \
     (((uint64_t)(value) + 1U) * (((uint64_t)(index)*0x9E3779B97F4A7C15U ^ 0xD1B54A32D192ED03U) | 1U))
 #define GN_KNOB_INDEX_(name, MACRO, lo, hi, meaning, cost) gn_knob_index_##name,
@@ -471,12 +471,12 @@ typedef struct {
 } gn_tile_info;
 uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info);
 
-/* Forgets what is kept of shadow tiles: call it after changing mesh or texture data in place. */
+/* Discards the shadow tiles kept from earlier frames: call it after changing mesh or texture data in place. */
 void gn_forget_shadows(gn_renderer *r);
 
-/* What a panel shows, as a signature per screen tile. Clear it (memset 0) when the panel's content is unknown. A
- * tile whose pixels did not change is drawn but not flushed; two different tiles have the same signature with
- * probability 2^-64. */
+/* A signature per screen tile of what the panel shows. Clear it (memset 0) when the panel's content is unknown. A tile
+ * whose pixels did not change is drawn but not flushed; two different tiles have the same signature with probability
+ * 2^-64. */
 typedef struct {
     uint64_t signature[GN_TILES_MAX];
 } gn_panel;

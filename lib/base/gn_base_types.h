@@ -1,4 +1,4 @@
-/* Types that every stage uses. Private, as all gn_*_types.h are: gn_state.h puts them together to a renderer's state.
+/* Types that every stage uses. Private, as all gn_*_types.h are: gn_state.h combines them into a renderer's state.
  */
 #ifndef GN_BASE_TYPES_H
 #define GN_BASE_TYPES_H

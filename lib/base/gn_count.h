@@ -1,6 +1,5 @@
-/* What the library did, counted for the host tool's model of cost (gnomon sweep): never in a firmware build, where
- * GN_COUNT is nothing. Whoever compiles lib/ with GN_COUNTERS=1 defines gn_count(), so that the library keeps no state
- * of its own.
+/* Event counts for the host tool's cost model (gnomon sweep). In a firmware build GN_COUNT is empty. A program that
+ * compiles lib/ with GN_COUNTERS=1 defines gn_count(), so that the library keeps no state of its own.
  */
 #ifndef GN_COUNT_H
 #define GN_COUNT_H
@@ -11,7 +10,7 @@
 #define GN_COUNTERS 0
 #endif
 
-/* X(event, what one of them is): in the order of the stages */
+/* X(event, meaning of one count): in the order of the stages */
 #define GN_COUNT_EVENTS(X)                                                                                             \
     X(tile_texels, "texel of a shadow tile that was cleared, and bounded by blocks")                                   \
     X(casters, "caster triangle seen by an orthographic view")                                                         \

@@ -1,6 +1,6 @@
-/* The tables of gn_tables.c as polynomials, for builds where size comes first: the same values, entry by entry (a test
- * holds each against its table). Coefficients are least squares of the curve at the table's places, weighted towards
- * the least largest error, and moved by last bits until every entry is rounded as the table has it. */
+/* The tables of gn_tables.c as polynomials, for GN_SIZE_FIRST: the same values, entry by entry (a test compares each
+ * with its table). Coefficients are a least-squares fit of the curve at the table's entries, weighted to minimise the
+ * largest error, and adjusted in their last bits until every entry rounds to the table's value. */
 #include "gn_internal.h"
 
 #include "base/gn_q.h"

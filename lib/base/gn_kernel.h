@@ -1,8 +1,8 @@
 /* Kernels that a port may replace, and what they must compute, bit for bit.
  *
  * The library is portable without a port. With -DGN_PORT='"gn_port_NAME.h"' that header is included (gn_hint.h); for
- * each kernel that the port has, it defines gn_kernel_X as the function that takes the place of gn_portable_X, under
- * the same preconditions: port/gn_port.h is the contract, docs/PORTING.md explains it.
+ * each kernel that the port has, it defines gn_kernel_X as the function that replaces gn_portable_X, under the same
+ * preconditions: port/gn_port.h is the contract, docs/PORTING.md explains it.
  */
 #ifndef GN_KERNEL_H
 #define GN_KERNEL_H
@@ -18,9 +18,9 @@ GN_HOT static inline uint32_t gn_borrow(uint32_t bits, uint32_t texel, uint32_t 
     return bits << 1 | (texel - level) >> 31;
 }
 
-/* Which of n x n texels, in rows `pitch` apart, keep a receiver in the dark: whose depth, as the upper 16 of 32 bits,
- * is below `least`. Bit i of dark[j] is for texel i of row j. Returns the bits that any row has, plus, 16 bits up,
- * those that all have. n = 4, 6 or 8; least <= 0xFFFF0000. `texel` lies on two bytes, not on four. */
+/* Which of n x n texels, in rows `pitch` apart, shadow a receiver: their depth, as the upper 16 of 32 bits, is below
+ * `least`. Bit i of dark[j] is for texel i of row j. Returns the OR of all rows, plus, 16 bits up, their AND. n = 4, 6
+ * or 8; least <= 0xFFFF0000. `texel` is aligned to two bytes, not to four. */
 GN_HOT static inline uint32_t gn_portable_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n,
                                                         uint8_t *dark)
 {

@@ -23,7 +23,7 @@ GN_HOT uint64_t gn_bf_from_u64_bits(uint64_t v)
     return gn_bf_bits(out);
 }
 
-/* Entry i of gn_recip_table is 2^25 / (2i + 513), rounded. Where size comes first and the core divides, it is computed.
+/* Entry i of gn_recip_table is 2^25 / (2i + 513), rounded. With GN_SIZE_FIRST, on a core that divides, it is computed.
  */
 GN_INLINE uint32_t recip_start(uint32_t i)
 {
@@ -41,7 +41,7 @@ GN_HOT uint32_t gn_quotient_q30(uint32_t num, uint32_t den)
 {
     int32_t clz = gn_clz32(den);
     return (uint32_t)((uint64_t)num * gn_recip_norm(den << clz, 1) >>
-                      (33 - clz)); /* num <= den: 2^30 at most, and 2^13 */
+                      (33 - clz)); /* num <= den: at most 2^30, and 2^13 */
 }
 
 GN_HOT uint32_t gn_rsqrt_norm(uint32_t m, int32_t newton_steps)
@@ -90,7 +90,7 @@ GN_HOT int64_t gn_bf_apply_bits(int64_t a, uint64_t b_bits)
     if (s >= 0) {
         r = (s > 62 || (r && gn_clz64(r) <= s)) ? (uint64_t)INT64_MAX : r << s;
     } else {
-        /* truncate, then round by the last bit dropped: no addition that could carry out */
+        /* truncate, then round by the last dropped bit: no addition that could overflow */
         r = s < -64 ? 0 : s == -64 ? r >> 63 : (r >> -s) + ((r >> (-s - 1)) & 1U);
         if (r > (uint64_t)INT64_MAX) r = (uint64_t)INT64_MAX;
     }
@@ -151,7 +151,7 @@ GN_HOT int32_t gn_norm_vec(int32_t out[3], const int64_t a[3])
         out[0] = out[1] = out[2] = 0;
         return 0;
     }
-    int32_t clz = gn_clz64(any), s = clz - 1;         /* one bit more than is kept is 2^s of it */
+    int32_t clz = gn_clz64(any), s = clz - 1;         /* one bit more than the result, for rounding */
     if (s < 0 || (any << clz) >> 33 == 0x7FFFFFFFU) { /* may be rounded up to 2^30 */
         for (int i = 0; i < 3; i++) {
             int32_t v = halved(s < 0 ? (int32_t)(a[i] >> 33) : upper32(a[i], s));

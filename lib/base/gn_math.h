@@ -47,7 +47,7 @@ GN_HOT static inline uint32_t gn_recip_step(uint32_t m, uint32_t y)
     return better >> 63 ? UINT32_MAX : (uint32_t)(better >> 31);
 }
 
-/* gn_recip_norm with two steps, spelled out where it is called per vertex. */
+/* gn_recip_norm with two steps, inlined where it is called per vertex. */
 GN_HOT static inline uint32_t gn_recip_norm2_inline(uint32_t m)
 {
     uint32_t y = (uint32_t)gn_recip_table[(m >> 23) & 255U] << 16,
@@ -96,8 +96,8 @@ GN_INLINE int64_t gn_bf_apply(int64_t a, gn_bfloat b, int32_t shift)
 
 uint32_t gn_isqrt64(uint64_t v); /* floor(sqrt(v)) */
 
-/* floor(a / b), b > 0, and what is left. A step per bit of the quotient: never per pixel; where it is short, no slower
- * than the compiler's helper, which takes ten times the flash. */
+/* floor(a / b), b > 0, and the remainder. One step per bit of the quotient: never used per pixel. For short quotients
+ * no slower than the compiler's helper, which takes ten times the flash. */
 uint64_t gn_udiv64_rest(uint64_t a, uint64_t b, uint64_t *rest);
 uint64_t gn_udiv64(uint64_t a, uint64_t b);
 
@@ -131,7 +131,7 @@ GN_INLINE int64_t gn_dot_q30(const int32_t a[3], const int32_t b[3])
     return GN_SIZE_FIRST ? gn_far_dot_q30(a, b) : gn_dot_q30_inline(a, b);
 }
 
-/* 1 / |n| of a vector of Q1.30 components, |n| <= 1 but for rounding: 2^(63 - shift / 2) = root * sqrt(n . n). Zero
+/* 1 / |n| of a vector of Q1.30 components, |n| <= 1 except for rounding: 2^(63 - shift / 2) = root * sqrt(n . n). Zero
  * stays zero. */
 typedef struct {
     uint32_t root;
@@ -154,7 +154,7 @@ void gn_length_unit(gn_length length, const int32_t n_q30[3], int32_t out_q30[3]
 /* Round Q1.30 cross product of unit vectors. */
 void gn_cross_q30(int32_t out_q30[3], const int32_t a_q30[3], const int32_t b_q30[3]);
 
-/* Sign of the determinant of three rows, exact but for rows within 2^-28 of a common plane, which count as 0. */
+/* Sign of the determinant of three rows, exact except for rows within 2^-28 of a common plane, which give 0. */
 int gn_det_sign(const int32_t m[3][3]);
 
 /* Shifts a vector so that its largest component has its top bit at bit 29: |out| < 2^30. Returns e with a = out * 2^e

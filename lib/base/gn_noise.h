@@ -1,4 +1,4 @@
-/* Interleaved gradient noise, shared by everything that dithers by it. */
+/* Interleaved gradient noise, for all dithering. */
 #ifndef GN_NOISE_H
 #define GN_NOISE_H
 

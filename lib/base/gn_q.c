@@ -1,4 +1,4 @@
-/* Calls in place of inline code, where size comes first: see gn_q.h. The linker drops what is not called. */
+/* Functions in place of inline code, with GN_SIZE_FIRST: see gn_q.h. The linker drops unused ones. */
 #include "gn_internal.h"
 
 #include "base/gn_hint.h"

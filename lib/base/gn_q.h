@@ -13,7 +13,7 @@
 
 typedef char gn_assert_arithmetic_shift[((-5) >> 1) == -3 ? 1 : -1];
 
-/* What must not become a function of its own: wrappers that are shorter than a call. */
+/* For wrappers that are shorter than a call: always inlined. */
 #if defined(__GNUC__)
 #define GN_INLINE static inline __attribute__((always_inline))
 #else
@@ -107,7 +107,7 @@ GN_HOT static inline int32_t gn_mul_q30_inline(int32_t a, int32_t b)
     return gn_mul_shr_inline(a, b, 30);
 }
 
-/* Where size comes first (-Os), what the compiler would spell out at every place is a call: gn_q.c has the bodies. */
+/* With GN_SIZE_FIRST (-Os) these are calls instead of inline code: gn_q.c has the bodies. */
 int64_t gn_far_clamp64(int64_t v, int64_t lo, int64_t hi);
 int32_t gn_far_clamp32(int64_t v, int32_t lo, int32_t hi);
 int32_t gn_far_sat32(int64_t v);

@@ -1,5 +1,5 @@
-/* 64-bit signatures of what a shadow tile or a screen tile was made from [A5] [R6]. Two different inputs share one with
- * probability 2^-64. Not for adversaries. */
+/* 64-bit signatures of the inputs of a shadow tile, or the pixels of a screen tile [A5] [R6]. Two different inputs have
+ * the same signature with probability 2^-64. Not secure against adversaries. */
 #ifndef GN_SIGNATURE_H
 #define GN_SIGNATURE_H
 
@@ -10,7 +10,7 @@
 
 #define GN_SIGNATURE_SEED 0x9E3779B97F4A7C15U
 
-/* Every step is a bijection of the signature for a given word, so that a difference never cancels but by chance. */
+/* Every step is a bijection of the signature for a given word, so that a difference cancels only by chance. */
 static inline uint64_t gn_signature_add_inline(uint64_t signature, uint64_t word)
 {
     signature = (signature ^ word) * 0xFF51AFD7ED558CCDU;

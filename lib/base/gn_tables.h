@@ -23,8 +23,8 @@ extern const int16_t
     gn_disk_table_q15[128]; /* x, y of 64 points of the unit disk (DESIGN 1.7), every prefix well spread */
 extern const uint16_t gn_srgb_decode_table[256]; /* 65535 * linear light of an 8-bit sRGB value */
 
-/* Entries of tables. Where size comes first, computed: gn_curves.c; reciprocals by the core's divider, if it has one.
- */
+/* Entries of tables. With GN_SIZE_FIRST they are computed: gn_curves.c; reciprocals by the core's divider, if it has
+ * one. */
 uint32_t gn_far_recip_entry(uint32_t i);
 uint32_t gn_far_rsqrt_entry(uint32_t i);
 uint32_t gn_far_srgb_entry(uint32_t i);

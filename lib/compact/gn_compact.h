@@ -2,9 +2,9 @@
  * bytes of flash.
  *
  * Camera and light are projectors of one kind (gn_compact_view): the same code transforms, projects, sets up and draws
- * triangles into a screen tile and into the shadow tile. Lengths are 32 bits, products 64, and what is divided by is
- * normalised first. Ranges, and the errors that follow, are in docs/NUMERICS.md 4.15; whatever lies outside is refused,
- * whether or not validation is built.
+ * triangles into a screen tile and into the shadow tile. Lengths are 32 bits, products 64, and divisors are normalised
+ * first. Ranges, and the errors that follow, are in docs/NUMERICS.md 4.15; values outside are refused, whether or not
+ * validation is built.
  */
 #ifndef GN_COMPACT_H
 #define GN_COMPACT_H
@@ -12,7 +12,7 @@
 #include "gnomon.h"
 
 #define GN_COMPACT_LENGTH_Q16                                                                                          \
-    (1 << 29) /* view coordinates and view depths are below: 8192 units; places in the world below half of it */
+    (1 << 29) /* view coordinates and view depths are below: 8192 units; world positions below half of it */
 #define GN_COMPACT_BITS      8            /* subpixel bits */
 #define GN_COMPACT_REACH_Q16 (1440 << 16) /* pixels or texels from the raster's middle: (2 * 1440 * 2^8)^2 < 2^39 */
 
@@ -24,17 +24,17 @@ int gn_compact_unit(int32_t out_q30[3], const int64_t a[3]);
 /* a * b * 2^-(32 + shift) without the last bits of a * b; 0 <= shift < 32 */
 uint32_t gn_compact_mul(uint32_t a, uint32_t b, int32_t shift);
 
-/* Rotation, place and scale of an affine transform: whether they are in range. */
+/* Whether rotation, position and scale of an affine transform are in range. */
 int gn_compact_affine_ok(const gn_affine *a);
 
-/* From what `affine` transforms to the projector's axes; both are gn_compact_affine_ok. Returns 0 if a place is out of
- * range. */
+/* From what `affine` transforms to the projector's axes; both are gn_compact_affine_ok. Returns 0 if a position is out
+ * of range. */
 int gn_compact_compose(gn_compact_xform *out, const gn_compact_view *view, const gn_affine *affine, int32_t frac_bits);
 
 /* Returns 0 if the result is out of range. */
 int gn_compact_transform(int32_t out_q16[3], const gn_compact_xform *xform, const int32_t p[3]);
 
-/* Projects a point. Returns 0 if the light sees it nearer or farther than the reach. */
+/* Projects a point. Returns 0 if its depth from the light is out of range. */
 int gn_compact_project(gn_compact_corner *corner, const gn_compact_view *view, const int32_t v_q16[3]);
 
 /* ---- gn_compact_clip.c ---- */
@@ -64,7 +64,7 @@ typedef struct {
     uint32_t *cell;
     uint16_t *texel;
     uint32_t id, id_bits; /* of the triangle, in a cell */
-    int32_t bias;         /* what is added to depth, in steps of keys */
+    int32_t bias;         /* added to depth, in steps of keys */
 } gn_compact_raster;
 
 /* Draws a triangle: a larger cell or a smaller depth stays. */

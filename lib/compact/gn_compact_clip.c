@@ -5,7 +5,7 @@
 #include "base/gn_q.h"
 #include "compact/gn_compact.h"
 
-/* How far a point is inside of a side of the guard band, 0 .. 3, or beyond the near plane: below 2^42. */
+/* Distance of a point to the inside of a side of the guard band, 0 .. 3, or beyond the near plane: below 2^42. */
 static int64_t inside(const gn_compact_view *view, const int32_t v_q16[3], int plane)
 {
     if (plane >= 4) return (int64_t)v_q16[2] - view->near_q16;
@@ -34,7 +34,7 @@ static int clip_plane(int32_t (*out)[3], int32_t (*in)[3], int n, const gn_compa
             n_out++;
         }
         if (a >= 0 && b < 0) cut(out[n_out++], p, q, a, b);
-        if (a < 0 && b >= 0) cut(out[n_out++], q, p, b, a); /* the same place as from the other side */
+        if (a < 0 && b >= 0) cut(out[n_out++], q, p, b, a); /* the same point as cut from the other side */
     }
     return n_out;
 }

@@ -44,7 +44,7 @@ int gn_compact_affine_ok(const gn_affine *a)
 int gn_compact_compose(gn_compact_xform *out, const gn_compact_view *view, const gn_affine *affine, int32_t frac_bits)
 {
     int fits = 1;
-    /* matrix and axis entries are at most 2^30: sums below 2^62; differences of places at most 2^30.4 */
+    /* matrix and axis entries are at most 2^30: sums below 2^62; differences of positions at most 2^30.4 */
     for (int r = 0; r < 3; r++) {
         const int32_t *axis = view->axis_q30[r];
         int64_t t = 0;
@@ -76,7 +76,7 @@ int gn_compact_transform(int32_t out_q16[3], const gn_compact_xform *xform, cons
     return !beyond;
 }
 
-/* v * scale >> shift, at most the reach in magnitude. */
+/* v * scale >> shift, at most GN_COMPACT_REACH_Q16 in magnitude. */
 static int32_t scaled(int32_t v, uint32_t scale, int32_t shift)
 {
     int64_t r = ((int64_t)v * (int64_t)scale) >> shift; /* 2^30 * 2^32 */

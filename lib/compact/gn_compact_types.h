@@ -1,5 +1,5 @@
-/* A compact renderer (GN_COMPACT): its frame and scratch, in place of those of gn_state.h. Private; gn_compact.h says
- * what the arithmetic is.
+/* A compact renderer (GN_COMPACT): its frame and scratch, which replace those of gn_state.h. Private; gn_compact.h
+ * describes the arithmetic.
  */
 #ifndef GN_COMPACT_TYPES_H
 #define GN_COMPACT_TYPES_H
@@ -21,13 +21,13 @@ typedef struct {
     int32_t shift;
 } gn_compact_xform;
 
-/* What projects points to a raster: the camera, or the light. Both look along the third of their axes, with x to the
- * right and y down. */
+/* A projector of points to a raster: the camera, or the light. Both look along their third axis, with x to the right
+ * and y down. */
 typedef struct {
     int32_t axis_q30[3][3]; /* in the world */
     int32_t eye_q16[3];     /* where the raster's middle lies, at depth 0 */
     uint32_t scale;         /* camera: 2F in pixels, light: texels per unit; in [2^31, 2^32) */
-    int32_t shift;          /* light: what Q16 texels are shifted by; camera: 2F_q16 = scale >> shift */
+    int32_t shift;          /* light: shift to Q16 texels; camera: 2F_q16 = scale >> shift */
     uint32_t near_norm;     /* camera: near in [2^31, 2^32); light: 0 */
     int32_t near_q16;
     int32_t near_clz;
@@ -37,7 +37,7 @@ typedef struct {
     uint32_t two_sided;   /* flags of those whose backs are drawn */
 } gn_compact_view;
 
-/* 1 / width, of what is divided by it to a share. */
+/* 1 / width, for ratios to that width. */
 typedef struct {
     int32_t width;
     uint32_t recip; /* 2^63 / (width << clz) */

@@ -92,8 +92,8 @@ static int bias_ok(const gn_light *light)
     return light->auto_bias == GN_AUTO_BIAS_OFF || (!light->auto_bias && light->bias_normal_q16);
 }
 
-/* What is not built is refused: biases but those of casters and along the normal, a near plane that is pulled back,
- * what lies beyond the range of a colour. */
+/* Refuses settings that are not built: biases other than those of casters and along the normal, a near plane that is
+ * pulled back, colours out of range. */
 static gn_status compact_check_light(const gn_frame *frame, const gn_light *light)
 {
     const int32_t *b = light->bias_receiver_q16;
@@ -118,8 +118,8 @@ static gn_status compact_check_shadow(const gn_frame *frame, const gn_shadow_set
     return shadow->n_cascades > 1 ? GN_ERR_SHADOW_CASCADES : GN_OK;
 }
 
-/* Centre and radius of the slice's sphere as shares of the max distance (DESIGN 1.4), Q28. Returns 0 if near is beyond
- * q^2 of it. */
+/* Centre and radius of the slice's sphere as fractions of the max distance (DESIGN 1.4), Q28. Returns 0 if near is
+ * beyond q^2 of it. */
 static int fit_sphere(const gn_frame *frame, int32_t *centre, int32_t *radius)
 {
     const gn_shadow_settings *shadow = &frame->scene->shadow;
@@ -209,7 +209,7 @@ static int compose_to_light(gn_frame *frame)
 }
 
 /* How far a receiver moves along its face's normal: by its own offset [B2], or automatically [B6] (NUMERICS 4.15). nu
- * of DESIGN 1.7, which the tile's reach must hold. */
+ * of DESIGN 1.7, for which the tile must have a margin. */
 static int32_t receiver_reach(gn_frame *frame, const gn_light *light)
 {
     frame->offset_q16 = (int32_t)gn_compact_mul((uint32_t)light->bias_normal_q16, 0xB504F334U, 0)

@@ -31,7 +31,7 @@ GN_STATIC_ASSERT(tile_width_not_multiple_of_8, GN_TILE_WIDTH % 8 == 0);
 GN_STATIC_ASSERT(tile_has_more_than_65536_pixels,
                  GN_TILE_WIDTH *GN_TILE_HEIGHT <= 65536); /* gn_runs.h links cells by 16 bits */
 
-/* Compact arithmetic: of features it has shadows, and may have automatic bias and validation. Clipping it always has.
+/* Compact arithmetic: its features are shadows, and optionally automatic bias and validation. Clipping is always built.
  */
 #define GN_COMPACT_IS_(condition) (!GN_COMPACT || (condition))
 GN_STATIC_ASSERT(compact_has_pictures_up_to_256, GN_COMPACT_IS_(GN_MAX_WIDTH <= 256 && GN_MAX_HEIGHT <= 256));

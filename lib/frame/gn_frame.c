@@ -2,10 +2,11 @@
  * stages; lib/README.md says what each folder is for.
  *
  * gn_begin
- * - gn_scene_validate: refuses what the caller describes wrongly (scene/)
+ * - gn_scene_validate: refuses an invalid scene (scene/)
  * - gn_cam_setup: the camera (geometry/gn_xform)
- * - gn_views_setup: which light reaches which object (light/gn_lights), which gets how many shadow tiles
- *   (shadow/gn_tiles), and how each lies in the world (gn_light_views, gn_ortho, gn_persp; light/gn_cascade, gn_bias)
+ * - gn_views_setup: which light affects which object (light/gn_lights), how many shadow tiles each light gets
+ * (shadow/gn_tiles), and how each view lies in the world (gn_light_views, gn_ortho, gn_persp; light/gn_cascade,
+ * gn_bias)
  *
  * gn_shadow_tile
  * - gn_atlas_render_tile: casters (shadow/gn_cull: which) as depth seen from the light (gn_ortho, gn_persp: projection;
@@ -44,7 +45,7 @@ enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED 
 #define GN_KNOB_IN_RANGE_(name, MACRO, lo, hi, meaning, cost)                                                          \
     ok = ok && frame->knobs.name >= (lo) && frame->knobs.name <= (hi);
 
-/* What gn_check.h asserts at compile time, at run time; sizes must also fit what was compiled in. */
+/* The assertions of gn_check.h, at run time. Sizes must also fit the compiled capacities. */
 static int knobs_ok(const gn_frame *frame)
 {
     int ok = 1;
@@ -131,7 +132,7 @@ gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx)
 #if GN_SHADOWS
     gn_status status =
         gn_atlas_render_tile(frame, &r->scratch.work.casting, tile_idx, r->scratch.cell, GN_TILE_PIXELS_MAX);
-    frame->view[tile_idx].tile_done = !status; /* gn_prepare does not go on with half a tile */
+    frame->view[tile_idx].tile_done = !status; /* gn_prepare refuses a half-drawn tile */
     return status;
 #else
     return GN_OK;
@@ -149,9 +150,9 @@ gn_status gn_prepare(gn_renderer *r)
 #endif
     gn_status status = gn_setup_triangles(frame, &r->scratch);
     if (status) return status;
-    /* cells hold triangle + 1; what the identity leaves is depth */
+    /* cells hold triangle + 1; the remaining bits are depth */
     frame->id_bits =
-        (uint8_t)(32 - gn_clz32(frame->stats.n_triangles + 1)); /* and for one that no triangle has: gn_runs */
+        (uint8_t)(32 - gn_clz32(frame->stats.n_triangles + 1)); /* and one identity that no triangle has, for gn_runs */
     status = gn_bin_triangles(frame, &r->scratch);
     if (status) return status;
     frame->stage = GN_STAGE_PREPARED;
@@ -173,7 +174,7 @@ static gn_status begin_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t
     return GN_OK;
 }
 
-/* Apart, so that drawing does not go on top of its frame. */
+/* A function of its own, so that its stack frame is gone before drawing. */
 static GN_NOINLINE void flush_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush,
                                    void *user)
 {
@@ -181,7 +182,7 @@ static GN_NOINLINE void flush_tile(const gn_frame *frame, gn_scratch *scratch, u
     flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
 }
 
-/* Writes the scratch alone: every core has one, and all share the frame. [R1] [R7] */
+/* Writes only the scratch: every core has its own, and all cores read the same frame. [R1] [R7] */
 gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
 {
     gn_status status = begin_tile(frame, scratch, tile_idx, flush);
@@ -191,7 +192,7 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
     return GN_OK;
 }
 
-/* Of a finished tile's bytes. [R6] */
+/* Signature of a finished tile's bytes. [R6] */
 static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch, uint32_t tile_idx)
 {
     gn_rect rect = gn_screen_rect(frame, tile_idx);
@@ -207,7 +208,7 @@ static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch,
     return signature ? signature : 1;
 }
 
-/* Flushes a tile whose bytes are not what the panel shows. [R6] */
+/* Flushes a tile only if its bytes differ from the panel's. [R6] */
 gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
                                     gn_flush_fn flush, void *user, uint32_t *flushed)
 {
@@ -224,7 +225,7 @@ gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, 
     return GN_OK;
 }
 
-/* Everything of a frame before its screen tiles. */
+/* All stages of a frame before its screen tiles. */
 static gn_status prepare_frame(gn_renderer *r, const gn_scene *scene)
 {
     gn_status status = gn_begin(r, scene);
@@ -284,7 +285,7 @@ gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, ui
 #endif
 }
 
-/* A light's tile, for those who draw the atlas. [A6] */
+/* A light's tile, for callers that display the atlas. [A6] */
 uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info)
 {
 #if GN_SHADOWS

@@ -1,8 +1,8 @@
 /* The layout of a renderer's state. Private: it may change with every version; included by gnomon.h so that it has a
  * size.
  *
- * gn_frame is written by begin, shadow tiles and prepare, and read only while screen tiles are drawn. gn_scratch is
- * what one core needs to draw a screen tile.
+ * gn_frame is written by begin, shadow tiles and prepare, and read only while screen tiles are drawn. gn_scratch is the
+ * memory that one core needs to draw a screen tile.
  */
 #ifndef GN_STATE_H
 #define GN_STATE_H
@@ -16,7 +16,7 @@ typedef struct gn_frame {
 #if GN_RUNTIME_KNOBS
     gn_knobs knobs;
 #endif
-    /* what is small goes first: instructions reach it without an address of its own */
+    /* small fields come first: instructions address them by a short offset */
     const gn_scene *scene;
     gn_picture picture;
     uint8_t stage;   /* gn_stage in gn_frame.c */
@@ -24,8 +24,8 @@ typedef struct gn_frame {
     uint16_t n_views;
     uint16_t tiles_x, tiles_y;
     gn_cam cam;
-    uint64_t min2_q32;           /* the least distance^2 of spot and point lights, 10^-4 of the model's */
-    int32_t receivers_q16[2][3]; /* box of all receiving objects: least, largest corner; for culling */
+    uint64_t min2_q32;           /* minimum distance^2 of spot and point lights, 10^-4 of the model's */
+    int32_t receivers_q16[2][3]; /* box of all receiving objects: min, max corner; for culling */
     uint32_t fade_start_q16;     /* distance fade: strength = (max_distance - z) * fade_scale */
     gn_bfloat fade_scale;
     gn_stats stats;
@@ -51,7 +51,7 @@ typedef struct gn_frame {
 #if GN_SHADOWS
 #if GN_INCREMENTAL
     gn_tile_memory memory[GN_VIEWS_MAX];
-    uint64_t layout; /* signature of where the tiles lie: what is kept is forgotten when that changes */
+    uint64_t layout; /* signature of the tiles' positions: kept tiles are discarded when it changes */
 #endif
     gn_atlas_texels atlas;
 #if GN_STATIC_LAYER
@@ -75,7 +75,7 @@ typedef struct gn_frame {
 #define GN_N_CASCADES(frame)   (GN_MANY_CASCADES ? (frame)->n_cascades : 1)
 #define GN_LAST_CASCADE(frame) (GN_MANY_CASCADES ? (frame)->last_cascade : 0)
 
-/* What one core does at a time. */
+/* The memory of one core: its jobs run one at a time. */
 typedef union {
     gn_shading shading;
     gn_clipping clipping;

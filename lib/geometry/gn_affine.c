@@ -41,7 +41,7 @@ static void set_matrix(gn_affine *out, int64_t m[3][3], int32_t exp)
     uint64_t any = 0;
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) any = gn_abs64(m[r][c]) > any ? gn_abs64(m[r][c]) : any;
-    int32_t shift = -exp; /* to exponent 0, then up as far as the largest entry needs */
+    int32_t shift = -exp; /* to exponent 0, then to the smallest exponent that fits the largest entry */
     while (exp + shift < 14 && gn_abs64(gn_scale64((int64_t)any, shift)) > GN_ONE_Q30) shift++;
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)

@@ -22,7 +22,7 @@ GN_HOT static inline void gn_alpha_row(gn_alpha_cut *cut, int32_t y, int32_t py,
     cut->x_begin = x_begin;
     cut->x_end = x_end;
     cut->steps.end = x_begin; /* none yet */
-    cut->exact.x = x_end;     /* nor this: never the first of any */
+    cut->exact.x = x_end;     /* nor this: never the first column of a row */
 #else
     (void)x_begin, (void)x_end;
 #endif
@@ -36,8 +36,8 @@ int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x);
 /* Texture coordinates of the triangle's corners. */
 void gn_alpha_corners(gn_alpha_cut *cut, const uint16_t idx[3]);
 
-/* Texture coordinates at pixel x of the row. With persp_step > 1 they come from exact ones at most 8 pixels apart,
- * within 2^-8 texel (NUMERICS 4.9). */
+/* Texture coordinates at pixel x of the row. With persp_step > 1 they are interpolated between exact ones at most 8
+ * pixels apart; error below 2^-8 texel (NUMERICS 4.9). */
 void gn_alpha_coords(gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2]);
 
 #endif

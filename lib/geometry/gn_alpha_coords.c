@@ -25,7 +25,7 @@ GN_HOT void gn_alpha_plane(gn_alpha_cut *cut, const gn_frame *frame, int32_t (*v
     cut->px_per_step = gn_min32(GN_K(frame, persp_step), GN_ALPHA_STEP_MAX);
 }
 
-/* Found by division. Returns 0 where the plane is edge on or behind: there it is those of vertex 0. */
+/* By division. Returns 0 where the plane is edge on or behind: the coordinates are those of vertex 0 there. */
 GN_HOT static int exact_coords(const gn_alpha_cut *cut, int32_t x, int32_t uv_q20[2], gn_ray_recip *recip)
 {
     int32_t b_q30[2] = {0, 0}, px = 2 * x + 1 - cut->width;
@@ -36,7 +36,7 @@ GN_HOT static int exact_coords(const gn_alpha_cut *cut, int32_t x, int32_t uv_q2
 }
 
 #define GN_ALPHA_BEND_MAX_Q30 (3 << 26) /* 3/16: gn_chord.c has the parabola */
-#define GN_ALPHA_TEXEL_LOG2   8         /* and this is how far coordinates may leave it: 2^-8 texel */
+#define GN_ALPHA_TEXEL_LOG2   8         /* maximum distance of coordinates from the parabola: 2^-8 texel */
 
 GN_HOT static void find_exact(const gn_alpha_cut *cut, gn_alpha_exact *at, int32_t x)
 {
@@ -58,7 +58,7 @@ GN_HOT static int32_t bend_between(const gn_alpha_exact *a, const gn_alpha_exact
     return w0 < w1 ? -bend_q30 : bend_q30;
 }
 
-/* A coordinate that changes by d over n pixels. Returns 0 if it leaves the parabola by too much. */
+/* A coordinate that changes by d over n pixels. Returns 0 if its distance from the parabola is above the limit. */
 GN_HOT static int step_coord(gn_alpha_steps *steps, int axis, int64_t d, int32_t n, int32_t bend_q30,
                              uint32_t size_log2)
 {
@@ -72,8 +72,8 @@ GN_HOT static int step_coord(gn_alpha_steps *steps, int axis, int64_t d, int32_t
     return 1;
 }
 
-/* From one exact place to the next, around x: at multiples of the step in the picture, or where the triangle's row
- * begins and ends. */
+/* The span between two exact samples around x: they lie at multiples of the step in the picture, or where the
+ * triangle's row begins and ends. */
 GN_HOT static void alpha_steps(gn_alpha_cut *cut, int32_t x)
 {
     const gn_texture *texture = cut->object->texture;

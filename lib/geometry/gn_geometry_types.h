@@ -13,16 +13,16 @@ typedef struct {
     int32_t shift;
 } gn_xform;
 
-/* The same for many vertices: what can be, is added up beforehand, and all is times 2^up so that results are the upper
- * words. Sums stay below 2^63. */
+/* The same for many vertices: constant terms are added up beforehand, and everything is scaled by 2^up, so that results
+ * are the upper words. Sums stay below 2^63. */
 typedef struct {
     struct {
         int64_t sum; /* half of the last bit and, up to 32 bits of shift, the translation */
         int32_t m[3];
         int32_t t_q16; /* the translation above that, 0 below */
     } row[3];
-    uint32_t reach;   /* of positions, a power of two; 0: the transform or its translation is out of the ordinary,
-                         gn_xform_vertex does it */
+    uint32_t reach;   /* of positions, a power of two; 0: the transform or its translation is too large, gn_xform_vertex
+                         does it */
     uint8_t up, down; /* 32 bits of shift are the upper word: what they are less, and more */
 } gn_xform_fast;
 
@@ -33,7 +33,7 @@ typedef struct {
     uint32_t focal2_px_q16;     /* 2F, twice the focal length in pixels: rays are (2x + 1 - W, H - 1 - 2y, 2F) */
     gn_bfloat near_over_focal2; /* near / 2F */
     gn_bfloat inv_focal2;       /* 1 / 2F, 2F in Q16 */
-    int32_t guard_q16[2];       /* |X| <= guard[0] * Z and |Y| <= guard[1] * Z hold after clipping to the guard band */
+    int32_t guard_q16[2];       /* |X| <= guard[0] * Z and |Y| <= guard[1] * Z after clipping to the guard band */
     int32_t coord_max_q16;      /* of screen coordinates from the picture's centre, pixels */
     int32_t tan_q16[2];         /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
 } gn_cam;
@@ -64,7 +64,7 @@ typedef struct {
 
 /* ---- Triangles that alpha cuts ----------------------------------------------------------------------------------- */
 
-/* An exact place in a row; n . ray there as gn_ray_recip has it, w_norm 0: nothing is seen. */
+/* An exact sample in a row, with n . ray as in gn_ray_recip; w_norm 0: nothing is seen. */
 typedef struct {
     int32_t x, uv_q20[2];
     uint32_t w_norm;
@@ -74,7 +74,7 @@ typedef struct {
 /* Texture coordinates of first <= x < end, k pixels on: from + k step + k (k - 1) / 2 bend. */
 typedef struct {
     int32_t first, end;
-    int32_t hold; /* 0: they are found one by one */
+    int32_t hold; /* 0: they are computed one by one */
     int32_t from_q20[2], step_q24[2], bend_q24[2];
 } gn_alpha_steps;
 
@@ -91,7 +91,7 @@ typedef struct {
     uint32_t focal2_px_q16;
     int32_t width, newton_steps;
     int32_t px_per_step, x_begin, x_end;
-    gn_alpha_exact exact; /* the last one found */
+    gn_alpha_exact exact; /* the last one computed */
     gn_alpha_steps steps;
 #endif
 } gn_alpha_cut;
@@ -105,7 +105,7 @@ typedef struct {
     int n;
 } gn_polygon;
 
-/* A triangle of the camera's or of a perspective light's. */
+/* A triangle in the axes of the camera or of a perspective light. */
 typedef struct {
     gn_polygon polygon, uncut;
     int32_t x[GN_CLIP_VERTICES_MAX], y[GN_CLIP_VERTICES_MAX]; /* projected */

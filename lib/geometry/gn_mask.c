@@ -5,7 +5,8 @@
 #include "base/gn_q.h"
 #include "geometry/gn_texture.h"
 
-/* What find_taps in gn_texture.c gives of a clamped, bilinear image: once per pixel and light, so without a branch. */
+/* The same as find_taps in gn_texture.c for a clamped, bilinear image. It runs once per pixel and light, so it has no
+ * branch. */
 GN_HOT static gn_texture_taps mask_taps(int32_t c_q16, uint32_t size_log2)
 {
     int32_t last = (1 << size_log2) - 1, at_q16 = gn_max32(0, gn_min32(c_q16, 65536)) * (1 << size_log2) - 32768;
@@ -14,7 +15,7 @@ GN_HOT static gn_texture_taps mask_taps(int32_t c_q16, uint32_t size_log2)
                              (uint32_t)at_q16 & 0xFFFFU};
 }
 
-/* Where all four texels are one, as in all that is wholly lit or dark, so is what lies between them. [M5] */
+/* Four equal texels, as in wholly lit or dark areas, need no interpolation. [M5] */
 GN_HOT uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel)
 {
     const uint32_t bytes_log2 = image->flags & GN_TEXTURE_MASK_1 ? 0 : image->flags & GN_TEXTURE_MASK_2 ? 1 : 2;

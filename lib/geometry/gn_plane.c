@@ -68,7 +68,7 @@ GN_HOT int gn_plane_recip(gn_ray_recip *out, const gn_plane *plane, int32_t px, 
     return 1;
 }
 
-/* round(b * 2^-s) within 0 .. most */
+/* round(b * 2^-s), clamped to 0 .. most */
 GN_HOT static inline uint32_t bary_fraction(int64_t b, int32_t s, uint32_t most)
 {
     if (GN_SIZE_FIRST || s < 1 || s > 62) return (uint32_t)gn_clamp64(gn_scale64(b, s), 0, most);

@@ -17,7 +17,7 @@ void gn_plane_setup(gn_plane *plane, const int32_t v0[3], const int32_t v1[3], c
 /* For the triangle that `plane` was set up from. */
 void gn_bary_setup(gn_bary *bary, const gn_plane *plane, const int32_t v0[3], const int32_t v1[3], const int32_t v2[3]);
 
-/* n . ray at a pixel as a reciprocal: what depth and barycentrics are divided by. */
+/* Reciprocal of n . ray at a pixel, the divisor of depth and barycentrics. */
 typedef struct {
     uint32_t w_norm; /* n . ray = w_norm * 2^(32 - clz) */
     uint32_t recip;  /* 2^63 / w_norm */

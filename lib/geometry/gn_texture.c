@@ -53,7 +53,7 @@ GN_HOT static GN_SHARED void find_texels(footprint *out, const gn_texture *textu
     out->down_uq16 = v.weight_uq16;
 }
 
-/* Whether all four are the same, as in what has one colour. */
+/* Whether all four are the same, as in areas of one colour. */
 GN_HOT static inline int is_uniform(const footprint *f, uint32_t channel)
 {
     const uint8_t *const *t = f->texel;

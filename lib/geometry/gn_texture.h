@@ -10,7 +10,7 @@ enum { GN_CHANNEL_RED, GN_CHANNEL_GREEN, GN_CHANNEL_BLUE, GN_CHANNEL_ALPHA };
  * largest texture. */
 uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t channel);
 
-/* The same of a mask image: bilinear and clamped, whatever its flags say, and lit in a channel that it has not. */
+/* The same of a mask image: bilinear and clamped, whatever its flags say, and lit in a channel that it lacks. */
 uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel);
 
 /* Whether a coordinate (0: u, 1: v) ends at the texture's borders; otherwise it repeats. */
@@ -27,18 +27,18 @@ void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_
 int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *texture, const int32_t b_q30[2],
                          int32_t which);
 
-/* Red, green, blue in linear light, 0..65536 each: decoded before they are filtered. */
+/* Red, green, blue in linear light, 0..65536 each: texels are decoded before they are filtered. */
 void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3]);
 
-/* ---- What textures and masks share ------------------------------------------------------------------------------- */
+/* ---- Common to textures and masks -------------------------------------------------------------------------------- */
 
 /* The two texels of an axis and the second one's weight of 65536; nearest: the first alone. */
 typedef struct {
     uint32_t first, second, weight_uq16;
 } gn_texture_taps;
 
-/* Values are 65535 = 1 until the end, so that a product with a weight fits 32 bits: a step to 16 bits after each axis,
- * and one to 65536 = 1. 65535 * 65536 + 32768 < 2^32; two equal values give themselves. */
+/* Until the end 65535 means 1, so that a product with a weight fits 32 bits. Each axis is followed by rounding to 16
+ * bits; the last step makes 65536 = 1. 65535 * 65536 + 32768 < 2^32; two equal values stay unchanged. */
 GN_HOT static inline uint32_t gn_texture_mix(uint32_t a, uint32_t b, uint32_t weight_uq16)
 {
     return (a * (65536U - weight_uq16) + b * weight_uq16 + 32768U) >> 16;

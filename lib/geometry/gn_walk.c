@@ -12,7 +12,7 @@
 GN_HOT static void floor_div(int64_t a, int32_t b, int32_t *q, int32_t *r)
 {
     int64_t quotient, rest;
-    if (a == (int32_t)a) { /* a 32-bit division where it is enough: always at 4 subpixel bits */
+    if (a == (int32_t)a) { /* 32-bit division where the operands fit: always at 4 subpixel bits */
         quotient = (int32_t)a / b;
         rest = (int32_t)a % b;
     } else {
@@ -105,7 +105,7 @@ GN_HOT static inline void fixed_border(gn_walk *walk, int side, int32_t end)
 
 /* ---- Walking ----------------------------------------------------------------------------------------------------- */
 
-/* Begins an edge at the current row: corners are 0 top, 1 left, 2 right. */
+/* Begins an edge at the current row. Corners: 0 top, 1 left, 2 right. */
 GN_HOT static void edge_begin(gn_walk *walk, int side, int from, int to)
 {
     const gn_walk_corner *a = &walk->corner[from], *b = &walk->corner[to];
@@ -137,7 +137,7 @@ GN_HOT static GN_NOINLINE void exact_border(gn_walk *walk, int side, int32_t end
         int32_t n = (row < bend ? gn_min32(bend, end) : end) - row;
         row += n;
         if ((uint32_t)edge.q + (1U << 14) < 1U << 15 &&
-            (uint32_t)edge.dq + (1U << 9) < 1U << 10) { /* 16 bits hold it for 16 rows */
+            (uint32_t)edge.dq + (1U << 9) < 1U << 10) { /* fits 16 bits for 16 rows */
             do {
                 *at = (int16_t)edge.q;
                 at += 2;

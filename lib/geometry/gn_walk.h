@@ -2,9 +2,9 @@
  *
  * Coordinates have `subpixel_bits` fraction bits, |coordinate| < 2^29. A row of pixels at y crosses an edge at x(y +
  * 1/2); the first pixel whose centre is at or right of it is ceil(x - 1/2) = ceil(M / dy) with an integer M that grows
- * by dx per row (NUMERICS 4.2). Of small triangles M / dy is stepped in fixed point, in so few rows that its error
- * cannot reach the next multiple of 1 / dy; of others as quotient and remainder. Either way nothing is ever off, and
- * two triangles that share an edge get the same numbers: each pixel belongs to exactly one of them.
+ * by dx per row (NUMERICS 4.2). For small triangles M / dy is stepped in fixed point, over so few rows that its error
+ * stays below 1 / dy; for others as quotient and remainder. Both are exact, and two triangles with a common edge get
+ * the same numbers: each pixel belongs to exactly one of them.
  */
 #ifndef GN_WALK_H
 #define GN_WALK_H
@@ -22,14 +22,14 @@ typedef struct {
 } gn_edge;
 
 typedef struct {
-    int16_t x_begin, x_end; /* limited to what 16 bits hold: no picture or tile is as wide */
+    int16_t x_begin, x_end; /* clamped to 16 bits: no picture or tile is as wide */
 } gn_span;
 
 typedef struct {
     int32_t x, y;
 } gn_walk_corner;
 
-#define GN_WALK_ROWS 16 /* that are walked at a time */
+#define GN_WALK_ROWS 16 /* rows that are walked at a time */
 
 typedef struct {
     gn_walk_corner corner[3]; /* top, left and right of it */
@@ -52,13 +52,13 @@ GN_HOT static inline int32_t gn_first_px(int32_t coord, int32_t subpixel_bits)
 /* ---- Fixed point ------------------------------------------------------------------------------------------------- */
 
 /* 18 fraction bits leave 14 for pixels. Start and step err by less than one unit each, upwards or downwards: after n
- * rows x is within n of M / dy. What it must not be is below a multiple of 1 / dy that M / dy has reached, or at one
- * that it has not: so it starts n higher, and 2 n * dy <= 2^18. */
+ * rows x is within n of M / dy. x must not be below a multiple of 1 / dy that M / dy has reached, nor at the next one:
+ * so x starts n higher, and 2 n * dy <= 2^18. */
 #define GN_FIXED_BITS  18
 #define GN_FIXED_SMALL (1 << 13) /* dx, dy of edges that are walked 16 rows at a time; twice that: 8 rows */
 
-/* How many rows fixed point lasts for a triangle of that size, dx | dy of its edges, not further than 2^12 pixels from
- * 0: 16, 8 or none. */
+/* For how many rows fixed point is exact, for a triangle with dx | dy of its edges, within 2^12 pixels of 0: 16, 8 or
+ * none. */
 GN_HOT static inline int32_t gn_walk_lasts(uint32_t size)
 {
     if (GN_SIZE_FIRST) return 0; /* exact steps do all */
@@ -69,7 +69,7 @@ GN_HOT static inline int32_t gn_walk_lasts(uint32_t size)
 GN_HOT static inline uint32_t gn_walk_ratio(int32_t a, int32_t b)
 {
     const int32_t unit = 1 << GN_FIXED_BITS, most = 1 << (31 - GN_FIXED_BITS);
-    GN_KEEP(a); /* a constant in what it is made of would not fit an instruction */
+    GN_KEEP(a); /* a constant factor would not fit an instruction's immediate */
     if (a < most && a >= -most) return (uint32_t)(a * unit / b);
     int32_t q = a / b, r = a - q * b;
     if (r < 0) {
@@ -85,8 +85,8 @@ typedef struct {
     uint32_t x, step;
 } gn_walk_line;
 
-/* The edge from (x0, y0) down to (x1, y1), y0 < y1, at row y, which it crosses; it lasts for n_rows, gn_walk_lasts of
- * them. */
+/* The edge from (x0, y0) down to (x1, y1), y0 < y1, at row y, which it crosses; exact for n_rows, at most those of
+ * gn_walk_lasts. */
 GN_HOT static inline gn_walk_line gn_walk_line_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y,
                                                   int32_t n_rows, int32_t subpixel_bits)
 {
@@ -116,14 +116,14 @@ GN_HOT static inline uint32_t gn_walk_share(int32_t a, uint32_t recip)
     return (uint32_t)(a * (int32_t)(recip >> 15) + (a * (int32_t)(recip & 0x7FFFU) >> 15));
 }
 
-/* `y` is the row's centre; of x, and of both y alike, anything may have been added beforehand, but half a pixel must
- * have been taken from x. What is added lasts for 15 rows, as above: quotients err by less than one unit each; by way
- * of the reciprocal downwards by less than 2 in the first row and 17/16 from each to the next, upwards by less than 1
- * and 1/16. 2^16 / dy is 34.5 at the least. */
+/* `y` is the row's centre. Coordinates may carry a common offset; x must already include -1/2 pixel. The start's added
+ * margin is enough for 15 rows, as above: quotients err by less than one unit each; with the reciprocal, downwards by
+ * less than 2 in the first row and 17/16 from each to the next, upwards by less than 1 and 1/16. 2^16 / dy is at
+ * least 34.5. */
 GN_HOT static inline gn_walk_line gn_walk_narrow_at(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t y,
                                                     int32_t subpixel_bits, int divides)
 {
-    GN_KEEP(x0); /* nothing is found before it is wanted */
+    GN_KEEP(x0); /* computed only when needed */
     GN_KEEP(y0);
     const int32_t unit = 1 << GN_NARROW_BITS;
     int32_t one = 1 << subpixel_bits, dx = x1 - x0, dy = y1 - y0;
@@ -140,7 +140,7 @@ GN_HOT static inline gn_walk_line gn_walk_narrow_at(int32_t x0, int32_t y0, int3
 int32_t gn_walk_begin(gn_walk *walk, const int32_t x[3], const int32_t y[3], int32_t subpixel_bits, int32_t y_lo,
                       int32_t y_hi);
 
-/* Walks the next rows, of which there are some. */
+/* Walks the next rows; at least one is left. */
 int32_t gn_walk_next(gn_walk *walk);
 
 /* Walks the next rows; the same as gn_walk_begin. */

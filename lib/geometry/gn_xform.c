@@ -6,9 +6,9 @@
 #include "base/gn_q.h"
 #include "geometry/gn_xform.h"
 
-/* How far from the picture's centre a clipped vertex may lie, in pixels. Up to 7 subpixel bits it must fit 16 bits
- * where the picture allows (NUMERICS 4.2); otherwise 1000 pixels around the picture. The choice does not depend on the
- * type that stores it, so that every build clips alike. */
+/* Largest distance of a clipped vertex from the picture's centre, in pixels. Up to 7 subpixel bits it must fit 16 bits
+ * where the picture allows (NUMERICS 4.2); otherwise the guard band is 1000 pixels around the picture. The choice does
+ * not depend on the type that stores it, so that every build clips alike. */
 static int fits_16_bits(int32_t subpixel_bits, int32_t size_px)
 {
     return subpixel_bits <= 7 && size_px <= 2 * ((32767 >> subpixel_bits) - 10);
@@ -102,7 +102,7 @@ void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform)
     fast->up = (uint8_t)up;
     fast->down = (uint8_t)down;
     fast->reach =
-        1U << (31 - gn_max32(up, 1)); /* a position may have 30 bits, whatever the transform: gn_scene_position_ok */
+        1U << (31 - gn_max32(up, 1)); /* a position may have 30 bits with any transform: gn_scene_position_ok */
 }
 
 int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3])

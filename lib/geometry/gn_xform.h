@@ -13,14 +13,13 @@ void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t
 /* out_q16 = xform of a mesh vertex, |out| exact to 1 LSB plus the composition's 3 * |p| * 2^-30. Not range checked. */
 void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx);
 
-/* Adds up what can be beforehand, for many vertices. */
+/* Adds up the constant terms, for many vertices. */
 void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform);
 
-/* What gn_xform_vertex gives. Returns 0 where it does not: where the result may be 2^29 or more, or the position 2^30.
- */
+/* The same result as gn_xform_vertex. Returns 0, without a result, if it may be 2^29 or more, or the position 2^30. */
 int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3]);
 
-/* Row r times p, with what is added up beforehand */
+/* Row r times p, with the constant terms */
 #define GN_FAST_ROW_(r)                                                                                                \
     (fast->row[r].sum + (int64_t)fast->row[r].m[0] * p0 + (int64_t)fast->row[r].m[1] * p1 +                            \
      (int64_t)fast->row[r].m[2] * p2)
@@ -34,7 +33,7 @@ GN_INLINE int gn_xform_fast_wide(int32_t out_q16[3], const gn_xform_fast *fast, 
     p0 = (int32_t)((uint32_t)p0 << up);
     p1 = (int32_t)((uint32_t)p1 << up);
     p2 = (int32_t)((uint32_t)p2 << up);
-    /* row by row: together they take more registers than there are */
+    /* row by row: three at once need too many registers */
     int32_t x = (int32_t)(GN_FAST_ROW_(0) >> 32);
     GN_KEEP(x);
     int32_t y = (int32_t)(GN_FAST_ROW_(1) >> 32);

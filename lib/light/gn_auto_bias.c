@@ -9,14 +9,14 @@
 
 #define GN_AUTO_UNITS 8 /* roundings of a point and of its triangle's corners */
 
-/* Half a cell of the positions of casters and of filter weights, and two roundings of coordinates; texels, Q16. */
+/* Position error: half a step of caster coordinates, half a step of filter weights, two roundings; texels, Q16. */
 GN_HOT static int32_t auto_delta_q16(const gn_frame *frame)
 {
     (void)frame;
     return (1 << (15 - GN_K(frame, shadow_subpixel_bits))) + (1 << (15 - GN_K(frame, weight_bits))) + 2;
 }
 
-/* sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits what steps of depth add along the
+/* sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits is the part of depth steps along the
  * normal. */
 GN_HOT int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view)
 {
@@ -24,7 +24,7 @@ GN_HOT int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view
            (int32_t)((view->tile_texels * (int64_t)65536) >> GN_VIEW_BITS(view)) + 1;
 }
 
-/* The hard filter reads half a texel away, but what a curved surface does within a texel counts. */
+/* The hard filter reads at most half a texel away, but a curved surface also bends within the texel. */
 GN_HOT static int32_t smooth_more_q16(const gn_light_view *view)
 {
     return view->filter == GN_FILTER_HARD ? 32768 : 0;
@@ -36,7 +36,7 @@ GN_HOT int32_t gn_bias_auto_curved_q16(const gn_light_view *view)
                              : view->auto_place;
 }
 
-/* How far the centre of a texel that the filter reads can be, along each axis; texels, Q16. */
+/* Filter radius: the largest distance to the centre of a texel that the filter reads, per axis; texels, Q16. */
 GN_HOT static int32_t taps_q16(const gn_light_view *view)
 {
     if (view->filter == GN_FILTER_HARD) return 32768;
@@ -45,7 +45,7 @@ GN_HOT static int32_t taps_q16(const gn_light_view *view)
 }
 
 /* Stored depth, rounded to half a step after up to T rounded ones, and the receiver's, rounded to half of its own finer
- * step, as a share of the range: 2^-(bits + 1) + 2^-(bits + frac + 1) + (T + 2) 2^-32 + 2^-29, Q32 */
+ * step, as a fraction of the depth range: 2^-(bits + 1) + 2^-(bits + frac + 1) + (T + 2) 2^-32 + 2^-29, Q32 */
 GN_HOT static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view *view)
 {
     const int64_t half = (int64_t)1 << 31;
@@ -55,7 +55,7 @@ GN_HOT static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view 
 }
 
 /* sqrt(1 + k^2) times the relative error of view depths, and of a pixel's ray, whose three coefficients are rounded in
- * each axis: 2^-28 of W + H. Q40: 2^7 * (2^-17 + 2^-16) at the most. */
+ * each axis: 2^-28 of W + H. Q40: 2^7 * (2^-17 + 2^-16) at most. */
 GN_HOT static int32_t ray_error_q40(const gn_frame *frame)
 {
     uint64_t ray2_q48 = (((uint64_t)1 << 24) + (uint64_t)gn_cascade_tan2_q24(frame)) << 24; /* <= (2^24 + 2^38) 2^24 */
@@ -63,7 +63,7 @@ GN_HOT static int32_t ray_error_q40(const gn_frame *frame)
     return gn_sat32((int64_t)((ray_q24 >> (GN_K(frame, newton_steps) == 1 ? 1 : 12)) + (ray_q24 * pixels >> 12) + 2));
 }
 
-/* Distance of a receiver from where it should be, in texels, Q16: the farthest that the view's cascade shows. */
+/* Position error of a receiver at the far end of the view's cascade, texels, Q16. */
 GN_HOT static int32_t place_error_q16(const gn_frame *frame, const gn_light_view *view)
 {
     int64_t farthest_q16 = frame->scene->shadow.max_distance_q16;
@@ -83,12 +83,12 @@ GN_HOT void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
 {
     view->offset_q16 = taps_q16(view) + auto_delta_q16(frame);
     if (view->perspective) {
-        /* coordinates are as wrong as the reciprocal: by 2^-17 of half a tile, or 2^-29; and so is n / z */
+        /* coordinates and n / z have the reciprocal's error: 2^-17 of half a tile, or 2^-29 */
         int one_step = GN_K(frame, newton_steps) == 1;
         view->offset_q16 += one_step ? (view->tile_texels + 3) >> 2 : 1;
         view->offset_q16 +=
             (int32_t)(((view->fit.persp.focal2_q16 >> 29) + 1) >> 1); /* x / z is rounded to 2^-30 of T / t */
-        /* its plane is rounded to 2^-27 and, in place, 2^-28 */
+        /* the caster's plane is rounded to 2^-27, its position to 2^-28 */
         view->auto_step = (int32_t)(depth_step_q32(frame, view) + (one_step ? 32768 : 8) + 64);
         view->auto_place = ray_error_q40(frame);
         return;
@@ -98,7 +98,7 @@ GN_HOT void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view)
         gn_scale64(depth_step_q32(frame, view), 16 - view->tile_log2 - view->depth_log2) + 1; /* 2^25 * 2^4 */
     view->offset_q16 += place_q16;
     view->auto_step = (int32_t)gn_clamp64(step_q16 + 3 + place_q16, 0, INT32_MAX);
-    /* curved: sqrt(2 r^2 + e^2) is what any plane through its normal needs; < 2^21, and steps of more are beyond any
+    /* curved: sqrt(2 r^2 + e^2) is enough for any plane through its normal; r < 2^21, and a larger step e exceeds any
      * range */
     int64_t r_q16 = view->offset_q16 + smooth_more_q16(view),
             step = view->auto_step < 1 << 28 ? view->auto_step : 1 << 28;
@@ -140,9 +140,9 @@ GN_HOT int64_t gn_bias_auto_place_q16(const gn_light_view *view, int32_t depth_q
     return ((int64_t)depth_q16 * view->auto_place >> 40) + GN_AUTO_UNITS + 1;
 }
 
-/* Normal: the way off the plane that a tap's reach and the rounding of depths take, in units of the light-plane
- * distance, Q30: A / (1 - A max(0, m_w)), A = reach * tau * (|m_u| + |m_v|) + D_s h / n. Returns -1 where it would be
- * above 2, or the divisor below 1/2. */
+/* Normal: the offset from the plane that the filter radius and the rounding of depths require, as a fraction of the
+ * light-plane distance, Q30: A / (1 - A max(0, m_w)), A = radius * tau * (|m_u| + |m_v|) + D_s h / n. Returns -1 where
+ * it would be above 2, or the divisor below 1/2. */
 GN_HOT static int64_t lift_share_q30(const gn_light_view *view, int64_t across_q30, int64_t m_w_q30, int64_t h_q16)
 {
     const int64_t two = (int64_t)2 << 30;
@@ -163,7 +163,7 @@ GN_HOT static int too_steep(const gn_light_view *view, int64_t m_q30, int64_t h_
     return gn_bf_apply(m_q30 * view->fit.persp.near_q16, view->fit.persp.texel_per_z, -31) > h_q16; /* 2^31 * 2^29 */
 }
 
-/* Depth: reach * (|ds/dU| + |ds/dV|), Q32, with |ds/dU| = n tau |m_u| / h. */
+/* Depth: radius * (|ds/dU| + |ds/dV|), Q32, with |ds/dU| = n tau |m_u| / h. */
 GN_HOT static int64_t slope_share_q32(const gn_light_view *view, int64_t across_q30, int64_t h_q16)
 {
     const gn_persp_fit *fit = &view->fit.persp;
@@ -187,7 +187,7 @@ GN_HOT int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias *form,
         if (too_steep(view, u_q30 > v_q30 ? u_q30 : v_q30, h_q16)) less_q32 = (int64_t)1 << 33;
         lift_q16 += (z_q16 * share_q30 >> 30) + 1; /* 2^31 * 2^31 */
     } else less_q32 = view->auto_step + slope_share_q32(view, across_q30, h_q16);
-    for (int i = 0; i < 3; i++) /* 2^33 * 2^30 would not fit, but a lift of 2^31 is beyond any light */
+    for (int i = 0; i < 3; i++) /* 2^33 * 2^30 would not fit, but a lift of 2^31 exceeds any scene */
         moved_q16[i] = gn_sat32(from_q16[i] + gn_shr64(gn_clamp64(lift_q16, 0, INT32_MAX) * face_q30[i], 30));
     return less_q32;
 }

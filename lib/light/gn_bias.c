@@ -21,7 +21,7 @@ typedef struct {
     int32_t along_q16, towards_q16;
 } bias_terms;
 
-/* n_dot_l_q30: N . L of the interpolated normal as it is; only the four-term bias needs it. [B2] [B3] */
+/* n_dot_l_q30: N . L of the interpolated normal, not normalised; only the four-term bias needs it. [B2] [B3] */
 GN_HOT static bias_terms bias_at(const gn_light_view *view, const gn_light *light, gn_auto_bias automatic,
                                  int32_t n_dot_l_q30)
 {

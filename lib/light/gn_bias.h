@@ -8,15 +8,15 @@
 #define GN_SQRT2_Q16      92682
 
 /* nu of DESIGN 1.4: how far a light's receiver bias can move a point across the light's axis, in texels per (k + 1),
- * Q16. Of the view it takes the tile and the bits of its depths. */
+ * Q16. Uses only the view's tile size and depth bits. */
 int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light);
 
-/* How far a light's receiver is moved, for the interpolated normal as it is: in texels along the view's axes, Q16; the
- * same in every cascade whose filter index is the same. */
+/* A directional light's receiver offset, for the interpolated normal, not normalised: in texels along the view's axes,
+ * Q16; equal in all cascades of equal filter index. */
 void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const int32_t n_q30[3], int32_t out_q16[3]);
 
-/* For spot and point lights: along the world's axes in its units, Q16. `from_q16` is the surface point minus the light,
- * seen at view depth `depth_q16`. */
+/* The same for spot and point lights: along the world's axes, in world units, Q16. `from_q16` is the surface point
+ * minus the light, seen at view depth `depth_q16`. */
 void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], int32_t depth_q16,
                       const int32_t from_q16[3], int32_t out_q16[3]);
 
@@ -25,26 +25,26 @@ void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const 
 /* Once per view, after its fit and filter. */
 void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view);
 
-/* What gn_bias_reach_q16 is: sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits what steps of
- * depth add along the normal. */
+/* gn_bias_reach_q16 of automatic bias: sqrt2 * (1 + delta) covers sqrt2 * (R + delta) of every filter; T * 2^-bits is
+ * the part of depth steps along the normal. */
 int32_t gn_bias_auto_reach_q16(const gn_frame *frame, const gn_light_view *view);
 
-/* How far the receivers of a curved surface are moved along their normals, texels, Q16. */
+/* Offset of a curved surface's receivers along their normals, texels, Q16. */
 int32_t gn_bias_auto_curved_q16(const gn_light_view *view);
 
-/* Distance of a spot or point light's receiver from where it should be, in units of the world, Q16. */
+/* Position error of a spot or point light's receiver, world units, Q16. */
 int64_t gn_bias_auto_place_q16(const gn_light_view *view, int32_t depth_q16);
 
-/* Once per triangle and directional light: what gn_bias_auto_ortho takes. face_q30: the face's normal in the world,
+/* Once per triangle and directional light: the input of gn_bias_auto_ortho. face_q30: the face's normal in the world,
  * towards the viewer. Normal: its parts along the light's axes, Q30; depth: |dD/dU|, |dD/dV|, Q10. */
 void gn_bias_auto_face(const gn_light_view *view, gn_auto_bias form, const int32_t face_q30[3], int32_t out[3]);
 
-/* How far the receiver is moved, in texels along the view's axes, Q16. */
+/* The receiver's offset, in texels along the view's axes, Q16. */
 void gn_bias_auto_ortho(const gn_light_view *view, gn_auto_bias form, const int32_t face[3], int32_t out_q16[3]);
 
 /* A point of a spot or point light's view, `from_q16` the light and seen at view depth `depth_q16`: moves it, and
- * returns by how much its depth in the map is less than that of the moved point, Q32. The normal form gives way to the
- * depth form, in *form, where it would move the point by more than twice its depth. */
+ * returns how much to subtract from the moved point's depth in the map, Q32. Where the normal form would move the point
+ * by more than twice its depth, *form becomes the depth form. */
 int64_t gn_bias_auto_persp(const gn_light_view *view, gn_auto_bias *form, const int32_t face_q30[3], int32_t depth_q16,
                            const int32_t from_q16[3], int32_t moved_q16[3]);
 

@@ -44,7 +44,7 @@ void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16,
     *radius_q24 = r2 < (int64_t)1 << 38 ? gn_isqrt64((uint64_t)r2 << 24) : (int64_t)gn_isqrt64((uint64_t)r2) << 12;
 }
 
-/* View depths between which cascade i lies. [D3] */
+/* Near and far view depth of cascade i. [D3] */
 void gn_cascade_slice(const gn_frame *frame, uint32_t i, int32_t *near_q16, int32_t *far_q16)
 {
     const gn_shadow_settings *shadow = &frame->scene->shadow;
@@ -57,7 +57,7 @@ void gn_cascade_slice(const gn_frame *frame, uint32_t i, int32_t *near_q16, int3
         *far_q16 = (int32_t)(((int64_t)m * shadow->cascade_ratio_uq16[i] + 0x8000) >> 16);
 }
 
-/* Spheres of all slices; radius_q24 is relative to the slice's end, which slice_of gives again. [D3] [D4] [D6] */
+/* Spheres of all slices; radius_q24 is relative to the slice's end, which slice_of computes again. [D3] [D4] [D6] */
 static void setup_spheres(gn_frame *frame)
 {
     const gn_shadow_settings *shadow = &frame->scene->shadow;
@@ -75,7 +75,7 @@ static void setup_spheres(gn_frame *frame)
         if (beyond) continue;
         gn_cascade_sphere(frame, near_q16, far_q16, &centre_q24, &radius_q24);
         cascade->centre_q16 = (int32_t)gn_shr64(centre_q24 * far_q16, 24);
-        /* radius < 2^30 in Q16: a sphere that wide holds all that view coordinates can reach */
+        /* radius < 2^30 in Q16: a sphere that wide contains all view coordinates */
         uint64_t radius_q16 = (uint64_t)gn_clamp64(
             gn_bf_apply(radius_q24, gn_bf_from_u64((uint64_t)(uint32_t)far_q16), -24), 1, (1 << 30) - 1);
         cascade->radius2_q32 = radius_q16 * radius_q16;

@@ -4,7 +4,7 @@
 
 #include "gnomon.h"
 
-/* Of a single cascade nothing is unused: builds with and without more than one agree. */
+/* A single cascade is never unused, so that builds with and without many cascades agree. */
 #define GN_CASCADE_UNUSED(frame, i)                                                                                    \
     (GN_MANY_CASCADES && (frame)->n_cascades > 1 && ((frame)->scene->shadow.cascades_unused >> (i)&1U) != 0)
 

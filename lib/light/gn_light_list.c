@@ -1,4 +1,4 @@
-/* The spot and point lights that an object's surfaces have to reckon with [P9]. */
+/* Light lists: the spot and point lights that affect an object [P9]. */
 #include "gn_internal.h"
 
 #include "base/gn_hint.h"
@@ -16,8 +16,8 @@ static int heavier(gn_bfloat a, gn_bfloat b)
     return a.exp != b.exp ? a.exp > b.exp : a.mant > b.mant;
 }
 
-/* Keeps the heaviest `limit` lights in order of weight; of equals the first come stay first. Returns 1 if one had to
- * go. */
+/* Keeps the `limit` lights of largest weight, in order of weight; equal weights keep their order. Returns 1 if a light
+ * was dropped. */
 static int keep_heaviest(gn_object_state *object, light_list *list, uint32_t light_idx, gn_bfloat weight)
 {
     uint32_t at = list->n;
@@ -34,7 +34,7 @@ static int keep_heaviest(gn_object_state *object, light_list *list, uint32_t lig
     return full;
 }
 
-/* By index again: sums are then in the order of the lights. */
+/* Sorts by index again: lights are added in the scene's order. */
 static void sort_by_index(gn_object_state *object)
 {
     for (uint32_t i = 1; i < object->n_lights; i++) {

@@ -1,10 +1,10 @@
-/* Lights, cascades, and what is known of objects before their triangles are looked at. */
+/* Lights, cascades, and per-object state: boxes and light lists. */
 #ifndef GN_LIGHT_TYPES_H
 #define GN_LIGHT_TYPES_H
 
 #include "geometry/gn_geometry_types.h"
 
-/* What is known of an object before its triangles are looked at. */
+/* Per-object state, computed before its triangles. */
 typedef struct {
     int32_t centre_q16[3], half_q16[3]; /* its box in the world */
 #if GN_PUNCTUAL_LIGHTS
@@ -41,7 +41,7 @@ typedef struct {
     int32_t ray_shift;
     uint64_t range2_q32;   /* all ones: unlimited */
     gn_bfloat inv_range2;  /* of range2 in Q32 */
-    int32_t colour_exp;    /* what is left of the colour's exponent, see gn_punctual.c */
+    int32_t colour_exp;    /* the exponent after normalising the colour, see gn_punctual.c */
     int32_t cos_outer_q30; /* spot lights only */
     gn_bfloat angle_scale; /* 1 / (cos inner - cos outer) */
 #endif

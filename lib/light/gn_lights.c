@@ -1,4 +1,4 @@
-/* Lights, and which object each of them reaches. */
+/* Light states, and which object each light affects. */
 #include "gn_internal.h"
 
 #include "base/gn_hint.h"
@@ -20,7 +20,7 @@ static void setup_light(gn_frame *frame, uint32_t light_idx)
     int64_t towards[3];
     for (int k = 0; k < 3; k++) {
         towards[k] = -(int64_t)light->direction[k];
-        /* those of spot and point lights keep their exponent: gn_punctual_setup */
+        /* colours of spot and point lights keep their exponent: gn_punctual_setup */
         int32_t exp = light->kind == GN_LIGHT_DIRECTIONAL ? light->colour_exp : 0;
         state->colour_uq16[k] = (uint32_t)gn_clamp64(gn_scale64(light->colour_uq16[k], -exp), 0, GN_COLOUR_MAX_UQ16);
     }
@@ -69,7 +69,7 @@ static gn_status list_lights(gn_frame *frame)
 gn_status gn_lights_setup(gn_frame *frame)
 {
     const gn_scene *scene = frame->scene;
-    /* 10^-4 of the model's units, squared distances scale by 4^unit_log2; at least one step */
+    /* 10^-4 of the model's units; squared distances scale by 4^unit_log2; min one step */
     int64_t min2 = gn_scale64(429497, -2 * scene->unit_log2);
     frame->min2_q32 = min2 > 0 ? (uint64_t)min2 : 1;
     for (uint32_t i = 0; i < scene->n_lights; i++) setup_light(frame, i);

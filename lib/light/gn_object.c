@@ -47,7 +47,7 @@ gn_status gn_object_boxes(gn_frame *frame)
             state->centre_q16[r] = (int32_t)c;
             state->half_q16[r] = (int32_t)h;
         }
-        /* beyond 32 bits: all that a view can see, for what is out there may cast a shadow in here */
+        /* beyond 32 bits: the box becomes everything a view can see, as the object may still cast a shadow into it */
         for (int r = 0; farthest >> 31 && r < 3; r++) state->centre_q16[r] = 0, state->half_q16[r] = INT32_MAX;
     }
     return GN_OK;

@@ -28,7 +28,7 @@ GN_HOT static void ray_planes(const gn_frame *frame, gn_light_state *light)
     }
 }
 
-/* Colours become mantissas of at most 1: what a channel can lose is below 2^-16 of the largest. */
+/* Colours become mantissas of at most 1: a channel loses less than 2^-16 of the largest. */
 GN_HOT static void normalise_colour(gn_light_state *light, const gn_light *from)
 {
     uint32_t largest = from->colour_uq16[0];
@@ -103,8 +103,7 @@ GN_HOT static uint32_t angle_q30(const gn_light_state *light, int32_t cosine_q30
     return (uint32_t)gn_mul_q30(share, share);
 }
 
-/* One Newton step leaves 2^-15 of a cosine: as a share of a cone's edge that is too much where the edge is narrower
- * than 2^-6. */
+/* One Newton step leaves 2^-15 of a cosine: that is too much for a cone whose edge is narrower than 2^-6. */
 #define GN_NARROW_EXP (-55) /* of its reciprocal in Q30 */
 
 GN_HOT static int32_t root_steps(const gn_frame *frame, const gn_light_state *light)
@@ -127,7 +126,7 @@ GN_HOT int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, co
     out->factor_q30 = window_q30(light, d2);
     out->within_inner = 0;
     if (light->kind == GN_LIGHT_SPOT) {
-        /* against the axis towards the light: the light-plane distance as a share of the distance */
+        /* against the axis towards the light: the ratio of light-plane distance to distance */
         int32_t along = gn_sat32(-gn_dot_q30(from_light_q16, light->to_light_q30));
         uint32_t angle = along > 0 ? angle_q30(light, gn_punctual_cosine_q30(out, along)) : 0;
         out->within_inner = angle == GN_ONE_Q30;
@@ -155,9 +154,8 @@ GN_HOT uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32
 }
 
 #if GN_TILE_LIGHTS
-/* Whether a sphere lies outside the plane through the camera that holds a line of pixels: `edge` is the line's place,
- * twice its distance from the picture's centre in pixels, `across` the centre's coordinate, both positive towards the
- * outside. */
+/* Whether a sphere lies outside the plane through the camera and a line of pixels. `edge` is twice the line's distance
+ * from the picture's centre in pixels, `across` the centre's coordinate, both positive towards the outside. */
 GN_HOT static int beyond_edge(const gn_frame *frame, int32_t edge, int32_t across_q16, int32_t depth_q16,
                               uint64_t radius_q16)
 {

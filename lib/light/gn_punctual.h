@@ -4,10 +4,10 @@
 
 #include "gnomon.h"
 
-/* Fills what frame->light[light_idx] has for spot and point lights; frame->cam must be set up. */
+/* Fills the spot and point light fields of frame->light[light_idx]; frame->cam must be set up. */
 void gn_punctual_setup(gn_frame *frame, uint32_t light_idx);
 
-/* Largest colour channel times the distance factor at distance^2: what lights are ranked by. */
+/* Largest colour channel times the distance factor at distance^2: the rank of a light. */
 gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t distance2_q32, uint64_t min2_q32);
 
 /* A surface point in a light's range and cone. */
@@ -25,13 +25,13 @@ typedef struct {
 int gn_punctual_at(const gn_frame *frame, const gn_light_state *light, const int32_t from_light_q16[3],
                    gn_punctual_point *out);
 
-/* A length along the light's ray, Q16, as a share of the distance: Q30, saturated at +-1. */
+/* Ratio of a length along the light's ray, Q16, to the distance: Q30, saturated at +-1. */
 int32_t gn_punctual_cosine_q30(const gn_punctual_point *point, int32_t length_q16);
 
 /* factor * cosine / max(d^2, min) * 2^colour_exp: irradiance of a light whose colour is 1, Q24, saturated below 128. */
 uint32_t gn_punctual_irradiance_q24(const gn_punctual_point *point, int32_t cosine_q30);
 
-/* The lights whose spheres meet the frustum of a rectangle of pixels, a bit each; directional lights always. */
+/* The lights whose spheres intersect the frustum of a rectangle of pixels, a bit each; directional lights: always. */
 uint64_t gn_punctual_in_tile(const gn_frame *frame, const gn_rect *rect);
 
 #endif

@@ -1,4 +1,4 @@
-/* What a user need not set. */
+/* Default values. */
 #include "gn_internal.h"
 
 #include <string.h>

@@ -104,7 +104,7 @@ static int texture_ok(const gn_texture *texture)
     return texture->rgba && texture->width_log2 <= 12 && texture->height_log2 <= 12;
 }
 
-/* What is not built in must not be asked for. */
+/* Features that are not built must not be requested. */
 static gn_status check_material(gn_frame *frame, const gn_object *object, uint32_t idx)
 {
     const gn_mesh *mesh = object->mesh;
@@ -131,7 +131,7 @@ static gn_status check_object(gn_frame *frame, const gn_object *object, uint32_t
     if (!object_transform_ok(&object->to_world)) return gn_fail(frame, GN_ERR_OBJECT_TRANSFORM, idx);
     gn_status status = check_mesh(frame, object->mesh, idx);
     if (status) return status;
-#if !GN_BOXES /* else gn_object looks at them */
+#if !GN_BOXES /* else gn_object checks them */
     for (uint32_t i = 0; i < object->mesh->n_vertices; i++)
         if (!gn_scene_position_ok(object->mesh, i)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, idx);
 #endif
@@ -153,8 +153,7 @@ static gn_status check_punctual(gn_frame *frame, const gn_light *light, uint32_t
     return GN_OK;
 }
 
-/* Automatic bias. Where it is not built it is missed by who asks for it, and by a light that casts shadows and has no
- * other bias. */
+/* If automatic bias is not built: refuse lights that request it, or that cast shadows without another bias. */
 static int bias_is_built(const gn_light *light)
 {
     if ((uint32_t)light->auto_bias > GN_AUTO_BIAS_OFF) return 0;
@@ -210,7 +209,7 @@ static int filter_ok(gn_filter filter)
     return (uint32_t)filter <= GN_FILTER_MAX;
 }
 
-/* A light's own filter, in place of that of its atlas, must be built too. [F5] */
+/* A light's own filter, which replaces that of its atlas, must be built too. [F5] */
 static int softness_ok(const gn_light *light, gn_filter filter)
 {
     if (light->softness == GN_SOFTNESS_HARD) return GN_FILTER_MAX >= 1 || filter == GN_FILTER_HARD;

@@ -1,4 +1,4 @@
-/* Validation of what the caller describes. */
+/* Validation of the caller's scene. */
 #ifndef GN_SCENE_H
 #define GN_SCENE_H
 

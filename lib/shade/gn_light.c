@@ -24,7 +24,7 @@ GN_HOT static int32_t highlight_q30(const gn_surface *surface, const gn_sample *
     return power;
 }
 
-/* The same times what arrives, Q24. */
+/* The same times the incident light, Q24. */
 GN_HOT static GN_NOINLINE uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface,
                                                 const gn_sample *sample, uint32_t slot)
 {
@@ -48,7 +48,7 @@ GN_HOT static uint32_t specular_q24(const gn_frame *frame, const gn_surface *sur
 }
 #endif
 
-/* What arrives from a spot or point light of the list. */
+/* Incident light of a spot or point light of the list. */
 GN_HOT static inline const gn_arrival *arrival_of(const gn_sample *sample, uint32_t slot)
 {
 #if GN_PUNCTUAL_LIGHTS

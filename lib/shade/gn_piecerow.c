@@ -1,4 +1,4 @@
-/* Rows of pieces. */
+/* Rows of patches. */
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
@@ -54,7 +54,7 @@ GN_INLINE void ramp_of(const gn_pieces *p, const gn_curve *colour, int32_t x, in
     curve_ramp(colour, right, down, both, 2, ramp);
 }
 
-/* A row of pixels that the light reaches all over, or not at all. */
+/* A row of pixels that are all lit or all in shadow. */
 GN_HOT static void plain_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t n, int lit)
 {
     if (!p->varies) {
@@ -89,8 +89,8 @@ GN_HOT static void colours_of(const gn_pieces *p, const gn_curve *colour, int32_
     }
 }
 
-/* Where the light sees the surface at a pixel: v + g / (1 + t), g the change by the slope, t that of w, is v + g - g t
- * but for g t^2. */
+/* Light-space coordinates at a pixel: v + g / (1 + t), g the change by the slope, t that of w, is v + g - g t with an
+ * error of g t^2. */
 GN_INLINE int32_t place_at(const gn_slope *place, int32_t dx, int32_t dy, int32_t t_q30)
 {
     int32_t g = place->dx * dx + place->dy * dy;
@@ -106,7 +106,7 @@ GN_HOT static void receiver_at(const gn_pieces *p, int32_t x, int32_t y, gn_rece
         gn_max32(p->depth_least, gn_min32(place_at(&p->place[2], dx, dy, t_q30), p->depth_most)) * (1 << p->depth_up);
 }
 
-/* (b - a) / n of two values that were limited */
+/* (b - a) / n of two clamped values */
 GN_HOT static GN_NOINLINE int32_t limited_step(const gn_pieces *p, gn_receiver_step *from, gn_receiver_step *to,
                                                int32_t n)
 {
@@ -115,8 +115,8 @@ GN_HOT static GN_NOINLINE int32_t limited_step(const gn_pieces *p, gn_receiver_s
     return gn_step_of(from->depth_q31 * (1 << p->depth_up), to->depth_q31 * (1 << p->depth_up), n);
 }
 
-/* From a place's value where g and t are what they are to the one `n` pixels on: the chord of v + g - g t, whose step
- * is that of the middle. */
+/* Step per pixel from a pixel with g and t to the one `n` pixels on: the chord of v + g - g t, whose slope is that of
+ * the middle. */
 GN_INLINE int32_t place_step(const gn_pieces *p, const gn_slope *place, int32_t both, int32_t down, int32_t t2_q30)
 {
     int32_t g2 = place->dx * both + place->dy * 2 * down;
@@ -147,7 +147,7 @@ GN_HOT static GN_SHARED void receivers(const gn_pieces *p, int32_t x, int32_t y,
     to->depth_q31 *= 1 << p->depth_up;
 }
 
-/* n pixels, each as far between two ramps as the light is let through. */
+/* n pixels, each interpolated between the dark and the lit ramp by its attenuation. */
 GN_HOT static GN_SHARED void partly_lit_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x,
                                             int32_t n, const uint32_t *attenuation)
 {
@@ -159,8 +159,8 @@ GN_HOT static GN_SHARED void partly_lit_row(const gn_pieces *p, const gn_pixel_r
 
 enum { ROW_DRAWN, ROW_DARK, ROW_LIT };
 
-/* n <= 17 pixels from x on, looked up one by one; if all are alike, which most short rows are, they are left to be
- * drawn so. */
+/* n <= 17 pixels from x on, looked up one by one. If all are alike, as in most short rows, the caller draws them as one
+ * kind. */
 GN_HOT static GN_SHARED int looked_up_row(const gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x,
                                           int32_t n)
 {
@@ -183,7 +183,7 @@ GN_HOT static GN_SHARED int looked_up_row(const gn_pieces *p, const gn_pixel_row
 
 enum { CELLS_ACROSS = GN_PIECE_WIDTH / GN_CELL };
 
-/* What bounds of depth say of a cell of the piece. */
+/* The verdict of depth bounds on a cell of the patch. */
 GN_HOT static GN_NOINLINE uint32_t judge_cell(gn_pieces *p, uint32_t cell)
 {
     int32_t x = p->x0 + (int32_t)(cell % CELLS_ACROSS * GN_CELL), y = p->y0 + (int32_t)(cell / CELLS_ACROSS * GN_CELL);
@@ -208,7 +208,7 @@ GN_INLINE uint32_t state_of(gn_pieces *p, uint32_t cell)
     return state != CELL_UNKNOWN ? state : judge_cell(p, cell);
 }
 
-/* On through cells of one kind at a time. */
+/* Draws a group of cells of one kind at a time. */
 GN_HOT static void shadowed_row(gn_pieces *p, const gn_pixel_rows *rows, int32_t y, int32_t x, int32_t x_end)
 {
     uint32_t across = (uint32_t)(x - p->x0) / GN_CELL, cell = across + (uint32_t)(y - p->y0) / GN_CELL * CELLS_ACROSS;

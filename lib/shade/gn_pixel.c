@@ -38,13 +38,13 @@ GN_HOT static uint32_t linear_encode(uint32_t linear_q20)
     return (uint32_t)(((uint64_t)limited * 65535U + (1U << 19)) >> 20);
 }
 
-/* Linear light as the display takes it. [M7] */
+/* From linear light to the display's encoding. [M7] */
 GN_HOT static uint32_t encode(const gn_frame *frame, uint32_t linear_q20)
 {
     return GN_K(frame, srgb) ? srgb_encode(linear_q20) : linear_encode(linear_q20);
 }
 
-/* Rec. 709 weights in Q16; they sum to 65536. Channels are limited first, so that one cannot outshine the others. */
+/* Rec. 709 weights in Q16; they sum to 65536. Channels are clamped first, so that one cannot outshine the others. */
 GN_HOT static uint32_t luminance_q20(const uint32_t c[3])
 {
     uint32_t r = c[0] < GN_ONE_Q20 ? c[0] : GN_ONE_Q20, g = c[1] < GN_ONE_Q20 ? c[1] : GN_ONE_Q20,
@@ -58,8 +58,8 @@ GN_HOT static uint32_t by_curve_565(const gn_frame *frame, const uint32_t c[3])
            quantise(encode(frame, c[2]), 31);
 }
 
-/* A colour below 1 is of the level where its cell begins, or the next. One less: what has not reached the level's end
- * is below 0. */
+/* The level of a colour below 1 is that at its cell's beginning, or the next: one less if the colour is below the
+ * level's end. */
 GN_HOT static inline uint32_t level_before(const uint8_t *levels, uint32_t v_q24, int shift)
 {
     uint32_t level = levels[v_q24 >> shift];
@@ -75,7 +75,7 @@ GN_HOT static inline uint32_t pack_565(uint32_t r_q24, uint32_t g_q24, uint32_t 
 
 GN_HOT static inline uint32_t limited_q24(int32_t v)
 {
-    return (uint32_t)gn_min32(gn_max32(v, 0), (1 << 24) - 1); /* one instruction, where there is one */
+    return (uint32_t)gn_min32(gn_max32(v, 0), (1 << 24) - 1); /* a single instruction on cores that have it */
 }
 
 GN_HOT static inline uint32_t limit_and_pack_565(int32_t r_q24, int32_t g_q24, int32_t b_q24)
@@ -212,7 +212,7 @@ GN_HOT static inline void ramp_565(uint16_t *out, int32_t n, const gn_ramp *ramp
         *out++ = (uint16_t)(inside ? pack_565(r, g, b) : limit_and_pack_565((int32_t)r, (int32_t)g, (int32_t)b));
 }
 
-/* One channel of it, on top of those before; the last adds what level_before leaves out. */
+/* One channel of it, added to those before; the last adds the constant that level_before omits. */
 GN_HOT static inline uint32_t above_linear(uint32_t left, uint32_t level, int c)
 {
     return c == 0 ? level << 11 : left + (c == 1 ? level << 5 : level + (1U << 11) + (1U << 5) + 1 - 64);
@@ -231,7 +231,7 @@ GN_HOT static inline void mix_channel(uint16_t *out, int32_t n, const gn_ramp *d
     }
 }
 
-/* The same of colours that stay inside: in 31 bits. */
+/* The same for colours that stay inside 0 .. 1: in 31 bits. */
 GN_HOT static inline void mix_inside(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c,
                                      const uint32_t *share_uq16)
 {

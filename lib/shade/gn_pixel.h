@@ -9,7 +9,7 @@
 uint32_t gn_srgb_encode(uint32_t linear_q20);
 
 /* Encodes a colour for the picture's format: RGB565 as stored; red | green << 8 | blue << 16; grey as 8 or 4 bits; for
- * MONO1 the luminance in linear light, 0..65535, which the dither compares. Greys are of the luminance 0.2126 R +
+ * MONO1 the luminance in linear light, 0..65535, which the dither compares. Greys encode the luminance 0.2126 R +
  * 0.7152 G + 0.0722 B. */
 uint32_t gn_pixel_pack(const gn_frame *frame, const uint32_t linear_q20[3]);
 
@@ -28,14 +28,14 @@ typedef struct {
 void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
                    const gn_ramp *ramp);
 
-/* The same of pixels between two colours: share[i] of 65536 on the way from dark to lit. */
+/* The same for pixels between two colours: share[i] / 65536 is the fraction from dark to lit. */
 void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
                   const gn_ramp *dark, const gn_ramp *lit, const uint32_t *share_uq16);
 
 /* Stores one pixel at (x, y); |colour| < 2^30. */
 void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3]);
 
-/* Stores a 16-bit pixel n times from index i of the tile on, two a word where there are many. */
+/* Stores a 16-bit pixel n times from index i of the tile on, two per word if there are many. */
 GN_HOT static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)
 {
     uint32_t end = i + n;
@@ -50,7 +50,7 @@ GN_HOT static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, u
     for (; i < end; i++) pixels->rgb565[i] = (uint16_t)packed;
 }
 
-/* Stores one packed pixel at (x, y) of the picture; RGB565 is what most panels take, so it goes first. */
+/* Stores one packed pixel at (x, y) of the picture; RGB565 is tested first: most panels use it. */
 GN_HOT static inline void gn_pixel_store(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
                                          uint32_t packed)
 {

@@ -14,13 +14,13 @@ typedef struct {
     int32_t b_q30[2];
 } hit;
 
-/* Where the ray through a pixel centre meets the plane. Values are clamped to the triangle: a snapped edge may cover a
- * centre just outside the unsnapped triangle. */
+/* The intersection of the ray through a pixel centre with the plane. Values are clamped to the triangle: a snapped edge
+ * may cover a centre just outside the unsnapped triangle. */
 GN_HOT static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, hit *h)
 {
     gn_ray_recip r;
     if (!gn_plane_recip(&r, &s->plane, px, py, frame->cam.focal2_px_q16, GN_K(frame, newton_steps))) {
-        h->z_q16 = s->z_min_q16; /* edge on: any point of the triangle stands for it */
+        h->z_q16 = s->z_min_q16; /* edge on: any point of the triangle will do */
         h->b_q30[0] = h->b_q30[1] = GN_ONE_Q30 / 3;
         return;
     }
@@ -58,8 +58,13 @@ GN_HOT static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, in
 }
 #endif
 
+<<<<<<< HEAD
 /* Along what the receiver moves: the normal, or what automatic bias takes of a curved surface. */
 GN_HOT static GN_SHARED const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light,
+=======
+/* The direction of the receiver's offset: the normal, or automatic bias's own for a curved surface. */
+GN_HOT static inline const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light,
+>>>>>>> house-words
                                                   const int32_t n_q30[3], int32_t out_q30[3])
 {
     if (!GN_AUTO_BIAS || !GN_CURVED(s) || !light->auto_bias) return n_q30;
@@ -82,7 +87,7 @@ GN_HOT static void light_coords(const gn_light_view *view, int32_t px, int32_t p
 /* Whether a light has cascades, or shadows end at a distance from the camera. */
 GN_HOT static int asks_for_cascades(const gn_frame *frame)
 {
-    if (GN_SIZE_FIRST && !GN_PIECES) return 1; /* the same, for nothing depends on it */
+    if (GN_SIZE_FIRST && !GN_PIECES) return 1; /* any value: nothing depends on it */
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 
@@ -90,7 +95,7 @@ GN_HOT static int asks_for_cascades(const gn_frame *frame)
 GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py, gn_sample *sample)
 {
     gn_bfloat per_px = frame->cam.inv_focal2;
-    const int64_t most = 1 << 30; /* of a point of a triangle; a plane seen edge on may be drawn where it is not */
+    const int64_t most = 1 << 30; /* of a point of the triangle: pixels of a plane seen edge on may lie outside it */
     int64_t z = sample->value[GN_VALUE_Z], x = gn_clamp64(gn_bf_apply(z * px, per_px, 16), -most, most),
             y = gn_clamp64(gn_bf_apply(z * py, per_px, 16), -most, most);
     uint64_t across = (uint64_t)(x * x) + (uint64_t)(y * y);
@@ -115,8 +120,8 @@ GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py,
     }
 }
 
-/* The surface's offset in a view, where it is not one for all views of the light: of smooth surfaces, of the disk,
- * whose index and reach are the cascade's own, and of automatic bias, whose steps of depth are. */
+/* The surface's offset in a view, if it differs between the views of a light: for smooth surfaces; for the disk, whose
+ * index and radius depend on the cascade; and for automatic bias, whose depth steps do. */
 GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                         const gn_light_view *view, const int32_t n_q30[3], int32_t moved_q16[3])
 {
@@ -132,7 +137,7 @@ GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface 
     return moved_q16;
 }
 
-/* Where a directional light's view sees the point; in cascades also where the next one does. */
+/* Light-space coordinates of the point in a directional light's view; with cascades also in the next one. */
 GN_HOT static void directional_coords(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
                                       const int32_t n_q30[3], const gn_sample *sample, int32_t *out)
 {
@@ -198,7 +203,7 @@ GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, u
 #endif
 
 #if GN_SPECULAR
-/* The normal, and against the pixel's ray, in the world. */
+/* The normal, and the direction to the viewer, in the world. */
 GN_HOT static void specular_values(const gn_frame *frame, int32_t px, int32_t py, const int32_t unit_q30[3],
                                    gn_sample *sample)
 {
@@ -239,7 +244,7 @@ GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, cons
     if ((GN_PUNCTUAL_LIGHTS || GN_SPECULAR) && GN_SMOOTH(s)) gn_length_unit(length, n_q30, unit_q30);
     for (uint32_t i = 0; i < s->n_lights; i++) {
         int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
-        for (int k = 1; k < GN_VALUES_PER_LIGHT; k++) out[k] = 0; /* not always used, but stepped */
+        for (int k = 1; k < GN_VALUES_PER_LIGHT; k++) out[k] = 0; /* not always used, but always stepped */
         if (GN_PUNCTUAL_LIGHTS && s->light[i].state->kind != GN_LIGHT_DIRECTIONAL) {
             GN_COUNT(sample_lights_punctual, 1);
             punctual_values(frame, s, i, px, py, n_q30, unit_q30, sample, out);

@@ -34,7 +34,7 @@ GN_HOT static uint32_t raw_normal(const gn_shading *s, int32_t x, int32_t y)
     return pack_axis(unit[0]) << 20 | pack_axis(unit[1]) << 10 | pack_axis(unit[2]);
 }
 
-/* What a raw view shows of the surface. [A6] */
+/* A raw view's value of the surface. [A6] */
 GN_HOT static uint32_t raw_value(const gn_shading *s, const gn_sample *sample, int32_t x, int32_t y)
 {
     const gn_picture *picture = &s->frame->picture;
@@ -79,7 +79,7 @@ GN_HOT static void shade_pixel(gn_shading *s, gn_sample *sample, int32_t x, int3
     gn_pixel_store(s->frame, &s->rows, x, y, pack(s, s->radiance_q20));
 }
 
-/* A sample, with what arrives there from spot and point lights. */
+/* A sample, with the incident light of spots and points. */
 GN_HOT static inline void sample_with_arrivals(shading *s, int32_t x, int32_t y, gn_sample *sample)
 {
     gn_sample_at(s->frame, &s->surface, x, y, sample);
@@ -111,9 +111,8 @@ GN_HOT static inline void shade_run_exact(gn_shading *s, int32_t y, int32_t x_be
     }
 }
 
-/* The same, where pixels may lie between exact ones. Exact at both ends of the run and at least every
- * persp_step pixels, parabolas between where that is close enough (gn_chord): 1/w is never extrapolated past the
- * triangle. */
+/* The same, with interpolation. Pixels are exact at both ends of the run and at least every persp_step pixels, with
+ * parabolas between where these are within tolerance (gn_chord): 1/w is never extrapolated past the triangle. */
 GN_HOT static inline void shade_run_stepped(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     int32_t step_px = s->surface.specular ? 1 : GN_K(s->frame, persp_step); /* a highlight is narrower than its n . h */
@@ -138,14 +137,14 @@ GN_HOT static inline void shade_run_stepped(gn_shading *s, int32_t y, int32_t x_
     }
 }
 
-/* Every pixel by division, or steps between exact samples. [R4] */
+/* Shades every pixel by division, or steps between exact samples. [R4] */
 GN_HOT static void shade_run(gn_shading *s, int32_t y, int32_t x_begin, int32_t x_end)
 {
     if (!GN_RUNTIME_KNOBS && GN_PERSP_STEP == 1) shade_run_exact(s, y, x_begin, x_end);
     else shade_run_stepped(s, y, x_begin, x_end);
 }
 
-/* The pixel of a surface that looks the same all over. */
+/* The one pixel value of a surface of constant colour. */
 GN_HOT static uint32_t constant_pixel(gn_shading *s)
 {
     gn_sample *sample = &s->by.run.sample[0];
@@ -178,7 +177,7 @@ GN_HOT static GN_NOINLINE void link_runs(gn_shading *s, gn_run_taker *taker, uin
     s->spanned = spanned;
 }
 
-/* Shades what lies in a part of the screen of the runs that are linked from `first` on. */
+/* Of the runs that are linked from `first` on, shades the pixels in a part of the screen. */
 GN_HOT static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *part)
 {
     const uint32_t *cells = GN_CELLS(s->scratch), stride = (uint32_t)GN_K(s->frame, tile_width),
@@ -204,7 +203,7 @@ GN_HOT static void shade_part(gn_shading *s, gn_pieces *pieces, uint32_t first, 
     }
 }
 
-/* From left to right, piece by piece, each as wide as it may be; where the first of a band is none, in bands of half
+/* Left to right, patch by patch, each as wide as tolerances allow. If the first patch of a band fails, in bands of half
  * the height. */
 GN_HOT static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first, const gn_rect *all)
 {
@@ -231,13 +230,13 @@ GN_HOT static void shade_pieces(gn_shading *s, gn_pieces *pieces, uint32_t first
                 shade_part(s, pieces, first, part);
                 continue;
             }
-            shade_part(s, NULL, first, part); /* which takes the pieces' place */
+            shade_part(s, NULL, first, part); /* it overwrites the patches' memory */
             gn_pieces_begin(pieces, s->frame, &s->surface, all);
         }
     }
 }
 
-/* A triangle whose first run is taken. Returns 0 if its surface cannot be shaded so. */
+/* Shades a triangle whose first run is taken. Returns 0 if its surface cannot be shaded in patches. */
 GN_HOT static int shade_in_pieces(gn_shading *s, gn_run_taker *taker, uint32_t first, int32_t n_px)
 {
     gn_pieces *pieces = &s->by.pieces;
@@ -284,8 +283,7 @@ GN_HOT static void shade_triangle(gn_shading *s, uint32_t tri_idx)
 
 enum { NOT_PLAIN, PLAIN, PLAIN_565 };
 
-/* An object whose triangles all look alike, wherever they are: unlit, of one colour. Its pixels are filled in as its
- * runs are found. */
+/* Plain objects: unlit, of one colour. Their pixels are filled in as soon as their runs are found. */
 typedef struct {
     uint32_t object_idx;
     int plain;
@@ -310,12 +308,12 @@ GN_HOT static const object_look *look_at(gn_shading *s, object_look looks[LOOKS]
     return look;
 }
 
-/* What is known while the runs of a tile are sorted. */
+/* The state of sorting a tile's runs. */
 typedef struct {
     gn_shading *s;
     uint32_t n_linked;
     uint32_t plain_idx, packed; /* the plain object met last, of 16 bits per pixel */
-    uint32_t lit_idx;           /* the object met last that is not */
+    uint32_t lit_idx;           /* the object met last that is not plain */
     object_look looks[LOOKS];
 } run_sorter;
 
@@ -343,7 +341,7 @@ GN_HOT static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uin
     sorter->n_linked++;
 }
 
-/* Fills a short run of a plain object in, and leaves it out. */
+/* Fills in a short run of a plain object, and does not link it. */
 GN_HOT static inline void fill_short_run(uint16_t *out, uint32_t *first, uint32_t n_px, uint32_t packed)
 {
     GN_COUNT(runs, 1);
@@ -355,7 +353,7 @@ GN_HOT static inline void fill_short_run(uint16_t *out, uint32_t *first, uint32_
     } while (--n_px);
 }
 
-/* Nothing is known yet. */
+/* Empty state. */
 GN_HOT static void sorter_begin(run_sorter *sorter, gn_shading *s)
 {
     sorter->s = s;
@@ -364,7 +362,7 @@ GN_HOT static void sorter_begin(run_sorter *sorter, gn_shading *s)
     for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) sorter->looks[i].object_idx = UINT32_MAX;
 }
 
-/* Links the tile's runs, but for those of plain objects, which it fills in. Returns how many are linked. */
+/* Links the tile's runs, except those of plain objects, which it fills in. Returns the number of linked runs. */
 GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
 {
     const gn_frame *frame = s->frame;

@@ -28,7 +28,7 @@ GN_HOT static uint32_t distance_fade_at(const gn_frame *frame, int32_t z_q16)
     return (uint32_t)gn_clamp64(gn_bf_apply(left_q16, frame->fade_scale, 32), 0, GN_ONE_UQ16);
 }
 
-/* What distance leaves of shadows; 65536: all. [D5] [D6] [D11] */
+/* Shadow strength after fading with distance; 65536: full. [D5] [D6] [D11] */
 GN_HOT uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample)
 {
     if (!surface->shadowed || !sample->in_reach) return 0;
@@ -52,7 +52,7 @@ GN_HOT static inline const int32_t *face_of(const gn_surface *surface)
 #endif
 }
 
-/* The slope of depth over one texel, a quotient of two components of the face's normal, limited to 16 / T of the
+/* The slope of depth over one texel, a quotient of two components of the face's normal, clamped to 16 / T of the depth
  * range. [B5] */
 GN_HOT static int32_t limit_slope(const gn_light_view *view, int64_t slope_q28)
 {
@@ -75,7 +75,7 @@ GN_HOT static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface
 {
     GN_COUNT(lookups, 1);
     gn_receiver r = {coord[0], coord[1], 0, {0, 0}, sample->x, sample->y};
-    /* texels, Q16, to a share of T * 2^J texels */
+    /* texels, Q16, to a fraction of T * 2^J texels */
     int32_t up = 16 - view->tile_log2 - view->depth_log2;
     if (coord[2] > 0) {
         uint64_t share = up >= 0 ? (uint64_t)(uint32_t)coord[2] << up : (uint32_t)coord[2] >> -up;

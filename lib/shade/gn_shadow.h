@@ -4,7 +4,7 @@
 
 #include "shade/gn_sample.h"
 
-/* g of DESIGN 1.4: how much of realtime shadows is left at this distance, 0..65536; the same for every light. */
+/* g of DESIGN 1.4: the strength of realtime shadows at this distance, 0..65536; the same for every light. */
 uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample);
 
 /* Shadow factor of the light in a slot of the surface's list, 0..65536; 65536: it casts none. */

@@ -13,7 +13,7 @@
 
 #define GN_ONE_Q30 (1 << 30)
 
-/* Nothing arrives at an unlit surface; only the shadow view asks which lights it faces. [M2] */
+/* An unlit surface gets no light; only the shadow view needs the lights that it faces. [M2] */
 GN_HOT static int without_light(const gn_frame *frame, const gn_surface *s)
 {
     if (!(s->object->flags & GN_OBJECT_UNLIT)) return 0;
@@ -182,7 +182,7 @@ GN_HOT static void list_light(const gn_frame *frame, gn_surface *s, uint32_t lig
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* Whether a light can reach the triangle: not from behind a flat one, and not from beyond its range. */
+/* Whether a light can affect the triangle: not from behind a flat one, and not from beyond the light's range. */
 GN_HOT static int reaches(const gn_surface *s, const gn_light_state *light, int32_t v[3][3])
 {
     if (!GN_SMOOTH(s)) {
@@ -213,7 +213,7 @@ GN_HOT static void add_punctual(const gn_frame *frame, const gn_surface_cache *c
     s->n_punctual++;
 }
 
-/* The object's list, or all lights where none is kept. [P9] */
+/* The object's light list, or all lights if it has none. [P9] */
 GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
 {
     const gn_object_state *object = &frame->object[s->object - frame->scene->objects];
@@ -231,11 +231,11 @@ GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache
 }
 #endif
 
-/* A face that is edge-on to a light but for the last bits of its normal takes none of it: walls along the light's way
+/* A face whose normal is perpendicular to the light except for its last bits gets no light: walls parallel to the light
  * are common, and a highlight is not small there. */
 #define GN_GRAZING_Q24 8
 
-/* n . L at the vertices, where it is not below 0. Returns 0 if it is nowhere above. */
+/* n . L at the vertices, clamped at 0. Returns 0 if it is above 0 nowhere. */
 GN_HOT static int vertex_cosines(const gn_surface *s, const gn_light_state *light, int32_t out_q24[3])
 {
     int32_t any = 0, at[3];
@@ -272,8 +272,8 @@ GN_HOT static void directional_lights(const gn_frame *frame, gn_surface *s)
 #if GN_AUTO_BIAS
 #define GN_LEAST_ALONG_Q28 (7 << 25)
 
-/* Curved surfaces: with this the interpolated normal has a part of 1 or more along the face's everywhere. Where a
- * corner's is too far from the face's, that alone is taken. [B6] */
+/* Curved surfaces: with this the interpolated normal has a part of 1 or more along the face's everywhere. If a corner's
+ * normal is too far from the face's, only the face's is used. [B6] */
 GN_HOT static void lift_normal(gn_surface *s)
 {
     int32_t least = -4; /* Q28; roundings */
@@ -287,7 +287,7 @@ GN_HOT static void lift_normal(gn_surface *s)
 }
 #endif
 
-/* What a light's bias takes from the surface, once for all of it: the face's normal, a directional light's offset. */
+/* A light's bias over the surface, once per surface: the face's normal, a directional light's offset. */
 GN_HOT static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
 {
     const gn_light_state *light = s->light[slot].state;
@@ -327,7 +327,7 @@ GN_HOT static void shadows(const gn_frame *frame, gn_surface *s)
 }
 #endif
 
-/* Albedo times ambient and light colours; what shadows and a constant normal allow to know beforehand. */
+/* Albedo times ambient and light colours, and everything that a constant normal lets precompute. */
 GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
 {
     const gn_scene *scene = frame->scene;
@@ -361,7 +361,7 @@ GN_HOT static void use_object(const gn_frame *frame, gn_surface_cache *cache, co
     if (GN_VERTEX_NORMALS && object->mesh->nrm_q15) gn_xform_normal_matrix(cache->normal_matrix, object);
 }
 
-/* A vertex of a transform or a position out of the ordinary. */
+/* A vertex whose transform or position is too large for the fast path. */
 GN_HOT static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch,
                                            const gn_tri *tri, uint32_t vertex_idx)
 {

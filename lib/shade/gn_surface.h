@@ -1,4 +1,4 @@
-/* A visible triangle as a surface: what is constant or linear over it, and the lights that can reach it. */
+/* A visible triangle as a surface: its constant and linear values, and the lights that can affect it. */
 #ifndef GN_SURFACE_H
 #define GN_SURFACE_H
 
@@ -11,10 +11,10 @@
 void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface,
                       const gn_tri *tri);
 
-/* gn_xform_normal(), in one piece where time counts. */
+/* gn_xform_normal(), inlined where time counts. */
 void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3]);
 
-/* 1: one radiance all over, no need to sample it. */
+/* 1: constant radiance, no need to sample it. */
 GN_HOT static inline int gn_surface_is_constant(const gn_surface *s)
 {
     return !(s->smooth | s->coloured | s->shadowed | s->textured | s->masked | s->baked | s->specular) &&

@@ -51,7 +51,7 @@ static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t
         }
 }
 
-/* Corners move inwards by a share of a texel, which in perspective views grows with distance. [B4] */
+/* Corners move inwards by a fraction of a texel, whose width grows with distance in perspective views. [B4] */
 static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
 {
     int32_t n[3][3];
@@ -61,8 +61,7 @@ static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int
         if (GN_PUNCTUAL_LIGHTS && job->view->perspective) {
             const gn_persp_fit *fit = &job->view->fit.persp;
             int64_t z = gn_clamp64(corner[i][2], fit->near_q16, INT32_MAX);
-            /* 2^19 * 2^31. A move by 2^32 leaves the range of perspective views whatever its direction: no need for
-             * more */
+            /* 2^19 * 2^31. A move by 2^32 leaves the range of perspective views in any direction: saturating is safe */
             by_q16 = gn_clamp64(gn_bf_apply(by_q16 * z, fit->texel_per_z, -16), 0, (int64_t)1 << 32);
         }
         for (int k = 0; k < 3; k++) {
@@ -102,10 +101,10 @@ static inline int32_t draw_perspective(gn_casting *casting, gn_alpha_cut *alpha,
     return gn_persp_triangle(job->frame, job->view, casting, alpha);
 }
 
-/* Where size comes first, the general way does small casters too: it has the same results. */
+/* With GN_SIZE_FIRST the general path draws small casters, too: same results. */
 #define SMALL_CASTERS (!GN_SIZE_FIRST || !GN_LARGE_CASTERS)
 
-/* A corner as the view sees it, 0: beyond 2^29 at the least. */
+/* A corner in the view's coordinates. Returns 0 if it may be beyond 2^29. */
 static inline int caster_corner(int32_t out[3], const caster_job *job, uint32_t vertex_idx)
 {
     if (GN_LARGE_CASTERS)
@@ -119,7 +118,7 @@ static inline int caster_corner(int32_t out[3], const caster_job *job, uint32_t 
     return 1;
 }
 
-/* Corners through the cache. Returns 0 if one is out of the ordinary. */
+/* Corners through the cache. Returns 0 if one needs the general path. */
 static inline int cached_corners(caster_job *job, const uint16_t idx[3], const int32_t *c[3])
 {
     const gn_mesh *mesh = job->object->mesh;
@@ -150,7 +149,7 @@ static inline int32_t draw_small_perspective(gn_casting *casting, const int32_t 
     return gn_persp_triangle(job->frame, job->view, casting, NULL);
 }
 
-/* What is neither shrunk nor cut, and not far out: most of what there is. Returns 0 if that is not so. */
+/* The common case: a caster that is neither shrunk nor cut by alpha, and not far outside. Returns 0 for others. */
 static inline int draw_small(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
     caster_job *job = &casting->job;
@@ -172,7 +171,7 @@ static gn_alpha_cut *alpha_of(gn_casting *casting)
 #endif
 }
 
-/* A caster of any size, shrunk and cut as it is set. [M1] */
+/* A caster of any size, shrunk by its bias and cut by its alpha. [M1] */
 static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
     const caster_job *job = &casting->job;
@@ -190,7 +189,7 @@ static GN_NOINLINE gn_status draw_large(gn_casting *casting, const uint16_t idx[
     return status;
 }
 
-/* Without what could be large: such a caster is refused. */
+/* Large casters are not built: such a caster is refused. */
 static gn_status refuse_large(gn_casting *casting, const uint16_t idx[3], int32_t *n_texels)
 {
     const caster_job *job = &casting->job;
@@ -217,7 +216,7 @@ static gn_status draw_triangle(gn_casting *casting, const uint16_t idx[3])
     return GN_OK;
 }
 
-/* Not inlined: gcc 12 at -Os takes the view's axes for a part of what it computes a pointer to, and warns of them. */
+/* Not inlined: gcc 12 at -Os would give a false warning about the view's axes. */
 static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, const gn_light_view *view,
                                          uint32_t object_idx)
 {
@@ -266,7 +265,7 @@ static void clear(const gn_light_view *view)
 
 /* ---- Tiles ------------------------------------------------------------------------------------------------------- */
 
-/* Static casters into the static layer, unless it holds them already. */
+/* Draws static casters into the static layer, unless its content is still valid. */
 static gn_status draw_static_layer(gn_frame *frame, gn_casting *casting, gn_light_view *view, gn_texels below,
                                    uint32_t view_idx)
 {
@@ -313,7 +312,7 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
     if (GN_INCREMENTAL && gn_kept_is_same(frame, view_idx, GN_LAYER_ALL, signature)) return GN_OK;
     gn_status status = draw_view(frame, casting, view, view_idx);
     if (status) return status;
-    if (GN_DEPTH_BLOCKS && GN_STATIC_LAYER) gn_blocks_build(view); /* what the layer holds was not touched now */
+    if (GN_DEPTH_BLOCKS && GN_STATIC_LAYER) gn_blocks_build(view); /* the layer's content was not redrawn */
     else if (GN_DEPTH_BLOCKS) gn_blocks_build_touched(view);
     if (GN_INCREMENTAL) gn_kept_set(frame, view_idx, GN_LAYER_ALL, signature);
     return GN_OK;

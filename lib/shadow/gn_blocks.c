@@ -74,7 +74,7 @@ GN_HOT void gn_blocks_build_touched(gn_light_view *view)
     for (uint32_t v = 0; v < n; v++)
         for (uint32_t u = 0; u < n; u++, block++)
             if (!block->hi) *block = bounds_of(view, 8 * ((size_t)v * view->tile_texels + u));
-    /* widen in place, along rows and then along columns: each block still finds its neighbour as it was */
+    /* widens in place, along rows and then along columns: each block reads its neighbour before that is widened */
     block = view->block;
     for (uint32_t v = 0; v < n; v++, block++)
         for (uint32_t u = 1; u < n; u++, block++) widen_block(block, block + 1);

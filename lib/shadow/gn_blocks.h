@@ -2,10 +2,10 @@
  * texels.
  *
  * For each block of 8x8 texels: the smallest and largest stored depth over that block and its neighbours to the right,
- * below and diagonally, i.e. over 16x16 texels. Whatever place in its block a texel has, that block's bounds hold for
- * the 9x9 texels from it on. A tent reads at most 8 per axis; larger footprints ask several blocks. If the receiver is
- * in front of the smallest, or behind the largest, the answer is exactly 1 or 0: the picture is the same with and
- * without (a test compares). 4 bytes per 64 texels.
+ * below and diagonally, i.e. over 16x16 texels. For any texel of a block, the block's bounds are valid for the 9x9
+ * texels from that texel on. A tent reads at most 8 per axis; larger footprints read several blocks. If the receiver is
+ * in front of the smallest depth, or behind the largest, the result is exactly 1 or 0: the picture is the same with and
+ * without blocks (a test compares). 4 bytes per 64 texels.
  *
  * Bounds are the upper 16 bits of a depth of 32: lo << 16 .. hi << 16 | 0xFFFF contain every texel of 32 bits, and
  * those of 8 and 16 bits lie in lo << 16 .. hi << 16, see gn_block_highest().
@@ -16,18 +16,18 @@
 #include "shadow/gn_texel.h"
 #include "gnomon.h"
 
-#define GN_BLOCK_REACH 9 /* texels per axis that one block answers for */
+#define GN_BLOCK_REACH 9 /* texels per axis for which one block's bounds are valid */
 
-/* Points a view that has its place in an atlas to its blocks there. */
+/* Sets the view's pointer to its blocks; its tile in the atlas is known. */
 void gn_blocks_find(gn_frame *frame, gn_light_view *view);
 
 void gn_blocks_build(gn_light_view *view);
 
-/* The same for a tile that was cleared, and whose spans were marked since: what was not touched is empty. */
+/* The same for a tile that was cleared and whose spans were marked since: unmarked blocks are empty. */
 void gn_blocks_clear(const gn_light_view *view);
 void gn_blocks_build_touched(gn_light_view *view);
 
-/* Marks the blocks of n > 0 texels from (u, v) on by bounds that no block has. */
+/* Marks the blocks of n > 0 texels from (u, v) on, by impossible bounds. */
 GN_HOT static inline void gn_blocks_touch(const gn_light_view *view, int32_t u, int32_t v, int32_t n)
 {
     gn_depth_block *row = view->block + ((v >> 3) << (view->tile_log2 - 3));
@@ -52,8 +52,8 @@ GN_HOT static inline uint32_t gn_block_highest(const gn_depth_block *block, int3
     return (uint32_t)block->hi << 16 | (depth_bits > 16 ? 0xFFFFU : 0U);
 }
 
-/* Whether the bounds over n x n texels, n <= 18, tell of all of them whether they keep in the dark what compares with
- * least .. most: 0 or 65536. */
+/* Whether the bounds over n x n texels, n <= 18, decide the attenuation of receivers with compare depths min .. max: 0
+ * or 65536. */
 GN_HOT static inline int gn_blocks_decide(const gn_light_view *view, int32_t u, int32_t v, int32_t n, uint32_t least,
                                           uint32_t most, uint32_t *attenuation)
 {

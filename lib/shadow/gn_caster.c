@@ -21,13 +21,13 @@ GN_HOT static void store(gn_texels row, int32_t bits, int32_t u, int64_t z, gn_a
     else row.d32[u] = v;
 }
 
-/* Depth of a caster in 16-bit texels, if it is nowhere cut off, nor so steep that it could leave its range by half of
- * all depths: all of it fits 32 bits then, and steps may be taken modulo 2^32. */
+/* Depth of a caster in 16-bit texels, if it is nowhere limited, nor so steep that it could leave its range by half of
+ * all depths. Then it fits 32 bits, and steps may be taken modulo 2^32. */
 typedef struct {
-    uint32_t z_corner; /* in texel (0, 0), above the least */
+    uint32_t z_corner; /* in texel (0, 0), above the smallest */
     uint32_t dz_du, dz_dv;
     uint32_t range;
-    uint32_t add; /* the least, with bias and half a step */
+    uint32_t add; /* the smallest depth, with bias and half a step */
     int usable;
 } caster_depth16;
 
@@ -94,7 +94,8 @@ GN_HOT int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view,
                               gn_min32(gn_first_px(gn_max32(x[0], gn_max32(x[1], x[2])), bits), size))
         return 0;
     int32_t n_rows = gn_walk_begin(walk, x, y, bits, 0, size);
-    if (GN_SIZE_FIRST || walk->row < walk->row_end[0]) return n_rows; /* more than one batch: something will be there */
+    if (GN_SIZE_FIRST || walk->row < walk->row_end[0])
+        return n_rows; /* more than one batch of rows: some texel is covered */
     for (int32_t i = 0; i < n_rows; i++)
         if (gn_max32(walk->span[i].x_begin, 0) < gn_min32(walk->span[i].x_end, size)) return n_rows;
     return 0;
@@ -106,7 +107,7 @@ GN_HOT int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster
     int32_t size = view->tile_texels, n_texels = 0, v = walk->first;
     caster_depth16 depth = depth16_begin(view, caster);
     uint32_t range =
-        !GN_SIZE_FIRST && depth.usable && !alpha ? depth.range : 0; /* the short way has the same results */
+        !GN_SIZE_FIRST && depth.usable && !alpha ? depth.range : 0; /* the fast path gives the same results */
     for (; n_rows > 0; n_rows = gn_walk_on(walk)) {
         for (const gn_span *at = walk->span; n_rows > 0; n_rows--, at++, v++) {
             int32_t u = gn_max32(at->x_begin, 0), n = gn_min32(at->x_end, size) - u;

@@ -9,7 +9,7 @@
 
 #define GN_CASTER_GRADIENT_MAX ((int64_t)1 << 33) /* twice the whole depth range per texel */
 
-/* Depth over one triangle, in shares of the view's range, Q32. */
+/* Depth over one triangle, as fractions of the view's depth range, Q32. */
 typedef struct {
     int64_t z_corner; /* at the centre of texel (0, 0), |.| < 2^62 */
     int64_t dz_du, dz_dv;

@@ -11,7 +11,7 @@ static int in_layer(const gn_object *object, gn_layer layer)
     return layer == GN_LAYER_ALL || moving == (layer == GN_LAYER_MOVING);
 }
 
-/* By layer, by box, and by what smaller cascades show. [D8] */
+/* Culls by layer, by box, and by smaller cascades. [D8] */
 int gn_cull_draws(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx, gn_layer layer, int *culled)
 {
     *culled = 0;

@@ -45,7 +45,7 @@ static int persp_sees(const gn_frame *frame, const gn_light_view *view, const gn
     if (bias)
         deepest += gn_bf_apply(bias * (deepest > fit->near_q16 ? deepest : fit->near_q16), fit->texel_per_z, -16) + 1;
     if (deepest < fit->near_q16) return 0;
-    /* half-width of the tile at that depth, a texel and the casters' bias more */
+    /* half-width of the tile at that depth, plus a texel and the casters' bias */
     int64_t width = gn_bf_apply(deepest, fit->texel_per_z, view->tile_log2 - 1); /* deepest * t */
     width += (width >> view->tile_log2) * (4 + (2 * bias >> 16)) + 4;
     return (int64_t)gn_abs64(c[0]) - e[0] <= width && (int64_t)gn_abs64(c[1]) - e[1] <= width;

@@ -1,4 +1,4 @@
-/* Casters whose shadows a smaller cascade shows. */
+/* Casters whose shadows lie wholly in a smaller cascade. */
 #include "gn_internal.h"
 
 #include "base/gn_math.h"
@@ -23,7 +23,7 @@ void gn_cull_begin(gn_frame *frame)
     }
 }
 
-/* |a - b| + 1, Q16; 2^32 at the most */
+/* |a - b| + 1, Q16; at most 2^32 */
 static uint64_t distance_q16(const int64_t a[3], const int64_t b[3])
 {
     uint64_t sum = 0;
@@ -52,14 +52,14 @@ static int64_t shadow_length_q16(const gn_frame *frame, const gn_light_view *vie
     return length;
 }
 
-/* Leaves casters out of a larger cascade. [D8] */
+/* Whether a caster may be skipped in a larger cascade. [D8] */
 int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, uint32_t object_idx)
 {
     const gn_object_state *object = &frame->object[object_idx];
     const gn_light *light = &frame->scene->lights[view->light_idx];
     int64_t share_uq16 = 52429 - (int64_t)frame->scene->shadow.cascade_fade_uq16; /* 0.8 - c */
     if (share_uq16 <= 0 || light->receiver_plane) return 0; /* a tap may compare with a depth far from the receiver's */
-    for (uint32_t i = 0; i < GN_N_CASCADES(frame); i++)     /* an old tile may lack what a new one shows */
+    for (uint32_t i = 0; i < GN_N_CASCADES(frame); i++)     /* a kept tile may lack the object */
         if (frame->scene->shadow.refresh[i] > 1) return 0;
     const int64_t zero[3] = {0, 0, 0};
     int64_t c[3], end[3], half[3];
@@ -67,7 +67,7 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, uint3
         c[k] = object->centre_q16[k];
         half[k] = object->half_q16[k];
     }
-    /* the sphere around the object, widened by what a lookup in this view can reach beyond it */
+    /* the sphere around the object, widened by the filter radius and bias of a lookup in this view */
     int64_t reach_texels_q16 = (view->filter_idx + 1) * (int64_t)(65536 + gn_bias_reach_q16(frame, view, light)) +
                                131072 + light->bias_caster_q16;
     int64_t radius = (int64_t)distance_q16(half, zero) +
@@ -81,7 +81,7 @@ int gn_cull_shown_nearer(const gn_frame *frame, const gn_light_view *view, uint3
         int64_t centre[3], r = (int64_t)gn_isqrt64(cascade->radius2_q32) * share_uq16 >> 16;
         for (int k = 0; k < 3; k++)
             centre[k] = frame->cam.eye_q16[k] + gn_shr64((int64_t)cascade->centre_q16 * frame->cam.axis_q30[2][k], 30);
-        /* both ends of the shadow inside: then all of it */
+        /* both ends of the shadow are inside, so all of it is */
         if ((int64_t)distance_q16(c, centre) + radius <= r && (int64_t)distance_q16(end, centre) + radius <= r)
             return 1;
     }

@@ -19,7 +19,7 @@ GN_HOT static uint16_t rotation_turn(int32_t pixel_x, int32_t pixel_y)
 
 /* Offsets have 27 fraction bits: a radius and a rotation in Q12 (|.| <= 2^15 + 1) times a point in Q15 (|.| <= 2^15 +
  * 1) stay below 2^30.1, plus a fraction of a texel. They err by at most 2^-12.5 texels by the rotation's rounding and
- * radius * 2^-15.5 by the table's: below 2^-11 together, by which the footprint is widened before bounds are asked.
+ * radius * 2^-15.5 by the table's: below 2^-11 together. The footprint is widened by that before its bounds are read.
  * [F4] */
 GN_HOT uint32_t gn_disk_attenuation(const gn_frame *frame, const gn_lookup *l, const gn_receiver *receiver)
 {

@@ -67,11 +67,11 @@ GN_HOT static uint32_t bilinear(const gn_lookup *l, int32_t bits)
     return bits <= 8 ? sum << (16 - 2 * bits) : (sum + ((1U << (2 * bits - 16)) >> 1)) >> (2 * bits - 16);
 }
 
-/* A coordinate may lie far outside after a steep offset: the border's answer holds there, but its fraction still
- * weighs. */
+/* A coordinate may lie far outside after a steep offset. There every tap reads the border, but the fraction still gives
+ * the weights. */
 GN_HOT static int32_t near_tile(int32_t c_q16)
 {
-    if ((uint32_t)c_q16 + (64U << 16) < 1152U << 16) return c_q16; /* from -64 to 1088: most are */
+    if ((uint32_t)c_q16 + (64U << 16) < 1152U << 16) return c_q16; /* from -64 to 1088: the common case */
     return (c_q16 < 0 ? -64 : 1088) * 65536 + (c_q16 & 0xFFFF);
 }
 

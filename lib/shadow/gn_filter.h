@@ -7,27 +7,27 @@
 /* A surface point as a light view sees it. */
 typedef struct {
     int32_t u_q16, v_q16; /* tile coordinates in texels */
-    uint32_t depth_q32;   /* share of the view's depth range */
-    int32_t slope_q28[2]; /* receiver's plane: change of that share per texel along u and v, within +-2; 0: compare with
-                             depth_q32 everywhere */
-    int32_t pixel_x, pixel_y; /* where it is seen: turns the disk */
+    uint32_t depth_q32;   /* fraction of the view's depth range */
+    int32_t slope_q28[2]; /* receiver's plane: change of that fraction per texel along u and v, within +-2; 0: compare
+                             with depth_q32 everywhere */
+    int32_t pixel_x, pixel_y; /* its screen pixel: rotates the disk */
 } gn_receiver;
 
 /* Attenuation 0 (shadowed) .. 65536 (lit). Texels outside the tile repeat its border, or are lit if the view says so.
  */
 uint32_t gn_filter_attenuation(const gn_frame *frame, const gn_light_view *view, const gn_receiver *receiver);
 
-/* A receiver on the way from pixel to pixel: tile coordinates in texels, Q16, and its share of the view's depth range,
- * Q31; negative before the near plane. Coordinates within +-2^28. */
+/* A receiver that is stepped from pixel to pixel: tile coordinates in texels, Q16, and its depth as a fraction of the
+ * view's range, Q31; negative before the near plane. Coordinates within +-2^28. */
 typedef struct {
     int32_t u_q16, v_q16, depth_q31;
 } gn_receiver_step;
 
-/* Whether bounds of depth tell the attenuation of all receivers on the line between two; never for the disk. */
+/* Whether bounds of depth decide the attenuation of all receivers on the line between two; never for the disk. */
 int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *a,
                       const gn_receiver_step *b, uint32_t *attenuation);
 
-/* Attenuations of n receivers from `from` on, all between `from` and `to`, which the steps may not quite reach. */
+/* Attenuations of n receivers from `from` on, all between `from` and `to`; rounded steps may end just short of `to`. */
 void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
                    const gn_receiver_step *to, const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
 

@@ -1,4 +1,4 @@
-/* Rows of receivers: what pixel by pixel would be found for each of them. */
+/* Rows of receivers: the same attenuations as pixel by pixel. */
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
@@ -22,7 +22,7 @@ GN_HOT static uint32_t min_passing_depth(const gn_frame *frame, const gn_light_v
     return gn_rounded_depth(depth_q32, gn_dropped_bits(frame, view), gn_texel_far(GN_VIEW_BITS(view)));
 }
 
-/* Whether texels first .. last along both axes are all lit or all dark to every depth from `least` to `most`. */
+/* Whether texels first .. last along both axes are all lit or all dark for every depth from `least` to `most`. */
 GN_HOT static int texels_agree(const gn_light_view *view, const int32_t first[2], const int32_t last[2], uint32_t least,
                                uint32_t most, uint32_t *attenuation)
 {
@@ -30,7 +30,7 @@ GN_HOT static int texels_agree(const gn_light_view *view, const int32_t first[2]
     uint32_t lit = 0, dark = 0, n = (uint32_t)(last[0] - first[0]) + 1;
     if (first[0] < 0 || first[1] < 0 || last[0] > end || last[1] > end) return 0;
     if (GN_DEPTH_BLOCKS && last[0] - first[0] < GN_BLOCK_REACH && last[1] - first[1] < GN_BLOCK_REACH) {
-        /* for less than a look at each */
+        /* cheaper than one lookup each */
         const gn_depth_block *bounds = gn_blocks_inside(view, first[0], first[1]);
         *attenuation = most <= (uint32_t)bounds->lo << 16 ? 65536 : 0;
         if (*attenuation || least > gn_block_highest(bounds, bits)) return 1;
@@ -63,7 +63,7 @@ GN_HOT int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, c
            gn_blocks_decide(view, first[0], first[1], n, least, most, attenuation);
 }
 
-/* 2x2 of 16 bits whose texels all lie in the tile. Coordinates half a texel up and left: what is shifted out is the
+/* 2x2 of 16 bits whose texels all lie in the tile. Coordinates half a texel up and left: the bits shifted out are the
  * fraction. */
 GN_HOT static void bilinear_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at,
                                 const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
@@ -74,8 +74,7 @@ GN_HOT static void bilinear_row(const gn_frame *frame, const gn_light_view *view
     at.u_q16 -= 32768;
     at.v_q16 -= 32768;
     at.depth_q31 -=
-        1 << (dropped -
-              2); /* half a step is added, and a step taken off: a texel above is not below the depth rounded */
+        1 << (dropped - 2); /* plus half a step, minus one step: a texel above this is not below the rounded depth */
     for (uint32_t *end = attenuation + n; attenuation < end; attenuation++) {
         const uint16_t *p = texel + (((uint32_t)at.v_q16 >> 16) << log2) + ((uint32_t)at.u_q16 >> 16), *q = p + pitch;
         int32_t below = at.depth_q31 >> 15; /* lit: the texel is above */
@@ -97,7 +96,7 @@ GN_HOT static void bilinear_row(const gn_frame *frame, const gn_light_view *view
     }
 }
 
-/* The same of 3x3: what tent() does, but for its looks at bounds. */
+/* The same of 3x3: as tent(), but without bounds. */
 GN_HOT static void tent3_row(const gn_frame *frame, const gn_light_view *view, gn_receiver_step at,
                              const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
 {
@@ -128,7 +127,7 @@ GN_HOT static void tent3_row(const gn_frame *frame, const gn_light_view *view, g
     }
 }
 
-/* Whether that is all there is to do. */
+/* Whether a row may take the fast path: filter, bits and footprint fit. */
 GN_HOT static int is_simple(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
                             const gn_receiver_step *to)
 {

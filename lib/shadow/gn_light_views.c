@@ -27,7 +27,7 @@ static void view_axes(gn_light_view *view, const int32_t w_q30[3])
     gn_cross_q30(axis[1], axis[2], axis[0]);
 }
 
-/* The light's softness over the atlas's filter. [F5] */
+/* The light's softness overrides the atlas's filter. [F5] */
 static gn_filter resolve_filter(gn_filter atlas, gn_softness softness)
 {
     if (softness == GN_SOFTNESS_HARD) return atlas == GN_FILTER_HARD ? GN_FILTER_HARD : GN_FILTER_2X2;
@@ -43,14 +43,14 @@ static void set_filter(const gn_frame *frame, gn_light_view *view, const gn_ligh
     view->filter_idx = filter > GN_FILTER_2X2 ? (uint8_t)(filter - GN_FILTER_2X2) : 0;
     view->disk_radius_q16 = 0;
     if (!GN_DISK_FILTER || filter != GN_FILTER_DISK) return;
-    /* 0.004 T for views that are a share of their tile; an orthographic fit says otherwise */
+    /* 0.004 T for perspective views; the orthographic fit overwrites it */
     int64_t radius_q16 =
         gn_shr64((int64_t)shadow->penumbra_uq16 * view->tile_texels * 17179869, 32); /* 2^22 * 2^10 * 2^25 */
     view->filter_idx = (uint8_t)gn_clamp64((radius_q16 + 65535) >> 16, 1, GN_DISK_INDEX_MAX);
     view->disk_radius_q16 = (int32_t)gn_clamp64(radius_q16, 0, (int64_t)view->filter_idx << 16);
 }
 
-/* Where the view's tile lies, and how many bits its texels have. [A1] [A4] */
+/* The tile's position in the atlas, and the bits of its texels. [A1] [A4] */
 static void set_texels(gn_frame *frame, gn_light_view *view)
 {
     view->depth_bits = (uint8_t)GN_K(frame, depth_bits);
@@ -65,7 +65,7 @@ static void set_texels(gn_frame *frame, gn_light_view *view)
     if (GN_DEPTH_BLOCKS) gn_blocks_find(frame, view);
 }
 
-/* The view of one cascade, or of all of the shadowed distance. [D1] */
+/* The view of one cascade, or of the whole shadow distance. [D1] */
 static void fit_directional(gn_frame *frame, gn_light_view *view, const gn_light *light, int cascaded)
 {
     int64_t direction[3] = {light->direction[0], light->direction[1], light->direction[2]};
@@ -97,8 +97,8 @@ static void fit(gn_frame *frame, gn_light_view *view, const gn_light *light, int
     if (GN_RECEIVER_BIAS) view->offset_q16 += (view->filter_idx + 1) * light->bias_receiver_q16[2];
 }
 
-/* Whether the schedule lets a cascade keep its tile of an earlier frame, which slot `idx` still holds. After a
- * frame that was begun but not drawn the slot holds a fit that its texels do not belong to. [A5] */
+/* Whether the schedule lets a cascade keep its tile of an earlier frame, which is still in slot `idx`. After a frame
+ * that was begun but not drawn, the slot's fit does not belong to its texels. [A5] */
 static inline int stays(const gn_frame *frame, uint32_t idx, uint32_t light_idx, uint32_t cascade_idx)
 {
     uint32_t period = frame->scene->shadow.refresh[cascade_idx];
@@ -106,7 +106,7 @@ static inline int stays(const gn_frame *frame, uint32_t idx, uint32_t light_idx,
     gn_filter filter = resolve_filter(frame->scene->shadow.filter, frame->scene->lights[light_idx].softness);
     if (period < 2 || frame->frame_count % period == 0 || !gn_kept_holds(frame, idx)) return 0;
     if (!view->tile_done) return 0;       /* the frame was abandoned: the fit is newer than the texels */
-    if (view->filter != filter) return 0; /* what another filter needs was not validated */
+    if (view->filter != filter) return 0; /* the kept view's filter was not validated in this scene */
     return !view->perspective && !view->empty && view->light_idx == light_idx && view->cascade_idx == cascade_idx;
 }
 
@@ -127,14 +127,14 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
     view->first_texel = *first_texel;
     if (!plan->cascaded || !GN_CASCADE_UNUSED(frame, cascade_idx)) *first_texel += 1U << (2 * plan->tile_log2);
     set_texels(frame, view);
-    /* also of an empty one: a light's first view says what kind all of them are */
+    /* also of an empty view: a light's first view tells the kind of all its views */
     view->perspective = frame->light[light_idx].kind != GN_LIGHT_DIRECTIONAL;
     view->border_lit = !view->perspective && !plan->cascaded;
     view->empty = plan->cascaded && frame->cascade[cascade_idx].radius2_q32 == 0;
     if (view->empty) return;
     if (view->stale) gn_ortho_rays(frame, view);
     if (GN_AUTO_BIAS && view->stale && frame->light[light_idx].auto_bias) gn_bias_auto_view(frame, view);
-    /* a texel that was fitted to a far narrower picture can leave a ray no fraction bits */
+    /* a kept fit from a far narrower picture can leave a ray no fraction bits */
     if (view->stale && view->fit.ortho.ray_shift < 0) view->stale = 0;
     if (!view->stale) fit(frame, view, &frame->scene->lights[light_idx], plan->cascaded);
 }
@@ -142,7 +142,7 @@ static void add_view(gn_frame *frame, uint32_t light_idx, const gn_tile_plan *pl
 /* Tiles of one atlas lie one behind the other, larger ones first, so that each begins at a multiple of its size. */
 static void add_views(gn_frame *frame, const gn_tile_plan *plan)
 {
-    uint32_t first[GN_MAX_LIGHTS] = {0}, next[2] = {0, 0};                /* every light with tiles gets its first */
+    uint32_t first[GN_MAX_LIGHTS] = {0}, next[2] = {0, 0};                /* first: set for every light with tiles */
     for (int32_t log2 = GN_TILE_IMPORTANCE ? 10 : 3; log2 >= 3; log2--) { /* else one size per atlas */
         for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
             if (!plan[l].n_tiles || (GN_TILE_IMPORTANCE && plan[l].tile_log2 != log2)) continue;

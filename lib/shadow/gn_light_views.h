@@ -4,7 +4,7 @@
 
 #include "gnomon.h"
 
-/* Fills frame->view, and what frame->light says of shadows. gn_lights_setup has been called. */
+/* Fills frame->view, and the shadow fields of frame->light. gn_lights_setup has been called. */
 gn_status gn_light_views_setup(gn_frame *frame);
 
 #endif

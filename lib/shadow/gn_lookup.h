@@ -1,4 +1,4 @@
-/* A look at texels of a shadow tile: which of them keep a receiver dark. What all filters are made of. */
+/* Lookups in a shadow tile: which texels are nearer to the light than the receiver. All filters are built from them. */
 #ifndef GN_LOOKUP_H
 #define GN_LOOKUP_H
 
@@ -8,13 +8,13 @@
 #include "shadow/gn_filter.h"
 #include "shadow/gn_texel.h"
 
-/* A receiver made ready for its taps. A texel, in the upper bits of 32, is lit if it is not below `least`: the
+/* A receiver prepared for its taps. A texel, in the upper bits of 32, is lit if it is not below `least`: the
  * receiver's depth rounded to the bits of the view and depth_frac, at most that of an empty texel. */
 typedef struct {
     const gn_light_view *view;
     int32_t u_q16, v_q16;
     uint32_t least;
-    int32_t sloped; /* receiver's plane: with GN_RECEIVER_PLANE alone are this and what follows set */
+    int32_t sloped; /* receiver's plane: this and the following fields are set only with GN_RECEIVER_PLANE */
     int32_t slope_q28[2];
     int64_t least_q32; /* on the plane, at the texel that (u, v) lies in, not limited */
 } gn_lookup;
@@ -26,7 +26,7 @@ GN_HOT static inline int32_t gn_dropped_bits(const gn_frame *frame, const gn_lig
     return GN_VIEW_BITS(view) == 32 ? 0 : 32 - GN_VIEW_BITS(view) - GN_K(frame, shadow_depth_frac);
 }
 
-/* The far value is a multiple of 2^dropped: nothing below it rounds beyond it. */
+/* The far value is a multiple of 2^dropped, so that no smaller depth rounds beyond it. */
 GN_HOT static inline uint32_t gn_rounded_depth(uint32_t depth_q32, int32_t dropped, uint32_t far)
 {
     if (depth_q32 >= far) return far;
@@ -51,8 +51,8 @@ GN_HOT static inline gn_texels gn_view_texels(const gn_light_view *view, int32_t
     return gn_texels_at(view->depth, GN_VIEW_BITS(view), ((size_t)(uint32_t)v << view->tile_log2) + (uint32_t)u);
 }
 
-/* Whether n x n texels from (u, v) on lie in the tile and compare with one depth: nothing to look after at each tap.
- * Where size comes first it is looked after all the same. */
+/* Whether n x n texels from (u, v) on lie in the tile and compare with one depth, so that taps need no checks. With
+ * GN_SIZE_FIRST taps are always checked. */
 GN_HOT static inline int gn_lookup_is_plain(const gn_lookup *l, int32_t u, int32_t v, int32_t n)
 {
     uint32_t room = (uint32_t)(l->view->tile_texels - n);
@@ -70,7 +70,7 @@ GN_HOT static inline uint32_t gn_lookup_tap(const gn_lookup *l, int32_t u, int32
     return gn_texel_load(gn_view_texels(l->view, u, v), GN_VIEW_BITS(l->view), 0) >= l->least;
 }
 
-/* Whether blocks' bounds tell the answer for all of the n x n <= 18 x 18 texels from (u, v) on, 0 or 65536:
+/* Whether blocks' bounds decide the attenuation of all n x n <= 18 x 18 texels from (u, v) on, 0 or 65536:
  * gn_lookup_bounds.c. */
 int gn_lookup_decided(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint32_t *answer);
 

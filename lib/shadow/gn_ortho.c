@@ -43,7 +43,7 @@ static int64_t disk_radius_q16(const gn_frame *frame, gn_bfloat inv_texel)
     return gn_clamp64(gn_bf_apply(world_q48, inv_texel, frame->scene->unit_log2 - 32), 0, (int64_t)1 << 30);
 }
 
-/* Filter index of the disk: from the texel that the narrowest filter would have; a wider one only grows the texel. */
+/* Filter index of the disk: from the texel size of the narrowest filter, as a wider filter only enlarges the texel. */
 static void disk_index(const gn_frame *frame, gn_light_view *view, const gn_light *light, gn_bfloat radius)
 {
     int clamped;
@@ -138,7 +138,7 @@ void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh,
     }
 }
 
-/* Cuts at sign * c[axis] <= reach. */
+/* Cuts at sign * c[axis] <= `reach`, the cut distance. */
 static GN_NOINLINE void clip_side(gn_light_polygon *polygon, gn_light_polygon *in, int axis, int64_t sign)
 {
     *in = *polygon;
@@ -195,15 +195,15 @@ GN_INLINE int64_t apply(int32_t a, gn_bfloat b, int32_t shift)
     return a < 0 ? -v : v;
 }
 
-/* Texels along w, Q16, as a share of the depth range, Q32. |.| < 2^49 */
+/* Texels along w, Q16, as a fraction of the depth range, Q32. |.| < 2^49 */
 static inline int64_t depth_q32(const gn_light_view *view, int64_t texels_q16)
 {
     int32_t up = 16 - view->tile_log2 - view->depth_log2; /* at most 13 */
     return up >= 0 ? gn_shl64(texels_q16, up) : gn_shr64(texels_q16, -up);
 }
 
-/* Plane, bias [B1] and range of a triangle with this normal, whose depths are lo .. hi, texels. Returns 0 if it cannot
- * be seen from the light. [P7] [D9] */
+/* Plane, bias [B1] and range of a triangle with this normal, whose depths are lo .. hi, texels. Returns 0 if the light
+ * cannot see it. [P7] [D9] */
 static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, const int32_t nn[3], int two_sided,
                                     int64_t lo, int64_t hi)
 {
@@ -242,7 +242,8 @@ static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *vi
     return ortho_caster(out, view, nn, two_sided, lo, hi);
 }
 
-/* Depth at the centre of texel (0, 0) from the plane through one vertex, which is within reach: below 2^48. */
+/* Depth at the centre of texel (0, 0) from the plane through one vertex, which is within the cut distance: below 2^48.
+ */
 static int64_t depth_at_corner(const gn_light_view *view, const gn_caster *caster, int64_t u_q16, int64_t v_q16,
                                int64_t depth_q16)
 {

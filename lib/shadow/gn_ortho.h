@@ -8,7 +8,7 @@
 /* Fits a view, whose light, axes, tile and filter are known, to the sphere of the slice near .. far. */
 void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16);
 
-/* The planes from which light coordinates along this frame's rays follow; all else of the fit stays. */
+/* Updates only the planes that give light coordinates along this frame's rays; the rest of the fit stays. */
 void gn_ortho_rays(const gn_frame *frame, gn_light_view *view);
 
 /* Tile coordinates of a world point before the origin is taken off: p . axis / texel, Q16, within 1 LSB + 2^-29 of the
@@ -19,13 +19,13 @@ int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_
 void gn_ortho_compose(gn_xform *out, const gn_light_view *view, const gn_object *object);
 void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx);
 
-/* Draws a triangle into the view's tile. Returns the number of texels it covers, -1 if it cannot show there. */
+/* Draws a triangle into the view's tile. Returns the number of texels it covers, -1 if it is culled. */
 int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha);
 
 /* The same for corners within 2^29 (8192 texels), without alpha. */
 int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting,
                                 const int32_t *const c[3]);
 
-#define GN_ORTHO_TOO_FAR (-2) /* without GN_CASTER_CLIPPING: it reaches too far beyond the tile */
+#define GN_ORTHO_TOO_FAR (-2) /* without GN_CASTER_CLIPPING: it extends too far beyond the tile */
 
 #endif

@@ -22,7 +22,7 @@ GN_HOT int32_t gn_persp_face(const int32_t from_light_q16[3])
     return 2 * axis + (from_light_q16[axis] < 0);
 }
 
-/* With filter and offset a tap at a face's border still lies in its tile. [P6] */
+/* Wide enough that a tap at a face's border, with filter and offset, still lies in its tile. [P6] */
 GN_HOT int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped)
 {
     const int64_t one = 1 << 24, two = 2 << 24;
@@ -32,7 +32,7 @@ GN_HOT int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t til
     int64_t under = b * b - 4 * product * one;
     *clamped = 1;
     if (b <= 0 || under < 0) return two;
-    /* the smaller root of P (1 - A) t^2 - (1 - P - A) t + 1, in the form that P = 0 does not hurt */
+    /* the smaller root of P (1 - A) t^2 - (1 - P - A) t + 1, in the form that is also valid for P = 0 */
     int64_t sum = b + (int64_t)gn_isqrt64((uint64_t)under);
     int64_t t = (int64_t)gn_udiv64((uint64_t)((two << 24) + sum / 2), (uint64_t)sum);
     if (t > two) return two;
@@ -99,7 +99,7 @@ GN_HOT static void add_bias(const gn_light_view *view, gn_caster *caster)
     caster->dz_dv -= gn_shr64((caster->dz_dv >> 2) * share, 28);
     caster->lo += gn_shr64((one - caster->lo) * share, 30);
     caster->hi += gn_shr64((one - caster->hi) * share, 30);
-    /* the corner may be far outside: two steps of 15 bits */
+    /* the corner may be far outside: multiplies in two steps of 15 bits */
     int64_t left = one - caster->z_corner;
     caster->z_corner += gn_scale64(left, 15) * (share >> 15) + gn_shr64((left & 32767) * (share >> 15), 15);
 }
@@ -110,10 +110,10 @@ GN_HOT static int persp_caster(gn_caster *caster, gn_plane *plane, const gn_ligh
 {
     const gn_persp_fit *fit = &view->fit.persp;
     gn_plane_setup(plane, v[0], v[1], v[2]);
-    /* u x v = w: a face that looks at the light has its normal against the view, and was turned by gn_plane_setup */
+    /* u x v = w: the normal of a face towards the light points against the view, so gn_plane_setup has negated it */
     if (plane->det == 0 || (!plane->back && !two_sided)) return 0;
     gn_bfloat scale = gn_bf_mul(gn_bf_from_u64((uint64_t)(uint32_t)fit->near_q16),
-                                fit->texel_per_z); /* n / (T / t): 2^17 of it, which is taken off below */
+                                fit->texel_per_z); /* n / (T / t), times 2^17, which is divided out below */
     scale = gn_bf_mul(scale, gn_bf_recip(gn_bf_from_u64((uint64_t)plane->det)));
     int32_t px = 1 - view->tile_texels, z_min = v[0][2], z_max = v[0][2];
     const int64_t most = GN_CASTER_GRADIENT_MAX;

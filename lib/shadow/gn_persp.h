@@ -8,18 +8,18 @@
 /* Fits a view, whose axes, tile and filter are known, to its light. */
 void gn_persp_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light);
 
-/* Half-width of a cube's face, t = tan(fov / 2), Q24, between 1 and 2; *clamped where 2 is all there is. nu:
+/* Half-width of a cube's face, t = tan(fov / 2), Q24, between 1 and 2; *clamped: 2 was not enough. nu:
  * gn_bias_reach_q16. */
 int64_t gn_persp_face_q24(int32_t filter_idx, int32_t nu_q16, int32_t tile_texels, int *clamped);
 
-/* The cube's face that a point lies in, from where it is seen from the light. */
+/* The cube's face that a point lies in, from the point's position relative to the light. */
 int32_t gn_persp_face(const int32_t from_light_q16[3]);
 
 /* Axis of travel of a face, Q1.30. */
 void gn_persp_face_axis(int32_t out_q30[3], int32_t face);
 
 /* Draws a triangle, corners in the view's axes from the light, |.| < 2^30. Returns the number of texels it covers,
- * -1 if it cannot show in the tile. */
+ * -1 if it is culled. */
 int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha);
 
 #endif

@@ -1,4 +1,4 @@
-/* Views of lights, their tiles in the atlases, and casters on their way there. */
+/* Views of lights, their tiles in the atlases, and the state of drawing casters. */
 #ifndef GN_SHADOW_TYPES_H
 #define GN_SHADOW_TYPES_H
 
@@ -36,13 +36,12 @@ typedef struct {
 /* Perspective: a camera at the light, whose picture is the tile. */
 typedef struct {
     int32_t eye_q16[3];
-    int32_t near_q16;      /* n: depth is 1 - n / z */
-    uint32_t focal2_q16;   /* T / t: twice the focal length in texels */
-    gn_bfloat per_near;    /* 1 / n, n in Q16 */
-    gn_bfloat texel_per_z; /* 2t / T: width of a texel at light-plane distance 1 */
-    int32_t guard_q16[2];  /* |x|, |y| <= guard * z after clipping to the guard band */
-    int32_t side_q16[2]; /* the same for the tile's own border, a little wider: what is outside all of it casts nothing
-                            here */
+    int32_t near_q16;           /* n: depth is 1 - n / z */
+    uint32_t focal2_q16;        /* T / t: twice the focal length in texels */
+    gn_bfloat per_near;         /* 1 / n, n in Q16 */
+    gn_bfloat texel_per_z;      /* 2t / T: width of a texel at light-plane distance 1 */
+    int32_t guard_q16[2];       /* |x|, |y| <= guard * z after clipping to the guard band */
+    int32_t side_q16[2];        /* the same for the tile's own border, a little wider: a caster outside it is skipped */
     int64_t ratio_max_q28;      /* x / z beyond this would overflow, times focal2 */
     int32_t constant_share_q30; /* casters: min(1, constant bias * 2t / T) */
 } gn_persp_fit;
@@ -50,10 +49,11 @@ typedef struct {
 typedef struct {
     gn_texels depth;      /* T * T, row by row, inside the atlas */
     uint32_t first_texel; /* of the tile in its atlas */
-    int32_t offset_q16;   /* receiver offset along the normal, texels; automatic bias: the reach of a tap, texels */
+    int32_t offset_q16;   /* receiver offset along the normal, texels; automatic bias: the filter radius plus position
+                             error, texels */
 #if GN_AUTO_BIAS
-    int32_t auto_step; /* automatic bias: what rounding of depths takes, directional: texels, Q16; spot, point: share of
-                          the range, Q32 */
+    int32_t auto_step;  /* automatic bias: the part for rounded depths. Directional: texels, Q16; spot, point: fraction
+                           of the depth range, Q32 */
     int32_t auto_place; /* automatic bias, directional: offset of curved surfaces, texels, Q16; spot, point: error of a
                            point per view depth, Q40 */
 #endif
@@ -69,7 +69,7 @@ typedef struct {
     uint8_t cascade_idx; /* or face of the cube */
     uint8_t perspective;
     uint8_t border_lit; /* texels outside the tile count as lit */
-    uint8_t in_other;   /* it lies in the other atlas */
+    uint8_t in_other;   /* its tile lies in the local-light atlas */
     uint8_t empty;      /* its cascade has no slice: never drawn, never selected */
     uint8_t tile_done;
     uint8_t stale;          /* by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
@@ -81,7 +81,7 @@ typedef struct {
     } fit;
 } gn_light_view;
 
-/* What a view's tile holds from one frame to the next. */
+/* Signatures of a view's kept tile. */
 typedef struct {
     uint64_t signature;        /* of everything that its texels depend on; 0: nothing is kept */
     uint64_t static_signature; /* the same for the static layer */
@@ -119,9 +119,9 @@ typedef struct {
     } by;
 } gn_caster_job;
 
-#define GN_ORTHO_POLYGON_MAX 8 /* a triangle against four sides has 7; rounding may bend it once more */
+#define GN_ORTHO_POLYGON_MAX 8 /* a triangle cut by four sides has 7; rounding may add one */
 
-/* Corners as a view sees them: U, V, D in texels, Q16; of perspective views in world units from the light. */
+/* Corners in a view's coordinates: U, V, D in texels, Q16; of perspective views in world units from the light. */
 typedef struct {
     int64_t p[GN_ORTHO_POLYGON_MAX][3];
     int n;

@@ -1,5 +1,6 @@
 /* Filters that weigh texels: tents (F3), and the linear kernels of the same width (F6). Compares come first,
- * weights are exact integers, one division by multiplication ends it. Inline, as they have one caller per pixel. */
+ * weights are exact integers, and one division, done as a multiplication, comes last. Inline, as each has one caller
+ * per pixel. */
 #ifndef GN_TENT_H
 #define GN_TENT_H
 
@@ -85,8 +86,8 @@ GN_HOT static inline uint32_t gn_weighted_fraction(uint64_t sum, int32_t scale_b
     return (uint32_t)((kept * scale + ((uint64_t)1 << 35)) >> 36);
 }
 
-/* Which of n x n texels from (u, v) on keep the receiver dark: bit i of dark[j] for texel i of row j. Returns what
- * any row has, and in the upper half what all have. */
+/* Which of n x n texels from (u, v) on keep the receiver dark: bit i of dark[j] for texel i of row j. Returns the OR of
+ * all rows, and in the upper half their AND. */
 GN_HOT static inline uint32_t gn_tent_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n, uint8_t *dark)
 {
     int32_t depth_bits = GN_VIEW_BITS(l->view);
@@ -126,7 +127,7 @@ GN_HOT static inline uint32_t gn_linear_attenuation(const uint8_t *dark, int32_t
                                          : 1588375U); /* round(2^32 / whole) */
 }
 
-/* Texel by texel. Where size comes first, its arrays are not on the stack while bounds decide. */
+/* Texel by texel. With GN_SIZE_FIRST its arrays are not on the stack while bounds decide. */
 GN_HOT static GN_SHARED uint32_t gn_tent_by_texels(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
 {
     uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];

@@ -1,5 +1,5 @@
-/* Texels of shadow maps, at 8, 16 or 32 bits. Depth is a share of the view's range, Q0.32 here; a stored texel
- * holds its upper bits, rounded to nearest. All ones: empty. */
+/* Texels of shadow maps, at 8, 16 or 32 bits. Depth is a fraction of the view's range, Q0.32 here. A stored texel is
+ * its upper bits, rounded to nearest. All ones: empty. */
 #ifndef GN_TEXEL_H
 #define GN_TEXEL_H
 

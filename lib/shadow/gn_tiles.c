@@ -12,7 +12,7 @@
 #define GN_ATLAS_TILES_MAX     16U
 #define GN_CASCADED_LIGHTS_MAX 4U /* shadowed lights that have cascades [D1] */
 
-/* Whether some caster and some receiver are within the light's reach. */
+/* Whether some caster and some receiver are within the light's range. */
 static int shadow_possible(const gn_frame *frame, uint32_t light_idx)
 {
     uint32_t flags = 0;
@@ -51,7 +51,7 @@ static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
         d2 += (uint64_t)(d * d); /* 3 * 2^62 */
     }
     if (d2 <= light->range2_q32) return 64;
-    uint8_t weight = 1; /* the least w with w * distance >= 64 * range: w^2 d2 >= 4096 range2, both scaled to fit */
+    uint8_t weight = 1; /* the smallest w with w * distance >= 64 * range: w^2 d2 >= 4096 range2, both scaled to fit */
     uint64_t range2 = light->range2_q32 >> 6;
     d2 >>= 6;
     while (weight < 64 && (d2 >> 12) * weight * weight + (((d2 & 4095U) * weight * weight) >> 12) < range2) weight++;
@@ -62,8 +62,7 @@ static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
 #endif
 }
 
-/* Tiles that each light would like: one per cascade of a directional light, six of a point light, else one. [P5] [D1]
- */
+/* Tiles that each light requests: one per cascade of a directional light, six of a point light, else one. [P5] [D1] */
 static void wish(gn_frame *frame, gn_tile_plan *plan)
 {
     const gn_scene *scene = frame->scene;
@@ -90,13 +89,13 @@ static void wish(gn_frame *frame, gn_tile_plan *plan)
     }
 }
 
-/* In the order given; what does not fit has none, and later lights are still tried. Returns the number of tiles. [A3]
- */
+/* Grants requests in the scene's order. A light whose tiles do not fit gets none; later lights are still tried. Returns
+ * the number of tiles. [A3] */
 static uint32_t serve(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity)
 {
     uint32_t n_tiles = 0, n_lights = 0, limit = capacity < GN_ATLAS_TILES_MAX ? capacity : GN_ATLAS_TILES_MAX;
     for (uint32_t l = 0; l < frame->scene->n_lights && l < GN_MAX_LIGHTS;
-         l++) { /* the second for the compiler, which does not know */
+         l++) { /* the second: always true, for the compiler */
         if (!plan[l].n_tiles || plan[l].in_other != in_other) continue;
         if (n_tiles + plan[l].n_tiles > limit || (!in_other && n_lights == GN_CASCADED_LIGHTS_MAX)) {
             plan[l].n_tiles = 0;
@@ -124,14 +123,14 @@ static uint32_t texels_of(const gn_tile_plan *plan)
     return (uint32_t)plan->n_tiles << (2 * plan->tile_log2); /* 16 * 2^20 */
 }
 
-/* T / w of a against T / w of b: tiles that are larger than their light is worth come first. */
+/* Compares T / w of a and b: tiles that are too large for their light's importance come first. */
 static int more_generous(const gn_tile_plan *a, const gn_tile_plan *b)
 {
     return ((uint32_t)b->weight << a->tile_log2) > ((uint32_t)a->weight << b->tile_log2);
 }
 
-/* The light to halve (the most generous above 8 texels, later ones first) or to double (the least generous whose tiles
- * then fit). */
+/* The light to halve (the largest T / w above 8 texels, later lights first) or to double (the smallest T / w whose
+ * tiles then fit). */
 static uint32_t pick(const gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other, int halve, int32_t atlas_log2,
                      uint32_t left)
 {
@@ -147,7 +146,7 @@ static uint32_t pick(const gn_frame *frame, const gn_tile_plan *plan, uint32_t i
     return best;
 }
 
-/* All begin as large as the atlas and are halved until they fit; then what is free doubles some again. [A2] */
+/* All tiles begin as large as the atlas and are halved until they fit. Then the free texels double some again. [A2] */
 static void sizes_by_importance(const gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, int32_t atlas_log2)
 {
     uint32_t room = 1U << (2 * atlas_log2), used = 0, l;
@@ -166,7 +165,7 @@ static void sizes_by_importance(const gn_frame *frame, gn_tile_plan *plan, uint3
     }
 }
 
-/* With the default capacities they always do: an atlas holds what it is divided into. */
+/* With the default capacities the tiles always fit the atlas. */
 static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other)
 {
     uint32_t needed = 0, available = in_other ? GN_OTHER_ATLAS_TEXELS : GN_ATLAS_TEXELS;
@@ -176,7 +175,7 @@ static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint3
     return needed <= available ? GN_OK : gn_fail_capacity(frame, GN_ERR_ATLAS_FULL, needed, available);
 }
 
-/* Each of the two atlases has a budget and a size of its own. [A1] */
+/* Each of the two atlases has its own budget and size. [A1] */
 static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity,
                             int32_t atlas_size)
 {

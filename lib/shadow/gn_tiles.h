@@ -10,7 +10,7 @@ typedef struct {
     uint8_t in_other; /* atlas */
     uint8_t cascaded; /* its tiles are cascades */
     uint8_t tile_log2;
-    uint8_t weight; /* 1..64, for sizes by importance */
+    uint8_t weight; /* importance 1..64, w in gn_tiles.c */
 } gn_tile_plan;
 
 /* One plan per light; sets frame->light[].shadow_state. Needs boxes and light states. */

@@ -32,7 +32,7 @@ gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch)
     if (n_refs > GN_MAX_TILE_REFS)
         return gn_fail_capacity(frame, GN_ERR_TILE_REFS_FULL, frame->stats.n_tile_refs, GN_MAX_TILE_REFS);
     GN_COUNT(tile_refs, n_refs);
-    /* to the end of each bin, then filled backwards so that each bin starts where it should, in triangle order */
+    /* offsets to the end of each bin; filling backwards leaves each at its bin's start, in triangle order */
     for (uint32_t i = 1; i <= n_tiles; i++) first[i] = (gn_ref_offset)(first[i] + first[i - 1]);
     for (uint32_t t = frame->stats.n_triangles; t-- > 0;) {
         uint32_t place = !GN_SIZE_FIRST && t < GN_PLACES ? scratch->pixel.rgb565[t] : GN_PLACE_MANY, way = place & 3;

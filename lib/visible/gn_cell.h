@@ -1,11 +1,10 @@
-/* What a cell of a screen tile holds: near / Z in its high bits, the identity of a triangle in its low id_bits. */
+/* Cells of a screen tile: near / Z in the high bits, the identity of a triangle in the low id_bits. */
 #ifndef GN_CELL_H
 #define GN_CELL_H
 
 #include "gnomon.h"
 
-/* A triangle's identity in a cell: 1 .. n_triangles, larger for earlier triangles, which thereby win where depths are
- * equal. */
+/* A triangle's identity in a cell: 1 .. n_triangles, larger for earlier triangles, so that they win at equal depth. */
 GN_HOT static inline uint32_t gn_cell_id(const gn_frame *frame, uint32_t tri_idx)
 {
     return frame->stats.n_triangles - tri_idx;

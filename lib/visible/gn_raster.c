@@ -15,16 +15,16 @@
 #include "visible/gn_screen_rect.h"
 #include "visible/gn_setup.h"
 
-/* What a triangle's rows have in common. A candidate cell is its depth above its identity. */
+/* Constants of a triangle's rows. A candidate cell is depth in the high bits, identity in the low ones. */
 typedef struct {
     uint32_t minus_dx;  /* from a cell to the one before it */
     uint32_t lo, range; /* depth inside the triangle: lo .. lo + range */
     uint32_t id_mask;
-    uint32_t below; /* from a cell of all depth and no identity's bits clear to the triangle's: id_mask - id */
+    uint32_t below; /* id_mask - id: from a cell with all identity bits set to the triangle's cell */
 } raster_depth;
 
-/* Depth is linear over a row; inside the triangle it stays within its range. A snapped edge can reach past the
- * unsnapped plane by a fraction of a pixel, so a value outside is brought back to the nearer end (modulo 2^32). */
+/* Depth is linear over a row; inside the triangle it stays within its range. A snapped edge can extend past the
+ * unsnapped triangle by a fraction of a pixel, so values outside are clamped to the nearer end (modulo 2^32). */
 GN_HOT static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
 {
     uint32_t above = v - depth->lo;
@@ -32,8 +32,8 @@ GN_HOT static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
     return 0U - above < above - depth->range ? depth->lo : depth->lo + depth->range;
 }
 
-/* Identities in a tile ascend as it is drawn, so that a candidate wins where its depth is at least the cell's: all that
- * is compared is its depth with the bits of the identity set. */
+/* Identities ascend in the order of drawing, so a candidate wins where its depth is at least the cell's. Compared is
+ * its depth with all identity bits set. */
 #define GN_CELL_(cell)                                                                                                 \
     do {                                                                                                               \
         uint32_t candidate = iz | id_mask;                                                                             \
@@ -45,7 +45,7 @@ GN_HOT static uint32_t clamp_depth(uint32_t v, const raster_depth *depth)
         GN_KEEP(iz);                                                                                                   \
     } while (0)
 
-/* n > 0 cells, from the last, whose depth is iz, to the first: those that eights leave, then eights. */
+/* n > 0 cells, from the last, whose depth is iz, to the first: the remainder of n / 8, then groups of eight. */
 GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
 {
     GN_COUNT(covered, n);
@@ -90,16 +90,16 @@ GN_INLINE void raster_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_
     }
 }
 
-/* Apart, so that it takes no registers of short spans. */
+/* A function of its own, so that short spans keep their registers. */
 GN_HOT static GN_NOINLINE void raster_long_span(uint32_t *cell, int32_t n, uint32_t iz, uint32_t minus_dx,
                                                 uint32_t id_mask, uint32_t below)
 {
     const raster_depth depth = {minus_dx, 0, 0, id_mask,
-                                below}; /* by their values: a pointer would keep them in memory */
+                                below}; /* passed by value: a pointer would keep them in memory */
     raster_span(cell, n, iz, &depth);
 }
 
-/* The same of no cells if n is not positive, and seldom more than eight. */
+/* The same for n that may be 0 or negative, and is seldom above eight. */
 GN_INLINE void raster_short_span(uint32_t *cell, int32_t n, uint32_t iz, const raster_depth *depth)
 {
     uint32_t minus_dx = depth->minus_dx, id_mask = depth->id_mask, below = depth->below;
@@ -135,15 +135,15 @@ GN_INLINE void raster_short_span(uint32_t *cell, int32_t n, uint32_t iz, const r
 }
 #undef GN_CELL_
 
-/* What is stepped from row to row of a triangle. */
+/* The state that is stepped from row to row of a triangle. */
 typedef struct {
     gn_walk_line left, right;
     uint32_t iz, iz_dy; /* left of the tile's first column */
     uint32_t *row;
 } stepped_rows;
 
-/* The rows before `end`, of which there are some; borders have `fraction` bits. Rows are cut to the tile's width, if
- * not all of them lie inside. */
+/* The rows before `end`, at least one; borders have `fraction` bits. Rows are cut to the tile's width, unless all lie
+ * inside. */
 GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stride, int32_t fraction, int inside,
                            int32_t width, const raster_depth *depth)
 {
@@ -163,7 +163,7 @@ GN_INLINE void raster_rows(stepped_rows *rows, const uint32_t *end, int32_t stri
         right += rows->right.step;
         iz += rows->iz_dy;
         row += stride;
-        GN_KEEP(left); /* stepped, not found again after the loop */
+        GN_KEEP(left); /* stepped, not computed again after the loop */
         GN_KEEP(right);
         GN_KEEP(iz);
         GN_KEEP(row);
@@ -183,7 +183,7 @@ GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, 
     gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
 }
 
-/* A triangle that alpha cuts has surface only where it is not cut. [M8] */
+/* Pixels that alpha cuts have no surface. [M8] */
 GN_HOT static inline void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
@@ -205,8 +205,8 @@ typedef struct {
     uint32_t id_mask;
 } raster_tile;
 
-/* Pixels of a row that need a look each: alpha may cut them, or depth leaves the triangle's range. Where alpha cuts, it
- * is looked up only where the surface would be the nearest. */
+/* Pixels of a row that need a check each: alpha may cut them, or depth may leave the triangle's range. Alpha is looked
+ * up only where the surface would be the nearest. */
 GN_HOT static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint32_t *cell, int32_t n, uint32_t iz,
                                                 gn_alpha_cut *cut, int32_t x)
 {
@@ -220,8 +220,8 @@ GN_HOT static GN_NOINLINE void raster_span_slow(const raster_depth *depth, uint3
     GN_COUNT(covered, cut ? 0 : n);
 }
 
-/* A small triangle that nothing cuts and whose depth needs no look (gn_tri): its edges are stepped in fixed point, row
- * by row. */
+/* A small triangle without alpha whose depth needs no bounds (gn_tri): its edges are stepped in fixed point, row by
+ * row. */
 GN_HOT static GN_NOINLINE void raster_small(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
     /* top, left and right of it, as a ring: left edges lead down from one to the next, right ones from one to the last
@@ -263,8 +263,8 @@ GN_HOT static inline gn_walk_line narrow_line(gn_walk_corner from, gn_walk_corne
     return gn_walk_narrow_at(from.x, from.y, to.x, to.y, y, bits, GN_CORE_DIVIDES);
 }
 
-/* A triangle of a few pixels, that nothing cuts and whose depth needs no look: of most of them all is in one or two
- * screen tiles. Its corners have what rounds them to rows, and to the centres of columns, in them. */
+/* A triangle of a few pixels, without alpha, whose depth needs no bounds. Most lie in one or two screen tiles. Its
+ * corners already include the rounding to rows and to centres of columns. */
 GN_HOT static GN_NOINLINE void raster_narrow(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
     const int32_t bits = GN_K(tile->frame, subpixel_bits), one = 1 << bits, half = one >> 1,
@@ -326,8 +326,7 @@ GN_HOT static void raster_triangle(const raster_tile *tile, const gn_tri *tri, u
     depth.id_mask = tile->id_mask;
     depth.below = tile->id_mask - id;
     uint32_t iz_dy = (uint32_t)tri->iz_dy;
-    /* at the tile's left border, above the least; inside the triangle below its range, but for the last value there is
-     */
+    /* at the tile's left border, above the smallest; inside the triangle below its range, except the largest value */
     uint32_t iz_row =
         tri->iz_ref - depth.lo - (uint32_t)(x[0] >> bits) * iz_dx + (uint32_t)(walk.first - (y[0] >> bits)) * iz_dy;
     uint32_t *row = GN_CELLS(tile->scratch) + walk.first * stride;
@@ -360,7 +359,7 @@ GN_HOT static GN_NOINLINE void raster_cut_triangle(const raster_tile *tile, cons
 #endif
 }
 
-/* A triangle that a screen tile meets. */
+/* Draws a triangle whose bounds intersect the screen tile. */
 GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri, uint32_t id)
 {
     if (!GN_SIZE_FIRST && !gn_tri_is_bounded(tri) && tri->iz.unbounded.walk != GN_TRI_EXACT) {
@@ -401,7 +400,7 @@ GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t 
                    *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
     const gn_tri *first = frame->tri;
     uint32_t n_triangles = frame->stats.n_triangles;
-    GN_KEEP(first);       /* found once */
+    GN_KEEP(first);       /* computed once */
     while (ref != none) { /* backwards: identities ascend */
         uint32_t tri_idx = *--ref;
         raster_one(&tile, first + tri_idx, n_triangles - tri_idx); /* gn_cell_id */

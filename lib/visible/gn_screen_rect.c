@@ -1,4 +1,4 @@
-/* Where a screen tile lies in the picture. */
+/* The rectangle of a screen tile in the picture. */
 #include "gn_internal.h"
 
 #include "base/gn_q.h"

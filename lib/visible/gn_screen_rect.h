@@ -1,4 +1,4 @@
-/* Where a screen tile lies in the picture. */
+/* The rectangle of a screen tile in the picture. */
 #ifndef GN_SCREEN_RECT_H
 #define GN_SCREEN_RECT_H
 

@@ -13,7 +13,7 @@
 
 /* near / Z over a triangle. */
 typedef struct {
-    uint32_t ref;   /* at the centre of the pixel that holds the top, modulo 2^32 */
+    uint32_t ref;   /* at the centre of the pixel that contains the top, modulo 2^32 */
     int32_t dx, dy; /* per pixel */
     uint32_t least, largest;
 } depth_range;
@@ -29,8 +29,8 @@ static inline int gradient(int32_t *out, int64_t n, int32_t f, int32_t s)
     return v == *out;
 }
 
-/* The plane through three projected corners, in Q16 pixels: |x|, |y| < 2^27. Where it is too steep, a
- * pixel spans half of all depths: the nearest stands for it. */
+/* The plane through three projected corners, in Q16 pixels: |x|, |y| < 2^27. If a pixel spans half of all depths, the
+ * plane is too steep: the nearest depth is used everywhere. */
 static inline void depth_of_corners(depth_range *depth, const gn_projected *c0, const gn_projected *c1,
                                     const gn_projected *c2, int32_t to_x_q16, int32_t to_y_q16)
 {
@@ -71,17 +71,17 @@ typedef struct {
     int32_t x, y;
 } grid_corner;
 
-/* A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel grid along each axis:
- * by so much may depth leave the triangle's own range. */
+/* A snapped edge may cover centres outside the unsnapped triangle, by half a unit of the subpixel grid along each axis.
+ * Depth may leave the triangle's own range by this margin. */
 static inline uint32_t depth_margin(int32_t dx, int32_t dy, int32_t bits)
 {
-    return (((gn_abs32(dx) >> 1) + (gn_abs32(dy) >> 1)) >> bits) + 4096; /* and roundings of 2^13 steps */
+    return (((gn_abs32(dx) >> 1) + (gn_abs32(dy) >> 1)) >> bits) + 4096; /* plus the rounding of 2^13 steps */
 }
 
-/* Where the margin is smaller, and neither end of all depths is within it, depth needs no bounds. */
+/* With a smaller margin, and neither end of the depth format within it, depth needs no bounds. */
 #define MARGIN_MAX (1U << 18)
 
-/* Depth of any triangle, from c0 to the centre of the pixel that holds it. */
+/* Depth of any triangle, moved from c0 to the centre of the pixel that contains it. */
 static GN_NOINLINE void general_depth(gn_tri *tri, const gn_projected *c0, const gn_projected *c1,
                                       const gn_projected *c2, int32_t to_x_q16, int32_t to_y_q16, int32_t walk,
                                       int32_t bits)
@@ -139,7 +139,7 @@ static inline int quick_depth(gn_tri *tri, const gn_projected *c0, const gn_proj
 
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
-/* Counts a triangle in the screen tiles that it may have pixels in, if these are few, and leaves them for gn_bin.c.
+/* Counts a triangle in the screen tiles that it may have pixels in, if these are few, and notes them for gn_bin.c.
  * Returns 0 if they are many. */
 static inline int count_few_tiles(const gn_screen_job *job, const gn_rect *px, uint32_t tri_idx)
 {
@@ -160,7 +160,7 @@ static inline int count_few_tiles(const gn_screen_job *job, const gn_rect *px, u
     return 1;
 }
 
-/* The same of any number of tiles. */
+/* The same for any number of tiles. */
 static inline void count_tiles(gn_frame *frame, const gn_rect *px)
 {
     gn_tile_walk tiles = gn_setup_tiles(frame, px); /* of some tiles */
@@ -198,18 +198,18 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
             bottom = gn_max32(b.y, c.y);
     const gn_rect bounds = gn_setup_bounds_of(frame, left, right, a.y, bottom, job->add_px[0], job->add_px[1]);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
-    uint32_t n = frame->stats.n_triangles++; /* counted on, to say how many would have been enough */
+    uint32_t n = frame->stats.n_triangles++; /* counting continues, so that gn_detail can tell the needed capacity */
     if (n >= GN_MAX_TRIANGLES) return;
     if (GN_SIZE_FIRST || !count_few_tiles(job, &bounds, n)) count_tiles(frame, &bounds);
     GN_COUNT(visible, 1);
     gn_tri *tri = &frame->tri[n];
     GN_KEEP(tri);
     tri->x[0] = (gn_coord)a.x, tri->x[2] = (gn_coord)c.x, tri->y[1] = (gn_coord)b.y;
-    if (!GN_SIZE_FIRST) GN_KEEP(tri); /* half-words on both sides are not put together to words: that takes longer */
+    if (!GN_SIZE_FIRST) GN_KEEP(tri); /* copied as half-words: combining them to words takes longer */
     tri->x[1] = (gn_coord)b.x, tri->y[0] = (gn_coord)a.y, tri->y[2] = (gn_coord)c.y;
     tri->object_idx = (uint16_t)job->object_idx;
     tri->triangle_idx = (uint16_t)triangle_idx;
-    /* from the top to the centre of the pixel that holds it */
+    /* from the top to the centre of the pixel that contains it */
     int32_t one = 1 << bits, x = a.x + ((frame->picture.width << bits) >> 1),
             y = a.y + ((frame->picture.height << bits) >> 1);
     int32_t to_x_q16 = ((a.x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->x_q16;

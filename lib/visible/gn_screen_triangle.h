@@ -1,4 +1,4 @@
-/* Projected triangles become those that are drawn: snapped, culled, counted in screen tiles, with a plane of depth. */
+/* From projected triangles to triangles ready to draw: snapped, culled, counted in screen tiles, with a depth plane. */
 #ifndef GN_SCREEN_TRIANGLE_H
 #define GN_SCREEN_TRIANGLE_H
 
@@ -10,7 +10,7 @@ typedef struct {
     uint32_t iz_q32;      /* near / Z */
 } gn_projected;
 
-/* What triangles of one object have in common. */
+/* Constants of one object's triangles. */
 typedef struct {
     gn_frame *frame;
     const gn_object *object;
@@ -18,11 +18,11 @@ typedef struct {
     uint16_t *place; /* see gn_setup.h */
     gn_ref_offset *tile_first;
     int32_t add_px[2];  /* see gn_setup_bounds_of */
-    int32_t fixed_mask; /* 0 where alpha cuts the object: its triangles are not drawn as gn_raster.c draws small ones */
+    int32_t fixed_mask; /* 0 if alpha cuts the object: the fast path for small triangles in gn_raster.c is not used */
     int32_t narrow;     /* gn_walk_narrow, 0 there too */
 } gn_screen_job;
 
-/* Of the frame, and of one of its objects: all but place, and what names the object. */
+/* Sets the frame's constants, and one object's, except its position and index. */
 void gn_screen_begin(gn_screen_job *job, gn_frame *frame);
 void gn_screen_object(gn_screen_job *job);
 

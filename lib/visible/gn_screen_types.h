@@ -26,7 +26,7 @@ typedef union {
 typedef struct {
     gn_tile_pixels *pixels;
     int32_t width;  /* pixels per row of the tile */
-    int32_t x0, y0; /* of the tile in the picture: the dither's pattern stands still in the picture */
+    int32_t x0, y0; /* of the tile in the picture: the dither's pattern is fixed to the picture */
 } gn_pixel_rows;
 
 #endif

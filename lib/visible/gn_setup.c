@@ -44,10 +44,10 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *
 
 /* ---- Vertices ---------------------------------------------------------------------------------------------------- */
 
-/* A vertex as triangles need it. */
+/* A transformed and projected vertex. */
 typedef struct {
     gn_vertex_entry vertex;
-    uint32_t out;    /* outside of which planes: of the picture, of the guard band << 8 */
+    uint32_t out;    /* planes it is outside of: the picture's, and the guard band's << 8 */
     gn_projected at; /* if in the guard band */
 } corner;
 
@@ -74,7 +74,7 @@ static inline uint32_t inverse_depth(const setup_job *job, uint32_t recip, int32
 {
     uint32_t q =
         (uint32_t)(((uint64_t)job->near_norm * recip) >> 32); /* near * 2^near_clz * 2^63 / (Z * 2^clz) / 2^32 */
-    int32_t down = job->near_down - clz;                      /* Z is not nearer than near: -1 at the least */
+    int32_t down = job->near_down - clz;                      /* Z is not nearer than near: at least -1 */
     if (GN_SELDOM(down < 0)) return q >> 31 ? UINT32_MAX : q << 1 | 1U; /* Z is near, and the quotient exact */
     GN_KEEP(q);                                                         /* a branch */
     return q >> down;
@@ -83,7 +83,7 @@ static inline uint32_t inverse_depth(const setup_job *job, uint32_t recip, int32
 /* floor(v * scale / 2^32) */
 static inline int32_t scaled(int32_t v, int32_t scale)
 {
-    GN_KEEP(v); /* positive, or as good as signed: one multiplication */
+    GN_KEEP(v); /* hides the sign from the compiler: one signed multiplication */
     GN_KEEP(scale);
     return (int32_t)(((int64_t)v * scale) >> 32);
 }
@@ -99,7 +99,7 @@ GN_INLINE void project(const setup_job *job, const int32_t v_q16[3], gn_projecte
     if (up >= 0) {
         x = (int32_t)((uint32_t)x << up);
         y = (int32_t)((uint32_t)y << up);
-    } else { /* the last bits are dropped first */
+    } else { /* drop the last bits first */
         x >>= -up;
         y >>= -up;
     }
@@ -124,7 +124,7 @@ static GN_NOINLINE int fill_corner_small(const setup_job *job, corner *c, uint32
     const int32_t *v = c->vertex.v_q16;
     if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object->mesh, vertex_idx)) return 0;
     c->out = gn_outcode(v, cam->near_q16, cam->tan_q16) | gn_outcode(v, cam->near_q16, cam->guard_q16) << 8;
-    if (!(c->out >> 8)) project_cut(job, v, &c->at); /* nothing is limited; one function that projects is enough */
+    if (!(c->out >> 8)) project_cut(job, v, &c->at); /* nothing is clamped; one projecting function is enough */
     return 1;
 }
 
@@ -140,8 +140,7 @@ static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
     return !is_beyond(v, half) ? 0 : v < 0 ? low : low << 1;
 }
 
-/* A corner nearer than near, beyond what is projected or near the border of the guard band, or out of range: returns 0
- * then. */
+/* Returns 0 for a corner nearer than near, outside or near the border of the guard band, or out of range. */
 static GN_NOINLINE int fill_far_corner(const setup_job *job, corner *c)
 {
     const gn_cam *cam = &job->screen.frame->cam;
@@ -155,7 +154,7 @@ static GN_NOINLINE int fill_far_corner(const setup_job *job, corner *c)
     return 1;
 }
 
-/* The same, of most vertices without a look at the planes that they are inside of. */
+/* The same, without testing planes for most vertices. */
 GN_INLINE int fill_corner_fast(const setup_job *job, corner *c, uint32_t vertex_idx)
 {
     const gn_mesh *mesh = job->screen.object->mesh;
@@ -236,7 +235,7 @@ static gn_status setup_object(setup_job *job)
     const gn_mesh *mesh = job->screen.object->mesh;
     corner spare[3];
     const corner *c[5];
-    c[0] = c[1] = spare; /* no entry of the cache: before the first corner there is none */
+    c[0] = c[1] = spare; /* no cache entry: no corner before the first */
     gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->screen.object);
     if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
     gn_screen_object(&job->screen);

@@ -6,8 +6,8 @@
 #include "geometry/gn_walk.h"
 #include "gnomon.h"
 
-/* In the scratch's pixels, of the first triangles: the first screen tile that one may have pixels in, above two bits:
- * that alone, the next one, the one below, or others too. Where size comes first there is none of this. */
+/* Pixel memory is free during setup; it stores, for the first triangles, (first tile << 2) | GN_PLACE_*: that tile
+ * alone, the next one too, the one below too, or others too. Not with GN_SIZE_FIRST. */
 #define GN_PLACES GN_TILE_PIXELS_MAX
 enum { GN_PLACE_ONE, GN_PLACE_NEXT, GN_PLACE_BELOW, GN_PLACE_MANY };
 
@@ -19,9 +19,8 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *
 /* Screen coordinates of the corners from the picture's top left corner, subpixel_bits fraction bits. */
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3]);
 
-/* Pixels whose centres lie between the least and largest coordinates, from the picture's centre, in the subpixel grid:
- * cut to the picture. What is added before they are shifted is the picture's centre, and the rounding of gn_first_px.
- */
+/* Pixels whose centres lie between the smallest and largest coordinates, from the picture's centre, in the subpixel
+ * grid: cut to the picture. Before the shift the picture's centre and the rounding of gn_first_px are added. */
 static inline gn_rect gn_setup_bounds_of(const gn_frame *frame, int32_t left, int32_t right, int32_t top,
                                          int32_t bottom, int32_t add_x, int32_t add_y)
 {
@@ -47,8 +46,8 @@ static inline gn_rect gn_setup_bounds(const gn_frame *frame, const gn_tri *tri)
                               gn_setup_add(frame->picture.height, bits));
 }
 
-/* The screen tiles that pixels of the picture lie in, some at least: `height` rows of `width` tiles, with `skip` others
- * between. */
+/* The screen tiles of a rectangle of pixels, at least one: `height` rows of `width` tiles, with `skip` others between
+ * rows. */
 typedef struct {
     uint32_t first;
     int32_t width, height, skip;

@@ -1,11 +1,11 @@
-/* Visible triangles and what is seen of them in a screen tile. */
+/* Visible triangles, and the visible spans of a screen tile. */
 #ifndef GN_VISIBLE_TYPES_H
 #define GN_VISIBLE_TYPES_H
 
 #include "geometry/gn_geometry_types.h"
 #include "visible/gn_screen_types.h"
 
-/* 16 bits where a guard band of at least 8 pixels is left around every picture: gn_xform.c */
+/* 16 bits if that leaves a guard band of at least 8 pixels around every picture: gn_xform.c */
 #define GN_COORD_PX_MAX (2 * ((32767 >> GN_SUBPIXEL_BITS) - 10))
 #if GN_RUNTIME_KNOBS || GN_SUBPIXEL_BITS > 7 || GN_MAX_WIDTH > GN_COORD_PX_MAX || GN_MAX_HEIGHT > GN_COORD_PX_MAX
 typedef int32_t gn_coord;
@@ -16,8 +16,8 @@ typedef int16_t gn_coord;
 /* How a triangle is drawn whose depth needs no bounds; other values are the rows that gn_walk_lasts gave. */
 enum { GN_TRI_EXACT = 1, GN_TRI_NARROW = 2 };
 
-/* Whether near / Z of a triangle may leave its range where it is drawn. If so, what that range is; if not, which is the
- * rule, how the triangle may be drawn. gn_tri_is_bounded tells the two apart. */
+/* If near / Z may leave the triangle's range where it is drawn: that range. If not, which is common: how the triangle
+ * may be drawn. gn_tri_is_bounded tells the two apart. */
 typedef union {
     struct {
         uint16_t least, largest; /* Q0.16, rounded outwards: least <= largest */
@@ -29,11 +29,11 @@ typedef union {
 } gn_tri_depth;
 
 /* A visible triangle on the screen, ready to be walked. Coordinates are from the picture's centre (y down), with
- * subpixel_bits fraction bits: up to 7 of them fit 16 bits in most pictures, as the guard band sees to. */
+ * subpixel_bits fraction bits: up to 7 of them fit 16 bits in most pictures, by the width of the guard band. */
 typedef struct {
     gn_coord x[3], y[3];  /* top, left and right of it: counter-clockwise in the world, its signed area on the screen (y
                              down) is negative */
-    uint32_t iz_ref;      /* near / Z at the centre of the pixel that holds vertex 0, Q0.32, modulo 2^32 */
+    uint32_t iz_ref;      /* near / Z at the centre of the pixel that contains vertex 0, Q0.32, modulo 2^32 */
     int32_t iz_dx, iz_dy; /* per pixel, modulo 2^32 */
     gn_tri_depth iz;
     uint16_t object_idx;

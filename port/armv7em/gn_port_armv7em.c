@@ -1,8 +1,8 @@
 #include "gn_port_armv7em.h"
 
-/* A pair of texels: a subtraction sets the GE flags of the halves that are not below, SEL takes bit 0 and bit 17 of
- * those that are; pairs before it move up by two. r0 texel, r2 level in both halves, r5 the row's bits, ip 0, lr
- * 0x00020001; the load is one that these cores do unaligned. */
+/* A pair of texels: a subtraction sets the GE flags of the halves that are not below the level, SEL takes bit 0 and bit
+ * 17 of the halves that are; earlier pairs' bits move up by two. r0 texel, r2 level in both halves, r5 the row's bits,
+ * ip 0, lr 0x00020001; these cores do this load unaligned. */
 #define PAIR(at)                                                                                                       \
     "ldr r6, [r0, #" at "]\n"                                                                                          \
     "usub16 r6, r6, r2\n"                                                                                              \

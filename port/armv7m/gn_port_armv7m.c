@@ -18,7 +18,7 @@ void gn_port_before_dma(const void *bytes, size_t n_bytes)
 
 void *memset(void *to, int value, size_t n);
 
-/* 32 bytes an instruction, two of them a turn: r0 is not touched, r1 is the value in all four bytes, r2 counts. */
+/* 32 bytes per instruction, two per iteration: r0 is unchanged, r1 is the value in all four bytes, r2 counts. */
 GN_PORT_HOT __attribute__((naked, used)) void *memset(void *to, int value, size_t n)
 {
     (void)to, (void)value, (void)n;
@@ -28,7 +28,7 @@ GN_PORT_HOT __attribute__((naked, used)) void *memset(void *to, int value, size_
                      "uxtb r1, r1\n"
                      "orr r1, r1, r1, lsl #8\n"
                      "orr r1, r1, r1, lsl #16\n"
-                     "1: lsls r3, ip, #30\n" /* to a word's border */
+                     "1: lsls r3, ip, #30\n" /* up to a word boundary */
                      "beq 2f\n"
                      "cbz r2, 9f\n"
                      "strb r1, [ip], #1\n"

@@ -1,7 +1,8 @@
 #include "gn_port_helium.h"
 
-/* A row of texels at a time; the lanes that are lit sum their bits. Lanes from n on neither load nor compare. r0 texel,
- * r1 bytes from row to row, r2 level, r3 n, r4 dark, r5 all bits, r6 any, r7 all, r8 the row's; q1 bit i in lane i. */
+/* A row of texels at a time; lit lanes sum their bits, which are then inverted. Lanes from n on neither load nor
+ * compare. r0 texel, r1 bytes from row to row, r2 level, r3 n, r4 dark, r5 all bits, r6 any, r7 all, r8 the row's; q1
+ * bit i in lane i. */
 GN_PORT_HOT __attribute__((naked)) uint32_t gn_port_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least,
                                                                   int32_t n, uint8_t *dark)
 {

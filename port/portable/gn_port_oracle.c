@@ -18,7 +18,7 @@ uint32_t gn_oracle_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t l
     return any + 65536U * all;
 }
 
-/* A volatile pointer: or the compiler makes a call of memset of it. */
+/* A volatile pointer: otherwise the compiler would turn the loop into a call of memset. */
 void gn_oracle_memset(uint8_t *to, uint8_t value, size_t n)
 {
     for (volatile uint8_t *out = to; n; n--) *out++ = value;

@@ -1,6 +1,5 @@
-/* The port of a core that has nothing to offer but a C compiler, and the oracle of all others: every kernel of the
- * contract in plain C, written to be read. tests/firmware/test_port.sh holds each port, and the library's own
- * definitions, against these. */
+/* The port for a core with nothing but a C compiler, and the oracle of all other ports: every kernel of the contract in
+ * plain, readable C. tests/firmware/test_port.sh compares each port, and the library's own definitions, with these. */
 #ifndef GN_PORT_PORTABLE_H
 #define GN_PORT_PORTABLE_H
 
