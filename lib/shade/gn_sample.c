@@ -58,14 +58,9 @@ GN_HOT static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, in
 }
 #endif
 
-<<<<<<< HEAD
-/* Along what the receiver moves: the normal, or what automatic bias takes of a curved surface. */
-GN_HOT static GN_SHARED const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light,
-=======
 /* The direction of the receiver's offset: the normal, or automatic bias's own for a curved surface. */
-GN_HOT static inline const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light,
->>>>>>> house-words
-                                                  const int32_t n_q30[3], int32_t out_q30[3])
+GN_HOT static GN_SHARED const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light,
+                                                     const int32_t n_q30[3], int32_t out_q30[3])
 {
     if (!GN_AUTO_BIAS || !GN_CURVED(s) || !light->auto_bias) return n_q30;
 #if GN_AUTO_BIAS
