@@ -48,8 +48,6 @@ extern "C" {
 #define GN_STATUS_LIST(X)                                                                                              \
     X(GN_OK, "ok")                                                                                                     \
     X(GN_ERR_NULL, "a required pointer is null")                                                                       \
-    X(GN_ERR_CONFIG,                                                                                                   \
-      "program and library were compiled with different configurations: the size of gn_renderer or a knob differs")    \
     X(GN_ERR_PICTURE_SIZE, "picture width or height is 0 or above GN_MAX_WIDTH x GN_MAX_HEIGHT")                       \
     X(GN_ERR_FORMAT, "unknown pixel format or view, or one that is not built in")                                      \
     X(GN_ERR_KNOB, "a run-time knob is out of its range")                                                              \
@@ -93,7 +91,9 @@ extern "C" {
     X(GN_ERR_SHADOW_TILE, "shadow tile would be smaller than 8 texels")                                                \
     X(GN_ERR_ATLAS_FULL, "shadow tiles take more texels than GN_ATLAS_TEXELS or GN_OTHER_ATLAS_TEXELS")                \
     X(GN_ERR_TRIANGLES_FULL, "more visible triangles than GN_MAX_TRIANGLES")                                           \
-    X(GN_ERR_TILE_REFS_FULL, "more tile references than GN_MAX_TILE_REFS")
+    X(GN_ERR_TILE_REFS_FULL, "more tile references than GN_MAX_TILE_REFS")                                             \
+    X(GN_ERR_CONFIG,                                                                                                   \
+      "program and library were compiled with different configurations: the size of gn_renderer or a knob differs")
 
 #define GN_STATUS_ENUM_(name, text) name,
 typedef enum { GN_STATUS_LIST(GN_STATUS_ENUM_) GN_STATUS_COUNT } gn_status;

@@ -19,7 +19,7 @@ counted() {
 # ---- Accuracy: beside the host's own library, of which the engine shares no symbol ------------------------------------------------
 
 comparison() { # with the sRGB curve or without: $1
-    gcc -std=c11 -w -O2 $flags -UGN_SRGB -DGN_SRGB=$1 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=2000 -DGN_MAX_OBJECTS=100 -DGN_MAX_HEIGHT=256 -Ilib -I. "-DLIBRARY=\"$tmp/lib.c\"" \
+    gcc -std=c11 -w -O2 $flags -UGN_SRGB -DGN_SRGB=$1 -DGN_ATLAS_SIZE=128 -DGN_MAX_TRIANGLES=2000 -DGN_MAX_OBJECTS=100 -DGN_MAX_HEIGHT=256 -Ilib -I. "-DLIBRARY=\"lib/gnomon.c\"" \
         -c tests/oracle/compact_engine.c -o "$tmp/all.o" && objcopy --keep-global-symbol=compact_render "$tmp/all.o" "$tmp/engine.o" &&
         gcc -std=c11 -D_POSIX_C_SOURCE=200809L $warn -O2 "-DSRGB=\"srgb=$1\"" -Ilib -Itests -Itests/support $(variable HOST_KNOBS) -c tests/oracle/compact_compare.c -o "$tmp/compare.o" &&
         gcc -o "$tmp/compare" "$tmp/compare.o" "$tmp/engine.o" $(variable HOST_OBJ) $(variable LIB_OBJ) -lm || fail "the comparison does not build"
@@ -33,7 +33,7 @@ counted "$tmp/compare"
 comparison 1
 counted "$tmp/compare"
 
-gcc -std=c11 -w -O2 -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_ATLAS_SIZE=128 -Ilib -I. -Itests -Itests/support "-DLIBRARY=\"$tmp/lib.c\"" \
+gcc -std=c11 -w -O2 -fsanitize=address,undefined -fno-sanitize-recover=all $flags -DGN_ATLAS_SIZE=128 -Ilib -I. -Itests -Itests/support "-DLIBRARY=\"lib/gnomon.c\"" \
     -o "$tmp/bounds" tests/oracle/compact_bounds.c -lm || fail "compact_bounds does not build"
 counted "$tmp/bounds"
 
