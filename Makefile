@@ -61,7 +61,6 @@ deps: ## install what the tests need, as root or with sudo
 
 test: deps ## run every test
 	@sh tests/run.sh
-	@sh tests/run.sh
 
 soak: ## the longer campaigns, minutes to hours: [SEED=n] [SCENES=n] [CAMPAIGNS="random census"]
 	@sh tests/soak.sh
@@ -100,6 +99,7 @@ tables: $(BUILD)/gen_tables ## regenerate lib/base/gn_tables.c
 	$(BUILD)/gen_tables > lib/base/gn_tables.c
 
 prefix: ## regenerate lib/gn_prefix.h
+	@mkdir -p $(BUILD)
 	@sh host/generate/gen_prefix.sh >$(BUILD)/gn_prefix.h && mv $(BUILD)/gn_prefix.h lib/gn_prefix.h
 
 scenes: $(BUILD)/make_scenes ## regenerate host/scenes/*.gltf and docs/scenes/*.gltf

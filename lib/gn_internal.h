@@ -3,7 +3,7 @@
 #define GN_INTERNAL_H
 
 #if !defined(GN_ONE_FILE) && !defined(GN_SEPARATE_FILES)
-#error "this file is a part of lib/gnomon.c: compile lib/gnomon.c alone (or every part, with -DGN_SEPARATE_FILES)"
+#error "this file is a part of lib/gnomon.c: compile lib/gnomon.c alone"
 #endif
 
 #include "gnomon.h"

@@ -325,7 +325,7 @@ gn_light gn_light_point(const int32_t position_q16[3]);
 gn_camera gn_camera_default(const int32_t eye_q16[3], const int32_t target_q16[3]);
 
 /* Ambient light 0.15, a dark blue background. Shadows up to a distance of 100 (the last tenth fades), by four cascades
- * where they are built and their tiles fit, else one; filtered 2x2 where that is built. */
+ * where every sun can have four tiles, else one; filtered 2x2 where that is built. */
 gn_scene gn_scene_default(const gn_camera *camera, const gn_object *objects, uint32_t n_objects, const gn_light *lights,
                           uint32_t n_lights);
 

@@ -2,6 +2,7 @@
 # Prints the lines and branches of lib/ that the C tests run, by part and in all: gcc --coverage, not optimised. Minutes.
 #   sh tests/coverage.sh [TEST...]      of these programs only, as in test_filter
 cd "$(dirname "$0")/.." || exit 1
+mkdir -p build
 build=build/coverage
 for program in tests/*/test_*.c; do basename "$program" .c; done >build/coverage.names
 [ $# = 0 ] || printf '%s\n' "$@" >build/coverage.names

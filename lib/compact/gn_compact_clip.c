@@ -14,7 +14,7 @@ static int64_t inside(const gn_compact_view *view, const int32_t v_q16[3], int p
 }
 
 /* Where an edge from a point inside to one outside is cut: t = a / (a - b), Q31. */
-static void cut(int32_t out[3], const int32_t from[3], const int32_t to[3], int64_t a, int64_t b)
+static void compact_cut(int32_t out[3], const int32_t from[3], const int32_t to[3], int64_t a, int64_t b)
 {
     uint64_t whole = (uint64_t)(a - b);
     int32_t clz = gn_clz64(whole);
@@ -23,7 +23,7 @@ static void cut(int32_t out[3], const int32_t from[3], const int32_t to[3], int6
     for (int i = 0; i < 3; i++) out[i] = from[i] + (int32_t)(((to[i] - from[i]) * t) >> 31); /* 2^30 * 2^31 */
 }
 
-static int clip_plane(int32_t (*out)[3], int32_t (*in)[3], int n, const gn_compact_view *view, int plane)
+static int compact_clip_plane(int32_t (*out)[3], int32_t (*in)[3], int n, const gn_compact_view *view, int plane)
 {
     int n_out = 0;
     for (int i = 0; i < n; i++) {
@@ -33,8 +33,8 @@ static int clip_plane(int32_t (*out)[3], int32_t (*in)[3], int n, const gn_compa
             for (int k = 0; k < 3; k++) out[n_out][k] = p[k];
             n_out++;
         }
-        if (a >= 0 && b < 0) cut(out[n_out++], p, q, a, b);
-        if (a < 0 && b >= 0) cut(out[n_out++], q, p, b, a); /* the same point as cut from the other side */
+        if (a >= 0 && b < 0) compact_cut(out[n_out++], p, q, a, b);
+        if (a < 0 && b >= 0) compact_cut(out[n_out++], q, p, b, a); /* the same point as cut from the other side */
     }
     return n_out;
 }
@@ -43,8 +43,8 @@ int gn_compact_clip(gn_compact_polygon *polygon, gn_compact_polygon *spare, int 
 {
     /* to and fro an even number of times: the near plane counts twice */
     for (int plane = view->near_norm ? 5 : 3; plane >= 0; plane -= 2) {
-        n = clip_plane(spare->v_q16, polygon->v_q16, n, view, plane);
-        n = clip_plane(polygon->v_q16, spare->v_q16, n, view, plane - 1);
+        n = compact_clip_plane(spare->v_q16, polygon->v_q16, n, view, plane);
+        n = compact_clip_plane(polygon->v_q16, spare->v_q16, n, view, plane - 1);
     }
     return n;
 }

@@ -77,7 +77,7 @@ int gn_compact_transform(int32_t out_q16[3], const gn_compact_xform *xform, cons
 }
 
 /* v * scale >> shift, at most GN_COMPACT_REACH_Q16 in magnitude. */
-static int32_t scaled(int32_t v, uint32_t scale, int32_t shift)
+static int32_t compact_scaled(int32_t v, uint32_t scale, int32_t shift)
 {
     int64_t r = ((int64_t)v * (int64_t)scale) >> shift; /* 2^30 * 2^32 */
     return r > GN_COMPACT_REACH_Q16    ? GN_COMPACT_REACH_Q16
@@ -98,9 +98,9 @@ int gn_compact_project(gn_compact_corner *corner, const gn_compact_view *view, c
         scale = gn_compact_mul(scale, recip, 0); /* F / Z = scale * 2^(clz - shift - 32 - 16) */
         shift += 32 - clz;
     } else {
-        depth_q16 = scaled(v_q16[2], scale, shift);
+        depth_q16 = compact_scaled(v_q16[2], scale, shift);
         corner->key = -depth_q16 * 4;
     }
-    for (int k = 0; k < 2; k++) corner->at_q16[k] = scaled(v_q16[k], scale, shift) + (view->size[k] << 15);
+    for (int k = 0; k < 2; k++) corner->at_q16[k] = compact_scaled(v_q16[k], scale, shift) + (view->size[k] << 15);
     return gn_abs32(depth_q16) < GN_COMPACT_REACH_Q16;
 }

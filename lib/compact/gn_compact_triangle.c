@@ -31,7 +31,7 @@ static void bound(gn_tri *tri, int axis, const int32_t at[3], int32_t size)
 }
 
 /* n * 2^16 / area: per pixel, Q8; |n| < 2^50.5 */
-static int64_t gradient(int64_t n, uint64_t area, int32_t clz)
+static int64_t compact_gradient(int64_t n, uint64_t area, int32_t clz)
 {
     uint32_t recip = gn_recip_norm((uint32_t)(area << clz >> 32), 2); /* 2^(95 - clz) / area */
     n = gn_shl64(n, 12);
@@ -46,8 +46,8 @@ static void plane(gn_tri *tri, const gn_compact_corner c[3], uint64_t area)
     int32_t clz = gn_clz64(area), ka = c[0].key, kb = c[1].key - ka, kc = c[2].key - ka;
     int64_t dx = STEEP_MAX, dy = 0;
     if (clz <= 59) { /* less than that is a few subpixels */
-        dx = gradient((int64_t)kc * (y[1] - y[0]) - (int64_t)kb * (y[2] - y[0]), area, clz);
-        dy = gradient((int64_t)kb * (x[2] - x[0]) - (int64_t)kc * (x[1] - x[0]), area, clz);
+        dx = compact_gradient((int64_t)kc * (y[1] - y[0]) - (int64_t)kb * (y[2] - y[0]), area, clz);
+        dy = compact_gradient((int64_t)kb * (x[2] - x[0]) - (int64_t)kc * (x[1] - x[0]), area, clz);
     }
     if (dx >= STEEP_MAX || dx <= -STEEP_MAX || dy >= STEEP_MAX || dy <= -STEEP_MAX) {
         dx = dy = 0;
@@ -94,7 +94,7 @@ static int setup(gn_tri *tri, gn_compact_corner c[3], const gn_compact_view *vie
 /* ---- Objects ----------------------------------------------------------------------------------------------------- */
 
 /* Towards the viewer, in the light's axes; zero where the corners lie in a line. */
-static void face_normal(int16_t out_q14[3], const gn_frame *frame, int32_t (*v)[3])
+static void compact_face_normal(int16_t out_q14[3], const gn_frame *frame, int32_t (*v)[3])
 {
     int32_t a[3], b[3], n[3];
     int64_t normal[3];
@@ -158,7 +158,7 @@ static gn_status triangle(gn_frame *frame, gn_compact_job *job, const gn_compact
 {
     gn_status status = fetch(job, frame->scene->objects[object_idx].mesh, idx);
     if (status) return status;
-    if (!raster) face_normal(job->normal_q14, frame, job->polygon.v_q16);
+    if (!raster) compact_face_normal(job->normal_q14, frame, job->polygon.v_q16);
     int n = gn_compact_clip(&job->polygon, &job->spare, 3, view);
     for (int i = 0; i < n; i++) { /* a fan */
         if (!gn_compact_project(&job->corner[gn_min32(i, 2)], view, job->polygon.v_q16[i])) return GN_ERR_VERTEX_RANGE;
@@ -214,7 +214,7 @@ typedef struct {
     int32_t f, dx, dy;
 } edge;
 
-static void edge_begin(edge *e, const gn_tri *tri, int i, int32_t px, int32_t py)
+static void compact_edge_begin(edge *e, const gn_tri *tri, int i, int32_t px, int32_t py)
 {
     int j = i == 2 ? 0 : i + 1;
     int32_t dx = tri->x[j] - tri->x[i], dy = tri->y[j] - tri->y[i], left_or_top = dy > 0 || (dy == 0 && dx < 0);
@@ -239,7 +239,7 @@ void gn_compact_draw(const gn_compact_raster *raster, const gn_tri *tri)
     uint32_t row = tri->key + (uint32_t)(x0 - tri->begin[0]) * (uint32_t)key_dx +
                    (uint32_t)(y0 - tri->begin[1]) * (uint32_t)key_dy;
     edge e[3];
-    for (int i = 0; i < 3; i++) edge_begin(&e[i], tri, i, x0, y0);
+    for (int i = 0; i < 3; i++) compact_edge_begin(&e[i], tri, i, x0, y0);
     for (; y0 < y1; y0++) {
         int32_t f0 = e[0].f, f1 = e[1].f, f2 = e[2].f;
         uint32_t key = row;

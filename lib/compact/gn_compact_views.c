@@ -33,7 +33,7 @@ static void share_of(gn_compact_share *out, int32_t width)
 }
 
 /* v * scale >> shift: texels of the light's, Q16, of a length. */
-static int32_t texels_q16(const gn_compact_view *view, int32_t v_q16)
+static int32_t compact_texels_q16(const gn_compact_view *view, int32_t v_q16)
 {
     return (int32_t)(((int64_t)v_q16 * (int64_t)view->scale) >> view->shift);
 }
@@ -165,7 +165,7 @@ static uint32_t fit_texel(const gn_frame *frame, gn_compact_view *view, int32_t 
 
 /* Whole texels around the sphere's centre: the eye is where the tile's middle lies at depth 0. Returns 0 if that is out
  * of range. */
-static int place_tile(const gn_frame *frame, gn_compact_view *view, uint32_t digits, int32_t centre_q16)
+static int compact_place_tile(const gn_frame *frame, gn_compact_view *view, uint32_t digits, int32_t centre_q16)
 {
     int64_t along_q16[3];
     for (int k = 0; k < 3; k++) {
@@ -190,7 +190,7 @@ static int place_tile(const gn_frame *frame, gn_compact_view *view, uint32_t dig
 }
 
 /* DESIGN 1.4: u, v, w from the direction of travel. */
-static int view_axes(gn_compact_view *view, const int32_t direction[3])
+static int compact_view_axes(gn_compact_view *view, const int32_t direction[3])
 {
     int32_t(*axis)[3] = view->axis_q30, hint[3] = {0, 1, 0};
     int64_t v[3] = {direction[0], direction[1], direction[2]};
@@ -223,8 +223,8 @@ static void auto_offsets(gn_frame *frame, const gn_light *light, int32_t max_q16
 {
     const gn_compact_view *view = &frame->view[0].project;
     if (!gn_scene_auto_bias(light)) return;
-    int32_t epsilon =
-        512 + texels_q16(view, 8) + (int32_t)(((int64_t)texels_q16(view, max_q16) * frame->per_px_q29) >> 36);
+    int32_t epsilon = 512 + compact_texels_q16(view, 8) +
+                      (int32_t)(((int64_t)compact_texels_q16(view, max_q16) * frame->per_px_q29) >> 36);
     frame->offset_q16 = 32768 + 138 + epsilon; /* R + delta + epsilon_r */
     frame->flat_offset_q16 = GN_ATLAS_SIZE + GN_ATLAS_SIZE / 64 + 11 + epsilon;
 }
@@ -246,7 +246,7 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     project->flags = project->mask = GN_OBJECT_CASTS;
     project->two_sided = GN_OBJECT_TWO_SIDED | GN_OBJECT_CASTS_TWO_SIDED;
     int32_t centre_q16 = (int32_t)(((int64_t)centre_q28 * max_q16) >> 28);
-    if (!place_tile(frame, project, digits, centre_q16)) return GN_ERR_SHADOW_DISTANCE;
+    if (!compact_place_tile(frame, project, digits, centre_q16)) return GN_ERR_SHADOW_DISTANCE;
     if (!compose_to_light(frame)) return GN_ERR_SHADOW_DISTANCE;
     gn_compact_corner corner;
     const int32_t centre[3] = {0, 0, -centre_q16};
@@ -254,7 +254,7 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     gn_compact_transform(v, &frame->to_light, centre);
     gn_compact_project(&corner, project, v);
     gn_compact_place(frame->centre_q16, &corner);
-    int64_t radius_q16 = texels_q16(project, (int32_t)(((int64_t)radius_q28 * max_q16) >> 28));
+    int64_t radius_q16 = compact_texels_q16(project, (int32_t)(((int64_t)radius_q28 * max_q16) >> 28));
     frame->radius2_q32 = (uint64_t)(radius_q16 * radius_q16);
     /* the sphere's fade [D6]: r^2 (1 - (1 - fade)^2); the fade with distance [D5] */
     uint32_t keep = ONE_Q28 / 4096 - shadow->cascade_fade_uq16;
@@ -275,7 +275,7 @@ gn_status gn_views_setup(gn_frame *frame)
     frame->n_views = 0;
     if (!status && scene->n_lights) {
         status = compact_check_light(frame, light);
-        if (!status && !view_axes(&frame->view[0].project, light->direction)) status = GN_ERR_LIGHT_DIRECTION;
+        if (!status && !compact_view_axes(&frame->view[0].project, light->direction)) status = GN_ERR_LIGHT_DIRECTION;
         if (!status && light->shadow_strength_uq16) {
             frame->n_views = 1;
             status = compact_check_shadow(frame, &scene->shadow);

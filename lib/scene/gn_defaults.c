@@ -74,6 +74,15 @@ gn_camera gn_camera_default(const int32_t eye_q16[3], const int32_t target_q16[3
     return camera;
 }
 
+/* Whether every sun can have four tiles: of all of the atlas, and not too small. */
+static int four_cascades_fit(const gn_light *lights, uint32_t n_lights)
+{
+    uint32_t n_suns = 0;
+    for (uint32_t i = 0; i < n_lights; i++) n_suns += lights[i].kind == GN_LIGHT_DIRECTIONAL;
+    return GN_MANY_CASCADES && GN_ATLAS_SIZE >= 64 && GN_ATLAS_TEXELS == GN_ATLAS_SIZE * GN_ATLAS_SIZE &&
+           4 * n_suns <= GN_MAX_SHADOW_TILES;
+}
+
 gn_scene gn_scene_default(const gn_camera *camera, const gn_object *objects, uint32_t n_objects, const gn_light *lights,
                           uint32_t n_lights)
 {
@@ -93,7 +102,7 @@ gn_scene gn_scene_default(const gn_camera *camera, const gn_object *objects, uin
     shadow->disk_samples = 16;
     shadow->caster_culling = GN_CASTER_CULLING;
     shadow->object_lights = GN_PUNCTUAL_LIGHTS ? GN_OBJECT_LIGHTS_MAX : 0;
-    shadow->n_cascades = GN_MANY_CASCADES && GN_MAX_SHADOW_TILES >= 4 ? 4 : 1;
+    shadow->n_cascades = four_cascades_fit(lights, n_lights) ? 4 : 1;
     set3(shadow->cascade_ratio_uq16, TENTH_UQ16, ONE_UQ16 / 4, ONE_UQ16 / 2);
     return scene;
 }
