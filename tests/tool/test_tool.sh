@@ -84,7 +84,7 @@ good --help
 good knobs
 cp "$tmp/out" "$tmp/knobs"
 for knob in refresh incremental static_layer; do # they act from frame to frame
-    grep -q "^| \`$knob\` .*a single picture shows nothing of it" "$tmp/knobs" && pass || fail "knobs does not say that $knob shows in no single picture"
+    grep -q "^| \`$knob\` .*a single picture does not show it" "$tmp/knobs" && pass || fail "knobs does not say that $knob shows in no single picture"
 done
 good info "$cube" --size 32x24
 good info "$glb" --size 32x24

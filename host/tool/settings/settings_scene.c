@@ -325,7 +325,7 @@ void settings_print_scene(void)
            "ascending; after cascades (D3) |\n");
     printf("| `refresh` | one to four numbers from 1, comma-separated | cascade i is drawn anew every so many frames; "
            "the last "
-           "number holds for the rest; a single picture shows nothing of it (A5) |\n");
+           "number holds for the rest; a single picture does not show it (A5) |\n");
     printf("\n### Settings of lights\n\nOf every light, or of one: `KEY@LIGHT`, by its number from 0 or its name.\n\n");
     printf("| setting | range | meaning |\n|---|---|---|\n");
     print_owner(true);
