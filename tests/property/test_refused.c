@@ -735,6 +735,20 @@ static void test_status_texts(void)
 
 /* ---- Null pointers, order ---------------------------------------------------------------------------------------- */
 
+/* Another configuration: nothing is written. test_mixed.sh compiles programs of them. */
+static void test_other_configuration(void)
+{
+    gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
+    gn_status of_size, of_knobs;
+    memset(&one, 0xA5, sizeof one);
+    of_size = gn_init_as(&one, &p, sizeof one - 1, GN_CONFIG_SIGNATURE);
+    of_knobs = gn_init_as(&one, &p, sizeof one, GN_CONFIG_SIGNATURE + 1);
+    CHECK(of_size == GN_ERR_CONFIG && of_knobs == GN_ERR_CONFIG);
+    for (size_t i = 0; i < sizeof one; i++)
+        if (!CHECK(((const uint8_t *)&one)[i] == 0xA5)) break;
+    provoked[of_size] = 1;
+}
+
 static void test_nulls(void)
 {
     gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
@@ -815,6 +829,7 @@ static void test_order(void)
 
 int main(void)
 {
+    test_other_configuration();
     test_refused_scenes();
     test_bounds();
     test_combinations();
