@@ -744,8 +744,9 @@ static void test_other_configuration(void)
     of_size = gn_init_as(&one, &p, sizeof one - 1, GN_CONFIG_SIGNATURE);
     of_knobs = gn_init_as(&one, &p, sizeof one, GN_CONFIG_SIGNATURE + 1);
     CHECK(of_size == GN_ERR_CONFIG && of_knobs == GN_ERR_CONFIG);
-    for (size_t i = 0; i < sizeof one; i++)
-        if (!CHECK(((const uint8_t *)&one)[i] == 0xA5)) break;
+    size_t i = 0;
+    while (i < sizeof one && ((const uint8_t *)&one)[i] == 0xA5) i++;
+    CHECK(i == sizeof one);
     provoked[of_size] = 1;
 }
 
