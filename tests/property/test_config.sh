@@ -149,7 +149,7 @@ refused() {
     fi
 }
 
-grep -q '"gn_check.h"' lib/frame/gn_frame.c && pass || fail "lib/frame/gn_frame.c does not include the checks"
+grep -q '"frame/gn_check.h"' lib/frame/gn_frame.c && pass || fail "lib/frame/gn_frame.c does not include the checks"
 echo '#include "frame/gn_check.h"' >"$tmp/check.c"
 if gcc -std=c99 -Ilib -fsyntax-only "$tmp/check.c"; then pass; else fail "lib/frame/gn_check.h does not stand alone"; fi
 sed -n 's/^ *X(\([a-z_]*\), \([A-Z_]*\), \([0-9]*\), \([0-9]*\),.*/\1 \2 \3 \4/p' lib/gn_knobs.h >"$tmp/knobs"
