@@ -251,12 +251,8 @@
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING)))
 
-/* Whether surfaces may be shaded in patches (gn_piece.h). Not built where every pixel must be exact. */
-#define GN_PIECES  (GN_RUNTIME_KNOBS || (GN_PERSP_STEP > 1 && !GN_COMPACT))
-#define GN_TURNING (GN_PIECES && GN_VERTEX_NORMALS && (GN_RUNTIME_KNOBS || !GN_VERTEX_LIGHT))
-
-/* Whether the incident light of spots and points is interpolated between exact samples. */
-#define GN_ARRIVAL_STEPS (GN_PUNCTUAL_LIGHTS && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))
+/* Whether shading interpolates between exact points (gn_lattice.h). Not built where every pixel must be exact. */
+#define GN_INTERPOLATES (!GN_COMPACT && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))
 
 /* Whether alpha's texture coordinates, too, are interpolated between exact samples. */
 #define GN_ALPHA_STEPS (GN_TEXTURES && (GN_CASTER_ALPHA || GN_VISIBLE_ALPHA) && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))

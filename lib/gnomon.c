@@ -90,7 +90,7 @@
 #if GN_DISK_FILTER
 #include "shadow/gn_disk.c"
 #endif
-#if GN_PIECES
+#if GN_INTERPOLATES
 #include "shadow/gn_filter_rows.c"
 #endif
 #if GN_DEPTH_BLOCKS
@@ -114,15 +114,18 @@
 
 /* Their colours. */
 #include "shade/gn_arrival.c"
-#include "shade/gn_chord.c"
+#include "shade/gn_exact.c"
+#if GN_INTERPOLATES
+#include "shade/gn_corner.c"
+#include "shade/gn_lattice.c"
+#include "shade/gn_lattice_draw.c"
+#include "shade/gn_lattice_look.c"
+#endif
 #include "shade/gn_light.c"
-#include "shade/gn_piece.c"
-#include "shade/gn_piecerow.c"
 #include "shade/gn_sample.c"
 #include "shade/gn_shade.c"
 #include "shade/gn_shadow.c"
 #include "shade/gn_surface.c"
-#include "shade/gn_turn.c"
 #endif
 
 /* The calls of gnomon.h: a frame, stage by stage. */

@@ -36,7 +36,14 @@
     X(sample_lights, "directional light at such a place")                                                              \
     X(sample_lights_punctual, "spot or point light at such a place")                                                   \
     X(shaded, "pixel shaded")                                                                                          \
-    X(stepped, "value stepped from one pixel to the next")                                                             \
+    X(corners, "corner of cells")                                                                                      \
+    X(places, "corner seen by a light's view")                                                                         \
+    X(cells, "cell of a surface")                                                                                      \
+    X(cells_split, "cell that is split")                                                                               \
+    X(cells_judged, "cell whose shadow bounds of depth are asked for")                                                 \
+    X(cells_plain, "cell of one colour")                                                                               \
+    X(cells_drawn, "cell of several colours")                                                                          \
+    X(edge_lookups, "lookup in a cell with the edge of a shadow")                                                      \
     X(lights, "light that arrives at a pixel")                                                                         \
     X(lights_punctual, "spot or point light that faces a pixel")                                                       \
     X(highlights, "specular highlight of a light at a pixel")                                                          \

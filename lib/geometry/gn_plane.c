@@ -91,3 +91,19 @@ GN_HOT void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip
     }
     if (b_q30[1] > one - b_q30[0]) b_q30[1] = one - b_q30[0];
 }
+
+#if GN_INTERPOLATES
+GN_HOT int gn_bary_beyond(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip, int32_t px, int32_t py,
+                          uint32_t focal2_px_q16)
+{
+    for (int k = 0; k < 2; k++) {
+        int64_t b = gn_plane_at(bary->form[k], px, py, focal2_px_q16);
+        int64_t t = gn_scale64((int64_t)gn_abs64(b), 33 - recip->clz - bary->exp[k]); /* half of it */
+        if (t >= (int64_t)recip->w_norm) return 0;                                    /* 2 or more */
+        uint64_t b_uq30 = (uint64_t)t * recip->recip >> 32;
+        if (b_uq30 > INT32_MAX) return 0;
+        b_q30[k] = b < 0 ? -(int32_t)b_uq30 : (int32_t)b_uq30;
+    }
+    return b_q30[0] >= -(1 << 30) && b_q30[1] >= -(1 << 30);
+}
+#endif

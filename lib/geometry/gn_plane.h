@@ -32,6 +32,10 @@ int gn_plane_recip(gn_ray_recip *out, const gn_plane *plane, int32_t px, int32_t
 void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip, int32_t px, int32_t py,
                 uint32_t focal2_px_q16);
 
+/* The same, not clamped. Returns 0 where one is below -1 or above 2. */
+int gn_bary_beyond(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip, int32_t px, int32_t py,
+                   uint32_t focal2_px_q16);
+
 /* c . ray at a pixel, Q16 relative to c's own scale. |c| < 2^30, |px|, |py| < 2^13: below 2^63 */
 GN_HOT static GN_SHARED int64_t gn_plane_at(const int32_t c[3], int32_t px, int32_t py, uint32_t focal2_px_q16)
 {

@@ -10,13 +10,13 @@
 /* Of all the surface's spot and point lights. */
 void gn_arrivals_at(const gn_frame *frame, const gn_surface *surface, gn_sample *sample);
 
-/* From sample a to sample b, n > 1 pixels further on, along a chord that is set: what arrives in between, as parabolas
- * through three points, for every light for which that is close enough (NUMERICS 4.13). The others keep to the chord,
- * which ends before the others. */
-void gn_arrivals_between(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, gn_sample *a,
-                         const gn_sample *b, int32_t n);
+/* Irradiance of one, of a light whose colour is 1; `value` is its slot of a sample. *arrives: what bends it. */
+uint32_t gn_arrival_irradiance_q24(const gn_frame *frame, const gn_light_state *light, const int32_t *value,
+                                   int *arrives);
 
-/* One pixel further on; the sample's values already are. */
-void gn_arrivals_next(gn_chord *chord, const gn_frame *frame, const gn_surface *surface, gn_sample *sample);
+/* Where a view sees a point: from the light, and the receiver's offset, which B6 on flat surfaces replaces. Returns 0
+ * if it is nearer than the near plane. */
+int gn_arrival_place(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view, int32_t z_q16,
+                     const int32_t from_q16[3], const int32_t offset_q16[3], gn_arrival *out);
 
 #endif

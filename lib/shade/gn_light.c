@@ -10,40 +10,42 @@
 #include "shade/gn_shadow.h"
 
 #if GN_SPECULAR
-/* max(0, n . h)^(2^k), Q30 [M3] */
-GN_HOT static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample, const int32_t to_light_q30[3])
+/* max(0, n . h)^(2^k), Q30, and h - n. [M3] */
+GN_HOT static int32_t highlight_q30(const gn_surface *surface, const gn_sample *sample, const int32_t to_light_q30[3],
+                                    int32_t lobe_q30[3])
 {
     int32_t h[3];
     for (int i = 0; i < 3; i++) h[i] = (to_light_q30[i] >> 1) + (sample->to_eye_q30[i] >> 1); /* |h| <= 1 */
     int64_t wide[3] = {h[0], h[1], h[2]};
-    if (!gn_normalise_q30(h, wide)) return 0;
+    int known = gn_normalise_q30(h, wide);
+    for (int i = 0; i < 3; i++) lobe_q30[i] = gn_sat32((int64_t)h[i] - sample->normal_q30[i]);
     int64_t dot = gn_dot_q30(sample->normal_q30, h);
-    if (dot <= 0) return 0;
+    if (!known || dot <= 0) return 0;
     int32_t power = (int32_t)gn_clamp64(dot, 0, 1 << 30);
     for (int32_t k = 0; k < surface->object->shininess_log2; k++) power = gn_mul_q30(power, power);
     return power;
 }
 
-/* The same times the incident light, Q24. */
-GN_HOT static GN_NOINLINE uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface,
-                                                const gn_sample *sample, uint32_t slot)
+GN_HOT GN_NOINLINE uint32_t gn_light_highlight(const gn_frame *frame, const gn_surface *surface,
+                                               const gn_sample *sample, uint32_t slot, int32_t lobe_q30[3])
 {
     const gn_light_state *light = surface->light[slot].state;
     const int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];
+    for (int i = 0; i < 3; i++) lobe_q30[i] = 0;
     if (GN_PUNCTUAL_LIGHTS && light->kind != GN_LIGHT_DIRECTIONAL) {
         gn_punctual_point point;
         int32_t to_light[3];
         if (!gn_punctual_at(frame, light, from, &point)) return 0;
         for (int i = 0; i < 3; i++) to_light[i] = gn_punctual_cosine_q30(&point, -from[i]);
-        return gn_punctual_irradiance_q24(&point, highlight_q30(surface, sample, to_light));
+        return gn_punctual_irradiance_q24(&point, highlight_q30(surface, sample, to_light, lobe_q30));
     }
-    return (uint32_t)(highlight_q30(surface, sample, light->to_light_q30) >> 6);
+    return (uint32_t)(highlight_q30(surface, sample, light->to_light_q30, lobe_q30) >> 6);
 }
 #else
-GN_HOT static uint32_t specular_q24(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
-                                    uint32_t slot)
+GN_HOT uint32_t gn_light_highlight(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                   uint32_t slot, int32_t lobe_q30[3])
 {
-    (void)frame, (void)surface, (void)sample, (void)slot;
+    (void)frame, (void)surface, (void)sample, (void)slot, (void)lobe_q30;
     return 0;
 }
 #endif
@@ -117,9 +119,10 @@ GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, 
         if (GN_SPECULAR && surface->specular) {
             GN_COUNT(highlights, 1);
             uint32_t colour[3];
+            int32_t lobe[3];
             for (int c = 0; c < 3; c++)
                 colour[c] = gn_mul_uq16(light->state->colour_uq16[c], surface->object->specular_uq16[c]);
-            add(highlights, colour, gn_mul_uq16(specular_q24(frame, surface, sample, i), shadow));
+            add(highlights, colour, gn_mul_uq16(gn_light_highlight(frame, surface, sample, i, lobe), shadow));
         }
     }
     modulate(surface, sample, sum);

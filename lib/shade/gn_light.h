@@ -12,4 +12,9 @@ uint32_t gn_light_shadow(const gn_frame *frame, const gn_surface *surface, const
 void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                        uint32_t radiance_q20[3]);
 
+/* The highlight of the light in a slot of the surface's list, Q24, if its specular colour is 1; and the half vector
+ * minus the normal. */
+uint32_t gn_light_highlight(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot,
+                            int32_t lobe_q30[3]);
+
 #endif

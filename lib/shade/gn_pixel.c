@@ -2,7 +2,9 @@
 #include "gn_internal.h"
 
 #include "base/gn_q.h"
+#include "base/gn_count.h"
 #include "base/gn_tables.h"
+#include "geometry/gn_texture.h"
 #include "shade/gn_pixel.h"
 
 #define GN_ONE_Q20 (1U << 20)
@@ -177,16 +179,10 @@ GN_HOT size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t heigh
     return gn_format_bytes(frame->picture.format, w, h);
 }
 
-#if GN_PIECES
-/* Between dark and lit: their difference is rounded down to 15 fraction bits. */
-GN_HOT static inline int32_t mixed_q24(int32_t dark_q24, int32_t more_q24, uint32_t share_uq16)
-{
-    return dark_q24 + (int32_t)((int64_t)(more_q24 >> 9) * (int32_t)share_uq16 >> 7);
-}
-
+#if GN_INTERPOLATES
 GN_HOT static int has_levels(const gn_frame *frame)
 {
-    return frame->picture.format == GN_FORMAT_RGB565 && GN_K(frame, srgb);
+    return GN_LEVEL_TABLES && frame->picture.format == GN_FORMAT_RGB565 && GN_K(frame, srgb);
 }
 
 GN_HOT static uint16_t *pixel_565(const gn_pixel_rows *rows, int32_t x, int32_t y)
@@ -194,114 +190,83 @@ GN_HOT static uint16_t *pixel_565(const gn_pixel_rows *rows, int32_t x, int32_t 
     return rows->pixels->rgb565 + (y - rows->y0) * rows->width + x - rows->x0;
 }
 
-/* Whether n colours all lie in 0 .. 1. */
-GN_HOT static inline int stays_inside(const gn_ramp *ramp, int32_t n)
+/* Pixels of `bits` between two nodes; `inside`: colours lie in 0 .. 1. */
+GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_t from_q24[3],
+                                      const int32_t step_q24[3], int inside)
 {
-    const int32_t *from = ramp->from_q24, *step = ramp->step_q24;
-    int32_t last = n - 1;
-    int32_t all = from[0] | (from[0] + last * step[0]) | from[1] | (from[1] + last * step[1]) | from[2] |
-                  (from[2] + last * step[2]);
-    return (uint32_t)all < 1U << 24;
-}
-
-GN_HOT static inline void ramp_565(uint16_t *out, int32_t n, const gn_ramp *ramp, int inside)
-{
-    uint32_t r = (uint32_t)ramp->from_q24[0], g = (uint32_t)ramp->from_q24[1], b = (uint32_t)ramp->from_q24[2];
-    uint32_t dr = (uint32_t)ramp->step_q24[0], dg = (uint32_t)ramp->step_q24[1], db = (uint32_t)ramp->step_q24[2];
-    for (uint16_t *end = out + n; out < end; r += dr, g += dg, b += db)
-        *out++ = (uint16_t)(inside ? pack_565(r, g, b) : limit_and_pack_565((int32_t)r, (int32_t)g, (int32_t)b));
-}
-
-/* One channel of it, added to those before; the last adds the constant that level_before omits. */
-GN_HOT static inline uint32_t above_linear(uint32_t left, uint32_t level, int c)
-{
-    return c == 0 ? level << 11 : left + (c == 1 ? level << 5 : level + (1U << 11) + (1U << 5) + 1 - 64);
-}
-
-GN_HOT static inline void mix_channel(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c,
-                                      const uint32_t *share_uq16)
-{
-    int32_t from = dark->from_q24[c], step = dark->step_q24[c], more = lit->from_q24[c] - from,
-            more_step = lit->step_q24[c] - step;
-    for (uint16_t *end = out + n; out < end; from += step, more += more_step, out++) {
-        int32_t v = mixed_q24(from, more, *share_uq16++);
-        *out = (uint16_t)above_linear(
-            c == 0 ? 0 : *out,
-            level_before(c == 1 ? gn_level_63_table : gn_level_31_table, limited_q24(v), c == 1 ? 14 : 15), c);
+    int32_t r = from_q24[0], g = from_q24[1], b = from_q24[2];
+    for (; bits; bits >>= 1, out++, r += step_q24[0], g += step_q24[1], b += step_q24[2]) {
+        if (!(bits & 1U)) continue;
+        *out = (uint16_t)(inside ? pack_565((uint32_t)r, (uint32_t)g, (uint32_t)b) : limit_and_pack_565(r, g, b));
     }
 }
 
-/* The same for colours that stay inside 0 .. 1: in 31 bits. */
-GN_HOT static inline void mix_inside(uint16_t *out, int32_t n, const gn_ramp *dark, const gn_ramp *lit, int c,
-                                     const uint32_t *share_uq16)
+GN_HOT static void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line)
 {
-    const uint8_t *levels = c == 1 ? gn_level_63_table : gn_level_31_table;
-    uint32_t from = (uint32_t)dark->from_q24[c] << 7, step = (uint32_t)dark->step_q24[c] << 7;
-    int32_t more = lit->from_q24[c] - dark->from_q24[c], more_step = lit->step_q24[c] - dark->step_q24[c];
-    for (uint16_t *end = out + n; out < end; from += step, more += more_step) {
-        uint32_t v = from + (uint32_t)(more >> 9) * *share_uq16++, left = c == 0 ? 0 : *out;
-        *out++ = (uint16_t)above_linear(left, level_before(levels, v >> 7, c == 1 ? 14 : 15), c);
+    int32_t n = 1 << line->spacing_log2, step[3];
+    for (const int32_t(*node)[3] = line->node; bits; bits >>= n, out += n, node++) {
+        uint32_t part = bits & ((1U << n) - 1);
+        if (!part) continue;
+        for (int c = 0; c < 3; c++) step[c] = n == 1 ? 0 : (node[1][c] - node[0][c]) >> line->spacing_log2;
+        if (line->inside) segment_565(out, part, node[0], step, 1);
+        else segment_565(out, part, node[0], step, 0);
     }
 }
 
-GN_HOT static void slow_pixel(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
-                              const int32_t colour_q24[3])
+/* A pixel of any format, in a raw view a share of 65536. */
+GN_HOT static void store_colour(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
+                                const int32_t colour_q24[3])
 {
+    if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) {
+        rows->pixels->raw[(y - rows->y0) * rows->width + x - rows->x0] =
+            (uint32_t)gn_max32(0, gn_min32((colour_q24[0] + 128) >> 8, 65536));
+        return;
+    }
     uint32_t q20[3];
     for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(colour_q24[c], 0) >> 4;
     gn_pixel_store(frame, rows, x, y, gn_pixel_pack(frame, q20));
 }
 
-GN_HOT void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
-                          const gn_ramp *ramp)
+/* Times a texture's colour. */
+GN_HOT static void tint(const gn_pixel_line *line, int32_t i, int32_t colour_q24[3])
 {
-    if (GN_LEVEL_TABLES && has_levels(frame)) {
-        uint16_t *out = pixel_565(rows, x, y);
-        if (stays_inside(ramp, n)) ramp_565(out, n, ramp, 1);
-        else ramp_565(out, n, ramp, 0);
-        return;
-    }
-    for (int32_t i = 0; i < n; i++) {
-        int32_t colour[3];
-        for (int c = 0; c < 3; c++) colour[c] = ramp->from_q24[c] + i * ramp->step_q24[c];
-        slow_pixel(frame, rows, x + i, y, colour);
-    }
+    uint32_t texel_uq16[3];
+    GN_COUNT(textured, 1);
+    gn_texture_colour(line->texture,
+                      (int32_t)((uint32_t)line->uv_q20[0] + (uint32_t)i * (uint32_t)line->uv_step_q20[0]),
+                      (int32_t)((uint32_t)line->uv_q20[1] + (uint32_t)i * (uint32_t)line->uv_step_q20[1]), texel_uq16);
+    for (int c = 0; c < 3; c++) colour_q24[c] = (int32_t)((int64_t)colour_q24[c] * (int32_t)texel_uq16[c] >> 16);
 }
 
-GN_HOT void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
-                         const gn_ramp *dark, const gn_ramp *lit, const uint32_t *share_uq16)
+GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
+                                const gn_pixel_line *line)
 {
-    if (GN_LEVEL_TABLES && has_levels(frame)) {
-        uint16_t *out = pixel_565(rows, x, y);
-        if (stays_inside(dark, n) && stays_inside(lit, n)) {
-            mix_inside(out, n, dark, lit, 0, share_uq16);
-            mix_inside(out, n, dark, lit, 1, share_uq16);
-            mix_inside(out, n, dark, lit, 2, share_uq16);
-            return;
-        }
-        mix_channel(out, n, dark, lit, 0, share_uq16);
-        mix_channel(out, n, dark, lit, 1, share_uq16);
-        mix_channel(out, n, dark, lit, 2, share_uq16);
+    if (has_levels(frame) && !line->texture) {
+        line_565(pixel_565(rows, x, y), bits, line);
         return;
     }
-    for (int32_t i = 0; i < n; i++) {
-        int32_t colour[3];
+    int32_t log2 = line->spacing_log2;
+    for (int32_t i = 0; bits >> i; i++) {
+        int32_t colour[3], k = i >> log2, t = i & ((1 << log2) - 1);
+        if (!(bits >> i & 1U)) continue;
         for (int c = 0; c < 3; c++) {
-            int32_t from = dark->from_q24[c] + i * dark->step_q24[c],
-                    more = lit->from_q24[c] + i * lit->step_q24[c] - from;
-            colour[c] = mixed_q24(from, more, share_uq16[i]);
+            int32_t from = line->node[k][c];
+            colour[c] = t ? from + t * ((line->node[k + 1][c] - from) >> log2) : from;
         }
-        slow_pixel(frame, rows, x + i, y, colour);
+        if (GN_TEXTURES && line->texture) tint(line, i, colour);
+        store_colour(frame, rows, x + i, y, colour);
     }
 }
 
-GN_HOT void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
-                         const int32_t colour_q24[3])
+GN_HOT void gn_pixel_store_bits(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
+                                uint32_t packed)
 {
-    if (GN_LEVEL_TABLES && has_levels(frame)) {
-        *pixel_565(rows, x, y) = (uint16_t)limit_and_pack_565(colour_q24[0], colour_q24[1], colour_q24[2]);
+    if (frame->picture.format == GN_FORMAT_RGB565) {
+        for (uint16_t *out = pixel_565(rows, x, y); bits; bits >>= 1, out++)
+            if (bits & 1U) *out = (uint16_t)packed;
         return;
     }
-    slow_pixel(frame, rows, x, y, colour_q24);
+    for (; bits; bits >>= 1, x++)
+        if (bits & 1U) gn_pixel_store(frame, rows, x, y, packed);
 }
 #endif

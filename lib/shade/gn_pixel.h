@@ -19,21 +19,22 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
 /* Stores a packed pixel n times from (x, y) of the picture on, within one row. */
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
 
-/* A colour that grows by a step per pixel; |from + i step| < 2^30. */
+/* Pixels of a row whose colours are linear between nodes, and a texture that they are multiplied by. */
 typedef struct {
-    int32_t from_q24[3], step_q24[3];
-} gn_ramp;
+    const int32_t (*node)[3]; /* Q24, |.| < 2^29, from the row's first pixel on, 2^spacing_log2 pixels apart */
+    int32_t spacing_log2;
+    int inside;                /* all nodes are in 2^-18 .. 1: nothing needs a clamp */
+    const gn_texture *texture; /* NULL: none */
+    int32_t uv_q20[2], uv_step_q20[2];
+} gn_pixel_line;
 
-/* Stores n pixels from (x, y) of the picture on, within one row. */
-void gn_pixel_ramp(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
-                   const gn_ramp *ramp);
+/* Stores the pixels of `bits` from (x, y) of the picture on, the lowest first; at most 16. */
+void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
+                         const gn_pixel_line *line);
 
-/* The same for pixels between two colours: share[i] / 65536 is the fraction from dark to lit. */
-void gn_pixel_mix(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n,
-                  const gn_ramp *dark, const gn_ramp *lit, const uint32_t *share_uq16);
-
-/* Stores one pixel at (x, y); |colour| < 2^30. */
-void gn_pixel_dot(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, const int32_t colour_q24[3]);
+/* The same of a packed colour. */
+void gn_pixel_store_bits(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
+                         uint32_t packed);
 
 /* Stores a 16-bit pixel n times from index i of the tile on, two per word if there are many. */
 GN_HOT static inline void gn_pixel_fill_16(gn_tile_pixels *pixels, uint32_t i, uint32_t n, uint32_t packed)

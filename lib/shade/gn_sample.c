@@ -14,6 +14,14 @@ typedef struct {
     int32_t b_q30[2];
 } hit;
 
+/* Z = depth_scale.mant * recip * 2^-s, the product in [2^62, 2^64) */
+GN_HOT static uint64_t depth_at(const gn_surface *s, const gn_ray_recip *r)
+{
+    uint64_t p = (uint64_t)s->depth_scale.mant * r->recip;
+    int32_t shift = 63 + 32 - r->clz - s->depth_scale.exp;
+    return shift > 63 ? 0 : shift < 33 ? (uint64_t)INT32_MAX : ((p >> (shift - 1)) + 1) >> 1;
+}
+
 /* The intersection of the ray through a pixel centre with the plane. Values are clamped to the triangle: a snapped edge
  * may cover a centre just outside the unsnapped triangle. */
 GN_HOT static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, hit *h)
@@ -24,11 +32,7 @@ GN_HOT static void intersect(const gn_frame *frame, const gn_surface *s, int32_t
         h->b_q30[0] = h->b_q30[1] = GN_ONE_Q30 / 3;
         return;
     }
-    /* Z = depth_scale.mant * recip * 2^-s, the product in [2^62, 2^64) */
-    uint64_t p = (uint64_t)s->depth_scale.mant * r.recip;
-    int32_t shift = 63 + 32 - r.clz - s->depth_scale.exp;
-    uint64_t z = shift > 63 ? 0 : shift < 33 ? (uint64_t)INT32_MAX : ((p >> (shift - 1)) + 1) >> 1;
-    h->z_q16 = (int32_t)gn_clamp64((int64_t)z, s->z_min_q16, s->z_max_q16);
+    h->z_q16 = (int32_t)gn_clamp64((int64_t)depth_at(s, &r), s->z_min_q16, s->z_max_q16);
     if (GN_HAS_BARY(s)) gn_bary_at(h->b_q30, &s->bary, &r, px, py, frame->cam.focal2_px_q16);
 }
 
@@ -41,8 +45,9 @@ GN_HOT static int32_t at_hit(const hit *h, int32_t a0, int32_t a1, int32_t a2)
 GN_HOT static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3])
 {
     for (int i = 0; i < 3; i++) {
-        const int32_t n0 = s->normal_q30[0][i];
-        n_q30[i] = GN_SMOOTH(s) ? at_hit(h, n0, s->normal_q30[1][i], s->normal_q30[2][i]) : n0;
+        int32_t n = s->normal_q30[0][i];
+        if (GN_SMOOTH(s)) n = at_hit(h, n, s->normal_q30[1][i], s->normal_q30[2][i]);
+        n_q30[i] = gn_max32(-GN_ONE_Q30, gn_min32(n, GN_ONE_Q30)); /* outside of the triangle it may be longer */
     }
 }
 
@@ -82,7 +87,7 @@ GN_HOT static void light_coords(const gn_light_view *view, int32_t px, int32_t p
 /* Whether a light has cascades, or shadows end at a distance from the camera. */
 GN_HOT static int asks_for_cascades(const gn_frame *frame)
 {
-    if (GN_SIZE_FIRST && !GN_PIECES) return 1; /* any value: nothing depends on it */
+    if (GN_SIZE_FIRST && !GN_INTERPOLATES) return 1; /* any value: nothing depends on it */
     return frame->has_cascades || frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS;
 }
 
@@ -130,6 +135,13 @@ GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface 
     int32_t lifted[3];
     gn_bias_directional(frame, view, lifted_normal(s, s->light[slot].state, n_q30, lifted), moved_q16);
     return moved_q16;
+}
+
+GN_HOT void gn_sample_in_view(const gn_frame *frame, const gn_surface *s, uint32_t slot, const gn_light_view *view,
+                              int32_t x, int32_t y, int32_t z_q16, const int32_t n_q30[3], int32_t coord_q16[3])
+{
+    int32_t moved[3], px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    light_coords(view, px, py, z_q16, own_offset(frame, s, slot, view, n_q30, moved), coord_q16);
 }
 
 /* Light-space coordinates of the point in a directional light's view; with cascades also in the next one. */
@@ -230,7 +242,7 @@ GN_HOT static int32_t directional_cosine_q24(const gn_frame *frame, const gn_sur
 }
 
 GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, const hit *h, int32_t px, int32_t py,
-                                const int32_t n_q30[3], gn_sample *sample)
+                                const int32_t n_q30[3], int with_places, gn_sample *sample)
 {
     gn_length length = {0, 0};
     int needs_length = !GN_K(frame, vertex_light) || s->n_punctual || s->specular;
@@ -247,7 +259,7 @@ GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, cons
         }
         GN_COUNT(sample_lights, 1);
         out[0] = directional_cosine_q24(frame, s, &s->light[i], h, length, n_q30);
-        if (s->shadowed) directional_coords(frame, s, i, px, py, n_q30, sample, out + 1);
+        if (s->shadowed && with_places) directional_coords(frame, s, i, px, py, n_q30, sample, out + 1);
     }
     if (s->specular) specular_values(frame, px, py, unit_q30, sample);
 }
@@ -270,28 +282,51 @@ GN_HOT static void extra_values(const gn_surface *s, const hit *h, int32_t *valu
         value[GN_VALUE_BAKED + i] = s->baked ? attribute_at(s, h, GN_ATTRIBUTE_BAKED + i) : 0;
 }
 
-/* Everything that shading interpolates, at a pixel's centre. [R4] */
-GN_HOT void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
+/* Everything that shading interpolates, at an intersection. */
+GN_HOT static void sample_values(const gn_frame *frame, const gn_surface *s, const hit *h, int32_t px, int32_t py,
+                                 int with_places, gn_sample *sample)
 {
-    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
-    hit h;
     GN_COUNT(samples, 1);
     if (GN_HAS_BARY(s)) GN_COUNT(samples_smooth, 1);
-    intersect(frame, s, px, py, &h);
-    sample->value[GN_VALUE_Z] = h.z_q16;
+    sample->value[GN_VALUE_Z] = h->z_q16;
     sample->value[GN_VALUE_FADE] = 0;
     sample->cascade = GN_CASCADE_NONE;
     sample->in_reach = 1;
     for (int i = 0; i < 3; i++)
-        sample->value[GN_VALUE_RGB + i] = GN_COLOURED(s) ? attribute_at(s, &h, GN_ATTRIBUTE_RGB + i) : 0;
-    if (s->first_value < GN_VALUE_Z) extra_values(s, &h, sample->value);
+        sample->value[GN_VALUE_RGB + i] = GN_COLOURED(s) ? attribute_at(s, h, GN_ATTRIBUTE_RGB + i) : 0;
+    if (s->first_value < GN_VALUE_Z) extra_values(s, h, sample->value);
     if (!s->n_lights) return;
     int32_t n[3];
-    normal_at(s, &h, n);
-    for (int i = 0; GN_SMOOTH(s) && i < 3; i++) sample->normal_q15[i] = n[i] >> 15;
+    normal_at(s, h, n);
+    for (int i = 0; GN_SMOOTH(s) && i < 3; i++) sample->interpolated_q30[i] = n[i];
     if (s->shadowed && asks_for_cascades(frame)) select_cascade(frame, px, py, sample);
-    light_values(frame, s, &h, px, py, n, sample);
+    light_values(frame, s, h, px, py, n, with_places, sample);
 }
+
+/* At a pixel's centre. [R4] */
+GN_HOT void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
+{
+    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    hit h;
+    intersect(frame, s, px, py, &h);
+    sample_values(frame, s, &h, px, py, 1, sample);
+}
+
+#if GN_INTERPOLATES
+GN_HOT int gn_sample_on_plane(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
+{
+    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    gn_ray_recip r;
+    hit h;
+    if (!gn_plane_recip(&r, &s->plane, px, py, frame->cam.focal2_px_q16, GN_K(frame, newton_steps))) return 0;
+    uint64_t z = depth_at(s, &r);
+    if (z < (uint64_t)(s->z_min_q16 >> 1) || z > 2 * (uint64_t)s->z_max_q16 || z > INT32_MAX || !z) return 0;
+    h.z_q16 = (int32_t)z;
+    if (GN_HAS_BARY(s) && !gn_bary_beyond(h.b_q30, &s->bary, &r, px, py, frame->cam.focal2_px_q16)) return 0;
+    sample_values(frame, s, &h, px, py, 0, sample);
+    return 1;
+}
+#endif
 
 GN_HOT uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
 {

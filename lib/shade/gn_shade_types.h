@@ -96,6 +96,9 @@ enum {
  * units. */
 enum { GN_LIGHT_FACING, GN_LIGHT_POINT_AT, GN_LIGHT_OFFSET = 4 };
 
+/* How a light arrives at a point: not at all; through the rim of a cone; fully. */
+enum { GN_ARRIVES_NOT, GN_ARRIVES_RIM, GN_ARRIVES_FULLY };
+
 /* Incident light of a spot or point light at a sample: gn_arrival.h. */
 typedef struct {
     uint32_t irradiance_q24; /* of a light whose colour is 1 */
@@ -107,32 +110,15 @@ typedef struct {
 #if GN_SHADOWS
     uint8_t face; /* of the light's views */
 #endif
-#if GN_ARRIVAL_STEPS
-    uint8_t side;   /* of what nothing is stepped across */
-    uint8_t shadow; /* the verdict of depth bounds */
-#endif
 } gn_arrival;
-
-enum { GN_SHADOW_UNDECIDED, GN_SHADOW_NONE, GN_SHADOW_FULL };
-
-/* Flags: within a spot's inner cone; automatic bias goes along the ray. */
-enum { GN_SIDE_INNER = 1, GN_SIDE_DEPTH = 2 };
-
-/* Between two samples: irradiance, U, V and depth. */
-typedef struct {
-    int32_t holds; /* 0: computed again at every pixel */
-    int32_t step[4], bend[4];
-    int32_t at[3]; /* U and V, Q20, and 1 - depth, Q32 * 2^(up - 2) */
-    int32_t up;
-} gn_arrival_steps;
 
 #define GN_CASCADE_NONE 4
 
 typedef struct {
-    int32_t cascade;       /* of the surface point, GN_CASCADE_NONE: none */
-    int32_t in_reach;      /* near enough to the camera for shadows */
-    int32_t x, y;          /* the pixel */
-    int32_t normal_q15[3]; /* interpolated, not renormalised; lit smooth surfaces only */
+    int32_t cascade;             /* of the surface point, GN_CASCADE_NONE: none */
+    int32_t in_reach;            /* near enough to the camera for shadows */
+    int32_t x, y;                /* the pixel */
+    int32_t interpolated_q30[3]; /* normal, not renormalised; lit smooth surfaces only */
     int32_t value[GN_VALUE_COUNT];
 #if GN_PUNCTUAL_LIGHTS
     gn_arrival arrival[GN_SURFACE_LIGHTS]; /* of spot and point lights */
@@ -142,72 +128,108 @@ typedef struct {
 #endif
 } gn_sample;
 
-/* Between two samples: gn_chord.h. */
+#if GN_INTERPOLATES
+/* ---- Cells: gn_lattice.h --------------------------------------------------------------------------------------------
+ */
+
+/* A light at a corner of cells. */
 typedef struct {
-    int32_t step[GN_VALUE_COUNT]; /* from the first pixel to the next */
-    int32_t bend[GN_VALUE_COUNT]; /* growth of the step per pixel */
-    int32_t end;                  /* of the values that are stepped */
-    int32_t bend_first, bend_end; /* the others' steps stay */
-#if GN_ARRIVAL_STEPS
-    gn_arrival_steps arrival[GN_SURFACE_LIGHTS];
+    int32_t irradiance_q24; /* of a light whose colour is 1, before shadows; at most 2^27 */
+    uint8_t arrives;
+#if GN_MASKS
+    uint32_t mask_uq16;
 #endif
-} gn_chord;
-
-/* Linear on the screen: the value at a pixel, and its change per pixel to the right and down. */
-typedef struct {
-    int32_t at, dx, dy;
-} gn_slope;
-
-/* Of second order: x, y pixels from that pixel, v = at + dx x + dy y + dxx x^2 + dxy x y + dyy y^2. */
-typedef struct {
-    gn_slope slope_q24;
-    int32_t dxx_q28, dxy_q28, dyy_q28;
-} gn_curve;
-
-/* N, the normal times n . ray over that of the middle, is linear over a patch, with (x, y) from the middle. */
-typedef struct {
-    gn_slope facing_q28[GN_SURFACE_LIGHTS]; /* N . L */
-    uint32_t size_q28, size_dx, size_dy, size_dxx, size_dxy,
-        size_dyy;        /* |N|^2: size + x (dx + x dxx + y dxy) + y (dy + y dyy) */
-    uint32_t per_px_q16; /* maximum angle between the normals of neighbouring pixels, radians */
-    uint32_t keep_uq16;  /* of the light that casts a shadow: the remaining light */
-} gn_turning;
-
-typedef struct {
-    const struct gn_frame *frame;
-    const gn_surface *surface;
-    int32_t ref_x, ref_y; /* the pixel of w, b */
-    gn_slope w, b[2];     /* n . ray and the barycentrics times it, at one scale: 0 < w < 2^27 on the triangle */
-    int32_t z_shift;      /* view depth = depth_scale.mant * (2^63 / w normalised) / 2^32 >> z_shift - clz(w) */
-    int32_t shadow_slot;  /* in the surface's list, of the light whose shadow may fall on it; -1: none */
-    /* the patch: around (x, y) */
-    int32_t x, y;
-    int varies;      /* colours vary over it */
-    int32_t ramp_px; /* maximum pixels of a row in one ramp */
-    int turns;       /* normals vary: the incident light is not in the slopes */
-#if GN_TURNING
-    int32_t tint_px; /* maximum pixels of a row with linear vertex colours */
-    gn_turning turning;
-#endif
-    int looks_up;             /* 0: dark everywhere */
-    int tinted;               /* times the colours of vertices; otherwise these are in it */
-    int steep;                /* curves are of factors times 1 / (1 + t), t the change of w; else of it all */
-    gn_curve dark[3], lit[3]; /* without and with the light */
-    gn_slope tint_q24[3];
-    uint32_t dark_pixel, lit_pixel; /* packed, where nothing varies */
-    int32_t w_dx_q30, w_dy_q30;     /* change of w per pixel, relative to w */
 #if GN_SHADOWS
-    const gn_light_view *view;
-    int32_t offset_q16[3];                     /* the receiver's offset in texels: the constant part, */
-    int32_t along_q16;                         /* and the part along the interpolated normal, not normalised */
-    gn_slope place[3];                         /* light-space coordinates of the patch: texels, Q16; U, V and depth D */
-    int32_t depth_up, depth_least, depth_most; /* shift from D to a fraction of the depth range, Q31, and its limits */
-    int32_t chunk_px;                          /* maximum pixels to step from end to end */
-    int32_t x0, y0;                            /* the corner of the patch */
-    uint32_t cells;                            /* the verdicts on its cells, 2 bits each */
-    int32_t cell_reach[3];                     /* of U, V, D from the middle of a cell to its corners */
+    uint8_t view;   /* of the light's views: where the point itself is looked up, GN_VIEW_NONE: nowhere */
+    uint8_t placed; /* the view that u, v and depth are of; GN_VIEW_NONE: none yet */
+    uint8_t seen;   /* 0: nearer to the light than the view's near plane */
+    int32_t u_q16, v_q16, depth_q30;
 #endif
-} gn_pieces;
+#if GN_PUNCTUAL_LIGHTS
+    int32_t from_q16[3], offset_q16[3]; /* from the light; the receiver's offset */
+#endif
+#if GN_SPECULAR
+    int32_t highlight_q24, lobe_q30[3]; /* its highlight; the half vector minus the normal, unit vectors */
+#endif
+} gn_corner_light;
+
+#define GN_VIEW_NONE 7
+
+enum { GN_CORNER_NEW, GN_CORNER_KNOWN, GN_CORNER_UNSEEN };
+
+/* A surface's plane at the centre of a pixel, which may lie outside of the triangle. */
+typedef struct {
+    uint8_t state;
+    uint8_t cascade;
+    int16_t x, y;
+    int32_t z_q16;
+    uint32_t g_uq16, fade_uq16; /* shadow strength; share of the cascade in the blend with the next */
+    int32_t base_q24[3];        /* ambient and baked light */
+#if GN_VERTEX_COLOURS
+    int32_t tint_q16[3];
+#endif
+#if GN_TEXTURES
+    int32_t uv_q20[2];
+#endif
+#if GN_MASKS
+    int32_t mask_uv_uq16[2];
+#endif
+#if GN_VERTEX_NORMALS
+    int32_t normal_q30[3]; /* interpolated, not renormalised */
+#endif
+    gn_corner_light light[GN_SURFACE_LIGHTS];
+} gn_corner;
+
+/* Bilinear over a cell, (x, y) from its first pixel: at + x dx + y dy + x y dxy. */
+typedef struct {
+    int32_t at, dx, dy, dxy;
+} gn_patch;
+
+/* A light whose shadow has an edge in the cell. */
+typedef struct {
+    const gn_light_view *view;
+    gn_patch u_q16, v_q16, depth_q30;
+    gn_patch more_q24[3]; /* what it adds where it is not in shadow */
+    int32_t slope_q28[2];
+} gn_lattice_edge;
+
+#define GN_LATTICE_EDGES 4
+
+/* What a cell looks like. */
+typedef struct {
+    int32_t colour_q24[4][3];    /* at its corners, without the light of edges; without texture */
+    int32_t highlight_q24[4][3]; /* in it */
+    gn_lattice_edge edge[GN_LATTICE_EDGES];
+    int32_t n_edges;
+    int32_t spacing_log2; /* of lookups in pixels */
+} gn_lattice_look;
+
+/* Pixels of a row. */
+typedef struct {
+    int16_t x, y, n_px;
+} gn_run_span;
+
+enum { GN_SPANS = 64, GN_PART_WIDTH = 64, GN_PART_ROWS = 16 };
+
+/* Sizes of cells that can be split: 16, 8 and 4 pixels. */
+#define GN_LATTICE_LEVELS (GN_RUNTIME_KNOBS || GN_PERSP_STEP == 16 ? 3 : 2)
+#define GN_LATTICE_NODES  (GN_LATTICE_LEVELS == 3 ? 17 : 9) /* in a row of the largest cell */
+
+/* A surface by cells. */
+typedef struct {
+    gn_run_span span[GN_SPANS]; /* pixels of the surface, top down and left to right */
+    int32_t n_spans;
+    int32_t size_log2;                               /* of the largest cells, in pixels */
+    int32_t x, y;                                    /* of the part */
+    uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
+    gn_corner ring[2][3];                            /* of the column of cells at hand: left and right, by turns */
+    gn_corner middle[3][5];                          /* of split cells: by size, from 8 on downwards; centre last */
+    int32_t ring_x[2];                               /* where they stand, INT32_MIN: nowhere */
+    gn_lattice_look look;
+    int32_t node[3][GN_LATTICE_NODES][3]; /* colours of a row of a cell and the next, Q24; steps between */
+    uint32_t attenuation[GN_LATTICE_NODES];
+} gn_lattice;
+#endif
 
 /* The tile, and the triangle at hand. */
 typedef struct {
@@ -221,18 +243,10 @@ typedef struct {
     uint32_t last_q20[3]; /* the last radiance and its pixel: neighbours are often equal */
     uint32_t last_pixel;
     uint32_t radiance_q20[3];
-#if GN_PIECES
-    gn_rect spanned, part; /* of the screen: by the triangle, what is shaded now */
+    gn_sample sample; /* at the pixel or corner at hand */
+#if GN_INTERPOLATES
+    gn_lattice lattice;
 #endif
-    union {
-        struct {
-            gn_sample sample[2]; /* the run's last exact one and the next */
-            gn_chord chord;
-        } run;
-#if GN_PIECES
-        gn_pieces pieces;
-#endif
-    } by; /* how the surface is shaded */
 } gn_shading;
 
 #endif

@@ -70,6 +70,36 @@ GN_HOT static void ortho_slopes(const gn_light_view *view, const int32_t face_q3
     }
 }
 
+#if GN_PUNCTUAL_LIGHTS
+/* With m . P = h on the face: n / z = n (m_u x/z + m_v y/z + m_w) / h is linear over the tile. */
+GN_HOT static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
+                                int32_t slope_q28[2])
+{
+    const gn_persp_fit *fit = &view->fit.persp;
+    int64_t h = gn_dot_q30(face_q30, from_q16);
+    gn_bfloat per_h = gn_bf_mul(gn_bf_recip(gn_bf_from_u64(gn_abs64(h) | 1U)), fit->texel_per_z);
+    for (int i = 0; i < 2; i++) {
+        int64_t m = gn_dot_q30(face_q30, view->axis_q30[i]) * fit->near_q16; /* Q46, 2^59 */
+        slope_q28[i] = limit_slope(view, gn_bf_apply(h < 0 ? m : -m, per_h, -2));
+    }
+}
+#else
+GN_HOT static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
+                                int32_t slope_q28[2])
+{
+    (void)view, (void)face_q30, (void)from_q16, (void)slope_q28;
+}
+#endif
+
+GN_HOT void gn_shadow_slopes(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view,
+                             const int32_t from_q16[3], int32_t slope_q28[2])
+{
+    slope_q28[0] = slope_q28[1] = 0;
+    if (!GN_RECEIVER_PLANE || !frame->scene->lights[view->light_idx].receiver_plane) return;
+    if (GN_PUNCTUAL_LIGHTS && view->perspective) persp_slopes(view, face_of(surface), from_q16, slope_q28);
+    else ortho_slopes(view, face_of(surface), slope_q28);
+}
+
 GN_HOT static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                                          const gn_light_view *view, const int32_t coord[3])
 {
@@ -81,8 +111,7 @@ GN_HOT static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface
         uint64_t share = up >= 0 ? (uint64_t)(uint32_t)coord[2] << up : (uint32_t)coord[2] >> -up;
         r.depth_q32 = share > UINT32_MAX ? UINT32_MAX : (uint32_t)share;
     }
-    if (GN_RECEIVER_PLANE && frame->scene->lights[view->light_idx].receiver_plane)
-        ortho_slopes(view, face_of(surface), r.slope_q28);
+    gn_shadow_slopes(frame, surface, view, NULL, r.slope_q28);
     return gn_filter_attenuation(frame, view, &r);
 }
 
@@ -105,34 +134,17 @@ GN_HOT static uint32_t cascaded_attenuation(const gn_frame *frame, const gn_surf
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* With m . P = h on the face: n / z = n (m_u x/z + m_v y/z + m_w) / h is linear over the tile. */
-GN_HOT static void persp_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
-                                int32_t slope_q28[2])
-{
-    const gn_persp_fit *fit = &view->fit.persp;
-    int64_t h = gn_dot_q30(face_q30, from_q16);
-    gn_bfloat per_h = gn_bf_mul(gn_bf_recip(gn_bf_from_u64(gn_abs64(h) | 1U)), fit->texel_per_z);
-    for (int i = 0; i < 2; i++) {
-        int64_t m = gn_dot_q30(face_q30, view->axis_q30[i]) * fit->near_q16; /* Q46, 2^59 */
-        slope_q28[i] = limit_slope(view, gn_bf_apply(h < 0 ? m : -m, per_h, -2));
-    }
-}
-
 GN_HOT static GN_NOINLINE uint32_t persp_attenuation(const gn_frame *frame, const gn_surface *surface,
                                                      const gn_sample *sample, uint32_t slot)
 {
     const gn_arrival *at = &sample->arrival[slot];
     GN_COUNT(lookups_persp, 1);
     if (at->face == GN_FACE_NONE) return GN_ONE_UQ16;
-#if GN_ARRIVAL_STEPS
-    if (at->shadow != GN_SHADOW_UNDECIDED) return at->shadow == GN_SHADOW_NONE ? GN_ONE_UQ16 : 0;
-#endif
     const gn_light_view *view = &frame->view[surface->light[slot].state->view_idx + at->face];
     GN_ELEMENT(view);
     gn_receiver r = {at->u_q16, at->v_q16, at->depth_q32, {0, 0}, sample->x, sample->y};
     const int32_t *from = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot + GN_LIGHT_POINT_AT];
-    if (GN_RECEIVER_PLANE && frame->scene->lights[view->light_idx].receiver_plane)
-        persp_slopes(view, face_of(surface), from, r.slope_q28);
+    gn_shadow_slopes(frame, surface, view, from, r.slope_q28);
     return gn_filter_attenuation(frame, view, &r);
 }
 #else
@@ -172,7 +184,7 @@ GN_HOT static uint32_t attenuation_of(const gn_frame *frame, const gn_surface *s
 /* ---- Mixing ------------------------------------------------------------------------------------------------------ */
 
 /* The mask of a light's channel, 65536: lit, or no mask. [M5] */
-GN_HOT static uint32_t mask_of(const gn_surface *surface, const gn_sample *sample, int32_t channel)
+GN_HOT uint32_t gn_shadow_mask(const gn_surface *surface, const gn_sample *sample, int32_t channel)
 {
     if (!GN_MASKS || !surface->masked || channel < 0) return GN_ONE_UQ16;
     const int32_t *value = &sample->value[GN_VALUE_MASK];
@@ -182,23 +194,34 @@ GN_HOT static uint32_t mask_of(const gn_surface *surface, const gn_sample *sampl
 }
 
 /* Realtime shadow and baked mask, by the light's strength. [M4] [M6] */
+GN_HOT uint32_t gn_shadow_mixed(const gn_frame *frame, const gn_light_state *light, uint32_t mask_uq16, uint32_t g_uq16,
+                                uint32_t realtime_uq16)
+{
+    uint32_t strength = light->strength_uq16, realtime = realtime_uq16;
+    switch (frame->scene->shadow.mixing) {
+    case GN_MIXING_ALWAYS:
+        realtime = faded(realtime, g_uq16);
+        return faded(realtime < mask_uq16 ? realtime : mask_uq16, strength);
+    case GN_MIXING_DISTANCE:
+        return faded(gn_mul_uq16(mask_uq16, GN_ONE_UQ16 - g_uq16) + gn_mul_uq16(realtime, g_uq16), strength);
+    default:
+        return faded(realtime, gn_mul_uq16(strength, g_uq16));
+    }
+}
+
+GN_HOT uint32_t gn_shadow_baked(const gn_light_state *light, uint32_t mask_uq16)
+{
+    return faded(mask_uq16, light->strength_uq16);
+}
+
 GN_HOT uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
                                  uint32_t slot, uint32_t g_uq16)
 {
     if (!(surface->shadowed | surface->masked)) return GN_ONE_UQ16;
     const gn_light_state *light = surface->light[slot].state;
-    uint32_t strength = light->strength_uq16;
-    if (!strength) return GN_ONE_UQ16;
-    uint32_t mask = mask_of(surface, sample, light->mask_channel);
-    if (!GN_SHADOWS || light->view_idx < 0 || !gn_mul_uq16(strength, g_uq16)) return faded(mask, strength);
+    if (!light->strength_uq16) return GN_ONE_UQ16;
+    uint32_t mask = gn_shadow_mask(surface, sample, light->mask_channel);
+    if (!gn_shadow_is_realtime(light, g_uq16)) return gn_shadow_baked(light, mask);
     uint32_t realtime = attenuation_of(frame, surface, sample, slot);
-    switch (frame->scene->shadow.mixing) {
-    case GN_MIXING_ALWAYS:
-        realtime = faded(realtime, g_uq16);
-        return faded(realtime < mask ? realtime : mask, strength);
-    case GN_MIXING_DISTANCE:
-        return faded(gn_mul_uq16(mask, GN_ONE_UQ16 - g_uq16) + gn_mul_uq16(realtime, g_uq16), strength);
-    default:
-        return faded(realtime, gn_mul_uq16(strength, g_uq16));
-    }
+    return gn_shadow_mixed(frame, light, mask, g_uq16, realtime);
 }

@@ -11,4 +11,22 @@ uint32_t gn_shadow_distance(const gn_frame *frame, const gn_surface *surface, co
 uint32_t gn_shadow_factor(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample, uint32_t slot,
                           uint32_t g_uq16);
 
+/* Parts of it: the baked mask of a light's channel at a sample, 65536: lit, or none [M5]; a mask alone, by the light's
+ * strength; and realtime shadow and mask, by the mixing mode. */
+uint32_t gn_shadow_mask(const gn_surface *surface, const gn_sample *sample, int32_t channel);
+uint32_t gn_shadow_baked(const gn_light_state *light, uint32_t mask_uq16);
+uint32_t gn_shadow_mixed(const gn_frame *frame, const gn_light_state *light, uint32_t mask_uq16, uint32_t g_uq16,
+                         uint32_t realtime_uq16);
+
+/* Whether the light has a realtime shadow of that strength. */
+GN_HOT static inline int gn_shadow_is_realtime(const gn_light_state *light, uint32_t g_uq16)
+{
+    return GN_SHADOWS && light->view_idx >= 0 && gn_mul_uq16(light->strength_uq16, g_uq16);
+}
+
+/* Slopes of depth over a texel of the view, 0 without B5; `from` is a point of the face from the light, spots and points
+ * only. */
+void gn_shadow_slopes(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view,
+                      const int32_t from_q16[3], int32_t slope_q28[2]);
+
 #endif

@@ -39,7 +39,14 @@ COST(samples_smooth, 344.1) /* the same with interpolated normals, colours or te
 COST(sample_lights, 432.2) /* directional light at such a place */
 COST(sample_lights_punctual, 392.2) /* spot or point light at such a place */
 COST(shaded, 0) /* pixel shaded */
-COST(stepped, 39.04) /* value stepped from one pixel to the next */
+COST(corners, 1000)
+COST(places, 200)
+COST(cells, 300)
+COST(cells_split, 100)
+COST(cells_judged, 100)
+COST(cells_plain, 400)
+COST(cells_drawn, 2500)
+COST(edge_lookups, 100)
 COST(lights, 0) /* light that arrives at a pixel */
 COST(lights_punctual, 0) /* spot or point light that faces a pixel */
 COST(highlights, 0) /* specular highlight of a light at a pixel */

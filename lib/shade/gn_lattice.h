@@ -1,0 +1,21 @@
+/* A surface by cells: squares of pixels, between whose corners light is interpolated. Cells whose light is too uneven
+ * are split; what even the smallest cannot show is shaded pixel by pixel (gn_exact). */
+#ifndef GN_LATTICE_H
+#define GN_LATTICE_H
+
+#include "shade/gn_lattice_look.h"
+
+/* Shades the surface's pixels in the spans of s->lattice: n_spans > 0. */
+void gn_lattice_shade(gn_shading *s);
+
+/* Draws the pixels of a cell that its look is known of: gn_lattice_draw.c. */
+void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4]);
+
+/* Pixels of the part in a row of a cell. */
+GN_HOT static inline uint32_t gn_lattice_bits(const gn_lattice *l, int32_t x, int32_t y, int32_t size_log2)
+{
+    uint32_t at = (uint32_t)(x - l->x);
+    return l->bits[at >> 5][y - l->y] >> (at & 31) & ((1U << (1 << size_log2)) - 1);
+}
+
+#endif

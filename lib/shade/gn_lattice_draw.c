@@ -1,0 +1,224 @@
+/* Pixels of a cell: rows of nodes, between which colours are linear along the row and from row to row. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_q.h"
+#include "shade/gn_exact.h"
+#include "shade/gn_lattice.h"
+#include "shade/gn_pixel.h"
+#include "shadow/gn_filter.h"
+
+#if GN_INTERPOLATES
+
+/* The cell at hand. */
+typedef struct {
+    gn_shading *s;
+    int32_t x, y, size_log2;
+    gn_patch base_q24[3];
+    int32_t first, n; /* nodes of a row: from this pixel on */
+} drawing;
+
+/* ---- One colour -------------------------------------------------------------------------------------------------- */
+
+/* Whether all corners have the same pixel, as where nothing varies. */
+GN_HOT static int is_plain(gn_shading *s, const gn_lattice_look *look, uint32_t *packed)
+{
+    const int32_t(*c)[3] = look->colour_q24;
+    uint32_t first = 0;
+    for (int j = 0; j < 3; j++)
+        for (int i = 1; i < 4; i++)
+            if (gn_abs32(c[i][j] - c[0][j]) >> 19) return 0; /* 1 / 32 */
+    for (int i = 0; i < 4; i++) {
+        uint32_t q20[3];
+        for (int j = 0; j < 3; j++) q20[j] = (uint32_t)gn_max32(c[i][j], 0) >> 4;
+        *packed = gn_exact_pack(s, q20);
+        if (i > 0 && *packed != first) return 0;
+        first = *packed;
+    }
+    return 1;
+}
+
+GN_HOT static void fill(const drawing *d, uint32_t packed)
+{
+    gn_shading *s = d->s;
+    GN_COUNT(cells_plain, 1);
+    for (int32_t y = d->y; y < d->y + (1 << d->size_log2); y++) {
+        uint32_t bits = gn_lattice_bits(&s->lattice, d->x, y, d->size_log2);
+        if (bits) gn_pixel_store_bits(s->frame, &s->rows, d->x, y, bits, packed);
+    }
+}
+
+/* ---- Rows of nodes ----------------------------------------------------------------------------------------------- */
+
+#if GN_SHADOWS
+/* Attenuations along a row of nodes, `below` pixels under the cell's first row. */
+GN_HOT static void find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
+{
+    const gn_frame *frame = d->s->frame;
+    int32_t log2 = d->s->lattice.look.spacing_log2, n = d->n;
+    gn_receiver_step step = {edge->u_q16.dx + below * edge->u_q16.dxy, edge->v_q16.dx + below * edge->v_q16.dxy,
+                             edge->depth_q30.dx + below * edge->depth_q30.dxy};
+    gn_receiver_step from = {gn_patch_at(&edge->u_q16, d->first, below), gn_patch_at(&edge->v_q16, d->first, below),
+                             gn_patch_at(&edge->depth_q30, d->first, below)};
+    GN_COUNT(edge_lookups, n);
+    step.u_q16 *= 1 << log2;
+    step.v_q16 *= 1 << log2;
+    int32_t depth_step_q30 = step.depth_q31 * (1 << log2), depth_q30 = from.depth_q31;
+    int own = edge->view->filter == GN_FILTER_DISK || (edge->slope_q28[0] | edge->slope_q28[1]);
+    int32_t last_q30 = depth_q30 + (n - 1) * depth_step_q30, most_q30 = (1 << 30) - 16384;
+    if (!own && gn_max32(depth_q30, last_q30) < most_q30 && gn_min32(depth_q30, last_q30) > -(1 << 29)) {
+        from.depth_q31 = 2 * depth_q30;
+        step.depth_q31 = 2 * depth_step_q30;
+        gn_receiver_step to = {from.u_q16 + (n - 1) * step.u_q16, from.v_q16 + (n - 1) * step.v_q16, 2 * last_q30};
+        gn_filter_row(frame, edge->view, &from, &to, &step, n, out);
+        return;
+    }
+    for (int32_t i = 0; i < n; i++) {
+        int32_t depth = gn_max32(0, gn_min32(depth_q30 + i * depth_step_q30, (1 << 30) - 1));
+        gn_receiver r = {from.u_q16 + i * step.u_q16,
+                         from.v_q16 + i * step.v_q16,
+                         (uint32_t)depth << 2,
+                         {edge->slope_q28[0], edge->slope_q28[1]},
+                         d->x + d->first + i * (1 << log2),
+                         d->y + below};
+        out[i] = gn_filter_attenuation(frame, edge->view, &r);
+    }
+}
+
+GN_HOT static void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3])
+{
+    const uint32_t *attenuation = d->s->lattice.attenuation;
+    int32_t log2 = d->s->lattice.look.spacing_log2, at[3], step[3];
+    find_attenuations(d, edge, below, d->s->lattice.attenuation);
+    for (int c = 0; c < 3; c++) {
+        const gn_patch *more = &edge->more_q24[c];
+        at[c] = gn_patch_at(more, d->first, below);
+        step[c] = (more->dx + below * more->dxy) * (1 << log2);
+    }
+    for (int32_t i = 0; i < d->n; i++, at[0] += step[0], at[1] += step[1], at[2] += step[2]) {
+        uint32_t share = attenuation[i];
+        if (!share) continue;
+        for (int c = 0; c < 3; c++)
+            node[i][c] += share == 65536 ? at[c] : (int32_t)((int64_t)at[c] * (int32_t)share >> 16);
+    }
+}
+#else
+GN_HOT static void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3])
+{
+    (void)d, (void)edge, (void)below, (void)node;
+}
+#endif
+
+/* Colours of a row of nodes. Returns whether they lie in 2^-18 .. 1. */
+GN_HOT static int find_nodes(const drawing *d, int32_t below, int32_t (*node)[3])
+{
+    const gn_lattice_look *look = &d->s->lattice.look;
+    for (int c = 0; c < 3; c++) {
+        const gn_patch *base = &d->base_q24[c];
+        int32_t at = gn_patch_at(base, d->first, below),
+                step = (base->dx + below * base->dxy) * (1 << look->spacing_log2);
+        for (int32_t i = 0; i < d->n; i++, at += step) node[i][c] = at;
+    }
+    for (int32_t k = 0; k < look->n_edges; k++) add_edge_light(d, &look->edge[k], below, node);
+    uint32_t all = 0;
+    for (int32_t i = 0; i < d->n; i++)
+        for (int c = 0; c < 3; c++) all |= (uint32_t)node[i][c] | (uint32_t)(node[i][c] - 64);
+    return all < 1U << 24;
+}
+
+#if GN_TEXTURES
+/* Texture coordinates along a row. */
+GN_HOT static void find_coords(const drawing *d, gn_corner *const corner[4], int32_t below, gn_pixel_line *line)
+{
+    for (int i = 0; i < 2; i++) {
+        int32_t size_log2 = d->size_log2;
+        uint32_t c0 = (uint32_t)corner[0]->uv_q20[i];
+        int32_t across = (int32_t)((uint32_t)corner[1]->uv_q20[i] - c0),
+                down = (int32_t)((uint32_t)corner[2]->uv_q20[i] - c0);
+        int32_t twist = (int32_t)((uint32_t)corner[3]->uv_q20[i] - (uint32_t)corner[2]->uv_q20[i]) - across;
+        int32_t left = (int32_t)((int64_t)down * below >> size_log2);
+        int32_t width = across + (int32_t)((int64_t)twist * below >> size_log2);
+        line->uv_step_q20[i] = width >> size_log2;
+        line->uv_q20[i] = (int32_t)(c0 + (uint32_t)left + (uint32_t)((int64_t)width * d->first >> size_log2));
+    }
+}
+#endif
+
+/* ---- Cells ------------------------------------------------------------------------------------------------------- */
+
+/* The columns that have pixels. Returns 0 if there are none. */
+GN_HOT static uint32_t columns(const drawing *d, int32_t y, int32_t n_rows)
+{
+    uint32_t any = 0;
+    for (int32_t i = 0; i < n_rows; i++) any |= gn_lattice_bits(&d->s->lattice, d->x, y + i, d->size_log2);
+    return any;
+}
+
+/* Rows of pixels between two rows of nodes, which then are those below. */
+GN_HOT static void draw_strip(drawing *d, gn_corner *const corner[4], int32_t below, int inside)
+{
+    gn_shading *s = d->s;
+    gn_lattice *l = &s->lattice;
+    int32_t log2 = l->look.spacing_log2, (*node)[3] = l->node[0], (*next)[3] = l->node[1], (*step)[3] = l->node[2];
+    gn_pixel_line line = {(const int32_t(*)[3])node, log2, inside, NULL, {0, 0}, {0, 0}};
+    for (int32_t i = 0; log2 && i < d->n; i++)
+        for (int c = 0; c < 3; c++) step[i][c] = (next[i][c] - node[i][c]) >> log2;
+#if GN_TEXTURES
+    if (s->surface.textured) line.texture = s->surface.object->texture;
+#endif
+    for (int32_t t = 0;; t++) {
+        int32_t y = d->y + below + t;
+        uint32_t bits = gn_lattice_bits(l, d->x, y, d->size_log2) >> d->first;
+#if GN_TEXTURES
+        if (line.texture && bits) find_coords(d, corner, below + t, &line);
+#endif
+        if (bits) gn_pixel_store_line(s->frame, &s->rows, d->x + d->first, y, bits, &line);
+        if (t + 1 == 1 << log2) break;
+        for (int32_t i = 0; i < d->n; i++)
+            for (int c = 0; c < 3; c++) node[i][c] += step[i][c];
+    }
+    (void)corner;
+}
+
+GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4])
+{
+    gn_lattice *l = &s->lattice;
+    const gn_lattice_look *look = &l->look;
+    drawing d = {s, x, y, size_log2, {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}, 0, 0};
+    int32_t size = 1 << size_log2, spacing_log2 = look->spacing_log2, known = -1;
+    uint32_t packed;
+    int plain = !look->n_edges && !s->surface.textured && s->frame->picture.format != GN_FORMAT_RAW32;
+    if (plain && is_plain(s, look, &packed)) {
+        fill(&d, packed);
+        return;
+    }
+    GN_COUNT(cells_drawn, 1);
+    for (int c = 0; c < 3; c++) {
+        gn_patch *p = &d.base_q24[c];
+        int32_t across = (look->colour_q24[1][c] - look->colour_q24[0][c]) >> size_log2;
+        p->at = look->colour_q24[0][c];
+        p->dx = across;
+        p->dy = (look->colour_q24[2][c] - look->colour_q24[0][c]) >> size_log2;
+        p->dxy = (((look->colour_q24[3][c] - look->colour_q24[2][c]) >> size_log2) - across) >> size_log2;
+    }
+    uint32_t any = columns(&d, y, size);
+    d.first = (31 - gn_clz32(any & (0U - any))) & -(1 << spacing_log2);
+    d.n = ((31 - gn_clz32(any) - d.first) >> spacing_log2) + 1 + (spacing_log2 > 0);
+    int inside = 0;
+    for (int32_t below = 0; below < size; below += 1 << spacing_log2) {
+        if (!columns(&d, y + below, 1 << spacing_log2)) continue;
+        if (known != below) inside = find_nodes(&d, below, l->node[0]);
+        else
+            for (int32_t i = 0; i < d.n; i++)
+                for (int c = 0; c < 3; c++) l->node[0][i][c] = l->node[1][i][c];
+        int both = inside;
+        if (spacing_log2) {
+            known = below + (1 << spacing_log2);
+            inside = find_nodes(&d, known, l->node[1]);
+            both &= inside;
+        }
+        draw_strip(&d, corner, below, both);
+    }
+}
+
+#endif
