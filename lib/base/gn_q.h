@@ -147,6 +147,17 @@ GN_INLINE int64_t gn_shr64(int64_t v, int32_t s)
 #define gn_abs64   gn_abs64_inline
 #endif
 
+/* The upper half of a product. */
+GN_HOT static inline int32_t gn_mul_high(int32_t a, int32_t b)
+{
+    return (int32_t)((int64_t)a * b >> 32);
+}
+
+GN_HOT static inline uint32_t gn_umul_high(uint32_t a, uint32_t b)
+{
+    return (uint32_t)((uint64_t)a * b >> 32);
+}
+
 /* round(a * b / 2^16) of unsigned fractions; the result fits. */
 GN_HOT static inline uint32_t gn_mul_uq16(uint32_t a, uint32_t b)
 {

@@ -105,6 +105,7 @@ void gn_cascade_setup(gn_frame *frame)
 {
     uint32_t n = frame->scene->shadow.n_cascades;
     frame->n_cascades = (uint8_t)(GN_MANY_CASCADES && n ? n : 1);
+    frame->tan2_q24 = gn_cascade_tan2_q24(frame);
     setup_distance_fade(frame);
     setup_spheres(frame);
 }

@@ -103,9 +103,6 @@ GN_HOT static uint32_t angle_q30(const gn_light_state *light, int32_t cosine_q30
     return (uint32_t)gn_mul_q30(share, share);
 }
 
-/* One Newton step leaves 2^-15 of a cosine: that is too much for a cone whose edge is narrower than 2^-6. */
-#define GN_NARROW_EXP (-55) /* of its reciprocal in Q30 */
-
 GN_HOT static int32_t root_steps(const gn_frame *frame, const gn_light_state *light)
 {
     return light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_K(frame, newton_steps);

@@ -10,6 +10,9 @@ void gn_punctual_setup(gn_frame *frame, uint32_t light_idx);
 /* Largest colour channel times the distance factor at distance^2: the rank of a light. */
 gn_bfloat gn_punctual_weight(const gn_light_state *light, uint64_t distance2_q32, uint64_t min2_q32);
 
+/* One Newton step leaves 2^-15 of a cosine: that is too much for a cone whose edge is narrower than 2^-6. */
+#define GN_NARROW_EXP (-55) /* of its reciprocal in Q30 */
+
 /* A surface point in a light's range and cone. */
 typedef struct {
     uint32_t factor_q30; /* window^2 * angle^2 */

@@ -2,7 +2,11 @@
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
+#include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_texture.h"
+#include "light/gn_bias.h"
+#include "light/gn_punctual.h"
 #include "shade/gn_arrival.h"
 #include "shade/gn_corner.h"
 #include "shade/gn_light.h"
@@ -11,44 +15,268 @@
 
 #if GN_INTERPOLATES
 
+/* ---- Once per surface -------------------------------------------------------------------------------------------- */
+
+GN_HOT static inline int32_t along(const gn_slope *s, int32_t dx, int32_t dy)
+{
+    return s->at + s->dx * dx + s->dy * dy;
+}
+
+/* A linear form of view space, at least 2^29 long, on the screen, times 2^-shift. Returns 0 if it leaves +-2^30 within
+ * `rect`, as it does everywhere with a small shift. */
+GN_HOT static int form_on_screen(gn_slope *out, const gn_frame *frame, const gn_screen_plane *p, const int32_t form[3],
+                                 int32_t shift, const gn_rect *rect)
+{
+    int32_t px = 2 * p->x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * p->y, s = shift - 17;
+    if (s < 1 || s > 45) return 0;
+    int64_t at = gn_plane_at(form, px, py, frame->cam.focal2_px_q16) >> (s + 16);
+    if (at != (int32_t)at) return 0;
+    s = gn_min32(s, 31);
+    out->at = ((int32_t)at + 1) >> 1;
+    out->dx = ((form[0] >> (s - 1)) + 1) >> 1;
+    out->dy = -(((form[1] >> (s - 1)) + 1) >> 1);
+    uint32_t dx = gn_abs32(out->dx), dy = gn_abs32(out->dy), w = (uint32_t)(rect->x1 - rect->x0) + 16,
+             h = (uint32_t)(rect->y1 - rect->y0) + 16; /* cells go beyond */
+    return gn_abs32(out->at) < 1U << 30 && (dx | dy) < 1U << 26 && (uint64_t)dx * w + (uint64_t)dy * h < 1U << 30;
+}
+
+/* Forms of the surface at a common scale, at which n . ray is below 2^27 on the triangle. */
+GN_HOT static int find_plane(gn_screen_plane *p, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+{
+    if (s->plane.det <= 0) return 0;
+    int32_t shift = s->depth_scale.exp + 32 - (31 - gn_clz32((uint32_t)s->z_min_q16)) - 27;
+    p->z_shift = 31 + shift - s->depth_scale.exp;
+    p->x = (rect->x0 + rect->x1) >> 1;
+    p->y = (rect->y0 + rect->y1) >> 1;
+    if (!form_on_screen(&p->w, frame, p, s->plane.n, shift, rect)) return 0;
+    for (int k = 0; GN_HAS_BARY(s) && k < 2; k++)
+        if (!form_on_screen(&p->b[k], frame, p, s->bary.form[k], shift - s->bary.exp[k], rect)) return 0;
+    return 1;
+}
+
+#if GN_SHADOWS
+/* Square of the largest distance from the cascade's centre of a point of the picture at view depth z; a little more. */
+GN_HOT static uint64_t farthest2_q32(const gn_frame *frame, const gn_cascade_state *cascade, int32_t z_q16)
+{
+    int64_t z = z_q16, dz = z - cascade->centre_q16;
+    return ((((uint64_t)(z * z) >> 24) + 1) * (uint64_t)frame->tan2_q24) + (uint64_t)(dz * dz);
+}
+
+/* The cascade of all points of the picture between two depths, if none of them fades or blends there; -1 if it is not
+ * certain. */
+GN_HOT static int32_t certain_cascade(const gn_frame *frame, int32_t z_lo_q16, int32_t z_hi_q16)
+{
+    int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
+    if (frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH || (uint32_t)z_hi_q16 > frame->fade_start_q16)
+        return -1;
+    if (!frame->has_cascades) return GN_CASCADE_NONE;
+    if (z_hi_q16 >> 27 || frame->tan2_q24 >> 28) return -1; /* and farthest2_q32 fits */
+    for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
+        const gn_cascade_state *c = &frame->cascade[i];
+        uint64_t within = blends || i == GN_LAST_CASCADE(frame) ? c->inner2_q32 : c->radius2_q32;
+        int64_t dz = c->centre_q16 < z_lo_q16   ? z_lo_q16 - c->centre_q16
+                     : c->centre_q16 > z_hi_q16 ? c->centre_q16 - z_hi_q16
+                                                : 0;
+        if (farthest2_q32(frame, c, z_lo_q16) < within && farthest2_q32(frame, c, z_hi_q16) < within) return i;
+        if ((uint64_t)(dz * dz) < c->radius2_q32) return -1;
+    }
+    return -1;
+}
+#endif
+
+/* Whether the receiver's offset is along the normal, and what lights leave without masks. */
+GN_HOT static void begin_light(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot)
+{
+    const gn_light_state *light = s->light[slot].state;
+    gn_lattice_light *out = &l->light[slot];
+    out->plain = light->strength_uq16 == 65536 && !s->masked;
+    out->lifts = 0;
+#if GN_SHADOWS
+    if (!s->shadowed || light->view_idx < 0) return;
+    const gn_light_view *view = &frame->view[light->view_idx];
+    const int32_t *b = frame->scene->lights[s->light[slot].idx].bias_receiver_q16;
+    out->lifts = !light->auto_bias && view->filter != GN_FILTER_DISK && (!GN_RECEIVER_BIAS || !(b[0] | b[1] | b[3]));
+#if GN_PUNCTUAL_LIGHTS
+    if (light->kind != GN_LIGHT_DIRECTIONAL)
+        out->lift_q31 =
+            (int32_t)gn_clamp64(gn_bf_apply(view->offset_q16, view->fit.persp.texel_per_z, 15), 0, INT32_MAX);
+#endif
+#endif
+    (void)frame;
+}
+
+GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
+{
+    if (!find_plane(&l->plane, frame, s, rect)) return 0;
+    l->cascade = -1;
+#if GN_SHADOWS
+    if (s->shadowed) l->cascade = certain_cascade(frame, s->z_min_q16, s->z_max_q16);
+#endif
+    if (!GN_SMOOTH(s) && s->n_lights) {
+        gn_length length = gn_length_of(GN_K(frame, newton_steps), s->normal_q30[0]);
+        gn_length_unit(length, s->normal_q30[0], l->unit_q30);
+    }
+    for (uint32_t i = 0; i < s->n_lights; i++) begin_light(l, frame, s, i);
+    return 1;
+}
+
+/* ---- The point --------------------------------------------------------------------------------------------------- */
+
+/* A point of the plane. */
+typedef struct {
+    int32_t px, py;     /* the pixel's ray */
+    int32_t b_q28[2];   /* barycentrics */
+    int32_t ray_q16[3]; /* from the eye, world axes; surfaces with spots or points */
+    int32_t n_q30[3], unit_q30[3];
+} point;
+
+GN_HOT static int find_point(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, point *p)
+{
+    const gn_screen_plane *plane = &l->plane;
+    int32_t dx = c->x - plane->x, dy = c->y - plane->y, w = along(&plane->w, dx, dy);
+    p->px = 2 * c->x + 1 - frame->picture.width;
+    p->py = frame->picture.height - 1 - 2 * c->y;
+    if (w < 1 << 10 || w >= 1 << 30) return 0;
+    int32_t clz = gn_clz32((uint32_t)w), shift = plane->z_shift - clz;
+    uint32_t recip = gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps));
+    if (shift < 1 || shift > 31) return 0;
+    uint32_t z = gn_umul_high(s->depth_scale.mant, recip);
+    z = ((z >> (shift - 1)) + 1) >> 1;
+    if (z < (uint32_t)s->z_min_q16 >> 1 || z >> 1 > (uint32_t)s->z_max_q16 || z > INT32_MAX) return 0;
+    c->z_q16 = (int32_t)z;
+    for (int k = 0; GN_HAS_BARY(s) && k < 2; k++) {
+        int32_t at = along(&plane->b[k], dx, dy);
+        if (gn_abs32(at) >= 2 * (uint32_t)w) return 0;
+        p->b_q28[k] = gn_mul_high(at, (int32_t)(recip >> 1)) * (1 << (clz - 2));
+    }
+    return 1;
+}
+
+/* a0 + b1 * a1 + b2 * a2 */
+GN_HOT static inline int32_t at_point(const point *p, int32_t a0, int32_t a1, int32_t a2)
+{
+    return a0 + (int32_t)(((int64_t)p->b_q28[0] * a1 + (int64_t)p->b_q28[1] * a2) >> 28);
+}
+
+GN_HOT static void find_normal(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, point *p)
+{
+    for (int i = 0; i < 3; i++) {
+        int32_t n = s->normal_q30[0][i];
+        if (GN_SMOOTH(s)) n = at_point(p, n, s->normal_q30[1][i], s->normal_q30[2][i]);
+        p->n_q30[i] = gn_max32(-(1 << 30), gn_min32(n, 1 << 30));
+        p->unit_q30[i] = l->unit_q30[i];
+#if GN_VERTEX_NORMALS
+        c->normal_q30[i] = p->n_q30[i];
+#endif
+    }
+    (void)c;
+    if (GN_SMOOTH(s)) gn_length_unit(gn_length_of(GN_K(frame, newton_steps), p->n_q30), p->n_q30, p->unit_q30);
+}
+
 /* ---- Attributes -------------------------------------------------------------------------------------------------- */
 
-GN_HOT static void base_colour(const gn_surface *s, const gn_sample *sample, gn_corner *c)
+GN_HOT static int32_t attribute(const gn_surface *s, const point *p, int i)
+{
+    return at_point(p, s->attribute_q16[0][i], s->attribute_q16[1][i], s->attribute_q16[2][i]);
+}
+
+GN_HOT static void attributes_at(const gn_surface *s, const point *p, gn_corner *c)
 {
     for (int i = 0; i < 3; i++) {
         uint32_t q20 = s->base_q20[i]; /* < 2^28 */
         if (GN_BAKED_LIGHT && s->baked) {
             uint64_t baked =
-                (uint64_t)s->object->albedo_uq16[i] * (uint32_t)gn_max32(sample->value[GN_VALUE_BAKED + i], 0) >> 12;
+                (uint64_t)s->object->albedo_uq16[i] * (uint32_t)gn_max32(attribute(s, p, GN_ATTRIBUTE_BAKED + i), 0) >>
+                12;
             q20 = baked > 1U << 23 ? 1U << 23 : q20 + (uint32_t)baked;
         }
         c->base_q24[i] = (int32_t)(q20 > 1U << 23 ? 1U << 23 : q20) << 4;
-    }
-}
-
-GN_HOT static void attributes_at(const gn_surface *s, const gn_sample *sample, gn_corner *c)
-{
-    base_colour(s, sample, c);
-    for (int i = 0; i < 3; i++) {
 #if GN_VERTEX_COLOURS
-        if (GN_COLOURED(s)) c->tint_q16[i] = sample->value[GN_VALUE_RGB + i];
-#endif
-#if GN_VERTEX_NORMALS
-        c->normal_q30[i] = GN_SMOOTH(s) ? sample->interpolated_q30[i] : s->normal_q30[0][i];
+        if (GN_COLOURED(s)) c->tint_q16[i] = attribute(s, p, GN_ATTRIBUTE_RGB + i);
 #endif
     }
-    for (int i = 0; i < 2; i++) {
 #if GN_TEXTURES
-        c->uv_q20[i] = sample->value[GN_VALUE_UV + i];
+    const int32_t b_q30[2] = {s->textured ? p->b_q28[0] * 4 : 0, s->textured ? p->b_q28[1] * 4 : 0};
+    for (int i = 0; s->textured && i < 2; i++) c->uv_q20[i] = gn_texture_coord(&s->uv, s->object->texture, b_q30, i);
 #endif
 #if GN_MASKS
-        if (s->masked) c->mask_uv_uq16[i] = sample->value[GN_VALUE_MASK + i];
+    for (int i = 0; s->masked && s->object->mask_image && i < 2; i++)
+        c->mask_uv_uq16[i] = attribute(s, p, GN_ATTRIBUTE_MASK + i);
 #endif
-    }
-    (void)sample, (void)s;
 }
 
+#if GN_MASKS
+GN_HOT static uint32_t mask_at(const gn_surface *s, const point *p, const gn_corner *c, int32_t channel)
+{
+    if (!s->masked || channel < 0) return 65536;
+    if (s->object->mask_image)
+        return gn_texture_mask(s->object->mask_image, c->mask_uv_uq16[0], c->mask_uv_uq16[1], (uint32_t)channel);
+    return (uint32_t)gn_max32(0, gn_min32(attribute(s, p, GN_ATTRIBUTE_MASK + channel), 65536));
+}
+#endif
+
 /* ---- Lights ------------------------------------------------------------------------------------------------------ */
+
+#if GN_PUNCTUAL_LIGHTS
+/* From the eye to the point, along the world's axes: the same for all lights. */
+GN_HOT static void find_ray(const gn_light_state *any, const gn_corner *c, point *p)
+{
+    int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = any->ray_shift + up - 32;
+    for (int i = 0; i < 3; i++) {
+        const gn_ray_plane *r = &any->from_light[i];
+        int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)p->px + (uint32_t)r->ay * (uint32_t)p->py);
+        int32_t v = gn_mul_high(z, a);
+        p->ray_q16[i] =
+            down >= 0 ? v >> gn_min32(down, 31) : (int32_t)gn_clamp64((int64_t)v << -down, -INT32_MAX, INT32_MAX);
+    }
+}
+
+/* clamp(share, 0, 1)^2 of a spot's rim, Q30. */
+GN_HOT static int32_t rim_q30(const gn_light_state *light, int32_t cosine_q30)
+{
+    int32_t beyond = cosine_q30 - light->cos_outer_q30;
+    if (beyond <= 0) return 0;
+    uint64_t share = (uint64_t)gn_umul_high((uint32_t)beyond, light->angle_scale.mant) << (62 + light->angle_scale.exp);
+    if (share >= 1U << 30) return 1 << 30;
+    return 4 * gn_mul_high((int32_t)share, (int32_t)share);
+}
+
+/* Irradiance of a light whose colour is 1: gn_punctual_irradiance_q24 in 32 bits. `facing` is the way against the
+ * normal, Q16. */
+GN_HOT static int32_t irradiance(const gn_frame *frame, const gn_light_state *light, const int32_t from_q16[3],
+                                 int32_t facing_q16, gn_corner_light *out)
+{
+    uint64_t d2 = 0;
+    out->arrives = GN_ARRIVES_NOT;
+    if (facing_q16 <= 0) return 0;
+    for (int i = 0; i < 3; i++) d2 += (uint64_t)((int64_t)from_q16[i] * from_q16[i]);
+    if (d2 >= light->range2_q32 || d2 >> 62) return 0;
+    if (d2 < frame->min2_q32) d2 = frame->min2_q32;
+    int steps = light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_K(frame, newton_steps);
+    int32_t shift = gn_clz64(d2) & ~1, half = (shift >> 1) - 1, most = INT32_MAX >> half, factor = 1 << 30;
+    uint32_t root = gn_rsqrt_norm((uint32_t)((d2 << shift) >> 32), steps);
+    int32_t root_q31 = (int32_t)(root >> 1);
+    out->arrives = GN_ARRIVES_FULLY;
+    if (light->kind == GN_LIGHT_SPOT) {
+        int32_t reach = (int32_t)gn_clamp64(-gn_dot_q30(from_q16, light->to_light_q30), -most, most);
+        factor = reach <= 0 ? 0 : rim_q30(light, 2 * gn_mul_high(reach << half, root_q31));
+        out->arrives = factor == 0 ? GN_ARRIVES_NOT : factor < 1 << 30 ? GN_ARRIVES_RIM : GN_ARRIVES_FULLY;
+        if (!factor) return 0;
+    }
+    if (light->range2_q32 != UINT64_MAX) {
+        int32_t clz = gn_clz64(light->range2_q32);
+        int32_t ratio = (int32_t)(gn_umul_high((uint32_t)((d2 << clz) >> 32), light->inv_range2.mant) >> 1);
+        int32_t window = (1 << 30) - 4 * gn_mul_high(ratio, ratio);
+        factor = 4 * gn_mul_high(factor, 4 * gn_mul_high(window, window));
+    }
+    int32_t cosine = 2 * gn_mul_high(gn_min32(facing_q16, most) << half, root_q31);
+    int32_t share = 4 * gn_mul_high(factor, cosine);
+    /* 1 / d^2 = root^2 * 2^(shift - 94), of which 31 bits are used */
+    int32_t q = gn_mul_high(share, (int32_t)(gn_umul_high(root, root) >> 1)), down = 35 - shift - light->colour_exp;
+    if (down >= 0) return gn_min32(down > 31 ? 0 : q >> down, 1 << 27);
+    return down < -27 || q >> (27 + down) ? 1 << 27 : q << -down;
+}
+#endif
 
 #if GN_SHADOWS
 /* The view that the point itself is looked up in. */
@@ -67,70 +295,116 @@ GN_HOT static uint8_t own_view(const gn_frame *frame, const gn_surface *s, const
 }
 #endif
 
-GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t slot, const gn_sample *sample,
-                            gn_corner *c)
+GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t slot, const point *p, gn_corner *c)
 {
-    const gn_light_state *light = s->light[slot].state;
-    const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * slot];
+    const gn_surface_light *light = &s->light[slot];
     gn_corner_light *at = &c->light[slot];
-    int arrives = GN_ARRIVES_NOT;
-    uint32_t irradiance = 0;
-#if GN_PUNCTUAL_LIGHTS
-    for (int i = 0; light->kind != GN_LIGHT_DIRECTIONAL && i < 3; i++) {
-        at->from_q16[i] = value[GN_LIGHT_POINT_AT + i];
-        at->offset_q16[i] = value[GN_LIGHT_OFFSET + i];
-    }
-    if (light->kind != GN_LIGHT_DIRECTIONAL) irradiance = gn_arrival_irradiance_q24(frame, light, value, &arrives);
+    if (light->state->kind == GN_LIGHT_DIRECTIONAL) {
+        int32_t cosine = light->cosine_q24[0];
+#if GN_VERTEX_COSINES == 3
+        if (GN_SMOOTH(s) && GN_K(frame, vertex_light))
+            cosine = at_point(p, cosine, light->cosine_q24[1], light->cosine_q24[2]);
 #endif
-    if (light->kind == GN_LIGHT_DIRECTIONAL && value[GN_LIGHT_FACING] > 0) {
-        irradiance = (uint32_t)value[GN_LIGHT_FACING];
-        arrives = GN_ARRIVES_FULLY;
+        if (GN_SMOOTH(s) && !GN_K(frame, vertex_light))
+            cosine = (int32_t)(gn_dot64(p->unit_q30, light->state->to_light_q30) >> 36);
+        at->irradiance_q24 = gn_max32(cosine, 0);
+        at->arrives = cosine > 0 ? GN_ARRIVES_FULLY : GN_ARRIVES_NOT;
     }
-    if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) irradiance = arrives ? 1U << 24 : 0;
-    at->irradiance_q24 = (int32_t)(irradiance > 1U << 27 ? 1U << 27 : irradiance);
-    at->arrives = (uint8_t)arrives;
+#if GN_PUNCTUAL_LIGHTS
+    else {
+        for (int i = 0; i < 3; i++)
+            at->from_q16[i] = gn_sat32((int64_t)p->ray_q16[i] + light->state->from_light[i].d_q16);
+        at->irradiance_q24 =
+            irradiance(frame, light->state, at->from_q16, gn_sat32(-gn_dot_q30(p->unit_q30, at->from_q16)), at);
+    }
+#endif
+    if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) at->irradiance_q24 = at->arrives ? 1 << 24 : 0;
 #if GN_MASKS
-    at->mask_uq16 = gn_shadow_mask(s, sample, light->mask_channel);
+    at->mask_uq16 = mask_at(s, p, c, light->state->mask_channel);
 #endif
 #if GN_SHADOWS
     at->placed = GN_VIEW_NONE;
-    at->view = own_view(frame, s, light, c, at);
-#endif
-#if GN_SPECULAR
-    if (s->specular) at->highlight_q24 = (int32_t)gn_light_highlight(frame, s, sample, slot, at->lobe_q30);
+    at->view = own_view(frame, s, light->state, c, at);
 #endif
 }
 
-GN_HOT void gn_corner_find(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample,
-                           gn_corner *c)
+/* Strength of shadows, cascade, and its share in a blend. */
+GN_HOT static void find_cascade(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const point *p,
+                                gn_sample *sample, gn_corner *c)
 {
-    c->state = GN_CORNER_UNSEEN;
-    GN_COUNT(corners, 1);
-    if (!gn_sample_on_plane(frame, s, x, y, sample)) return;
-    c->state = GN_CORNER_KNOWN;
-    c->x = (int16_t)x;
-    c->y = (int16_t)y;
-    c->z_q16 = sample->value[GN_VALUE_Z];
+    c->cascade = (uint8_t)l->cascade;
+    c->g_uq16 = c->fade_uq16 = 65536;
+    if (l->cascade >= 0 || !s->shadowed) return;
+    gn_sample_find_cascade(frame, p->px, p->py, c->z_q16, sample);
     c->cascade = (uint8_t)sample->cascade;
     c->fade_uq16 = (uint32_t)sample->value[GN_VALUE_FADE];
     c->g_uq16 = gn_shadow_distance(frame, s, sample);
-    attributes_at(s, sample, c);
-    for (uint32_t i = 0; i < s->n_lights; i++) light_at(frame, s, i, sample, c);
+}
+
+GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y,
+                           gn_sample *sample, gn_corner *c)
+{
+    point p;
+    GN_COUNT(corners, 1);
+    c->state = GN_CORNER_UNSEEN;
+    c->x = (int16_t)x;
+    c->y = (int16_t)y;
+    if (!find_point(l, frame, s, c, &p)) return;
+    c->state = GN_CORNER_KNOWN;
+    attributes_at(s, &p, c);
+    if (!s->n_lights) return;
+    find_cascade(l, frame, s, &p, sample, c);
+    find_normal(l, frame, s, c, &p);
+#if GN_PUNCTUAL_LIGHTS
+    if (s->n_punctual) find_ray(s->light[s->n_lights - 1].state, c, &p);
+#endif
+    for (uint32_t i = 0; i < s->n_lights; i++) light_at(frame, s, i, &p, c);
+#if GN_SPECULAR
+    if (!s->specular || !gn_sample_on_plane(frame, s, x, y, sample)) return;
+    for (uint32_t i = 0; i < s->n_lights; i++)
+        c->light[i].highlight_q24 = (int32_t)gn_light_highlight(frame, s, sample, i, c->light[i].lobe_q30);
+#endif
 }
 
 /* ---- Places ------------------------------------------------------------------------------------------------------ */
 
 #if GN_SHADOWS
-GN_HOT static void place_directional(const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
-                                     const gn_light_view *view)
+/* Normal of the surface at the corner. */
+GN_HOT static const int32_t *normal_of(const gn_surface *s, const gn_corner *c)
 {
-    const int32_t *n = s->normal_q30[0];
+#if GN_VERTEX_NORMALS
+    (void)s;
+    return c->normal_q30;
+#else
+    (void)c;
+    return s->normal_q30[0];
+#endif
+}
+
+/* Tile coordinates in texels, Q16, of what is moved along its normal. */
+GN_HOT static void coords_directional(const gn_frame *frame, const gn_surface *s, const gn_corner *c, uint32_t slot,
+                                      const gn_light_view *view, int32_t coord_q16[3])
+{
+    int32_t px = 2 * c->x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * c->y;
+    int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = view->fit.ortho.ray_shift + up - 32;
+    const int32_t *offset = s->light[slot].flat_offset_q16, *n = normal_of(s, c);
+    for (int i = 0; i < 3; i++) {
+        const gn_ray_plane *r = &view->fit.ortho.ray[i];
+        int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
+        int32_t v = gn_mul_high(z, a), more = offset[i];
+        if (GN_SMOOTH(s)) more = 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
+        coord_q16[i] = (int32_t)((uint32_t)(v >> down) + (uint32_t)r->d_q16 + (uint32_t)more);
+    }
+}
+
+GN_HOT static void place_directional(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
+                                     uint32_t slot, const gn_light_view *view)
+{
     gn_corner_light *at = &c->light[slot];
     int32_t coord[3], up = 14 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q30 */
-#if GN_VERTEX_NORMALS
-    n = c->normal_q30;
-#endif
-    gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, n, coord);
+    int32_t down = view->fit.ortho.ray_shift + gn_clz32((uint32_t)c->z_q16) - 33;
+    if (l->light[slot].lifts && down >= 0 && down < 32) coords_directional(frame, s, c, slot, view, coord);
+    else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
     at->u_q16 = coord[0];
     at->v_q16 = coord[1];
     if (up < 0) at->depth_q30 = coord[2] >> gn_min32(-up, 31);
@@ -139,19 +413,64 @@ GN_HOT static void place_directional(const gn_frame *frame, const gn_surface *s,
 }
 
 #if GN_PUNCTUAL_LIGHTS
-GN_HOT static void place_punctual(const gn_frame *frame, const gn_surface *s, const gn_corner *c, gn_corner_light *at,
-                                  const gn_light_view *view)
+/* T / 2 (1 + x / (z t)), |x| < 2 z; half = 2^62 / (z << clz) */
+GN_HOT static inline int32_t coord_persp(int32_t x, int32_t clz, int32_t half, int32_t focal2_q16, int32_t middle_q16)
 {
+    return (int32_t)((int64_t)gn_mul_high(x * (1 << (clz - 2)), half) * focal2_q16 >> 29) + middle_q16;
+}
+
+/* In any case that place_punctual leaves. */
+GN_HOT static GN_NOINLINE void place_carefully(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
+                                               gn_corner_light *at, const gn_light_view *view)
+{
+    const gn_light_state *light = &frame->light[view->light_idx];
+    const int32_t *n = normal_of(s, c);
+    int32_t offset[3] = {0, 0, 0}, lifted[3];
     gn_arrival place;
-    at->seen = (uint8_t)gn_arrival_place(frame, s, view, c->z_q16, at->from_q16, at->offset_q16, &place);
+    if (!(GN_AUTO_BIAS && light->auto_bias && !GN_CURVED(s)))
+        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n, lifted), c->z_q16, at->from_q16, offset);
+    at->seen = (uint8_t)gn_arrival_place(frame, s, view, c->z_q16, at->from_q16, offset, &place);
     if (!at->seen) return;
     at->u_q16 = place.u_q16;
     at->v_q16 = place.v_q16;
     at->depth_q30 = (int32_t)(place.depth_q32 >> 2);
 }
+
+GN_HOT static void place_punctual(const gn_frame *frame, const gn_surface *s, const gn_lattice_light *how,
+                                  const gn_corner *c, gn_corner_light *at, const gn_light_view *view)
+{
+    const gn_light_state *light = &frame->light[view->light_idx];
+    const int32_t *n = normal_of(s, c), *from = at->from_q16;
+    int32_t moved[3], p[3], reach = 0;
+    if (!how->lifts || view->fit.persp.focal2_q16 >> 30 ||
+        (gn_abs32(from[0]) | gn_abs32(from[1]) | gn_abs32(from[2])) >> 29) {
+        place_carefully(frame, s, c, at, view);
+        return;
+    }
+    if (light->kind == GN_LIGHT_SPOT) reach = -(int32_t)gn_dot_q30(from, light->to_light_q30);
+    else
+        for (int i = 0; i < 3; i++) reach = gn_max32(reach, (int32_t)gn_abs32(from[i]));
+    int32_t lift = 2 * gn_mul_high(gn_max32(reach, 0), how->lift_q31);
+    for (int i = 0; i < 3; i++) moved[i] = from[i] + 4 * gn_mul_high(lift, n[i]);
+    for (int i = 0; i < 3; i++) p[i] = (int32_t)(gn_dot64(moved, view->axis_q30[i]) >> 30);
+    int32_t z = p[2], near_q16 = view->fit.persp.near_q16;
+    at->seen = z > near_q16;
+    if (!at->seen) return;
+    if (gn_abs32(p[0]) >> 1 >= (uint32_t)z || gn_abs32(p[1]) >> 1 >= (uint32_t)z) {
+        place_carefully(frame, s, c, at, view);
+        return;
+    }
+    int32_t clz = gn_clz32((uint32_t)z), focal2 = (int32_t)view->fit.persp.focal2_q16, middle = view->tile_texels << 15;
+    uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps));
+    at->u_q16 = coord_persp(p[0], clz, (int32_t)(recip >> 1), focal2, middle);
+    at->v_q16 = coord_persp(p[1], clz, (int32_t)(recip >> 1), focal2, middle);
+    /* 1 - n / z */
+    at->depth_q30 = gn_max32((1 << 30) - 1 - (int32_t)((uint64_t)(uint32_t)near_q16 * recip >> (33 - clz)), 0);
+}
 #endif
 
-GN_HOT int gn_corner_place(const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot, uint32_t view_idx)
+GN_HOT int gn_corner_place(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
+                           uint32_t view_idx)
 {
     gn_corner_light *at = &c->light[slot];
     if (at->placed == view_idx) return at->seen;
@@ -161,11 +480,11 @@ GN_HOT int gn_corner_place(const gn_frame *frame, const gn_surface *s, gn_corner
     GN_COUNT(places, 1);
 #if GN_PUNCTUAL_LIGHTS
     if (light->kind != GN_LIGHT_DIRECTIONAL) {
-        place_punctual(frame, s, c, at, view);
+        place_punctual(frame, s, &l->light[slot], c, at, view);
         return at->seen;
     }
 #endif
-    place_directional(frame, s, c, slot, view);
+    place_directional(l, frame, s, c, slot, view);
     return 1;
 }
 #endif

@@ -1,24 +1,30 @@
-/* Corners of cells: exact points of a surface's plane, between which cells interpolate (NUMERICS 4.12). */
+/* Corners of cells: points of a surface's plane, between which cells interpolate. All lights share one reciprocal and
+ * one position; what is computed here is close to what gn_sample computes, in 32 bits (NUMERICS 4.12). */
 #ifndef GN_CORNER_H
 #define GN_CORNER_H
 
 #include "shade/gn_sample.h"
 
-/* Makes a corner known, at the centre of pixel (x, y), or unseen where the plane cannot be sampled there. */
-void gn_corner_find(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, gn_sample *sample,
-                    gn_corner *corner);
+/* Once per surface, for pixels of `rect`. Returns 0 if its plane does not fit 32 bits there. */
+int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect);
+
+/* Makes a corner known, at the centre of pixel (x, y), or unseen where the plane cannot be sampled there. `sample` is
+ * scratch. */
+void gn_corner_find(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
+                    gn_sample *sample, gn_corner *corner);
 
 #if GN_SHADOWS
 /* Sets u, v, depth of the light in a slot, in one of its views. Returns 0 if the point is nearer to the light than the
  * view's near plane. */
-int gn_corner_place(const gn_frame *frame, const gn_surface *surface, gn_corner *corner, uint32_t slot, uint32_t view);
+int gn_corner_place(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, gn_corner *corner,
+                    uint32_t slot, uint32_t view);
 #endif
 
 /* A colour times irradiance, Q24, limited to 8. */
 GN_HOT static inline int32_t gn_corner_times(uint32_t colour_uq16, int32_t irradiance_q24)
 {
-    uint64_t product = (uint64_t)colour_uq16 * (uint32_t)irradiance_q24 >> 16;
-    return product > 1U << 27 ? 1 << 27 : (int32_t)product;
+    uint64_t product = (uint64_t)colour_uq16 * (uint32_t)irradiance_q24;
+    return product >> 43 ? 1 << 27 : (int32_t)(uint32_t)(product >> 16);
 }
 
 #endif

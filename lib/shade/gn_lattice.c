@@ -66,7 +66,7 @@ GN_HOT static void shade_exactly(gn_shading *s, int32_t x, int32_t y, int32_t si
 
 GN_HOT static gn_corner *known(gn_shading *s, gn_corner *corner, int32_t x, int32_t y)
 {
-    if (corner->state == GN_CORNER_NEW) gn_corner_find(s->frame, &s->surface, x, y, &s->sample, corner);
+    if (corner->state == GN_CORNER_NEW) gn_corner_find(&s->lattice, s->frame, &s->surface, x, y, &s->sample, corner);
     return corner;
 }
 
@@ -120,7 +120,7 @@ GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_
     int depth = 0;
     for (;;) {
         GN_COUNT(cells, 1);
-        if (gn_lattice_look_at(s->frame, &s->surface, corner, size_log2, &s->lattice.look))
+        if (gn_lattice_look_at(&s->lattice, s->frame, &s->surface, corner, size_log2))
             gn_lattice_draw(s, x, y, size_log2, corner);
         else if (size_log2 > 1) begin_split(s, &split[depth++], x, y, size_log2, corner);
         else shade_exactly(s, x, y, size_log2);
@@ -161,12 +161,12 @@ GN_HOT static void shade_part(gn_shading *s, int32_t x_end, int32_t n_rows)
         }
 }
 
-/* Cells as large as the knob says, but not much larger than the surface. */
-GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_rect *box)
+/* Cells as large as the knob says, but not much larger than the surface; if its normals turn, than its shorter side. */
+GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, const gn_rect *box)
 {
-    int32_t most = GN_K(frame, persp_step) == 16 ? 4 : GN_K(frame, persp_step) == 8 ? 3 : 2;
-    int32_t across = gn_max32(box->x1 - box->x0, box->y1 - box->y0), log2 = 1;
-    (void)frame;
+    int32_t most = GN_K(frame, persp_step) == 16 ? 4 : GN_K(frame, persp_step) == 8 ? 3 : 2, log2 = 1;
+    int32_t w = box->x1 - box->x0, h = box->y1 - box->y0, across = GN_CURVED(s) ? gn_min32(w, h) : gn_max32(w, h);
+    (void)frame, (void)s;
     while (log2 < most && 1 << log2 < across) log2++;
     return log2;
 }
@@ -175,7 +175,12 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     gn_rect box = box_of(l);
-    l->size_log2 = cell_log2(s->frame, &box);
+    if (!gn_corner_begin(l, s->frame, &s->surface, &box)) {
+        for (int32_t i = 0; i < l->n_spans; i++)
+            for (int32_t k = 0; k < l->span[i].n_px; k++) gn_exact_pixel(s, l->span[i].x + k, l->span[i].y);
+        return;
+    }
+    l->size_log2 = cell_log2(s->frame, &s->surface, &box);
     int32_t n_rows = gn_min32(2 << l->size_log2, GN_PART_ROWS);
     for (l->y = box.y0; l->y < box.y1; l->y += n_rows) {
         l->ring_x[0] = l->ring_x[1] = INT32_MIN;

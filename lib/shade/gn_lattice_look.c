@@ -21,12 +21,14 @@ enum { LIT, DARK, EDGE, SPLIT };
 
 /* The cell at hand. */
 typedef struct {
+    const gn_lattice *lattice;
     const gn_frame *frame;
     const gn_surface *s;
     gn_corner *const *corner;
     int32_t size_log2;
     uint32_t bend_q16;  /* how much farther its farthest corner is than its nearest, as a share */
     uint64_t error_q24; /* of interpolated light, at most */
+    uint64_t kink_q24;  /* the part of it that comes from where a light ends */
     gn_lattice_look *out;
 } lattice_cell;
 
@@ -46,11 +48,18 @@ GN_HOT static int32_t finest_log2(const gn_frame *frame)
     return GN_K(frame, persp_step) == 16 ? FL16 : FL8;
 }
 
-/* Places in shadow maps and textures, texels: 2^-this. */
+/* Places in shadow maps, texels: 2^-this. */
 GN_HOT static int32_t place_log2(const gn_frame *frame)
 {
     (void)frame;
-    return GN_K(frame, persp_step) == 16 ? 3 : 4;
+    return GN_K(frame, persp_step) == 16 ? 2 : 3;
+}
+
+/* Texture coordinates, texels: 2^-this. */
+GN_HOT static int32_t texture_log2(const gn_frame *frame)
+{
+    (void)frame;
+    return GN_K(frame, persp_step) == 16 ? 2 : 3;
 }
 
 /* Texels between lookups, Q16: what a filter does in between is close to linear. */
@@ -95,7 +104,7 @@ GN_HOT static int coords_hold(const lattice_cell *cell, const gn_texture *image,
     for (int i = 0; i < 2; i++) {
         uint32_t change = spread_of(at[0][i], at[1][i], at[2][i], at[3][i]);
         int32_t texel_log2 = frac_bits - (i ? image->height_log2 : image->width_log2);
-        if (!bends_by_less(change, cell->bend_q16, texel_log2 - place_log2(cell->frame) + 1)) return 0;
+        if (!bends_by_less(change, cell->bend_q16, texel_log2 - texture_log2(cell->frame))) return 0;
     }
     return 1;
 }
@@ -202,8 +211,10 @@ GN_HOT static int stays_dark(const lattice_cell *cell, uint32_t slot)
 }
 #endif
 
-/* How far interpolation between the corners is off, of a light's irradiance: NUMERICS 4.12. */
-GN_HOT static uint32_t unevenness_q24(const lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24)
+/* How far interpolation between the corners is off, of a light's irradiance: NUMERICS 4.12. *kink: because it ends in
+ * the cell, or its cone does. */
+GN_HOT static uint32_t unevenness_q24(const lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24,
+                                      uint32_t *kink_q24)
 {
     const gn_light_state *light = cell->s->light[slot].state;
     uint32_t classes = 0, change = (uint32_t)(most_q24 - least_q24), t_q12 = turn_q12(cell) >> 1;
@@ -215,6 +226,7 @@ GN_HOT static uint32_t unevenness_q24(const lattice_cell *cell, uint32_t slot, i
     if (classes == 1U << GN_ARRIVES_RIM) change >>= 2;
     else if (classes == 1U << GN_ARRIVES_FULLY) change = 0;
     if (t_q12 > 1 << 12) t_q12 = 1 << 12;
+    *kink_q24 = change;
     return change + (uint32_t)((uint64_t)(uint32_t)most_q24 * (t_q12 * t_q12) >> 24);
 }
 
@@ -247,7 +259,7 @@ GN_HOT static int find_places(const lattice_cell *cell, uint32_t slot, uint32_t 
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
     for (int i = 0; i < 4; i++) {
         gn_corner *c = cell->corner[i];
-        n_seen += gn_corner_place(cell->frame, cell->s, c, slot, view_idx);
+        n_seen += gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx);
         p->u[i] = c->light[slot].u_q16;
         p->v[i] = c->light[slot].v_q16;
         p->depth[i] = c->light[slot].depth_q30;
@@ -417,7 +429,13 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
         }
         return EDGE;
     }
-    return SPLIT;
+    if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_DITHER) return SPLIT;
+    /* one of several faces, or cascades, may stand for all of a small cell: tiles reach beyond their faces */
+    uint32_t one = cell->corner[0]->light[slot].view;
+    if (cell->size_log2 >= finest_log2(cell->frame) || one == GN_VIEW_NONE ||
+        find_places(cell, slot, one, &p) != PLACED)
+        return SPLIT;
+    return add_edge(cell, slot, &p, slope, light, light->more_uq16) ? EDGE : SPLIT;
 }
 #else
 GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contribution *light)
@@ -531,7 +549,11 @@ GN_HOT static int add_light(lattice_cell *cell, uint32_t slot)
     if (realtime < 0 || shadow == SPLIT) return 0;
     uint32_t strongest = colour[0] > colour[1] ? colour[0] : colour[1];
     if (colour[2] > strongest) strongest = colour[2];
-    if (shadow != DARK) cell->error_q24 += (uint64_t)strongest * unevenness_q24(cell, slot, least, most) >> 16;
+    if (shadow != DARK) {
+        uint32_t kink;
+        cell->error_q24 += (uint64_t)strongest * unevenness_q24(cell, slot, least, most, &kink) >> 16;
+        cell->kink_q24 += (uint64_t)strongest * kink >> 16;
+    }
     add_colour(cell, slot, &light, shadow == LIT);
     return 1;
 }
@@ -563,13 +585,15 @@ GN_HOT static int is_even(const lattice_cell *cell)
         const int32_t *c = cell->out->colour_q24[i];
         least = gn_min32(least, gn_max32(c[0], gn_max32(c[1], c[2])));
     }
-    return cell->error_q24 << light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19));
+    uint64_t error = cell->size_log2 > finest_log2(cell->frame) ? cell->error_q24 : cell->kink_q24;
+    return error << light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19));
 }
 
-GN_HOT int gn_lattice_look_at(const gn_frame *frame, const gn_surface *surface, gn_corner *const corner[4],
-                              int32_t size_log2, gn_lattice_look *look)
+GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                              gn_corner *const corner[4], int32_t size_log2)
 {
-    lattice_cell cell = {frame, surface, corner, size_log2, 0, 0, look};
+    gn_lattice_look *look = &lattice->look;
+    lattice_cell cell = {lattice, frame, surface, corner, size_log2, 0, 0, 0, look};
     int coarse = size_log2 > finest_log2(frame);
     if (!find_bend(&cell) || (!images_hold(&cell) && coarse)) return 0;
     look->n_edges = 0;
@@ -582,7 +606,8 @@ GN_HOT int gn_lattice_look_at(const gn_frame *frame, const gn_surface *surface, 
     for (uint32_t slot = 0; slot < surface->n_lights; slot++)
         if (!add_light(&cell, slot)) return 0;
     int limits = !finish_colours(&cell);
-    return !coarse || (!limits && is_even(&cell));
+    if (!coarse) return size_log2 < finest_log2(frame) || is_even(&cell);
+    return !limits && is_even(&cell);
 }
 
 #endif

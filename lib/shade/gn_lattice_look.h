@@ -4,10 +4,10 @@
 
 #include "shade/gn_corner.h"
 
-/* Corners: upper left, upper right, lower left, lower right, 2^size_log2 pixels apart. Returns 0 if the cell is too
- * uneven to be interpolated: it is to be split. */
-int gn_lattice_look_at(const gn_frame *frame, const gn_surface *surface, gn_corner *const corner[4], int32_t size_log2,
-                       gn_lattice_look *look);
+/* Corners: upper left, upper right, lower left, lower right, 2^size_log2 pixels apart. Fills lattice->look; returns 0
+ * if the cell is too uneven to be interpolated: it is to be split. */
+int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                       gn_corner *const corner[4], int32_t size_log2);
 
 /* Value of a patch at (x, y) pixels from its first corner. */
 GN_HOT static inline int32_t gn_patch_at(const gn_patch *p, int32_t x, int32_t y)

@@ -64,8 +64,8 @@ GN_HOT static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, in
 #endif
 
 /* The direction of the receiver's offset: the normal, or automatic bias's own for a curved surface. */
-GN_HOT static GN_SHARED const int32_t *lifted_normal(const gn_surface *s, const gn_light_state *light,
-                                                     const int32_t n_q30[3], int32_t out_q30[3])
+GN_HOT const int32_t *gn_sample_lifted(const gn_surface *s, const gn_light_state *light, const int32_t n_q30[3],
+                                       int32_t out_q30[3])
 {
     if (!GN_AUTO_BIAS || !GN_CURVED(s) || !light->auto_bias) return n_q30;
 #if GN_AUTO_BIAS
@@ -133,7 +133,7 @@ GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface 
     }
     if (!GN_SMOOTH(s) && !(GN_DISK_FILTER && view->filter == GN_FILTER_DISK)) return flat;
     int32_t lifted[3];
-    gn_bias_directional(frame, view, lifted_normal(s, s->light[slot].state, n_q30, lifted), moved_q16);
+    gn_bias_directional(frame, view, gn_sample_lifted(s, s->light[slot].state, n_q30, lifted), moved_q16);
     return moved_q16;
 }
 
@@ -197,7 +197,7 @@ GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, u
     int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* per pixel */
     int32_t lifted[3];
     if (GN_SHADOWS && light->view_idx >= 0 && s->shadowed && !own)
-        gn_bias_punctual(frame, light, lifted_normal(s, light, n_q30, lifted), sample->value[GN_VALUE_Z],
+        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n_q30, lifted), sample->value[GN_VALUE_Z],
                          out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
 }
 #else
@@ -313,6 +313,15 @@ GN_HOT void gn_sample_at(const gn_frame *frame, const gn_surface *s, int32_t x, 
 }
 
 #if GN_INTERPOLATES
+GN_HOT void gn_sample_find_cascade(const gn_frame *frame, int32_t px, int32_t py, int32_t z_q16, gn_sample *sample)
+{
+    sample->value[GN_VALUE_Z] = z_q16;
+    sample->value[GN_VALUE_FADE] = 0;
+    sample->cascade = GN_CASCADE_NONE;
+    sample->in_reach = 1;
+    if (asks_for_cascades(frame)) select_cascade(frame, px, py, sample);
+}
+
 GN_HOT int gn_sample_on_plane(const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y, gn_sample *sample)
 {
     int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;

@@ -146,7 +146,7 @@ typedef struct {
     int32_t u_q16, v_q16, depth_q30;
 #endif
 #if GN_PUNCTUAL_LIGHTS
-    int32_t from_q16[3], offset_q16[3]; /* from the light; the receiver's offset */
+    int32_t from_q16[3]; /* from the light */
 #endif
 #if GN_SPECULAR
     int32_t highlight_q24, lobe_q30[3]; /* its highlight; the half vector minus the normal, unit vectors */
@@ -204,6 +204,25 @@ typedef struct {
     int32_t spacing_log2; /* of lookups in pixels */
 } gn_lattice_look;
 
+/* A light of the surface's list, once per surface. */
+typedef struct {
+    uint8_t plain;    /* its shadow leaves nothing, and no mask has a part in it */
+    uint8_t lifts;    /* the receiver's offset is along the normal, in proportion to the light-plane distance */
+    int32_t lift_q31; /* that share, spots and points only */
+} gn_lattice_light;
+
+/* Linear on the screen: the value at a pixel, and its change per pixel to the right and down. */
+typedef struct {
+    int32_t at, dx, dy;
+} gn_slope;
+
+/* A surface's plane on the screen, 32 bits: n . ray and the barycentrics times it, at one scale. */
+typedef struct {
+    int32_t x, y; /* the pixel of w, b */
+    gn_slope w, b[2];
+    int32_t z_shift; /* view depth = depth_scale.mant * (2^63 / w normalised) / 2^32 >> z_shift - clz(w) */
+} gn_screen_plane;
+
 /* Pixels of a row. */
 typedef struct {
     int16_t x, y, n_px;
@@ -219,8 +238,12 @@ enum { GN_SPANS = 64, GN_PART_WIDTH = 64, GN_PART_ROWS = 16 };
 typedef struct {
     gn_run_span span[GN_SPANS]; /* pixels of the surface, top down and left to right */
     int32_t n_spans;
-    int32_t size_log2;                               /* of the largest cells, in pixels */
-    int32_t x, y;                                    /* of the part */
+    gn_screen_plane plane;
+    gn_lattice_light light[GN_SURFACE_LIGHTS];
+    int32_t unit_q30[3]; /* flat surfaces: the normal */
+    int32_t cascade;     /* of all of the surface, none of which fades; -1: of each point for itself */
+    int32_t size_log2;   /* of the largest cells, in pixels */
+    int32_t x, y;        /* of the part */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     gn_corner ring[2][3];                            /* of the column of cells at hand: left and right, by turns */
     gn_corner middle[3][5];                          /* of split cells: by size, from 8 on downwards; centre last */

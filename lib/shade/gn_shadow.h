@@ -24,8 +24,8 @@ GN_HOT static inline int gn_shadow_is_realtime(const gn_light_state *light, uint
     return GN_SHADOWS && light->view_idx >= 0 && gn_mul_uq16(light->strength_uq16, g_uq16);
 }
 
-/* Slopes of depth over a texel of the view, 0 without B5; `from` is a point of the face from the light, spots and points
- * only. */
+/* Slopes of depth over a texel of the view, 0 without B5; `from` is a point of the face from the light, spots and
+ * points only. */
 void gn_shadow_slopes(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view,
                       const int32_t from_q16[3], int32_t slope_q28[2]);
 
