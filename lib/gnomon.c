@@ -92,6 +92,7 @@
 #endif
 #if GN_INTERPOLATES
 #include "shadow/gn_filter_rows.c"
+#include "shadow/gn_window.c"
 #endif
 #if GN_DEPTH_BLOCKS
 #include "shadow/gn_blocks.c"
@@ -120,6 +121,7 @@
 #include "shade/gn_lattice.c"
 #include "shade/gn_lattice_draw.c"
 #include "shade/gn_lattice_look.c"
+#include "shade/gn_lattice_window.c"
 #endif
 #include "shade/gn_light.c"
 #include "shade/gn_sample.c"

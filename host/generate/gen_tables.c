@@ -68,6 +68,32 @@ static uint32_t level_of(const double *table, uint32_t linear_q20, uint32_t leve
 }
 
 /* Levels are counted on from `first` in all that is printed. No cell holds two borders of levels. */
+/* Weights of a tent of 3 texels at u / 32 texel, rounded so that they sum to 4096. */
+static void print_tent_sums(void)
+{
+    printf("\n#if GN_SHADOWS && GN_FILTER_MAX >= 2 && GN_INTERPOLATES\nconst uint16_t gn_tent_sums[32][16] = {");
+    for (int i = 0; i < 32; i++) {
+        double u = i / 32.0, h = 2 * u - 1, m = fmin(h, 0), p = fmax(h, 0);
+        double w[4] = {2 * (1 - u) * (1 - u), 6 - 4 * u - m * m, 2 + 4 * u - p * p, 2 * u * u};
+        long whole[4], sum = 0;
+        int largest = 1;
+        for (int k = 0; k < 4; k++) {
+            whole[k] = lround(w[k] * 4096 / 9);
+            sum += whole[k];
+            if (whole[k] > whole[largest]) largest = k;
+        }
+        whole[largest] += 4096 - sum;
+        printf("\n    {");
+        for (int bits = 0; bits < 16; bits++) {
+            long all = 0;
+            for (int k = 0; k < 4; k++) all += bits >> k & 1 ? whole[k] : 0;
+            printf("%s%ldU", bits ? ", " : "", all);
+        }
+        printf("},");
+    }
+    printf("\n};\n#endif\n");
+}
+
 static void print_cells(const double *table, uint32_t levels, uint32_t n, uint32_t first)
 {
     printf("\nconst uint8_t gn_level_%u_table[%u] = {", levels, n);
@@ -118,6 +144,7 @@ int main(void)
     printf("#endif\n");
     print_disk_table();
     for (int i = 0; i <= 255; i++) v[i] = 65535.0 * linear(i / 255.0);
+    print_tent_sums();
     printf("\n#if GN_TEXTURES");
     print_u16("gn_srgb_decode_table", v, 256);
     printf("#endif\n");

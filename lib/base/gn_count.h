@@ -43,6 +43,9 @@
     X(cells_judged, "cell whose shadow bounds of depth are asked for")                                                 \
     X(cells_plain, "cell of one colour")                                                                               \
     X(cells_drawn, "cell of several colours")                                                                          \
+    X(windows, "window of texels for several cells")                                                                   \
+    X(window_texels, "texel compared with a plane")                                                                    \
+    X(window_lookups, "lookup in a window")                                                                            \
     X(edge_lookups, "lookup in a cell with the edge of a shadow")                                                      \
     X(lights, "light that arrives at a pixel")                                                                         \
     X(lights_punctual, "spot or point light that faces a pixel")                                                       \

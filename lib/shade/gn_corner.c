@@ -366,6 +366,27 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
 #endif
 }
 
+#if GN_SHADOWS
+GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t x,
+                            int32_t y, gn_corner *c)
+{
+    point p;
+    c->x = (int16_t)x;
+    c->y = (int16_t)y;
+    if (!find_point(l, frame, s, c, &p)) return 0;
+    find_normal(l, frame, s, c, &p);
+    c->light[slot].placed = GN_VIEW_NONE;
+#if GN_PUNCTUAL_LIGHTS
+    const gn_light_state *light = s->light[slot].state;
+    if (light->kind == GN_LIGHT_DIRECTIONAL) return 1;
+    find_ray(light, c, &p);
+    for (int i = 0; i < 3; i++)
+        c->light[slot].from_q16[i] = gn_sat32((int64_t)p.ray_q16[i] + light->from_light[i].d_q16);
+#endif
+    return 1;
+}
+#endif
+
 /* ---- Places ------------------------------------------------------------------------------------------------------ */
 
 #if GN_SHADOWS

@@ -14,6 +14,10 @@ void gn_corner_find(const gn_lattice *lattice, const gn_frame *frame, const gn_s
                     gn_sample *sample, gn_corner *corner);
 
 #if GN_SHADOWS
+/* A point of which only gn_corner_place() of one light may be asked. Returns 0 where the plane cannot be sampled. */
+int gn_corner_locate(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
+                     int32_t x, int32_t y, gn_corner *corner);
+
 /* Sets u, v, depth of the light in a slot, in one of its views. Returns 0 if the point is nearer to the light than the
  * view's near plane. */
 int gn_corner_place(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, gn_corner *corner,

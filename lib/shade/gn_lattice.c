@@ -30,7 +30,7 @@ GN_HOT static inline uint32_t bits_of(int32_t from, int32_t to)
 }
 
 /* Marks the part's pixels. Returns the number of rows with pixels in them. */
-GN_HOT static int mark(gn_lattice *l, int32_t n_rows)
+GN_HOT static int mark(gn_lattice *l)
 {
     int any = 0;
     memset(l->bits, 0, sizeof l->bits);
@@ -38,7 +38,7 @@ GN_HOT static int mark(gn_lattice *l, int32_t n_rows)
         const gn_run_span *span = &l->span[i];
         int32_t row = span->y - l->y, from = gn_max32(span->x - l->x, 0),
                 to = gn_min32(span->x + span->n_px - l->x, GN_PART_WIDTH);
-        if (row < 0 || row >= n_rows || from >= to) continue;
+        if (row < 0 || row >= l->n_rows || from >= to) continue;
         any++;
         if (from < 32) l->bits[0][row] |= bits_of(from, gn_min32(to, 32));
         if (to > 32) l->bits[1][row] |= bits_of(gn_max32(from - 32, 0), to - 32);
@@ -144,12 +144,12 @@ GN_HOT static gn_corner *ring_at(gn_lattice *l, int32_t x)
 }
 
 /* Column by column, which have corners in common. */
-GN_HOT static void shade_part(gn_shading *s, int32_t x_end, int32_t n_rows)
+GN_HOT static void shade_part(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     int32_t log2 = l->size_log2, size = 1 << log2;
-    for (int32_t x = l->x; x < gn_min32(x_end, l->x + GN_PART_WIDTH); x += size)
-        for (int32_t row = 0; row < n_rows; row += size) {
+    for (int32_t x = l->x; x < gn_min32(l->x_end, l->x + GN_PART_WIDTH); x += size)
+        for (int32_t row = 0; row < l->n_rows; row += size) {
             int32_t y = l->y + row;
             gn_corner *corner[4];
             if (!has_pixels(l, x, y, log2)) continue;
@@ -160,6 +160,30 @@ GN_HOT static void shade_part(gn_shading *s, int32_t x_end, int32_t n_rows)
             shade_cell(s, x, y, log2, corner);
         }
 }
+
+#if GN_SHADOWS
+/* Of another surface. */
+GN_HOT static void forget_windows(gn_lattice *l)
+{
+    for (int i = 0; i < GN_WINDOWS; i++) l->window[i].view = NULL;
+}
+
+/* Of another part. */
+GN_HOT static void renew_windows(gn_lattice *l)
+{
+    for (int i = 0; i < GN_WINDOWS; i++) l->window[i].until_x = INT32_MIN;
+}
+#else
+GN_HOT static void forget_windows(gn_lattice *l)
+{
+    (void)l;
+}
+
+GN_HOT static void renew_windows(gn_lattice *l)
+{
+    (void)l;
+}
+#endif
 
 /* Cells as large as the knob says, but not much larger than the surface; if its normals turn, than its shorter side. */
 GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, const gn_rect *box)
@@ -181,11 +205,17 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
         return;
     }
     l->size_log2 = cell_log2(s->frame, &s->surface, &box);
-    int32_t n_rows = gn_min32(2 << l->size_log2, GN_PART_ROWS);
-    for (l->y = box.y0; l->y < box.y1; l->y += n_rows) {
+    l->n_rows = gn_min32(2 << l->size_log2, GN_PART_ROWS);
+    l->x_end = box.x1;
+    l->y_end = box.y1;
+    l->has_face = 0;
+    forget_windows(l);
+    for (l->y = box.y0; l->y < box.y1; l->y += l->n_rows) {
         l->ring_x[0] = l->ring_x[1] = INT32_MIN;
-        for (l->x = box.x0; l->x < box.x1; l->x += GN_PART_WIDTH)
-            if (mark(l, n_rows)) shade_part(s, box.x1, n_rows);
+        for (l->x = box.x0; l->x < box.x1; l->x += GN_PART_WIDTH) {
+            renew_windows(l);
+            if (mark(l)) shade_part(s);
+        }
     }
 }
 

@@ -6,7 +6,7 @@
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_pixel.h"
-#include "shadow/gn_filter.h"
+#include "shadow/gn_window.h"
 
 #if GN_INTERPOLATES
 
@@ -63,6 +63,8 @@ GN_HOT static void find_attenuations(const drawing *d, const gn_lattice_edge *ed
     GN_COUNT(edge_lookups, n);
     step.u_q16 *= 1 << log2;
     step.v_q16 *= 1 << log2;
+    if (edge->window && edge->window->view == edge->view && gn_window_row(frame, edge->window, &from, &step, n, out))
+        return;
     int32_t depth_step_q30 = step.depth_q31 * (1 << log2), depth_q30 = from.depth_q31;
     int own = edge->view->filter == GN_FILTER_DISK || (edge->slope_q28[0] | edge->slope_q28[1]);
     int32_t last_q30 = depth_q30 + (n - 1) * depth_step_q30, most_q30 = (1 << 30) - 16384;

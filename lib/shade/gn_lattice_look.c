@@ -5,6 +5,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "shade/gn_lattice_look.h"
+#include "shade/gn_lattice_window.h"
 #include "shade/gn_shadow.h"
 #include "shadow/gn_filter.h"
 
@@ -21,7 +22,7 @@ enum { LIT, DARK, EDGE, SPLIT };
 
 /* The cell at hand. */
 typedef struct {
-    const gn_lattice *lattice;
+    gn_lattice *lattice;
     const gn_frame *frame;
     const gn_surface *s;
     gn_corner *const *corner;
@@ -248,6 +249,7 @@ GN_HOT static int32_t share_of(int32_t v_q24, uint32_t share_uq16)
 /* Where one view sees the corners. */
 typedef struct {
     const gn_light_view *view;
+    const gn_window *window;
     int32_t u[4], v[4], depth[4];
 } places;
 
@@ -257,6 +259,7 @@ GN_HOT static int find_places(const lattice_cell *cell, uint32_t slot, uint32_t 
 {
     int n_seen = 0;
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
+    p->window = NULL;
     for (int i = 0; i < 4; i++) {
         gn_corner *c = cell->corner[i];
         n_seen += gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx);
@@ -273,24 +276,63 @@ GN_HOT static void range_of(const int32_t at[4], int32_t *lo, int32_t *hi)
     *hi = gn_max32(gn_max32(at[0], at[1]), gn_max32(at[2], at[3]));
 }
 
-/* What bounds of depth say: all of the cell lies between its corners. */
-GN_HOT static int verdict(const lattice_cell *cell, const places *p, const int32_t slope_q28[2])
+/* What bounds of depth say. */
+GN_HOT static int verdict_of_bounds(const lattice_cell *cell, const places *p, const gn_receiver_step *lo,
+                                    const gn_receiver_step *hi)
+{
+    uint32_t attenuation;
+    if (p->view->filter == GN_FILTER_DISK) return EDGE;
+    GN_COUNT(cells_judged, 1);
+    if (!gn_filter_decides(cell->frame, p->view, lo, hi, &attenuation)) return EDGE;
+    return attenuation ? LIT : DARK;
+}
+
+/* What a window says of all texels that are read between places. */
+GN_HOT static int verdict_of_window(gn_window *window, const places *p, const gn_receiver_step *lo,
+                                    const gn_receiver_step *hi, int may_compare)
+{
+    int32_t u0, v0, w, h;
+    gn_window_reads(p->view, lo->u_q16 - 16, hi->u_q16 + 1040, &u0, &w);
+    gn_window_reads(p->view, lo->v_q16 - 16, hi->v_q16 + 1040, &v0, &h);
+    if (!gn_window_covers(window, u0, v0, w, h)) {
+        const gn_window_place place = {p->u[0], p->v[0], p->depth[0]};
+        if (!may_compare || window->w || w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS) return SPLIT;
+        if (!gn_window_compare(window, &place, u0, v0, w, h)) return SPLIT;
+        int said = gn_window_says(window, u0, v0, w, h);
+        return said == GN_WINDOW_LIT ? LIT : said == GN_WINDOW_DARK ? DARK : EDGE;
+    }
+    int said = gn_window_says(window, u0, v0, w, h);
+    return said == GN_WINDOW_LIT ? LIT : said == GN_WINDOW_DARK ? DARK : EDGE;
+}
+
+/* The shadow of a view over the cell, all of which lies between its corners. */
+GN_HOT static int verdict(const lattice_cell *cell, uint32_t slot, uint32_t view_idx, places *p,
+                          const int32_t slope_q28[2])
 {
     gn_receiver_step lo, hi;
-    uint32_t attenuation;
     int32_t depth_lo, depth_hi;
-    if (p->view->filter == GN_FILTER_DISK) return EDGE;
+    p->window = NULL;
     range_of(p->u, &lo.u_q16, &hi.u_q16);
     range_of(p->v, &lo.v_q16, &hi.v_q16);
     range_of(p->depth, &depth_lo, &depth_hi);
     if ((gn_abs32(lo.u_q16) | gn_abs32(hi.u_q16) | gn_abs32(lo.v_q16) | gn_abs32(hi.v_q16)) >> 27) return SPLIT;
+    gn_window *window =
+        gn_lattice_window(cell->lattice, cell->frame, cell->s, slot, view_idx, cell->corner[0]->x, cell->corner[0]);
+    int said = window ? verdict_of_window(window, p, &lo, &hi, 0) : SPLIT;
+    if (said != SPLIT) {
+        p->window = window;
+        return said;
+    }
     int64_t slope = (int64_t)gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]);
     slope *= 4 * (p->view->filter_idx + 2);
     lo.depth_q31 = 2 * (int32_t)gn_clamp64(depth_lo - slope, -(1 << 29), (1 << 30) - 16384);
     hi.depth_q31 = 2 * (int32_t)gn_clamp64(depth_hi + slope, -(1 << 29), (1 << 30) - 16384);
-    GN_COUNT(cells_judged, 1);
-    if (!gn_filter_decides(cell->frame, p->view, &lo, &hi, &attenuation)) return EDGE;
-    return attenuation ? LIT : DARK;
+    said = verdict_of_bounds(cell, p, &lo, &hi);
+    if (said != EDGE || !window) return said;
+    said = verdict_of_window(window, p, &lo, &hi, 1);
+    if (said == SPLIT) return EDGE;
+    p->window = window;
+    return said;
 }
 
 /* Whether places are close enough to bilinear: the nearer of light and camera bends them. */
@@ -336,6 +378,7 @@ GN_HOT static int add_edge(const lattice_cell *cell, uint32_t slot, const places
     if (out->n_edges == GN_LATTICE_EDGES) return 0;
     gn_lattice_edge *edge = &out->edge[out->n_edges++];
     edge->view = p->view;
+    edge->window = p->window;
     edge->slope_q28[0] = slope_q28[0];
     edge->slope_q28[1] = slope_q28[1];
     make_patch(&edge->u_q16, p->u, cell->size_log2);
@@ -404,7 +447,7 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
         from = cell->corner[0]->light[slot].from_q16;
 #endif
         gn_shadow_slopes(cell->frame, cell->s, p.view, from, slope);
-        int one = placed == PLACED_NOWHERE ? LIT : verdict(cell, &p, slope);
+        int one = placed == PLACED_NOWHERE ? LIT : verdict(cell, slot, (uint32_t)first_bit(left), &p, slope);
         if (one == SPLIT) return SPLIT;
         if (one == EDGE || (all >= 0 && all != one)) break;
         all = one;
@@ -422,9 +465,10 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
         blend_shares(cell, slot, first, share);
         for (int k = 0; k < 2; k++) {
             if (find_places(cell, slot, k ? second : first, &p) != PLACED) return SPLIT;
+            gn_shadow_slopes(cell->frame, cell->s, p.view, NULL, slope);
+            if (verdict(cell, slot, k ? second : first, &p, slope) == SPLIT) return SPLIT;
             if (!places_hold(cell, &p) && cell->size_log2 > 1) return SPLIT;
             for (int i = 0; i < 4; i++) part[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
-            gn_shadow_slopes(cell->frame, cell->s, p.view, NULL, slope);
             if (!add_edge(cell, slot, &p, slope, light, part)) return SPLIT;
         }
         return EDGE;

@@ -188,6 +188,7 @@ typedef struct {
 /* A light whose shadow has an edge in the cell. */
 typedef struct {
     const gn_light_view *view;
+    const gn_window *window; /* NULL: none */
     gn_patch u_q16, v_q16, depth_q30;
     gn_patch more_q24[3]; /* what it adds where it is not in shadow */
     int32_t slope_q28[2];
@@ -240,14 +241,20 @@ typedef struct {
     int32_t n_spans;
     gn_screen_plane plane;
     gn_lattice_light light[GN_SURFACE_LIGHTS];
-    int32_t unit_q30[3]; /* flat surfaces: the normal */
-    int32_t cascade;     /* of all of the surface, none of which fades; -1: of each point for itself */
-    int32_t size_log2;   /* of the largest cells, in pixels */
-    int32_t x, y;        /* of the part */
+    int32_t unit_q30[3];           /* flat surfaces: the normal */
+    int32_t has_face, face_q30[3]; /* the face's own, once something has asked for it */
+    int32_t cascade;               /* of all of the surface, none of which fades; -1: of each point for itself */
+    int32_t size_log2;             /* of the largest cells, in pixels */
+    int32_t x, y, x_end, y_end;    /* of the part, and where the surface ends */
+    int32_t n_rows;                /* of the part */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     gn_corner ring[2][3];                            /* of the column of cells at hand: left and right, by turns */
     gn_corner middle[3][5];                          /* of split cells: by size, from 8 on downwards; centre last */
     int32_t ring_x[2];                               /* where they stand, INT32_MIN: nowhere */
+#if GN_SHADOWS
+    gn_window window[GN_WINDOWS];
+#endif
+    gn_corner corner; /* of a window */
     gn_lattice_look look;
     int32_t node[3][GN_LATTICE_NODES][3]; /* colours of a row of a cell and the next, Q24; steps between */
     uint32_t attenuation[GN_LATTICE_NODES];

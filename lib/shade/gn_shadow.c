@@ -91,13 +91,19 @@ GN_HOT static void persp_slopes(const gn_light_view *view, const int32_t face_q3
 }
 #endif
 
+GN_HOT void gn_shadow_plane_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
+                                   int32_t slope_q28[2])
+{
+    if (GN_PUNCTUAL_LIGHTS && view->perspective) persp_slopes(view, face_q30, from_q16, slope_q28);
+    else ortho_slopes(view, face_q30, slope_q28);
+}
+
 GN_HOT void gn_shadow_slopes(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view,
                              const int32_t from_q16[3], int32_t slope_q28[2])
 {
     slope_q28[0] = slope_q28[1] = 0;
-    if (!GN_RECEIVER_PLANE || !frame->scene->lights[view->light_idx].receiver_plane) return;
-    if (GN_PUNCTUAL_LIGHTS && view->perspective) persp_slopes(view, face_of(surface), from_q16, slope_q28);
-    else ortho_slopes(view, face_of(surface), slope_q28);
+    if (GN_RECEIVER_PLANE && frame->scene->lights[view->light_idx].receiver_plane)
+        gn_shadow_plane_slopes(view, face_of(surface), from_q16, slope_q28);
 }
 
 GN_HOT static uint32_t ortho_attenuation(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,

@@ -29,4 +29,8 @@ GN_HOT static inline int gn_shadow_is_realtime(const gn_light_state *light, uint
 void gn_shadow_slopes(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view,
                       const int32_t from_q16[3], int32_t slope_q28[2]);
 
+/* The same of any face, whatever the bias. */
+void gn_shadow_plane_slopes(const gn_light_view *view, const int32_t face_q30[3], const int32_t from_q16[3],
+                            int32_t slope_q28[2]);
+
 #endif

@@ -22,8 +22,8 @@ GN_HOT static int without_light(const gn_frame *frame, const gn_surface *s)
 
 /* ---- Once per triangle: attributes ------------------------------------------------------------------------------- */
 
-/* The face normal in the world, towards the viewer: the plane's n points away from him in view space. */
-GN_HOT static void face_normal(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
+/* The plane's n points away from the viewer, in view space. */
+GN_HOT void gn_surface_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
 {
     int64_t world[3];
     for (int i = 0; i < 3; i++) {
@@ -46,7 +46,7 @@ GN_HOT static inline int32_t rounded_high(int64_t v, int32_t s)
     return (int32_t)(((int32_t)high >> 1) + (int32_t)(high & 1U));
 }
 
-GN_HOT void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
+GN_HOT void gn_surgn_surface_face(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
 {
     int64_t a[3];
     for (int r = 0; r < 3; r++)
@@ -79,14 +79,14 @@ GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache,
         for (int i = 0; i < 3; i++) s->normal_q30[k][i] = 0;
     if (s->object->flags & GN_OBJECT_UNLIT && !GN_RAW_VIEWS) return;
     if (!GN_VERTEX_NORMALS || !mesh->nrm_q15) {
-        face_normal(frame, s, s->normal_q30[0]);
+        gn_surface_face(frame, s, s->normal_q30[0]);
         return;
     }
     int32_t n[3][3];
     for (int k = 0; k < 3; k++) {
         const gn_normal *nrm_q15 = mesh->nrm_q15 + 3 * (size_t)idx[k];
         if (GN_SIZE_FIRST) gn_xform_normal(n[k], cache->normal_matrix, nrm_q15);
-        else gn_surface_normal(n[k], cache->normal_matrix, nrm_q15);
+        else gn_surgn_surface_face(n[k], cache->normal_matrix, nrm_q15);
         if (s->plane.back)
             for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
     }
@@ -296,7 +296,7 @@ GN_HOT static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
         view += GN_LAST_CASCADE(frame); /* the first may be empty */
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     const gn_light *scene_light = &frame->scene->lights[s->light[slot].idx];
-    if (scene_light->receiver_plane || light->auto_bias) face_normal(frame, s, s->face_q30);
+    if (scene_light->receiver_plane || light->auto_bias) gn_surface_face(frame, s, s->face_q30);
 #endif
 #if GN_AUTO_BIAS
     if (light->auto_bias) {

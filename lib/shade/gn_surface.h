@@ -11,6 +11,9 @@
 void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface,
                       const gn_tri *tri);
 
+/* The face's normal in the world, towards the viewer. */
+void gn_surface_face(const gn_frame *frame, const gn_surface *surface, int32_t out_q30[3]);
+
 /* gn_xform_normal(), inlined where time counts. */
 void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3]);
 

@@ -81,6 +81,29 @@ typedef struct {
     } fit;
 } gn_light_view;
 
+#if GN_INTERPOLATES
+/* Texels of a tile that keep a plane in the dark: gn_window.h. */
+enum { GN_WINDOW_TEXELS = 32, GN_WINDOWS = 4 };
+enum { GN_WINDOW_LIT, GN_WINDOW_DARK, GN_WINDOW_MIXED };
+
+typedef struct {
+    const gn_light_view *view;            /* NULL: none */
+    int32_t planar;                       /* 0: of this view there is no window */
+    int32_t slope_q30[2];                 /* change of the plane's depth per texel, a fraction of the range */
+    int32_t reach_q30;                    /* depths within this of the plane are in doubt */
+    int32_t until_x;                      /* gn_lattice: columns of the screen that it was made for */
+    int32_t u0, v0, w, h;                 /* texels, w = 0: none yet */
+    uint32_t any, all, doubts;            /* of rows: OR of what may be dark, AND of what surely is, OR of doubts */
+    uint32_t dark[GN_WINDOW_TEXELS + 3];  /* bit i of row j: texel (u0 + i, v0 + j) may be dark */
+    uint32_t doubt[GN_WINDOW_TEXELS + 3]; /* or may not */
+} gn_window;
+
+/* A receiver on the plane. */
+typedef struct {
+    int32_t u_q16, v_q16, depth_q30;
+} gn_window_place;
+#endif
+
 /* Signatures of a view's kept tile. */
 typedef struct {
     uint64_t signature;        /* of everything that its texels depend on; 0: nothing is kept */

@@ -127,10 +127,28 @@ GN_HOT static inline uint32_t gn_linear_attenuation(const uint8_t *dark, int32_t
                                          : 1588375U); /* round(2^32 / whole) */
 }
 
+/* Of texels that are dark, of which some are lit: by the kernel of index k that the scene chooses. cu, cv: the
+ * receiver, half a texel down and right, Q16, of which the fraction counts. */
+GN_HOT static GN_SHARED uint32_t gn_tent_of_dark(const gn_frame *frame, const uint8_t *dark, int32_t k, int32_t cu,
+                                                 int32_t cv, int32_t bits)
+{
+    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
+    if (GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)
+        return gn_linear_attenuation(dark, k, cu, cv, bits);
+    gn_tent_weights(wu, k, gn_filter_fraction(cu, bits), bits);
+    gn_tent_weights(wv, k, gn_filter_fraction(cv, bits), bits);
+    /* along a row <= 49 F^2 < 2^30, all <= (2k + 1)^4 F^4 <= 2401 * 2^48 */
+    uint32_t whole = k == 1 ? 81 : k == 2 ? 625 : 2401;
+    uint64_t sum = ((uint64_t)whole << 4 * bits) - gn_weighted(dark, 2 * (k + 1), wu, wv, 0);
+    return gn_weighted_fraction(sum, 4 * bits,
+                                k == 1   ? 53024288U
+                                : k == 2 ? 6871948U
+                                         : 1788824U); /* round(2^32 / whole) */
+}
+
 /* Texel by texel. With GN_SIZE_FIRST its arrays are not on the stack while bounds decide. */
 GN_HOT static GN_SHARED uint32_t gn_tent_by_texels(const gn_frame *frame, const gn_lookup *l, int32_t k, int32_t bits)
 {
-    uint32_t wu[GN_TENT_TAPS_MAX], wv[GN_TENT_TAPS_MAX];
     int32_t cu = l->u_q16 + 32768, cv = l->v_q16 + 32768, n = 2 * (k + 1);
     int32_t u0 = (cu >> 16) - (k + 1), v0 = (cv >> 16) - (k + 1);
     uint8_t dark[GN_TENT_TAPS_MAX];
@@ -139,17 +157,7 @@ GN_HOT static GN_SHARED uint32_t gn_tent_by_texels(const gn_frame *frame, const 
     uint32_t found = gn_tent_dark(l, u0, v0, n, dark);
     if (!(found & 0xFFFFU)) return 65536;
     if (found >> 16 == (1U << n) - 1) return 0;
-    if (GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)
-        return gn_linear_attenuation(dark, k, cu, cv, bits);
-    gn_tent_weights(wu, k, gn_filter_fraction(cu, bits), bits);
-    gn_tent_weights(wv, k, gn_filter_fraction(cv, bits), bits);
-    /* along a row <= 49 F^2 < 2^30, all <= (2k + 1)^4 F^4 <= 2401 * 2^48 */
-    uint32_t whole = k == 1 ? 81 : k == 2 ? 625 : 2401;
-    uint64_t sum = ((uint64_t)whole << 4 * bits) - gn_weighted(dark, n, wu, wv, 0);
-    return gn_weighted_fraction(sum, 4 * bits,
-                                k == 1   ? 53024288U
-                                : k == 2 ? 6871948U
-                                         : 1788824U); /* round(2^32 / whole) */
+    return gn_tent_of_dark(frame, dark, k, cu, cv, bits);
 }
 
 /* Attenuation by the kernel of index k that the scene chooses. Both kinds are done as tents: their radius and their

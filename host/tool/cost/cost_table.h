@@ -46,6 +46,9 @@ COST(cells_split, 100)
 COST(cells_judged, 100)
 COST(cells_plain, 400)
 COST(cells_drawn, 2500)
+COST(windows, 1000)
+COST(window_texels, 8)
+COST(window_lookups, 45)
 COST(edge_lookups, 100)
 COST(lights, 0) /* light that arrives at a pixel */
 COST(lights_punctual, 0) /* spot or point light that faces a pixel */

@@ -1,0 +1,89 @@
+/* Texel windows of a surface. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_q.h"
+#include "shade/gn_lattice_window.h"
+#include "shade/gn_shadow.h"
+
+#if GN_INTERPOLATES && GN_SHADOWS
+
+/* Whether the receiver's offset leaves the surface a plane. */
+GN_HOT static int stays_planar(const gn_lattice *l, const gn_surface *s, uint32_t slot)
+{
+    const gn_light_state *light = s->light[slot].state;
+    if (GN_SMOOTH(s)) return 0;
+    return light->kind == GN_LIGHT_DIRECTIONAL || l->light[slot].lifts || light->auto_bias;
+}
+
+GN_HOT static void begin_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                const gn_light_view *view, const gn_corner *at, gn_window *window)
+{
+    int32_t slope[2];
+    const int32_t *from = NULL;
+    int on_plane = GN_RECEIVER_PLANE && frame->scene->lights[s->light[slot].idx].receiver_plane;
+    window->view = view;
+    window->planar = 0;
+    window->w = 0;
+    window->until_x = INT32_MIN;
+    if (!stays_planar(l, s, slot)) return;
+    if (!l->has_face) gn_surface_face(frame, s, l->face_q30);
+    l->has_face = 1;
+#if GN_PUNCTUAL_LIGHTS
+    from = at->light[slot].from_q16;
+#endif
+    (void)at;
+    gn_shadow_plane_slopes(view, l->face_q30, from, slope);
+    gn_window_begin(window, frame, view, slope, on_plane);
+}
+
+/* Makes it for columns x .. x_end - 1 of cells. Returns 0 if that is too much. */
+GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                              uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, gn_window *window)
+{
+    int32_t lo[2] = {INT32_MAX, INT32_MAX}, hi[2] = {INT32_MIN, INT32_MIN}, first[2], n[2];
+    gn_corner *c = &l->corner;
+    gn_window_place place = {0, 0, 0};
+    for (int i = 0; i < 4; i++) {
+        if (!gn_corner_locate(l, frame, s, slot, i & 1 ? x_end : x, i & 2 ? y_end : l->y, c) ||
+            !gn_corner_place(l, frame, s, c, slot, view_idx))
+            return 0;
+        const gn_corner_light *at = &c->light[slot];
+        place.u_q16 = at->u_q16;
+        place.v_q16 = at->v_q16;
+        place.depth_q30 = at->depth_q30;
+        if ((gn_abs32(at->u_q16) | gn_abs32(at->v_q16)) >> 27) return 0;
+        lo[0] = gn_min32(lo[0], at->u_q16);
+        hi[0] = gn_max32(hi[0], at->u_q16);
+        lo[1] = gn_min32(lo[1], at->v_q16);
+        hi[1] = gn_max32(hi[1], at->v_q16);
+    }
+    for (int i = 0; i < 2; i++) { /* and what steps over cells are off by */
+        gn_window_reads(window->view, lo[i] - 64, hi[i] + 1088, &first[i], &n[i]);
+        if (n[i] > GN_WINDOW_TEXELS) return 0;
+    }
+    GN_COUNT(windows, 1);
+    gn_window_compare(window, &place, first[0], first[1], n[0], n[1]);
+    return 1;
+}
+
+GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                    uint32_t view_idx, int32_t x, const gn_corner *at)
+{
+    const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
+    gn_window *window = &l->window[(view - frame->view) & (GN_WINDOWS - 1)];
+    int32_t log2 = l->size_log2, size = 1 << log2;
+    if (window->view != view) begin_window(l, frame, s, slot, view, at, window);
+    if (!window->planar) return NULL;
+    if (x < window->until_x) return window;
+    window->w = 0;
+    int32_t rows = (gn_min32(l->n_rows, l->y_end - l->y) + size - 1) >> log2;
+    int32_t columns = (gn_min32(GN_PART_WIDTH - (x - l->x), l->x_end - x) + size - 1) >> log2;
+    while (columns * rows > 2 &&
+           !make_window(l, frame, s, slot, view_idx, x, x + columns * size, l->y + rows * size, window))
+        columns = (columns + 1) >> 1;
+    window->until_x = x + columns * size;
+    return window;
+}
+
+#endif

@@ -1,0 +1,236 @@
+/* Texel windows. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_q.h"
+#include "base/gn_tables.h"
+#include "shadow/gn_lookup.h"
+#include "shadow/gn_tent.h"
+#include "shadow/gn_window.h"
+
+/* ---- Comparing --------------------------------------------------------------------------------------------------- */
+
+/* How far from a receiver the centres of the texels are that its filter reads, per axis, in half texels. */
+GN_HOT static int32_t reach_halves(const gn_light_view *view)
+{
+    return view->filter == GN_FILTER_HARD ? 1 : 2 * (view->filter_idx + 1);
+}
+
+GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_light_view *view,
+                           const int32_t slope_q28[2], int on_plane)
+{
+    uint32_t steep = gn_abs32(slope_q28[0]) | gn_abs32(slope_q28[1]);
+    int32_t dropped = gn_dropped_bits(frame, view);
+    window->view = view;
+    window->w = 0;
+    window->planar = view->filter != GN_FILTER_DISK && steep < 1U << 24;
+    if (!window->planar) return 0;
+    window->slope_q30[0] = slope_q28[0] * 4;
+    window->slope_q30[1] = slope_q28[1] * 4;
+    uint32_t across = gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]);
+    /* and roundings: of depth, of slopes over a window, and of the place */
+    window->reach_q30 = (int32_t)((on_plane ? 0 : 2 * across * (uint32_t)reach_halves(view)) +
+                                  (dropped ? 1U << (dropped - 3) : 0) + 4 * GN_WINDOW_TEXELS + 16);
+    return 1;
+}
+
+GN_HOT void gn_window_reads(const gn_light_view *view, int32_t lo_q16, int32_t hi_q16, int32_t *first, int32_t *n)
+{
+    if (view->filter == GN_FILTER_HARD) {
+        *first = lo_q16 >> 16;
+        *n = (hi_q16 >> 16) + 1 - *first;
+        return;
+    }
+    int32_t k = view->filter_idx;
+    *first = ((lo_q16 + 32768) >> 16) - (k + 1);
+    *n = ((hi_q16 + 32768) >> 16) + k + 1 - *first;
+}
+
+/* Texels of one row against depths that grow by `step` from `depth` on: bit i for texel i. */
+GN_HOT static inline void compare_16(const uint16_t *texel, int32_t n, int32_t depth_q30, int32_t step_q30,
+                                     int32_t reach_q30, uint32_t *maybe, uint32_t *surely)
+{
+    const uint16_t *end = texel + n;
+    uint32_t near = 0, sure = 0;
+    depth_q30 += step_q30 * n;
+    do {
+        depth_q30 -= step_q30;
+        int32_t beyond =
+            ((int32_t) * --end << 14) - depth_q30; /* of the plane, moved away from the light by the reach */
+        near = near << 1 | (uint32_t)beyond >> 31;
+        sure = sure << 1 | (uint32_t)(beyond + reach_q30) >> 31;
+    } while (end != texel);
+    *maybe = near;
+    *surely = sure;
+}
+
+GN_HOT static void compare_row(const gn_light_view *view, int32_t u, int32_t v, int32_t n, int32_t depth_q30,
+                               int32_t step_q30, int32_t reach_q30, uint32_t *maybe, uint32_t *surely)
+{
+    int32_t bits = GN_VIEW_BITS(view);
+    gn_texels row = gn_view_texels(view, u, v);
+    if (bits == 16) {
+        compare_16(row.d16, n, depth_q30, step_q30, reach_q30, maybe, surely);
+        return;
+    }
+    *maybe = *surely = 0;
+    for (int32_t i = n - 1; i >= 0; i--) {
+        int32_t beyond = (int32_t)(gn_texel_load(row, bits, (uint32_t)i) >> 2) - (depth_q30 + i * step_q30);
+        *maybe = *maybe << 1 | (uint32_t)beyond >> 31;
+        *surely = *surely << 1 | (uint32_t)(beyond + reach_q30) >> 31;
+    }
+}
+
+/* Repeats the first and the last bit of n on both sides, or leaves both sides lit. */
+GN_HOT static uint32_t repeat_border(uint32_t bits, int32_t left, int32_t n, int32_t right, int lit)
+{
+    uint32_t out = bits << left;
+    if (!lit && bits & 1U) out |= (1U << left) - 1;
+    if (!lit && right && bits >> (n - 1) & 1U) out |= ((1U << right) - 1) << (left + n);
+    return out;
+}
+
+GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, int32_t u0, int32_t v0, int32_t w,
+                             int32_t h)
+{
+    const gn_light_view *view = window->view;
+    const int32_t *slope = window->slope_q30, last = view->tile_texels - 1;
+    int64_t du = u0 * 65536 + 32768 - place->u_q16, dv = v0 * 65536 + 32768 - place->v_q16;
+    int64_t first = place->depth_q30 + ((du * slope[0] + dv * slope[1]) >> 16);
+    int64_t across = (int64_t)slope[0] * w, down = (int64_t)slope[1] * h;
+    int64_t lo = first + (across < 0 ? across : 0) + (down < 0 ? down : 0),
+            hi = first + (across > 0 ? across : 0) + (down > 0 ? down : 0);
+    int64_t reach = window->reach_q30, far = gn_texel_far(GN_VIEW_BITS(view)) >> 2;
+    window->w = 0;
+    if (lo - reach < -(1 << 29) || hi + reach >= far) return 0;
+    if (u0 + w <= 0 || v0 + h <= 0 || u0 > last || v0 > last) return 0;
+    /* texels beyond the border repeat it, with its depth: so do their bits */
+    int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0, right = w - n - left;
+    int32_t va = gn_max32(v0, 0), vb = gn_min32(v0 + h - 1, last);
+    int32_t depth = (int32_t)(first + reach) + slope[0] * left + slope[1] * (va - v0);
+    int lit = gn_border_lit(view);
+    uint32_t any = 0, all = UINT32_MAX, doubts = 0;
+    GN_COUNT(window_texels, w * h);
+    for (int32_t v = va, j = va - v0; v <= vb; v++, j++, depth += slope[1]) {
+        uint32_t maybe, surely;
+        compare_row(view, ua, v, n, depth, slope[0], 2 * (int32_t)reach, &maybe, &surely);
+        if (left | right) {
+            maybe = repeat_border(maybe, left, n, right, lit);
+            surely = repeat_border(surely, left, n, right, lit);
+        }
+        window->dark[j] = maybe;
+        window->doubt[j] = maybe & ~surely;
+        any |= maybe;
+        all &= surely;
+        doubts |= maybe & ~surely;
+    }
+    for (int32_t j = 0; j < h; j++) {
+        int32_t v = v0 + j, from = gn_max32(va, gn_min32(v, vb)) - v0;
+        if (v >= va && v <= vb) continue;
+        window->dark[j] = lit ? 0 : window->dark[from];
+        window->doubt[j] = lit ? 0 : window->doubt[from];
+        all &= window->dark[j];
+    }
+    window->u0 = u0;
+    window->v0 = v0;
+    window->w = w;
+    window->h = h;
+    window->any = any;
+    window->all = all | (w < 32 ? UINT32_MAX << w : 0);
+    window->doubts = doubts;
+    return 1;
+}
+
+/* ---- Asking ------------------------------------------------------------------------------------------------------ */
+
+GN_HOT int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h)
+{
+    if (!window->any) return GN_WINDOW_LIT;
+    if (window->all == UINT32_MAX) return GN_WINDOW_DARK;
+    uint32_t mask = (UINT32_MAX >> (32 - w)) << (u0 - window->u0), any = 0, all = mask;
+    const uint32_t *dark = &window->dark[v0 - window->v0], *doubt = &window->doubt[v0 - window->v0];
+    for (const uint32_t *end = dark + h; dark < end; dark++, doubt++) {
+        any |= *dark;
+        all &= *dark & ~*doubt;
+    }
+    return !(any & mask) ? GN_WINDOW_LIT : all == mask ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
+}
+
+GN_HOT static int in_doubt(const gn_window *window, int32_t u, int32_t v, int32_t w, int32_t h)
+{
+    uint32_t mask = (UINT32_MAX >> (32 - w)) << u;
+    if (!(window->doubts & mask)) return 0;
+    for (int32_t j = v; j < v + h; j++)
+        if (window->doubt[j] & mask) return 1;
+    return 0;
+}
+
+/* 3x3, positions to 1/32 texel. */
+GN_HOT static void row_3x3(const gn_window *window, int32_t u, int32_t v, const gn_receiver_step *step, int32_t n,
+                           uint32_t *out)
+{
+    u += 1024; /* rounded, not cut */
+    v += 1024;
+    for (uint32_t *end = out + n; out < end; out++, u += step->u_q16, v += step->v_q16) {
+        const uint32_t *row = &window->dark[v >> 16];
+        int32_t s = u >> 16;
+        uint32_t a = row[0] >> s & 15U, b = row[1] >> s & 15U, c = row[2] >> s & 15U, d = row[3] >> s & 15U;
+        *out = 65536;
+        if (!(a | b | c | d)) continue;
+        const uint16_t *across = gn_tent_sums[u >> 11 & 31], *down = gn_tent_sums[v >> 11 & 31];
+        dark[j] = (uint8_t)(window->dark[(v >> 16) + j] >> (u >> 16) & ((1U << n) - 1U));
+    }
+}
+
+/* Any other tent, exactly. */
+GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const gn_window *window, int32_t u, int32_t v)
+{
+    int32_t k = window->view->filter - GN_FILTER_2X2, n = 2 * (k + 1);
+    uint8_t dark[GN_TENT_TAPS_MAX];
+    uint32_t any = 0, all = 255;
+    for (int32_t j = 0; j < n; j++) {
+        dark[j] = (uint8_t)(window->dark[(v >> 16) + j] >> (u >> 16) & ((1U << n) - 1));
+        any |= dark[j];
+        all &= dark[j];
+    }
+    if (!any) return 65536;
+    if (all == (1U << n) - 1) return 0;
+    return gn_tent_of_dark(frame, dark, k, u, v, GN_K(frame, weight_bits));
+}
+
+GN_HOT static uint32_t by_2x2(const gn_window *window, int32_t u, int32_t v, int32_t bits)
+{
+    const uint32_t *row = &window->dark[v >> 16];
+    uint32_t top = row[0] >> (u >> 16), bottom = row[1] >> (u >> 16), one = 1U << bits;
+    if (!((top | bottom) & 3U)) return 65536;
+    if ((top & bottom & 3U) == 3U) return 0;
+    uint32_t wu = gn_filter_fraction(u, bits), wv = gn_filter_fraction(v, bits);
+    uint32_t upper = (top & 1U ? one - wu : 0) + (top & 2U ? wu : 0),
+             lower = (bottom & 1U ? one - wu : 0) + (bottom & 2U ? wu : 0);
+    uint32_t sum = (one - wv) * upper + wv * lower;
+    return 65536 - (bits <= 8 ? sum << (16 - 2 * bits) : sum >> (2 * bits - 16));
+}
+
+GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
+                         const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
+{
+    const gn_light_view *view = window->view;
+    int32_t u_end = from->u_q16 + (n - 1) * step->u_q16, v_end = from->v_q16 + (n - 1) * step->v_q16, u0, v0, w, h;
+    gn_window_reads(view, gn_min32(from->u_q16, u_end), gn_max32(from->u_q16, u_end) + 1024, &u0, &w);
+    gn_window_reads(view, gn_min32(from->v_q16, v_end), gn_max32(from->v_q16, v_end) + 1024, &v0, &h);
+    if (!gn_window_covers(window, u0, v0, w, h)) return 0;
+    if (window->doubts && in_doubt(window, u0 - window->u0, v0 - window->v0, w, h)) return 0;
+    int32_t shift = view->filter == GN_FILTER_HARD ? 0 : (view->filter_idx + 1) * 65536 - 32768;
+    int32_t u = from->u_q16 - shift - window->u0 * 65536, v = from->v_q16 - shift - window->v0 * 65536;
+    GN_COUNT(window_lookups, n);
+    if (view->filter == GN_FILTER_3X3 && !(GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)) {
+        row_3x3(window, u, v, step, n, attenuation);
+        return 1;
+    }
+    for (int32_t i = 0; i < n; i++, u += step->u_q16, v += step->v_q16) {
+        if (view->filter == GN_FILTER_HARD) attenuation[i] = (~window->dark[v >> 16] >> (u >> 16) & 1U) << 16;
+        else if (view->filter == GN_FILTER_2X2) attenuation[i] = by_2x2(window, u, v, GN_K(frame, weight_bits));
+        else attenuation[i] = by_weights(frame, window, u, v);
+    }
+    return 1;
+}

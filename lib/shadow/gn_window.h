@@ -1,0 +1,37 @@
+/* Texel windows: which texels of a part of a shadow tile keep a plane in the dark, a bit each.
+ *
+ * A filter compares texels with the depth of the pixel; a window compares each once with the depth of the receiver's
+ * plane at the texel. Both agree but where a texel's depth is within the filter's reach times the plane's slope of the
+ * plane: there it is in doubt, and what reads it is looked up exactly. So a window's answers are those of
+ * gn_filter_attenuation for receivers on the plane, to the rounding of positions (NUMERICS 4.12). */
+#ifndef GN_WINDOW_H
+#define GN_WINDOW_H
+
+#include "shadow/gn_filter.h"
+
+/* Makes a window of a view that knows a plane by its slopes: change of depth per texel, a fraction of the range.
+ * on_plane: taps are compared with the plane (B5). Returns 0 if the plane is too steep, or the filter has no windows.
+ */
+int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_light_view *view, const int32_t slope_q28[2],
+                    int on_plane);
+
+/* The texels that filters read of receivers whose tile coordinates lie in lo .. hi: the first, and how many. */
+void gn_window_reads(const gn_light_view *view, int32_t lo_q16, int32_t hi_q16, int32_t *first, int32_t *n);
+
+/* Compares w x h texels from (u0, v0) on, all at most GN_WINDOW_TEXELS, with the plane through a place. Returns 0 if
+ * the plane leaves the range of depths there. */
+int gn_window_compare(gn_window *window, const gn_window_place *place, int32_t u0, int32_t v0, int32_t w, int32_t h);
+
+GN_HOT static inline int gn_window_covers(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h)
+{
+    return u0 >= window->u0 && v0 >= window->v0 && u0 + w <= window->u0 + window->w && v0 + h <= window->v0 + window->h;
+}
+
+/* Of texels that it covers: GN_WINDOW_LIT, _DARK or _MIXED. */
+int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h);
+
+/* Attenuations of n receivers on the plane. Returns 0 if it does not cover all, or a texel is in doubt. */
+int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
+                  const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
+
+#endif
