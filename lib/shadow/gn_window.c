@@ -178,7 +178,7 @@ GN_HOT static void row_3x3(const gn_window *window, int32_t u, int32_t v, const 
         *out = 65536;
         if (!(a | b | c | d)) continue;
         const uint16_t *across = gn_tent_sums[u >> 11 & 31], *down = gn_tent_sums[v >> 11 & 31];
-        dark[j] = (uint8_t)(window->dark[(v >> 16) + j] >> (u >> 16) & ((1U << n) - 1U));
+        *out -= (across[a] * down[1] + across[b] * down[2] + across[c] * down[4] + across[d] * down[8]) >> 8;
     }
 }
 
@@ -189,7 +189,7 @@ GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const gn_wi
     uint8_t dark[GN_TENT_TAPS_MAX];
     uint32_t any = 0, all = 255;
     for (int32_t j = 0; j < n; j++) {
-        dark[j] = (uint8_t)(window->dark[(v >> 16) + j] >> (u >> 16) & ((1U << n) - 1));
+        dark[j] = (uint8_t)(window->dark[(v >> 16) + j] >> (u >> 16) & ((1U << n) - 1U));
         any |= dark[j];
         all &= dark[j];
     }
