@@ -16,6 +16,30 @@ GN_HOT static int stays_planar(const gn_lattice *l, const gn_surface *s, uint32_
     return light->kind == GN_LIGHT_DIRECTIONAL || l->light[slot].lifts || light->auto_bias;
 }
 
+/* How far bias keeps the surface's own texels behind it, Q30; INT32_MAX: as far as filters reach. */
+GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                       const gn_light_view *view, const gn_corner *at, const int32_t slope_q28[2])
+{
+    const gn_light_state *light = s->light[slot].state;
+    int64_t steepest = gn_max32((int32_t)gn_abs32(slope_q28[0]), (int32_t)gn_abs32(slope_q28[1]));
+    int64_t own = steepest * view->bias_slope_q16 >> 14; /* of casters */
+    if (light->auto_bias) return INT32_MAX;
+#if GN_PUNCTUAL_LIGHTS
+    if (light->kind != GN_LIGHT_DIRECTIONAL) {
+        int64_t h = (int64_t)gn_abs64(gn_dot_q30(l->face_q30, at->light[slot].from_q16)) | 1;
+        int64_t k_q30 = l->light[slot].lift_q31 >> 1, along_q30 = gn_dot_q30(s->normal_q30[0], view->axis_q30[2]);
+        int64_t less = (k_q30 << 30) / gn_max32(1, (int32_t)((1 << 30) + (k_q30 * along_q30 >> 30)));
+        return own + less * view->fit.persp.near_q16 / h;
+    }
+#endif
+    int32_t offset[3], up = 14 - view->tile_log2 - view->depth_log2;
+    gn_sample_offset(frame, s, slot, view, s->normal_q30[0], offset);
+    own += ((int64_t)offset[0] * slope_q28[0] + (int64_t)offset[1] * slope_q28[1]) >> 14;
+    int64_t towards = (int64_t)view->bias_constant_q16 - offset[2];
+    (void)l, (void)at;
+    return own + (up >= 0 ? towards * ((int64_t)1 << up) : towards >> -up);
+}
+
 GN_HOT static void begin_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                 const gn_light_view *view, const gn_corner *at, gn_window *window)
 {
@@ -32,9 +56,8 @@ GN_HOT static void begin_window(gn_lattice *l, const gn_frame *frame, const gn_s
 #if GN_PUNCTUAL_LIGHTS
     from = at->light[slot].from_q16;
 #endif
-    (void)at;
     gn_shadow_plane_slopes(view, l->face_q30, from, slope);
-    gn_window_begin(window, frame, view, slope, on_plane);
+    gn_window_begin(window, frame, view, slope, own_distance_q30(l, frame, s, slot, view, at, slope), on_plane);
 }
 
 /* Makes it for columns x .. x_end - 1 of cells. Returns 0 if that is too much. */

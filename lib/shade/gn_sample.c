@@ -137,6 +137,14 @@ GN_HOT static const int32_t *own_offset(const gn_frame *frame, const gn_surface 
     return moved_q16;
 }
 
+GN_HOT void gn_sample_offset(const gn_frame *frame, const gn_surface *s, uint32_t slot, const gn_light_view *view,
+                             const int32_t n_q30[3], int32_t offset_q16[3])
+{
+    int32_t moved[3];
+    const int32_t *offset = own_offset(frame, s, slot, view, n_q30, moved);
+    for (int i = 0; i < 3; i++) offset_q16[i] = offset[i];
+}
+
 GN_HOT void gn_sample_in_view(const gn_frame *frame, const gn_surface *s, uint32_t slot, const gn_light_view *view,
                               int32_t x, int32_t y, int32_t z_q16, const int32_t n_q30[3], int32_t coord_q16[3])
 {

@@ -23,6 +23,10 @@ uint32_t gn_sample_cascade(const gn_frame *frame, const gn_surface *surface, int
 /* Interpolated normal, not renormalised, Q1.30, towards the viewer's side; at the pixel's centre. */
 void gn_sample_normal(const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y, int32_t normal_q30[3]);
 
+/* The receiver's offset in that view, texels, Q16. */
+void gn_sample_offset(const gn_frame *frame, const gn_surface *surface, uint32_t slot, const gn_light_view *view,
+                      const int32_t n_q30[3], int32_t offset_q16[3]);
+
 /* The cascade, its fade factor and the reach of shadows, of a point at view depth z on a pixel's ray. */
 void gn_sample_find_cascade(const gn_frame *frame, int32_t px, int32_t py, int32_t z_q16, gn_sample *sample);
 

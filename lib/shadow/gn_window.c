@@ -17,7 +17,7 @@ GN_HOT static int32_t reach_halves(const gn_light_view *view)
 }
 
 GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_light_view *view,
-                           const int32_t slope_q28[2], int on_plane)
+                           const int32_t slope_q28[2], int64_t own_q30, int on_plane)
 {
     uint32_t steep = gn_abs32(slope_q28[0]) | gn_abs32(slope_q28[1]);
     int32_t dropped = gn_dropped_bits(frame, view);
@@ -31,6 +31,8 @@ GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_li
     /* and roundings: of depth, of slopes over a window, and of the place */
     window->reach_q30 = (int32_t)((on_plane ? 0 : 2 * across * (uint32_t)reach_halves(view)) +
                                   (dropped ? 1U << (dropped - 3) : 0) + 4 * GN_WINDOW_TEXELS + 16);
+    int64_t safe_q30 = own_q30 - (own_q30 >> 3) - ((int64_t)1 << (30 - GN_VIEW_BITS(view)));
+    window->behind_q30 = safe_q30 <= 0 || safe_q30 > window->reach_q30 ? window->reach_q30 : (int32_t)safe_q30;
     return 1;
 }
 
@@ -100,20 +102,20 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     int64_t across = (int64_t)slope[0] * w, down = (int64_t)slope[1] * h;
     int64_t lo = first + (across < 0 ? across : 0) + (down < 0 ? down : 0),
             hi = first + (across > 0 ? across : 0) + (down > 0 ? down : 0);
-    int64_t reach = window->reach_q30, far = gn_texel_far(GN_VIEW_BITS(view)) >> 2;
+    int64_t reach = window->reach_q30, behind = window->behind_q30, far = gn_texel_far(GN_VIEW_BITS(view)) >> 2;
     window->w = 0;
-    if (lo - reach < -(1 << 29) || hi + reach >= far) return 0;
+    if (lo - reach < -(1 << 29) || hi + behind >= far) return 0;
     if (u0 + w <= 0 || v0 + h <= 0 || u0 > last || v0 > last) return 0;
     /* texels beyond the border repeat it, with its depth: so do their bits */
     int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0, right = w - n - left;
     int32_t va = gn_max32(v0, 0), vb = gn_min32(v0 + h - 1, last);
-    int32_t depth = (int32_t)(first + reach) + slope[0] * left + slope[1] * (va - v0);
+    int32_t depth = (int32_t)(first + behind) + slope[0] * left + slope[1] * (va - v0);
     int lit = gn_border_lit(view);
     uint32_t any = 0, all = UINT32_MAX, doubts = 0;
     GN_COUNT(window_texels, w * h);
     for (int32_t v = va, j = va - v0; v <= vb; v++, j++, depth += slope[1]) {
         uint32_t maybe, surely;
-        compare_row(view, ua, v, n, depth, slope[0], 2 * (int32_t)reach, &maybe, &surely);
+        compare_row(view, ua, v, n, depth, slope[0], (int32_t)(reach + behind), &maybe, &surely);
         if (left | right) {
             maybe = repeat_border(maybe, left, n, right, lit);
             surely = repeat_border(surely, left, n, right, lit);

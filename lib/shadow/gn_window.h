@@ -10,10 +10,12 @@
 #include "shadow/gn_filter.h"
 
 /* Makes a window of a view that knows a plane by its slopes: change of depth per texel, a fraction of the range.
- * on_plane: taps are compared with the plane (B5). Returns 0 if the plane is too steep, or the filter has no windows.
+ * own_q30: how far bias keeps the texels of the surface itself behind the plane: they are not
+ * in doubt. on_plane: taps are compared with the plane (B5). Returns 0 if the plane is too steep, or the filter has no
+ * windows.
  */
 int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_light_view *view, const int32_t slope_q28[2],
-                    int on_plane);
+                    int64_t own_q30, int on_plane);
 
 /* The texels that filters read of receivers whose tile coordinates lie in lo .. hi: the first, and how many. */
 void gn_window_reads(const gn_light_view *view, int32_t lo_q16, int32_t hi_q16, int32_t *first, int32_t *n);
