@@ -90,7 +90,7 @@ typedef struct {
     const gn_light_view *view;            /* NULL: none */
     int32_t planar;                       /* 0: of this view there is no window */
     int32_t slope_q30[2];                 /* change of the plane's depth per texel, a fraction of the range */
-    int32_t reach_q30, behind_q30;        /* depths so far in front of the plane, and behind it, are in doubt */
+    int32_t front_q30, behind_q30;        /* depths so far in front of the plane, and behind it, are in doubt */
     int32_t until_x;                      /* gn_lattice: columns of the screen that it was made for */
     int32_t u0, v0, w, h;                 /* texels, w = 0: none yet */
     uint32_t any, all, doubts;            /* of rows: OR of what may be dark, AND of what surely is, OR of doubts */

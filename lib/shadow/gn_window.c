@@ -11,11 +11,14 @@
 /* ---- Comparing --------------------------------------------------------------------------------------------------- */
 
 /* How far from a receiver the centres of the texels are that its filter reads, per axis, in half texels. */
-GN_HOT static int32_t reach_halves(const gn_light_view *view)
+GN_HOT static uint32_t reach_halves(const gn_light_view *view)
 {
-    return view->filter == GN_FILTER_HARD ? 1 : 2 * (view->filter_idx + 1);
+    return view->filter == GN_FILTER_HARD ? 1 : 2 * ((uint32_t)view->filter_idx + 1);
 }
 
+/* Depths in doubt: as far behind the plane as its slope and the filter reach; in front of it half of that, as what
+ * casts a shadow so near is under few of the filter's texels. The fastest shading looks closer, and takes the surface's
+ * own texels for lit. */
 GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_light_view *view,
                            const int32_t slope_q28[2], int64_t own_q30, int on_plane)
 {
@@ -27,12 +30,14 @@ GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_li
     if (!window->planar) return 0;
     window->slope_q30[0] = slope_q28[0] * 4;
     window->slope_q30[1] = slope_q28[1] * 4;
-    uint32_t across = gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]);
-    /* and roundings: of depth, of slopes over a window, and of the place */
-    window->reach_q30 = (int32_t)((on_plane ? 0 : 2 * across * (uint32_t)reach_halves(view)) +
-                                  (dropped ? 1U << (dropped - 3) : 0) + 4 * GN_WINDOW_TEXELS + 16);
+    uint32_t per_half_q30 = on_plane ? 0 : 2 * (gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]));
+    uint32_t halves = reach_halves(view), rounding = (dropped ? 1U << (dropped - 3) : 0) + 4 * GN_WINDOW_TEXELS + 16;
+    int fast = GN_K(frame, persp_step) == 16;
+    window->behind_q30 = (int32_t)(per_half_q30 * halves + rounding);
+    window->front_q30 = (int32_t)(per_half_q30 * (fast ? 1 : (halves + 1) >> 1) + rounding);
     int64_t safe_q30 = own_q30 - (own_q30 >> 3) - ((int64_t)1 << (30 - GN_VIEW_BITS(view)));
-    window->behind_q30 = safe_q30 <= 0 || safe_q30 > window->reach_q30 ? window->reach_q30 : (int32_t)safe_q30;
+    int enough = own_q30 + (own_q30 >> 3) >= window->behind_q30; /* the reference sees no acne */
+    if ((fast || enough) && safe_q30 > 0 && safe_q30 < window->behind_q30) window->behind_q30 = (int32_t)safe_q30;
     return 1;
 }
 
@@ -102,9 +107,9 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     int64_t across = (int64_t)slope[0] * w, down = (int64_t)slope[1] * h;
     int64_t lo = first + (across < 0 ? across : 0) + (down < 0 ? down : 0),
             hi = first + (across > 0 ? across : 0) + (down > 0 ? down : 0);
-    int64_t reach = window->reach_q30, behind = window->behind_q30, far = gn_texel_far(GN_VIEW_BITS(view)) >> 2;
+    int64_t front = window->front_q30, behind = window->behind_q30, far = gn_texel_far(GN_VIEW_BITS(view)) >> 2;
     window->w = 0;
-    if (lo - reach < -(1 << 29) || hi + behind >= far) return 0;
+    if (lo - front < -(1 << 29) || hi + behind >= far) return 0;
     if (u0 + w <= 0 || v0 + h <= 0 || u0 > last || v0 > last) return 0;
     /* texels beyond the border repeat it, with its depth: so do their bits */
     int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0, right = w - n - left;
@@ -115,7 +120,7 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     GN_COUNT(window_texels, w * h);
     for (int32_t v = va, j = va - v0; v <= vb; v++, j++, depth += slope[1]) {
         uint32_t maybe, surely;
-        compare_row(view, ua, v, n, depth, slope[0], (int32_t)(reach + behind), &maybe, &surely);
+        compare_row(view, ua, v, n, depth, slope[0], (int32_t)(front + behind), &maybe, &surely);
         if (left | right) {
             maybe = repeat_border(maybe, left, n, right, lit);
             surely = repeat_border(surely, left, n, right, lit);
