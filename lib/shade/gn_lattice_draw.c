@@ -48,50 +48,124 @@ GN_HOT static void fill(const drawing *d, uint32_t packed)
     }
 }
 
+/* ---- Two colours ------------------------------------------------------------------------------------------------ */
+
+#if GN_SHADOWS
+GN_HOT static int is_flat(const gn_patch *p)
+{
+    return !(p->dx | p->dy | p->dxy);
+}
+
+/* Whether one shadow falls on a cell of one colour. */
+GN_HOT static int has_two_colours(const drawing *d)
+{
+    const gn_lattice_look *look = &d->s->lattice.look;
+    if (look->n_edges != 1 || d->s->surface.textured || d->s->frame->picture.format == GN_FORMAT_RAW32) return 0;
+    for (int c = 0; c < 3; c++)
+        if (!is_flat(&d->base_q24[c]) || !is_flat(&look->edge[0].more_q24[c])) return 0;
+    return 1;
+}
+
+/* Forgets the pixels of other colours. */
+GN_HOT static void use_two_colours(const drawing *d)
+{
+    gn_lattice *l = &d->s->lattice;
+    uint32_t differs = 0;
+    for (int c = 0; c < 3; c++) {
+        int32_t dark = d->base_q24[c].at, more = l->look.edge[0].more_q24[c].at;
+        differs |= (uint32_t)(l->two_q24[0][c] ^ dark) | (uint32_t)(l->two_q24[1][c] ^ more);
+        l->two_q24[0][c] = dark;
+        l->two_q24[1][c] = more;
+    }
+    if (differs) l->known[0] = l->known[1] = l->known[2] = 0;
+}
+
+GN_HOT static GN_NOINLINE uint32_t find_pixel(gn_shading *s, uint32_t level)
+{
+    gn_lattice *l = &s->lattice;
+    uint32_t q20[3];
+    for (int c = 0; c < 3; c++) {
+        int32_t dark = l->two_q24[0][c], more = (int32_t)((int64_t)l->two_q24[1][c] * (int32_t)level >> 6);
+        q20[c] = (uint32_t)gn_max32(dark + more, 0) >> 4;
+    }
+    l->known[level >> 5] |= 1U << (level & 31);
+    l->pixel[level] = gn_exact_pack(s, q20);
+    return l->pixel[level];
+}
+
+GN_HOT static inline uint32_t pixel_of(gn_shading *s, uint32_t attenuation)
+{
+    uint32_t level = (attenuation + 512) >> 10;
+    if (s->lattice.known[level >> 5] >> (level & 31) & 1U) return s->lattice.pixel[level];
+    return find_pixel(s, level);
+}
+
+/* Pixels of a row between two rows of attenuations, `weight` of 2^log2 from the upper to the lower. */
+GN_HOT static void store_levels(const drawing *d, int32_t y, uint32_t bits, const uint32_t *upper,
+                                const uint32_t *lower, int32_t weight, int32_t log2)
+{
+    gn_shading *s = d->s;
+    int32_t x = d->x + d->first, n = 1 << log2;
+    int quick = s->frame->picture.format == GN_FORMAT_RGB565;
+    uint16_t *out = quick ? s->rows.pixels->rgb565 + (y - s->rows.y0) * s->rows.width + x - s->rows.x0 : NULL;
+    for (int32_t i = 0; bits >> (i << log2); i++) {
+        uint32_t part = bits >> (i << log2) & ((1U << n) - 1);
+        if (!part) continue;
+        int32_t at = (int32_t)upper[i] + ((((int32_t)lower[i] - (int32_t)upper[i]) * weight) >> log2), step = 0;
+        if (log2) {
+            int32_t to = (int32_t)upper[i + 1] + ((((int32_t)lower[i + 1] - (int32_t)upper[i + 1]) * weight) >> log2);
+            step = (to - at) >> log2;
+        }
+        for (int32_t k = i << log2; part; part >>= 1, k++, at += step) {
+            if (!(part & 1U)) continue;
+            uint32_t packed = pixel_of(s, (uint32_t)gn_max32(at, 0));
+            if (quick) out[k] = (uint16_t)packed;
+            else gn_pixel_store(s->frame, &s->rows, x + k, y, packed);
+        }
+    }
+}
+#endif
+
 /* ---- Rows of nodes ----------------------------------------------------------------------------------------------- */
 
 #if GN_SHADOWS
-/* Attenuations along a row of nodes, `below` pixels under the cell's first row. */
+/* One exact lookup, at a depth that is limited to the view's range. */
+GN_HOT static uint32_t lookup(const drawing *d, const gn_lattice_edge *edge, const gn_receiver_step *at, int32_t x,
+                              int32_t y)
+{
+    int32_t depth_q30 = gn_max32(0, gn_min32(at->depth_q31, (1 << 30) - 1));
+    gn_receiver r = {at->u_q16, at->v_q16, (uint32_t)depth_q30 << 2, {edge->slope_q28[0], edge->slope_q28[1]}, x, y};
+    return gn_filter_attenuation(d->s->frame, edge->view, &r);
+}
+
+/* Attenuations along a row of nodes, `below` pixels under the cell's first row. Depths are in Q30. */
 GN_HOT static void find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
 {
-    const gn_frame *frame = d->s->frame;
     int32_t log2 = d->s->lattice.look.spacing_log2, n = d->n;
     gn_receiver_step step = {edge->u_q16.dx + below * edge->u_q16.dxy, edge->v_q16.dx + below * edge->v_q16.dxy,
                              edge->depth_q30.dx + below * edge->depth_q30.dxy};
-    gn_receiver_step from = {gn_patch_at(&edge->u_q16, d->first, below), gn_patch_at(&edge->v_q16, d->first, below),
-                             gn_patch_at(&edge->depth_q30, d->first, below)};
+    gn_receiver_step at = {gn_patch_at(&edge->u_q16, d->first, below), gn_patch_at(&edge->v_q16, d->first, below),
+                           gn_patch_at(&edge->depth_q30, d->first, below)};
     GN_COUNT(edge_lookups, n);
     step.u_q16 *= 1 << log2;
     step.v_q16 *= 1 << log2;
-    if (edge->window && edge->window->view == edge->view && gn_window_row(frame, edge->window, &from, &step, n, out))
-        return;
-    int32_t depth_step_q30 = step.depth_q31 * (1 << log2), depth_q30 = from.depth_q31;
-    int own = edge->view->filter == GN_FILTER_DISK || (edge->slope_q28[0] | edge->slope_q28[1]);
-    int32_t last_q30 = depth_q30 + (n - 1) * depth_step_q30, most_q30 = (1 << 30) - 16384;
-    if (!own && gn_max32(depth_q30, last_q30) < most_q30 && gn_min32(depth_q30, last_q30) > -(1 << 29)) {
-        from.depth_q31 = 2 * depth_q30;
-        step.depth_q31 = 2 * depth_step_q30;
-        gn_receiver_step to = {from.u_q16 + (n - 1) * step.u_q16, from.v_q16 + (n - 1) * step.v_q16, 2 * last_q30};
-        gn_filter_row(frame, edge->view, &from, &to, &step, n, out);
-        return;
-    }
+    step.depth_q31 *= 1 << log2;
+    int known = edge->window && edge->window->view == edge->view &&
+                gn_window_row(d->s->frame, edge->window, &at, &step, n, out);
     for (int32_t i = 0; i < n; i++) {
-        int32_t depth = gn_max32(0, gn_min32(depth_q30 + i * depth_step_q30, (1 << 30) - 1));
-        gn_receiver r = {from.u_q16 + i * step.u_q16,
-                         from.v_q16 + i * step.v_q16,
-                         (uint32_t)depth << 2,
-                         {edge->slope_q28[0], edge->slope_q28[1]},
-                         d->x + d->first + i * (1 << log2),
-                         d->y + below};
-        out[i] = gn_filter_attenuation(frame, edge->view, &r);
+        if (!known || out[i] == GN_WINDOW_UNKNOWN)
+            out[i] = lookup(d, edge, &at, d->x + d->first + i * (1 << log2), d->y + below);
+        at.u_q16 += step.u_q16;
+        at.v_q16 += step.v_q16;
+        at.depth_q31 = (int32_t)((uint32_t)at.depth_q31 + (uint32_t)step.depth_q31); /* not used beyond the cell */
     }
 }
 
 GN_HOT static void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3])
 {
-    const uint32_t *attenuation = d->s->lattice.attenuation;
+    const uint32_t *attenuation = d->s->lattice.attenuation[0];
     int32_t log2 = d->s->lattice.look.spacing_log2, at[3], step[3];
-    find_attenuations(d, edge, below, d->s->lattice.attenuation);
+    find_attenuations(d, edge, below, d->s->lattice.attenuation[0]);
     for (int c = 0; c < 3; c++) {
         const gn_patch *more = &edge->more_q24[c];
         at[c] = gn_patch_at(more, d->first, below);
@@ -156,6 +230,40 @@ GN_HOT static uint32_t columns(const drawing *d, int32_t y, int32_t n_rows)
     return any;
 }
 
+#if GN_SHADOWS
+GN_HOT static void draw_two_colours(const drawing *d)
+{
+    gn_lattice *l = &d->s->lattice;
+    const gn_lattice_edge *edge = &l->look.edge[0];
+    int32_t log2 = l->look.spacing_log2, known = -1, now = 0;
+    use_two_colours(d);
+    for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << log2) {
+        if (!columns(d, d->y + below, 1 << log2)) continue;
+        if (known != below) find_attenuations(d, edge, below, l->attenuation[now]);
+        if (log2) find_attenuations(d, edge, below + (1 << log2), l->attenuation[!now]);
+        for (int32_t t = 0; t < 1 << log2; t++) {
+            int32_t y = d->y + below + t;
+            uint32_t bits = gn_lattice_bits(l, d->x, y, d->size_log2) >> d->first;
+            if (bits) store_levels(d, y, bits, l->attenuation[now], l->attenuation[log2 ? !now : now], t, log2);
+        }
+        if (!log2) continue;
+        known = below + (1 << log2);
+        now = !now;
+    }
+}
+#else
+GN_HOT static int has_two_colours(const drawing *d)
+{
+    (void)d;
+    return 0;
+}
+
+GN_HOT static void draw_two_colours(const drawing *d)
+{
+    (void)d;
+}
+#endif
+
 /* Rows of pixels between two rows of nodes, which then are those below. */
 GN_HOT static void draw_strip(drawing *d, gn_corner *const corner[4], int32_t below, int inside)
 {
@@ -206,6 +314,10 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
     uint32_t any = columns(&d, y, size);
     d.first = (31 - gn_clz32(any & (0U - any))) & -(1 << spacing_log2);
     d.n = ((31 - gn_clz32(any) - d.first) >> spacing_log2) + 1 + (spacing_log2 > 0);
+    if (has_two_colours(&d)) {
+        draw_two_colours(&d);
+        return;
+    }
     int inside = 0;
     for (int32_t below = 0; below < size; below += 1 << spacing_log2) {
         if (!columns(&d, y + below, 1 << spacing_log2)) continue;

@@ -54,7 +54,7 @@ GN_HOT static void begin_window(gn_lattice *l, const gn_frame *frame, const gn_s
     if (!l->has_face) gn_surface_face(frame, s, l->face_q30);
     l->has_face = 1;
 #if GN_PUNCTUAL_LIGHTS
-    from = at->light[slot].from_q16;
+    if (at) from = at->light[slot].from_q16;
 #endif
     gn_shadow_plane_slopes(view, l->face_q30, from, slope);
     gn_window_begin(window, frame, view, slope, own_distance_q30(l, frame, s, slot, view, at, slope), on_plane);

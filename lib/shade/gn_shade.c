@@ -271,6 +271,9 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     clear_background(s);
     if (!sort_runs(s, s->rect.y1 - s->rect.y0)) return;
     s->cache.object = NULL;
+#if GN_INTERPOLATES
+    s->lattice.known[0] = s->lattice.known[1] = s->lattice.known[2] = 0;
+#endif
     s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
     for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++)

@@ -243,6 +243,7 @@ typedef struct {
     gn_lattice_light light[GN_SURFACE_LIGHTS];
     int32_t unit_q30[3];           /* flat surfaces: the normal */
     int32_t has_face, face_q30[3]; /* the face's own, once something has asked for it */
+    int32_t uniform;               /* nothing but shadows varies over the surface */
     int32_t cascade;               /* of all of the surface, none of which fades; -1: of each point for itself */
     int32_t size_log2;             /* of the largest cells, in pixels */
     int32_t x, y, x_end, y_end;    /* of the part, and where the surface ends */
@@ -256,8 +257,12 @@ typedef struct {
 #endif
     gn_corner corner; /* of a window */
     gn_lattice_look look;
+    /* a surface of two colours: pixels of 1 / 64 steps from dark to lit, those that are known */
+    int32_t two_q24[2][3];
+    uint32_t known[3];
+    uint32_t pixel[65];
     int32_t node[3][GN_LATTICE_NODES][3]; /* colours of a row of a cell and the next, Q24; steps between */
-    uint32_t attenuation[GN_LATTICE_NODES];
+    uint32_t attenuation[2][GN_LATTICE_NODES];
 } gn_lattice;
 #endif
 

@@ -163,13 +163,13 @@ GN_HOT int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32
     return !(any & mask) ? GN_WINDOW_LIT : all == mask ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
 }
 
-GN_HOT static int in_doubt(const gn_window *window, int32_t u, int32_t v, int32_t w, int32_t h)
+/* Whether a texel that the filter reads at a place in the window is in doubt. */
+GN_HOT static int in_doubt(const gn_window *window, int32_t u, int32_t v)
 {
-    uint32_t mask = (UINT32_MAX >> (32 - w)) << u;
-    if (!(window->doubts & mask)) return 0;
-    for (int32_t j = v; j < v + h; j++)
-        if (window->doubt[j] & mask) return 1;
-    return 0;
+    int32_t n = window->view->filter == GN_FILTER_HARD ? 1 : 2 * (window->view->filter_idx + 1);
+    uint32_t any = 0;
+    for (const uint32_t *row = &window->doubt[v >> 16], *end = row + n; row < end; row++) any |= *row;
+    return (any >> (u >> 16) & ((1U << n) - 1U)) != 0;
 }
 
 /* 3x3, positions to 1/32 texel. */
@@ -184,6 +184,10 @@ GN_HOT static void row_3x3(const gn_window *window, int32_t u, int32_t v, const 
         uint32_t a = row[0] >> s & 15U, b = row[1] >> s & 15U, c = row[2] >> s & 15U, d = row[3] >> s & 15U;
         *out = 65536;
         if (!(a | b | c | d)) continue;
+        if (window->doubts && in_doubt(window, u, v)) {
+            *out = GN_WINDOW_UNKNOWN;
+            continue;
+        }
         const uint16_t *across = gn_tent_sums[u >> 11 & 31], *down = gn_tent_sums[v >> 11 & 31];
         *out -= (across[a] * down[1] + across[b] * down[2] + across[c] * down[4] + across[d] * down[8]) >> 8;
     }
@@ -226,7 +230,6 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
     gn_window_reads(view, gn_min32(from->u_q16, u_end), gn_max32(from->u_q16, u_end) + 1024, &u0, &w);
     gn_window_reads(view, gn_min32(from->v_q16, v_end), gn_max32(from->v_q16, v_end) + 1024, &v0, &h);
     if (!gn_window_covers(window, u0, v0, w, h)) return 0;
-    if (window->doubts && in_doubt(window, u0 - window->u0, v0 - window->v0, w, h)) return 0;
     int32_t shift = view->filter == GN_FILTER_HARD ? 0 : (view->filter_idx + 1) * 65536 - 32768;
     int32_t u = from->u_q16 - shift - window->u0 * 65536, v = from->v_q16 - shift - window->v0 * 65536;
     GN_COUNT(window_lookups, n);
@@ -235,7 +238,8 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
         return 1;
     }
     for (int32_t i = 0; i < n; i++, u += step->u_q16, v += step->v_q16) {
-        if (view->filter == GN_FILTER_HARD) attenuation[i] = (~window->dark[v >> 16] >> (u >> 16) & 1U) << 16;
+        if (window->doubts && in_doubt(window, u, v)) attenuation[i] = GN_WINDOW_UNKNOWN;
+        else if (view->filter == GN_FILTER_HARD) attenuation[i] = (~window->dark[v >> 16] >> (u >> 16) & 1U) << 16;
         else if (view->filter == GN_FILTER_2X2) attenuation[i] = by_2x2(window, u, v, GN_K(frame, weight_bits));
         else attenuation[i] = by_weights(frame, window, u, v);
     }

@@ -24,6 +24,8 @@ void gn_window_reads(const gn_light_view *view, int32_t lo_q16, int32_t hi_q16, 
  * the plane leaves the range of depths there. */
 int gn_window_compare(gn_window *window, const gn_window_place *place, int32_t u0, int32_t v0, int32_t w, int32_t h);
 
+#define GN_WINDOW_UNKNOWN UINT32_MAX
+
 GN_HOT static inline int gn_window_covers(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h)
 {
     return u0 >= window->u0 && v0 >= window->v0 && u0 + w <= window->u0 + window->w && v0 + h <= window->v0 + window->h;
@@ -32,7 +34,8 @@ GN_HOT static inline int gn_window_covers(const gn_window *window, int32_t u0, i
 /* Of texels that it covers: GN_WINDOW_LIT, _DARK or _MIXED. */
 int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h);
 
-/* Attenuations of n receivers on the plane. Returns 0 if it does not cover all, or a texel is in doubt. */
+/* Attenuations of n receivers on the plane, GN_WINDOW_UNKNOWN where a texel is in doubt. Returns 0 if it does not cover
+ * all. */
 int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
                   const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
 
