@@ -9,6 +9,7 @@ boards=$(for file in boards/*/board.mk; do basename "$(dirname "$file")"; done)
 emulated=$(for board in $boards; do if [ "$(setting "$board" BOARD_RUNS)" = qemu ]; then echo "$board"; fi; done)
 flashed=$(for board in $boards; do case $(setting "$board" BOARD_RUNS) in qemu | host) ;; *) echo "$board" ;; esac; done) # an image to flash
 firmware() { make -s --no-print-directory "$@"; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 
 # ---- Jobs: each prints "ok" or what is wrong, a line each ------------------------------------------------------------------
 
@@ -68,7 +69,7 @@ board_overrun() { # board_overrun BOARD
 # The library without a warning at every optimisation: what the compiler sees differs with it.
 board_warnings() { # board_warnings BOARD OPTIMISATION CONFIGURATION
     root=$PWD dir=$tmp/warnings$1$2$3
-    cc="$(setting "$1" BOARD_CROSS)gcc $(setting "$1" BOARD_CPU) -std=c99 $2 $(sed -n 's/^WARN := //p' Makefile) -ffreestanding"
+    cc="$(setting "$1" BOARD_CROSS)gcc $(setting "$1" BOARD_CPU) -std=c99 $2 $(variable WARN) -ffreestanding"
     mkdir -p "$dir"
     if (cd "$dir" && $cc -isystem "$root/boards/common/include" -I"$root/lib" -I"$root/boards/apps" "-DGN_USER_CONFIG=\"$3_config.h\"" \
         -c "$root"/lib/*.c) 2>"$dir.log"; then echo ok
