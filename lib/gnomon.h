@@ -301,13 +301,17 @@ typedef struct {
 /* ---- Defaults: what a user need not set -------------------------------------------------------------------------- */
 
 /* Every field gets a value that gives a visible picture: white or light grey, lit, casting and receiving shadows.
- * Change what should differ afterwards. */
+ * Change what should differ afterwards. What is passed by pointer must not be NULL: these functions return no status;
+ * but `mesh` may be set later, and `objects` and `lights` may be NULL if there are none. */
 
-/* A mesh of two arrays: 3 coordinates per vertex, written with GN_Q16, and 3 indices per triangle. Face normals. */
-#define GN_MESH(pos, idx)                                                                                              \
+/* A mesh of two arrays (not pointers): 3 coordinates per vertex, 3 indices per triangle. Face normals. GN_MESH: the
+ * coordinates are written with GN_Q16. With GN_POSITION_BITS 16 those end at half a unit: give fewer fraction bits with
+ * GN_MESH_FRAC, such as 8 for coordinates GN_Q16(x) / 256 up to 127.99. */
+#define GN_MESH(pos, idx) GN_MESH_FRAC(pos, idx, 16)
+#define GN_MESH_FRAC(pos, idx, pos_frac_bits)                                                                          \
     {                                                                                                                  \
         pos, NULL, NULL, NULL, NULL, idx, sizeof(pos) / (3 * sizeof((pos)[0])), sizeof(idx) / (3 * sizeof((idx)[0])),  \
-            16, 0                                                                                                      \
+            pos_frac_bits, 0                                                                                           \
     }
 
 /* Grey of albedo 0.8 at the origin, opaque, casts and receives shadows. */
@@ -316,7 +320,9 @@ gn_object gn_object_default(const gn_mesh *mesh);
 /* Lights are white and cast full shadows with automatic bias (or a normal bias of 1, where that is not built).
  * The sun shines along a direction of any length, with irradiance 1. Spots and points have intensity 16: irradiance 1
  * at a distance of 4; their range is unlimited, and what is nearer than 0.1 casts no shadow. A spot shines from a
- * position at a target; `outer_turn` is its whole cone, edge to edge, of which the inner half has the full light. */
+ * position at a target; `outer_turn` is its whole cone, edge to edge, of which the inner half has the full light.
+ * A point takes six tiles of the local-light atlas, and a spot one: of the 8 that there are by default
+ * (GN_MAX_OTHER_TILES) a second point gets none and casts no shadow, which gn_get_light_shadow tells. */
 gn_light gn_light_sun(int32_t x, int32_t y, int32_t z);
 gn_light gn_light_spot(const int32_t position_q16[3], const int32_t target_q16[3], uint16_t outer_turn);
 gn_light gn_light_point(const int32_t position_q16[3]);
