@@ -9,7 +9,7 @@ for flags in "-O2" "-Os" "-O1 -DGN_COMPACT=1" "-Os -DGN_COMPACT=1" "-O1 -DGN_RUN
     ${CC:-gcc} -std=c99 -w -Ilib $flags -c lib/gnomon.c -o "$work/gnomon.o" || exit 1
     nm -g --defined-only "$work/gnomon.o" | awk '{ print $NF }'
 done >"$work/found" || exit 1
-LC_ALL=C sort -u "$work/found" >"$work/symbols"| LC_ALL=C sort -u >"$work/symbols"
+LC_ALL=C sort -u "$work/found" >"$work/symbols"
 
 cat <<'HEAD'
 /* Written by host/generate/gen_prefix.sh (make prefix): do not edit.
