@@ -213,7 +213,8 @@ make -s build/rgb565_png >"$tmp/log" 2>&1 && pass || fail "rgb565_png does not b
     for board in $emulated; do
         grep -q "RAM_BYTES : [0-9]*M" "boards/$board/link.ld" && echo "board_golden $board"
     done
-    for compiler in gcc clang; do for opt in -O3 -O2 -Os -O0; do for word in -m64 -m32; do echo "host_golden $compiler $opt $word"; done; done; done
+    for opt in -O3 -Os; do echo "host_golden gcc $opt -m64" && echo "host_golden clang $opt -m32"; done
+    for opt in -O2 -O0; do echo "host_golden gcc $opt -m32" && echo "host_golden clang $opt -m64"; done
     echo "board_play mps2-an385 sundial 24 tiny"
     echo "board_play mps2-an386 desk 0 balanced"
     echo "board_play mps2-an505 fence 0 accurate"
@@ -222,8 +223,8 @@ make -s build/rgb565_png >"$tmp/log" 2>&1 && pass || fail "rgb565_png does not b
     echo "board_play rv32-virt room 0 accurate"
     for board in $emulated; do echo "board_guards $board"; done
     for board in lm3s6965evb rv32-virt microbit; do echo "board_overrun $board"; done
-    for board in mps2-an385 rv32-virt; do for opt in -O3 -O0 -Os; do echo "board_warnings $board $opt crc"; done; done
-    echo "board_warnings mps3-an547 -O3 crc"
+    for opt in -O3 -O0 -Os; do echo "board_warnings mps2-an385 $opt crc"; done
+    for board in rv32-virt mps3-an547; do echo "board_warnings $board -O3 crc"; done
     echo "board_warnings mps2-an385 -O3 golden"
     for board in $flashed; do echo "built $board"; done
     echo pocket
@@ -235,7 +236,7 @@ failed=$((failed + $(grep -v -c '^ok$' "$tmp/results")))
 grep -v '^ok$' "$tmp/results"
 [ "$(echo "$emulated" | grep -c .)" -ge 7 ] && pass || fail "the emulated boards are $emulated"
 [ "$(echo "$flashed" | grep -c .)" -ge 2 ] && pass || fail "the boards with an image to flash are $flashed"
-[ "$(grep -c '^ok$' "$tmp/results")" -ge 83 ] && pass || fail "jobs are missing"
+[ "$(grep -c '^ok$' "$tmp/results")" -ge 73 ] && pass || fail "jobs are missing"
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
