@@ -1,8 +1,8 @@
 /* Written by host/generate/gen_prefix.sh (make prefix): do not edit.
  *
  * With -DGN_PREFIX=small_ every symbol of the library begins with small_: two libraries of different configurations can
- * be linked into one program. A source file that includes gnomon.h with the same flags calls gn_render() as ever.
- */
+ * be linked into one program. A source file that includes gnomon.h with the same flags calls gn_render() as ever. The
+ * functions of a port (gn_port_...) are not of the library: they keep their names, and both share them. */
 #ifndef GN_PREFIX_H
 #define GN_PREFIX_H
 

@@ -4,8 +4,7 @@
  * - right-handed world, +Y up; a camera looks along its local -Z; row-major 3x4 transforms, column vectors
  * - lengths and coordinates are Q15.16 (`_q16`); unit quantities Q1.30 (`_q30`); fractions 0..1 are 0..65536 (`_uq16`)
  * - angles are in turns, Q0.16 unsigned (`_turn`): they wrap
- * - pixel (0, 0) is the top left one, its centre at (1/2, 1/2); top-left fill rule; counter-clockwise faces are front
- * faces
+ * - pixel (0, 0) is the top left one, its centre at (1/2, 1/2); top-left fill rule; front faces are counter-clockwise
  * - colours are linear light; the output is sRGB-encoded unless GN_SRGB is 0
  * - every call returns a status; gn_status_text() says it in words, gn_detail names what and where
  *
@@ -120,12 +119,12 @@ typedef struct {
 /* Rotations are exact to 8 units of Q1.30. Results are rounded to nearest; translations saturate at the Q15.16 range.
  * Products of many rotations drift by about one unit each: turn by absolute angles, or orthonormalise now and then. */
 void gn_affine_identity(gn_affine *out);
-void gn_affine_rotation(gn_affine *out, uint16_t yaw_turn, uint16_t pitch_turn,
-                        uint16_t roll_turn);                                /* Y, then X, then Z */
+/* Y, then X, then Z */
+void gn_affine_rotation(gn_affine *out, uint16_t yaw_turn, uint16_t pitch_turn, uint16_t roll_turn);
 void gn_affine_scale(gn_affine *inout, int32_t scale_q16);                  /* object space, 2^-16 < scale < 8192 */
 void gn_affine_mul(gn_affine *out, const gn_affine *a, const gn_affine *b); /* out = a * b; out may be a or b */
-void gn_affine_orthonormalise(
-    gn_affine *inout); /* a rotation (exp 0) back to right angles; the third axis keeps its direction */
+/* A rotation (exp 0) back to right angles; the third axis keeps its direction. */
+void gn_affine_orthonormalise(gn_affine *inout);
 void gn_camera_look_at(gn_affine *out, const int32_t eye_q16[3], const int32_t target_q16[3]); /* +Y up */
 uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn); /* 1 / tan(fov / 2), Q8.24, saturates */
 int32_t gn_sin_q30(uint16_t angle_turn);                    /* |error| <= 2 LSB */
@@ -158,12 +157,13 @@ typedef struct {
     uint8_t uv_frac_bits;  /* 0..15 */
 } gn_mesh;
 
-enum {                         /* gn_texture.flags */
-       GN_TEXTURE_CLAMP_U = 1, /* else it repeats */
-       GN_TEXTURE_CLAMP_V = 2,
-       GN_TEXTURE_BILINEAR = 4, /* else nearest */
-       GN_TEXTURE_MASK_1 = 8,   /* mask images only: one byte per texel, channel 0; the others are lit */
-       GN_TEXTURE_MASK_2 = 16   /* two */
+/* gn_texture.flags */
+enum {
+    GN_TEXTURE_CLAMP_U = 1, /* else it repeats */
+    GN_TEXTURE_CLAMP_V = 2,
+    GN_TEXTURE_BILINEAR = 4, /* else nearest */
+    GN_TEXTURE_MASK_1 = 8,   /* mask images only: one byte per texel, channel 0; the others are lit */
+    GN_TEXTURE_MASK_2 = 16   /* two */
 };
 
 typedef struct {
@@ -172,15 +172,16 @@ typedef struct {
     uint8_t flags;
 } gn_texture;
 
-enum { /* gn_object.flags */
-       GN_OBJECT_CASTS = 1,
-       GN_OBJECT_RECEIVES = 2,
-       GN_OBJECT_TWO_SIDED = 4,
-       GN_OBJECT_UNLIT = 8,
-       GN_OBJECT_HIDDEN = 16,          /* casts, but is not seen */
-       GN_OBJECT_CASTS_TWO_SIDED = 32, /* two-sided as a caster only */
-       GN_OBJECT_MOVING = 64,          /* with GN_STATIC_LAYER its shadow is drawn over a kept one of the others */
-       GN_OBJECT_DEFAULT = GN_OBJECT_CASTS | GN_OBJECT_RECEIVES
+/* gn_object.flags */
+enum {
+    GN_OBJECT_CASTS = 1,
+    GN_OBJECT_RECEIVES = 2,
+    GN_OBJECT_TWO_SIDED = 4,
+    GN_OBJECT_UNLIT = 8,
+    GN_OBJECT_HIDDEN = 16,          /* casts, but is not seen */
+    GN_OBJECT_CASTS_TWO_SIDED = 32, /* two-sided as a caster only */
+    GN_OBJECT_MOVING = 64,          /* with GN_STATIC_LAYER its shadow is drawn over a kept one of the others */
+    GN_OBJECT_DEFAULT = GN_OBJECT_CASTS | GN_OBJECT_RECEIVES
 };
 
 typedef enum { GN_ALPHA_OPAQUE, GN_ALPHA_CLIP, GN_ALPHA_DITHER } gn_alpha;
@@ -297,17 +298,20 @@ typedef struct {
     gn_shadow_settings shadow;
 } gn_scene;
 
-/* ---- Defaults: what a user need not set ---------------------------------------------------------------------------
- */
+/* ---- Defaults: what a user need not set -------------------------------------------------------------------------- */
 
 /* Every field gets a value that gives a visible picture: white or light grey, lit, casting and receiving shadows.
- * Change what should differ afterwards. */
+ * Change what should differ afterwards. What is passed by pointer must not be NULL: these functions return no status;
+ * but `mesh` may be set later, and `objects` and `lights` may be NULL if there are none. */
 
-/* A mesh of two arrays: 3 coordinates per vertex, written with GN_Q16, and 3 indices per triangle. Face normals. */
-#define GN_MESH(pos, idx)                                                                                              \
+/* A mesh of two arrays (not pointers): 3 coordinates per vertex, 3 indices per triangle. Face normals. GN_MESH: the
+ * coordinates are written with GN_Q16. With GN_POSITION_BITS 16 those end at half a unit: give fewer fraction bits with
+ * GN_MESH_FRAC, such as 8 for coordinates GN_Q16(x) / 256 up to 127.99. */
+#define GN_MESH(pos, idx) GN_MESH_FRAC(pos, idx, 16)
+#define GN_MESH_FRAC(pos, idx, pos_frac_bits)                                                                          \
     {                                                                                                                  \
         pos, NULL, NULL, NULL, NULL, idx, sizeof(pos) / (3 * sizeof((pos)[0])), sizeof(idx) / (3 * sizeof((idx)[0])),  \
-            16, 0                                                                                                      \
+            pos_frac_bits, 0                                                                                           \
     }
 
 /* Grey of albedo 0.8 at the origin, opaque, casts and receives shadows. */
@@ -316,7 +320,9 @@ gn_object gn_object_default(const gn_mesh *mesh);
 /* Lights are white and cast full shadows with automatic bias (or a normal bias of 1, where that is not built).
  * The sun shines along a direction of any length, with irradiance 1. Spots and points have intensity 16: irradiance 1
  * at a distance of 4; their range is unlimited, and what is nearer than 0.1 casts no shadow. A spot shines from a
- * position at a target; `outer_turn` is its whole cone, edge to edge, of which the inner half has the full light. */
+ * position at a target; `outer_turn` is its whole cone, edge to edge, of which the inner half has the full light.
+ * A point takes six tiles of the local-light atlas, and a spot one: of the 8 that there are by default
+ * (GN_MAX_OTHER_TILES) a second point gets none and casts no shadow, which gn_get_light_shadow tells. */
 gn_light gn_light_sun(int32_t x, int32_t y, int32_t z);
 gn_light gn_light_spot(const int32_t position_q16[3], const int32_t target_q16[3], uint16_t outer_turn);
 gn_light gn_light_point(const int32_t position_q16[3]);
@@ -413,7 +419,7 @@ typedef struct gn_renderer {
 
 /* gn_init compares this signature: a sum over all knobs, the version, and the sizes of the caller's structs. */
 #define GN_SIGN_(index, value)                                                                                         \
-    (((uint64_t)(value) + 1U) * (((uint64_t)(index)*0x9E3779B97F4A7C15U ^ 0xD1B54A32D192ED03U) | 1U))
+    (((uint64_t)(value) + 1U) * ((0x9E3779B97F4A7C15U * (uint64_t)(index) ^ 0xD1B54A32D192ED03U) | 1U))
 #define GN_KNOB_INDEX_(name, MACRO, lo, hi, meaning, cost) gn_knob_index_##name,
 #define GN_KNOB_SIGN_(name, MACRO, lo, hi, meaning, cost)  +GN_SIGN_(gn_knob_index_##name, GN_##MACRO)
 enum {
@@ -462,8 +468,7 @@ const gn_detail *gn_get_detail(const gn_renderer *r);
 typedef enum { GN_SHADOW_NOT_WANTED, GN_SHADOW_REALTIME, GN_SHADOW_NO_ROOM } gn_shadow_state;
 gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, uint32_t *n_tiles, uint32_t *tile_texels);
 
-/* The shadow tile of a light's cascade or face: texels per side (0: none), its depths row by row, all ones = empty.
- */
+/* The shadow tile of a light's cascade or face: texels per side (0: none), depths row by row, all ones = empty. */
 typedef struct {
     uint32_t texels;
     uint32_t depth_bits; /* 8, 16 or 32: uint8_t, uint16_t or uint32_t per texel */
@@ -476,13 +481,12 @@ void gn_forget_shadows(gn_renderer *r);
 
 /* A signature per screen tile of what the panel shows. Clear it (memset 0) when the panel's content is unknown. A tile
  * whose pixels did not change is drawn but not flushed; two different tiles have the same signature with probability
- * 2^-64. */
+ * 2^-64. A tile sets *flushed to 1 or 0; `flushed` may be NULL. */
 typedef struct {
     uint64_t signature[GN_TILES_MAX];
 } gn_panel;
 gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
-                                    gn_flush_fn flush, void *user,
-                                    uint32_t *flushed); /* *flushed is 1 or 0; may be NULL */
+                                    gn_flush_fn flush, void *user, uint32_t *flushed);
 gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *panel, gn_flush_fn flush, void *user,
                             uint32_t *n_flushed);
 

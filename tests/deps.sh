@@ -18,10 +18,10 @@ g++ g++
 make make
 objdump binutils
 /usr/include/stdio.h libc6-dev
-/usr/lib/gcc/x86_64-linux-gnu/*/32/libgcc.a gcc-multilib
+/usr/lib/gcc/*/*/32/libgcc.a gcc-multilib
 clang clang
 clang-format clang-format
-/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-x86_64.a libclang-rt-dev
+/usr/lib/llvm-*/lib/clang/*/lib/*/libclang_rt.asan*.a libclang-rt-dev
 valgrind valgrind
 arduino-builder arduino-builder
 arm-none-eabi-gcc gcc-arm-none-eabi

@@ -9,14 +9,14 @@ for flags in "-O2" "-Os" "-O1 -DGN_COMPACT=1" "-Os -DGN_COMPACT=1" "-O1 -DGN_RUN
     ${CC:-gcc} -std=c99 -w -Ilib $flags -c lib/gnomon.c -o "$work/gnomon.o" || exit 1
     nm -g --defined-only "$work/gnomon.o" | awk '{ print $NF }'
 done >"$work/found" || exit 1
-LC_ALL=C sort -u "$work/found" >"$work/symbols"| LC_ALL=C sort -u >"$work/symbols"
+LC_ALL=C sort -u "$work/found" >"$work/symbols"
 
 cat <<'HEAD'
 /* Written by host/generate/gen_prefix.sh (make prefix): do not edit.
  *
  * With -DGN_PREFIX=small_ every symbol of the library begins with small_: two libraries of different configurations can
- * be linked into one program. A source file that includes gnomon.h with the same flags calls gn_render() as ever.
- */
+ * be linked into one program. A source file that includes gnomon.h with the same flags calls gn_render() as ever. The
+ * functions of a port (gn_port_...) are not of the library: they keep their names, and both share them. */
 #ifndef GN_PREFIX_H
 #define GN_PREFIX_H
 

@@ -29,14 +29,13 @@ GN_STATIC_ASSERT(normal_bits_not_8_or_16, GN_NORMAL_BITS == 8 || GN_NORMAL_BITS 
 GN_STATIC_ASSERT(vertex_cache_not_power_of_two, GN_IS_POWER_OF_TWO(GN_VERTEX_CACHE));
 GN_STATIC_ASSERT(tile_width_not_multiple_of_8, GN_TILE_WIDTH % 8 == 0);
 GN_STATIC_ASSERT(tile_has_more_than_65536_pixels,
-                 GN_TILE_WIDTH *GN_TILE_HEIGHT <= 65536); /* gn_runs.h links cells by 16 bits */
+                 (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) <= 65536); /* gn_runs.h links cells by 16 bits */
 
-/* Compact arithmetic: its features are shadows, and optionally automatic bias and validation. Clipping is always built.
- */
+/* Compact arithmetic: its features are shadows, optionally automatic bias and validation. Clipping is always built. */
 #define GN_COMPACT_IS_(condition) (!GN_COMPACT || (condition))
 GN_STATIC_ASSERT(compact_has_pictures_up_to_256, GN_COMPACT_IS_(GN_MAX_WIDTH <= 256 && GN_MAX_HEIGHT <= 256));
 GN_STATIC_ASSERT(compact_has_one_light_and_one_shadow_tile,
-                 GN_COMPACT_IS_(GN_SHADOWS &&GN_MAX_LIGHTS == 1 && GN_MAX_SHADOW_TILES == 1));
+                 GN_COMPACT_IS_((GN_SHADOWS) && GN_MAX_LIGHTS == 1 && GN_MAX_SHADOW_TILES == 1));
 GN_STATIC_ASSERT(compact_has_an_atlas_up_to_256, GN_COMPACT_IS_(GN_ATLAS_SIZE <= 256 && GN_DEPTH_BITS == 16));
 GN_STATIC_ASSERT(compact_has_no_lights_but_directional_ones,
                  GN_COMPACT_IS_(!GN_PUNCTUAL_LIGHTS && !GN_MAIN_LIGHT && !GN_TILE_LIGHTS && !GN_MASKS &&

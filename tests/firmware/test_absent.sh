@@ -1,6 +1,7 @@
 #!/bin/sh
 # Off means absent: a feature that is not built leaves no symbol and takes no flash. And no call of the compiler's library but for what a core lacks.
 # Sizes are of Cortex-M3 where its compiler is installed, else of this machine. "--table" prints them.
+# That nothing is called which is not there, without optimisation, too, is for tests/property/test_config.sh to find.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
@@ -32,8 +33,11 @@ object() { # object NAME FLAGS...
 }
 bytes() { # of flash: code and constants
     object size -Os "$@"
-    ${prefix}size -A "$tmp/size.o" | awk '/^\.(text|rodata)/ { n += $2 } END { print n }'
+    size_of size
 }
+size_of() { ${prefix}size -A "$tmp/$1.o" | awk '/^\.(text|rodata)/ { n += $2 } END { print n }'; }
+# Of all that is built, with one feature off: nothing inlined, for its symbols and what it saves.
+without() { object "all-$1" -O1 -fno-inline $(but all 0 "$1"); }
 
 # ---- Flash -----------------------------------------------------------------------------------------------------------------
 
@@ -46,39 +50,39 @@ under() {
     *) echo SHADOWS ;;
     esac
 }
-none=$(bytes $(but none 0)) shadows=$(bytes $(but none 1 SHADOWS)) all=$(bytes $(but all 0))
-[ "$1" = --table ] && printf '%-18s %8s %14s %14s\n' feature alone "on its basis" "off, of all" "" "$none" "" "$all"
+without NOTHING
+none=$(bytes $(but none 0)) all=$(size_of all-NOTHING)
+if [ "$1" = --table ]; then
+    shadows=$(bytes $(but none 1 SHADOWS))
+    printf '%-18s %8s %14s %14s\n' feature alone "on its basis" "off, of all" "" "$none" "" "$all"
+fi
+idle= # what has nothing to do without shadows
 for feature in $features; do
-    alone=$(($(bytes $(but none 1 $feature)) - none))
-    basis=$alone
-    case "$(under $feature)" in
-    "") ;;
-    SHADOWS) basis=$(($(bytes $(but none 1 $feature SHADOWS)) - shadows)) ;;
-    *) basis=$(($(bytes $(but none 1 $feature $(under $feature))) - $(bytes $(but none 1 $(under $feature))))) ;;
-    esac
-    saved=$((all - $(bytes $(but all 0 $feature))))
-    [ "$1" = --table ] && printf '%-18s %8s %14s %14s\n' "$feature" $alone $basis $saved
-    # inlining may tip by a few bytes either way; a constant that a check compares with is no code
-    if [ $alone -ge -64 ] && [ $basis -ge -64 ] && [ $saved -ge -256 ]; then pass
-    else fail "$feature: $alone bytes alone, $basis on what it stands on; off saves $saved of all"; fi
-    case $feature in
-    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_LIGHTS) ;;
-    *) if [ $alone -le 32 ] || [ $feature = CASTER_ALPHA ]; then pass; else fail "$feature without shadows: $alone bytes"; fi ;;
-    esac
+    [ "$(under $feature | cut -d ' ' -f 1)" != SHADOWS ] || idle="$idle $feature"
+    without "$feature"
+    saved=$((all - $(size_of "all-$feature")))
+    # a constant that a check compares with is no code
+    if [ $saved -ge -64 ]; then pass; else fail "$feature: off saves $saved bytes of all"; fi
+    if [ "$1" = --table ]; then
+        alone=$(($(bytes $(but none 1 $feature)) - none))
+        basis=$alone
+        case "$(under $feature)" in
+        "") ;;
+        SHADOWS) basis=$(($(bytes $(but none 1 $feature SHADOWS)) - shadows)) ;;
+        *) basis=$(($(bytes $(but none 1 $feature $(under $feature))) - $(bytes $(but none 1 $(under $feature))))) ;;
+        esac
+        printf '%-18s %8s %14s %14s\n' "$feature" $alone $basis $saved
+    fi
 done
+# Without shadows all of these together are a few comparisons.
+[ "$(echo $idle | wc -w)" -ge 14 ] && pass || fail "what builds on shadows is $idle"
+together=$(($(bytes $(but none 1 $idle)) - none))
+if [ $together -le 128 ]; then pass
+else fail "without shadows $together bytes:$(for feature in $idle; do echo " $feature $(($(bytes $(but none 1 $feature)) - none))"; done)"; fi
 
 # ---- Symbols ---------------------------------------------------------------------------------------------------------------
 
-symbols() { # of all that is built with one feature off, nothing inlined
-    object symbols -O1 -fno-inline $(but all 0 $1)
-    ${prefix}nm --defined-only "$tmp/symbols.o" | awk '{ print $3 }'
-}
-# Without optimisation, too, nothing is called that is not there.
-for feature in $features; do
-    object plain -O0 $(but all 0 "$feature")
-    ${prefix}nm -u "$tmp/plain.o" | awk '$2 ~ /^gn_/ { print $2 }' >"$tmp/found"
-    if [ -s "$tmp/found" ]; then fail "$feature is off, and -O0 calls $(tr '\n' ' ' <"$tmp/found")"; else pass; fi
-done
+symbols() { ${prefix}nm --defined-only "$tmp/all-$1.o" | awk '{ print $3 }'; }
 symbols NOTHING >"$tmp/all_symbols"
 while read -r feature pattern; do
     grep -q -x -E "$pattern" "$tmp/all_symbols" && pass || fail "$feature: there is no symbol $pattern at all"
@@ -96,8 +100,7 @@ VISIBLE_ALPHA cut_begin|cut_row
 TILE_LIGHTS gn_punctual_in_tile
 TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
 SPECULAR highlight_q30
-MASKS masks|gn_texture_mask
-BAKED_LIGHT baked_light
+MASKS gn_texture_mask
 CASTER_BIAS corner_normals
 RECEIVER_PLANE .*_slopes|lit_row_on_plane
 AUTO_BIAS gn_bias_auto_.*|.*_share_q3[02]|auto_.*

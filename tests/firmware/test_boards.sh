@@ -9,6 +9,7 @@ boards=$(for file in boards/*/board.mk; do basename "$(dirname "$file")"; done)
 emulated=$(for board in $boards; do if [ "$(setting "$board" BOARD_RUNS)" = qemu ]; then echo "$board"; fi; done)
 flashed=$(for board in $boards; do case $(setting "$board" BOARD_RUNS) in qemu | host) ;; *) echo "$board" ;; esac; done) # an image to flash
 firmware() { make -s --no-print-directory "$@"; }
+variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 
 # ---- Jobs: each prints "ok" or what is wrong, a line each ------------------------------------------------------------------
 
@@ -68,7 +69,7 @@ board_overrun() { # board_overrun BOARD
 # The library without a warning at every optimisation: what the compiler sees differs with it.
 board_warnings() { # board_warnings BOARD OPTIMISATION CONFIGURATION
     root=$PWD dir=$tmp/warnings$1$2$3
-    cc="$(setting "$1" BOARD_CROSS)gcc $(setting "$1" BOARD_CPU) -std=c99 $2 $(sed -n 's/^WARN := //p' Makefile) -ffreestanding"
+    cc="$(setting "$1" BOARD_CROSS)gcc $(setting "$1" BOARD_CPU) -std=c99 $2 $(variable WARN) -ffreestanding"
     mkdir -p "$dir"
     if (cd "$dir" && $cc -isystem "$root/boards/common/include" -I"$root/lib" -I"$root/boards/apps" "-DGN_USER_CONFIG=\"$3_config.h\"" \
         -c "$root"/lib/*.c) 2>"$dir.log"; then echo ok
@@ -212,7 +213,8 @@ make -s build/rgb565_png >"$tmp/log" 2>&1 && pass || fail "rgb565_png does not b
     for board in $emulated; do
         grep -q "RAM_BYTES : [0-9]*M" "boards/$board/link.ld" && echo "board_golden $board"
     done
-    for compiler in gcc clang; do for opt in -O3 -O2 -Os -O0; do for word in -m64 -m32; do echo "host_golden $compiler $opt $word"; done; done; done
+    for opt in -O3 -Os; do echo "host_golden gcc $opt -m64" && echo "host_golden clang $opt -m32"; done
+    for opt in -O2 -O0; do echo "host_golden gcc $opt -m32" && echo "host_golden clang $opt -m64"; done
     echo "board_play mps2-an385 sundial 24 tiny"
     echo "board_play mps2-an386 desk 0 balanced"
     echo "board_play mps2-an505 fence 0 accurate"
@@ -221,8 +223,8 @@ make -s build/rgb565_png >"$tmp/log" 2>&1 && pass || fail "rgb565_png does not b
     echo "board_play rv32-virt room 0 accurate"
     for board in $emulated; do echo "board_guards $board"; done
     for board in lm3s6965evb rv32-virt microbit; do echo "board_overrun $board"; done
-    for board in mps2-an385 rv32-virt; do for opt in -O3 -O0 -Os; do echo "board_warnings $board $opt crc"; done; done
-    echo "board_warnings mps3-an547 -O3 crc"
+    for opt in -O3 -O0 -Os; do echo "board_warnings mps2-an385 $opt crc"; done
+    for board in rv32-virt mps3-an547; do echo "board_warnings $board -O3 crc"; done
     echo "board_warnings mps2-an385 -O3 golden"
     for board in $flashed; do echo "built $board"; done
     echo pocket
@@ -234,7 +236,7 @@ failed=$((failed + $(grep -v -c '^ok$' "$tmp/results")))
 grep -v '^ok$' "$tmp/results"
 [ "$(echo "$emulated" | grep -c .)" -ge 7 ] && pass || fail "the emulated boards are $emulated"
 [ "$(echo "$flashed" | grep -c .)" -ge 2 ] && pass || fail "the boards with an image to flash are $flashed"
-[ "$(grep -c '^ok$' "$tmp/results")" -ge 83 ] && pass || fail "jobs are missing"
+[ "$(grep -c '^ok$' "$tmp/results")" -ge 73 ] && pass || fail "jobs are missing"
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

@@ -33,16 +33,19 @@ none=$(flags none) all=$(flags all)
     echo
     echo "none"
     echo "all"
+    idle= # alone they have nothing to do: over shadows, or lights
     for feature in $features; do
         value=$(most "$feature")
-        echo "none $feature=$value"
-        case $feature in # alone they have nothing to do: over shadows, or lights
+        case $feature in
         *FILTER* | *CASC* | *BIAS | *PLANE | MAIN* | INCREM* | STATIC* | *BLOCKS | CASTER* | LINEAR* | TILE_IMP* | OBJECT_B*)
+            idle="$idle $feature=$value"
             echo "none SHADOWS=1 $feature=$value" ;;
         TILE_LIGHTS) echo "none PUNCTUAL_LIGHTS=1 TILE_LIGHTS=1" ;;
+        *) echo "none $feature=$value" ;;
         esac
         echo "all $feature=0"
     done
+    echo "none TILE_LIGHTS=1 $idle"
     echo "all VALIDATION=0"
     echo "none SHADOWS=1 VALIDATION=0 tiny SRGB=0"
     for cut in VISIBLE_ALPHA CASTER_ALPHA MASKS; do
@@ -56,24 +59,24 @@ none=$(flags none) all=$(flags all)
     echo "all STATIC_LAYER=1 INCREMENTAL=0"
     echo "none SHADOWS=1 STATIC_LAYER=1 INCREMENTAL=1"
     for max in 0 1 2 3; do # with what builds upon kernels
-        echo "all FILTER_MAX=$max"
         echo "all FILTER_MAX=$max DISK_FILTER=0 RECEIVER_PLANE=$((max % 2))"
         echo "all FILTER_MAX=$max LINEAR_KERNELS=0 DEPTH_BLOCKS=$((max % 2)) RECEIVER_PLANE=0"
     done
     echo "all FILTER_MAX=0 DISK_FILTER=0 LINEAR_KERNELS=0 DEPTH_BLOCKS=0"
     echo "all DISK_FILTER=0 LINEAR_KERNELS=0 RECEIVER_PLANE=0"
-    for bits in 8 16 32; do for other in 8 16 32; do
-        echo "DEPTH_BITS=$bits OTHER_DEPTH_BITS=$other DEPTH_BLOCKS=$((bits / 16 % 2))"
-    done; done
+    for bits in "8 32" "16 8" "32 16"; do
+        echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } DEPTH_BLOCKS=$((${bits% *} / 16 % 2))"
+    done
     echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
     echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 STATIC_LAYER=1"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
-    for preset in tiny balanced accurate; do
+    for preset in tiny accurate; do # balanced is the default
         echo "$preset"
         echo "$preset none"
         echo "$preset all SRGB=0"
         echo "-m32 $preset"
     done
+    echo "-m32"
     echo "-m32 none"
     echo "-m32 all"
     echo "-m32 all SHADOWS=0"
@@ -108,13 +111,18 @@ draws() {
     rm -f "$tmp/run$n" "$tmp/target$n" "$tmp/host$n"
 }
 
-# every second line, from line $1 on; the compilers take turns, the faster one more often
+# every second line, from line $1 on; the compilers take turns, the faster one more often. Only gcc keeps functions that nobody calls, and so
+# finds what they call and is not built.
 some_draw() {
     line=0
     while read -r words; do
         line=$((line + 1))
         [ $((line % 2)) = "$1" ] || continue
-        if [ $((line / 2 % 3)) = 0 ]; then draws "$1" gcc clang $words; else draws "$1" clang gcc $words; fi
+        case $words in
+        "all "*=0) compiler=gcc ;;
+        *) [ $((line / 2 % 4)) = 0 ] && compiler=gcc || compiler=clang ;;
+        esac
+        if [ $compiler = gcc ]; then draws "$1" gcc clang $words; else draws "$1" clang gcc $words; fi
     done <"$tmp/wanted"
 }
 
@@ -217,6 +225,12 @@ for words in "" none all "SHADOWS=0 RAW_VIEWS=1" RUNTIME_KNOBS=1 accurate; do
     else fail "C++ $words: $(grep -m 1 error "$tmp/message")"; fi
 done
 
+# what a user need not set, where positions are short, too
+for words in "" "POSITION_BITS=16 NORMAL_BITS=8"; do
+    if clang $strict -Itests/support -O0 $(flags $words) -o "$tmp/defaults" lib/gnomon.c tests/unit/test_defaults.c 2>"$tmp/log" && "$tmp/defaults" >"$tmp/log"; then pass
+    else fail "tests/unit/test_defaults.c with '$words': $(grep -m 1 -E 'error|failed' "$tmp/log")"; fi
+done
+
 # ---- Pictures of the demo scene --------------------------------------------------------------------------------------------
 
 cat >"$tmp/picture.c" <<'EOF_C'
@@ -317,7 +331,7 @@ if [ "$("$tmp/host.run" 160 120 0 - 0)" = "$("$tmp/host.run" 160 120 0 - 1)" ]; 
 number() { sed -n 's/^ *X(\(GN_[A-Z_]*\),.*/\1/p' lib/gnomon.h | awk -v name="$1" '$1 == name { print NR - 1 }'; }
 
 small() { # small FLAGS...: the last line of what the scene of tests/property/config_picture.c prints
-    gcc $strict -Itests/support -O0 $(flags "$@") -o "$tmp/small" lib/gnomon.c tests/property/config_picture.c 2>"$tmp/log" || { head -n 1 "$tmp/log"; return; }
+    clang $strict -Itests/support -O0 $(flags "$@") -o "$tmp/small" lib/gnomon.c tests/property/config_picture.c 2>"$tmp/log" || { head -n 1 "$tmp/log"; return; }
     "$tmp/small" | tail -n 1
 }
 
@@ -333,12 +347,12 @@ full() {
         message=$(small "-D$macro=$needed" "$@")
         case $message in "status $status "*) needed=$(echo "$message" | cut -d ' ' -f 4) ;; *) break ;; esac
     done
-    message=$(small "-D$macro=$needed" "$@")
-    if [ "$message" = "$(small "$@")" ]; then pass; else fail "$macro=$needed, as needed: $message"; fi
+    if [ "$message" = "$([ $# = 0 ] && echo "$plain" || small "$@")" ]; then pass; else fail "$macro=$needed, as needed: $message"; fi
     message=$(small "-D$macro=$((needed - 1))" "$@")
     if [ "$message" = "status $status needed $needed available $((needed - 1))" ]; then pass; else fail "$macro=$((needed - 1)): $message"; fi
 }
 
+plain=$(small)
 full GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES 3
 full GN_ERR_TILE_REFS_FULL GN_MAX_TILE_REFS 3
 full GN_ERR_TOO_MANY_OBJECTS GN_MAX_OBJECTS 1
@@ -351,7 +365,7 @@ for macro in GN_ATLAS_TEXELS GN_OTHER_ATLAS_TEXELS; do
         message=$(small -D$macro=$needed)
         case $message in "status $(number GN_ERR_ATLAS_FULL) "*) needed=$(echo "$message" | cut -d ' ' -f 4) ;; *) break ;; esac
     done
-    if [ "$needed" -gt 64 ] && [ "$message" = "$(small)" ]; then pass; else fail "$macro=$needed, as needed: $message"; fi
+    if [ "$needed" -gt 64 ] && [ "$message" = "$plain" ]; then pass; else fail "$macro=$needed, as needed: $message"; fi
     message=$(small -D$macro=$((needed - 64)))
     if [ "$message" = "status $(number GN_ERR_ATLAS_FULL) needed $needed available $((needed - 64))" ]; then pass; else fail "$macro: $message"; fi
 done

@@ -9,14 +9,22 @@ enum { WIDTH = 64, HEIGHT = 48 };
 static gn_renderer renderer;
 static uint16_t picture[WIDTH * HEIGHT];
 
+/* Short positions hold fewer fraction bits. */
+#if GN_POSITION_BITS == 16 && !GN_RUNTIME_KNOBS
+#define POS(x)         (GN_Q16(x) / 256)
+#define MESH(pos, idx) GN_MESH_FRAC(pos, idx, 8)
+#else
+#define POS(x)         GN_Q16(x)
+#define MESH(pos, idx) GN_MESH(pos, idx)
+#endif
+
 /* a floor, and a plate that floats above its middle */
-static const gn_position pos[] = {GN_Q16(-4), 0,         GN_Q16(4),  GN_Q16(4),  0,         GN_Q16(4),
-                                  GN_Q16(4),  0,         GN_Q16(-4), GN_Q16(-4), 0,         GN_Q16(-4),
-                                  GN_Q16(-1), GN_Q16(1), GN_Q16(1),  GN_Q16(1),  GN_Q16(1), GN_Q16(1),
-                                  GN_Q16(1),  GN_Q16(1), GN_Q16(-1), GN_Q16(-1), GN_Q16(1), GN_Q16(-1)};
+static const gn_position pos[] = {POS(-4), 0,       POS(4), POS(4),  0,       POS(4),  POS(4), 0,
+                                  POS(-4), POS(-4), 0,      POS(-4), POS(-1), POS(1),  POS(1), POS(1),
+                                  POS(1),  POS(1),  POS(1), POS(1),  POS(-1), POS(-1), POS(1), POS(-1)};
 static const uint16_t floor_idx[] = {0, 1, 2, 0, 2, 3};
 static const uint16_t idx[] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
-static const gn_mesh floor_mesh = GN_MESH(pos, floor_idx), mesh = GN_MESH(pos, idx);
+static const gn_mesh floor_mesh = MESH(pos, floor_idx), mesh = MESH(pos, idx);
 
 static void store(void *user, int x, int y, int w, int h, const void *pixels)
 {
@@ -45,22 +53,39 @@ static void check_light(const gn_light *light)
 {
     long ambient = draw(&floor_mesh, light, 0), lit = draw(&floor_mesh, light, 1), with_plate = draw(&mesh, light, 1);
     gn_light shadowless = *light;
+    CHECK_EQ_INT(gn_get_light_shadow(&renderer, 0, NULL, NULL), GN_SHADOW_REALTIME);
     shadowless.shadow_strength_uq16 = 0;
     CHECK(ambient > 0);
     CHECK(lit > ambient * 5 / 4);
     CHECK(with_plate < draw(&mesh, &shadowless, 1));
+    CHECK_EQ_INT(gn_get_light_shadow(&renderer, 0, NULL, NULL), GN_SHADOW_NOT_WANTED);
+}
+
+/* Two lights are brighter than either, and the second gets a shadow where `room`. */
+static void check_two(const gn_light *first, const gn_light *second, int room)
+{
+    const gn_light both[2] = {*first, *second};
+    long of_first = draw(&mesh, first, 1), of_second = draw(&mesh, second, 1), of_both = draw(&mesh, both, 2);
+    CHECK(of_both > of_first && of_both > of_second);
+    CHECK_EQ_INT(gn_get_light_shadow(&renderer, 0, NULL, NULL), GN_SHADOW_REALTIME);
+    CHECK_EQ_INT(gn_get_light_shadow(&renderer, 1, NULL, NULL), room ? GN_SHADOW_REALTIME : GN_SHADOW_NO_ROOM);
 }
 
 int main(void)
 {
-    const int32_t above[3] = {GN_Q16(1), GN_Q16(4), GN_Q16(1)}, middle[3] = {0, 0, 0};
-    gn_light sun = gn_light_sun(-1, -3, -2);
+    const int32_t above[3] = {GN_Q16(1), GN_Q16(4), GN_Q16(1)}, beside[3] = {GN_Q16(-1), GN_Q16(4), GN_Q16(1)};
+    const int32_t middle[3] = {0, 0, 0};
+    gn_light sun = gn_light_sun(-1, -3, -2), evening = gn_light_sun(3, -2, -1);
     check_light(&sun);
-    CHECK_EQ_INT(gn_get_light_shadow(&renderer, 0, NULL, NULL), GN_SHADOW_NOT_WANTED);
+    if (GN_MAX_LIGHTS > 1) check_two(&sun, &evening, GN_MAX_SHADOW_TILES > 1);
     if (GN_PUNCTUAL_LIGHTS) {
         gn_light spot = gn_light_spot(above, middle, GN_TURN(90)), point = gn_light_point(above);
+        gn_light other_point = gn_light_point(beside);
         check_light(&spot);
         check_light(&point);
+        check_two(&sun, &point, 1);
+        check_two(&spot, &point, 1);
+        check_two(&point, &other_point, GN_MAX_OTHER_TILES >= 12); /* six faces each */
     }
     return check_report();
 }
