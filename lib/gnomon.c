@@ -122,6 +122,8 @@
 #include "shade/gn_lattice_draw.c"
 #include "shade/gn_lattice_look.c"
 #include "shade/gn_lattice_window.c"
+#include "shade/gn_levels.c"
+#include "shade/gn_part.c"
 #endif
 #include "shade/gn_light.c"
 #include "shade/gn_sample.c"

@@ -43,7 +43,7 @@
     X(cells_judged, "cell whose shadow bounds of depth are asked for")                                                 \
     X(cells_plain, "cell of one colour")                                                                               \
     X(cells_drawn, "cell of several colours")                                                                          \
-    X(parts_filled, "part of a surface of one colour")                                                                 \
+    X(parts, "part of a surface of one colour")                                                                        \
     X(windows, "window of texels for several cells")                                                                   \
     X(window_texels, "texel compared with a plane")                                                                    \
     X(window_lookups, "lookup in a window")                                                                            \

@@ -245,6 +245,16 @@ GN_HOT uint32_t gn_focal_from_fov_q24(uint16_t vertical_fov_turn)
     return q > UINT32_MAX ? UINT32_MAX : (uint32_t)q;
 }
 
+GN_HOT int32_t gn_step_of(int32_t a, int32_t b, int32_t n)
+{
+    static const uint32_t inverse[17] = {0,           0xFFFFFFFFU, 0x80000000U, 0x55555555U, 0x40000000U, 0x33333333U,
+                                         0x2AAAAAAAU, 0x24924924U, 0x20000000U, 0x1C71C71CU, 0x19999999U, 0x1745D174U,
+                                         0x15555555U, 0x13B13B13U, 0x12492492U, 0x11111111U, 0x10000000U};
+    uint32_t d = b < a ? (uint32_t)a - (uint32_t)b : (uint32_t)b - (uint32_t)a;
+    int32_t size = (int32_t)gn_umul_high(d, inverse[n]);
+    return b < a ? -size : size;
+}
+
 GN_HOT uint64_t gn_length_bits(int32_t newton_steps, const int32_t n_q30[3])
 {
     uint64_t nn = (uint64_t)gn_dot64(n_q30, n_q30); /* Q60, at most 1 + rounding */

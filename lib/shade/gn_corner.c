@@ -11,6 +11,7 @@
 #include "shade/gn_corner.h"
 #include "shade/gn_light.h"
 #include "shade/gn_shadow.h"
+#include "shadow/gn_filter.h"
 #include "shadow/gn_persp.h"
 
 #if GN_INTERPOLATES
@@ -416,6 +417,54 @@ GN_HOT static void coords_directional(const gn_frame *frame, const gn_surface *s
         if (GN_SMOOTH(s)) more = 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
         coord_q16[i] = (int32_t)((uint32_t)(v >> down) + (uint32_t)r->d_q16 + (uint32_t)more);
     }
+}
+
+/* View depth of the plane at a pixel, up to its largest on the triangle. */
+GN_HOT static int32_t depth_at_pixel(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
+                                     int32_t y)
+{
+    int32_t w = gn_max32(along(&l->plane.w, x - l->plane.x, y - l->plane.y), 1 << 10), clz = gn_clz32((uint32_t)w);
+    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps)));
+    int32_t shift = l->plane.z_shift - clz;
+    if (shift < 1) return s->z_max_q16;
+    z = shift > 31 ? 0 : ((z >> (shift - 1)) + 1) >> 1;
+    return gn_max32(1, gn_min32((int32_t)(z & INT32_MAX), s->z_max_q16));
+}
+
+/* A coordinate of a directional view. */
+GN_HOT static inline int32_t coord_ortho(const gn_ray_plane *r, int32_t px, int32_t py, int32_t z, int32_t down)
+{
+    int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
+    return (int32_t)((uint32_t)(gn_mul_high(z, a) >> down) + (uint32_t)r->d_q16);
+}
+
+GN_HOT void gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_light_view *view,
+                         int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2])
+{
+    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    int32_t z = depth_at_pixel(l, frame, s, x, y), up = gn_clz32((uint32_t)z) - 1;
+    int32_t down = gn_min32(gn_max32(view->fit.ortho.ray_shift + up - 32, 0), 31);
+    for (int i = 0; i < 2; i++)
+        uv_q16[i] = coord_ortho(&view->fit.ortho.ray[i], px, py, z * (1 << up), down) + offset_q16[i];
+}
+
+GN_HOT GN_NOINLINE uint32_t gn_corner_attenuation(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
+                                                  const gn_light_view *view, int32_t x, int32_t y,
+                                                  const int32_t offset_q16[3])
+{
+    int32_t coord[3], up = 16 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q32 */
+    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    int32_t z = depth_at_pixel(l, frame, s, x, y), norm = gn_clz32((uint32_t)z) - 1;
+    int32_t down = gn_min32(gn_max32(view->fit.ortho.ray_shift + norm - 32, 0), 31);
+    for (int i = 0; i < 3; i++)
+        coord[i] = coord_ortho(&view->fit.ortho.ray[i], px, py, z * (1 << norm), down) + offset_q16[i];
+    gn_receiver r = {coord[0], coord[1], 0, {0, 0}, x, y};
+    if (coord[2] > 0) {
+        uint64_t share = up >= 0 ? (uint64_t)(uint32_t)coord[2] << up : (uint32_t)coord[2] >> -up;
+        r.depth_q32 = share > UINT32_MAX ? UINT32_MAX : (uint32_t)share;
+    }
+    gn_shadow_slopes(frame, s, view, NULL, r.slope_q28);
+    return gn_filter_attenuation(frame, view, &r);
 }
 
 GN_HOT static void place_directional(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,

@@ -24,6 +24,14 @@ int gn_corner_place(const gn_lattice *lattice, const gn_frame *frame, const gn_s
                     uint32_t slot, uint32_t view);
 #endif
 
+#if GN_SHADOWS
+/* Tile coordinates of a pixel in a directional view, Q16 texels; and the exact attenuation there. */
+void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                  const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
+uint32_t gn_corner_attenuation(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                               const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3]);
+#endif
+
 /* A colour times irradiance, Q24, limited to 8. */
 GN_HOT static inline int32_t gn_corner_times(uint32_t colour_uq16, int32_t irradiance_q24)
 {

@@ -7,9 +7,7 @@
 #include "base/gn_q.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
-#include "shade/gn_lattice_window.h"
-#include "shade/gn_pixel.h"
-#include "shade/gn_shadow.h"
+#include "shade/gn_part.h"
 
 #if GN_INTERPOLATES
 
@@ -146,72 +144,6 @@ GN_HOT static gn_corner *ring_at(gn_lattice *l, int32_t x)
     return ring;
 }
 
-/* ---- Parts of one colour ----------------------------------------------------------------------------------------- */
-
-/* Whether nothing but shadows varies over the surface. */
-GN_HOT static int is_uniform(const gn_shading *s)
-{
-    const gn_surface *surface = &s->surface;
-    int varies = GN_SMOOTH(surface) | GN_COLOURED(surface) | surface->textured | surface->baked | surface->masked |
-                 surface->specular;
-    return !varies && !surface->n_punctual && s->frame->picture.format != GN_FORMAT_RAW32 && s->lattice.cascade >= 0;
-}
-
-#if GN_SHADOWS
-/* What a light's window says of the whole part. */
-GN_HOT static int window_of_part(gn_shading *s, uint32_t slot)
-{
-    gn_lattice *l = &s->lattice;
-    const gn_light_state *light = s->surface.light[slot].state;
-    int cascaded = !s->frame->view[light->view_idx].border_lit;
-    if (cascaded && l->cascade == GN_CASCADE_NONE) return GN_WINDOW_LIT;
-    gn_window *window =
-        gn_lattice_window(l, s->frame, &s->surface, slot, cascaded ? (uint32_t)l->cascade : 0, l->x, NULL);
-    if (!window || !window->w || window->until_x < gn_min32(l->x_end, l->x + GN_PART_WIDTH)) return GN_WINDOW_MIXED;
-    return !window->any ? GN_WINDOW_LIT : window->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
-}
-#else
-GN_HOT static int window_of_part(gn_shading *s, uint32_t slot)
-{
-    (void)s, (void)slot;
-    return GN_WINDOW_LIT;
-}
-#endif
-
-/* The pixel of a part that is wholly in or out of every light's shadow. Returns 0 if one has an edge there. */
-GN_HOT static int find_part_pixel(gn_shading *s, uint32_t *packed)
-{
-    const gn_surface *surface = &s->surface;
-    uint32_t q20[3] = {surface->base_q20[0], surface->base_q20[1], surface->base_q20[2]};
-    for (uint32_t i = 0; i < surface->n_lights; i++) {
-        const gn_surface_light *light = &surface->light[i];
-        uint32_t share = 65536;
-        if (surface->shadowed && gn_shadow_is_realtime(light->state, 65536)) {
-            int said = window_of_part(s, i);
-            if (said == GN_WINDOW_MIXED) return 0;
-            if (said == GN_WINDOW_DARK) share = 65536 - light->state->strength_uq16;
-        }
-        if (!share) continue;
-        int32_t e = (int32_t)gn_mul_uq16((uint32_t)gn_max32(light->cosine_q24[0], 0), share);
-        for (int c = 0; c < 3; c++) q20[c] += (uint32_t)gn_corner_times(light->radiance_uq16[c], e) >> 4;
-    }
-    *packed = gn_exact_pack(s, q20);
-    return 1;
-}
-
-/* Fills the part's pixels. */
-GN_HOT static void fill_part(gn_shading *s, uint32_t packed)
-{
-    const gn_lattice *l = &s->lattice;
-    GN_COUNT(parts_filled, 1);
-    for (int32_t i = 0; i < l->n_spans; i++) {
-        const gn_run_span *span = &l->span[i];
-        int32_t x = gn_max32(span->x, l->x), end = gn_min32(span->x + span->n_px, l->x + GN_PART_WIDTH);
-        if (span->y < l->y || span->y >= l->y + l->n_rows || x >= end) continue;
-        gn_pixel_fill(s->frame, &s->rows, x, span->y, end - x, packed);
-    }
-}
-
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
 
 /* Column by column, which have corners in common. */
@@ -280,15 +212,13 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     l->x_end = box.x1;
     l->y_end = box.y1;
     l->has_face = 0;
-    l->uniform = is_uniform(s);
+    gn_part_begin(s);
     forget_windows(l);
     for (l->y = box.y0; l->y < box.y1; l->y += l->n_rows) {
         l->ring_x[0] = l->ring_x[1] = INT32_MIN;
         for (l->x = box.x0; l->x < box.x1; l->x += GN_PART_WIDTH) {
-            uint32_t packed;
             renew_windows(l);
-            if (l->uniform && find_part_pixel(s, &packed)) fill_part(s, packed);
-            else if (mark(l)) shade_part(s);
+            if (!gn_part_shade(s) && mark(l)) shade_part(s);
         }
     }
 }

@@ -5,6 +5,7 @@
 #include "base/gn_q.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
+#include "shade/gn_levels.h"
 #include "shade/gn_pixel.h"
 #include "shadow/gn_window.h"
 
@@ -66,40 +67,6 @@ GN_HOT static int has_two_colours(const drawing *d)
     return 1;
 }
 
-/* Forgets the pixels of other colours. */
-GN_HOT static void use_two_colours(const drawing *d)
-{
-    gn_lattice *l = &d->s->lattice;
-    uint32_t differs = 0;
-    for (int c = 0; c < 3; c++) {
-        int32_t dark = d->base_q24[c].at, more = l->look.edge[0].more_q24[c].at;
-        differs |= (uint32_t)(l->two_q24[0][c] ^ dark) | (uint32_t)(l->two_q24[1][c] ^ more);
-        l->two_q24[0][c] = dark;
-        l->two_q24[1][c] = more;
-    }
-    if (differs) l->known[0] = l->known[1] = l->known[2] = 0;
-}
-
-GN_HOT static GN_NOINLINE uint32_t find_pixel(gn_shading *s, uint32_t level)
-{
-    gn_lattice *l = &s->lattice;
-    uint32_t q20[3];
-    for (int c = 0; c < 3; c++) {
-        int32_t dark = l->two_q24[0][c], more = (int32_t)((int64_t)l->two_q24[1][c] * (int32_t)level >> 6);
-        q20[c] = (uint32_t)gn_max32(dark + more, 0) >> 4;
-    }
-    l->known[level >> 5] |= 1U << (level & 31);
-    l->pixel[level] = gn_exact_pack(s, q20);
-    return l->pixel[level];
-}
-
-GN_HOT static inline uint32_t pixel_of(gn_shading *s, uint32_t attenuation)
-{
-    uint32_t level = (attenuation + 512) >> 10;
-    if (s->lattice.known[level >> 5] >> (level & 31) & 1U) return s->lattice.pixel[level];
-    return find_pixel(s, level);
-}
-
 /* Pixels of a row between two rows of attenuations, `weight` of 2^log2 from the upper to the lower. */
 GN_HOT static void store_levels(const drawing *d, int32_t y, uint32_t bits, const uint32_t *upper,
                                 const uint32_t *lower, int32_t weight, int32_t log2)
@@ -118,7 +85,7 @@ GN_HOT static void store_levels(const drawing *d, int32_t y, uint32_t bits, cons
         }
         for (int32_t k = i << log2; part; part >>= 1, k++, at += step) {
             if (!(part & 1U)) continue;
-            uint32_t packed = pixel_of(s, (uint32_t)gn_max32(at, 0));
+            uint32_t packed = gn_levels_pixel(s, (uint32_t)gn_max32(at, 0));
             if (quick) out[k] = (uint16_t)packed;
             else gn_pixel_store(s->frame, &s->rows, x + k, y, packed);
         }
@@ -236,7 +203,12 @@ GN_HOT static void draw_two_colours(const drawing *d)
     gn_lattice *l = &d->s->lattice;
     const gn_lattice_edge *edge = &l->look.edge[0];
     int32_t log2 = l->look.spacing_log2, known = -1, now = 0;
-    use_two_colours(d);
+    int32_t dark[3], more[3];
+    for (int c = 0; c < 3; c++) {
+        dark[c] = d->base_q24[c].at;
+        more[c] = edge->more_q24[c].at;
+    }
+    gn_levels_use(l, dark, more);
     for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << log2) {
         if (!columns(d, d->y + below, 1 << log2)) continue;
         if (known != below) find_attenuations(d, edge, below, l->attenuation[now]);

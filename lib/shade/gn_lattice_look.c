@@ -67,7 +67,7 @@ GN_HOT static int32_t texture_log2(const gn_frame *frame)
 GN_HOT static uint32_t lookup_texels_q16(const gn_frame *frame, const gn_light_view *view)
 {
     if (view->filter == GN_FILTER_HARD || view->filter == GN_FILTER_DISK) return 0;
-    uint32_t tent = GN_K(frame, persp_step) == 16 ? 49152 : 32768;
+    uint32_t tent = GN_K(frame, persp_step) == 16 ? 65536 : 49152;
     return view->filter == GN_FILTER_2X2 ? tent >> 1 : tent * view->filter_idx;
 }
 

@@ -37,6 +37,7 @@ GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_li
     window->front_q30 = (int32_t)(per_half_q30 * (fast ? 1 : (halves + 1) >> 1) + rounding);
     int64_t safe_q30 = own_q30 - (own_q30 >> 3) - ((int64_t)1 << (30 - GN_VIEW_BITS(view)));
     int enough = own_q30 + (own_q30 >> 3) >= window->behind_q30; /* the reference sees no acne */
+    if (enough) window->behind_q30 = window->front_q30;
     if ((fast || enough) && safe_q30 > 0 && safe_q30 < window->behind_q30) window->behind_q30 = (int32_t)safe_q30;
     return 1;
 }
@@ -169,7 +170,7 @@ GN_HOT static int in_doubt(const gn_window *window, int32_t u, int32_t v)
     int32_t n = window->view->filter == GN_FILTER_HARD ? 1 : 2 * (window->view->filter_idx + 1);
     uint32_t any = 0;
     for (const uint32_t *row = &window->doubt[v >> 16], *end = row + n; row < end; row++) any |= *row;
-    return (any >> (u >> 16) & ((1U << n) - 1U)) != 0;
+    return (any >> (u >> 16) & ((1U << (uint32_t)n) - 1U)) != 0;
 }
 
 /* 3x3, positions to 1/32 texel. */
@@ -189,7 +190,8 @@ GN_HOT static void row_3x3(const gn_window *window, int32_t u, int32_t v, const 
             continue;
         }
         const uint16_t *across = gn_tent_sums[u >> 11 & 31], *down = gn_tent_sums[v >> 11 & 31];
-        *out -= (across[a] * down[1] + across[b] * down[2] + across[c] * down[4] + across[d] * down[8]) >> 8;
+        uint32_t dark = across[a] * (uint32_t)down[1] + across[b] * (uint32_t)down[2] + across[c] * (uint32_t)down[4];
+        *out -= (dark + across[d] * (uint32_t)down[8]) >> 8;
     }
 }
 
@@ -200,7 +202,7 @@ GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const gn_wi
     uint8_t dark[GN_TENT_TAPS_MAX];
     uint32_t any = 0, all = 255;
     for (int32_t j = 0; j < n; j++) {
-        dark[j] = (uint8_t)(window->dark[(v >> 16) + j] >> (u >> 16) & ((1U << n) - 1U));
+        dark[j] = (uint8_t)(window->dark[(v >> 16) + j] >> (u >> 16) & ((1U << (uint32_t)n) - 1U));
         any |= dark[j];
         all &= dark[j];
     }

@@ -1,0 +1,22 @@
+/* Pixels between two colours, in steps of 1 / 64, each encoded once. */
+#ifndef GN_LEVELS_H
+#define GN_LEVELS_H
+
+#include "base/gn_hint.h"
+#include "gnomon.h"
+
+/* From now on between a colour in shadow and what the light adds to it. */
+void gn_levels_use(gn_lattice *lattice, const int32_t dark_q24[3], const int32_t more_q24[3]);
+
+/* Encodes a level. */
+uint32_t gn_levels_find(gn_shading *s, uint32_t level);
+
+/* The pixel of an attenuation, 0 .. 65536. */
+GN_HOT static inline uint32_t gn_levels_pixel(gn_shading *s, uint32_t attenuation)
+{
+    uint32_t level = (attenuation + 512) >> 10;
+    if (s->lattice.known[level >> 5] >> (level & 31) & 1U) return s->lattice.pixel[level];
+    return gn_levels_find(s, level);
+}
+
+#endif
