@@ -26,7 +26,8 @@ typedef struct gn_frame {
     gn_cam cam;
     uint64_t min2_q32;           /* minimum distance^2 of spot and point lights, 10^-4 of the model's */
     int32_t receivers_q16[2][3]; /* box of all receiving objects: min, max corner; for culling */
-    int64_t tan2_q24;        /* square of the half-diagonal's tangent */
+    int64_t tan2_per_px2_q44;    /* the same per squared distance from the centre, in half pixels */
+    int64_t tan2_q24;            /* square of the half-diagonal's tangent */
     uint32_t fade_start_q16;     /* distance fade: strength = (max_distance - z) * fade_scale */
     gn_bfloat fade_scale;
     gn_stats stats;

@@ -105,7 +105,9 @@ void gn_cascade_setup(gn_frame *frame)
 {
     uint32_t n = frame->scene->shadow.n_cascades;
     frame->n_cascades = (uint8_t)(GN_MANY_CASCADES && n ? n : 1);
+    int64_t w = frame->picture.width, h = frame->picture.height;
     frame->tan2_q24 = gn_cascade_tan2_q24(frame);
+    frame->tan2_per_px2_q44 = (int64_t)gn_udiv64((uint64_t)frame->tan2_q24 << 20, (uint64_t)(w * w + h * h));
     setup_distance_fade(frame);
     setup_spheres(frame);
 }

@@ -14,6 +14,9 @@ void gn_corner_find(const gn_lattice *lattice, const gn_frame *frame, const gn_s
                     gn_sample *sample, gn_corner *corner);
 
 #if GN_SHADOWS
+/* Once per part: whether one cascade is that of all of its points. */
+void gn_corner_begin_part(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
+
 /* A point of which only gn_corner_place() of one light may be asked. Returns 0 where the plane cannot be sampled. */
 int gn_corner_locate(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
                      int32_t x, int32_t y, gn_corner *corner);

@@ -172,9 +172,10 @@ GN_HOT static void forget_windows(gn_lattice *l)
 }
 
 /* Of another part. */
-GN_HOT static void renew_windows(gn_lattice *l)
+GN_HOT static void begin_part(gn_shading *s)
 {
-    for (int i = 0; i < GN_WINDOWS; i++) l->window[i].until_x = INT32_MIN;
+    for (int i = 0; i < GN_WINDOWS; i++) s->lattice.window[i].until_x = INT32_MIN;
+    gn_corner_begin_part(&s->lattice, s->frame, &s->surface);
 }
 #else
 GN_HOT static void forget_windows(gn_lattice *l)
@@ -182,9 +183,9 @@ GN_HOT static void forget_windows(gn_lattice *l)
     (void)l;
 }
 
-GN_HOT static void renew_windows(gn_lattice *l)
+GN_HOT static void begin_part(gn_shading *s)
 {
-    (void)l;
+    (void)s;
 }
 #endif
 
@@ -217,7 +218,7 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     for (l->y = box.y0; l->y < box.y1; l->y += l->n_rows) {
         l->ring_x[0] = l->ring_x[1] = INT32_MIN;
         for (l->x = box.x0; l->x < box.x1; l->x += GN_PART_WIDTH) {
-            renew_windows(l);
+            begin_part(s);
             if (!gn_part_shade(s) && mark(l)) shade_part(s);
         }
     }

@@ -102,9 +102,9 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     window->w = 0;
     int32_t rows = (gn_min32(l->n_rows, l->y_end - l->y) + size - 1) >> log2;
     int32_t columns = (gn_min32(GN_PART_WIDTH - (x - l->x), l->x_end - x) + size - 1) >> log2;
-    while (columns * rows > 2 &&
+    while (columns * rows > (at ? 2 : 0) && /* for one or two cells their own corners tell as much */
            !make_window(l, frame, s, slot, view_idx, x, x + columns * size, l->y + rows * size, window))
-        columns = (columns + 1) >> 1;
+        columns = columns > 1 ? (columns + 1) >> 1 : 0;
     window->until_x = x + columns * size;
     return window;
 }

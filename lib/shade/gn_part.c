@@ -27,7 +27,7 @@ GN_HOT void gn_part_begin(gn_shading *s)
     const gn_surface *surface = &s->surface;
     int varies = GN_SMOOTH(surface) | GN_COLOURED(surface) | surface->textured | surface->baked | surface->masked |
                  surface->specular | surface->n_punctual;
-    s->lattice.uniform = !varies && s->frame->picture.format != GN_FORMAT_RAW32 && s->lattice.cascade >= 0;
+    s->lattice.uniform = !varies && s->frame->picture.format != GN_FORMAT_RAW32;
 }
 
 /* ---- Lights ------------------------------------------------------------------------------------------------------ */
@@ -178,8 +178,7 @@ GN_HOT static void begin_rows(gn_shading *s, part_look *look)
     }
     gn_levels_use(&s->lattice, dark, more);
 #if GN_SHADOWS
-    gn_sample_offset(s->frame, &s->surface, look->slot, look->window->view, s->surface.normal_q30[0],
-                     look->offset_q16);
+    gn_sample_offset(s->frame, &s->surface, look->slot, look->window->view, s->surface.normal_q30[0], look->offset_q16);
 #endif
 }
 
@@ -187,7 +186,7 @@ GN_HOT int gn_part_shade(gn_shading *s)
 {
     const gn_lattice *l = &s->lattice;
     part_look look;
-    if (!l->uniform || !find_lights(s, &look)) return 0;
+    if (!l->uniform || (s->surface.shadowed && l->cascade < 0) || !find_lights(s, &look)) return 0;
     uint32_t dark = pack_sum(s, &look, 0), lit = dark;
     GN_COUNT(parts, 1);
     if (look.window) {

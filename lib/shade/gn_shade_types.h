@@ -244,7 +244,8 @@ typedef struct {
     int32_t unit_q30[3];           /* flat surfaces: the normal */
     int32_t has_face, face_q30[3]; /* the face's own, once something has asked for it */
     int32_t uniform;               /* nothing but shadows varies over the surface */
-    int32_t cascade;               /* of all of the surface, none of which fades; -1: of each point for itself */
+    int32_t cascade;               /* of all of the part, none of which fades; -1: of each point for itself */
+    int32_t surface_cascade;       /* the same of the surface */
     int32_t size_log2;             /* of the largest cells, in pixels */
     int32_t x, y, x_end, y_end;    /* of the part, and where the surface ends */
     int32_t n_rows;                /* of the part */
