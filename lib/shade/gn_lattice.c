@@ -217,7 +217,7 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     forget_windows(l);
     for (l->y = box.y0; l->y < box.y1; l->y += l->n_rows) {
         l->ring_x[0] = l->ring_x[1] = INT32_MIN;
-        for (l->x = box.x0; l->x < box.x1; l->x += GN_PART_WIDTH) {
+        for (l->x = box.x0; l->x < box.x1; l->x = l->part_end) {
             begin_part(s);
             if (!gn_part_shade(s) && mark(l)) shade_part(s);
         }

@@ -42,7 +42,8 @@ GN_HOT static int window_of_part(gn_shading *s, uint32_t slot, const gn_window *
     if (cascaded && l->cascade == GN_CASCADE_NONE) return GN_WINDOW_LIT;
     gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, cascaded ? (uint32_t)l->cascade : 0, l->x, NULL);
     *window = NULL;
-    if (!w || !w->w || w->until_x < gn_min32(l->x_end, l->x + GN_PART_WIDTH)) return GN_WINDOW_MIXED;
+    if (!w || !w->w) return GN_WINDOW_MIXED;
+    l->part_end = gn_min32(l->part_end, w->until_x);
     *window = w;
     return !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
 }
@@ -184,9 +185,13 @@ GN_HOT static void begin_rows(gn_shading *s, part_look *look)
 
 GN_HOT int gn_part_shade(gn_shading *s)
 {
-    const gn_lattice *l = &s->lattice;
+    gn_lattice *l = &s->lattice;
     part_look look;
-    if (!l->uniform || (s->surface.shadowed && l->cascade < 0) || !find_lights(s, &look)) return 0;
+    l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
+    if (!l->uniform || (s->surface.shadowed && l->cascade < 0) || !find_lights(s, &look)) {
+        l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
+        return 0;
+    }
     uint32_t dark = pack_sum(s, &look, 0), lit = dark;
     GN_COUNT(parts, 1);
     if (look.window) {
@@ -195,7 +200,7 @@ GN_HOT int gn_part_shade(gn_shading *s)
     }
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
-        int32_t x = gn_max32(span->x, l->x), end = gn_min32(span->x + span->n_px, l->x + GN_PART_WIDTH);
+        int32_t x = gn_max32(span->x, l->x), end = gn_min32(span->x + span->n_px, l->part_end);
         if (span->y < l->y || span->y >= l->y + l->n_rows || x >= end) continue;
         if (look.window) mixed_span(s, &look, x, span->y, end, lit, dark);
         else gn_pixel_fill(s->frame, &s->rows, x, span->y, end - x, lit);

@@ -249,6 +249,7 @@ typedef struct {
     int32_t size_log2;             /* of the largest cells, in pixels */
     int32_t x, y, x_end, y_end;    /* of the part, and where the surface ends */
     int32_t n_rows;                /* of the part */
+    int32_t part_end;              /* columns before it */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     gn_corner ring[2][3];                            /* of the column of cells at hand: left and right, by turns */
     gn_corner middle[3][5];                          /* of split cells: by size, from 8 on downwards; centre last */
