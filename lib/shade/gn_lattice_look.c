@@ -27,9 +27,9 @@ typedef struct {
     const gn_surface *s;
     gn_corner *const *corner;
     int32_t size_log2;
-    uint32_t bend_q16;  /* how much farther its farthest corner is than its nearest, as a share */
-    uint64_t error_q24; /* of interpolated light, at most */
-    uint64_t kink_q24;  /* the part of it that comes from where a light ends */
+    uint32_t bend_q16[2]; /* by how much view depths differ along and across rows, as a share of the least */
+    uint64_t error_q24;   /* of interpolated light, at most */
+    uint64_t kink_q24;    /* the part of it that comes from where a light ends */
     gn_lattice_look *out;
 } lattice_cell;
 
@@ -79,22 +79,34 @@ GN_HOT static uint32_t spread_of(int32_t a, int32_t b, int32_t c, int32_t d)
     return (uint32_t)hi - (uint32_t)lo;
 }
 
+/* The largest change between neighbouring corners along rows, and down columns. */
+GN_HOT static void changes_of(const int32_t at[4], uint32_t change[2])
+{
+    uint32_t upper = gn_abs32(at[1] - at[0]), lower = gn_abs32(at[3] - at[2]);
+    uint32_t left = gn_abs32(at[2] - at[0]), right = gn_abs32(at[3] - at[1]);
+    change[0] = upper > lower ? upper : lower;
+    change[1] = left > right ? left : right;
+}
+
 /* Returns 0 if the cell is seen so steeply that nothing is close to bilinear. */
 GN_HOT static int find_bend(lattice_cell *cell)
 {
     gn_corner *const *c = cell->corner;
     if ((c[0]->state | c[1]->state | c[2]->state | c[3]->state) != GN_CORNER_KNOWN) return 0;
-    uint32_t more = spread_of(c[0]->z_q16, c[1]->z_q16, c[2]->z_q16, c[3]->z_q16);
-    uint32_t least = (uint32_t)gn_min32(gn_min32(c[0]->z_q16, c[1]->z_q16), gn_min32(c[2]->z_q16, c[3]->z_q16));
-    if (more > least >> 2) return 0;
-    cell->bend_q16 = more ? gn_quotient_q30(more, least) >> 14 : 0;
+    const int32_t z[4] = {c[0]->z_q16, c[1]->z_q16, c[2]->z_q16, c[3]->z_q16};
+    uint32_t least = (uint32_t)gn_min32(gn_min32(z[0], z[1]), gn_min32(z[2], z[3])), more[2];
+    changes_of(z, more);
+    for (int i = 0; i < 2; i++) {
+        if (more[i] > least >> 2) return 0;
+        cell->bend_q16[i] = more[i] ? gn_quotient_q30(more[i], least) >> 14 : 0;
+    }
     return 1;
 }
 
-/* Perspective bends what changes by `change` over a cell by a quarter of its own share of that, at most. */
-GN_HOT static int bends_by_less(uint32_t change, uint32_t bend_q16, int32_t least_log2)
+/* Perspective bends what changes by `change` from corner to corner by a quarter of its own share of that, at most. */
+GN_HOT static int bends_by_less(const uint32_t change[2], const uint32_t bend_q16[2], int32_t least_log2)
 {
-    return (uint64_t)change * bend_q16 >> 18 <= 1U << least_log2;
+    return ((uint64_t)change[0] * bend_q16[0] + (uint64_t)change[1] * bend_q16[1]) >> 18 <= 1U << least_log2;
 }
 
 #if GN_TEXTURES || GN_MASKS
@@ -103,7 +115,9 @@ GN_HOT static int coords_hold(const lattice_cell *cell, const gn_texture *image,
                               int32_t frac_bits)
 {
     for (int i = 0; i < 2; i++) {
-        uint32_t change = spread_of(at[0][i], at[1][i], at[2][i], at[3][i]);
+        const int32_t coord[4] = {at[0][i], at[1][i], at[2][i], at[3][i]};
+        uint32_t change[2];
+        changes_of(coord, change);
         int32_t texel_log2 = frac_bits - (i ? image->height_log2 : image->width_log2);
         if (!bends_by_less(change, cell->bend_q16, texel_log2 - texture_log2(cell->frame))) return 0;
     }
@@ -335,19 +349,25 @@ GN_HOT static int verdict(const lattice_cell *cell, uint32_t slot, uint32_t view
     return said;
 }
 
-/* Whether places are close enough to bilinear: the nearer of light and camera bends them. */
+/* Whether places are close enough to bilinear: the perspectives of camera and light bend them. */
 GN_HOT static int places_hold(const lattice_cell *cell, const places *p)
 {
-    uint32_t u = spread_of(p->u[0], p->u[1], p->u[2], p->u[3]), v = spread_of(p->v[0], p->v[1], p->v[2], p->v[3]);
-    uint32_t change = u > v ? u : v, bend = cell->bend_q16;
+    uint32_t u[2], v[2], bend[2] = {cell->bend_q16[0], cell->bend_q16[1]};
+    changes_of(p->u, u);
+    changes_of(p->v, v);
     if (p->view->perspective) {
         int32_t lo, hi;
+        uint32_t more[2];
         range_of(p->depth, &lo, &hi);
-        uint32_t rest = (1U << 30) - (uint32_t)hi, more = (uint32_t)(hi - lo);
-        if (more > rest >> 1) return 0;
-        bend += gn_quotient_q30(more, rest | 1U) >> 14;
+        changes_of(p->depth, more);
+        uint32_t rest = (1U << 30) - (uint32_t)hi;
+        for (int i = 0; i < 2; i++) {
+            if (more[i] > rest >> 1) return 0;
+            bend[i] += gn_quotient_q30(more[i], rest | 1U) >> 14;
+        }
     }
-    return bends_by_less(change, bend, 16 - place_log2(cell->frame));
+    int32_t least_log2 = 16 - place_log2(cell->frame);
+    return bends_by_less(u, bend, least_log2) && bends_by_less(v, bend, least_log2);
 }
 
 GN_HOT static void make_patch(gn_patch *p, const int32_t at[4], int32_t log2)
@@ -476,8 +496,7 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
     if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_DITHER) return SPLIT;
     /* one of several faces, or cascades, may stand for all of a small cell: tiles reach beyond their faces */
     uint32_t one = cell->corner[0]->light[slot].view;
-    if (cell->size_log2 >= finest_log2(cell->frame) || one == GN_VIEW_NONE ||
-        find_places(cell, slot, one, &p) != PLACED)
+    if (cell->size_log2 >= finest_log2(cell->frame) || one == GN_VIEW_NONE || find_places(cell, slot, one, &p) != PLACED)
         return SPLIT;
     return add_edge(cell, slot, &p, slope, light, light->more_uq16) ? EDGE : SPLIT;
 }
@@ -637,7 +656,7 @@ GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const 
                               gn_corner *const corner[4], int32_t size_log2)
 {
     gn_lattice_look *look = &lattice->look;
-    lattice_cell cell = {lattice, frame, surface, corner, size_log2, 0, 0, 0, look};
+    lattice_cell cell = {lattice, frame, surface, corner, size_log2, {0, 0}, 0, 0, look};
     int coarse = size_log2 > finest_log2(frame);
     if (!find_bend(&cell) || (!images_hold(&cell) && coarse)) return 0;
     look->n_edges = 0;
