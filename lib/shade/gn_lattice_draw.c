@@ -105,6 +105,31 @@ GN_HOT static uint32_t lookup(const drawing *d, const gn_lattice_edge *edge, con
     return gn_filter_attenuation(d->s->frame, edge->view, &r);
 }
 
+/* Where a row of the cell is seen, from its ends. */
+GN_HOT static void place_row(const drawing *d, const gn_lattice_edge *edge, int32_t below, gn_receiver_step *from,
+                             gn_receiver_step *step)
+{
+    gn_lattice *l = &d->s->lattice;
+    gn_corner *c = &l->corner;
+    const gn_corner_light *at = &c->light[edge->slot];
+    gn_receiver_step end[2];
+    for (int i = 0; i < 2; i++) {
+        int32_t x = d->x + (i << d->size_log2);
+        if (!gn_corner_locate(l, d->s->frame, &d->s->surface, edge->slot, x, d->y + below, c) ||
+            !gn_corner_place(l, d->s->frame, &d->s->surface, c, edge->slot, edge->view_idx))
+            return;
+        end[i].u_q16 = at->u_q16;
+        end[i].v_q16 = at->v_q16;
+        end[i].depth_q31 = at->depth_q30;
+    }
+    step->u_q16 = (end[1].u_q16 - end[0].u_q16) >> d->size_log2;
+    step->v_q16 = (end[1].v_q16 - end[0].v_q16) >> d->size_log2;
+    step->depth_q31 = (end[1].depth_q31 - end[0].depth_q31) >> d->size_log2;
+    from->u_q16 = end[0].u_q16 + d->first * step->u_q16;
+    from->v_q16 = end[0].v_q16 + d->first * step->v_q16;
+    from->depth_q31 = end[0].depth_q31 + d->first * step->depth_q31;
+}
+
 /* Attenuations along a row of nodes, `below` pixels under the cell's first row. Depths are in Q30. */
 GN_HOT static void find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
 {
@@ -114,6 +139,7 @@ GN_HOT static void find_attenuations(const drawing *d, const gn_lattice_edge *ed
     gn_receiver_step at = {gn_patch_at(&edge->u_q16, d->first, below), gn_patch_at(&edge->v_q16, d->first, below),
                            gn_patch_at(&edge->depth_q30, d->first, below)};
     GN_COUNT(edge_lookups, n);
+    if (edge->bent) place_row(d, edge, below, &at, &step);
     step.u_q16 *= 1 << log2;
     step.v_q16 *= 1 << log2;
     step.depth_q31 *= 1 << log2;

@@ -103,10 +103,16 @@ GN_HOT static int find_bend(lattice_cell *cell)
     return 1;
 }
 
-/* Perspective bends what changes by `change` from corner to corner by a quarter of its own share of that, at most. */
+/* Perspective bends what changes by `change` from corner to corner by a quarter of its own share of that, at most:
+ * along rows, and down columns. */
 GN_HOT static int bends_by_less(const uint32_t change[2], const uint32_t bend_q16[2], int32_t least_log2)
 {
     return ((uint64_t)change[0] * bend_q16[0] + (uint64_t)change[1] * bend_q16[1]) >> 18 <= 1U << least_log2;
+}
+
+GN_HOT static int row_bends_by_less(const uint32_t change[2], const uint32_t bend_q16[2], int32_t least_log2)
+{
+    return (uint64_t)change[0] * bend_q16[0] >> 18 <= 1U << least_log2;
 }
 
 #if GN_TEXTURES || GN_MASKS
@@ -264,6 +270,8 @@ GN_HOT static int32_t share_of(int32_t v_q24, uint32_t share_uq16)
 typedef struct {
     const gn_light_view *view;
     const gn_window *window;
+    uint32_t view_idx;
+    int bent; /* down columns */
     int32_t u[4], v[4], depth[4];
 } places;
 
@@ -274,6 +282,8 @@ GN_HOT static int find_places(const lattice_cell *cell, uint32_t slot, uint32_t 
     int n_seen = 0;
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
     p->window = NULL;
+    p->view_idx = view_idx;
+    p->bent = 0;
     for (int i = 0; i < 4; i++) {
         gn_corner *c = cell->corner[i];
         n_seen += gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx);
@@ -349,8 +359,11 @@ GN_HOT static int verdict(const lattice_cell *cell, uint32_t slot, uint32_t view
     return said;
 }
 
-/* Whether places are close enough to bilinear: the perspectives of camera and light bend them. */
-GN_HOT static int places_hold(const lattice_cell *cell, const places *p)
+enum { BEND, BEND_DOWN, HOLD };
+
+/* Whether places are close enough to bilinear, or to linear along rows: the perspectives of camera and light bend them.
+ */
+GN_HOT static int places_hold(const lattice_cell *cell, places *p)
 {
     uint32_t u[2], v[2], bend[2] = {cell->bend_q16[0], cell->bend_q16[1]};
     changes_of(p->u, u);
@@ -362,12 +375,15 @@ GN_HOT static int places_hold(const lattice_cell *cell, const places *p)
         changes_of(p->depth, more);
         uint32_t rest = (1U << 30) - (uint32_t)hi;
         for (int i = 0; i < 2; i++) {
-            if (more[i] > rest >> 1) return 0;
+            if (more[i] > rest >> 1) return BEND;
             bend[i] += gn_quotient_q30(more[i], rest | 1U) >> 14;
         }
     }
     int32_t least_log2 = 16 - place_log2(cell->frame);
-    return bends_by_less(u, bend, least_log2) && bends_by_less(v, bend, least_log2);
+    p->bent = 0;
+    if (bends_by_less(u, bend, least_log2) && bends_by_less(v, bend, least_log2)) return HOLD;
+    p->bent = 1;
+    return row_bends_by_less(u, bend, least_log2) && row_bends_by_less(v, bend, least_log2) ? BEND_DOWN : BEND;
 }
 
 GN_HOT static void make_patch(gn_patch *p, const int32_t at[4], int32_t log2)
@@ -399,6 +415,9 @@ GN_HOT static int add_edge(const lattice_cell *cell, uint32_t slot, const places
     gn_lattice_edge *edge = &out->edge[out->n_edges++];
     edge->view = p->view;
     edge->window = p->window;
+    edge->slot = (uint8_t)slot;
+    edge->view_idx = (uint8_t)p->view_idx;
+    edge->bent = (uint8_t)p->bent;
     edge->slope_q28[0] = slope_q28[0];
     edge->slope_q28[1] = slope_q28[1];
     make_patch(&edge->u_q16, p->u, cell->size_log2);
@@ -475,7 +494,7 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
     if (!left) return all;
     int several = (views & (views - 1)) != 0, cascaded = !p.view->perspective;
     if (!several) {
-        if (!places_hold(cell, &p) && cell->size_log2 > 1) return SPLIT;
+        if (places_hold(cell, &p) == BEND && cell->size_log2 > 1) return SPLIT;
         return add_edge(cell, slot, &p, slope, light, light->more_uq16) ? EDGE : SPLIT;
     }
     if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_SOFT) {
@@ -487,7 +506,7 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
             if (find_places(cell, slot, k ? second : first, &p) != PLACED) return SPLIT;
             gn_shadow_slopes(cell->frame, cell->s, p.view, NULL, slope);
             if (verdict(cell, slot, k ? second : first, &p, slope) == SPLIT) return SPLIT;
-            if (!places_hold(cell, &p) && cell->size_log2 > 1) return SPLIT;
+            if (places_hold(cell, &p) == BEND && cell->size_log2 > 1) return SPLIT;
             for (int i = 0; i < 4; i++) part[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
             if (!add_edge(cell, slot, &p, slope, light, part)) return SPLIT;
         }
@@ -496,7 +515,8 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
     if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_DITHER) return SPLIT;
     /* one of several faces, or cascades, may stand for all of a small cell: tiles reach beyond their faces */
     uint32_t one = cell->corner[0]->light[slot].view;
-    if (cell->size_log2 >= finest_log2(cell->frame) || one == GN_VIEW_NONE || find_places(cell, slot, one, &p) != PLACED)
+    if (cell->size_log2 >= finest_log2(cell->frame) || one == GN_VIEW_NONE ||
+        find_places(cell, slot, one, &p) != PLACED)
         return SPLIT;
     return add_edge(cell, slot, &p, slope, light, light->more_uq16) ? EDGE : SPLIT;
 }

@@ -189,6 +189,8 @@ typedef struct {
 typedef struct {
     const gn_light_view *view;
     const gn_window *window; /* NULL: none */
+    uint8_t slot, view_idx;
+    uint8_t bent; /* rows are placed each for itself */
     gn_patch u_q16, v_q16, depth_q30;
     gn_patch more_q24[3]; /* what it adds where it is not in shadow */
     int32_t slope_q28[2];
