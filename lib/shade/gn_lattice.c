@@ -80,7 +80,7 @@ typedef struct {
 GN_HOT static void begin_split(gn_shading *s, split_cell *split, int32_t x, int32_t y, int32_t size_log2,
                                gn_corner *const corner[4])
 {
-    gn_corner *middle = s->lattice.middle[GN_LATTICE_LEVELS + 1 - size_log2];
+    gn_corner *middle = s->lattice.middle[4 - size_log2];
     split->x = x;
     split->y = y;
     split->size_log2 = size_log2;
@@ -192,7 +192,7 @@ GN_HOT static void begin_part(gn_shading *s)
 /* Cells as large as the knob says, but not much larger than the surface; if its normals turn, than its shorter side. */
 GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, const gn_rect *box)
 {
-    int32_t most = GN_K(frame, persp_step) == 16 ? 4 : GN_K(frame, persp_step) == 8 ? 3 : 2, log2 = 1;
+    int32_t most = GN_K(frame, persp_step) >= 8 ? 4 : 3, log2 = 1;
     int32_t w = box->x1 - box->x0, h = box->y1 - box->y0, across = GN_CURVED(s) ? gn_min32(w, h) : gn_max32(w, h);
     (void)frame, (void)s;
     while (log2 < most && 1 << log2 < across) log2++;

@@ -28,7 +28,7 @@ GN_HOT static int is_plain(gn_shading *s, const gn_lattice_look *look, uint32_t 
     uint32_t first = 0;
     for (int j = 0; j < 3; j++)
         for (int i = 1; i < 4; i++)
-            if (gn_abs32(c[i][j] - c[0][j]) >> 19) return 0; /* 1 / 32 */
+            if (gn_abs32(c[i][j] - c[0][j]) >> 17) return 0; /* 1 / 128 */
     for (int i = 0; i < 4; i++) {
         uint32_t q20[3];
         for (int j = 0; j < 3; j++) q20[j] = (uint32_t)gn_max32(c[i][j], 0) >> 4;

@@ -28,6 +28,7 @@ typedef struct {
     gn_corner *const *corner;
     int32_t size_log2;
     uint32_t bend_q16[2]; /* by how much view depths differ along and across rows, as a share of the least */
+    int near;             /* no shadow fades */
     uint64_t error_q24;   /* of interpolated light, at most */
     uint64_t kink_q24;    /* the part of it that comes from where a light ends */
     gn_lattice_look *out;
@@ -576,6 +577,14 @@ GN_HOT static int find_shares(const lattice_cell *cell, uint32_t slot, contribut
 {
     const gn_light_state *light = cell->s->light[slot].state;
     int realtime = 0, masks = 0;
+    if (cell->near && cell->lattice->light[slot].plain) {
+        realtime = cell->s->shadowed && light->view_idx >= 0;
+        for (int i = 0; i < 4; i++) {
+            out->dark_uq16[i] = realtime ? 0 : 65536;
+            out->more_uq16[i] = realtime ? 65536 : 0;
+        }
+        return realtime;
+    }
     for (int i = 0; i < 4; i++) {
         uint32_t g = cell->corner[i]->g_uq16, mask = 65536, lit = 65536, dark = 0;
 #if GN_MASKS
@@ -645,6 +654,10 @@ GN_HOT static int add_light(lattice_cell *cell, uint32_t slot)
 GN_HOT static int finish_colours(const lattice_cell *cell)
 {
     int limited = 0, dim = 0;
+    uint32_t all = 0;
+    for (int i = 0; i < 4; i++)
+        all |= (uint32_t)(cell->out->colour_q24[i][0] | cell->out->colour_q24[i][1] | cell->out->colour_q24[i][2]);
+    if (!GN_COLOURED(cell->s) && !cell->s->specular && all < 1U << 27) return 1;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 3; j++) {
             int32_t *colour = &cell->out->colour_q24[i][j];
@@ -676,7 +689,7 @@ GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const 
                               gn_corner *const corner[4], int32_t size_log2)
 {
     gn_lattice_look *look = &lattice->look;
-    lattice_cell cell = {lattice, frame, surface, corner, size_log2, {0, 0}, 0, 0, look};
+    lattice_cell cell = {lattice, frame, surface, corner, size_log2, {0, 0}, lattice->cascade >= 0, 0, 0, look};
     int coarse = size_log2 > finest_log2(frame);
     if (!find_bend(&cell) || (!images_hold(&cell) && coarse)) return 0;
     look->n_edges = 0;

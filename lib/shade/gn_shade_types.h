@@ -234,8 +234,8 @@ typedef struct {
 enum { GN_SPANS = 64, GN_PART_WIDTH = 64, GN_PART_ROWS = 16 };
 
 /* Sizes of cells that can be split: 16, 8 and 4 pixels. */
-#define GN_LATTICE_LEVELS (GN_RUNTIME_KNOBS || GN_PERSP_STEP == 16 ? 3 : 2)
-#define GN_LATTICE_NODES  (GN_LATTICE_LEVELS == 3 ? 17 : 9) /* in a row of the largest cell */
+#define GN_LATTICE_LEVELS 3
+#define GN_LATTICE_NODES  17 /* in a row of the largest cell */
 
 /* A surface by cells. */
 typedef struct {
