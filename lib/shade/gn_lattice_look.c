@@ -380,7 +380,7 @@ GN_HOT static int places_hold(const lattice_cell *cell, places *p)
             bend[i] += gn_quotient_q30(more[i], rest | 1U) >> 14;
         }
     }
-    int32_t least_log2 = 16 - place_log2(cell->frame);
+    int32_t least_log2 = 16 - place_log2(cell->frame) + (p->view->perspective ? 1 : 0);
     p->bent = 0;
     if (bends_by_less(u, bend, least_log2) && bends_by_less(v, bend, least_log2)) return HOLD;
     p->bent = 1;
@@ -643,8 +643,10 @@ GN_HOT static int add_light(lattice_cell *cell, uint32_t slot)
     if (colour[2] > strongest) strongest = colour[2];
     if (shadow != DARK) {
         uint32_t kink;
-        cell->error_q24 += (uint64_t)strongest * unevenness_q24(cell, slot, least, most, &kink) >> 16;
-        cell->kink_q24 += (uint64_t)strongest * kink >> 16;
+        uint32_t error = unevenness_q24(cell, slot, least, most, &kink);
+        int32_t log2 = light_log2(cell->frame); /* where it arrives it is part of the light itself */
+        if ((uint64_t)error << log2 > (uint32_t)least) cell->error_q24 += (uint64_t)strongest * error >> 16;
+        if ((uint64_t)kink << log2 > (uint32_t)least) cell->kink_q24 += (uint64_t)strongest * kink >> 16;
     }
     add_colour(cell, slot, &light, shadow == LIT);
     return 1;
