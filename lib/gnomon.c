@@ -91,7 +91,7 @@
 #include "shadow/gn_disk.c"
 #endif
 #if GN_INTERPOLATES
-#include "shadow/gn_filter_rows.c"
+#include "shadow/gn_filter_cells.c"
 #include "shadow/gn_window.c"
 #endif
 #if GN_DEPTH_BLOCKS

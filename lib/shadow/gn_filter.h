@@ -27,8 +27,4 @@ typedef struct {
 int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *a,
                       const gn_receiver_step *b, uint32_t *attenuation);
 
-/* Attenuations of n receivers from `from` on, all between `from` and `to`; rounded steps may end just short of `to`. */
-void gn_filter_row(const gn_frame *frame, const gn_light_view *view, const gn_receiver_step *from,
-                   const gn_receiver_step *to, const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
-
 #endif
