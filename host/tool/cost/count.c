@@ -25,7 +25,3 @@ void gn_count(gn_count_event event, uint32_t n)
     counts.n[event] += n;
 }
 #endif
-/*TMP*/
-#include <stdio.h>
-#include <stdlib.h>
-__attribute__((destructor)) static void show(void) { if (getenv("GNC")) for (int i = 0; i < GN_COUNT_N; i++) if (counts.n[i]) fprintf(stderr, "%s=%llu\n", count_name[i], (unsigned long long)counts.n[i]); }
