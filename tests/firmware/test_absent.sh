@@ -36,8 +36,8 @@ bytes() { # of flash: code and constants
     size_of size
 }
 size_of() { ${prefix}size -A "$tmp/$1.o" | awk '/^\.(text|rodata)/ { n += $2 } END { print n }'; }
-# Of all that is built, with one feature off: nothing inlined, for its symbols and what it saves.
-without() { object "all-$1" -O1 -fno-inline $(but all 0 "$1"); }
+# Of all that is built, with one feature off: nothing inlined, for its symbols and what it saves. -Og takes two thirds of the time of -O1.
+without() { object "all-$1" -Og -fno-inline $(but all 0 "$1"); }
 
 # ---- Flash -----------------------------------------------------------------------------------------------------------------
 
