@@ -186,13 +186,13 @@ for name in fence avenue; do
 done
 
 # a budget of both kinds, and those that nothing fits: what is named would do, and a byte less would not
-good advise host/scenes/desk.gltf --quick --size $size --ram 100000 --instructions-per-pixel 100000
-bad 1 'no configuration fits into 1000 bytes at 48x36; the least RAM found: [0-9]* bytes and .* by --set' advise host/scenes/desk.gltf --quick --size $size --ram 1000
+good advise host/scenes/fence.gltf --quick --size $size --ram 100000 --instructions-per-pixel 100000
+bad 1 'no configuration fits into 1000 bytes at 48x36; the least RAM found: [0-9]* bytes and .* by --set' advise host/scenes/fence.gltf --quick --size $size --ram 1000
 least=$(sed -n 's/.*the least RAM found: \([0-9]*\) bytes.*/\1/p' "$tmp/err")
-good advise host/scenes/desk.gltf --quick --size $size --ram "$least"
-bad 1 'no configuration fits' advise host/scenes/desk.gltf --quick --size $size --ram $((least - 1))
-bad 1 'the fewest instructions found within the RAM: [0-9]* bytes' advise host/scenes/desk.gltf --quick --size $size --ram 100000 --instructions-per-pixel 5
-bad 1 'the nearest: [0-9]* bytes' advise host/scenes/desk.gltf --quick --size $size --ram 1000 --instructions-per-pixel 5 --json
+good advise host/scenes/fence.gltf --quick --size $size --ram "$least"
+bad 1 'no configuration fits' advise host/scenes/fence.gltf --quick --size $size --ram $((least - 1))
+bad 1 'the fewest instructions found within the RAM: [0-9]* bytes' advise host/scenes/fence.gltf --quick --size $size --ram 100000 --instructions-per-pixel 5
+bad 1 'the nearest: [0-9]* bytes' advise host/scenes/fence.gltf --quick --size $size --ram 1000 --instructions-per-pixel 5 --json
 
 # ---- On a target ---------------------------------------------------------------------------------------------------------------
 
