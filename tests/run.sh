@@ -94,9 +94,9 @@ constants tiny "-DGN_PRESET=0 -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=64"
 constants balanced "-DGN_PRESET=1 -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=256"
 [ -z "$THOROUGH" ] || constants accurate "-DGN_PRESET=2 -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=128"
 
-build build/test/threads/test_cores BUILD=build/test/threads SAN=-fsanitize=thread
+build build/test/threads/test_cores BUILD=build/test/threads OPT=-O1 SAN=-fsanitize=thread
 job threads/test_cores build/test/threads/test_cores
-build build/test/memory/test_random BUILD=build/test/memory CC=clang SAN=-fsanitize=memory
+build build/test/memory/test_random BUILD=build/test/memory CC=clang OPT=-O1 SAN=-fsanitize=memory
 job memory/test_random "SCENES=4000 build/test/memory/test_random"
 
 # ---- What is run -----------------------------------------------------------------------------------------------------------
