@@ -180,7 +180,7 @@ for name in fence avenue; do
                     next }
         FNR > 1 { split($3, v, ","); for (i = 1; i <= n; i++) if (v[3] <= ram[i] && v[4] <= cost[i] && v[18] > db[i] + 1e-6) print "sweep: " $2 " in " ram[i], cost[i] }
         END {
-            if (answers < 2) print answers " answers"
+            if (answers < 4) print answers " answers"
             for (i = 1; i <= n; i++) for (k = 1; k <= n; k++)
                 if (ram[k] >= ram[i] && cost[k] >= cost[i] && db[k] < db[i]) print ram[k], cost[k] ": " db[k] ", but in " ram[i], cost[i] ": " db[i]
         }' "$tmp/answers" "$csv" >"$tmp/found"
