@@ -10,6 +10,8 @@
 #   firmware/   boards, ports, displays, and what they take of flash, RAM and stack
 #   documents/  rules of the source, and documents that say what is so
 #   bench/      instructions against baselines
+#
+# THOROUGH=1, as make soak runs it: also combinations whose parts are tested each.
 cd "$(dirname "$0")/.." || exit 1
 run=build/tmp/run
 export WERROR=-Werror # of every make
@@ -62,8 +64,9 @@ pictures="test_accuracy test_rows test_seams"
 build all $(for name in $pictures test_extremes test_extremes_light test_extremes_many test_oiio make_report gen_tables; do echo "build/$name"; done)
 for name in $pictures; do job $name build/$name; done
 
-# Scripts that take long go first, so that none of them is left alone in the end.
-scripts="tests/firmware/test_boards.sh tests/property/test_config.sh tests/tool/test_compile.sh tests/firmware/test_size.sh"
+# Scripts that take long go first, so that none of them is left alone in the end; before those that fill two cores, those that fill one.
+scripts="tests/firmware/test_absent.sh tests/tool/test_sweep.sh tests/tool/test_compile.sh tests/tool/test_tool.sh tests/firmware/test_boards.sh
+    tests/property/test_config.sh tests/oracle/test_compact.sh tests/firmware/test_size.sh tests/firmware/test_pico.sh"
 for script in $scripts $(ls tests/*/test_*.sh); do
     name=$(basename "$script" .sh).sh
     grep -q "^$name " build/tmp/jobs || job "$name" "sh $script build/gnomon"
@@ -87,13 +90,13 @@ constants() {
     build constant-programs WERROR= BUILD=build/test/"$1" CC=clang OPT=-O1 SAN="$sanitizers" CONSTANTS="$2"
     for program in build/test/"$1"/test_*; do job "$1/$(basename "$program")" "SCENES=4000 $program"; done
 }
-constants tiny "-DGN_PRESET=0 -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=64"
 constants balanced "-DGN_PRESET=1 -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=256"
-constants accurate "-DGN_PRESET=2 -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=128"
+[ -z "$THOROUGH" ] || constants tiny "-DGN_PRESET=0 -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=64"
+[ -z "$THOROUGH" ] || constants accurate "-DGN_PRESET=2 -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=128"
 
-build build/test/threads/test_cores BUILD=build/test/threads SAN=-fsanitize=thread
+build build/test/threads/test_cores BUILD=build/test/threads OPT=-O1 SAN=-fsanitize=thread
 job threads/test_cores build/test/threads/test_cores
-build build/test/memory/test_random BUILD=build/test/memory CC=clang SAN=-fsanitize=memory
+build build/test/memory/test_random BUILD=build/test/memory CC=clang OPT=-O1 SAN=-fsanitize=memory
 job memory/test_random "SCENES=4000 build/test/memory/test_random"
 
 # ---- What is run -----------------------------------------------------------------------------------------------------------

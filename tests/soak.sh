@@ -9,9 +9,10 @@
 # math      every operand of the reciprocal and of the root (tests/unit/test_math.c)
 # models    the accuracy of meshes that MODELS names (tests/oracle/test_accuracy.c), a minute each
 # accuracy, rows, seams    hundreds of pictures against floors, which make test draws without sanitizers: a quarter of an hour
+# suite     make test with THOROUGH=1: also the combinations whose parts it tests each, half an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random math culling census accuracy rows seams ${MODELS:+models }extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random math culling census accuracy rows seams suite ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
@@ -31,12 +32,26 @@ campaign() {
     echo "$1: seed $SEED$([ "$2" = 0 ] || echo ", $SCENES scenes")"
     start=$(date +%s)
     SOAK=1 SEED=$SEED SCENES=$SCENES "$program" $option >$build/$1.out
-    status=$?
+    record $? "$1"
+}
+
+suite() {
+    echo suite
+    start=$(date +%s)
+    (
+        unset SEED SCENES # of programs that are campaigns of their own, and of make run
+        THOROUGH=1 sh tests/run.sh >$build/suite.out
+    )
+    SCENES=0 record $? suite
+}
+
+record() { # record STATUS NAME: what its last line counts
+    status=$1 && shift
     line=$(tail -n 1 $build/$1.out | grep -E '^[0-9]+ passed, [0-9]+ failed$')
     p=$(echo "${line:-0}" | cut -d' ' -f1) f=$(echo "${line:-0 passed, 1 failed}" | cut -d' ' -f3)
     [ "$status" = 0 ] || [ "$f" -gt 0 ] || f=1
     passed=$((passed + p)) failed=$((failed + f))
-    grep -E '^seed|failed:' $build/$1.out | head -n 20
+    grep -E '^seed|failed:|[1-9][0-9]* failed .*s$' $build/$1.out | head -n 20
     echo "$(date -u +%Y-%m-%d) $1 seed $SEED scenes $SCENES: $p passed, $f failed in $(($(date +%s) - start)) s" | tee -a build/soak.log
 }
 
@@ -45,6 +60,7 @@ for name in $CAMPAIGNS; do
     case $name in
     random) campaign random 1000000 ;;
     extremes) campaign extremes 20000 ;;
+    suite) suite ;;
     census | culling | math | models | accuracy | rows | seams) campaign $name 0 ;;
     *) echo "no such campaign: $name" && failed=$((failed + 1)) ;;
     esac

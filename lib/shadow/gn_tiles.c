@@ -63,7 +63,7 @@ static uint8_t weight_of(const gn_frame *frame, const gn_light_state *light)
 }
 
 /* Tiles that each light requests: one per cascade of a directional light, six of a point light, else one. [P5] [D1] */
-static void wish(gn_frame *frame, gn_tile_plan *plan)
+static void request_tiles(gn_frame *frame, gn_tile_plan *plan)
 {
     const gn_scene *scene = frame->scene;
     for (uint32_t l = 0; l < scene->n_lights; l++) {
@@ -192,7 +192,7 @@ static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_oth
 
 gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS])
 {
-    wish(frame, plan);
+    request_tiles(frame, plan);
     gn_status status = plan_atlas(frame, plan, 0, GN_MAX_SHADOW_TILES, GN_K(frame, atlas_size));
     if (GN_OTHER_ATLAS && !status)
         status = plan_atlas(frame, plan, 1, GN_MAX_OTHER_TILES, GN_K(frame, other_atlas_size));

@@ -54,7 +54,7 @@ done
 
 # Hot functions go where the port says, each by itself, and nowhere else than others if it says nothing.
 section=.time_critical.gnomon
-sections() { gcc -std=c99 -O2 -ffunction-sections -Ilib -Iport -Iport/portable '-DGN_PORT="gn_port_portable.h"' "$@" -c lib/gnomon.c -o "$tmp/hot.o" && objdump -h "$tmp/hot.o" | awk '{ print $2 }' >"$tmp/sections"; }
+sections() { gcc -std=c99 -O0 -ffunction-sections -Ilib -Iport -Iport/portable '-DGN_PORT="gn_port_portable.h"' "$@" -c lib/gnomon.c -o "$tmp/hot.o" && objdump -h "$tmp/hot.o" | awk '{ print $2 }' >"$tmp/sections"; }
 sections "-DGN_PORT_HOT_SECTION=\"$section\"" && [ "$(grep -c "^$section\.[0-9]*$" "$tmp/sections")" -gt 50 ] && pass || fail "no hot functions in $section"
 [ "$(grep "^$section\." "$tmp/sections" | sort | uniq -d | wc -l)" = 0 ] && pass || fail "two hot functions in one section"
 sections && ! grep -q gnomon "$tmp/sections" && pass || fail "hot functions are placed, though no port says where"

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Every configuration builds without a warning with two compilers and draws what the host build draws of the same scene; what is
 # not built in is refused; wrong configurations do not build, and say why; capacities that are too small say how many they lack.
+# THOROUGH=1: each feature also alone, all but each also drawn, and more combinations.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
@@ -29,61 +30,78 @@ none=$(flags none) all=$(flags all)
 
 # ---- What must build, and draw the same ------------------------------------------------------------------------------------
 
+more() { [ -z "$THOROUGH" ] || echo "$@"; } # of parts that other configurations have, each
+
+# Seven configurations under shadows that together have of any two features one, the other, both; "none" has neither. Each feature is in
+# four of them, no two in the same four: 35 features at most.
+others=$(echo "$features" | grep -v -x SHADOWS)
+pairs() {
+    for feature in $others; do echo "$feature=$(most "$feature")"; done | awk '{ feature[NR] = $1 }
+        END {
+            for (a = 1; a < 8; a++) for (b = 1; b < a; b++) for (c = 1; c < b; c++) {
+                k++
+                for (i = 1; i < 8; i++) if (i != a && i != b && i != c) of[i] = of[i] " " feature[k]
+            }
+            for (i = 1; i < 8; i++) { gsub(/ +/, " ", of[i]); print "none SHADOWS=1" of[i] }
+        }'
+}
 {
     echo
     echo "none"
     echo "all"
+    pairs
     idle= # alone they have nothing to do: over shadows, or lights
     for feature in $features; do
         value=$(most "$feature")
         case $feature in
         *FILTER* | *CASC* | *BIAS | *PLANE | MAIN* | INCREM* | STATIC* | *BLOCKS | CASTER* | LINEAR* | TILE_IMP* | OBJECT_B*)
             idle="$idle $feature=$value"
-            echo "none SHADOWS=1 $feature=$value" ;;
-        TILE_LIGHTS) echo "none PUNCTUAL_LIGHTS=1 TILE_LIGHTS=1" ;;
-        *) echo "none $feature=$value" ;;
+            more "none SHADOWS=1 $feature=$value" ;;
+        TILE_LIGHTS) more "none PUNCTUAL_LIGHTS=1 TILE_LIGHTS=1" ;;
+        *) more "none $feature=$value" ;;
         esac
-        echo "all $feature=0"
+        echo "$([ "$THOROUGH" ] || echo "linked ")all $feature=0"
     done
     echo "none TILE_LIGHTS=1 $idle"
     echo "all VALIDATION=0"
-    echo "none SHADOWS=1 VALIDATION=0 tiny SRGB=0"
+    more "none SHADOWS=1 VALIDATION=0 tiny SRGB=0"
     for cut in VISIBLE_ALPHA CASTER_ALPHA MASKS; do
         echo "none SHADOWS=1 TEXTURES=1 $cut=1"
-        echo "all TEXTURES=0 VISIBLE_ALPHA=0 CASTER_ALPHA=0 MASKS=0 $cut=1"
+        more "all TEXTURES=0 VISIBLE_ALPHA=0 CASTER_ALPHA=0 MASKS=0 $cut=1"
     done
+    echo "none SHADOWS=1"
     echo "none SHADOWS=1 PUNCTUAL_LIGHTS=1"
     echo "none SHADOWS=1 PUNCTUAL_LIGHTS=1 MAIN_LIGHT=1 RECEIVER_PLANE=1"
-    echo "all PUNCTUAL_LIGHTS=0 BLENDED_CASCADES=0"
+    more "all PUNCTUAL_LIGHTS=0 BLENDED_CASCADES=0"
     echo "all PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0"
-    echo "all STATIC_LAYER=1 INCREMENTAL=0"
     echo "none SHADOWS=1 STATIC_LAYER=1 INCREMENTAL=1"
     for max in 0 1 2 3; do # with what builds upon kernels
-        echo "all FILTER_MAX=$max DISK_FILTER=0 RECEIVER_PLANE=$((max % 2))"
-        echo "all FILTER_MAX=$max LINEAR_KERNELS=0 DEPTH_BLOCKS=$((max % 2)) RECEIVER_PLANE=0"
+        $([ $max = 0 ] && echo more || echo echo) "all FILTER_MAX=$max DISK_FILTER=0 RECEIVER_PLANE=$((max % 2))"
+        more "all FILTER_MAX=$max LINEAR_KERNELS=0 DEPTH_BLOCKS=$((max % 2)) RECEIVER_PLANE=0"
     done
-    echo "all FILTER_MAX=0 DISK_FILTER=0 LINEAR_KERNELS=0 DEPTH_BLOCKS=0"
-    echo "all DISK_FILTER=0 LINEAR_KERNELS=0 RECEIVER_PLANE=0"
+    more "all FILTER_MAX=0 DISK_FILTER=0 LINEAR_KERNELS=0 DEPTH_BLOCKS=0"
+    more "all DISK_FILTER=0 LINEAR_KERNELS=0 RECEIVER_PLANE=0"
     for bits in "8 32" "16 8" "32 16"; do
         echo "DEPTH_BITS=${bits% *} OTHER_DEPTH_BITS=${bits#* } DEPTH_BLOCKS=$((${bits% *} / 16 % 2))"
     done
-    echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
+    more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
     echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 STATIC_LAYER=1"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
     for preset in tiny accurate; do # balanced is the default
         echo "$preset"
-        echo "$preset none"
-        echo "$preset all SRGB=0"
-        echo "-m32 $preset"
+        more "$preset none"
+        more "-m32 $preset"
     done
-    echo "-m32"
-    echo "-m32 none"
+    echo "tiny all SRGB=0"
+    more "accurate all SRGB=0"
+    more "-m32"
+    more "-m32 none"
     echo "-m32 all"
-    echo "-m32 all SHADOWS=0"
-    echo "-m32 all PUNCTUAL_LIGHTS=0 DEPTH_BITS=32"
+    more "-m32 all SHADOWS=0"
+    more "-m32 all PUNCTUAL_LIGHTS=0 DEPTH_BITS=32"
     echo "RUNTIME_KNOBS=1"
     echo "RUNTIME_KNOBS=1 SHADOWS=0"
-    echo "RUNTIME_KNOBS=1 FILTER_MAX=0"
+    more "RUNTIME_KNOBS=1 FILTER_MAX=0"
     echo "SUBPIXEL_BITS=8 MAX_TILE_REFS=65535"
     echo "MAX_TILE_REFS=65536 VERTEX_CACHE=4 MAX_LIGHTS=4 SURFACE_LIGHTS=4 MAX_OBJECTS=3"
     echo "MAX_WIDTH=56 MAX_HEIGHT=44 TILE_WIDTH=8 TILE_HEIGHT=1"
@@ -111,6 +129,15 @@ draws() {
     rm -f "$tmp/run$n" "$tmp/target$n" "$tmp/host$n"
 }
 
+# linked N FLAGS...: nothing is called that is not built; what is drawn without one feature, the seven of all pairs draw
+echo 'int main(void) { return 0; }' >"$tmp/nothing.c"
+linked() {
+    n=$1
+    shift
+    if gcc $strict -O0 $(flags "$@") -o "$tmp/run$n" lib/gnomon.c "$tmp/nothing.c" 2>"$tmp/log$n"; then echo ok
+    else echo "gcc: does not build: $*: $(grep -m 1 -E 'error|warning|undefined' "$tmp/log$n")"; fi
+}
+
 # every second line, from line $1 on; the compilers take turns, the faster one more often. Only gcc keeps functions that nobody calls, and so
 # finds what they call and is not built.
 some_draw() {
@@ -119,6 +146,7 @@ some_draw() {
         line=$((line + 1))
         [ $((line % 2)) = "$1" ] || continue
         case $words in
+        "linked "*) linked "$1" ${words#linked }; continue ;;
         "all "*=0) compiler=gcc ;;
         *) [ $((line / 2 % 4)) = 0 ] && compiler=gcc || compiler=clang ;;
         esac
@@ -137,6 +165,8 @@ if gcc $strict -O1 $host_knobs -Itests/support -o "$tmp/host_picture" lib/gnomon
     failed=$((failed + $(wc -l <"$tmp/wanted") - passed))
     grep -hv '^ok$' "$tmp"/drawn?
 else fail "the host build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
+
+[ "$(echo "$others" | wc -l)" -le 35 ] && pass || fail "more than 35 features: pairs() leaves some out"
 
 # file by file, as users build it: what each needs, it includes itself
 for flags in "" "$none" "$all" "$(flags MAX_WIDTH=1 MAX_HEIGHT=1 MAX_TRIANGLES=1 MAX_TILE_REFS=1 TILE_WIDTH=8 TILE_HEIGHT=1 ATLAS_SIZE=16 OTHER_ATLAS_SIZE=16 \

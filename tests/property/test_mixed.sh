@@ -92,8 +92,8 @@ cmp -s "$tmp/gn_prefix.h" lib/gn_prefix.h && pass || fail "lib/gn_prefix.h does 
 for which in general compact; do
     flags="-DGN_PREFIX=${which}_"
     [ $which = general ] || flags="$flags -DGN_COMPACT=1"
-    gcc -std=c99 -w -O1 -Ilib $flags -c lib/gnomon.c -o "$tmp/$which.lib.o" &&
-        gcc -std=c99 -Wall -Wextra -Werror -O1 -Ilib $flags -DDRAW=draw_$which -c tests/property/two_libraries.c -o "$tmp/$which.o"
+    gcc -std=c99 -w -O0 -Ilib $flags -c lib/gnomon.c -o "$tmp/$which.lib.o" &&
+        gcc -std=c99 -Wall -Wextra -Werror -O0 -Ilib $flags -DDRAW=draw_$which -c tests/property/two_libraries.c -o "$tmp/$which.o"
 done
 if gcc -Wall -o "$tmp/two" tests/property/two_libraries.c "$tmp"/general.o "$tmp"/general.lib.o "$tmp"/compact.o "$tmp"/compact.lib.o 2>"$tmp/log" &&
     [ "$("$tmp/two")" = "1 1" ]; then pass
