@@ -196,7 +196,7 @@ GN_HOT static void attributes_at(const gn_surface *s, const point *p, gn_corner 
         uint32_t q20 = s->base_q20[i]; /* < 2^28 */
         if (GN_BAKED_LIGHT && s->baked) {
             uint64_t baked =
-                (uint64_t)s->object->albedo_uq16[i] * (uint32_t)gn_max32(attribute(s, p, GN_ATTRIBUTE_BAKED + i), 0) >>
+                (uint64_t)s->albedo_uq16[i] * (uint32_t)gn_max32(attribute(s, p, GN_ATTRIBUTE_BAKED + i), 0) >>
                 12;
             q20 = baked > 1U << 23 ? 1U << 23 : q20 + (uint32_t)baked;
         }
@@ -485,25 +485,6 @@ GN_HOT void gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_su
     int32_t down = gn_min32(gn_max32(view->fit.ortho.ray_shift + up - 32, 0), 31);
     for (int i = 0; i < 2; i++)
         uv_q16[i] = coord_ortho(&view->fit.ortho.ray[i], px, py, z * (1 << up), down) + offset_q16[i];
-}
-
-GN_HOT GN_NOINLINE uint32_t gn_corner_attenuation(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
-                                                  const gn_light_view *view, int32_t x, int32_t y,
-                                                  const int32_t offset_q16[3])
-{
-    int32_t coord[3], up = 16 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q32 */
-    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
-    int32_t z = depth_at_pixel(l, frame, s, x, y), norm = gn_clz32((uint32_t)z) - 1;
-    int32_t down = gn_min32(gn_max32(view->fit.ortho.ray_shift + norm - 32, 0), 31);
-    for (int i = 0; i < 3; i++)
-        coord[i] = coord_ortho(&view->fit.ortho.ray[i], px, py, z * (1 << norm), down) + offset_q16[i];
-    gn_receiver r = {coord[0], coord[1], 0, {0, 0}, x, y};
-    if (coord[2] > 0) {
-        uint64_t share = up >= 0 ? (uint64_t)(uint32_t)coord[2] << up : (uint32_t)coord[2] >> -up;
-        r.depth_q32 = share > UINT32_MAX ? UINT32_MAX : (uint32_t)share;
-    }
-    gn_shadow_slopes(frame, s, view, NULL, r.slope_q28);
-    return gn_filter_attenuation(frame, view, &r);
 }
 
 GN_HOT static void place_directional(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,

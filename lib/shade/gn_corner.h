@@ -28,11 +28,9 @@ int gn_corner_place(const gn_lattice *lattice, const gn_frame *frame, const gn_s
 #endif
 
 #if GN_SHADOWS
-/* Tile coordinates of a pixel in a directional view, Q16 texels; and the exact attenuation there. */
+/* Tile coordinates of a pixel in a directional view, Q16 texels. */
 void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                   const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
-uint32_t gn_corner_attenuation(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
-                               const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3]);
 #endif
 
 /* A colour times irradiance, Q24, limited to 8. */

@@ -145,9 +145,8 @@ GN_HOT static void find_attenuations(const drawing *d, const gn_lattice_edge *ed
     step.depth_q31 *= 1 << log2;
     int known = edge->window && edge->window->view == edge->view &&
                 gn_window_row(d->s->frame, edge->window, &at, &step, n, out);
-    for (int32_t i = 0; i < n; i++) {
-        if (!known || out[i] == GN_WINDOW_UNKNOWN)
-            out[i] = lookup(d, edge, &at, d->x + d->first + i * (1 << log2), d->y + below);
+    for (int32_t i = 0; !known && i < n; i++) {
+        out[i] = lookup(d, edge, &at, d->x + d->first + i * (1 << log2), d->y + below);
         at.u_q16 += step.u_q16;
         at.v_q16 += step.v_q16;
         at.depth_q31 = (int32_t)((uint32_t)at.depth_q31 + (uint32_t)step.depth_q31); /* not used beyond the cell */

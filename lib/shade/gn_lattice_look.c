@@ -13,7 +13,7 @@
 
 #ifndef LL8
 
-#define LL8  2
+#define LL8 0
 #define LL16 0
 #define FL8  2
 #define FL16 3
@@ -471,6 +471,14 @@ GN_HOT static void blend_shares(const lattice_cell *cell, uint32_t slot, uint32_
         share_uq16[i] = cell->corner[i]->light[slot].view == first ? cell->corner[i]->fade_uq16 : 0;
 }
 
+/* Whether all corners lie in the view's tile, or less than a texel beyond it. */
+GN_HOT static int hardly_beyond(const places *p)
+{
+    uint32_t most = ((uint32_t)p->view->tile_texels << 16) + 131072, all = 0;
+    for (int i = 0; i < 4; i++) all |= (uint32_t)((uint32_t)p->u[i] + 65536 > most) | (uint32_t)((uint32_t)p->v[i] + 65536 > most);
+    return !all;
+}
+
 /* The shadow of a light: LIT, DARK, or EDGE, which is added. */
 GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contribution *light)
 {
@@ -515,10 +523,14 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
     }
     if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_DITHER) return SPLIT;
     /* one of several faces, or cascades, may stand for all of a small cell: tiles reach beyond their faces */
-    uint32_t one = cell->corner[0]->light[slot].view;
-    if (cell->size_log2 >= finest_log2(cell->frame) || one == GN_VIEW_NONE ||
-        find_places(cell, slot, one, &p) != PLACED)
+    for (left = cascaded ? 0 : views; left; left &= left - 1)
+        if (find_places(cell, slot, (uint32_t)first_bit(left), &p) == PLACED && hardly_beyond(&p)) break;
+    uint32_t own = cell->corner[0]->light[slot].view;
+    if (!left && (cell->size_log2 >= finest_log2(cell->frame) || own == GN_VIEW_NONE ||
+                  find_places(cell, slot, own, &p) != PLACED))
         return SPLIT;
+    if (places_hold(cell, &p) == BEND && cell->size_log2 > 1) return SPLIT;
+    gn_shadow_slopes(cell->frame, cell->s, p.view, cell->corner[0]->light[slot].from_q16, slope);
     return add_edge(cell, slot, &p, slope, light, light->more_uq16) ? EDGE : SPLIT;
 }
 #else

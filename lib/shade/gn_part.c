@@ -102,17 +102,15 @@ GN_HOT static void store_row(gn_shading *s, int32_t x, int32_t y, int32_t n, con
 
 /* n pixels in a row, between two places. */
 GN_HOT static void mixed_chunk(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t n,
-                               const gn_receiver_step *from, const gn_receiver_step *step)
+                               gn_receiver_step *from, gn_receiver_step *step)
 {
     uint32_t attenuation[CHUNK];
     GN_COUNT(edge_lookups, n);
-    if (!gn_window_row(s->frame, look->window, from, step, n, attenuation))
-        for (int32_t i = 0; i < n; i++) attenuation[i] = GN_WINDOW_UNKNOWN;
-    for (int32_t i = 0; look->window->doubts && i < n; i++)
-        if (attenuation[i] == GN_WINDOW_UNKNOWN)
-            attenuation[i] = gn_corner_attenuation(&s->lattice, s->frame, &s->surface, look->window->view, x + i, y,
-                                                   look->offset_q16);
-    store_row(s, x, y, n, attenuation);
+    from->depth_q31 = gn_window_depth(look->window, from->u_q16, from->v_q16);
+    step->depth_q31 = gn_window_depth_step(look->window, step->u_q16, step->v_q16);
+    if (gn_window_row(s->frame, look->window, from, step, n, attenuation)) store_row(s, x, y, n, attenuation);
+    else
+        for (int32_t i = 0; i < n; i++) gn_exact_pixel(s, x + i, y);
 }
 
 /* What the window says of pixels between two places. */

@@ -30,7 +30,12 @@ GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_li
     if (!window->planar) return 0;
     window->slope_q30[0] = slope_q28[0] * 4;
     window->slope_q30[1] = slope_q28[1] * 4;
-    uint32_t per_half_q30 = on_plane ? 0 : 2 * (gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]));
+    uint32_t per_half_q30 = 2 * (gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]));
+    if (on_plane) { /* compared there, with what rounds to it */
+        window->behind_q30 = dropped ? -(1 << (dropped - 3)) : 0;
+        window->front_q30 = -window->behind_q30;
+        return 1;
+    }
     uint32_t halves = reach_halves(view), rounding = (dropped ? 1U << (dropped - 3) : 0) + 4 * GN_WINDOW_TEXELS + 16;
     int fast = GN_K(frame, persp_step) == 16;
     window->behind_q30 = (int32_t)(per_half_q30 * halves + rounding);
@@ -118,6 +123,7 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     int32_t depth = (int32_t)(first + behind) + slope[0] * left + slope[1] * (va - v0);
     int lit = gn_border_lit(view);
     uint32_t any = 0, all = UINT32_MAX, doubts = 0;
+    window->depth_q30 = (int32_t)first;
     GN_COUNT(window_texels, w * h);
     for (int32_t v = va, j = va - v0; v <= vb; v++, j++, depth += slope[1]) {
         uint32_t maybe, surely;
@@ -164,64 +170,102 @@ GN_HOT int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32
     return !(any & mask) ? GN_WINDOW_LIT : all == mask ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
 }
 
-/* Whether a texel that the filter reads at a place in the window is in doubt. */
-GN_HOT static int in_doubt(const gn_window *window, int32_t u, int32_t v)
+/* The least depth, Q32, of texels that leave a receiver lit. */
+GN_HOT static uint32_t least_depth(const gn_frame *frame, const gn_light_view *view, int32_t depth_q30)
 {
-    int32_t n = window->view->filter == GN_FILTER_HARD ? 1 : 2 * (window->view->filter_idx + 1);
-    uint32_t any = 0;
-    for (const uint32_t *row = &window->doubt[v >> 16], *end = row + n; row < end; row++) any |= *row;
-    return (any >> (u >> 16) & ((1U << (uint32_t)n) - 1U)) != 0;
+    uint32_t depth_q32 = depth_q30 < 0 ? 0 : depth_q30 >> 30 ? UINT32_MAX : (uint32_t)depth_q30 << 2;
+    return gn_rounded_depth(depth_q32, gn_dropped_bits(frame, view), gn_texel_far(GN_VIEW_BITS(view)));
+}
+
+/* Compares texels in doubt with the receiver itself: those of `doubt`, from texel s of row j on. Returns the dark ones.
+ */
+GN_HOT static uint32_t compare_doubts(const gn_window *window, int32_t s, int32_t j, uint32_t doubt, uint32_t least)
+{
+    const gn_light_view *view = window->view;
+    int32_t last = view->tile_texels - 1, v = gn_max32(0, gn_min32(window->v0 + j, last)), u = window->u0 + s;
+    gn_texels row = gn_view_texels(view, 0, v);
+    uint32_t dark = 0;
+    for (uint32_t bit = 1; doubt; bit <<= 1, u++) {
+        if (!(doubt & bit)) continue;
+        doubt ^= bit;
+        GN_COUNT(taps_lone, 1);
+        uint32_t texel = gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)gn_max32(0, gn_min32(u, last)));
+        if (texel < least) dark |= bit;
+    }
+    return dark;
+}
+
+/* Which of n x n texels from texel s of row j on keep a receiver dark, a byte per row. Returns the OR of all rows, and
+ * in the upper half their AND. */
+GN_HOT static uint32_t dark_texels(const gn_frame *frame, const gn_window *window, int32_t s, int32_t j, int32_t n,
+                                   int32_t depth_q30, uint8_t *dark)
+{
+    uint32_t mask = (1U << (uint32_t)n) - 1U, any = 0, all = mask, least = 0;
+    int known = 0;
+    for (int32_t i = 0; i < n; i++, j++) {
+        uint32_t bits = window->dark[j] >> s & mask, doubt = window->doubt[j] >> s & mask;
+        if (doubt) {
+            if (!known) least = least_depth(frame, window->view, depth_q30);
+            known = 1;
+            bits ^= doubt ^ compare_doubts(window, s, j, doubt, least);
+        }
+        dark[i] = (uint8_t)bits;
+        any |= bits;
+        all &= bits;
+    }
+    return any | all << 16;
 }
 
 /* 3x3, positions to 1/32 texel. */
-GN_HOT static void row_3x3(const gn_window *window, int32_t u, int32_t v, const gn_receiver_step *step, int32_t n,
-                           uint32_t *out)
+GN_HOT static void row_3x3(const gn_frame *frame, const gn_window *window, int32_t u, int32_t v, int32_t depth_q30,
+                           const gn_receiver_step *step, int32_t n, uint32_t *out)
 {
     u += 1024; /* rounded, not cut */
     v += 1024;
-    for (uint32_t *end = out + n; out < end; out++, u += step->u_q16, v += step->v_q16) {
+    for (uint32_t *end = out + n; out < end;
+         out++, u += step->u_q16, v += step->v_q16, depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31)) {
         const uint32_t *row = &window->dark[v >> 16];
         int32_t s = u >> 16;
         uint32_t a = row[0] >> s & 15U, b = row[1] >> s & 15U, c = row[2] >> s & 15U, d = row[3] >> s & 15U;
         *out = 65536;
         if (!(a | b | c | d)) continue;
-        if (window->doubts && in_doubt(window, u, v)) {
-            *out = GN_WINDOW_UNKNOWN;
-            continue;
+        if (window->doubts) {
+            const uint32_t *doubt = &window->doubt[v >> 16];
+            if ((doubt[0] | doubt[1] | doubt[2] | doubt[3]) >> s & 15U) {
+                uint8_t dark[4];
+                if (!(dark_texels(frame, window, s, v >> 16, 4, depth_q30, dark) & 15U)) continue;
+                a = dark[0], b = dark[1], c = dark[2], d = dark[3];
+            }
         }
+        *out = 0;
+        if ((a & b & c & d) == 15U) continue;
         const uint16_t *across = gn_tent_sums[u >> 11 & 31], *down = gn_tent_sums[v >> 11 & 31];
-        uint32_t dark = across[a] * (uint32_t)down[1] + across[b] * (uint32_t)down[2] + across[c] * (uint32_t)down[4];
-        *out -= (dark + across[d] * (uint32_t)down[8]) >> 8;
+        uint32_t sum = across[a] * (uint32_t)down[1] + across[b] * (uint32_t)down[2] + across[c] * (uint32_t)down[4];
+        *out = 65536 - ((sum + across[d] * (uint32_t)down[8]) >> 8);
     }
 }
 
-/* Any other tent, exactly. */
-GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const gn_window *window, int32_t u, int32_t v)
+/* Four texels. */
+GN_HOT static uint32_t by_2x2(const uint8_t dark[2], int32_t u, int32_t v, int32_t bits)
 {
-    int32_t k = window->view->filter - GN_FILTER_2X2, n = 2 * (k + 1);
-    uint8_t dark[GN_TENT_TAPS_MAX];
-    uint32_t any = 0, all = 255;
-    for (int32_t j = 0; j < n; j++) {
-        dark[j] = (uint8_t)(window->dark[(v >> 16) + j] >> (u >> 16) & ((1U << (uint32_t)n) - 1U));
-        any |= dark[j];
-        all &= dark[j];
-    }
-    if (!any) return 65536;
-    if (all == (1U << n) - 1) return 0;
-    return gn_tent_of_dark(frame, dark, k, u, v, GN_K(frame, weight_bits));
-}
-
-GN_HOT static uint32_t by_2x2(const gn_window *window, int32_t u, int32_t v, int32_t bits)
-{
-    const uint32_t *row = &window->dark[v >> 16];
-    uint32_t top = row[0] >> (u >> 16), bottom = row[1] >> (u >> 16), one = 1U << bits;
-    if (!((top | bottom) & 3U)) return 65536;
-    if ((top & bottom & 3U) == 3U) return 0;
-    uint32_t wu = gn_filter_fraction(u, bits), wv = gn_filter_fraction(v, bits);
-    uint32_t upper = (top & 1U ? one - wu : 0) + (top & 2U ? wu : 0),
-             lower = (bottom & 1U ? one - wu : 0) + (bottom & 2U ? wu : 0);
+    uint32_t wu = gn_filter_fraction(u, bits), wv = gn_filter_fraction(v, bits), one = 1U << bits;
+    uint32_t upper = (dark[0] & 1U ? one - wu : 0) + (dark[0] & 2U ? wu : 0),
+             lower = (dark[1] & 1U ? one - wu : 0) + (dark[1] & 2U ? wu : 0);
     uint32_t sum = (one - wv) * upper + wv * lower;
     return 65536 - (bits <= 8 ? sum << (16 - 2 * bits) : sum >> (2 * bits - 16));
+}
+
+/* Any other filter, exactly. */
+GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const gn_window *window, int32_t u, int32_t v,
+                                              int32_t depth_q30)
+{
+    int32_t filter = window->view->filter, k = filter - GN_FILTER_2X2,
+            n = filter == GN_FILTER_HARD ? 1 : 2 * (k + 1), bits = GN_K(frame, weight_bits);
+    uint8_t dark[GN_TENT_TAPS_MAX];
+    uint32_t found = dark_texels(frame, window, u >> 16, v >> 16, n, depth_q30, dark);
+    if (!(found & 0xFFFFU)) return 65536;
+    if (found >> 16 == (1U << n) - 1) return 0;
+    return filter == GN_FILTER_2X2 ? by_2x2(dark, u, v, bits) : gn_tent_of_dark(frame, dark, k, u, v, bits);
 }
 
 GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
@@ -234,16 +278,15 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
     if (!gn_window_covers(window, u0, v0, w, h)) return 0;
     int32_t shift = view->filter == GN_FILTER_HARD ? 0 : (view->filter_idx + 1) * 65536 - 32768;
     int32_t u = from->u_q16 - shift - window->u0 * 65536, v = from->v_q16 - shift - window->v0 * 65536;
+    int32_t depth_q30 = from->depth_q31;
     GN_COUNT(window_lookups, n);
     if (view->filter == GN_FILTER_3X3 && !(GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)) {
-        row_3x3(window, u, v, step, n, attenuation);
+        row_3x3(frame, window, u, v, depth_q30, step, n, attenuation);
         return 1;
     }
     for (int32_t i = 0; i < n; i++, u += step->u_q16, v += step->v_q16) {
-        if (window->doubts && in_doubt(window, u, v)) attenuation[i] = GN_WINDOW_UNKNOWN;
-        else if (view->filter == GN_FILTER_HARD) attenuation[i] = (~window->dark[v >> 16] >> (u >> 16) & 1U) << 16;
-        else if (view->filter == GN_FILTER_2X2) attenuation[i] = by_2x2(window, u, v, GN_K(frame, weight_bits));
-        else attenuation[i] = by_weights(frame, window, u, v);
+        attenuation[i] = by_weights(frame, window, u, v, depth_q30);
+        depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31); /* not used beyond the row */
     }
     return 1;
 }

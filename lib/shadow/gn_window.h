@@ -24,18 +24,28 @@ void gn_window_reads(const gn_light_view *view, int32_t lo_q16, int32_t hi_q16, 
  * the plane leaves the range of depths there. */
 int gn_window_compare(gn_window *window, const gn_window_place *place, int32_t u0, int32_t v0, int32_t w, int32_t h);
 
-#define GN_WINDOW_UNKNOWN UINT32_MAX
-
 GN_HOT static inline int gn_window_covers(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h)
 {
     return u0 >= window->u0 && v0 >= window->v0 && u0 + w <= window->u0 + window->w && v0 + h <= window->v0 + window->h;
 }
 
+/* Depth of the plane at tile coordinates in the window. */
+GN_HOT static inline int32_t gn_window_depth(const gn_window *window, int32_t u_q16, int32_t v_q16)
+{
+    int64_t du = u_q16 - window->u0 * 65536 - 32768, dv = v_q16 - window->v0 * 65536 - 32768;
+    return window->depth_q30 + (int32_t)((du * window->slope_q30[0] + dv * window->slope_q30[1]) >> 16);
+}
+
+GN_HOT static inline int32_t gn_window_depth_step(const gn_window *window, int32_t u_q16, int32_t v_q16)
+{
+    return (int32_t)(((int64_t)u_q16 * window->slope_q30[0] + (int64_t)v_q16 * window->slope_q30[1]) >> 16);
+}
+
 /* Of texels that it covers: GN_WINDOW_LIT, _DARK or _MIXED. */
 int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h);
 
-/* Attenuations of n receivers on the plane, GN_WINDOW_UNKNOWN where a texel is in doubt. Returns 0 if it does not cover
- * all. */
+/* Attenuations of n receivers on the plane; texels in doubt are compared with their depths, which are in Q30 here.
+ * Returns 0 if the window does not cover all. */
 int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
                   const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
 
