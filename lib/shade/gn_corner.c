@@ -97,8 +97,10 @@ GN_HOT static void begin_light(gn_lattice *l, const gn_frame *frame, const gn_su
 {
     const gn_light_state *light = s->light[slot].state;
     gn_lattice_light *out = &l->light[slot];
-    out->plain = light->strength_uq16 == 65536 && !s->masked;
     out->lifts = 0;
+    out->realtime = s->shadowed && gn_shadow_is_realtime(light, 65536);
+    out->lit_uq16 = out->dark_uq16 = 65536;
+    if (out->realtime) out->dark_uq16 = gn_shadow_mixed(frame, light, 65536, 65536, 0);
 #if GN_SHADOWS
     if (!s->shadowed || light->view_idx < 0) return;
     const gn_light_view *view = &frame->view[light->view_idx];

@@ -198,38 +198,65 @@ GN_HOT static uint32_t size_over_distance_q12(const lattice_cell *cell, uint32_t
     return (gn_quotient_q30(across, nearest) >> 18) + 1;
 }
 
-/* Whether nothing of a light arrives anywhere in the cell if nothing arrives at its corners. Range and cone are convex:
- * no point of the cell is farther from the middle of its longer diagonal than half of that. */
+/* Squares of both diagonals of the corners' positions, a quarter of their sum: the points of a cell scatter about their
+ * mean by no more. */
+GN_HOT static uint64_t scatter_q32(const int32_t *const p[4])
+{
+    uint64_t sum = 0;
+    for (int i = 0; i < 3; i++) {
+        int64_t one = ((int64_t)p[3][i] - p[0][i]) >> 1, other = ((int64_t)p[2][i] - p[1][i]) >> 1;
+        sum += (uint64_t)(one * one) + (uint64_t)(other * other);
+    }
+    return sum + 16;
+}
+
+GN_HOT static uint64_t share_q30_of(uint64_t v, uint32_t share_q30)
+{
+    return (v >> 30) * share_q30 + ((v & ((1U << 30) - 1)) * share_q30 >> 30);
+}
+
+/* Whether all of the cell faces away from a light: n . p is that of the corners in the mean, less what both scatter by.
+ */
+GN_HOT static int faces_away(const lattice_cell *cell, const int32_t *const p[4])
+{
+    const int32_t *n = cell->s->normal_q30[0];
+    if (!GN_SMOOTH(cell->s)) return gn_dot_q30(n, p[0]) >= 0; /* all of it, or nothing */
+#if GN_VERTEX_NORMALS
+    int64_t least = INT64_MAX;
+    for (int i = 0; i < 4; i++) {
+        int64_t away = gn_dot_q30(cell->corner[i]->normal_q30, p[i]);
+        if (away < least) least = away;
+    }
+    uint64_t turn = turn_q12(cell), size = diagonal(p[0], p[1], p[2], p[3]);
+    return least > (int64_t)(turn * size >> 14) + 16;
+#else
+    return 0;
+#endif
+}
+
+/* Whether nothing of a light arrives anywhere in the cell if nothing arrives at its corners. The squares of a point's
+ * distance, and of its distance along the axis, are those of the corners in the mean, less what they scatter by. */
 GN_HOT static int stays_dark(const lattice_cell *cell, uint32_t slot)
 {
     const gn_light_state *light = cell->s->light[slot].state;
     const int32_t *p[4];
-    int64_t size = 0, middle[3];
-    uint64_t d2 = 0, across;
-    for (int i = 0; i < 4; i++) p[i] = cell->corner[i]->light[slot].from_q16;
-    across = ((uint64_t)diagonal(p[0], p[1], p[2], p[3]) >> 1) + 64;
-    for (int i = 0; i < 3; i++) {
-        middle[i] = ((int64_t)p[0][i] + p[3][i]) >> 1;
-        size += (int64_t)gn_abs64(middle[i]);
-        d2 += (uint64_t)(middle[i] * middle[i]);
+    uint64_t d2[4], nearest = UINT64_MAX;
+    for (int i = 0; i < 4; i++) {
+        p[i] = cell->corner[i]->light[slot].from_q16;
+        if ((gn_abs32(p[i][0]) | gn_abs32(p[i][1]) | gn_abs32(p[i][2])) >> 30) return 0;
+        d2[i] = (uint64_t)gn_dot64(p[i], p[i]);
+        if (d2[i] < nearest) nearest = d2[i];
     }
-    if (!GN_SMOOTH(cell->s)) { /* all of it faces the light, or nothing */
-        int64_t facing = -gn_shr64(cell->s->normal_q30[0][0] * middle[0] + cell->s->normal_q30[0][1] * middle[1] +
-                                       cell->s->normal_q30[0][2] * middle[2],
-                                   30);
-        if (facing <= 0) return 1;
-    }
-    if (8 * (int64_t)across > size) return 0;
-    if (d2 >= light->range2_q32 && d2 - light->range2_q32 > 2 * across * (uint64_t)size + across * across) return 1;
+    if (faces_away(cell, p)) return 1;
+    uint64_t scatter = scatter_q32(p);
+    if (nearest >= scatter && nearest - scatter >= light->range2_q32) return 1;
     if (light->kind != GN_LIGHT_SPOT) return 0;
-    const int32_t at[3] = {(int32_t)middle[0], (int32_t)middle[1], (int32_t)middle[2]};
-    /* cos(outer / 2) |p| is more than the light-plane distance, even if both change by half the diagonal */
-    int32_t drop = gn_max32(0, 17 - gn_clz32((uint32_t)(size >> 1) | 1U));
-    int64_t along = (-gn_dot_q30(at, light->to_light_q30) + 2 * (int64_t)across + (size >> 12)) >> drop;
-    if (along < 0) return 1;
-    if (along >= 65535) return 0;
-    uint64_t cosine = (uint64_t)(light->cos_outer_q30 >> 15), scaled2 = d2 >> (2 * drop);
-    return scaled2 >> 33 ? 0 : scaled2 * (cosine * cosine) > (uint64_t)((along + 1) * (along + 1)) << 30;
+    uint32_t cos2_q30 = (uint32_t)((uint64_t)light->cos_outer_q30 * (uint64_t)light->cos_outer_q30 >> 30);
+    for (int i = 0; i < 4; i++) {
+        int64_t along = gn_dot_q30(p[i], light->to_light_q30);
+        if (d2[i] < scatter || share_q30_of(d2[i] - scatter, cos2_q30) < (uint64_t)(along * along) + 65536) return 0;
+    }
+    return 1;
 }
 #endif
 
@@ -474,8 +501,8 @@ GN_HOT static void blend_shares(const lattice_cell *cell, uint32_t slot, uint32_
 /* Whether all corners lie in the view's tile, or less than a texel beyond it. */
 GN_HOT static int hardly_beyond(const places *p)
 {
-    uint32_t most = ((uint32_t)p->view->tile_texels << 16) + 131072, all = 0;
-    for (int i = 0; i < 4; i++) all |= (uint32_t)((uint32_t)p->u[i] + 65536 > most) | (uint32_t)((uint32_t)p->v[i] + 65536 > most);
+    uint32_t most = ((uint32_t)p->view->tile_texels << 16) + 16384, all = 0;
+    for (int i = 0; i < 4; i++) all |= (uint32_t)((uint32_t)p->u[i] + 8192 > most) | (uint32_t)((uint32_t)p->v[i] + 8192 > most);
     return !all;
 }
 
@@ -485,15 +512,15 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
     uint32_t views = views_of(cell, slot), left = views;
     int all = -1;
     int32_t slope[2];
+    const int32_t *from = NULL;
     places p;
     if (!views) return LIT;
+#if GN_PUNCTUAL_LIGHTS
+    from = cell->corner[0]->light[slot].from_q16;
+#endif
     for (; left; left &= left - 1) {
         int placed = find_places(cell, slot, (uint32_t)first_bit(left), &p);
         if (placed == PLACED_PARTLY) return SPLIT;
-        const int32_t *from = NULL;
-#if GN_PUNCTUAL_LIGHTS
-        from = cell->corner[0]->light[slot].from_q16;
-#endif
         gn_shadow_slopes(cell->frame, cell->s, p.view, from, slope);
         int one = placed == PLACED_NOWHERE ? LIT : verdict(cell, slot, (uint32_t)first_bit(left), &p, slope);
         if (one == SPLIT) return SPLIT;
@@ -530,7 +557,7 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
                   find_places(cell, slot, own, &p) != PLACED))
         return SPLIT;
     if (places_hold(cell, &p) == BEND && cell->size_log2 > 1) return SPLIT;
-    gn_shadow_slopes(cell->frame, cell->s, p.view, cell->corner[0]->light[slot].from_q16, slope);
+    gn_shadow_slopes(cell->frame, cell->s, p.view, from, slope);
     return add_edge(cell, slot, &p, slope, light, light->more_uq16) ? EDGE : SPLIT;
 }
 #else
@@ -589,13 +616,13 @@ GN_HOT static int find_shares(const lattice_cell *cell, uint32_t slot, contribut
 {
     const gn_light_state *light = cell->s->light[slot].state;
     int realtime = 0, masks = 0;
-    if (cell->near && cell->lattice->light[slot].plain) {
-        realtime = cell->s->shadowed && light->view_idx >= 0;
+    if (cell->near && !cell->s->masked) {
+        const gn_lattice_light *near = &cell->lattice->light[slot];
         for (int i = 0; i < 4; i++) {
-            out->dark_uq16[i] = realtime ? 0 : 65536;
-            out->more_uq16[i] = realtime ? 65536 : 0;
+            out->dark_uq16[i] = near->dark_uq16;
+            out->more_uq16[i] = near->lit_uq16 - near->dark_uq16;
         }
-        return realtime;
+        return near->realtime;
     }
     for (int i = 0; i < 4; i++) {
         uint32_t g = cell->corner[i]->g_uq16, mask = 65536, lit = 65536, dark = 0;
