@@ -472,6 +472,13 @@ GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_
     l->cascade = certain_cascade(frame, &e);
 }
 
+GN_HOT void gn_corner_cascade(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y,
+                              gn_sample *sample)
+{
+    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    gn_sample_find_cascade(frame, px, py, depth_at_pixel(l, frame, s, x, y), sample);
+}
+
 /* A coordinate of a directional view. */
 GN_HOT static inline int32_t coord_ortho(const gn_ray_plane *r, int32_t px, int32_t py, int32_t z, int32_t down)
 {

@@ -14,12 +14,21 @@
 
 enum { CHUNK_LOG2 = 4, CHUNK = 1 << CHUNK_LOG2 };
 
+/* A view of the light whose shadow has an edge in the part. */
+typedef struct {
+    const gn_window *window; /* NULL: none */
+    int said;                /* of the whole part */
+    int32_t offset_q16[3];   /* of receivers */
+} part_view;
+
 /* What falls on the part. */
 typedef struct {
     uint32_t dark_q20[3], more_q20[3]; /* without and with the light whose shadow has an edge */
-    const gn_window *window;           /* of that light; NULL: none */
+    uint32_t lit, dark;                /* their pixels */
+    int mixed;                         /* whether there is such a light, in this slot, */
     uint32_t slot;
-    int32_t offset_q16[3]; /* of receivers in its view */
+    int cascaded;            /* which has cascades */
+    part_view view[4];       /* of them those that corners of the part see */
 } part_look;
 
 GN_HOT void gn_part_begin(gn_shading *s)
@@ -33,33 +42,72 @@ GN_HOT void gn_part_begin(gn_shading *s)
 /* ---- Lights ------------------------------------------------------------------------------------------------------ */
 
 #if GN_SHADOWS
-/* What a light's window says of the whole part. */
-GN_HOT static int window_of_part(gn_shading *s, uint32_t slot, const gn_window **window)
+/* Views that corners of the part look into, a bit each. */
+GN_HOT static uint32_t views_of_part(gn_shading *s, int cascaded)
+{
+    const gn_lattice *l = &s->lattice;
+    int blends = GN_BLENDED_CASCADES && s->frame->scene->shadow.blend != GN_BLEND_HARD;
+    uint32_t views = 0;
+    if (!cascaded) return 1;
+    if (l->cascade >= 0) return l->cascade == GN_CASCADE_NONE ? 0 : 1U << l->cascade;
+    for (int i = 0; i < 4; i++) {
+        gn_corner_cascade(l, s->frame, &s->surface, i & 1 ? gn_min32(l->x_end, l->x + GN_PART_WIDTH) - 1 : l->x,
+                          i & 2 ? gn_min32(l->y + l->n_rows, l->y_end) - 1 : l->y, &s->sample);
+        int32_t cascade = s->sample.cascade;
+        if (cascade == GN_CASCADE_NONE) continue;
+        views |= 1U << cascade;
+        if (blends && s->sample.value[GN_VALUE_FADE] < 65536 && cascade != GN_LAST_CASCADE(s->frame))
+            views |= 1U << s->frame->cascade[cascade].next;
+    }
+    return views;
+}
+
+/* What a light's windows say of the whole part. */
+GN_HOT static int windows_of_part(gn_shading *s, uint32_t slot, part_look *look)
 {
     gn_lattice *l = &s->lattice;
-    const gn_light_state *light = s->surface.light[slot].state;
-    int cascaded = !s->frame->view[light->view_idx].border_lit;
-    if (cascaded && l->cascade == GN_CASCADE_NONE) return GN_WINDOW_LIT;
-    gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, cascaded ? (uint32_t)l->cascade : 0, l->x, NULL);
-    *window = NULL;
-    if (!w || !w->w) return GN_WINDOW_MIXED;
-    l->part_end = gn_min32(l->part_end, w->until_x);
-    *window = w;
-    return !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
+    const gn_light_view *first = &s->frame->view[s->surface.light[slot].state->view_idx];
+    int cascaded = !first->border_lit, all = -1;
+    uint32_t views = views_of_part(s, cascaded);
+    part_view found[4];
+    for (uint32_t i = 0; i < 4; i++) {
+        found[i].window = NULL;
+        found[i].said = GN_WINDOW_MIXED;
+        if (!(views >> i & 1U)) continue;
+        const gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->x, NULL);
+        if (w && w->w) {
+            l->part_end = gn_min32(l->part_end, w->until_x);
+            found[i].window = w;
+            found[i].said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
+        }
+        if (all >= 0 && all != found[i].said) all = GN_WINDOW_MIXED;
+        else all = found[i].said;
+    }
+    if (all < 0) return GN_WINDOW_LIT;
+    if (all == GN_WINDOW_DARK && l->cascade < 0) all = GN_WINDOW_MIXED; /* it may fade */
+    if (all != GN_WINDOW_MIXED) return all;
+    look->slot = slot;
+    look->cascaded = cascaded;
+    for (uint32_t i = 0; i < 4; i++) {
+        look->view[i] = found[i];
+        if (found[i].window)
+            gn_sample_offset(s->frame, &s->surface, slot, first + i, s->surface.normal_q30[0], look->view[i].offset_q16);
+    }
+    return all;
 }
 #else
-GN_HOT static int window_of_part(gn_shading *s, uint32_t slot, const gn_window **window)
+GN_HOT static int windows_of_part(gn_shading *s, uint32_t slot, part_look *look)
 {
-    (void)s, (void)slot, (void)window;
+    (void)s, (void)slot, (void)look;
     return GN_WINDOW_LIT;
 }
 #endif
 
-/* Returns 0 if the shadows of several lights have edges in the part, or one without a window. */
+/* Returns 0 if the shadows of several lights have edges in the part. */
 GN_HOT static int find_lights(gn_shading *s, part_look *look)
 {
     const gn_surface *surface = &s->surface;
-    look->window = NULL;
+    look->mixed = 0;
     for (int c = 0; c < 3; c++) {
         look->dark_q20[c] = surface->base_q20[c];
         look->more_q20[c] = 0;
@@ -68,10 +116,12 @@ GN_HOT static int find_lights(gn_shading *s, part_look *look)
         const gn_surface_light *light = &surface->light[i];
         uint32_t share = 65536;
         int said = GN_WINDOW_LIT;
-        const gn_window *window = NULL;
         int32_t e = gn_max32(light->cosine_q24[0], 0);
-        if (surface->shadowed && gn_shadow_is_realtime(light->state, 65536)) said = window_of_part(s, i, &window);
-        if (said == GN_WINDOW_MIXED && (!window || look->window)) return 0;
+        if (surface->shadowed && gn_shadow_is_realtime(light->state, 65536)) {
+            part_look other;
+            said = windows_of_part(s, i, look->mixed ? &other : look);
+        }
+        if (said == GN_WINDOW_MIXED && look->mixed) return 0;
         if (said != GN_WINDOW_LIT) share = 65536 - light->state->strength_uq16;
         for (int c = 0; c < 3; c++) {
             uint32_t all = (uint32_t)gn_corner_times(light->radiance_uq16[c], e) >> 4,
@@ -79,9 +129,7 @@ GN_HOT static int find_lights(gn_shading *s, part_look *look)
             look->dark_q20[c] += dark;
             if (said == GN_WINDOW_MIXED) look->more_q20[c] = all - dark;
         }
-        if (said != GN_WINDOW_MIXED) continue;
-        look->window = window;
-        look->slot = i;
+        if (said == GN_WINDOW_MIXED) look->mixed = 1;
     }
     return 1;
 }
@@ -100,61 +148,153 @@ GN_HOT static void store_row(gn_shading *s, int32_t x, int32_t y, int32_t n, con
     for (int32_t i = 0; i < n; i++) gn_pixel_store(s->frame, &s->rows, x + i, y, gn_levels_pixel(s, attenuation[i]));
 }
 
-/* n pixels in a row, between two places. */
-GN_HOT static void mixed_chunk(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t n,
-                               gn_receiver_step *from, gn_receiver_step *step)
-{
-    uint32_t attenuation[CHUNK];
-    GN_COUNT(edge_lookups, n);
-    from->depth_q31 = gn_window_depth(look->window, from->u_q16, from->v_q16);
-    step->depth_q31 = gn_window_depth_step(look->window, step->u_q16, step->v_q16);
-    if (gn_window_row(s->frame, look->window, from, step, n, attenuation)) store_row(s, x, y, n, attenuation);
-    else
-        for (int32_t i = 0; i < n; i++) gn_exact_pixel(s, x + i, y);
-}
+/* Where a row of pixels is seen: between two of them. */
+typedef struct {
+    int32_t at[2], last[2]; /* u, v */
+} row_ends;
 
-/* What the window says of pixels between two places. */
-GN_HOT static int judge(const gn_window *window, const int32_t a_q16[2], const int32_t b_q16[2])
+/* What a view's window says of pixels between two places. */
+GN_HOT static int judge(const part_view *view, const row_ends *row)
 {
     int32_t first[2], n[2];
+    if (view->said != GN_WINDOW_MIXED || !view->window) return view->said;
     for (int i = 0; i < 2; i++)
-        gn_window_reads(window->view, gn_min32(a_q16[i], b_q16[i]) - 16, gn_max32(a_q16[i], b_q16[i]) + 1040, &first[i],
-                        &n[i]);
-    if (!gn_window_covers(window, first[0], first[1], n[0], n[1])) return GN_WINDOW_MIXED;
-    return gn_window_says(window, first[0], first[1], n[0], n[1]);
+        gn_window_reads(view->window->view, gn_min32(row->at[i], row->last[i]) - 16,
+                        gn_max32(row->at[i], row->last[i]) + 1040, &first[i], &n[i]);
+    if (!gn_window_covers(view->window, first[0], first[1], n[0], n[1])) return GN_WINDOW_MIXED;
+    return gn_window_says(view->window, first[0], first[1], n[0], n[1]);
 }
 
-/* Pixels of one row, in chunks that are in or out of the shadow, or between places at their ends. */
-GN_HOT static void mixed_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end, uint32_t lit,
-                              uint32_t dark)
+/* Attenuations of n pixels in a row, `ahead` of them from its first place to its last. Returns 0 if there is no
+ * window. */
+GN_HOT static int attenuations(const gn_shading *s, const part_view *view, const row_ends *row, int32_t n,
+                               int32_t ahead, uint32_t *out)
 {
-    const gn_light_view *view = look->window->view;
-    int32_t at[2], next[2];
-    gn_corner_uv(&s->lattice, s->frame, &s->surface, view, x, y, look->offset_q16, at);
+    gn_receiver_step from = {row->at[0], row->at[1], 0}, step = {0, 0, 0};
+    if (!view->window) return 0;
+    GN_COUNT(edge_lookups, n);
+    if (ahead) {
+        step.u_q16 = gn_step_of(row->at[0], row->last[0], ahead);
+        step.v_q16 = gn_step_of(row->at[1], row->last[1], ahead);
+    }
+    from.depth_q31 = gn_window_depth(view->window, from.u_q16, from.v_q16);
+    step.depth_q31 = gn_window_depth_step(view->window, step.u_q16, step.v_q16);
+    return gn_window_row(s->frame, view->window, &from, &step, n, out);
+}
+
+GN_HOT static void shade_row_exactly(gn_shading *s, int32_t x, int32_t y, int32_t n)
+{
+    for (; n > 0; n--, x++) gn_exact_pixel(s, x, y);
+}
+
+/* Pixels of one row in a view, in chunks that are in or out of the shadow, or between places at their ends. */
+GN_HOT static void mixed_span(gn_shading *s, const part_look *look, const part_view *view, int32_t x, int32_t y,
+                              int32_t end)
+{
+    row_ends row;
+    uint32_t attenuation[CHUNK];
+    gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row.at);
     for (int32_t n; x < end; x += n) {
         n = gn_min32(end - x, CHUNK);
         int32_t ahead = x + n < end ? n : n - 1;
-        gn_receiver_step from = {at[0], at[1], 0}, step = {0, 0, 0};
-        next[0] = at[0];
-        next[1] = at[1];
-        if (ahead) gn_corner_uv(&s->lattice, s->frame, &s->surface, view, x + ahead, y, look->offset_q16, next);
-        int said = judge(look->window, at, next);
-        if (said == GN_WINDOW_MIXED) {
-            if (ahead) {
-                step.u_q16 = gn_step_of(at[0], next[0], ahead);
-                step.v_q16 = gn_step_of(at[1], next[1], ahead);
-            }
-            mixed_chunk(s, look, x, y, n, &from, &step);
-        } else gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? lit : dark);
-        at[0] = next[0];
-        at[1] = next[1];
+        row.last[0] = row.at[0];
+        row.last[1] = row.at[1];
+        if (ahead)
+            gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x + ahead, y, view->offset_q16,
+                         row.last);
+        int said = judge(view, &row);
+        if (said != GN_WINDOW_MIXED) gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? look->lit : look->dark);
+        else if (attenuations(s, view, &row, n, ahead, attenuation)) store_row(s, x, y, n, attenuation);
+        else shade_row_exactly(s, x, y, n);
+        row.at[0] = row.last[0];
+        row.at[1] = row.last[1];
     }
 }
-#else
-GN_HOT static void mixed_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end, uint32_t lit,
-                              uint32_t dark)
+
+/* The cascade of a pixel, its share in a blend, and how far shadows fade there. */
+typedef struct {
+    int32_t cascade;
+    uint32_t fade_uq16, g_uq16;
+} row_end;
+
+GN_HOT static row_end cascade_at(gn_shading *s, int32_t x, int32_t y)
 {
-    (void)s, (void)look, (void)x, (void)y, (void)end, (void)lit, (void)dark;
+    gn_corner_cascade(&s->lattice, s->frame, &s->surface, x, y, &s->sample);
+    row_end out = {s->sample.cascade, (uint32_t)s->sample.value[GN_VALUE_FADE],
+                   gn_shadow_distance(s->frame, &s->surface, &s->sample)};
+    return out;
+}
+
+/* Attenuations of a row in one view, with what is known of all of it. Returns what that is; -1: nothing can be told. */
+GN_HOT static int attenuations_in(gn_shading *s, const part_view *view, int32_t x, int32_t y, int32_t n, uint32_t *out)
+{
+    int said = view->said;
+    if (said == GN_WINDOW_MIXED) {
+        row_ends row;
+        if (!view->window) return -1;
+        gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row.at);
+        gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x + n - 1, y, view->offset_q16, row.last);
+        said = judge(view, &row);
+        if (said == GN_WINDOW_MIXED) return attenuations(s, view, &row, n, n - 1, out) ? said : -1;
+    }
+    for (int32_t i = 0; i < n; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
+    return said;
+}
+
+/* Pixels of one row where shadows fade, or cascades blend: shares are linear along chunks. */
+GN_HOT static void fading_chunk(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t n, const row_end *a,
+                                const row_end *b)
+{
+    uint32_t here[CHUNK], next[CHUNK];
+    int blends = look->cascaded && (a->fade_uq16 & b->fade_uq16) != 65536 && GN_BLENDED_CASCADES &&
+                 s->frame->scene->shadow.blend != GN_BLEND_HARD && a->cascade != GN_LAST_CASCADE(s->frame);
+    if (!(a->g_uq16 | b->g_uq16)) {
+        gn_pixel_fill(s->frame, &s->rows, x, y, n, look->lit);
+        return;
+    }
+    int said = attenuations_in(s, &look->view[look->cascaded ? a->cascade : 0], x, y, n, here), there = said;
+    if (blends) there = attenuations_in(s, &look->view[s->frame->cascade[a->cascade].next], x, y, n, next);
+    if (said < 0 || there < 0 || (said != there && s->frame->scene->shadow.blend == GN_BLEND_DITHER)) {
+        shade_row_exactly(s, x, y, n);
+        return;
+    }
+    if (said == there && said == GN_WINDOW_LIT) {
+        gn_pixel_fill(s->frame, &s->rows, x, y, n, look->lit);
+        return;
+    }
+    int32_t fade = (int32_t)a->fade_uq16, g = (int32_t)a->g_uq16, fade_step = 0, g_step = 0;
+    if (n > 1) {
+        fade_step = gn_step_of(fade, (int32_t)b->fade_uq16, n - 1);
+        g_step = gn_step_of(g, (int32_t)b->g_uq16, n - 1);
+    }
+    for (int32_t i = 0; i < n; i++, fade += fade_step, g += g_step) {
+        int32_t dark = 65536 - (int32_t)here[i];
+        if (blends) dark += (int32_t)((int64_t)((int32_t)here[i] - (int32_t)next[i]) * (65536 - fade) >> 16);
+        here[i] = 65536 - (uint32_t)((int64_t)dark * g >> 16);
+    }
+    store_row(s, x, y, n, here);
+}
+
+GN_HOT static void fading_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
+{
+    row_end a = cascade_at(s, x, y), b;
+    for (int32_t n; x < end; x += n, a = b) {
+        n = gn_min32(end - x, CHUNK);
+        b = n > 1 ? cascade_at(s, x + n - 1, y) : a;
+        if (look->cascaded && a.cascade != b.cascade) shade_row_exactly(s, x, y, n);
+        else fading_chunk(s, look, x, y, n, &a, &b);
+    }
+}
+
+GN_HOT static void shade_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
+{
+    if (s->lattice.cascade < 0) fading_span(s, look, x, y, end);
+    else mixed_span(s, look, &look->view[look->cascaded ? s->lattice.cascade : 0], x, y, end);
+}
+#else
+GN_HOT static void shade_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
+{
+    (void)s, (void)look, (void)x, (void)y, (void)end;
 }
 #endif
 
@@ -168,7 +308,7 @@ GN_HOT static uint32_t pack_sum(gn_shading *s, const part_look *look, int with_m
 }
 
 /* Sets what rows of two colours need. */
-GN_HOT static void begin_rows(gn_shading *s, part_look *look)
+GN_HOT static void begin_rows(gn_shading *s, const part_look *look)
 {
     int32_t dark[3], more[3];
     for (int c = 0; c < 3; c++) {
@@ -176,9 +316,15 @@ GN_HOT static void begin_rows(gn_shading *s, part_look *look)
         more[c] = (int32_t)look->more_q20[c] * 16;
     }
     gn_levels_use(&s->lattice, dark, more);
-#if GN_SHADOWS
-    gn_sample_offset(s->frame, &s->surface, look->slot, look->window->view, s->surface.normal_q30[0], look->offset_q16);
-#endif
+}
+
+/* Whether the rows' windows are there. */
+GN_HOT static int has_windows(const gn_lattice *l, const part_look *look)
+{
+    if (l->cascade >= 0) return look->view[look->cascaded ? l->cascade : 0].window != NULL;
+    int any = 0;
+    for (int i = 0; i < 4; i++) any |= look->view[i].window != NULL;
+    return any;
 }
 
 GN_HOT int gn_part_shade(gn_shading *s)
@@ -186,22 +332,22 @@ GN_HOT int gn_part_shade(gn_shading *s)
     gn_lattice *l = &s->lattice;
     part_look look;
     l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
-    if (!l->uniform || (s->surface.shadowed && l->cascade < 0) || !find_lights(s, &look)) {
+    if (!l->uniform || !find_lights(s, &look) || (look.mixed && !has_windows(l, &look))) {
         l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
         return 0;
     }
-    uint32_t dark = pack_sum(s, &look, 0), lit = dark;
+    look.dark = look.lit = pack_sum(s, &look, 0);
     GN_COUNT(parts, 1);
-    if (look.window) {
-        lit = pack_sum(s, &look, 1);
+    if (look.mixed) {
+        look.lit = pack_sum(s, &look, 1);
         begin_rows(s, &look);
     }
     for (int32_t i = 0; i < l->n_spans; i++) {
         const gn_run_span *span = &l->span[i];
         int32_t x = gn_max32(span->x, l->x), end = gn_min32(span->x + span->n_px, l->part_end);
         if (span->y < l->y || span->y >= l->y + l->n_rows || x >= end) continue;
-        if (look.window) mixed_span(s, &look, x, span->y, end, lit, dark);
-        else gn_pixel_fill(s->frame, &s->rows, x, span->y, end - x, lit);
+        if (look.mixed) shade_span(s, &look, x, span->y, end);
+        else gn_pixel_fill(s->frame, &s->rows, x, span->y, end - x, look.lit);
     }
     return 1;
 }
