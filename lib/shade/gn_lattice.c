@@ -7,6 +7,7 @@
 #include "base/gn_q.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
+#include "shade/gn_lattice_window.h"
 #include "shade/gn_part.h"
 
 #if GN_INTERPOLATES
@@ -174,7 +175,7 @@ GN_HOT static void forget_windows(gn_lattice *l)
 /* Of another part. */
 GN_HOT static void begin_part(gn_shading *s)
 {
-    for (int i = 0; i < GN_WINDOWS; i++) s->lattice.window[i].until_x = INT32_MIN;
+    gn_lattice_forget_part(&s->lattice);
     gn_corner_begin_part(&s->lattice, s->frame, &s->surface);
 }
 #else

@@ -60,33 +60,65 @@ GN_HOT static void begin_window(gn_lattice *l, const gn_frame *frame, const gn_s
     gn_window_begin(window, frame, view, slope, own_distance_q30(l, frame, s, slot, view, at, slope), on_plane);
 }
 
-/* Makes it for columns x .. x_end - 1 of cells. Returns 0 if that is too much. */
-GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                              uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, gn_window *window)
+/* Tile coordinates of places of the part, and one of them. */
+typedef struct {
+    int32_t lo[2], hi[2];
+    gn_window_place place;
+} seen_box;
+
+/* Returns 0 if the surface is not seen at the pixel, or beyond what windows hold. */
+GN_HOT static int see(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot, uint32_t view_idx,
+                      int32_t x, int32_t y, seen_box *box)
 {
-    int32_t lo[2] = {INT32_MAX, INT32_MAX}, hi[2] = {INT32_MIN, INT32_MIN}, first[2], n[2];
     gn_corner *c = &l->corner;
-    gn_window_place place = {0, 0, 0};
-    for (int i = 0; i < 4; i++) {
-        if (!gn_corner_locate(l, frame, s, slot, i & 1 ? x_end : x, i & 2 ? y_end : l->y, c) ||
-            !gn_corner_place(l, frame, s, c, slot, view_idx))
+    if (!gn_corner_locate(l, frame, s, slot, x, y, c) || !gn_corner_place(l, frame, s, c, slot, view_idx)) return 0;
+    const gn_corner_light *at = &c->light[slot];
+    const int32_t uv[2] = {at->u_q16, at->v_q16};
+    if ((gn_abs32(uv[0]) | gn_abs32(uv[1])) >> 27) return 0;
+    for (int i = 0; i < 2; i++) {
+        box->lo[i] = gn_min32(box->lo[i], uv[i]);
+        box->hi[i] = gn_max32(box->hi[i], uv[i]);
+    }
+    box->place.u_q16 = uv[0];
+    box->place.v_q16 = uv[1];
+    box->place.depth_q30 = at->depth_q30;
+    return 1;
+}
+
+/* The ends of all rows of pixels, where corners of the part lie off the surface. */
+GN_HOT static GN_NOINLINE int see_rows(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                       uint32_t view_idx, int32_t x, int32_t x_end, seen_box *box)
+{
+    int any = 0;
+    for (int32_t i = 0; i < l->n_spans; i++) {
+        const gn_run_span *span = &l->span[i];
+        int32_t from = gn_max32(span->x, x), to = gn_min32(span->x + span->n_px, x_end);
+        if (span->y < l->y || span->y >= l->y + l->n_rows || from >= to) continue;
+        if (!see(l, frame, s, slot, view_idx, from, span->y, box) ||
+            !see(l, frame, s, slot, view_idx, to - 1, span->y, box))
             return 0;
-        const gn_corner_light *at = &c->light[slot];
-        place.u_q16 = at->u_q16;
-        place.v_q16 = at->v_q16;
-        place.depth_q30 = at->depth_q30;
-        if ((gn_abs32(at->u_q16) | gn_abs32(at->v_q16)) >> 27) return 0;
-        lo[0] = gn_min32(lo[0], at->u_q16);
-        hi[0] = gn_max32(hi[0], at->u_q16);
-        lo[1] = gn_min32(lo[1], at->v_q16);
-        hi[1] = gn_max32(hi[1], at->v_q16);
+        any = 1;
+    }
+    return any;
+}
+
+/* Makes it for columns x .. x_end - 1 of cells; for pixels alone, if `rows`. Returns 0 if that is too much. */
+GN_HOT static int make_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                              uint32_t view_idx, int32_t x, int32_t x_end, int32_t y_end, int rows, gn_window *window)
+{
+    seen_box box = {{INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN}, {0, 0, 0}};
+    int32_t first[2], n[2], seen = 0;
+    while (seen < 4 && see(l, frame, s, slot, view_idx, seen & 1 ? x_end : x, seen & 2 ? y_end : l->y, &box)) seen++;
+    if (seen < 4) {
+        for (int i = 0; i < 2; i++) box.lo[i] = INT32_MAX, box.hi[i] = INT32_MIN;
+        if (!rows || !see_rows(l, frame, s, slot, view_idx, x, x_end, &box)) return 0;
     }
     for (int i = 0; i < 2; i++) { /* and what steps over cells are off by */
-        gn_window_reads(window->view, lo[i] - 64, hi[i] + 1088, &first[i], &n[i]);
+        gn_window_reads(window->view, box.lo[i] - 64, box.hi[i] + 1088, &first[i], &n[i]);
         if (n[i] > GN_WINDOW_TEXELS) return 0;
     }
     GN_COUNT(windows, 1);
-    gn_window_compare(window, &place, first[0], first[1], n[0], n[1]);
+    gn_window_compare(window, &box.place, first[0], first[1], n[0], n[1]);
     return 1;
 }
 
@@ -103,7 +135,7 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
     int32_t rows = (gn_min32(l->n_rows, l->y_end - l->y) + size - 1) >> log2;
     int32_t columns = (gn_min32(GN_PART_WIDTH - (x - l->x), l->x_end - x) + size - 1) >> log2;
     while (columns * rows > (at ? 2 : 0) && /* for one or two cells their own corners tell as much */
-           !make_window(l, frame, s, slot, view_idx, x, x + columns * size, l->y + rows * size, window))
+           !make_window(l, frame, s, slot, view_idx, x, x + columns * size, l->y + rows * size, !at, window))
         columns = columns > 1 ? (columns + 1) >> 1 : 0;
     window->until_x = x + columns * size;
     return window;

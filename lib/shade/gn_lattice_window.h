@@ -10,4 +10,13 @@
 gn_window *gn_lattice_window(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
                              uint32_t view_idx, int32_t x, const gn_corner *at);
 
+/* Of another part. */
+GN_HOT static inline void gn_lattice_forget_part(gn_lattice *l)
+{
+#if GN_SHADOWS
+    for (int i = 0; i < GN_WINDOWS; i++) l->window[i].until_x = INT32_MIN;
+#endif
+    (void)l;
+}
+
 #endif

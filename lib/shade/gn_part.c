@@ -327,15 +327,12 @@ GN_HOT static int has_windows(const gn_lattice *l, const part_look *look)
     return any;
 }
 
-GN_HOT int gn_part_shade(gn_shading *s)
+/* The part's rows, up to part_end, which windows may move. Returns 0 if they are not of one or two colours. */
+GN_HOT static int shade_rows(gn_shading *s, int any)
 {
     gn_lattice *l = &s->lattice;
     part_look look;
-    l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
-    if (!l->uniform || !find_lights(s, &look) || (look.mixed && !has_windows(l, &look))) {
-        l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
-        return 0;
-    }
+    if (!find_lights(s, &look) || (look.mixed && !any && !has_windows(l, &look))) return 0;
     look.dark = look.lit = pack_sum(s, &look, 0);
     GN_COUNT(parts, 1);
     if (look.mixed) {
@@ -350,6 +347,39 @@ GN_HOT int gn_part_shade(gn_shading *s)
         else gn_pixel_fill(s->frame, &s->rows, x, span->y, end - x, look.lit);
     }
     return 1;
+}
+
+enum { NARROW = 16, LOW = 4 };
+
+/* Narrow and low parts, whose windows have few texels. */
+GN_HOT static int shade_low_parts(gn_shading *s)
+{
+    gn_lattice *l = &s->lattice;
+    int32_t y = l->y, n_rows = l->n_rows, end = gn_min32(l->x_end, l->x + NARROW), y_end = gn_min32(y + n_rows, l->y_end);
+    int done = 1;
+    for (l->n_rows = LOW; done && l->y < y_end; l->y += LOW) {
+        gn_lattice_forget_part(l);
+        l->part_end = end;
+        done = shade_rows(s, 0) && l->part_end == end;
+    }
+    l->y = y;
+    l->n_rows = n_rows;
+    return done;
+}
+
+GN_HOT int gn_part_shade(gn_shading *s)
+{
+    gn_lattice *l = &s->lattice;
+    l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
+    if (!l->uniform) return 0;
+    if (shade_rows(s, 0)) return 1;
+    if (l->n_rows > LOW && s->surface.n_lights == 1 && shade_low_parts(s)) return 1;
+    gn_lattice_forget_part(l);
+    l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
+    if (l->cascade < 0 && s->surface.n_lights == 1 && shade_rows(s, 1)) return 1;
+    gn_lattice_forget_part(l);
+    l->part_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
+    return 0;
 }
 
 #endif
