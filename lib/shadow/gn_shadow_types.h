@@ -93,6 +93,7 @@ typedef struct {
     int32_t front_q30, behind_q30;        /* depths so far in front of the plane, and behind it, are in doubt */
     int32_t until_x;                      /* gn_lattice: columns of the screen that it was made for */
     int32_t u0, v0, w, h;                 /* texels, w = 0: none yet */
+    int32_t plain;                        /* all of them in the tile, of 16 bits */
     int32_t depth_q30;                    /* of the plane, at the centre of the first */
     uint32_t any, all, doubts;            /* of rows: OR of what may be dark, AND of what surely is, OR of doubts */
     uint32_t dark[GN_WINDOW_TEXELS + 3];  /* bit i of row j: texel (u0 + i, v0 + j) may be dark */

@@ -2,6 +2,7 @@
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
+#include "base/gn_kernel.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
 #include "shadow/gn_lookup.h"
@@ -149,6 +150,7 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     window->v0 = v0;
     window->w = w;
     window->h = h;
+    window->plain = GN_VIEW_BITS(view) == 16 && u0 >= 0 && v0 >= 0 && u0 + w <= last + 1 && v0 + h <= last + 1;
     window->any = any;
     window->all = all | (w < 32 ? UINT32_MAX << w : 0);
     window->doubts = doubts;
@@ -200,15 +202,24 @@ GN_HOT static uint32_t compare_doubts(const gn_window *window, int32_t s, int32_
 GN_HOT static uint32_t dark_texels(const gn_frame *frame, const gn_window *window, int32_t s, int32_t j, int32_t n,
                                    int32_t depth_q30, uint8_t *dark)
 {
-    uint32_t mask = (1U << (uint32_t)n) - 1U, any = 0, all = mask, least = 0;
-    int known = 0;
+    uint32_t mask = (1U << (uint32_t)n) - 1U, any = 0, all = mask, doubts = 0;
+    for (int32_t i = 0; i < n; i++) {
+        uint32_t bits = window->dark[j + i] >> s & mask;
+        doubts |= window->doubt[j + i] >> s & mask;
+        dark[i] = (uint8_t)bits;
+        any |= bits;
+        all &= bits;
+    }
+    if (!doubts) return any | all << 16;
+    uint32_t least = least_depth(frame, window->view, depth_q30);
+    if (window->plain && n > 2)
+        return gn_kernel_dark_texels16(gn_view_texels(window->view, window->u0 + s, window->v0 + j).d16,
+                                       (size_t)window->view->tile_texels, least, n, dark);
+    any = 0;
+    all = mask;
     for (int32_t i = 0; i < n; i++, j++) {
-        uint32_t bits = window->dark[j] >> s & mask, doubt = window->doubt[j] >> s & mask;
-        if (doubt) {
-            if (!known) least = least_depth(frame, window->view, depth_q30);
-            known = 1;
-            bits ^= doubt ^ compare_doubts(window, s, j, doubt, least);
-        }
+        uint32_t doubt = window->doubt[j] >> s & mask, bits = dark[i] ^ doubt;
+        if (doubt) bits |= compare_doubts(window, s, j, doubt, least);
         dark[i] = (uint8_t)bits;
         any |= bits;
         all &= bits;
@@ -233,7 +244,13 @@ GN_HOT static void row_3x3(const gn_frame *frame, const gn_window *window, int32
             const uint32_t *doubt = &window->doubt[v >> 16];
             if ((doubt[0] | doubt[1] | doubt[2] | doubt[3]) >> s & 15U) {
                 uint8_t dark[4];
-                if (!(dark_texels(frame, window, s, v >> 16, 4, depth_q30, dark) & 15U)) continue;
+                uint32_t found =
+                    window->plain ? gn_kernel_dark_texels16(
+                                        gn_view_texels(window->view, window->u0 + s, window->v0 + (v >> 16)).d16,
+                                        (size_t)window->view->tile_texels,
+                                        least_depth(frame, window->view, depth_q30), 4, dark)
+                                  : dark_texels(frame, window, s, v >> 16, 4, depth_q30, dark);
+                if (!(found & 15U)) continue;
                 a = dark[0], b = dark[1], c = dark[2], d = dark[3];
             }
         }
