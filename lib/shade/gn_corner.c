@@ -172,17 +172,18 @@ GN_HOT static inline int32_t at_point(const point *p, int32_t a0, int32_t a1, in
 
 GN_HOT static void find_normal(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, point *p)
 {
+    const int32_t(*n)[3] = s->normal_q30;
+    int smooth = GN_SMOOTH(s);
     for (int i = 0; i < 3; i++) {
-        int32_t n = s->normal_q30[0][i];
-        if (GN_SMOOTH(s)) n = at_point(p, n, s->normal_q30[1][i], s->normal_q30[2][i]);
-        p->n_q30[i] = gn_max32(-(1 << 30), gn_min32(n, 1 << 30));
-        p->unit_q30[i] = l->unit_q30[i];
+        p->n_q30[i] = n[0][i];
+        if (smooth) p->n_q30[i] = gn_max32(-(1 << 30), gn_min32(at_point(p, n[0][i], n[1][i], n[2][i]), 1 << 30));
+        else p->unit_q30[i] = l->unit_q30[i];
 #if GN_VERTEX_NORMALS
         c->normal_q30[i] = p->n_q30[i];
 #endif
     }
     (void)c;
-    if (GN_SMOOTH(s)) gn_length_unit(gn_length_of(GN_K(frame, newton_steps), p->n_q30), p->n_q30, p->unit_q30);
+    if (smooth) gn_length_unit(gn_length_of(GN_K(frame, newton_steps), p->n_q30), p->n_q30, p->unit_q30);
 }
 
 /* ---- Attributes -------------------------------------------------------------------------------------------------- */
