@@ -79,6 +79,7 @@ GN_HOT static int32_t certain_cascade(const gn_frame *frame, const extent *e)
     if (e->z_hi_q16 >> 27 || e->tan2_hi_q24 >> 28) return -1; /* and distance2_q32 fits */
     for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
         const gn_cascade_state *c = &frame->cascade[i];
+        if (!c->radius2_q32) continue; /* empty */
         uint64_t within = blends || i == GN_LAST_CASCADE(frame) ? c->inner2_q32 : c->radius2_q32;
         uint64_t rounding = e->tan2_hi_q24 + 1;
         if (distance2_q32(c, e->z_lo_q16, e->tan2_hi_q24) + rounding < within &&
@@ -102,6 +103,8 @@ GN_HOT static void begin_light(gn_lattice *l, const gn_frame *frame, const gn_su
 #if GN_SHADOWS
     if (!s->shadowed || light->view_idx < 0) return;
     const gn_light_view *view = &frame->view[light->view_idx];
+    if (light->kind == GN_LIGHT_DIRECTIONAL && !view->border_lit)
+        view += GN_LAST_CASCADE(frame); /* the first may be empty */
     const int32_t *b = frame->scene->lights[s->light[slot].idx].bias_receiver_q16;
     out->lifts = !light->auto_bias && view->filter != GN_FILTER_DISK && (!GN_RECEIVER_BIAS || !(b[0] | b[1] | b[3]));
 #if GN_PUNCTUAL_LIGHTS
