@@ -336,8 +336,9 @@ static void test_two_colours(void)
             memset(shading.lattice.known, 0, sizeof shading.lattice.known);
             shading.last_pixel = gn_pixel_pack(&frame, shading.last_q20);
         }
-        if (k % 5) dark[c] = rng_range(&random_state, k & 2 ? 0 : -(1 << 20), 1 << 27); /* else the same again */
-        if (k % 3) more[c] = rng_range(&random_state, 0, 1 << 27);
+        if (k % 7) dark[c] = rng_range(&random_state, k & 2 ? 0 : -(1 << 20), 1 << 27); /* else the same again */
+        if (k % 7 && k % 3) more[c] = rng_range(&random_state, 0, 1 << 27);
+        if (k % 7 == 0) dark[c] ^= 1 << 18, more[c] ^= 1 << 17; /* a little */
         gn_levels_use(&shading.lattice, dark, more);
         for (uint32_t a = every ? 0 : rng_below(&random_state, 777); a <= 65536; a += every ? 1 : 777) {
             const int64_t level = (int64_t)i128_round_shr(a, 10);
