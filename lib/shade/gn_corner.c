@@ -166,17 +166,22 @@ GN_HOT static int find_point(const gn_lattice *l, const gn_frame *frame, const g
 }
 
 /* a0 + b1 * a1 + b2 * a2 */
+GN_HOT static inline int64_t at_point_64(const point *p, int32_t a0, int32_t a1, int32_t a2)
+{
+    return a0 + (((int64_t)p->b_q28[0] * a1 + (int64_t)p->b_q28[1] * a2) >> 28);
+}
+
 GN_HOT static inline int32_t at_point(const point *p, int32_t a0, int32_t a1, int32_t a2)
 {
-    return a0 + (int32_t)(((int64_t)p->b_q28[0] * a1 + (int64_t)p->b_q28[1] * a2) >> 28);
+    return (int32_t)at_point_64(p, a0, a1, a2);
 }
 
 GN_HOT static void find_normal(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, point *p)
 {
     for (int i = 0; i < 3; i++) {
-        int32_t n = s->normal_q30[0][i];
-        if (GN_SMOOTH(s)) n = at_point(p, n, s->normal_q30[1][i], s->normal_q30[2][i]);
-        p->n_q30[i] = gn_max32(-(1 << 30), gn_min32(n, 1 << 30));
+        int64_t n = s->normal_q30[0][i]; /* up to 9 outside of the triangle */
+        if (GN_SMOOTH(s)) n = at_point_64(p, (int32_t)n, s->normal_q30[1][i], s->normal_q30[2][i]);
+        p->n_q30[i] = (int32_t)gn_clamp64(n, -(1 << 30), 1 << 30);
         p->unit_q30[i] = l->unit_q30[i];
 #if GN_VERTEX_NORMALS
         c->normal_q30[i] = p->n_q30[i];
