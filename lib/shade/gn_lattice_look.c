@@ -50,12 +50,14 @@ GN_HOT static int32_t finest_log2(const gn_frame *frame)
     return GN_K(frame, persp_step) == 16 ? FL16 : FL8;
 }
 
+#if GN_SHADOWS
 /* Places in shadow maps, texels: 2^-this. */
 GN_HOT static int32_t place_log2(const gn_frame *frame)
 {
     (void)frame;
     return GN_K(frame, persp_step) == 16 ? 2 : 3;
 }
+#endif
 
 /* Texture coordinates, texels: 2^-this. */
 GN_HOT static int32_t texture_log2(const gn_frame *frame)
@@ -64,6 +66,7 @@ GN_HOT static int32_t texture_log2(const gn_frame *frame)
     return GN_K(frame, persp_step) == 16 ? 2 : 3;
 }
 
+#if GN_SHADOWS
 /* Texels between lookups, Q16: what a filter does in between is close to linear. */
 GN_HOT static uint32_t lookup_texels_q16(const gn_frame *frame, const gn_light_view *view)
 {
@@ -71,6 +74,7 @@ GN_HOT static uint32_t lookup_texels_q16(const gn_frame *frame, const gn_light_v
     uint32_t tent = GN_K(frame, persp_step) == 16 ? 65536 : 49152;
     return view->filter == GN_FILTER_2X2 ? tent >> 1 : tent * view->filter_idx;
 }
+#endif
 
 /* ---- Geometry ---------------------------------------------------------------------------------------------------- */
 
@@ -111,10 +115,12 @@ GN_HOT static int bends_by_less(const uint32_t change[2], const uint32_t bend_q1
     return ((uint64_t)change[0] * bend_q16[0] + (uint64_t)change[1] * bend_q16[1]) >> 18 <= 1U << least_log2;
 }
 
+#if GN_SHADOWS
 GN_HOT static int row_bends_by_less(const uint32_t change[2], const uint32_t bend_q16[2], int32_t least_log2)
 {
     return (uint64_t)change[0] * bend_q16[0] >> 18 <= 1U << least_log2;
 }
+#endif
 
 #if GN_TEXTURES || GN_MASKS
 /* Whether coordinates of an image are close enough to bilinear. */

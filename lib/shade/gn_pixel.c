@@ -4,7 +4,9 @@
 #include "base/gn_q.h"
 #include "base/gn_count.h"
 #include "base/gn_tables.h"
+#if GN_INTERPOLATES
 #include "geometry/gn_texture.h"
+#endif
 #include "shade/gn_pixel.h"
 
 #define GN_ONE_Q20 (1U << 20)
