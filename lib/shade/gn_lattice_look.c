@@ -610,6 +610,12 @@ GN_HOT static int find_shares(const lattice_cell *cell, uint32_t slot, contribut
     return GN_MASKS && realtime && masks && cell->frame->scene->shadow.mixing == GN_MIXING_ALWAYS ? -1 : realtime;
 }
 
+/* Adds up to 2^27 to what stays below 2^30. */
+GN_HOT static inline void add_limited(int32_t *sum_q24, int32_t more_q24)
+{
+    *sum_q24 = gn_min32(*sum_q24 + more_q24, 1 << 30);
+}
+
 /* Adds a light that is in shadow all over the cell, or nowhere. */
 GN_HOT static void add_colour(const lattice_cell *cell, uint32_t slot, const contribution *light, int lit)
 {
@@ -618,10 +624,11 @@ GN_HOT static void add_colour(const lattice_cell *cell, uint32_t slot, const con
         uint32_t share = light->dark_uq16[i] + (lit ? light->more_uq16[i] : 0);
         if (!share) continue;
         int32_t e = share_of(light->irradiance_q24[i], share);
-        for (int j = 0; j < 3; j++) cell->out->colour_q24[i][j] += gn_corner_times(colour[j], e);
+        for (int j = 0; j < 3; j++) add_limited(&cell->out->colour_q24[i][j], gn_corner_times(colour[j], e));
         if (!GN_SPECULAR || !light->highlight_q24[i]) continue;
         e = share_of(light->highlight_q24[i], share);
-        for (int j = 0; j < 3; j++) cell->out->highlight_q24[i][j] += gn_corner_times(light->shine_uq16[j], e);
+        for (int j = 0; j < 3; j++)
+            add_limited(&cell->out->highlight_q24[i][j], gn_corner_times(light->shine_uq16[j], e));
     }
 }
 
