@@ -59,12 +59,14 @@ GN_HOT static int32_t place_log2(const gn_frame *frame)
 }
 #endif
 
+#if GN_TEXTURES
 /* Texture coordinates, texels: 2^-this. */
 GN_HOT static int32_t texture_log2(const gn_frame *frame)
 {
     (void)frame;
     return GN_K(frame, persp_step) == 16 ? 2 : 3;
 }
+#endif
 
 #if GN_SHADOWS
 /* Texels between lookups, Q16: what a filter does in between is close to linear. */
@@ -78,11 +80,13 @@ GN_HOT static uint32_t lookup_texels_q16(const gn_frame *frame, const gn_light_v
 
 /* ---- Geometry ---------------------------------------------------------------------------------------------------- */
 
+#if GN_SHADOWS || GN_MASKS
 GN_HOT static uint32_t spread_of(int32_t a, int32_t b, int32_t c, int32_t d)
 {
     int32_t lo = gn_min32(gn_min32(a, b), gn_min32(c, d)), hi = gn_max32(gn_max32(a, b), gn_max32(c, d));
     return (uint32_t)hi - (uint32_t)lo;
 }
+#endif
 
 /* The largest change between neighbouring corners along rows, and down columns. */
 GN_HOT static void changes_of(const int32_t at[4], uint32_t change[2])
@@ -108,12 +112,14 @@ GN_HOT static int find_bend(lattice_cell *cell)
     return 1;
 }
 
+#if GN_SHADOWS || GN_TEXTURES
 /* Perspective bends what changes by `change` from corner to corner by a quarter of its own share of that, at most:
  * along rows, and down columns. */
 GN_HOT static int bends_by_less(const uint32_t change[2], const uint32_t bend_q16[2], int32_t least_log2)
 {
     return ((uint64_t)change[0] * bend_q16[0] + (uint64_t)change[1] * bend_q16[1]) >> 18 <= 1U << least_log2;
 }
+#endif
 
 #if GN_SHADOWS
 GN_HOT static int row_bends_by_less(const uint32_t change[2], const uint32_t bend_q16[2], int32_t least_log2)
@@ -122,7 +128,7 @@ GN_HOT static int row_bends_by_less(const uint32_t change[2], const uint32_t ben
 }
 #endif
 
-#if GN_TEXTURES || GN_MASKS
+#if GN_TEXTURES
 /* Whether coordinates of an image are close enough to bilinear. */
 GN_HOT static int coords_hold(const lattice_cell *cell, const gn_texture *image, const int32_t *const at[4],
                               int32_t frac_bits)
@@ -161,6 +167,7 @@ GN_HOT static int images_hold(const lattice_cell *cell)
 
 /* ---- How uneven light is ----------------------------------------------------------------------------------------- */
 
+#if GN_VERTEX_NORMALS || GN_PUNCTUAL_LIGHTS
 /* The longer diagonal of vectors at the corners, along the axes. */
 GN_HOT static uint32_t diagonal(const int32_t *a, const int32_t *b, const int32_t *c, const int32_t *d)
 {
@@ -172,6 +179,7 @@ GN_HOT static uint32_t diagonal(const int32_t *a, const int32_t *b, const int32_
     if (other > one) one = other;
     return one > UINT32_MAX ? UINT32_MAX : (uint32_t)one;
 }
+#endif
 
 /* How far normals turn over the cell, radians, Q12; at least. */
 GN_HOT static uint32_t turn_q12(const lattice_cell *cell)
