@@ -243,7 +243,7 @@ GN_HOT static void tint(const gn_pixel_line *line, int32_t i, int32_t colour_q24
 GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
                                 const gn_pixel_line *line)
 {
-    if (has_levels(frame) && !line->texture) {
+    if (GN_LEVEL_TABLES && has_levels(frame) && !line->texture) {
         line_565(pixel_565(rows, x, y), bits, line);
         return;
     }

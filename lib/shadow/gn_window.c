@@ -235,14 +235,16 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
     int32_t shift = view->filter == GN_FILTER_HARD ? 0 : (view->filter_idx + 1) * 65536 - 32768;
     int32_t u = from->u_q16 - shift - window->u0 * 65536, v = from->v_q16 - shift - window->v0 * 65536;
     GN_COUNT(window_lookups, n);
-    if (view->filter == GN_FILTER_3X3 && !(GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)) {
+    if (GN_FILTER_MAX >= 2 && view->filter == GN_FILTER_3X3 &&
+        !(GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)) {
         row_3x3(window, u, v, step, n, attenuation);
         return 1;
     }
     for (int32_t i = 0; i < n; i++, u += step->u_q16, v += step->v_q16) {
         if (window->doubts && in_doubt(window, u, v)) attenuation[i] = GN_WINDOW_UNKNOWN;
         else if (view->filter == GN_FILTER_HARD) attenuation[i] = (~window->dark[v >> 16] >> (u >> 16) & 1U) << 16;
-        else if (view->filter == GN_FILTER_2X2) attenuation[i] = by_2x2(window, u, v, GN_K(frame, weight_bits));
+        else if (GN_FILTER_MAX < 2 || view->filter == GN_FILTER_2X2)
+            attenuation[i] = by_2x2(window, u, v, GN_K(frame, weight_bits));
         else attenuation[i] = by_weights(frame, window, u, v);
     }
     return 1;
