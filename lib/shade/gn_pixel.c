@@ -203,7 +203,7 @@ GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_
     }
 }
 
-GN_HOT static void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line)
+GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line)
 {
     int32_t n = 1 << line->spacing_log2, step[3];
     for (const int32_t(*node)[3] = line->node; bits; bits >>= n, out += n, node++) {
@@ -230,7 +230,7 @@ GN_HOT static void store_colour(const gn_frame *frame, const gn_pixel_rows *rows
 }
 
 /* Times a texture's colour. */
-GN_HOT static void tint(const gn_pixel_line *line, int32_t i, int32_t colour_q24[3])
+GN_HOT static inline void tint(const gn_pixel_line *line, int32_t i, int32_t colour_q24[3])
 {
     uint32_t texel_uq16[3];
     GN_COUNT(textured, 1);

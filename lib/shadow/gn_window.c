@@ -173,6 +173,7 @@ GN_HOT static int in_doubt(const gn_window *window, int32_t u, int32_t v)
     return (any >> (u >> 16) & ((1U << (uint32_t)n) - 1U)) != 0;
 }
 
+#if GN_FILTER_MAX >= 2
 /* 3x3, positions to 1/32 texel. */
 GN_HOT static void row_3x3(const gn_window *window, int32_t u, int32_t v, const gn_receiver_step *step, int32_t n,
                            uint32_t *out)
@@ -211,6 +212,8 @@ GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const gn_wi
     return gn_tent_of_dark(frame, dark, k, u, v, GN_K(frame, weight_bits));
 }
 
+#endif
+
 GN_HOT static uint32_t by_2x2(const gn_window *window, int32_t u, int32_t v, int32_t bits)
 {
     const uint32_t *row = &window->dark[v >> 16];
@@ -235,17 +238,20 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
     int32_t shift = view->filter == GN_FILTER_HARD ? 0 : (view->filter_idx + 1) * 65536 - 32768;
     int32_t u = from->u_q16 - shift - window->u0 * 65536, v = from->v_q16 - shift - window->v0 * 65536;
     GN_COUNT(window_lookups, n);
-    if (GN_FILTER_MAX >= 2 && view->filter == GN_FILTER_3X3 &&
-        !(GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)) {
+#if GN_FILTER_MAX >= 2
+    if (view->filter == GN_FILTER_3X3 && !(GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)) {
         row_3x3(window, u, v, step, n, attenuation);
         return 1;
     }
+#endif
     for (int32_t i = 0; i < n; i++, u += step->u_q16, v += step->v_q16) {
         if (window->doubts && in_doubt(window, u, v)) attenuation[i] = GN_WINDOW_UNKNOWN;
         else if (view->filter == GN_FILTER_HARD) attenuation[i] = (~window->dark[v >> 16] >> (u >> 16) & 1U) << 16;
         else if (GN_FILTER_MAX < 2 || view->filter == GN_FILTER_2X2)
             attenuation[i] = by_2x2(window, u, v, GN_K(frame, weight_bits));
+#if GN_FILTER_MAX >= 2
         else attenuation[i] = by_weights(frame, window, u, v);
+#endif
     }
     return 1;
 }
