@@ -210,10 +210,11 @@ static reading read_around(const gn_receiver *r)
 /* How far a window's answer may be from a lookup's where nothing is contested: NUMERICS 4.13. */
 static double rounding_of_places(void)
 {
-    if (view.filter == GN_FILTER_2X2) return 1;
-    if (view.filter != GN_FILTER_3X3 || scene.shadow.kernel == GN_KERNEL_LINEAR) return 0;
+    const double of_lookup = GN_K(&frame, atten_bits) == 8 ? 128 : 0;
+    if (view.filter == GN_FILTER_2X2) return 1 + of_lookup;
+    if (view.filter != GN_FILTER_3X3 || scene.shadow.kernel == GN_KERNEL_LINEAR) return of_lookup;
     const double weight_bits = 2 * 2 / 3.0 * ldexp(1, -GN_K(&frame, weight_bits) - 1) * 65536 + 1;
-    return 2 * 2 / 3.0 / 64 * 65536 + 32 + weight_bits;
+    return 2 * 2 / 3.0 / 64 * 65536 + 32 + weight_bits + of_lookup;
 }
 
 static struct {
