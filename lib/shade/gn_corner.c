@@ -79,6 +79,7 @@ GN_HOT static int32_t certain_cascade(const gn_frame *frame, const extent *e)
     if (e->z_hi_q16 >> 27 || e->tan2_hi_q24 >> 28) return -1; /* and distance2_q32 fits */
     for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
         const gn_cascade_state *c = &frame->cascade[i];
+        if (!c->radius2_q32) continue; /* empty */
         uint64_t within = blends || i == GN_LAST_CASCADE(frame) ? c->inner2_q32 : c->radius2_q32;
         uint64_t rounding = e->tan2_hi_q24 + 1;
         if (distance2_q32(c, e->z_lo_q16, e->tan2_hi_q24) + rounding < within &&
@@ -104,12 +105,15 @@ GN_HOT static void begin_light(gn_lattice *l, const gn_frame *frame, const gn_su
 #if GN_SHADOWS
     if (!s->shadowed || light->view_idx < 0) return;
     const gn_light_view *view = &frame->view[light->view_idx];
+    if (light->kind == GN_LIGHT_DIRECTIONAL && !view->border_lit)
+        view += GN_LAST_CASCADE(frame); /* the first may be empty */
     const int32_t *b = frame->scene->lights[s->light[slot].idx].bias_receiver_q16;
     out->lifts = !light->auto_bias && view->filter != GN_FILTER_DISK && (!GN_RECEIVER_BIAS || !(b[0] | b[1] | b[3]));
 #if GN_PUNCTUAL_LIGHTS
-    if (light->kind != GN_LIGHT_DIRECTIONAL)
-        out->lift_q31 =
-            (int32_t)gn_clamp64(gn_bf_apply(view->offset_q16, view->fit.persp.texel_per_z, 15), 0, INT32_MAX);
+    if (light->kind == GN_LIGHT_DIRECTIONAL) return;
+    int64_t lift = gn_bf_apply(view->offset_q16, view->fit.persp.texel_per_z, 15);
+    out->lift_q31 = (int32_t)gn_clamp64(lift, 0, INT32_MAX);
+    if (lift > INT32_MAX) out->lifts = 0; /* as far as the light, or farther */
 #endif
 #endif
     (void)frame;
@@ -140,9 +144,10 @@ typedef struct {
     int32_t b_q28[2];   /* barycentrics */
     int32_t ray_q16[3]; /* from the eye, world axes; surfaces with spots or points */
     int32_t n_q30[3], unit_q30[3];
-} point;
+} corner_point;
 
-GN_HOT static int find_point(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, point *p)
+GN_HOT static int find_point(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
+                             corner_point *p)
 {
     const gn_screen_plane *plane = &l->plane;
     int32_t dx = c->x - plane->x, dy = c->y - plane->y, w = along(&plane->w, dx, dy);
@@ -165,18 +170,25 @@ GN_HOT static int find_point(const gn_lattice *l, const gn_frame *frame, const g
 }
 
 /* a0 + b1 * a1 + b2 * a2 */
-GN_HOT static inline int32_t at_point(const point *p, int32_t a0, int32_t a1, int32_t a2)
+GN_HOT static inline int64_t at_point_64(const corner_point *p, int32_t a0, int32_t a1, int32_t a2)
 {
-    return a0 + (int32_t)(((int64_t)p->b_q28[0] * a1 + (int64_t)p->b_q28[1] * a2) >> 28);
+    return a0 + (((int64_t)p->b_q28[0] * a1 + (int64_t)p->b_q28[1] * a2) >> 28);
 }
 
-GN_HOT static void find_normal(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, point *p)
+GN_HOT static inline int32_t at_point(const corner_point *p, int32_t a0, int32_t a1, int32_t a2)
+{
+    return (int32_t)at_point_64(p, a0, a1, a2);
+}
+
+GN_HOT static void find_normal(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
+                               corner_point *p)
 {
     const int32_t(*n)[3] = s->normal_q30;
     int smooth = GN_SMOOTH(s);
     for (int i = 0; i < 3; i++) {
         p->n_q30[i] = n[0][i];
-        if (smooth) p->n_q30[i] = gn_max32(-(1 << 30), gn_min32(at_point(p, n[0][i], n[1][i], n[2][i]), 1 << 30));
+        if (smooth) /* up to 9 outside of the triangle */
+            p->n_q30[i] = (int32_t)gn_clamp64(at_point_64(p, n[0][i], n[1][i], n[2][i]), -(1 << 30), 1 << 30);
         else p->unit_q30[i] = l->unit_q30[i];
 #if GN_VERTEX_NORMALS
         c->normal_q30[i] = p->n_q30[i];
@@ -188,12 +200,12 @@ GN_HOT static void find_normal(const gn_lattice *l, const gn_frame *frame, const
 
 /* ---- Attributes -------------------------------------------------------------------------------------------------- */
 
-GN_HOT static int32_t attribute(const gn_surface *s, const point *p, int i)
+GN_HOT static int32_t attribute(const gn_surface *s, const corner_point *p, int i)
 {
     return at_point(p, s->attribute_q16[0][i], s->attribute_q16[1][i], s->attribute_q16[2][i]);
 }
 
-GN_HOT static void attributes_at(const gn_surface *s, const point *p, gn_corner *c)
+GN_HOT static void attributes_at(const gn_surface *s, const corner_point *p, gn_corner *c)
 {
     for (int i = 0; i < 3; i++) {
         uint32_t q20 = s->base_q20[i]; /* < 2^28 */
@@ -219,7 +231,7 @@ GN_HOT static void attributes_at(const gn_surface *s, const point *p, gn_corner 
 }
 
 #if GN_MASKS
-GN_HOT static uint32_t mask_at(const gn_surface *s, const point *p, const gn_corner *c, int32_t channel)
+GN_HOT static uint32_t mask_at(const gn_surface *s, const corner_point *p, const gn_corner *c, int32_t channel)
 {
     if (!s->masked || channel < 0) return 65536;
     if (s->object->mask_image)
@@ -232,7 +244,7 @@ GN_HOT static uint32_t mask_at(const gn_surface *s, const point *p, const gn_cor
 
 #if GN_PUNCTUAL_LIGHTS
 /* From the eye to the point, along the world's axes: the same for all lights. */
-GN_HOT static void find_ray(const gn_light_state *any, const gn_corner *c, point *p)
+GN_HOT static void find_ray(const gn_light_state *any, const gn_corner *c, corner_point *p)
 {
     int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = any->ray_shift + up - 32;
     for (int i = 0; i < 3; i++) {
@@ -308,7 +320,8 @@ GN_HOT static uint8_t own_view(const gn_frame *frame, const gn_surface *s, const
 }
 #endif
 
-GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t slot, const point *p, gn_corner *c)
+GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t slot, const corner_point *p,
+                            gn_corner *c)
 {
     const gn_surface_light *light = &s->light[slot];
     gn_corner_light *at = &c->light[slot];
@@ -342,7 +355,7 @@ GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t
 }
 
 /* Strength of shadows, cascade, and its share in a blend. */
-GN_HOT static void find_cascade(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const point *p,
+GN_HOT static void find_cascade(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const corner_point *p,
                                 gn_sample *sample, gn_corner *c)
 {
     c->cascade = (uint8_t)l->cascade;
@@ -357,7 +370,7 @@ GN_HOT static void find_cascade(const gn_lattice *l, const gn_frame *frame, cons
 GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y,
                            gn_sample *sample, gn_corner *c)
 {
-    point p;
+    corner_point p;
     GN_COUNT(corners, 1);
     c->state = GN_CORNER_UNSEEN;
     c->x = (int16_t)x;
@@ -383,7 +396,7 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
 GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t x,
                             int32_t y, gn_corner *c)
 {
-    point p;
+    corner_point p;
     c->x = (int16_t)x;
     c->y = (int16_t)y;
     if (!find_point(l, frame, s, c, &p)) return 0;

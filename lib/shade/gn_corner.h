@@ -5,6 +5,8 @@
 
 #include "shade/gn_sample.h"
 
+#if GN_INTERPOLATES
+
 /* Once per surface, for pixels of `rect`. Returns 0 if its plane does not fit 32 bits there. */
 int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, const gn_rect *rect);
 
@@ -43,5 +45,7 @@ GN_HOT static inline int32_t gn_corner_times(uint32_t colour_uq16, int32_t irrad
     uint64_t product = (uint64_t)colour_uq16 * (uint32_t)irradiance_q24;
     return product >> 43 ? 1 << 27 : (int32_t)(uint32_t)(product >> 16);
 }
+
+#endif
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "shade/gn_lattice_look.h"
 
+#if GN_INTERPOLATES
+
 /* Shades the surface's pixels in the spans of s->lattice: n_spans > 0. */
 void gn_lattice_shade(gn_shading *s);
 
@@ -17,5 +19,7 @@ GN_HOT static inline uint32_t gn_lattice_bits(const gn_lattice *l, int32_t x, in
     uint32_t at = (uint32_t)(x - l->x);
     return l->bits[at >> 5][y - l->y] >> (at & 31) & ((1U << (1 << size_log2)) - 1);
 }
+
+#endif
 
 #endif

@@ -50,20 +50,25 @@ GN_HOT static int32_t finest_log2(const gn_frame *frame)
     return GN_K(frame, persp_step) == 16 ? FL16 : FL8;
 }
 
+#if GN_SHADOWS
 /* Places in shadow maps, texels: 2^-this. */
 GN_HOT static int32_t place_log2(const gn_frame *frame)
 {
     (void)frame;
     return GN_K(frame, persp_step) == 16 ? 2 : 3;
 }
+#endif
 
+#if GN_TEXTURES
 /* Texture coordinates, texels: 2^-this. */
 GN_HOT static int32_t texture_log2(const gn_frame *frame)
 {
     (void)frame;
     return GN_K(frame, persp_step) == 16 ? 2 : 3;
 }
+#endif
 
+#if GN_SHADOWS
 /* Texels between lookups, Q16: what a filter does in between is close to linear. */
 GN_HOT static uint32_t lookup_texels_q16(const gn_frame *frame, const gn_light_view *view)
 {
@@ -71,14 +76,17 @@ GN_HOT static uint32_t lookup_texels_q16(const gn_frame *frame, const gn_light_v
     uint32_t tent = GN_K(frame, persp_step) == 16 ? 65536 : 49152;
     return view->filter == GN_FILTER_2X2 ? tent >> 1 : tent * view->filter_idx;
 }
+#endif
 
 /* ---- Geometry ---------------------------------------------------------------------------------------------------- */
 
+#if GN_SHADOWS || GN_MASKS
 GN_HOT static uint32_t spread_of(int32_t a, int32_t b, int32_t c, int32_t d)
 {
     int32_t lo = gn_min32(gn_min32(a, b), gn_min32(c, d)), hi = gn_max32(gn_max32(a, b), gn_max32(c, d));
     return (uint32_t)hi - (uint32_t)lo;
 }
+#endif
 
 /* The largest change between neighbouring corners along rows, and down columns. */
 GN_HOT static void changes_of(const int32_t at[4], uint32_t change[2])
@@ -104,19 +112,23 @@ GN_HOT static int find_bend(lattice_cell *cell)
     return 1;
 }
 
+#if GN_SHADOWS || GN_TEXTURES
 /* Perspective bends what changes by `change` from corner to corner by a quarter of its own share of that, at most:
  * along rows, and down columns. */
 GN_HOT static int bends_by_less(const uint32_t change[2], const uint32_t bend_q16[2], int32_t least_log2)
 {
     return ((uint64_t)change[0] * bend_q16[0] + (uint64_t)change[1] * bend_q16[1]) >> 18 <= 1U << least_log2;
 }
+#endif
 
+#if GN_SHADOWS
 GN_HOT static int row_bends_by_less(const uint32_t change[2], const uint32_t bend_q16[2], int32_t least_log2)
 {
     return (uint64_t)change[0] * bend_q16[0] >> 18 <= 1U << least_log2;
 }
+#endif
 
-#if GN_TEXTURES || GN_MASKS
+#if GN_TEXTURES
 /* Whether coordinates of an image are close enough to bilinear. */
 GN_HOT static int coords_hold(const lattice_cell *cell, const gn_texture *image, const int32_t *const at[4],
                               int32_t frac_bits)
@@ -155,6 +167,7 @@ GN_HOT static int images_hold(const lattice_cell *cell)
 
 /* ---- How uneven light is ----------------------------------------------------------------------------------------- */
 
+#if GN_VERTEX_NORMALS || GN_PUNCTUAL_LIGHTS
 /* The longer diagonal of vectors at the corners, along the axes. */
 GN_HOT static uint32_t diagonal(const int32_t *a, const int32_t *b, const int32_t *c, const int32_t *d)
 {
@@ -166,6 +179,7 @@ GN_HOT static uint32_t diagonal(const int32_t *a, const int32_t *b, const int32_
     if (other > one) one = other;
     return one > UINT32_MAX ? UINT32_MAX : (uint32_t)one;
 }
+#endif
 
 /* How far normals turn over the cell, radians, Q12; at least. */
 GN_HOT static uint32_t turn_q12(const lattice_cell *cell)
@@ -643,6 +657,12 @@ GN_HOT static int find_shares(const lattice_cell *cell, uint32_t slot, contribut
     return GN_MASKS && realtime && masks && cell->frame->scene->shadow.mixing == GN_MIXING_ALWAYS ? -1 : realtime;
 }
 
+/* Adds up to 2^27 to what stays below 2^30. */
+GN_HOT static inline void add_limited(int32_t *sum_q24, int32_t more_q24)
+{
+    *sum_q24 = gn_min32(*sum_q24 + more_q24, 1 << 30);
+}
+
 /* Adds a light that is in shadow all over the cell, or nowhere. */
 GN_HOT static void add_colour(const lattice_cell *cell, uint32_t slot, const contribution *light, int lit)
 {
@@ -651,10 +671,11 @@ GN_HOT static void add_colour(const lattice_cell *cell, uint32_t slot, const con
         uint32_t share = light->dark_uq16[i] + (lit ? light->more_uq16[i] : 0);
         if (!share) continue;
         int32_t e = share_of(light->irradiance_q24[i], share);
-        for (int j = 0; j < 3; j++) cell->out->colour_q24[i][j] += gn_corner_times(colour[j], e);
+        for (int j = 0; j < 3; j++) add_limited(&cell->out->colour_q24[i][j], gn_corner_times(colour[j], e));
         if (!GN_SPECULAR || !light->highlight_q24[i]) continue;
         e = share_of(light->highlight_q24[i], share);
-        for (int j = 0; j < 3; j++) cell->out->highlight_q24[i][j] += gn_corner_times(light->shine_uq16[j], e);
+        for (int j = 0; j < 3; j++)
+            add_limited(&cell->out->highlight_q24[i][j], gn_corner_times(light->shine_uq16[j], e));
     }
 }
 

@@ -4,6 +4,8 @@
 
 #include "shade/gn_corner.h"
 
+#if GN_INTERPOLATES
+
 /* Corners: upper left, upper right, lower left, lower right, 2^size_log2 pixels apart. Fills lattice->look; returns 0
  * if the cell is too uneven to be interpolated: it is to be split. */
 int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
@@ -14,5 +16,7 @@ GN_HOT static inline int32_t gn_patch_at(const gn_patch *p, int32_t x, int32_t y
 {
     return p->at + y * p->dy + x * (p->dx + y * p->dxy);
 }
+
+#endif
 
 #endif

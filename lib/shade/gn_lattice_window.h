@@ -5,6 +5,8 @@
 #include "shade/gn_corner.h"
 #include "shadow/gn_window.h"
 
+#if GN_INTERPOLATES
+
 /* The window of a view of the light in a slot, made for the part's columns from x on; it may cover nothing. `at` is any
  * point of the surface. NULL: the surface is not seen as a plane. */
 gn_window *gn_lattice_window(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
@@ -18,5 +20,7 @@ GN_HOT static inline void gn_lattice_forget_part(gn_lattice *l)
 #endif
     (void)l;
 }
+
+#endif
 
 #endif

@@ -5,6 +5,8 @@
 #include "base/gn_hint.h"
 #include "gnomon.h"
 
+#if GN_INTERPOLATES
+
 /* From now on between a colour in shadow and what the light adds to it. */
 void gn_levels_use(gn_lattice *lattice, const int32_t dark_q24[3], const int32_t more_q24[3]);
 
@@ -18,5 +20,7 @@ GN_HOT static inline uint32_t gn_levels_pixel(gn_shading *s, uint32_t attenuatio
     if (s->lattice.known[level >> 5] >> (level & 31) & 1U) return s->lattice.pixel[level];
     return gn_levels_find(s, level);
 }
+
+#endif
 
 #endif

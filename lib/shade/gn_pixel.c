@@ -4,7 +4,9 @@
 #include "base/gn_q.h"
 #include "base/gn_count.h"
 #include "base/gn_tables.h"
+#if GN_INTERPOLATES
 #include "geometry/gn_texture.h"
+#endif
 #include "shade/gn_pixel.h"
 
 #define GN_ONE_Q20 (1U << 20)
@@ -201,7 +203,7 @@ GN_HOT static inline void segment_565(uint16_t *out, uint32_t bits, const int32_
     }
 }
 
-GN_HOT static void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line)
+GN_HOT static inline void line_565(uint16_t *out, uint32_t bits, const gn_pixel_line *line)
 {
     int32_t n = 1 << line->spacing_log2, step[3];
     for (const int32_t(*node)[3] = line->node; bits; bits >>= n, out += n, node++) {
@@ -228,7 +230,7 @@ GN_HOT static void store_colour(const gn_frame *frame, const gn_pixel_rows *rows
 }
 
 /* Times a texture's colour. */
-GN_HOT static void tint(const gn_pixel_line *line, int32_t i, int32_t colour_q24[3])
+GN_HOT static inline void tint(const gn_pixel_line *line, int32_t i, int32_t colour_q24[3])
 {
     uint32_t texel_uq16[3];
     GN_COUNT(textured, 1);
@@ -241,7 +243,7 @@ GN_HOT static void tint(const gn_pixel_line *line, int32_t i, int32_t colour_q24
 GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
                                 const gn_pixel_line *line)
 {
-    if (has_levels(frame) && !line->texture) {
+    if (GN_LEVEL_TABLES && has_levels(frame) && !line->texture) {
         line_565(pixel_565(rows, x, y), bits, line);
         return;
     }

@@ -46,7 +46,7 @@ GN_HOT static inline int32_t rounded_high(int64_t v, int32_t s)
     return (int32_t)(((int32_t)high >> 1) + (int32_t)(high & 1U));
 }
 
-GN_HOT void gn_surgn_surface_face(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
+GN_HOT void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3])
 {
     int64_t a[3];
     for (int r = 0; r < 3; r++)
@@ -86,7 +86,7 @@ GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache,
     for (int k = 0; k < 3; k++) {
         const gn_normal *nrm_q15 = mesh->nrm_q15 + 3 * (size_t)idx[k];
         if (GN_SIZE_FIRST) gn_xform_normal(n[k], cache->normal_matrix, nrm_q15);
-        else gn_surgn_surface_face(n[k], cache->normal_matrix, nrm_q15);
+        else gn_surface_normal(n[k], cache->normal_matrix, nrm_q15);
         if (s->plane.back)
             for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
     }

@@ -41,7 +41,7 @@ GN_HOT int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_li
     int fast = GN_K(frame, persp_step) == 16;
     window->behind_q30 = (int32_t)(per_half_q30 * halves + rounding);
     window->front_q30 = (int32_t)(per_half_q30 * (fast ? 1 : (halves + 1) >> 1) + rounding);
-    int64_t safe_q30 = own_q30 - (own_q30 >> 3) - ((int64_t)1 << (30 - GN_VIEW_BITS(view)));
+    int64_t safe_q30 = own_q30 - (own_q30 >> 3) - ((int64_t)1 << 30 >> GN_VIEW_BITS(view));
     int enough = own_q30 + (own_q30 >> 3) >= window->behind_q30; /* the reference sees no acne */
     if (enough) window->behind_q30 = window->front_q30;
     if ((fast || enough) && safe_q30 > 0 && safe_q30 < window->behind_q30) window->behind_q30 = (int32_t)safe_q30;
@@ -227,6 +227,7 @@ GN_HOT static uint32_t dark_texels(const gn_frame *frame, const gn_window *windo
     return any | all << 16;
 }
 
+#if GN_FILTER_MAX >= 2
 /* 3x3, positions to 1/32 texel. */
 GN_HOT static void row_3x3(const gn_frame *frame, const gn_window *window, int32_t u, int32_t v, int32_t depth_q30,
                            const gn_receiver_step *step, int32_t n, uint32_t *out)
@@ -262,6 +263,8 @@ GN_HOT static void row_3x3(const gn_frame *frame, const gn_window *window, int32
     }
 }
 
+#endif
+
 /* Four texels. */
 GN_HOT static uint32_t by_2x2(const uint8_t dark[2], int32_t u, int32_t v, int32_t bits)
 {
@@ -282,7 +285,10 @@ GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const gn_wi
     uint32_t found = dark_texels(frame, window, u >> 16, v >> 16, n, depth_q30, dark);
     if (!(found & 0xFFFFU)) return 65536;
     if (found >> 16 == (1U << n) - 1) return 0;
-    return filter == GN_FILTER_2X2 ? by_2x2(dark, u, v, bits) : gn_tent_of_dark(frame, dark, k, u, v, bits);
+#if GN_FILTER_MAX >= 2
+    if (filter != GN_FILTER_2X2) return gn_tent_of_dark(frame, dark, k, u, v, bits);
+#endif
+    return by_2x2(dark, u, v, bits);
 }
 
 GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
@@ -297,10 +303,12 @@ GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const g
     int32_t u = from->u_q16 - shift - window->u0 * 65536, v = from->v_q16 - shift - window->v0 * 65536;
     int32_t depth_q30 = from->depth_q31;
     GN_COUNT(window_lookups, n);
+#if GN_FILTER_MAX >= 2
     if (view->filter == GN_FILTER_3X3 && !(GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)) {
         row_3x3(frame, window, u, v, depth_q30, step, n, attenuation);
         return 1;
     }
+#endif
     for (int32_t i = 0; i < n; i++, u += step->u_q16, v += step->v_q16) {
         attenuation[i] = by_weights(frame, window, u, v, depth_q30);
         depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31); /* not used beyond the row */

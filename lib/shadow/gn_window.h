@@ -9,6 +9,8 @@
 
 #include "shadow/gn_filter.h"
 
+#if GN_INTERPOLATES
+
 /* Makes a window of a view that knows a plane by its slopes: change of depth per texel, a fraction of the range.
  * own_q30: how far bias keeps the texels of the surface itself behind the plane: they are not
  * in doubt. on_plane: taps are compared with the plane (B5). Returns 0 if the plane is too steep, or the filter has no
@@ -48,5 +50,7 @@ int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32_t w, i
  * Returns 0 if the window does not cover all. */
 int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
                   const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
+
+#endif
 
 #endif

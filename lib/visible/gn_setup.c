@@ -49,13 +49,13 @@ typedef struct {
     gn_vertex_entry vertex;
     uint32_t out;    /* planes it is outside of: the picture's, and the guard band's << 8 */
     gn_projected at; /* if in the guard band */
-} corner;
+} setup_corner;
 
 /* One object. */
 typedef struct {
     gn_screen_job screen;
     gn_clipping *clipping;
-    corner *cache;
+    setup_corner *cache;
     uint32_t cache_mask;
     uint32_t focal_norm; /* 2F, normalised */
     int32_t focal_up;    /* see project */
@@ -118,7 +118,7 @@ static GN_NOINLINE void project_cut(const setup_job *job, const int32_t v_q16[3]
 }
 
 /* Returns 0 if the vertex is out of range. */
-static GN_NOINLINE int fill_corner_small(const setup_job *job, corner *c, uint32_t vertex_idx)
+static GN_NOINLINE int fill_corner_small(const setup_job *job, setup_corner *c, uint32_t vertex_idx)
 {
     const gn_cam *cam = &job->screen.frame->cam;
     const int32_t *v = c->vertex.v_q16;
@@ -141,7 +141,7 @@ static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
 }
 
 /* Returns 0 for a corner nearer than near, outside or near the border of the guard band, or out of range. */
-static GN_NOINLINE int fill_far_corner(const setup_job *job, corner *c)
+static GN_NOINLINE int fill_far_corner(const setup_job *job, setup_corner *c)
 {
     const gn_cam *cam = &job->screen.frame->cam;
     const int32_t *v = c->vertex.v_q16;
@@ -155,7 +155,7 @@ static GN_NOINLINE int fill_far_corner(const setup_job *job, corner *c)
 }
 
 /* The same, without testing planes for most vertices. */
-GN_INLINE int fill_corner_fast(const setup_job *job, corner *c, uint32_t vertex_idx)
+GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t vertex_idx)
 {
     const gn_mesh *mesh = job->screen.object->mesh;
     int32_t v[3];
@@ -179,7 +179,7 @@ GN_INLINE int fill_corner_fast(const setup_job *job, corner *c, uint32_t vertex_
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
 /* A triangle that leaves the guard band, or comes nearer than near. [R3] */
-static GN_NOINLINE void clip_triangle(const setup_job *job, const corner *const c[3], uint32_t triangle_idx)
+static GN_NOINLINE void clip_triangle(const setup_job *job, const setup_corner *const c[3], uint32_t triangle_idx)
 {
     gn_frame *frame = job->screen.frame;
     gn_polygon *polygon = &job->clipping->polygon;
@@ -197,7 +197,7 @@ static GN_NOINLINE void clip_triangle(const setup_job *job, const corner *const 
     }
 }
 
-static gn_status setup_triangle(const setup_job *job, const corner *const c[3], uint32_t triangle_idx)
+static gn_status setup_triangle(const setup_job *job, const setup_corner *const c[3], uint32_t triangle_idx)
 {
     GN_COUNT(triangles, 1);
     if (c[0]->out & c[1]->out & c[2]->out & GN_OUT_ALL) return GN_OK;
@@ -211,16 +211,17 @@ static gn_status setup_triangle(const setup_job *job, const corner *const c[3], 
 /* ---- Objects ----------------------------------------------------------------------------------------------------- */
 
 /* The corners of a triangle, through the cache: c[2 .. 4]. */
-static inline gn_status fetch_corners(const setup_job *job, const uint16_t *idx, corner spare[3], const corner *c[5])
+static inline gn_status fetch_corners(const setup_job *job, const uint16_t *idx, setup_corner spare[3],
+                                      const setup_corner *c[5])
 {
     uint32_t n_vertices = job->screen.object->mesh->n_vertices, first_tag = gn_vertex_tag(job->screen.object_idx, 0);
-    for (const corner **at = c + 2; at != c + 5; at++) {
+    for (const setup_corner **at = c + 2; at != c + 5; at++) {
         uint32_t vertex_idx = *idx++, tag = first_tag + vertex_idx;
         if (vertex_idx >= n_vertices) return gn_fail(job->screen.frame, GN_ERR_MESH_INDEX, job->screen.object_idx);
-        corner *entry = &job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)];
+        setup_corner *entry = &job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)];
         if (!gn_vertex_hit(&entry->vertex, tag)) {
-            entry = (corner *)gn_vertex_claim_corner(&entry->vertex, tag, &at[-1]->vertex, &at[-2]->vertex,
-                                                     &spare[at - c - 2].vertex);
+            entry = (setup_corner *)gn_vertex_claim_corner(&entry->vertex, tag, &at[-1]->vertex, &at[-2]->vertex,
+                                                           &spare[at - c - 2].vertex);
             if (!(GN_SIZE_FIRST ? fill_corner_small(job, entry, vertex_idx) : fill_corner_fast(job, entry, vertex_idx)))
                 return gn_fail(job->screen.frame, GN_ERR_VERTEX_RANGE, job->screen.object_idx);
         }
@@ -233,8 +234,8 @@ static gn_status setup_object(setup_job *job)
 {
     const gn_cam *cam = &job->screen.frame->cam;
     const gn_mesh *mesh = job->screen.object->mesh;
-    corner spare[3];
-    const corner *c[5];
+    setup_corner spare[3];
+    const setup_corner *c[5];
     c[0] = c[1] = spare; /* no cache entry: no corner before the first */
     gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->screen.object);
     if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
@@ -254,8 +255,8 @@ gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
     gn_screen_begin(&job.screen, frame);
     job.screen.place = scratch->pixel.rgb565;
     job.clipping = &scratch->work.clipping;
-    job.cache = (corner *)(void *)scratch->cell;
-    job.cache_mask = gn_vertex_mask(sizeof scratch->cell, sizeof(corner));
+    job.cache = (setup_corner *)(void *)scratch->cell;
+    job.cache_mask = gn_vertex_mask(sizeof scratch->cell, sizeof(setup_corner));
     job.focal_norm = frame->cam.focal2_px_q16 << clz;
     job.focal_up = 1 - clz;
     job.near_down = gn_clz32((uint32_t)frame->cam.near_q16) - 1;

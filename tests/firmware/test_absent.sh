@@ -103,7 +103,7 @@ TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
 SPECULAR highlight_q30
 MASKS gn_texture_mask
 CASTER_BIAS corner_normals
-RECEIVER_PLANE .*_slopes|lit_row_on_plane
+RECEIVER_PLANE start_plane|dark_on_plane
 AUTO_BIAS gn_bias_auto_.*|.*_share_q3[02]|auto_.*
 INCREMENTAL gn_kept_.*|view_signature|stays
 STATIC_LAYER gn_static_layer_.*

@@ -7,6 +7,7 @@
 
 #include "exact.h"
 #include "knobs.h"
+#include "base/gn_tables.h"
 #include "shadow/gn_blocks.h"
 #include "shadow/gn_filter.h"
 #include "shadow/gn_tent.h"
@@ -59,6 +60,37 @@ static void test_weights(void)
     CHECK_TALLY(weight, "tent weights are the integral");
     CHECK_TALLY(sum, "tent weights sum to the whole and end where they should");
 }
+
+#if GN_INTERPOLATES && GN_FILTER_MAX >= 2
+/* The table of subsets against the integral at 1/32 texel, in Q12: weights nearest to it, but the largest, which takes
+ * what the others' roundings leave; sums of each subset; mirror images. */
+static void test_tent_sums(void)
+{
+    enum { F = 32, WHOLE = 9 * F * F };
+    tally weight = {0}, sum = {0}, mirrored = {0};
+    for (int32_t u = 0; u < F; u++) {
+        const uint16_t *sums = gn_tent_sums[u];
+        int32_t largest = 0;
+        for (int32_t i = 1; i < 4; i++)
+            if (sums[1 << i] > sums[1 << largest]) largest = i;
+        for (int32_t i = 0; i < 4; i++) {
+            int64_t off = (int64_t)sums[1 << i] * WHOLE - exact_weight(1, i, u, F) * 4096;
+            HOLDS(&weight, (off < 0 ? -off : off) * 2 <= (i == largest ? 3 : 1) * WHOLE, "u %d, texel %d: %u", (int)u,
+                  (int)i, (unsigned)sums[1 << i]);
+            if (u) HOLDS(&mirrored, sums[1 << i] == gn_tent_sums[F - u][8 >> i], "u %d, texel %d", (int)u, (int)i);
+        }
+        for (uint32_t bits = 0; bits < 16; bits++) {
+            uint32_t all = 0;
+            for (int32_t i = 0; i < 4; i++) all += bits >> i & 1U ? sums[1 << i] : 0;
+            HOLDS(&sum, sums[bits] == all && (bits < 15 || all == 4096), "u %d, subset %u: %u", (int)u, (unsigned)bits,
+                  (unsigned)sums[bits]);
+        }
+    }
+    CHECK_TALLY(weight, "weights of the table are the integral");
+    CHECK_TALLY(sum, "sums of subsets");
+    CHECK_TALLY(mirrored, "weights of the table are symmetric");
+}
+#endif
 
 /* As DESIGN 1.7 writes them: constant and slope of each weight. */
 static const struct {
@@ -676,6 +708,9 @@ int main(void)
 {
     build_disk();
     test_weights();
+#if GN_INTERPOLATES && GN_FILTER_MAX >= 2
+    test_tent_sums();
+#endif
     test_linear_weights();
     test_linear_against_tent();
     test_attenuation();

@@ -6,6 +6,7 @@
 #include "knobs.h"
 #include <stdlib.h>
 
+#include "shade/gn_levels.h"
 #include "shade/gn_pixel.h"
 #include "base/gn_tables.h"
 #include "gnomon.h"
@@ -217,93 +218,138 @@ static void test_levels(void)
     CHECK_EQ_INT(n, 256);
 }
 
-#if GN_PIECES
-static uint32_t q20_of(int32_t q24)
+#if GN_INTERPOLATES
+static uint32_t q20_of(int64_t q24)
 {
-    return q24 < 0 ? 0 : (uint32_t)q24 >> 4;
+    return q24 < 0 ? 0 : (uint32_t)(q24 >> 4);
 }
 
-/* Ramps of RGB565 are packed by tables; every light from black to white, and what lies beyond, as gn_pixel_pack() has
- * it. */
-static void test_ramp(void)
+/* Pixel i of a line: between two nodes a step is rounded down to 2^-24. */
+static uint32_t pixel_of_line(const gn_pixel_line *line, int32_t i)
 {
-    enum { ROOM = sizeof(((gn_tile_pixels *)0)->rgb565) / sizeof(uint16_t), N = ROOM < 1024 ? ROOM : 1024 };
-    static const gn_format formats[] = {GN_FORMAT_RGB565, GN_FORMAT_RGB565_SWAPPED, GN_FORMAT_GREY8};
-    static gn_tile_pixels pixels;
-    gn_pixel_rows rows = {&pixels, N, 0, 0};
-    tally same = {0};
-    for (size_t k = 0; k < 3; k++) {
-        frame.picture.format = formats[k];
-        for (int32_t first = -4 * N; first < ONE_Q20 + 4 * N; first += N) {
-            const gn_ramp ramp = {{first * 16 + 15, (ONE_Q20 - first) * 16, (first ^ 0x5555) * 16}, {16, -16, 48}};
-            gn_pixel_ramp(&frame, &rows, 0, 0, N, &ramp);
-            for (int32_t i = 0; i < N; i++) {
-                uint32_t q20[3];
-                for (int c = 0; c < 3; c++) { q20[c] = q20_of(ramp.from_q24[c] + i * ramp.step_q24[c]); }
-                uint32_t is = k < 2 ? pixels.rgb565[i] : pixels.bytes[i], want = gn_pixel_pack(&frame, q20);
-                HOLDS(&same, is == want, "%d, format %d: %x, not %x", (int)(first + i), (int)k, (unsigned)is,
-                      (unsigned)want);
-            }
-        }
+    const int32_t k = i >> line->spacing_log2, t = i - (k << line->spacing_log2);
+    uint32_t q20[3];
+    for (int c = 0; c < 3; c++) {
+        const int64_t from = line->node[k][c],
+                      step =
+                          t ? (int64_t)i128_floor_div(line->node[k + 1][c] - from, (i128)1 << line->spacing_log2) : 0;
+        q20[c] = q20_of(from + t * step);
     }
-    CHECK_TALLY(same, "ramps are packed like single pixels");
-}
-#endif
-
-static uint32_t mix_state = 1;
-
-static int32_t random_below(int32_t n)
-{
-    mix_state = mix_state * 1664525U + 1013904223U;
-    return (int32_t)((uint64_t)mix_state * (uint32_t)n >> 32);
+    return gn_pixel_pack(&frame, q20);
 }
 
-/* Each channel is what lies so far between dark and lit has, or what lies 2^-15 below it. */
-static int between(uint32_t is, uint32_t want, uint32_t below)
-{
-    static const uint32_t channel[3] = {31U << 11, 63U << 5, 31U};
-    for (int c = 0; c < 3; c++)
-        if ((is & channel[c]) > (want & channel[c]) || (is & channel[c]) < (below & channel[c])) return 0;
-    return 1;
-}
+enum { LINE_X = 40, LINE_Y = 30, LINE_PIXELS = 16 };
 
-#if GN_PIECES
-/* Rows between two ramps, all of it within 0 .. 1 or not. */
-static void test_mix(void)
+/* Stores a line into a row of which every pixel was `before`: those of `bits` must be the line's, the others as they
+ * were. */
+static void check_line(const gn_pixel_line *line, uint32_t bits, tally *same, tally *kept)
 {
-    enum { N = 16 };
     static gn_tile_pixels pixels;
-    gn_pixel_rows rows = {&pixels, N, 0, 0};
-    tally same = {0};
+    const gn_pixel_rows rows = {&pixels, LINE_PIXELS + 2, LINE_X - 1, LINE_Y};
+    const uint32_t before = gn_pixel_pack(&frame, (const uint32_t[3]){12345, 54321, 999999});
+    gn_pixel_fill(&frame, &rows, LINE_X - 1, LINE_Y, LINE_PIXELS + 2, before);
+    gn_pixel_store_line(&frame, &rows, LINE_X, LINE_Y, bits, line);
+    for (int32_t i = -1; i <= LINE_PIXELS; i++) {
+        uint32_t is = 0;
+        if (frame.picture.format == GN_FORMAT_RGB888)
+            for (int c = 0; c < 3; c++) is |= (uint32_t)pixels.bytes[3 * (i + 1) + c] << 8 * c;
+        else if (frame.picture.format == GN_FORMAT_GREY8) is = pixels.bytes[i + 1];
+        else is = pixels.rgb565[i + 1];
+        const int is_set = i >= 0 && i < LINE_PIXELS && (bits >> i & 1U);
+        const uint32_t want = is_set ? pixel_of_line(line, i) : before;
+        HOLDS(is_set ? same : kept, is == want, "format %d, pixel %d of %x, 2^%d apart: %x, not %x",
+              (int)frame.picture.format, (int)i, (unsigned)bits, (int)line->spacing_log2, (unsigned)is, (unsigned)want);
+    }
+}
+
+/* Lines are what single pixels would be: random nodes, also beyond black and white, and every light from one to the
+ * other. */
+static void test_lines(void)
+{
+    static const gn_format formats[] = {GN_FORMAT_RGB565, GN_FORMAT_RGB565_SWAPPED, GN_FORMAT_GREY8, GN_FORMAT_RGB888};
+    int32_t node[LINE_PIXELS + 1][3];
+    tally same = {0}, kept = {0}, all = {0};
+    gn_pixel_line line = {(const int32_t(*)[3])node, 0, 0, NULL, {0, 0}, {0, 0}};
+    for (int k = 0; k < 40000; k++) {
+        frame.picture.format = formats[k & 3];
+        SET_KNOB(&frame, srgb, k % 7 != 0);
+        line.spacing_log2 = rng_range(&random_state, 0, 4);
+        line.inside = k % 3 != 0;
+        for (int i = 0; i <= LINE_PIXELS; i++)
+            for (int c = 0; c < 3; c++)
+                node[i][c] = line.inside ? rng_range(&random_state, 64, (1 << 24) - 1)
+                                         : rng_range(&random_state, -(1 << 24), (1 << 28));
+        check_line(&line, rng_u32(&random_state) & 0xFFFFU & (k & 4 ? UINT32_MAX : rng_u32(&random_state)), &same,
+                   &kept);
+    }
+    SET_KNOB(&frame, srgb, 1);
     frame.picture.format = GN_FORMAT_RGB565;
-    for (int k = 0; k < 20000; k++) {
-        gn_ramp ramp[2];
-        uint32_t share[N];
-        for (int i = 0; i < N; i++)
-            share[i] =
-                (uint32_t)random_below(4) == 0 ? (uint32_t)random_below(2) * 65536 : (uint32_t)random_below(65537);
-        for (int side = 0; side < 2; side++)
-            for (int c = 0; c < 3; c++) {
-                int32_t last = random_below(1 << 24) + (k % 4 ? 0 : random_below(1 << 24) - (1 << 23));
-                ramp[side].from_q24[c] = random_below(1 << 24);
-                ramp[side].step_q24[c] = (last - ramp[side].from_q24[c]) / (N - 1);
-            }
-        gn_pixel_mix(&frame, &rows, 0, 0, N, &ramp[0], &ramp[1], share);
-        for (int i = 0; i < N; i++) {
-            uint32_t q20[3], below[3];
-            for (int c = 0; c < 3; c++) {
-                int32_t dark = ramp[0].from_q24[c] + i * ramp[0].step_q24[c],
-                        lit = ramp[1].from_q24[c] + i * ramp[1].step_q24[c];
-                int32_t v = dark + (int32_t)((int64_t)(lit - dark) * (int32_t)share[i] >> 16);
-                q20[c] = q20_of(v);
-                below[c] = q20_of(v - 512);
-            }
-            uint32_t want = gn_pixel_pack(&frame, q20);
-            HOLDS(&same, between(pixels.rgb565[i], want, gn_pixel_pack(&frame, below)), "%d of row %d: %x, not %x", i,
-                  k, (unsigned)pixels.rgb565[i], (unsigned)want);
+    line.spacing_log2 = 4;
+    for (int32_t first = -64; first < ONE_Q20 + 64; first += LINE_PIXELS) {
+        line.inside = first >= 16 && first + LINE_PIXELS < ONE_Q20 - 16;
+        for (int i = 0; i < 2; i++) {
+            node[i][0] = (first + i * LINE_PIXELS) * 16 + 15;
+            node[i][1] = (ONE_Q20 - first - i * LINE_PIXELS) * 16;
+            node[i][2] = (first + i * LINE_PIXELS) * 16 + 8;
+        }
+        check_line(&line, 0xFFFFU, &all, &kept);
+    }
+    CHECK_TALLY(same, "lines are packed like single pixels");
+    CHECK_TALLY(all, "lines of every light are packed like single pixels");
+    CHECK_TALLY(kept, "what a line does not store is kept");
+}
+
+static void test_bits(void)
+{
+    static gn_tile_pixels is, want;
+    tally t = {0};
+    for (uint32_t k = 0; k < 20000; k++) {
+        const gn_pixel_rows rows = {&is, 24, 40, 30}, expected = {&want, 24, 40, 30};
+        const uint32_t bits = rng_u32(&random_state) & 0xFFFFU, packed = rng_u32(&random_state) & 0xFFFFFFU;
+        frame.picture.format = k & 1 ? GN_FORMAT_RGB888 : GN_FORMAT_RGB565;
+        memset(is.bytes, 0xA5, 24 * 4);
+        memset(want.bytes, 0xA5, 24 * 4);
+        gn_pixel_store_bits(&frame, &rows, 43, 30, bits, packed);
+        for (int32_t i = 0; i < 16; i++)
+            if (bits >> i & 1U) gn_pixel_fill(&frame, &expected, 43 + i, 30, 1, packed);
+        HOLDS(&t, memcmp(is.bytes, want.bytes, 24 * 4) == 0, "%x of %x", (unsigned)packed, (unsigned)bits);
+    }
+    CHECK_TALLY(t, "pixels of a row's bits");
+}
+
+/* Between two colours in steps of 1 / 64: every attenuation is the nearest step, and nothing is kept of colours before.
+ */
+static void test_two_colours(void)
+{
+    static gn_shading shading;
+    static const gn_format formats[] = {GN_FORMAT_RGB565, GN_FORMAT_GREY8, GN_FORMAT_RGB888};
+    int32_t dark[3] = {0, 0, 0}, more[3] = {0, 0, 0};
+    tally same = {0};
+    shading.frame = &frame;
+    SET_KNOB(&frame, srgb, 1);
+    for (uint32_t k = 0; k < 600; k++) {
+        const int every = k < 3;
+        const int c = (int)rng_below(&random_state, 3);
+        if (k % 200 == 0) { /* as at the beginning of a tile */
+            frame.picture.format = formats[k / 200];
+            memset(&shading.lattice, k & 1 ? 0xA5 : 0, sizeof shading.lattice);
+            memset(shading.lattice.known, 0, sizeof shading.lattice.known);
+            shading.last_pixel = gn_pixel_pack(&frame, shading.last_q20);
+        }
+        if (k % 7) dark[c] = rng_range(&random_state, k & 2 ? 0 : -(1 << 20), 1 << 27); /* else the same again */
+        if (k % 7 && k % 3) more[c] = rng_range(&random_state, 0, 1 << 27);
+        if (k % 7 == 0) dark[c] ^= 1 << 18, more[c] ^= 1 << 17; /* a little */
+        gn_levels_use(&shading.lattice, dark, more);
+        for (uint32_t a = every ? 0 : rng_below(&random_state, 777); a <= 65536; a += every ? 1 : 777) {
+            const int64_t level = (int64_t)i128_round_shr(a, 10);
+            uint32_t q20[3];
+            for (int i = 0; i < 3; i++) q20[i] = q20_of(dark[i] + (int64_t)i128_floor_div((i128)more[i] * level, 64));
+            const uint32_t is = gn_levels_pixel(&shading, a), want = gn_pixel_pack(&frame, q20);
+            HOLDS(&same, is == want, "colours %u, attenuation %u: %x, not %x", (unsigned)k, (unsigned)a, (unsigned)is,
+                  (unsigned)want);
         }
     }
-    CHECK_TALLY(same, "pixels between dark and lit");
+    CHECK_TALLY(same, "pixels between two colours");
 }
 #endif
 
@@ -314,9 +360,10 @@ int main(void)
     test_pack();
     test_fill();
     test_levels();
-#if GN_PIECES
-    test_ramp();
-    test_mix();
+#if GN_INTERPOLATES
+    test_lines();
+    test_bits();
+    test_two_colours();
 #endif
     test_greys();
     test_packed_rows();

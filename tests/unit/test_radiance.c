@@ -8,6 +8,7 @@
 #include "../lib/light/gn_punctual.h"
 #include "../lib/scene/gn_scene.h"
 #include "../lib/shade/gn_shadow.h"
+#include "../lib/visible/gn_setup.h"
 
 enum {
     STAGE_FILTER,
@@ -18,7 +19,6 @@ enum {
     STAGE_ATTENUATION_ALWAYS,
     STAGE_ATTENUATION_DISTANCE,
     STAGE_RADIANCE,
-    STAGE_PIECES,
     STAGE_OFFSET, /* of spot lights; each is followed by that of point lights */
     STAGE_CURVED = STAGE_OFFSET + 2,
     STAGE_LIFT = STAGE_CURVED + 2,
@@ -34,7 +34,6 @@ static const char *const stage_name[STAGE_COUNT] = {
     "attenuation: with a mask, always, LSB of Q16",
     "attenuation: with a mask, by distance, LSB of Q16",
     "shading, samples: radiance in linear light, LSB of Q20",
-    "shading, pieces: radiance in linear light, LSB of Q20",
     "bias, spot: offset by B2 and B3, LSB of Q15.16",
     "bias, point: offset by B2 and B3, LSB of Q15.16",
     "bias, spot: automatic, curved surfaces, LSB of Q15.16",
@@ -45,7 +44,6 @@ static const char *const stage_name[STAGE_COUNT] = {
     "bias, point: automatic, depth, LSB of Q32",
 };
 
-#include "pieces_colours.h"
 #include "stages.h"
 
 #define LSB20 ldexp(1, -20)
@@ -218,7 +216,7 @@ static void check_attenuation(const gn_knobs *knobs)
     fixed.shadow.distance_fade_uq16 = 6554;
 }
 
-/* ---- Radiance (NUMERICS 4.5, 4.12) ------------------------------------------------------------------------------- */
+/* ---- Radiance (NUMERICS 4.5) ------------------------------------------------------------------------------------- */
 
 static gn_light lamps[3];
 
@@ -245,11 +243,9 @@ static void lit_scene(void)
     fixed.n_lights = 1 + (uint32_t)uniform(0, 3);
 }
 
-/* What a pixel should be, and what it may be off by but for what pieces add. */
+/* What a pixel should be, and what it may be off by. */
 typedef struct {
     double want[3], bound[3];
-    double smooth[3],
-        most[3]; /* light that varies with the normal; the larger of what arrives and the tint, at least 1 */
 } shade;
 
 /* Knob vertex_light: the cosine of the corners, interpolated, and what it may be off by. */
@@ -266,20 +262,19 @@ static double corner_cosine(const gn_surface *s, const crossing *c, const double
     return at[0] + c->b[0] * (at[1] - at[0]) + c->b[1] * (at[2] - at[0]);
 }
 
-static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing *c, double more_b, shade *out)
+static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing *c, shade *out)
 {
-    double n[3], change = normal_at(s, c, n), length = sqrt(dot(n, n)), more = 2 * sqrt(3.0) * change * more_b / length;
+    double n[3], change = normal_at(s, c, n), length = sqrt(dot(n, n));
     for (int k = 0; k < 3; k++) {
         const double albedo = object.albedo_uq16[k] * LSB16;
-        double sum = albedo * fixed.ambient_uq16[k] * LSB16, off = LSB20 / 2, smooth = 0;
+        double sum = albedo * fixed.ambient_uq16[k] * LSB16, off = LSB20 / 2;
         for (uint32_t l = 0; l < fixed.n_lights; l++) {
             double to_light[3], colour = albedo * lamps[l].colour_uq16[k] * LSB16;
             axis_of(frame->light[l].to_light_q30, to_light);
-            double cosine = fmax(0, dot(n, to_light) / length), cosine_off = cosine_bound(frame, c, n, change) + more;
+            double cosine = fmax(0, dot(n, to_light) / length), cosine_off = cosine_bound(frame, c, n, change);
             if (frame->knobs.vertex_light && s->smooth)
-                cosine = corner_cosine(s, c, to_light, bary_bound(frame, c) + more_b, &cosine_off);
+                cosine = corner_cosine(s, c, to_light, bary_bound(frame, c), &cosine_off);
             sum += colour * cosine;
-            smooth += colour;
             off += cosine * LSB16 / 2 + (colour + LSB16 / 2) * cosine_off + LSB20 / 2;
         }
         double tint = 1, tint_off = 0;
@@ -287,13 +282,10 @@ static void shade_at(const gn_frame *frame, const gn_surface *s, const crossing 
             const int32_t *at[3] = {s->attribute_q16[0] + GN_ATTRIBUTE_RGB, s->attribute_q16[1] + GN_ATTRIBUTE_RGB,
                                     s->attribute_q16[2] + GN_ATTRIBUTE_RGB};
             tint = (at[0][k] + c->b[0] * at[1][k] + c->b[1] * at[2][k]) * LSB16;
-            tint_off =
-                LSB16 + (fabs((double)at[1][k]) + fabs((double)at[2][k])) * LSB16 * (bary_bound(frame, c) + more_b);
+            tint_off = LSB16 + (fabs((double)at[1][k]) + fabs((double)at[2][k])) * LSB16 * bary_bound(frame, c);
         }
         out->want[k] = sum * tint;
         out->bound[k] = off * (tint + tint_off) + sum * tint_off + LSB20 / 2;
-        out->smooth[k] = change > 0 ? smooth * tint : 0;
-        out->most[k] = fmax(1, fmax(sum, tint));
     }
 }
 
@@ -316,59 +308,9 @@ static void check_samples(const gn_surface *s, const plane *p, const gn_rect *r)
             if (!is_seen(&c, p)) continue;
             gn_sample_at(frame, s, x, y, &sample);
             gn_light_radiance(frame, s, &sample, got);
-            shade_at(frame, s, &c, 0, &want);
+            shade_at(frame, s, &c, &want);
             for (int k = 0; k < 3; k++)
                 record(STAGE_RADIANCE, fabs(got[k] * LSB20 - want.want[k]), want.bound[k], LSB20);
-        }
-}
-
-/* 4.12: what ramps may stray by, slopes, the forms of the barycentrics, stepped from the middle of all, and the square
- * of N. */
-static void check_row(gn_pieces *pieces, const plane *p, double tolerance, int y, int x_begin, int x_end)
-{
-    static int32_t got[GN_PIECE_WIDTH][3];
-    pieces_colours(pieces, y, x_begin, x_end, got);
-    for (int x = x_begin; x < x_end; x += 3) {
-        crossing c;
-        shade want;
-        double n[3];
-        cross_at(&c, p, x, y);
-        if (!is_seen(&c, p)) continue;
-        const int dx = x - pieces->ref_x, dy = y - pieces->ref_y;
-        const double units = 0.5 * (1 + abs(dx) + abs(dy)), w = gn_along(&pieces->w, dx, dy);
-        shade_at(&renderer.frame, pieces->surface, &c, 2.5 * units / w + ldexp(64, -28), &want);
-        normal_at(pieces->surface, &c, n);
-        const double of_normal = pieces->turns ? ldexp(1, -17) / dot(n, n) : 0, ramp = !pieces->turns   ? 5
-                                                                                       : pieces->tinted ? 4
-                                                                                                        : 1;
-        for (int k = 0; k < 3; k++) {
-            const double stray =
-                want.most[k] * (tolerance * ramp + ldexp(1, -12)) + ldexp(1, -17) + of_normal * want.smooth[k];
-            const double bound = want.bound[k] + (pieces->varies ? stray : 0);
-            record(STAGE_PIECES, fabs(fmax(0, ldexp(got[x - x_begin][k], -24)) - want.want[k]), bound, LSB20);
-        }
-    }
-}
-
-static void check_pieces(const gn_surface *s, const plane *p, const gn_rect *r)
-{
-    gn_frame *frame = &renderer.frame;
-    static gn_pieces pieces;
-    const double tolerance = frame->knobs.persp_step == 16  ? ldexp(1, -7)
-                             : frame->knobs.persp_step == 8 ? ldexp(1, -9)
-                                                            : ldexp(1, -10);
-    if (!gn_pieces_fit(frame, s) || !gn_pieces_begin(&pieces, frame, s, r)) return;
-    for (int y = r->y0; y < r->y1; y += GN_PIECE_ROWS)
-        for (int x = r->x0; x < r->x1;) {
-            gn_rect part = {x, y, 0, y + GN_PIECE_ROWS < r->y1 ? y + GN_PIECE_ROWS : r->y1};
-            int width = GN_PIECE_WIDTH, taken = 0;
-            for (; !taken && width >= 4; width /= 2) {
-                part.x1 = x + width < r->x1 ? x + width : r->x1;
-                taken = gn_pieces_select(&pieces, &part);
-            }
-            x = part.x1;
-            for (int row = part.y0; taken && row < part.y1; row += 3)
-                check_row(&pieces, p, tolerance, row, part.x0, part.x1);
         }
 }
 
@@ -392,11 +334,6 @@ static void check_radiance(const gn_knobs *knobs)
             gn_surface_begin(&renderer.frame, scratch, &cache, &surface, tri);
             const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
             check_samples(&surface, &p, &r);
-            const int32_t step = renderer.frame.knobs.persp_step;
-            if (step == 1)
-                renderer.frame.knobs.persp_step = 4; /* the accurate preset has no pieces: the finest there are */
-            check_pieces(&surface, &p, &r);
-            renderer.frame.knobs.persp_step = step;
         }
     }
     mesh.rgb_uq16 = NULL;

@@ -1,0 +1,494 @@
+/* Corners of cells (gn_corner), each number against the formula it stands for, in double, from the same quantised
+ * inputs: random triangles and a directional, a spot and a point light. Bounds: NUMERICS 4.12, term by term below.
+ * "--table": the largest error seen, per stage. */
+#include "../lib/shade/gn_corner.h"
+#include "../lib/shade/gn_shadow.h"
+#include "../lib/visible/gn_setup.h"
+
+enum {
+    STAGE_Z,
+    STAGE_TINT,
+    STAGE_UV,
+    STAGE_COSINE,
+    STAGE_FROM,
+    STAGE_SPOT,
+    STAGE_POINT,
+    STAGE_ORTHO,
+    STAGE_ORTHO_DEPTH,
+    STAGE_ORTHO_UV,
+    STAGE_PERSP,
+    STAGE_PERSP_DEPTH,
+    STAGE_COUNT
+};
+static const char *const stage_name[STAGE_COUNT] = {
+    "corners: view depth, LSB of Q15.16",
+    "corners: vertex colour, LSB of Q16",
+    "corners: texture coordinates, LSB of Q20",
+    "corners: n . L of a directional light, LSB of Q24",
+    "corners: point from a light, LSB of Q15.16",
+    "corners: irradiance of a spot, share of 1 / d^2, LSB of Q24",
+    "corners: irradiance of a point light, share of 1 / d^2, LSB of Q24",
+    "corners: place in a directional view, LSB of Q16 texels",
+    "corners: depth in a directional view, LSB of Q16 texels",
+    "corners: place in a directional view, of a part, LSB of Q16 texels",
+    "corners: place in a spot's or point light's view, LSB of Q16 texels",
+    "corners: depth in a spot's or point light's view, LSB of Q30",
+};
+
+#include "exact.h"
+#include "stages.h"
+
+#define LSB30 ldexp(1, -30)
+
+static gn_light lamps[3];
+static uint16_t rgb[9 * N_TRIANGLES];
+static int16_t uv[6 * N_TRIANGLES];
+static const uint8_t white[4] = {255, 255, 255, 255};
+static const gn_texture texture = {.rgba = white};
+
+static int one_in(int n)
+{
+    return uniform(0, n) < 1;
+}
+
+static double relative_root(void)
+{
+    return renderer.frame.knobs.newton_steps == 1 ? ldexp(1, -15) : ldexp(1, -28);
+}
+
+static double relative_divide(void)
+{
+    return renderer.frame.knobs.newton_steps == 1 ? ldexp(1, -17) : ldexp(1, -29);
+}
+
+/* ---- The scene --------------------------------------------------------------------------------------------------- */
+
+/* A spot or a point light in front of the object as the camera sees it, or anywhere near. */
+static void aim(gn_light *lamp, gn_light_kind kind)
+{
+    const double away = uniform(1, 12);
+    double to[3], length = 0;
+    memset(lamp, 0, sizeof *lamp);
+    for (int k = 0; k < 3; k++) to[k] = uniform(-1, 1), length += to[k] * to[k];
+    lamp->kind = kind;
+    for (int k = 0; k < 3; k++) {
+        lamp->position_q16[k] = object.to_world.t_q16[k] - (int32_t)(to[k] / sqrt(length) * away * 65536);
+        lamp->direction[k] = (int32_t)(to[k] * 1e9);
+        lamp->colour_uq16[k] = 65536;
+    }
+    lamp->range_q16 = one_in(4) ? 0 : (uint32_t)(uniform(1, 40) * 65536);
+    lamp->near_q16 = (int32_t)(uniform(0.02, 0.5) * 65536);
+    lamp->outer_turn = (uint16_t)uniform(GN_TURN(20), GN_TURN(170));
+    lamp->inner_turn = (uint16_t)(lamp->outer_turn * uniform(0, 0.9));
+    lamp->shadow_strength_uq16 = 65536;
+    lamp->bias_normal_q16 = (int32_t)(uniform(0, 3) * 65536);
+    lamp->auto_bias = GN_AUTO_BIAS_OFF;
+    lamp->mask_channel = -1;
+}
+
+static void corner_scene(void)
+{
+    random_scene();
+    lamps[0] = light;
+    lamps[0].auto_bias = GN_AUTO_BIAS_OFF;
+    aim(&lamps[1], GN_LIGHT_SPOT);
+    aim(&lamps[2], GN_LIGHT_POINT);
+    for (int i = 0; i < 9 * N_TRIANGLES; i++) rgb[i] = (uint16_t)uniform(0, 65536);
+    for (int i = 0; i < 6 * N_TRIANGLES; i++) uv[i] = (int16_t)uniform(-2000, 2000);
+    mesh.rgb_uq16 = one_in(2) ? rgb : NULL;
+    mesh.nrm_q15 = one_in(3) ? NULL : nrm;
+    mesh.uv = one_in(2) ? uv : NULL;
+    mesh.uv_frac_bits = 8;
+    object.texture = mesh.uv ? &texture : NULL;
+    fixed.lights = lamps;
+    fixed.n_lights = 3;
+    fixed.shadow.n_cascades = (uint32_t)uniform(1, 5);
+    for (int i = 0; i < 3; i++)
+        fixed.shadow.cascade_ratio_uq16[i] = (uint32_t)uniform(15000, 18000) * (uint32_t)(i + 1);
+    fixed.shadow.blend = (gn_blend)uniform(0, 3);
+}
+
+static int begin(const gn_knobs *knobs)
+{
+    gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    gn_init(&renderer, &picture);
+    renderer.frame.knobs = *knobs;
+    if (renderer.frame.knobs.persp_step == 1) renderer.frame.knobs.persp_step = 4; /* the finest that has cells */
+    renderer.frame.knobs.vertex_light = 0;
+    renderer.frame.knobs.atlas_size = 128;
+    renderer.frame.knobs.other_atlas_size = 256;
+    return CHECK_EQ_INT(gn_render(&renderer, &fixed, ignore, NULL), GN_OK);
+}
+
+/* ---- The point --------------------------------------------------------------------------------------------------- */
+
+/* Where a corner is, exactly, and how far the library's may be off: forms on the screen round by half a unit, their
+ * slopes by as much per pixel, and come from forms that are rounded to 30 bits (4.3). */
+typedef struct {
+    crossing at;
+    double z_off, b_off, w;
+    int32_t px, py;
+} known_point;
+
+static void find_known(known_point *k, const gn_lattice *l, const plane *p, int x, int y)
+{
+    const int dx = x - l->plane.x, dy = y - l->plane.y;
+    cross_at(&k->at, p, x, y);
+    k->px = 2 * x + 1 - WIDTH;
+    k->py = HEIGHT - 1 - 2 * y;
+    k->w = l->plane.w.at + (double)l->plane.w.dx * dx + (double)l->plane.w.dy * dy;
+    const double units = 0.5 * (1 + abs(dx) + abs(dy)) / k->w, relative = units + ldexp(k->at.kappa, -29);
+    k->z_off = LSB16 / 2 + k->at.z * (relative + ldexp(p->kappa0, -29) + relative_divide() + ldexp(1, -30));
+    const double b = fmax(fabs(k->at.b[0]), fabs(k->at.b[1]));
+    k->b_off = units + ldexp(k->at.kappa_b, -29) + b * (relative + relative_divide() + ldexp(1, -31)) +
+               ldexp(1, -30) * ldexp(1, 31 - (int)floor(log2(fmax(1, k->w))));
+}
+
+/* A value of the vertices at the corner; what it may be off by. */
+static double value_at(const known_point *k, double v0, double v1, double v2, double *off)
+{
+    *off = (fabs(v1) + fabs(v2)) * k->b_off;
+    return v0 + k->at.b[0] * v1 + k->at.b[1] * v2;
+}
+
+static void check_attributes(const gn_surface *s, const known_point *k, const gn_corner *c)
+{
+    double off;
+    record(STAGE_Z, fabs(c->z_q16 * LSB16 - k->at.z), k->z_off, LSB16);
+    for (int i = 0; s->coloured && i < 3; i++) {
+        const int n = GN_ATTRIBUTE_RGB + i;
+        const double want = value_at(k, s->attribute_q16[0][n] * LSB16, s->attribute_q16[1][n] * LSB16,
+                                     s->attribute_q16[2][n] * LSB16, &off);
+        record(STAGE_TINT, fabs(c->tint_q16[i] * LSB16 - want), off * 1.01 + LSB16, LSB16);
+    }
+    for (int i = 0; s->textured && i < 2; i++) {
+        const double want = value_at(k, (double)s->uv.uv_q16[0][i] * LSB16, (double)s->uv.uv_q16[1][i] * LSB16,
+                                     (double)s->uv.uv_q16[2][i] * LSB16, &off);
+        record(STAGE_UV, fabs(ldexp(c->uv_q20[i], -20) - want), off + ldexp(2, -20), ldexp(1, -20));
+    }
+}
+
+/* ---- Light ------------------------------------------------------------------------------------------------------- */
+
+/* The normal, from the vertices; returns its length, 0 if a component leaves 1, where the library limits it. */
+static double normal_of(const gn_surface *s, const known_point *k, double n[3], double *off)
+{
+    *off = 0;
+    for (int i = 0; i < 3; i++) {
+        double one;
+        n[i] = value_at(k, ldexp(s->normal_q30[0][i], -30), ldexp(s->normal_q30[1][i], -30),
+                        ldexp(s->normal_q30[2][i], -30), &one);
+        *off = fmax(*off, one);
+        if (fabs(n[i]) > 0.999) return 0;
+    }
+    return sqrt(dot(n, n));
+}
+
+static void check_cosine(const gn_surface *s, const known_point *k, const gn_surface_light *from,
+                         const gn_corner_light *at)
+{
+    double n[3], to_light[3], off;
+    const double length = normal_of(s, k, n, &off);
+    if (length < 0.2) return;
+    axis_of(from->state->to_light_q30, to_light);
+    const double want = fmax(0, dot(n, to_light) / length),
+                 bound = ldexp(1, -24) + relative_root() + 2 * sqrt(3.0) * (off + 2 * LSB30) / length;
+    record(STAGE_COSINE, fabs(ldexp(at->irradiance_q24, -24) - want), bound, ldexp(1, -24));
+}
+
+/* A value and what it may be off by. */
+typedef struct {
+    double v, e;
+} approx;
+
+/* The product of two such, cut off at 28 bits. */
+static approx product(approx a, approx b)
+{
+    const approx p = {a.v * b.v, a.e * b.v + a.v * b.e + a.e * b.e + 4 * LSB30};
+    return p;
+}
+
+static approx window_of(const gn_light *lamp, double d2)
+{
+    approx one = {1, 0}, t;
+    if (!lamp->range_q16) return one;
+    t.v = d2 / pow(lamp->range_q16 * LSB16, 2);
+    t.e = 2 * LSB30 + t.v * 2 * LSB30;
+    approx w = product(t, t);
+    w.v = 1 - w.v;
+    return product(w, w);
+}
+
+static approx angle_of(const gn_light *lamp, const gn_light_state *light_state, const double from[3], double d)
+{
+    approx one = {1, 0}, share;
+    double axis[3];
+    if (lamp->kind != GN_LIGHT_SPOT) return one;
+    axis_of(light_state->to_light_q30, axis);
+    const double pi = 3.14159265358979323846, outer = cos(lamp->outer_turn * pi / 65536),
+                 inner = cos(lamp->inner_turn * pi / 65536), width = fmax(inner - outer, 1e-4),
+                 cosine = -dot(from, axis) / d, of_cosines = LSB30 + 2 * LSB30 / (4 * outer);
+    const double e = fabs(cosine) * (relative_root() + LSB30) + 3 * LSB30 + LSB16 / d;
+    share.v = fmin(1, fmax(0, (cosine - outer) / width));
+    share.e = (e + of_cosines + share.v * 2 * of_cosines + 2 * LSB30) / width + share.v * LSB30;
+    return product(share, share);
+}
+
+/* From where the library has the point, and its normal there. */
+static void check_irradiance(const gn_surface *s, const gn_lattice *l, const gn_surface_light *light_at,
+                             const gn_corner *c, const gn_corner_light *at)
+{
+    const gn_light *lamp = &lamps[light_at->idx];
+    double from[3], n[3], d2 = 0;
+    for (int i = 0; i < 3; i++) {
+        from[i] = at->from_q16[i] * LSB16;
+        n[i] = ldexp(s->smooth ? c->normal_q30[i] : l->unit_q30[i], -30);
+        d2 += from[i] * from[i];
+    }
+    const double d = sqrt(d2), length = sqrt(dot(n, n)), delta = relative_root() + ldexp(1, -30);
+    if (length < 0.2 || d < 0.05) return;
+    approx cosine = {fmax(0, -dot(n, from) / length / d), 0};
+    /* of the unit normal and the root, the facing's and its own roundings */
+    cosine.e = cosine.v * (delta + (s->smooth ? delta : 0)) + 4 * LSB30 + LSB16 / d;
+    const approx window = window_of(lamp, d2);
+    if (lamp->range_q16 && d2 >= pow(lamp->range_q16 * LSB16, 2) - LSB16 * LSB16) {
+        CHECK(at->irradiance_q24 == 0 || d2 < pow(lamp->range_q16 * LSB16, 2));
+        return;
+    }
+    const approx share = product(product(window, angle_of(lamp, light_at->state, from, d)), cosine);
+    const double scale = ldexp(1, light_at->state->colour_exp) / d2, want = share.v * scale;
+    if (want > 7.9) return; /* limited to 8 */
+    const double bound =
+        scale * (share.e * (1 + 2 * delta) + share.v * (2 * delta + delta * delta) + ldexp(1, -27)) + ldexp(1, -24);
+    record(lamp->kind == GN_LIGHT_SPOT ? STAGE_SPOT : STAGE_POINT, fabs(ldexp(at->irradiance_q24, -24) - want) / scale,
+           bound / scale, ldexp(1, -24));
+}
+
+/* The way from the light: coefficients of the ray have ray_shift fraction bits, the lower half of the product with the
+ * depth is dropped. */
+static void check_from(const known_point *k, const gn_light_state *from, const gn_corner *c, const gn_corner_light *at)
+{
+    const gn_frame *frame = &renderer.frame;
+    const double z = c->z_q16 * LSB16, dropped = fmax(1, ldexp(1, (int)floor(log2(c->z_q16)) + 2 - from->ray_shift));
+    for (int i = 0; i < 3; i++) {
+        double along = 0;
+        for (int a = 0; a < 3; a++) along += k->at.ray[a] * ldexp(frame->cam.axis_q30[a][i], -30);
+        const double want = z * along + ((double)frame->cam.eye_q16[i] - from->position_q16[i]) * LSB16;
+        const double bound = LSB16 * (1 + dropped) + z * ldexp(1 + 0.5 * (abs(k->px) + abs(k->py)), -from->ray_shift) +
+                             ldexp(fabs(z * along), -27);
+        record(STAGE_FROM, fabs(at->from_q16[i] * LSB16 - want), bound, LSB16);
+    }
+}
+
+/* ---- Places ------------------------------------------------------------------------------------------------------ */
+
+/* Tile coordinates of the point that the library has, moved by `offset` texels along `n`; and what they may be off by
+ * without the offset (4.4, and what is dropped). */
+static double coord_of(const gn_light_view *view, const known_point *k, double z, int i, double *off)
+{
+    const gn_frame *frame = &renderer.frame;
+    const double texel = 1 / ldexp(view->fit.ortho.inv_texel.mant, view->fit.ortho.inv_texel.exp);
+    double axis[3], eye = 0, along = 0;
+    axis_of(view->axis_q30[i], axis);
+    for (int a = 0; a < 3; a++) {
+        double cam_axis[3];
+        axis_of(frame->cam.axis_q30[a], cam_axis);
+        along += k->at.ray[a] * dot(cam_axis, axis);
+        eye += frame->cam.eye_q16[a] * LSB16 * axis[a];
+    }
+    *off = 4 * LSB16 + z * ldexp(1 + 0.5 * (abs(k->px) + abs(k->py)), -view->fit.ortho.ray_shift) +
+           ldexp(fabs(z * along / texel) + fabs(eye / texel) + fabs((double)view->fit.ortho.origin[i]), -27);
+    return (z * along + eye) / texel - view->fit.ortho.origin[i];
+}
+
+static void check_ortho(const gn_lattice *l, const gn_surface *s, const known_point *k, gn_corner *c, uint32_t slot)
+{
+    const gn_frame *frame = &renderer.frame;
+    gn_corner_light *at = &c->light[slot];
+    if (c->cascade == GN_CASCADE_NONE || !CHECK(at->view == c->cascade)) return;
+    const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + c->cascade];
+    CHECK(gn_corner_place(l, frame, s, c, slot, c->cascade) && at->placed == c->cascade);
+    for (int i = 0; i < 3; i++) {
+        double axis[3], n[3], off;
+        axis_of(view->axis_q30[i], axis);
+        axis_of(s->smooth ? c->normal_q30 : s->normal_q30[0], n);
+        const double want = coord_of(view, k, c->z_q16 * LSB16, i, &off) + dot(n, axis) * view->offset_q16 * LSB16;
+        const double range = ldexp(1, view->tile_log2 + view->depth_log2);
+        const double got = i == 0 ? at->u_q16 * LSB16 : i == 1 ? at->v_q16 * LSB16 : at->depth_q30 * LSB30 * range;
+        if (i == 2 && fabs(want) > range * 0.499) continue; /* limited */
+        off += (s->smooth ? 4 : 1) * LSB16 + (i == 2 ? range * LSB30 : 0);
+        record(i == 2 ? STAGE_ORTHO_DEPTH : STAGE_ORTHO, fabs(got - want), off, LSB16);
+    }
+    if (s->smooth || c->z_q16 > s->z_max_q16) return;
+    int32_t offset[3], coord[2];
+    gn_sample_offset(frame, s, slot, view, s->normal_q30[0], offset);
+    gn_corner_uv(l, frame, s, view, c->x, c->y, offset, coord);
+    for (int i = 0; i < 2; i++) {
+        double off;
+        const double want = coord_of(view, k, c->z_q16 * LSB16, i, &off) + offset[i] * LSB16;
+        record(STAGE_ORTHO_UV, fabs(coord[i] * LSB16 - want), off, LSB16);
+    }
+}
+
+/* The receiver moves along its normal by a share of the light-plane distance; products whose lower half is dropped cut
+ * up to 6 LSB off each component. */
+static void check_persp(const gn_lattice *l, const gn_surface *s, gn_corner *c, uint32_t slot)
+{
+    enum { OFF = 6 };
+    const gn_frame *frame = &renderer.frame;
+    gn_corner_light *at = &c->light[slot];
+    const gn_light_state *from = s->light[slot].state;
+    if (!at->arrives || !l->light[slot].lifts || at->view == GN_VIEW_NONE) return;
+    const uint32_t view_idx = from->kind == GN_LIGHT_POINT && one_in(2) ? (uint32_t)uniform(0, 6) : at->view;
+    const gn_light_view *view = &frame->view[from->view_idx + (int32_t)view_idx];
+    double p[3], n[3], in[3], reach = 0, axis[3], shares = 0;
+    axis_of(s->smooth ? c->normal_q30 : s->normal_q30[0], n);
+    axis_of(from->to_light_q30, axis);
+    for (int i = 0; i < 3; i++) p[i] = at->from_q16[i] * LSB16;
+    for (int i = 0; i < 3; i++) reach = fmax(reach, fabs(p[i]));
+    if (from->kind == GN_LIGHT_SPOT) reach = fmax(0, -dot(p, axis));
+    const double focal2 = view->fit.persp.focal2_q16 * LSB16, lift = view->offset_q16 * LSB16 * 2 / focal2 * reach;
+    for (int i = 0; i < 3; i++) p[i] += lift * n[i];
+    for (int i = 0; i < 3; i++) {
+        axis_of(view->axis_q30[i], axis);
+        in[i] = dot(p, axis);
+        shares = fmax(shares, fabs(axis[0]) + fabs(axis[1]) + fabs(axis[2]));
+    }
+    const double near = view->fit.persp.near_q16 * LSB16, off = (OFF * shares + 1) * LSB16 + lift * ldexp(1, -27);
+    const int seen_there = gn_corner_place(l, frame, s, c, slot, view_idx);
+    CHECK(at->placed == view_idx);
+    if (fabs(in[2] - near) > off) CHECK_EQ_INT(seen_there, in[2] > near);
+    if (!seen_there || in[2] < 2 * off || fmax(fabs(in[0]), fabs(in[1])) > 1.9 * in[2]) return;
+    const double divide = relative_divide() + ldexp(1, -30), share = near / in[2];
+    for (int i = 0; i < 2; i++) {
+        const double beside = focal2 / 2 * in[i] / in[2], want = view->tile_texels / 2.0 + beside;
+        const double bound = fabs(beside) * divide + focal2 / 2 * (1 + fabs(in[i] / in[2])) * off / in[2] * 1.01 +
+                             focal2 / 2 * ldexp(1, -28) + LSB16;
+        record(STAGE_PERSP, fabs((i ? at->v_q16 : at->u_q16) * LSB16 - want), bound, LSB16);
+    }
+    record(STAGE_PERSP_DEPTH, fabs(at->depth_q30 * LSB30 - (1 - share)),
+           share * (divide + off / in[2] * 1.01) + 2 * LSB30, LSB30);
+}
+
+/* ---- Cascades ---------------------------------------------------------------------------------------------------- */
+
+static long n_certain, n_uncertain;
+
+/* A cascade that is certain for a surface, or a part of it, must be that of each of its pixels, and nothing fades. */
+static void check_cascade(const gn_surface *s, int32_t cascade, int x, int y)
+{
+    gn_sample sample;
+    n_certain += cascade >= 0;
+    n_uncertain += cascade < 0;
+    if (cascade < 0) return;
+    gn_sample_at(&renderer.frame, s, x, y, &sample);
+    CHECK_EQ_INT(sample.cascade, cascade);
+    if (fixed.shadow.blend != GN_BLEND_HARD) CHECK_EQ_INT(sample.value[GN_VALUE_FADE], 65536);
+    CHECK_EQ_INT(gn_shadow_distance(&renderer.frame, s, &sample), 65536);
+}
+
+static void check_part(gn_lattice *l, const gn_surface *s, const gn_rect *r, const known_point *k, int x, int y)
+{
+    if (x < r->x0 || x >= r->x1 || y < r->y0 || y >= r->y1) return;
+    if (!k->at.inside || k->at.kappa > 100 || k->at.z < fixed.camera.near_q16 * LSB16) return;
+    check_cascade(s, l->surface_cascade, x, y);
+    l->n_rows = (int32_t)uniform(2, 17);
+    l->x = r->x0 > x - 30 ? r->x0 : x - 30;
+    l->y = r->y0 > y - l->n_rows + 1 ? r->y0 : y - l->n_rows + 1;
+    l->x_end = r->x1;
+    l->y_end = r->y1;
+    gn_corner_begin_part(l, &renderer.frame, s);
+    check_cascade(s, l->cascade, x, y);
+    l->cascade = l->surface_cascade;
+}
+
+/* ---- Tests ------------------------------------------------------------------------------------------------------- */
+
+static long n_known, n_unseen, n_wide;
+
+/* What must be seen: from half to twice the triangle's depths, with some room for rounding. */
+static int should_be_known(const gn_surface *s, const known_point *k)
+{
+    const double lo = s->z_min_q16 * LSB16, hi = s->z_max_q16 * LSB16;
+    if (!(k->w > 2048) || k->w > 0x1p29) return 0;
+    if (s->has_bary && fmax(fabs(k->at.b[0]), fabs(k->at.b[1])) > 1.9) return 0;
+    return k->at.z > 0.51 * lo && k->at.z < 1.99 * hi;
+}
+
+static void check_corner(gn_lattice *l, const gn_surface *s, const plane *p, const gn_rect *r, int x, int y)
+{
+    static gn_corner corner;
+    static gn_sample sample;
+    known_point k;
+    find_known(&k, l, p, x, y);
+    memset(&corner, 0xA5, sizeof corner);
+    gn_corner_find(l, &renderer.frame, s, x, y, &sample, &corner);
+    if (corner.state != GN_CORNER_KNOWN) {
+        n_unseen++;
+        CHECK(corner.state == GN_CORNER_UNSEEN && !should_be_known(s, &k));
+        return;
+    }
+    n_known++;
+    if (!(k.at.kappa < 1000) || !(p->kappa0 < 1000) || k.w < 2048) return; /* edge on: NUMERICS 4.3 */
+    CHECK(corner.x == x && corner.y == y);
+    n_wide += !k.at.inside;
+    check_attributes(s, &k, &corner);
+    for (uint32_t slot = 0; slot < s->n_lights; slot++) {
+        const gn_surface_light *from = &s->light[slot];
+        gn_corner_light *at = &corner.light[slot];
+        CHECK(at->irradiance_q24 >= 0 && (at->arrives || !at->irradiance_q24));
+        if (from->state->kind == GN_LIGHT_DIRECTIONAL) {
+            check_cosine(s, &k, from, at);
+            check_ortho(l, s, &k, &corner, slot);
+            continue;
+        }
+        check_from(&k, from->state, &corner, at);
+        check_irradiance(s, l, from, &corner, at);
+        check_persp(l, s, &corner, slot);
+    }
+    if (s->n_lights) check_part(l, s, r, &k, x, y);
+}
+
+static long n_planes, n_no_plane;
+
+static void check_scene(const gn_knobs *knobs)
+{
+    static int32_t view[3 * N_TRIANGLES][3];
+    static gn_surface surface;
+    static gn_lattice lattice;
+    gn_surface_cache cache = {.object = NULL, .lights = UINT64_MAX};
+    gn_scratch *scratch = &renderer.scratch;
+    corner_scene();
+    if (!begin(knobs)) return;
+    view_corners(&renderer.frame, view);
+    for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) scratch->vertex[i].tag = 0;
+    for (uint32_t t = 0; t < renderer.frame.stats.n_triangles; t++) {
+        const gn_tri *tri = &renderer.frame.tri[t];
+        plane p;
+        plane_of(&p, view, tri->triangle_idx);
+        gn_surface_begin(&renderer.frame, scratch, &cache, &surface, tri);
+        const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
+        const int has_plane = gn_corner_begin(&lattice, &renderer.frame, &surface, &r);
+        n_planes += has_plane;
+        n_no_plane += !has_plane;
+        for (int y = r.y0 - 6; has_plane && y < r.y1 + 14; y += 5)
+            for (int x = r.x0 - 6; x < r.x1 + 14; x += 7) check_corner(&lattice, &surface, &p, &r, x, y);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    int table = argc > 1 && strcmp(argv[1], "--table") == 0;
+    for (int preset = 0; preset < 3; preset++) {
+        const gn_knobs knobs = preset_knobs(preset);
+        for (int i = 0; i < N_SCENES / 3; i++) check_scene(&knobs);
+        report_stages(table, preset_name[preset]);
+    }
+    CHECK(n_known > 2 * n_unseen && n_unseen > 100 && n_wide > 1000);
+    printf("%ld corners are known, %ld of them outside of their triangles, %ld not; %ld of %ld surfaces have no plane; "
+           "cascades: %ld certain, %ld not\n",
+           n_known, n_wide, n_unseen, n_no_plane, n_planes + n_no_plane, n_certain, n_uncertain);
+    CHECK(n_planes > 2 * n_no_plane);
+    CHECK(n_certain > 1000 && n_uncertain > 100);
+    return table ? (check_n_failed ? 1 : 0) : check_report();
+}
