@@ -119,6 +119,17 @@ GN_HOT static void begin_light(gn_lattice *l, const gn_frame *frame, const gn_su
     (void)frame;
 }
 
+/* Whether the light lies within 32 bits of the eye. */
+GN_HOT static int in_reach(const gn_light_state *light)
+{
+#if GN_PUNCTUAL_LIGHTS
+    for (int i = 0; light->kind != GN_LIGHT_DIRECTIONAL && i < 3; i++)
+        if (light->from_light[i].d_q16 != (int32_t)light->from_light[i].d_q16) return 0;
+#endif
+    (void)light;
+    return 1;
+}
+
 GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_rect *rect)
 {
     if (!find_plane(&l->plane, frame, s, rect)) return 0;
@@ -132,7 +143,10 @@ GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surfac
         gn_length length = gn_length_of(GN_K(frame, newton_steps), s->normal_q30[0]);
         gn_length_unit(length, s->normal_q30[0], l->unit_q30);
     }
-    for (uint32_t i = 0; i < s->n_lights; i++) begin_light(l, frame, s, i);
+    for (uint32_t i = 0; i < s->n_lights; i++) {
+        begin_light(l, frame, s, i);
+        if (!in_reach(s->light[i].state)) return 0;
+    }
     return 1;
 }
 
@@ -142,7 +156,6 @@ GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surfac
 typedef struct {
     int32_t px, py;     /* the pixel's ray */
     int32_t b_q28[2];   /* barycentrics */
-    int32_t ray_q16[3]; /* from the eye, world axes; surfaces with spots or points */
     int32_t n_q30[3], unit_q30[3];
 } corner_point;
 
@@ -244,14 +257,14 @@ GN_HOT static uint32_t mask_at(const gn_surface *s, const corner_point *p, const
 
 #if GN_PUNCTUAL_LIGHTS
 /* From the eye to the point, along the world's axes: the same for all lights. */
-GN_HOT static void find_ray(const gn_light_state *any, const gn_corner *c, corner_point *p)
+GN_HOT static void find_ray(const gn_light_state *any, gn_corner *c, const corner_point *p)
 {
     int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = any->ray_shift + up - 32;
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *r = &any->from_light[i];
         int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)p->px + (uint32_t)r->ay * (uint32_t)p->py);
         int32_t v = gn_mul_high(z, a);
-        p->ray_q16[i] =
+        c->ray_q16[i] =
             down >= 0 ? v >> gn_min32(down, 31) : (int32_t)gn_clamp64((int64_t)v << -down, -INT32_MAX, INT32_MAX);
     }
 }
@@ -306,16 +319,19 @@ GN_HOT static int32_t irradiance(const gn_frame *frame, const gn_light_state *li
 #if GN_SHADOWS
 /* The view that the point itself is looked up in. */
 GN_HOT static uint8_t own_view(const gn_frame *frame, const gn_surface *s, const gn_light_state *light,
-                               const gn_corner *c, const gn_corner_light *at)
+                               const gn_corner *c)
 {
     if (!s->shadowed || light->view_idx < 0 || !light->strength_uq16) return GN_VIEW_NONE;
     if (light->kind == GN_LIGHT_SPOT ||
         (light->kind == GN_LIGHT_DIRECTIONAL && frame->view[light->view_idx].border_lit))
         return 0;
 #if GN_PUNCTUAL_LIGHTS
-    if (light->kind == GN_LIGHT_POINT) return (uint8_t)gn_persp_face(at->from_q16);
+    if (light->kind == GN_LIGHT_POINT) {
+        int32_t from[3];
+        gn_corner_from(c, light, from);
+        return (uint8_t)gn_persp_face(from);
+    }
 #endif
-    (void)at;
     return c->cascade == GN_CASCADE_NONE ? GN_VIEW_NONE : c->cascade;
 }
 #endif
@@ -338,10 +354,9 @@ GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t
     }
 #if GN_PUNCTUAL_LIGHTS
     else {
-        for (int i = 0; i < 3; i++)
-            at->from_q16[i] = gn_sat32((int64_t)p->ray_q16[i] + light->state->from_light[i].d_q16);
-        at->irradiance_q24 =
-            irradiance(frame, light->state, at->from_q16, gn_sat32(-gn_dot_q30(p->unit_q30, at->from_q16)), at);
+        int32_t from[3];
+        gn_corner_from(c, light->state, from);
+        at->irradiance_q24 = irradiance(frame, light->state, from, gn_sat32(-gn_dot_q30(p->unit_q30, from)), at);
     }
 #endif
     if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) at->irradiance_q24 = at->arrives ? 1 << 24 : 0;
@@ -350,7 +365,7 @@ GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t
 #endif
 #if GN_SHADOWS
     at->placed = GN_VIEW_NONE;
-    at->view = own_view(frame, s, light->state, c, at);
+    at->view = own_view(frame, s, light->state, c);
 #endif
 }
 
@@ -387,8 +402,11 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
     for (uint32_t i = 0; i < s->n_lights; i++) light_at(frame, s, i, &p, c);
 #if GN_SPECULAR
     if (!s->specular || !gn_sample_on_plane(frame, s, x, y, sample)) return;
-    for (uint32_t i = 0; i < s->n_lights; i++)
-        c->light[i].highlight_q24 = (int32_t)gn_light_highlight(frame, s, sample, i, c->light[i].lobe_q30);
+    for (uint32_t i = 0; i < s->n_lights; i++) {
+        int32_t lobe_q30[3];
+        c->light[i].highlight_q24 = (int32_t)gn_light_highlight(frame, s, sample, i, lobe_q30);
+        for (int k = 0; k < 3; k++) c->light[i].lobe_q12[k] = (int16_t)(lobe_q30[k] >> 18);
+    }
 #endif
 }
 
@@ -406,8 +424,6 @@ GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn
     const gn_light_state *light = s->light[slot].state;
     if (light->kind == GN_LIGHT_DIRECTIONAL) return 1;
     find_ray(light, c, &p);
-    for (int i = 0; i < 3; i++)
-        c->light[slot].from_q16[i] = gn_sat32((int64_t)p.ray_q16[i] + light->from_light[i].d_q16);
 #endif
     return 1;
 }
@@ -538,11 +554,12 @@ GN_HOT static GN_NOINLINE void place_carefully(const gn_frame *frame, const gn_s
 {
     const gn_light_state *light = &frame->light[view->light_idx];
     const int32_t *n = normal_of(s, c);
-    int32_t offset[3] = {0, 0, 0}, lifted[3];
+    int32_t offset[3] = {0, 0, 0}, lifted[3], from[3];
     gn_arrival place;
+    gn_corner_from(c, light, from);
     if (!(GN_AUTO_BIAS && light->auto_bias && !GN_CURVED(s)))
-        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n, lifted), c->z_q16, at->from_q16, offset);
-    at->seen = (uint8_t)gn_arrival_place(frame, s, view, c->z_q16, at->from_q16, offset, &place);
+        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n, lifted), c->z_q16, from, offset);
+    at->seen = (uint8_t)gn_arrival_place(frame, s, view, c->z_q16, from, offset, &place);
     if (!at->seen) return;
     at->u_q16 = place.u_q16;
     at->v_q16 = place.v_q16;
@@ -553,8 +570,9 @@ GN_HOT static void place_punctual(const gn_frame *frame, const gn_surface *s, co
                                   const gn_corner *c, gn_corner_light *at, const gn_light_view *view)
 {
     const gn_light_state *light = &frame->light[view->light_idx];
-    const int32_t *n = normal_of(s, c), *from = at->from_q16;
-    int32_t moved[3], p[3], reach = 0;
+    const int32_t *n = normal_of(s, c);
+    int32_t from[3], moved[3], p[3], reach = 0;
+    gn_corner_from(c, light, from);
     if (!how->lifts || view->fit.persp.focal2_q16 >> 30 ||
         (gn_abs32(from[0]) | gn_abs32(from[1]) | gn_abs32(from[2])) >> 29) {
         place_carefully(frame, s, c, at, view);

@@ -39,6 +39,14 @@ void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_sur
                   const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
 #endif
 
+#if GN_PUNCTUAL_LIGHTS
+/* From a spot or point light to the corner; gn_corner_begin() saw that the light is in reach of 32 bits. */
+GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_state *light, int32_t from_q16[3])
+{
+    for (int i = 0; i < 3; i++) from_q16[i] = gn_add_sat32(c->ray_q16[i], (int32_t)light->from_light[i].d_q16);
+}
+#endif
+
 /* A colour times irradiance, Q24, limited to 8. */
 GN_HOT static inline int32_t gn_corner_times(uint32_t colour_uq16, int32_t irradiance_q24)
 {

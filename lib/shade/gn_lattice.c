@@ -66,103 +66,101 @@ GN_HOT static void shade_exactly(gn_shading *s, int32_t x, int32_t y, int32_t si
     }
 }
 
-GN_HOT static gn_corner *known(gn_shading *s, gn_corner *corner, int32_t x, int32_t y)
+/* Another corner, in place of one that is none of the last four. */
+GN_HOT static GN_NOINLINE uint32_t new_corner(gn_shading *s, int32_t x, int32_t y, uint32_t key)
 {
-    if (corner->state == GN_CORNER_NEW) gn_corner_find(&s->lattice, s->frame, &s->surface, x, y, &s->sample, corner);
-    return corner;
+    gn_lattice *l = &s->lattice;
+    uint32_t i = 0;
+    while (i < GN_CORNERS && l->corner_key[i] != key) i++;
+    if (i < GN_CORNERS) return i;
+    do {
+        i = l->next_corner;
+        l->next_corner = i + 1 < GN_CORNERS ? i + 1 : 0;
+    } while (l->corner_key[i] != UINT32_MAX && l->now - l->corner_used[i] < 4);
+    l->corner_key[i] = key;
+    gn_corner_find(l, s->frame, &s->surface, x, y, &s->sample, &l->corners[i]);
+    return i;
+}
+
+/* The corner at a pixel, if need be a new one. */
+GN_HOT static inline gn_corner *corner_at(gn_shading *s, int32_t x, int32_t y)
+{
+    gn_lattice *l = &s->lattice;
+    uint32_t key = (uint32_t)y << 16 | (uint32_t)x, i;
+    uint8_t *at = &l->corner_at[(x >> 1 ^ y) & 15];
+    l->now++;
+    if (l->corner_key[*at] != key) *at = (uint8_t)new_corner(s, x, y, key);
+    i = *at;
+    l->corner_used[i] = l->now;
+    return &l->corners[i];
+}
+
+GN_HOT static void find_corners(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *corner[4])
+{
+    for (int32_t k = 0; k < 4; k++)
+        corner[k] = corner_at(s, x + ((k & 1) << size_log2), y + ((k >> 1) << size_log2));
 }
 
 /* A cell that is being split into four. */
 typedef struct {
-    int32_t x, y, size_log2, next; /* the quarter to be shaded next */
-    gn_corner *corner[9];          /* row by row */
+    int16_t x, y;
+    uint8_t size_log2, next; /* the quarter to be shaded next */
 } split_cell;
-
-GN_HOT static void begin_split(gn_shading *s, split_cell *split, int32_t x, int32_t y, int32_t size_log2,
-                               gn_corner *const corner[4])
-{
-    gn_corner *middle = s->lattice.middle[4 - size_log2];
-    split->x = x;
-    split->y = y;
-    split->size_log2 = size_log2;
-    split->next = 0;
-    for (int i = 0; i < 4; i++) split->corner[(i & 1) * 2 + (i >> 1) * 6] = corner[i];
-    for (int i = 0; i < 5; i++) {
-        static const uint8_t place[5] = {1, 3, 4, 5, 7};
-        middle[i].state = GN_CORNER_NEW;
-        split->corner[place[i]] = &middle[i];
-    }
-    GN_COUNT(cells_split, 1);
-}
 
 /* The next quarter that has pixels. Returns 0 if there is none. */
 GN_HOT static int next_quarter(gn_shading *s, split_cell *split, int32_t *x, int32_t *y, gn_corner *corner[4])
 {
     int32_t log2 = split->size_log2 - 1;
     while (split->next < 4) {
-        int32_t i = split->next & 1, j = split->next >> 1;
+        *x = split->x + ((split->next & 1) << log2);
+        *y = split->y + ((split->next >> 1) << log2);
         split->next++;
-        *x = split->x + i * (1 << log2);
-        *y = split->y + j * (1 << log2);
         if (!has_pixels(&s->lattice, *x, *y, log2)) continue;
-        for (int k = 0; k < 4; k++) {
-            int32_t right = i + (k & 1), down = j + (k >> 1);
-            corner[k] = known(s, split->corner[3 * down + right], split->x + right * (1 << log2),
-                              split->y + down * (1 << log2));
-        }
+        find_corners(s, *x, *y, log2, corner);
         return 1;
     }
     return 0;
 }
 
 /* Shades a cell, or the cells that it is split into: no deeper than its size. */
-GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *corner[4])
+GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
 {
     split_cell split[4];
+    gn_corner *corner[4];
     int depth = 0;
+    find_corners(s, x, y, size_log2, corner);
     for (;;) {
         GN_COUNT(cells, 1);
         if (gn_lattice_look_at(&s->lattice, s->frame, &s->surface, corner, size_log2))
             gn_lattice_draw(s, x, y, size_log2, corner);
-        else if (size_log2 > 1) begin_split(s, &split[depth++], x, y, size_log2, corner);
-        else shade_exactly(s, x, y, size_log2);
+        else if (size_log2 > 1) {
+            GN_COUNT(cells_split, 1);
+            split[depth++] = (split_cell){(int16_t)x, (int16_t)y, (uint8_t)size_log2, 0};
+        } else shade_exactly(s, x, y, size_log2);
         while (depth > 0 && !next_quarter(s, &split[depth - 1], &x, &y, corner)) depth--;
         if (!depth) return;
         size_log2 = split[depth - 1].size_log2 - 1;
     }
 }
 
-/* ---- Columns ----------------------------------------------------------------------------------------------------- */
-
-/* The corners of a column of cells at x. */
-GN_HOT static gn_corner *ring_at(gn_lattice *l, int32_t x)
-{
-    int which = (x >> l->size_log2) & 1;
-    gn_corner *ring = l->ring[which];
-    if (l->ring_x[which] == x) return ring;
-    l->ring_x[which] = x;
-    for (int i = 0; i < 3; i++) ring[i].state = GN_CORNER_NEW;
-    return ring;
-}
-
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
+
+GN_HOT static void forget_corners(gn_lattice *l)
+{
+    for (int i = 0; i < GN_CORNERS; i++) l->corner_key[i] = UINT32_MAX;
+    memset(l->corner_at, 0, sizeof l->corner_at);
+    l->next_corner = l->now = 0;
+}
 
 /* Column by column, which have corners in common. */
 GN_HOT static void shade_part(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
-    int32_t log2 = l->size_log2, size = 1 << log2;
-    for (int32_t x = l->x; x < gn_min32(l->x_end, l->x + GN_PART_WIDTH); x += size)
-        for (int32_t row = 0; row < l->n_rows; row += size) {
-            int32_t y = l->y + row;
-            gn_corner *corner[4];
-            if (!has_pixels(l, x, y, log2)) continue;
-            for (int k = 0; k < 4; k++) {
-                int32_t right = x + (k & 1) * size, down = (row >> log2) + (k >> 1);
-                corner[k] = known(s, &ring_at(l, right)[down], right, l->y + down * size);
-            }
-            shade_cell(s, x, y, log2, corner);
-        }
+    int32_t log2 = l->size_log2, size = 1 << log2, x_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);
+    forget_corners(l);
+    for (int32_t x = l->x; x < x_end; x += size)
+        for (int32_t y = l->y; y < l->y + l->n_rows; y += size)
+            if (has_pixels(l, x, y, log2)) shade_cell(s, x, y, log2);
 }
 
 #if GN_SHADOWS
@@ -217,7 +215,6 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     gn_part_begin(s);
     forget_windows(l);
     for (l->y = box.y0; l->y < box.y1; l->y += l->n_rows) {
-        l->ring_x[0] = l->ring_x[1] = INT32_MIN;
         for (l->x = box.x0; l->x < box.x1; l->x = l->part_end) {
             begin_part(s);
             if (!gn_part_shade(s) && mark(l)) shade_part(s);

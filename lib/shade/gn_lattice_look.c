@@ -194,19 +194,23 @@ GN_HOT static uint32_t turn_q12(const lattice_cell *cell)
 }
 
 #if GN_PUNCTUAL_LIGHTS
+GN_HOT static uint32_t ray_diagonal(const lattice_cell *cell)
+{
+    gn_corner *const *c = cell->corner;
+    return diagonal(c[0]->ray_q16, c[1]->ray_q16, c[2]->ray_q16, c[3]->ray_q16);
+}
+
 /* The cell's size over its distance from a light, Q12, saturated at 4. */
 GN_HOT static uint32_t size_over_distance_q12(const lattice_cell *cell, uint32_t slot)
 {
-    const gn_corner_light *at[4];
-    uint32_t nearest = UINT32_MAX;
+    uint32_t nearest = UINT32_MAX, across = ray_diagonal(cell);
     for (int i = 0; i < 4; i++) {
-        at[i] = &cell->corner[i]->light[slot];
-        const int32_t *p = at[i]->from_q16;
+        int32_t p[3];
+        gn_corner_from(cell->corner[i], cell->s->light[slot].state, p);
         uint32_t distance = gn_abs32(p[0]) > gn_abs32(p[1]) ? gn_abs32(p[0]) : gn_abs32(p[1]);
         if (gn_abs32(p[2]) > distance) distance = gn_abs32(p[2]);
         if (distance < nearest) nearest = distance;
     }
-    uint32_t across = diagonal(at[0]->from_q16, at[1]->from_q16, at[2]->from_q16, at[3]->from_q16);
     if (across >> 2 >= nearest) return 4 << 12;
     if (across >= nearest) return (gn_quotient_q30(across >> 2, nearest) >> 16) + 1;
     return (gn_quotient_q30(across, nearest) >> 18) + 1;
@@ -214,7 +218,7 @@ GN_HOT static uint32_t size_over_distance_q12(const lattice_cell *cell, uint32_t
 
 /* Squares of both diagonals of the corners' positions, a quarter of their sum: the points of a cell scatter about their
  * mean by no more. */
-GN_HOT static uint64_t scatter_q32(const int32_t *const p[4])
+GN_HOT static uint64_t scatter_q32(int32_t p[4][3])
 {
     uint64_t sum = 0;
     for (int i = 0; i < 3; i++) {
@@ -231,7 +235,7 @@ GN_HOT static uint64_t share_q30_of(uint64_t v, uint32_t share_q30)
 
 /* Whether all of the cell faces away from a light: n . p is that of the corners in the mean, less what both scatter by.
  */
-GN_HOT static int faces_away(const lattice_cell *cell, const int32_t *const p[4])
+GN_HOT static int faces_away(const lattice_cell *cell, int32_t p[4][3])
 {
     const int32_t *n = cell->s->normal_q30[0];
     if (!GN_SMOOTH(cell->s)) return gn_dot_q30(n, p[0]) >= 0; /* all of it, or nothing */
@@ -241,7 +245,7 @@ GN_HOT static int faces_away(const lattice_cell *cell, const int32_t *const p[4]
         int64_t away = gn_dot_q30(cell->corner[i]->normal_q30, p[i]);
         if (away < least) least = away;
     }
-    uint64_t turn = turn_q12(cell), size = diagonal(p[0], p[1], p[2], p[3]);
+    uint64_t turn = turn_q12(cell), size = ray_diagonal(cell);
     return least > (int64_t)(turn * size >> 14) + 16;
 #else
     return 0;
@@ -253,10 +257,10 @@ GN_HOT static int faces_away(const lattice_cell *cell, const int32_t *const p[4]
 GN_HOT static int stays_dark(const lattice_cell *cell, uint32_t slot)
 {
     const gn_light_state *light = cell->s->light[slot].state;
-    const int32_t *p[4];
+    int32_t p[4][3];
     uint64_t d2[4], nearest = UINT64_MAX;
     for (int i = 0; i < 4; i++) {
-        p[i] = cell->corner[i]->light[slot].from_q16;
+        gn_corner_from(cell->corner[i], light, p[i]);
         if ((gn_abs32(p[i][0]) | gn_abs32(p[i][1]) | gn_abs32(p[i][2])) >> 30) return 0;
         d2[i] = (uint64_t)gn_dot64(p[i], p[i]);
         if (d2[i] < nearest) nearest = d2[i];
@@ -526,11 +530,12 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
     uint32_t views = views_of(cell, slot), left = views;
     int all = -1;
     int32_t slope[2];
-    const int32_t *from = NULL;
+    int32_t from[3] = {0, 0, 0};
     places p;
     if (!views) return LIT;
 #if GN_PUNCTUAL_LIGHTS
-    from = cell->corner[0]->light[slot].from_q16;
+    if (cell->s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL)
+        gn_corner_from(cell->corner[0], cell->s->light[slot].state, from);
 #endif
     for (; left; left &= left - 1) {
         int placed = find_places(cell, slot, (uint32_t)first_bit(left), &p);
@@ -593,7 +598,7 @@ GN_HOT static int highlight_holds(const lattice_cell *cell, uint32_t slot, int *
     uint64_t nearest = 0, across = 0; /* squares, Q24 */
     for (int i = 0; i < 3; i++) {
         int32_t q[4], lo, hi;
-        for (int k = 0; k < 4; k++) q[k] = cell->corner[k]->light[slot].lobe_q30[i] >> 18;
+        for (int k = 0; k < 4; k++) q[k] = cell->corner[k]->light[slot].lobe_q12[i];
         lo = gn_min32(gn_min32(q[0], q[1]), gn_min32(q[2], q[3]));
         hi = gn_max32(gn_max32(q[0], q[1]), gn_max32(q[2], q[3]));
         int64_t away = lo > 0 ? lo : hi < 0 ? -hi : 0, change = (int64_t)hi - lo;

@@ -26,7 +26,9 @@ GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *fram
     if (light->auto_bias) return INT32_MAX;
 #if GN_PUNCTUAL_LIGHTS
     if (light->kind != GN_LIGHT_DIRECTIONAL) {
-        int64_t h = (int64_t)gn_abs64(gn_dot_q30(l->face_q30, at->light[slot].from_q16)) | 1;
+        int32_t from[3];
+        gn_corner_from(at, light, from);
+        int64_t h = (int64_t)gn_abs64(gn_dot_q30(l->face_q30, from)) | 1;
         int64_t k_q30 = l->light[slot].lift_q31 >> 1, along_q30 = gn_dot_q30(s->normal_q30[0], view->axis_q30[2]);
         int64_t less = (k_q30 << 30) / gn_max32(1, (int32_t)((1 << 30) + (k_q30 * along_q30 >> 30)));
         return own + less * view->fit.persp.near_q16 / h;
@@ -44,7 +46,7 @@ GN_HOT static void begin_window(gn_lattice *l, const gn_frame *frame, const gn_s
                                 const gn_light_view *view, const gn_corner *at, gn_window *window)
 {
     int32_t slope[2];
-    const int32_t *from = NULL;
+    int32_t from[3] = {0, 0, 0};
     int on_plane = GN_RECEIVER_PLANE && frame->scene->lights[s->light[slot].idx].receiver_plane;
     window->view = view;
     window->planar = 0;
@@ -54,7 +56,7 @@ GN_HOT static void begin_window(gn_lattice *l, const gn_frame *frame, const gn_s
     if (!l->has_face) gn_surface_face(frame, s, l->face_q30);
     l->has_face = 1;
 #if GN_PUNCTUAL_LIGHTS
-    if (at) from = at->light[slot].from_q16;
+    if (at && view->perspective) gn_corner_from(at, s->light[slot].state, from);
 #endif
     gn_shadow_plane_slopes(view, l->face_q30, from, slope);
     gn_window_begin(window, frame, view, slope, own_distance_q30(l, frame, s, slot, view, at, slope), on_plane);

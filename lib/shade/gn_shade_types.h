@@ -146,11 +146,9 @@ typedef struct {
     uint8_t seen;   /* 0: nearer to the light than the view's near plane */
     int32_t u_q16, v_q16, depth_q30;
 #endif
-#if GN_PUNCTUAL_LIGHTS
-    int32_t from_q16[3]; /* from the light */
-#endif
 #if GN_SPECULAR
-    int32_t highlight_q24, lobe_q30[3]; /* its highlight; the half vector minus the normal, unit vectors */
+    int32_t highlight_q24;
+    int16_t lobe_q12[3]; /* of the highlight: the half vector minus the normal, unit vectors */
 #endif
 } gn_corner_light;
 
@@ -177,6 +175,9 @@ typedef struct {
 #endif
 #if GN_VERTEX_NORMALS
     int32_t normal_q30[3]; /* interpolated, not renormalised */
+#endif
+#if GN_PUNCTUAL_LIGHTS
+    int32_t ray_q16[3]; /* from the eye, world axes; surfaces with spots or points */
 #endif
     gn_corner_light light[GN_SURFACE_LIGHTS];
 } gn_corner;
@@ -235,8 +236,9 @@ typedef struct {
 
 enum { GN_SPANS = 64, GN_PART_WIDTH = 64, GN_PART_ROWS = 16 };
 
-/* Sizes of cells that can be split: 16, 8 and 4 pixels. */
-#define GN_LATTICE_LEVELS 3
+/* Corners that are kept: 9 of a cell that is split, and some that its neighbour asks for. */
+enum { GN_CORNERS = 12 };
+
 #define GN_LATTICE_NODES  17 /* in a row of the largest cell */
 
 /* A surface by cells. */
@@ -255,9 +257,11 @@ typedef struct {
     int32_t n_rows;                /* of the part */
     int32_t part_end;              /* columns before it */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
-    gn_corner ring[2][3];                            /* of the column of cells at hand: left and right, by turns */
-    gn_corner middle[3][5];                          /* of split cells: by size, from 8 on downwards; centre last */
-    int32_t ring_x[2];                               /* where they stand, INT32_MIN: nowhere */
+    gn_corner corners[GN_CORNERS];                   /* those of the part that were asked for last */
+    uint32_t corner_key[GN_CORNERS];                 /* y * 2^16 + x; all ones: none */
+    uint32_t corner_used[GN_CORNERS], now;           /* when they were, counted */
+    uint32_t next_corner;                            /* to be replaced */
+    uint8_t corner_at[16];                           /* where to look for a corner first: gn_lattice.c */
 #if GN_SHADOWS
     gn_window window[GN_WINDOWS];
 #endif
