@@ -2,6 +2,7 @@
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
+#include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "shade/gn_lattice_window.h"
 #include "shade/gn_shadow.h"
@@ -16,6 +17,14 @@ GN_HOT static int stays_planar(const gn_lattice *l, const gn_surface *s, uint32_
     return light->kind == GN_LIGHT_DIRECTIONAL || l->light[slot].lifts || light->auto_bias;
 }
 
+#if GN_PUNCTUAL_LIGHTS
+/* a / b, at most 1 */
+GN_HOT static uint32_t share_q30(uint64_t a, uint64_t b)
+{
+    return a >= b ? 1U << 30 : gn_quotient_q30((uint32_t)a, b > UINT32_MAX ? UINT32_MAX : (uint32_t)b);
+}
+#endif
+
 /* How far bias keeps the surface's own texels behind it, Q30; INT32_MAX: as far as filters reach. */
 GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                        const gn_light_view *view, const gn_corner *at, const int32_t slope_q28[2])
@@ -28,10 +37,11 @@ GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *fram
     if (light->kind != GN_LIGHT_DIRECTIONAL) {
         int32_t from[3];
         gn_corner_from(at, light, from);
-        int64_t h = (int64_t)gn_abs64(gn_dot_q30(l->face_q30, from)) | 1;
+        uint64_t h = gn_abs64(gn_dot_q30(l->face_q30, from)) | 1U;
         int64_t k_q30 = l->light[slot].lift_q31 >> 1, along_q30 = gn_dot_q30(s->normal_q30[0], view->axis_q30[2]);
-        int64_t less = (k_q30 << 30) / gn_max32(1, (int32_t)((1 << 30) + (k_q30 * along_q30 >> 30)));
-        return own + less * view->fit.persp.near_q16 / h;
+        uint32_t whole = (uint32_t)gn_max32(1, (int32_t)((1 << 30) + (k_q30 * along_q30 >> 30)));
+        uint64_t less_q30 = share_q30((uint64_t)k_q30, whole);
+        return own + (int64_t)(less_q30 * share_q30((uint32_t)view->fit.persp.near_q16, h) >> 30);
     }
 #endif
     int32_t offset[3], up = 14 - view->tile_log2 - view->depth_log2;
