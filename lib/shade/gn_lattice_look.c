@@ -88,11 +88,16 @@ GN_HOT static uint32_t spread_of(int32_t a, int32_t b, int32_t c, int32_t d)
 }
 #endif
 
+GN_HOT static inline uint32_t distance(int32_t a, int32_t b)
+{
+    return a < b ? (uint32_t)b - (uint32_t)a : (uint32_t)a - (uint32_t)b;
+}
+
 /* The largest change between neighbouring corners along rows, and down columns. */
 GN_HOT static void changes_of(const int32_t at[4], uint32_t change[2])
 {
-    uint32_t upper = gn_abs32(at[1] - at[0]), lower = gn_abs32(at[3] - at[2]);
-    uint32_t left = gn_abs32(at[2] - at[0]), right = gn_abs32(at[3] - at[1]);
+    uint32_t upper = distance(at[0], at[1]), lower = distance(at[2], at[3]);
+    uint32_t left = distance(at[0], at[2]), right = distance(at[1], at[3]);
     change[0] = upper > lower ? upper : lower;
     change[1] = left > right ? left : right;
 }
@@ -527,7 +532,7 @@ GN_HOT static int add_faces(const lattice_cell *cell, uint32_t slot, const contr
         int32_t slope[2];
         if (find_places(cell, slot, face, p) != PLACED) break;
         gn_shadow_slopes(cell->frame, cell->s, p->view, cell->corner[0]->light[slot].from_q16, slope);
-        if (verdict(cell, slot, face, p, slope) == SPLIT || places_hold(cell, p) == BEND) break;
+        if (verdict(cell, slot, face, p, slope) == SPLIT || places_hold(cell, p) != HOLD) break;
         add_edge(cell, slot, p, slope, light, light->more_uq16);
     }
     if (views) out->n_edges = n_edges;
