@@ -276,7 +276,7 @@ GN_HOT static int find_nodes(const drawing *d, int32_t below, int32_t (*node)[3]
 }
 
 #if GN_TEXTURES
-/* Texture coordinates along a row. */
+/* Texture coordinates along a row, which wrap round. */
 GN_HOT static void find_coords(const drawing *d, gn_corner *const corner[4], int32_t below, gn_pixel_line *line)
 {
     for (int i = 0; i < 2; i++) {
@@ -284,9 +284,10 @@ GN_HOT static void find_coords(const drawing *d, gn_corner *const corner[4], int
         uint32_t c0 = (uint32_t)corner[0]->uv_q20[i];
         int32_t across = (int32_t)((uint32_t)corner[1]->uv_q20[i] - c0),
                 down = (int32_t)((uint32_t)corner[2]->uv_q20[i] - c0);
-        int32_t twist = (int32_t)((uint32_t)corner[3]->uv_q20[i] - (uint32_t)corner[2]->uv_q20[i]) - across;
+        int32_t twist =
+            (int32_t)((uint32_t)corner[3]->uv_q20[i] - (uint32_t)corner[2]->uv_q20[i] - (uint32_t)across);
         int32_t left = (int32_t)((int64_t)down * below >> size_log2);
-        int32_t width = across + (int32_t)((int64_t)twist * below >> size_log2);
+        int32_t width = (int32_t)((uint32_t)across + (uint32_t)((int64_t)twist * below >> size_log2));
         line->uv_step_q20[i] = width >> size_log2;
         line->uv_q20[i] = (int32_t)(c0 + (uint32_t)left + (uint32_t)((int64_t)width * d->first >> size_log2));
     }

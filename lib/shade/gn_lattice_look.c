@@ -478,7 +478,8 @@ GN_HOT static int add_edge(const lattice_cell *cell, uint32_t slot, const places
             int32_t e = share_of(light->irradiance_q24[i], share_uq16[i]);
             at[i] = gn_corner_times(cell->s->light[slot].radiance_uq16[j], e);
 #if GN_VERTEX_COLOURS
-            if (GN_COLOURED(cell->s)) at[i] = (int32_t)((int64_t)at[i] * cell->corner[i]->tint_q16[j] >> 16);
+            if (GN_COLOURED(cell->s))
+                at[i] = (int32_t)gn_clamp64((int64_t)at[i] * cell->corner[i]->tint_q16[j] >> 16, -(1 << 27), 1 << 27);
 #endif
             if (GN_SPECULAR && cell->s->specular)
                 at[i] += gn_corner_times(light->shine_uq16[j], share_of(light->highlight_q24[i], share_uq16[i]));
