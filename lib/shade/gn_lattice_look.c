@@ -88,7 +88,7 @@ GN_HOT static uint32_t spread_of(int32_t a, int32_t b, int32_t c, int32_t d)
 }
 #endif
 
-GN_HOT static inline uint32_t distance(int32_t a, int32_t b)
+GN_HOT static inline uint32_t change_between(int32_t a, int32_t b)
 {
     return a < b ? (uint32_t)b - (uint32_t)a : (uint32_t)a - (uint32_t)b;
 }
@@ -96,8 +96,8 @@ GN_HOT static inline uint32_t distance(int32_t a, int32_t b)
 /* The largest change between neighbouring corners along rows, and down columns. */
 GN_HOT static void changes_of(const int32_t at[4], uint32_t change[2])
 {
-    uint32_t upper = distance(at[0], at[1]), lower = distance(at[2], at[3]);
-    uint32_t left = distance(at[0], at[2]), right = distance(at[1], at[3]);
+    uint32_t upper = change_between(at[0], at[1]), lower = change_between(at[2], at[3]);
+    uint32_t left = change_between(at[0], at[2]), right = change_between(at[1], at[3]);
     change[0] = upper > lower ? upper : lower;
     change[1] = left > right ? left : right;
 }
