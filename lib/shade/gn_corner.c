@@ -264,8 +264,8 @@ GN_HOT static void find_ray(const gn_light_state *any, gn_corner *c, const corne
         const gn_ray_plane *r = &any->from_light[i];
         int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)p->px + (uint32_t)r->ay * (uint32_t)p->py);
         int32_t v = gn_mul_high(z, a);
-        c->ray_q16[i] =
-            down >= 0 ? v >> gn_min32(down, 31) : (int32_t)gn_clamp64((int64_t)v << -down, -INT32_MAX, INT32_MAX);
+        c->ray_q16[i] = down >= 0 ? v >> gn_min32(down, 31)
+                                  : (int32_t)gn_clamp64(v * ((int64_t)1 << gn_min32(-down, 31)), -INT32_MAX, INT32_MAX);
     }
 }
 
@@ -289,7 +289,7 @@ GN_HOT static int32_t irradiance(const gn_frame *frame, const gn_light_state *li
     if (facing_q16 <= 0) return 0;
     for (int i = 0; i < 3; i++) d2 += (uint64_t)((int64_t)from_q16[i] * from_q16[i]);
     if (d2 >= light->range2_q32 || d2 >> 62) return 0;
-    if (d2 < frame->min2_q32) d2 = frame->min2_q32;
+    if (d2 < frame->min2_q32) d2 = frame->min2_q32 >> 62 ? ((uint64_t)1 << 62) - 1 : frame->min2_q32;
     int steps = light->kind == GN_LIGHT_SPOT && light->angle_scale.exp >= GN_NARROW_EXP ? 2 : GN_K(frame, newton_steps);
     int32_t shift = gn_clz64(d2) & ~1, half = (shift >> 1) - 1, most = INT32_MAX >> half, factor = 1 << 30;
     uint32_t root = gn_rsqrt_norm((uint32_t)((d2 << shift) >> 32), steps);

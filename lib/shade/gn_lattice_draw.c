@@ -5,8 +5,11 @@
 #include "base/gn_q.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
+#include "shade/gn_lattice_look.h"
 #include "shade/gn_levels.h"
 #include "shade/gn_pixel.h"
+#include "shade/gn_shadow.h"
+#include "shadow/gn_persp.h"
 #include "shadow/gn_window.h"
 
 #if GN_INTERPOLATES
@@ -61,7 +64,7 @@ GN_HOT static int is_flat(const gn_patch *p)
 GN_HOT static int has_two_colours(const drawing *d)
 {
     const gn_lattice_look *look = &d->s->lattice.look;
-    if (look->n_edges != 1 || d->s->surface.textured || d->s->frame->picture.format == GN_FORMAT_RAW32) return 0;
+    if (look->n_edges != 1 + (look->edge[0].bent >> 2) || d->s->surface.textured || d->s->frame->picture.format == GN_FORMAT_RAW32) return 0;
     for (int c = 0; c < 3; c++)
         if (!is_flat(&d->base_q24[c]) || !is_flat(&look->edge[0].more_q24[c])) return 0;
     return 1;
@@ -97,12 +100,12 @@ GN_HOT static void store_levels(const drawing *d, int32_t y, uint32_t bits, cons
 
 #if GN_SHADOWS
 /* One exact lookup, at a depth that is limited to the view's range. */
-GN_HOT static uint32_t lookup(const drawing *d, const gn_lattice_edge *edge, const gn_receiver_step *at, int32_t x,
-                              int32_t y)
+GN_HOT static uint32_t lookup(const drawing *d, const gn_light_view *view, const int32_t slope_q28[2],
+                              const gn_receiver_step *at, int32_t x, int32_t y)
 {
     int32_t depth_q30 = gn_max32(0, gn_min32(at->depth_q31, (1 << 30) - 1));
-    gn_receiver r = {at->u_q16, at->v_q16, (uint32_t)depth_q30 << 2, {edge->slope_q28[0], edge->slope_q28[1]}, x, y};
-    return gn_filter_attenuation(d->s->frame, edge->view, &r);
+    gn_receiver r = {at->u_q16, at->v_q16, (uint32_t)depth_q30 << 2, {slope_q28[0], slope_q28[1]}, x, y};
+    return gn_filter_attenuation(d->s->frame, view, &r);
 }
 
 /* Where a row of the cell is seen, from its ends. */
@@ -130,27 +133,102 @@ GN_HOT static void place_row(const drawing *d, const gn_lattice_edge *edge, int3
     from->depth_q31 = end[0].depth_q31 + d->first * step->depth_q31;
 }
 
-/* Attenuations along a row of nodes, `below` pixels under the cell's first row. Depths are in Q30. */
+#if GN_PUNCTUAL_LIGHTS
+/* Lookups of a row's pixels, of those that the part has. */
+GN_HOT static GN_NOINLINE void look_up_alone(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
+{
+    gn_shading *s = d->s;
+    gn_lattice *l = &s->lattice;
+    gn_corner *c = &l->corner;
+    const gn_corner_light *at = &c->light[edge->slot];
+    uint32_t bits = below >> d->size_log2 ? 0 : gn_lattice_bits(l, d->x, d->y + below, d->size_log2) >> d->first;
+    for (int32_t i = 0, x = d->x + d->first, y = d->y + below; i < d->n; i++, x++) {
+        out[i] = 65536;
+        if (!(bits >> i & 1U) || !gn_corner_locate(l, s->frame, &s->surface, edge->slot, x, y, c)) continue;
+        uint32_t face = (uint32_t)gn_persp_face(at->from_q16);
+        if (!gn_corner_place(l, s->frame, &s->surface, c, edge->slot, face)) continue;
+        const gn_light_view *view = edge->view + (int32_t)face - edge->view_idx;
+        int32_t slope[2];
+        gn_shadow_slopes(s->frame, &s->surface, view, at->from_q16, slope);
+        gn_receiver_step place = {at->u_q16, at->v_q16, at->depth_q30};
+        GN_COUNT(edge_lookups, 1);
+        out[i] = lookup(d, view, slope, &place, x, y);
+    }
+}
+#endif
+
+/* A row of nodes in a view, `below` pixels under the cell's first row, and its steps. Depths are in Q30. */
+GN_HOT static void find_row(const drawing *d, const gn_lattice_edge *edge, int32_t below, gn_receiver_step *at,
+                            gn_receiver_step *step)
+{
+    int32_t scale = 1 << d->s->lattice.look.spacing_log2;
+    step->u_q16 = edge->u_q16.dx + below * edge->u_q16.dxy;
+    step->v_q16 = edge->v_q16.dx + below * edge->v_q16.dxy;
+    step->depth_q31 = edge->depth_q30.dx + below * edge->depth_q30.dxy;
+    at->u_q16 = gn_patch_at(&edge->u_q16, d->first, below);
+    at->v_q16 = gn_patch_at(&edge->v_q16, d->first, below);
+    at->depth_q31 = gn_patch_at(&edge->depth_q30, d->first, below);
+    if (edge->bent & GN_PLACES_BY_ROW) place_row(d, edge, below, at, step);
+    step->u_q16 *= scale;
+    step->v_q16 *= scale;
+    step->depth_q31 *= scale;
+}
+
+/* Attenuations of nodes from .. end - 1 of such a row. */
+GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, int32_t below, const gn_receiver_step *row,
+                               const gn_receiver_step *step, int32_t from, int32_t end, uint32_t *out)
+{
+    gn_receiver_step at = {row->u_q16 + from * step->u_q16, row->v_q16 + from * step->v_q16,
+                           row->depth_q31 + from * step->depth_q31};
+    GN_COUNT(edge_lookups, end - from);
+    if (edge->window && edge->window->view == edge->view &&
+        gn_window_row(d->s->frame, edge->window, &at, step, end - from, out + from))
+        return;
+    for (int32_t i = from; i < end; i++) {
+        out[i] = lookup(d, edge->view, edge->slope_q28, &at,
+                        d->x + d->first + i * (1 << d->s->lattice.look.spacing_log2), d->y + below);
+        at.u_q16 += step->u_q16;
+        at.v_q16 += step->v_q16;
+        at.depth_q31 = (int32_t)((uint32_t)at.depth_q31 + (uint32_t)step->depth_q31); /* not used beyond the cell */
+    }
+}
+
+#if GN_PUNCTUAL_LIGHTS
+/* Whether node i of a row lies in the face of a cube that the view looks through. */
+GN_HOT static int is_in_face(const gn_light_view *view, const gn_receiver_step *row, const gn_receiver_step *step, int32_t i)
+{
+    int32_t middle = view->tile_texels << 15;
+    uint32_t half = view->fit.persp.focal2_q16 >> 1;
+    return gn_abs32(row->u_q16 + i * step->u_q16 - middle) <= half &&
+           gn_abs32(row->v_q16 + i * step->v_q16 - middle) <= half;
+}
+
+/* Attenuations along a row of nodes that two faces see. */
+GN_HOT static GN_NOINLINE void look_up_faces(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
+{
+    gn_receiver_step at[2], step[2];
+    for (int k = 0; k < 2; k++) find_row(d, edge + k, below, &at[k], &step[k]);
+    for (int32_t from = 0, end; from < d->n; from = end) {
+        int inside = is_in_face(edge->view, &at[0], &step[0], from), k = !inside;
+        for (end = from + 1; end < d->n && is_in_face(edge->view, &at[0], &step[0], end) == inside;) end++;
+        look_up_row(d, edge + k, below, &at[k], &step[k], from, end, out);
+    }
+}
+#endif
+
+/* Attenuations along a row of nodes, `below` pixels under the cell's first row. */
 GN_HOT static void find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
 {
-    int32_t log2 = d->s->lattice.look.spacing_log2, n = d->n;
-    gn_receiver_step step = {edge->u_q16.dx + below * edge->u_q16.dxy, edge->v_q16.dx + below * edge->v_q16.dxy,
-                             edge->depth_q30.dx + below * edge->depth_q30.dxy};
-    gn_receiver_step at = {gn_patch_at(&edge->u_q16, d->first, below), gn_patch_at(&edge->v_q16, d->first, below),
-                           gn_patch_at(&edge->depth_q30, d->first, below)};
-    GN_COUNT(edge_lookups, n);
-    if (edge->bent) place_row(d, edge, below, &at, &step);
-    step.u_q16 *= 1 << log2;
-    step.v_q16 *= 1 << log2;
-    step.depth_q31 *= 1 << log2;
-    int known = edge->window && edge->window->view == edge->view &&
-                gn_window_row(d->s->frame, edge->window, &at, &step, n, out);
-    for (int32_t i = 0; !known && i < n; i++) {
-        out[i] = lookup(d, edge, &at, d->x + d->first + i * (1 << log2), d->y + below);
-        at.u_q16 += step.u_q16;
-        at.v_q16 += step.v_q16;
-        at.depth_q31 = (int32_t)((uint32_t)at.depth_q31 + (uint32_t)step.depth_q31); /* not used beyond the cell */
+    gn_receiver_step at, step;
+#if GN_PUNCTUAL_LIGHTS
+    if (edge->bent >= GN_PLACES_LONE) {
+        if (edge->bent == GN_PLACES_LONE) look_up_alone(d, edge, below, out);
+        else look_up_faces(d, edge, below, out);
+        return;
     }
+#endif
+    find_row(d, edge, below, &at, &step);
+    look_up_row(d, edge, below, &at, &step, 0, d->n, out);
 }
 
 GN_HOT static void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3])
@@ -187,7 +265,10 @@ GN_HOT static int find_nodes(const drawing *d, int32_t below, int32_t (*node)[3]
                 step = (base->dx + below * base->dxy) * (1 << look->spacing_log2);
         for (int32_t i = 0; i < d->n; i++, at += step) node[i][c] = at;
     }
-    for (int32_t k = 0; k < look->n_edges; k++) add_edge_light(d, &look->edge[k], below, node);
+    for (int32_t k = 0; k < look->n_edges; k++) {
+        add_edge_light(d, &look->edge[k], below, node);
+        k += look->edge[k].bent >> 2; /* which is the next one, too */
+    }
     uint32_t all = 0;
     for (int32_t i = 0; i < d->n; i++)
         for (int c = 0; c < 3; c++) all |= (uint32_t)node[i][c] | (uint32_t)(node[i][c] - 64);
@@ -195,7 +276,7 @@ GN_HOT static int find_nodes(const drawing *d, int32_t below, int32_t (*node)[3]
 }
 
 #if GN_TEXTURES
-/* Texture coordinates along a row. */
+/* Texture coordinates along a row, which wrap round. */
 GN_HOT static void find_coords(const drawing *d, gn_corner *const corner[4], int32_t below, gn_pixel_line *line)
 {
     for (int i = 0; i < 2; i++) {
@@ -203,9 +284,10 @@ GN_HOT static void find_coords(const drawing *d, gn_corner *const corner[4], int
         uint32_t c0 = (uint32_t)corner[0]->uv_q20[i];
         int32_t across = (int32_t)((uint32_t)corner[1]->uv_q20[i] - c0),
                 down = (int32_t)((uint32_t)corner[2]->uv_q20[i] - c0);
-        int32_t twist = (int32_t)((uint32_t)corner[3]->uv_q20[i] - (uint32_t)corner[2]->uv_q20[i]) - across;
+        int32_t twist =
+            (int32_t)((uint32_t)corner[3]->uv_q20[i] - (uint32_t)corner[2]->uv_q20[i] - (uint32_t)across);
         int32_t left = (int32_t)((int64_t)down * below >> size_log2);
-        int32_t width = across + (int32_t)((int64_t)twist * below >> size_log2);
+        int32_t width = (int32_t)((uint32_t)across + (uint32_t)((int64_t)twist * below >> size_log2));
         line->uv_step_q20[i] = width >> size_log2;
         line->uv_q20[i] = (int32_t)(c0 + (uint32_t)left + (uint32_t)((int64_t)width * d->first >> size_log2));
     }

@@ -88,11 +88,16 @@ GN_HOT static uint32_t spread_of(int32_t a, int32_t b, int32_t c, int32_t d)
 }
 #endif
 
+GN_HOT static inline uint32_t change_between(int32_t a, int32_t b)
+{
+    return a < b ? (uint32_t)b - (uint32_t)a : (uint32_t)a - (uint32_t)b;
+}
+
 /* The largest change between neighbouring corners along rows, and down columns. */
 GN_HOT static void changes_of(const int32_t at[4], uint32_t change[2])
 {
-    uint32_t upper = gn_abs32(at[1] - at[0]), lower = gn_abs32(at[3] - at[2]);
-    uint32_t left = gn_abs32(at[2] - at[0]), right = gn_abs32(at[3] - at[1]);
+    uint32_t upper = change_between(at[0], at[1]), lower = change_between(at[2], at[3]);
+    uint32_t left = change_between(at[0], at[2]), right = change_between(at[1], at[3]);
     change[0] = upper > lower ? upper : lower;
     change[1] = left > right ? left : right;
 }
@@ -317,7 +322,7 @@ typedef struct {
     const gn_light_view *view;
     const gn_window *window;
     uint32_t view_idx;
-    int bent; /* down columns */
+    int bent; /* GN_PLACES_... */
     int32_t u[4], v[4], depth[4];
 } places;
 
@@ -329,7 +334,7 @@ GN_HOT static int find_places(const lattice_cell *cell, uint32_t slot, uint32_t 
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
     p->window = NULL;
     p->view_idx = view_idx;
-    p->bent = 0;
+    p->bent = GN_PLACES_BILINEAR;
     for (int i = 0; i < 4; i++) {
         gn_corner *c = cell->corner[i];
         n_seen += gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx);
@@ -426,9 +431,9 @@ GN_HOT static int places_hold(const lattice_cell *cell, places *p)
         }
     }
     int32_t least_log2 = 16 - place_log2(cell->frame) + (p->view->perspective ? 1 : 0);
-    p->bent = 0;
+    p->bent = GN_PLACES_BILINEAR;
     if (bends_by_less(u, bend, least_log2) && bends_by_less(v, bend, least_log2)) return HOLD;
-    p->bent = 1;
+    p->bent = GN_PLACES_BY_ROW;
     return row_bends_by_less(u, bend, least_log2) && row_bends_by_less(v, bend, least_log2) ? BEND_DOWN : BEND;
 }
 
@@ -466,23 +471,26 @@ GN_HOT static int add_edge(const lattice_cell *cell, uint32_t slot, const places
     edge->bent = (uint8_t)p->bent;
     edge->slope_q28[0] = slope_q28[0];
     edge->slope_q28[1] = slope_q28[1];
-    make_patch(&edge->u_q16, p->u, cell->size_log2);
-    make_patch(&edge->v_q16, p->v, cell->size_log2);
-    make_patch(&edge->depth_q30, p->depth, cell->size_log2);
+    if (p->bent != GN_PLACES_LONE) {
+        make_patch(&edge->u_q16, p->u, cell->size_log2);
+        make_patch(&edge->v_q16, p->v, cell->size_log2);
+        make_patch(&edge->depth_q30, p->depth, cell->size_log2);
+    }
     for (int j = 0; j < 3; j++) {
         int32_t at[4];
         for (int i = 0; i < 4; i++) {
             int32_t e = share_of(light->irradiance_q24[i], share_uq16[i]);
             at[i] = gn_corner_times(cell->s->light[slot].radiance_uq16[j], e);
 #if GN_VERTEX_COLOURS
-            if (GN_COLOURED(cell->s)) at[i] = (int32_t)((int64_t)at[i] * cell->corner[i]->tint_q16[j] >> 16);
+            if (GN_COLOURED(cell->s))
+                at[i] = (int32_t)gn_clamp64((int64_t)at[i] * cell->corner[i]->tint_q16[j] >> 16, -(1 << 27), 1 << 27);
 #endif
             if (GN_SPECULAR && cell->s->specular)
                 at[i] += gn_corner_times(light->shine_uq16[j], share_of(light->highlight_q24[i], share_uq16[i]));
         }
         make_patch(&edge->more_q24[j], at, cell->size_log2);
     }
-    out->spacing_log2 = gn_min32(out->spacing_log2, lookup_spacing(cell, p));
+    out->spacing_log2 = p->bent == GN_PLACES_LONE ? 0 : gn_min32(out->spacing_log2, lookup_spacing(cell, p));
     return 1;
 }
 
@@ -516,13 +524,27 @@ GN_HOT static void blend_shares(const lattice_cell *cell, uint32_t slot, uint32_
         share_uq16[i] = cell->corner[i]->light[slot].view == first ? cell->corner[i]->fade_uq16 : 0;
 }
 
-/* Whether all corners lie in the view's tile, or less than a texel beyond it. */
-GN_HOT static int hardly_beyond(const places *p)
+#if GN_PUNCTUAL_LIGHTS
+/* Adds an edge in the shadow of a point light, two faces of which see the cell. Returns 0 if there is no room, or it is
+ * to be split. */
+GN_HOT static int add_faces(const lattice_cell *cell, uint32_t slot, const contribution *light, uint32_t views, places *p)
 {
-    uint32_t most = ((uint32_t)p->view->tile_texels << 16) + 16384, all = 0;
-    for (int i = 0; i < 4; i++) all |= (uint32_t)((uint32_t)p->u[i] + 8192 > most) | (uint32_t)((uint32_t)p->v[i] + 8192 > most);
-    return !all;
+    gn_lattice_look *out = cell->out;
+    int32_t n_edges = out->n_edges;
+    if (n_edges + 2 > GN_LATTICE_EDGES || views & (views - 1) & ((views & (views - 1)) - 1)) return 0;
+    for (; views; views &= views - 1) {
+        uint32_t face = (uint32_t)first_bit(views);
+        int32_t slope[2];
+        if (find_places(cell, slot, face, p) != PLACED) break;
+        gn_shadow_slopes(cell->frame, cell->s, p->view, cell->corner[0]->light[slot].from_q16, slope);
+        if (verdict(cell, slot, face, p, slope) == SPLIT || places_hold(cell, p) != HOLD) break;
+        add_edge(cell, slot, p, slope, light, light->more_uq16);
+    }
+    if (views) out->n_edges = n_edges;
+    else out->edge[n_edges].bent |= GN_PLACES_OF_TWO;
+    return !views;
 }
+#endif
 
 /* The shadow of a light: LIT, DARK, or EDGE, which is added. */
 GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contribution *light)
@@ -568,13 +590,20 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
         return EDGE;
     }
     if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_DITHER) return SPLIT;
-    /* one of several faces, or cascades, may stand for all of a small cell: tiles reach beyond their faces */
-    for (left = cascaded ? 0 : views; left; left &= left - 1)
-        if (find_places(cell, slot, (uint32_t)first_bit(left), &p) == PLACED && hardly_beyond(&p)) break;
-    uint32_t own = cell->corner[0]->light[slot].view;
-    if (!left && (cell->size_log2 >= finest_log2(cell->frame) || own == GN_VIEW_NONE ||
-                  find_places(cell, slot, own, &p) != PLACED))
-        return SPLIT;
+    if (cascaded) { /* one may stand for all of a small cell */
+        uint32_t own = cell->corner[0]->light[slot].view;
+        if (cell->size_log2 >= finest_log2(cell->frame) || own == GN_VIEW_NONE ||
+            find_places(cell, slot, own, &p) != PLACED)
+            return SPLIT;
+    }
+#if GN_PUNCTUAL_LIGHTS
+    else {
+        if (add_faces(cell, slot, light, views, &p)) return EDGE;
+        if (cell->size_log2 > 2) return SPLIT;
+        p.bent = GN_PLACES_LONE;
+        return add_edge(cell, slot, &p, slope, light, light->more_uq16) ? EDGE : SPLIT;
+    }
+#endif
     if (places_hold(cell, &p) == BEND && cell->size_log2 > 1) return SPLIT;
     gn_shadow_slopes(cell->frame, cell->s, p.view, from, slope);
     return add_edge(cell, slot, &p, slope, light, light->more_uq16) ? EDGE : SPLIT;
