@@ -145,11 +145,13 @@ GN_HOT static GN_NOINLINE void look_up_alone(const drawing *d, const gn_lattice_
     for (int32_t i = 0, x = d->x + d->first, y = d->y + below; i < d->n; i++, x++) {
         out[i] = 65536;
         if (!(bits >> i & 1U) || !gn_corner_locate(l, s->frame, &s->surface, edge->slot, x, y, c)) continue;
-        uint32_t face = (uint32_t)gn_persp_face(at->from_q16);
+        int32_t from[3];
+        gn_corner_from(c, s->surface.light[edge->slot].state, from);
+        uint32_t face = (uint32_t)gn_persp_face(from);
         if (!gn_corner_place(l, s->frame, &s->surface, c, edge->slot, face)) continue;
         const gn_light_view *view = edge->view + (int32_t)face - edge->view_idx;
         int32_t slope[2];
-        gn_shadow_slopes(s->frame, &s->surface, view, at->from_q16, slope);
+        gn_shadow_slopes(s->frame, &s->surface, view, from, slope);
         gn_receiver_step place = {at->u_q16, at->v_q16, at->depth_q30};
         GN_COUNT(edge_lookups, 1);
         out[i] = lookup(d, view, slope, &place, x, y);
