@@ -527,7 +527,8 @@ GN_HOT static void blend_shares(const lattice_cell *cell, uint32_t slot, uint32_
 #if GN_PUNCTUAL_LIGHTS
 /* Adds an edge in the shadow of a point light, two faces of which see the cell. Returns 0 if there is no room, or it is
  * to be split. */
-GN_HOT static int add_faces(const lattice_cell *cell, uint32_t slot, const contribution *light, uint32_t views, places *p)
+GN_HOT static int add_faces(const lattice_cell *cell, uint32_t slot, const contribution *light, uint32_t views,
+                            const int32_t from_q16[3], places *p)
 {
     gn_lattice_look *out = cell->out;
     int32_t n_edges = out->n_edges;
@@ -536,7 +537,7 @@ GN_HOT static int add_faces(const lattice_cell *cell, uint32_t slot, const contr
         uint32_t face = (uint32_t)first_bit(views);
         int32_t slope[2];
         if (find_places(cell, slot, face, p) != PLACED) break;
-        gn_shadow_slopes(cell->frame, cell->s, p->view, cell->corner[0]->light[slot].from_q16, slope);
+        gn_shadow_slopes(cell->frame, cell->s, p->view, from_q16, slope);
         if (verdict(cell, slot, face, p, slope) == SPLIT || places_hold(cell, p) != HOLD) break;
         add_edge(cell, slot, p, slope, light, light->more_uq16);
     }
@@ -598,7 +599,7 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
     }
 #if GN_PUNCTUAL_LIGHTS
     else {
-        if (add_faces(cell, slot, light, views, &p)) return EDGE;
+        if (add_faces(cell, slot, light, views, from, &p)) return EDGE;
         if (cell->size_log2 > 2) return SPLIT;
         p.bent = GN_PLACES_LONE;
         return add_edge(cell, slot, &p, slope, light, light->more_uq16) ? EDGE : SPLIT;
