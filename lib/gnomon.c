@@ -118,6 +118,8 @@
 #include "shade/gn_exact.c"
 #if GN_INTERPOLATES
 #include "shade/gn_corner.c"
+#include "shade/gn_corner_cascade.c"
+#include "shade/gn_corner_place.c"
 #include "shade/gn_lattice.c"
 #include "shade/gn_lattice_draw.c"
 #include "shade/gn_lattice_look.c"

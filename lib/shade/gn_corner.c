@@ -55,44 +55,6 @@ GN_HOT static int find_plane(gn_screen_plane *p, const gn_frame *frame, const gn
     return 1;
 }
 
-#if GN_SHADOWS
-/* Points of a part of the picture: between two depths, and between two squared tangents from the axis. */
-typedef struct {
-    int32_t z_lo_q16, z_hi_q16;
-    uint64_t tan2_lo_q24, tan2_hi_q24;
-} extent;
-
-/* Square of the distance from the cascade's centre at a depth and a tangent; 0 to 2^32 too little. */
-GN_HOT static uint64_t distance2_q32(const gn_cascade_state *cascade, int32_t z_q16, uint64_t tan2_q24)
-{
-    int64_t z = z_q16, dz = z - cascade->centre_q16;
-    return ((uint64_t)(z * z) >> 24) * tan2_q24 + (uint64_t)(dz * dz);
-}
-
-/* The cascade of all points, if none of them fades or blends there; -1 if it is not certain. */
-GN_HOT static int32_t certain_cascade(const gn_frame *frame, const extent *e)
-{
-    int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
-    if (frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH || (uint32_t)e->z_hi_q16 > frame->fade_start_q16)
-        return -1;
-    if (!frame->has_cascades) return GN_CASCADE_NONE;
-    if (e->z_hi_q16 >> 27 || e->tan2_hi_q24 >> 28) return -1; /* and distance2_q32 fits */
-    for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
-        const gn_cascade_state *c = &frame->cascade[i];
-        if (!c->radius2_q32) continue; /* empty */
-        uint64_t within = blends || i == GN_LAST_CASCADE(frame) ? c->inner2_q32 : c->radius2_q32;
-        uint64_t rounding = e->tan2_hi_q24 + 1;
-        if (distance2_q32(c, e->z_lo_q16, e->tan2_hi_q24) + rounding < within &&
-            distance2_q32(c, e->z_hi_q16, e->tan2_hi_q24) + rounding < within)
-            return i;
-        int32_t nearest = gn_max32(e->z_lo_q16, gn_min32(c->centre_q16, e->z_hi_q16));
-        int64_t dz = (int64_t)nearest - c->centre_q16, z = e->z_lo_q16;
-        if (((uint64_t)(z * z) >> 24) * e->tan2_lo_q24 + (uint64_t)(dz * dz) < c->radius2_q32) return -1;
-    }
-    return -1;
-}
-#endif
-
 /* Whether the receiver's offset is along the normal, and what lights leave without masks. */
 GN_HOT static void begin_light(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot)
 {
@@ -135,9 +97,7 @@ GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surfac
     if (!find_plane(&l->plane, frame, s, rect)) return 0;
     l->cascade = -1;
 #if GN_SHADOWS
-    const extent all = {s->z_min_q16, s->z_max_q16, 0, (uint64_t)frame->tan2_q24};
-    if (s->shadowed) l->cascade = certain_cascade(frame, &all);
-    l->surface_cascade = l->cascade;
+    gn_corner_begin_cascade(l, frame, s);
 #endif
     if (!GN_SMOOTH(s) && s->n_lights) {
         gn_length length = gn_length_of(GN_K(frame, newton_steps), s->normal_q30[0]);
@@ -411,6 +371,17 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
 }
 
 #if GN_SHADOWS
+GN_HOT int32_t gn_corner_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
+                                     int32_t y)
+{
+    int32_t w = gn_max32(along(&l->plane.w, x - l->plane.x, y - l->plane.y), 1 << 10), clz = gn_clz32((uint32_t)w);
+    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps)));
+    int32_t shift = l->plane.z_shift - clz;
+    if (shift < 1) return s->z_max_q16;
+    z = shift > 31 ? 0 : ((z >> (shift - 1)) + 1) >> 1;
+    return gn_max32(1, gn_min32((int32_t)(z & INT32_MAX), s->z_max_q16));
+}
+
 GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t x,
                             int32_t y, gn_corner *c)
 {
@@ -425,197 +396,6 @@ GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn
     if (light->kind == GN_LIGHT_DIRECTIONAL) return 1;
     find_ray(light, c, &p);
 #endif
-    return 1;
-}
-#endif
-
-/* ---- Places ------------------------------------------------------------------------------------------------------ */
-
-#if GN_SHADOWS
-/* Normal of the surface at the corner. */
-GN_HOT static const int32_t *normal_of(const gn_surface *s, const gn_corner *c)
-{
-#if GN_VERTEX_NORMALS
-    (void)s;
-    return c->normal_q30;
-#else
-    (void)c;
-    return s->normal_q30[0];
-#endif
-}
-
-/* Tile coordinates in texels, Q16, of what is moved along its normal. */
-GN_HOT static void coords_directional(const gn_frame *frame, const gn_surface *s, const gn_corner *c, uint32_t slot,
-                                      const gn_light_view *view, int32_t coord_q16[3])
-{
-    int32_t px = 2 * c->x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * c->y;
-    int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = view->fit.ortho.ray_shift + up - 32;
-    const int32_t *offset = s->light[slot].flat_offset_q16, *n = normal_of(s, c);
-    for (int i = 0; i < 3; i++) {
-        const gn_ray_plane *r = &view->fit.ortho.ray[i];
-        int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
-        int32_t v = gn_mul_high(z, a), more = offset[i];
-        if (GN_SMOOTH(s)) more = 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
-        coord_q16[i] = (int32_t)((uint32_t)(v >> down) + (uint32_t)r->d_q16 + (uint32_t)more);
-    }
-}
-
-/* View depth of the plane at a pixel, up to its largest on the triangle. */
-GN_HOT static int32_t depth_at_pixel(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
-                                     int32_t y)
-{
-    int32_t w = gn_max32(along(&l->plane.w, x - l->plane.x, y - l->plane.y), 1 << 10), clz = gn_clz32((uint32_t)w);
-    uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps)));
-    int32_t shift = l->plane.z_shift - clz;
-    if (shift < 1) return s->z_max_q16;
-    z = shift > 31 ? 0 : ((z >> (shift - 1)) + 1) >> 1;
-    return gn_max32(1, gn_min32((int32_t)(z & INT32_MAX), s->z_max_q16));
-}
-
-/* Squares of the least and the largest distance from 0 of lo .. hi. */
-GN_HOT static void squares_of(int32_t lo, int32_t hi, uint32_t *least, uint32_t *largest)
-{
-    uint32_t a = gn_abs32(lo), b = gn_abs32(hi), near = (lo < 0) != (hi < 0) ? 0 : a < b ? a : b, far = a > b ? a : b;
-    *least += near * near;
-    *largest += far * far;
-}
-
-GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
-{
-    extent e = {INT32_MAX, 0, 0, 0};
-    uint32_t least = 0, largest = 0;
-    int32_t x[2] = {l->x, gn_min32(l->x + GN_PART_WIDTH, l->x_end) - 1},
-            y[2] = {l->y, gn_min32(l->y + l->n_rows, l->y_end) - 1};
-    l->cascade = l->surface_cascade;
-    if (l->cascade >= 0 || !s->shadowed) return;
-    for (int i = 0; i < 4; i++) {
-        int32_t z = depth_at_pixel(l, frame, s, x[i & 1], y[i >> 1]);
-        e.z_lo_q16 = gn_min32(e.z_lo_q16, z);
-        e.z_hi_q16 = gn_max32(e.z_hi_q16, z);
-    }
-    e.z_lo_q16 = gn_max32(e.z_lo_q16 - 1, s->z_min_q16);
-    e.z_hi_q16 = gn_min32(e.z_hi_q16 + 1, s->z_max_q16);
-    squares_of(2 * x[0] + 1 - frame->picture.width, 2 * x[1] + 1 - frame->picture.width, &least, &largest);
-    squares_of(frame->picture.height - 1 - 2 * y[1], frame->picture.height - 1 - 2 * y[0], &least, &largest);
-    e.tan2_lo_q24 = least * (uint64_t)frame->tan2_per_px2_q44 >> 20;
-    e.tan2_hi_q24 = (largest * (uint64_t)(frame->tan2_per_px2_q44 + 1) >> 20) + 1;
-    l->cascade = certain_cascade(frame, &e);
-}
-
-GN_HOT void gn_corner_cascade(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y,
-                              gn_sample *sample)
-{
-    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
-    gn_sample_find_cascade(frame, px, py, depth_at_pixel(l, frame, s, x, y), sample);
-}
-
-/* A coordinate of a directional view. */
-GN_HOT static inline int32_t coord_ortho(const gn_ray_plane *r, int32_t px, int32_t py, int32_t z, int32_t down)
-{
-    int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
-    return (int32_t)((uint32_t)(gn_mul_high(z, a) >> down) + (uint32_t)r->d_q16);
-}
-
-GN_HOT void gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_light_view *view,
-                         int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2])
-{
-    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
-    int32_t z = depth_at_pixel(l, frame, s, x, y), up = gn_clz32((uint32_t)z) - 1;
-    int32_t down = gn_min32(gn_max32(view->fit.ortho.ray_shift + up - 32, 0), 31);
-    for (int i = 0; i < 2; i++)
-        uv_q16[i] = coord_ortho(&view->fit.ortho.ray[i], px, py, z * (1 << up), down) + offset_q16[i];
-}
-
-GN_HOT static void place_directional(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
-                                     uint32_t slot, const gn_light_view *view)
-{
-    gn_corner_light *at = &c->light[slot];
-    int32_t coord[3], up = 14 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q30 */
-    int32_t down = view->fit.ortho.ray_shift + gn_clz32((uint32_t)c->z_q16) - 33;
-    if (l->light[slot].lifts && down >= 0 && down < 32) coords_directional(frame, s, c, slot, view, coord);
-    else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
-    at->u_q16 = coord[0];
-    at->v_q16 = coord[1];
-    if (up < 0) at->depth_q30 = coord[2] >> gn_min32(-up, 31);
-    else at->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(coord[2], ((1 << 30) - 1) >> up)) * (1 << up);
-    at->seen = 1;
-}
-
-#if GN_PUNCTUAL_LIGHTS
-/* T / 2 (1 + x / (z t)), |x| < 2 z; half = 2^62 / (z << clz) */
-GN_HOT static inline int32_t coord_persp(int32_t x, int32_t clz, int32_t half, int32_t focal2_q16, int32_t middle_q16)
-{
-    return (int32_t)((int64_t)gn_mul_high(x * (1 << (clz - 2)), half) * focal2_q16 >> 29) + middle_q16;
-}
-
-/* In any case that place_punctual leaves. */
-GN_HOT static GN_NOINLINE void place_carefully(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
-                                               gn_corner_light *at, const gn_light_view *view)
-{
-    const gn_light_state *light = &frame->light[view->light_idx];
-    const int32_t *n = normal_of(s, c);
-    int32_t offset[3] = {0, 0, 0}, lifted[3], from[3];
-    gn_arrival place;
-    gn_corner_from(c, light, from);
-    if (!(GN_AUTO_BIAS && light->auto_bias && !GN_CURVED(s)))
-        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n, lifted), c->z_q16, from, offset);
-    at->seen = (uint8_t)gn_arrival_place(frame, s, view, c->z_q16, from, offset, &place);
-    if (!at->seen) return;
-    at->u_q16 = place.u_q16;
-    at->v_q16 = place.v_q16;
-    at->depth_q30 = (int32_t)(place.depth_q32 >> 2);
-}
-
-GN_HOT static void place_punctual(const gn_frame *frame, const gn_surface *s, const gn_lattice_light *how,
-                                  const gn_corner *c, gn_corner_light *at, const gn_light_view *view)
-{
-    const gn_light_state *light = &frame->light[view->light_idx];
-    const int32_t *n = normal_of(s, c);
-    int32_t from[3], moved[3], p[3], reach = 0;
-    gn_corner_from(c, light, from);
-    if (!how->lifts || view->fit.persp.focal2_q16 >> 30 ||
-        (gn_abs32(from[0]) | gn_abs32(from[1]) | gn_abs32(from[2])) >> 29) {
-        place_carefully(frame, s, c, at, view);
-        return;
-    }
-    if (light->kind == GN_LIGHT_SPOT) reach = -(int32_t)gn_dot_q30(from, light->to_light_q30);
-    else
-        for (int i = 0; i < 3; i++) reach = gn_max32(reach, (int32_t)gn_abs32(from[i]));
-    int32_t lift = 2 * gn_mul_high(gn_max32(reach, 0), how->lift_q31);
-    for (int i = 0; i < 3; i++) moved[i] = from[i] + 4 * gn_mul_high(lift, n[i]);
-    for (int i = 0; i < 3; i++) p[i] = (int32_t)(gn_dot64(moved, view->axis_q30[i]) >> 30);
-    int32_t z = p[2], near_q16 = view->fit.persp.near_q16;
-    at->seen = z > near_q16;
-    if (!at->seen) return;
-    if (gn_abs32(p[0]) >> 1 >= (uint32_t)z || gn_abs32(p[1]) >> 1 >= (uint32_t)z) {
-        place_carefully(frame, s, c, at, view);
-        return;
-    }
-    int32_t clz = gn_clz32((uint32_t)z), focal2 = (int32_t)view->fit.persp.focal2_q16, middle = view->tile_texels << 15;
-    uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps));
-    at->u_q16 = coord_persp(p[0], clz, (int32_t)(recip >> 1), focal2, middle);
-    at->v_q16 = coord_persp(p[1], clz, (int32_t)(recip >> 1), focal2, middle);
-    /* 1 - n / z */
-    at->depth_q30 = gn_max32((1 << 30) - 1 - (int32_t)((uint64_t)(uint32_t)near_q16 * recip >> (33 - clz)), 0);
-}
-#endif
-
-GN_HOT int gn_corner_place(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
-                           uint32_t view_idx)
-{
-    gn_corner_light *at = &c->light[slot];
-    if (at->placed == view_idx) return at->seen;
-    const gn_light_state *light = s->light[slot].state;
-    const gn_light_view *view = &frame->view[light->view_idx + (int32_t)view_idx];
-    at->placed = (uint8_t)view_idx;
-    GN_COUNT(places, 1);
-#if GN_PUNCTUAL_LIGHTS
-    if (light->kind != GN_LIGHT_DIRECTIONAL) {
-        place_punctual(frame, s, &l->light[slot], c, at, view);
-        return at->seen;
-    }
-#endif
-    place_directional(l, frame, s, c, slot, view);
     return 1;
 }
 #endif

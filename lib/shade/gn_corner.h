@@ -16,6 +16,13 @@ void gn_corner_find(const gn_lattice *lattice, const gn_frame *frame, const gn_s
                     gn_sample *sample, gn_corner *corner);
 
 #if GN_SHADOWS
+/* View depth of the plane at a pixel, up to its largest on the triangle. */
+int32_t gn_corner_depth(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,
+                        int32_t y);
+
+/* gn_corner_begin()'s: whether one cascade is that of all of the surface. */
+void gn_corner_begin_cascade(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
+
 /* Once per part: whether one cascade is that of all of its points. */
 void gn_corner_begin_part(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 

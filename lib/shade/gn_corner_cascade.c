@@ -1,0 +1,89 @@
+/* Cascades of surfaces, parts and pixels. */
+#include "gn_internal.h"
+
+#include "base/gn_q.h"
+#include "shade/gn_corner.h"
+#include "shade/gn_shadow.h"
+
+#if GN_INTERPOLATES && GN_SHADOWS
+
+/* Points of a part of the picture: between two depths, and between two squared tangents from the axis. */
+typedef struct {
+    int32_t z_lo_q16, z_hi_q16;
+    uint64_t tan2_lo_q24, tan2_hi_q24;
+} extent;
+
+/* Square of the distance from the cascade's centre at a depth and a tangent; 0 to 2^32 too little. */
+GN_HOT static uint64_t distance2_q32(const gn_cascade_state *cascade, int32_t z_q16, uint64_t tan2_q24)
+{
+    int64_t z = z_q16, dz = z - cascade->centre_q16;
+    return ((uint64_t)(z * z) >> 24) * tan2_q24 + (uint64_t)(dz * dz);
+}
+
+/* The cascade of all points, if none of them fades or blends there; -1 if it is not certain. */
+GN_HOT static int32_t certain_cascade(const gn_frame *frame, const extent *e)
+{
+    int blends = GN_BLENDED_CASCADES && frame->scene->shadow.blend != GN_BLEND_HARD;
+    if (frame->scene->shadow.distance_mode != GN_DISTANCE_DEPTH || (uint32_t)e->z_hi_q16 > frame->fade_start_q16)
+        return -1;
+    if (!frame->has_cascades) return GN_CASCADE_NONE;
+    if (e->z_hi_q16 >> 27 || e->tan2_hi_q24 >> 28) return -1; /* and distance2_q32 fits */
+    for (int32_t i = 0; i < GN_N_CASCADES(frame); i++) {
+        const gn_cascade_state *c = &frame->cascade[i];
+        if (!c->radius2_q32) continue; /* empty */
+        uint64_t within = blends || i == GN_LAST_CASCADE(frame) ? c->inner2_q32 : c->radius2_q32;
+        uint64_t rounding = e->tan2_hi_q24 + 1;
+        if (distance2_q32(c, e->z_lo_q16, e->tan2_hi_q24) + rounding < within &&
+            distance2_q32(c, e->z_hi_q16, e->tan2_hi_q24) + rounding < within)
+            return i;
+        int32_t nearest = gn_max32(e->z_lo_q16, gn_min32(c->centre_q16, e->z_hi_q16));
+        int64_t dz = (int64_t)nearest - c->centre_q16, z = e->z_lo_q16;
+        if (((uint64_t)(z * z) >> 24) * e->tan2_lo_q24 + (uint64_t)(dz * dz) < c->radius2_q32) return -1;
+    }
+    return -1;
+}
+GN_HOT void gn_corner_begin_cascade(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
+{
+    const extent all = {s->z_min_q16, s->z_max_q16, 0, (uint64_t)frame->tan2_q24};
+    l->cascade = s->shadowed ? certain_cascade(frame, &all) : -1;
+    l->surface_cascade = l->cascade;
+}
+
+/* Squares of the least and the largest distance from 0 of lo .. hi. */
+GN_HOT static void squares_of(int32_t lo, int32_t hi, uint32_t *least, uint32_t *largest)
+{
+    uint32_t a = gn_abs32(lo), b = gn_abs32(hi), near = (lo < 0) != (hi < 0) ? 0 : a < b ? a : b, far = a > b ? a : b;
+    *least += near * near;
+    *largest += far * far;
+}
+
+GN_HOT void gn_corner_begin_part(gn_lattice *l, const gn_frame *frame, const gn_surface *s)
+{
+    extent e = {INT32_MAX, 0, 0, 0};
+    uint32_t least = 0, largest = 0;
+    int32_t x[2] = {l->x, gn_min32(l->x + GN_PART_WIDTH, l->x_end) - 1},
+            y[2] = {l->y, gn_min32(l->y + l->n_rows, l->y_end) - 1};
+    l->cascade = l->surface_cascade;
+    if (l->cascade >= 0 || !s->shadowed) return;
+    for (int i = 0; i < 4; i++) {
+        int32_t z = gn_corner_depth(l, frame, s, x[i & 1], y[i >> 1]);
+        e.z_lo_q16 = gn_min32(e.z_lo_q16, z);
+        e.z_hi_q16 = gn_max32(e.z_hi_q16, z);
+    }
+    e.z_lo_q16 = gn_max32(e.z_lo_q16 - 1, s->z_min_q16);
+    e.z_hi_q16 = gn_min32(e.z_hi_q16 + 1, s->z_max_q16);
+    squares_of(2 * x[0] + 1 - frame->picture.width, 2 * x[1] + 1 - frame->picture.width, &least, &largest);
+    squares_of(frame->picture.height - 1 - 2 * y[1], frame->picture.height - 1 - 2 * y[0], &least, &largest);
+    e.tan2_lo_q24 = least * (uint64_t)frame->tan2_per_px2_q44 >> 20;
+    e.tan2_hi_q24 = (largest * (uint64_t)(frame->tan2_per_px2_q44 + 1) >> 20) + 1;
+    l->cascade = certain_cascade(frame, &e);
+}
+
+GN_HOT void gn_corner_cascade(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y,
+                              gn_sample *sample)
+{
+    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    gn_sample_find_cascade(frame, px, py, gn_corner_depth(l, frame, s, x, y), sample);
+}
+
+#endif

@@ -1,0 +1,151 @@
+/* Where views of lights see corners. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "light/gn_bias.h"
+#include "shade/gn_arrival.h"
+#include "shade/gn_corner.h"
+
+#if GN_INTERPOLATES && GN_SHADOWS
+
+/* Normal of the surface at the corner. */
+GN_HOT static const int32_t *normal_of(const gn_surface *s, const gn_corner *c)
+{
+#if GN_VERTEX_NORMALS
+    (void)s;
+    return c->normal_q30;
+#else
+    (void)c;
+    return s->normal_q30[0];
+#endif
+}
+
+/* Tile coordinates in texels, Q16, of what is moved along its normal. */
+GN_HOT static void coords_directional(const gn_frame *frame, const gn_surface *s, const gn_corner *c, uint32_t slot,
+                                      const gn_light_view *view, int32_t coord_q16[3])
+{
+    int32_t px = 2 * c->x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * c->y;
+    int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = view->fit.ortho.ray_shift + up - 32;
+    const int32_t *offset = s->light[slot].flat_offset_q16, *n = normal_of(s, c);
+    for (int i = 0; i < 3; i++) {
+        const gn_ray_plane *r = &view->fit.ortho.ray[i];
+        int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
+        int32_t v = gn_mul_high(z, a), more = offset[i];
+        if (GN_SMOOTH(s)) more = 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
+        coord_q16[i] = (int32_t)((uint32_t)(v >> down) + (uint32_t)r->d_q16 + (uint32_t)more);
+    }
+}
+
+/* A coordinate of a directional view. */
+GN_HOT static inline int32_t coord_ortho(const gn_ray_plane *r, int32_t px, int32_t py, int32_t z, int32_t down)
+{
+    int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
+    return (int32_t)((uint32_t)(gn_mul_high(z, a) >> down) + (uint32_t)r->d_q16);
+}
+
+GN_HOT void gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, const gn_light_view *view,
+                         int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2])
+{
+    int32_t px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
+    int32_t z = gn_corner_depth(l, frame, s, x, y), up = gn_clz32((uint32_t)z) - 1;
+    int32_t down = gn_min32(gn_max32(view->fit.ortho.ray_shift + up - 32, 0), 31);
+    for (int i = 0; i < 2; i++)
+        uv_q16[i] = coord_ortho(&view->fit.ortho.ray[i], px, py, z * (1 << up), down) + offset_q16[i];
+}
+
+GN_HOT static void place_directional(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
+                                     uint32_t slot, const gn_light_view *view)
+{
+    gn_corner_light *at = &c->light[slot];
+    int32_t coord[3], up = 14 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q30 */
+    int32_t down = view->fit.ortho.ray_shift + gn_clz32((uint32_t)c->z_q16) - 33;
+    if (l->light[slot].lifts && down >= 0 && down < 32) coords_directional(frame, s, c, slot, view, coord);
+    else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
+    at->u_q16 = coord[0];
+    at->v_q16 = coord[1];
+    if (up < 0) at->depth_q30 = coord[2] >> gn_min32(-up, 31);
+    else at->depth_q30 = gn_max32(-(1 << 29) >> up, gn_min32(coord[2], ((1 << 30) - 1) >> up)) * (1 << up);
+    at->seen = 1;
+}
+
+#if GN_PUNCTUAL_LIGHTS
+/* T / 2 (1 + x / (z t)), |x| < 2 z; half = 2^62 / (z << clz) */
+GN_HOT static inline int32_t coord_persp(int32_t x, int32_t clz, int32_t half, int32_t focal2_q16, int32_t middle_q16)
+{
+    return (int32_t)((int64_t)gn_mul_high(x * (1 << (clz - 2)), half) * focal2_q16 >> 29) + middle_q16;
+}
+
+/* In any case that place_punctual leaves. */
+GN_HOT static GN_NOINLINE void place_carefully(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
+                                               gn_corner_light *at, const gn_light_view *view)
+{
+    const gn_light_state *light = &frame->light[view->light_idx];
+    const int32_t *n = normal_of(s, c);
+    int32_t offset[3] = {0, 0, 0}, lifted[3], from[3];
+    gn_arrival place;
+    gn_corner_from(c, light, from);
+    if (!(GN_AUTO_BIAS && light->auto_bias && !GN_CURVED(s)))
+        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n, lifted), c->z_q16, from, offset);
+    at->seen = (uint8_t)gn_arrival_place(frame, s, view, c->z_q16, from, offset, &place);
+    if (!at->seen) return;
+    at->u_q16 = place.u_q16;
+    at->v_q16 = place.v_q16;
+    at->depth_q30 = (int32_t)(place.depth_q32 >> 2);
+}
+
+GN_HOT static void place_punctual(const gn_frame *frame, const gn_surface *s, const gn_lattice_light *how,
+                                  const gn_corner *c, gn_corner_light *at, const gn_light_view *view)
+{
+    const gn_light_state *light = &frame->light[view->light_idx];
+    const int32_t *n = normal_of(s, c);
+    int32_t from[3], moved[3], p[3], reach = 0;
+    gn_corner_from(c, light, from);
+    if (!how->lifts || view->fit.persp.focal2_q16 >> 30 ||
+        (gn_abs32(from[0]) | gn_abs32(from[1]) | gn_abs32(from[2])) >> 29) {
+        place_carefully(frame, s, c, at, view);
+        return;
+    }
+    if (light->kind == GN_LIGHT_SPOT) reach = -(int32_t)gn_dot_q30(from, light->to_light_q30);
+    else
+        for (int i = 0; i < 3; i++) reach = gn_max32(reach, (int32_t)gn_abs32(from[i]));
+    int32_t lift = 2 * gn_mul_high(gn_max32(reach, 0), how->lift_q31);
+    for (int i = 0; i < 3; i++) moved[i] = from[i] + 4 * gn_mul_high(lift, n[i]);
+    for (int i = 0; i < 3; i++) p[i] = (int32_t)(gn_dot64(moved, view->axis_q30[i]) >> 30);
+    int32_t z = p[2], near_q16 = view->fit.persp.near_q16;
+    at->seen = z > near_q16;
+    if (!at->seen) return;
+    if (gn_abs32(p[0]) >> 1 >= (uint32_t)z || gn_abs32(p[1]) >> 1 >= (uint32_t)z) {
+        place_carefully(frame, s, c, at, view);
+        return;
+    }
+    int32_t clz = gn_clz32((uint32_t)z), focal2 = (int32_t)view->fit.persp.focal2_q16, middle = view->tile_texels << 15;
+    uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps));
+    at->u_q16 = coord_persp(p[0], clz, (int32_t)(recip >> 1), focal2, middle);
+    at->v_q16 = coord_persp(p[1], clz, (int32_t)(recip >> 1), focal2, middle);
+    /* 1 - n / z */
+    at->depth_q30 = gn_max32((1 << 30) - 1 - (int32_t)((uint64_t)(uint32_t)near_q16 * recip >> (33 - clz)), 0);
+}
+#endif
+
+GN_HOT int gn_corner_place(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
+                           uint32_t view_idx)
+{
+    gn_corner_light *at = &c->light[slot];
+    if (at->placed == view_idx) return at->seen;
+    const gn_light_state *light = s->light[slot].state;
+    const gn_light_view *view = &frame->view[light->view_idx + (int32_t)view_idx];
+    at->placed = (uint8_t)view_idx;
+    GN_COUNT(places, 1);
+#if GN_PUNCTUAL_LIGHTS
+    if (light->kind != GN_LIGHT_DIRECTIONAL) {
+        place_punctual(frame, s, &l->light[slot], c, at, view);
+        return at->seen;
+    }
+#endif
+    place_directional(l, frame, s, c, slot, view);
+    return 1;
+}
+
+#endif
