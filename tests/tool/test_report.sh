@@ -34,7 +34,7 @@ sed 's/src="data:[^"]*"//g' "$page" | grep -q -i ' src=' && fail "a source that 
 sed -n 's/.*data-picture="fixed" .*alt="Desk[^"]*" src="data:image\/png;base64,\([^"]*\)".*/\1/p' "$page" | base64 -d >"$tmp/desk.png"
 cmp -s "$tmp/desk.png" "$tmp/report/desk/balanced/fixed.png" && pass || fail "the desk's picture is not compare's"
 for name in $scenes; do
-    for preset in balanced accurate; do
+    for preset in fast balanced accurate; do
         want=$(sed 's/.*"fixed_reference"//; s/"reference_truth".*//; s/"lights".*//' "$tmp/report/$name/$preset.json" | sed 's/.*"identical": \([0-9.]*\).*/\1/' | awk '{ printf "%.2f", 100 * $1 }')
         awk -v name="$name" -v preset=$preset '/<tr><th scope="rowgroup"/ { at = index($0, "#" name "\"") } at && index($0, ">" preset "<")' "$page" | grep -q ">$want&#8239;%<" &&
             pass || fail "$name, $preset: the summary does not say $want % identical"

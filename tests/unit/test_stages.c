@@ -378,7 +378,7 @@ static void test_grid_does_not_crawl(const gn_knobs *knobs)
 int main(int argc, char **argv)
 {
     int table = argc > 1 && strcmp(argv[1], "--table") == 0;
-    for (int preset = 0; preset < 3; preset++) {
+    for (int preset = 0; preset < N_PRESETS; preset++) {
         const gn_knobs knobs = preset_knobs(preset);
         if (preset == GN_PRESET_ACCURATE) test_grid_does_not_crawl(&knobs);
         for (int i = 0; i < N_SCENES; i++) {
