@@ -15,7 +15,7 @@ typedef struct {
 } floors;
 static const floors floor_of[SETTINGS_PRESETS] = {
     [SETTINGS_TINY] = {0, 0, 0, 1, 0, 0, 1},
-    [SETTINGS_FAST] = {0.80, 0.98, 36, 0.03, 0.80, 36, 1 / 256.0},
+    [SETTINGS_FAST] = {0.80, 0.98, 36, 0.03, 0.80, 36, 1 / 32.0},
     [SETTINGS_BALANCED] = {0.985, 0.998, 41, 0.004, 0.995, 48, 1 / 256.0},
     [SETTINGS_ACCURATE] = {0.997, 0.9995, 46, 0.0015, 0.999, 54, 1 / 512.0}};
 

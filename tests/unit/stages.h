@@ -253,6 +253,7 @@ static inline void report_stages(int table, const char *what)
     }
     memset(seen, 0, sizeof seen);
     memset(violations, 0, sizeof violations);
+    state = 1; /* the next preset draws the same */
 }
 
 #endif
