@@ -684,7 +684,7 @@ sh host/run.sh "$tool" 16x12 "$tmp/run out" "$tmp/missing.obj" "$cube" >"$tmp/ou
 status=$?
 [ $status = 1 ] && pass || fail "run.sh with a missing scene exits with $status"
 [ "$(grep -c missing.obj "$tmp/err")" = 1 ] && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "run.sh names the missing scene in $(wc -l <"$tmp/err") lines"
-[ "$(grep -c '^cube\.obj ' "$tmp/out")" = 2 ] && pass || fail "run.sh stops at a missing scene"
+[ "$(grep -c '^cube\.obj ' "$tmp/out")" = 3 ] && pass || fail "run.sh stops at a missing scene"
 
 # ---- Every knob at both ends -------------------------------------------------------------------------------------------------
 
