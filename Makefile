@@ -129,7 +129,7 @@ $(BUILD)/make_scenes: $(BUILD)/obj/host/generate/scenes/make_scenes.o $(SCENE_OB
 # Test programs of one variant: make test-programs BUILD=build/gcc-O0 CC=gcc OPT=-O0 SAN=-fsanitize=address,undefined
 test-programs: $(TESTS:%=$(BUILD)/%) $(BUILD)/gnomon
 
-# Of one configuration with constants: make constant-programs BUILD=build/tiny CONSTANTS=-DGN_PRESET=0
+# Of one configuration with constants: make constant-programs BUILD=build/tiny CONSTANTS=-DGN_PRESET=GN_PRESET_TINY
 constant-programs: $(CONSTANT)
 
 # Those that need no more than the library.

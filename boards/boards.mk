@@ -3,7 +3,7 @@
 # BOARD       a folder of boards/ with board.mk, link.ld and, where common/vectors.c does not do, startup.c
 # APP         boards/apps/APP.c; APP.mk beside it may set APP_SRC, APP_FLAGS, APP_OBJ, APP_LIB, and have rules
 # SCENE       a scene file that the app renders, compiled to C arrays by build/gnomon
-# PRESET      tiny, balanced, accurate
+# PRESET      tiny, fast, balanced, accurate
 # BOARD_PORT  folders of port/, the first with the header, in place of those that the board names
 # SCENE_FLAGS more options of gnomon compile, such as --size 128x64
 # FW_OPT      the optimisation, else the board's
@@ -21,8 +21,8 @@ ifeq ($(wildcard boards/apps/$(APP).c),)
 $(error There is no app '$(APP)': boards/apps has $(sort $(patsubst boards/apps/%.mk,%,$(filter-out %/screen.mk,$(wildcard boards/apps/*.mk))) play))
 endif
 ifneq ($(PRESET),)
-ifeq ($(filter tiny balanced accurate,$(PRESET)),)
-$(error PRESET='$(PRESET)' is none of tiny, balanced, accurate)
+ifeq ($(filter tiny fast balanced accurate,$(PRESET)),)
+$(error PRESET='$(PRESET)' is none of tiny, fast, balanced, accurate)
 endif
 endif
 ifneq ($(SCENE),)

@@ -7,8 +7,9 @@
 #define GN_CONFIG_H
 
 #define GN_PRESET_TINY     0
-#define GN_PRESET_BALANCED 1
-#define GN_PRESET_ACCURATE 2
+#define GN_PRESET_FAST     1
+#define GN_PRESET_BALANCED 2
+#define GN_PRESET_ACCURATE 3
 
 #ifdef GN_USER_CONFIG
 #include GN_USER_CONFIG
@@ -18,8 +19,11 @@
 #define GN_PRESET GN_PRESET_BALANCED
 #endif
 
-#define GN_PICK_(tiny, balanced, accurate)                                                                             \
-    (GN_PRESET == GN_PRESET_TINY ? (tiny) : GN_PRESET == GN_PRESET_BALANCED ? (balanced) : (accurate))
+#define GN_PICK_(tiny, fast, balanced, accurate)                                                                       \
+    (GN_PRESET == GN_PRESET_TINY       ? (tiny)                                                                        \
+     : GN_PRESET == GN_PRESET_FAST     ? (fast)                                                                        \
+     : GN_PRESET == GN_PRESET_BALANCED ? (balanced)                                                                    \
+                                       : (accurate))
 #define GN_PICK(...) GN_PICK_(__VA_ARGS__)
 
 /* A quality level of its own (gn_compact.h): features that it lacks are off by default. */
@@ -27,24 +31,24 @@
 #define GN_COMPACT 0
 #endif
 
-/* Quality: tiny, balanced, accurate. */
-#define GN_PRESETS_SUBPIXEL_BITS        4, 7, 8
-#define GN_PRESETS_PERSP_STEP           16, 8, 1
-#define GN_PRESETS_NEWTON_STEPS         1, 1, 2
-#define GN_PRESETS_SHADOW_SUBPIXEL_BITS 8, 10, 12
-#define GN_PRESETS_SHADOW_DEPTH_FRAC    0, 4, 4
-#define GN_PRESETS_WEIGHT_BITS          6, 8, 12
-#define GN_PRESETS_ATTEN_BITS           8, 16, 16
-#define GN_PRESETS_ATLAS_SIZE           64, 128, 256
-#define GN_PRESETS_OTHER_ATLAS_SIZE     64, 128, 256
-#define GN_PRESETS_DEPTH_BITS           16, 16, 16
-#define GN_PRESETS_OTHER_DEPTH_BITS     16, 16, 32
-#define GN_PRESETS_TILE_WIDTH           64, 64, 64
-#define GN_PRESETS_TILE_HEIGHT          8, 16, 16
-#define GN_PRESETS_SRGB                 1, 1, 1
-#define GN_PRESETS_VERTEX_LIGHT         0, 0, 0
-#define GN_PRESETS_POSITION_BITS        32, 32, 32
-#define GN_PRESETS_NORMAL_BITS          16, 16, 16
+/* Quality: tiny, fast, balanced, accurate. */
+#define GN_PRESETS_SUBPIXEL_BITS        4, 7, 7, 8
+#define GN_PRESETS_PERSP_STEP           16, 16, 8, 1
+#define GN_PRESETS_NEWTON_STEPS         1, 1, 1, 2
+#define GN_PRESETS_SHADOW_SUBPIXEL_BITS 8, 10, 10, 12
+#define GN_PRESETS_SHADOW_DEPTH_FRAC    0, 4, 4, 4
+#define GN_PRESETS_WEIGHT_BITS          6, 8, 8, 12
+#define GN_PRESETS_ATTEN_BITS           8, 16, 16, 16
+#define GN_PRESETS_ATLAS_SIZE           64, 128, 128, 256
+#define GN_PRESETS_OTHER_ATLAS_SIZE     64, 128, 128, 256
+#define GN_PRESETS_DEPTH_BITS           16, 16, 16, 16
+#define GN_PRESETS_OTHER_DEPTH_BITS     16, 16, 16, 32
+#define GN_PRESETS_TILE_WIDTH           64, 128, 64, 64
+#define GN_PRESETS_TILE_HEIGHT          8, 16, 16, 16
+#define GN_PRESETS_SRGB                 1, 1, 1, 1
+#define GN_PRESETS_VERTEX_LIGHT         0, 1, 0, 0
+#define GN_PRESETS_POSITION_BITS        32, 32, 32, 32
+#define GN_PRESETS_NORMAL_BITS          16, 16, 16, 16
 
 #ifndef GN_SUBPIXEL_BITS
 #define GN_SUBPIXEL_BITS GN_PICK(GN_PRESETS_SUBPIXEL_BITS)

@@ -90,9 +90,10 @@ constants() {
     build constant-programs WERROR= BUILD=build/test/"$1" CC=clang OPT=-O1 SAN="$sanitizers" CONSTANTS="$2"
     for program in build/test/"$1"/test_*; do job "$1/$(basename "$program")" "SCENES=4000 $program"; done
 }
-constants balanced "-DGN_PRESET=1 -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=256"
-[ -z "$THOROUGH" ] || constants tiny "-DGN_PRESET=0 -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=64"
-[ -z "$THOROUGH" ] || constants accurate "-DGN_PRESET=2 -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=128"
+constants balanced "-DGN_PRESET=GN_PRESET_BALANCED -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=256"
+[ -z "$THOROUGH" ] || constants tiny "-DGN_PRESET=GN_PRESET_TINY -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=64"
+[ -z "$THOROUGH" ] || constants fast "-DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=64 -DGN_OTHER_ATLAS_SIZE=64"
+[ -z "$THOROUGH" ] || constants accurate "-DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=128"
 
 build build/test/threads/test_cores BUILD=build/test/threads OPT=-O1 SAN=-fsanitize=thread
 job threads/test_cores build/test/threads/test_cores

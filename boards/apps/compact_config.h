@@ -1,7 +1,7 @@
 /* Compact arithmetic, so small that it runs on every board. */
 #define GN_COMPACT       1
 #define GN_VALIDATION    0
-#define GN_PRESET        0
+#define GN_PRESET        GN_PRESET_TINY
 #define GN_SRGB          0
 #define GN_MAX_WIDTH     64
 #define GN_MAX_HEIGHT    48

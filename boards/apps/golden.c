@@ -116,12 +116,12 @@ typedef struct {
 } golden_frame;
 
 static const golden_frame frames[] = {
-    {&golden_sundial, 24, 0, 0, GN_FORMAT_RGB565, 3, NULL, NULL},
-    {&golden_avenue, 0, 0, 0, GN_FORMAT_RGB565, 3, NULL, NULL},
-    {&golden_desk, 0, 0, 0, GN_FORMAT_RGB565, 3, NULL, NULL},
-    {&golden_room, 0, 0, 0, GN_FORMAT_RGB565, 3, NULL, NULL},
-    {&golden_fence, 0, 0, 0, GN_FORMAT_RGB565, 3, NULL, NULL},
-    {&golden_mixed, 0, 0, 0, GN_FORMAT_RGB565, 3, NULL, NULL},
+    {&golden_sundial, 24, 0, 0, GN_FORMAT_RGB565, 4, NULL, NULL},
+    {&golden_avenue, 0, 0, 0, GN_FORMAT_RGB565, 4, NULL, NULL},
+    {&golden_desk, 0, 0, 0, GN_FORMAT_RGB565, 4, NULL, NULL},
+    {&golden_room, 0, 0, 0, GN_FORMAT_RGB565, 4, NULL, NULL},
+    {&golden_fence, 0, 0, 0, GN_FORMAT_RGB565, 4, NULL, NULL},
+    {&golden_mixed, 0, 0, 0, GN_FORMAT_RGB565, 4, NULL, NULL},
     {&golden_sundial, 0, 18, 144, GN_FORMAT_RGB565, 0, NULL, NULL},
     {&golden_desk, 6, 8, 22, GN_FORMAT_RGB565, 0, NULL, NULL},
     {&golden_sundial, 72, 0, 0, GN_FORMAT_RGB888, 0, NULL, NULL},
@@ -150,7 +150,7 @@ static const golden_frame frames[] = {
 /* ---- Running ----------------------------------------------------------------------------------------------------- */
 
 static const char *const format_names[] = {"RGB565", "RGB888", "RGB565 swapped", "grey8", "grey4", "mono1"};
-static const char *const preset_names[] = {"tiny", "balanced", "accurate"};
+static const char *const preset_names[] = {"tiny", "fast", "balanced", "accurate"};
 
 typedef struct {
     gn_format format;

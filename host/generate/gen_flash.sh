@@ -69,5 +69,5 @@ for feature in $features; do
     case " $typical FILTER_MAX " in *" $feature "*) continue ;; esac
     row $(echo $feature | tr A-Z a-z) "with" $(flags $typical $feature)
 done
-row preset_accurate "quality of preset accurate" $(flags $typical) -DGN_PRESET=2
+row preset_accurate "quality of preset accurate" $(flags $typical) -DGN_PRESET=GN_PRESET_ACCURATE
 row linear "srgb 0" $(flags $typical) -DGN_SRGB=0

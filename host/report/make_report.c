@@ -2,7 +2,7 @@
  * without JavaScript all is there but the slider.
  *
  * usage: make_report PAGE FOLDER PLOTS PARTS SCENE...
- *   FOLDER/SCENE/PRESET.json, of balanced and accurate, and the pictures in FOLDER/SCENE/balanced: of gnomon compare
+ *   FOLDER/SCENE/PRESET.json, of each preset but tiny, and the pictures in FOLDER/SCENE/balanced: of gnomon compare
  * --with truth PLOTS: trade-SCENE.svg and the census; left out where they are missing PARTS: page.css, page.js
  */
 #include <ctype.h>
@@ -15,10 +15,10 @@
 #include "embed.h"
 
 enum { PATH_BYTES = 4096 };
-enum { BALANCED, ACCURATE, N_PRESETS };
+enum { FAST, BALANCED, ACCURATE, N_PRESETS };
 enum { FIXED_REFERENCE, REFERENCE_TRUTH, FIXED_TRUTH, N_PAIRS };
 
-static const char *const preset_names[N_PRESETS] = {"balanced", "accurate"};
+static const char *const preset_names[N_PRESETS] = {"fast", "balanced", "accurate"};
 
 /* As gnomon compare names them. */
 static const struct {

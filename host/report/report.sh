@@ -11,7 +11,7 @@ for wanted in "$@"; do
     case $wanted in *@*) frame=${wanted##*@} ;; esac
     name=$(basename "$scene" | sed 's/\.[^.]*$//')
     mkdir -p "$out/$name"
-    for preset in balanced accurate; do
+    for preset in fast balanced accurate; do
         "$tool" compare "$scene" --with truth --json --size "$size" --frame "$frame" --set preset=$preset -o "$out/$name/$preset" >"$out/$name/$preset.json"
     done
     names="$names $name"

@@ -26,7 +26,7 @@ const option options[] = {
     {"--frames", BY_COMPILE | BY_INFO, "FIRST-LAST", "FIRST-LAST, frames from 0 to 100000000",
      "these frames (compile: all of the animation; info: frame 0 alone)"},
     {"--set", BY_ALL, "KEY=VALUE", "KEY=VALUE, at most 64 times",
-     "any knob or setting, in order: 'gnomon knobs' lists them; preset=tiny|balanced|accurate sets many; "
+     "any knob or setting, in order: 'gnomon knobs' lists them; preset=tiny|fast|balanced|accurate sets many; "
      "KEY@LIGHT=VALUE for one light, by its number or name"},
     {"--csv", BY_SWEEP, "FILE", "a path", "every configuration as a table"},
     {"--svg", BY_SWEEP, "FILE", "a path", "every configuration as a plot"},

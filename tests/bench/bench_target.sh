@@ -63,7 +63,7 @@ measure() { # measure QUICK
     workload M3
     [ "$1" = quick ] && return
     for core in M3-fast M0 M4 RV32; do workload "$core"; done
-    scenes M3 tiny balanced accurate
+    scenes M3 tiny fast balanced accurate
     for core in M0 M4 RV32; do scenes "$core" balanced; done
 }
 

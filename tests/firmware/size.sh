@@ -32,17 +32,15 @@ cores() {
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e RAW_VIEWS)
 off() { for feature in $features; do [ "$feature" = "${1:-}" ] || echo "-DGN_$feature=0"; done; }
-CONFIGURATIONS="smallest small tiny balanced accurate full"
+CONFIGURATIONS="smallest small tiny fast balanced accurate full"
 flags_of() {
     case $1 in
     smallest) # one directional light, hard shadow, flat colours, in 32 bits
-        echo "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0 -DGN_VALIDATION=0 -DGN_PRESET=0 -DGN_SRGB=0 -DGN_MAX_WIDTH=128 -DGN_MAX_HEIGHT=128 -DGN_MAX_TRIANGLES=64 -DGN_MAX_OBJECTS=8" ;;
+        echo "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0 -DGN_VALIDATION=0 -DGN_PRESET=GN_PRESET_TINY -DGN_SRGB=0 -DGN_MAX_WIDTH=128 -DGN_MAX_HEIGHT=128 -DGN_MAX_TRIANGLES=64 -DGN_MAX_OBJECTS=8" ;;
     small) # the same as the library does it, without clipping
-        echo "$(off SHADOWS) -DGN_SHADOWS=1 -DGN_PRESET=0 -DGN_PERSP_STEP=1 -DGN_SRGB=0 -DGN_MAX_LIGHTS=1 -DGN_SURFACE_LIGHTS=1 -DGN_MAX_SHADOW_TILES=1" \
+        echo "$(off SHADOWS) -DGN_SHADOWS=1 -DGN_PRESET=GN_PRESET_TINY -DGN_PERSP_STEP=1 -DGN_SRGB=0 -DGN_MAX_LIGHTS=1 -DGN_SURFACE_LIGHTS=1 -DGN_MAX_SHADOW_TILES=1" \
             "-DGN_MAX_WIDTH=128 -DGN_MAX_HEIGHT=128 -DGN_MAX_TRIANGLES=64 -DGN_MAX_TILE_REFS=256 -DGN_MAX_OBJECTS=8" ;;
-    tiny) echo -DGN_PRESET=0 ;;
-    balanced) echo -DGN_PRESET=1 ;;
-    accurate) echo -DGN_PRESET=2 ;;
+    tiny | fast | balanced | accurate) echo "-DGN_PRESET=GN_PRESET_$(echo "$1" | tr a-z A-Z)" ;;
     full) # every feature of the specification, in one way each: without pieces and parabolas, bounds of depth and boxes, which only save time
         for feature in $features; do
             case $feature in

@@ -120,7 +120,7 @@ LIST
 
 # The library has its own 64-bit division (that no pixel reaches it is tests/firmware/test_size.sh's to say) and calls no other.
 if [ -n "$prefix" ]; then
-    object divide -Os -fno-inline -DGN_PRESET=2 $(but all 0)
+    object divide -Os -fno-inline -DGN_PRESET=GN_PRESET_ACCURATE $(but all 0)
     ${prefix}nm "$tmp/divide.o" | awk '$1 == "U" { print $2 }' | grep -v -x -E 'mem(set|cpy|cmp|move)|__aeabi_u?idivmod|__aeabi_u?idiv|__aeabi_(mem|l?l[as][rl]).*' >"$tmp/found"
     if [ -s "$tmp/found" ]; then fail "the library calls $(tr '\n' ' ' <"$tmp/found")"; else pass; fi
     ${prefix}size "$tmp/divide.o" | awk 'NR == 2 { exit $2 + $3 != 0 }' && pass || fail ".data or .bss is not empty"

@@ -12,7 +12,6 @@ host_knobs=$(variable HOST_KNOBS)
 cat >"$tmp/ram.c" <<'EOF_C'
 /* ram PRESET KEY=VALUE...: what the tool predicts for the library's default capacities. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include "host/tool/settings/settings.h"
 int main(int argc, char **argv)
@@ -22,7 +21,8 @@ int main(int argc, char **argv)
     char error[200];
     memset(&none, 0, sizeof none);
     settings_init(&set);
-    settings_preset(&set, atoi(argv[1]));
+    for (int i = 0; i < SETTINGS_PRESETS; i++)
+        if (strcmp(argv[1], settings_preset_name[i]) == 0) settings_preset(&set, i);
     if (settings_apply_all(&set, &none, (const char *const *)(argv + 2), argc - 2, error, sizeof error)) {
         printf("%s\n", error);
         return 1;
@@ -60,7 +60,7 @@ size_of() { # by bisection: for messages
 predicted() {
     preset=$1
     shift
-    flags="-DGN_PRESET=$preset" sets=
+    flags="-DGN_PRESET=GN_PRESET_$(echo "$preset" | tr a-z A-Z)" sets=
     for key in max_width max_height max_triangles max_tile_refs max_lights surface_lights max_objects max_shadow_tiles max_other_tiles vertex_cache; do
         macro=GN_$(echo $key | tr a-z A-Z)
         sets="$sets $key=$(printf '#include "gn_config.h"\nGN_%s\n' "${macro#GN_}" | gcc -E -P -Ilib - | tail -n 1 | sed 's/^(0 ? [0-9]* : \([0-9]*\))$/\1/')"
@@ -71,7 +71,7 @@ predicted() {
 }
 
 if [ -n "$target" ]; then
-    for preset in 0 1 2; do
+    for preset in tiny fast balanced accurate; do
         predicted $preset
         predicted $preset punctual_lights=1 main_light=0 incremental=0 max_objects=1
         predicted $preset shadows=0 punctual_lights=0 max_lights=3

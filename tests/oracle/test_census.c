@@ -73,7 +73,7 @@ static void test_planes(int n_planes)
     for (int kind = 0; kind < 3; kind++)
         for (int filter = 0; filter < 6; filter++)
             for (int bits = 0; bits < 3; bits++)
-                for (int preset = 0; preset < 3; preset++)
+                for (int preset = 0; preset < SETTINGS_PRESETS; preset++)
                     for (int form = 0; form < 2; form++) {
                         const int texels = least_texels(kind)
                                            << (int)random_between(0, kind == SCENE_LIGHT_POINT ? 4 : 5);
@@ -99,7 +99,7 @@ static void test_cut_planes(int n_planes)
 {
     static fixture f;
     for (int i = 0; i < 6 * n_planes; i++) {
-        const cell c = {(scene_light_kind)(i % 3), (scene_filter)(i % 5), 16, i % 3, 64};
+        const cell c = {(scene_light_kind)(i % 3), (scene_filter)(i % 5), 16, i % SETTINGS_PRESETS, 64};
         plane_scene p;
         plane_point h;
         long dark = 0;

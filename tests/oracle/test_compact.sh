@@ -5,7 +5,7 @@ cd "$(dirname "$0")/../.." || exit 1
 
 variable() { make -s --no-print-directory WERROR=-Werror --eval="print: ; @echo \$($1)" print; }
 warn=$(variable WARN)
-flags="-DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_PRESET=0 -DGN_SRGB=0"
+flags="-DGN_COMPACT=1 -DGN_VALIDATION=0 -DGN_PRESET=GN_PRESET_TINY -DGN_SRGB=0"
 # program STATUS_OF WHAT...: its counts are added
 counted() {
     "$@" >"$tmp/out" 2>&1
@@ -44,7 +44,7 @@ for how in "gcc -O2 -DGN_AUTO_BIAS=0" "clang -O0"; do
         -o "$tmp/range" tests/oracle/compact_range.c lib/gnomon.c -lm 2>"$tmp/log"; then counted "$tmp/range" 5000
     else fail "$how: $(grep -m 1 error "$tmp/log")"; fi
 done
-for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=2 -DGN_VALIDATION=0" "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0"; do
+for knobs in "-DGN_COMPACT=1" "-DGN_COMPACT=1 -DGN_PRESET=GN_PRESET_ACCURATE -DGN_VALIDATION=0" "-DGN_COMPACT=1 -DGN_AUTO_BIAS=0"; do
     gcc -std=c99 -pedantic $warn -O2 -Ilib $knobs -c -o "$tmp/warnings.o" lib/gnomon.c 2>"$tmp/log" && pass || fail "$knobs: $(grep -m 1 -E 'error|warning' "$tmp/log")"
 done
 for contradiction in TEXTURES MANY_CASCADES FILTER_MAX PUNCTUAL_LIGHTS RAW_VIEWS OTHER_FORMATS INCREMENTAL STATIC_LAYER; do

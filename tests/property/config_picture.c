@@ -30,10 +30,21 @@ static void use_preset(int preset)
 {
 #define PRESET(name, MACRO, lo, hi, meaning, cost)                                                                     \
     {                                                                                                                  \
-        const int32_t of_preset[3] = {GN_PRESETS_##MACRO};                                                             \
+        const int32_t of_preset[] = {GN_PRESETS_##MACRO};                                                              \
         use.name = of_preset[preset];                                                                                  \
     }
     GN_QUALITY_KNOBS(PRESET)
+}
+
+static int preset_of(const char *name)
+{
+    static const char *const names[] = {[GN_PRESET_TINY] = "GN_PRESET_TINY",
+                                        [GN_PRESET_FAST] = "GN_PRESET_FAST",
+                                        [GN_PRESET_BALANCED] = "GN_PRESET_BALANCED",
+                                        [GN_PRESET_ACCURATE] = "GN_PRESET_ACCURATE"};
+    int preset = GN_PRESET_TINY;
+    while (preset < GN_PRESET_ACCURATE && strcmp(name, names[preset]) != 0) preset++;
+    return preset;
 }
 
 static void use_flag(const char *flag)
@@ -41,7 +52,7 @@ static void use_flag(const char *flag)
     const char *value = strchr(flag, '=');
     if (strncmp(flag, "-DGN_", 5) != 0 || !value) return;
     size_t n = (size_t)(value - flag) - 5;
-    if (n == 6 && strncmp(flag + 5, "PRESET", n) == 0) use_preset(atoi(value + 1));
+    if (n == 6 && strncmp(flag + 5, "PRESET", n) == 0) use_preset(preset_of(value + 1));
 #define NAMED(name, MACRO, lo, hi, meaning, cost)                                                                      \
     if (n == sizeof #MACRO - 1 && strncmp(flag + 5, #MACRO, n) == 0) use.name = atoi(value + 1);
     GN_QUALITY_KNOBS(NAMED)

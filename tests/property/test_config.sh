@@ -17,9 +17,7 @@ flags() {
         case $word in
         none) for feature in $features; do echo "-DGN_$feature=0"; done ;;
         all) for feature in $features; do echo "-DGN_$feature=$(most "$feature")"; done ;;
-        tiny) echo -DGN_PRESET=0 ;;
-        balanced) echo -DGN_PRESET=1 ;;
-        accurate) echo -DGN_PRESET=2 ;;
+        tiny | fast | balanced | accurate) echo "-DGN_PRESET=GN_PRESET_$(echo "$word" | tr a-z A-Z)" ;;
         -*) echo "$word" ;;
         *) echo "-DGN_$word" ;;
         esac
@@ -87,7 +85,7 @@ pairs() {
     more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
     echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 STATIC_LAYER=1"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
-    for preset in tiny accurate; do # balanced is the default
+    for preset in tiny fast accurate; do # balanced is the default
         echo "$preset"
         more "$preset none"
         more "-m32 $preset"
@@ -120,7 +118,7 @@ draws() {
         return
     fi
     "$tmp/run$n" >"$tmp/target$n" 2>&1
-    "$tmp/host_picture" -DGN_PRESET=1 "$@" >"$tmp/host$n" 2>&1
+    "$tmp/host_picture" -DGN_PRESET=GN_PRESET_BALANCED "$@" >"$tmp/host$n" 2>&1
     if cmp -s "$tmp/target$n" "$tmp/host$n" && grep -q '^format' "$tmp/host$n" && ! grep -q -v '^format' "$tmp/host$n"; then echo ok
     else
         echo "$compiler: draws something else than the host: $words"
@@ -196,7 +194,7 @@ while read -r name macro low high; do
     refused "${name}_out_of_range" "-DGN_$macro=$((low - 1))"
     refused "${name}_out_of_range" "-DGN_$macro=$((high + 1))"
 done <"$tmp/knobs"
-refused preset_unknown -DGN_PRESET=3
+refused preset_unknown -DGN_PRESET=4
 refused preset_unknown -DGN_PRESET=-1
 refused persp_step -DGN_PERSP_STEP=2
 refused atten_bits -DGN_ATTEN_BITS=12
@@ -299,8 +297,8 @@ int main(int argc, char **argv)
     }
     if (gn_init(&renderer, &picture)) return 1;
 #if GN_RUNTIME_KNOBS
-    int preset = argc > 6 ? atoi(argv[6]) : 1;
-#define PRESET_(name, MACRO, lo, hi, meaning, cost) { static const int32_t v[3] = {GN_PRESETS_##MACRO}; renderer.frame.knobs.name = v[preset]; }
+    int preset = argc > 6 ? atoi(argv[6]) : GN_PRESET_BALANCED;
+#define PRESET_(name, MACRO, lo, hi, meaning, cost) { static const int32_t v[] = {GN_PRESETS_##MACRO}; renderer.frame.knobs.name = v[preset]; }
     GN_QUALITY_KNOBS(PRESET_)
 #endif
     gn_status status = gn_render(&renderer, &demo.scene, flush, NULL);
@@ -334,15 +332,15 @@ same() {
 (
     trap - EXIT
     program host $host_knobs
-    program wide -DGN_MAX_WIDTH=2048 -DGN_PRESET=0
+    program wide -DGN_MAX_WIDTH=2048 -DGN_PRESET=GN_PRESET_TINY
 ) &
-for preset in tiny balanced accurate; do program $preset -DGN_PRESET=GN_PRESET_$(echo $preset | tr a-z A-Z); done
+for preset in tiny fast balanced accurate; do program $preset -DGN_PRESET=GN_PRESET_$(echo $preset | tr a-z A-Z); done
 wait
-for name in host wide tiny balanced accurate; do
+for name in host wide tiny fast balanced accurate; do
     if [ -x "$tmp/$name.run" ]; then pass; else fail "no program '$name': $(grep -m 1 error "$tmp/$name.log")"; fi
 done
 preset=0
-for name in tiny balanced accurate; do
+for name in tiny fast balanced accurate; do
     for frame in 0 1 2 3 4; do
         same $name "160 120 0 - $frame" host "160 120 0 - $frame $preset" "preset $name at compile time against run time"
         same $name "95 71 1 $frame $frame" host "95 71 1 $frame $frame $preset" "preset $name at compile time against run time"

@@ -303,7 +303,7 @@ static void set_preset_knobs(gn_frame *frame, int preset)
 {
 #define PRESET_(name, MACRO, lo, hi, meaning, cost)                                                                    \
     {                                                                                                                  \
-        static const int32_t v[3] = {GN_PRESETS_##MACRO};                                                              \
+        static const int32_t v[] = {GN_PRESETS_##MACRO};                                                               \
         SET_KNOB(frame, name, v[preset]);                                                                              \
     }
     GN_QUALITY_KNOBS(PRESET_)
@@ -312,7 +312,7 @@ static void set_preset_knobs(gn_frame *frame, int preset)
 static void test_extremes(void)
 {
     for (size_t i = 0; i < sizeof extreme / sizeof *extreme; i++) {
-        for (int k = 0; k < (GN_RUNTIME_KNOBS ? 15 : 5); k++) { /* presets x filters */
+        for (int k = 0; k < (GN_RUNTIME_KNOBS ? 5 * (GN_PRESET_ACCURATE + 1) : 5); k++) { /* presets x filters */
             gn_picture p = picture_of(96, 64, GN_FORMAT_RGB888);
             canvas c;
             canvas_begin(&c, 96, 64, p.format);

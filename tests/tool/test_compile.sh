@@ -36,7 +36,7 @@ same() {
 
 # every scene and every preset, nothing left out, all frames
 whole() { # whole SCENE PRESET "FRAMES" SIZE
-    for preset in $([ "$THOROUGH" ] && echo tiny balanced accurate || echo "$2"); do
+    for preset in $([ "$THOROUGH" ] && echo tiny fast balanced accurate || echo "$2"); do
         same "$1-$preset" "host/scenes/$1.gltf" "$3" "--simplify none" --size "$4" --set preset=$preset
     done
 }

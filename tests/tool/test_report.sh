@@ -20,7 +20,7 @@ count 36 '<img data-picture='
 count 36 'src="data:image/png;base64,'
 count 6 '<section class="scene" id='
 count 10 '<svg role="img"'
-count 12 '<td class="word">'
+count 18 '<td class="word">'
 for name in $scenes bias; do grep -q "id=\"$name\"" "$page" && grep -q "href=\"#$name\"" "$page" && pass || fail "no section $name, or no link to it"; done
 [ "$(grep -c '<img' "$page")" = "$(grep -c '<img [^>]*width="64" height="48" alt="[A-Z][^"]' "$page")" ] && pass || fail "a picture without a size or a text"
 [ "$(tail -n 1 "$page")" = '</html>' ] && pass || fail "the page does not end"
@@ -34,7 +34,7 @@ sed 's/src="data:[^"]*"//g' "$page" | grep -q -i ' src=' && fail "a source that 
 sed -n 's/.*data-picture="fixed" .*alt="Desk[^"]*" src="data:image\/png;base64,\([^"]*\)".*/\1/p' "$page" | base64 -d >"$tmp/desk.png"
 cmp -s "$tmp/desk.png" "$tmp/report/desk/balanced/fixed.png" && pass || fail "the desk's picture is not compare's"
 for name in $scenes; do
-    for preset in balanced accurate; do
+    for preset in fast balanced accurate; do
         want=$(sed 's/.*"fixed_reference"//; s/"reference_truth".*//; s/"lights".*//' "$tmp/report/$name/$preset.json" | sed 's/.*"identical": \([0-9.]*\).*/\1/' | awk '{ printf "%.2f", 100 * $1 }')
         awk -v name="$name" -v preset=$preset '/<tr><th scope="rowgroup"/ { at = index($0, "#" name "\"") } at && index($0, ">" preset "<")' "$page" | grep -q ">$want&#8239;%<" &&
             pass || fail "$name, $preset: the summary does not say $want % identical"
@@ -43,7 +43,7 @@ done
 
 # what is missing is named
 "$(dirname "$tool")/make_report" "$tmp/none.html" "$tmp" docs/pictures host/report nothing >"$tmp/out" 2>&1 && fail "a missing folder is no error" || pass
-grep -q 'nothing/balanced.json' "$tmp/out" && pass || fail "a missing folder is not named: $(head -n 1 "$tmp/out")"
+grep -q 'nothing/fast.json' "$tmp/out" && pass || fail "a missing folder is not named: $(head -n 1 "$tmp/out")"
 "$(dirname "$tool")/make_report" >/dev/null 2>&1
 [ $? = 2 ] && pass || fail "make_report without arguments does not exit with 2"
 

@@ -176,7 +176,7 @@ done
 # narrow cones, whose edge turns the last bits of a cosine into much light: the floors of the default, in every preset
 for cone in 0.0087 0.0175 0.05 0.1; do
     sed "s/0.0174532925/$cone/" tests/data/narrow.gltf >"$tmp/narrow.gltf"
-    for preset in tiny balanced accurate; do
+    for preset in tiny fast balanced accurate; do
         good compare "$tmp/narrow.gltf" --set preset=$preset --json
         sed -n 's/.*"identical": *\([0-9.e-]*\).*"shadow_mismatch": *\([0-9.e-]*\).*/\1 \2/p' "$tmp/out" | awk '{ n = 1; exit $1 < 0.985 || $2 > 0.004 } END { if (!n) exit 1 }' &&
             pass || fail "a spot of $cone around its axis, $preset: $(cut -c 1-200 "$tmp/out")"
@@ -675,16 +675,16 @@ cp "$cube" "$tmp/my scenes/a b.obj"
 sh host/run.sh "$tool" 16x12 "$tmp/run out" "$tmp/one/a b.obj" "$tmp/my scenes/a b.obj" >"$tmp/out" 2>"$tmp/err"
 status=$?
 [ $status = 0 ] && [ ! -s "$tmp/err" ] && pass || fail "run.sh exits with $status: $(head -n 1 "$tmp/err")"
-[ "$(grep -c '^a b\.obj  *\(accurate\|balanced\)  *[0-9]' "$tmp/out")" = 2 ] && pass || fail "run.sh: no rows of 'a b.obj'"
-[ "$(grep -c '^a b\.obj-2  *\(accurate\|balanced\)  *[0-9]' "$tmp/out")" = 2 ] && pass || fail "run.sh: no rows of the second 'a b.obj'"
+[ "$(grep -c '^a b\.obj  *\(fast\|balanced\|accurate\)  *[0-9]' "$tmp/out")" = 3 ] && pass || fail "run.sh: no rows of 'a b.obj'"
+[ "$(grep -c '^a b\.obj-2  *\(fast\|balanced\|accurate\)  *[0-9]' "$tmp/out")" = 3 ] && pass || fail "run.sh: no rows of the second 'a b.obj'"
 for name in 'a b.obj' 'a b.obj-2'; do
-    for preset in accurate balanced; do is_png "$tmp/run out/$name/$preset/fixed.png" 16x12 run.sh; done
+    for preset in fast balanced accurate; do is_png "$tmp/run out/$name/$preset/fixed.png" 16x12 run.sh; done
 done
 sh host/run.sh "$tool" 16x12 "$tmp/run out" "$tmp/missing.obj" "$cube" >"$tmp/out" 2>"$tmp/err"
 status=$?
 [ $status = 1 ] && pass || fail "run.sh with a missing scene exits with $status"
 [ "$(grep -c missing.obj "$tmp/err")" = 1 ] && [ "$(wc -l <"$tmp/err")" = 1 ] && pass || fail "run.sh names the missing scene in $(wc -l <"$tmp/err") lines"
-[ "$(grep -c '^cube\.obj ' "$tmp/out")" = 2 ] && pass || fail "run.sh stops at a missing scene"
+[ "$(grep -c '^cube\.obj ' "$tmp/out")" = 3 ] && pass || fail "run.sh stops at a missing scene"
 
 # ---- Every knob at both ends -------------------------------------------------------------------------------------------------
 
@@ -709,7 +709,7 @@ while read -r name low high; do
     bad 1 "$name" info "$cube" --set "$name=$below"
     bad 1 "$name" info "$cube" --set "$name=$((${high%%.*} + 1))"
 done <"$tmp/ranges"
-for preset in tiny balanced accurate; do good info "$cube" --size 16x12 --set preset=$preset; done
+for preset in tiny fast balanced accurate; do good info "$cube" --size 16x12 --set preset=$preset; done
 for ratios in 0,0,0 1,1,1 0.2,0.2,0.9; do good info "$cube" --size 16x12 --set cascades=4 --set cascade_ratios=$ratios; done
 for output in rgb888 rgb565 rgb565_swapped grey8 grey4 mono1; do good compare "$cube" --json --size 33x17 --set output=$output; done
 bad 1 output render "$cube" -o "$tmp/x.png" --set output=cmyk

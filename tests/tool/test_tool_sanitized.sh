@@ -38,7 +38,7 @@ for scene in $sundial host/scenes/mixed.gltf host/scenes/fence.gltf "$tmp/solid.
 done
 for engine in reference truth; do expect 0 render $sundial -o "$tmp/a.png" $tiny --engine $engine; done
 for view in shadow depth normal cascade atlas; do expect 0 render $sundial -o "$tmp/a.png" $tiny --view $view; done
-for preset in tiny accurate; do expect 0 render host/scenes/room.gltf -o "$tmp/a.png" $tiny --set preset=$preset; done
+for preset in tiny fast accurate; do expect 0 render host/scenes/room.gltf -o "$tmp/a.png" $tiny --set preset=$preset; done
 expect 0 compare host/scenes/desk.gltf $tiny --with truth -o "$tmp/compared"
 expect 0 info $sundial $tiny --json --frames 0-2 --board mps2-an385
 expect 0 compile $sundial -o "$tmp/compiled" $tiny --frames 0-2

@@ -479,7 +479,7 @@ static void check_lamp(const gn_knobs *knobs, gn_light_kind kind, int cut)
 int main(int argc, char **argv)
 {
     const int table = argc > 1 && strcmp(argv[1], "--table") == 0;
-    for (int preset = 0; preset < 3; preset++) {
+    for (int preset = 0; preset < N_PRESETS; preset++) {
         const gn_knobs knobs = preset_knobs(preset);
         for (int i = 0; i < 30; i++) {
             check_sun(&knobs, 0, 0);

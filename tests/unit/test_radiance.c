@@ -566,7 +566,7 @@ static void check_offsets(const gn_knobs *knobs, gn_light_kind kind)
 int main(int argc, char **argv)
 {
     int table = argc > 1 && strcmp(argv[1], "--table") == 0;
-    for (int preset = 0; preset < 3; preset++) {
+    for (int preset = 0; preset < N_PRESETS; preset++) {
         const gn_knobs knobs = preset_knobs(preset);
         for (int i = 0; i < N_SCENES / 2; i++) {
             check_filter(&knobs);

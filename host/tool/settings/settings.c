@@ -163,7 +163,7 @@ void settings_print_table(void)
     printf("\n### Settings of the tool\n\n| setting | values | meaning |\n|---|---|---|\n");
     printf("| `output` | rgb888, rgb565, rgb565_swapped, grey8, grey4, mono1 | the panel that pictures are made for "
            "(R5) |\n");
-    printf("| `preset` | tiny, balanced, accurate | all quality knobs together |\n");
+    printf("| `preset` | tiny, fast, balanced, accurate | all quality knobs together |\n");
     printf("| `ground` | 0, 1 | add a ground plane to a glTF file (an OBJ always gets one) |\n");
     printf("| `normals` | face, smooth | for meshes without normals |\n");
 }

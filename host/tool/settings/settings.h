@@ -20,7 +20,7 @@ typedef struct {
     gn_format output; /* of the pictures people see */
 } settings;
 
-enum { SETTINGS_TINY, SETTINGS_BALANCED, SETTINGS_ACCURATE, SETTINGS_PRESETS };
+enum { SETTINGS_TINY, SETTINGS_FAST, SETTINGS_BALANCED, SETTINGS_ACCURATE, SETTINGS_PRESETS };
 extern const char *const settings_preset_name[SETTINGS_PRESETS + 1]; /* the last is NULL */
 
 void settings_preset(settings *out, int preset); /* quality knobs of a preset; the rest unchanged */

@@ -40,7 +40,7 @@ static const struct {
     {build_knobs, sizeof build_knobs / sizeof *build_knobs, "Build"},
 };
 
-const char *const settings_preset_name[SETTINGS_PRESETS + 1] = {"tiny", "balanced", "accurate", NULL};
+const char *const settings_preset_name[SETTINGS_PRESETS + 1] = {"tiny", "fast", "balanced", "accurate", NULL};
 
 static int *field(settings *s, const knob *k)
 {
@@ -179,13 +179,12 @@ void settings_print_knobs(void)
 {
     for (size_t g = 0; g < N_GROUPS; g++) {
         printf("\n### %s knobs\n\n", groups[g].title);
-        printf(g == QUALITY
-                   ? "| knob | range | tiny | balanced | accurate | meaning | cost |\n|---|---|---|---|---|---|---|\n"
-                   : "| knob | range | meaning | cost |\n|---|---|---|---|\n");
+        printf("| knob | range |%s meaning | cost |\n|---|---|%s---|---|\n",
+               g == QUALITY ? " tiny | fast | balanced | accurate |" : "", g == QUALITY ? "---|---|---|---|" : "");
         for (size_t i = 0; i < groups[g].n; i++) {
             const knob *k = &groups[g].knobs[i];
             printf("| `%s` | %d…%d |", k->name, k->lo, k->hi);
-            if (g == QUALITY) printf(" %d | %d | %d |", k->preset[0], k->preset[1], k->preset[2]);
+            for (int p = 0; g == QUALITY && p < SETTINGS_PRESETS; p++) printf(" %d |", k->preset[p]);
             printf(" %s | %s |\n", k->meaning, k->cost);
         }
     }

@@ -9,7 +9,7 @@ static const struct {
     const char *key, *held_by;
     const char *levels[SWEEP_LEVELS_MAX];
 } knobs[SWEEP_KNOBS] = {
-    [SWEEP_PRESET] = {"preset", NULL, {"tiny", "balanced", "accurate"}},
+    [SWEEP_PRESET] = {"preset", NULL, {"tiny", "fast", "balanced", "accurate"}},
     [SWEEP_FILTER] = {"filter", "other_filter", {"hard", "2x2", "3x3", "5x5", "7x7", "disk"}},
     [SWEEP_KERNEL] = {"kernel", NULL, {"tent", "linear"}},
     [SWEEP_ATLAS] = {"atlas_size", NULL, {"16", "32", "64", "128", "256", "512", "1024"}},

@@ -82,7 +82,7 @@ static void plan_one_at_a_time(sweep_plan *list, sweep_config base)
  * others. */
 static void plan_factorial(sweep_plan *list)
 {
-    static const char *const presets[] = {"tiny", "balanced"}, *const filters[] = {"hard", "2x2", "3x3", "5x5"};
+    static const char *const presets[] = {"fast", "balanced"}, *const filters[] = {"hard", "2x2", "3x3", "5x5"};
     static const char *const sides[] = {"64", "128", "256", "512"};
     for (size_t i = 0; i < 32; i++) {
         size_t p = i >> 4, f = i >> 2 & 3, a = i & 3;
