@@ -136,19 +136,21 @@ typedef struct {
 /* A light at a corner of cells. */
 typedef struct {
     int32_t irradiance_q24; /* of a light whose colour is 1, before shadows; at most 2^27 */
-    uint8_t arrives;
 #if GN_MASKS
     uint32_t mask_uq16;
 #endif
 #if GN_SHADOWS
-    uint8_t view;   /* of the light's views: where the point itself is looked up, GN_VIEW_NONE: nowhere */
-    uint8_t placed; /* the view that u, v and depth are of; GN_VIEW_NONE: none yet */
-    uint8_t seen;   /* 0: nearer to the light than the view's near plane */
     int32_t u_q16, v_q16, depth_q30;
 #endif
 #if GN_SPECULAR
     int32_t highlight_q24;
     int16_t lobe_q12[3]; /* of the highlight: the half vector minus the normal, unit vectors */
+#endif
+    uint8_t arrives;
+#if GN_SHADOWS
+    uint8_t view;   /* of the light's views: where the point itself is looked up, GN_VIEW_NONE: nowhere */
+    uint8_t placed; /* the view that u, v and depth are of; GN_VIEW_NONE: none yet */
+    uint8_t seen;   /* 0: nearer to the light than the view's near plane */
 #endif
 } gn_corner_light;
 
@@ -234,7 +236,7 @@ typedef struct {
     int16_t x, y, n_px;
 } gn_run_span;
 
-enum { GN_SPANS = 64, GN_PART_WIDTH = 64, GN_PART_ROWS = 16 };
+enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16 };
 
 /* Corners that are kept: 9 of a cell that is split, and some that its neighbour asks for. */
 enum { GN_CORNERS = 12 };

@@ -66,6 +66,43 @@ static long casting_bytes(const settings *s)
     return 856 + cut_bytes(s);
 }
 
+/* gn_corner of lib/shade/gn_shade_types.h */
+static long corner_bytes(const settings *s)
+{
+    layout light = {0, 4}, all = {0, 4};
+    put(&light, s->feature.masks ? 2 : 1, 4, 4);
+    if (s->feature.shadows) put(&light, 3, 4, 4);
+    if (s->feature.specular) {
+        put(&light, 1, 4, 4);
+        put(&light, 3, 2, 2);
+    }
+    put(&light, s->feature.shadows ? 4 : 1, 1, 1);
+    pad(&light, 4);
+    put(&all, 8, 4, 4); /* state to base_q24 */
+    if (s->feature.vertex_colours) put(&all, 3, 4, 4);
+    if (s->feature.textures) put(&all, 2, 4, 4);
+    if (s->feature.masks) put(&all, 2, 4, 4);
+    if (s->feature.vertex_normals) put(&all, 3, 4, 4);
+    if (s->feature.punctual_lights) put(&all, 3, 4, 4);
+    put(&all, s->capacity.surface_lights, light.size, 4);
+    return all.size;
+}
+
+/* gn_lattice of lib/shade/gn_shade_types.h */
+static long lattice_bytes(const settings *s)
+{
+    layout all = {0, 4};
+    put(&all, 1, 244, 4);                          /* span to plane */
+    put(&all, s->capacity.surface_lights, 16, 4);  /* light */
+    put(&all, 1, 196, 4);                          /* unit_q30 to bits */
+    put(&all, 12 + 1, corner_bytes(s), 4);         /* corners, corner */
+    put(&all, 1, 120, 4);                          /* corner_key to corner_at */
+    if (s->feature.shadows) put(&all, 4, 344, 4);  /* window */
+    put(&all, 1, 568, 4);                          /* look */
+    put(&all, 1, 24 + 12 + 260 + 612 + 136, 4);    /* two_q24 to attenuation */
+    return all.size;
+}
+
 /* gn_work of lib/geometry/gn_geometry_types.h: the largest of what one core does at a time, shading or casting */
 static void put_work(layout *out, const settings *s)
 {
@@ -75,7 +112,7 @@ static void put_work(layout *out, const settings *s)
                                                                                                       : 1;
     long values = (s->feature.textures ? 2 : 0) + (s->feature.masks ? 4 : 0) + (s->feature.baked_light ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
-    put(&surface, 1, 192, 8); /* object to the colours of attribute_q16 */
+    put(&surface, 1, 200, 8); /* object to the colours of attribute_q16 */
     if (s->feature.masks) put(&surface, 12, 4, 4);
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
     if (s->feature.textures) put(&surface, 6, 8, 8);
@@ -86,16 +123,11 @@ static void put_work(layout *out, const settings *s)
     put(&all, 1, 40, 4);  /* frame to rows */
     put(&all, 1, 136, 8); /* cache */
     put(&all, 1, surface.size, 8);
-    put(&all, s->quality.persp_step == 1 ? 8 : 16, 4, 4); /* tri to part */
-    long incident = s->feature.punctual_lights ? s->capacity.surface_lights : 0,
-         n_steps = s->quality.persp_step == 1 ? 0 : incident;
+    put(&all, 8, 4, 4); /* tri to radiance_q20 */
+    long incident = s->feature.punctual_lights ? s->capacity.surface_lights : 0;
     incident *= s->feature.shadows ? 20 : 8;
-    long spans = 2 * (4 * values + 28 + incident + (s->feature.specular ? 24 : 0)) + 8 * values + 12 + 52 * n_steps;
-    long cells = s->feature.shadows ? 384 : 288;
-    if (s->feature.vertex_normals && !s->quality.vertex_light)
-        cells += 36 + 12 * s->capacity.surface_lights; /* turning */
-    if (s->quality.persp_step == 1) cells = 0;
-    put(&all, 1, spans > cells ? spans : cells, 4); /* by */
+    put(&all, 1, 28 + 4 * values + incident + (s->feature.specular ? 24 : 0), 4); /* sample */
+    if (s->quality.persp_step > 1) put(&all, 1, lattice_bytes(s), 4);
     pad(&all, all.align);
     const long casting = casting_bytes(s), clipping = 264, largest = casting > clipping ? casting : clipping;
     put(out, 1, all.size > largest ? all.size : largest, 8);
@@ -118,7 +150,7 @@ settings_ram_parts settings_ram(const settings *s)
     long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
     int punctual = s->feature.punctual_lights;
-    put(&frame, 1, 224, 8); /* scene to detail */
+    put(&frame, 1, 240, 8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
         put(&frame, 4, 40, 8); /* cascade */
