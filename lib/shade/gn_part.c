@@ -25,10 +25,9 @@ typedef struct {
 typedef struct {
     uint32_t dark_q20[3], more_q20[3]; /* without and with the light whose shadow has an edge */
     uint32_t lit, dark;                /* their pixels */
-    int mixed;                         /* whether there is such a light, in this slot, */
-    uint32_t slot;
-    int cascaded;            /* which has cascades */
-    part_view view[4];       /* of them those that corners of the part see */
+    int mixed;         /* whether there is such a light, */
+    int cascaded;      /* which has cascades: */
+    part_view view[4]; /* of them those that corners of the part see */
 } part_look;
 
 GN_HOT void gn_part_begin(gn_shading *s)
@@ -62,49 +61,56 @@ GN_HOT static uint32_t views_of_part(gn_shading *s, int cascaded)
     return views;
 }
 
-/* What a light's windows say of the whole part. */
-GN_HOT static int windows_of_part(gn_shading *s, uint32_t slot, part_look *look)
+/* What a light's windows say of the whole part, and each of them. */
+GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, part_view *view)
 {
     gn_lattice *l = &s->lattice;
     const gn_light_view *first = &s->frame->view[s->surface.light[slot].state->view_idx];
-    int cascaded = !first->border_lit, all = -1;
-    uint32_t views = views_of_part(s, cascaded);
-    part_view found[4];
+    int all = -1;
+    uint32_t views = views_of_part(s, !first->border_lit);
     for (uint32_t i = 0; i < 4; i++) {
-        found[i].window = NULL;
-        found[i].said = GN_WINDOW_MIXED;
+        int said = GN_WINDOW_MIXED;
+        if (view) view[i].window = NULL;
+        if (view) view[i].said = GN_WINDOW_MIXED;
         if (!(views >> i & 1U)) continue;
         const gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->x, NULL);
         if (w && w->w) {
             l->part_end = gn_min32(l->part_end, w->until_x);
-            found[i].window = w;
-            found[i].said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
+            said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
+            if (view) view[i].window = w;
+            if (view) view[i].said = said;
         }
-        if (all >= 0 && all != found[i].said) all = GN_WINDOW_MIXED;
-        else all = found[i].said;
+        all = all >= 0 && all != said ? GN_WINDOW_MIXED : said;
     }
     if (all < 0) return GN_WINDOW_LIT;
-    if (all == GN_WINDOW_DARK && l->cascade < 0) all = GN_WINDOW_MIXED; /* it may fade */
-    if (all != GN_WINDOW_MIXED) return all;
-    look->slot = slot;
-    look->cascaded = cascaded;
-    for (uint32_t i = 0; i < 4; i++) {
-        look->view[i] = found[i];
-        if (found[i].window)
+    return all == GN_WINDOW_DARK && l->cascade < 0 ? GN_WINDOW_MIXED : all; /* it may fade */
+}
+
+/* Sets what is to be known of the light whose shadow has an edge in the part. */
+GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, part_look *look)
+{
+    const gn_light_view *first = &s->frame->view[s->surface.light[slot].state->view_idx];
+    look->mixed = 1;
+    look->cascaded = !first->border_lit;
+    for (uint32_t i = 0; i < 4; i++)
+        if (look->view[i].window)
             gn_sample_offset(s->frame, &s->surface, slot, first + i, s->surface.normal_q30[0], look->view[i].offset_q16);
-    }
-    return all;
 }
 #else
-GN_HOT static int windows_of_part(gn_shading *s, uint32_t slot, part_look *look)
+GN_HOT static int windows_of_part(gn_shading *s, uint32_t slot, part_view *view)
+{
+    (void)s, (void)slot, (void)view;
+    return GN_WINDOW_LIT;
+}
+
+GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, part_look *look)
 {
     (void)s, (void)slot, (void)look;
-    return GN_WINDOW_LIT;
 }
 #endif
 
 /* Returns 0 if the shadows of several lights have edges in the part. */
-GN_HOT static int find_lights(gn_shading *s, part_look *look)
+GN_HOT static GN_NOINLINE int find_lights(gn_shading *s, part_look *look)
 {
     const gn_surface *surface = &s->surface;
     look->mixed = 0;
@@ -117,10 +123,8 @@ GN_HOT static int find_lights(gn_shading *s, part_look *look)
         uint32_t share = 65536;
         int said = GN_WINDOW_LIT;
         int32_t e = gn_max32(light->cosine_q24[0], 0);
-        if (surface->shadowed && gn_shadow_is_realtime(light->state, 65536)) {
-            part_look other;
-            said = windows_of_part(s, i, look->mixed ? &other : look);
-        }
+        if (surface->shadowed && gn_shadow_is_realtime(light->state, 65536))
+            said = windows_of_part(s, i, look->mixed ? NULL : look->view);
         if (said == GN_WINDOW_MIXED && look->mixed) return 0;
         if (said != GN_WINDOW_LIT) share = 65536 - light->state->strength_uq16;
         for (int c = 0; c < 3; c++) {
@@ -129,7 +133,7 @@ GN_HOT static int find_lights(gn_shading *s, part_look *look)
             look->dark_q20[c] += dark;
             if (said == GN_WINDOW_MIXED) look->more_q20[c] = all - dark;
         }
-        if (said == GN_WINDOW_MIXED) look->mixed = 1;
+        if (said == GN_WINDOW_MIXED) begin_edge(s, i, look);
     }
     return 1;
 }
