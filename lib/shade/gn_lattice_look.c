@@ -20,6 +20,12 @@
 #endif
 enum { LIT, DARK, EDGE, SPLIT };
 
+/* A window that is to be made before the cell can be looked at. */
+typedef struct {
+    int32_t slot; /* -1: none */
+    uint32_t view_idx, asked; /* a bit for each that was */
+} wanted_window;
+
 /* The cell at hand. */
 typedef struct {
     gn_lattice *lattice;
@@ -32,6 +38,7 @@ typedef struct {
     uint64_t error_q24;   /* of interpolated light, at most */
     uint64_t kink_q24;    /* the part of it that comes from where a light ends */
     gn_lattice_look *out;
+    wanted_window *ask;
 } lattice_cell;
 
 /* ---- Tolerances -------------------------------------------------------------------------------------------------- */
@@ -387,8 +394,19 @@ GN_HOT static int verdict(const lattice_cell *cell, uint32_t slot, uint32_t view
     range_of(p->v, &lo.v_q16, &hi.v_q16);
     range_of(p->depth, &depth_lo, &depth_hi);
     if ((gn_abs32(lo.u_q16) | gn_abs32(hi.u_q16) | gn_abs32(lo.v_q16) | gn_abs32(hi.v_q16)) >> 27) return SPLIT;
-    gn_window *window =
-        gn_lattice_window(cell->lattice, cell->frame, cell->s, slot, view_idx, cell->corner[0]->x, cell->corner[0]);
+    uint32_t idx = gn_lattice_window_idx(cell->frame, p->view);
+    gn_window *window = &cell->lattice->window[idx];
+    if (gn_lattice_window_is_made(window, p->view, cell->corner[0]->x)) {
+        if (!window->planar) window = NULL;
+    } else {
+        if (!(cell->ask->asked >> idx & 1U)) {
+            cell->ask->asked |= 1U << idx;
+            cell->ask->slot = (int32_t)slot;
+            cell->ask->view_idx = view_idx;
+            return SPLIT;
+        }
+        window = NULL; /* another one took its place */
+    }
     int said = window ? verdict_of_window(window, p, &lo, &hi, 0) : SPLIT;
     if (said != SPLIT) {
         p->window = window;
@@ -776,11 +794,11 @@ GN_HOT static int is_even(const lattice_cell *cell)
     return error << light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19));
 }
 
-GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
-                              gn_corner *const corner[4], int32_t size_log2)
+GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                                     gn_corner *const corner[4], int32_t size_log2, wanted_window *ask)
 {
     gn_lattice_look *look = &lattice->look;
-    lattice_cell cell = {lattice, frame, surface, corner, size_log2, {0, 0}, lattice->cascade >= 0, 0, 0, look};
+    lattice_cell cell = {lattice, frame, surface, corner, size_log2, {0, 0}, lattice->cascade >= 0, 0, 0, look, ask};
     int coarse = size_log2 > finest_log2(frame);
     if (!find_bend(&cell) || (!images_hold(&cell) && coarse)) return 0;
     look->n_edges = 0;
@@ -795,6 +813,21 @@ GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const 
     int limits = !finish_colours(&cell);
     if (!coarse) return size_log2 < finest_log2(frame) || is_even(&cell);
     return !limits && is_even(&cell);
+}
+
+/* Windows are made here, where there is more stack. */
+GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                              gn_corner *const corner[4], int32_t size_log2)
+{
+    wanted_window ask = {-1, 0, 0};
+    for (;;) {
+        int known = look_once(lattice, frame, surface, corner, size_log2, &ask);
+        if (ask.slot < 0) return known;
+#if GN_SHADOWS
+        gn_lattice_window(lattice, frame, surface, (uint32_t)ask.slot, ask.view_idx, corner[0]->x, corner[0]);
+#endif
+        ask.slot = -1;
+    }
 }
 
 #endif
