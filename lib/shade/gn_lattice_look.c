@@ -262,7 +262,7 @@ GN_HOT static int faces_away(const lattice_cell *cell, const int32_t *const p[4]
 
 /* Whether nothing of a light arrives anywhere in the cell if nothing arrives at its corners. The squares of a point's
  * distance, and of its distance along the axis, are those of the corners in the mean, less what they scatter by. */
-GN_HOT static int stays_dark(const lattice_cell *cell, uint32_t slot)
+GN_HOT static GN_NOINLINE int stays_dark(const lattice_cell *cell, uint32_t slot)
 {
     const gn_light_state *light = cell->s->light[slot].state;
     const int32_t *p[4];
@@ -399,13 +399,14 @@ GN_HOT static int verdict(const lattice_cell *cell, uint32_t slot, uint32_t view
     if (gn_lattice_window_is_made(window, p->view, cell->corner[0]->x)) {
         if (!window->planar) window = NULL;
     } else {
-        if (!(cell->ask->asked >> idx & 1U)) {
+        int taken = window->view && cell->corner[0]->x < window->until_x; /* by that of another view */
+        if (!taken && !(cell->ask->asked >> idx & 1U)) {
             cell->ask->asked |= 1U << idx;
             cell->ask->slot = (int32_t)slot;
             cell->ask->view_idx = view_idx;
             return SPLIT;
         }
-        window = NULL; /* another one took its place */
+        window = NULL;
     }
     int said = window ? verdict_of_window(window, p, &lo, &hi, 0) : SPLIT;
     if (said != SPLIT) {
@@ -541,7 +542,7 @@ GN_HOT static void blend_shares(const lattice_cell *cell, uint32_t slot, uint32_
 #if GN_PUNCTUAL_LIGHTS
 /* Adds an edge in the shadow of a point light, two faces of which see the cell. Returns 0 if there is no room, or it is
  * to be split. */
-GN_HOT static int add_faces(const lattice_cell *cell, uint32_t slot, const contribution *light, uint32_t views, places *p)
+GN_HOT static GN_NOINLINE int add_faces(const lattice_cell *cell, uint32_t slot, const contribution *light, uint32_t views, places *p)
 {
     gn_lattice_look *out = cell->out;
     int32_t n_edges = out->n_edges;
@@ -559,6 +560,26 @@ GN_HOT static int add_faces(const lattice_cell *cell, uint32_t slot, const contr
     return !views;
 }
 #endif
+
+/* Adds an edge in two cascades that blend. Returns 0 if there is no room, or it is to be split. */
+GN_HOT static GN_NOINLINE int add_blend(const lattice_cell *cell, uint32_t slot, const contribution *light, uint32_t views,
+                                        places *p)
+{
+    uint32_t first = (uint32_t)first_bit(views), second = (uint32_t)first_bit(views & (views - 1)), share[4];
+    if (views & ~(1U << first | 1U << second)) return 0;
+    for (int k = 0; k < 2; k++) {
+        int32_t slope[2];
+        uint32_t view_idx = k ? second : first;
+        if (find_places(cell, slot, view_idx, p) != PLACED) return 0;
+        gn_shadow_slopes(cell->frame, cell->s, p->view, NULL, slope);
+        if (verdict(cell, slot, view_idx, p, slope) == SPLIT) return 0;
+        if (places_hold(cell, p) == BEND && cell->size_log2 > 1) return 0;
+        blend_shares(cell, slot, first, share);
+        for (int i = 0; i < 4; i++) share[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
+        if (!add_edge(cell, slot, p, slope, light, share)) return 0;
+    }
+    return 1;
+}
 
 /* The shadow of a light: LIT, DARK, or EDGE, which is added. */
 GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contribution *light)
@@ -587,21 +608,8 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
         if (places_hold(cell, &p) == BEND && cell->size_log2 > 1) return SPLIT;
         return add_edge(cell, slot, &p, slope, light, light->more_uq16) ? EDGE : SPLIT;
     }
-    if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_SOFT) {
-        uint32_t first = (uint32_t)first_bit(views), second = (uint32_t)first_bit(views & (views - 1)), share[4];
-        uint32_t part[4];
-        if (views & ~(1U << first | 1U << second)) return SPLIT;
-        blend_shares(cell, slot, first, share);
-        for (int k = 0; k < 2; k++) {
-            if (find_places(cell, slot, k ? second : first, &p) != PLACED) return SPLIT;
-            gn_shadow_slopes(cell->frame, cell->s, p.view, NULL, slope);
-            if (verdict(cell, slot, k ? second : first, &p, slope) == SPLIT) return SPLIT;
-            if (places_hold(cell, &p) == BEND && cell->size_log2 > 1) return SPLIT;
-            for (int i = 0; i < 4; i++) part[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
-            if (!add_edge(cell, slot, &p, slope, light, part)) return SPLIT;
-        }
-        return EDGE;
-    }
+    if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_SOFT)
+        return add_blend(cell, slot, light, views, &p) ? EDGE : SPLIT;
     if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_DITHER) return SPLIT;
     if (cascaded) { /* one may stand for all of a small cell */
         uint32_t own = cell->corner[0]->light[slot].view;
@@ -634,7 +642,7 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
 #if GN_SPECULAR
 /* Whether a highlight is close enough to bilinear. Its lobe is exp(-sharpness |q|^2 / 2) of the half vector minus the
  * normal, q, whose components are close to linear. *any: whether it is seen at all. */
-GN_HOT static int highlight_holds(const lattice_cell *cell, uint32_t slot, int *any)
+GN_HOT static GN_NOINLINE int highlight_holds(const lattice_cell *cell, uint32_t slot, int *any)
 {
     int32_t sharp_log2 = cell->s->object->shininess_log2;
     uint64_t nearest = 0, across = 0; /* squares, Q24 */

@@ -192,7 +192,7 @@ GN_HOT static void shade_row_exactly(gn_shading *s, int32_t x, int32_t y, int32_
 }
 
 /* Pixels of one row in a view, in chunks that are in or out of the shadow, or between places at their ends. */
-GN_HOT static void mixed_span(gn_shading *s, const part_look *look, const part_view *view, int32_t x, int32_t y,
+GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const part_look *look, const part_view *view, int32_t x, int32_t y,
                               int32_t end)
 {
     row_ends row;
@@ -246,7 +246,7 @@ GN_HOT static int attenuations_in(gn_shading *s, const part_view *view, int32_t 
 }
 
 /* Pixels of one row where shadows fade, or cascades blend: shares are linear along chunks. */
-GN_HOT static void fading_chunk(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t n, const row_end *a,
+GN_HOT static GN_NOINLINE void fading_chunk(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t n, const row_end *a,
                                 const row_end *b)
 {
     uint32_t here[CHUNK], next[CHUNK];
@@ -279,7 +279,7 @@ GN_HOT static void fading_chunk(gn_shading *s, const part_look *look, int32_t x,
     store_row(s, x, y, n, here);
 }
 
-GN_HOT static void fading_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
+GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
 {
     row_end a = cascade_at(s, x, y), b;
     for (int32_t n; x < end; x += n, a = b) {
@@ -304,7 +304,7 @@ GN_HOT static void shade_span(gn_shading *s, const part_look *look, int32_t x, i
 
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
 
-GN_HOT static uint32_t pack_sum(gn_shading *s, const part_look *look, int with_more)
+GN_HOT static GN_NOINLINE uint32_t pack_sum(gn_shading *s, const part_look *look, int with_more)
 {
     uint32_t q20[3];
     for (int c = 0; c < 3; c++) q20[c] = look->dark_q20[c] + (with_more ? look->more_q20[c] : 0);
@@ -312,7 +312,7 @@ GN_HOT static uint32_t pack_sum(gn_shading *s, const part_look *look, int with_m
 }
 
 /* Sets what rows of two colours need. */
-GN_HOT static void begin_rows(gn_shading *s, const part_look *look)
+GN_HOT static GN_NOINLINE void begin_rows(gn_shading *s, const part_look *look)
 {
     int32_t dark[3], more[3];
     for (int c = 0; c < 3; c++) {
