@@ -191,12 +191,21 @@ GN_HOT static void shade_row_exactly(gn_shading *s, int32_t x, int32_t y, int32_
     for (; n > 0; n--, x++) gn_exact_pixel(s, x, y);
 }
 
+/* Pixels of one row between two places. Returns 0 if there is no window. */
+GN_HOT static GN_NOINLINE int mixed_chunk(gn_shading *s, const part_view *view, const row_ends *row, int32_t x, int32_t y,
+                                          int32_t n, int32_t ahead)
+{
+    uint32_t attenuation[CHUNK];
+    if (!attenuations(s, view, row, n, ahead, attenuation)) return 0;
+    store_row(s, x, y, n, attenuation);
+    return 1;
+}
+
 /* Pixels of one row in a view, in chunks that are in or out of the shadow, or between places at their ends. */
 GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const part_look *look, const part_view *view, int32_t x, int32_t y,
                               int32_t end)
 {
     row_ends row;
-    uint32_t attenuation[CHUNK];
     gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row.at);
     for (int32_t n; x < end; x += n) {
         n = gn_min32(end - x, CHUNK);
@@ -208,8 +217,7 @@ GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const part_look *look, 
                          row.last);
         int said = judge(view, &row);
         if (said != GN_WINDOW_MIXED) gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? look->lit : look->dark);
-        else if (attenuations(s, view, &row, n, ahead, attenuation)) store_row(s, x, y, n, attenuation);
-        else shade_row_exactly(s, x, y, n);
+        else if (!mixed_chunk(s, view, &row, x, y, n, ahead)) shade_row_exactly(s, x, y, n);
         row.at[0] = row.last[0];
         row.at[1] = row.last[1];
     }
@@ -245,26 +253,24 @@ GN_HOT static int attenuations_in(gn_shading *s, const part_view *view, int32_t 
     return said;
 }
 
-/* Pixels of one row where shadows fade, or cascades blend: shares are linear along chunks. */
-GN_HOT static GN_NOINLINE void fading_chunk(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t n, const row_end *a,
-                                const row_end *b)
+/* Pixels of one row where shadows fade, or cascades blend: shares are linear along chunks. Returns 0 if they are to be
+ * shaded exactly. */
+GN_HOT static GN_NOINLINE int fading_chunk(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t n,
+                                           const row_end *a, const row_end *b)
 {
     uint32_t here[CHUNK], next[CHUNK];
     int blends = look->cascaded && (a->fade_uq16 & b->fade_uq16) != 65536 && GN_BLENDED_CASCADES &&
                  s->frame->scene->shadow.blend != GN_BLEND_HARD && a->cascade != GN_LAST_CASCADE(s->frame);
     if (!(a->g_uq16 | b->g_uq16)) {
         gn_pixel_fill(s->frame, &s->rows, x, y, n, look->lit);
-        return;
+        return 1;
     }
     int said = attenuations_in(s, &look->view[look->cascaded ? a->cascade : 0], x, y, n, here), there = said;
     if (blends) there = attenuations_in(s, &look->view[s->frame->cascade[a->cascade].next], x, y, n, next);
-    if (said < 0 || there < 0 || (said != there && s->frame->scene->shadow.blend == GN_BLEND_DITHER)) {
-        shade_row_exactly(s, x, y, n);
-        return;
-    }
+    if (said < 0 || there < 0 || (said != there && s->frame->scene->shadow.blend == GN_BLEND_DITHER)) return 0;
     if (said == there && said == GN_WINDOW_LIT) {
         gn_pixel_fill(s->frame, &s->rows, x, y, n, look->lit);
-        return;
+        return 1;
     }
     int32_t fade = (int32_t)a->fade_uq16, g = (int32_t)a->g_uq16, fade_step = 0, g_step = 0;
     if (n > 1) {
@@ -277,6 +283,7 @@ GN_HOT static GN_NOINLINE void fading_chunk(gn_shading *s, const part_look *look
         here[i] = 65536 - (uint32_t)((int64_t)dark * g >> 16);
     }
     store_row(s, x, y, n, here);
+    return 1;
 }
 
 GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
@@ -285,8 +292,8 @@ GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const part_look *look,
     for (int32_t n; x < end; x += n, a = b) {
         n = gn_min32(end - x, CHUNK);
         b = n > 1 ? cascade_at(s, x + n - 1, y) : a;
-        if (look->cascaded && a.cascade != b.cascade) shade_row_exactly(s, x, y, n);
-        else fading_chunk(s, look, x, y, n, &a, &b);
+        if ((look->cascaded && a.cascade != b.cascade) || !fading_chunk(s, look, x, y, n, &a, &b))
+            shade_row_exactly(s, x, y, n);
     }
 }
 
