@@ -55,8 +55,8 @@ GN_HOT void gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_su
         uv_q16[i] = coord_ortho(&view->fit.ortho.ray[i], px, py, z * (1 << up), down) + offset_q16[i];
 }
 
-GN_HOT static void place_directional(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
-                                     uint32_t slot, const gn_light_view *view)
+GN_HOT static GN_NOINLINE void place_directional(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
+                                                 gn_corner *c, uint32_t slot, const gn_light_view *view)
 {
     gn_corner_light *at = &c->light[slot];
     int32_t coord[3], up = 14 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q30 */
@@ -95,18 +95,17 @@ GN_HOT static GN_NOINLINE void place_carefully(const gn_frame *frame, const gn_s
     at->depth_q30 = (int32_t)(place.depth_q32 >> 2);
 }
 
-GN_HOT static void place_punctual(const gn_frame *frame, const gn_surface *s, const gn_lattice_light *how,
-                                  const gn_corner *c, gn_corner_light *at, const gn_light_view *view)
+/* Returns 0 if that is to be done carefully. */
+GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_surface *s, const gn_lattice_light *how,
+                                             const gn_corner *c, gn_corner_light *at, const gn_light_view *view)
 {
     const gn_light_state *light = &frame->light[view->light_idx];
     const int32_t *n = normal_of(s, c);
     int32_t from[3], moved[3], p[3], reach = 0;
     gn_corner_from(c, light, from);
     if (!how->lifts || view->fit.persp.focal2_q16 >> 30 ||
-        (gn_abs32(from[0]) | gn_abs32(from[1]) | gn_abs32(from[2])) >> 29) {
-        place_carefully(frame, s, c, at, view);
-        return;
-    }
+        (gn_abs32(from[0]) | gn_abs32(from[1]) | gn_abs32(from[2])) >> 29)
+        return 0;
     if (light->kind == GN_LIGHT_SPOT) reach = -(int32_t)gn_dot_q30(from, light->to_light_q30);
     else
         for (int i = 0; i < 3; i++) reach = gn_max32(reach, (int32_t)gn_abs32(from[i]));
@@ -115,17 +114,15 @@ GN_HOT static void place_punctual(const gn_frame *frame, const gn_surface *s, co
     for (int i = 0; i < 3; i++) p[i] = (int32_t)(gn_dot64(moved, view->axis_q30[i]) >> 30);
     int32_t z = p[2], near_q16 = view->fit.persp.near_q16;
     at->seen = z > near_q16;
-    if (!at->seen) return;
-    if (gn_abs32(p[0]) >> 1 >= (uint32_t)z || gn_abs32(p[1]) >> 1 >= (uint32_t)z) {
-        place_carefully(frame, s, c, at, view);
-        return;
-    }
+    if (!at->seen) return 1;
+    if (gn_abs32(p[0]) >> 1 >= (uint32_t)z || gn_abs32(p[1]) >> 1 >= (uint32_t)z) return 0;
     int32_t clz = gn_clz32((uint32_t)z), focal2 = (int32_t)view->fit.persp.focal2_q16, middle = view->tile_texels << 15;
     uint32_t recip = gn_recip_norm((uint32_t)z << clz, GN_K(frame, newton_steps));
     at->u_q16 = coord_persp(p[0], clz, (int32_t)(recip >> 1), focal2, middle);
     at->v_q16 = coord_persp(p[1], clz, (int32_t)(recip >> 1), focal2, middle);
     /* 1 - n / z */
     at->depth_q30 = gn_max32((1 << 30) - 1 - (int32_t)((uint64_t)(uint32_t)near_q16 * recip >> (33 - clz)), 0);
+    return 1;
 }
 #endif
 
@@ -140,7 +137,7 @@ GN_HOT int gn_corner_place(const gn_lattice *l, const gn_frame *frame, const gn_
     GN_COUNT(places, 1);
 #if GN_PUNCTUAL_LIGHTS
     if (light->kind != GN_LIGHT_DIRECTIONAL) {
-        place_punctual(frame, s, &l->light[slot], c, at, view);
+        if (!place_punctual(frame, s, &l->light[slot], c, at, view)) place_carefully(frame, s, c, at, view);
         return at->seen;
     }
 #endif

@@ -25,7 +25,7 @@ typedef struct {
 /* ---- One colour -------------------------------------------------------------------------------------------------- */
 
 /* Whether all corners have the same pixel, as where nothing varies. */
-GN_HOT static int is_plain(gn_shading *s, const gn_lattice_look *look, uint32_t *packed)
+GN_HOT static GN_NOINLINE int is_plain(gn_shading *s, const gn_lattice_look *look, uint32_t *packed)
 {
     const int32_t(*c)[3] = look->colour_q24;
     uint32_t first = 0;
@@ -108,29 +108,29 @@ GN_HOT static uint32_t lookup(const drawing *d, const gn_light_view *view, const
     return gn_filter_attenuation(d->s->frame, view, &r);
 }
 
-/* Where a row of the cell is seen, from its ends. */
-GN_HOT static void place_row(const drawing *d, const gn_lattice_edge *edge, int32_t below, gn_receiver_step *from,
-                             gn_receiver_step *step)
+/* Where a row of the cell is seen, from its ends: its first node, and steps between pixels. */
+GN_HOT static GN_NOINLINE void place_row(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+                                         gn_receiver_step *from, gn_receiver_step *step)
 {
     gn_lattice *l = &d->s->lattice;
-    gn_corner *c = &l->corner;
-    const gn_corner_light *at = &c->light[edge->slot];
-    gn_receiver_step end[2];
-    for (int i = 0; i < 2; i++) {
+    const gn_corner_light *at = &l->corner.light[edge->slot];
+    gn_receiver_step end = {0, 0, 0};
+    for (int i = 1; i >= 0; i--) {
         int32_t x = d->x + (i << d->size_log2);
-        if (!gn_corner_locate(l, d->s->frame, &d->s->surface, edge->slot, x, d->y + below, c) ||
-            !gn_corner_place(l, d->s->frame, &d->s->surface, c, edge->slot, edge->view_idx))
+        if (!gn_corner_locate(l, d->s->frame, &d->s->surface, edge->slot, x, d->y + below, &l->corner) ||
+            !gn_corner_place(l, d->s->frame, &d->s->surface, &l->corner, edge->slot, edge->view_idx))
             return;
-        end[i].u_q16 = at->u_q16;
-        end[i].v_q16 = at->v_q16;
-        end[i].depth_q31 = at->depth_q30;
+        if (!i) break;
+        end.u_q16 = at->u_q16;
+        end.v_q16 = at->v_q16;
+        end.depth_q31 = at->depth_q30;
     }
-    step->u_q16 = (end[1].u_q16 - end[0].u_q16) >> d->size_log2;
-    step->v_q16 = (end[1].v_q16 - end[0].v_q16) >> d->size_log2;
-    step->depth_q31 = (end[1].depth_q31 - end[0].depth_q31) >> d->size_log2;
-    from->u_q16 = end[0].u_q16 + d->first * step->u_q16;
-    from->v_q16 = end[0].v_q16 + d->first * step->v_q16;
-    from->depth_q31 = end[0].depth_q31 + d->first * step->depth_q31;
+    step->u_q16 = (end.u_q16 - at->u_q16) >> d->size_log2;
+    step->v_q16 = (end.v_q16 - at->v_q16) >> d->size_log2;
+    step->depth_q31 = (end.depth_q31 - at->depth_q30) >> d->size_log2;
+    from->u_q16 = at->u_q16 + d->first * step->u_q16;
+    from->v_q16 = at->v_q16 + d->first * step->v_q16;
+    from->depth_q31 = at->depth_q30 + d->first * step->depth_q31;
 }
 
 #if GN_PUNCTUAL_LIGHTS
@@ -159,21 +159,24 @@ GN_HOT static GN_NOINLINE void look_up_alone(const drawing *d, const gn_lattice_
 }
 #endif
 
-/* A row of nodes in a view, `below` pixels under the cell's first row, and its steps. Depths are in Q30. */
+/* A row of nodes in a view, `below` pixels under the cell's first row, and steps between pixels. Depths are in Q30. */
 GN_HOT static void find_row(const drawing *d, const gn_lattice_edge *edge, int32_t below, gn_receiver_step *at,
                             gn_receiver_step *step)
 {
-    int32_t scale = 1 << d->s->lattice.look.spacing_log2;
     step->u_q16 = edge->u_q16.dx + below * edge->u_q16.dxy;
     step->v_q16 = edge->v_q16.dx + below * edge->v_q16.dxy;
     step->depth_q31 = edge->depth_q30.dx + below * edge->depth_q30.dxy;
     at->u_q16 = gn_patch_at(&edge->u_q16, d->first, below);
     at->v_q16 = gn_patch_at(&edge->v_q16, d->first, below);
     at->depth_q31 = gn_patch_at(&edge->depth_q30, d->first, below);
-    if (edge->bent & GN_PLACES_BY_ROW) place_row(d, edge, below, at, step);
-    step->u_q16 *= scale;
-    step->v_q16 *= scale;
-    step->depth_q31 *= scale;
+}
+
+/* Steps between nodes. */
+GN_HOT static void scale_step(gn_receiver_step *step, int32_t spacing_log2)
+{
+    step->u_q16 *= 1 << spacing_log2;
+    step->v_q16 *= 1 << spacing_log2;
+    step->depth_q31 *= 1 << spacing_log2;
 }
 
 /* Attenuations of nodes from .. end - 1 of such a row. */
@@ -209,7 +212,10 @@ GN_HOT static int is_in_face(const gn_light_view *view, const gn_receiver_step *
 GN_HOT static GN_NOINLINE void look_up_faces(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
 {
     gn_receiver_step at[2], step[2];
-    for (int k = 0; k < 2; k++) find_row(d, edge + k, below, &at[k], &step[k]);
+    for (int k = 0; k < 2; k++) {
+        find_row(d, edge + k, below, &at[k], &step[k]);
+        scale_step(&step[k], d->s->lattice.look.spacing_log2);
+    }
     for (int32_t from = 0, end; from < d->n; from = end) {
         int inside = is_in_face(edge->view, &at[0], &step[0], from), k = !inside;
         for (end = from + 1; end < d->n && is_in_face(edge->view, &at[0], &step[0], end) == inside;) end++;
@@ -219,7 +225,7 @@ GN_HOT static GN_NOINLINE void look_up_faces(const drawing *d, const gn_lattice_
 #endif
 
 /* Attenuations along a row of nodes, `below` pixels under the cell's first row. */
-GN_HOT static void find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
+GN_HOT static GN_NOINLINE void find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
 {
     gn_receiver_step at, step;
 #if GN_PUNCTUAL_LIGHTS
@@ -230,6 +236,8 @@ GN_HOT static void find_attenuations(const drawing *d, const gn_lattice_edge *ed
     }
 #endif
     find_row(d, edge, below, &at, &step);
+    if (edge->bent) place_row(d, edge, below, &at, &step);
+    scale_step(&step, d->s->lattice.look.spacing_log2);
     look_up_row(d, edge, below, &at, &step, 0, d->n, out);
 }
 
@@ -258,7 +266,7 @@ GN_HOT static void add_edge_light(const drawing *d, const gn_lattice_edge *edge,
 #endif
 
 /* Colours of a row of nodes. Returns whether they lie in 2^-18 .. 1. */
-GN_HOT static int find_nodes(const drawing *d, int32_t below, int32_t (*node)[3])
+GN_HOT static GN_NOINLINE int find_nodes(const drawing *d, int32_t below, int32_t (*node)[3])
 {
     const gn_lattice_look *look = &d->s->lattice.look;
     for (int c = 0; c < 3; c++) {
@@ -307,7 +315,7 @@ GN_HOT static uint32_t columns(const drawing *d, int32_t y, int32_t n_rows)
 }
 
 #if GN_SHADOWS
-GN_HOT static void draw_two_colours(const drawing *d)
+GN_HOT static GN_NOINLINE void draw_two_colours(const drawing *d)
 {
     gn_lattice *l = &d->s->lattice;
     const gn_lattice_edge *edge = &l->look.edge[0];
@@ -346,7 +354,7 @@ GN_HOT static void draw_two_colours(const drawing *d)
 #endif
 
 /* Rows of pixels between two rows of nodes, which then are those below. */
-GN_HOT static void draw_strip(drawing *d, gn_corner *const corner[4], int32_t below, int inside)
+GN_HOT static GN_NOINLINE void draw_strip(drawing *d, gn_corner *const corner[4], int32_t below, int inside)
 {
     gn_shading *s = d->s;
     gn_lattice *l = &s->lattice;

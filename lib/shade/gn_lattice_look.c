@@ -20,6 +20,12 @@
 #endif
 enum { LIT, DARK, EDGE, SPLIT };
 
+/* A window that is to be made before the cell can be looked at. */
+typedef struct {
+    int32_t slot; /* -1: none */
+    uint32_t view_idx, asked; /* a bit for each that was */
+} wanted_window;
+
 /* The cell at hand. */
 typedef struct {
     gn_lattice *lattice;
@@ -32,6 +38,7 @@ typedef struct {
     uint64_t error_q24;   /* of interpolated light, at most */
     uint64_t kink_q24;    /* the part of it that comes from where a light ends */
     gn_lattice_look *out;
+    wanted_window *ask;
 } lattice_cell;
 
 /* ---- Tolerances -------------------------------------------------------------------------------------------------- */
@@ -259,7 +266,7 @@ GN_HOT static int faces_away(const lattice_cell *cell, int32_t p[4][3])
 
 /* Whether nothing of a light arrives anywhere in the cell if nothing arrives at its corners. The squares of a point's
  * distance, and of its distance along the axis, are those of the corners in the mean, less what they scatter by. */
-GN_HOT static int stays_dark(const lattice_cell *cell, uint32_t slot)
+GN_HOT static GN_NOINLINE int stays_dark(const lattice_cell *cell, uint32_t slot)
 {
     const gn_light_state *light = cell->s->light[slot].state;
     int32_t p[4][3];
@@ -391,8 +398,20 @@ GN_HOT static int verdict(const lattice_cell *cell, uint32_t slot, uint32_t view
     range_of(p->v, &lo.v_q16, &hi.v_q16);
     range_of(p->depth, &depth_lo, &depth_hi);
     if ((gn_abs32(lo.u_q16) | gn_abs32(hi.u_q16) | gn_abs32(lo.v_q16) | gn_abs32(hi.v_q16)) >> 27) return SPLIT;
-    gn_window *window =
-        gn_lattice_window(cell->lattice, cell->frame, cell->s, slot, view_idx, cell->corner[0]->x, cell->corner[0]);
+    uint32_t idx = gn_lattice_window_idx(cell->frame, p->view);
+    gn_window *window = &cell->lattice->window[idx];
+    if (gn_lattice_window_is_made(window, p->view, cell->corner[0]->x)) {
+        if (!window->planar) window = NULL;
+    } else {
+        int taken = window->view && cell->corner[0]->x < window->until_x; /* by that of another view */
+        if (!taken && !(cell->ask->asked >> idx & 1U)) {
+            cell->ask->asked |= 1U << idx;
+            cell->ask->slot = (int32_t)slot;
+            cell->ask->view_idx = view_idx;
+            return SPLIT;
+        }
+        window = NULL;
+    }
     int said = window ? verdict_of_window(window, p, &lo, &hi, 0) : SPLIT;
     if (said != SPLIT) {
         p->window = window;
@@ -527,7 +546,7 @@ GN_HOT static void blend_shares(const lattice_cell *cell, uint32_t slot, uint32_
 #if GN_PUNCTUAL_LIGHTS
 /* Adds an edge in the shadow of a point light, two faces of which see the cell. Returns 0 if there is no room, or it is
  * to be split. */
-GN_HOT static int add_faces(const lattice_cell *cell, uint32_t slot, const contribution *light, uint32_t views,
+GN_HOT static GN_NOINLINE int add_faces(const lattice_cell *cell, uint32_t slot, const contribution *light, uint32_t views,
                             const int32_t from_q16[3], places *p)
 {
     gn_lattice_look *out = cell->out;
@@ -546,6 +565,26 @@ GN_HOT static int add_faces(const lattice_cell *cell, uint32_t slot, const contr
     return !views;
 }
 #endif
+
+/* Adds an edge in two cascades that blend. Returns 0 if there is no room, or it is to be split. */
+GN_HOT static GN_NOINLINE int add_blend(const lattice_cell *cell, uint32_t slot, const contribution *light, uint32_t views,
+                                        places *p)
+{
+    uint32_t first = (uint32_t)first_bit(views), second = (uint32_t)first_bit(views & (views - 1)), share[4];
+    if (views & ~(1U << first | 1U << second)) return 0;
+    for (int k = 0; k < 2; k++) {
+        int32_t slope[2];
+        uint32_t view_idx = k ? second : first;
+        if (find_places(cell, slot, view_idx, p) != PLACED) return 0;
+        gn_shadow_slopes(cell->frame, cell->s, p->view, NULL, slope);
+        if (verdict(cell, slot, view_idx, p, slope) == SPLIT) return 0;
+        if (places_hold(cell, p) == BEND && cell->size_log2 > 1) return 0;
+        blend_shares(cell, slot, first, share);
+        for (int i = 0; i < 4; i++) share[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
+        if (!add_edge(cell, slot, p, slope, light, share)) return 0;
+    }
+    return 1;
+}
 
 /* The shadow of a light: LIT, DARK, or EDGE, which is added. */
 GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contribution *light)
@@ -575,21 +614,8 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
         if (places_hold(cell, &p) == BEND && cell->size_log2 > 1) return SPLIT;
         return add_edge(cell, slot, &p, slope, light, light->more_uq16) ? EDGE : SPLIT;
     }
-    if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_SOFT) {
-        uint32_t first = (uint32_t)first_bit(views), second = (uint32_t)first_bit(views & (views - 1)), share[4];
-        uint32_t part[4];
-        if (views & ~(1U << first | 1U << second)) return SPLIT;
-        blend_shares(cell, slot, first, share);
-        for (int k = 0; k < 2; k++) {
-            if (find_places(cell, slot, k ? second : first, &p) != PLACED) return SPLIT;
-            gn_shadow_slopes(cell->frame, cell->s, p.view, NULL, slope);
-            if (verdict(cell, slot, k ? second : first, &p, slope) == SPLIT) return SPLIT;
-            if (places_hold(cell, &p) == BEND && cell->size_log2 > 1) return SPLIT;
-            for (int i = 0; i < 4; i++) part[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
-            if (!add_edge(cell, slot, &p, slope, light, part)) return SPLIT;
-        }
-        return EDGE;
-    }
+    if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_SOFT)
+        return add_blend(cell, slot, light, views, &p) ? EDGE : SPLIT;
     if (GN_BLENDED_CASCADES && cascaded && cell->frame->scene->shadow.blend == GN_BLEND_DITHER) return SPLIT;
     if (cascaded) { /* one may stand for all of a small cell */
         uint32_t own = cell->corner[0]->light[slot].view;
@@ -622,7 +648,7 @@ GN_HOT static int shadow_of(const lattice_cell *cell, uint32_t slot, const contr
 #if GN_SPECULAR
 /* Whether a highlight is close enough to bilinear. Its lobe is exp(-sharpness |q|^2 / 2) of the half vector minus the
  * normal, q, whose components are close to linear. *any: whether it is seen at all. */
-GN_HOT static int highlight_holds(const lattice_cell *cell, uint32_t slot, int *any)
+GN_HOT static GN_NOINLINE int highlight_holds(const lattice_cell *cell, uint32_t slot, int *any)
 {
     int32_t sharp_log2 = cell->s->object->shininess_log2;
     uint64_t nearest = 0, across = 0; /* squares, Q24 */
@@ -782,11 +808,11 @@ GN_HOT static int is_even(const lattice_cell *cell)
     return error << light_log2(cell->frame) <= (uint64_t)(gn_max32(least, 0) + (1 << 19));
 }
 
-GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
-                              gn_corner *const corner[4], int32_t size_log2)
+GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                                     gn_corner *const corner[4], int32_t size_log2, wanted_window *ask)
 {
     gn_lattice_look *look = &lattice->look;
-    lattice_cell cell = {lattice, frame, surface, corner, size_log2, {0, 0}, lattice->cascade >= 0, 0, 0, look};
+    lattice_cell cell = {lattice, frame, surface, corner, size_log2, {0, 0}, lattice->cascade >= 0, 0, 0, look, ask};
     int coarse = size_log2 > finest_log2(frame);
     if (!find_bend(&cell) || (!images_hold(&cell) && coarse)) return 0;
     look->n_edges = 0;
@@ -801,6 +827,21 @@ GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const 
     int limits = !finish_colours(&cell);
     if (!coarse) return size_log2 < finest_log2(frame) || is_even(&cell);
     return !limits && is_even(&cell);
+}
+
+/* Windows are made here, where there is more stack. */
+GN_HOT int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
+                              gn_corner *const corner[4], int32_t size_log2)
+{
+    wanted_window ask = {-1, 0, 0};
+    for (;;) {
+        int known = look_once(lattice, frame, surface, corner, size_log2, &ask);
+        if (ask.slot < 0) return known;
+#if GN_SHADOWS
+        gn_lattice_window(lattice, frame, surface, (uint32_t)ask.slot, ask.view_idx, corner[0]->x, corner[0]);
+#endif
+        ask.slot = -1;
+    }
 }
 
 #endif

@@ -52,7 +52,7 @@ GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *fram
     return own + (up >= 0 ? towards * ((int64_t)1 << up) : towards >> -up);
 }
 
-GN_HOT static void begin_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
                                 const gn_light_view *view, const gn_corner *at, gn_window *window)
 {
     int32_t slope[2];
@@ -138,7 +138,7 @@ GN_HOT gn_window *gn_lattice_window(gn_lattice *l, const gn_frame *frame, const 
                                     uint32_t view_idx, int32_t x, const gn_corner *at)
 {
     const gn_light_view *view = &frame->view[s->light[slot].state->view_idx + (int32_t)view_idx];
-    gn_window *window = &l->window[(view - frame->view) & (GN_WINDOWS - 1)];
+    gn_window *window = &l->window[gn_lattice_window_idx(frame, view)];
     int32_t log2 = l->size_log2, size = 1 << log2;
     if (window->view != view) begin_window(l, frame, s, slot, view, at, window);
     if (!window->planar) return NULL;

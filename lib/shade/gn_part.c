@@ -25,10 +25,9 @@ typedef struct {
 typedef struct {
     uint32_t dark_q20[3], more_q20[3]; /* without and with the light whose shadow has an edge */
     uint32_t lit, dark;                /* their pixels */
-    int mixed;                         /* whether there is such a light, in this slot, */
-    uint32_t slot;
-    int cascaded;            /* which has cascades */
-    part_view view[4];       /* of them those that corners of the part see */
+    int mixed;         /* whether there is such a light, */
+    int cascaded;      /* which has cascades: */
+    part_view view[4]; /* of them those that corners of the part see */
 } part_look;
 
 GN_HOT void gn_part_begin(gn_shading *s)
@@ -62,49 +61,56 @@ GN_HOT static uint32_t views_of_part(gn_shading *s, int cascaded)
     return views;
 }
 
-/* What a light's windows say of the whole part. */
-GN_HOT static int windows_of_part(gn_shading *s, uint32_t slot, part_look *look)
+/* What a light's windows say of the whole part, and each of them. */
+GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, part_view *view)
 {
     gn_lattice *l = &s->lattice;
     const gn_light_view *first = &s->frame->view[s->surface.light[slot].state->view_idx];
-    int cascaded = !first->border_lit, all = -1;
-    uint32_t views = views_of_part(s, cascaded);
-    part_view found[4];
+    int all = -1;
+    uint32_t views = views_of_part(s, !first->border_lit);
     for (uint32_t i = 0; i < 4; i++) {
-        found[i].window = NULL;
-        found[i].said = GN_WINDOW_MIXED;
+        int said = GN_WINDOW_MIXED;
+        if (view) view[i].window = NULL;
+        if (view) view[i].said = GN_WINDOW_MIXED;
         if (!(views >> i & 1U)) continue;
         const gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->x, NULL);
         if (w && w->w) {
             l->part_end = gn_min32(l->part_end, w->until_x);
-            found[i].window = w;
-            found[i].said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
+            said = !w->any ? GN_WINDOW_LIT : w->all == UINT32_MAX ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
+            if (view) view[i].window = w;
+            if (view) view[i].said = said;
         }
-        if (all >= 0 && all != found[i].said) all = GN_WINDOW_MIXED;
-        else all = found[i].said;
+        all = all >= 0 && all != said ? GN_WINDOW_MIXED : said;
     }
     if (all < 0) return GN_WINDOW_LIT;
-    if (all == GN_WINDOW_DARK && l->cascade < 0) all = GN_WINDOW_MIXED; /* it may fade */
-    if (all != GN_WINDOW_MIXED) return all;
-    look->slot = slot;
-    look->cascaded = cascaded;
-    for (uint32_t i = 0; i < 4; i++) {
-        look->view[i] = found[i];
-        if (found[i].window)
+    return all == GN_WINDOW_DARK && l->cascade < 0 ? GN_WINDOW_MIXED : all; /* it may fade */
+}
+
+/* Sets what is to be known of the light whose shadow has an edge in the part. */
+GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, part_look *look)
+{
+    const gn_light_view *first = &s->frame->view[s->surface.light[slot].state->view_idx];
+    look->mixed = 1;
+    look->cascaded = !first->border_lit;
+    for (uint32_t i = 0; i < 4; i++)
+        if (look->view[i].window)
             gn_sample_offset(s->frame, &s->surface, slot, first + i, s->surface.normal_q30[0], look->view[i].offset_q16);
-    }
-    return all;
 }
 #else
-GN_HOT static int windows_of_part(gn_shading *s, uint32_t slot, part_look *look)
+GN_HOT static int windows_of_part(gn_shading *s, uint32_t slot, part_view *view)
+{
+    (void)s, (void)slot, (void)view;
+    return GN_WINDOW_LIT;
+}
+
+GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, part_look *look)
 {
     (void)s, (void)slot, (void)look;
-    return GN_WINDOW_LIT;
 }
 #endif
 
 /* Returns 0 if the shadows of several lights have edges in the part. */
-GN_HOT static int find_lights(gn_shading *s, part_look *look)
+GN_HOT static GN_NOINLINE int find_lights(gn_shading *s, part_look *look)
 {
     const gn_surface *surface = &s->surface;
     look->mixed = 0;
@@ -117,10 +123,8 @@ GN_HOT static int find_lights(gn_shading *s, part_look *look)
         uint32_t share = 65536;
         int said = GN_WINDOW_LIT;
         int32_t e = gn_max32(light->cosine_q24[0], 0);
-        if (surface->shadowed && gn_shadow_is_realtime(light->state, 65536)) {
-            part_look other;
-            said = windows_of_part(s, i, look->mixed ? &other : look);
-        }
+        if (surface->shadowed && gn_shadow_is_realtime(light->state, 65536))
+            said = windows_of_part(s, i, look->mixed ? NULL : look->view);
         if (said == GN_WINDOW_MIXED && look->mixed) return 0;
         if (said != GN_WINDOW_LIT) share = 65536 - light->state->strength_uq16;
         for (int c = 0; c < 3; c++) {
@@ -129,7 +133,7 @@ GN_HOT static int find_lights(gn_shading *s, part_look *look)
             look->dark_q20[c] += dark;
             if (said == GN_WINDOW_MIXED) look->more_q20[c] = all - dark;
         }
-        if (said == GN_WINDOW_MIXED) look->mixed = 1;
+        if (said == GN_WINDOW_MIXED) begin_edge(s, i, look);
     }
     return 1;
 }
@@ -187,12 +191,21 @@ GN_HOT static void shade_row_exactly(gn_shading *s, int32_t x, int32_t y, int32_
     for (; n > 0; n--, x++) gn_exact_pixel(s, x, y);
 }
 
+/* Pixels of one row between two places. Returns 0 if there is no window. */
+GN_HOT static GN_NOINLINE int mixed_chunk(gn_shading *s, const part_view *view, const row_ends *row, int32_t x, int32_t y,
+                                          int32_t n, int32_t ahead)
+{
+    uint32_t attenuation[CHUNK];
+    if (!attenuations(s, view, row, n, ahead, attenuation)) return 0;
+    store_row(s, x, y, n, attenuation);
+    return 1;
+}
+
 /* Pixels of one row in a view, in chunks that are in or out of the shadow, or between places at their ends. */
-GN_HOT static void mixed_span(gn_shading *s, const part_look *look, const part_view *view, int32_t x, int32_t y,
+GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const part_look *look, const part_view *view, int32_t x, int32_t y,
                               int32_t end)
 {
     row_ends row;
-    uint32_t attenuation[CHUNK];
     gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row.at);
     for (int32_t n; x < end; x += n) {
         n = gn_min32(end - x, CHUNK);
@@ -204,8 +217,7 @@ GN_HOT static void mixed_span(gn_shading *s, const part_look *look, const part_v
                          row.last);
         int said = judge(view, &row);
         if (said != GN_WINDOW_MIXED) gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? look->lit : look->dark);
-        else if (attenuations(s, view, &row, n, ahead, attenuation)) store_row(s, x, y, n, attenuation);
-        else shade_row_exactly(s, x, y, n);
+        else if (!mixed_chunk(s, view, &row, x, y, n, ahead)) shade_row_exactly(s, x, y, n);
         row.at[0] = row.last[0];
         row.at[1] = row.last[1];
     }
@@ -241,26 +253,24 @@ GN_HOT static int attenuations_in(gn_shading *s, const part_view *view, int32_t 
     return said;
 }
 
-/* Pixels of one row where shadows fade, or cascades blend: shares are linear along chunks. */
-GN_HOT static void fading_chunk(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t n, const row_end *a,
-                                const row_end *b)
+/* Pixels of one row where shadows fade, or cascades blend: shares are linear along chunks. Returns 0 if they are to be
+ * shaded exactly. */
+GN_HOT static GN_NOINLINE int fading_chunk(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t n,
+                                           const row_end *a, const row_end *b)
 {
     uint32_t here[CHUNK], next[CHUNK];
     int blends = look->cascaded && (a->fade_uq16 & b->fade_uq16) != 65536 && GN_BLENDED_CASCADES &&
                  s->frame->scene->shadow.blend != GN_BLEND_HARD && a->cascade != GN_LAST_CASCADE(s->frame);
     if (!(a->g_uq16 | b->g_uq16)) {
         gn_pixel_fill(s->frame, &s->rows, x, y, n, look->lit);
-        return;
+        return 1;
     }
     int said = attenuations_in(s, &look->view[look->cascaded ? a->cascade : 0], x, y, n, here), there = said;
     if (blends) there = attenuations_in(s, &look->view[s->frame->cascade[a->cascade].next], x, y, n, next);
-    if (said < 0 || there < 0 || (said != there && s->frame->scene->shadow.blend == GN_BLEND_DITHER)) {
-        shade_row_exactly(s, x, y, n);
-        return;
-    }
+    if (said < 0 || there < 0 || (said != there && s->frame->scene->shadow.blend == GN_BLEND_DITHER)) return 0;
     if (said == there && said == GN_WINDOW_LIT) {
         gn_pixel_fill(s->frame, &s->rows, x, y, n, look->lit);
-        return;
+        return 1;
     }
     int32_t fade = (int32_t)a->fade_uq16, g = (int32_t)a->g_uq16, fade_step = 0, g_step = 0;
     if (n > 1) {
@@ -273,16 +283,17 @@ GN_HOT static void fading_chunk(gn_shading *s, const part_look *look, int32_t x,
         here[i] = 65536 - (uint32_t)((int64_t)dark * g >> 16);
     }
     store_row(s, x, y, n, here);
+    return 1;
 }
 
-GN_HOT static void fading_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
+GN_HOT static GN_NOINLINE void fading_span(gn_shading *s, const part_look *look, int32_t x, int32_t y, int32_t end)
 {
     row_end a = cascade_at(s, x, y), b;
     for (int32_t n; x < end; x += n, a = b) {
         n = gn_min32(end - x, CHUNK);
         b = n > 1 ? cascade_at(s, x + n - 1, y) : a;
-        if (look->cascaded && a.cascade != b.cascade) shade_row_exactly(s, x, y, n);
-        else fading_chunk(s, look, x, y, n, &a, &b);
+        if ((look->cascaded && a.cascade != b.cascade) || !fading_chunk(s, look, x, y, n, &a, &b))
+            shade_row_exactly(s, x, y, n);
     }
 }
 
@@ -300,7 +311,7 @@ GN_HOT static void shade_span(gn_shading *s, const part_look *look, int32_t x, i
 
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
 
-GN_HOT static uint32_t pack_sum(gn_shading *s, const part_look *look, int with_more)
+GN_HOT static GN_NOINLINE uint32_t pack_sum(gn_shading *s, const part_look *look, int with_more)
 {
     uint32_t q20[3];
     for (int c = 0; c < 3; c++) q20[c] = look->dark_q20[c] + (with_more ? look->more_q20[c] : 0);
@@ -308,7 +319,7 @@ GN_HOT static uint32_t pack_sum(gn_shading *s, const part_look *look, int with_m
 }
 
 /* Sets what rows of two colours need. */
-GN_HOT static void begin_rows(gn_shading *s, const part_look *look)
+GN_HOT static GN_NOINLINE void begin_rows(gn_shading *s, const part_look *look)
 {
     int32_t dark[3], more[3];
     for (int c = 0; c < 3; c++) {

@@ -23,15 +23,8 @@ GN_HOT static uint32_t min_passing_depth(const gn_frame *frame, const gn_light_v
 GN_HOT static int texels_agree(const gn_light_view *view, const int32_t first[2], const int32_t last[2], uint32_t least,
                                uint32_t most, uint32_t *attenuation)
 {
-    int32_t bits = GN_VIEW_BITS(view), end = view->tile_texels - 1;
+    int32_t bits = GN_VIEW_BITS(view);
     uint32_t lit = 0, dark = 0, n = (uint32_t)(last[0] - first[0]) + 1;
-    if (first[0] < 0 || first[1] < 0 || last[0] > end || last[1] > end) return 0;
-    if (GN_DEPTH_BLOCKS && last[0] - first[0] < GN_BLOCK_REACH && last[1] - first[1] < GN_BLOCK_REACH) {
-        /* cheaper than one lookup each */
-        const gn_depth_block *bounds = gn_blocks_inside(view, first[0], first[1]);
-        *attenuation = most <= (uint32_t)bounds->lo << 16 ? 65536 : 0;
-        if (*attenuation || least > gn_block_highest(bounds, bits)) return 1;
-    }
     gn_texels row = gn_view_texels(view, first[0], first[1]);
     for (int32_t v = first[1]; v <= last[1]; v++, row = gn_texels_at(row, bits, view->tile_texels)) {
         for (uint32_t i = 0; i < n; i++) {
@@ -52,10 +45,16 @@ GN_HOT int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, c
     int32_t first[2], last[2];
     reads(view, a->u_q16, b->u_q16, &first[0], &last[0]);
     reads(view, a->v_q16, b->v_q16, &first[1], &last[1]);
-    int32_t n = gn_max32(last[0] - first[0], last[1] - first[1]) + 1;
+    int32_t n = gn_max32(last[0] - first[0], last[1] - first[1]) + 1, end = view->tile_texels - 1, beyond = 0;
     uint32_t least = min_passing_depth(frame, view, gn_min32(a->depth_q31, b->depth_q31));
     uint32_t most = min_passing_depth(frame, view, gn_max32(a->depth_q31, b->depth_q31));
-    if (n <= 12) return texels_agree(view, first, last, least, most, attenuation);
-    return GN_DEPTH_BLOCKS && n <= 2 * GN_BLOCK_REACH &&
-           gn_blocks_decide(view, first[0], first[1], n, least, most, attenuation);
+    if (n > 2 * GN_BLOCK_REACH) return 0;
+    /* bounds are cheaper than one lookup each; what they decide, the texels would, too */
+    if (GN_DEPTH_BLOCKS && gn_blocks_decide(view, first[0], first[1], n, least, most, attenuation)) return 1;
+    for (int i = 0; i < 2; i++) { /* beyond the border texels repeat it, or are lit */
+        beyond |= first[i] < 0 || last[i] > end;
+        first[i] = gn_max32(0, gn_min32(first[i], end));
+        last[i] = gn_max32(0, gn_min32(last[i], end));
+    }
+    return texels_agree(view, first, last, least, most, attenuation) && (*attenuation || !beyond || !gn_border_lit(view));
 }
