@@ -12,6 +12,7 @@
 gn_window *gn_lattice_window(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,
                              uint32_t view_idx, int32_t x, const gn_corner *at);
 
+#if GN_SHADOWS
 /* Which of the lattice's it is. */
 GN_HOT static inline uint32_t gn_lattice_window_idx(const gn_frame *frame, const gn_light_view *view)
 {
@@ -23,6 +24,7 @@ GN_HOT static inline int gn_lattice_window_is_made(const gn_window *window, cons
 {
     return window->view == view && (!window->planar || x < window->until_x);
 }
+#endif
 
 /* Of another part. */
 GN_HOT static inline void gn_lattice_forget_part(gn_lattice *l)
