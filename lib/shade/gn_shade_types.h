@@ -1,4 +1,4 @@
-/* Surfaces, exact samples of them, and the interpolation between samples. */
+/* Surfaces, exact samples of them, and cells, between whose corners light is interpolated. */
 #ifndef GN_SHADE_TYPES_H
 #define GN_SHADE_TYPES_H
 
@@ -77,7 +77,7 @@ typedef struct {
     uint64_t lights; /* a bit per light that can affect the screen tile */
 } gn_surface_cache;
 
-/* Values sampled at a pixel and stepped linearly between samples. The first groups only where a surface has them. */
+/* Values sampled at a pixel. The first groups only where a surface has them. */
 enum {
     GN_VALUE_UV = 0,                                     /* 2: texture coordinates, Q20 */
     GN_VALUE_MASK = GN_VALUE_UV + (GN_TEXTURES ? 2 : 0), /* 4: shadow masks, Q16; or 2: coordinates of the mask image */
@@ -239,7 +239,7 @@ enum { GN_SPANS = 64, GN_PART_WIDTH = 64, GN_PART_ROWS = 16 };
 /* Corners that are kept: 9 of a cell that is split, and some that its neighbour asks for. */
 enum { GN_CORNERS = 12 };
 
-#define GN_LATTICE_NODES  17 /* in a row of the largest cell */
+#define GN_LATTICE_NODES 17 /* in a row of the largest cell */
 
 /* A surface by cells. */
 typedef struct {

@@ -43,7 +43,7 @@ flags_of() {
     tiny) echo -DGN_PRESET=0 ;;
     balanced) echo -DGN_PRESET=1 ;;
     accurate) echo -DGN_PRESET=2 ;;
-    full) # every feature of the specification, in one way each: without pieces and parabolas, bounds of depth and boxes, which only save time
+    full) # every feature of the specification, in one way each: every pixel for itself; without bounds of depth and boxes, which only save time
         for feature in $features; do
             case $feature in
             DEPTH_BLOCKS | OBJECT_BOXES) echo "-DGN_$feature=0" ;;
