@@ -91,8 +91,9 @@
       "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones", "flash")                 \
     X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither", "flash")                              \
     X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither", "flash")                           \
-    X(textures, TEXTURES, 0, 1, "textures: colour and alpha", "flash; a table of 512 bytes; a divide per pixel")       \
-    X(specular, SPECULAR, 0, 1, "specular highlights", "flash; a reciprocal root per light and pixel of such objects") \
+    X(textures, TEXTURES, 0, 1, "textures: colour and alpha", "flash; a table of 512 bytes; a lookup per pixel")       \
+    X(specular, SPECULAR, 0, 1, "specular highlights",                                                                 \
+      "flash; a reciprocal root per light and sample of such objects")                                                 \
     X(masks, MASKS, 0, 1, "baked shadow masks and their mixing", "flash")                                              \
     X(baked_light, BAKED_LIGHT, 0, 1, "baked irradiance per vertex", "flash; three values per sample")                 \
     X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias", "flash")                                      \
@@ -106,7 +107,7 @@
       "static casters are kept apart from moving ones, from frame to frame: a single picture does not show it",        \
       "the atlases' RAM twice")                                                                                        \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
-    X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")   \
+    X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per sample")  \
     X(validation, VALIDATION, 0, 1,                                                                                    \
       "scenes are checked before they are drawn; without, an invalid scene has undefined behaviour", "flash")          \
     X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats other than RGB565: RGB888, grey, one bit", "flash")           \
