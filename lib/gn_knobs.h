@@ -13,8 +13,10 @@
 #define GN_QUALITY_KNOBS(X)                                                                                            \
     X(subpixel_bits, SUBPIXEL_BITS, 2, 8, "fraction bits of screen coordinates",                                       \
       "12 more bytes per triangle where 16 bits are too few: at 8, or at 7 above 490 pixels")                          \
-    X(persp_step, PERSP_STEP, 1, 16, "maximum pixels between perspective divides (1, 4, 8 or 16), parabolas between",  \
-      "1: a divide and all attributes per pixel")                                                                      \
+    X(persp_step, PERSP_STEP, 1, 16,                                                                                   \
+      "coarseness of shading (1, 4, 8 or 16): cells of up to 16 pixels at 16 and 8, with wider tolerances at 16, of "  \
+      "up to 8 at 4; 1: every pixel for itself",                                                                       \
+      "1: a divide and all attributes per pixel; no memory for cells")                                                 \
     X(newton_steps, NEWTON_STEPS, 1, 2, "Newton steps of per-pixel reciprocals: 2^-17 or 2^-30 relative",              \
       "two multiplications per divide")                                                                                \
     X(shadow_subpixel_bits, SHADOW_SUBPIXEL_BITS, 4, 12, "fraction bits of caster coordinates in texels", "none")      \
@@ -46,7 +48,8 @@
       "32 bytes each, 44 with wider screen coordinates")                                                               \
     X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")           \
     X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")          \
-    X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can affect one surface", "141 bytes of stack each")          \
+    X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can affect one surface",                                     \
+      "620 bytes each, 84 with persp_step 1")                                                                          \
     X(max_objects, MAX_OBJECTS, 1, 65535, "objects in a scene", "36 bytes each, 24 without spot and point lights")     \
     X(max_shadow_tiles, MAX_SHADOW_TILES, 1, 16, "tiles of the directional atlas: lights times cascades",              \
       "216 bytes each, 16 less without incremental, 8 less without auto_bias")                                         \
@@ -88,8 +91,9 @@
       "casters whose shadows lie wholly in a smaller cascade are not drawn into larger ones", "flash")                 \
     X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither", "flash")                              \
     X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither", "flash")                           \
-    X(textures, TEXTURES, 0, 1, "textures: colour and alpha", "flash; a table of 512 bytes; a divide per pixel")       \
-    X(specular, SPECULAR, 0, 1, "specular highlights", "flash; a reciprocal root per light and pixel of such objects") \
+    X(textures, TEXTURES, 0, 1, "textures: colour and alpha", "flash; a table of 512 bytes; a lookup per pixel")       \
+    X(specular, SPECULAR, 0, 1, "specular highlights",                                                                 \
+      "flash; a reciprocal root per light and sample of such objects")                                                 \
     X(masks, MASKS, 0, 1, "baked shadow masks and their mixing", "flash")                                              \
     X(baked_light, BAKED_LIGHT, 0, 1, "baked irradiance per vertex", "flash; three values per sample")                 \
     X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias", "flash")                                      \
@@ -103,7 +107,7 @@
       "static casters are kept apart from moving ones, from frame to frame: a single picture does not show it",        \
       "the atlases' RAM twice")                                                                                        \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
-    X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per pixel")   \
+    X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per sample")  \
     X(validation, VALIDATION, 0, 1,                                                                                    \
       "scenes are checked before they are drawn; without, an invalid scene has undefined behaviour", "flash")          \
     X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats other than RGB565: RGB888, grey, one bit", "flash")           \

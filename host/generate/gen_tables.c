@@ -67,7 +67,6 @@ static uint32_t level_of(const double *table, uint32_t linear_q20, uint32_t leve
     return (v * levels + 32767U) / 65535U;
 }
 
-/* Levels are counted on from `first` in all that is printed. No cell holds two borders of levels. */
 /* Weights of a tent of 3 texels at u / 32 texel, rounded so that they sum to 4096. */
 static void print_tent_sums(void)
 {
@@ -94,6 +93,7 @@ static void print_tent_sums(void)
     printf("\n};\n#endif\n");
 }
 
+/* Levels are counted on from `first` in all that is printed. No cell holds two borders of levels. */
 static void print_cells(const double *table, uint32_t levels, uint32_t n, uint32_t first)
 {
     printf("\nconst uint8_t gn_level_%u_table[%u] = {", levels, n);

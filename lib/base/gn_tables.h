@@ -22,7 +22,7 @@ extern const uint32_t gn_level_end_q24[96];
 extern const int16_t
     gn_disk_table_q15[128]; /* x, y of 64 points of the unit disk (DESIGN 1.7), every prefix well spread */
 extern const uint16_t gn_tent_sums[32][16];      /* Q12: sums of subsets, a bit each, of the four weights of a tent of 3
-                                                    texels at 1/32 texel (NUMERICS 2) */
+                                                    texels at 1/32 texel (NUMERICS 4.13) */
 extern const uint16_t gn_srgb_decode_table[256]; /* 65535 * linear light of an 8-bit sRGB value */
 
 /* Entries of tables. With GN_SIZE_FIRST they are computed: gn_curves.c; reciprocals by the core's divider, if it has

@@ -18,9 +18,10 @@
  *
  * gn_screen_tile
  * - gn_raster_tile: depth and triangle per pixel, by exact edge walks (geometry/gn_walk)
- * - gn_shade_tile: the visible spans (visible/gn_runs) of a triangle at a time (shade/gn_surface), piece by piece
- *   (gn_piece, gn_piecerow, gn_turn) or by pixels (gn_sample, gn_chord between them): light (gn_light, gn_arrival,
- *   light/gn_punctual), shadow (gn_shadow, shadow/gn_filter), encoded pixels (gn_pixel)
+ * - gn_shade_tile: the visible runs (visible/gn_runs) of a triangle at a time (shade/gn_surface), part by part: of one
+ *   or two colours (gn_part), or by cells (gn_lattice: gn_corner, gn_lattice_look, gn_lattice_draw), with texel windows
+ *   (gn_lattice_window, shadow/gn_window); or pixel by pixel (gn_exact, gn_sample): light (gn_light, gn_arrival,
+ *   light/gn_punctual), shadow (gn_shadow, shadow/gn_filter); encoded pixels (gn_levels, gn_pixel)
  * - flush
  *
  * With GN_COMPACT, compact/ has all stages but the first, in 32 bits, behind the same calls.

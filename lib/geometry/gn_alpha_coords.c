@@ -35,7 +35,7 @@ GN_HOT static int exact_coords(const gn_alpha_cut *cut, int32_t x, int32_t uv_q2
     return seen;
 }
 
-#define GN_ALPHA_BEND_MAX_Q30 (3 << 26) /* 3/16: gn_chord.c has the parabola */
+#define GN_ALPHA_BEND_MAX_Q30 (3 << 26) /* 3/16; the parabola is in NUMERICS 4.9 */
 #define GN_ALPHA_TEXEL_LOG2   8         /* maximum distance of coordinates from the parabola: 2^-8 texel */
 
 GN_HOT static void find_exact(const gn_alpha_cut *cut, gn_alpha_exact *at, int32_t x)

@@ -10,7 +10,7 @@
 /* Of all the surface's spot and point lights. */
 void gn_arrivals_at(const gn_frame *frame, const gn_surface *surface, gn_sample *sample);
 
-/* Irradiance of one, of a light whose colour is 1; `value` is its slot of a sample. *arrives: what bends it. */
+/* Irradiance of one, of a light whose colour is 1; `value` is its slot of a sample. *arrives: GN_ARRIVES_... */
 uint32_t gn_arrival_irradiance_q24(const gn_frame *frame, const gn_light_state *light, const int32_t *value,
                                    int *arrives);
 

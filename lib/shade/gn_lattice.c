@@ -101,14 +101,8 @@ GN_HOT static void find_corners(gn_shading *s, int32_t x, int32_t y, int32_t siz
         corner[k] = corner_at(s, x + ((k & 1) << size_log2), y + ((k >> 1) << size_log2));
 }
 
-/* A cell that is being split into four. */
-typedef struct {
-    int16_t x, y;
-    uint8_t size_log2, next; /* the quarter to be shaded next */
-} split_cell;
-
 /* The next quarter that has pixels. Returns 0 if there is none. */
-GN_HOT static int next_quarter(gn_shading *s, split_cell *split, int32_t *x, int32_t *y, gn_corner *corner[4])
+GN_HOT static int next_quarter(gn_shading *s, gn_split_cell *split, int32_t *x, int32_t *y, gn_corner *corner[4])
 {
     int32_t log2 = split->size_log2 - 1;
     while (split->next < 4) {
@@ -125,7 +119,7 @@ GN_HOT static int next_quarter(gn_shading *s, split_cell *split, int32_t *x, int
 /* Shades a cell, or the cells that it is split into: no deeper than its size. */
 GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_log2)
 {
-    split_cell split[4];
+    gn_split_cell *split = s->lattice.split;
     gn_corner *corner[4];
     int depth = 0;
     find_corners(s, x, y, size_log2, corner);
@@ -135,7 +129,7 @@ GN_HOT static void shade_cell(gn_shading *s, int32_t x, int32_t y, int32_t size_
             gn_lattice_draw(s, x, y, size_log2, corner);
         else if (size_log2 > 1) {
             GN_COUNT(cells_split, 1);
-            split[depth++] = (split_cell){(int16_t)x, (int16_t)y, (uint8_t)size_log2, 0};
+            split[depth++] = (gn_split_cell){(int16_t)x, (int16_t)y, (uint8_t)size_log2, 0};
         } else shade_exactly(s, x, y, size_log2);
         while (depth > 0 && !next_quarter(s, &split[depth - 1], &x, &y, corner)) depth--;
         if (!depth) return;
@@ -153,7 +147,7 @@ GN_HOT static void forget_corners(gn_lattice *l)
 }
 
 /* Column by column, which have corners in common. */
-GN_HOT static void shade_part(gn_shading *s)
+GN_HOT static GN_NOINLINE void shade_part(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     int32_t log2 = l->size_log2, size = 1 << log2, x_end = gn_min32(l->x_end, l->x + GN_PART_WIDTH);

@@ -259,7 +259,7 @@ GN_HOT static void light_values(const gn_frame *frame, const gn_surface *s, cons
     if ((GN_PUNCTUAL_LIGHTS || GN_SPECULAR) && GN_SMOOTH(s)) gn_length_unit(length, n_q30, unit_q30);
     for (uint32_t i = 0; i < s->n_lights; i++) {
         int32_t *out = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];
-        for (int k = 1; k < GN_VALUES_PER_LIGHT; k++) out[k] = 0; /* not always used, but always stepped */
+        for (int k = 1; k < GN_VALUES_PER_LIGHT; k++) out[k] = 0; /* not always set below */
         if (GN_PUNCTUAL_LIGHTS && s->light[i].state->kind != GN_LIGHT_DIRECTIONAL) {
             GN_COUNT(sample_lights_punctual, 1);
             punctual_values(frame, s, i, px, py, n_q30, unit_q30, sample, out);

@@ -1,4 +1,4 @@
-/* Surfaces, exact samples of them, and the interpolation between samples. */
+/* Surfaces, exact samples of them, and cells, between whose corners light is interpolated. */
 #ifndef GN_SHADE_TYPES_H
 #define GN_SHADE_TYPES_H
 
@@ -77,7 +77,7 @@ typedef struct {
     uint64_t lights; /* a bit per light that can affect the screen tile */
 } gn_surface_cache;
 
-/* Values sampled at a pixel and stepped linearly between samples. The first groups only where a surface has them. */
+/* Values sampled at a pixel. The first groups only where a surface has them. */
 enum {
     GN_VALUE_UV = 0,                                     /* 2: texture coordinates, Q20 */
     GN_VALUE_MASK = GN_VALUE_UV + (GN_TEXTURES ? 2 : 0), /* 4: shadow masks, Q16; or 2: coordinates of the mask image */
@@ -238,10 +238,16 @@ typedef struct {
 
 enum { GN_SPANS = 32, GN_PART_WIDTH = 64, GN_PART_ROWS = 16 };
 
+/* A cell that is being split into four. */
+typedef struct {
+    int16_t x, y;
+    uint8_t size_log2, next; /* the quarter to be shaded next */
+} gn_split_cell;
+
 /* Corners that are kept: 9 of a cell that is split, and some that its neighbour asks for. */
 enum { GN_CORNERS = 12 };
 
-#define GN_LATTICE_NODES  17 /* in a row of the largest cell */
+#define GN_LATTICE_NODES 17 /* in a row of the largest cell */
 
 /* A surface by cells. */
 typedef struct {
@@ -264,6 +270,7 @@ typedef struct {
     uint32_t corner_used[GN_CORNERS], now;           /* when they were, counted */
     uint32_t next_corner;                            /* to be replaced */
     uint8_t corner_at[16];                           /* where to look for a corner first: gn_lattice.c */
+    gn_split_cell split[4];                          /* of 16, 8, 4 and 2 pixels, one in the other */
 #if GN_SHADOWS
     gn_window window[GN_WINDOWS];
 #endif

@@ -2,8 +2,8 @@
  *
  * A filter compares texels with the depth of the pixel; a window compares each once with the depth of the receiver's
  * plane at the texel. Both agree but where a texel's depth is within the filter's reach times the plane's slope of the
- * plane: there it is in doubt, and what reads it is looked up exactly. So a window's answers are those of
- * gn_filter_attenuation for receivers on the plane, to the rounding of positions (NUMERICS 4.12). */
+ * plane. Behind the plane, and within half of that before it, a texel is in doubt: lookups compare it with the
+ * receiver's own depth. What that leaves of differences to gn_filter_attenuation is in NUMERICS 4.13. */
 #ifndef GN_WINDOW_H
 #define GN_WINDOW_H
 
@@ -12,8 +12,8 @@
 #if GN_INTERPOLATES
 
 /* Makes a window of a view that knows a plane by its slopes: change of depth per texel, a fraction of the range.
- * own_q30: how far bias keeps the texels of the surface itself behind the plane: they are not
- * in doubt. on_plane: taps are compared with the plane (B5). Returns 0 if the plane is too steep, or the filter has no
+ * own_q30: how far bias keeps the texels of the surface itself behind the plane: they are not in doubt. on_plane: taps
+ * are compared with the plane (B5), none is in doubt. Returns 0 if the plane is too steep, or the filter has no
  * windows.
  */
 int gn_window_begin(gn_window *window, const gn_frame *frame, const gn_light_view *view, const int32_t slope_q28[2],

@@ -41,7 +41,7 @@ flags_of() {
         echo "$(off SHADOWS) -DGN_SHADOWS=1 -DGN_PRESET=GN_PRESET_TINY -DGN_PERSP_STEP=1 -DGN_SRGB=0 -DGN_MAX_LIGHTS=1 -DGN_SURFACE_LIGHTS=1 -DGN_MAX_SHADOW_TILES=1" \
             "-DGN_MAX_WIDTH=128 -DGN_MAX_HEIGHT=128 -DGN_MAX_TRIANGLES=64 -DGN_MAX_TILE_REFS=256 -DGN_MAX_OBJECTS=8" ;;
     tiny | fast | balanced | accurate) echo "-DGN_PRESET=GN_PRESET_$(echo "$1" | tr a-z A-Z)" ;;
-    full) # every feature of the specification, in one way each: without pieces and parabolas, bounds of depth and boxes, which only save time
+    full) # every feature of the specification, in one way each: without cells and windows, bounds of depth and boxes, which only save time
         for feature in $features; do
             case $feature in
             DEPTH_BLOCKS | OBJECT_BOXES) echo "-DGN_$feature=0" ;;

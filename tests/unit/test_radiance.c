@@ -148,7 +148,7 @@ static void check_filter(const gn_knobs *knobs)
     }
 }
 
-/* ---- Attenuation: strength, distance and mask (M4, M6, D5; NUMERICS 4.13) ---------------------------------------- */
+/* ---- Attenuation: strength, distance and mask (M4, M6, D5; NUMERICS 4.14) ---------------------------------------- */
 
 static double lerp1(double x, double k) /* lerp(1, x, k) */
 {

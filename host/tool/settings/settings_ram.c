@@ -96,7 +96,7 @@ static long lattice_bytes(const settings *s)
     put(&all, s->capacity.surface_lights, 16, 4);  /* light */
     put(&all, 1, 196, 4);                          /* unit_q30 to bits */
     put(&all, 12 + 1, corner_bytes(s), 4);         /* corners, corner */
-    put(&all, 1, 120, 4);                          /* corner_key to corner_at */
+    put(&all, 1, 144, 4);                          /* corner_key to split */
     if (s->feature.shadows) put(&all, 4, 344, 4);  /* window */
     put(&all, 1, 568, 4);                          /* look */
     put(&all, 1, 24 + 12 + 260 + 612 + 136, 4);    /* two_q24 to attenuation */
