@@ -1,4 +1,4 @@
-/* A surface by cells: parts of the screen, their columns of cells, and cells that are split. */
+/* A surface by cells: parts of the screen, their columns of cells, and cells that are split. [R4] */
 #include "gn_internal.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Texel windows. */
+/* Texel windows. [B5] */
 #include "gn_internal.h"
 
 #include "base/gn_count.h"
