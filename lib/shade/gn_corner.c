@@ -114,8 +114,8 @@ GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surfac
 
 /* A point of the plane. */
 typedef struct {
-    int32_t px, py;     /* the pixel's ray */
-    int32_t b_q28[2];   /* barycentrics */
+    int32_t px, py;   /* the pixel's ray */
+    int32_t b_q28[2]; /* barycentrics */
     int32_t n_q30[3], unit_q30[3];
 } corner_point;
 
@@ -184,8 +184,7 @@ GN_HOT static void attributes_at(const gn_surface *s, const corner_point *p, gn_
         uint32_t q20 = s->base_q20[i]; /* < 2^28 */
         if (GN_BAKED_LIGHT && s->baked) {
             uint64_t baked =
-                (uint64_t)s->albedo_uq16[i] * (uint32_t)gn_max32(attribute(s, p, GN_ATTRIBUTE_BAKED + i), 0) >>
-                12;
+                (uint64_t)s->albedo_uq16[i] * (uint32_t)gn_max32(attribute(s, p, GN_ATTRIBUTE_BAKED + i), 0) >> 12;
             q20 = baked > 1U << 23 ? 1U << 23 : q20 + (uint32_t)baked;
         }
         c->base_q24[i] = (int32_t)(q20 > 1U << 23 ? 1U << 23 : q20) << 4;
@@ -371,8 +370,7 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
 }
 
 #if GN_SHADOWS
-GN_HOT int32_t gn_corner_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x,
-                                     int32_t y)
+GN_HOT int32_t gn_corner_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)
 {
     int32_t w = gn_max32(along(&l->plane.w, x - l->plane.x, y - l->plane.y), 1 << 10), clz = gn_clz32((uint32_t)w);
     uint32_t z = gn_umul_high(s->depth_scale.mant, gn_recip_norm((uint32_t)w << clz, GN_K(frame, newton_steps)));

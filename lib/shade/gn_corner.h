@@ -27,8 +27,8 @@ void gn_corner_begin_cascade(gn_lattice *lattice, const gn_frame *frame, const g
 void gn_corner_begin_part(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface);
 
 /* Sets the cascade of a pixel, its share in a blend, and what gn_shadow_distance() asks for. */
-void gn_corner_cascade(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
-                       gn_sample *sample);
+void gn_corner_cascade(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,
+                       int32_t y, gn_sample *sample);
 
 /* A point of which only gn_corner_place() of one light may be asked. Returns 0 where the plane cannot be sampled. */
 int gn_corner_locate(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, uint32_t slot,

@@ -64,7 +64,9 @@ GN_HOT static int is_flat(const gn_patch *p)
 GN_HOT static int has_two_colours(const drawing *d)
 {
     const gn_lattice_look *look = &d->s->lattice.look;
-    if (look->n_edges != 1 + (look->edge[0].bent >> 2) || d->s->surface.textured || d->s->frame->picture.format == GN_FORMAT_RAW32) return 0;
+    if (look->n_edges != 1 + (look->edge[0].bent >> 2) || d->s->surface.textured ||
+        d->s->frame->picture.format == GN_FORMAT_RAW32)
+        return 0;
     for (int c = 0; c < 3; c++)
         if (!is_flat(&d->base_q24[c]) || !is_flat(&look->edge[0].more_q24[c])) return 0;
     return 1;
@@ -135,7 +137,8 @@ GN_HOT static GN_NOINLINE void place_row(const drawing *d, const gn_lattice_edge
 
 #if GN_PUNCTUAL_LIGHTS
 /* Lookups of a row's pixels, of those that the part has. */
-GN_HOT static GN_NOINLINE void look_up_alone(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
+GN_HOT static GN_NOINLINE void look_up_alone(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+                                             uint32_t *out)
 {
     gn_shading *s = d->s;
     gn_lattice *l = &s->lattice;
@@ -180,8 +183,9 @@ GN_HOT static void scale_step(gn_receiver_step *step, int32_t spacing_log2)
 }
 
 /* Attenuations of nodes from .. end - 1 of such a row. */
-GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, int32_t below, const gn_receiver_step *row,
-                               const gn_receiver_step *step, int32_t from, int32_t end, uint32_t *out)
+GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+                               const gn_receiver_step *row, const gn_receiver_step *step, int32_t from, int32_t end,
+                               uint32_t *out)
 {
     gn_receiver_step at = {row->u_q16 + from * step->u_q16, row->v_q16 + from * step->v_q16,
                            row->depth_q31 + from * step->depth_q31};
@@ -200,7 +204,8 @@ GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, in
 
 #if GN_PUNCTUAL_LIGHTS
 /* Whether node i of a row lies in the face of a cube that the view looks through. */
-GN_HOT static int is_in_face(const gn_light_view *view, const gn_receiver_step *row, const gn_receiver_step *step, int32_t i)
+GN_HOT static int is_in_face(const gn_light_view *view, const gn_receiver_step *row, const gn_receiver_step *step,
+                             int32_t i)
 {
     int32_t middle = view->tile_texels << 15;
     uint32_t half = view->fit.persp.focal2_q16 >> 1;
@@ -209,7 +214,8 @@ GN_HOT static int is_in_face(const gn_light_view *view, const gn_receiver_step *
 }
 
 /* Attenuations along a row of nodes that two faces see. */
-GN_HOT static GN_NOINLINE void look_up_faces(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
+GN_HOT static GN_NOINLINE void look_up_faces(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+                                             uint32_t *out)
 {
     gn_receiver_step at[2], step[2];
     for (int k = 0; k < 2; k++) {
@@ -225,7 +231,8 @@ GN_HOT static GN_NOINLINE void look_up_faces(const drawing *d, const gn_lattice_
 #endif
 
 /* Attenuations along a row of nodes, `below` pixels under the cell's first row. */
-GN_HOT static GN_NOINLINE void find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below, uint32_t *out)
+GN_HOT static GN_NOINLINE void find_attenuations(const drawing *d, const gn_lattice_edge *edge, int32_t below,
+                                                 uint32_t *out)
 {
     gn_receiver_step at, step;
 #if GN_PUNCTUAL_LIGHTS
@@ -294,8 +301,7 @@ GN_HOT static void find_coords(const drawing *d, gn_corner *const corner[4], int
         uint32_t c0 = (uint32_t)corner[0]->uv_q20[i];
         int32_t across = (int32_t)((uint32_t)corner[1]->uv_q20[i] - c0),
                 down = (int32_t)((uint32_t)corner[2]->uv_q20[i] - c0);
-        int32_t twist =
-            (int32_t)((uint32_t)corner[3]->uv_q20[i] - (uint32_t)corner[2]->uv_q20[i] - (uint32_t)across);
+        int32_t twist = (int32_t)((uint32_t)corner[3]->uv_q20[i] - (uint32_t)corner[2]->uv_q20[i] - (uint32_t)across);
         int32_t left = (int32_t)((int64_t)down * below >> size_log2);
         int32_t width = (int32_t)((uint32_t)across + (uint32_t)((int64_t)twist * below >> size_log2));
         line->uv_step_q20[i] = width >> size_log2;
@@ -379,6 +385,20 @@ GN_HOT static GN_NOINLINE void draw_strip(drawing *d, gn_corner *const corner[4]
     (void)corner;
 }
 
+/* Colours without the light of edges. */
+GN_HOT static void begin_base(drawing *d, const gn_lattice_look *look)
+{
+    int32_t log2 = d->size_log2;
+    for (int c = 0; c < 3; c++) {
+        gn_patch *p = &d->base_q24[c];
+        int32_t across = (look->colour_q24[1][c] - look->colour_q24[0][c]) >> log2;
+        p->at = look->colour_q24[0][c];
+        p->dx = across;
+        p->dy = (look->colour_q24[2][c] - look->colour_q24[0][c]) >> log2;
+        p->dxy = (((look->colour_q24[3][c] - look->colour_q24[2][c]) >> log2) - across) >> log2;
+    }
+}
+
 GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4])
 {
     gn_lattice *l = &s->lattice;
@@ -392,14 +412,7 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
         return;
     }
     GN_COUNT(cells_drawn, 1);
-    for (int c = 0; c < 3; c++) {
-        gn_patch *p = &d.base_q24[c];
-        int32_t across = (look->colour_q24[1][c] - look->colour_q24[0][c]) >> size_log2;
-        p->at = look->colour_q24[0][c];
-        p->dx = across;
-        p->dy = (look->colour_q24[2][c] - look->colour_q24[0][c]) >> size_log2;
-        p->dxy = (((look->colour_q24[3][c] - look->colour_q24[2][c]) >> size_log2) - across) >> size_log2;
-    }
+    begin_base(&d, look);
     uint32_t any = columns(&d, y, size);
     d.first = (31 - gn_clz32(any & (0U - any))) & -(1 << spacing_log2);
     d.n = ((31 - gn_clz32(any) - d.first) >> spacing_log2) + 1 + (spacing_log2 > 0);

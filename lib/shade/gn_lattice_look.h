@@ -11,8 +11,8 @@
 int gn_lattice_look_at(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                        gn_corner *const corner[4], int32_t size_log2);
 
-/* Where the pixels of an edge are seen: between the cell's corners; between the ends of each row; each for itself, in its
- * own face of a point light. And a flag: pixels that are not in this face are in that of the next edge. */
+/* Where the pixels of an edge are seen: between the cell's corners; between the ends of each row; each for itself, in
+ * its own face of a point light. And a flag: pixels that are not in this face are in that of the next edge. */
 enum { GN_PLACES_BILINEAR, GN_PLACES_BY_ROW, GN_PLACES_LONE, GN_PLACES_OF_TWO = 4 };
 
 /* Value of a patch at (x, y) pixels from its first corner. */

@@ -53,7 +53,7 @@ GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *fram
 }
 
 GN_HOT static GN_NOINLINE void begin_window(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
-                                const gn_light_view *view, const gn_corner *at, gn_window *window)
+                                            const gn_light_view *view, const gn_corner *at, gn_window *window)
 {
     int32_t slope[2];
     int32_t from[3] = {0, 0, 0};

@@ -25,9 +25,9 @@ typedef struct {
 typedef struct {
     uint32_t dark_q20[3], more_q20[3]; /* without and with the light whose shadow has an edge */
     uint32_t lit, dark;                /* their pixels */
-    int mixed;         /* whether there is such a light, */
-    int cascaded;      /* which has cascades: */
-    part_view view[4]; /* of them those that corners of the part see */
+    int mixed;                         /* whether there is such a light, */
+    int cascaded;                      /* which has cascades: */
+    part_view view[4];                 /* of them those that corners of the part see */
 } part_look;
 
 GN_HOT void gn_part_begin(gn_shading *s)
@@ -94,7 +94,8 @@ GN_HOT static void begin_edge(gn_shading *s, uint32_t slot, part_look *look)
     look->cascaded = !first->border_lit;
     for (uint32_t i = 0; i < 4; i++)
         if (look->view[i].window)
-            gn_sample_offset(s->frame, &s->surface, slot, first + i, s->surface.normal_q30[0], look->view[i].offset_q16);
+            gn_sample_offset(s->frame, &s->surface, slot, first + i, s->surface.normal_q30[0],
+                             look->view[i].offset_q16);
 }
 #else
 GN_HOT static int windows_of_part(gn_shading *s, uint32_t slot, part_view *view)
@@ -192,8 +193,8 @@ GN_HOT static void shade_row_exactly(gn_shading *s, int32_t x, int32_t y, int32_
 }
 
 /* Pixels of one row between two places. Returns 0 if there is no window. */
-GN_HOT static GN_NOINLINE int mixed_chunk(gn_shading *s, const part_view *view, const row_ends *row, int32_t x, int32_t y,
-                                          int32_t n, int32_t ahead)
+GN_HOT static GN_NOINLINE int mixed_chunk(gn_shading *s, const part_view *view, const row_ends *row, int32_t x,
+                                          int32_t y, int32_t n, int32_t ahead)
 {
     uint32_t attenuation[CHUNK];
     if (!attenuations(s, view, row, n, ahead, attenuation)) return 0;
@@ -202,8 +203,8 @@ GN_HOT static GN_NOINLINE int mixed_chunk(gn_shading *s, const part_view *view, 
 }
 
 /* Pixels of one row in a view, in chunks that are in or out of the shadow, or between places at their ends. */
-GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const part_look *look, const part_view *view, int32_t x, int32_t y,
-                              int32_t end)
+GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const part_look *look, const part_view *view, int32_t x,
+                                          int32_t y, int32_t end)
 {
     row_ends row;
     gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row.at);
@@ -216,7 +217,8 @@ GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const part_look *look, 
             gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x + ahead, y, view->offset_q16,
                          row.last);
         int said = judge(view, &row);
-        if (said != GN_WINDOW_MIXED) gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? look->lit : look->dark);
+        if (said != GN_WINDOW_MIXED)
+            gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? look->lit : look->dark);
         else if (!mixed_chunk(s, view, &row, x, y, n, ahead)) shade_row_exactly(s, x, y, n);
         row.at[0] = row.last[0];
         row.at[1] = row.last[1];
@@ -366,7 +368,8 @@ enum { NARROW = 16, LOW = 4 };
 GN_HOT static int shade_low_parts(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
-    int32_t y = l->y, n_rows = l->n_rows, end = gn_min32(l->x_end, l->x + NARROW), y_end = gn_min32(y + n_rows, l->y_end);
+    int32_t y = l->y, n_rows = l->n_rows, end = gn_min32(l->x_end, l->x + NARROW),
+            y_end = gn_min32(y + n_rows, l->y_end);
     int done = 1;
     for (l->n_rows = LOW; done && l->y < y_end; l->y += LOW) {
         gn_lattice_forget_part(l);

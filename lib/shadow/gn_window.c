@@ -104,6 +104,25 @@ GN_HOT static uint32_t repeat_border(uint32_t bits, int32_t left, int32_t n, int
     return out;
 }
 
+/* Row j beyond the tile is what row `from` is, or lit. Returns what is surely dark. */
+GN_HOT static uint32_t repeat_row(gn_window *window, int32_t j, int32_t from, int lit)
+{
+    window->dark[j] = lit ? 0 : window->dark[from];
+    window->doubt[j] = lit ? 0 : window->doubt[from];
+    return window->dark[j] & ~window->doubt[j];
+}
+
+/* Whether depths on the plane over w x h texels can be stepped: the first of them has `first`. */
+GN_HOT static int in_range(const gn_window *window, int64_t first, int32_t w, int32_t h)
+{
+    const int32_t *slope = window->slope_q30;
+    int64_t across = (int64_t)slope[0] * w, down = (int64_t)slope[1] * h;
+    int64_t lo = first + (across < 0 ? across : 0) + (down < 0 ? down : 0),
+            hi = first + (across > 0 ? across : 0) + (down > 0 ? down : 0);
+    return lo - window->front_q30 >= -(1 << 29) &&
+           hi + window->behind_q30 < gn_texel_far(GN_VIEW_BITS(window->view)) >> 2;
+}
+
 GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, int32_t u0, int32_t v0, int32_t w,
                              int32_t h)
 {
@@ -111,12 +130,9 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     const int32_t *slope = window->slope_q30, last = view->tile_texels - 1;
     int64_t du = u0 * 65536 + 32768 - place->u_q16, dv = v0 * 65536 + 32768 - place->v_q16;
     int64_t first = place->depth_q30 + ((du * slope[0] + dv * slope[1]) >> 16);
-    int64_t across = (int64_t)slope[0] * w, down = (int64_t)slope[1] * h;
-    int64_t lo = first + (across < 0 ? across : 0) + (down < 0 ? down : 0),
-            hi = first + (across > 0 ? across : 0) + (down > 0 ? down : 0);
-    int64_t front = window->front_q30, behind = window->behind_q30, far = gn_texel_far(GN_VIEW_BITS(view)) >> 2;
+    int64_t front = window->front_q30, behind = window->behind_q30;
     window->w = 0;
-    if (lo - front < -(1 << 29) || hi + behind >= far) return 0;
+    if (!in_range(window, first, w, h)) return 0;
     if (u0 + w <= 0 || v0 + h <= 0 || u0 > last || v0 > last) return 0;
     /* texels beyond the border repeat it, with its depth: so do their bits */
     int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0, right = w - n - left;
@@ -139,13 +155,8 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
         all &= surely;
         doubts |= maybe & ~surely;
     }
-    for (int32_t j = 0; j < h; j++) {
-        int32_t v = v0 + j, from = gn_max32(va, gn_min32(v, vb)) - v0;
-        if (v >= va && v <= vb) continue;
-        window->dark[j] = lit ? 0 : window->dark[from];
-        window->doubt[j] = lit ? 0 : window->doubt[from];
-        all &= window->dark[j];
-    }
+    for (int32_t j = 0; j < h; j++)
+        if (v0 + j < va || v0 + j > vb) all &= repeat_row(window, j, gn_max32(va, gn_min32(v0 + j, vb)) - v0, lit);
     window->u0 = u0;
     window->v0 = v0;
     window->w = w;
@@ -234,8 +245,8 @@ GN_HOT static void row_3x3(const gn_frame *frame, const gn_window *window, int32
 {
     u += 1024; /* rounded, not cut */
     v += 1024;
-    for (uint32_t *end = out + n; out < end;
-         out++, u += step->u_q16, v += step->v_q16, depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31)) {
+    for (uint32_t *end = out + n; out < end; out++, u += step->u_q16, v += step->v_q16,
+                  depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31)) {
         const uint32_t *row = &window->dark[v >> 16];
         int32_t s = u >> 16;
         uint32_t a = row[0] >> s & 15U, b = row[1] >> s & 15U, c = row[2] >> s & 15U, d = row[3] >> s & 15U;
@@ -246,11 +257,11 @@ GN_HOT static void row_3x3(const gn_frame *frame, const gn_window *window, int32
             if ((doubt[0] | doubt[1] | doubt[2] | doubt[3]) >> s & 15U) {
                 uint8_t dark[4];
                 uint32_t found =
-                    window->plain ? gn_kernel_dark_texels16(
-                                        gn_view_texels(window->view, window->u0 + s, window->v0 + (v >> 16)).d16,
-                                        (size_t)window->view->tile_texels,
-                                        least_depth(frame, window->view, depth_q30), 4, dark)
-                                  : dark_texels(frame, window, s, v >> 16, 4, depth_q30, dark);
+                    window->plain
+                        ? gn_kernel_dark_texels16(
+                              gn_view_texels(window->view, window->u0 + s, window->v0 + (v >> 16)).d16,
+                              (size_t)window->view->tile_texels, least_depth(frame, window->view, depth_q30), 4, dark)
+                        : dark_texels(frame, window, s, v >> 16, 4, depth_q30, dark);
                 if (!(found & 15U)) continue;
                 a = dark[0], b = dark[1], c = dark[2], d = dark[3];
             }
@@ -279,8 +290,8 @@ GN_HOT static uint32_t by_2x2(const uint8_t dark[2], int32_t u, int32_t v, int32
 GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const gn_window *window, int32_t u, int32_t v,
                                               int32_t depth_q30)
 {
-    int32_t filter = window->view->filter, k = filter - GN_FILTER_2X2,
-            n = filter == GN_FILTER_HARD ? 1 : 2 * (k + 1), bits = GN_K(frame, weight_bits);
+    int32_t filter = window->view->filter, k = filter - GN_FILTER_2X2, n = filter == GN_FILTER_HARD ? 1 : 2 * (k + 1),
+            bits = GN_K(frame, weight_bits);
     uint8_t dark[GN_TENT_TAPS_MAX];
     uint32_t found = dark_texels(frame, window, u >> 16, v >> 16, n, depth_q30, dark);
     if (!(found & 0xFFFFU)) return 65536;

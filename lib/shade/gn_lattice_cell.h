@@ -1,0 +1,150 @@
+/* The cell at hand: its tolerances, how uneven it is, its shadows. Parts of gn_lattice_look. */
+#ifndef GN_LATTICE_CELL_H
+#define GN_LATTICE_CELL_H
+
+#include "base/gn_q.h"
+#include "shade/gn_lattice_look.h"
+
+#if GN_INTERPOLATES
+
+enum { GN_CELL_LIT, GN_CELL_DARK, GN_CELL_EDGE, GN_CELL_SPLIT };
+
+/* A window that is to be made before the cell can be looked at. */
+typedef struct {
+    int32_t slot;             /* -1: none */
+    uint32_t view_idx, asked; /* a bit for each that was */
+} gn_wanted_window;
+
+/* The cell at hand. */
+typedef struct {
+    gn_lattice *lattice;
+    const gn_frame *frame;
+    const gn_surface *s;
+    gn_corner *const *corner;
+    int32_t size_log2;
+    uint32_t bend_q16[2]; /* by how much view depths differ along and across rows, as a share of the least */
+    int near;             /* no shadow fades */
+    uint64_t error_q24;   /* of interpolated light, at most */
+    uint64_t kink_q24;    /* the part of it that comes from where a light ends */
+    gn_lattice_look *out;
+    gn_wanted_window *ask;
+} gn_lattice_cell;
+
+/* A light at the corners: without its shadow, and what is left of that in shadow and without one. */
+typedef struct {
+    int32_t irradiance_q24[4], highlight_q24[4];
+    uint32_t dark_uq16[4], more_uq16[4]; /* in shadow, and what is added to that without one */
+    uint32_t shine_uq16[3];              /* colour of its highlight */
+} gn_contribution;
+
+GN_HOT static inline int32_t gn_cell_share(int32_t v_q24, uint32_t share_uq16)
+{
+    return share_uq16 == 65536 ? v_q24 : (int32_t)gn_mul_uq16((uint32_t)v_q24, share_uq16);
+}
+
+/* ---- Tolerances -------------------------------------------------------------------------------------------------- */
+
+/* What interpolation may be off by: a share of the light, 2^-this. */
+GN_HOT static inline int32_t gn_cell_light_log2(const gn_frame *frame)
+{
+    (void)frame;
+    return GN_K(frame, persp_step) >= 8 ? 0 : 7;
+}
+
+/* Cells of this size are not split any more, unless they have no corners. */
+GN_HOT static inline int32_t gn_cell_finest_log2(const gn_frame *frame)
+{
+    (void)frame;
+    return GN_K(frame, persp_step) == 16 ? 3 : 2;
+}
+
+#if GN_SHADOWS
+/* Places in shadow maps, texels: 2^-this. */
+GN_HOT static inline int32_t gn_cell_place_log2(const gn_frame *frame)
+{
+    (void)frame;
+    return GN_K(frame, persp_step) == 16 ? 2 : 3;
+}
+#endif
+
+#if GN_TEXTURES
+/* Texture coordinates, texels: 2^-this. */
+GN_HOT static inline int32_t gn_cell_texture_log2(const gn_frame *frame)
+{
+    (void)frame;
+    return GN_K(frame, persp_step) == 16 ? 2 : 3;
+}
+#endif
+
+#if GN_SHADOWS
+/* Texels between lookups, Q16: what a filter does in between is close to linear. */
+GN_HOT static inline uint32_t gn_cell_lookup_texels_q16(const gn_frame *frame, const gn_light_view *view)
+{
+    if (view->filter == GN_FILTER_HARD || view->filter == GN_FILTER_DISK) return 0;
+    uint32_t tent = GN_K(frame, persp_step) == 16 ? 65536 : 49152;
+    return view->filter == GN_FILTER_2X2 ? tent >> 1 : tent * view->filter_idx;
+}
+#endif
+
+#if GN_SHADOWS || GN_MASKS
+GN_HOT static inline uint32_t gn_cell_spread(int32_t a, int32_t b, int32_t c, int32_t d)
+{
+    int32_t lo = gn_min32(gn_min32(a, b), gn_min32(c, d)), hi = gn_max32(gn_max32(a, b), gn_max32(c, d));
+    return (uint32_t)hi - (uint32_t)lo;
+}
+#endif
+
+GN_HOT static inline uint32_t gn_cell_change(int32_t a, int32_t b)
+{
+    return a < b ? (uint32_t)b - (uint32_t)a : (uint32_t)a - (uint32_t)b;
+}
+
+/* The largest change between neighbouring corners along rows, and down columns. */
+GN_HOT static inline void gn_cell_changes(const int32_t at[4], uint32_t change[2])
+{
+    uint32_t upper = gn_cell_change(at[0], at[1]), lower = gn_cell_change(at[2], at[3]);
+    uint32_t left = gn_cell_change(at[0], at[2]), right = gn_cell_change(at[1], at[3]);
+    change[0] = upper > lower ? upper : lower;
+    change[1] = left > right ? left : right;
+}
+
+#if GN_SHADOWS || GN_TEXTURES
+/* Perspective bends what changes by `change` from corner to corner by a quarter of its own share of that, at most:
+ * along rows, and down columns. */
+GN_HOT static inline int gn_cell_bends_by_less(const uint32_t change[2], const uint32_t bend_q16[2], int32_t least_log2)
+{
+    return ((uint64_t)change[0] * bend_q16[0] + (uint64_t)change[1] * bend_q16[1]) >> 18 <= 1U << least_log2;
+}
+#endif
+
+#if GN_SHADOWS
+GN_HOT static inline int gn_cell_row_bends_by_less(const uint32_t change[2], const uint32_t bend_q16[2],
+                                                   int32_t least_log2)
+{
+    return (uint64_t)change[0] * bend_q16[0] >> 18 <= 1U << least_log2;
+}
+#endif
+
+/* ---- Parts of a look ---- */
+
+/* Returns 0 if the cell is seen so steeply that nothing is close to bilinear. */
+int gn_cell_find_bend(gn_lattice_cell *cell);
+
+/* Whether texture coordinates and mask images may be interpolated. */
+int gn_cell_images_hold(const gn_lattice_cell *cell);
+
+/* Whether nothing of a light arrives anywhere in the cell if nothing arrives at its corners. The squares of a point's
+ * distance, and of its distance along the axis, are those of the corners in the mean, less what they scatter by. */
+int gn_cell_stays_dark(const gn_lattice_cell *cell, uint32_t slot);
+
+/* How far interpolation between the corners is off, of a light's irradiance: NUMERICS 4.12. *kink: because it ends in
+ * the cell, or its cone does. */
+uint32_t gn_cell_unevenness_q24(const gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24,
+                                uint32_t *kink_q24);
+
+/* The shadow of a light: GN_CELL_LIT, GN_CELL_DARK, or GN_CELL_EDGE, which is added. */
+int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light);
+
+#endif
+
+#endif

@@ -1,0 +1,196 @@
+/* How uneven a cell is. */
+#include "gn_internal.h"
+
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "shade/gn_lattice_cell.h"
+
+#if GN_INTERPOLATES
+
+/* ---- Geometry ---------------------------------------------------------------------------------------------------- */
+
+/* Returns 0 if the cell is seen so steeply that nothing is close to bilinear. */
+GN_HOT int gn_cell_find_bend(gn_lattice_cell *cell)
+{
+    gn_corner *const *c = cell->corner;
+    if ((c[0]->state | c[1]->state | c[2]->state | c[3]->state) != GN_CORNER_KNOWN) return 0;
+    const int32_t z[4] = {c[0]->z_q16, c[1]->z_q16, c[2]->z_q16, c[3]->z_q16};
+    uint32_t least = (uint32_t)gn_min32(gn_min32(z[0], z[1]), gn_min32(z[2], z[3])), more[2];
+    gn_cell_changes(z, more);
+    for (int i = 0; i < 2; i++) {
+        if (more[i] > least >> 2) return 0;
+        cell->bend_q16[i] = more[i] ? gn_quotient_q30(more[i], least) >> 14 : 0;
+    }
+    return 1;
+}
+
+#if GN_TEXTURES
+/* Whether coordinates of an image are close enough to bilinear. */
+GN_HOT static int coords_hold(const gn_lattice_cell *cell, const gn_texture *image, const int32_t *const at[4],
+                              int32_t frac_bits)
+{
+    for (int i = 0; i < 2; i++) {
+        const int32_t coord[4] = {at[0][i], at[1][i], at[2][i], at[3][i]};
+        uint32_t change[2];
+        gn_cell_changes(coord, change);
+        int32_t texel_log2 = frac_bits - (i ? image->height_log2 : image->width_log2);
+        if (!gn_cell_bends_by_less(change, cell->bend_q16, texel_log2 - gn_cell_texture_log2(cell->frame))) return 0;
+    }
+    return 1;
+}
+#endif
+
+/* Whether texture coordinates and mask images may be interpolated. */
+GN_HOT int gn_cell_images_hold(const gn_lattice_cell *cell)
+{
+    gn_corner *const *c = cell->corner;
+    (void)c;
+#if GN_TEXTURES
+    const int32_t *const uv[4] = {c[0]->uv_q20, c[1]->uv_q20, c[2]->uv_q20, c[3]->uv_q20};
+    if (cell->s->textured && !coords_hold(cell, cell->s->object->texture, uv, 20)) return 0;
+#endif
+#if GN_MASKS
+    if (!cell->s->masked || !cell->s->object->mask_image) return 1;
+    const gn_texture *image = cell->s->object->mask_image; /* a corner per texel */
+    for (int i = 0; i < 2; i++) {
+        uint32_t change =
+            gn_cell_spread(c[0]->mask_uv_uq16[i], c[1]->mask_uv_uq16[i], c[2]->mask_uv_uq16[i], c[3]->mask_uv_uq16[i]);
+        if (change << (i ? image->height_log2 : image->width_log2) > 65536) return 0;
+    }
+#endif
+    return 1;
+}
+
+/* ---- How uneven light is ----------------------------------------------------------------------------------------- */
+
+#if GN_VERTEX_NORMALS || GN_PUNCTUAL_LIGHTS
+/* The longer diagonal of vectors at the corners, along the axes. */
+GN_HOT static uint32_t diagonal(const int32_t *a, const int32_t *b, const int32_t *c, const int32_t *d)
+{
+    uint64_t one = 0, other = 0;
+    for (int i = 0; i < 3; i++) {
+        one += gn_abs64((int64_t)a[i] - d[i]);
+        other += gn_abs64((int64_t)b[i] - c[i]);
+    }
+    if (other > one) one = other;
+    return one > UINT32_MAX ? UINT32_MAX : (uint32_t)one;
+}
+#endif
+
+/* How far normals turn over the cell, radians, Q12; at least. */
+GN_HOT static uint32_t turn_q12(const gn_lattice_cell *cell)
+{
+#if GN_VERTEX_NORMALS
+    gn_corner *const *c = cell->corner;
+    if (GN_SMOOTH(cell->s))
+        return diagonal(c[0]->normal_q30, c[1]->normal_q30, c[2]->normal_q30, c[3]->normal_q30) >> 18;
+#endif
+    (void)cell;
+    return 0;
+}
+
+#if GN_PUNCTUAL_LIGHTS
+GN_HOT static uint32_t ray_diagonal(const gn_lattice_cell *cell)
+{
+    gn_corner *const *c = cell->corner;
+    return diagonal(c[0]->ray_q16, c[1]->ray_q16, c[2]->ray_q16, c[3]->ray_q16);
+}
+
+/* The cell's size over its distance from a light, Q12, saturated at 4. */
+GN_HOT static uint32_t size_over_distance_q12(const gn_lattice_cell *cell, uint32_t slot)
+{
+    uint32_t nearest = UINT32_MAX, across = ray_diagonal(cell);
+    for (int i = 0; i < 4; i++) {
+        int32_t p[3];
+        gn_corner_from(cell->corner[i], cell->s->light[slot].state, p);
+        uint32_t distance = gn_abs32(p[0]) > gn_abs32(p[1]) ? gn_abs32(p[0]) : gn_abs32(p[1]);
+        if (gn_abs32(p[2]) > distance) distance = gn_abs32(p[2]);
+        if (distance < nearest) nearest = distance;
+    }
+    if (across >> 2 >= nearest) return 4 << 12;
+    if (across >= nearest) return (gn_quotient_q30(across >> 2, nearest) >> 16) + 1;
+    return (gn_quotient_q30(across, nearest) >> 18) + 1;
+}
+
+/* Squares of both diagonals of the corners' positions, a quarter of their sum: the points of a cell scatter about their
+ * mean by no more. */
+GN_HOT static uint64_t scatter_q32(int32_t p[4][3])
+{
+    uint64_t sum = 0;
+    for (int i = 0; i < 3; i++) {
+        int64_t one = ((int64_t)p[3][i] - p[0][i]) >> 1, other = ((int64_t)p[2][i] - p[1][i]) >> 1;
+        sum += (uint64_t)(one * one) + (uint64_t)(other * other);
+    }
+    return sum + 16;
+}
+
+GN_HOT static uint64_t share_q30_of(uint64_t v, uint32_t share_q30)
+{
+    return (v >> 30) * share_q30 + ((v & ((1U << 30) - 1)) * share_q30 >> 30);
+}
+
+/* Whether all of the cell faces away from a light: n . p is that of the corners in the mean, less what both scatter by.
+ */
+GN_HOT static int faces_away(const gn_lattice_cell *cell, int32_t p[4][3])
+{
+    const int32_t *n = cell->s->normal_q30[0];
+    if (!GN_SMOOTH(cell->s)) return gn_dot_q30(n, p[0]) >= 0; /* all of it, or nothing */
+#if GN_VERTEX_NORMALS
+    int64_t least = INT64_MAX;
+    for (int i = 0; i < 4; i++) {
+        int64_t away = gn_dot_q30(cell->corner[i]->normal_q30, p[i]);
+        if (away < least) least = away;
+    }
+    uint64_t turn = turn_q12(cell), size = ray_diagonal(cell);
+    return least > (int64_t)(turn * size >> 14) + 16;
+#else
+    return 0;
+#endif
+}
+
+/* Whether nothing of a light arrives anywhere in the cell if nothing arrives at its corners. The squares of a point's
+ * distance, and of its distance along the axis, are those of the corners in the mean, less what they scatter by. */
+GN_HOT GN_NOINLINE int gn_cell_stays_dark(const gn_lattice_cell *cell, uint32_t slot)
+{
+    const gn_light_state *light = cell->s->light[slot].state;
+    int32_t p[4][3];
+    uint64_t d2[4], nearest = UINT64_MAX;
+    for (int i = 0; i < 4; i++) {
+        gn_corner_from(cell->corner[i], light, p[i]);
+        if ((gn_abs32(p[i][0]) | gn_abs32(p[i][1]) | gn_abs32(p[i][2])) >> 30) return 0;
+        d2[i] = (uint64_t)gn_dot64(p[i], p[i]);
+        if (d2[i] < nearest) nearest = d2[i];
+    }
+    if (faces_away(cell, p)) return 1;
+    uint64_t scatter = scatter_q32(p);
+    if (nearest >= scatter && nearest - scatter >= light->range2_q32) return 1;
+    if (light->kind != GN_LIGHT_SPOT) return 0;
+    uint32_t cos2_q30 = (uint32_t)((uint64_t)light->cos_outer_q30 * (uint64_t)light->cos_outer_q30 >> 30);
+    for (int i = 0; i < 4; i++) {
+        int64_t along = gn_dot_q30(p[i], light->to_light_q30);
+        if (d2[i] < scatter || share_q30_of(d2[i] - scatter, cos2_q30) < (uint64_t)(along * along) + 65536) return 0;
+    }
+    return 1;
+}
+#endif
+
+/* How far interpolation between the corners is off, of a light's irradiance: NUMERICS 4.12. *kink: because it ends in
+ * the cell, or its cone does. */
+GN_HOT uint32_t gn_cell_unevenness_q24(const gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24,
+                                       uint32_t *kink_q24)
+{
+    const gn_light_state *light = cell->s->light[slot].state;
+    uint32_t classes = 0, change = (uint32_t)(most_q24 - least_q24), t_q12 = turn_q12(cell) >> 1;
+    (void)light;
+#if GN_PUNCTUAL_LIGHTS
+    if (light->kind != GN_LIGHT_DIRECTIONAL) t_q12 += 2 * size_over_distance_q12(cell, slot);
+#endif
+    for (int i = 0; i < 4; i++) classes |= 1U << cell->corner[i]->light[slot].arrives;
+    if (classes == 1U << GN_ARRIVES_RIM) change >>= 2;
+    else if (classes == 1U << GN_ARRIVES_FULLY) change = 0;
+    if (t_q12 > 1 << 12) t_q12 = 1 << 12;
+    *kink_q24 = change;
+    return change + (uint32_t)((uint64_t)(uint32_t)most_q24 * (t_q12 * t_q12) >> 24);
+}
+
+#endif

@@ -1,0 +1,344 @@
+/* Shadows in a cell. */
+#include "gn_internal.h"
+
+#include "base/gn_count.h"
+#include "base/gn_math.h"
+#include "base/gn_q.h"
+#include "shade/gn_lattice_cell.h"
+#include "shade/gn_lattice_window.h"
+#include "shade/gn_shadow.h"
+#include "shadow/gn_filter.h"
+
+#if GN_INTERPOLATES
+
+/* ---- Shadows ----------------------------------------------------------------------------------------------------- */
+
+#if GN_SHADOWS
+/* Where one view sees the corners. */
+typedef struct {
+    const gn_light_view *view;
+    const gn_window *window;
+    uint32_t view_idx;
+    int bent; /* GN_PLACES_... */
+    int32_t u[4], v[4], depth[4];
+} places;
+
+enum { PLACED, PLACED_NOWHERE, PLACED_PARTLY };
+
+GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32_t view_idx, places *p)
+{
+    int n_seen = 0;
+    p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
+    p->window = NULL;
+    p->view_idx = view_idx;
+    p->bent = GN_PLACES_BILINEAR;
+    for (int i = 0; i < 4; i++) {
+        gn_corner *c = cell->corner[i];
+        n_seen += gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx);
+        p->u[i] = c->light[slot].u_q16;
+        p->v[i] = c->light[slot].v_q16;
+        p->depth[i] = c->light[slot].depth_q30;
+    }
+    return n_seen == 4 ? PLACED : n_seen ? PLACED_PARTLY : PLACED_NOWHERE;
+}
+
+GN_HOT static void range_of(const int32_t at[4], int32_t *lo, int32_t *hi)
+{
+    *lo = gn_min32(gn_min32(at[0], at[1]), gn_min32(at[2], at[3]));
+    *hi = gn_max32(gn_max32(at[0], at[1]), gn_max32(at[2], at[3]));
+}
+
+/* What bounds of depth say. */
+GN_HOT static int verdict_of_bounds(const gn_lattice_cell *cell, const places *p, const gn_receiver_step *lo,
+                                    const gn_receiver_step *hi)
+{
+    uint32_t attenuation;
+    if (p->view->filter == GN_FILTER_DISK) return GN_CELL_EDGE;
+    GN_COUNT(cells_judged, 1);
+    if (!gn_filter_decides(cell->frame, p->view, lo, hi, &attenuation)) return GN_CELL_EDGE;
+    return attenuation ? GN_CELL_LIT : GN_CELL_DARK;
+}
+
+/* What a window says of all texels that are read between places. */
+GN_HOT static int verdict_of_window(gn_window *window, const places *p, const gn_receiver_step *lo,
+                                    const gn_receiver_step *hi, int may_compare)
+{
+    int32_t u0, v0, w, h;
+    gn_window_reads(p->view, lo->u_q16 - 16, hi->u_q16 + 1040, &u0, &w);
+    gn_window_reads(p->view, lo->v_q16 - 16, hi->v_q16 + 1040, &v0, &h);
+    if (!gn_window_covers(window, u0, v0, w, h)) {
+        const gn_window_place place = {p->u[0], p->v[0], p->depth[0]};
+        if (!may_compare || window->w || w > GN_WINDOW_TEXELS || h > GN_WINDOW_TEXELS) return GN_CELL_SPLIT;
+        if (!gn_window_compare(window, &place, u0, v0, w, h)) return GN_CELL_SPLIT;
+        int said = gn_window_says(window, u0, v0, w, h);
+        return said == GN_WINDOW_LIT ? GN_CELL_LIT : said == GN_WINDOW_DARK ? GN_CELL_DARK : GN_CELL_EDGE;
+    }
+    int said = gn_window_says(window, u0, v0, w, h);
+    return said == GN_WINDOW_LIT ? GN_CELL_LIT : said == GN_WINDOW_DARK ? GN_CELL_DARK : GN_CELL_EDGE;
+}
+
+/* The shadow of a view over the cell, all of which lies between its corners. */
+GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t view_idx, places *p,
+                          const int32_t slope_q28[2])
+{
+    gn_receiver_step lo, hi;
+    int32_t depth_lo, depth_hi;
+    p->window = NULL;
+    range_of(p->u, &lo.u_q16, &hi.u_q16);
+    range_of(p->v, &lo.v_q16, &hi.v_q16);
+    range_of(p->depth, &depth_lo, &depth_hi);
+    if ((gn_abs32(lo.u_q16) | gn_abs32(hi.u_q16) | gn_abs32(lo.v_q16) | gn_abs32(hi.v_q16)) >> 27) return GN_CELL_SPLIT;
+    uint32_t idx = gn_lattice_window_idx(cell->frame, p->view);
+    gn_window *window = &cell->lattice->window[idx];
+    if (gn_lattice_window_is_made(window, p->view, cell->corner[0]->x)) {
+        if (!window->planar) window = NULL;
+    } else {
+        int taken = window->view && cell->corner[0]->x < window->until_x; /* by that of another view */
+        if (!taken && !(cell->ask->asked >> idx & 1U)) {
+            cell->ask->asked |= 1U << idx;
+            cell->ask->slot = (int32_t)slot;
+            cell->ask->view_idx = view_idx;
+            return GN_CELL_SPLIT;
+        }
+        window = NULL;
+    }
+    int said = window ? verdict_of_window(window, p, &lo, &hi, 0) : GN_CELL_SPLIT;
+    if (said != GN_CELL_SPLIT) {
+        p->window = window;
+        return said;
+    }
+    int64_t slope = (int64_t)gn_abs32(slope_q28[0]) + gn_abs32(slope_q28[1]);
+    slope *= 4 * (p->view->filter_idx + 2);
+    lo.depth_q31 = 2 * (int32_t)gn_clamp64(depth_lo - slope, -(1 << 29), (1 << 30) - 16384);
+    hi.depth_q31 = 2 * (int32_t)gn_clamp64(depth_hi + slope, -(1 << 29), (1 << 30) - 16384);
+    said = verdict_of_bounds(cell, p, &lo, &hi);
+    if (said != GN_CELL_EDGE || !window) return said;
+    said = verdict_of_window(window, p, &lo, &hi, 1);
+    if (said == GN_CELL_SPLIT) return GN_CELL_EDGE;
+    p->window = window;
+    return said;
+}
+
+enum { BEND, BEND_DOWN, HOLD };
+
+/* Whether places are close enough to bilinear, or to linear along rows: the perspectives of camera and light bend them.
+ */
+GN_HOT static int places_hold(const gn_lattice_cell *cell, places *p)
+{
+    uint32_t u[2], v[2], bend[2] = {cell->bend_q16[0], cell->bend_q16[1]};
+    gn_cell_changes(p->u, u);
+    gn_cell_changes(p->v, v);
+    if (p->view->perspective) {
+        int32_t lo, hi;
+        uint32_t more[2];
+        range_of(p->depth, &lo, &hi);
+        gn_cell_changes(p->depth, more);
+        uint32_t rest = (1U << 30) - (uint32_t)hi;
+        for (int i = 0; i < 2; i++) {
+            if (more[i] > rest >> 1) return BEND;
+            bend[i] += gn_quotient_q30(more[i], rest | 1U) >> 14;
+        }
+    }
+    int32_t least_log2 = 16 - gn_cell_place_log2(cell->frame) + (p->view->perspective ? 1 : 0);
+    p->bent = GN_PLACES_BILINEAR;
+    if (gn_cell_bends_by_less(u, bend, least_log2) && gn_cell_bends_by_less(v, bend, least_log2)) return HOLD;
+    p->bent = GN_PLACES_BY_ROW;
+    return gn_cell_row_bends_by_less(u, bend, least_log2) && gn_cell_row_bends_by_less(v, bend, least_log2) ? BEND_DOWN
+                                                                                                            : BEND;
+}
+
+GN_HOT static void make_patch(gn_patch *p, const int32_t at[4], int32_t log2)
+{
+    int32_t across = (at[1] - at[0]) >> log2;
+    p->at = at[0];
+    p->dx = across;
+    p->dy = (at[2] - at[0]) >> log2;
+    p->dxy = (((at[3] - at[2]) >> log2) - across) >> log2;
+}
+
+/* Pixels between lookups. */
+GN_HOT static int32_t lookup_spacing(const gn_lattice_cell *cell, const places *p)
+{
+    uint32_t u = gn_cell_spread(p->u[0], p->u[1], p->u[2], p->u[3]),
+             v = gn_cell_spread(p->v[0], p->v[1], p->v[2], p->v[3]);
+    uint32_t across = u > v ? u : v, most = gn_cell_lookup_texels_q16(cell->frame, p->view);
+    int32_t log2 = cell->size_log2;
+    while (log2 > 0 && across > (uint64_t)most << (cell->size_log2 - log2)) log2--;
+    return log2;
+}
+
+/* Adds a light whose shadow has an edge here, with a share of what it adds without shadow. Returns 0 if there is no
+ * room. */
+GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, const places *p, const int32_t slope_q28[2],
+                           const gn_contribution *light, const uint32_t share_uq16[4])
+{
+    gn_lattice_look *out = cell->out;
+    if (out->n_edges == GN_LATTICE_EDGES) return 0;
+    gn_lattice_edge *edge = &out->edge[out->n_edges++];
+    edge->view = p->view;
+    edge->window = p->window;
+    edge->slot = (uint8_t)slot;
+    edge->view_idx = (uint8_t)p->view_idx;
+    edge->bent = (uint8_t)p->bent;
+    edge->slope_q28[0] = slope_q28[0];
+    edge->slope_q28[1] = slope_q28[1];
+    if (p->bent != GN_PLACES_LONE) {
+        make_patch(&edge->u_q16, p->u, cell->size_log2);
+        make_patch(&edge->v_q16, p->v, cell->size_log2);
+        make_patch(&edge->depth_q30, p->depth, cell->size_log2);
+    }
+    for (int j = 0; j < 3; j++) {
+        int32_t at[4];
+        for (int i = 0; i < 4; i++) {
+            int32_t e = gn_cell_share(light->irradiance_q24[i], share_uq16[i]);
+            at[i] = gn_corner_times(cell->s->light[slot].radiance_uq16[j], e);
+#if GN_VERTEX_COLOURS
+            if (GN_COLOURED(cell->s))
+                at[i] = (int32_t)gn_clamp64((int64_t)at[i] * cell->corner[i]->tint_q16[j] >> 16, -(1 << 27), 1 << 27);
+#endif
+            if (GN_SPECULAR && cell->s->specular)
+                at[i] += gn_corner_times(light->shine_uq16[j], gn_cell_share(light->highlight_q24[i], share_uq16[i]));
+        }
+        make_patch(&edge->more_q24[j], at, cell->size_log2);
+    }
+    out->spacing_log2 = p->bent == GN_PLACES_LONE ? 0 : gn_min32(out->spacing_log2, lookup_spacing(cell, p));
+    return 1;
+}
+
+/* Views that decide the cell, a bit each: of its corners, and with blending the next ones. */
+GN_HOT static uint32_t views_of(const gn_lattice_cell *cell, uint32_t slot)
+{
+    uint32_t views = 0;
+    int cascaded = cell->s->light[slot].state->kind == GN_LIGHT_DIRECTIONAL &&
+                   !cell->frame->view[cell->s->light[slot].state->view_idx].border_lit;
+    for (int i = 0; i < 4; i++) {
+        const gn_corner *c = cell->corner[i];
+        uint32_t view = c->light[slot].view;
+        if (view == GN_VIEW_NONE) continue;
+        views |= 1U << view;
+        if (GN_BLENDED_CASCADES && cascaded && c->fade_uq16 < 65536 &&
+            cell->frame->scene->shadow.blend != GN_BLEND_HARD && (int32_t)view != GN_LAST_CASCADE(cell->frame))
+            views |= 1U << cell->frame->cascade[view].next;
+    }
+    return views;
+}
+
+GN_HOT static int32_t first_bit(uint32_t bits)
+{
+    return 31 - gn_clz32(bits & (0U - bits));
+}
+
+/* The share of the first of two cascades at the corners. */
+GN_HOT static void blend_shares(const gn_lattice_cell *cell, uint32_t slot, uint32_t first, uint32_t share_uq16[4])
+{
+    for (int i = 0; i < 4; i++)
+        share_uq16[i] = cell->corner[i]->light[slot].view == first ? cell->corner[i]->fade_uq16 : 0;
+}
+
+#if GN_PUNCTUAL_LIGHTS
+/* Adds an edge in the shadow of a point light, two faces of which see the cell. Returns 0 if there is no room, or it is
+ * to be split. */
+GN_HOT static GN_NOINLINE int add_faces(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
+                                        uint32_t views, const int32_t from_q16[3], places *p)
+{
+    gn_lattice_look *out = cell->out;
+    int32_t n_edges = out->n_edges;
+    if (n_edges + 2 > GN_LATTICE_EDGES || views & (views - 1) & ((views & (views - 1)) - 1)) return 0;
+    for (; views; views &= views - 1) {
+        uint32_t face = (uint32_t)first_bit(views);
+        int32_t slope[2];
+        if (find_places(cell, slot, face, p) != PLACED) break;
+        gn_shadow_slopes(cell->frame, cell->s, p->view, from_q16, slope);
+        if (verdict(cell, slot, face, p, slope) == GN_CELL_SPLIT || places_hold(cell, p) != HOLD) break;
+        add_edge(cell, slot, p, slope, light, light->more_uq16);
+    }
+    if (views) out->n_edges = n_edges;
+    else out->edge[n_edges].bent |= GN_PLACES_OF_TWO;
+    return !views;
+}
+#endif
+
+/* Adds an edge in two cascades that blend. Returns 0 if there is no room, or it is to be split. */
+GN_HOT static GN_NOINLINE int add_blend(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
+                                        uint32_t views, places *p)
+{
+    uint32_t first = (uint32_t)first_bit(views), second = (uint32_t)first_bit(views & (views - 1)), share[4];
+    if (views & ~(1U << first | 1U << second)) return 0;
+    for (int k = 0; k < 2; k++) {
+        int32_t slope[2];
+        uint32_t view_idx = k ? second : first;
+        if (find_places(cell, slot, view_idx, p) != PLACED) return 0;
+        gn_shadow_slopes(cell->frame, cell->s, p->view, NULL, slope);
+        if (verdict(cell, slot, view_idx, p, slope) == GN_CELL_SPLIT) return 0;
+        if (places_hold(cell, p) == BEND && cell->size_log2 > 1) return 0;
+        blend_shares(cell, slot, first, share);
+        for (int i = 0; i < 4; i++) share[i] = gn_mul_uq16(light->more_uq16[i], k ? 65536 - share[i] : share[i]);
+        if (!add_edge(cell, slot, p, slope, light, share)) return 0;
+    }
+    return 1;
+}
+
+/* Adds an edge of a light that several views see. Returns 0 if the cell is to be split. */
+GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
+                                 uint32_t views, const int32_t from_q16[3], const int32_t slope_q28[2], places *p)
+{
+    int cascaded = !p->view->perspective;
+    gn_blend blend = GN_BLENDED_CASCADES && cascaded ? cell->frame->scene->shadow.blend : GN_BLEND_HARD;
+    if (blend == GN_BLEND_SOFT) return add_blend(cell, slot, light, views, p);
+    if (blend == GN_BLEND_DITHER) return 0;
+    if (cascaded) { /* one may stand for all of a small cell */
+        uint32_t own = cell->corner[0]->light[slot].view;
+        int32_t slope[2];
+        if (cell->size_log2 >= gn_cell_finest_log2(cell->frame) || own == GN_VIEW_NONE ||
+            find_places(cell, slot, own, p) != PLACED || (places_hold(cell, p) == BEND && cell->size_log2 > 1))
+            return 0;
+        gn_shadow_slopes(cell->frame, cell->s, p->view, from_q16, slope);
+        return add_edge(cell, slot, p, slope, light, light->more_uq16);
+    }
+#if GN_PUNCTUAL_LIGHTS
+    if (add_faces(cell, slot, light, views, from_q16, p)) return 1;
+    if (cell->size_log2 > 2) return 0;
+    p->bent = GN_PLACES_LONE;
+    return add_edge(cell, slot, p, slope_q28, light, light->more_uq16);
+#else
+    (void)slope_q28;
+    return 0;
+#endif
+}
+
+GN_HOT int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light)
+{
+    uint32_t views = views_of(cell, slot), left = views;
+    int all = -1, added;
+    int32_t slope[2];
+    int32_t from[3] = {0, 0, 0};
+    places p;
+    if (!views) return GN_CELL_LIT;
+#if GN_PUNCTUAL_LIGHTS
+    if (cell->s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL)
+        gn_corner_from(cell->corner[0], cell->s->light[slot].state, from);
+#endif
+    for (; left; left &= left - 1) {
+        int placed = find_places(cell, slot, (uint32_t)first_bit(left), &p);
+        if (placed == PLACED_PARTLY) return GN_CELL_SPLIT;
+        gn_shadow_slopes(cell->frame, cell->s, p.view, from, slope);
+        int one = placed == PLACED_NOWHERE ? GN_CELL_LIT : verdict(cell, slot, (uint32_t)first_bit(left), &p, slope);
+        if (one == GN_CELL_SPLIT) return GN_CELL_SPLIT;
+        if (one == GN_CELL_EDGE || (all >= 0 && all != one)) break;
+        all = one;
+    }
+    if (!left) return all;
+    if (views & (views - 1)) added = add_of_several(cell, slot, light, views, from, slope, &p);
+    else if (places_hold(cell, &p) == BEND && cell->size_log2 > 1) return GN_CELL_SPLIT;
+    else added = add_edge(cell, slot, &p, slope, light, light->more_uq16);
+    return added ? GN_CELL_EDGE : GN_CELL_SPLIT;
+}
+#else
+GN_HOT int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light)
+{
+    (void)cell, (void)slot, (void)light;
+    return GN_CELL_LIT;
+}
+#endif
+
+#endif
