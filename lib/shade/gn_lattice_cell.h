@@ -9,34 +9,6 @@
 
 enum { GN_CELL_LIT, GN_CELL_DARK, GN_CELL_EDGE, GN_CELL_SPLIT };
 
-/* A window that is to be made before the cell can be looked at. */
-typedef struct {
-    int32_t slot;             /* -1: none */
-    uint32_t view_idx, asked; /* a bit for each that was */
-} gn_wanted_window;
-
-/* The cell at hand. */
-typedef struct {
-    gn_lattice *lattice;
-    const gn_frame *frame;
-    const gn_surface *s;
-    gn_corner *const *corner;
-    int32_t size_log2;
-    uint32_t bend_q16[2]; /* by how much view depths differ along and across rows, as a share of the least */
-    int near;             /* no shadow fades */
-    uint64_t error_q24;   /* of interpolated light, at most */
-    uint64_t kink_q24;    /* the part of it that comes from where a light ends */
-    gn_lattice_look *out;
-    gn_wanted_window *ask;
-} gn_lattice_cell;
-
-/* A light at the corners: without its shadow, and what is left of that in shadow and without one. */
-typedef struct {
-    int32_t irradiance_q24[4], highlight_q24[4];
-    uint32_t dark_uq16[4], more_uq16[4]; /* in shadow, and what is added to that without one */
-    uint32_t shine_uq16[3];              /* colour of its highlight */
-} gn_contribution;
-
 GN_HOT static inline int32_t gn_cell_share(int32_t v_q24, uint32_t share_uq16)
 {
     return share_uq16 == 65536 ? v_q24 : (int32_t)gn_mul_uq16((uint32_t)v_q24, share_uq16);

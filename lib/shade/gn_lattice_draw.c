@@ -364,7 +364,7 @@ GN_HOT static GN_NOINLINE void draw_strip(drawing *d, gn_corner *const corner[4]
 {
     gn_shading *s = d->s;
     gn_lattice *l = &s->lattice;
-    int32_t log2 = l->look.spacing_log2, (*node)[3] = l->node[0], (*next)[3] = l->node[1], (*step)[3] = l->node[2];
+    int32_t log2 = l->look.spacing_log2, (*node)[3] = l->by.node[0], (*next)[3] = l->by.node[1], (*step)[3] = l->by.node[2];
     gn_pixel_line line = {(const int32_t(*)[3])node, log2, inside, NULL, {0, 0}, {0, 0}};
     for (int32_t i = 0; log2 && i < d->n; i++)
         for (int c = 0; c < 3; c++) step[i][c] = (next[i][c] - node[i][c]) >> log2;
@@ -423,14 +423,14 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
     int inside = 0;
     for (int32_t below = 0; below < size; below += 1 << spacing_log2) {
         if (!columns(&d, y + below, 1 << spacing_log2)) continue;
-        if (known != below) inside = find_nodes(&d, below, l->node[0]);
+        if (known != below) inside = find_nodes(&d, below, l->by.node[0]);
         else
             for (int32_t i = 0; i < d.n; i++)
-                for (int c = 0; c < 3; c++) l->node[0][i][c] = l->node[1][i][c];
+                for (int c = 0; c < 3; c++) l->by.node[0][i][c] = l->by.node[1][i][c];
         int both = inside;
         if (spacing_log2) {
             known = below + (1 << spacing_log2);
-            inside = find_nodes(&d, known, l->node[1]);
+            inside = find_nodes(&d, known, l->by.node[1]);
             both &= inside;
         }
         draw_strip(&d, corner, below, both);

@@ -112,10 +112,10 @@ GN_HOT static void add_colour(const gn_lattice_cell *cell, uint32_t slot, const 
 GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
 {
     const uint32_t *colour = cell->s->light[slot].radiance_uq16;
-    gn_contribution light;
+    gn_contribution *light = &cell->lattice->by.look.light;
     int32_t least = INT32_MAX, most = 0;
     for (int i = 0; i < 4; i++) {
-        int32_t e = light.irradiance_q24[i] = cell->corner[i]->light[slot].irradiance_q24;
+        int32_t e = light->irradiance_q24[i] = cell->corner[i]->light[slot].irradiance_q24;
         least = gn_min32(least, e);
         most = gn_max32(most, e);
     }
@@ -125,9 +125,9 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
 #endif
     if (!most) return 1;
     if (GN_RAW_VIEWS && least != most && cell->frame->picture.format == GN_FORMAT_RAW32) return 0;
-    if (!find_highlight(cell, slot, &light)) return 0;
-    int realtime = find_shares(cell, slot, &light),
-        shadow = realtime > 0 ? gn_cell_shadow(cell, slot, &light) : GN_CELL_LIT;
+    if (!find_highlight(cell, slot, light)) return 0;
+    int realtime = find_shares(cell, slot, light),
+        shadow = realtime > 0 ? gn_cell_shadow(cell, slot, light) : GN_CELL_LIT;
     if (realtime < 0 || shadow == GN_CELL_SPLIT) return 0;
     uint32_t strongest = colour[0] > colour[1] ? colour[0] : colour[1];
     if (colour[2] > strongest) strongest = colour[2];
@@ -138,7 +138,7 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
         if ((uint64_t)error << log2 > (uint32_t)least) cell->error_q24 += (uint64_t)strongest * error >> 16;
         if ((uint64_t)kink << log2 > (uint32_t)least) cell->kink_q24 += (uint64_t)strongest * kink >> 16;
     }
-    add_colour(cell, slot, &light, shadow == GN_CELL_LIT);
+    add_colour(cell, slot, light, shadow == GN_CELL_LIT);
     return 1;
 }
 
@@ -181,9 +181,11 @@ GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *fra
                                         gn_corner *const corner[4], int32_t size_log2, gn_wanted_window *ask)
 {
     gn_lattice_look *look = &lattice->look;
-    gn_lattice_cell cell = {lattice, frame, surface, corner, size_log2, {0, 0}, lattice->cascade >= 0, 0, 0, look, ask};
+    gn_lattice_cell *cell = &lattice->by.look.cell;
+    *cell =
+        (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, lattice->cascade >= 0, 0, 0, look, ask};
     int coarse = size_log2 > gn_cell_finest_log2(frame);
-    if (!gn_cell_find_bend(&cell) || (!gn_cell_images_hold(&cell) && coarse)) return 0;
+    if (!gn_cell_find_bend(cell) || (!gn_cell_images_hold(cell) && coarse)) return 0;
     look->n_edges = 0;
     look->spacing_log2 = size_log2;
     for (int i = 0; i < 4; i++)
@@ -192,10 +194,10 @@ GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *fra
             look->highlight_q24[i][j] = 0;
         }
     for (uint32_t slot = 0; slot < surface->n_lights; slot++)
-        if (!add_light(&cell, slot)) return 0;
-    int limits = !finish_colours(&cell);
-    if (!coarse) return size_log2 < gn_cell_finest_log2(frame) || is_even(&cell);
-    return !limits && is_even(&cell);
+        if (!add_light(cell, slot)) return 0;
+    int limits = !finish_colours(cell);
+    if (!coarse) return size_log2 < gn_cell_finest_log2(frame) || is_even(cell);
+    return !limits && is_even(cell);
 }
 
 /* Windows are made here, where there is more stack. */

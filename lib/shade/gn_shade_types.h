@@ -211,6 +211,34 @@ typedef struct {
     int32_t spacing_log2; /* of lookups in pixels */
 } gn_lattice_look;
 
+/* A window that is to be made before the cell can be looked at. */
+typedef struct {
+    int32_t slot;             /* -1: none */
+    uint32_t view_idx, asked; /* a bit for each that was */
+} gn_wanted_window;
+
+/* The cell at hand. */
+typedef struct {
+    struct gn_lattice *lattice;
+    const struct gn_frame *frame;
+    const gn_surface *s;
+    gn_corner *const *corner;
+    int32_t size_log2;
+    uint32_t bend_q16[2]; /* by how much view depths differ along and across rows, as a share of the least */
+    int near;             /* no shadow fades */
+    uint64_t error_q24;   /* of interpolated light, at most */
+    uint64_t kink_q24;    /* the part of it that comes from where a light ends */
+    gn_lattice_look *out;
+    gn_wanted_window *ask;
+} gn_lattice_cell;
+
+/* A light at the corners: without its shadow, and what is left of that in shadow and without one. */
+typedef struct {
+    int32_t irradiance_q24[4], highlight_q24[4];
+    uint32_t dark_uq16[4], more_uq16[4]; /* in shadow, and what is added to that without one */
+    uint32_t shine_uq16[3];              /* colour of its highlight */
+} gn_contribution;
+
 /* A light of the surface's list, once per surface. */
 typedef struct {
     uint8_t realtime; /* its shadow map counts, */
@@ -250,7 +278,7 @@ enum { GN_CORNERS = 12 };
 #define GN_LATTICE_NODES 17 /* in a row of the largest cell */
 
 /* A surface by cells. */
-typedef struct {
+typedef struct gn_lattice {
     gn_run_span span[GN_SPANS]; /* pixels of the surface, top down and left to right */
     int32_t n_spans;
     gn_screen_plane plane;
@@ -280,7 +308,13 @@ typedef struct {
     int32_t two_q24[2][3];
     uint32_t known[3];
     uint32_t pixel[65];
-    int32_t node[3][GN_LATTICE_NODES][3]; /* colours of a row of a cell and the next, Q24; steps between */
+    union {
+        int32_t node[3][GN_LATTICE_NODES][3]; /* colours of a row of a cell and the next, Q24; steps between */
+        struct {
+            gn_lattice_cell cell;
+            gn_contribution light;
+        } look; /* before it is drawn */
+    } by;
     uint32_t attenuation[2][GN_LATTICE_NODES];
 } gn_lattice;
 #endif

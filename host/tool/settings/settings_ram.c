@@ -99,7 +99,10 @@ static long lattice_bytes(const settings *s)
     put(&all, 1, 144, 4);                          /* corner_key to split */
     if (s->feature.shadows) put(&all, 4, 344, 4);  /* window */
     put(&all, 1, 568, 4);                          /* look */
-    put(&all, 1, 24 + 12 + 260 + 612 + 136, 4);    /* two_q24 to attenuation */
+    put(&all, 1, 24 + 12 + 260, 4);                /* two_q24 to pixel */
+    put(&all, 1, 616, 8);                          /* by */
+    put(&all, 1, 136, 4);                          /* attenuation */
+    pad(&all, 8);
     return all.size;
 }
 
@@ -127,7 +130,7 @@ static void put_work(layout *out, const settings *s)
     long incident = s->feature.punctual_lights ? s->capacity.surface_lights : 0;
     incident *= s->feature.shadows ? 20 : 8;
     put(&all, 1, 28 + 4 * values + incident + (s->feature.specular ? 24 : 0), 4); /* sample */
-    if (s->quality.persp_step > 1) put(&all, 1, lattice_bytes(s), 4);
+    if (s->quality.persp_step > 1) put(&all, 1, lattice_bytes(s), 8);
     pad(&all, all.align);
     const long casting = casting_bytes(s), clipping = 264, largest = casting > clipping ? casting : clipping;
     put(out, 1, all.size > largest ? all.size : largest, 8);
