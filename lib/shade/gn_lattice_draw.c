@@ -364,7 +364,8 @@ GN_HOT static GN_NOINLINE void draw_strip(drawing *d, gn_corner *const corner[4]
 {
     gn_shading *s = d->s;
     gn_lattice *l = &s->lattice;
-    int32_t log2 = l->look.spacing_log2, (*node)[3] = l->by.node[0], (*next)[3] = l->by.node[1], (*step)[3] = l->by.node[2];
+    int32_t log2 = l->look.spacing_log2, (*node)[3] = l->by.node[0], (*next)[3] = l->by.node[1],
+            (*step)[3] = l->by.node[2];
     gn_pixel_line line = {(const int32_t(*)[3])node, log2, inside, NULL, {0, 0}, {0, 0}};
     for (int32_t i = 0; log2 && i < d->n; i++)
         for (int c = 0; c < 3; c++) step[i][c] = (next[i][c] - node[i][c]) >> log2;

@@ -56,5 +56,6 @@ GN_HOT int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, c
         first[i] = gn_max32(0, gn_min32(first[i], end));
         last[i] = gn_max32(0, gn_min32(last[i], end));
     }
-    return texels_agree(view, first, last, least, most, attenuation) && (*attenuation || !beyond || !gn_border_lit(view));
+    return texels_agree(view, first, last, least, most, attenuation) &&
+           (*attenuation || !beyond || !gn_border_lit(view));
 }

@@ -92,16 +92,16 @@ static long corner_bytes(const settings *s)
 static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
-    put(&all, 1, 244, 4);                          /* span to plane */
-    put(&all, s->capacity.surface_lights, 16, 4);  /* light */
-    put(&all, 1, 196, 4);                          /* unit_q30 to bits */
-    put(&all, 12 + 1, corner_bytes(s), 4);         /* corners, corner */
-    put(&all, 1, 144, 4);                          /* corner_key to split */
-    if (s->feature.shadows) put(&all, 4, 344, 4);  /* window */
-    put(&all, 1, 568, 4);                          /* look */
-    put(&all, 1, 24 + 12 + 260, 4);                /* two_q24 to pixel */
-    put(&all, 1, 616, 8);                          /* by */
-    put(&all, 1, 136, 4);                          /* attenuation */
+    put(&all, 1, 244, 4);                         /* span to plane */
+    put(&all, s->capacity.surface_lights, 16, 4); /* light */
+    put(&all, 1, 196, 4);                         /* unit_q30 to bits */
+    put(&all, 12 + 1, corner_bytes(s), 4);        /* corners, corner */
+    put(&all, 1, 144, 4);                         /* corner_key to split */
+    if (s->feature.shadows) put(&all, 4, 344, 4); /* window */
+    put(&all, 1, 568, 4);                         /* look */
+    put(&all, 1, 24 + 12 + 260, 4);               /* two_q24 to pixel */
+    put(&all, 1, 616, 8);                         /* by */
+    put(&all, 1, 136, 4);                         /* attenuation */
     pad(&all, 8);
     return all.size;
 }
