@@ -1,7 +1,7 @@
 /* Texel windows against lookups of single receivers on random planes, and against the texels themselves, in whole
  * numbers. A window asks the receiver itself of texels in doubt, so both are the same. A texel is contested if it is so
- * near to the receiver that rounding decides, or between the plane at the texel's own centre and the receiver, but beyond
- * what is in doubt: only there they may differ. */
+ * near to the receiver that rounding decides, or between the plane at the texel's own centre and the receiver, but
+ * beyond what is in doubt: only there they may differ. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -181,8 +181,8 @@ static double most_weight(double texel, double at)
     return (tent_integral(texel + 1 - at, h) - tent_integral(texel - at, h)) / (h * h) + off;
 }
 
-/* How far before the plane, and behind it, texels are in doubt at least, Q46: behind it the filter's reach, or what bias
- * leaves of it; before it half of that, or half a texel. */
+/* How far before the plane, and behind it, texels are in doubt at least, Q46: behind it the filter's reach, or what
+ * bias leaves of it; before it half of that, or half a texel. */
 static int64_t doubt_before(void)
 {
     const int64_t halves = view.filter ? 2 * (view.filter_idx + 1) : 1;
