@@ -27,7 +27,7 @@ typedef struct {
     uint32_t lit, dark;                /* their pixels */
     int mixed;                         /* whether there is such a light, */
     int cascaded;                      /* which has cascades: */
-    part_view view[4];                 /* of them those that corners of the part see */
+    part_view view[4];                 /* of them those that the part looks into */
 } part_look;
 
 GN_HOT void gn_part_begin(gn_shading *s)
@@ -41,24 +41,45 @@ GN_HOT void gn_part_begin(gn_shading *s)
 /* ---- Lights ------------------------------------------------------------------------------------------------------ */
 
 #if GN_SHADOWS
-/* Views that corners of the part look into, a bit each. */
+/* Views that a pixel looks into, a bit each. */
+GN_HOT static uint32_t views_at(gn_shading *s, int32_t x, int32_t y)
+{
+    gn_corner_cascade(&s->lattice, s->frame, &s->surface, x, y, &s->sample);
+    int32_t cascade = s->sample.cascade;
+    if (cascade == GN_CASCADE_NONE) return 0;
+    uint32_t views = 1U << cascade;
+    int blends = GN_BLENDED_CASCADES && s->frame->scene->shadow.blend != GN_BLEND_HARD;
+    if (blends && s->sample.value[GN_VALUE_FADE] < 65536 && cascade != GN_LAST_CASCADE(s->frame))
+        views |= 1U << s->frame->cascade[cascade].next;
+    return views;
+}
+
+/* The same of the surface's pixels, of `views` that corners of the part look into: those may lie off the surface, in
+ * cascades that none of its pixels is in. */
+GN_HOT static GN_NOINLINE uint32_t views_of_rows(gn_shading *s, uint32_t views)
+{
+    const gn_lattice *l = &s->lattice;
+    uint32_t found = 0;
+    for (int32_t i = 0; i < l->n_spans && views & ~found; i++) {
+        const gn_run_span *span = &l->span[i];
+        int32_t x = gn_max32(span->x, l->x), last = gn_min32(span->x + span->n_px, l->part_end) - 1;
+        if (span->y < l->y || span->y >= l->y + l->n_rows || x > last) continue;
+        found |= views_at(s, x, span->y) | views_at(s, (x + last) >> 1, span->y) | views_at(s, last, span->y);
+    }
+    return found;
+}
+
+/* Views that the part looks into, a bit each. */
 GN_HOT static uint32_t views_of_part(gn_shading *s, int cascaded)
 {
     const gn_lattice *l = &s->lattice;
-    int blends = GN_BLENDED_CASCADES && s->frame->scene->shadow.blend != GN_BLEND_HARD;
     uint32_t views = 0;
     if (!cascaded) return 1;
     if (l->cascade >= 0) return l->cascade == GN_CASCADE_NONE ? 0 : 1U << l->cascade;
-    for (int i = 0; i < 4; i++) {
-        gn_corner_cascade(l, s->frame, &s->surface, i & 1 ? gn_min32(l->x_end, l->x + GN_PART_WIDTH) - 1 : l->x,
-                          i & 2 ? gn_min32(l->y + l->n_rows, l->y_end) - 1 : l->y, &s->sample);
-        int32_t cascade = s->sample.cascade;
-        if (cascade == GN_CASCADE_NONE) continue;
-        views |= 1U << cascade;
-        if (blends && s->sample.value[GN_VALUE_FADE] < 65536 && cascade != GN_LAST_CASCADE(s->frame))
-            views |= 1U << s->frame->cascade[cascade].next;
-    }
-    return views;
+    for (int i = 0; i < 4; i++)
+        views |= views_at(s, i & 1 ? gn_min32(l->x_end, l->x + GN_PART_WIDTH) - 1 : l->x,
+                          i & 2 ? gn_min32(l->y + l->n_rows, l->y_end) - 1 : l->y);
+    return views & (views - 1) ? views_of_rows(s, views) : views;
 }
 
 /* What a light's windows say of the whole part, and each of them. */

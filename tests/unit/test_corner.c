@@ -240,8 +240,10 @@ static void check_irradiance(const gn_surface *s, const gn_lattice *l, const gn_
 {
     const gn_light *lamp = &lamps[light_at->idx];
     double from[3], n[3], d2 = 0;
+    int32_t from_q16[3];
+    gn_corner_from(c, light_at->state, from_q16);
     for (int i = 0; i < 3; i++) {
-        from[i] = at->from_q16[i] * LSB16;
+        from[i] = from_q16[i] * LSB16;
         n[i] = ldexp(s->smooth ? c->normal_q30[i] : l->unit_q30[i], -30);
         d2 += from[i] * from[i];
     }
@@ -266,17 +268,19 @@ static void check_irradiance(const gn_surface *s, const gn_lattice *l, const gn_
 
 /* The way from the light: coefficients of the ray have ray_shift fraction bits, the lower half of the product with the
  * depth is dropped. */
-static void check_from(const known_point *k, const gn_light_state *from, const gn_corner *c, const gn_corner_light *at)
+static void check_from(const known_point *k, const gn_light_state *from, const gn_corner *c)
 {
     const gn_frame *frame = &renderer.frame;
     const double z = c->z_q16 * LSB16, dropped = fmax(1, ldexp(1, (int)floor(log2(c->z_q16)) + 2 - from->ray_shift));
+    int32_t from_q16[3];
+    gn_corner_from(c, from, from_q16);
     for (int i = 0; i < 3; i++) {
         double along = 0;
         for (int a = 0; a < 3; a++) along += k->at.ray[a] * ldexp(frame->cam.axis_q30[a][i], -30);
         const double want = z * along + ((double)frame->cam.eye_q16[i] - from->position_q16[i]) * LSB16;
         const double bound = LSB16 * (1 + dropped) + z * ldexp(1 + 0.5 * (abs(k->px) + abs(k->py)), -from->ray_shift) +
                              ldexp(fabs(z * along), -27);
-        record(STAGE_FROM, fabs(at->from_q16[i] * LSB16 - want), bound, LSB16);
+        record(STAGE_FROM, fabs(from_q16[i] * LSB16 - want), bound, LSB16);
     }
 }
 
@@ -342,9 +346,11 @@ static void check_persp(const gn_lattice *l, const gn_surface *s, gn_corner *c, 
     const uint32_t view_idx = from->kind == GN_LIGHT_POINT && one_in(2) ? (uint32_t)uniform(0, 6) : at->view;
     const gn_light_view *view = &frame->view[from->view_idx + (int32_t)view_idx];
     double p[3], n[3], in[3], reach = 0, axis[3], shares = 0;
+    int32_t from_q16[3];
+    gn_corner_from(c, from, from_q16);
     axis_of(s->smooth ? c->normal_q30 : s->normal_q30[0], n);
     axis_of(from->to_light_q30, axis);
-    for (int i = 0; i < 3; i++) p[i] = at->from_q16[i] * LSB16;
+    for (int i = 0; i < 3; i++) p[i] = from_q16[i] * LSB16;
     for (int i = 0; i < 3; i++) reach = fmax(reach, fabs(p[i]));
     if (from->kind == GN_LIGHT_SPOT) reach = fmax(0, -dot(p, axis));
     const double focal2 = view->fit.persp.focal2_q16 * LSB16, lift = view->offset_q16 * LSB16 * 2 / focal2 * reach;
@@ -442,7 +448,7 @@ static void check_corner(gn_lattice *l, const gn_surface *s, const plane *p, con
             check_ortho(l, s, &k, &corner, slot);
             continue;
         }
-        check_from(&k, from->state, &corner, at);
+        check_from(&k, from->state, &corner);
         check_irradiance(s, l, from, &corner, at);
         check_persp(l, s, &corner, slot);
     }
