@@ -410,7 +410,7 @@ static void test_tile_sizes(void)
             int d = i ? difference(&first, &c) : 0;
             if (i && p.format == GN_FORMAT_RGB888 && !same) CHECK(share_apart(&first, &c) < 0.01);
             if (p.format == GN_FORMAT_RGB565 && !same) d = 0; /* its bytes are no levels */
-            if (!CHECK(d <= (same ? 0 : 16)))
+            if (!CHECK(d <= (same ? 0 : 20)))
                 printf("tiles of %dx%d, format %d, persp_step %d: %d\n", (int)sizes[i][0], (int)sizes[i][1],
                        (int)p.format, (int)persp_step, d);
             canvas_end(&c);

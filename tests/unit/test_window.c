@@ -415,7 +415,7 @@ static void test_none(void)
         random_view();
         random_plane();
         for (int i = 0; i < 2; i++) slope_q28[i] = rng_wide_i32(&random_state, 28);
-        const int steep = abs(slope_q28[0]) >= 1 << 26 || abs(slope_q28[1]) >= 1 << 26;
+        const int steep = abs(slope_q28[0]) >= 1 << 25 || abs(slope_q28[1]) >= 1 << 25;
         const int disk = rng_below(&random_state, 8) == 0;
         if (disk) view.filter = GN_FILTER_DISK;
         const int got = gn_window_begin(&window, &frame, &view, slope_q28, own_q30, on_plane);
