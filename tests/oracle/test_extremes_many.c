@@ -278,7 +278,7 @@ static void random_picture(tried *t, long i, double allowed)
     engine_free(&p);
     engine_free(&r);
     end(&st.f);
-    if (one.share > allowed || one.coverage > 0.03)
+    if (!table && (one.share > allowed || one.coverage > 0.03))
         printf("  %ld: units %d times as coarse, %.2f of the floors, %.5f identical, %.5f shadow, %d: %s %s\n", i,
                1 << coarse, one.share, one.identical, one.mismatch, one.max_error, scene_name, words);
     t->beyond += one.share > allowed;
