@@ -156,8 +156,8 @@ GN_HOT static int coords_hold(const lattice_cell *cell, const gn_texture *image,
 }
 #endif
 
-/* Whether texture coordinates and mask images may be interpolated. */
-GN_HOT static int images_hold(const lattice_cell *cell)
+/* Whether texture coordinates may be interpolated. */
+GN_HOT static int textures_hold(const lattice_cell *cell)
 {
     gn_corner *const *c = cell->corner;
     (void)c;
@@ -165,9 +165,17 @@ GN_HOT static int images_hold(const lattice_cell *cell)
     const int32_t *const uv[4] = {c[0]->uv_q20, c[1]->uv_q20, c[2]->uv_q20, c[3]->uv_q20};
     if (cell->s->textured && !coords_hold(cell, cell->s->object->texture, uv, 20)) return 0;
 #endif
+    return 1;
+}
+
+/* Whether a mask image may be interpolated: a corner per texel. */
+GN_HOT static int masks_hold(const lattice_cell *cell)
+{
+    gn_corner *const *c = cell->corner;
+    (void)c;
 #if GN_MASKS
     if (!cell->s->masked || !cell->s->object->mask_image) return 1;
-    const gn_texture *image = cell->s->object->mask_image; /* a corner per texel */
+    const gn_texture *image = cell->s->object->mask_image;
     for (int i = 0; i < 2; i++) {
         uint32_t change =
             spread_of(c[0]->mask_uv_uq16[i], c[1]->mask_uv_uq16[i], c[2]->mask_uv_uq16[i], c[3]->mask_uv_uq16[i]);
@@ -814,7 +822,7 @@ GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *fra
     gn_lattice_look *look = &lattice->look;
     lattice_cell cell = {lattice, frame, surface, corner, size_log2, {0, 0}, lattice->cascade >= 0, 0, 0, look, ask};
     int coarse = size_log2 > finest_log2(frame);
-    if (!find_bend(&cell) || (!images_hold(&cell) && coarse)) return 0;
+    if (!find_bend(&cell) || (coarse && !textures_hold(&cell)) || !masks_hold(&cell)) return 0;
     look->n_edges = 0;
     look->spacing_log2 = size_log2;
     for (int i = 0; i < 4; i++)
