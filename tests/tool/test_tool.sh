@@ -751,16 +751,5 @@ wanted=$(sed -n 's/^#define GN_VERSION_STRING "\(.*\)"/gnomon \1/p' lib/gnomon.h
 numbers=$(sed -n 's/^#define GN_VERSION_M[A-Z]* *\([0-9]*\)$/\1/p; s/^#define GN_VERSION_PATCH *\([0-9]*\)$/\1/p' lib/gnomon.h | tr '\n' . | sed 's/\.$//')
 [ "gnomon $numbers" = "$wanted" ] && pass || fail "GN_VERSION_STRING is '$wanted', the numbers are $numbers"
 
-# ---- What attenuation is measured on -----------------------------------------------------------------------------------------
-
-for path in "8 general" "1 picture"; do
-    set -- $path
-    good compare "$cube" --size 32x24 --set persp_step="$1" --json
-    grep -q "\"attenuation_path\": \"$2\"" "$tmp/out" && pass || fail "persp_step $1: attenuation is not said to be of the path '$2'"
-    good compare "$cube" --size 32x24 --set persp_step="$1"
-    n=$(grep -c 'of the general path' "$tmp/out")
-    [ "$n" = "$([ "$2" = general ] && echo 1 || echo 0)" ] && pass || fail "persp_step $1: $n lines say what attenuation is of"
-done
-
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
