@@ -102,8 +102,9 @@ GN_HOT static inline int gn_cell_row_bends_by_less(const uint32_t change[2], con
 /* Returns 0 if the cell is seen so steeply that nothing is close to bilinear. */
 int gn_cell_find_bend(gn_lattice_cell *cell);
 
-/* Whether texture coordinates and mask images may be interpolated. */
-int gn_cell_images_hold(const gn_lattice_cell *cell);
+/* Whether texture coordinates may be interpolated; the same of a mask image: a corner per texel. */
+int gn_cell_textures_hold(const gn_lattice_cell *cell);
+int gn_cell_masks_hold(const gn_lattice_cell *cell);
 
 /* Whether nothing of a light arrives anywhere in the cell if nothing arrives at its corners. The squares of a point's
  * distance, and of its distance along the axis, are those of the corners in the mean, less what they scatter by. */

@@ -40,8 +40,8 @@ GN_HOT static int coords_hold(const gn_lattice_cell *cell, const gn_texture *ima
 }
 #endif
 
-/* Whether texture coordinates and mask images may be interpolated. */
-GN_HOT int gn_cell_images_hold(const gn_lattice_cell *cell)
+/* Whether texture coordinates may be interpolated. */
+GN_HOT int gn_cell_textures_hold(const gn_lattice_cell *cell)
 {
     gn_corner *const *c = cell->corner;
     (void)c;
@@ -49,9 +49,17 @@ GN_HOT int gn_cell_images_hold(const gn_lattice_cell *cell)
     const int32_t *const uv[4] = {c[0]->uv_q20, c[1]->uv_q20, c[2]->uv_q20, c[3]->uv_q20};
     if (cell->s->textured && !coords_hold(cell, cell->s->object->texture, uv, 20)) return 0;
 #endif
+    return 1;
+}
+
+/* Whether a mask image may be interpolated: a corner per texel. */
+GN_HOT int gn_cell_masks_hold(const gn_lattice_cell *cell)
+{
+    gn_corner *const *c = cell->corner;
+    (void)c;
 #if GN_MASKS
     if (!cell->s->masked || !cell->s->object->mask_image) return 1;
-    const gn_texture *image = cell->s->object->mask_image; /* a corner per texel */
+    const gn_texture *image = cell->s->object->mask_image;
     for (int i = 0; i < 2; i++) {
         uint32_t change =
             gn_cell_spread(c[0]->mask_uv_uq16[i], c[1]->mask_uv_uq16[i], c[2]->mask_uv_uq16[i], c[3]->mask_uv_uq16[i]);

@@ -21,7 +21,7 @@ knobs=$(variable HOST_KNOBS | sed 's/-DGN_COUNTERS=1/-DGN_COUNTERS=0/; s/-DGN_ST
 make -s CC="$CC" "$TOOL"
 "$TOOL" bake host/scenes/room.gltf -o "$DIR/baked.gltf" --size $SIZE >/dev/null # nothing else has a mask image
 SCENES="$SCENES $DIR/baked.gltf"
-make -s CC="$CC" BUILD="$DIR/build" HOST_KNOBS="$knobs" "$DIR/build/gnomon" >/dev/null
+make -s CC="$CC" BUILD="$DIR/build" HOST_KNOBS="$knobs" LIB_SRC="$(variable LIB_SRC | sed s,lib/shadow/gn_static_layer.c,,)" "$DIR/build/gnomon" >/dev/null
 $CC -std=c11 -O2 -Ilib -o "$DIR/gen_costs" host/generate/gen_costs.c -lm
 
 # instructions SCENE SETTING...: of shadow tiles, setup and binning, rasterising, shading (glibc's memset: see bench.sh)

@@ -35,7 +35,6 @@ typedef struct {
     engine_picture picture[N_ENGINES];
     metrics m[N_PAIRS];
     long ram_bytes;
-    bool shadow_is_drawn; /* attenuation is measured on what the picture is drawn with */
 } comparison;
 
 static bool is_with_truth(const tool_options *o)
@@ -80,8 +79,7 @@ static void print_json(const tool_options *o, const comparison *c)
 {
     printf("{\"scene\": ");
     tool_json_string(o->scene_path);
-    printf(", \"with\": \"%s\", \"width\": %d, \"height\": %d, \"attenuation_path\": \"%s\", ", o->with, o->width,
-           o->height, c->shadow_is_drawn ? "picture" : "general");
+    printf(", \"with\": \"%s\", \"width\": %d, \"height\": %d, ", o->with, o->width, o->height);
     if (!is_with_truth(o)) {
         print_summary(&c->m[0]);
         printf(", \"ram_bytes\": %ld", c->ram_bytes);
@@ -123,9 +121,6 @@ static void print_text(const tool_options *o, const comparison *c)
         print_metrics(&c->m[i]);
     }
     printf("  library RAM           %8ld bytes\n", c->ram_bytes);
-    if (!c->shadow_is_drawn)
-        printf("  attenuation and shadow mismatch are of the general path, pixel by pixel: with persp_step above 1"
-               " the picture itself is drawn cell by cell\n");
 }
 
 /* ---- pictures ---- */
@@ -250,7 +245,6 @@ static int compare(comparison *c, const tool_options *o)
         remarks_on_settings(&s);
         remarks_on_picture(&s, &c->picture[FIXED]);
     }
-    c->shadow_is_drawn = engine_shadow_is_drawn(&set);
     settings_trim(&set, &s);
     scene_free(&s);
     if (failed) return tool_fail(o->scene_path, error);

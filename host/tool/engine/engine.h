@@ -49,10 +49,6 @@ int engine_truth(engine_picture *out, const scene *s, const settings *set, int w
                  char *error, size_t error_bytes);
 void engine_free(engine_picture *p);
 
-/* Whether the shadow factors of an engine_fixed picture are those that its colours were drawn with. Else (persp_step
- * above 1) the factors come from views of their own, without the parts and cells of two colours that colours have. */
-bool engine_shadow_is_drawn(const settings *set);
-
 /* The library's frames one after the other, colours alone, by one renderer: it keeps shadow tiles as firmware does
  * (A5), and follows the schedule of cascades. Calls each for every frame, the first of which is 0, with what drawing it
  * took; that returns 0, or -1 with one line in error, like this. */

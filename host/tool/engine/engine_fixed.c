@@ -278,11 +278,6 @@ int engine_fixed(engine_picture *out, const scene *s, const settings *set, int w
     return failed ? -1 : 0;
 }
 
-bool engine_shadow_is_drawn(const settings *set)
-{
-    return set->quality.persp_step == 1;
-}
-
 void engine_free(engine_picture *p)
 {
     free(p->rgb8);
