@@ -101,8 +101,7 @@ GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, 
     uint64_t highlights[3] = {0, 0, 0};
     uint32_t g = surface->shadowed ? gn_shadow_distance(frame, surface, sample) : 0;
     for (int c = 0; GN_BAKED_LIGHT && surface->baked && c < 3; c++) /* 2^20 * 2^17 */
-        sum[c] +=
-            (uint64_t)surface->object->albedo_uq16[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_BAKED + c], 0) >> 12;
+        sum[c] += (uint64_t)surface->albedo_uq16[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_BAKED + c], 0) >> 12;
     for (uint32_t i = 0; i < surface->n_lights; i++) {
         const gn_surface_light *light = &surface->light[i];
         const int32_t *value = &sample->value[GN_VALUE_LIGHT + GN_VALUES_PER_LIGHT * i];

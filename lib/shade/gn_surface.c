@@ -110,16 +110,24 @@ GN_HOT static void set_attribute(gn_surface *s, int i, const int32_t at[3])
     for (int k = 1; k < 3; k++) s->attribute_q16[k][i] = at[k] + (at[k] >> 15) - first;
 }
 
+/* Colours of the vertices: where all three are equal, part of the albedo. */
 GN_HOT static void vertex_colours(gn_surface *s, const uint16_t *idx)
 {
     const gn_mesh *mesh = s->object->mesh;
-    s->coloured = GN_VERTEX_COLOURS && mesh->rgb_uq16;
-    if (!GN_COLOURED(s)) return;
+    int32_t differs = 0;
+    for (int i = 0; i < 3; i++) s->albedo_uq16[i] = s->object->albedo_uq16[i];
+    s->coloured = 0;
+    if (!GN_VERTEX_COLOURS || !mesh->rgb_uq16) return;
     for (int i = 0; i < 3; i++) {
         int32_t c[3];
         for (int k = 0; k < 3; k++) c[k] = mesh->rgb_uq16[3 * (size_t)idx[k] + (size_t)i];
         set_attribute(s, GN_ATTRIBUTE_RGB + i, c);
+        differs |= (c[1] - c[0]) | (c[2] - c[0]);
     }
+    s->coloured = differs != 0;
+    if (differs) return;
+    for (int i = 0; i < 3; i++)
+        s->albedo_uq16[i] = gn_mul_uq16(s->albedo_uq16[i], (uint32_t)s->attribute_q16[0][GN_ATTRIBUTE_RGB + i]);
 }
 
 GN_HOT static void texture_coords(gn_surface *s, const uint16_t *idx)
@@ -332,7 +340,7 @@ GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache 
 {
     const gn_scene *scene = frame->scene;
     int unlit = without_light(frame, s);
-    const uint32_t *albedo = s->object->albedo_uq16;
+    const uint32_t *albedo = s->albedo_uq16;
     GN_ELEMENT(albedo);
     for (int c = 0; c < 3; c++) /* 2^17 * 2^24 */
         s->base_q20[c] =

@@ -75,7 +75,7 @@ static void put_work(layout *out, const settings *s)
                                                                                                       : 1;
     long values = (s->feature.textures ? 2 : 0) + (s->feature.masks ? 4 : 0) + (s->feature.baked_light ? 3 : 0) + 5 +
                   (long)per_light * s->capacity.surface_lights;
-    put(&surface, 1, 192, 8); /* object to the colours of attribute_q16 */
+    put(&surface, 1, 200, 8); /* object to the colours of attribute_q16 */
     if (s->feature.masks) put(&surface, 12, 4, 4);
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
     if (s->feature.textures) put(&surface, 6, 8, 8);
