@@ -37,7 +37,7 @@ typedef struct {
     uint8_t shadowed; /* some light's shadow may fall on it */
     uint16_t n_lights, n_punctual; /* not bytes: the compiler would reload those after every store */
     int16_t first_value, n_values;
-    uint32_t albedo_uq16[3];
+    uint32_t albedo_uq16[3]; /* times the vertices' colours, where all three are equal; at most 2^16 */
     uint32_t base_q20[3]; /* albedo times ambient: with the lights' radiance_uq16, weighted, it sums up to radiance */
     gn_plane plane;
     gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */

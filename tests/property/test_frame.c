@@ -176,6 +176,24 @@ static void test_many_bright_lights(void)
     CHECK(crc[2] != crc[1]);
 }
 
+/* A colour that all vertices have is a factor of the albedo; one that differs at a vertex is not. [M3] */
+static void test_one_vertex_colour(void)
+{
+    uint16_t rgb[4 * 3];
+    uint32_t crc[5];
+    for (int i = 0; i < 5; i++) {
+        demo_scene_make(&demo, 0);
+        for (int k = 0; k < 4 * 3; k++) rgb[k] = 49151; /* 49152 / 65536 */
+        for (int v = 0; v < 4 && i > 2 && (v == 0 || i == 4); v++) rgb[3 * v] = 20000;
+        if (i > 1) demo.ground.rgb_uq16 = rgb;
+        for (int k = 0; i == 1 && k < 3; k++)
+            demo.object[2].albedo_uq16[k] = (demo.object[2].albedo_uq16[k] * 3 + 2) / 4;
+        crc[i] = crc_of(&one, &demo.scene, 160, 120, GN_FORMAT_RGB888);
+    }
+    CHECK_EQ_INT(crc[2], crc[1]);
+    CHECK(crc[0] && crc[1] && crc[0] != crc[1] && crc[3] != crc[2] && crc[4] != crc[3]);
+}
+
 /* Only mixed lights have masks. [M5] */
 static void test_mask_of_mixed_lights(void)
 {
@@ -439,6 +457,7 @@ int main(void)
     test_colour_exponent();
     test_automatic_by_default();
     test_many_bright_lights();
+    test_one_vertex_colour();
     test_mask_of_mixed_lights();
     test_caster_moved_into_view();
     test_disk_offset_per_cascade();
