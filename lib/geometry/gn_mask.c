@@ -30,3 +30,21 @@ GN_HOT uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t 
     return gn_texture_to_uq16(
         gn_texture_mix(gn_texture_mix(a, b, u.weight_uq16), gn_texture_mix(c, d, u.weight_uq16), v.weight_uq16));
 }
+
+#if GN_INTERPOLATES
+GN_HOT int gn_texture_mask_is_even(const gn_texture *image, const int32_t least_q16[2], const int32_t most_q16[2])
+{
+    const uint32_t bytes_log2 = image->flags & GN_TEXTURE_MASK_1 ? 0 : image->flags & GN_TEXTURE_MASK_2 ? 1 : 2;
+    uint32_t x0 = mask_taps(least_q16[0], image->width_log2).first, x1 = mask_taps(most_q16[0], image->width_log2).second,
+             y0 = mask_taps(least_q16[1], image->height_log2).first,
+             y1 = mask_taps(most_q16[1], image->height_log2).second;
+    const uint8_t *first = image->rgba + (((size_t)y0 << image->width_log2 | x0) << bytes_log2);
+    if ((x1 - x0 + 1) * (y1 - y0 + 1) > 64) return 0;
+    for (uint32_t y = y0; y <= y1; y++) {
+        const uint8_t *row = image->rgba + ((size_t)y << image->width_log2 << bytes_log2);
+        for (uint32_t i = x0 << bytes_log2; i < (x1 + 1) << bytes_log2; i++)
+            if (row[i] != first[i & ((1U << bytes_log2) - 1)]) return 0;
+    }
+    return 1;
+}
+#endif

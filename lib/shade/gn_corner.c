@@ -178,6 +178,14 @@ GN_HOT static int32_t attribute(const gn_surface *s, const corner_point *p, int 
     return at_point(p, s->attribute_q16[0][i], s->attribute_q16[1][i], s->attribute_q16[2][i]);
 }
 
+#if GN_TEXTURES
+GN_HOT static void texture_at(const gn_surface *s, const corner_point *p, int32_t uv_q20[2])
+{
+    const int32_t b_q30[2] = {p->b_q28[0] * 4, p->b_q28[1] * 4};
+    for (int i = 0; i < 2; i++) uv_q20[i] = gn_texture_coord(&s->uv, s->object->texture, b_q30, i);
+}
+#endif
+
 GN_HOT static void attributes_at(const gn_surface *s, const corner_point *p, gn_corner *c)
 {
     for (int i = 0; i < 3; i++) {
@@ -193,8 +201,7 @@ GN_HOT static void attributes_at(const gn_surface *s, const corner_point *p, gn_
 #endif
     }
 #if GN_TEXTURES
-    const int32_t b_q30[2] = {s->textured ? p->b_q28[0] * 4 : 0, s->textured ? p->b_q28[1] * 4 : 0};
-    for (int i = 0; s->textured && i < 2; i++) c->uv_q20[i] = gn_texture_coord(&s->uv, s->object->texture, b_q30, i);
+    if (s->textured) texture_at(s, p, c->uv_q20);
 #endif
 #if GN_MASKS
     for (int i = 0; s->masked && s->object->mask_image && i < 2; i++)
@@ -368,6 +375,19 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
     }
 #endif
 }
+
+#if GN_TEXTURES
+GN_HOT void gn_corner_texture(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y,
+                              int32_t uv_q20[2])
+{
+    corner_point p;
+    gn_corner c;
+    c.x = (int16_t)x;
+    c.y = (int16_t)y;
+    uv_q20[0] = uv_q20[1] = 0;
+    if (find_point(l, frame, s, &c, &p)) texture_at(s, &p, uv_q20);
+}
+#endif
 
 #if GN_SHADOWS
 GN_HOT int32_t gn_corner_depth(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y)

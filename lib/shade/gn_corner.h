@@ -46,6 +46,12 @@ void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_sur
                   const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
 #endif
 
+#if GN_TEXTURES
+/* Texture coordinates at a pixel where the plane can be sampled. */
+void gn_corner_texture(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,
+                       int32_t y, int32_t uv_q20[2]);
+#endif
+
 #if GN_PUNCTUAL_LIGHTS
 /* From a spot or point light to the corner; gn_corner_begin() saw that the light is in reach of 32 bits. */
 GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_state *light, int32_t from_q16[3])

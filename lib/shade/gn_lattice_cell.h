@@ -44,7 +44,7 @@ GN_HOT static inline int32_t gn_cell_place_log2(const gn_frame *frame)
 GN_HOT static inline int32_t gn_cell_texture_log2(const gn_frame *frame)
 {
     (void)frame;
-    return GN_K(frame, persp_step) == 16 ? 2 : 3;
+    return GN_K(frame, persp_step) == 16 ? 6 : 9;
 }
 #endif
 

@@ -293,19 +293,37 @@ GN_HOT static GN_NOINLINE int find_nodes(const drawing *d, int32_t below, int32_
 }
 
 #if GN_TEXTURES
-/* Texture coordinates along a row, which wrap round. */
-GN_HOT static void find_coords(const drawing *d, gn_corner *const corner[4], int32_t below, gn_pixel_line *line)
+/* Texture coordinates along a row: exact at the cell's ends and in its middle, a quadratic in between. Where the middle
+ * adds nothing, or the cell's own corners tell all of it, those are not asked for. */
+GN_HOT static GN_NOINLINE void find_coords(const drawing *d, gn_corner *const corner[4], int32_t below,
+                                           gn_texture_line *uv)
 {
+    gn_shading *s = d->s;
+    int32_t log2 = d->size_log2, size = 1 << log2, y = d->y + below, place[3][2];
+    int n = s->lattice.look.texture_places;
+    for (int k = 0; k < n; k++)
+        gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x + (k < 2 ? k << log2 : size >> 1), y, place[k]);
     for (int i = 0; i < 2; i++) {
-        int32_t size_log2 = d->size_log2;
-        uint32_t c0 = (uint32_t)corner[0]->uv_q20[i];
-        int32_t across = (int32_t)((uint32_t)corner[1]->uv_q20[i] - c0),
-                down = (int32_t)((uint32_t)corner[2]->uv_q20[i] - c0);
-        int32_t twist = (int32_t)((uint32_t)corner[3]->uv_q20[i] - (uint32_t)corner[2]->uv_q20[i] - (uint32_t)across);
-        int32_t left = (int32_t)((int64_t)down * below >> size_log2);
-        int32_t width = (int32_t)((uint32_t)across + (uint32_t)((int64_t)twist * below >> size_log2));
-        line->uv_step_q20[i] = width >> size_log2;
-        line->uv_q20[i] = (int32_t)(c0 + (uint32_t)left + (uint32_t)((int64_t)width * d->first >> size_log2));
+        int32_t across, bent = 0;
+        if (n) {
+            uv->from_q20[i] = (uint32_t)place[0][i];
+            across = (int32_t)((uint32_t)place[1][i] - uv->from_q20[i]);
+            if (n == 3) bent = (int32_t)((uint32_t)across - 2 * ((uint32_t)place[2][i] - uv->from_q20[i]));
+        } else {
+            uint32_t c0 = (uint32_t)corner[0]->uv_q20[i];
+            int32_t down = (int32_t)((uint32_t)corner[2]->uv_q20[i] - c0), upper, lower;
+            upper = (int32_t)((uint32_t)corner[1]->uv_q20[i] - c0);
+            lower = (int32_t)((uint32_t)corner[3]->uv_q20[i] - (uint32_t)corner[2]->uv_q20[i]);
+            uv->from_q20[i] = c0 + (uint32_t)((int64_t)down * below >> log2);
+            across = upper + (int32_t)((int64_t)(lower - upper) * below >> log2);
+        }
+        /* from + across t + 2 bent t (t - 1), t = 0..1 along the row */
+        int32_t change = (bent * 128 >> (2 * log2 - 2)) + 1, first = d->first;
+        change >>= 1;
+        uv->step_change_q26[i] = 2 * change;
+        uv->step_q26[i] = (across * 64 >> log2) - change * (size - 1);
+        uv->beyond_q26[i] = first * uv->step_q26[i] + change * first * (first - 1);
+        uv->step_q26[i] += 2 * change * first;
     }
 }
 #endif
@@ -366,7 +384,7 @@ GN_HOT static GN_NOINLINE void draw_strip(drawing *d, gn_corner *const corner[4]
     gn_lattice *l = &s->lattice;
     int32_t log2 = l->look.spacing_log2, (*node)[3] = l->by.node[0], (*next)[3] = l->by.node[1],
             (*step)[3] = l->by.node[2];
-    gn_pixel_line line = {(const int32_t(*)[3])node, log2, inside, NULL, {0, 0}, {0, 0}};
+    gn_pixel_line line = {(const int32_t(*)[3])node, log2, inside, NULL, {{0, 0}, {0, 0}, {0, 0}, {0, 0}}};
     for (int32_t i = 0; log2 && i < d->n; i++)
         for (int c = 0; c < 3; c++) step[i][c] = (next[i][c] - node[i][c]) >> log2;
 #if GN_TEXTURES
@@ -376,7 +394,7 @@ GN_HOT static GN_NOINLINE void draw_strip(drawing *d, gn_corner *const corner[4]
         int32_t y = d->y + below + t;
         uint32_t bits = gn_lattice_bits(l, d->x, y, d->size_log2) >> d->first;
 #if GN_TEXTURES
-        if (line.texture && bits) find_coords(d, corner, below + t, &line);
+        if (line.texture && bits) find_coords(d, corner, below + t, &line.uv);
 #endif
         if (bits) gn_pixel_store_line(s->frame, &s->rows, d->x + d->first, y, bits, &line);
         if (t + 1 == 1 << log2) break;

@@ -25,34 +25,44 @@ GN_HOT int gn_cell_find_bend(gn_lattice_cell *cell)
 }
 
 #if GN_TEXTURES
-/* Whether coordinates of an image are close enough to bilinear. */
-GN_HOT static int coords_hold(const gn_lattice_cell *cell, const gn_texture *image, const int32_t *const at[4],
-                              int32_t frac_bits)
-{
-    for (int i = 0; i < 2; i++) {
-        const int32_t coord[4] = {at[0][i], at[1][i], at[2][i], at[3][i]};
-        uint32_t change[2];
-        gn_cell_changes(coord, change);
-        int32_t texel_log2 = frac_bits - (i ? image->height_log2 : image->width_log2);
-        if (!gn_cell_bends_by_less(change, cell->bend_q16, texel_log2 - gn_cell_texture_log2(cell->frame))) return 0;
-    }
-    return 1;
-}
-#endif
-
-/* Whether texture coordinates may be interpolated. */
-GN_HOT int gn_cell_textures_hold(const gn_lattice_cell *cell)
+/* Places of a row that its coordinates along one axis of the texture need: 0, 2 or 3; 4: more than there are. */
+GN_HOT static int32_t places_of_row(const gn_lattice_cell *cell, int axis)
 {
     gn_corner *const *c = cell->corner;
-    (void)c;
-#if GN_TEXTURES
-    const int32_t *const uv[4] = {c[0]->uv_q20, c[1]->uv_q20, c[2]->uv_q20, c[3]->uv_q20};
-    if (cell->s->textured && !coords_hold(cell, cell->s->object->texture, uv, 20)) return 0;
+    const gn_texture *texture = cell->s->object->texture;
+    const int32_t at[4] = {c[0]->uv_q20[axis], c[1]->uv_q20[axis], c[2]->uv_q20[axis], c[3]->uv_q20[axis]};
+    const uint32_t *bend = cell->bend_q16, none[2] = {bend[0], 0};
+    uint32_t change[2];
+    int32_t least_log2 = 20 - (axis ? texture->height_log2 : texture->width_log2) - gn_cell_texture_log2(cell->frame);
+    gn_cell_changes(at, change);
+    if ((change[0] | change[1]) >> 23) return 4;
+    /* tolerances that are less than a step of the coordinates: so much more of them */
+    if (least_log2 < 0) {
+        change[0] <<= -least_log2 > 8 ? 8 : -least_log2;
+        change[1] <<= -least_log2 > 8 ? 8 : -least_log2;
+        least_log2 = 0;
+    }
+    if (gn_cell_bends_by_less(change, bend, least_log2)) return 0;
+    if (gn_cell_bends_by_less(change, none, least_log2)) return 2;
+    /* a twentieth of the change times the square of the bend */
+    uint32_t square_q16 = (uint32_t)((uint64_t)bend[0] * bend[0] >> 16);
+    return (uint64_t)change[0] * square_q16 >> 20 <= 1U << least_log2 ? 3 : 4;
+}
 #endif
-    return 1;
+
+/* Whether texture coordinates may be interpolated along rows. */
+GN_HOT int gn_cell_textures_hold(const gn_lattice_cell *cell)
+{
+    cell->out->texture_places = 0;
+#if GN_TEXTURES
+    if (!cell->s->textured) return 1;
+    int32_t u = places_of_row(cell, 0), v = places_of_row(cell, 1);
+    cell->out->texture_places = gn_max32(u, v);
+#endif
+    return cell->out->texture_places < 4;
 }
 
-/* Whether a mask image may be interpolated: a corner per texel. */
+/* Whether a mask image may be interpolated: it is the same all over the cell, or has a corner per texel. */
 GN_HOT int gn_cell_masks_hold(const gn_lattice_cell *cell)
 {
     gn_corner *const *c = cell->corner;
@@ -60,13 +70,19 @@ GN_HOT int gn_cell_masks_hold(const gn_lattice_cell *cell)
 #if GN_MASKS
     if (!cell->s->masked || !cell->s->object->mask_image) return 1;
     const gn_texture *image = cell->s->object->mask_image;
+    int32_t least[2], most[2], holds = 1;
     for (int i = 0; i < 2; i++) {
-        uint32_t change =
-            gn_cell_spread(c[0]->mask_uv_uq16[i], c[1]->mask_uv_uq16[i], c[2]->mask_uv_uq16[i], c[3]->mask_uv_uq16[i]);
-        if (change << (i ? image->height_log2 : image->width_log2) > 65536) return 0;
+        int32_t a = c[0]->mask_uv_uq16[i], b = c[1]->mask_uv_uq16[i], d = c[2]->mask_uv_uq16[i],
+                e = c[3]->mask_uv_uq16[i];
+        least[i] = gn_min32(gn_min32(a, b), gn_min32(d, e));
+        most[i] = gn_max32(gn_max32(a, b), gn_max32(d, e));
+        uint32_t change = (uint32_t)most[i] - (uint32_t)least[i];
+        holds &= change << (i ? image->height_log2 : image->width_log2) <= 65536;
     }
-#endif
+    return holds || gn_texture_mask_is_even(image, least, most);
+#else
     return 1;
+#endif
 }
 
 /* ---- How uneven light is ----------------------------------------------------------------------------------------- */

@@ -185,7 +185,7 @@ GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *fra
     *cell =
         (gn_lattice_cell){lattice, frame, surface, corner, size_log2, {0, 0}, lattice->cascade >= 0, 0, 0, look, ask};
     int coarse = size_log2 > gn_cell_finest_log2(frame);
-    if (!gn_cell_find_bend(cell) || (coarse && !gn_cell_textures_hold(cell)) || !gn_cell_masks_hold(cell)) return 0;
+    if (!gn_cell_find_bend(cell) || !gn_cell_textures_hold(cell) || !gn_cell_masks_hold(cell)) return 0;
     look->n_edges = 0;
     look->spacing_log2 = size_log2;
     for (int i = 0; i < 4; i++)

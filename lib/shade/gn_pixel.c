@@ -229,15 +229,35 @@ GN_HOT static void store_colour(const gn_frame *frame, const gn_pixel_rows *rows
     gn_pixel_store(frame, rows, x, y, gn_pixel_pack(frame, q20));
 }
 
+#if GN_TEXTURES
 /* Times a texture's colour. */
-GN_HOT static inline void tint(const gn_pixel_line *line, int32_t i, int32_t colour_q24[3])
+GN_HOT static inline void tint(const gn_texture *texture, const gn_texture_line *uv, int32_t colour_q24[3])
 {
     uint32_t texel_uq16[3];
     GN_COUNT(textured, 1);
-    gn_texture_colour(line->texture,
-                      (int32_t)((uint32_t)line->uv_q20[0] + (uint32_t)i * (uint32_t)line->uv_step_q20[0]),
-                      (int32_t)((uint32_t)line->uv_q20[1] + (uint32_t)i * (uint32_t)line->uv_step_q20[1]), texel_uq16);
+    gn_texture_colour(texture, (int32_t)(uv->from_q20[0] + (uint32_t)(uv->beyond_q26[0] >> 6)),
+                      (int32_t)(uv->from_q20[1] + (uint32_t)(uv->beyond_q26[1] >> 6)), texel_uq16);
     for (int c = 0; c < 3; c++) colour_q24[c] = (int32_t)((int64_t)colour_q24[c] * (int32_t)texel_uq16[c] >> 16);
+}
+
+/* To the next pixel. */
+GN_HOT static inline void step_texture(gn_texture_line *uv)
+{
+    for (int i = 0; i < 2; i++) {
+        uv->beyond_q26[i] += uv->step_q26[i];
+        uv->step_q26[i] += uv->step_change_q26[i];
+    }
+}
+#endif
+
+/* A row's colour at pixel i. */
+GN_HOT static inline void colour_at(const gn_pixel_line *line, int32_t i, int32_t colour_q24[3])
+{
+    int32_t log2 = line->spacing_log2, k = i >> log2, t = i & ((1 << log2) - 1);
+    for (int c = 0; c < 3; c++) {
+        int32_t from = line->node[k][c];
+        colour_q24[c] = t ? from + t * ((line->node[k + 1][c] - from) >> log2) : from;
+    }
 }
 
 GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
@@ -247,16 +267,21 @@ GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows
         line_565(pixel_565(rows, x, y), bits, line);
         return;
     }
-    int32_t log2 = line->spacing_log2;
+#if GN_TEXTURES
+    gn_texture_line uv = line->uv;
+#endif
     for (int32_t i = 0; bits >> i; i++) {
-        int32_t colour[3], k = i >> log2, t = i & ((1 << log2) - 1);
-        if (!(bits >> i & 1U)) continue;
-        for (int c = 0; c < 3; c++) {
-            int32_t from = line->node[k][c];
-            colour[c] = t ? from + t * ((line->node[k + 1][c] - from) >> log2) : from;
+        int32_t colour[3];
+        if (bits >> i & 1U) {
+            colour_at(line, i, colour);
+#if GN_TEXTURES
+            if (line->texture) tint(line->texture, &uv, colour);
+#endif
+            store_colour(frame, rows, x + i, y, colour);
         }
-        if (GN_TEXTURES && line->texture) tint(line, i, colour);
-        store_colour(frame, rows, x + i, y, colour);
+#if GN_TEXTURES
+        step_texture(&uv);
+#endif
     }
 }
 

@@ -166,12 +166,7 @@ typedef struct {
     double allowed;
 } exception;
 static const exception beyond[] = {
-    {"M3", "yard", ".texture=nearest .wrap=cc", 7}, /* texels of textures: coordinates are interpolated in a cell */
-    {"M3", "yard", ".texture=nearest", 80},
-    {"M3", "yard", ".texture=bilinear .wrap=rc", 7},
-    {"M3", "yard", ".texture=bilinear", 25},
-    {"R4", "yard", ".texture=bilinear .colours=1 persp_step=16", 12.5},
-    {"R4", "yard", ".texture=bilinear .colours=1 persp_step=4", 4.7},
+    {"M3", "yard", ".texture=nearest", 1.5}, /* texels that a coordinate is within 2^-9 of */
     {"P3", "yard", ".cone=50,50", 7}, /* a cone without a soft edge */
     {"P6", "room", "other_atlas_size=64 bias_normal=3", 1.25},
     {"P6", "room", "other_atlas_size=64", 5.6}, /* wide filters of coarse tiles of a point light */
