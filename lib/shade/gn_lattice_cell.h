@@ -23,6 +23,14 @@ GN_HOT static inline int32_t gn_cell_light_log2(const gn_frame *frame)
     return GN_K(frame, persp_step) >= 8 ? 0 : 7;
 }
 
+/* Smooth bodies are made of small surfaces with corners of their own: what interpolation is off by is not the same on
+ * both sides of an edge, and is seen sooner. Normals count as turning 2^this times as much. */
+GN_HOT static inline int32_t gn_cell_turn_log2(const gn_frame *frame)
+{
+    (void)frame;
+    return GN_K(frame, persp_step) == 8;
+}
+
 /* Cells of this size are not split any more, unless they have no corners. */
 GN_HOT static inline int32_t gn_cell_finest_log2(const gn_frame *frame)
 {
