@@ -293,37 +293,49 @@ GN_HOT static GN_NOINLINE int find_nodes(const drawing *d, int32_t below, int32_
 }
 
 #if GN_TEXTURES
-/* Texture coordinates along a row: exact at the cell's ends and in its middle, a quadratic in between. Where the middle
- * adds nothing, or the cell's own corners tell all of it, those are not asked for. */
+/* A row's coordinates along one axis: from + across t + 2 bent t (t - 1), t = 0 .. 1 from one end of the cell to the
+ * other. Of that all pixels from the drawing's first on. */
+GN_HOT static void set_coords(gn_texture_line *uv, int axis, const drawing *d, uint32_t from_q20, int32_t across_q20,
+                              int32_t bent_q20)
+{
+    int32_t log2 = d->size_log2, first = d->first, half = ((bent_q20 * 128 >> (2 * log2 - 1)) + 1) >> 1;
+    int32_t step = (across_q20 * 64 >> log2) - half * ((1 << log2) - 1);
+    uv->from_q20[axis] = from_q20;
+    uv->beyond_q26[axis] = first * step + half * first * (first - 1);
+    uv->step_q26[axis] = step + 2 * half * first;
+    uv->step_change_q26[axis] = 2 * half;
+}
+
+/* Between a row of the cell's corners and the other. */
+GN_HOT static void coords_of_corners(const drawing *d, gn_corner *const corner[4], int32_t below, gn_texture_line *uv)
+{
+    for (int i = 0; i < 2; i++) {
+        uint32_t c[4];
+        for (int k = 0; k < 4; k++) c[k] = (uint32_t)corner[k]->uv_q20[i];
+        int32_t upper = (int32_t)(c[1] - c[0]), lower = (int32_t)(c[3] - c[2]), down = (int32_t)(c[2] - c[0]);
+        set_coords(uv, i, d, c[0] + (uint32_t)((int64_t)down * below >> d->size_log2),
+                   upper + (int32_t)((int64_t)(lower - upper) * below >> d->size_log2), 0);
+    }
+}
+
+/* As they are at the ends of the cell, and in its middle if need be. */
 GN_HOT static GN_NOINLINE void find_coords(const drawing *d, gn_corner *const corner[4], int32_t below,
                                            gn_texture_line *uv)
 {
     gn_shading *s = d->s;
-    int32_t log2 = d->size_log2, size = 1 << log2, y = d->y + below, place[3][2];
-    int n = s->lattice.look.texture_places;
-    for (int k = 0; k < n; k++)
-        gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x + (k < 2 ? k << log2 : size >> 1), y, place[k]);
+    int32_t size = 1 << d->size_log2, y = d->y + below, from[2], end[2], middle[2];
+    if (!s->lattice.look.texture_places) {
+        coords_of_corners(d, corner, below, uv);
+        return;
+    }
+    gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x, y, from);
+    gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x + size, y, end);
+    if (s->lattice.look.texture_places == 3)
+        gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x + (size >> 1), y, middle);
     for (int i = 0; i < 2; i++) {
-        int32_t across, bent = 0;
-        if (n) {
-            uv->from_q20[i] = (uint32_t)place[0][i];
-            across = (int32_t)((uint32_t)place[1][i] - uv->from_q20[i]);
-            if (n == 3) bent = (int32_t)((uint32_t)across - 2 * ((uint32_t)place[2][i] - uv->from_q20[i]));
-        } else {
-            uint32_t c0 = (uint32_t)corner[0]->uv_q20[i];
-            int32_t down = (int32_t)((uint32_t)corner[2]->uv_q20[i] - c0), upper, lower;
-            upper = (int32_t)((uint32_t)corner[1]->uv_q20[i] - c0);
-            lower = (int32_t)((uint32_t)corner[3]->uv_q20[i] - (uint32_t)corner[2]->uv_q20[i]);
-            uv->from_q20[i] = c0 + (uint32_t)((int64_t)down * below >> log2);
-            across = upper + (int32_t)((int64_t)(lower - upper) * below >> log2);
-        }
-        /* from + across t + 2 bent t (t - 1), t = 0..1 along the row */
-        int32_t change = (bent * 128 >> (2 * log2 - 2)) + 1, first = d->first;
-        change >>= 1;
-        uv->step_change_q26[i] = 2 * change;
-        uv->step_q26[i] = (across * 64 >> log2) - change * (size - 1);
-        uv->beyond_q26[i] = first * uv->step_q26[i] + change * first * (first - 1);
-        uv->step_q26[i] += 2 * change * first;
+        uint32_t at = (uint32_t)from[i], across = (uint32_t)end[i] - at, bent = 0;
+        if (s->lattice.look.texture_places == 3) bent = across - 2 * ((uint32_t)middle[i] - at);
+        set_coords(uv, i, d, at, (int32_t)across, (int32_t)bent);
     }
 }
 #endif

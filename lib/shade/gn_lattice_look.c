@@ -30,7 +30,7 @@ GN_HOT static GN_NOINLINE int highlight_holds(const gn_lattice_cell *cell, uint3
         across += (uint64_t)(change * change);
     }
     *any = nearest << sharp_log2 < 14U << 24;
-    return !*any || across << (sharp_log2 + gn_cell_light_log2(cell->frame) + 2 * gn_cell_turn_log2(cell->frame)) <= 8U << 24;
+    return !*any || across << (sharp_log2 + gn_cell_light_log2(cell->frame)) <= 2U << 24;
 }
 #endif
 
