@@ -6,30 +6,24 @@
 #include "base/gn_tables.h"
 #include "geometry/gn_texture.h"
 
-/* Texels of a coordinate, Q16, of 2^size_log2 <= 4096. A repeating one is modulo 2^12 turns, whole numbers of texels.
- */
-GN_HOT static int32_t texels_q16(int32_t c_q20, int32_t size_log2)
+/* Texels of an axis of 2^size_log2 <= 4096 at a coordinate, modulo 2^6 turns, or clamped and within 2^5. */
+GN_HOT static inline gn_texture_taps find_taps(int32_t c_q26, int32_t size_log2, int clamped, int bilinear)
 {
-    return size_log2 >= 4 ? (int32_t)((uint32_t)c_q20 << (size_log2 - 4)) : c_q20 >> (4 - size_log2);
+    int32_t last = (1 << size_log2) - 1, shift = 26 - size_log2, half = bilinear ? 1 << (shift - 1) : 0, first;
+    gn_texture_taps taps;
+    if (clamped) c_q26 = gn_max32(0, gn_min32(c_q26, 1 << 26));
+    c_q26 = (int32_t)((uint32_t)c_q26 - (uint32_t)half);
+    first = c_q26 >> shift;
+    taps.weight_uq16 = (uint32_t)c_q26 << (32 - shift) >> 16;
+    taps.first = (uint32_t)(clamped ? gn_max32(0, gn_min32(first, last)) : first & last);
+    taps.second = (uint32_t)(clamped ? gn_min32(first + 1, last) : (first + 1) & last);
+    return taps;
 }
 
-GN_HOT static GN_SHARED gn_texture_taps find_taps(int32_t c_q20, int32_t size_log2, int clamped, int bilinear)
+/* A coordinate with 20 fraction bits in the form of find_taps(). */
+GN_HOT static inline int32_t to_q26(int32_t c_q20, int clamped)
 {
-    uint32_t last = (1U << size_log2) - 1;
-    int32_t half = bilinear ? 32768 : 0;
-    gn_texture_taps taps;
-    if (clamped) {
-        int32_t at_q16 = texels_q16(gn_max32(0, gn_min32(c_q20, 1 << 20)), size_log2) - half; /* <= 2^28 */
-        taps.first = (uint32_t)gn_max32(0, gn_min32(at_q16 >> 16, (int32_t)last));
-        taps.second = (uint32_t)gn_min32((at_q16 >> 16) + 1, (int32_t)last);
-        taps.weight_uq16 = (uint32_t)at_q16 & 0xFFFFU;
-    } else {
-        uint32_t at_q16 = (uint32_t)texels_q16(c_q20, size_log2) - (uint32_t)half; /* modulo a multiple of the size */
-        taps.first = (at_q16 >> 16) & last;
-        taps.second = (taps.first + 1) & last;
-        taps.weight_uq16 = at_q16 & 0xFFFFU;
-    }
-    return taps;
+    return clamped ? gn_max32(0, gn_min32(c_q20, 1 << 20)) * 64 : (int32_t)((uint32_t)c_q20 << 6);
 }
 
 typedef struct {
@@ -41,8 +35,9 @@ typedef struct {
 GN_HOT static GN_SHARED void find_texels(footprint *out, const gn_texture *texture, int32_t u_q20, int32_t v_q20)
 {
     out->bilinear = (texture->flags & GN_TEXTURE_BILINEAR) != 0;
-    gn_texture_taps u = find_taps(u_q20, texture->width_log2, texture->flags & GN_TEXTURE_CLAMP_U, out->bilinear);
-    gn_texture_taps v = find_taps(v_q20, texture->height_log2, texture->flags & GN_TEXTURE_CLAMP_V, out->bilinear);
+    int clamp_u = gn_texture_clamps(texture, 0), clamp_v = gn_texture_clamps(texture, 1);
+    gn_texture_taps u = find_taps(to_q26(u_q20, clamp_u), texture->width_log2, clamp_u, out->bilinear);
+    gn_texture_taps v = find_taps(to_q26(v_q20, clamp_v), texture->height_log2, clamp_v, out->bilinear);
     const uint8_t *upper = texture->rgba + 4 * ((size_t)v.first << texture->width_log2);
     const uint8_t *lower = texture->rgba + 4 * ((size_t)v.second << texture->width_log2);
     out->texel[0] = upper + 4 * u.first;
@@ -99,18 +94,62 @@ GN_HOT int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_te
     return gn_texture_clamps(texture, which) ? gn_sat32(c_q20) : (int32_t)(uint32_t)c_q20;
 }
 
+/* Colours of the texels that a reader is at. */
+GN_HOT static GN_NOINLINE void decode(gn_texture_reader *r, const gn_texture_taps *u, const gn_texture_taps *v)
+{
+    const uint8_t *upper = r->texture->rgba + 4 * ((size_t)v->first << r->texture->width_log2),
+                  *lower = r->texture->rgba + 4 * ((size_t)v->second << r->texture->width_log2);
+    const uint8_t *const t[4] = {upper + 4 * u->first, upper + 4 * u->second, lower + 4 * u->first,
+                                 lower + 4 * u->second};
+    int differ = 0;
+    for (int c = 0; r->bilinear && c < 3; c++)
+        differ |= (t[0][c] ^ t[1][c]) | (t[0][c] ^ t[2][c]) | (t[0][c] ^ t[3][c]);
+    r->uniform = !differ;
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < (differ ? 4 : 1); i++) r->linear[c][i] = (uint16_t)gn_srgb_decode_entry(t[i][c]);
+}
+
+GN_HOT void gn_texture_read_begin(gn_texture_reader *reader, const gn_texture *texture)
+{
+    reader->texture = texture;
+    reader->at = UINT32_MAX;
+    reader->bilinear = (texture->flags & GN_TEXTURE_BILINEAR) != 0;
+    reader->clamp[0] = gn_texture_clamps(texture, 0);
+    reader->clamp[1] = gn_texture_clamps(texture, 1);
+}
+
+GN_HOT int gn_texture_move(gn_texture_reader *r, int32_t u_q26, int32_t v_q26)
+{
+    gn_texture_taps u = find_taps(u_q26, r->texture->width_log2, r->clamp[0], r->bilinear);
+    gn_texture_taps v = find_taps(v_q26, r->texture->height_log2, r->clamp[1], r->bilinear);
+    uint32_t at = v.first << 12 | u.first | (uint32_t)(u.second == u.first) << 24 |
+                  (uint32_t)(v.second == v.first) << 25;
+    r->weight_uq16[0] = u.weight_uq16;
+    r->weight_uq16[1] = v.weight_uq16;
+    if (at == r->at) return r->uniform;
+    r->at = at;
+    decode(r, &u, &v);
+    return 0;
+}
+
 /* A colour in linear light. [M3] */
+GN_HOT void gn_texture_read(const gn_texture_reader *r, uint32_t rgb_uq16[3])
+{
+    uint32_t right_uq16 = r->weight_uq16[0];
+    for (int c = 0; c < 3; c++) {
+        const uint16_t *v = r->linear[c];
+        uint32_t value = v[0];
+        if (!r->uniform)
+            value = gn_texture_mix(gn_texture_mix(v[0], v[1], right_uq16), gn_texture_mix(v[2], v[3], right_uq16),
+                                   r->weight_uq16[1]);
+        rgb_uq16[c] = gn_texture_to_uq16(value);
+    }
+}
+
 GN_HOT void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3])
 {
-    footprint f;
-    uint32_t value[4];
-    find_texels(&f, texture, u_q20, v_q20);
-    for (int c = 0; c < 3; c++) {
-        if (f.bilinear && !is_uniform(&f, (uint32_t)c)) {
-            for (int i = 0; i < 4; i++) value[i] = gn_srgb_decode_entry(f.texel[i][c]);
-            rgb_uq16[c] = gn_texture_to_uq16(blend(&f, value));
-        } else {
-            rgb_uq16[c] = gn_texture_to_uq16(gn_srgb_decode_entry(f.texel[0][c]));
-        }
-    }
+    gn_texture_reader reader;
+    gn_texture_read_begin(&reader, texture);
+    gn_texture_move(&reader, to_q26(u_q20, reader.clamp[0]), to_q26(v_q20, reader.clamp[1]));
+    gn_texture_read(&reader, rgb_uq16);
 }

@@ -31,6 +31,25 @@ void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_
 int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *texture, const int32_t b_q30[2],
                          int32_t which);
 
+/* Where colours are read, one after the other: between four texels, decoded. */
+typedef struct {
+    const gn_texture *texture;
+    uint32_t at; /* the first one's column and row, and whether the others are at the same; UINT32_MAX: none yet */
+    int bilinear, clamp[2];
+    int uniform; /* the first one's colour is that of all */
+    uint32_t weight_uq16[2];
+    uint16_t linear[3][4]; /* of a channel: upper left, upper right, lower left, lower right; 65535: 1 */
+} gn_texture_reader;
+
+void gn_texture_read_begin(gn_texture_reader *reader, const gn_texture *texture);
+
+/* Coordinates with 26 fraction bits, modulo 2^6 turns; clamped: within 2^5. Returns whether the colour there is that of
+ * the last place. */
+int gn_texture_move(gn_texture_reader *reader, int32_t u_q26, int32_t v_q26);
+
+/* The colour there, as gn_texture_colour() says it. */
+void gn_texture_read(const gn_texture_reader *reader, uint32_t rgb_uq16[3]);
+
 /* Red, green, blue in linear light, 0..65536 each: texels are decoded before they are filtered. */
 void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3]);
 

@@ -3,6 +3,7 @@
 
 #include "base/gn_count.h"
 #include "base/gn_q.h"
+#include "geometry/gn_texture.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_lattice_look.h"
@@ -300,10 +301,11 @@ GN_HOT static void set_coords(gn_texture_line *uv, int axis, const drawing *d, u
 {
     int32_t log2 = d->size_log2, first = d->first, half = ((bent_q20 * 128 >> (2 * log2 - 1)) + 1) >> 1;
     int32_t step = (across_q20 * 64 >> log2) - half * ((1 << log2) - 1);
-    uv->from_q20[axis] = from_q20;
-    uv->beyond_q26[axis] = first * step + half * first * (first - 1);
-    uv->step_q26[axis] = step + 2 * half * first;
-    uv->step_change_q26[axis] = 2 * half;
+    if (gn_texture_clamps(d->s->surface.object->texture, axis)) /* far out it is the same all over the cell */
+        from_q20 = (uint32_t)gn_max32(-(16 << 20), gn_min32((int32_t)from_q20, 16 << 20));
+    uv->at_q26[axis] = (from_q20 << 6) + (uint32_t)(first * step + half * first * (first - 1));
+    uv->step_q26[axis] = (uint32_t)(step + 2 * half * first);
+    uv->step_change_q26[axis] = (uint32_t)(2 * half);
 }
 
 /* Between a row of the cell's corners and the other. */
@@ -396,7 +398,7 @@ GN_HOT static GN_NOINLINE void draw_strip(drawing *d, gn_corner *const corner[4]
     gn_lattice *l = &s->lattice;
     int32_t log2 = l->look.spacing_log2, (*node)[3] = l->by.node[0], (*next)[3] = l->by.node[1],
             (*step)[3] = l->by.node[2];
-    gn_pixel_line line = {(const int32_t(*)[3])node, log2, inside, NULL, {{0, 0}, {0, 0}, {0, 0}, {0, 0}}};
+    gn_pixel_line line = {(const int32_t(*)[3])node, log2, inside, NULL, {{0, 0}, {0, 0}, {0, 0}}};
     for (int32_t i = 0; log2 && i < d->n; i++)
         for (int c = 0; c < 3; c++) step[i][c] = (next[i][c] - node[i][c]) >> log2;
 #if GN_TEXTURES

@@ -229,27 +229,6 @@ GN_HOT static void store_colour(const gn_frame *frame, const gn_pixel_rows *rows
     gn_pixel_store(frame, rows, x, y, gn_pixel_pack(frame, q20));
 }
 
-#if GN_TEXTURES
-/* Times a texture's colour. */
-GN_HOT static inline void tint(const gn_texture *texture, const gn_texture_line *uv, int32_t colour_q24[3])
-{
-    uint32_t texel_uq16[3];
-    GN_COUNT(textured, 1);
-    gn_texture_colour(texture, (int32_t)(uv->from_q20[0] + (uint32_t)(uv->beyond_q26[0] >> 6)),
-                      (int32_t)(uv->from_q20[1] + (uint32_t)(uv->beyond_q26[1] >> 6)), texel_uq16);
-    for (int c = 0; c < 3; c++) colour_q24[c] = (int32_t)((int64_t)colour_q24[c] * (int32_t)texel_uq16[c] >> 16);
-}
-
-/* To the next pixel. */
-GN_HOT static inline void step_texture(gn_texture_line *uv)
-{
-    for (int i = 0; i < 2; i++) {
-        uv->beyond_q26[i] += uv->step_q26[i];
-        uv->step_q26[i] += uv->step_change_q26[i];
-    }
-}
-#endif
-
 /* A row's colour at pixel i. */
 GN_HOT static inline void colour_at(const gn_pixel_line *line, int32_t i, int32_t colour_q24[3])
 {
@@ -260,28 +239,87 @@ GN_HOT static inline void colour_at(const gn_pixel_line *line, int32_t i, int32_
     }
 }
 
+#if GN_TEXTURES
+/* To the next pixel. */
+GN_HOT static inline void step_texture(gn_texture_line *uv)
+{
+    for (int i = 0; i < 2; i++) {
+        uv->at_q26[i] += uv->step_q26[i];
+        uv->step_q26[i] += uv->step_change_q26[i];
+    }
+}
+
+/* A colour times a texture's, packed. */
+GN_HOT static inline uint32_t tint(const gn_frame *frame, const gn_texture_reader *reader, const int32_t colour_q24[3],
+                                   int levels)
+{
+    uint32_t texel_uq16[3], q20[3];
+    int32_t q24[3];
+    gn_texture_read(reader, texel_uq16);
+    for (int c = 0; c < 3; c++) q24[c] = (int32_t)((int64_t)colour_q24[c] * (int32_t)texel_uq16[c] >> 16);
+    if (levels) return limit_and_pack_565(q24[0], q24[1], q24[2]);
+    for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(q24[c], 0) >> 4;
+    return gn_pixel_pack(frame, q20);
+}
+
+/* Pixels of `bits` between two nodes. */
+GN_HOT static void textured_segment(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
+                                    uint32_t bits, gn_texture_reader *reader, gn_texture_line *uv,
+                                    const int32_t from_q24[3], const int32_t step_q24[3])
+{
+    int levels = GN_LEVEL_TABLES && has_levels(frame), flat = !(step_q24[0] | step_q24[1] | step_q24[2]), known = 0;
+    uint16_t *out = levels ? pixel_565(rows, x, y) : NULL;
+    uint32_t packed = 0;
+    for (int32_t i = 0; bits >> i; i++, step_texture(uv)) {
+        if (!(bits >> i & 1U)) continue;
+        GN_COUNT(textured, 1);
+        known &= gn_texture_move(reader, (int32_t)uv->at_q26[0], (int32_t)uv->at_q26[1]);
+        if (!known) {
+            int32_t colour[3];
+            for (int c = 0; c < 3; c++) colour[c] = from_q24[c] + i * step_q24[c];
+            packed = tint(frame, reader, colour, levels);
+            known = flat;
+        }
+        if (levels) out[i] = (uint16_t)packed;
+        else gn_pixel_store(frame, rows, x + i, y, packed);
+    }
+}
+
+GN_HOT static GN_NOINLINE void textured_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
+                                             uint32_t bits, const gn_pixel_line *line)
+{
+    gn_texture_line uv = line->uv;
+    gn_texture_reader reader;
+    int32_t n = 1 << line->spacing_log2, step[3] = {0, 0, 0};
+    gn_texture_read_begin(&reader, line->texture);
+    for (const int32_t(*node)[3] = line->node; bits; bits >>= n, x += n, node++) {
+        uint32_t part = bits & ((1U << n) - 1);
+        for (int c = 0; n > 1 && part && c < 3; c++) step[c] = (node[1][c] - node[0][c]) >> line->spacing_log2;
+        int32_t i = part ? 32 - gn_clz32(part) : 0;
+        textured_segment(frame, rows, x, y, part, &reader, &uv, node[0], step);
+        for (; bits >> n && i < n; i++) step_texture(&uv);
+    }
+}
+#endif
+
 GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
                                 const gn_pixel_line *line)
 {
-    if (GN_LEVEL_TABLES && has_levels(frame) && !line->texture) {
+#if GN_TEXTURES
+    if (line->texture) {
+        textured_line(frame, rows, x, y, bits, line);
+        return;
+    }
+#endif
+    if (GN_LEVEL_TABLES && has_levels(frame)) {
         line_565(pixel_565(rows, x, y), bits, line);
         return;
     }
-#if GN_TEXTURES
-    gn_texture_line uv = line->uv;
-#endif
     for (int32_t i = 0; bits >> i; i++) {
         int32_t colour[3];
-        if (bits >> i & 1U) {
-            colour_at(line, i, colour);
-#if GN_TEXTURES
-            if (line->texture) tint(line->texture, &uv, colour);
-#endif
-            store_colour(frame, rows, x + i, y, colour);
-        }
-#if GN_TEXTURES
-        step_texture(&uv);
-#endif
+        if (!(bits >> i & 1U)) continue;
+        colour_at(line, i, colour);
+        store_colour(frame, rows, x + i, y, colour);
     }
 }
 

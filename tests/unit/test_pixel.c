@@ -226,16 +226,17 @@ static uint32_t q20_of(int64_t q24)
 }
 
 #if GN_TEXTURES
-/* A texture's colour at pixel i of a line, whose coordinates are a quadratic, mod 2^12 turns. */
+/* A texture's colour at pixel i of a line, whose coordinates are a quadratic, mod 2^6 turns. */
 static void texel_of_line(const gn_pixel_line *line, int32_t i, uint32_t rgb_uq16[3])
 {
-    int32_t at[2];
-    for (int k = 0; k < 2; k++) {
-        const int64_t beyond = line->uv.beyond_q26[k] + (int64_t)i * line->uv.step_q26[k] +
-                               (int64_t)i * (i - 1) / 2 * line->uv.step_change_q26[k];
-        at[k] = (int32_t)(line->uv.from_q20[k] + (uint32_t)i128_floor_div(beyond, 64));
-    }
-    gn_texture_colour(line->texture, at[0], at[1], rgb_uq16);
+    gn_texture_reader reader;
+    uint32_t at[2];
+    for (int k = 0; k < 2; k++)
+        at[k] = line->uv.at_q26[k] + (uint32_t)i * line->uv.step_q26[k] +
+                (uint32_t)(i * (i - 1) / 2) * line->uv.step_change_q26[k];
+    gn_texture_read_begin(&reader, line->texture);
+    gn_texture_move(&reader, (int32_t)at[0], (int32_t)at[1]);
+    gn_texture_read(&reader, rgb_uq16);
 }
 #endif
 
@@ -292,10 +293,9 @@ static void choose_texture(gn_pixel_line *line)
     for (size_t i = 0; i < sizeof rgba; i++) rgba[i] = (uint8_t)rng_u32(&random_state);
     line->texture = &texture;
     for (int i = 0; i < 2; i++) {
-        line->uv.from_q20[i] = rng_u32(&random_state);
-        line->uv.beyond_q26[i] = rng_range(&random_state, -(1 << 29), 1 << 29);
-        line->uv.step_q26[i] = rng_range(&random_state, -(1 << 25), 1 << 25);
-        line->uv.step_change_q26[i] = rng_range(&random_state, -(1 << 20), 1 << 20);
+        line->uv.at_q26[i] = rng_u32(&random_state);
+        line->uv.step_q26[i] = (uint32_t)rng_range(&random_state, -(1 << 23), 1 << 23);
+        line->uv.step_change_q26[i] = (uint32_t)rng_range(&random_state, -(1 << 18), 1 << 18);
     }
 #else
     (void)line;
@@ -309,7 +309,7 @@ static void test_lines(void)
     static const gn_format formats[] = {GN_FORMAT_RGB565, GN_FORMAT_RGB565_SWAPPED, GN_FORMAT_GREY8, GN_FORMAT_RGB888};
     int32_t node[LINE_PIXELS + 1][3];
     tally same = {0}, kept = {0}, all = {0};
-    gn_pixel_line line = {(const int32_t(*)[3])node, 0, 0, NULL, {{0, 0}, {0, 0}, {0, 0}, {0, 0}}};
+    gn_pixel_line line = {(const int32_t(*)[3])node, 0, 0, NULL, {{0, 0}, {0, 0}, {0, 0}}};
     for (int k = 0; k < 40000; k++) {
         frame.picture.format = formats[k & 3];
         SET_KNOB(&frame, srgb, k % 7 != 0);
