@@ -122,8 +122,8 @@ GN_HOT int gn_texture_move(gn_texture_reader *r, int32_t u_q26, int32_t v_q26)
 {
     gn_texture_taps u = find_taps(u_q26, r->texture->width_log2, r->clamp[0], r->bilinear);
     gn_texture_taps v = find_taps(v_q26, r->texture->height_log2, r->clamp[1], r->bilinear);
-    uint32_t at = v.first << 12 | u.first | (uint32_t)(u.second == u.first) << 24 |
-                  (uint32_t)(v.second == v.first) << 25;
+    uint32_t at =
+        v.first << 12 | u.first | (uint32_t)(u.second == u.first) << 24 | (uint32_t)(v.second == v.first) << 25;
     r->weight_uq16[0] = u.weight_uq16;
     r->weight_uq16[1] = v.weight_uq16;
     if (at == r->at) return r->uniform;
