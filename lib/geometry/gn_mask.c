@@ -35,7 +35,8 @@ GN_HOT uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t 
 GN_HOT int gn_texture_mask_is_even(const gn_texture *image, const int32_t least_q16[2], const int32_t most_q16[2])
 {
     const uint32_t bytes_log2 = image->flags & GN_TEXTURE_MASK_1 ? 0 : image->flags & GN_TEXTURE_MASK_2 ? 1 : 2;
-    uint32_t x0 = mask_taps(least_q16[0], image->width_log2).first, x1 = mask_taps(most_q16[0], image->width_log2).second,
+    uint32_t x0 = mask_taps(least_q16[0], image->width_log2).first,
+             x1 = mask_taps(most_q16[0], image->width_log2).second,
              y0 = mask_taps(least_q16[1], image->height_log2).first,
              y1 = mask_taps(most_q16[1], image->height_log2).second;
     const uint8_t *first = image->rgba + (((size_t)y0 << image->width_log2 | x0) << bytes_log2);

@@ -13,8 +13,8 @@ uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_
 /* The same of a mask image: bilinear and clamped, whatever its flags say, and lit in a channel that it lacks. */
 uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel);
 
-/* Whether a mask image is the same in all channels wherever u and v (0, 1) are between least and most; at most 64 texels
- * are looked at. */
+/* Whether a mask image is the same in all channels wherever u and v (0, 1) are between least and most; at most 64
+ * texels are looked at. */
 int gn_texture_mask_is_even(const gn_texture *image, const int32_t least_q16[2], const int32_t most_q16[2]);
 
 /* Whether a coordinate (0: u, 1: v) ends at the texture's borders; otherwise it repeats. */

@@ -468,6 +468,7 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
         }
         draw_strip(&d, corner, below, both);
     }
+    gn_levels_forget(l); /* nodes took their place */
 }
 
 #endif

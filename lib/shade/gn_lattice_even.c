@@ -204,7 +204,8 @@ GN_HOT uint32_t gn_cell_unevenness_q24(const gn_lattice_cell *cell, uint32_t slo
                                        uint32_t *kink_q24)
 {
     const gn_light_state *light = cell->s->light[slot].state;
-    uint32_t classes = 0, change = (uint32_t)(most_q24 - least_q24), t_q12 = turn_q12(cell) << gn_cell_turn_log2(cell->frame) >> 1;
+    uint32_t classes = 0, change = (uint32_t)(most_q24 - least_q24),
+             t_q12 = turn_q12(cell) << gn_cell_turn_log2(cell->frame) >> 1;
     (void)light;
 #if GN_PUNCTUAL_LIGHTS
     if (light->kind != GN_LIGHT_DIRECTIONAL) t_q12 += 2 * size_over_distance_q12(cell, slot);

@@ -10,6 +10,13 @@
 /* From now on between a colour in shadow and what the light adds to it. */
 void gn_levels_use(gn_lattice *lattice, const int32_t dark_q24[3], const int32_t more_q24[3]);
 
+/* What is kept of them is overwritten. */
+GN_HOT static inline void gn_levels_forget(gn_lattice *lattice)
+{
+    gn_levels *l = &lattice->by.look.levels;
+    l->known[0] = l->known[1] = l->known[2] = 0;
+}
+
 /* Encodes a level. */
 uint32_t gn_levels_find(gn_shading *s, uint32_t level);
 
@@ -17,7 +24,8 @@ uint32_t gn_levels_find(gn_shading *s, uint32_t level);
 GN_HOT static inline uint32_t gn_levels_pixel(gn_shading *s, uint32_t attenuation)
 {
     uint32_t level = (attenuation + 512) >> 10;
-    if (s->lattice.known[level >> 5] >> (level & 31) & 1U) return s->lattice.pixel[level];
+    const gn_levels *l = &s->lattice.by.look.levels;
+    if (l->known[level >> 5] >> (level & 31) & 1U) return l->pixel[level];
     return gn_levels_find(s, level);
 }
 

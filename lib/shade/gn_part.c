@@ -16,6 +16,7 @@ enum { CHUNK_LOG2 = 4, CHUNK = 1 << CHUNK_LOG2 };
 
 /* A view of the light whose shadow has an edge in the part. */
 typedef struct {
+    const gn_light_view *view;
     const gn_window *window; /* NULL: none */
     int said;                /* of the whole part */
     int32_t offset_q16[3];   /* of receivers */
@@ -91,8 +92,7 @@ GN_HOT static GN_NOINLINE int windows_of_part(gn_shading *s, uint32_t slot, part
     uint32_t views = views_of_part(s, !first->border_lit);
     for (uint32_t i = 0; i < 4; i++) {
         int said = GN_WINDOW_MIXED;
-        if (view) view[i].window = NULL;
-        if (view) view[i].said = GN_WINDOW_MIXED;
+        if (view) view[i] = (part_view){first + i, NULL, GN_WINDOW_MIXED, {0, 0, 0}};
         if (!(views >> i & 1U)) continue;
         const gn_window *w = gn_lattice_window(l, s->frame, &s->surface, slot, i, l->x, NULL);
         if (w && w->w) {
@@ -352,6 +352,20 @@ GN_HOT static GN_NOINLINE void begin_rows(gn_shading *s, const part_look *look)
     gn_levels_use(&s->lattice, dark, more);
 }
 
+#if GN_SHADOWS
+/* Windows of other views may have taken their place. */
+GN_HOT static void drop_windows(part_look *look)
+{
+    for (int i = 0; look->mixed && i < 4; i++)
+        if (look->view[i].window && look->view[i].window->view != look->view[i].view) look->view[i].window = NULL;
+}
+#else
+GN_HOT static void drop_windows(part_look *look)
+{
+    (void)look;
+}
+#endif
+
 /* Whether the rows' windows are there. */
 GN_HOT static int has_windows(const gn_lattice *l, const part_look *look)
 {
@@ -366,7 +380,9 @@ GN_HOT static int shade_rows(gn_shading *s, int any)
 {
     gn_lattice *l = &s->lattice;
     part_look look;
-    if (!find_lights(s, &look) || (look.mixed && !any && !has_windows(l, &look))) return 0;
+    if (!find_lights(s, &look)) return 0;
+    drop_windows(&look);
+    if (look.mixed && !any && !has_windows(l, &look)) return 0;
     look.dark = look.lit = pack_sum(s, &look, 0);
     GN_COUNT(parts, 1);
     if (look.mixed) {

@@ -11,6 +11,7 @@
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_light.h"
+#include "shade/gn_levels.h"
 #include "shade/gn_pixel.h"
 #include "visible/gn_cell.h"
 #include "visible/gn_runs.h"
@@ -272,7 +273,7 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
     if (!sort_runs(s, s->rect.y1 - s->rect.y0)) return;
     s->cache.object = NULL;
 #if GN_INTERPOLATES
-    s->lattice.known[0] = s->lattice.known[1] = s->lattice.known[2] = 0;
+    gn_levels_forget(&s->lattice);
 #endif
     s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);

@@ -209,7 +209,7 @@ typedef struct {
     gn_lattice_edge edge[GN_LATTICE_EDGES];
     int32_t n_edges;
     int32_t texture_places; /* of a row: coordinates that are asked for, 2 or 3; 0: none */
-    int32_t spacing_log2; /* of lookups in pixels */
+    int32_t spacing_log2;   /* of lookups in pixels */
 } gn_lattice_look;
 
 /* A window that is to be made before the cell can be looked at. */
@@ -239,6 +239,13 @@ typedef struct {
     uint32_t dark_uq16[4], more_uq16[4]; /* in shadow, and what is added to that without one */
     uint32_t shine_uq16[3];              /* colour of its highlight */
 } gn_contribution;
+
+/* Pixels of 1 / 64 steps between two colours, from dark to lit. */
+typedef struct {
+    int32_t two_q24[2][3];
+    uint32_t known[3];
+    uint32_t pixel[65];
+} gn_levels;
 
 /* A light of the surface's list, once per surface. */
 typedef struct {
@@ -305,16 +312,13 @@ typedef struct gn_lattice {
 #endif
     gn_corner corner; /* of a window */
     gn_lattice_look look;
-    /* a surface of two colours: pixels of 1 / 64 steps from dark to lit, those that are known */
-    int32_t two_q24[2][3];
-    uint32_t known[3];
-    uint32_t pixel[65];
     union {
         int32_t node[3][GN_LATTICE_NODES][3]; /* colours of a row of a cell and the next, Q24; steps between */
         struct {
             gn_lattice_cell cell;
             gn_contribution light;
-        } look; /* before it is drawn */
+            gn_levels levels; /* from one drawing to the next */
+        } look;               /* before it is drawn, or where it has two colours */
     } by;
     uint32_t attenuation[2][GN_LATTICE_NODES];
 } gn_lattice;

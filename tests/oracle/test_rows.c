@@ -167,7 +167,7 @@ typedef struct {
 } exception;
 static const exception beyond[] = {
     {"M3", "yard", ".texture=nearest", 1.5}, /* texels that a coordinate is within 2^-9 of */
-    {"P3", "yard", ".cone=50,50", 7}, /* a cone without a soft edge */
+    {"P3", "yard", ".cone=50,50", 7},        /* a cone without a soft edge */
     {"P6", "room", "other_atlas_size=64 bias_normal=3", 1.25},
     {"P6", "room", "other_atlas_size=64", 5.6}, /* wide filters of coarse tiles of a point light */
     {"P5", "room", "near=0.6", 4},

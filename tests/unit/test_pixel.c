@@ -376,7 +376,7 @@ static void test_two_colours(void)
         if (k % 200 == 0) { /* as at the beginning of a tile */
             frame.picture.format = formats[k / 200];
             memset(&shading.lattice, k & 1 ? 0xA5 : 0, sizeof shading.lattice);
-            memset(shading.lattice.known, 0, sizeof shading.lattice.known);
+            gn_levels_forget(&shading.lattice);
             shading.last_pixel = gn_pixel_pack(&frame, shading.last_q20);
         }
         if (k % 7) dark[c] = rng_range(&random_state, k & 2 ? 0 : -(1 << 20), 1 << 27); /* else the same again */

@@ -97,9 +97,8 @@ static long lattice_bytes(const settings *s)
     put(&all, 1, 196, 4);                         /* unit_q30 to bits */
     put(&all, 12 + 1, corner_bytes(s), 4);        /* corners, corner */
     put(&all, 1, 144, 4);                         /* corner_key to split */
-    if (s->feature.shadows) put(&all, 4, 344, 4); /* window */
-    put(&all, 1, 568, 4);                         /* look */
-    put(&all, 1, 24 + 12 + 260, 4);               /* two_q24 to pixel */
+    if (s->feature.shadows) put(&all, 2, 344, 4); /* window */
+    put(&all, 1, 572, 4);                         /* look */
     put(&all, 1, 616, 8);                         /* by */
     put(&all, 1, 136, 4);                         /* attenuation */
     pad(&all, 8);
