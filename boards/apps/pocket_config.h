@@ -13,6 +13,7 @@
 #define GN_VERTEX_CACHE     4
 #define GN_ATLAS_SIZE       64
 #define GN_DEPTH_BITS       16
+#define GN_PERSP_STEP       1 /* cells take 3.5 KB */
 #define GN_TILE_WIDTH       128
 #define GN_TILE_HEIGHT      2
 #define GN_FILTER_MAX       2
