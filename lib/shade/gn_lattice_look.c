@@ -196,7 +196,7 @@ GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *fra
     for (uint32_t slot = 0; slot < surface->n_lights; slot++)
         if (!add_light(cell, slot)) return 0;
     int limits = !finish_colours(cell);
-    if (!coarse) return size_log2 < gn_cell_finest_log2(frame) || is_even(cell);
+    if (!coarse) return is_even(cell);
     return !limits && is_even(cell);
 }
 
