@@ -121,7 +121,9 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     }
 #if GN_PUNCTUAL_LIGHTS
     if (!most && cell->s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL)
-        return cell->size_log2 <= gn_cell_finest_log2(cell->frame) || gn_cell_stays_dark(cell, slot);
+        return (cell->size_log2 <= gn_cell_finest_log2(cell->frame) &&
+                !(GN_RAW_VIEWS && cell->frame->picture.format == GN_FORMAT_RAW32)) ||
+               gn_cell_stays_dark(cell, slot);
 #endif
     if (!most) return 1;
     if (GN_RAW_VIEWS && least != most && cell->frame->picture.format == GN_FORMAT_RAW32) return 0;
