@@ -23,23 +23,23 @@ typedef struct {
     int32_t u[4], v[4], depth[4];
 } places;
 
-enum { PLACED, PLACED_NOWHERE, PLACED_PARTLY };
+enum { PLACED, PLACED_NOWHERE, PLACED_PARTLY }; /* partly: the places are not of one plane */
 
 GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32_t view_idx, places *p)
 {
-    int n_seen = 0;
+    uint32_t seen = 0; /* 0: not; else how bias moves the point */
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
     p->window = NULL;
     p->view_idx = view_idx;
     p->bent = GN_PLACES_BILINEAR;
     for (int i = 0; i < 4; i++) {
         gn_corner *c = cell->corner[i];
-        n_seen += gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx);
+        seen |= 1U << gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx);
         p->u[i] = c->light[slot].u_q16;
         p->v[i] = c->light[slot].v_q16;
         p->depth[i] = c->light[slot].depth_q30;
     }
-    return n_seen == 4 ? PLACED : n_seen ? PLACED_PARTLY : PLACED_NOWHERE;
+    return seen & (seen - 1) ? PLACED_PARTLY : seen & 1U ? PLACED_NOWHERE : PLACED;
 }
 
 GN_HOT static void range_of(const int32_t at[4], int32_t *lo, int32_t *hi)
@@ -87,6 +87,8 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t v
     range_of(p->u, &lo.u_q16, &hi.u_q16);
     range_of(p->v, &lo.v_q16, &hi.v_q16);
     range_of(p->depth, &depth_lo, &depth_hi);
+    int32_t limit = p->view->perspective ? 0 : -(1 << 29); /* which bends the plane */
+    if (depth_lo <= limit && depth_hi > limit) return GN_CELL_SPLIT;
     if ((gn_abs32(lo.u_q16) | gn_abs32(hi.u_q16) | gn_abs32(lo.v_q16) | gn_abs32(hi.v_q16)) >> 27) return GN_CELL_SPLIT;
     uint32_t idx = gn_lattice_window_idx(cell->frame, p->view);
     gn_window *window = &cell->lattice->window[idx];

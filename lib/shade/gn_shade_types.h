@@ -151,7 +151,7 @@ typedef struct {
 #if GN_SHADOWS
     uint8_t view;   /* of the light's views: where the point itself is looked up, GN_VIEW_NONE: nowhere */
     uint8_t placed; /* the view that u, v and depth are of; GN_VIEW_NONE: none yet */
-    uint8_t seen;   /* 0: nearer to the light than the view's near plane */
+    uint8_t seen;   /* what gn_arrival_place() returns: 0 nearer to the light than the view's near plane */
 #endif
 } gn_corner_light;
 

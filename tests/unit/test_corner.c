@@ -361,7 +361,7 @@ static void check_persp(const gn_lattice *l, const gn_surface *s, gn_corner *c, 
         shares = fmax(shares, fabs(axis[0]) + fabs(axis[1]) + fabs(axis[2]));
     }
     const double near = view->fit.persp.near_q16 * LSB16, off = (OFF * shares + 1) * LSB16 + lift * ldexp(1, -27);
-    const int seen_there = gn_corner_place(l, frame, s, c, slot, view_idx);
+    const int seen_there = gn_corner_place(l, frame, s, c, slot, view_idx) != 0;
     CHECK(at->placed == view_idx);
     if (fabs(in[2] - near) > off) CHECK_EQ_INT(seen_there, in[2] > near);
     if (!seen_there || in[2] < 2 * off || fmax(fabs(in[0]), fabs(in[1])) > 1.9 * in[2]) return;
