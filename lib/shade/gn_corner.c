@@ -310,7 +310,7 @@ GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t
         if (GN_SMOOTH(s) && !GN_K(frame, vertex_light))
             cosine = (int32_t)(gn_dot64(p->unit_q30, light->state->to_light_q30) >> 36);
         at->irradiance_q24 = gn_max32(cosine, 0);
-        at->arrives = cosine > 0 ? GN_CORNER_FULLY : GN_CORNER_DARK;
+        at->arrives = (int8_t)(cosine > 0 ? GN_CORNER_FULLY : -gn_min32(-(cosine >> 17), 126));
     }
 #if GN_PUNCTUAL_LIGHTS
     else {

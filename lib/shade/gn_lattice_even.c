@@ -202,6 +202,13 @@ GN_HOT static GN_NOINLINE uint32_t rim_error_q24(const gn_light_state *light, in
 }
 #endif
 
+/* How far interpolation is off where a surface turns away from a directional light: the cosine has an edge at 0. */
+GN_HOT static uint32_t terminator_error_q24(int32_t lo, uint32_t most_q24)
+{
+    uint32_t away_q14 = (uint32_t)(1 - lo) << 7, most_q14 = (most_q24 >> 10) + 1;
+    return away_q14 * most_q14 / (away_q14 + most_q14) << 10;
+}
+
 /* How far interpolation between the corners is off, of a light's irradiance: NUMERICS 4.12. *kink: because it ends in
  * the cell, or its cone does. */
 GN_HOT uint32_t gn_cell_unevenness_q24(const gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24,
@@ -218,6 +225,7 @@ GN_HOT uint32_t gn_cell_unevenness_q24(const gn_lattice_cell *cell, uint32_t slo
         else lo = gn_min32(lo, at);
     }
     if (dark) kink = change;
+    else if (lo <= 0 && light->kind == GN_LIGHT_DIRECTIONAL) kink = 2 * terminator_error_q24(lo, (uint32_t)most_q24);
 #if GN_PUNCTUAL_LIGHTS
     if (light->kind != GN_LIGHT_DIRECTIONAL) {
         uint32_t size_q12 = size_over_distance_q12(cell, slot);
