@@ -225,7 +225,7 @@ GN_HOT uint32_t gn_cell_unevenness_q24(const gn_lattice_cell *cell, uint32_t slo
         else lo = gn_min32(lo, at);
     }
     if (dark) kink = change;
-    else if (lo <= 0 && light->kind == GN_LIGHT_DIRECTIONAL) kink = 2 * terminator_error_q24(lo, (uint32_t)most_q24);
+    else if (lo <= 0 && light->kind == GN_LIGHT_DIRECTIONAL) kink = 3 * terminator_error_q24(lo, (uint32_t)most_q24);
 #if GN_PUNCTUAL_LIGHTS
     if (light->kind != GN_LIGHT_DIRECTIONAL) {
         uint32_t size_q12 = size_over_distance_q12(cell, slot);

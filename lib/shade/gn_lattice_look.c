@@ -144,7 +144,26 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     return 1;
 }
 
-/* Times the vertices' colours, with highlights; limits it. Returns 0 where the limit hides how bright the rest is. */
+#if GN_VERTEX_COLOURS
+/* Whether the vertices' colours, which perspective bends, are close enough to bilinear, in each channel. */
+GN_HOT static int colours_hold(const gn_lattice_cell *cell)
+{
+    const gn_lattice_look *look = cell->out;
+    for (int j = 0; j < 3; j++) {
+        int32_t at[4];
+        for (int i = 0; i < 4; i++) at[i] = look->colour_q24[i][j];
+        int32_t least = gn_min32(gn_min32(at[0], at[1]), gn_min32(at[2], at[3]));
+        uint32_t change[2];
+        gn_cell_changes(at, change);
+        uint64_t bend = ((uint64_t)change[0] * cell->bend_q16[0] + (uint64_t)change[1] * cell->bend_q16[1]) >> 16;
+        if (bend << gn_cell_light_log2(cell->frame) > (uint32_t)gn_max32(least, 0) + (1U << 19)) return 0;
+    }
+    return 1;
+}
+#endif
+
+/* Times the vertices' colours, with highlights; limits it. Returns 0 where the limit hides how bright the rest is, or
+ * perspective bends it. */
 GN_HOT static int finish_colours(const gn_lattice_cell *cell)
 {
     int limited = 0, dim = 0;
@@ -164,6 +183,9 @@ GN_HOT static int finish_colours(const gn_lattice_cell *cell)
             dim |= product < 1 << 24;
             *colour = (int32_t)gn_clamp64(product, -(1 << 27), 1 << 27);
         }
+#if GN_VERTEX_COLOURS
+    if (GN_COLOURED(cell->s) && !colours_hold(cell)) return 0;
+#endif
     return !(limited & dim);
 }
 
