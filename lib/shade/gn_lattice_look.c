@@ -54,11 +54,11 @@ GN_HOT static int find_highlight(const gn_lattice_cell *cell, uint32_t slot, gn_
 }
 
 /* What is left of a light at the corners. Returns whether a realtime shadow is part of that, -1 if the cell is to be
- * split: a mask that limits the shadow bends it. */
+ * split: a mask that limits the shadow bends it, and at a radius it ends at once. */
 GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_contribution *out)
 {
     const gn_light_state *light = cell->s->light[slot].state;
-    int realtime = 0, masks = 0;
+    int realtime = 0, masks = 0, ends = 0;
     if (cell->near && !cell->s->masked) {
         const gn_lattice_light *near = &cell->lattice->light[slot];
         for (int i = 0; i < 4; i++) {
@@ -75,6 +75,7 @@ GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_con
         int casts = cell->s->shadowed && gn_shadow_is_realtime(light, g);
         realtime |= casts;
         masks |= mask != 65536 && mask;
+        ends |= g ? 1 : 2;
         if (!casts) lit = dark = gn_shadow_baked(light, mask);
         else if (mask != 65536 || light->strength_uq16 != 65536 || g != 65536) {
             lit = gn_shadow_mixed(cell->frame, light, mask, g, 65536);
@@ -83,6 +84,7 @@ GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_con
         out->dark_uq16[i] = dark;
         out->more_uq16[i] = lit - dark;
     }
+    if (realtime && ends == 3 && cell->frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS) return -1;
     return GN_MASKS && realtime && masks && cell->frame->scene->shadow.mixing == GN_MIXING_ALWAYS ? -1 : realtime;
 }
 
