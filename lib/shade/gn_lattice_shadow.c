@@ -238,8 +238,8 @@ GN_HOT static void blend_shares(const gn_lattice_cell *cell, uint32_t slot, uint
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* Of a cell with corners in two faces of a cube: those that points in between may lie in, too. None do if the third axis
- * is shorter than that of one of both at all corners. */
+/* Of a cell with corners in two faces of a cube: those that points in between may lie in, too. None do if the third
+ * axis is shorter than that of one of both at all corners. */
 GN_HOT static GN_NOINLINE uint32_t hidden_faces(const gn_lattice_cell *cell, uint32_t slot, uint32_t views)
 {
     int32_t one = first_bit(views), other = first_bit(views & (views - 1)), a = one >> 1, b = other >> 1;
@@ -313,7 +313,7 @@ GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, con
     p->bent = GN_PLACES_LONE;
     return add_edge(cell, slot, p, slope_q28, light, light->more_uq16);
 #else
-    (void)slope_q28;
+    (void)slope_q28, (void)from_q16;
     return 0;
 #endif
 }

@@ -146,8 +146,8 @@ typedef struct {
     int32_t highlight_q24;
     int16_t lobe_q12[3]; /* of the highlight: the half vector minus the normal, unit vectors */
 #endif
-    int8_t arrives; /* how it does: GN_CORNER_DARK, GN_CORNER_FULLY, or in 32nds how far the corner is from the edge of a
-                     * cone to where its rim ends: 32 or more fully, 0 or less not at all */
+    int8_t arrives; /* how it does: GN_CORNER_DARK, GN_CORNER_FULLY, or in 32nds how far the corner is from the edge of
+                     * a cone to where its rim ends: 32 or more fully, 0 or less not at all */
 #if GN_SHADOWS
     uint8_t view;   /* of the light's views: where the point itself is looked up, GN_VIEW_NONE: nowhere */
     uint8_t placed; /* the view that u, v and depth are of; GN_VIEW_NONE: none yet */

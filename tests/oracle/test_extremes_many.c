@@ -311,8 +311,8 @@ static void check_units(const tried *t, long n)
  * as these may be all soft shadow, which the balanced preset keeps in 8 bits, and may then need twice as much; and a
  * texel whose centre lies within rounding of a caster's edge (NUMERICS 4.6) may be, of a coarse map under a wide
  * filter, a dozen of its pixels: one scene in 500 may need twice that. Cells are large in so small a picture: balanced
- * may need that in one scene of 20 (6 of 150 do), and 9 times the floors at most: 7.9 of 147, a dozen lights. Defects of
- * cells, to be seen to. */
+ * may need that in one scene of 20 (6 of 150 do), and 9 times the floors at most: 7.9 of 147, a dozen lights. Defects
+ * of cells, to be seen to. */
 static void test_random(long n)
 {
     for (int preset = SETTINGS_ACCURATE; preset >= SETTINGS_BALANCED; preset--) {
