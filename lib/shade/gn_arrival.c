@@ -86,7 +86,7 @@ GN_HOT int gn_arrival_place(const gn_frame *frame, const gn_surface *surface, co
     uint32_t end = (uint32_t)view->tile_texels << 16;
     if (seen && form == GN_AUTO_BIAS_NORMAL && !GN_CURVED(surface) &&
         ((uint32_t)out->u_q16 > end || (uint32_t)out->v_q16 > end))
-        seen = place_in(frame, surface, z_q16, view, GN_AUTO_BIAS_DEPTH, from_q16, offset_q16, out);
+        seen = 2 * place_in(frame, surface, z_q16, view, GN_AUTO_BIAS_DEPTH, from_q16, offset_q16, out);
 #endif
     return seen;
 }

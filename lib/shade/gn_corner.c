@@ -236,13 +236,14 @@ GN_HOT static void find_ray(const gn_light_state *any, gn_corner *c, const corne
 }
 
 /* clamp(share, 0, 1)^2 of a spot's rim, Q30. */
-GN_HOT static int32_t rim_q30(const gn_light_state *light, int32_t cosine_q30)
+GN_HOT static int32_t rim_q30(const gn_light_state *light, int32_t cosine_q30, gn_corner_light *out)
 {
     int32_t beyond = cosine_q30 - light->cos_outer_q30;
+    uint64_t share = gn_corner_rim_q30(light, gn_abs32(beyond));
+    int32_t whole = share >> 32 ? 126 : (int32_t)(share >> 25), q30 = (int32_t)share;
+    out->arrives = (int8_t)(beyond <= 0 ? -whole : gn_max32(whole, 1));
     if (beyond <= 0) return 0;
-    uint64_t share = (uint64_t)gn_umul_high((uint32_t)beyond, light->angle_scale.mant) << (62 + light->angle_scale.exp);
-    if (share >= 1U << 30) return 1 << 30;
-    return 4 * gn_mul_high((int32_t)share, (int32_t)share);
+    return share >= 1U << 30 ? 1 << 30 : 4 * gn_mul_high(q30, q30);
 }
 
 /* Irradiance of a light whose colour is 1: gn_punctual_irradiance_q24 in 32 bits. `facing` is the way against the
@@ -251,7 +252,7 @@ GN_HOT static int32_t irradiance(const gn_frame *frame, const gn_light_state *li
                                  int32_t facing_q16, gn_corner_light *out)
 {
     uint64_t d2 = 0;
-    out->arrives = GN_ARRIVES_NOT;
+    out->arrives = GN_CORNER_DARK;
     if (facing_q16 <= 0) return 0;
     for (int i = 0; i < 3; i++) d2 += (uint64_t)((int64_t)from_q16[i] * from_q16[i]);
     if (d2 >= light->range2_q32 || d2 >> 62) return 0;
@@ -260,11 +261,11 @@ GN_HOT static int32_t irradiance(const gn_frame *frame, const gn_light_state *li
     int32_t shift = gn_clz64(d2) & ~1, half = (shift >> 1) - 1, most = INT32_MAX >> half, factor = 1 << 30;
     uint32_t root = gn_rsqrt_norm((uint32_t)((d2 << shift) >> 32), steps);
     int32_t root_q31 = (int32_t)(root >> 1);
-    out->arrives = GN_ARRIVES_FULLY;
+    out->arrives = GN_CORNER_FULLY;
     if (light->kind == GN_LIGHT_SPOT) {
         int32_t reach = (int32_t)gn_clamp64(-gn_dot_q30(from_q16, light->to_light_q30), -most, most);
-        factor = reach <= 0 ? 0 : rim_q30(light, 2 * gn_mul_high(reach << half, root_q31));
-        out->arrives = factor == 0 ? GN_ARRIVES_NOT : factor < 1 << 30 ? GN_ARRIVES_RIM : GN_ARRIVES_FULLY;
+        factor = reach <= 0 ? 0 : rim_q30(light, 2 * gn_mul_high(reach << half, root_q31), out);
+        if (reach <= 0) out->arrives = 1 - GN_CORNER_FULLY;
         if (!factor) return 0;
     }
     if (light->range2_q32 != UINT64_MAX) {
@@ -316,7 +317,7 @@ GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t
         if (GN_SMOOTH(s) && !GN_K(frame, vertex_light))
             cosine = (int32_t)(gn_dot64(p->unit_q30, light->state->to_light_q30) >> 36);
         at->irradiance_q24 = gn_max32(cosine, 0);
-        at->arrives = cosine > 0 ? GN_ARRIVES_FULLY : GN_ARRIVES_NOT;
+        at->arrives = (int8_t)(cosine > 0 ? GN_CORNER_FULLY : -gn_min32(-(cosine >> 17), 126));
     }
 #if GN_PUNCTUAL_LIGHTS
     else {
@@ -325,7 +326,7 @@ GN_HOT static void light_at(const gn_frame *frame, const gn_surface *s, uint32_t
         at->irradiance_q24 = irradiance(frame, light->state, from, gn_sat32(-gn_dot_q30(p->unit_q30, from)), at);
     }
 #endif
-    if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) at->irradiance_q24 = at->arrives ? 1 << 24 : 0;
+    if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) at->irradiance_q24 = at->arrives > 0 ? 1 << 24 : 0;
 #if GN_MASKS
     at->mask_uq16 = mask_at(s, p, c, light->state->mask_channel);
 #endif

@@ -58,6 +58,12 @@ GN_HOT static inline void gn_corner_from(const gn_corner *c, const gn_light_stat
 {
     for (int i = 0; i < 3; i++) from_q16[i] = gn_add_sat32(c->ray_q16[i], (int32_t)light->from_light[i].d_q16);
 }
+
+/* A difference of cosines at a spot's rim, as a share of the rim's, Q30: below 2^48. */
+GN_HOT static inline uint64_t gn_corner_rim_q30(const gn_light_state *light, uint32_t cosine_q30)
+{
+    return (uint64_t)gn_umul_high(cosine_q30, light->angle_scale.mant) << (62 + light->angle_scale.exp);
+}
 #endif
 
 /* A colour times irradiance, Q24, limited to 8. */

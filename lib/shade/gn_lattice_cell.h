@@ -62,7 +62,8 @@ GN_HOT static inline uint32_t gn_cell_lookup_texels_q16(const gn_frame *frame, c
 {
     if (view->filter == GN_FILTER_HARD || view->filter == GN_FILTER_DISK) return 0;
     uint32_t tent = GN_K(frame, persp_step) == 16 ? 65536 : 49152;
-    return view->filter == GN_FILTER_2X2 ? tent >> 1 : tent * view->filter_idx;
+    if (view->filter == GN_FILTER_2X2) return tent / 3;
+    return view->filter_idx == 1 ? tent : tent * (2 * (uint32_t)view->filter_idx + 1) >> 2;
 }
 #endif
 

@@ -198,24 +198,62 @@ GN_HOT GN_NOINLINE int gn_cell_stays_dark(const gn_lattice_cell *cell, uint32_t 
 }
 #endif
 
+#if GN_PUNCTUAL_LIGHTS
+/* How far interpolation is off in the rim of a cone, whose factor is the square of a share. `lo`, `hi`: how the light
+ * arrives at the corners, but for GN_CORNER_DARK. */
+GN_HOT static GN_NOINLINE uint32_t rim_error_q24(const gn_light_state *light, int32_t lo, int32_t hi, uint32_t most_q24,
+                                                 uint32_t change_q24, uint32_t size_q12)
+{
+    enum { WHOLE = 32 };
+    uint32_t top = (uint32_t)gn_max32(gn_min32(hi, WHOLE), 1), across = top - (uint32_t)lo + 1, square = top * top;
+    uint32_t error_q10 = across * across >> 2, error_q24 = change_q24;
+    if (hi >= WHOLE) { /* and where the rim ends */
+        uint32_t before = (uint32_t)(WHOLE - lo), beyond = (uint32_t)(hi + 1 - WHOLE);
+        error_q10 += 2 * WHOLE * before * beyond / (before + beyond);
+    }
+    if (error_q10 < square && most_q24 / square * error_q10 < change_q24) error_q24 = most_q24 / square * error_q10;
+    uint64_t bent_q30 = gn_corner_rim_q30(light, size_q12 * size_q12 * 10); /* of the cosine, 5/32 of the square */
+    uint32_t bent_q10 = (bent_q30 >> 32 ? 1U << 12 : (uint32_t)(bent_q30 >> 20)) * 2 * top / WHOLE;
+    return error_q24 + (bent_q10 < square ? most_q24 / square * bent_q10 : most_q24);
+}
+#endif
+
+/* How far interpolation is off where a surface turns away from a directional light: the cosine has an edge at 0. */
+GN_HOT static uint32_t terminator_error_q24(int32_t lo, uint32_t most_q24)
+{
+    uint32_t away_q14 = (uint32_t)(1 - lo) << 7, most_q14 = (most_q24 >> 10) + 1;
+    return away_q14 * most_q14 / (away_q14 + most_q14) << 10;
+}
+
 /* How far interpolation between the corners is off, of a light's irradiance: NUMERICS 4.12. *kink: because it ends in
  * the cell, or its cone does. */
 GN_HOT uint32_t gn_cell_unevenness_q24(const gn_lattice_cell *cell, uint32_t slot, int32_t least_q24, int32_t most_q24,
                                        uint32_t *kink_q24)
 {
     const gn_light_state *light = cell->s->light[slot].state;
-    uint32_t classes = 0, change = (uint32_t)(most_q24 - least_q24),
+    uint32_t change = (uint32_t)(most_q24 - least_q24), kink = 0,
              t_q12 = turn_q12(cell) << gn_cell_turn_log2(cell->frame) >> 1;
+    int32_t lo = GN_CORNER_FULLY, hi = 0, dark = 0;
     (void)light;
+    for (int i = 0; i < 4; i++) {
+        int32_t at = cell->corner[i]->light[slot].arrives;
+        hi = gn_max32(hi, at);
+        if (at == GN_CORNER_DARK) dark = 1;
+        else lo = gn_min32(lo, at);
+    }
+    if (dark) kink = change;
+    else if (lo <= 0 && light->kind == GN_LIGHT_DIRECTIONAL) kink = 3 * terminator_error_q24(lo, (uint32_t)most_q24);
 #if GN_PUNCTUAL_LIGHTS
-    if (light->kind != GN_LIGHT_DIRECTIONAL) t_q12 += 2 * size_over_distance_q12(cell, slot);
+    if (light->kind != GN_LIGHT_DIRECTIONAL) {
+        uint32_t size_q12 = size_over_distance_q12(cell, slot);
+        t_q12 += 2 * size_q12;
+        if (light->kind == GN_LIGHT_SPOT && lo < 32) /* twice: it comes close to this bound */
+            kink += 2 * rim_error_q24(light, lo, hi, (uint32_t)most_q24, change, size_q12);
+    }
 #endif
-    for (int i = 0; i < 4; i++) classes |= 1U << cell->corner[i]->light[slot].arrives;
-    if (classes == 1U << GN_ARRIVES_RIM) change >>= 2;
-    else if (classes == 1U << GN_ARRIVES_FULLY) change = 0;
     if (t_q12 > 1 << 12) t_q12 = 1 << 12;
-    *kink_q24 = change;
-    return change + (uint32_t)((uint64_t)(uint32_t)most_q24 * (t_q12 * t_q12) >> 24);
+    *kink_q24 = kink;
+    return kink + (uint32_t)((uint64_t)(uint32_t)most_q24 * (t_q12 * t_q12) >> 24);
 }
 
 #endif

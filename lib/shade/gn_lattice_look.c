@@ -54,11 +54,11 @@ GN_HOT static int find_highlight(const gn_lattice_cell *cell, uint32_t slot, gn_
 }
 
 /* What is left of a light at the corners. Returns whether a realtime shadow is part of that, -1 if the cell is to be
- * split: a mask that limits the shadow bends it. */
+ * split: a mask that limits the shadow bends it, and at a radius it ends at once. */
 GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_contribution *out)
 {
     const gn_light_state *light = cell->s->light[slot].state;
-    int realtime = 0, masks = 0;
+    int realtime = 0, masks = 0, ends = 0;
     if (cell->near && !cell->s->masked) {
         const gn_lattice_light *near = &cell->lattice->light[slot];
         for (int i = 0; i < 4; i++) {
@@ -75,6 +75,7 @@ GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_con
         int casts = cell->s->shadowed && gn_shadow_is_realtime(light, g);
         realtime |= casts;
         masks |= mask != 65536 && mask;
+        ends |= g ? 1 : 2;
         if (!casts) lit = dark = gn_shadow_baked(light, mask);
         else if (mask != 65536 || light->strength_uq16 != 65536 || g != 65536) {
             lit = gn_shadow_mixed(cell->frame, light, mask, g, 65536);
@@ -83,6 +84,7 @@ GN_HOT static int find_shares(const gn_lattice_cell *cell, uint32_t slot, gn_con
         out->dark_uq16[i] = dark;
         out->more_uq16[i] = lit - dark;
     }
+    if (realtime && ends == 3 && cell->frame->scene->shadow.distance_mode == GN_DISTANCE_RADIUS) return -1;
     return GN_MASKS && realtime && masks && cell->frame->scene->shadow.mixing == GN_MIXING_ALWAYS ? -1 : realtime;
 }
 
@@ -121,7 +123,9 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     }
 #if GN_PUNCTUAL_LIGHTS
     if (!most && cell->s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL)
-        return cell->size_log2 <= gn_cell_finest_log2(cell->frame) || gn_cell_stays_dark(cell, slot);
+        return (cell->size_log2 <= gn_cell_finest_log2(cell->frame) &&
+                !(GN_RAW_VIEWS && cell->frame->picture.format == GN_FORMAT_RAW32)) ||
+               gn_cell_stays_dark(cell, slot);
 #endif
     if (!most) return 1;
     if (GN_RAW_VIEWS && least != most && cell->frame->picture.format == GN_FORMAT_RAW32) return 0;
@@ -142,7 +146,26 @@ GN_HOT static int add_light(gn_lattice_cell *cell, uint32_t slot)
     return 1;
 }
 
-/* Times the vertices' colours, with highlights; limits it. Returns 0 where the limit hides how bright the rest is. */
+#if GN_VERTEX_COLOURS
+/* Whether the vertices' colours, which perspective bends, are close enough to bilinear, in each channel. */
+GN_HOT static int colours_hold(const gn_lattice_cell *cell)
+{
+    const gn_lattice_look *look = cell->out;
+    for (int j = 0; j < 3; j++) {
+        int32_t at[4];
+        for (int i = 0; i < 4; i++) at[i] = look->colour_q24[i][j];
+        int32_t least = gn_min32(gn_min32(at[0], at[1]), gn_min32(at[2], at[3]));
+        uint32_t change[2];
+        gn_cell_changes(at, change);
+        uint64_t bend = ((uint64_t)change[0] * cell->bend_q16[0] + (uint64_t)change[1] * cell->bend_q16[1]) >> 16;
+        if (bend << gn_cell_light_log2(cell->frame) > (uint32_t)gn_max32(least, 0) + (1U << 19)) return 0;
+    }
+    return 1;
+}
+#endif
+
+/* Times the vertices' colours, with highlights; limits it. Returns 0 where the limit hides how bright the rest is, or
+ * perspective bends it. */
 GN_HOT static int finish_colours(const gn_lattice_cell *cell)
 {
     int limited = 0, dim = 0;
@@ -162,6 +185,9 @@ GN_HOT static int finish_colours(const gn_lattice_cell *cell)
             dim |= product < 1 << 24;
             *colour = (int32_t)gn_clamp64(product, -(1 << 27), 1 << 27);
         }
+#if GN_VERTEX_COLOURS
+    if (GN_COLOURED(cell->s) && !colours_hold(cell)) return 0;
+#endif
     return !(limited & dim);
 }
 
@@ -196,7 +222,7 @@ GN_HOT static GN_NOINLINE int look_once(gn_lattice *lattice, const gn_frame *fra
     for (uint32_t slot = 0; slot < surface->n_lights; slot++)
         if (!add_light(cell, slot)) return 0;
     int limits = !finish_colours(cell);
-    if (!coarse) return size_log2 < gn_cell_finest_log2(frame) || is_even(cell);
+    if (!coarse) return is_even(cell);
     return !limits && is_even(cell);
 }
 

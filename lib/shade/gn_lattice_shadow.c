@@ -23,23 +23,23 @@ typedef struct {
     int32_t u[4], v[4], depth[4];
 } places;
 
-enum { PLACED, PLACED_NOWHERE, PLACED_PARTLY };
+enum { PLACED, PLACED_NOWHERE, PLACED_PARTLY }; /* partly: the places are not of one plane */
 
 GN_HOT static int find_places(const gn_lattice_cell *cell, uint32_t slot, uint32_t view_idx, places *p)
 {
-    int n_seen = 0;
+    uint32_t seen = 0; /* 0: not; else how bias moves the point */
     p->view = &cell->frame->view[cell->s->light[slot].state->view_idx + (int32_t)view_idx];
     p->window = NULL;
     p->view_idx = view_idx;
     p->bent = GN_PLACES_BILINEAR;
     for (int i = 0; i < 4; i++) {
         gn_corner *c = cell->corner[i];
-        n_seen += gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx);
+        seen |= 1U << gn_corner_place(cell->lattice, cell->frame, cell->s, c, slot, view_idx);
         p->u[i] = c->light[slot].u_q16;
         p->v[i] = c->light[slot].v_q16;
         p->depth[i] = c->light[slot].depth_q30;
     }
-    return n_seen == 4 ? PLACED : n_seen ? PLACED_PARTLY : PLACED_NOWHERE;
+    return seen & (seen - 1) ? PLACED_PARTLY : seen & 1U ? PLACED_NOWHERE : PLACED;
 }
 
 GN_HOT static void range_of(const int32_t at[4], int32_t *lo, int32_t *hi)
@@ -87,6 +87,8 @@ GN_HOT static int verdict(const gn_lattice_cell *cell, uint32_t slot, uint32_t v
     range_of(p->u, &lo.u_q16, &hi.u_q16);
     range_of(p->v, &lo.v_q16, &hi.v_q16);
     range_of(p->depth, &depth_lo, &depth_hi);
+    int32_t limit = p->view->perspective ? 0 : -(1 << 29); /* which bends the plane */
+    if (depth_lo <= limit && depth_hi > limit) return GN_CELL_SPLIT;
     if ((gn_abs32(lo.u_q16) | gn_abs32(hi.u_q16) | gn_abs32(lo.v_q16) | gn_abs32(hi.v_q16)) >> 27) return GN_CELL_SPLIT;
     uint32_t idx = gn_lattice_window_idx(cell->frame, p->view);
     gn_window *window = &cell->lattice->window[idx];
@@ -236,6 +238,25 @@ GN_HOT static void blend_shares(const gn_lattice_cell *cell, uint32_t slot, uint
 }
 
 #if GN_PUNCTUAL_LIGHTS
+/* Of a cell with corners in two faces of a cube: those that points in between may lie in, too. None do if the third
+ * axis is shorter than that of one of both at all corners. */
+GN_HOT static GN_NOINLINE uint32_t hidden_faces(const gn_lattice_cell *cell, uint32_t slot, uint32_t views)
+{
+    int32_t one = first_bit(views), other = first_bit(views & (views - 1)), a = one >> 1, b = other >> 1;
+    if (views & ~(1U << one | 1U << other)) return 0; /* more than two: pixels will ask for themselves */
+    if (a == b) return 63;
+    uint32_t shorter = 3, found = 0;
+    for (int i = 0; i < 4; i++) {
+        int32_t from[3], axis = 3 - a - b;
+        gn_corner_from(cell->corner[i], cell->s->light[slot].state, from);
+        uint32_t third = gn_abs32(from[axis]);
+        found |= 1U << (2 * axis + (from[axis] < 0));
+        if ((from[a] < 0) != (one & 1) || gn_abs32(from[a]) < third) shorter &= 2;
+        if ((from[b] < 0) != (other & 1) || gn_abs32(from[b]) < third) shorter &= 1;
+    }
+    return shorter ? 0 : found;
+}
+
 /* Adds an edge in the shadow of a point light, two faces of which see the cell. Returns 0 if there is no room, or it is
  * to be split. */
 GN_HOT static GN_NOINLINE int add_faces(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
@@ -285,30 +306,21 @@ GN_HOT static int add_of_several(const gn_lattice_cell *cell, uint32_t slot, con
     int cascaded = !p->view->perspective;
     gn_blend blend = GN_BLENDED_CASCADES && cascaded ? cell->frame->scene->shadow.blend : GN_BLEND_HARD;
     if (blend == GN_BLEND_SOFT) return add_blend(cell, slot, light, views, p);
-    if (blend == GN_BLEND_DITHER) return 0;
-    if (cascaded) { /* one may stand for all of a small cell */
-        uint32_t own = cell->corner[0]->light[slot].view;
-        int32_t slope[2];
-        if (cell->size_log2 >= gn_cell_finest_log2(cell->frame) || own == GN_VIEW_NONE ||
-            find_places(cell, slot, own, p) != PLACED || (places_hold(cell, p) == BEND && cell->size_log2 > 1))
-            return 0;
-        gn_shadow_slopes(cell->frame, cell->s, p->view, from_q16, slope);
-        return add_edge(cell, slot, p, slope, light, light->more_uq16);
-    }
+    if (cascaded) return 0; /* each pixel has its own */
 #if GN_PUNCTUAL_LIGHTS
     if (add_faces(cell, slot, light, views, from_q16, p)) return 1;
     if (cell->size_log2 > 2) return 0;
     p->bent = GN_PLACES_LONE;
     return add_edge(cell, slot, p, slope_q28, light, light->more_uq16);
 #else
-    (void)slope_q28;
+    (void)slope_q28, (void)from_q16;
     return 0;
 #endif
 }
 
 GN_HOT int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light)
 {
-    uint32_t views = views_of(cell, slot), left = views;
+    uint32_t views = views_of(cell, slot), left;
     int all = -1, added;
     int32_t slope[2];
     int32_t from[3] = {0, 0, 0};
@@ -317,8 +329,10 @@ GN_HOT int gn_cell_shadow(const gn_lattice_cell *cell, uint32_t slot, const gn_c
 #if GN_PUNCTUAL_LIGHTS
     if (cell->s->light[slot].state->kind != GN_LIGHT_DIRECTIONAL)
         gn_corner_from(cell->corner[0], cell->s->light[slot].state, from);
+    if (views & (views - 1) && cell->s->light[slot].state->kind == GN_LIGHT_POINT)
+        views |= hidden_faces(cell, slot, views);
 #endif
-    for (; left; left &= left - 1) {
+    for (left = views; left; left &= left - 1) {
         int placed = find_places(cell, slot, (uint32_t)first_bit(left), &p);
         if (placed == PLACED_PARTLY) return GN_CELL_SPLIT;
         gn_shadow_slopes(cell->frame, cell->s, p.view, from, slope);

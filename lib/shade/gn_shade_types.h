@@ -146,15 +146,18 @@ typedef struct {
     int32_t highlight_q24;
     int16_t lobe_q12[3]; /* of the highlight: the half vector minus the normal, unit vectors */
 #endif
-    uint8_t arrives;
+    int8_t arrives; /* how it does: GN_CORNER_DARK, GN_CORNER_FULLY, or in 32nds how far the corner is from the edge of
+                     * a cone to where its rim ends: 32 or more fully, 0 or less not at all */
 #if GN_SHADOWS
     uint8_t view;   /* of the light's views: where the point itself is looked up, GN_VIEW_NONE: nowhere */
     uint8_t placed; /* the view that u, v and depth are of; GN_VIEW_NONE: none yet */
-    uint8_t seen;   /* 0: nearer to the light than the view's near plane */
+    uint8_t seen;   /* what gn_arrival_place() returns: 0 nearer to the light than the view's near plane */
 #endif
 } gn_corner_light;
 
 #define GN_VIEW_NONE 7
+
+enum { GN_CORNER_DARK = -128, GN_CORNER_FULLY = 127 };
 
 enum { GN_CORNER_NEW, GN_CORNER_KNOWN, GN_CORNER_UNSEEN };
 

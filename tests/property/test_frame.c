@@ -399,7 +399,9 @@ static double share_apart(const canvas *a, const canvas *b)
 }
 
 /* Tiles do not matter with a divide at every pixel, nor to what is visible; with longer steps a surface's cells begin
- * where its part of the tile does, and what lies between their corners differs by what the step costs. */
+ * where its part of the tile does, and what lies between their corners differs by what the step costs: most where the
+ * ball turns away from the light. There it is too bright by a third of the tolerance at most (NUMERICS 4.12), which is
+ * the ambient light and 1/32; its least is 0.08 in the brightest channel, level 80, and 0.037 more are level 96. */
 static void test_tile_sizes(void)
 {
     static const int32_t sizes[][2] = {{64, 16}, {64, 1},   {64, 7},    {64, 200},  {64, 1024}, {8, 1},    {8, 8},
@@ -428,7 +430,7 @@ static void test_tile_sizes(void)
             int d = i ? difference(&first, &c) : 0;
             if (i && p.format == GN_FORMAT_RGB888 && !same) CHECK(share_apart(&first, &c) < 0.01);
             if (p.format == GN_FORMAT_RGB565 && !same) d = 0; /* its bytes are no levels */
-            if (!CHECK(d <= (same ? 0 : 20)))
+            if (!CHECK(d <= (same ? 0 : 16)))
                 printf("tiles of %dx%d, format %d, persp_step %d: %d\n", (int)sizes[i][0], (int)sizes[i][1],
                        (int)p.format, (int)persp_step, d);
             canvas_end(&c);

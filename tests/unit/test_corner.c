@@ -342,7 +342,7 @@ static void check_persp(const gn_lattice *l, const gn_surface *s, gn_corner *c, 
     const gn_frame *frame = &renderer.frame;
     gn_corner_light *at = &c->light[slot];
     const gn_light_state *from = s->light[slot].state;
-    if (!at->arrives || !l->light[slot].lifts || at->view == GN_VIEW_NONE) return;
+    if (at->arrives <= 0 || !l->light[slot].lifts || at->view == GN_VIEW_NONE) return;
     const uint32_t view_idx = from->kind == GN_LIGHT_POINT && one_in(2) ? (uint32_t)uniform(0, 6) : at->view;
     const gn_light_view *view = &frame->view[from->view_idx + (int32_t)view_idx];
     double p[3], n[3], in[3], reach = 0, axis[3], shares = 0;
@@ -361,7 +361,7 @@ static void check_persp(const gn_lattice *l, const gn_surface *s, gn_corner *c, 
         shares = fmax(shares, fabs(axis[0]) + fabs(axis[1]) + fabs(axis[2]));
     }
     const double near = view->fit.persp.near_q16 * LSB16, off = (OFF * shares + 1) * LSB16 + lift * ldexp(1, -27);
-    const int seen_there = gn_corner_place(l, frame, s, c, slot, view_idx);
+    const int seen_there = gn_corner_place(l, frame, s, c, slot, view_idx) != 0;
     CHECK(at->placed == view_idx);
     if (fabs(in[2] - near) > off) CHECK_EQ_INT(seen_there, in[2] > near);
     if (!seen_there || in[2] < 2 * off || fmax(fabs(in[0]), fabs(in[1])) > 1.9 * in[2]) return;
@@ -442,7 +442,7 @@ static void check_corner(gn_lattice *l, const gn_surface *s, const plane *p, con
     for (uint32_t slot = 0; slot < s->n_lights; slot++) {
         const gn_surface_light *from = &s->light[slot];
         gn_corner_light *at = &corner.light[slot];
-        CHECK(at->irradiance_q24 >= 0 && (at->arrives || !at->irradiance_q24));
+        CHECK(at->irradiance_q24 >= 0 && (at->arrives > 0 || !at->irradiance_q24));
         if (from->state->kind == GN_LIGHT_DIRECTIONAL) {
             check_cosine(s, &k, from, at);
             check_ortho(l, s, &k, &corner, slot);
