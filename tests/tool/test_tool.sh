@@ -499,7 +499,7 @@ unlike 'lights=spot' 'lights=spot range=3'
 unlike 'lights=spot range=0' 'lights=spot range=3'
 unlike 'lights=spot' 'lights=spot near=6.8 range=0'
 quiet=--json
-alike 'lights=spot range=8 near=9' 'lights=spot range=8 shadow=0'
+alike 'lights=spot range=8 near=9 persp_step=1' 'lights=spot range=8 shadow=0 persp_step=1' # cells are split where they look for shadows
 quiet=
 unlike 'lights=directional,directional cascades=4' 'lights=directional,directional cascades=4 main_light=1'
 unlike 'lights=spot other_atlas_size=32' 'lights=spot other_atlas_size=128'
