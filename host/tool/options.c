@@ -28,6 +28,9 @@ const option options[] = {
     {"--set", BY_ALL, "KEY=VALUE", "KEY=VALUE, at most 64 times",
      "any knob or setting, in order: 'gnomon knobs' lists them; preset=tiny|balanced|accurate sets many; "
      "KEY@LIGHT=VALUE for one light, by its number or name"},
+    {"--outside", BY_ALL, NULL, NULL, "the scene may name files outside its folder"},
+    {"--budget", BY_ALL, "N", "a number from 1 to 64",
+     "load scenes N times as large as usual, in textures, vertices, triangles, materials and memory (1)"},
     {"--csv", BY_SWEEP, "FILE", "a path", "every configuration as a table"},
     {"--svg", BY_SWEEP, "FILE", "a path", "every configuration as a plot"},
     {"--all", BY_SWEEP, NULL, NULL, "print every configuration, not only the front"},
@@ -140,6 +143,7 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--frames") == 0) failed = parse_frames(value, o);
     else if (strcmp(name, "--board") == 0) failed = !*(o->board = value);
     else if (strcmp(name, "--target") == 0) failed = !*(o->target = value);
+    else if (strcmp(name, "--budget") == 0) failed = parse_int(value, 1, 64, &o->budget);
     else if (strcmp(name, "--flash") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->flash);
     else if (strcmp(name, "--optimise") == 0) failed = strncmp(o->optimise = value, "-O", 2) != 0;
     else if (strcmp(name, "--margin") == 0) failed = parse_int(value, 0, 1000, &o->margin);
@@ -167,6 +171,7 @@ static void take_switch(tool_options *o, const char *name)
     if (strcmp(name, "--all") == 0) o->all = 1;
     if (strcmp(name, "--quick") == 0) o->quick = 1;
     if (strcmp(name, "--still") == 0) o->still = 1;
+    if (strcmp(name, "--outside") == 0) o->outside = 1;
 }
 
 static const option *find_option(const char *name)

@@ -114,7 +114,6 @@ static const change gltf_errors[] = {
     {"\"5x5\"", "null", "/extras/gnomon/filter: a number, boolean"},
     {"[0.25,1,false]", "[[1]]", "ratios/0: a number, boolean"},
     {"\"nodes\":[0,2,3]", "\"nodes\":[0,2,4]", "/scenes/0/nodes/2: there are only 4"},
-    {"\"nodes\":[0,2,3]", "\"nodes\":[1]", "node 1 is not a root"},
     {"\"nodes\":[0,2,3]", "\"nodes\":[2,3]", "no triangles"},
     {"\"children\":[1]", "\"children\":[9]", "/nodes/0/children/0: there are only"},
     {"\"children\":[1]", "\"children\":[0]", "cycle"},

@@ -128,7 +128,7 @@ static void test_gltf_errors(void)
     CHECK(refused(load_text(TMP ".txt", "x"), "not a scene"));
     CHECK(refused(load(TMP ".gltf", &(scene_options){.width = 0, .height = 1}), "picture size"));
     mkdir("build/tmp/folder.gltf", 0777);
-    CHECK(refused(load("build/tmp/folder.gltf", &plain), "cannot be read"));
+    CHECK(refused(load("build/tmp/folder.gltf", &plain), "is a folder, not a file"));
 }
 
 static void test_gltf_notes(void)
@@ -318,6 +318,42 @@ static void test_instances(void)
         CHECK(strcmp(s.objects[2].name, "node 5") == 0);
     }
     scene_free(&s);
+}
+
+static bool has_remark(const char *part)
+{
+    for (size_t i = 0; i < s.n_remarks; i++) {
+        if (strstr(s.remarks[i], part)) return has_note(part);
+    }
+    return false;
+}
+
+/* A node that the scene names although it is a child: drawn once, by its own transform, whether its parent is shown,
+ * too; what is below it goes with it. */
+static void test_named_children(void)
+{
+    static const char *const named[] = {"[1,2,3]", "[0,1,2,3]", "[1,0,2,3]", "[1,1,2,3]"};
+    for (size_t i = 0; i < sizeof named / sizeof *named; i++) {
+        char nodes[64];
+        snprintf(nodes, sizeof nodes, "\"nodes\":%s", named[i]);
+        const char *text = replaced(without_animation(base_json), "\"nodes\":[0,2,3]", nodes);
+        if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
+        CHECK(has_remark("'inner' is in the scene and a child of another node: it is drawn as a root") &&
+              s.n_remarks == 1);
+        if (CHECK_EQ_INT(s.n_objects, 1))
+            check_rows(&s.objects[0].to_world, (const double[12]){0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0});
+        scene_free(&s);
+    }
+    const char *below = replaced(without_animation(base_json), "\"nodes\":[0,2,3]", "\"nodes\":[1,2,3]");
+    below = replaced(below, "\"name\":\"inner\",\"mesh\":0", "\"name\":\"inner\",\"children\":[4]");
+    below = replaced(below, "{\"strength\":0.5,\"near_offset\":3}}}]", "{}}},{\"mesh\":0,\"translation\":[1,0,0]}]");
+    below = replaced(below, "\"extras\":{\"gnomon\":{\"casts\":0}}", "\"extras\":{}");
+    if (!CHECK_EQ_INT(load_text(TMP ".gltf", below), 0)) return (void)puts(error);
+    check_rows(&s.objects[0].to_world, (const double[12]){0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0});
+    scene_free(&s);
+    CHECK(refused(load_text(TMP ".gltf", replaced(replaced(base_json, "\"nodes\":[0,2,3]", "\"nodes\":[1,2,3]"),
+                                                  "\"name\":\"inner\",", "\"name\":\"inner\",\"children\":[0],")),
+                  "cycle"));
 }
 
 static void test_gltf_options(void)
@@ -668,6 +704,7 @@ int main(void)
     test_sparse();
     test_modes();
     test_instances();
+    test_named_children();
     test_gltf_options();
     test_glb();
     test_obj();

@@ -127,6 +127,17 @@ static void test_textured(void)
     CHECK(is_empty());
 }
 
+/* A texture that cannot be had: white takes its place, and a remark says why. */
+static void check_untextured(const char *json, const char *remark)
+{
+    if (!CHECK_EQ_INT(load_text(TMP ".gltf", json), 0)) return (void)puts(error);
+    for (size_t i = 0; i < s.n_objects; i++) CHECK(s.objects[i].texture_idx == SCENE_NONE);
+    CHECK(s.n_textures == 0 && s.n_remarks == 1 && has_note(remark));
+    if (s.n_remarks == 1 && !CHECK(strcmp(s.remarks[0], remark) == 0)) puts(s.remarks[0]);
+    check_invariants();
+    scene_free(&s);
+}
+
 /* A file beside the scene, as our own writer makes it; and the bytes of a buffer view, in a pipe's worth of a .glb. */
 static void test_image_places(void)
 {
@@ -141,8 +152,9 @@ static void test_image_places(void)
         CHECK(s.textures[0].rgba[4] == 4 && s.textures[0].rgba[3] == 255 && s.textures[0].rgba[14] == 12);
         scene_free(&s);
     } else puts(error);
-    CHECK(refused(load_text(TMP ".gltf", replaced(json, "%201", "_none")),
-                  "/images/0/uri: build/tmp/test_scene_surfaces_none.png cannot"));
+    check_untextured(replaced(json, "%201", "_none"),
+                     "texture 'test_scene_surfaces_none.png': "
+                     "build/tmp/test_scene_surfaces_none.png cannot be opened: it is drawn without");
     json = replaced(json, "\"uri\":\"test_scene_surfaces%201.png\"", "\"bufferView\":2,\"mimeType\":\"image/png\"");
     json =
         replaced(json, "\"byteLength\":12}", "\"byteLength\":12},{\"buffer\":1,\"byteOffset\":3,\"byteLength\":%zu}");
@@ -202,7 +214,7 @@ static void test_texture_changes(void)
     CHECK(refused(load_textured("\"images\":[", "\"images\":[0,"), "/images/0: an object"));
     make_png(2, 2, checks);
     made[n_made - 20] ^= 1;
-    CHECK(refused(load_text(TMP ".gltf", textured()), "/images/0: the checksum of a chunk is wrong"));
+    check_untextured(textured(), "texture 'checks': the checksum of a chunk is wrong: it is drawn without");
     start_file(1, 1, 16, 0, 0);
     put_pixels((const uint8_t[]){0, 0x80, 0}, 3);
     put_chunk("IEND", NULL, 0);
@@ -296,7 +308,7 @@ static void test_resampling(void)
     start_file(8193, 1, 8, 0, 0);
     put_pixels(huge, sizeof huge);
     put_chunk("IEND", NULL, 0);
-    CHECK(refused(load_text(TMP ".gltf", textured()), "/images/0: the picture size is out of range"));
+    CHECK(refused(load_text(TMP ".gltf", textured()), "texture 'checks' of 8193x1: sides are at most 8192"));
 }
 
 /* --- knobs -----------------------------------------------------------------------------------------------------------
@@ -513,7 +525,10 @@ static void test_obj_texture(void)
         scene_free(&s);
     }
     write_file(TMP ".png", made, n_made - 1);
-    CHECK(refused(load(TMP ".obj", &plain), TMP ".png: a chunk is cut off"));
+    if (!CHECK_EQ_INT(load(TMP ".obj", &plain), 0)) return (void)puts(error);
+    CHECK(s.n_textures == 0 && s.n_remarks == 2 && /* it is named twice */
+          has_note("line 4: texture '" TMP ".png' is damaged, a chunk is cut off: it is drawn without"));
+    scene_free(&s);
 }
 
 /* --- damage ----------------------------------------------------------------------------------------------------------

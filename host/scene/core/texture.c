@@ -117,11 +117,27 @@ static bool fit_sides(loader *l, png_picture *picture, const texture_use *use, s
         picture->rgba = NULL;
         return true;
     }
-    texture->rgba = malloc((size_t)texture->width * (size_t)texture->height * 4);
-    if (!texture->rgba) return loader_fail(l, "%s: out of memory", l->path);
+    texture->rgba = loader_own(l, (size_t)texture->width * (size_t)texture->height, 4);
+    if (!texture->rgba) return false;
     resample(picture, use, texture);
     return loader_note(l, "texture '%s' of %dx%d is resampled to %dx%d: sides must be powers of two up to %d",
                        texture->name, picture->w, picture->h, texture->width, texture->height, (int)MAX_TEXTURE_SIDE);
+}
+
+/* What is damaged further behind has been paid for, too. */
+bool texture_may_decode(loader *l, const char *name, const uint8_t *bytes, size_t n_bytes)
+{
+    int w, h;
+    size_t n_work;
+    if (!png_measure(bytes, n_bytes, &w, &h, &n_work)) return true;
+    if (w > TEXTURE_MAX_PICTURE || h > TEXTURE_MAX_PICTURE)
+        return loader_fail(l, "%s: texture '%.200s' of %dx%d: sides are at most %d", l->path, name, w, h,
+                           (int)TEXTURE_MAX_PICTURE);
+    size_t n = (size_t)w * (size_t)h * 4;
+    const char *over = budget_spend(l, BUDGET_TEXTURE_BYTES, n);
+    if (over) return loader_fail(l, "%s: texture '%.200s' of %dx%d: %s", l->path, name, w, h, over);
+    bool fits = arena_has_room(&l->memory, n + n_work) && arena_reserve(&l->memory, n);
+    return fits || budget_fail_memory(l, n + n_work);
 }
 
 bool texture_add(loader *l, const char *name, png_picture *picture, const texture_use *use, size_t *out)

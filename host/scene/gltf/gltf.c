@@ -61,6 +61,14 @@ static bool find_arrays(gltf *g)
            gltf_get_extension(g, r, "KHR_lights_punctual", &punctual) && get_objects(g, punctual, "lights", &g->lights);
 }
 
+/* Before anything is made of them. */
+static bool spend_arrays(gltf *g, const json_doc *doc)
+{
+    if (!arena_reserve(&g->l->memory, doc->memory.n_bytes)) return budget_fail_memory(g->l, doc->memory.n_bytes);
+    size_t n = g->materials ? g->materials->n_children : 0;
+    return gltf_spend(g, g->materials, BUDGET_MATERIALS, n);
+}
+
 /* NULL if the file has no scenes: then every root node is shown. */
 static bool find_scene(gltf *g, const json_value **out)
 {
@@ -94,11 +102,11 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
     if (json_parse(&doc, text, n_bytes, error, sizeof error) != 0) return loader_fail(l, "%s:%s", l->path, error);
     gltf g = {.l = l, .root = doc.root, .glb = glb, .fps = DEFAULT_FPS};
     const json_value *used_scene;
-    bool ok = check_asset(&g) && find_arrays(&g) && gltf_load_buffers(&g) && find_scene(&g, &used_scene) &&
-              gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) && gltf_animate(&g) &&
-              gltf_place_nodes(&g, used_scene) && emit_nodes(&g);
+    bool ok = check_asset(&g) && find_arrays(&g) && spend_arrays(&g, &doc) && gltf_load_buffers(&g) &&
+              find_scene(&g, &used_scene) && gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) &&
+              gltf_animate(&g) && gltf_place_nodes(&g, used_scene) && emit_nodes(&g);
     json_free(&doc);
-    l->wants_ground = l->options->ground;
+    l->wants_ground = l->options->ground == SCENE_GROUND_ON;
     return ok;
 }
 

@@ -17,7 +17,7 @@ typedef struct {
 
 typedef struct {
     const json_value *json;
-    size_t parent; /* GLTF_NONE: a root */
+    size_t parent; /* GLTF_NONE: a root, or shown as one */
     bool in_scene;
     bool moves; /* an animation targets it or an ancestor */
     bool has_matrix;
@@ -62,6 +62,7 @@ typedef struct {
 
 /* gltf_json.c. Readers leave *out alone where the member is absent, and fail where it has the wrong type. */
 bool gltf_fail(gltf *g, const json_value *where, const char *format, ...) LOADER_PRINTF(3, 4);
+bool gltf_spend(gltf *g, const json_value *where, budget_kind kind, size_t n);
 bool gltf_get(gltf *g, const json_value *parent, const char *key, json_type type, const json_value **out);
 bool gltf_get_number(gltf *g, const json_value *parent, const char *key, double *out);
 bool gltf_get_numbers(gltf *g, const json_value *parent, const char *key, double *out, size_t n);
@@ -78,8 +79,8 @@ const char *gltf_name(gltf *g, const json_value *parent, const char *kind);
 
 /* gltf_buffer.c */
 bool gltf_load_buffers(gltf *g);
-/* A data URI or a file beside the scene. */
-bool gltf_load_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out);
+/* A data URI or a file beside the scene. *missing: NULL, or which file is not there and why. */
+bool gltf_load_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out, const char **missing);
 /* The bytes of a buffer view; stride 0: packed. */
 bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *stride);
 

@@ -82,6 +82,21 @@ static bool local_transform(gltf *g, const gltf_node *node, scene_affine *out)
     return true;
 }
 
+/* A scene ought to name roots alone. Viewers draw others as if they were roots: three.js takes such a node from its
+ * parent, glTF-Sample-Viewer begins a walk at it; so its own transform counts, and not those above it. Here it leaves
+ * its parent too, whose scene it may also be in: it is drawn once. */
+static bool show_as_root(gltf *g, size_t node_idx)
+{
+    gltf_node *node = &g->node[node_idx];
+    if (node->parent == GLTF_NONE) return true;
+    const char *name = gltf_name(g, node->json, "node");
+    node->parent = GLTF_NONE;
+    return name && loader_remark(g->l,
+                                 "'%.100s' is in the scene and a child of another node: it is drawn as a root, "
+                                 "without the transforms above it",
+                                 name);
+}
+
 static bool mark_roots(gltf *g, const json_value *used_scene)
 {
     const json_value *roots = NULL;
@@ -90,7 +105,7 @@ static bool mark_roots(gltf *g, const json_value *used_scene)
         size_t root, n = g->nodes ? g->nodes->n_children : 0;
         if (!gltf_to_size(g, roots->children[i], &root)) return false;
         if (root >= n) return gltf_fail(g, roots->children[i], "there are only %zu nodes", n);
-        if (g->node[root].parent != GLTF_NONE) return gltf_fail(g, roots->children[i], "node %zu is not a root", root);
+        if (!show_as_root(g, root)) return false;
         g->node[root].in_scene = true;
     }
     return true;

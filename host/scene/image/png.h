@@ -28,6 +28,10 @@ typedef struct {
 bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error,
                       size_t error_bytes);
 
+/* Sides as its head gives them, however long, and the most memory that decoding takes beside the picture itself;
+ * without looking further. False: no PNG file, or a head that is damaged. */
+bool png_measure(const uint8_t *bytes, size_t n_bytes, int *w, int *h, size_t *n_work);
+
 /* Whether the bytes begin like a PNG file. */
 bool png_is(const uint8_t *bytes, size_t n_bytes);
 

@@ -13,7 +13,7 @@ int settings_load_option(scene_options *options, const char *key, const char *va
     int on = strcmp(value, "1") == 0, off = strcmp(value, "0") == 0;
     if (strcmp(key, "ground") == 0) {
         if (!on && !off) return settings_fail(error, error_bytes, key, value, "0 or 1");
-        options->ground = on;
+        options->ground = on ? SCENE_GROUND_ON : SCENE_GROUND_OFF;
         return 1;
     }
     if (strcmp(key, "normals") == 0) {
