@@ -654,6 +654,110 @@ static void test_defaults(void)
     scene_free(&s);
 }
 
+static size_t n_grounds(const char *obj, scene_ground ground, double *height)
+{
+    const scene_options with = {.width = 64, .height = 48, .ground = ground};
+    size_t n = 0;
+    write_file(TMP ".obj", obj, strlen(obj));
+    if (!CHECK_EQ_INT(load(TMP ".obj", &with), 0)) return 9;
+    for (size_t i = 0; i < s.n_objects; i++) {
+        if (strcmp(s.objects[i].name, "ground") != 0) continue;
+        *height = s.meshes[s.objects[i].mesh_idx].pos[1];
+        n++;
+    }
+    CHECK(s.added.ground == (n == 1) && s.added.camera && s.added.light);
+    check_invariants();
+    scene_free(&s);
+    return n;
+}
+
+/* A ground where nothing lies like a floor; never in one plane with what does. */
+static void test_ground(void)
+{
+    static const char wall[] = "v -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\nf 1 2 3 4\n";
+    static const char below[] = "v -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nf 1 2 3 4\n"; /* faces up */
+    char floored[300], small[300], turned[300];
+    snprintf(floored, sizeof floored, "%sv -1 0 0\nv 1 0 0\nv 1 2 0\nf 5 6 7\n", below);
+    snprintf(turned, sizeof turned, "%s", floored);
+    memcpy(strstr(turned, "f 1 2 3 4"), "f 4 3 2 1", 9);
+    snprintf(small, sizeof small, "%sv -9 1 -9\nv 9 1 9\nv 9 2 9\nf 5 6 7\n", below);
+    double height = -9;
+    CHECK(n_grounds(wall, SCENE_GROUND_AUTO, &height) == 1);
+    CHECK_NEAR(height, 0, 0);
+    CHECK(n_grounds(wall, SCENE_GROUND_OFF, &height) == 0);
+    CHECK(n_grounds(below, SCENE_GROUND_AUTO, &height) == 0);
+    CHECK(n_grounds(floored, SCENE_GROUND_AUTO, &height) == 0);
+    CHECK(n_grounds(turned, SCENE_GROUND_AUTO, &height) ==
+          1); /* seen from below alone: no floor, and nothing flickers */
+    CHECK_NEAR(height, 0, 0);
+    CHECK(n_grounds(small, SCENE_GROUND_AUTO, &height) == 1 && height < -0.05); /* under little of the model */
+    CHECK(n_grounds(floored, SCENE_GROUND_ON, &height) == 1 && height < -0.02);
+}
+
+/* Of a glTF file: not to a whole scene, not to one that moves. */
+static void test_ground_of_gltf(void)
+{
+    char still[16384], no_camera[16384];
+    snprintf(still, sizeof still, "%s", without_animation(base_json));
+    snprintf(no_camera, sizeof no_camera, "%s", replaced(still, "\"camera\":0,", ""));
+    const char *no_light = replaced(still,
+                                    "\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}},\"extras\":{\"gnomon\":{"
+                                    "\"strength\":0.5,\"near_offset\":3}}",
+                                    "\"extras\":{}");
+    const struct {
+        const char *text;
+        bool ground, camera, light;
+    } cases[] = {{still, false, false, false}, {no_camera, true, true, false}, {no_light, true, false, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        if (!CHECK_EQ_INT(load_text(TMP ".gltf", cases[i].text), 0)) return (void)puts(error);
+        if (!CHECK(s.added.ground == cases[i].ground && s.added.camera == cases[i].camera &&
+                   s.added.light == cases[i].light))
+            printf("  case %zu\n", i);
+        CHECK_EQ_INT(s.n_objects, cases[i].ground ? 2 : 1);
+        scene_free(&s);
+    }
+    if (CHECK_EQ_INT(load_text(TMP ".gltf", replaced(base_json, "\"camera\":0,", "")), 0)) {
+        CHECK(s.fps > 0 && !s.added.ground && s.added.camera);
+        scene_free(&s);
+    }
+}
+
+/* --orbit: where the camera stands, seen from the middle; a lens for what is larger. */
+static void test_orbit(void)
+{
+    static const char box[] = "v -1 -1 -1\nv 1 1 1\nv 1 -1 1\nf 1 2 3\n";
+    static const double orbits[][3] = {{0, 0, 1}, {90, 0, 1}, {180, 45, 2}, {-30, -60, 0.5}, {10, 90, 4}, {0, 3, 1}};
+    write_file(TMP ".obj", box, sizeof box - 1);
+    for (size_t i = 0; i < sizeof orbits / sizeof *orbits; i++) {
+        const double *o = orbits[i], yaw = o[0] * acos(-1) / 180, pitch = o[1] * acos(-1) / 180;
+        const double towards[3] = {cos(pitch) * sin(yaw), sin(pitch), cos(pitch) * cos(yaw)};
+        const scene_options with = {.width = 64, .height = 48, .orbit = true, .yaw = o[0], .pitch = o[1], .zoom = o[2]};
+        if (!CHECK_EQ_INT(load(TMP ".obj", &with), 0)) return (void)puts(error);
+        check_invariants();
+        double distance = 0;
+        for (int k = 0; k < 3; k++) distance += towards[k] * s.camera.to_world.m[k][3];
+        for (int k = 0; k < 3; k++) {
+            CHECK_NEAR(s.camera.to_world.m[k][3], distance * towards[k], 1e-9);
+            CHECK_NEAR(s.camera.to_world.m[k][2], towards[k], 1e-12);
+        }
+        CHECK(distance > 1.8 && s.camera.near < distance - 1.7 && s.camera.far > distance + 1.8);
+        CHECK_NEAR(s.camera.focal, o[2] / tan(acos(-1) / 9), 1e-9);
+        scene_free(&s);
+    }
+    /* From a low place the ground comes nearer to the camera than the model: it is not cut away. */
+    if (!CHECK_EQ_INT(
+            load(TMP ".obj", &(scene_options){.width = 64, .height = 48, .orbit = true, .pitch = 3, .zoom = 0.25}), 0))
+        return;
+    double above = s.camera.to_world.m[1][3] + 1, down = 3 * acos(-1) / 180 + atan(1 / s.camera.focal);
+    CHECK(s.camera.near <= fmax(above / sin(down) * cos(atan(1 / s.camera.focal)), s.camera.far / 1000));
+    scene_free(&s);
+    const scene_options with = {.width = 64, .height = 48, .orbit = true, .zoom = 1};
+    write_file(TMP ".gltf", base_json, sizeof base_json - 1);
+    if (!CHECK_EQ_INT(load(TMP ".gltf", &with), 0)) return (void)puts(error);
+    CHECK(s.added.camera && !s.added.ground && has_note("camera 'camera 0' ignored: --orbit takes its place"));
+    scene_free(&s);
+}
+
 /* --- damage ----------------------------------------------------------------------------------------------------------
  */
 
@@ -712,6 +816,9 @@ int main(void)
     test_normals();
     test_split();
     test_defaults();
+    test_ground();
+    test_ground_of_gltf();
+    test_orbit();
     test_damage();
     return check_report();
 }

@@ -271,6 +271,9 @@ scene_texture *loader_add_texture(loader *l, const char *name)
 bool loader_add_setting(loader *l, const char *key, const char *value)
 {
     scene *s = l->s;
+    if (l->options->orbit && strcmp(key, "max_distance") == 0)
+        return loader_note(l,
+                           "max_distance of the scene ignored: it is for the camera that --orbit takes the place of");
     void *array = s->settings;
     bool grown = scene_grow(l, &array, s->n_settings, sizeof *s->settings);
     s->settings = array;

@@ -51,7 +51,8 @@ typedef struct {
     size_t spent[BUDGET_COUNT];
     char over[160];            /* what was too much */
     mesh_light *light_of_mesh; /* beside s->meshes */
-    bool has_camera;           /* the file brought one */
+    bool has_camera;           /* the file brought one, and it is used */
+    bool file_has_camera;
     bool wants_ground;
 } loader;
 

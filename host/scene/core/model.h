@@ -144,6 +144,10 @@ typedef struct {
 } scene_setting;
 
 typedef struct {
+    bool ground, camera, light;
+} scene_added;
+
+typedef struct {
     size_t n_meshes, n_objects, n_lights, n_textures;
     scene_mesh *meshes;
     scene_object *objects;
@@ -153,6 +157,7 @@ typedef struct {
     double ambient[3];
     double background[3];
     scene_shadow shadow;
+    scene_added added; /* what the file lacked */
     size_t n_settings; /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */
     scene_setting *settings;
     size_t n_notes;

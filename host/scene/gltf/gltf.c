@@ -106,7 +106,6 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
               find_scene(&g, &used_scene) && gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) &&
               gltf_animate(&g) && gltf_place_nodes(&g, used_scene) && emit_nodes(&g);
     json_free(&doc);
-    l->wants_ground = l->options->ground == SCENE_GROUND_ON;
     return ok;
 }
 

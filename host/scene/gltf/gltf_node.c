@@ -212,6 +212,8 @@ bool gltf_emit_camera(gltf *g, size_t node_idx)
         return loader_note(g->l, "camera '%s' ignored: orthographic cameras are not supported", name);
     if (strcmp(type, "perspective") != 0) return gltf_fail(g, camera, "type '%s' is unknown", type);
     if (!perspective) return gltf_fail(g, camera, "perspective is missing");
+    g->l->file_has_camera = true;
+    if (g->l->options->orbit) return loader_note(g->l, "camera '%s' ignored: --orbit takes its place", name);
     if (g->l->has_camera) return loader_note(g->l, "camera '%s' ignored: the first camera is used", name);
     g->l->has_camera = true;
     return camera_axes(g, node, &g->l->s->camera.to_world) && read_perspective(g, perspective, &g->l->s->camera);

@@ -170,7 +170,6 @@ bool obj_load(loader *l)
     obj_text t;
     uint8_t *bytes;
     size_t n_bytes;
-    l->wants_ground = l->options->ground != SCENE_GROUND_OFF;
     if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !obj_open(&t, l, l->path, bytes, n_bytes)) return false;
     if (!obj_find_material(&o, &t, "default", &o.current_material)) return false;
     while (obj_next_line(&t)) {
