@@ -498,6 +498,27 @@ static void test_obj(void)
     scene_free(&s);
 }
 
+/* Tr is what lacks of opacity; 1 of it, which some programs write for opaque materials, hides nothing. */
+static void test_obj_transparency(void)
+{
+    static const struct {
+        const char *mtl;
+        double alpha;
+        bool said;
+    } cases[] = {{"Tr 0.25", 0.75, false}, {"Tr 1.0", 1, true}, {"Tr 0", 1, false}, {"d 0", 0, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[64];
+        snprintf(text, sizeof text, "newmtl a\n%s\n", cases[i].mtl);
+        write_file(TMP ".mtl", text, strlen(text));
+        if (!CHECK_EQ_INT(
+                load_text(TMP ".obj", "mtllib test_scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"), 0))
+            return (void)puts(error);
+        CHECK_NEAR(s.objects[0].alpha, cases[i].alpha, 0);
+        CHECK(has_remark("line 2: Tr of material 'a' is taken for opacity") == cases[i].said);
+        scene_free(&s);
+    }
+}
+
 static void test_obj_errors(void)
 {
     char text[300];
@@ -812,6 +833,7 @@ int main(void)
     test_gltf_options();
     test_glb();
     test_obj();
+    test_obj_transparency();
     test_obj_errors();
     test_normals();
     test_split();

@@ -15,7 +15,7 @@ static const double ground_albedo = 0.55;
 static const double ground_half_size_radii = 8;
 static const double ground_below_radii = 0.01;
 static const double floor_steepness = 0.7;        /* of a floor: the least share of its normal that points up */
-static const double floor_share = 0.1;            /* it lies in this lowest part of the height ... */
+static const double floor_radii = 0.03;           /* it lies so low, or lower: the bottom of a box lies higher ... */
 static const double floor_cover = 0.5;            /* ... under this share of the width and depth, or more */
 static const double shadow_extent_radii = 3;      /* behind the object's centre, at most: a low sun casts without end */
 static const double shadow_fade = 6554.0 / 65536; /* scene_share(0.1) */
@@ -59,8 +59,7 @@ static void add_floor_triangle(floor_parts *parts, const scene_object *object, d
     double length = sqrt(vec_dot(normal, normal)), height = (p[0][1] + p[1][1] + p[2][1]) / 3 - b->low[1];
     if (!(fabs(normal[1]) > floor_steepness * length)) return;
     bool is_up = normal[1] > 0;
-    if (is_up && height <= floor_share * (b->high[1] - b->low[1]) && object->receives && !object->unlit)
-        parts->area += normal[1] / 2;
+    if (is_up && height <= floor_radii * b->radius && object->receives && !object->unlit) parts->area += normal[1] / 2;
     if ((is_up || object->two_sided) && height < ground_below_radii * b->radius) parts->coplanar = true;
 }
 
