@@ -46,6 +46,18 @@ void *arena_grow(arena *a, void *array, size_t n, size_t size)
     return larger;
 }
 
+void arena_free(arena *a, void *memory)
+{
+    for (arena_block **at = &a->blocks; *at; at = &(*at)->next) {
+        arena_block *block = *at;
+        if (block->memory != memory) continue;
+        *at = block->next;
+        a->n_bytes -= block->n_bytes;
+        free(block);
+        return;
+    }
+}
+
 void arena_release(arena *a, arena_block *mark)
 {
     while (a->blocks != mark) {

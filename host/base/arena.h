@@ -24,6 +24,9 @@ bool arena_has_room(const arena *a, size_t n_bytes);
  * release. */
 void *arena_grow(arena *a, void *array, size_t n, size_t size);
 
+/* Frees one block before its time; none that is a mark. */
+void arena_free(arena *a, void *memory);
+
 /* Frees what was allocated since a->blocks was mark; NULL: everything. */
 void arena_release(arena *a, arena_block *mark);
 

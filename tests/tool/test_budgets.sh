@@ -72,7 +72,7 @@ gltf numbers "$(repeat 10 '{"mesh":@}')" "$(repeat 10 "$numbers")" ',"materials"
 sed 's|"accessors":\[[^]]*|&,{"componentType":5126,"count":100000,"type":"VEC3"},{"componentType":5126,"count":100000,"type":"VEC4"},{"componentType":5126,"count":100000,"type":"VEC2"},{"componentType":5125,"count":3,"type":"SCALAR"}|' "$tmp/numbers.gltf" >"$tmp/all.gltf"
 refused "more than 16777216 numbers" "$tmp/all.gltf"
 gltf instances "$(repeat 500 '{"mesh":0}')" '{"primitives":[{"attributes":{"POSITION":2},"indices":1}]}'
-refused "object 'node 6': more than 2097152 triangles" "$tmp/instances.gltf"
+refused "object 'node 3': more than 1048576 triangles" "$tmp/instances.gltf"
 gltf objects "$(repeat 400 '{"mesh":0}')" "{\"primitives\":[$(repeat 200 '{"attributes":{"POSITION":2}}')]}"
 refused 'more than 65535 objects' "$tmp/objects.gltf"
 word=$(awk 'BEGIN { for (i = 0; i < 20000; i++) printf "long" }')

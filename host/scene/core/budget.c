@@ -21,7 +21,7 @@ static const struct {
     [BUDGET_VERTICES] = {MIB, "vertices"},
     [BUDGET_NUMBERS] = {16 * MIB, "numbers in accessors"},
     [BUDGET_OBJECTS] = {65535, "objects"},
-    [BUDGET_TRIANGLES] = {2 * MIB, "triangles, those of a mesh once for every node that shows it"},
+    [BUDGET_TRIANGLES] = {MIB, "triangles, those of a mesh once for every node that shows it"},
 };
 
 static size_t factor(const loader *l)

@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 
 enum { MAX_NOTES = 100, MAX_NOTE_BYTES = 500 };
+enum { GROW_FREES = 4096 }; /* elements of an array whose old copy is worth looking for */
 
 bool loader_fail(loader *l, const char *format, ...)
 {
@@ -107,6 +108,7 @@ void *loader_grow(loader *l, void *array, size_t n, size_t size)
 {
     void *memory = arena_grow(&l->memory, array, n, size);
     if (!memory) budget_fail_memory(l, n > SIZE_MAX / 4 / size ? SIZE_MAX : 2 * n * size);
+    if (memory && memory != array && n >= GROW_FREES) arena_free(&l->memory, array);
     return memory;
 }
 

@@ -63,6 +63,7 @@ bool loader_note(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
 bool loader_remark(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
 
 void *loader_alloc(loader *l, size_t n, size_t size);
+/* Capacity for one more element behind n; the old array is gone. */
 void *loader_grow(loader *l, void *array, size_t n, size_t size);
 
 /* Memory that the scene owns, zeroed, to free(). */
