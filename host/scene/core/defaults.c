@@ -79,15 +79,36 @@ static floor_parts find_floor(const scene *s, const bounds *b)
     return parts;
 }
 
-/* A ground where shadows would fall on nothing: not under a floor, not in a scene that somebody lit and filmed, and not
- * in one that moves, whose lowest point is another in every frame. */
+/* A ground where shadows would fall on nothing: not under a floor, not in a scene that somebody lit and filmed. */
 static bool decide_ground(const loader *l, const bounds *b, const floor_parts *parts)
 {
     const scene *s = l->s;
     if (l->options->ground != SCENE_GROUND_AUTO) return l->options->ground == SCENE_GROUND_ON;
-    if ((l->file_has_camera && s->n_lights > 0) || s->fps > 0) return false;
+    if (l->file_has_camera && s->n_lights > 0) return false;
     double footprint = (b->high[0] - b->low[0]) * (b->high[2] - b->low[2]);
     return !(parts->area > 0 && parts->area >= floor_cover * footprint);
+}
+
+static void swap_pose(scene *s)
+{
+    for (size_t i = 0; i < s->n_objects; i++) {
+        scene_affine now = s->objects[i].to_world;
+        s->objects[i].to_world = s->objects[i].at_rest;
+        s->objects[i].at_rest = now;
+    }
+}
+
+/* Where a ground belongs, and what lies there. Of what moves, as it is at rest: a ground that follows it would move,
+ * too. */
+static void find_place(scene *s, const bounds *now, bounds *place, floor_parts *parts)
+{
+    *place = *now;
+    if (s->fps > 0) swap_pose(s);
+    bool fits = s->fps > 0 && bounds_of_scene(place, s, NULL);
+    for (int k = 0; k < 3; k++) fits = fits && fmax(-place->low[k], place->high[k]) <= LOADER_MAX_COORDINATE;
+    if (!fits) *place = *now;
+    *parts = find_floor(s, place);
+    if (s->fps > 0) swap_pose(s);
 }
 
 /* At the height of the lowest point; below it where a surface lies there: two in one plane would flicker. */
@@ -180,7 +201,7 @@ static void make_camera(loader *l, const bounds *b)
 
 /* For the default camera: the depth up to which objects, and their shadows on the ground if there is one, are to be
  * seen whole. The fade starts behind it. No farther: the texels of the shadow map spread over this distance. */
-static double find_shadow_distance(const loader *l, const bounds *b)
+static double find_shadow_distance(const loader *l, const bounds *b, double ground)
 {
     const scene *s = l->s;
     const scene_affine *camera = &s->camera.to_world;
@@ -193,7 +214,7 @@ static double find_shadow_distance(const loader *l, const bounds *b)
         for (size_t v = 0; v < mesh->n_vertices; v++) {
             double p[3];
             affine_point(p, &s->objects[i].to_world, mesh->pos + 3 * v);
-            double fall = l->wants_ground && light[1] < 0 ? (b->low[1] - p[1]) / light[1] : 0;
+            double fall = l->wants_ground && light[1] < 0 ? (ground - p[1]) / light[1] : 0;
             vec_sub(p, p, b->centre);
             double depth = -vec_dot(p, back);
             deepest = fmax(deepest, fmax(depth, fmin(depth - fall * vec_dot(light, back), farthest)));
@@ -236,10 +257,11 @@ bool loader_add_defaults(loader *l)
 {
     static const double ambient[3] = {0.18, 0.18, 0.18}, background[3] = {0.35, 0.45, 0.6};
     scene *s = l->s;
-    bounds b;
+    bounds b, place;
+    floor_parts parts;
     if (!find_bounds(l, &b)) return false;
-    floor_parts parts = find_floor(s, &b);
-    l->wants_ground = decide_ground(l, &b, &parts);
+    find_place(s, &b, &place, &parts);
+    l->wants_ground = decide_ground(l, &place, &parts);
     s->added = (scene_added){.ground = l->wants_ground, .camera = !l->has_camera, .light = s->n_lights == 0};
     memcpy(s->ambient, ambient, sizeof ambient);
     memcpy(s->background, background, sizeof background);
@@ -247,6 +269,6 @@ bool loader_add_defaults(loader *l)
     if (!l->has_camera) make_camera(l, &b);
     if (s->n_lights == 0 && !lights_add(l, "default", SCENE_LIGHT_DIRECTIONAL)) return false;
     lights_set_near(s, b.low, b.high);
-    if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b);
-    return !l->wants_ground || add_ground(l, &b, parts.coplanar);
+    if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b, place.low[1]);
+    return !l->wants_ground || add_ground(l, &place, parts.coplanar);
 }

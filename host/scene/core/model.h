@@ -44,6 +44,7 @@ typedef struct {
     char *name;
     size_t mesh_idx;
     scene_affine to_world;
+    scene_affine at_rest;    /* the same without animation, if the file has one */
     double albedo[3];        /* linear 0..1 */
     double alpha;            /* 0..1, times the texture's; default 1 */
     double alpha_cutoff;     /* 0..1, default 0.5 */

@@ -95,6 +95,15 @@ static bool emit_nodes(gltf *g)
     return true;
 }
 
+static bool place_and_animate(gltf *g, const json_value *used_scene)
+{
+    if (g->animations) {
+        if (!gltf_place_nodes(g, used_scene)) return false;
+        gltf_keep_rest(g);
+    }
+    return gltf_animate(g) && gltf_place_nodes(g, used_scene);
+}
+
 static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes glb)
 {
     json_doc doc;
@@ -104,7 +113,7 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
     const json_value *used_scene;
     bool ok = check_asset(&g) && find_arrays(&g) && spend_arrays(&g, &doc) && gltf_load_buffers(&g) &&
               find_scene(&g, &used_scene) && gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) &&
-              gltf_animate(&g) && gltf_place_nodes(&g, used_scene) && emit_nodes(&g);
+              place_and_animate(&g, used_scene) && emit_nodes(&g);
     json_free(&doc);
     return ok;
 }

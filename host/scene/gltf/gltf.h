@@ -26,6 +26,7 @@ typedef struct {
     double rotation[4]; /* quaternion x y z w */
     double scale[3];
     scene_affine world;
+    scene_affine rest; /* world, without animation */
 } gltf_node;
 
 typedef struct {
@@ -114,6 +115,7 @@ bool gltf_read_material(gltf *g, const json_value *primitive, bool moves, gltf_m
 /* gltf_node.c */
 bool gltf_read_nodes(gltf *g);
 bool gltf_place_nodes(gltf *g, const json_value *used_scene);
+void gltf_keep_rest(gltf *g); /* placed nodes are at rest */
 bool gltf_emit_camera(gltf *g, size_t node_idx);
 
 /* gltf_light.c */

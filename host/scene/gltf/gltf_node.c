@@ -160,6 +160,12 @@ bool gltf_place_nodes(gltf *g, const json_value *used_scene)
     return true;
 }
 
+void gltf_keep_rest(gltf *g)
+{
+    size_t n = g->nodes ? g->nodes->n_children : 0;
+    for (size_t i = 0; i < n; i++) g->node[i].rest = g->node[i].world;
+}
+
 /* Scale and shear do not belong to a camera: forward is kept, up made orthogonal to it, right follows. */
 static bool camera_axes(gltf *g, const gltf_node *node, scene_affine *out)
 {
