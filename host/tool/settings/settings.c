@@ -166,6 +166,6 @@ void settings_print_table(void)
            "(R5) |\n");
     printf("| `preset` | tiny, balanced, accurate | all quality knobs together |\n");
     printf("| `ground` | 0, 1, auto | add a ground plane (auto: where there is no floor for shadows to fall on, but "
-           "not to a scene with a camera and a light of its own, and not to one that moves) |\n");
+           "not to a scene with a camera and a light of its own) |\n");
     printf("| `normals` | face, smooth | for meshes without normals |\n");
 }
