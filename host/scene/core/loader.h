@@ -7,7 +7,7 @@
 #define GNOMON_HOST_LOADER_H
 
 #include "../../base/arena.h"
-#include "../image/png.h"
+#include "../image/picture.h"
 #include "model.h"
 
 #if defined(__GNUC__)

@@ -45,9 +45,9 @@ static bool load_image(gltf *g, const json_value *image, const char *name, const
     png_picture picture;
     char problem[200];
     if (!image_bytes(g, image, &bytes)) return false;
-    if (!png_is(bytes.bytes, bytes.n_bytes))
-        return loader_note(g->l, "texture '%s' ignored: only PNG images are supported", name);
-    if (!png_decode_rgba8(bytes.bytes, bytes.n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
+    if (!picture_is(bytes.bytes, bytes.n_bytes))
+        return loader_note(g->l, "texture '%s' ignored: only " PICTURE_FORMATS " images are supported", name);
+    if (!picture_decode_rgba8(bytes.bytes, bytes.n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
         return gltf_fail(g, image, "%s", problem);
     return texture_add(g->l, name, &picture, use, out);
 }

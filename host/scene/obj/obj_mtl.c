@@ -93,8 +93,9 @@ static bool load_texture(obj_file *o, obj_text *t, const char *path, const textu
     char problem[200];
     if (!loader_try_file(o->l, path, &bytes, &n_bytes, &opened)) return false;
     if (!opened) return obj_note(t, "texture '%s' cannot be opened: its colours are missing", path);
-    if (!png_is(bytes, n_bytes)) return obj_note(t, "texture '%s' ignored: only PNG images are supported", path);
-    if (!png_decode_rgba8(bytes, n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
+    if (!picture_is(bytes, n_bytes))
+        return obj_note(t, "texture '%s' ignored: only " PICTURE_FORMATS " images are supported", path);
+    if (!picture_decode_rgba8(bytes, n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
         return loader_fail(o->l, "%s: %s", path, problem);
     return texture_add(o->l, path, &picture, use, out);
 }

@@ -1,0 +1,16 @@
+/* A picture file of any format that is read. Which one it is its first bytes say, not its name. */
+#ifndef GNOMON_HOST_IMAGE_PICTURE_H
+#define GNOMON_HOST_IMAGE_PICTURE_H
+
+#include "png.h"
+
+#define PICTURE_FORMATS "PNG and JPEG"
+
+/* Whether the bytes begin like such a file. */
+bool picture_is(const uint8_t *bytes, size_t n_bytes);
+
+/* As png_decode_rgba8. */
+bool picture_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error,
+                          size_t error_bytes);
+
+#endif
