@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "../host/scene/image/png.h"
+#include "data/jpeg_fixture.h"
 #include "data/png_fixture.h"
 #include "data/scene_fixture.h"
 
@@ -164,7 +165,7 @@ static void test_texture_changes(void)
         {"\"wrapS\":33071", "\"wrapS\":33648", "mirrored repeat of texture 'checks'"},
         {"{\"source\":0}", "{\"extensions\":{\"EXT_texture_webp\":{}}}",
          "texture 'texture 0' ignored: it has no image"},
-        {"data:image/png;base64,", "data:image/jpeg;base64,/9j/", "texture 'checks' ignored: only PNG"},
+        {"data:image/png;base64,", "data:image/png;base64,UklG", "texture 'checks' ignored: only PNG and JPEG images"},
         {"\"texCoord\":1", "\"texCoord\":2", "base colour texture of material 'glass' ignored: it takes TEXCOORD_2"},
         {"\"texCoord\":1", "\"texCoord\":0,\"extensions\":{\"KHR_texture_transform\":{}}",
          "texture transform of material 'glass'"},
@@ -173,6 +174,7 @@ static void test_texture_changes(void)
          "base colour of material 'glass' outside 0..1"},
     };
     static const change errors[] = {
+        {"data:image/png;base64,", "data:image/jpeg;base64,/9j/", "/images/0: marker FF 89 is out of place"},
         {"\"wrapS\":33071", "\"wrapS\":1", "/samplers/0/wrapS: wrap mode 1"},
         {"\"sampler\":0", "\"sampler\":2", "/textures/1/sampler: there are only 2"},
         {"{\"source\":0}", "{\"source\":1}", "/textures/0/source: there are only 1"},
@@ -209,6 +211,28 @@ static void test_texture_changes(void)
     if (!CHECK_EQ_INT(load_text(TMP ".gltf", textured()), 0)) return (void)puts(error);
     CHECK(has_note("texture 'checks' is rounded from 16 bits") && s.textures[0].rgba[0] == 128);
     scene_free(&s);
+}
+
+static const flat_picture flat = {.n = 3, .w = 16, .height = 8, .h = {1, 1, 1}, .v = {1, 1, 1}, .adobe = 0};
+
+/* JPEG, whatever the file calls it: the first bytes say so. */
+static void test_jpeg_texture(void)
+{
+    char text[16384], base64[8192];
+    make_flat(&flat);
+    put_base64(base64, jpeg, n_jpeg);
+    snprintf(text, sizeof text, textured_json, base64);
+    if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
+    check_invariants();
+    const scene_texture *t = &s.textures[0];
+    if (CHECK(t->width == 16 && t->height == 8 && s.n_notes == 0)) {
+        for (unsigned i = 0; i < 4 * 16 * 8; i++)
+            CHECK_EQ_INT(t->rgba[i], i % 4 == 3 ? 255 : flat_level(i % 4, i / 4 % 16 / 8, 0));
+    }
+    scene_free(&s);
+    put_base64(base64, jpeg, n_jpeg - 1);
+    snprintf(text, sizeof text, textured_json, base64);
+    CHECK(refused(load_text(TMP ".gltf", text), "/images/0: the file ends early"));
 }
 
 static size_t count_textures(const char *textures, const char *images)
@@ -507,13 +531,28 @@ static void test_obj_texture(void)
     CHECK(has_note("options of map_Kd of material 'wood'") && has_note("1 corners with a texture") &&
           has_note("d of material 'clear'") && has_note("opacity texture of material 'other'"));
     scene_free(&s);
-    write_file(TMP ".png", "\xFF\xD8\xFF", 3);
+    write_file(TMP ".png", "GIF89a", 6);
     if (CHECK_EQ_INT(load(TMP ".obj", &plain), 0)) {
-        CHECK(s.n_textures == 0 && has_note("line 4: texture 'build/tmp/test_scene_surfaces.png' ignored: only PNG"));
+        CHECK(s.n_textures == 0 &&
+              has_note("line 4: texture 'build/tmp/test_scene_surfaces.png' ignored: only PNG and JPEG"));
         scene_free(&s);
     }
     write_file(TMP ".png", made, n_made - 1);
     CHECK(refused(load(TMP ".obj", &plain), TMP ".png: a chunk is cut off"));
+    write_file(TMP ".png", "\xFF\xD8\xFF", 3);
+    CHECK(refused(load(TMP ".obj", &plain), TMP ".png: the file ends early"));
+}
+
+/* JPEG under a name that says otherwise. */
+static void test_obj_jpeg(void)
+{
+    static const char mtl[] = "newmtl wood\nmap_Kd test_scene_surfaces.png\n";
+    make_flat(&flat);
+    write_file(TMP ".png", jpeg, n_jpeg);
+    write_file(TMP ".mtl", mtl, sizeof mtl - 1);
+    if (!CHECK_EQ_INT(load_text(TMP ".obj", obj_text), 0)) return (void)puts(error);
+    CHECK(s.n_textures == 1 && s.textures[0].width == 16 && s.textures[0].rgba[1] == flat_level(1, 0, 0));
+    scene_free(&s);
 }
 
 /* --- damage ----------------------------------------------------------------------------------------------------------
@@ -558,6 +597,7 @@ int main(void)
     write_bin();
     test_textured();
     test_image_places();
+    test_jpeg_texture();
     test_texture_changes();
     test_shared_textures();
     test_resampling();
@@ -566,6 +606,7 @@ int main(void)
     test_moving();
     test_baked_ranges();
     test_obj_texture();
+    test_obj_jpeg();
     test_damage();
     test_split_attributes();
     return check_report();

@@ -3,7 +3,8 @@
 
 #include <string.h>
 
-enum { FRAME_BYTES = 6, SCAN_BYTES = 4, MAX_LOW = 13 };
+/* MAX_SCANS: encoders take a dozen; with thousands of empty ones a short file of a large picture took minutes. */
+enum { FRAME_BYTES = 6, SCAN_BYTES = 4, MAX_LOW = 13, MAX_SCANS = 256 };
 
 static bool read_component(jpeg_reader *r, const uint8_t *b)
 {
@@ -110,7 +111,7 @@ static bool add_component(jpeg_reader *r, jpeg_scan *scan, const uint8_t *b)
     return start_component(r, c);
 }
 
-/* Of each coefficient the high bits first, then bit by bit: so there are no more scans than coefficients have bits. */
+/* Of each coefficient the high bits first, then bit by bit, each once. */
 static bool follows(jpeg_reader *r, const jpeg_scan *s)
 {
     bool band = s->first == 0 ? s->last == 0 : s->first <= s->last && s->last < JPEG_BLOCK && s->n == 1;
@@ -130,6 +131,7 @@ static bool follows(jpeg_reader *r, const jpeg_scan *s)
 bool jpeg_read_scan_header(jpeg_reader *r, const uint8_t *b, size_t n, jpeg_scan *scan)
 {
     if (!r->h) return jpeg_fail(r, "a scan before the frame header");
+    if (++r->n_scans > MAX_SCANS) return jpeg_fail(r, "more than %d scans", MAX_SCANS);
     if (n < SCAN_BYTES || b[0] < 1 || b[0] > r->n_components || n != SCAN_BYTES + 2 * (size_t)b[0])
         return jpeg_fail(r, "the header of a scan has the wrong length");
     const uint8_t *range = b + n - 3;

@@ -74,6 +74,7 @@ typedef struct {
     bool has_quantiser[JPEG_TABLES];
     jpeg_huffman dc[JPEG_TABLES], ac[JPEG_TABLES];
     size_t restart_interval;
+    unsigned n_scans;
     arena memory;
     char *error;
     size_t error_bytes;

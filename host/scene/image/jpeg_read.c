@@ -52,7 +52,7 @@ static bool read_quantisers(jpeg_reader *r, const uint8_t *b, size_t n)
         if (n < n_table) return jpeg_fail(r, "a quantisation table is cut off");
         for (size_t k = 0; k < JPEG_BLOCK; k++) {
             const uint8_t *at = b + 1 + k * sample_bytes;
-            r->quantiser[idx][k] = sample_bytes == 1 ? at[0] : (uint16_t)(at[0] << 8 | at[1]);
+            r->quantiser[idx][k] = (uint16_t)(sample_bytes == 1 ? at[0] : at[0] << 8 | at[1]);
         }
         r->has_quantiser[idx] = true;
         b += n_table;
