@@ -442,6 +442,8 @@ static void test_headers(void)
         {0xC4, 5, 3, "a Huffman code is cut off"},
         {0xC4, 20, 0xF8, "a Huffman code is malformed"},
         {0xC4, 3, 18, "a Huffman code is cut off"},
+        {0xC4, 29, 12, "a coefficient is out of range"},   /* bits of the first DC */
+        {0xC4, 54, 0x0B, "a coefficient is out of range"}, /* of AC: the other code is 33 bytes on */
         {0xDA, 4, 0, "the header of a scan has the wrong length"},
         {0xDA, 4, 4, "the header of a scan has the wrong length"},
         {0xDA, 4, 2, "the header of a scan has the wrong length"},
@@ -466,6 +468,7 @@ static void test_progressive_headers(void)
     } cases[] = {
         {0, 63, 0x00, "a range of coefficients that is not allowed"},
         {1, 63, 0x00, "a range of coefficients that is not allowed"}, /* of three components */
+        {0, 0, 0x0D, "a coefficient is out of range"},
         {0, 0, 0x0E, "a range of coefficients that is not allowed"},
         {0, 0, 0x31, "a range of coefficients that is not allowed"},
         {0, 0, 0x10, "a scan does not go on from those before it"},
@@ -517,6 +520,11 @@ static void test_scans(void)
     make_flat(&p);
     jpeg[find_marker(0xDA) + 5] = 2; /* the second component twice */
     CHECK(refused("component 2 is in two scans"));
+    size_t at = find_marker(0xDA);
+    jpeg[at + 5] = 1;
+    while (jpeg[at] != 0xFF || jpeg[at + 1] != 0xDA || jpeg[at + 5] != 3) at++;
+    jpeg[at + 1] = 0xD9;
+    CHECK(refused("component 3 is in no scan"));
     make_flat(&small);
     size_t frame = find_marker(0xC0);
     uint8_t again[19];
@@ -526,7 +534,7 @@ static void test_scans(void)
     p.alone = false;
     p.restart = 1;
     make_flat(&p);
-    size_t at = find_marker(0xDA) + 14;
+    at = find_marker(0xDA) + 14;
     while (jpeg[at] != 0xFF || jpeg[at + 1] == 0) at++;
     jpeg[at + 1] = 0xD3;
     CHECK(refused("a restart marker is missing"));
@@ -542,6 +550,27 @@ static void test_scans(void)
     make_flat(&small);
     jpeg[at] = jpeg[at + 1] = 0xFE; /* code 15 of 4 bits, which there is not */
     CHECK(refused("a Huffman code is unknown"));
+}
+
+/* Words of 16 bits instead of the data of a scan. */
+static void put_data(uint8_t high, uint8_t low)
+{
+    n_jpeg = find_marker(0xDA) + 10;
+    for (int i = 0; i < 20; i++) {
+        jpeg[n_jpeg++] = high;
+        jpeg[n_jpeg++] = low;
+    }
+}
+
+static void test_data(void)
+{
+    static const flat_picture tall = {.n = 1, .w = 8, .height = 160, .h = {1}, .v = {1}, .adobe = -1};
+    make_flat(&tall);
+    put_data(0xBF, 0xFE); /* each block 2047 more than the one before */
+    CHECK(refused("a coefficient is out of range"));
+    put_data(0, 0);
+    jpeg[find_marker(0xC4) + 54] = 0xF0; /* the code 0 of AC: 16 zeros */
+    CHECK(refused("a block has more than 64 coefficients"));
 }
 
 static void test_refused(void)
@@ -610,6 +639,7 @@ int main(void)
     test_progressive_headers();
     test_scans();
     test_many_scans();
+    test_data();
     test_refused();
     test_cuts();
     return check_report();
