@@ -603,6 +603,28 @@ static void test_refused(void)
     CHECK(refused("there is no frame header"));
 }
 
+/* What the head says, whatever follows it: a byte for every sample, two if the file is progressive, and some KiB. */
+static void test_measure(void)
+{
+    flat_picture p = {.n = 3, .w = 256, .height = 250, .h = {2, 1, 1}, .v = {2, 1, 1}, .adobe = -1};
+    const size_t n_samples = 256 * 256 * 3 / 2;
+    size_t n_work;
+    int w, h;
+    make_flat(&p);
+    CHECK(jpeg_measure(jpeg, n_jpeg - 100, &w, &h, &n_work) && w == 256 && h == 250);
+    CHECK(n_work > n_samples && n_work < n_samples + 50000);
+    jpeg[find_marker(0xC0) + 1] = 0xC2;
+    CHECK(jpeg_measure(jpeg, n_jpeg - 100, &w, &h, &n_work));
+    CHECK(n_work > 2 * n_samples && n_work < 2 * n_samples + 50000);
+    p.w = 65535;
+    p.height = 1;
+    make_flat(&p);
+    CHECK(jpeg_measure(jpeg, n_jpeg, &w, &h, &n_work) && w == 65535 && h == 1);
+    CHECK(!jpeg_measure(jpeg, 50, &w, &h, &n_work) && !jpeg_measure(jpeg, 2, &w, &h, &n_work));
+    jpeg[find_marker(0xC0) + 1] = 0xD9;
+    CHECK(!jpeg_measure(jpeg, n_jpeg, &w, &h, &n_work));
+}
+
 /* Any part of a file ends early. */
 static void check_cuts(const uint8_t *bytes, size_t n)
 {
@@ -641,6 +663,7 @@ int main(void)
     test_many_scans();
     test_data();
     test_refused();
+    test_measure();
     test_cuts();
     return check_report();
 }

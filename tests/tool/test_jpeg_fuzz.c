@@ -105,11 +105,15 @@ static void decode(const uint8_t *bytes, size_t n)
     uint8_t *exact = malloc(n ? n : 1);
     if (!CHECK(exact != NULL)) exit(check_report());
     memcpy(exact, bytes, n);
+    size_t n_work = 0;
+    int w = 0, h = 0;
+    bool measured = jpeg_measure(exact, n, &w, &h, &n_work);
     bool ok = jpeg_decode_rgba8(exact, n, MAX_SIDE, &p, error, sizeof error);
     if (ok) {
         for (int i = 0; i < p.w * p.h; i++) last_pixels += p.rgba[4 * i];
         n_read++;
         CHECK(p.w >= 1 && p.h >= 1 && p.w <= MAX_SIDE && p.h <= MAX_SIDE && p.rgba[3] == 255);
+        CHECK(measured && w == p.w && h == p.h);
     } else CHECK(!p.rgba && error[0] && !strchr(error, '\n'));
     free(p.rgba);
     free(exact);

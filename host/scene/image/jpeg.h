@@ -11,6 +11,10 @@
 /* Whether the bytes begin like a JPEG file. */
 bool jpeg_is(const uint8_t *bytes, size_t n_bytes);
 
+/* Sides as its head gives them, however long, and the most memory that decoding takes beside the picture itself;
+ * without looking further. False: no JPEG file that is read, or a head that is damaged. */
+bool jpeg_measure(const uint8_t *bytes, size_t n_bytes, int *w, int *h, size_t *n_work);
+
 /* As png_decode_rgba8; opaque. */
 bool jpeg_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error,
                        size_t error_bytes);

@@ -93,6 +93,11 @@ static bool find_taps(jpeg_reader *r, const jpeg_component *c, tap **out)
     return true;
 }
 
+size_t jpeg_colour_bytes(const jpeg_reader *r)
+{
+    return r->w * (r->n_components * sizeof(tap) + 1);
+}
+
 bool jpeg_to_rgba(jpeg_reader *r, uint8_t *rgba)
 {
     tap *across[JPEG_MAX_COMPONENTS];

@@ -28,16 +28,26 @@ static size_t divided_up(size_t a, size_t b)
     return (a + b - 1) / b;
 }
 
-static bool allocate(jpeg_reader *r, jpeg_component *c)
+size_t jpeg_component_bytes(const jpeg_reader *r, const jpeg_component *c)
 {
-    size_t n = c->stride_blocks * r->units_y * c->v;
-    c->samples = arena_alloc(&r->memory, n, JPEG_BLOCK);
-    if (r->progressive) c->coefficients = arena_alloc(&r->memory, n, JPEG_BLOCK * sizeof *c->coefficients);
-    return (c->samples && (c->coefficients || !r->progressive)) || jpeg_fail(r, "out of memory");
+    size_t sample_bytes = r->progressive ? sizeof *c->coefficients : sizeof *c->samples;
+    return c->stride_blocks * r->units_y * c->v * JPEG_BLOCK * sample_bytes;
+}
+
+bool jpeg_allocate(jpeg_reader *r)
+{
+    for (size_t i = 0; i < r->n_components; i++) {
+        jpeg_component *c = &r->component[i];
+        void *memory = arena_alloc(&r->memory, jpeg_component_bytes(r, c), 1);
+        if (!memory) return jpeg_fail(r, "out of memory");
+        if (r->progressive) c->coefficients = memory;
+        else c->samples = memory;
+    }
+    return true;
 }
 
 /* Every block takes at least one bit of the file: a short file cannot ask for much memory. */
-static bool allocate_all(jpeg_reader *r)
+static bool lay_out(jpeg_reader *r)
 {
     size_t n_blocks = 0;
     r->units_x = divided_up(r->w, 8 * r->h_max);
@@ -51,11 +61,7 @@ static bool allocate_all(jpeg_reader *r)
         c->stride_blocks = r->units_x * c->h;
         n_blocks += c->blocks_x * c->blocks_y;
     }
-    if (n_blocks / 8 > (size_t)(r->end - r->bytes)) return jpeg_fail(r, "the file ends early");
-    for (size_t i = 0; i < r->n_components; i++) {
-        if (!allocate(r, &r->component[i])) return false;
-    }
-    return true;
+    return n_blocks / 8 <= (size_t)(r->end - r->bytes) || jpeg_fail(r, "the file ends early");
 }
 
 bool jpeg_read_frame(jpeg_reader *r, const uint8_t *b, size_t n)
@@ -74,7 +80,7 @@ bool jpeg_read_frame(jpeg_reader *r, const uint8_t *b, size_t n)
     for (size_t i = 0; i < b[5]; i++) {
         if (!read_component(r, b + FRAME_BYTES + 3 * i)) return false;
     }
-    return allocate_all(r);
+    return lay_out(r);
 }
 
 /* The quantiser is that which is in force when the component is met first. */

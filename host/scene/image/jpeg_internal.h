@@ -47,7 +47,7 @@ typedef struct {
     uint16_t quantiser[JPEG_BLOCK];
     bool started;                /* a scan had it: quantiser is set */
     int8_t low_bit[JPEG_BLOCK];  /* of each coefficient the lowest bit that is known; -1: none is */
-    int16_t *coefficients;       /* of progressive files, all blocks */
+    int16_t *coefficients;       /* of progressive files, all blocks; in the end the samples are in their place */
     uint8_t *samples;            /* 8 * stride_blocks a row */
     const jpeg_huffman *dc, *ac; /* of this scan */
     int predicted;               /* DC of the block before */
@@ -64,6 +64,7 @@ typedef struct {
 typedef struct {
     const uint8_t *bytes, *at, *end;
     uint32_t max_side, w, h; /* h 0: no frame header yet */
+    bool only_head;          /* the frame header is enough */
     bool progressive, has_jfif, has_adobe;
     uint8_t adobe_transform;
     unsigned h_max, v_max;
@@ -91,6 +92,9 @@ extern const uint8_t jpeg_zigzag[JPEG_BLOCK];
 
 /* jpeg_frame.c: what is behind the length of the headers of a frame and of a scan. */
 bool jpeg_read_frame(jpeg_reader *r, const uint8_t *b, size_t n);
+/* Memory for the components of the frame. */
+bool jpeg_allocate(jpeg_reader *r);
+size_t jpeg_component_bytes(const jpeg_reader *r, const jpeg_component *c);
 bool jpeg_read_scan_header(jpeg_reader *r, const uint8_t *b, size_t n, jpeg_scan *scan);
 
 /* jpeg_huffman.c */
@@ -110,13 +114,15 @@ void jpeg_take_part(jpeg_bits *b, jpeg_component *c, jpeg_scan *scan, int16_t *b
 
 /* jpeg_scan.c: all that follows the header of a scan, up to the next marker. */
 bool jpeg_read_scan(jpeg_reader *r, jpeg_scan *scan);
-/* The samples of what is in coefficients. */
-void jpeg_transform_all(jpeg_component *c);
+/* The samples of what is in coefficients, which they take the place of. */
+bool jpeg_transform_all(jpeg_reader *r, jpeg_component *c);
 
 /* jpeg_idct.c: 8 x 8 samples from coefficients in zigzag order. */
 void jpeg_idct(const int16_t *block, const uint16_t *quantiser, uint8_t *out, size_t stride);
 
 /* jpeg_colour.c: 4 * w * h bytes. */
 bool jpeg_to_rgba(jpeg_reader *r, uint8_t *rgba);
+/* The memory that it takes beside. */
+size_t jpeg_colour_bytes(const jpeg_reader *r);
 
 #endif

@@ -119,7 +119,7 @@ static bool read_segment(jpeg_reader *r, int marker, const uint8_t *b, size_t n)
     case SOF1:
     case SOF2:
         r->progressive = marker == SOF2;
-        return jpeg_read_frame(r, b, n);
+        return jpeg_read_frame(r, b, n) && (r->only_head || jpeg_allocate(r));
     case DHT:
         return read_codes(r, b, n);
     case DQT:
@@ -170,6 +170,7 @@ static bool read_markers(jpeg_reader *r)
         if (n > (size_t)(r->end - b)) return jpeg_fail(r, "the file ends early");
         r->at += n;
         if (!read_segment(r, marker, b + 2, n - 2)) return false;
+        if (r->only_head && r->h) return true;
         behind_scan = marker == SOS;
     }
 }
@@ -188,13 +189,10 @@ static bool is_complete(jpeg_reader *r)
 
 static uint8_t *read_picture(jpeg_reader *r)
 {
-    if (!jpeg_is(r->bytes, (size_t)(r->end - r->bytes))) {
-        jpeg_fail(r, "not a JPEG file");
-        return NULL;
-    }
-    r->at += 2;
     if (!read_markers(r) || !is_complete(r)) return NULL;
-    for (size_t i = 0; i < r->n_components && r->progressive; i++) jpeg_transform_all(&r->component[i]);
+    for (size_t i = 0; i < r->n_components; i++) {
+        if (r->progressive && !jpeg_transform_all(r, &r->component[i])) return NULL;
+    }
     uint8_t *rgba = malloc((size_t)r->w * r->h * 4);
     if (!rgba) jpeg_fail(r, "out of memory");
     else if (jpeg_to_rgba(r, rgba)) return rgba;
@@ -207,20 +205,45 @@ bool jpeg_is(const uint8_t *bytes, size_t n_bytes)
     return n_bytes >= 3 && bytes[0] == 0xFF && bytes[1] == SOI && bytes[2] == 0xFF;
 }
 
-bool jpeg_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error,
-                       size_t error_bytes)
+/* To free. NULL: failed. */
+static jpeg_reader *new_reader(const uint8_t *bytes, size_t n_bytes, int max_side, char *error, size_t error_bytes)
 {
-    *out = (png_picture){.depth = 8};
-    jpeg_reader *r = calloc(1, sizeof *r);
+    jpeg_reader *r = jpeg_is(bytes, n_bytes) ? calloc(1, sizeof *r) : NULL;
     if (!r) {
-        snprintf(error, error_bytes, "out of memory");
-        return false;
+        snprintf(error, error_bytes, jpeg_is(bytes, n_bytes) ? "out of memory" : "not a JPEG file");
+        return NULL;
     }
-    r->bytes = r->at = bytes;
+    r->bytes = bytes;
+    r->at = bytes + 2; /* behind SOI */
     r->end = bytes + n_bytes;
     r->max_side = (uint32_t)max_side;
     r->error = error;
     r->error_bytes = error_bytes;
+    return r;
+}
+
+bool jpeg_measure(const uint8_t *bytes, size_t n_bytes, int *w, int *h, size_t *n_work)
+{
+    char problem[100];
+    jpeg_reader *r = new_reader(bytes, n_bytes, UINT16_MAX, problem, sizeof problem);
+    if (!r) return false;
+    r->only_head = true;
+    bool ok = read_markers(r) && r->h;
+    *w = (int)r->w;
+    *h = (int)r->h;
+    *n_work = sizeof *r + jpeg_colour_bytes(r);
+    for (size_t i = 0; i < r->n_components && ok; i++)
+        *n_work += jpeg_component_bytes(r, &r->component[i]) + JPEG_BLOCK * r->component[i].stride_blocks;
+    free(r);
+    return ok;
+}
+
+bool jpeg_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error,
+                       size_t error_bytes)
+{
+    *out = (png_picture){.depth = 8};
+    jpeg_reader *r = new_reader(bytes, n_bytes, max_side, error, error_bytes);
+    if (!r) return false;
     out->rgba = read_picture(r);
     out->w = (int)r->w;
     out->h = (int)r->h;

@@ -1,6 +1,8 @@
 /* One scan of JPEG: which blocks follow each other, ITU T.81 A.2 and E.2.4. */
 #include "jpeg_internal.h"
 
+#include <string.h>
+
 /* Sequential files have all of a block at once. */
 static void take(const jpeg_reader *r, jpeg_bits *b, jpeg_scan *scan, jpeg_component *c, size_t x, size_t y)
 {
@@ -63,12 +65,16 @@ bool jpeg_read_scan(jpeg_reader *r, jpeg_scan *scan)
     return !b.problem || jpeg_fail(r, "%s", b.problem);
 }
 
-void jpeg_transform_all(jpeg_component *c)
+bool jpeg_transform_all(jpeg_reader *r, jpeg_component *c)
 {
+    size_t stride = 8 * c->stride_blocks, n_row = 8 * stride;
+    uint8_t *row = arena_alloc(&r->memory, n_row, 1);
+    if (!row) return jpeg_fail(r, "out of memory");
+    c->samples = (uint8_t *)c->coefficients;
     for (size_t y = 0; y < c->blocks_y; y++) {
-        for (size_t x = 0; x < c->blocks_x; x++) {
-            size_t block = y * c->stride_blocks + x, at = 8 * (8 * y * c->stride_blocks + x);
-            jpeg_idct(c->coefficients + JPEG_BLOCK * block, c->quantiser, c->samples + at, 8 * c->stride_blocks);
-        }
+        const int16_t *blocks = c->coefficients + JPEG_BLOCK * c->stride_blocks * y;
+        for (size_t x = 0; x < c->blocks_x; x++) jpeg_idct(blocks + JPEG_BLOCK * x, c->quantiser, row + 8 * x, stride);
+        memcpy(c->samples + n_row * y, row, n_row); /* half as long as coefficients: those of this row at most */
     }
+    return true;
 }
