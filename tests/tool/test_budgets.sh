@@ -131,9 +131,41 @@ pictures large 1 8192.png
 refused "'8192.png' of 8192x8192: more than" "$tmp/large.gltf"
 pictures wide 1 wide.png
 refused "'wide.png' of 100000x10: sides are at most 8192" "$tmp/wide.gltf"
+# jpeg KIND W H COMPONENTS N: the head of a JPEG file and N zero bytes; KIND: C0 sequential, C2 progressive
+jpeg() {
+    components=$(for i in $(seq "$4"); do printf '\\%03o\\021\\000' "$i"; done)
+    printf "\\377\\330\\377\\$(printf %o $((0x$1)))\\000\\$(printf %o $((8 + 3 * $4)))\\010"
+    for side in "$3" "$2"; do printf "\\$(printf %o $((side / 256)))\\$(printf %o $((side % 256)))"; done
+    printf "\\$(printf %o "$4")$components"
+    head -c "$5" /dev/zero
+}
+jpeg C0 8192 8192 1 140000 >"$tmp/8192.jpg"
+jpeg C0 2048 2048 3 30000 >"$tmp/damaged.jpg"
+jpeg C0 65535 8 1 2000 >"$tmp/wide.jpg"
+jpeg C2 4096 4096 4 140000 >"$tmp/progressive.jpg" # 64 MiB, and twice that for its coefficients
+jpeg C0 8192 8192 1 100 >"$tmp/short.jpg"
+pictures large 1 8192.jpg
+refused "'8192.jpg' of 8192x8192: more than 100663296 bytes of textures: --budget" "$tmp/large.gltf"
+pictures damaged 4000 damaged.jpg
+refused "texture 'damaged.jpg' of 2048x2048: more than 100663296 bytes of textures" "$tmp/damaged.gltf"
+pictures wide 1 wide.jpg
+refused "'wide.jpg' of 65535x8: sides are at most 8192" "$tmp/wide.gltf"
+pictures progressive 1 progressive.jpg
+refused 'takes more than 160 MiB of memory' "$tmp/progressive.gltf"
+pictures short 1 short.jpg # so few bytes cannot be so large a picture
+drawn "texture 'short.jpg': the file ends early: it is drawn without" "$tmp/short.gltf"
+pictures one 1 damaged.jpg
+drawn "texture 'damaged.jpg': a marker is missing: it is drawn without" "$tmp/one.gltf"
+cp tests/data/jpeg/420-progressive.jpg "$tmp/whole.jpg"
+pictures whole 1 whole.jpg
+drawn '' "$tmp/whole.gltf"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nmtllib p.mtl\nusemtl a\nf 1/1 2/1 3/1\n' >"$tmp/p.obj"
 printf 'newmtl a\nmap_Kd 8192.png\n' >"$tmp/p.mtl"
 refused "8192.png' of 8192x8192: more than" "$tmp/p.obj"
+printf 'newmtl a\nmap_Kd 8192.jpg\n' >"$tmp/p.mtl"
+refused "8192.jpg' of 8192x8192: more than" "$tmp/p.obj"
+printf 'newmtl a\nmap_Kd damaged.jpg\n' >"$tmp/p.mtl"
+drawn "line 2: texture '.*damaged.jpg' is damaged, a marker is missing: it is drawn without" "$tmp/p.obj"
 { echo 'newmtl a' && awk 'BEGIN { for (i = 0; i < 60; i++) { printf "map_Kd "; for (k = 0; k < i; k++) printf "./"; print "2048.png" } }'; } >"$tmp/p.mtl"
 refused 'more than 100663296 bytes of textures' "$tmp/p.obj"
 { echo 'newmtl a' && awk 'BEGIN { for (i = 0; i < 5000; i++) print "map_Kd none" i ".png" }'; } >"$tmp/p.mtl"

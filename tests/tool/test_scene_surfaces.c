@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "../host/scene/image/png.h"
+#include "data/jpeg_fixture.h"
 #include "data/png_fixture.h"
 #include "data/scene_fixture.h"
 
@@ -176,7 +177,9 @@ static void test_texture_changes(void)
         {"\"wrapS\":33071", "\"wrapS\":33648", "mirrored repeat of texture 'checks'"},
         {"{\"source\":0}", "{\"extensions\":{\"EXT_texture_webp\":{}}}",
          "texture 'texture 0' ignored: it has no image"},
-        {"data:image/png;base64,", "data:image/jpeg;base64,/9j/", "texture 'checks' ignored: only PNG"},
+        {"data:image/png;base64,", "data:image/jpeg;base64,/9j/",
+         "texture 'checks': marker FF 89 is out of place: it is drawn without"},
+        {"data:image/png;base64,", "data:image/png;base64,UklG", "texture 'checks' ignored: only PNG and JPEG images"},
         {"\"texCoord\":1", "\"texCoord\":2", "base colour texture of material 'glass' ignored: it takes TEXCOORD_2"},
         {"\"texCoord\":1", "\"texCoord\":0,\"extensions\":{\"KHR_texture_transform\":{}}",
          "texture transform of material 'glass'"},
@@ -221,6 +224,28 @@ static void test_texture_changes(void)
     if (!CHECK_EQ_INT(load_text(TMP ".gltf", textured()), 0)) return (void)puts(error);
     CHECK(has_note("texture 'checks' is rounded from 16 bits") && s.textures[0].rgba[0] == 128);
     scene_free(&s);
+}
+
+static const flat_picture flat = {.n = 3, .w = 16, .height = 8, .h = {1, 1, 1}, .v = {1, 1, 1}, .adobe = 0};
+
+/* JPEG, whatever the file calls it: the first bytes say so. */
+static void test_jpeg_texture(void)
+{
+    char text[16384], base64[8192];
+    make_flat(&flat);
+    put_base64(base64, jpeg, n_jpeg);
+    snprintf(text, sizeof text, textured_json, base64);
+    if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
+    check_invariants();
+    const scene_texture *t = &s.textures[0];
+    if (CHECK(t->width == 16 && t->height == 8 && s.n_notes == 0)) {
+        for (unsigned i = 0; i < 4 * 16 * 8; i++)
+            CHECK_EQ_INT(t->rgba[i], i % 4 == 3 ? 255 : flat_level(i % 4, i / 4 % 16 / 8, 0));
+    }
+    scene_free(&s);
+    put_base64(base64, jpeg, n_jpeg - 1);
+    snprintf(text, sizeof text, textured_json, base64);
+    check_untextured(text, "texture 'checks': the file ends early: it is drawn without");
 }
 
 static size_t count_textures(const char *textures, const char *images)
@@ -519,15 +544,33 @@ static void test_obj_texture(void)
     CHECK(has_note("options of map_Kd of material 'wood'") && has_note("1 corners with a texture") &&
           has_note("d of material 'clear'") && has_note("opacity texture of material 'other'"));
     scene_free(&s);
-    write_file(TMP ".png", "\xFF\xD8\xFF", 3);
+    write_file(TMP ".png", "GIF89a", 6);
     if (CHECK_EQ_INT(load(TMP ".obj", &plain), 0)) {
-        CHECK(s.n_textures == 0 && has_note("line 4: texture 'build/tmp/test_scene_surfaces.png' ignored: only PNG"));
+        CHECK(s.n_textures == 0 &&
+              has_note("line 4: texture 'build/tmp/test_scene_surfaces.png' ignored: only PNG and JPEG"));
         scene_free(&s);
     }
     write_file(TMP ".png", made, n_made - 1);
     if (!CHECK_EQ_INT(load(TMP ".obj", &plain), 0)) return (void)puts(error);
     CHECK(s.n_textures == 0 && s.n_remarks == 2 && /* it is named twice */
           has_note("line 4: texture '" TMP ".png' is damaged, a chunk is cut off: it is drawn without"));
+    scene_free(&s);
+    write_file(TMP ".png", "\xFF\xD8\xFF", 3);
+    if (!CHECK_EQ_INT(load(TMP ".obj", &plain), 0)) return (void)puts(error);
+    CHECK(s.n_textures == 0 && s.n_remarks == 2 &&
+          has_note("line 4: texture '" TMP ".png' is damaged, the file ends early: it is drawn without"));
+    scene_free(&s);
+}
+
+/* JPEG under a name that says otherwise. */
+static void test_obj_jpeg(void)
+{
+    static const char mtl[] = "newmtl wood\nmap_Kd test_scene_surfaces.png\n";
+    make_flat(&flat);
+    write_file(TMP ".png", jpeg, n_jpeg);
+    write_file(TMP ".mtl", mtl, sizeof mtl - 1);
+    if (!CHECK_EQ_INT(load_text(TMP ".obj", obj_text), 0)) return (void)puts(error);
+    CHECK(s.n_textures == 1 && s.textures[0].width == 16 && s.textures[0].rgba[1] == flat_level(1, 0, 0));
     scene_free(&s);
 }
 
@@ -573,6 +616,7 @@ int main(void)
     write_bin();
     test_textured();
     test_image_places();
+    test_jpeg_texture();
     test_texture_changes();
     test_shared_textures();
     test_resampling();
@@ -581,6 +625,7 @@ int main(void)
     test_moving();
     test_baked_ranges();
     test_obj_texture();
+    test_obj_jpeg();
     test_damage();
     test_split_attributes();
     return check_report();

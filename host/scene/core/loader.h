@@ -7,7 +7,7 @@
 #define GNOMON_HOST_LOADER_H
 
 #include "../../base/arena.h"
-#include "../image/png.h"
+#include "../image/picture.h"
 #include "model.h"
 
 #if defined(__GNUC__)
@@ -118,7 +118,7 @@ typedef struct {
 /* To be asked before a picture is decoded: false, with the error, if it is too much. name: for that. */
 bool texture_may_decode(loader *l, const char *name, const uint8_t *bytes, size_t n_bytes);
 /* Adds the picture, resampled if its sides need it; the picture's pixels are taken or freed in any case. */
-bool texture_add(loader *l, const char *name, png_picture *picture, const texture_use *use, size_t *out);
+bool texture_add(loader *l, const char *name, rgba8_picture *picture, const texture_use *use, size_t *out);
 
 /* mesh.c. The input's arrays are temporary ones of the loader. */
 

@@ -93,7 +93,7 @@ static void resample_texel(const uint8_t *rgba, size_t w, tap x, tap y, const we
 
 /* As the texture is looked up, nearest or bilinear: bilinear in linear light, and around the corner where the texture
  * repeats. At most halves a side (of a picture up to TEXTURE_MAX_PICTURE): bilinear, no texel is skipped. */
-static void resample(const png_picture *from, const texture_use *use, scene_texture *to)
+static void resample(const rgba8_picture *from, const texture_use *use, scene_texture *to)
 {
     weighing weigh = {.by_alpha = !use->is_data};
     make_levels(&weigh.colour, use->is_data);
@@ -108,7 +108,7 @@ static void resample(const png_picture *from, const texture_use *use, scene_text
     }
 }
 
-static bool fit_sides(loader *l, png_picture *picture, const texture_use *use, scene_texture *texture)
+static bool fit_sides(loader *l, rgba8_picture *picture, const texture_use *use, scene_texture *texture)
 {
     texture->width = power_of_two(picture->w);
     texture->height = power_of_two(picture->h);
@@ -129,7 +129,7 @@ bool texture_may_decode(loader *l, const char *name, const uint8_t *bytes, size_
 {
     int w, h;
     size_t n_work;
-    if (!png_measure(bytes, n_bytes, &w, &h, &n_work)) return true;
+    if (!picture_measure(bytes, n_bytes, &w, &h, &n_work)) return true;
     if (w > TEXTURE_MAX_PICTURE || h > TEXTURE_MAX_PICTURE)
         return loader_fail(l, "%s: texture '%.200s' of %dx%d: sides are at most %d", l->path, name, w, h,
                            (int)TEXTURE_MAX_PICTURE);
@@ -140,7 +140,7 @@ bool texture_may_decode(loader *l, const char *name, const uint8_t *bytes, size_
     return fits || budget_fail_memory(l, n + n_work);
 }
 
-bool texture_add(loader *l, const char *name, png_picture *picture, const texture_use *use, size_t *out)
+bool texture_add(loader *l, const char *name, rgba8_picture *picture, const texture_use *use, size_t *out)
 {
     scene_texture *texture = loader_add_texture(l, name);
     bool ok = texture != NULL;

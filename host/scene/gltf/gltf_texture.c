@@ -53,15 +53,15 @@ static const char *picture_label(const json_value *image, const char *name)
 static bool load_image(gltf *g, const json_value *image, const char *name, const texture_use *use, size_t *out)
 {
     gltf_bytes bytes = {0};
-    png_picture picture;
+    rgba8_picture picture;
     char problem[200];
     const char *missing = NULL, *label = picture_label(image, name);
     if (!image_bytes(g, image, &bytes, &missing)) return false;
     if (missing) return loader_remark(g->l, "texture '%.150s': %.250s: it is drawn without", label, missing);
-    if (!png_is(bytes.bytes, bytes.n_bytes))
-        return loader_remark(g->l, "texture '%.150s' ignored: only PNG images are supported", label);
+    if (!picture_is(bytes.bytes, bytes.n_bytes))
+        return loader_remark(g->l, "texture '%.150s' ignored: only " PICTURE_FORMATS " images are supported", label);
     if (!texture_may_decode(g->l, label, bytes.bytes, bytes.n_bytes)) return false;
-    if (!png_decode_rgba8(bytes.bytes, bytes.n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
+    if (!picture_decode_rgba8(bytes.bytes, bytes.n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
         return loader_remark(g->l, "texture '%.150s': %s: it is drawn without", label, problem);
     return texture_add(g->l, name, &picture, use, out);
 }

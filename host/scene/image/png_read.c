@@ -325,13 +325,13 @@ bool png_measure(const uint8_t *bytes, size_t n_bytes, int *w, int *h, size_t *n
     return true;
 }
 
-bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error,
+bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, rgba8_picture *out, char *error,
                       size_t error_bytes)
 {
     reader r = {
         .bytes = bytes, .n_bytes = n_bytes, .max_side = (uint32_t)max_side, .error = error, .error_bytes = error_bytes};
     uint8_t *rgba = read_picture(&r);
-    *out = (png_picture){.w = (int)r.w, .h = (int)r.h, .depth = (int)r.depth, .rgba = rgba};
+    *out = (rgba8_picture){.w = (int)r.w, .h = (int)r.h, .depth = (int)r.depth, .rgba = rgba};
     arena_release(&r.memory, NULL);
     return rgba != NULL;
 }

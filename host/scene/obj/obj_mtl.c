@@ -115,13 +115,14 @@ static bool load_texture(obj_file *o, obj_text *t, const char *path, const textu
     uint8_t *bytes = NULL;
     size_t n_bytes = 0;
     const char *missing;
-    png_picture picture;
+    rgba8_picture picture;
     char problem[200];
     if (!loader_try_file(o->l, path, &bytes, &n_bytes, &missing)) return false;
     if (missing) return lacks_texture(t, path, missing);
-    if (!png_is(bytes, n_bytes)) return lacks_texture(t, path, "ignored: only PNG images are supported");
+    if (!picture_is(bytes, n_bytes))
+        return lacks_texture(t, path, "ignored: only " PICTURE_FORMATS " images are supported");
     if (!texture_may_decode(o->l, path, bytes, n_bytes)) return false;
-    if (!png_decode_rgba8(bytes, n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
+    if (!picture_decode_rgba8(bytes, n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
         return loader_remark(o->l, "line %zu: texture '%.200s' is damaged, %s: it is drawn without", t->line, path,
                              problem);
     return texture_add(o->l, path, &picture, use, out);
