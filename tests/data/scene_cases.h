@@ -270,7 +270,7 @@ static const struct {
     {"v 0 0 0\nf 1 1 x\n", "index of a vertex is missing"},
     {"v 0 0 0\nf 1 1 \\\n 1/2/3\n", ":2: texture index 2"},
     {"v 0 0 0\nf 1 1 1//1\n", "normal index 1"},
-    {"v 0 0 0\nf 1 1 1//\n", "index of a normal"},
+    {"v 0 0 0\nf 1 1 1///\n", "index of a normal"},
     {"v 0 0 0\nvt 0 0\nf 1 1 1/1/1/1\n", "normal index"},
     {"v 0 0 0\nvn 1 0 0\nf 1 1 1//1/1\n", "not a corner"},
     {"v 0 0 0\nf 1 1 1x\n", "not a corner"},
@@ -279,7 +279,6 @@ static const struct {
     {"vt 1 2 3 4\n", "more than 3"},
     {"v 0 0 0\nf 1 1 1/1\n", "texture index 1"},
     {"v 0 0 0\nf 1 1 1/x\n", "index of a texture is missing"},
-    {"usemtl\n", "usemtl without"},
     {"mtllib # x\n", "mtllib without"},
 };
 

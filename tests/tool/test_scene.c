@@ -399,21 +399,27 @@ static void put_le(size_t at, size_t v)
     for (int i = 0; i < 4; i++) glb[at + (size_t)i] = (uint8_t)(v >> 8 * i);
 }
 
-static void make_glb(void)
+/* Chunks longer than they need be by so many bytes, and so many more behind each that its length does not count. */
+static void make_loose_glb(size_t json_more, size_t json_uncounted, size_t bin_more, size_t bin_uncounted)
 {
     const char *json = replaced(base_json, ",\"uri\":\"" BASE_URI "\"", "");
-    size_t n = strlen(json), n_json = (n + 3) / 4 * 4;
-    n_glb = 20 + n_json + 8 + sizeof base_bin;
+    size_t n = strlen(json), n_json = (n + 3) / 4 * 4 + json_more, at = 20 + n_json + json_uncounted;
+    n_glb = at + 8 + sizeof base_bin + bin_more + bin_uncounted;
+    memset(glb, ' ', n_glb);
     memcpy(glb, "glTF", 4);
     put_le(4, 2);
     put_le(8, n_glb);
     put_le(12, n_json);
     memcpy(glb + 16, "JSON", 4);
-    memset(glb + 20, ' ', n_json);
     memcpy(glb + 20, json, n);
-    put_le(20 + n_json, sizeof base_bin);
-    memcpy(glb + 24 + n_json, "BIN", 4);
-    memcpy(glb + 28 + n_json, base_bin, sizeof base_bin);
+    put_le(at, sizeof base_bin + bin_more);
+    memcpy(glb + at + 4, "BIN", 4);
+    memcpy(glb + at + 8, base_bin, sizeof base_bin);
+}
+
+static void make_glb(void)
+{
+    make_loose_glb(0, 0, 0, 0);
 }
 
 static int load_glb(size_t n)
@@ -442,7 +448,7 @@ static void test_glb(void)
     CHECK(refused(load_patched(8, 11), "the header announces"));
     CHECK(refused(load_patched(8, 16), "byte 12: a chunk header is cut off"));
     CHECK(refused(load_patched(8, 20), "reaches beyond"));
-    CHECK(refused(load_patched(12, 13), "not a multiple of 4"));
+    CHECK(refused(load_patched(12, 13), TMP ".glb:"));
     CHECK(refused(load_patched(12, 0xFFFFFFFC), "reaches beyond"));
     CHECK(refused(load_patched(16, 0), "first chunk is not JSON"));
     CHECK(refused(load_patched(n_glb - sizeof base_bin - 4, 0), "buffer 0 has no data"));
@@ -452,6 +458,26 @@ static void test_glb(void)
     for (size_t n = 0; n < n_glb; n++) {
         put_le(8, n); /* cut, and the header says so */
         CHECK(refused(load_glb(n), TMP ".glb"));
+    }
+}
+
+/* Lengths that are no multiples of 4, with the next chunk at once or behind padding. */
+static void test_loose_glb(void)
+{
+    for (size_t i = 0; i < 256; i++) {
+        size_t json_more = i % 4, json_uncounted = i / 4 % 4, bin_more = i / 16 % 4, bin_uncounted = i / 64;
+        bool json_fits = json_uncounted == 0 || (json_more + json_uncounted == 4 && json_more > 0);
+        size_t over = (json_more + json_uncounted + bin_more) % 4;
+        bool bin_fits = bin_uncounted == 0 || (over > 0 && over + bin_uncounted <= 4);
+        make_loose_glb(json_more, json_uncounted, bin_more, bin_uncounted);
+        int failed = load_glb(n_glb);
+        if (!CHECK_EQ_INT(failed == 0, json_fits && bin_fits)) printf("  case %zu: %s\n", i, failed ? error : "");
+        if (failed) continue;
+        check_invariants();
+        CHECK_EQ_INT(s.meshes[0].n_triangles, 2);
+        CHECK(s.n_remarks == (size_t)(json_more > 0) + (bin_more > 0));
+        CHECK(has_remark("byte 12: chunk length") == (json_more > 0));
+        scene_free(&s);
     }
 }
 
@@ -517,6 +543,26 @@ static void test_obj_transparency(void)
         CHECK(has_remark("line 2: Tr of material 'a' is taken for opacity") == cases[i].said);
         scene_free(&s);
     }
+}
+
+/* A corner without what its slashes announce, and usemtl without a name. */
+static void test_obj_lacks(void)
+{
+    static const char text[] = "v 0 0 0\nv 2 0 0\nv 0 2 0\nvt 0 0\nvn 1 0 0\nusemtl a\nf 1// 2// 3//\n"
+                               "usemtl\nf 1/1/ 2/1/ 3/1/\nusemtl a\nf 1// 2//1 3/\nusemtl # none\nf 1 2 3\n";
+    if (!CHECK_EQ_INT(load_text(TMP ".obj", text), 0)) return (void)puts(error);
+    check_invariants();
+    const scene_mesh *plain_mesh = &s.meshes[0], *a = &s.meshes[1];
+    CHECK(strcmp(s.objects[0].name, "default") == 0 && strcmp(s.objects[1].name, "a") == 0);
+    CHECK(plain_mesh->n_triangles == 2 && a->n_triangles == 2 && a->n_vertices == 6);
+    CHECK_NEAR(s.objects[0].albedo[0], 0.8, 0);
+    for (size_t i = 0; i < 3; i++) CHECK_NEAR(a->nrm[3 * i + 2], 1, 0); /* of the face */
+    CHECK_NEAR(a->nrm[3 * a->idx[4]], 1, 0);
+    CHECK(has_note("line 8: usemtl without a name") && has_note("line 12: usemtl without") && s.n_remarks == 0);
+    scene_free(&s);
+    if (!CHECK_EQ_INT(load_text(TMP ".obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1// 2// 3//\n"), 0)) return (void)puts(error);
+    CHECK(!s.meshes[0].nrm);
+    scene_free(&s);
 }
 
 static void test_obj_errors(void)
@@ -840,8 +886,10 @@ int main(void)
     test_named_children();
     test_gltf_options();
     test_glb();
+    test_loose_glb();
     test_obj();
     test_obj_transparency();
+    test_obj_lacks();
     test_obj_errors();
     test_normals();
     test_split();

@@ -3,7 +3,13 @@
 
 #include <string.h>
 
-enum { GLB_HEADER_BYTES = 12, GLB_CHUNK_HEADER_BYTES = 8, DEFAULT_FPS = 24 };
+enum {
+    GLB_HEADER_BYTES = 12,
+    GLB_CHUNK_HEADER_BYTES = 8,
+    GLB_JSON = 0x4E4F534A,
+    GLB_BIN = 0x004E4942,
+    DEFAULT_FPS = 24
+};
 
 static bool is_supported(const char *extension)
 {
@@ -131,6 +137,17 @@ static size_t word_at(const uint8_t *bytes)
     return (size_t)bytes[0] | (size_t)bytes[1] << 8 | (size_t)bytes[2] << 16 | (size_t)bytes[3] << 24;
 }
 
+/* Lengths are multiples of 4, with padding. Behind one that is not, the next chunk comes at once; or behind padding
+ * that was not counted, if BIN is there, and only there. */
+static size_t next_chunk(const uint8_t *file, size_t n_bytes, size_t end)
+{
+    size_t padded = (end + 3) / 4 * 4;
+    if (padded >= n_bytes) return n_bytes;
+    bool fits = n_bytes - padded >= GLB_CHUNK_HEADER_BYTES;
+    bool skips = fits && word_at(file + padded + 4) == GLB_BIN && word_at(file + end + 4) != GLB_BIN;
+    return skips ? padded : end;
+}
+
 /* The chunk at *at, which moves behind it. */
 static bool read_chunk(loader *l, const uint8_t *file, size_t n_bytes, size_t *at, size_t *type, gltf_bytes *out)
 {
@@ -139,13 +156,13 @@ static bool read_chunk(loader *l, const uint8_t *file, size_t n_bytes, size_t *a
     size_t length = word_at(file + *at);
     *type = word_at(file + *at + 4);
     *out = (gltf_bytes){file + *at + GLB_CHUNK_HEADER_BYTES, length};
-    if (length % 4 != 0)
-        return loader_fail(l, "%s: byte %zu: chunk length %zu is not a multiple of 4", l->path, *at, length);
     if (length > n_bytes - *at - GLB_CHUNK_HEADER_BYTES) {
         return loader_fail(l, "%s: byte %zu: a chunk of %zu bytes reaches beyond the end", l->path, *at, length);
     }
-    *at += GLB_CHUNK_HEADER_BYTES + length;
-    return true;
+    size_t start = *at;
+    *at = next_chunk(file, n_bytes, start + GLB_CHUNK_HEADER_BYTES + length);
+    return length % 4 == 0 ||
+           loader_remark(l, "byte %zu: chunk length %zu is not a multiple of 4: it is read as it is", start, length);
 }
 
 static bool check_glb_header(loader *l, const uint8_t *file, size_t n_file, size_t *n_bytes)
@@ -163,17 +180,16 @@ static bool check_glb_header(loader *l, const uint8_t *file, size_t n_file, size
 /* Chunks after JSON and BIN, and of unknown type, are skipped as the format demands. */
 bool gltf_load_glb(loader *l)
 {
-    static const size_t type_json = 0x4E4F534A, type_bin = 0x004E4942;
     uint8_t *file;
     size_t n_file, n_bytes = 0, at = GLB_HEADER_BYTES, type;
     gltf_bytes text, chunk, binary = {0};
     if (!loader_read_file(l, l->path, &file, &n_file) || !check_glb_header(l, file, n_file, &n_bytes) ||
         !read_chunk(l, file, n_bytes, &at, &type, &text))
         return false;
-    if (type != type_json) return loader_fail(l, "%s: the first chunk is not JSON", l->path);
+    if (type != GLB_JSON) return loader_fail(l, "%s: the first chunk is not JSON", l->path);
     while (at < n_bytes) {
         if (!read_chunk(l, file, n_bytes, &at, &type, &chunk)) return false;
-        if (type == type_bin && !binary.bytes) binary = chunk;
+        if (type == GLB_BIN && !binary.bytes) binary = chunk;
     }
     return load_json(l, (const char *)text.bytes, text.n_bytes, binary);
 }

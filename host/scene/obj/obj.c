@@ -70,7 +70,7 @@ static bool read_index(obj_text *t, const char *word, char **end, size_t n, cons
     return true;
 }
 
-/* v, v/vt, v//vn, v/vt/vn */
+/* v, v/vt, v//vn, v/vt/vn; where an index behind a / lacks, the corner has none of that kind */
 static bool read_corner(obj_file *o, obj_text *t, char *word, obj_corner *out)
 {
     char *at = word;
@@ -80,7 +80,9 @@ static bool read_corner(obj_file *o, obj_text *t, char *word, obj_corner *out)
         at++;
         if (*at && *at != '/' && !read_index(t, at, &at, o->n_vt, "texture", &out->vt)) return false;
         if (*at == '/') {
-            if (!read_index(t, at + 1, &at, o->n_vn, "normal", &out->vn)) return false;
+            at++;
+            if (!*at) return true;
+            if (!read_index(t, at, &at, o->n_vn, "normal", &out->vn)) return false;
             o->has_vn = true;
         }
     }
@@ -141,10 +143,14 @@ static bool read_face(obj_file *o, obj_text *t)
     return true;
 }
 
+/* Without a name, as the format has it: from here on no material. */
 static bool use_material(obj_file *o, obj_text *t)
 {
     const char *name = obj_rest(t);
-    if (!*name) return obj_fail(t, "usemtl without a name");
+    if (!*name) {
+        o->current_material = 0;
+        return obj_note(t, "usemtl without a name: from there on it is as before any usemtl");
+    }
     return obj_find_material(o, t, name, &o->current_material);
 }
 
