@@ -475,8 +475,8 @@ static void test_loose_glb(void)
         if (failed) continue;
         check_invariants();
         CHECK_EQ_INT(s.meshes[0].n_triangles, 2);
-        CHECK(s.n_remarks == (size_t)(json_more > 0) + (bin_more > 0));
-        CHECK(has_remark("byte 12: chunk length") == (json_more > 0));
+        CHECK(s.n_remarks == (json_more > 0 || bin_more > 0));
+        if (json_more > 0 && bin_more > 0) CHECK(has_remark("lengths of 2 chunks are not multiples of 4"));
         scene_free(&s);
     }
 }

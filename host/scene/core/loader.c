@@ -57,10 +57,10 @@ static bool scene_grow(loader *l, void **array, size_t n, size_t size)
 /* One line more in such a list; if it is there already, and behind MAX_NOTES, nothing. */
 static bool add_line(loader *l, char ***list, size_t *n, const char *text)
 {
+    if (*n >= MAX_NOTES) return true;
     for (size_t i = 0; i < *n; i++) {
         if (strcmp((*list)[i], text) == 0) return true;
     }
-    if (*n >= MAX_NOTES) return true;
     void *array = *list;
     bool grown = scene_grow(l, &array, *n, sizeof **list);
     *list = array;

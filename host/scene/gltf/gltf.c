@@ -159,10 +159,8 @@ static bool read_chunk(loader *l, const uint8_t *file, size_t n_bytes, size_t *a
     if (length > n_bytes - *at - GLB_CHUNK_HEADER_BYTES) {
         return loader_fail(l, "%s: byte %zu: a chunk of %zu bytes reaches beyond the end", l->path, *at, length);
     }
-    size_t start = *at;
-    *at = next_chunk(file, n_bytes, start + GLB_CHUNK_HEADER_BYTES + length);
-    return length % 4 == 0 ||
-           loader_remark(l, "byte %zu: chunk length %zu is not a multiple of 4: it is read as it is", start, length);
+    *at = next_chunk(file, n_bytes, *at + GLB_CHUNK_HEADER_BYTES + length);
+    return true;
 }
 
 static bool check_glb_header(loader *l, const uint8_t *file, size_t n_file, size_t *n_bytes)
@@ -187,9 +185,14 @@ bool gltf_load_glb(loader *l)
         !read_chunk(l, file, n_bytes, &at, &type, &text))
         return false;
     if (type != GLB_JSON) return loader_fail(l, "%s: the first chunk is not JSON", l->path);
+    size_t n_odd = text.n_bytes % 4 != 0;
     while (at < n_bytes) {
         if (!read_chunk(l, file, n_bytes, &at, &type, &chunk)) return false;
+        n_odd += chunk.n_bytes % 4 != 0;
         if (type == GLB_BIN && !binary.bytes) binary = chunk;
     }
+    if (n_odd > 0 &&
+        !loader_remark(l, "lengths of %zu chunks are not multiples of 4: they are read as they are", n_odd))
+        return false;
     return load_json(l, (const char *)text.bytes, text.n_bytes, binary);
 }
