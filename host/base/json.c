@@ -12,7 +12,7 @@
 typedef struct {
     json_doc *doc;
     const char *text;
-    size_t n_bytes, at;
+    size_t n_bytes, at, n_values;
     int depth;
     char *error;
     size_t error_bytes;
@@ -99,9 +99,11 @@ static bool parse_number(parser *p, json_value *value)
     size_t start = p->at;
     if (!skip_number(p)) return false;
     size_t n = p->at - start;
-    char *copy = arena_alloc(&p->doc->memory, n + 1, 1); /* the text need not be terminated */
+    char few[64]; /* a copy: the text need not be terminated */
+    char *copy = n < sizeof few ? few : arena_alloc(&p->doc->memory, n + 1, 1);
     if (!copy) return fail(p, "out of memory");
     memcpy(copy, p->text + start, n);
+    copy[n] = 0;
     value->type = JSON_NUMBER;
     value->number = strtod(copy, NULL);
     return isfinite(value->number) || fail_at(p, start, "the number is too large");
@@ -210,6 +212,10 @@ static bool parse_string(parser *p, const char **out)
 
 static json_value *add_child(parser *p, json_value *parent)
 {
+    if (++p->n_values > JSON_MAX_VALUES) {
+        fail(p, "more than 1048576 values");
+        return NULL;
+    }
     json_value *child = arena_alloc(&p->doc->memory, 1, sizeof *child);
     json_value **children = arena_grow(&p->doc->memory, parent->children, parent->n_children, sizeof *children);
     if (!child || !children) {

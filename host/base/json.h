@@ -1,6 +1,6 @@
 /* A small strict JSON parser (RFC 8259). Beyond the grammar: no byte order mark, well-formed UTF-8 only, duplicate keys
  * are refused, \u0000 is refused (strings are C strings), numbers must fit a double, nesting is at most JSON_MAX_DEPTH
- * deep. */
+ * deep, and there are at most JSON_MAX_VALUES values: two bytes of text make a value of a hundred. */
 #ifndef GNOMON_HOST_JSON_H
 #define GNOMON_HOST_JSON_H
 
@@ -8,7 +8,7 @@
 
 #include "arena.h"
 
-enum { JSON_MAX_DEPTH = 64 };
+enum { JSON_MAX_DEPTH = 64, JSON_MAX_VALUES = 1 << 20 };
 
 typedef enum { JSON_NULL, JSON_BOOL, JSON_NUMBER, JSON_STRING, JSON_ARRAY, JSON_OBJECT } json_type;
 

@@ -37,6 +37,7 @@ int scene_load(scene *s, const char *path, const scene_options *options, char *e
     loader l = {.s = s, .options = options, .path = path, .error = error, .error_bytes = error_bytes};
     *s = (scene){0};
     if (error_bytes > 0) error[0] = '\0';
+    budget_init(&l);
     bool ok = load_any(&l) && loader_add_defaults(&l);
     loader_free_mesh_light(&l);
     arena_release(&l.memory, NULL);

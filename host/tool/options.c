@@ -28,6 +28,14 @@ const option options[] = {
     {"--set", BY_ALL, "KEY=VALUE", "KEY=VALUE, at most 64 times",
      "any knob or setting, in order: 'gnomon knobs' lists them; preset=tiny|fast|balanced|accurate sets many; "
      "KEY@LIGHT=VALUE for one light, by its number or name"},
+    {"--orbit", BY_ALL, "YAW,PITCH,ZOOM",
+     "YAW,PITCH,ZOOM: degrees from -360 to 360 and -90 to 90, a factor from 0.1 to 100",
+     "a camera around the model in the place of the file's: degrees from its front to its right, degrees upwards, and "
+     "how "
+     "much larger than to fill the picture (30,25,1)"},
+    {"--outside", BY_ALL, NULL, NULL, "the scene may name files outside its folder"},
+    {"--budget", BY_ALL, "N", "a number from 1 to 64",
+     "load scenes N times as large as usual, in textures, vertices, triangles, materials and memory (1)"},
     {"--csv", BY_SWEEP, "FILE", "a path", "every configuration as a table"},
     {"--svg", BY_SWEEP, "FILE", "a path", "every configuration as a plot"},
     {"--all", BY_SWEEP, NULL, NULL, "print every configuration, not only the front"},
@@ -100,6 +108,24 @@ static int parse_texels(const char *value, int *texels)
     return parse_int(value, 0, 4096, texels) || (*texels & (*texels - 1)) || (*texels && *texels < 16);
 }
 
+/* Decimal numbers alone: strtod takes more. */
+static int parse_orbit(const char *text, tool_options *o)
+{
+    double v[3];
+    for (int i = 0; i < 3; i++) {
+        char *end;
+        v[i] = strtod(text, &end);
+        if (end == text || strspn(text, "+-.0123456789") != (size_t)(end - text) || *end != (i < 2 ? ',' : 0))
+            return -1;
+        text = end + 1;
+    }
+    o->orbit = 1;
+    o->yaw = v[0];
+    o->pitch = v[1];
+    o->zoom = v[2];
+    return v[0] >= -360 && v[0] <= 360 && v[1] >= -90 && v[1] <= 90 && v[2] >= 0.1 && v[2] <= 100 ? 0 : -1;
+}
+
 static int parse_frames(const char *text, tool_options *o)
 {
     char first[16];
@@ -140,6 +166,8 @@ static int take_value(tool_options *o, const char *name, char *value)
     else if (strcmp(name, "--frames") == 0) failed = parse_frames(value, o);
     else if (strcmp(name, "--board") == 0) failed = !*(o->board = value);
     else if (strcmp(name, "--target") == 0) failed = !*(o->target = value);
+    else if (strcmp(name, "--orbit") == 0) failed = parse_orbit(value, o);
+    else if (strcmp(name, "--budget") == 0) failed = parse_int(value, 1, 64, &o->budget);
     else if (strcmp(name, "--flash") == 0) failed = parse_int(value, 1, BUDGET_MAX, &o->flash);
     else if (strcmp(name, "--optimise") == 0) failed = strncmp(o->optimise = value, "-O", 2) != 0;
     else if (strcmp(name, "--margin") == 0) failed = parse_int(value, 0, 1000, &o->margin);
@@ -167,6 +195,7 @@ static void take_switch(tool_options *o, const char *name)
     if (strcmp(name, "--all") == 0) o->all = 1;
     if (strcmp(name, "--quick") == 0) o->quick = 1;
     if (strcmp(name, "--still") == 0) o->still = 1;
+    if (strcmp(name, "--outside") == 0) o->outside = 1;
 }
 
 static const option *find_option(const char *name)

@@ -137,7 +137,7 @@ static void check_rgba(uint32_t w, uint8_t depth, uint8_t colour, const char *tr
                        size_t n_raw, const uint8_t *expected)
 {
     static const uint8_t palette[12] = {10, 20, 30, 40, 50, 60, 70, 80, 90, 1, 2, 3};
-    png_picture picture;
+    rgba8_picture picture;
     start_file(w, 1, depth, colour, 0);
     if (colour == 3) put_chunk("PLTE", palette, sizeof palette);
     if (trns) put_chunk("tRNS", trns, n_trns);
@@ -182,7 +182,7 @@ static void check_interlaced(uint32_t w, uint32_t h)
                                     "36463646", "77777777", "56565656", "77777777"};
     uint8_t raw[400];
     size_t n = 0;
-    png_picture picture;
+    rgba8_picture picture;
     for (char number = '1'; number <= '7'; number++) {
         for (uint32_t y = 0; y < h; y++) {
             bool started = false;
@@ -214,7 +214,7 @@ static void test_interlaced(void)
 static void test_interlaced_bits(void)
 {
     static const uint8_t raw[] = {0, 0x80, 0, 0x80, 0, 0x80, 0, 0xA0}; /* passes 1, 4, 6 and 7 */
-    png_picture picture;
+    rgba8_picture picture;
     start_file(3, 2, 1, 0, 1);
     put_pixels(raw, sizeof raw);
     put_chunk("IEND", NULL, 0);

@@ -128,7 +128,7 @@ static void test_gltf_errors(void)
     CHECK(refused(load_text(TMP ".txt", "x"), "not a scene"));
     CHECK(refused(load(TMP ".gltf", &(scene_options){.width = 0, .height = 1}), "picture size"));
     mkdir("build/tmp/folder.gltf", 0777);
-    CHECK(refused(load("build/tmp/folder.gltf", &plain), "cannot be read"));
+    CHECK(refused(load("build/tmp/folder.gltf", &plain), "is a folder, not a file"));
 }
 
 static void test_gltf_notes(void)
@@ -320,6 +320,42 @@ static void test_instances(void)
     scene_free(&s);
 }
 
+static bool has_remark(const char *part)
+{
+    for (size_t i = 0; i < s.n_remarks; i++) {
+        if (strstr(s.remarks[i], part)) return has_note(part);
+    }
+    return false;
+}
+
+/* A node that the scene names although it is a child: drawn once, by its own transform, whether its parent is shown,
+ * too; what is below it goes with it. */
+static void test_named_children(void)
+{
+    static const char *const named[] = {"[1,2,3]", "[0,1,2,3]", "[1,0,2,3]", "[1,1,2,3]"};
+    for (size_t i = 0; i < sizeof named / sizeof *named; i++) {
+        char nodes[64];
+        snprintf(nodes, sizeof nodes, "\"nodes\":%s", named[i]);
+        const char *text = replaced(without_animation(base_json), "\"nodes\":[0,2,3]", nodes);
+        if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
+        CHECK(has_remark("'inner' is in the scene and a child of another node: it is drawn as a root") &&
+              s.n_remarks == 1);
+        if (CHECK_EQ_INT(s.n_objects, 1))
+            check_rows(&s.objects[0].to_world, (const double[12]){0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0});
+        scene_free(&s);
+    }
+    const char *below = replaced(without_animation(base_json), "\"nodes\":[0,2,3]", "\"nodes\":[1,2,3]");
+    below = replaced(below, "\"name\":\"inner\",\"mesh\":0", "\"name\":\"inner\",\"children\":[4]");
+    below = replaced(below, "{\"strength\":0.5,\"near_offset\":3}}}]", "{}}},{\"mesh\":0,\"translation\":[1,0,0]}]");
+    below = replaced(below, "\"extras\":{\"gnomon\":{\"casts\":0}}", "\"extras\":{}");
+    if (!CHECK_EQ_INT(load_text(TMP ".gltf", below), 0)) return (void)puts(error);
+    check_rows(&s.objects[0].to_world, (const double[12]){0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0});
+    scene_free(&s);
+    CHECK(refused(load_text(TMP ".gltf", replaced(replaced(base_json, "\"nodes\":[0,2,3]", "\"nodes\":[1,2,3]"),
+                                                  "\"name\":\"inner\",", "\"name\":\"inner\",\"children\":[0],")),
+                  "cycle"));
+}
+
 static void test_gltf_options(void)
 {
     scene_options with = plain;
@@ -363,21 +399,27 @@ static void put_le(size_t at, size_t v)
     for (int i = 0; i < 4; i++) glb[at + (size_t)i] = (uint8_t)(v >> 8 * i);
 }
 
-static void make_glb(void)
+/* Chunks longer than they need be by so many bytes, and so many more behind each that its length does not count. */
+static void make_loose_glb(size_t json_more, size_t json_uncounted, size_t bin_more, size_t bin_uncounted)
 {
     const char *json = replaced(base_json, ",\"uri\":\"" BASE_URI "\"", "");
-    size_t n = strlen(json), n_json = (n + 3) / 4 * 4;
-    n_glb = 20 + n_json + 8 + sizeof base_bin;
+    size_t n = strlen(json), n_json = (n + 3) / 4 * 4 + json_more, at = 20 + n_json + json_uncounted;
+    n_glb = at + 8 + sizeof base_bin + bin_more + bin_uncounted;
+    memset(glb, ' ', n_glb);
     memcpy(glb, "glTF", 4);
     put_le(4, 2);
     put_le(8, n_glb);
     put_le(12, n_json);
     memcpy(glb + 16, "JSON", 4);
-    memset(glb + 20, ' ', n_json);
     memcpy(glb + 20, json, n);
-    put_le(20 + n_json, sizeof base_bin);
-    memcpy(glb + 24 + n_json, "BIN", 4);
-    memcpy(glb + 28 + n_json, base_bin, sizeof base_bin);
+    put_le(at, sizeof base_bin + bin_more);
+    memcpy(glb + at + 4, "BIN", 4);
+    memcpy(glb + at + 8, base_bin, sizeof base_bin);
+}
+
+static void make_glb(void)
+{
+    make_loose_glb(0, 0, 0, 0);
 }
 
 static int load_glb(size_t n)
@@ -406,7 +448,7 @@ static void test_glb(void)
     CHECK(refused(load_patched(8, 11), "the header announces"));
     CHECK(refused(load_patched(8, 16), "byte 12: a chunk header is cut off"));
     CHECK(refused(load_patched(8, 20), "reaches beyond"));
-    CHECK(refused(load_patched(12, 13), "not a multiple of 4"));
+    CHECK(refused(load_patched(12, 13), TMP ".glb:"));
     CHECK(refused(load_patched(12, 0xFFFFFFFC), "reaches beyond"));
     CHECK(refused(load_patched(16, 0), "first chunk is not JSON"));
     CHECK(refused(load_patched(n_glb - sizeof base_bin - 4, 0), "buffer 0 has no data"));
@@ -416,6 +458,26 @@ static void test_glb(void)
     for (size_t n = 0; n < n_glb; n++) {
         put_le(8, n); /* cut, and the header says so */
         CHECK(refused(load_glb(n), TMP ".glb"));
+    }
+}
+
+/* Lengths that are no multiples of 4, with the next chunk at once or behind padding. */
+static void test_loose_glb(void)
+{
+    for (size_t i = 0; i < 256; i++) {
+        size_t json_more = i % 4, json_uncounted = i / 4 % 4, bin_more = i / 16 % 4, bin_uncounted = i / 64;
+        bool json_fits = json_uncounted == 0 || (json_more + json_uncounted == 4 && json_more > 0);
+        size_t over = (json_more + json_uncounted + bin_more) % 4;
+        bool bin_fits = bin_uncounted == 0 || (over > 0 && over + bin_uncounted <= 4);
+        make_loose_glb(json_more, json_uncounted, bin_more, bin_uncounted);
+        int failed = load_glb(n_glb);
+        if (!CHECK_EQ_INT(failed == 0, json_fits && bin_fits)) printf("  case %zu: %s\n", i, failed ? error : "");
+        if (failed) continue;
+        check_invariants();
+        CHECK_EQ_INT(s.meshes[0].n_triangles, 2);
+        CHECK(s.n_remarks == (json_more > 0 || bin_more > 0));
+        if (json_more > 0 && bin_more > 0) CHECK(has_remark("lengths of 2 chunks are not multiples of 4"));
+        scene_free(&s);
     }
 }
 
@@ -459,6 +521,47 @@ static void test_obj(void)
     CHECK(s.objects[0].visible_alpha == SCENE_ALPHA_DITHER && s.objects[0].caster == SCENE_CASTER_DITHER);
     CHECK(s.objects[1].visible_alpha == SCENE_ALPHA_OPAQUE && s.objects[1].caster == SCENE_CASTER_ON);
     CHECK(s.objects[0].texture_idx == SCENE_NONE && !s.meshes[0].uv);
+    scene_free(&s);
+}
+
+/* Tr is what lacks of opacity; 1 of it, which some programs write for opaque materials, hides nothing. */
+static void test_obj_transparency(void)
+{
+    static const struct {
+        const char *mtl;
+        double alpha;
+        bool said;
+    } cases[] = {{"Tr 0.25", 0.75, false}, {"Tr 1.0", 1, true}, {"Tr 0", 1, false}, {"d 0", 0, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[64];
+        snprintf(text, sizeof text, "newmtl a\n%s\n", cases[i].mtl);
+        write_file(TMP ".mtl", text, strlen(text));
+        if (!CHECK_EQ_INT(
+                load_text(TMP ".obj", "mtllib test_scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"), 0))
+            return (void)puts(error);
+        CHECK_NEAR(s.objects[0].alpha, cases[i].alpha, 0);
+        CHECK(has_remark("line 2: Tr of material 'a' is taken for opacity") == cases[i].said);
+        scene_free(&s);
+    }
+}
+
+/* A corner without what its slashes announce, and usemtl without a name. */
+static void test_obj_lacks(void)
+{
+    static const char text[] = "v 0 0 0\nv 2 0 0\nv 0 2 0\nvt 0 0\nvn 1 0 0\nusemtl a\nf 1// 2// 3//\n"
+                               "usemtl\nf 1/1/ 2/1/ 3/1/\nusemtl a\nf 1// 2//1 3/\nusemtl # none\nf 1 2 3\n";
+    if (!CHECK_EQ_INT(load_text(TMP ".obj", text), 0)) return (void)puts(error);
+    check_invariants();
+    const scene_mesh *plain_mesh = &s.meshes[0], *a = &s.meshes[1];
+    CHECK(strcmp(s.objects[0].name, "default") == 0 && strcmp(s.objects[1].name, "a") == 0);
+    CHECK(plain_mesh->n_triangles == 2 && a->n_triangles == 2 && a->n_vertices == 6);
+    CHECK_NEAR(s.objects[0].albedo[0], 0.8, 0);
+    for (size_t i = 0; i < 3; i++) CHECK_NEAR(a->nrm[3 * i + 2], 1, 0); /* of the face */
+    CHECK_NEAR(a->nrm[3 * a->idx[4]], 1, 0);
+    CHECK(has_note("line 8: usemtl without a name") && has_note("line 12: usemtl without") && s.n_remarks == 0);
+    scene_free(&s);
+    if (!CHECK_EQ_INT(load_text(TMP ".obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1// 2// 3//\n"), 0)) return (void)puts(error);
+    CHECK(!s.meshes[0].nrm);
     scene_free(&s);
 }
 
@@ -618,6 +721,118 @@ static void test_defaults(void)
     scene_free(&s);
 }
 
+static size_t n_grounds(const char *obj, scene_ground ground, double *height)
+{
+    const scene_options with = {.width = 64, .height = 48, .ground = ground};
+    size_t n = 0;
+    write_file(TMP ".obj", obj, strlen(obj));
+    if (!CHECK_EQ_INT(load(TMP ".obj", &with), 0)) return 9;
+    for (size_t i = 0; i < s.n_objects; i++) {
+        if (strcmp(s.objects[i].name, "ground") != 0) continue;
+        *height = s.meshes[s.objects[i].mesh_idx].pos[1];
+        n++;
+    }
+    CHECK(s.added.ground == (n == 1) && s.added.camera && s.added.light);
+    check_invariants();
+    scene_free(&s);
+    return n;
+}
+
+/* A ground where nothing lies like a floor; never in one plane with what does. */
+static void test_ground(void)
+{
+    static const char wall[] = "v -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\nf 1 2 3 4\n";
+    static const char below[] = "v -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nf 1 2 3 4\n"; /* faces up */
+    char floored[300], small[300], turned[300];
+    snprintf(floored, sizeof floored, "%sv -1 0 0\nv 1 0 0\nv 1 2 0\nf 5 6 7\n", below);
+    snprintf(turned, sizeof turned, "%s", floored);
+    memcpy(strstr(turned, "f 1 2 3 4"), "f 4 3 2 1", 9);
+    snprintf(small, sizeof small, "%sv -9 1 -9\nv 9 1 9\nv 9 2 9\nf 5 6 7\n", below);
+    double height = -9;
+    CHECK(n_grounds(wall, SCENE_GROUND_AUTO, &height) == 1);
+    CHECK_NEAR(height, 0, 0);
+    CHECK(n_grounds(wall, SCENE_GROUND_OFF, &height) == 0);
+    CHECK(n_grounds(below, SCENE_GROUND_AUTO, &height) == 0);
+    CHECK(n_grounds(floored, SCENE_GROUND_AUTO, &height) == 0);
+    CHECK(n_grounds(turned, SCENE_GROUND_AUTO, &height) ==
+          1); /* seen from below alone: no floor, and nothing flickers */
+    CHECK_NEAR(height, 0, 0);
+    CHECK(n_grounds(small, SCENE_GROUND_AUTO, &height) == 1 && height < -0.05); /* under little of the model */
+    CHECK(n_grounds(floored, SCENE_GROUND_ON, &height) == 1 && height < -0.02);
+}
+
+/* Of a glTF file: not to a whole scene; of one that moves, the same in every frame. */
+static void test_ground_of_gltf(void)
+{
+    char still[16384], no_camera[16384];
+    snprintf(still, sizeof still, "%s", without_animation(base_json));
+    snprintf(no_camera, sizeof no_camera, "%s", replaced(still, "\"camera\":0,", ""));
+    const char *no_light = replaced(still,
+                                    "\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}},\"extras\":{\"gnomon\":{"
+                                    "\"strength\":0.5,\"near_offset\":3}}",
+                                    "\"extras\":{}");
+    const struct {
+        const char *text;
+        bool ground, camera, light;
+    } cases[] = {{still, false, false, false}, {no_camera, true, true, false}, {no_light, true, false, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        if (!CHECK_EQ_INT(load_text(TMP ".gltf", cases[i].text), 0)) return (void)puts(error);
+        if (!CHECK(s.added.ground == cases[i].ground && s.added.camera == cases[i].camera &&
+                   s.added.light == cases[i].light))
+            printf("  case %zu\n", i);
+        CHECK_EQ_INT(s.n_objects, cases[i].ground ? 2 : 1);
+        scene_free(&s);
+    }
+    double first[12];
+    const char *moving = replaced(base_json, "\"camera\":0,", "");
+    write_file(TMP ".gltf", moving, strlen(moving));
+    for (int frame = 0; frame < 5; frame += 2) {
+        if (!CHECK_EQ_INT(load(TMP ".gltf", &(scene_options){.frame = frame, .width = 64, .height = 48}), 0)) return;
+        CHECK(s.fps > 0 && s.added.ground && s.added.camera && s.n_objects == 2);
+        const double *ground = s.meshes[s.objects[1].mesh_idx].pos;
+        if (frame == 0) memcpy(first, ground, sizeof first);
+        CHECK(memcmp(first, ground, sizeof first) == 0);
+        check_invariants();
+        scene_free(&s);
+    }
+}
+
+/* --orbit: where the camera stands, seen from the middle; a lens for what is larger. */
+static void test_orbit(void)
+{
+    static const char box[] = "v -1 -1 -1\nv 1 1 1\nv 1 -1 1\nf 1 2 3\n";
+    static const double orbits[][3] = {{0, 0, 1}, {90, 0, 1}, {180, 45, 2}, {-30, -60, 0.5}, {10, 90, 4}, {0, 3, 1}};
+    write_file(TMP ".obj", box, sizeof box - 1);
+    for (size_t i = 0; i < sizeof orbits / sizeof *orbits; i++) {
+        const double *o = orbits[i], yaw = o[0] * acos(-1) / 180, pitch = o[1] * acos(-1) / 180;
+        const double towards[3] = {cos(pitch) * sin(yaw), sin(pitch), cos(pitch) * cos(yaw)};
+        const scene_options with = {.width = 64, .height = 48, .orbit = true, .yaw = o[0], .pitch = o[1], .zoom = o[2]};
+        if (!CHECK_EQ_INT(load(TMP ".obj", &with), 0)) return (void)puts(error);
+        check_invariants();
+        double distance = 0;
+        for (int k = 0; k < 3; k++) distance += towards[k] * s.camera.to_world.m[k][3];
+        for (int k = 0; k < 3; k++) {
+            CHECK_NEAR(s.camera.to_world.m[k][3], distance * towards[k], 1e-9);
+            CHECK_NEAR(s.camera.to_world.m[k][2], towards[k], 1e-12);
+        }
+        CHECK(distance > 1.8 && s.camera.near < distance - 1.7 && s.camera.far > distance + 1.8);
+        CHECK_NEAR(s.camera.focal, o[2] / tan(acos(-1) / 9), 1e-9);
+        scene_free(&s);
+    }
+    /* From a low place the ground comes nearer to the camera than the model: it is not cut away. */
+    if (!CHECK_EQ_INT(
+            load(TMP ".obj", &(scene_options){.width = 64, .height = 48, .orbit = true, .pitch = 3, .zoom = 0.25}), 0))
+        return;
+    double above = s.camera.to_world.m[1][3] + 1, down = 3 * acos(-1) / 180 + atan(1 / s.camera.focal);
+    CHECK(s.camera.near <= fmax(above / sin(down) * cos(atan(1 / s.camera.focal)), s.camera.far / 1000));
+    scene_free(&s);
+    const scene_options with = {.width = 64, .height = 48, .orbit = true, .zoom = 1};
+    write_file(TMP ".gltf", base_json, sizeof base_json - 1);
+    if (!CHECK_EQ_INT(load(TMP ".gltf", &with), 0)) return (void)puts(error);
+    CHECK(s.added.camera && !s.added.ground && has_note("camera 'camera 0' ignored: --orbit takes its place"));
+    scene_free(&s);
+}
+
 /* --- damage ----------------------------------------------------------------------------------------------------------
  */
 
@@ -668,13 +883,20 @@ int main(void)
     test_sparse();
     test_modes();
     test_instances();
+    test_named_children();
     test_gltf_options();
     test_glb();
+    test_loose_glb();
     test_obj();
+    test_obj_transparency();
+    test_obj_lacks();
     test_obj_errors();
     test_normals();
     test_split();
     test_defaults();
+    test_ground();
+    test_ground_of_gltf();
+    test_orbit();
     test_damage();
     return check_report();
 }

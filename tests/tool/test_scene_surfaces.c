@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "../host/scene/image/png.h"
+#include "data/jpeg_fixture.h"
 #include "data/png_fixture.h"
 #include "data/scene_fixture.h"
 
@@ -107,7 +108,7 @@ static void test_textured(void)
 {
     if (!CHECK_EQ_INT(load_textured("\"name\":\"a\"", "\"name\":\"A\""), 0)) return (void)puts(error);
     check_invariants();
-    if (!CHECK(s.n_objects == 3 && s.n_textures == 2 && s.n_notes == 0 && s.n_lights == 2)) return;
+    if (!CHECK(s.n_objects == 4 && s.n_textures == 2 && s.n_notes == 0 && s.n_lights == 2)) return; /* with a ground */
     const scene_object *a = &s.objects[0], *b = &s.objects[1], *c = &s.objects[2];
     const scene_texture *t = &s.textures[0], *u = &s.textures[1];
     CHECK(a->texture_idx == 0 && b->texture_idx == 1 && c->texture_idx == 0 && a->mesh_idx == c->mesh_idx);
@@ -127,6 +128,17 @@ static void test_textured(void)
     CHECK(is_empty());
 }
 
+/* A texture that cannot be had: white takes its place, and a remark says why. */
+static void check_untextured(const char *json, const char *remark)
+{
+    if (!CHECK_EQ_INT(load_text(TMP ".gltf", json), 0)) return (void)puts(error);
+    for (size_t i = 0; i < s.n_objects; i++) CHECK(s.objects[i].texture_idx == SCENE_NONE);
+    CHECK(s.n_textures == 0 && s.n_remarks == 1 && has_note(remark));
+    if (s.n_remarks == 1 && !CHECK(strcmp(s.remarks[0], remark) == 0)) puts(s.remarks[0]);
+    check_invariants();
+    scene_free(&s);
+}
+
 /* A file beside the scene, as our own writer makes it; and the bytes of a buffer view, in a pipe's worth of a .glb. */
 static void test_image_places(void)
 {
@@ -141,8 +153,9 @@ static void test_image_places(void)
         CHECK(s.textures[0].rgba[4] == 4 && s.textures[0].rgba[3] == 255 && s.textures[0].rgba[14] == 12);
         scene_free(&s);
     } else puts(error);
-    CHECK(refused(load_text(TMP ".gltf", replaced(json, "%201", "_none")),
-                  "/images/0/uri: build/tmp/test_scene_surfaces_none.png cannot"));
+    check_untextured(replaced(json, "%201", "_none"),
+                     "texture 'test_scene_surfaces_none.png': "
+                     "build/tmp/test_scene_surfaces_none.png cannot be opened: it is drawn without");
     json = replaced(json, "\"uri\":\"test_scene_surfaces%201.png\"", "\"bufferView\":2,\"mimeType\":\"image/png\"");
     json =
         replaced(json, "\"byteLength\":12}", "\"byteLength\":12},{\"buffer\":1,\"byteOffset\":3,\"byteLength\":%zu}");
@@ -164,7 +177,9 @@ static void test_texture_changes(void)
         {"\"wrapS\":33071", "\"wrapS\":33648", "mirrored repeat of texture 'checks'"},
         {"{\"source\":0}", "{\"extensions\":{\"EXT_texture_webp\":{}}}",
          "texture 'texture 0' ignored: it has no image"},
-        {"data:image/png;base64,", "data:image/jpeg;base64,/9j/", "texture 'checks' ignored: only PNG"},
+        {"data:image/png;base64,", "data:image/jpeg;base64,/9j/",
+         "texture 'checks': marker FF 89 is out of place: it is drawn without"},
+        {"data:image/png;base64,", "data:image/png;base64,UklG", "texture 'checks' ignored: only PNG and JPEG images"},
         {"\"texCoord\":1", "\"texCoord\":2", "base colour texture of material 'glass' ignored: it takes TEXCOORD_2"},
         {"\"texCoord\":1", "\"texCoord\":0,\"extensions\":{\"KHR_texture_transform\":{}}",
          "texture transform of material 'glass'"},
@@ -202,13 +217,35 @@ static void test_texture_changes(void)
     CHECK(refused(load_textured("\"images\":[", "\"images\":[0,"), "/images/0: an object"));
     make_png(2, 2, checks);
     made[n_made - 20] ^= 1;
-    CHECK(refused(load_text(TMP ".gltf", textured()), "/images/0: the checksum of a chunk is wrong"));
+    check_untextured(textured(), "texture 'checks': the checksum of a chunk is wrong: it is drawn without");
     start_file(1, 1, 16, 0, 0);
     put_pixels((const uint8_t[]){0, 0x80, 0}, 3);
     put_chunk("IEND", NULL, 0);
     if (!CHECK_EQ_INT(load_text(TMP ".gltf", textured()), 0)) return (void)puts(error);
     CHECK(has_note("texture 'checks' is rounded from 16 bits") && s.textures[0].rgba[0] == 128);
     scene_free(&s);
+}
+
+static const flat_picture flat = {.n = 3, .w = 16, .height = 8, .h = {1, 1, 1}, .v = {1, 1, 1}, .adobe = 0};
+
+/* JPEG, whatever the file calls it: the first bytes say so. */
+static void test_jpeg_texture(void)
+{
+    char text[16384], base64[8192];
+    make_flat(&flat);
+    put_base64(base64, jpeg, n_jpeg);
+    snprintf(text, sizeof text, textured_json, base64);
+    if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
+    check_invariants();
+    const scene_texture *t = &s.textures[0];
+    if (CHECK(t->width == 16 && t->height == 8 && s.n_notes == 0)) {
+        for (unsigned i = 0; i < 4 * 16 * 8; i++)
+            CHECK_EQ_INT(t->rgba[i], i % 4 == 3 ? 255 : flat_level(i % 4, i / 4 % 16 / 8, 0));
+    }
+    scene_free(&s);
+    put_base64(base64, jpeg, n_jpeg - 1);
+    snprintf(text, sizeof text, textured_json, base64);
+    check_untextured(text, "texture 'checks': the file ends early: it is drawn without");
 }
 
 static size_t count_textures(const char *textures, const char *images)
@@ -296,7 +333,7 @@ static void test_resampling(void)
     start_file(8193, 1, 8, 0, 0);
     put_pixels(huge, sizeof huge);
     put_chunk("IEND", NULL, 0);
-    CHECK(refused(load_text(TMP ".gltf", textured()), "/images/0: the picture size is out of range"));
+    CHECK(refused(load_text(TMP ".gltf", textured()), "texture 'checks' of 8193x1: sides are at most 8192"));
 }
 
 /* --- knobs -----------------------------------------------------------------------------------------------------------
@@ -435,8 +472,8 @@ static void test_split_attributes(void)
     snprintf(text, sizeof text, format, N_STRIP, N_STRIP, N_STRIP, N_STRIP, STRIP_BYTES, STRIP_BYTES);
     if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) return (void)puts(error);
     check_invariants();
-    CHECK(s.n_meshes == 2 && s.n_objects == 2);
-    for (size_t m = 0; m < s.n_objects; m++) {
+    CHECK(s.n_meshes == 3 && s.n_objects == 3); /* with a ground */
+    for (size_t m = 0; m + 1 < s.n_objects; m++) {
         const scene_object *o = &s.objects[m];
         const scene_mesh *mesh = &s.meshes[o->mesh_idx];
         int ok = o->mask && o->baked && mesh->uv;
@@ -507,13 +544,34 @@ static void test_obj_texture(void)
     CHECK(has_note("options of map_Kd of material 'wood'") && has_note("1 corners with a texture") &&
           has_note("d of material 'clear'") && has_note("opacity texture of material 'other'"));
     scene_free(&s);
-    write_file(TMP ".png", "\xFF\xD8\xFF", 3);
+    write_file(TMP ".png", "GIF89a", 6);
     if (CHECK_EQ_INT(load(TMP ".obj", &plain), 0)) {
-        CHECK(s.n_textures == 0 && has_note("line 4: texture 'build/tmp/test_scene_surfaces.png' ignored: only PNG"));
+        CHECK(s.n_textures == 0 &&
+              has_note("line 4: texture 'build/tmp/test_scene_surfaces.png' ignored: only PNG and JPEG"));
         scene_free(&s);
     }
     write_file(TMP ".png", made, n_made - 1);
-    CHECK(refused(load(TMP ".obj", &plain), TMP ".png: a chunk is cut off"));
+    if (!CHECK_EQ_INT(load(TMP ".obj", &plain), 0)) return (void)puts(error);
+    CHECK(s.n_textures == 0 && s.n_remarks == 2 && /* it is named twice */
+          has_note("line 4: texture '" TMP ".png' is damaged, a chunk is cut off: it is drawn without"));
+    scene_free(&s);
+    write_file(TMP ".png", "\xFF\xD8\xFF", 3);
+    if (!CHECK_EQ_INT(load(TMP ".obj", &plain), 0)) return (void)puts(error);
+    CHECK(s.n_textures == 0 && s.n_remarks == 2 &&
+          has_note("line 4: texture '" TMP ".png' is damaged, the file ends early: it is drawn without"));
+    scene_free(&s);
+}
+
+/* JPEG under a name that says otherwise. */
+static void test_obj_jpeg(void)
+{
+    static const char mtl[] = "newmtl wood\nmap_Kd test_scene_surfaces.png\n";
+    make_flat(&flat);
+    write_file(TMP ".png", jpeg, n_jpeg);
+    write_file(TMP ".mtl", mtl, sizeof mtl - 1);
+    if (!CHECK_EQ_INT(load_text(TMP ".obj", obj_text), 0)) return (void)puts(error);
+    CHECK(s.n_textures == 1 && s.textures[0].width == 16 && s.textures[0].rgba[1] == flat_level(1, 0, 0));
+    scene_free(&s);
 }
 
 /* --- damage ----------------------------------------------------------------------------------------------------------
@@ -558,6 +616,7 @@ int main(void)
     write_bin();
     test_textured();
     test_image_places();
+    test_jpeg_texture();
     test_texture_changes();
     test_shared_textures();
     test_resampling();
@@ -566,6 +625,7 @@ int main(void)
     test_moving();
     test_baked_ranges();
     test_obj_texture();
+    test_obj_jpeg();
     test_damage();
     test_split_attributes();
     return check_report();

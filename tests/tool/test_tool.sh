@@ -90,7 +90,26 @@ good info "$cube" --size 32x24
 good info "$glb" --size 32x24
 good compare "$cube" --size 32x24
 good render "$glb" -o "$tmp/a.png" --size 32x24
-[ -s "$tmp/out" ] && fail "render prints: $(head -n 1 "$tmp/out")" || pass
+grep -q -x "$tmp/a.png: 32x24, 2 objects, 3 triangles, 1 light; added: ground, camera, light" "$tmp/out" && pass || fail "render says: $(head -n 1 "$tmp/out")"
+[ "$(wc -l <"$tmp/out")" = 1 ] && pass || fail "render prints $(wc -l <"$tmp/out") lines"
+good render host/scenes/cube.gltf -o "$tmp/a.png" --size 32x24
+grep -q -x "$tmp/a.png: 32x24, [0-9]* objects, [0-9]* triangles, 1 light" "$tmp/out" && pass || fail "render of a whole scene says: $(head -n 1 "$tmp/out")"
+good render "$glb" -o /dev/stdout --size 32x24 # the picture alone
+cp "$tmp/out" "$tmp/b.png"
+good render "$glb" -o "$tmp/a.png" --size 32x24
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "render writes more than a picture to /dev/stdout"
+
+# --orbit: around the model, also in the place of a camera of the file
+for orbit in 0,0,1 90,-30,2.5 -360,90,0.1; do
+    good render "$cube" -o "$tmp/b.png" --size 32x24 --orbit $orbit
+    cmp -s "$tmp/a.png" "$tmp/b.png" && fail "--orbit $orbit changes nothing" || pass
+done
+good render "$cube" -o "$tmp/a.png" --size 32x24
+good render "$cube" -o "$tmp/b.png" --size 32x24 --orbit 30,25,1
+cmp -s "$tmp/a.png" "$tmp/b.png" && pass || fail "--orbit 30,25,1 is not what is drawn without"
+good render host/scenes/cube.gltf -o "$tmp/b.png" --size 32x24 --orbit 0,10,1 # whose own shadows end before that camera begins
+grep -q "; added: camera" "$tmp/out" && pass || fail "--orbit leaves the camera of the file: $(head -n 1 "$tmp/out")"
+for orbit in "" 0 0,0 0,0,0 0,0,1, 361,0,1 0,91,1 0,0,101 a,0,1 0,0x1,1 nan,0,1 0,0,1e1 " 0,0,1" 0,,1; do bad 2 "^gnomon: --orbit: bad value '$orbit'" info "$cube" --orbit "$orbit"; done
 
 # png_size FILE: "WIDTHxHEIGHT" from its header, after checking the signature
 png_size() {

@@ -13,6 +13,10 @@ static const double camera_fov_deg = 40;
 static const double camera_fill = 0.7; /* of the smaller picture dimension */
 static const double ground_albedo = 0.55;
 static const double ground_half_size_radii = 8;
+static const double ground_below_radii = 0.01;
+static const double floor_steepness = 0.7;        /* of a floor: the least share of its normal that points up */
+static const double floor_radii = 0.03;           /* it lies so low, or lower: the bottom of a box lies higher ... */
+static const double floor_cover = 0.5;            /* ... under this share of the width and depth, or more */
 static const double shadow_extent_radii = 3;      /* behind the object's centre, at most: a low sun casts without end */
 static const double shadow_fade = 6554.0 / 65536; /* scene_share(0.1) */
 
@@ -39,12 +43,80 @@ static bool find_bounds(loader *l, bounds *b)
     return bounds_of_scene(b, l->s, NULL) || loader_fail(l, "%s: the scene has no triangles", l->path);
 }
 
-static bool add_ground(loader *l, const bounds *b)
+/* Adds up the up-facing area near the lowest point, as seen from above: what lies there like a floor. *lies: some
+ * surface does, or shows a back, at the very height of a ground. */
+typedef struct {
+    double area;
+    bool coplanar;
+} floor_parts;
+
+static void add_floor_triangle(floor_parts *parts, const scene_object *object, double p[3][3], const bounds *b)
 {
-    double half = ground_half_size_radii * b->radius;
+    double u[3], v[3], normal[3];
+    vec_sub(u, p[1], p[0]);
+    vec_sub(v, p[2], p[0]);
+    vec_cross(normal, u, v);
+    double length = sqrt(vec_dot(normal, normal)), height = (p[0][1] + p[1][1] + p[2][1]) / 3 - b->low[1];
+    if (!(fabs(normal[1]) > floor_steepness * length)) return;
+    bool is_up = normal[1] > 0;
+    if (is_up && height <= floor_radii * b->radius && object->receives && !object->unlit) parts->area += normal[1] / 2;
+    if ((is_up || object->two_sided) && height < ground_below_radii * b->radius) parts->coplanar = true;
+}
+
+static floor_parts find_floor(const scene *s, const bounds *b)
+{
+    floor_parts parts = {0};
+    for (size_t i = 0; i < s->n_objects; i++) {
+        const scene_object *object = &s->objects[i];
+        const scene_mesh *mesh = &s->meshes[object->mesh_idx];
+        for (size_t t = 0; t < mesh->n_triangles; t++) {
+            double p[3][3];
+            for (int k = 0; k < 3; k++)
+                affine_point(p[k], &object->to_world, mesh->pos + 3 * (size_t)mesh->idx[3 * t + (size_t)k]);
+            add_floor_triangle(&parts, object, p, b);
+        }
+    }
+    return parts;
+}
+
+/* A ground where shadows would fall on nothing: not under a floor, not in a scene that somebody lit and filmed. */
+static bool decide_ground(const loader *l, const bounds *b, const floor_parts *parts)
+{
+    const scene *s = l->s;
+    if (l->options->ground != SCENE_GROUND_AUTO) return l->options->ground == SCENE_GROUND_ON;
+    if (l->file_has_camera && s->n_lights > 0) return false;
+    double footprint = (b->high[0] - b->low[0]) * (b->high[2] - b->low[2]);
+    return !(parts->area > 0 && parts->area >= floor_cover * footprint);
+}
+
+static void swap_pose(scene *s)
+{
+    for (size_t i = 0; i < s->n_objects; i++) {
+        scene_affine now = s->objects[i].to_world;
+        s->objects[i].to_world = s->objects[i].at_rest;
+        s->objects[i].at_rest = now;
+    }
+}
+
+/* Where a ground belongs, and what lies there. Of what moves, as it is at rest: a ground that follows it would move,
+ * too. */
+static void find_place(scene *s, const bounds *now, bounds *place, floor_parts *parts)
+{
+    *place = *now;
+    if (s->fps > 0) swap_pose(s);
+    bool fits = s->fps > 0 && bounds_of_scene(place, s, NULL);
+    for (int k = 0; k < 3; k++) fits = fits && fmax(-place->low[k], place->high[k]) <= LOADER_MAX_COORDINATE;
+    if (!fits) *place = *now;
+    *parts = find_floor(s, place);
+    if (s->fps > 0) swap_pose(s);
+}
+
+/* At the height of the lowest point; below it where a surface lies there: two in one plane would flicker. */
+static bool add_ground(loader *l, const bounds *b, bool coplanar)
+{
+    double half = ground_half_size_radii * b->radius, y = b->low[1] - (coplanar ? ground_below_radii * b->radius : 0);
     double x = b->centre[0], z = b->centre[2];
-    double pos[12] = {x - half, b->low[1], z - half, x - half, b->low[1], z + half,
-                      x + half, b->low[1], z + half, x + half, b->low[1], z - half};
+    double pos[12] = {x - half, y, z - half, x - half, y, z + half, x + half, y, z + half, x + half, y, z - half};
     uint32_t idx[6] = {0, 1, 2, 0, 2, 3};
     char name[] = "ground";
     scene_mesh quad = {.name = name, .n_vertices = 4, .n_triangles = 2, .pos = pos, .idx = idx};
@@ -85,12 +157,16 @@ static double fit_distance(const scene *s, const bounds *b, const scene_affine *
     return distance;
 }
 
-/* Frames what is there before the ground is added. */
-static void make_camera(loader *l, const bounds *b)
+/* How far ahead the ground at the bottom of the picture is, measured as depth: the camera is `above` it and looks down
+ * by `elevation`. No ground there: infinity. */
+static double ground_depth(double above, double elevation, double half_fov)
 {
-    scene_camera *camera = &l->s->camera;
-    const scene_options *options = l->options;
-    double azimuth = camera_azimuth_deg * VEC_PI / 180, elevation = camera_elevation_deg * VEC_PI / 180;
+    double down = fmin(elevation + half_fov, VEC_PI / 2);
+    return down > 0 && above > 0 ? above / sin(down) * cos(down - elevation) : HUGE_VAL;
+}
+
+static void turn_camera(scene_camera *camera, double azimuth, double elevation)
+{
     double right[3] = {cos(azimuth), 0, -sin(azimuth)}, up[3], back[3];
     direction_of(azimuth, elevation, back);
     vec_cross(up, back, right);
@@ -99,20 +175,33 @@ static void make_camera(loader *l, const bounds *b)
         camera->to_world.m[i][1] = up[i];
         camera->to_world.m[i][2] = back[i];
     }
-    camera->focal = 1 / tan(camera_fov_deg * VEC_PI / 360);
+}
+
+/* Frames what is there before the ground is added. glTF models, and most others, face +Z: that is where it stands, a
+ * bit to the side and above. */
+static void make_camera(loader *l, const bounds *b)
+{
+    scene_camera *camera = &l->s->camera;
+    const scene_options *options = l->options;
+    double azimuth = (options->orbit ? options->yaw : camera_azimuth_deg) * VEC_PI / 180;
+    double elevation = (options->orbit ? options->pitch : camera_elevation_deg) * VEC_PI / 180;
+    double half_fov = camera_fov_deg * VEC_PI / 360;
+    turn_camera(camera, azimuth, elevation);
+    camera->focal = 1 / tan(half_fov);
     double smaller = fmin(options->width, options->height);
     double distance =
         fit_distance(l->s, b, &camera->to_world, camera->focal * options->height / (camera_fill * smaller));
-    for (int i = 0; i < 3; i++) camera->to_world.m[i][3] = b->centre[i] + distance * back[i];
-    /* The ground at the bottom of the picture is at least 0.56 distances away: the camera is distance * sin(elevation)
-     * or more above it, and looks down by at most elevation + fov / 2. */
+    for (int i = 0; i < 3; i++) camera->to_world.m[i][3] = b->centre[i] + distance * camera->to_world.m[i][2];
+    if (options->orbit) camera->focal *= options->zoom; /* as a lens: the camera stays outside */
     camera->far = distance + sqrt(2) * ground_half_size_radii * b->radius;
-    camera->near = fmax(0.5 * (distance - b->radius), camera->far / 1000);
+    double ground = ground_depth(camera->to_world.m[1][3] - b->low[1], elevation, atan(1 / camera->focal));
+    double near = fmin(0.5 * (distance - b->radius), 0.9 * ground);
+    camera->near = fmax(near, camera->far / 1000);
 }
 
 /* For the default camera: the depth up to which objects, and their shadows on the ground if there is one, are to be
  * seen whole. The fade starts behind it. No farther: the texels of the shadow map spread over this distance. */
-static double find_shadow_distance(const loader *l, const bounds *b)
+static double find_shadow_distance(const loader *l, const bounds *b, double ground)
 {
     const scene *s = l->s;
     const scene_affine *camera = &s->camera.to_world;
@@ -125,7 +214,7 @@ static double find_shadow_distance(const loader *l, const bounds *b)
         for (size_t v = 0; v < mesh->n_vertices; v++) {
             double p[3];
             affine_point(p, &s->objects[i].to_world, mesh->pos + 3 * v);
-            double fall = l->wants_ground && light[1] < 0 ? (b->low[1] - p[1]) / light[1] : 0;
+            double fall = l->wants_ground && light[1] < 0 ? (ground - p[1]) / light[1] : 0;
             vec_sub(p, p, b->centre);
             double depth = -vec_dot(p, back);
             deepest = fmax(deepest, fmax(depth, fmin(depth - fall * vec_dot(light, back), farthest)));
@@ -168,14 +257,18 @@ bool loader_add_defaults(loader *l)
 {
     static const double ambient[3] = {0.18, 0.18, 0.18}, background[3] = {0.35, 0.45, 0.6};
     scene *s = l->s;
-    bounds b;
+    bounds b, place;
+    floor_parts parts;
     if (!find_bounds(l, &b)) return false;
+    find_place(s, &b, &place, &parts);
+    l->wants_ground = decide_ground(l, &place, &parts);
+    s->added = (scene_added){.ground = l->wants_ground, .camera = !l->has_camera, .light = s->n_lights == 0};
     memcpy(s->ambient, ambient, sizeof ambient);
     memcpy(s->background, background, sizeof background);
     default_shadow(l, &s->shadow);
     if (!l->has_camera) make_camera(l, &b);
     if (s->n_lights == 0 && !lights_add(l, "default", SCENE_LIGHT_DIRECTIONAL)) return false;
     lights_set_near(s, b.low, b.high);
-    if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b);
-    return !l->wants_ground || add_ground(l, &b);
+    if (!l->has_camera) s->shadow.max_distance = find_shadow_distance(l, &b, place.low[1]);
+    return !l->wants_ground || add_ground(l, &place, parts.coplanar);
 }

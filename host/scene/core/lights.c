@@ -149,4 +149,5 @@ void scene_remove_lights(scene *s)
     free(s->lights);
     s->lights = NULL;
     s->n_lights = 0;
+    s->added.light = false;
 }

@@ -8,9 +8,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { MAX_NOTES = 100, MAX_NOTE_BYTES = 500 };
-static const size_t max_file_bytes = (size_t)1 << 30;
+enum { GROW_FREES = 4096 }; /* elements of an array whose old copy is worth looking for */
 
 bool loader_fail(loader *l, const char *format, ...)
 {
@@ -24,12 +25,19 @@ bool loader_fail(loader *l, const char *format, ...)
     return false;
 }
 
+void *loader_own(loader *l, size_t n, size_t size)
+{
+    bool fits = size == 0 || n <= SIZE_MAX / size;
+    void *memory = fits && arena_reserve(&l->memory, n * size) ? calloc(n ? n : 1, size) : NULL;
+    if (!memory) budget_fail_memory(l, fits ? n * size : SIZE_MAX);
+    return memory;
+}
+
 static char *duplicate(loader *l, const char *text)
 {
     size_t n = strlen(text) + 1;
-    char *copy = malloc(n);
+    char *copy = loader_own(l, n, 1);
     if (copy) memcpy(copy, text, n);
-    else loader_fail(l, "%s: out of memory", l->path);
     return copy;
 }
 
@@ -39,46 +47,68 @@ static bool scene_grow(loader *l, void **array, size_t n, size_t size)
 {
     if (n != 0 && (n & (n - 1)) != 0) return true;
     size_t n_new = n ? 2 * n : 1;
-    void *larger = n_new <= SIZE_MAX / 2 / size ? realloc(*array, n_new * size) : NULL;
-    if (!larger) return loader_fail(l, "%s: out of memory", l->path);
+    bool fits = n_new <= SIZE_MAX / 2 / size && arena_reserve(&l->memory, (n_new - n) * size);
+    void *larger = fits ? realloc(*array, n_new * size) : NULL;
+    if (!larger) return budget_fail_memory(l, (n_new - n) * size);
     *array = larger;
     return true;
+}
+
+/* One line more in such a list; if it is there already, and behind MAX_NOTES, nothing. */
+static bool add_line(loader *l, char ***list, size_t *n, const char *text)
+{
+    if (*n >= MAX_NOTES) return true;
+    for (size_t i = 0; i < *n; i++) {
+        if (strcmp((*list)[i], text) == 0) return true;
+    }
+    void *array = *list;
+    bool grown = scene_grow(l, &array, *n, sizeof **list);
+    *list = array;
+    if (!grown) return false;
+    char *copy = duplicate(l, *n == MAX_NOTES - 1 ? "further notes are left out" : text);
+    if (!copy) return false;
+    (*list)[(*n)++] = copy;
+    return true;
+}
+
+static void clean_line(char *text, const char *format, va_list arguments)
+{
+    vsnprintf(text, MAX_NOTE_BYTES, format, arguments);
+    utf8_clean(text);
 }
 
 bool loader_note(loader *l, const char *format, ...)
 {
     char text[MAX_NOTE_BYTES];
-    scene *s = l->s;
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    clean_line(text, format, arguments);
     va_end(arguments);
-    utf8_clean(text);
-    for (size_t i = 0; i < s->n_notes; i++) {
-        if (strcmp(s->notes[i], text) == 0) return true;
-    }
-    if (s->n_notes >= MAX_NOTES) return true;
-    void *notes = s->notes;
-    bool grown = scene_grow(l, &notes, s->n_notes, sizeof *s->notes);
-    s->notes = notes;
-    if (!grown) return false;
-    char *copy = duplicate(l, s->n_notes == MAX_NOTES - 1 ? "further notes are left out" : text);
-    if (!copy) return false;
-    s->notes[s->n_notes++] = copy;
-    return true;
+    return add_line(l, &l->s->notes, &l->s->n_notes, text);
+}
+
+bool loader_remark(loader *l, const char *format, ...)
+{
+    char text[MAX_NOTE_BYTES];
+    va_list arguments;
+    va_start(arguments, format);
+    clean_line(text, format, arguments);
+    va_end(arguments);
+    return add_line(l, &l->s->notes, &l->s->n_notes, text) && add_line(l, &l->s->remarks, &l->s->n_remarks, text);
 }
 
 void *loader_alloc(loader *l, size_t n, size_t size)
 {
     void *memory = arena_alloc(&l->memory, n, size);
-    if (!memory) loader_fail(l, "%s: out of memory", l->path);
+    if (!memory) budget_fail_memory(l, size && n > SIZE_MAX / 2 / size ? SIZE_MAX : n * size);
     return memory;
 }
 
 void *loader_grow(loader *l, void *array, size_t n, size_t size)
 {
     void *memory = arena_grow(&l->memory, array, n, size);
-    if (!memory) loader_fail(l, "%s: out of memory", l->path);
+    if (!memory) budget_fail_memory(l, n > SIZE_MAX / 4 / size ? SIZE_MAX : 2 * n * size);
+    if (memory && memory != array && n >= GROW_FREES) arena_free(&l->memory, array);
     return memory;
 }
 
@@ -96,17 +126,15 @@ char *loader_format(loader *l, const char *format, ...)
     return text;
 }
 
-/* Read to the end rather than by a size requested beforehand: pipes have none, and a folder opens but does not read. */
-static bool read_stream(loader *l, FILE *file, const char *path, uint8_t **bytes, size_t *n_bytes)
+/* What the file says of its size is where the buffer begins: it may grow meanwhile, and some say 0. */
+static bool read_stream(loader *l, FILE *file, const char *path, size_t capacity, uint8_t **bytes, size_t *n_bytes)
 {
-    size_t capacity = 1 << 13;
     uint8_t *buffer = loader_alloc(l, capacity + 1, 1);
     *n_bytes = 0;
     while (buffer) {
         *n_bytes += fread(buffer + *n_bytes, 1, capacity - *n_bytes, file);
         if (ferror(file)) return loader_fail(l, "%s: cannot be read", path);
         if (*n_bytes < capacity) break;
-        if (capacity >= max_file_bytes) return loader_fail(l, "%s: larger than 1 GiB", path);
         uint8_t *larger = loader_alloc(l, 2 * capacity + 1, 1);
         if (larger) memcpy(larger, buffer, *n_bytes);
         buffer = larger;
@@ -130,21 +158,54 @@ static bool add_file(loader *l, const char *path)
     return true;
 }
 
-bool loader_try_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes, bool *opened)
+/* Looked at before it is opened: opening a pipe would wait for its other end. */
+static const char *why_no_file(const char *path, size_t *n_bytes)
 {
-    FILE *file = fopen(path, "rb");
-    *opened = file != NULL;
+    struct stat about;
+    if (stat(path, &about) != 0) return "cannot be opened";
+    if (S_ISDIR(about.st_mode)) return "is a folder, not a file";
+    if (!S_ISREG(about.st_mode)) return "is a device or a pipe, not a file";
+    *n_bytes = (size_t)about.st_size;
+    return NULL;
+}
+
+bool loader_try_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes, const char **problem)
+{
+    size_t n_expected = 0;
+    const char *over = budget_spend(l, BUDGET_FILES, 1);
+    if (over) return loader_fail(l, "%s: %s", path, over);
+    *problem = why_no_file(path, &n_expected);
+    FILE *file = *problem ? NULL : fopen(path, "rb");
+    if (!*problem && !file) *problem = "cannot be opened";
     if (!file) return true;
-    bool ok = add_file(l, path) && read_stream(l, file, path, bytes, n_bytes);
+    bool ok = add_file(l, path);
+    over = budget_spend(l, BUDGET_FILE_BYTES, n_expected);
+    if (over) ok = loader_fail(l, "%s: %s", path, over);
+    ok = ok && read_stream(l, file, path, n_expected + 1, bytes, n_bytes);
     fclose(file);
     return ok;
 }
 
 bool loader_read_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes)
 {
-    bool opened;
-    if (!loader_try_file(l, path, bytes, n_bytes, &opened)) return false;
-    return opened || loader_fail(l, "%s: cannot be opened", path);
+    const char *problem;
+    if (!loader_try_file(l, path, bytes, n_bytes, &problem)) return false;
+    return !problem || loader_fail(l, "%s: %s", path, problem);
+}
+
+bool loader_may_read(const loader *l, const char *name)
+{
+    if (l->options->outside) return true;
+    bool has_drive = ((name[0] >= 'A' && name[0] <= 'Z') || (name[0] >= 'a' && name[0] <= 'z')) && name[1] == ':';
+    if (name[0] == '/' || has_drive) return false;
+    long depth = 0;
+    for (const char *at = name; *at && depth >= 0;) {
+        size_t n = strcspn(at, "/");
+        if (n == 2 && at[0] == '.' && at[1] == '.') depth--;
+        else if (n > 0 && !(n == 1 && at[0] == '.')) depth++;
+        at += n + (at[n] == '/');
+    }
+    return depth >= 0;
 }
 
 char *loader_relative_path(loader *l, const char *name)
@@ -212,6 +273,9 @@ scene_texture *loader_add_texture(loader *l, const char *name)
 bool loader_add_setting(loader *l, const char *key, const char *value)
 {
     scene *s = l->s;
+    if (l->options->orbit && strcmp(key, "max_distance") == 0)
+        return loader_note(l,
+                           "max_distance of the scene ignored: it is for the camera that --orbit takes the place of");
     void *array = s->settings;
     bool grown = scene_grow(l, &array, s->n_settings, sizeof *s->settings);
     s->settings = array;
@@ -239,12 +303,11 @@ static bool copy_mesh_light(loader *l, scene_object *object)
 {
     const mesh_light *light = &l->light_of_mesh[object->mesh_idx];
     size_t n = l->s->meshes[object->mesh_idx].n_vertices;
-    if (light->mask) object->mask = malloc(n * 4);
-    if (light->baked) object->baked = malloc(n * 3 * sizeof *object->baked);
+    if (light->mask) object->mask = loader_own(l, n, 4);
+    if (light->baked) object->baked = loader_own(l, n, 3 * sizeof *object->baked);
     if (object->mask) memcpy(object->mask, light->mask, n * 4);
     if (object->baked) memcpy(object->baked, light->baked, n * 3 * sizeof *object->baked);
-    bool ok = (!light->mask || object->mask) && (!light->baked || object->baked);
-    return ok || loader_fail(l, "%s: out of memory", l->path);
+    return (!light->mask || object->mask) && (!light->baked || object->baked);
 }
 
 void loader_free_mesh_light(loader *l)
@@ -257,9 +320,17 @@ void loader_free_mesh_light(loader *l)
     l->light_of_mesh = NULL;
 }
 
+static bool spend_object(loader *l, const scene_object *object, size_t mesh_idx)
+{
+    const char *over = budget_spend(l, BUDGET_OBJECTS, 1);
+    if (!over) over = budget_spend(l, BUDGET_TRIANGLES, l->s->meshes[mesh_idx].n_triangles);
+    return !over || loader_fail(l, "%s: object '%.64s': %s", l->path, object->name, over);
+}
+
 bool loader_add_objects(loader *l, const scene_object *pattern, size_t first_mesh, size_t n_meshes)
 {
     for (size_t i = 0; i < n_meshes; i++) {
+        if (!spend_object(l, pattern, first_mesh + i)) return false;
         scene_object *object = loader_add_object(l, pattern->name);
         if (!object) return false;
         char *name = object->name;

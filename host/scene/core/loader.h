@@ -7,7 +7,7 @@
 #define GNOMON_HOST_LOADER_H
 
 #include "../../base/arena.h"
-#include "../image/png.h"
+#include "../image/picture.h"
 #include "model.h"
 
 #if defined(__GNUC__)
@@ -19,7 +19,21 @@
 /* World coordinates beyond this are refused: squares and cubes of what is left cannot overflow. */
 #define LOADER_MAX_COORDINATE 1e18
 /* The engines index 16 bits wide. */
-enum { LOADER_MAX_MESH = 65535, LOADER_MAX_SCENE_TRIANGLES = 1 << 24 };
+enum { LOADER_MAX_MESH = 65535 };
+
+/* What a file may ask for, however short it is: budget.c has the limits. Spent, never returned: what is loaded again is
+ * work again. */
+typedef enum {
+    BUDGET_FILES,      /* opened, or tried to */
+    BUDGET_FILE_BYTES, /* read; embedded pictures too */
+    BUDGET_TEXTURE_BYTES,
+    BUDGET_MATERIALS,
+    BUDGET_VERTICES, /* of all meshes */
+    BUDGET_NUMBERS,  /* read from accessors */
+    BUDGET_OBJECTS,
+    BUDGET_TRIANGLES, /* of all objects: a mesh counts once for every object that shows it */
+    BUDGET_COUNT
+} budget_kind;
 
 /* Baked light per vertex, of which every object of the mesh gets a copy; NULL: none. */
 typedef struct {
@@ -33,28 +47,46 @@ typedef struct {
     const char *path;
     char *error;
     size_t error_bytes;
-    arena memory;
+    arena memory; /* its limit is the budget of all memory: what the scene owns is reserved in it */
+    size_t spent[BUDGET_COUNT];
+    char over[160];            /* what was too much */
     mesh_light *light_of_mesh; /* beside s->meshes */
-    size_t n_triangles;        /* in s, all meshes */
-    bool has_camera;           /* the file brought one */
+    bool has_camera;           /* the file brought one, and it is used */
+    bool file_has_camera;
     bool wants_ground;
 } loader;
 
-/* Both write one line, cleaned as utf8.h does. A note that is there already is not repeated. */
+/* Each writes one line, cleaned as utf8.h does. A note that is there already is not repeated. A remark is a note that
+ * every command says: it is about what the picture lacks. */
 bool loader_fail(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
 bool loader_note(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
+bool loader_remark(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
 
 void *loader_alloc(loader *l, size_t n, size_t size);
+/* Capacity for one more element behind n; the old array is gone. */
 void *loader_grow(loader *l, void *array, size_t n, size_t size);
+
+/* Memory that the scene owns, zeroed, to free(). */
+void *loader_own(loader *l, size_t n, size_t size);
+
+/* budget.c */
+void budget_init(loader *l);
+/* NULL; or what is too much, for a message. */
+const char *budget_spend(loader *l, budget_kind kind, size_t n);
+/* The memory for these is used up: writes the error. */
+bool budget_fail_memory(loader *l, size_t n_bytes);
 
 /* printf into temporary memory. NULL: failed. */
 char *loader_format(loader *l, const char *format, ...) LOADER_PRINTF(2, 3);
 
-/* The whole file, with a terminating zero behind its n_bytes. loader_try_file: a file that does not open is not an
- * error. */
+/* The whole file, with a terminating zero behind its n_bytes. loader_try_file: a file that does not open, or is none,
+ * is not an error; *problem tells, NULL if it was read. */
 bool loader_read_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes);
-bool loader_try_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes, bool *opened);
+bool loader_try_file(loader *l, const char *path, uint8_t **bytes, size_t *n_bytes, const char **problem);
 
+/* Whether the name, as seen from the folder of the scene file, may be read: with scene_options.outside any; else none
+ * that is absolute or steps out of the folder by "..". Links are followed: no file makes one. */
+bool loader_may_read(const loader *l, const char *name);
 /* name, as seen from the folder of the scene file. */
 char *loader_relative_path(loader *l, const char *name);
 
@@ -83,8 +115,10 @@ typedef struct {
     bool clamp_u, clamp_v, bilinear;
     bool is_data; /* a mask image: plain numbers, not sRGB */
 } texture_use;
+/* To be asked before a picture is decoded: false, with the error, if it is too much. name: for that. */
+bool texture_may_decode(loader *l, const char *name, const uint8_t *bytes, size_t n_bytes);
 /* Adds the picture, resampled if its sides need it; the picture's pixels are taken or freed in any case. */
-bool texture_add(loader *l, const char *name, png_picture *picture, const texture_use *use, size_t *out);
+bool texture_add(loader *l, const char *name, rgba8_picture *picture, const texture_use *use, size_t *out);
 
 /* mesh.c. The input's arrays are temporary ones of the loader. */
 

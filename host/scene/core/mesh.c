@@ -162,10 +162,10 @@ static size_t take_triangles(mesh_splitter *sp, const uint32_t *idx, size_t n_tr
 }
 
 /* Elements of the mesh being filled, to free(); NULL where the input has no such attribute, or *ok becomes false. */
-static void *gather(const mesh_splitter *sp, const void *from, size_t element_bytes, size_t n_vertices, bool *ok)
+static void *gather(mesh_splitter *sp, const void *from, size_t element_bytes, size_t n_vertices, bool *ok)
 {
     if (!from || !*ok) return NULL;
-    uint8_t *out = malloc(n_vertices * element_bytes);
+    uint8_t *out = loader_own(sp->l, n_vertices, element_bytes);
     *ok = out != NULL;
     for (size_t i = 0; out && i < n_vertices; i++) {
         memcpy(out + i * element_bytes, (const uint8_t *)from + sp->source[i] * element_bytes, element_bytes);
@@ -183,7 +183,7 @@ static bool gather_all(mesh_splitter *sp, size_t n_vertices, scene_mesh *mesh, m
     mesh->mask_uv = gather(sp, sp->input->mask_uv, 2 * sizeof *mesh->mask_uv, n_vertices, &ok);
     light->mask = gather(sp, sp->light.mask, 4, n_vertices, &ok);
     light->baked = gather(sp, sp->light.baked, 3 * sizeof *light->baked, n_vertices, &ok);
-    return ok || loader_fail(sp->l, "%s: out of memory", sp->l->path);
+    return ok;
 }
 
 static bool add_taken(mesh_splitter *sp, const char *name, const uint32_t *idx, size_t n_triangles, size_t n_vertices,
@@ -193,8 +193,8 @@ static bool add_taken(mesh_splitter *sp, const char *name, const uint32_t *idx, 
     if (!mesh) return false;
     mesh->n_vertices = n_vertices;
     mesh->n_triangles = n_triangles;
-    mesh->idx = malloc(n_triangles * 3 * sizeof *mesh->idx);
-    if (!mesh->idx) return loader_fail(sp->l, "%s: out of memory", sp->l->path);
+    mesh->idx = loader_own(sp->l, n_triangles, 3 * sizeof *mesh->idx);
+    if (!mesh->idx) return false;
     for (size_t i = 0; i < n_triangles; i++) {
         mesh->idx[3 * i] = sp->local[idx[3 * i]];
         mesh->idx[3 * i + 1] = sp->local[idx[3 * i + (flip ? 2 : 1)]];
@@ -208,10 +208,6 @@ bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, 
 {
     loader *l = splitter->l;
     *first = l->s->n_meshes;
-    l->n_triangles += n_triangles;
-    if (l->n_triangles > LOADER_MAX_SCENE_TRIANGLES) {
-        return loader_fail(l, "%s: more than %d triangles", l->path, (int)LOADER_MAX_SCENE_TRIANGLES);
-    }
     for (size_t at = 0; at < n_triangles;) {
         size_t n_vertices, taken = take_triangles(splitter, idx + 3 * at, n_triangles - at, &n_vertices);
         if (!add_taken(splitter, name, idx + 3 * at, taken, n_vertices, flip)) return false;

@@ -43,12 +43,14 @@ void scene_free(scene *s)
         free(s->settings[i].value);
     }
     for (size_t i = 0; i < s->n_notes; i++) free(s->notes[i]);
+    for (size_t i = 0; i < s->n_remarks; i++) free(s->remarks[i]);
     for (size_t i = 0; i < s->n_files; i++) free(s->files[i]);
     free(s->meshes);
     free(s->objects);
     free(s->textures);
     free(s->settings);
     free(s->notes);
+    free(s->remarks);
     free(s->files);
     *s = (scene){0};
 }

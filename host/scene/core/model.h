@@ -44,6 +44,7 @@ typedef struct {
     char *name;
     size_t mesh_idx;
     scene_affine to_world;
+    scene_affine at_rest;    /* the same without animation, if the file has one */
     double albedo[3];        /* linear 0..1 */
     double alpha;            /* 0..1, times the texture's; default 1 */
     double alpha_cutoff;     /* 0..1, default 0.5 */
@@ -144,6 +145,10 @@ typedef struct {
 } scene_setting;
 
 typedef struct {
+    bool ground, camera, light;
+} scene_added;
+
+typedef struct {
     size_t n_meshes, n_objects, n_lights, n_textures;
     scene_mesh *meshes;
     scene_object *objects;
@@ -153,22 +158,32 @@ typedef struct {
     double ambient[3];
     double background[3];
     scene_shadow shadow;
+    scene_added added; /* what the file lacked */
     size_t n_settings; /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */
     scene_setting *settings;
     size_t n_notes;
     char **notes;        /* one line each: what the file has and Gnomon ignores, and why */
     size_t n_file_notes; /* those of the file; behind them are those of settings */
-    size_t n_files;      /* that it was read from, the scene file first */
+    size_t n_remarks;    /* notes of the file again: those about what the picture lacks, for every command to say */
+    char **remarks;
+    size_t n_files; /* that it was read from, the scene file first */
     char **files;
     double fps;      /* frames per second of its animation; 0: it has none */
     double duration; /* seconds until everything in it has come to rest */
 } scene;
 
+typedef enum { SCENE_GROUND_AUTO, SCENE_GROUND_ON, SCENE_GROUND_OFF } scene_ground;
+
 typedef struct {
     int frame;         /* animation frame; time = frame / fps (extras.gnomon.fps, default 24) */
     int width, height; /* of the picture: the default camera frames the scene for it */
-    bool ground;       /* add a ground plane to a glTF file too (an OBJ always gets one) */
+    scene_ground ground;
     bool smooth;       /* meshes without normals: smooth vertex normals instead of face normals */
+    bool outside;      /* a file may name files outside the folder of the scene */
+    int budget;        /* how many times the usual limits of what a file may ask for (budget.c); 0: once */
+    bool orbit;        /* in the place of any camera of the file: */
+    double yaw, pitch; /* degrees: from the front (+Z) to the right (+X); upwards */
+    double zoom;       /* > 0; 1: all is in the picture */
 } scene_options;
 
 /* v as a multiple of 1/65536: fades and cascade ratios are such (DESIGN 1.4). */

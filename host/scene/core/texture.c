@@ -93,7 +93,7 @@ static void resample_texel(const uint8_t *rgba, size_t w, tap x, tap y, const we
 
 /* As the texture is looked up, nearest or bilinear: bilinear in linear light, and around the corner where the texture
  * repeats. At most halves a side (of a picture up to TEXTURE_MAX_PICTURE): bilinear, no texel is skipped. */
-static void resample(const png_picture *from, const texture_use *use, scene_texture *to)
+static void resample(const rgba8_picture *from, const texture_use *use, scene_texture *to)
 {
     weighing weigh = {.by_alpha = !use->is_data};
     make_levels(&weigh.colour, use->is_data);
@@ -108,7 +108,7 @@ static void resample(const png_picture *from, const texture_use *use, scene_text
     }
 }
 
-static bool fit_sides(loader *l, png_picture *picture, const texture_use *use, scene_texture *texture)
+static bool fit_sides(loader *l, rgba8_picture *picture, const texture_use *use, scene_texture *texture)
 {
     texture->width = power_of_two(picture->w);
     texture->height = power_of_two(picture->h);
@@ -117,14 +117,30 @@ static bool fit_sides(loader *l, png_picture *picture, const texture_use *use, s
         picture->rgba = NULL;
         return true;
     }
-    texture->rgba = malloc((size_t)texture->width * (size_t)texture->height * 4);
-    if (!texture->rgba) return loader_fail(l, "%s: out of memory", l->path);
+    texture->rgba = loader_own(l, (size_t)texture->width * (size_t)texture->height, 4);
+    if (!texture->rgba) return false;
     resample(picture, use, texture);
     return loader_note(l, "texture '%s' of %dx%d is resampled to %dx%d: sides must be powers of two up to %d",
                        texture->name, picture->w, picture->h, texture->width, texture->height, (int)MAX_TEXTURE_SIDE);
 }
 
-bool texture_add(loader *l, const char *name, png_picture *picture, const texture_use *use, size_t *out)
+/* What is damaged further behind has been paid for, too. */
+bool texture_may_decode(loader *l, const char *name, const uint8_t *bytes, size_t n_bytes)
+{
+    int w, h;
+    size_t n_work;
+    if (!picture_measure(bytes, n_bytes, &w, &h, &n_work)) return true;
+    if (w > TEXTURE_MAX_PICTURE || h > TEXTURE_MAX_PICTURE)
+        return loader_fail(l, "%s: texture '%.200s' of %dx%d: sides are at most %d", l->path, name, w, h,
+                           (int)TEXTURE_MAX_PICTURE);
+    size_t n = (size_t)w * (size_t)h * 4;
+    const char *over = budget_spend(l, BUDGET_TEXTURE_BYTES, n);
+    if (over) return loader_fail(l, "%s: texture '%.200s' of %dx%d: %s", l->path, name, w, h, over);
+    bool fits = arena_has_room(&l->memory, n + n_work) && arena_reserve(&l->memory, n);
+    return fits || budget_fail_memory(l, n + n_work);
+}
+
+bool texture_add(loader *l, const char *name, rgba8_picture *picture, const texture_use *use, size_t *out)
 {
     scene_texture *texture = loader_add_texture(l, name);
     bool ok = texture != NULL;

@@ -3,7 +3,13 @@
 
 #include <string.h>
 
-enum { GLB_HEADER_BYTES = 12, GLB_CHUNK_HEADER_BYTES = 8, DEFAULT_FPS = 24 };
+enum {
+    GLB_HEADER_BYTES = 12,
+    GLB_CHUNK_HEADER_BYTES = 8,
+    GLB_JSON = 0x4E4F534A,
+    GLB_BIN = 0x004E4942,
+    DEFAULT_FPS = 24
+};
 
 static bool is_supported(const char *extension)
 {
@@ -61,6 +67,14 @@ static bool find_arrays(gltf *g)
            gltf_get_extension(g, r, "KHR_lights_punctual", &punctual) && get_objects(g, punctual, "lights", &g->lights);
 }
 
+/* Before anything is made of them. */
+static bool spend_arrays(gltf *g, const json_doc *doc)
+{
+    if (!arena_reserve(&g->l->memory, doc->memory.n_bytes)) return budget_fail_memory(g->l, doc->memory.n_bytes);
+    size_t n = g->materials ? g->materials->n_children : 0;
+    return gltf_spend(g, g->materials, BUDGET_MATERIALS, n);
+}
+
 /* NULL if the file has no scenes: then every root node is shown. */
 static bool find_scene(gltf *g, const json_value **out)
 {
@@ -87,6 +101,15 @@ static bool emit_nodes(gltf *g)
     return true;
 }
 
+static bool place_and_animate(gltf *g, const json_value *used_scene)
+{
+    if (g->animations) {
+        if (!gltf_place_nodes(g, used_scene)) return false;
+        gltf_keep_rest(g);
+    }
+    return gltf_animate(g) && gltf_place_nodes(g, used_scene);
+}
+
 static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes glb)
 {
     json_doc doc;
@@ -94,11 +117,10 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
     if (json_parse(&doc, text, n_bytes, error, sizeof error) != 0) return loader_fail(l, "%s:%s", l->path, error);
     gltf g = {.l = l, .root = doc.root, .glb = glb, .fps = DEFAULT_FPS};
     const json_value *used_scene;
-    bool ok = check_asset(&g) && find_arrays(&g) && gltf_load_buffers(&g) && find_scene(&g, &used_scene) &&
-              gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) && gltf_animate(&g) &&
-              gltf_place_nodes(&g, used_scene) && emit_nodes(&g);
+    bool ok = check_asset(&g) && find_arrays(&g) && spend_arrays(&g, &doc) && gltf_load_buffers(&g) &&
+              find_scene(&g, &used_scene) && gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) &&
+              place_and_animate(&g, used_scene) && emit_nodes(&g);
     json_free(&doc);
-    l->wants_ground = l->options->ground;
     return ok;
 }
 
@@ -115,6 +137,17 @@ static size_t word_at(const uint8_t *bytes)
     return (size_t)bytes[0] | (size_t)bytes[1] << 8 | (size_t)bytes[2] << 16 | (size_t)bytes[3] << 24;
 }
 
+/* Lengths are multiples of 4, with padding. Behind one that is not, the next chunk comes at once; or behind padding
+ * that was not counted, if BIN is there, and only there. */
+static size_t next_chunk(const uint8_t *file, size_t n_bytes, size_t end)
+{
+    size_t padded = (end + 3) / 4 * 4;
+    if (padded >= n_bytes) return n_bytes;
+    bool fits = n_bytes - padded >= GLB_CHUNK_HEADER_BYTES;
+    bool skips = fits && word_at(file + padded + 4) == GLB_BIN && word_at(file + end + 4) != GLB_BIN;
+    return skips ? padded : end;
+}
+
 /* The chunk at *at, which moves behind it. */
 static bool read_chunk(loader *l, const uint8_t *file, size_t n_bytes, size_t *at, size_t *type, gltf_bytes *out)
 {
@@ -123,12 +156,10 @@ static bool read_chunk(loader *l, const uint8_t *file, size_t n_bytes, size_t *a
     size_t length = word_at(file + *at);
     *type = word_at(file + *at + 4);
     *out = (gltf_bytes){file + *at + GLB_CHUNK_HEADER_BYTES, length};
-    if (length % 4 != 0)
-        return loader_fail(l, "%s: byte %zu: chunk length %zu is not a multiple of 4", l->path, *at, length);
     if (length > n_bytes - *at - GLB_CHUNK_HEADER_BYTES) {
         return loader_fail(l, "%s: byte %zu: a chunk of %zu bytes reaches beyond the end", l->path, *at, length);
     }
-    *at += GLB_CHUNK_HEADER_BYTES + length;
+    *at = next_chunk(file, n_bytes, *at + GLB_CHUNK_HEADER_BYTES + length);
     return true;
 }
 
@@ -147,17 +178,21 @@ static bool check_glb_header(loader *l, const uint8_t *file, size_t n_file, size
 /* Chunks after JSON and BIN, and of unknown type, are skipped as the format demands. */
 bool gltf_load_glb(loader *l)
 {
-    static const size_t type_json = 0x4E4F534A, type_bin = 0x004E4942;
     uint8_t *file;
     size_t n_file, n_bytes = 0, at = GLB_HEADER_BYTES, type;
     gltf_bytes text, chunk, binary = {0};
     if (!loader_read_file(l, l->path, &file, &n_file) || !check_glb_header(l, file, n_file, &n_bytes) ||
         !read_chunk(l, file, n_bytes, &at, &type, &text))
         return false;
-    if (type != type_json) return loader_fail(l, "%s: the first chunk is not JSON", l->path);
+    if (type != GLB_JSON) return loader_fail(l, "%s: the first chunk is not JSON", l->path);
+    size_t n_odd = text.n_bytes % 4 != 0;
     while (at < n_bytes) {
         if (!read_chunk(l, file, n_bytes, &at, &type, &chunk)) return false;
-        if (type == type_bin && !binary.bytes) binary = chunk;
+        n_odd += chunk.n_bytes % 4 != 0;
+        if (type == GLB_BIN && !binary.bytes) binary = chunk;
     }
+    if (n_odd > 0 &&
+        !loader_remark(l, "lengths of %zu chunks are not multiples of 4: they are read as they are", n_odd))
+        return false;
     return load_json(l, (const char *)text.bytes, text.n_bytes, binary);
 }

@@ -17,7 +17,7 @@ typedef struct {
 
 typedef struct {
     const json_value *json;
-    size_t parent; /* GLTF_NONE: a root */
+    size_t parent; /* GLTF_NONE: a root, or shown as one */
     bool in_scene;
     bool moves; /* an animation targets it or an ancestor */
     bool has_matrix;
@@ -26,6 +26,7 @@ typedef struct {
     double rotation[4]; /* quaternion x y z w */
     double scale[3];
     scene_affine world;
+    scene_affine rest; /* world, without animation */
 } gltf_node;
 
 typedef struct {
@@ -62,6 +63,7 @@ typedef struct {
 
 /* gltf_json.c. Readers leave *out alone where the member is absent, and fail where it has the wrong type. */
 bool gltf_fail(gltf *g, const json_value *where, const char *format, ...) LOADER_PRINTF(3, 4);
+bool gltf_spend(gltf *g, const json_value *where, budget_kind kind, size_t n);
 bool gltf_get(gltf *g, const json_value *parent, const char *key, json_type type, const json_value **out);
 bool gltf_get_number(gltf *g, const json_value *parent, const char *key, double *out);
 bool gltf_get_numbers(gltf *g, const json_value *parent, const char *key, double *out, size_t n);
@@ -78,8 +80,8 @@ const char *gltf_name(gltf *g, const json_value *parent, const char *kind);
 
 /* gltf_buffer.c */
 bool gltf_load_buffers(gltf *g);
-/* A data URI or a file beside the scene. */
-bool gltf_load_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out);
+/* A data URI or a file beside the scene. *missing: NULL, or which file is not there and why. */
+bool gltf_load_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out, const char **missing);
 /* The bytes of a buffer view; stride 0: packed. */
 bool gltf_view_bytes(gltf *g, const json_value *view, gltf_bytes *out, size_t *stride);
 
@@ -113,6 +115,7 @@ bool gltf_read_material(gltf *g, const json_value *primitive, bool moves, gltf_m
 /* gltf_node.c */
 bool gltf_read_nodes(gltf *g);
 bool gltf_place_nodes(gltf *g, const json_value *used_scene);
+void gltf_keep_rest(gltf *g); /* placed nodes are at rest */
 bool gltf_emit_camera(gltf *g, size_t node_idx);
 
 /* gltf_light.c */

@@ -99,6 +99,7 @@ static bool read_dense(gltf *g, const json_value *accessor, gltf_array *out)
 {
     element_run run;
     if (!locate(g, accessor, out->n_components * component_bytes(out->component_type), out->count, &run)) return false;
+    if (!gltf_spend(g, accessor, BUDGET_NUMBERS, out->count * out->n_components)) return false;
     out->values = loader_alloc(g->l, out->count * out->n_components, sizeof *out->values);
     if (!out->values) return false;
     for (size_t i = 0; i < out->count; i++) {
@@ -112,6 +113,7 @@ static bool read_zeros(gltf *g, const json_value *accessor, gltf_array *out)
 {
     if (out->count > MAX_ZEROS)
         return gltf_fail(g, accessor, "%zu elements without a bufferView (limit %d)", out->count, MAX_ZEROS);
+    if (!gltf_spend(g, accessor, BUDGET_NUMBERS, out->count * out->n_components)) return false;
     out->values = loader_alloc(g->l, out->count * out->n_components, sizeof *out->values);
     return out->values != NULL;
 }

@@ -39,6 +39,7 @@ static bool read_position(gltf *g, const json_value *attributes, scene_mesh *out
     const json_value *where = json_get(attributes, "POSITION");
     if (a.n_components != 3 || a.component_type == GLTF_UINT)
         return gltf_fail(g, where, "VEC3 of float, byte or short is expected");
+    if (!gltf_spend(g, where, BUDGET_VERTICES, a.count)) return false;
     out->n_vertices = a.count;
     out->pos = a.values;
     return check_range(g, where, &a, "coordinate");

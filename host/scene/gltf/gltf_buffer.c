@@ -67,33 +67,37 @@ static char *decode_percent(gltf *g, const char *uri)
     return name;
 }
 
-static bool load_file_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out)
+static bool load_file_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out, const char **missing)
 {
+    const char *name = decode_percent(g, uri);
+    if (!name) return false;
     if (strstr(uri, "://")) return gltf_fail(g, where, "only files beside the scene and data URIs are supported");
-    const char *name = decode_percent(g, uri), *path = name ? loader_relative_path(g->l, name) : NULL;
-    if (!path) return false;
+    if (!loader_may_read(g->l, name))
+        return gltf_fail(g, where, "%.200s is outside the folder of the scene, which only --outside allows", name);
+    const char *path = loader_relative_path(g->l, name);
     uint8_t *bytes = NULL;
-    bool opened;
-    if (!loader_try_file(g->l, path, &bytes, &out->n_bytes, &opened)) return false;
-    if (!opened) return gltf_fail(g, where, "%s cannot be opened", path);
+    if (!path || !loader_try_file(g->l, path, &bytes, &out->n_bytes, missing)) return false;
+    if (*missing) *missing = loader_format(g->l, "%s %s", path, *missing);
     out->bytes = bytes;
     return true;
 }
 
-bool gltf_load_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out)
+bool gltf_load_uri(gltf *g, const json_value *where, const char *uri, gltf_bytes *out, const char **missing)
 {
     bool is_data = strncmp(uri, "data:", 5) == 0;
-    return is_data ? load_data_uri(g, where, uri, out) : load_file_uri(g, where, uri, out);
+    *missing = NULL;
+    return is_data ? load_data_uri(g, where, uri, out) : load_file_uri(g, where, uri, out, missing);
 }
 
 static bool load_buffer(gltf *g, const json_value *json, gltf_bytes *out)
 {
     size_t n_bytes = GLTF_NONE;
-    const char *uri = NULL;
+    const char *uri = NULL, *missing = NULL;
     if (!gltf_get_size(g, json, "byteLength", &n_bytes) || !gltf_get_string(g, json, "uri", &uri)) return false;
     if (n_bytes == GLTF_NONE) return gltf_fail(g, json, "byteLength is missing");
     if (!uri && json->child_idx == 0) *out = g->glb;
-    if (uri && !gltf_load_uri(g, json_get(json, "uri"), uri, out)) return false;
+    if (uri && !gltf_load_uri(g, json_get(json, "uri"), uri, out, &missing)) return false;
+    if (missing) return gltf_fail(g, json_get(json, "uri"), "%s", missing);
     if (!out->bytes) return true; /* an error only if something reads it */
     if (out->n_bytes < n_bytes)
         return gltf_fail(g, json, "%zu bytes are announced, %zu are there", n_bytes, out->n_bytes);

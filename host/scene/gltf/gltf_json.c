@@ -15,6 +15,12 @@ bool gltf_fail(gltf *g, const json_value *where, const char *format, ...)
     return loader_fail(g->l, "%s: %s: %s", g->l->path, path, what);
 }
 
+bool gltf_spend(gltf *g, const json_value *where, budget_kind kind, size_t n)
+{
+    const char *over = budget_spend(g->l, kind, n);
+    return !over || gltf_fail(g, where, "%s", over);
+}
+
 bool gltf_get(gltf *g, const json_value *parent, const char *key, json_type type, const json_value **out)
 {
     const json_value *value = json_get(parent, key);

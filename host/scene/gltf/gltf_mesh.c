@@ -124,6 +124,7 @@ static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *jso
     if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
     scene_object object = material.surface;
     object.to_world = node->world;
+    object.at_rest = node->rest;
     if (!check_coordinates(g, json, &g->l->s->meshes[primitive->first_mesh[flip]], &object)) return false;
     const char *name = gltf_name(g, node->json, "node");
     object.name = name ? loader_format(g->l, "%s", name) : NULL;

@@ -82,6 +82,21 @@ static bool local_transform(gltf *g, const gltf_node *node, scene_affine *out)
     return true;
 }
 
+/* A scene ought to name roots alone. Viewers draw others as if they were roots: three.js takes such a node from its
+ * parent, glTF-Sample-Viewer begins a walk at it; so its own transform counts, and not those above it. Here it leaves
+ * its parent too, whose scene it may also be in: it is drawn once. */
+static bool show_as_root(gltf *g, size_t node_idx)
+{
+    gltf_node *node = &g->node[node_idx];
+    if (node->parent == GLTF_NONE) return true;
+    const char *name = gltf_name(g, node->json, "node");
+    node->parent = GLTF_NONE;
+    return name && loader_remark(g->l,
+                                 "'%.100s' is in the scene and a child of another node: it is drawn as a root, "
+                                 "without the transforms above it",
+                                 name);
+}
+
 static bool mark_roots(gltf *g, const json_value *used_scene)
 {
     const json_value *roots = NULL;
@@ -90,7 +105,7 @@ static bool mark_roots(gltf *g, const json_value *used_scene)
         size_t root, n = g->nodes ? g->nodes->n_children : 0;
         if (!gltf_to_size(g, roots->children[i], &root)) return false;
         if (root >= n) return gltf_fail(g, roots->children[i], "there are only %zu nodes", n);
-        if (g->node[root].parent != GLTF_NONE) return gltf_fail(g, roots->children[i], "node %zu is not a root", root);
+        if (!show_as_root(g, root)) return false;
         g->node[root].in_scene = true;
     }
     return true;
@@ -145,6 +160,12 @@ bool gltf_place_nodes(gltf *g, const json_value *used_scene)
     return true;
 }
 
+void gltf_keep_rest(gltf *g)
+{
+    size_t n = g->nodes ? g->nodes->n_children : 0;
+    for (size_t i = 0; i < n; i++) g->node[i].rest = g->node[i].world;
+}
+
 /* Scale and shear do not belong to a camera: forward is kept, up made orthogonal to it, right follows. */
 static bool camera_axes(gltf *g, const gltf_node *node, scene_affine *out)
 {
@@ -197,6 +218,8 @@ bool gltf_emit_camera(gltf *g, size_t node_idx)
         return loader_note(g->l, "camera '%s' ignored: orthographic cameras are not supported", name);
     if (strcmp(type, "perspective") != 0) return gltf_fail(g, camera, "type '%s' is unknown", type);
     if (!perspective) return gltf_fail(g, camera, "perspective is missing");
+    g->l->file_has_camera = true;
+    if (g->l->options->orbit) return loader_note(g->l, "camera '%s' ignored: --orbit takes its place", name);
     if (g->l->has_camera) return loader_note(g->l, "camera '%s' ignored: the first camera is used", name);
     g->l->has_camera = true;
     return camera_axes(g, node, &g->l->s->camera.to_world) && read_perspective(g, perspective, &g->l->s->camera);

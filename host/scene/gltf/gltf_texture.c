@@ -28,27 +28,41 @@ static bool read_sampler(gltf *g, const json_value *texture, const char *name, t
     return true;
 }
 
-static bool image_bytes(gltf *g, const json_value *image, gltf_bytes *out)
+/* Many images may be one buffer view: its bytes are paid for every time. */
+static bool image_bytes(gltf *g, const json_value *image, gltf_bytes *out, const char **missing)
 {
     size_t view = GLTF_NONE, stride;
     const char *uri = NULL;
     if (!gltf_get_ref(g, image, "bufferView", g->buffer_views, &view) || !gltf_get_string(g, image, "uri", &uri))
         return false;
-    if (uri) return gltf_load_uri(g, json_get(image, "uri"), uri, out);
+    if (uri) return gltf_load_uri(g, json_get(image, "uri"), uri, out, missing);
     if (view == GLTF_NONE) return gltf_fail(g, image, "uri or bufferView is needed");
-    return gltf_view_bytes(g, g->buffer_views->children[view], out, &stride);
+    return gltf_view_bytes(g, g->buffer_views->children[view], out, &stride) &&
+           gltf_spend(g, image, BUDGET_FILE_BYTES, out->n_bytes);
 }
 
+/* What a person knows the picture by: its file, or its name. */
+static const char *picture_label(const json_value *image, const char *name)
+{
+    const json_value *uri = json_get(image, "uri");
+    bool is_file = uri && uri->type == JSON_STRING && strncmp(uri->string, "data:", 5) != 0;
+    return is_file ? uri->string : name;
+}
+
+/* A texture that is not there, or damaged, is a remark: the shape is worth showing in the material's colour alone. */
 static bool load_image(gltf *g, const json_value *image, const char *name, const texture_use *use, size_t *out)
 {
     gltf_bytes bytes = {0};
-    png_picture picture;
+    rgba8_picture picture;
     char problem[200];
-    if (!image_bytes(g, image, &bytes)) return false;
-    if (!png_is(bytes.bytes, bytes.n_bytes))
-        return loader_note(g->l, "texture '%s' ignored: only PNG images are supported", name);
-    if (!png_decode_rgba8(bytes.bytes, bytes.n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
-        return gltf_fail(g, image, "%s", problem);
+    const char *missing = NULL, *label = picture_label(image, name);
+    if (!image_bytes(g, image, &bytes, &missing)) return false;
+    if (missing) return loader_remark(g->l, "texture '%.150s': %.250s: it is drawn without", label, missing);
+    if (!picture_is(bytes.bytes, bytes.n_bytes))
+        return loader_remark(g->l, "texture '%.150s' ignored: only " PICTURE_FORMATS " images are supported", label);
+    if (!texture_may_decode(g->l, label, bytes.bytes, bytes.n_bytes)) return false;
+    if (!picture_decode_rgba8(bytes.bytes, bytes.n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
+        return loader_remark(g->l, "texture '%.150s': %s: it is drawn without", label, problem);
     return texture_add(g->l, name, &picture, use, out);
 }
 

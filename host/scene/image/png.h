@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "rgba8.h"
+
 /* rgb: 3 * w * h bytes, rows from the top. Returns 0; on failure -1, with one line in error. A file that could only be
  * written in part stays: path may be a device or a pipe, which must not be removed. */
 int png_write_rgb8(const char *path, int w, int h, const uint8_t *rgb, char *error, size_t error_bytes);
@@ -17,16 +19,14 @@ uint8_t *png_pack_rgba8(int w, int h, const uint8_t *rgba, size_t *n_out);
 /* Without alpha. 3 * w * h bytes to free(), or NULL with one line in error. */
 uint8_t *png_read_rgb8(const char *path, int *w, int *h, char *error, size_t error_bytes);
 
-typedef struct {
-    int w, h;
-    int depth;     /* bits per channel in the file */
-    uint8_t *rgba; /* 4 * w * h bytes to free(), rows from the top */
-} png_picture;
-
 /* False, with out->rgba NULL and one line in error (without a place), if the bytes are no valid PNG file or a side is
  * longer. */
-bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error,
+bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, rgba8_picture *out, char *error,
                       size_t error_bytes);
+
+/* Sides as its head gives them, however long, and the most memory that decoding takes beside the picture itself;
+ * without looking further. False: no PNG file, or a head that is damaged. */
+bool png_measure(const uint8_t *bytes, size_t n_bytes, int *w, int *h, size_t *n_work);
 
 /* Whether the bytes begin like a PNG file. */
 bool png_is(const uint8_t *bytes, size_t n_bytes);

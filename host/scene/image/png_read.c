@@ -282,14 +282,20 @@ static bool decode(reader *r, uint8_t *raw, size_t n_raw, uint8_t *out)
     return true;
 }
 
-static uint8_t *read_picture(reader *r)
+static size_t raw_bytes(const reader *r)
 {
     size_t n_raw = 0;
-    if (!read_chunks(r)) return NULL;
     for (size_t i = 0; i < (r->interlaced ? 7 : 1); i++) {
         const pass *p = r->interlaced ? &adam7[i] : whole;
         n_raw += pass_height(r, p) * (row_bytes(r, p) + 1);
     }
+    return n_raw;
+}
+
+static uint8_t *read_picture(reader *r)
+{
+    if (!read_chunks(r)) return NULL;
+    size_t n_raw = raw_bytes(r);
     /* Deflate shrinks at max 1032 times: a short file cannot ask for much memory. */
     if (n_raw / 1033 > r->n_idat) {
         fail(r, "compressed data is too short");
@@ -307,13 +313,25 @@ bool png_is(const uint8_t *bytes, size_t n_bytes)
     return n_bytes >= SIGNATURE_BYTES && memcmp(bytes, signature, SIGNATURE_BYTES) == 0;
 }
 
-bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, png_picture *out, char *error,
+bool png_measure(const uint8_t *bytes, size_t n_bytes, int *w, int *h, size_t *n_work)
+{
+    char problem[100];
+    reader r = {.max_side = INT32_MAX, .error = problem, .error_bytes = sizeof problem};
+    const size_t at = SIGNATURE_BYTES + 8; /* behind the length and the name of the first chunk */
+    if (!png_is(bytes, n_bytes) || n_bytes < at + IHDR_BYTES || !read_header(&r, bytes + at, IHDR_BYTES)) return false;
+    *w = (int)r.w;
+    *h = (int)r.h;
+    *n_work = raw_bytes(&r) + n_bytes;
+    return true;
+}
+
+bool png_decode_rgba8(const uint8_t *bytes, size_t n_bytes, int max_side, rgba8_picture *out, char *error,
                       size_t error_bytes)
 {
     reader r = {
         .bytes = bytes, .n_bytes = n_bytes, .max_side = (uint32_t)max_side, .error = error, .error_bytes = error_bytes};
     uint8_t *rgba = read_picture(&r);
-    *out = (png_picture){.w = (int)r.w, .h = (int)r.h, .depth = (int)r.depth, .rgba = rgba};
+    *out = (rgba8_picture){.w = (int)r.w, .h = (int)r.h, .depth = (int)r.depth, .rgba = rgba};
     arena_release(&r.memory, NULL);
     return rgba != NULL;
 }

@@ -15,6 +15,7 @@ static bool read_vertex(obj_file *o, obj_text *t)
     size_t n;
     if (!obj_numbers(t, x, 7, &n)) return false;
     if (n != 3 && n != 4 && n != 6 && n != 7) return obj_fail(t, "v takes 3 numbers, and 3 more for a colour");
+    if (!obj_spend(t, BUDGET_VERTICES, 1)) return false;
     double *v = loader_grow(o->l, o->v, o->n_v, 3 * sizeof *v),
            *rgb = loader_grow(o->l, o->rgb, o->n_v, 3 * sizeof *rgb);
     if (!v || !rgb) return false;
@@ -27,7 +28,7 @@ static bool read_vertex(obj_file *o, obj_text *t)
     if (!loader_clamp_colour(rgb + 3 * o->n_v, 3) && !loader_note(o->l, "vertex colours outside 0..1 are clamped"))
         return false;
     o->n_v++;
-    return o->n_v < INT32_MAX || obj_fail(t, "too many vertices");
+    return true;
 }
 
 static bool read_normal(obj_file *o, obj_text *t)
@@ -69,7 +70,7 @@ static bool read_index(obj_text *t, const char *word, char **end, size_t n, cons
     return true;
 }
 
-/* v, v/vt, v//vn, v/vt/vn */
+/* v, v/vt, v//vn, v/vt/vn; where an index behind a / lacks, the corner has none of that kind */
 static bool read_corner(obj_file *o, obj_text *t, char *word, obj_corner *out)
 {
     char *at = word;
@@ -79,7 +80,9 @@ static bool read_corner(obj_file *o, obj_text *t, char *word, obj_corner *out)
         at++;
         if (*at && *at != '/' && !read_index(t, at, &at, o->n_vt, "texture", &out->vt)) return false;
         if (*at == '/') {
-            if (!read_index(t, at + 1, &at, o->n_vn, "normal", &out->vn)) return false;
+            at++;
+            if (!*at) return true;
+            if (!read_index(t, at, &at, o->n_vn, "normal", &out->vn)) return false;
             o->has_vn = true;
         }
     }
@@ -97,8 +100,7 @@ static bool add_triangle(obj_file *o, const obj_corner *a, const obj_corner *b, 
     corner[3 * o->n_triangles + 1] = *b;
     corner[3 * o->n_triangles + 2] = *c;
     material_of[o->n_triangles++] = o->current_material;
-    if (o->n_triangles <= LOADER_MAX_SCENE_TRIANGLES) return true;
-    return loader_fail(o->l, "%s: more than %d triangles", o->l->path, (int)LOADER_MAX_SCENE_TRIANGLES);
+    return true;
 }
 
 static void fan_normal(const obj_file *o, const obj_corner *corners, size_t i, double *out)
@@ -141,11 +143,15 @@ static bool read_face(obj_file *o, obj_text *t)
     return true;
 }
 
+/* Without a name, as the format has it: from here on no material. */
 static bool use_material(obj_file *o, obj_text *t)
 {
     const char *name = obj_rest(t);
-    if (!*name) return obj_fail(t, "usemtl without a name");
-    return obj_find_material(o, name, &o->current_material);
+    if (!*name) {
+        o->current_material = 0;
+        return obj_note(t, "usemtl without a name: from there on it is as before any usemtl");
+    }
+    return obj_find_material(o, t, name, &o->current_material);
 }
 
 static bool read_statement(obj_file *o, obj_text *t)
@@ -170,9 +176,8 @@ bool obj_load(loader *l)
     obj_text t;
     uint8_t *bytes;
     size_t n_bytes;
-    l->wants_ground = true;
     if (!loader_read_file(l, l->path, &bytes, &n_bytes) || !obj_open(&t, l, l->path, bytes, n_bytes)) return false;
-    if (!obj_find_material(&o, "default", &o.current_material)) return false;
+    if (!obj_find_material(&o, &t, "default", &o.current_material)) return false;
     while (obj_next_line(&t)) {
         if (!read_statement(&o, &t)) return false;
     }

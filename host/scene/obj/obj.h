@@ -27,13 +27,17 @@ char *obj_rest(obj_text *t);
 bool obj_numbers(obj_text *t, double *out, size_t n_max, size_t *n);
 bool obj_fail(obj_text *t, const char *format, ...) LOADER_PRINTF(2, 3);
 bool obj_note(obj_text *t, const char *format, ...) LOADER_PRINTF(2, 3);
+bool obj_spend(obj_text *t, budget_kind kind, size_t n);
 
 typedef struct {
     const char *name;
     double albedo[3], alpha;
     size_t texture_idx; /* of the scene, or SCENE_NONE */
     bool defined;       /* by a material library */
+    uint32_t next;      /* of its bucket, 1 + index; 0: none */
 } obj_material;
+
+enum { OBJ_BUCKETS = 1024 };
 
 #define OBJ_NONE UINT32_MAX
 
@@ -51,10 +55,13 @@ typedef struct {
     uint32_t *material_of;  /* per triangle */
     obj_material *material; /* in order of first use or definition; [0]: triangles before any usemtl */
     uint32_t current_material;
+    uint32_t bucket[OBJ_BUCKETS]; /* materials by name: the first of each, 1 + index */
+    const char **library;         /* paths of the material libraries that were read */
+    size_t n_libraries;
 } obj_file;
 
 /* obj_mtl.c */
-bool obj_find_material(obj_file *o, const char *name, uint32_t *out); /* makes it if need be */
+bool obj_find_material(obj_file *o, obj_text *t, const char *name, uint32_t *out); /* makes it if need be */
 bool obj_read_libraries(obj_file *o, obj_text *t);
 bool obj_note_undefined_materials(obj_file *o);
 

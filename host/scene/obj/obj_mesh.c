@@ -13,15 +13,10 @@ typedef struct {
 } vertex_key;
 
 typedef struct {
-    vertex_key key;
-    uint32_t vertex_idx;
-    bool used;
-} vertex_slot;
-
-typedef struct {
     const obj_file *o;
     scene_mesh mesh;
-    vertex_slot *slot; /* open addressing, a power of two, at most half full */
+    uint32_t *first; /* of every vertex, the first corner that has it */
+    uint32_t *slot;  /* open addressing, a power of two, at most half full: 1 + vertex; 0: none */
     size_t n_slots;
 } vertex_table;
 
@@ -38,36 +33,27 @@ static bool any_texture(const obj_file *o)
     return false;
 }
 
-static bool table_init(vertex_table *table, const obj_file *o)
-{
-    size_t n_corners = 3 * o->n_triangles;
-    *table = (vertex_table){.o = o, .n_slots = 16};
-    while (table->n_slots < 2 * n_corners) table->n_slots *= 2;
-    table->slot = loader_alloc(o->l, table->n_slots, sizeof *table->slot);
-    table->mesh.name = loader_format(o->l, "%s", o->l->path);
-    table->mesh.n_triangles = o->n_triangles;
-    table->mesh.idx = loader_alloc(o->l, n_corners, sizeof *table->mesh.idx);
-    table->mesh.pos = loader_alloc(o->l, n_corners, 3 * sizeof *table->mesh.pos);
-    if (o->has_vn) table->mesh.nrm = loader_alloc(o->l, n_corners, 3 * sizeof *table->mesh.nrm);
-    if (o->has_rgb) table->mesh.rgb = loader_alloc(o->l, n_corners, 3 * sizeof *table->mesh.rgb);
-    bool has_uv = any_texture(o);
-    if (has_uv) table->mesh.uv = loader_alloc(o->l, n_corners, 2 * sizeof *table->mesh.uv);
-    return (!has_uv || table->mesh.uv) && table->slot && table->mesh.name && table->mesh.idx && table->mesh.pos &&
-           (!o->has_vn || table->mesh.nrm) && (!o->has_rgb || table->mesh.rgb);
-}
-
 static bool same_key(const vertex_key *a, const vertex_key *b)
 {
     return a->v == b->v && a->vt == b->vt && a->vn == b->vn && a->tag == b->tag;
 }
 
-static vertex_slot *find_slot(vertex_table *table, const vertex_key *key)
+static vertex_key corner_key(const obj_file *o, size_t i)
+{
+    const obj_corner *corner = &o->corner[i];
+    uint32_t tag = o->has_vn && corner->vn == OBJ_NONE ? (uint32_t)(i / 3) : 0;
+    return (vertex_key){corner->v, has_texture(o, i / 3) ? corner->vt : OBJ_NONE, corner->vn, tag};
+}
+
+static uint32_t *find_slot(vertex_table *table, const vertex_key *key)
 {
     uint64_t hash = (key->v * UINT64_C(0x9E3779B97F4A7C15)) ^ (key->vt * UINT64_C(0xD6E8FEB86659FD93)) ^
                     (key->vn * UINT64_C(0xC2B2AE3D27D4EB4F)) ^ (key->tag * UINT64_C(0x165667B19E3779F9));
     for (size_t at = (size_t)(hash >> 20);; at++) {
-        vertex_slot *slot = &table->slot[at & (table->n_slots - 1)];
-        if (!slot->used || same_key(&slot->key, key)) return slot;
+        uint32_t *slot = &table->slot[at & (table->n_slots - 1)];
+        if (*slot == 0) return slot;
+        vertex_key found = corner_key(table->o, table->first[*slot - 1]);
+        if (same_key(&found, key)) return slot;
     }
 }
 
@@ -83,11 +69,11 @@ static void corner_face_normal(const obj_file *o, size_t triangle, double *norma
     if (!vec_normalise(normal)) memcpy(normal, (const double[3]){0, 1, 0}, 3 * sizeof *normal);
 }
 
-static void add_vertex(vertex_table *table, const vertex_key *key, size_t triangle)
+static void fill_vertex(vertex_table *table, size_t i)
 {
     const obj_file *o = table->o;
     scene_mesh *mesh = &table->mesh;
-    size_t i = mesh->n_vertices++;
+    vertex_key vertex = corner_key(o, table->first[i]), *key = &vertex;
     memcpy(mesh->pos + 3 * i, o->v + 3 * (size_t)key->v, 3 * sizeof *mesh->pos);
     if (mesh->rgb) memcpy(mesh->rgb + 3 * i, o->rgb + 3 * (size_t)key->v, 3 * sizeof *mesh->rgb);
     if (mesh->uv && key->vt != OBJ_NONE) {
@@ -95,28 +81,49 @@ static void add_vertex(vertex_table *table, const vertex_key *key, size_t triang
         mesh->uv[2 * i + 1] = 1 - o->vt[2 * (size_t)key->vt + 1]; /* upwards in the file, downwards in the scene */
     }
     if (!mesh->nrm) return;
-    if (key->vn == OBJ_NONE) corner_face_normal(o, triangle, mesh->nrm + 3 * i);
+    if (key->vn == OBJ_NONE) corner_face_normal(o, table->first[i] / 3, mesh->nrm + 3 * i);
     else memcpy(mesh->nrm + 3 * i, o->vn + 3 * (size_t)key->vn, 3 * sizeof *mesh->nrm);
 }
 
+/* Which corners share a vertex: first, idx and n_vertices. */
 static bool join_corners(vertex_table *table)
 {
     const obj_file *o = table->o;
-    size_t n_bare = 0;
-    for (size_t i = 0; i < 3 * o->n_triangles; i++) {
-        const obj_corner *corner = &o->corner[i];
-        bool textured = has_texture(o, i / 3);
-        uint32_t tag = o->has_vn && corner->vn == OBJ_NONE ? (uint32_t)(i / 3) : 0;
-        const vertex_key key = {corner->v, textured ? corner->vt : OBJ_NONE, corner->vn, tag};
-        vertex_slot *slot = find_slot(table, &key);
-        n_bare += textured && corner->vt == OBJ_NONE;
-        if (!slot->used) {
-            *slot = (vertex_slot){key, (uint32_t)table->mesh.n_vertices, true};
-            add_vertex(table, &key, i / 3);
+    size_t n_bare = 0, n_corners = 3 * o->n_triangles;
+    for (table->n_slots = 16; table->n_slots < 2 * n_corners;) table->n_slots *= 2;
+    table->slot = loader_alloc(o->l, table->n_slots, sizeof *table->slot);
+    table->first = loader_alloc(o->l, n_corners, sizeof *table->first);
+    table->mesh.idx = loader_alloc(o->l, n_corners, sizeof *table->mesh.idx);
+    if (!table->slot || !table->first || !table->mesh.idx) return false;
+    for (size_t i = 0; i < n_corners; i++) {
+        const vertex_key key = corner_key(o, i);
+        uint32_t *slot = find_slot(table, &key);
+        n_bare += has_texture(o, i / 3) && key.vt == OBJ_NONE;
+        if (*slot == 0) {
+            table->first[table->mesh.n_vertices++] = (uint32_t)i;
+            *slot = (uint32_t)table->mesh.n_vertices;
         }
-        table->mesh.idx[i] = slot->vertex_idx;
+        table->mesh.idx[i] = *slot - 1;
     }
     return n_bare == 0 || loader_note(o->l, "%zu corners with a texture have no coordinates: they take 0, 0", n_bare);
+}
+
+static bool fill_vertices(vertex_table *table)
+{
+    const obj_file *o = table->o;
+    scene_mesh *mesh = &table->mesh;
+    size_t n = mesh->n_vertices;
+    bool has_uv = any_texture(o);
+    mesh->name = loader_format(o->l, "%s", o->l->path);
+    mesh->n_triangles = o->n_triangles;
+    mesh->pos = loader_alloc(o->l, n, 3 * sizeof *mesh->pos);
+    if (o->has_vn) mesh->nrm = loader_alloc(o->l, n, 3 * sizeof *mesh->nrm);
+    if (o->has_rgb) mesh->rgb = loader_alloc(o->l, n, 3 * sizeof *mesh->rgb);
+    if (has_uv) mesh->uv = loader_alloc(o->l, n, 2 * sizeof *mesh->uv);
+    if (!mesh->name || !mesh->pos || (o->has_vn && !mesh->nrm) || (o->has_rgb && !mesh->rgb) || (has_uv && !mesh->uv))
+        return false;
+    for (size_t i = 0; i < n; i++) fill_vertex(table, i);
+    return true;
 }
 
 static bool emit_material(obj_file *o, mesh_splitter *splitter, const obj_material *material, const uint32_t *idx,
@@ -155,10 +162,9 @@ static uint32_t *sort_by_material(obj_file *o, const scene_mesh *mesh, size_t *s
 
 bool obj_emit(obj_file *o)
 {
-    vertex_table table;
+    vertex_table table = {.o = o};
     mesh_splitter splitter;
-    if (!table_init(&table, o)) return false;
-    if (!join_corners(&table)) return false;
+    if (!join_corners(&table) || !fill_vertices(&table)) return false;
     /* Before the split by material, so that smooth normals have no seam between materials. */
     if (!mesh_prepare_normals(o->l, &table.mesh) || !mesh_splitter_init(&splitter, o->l, &table.mesh)) return false;
     size_t *start = loader_alloc(o->l, o->n_materials + 1, sizeof *start);

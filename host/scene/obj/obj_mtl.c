@@ -5,19 +5,32 @@
 #include <stdio.h>
 #include <string.h>
 
-bool obj_find_material(obj_file *o, const char *name, uint32_t *out)
+static uint32_t *find_bucket(obj_file *o, const char *name)
 {
-    for (size_t i = 0; i < o->n_materials; i++) {
-        *out = (uint32_t)i;
-        if (strcmp(o->material[i].name, name) == 0) return true;
+    uint32_t hash = 2166136261;
+    for (; *name; name++) hash = (hash ^ (unsigned char)*name) * 16777619;
+    return &o->bucket[(hash ^ hash >> 16) % OBJ_BUCKETS];
+}
+
+bool obj_find_material(obj_file *o, obj_text *t, const char *name, uint32_t *out)
+{
+    uint32_t *bucket = find_bucket(o, name);
+    for (uint32_t at = *bucket; at; at = o->material[at - 1].next) {
+        *out = at - 1;
+        if (strcmp(o->material[at - 1].name, name) == 0) return true;
     }
+    if (!obj_spend(t, BUDGET_MATERIALS, 1)) return false;
     obj_material *grown = loader_grow(o->l, o->material, o->n_materials, sizeof *grown);
     if (!grown) return false;
     o->material = grown;
     *out = (uint32_t)o->n_materials;
-    o->material[o->n_materials] = (obj_material){
-        .name = loader_format(o->l, "%s", name), .albedo = {0.8, 0.8, 0.8}, .alpha = 1, .texture_idx = SCENE_NONE};
-    return o->material[o->n_materials++].name != NULL;
+    o->material[o->n_materials] = (obj_material){.name = loader_format(o->l, "%s", name),
+                                                 .albedo = {0.8, 0.8, 0.8},
+                                                 .alpha = 1,
+                                                 .texture_idx = SCENE_NONE,
+                                                 .next = *bucket};
+    *bucket = (uint32_t)++o->n_materials;
+    return o->material[o->n_materials - 1].name != NULL;
 }
 
 static bool read_kd(obj_text *t, obj_material *material)
@@ -46,6 +59,13 @@ static bool read_opacity(obj_text *t, obj_material *material, const char *word)
     if (!obj_numbers(t, &value, 1, &n)) return false;
     if (n != 1) return obj_fail(t, "%s takes a number", word);
     material->alpha = strcmp(word, "d") == 0 ? value : 1 - value;
+    if (word[0] == 'T' && value >= 1) { /* nobody means what nobody sees */
+        material->alpha = 1;
+        return loader_remark(
+            t->l,
+            "line %zu: Tr of material '%s' is taken for opacity, as some programs write it: else it were invisible",
+            t->line, material->name);
+    }
     return loader_clamp_colour(&material->alpha, 1) ||
            obj_note(t, "%s of material '%s' outside 0..1 is clamped", word, material->name);
 }
@@ -84,18 +104,27 @@ static bool read_map_options(obj_text *t, const obj_material *material, texture_
     return !other || obj_note(t, "options of map_Kd of material '%s' ignored: only -clamp counts", material->name);
 }
 
+/* A texture that is not there, or damaged, is a remark: the shape is worth showing without its colours. */
+static bool lacks_texture(obj_text *t, const char *path, const char *why)
+{
+    return loader_remark(t->l, "line %zu: texture '%.200s' %s: it is drawn without", t->line, path, why);
+}
+
 static bool load_texture(obj_file *o, obj_text *t, const char *path, const texture_use *use, size_t *out)
 {
     uint8_t *bytes = NULL;
     size_t n_bytes = 0;
-    bool opened;
-    png_picture picture;
+    const char *missing;
+    rgba8_picture picture;
     char problem[200];
-    if (!loader_try_file(o->l, path, &bytes, &n_bytes, &opened)) return false;
-    if (!opened) return obj_note(t, "texture '%s' cannot be opened: its colours are missing", path);
-    if (!png_is(bytes, n_bytes)) return obj_note(t, "texture '%s' ignored: only PNG images are supported", path);
-    if (!png_decode_rgba8(bytes, n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
-        return loader_fail(o->l, "%s: %s", path, problem);
+    if (!loader_try_file(o->l, path, &bytes, &n_bytes, &missing)) return false;
+    if (missing) return lacks_texture(t, path, missing);
+    if (!picture_is(bytes, n_bytes))
+        return lacks_texture(t, path, "ignored: only " PICTURE_FORMATS " images are supported");
+    if (!texture_may_decode(o->l, path, bytes, n_bytes)) return false;
+    if (!picture_decode_rgba8(bytes, n_bytes, TEXTURE_MAX_PICTURE, &picture, problem, sizeof problem))
+        return loader_remark(o->l, "line %zu: texture '%.200s' is damaged, %s: it is drawn without", t->line, path,
+                             problem);
     return texture_add(o->l, path, &picture, use, out);
 }
 
@@ -115,6 +144,8 @@ static bool read_map(obj_file *o, obj_text *t, obj_material *material)
     char *name = obj_rest(t);
     if (!*name) return obj_fail(t, "map_Kd without a name");
     for (char *c = name; *c; c++) *c = *c == '\\' ? '/' : *c; /* as written on Windows */
+    if (!loader_may_read(o->l, name))
+        return lacks_texture(t, name, "is outside the folder of the scene, which only --outside allows");
     const char *path = loader_relative_path(o->l, name);
     if (!path) return false;
     material->texture_idx = find_loaded(o->l->s, path, &use);
@@ -126,7 +157,7 @@ static bool read_statement(obj_file *o, obj_text *t, const char *word, uint32_t 
     if (strcmp(word, "newmtl") == 0) {
         const char *name = obj_rest(t);
         if (!*name) return obj_fail(t, "newmtl without a name");
-        if (!obj_find_material(o, name, current)) return false;
+        if (!obj_find_material(o, t, name, current)) return false;
         o->material[*current].defined = true;
         return true;
     }
@@ -141,17 +172,31 @@ static bool read_statement(obj_file *o, obj_text *t, const char *word, uint32_t 
     return loader_note(t->l, "opacity texture of material '%s' ignored: it is not supported", material->name);
 }
 
-/* A missing library is a note: the shape is worth showing without its colours. */
-static bool read_library(obj_file *o, const char *name, bool *opened)
+/* A missing library is a remark: the shape is worth showing without its colours. */
+static bool is_read(const obj_file *o, const char *path)
+{
+    for (size_t i = 0; i < o->n_libraries; i++) {
+        if (strcmp(o->library[i], path) == 0) return true;
+    }
+    return false;
+}
+
+static bool read_library(obj_file *o, const char *name, const char **missing)
 {
     uint8_t *bytes = NULL;
     size_t n_bytes = 0;
     uint32_t current = 0;
     obj_text t;
+    *missing = loader_may_read(o->l, name) ? NULL : "is outside the folder of the scene, which only --outside allows";
+    if (*missing) return true;
     const char *path = loader_relative_path(o->l, name);
-    if (!path || !loader_try_file(o->l, path, &bytes, &n_bytes, opened)) return false;
-    if (!*opened) return true;
-    if (!obj_open(&t, o->l, path, bytes, n_bytes)) return false;
+    if (!path || is_read(o, path)) return path != NULL;
+    if (!loader_try_file(o->l, path, &bytes, &n_bytes, missing)) return false;
+    if (*missing) return true;
+    const char **grown = loader_grow(o->l, o->library, o->n_libraries, sizeof *grown);
+    if (!grown || !obj_open(&t, o->l, path, bytes, n_bytes)) return false;
+    o->library = grown;
+    o->library[o->n_libraries++] = path;
     while (obj_next_line(&t)) {
         if (!read_statement(o, &t, obj_next_word(&t), &current)) return false;
     }
@@ -161,15 +206,16 @@ static bool read_library(obj_file *o, const char *name, bool *opened)
 /* The rest of the line is one name, which may hold blanks; if there is no such file, it is a list of names. */
 bool obj_read_libraries(obj_file *o, obj_text *t)
 {
-    bool opened;
+    const char *missing;
     char *rest = obj_rest(t);
     if (!*rest) return obj_fail(t, "mtllib without a name");
-    if (!read_library(o, rest, &opened)) return false;
-    if (opened) return true;
+    if (!read_library(o, rest, &missing)) return false;
+    if (!missing) return true;
     t->at = rest;
     for (const char *name = obj_next_word(t); name; name = obj_next_word(t)) {
-        if (!read_library(o, name, &opened)) return false;
-        if (!opened && !obj_note(t, "material library '%s' cannot be opened: its colours are missing", name))
+        if (!read_library(o, name, &missing)) return false;
+        if (missing && !loader_remark(t->l, "line %zu: material library '%.200s' %s: its colours are missing", t->line,
+                                      name, missing))
             return false;
     }
     return true;

@@ -27,6 +27,12 @@ bool obj_note(obj_text *t, const char *format, ...)
     return loader_note(t->l, "line %zu: %s", t->line, what);
 }
 
+bool obj_spend(obj_text *t, budget_kind kind, size_t n)
+{
+    const char *over = budget_spend(t->l, kind, n);
+    return !over || obj_fail(t, "%s", over);
+}
+
 bool obj_open(obj_text *t, loader *l, const char *path, uint8_t *bytes, size_t n_bytes)
 {
     *t = (obj_text){.l = l, .path = path, .next = (char *)bytes, .end = (char *)bytes + n_bytes};

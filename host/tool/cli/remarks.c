@@ -22,6 +22,7 @@ static void remark_on_cones(const scene *s)
 void remarks_on_settings(const scene *s)
 {
     remark_on_cones(s);
+    for (size_t i = 0; i < s->n_remarks; i++) tool_error("%s", s->remarks[i]);
     for (size_t i = s->n_file_notes; i < s->n_notes; i++) tool_error("%s", s->notes[i]);
 }
 

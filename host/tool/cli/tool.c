@@ -40,7 +40,15 @@ int tool_samples(const tool_options *o)
 int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, scene *s, settings *set, char *error,
                    size_t error_bytes)
 {
-    scene_options options = {.frame = o->frame, .width = o->width, .height = o->height};
+    scene_options options = {.frame = o->frame,
+                             .width = o->width,
+                             .height = o->height,
+                             .outside = o->outside,
+                             .budget = o->budget,
+                             .orbit = o->orbit,
+                             .yaw = o->yaw,
+                             .pitch = o->pitch,
+                             .zoom = o->zoom};
     for (int i = 0; i < n_sets; i++) {
         char key[32];
         const char *equals = strchr(sets[i], '=');

@@ -38,6 +38,10 @@ typedef struct {
     const char *board;          /* compile, info: or NULL */
     const char *target;         /* sweep, advise: a board that instructions are counted on; or NULL */
     int flash;                  /* bytes; 0: not given */
+    int outside;                /* the scene may name files outside its folder */
+    int budget;                 /* times the usual limits of what a scene may ask for; 0: once */
+    int orbit;                  /* --orbit is given: */
+    double yaw, pitch, zoom;
 } tool_options;
 
 /* Exit codes: failures of the work itself, and of the command line. */

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "../../scene/image/png.h"
 #include "../cli/remarks.h"
@@ -23,6 +24,32 @@ static void say_remarks(const tool_options *o, const scene *s, const engine_pict
     if (strcmp(o->engine, "fixed") == 0) remarks_on_picture(s, p);
 }
 
+/* What was drawn, and what the file lacked. */
+static void describe(const scene *s, char *out, size_t bytes)
+{
+    static const char *const names[] = {"ground", "camera", "light"};
+    const bool added[] = {s->added.ground, s->added.camera, s->added.light};
+    size_t triangles = 0, n;
+    for (size_t i = 0; i < s->n_objects; i++) triangles += s->meshes[s->objects[i].mesh_idx].n_triangles;
+    n = (size_t)snprintf(out, bytes, "%zu object%s, %zu triangle%s, %zu light%s", s->n_objects,
+                         s->n_objects == 1 ? "" : "s", triangles, triangles == 1 ? "" : "s", s->n_lights,
+                         s->n_lights == 1 ? "" : "s");
+    for (int i = 0, first = 1; i < 3; i++) {
+        if (!added[i]) continue;
+        n += (size_t)snprintf(out + n, bytes - n, "%s%s", first ? "; added: " : ", ", names[i]);
+        first = 0;
+    }
+}
+
+/* Not where the picture itself may go to stdout. */
+static void say_done(const tool_options *o, int w, int h, const char *what)
+{
+    struct stat picture, line;
+    if (stat(o->out_path, &picture) != 0 || !S_ISREG(picture.st_mode)) return;
+    if (fstat(1, &line) == 0 && line.st_dev == picture.st_dev && line.st_ino == picture.st_ino) return;
+    printf("%s: %dx%d, %s\n", o->out_path, w, h, what);
+}
+
 int tool_render(const tool_options *o)
 {
     char error[TOOL_ERROR_BYTES] = "out of memory";
@@ -37,6 +64,8 @@ int tool_render(const tool_options *o)
     int failed =
         draw(&p, o, &s, &set, error, sizeof error) || remarks_on_shadows(&s, o->width, o->height, error, sizeof error);
     if (!failed && !o->json) say_remarks(o, &s, &p);
+    char what[200];
+    describe(&s, what, sizeof what);
     scene_free(&s);
     if (failed) return tool_fail(o->scene_path, error);
     int w, h;
@@ -50,6 +79,7 @@ int tool_render(const tool_options *o)
     }
     free(rgb);
     if (failed) return tool_fail(about, error);
+    if (!o->json) say_done(o, w, h, what);
     if (o->json) {
         printf("{\"out\": ");
         tool_json_string(o->out_path);

@@ -12,8 +12,9 @@ int settings_load_option(scene_options *options, const char *key, const char *va
 {
     int on = strcmp(value, "1") == 0, off = strcmp(value, "0") == 0;
     if (strcmp(key, "ground") == 0) {
-        if (!on && !off) return settings_fail(error, error_bytes, key, value, "0 or 1");
-        options->ground = on;
+        if (!on && !off && strcmp(value, "auto") != 0)
+            return settings_fail(error, error_bytes, key, value, "0, 1 or auto");
+        options->ground = on ? SCENE_GROUND_ON : off ? SCENE_GROUND_OFF : SCENE_GROUND_AUTO;
         return 1;
     }
     if (strcmp(key, "normals") == 0) {
@@ -164,6 +165,7 @@ void settings_print_table(void)
     printf("| `output` | rgb888, rgb565, rgb565_swapped, grey8, grey4, mono1 | the panel that pictures are made for "
            "(R5) |\n");
     printf("| `preset` | tiny, fast, balanced, accurate | all quality knobs together |\n");
-    printf("| `ground` | 0, 1 | add a ground plane to a glTF file (an OBJ always gets one) |\n");
+    printf("| `ground` | 0, 1, auto | add a ground plane (auto: where there is no floor for shadows to fall on, but "
+           "not to a scene with a camera and a light of its own) |\n");
     printf("| `normals` | face, smooth | for meshes without normals |\n");
 }
