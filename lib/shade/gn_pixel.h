@@ -19,7 +19,9 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
 /* Stores a packed pixel n times from (x, y) of the picture on, within one row. */
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
 
-/* Texture coordinates of a row of pixels, a quadratic: from its first pixel's on, mod 2^6 turns; clamped: within 2^5. */
+/* Texture coordinates of a row of pixels, a quadratic: from its first pixel's on, modulo 2^6 turns; clamped: within
+ * 2^5.
+ */
 typedef struct {
     uint32_t at_q26[2], step_q26[2], step_change_q26[2];
 } gn_texture_line;
