@@ -44,7 +44,7 @@ GN_HOT static int32_t places_of_row(const gn_lattice_cell *cell, int axis)
     }
     if (gn_cell_bends_by_less(change, bend, least_log2)) return 0;
     if (gn_cell_bends_by_less(change, none, least_log2)) return 2;
-    /* a twentieth of the change times the square of the bend */
+    /* a sixteenth of the change times the square of the bend: NUMERICS 4.12 */
     uint32_t square_q16 = (uint32_t)((uint64_t)bend[0] * bend[0] >> 16);
     return (uint64_t)change[0] * square_q16 >> 20 <= 1U << least_log2 ? 3 : 4;
 }
