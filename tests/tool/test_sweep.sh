@@ -168,7 +168,7 @@ for name in fence avenue; do
     scene=host/scenes/$name.gltf csv=$tmp/$name.csv
     good sweep "$scene" --quick --size 32x24 --csv "$csv"
     : >"$tmp/answers"
-    for ram in 20000 400000; do
+    for ram in 22000 400000; do
         for cost in $costs; do
             run advise "$scene" --quick --size 32x24 --ram $ram --instructions-per-pixel $cost --json
             [ $? = 2 ] && fail "advice for $name in $ram bytes: $(head -n 1 "$tmp/err")"
