@@ -1,7 +1,7 @@
 # Firmware of one board: make firmware BOARD=mps2-an385 APP=crc. Included when BOARD is set.
 #
 # BOARD       a folder of boards/ with board.mk, link.ld and, where common/vectors.c does not do, startup.c
-# APP         boards/apps/APP.c; APP.mk beside it may set APP_SRC, APP_FLAGS, APP_OBJ, APP_LIB, and have rules
+# APP         boards/apps/APP.c; APP.mk beside it may set APP_SRC, APP_FLAGS, APP_LINK, APP_OBJ, APP_LIB, and have rules
 # SCENE       a scene file that the app renders, compiled to C arrays by build/gnomon
 # PRESET      tiny, fast, balanced, accurate
 # BOARD_PORT  folders of port/, the first with the header, in place of those that the board names
@@ -75,7 +75,7 @@ FW_OBJ := $(FW_SRC:%.c=$(FW_OBJ_DIR)/%.o) $(FW_SCENE_OBJ) $(APP_OBJ)
 
 $(FIRMWARE): $(FW_OBJ) $(wildcard boards/$(BOARD)/*.ld boards/common/*.ld) $(FW_OBJ_DIR)/link.flags
 	@echo '  LD $@'
-	@$(FW_CC) $(BOARD_CPU) $(FW_OPT) $(FW_LINK) $(LINK_FLAGS) -o $@ $(FW_OBJ) $(FW_LIBS)
+	@$(FW_CC) $(BOARD_CPU) $(FW_OPT) $(FW_LINK) $(APP_LINK) $(LINK_FLAGS) -o $@ $(FW_OBJ) $(FW_LIBS)
 
 $(FW_OBJ_DIR)/%.o: %.c $(FW_OBJ_DIR)/compile.flags
 	@mkdir -p $(@D)
@@ -97,7 +97,7 @@ endif
 
 # Rebuilds what other flags made.
 $(FW_OBJ_DIR)/compile.flags: FW_NOW = $(FW_CC) $(FW_CFLAGS)
-$(FW_OBJ_DIR)/link.flags: FW_NOW = $(LINK_FLAGS)
+$(FW_OBJ_DIR)/link.flags: FW_NOW = $(APP_LINK) $(LINK_FLAGS)
 $(FW_SCENE_DIR)/scene.flags: FW_NOW = $(SCENE) $(PRESET) $(SCENE_FLAGS) $(FW_SCENE_BOARD)
 %.flags: always
 	@mkdir -p $(@D)
