@@ -17,7 +17,8 @@ picture() {
     name=$1 scene=$(scene_path "$2")
     shift 2
     case " $* " in *" --size "*) ;; *) set -- "$@" --size 240x180 ;; esac
-    "$tool" compare "$scene" "$@" --json -o "$work/one" >"$work/json"
+    # shellcheck disable=SC2086
+    "$tool" compare "$scene" "$@" $GALLERY_SET --json -o "$work/one" >"$work/json"
     mv "$work/one/beside.png" "$work/pictures/$name.png"
     echo "gnomon compare $scene $* -o DIR" >"$work/command"
     psnr=$(field psnr_db "$work/json")

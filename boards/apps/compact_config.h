@@ -8,3 +8,4 @@
 #define GN_MAX_TRIANGLES 32
 #define GN_MAX_OBJECTS   4
 #define GN_ATLAS_SIZE    64
+#define GN_TILE_WIDTH    64

@@ -257,7 +257,7 @@ GN_HOT static inline uint32_t tint(const gn_frame *frame, const gn_texture_reade
     int32_t q24[3];
     gn_texture_read(reader, texel_uq16);
     for (int c = 0; c < 3; c++) q24[c] = (int32_t)((int64_t)colour_q24[c] * (int32_t)texel_uq16[c] >> 16);
-    if (levels) return limit_and_pack_565(q24[0], q24[1], q24[2]);
+    if (GN_LEVEL_TABLES && levels) return limit_and_pack_565(q24[0], q24[1], q24[2]);
     for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(q24[c], 0) >> 4;
     return gn_pixel_pack(frame, q20);
 }
@@ -280,7 +280,7 @@ GN_HOT static void textured_segment(const gn_frame *frame, const gn_pixel_rows *
             packed = tint(frame, reader, colour, levels);
             known = flat;
         }
-        if (levels) out[i] = (uint16_t)packed;
+        if (GN_LEVEL_TABLES && levels) out[i] = (uint16_t)packed;
         else gn_pixel_store(frame, rows, x + i, y, packed);
     }
 }

@@ -62,7 +62,7 @@ board_guards() { # board_guards BOARD
 # A scene on a stack that is too small for it, where a bus drops what is written below the RAM, where other memory lies there, and where
 # nothing does: a fault at once, not a run that goes wrong.
 board_overrun() { # board_overrun BOARD
-    firmware emulate BOARD="$1" APP=pocket FW_OPT=-Os LINK_FLAGS=-Wl,--defsym=STACK=768 IMAGE=pocket-overrun TIMEOUT=30 >"$tmp/overrun$1" 2>&1
+    firmware emulate BOARD="$1" APP=pocket FW_OPT=-Os LINK_FLAGS=-Wl,--defsym=STACK=640 IMAGE=pocket-overrun TIMEOUT=30 >"$tmp/overrun$1" 2>&1
     if grep -q '^fault: exception' "$tmp/overrun$1" && grep -q '^fault: the stack ran over' "$tmp/overrun$1"; then echo ok
     else echo "$1: no report of an overrun: $(grep -v '^  ' "$tmp/overrun$1" | tr '\n' ';')"; fi
 }
@@ -145,7 +145,7 @@ hot() {
 
 # What is marked as fast lies in the memory that is.
 fast() {
-    for place in pico:2004 stm32f429-discovery:1000; do
+    for place in stm32f429-discovery:1000; do
         arm-none-eabi-nm "build/firmware/${place%:*}/crc.elf" | grep -q "^${place#*:}.* renderer\$" && echo ok || echo "the renderer is not in the fast memory of ${place%:*}"
     done
 }
