@@ -378,15 +378,16 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
 }
 
 #if GN_TEXTURES
-GN_HOT void gn_corner_texture(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y,
-                              int32_t uv_q20[2])
+GN_HOT int gn_corner_texture(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, int32_t x, int32_t y,
+                             int32_t uv_q20[2])
 {
     corner_point p;
     gn_corner c;
     c.x = (int16_t)x;
     c.y = (int16_t)y;
-    uv_q20[0] = uv_q20[1] = 0;
-    if (find_point(l, frame, s, &c, &p)) texture_at(s, &p, uv_q20);
+    if (!find_point(l, frame, s, &c, &p)) return 0;
+    texture_at(s, &p, uv_q20);
+    return 1;
 }
 #endif
 

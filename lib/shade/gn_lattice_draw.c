@@ -326,14 +326,15 @@ GN_HOT static GN_NOINLINE void find_coords(const drawing *d, gn_corner *const co
 {
     gn_shading *s = d->s;
     int32_t size = 1 << d->size_log2, y = d->y + below, from[2], end[2], middle[2];
-    if (!s->lattice.look.texture_places) {
+    int known = s->lattice.look.texture_places != 0;
+    known = known && gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x, y, from);
+    known = known && gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x + size, y, end);
+    if (known && s->lattice.look.texture_places == 3)
+        known = gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x + (size >> 1), y, middle);
+    if (!known) { /* not asked for; or rounding keeps a place between two that are sampled from being so itself */
         coords_of_corners(d, corner, below, uv);
         return;
     }
-    gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x, y, from);
-    gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x + size, y, end);
-    if (s->lattice.look.texture_places == 3)
-        gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x + (size >> 1), y, middle);
     for (int i = 0; i < 2; i++) {
         uint32_t at = (uint32_t)from[i], across = (uint32_t)end[i] - at, bent = 0;
         if (s->lattice.look.texture_places == 3) bent = across - 2 * ((uint32_t)middle[i] - at);
