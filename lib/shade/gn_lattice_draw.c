@@ -191,9 +191,11 @@ GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, in
     gn_receiver_step at = {row->u_q16 + from * step->u_q16, row->v_q16 + from * step->v_q16,
                            row->depth_q31 + from * step->depth_q31};
     GN_COUNT(edge_lookups, end - from);
-    if (edge->window && edge->window->view == edge->view &&
-        gn_window_row(d->s->frame, edge->window, &at, step, end - from, out + from))
-        return;
+    if (edge->window && edge->window->view == edge->view) {
+        int said = gn_window_row(d->s->frame, edge->window, &at, step, end - from, 1, out + from);
+        for (int32_t i = from; said < GN_WINDOW_MIXED && i < end; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
+        if (said != GN_WINDOW_MISSED) return;
+    }
     for (int32_t i = from; i < end; i++) {
         out[i] = lookup(d, edge->view, edge->slope_q28, &at,
                         d->x + d->first + i * (1 << d->s->lattice.look.spacing_log2), d->y + below);

@@ -179,33 +179,21 @@ typedef struct {
     int32_t at[2], last[2]; /* u, v */
 } row_ends;
 
-/* What a view's window says of pixels between two places. */
-GN_HOT static int judge(const part_view *view, const row_ends *row)
-{
-    int32_t first[2], n[2];
-    if (view->said != GN_WINDOW_MIXED || !view->window) return view->said;
-    for (int i = 0; i < 2; i++)
-        gn_window_reads(view->window->view, gn_min32(row->at[i], row->last[i]) - 16,
-                        gn_max32(row->at[i], row->last[i]) + 1040, &first[i], &n[i]);
-    if (!gn_window_covers(view->window, first[0], first[1], n[0], n[1])) return GN_WINDOW_MIXED;
-    return gn_window_says(view->window, first[0], first[1], n[0], n[1]);
-}
-
-/* Attenuations of n pixels in a row, `ahead` of them from its first place to its last. Returns 0 if there is no
- * window. */
+/* Attenuations of n pixels in a row, `ahead` of them from its first place to its last: sets them where what is known of
+ * all of them is GN_WINDOW_MIXED. */
 GN_HOT static int attenuations(const gn_shading *s, const part_view *view, const row_ends *row, int32_t n,
                                int32_t ahead, uint32_t *out)
 {
     gn_receiver_step from = {row->at[0], row->at[1], 0}, step = {0, 0, 0};
-    if (!view->window) return 0;
-    GN_COUNT(edge_lookups, n);
+    if (view->said != GN_WINDOW_MIXED) return view->said;
+    if (!view->window) return GN_WINDOW_MISSED;
     if (ahead) {
         step.u_q16 = gn_step_of(row->at[0], row->last[0], ahead);
         step.v_q16 = gn_step_of(row->at[1], row->last[1], ahead);
     }
-    from.depth_q31 = gn_window_depth(view->window, from.u_q16, from.v_q16);
-    step.depth_q31 = gn_window_depth_step(view->window, step.u_q16, step.v_q16);
-    return gn_window_row(s->frame, view->window, &from, &step, n, out);
+    int said = gn_window_row(s->frame, view->window, &from, &step, n, 0, out);
+    if (said == GN_WINDOW_MIXED) GN_COUNT(edge_lookups, n);
+    return said;
 }
 
 GN_HOT static void shade_row_exactly(gn_shading *s, int32_t x, int32_t y, int32_t n)
@@ -213,14 +201,15 @@ GN_HOT static void shade_row_exactly(gn_shading *s, int32_t x, int32_t y, int32_
     for (; n > 0; n--, x++) gn_exact_pixel(s, x, y);
 }
 
-/* Pixels of one row between two places. Returns 0 if there is no window. */
-GN_HOT static GN_NOINLINE int mixed_chunk(gn_shading *s, const part_view *view, const row_ends *row, int32_t x,
-                                          int32_t y, int32_t n, int32_t ahead)
+/* Pixels of one row between two places. */
+GN_HOT static GN_NOINLINE void mixed_chunk(gn_shading *s, const part_look *look, const part_view *view,
+                                           const row_ends *row, int32_t x, int32_t y, int32_t n, int32_t ahead)
 {
     uint32_t attenuation[CHUNK];
-    if (!attenuations(s, view, row, n, ahead, attenuation)) return 0;
-    store_row(s, x, y, n, attenuation);
-    return 1;
+    int said = attenuations(s, view, row, n, ahead, attenuation);
+    if (said == GN_WINDOW_MIXED) store_row(s, x, y, n, attenuation);
+    else if (said == GN_WINDOW_MISSED) shade_row_exactly(s, x, y, n);
+    else gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? look->lit : look->dark);
 }
 
 /* Pixels of one row in a view, in chunks that are in or out of the shadow, or between places at their ends. */
@@ -237,10 +226,7 @@ GN_HOT static GN_NOINLINE void mixed_span(gn_shading *s, const part_look *look, 
         if (ahead)
             gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x + ahead, y, view->offset_q16,
                          row.last);
-        int said = judge(view, &row);
-        if (said != GN_WINDOW_MIXED)
-            gn_pixel_fill(s->frame, &s->rows, x, y, n, said == GN_WINDOW_LIT ? look->lit : look->dark);
-        else if (!mixed_chunk(s, view, &row, x, y, n, ahead)) shade_row_exactly(s, x, y, n);
+        mixed_chunk(s, look, view, &row, x, y, n, ahead);
         row.at[0] = row.last[0];
         row.at[1] = row.last[1];
     }
@@ -269,8 +255,9 @@ GN_HOT static int attenuations_in(gn_shading *s, const part_view *view, int32_t 
         if (!view->window) return -1;
         gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x, y, view->offset_q16, row.at);
         gn_corner_uv(&s->lattice, s->frame, &s->surface, view->window->view, x + n - 1, y, view->offset_q16, row.last);
-        said = judge(view, &row);
-        if (said == GN_WINDOW_MIXED) return attenuations(s, view, &row, n, n - 1, out) ? said : -1;
+        said = attenuations(s, view, &row, n, n - 1, out);
+        if (said == GN_WINDOW_MISSED) return -1;
+        if (said == GN_WINDOW_MIXED) return said;
     }
     for (int32_t i = 0; i < n; i++) out[i] = said == GN_WINDOW_LIT ? 65536 : 0;
     return said;

@@ -170,17 +170,27 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
 
 /* ---- Asking ------------------------------------------------------------------------------------------------------ */
 
-GN_HOT int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h)
+/* What rows say of the texels of `mask`; *doubts: those of them that are in doubt. */
+GN_HOT static inline int ask_rows(const uint32_t *dark, const uint32_t *doubt, int32_t h, uint32_t mask,
+                                  uint32_t *doubts)
 {
-    if (!window->any) return GN_WINDOW_LIT;
-    if (window->all == UINT32_MAX) return GN_WINDOW_DARK;
-    uint32_t mask = (UINT32_MAX >> (32 - w)) << (u0 - window->u0), any = 0, all = mask;
-    const uint32_t *dark = &window->dark[v0 - window->v0], *doubt = &window->doubt[v0 - window->v0];
+    uint32_t any = 0, all = mask, some = 0;
     for (const uint32_t *end = dark + h; dark < end; dark++, doubt++) {
         any |= *dark;
+        some |= *doubt;
         all &= *dark & ~*doubt;
     }
+    *doubts = some & mask;
     return !(any & mask) ? GN_WINDOW_LIT : all == mask ? GN_WINDOW_DARK : GN_WINDOW_MIXED;
+}
+
+GN_HOT int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h)
+{
+    uint32_t doubts;
+    if (!window->any) return GN_WINDOW_LIT;
+    if (window->all == UINT32_MAX) return GN_WINDOW_DARK;
+    return ask_rows(&window->dark[v0 - window->v0], &window->doubt[v0 - window->v0], h,
+                    (UINT32_MAX >> (32 - w)) << (u0 - window->u0), &doubts);
 }
 
 /* The least depth, Q32, of texels that leave a receiver lit. */
@@ -190,47 +200,81 @@ GN_HOT static uint32_t least_depth(const gn_frame *frame, const gn_light_view *v
     return gn_rounded_depth(depth_q32, gn_dropped_bits(frame, view), gn_texel_far(GN_VIEW_BITS(view)));
 }
 
-/* Compares texels in doubt with the receiver itself: those of `doubt`, from texel s of row j on. Returns the dark ones.
- */
-GN_HOT static uint32_t compare_doubts(const gn_window *window, int32_t s, int32_t j, uint32_t doubt, uint32_t least)
+/* Of texels in doubt, from texel 0 of row j on, those before `least`. */
+GN_HOT static uint32_t compare_doubts(const gn_window *window, int32_t j, uint32_t doubt, uint32_t least)
 {
     const gn_light_view *view = window->view;
-    int32_t last = view->tile_texels - 1, v = gn_max32(0, gn_min32(window->v0 + j, last)), u = window->u0 + s;
+    int32_t last = view->tile_texels - 1, v = gn_max32(0, gn_min32(window->v0 + j, last)), bits = GN_VIEW_BITS(view);
     gn_texels row = gn_view_texels(view, 0, v);
     uint32_t dark = 0;
-    for (uint32_t bit = 1; doubt; bit <<= 1, u++) {
-        if (!(doubt & bit)) continue;
+    while (doubt) {
+        uint32_t bit = doubt & (0U - doubt);
+        int32_t u = window->u0 + 31 - gn_clz32(bit);
         doubt ^= bit;
         GN_COUNT(taps_lone, 1);
-        uint32_t texel = gn_texel_load(row, GN_VIEW_BITS(view), (uint32_t)gn_max32(0, gn_min32(u, last)));
-        if (texel < least) dark |= bit;
+        if (gn_texel_load(row, bits, (uint32_t)gn_max32(0, gn_min32(u, last))) < least) dark |= bit;
     }
     return dark;
 }
 
+enum { SETTLED_ROWS = 10 };
+
+/* Rows of a window that receivers read, at their own depths. */
+typedef struct {
+    const gn_window *window;
+    const uint32_t *dark, *doubt; /* from row v0 of the window on */
+    int32_t v0;
+    uint32_t doubts;                   /* 0: none is left */
+    uint32_t settled[2][SETTLED_ROWS]; /* dark, doubt */
+} window_rows;
+
+/* Compares the texels in doubt with the least and the greatest depth of receivers: what both agree on is settled. */
+GN_HOT static GN_NOINLINE int settle(const gn_frame *frame, window_rows *rows, int32_t h, uint32_t mask,
+                                     const int32_t depth_q30[2])
+{
+    const gn_window *window = rows->window;
+    uint32_t near = least_depth(frame, window->view, gn_min32(depth_q30[0], depth_q30[1])),
+             far = least_depth(frame, window->view, gn_max32(depth_q30[0], depth_q30[1]));
+    for (int32_t j = 0; j < h; j++) {
+        uint32_t doubt = rows->doubt[j] & mask, dark = rows->dark[j] & ~doubt;
+        if (doubt) {
+            uint32_t maybe = compare_doubts(window, rows->v0 + j, doubt, far);
+            doubt = maybe;
+            if (maybe && near != far) doubt ^= compare_doubts(window, rows->v0 + j, maybe, near);
+            else doubt = 0;
+            dark |= maybe;
+        }
+        rows->settled[0][j] = dark;
+        rows->settled[1][j] = doubt;
+    }
+    rows->dark = rows->settled[0];
+    rows->doubt = rows->settled[1];
+    return ask_rows(rows->dark, rows->doubt, h, mask, &rows->doubts);
+}
+
 /* Which of n x n texels from texel s of row j on keep a receiver dark, a byte per row. Returns the OR of all rows, and
  * in the upper half their AND. */
-GN_HOT static uint32_t dark_texels(const gn_frame *frame, const gn_window *window, int32_t s, int32_t j, int32_t n,
+GN_HOT static uint32_t dark_texels(const gn_frame *frame, const window_rows *rows, int32_t s, int32_t j, int32_t n,
                                    int32_t depth_q30, uint8_t *dark)
 {
+    const gn_window *window = rows->window;
     uint32_t mask = (1U << (uint32_t)n) - 1U, any = 0, all = mask, doubts = 0;
+    const uint32_t *row = &rows->dark[j - rows->v0], *doubt = &rows->doubt[j - rows->v0];
     for (int32_t i = 0; i < n; i++) {
-        uint32_t bits = window->dark[j + i] >> s & mask;
-        doubts |= window->doubt[j + i] >> s & mask;
+        uint32_t bits = row[i] >> s & mask;
+        doubts |= doubt[i] >> s & mask;
         dark[i] = (uint8_t)bits;
         any |= bits;
         all &= bits;
     }
     if (!doubts) return any | all << 16;
     uint32_t least = least_depth(frame, window->view, depth_q30);
-    if (window->plain && n > 2)
-        return gn_kernel_dark_texels16(gn_view_texels(window->view, window->u0 + s, window->v0 + j).d16,
-                                       (size_t)window->view->tile_texels, least, n, dark);
     any = 0;
     all = mask;
-    for (int32_t i = 0; i < n; i++, j++) {
-        uint32_t doubt = window->doubt[j] >> s & mask, bits = dark[i] ^ doubt;
-        if (doubt) bits |= compare_doubts(window, s, j, doubt, least);
+    for (int32_t i = 0; i < n; i++) {
+        uint32_t unknown = doubt[i] & mask << s, bits = row[i] ^ unknown;
+        if (unknown) bits |= compare_doubts(window, j + i, unknown, least);
+        bits = bits >> s & mask;
         dark[i] = (uint8_t)bits;
         any |= bits;
         all &= bits;
@@ -240,31 +284,24 @@ GN_HOT static uint32_t dark_texels(const gn_frame *frame, const gn_window *windo
 
 #if GN_FILTER_MAX >= 2
 /* 3x3, positions to 1/32 texel. */
-GN_HOT static void row_3x3(const gn_frame *frame, const gn_window *window, int32_t u, int32_t v, int32_t depth_q30,
+GN_HOT static void row_3x3(const gn_frame *frame, const window_rows *rows, int32_t u, int32_t v, int32_t depth_q30,
                            const gn_receiver_step *step, int32_t n, uint32_t *out)
 {
+    const uint32_t *first = rows->dark - rows->v0;
+    uint32_t doubts = rows->doubts;
     u += 1024; /* rounded, not cut */
     v += 1024;
     for (uint32_t *end = out + n; out < end; out++, u += step->u_q16, v += step->v_q16,
                   depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31)) {
-        const uint32_t *row = &window->dark[v >> 16];
+        const uint32_t *row = &first[v >> 16];
         int32_t s = u >> 16;
         uint32_t a = row[0] >> s & 15U, b = row[1] >> s & 15U, c = row[2] >> s & 15U, d = row[3] >> s & 15U;
         *out = 65536;
         if (!(a | b | c | d)) continue;
-        if (window->doubts) {
-            const uint32_t *doubt = &window->doubt[v >> 16];
-            if ((doubt[0] | doubt[1] | doubt[2] | doubt[3]) >> s & 15U) {
-                uint8_t dark[4];
-                uint32_t found =
-                    window->plain
-                        ? gn_kernel_dark_texels16(
-                              gn_view_texels(window->view, window->u0 + s, window->v0 + (v >> 16)).d16,
-                              (size_t)window->view->tile_texels, least_depth(frame, window->view, depth_q30), 4, dark)
-                        : dark_texels(frame, window, s, v >> 16, 4, depth_q30, dark);
-                if (!(found & 15U)) continue;
-                a = dark[0], b = dark[1], c = dark[2], d = dark[3];
-            }
+        if (doubts >> s & 15U) {
+            uint8_t dark[4];
+            if (!(dark_texels(frame, rows, s, v >> 16, 4, depth_q30, dark) & 15U)) continue;
+            a = dark[0], b = dark[1], c = dark[2], d = dark[3];
         }
         *out = 0;
         if ((a & b & c & d) == 15U) continue;
@@ -287,13 +324,13 @@ GN_HOT static uint32_t by_2x2(const uint8_t dark[2], int32_t u, int32_t v, int32
 }
 
 /* Any other filter, exactly. */
-GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const gn_window *window, int32_t u, int32_t v,
+GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const window_rows *rows, int32_t u, int32_t v,
                                               int32_t depth_q30)
 {
-    int32_t filter = window->view->filter, k = filter - GN_FILTER_2X2, n = filter == GN_FILTER_HARD ? 1 : 2 * (k + 1),
-            bits = GN_K(frame, weight_bits);
+    int32_t filter = rows->window->view->filter, k = filter - GN_FILTER_2X2,
+            n = filter == GN_FILTER_HARD ? 1 : 2 * (k + 1), bits = GN_K(frame, weight_bits);
     uint8_t dark[GN_TENT_TAPS_MAX];
-    uint32_t found = dark_texels(frame, window, u >> 16, v >> 16, n, depth_q30, dark);
+    uint32_t found = dark_texels(frame, rows, u >> 16, v >> 16, n, depth_q30, dark);
     if (!(found & 0xFFFFU)) return 65536;
     if (found >> 16 == (1U << n) - 1) return 0;
 #if GN_FILTER_MAX >= 2
@@ -302,27 +339,53 @@ GN_HOT static GN_NOINLINE uint32_t by_weights(const gn_frame *frame, const gn_wi
     return by_2x2(dark, u, v, bits);
 }
 
-GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
-                         const gn_receiver_step *step, int32_t n, uint32_t *attenuation)
+/* The rows that receivers read, and what they say of all of them. */
+GN_HOT static int find_rows(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
+                            const gn_receiver_step *step, int32_t n, int placed, window_rows *rows)
 {
     const gn_light_view *view = window->view;
-    int32_t u_end = from->u_q16 + (n - 1) * step->u_q16, v_end = from->v_q16 + (n - 1) * step->v_q16, u0, v0, w, h;
-    gn_window_reads(view, gn_min32(from->u_q16, u_end), gn_max32(from->u_q16, u_end) + 1024, &u0, &w);
-    gn_window_reads(view, gn_min32(from->v_q16, v_end), gn_max32(from->v_q16, v_end) + 1024, &v0, &h);
-    if (!gn_window_covers(window, u0, v0, w, h)) return 0;
+    int32_t end[2] = {from->u_q16 + (n - 1) * step->u_q16, from->v_q16 + (n - 1) * step->v_q16}, u0, w, h, depth[2];
+    gn_window_reads(view, gn_min32(from->u_q16, end[0]), gn_max32(from->u_q16, end[0]) + 1024, &u0, &w);
+    gn_window_reads(view, gn_min32(from->v_q16, end[1]), gn_max32(from->v_q16, end[1]) + 1024, &rows->v0, &h);
+    if (!gn_window_covers(window, u0, rows->v0, w, h)) return GN_WINDOW_MISSED;
+    uint32_t mask = (UINT32_MAX >> (32 - w)) << (u0 - window->u0);
+    rows->window = window;
+    rows->v0 -= window->v0;
+    rows->dark = &window->dark[rows->v0];
+    rows->doubt = &window->doubt[rows->v0];
+    int said = ask_rows(rows->dark, rows->doubt, h, mask, &rows->doubts);
+    if (said != GN_WINDOW_MIXED || !rows->doubts || h > SETTLED_ROWS) return said;
+    depth[0] = placed ? from->depth_q31 : gn_window_depth(window, from->u_q16, from->v_q16);
+    depth[1] = placed ? (int32_t)((uint32_t)depth[0] + (uint32_t)(n - 1) * (uint32_t)step->depth_q31)
+                      : gn_window_depth(window, end[0], end[1]);
+    return settle(frame, rows, h, mask, depth);
+}
+
+GN_HOT int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
+                         const gn_receiver_step *step, int32_t n, int placed, uint32_t *attenuation)
+{
+    window_rows rows;
+    gn_receiver_step across = *step;
+    int said = find_rows(frame, window, from, step, n, placed, &rows);
+    if (said != GN_WINDOW_MIXED) return said;
+    const gn_light_view *view = window->view;
     int32_t shift = view->filter == GN_FILTER_HARD ? 0 : (view->filter_idx + 1) * 65536 - 32768;
     int32_t u = from->u_q16 - shift - window->u0 * 65536, v = from->v_q16 - shift - window->v0 * 65536;
     int32_t depth_q30 = from->depth_q31;
+    if (!placed && rows.doubts) {
+        depth_q30 = gn_window_depth(window, from->u_q16, from->v_q16);
+        across.depth_q31 = gn_window_depth_step(window, step->u_q16, step->v_q16);
+    }
     GN_COUNT(window_lookups, n);
 #if GN_FILTER_MAX >= 2
     if (view->filter == GN_FILTER_3X3 && !(GN_LINEAR_KERNELS && frame->scene->shadow.kernel == GN_KERNEL_LINEAR)) {
-        row_3x3(frame, window, u, v, depth_q30, step, n, attenuation);
-        return 1;
+        row_3x3(frame, &rows, u, v, depth_q30, &across, n, attenuation);
+        return said;
     }
 #endif
     for (int32_t i = 0; i < n; i++, u += step->u_q16, v += step->v_q16) {
-        attenuation[i] = by_weights(frame, window, u, v, depth_q30);
-        depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)step->depth_q31); /* not used beyond the row */
+        attenuation[i] = by_weights(frame, &rows, u, v, depth_q30);
+        depth_q30 = (int32_t)((uint32_t)depth_q30 + (uint32_t)across.depth_q31); /* not used beyond the row */
     }
-    return 1;
+    return said;
 }

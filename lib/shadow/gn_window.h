@@ -46,10 +46,11 @@ GN_HOT static inline int32_t gn_window_depth_step(const gn_window *window, int32
 /* Of texels that it covers: GN_WINDOW_LIT, _DARK or _MIXED. */
 int gn_window_says(const gn_window *window, int32_t u0, int32_t v0, int32_t w, int32_t h);
 
-/* Attenuations of n receivers on the plane; texels in doubt are compared with their depths, which are in Q30 here.
- * Returns 0 if the window does not cover all. */
+/* Attenuations of n receivers on the plane; texels in doubt are compared with their depths, which are in Q30 here, and
+ * if not `placed` the plane's. Returns GN_WINDOW_LIT or _DARK if all of them are, and sets none; else _MIXED, or
+ * GN_WINDOW_MISSED if the window does not cover all. */
 int gn_window_row(const gn_frame *frame, const gn_window *window, const gn_receiver_step *from,
-                  const gn_receiver_step *step, int32_t n, uint32_t *attenuation);
+                  const gn_receiver_step *step, int32_t n, int placed, uint32_t *attenuation);
 
 #endif
 

@@ -315,8 +315,10 @@ static void check_row(tally *same, tally *near, tally *covers)
     from.depth_q31 = gn_window_depth(&window, from.u_q16, from.v_q16);
     step.depth_q31 = gn_window_depth_step(&window, step.u_q16, step.v_q16);
     attenuation[n] = 0xDEADBEEF;
-    HOLDS(covers, gn_window_row(&frame, &window, &from, &step, n, attenuation) && attenuation[n] == 0xDEADBEEF,
-          "filter %d, %d from (%d, %d)", (int)view.filter, (int)n, (int)from.u_q16, (int)from.v_q16);
+    const int said = gn_window_row(&frame, &window, &from, &step, n, rng_below(&random_state, 2) == 0, attenuation);
+    for (int32_t i = 0; said < GN_WINDOW_MIXED && i < n; i++) attenuation[i] = said == GN_WINDOW_LIT ? 65536 : 0;
+    HOLDS(covers, said != GN_WINDOW_MISSED && attenuation[n] == 0xDEADBEEF, "filter %d, %d from (%d, %d)",
+          (int)view.filter, (int)n, (int)from.u_q16, (int)from.v_q16);
     for (int32_t i = 0; i < n; i++) {
         const int64_t depth = plane_at(from.u_q16 + i * step.u_q16, from.v_q16 + i * step.v_q16);
         if (on_plane && depth < 0) continue; /* the receiver itself cannot say so */
@@ -324,7 +326,8 @@ static void check_row(tally *same, tally *near, tally *covers)
         check_receiver(&r, attenuation[i], same, near);
     }
     from.u_q16 += (box[2] + 1) * 65536; /* beyond it on one side */
-    HOLDS(covers, !gn_window_row(&frame, &window, &from, &step, n, attenuation), "filter %d, beyond", (int)view.filter);
+    HOLDS(covers, gn_window_row(&frame, &window, &from, &step, n, 1, attenuation) == GN_WINDOW_MISSED,
+          "filter %d, beyond", (int)view.filter);
 }
 
 /* ---- What it says of rectangles ---------------------------------------------------------------------------------- */
