@@ -99,10 +99,6 @@ GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surfac
 #if GN_SHADOWS
     gn_corner_begin_cascade(l, frame, s);
 #endif
-    if (!GN_SMOOTH(s) && s->n_lights) {
-        gn_length length = gn_length_of(GN_K(frame, newton_steps), s->normal_q30[0]);
-        gn_length_unit(length, s->normal_q30[0], l->unit_q30);
-    }
     for (uint32_t i = 0; i < s->n_lights; i++) {
         begin_light(l, frame, s, i);
         if (!in_reach(s->light[i].state)) return 0;
@@ -153,8 +149,7 @@ GN_HOT static inline int32_t at_point(const corner_point *p, int32_t a0, int32_t
     return (int32_t)at_point_64(p, a0, a1, a2);
 }
 
-GN_HOT static void find_normal(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c,
-                               corner_point *p)
+GN_HOT static void find_normal(const gn_frame *frame, const gn_surface *s, gn_corner *c, corner_point *p)
 {
     const int32_t(*n)[3] = s->normal_q30;
     int smooth = GN_SMOOTH(s);
@@ -162,7 +157,7 @@ GN_HOT static void find_normal(const gn_lattice *l, const gn_frame *frame, const
         p->n_q30[i] = n[0][i];
         if (smooth) /* up to 9 outside of the triangle */
             p->n_q30[i] = (int32_t)gn_clamp64(at_point_64(p, n[0][i], n[1][i], n[2][i]), -(1 << 30), 1 << 30);
-        else p->unit_q30[i] = l->unit_q30[i];
+        else p->unit_q30[i] = n[0][i];
 #if GN_VERTEX_NORMALS
         c->normal_q30[i] = p->n_q30[i];
 #endif
@@ -362,7 +357,7 @@ GN_HOT void gn_corner_find(const gn_lattice *l, const gn_frame *frame, const gn_
     attributes_at(s, &p, c);
     if (!s->n_lights) return;
     find_cascade(l, frame, s, &p, sample, c);
-    find_normal(l, frame, s, c, &p);
+    find_normal(frame, s, c, &p);
 #if GN_PUNCTUAL_LIGHTS
     if (s->n_punctual) find_ray(s->light[s->n_lights - 1].state, c, &p);
 #endif
@@ -409,7 +404,7 @@ GN_HOT int gn_corner_locate(const gn_lattice *l, const gn_frame *frame, const gn
     c->x = (int16_t)x;
     c->y = (int16_t)y;
     if (!find_point(l, frame, s, c, &p)) return 0;
-    find_normal(l, frame, s, c, &p);
+    find_normal(frame, s, c, &p);
     c->light[slot].placed = GN_VIEW_NONE;
 #if GN_PUNCTUAL_LIGHTS
     const gn_light_state *light = s->light[slot].state;

@@ -36,7 +36,7 @@ int gn_corner_locate(const gn_lattice *lattice, const gn_frame *frame, const gn_
 
 /* Sets u, v, depth of the light in a slot, in one of its views. Returns 0 if the point is nearer to the light than the
  * view's near plane. */
-int gn_corner_place(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, gn_corner *corner,
+int gn_corner_place(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, gn_corner *corner,
                     uint32_t slot, uint32_t view);
 #endif
 

@@ -22,19 +22,29 @@ GN_HOT static const int32_t *normal_of(const gn_surface *s, const gn_corner *c)
 #endif
 }
 
+/* The offset of a flat surface in a view. */
+GN_HOT static const int32_t *flat_offset(gn_lattice *l, const gn_frame *frame, const gn_surface *s, uint32_t slot,
+                                         const gn_light_view *view)
+{
+    if (l->offset_view != view) gn_sample_offset(frame, s, slot, view, s->normal_q30[0], l->offset_q16);
+    l->offset_view = view;
+    return l->offset_q16;
+}
+
 /* Tile coordinates in texels, Q16, of what is moved along its normal. */
-GN_HOT static void coords_directional(const gn_frame *frame, const gn_surface *s, const gn_corner *c, uint32_t slot,
-                                      const gn_light_view *view, int32_t coord_q16[3])
+GN_HOT static void coords_directional(const gn_frame *frame, const gn_surface *s, const gn_corner *c,
+                                      const gn_light_view *view, const int32_t *flat_q16, int32_t coord_q16[3])
 {
     int32_t px = 2 * c->x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * c->y;
     int32_t up = gn_clz32((uint32_t)c->z_q16) - 1, z = c->z_q16 * (1 << up), down = view->fit.ortho.ray_shift + up - 32;
-    const int32_t *offset = s->light[slot].flat_offset_q16, *n = normal_of(s, c);
+    const int32_t *n = normal_of(s, c);
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *r = &view->fit.ortho.ray[i];
         int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
-        int32_t v = gn_mul_high(z, a), more = offset[i];
-        if (GN_SMOOTH(s)) more = 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
-        coord_q16[i] = (int32_t)((uint32_t)(v >> down) + (uint32_t)r->d_q16 + (uint32_t)more);
+        int32_t v = gn_mul_high(z, a) >> down, more;
+        if (flat_q16) more = gn_sat32((int64_t)v + flat_q16[i]);
+        else more = v + 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
+        coord_q16[i] = (int32_t)((uint32_t)more + (uint32_t)r->d_q16);
     }
 }
 
@@ -55,13 +65,14 @@ GN_HOT void gn_corner_uv(const gn_lattice *l, const gn_frame *frame, const gn_su
         uv_q16[i] = coord_ortho(&view->fit.ortho.ray[i], px, py, z * (1 << up), down) + offset_q16[i];
 }
 
-GN_HOT static GN_NOINLINE void place_directional(const gn_lattice *l, const gn_frame *frame, const gn_surface *s,
+GN_HOT static GN_NOINLINE void place_directional(gn_lattice *l, const gn_frame *frame, const gn_surface *s,
                                                  gn_corner *c, uint32_t slot, const gn_light_view *view)
 {
     gn_corner_light *at = &c->light[slot];
     int32_t coord[3], up = 14 - view->tile_log2 - view->depth_log2; /* texels, Q16, to a share of the range, Q30 */
     int32_t down = view->fit.ortho.ray_shift + gn_clz32((uint32_t)c->z_q16) - 33;
-    if (l->light[slot].lifts && down >= 0 && down < 32) coords_directional(frame, s, c, slot, view, coord);
+    const int32_t *flat = GN_SMOOTH(s) ? NULL : flat_offset(l, frame, s, slot, view);
+    if ((flat || l->light[slot].lifts) && down >= 0 && down < 32) coords_directional(frame, s, c, view, flat, coord);
     else gn_sample_in_view(frame, s, slot, view, c->x, c->y, c->z_q16, normal_of(s, c), coord);
     at->u_q16 = coord[0];
     at->v_q16 = coord[1];
@@ -126,7 +137,7 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
 }
 #endif
 
-GN_HOT int gn_corner_place(const gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
+GN_HOT int gn_corner_place(gn_lattice *l, const gn_frame *frame, const gn_surface *s, gn_corner *c, uint32_t slot,
                            uint32_t view_idx)
 {
     gn_corner_light *at = &c->light[slot];

@@ -205,6 +205,7 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     l->x_end = box.x1;
     l->y_end = box.y1;
     l->has_face = 0;
+    l->offset_view = NULL;
     gn_part_begin(s);
     forget_windows(l);
     for (l->y = box.y0; l->y < box.y1; l->y += l->n_rows) {

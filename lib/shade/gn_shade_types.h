@@ -294,15 +294,16 @@ typedef struct gn_lattice {
     int32_t n_spans;
     gn_screen_plane plane;
     gn_lattice_light light[GN_SURFACE_LIGHTS];
-    int32_t unit_q30[3];           /* flat surfaces: the normal */
-    int32_t has_face, face_q30[3]; /* the face's own, once something has asked for it */
-    int32_t uniform;               /* nothing but shadows varies over the surface */
-    int32_t cascade;               /* of all of the part, none of which fades; -1: of each point for itself */
-    int32_t surface_cascade;       /* the same of the surface */
-    int32_t size_log2;             /* of the largest cells, in pixels */
-    int32_t x, y, x_end, y_end;    /* of the part, and where the surface ends */
-    int32_t n_rows;                /* of the part */
-    int32_t part_end;              /* columns before it */
+    int32_t has_face, face_q30[3];    /* the face's normal, once something has asked for it */
+    const gn_light_view *offset_view; /* flat surfaces: a directional view, NULL: none, */
+    int32_t offset_q16[3];            /* and the receiver's offset in it */
+    int32_t uniform;                  /* nothing but shadows varies over the surface */
+    int32_t cascade;                  /* of all of the part, none of which fades; -1: of each point for itself */
+    int32_t surface_cascade;          /* the same of the surface */
+    int32_t size_log2;                /* of the largest cells, in pixels */
+    int32_t x, y, x_end, y_end;       /* of the part, and where the surface ends */
+    int32_t n_rows;                   /* of the part */
+    int32_t part_end;                 /* columns before it */
     uint32_t bits[GN_PART_WIDTH / 32][GN_PART_ROWS]; /* its pixels */
     gn_corner corners[GN_CORNERS];                   /* those of the part that were asked for last */
     uint32_t corner_key[GN_CORNERS];                 /* y * 2^16 + x; all ones: none */

@@ -23,7 +23,7 @@ GN_HOT static int without_light(const gn_frame *frame, const gn_surface *s)
 /* ---- Once per triangle: attributes ------------------------------------------------------------------------------- */
 
 /* The plane's n points away from the viewer, in view space. */
-GN_HOT void gn_surface_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
+GN_HOT static GN_NOINLINE void find_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
 {
     int64_t world[3];
     for (int i = 0; i < 3; i++) {
@@ -32,6 +32,14 @@ GN_HOT void gn_surface_face(const gn_frame *frame, const gn_surface *s, int32_t 
     }
     if (!gn_normalise_q30(out_q30, world))
         for (int i = 0; i < 3; i++) out_q30[i] = -frame->cam.axis_q30[2][i];
+}
+
+/* It is the surface's normal where vertices have none. */
+GN_HOT void gn_surface_face(const gn_frame *frame, const gn_surface *s, int32_t out_q30[3])
+{
+    if (GN_VERTEX_NORMALS && s->object->mesh->nrm_q15) find_face(frame, s, out_q30);
+    else
+        for (int i = 0; i < 3; i++) out_q30[i] = s->normal_q30[0][i];
 }
 
 GN_HOT static inline int64_t absolute(int64_t v)
@@ -79,7 +87,7 @@ GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache,
         for (int i = 0; i < 3; i++) s->normal_q30[k][i] = 0;
     if (s->object->flags & GN_OBJECT_UNLIT && !GN_RAW_VIEWS) return;
     if (!GN_VERTEX_NORMALS || !mesh->nrm_q15) {
-        gn_surface_face(frame, s, s->normal_q30[0]);
+        find_face(frame, s, s->normal_q30[0]);
         return;
     }
     int32_t n[3][3];
@@ -261,14 +269,12 @@ GN_HOT static int vertex_cosines(const gn_surface *s, const gn_light_state *ligh
 
 GN_HOT static void directional_lights(const gn_frame *frame, gn_surface *s)
 {
-    gn_length length = {0, 0};
-    if (!GN_SMOOTH(s)) length = gn_length_of(GN_K(frame, newton_steps), s->normal_q30[0]);
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         const gn_light_state *light = &frame->light[l];
         GN_ELEMENT(light);
         if (light->kind != GN_LIGHT_DIRECTIONAL || light->off) continue;
         if (!GN_SMOOTH(s)) {
-            int32_t cosine = gn_length_cosine_q24(length, s->normal_q30[0], light->to_light_q30);
+            int32_t cosine = (int32_t)gn_shr64(gn_dot64(s->normal_q30[0], light->to_light_q30), 36);
             if (cosine <= GN_GRAZING_Q24) continue;
             s->light[s->n_lights].cosine_q24[0] = cosine;
         } else if (GN_K(frame, vertex_light) && !vertex_cosines(s, light, s->light[s->n_lights].cosine_q24)) continue;
