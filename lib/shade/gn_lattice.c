@@ -191,11 +191,22 @@ GN_HOT static int32_t cell_log2(const gn_frame *frame, const gn_surface *s, cons
     return log2;
 }
 
+/* Cells, or a window, cost as much as these pixels do by themselves. */
+enum { FEW_OF_ONE_COLOUR = 3, FEW = 16 };
+
+GN_HOT static int has_few_pixels(const gn_lattice *l)
+{
+    int32_t n = 0;
+    for (int32_t i = 0; i < l->n_spans; i++) n += l->span[i].n_px;
+    return n <= (l->uniform ? FEW_OF_ONE_COLOUR : FEW);
+}
+
 GN_HOT void gn_lattice_shade(gn_shading *s)
 {
     gn_lattice *l = &s->lattice;
     gn_rect box = box_of(l);
-    if (!gn_corner_begin(l, s->frame, &s->surface, &box)) {
+    gn_part_begin(s);
+    if (has_few_pixels(l) || !gn_corner_begin(l, s->frame, &s->surface, &box)) {
         for (int32_t i = 0; i < l->n_spans; i++)
             for (int32_t k = 0; k < l->span[i].n_px; k++) gn_exact_pixel(s, l->span[i].x + k, l->span[i].y);
         return;
@@ -206,7 +217,6 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     l->y_end = box.y1;
     l->has_face = 0;
     l->offset_view = NULL;
-    gn_part_begin(s);
     forget_windows(l);
     for (l->y = box.y0; l->y < box.y1; l->y += l->n_rows) {
         for (l->x = box.x0; l->x < box.x1; l->x = l->part_end) {
