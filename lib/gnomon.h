@@ -92,7 +92,8 @@ extern "C" {
     X(GN_ERR_TRIANGLES_FULL, "more visible triangles than GN_MAX_TRIANGLES")                                           \
     X(GN_ERR_TILE_REFS_FULL, "more tile references than GN_MAX_TILE_REFS")                                             \
     X(GN_ERR_CONFIG,                                                                                                   \
-      "program and library were compiled with different configurations: the size of gn_renderer or a knob differs")
+      "program and library were compiled with different configurations: the size of gn_renderer or a knob differs")    \
+    X(GN_ERR_REENTERED, "the flush callback called the renderer that was drawing")
 
 #define GN_STATUS_ENUM_(name, text) name,
 typedef enum { GN_STATUS_LIST(GN_STATUS_ENUM_) GN_STATUS_COUNT } gn_status;
@@ -449,7 +450,12 @@ static inline gn_status gn_init(gn_renderer *r, const gn_picture *picture)
     return gn_init_as(r, picture, sizeof(gn_renderer), GN_CONFIG_SIGNATURE);
 }
 
-/* One frame: begin, all shadow tiles, prepare, all screen tiles. Nothing is flushed if it fails. */
+/* One frame: begin, all shadow tiles, prepare, all screen tiles. Nothing is flushed if it fails, but for a callback
+ * that calls its own renderer: what begins or draws is refused with GN_ERR_REENTERED, and the frame goes on; after
+ * gn_init in the callback the frame ends with that error. In steps (below) the caller keeps the order: a screen tile
+ * fails so if its callback has left the renderer in another stage; a second tile with the same scratch, or a whole
+ * frame, in the callback are not seen. Other renderers may be called. A callback must return; if it did not, call
+ * gn_init. */
 gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user);
 
 /* The same in steps, for time slicing and several cores. The scene must stay unchanged until the last screen tile. */

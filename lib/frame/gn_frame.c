@@ -39,7 +39,13 @@
 #include "shade/gn_pixel.h"
 #include "visible/gn_screen_rect.h"
 
-enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED };
+/* Drawing: gn_render has the frame, and its flush callback must leave it alone. */
+enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED, GN_STAGE_DRAWING };
+
+static gn_status wrong_stage(const gn_frame *frame)
+{
+    return frame->stage == GN_STAGE_DRAWING ? GN_ERR_REENTERED : GN_ERR_ORDER;
+}
 
 #if GN_RUNTIME_KNOBS
 #define GN_KNOB_DEFAULT_(name, MACRO, lo, hi, meaning, cost) frame->knobs.name = GN_##MACRO;
@@ -91,7 +97,7 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
 {
     if (!r) return GN_ERR_NULL;
     gn_frame *frame = &r->frame;
-    if (frame->stage == GN_STAGE_NONE) return gn_fail(frame, GN_ERR_ORDER, 0);
+    if (frame->stage == GN_STAGE_NONE || frame->stage == GN_STAGE_DRAWING) return gn_fail(frame, wrong_stage(frame), 0);
     frame->stage = GN_STAGE_INIT;
     frame->n_views = 0;
     if (!scene) return gn_fail(frame, GN_ERR_NULL, 0);
@@ -128,7 +134,7 @@ gn_status gn_shadow_tile(gn_renderer *r, uint32_t tile_idx)
 {
     if (!r) return GN_ERR_NULL;
     gn_frame *frame = &r->frame;
-    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, GN_ERR_ORDER, 0);
+    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, wrong_stage(frame), 0);
     if (tile_idx >= frame->n_views) return gn_fail(frame, GN_ERR_INDEX, tile_idx);
 #if GN_SHADOWS
     gn_status status =
@@ -144,7 +150,7 @@ gn_status gn_prepare(gn_renderer *r)
 {
     if (!r) return GN_ERR_NULL;
     gn_frame *frame = &r->frame;
-    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, GN_ERR_ORDER, 0);
+    if (frame->stage != GN_STAGE_BEGUN) return gn_fail(frame, wrong_stage(frame), 0);
 #if GN_SHADOWS
     for (uint32_t i = 0; i < frame->n_views; i++)
         if (!frame->view[i].tile_done) return gn_fail(frame, GN_ERR_ORDER, i);
@@ -166,31 +172,40 @@ uint32_t gn_screen_tile_count(const gn_renderer *r)
 }
 
 /* What is visible. */
-static gn_status begin_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush)
+static gn_status begin_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush,
+                            enum gn_stage stage)
 {
     if (!frame || !scratch || !flush) return GN_ERR_NULL;
-    if (frame->stage != GN_STAGE_PREPARED) return GN_ERR_ORDER;
+    if (frame->stage != stage) return wrong_stage(frame);
     if (tile_idx >= (uint32_t)frame->tiles_x * frame->tiles_y) return GN_ERR_INDEX;
     gn_raster_tile(frame, scratch, tile_idx);
     return GN_OK;
 }
 
-/* A function of its own, so that its stack frame is gone before drawing. */
-static GN_NOINLINE void flush_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush,
-                                   void *user)
+/* A function of its own, so that its stack frame is gone before drawing. Another stage afterwards: the callback has
+ * begun another frame, and the rest of this one is gone. */
+static GN_NOINLINE gn_status flush_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx,
+                                        gn_flush_fn flush, void *user)
 {
+    const uint8_t stage = frame->stage;
     gn_rect rect = gn_screen_rect(frame, tile_idx);
     flush(user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0, scratch->pixel.bytes);
+    return frame->stage == stage ? GN_OK : GN_ERR_REENTERED;
 }
 
 /* Writes only the scratch: every core has its own, and all cores read the same frame. [R1] [R7] */
-gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
+static gn_status screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush,
+                             void *user, enum gn_stage stage)
 {
-    gn_status status = begin_tile(frame, scratch, tile_idx, flush);
+    gn_status status = begin_tile(frame, scratch, tile_idx, flush, stage);
     if (status) return status;
     gn_shade_tile(frame, scratch, tile_idx);
-    flush_tile(frame, scratch, tile_idx, flush, user);
-    return GN_OK;
+    return flush_tile(frame, scratch, tile_idx, flush, user);
+}
+
+gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush, void *user)
+{
+    return screen_tile(frame, scratch, tile_idx, flush, user, GN_STAGE_PREPARED);
 }
 
 /* Signature of a finished tile's bytes. [R6] */
@@ -210,20 +225,25 @@ static uint64_t tile_signature(const gn_frame *frame, const gn_scratch *scratch,
 }
 
 /* Flushes a tile only if its bytes differ from the panel's. [R6] */
-gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
-                                    gn_flush_fn flush, void *user, uint32_t *flushed)
+static gn_status screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
+                                        gn_flush_fn flush, void *user, uint32_t *flushed, enum gn_stage stage)
 {
     if (flushed) *flushed = 0;
     if (!panel) return GN_ERR_NULL;
-    gn_status status = begin_tile(frame, scratch, tile_idx, flush);
+    gn_status status = begin_tile(frame, scratch, tile_idx, flush, stage);
     if (status) return status;
     gn_shade_tile(frame, scratch, tile_idx);
     uint64_t signature = tile_signature(frame, scratch, tile_idx);
     if (panel->signature[tile_idx] == signature) return GN_OK;
     panel->signature[tile_idx] = signature;
-    flush_tile(frame, scratch, tile_idx, flush, user);
     if (flushed) *flushed = 1;
-    return GN_OK;
+    return flush_tile(frame, scratch, tile_idx, flush, user);
+}
+
+gn_status gn_screen_tile_if_changed(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_panel *panel,
+                                    gn_flush_fn flush, void *user, uint32_t *flushed)
+{
+    return screen_tile_if_changed(frame, scratch, tile_idx, panel, flush, user, flushed, GN_STAGE_PREPARED);
 }
 
 /* All stages of a frame before its screen tiles. */
@@ -231,7 +251,17 @@ static gn_status prepare_frame(gn_renderer *r, const gn_scene *scene)
 {
     gn_status status = gn_begin(r, scene);
     for (uint32_t i = 0; !status && i < gn_shadow_tile_count(r); i++) status = gn_shadow_tile(r, i);
-    return status ? status : gn_prepare(r);
+    if (!status) status = gn_prepare(r);
+    if (!status) r->frame.stage = GN_STAGE_DRAWING;
+    return status;
+}
+
+/* After the screen tiles: they fail only by what their callback did. */
+static gn_status end_frame(gn_frame *frame, gn_status status)
+{
+    if (status) return gn_fail(frame, status, 0);
+    frame->stage = GN_STAGE_PREPARED;
+    return GN_OK;
 }
 
 gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *panel, gn_flush_fn flush, void *user,
@@ -242,12 +272,13 @@ gn_status gn_render_changes(gn_renderer *r, const gn_scene *scene, gn_panel *pan
     if (!r) return GN_ERR_NULL;
     if (!flush || !panel) return gn_fail(&r->frame, GN_ERR_NULL, 0);
     gn_status status = prepare_frame(r, scene);
+    if (status) return status;
     for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++) {
-        status = gn_screen_tile_if_changed(&r->frame, &r->scratch, i, panel, flush, user, &one);
+        status = screen_tile_if_changed(&r->frame, &r->scratch, i, panel, flush, user, &one, GN_STAGE_DRAWING);
         n += one;
     }
     if (n_flushed) *n_flushed = n;
-    return status;
+    return end_frame(&r->frame, status);
 }
 
 gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user)
@@ -255,9 +286,10 @@ gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, vo
     if (!r) return GN_ERR_NULL;
     if (!flush) return gn_fail(&r->frame, GN_ERR_NULL, 0);
     gn_status status = prepare_frame(r, scene);
+    if (status) return status;
     for (uint32_t i = 0; !status && i < gn_screen_tile_count(r); i++)
-        status = gn_screen_tile(&r->frame, &r->scratch, i, flush, user);
-    return status;
+        status = screen_tile(&r->frame, &r->scratch, i, flush, user, GN_STAGE_DRAWING);
+    return end_frame(&r->frame, status);
 }
 
 const gn_stats *gn_get_stats(const gn_renderer *r)

@@ -135,8 +135,6 @@ static gn_status check_object(gn_frame *frame, const gn_object *object, uint32_t
     for (uint32_t i = 0; i < object->mesh->n_vertices; i++)
         if (!gn_scene_position_ok(object->mesh, i)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, idx);
 #endif
-    /* gn_xform: positions with few fraction bits under a large scale would need a left shift */
-    if (object->mesh->pos_frac_bits + 14 < object->to_world.exp) return gn_fail(frame, GN_ERR_OBJECT_TRANSFORM, idx);
     return check_material(frame, object, idx);
 }
 

@@ -119,7 +119,7 @@ cmp -s "$tmp/committed" "$tmp/drawn" && pass ||
     fail "$gallery is not what docs/gallery.sh makes: make docs ($(diff "$tmp/committed" "$tmp/drawn" | sed -n 2p))"
 # Pixel by pixel both engines agree. Cells are further from the reference, but no picture as far as shadow maps are from
 # exact shadows at their best, 37 dB; of one bit a pixel is black or white.
-GALLERY_SET='--set persp_step=1' sh docs/gallery.sh "$tool" "$tmp/exact" >"$tmp/log" 2>&1 || fail "docs/gallery.sh fails: $(tail -n 1 "$tmp/log")"
+GALLERY_SET='--size 120x90 --set persp_step=1' sh docs/gallery.sh "$tool" "$tmp/exact" >"$tmp/log" 2>&1 || fail "docs/gallery.sh fails: $(tail -n 1 "$tmp/log")"
 for kind in exact again; do
     awk -v kind=$kind '/^`gnomon/ { command = $0 }
         /^identical / {

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Off means absent: a feature that is not built leaves no symbol and takes no flash. And no call of the compiler's library but for what a core lacks.
 # Sizes are of Cortex-M3 where its compiler is installed, else of this machine. "--table" prints them.
-# That nothing is called which is not there, without optimisation, too, is for tests/property/test_config.sh to find.
+# That nothing is called which is not there: here of all but one feature, at -Og; without optimisation in tests/property/test_config.sh.
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
@@ -61,6 +61,7 @@ for feature in $features; do
     # The alpha of casters keeps the textures' records.
     [ "$(under $feature | cut -d ' ' -f 1)" != SHADOWS ] || [ $feature = CASTER_ALPHA ] || idle="$idle $feature"
     without "$feature"
+    ${prefix}nm -u "$tmp/all-$feature.o" | grep ' gn_' >"$tmp/found" && fail "$feature is off, and missed: $(tr -s ' \n' ' ' <"$tmp/found")" || pass
     saved=$((all - $(size_of "all-$feature")))
     # a constant that a check compares with is no code
     if [ $saved -ge -64 ]; then pass; else fail "$feature: off saves $saved bytes of all"; fi

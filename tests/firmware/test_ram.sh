@@ -56,15 +56,17 @@ size_of() { # by bisection: for messages
     echo $high
 }
 
+# the library's default capacities
+sets=
+for key in max_width max_height max_triangles max_tile_refs max_lights surface_lights max_objects max_shadow_tiles max_other_tiles vertex_cache; do
+    macro=GN_$(echo $key | tr a-z A-Z)
+    sets="$sets $key=$(printf '#include "gn_config.h"\nGN_%s\n' "${macro#GN_}" | gcc -E -P -Ilib - | tail -n 1 | sed 's/^(0 ? [0-9]* : \([0-9]*\))$/\1/')"
+done
 # predicted PRESET KEY=VALUE...: the tool and the compiler agree
 predicted() {
     preset=$1
     shift
-    flags="-DGN_PRESET=GN_PRESET_$(echo "$preset" | tr a-z A-Z)" sets=
-    for key in max_width max_height max_triangles max_tile_refs max_lights surface_lights max_objects max_shadow_tiles max_other_tiles vertex_cache; do
-        macro=GN_$(echo $key | tr a-z A-Z)
-        sets="$sets $key=$(printf '#include "gn_config.h"\nGN_%s\n' "${macro#GN_}" | gcc -E -P -Ilib - | tail -n 1 | sed 's/^(0 ? [0-9]* : \([0-9]*\))$/\1/')"
-    done
+    flags="-DGN_PRESET=GN_PRESET_$(echo "$preset" | tr a-z A-Z)"
     for set in "$@"; do flags="$flags -DGN_$(echo "${set%%=*}" | tr a-z A-Z)=${set#*=}"; done
     ram=$("$tmp/ram" "$preset" $sets "$@")
     if size_is "== $ram" $flags; then pass; else fail "RAM with $flags: predicted $ram, is $(size_of $flags)"; fi

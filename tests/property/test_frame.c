@@ -1,5 +1,6 @@
 /* The public interface: the same bytes whatever was drawn before, whatever the tiles, in whatever order; two renderers;
  * what a light's fields do to a frame. What is refused is in test_refused.c. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -192,6 +193,44 @@ static void test_one_vertex_colour(void)
     }
     CHECK_EQ_INT(crc[2], crc[1]);
     CHECK(crc[0] && crc[1] && crc[0] != crc[1] && crc[3] != crc[2] && crc[4] != crc[3]);
+}
+
+/* Baked light differs from vertex to vertex, channel by channel: what is drawn is the interpolation of the three, of a
+ * triangle parallel to the picture. [M9] */
+static void test_baked_vertices(void)
+{
+    enum { SIZE = 64 };
+    static const int32_t pos[9] = {GN_Q16(-2), GN_Q16(-2), GN_Q16(-2), GN_Q16(2), GN_Q16(-2),
+                                   GN_Q16(-2), GN_Q16(-2), GN_Q16(2),  GN_Q16(-2)};
+    static const uint16_t idx[3] = {0, 1, 2}, baked[9] = {4096, 1024, 2048, 1200, 4000, 3000, 2500, 2000, 1100};
+    const gn_mesh mesh = {.pos = pos, .idx = idx, .n_vertices = 3, .n_triangles = 1, .pos_frac_bits = 16};
+    const gn_picture p = picture_of(SIZE, SIZE, GN_FORMAT_RGB888);
+    int worst = 0, n = 0;
+    canvas c;
+    canvas_begin(&c, SIZE, SIZE, GN_FORMAT_RGB888);
+    demo_scene_make(&demo, 0);
+    gn_object object = demo.object[0];
+    gn_affine_identity(&object.to_world);
+    gn_affine_identity(&demo.scene.camera.to_world);
+    object.mesh = &mesh, object.baked_uq12 = baked;
+    for (int k = 0; k < 3; k++) object.albedo_uq16[k] = 65536, demo.scene.ambient_uq16[k] = 0;
+    demo.scene.camera.focal_q24 = GN_Q24(1); /* the triangle's legs are the picture's left and lower edge */
+    demo.scene.objects = &object, demo.scene.n_objects = 1, demo.scene.n_lights = 0;
+    CHECK(gn_init(&one, &p) == GN_OK && gn_render(&one, &demo.scene, flush, &c) == GN_OK);
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < y; x++) { /* inside, and not at the long edge */
+            const double b1 = (x + 0.5) / SIZE, b2 = (SIZE - y - 0.5) / SIZE;
+            for (int k = 0; k < 3; k++) {
+                const double v = ((1 - b1 - b2) * baked[k] + b1 * baked[3 + k] + b2 * baked[6 + k]) / 4096;
+                const double srgb = v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055;
+                const int apart = abs(c.pixels[3 * (y * SIZE + x) + k] - (int)(255 * srgb + 0.5));
+                worst = apart > worst ? apart : worst, n++;
+            }
+        }
+    CHECK(n > 5000);
+    CHECK(worst <= 2);
+    if (worst > 2) printf("  %d levels\n", worst);
+    canvas_end(&c);
 }
 
 /* Only mixed lights have masks. [M5] */
@@ -460,6 +499,7 @@ int main(void)
     test_automatic_by_default();
     test_many_bright_lights();
     test_one_vertex_colour();
+    test_baked_vertices();
     test_mask_of_mixed_lights();
     test_caster_moved_into_view();
     test_disk_offset_per_cascade();

@@ -4,13 +4,13 @@
 cd "$(dirname "$0")/../.." || exit 1
 . tests/support/check.sh
 
-gcc -std=c99 -w -O0 -Ilib -c lib/gnomon.c -o "$tmp/gnomon.o" || fail "the library does not compile"
+clang -std=c99 -w -O0 -Ilib -c lib/gnomon.c -o "$tmp/gnomon.o" || fail "the library does not compile"
 
 # mixed WHAT EXPECTED FLAGS...: what gn_init says to a program with these flags
 mixed() {
     what=$1 expected=$2
     shift 2
-    if ! gcc -std=c99 -Wall -Wextra -Werror -O0 -Ilib "$@" -o "$tmp/$what" tests/property/init_mixed.c "$tmp/gnomon.o" 2>"$tmp/$what.log"; then
+    if ! clang -std=c99 -Wall -Wextra -Werror -O0 -Ilib "$@" -o "$tmp/$what" tests/property/init_mixed.c "$tmp/gnomon.o" 2>"$tmp/$what.log"; then
         echo "$what: does not compile: $(grep -m 1 error "$tmp/$what.log")"
     elif [ "$("$tmp/$what")" != "$expected" ]; then echo "$what: $("$tmp/$what"), not $expected"; fi >"$tmp/$what.found"
     rm -f "$tmp/$what"
@@ -81,18 +81,18 @@ for part in $(find lib -mindepth 2 -name '*.c'); do
     else fail "$part: $(grep -m 1 error "$tmp/log")"; fi
 done
 if awk -f boards/packages/one_file.awk -v root=lib lib/gnomon.c >"$tmp/one.c" &&
-    gcc -std=c99 -w -O0 -c "$tmp/one.c" -o "$tmp/one.o" 2>"$tmp/log" &&
+    clang -std=c99 -w -O0 -c "$tmp/one.c" -o "$tmp/one.o" 2>"$tmp/log" &&
     [ "$(size "$tmp/one.o" | awk 'NR == 2 { print $4 }')" = "$(size "$tmp/gnomon.o" | awk 'NR == 2 { print $4 }')" ]; then pass
 else fail "the library written into one file: $(grep -m 1 error "$tmp/log")"; fi
 
 # ---- Two libraries in one program ------------------------------------------------------------------------------------------
 
-sh host/generate/gen_prefix.sh >"$tmp/gn_prefix.h"
+CC=clang sh host/generate/gen_prefix.sh >"$tmp/gn_prefix.h"
 cmp -s "$tmp/gn_prefix.h" lib/gn_prefix.h && pass || fail "lib/gn_prefix.h does not name every symbol of the library: make prefix"
 for which in general compact; do
     flags="-DGN_PREFIX=${which}_"
     [ $which = general ] || flags="$flags -DGN_COMPACT=1"
-    gcc -std=c99 -w -O0 -Ilib $flags -c lib/gnomon.c -o "$tmp/$which.lib.o" &&
+    clang -std=c99 -w -O0 -Ilib $flags -c lib/gnomon.c -o "$tmp/$which.lib.o" &&
         gcc -std=c99 -Wall -Wextra -Werror -O0 -Ilib $flags -DDRAW=draw_$which -c tests/property/two_libraries.c -o "$tmp/$which.o"
 done
 if gcc -Wall -o "$tmp/two" tests/property/two_libraries.c "$tmp"/general.o "$tmp"/general.lib.o "$tmp"/compact.o "$tmp"/compact.lib.o 2>"$tmp/log" &&

@@ -727,7 +727,8 @@ static void test_status_texts(void)
     }
     CHECK(strcmp(gn_status_text(GN_STATUS_COUNT), "unknown status") == 0);
     CHECK(strcmp(gn_status_text((gn_status)-1), "unknown status") == 0);
-    /* Need a smaller capacity than this build has: test_config.sh provokes them. */
+    /* Need a smaller capacity than this build has: test_config.sh provokes them; test_reentry.c the last. */
+    provoked[GN_ERR_REENTERED] = 1;
     provoked[GN_OK] = provoked[GN_ERR_SURFACE_LIGHTS] = provoked[GN_ERR_ATLAS_FULL] = 1;
     for (int i = 0; i < GN_STATUS_COUNT; i++)
         if (!CHECK(provoked[i])) printf("%s was not provoked\n", names[i]);
@@ -828,8 +829,59 @@ static void test_order(void)
     canvas_end(&c);
 }
 
+/* Rows of a camera at right angles and of unit length within 2^-20, at the limit of each, for each axis. */
+static void test_camera_rotation(void)
+{
+    static const struct {
+        int row, column;
+        int32_t less, expected; /* of that element in Q30: from 1 on the diagonal, from 0 beside it */
+    } cases[] = {{0, 0, 512, 1},   {1, 1, 512, 1},  {2, 2, 512, 1},   {0, 0, 513, 0},   {1, 1, 513, 0},
+                 {2, 2, 513, 0},   {0, 1, 1024, 1}, {1, 2, 1024, 1},  {2, 0, 1024, 1},  {0, 1, 1025, 0},
+                 {1, 2, 1025, 0},  {2, 0, 1025, 0}, {0, 1, -1024, 1}, {1, 0, -1025, 0}, {2, 1, -1025, 0},
+                 {0, 2, -1025, 0}, {0, 0, -1, 0}};
+    const gn_picture p = picture_of(24, 16, GN_FORMAT_RGB565);
+    CHECK(gn_init(&one, &p) == GN_OK);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        demo_scene_make(&demo, 0);
+        gn_affine *a = &demo.scene.camera.to_world;
+        gn_affine_identity(a);
+        a->m_q30[cases[i].row][cases[i].column] -= cases[i].less;
+        CHECK_EQ_INT(gn_begin(&one, &demo.scene), cases[i].expected ? GN_OK : GN_ERR_CAMERA_TRANSFORM);
+    }
+}
+
+/* After a begin that fails nothing is there to be drawn, and nothing is said of the frame before. */
+static void test_counts_after_failure(void)
+{
+    const gn_picture p = picture_of(24, 16, GN_FORMAT_RGB565);
+    const gn_stats none = {0};
+    canvas c;
+    canvas_begin(&c, 24, 16, GN_FORMAT_RGB565);
+    for (int way = 0; way < 4; way++) {
+        uint32_t n_tiles = 1, texels = 1;
+        gn_tile_info info;
+        full_scene();
+        CHECK(gn_init(&one, &p) == GN_OK);
+        CHECK(gn_render(&one, &demo.scene, flush, &c) == GN_OK);
+        CHECK(gn_shadow_tile_count(&one) > 0 && gn_get_stats(&one)->n_triangles > 0);
+        CHECK(gn_get_light_shadow(&one, 0, &n_tiles, &texels) == GN_SHADOW_REALTIME && n_tiles > 0 && texels > 0);
+        if (way == 1) demo.scene.camera.near_q16 = 0;
+        if (way == 2) demo.scene.n_lights = GN_MAX_LIGHTS + 1;
+        if (way == 3) demo.scene.objects = NULL;
+        CHECK(gn_begin(&one, way ? &demo.scene : NULL) != GN_OK);
+        CHECK_EQ_INT(gn_shadow_tile_count(&one), 0);
+        CHECK(gn_get_light_shadow(&one, 0, &n_tiles, &texels) == GN_SHADOW_NOT_WANTED && !n_tiles && !texels);
+        CHECK_EQ_INT(gn_get_shadow_tile(&one, 0, 0, &info), 0);
+        CHECK(gn_shadow_tile(&one, 0) == GN_ERR_ORDER && gn_prepare(&one) == GN_ERR_ORDER);
+        if (way) CHECK(memcmp(gn_get_stats(&one), &none, sizeof none) == 0);
+    }
+    canvas_end(&c);
+}
+
 int main(void)
 {
+    test_camera_rotation();
+    test_counts_after_failure();
     test_other_configuration();
     test_refused_scenes();
     test_bounds();

@@ -11,10 +11,12 @@ strict="-std=c99 -pedantic-errors $warn -Ilib"
 if gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $warn -Itests -o "$tmp/same" tests/tool/same_pictures.c host/scene/image/*.c host/base/arena.c -lm \
     >"$tmp/log" 2>&1; then pass; else fail "same_pictures: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
 
-# build NAME: the firmware of build/tmp/.../NAME as a program; what was written, without a warning
+# build NAME: the firmware of build/tmp/.../NAME as a program; what was written, without a warning. Clang compiles it in a third of
+# gcc's time; gcc, which keeps functions that nobody calls, the whole scenes.
 build() {
+    case $1 in *-tiny | *-fast | *-balanced | *-accurate) compiler=gcc ;; *) compiler=clang ;; esac
     gcc $strict -fsyntax-only -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' "$tmp/$1/scene.c" 2>"$tmp/$1/log" &&
-        gcc -std=c99 -w -O0 -Ilib -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/$1/run" lib/gnomon.c "$tmp/$1/scene.c" \
+        $compiler -std=c99 -w -O0 -Ilib -I"$tmp/$1" '-DGN_USER_CONFIG="gn_scene_config.h"' -o "$tmp/$1/run" lib/gnomon.c "$tmp/$1/scene.c" \
             tests/tool/compiled_picture.c 2>"$tmp/$1/log"
 }
 
