@@ -82,7 +82,7 @@ function errorOf(a, b) {
 function sameShare(a, b) {
   let same = 0;
   for (let i = 0; i < a.rgba.length; i += 4) same += a.rgba[i] === b.rgba[i] && a.rgba[i + 1] === b.rgba[i + 1] && a.rgba[i + 2] === b.rgba[i + 2];
-  return `${((400 * same) / a.rgba.length).toFixed(1)} % of pixels the same`;
+  return `${((400 * same) / a.rgba.length).toFixed(1)} % of pixels alike`;
 }
 
 function fits(a, b) {
@@ -95,6 +95,7 @@ function showOthers() {
   const {fixed, [from]: other} = others;
   $('frame').hidden = four;
   $('four').hidden = !four;
+  $('against-field').hidden = mode() === 'one';
   const split = mode() === 'split', ready = split && fits(fixed, other);
   for (const id of ['split', 'edge', 'other', 'right-tag']) $(id).hidden = !split;
   $('other').style.visibility = ready ? '' : 'hidden';
@@ -179,7 +180,7 @@ function tellScene(remarks) {
     $('notes').append(item);
   }
   for (const row of document.querySelectorAll('[data-only]')) row.hidden = info && !hasLight(row.dataset.only);
-  $('sun').disabled = info && !hasLight('directional');
+  $('sun-row').hidden = Boolean(info) && !hasLight('directional');
   tellKnobs();
 }
 
@@ -209,7 +210,7 @@ function framesPerSecond(instructions) {
 function tellSpeed(instructions) {
   const fps = framesPerSecond(instructions);
   $('fps').textContent = fps >= 9.95 ? fps.toFixed(0) : fps >= 0.995 ? fps.toFixed(1) : fps.toFixed(2);
-  $('fps-how').textContent = `estimated: ${state.mhz} MHz${state.board.assumed ? ' (assumed)' : ''}, ${state.board.core.cycles} cycles per instruction, one core, without the display`;
+  $('fps-how').textContent = `By the tool's cost model: ${state.mhz} MHz${state.board.assumed ? ' (assumed)' : ''}, ${state.board.core.cycles} cycles per instruction, one core at work, the display not counted.`;
   $('instructions').textContent = (targetInstructions(instructions) / 1e6).toFixed(1);
 }
 
@@ -724,6 +725,7 @@ function listenToFiles() {
 
 function listen() {
   listenToTurns($('picture'));
+  listenToTurns($('turns'));
   listenToFiles();
   $('split').addEventListener('input', () => $('frame').style.setProperty('--at', `${$('split').value / 10}%`));
   for (const input of [...document.querySelectorAll('[name=mode]'), $('against')]) input.addEventListener('change', () => (showOthers(), schedule()));
