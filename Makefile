@@ -98,7 +98,7 @@ report: $(BUILD)/gnomon $(BUILD)/make_report ## one page of pictures, metrics an
 playground: $(BUILD)/playground.html ## one page with the whole tool in it, for any browser: build/playground.html
 
 test-playground: ## the playground in node and in a headless browser; installs what it needs
-	@sh tests/web/test_playground.sh
+	@sh tests/web/playground.sh
 
 tables: $(BUILD)/gen_tables ## regenerate lib/base/gn_tables.c
 	$(BUILD)/gen_tables > lib/base/gn_tables.c

@@ -11,7 +11,8 @@ const ERROR_GAIN = 8; // as in gnomon compare
 const state = {scene: null, yaw: 0, pitch: 0, zoom: 1, hour: -1, frame: 0, preset: '', sets: {...DEFAULTS}, board: null, mhz: 0, view: 'colour'};
 const files = new Map();
 let live, slow, queue, boards, meanings;
-let info = null; // of the picture that is seen
+let info = null; // of the picture that is seen; null: there is none
+let facts = null; // of the last picture that there was
 let drawing = false, stale = false, playing = false, spinning = false;
 const others = {}; // pictures beside it, by engine
 const prices = new Map();
@@ -124,7 +125,6 @@ async function draw() {
     return;
   }
   drawing = true;
-  document.documentElement.dataset.busy = '1';
   const drawn = state.scene;
   const answer = await live.ask({draw: pictureWords(), view: viewOf()});
   drawing = false;
@@ -142,11 +142,12 @@ function take(answer) {
   if (answer.status !== 0) {
     $('error').textContent = say(answer.err).join('\n') || 'It cannot be drawn.';
     info = null;
+    if (!others.fixed) $('picture').getContext('2d').clearRect(0, 0, $('picture').width, $('picture').height);
     tellScene([]);
     return;
   }
   const first = !info;
-  info = answer.info;
+  info = facts = answer.info;
   const picture = {width: info.width, height: info.height, rgba: answer.rgba};
   others.fixed = picture;
   show($('picture'), picture);
@@ -158,6 +159,7 @@ function take(answer) {
   if (first) tellScene(say(answer.err));
   tellSpeed(info.instructions);
   tellTime();
+  tellCommand();
   showOthers();
 }
 
@@ -273,18 +275,11 @@ function settle() {
   queue.clear();
   if (!info) {
     tellMemory(null);
-    idle();
     return;
   }
   price({}, tellMemory);
   if (mode() !== 'one') compare();
   tellKnobs();
-  idle();
-}
-
-async function idle() {
-  while (queue.busy) await new Promise((done) => setTimeout(done, 50));
-  if (!drawing && !stale) delete document.documentElement.dataset.busy;
 }
 
 function compare() {
@@ -305,7 +300,7 @@ function compare() {
 // ---- Knobs -----------------------------------------------------------------------------------------------------------
 
 function knobValue(knob) {
-  return state.sets[knob.key] || knobDefault(knob, info);
+  return state.sets[knob.key] || knobDefault(knob, facts);
 }
 
 function knobIndex(knob) {
@@ -374,7 +369,7 @@ function tellStep(button, knob, value) {
 function tellKnobs() {
   for (const knob of KNOBS) tellKnob(knob);
   for (const preset of PRESETS) $(`preset-${preset}`).checked = state.preset === preset;
-  $('reset').hidden = !state.preset && KNOBS.every((knob) => !(knob.key in state.sets) || state.sets[knob.key] === DEFAULTS[knob.key]);
+  $('reset').hidden = !state.preset && Object.entries(state.sets).every(([key, value]) => value === DEFAULTS[key]);
   tellCommand();
   if (!info || playing || spinning) return;
   price({}, (now) => {
@@ -393,7 +388,8 @@ function priceOfKnob(knob, now) {
     price({[knob.key]: value}, (then) => {
       button.classList.remove('waits');
       button.querySelector('span').textContent = then.error ? 'cannot be' : stepText(now, then);
-      button.classList.toggle('no', Boolean(then.error) || !then.fits);
+      button.classList.toggle('no', Boolean(then.error) || (now.fits && !then.fits));
+      button.classList.toggle('yes', !now.fits && Boolean(then.fits));
       button.disabled = Boolean(then.error);
     });
   }
