@@ -128,7 +128,7 @@ $(BUILD)/make_report: $(patsubst %,$(BUILD)/obj/host/%.o, report/make_report rep
 # The tool for the page: the same sources as WebAssembly, but for the one that starts processes.
 WASM_CC ?= clang --target=wasm32-wasi -isystem /usr/include/wasm32-wasi
 WASM_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $(WARN) -Ilib $(HOST_KNOBS) -DSLOW_LIBRARY=0 -Dmain=gnomon_main
-WASM_SRC := $(filter-out %/sweep_target.c, $(HOST_SRC)) $(LIB_SRC) host/tool/main.c host/web/web.c host/web/no_target.c
+WASM_SRC := $(filter-out %/sweep_target.c, $(HOST_SRC)) $(LIB_SRC) host/tool/main.c $(wildcard host/web/*.c)
 WASM_OBJ := $(WASM_SRC:%.c=$(BUILD)/wasm/%.o)
 WEB := $(wildcard host/web/*.js host/web/*.css host/web/*.html host/web/*.ino host/web/*.txt) host/web/page.sh
 
@@ -140,7 +140,7 @@ $(BUILD)/wasm/%.o: %.c
 $(BUILD)/gnomon.wasm: $(WASM_OBJ)
 	@echo '  LD $@'
 	@$(WASM_CC) -O2 -mexec-model=reactor -L/usr/lib/wasm32-wasi -Wl,-z,stack-size=8388608 -Wl,--stack-first -Wl,--strip-all \
-	  -Wl,--wrap=scene_load -o $@ $^ -lm
+	  -Wl,--wrap=scene_load,--wrap=picture_decode_rgba8 -o $@ $^ -lm
 
 $(BUILD)/playground.html: $(BUILD)/gnomon.wasm $(WEB) $(wildcard host/scenes/*.gltf boards/*/link.ld) $(wildcard lib/*.h lib/*.c lib/*/*.h lib/*/*.c)
 	@echo '  PAGE $@'
@@ -211,7 +211,7 @@ ifneq ($(BOARD),)
 include boards/boards.mk
 endif
 
--include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
+-include $(shell find $(wildcard $(BUILD)/obj $(BUILD)/wasm) /dev/null -name "*.d")
 
 .PHONY: all help run playground test-playground deps test soak bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
 .SECONDARY:

@@ -161,6 +161,15 @@ async function checkFiles() {
   check((await browser.value(`$('error').hidden && info.triangles > 0`)), 'no picture after malformed files');
 }
 
+// As the document shows it.
+async function showPage() {
+  await choose('Mill');
+  await run(`document.querySelector('[value=split]').click()`);
+  await browser.until(`$('other').style.visibility === '' && $('right-tag').textContent === 'ray tracer' && !queue.busy`, 120);
+  await browser.screenshot(`${pictures}/playground.png`);
+  await run(`document.querySelector('[value=one]').click()`);
+}
+
 // What the page gives away, into the folder: the shell test compiles it.
 async function checkDownloads() {
   await choose('Cube');
@@ -206,6 +215,7 @@ async function main() {
   await browser.open(`file://${page}`, ...DESKTOP);
   if (!check(await browser.until(`${IDLE} && info`, 120), 'the page does not draw')) return;
   await checkLayout('desktop', DESKTOP, false);
+  await showPage();
   await checkScenes();
   await checkTurns();
   await checkKnobs();
