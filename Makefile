@@ -28,8 +28,8 @@ HOST_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L $(HOST_OPT) -g $(WARN) $(SAN) 
 
 # The library, part by part: what changes is compiled again, and tests see its functions. Users compile lib/gnomon.c.
 LIB_SRC := $(filter-out lib/compact/%, $(wildcard lib/*/*.c))
-# main.c has no place beside a test's main(); generators and the report page are programs of their own.
-HOST_SRC := $(filter-out host/tool/main.c host/generate/% host/report/%, $(sort $(shell find host -name '*.c')))
+# main.c has no place beside a test's main(); generators, the report page and the playground are programs of their own.
+HOST_SRC := $(filter-out host/tool/main.c host/generate/% host/report/% host/web/%, $(sort $(shell find host -name '*.c')))
 SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/generate/scenes/*.c))
 TEST_SRC := $(wildcard tests/*/test_*.c)
 TESTS := $(basename $(notdir $(TEST_SRC)))
@@ -95,6 +95,11 @@ report: $(BUILD)/gnomon $(BUILD)/make_report ## one page of pictures, metrics an
 	@sh host/report/report.sh $(BUILD)/gnomon $(SIZE) $(BUILD)/report $(patsubst %sundial.gltf,%sundial.gltf@48,$(OWN_SCENES)) $(SCENES)
 	@echo $(BUILD)/report/index.html
 
+playground: $(BUILD)/playground.html ## one page with the whole tool in it, for any browser: build/playground.html
+
+test-playground: ## the playground in node and in a headless browser; installs what it needs
+	@sh tests/web/playground.sh
+
 tables: $(BUILD)/gen_tables ## regenerate lib/base/gn_tables.c
 	$(BUILD)/gen_tables > lib/base/gn_tables.c
 
@@ -119,6 +124,27 @@ $(BUILD)/gen_tables: host/generate/gen_tables.c
 $(BUILD)/make_report: $(patsubst %,$(BUILD)/obj/host/%.o, report/make_report report/embed base/json base/arena)
 	@echo '  LD $@'
 	@$(CC) $(OPT) $(SAN) -o $@ $^ -lm
+
+# The tool for the page: the same sources as WebAssembly, but for the one that starts processes.
+WASM_CC ?= clang --target=wasm32-wasi -isystem /usr/include/wasm32-wasi
+WASM_CFLAGS := -std=c11 -D_POSIX_C_SOURCE=200809L -O2 $(WARN) -Ilib $(HOST_KNOBS) -DSLOW_LIBRARY=0 -Dmain=gnomon_main
+WASM_SRC := $(filter-out %/sweep_target.c, $(HOST_SRC)) $(LIB_SRC) host/tool/main.c $(wildcard host/web/*.c)
+WASM_OBJ := $(WASM_SRC:%.c=$(BUILD)/wasm/%.o)
+WEB := $(wildcard host/web/*.js host/web/*.css host/web/*.html host/web/*.ino host/web/*.txt) host/web/page.sh
+
+$(BUILD)/wasm/%.o: %.c
+	@mkdir -p $(@D)
+	@echo '  CC $< (WebAssembly)'
+	@$(WASM_CC) $(WASM_CFLAGS) -MMD -MP -c -o $@ $<
+
+$(BUILD)/gnomon.wasm: $(WASM_OBJ)
+	@echo '  LD $@'
+	@$(WASM_CC) -O2 -mexec-model=reactor -L/usr/lib/wasm32-wasi -Wl,-z,stack-size=8388608 -Wl,--stack-first -Wl,--strip-all \
+	  -Wl,--wrap=scene_load,--wrap=picture_decode_rgba8 -o $@ $^ -lm
+
+$(BUILD)/playground.html: $(BUILD)/gnomon.wasm $(WEB) $(wildcard host/scenes/*.gltf boards/*/link.ld) $(wildcard lib/*.h lib/*.c lib/*/*.h lib/*/*.c)
+	@echo '  PAGE $@'
+	@sh host/web/page.sh $@ $<
 
 # Of the host's scene code the generator has the PNG writer alone.
 SCENE_PNG := $(patsubst %,$(BUILD)/obj/host/scene/image/%.o, png_write deflate zlib_tables)
@@ -185,7 +211,7 @@ ifneq ($(BOARD),)
 include boards/boards.mk
 endif
 
--include $(shell test -d $(BUILD)/obj && find $(BUILD)/obj -name '*.d')
+-include $(shell find $(wildcard $(BUILD)/obj $(BUILD)/wasm) /dev/null -name "*.d")
 
-.PHONY: all help run deps test soak bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
+.PHONY: all help run playground test-playground deps test soak bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
 .SECONDARY:

@@ -10,6 +10,7 @@
 #   firmware/   boards, ports, displays, and what they take of flash, RAM and stack
 #   documents/  rules of the source, and documents that say what is so
 #   bench/      instructions against baselines
+#   web/        the playground in node and in a browser: make test-playground, not here: it takes minutes and a browser
 #
 # THOROUGH=1, as make soak runs it: also combinations whose parts are tested each.
 cd "$(dirname "$0")/.." || exit 1
