@@ -214,6 +214,9 @@
 #ifndef GN_VERTEX_COLOURS
 #define GN_VERTEX_COLOURS (!GN_COMPACT)
 #endif
+#ifndef GN_TILE_DRAWING
+#define GN_TILE_DRAWING (!GN_COMPACT)
+#endif
 #ifndef GN_VALIDATION
 #define GN_VALIDATION 1
 #endif

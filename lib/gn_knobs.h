@@ -108,6 +108,8 @@
       "the atlases' RAM twice")                                                                                        \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per sample")  \
+    X(tile_drawing, TILE_DRAWING, 0, 1, "a background gradient; the caller's drawing behind and over a screen tile",   \
+      "flash")                                                                                                         \
     X(validation, VALIDATION, 0, 1,                                                                                    \
       "scenes are checked before they are drawn; without, an invalid scene has undefined behaviour", "flash")          \
     X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats other than RGB565: RGB888, grey, one bit", "flash")           \

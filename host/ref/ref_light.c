@@ -69,12 +69,20 @@ static vec3 light_surface(ref_frame *frame, const ref_surface *at, size_t pixel)
     return t->object->unlit ? at->albedo : radiance;
 }
 
+/* Of a row of pixels, at its middle. [R11] */
+static vec3 background_at(const ref_frame *frame, int row)
+{
+    const vec3 top = vec3_load(frame->s->background), bottom = vec3_load(frame->s->background_bottom);
+    const double t = (row + 0.5) / frame->picture->height;
+    return frame->s->gradient ? vec3_add(vec3_scale(top, 1.0 - t), vec3_scale(bottom, t)) : top;
+}
+
 /* Also what the views of cascades and normals show. [A6] */
 void ref_light_pixels(ref_frame *frame)
 {
     const size_t n_pixels = (size_t)frame->picture->width * (size_t)frame->picture->height;
     for (size_t i = 0; i < n_pixels; i++) {
-        vec3 radiance = vec3_load(frame->s->background);
+        vec3 radiance = background_at(frame, (int)(i / (size_t)frame->picture->width));
         frame->picture->cascade[i] = -1;
         if (frame->picture->triangle[i] >= 0) {
             const ref_surface at = ref_surface_at(frame, i);

@@ -169,6 +169,14 @@ static void background(gn_scene *s)
 {
     s->background_uq16[0] = 65537;
 }
+static void background_bottom(gn_scene *s)
+{
+    s->background_bottom_uq16[2] = 65537;
+}
+static void background_gradient(gn_scene *s)
+{
+    s->background_gradient = 2;
+}
 static void light_colour(gn_scene *s)
 {
     (void)s, demo.light[0].colour_uq16[0] = UINT32_MAX;
@@ -308,6 +316,8 @@ static const struct {
     REFUSED(albedo, GN_ERR_COLOUR, 1, 0, 0),
     REFUSED(ambient, GN_ERR_COLOUR, 0, 0, 0),
     REFUSED(background, GN_ERR_COLOUR, 0, 0, 0),
+    REFUSED(background_bottom, GN_ERR_COLOUR, 0, 0, 0),
+    REFUSED(background_gradient, GN_ERR_BACKGROUND, 0, 0, 0),
     REFUSED(light_colour, GN_ERR_COLOUR, 0, 0, 0),
     REFUSED(objects_65536, GN_ERR_TOO_MANY_OBJECTS, 0, 65536, 65535),
     REFUSED(lights_9, GN_ERR_TOO_MANY_LIGHTS, 0, GN_MAX_LIGHTS + 1, GN_MAX_LIGHTS),

@@ -156,7 +156,9 @@ typedef struct {
     scene_texture *textures;
     scene_camera camera;
     double ambient[3];
-    double background[3];
+    double background[3];        /* with a gradient, at the picture's upper edge */
+    double background_bottom[3]; /* at its lower edge */
+    bool gradient;               /* R11 */
     scene_shadow shadow;
     scene_added added; /* what the file lacked */
     size_t n_settings; /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */

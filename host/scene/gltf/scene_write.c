@@ -353,6 +353,10 @@ static void put_settings(write_buffer *b, const scene *s, const scene_write_sett
     put_numbers(b, "ambient", s->ambient, 3);
     write_text(b, ", ");
     put_numbers(b, "background", s->background, 3);
+    if (s->gradient) {
+        write_text(b, ", ");
+        put_numbers(b, "background_bottom", s->background_bottom, 3);
+    }
     put_shadow(b, s);
 }
 

@@ -285,11 +285,16 @@ static void choose_casters(compiled *c)
 /* What the tool has done already. */
 static void choose_checks(compiled *c)
 {
-    const bool rgb565 = c->set.output == GN_FORMAT_RGB565;
-    if (c->options->simplify == TOOL_SIMPLIFY_PATH) c->set.feature.validation = 0;
+    const bool rgb565 = c->set.output == GN_FORMAT_RGB565, path = c->options->simplify == TOOL_SIMPLIFY_PATH;
+    if (path) c->set.feature.validation = 0;
     because(c, "validation",
             c->set.feature.validation ? "scenes of --simplify none and safe may be moved otherwise"
                                       : "every frame was checked when it was compiled");
+    if (path && !c->fixed.scene.background_gradient) c->set.feature.tile_drawing = 0;
+    because(c, "tile_drawing",
+            c->fixed.scene.background_gradient ? "the background's gradient"
+            : path                             ? "no gradient; for a program that draws: --simplify none or safe"
+                   : "programs may draw behind and over scenes of --simplify none and safe");
     if (rgb565) c->set.feature.other_formats = 0;
     because(c, "other_formats", rgb565 ? "the panel takes RGB565" : "the panel takes another than RGB565");
 }

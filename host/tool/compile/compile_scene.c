@@ -252,6 +252,10 @@ static void write_scene_struct(FILE *f, const compiled *c)
             s->camera.focal_q24, s->camera.near_q16, s->camera.far_q16, s->unit_log2);
     write_unsigned(f, "ambient_uq16", s->ambient_uq16, 3);
     write_unsigned(f, "background_uq16", s->background_uq16, 3);
+    if (s->background_gradient) {
+        write_unsigned(f, "background_bottom_uq16", s->background_bottom_uq16, 3);
+        fprintf(f, ", .background_gradient = 1");
+    }
     fprintf(f, ",\n");
     write_shadow(f, &s->shadow);
     fprintf(f, "};\n");
