@@ -68,8 +68,8 @@ extern "C" {
                          "not built in")                                                                               \
     X(GN_ERR_TEXTURE, "texture without texels or above 4096 per side, or texture coordinates are missing or have "     \
                       "more than 15 fraction bits")                                                                    \
-    X(GN_ERR_MATERIAL, "alpha, cutoff, specular colour or shininess out of range, or an alpha mode or caster mode "    \
-                       "that is not built in")                                                                         \
+    X(GN_ERR_MATERIAL, "alpha, cutoff, specular or emissive colour or shininess out of range, or an alpha mode, "      \
+                       "caster mode or such a colour that is not built in")                                            \
     X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")              \
     X(GN_ERR_TOO_MANY_OBJECTS, "more objects than GN_MAX_OBJECTS")                                                     \
     X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                        \
@@ -199,6 +199,7 @@ typedef struct {
     uint32_t alpha_cutoff_uq16;   /* 0..65536 */
     uint32_t specular_uq16[3];    /* linear, 0..65536; 0: none */
     uint8_t shininess_log2;       /* exponent 2^0 .. 2^7 */
+    uint32_t emissive_uq16[3];    /* linear, 0..255.99: light of its own, over what it reflects; not if unlit */
     const gn_texture *texture;    /* or NULL */
     const gn_texture *mask_image; /* shadow masks at the mesh's mask_uv_uq16, bilinear and clamped, or NULL */
     const uint8_t *mask_u8;       /* shadow masks, 4 per vertex of the mesh, or NULL */

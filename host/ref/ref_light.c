@@ -58,7 +58,8 @@ static vec3 add_light(ref_frame *frame, const ref_surface *at, size_t l, size_t 
     return vec3_scale(vec3_mul(vec3_load(frame->s->lights[l].colour), reflected), incidence.attenuation * shadow);
 }
 
-/* Ambient, baked light and what each light adds; there are no lists per screen tile. [M2] [M9] [R9] */
+/* Ambient, baked light, what each light adds and the surface emits; there are no lists per screen tile. [M2] [M9] [M10]
+ * [R9] */
 static vec3 light_surface(ref_frame *frame, const ref_surface *at, size_t pixel)
 {
     const ref_triangle *t = &at->triangle;
@@ -66,6 +67,7 @@ static vec3 light_surface(ref_frame *frame, const ref_surface *at, size_t pixel)
     if (t->object->baked) irradiance = vec3_add(irradiance, ref_mix_vertices(t->object->baked, t->idx, at->bary));
     vec3 radiance = vec3_mul(at->albedo, irradiance);
     for (size_t l = 0; l < frame->s->n_lights; l++) radiance = vec3_add(radiance, add_light(frame, at, l, pixel));
+    radiance = vec3_add(radiance, vec3_load(t->object->emissive));
     return t->object->unlit ? at->albedo : radiance;
 }
 

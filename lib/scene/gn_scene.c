@@ -114,7 +114,8 @@ static gn_status check_material(gn_frame *frame, const gn_object *object, uint32
         caster < GN_ALPHA_OPAQUE || caster > (GN_CASTER_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE))
         return gn_fail(frame, GN_ERR_MATERIAL, idx);
     if (object->alpha_uq16 > 65536 || object->alpha_cutoff_uq16 > 65536 || object->shininess_log2 > 7 ||
-        any_above(object->specular_uq16, GN_SPECULAR ? 65536 : 0))
+        any_above(object->specular_uq16, GN_SPECULAR ? 65536 : 0) ||
+        any_above(object->emissive_uq16, GN_EMISSIVE ? GN_COLOUR_LIMIT_UQ16 : 0))
         return gn_fail(frame, GN_ERR_MATERIAL, idx);
     if (object->texture && (!GN_TEXTURES || !mesh->uv || mesh->uv_frac_bits > 15 || !texture_ok(object->texture)))
         return gn_fail(frame, GN_ERR_TEXTURE, idx);

@@ -133,6 +133,8 @@ static void use_materials(int variant)
     if (use.caster_alpha) box->caster_alpha = ball->caster_alpha = cut;
     for (int k = 0; use.specular && k < 3; k++) ball->specular_uq16[k] = 30000;
     ball->shininess_log2 = 4;
+    for (int i = 0; use.emissive && i < DEMO_OBJECTS; i++)
+        demo.object[i].emissive_uq16[i % 3] = 9000U * (uint32_t)(i + variant);
     if (use.masks) ball->mask_u8 = mask;
     if (use.masks) ground->mask_image = &texture;
     if (use.baked_light) ball->baked_uq12 = baked;
@@ -290,6 +292,10 @@ static void ask_specular(void)
 {
     demo.object[2].specular_uq16[1] = 1;
 }
+static void ask_emissive(void)
+{
+    demo.object[0].emissive_uq16[2] = 1;
+}
 static void ask_mask(void)
 {
     demo.object[1].mask_u8 = mask;
@@ -380,6 +386,7 @@ static const struct {
     {"visible alpha", GN_VISIBLE_ALPHA, GN_ERR_MATERIAL, ask_visible_alpha},
     {"texture", GN_TEXTURES, GN_ERR_TEXTURE, ask_texture},
     {"specular", GN_SPECULAR, GN_ERR_MATERIAL, ask_specular},
+    {"emissive", GN_EMISSIVE, GN_ERR_MATERIAL, ask_emissive},
     {"mask", GN_MASKS, GN_ERR_MASK, ask_mask},
     {"mask image", GN_MASKS, GN_ERR_MASK, ask_mask_image},
     {"mixing", GN_MASKS || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_mixing},

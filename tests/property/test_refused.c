@@ -161,6 +161,10 @@ static void albedo(gn_scene *s)
 {
     (void)s, demo.object[1].albedo_uq16[2] = 65537;
 }
+static void emissive(gn_scene *s)
+{
+    (void)s, demo.object[1].emissive_uq16[2] = 1 << 24;
+}
 static void ambient(gn_scene *s)
 {
     s->ambient_uq16[1] = 1 << 24;
@@ -314,6 +318,7 @@ static const struct {
     REFUSED(vertex_over_2_30, GN_ERR_VERTEX_RANGE, 1, 0, 0),
     REFUSED(vertex_over_2_30_no_shadow, GN_ERR_VERTEX_RANGE, 1, 0, 0),
     REFUSED(albedo, GN_ERR_COLOUR, 1, 0, 0),
+    REFUSED(emissive, GN_ERR_MATERIAL, 1, 0, 0),
     REFUSED(ambient, GN_ERR_COLOUR, 0, 0, 0),
     REFUSED(background, GN_ERR_COLOUR, 0, 0, 0),
     REFUSED(background_bottom, GN_ERR_COLOUR, 0, 0, 0),

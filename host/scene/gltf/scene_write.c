@@ -183,7 +183,8 @@ static void add_material(writer *w, const scene_object *o, size_t idx)
     put_member(b, "alpha_cutoff", o->alpha_cutoff);
     write_text(b, ", ");
     put_numbers(b, "specular", o->specular, 3);
-    write_format(b, ", \"shininess_log2\": %d", o->shininess_log2);
+    write_format(b, ", \"shininess_log2\": %d, ", o->shininess_log2);
+    put_numbers(b, "emissive", o->emissive, 3);
     if (o->mask_texture_idx != SCENE_NONE) write_format(b, ", \"mask_texture\": %zu", o->mask_texture_idx);
     write_text(b, "}}}");
 }

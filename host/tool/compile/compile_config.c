@@ -170,6 +170,7 @@ static void use_object(compiled *c, const gn_object *o, const char *name)
     if (o->caster_alpha != GN_ALPHA_OPAQUE) USE(caster_alpha, 1, "object '%s'", name);
     if (o->texture) USE(textures, 1, "object '%s'", name);
     if (s[0] || s[1] || s[2]) USE(specular, 1, "object '%s'", name);
+    if (o->emissive_uq16[0] || o->emissive_uq16[1] || o->emissive_uq16[2]) USE(emissive, 1, "object '%s'", name);
     if (o->mask_u8 || o->mask_image) USE(masks, 1, "object '%s'", name);
     if (o->baked_uq12) USE(baked_light, 1, "object '%s'", name);
 }
@@ -206,6 +207,7 @@ static void use_nothing(compiled *c)
     NOTHING(visible_alpha);
     NOTHING(textures);
     NOTHING(specular);
+    NOTHING(emissive);
     NOTHING(masks);
     NOTHING(baked_light);
     NOTHING(receiver_bias);

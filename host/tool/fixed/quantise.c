@@ -85,6 +85,7 @@ static void quantise_material(gn_object *out, const scene_object *o)
     for (int c = 0; c < 3; c++) {
         out->albedo_uq16[c] = fixed_ratio(o->albedo[c]);
         out->specular_uq16[c] = fixed_ratio(o->specular[c]);
+        out->emissive_uq16[c] = (uint32_t)fixed(fmin(o->emissive[c], 255.99), 16);
     }
     out->alpha_uq16 = fixed_ratio(o->alpha);
     out->alpha_cutoff_uq16 = fixed_ratio(o->alpha_cutoff);
