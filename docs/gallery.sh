@@ -26,6 +26,17 @@ picture() {
     echo "identical $(percent identical), PSNR $psnr, shadow mismatch $(percent shadow_mismatch)" >"$work/metrics"
 }
 
+# drawn NAME APP SCENE FLAGS...: what a program of boards/apps makes of a compiled scene
+drawn() {
+    name=$1 app=$2 scene=$(scene_path "$3")
+    shift 3
+    make -s --no-print-directory emulate BOARD=host APP="$app" SCENE="$scene" SCENE_FLAGS="--size 320x240 --simplify safe --set tile_width=320 --set tile_height=8 $*" \
+        ARGS="$work/strips" >"$work/log" 2>&1 && make -s --no-print-directory build/rgb565_png >>"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
+    build/rgb565_png 320 240 "$work/pictures/$name.png" <"$work/strips"
+    echo "make emulate BOARD=host APP=$app SCENE=$scene" >"$work/command"
+    echo "boards/apps/$app.c" >"$work/metrics"
+}
+
 # numbers FIELDS SCENE ARGUMENTS...: of gnomon info, which has no views
 numbers() {
     fields=$1 scene=$(scene_path "$2")
@@ -61,6 +72,10 @@ while IFS= read -r line; do
     '* '*)
         n=$((n + 1)) wanted=$text extra=''
         picture "$row-$n" $wanted
+        ;;
+    '! '*)
+        n=$((n + 1)) wanted='' extra=''
+        drawn "$row-$n" $text
         ;;
     '= '*) extra=$(numbers "$text" $wanted) ;;
     '> '*)

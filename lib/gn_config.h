@@ -184,6 +184,9 @@
 #ifndef GN_SPECULAR
 #define GN_SPECULAR (!GN_COMPACT)
 #endif
+#ifndef GN_EMISSIVE
+#define GN_EMISSIVE (!GN_COMPACT)
+#endif
 #ifndef GN_MASKS
 #define GN_MASKS (!GN_COMPACT)
 #endif
@@ -213,6 +216,9 @@
 #endif
 #ifndef GN_VERTEX_COLOURS
 #define GN_VERTEX_COLOURS (!GN_COMPACT)
+#endif
+#ifndef GN_TILE_DRAWING
+#define GN_TILE_DRAWING (!GN_COMPACT)
 #endif
 #ifndef GN_VALIDATION
 #define GN_VALIDATION 1
@@ -254,6 +260,9 @@
 
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING)))
+
+/* Whether light that a surface emits may have to be added after colours of vertices or a texture. */
+#define GN_GLOW_APART (GN_EMISSIVE && (GN_TEXTURES || GN_VERTEX_COLOURS))
 
 /* Whether shading interpolates between exact points (gn_lattice.h). Not built where every pixel must be exact. */
 #define GN_INTERPOLATES (!GN_COMPACT && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))

@@ -63,11 +63,13 @@ extern "C" {
     X(GN_ERR_VERTEX_RANGE, "vertex position is beyond +-2^30, or +-16384 units from the camera or a spot or point "    \
                            "light, or a triangle would have to "                                                       \
                            "be clipped and that is not built in")                                                      \
-    X(GN_ERR_COLOUR, "colour, albedo or ambient out of range")                                                         \
+    X(GN_ERR_COLOUR, "colour, albedo, ambient or background out of range")                                             \
+    X(GN_ERR_BACKGROUND, "background_gradient is neither 0 nor 1; or a gradient, draw_behind or draw_over, which are " \
+                         "not built in")                                                                               \
     X(GN_ERR_TEXTURE, "texture without texels or above 4096 per side, or texture coordinates are missing or have "     \
                       "more than 15 fraction bits")                                                                    \
-    X(GN_ERR_MATERIAL, "alpha, cutoff, specular colour or shininess out of range, or an alpha mode or caster mode "    \
-                       "that is not built in")                                                                         \
+    X(GN_ERR_MATERIAL, "alpha, cutoff, specular or emissive colour or shininess out of range, or an alpha mode, "      \
+                       "caster mode or such a colour that is not built in")                                            \
     X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")              \
     X(GN_ERR_TOO_MANY_OBJECTS, "more objects than GN_MAX_OBJECTS")                                                     \
     X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                        \
@@ -198,6 +200,7 @@ typedef struct {
     uint32_t alpha_cutoff_uq16;   /* 0..65536 */
     uint32_t specular_uq16[3];    /* linear, 0..65536; 0: none */
     uint8_t shininess_log2;       /* exponent 2^0 .. 2^7 */
+    uint32_t emissive_uq16[3];    /* linear, 0..255.99: light of its own, over what it reflects; not if unlit */
     const gn_texture *texture;    /* or NULL */
     const gn_texture *mask_image; /* shadow masks at the mesh's mask_uv_uq16, bilinear and clamped, or NULL */
     const uint8_t *mask_u8;       /* shadow masks, 4 per vertex of the mesh, or NULL */
@@ -286,6 +289,12 @@ typedef struct {
     gn_distance_mode distance_mode;
 } gn_shadow_settings;
 
+/* Drawing of the caller's into a screen tile: w * h pixels in the picture's format, laid out as they are flushed
+ * (gn_flush_fn), top left at (x, y) of the picture. What it writes must depend on the pixels' places in the picture
+ * alone, and not on the tile: tiles begin anywhere. Bits behind a row's last pixel (GREY4, MONO1) must stay as they
+ * are. It is called once per tile and frame, by the core that draws the tile. */
+typedef void (*gn_draw_fn)(void *user, int x, int y, int w, int h, void *pixels);
+
 typedef struct {
     const gn_object *objects;
     const gn_light *lights;
@@ -294,8 +303,13 @@ typedef struct {
     gn_camera camera;
     int32_t unit_log2; /* one unit of length is 2^-unit_log2 of the model's: scales the minimum squared distance 10^-4
                           of spot and point lights, and the penumbra; -30 .. 30 */
-    uint32_t ambient_uq16[3];    /* 0..255.99 */
-    uint32_t background_uq16[3]; /* 0..65536 */
+    uint32_t ambient_uq16[3];           /* 0..255.99 */
+    uint32_t background_uq16[3];        /* 0..65536; with a gradient, at the picture's upper edge */
+    uint32_t background_bottom_uq16[3]; /* at its lower edge, 0..65536 */
+    uint32_t background_gradient;       /* 1: from the one to the other, row by row, in linear light */
+    gn_draw_fn draw_behind; /* over the background, before surfaces: pixels without one keep what it wrote; or NULL */
+    gn_draw_fn draw_over;   /* over the finished tile, before it is flushed; or NULL. Neither is called for raw views */
+    void *draw_user;        /* what both are given */
     gn_shadow_settings shadow;
 } gn_scene;
 

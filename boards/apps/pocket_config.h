@@ -39,3 +39,4 @@
 #define GN_INCREMENTAL      0
 #define GN_VERTEX_NORMALS   0
 #define GN_VERTEX_COLOURS   0
+#define GN_TILE_DRAWING     0

@@ -58,7 +58,8 @@ static vec3 add_light(ref_frame *frame, const ref_surface *at, size_t l, size_t 
     return vec3_scale(vec3_mul(vec3_load(frame->s->lights[l].colour), reflected), incidence.attenuation * shadow);
 }
 
-/* Ambient, baked light and what each light adds; there are no lists per screen tile. [M2] [M9] [R9] */
+/* Ambient, baked light, what each light adds and the surface emits; there are no lists per screen tile. [M2] [M9] [M10]
+ * [R9] */
 static vec3 light_surface(ref_frame *frame, const ref_surface *at, size_t pixel)
 {
     const ref_triangle *t = &at->triangle;
@@ -66,7 +67,16 @@ static vec3 light_surface(ref_frame *frame, const ref_surface *at, size_t pixel)
     if (t->object->baked) irradiance = vec3_add(irradiance, ref_mix_vertices(t->object->baked, t->idx, at->bary));
     vec3 radiance = vec3_mul(at->albedo, irradiance);
     for (size_t l = 0; l < frame->s->n_lights; l++) radiance = vec3_add(radiance, add_light(frame, at, l, pixel));
+    radiance = vec3_add(radiance, vec3_load(t->object->emissive));
     return t->object->unlit ? at->albedo : radiance;
+}
+
+/* Of a row of pixels, at its middle. [R11] */
+static vec3 background_at(const ref_frame *frame, int row)
+{
+    const vec3 top = vec3_load(frame->s->background), bottom = vec3_load(frame->s->background_bottom);
+    const double t = (row + 0.5) / frame->picture->height;
+    return frame->s->gradient ? vec3_add(vec3_scale(top, 1.0 - t), vec3_scale(bottom, t)) : top;
 }
 
 /* Also what the views of cascades and normals show. [A6] */
@@ -74,7 +84,7 @@ void ref_light_pixels(ref_frame *frame)
 {
     const size_t n_pixels = (size_t)frame->picture->width * (size_t)frame->picture->height;
     for (size_t i = 0; i < n_pixels; i++) {
-        vec3 radiance = vec3_load(frame->s->background);
+        vec3 radiance = background_at(frame, (int)(i / (size_t)frame->picture->width));
         frame->picture->cascade[i] = -1;
         if (frame->picture->triangle[i] >= 0) {
             const ref_surface at = ref_surface_at(frame, i);

@@ -267,12 +267,18 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     return GN_OK;
 }
 
+static gn_status compact_check_background(const gn_scene *scene)
+{
+    return scene->background_gradient || scene->draw_behind || scene->draw_over ? GN_ERR_BACKGROUND : GN_OK;
+}
+
 gn_status gn_views_setup(gn_frame *frame)
 {
     const gn_scene *scene = frame->scene;
     const gn_light *light = scene->lights;
     gn_status status = lens(frame);
     frame->n_views = 0;
+    if (!status) status = compact_check_background(scene);
     if (!status && scene->n_lights) {
         status = compact_check_light(frame, light);
         if (!status && !compact_view_axes(&frame->view[0].project, light->direction)) status = GN_ERR_LIGHT_DIRECTION;

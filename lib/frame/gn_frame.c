@@ -22,7 +22,7 @@
  *   or two colours (gn_part), or by cells (gn_lattice: gn_corner, gn_lattice_look, gn_lattice_draw), with texel windows
  *   (gn_lattice_window, shadow/gn_window); or pixel by pixel (gn_exact, gn_sample): light (gn_light, gn_arrival,
  *   light/gn_punctual), shadow (gn_shadow, shadow/gn_filter); encoded pixels (gn_levels, gn_pixel)
- * - flush
+ * - the caller's drawing over it (behind it: gn_shade_tile), flush
  *
  * With GN_COMPACT, compact/ has all stages but the first, in 32 bits, behind the same calls.
  */
@@ -193,13 +193,26 @@ static GN_NOINLINE gn_status flush_tile(const gn_frame *frame, gn_scratch *scrat
     return frame->stage == stage ? GN_OK : GN_ERR_REENTERED;
 }
 
+/* The finished tile, with the caller's drawing over it. [R11] */
+static void draw_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
+{
+    gn_shade_tile(frame, scratch, tile_idx);
+#if GN_TILE_DRAWING
+    const gn_scene *scene = frame->scene;
+    gn_rect rect = gn_screen_rect(frame, tile_idx);
+    if (scene->draw_over && !(GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32))
+        scene->draw_over(scene->draw_user, rect.x0, rect.y0, rect.x1 - rect.x0, rect.y1 - rect.y0,
+                         scratch->pixel.bytes);
+#endif
+}
+
 /* Writes only the scratch: every core has its own, and all cores read the same frame. [R1] [R7] */
 static gn_status screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, gn_flush_fn flush,
                              void *user, enum gn_stage stage)
 {
     gn_status status = begin_tile(frame, scratch, tile_idx, flush, stage);
     if (status) return status;
-    gn_shade_tile(frame, scratch, tile_idx);
+    draw_tile(frame, scratch, tile_idx);
     return flush_tile(frame, scratch, tile_idx, flush, user);
 }
 
@@ -232,7 +245,7 @@ static gn_status screen_tile_if_changed(const gn_frame *frame, gn_scratch *scrat
     if (!panel) return GN_ERR_NULL;
     gn_status status = begin_tile(frame, scratch, tile_idx, flush, stage);
     if (status) return status;
-    gn_shade_tile(frame, scratch, tile_idx);
+    draw_tile(frame, scratch, tile_idx);
     uint64_t signature = tile_signature(frame, scratch, tile_idx);
     if (panel->signature[tile_idx] == signature) return GN_OK;
     panel->signature[tile_idx] = signature;

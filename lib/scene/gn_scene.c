@@ -114,7 +114,8 @@ static gn_status check_material(gn_frame *frame, const gn_object *object, uint32
         caster < GN_ALPHA_OPAQUE || caster > (GN_CASTER_ALPHA ? GN_ALPHA_DITHER : GN_ALPHA_OPAQUE))
         return gn_fail(frame, GN_ERR_MATERIAL, idx);
     if (object->alpha_uq16 > 65536 || object->alpha_cutoff_uq16 > 65536 || object->shininess_log2 > 7 ||
-        any_above(object->specular_uq16, GN_SPECULAR ? 65536 : 0))
+        any_above(object->specular_uq16, GN_SPECULAR ? 65536 : 0) ||
+        any_above(object->emissive_uq16, GN_EMISSIVE ? GN_COLOUR_LIMIT_UQ16 : 0))
         return gn_fail(frame, GN_ERR_MATERIAL, idx);
     if (object->texture && (!GN_TEXTURES || !mesh->uv || mesh->uv_frac_bits > 15 || !texture_ok(object->texture)))
         return gn_fail(frame, GN_ERR_TEXTURE, idx);
@@ -256,6 +257,12 @@ static gn_status check_shadow(gn_frame *frame, const gn_scene *scene)
     return status || GN_FILTER_MAX >= 3 ? status : check_softness(frame, scene);
 }
 
+static int background_ok(const gn_scene *scene)
+{
+    if (GN_TILE_DRAWING) return scene->background_gradient <= 1;
+    return !scene->background_gradient && !scene->draw_behind && !scene->draw_over;
+}
+
 gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene)
 {
     gn_status status = check_camera(frame, &scene->camera);
@@ -268,8 +275,10 @@ gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene)
         return gn_fail_capacity(frame, GN_ERR_TOO_MANY_LIGHTS, scene->n_lights, GN_MAX_LIGHTS);
     if (scene->unit_log2 < -30 || scene->unit_log2 > 30) return gn_fail(frame, GN_ERR_CAMERA_DEPTH, 0);
     if (scene->shadow.object_lights > GN_OBJECT_LIGHTS_MAX) return gn_fail(frame, GN_ERR_SHADOW_MODE, 0);
-    if (any_above(scene->ambient_uq16, GN_COLOUR_LIMIT_UQ16) || any_above(scene->background_uq16, 65536))
+    if (any_above(scene->ambient_uq16, GN_COLOUR_LIMIT_UQ16) || any_above(scene->background_uq16, 65536) ||
+        any_above(scene->background_bottom_uq16, 65536))
         return gn_fail(frame, GN_ERR_COLOUR, 0);
+    if (!background_ok(scene)) return gn_fail(frame, GN_ERR_BACKGROUND, 0);
     for (uint32_t i = 0; i < scene->n_lights; i++)
         if ((status = check_light(frame, &scene->lights[i], i)) != GN_OK) return status;
     for (uint32_t i = 0; i < scene->n_objects; i++)

@@ -401,11 +401,21 @@ GN_HOT static GN_NOINLINE void draw_strip(drawing *d, gn_corner *const corner[4]
     gn_lattice *l = &s->lattice;
     int32_t log2 = l->look.spacing_log2, (*node)[3] = l->by.node[0], (*next)[3] = l->by.node[1],
             (*step)[3] = l->by.node[2];
-    gn_pixel_line line = {(const int32_t(*)[3])node, log2, inside, NULL, {{0, 0}, {0, 0}, {0, 0}}};
+    gn_pixel_line line;
+    line.node = (const int32_t(*)[3])node;
+    line.spacing_log2 = log2;
+    line.inside = inside;
+    line.texture = NULL;
     for (int32_t i = 0; log2 && i < d->n; i++)
         for (int c = 0; c < 3; c++) step[i][c] = (next[i][c] - node[i][c]) >> log2;
 #if GN_TEXTURES
     if (s->surface.textured) line.texture = s->surface.object->texture;
+#endif
+#if GN_GLOW_APART
+    for (int c = 0; line.texture && c < 3; c++) {
+        uint32_t glow = s->surface.object->emissive_uq16[c];
+        line.glow_q24[c] = GN_GLOWS(&s->surface) ? (int32_t)(glow < 1U << 19 ? glow << 8 : 1U << 27) : 0;
+    }
 #endif
     for (int32_t t = 0;; t++) {
         int32_t y = d->y + below + t;

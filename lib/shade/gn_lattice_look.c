@@ -181,6 +181,7 @@ GN_HOT static int finish_colours(const gn_lattice_cell *cell)
             if (GN_COLOURED(cell->s)) product = product * cell->corner[i]->tint_q16[j] >> 16;
 #endif
             if (GN_SPECULAR) product += cell->out->highlight_q24[i][j];
+            if (GN_GLOWS(cell->s) && !cell->s->textured) product += (int64_t)cell->s->object->emissive_uq16[j] << 8;
             limited |= product > 1 << 27;
             dim |= product < 1 << 24;
             *colour = (int32_t)gn_clamp64(product, -(1 << 27), 1 << 27);

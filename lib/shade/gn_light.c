@@ -127,6 +127,7 @@ GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, 
     modulate(surface, sample, sum);
     for (int c = 0; c < 3; c++) {
         if (GN_SPECULAR) sum[c] += highlights[c];
+        if (GN_GLOWS(surface)) sum[c] += surface->object->emissive_uq16[c] << 4;
         radiance_q20[c] = sum[c] > UINT32_MAX ? UINT32_MAX : (uint32_t)sum[c];
     }
 }

@@ -249,14 +249,20 @@ GN_HOT static inline void step_texture(gn_texture_line *uv)
     }
 }
 
-/* A colour times a texture's, packed. */
-GN_HOT static inline uint32_t tint(const gn_frame *frame, const gn_texture_reader *reader, const int32_t colour_q24[3],
-                                   int levels)
+/* A colour times a texture's, and what the surface emits; packed. */
+GN_HOT static inline uint32_t tint(const gn_frame *frame, const gn_texture_reader *reader, const gn_pixel_line *line,
+                                   const int32_t colour_q24[3], int levels)
 {
     uint32_t texel_uq16[3], q20[3];
     int32_t q24[3];
     gn_texture_read(reader, texel_uq16);
-    for (int c = 0; c < 3; c++) q24[c] = (int32_t)((int64_t)colour_q24[c] * (int32_t)texel_uq16[c] >> 16);
+    for (int c = 0; c < 3; c++) {
+        q24[c] = (int32_t)((int64_t)colour_q24[c] * (int32_t)texel_uq16[c] >> 16);
+#if GN_GLOW_APART
+        q24[c] += line->glow_q24[c]; /* |.| < 2^30 */
+#endif
+    }
+    (void)line;
     if (GN_LEVEL_TABLES && levels) return limit_and_pack_565(q24[0], q24[1], q24[2]);
     for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(q24[c], 0) >> 4;
     return gn_pixel_pack(frame, q20);
@@ -264,8 +270,8 @@ GN_HOT static inline uint32_t tint(const gn_frame *frame, const gn_texture_reade
 
 /* Pixels of `bits` between two nodes. */
 GN_HOT static void textured_segment(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
-                                    uint32_t bits, gn_texture_reader *reader, gn_texture_line *uv,
-                                    const int32_t from_q24[3], const int32_t step_q24[3])
+                                    uint32_t bits, const gn_pixel_line *line, gn_texture_reader *reader,
+                                    gn_texture_line *uv, const int32_t from_q24[3], const int32_t step_q24[3])
 {
     int levels = GN_LEVEL_TABLES && has_levels(frame), flat = !(step_q24[0] | step_q24[1] | step_q24[2]), known = 0;
     uint16_t *out = levels ? pixel_565(rows, x, y) : NULL;
@@ -277,7 +283,7 @@ GN_HOT static void textured_segment(const gn_frame *frame, const gn_pixel_rows *
         if (!known) {
             int32_t colour[3];
             for (int c = 0; c < 3; c++) colour[c] = from_q24[c] + i * step_q24[c];
-            packed = tint(frame, reader, colour, levels);
+            packed = tint(frame, reader, line, colour, levels);
             known = flat;
         }
         if (GN_LEVEL_TABLES && levels) out[i] = (uint16_t)packed;
@@ -296,7 +302,7 @@ GN_HOT static GN_NOINLINE void textured_line(const gn_frame *frame, const gn_pix
         uint32_t part = bits & ((1U << n) - 1);
         for (int c = 0; n > 1 && part && c < 3; c++) step[c] = (node[1][c] - node[0][c]) >> line->spacing_log2;
         int32_t i = part ? 32 - gn_clz32(part) : 0;
-        textured_segment(frame, rows, x, y, part, &reader, &uv, node[0], step);
+        textured_segment(frame, rows, x, y, part, line, &reader, &uv, node[0], step);
         for (; bits >> n && i < n; i++) step_texture(&uv);
     }
 }

@@ -33,6 +33,9 @@ typedef struct {
     int inside;                /* all nodes are in 2^-18 .. 1: nothing needs a clamp */
     const gn_texture *texture; /* NULL: none */
     gn_texture_line uv;
+#if GN_GLOW_APART
+    int32_t glow_q24[3]; /* textured: what is added to the product, 0 .. 2^27 */
+#endif
 } gn_pixel_line;
 
 /* Stores the pixels of `bits` from (x, y) of the picture on, the lowest first; at most 16. */

@@ -241,6 +241,32 @@ GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
     return sorter.n_linked + n_linked;
 }
 
+#if GN_TILE_DRAWING
+/* The colour of row y: top + (bottom - top) (y + 1/2) / H, in Q20 with one rounding: |difference| 2^16, 2 y + 1 < 2^12,
+ * and 2^3 keep within 31 bits. [R11] */
+GN_HOT static void gradient_row(gn_shading *s, int32_t y)
+{
+    const gn_scene *scene = s->frame->scene;
+    int32_t height = s->frame->picture.height;
+    for (int c = 0; c < 3; c++) {
+        int32_t top = (int32_t)scene->background_uq16[c], bottom = (int32_t)scene->background_bottom_uq16[c];
+        int32_t change = (bottom - top) * (2 * y + 1) * 8;
+        s->last_q20[c] = (uint32_t)(top * 16 + (change + (change < 0 ? -height : height) / 2) / height);
+    }
+    s->last_pixel = gn_pixel_pack(s->frame, s->last_q20);
+}
+
+/* What the caller draws behind the scene. [R11] */
+GN_HOT static void draw_behind(const gn_shading *s)
+{
+    const gn_scene *scene = s->frame->scene;
+    if (scene->draw_behind)
+        scene->draw_behind(scene->draw_user, s->rect.x0, s->rect.y0, s->rows.width, s->rect.y1 - s->rect.y0,
+                           s->scratch->pixel.bytes);
+}
+#endif
+
+/* Colour or gradient, and the caller's drawing. [R11] */
 GN_HOT static void clear_background(gn_shading *s)
 {
     const gn_frame *frame = s->frame;
@@ -254,8 +280,15 @@ GN_HOT static void clear_background(gn_shading *s)
     /* bits after a row's last pixel are flushed with it and count when tiles are compared */
     if (GN_OTHER_FORMATS && (frame->picture.format == GN_FORMAT_GREY4 || frame->picture.format == GN_FORMAT_MONO1))
         memset(s->scratch->pixel.bytes, 0, gn_pixel_bytes(frame, s->rows.width, s->rect.y1 - s->rect.y0));
-    for (int32_t y = s->rect.y0; y < s->rect.y1; y++)
+    for (int32_t y = s->rect.y0; y < s->rect.y1; y++) {
+#if GN_TILE_DRAWING
+        if (frame->scene->background_gradient) gradient_row(s, y);
+#endif
         gn_pixel_fill(frame, &s->rows, s->rect.x0, y, s->rows.width, s->last_pixel);
+    }
+#if GN_TILE_DRAWING
+    draw_behind(s);
+#endif
 }
 
 GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)

@@ -31,6 +31,10 @@ enum {
 typedef struct {
     const gn_object *object;
     uint8_t has_bary, coloured, textured, masked, baked, specular;
+#if GN_GLOW_APART
+    uint8_t glows; /* its own light is not part of base_q20: colours of vertices or a texture, which would dim it, come
+                      between */
+#endif
     uint8_t smooth;   /* its vertices' normals differ, */
     uint8_t curved;   /* by 2^-10 or more: automatic bias uses the interpolated normal */
     uint8_t bent;     /* a corner's normal points away from the face's: automatic bias uses only lift_q30 */
@@ -38,7 +42,8 @@ typedef struct {
     uint16_t n_lights, n_punctual; /* not bytes: the compiler would reload those after every store */
     int16_t first_value, n_values;
     uint32_t albedo_uq16[3]; /* times the vertices' colours, where all three are equal; at most 2^16 */
-    uint32_t base_q20[3]; /* albedo times ambient: with the lights' radiance_uq16, weighted, it sums up to radiance */
+    uint32_t base_q20[3]; /* albedo times ambient, its own light: with the lights' radiance_uq16, weighted, it sums up
+                             to radiance */
     gn_plane plane;
     gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
     int32_t z_min_q16, z_max_q16;
@@ -63,6 +68,11 @@ typedef struct {
 #define GN_CURVED(s)   (GN_VERTEX_NORMALS && (s)->curved)
 #define GN_BENT(s)     (GN_VERTEX_NORMALS && (s)->bent)
 #define GN_COLOURED(s) (GN_VERTEX_COLOURS && (s)->coloured)
+#if GN_GLOW_APART
+#define GN_GLOWS(s) ((s)->glows)
+#else
+#define GN_GLOWS(s) ((void)(s), 0)
+#endif
 #define GN_HAS_BARY(s)                                                                                                 \
     ((GN_VERTEX_NORMALS || GN_VERTEX_COLOURS || GN_TEXTURES || GN_MASKS || GN_BAKED_LIGHT) && (s)->has_bary)
 

@@ -341,6 +341,23 @@ GN_HOT static void shadows(const gn_frame *frame, gn_surface *s)
 }
 #endif
 
+/* Light of its own, of which the texture and the vertices' colours take nothing away. [M10] */
+GN_HOT static void emitted_light(const gn_frame *frame, gn_surface *s)
+{
+    const uint32_t *emissive = s->object->emissive_uq16;
+#if GN_GLOW_APART
+    s->glows = 0;
+#endif
+    if (!GN_EMISSIVE || s->object->flags & GN_OBJECT_UNLIT || !(emissive[0] | emissive[1] | emissive[2])) return;
+    if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) return;
+#if GN_GLOW_APART
+    s->glows = (GN_TEXTURES && s->textured) || GN_COLOURED(s);
+    if (s->glows) return;
+#endif
+    for (int c = 0; c < 3; c++) s->base_q20[c] += emissive[c] << 4; /* < 2^29 */
+    (void)frame;
+}
+
 /* Albedo times ambient and light colours, and everything that a constant normal lets precompute. */
 GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
 {
@@ -351,6 +368,7 @@ GN_HOT static void begin_lighting(const gn_frame *frame, const gn_surface_cache 
     for (int c = 0; c < 3; c++) /* 2^17 * 2^24 */
         s->base_q20[c] =
             unlit ? albedo[c] << 4 : (uint32_t)(((uint64_t)albedo[c] * scene->ambient_uq16[c] + (1U << 11)) >> 12);
+    emitted_light(frame, s);
     s->shadowed = 0;
     s->n_lights = s->n_punctual = 0;
     s->n_values = GN_VALUE_LIGHT;

@@ -44,7 +44,7 @@ without() { object "all-$1" -Og -fno-inline $(but all 0 "$1"); }
 # What a feature stands on: alone it has nothing to do.
 under() {
     case $1 in
-    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS) ;;
+    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
     LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
@@ -102,6 +102,7 @@ VISIBLE_ALPHA cut_begin|cut_row
 TILE_LIGHTS gn_punctual_in_tile
 TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
 SPECULAR highlight_q30
+EMISSIVE emitted_light
 MASKS gn_texture_mask
 CASTER_BIAS corner_normals
 RECEIVER_PLANE start_plane|dark_on_plane
@@ -110,6 +111,7 @@ INCREMENTAL gn_kept_.*|view_signature|stays
 STATIC_LAYER gn_static_layer_.*
 MAIN_LIGHT main_light
 VALIDATION gn_scene_validate|check_.*light
+TILE_DRAWING gradient_row|draw_behind
 OTHER_FORMATS luminance_q20|fill_(grey4|mono)
 TILE_IMPORTANCE sizes_by_importance|weight_of
 OBJECT_BOXES gn_cull_sees|.*_sees

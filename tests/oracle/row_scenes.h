@@ -384,6 +384,9 @@ static inline bool tweak_objects(fixture *f, const char *key, const char *value)
             for (int k = 0; k < 3; k++) f->objects[o].specular[k] = 0.6;
             f->objects[o].shininess_log2 = atoi(value);
         }
+    } else if (strcmp(key, "emissive") == 0) {
+        for (size_t o = 0; o < f->s.n_objects; o++)
+            for (int k = 0; k < 3; k++) f->objects[o].emissive[k] = atof(value) * (double)((o + (size_t)k) % 3) / 2;
     } else if (strcmp(key, "normals") == 0) {
         for (size_t o = 0; o < f->s.n_meshes; o++) {
             free(f->meshes[o].nrm);

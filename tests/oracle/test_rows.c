@@ -531,6 +531,11 @@ static const row rows[] = {
 
     /* R: renderer */
     {"R3", "yard", "", ".camera=-1.6,0.5,0.9,0.5,0.5,-4", "", 0.5},
+    {"M10", "yard", "", ".emissive=0.5", "", 0.25},
+    {"M10", "yard", ".light=all .normals=0", ".emissive=0.25", "", 0.25},
+    {"M10", "yard", ".colours=1 .specular=4", ".emissive=0.3", "", 0.25},
+    {"M10", "yard", ".texture=bilinear .colours=1", ".emissive=0.3", "", 0.25},
+    {"R11", "yard", "background=0.2,0.4,0.8 .camera=1.2,0.9,7.5,0,1.4,-1.5", "background_bottom=0.9,0.6,0.3", "", 0.1},
     {"R4", "yard", ".light=all .texture=bilinear .colours=1", "persp_step=16", NULL, 0.75},
     {"R4", "yard", ".light=all .texture=bilinear .colours=1", "persp_step=4", NULL, 0.5},
 

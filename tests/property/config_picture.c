@@ -133,6 +133,8 @@ static void use_materials(int variant)
     if (use.caster_alpha) box->caster_alpha = ball->caster_alpha = cut;
     for (int k = 0; use.specular && k < 3; k++) ball->specular_uq16[k] = 30000;
     ball->shininess_log2 = 4;
+    for (int i = 0; use.emissive && i < DEMO_OBJECTS; i++)
+        demo.object[i].emissive_uq16[i % 3] = 9000U * (uint32_t)(i + variant);
     if (use.masks) ball->mask_u8 = mask;
     if (use.masks) ground->mask_image = &texture;
     if (use.baked_light) ball->baked_uq12 = baked;
@@ -170,6 +172,27 @@ static void use_shadow_settings(int variant)
     s->distance_mode = variant == 3 ? GN_DISTANCE_RADIUS : GN_DISTANCE_DEPTH;
     s->max_distance_q16 = GN_Q16(9);
     for (uint32_t i = 1; use.incremental && i < 4; i++) s->refresh[i] = i;
+}
+
+/* The caller's drawing: it reads what is there, so that what is behind, and the order, count. */
+static void invert_some(void *user, int x, int y, int w, int h, void *pixels)
+{
+    const gn_picture *picture = user;
+    size_t row_bytes = gn_format_bytes(picture->format, (uint32_t)w, 1);
+    uint8_t *bytes = pixels;
+    (void)x;
+    for (int j = 0; j < h; j++)
+        for (size_t i = 0; i < row_bytes; i++)
+            if ((y + j) % 5 == 0) bytes[(size_t)j * row_bytes + i] ^= 0x5A;
+}
+
+static void use_background(int variant, gn_picture *picture)
+{
+    demo.scene.background_gradient = use.tile_drawing && variant % 2;
+    demo.scene.background_bottom_uq16[variant % 3] = 50000;
+    if (use.tile_drawing && variant > 1) demo.scene.draw_behind = invert_some;
+    if (use.tile_drawing && variant > 2) demo.scene.draw_over = invert_some;
+    demo.scene.draw_user = picture;
 }
 
 static void make_scene(int variant, int moved)
@@ -210,6 +233,7 @@ static int pictures(gn_format format, gn_view view, uint8_t light)
     gn_status status = begin(&picture);
     for (int i = 0; !status && i < 2 * VARIANTS; i++) {
         make_scene(i / 2, i % 2);
+        use_background(i / 2, &picture);
         crc = 0;
         status = gn_render(&renderer, &demo.scene, flush, &picture);
         if (!status)
@@ -267,6 +291,10 @@ static void ask_texture(void)
 static void ask_specular(void)
 {
     demo.object[2].specular_uq16[1] = 1;
+}
+static void ask_emissive(void)
+{
+    demo.object[0].emissive_uq16[2] = 1;
 }
 static void ask_mask(void)
 {
@@ -328,6 +356,19 @@ static void ask_cascades(void)
     for (int i = 0; i < 3; i++) demo.scene.shadow.cascade_ratio_uq16[i] = 30000;
 }
 
+static void ask_gradient(void)
+{
+    demo.scene.background_gradient = 1;
+}
+static void ask_behind(void)
+{
+    demo.scene.draw_behind = invert_some;
+}
+static void ask_over(void)
+{
+    demo.scene.draw_over = invert_some;
+}
+
 static const struct {
     const char *what;
     int built;
@@ -345,6 +386,7 @@ static const struct {
     {"visible alpha", GN_VISIBLE_ALPHA, GN_ERR_MATERIAL, ask_visible_alpha},
     {"texture", GN_TEXTURES, GN_ERR_TEXTURE, ask_texture},
     {"specular", GN_SPECULAR, GN_ERR_MATERIAL, ask_specular},
+    {"emissive", GN_EMISSIVE, GN_ERR_MATERIAL, ask_emissive},
     {"mask", GN_MASKS, GN_ERR_MASK, ask_mask},
     {"mask image", GN_MASKS, GN_ERR_MASK, ask_mask_image},
     {"mixing", GN_MASKS || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_mixing},
@@ -357,6 +399,9 @@ static const struct {
     {"refresh", GN_INCREMENTAL || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_refresh},
     {"soft", GN_FILTER_MAX >= 3 || !GN_SHADOWS, GN_ERR_LIGHT_KIND, ask_soft},
     {"importance", GN_TILE_IMPORTANCE || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_importance},
+    {"gradient", GN_TILE_DRAWING, GN_ERR_BACKGROUND, ask_gradient},
+    {"drawing behind", GN_TILE_DRAWING, GN_ERR_BACKGROUND, ask_behind},
+    {"drawing over", GN_TILE_DRAWING, GN_ERR_BACKGROUND, ask_over},
     {"cascades", GN_MANY_CASCADES || !GN_SHADOWS, GN_ERR_SHADOW_CASCADES, ask_cascades},
     {"hard", GN_FILTER_MAX >= 1 || !GN_DISK_FILTER || !GN_SHADOWS, GN_ERR_LIGHT_KIND, ask_hard},
 };

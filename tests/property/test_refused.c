@@ -161,6 +161,10 @@ static void albedo(gn_scene *s)
 {
     (void)s, demo.object[1].albedo_uq16[2] = 65537;
 }
+static void emissive(gn_scene *s)
+{
+    (void)s, demo.object[1].emissive_uq16[2] = 1 << 24;
+}
 static void ambient(gn_scene *s)
 {
     s->ambient_uq16[1] = 1 << 24;
@@ -168,6 +172,14 @@ static void ambient(gn_scene *s)
 static void background(gn_scene *s)
 {
     s->background_uq16[0] = 65537;
+}
+static void background_bottom(gn_scene *s)
+{
+    s->background_bottom_uq16[2] = 65537;
+}
+static void background_gradient(gn_scene *s)
+{
+    s->background_gradient = 2;
 }
 static void light_colour(gn_scene *s)
 {
@@ -306,8 +318,11 @@ static const struct {
     REFUSED(vertex_over_2_30, GN_ERR_VERTEX_RANGE, 1, 0, 0),
     REFUSED(vertex_over_2_30_no_shadow, GN_ERR_VERTEX_RANGE, 1, 0, 0),
     REFUSED(albedo, GN_ERR_COLOUR, 1, 0, 0),
+    REFUSED(emissive, GN_ERR_MATERIAL, 1, 0, 0),
     REFUSED(ambient, GN_ERR_COLOUR, 0, 0, 0),
     REFUSED(background, GN_ERR_COLOUR, 0, 0, 0),
+    REFUSED(background_bottom, GN_ERR_COLOUR, 0, 0, 0),
+    REFUSED(background_gradient, GN_ERR_BACKGROUND, 0, 0, 0),
     REFUSED(light_colour, GN_ERR_COLOUR, 0, 0, 0),
     REFUSED(objects_65536, GN_ERR_TOO_MANY_OBJECTS, 0, 65536, 65535),
     REFUSED(lights_9, GN_ERR_TOO_MANY_LIGHTS, 0, GN_MAX_LIGHTS + 1, GN_MAX_LIGHTS),

@@ -171,10 +171,10 @@ static inline gn_status ls_prepare(gn_renderer *renderer, const gn_scene *from)
 
 static inline gn_status ls_screen(gn_renderer *renderer, void *pixels, size_t pixel_bytes)
 {
-    ls_canvas canvas = {pixels, renderer->frame.picture.width, pixel_bytes};
+    ls_canvas out = {pixels, renderer->frame.picture.width, pixel_bytes};
     gn_status status = GN_OK;
     for (uint32_t i = 0; !status && i < gn_screen_tile_count(renderer); i++)
-        status = gn_screen_tile(&renderer->frame, &renderer->scratch, i, ls_flush, &canvas);
+        status = gn_screen_tile(&renderer->frame, &renderer->scratch, i, ls_flush, &out);
     return status;
 }
 

@@ -336,6 +336,35 @@ static void test_resampling(void)
     CHECK(refused(load_text(TMP ".gltf", textured()), "texture 'checks' of 8193x1: sides are at most 8192"));
 }
 
+/* Factor times strength, or extras; none of a texture's. [M10] */
+static void test_emissive(void)
+{
+    static const struct {
+        const char *material;
+        double expected[3];
+    } cases[] = {
+        {"\"name\":\"paint\"", {0, 0, 0}},
+        {"\"name\":\"paint\",\"emissiveFactor\":[0.5,0.25,1]", {0.5, 0.25, 1}},
+        {"\"name\":\"paint\",\"emissiveFactor\":[0.5,0.25,1],\"extensions\":{\"KHR_materials_emissive_strength\":{"
+         "\"emissiveStrength\":8}}",
+         {4, 2, 8}},
+        {"\"name\":\"paint\",\"emissiveFactor\":[0.5,0,1],\"extensions\":{\"KHR_materials_emissive_strength\":{"
+         "\"emissiveStrength\":1000}}",
+         {255, 0, 255}},
+        {"\"name\":\"paint\",\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0}", {0, 0, 0}},
+        {"\"name\":\"paint\",\"emissiveFactor\":[1,1,1],\"extras\":{\"gnomon\":{\"emissive\":3}}", {3, 3, 3}}};
+    make_png(2, 2, checks);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *text = replaced(textured(), "\"name\":\"paint\"", cases[i].material);
+        if (!CHECK_EQ_INT(load_text(TMP ".gltf", text), 0)) {
+            puts(error);
+            continue;
+        }
+        for (int k = 0; k < 3; k++) CHECK_NEAR(s.objects[0].emissive[k], cases[i].expected[k], 0);
+        scene_free(&s);
+    }
+}
+
 /* --- knobs -----------------------------------------------------------------------------------------------------------
  */
 
@@ -620,6 +649,7 @@ int main(void)
     test_texture_changes();
     test_shared_textures();
     test_resampling();
+    test_emissive();
     test_surface_knobs();
     test_casting();
     test_moving();

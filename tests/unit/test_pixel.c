@@ -309,7 +309,7 @@ static void test_lines(void)
     static const gn_format formats[] = {GN_FORMAT_RGB565, GN_FORMAT_RGB565_SWAPPED, GN_FORMAT_GREY8, GN_FORMAT_RGB888};
     int32_t node[LINE_PIXELS + 1][3];
     tally same = {0}, kept = {0}, all = {0};
-    gn_pixel_line line = {(const int32_t(*)[3])node, 0, 0, NULL, {{0, 0}, {0, 0}, {0, 0}}};
+    gn_pixel_line line = {.node = (const int32_t(*)[3])node};
     for (int k = 0; k < 40000; k++) {
         frame.picture.format = formats[k & 3];
         SET_KNOB(&frame, srgb, k % 7 != 0);

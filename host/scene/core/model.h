@@ -50,6 +50,7 @@ typedef struct {
     double alpha_cutoff;     /* 0..1, default 0.5 */
     double specular[3];      /* linear 0..1, default 0 */
     int shininess_log2;      /* 0..7, default 5 */
+    double emissive[3];      /* linear 0..255, default 0 (M10) */
     size_t texture_idx;      /* SCENE_NONE: no texture */
     size_t mask_texture_idx; /* of a mask image (M5), red..alpha = channels 0..3, looked up at mask_uv; SCENE_NONE: no
                                 image */
@@ -156,7 +157,9 @@ typedef struct {
     scene_texture *textures;
     scene_camera camera;
     double ambient[3];
-    double background[3];
+    double background[3];        /* with a gradient, at the picture's upper edge */
+    double background_bottom[3]; /* at its lower edge */
+    bool gradient;               /* R11 */
     scene_shadow shadow;
     scene_added added; /* what the file lacked */
     size_t n_settings; /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */

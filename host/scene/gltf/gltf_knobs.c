@@ -31,8 +31,8 @@ static const char *const light_keys[] = {
     "bias_receiver", "bias_caster", "near_offset",   "near",         "receiver_plane",
     "auto_bias",     "softness",    "mode",          "mask_channel", NULL};
 static const char *const surface_keys[] = {
-    "casts",         "caster",       "casts_two_sided", "hidden",         "moving",       "receives", "unlit",
-    "visible_alpha", "alpha_cutoff", "specular",        "shininess_log2", "mask_texture", NULL};
+    "casts",         "caster",       "casts_two_sided", "hidden",   "moving",         "receives",     "unlit",
+    "visible_alpha", "alpha_cutoff", "specular",        "emissive", "shininess_log2", "mask_texture", NULL};
 
 static bool check_keys(gltf *g, const json_value *knobs, bool light, bool surface)
 {
@@ -181,17 +181,23 @@ static bool get_alpha(gltf *g, const json_value *knobs, scene_object *surface)
 }
 
 /* A number, or one per channel. */
-static bool get_specular(gltf *g, const json_value *knobs, scene_object *surface)
+static bool get_colour(gltf *g, const json_value *knobs, const char *key, double largest, double colour[3])
 {
-    const json_value *value = json_get(knobs, "specular");
+    const json_value *value = json_get(knobs, key);
     if (value && value->type == JSON_NUMBER) {
-        for (int i = 0; i < 3; i++) surface->specular[i] = value->number;
-    } else if (!gltf_get_numbers(g, knobs, "specular", surface->specular, 3)) return false;
-    for (int i = 0; value && i < 3; i++) {
-        double v = surface->specular[i];
-        if (!(v >= 0 && v <= 1)) return gltf_fail(g, value, "%g is not in 0..1", v);
-    }
-    return get_integer(g, knobs, "shininess_log2", 0, 7, &surface->shininess_log2);
+        for (int i = 0; i < 3; i++) colour[i] = value->number;
+    } else if (!gltf_get_numbers(g, knobs, key, colour, 3)) return false;
+    for (int i = 0; value && i < 3; i++)
+        if (!(colour[i] >= 0 && colour[i] <= largest))
+            return gltf_fail(g, value, "%g is not in 0..%g", colour[i], largest);
+    return true;
+}
+
+static bool get_light_of_surface(gltf *g, const json_value *knobs, scene_object *surface)
+{
+    return get_colour(g, knobs, "specular", 1, surface->specular) &&
+           get_colour(g, knobs, "emissive", 255, surface->emissive) &&
+           get_integer(g, knobs, "shininess_log2", 0, 7, &surface->shininess_log2);
 }
 
 static bool get_mask_texture(gltf *g, const json_value *knobs, scene_object *surface)
@@ -209,8 +215,8 @@ bool gltf_material_knobs(gltf *g, const json_value *owner, gltf_material *materi
     if (owner->parent != g->nodes && !check_keys(g, k, false, true)) return false;
     return get_casting(g, k, material) && get_switch(g, k, "hidden", &surface->hidden) &&
            get_switch(g, k, "moving", &surface->moving) && get_switch(g, k, "receives", &surface->receives) &&
-           get_switch(g, k, "unlit", &surface->unlit) && get_alpha(g, k, surface) && get_specular(g, k, surface) &&
-           get_mask_texture(g, k, surface);
+           get_switch(g, k, "unlit", &surface->unlit) && get_alpha(g, k, surface) &&
+           get_light_of_surface(g, k, surface) && get_mask_texture(g, k, surface);
 }
 
 static bool names_mask_texture(const json_value *owners)

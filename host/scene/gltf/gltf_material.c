@@ -1,6 +1,8 @@
-/* glTF materials: base colour and its texture, alpha, unlit, double-sided; the rest is named in notes. */
+/* glTF materials: base colour and its texture, alpha, emissive colour, unlit, double-sided; the rest is named in notes.
+ */
 #include "gltf.h"
 
+#include <math.h>
 #include <string.h>
 
 static bool note_texture(gltf *g, const json_value *owner, const char *key, const char *what, const char *material)
@@ -43,8 +45,7 @@ static bool read_colour(gltf *g, const json_value *json, const char *name, gltf_
     return read_texture(g, pbr, name, out) &&
            note_texture(g, pbr, "metallicRoughnessTexture", "metallic-roughness", name) &&
            note_texture(g, json, "normalTexture", "normal", name) &&
-           note_texture(g, json, "occlusionTexture", "occlusion", name) &&
-           note_texture(g, json, "emissiveTexture", "emissive", name);
+           note_texture(g, json, "occlusionTexture", "occlusion", name);
 }
 
 /* How a material looks is, unless extras.gnomon say otherwise, how it casts (M1). */
@@ -72,13 +73,28 @@ static bool read_alpha(gltf *g, const json_value *json, const char *name, gltf_m
     return gltf_fail(g, json, "alphaMode '%s' is unknown", mode);
 }
 
-static bool note_rest(gltf *g, const json_value *json, const char *name)
+/* A texture is the most of what glows: without it, the factor alone would light up everything. [M10] */
+static bool read_emissive(gltf *g, const json_value *json, const char *name, gltf_material *out)
 {
-    double emissive[3] = {0, 0, 0};
-    if (!gltf_get_numbers(g, json, "emissiveFactor", emissive, 3)) return false;
-    if (emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0) {
-        return loader_note(g->l, "emissive colour of material '%s' ignored: it is not supported", name);
-    }
+    const json_value *extension = NULL;
+    double *emissive = out->surface.emissive, strength = 1;
+    if (!gltf_get_numbers(g, json, "emissiveFactor", emissive, 3) ||
+        !gltf_get_extension(g, json, "KHR_materials_emissive_strength", &extension) ||
+        !gltf_get_number(g, extension, "emissiveStrength", &strength))
+        return false;
+    if (!loader_clamp_colour(emissive, 3) &&
+        !loader_note(g->l, "emissive colour of material '%s' outside 0..1 is clamped", name))
+        return false;
+    if (!(strength >= 0)) return gltf_fail(g, extension, "emissiveStrength %g is below 0", strength);
+    const bool glows = emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0;
+    const bool textured = json_get(json, "emissiveTexture") != NULL;
+    if (textured && glows &&
+        !loader_note(g->l,
+                     "emissive colour and texture of material '%s' ignored: emissive "
+                     "textures are not supported",
+                     name))
+        return false;
+    for (int i = 0; i < 3; i++) emissive[i] = textured ? 0 : fmin(emissive[i] * strength, 255);
     return true;
 }
 
@@ -94,6 +110,6 @@ bool gltf_read_material(gltf *g, const json_value *primitive, bool moves, gltf_m
     const char *name = gltf_name(g, json, "material");
     if (!name || !gltf_get_extension(g, json, "KHR_materials_unlit", &unlit)) return false;
     out->surface.unlit = unlit != NULL;
-    return read_colour(g, json, name, out) && read_alpha(g, json, name, out) && note_rest(g, json, name) &&
+    return read_colour(g, json, name, out) && read_alpha(g, json, name, out) && read_emissive(g, json, name, out) &&
            gltf_get_bool(g, json, "doubleSided", &out->surface.two_sided) && gltf_material_knobs(g, json, out);
 }

@@ -183,7 +183,8 @@ static void add_material(writer *w, const scene_object *o, size_t idx)
     put_member(b, "alpha_cutoff", o->alpha_cutoff);
     write_text(b, ", ");
     put_numbers(b, "specular", o->specular, 3);
-    write_format(b, ", \"shininess_log2\": %d", o->shininess_log2);
+    write_format(b, ", \"shininess_log2\": %d, ", o->shininess_log2);
+    put_numbers(b, "emissive", o->emissive, 3);
     if (o->mask_texture_idx != SCENE_NONE) write_format(b, ", \"mask_texture\": %zu", o->mask_texture_idx);
     write_text(b, "}}}");
 }
@@ -353,6 +354,10 @@ static void put_settings(write_buffer *b, const scene *s, const scene_write_sett
     put_numbers(b, "ambient", s->ambient, 3);
     write_text(b, ", ");
     put_numbers(b, "background", s->background, 3);
+    if (s->gradient) {
+        write_text(b, ", ");
+        put_numbers(b, "background_bottom", s->background_bottom, 3);
+    }
     put_shadow(b, s);
 }
 

@@ -170,6 +170,7 @@ static void use_object(compiled *c, const gn_object *o, const char *name)
     if (o->caster_alpha != GN_ALPHA_OPAQUE) USE(caster_alpha, 1, "object '%s'", name);
     if (o->texture) USE(textures, 1, "object '%s'", name);
     if (s[0] || s[1] || s[2]) USE(specular, 1, "object '%s'", name);
+    if (o->emissive_uq16[0] || o->emissive_uq16[1] || o->emissive_uq16[2]) USE(emissive, 1, "object '%s'", name);
     if (o->mask_u8 || o->mask_image) USE(masks, 1, "object '%s'", name);
     if (o->baked_uq12) USE(baked_light, 1, "object '%s'", name);
 }
@@ -206,6 +207,7 @@ static void use_nothing(compiled *c)
     NOTHING(visible_alpha);
     NOTHING(textures);
     NOTHING(specular);
+    NOTHING(emissive);
     NOTHING(masks);
     NOTHING(baked_light);
     NOTHING(receiver_bias);
@@ -285,11 +287,16 @@ static void choose_casters(compiled *c)
 /* What the tool has done already. */
 static void choose_checks(compiled *c)
 {
-    const bool rgb565 = c->set.output == GN_FORMAT_RGB565;
-    if (c->options->simplify == TOOL_SIMPLIFY_PATH) c->set.feature.validation = 0;
+    const bool rgb565 = c->set.output == GN_FORMAT_RGB565, path = c->options->simplify == TOOL_SIMPLIFY_PATH;
+    if (path) c->set.feature.validation = 0;
     because(c, "validation",
             c->set.feature.validation ? "scenes of --simplify none and safe may be moved otherwise"
                                       : "every frame was checked when it was compiled");
+    if (path && !c->fixed.scene.background_gradient) c->set.feature.tile_drawing = 0;
+    because(c, "tile_drawing",
+            c->fixed.scene.background_gradient ? "the background's gradient"
+            : path                             ? "no gradient; for a program that draws: --simplify none or safe"
+                   : "programs may draw behind and over scenes of --simplify none and safe");
     if (rgb565) c->set.feature.other_formats = 0;
     because(c, "other_formats", rgb565 ? "the panel takes RGB565" : "the panel takes another than RGB565");
 }

@@ -163,6 +163,8 @@ static void write_object(FILE *f, const compiled *c, size_t i)
             (int)o->visible_alpha, (int)o->caster_alpha, o->alpha_uq16, o->alpha_cutoff_uq16);
     write_unsigned(f, "specular_uq16", o->specular_uq16, 3);
     fprintf(f, ", .shininess_log2 = %u", o->shininess_log2);
+    if (o->emissive_uq16[0] || o->emissive_uq16[1] || o->emissive_uq16[2])
+        write_unsigned(f, "emissive_uq16", o->emissive_uq16, 3);
     if (o->texture) fprintf(f, ", .texture = &textures[%td]", o->texture - c->fixed.textures);
     if (o->mask_image) fprintf(f, ", .mask_image = &textures[%td]", o->mask_image - c->fixed.textures);
     write_pointer(f, "mask_u8", "object", i, "mask", o->mask_u8);
@@ -252,6 +254,10 @@ static void write_scene_struct(FILE *f, const compiled *c)
             s->camera.focal_q24, s->camera.near_q16, s->camera.far_q16, s->unit_log2);
     write_unsigned(f, "ambient_uq16", s->ambient_uq16, 3);
     write_unsigned(f, "background_uq16", s->background_uq16, 3);
+    if (s->background_gradient) {
+        write_unsigned(f, "background_bottom_uq16", s->background_bottom_uq16, 3);
+        fprintf(f, ", .background_gradient = 1");
+    }
     fprintf(f, ",\n");
     write_shadow(f, &s->shadow);
     fprintf(f, "};\n");

@@ -85,6 +85,7 @@ static void quantise_material(gn_object *out, const scene_object *o)
     for (int c = 0; c < 3; c++) {
         out->albedo_uq16[c] = fixed_ratio(o->albedo[c]);
         out->specular_uq16[c] = fixed_ratio(o->specular[c]);
+        out->emissive_uq16[c] = (uint32_t)fixed(fmin(o->emissive[c], 255.99), 16);
     }
     out->alpha_uq16 = fixed_ratio(o->alpha);
     out->alpha_cutoff_uq16 = fixed_ratio(o->alpha_cutoff);
@@ -186,7 +187,9 @@ static void quantise_view(gn_scene *out, const scene *s, int world_exp)
         out->camera.to_world.t_q16[r] = (int32_t)fixed(camera->to_world.m[r][3], 16 + world_exp);
         out->ambient_uq16[r] = (uint32_t)fixed(fmin(s->ambient[r], 255.99), 16);
         out->background_uq16[r] = (uint32_t)fixed(s->background[r], 16);
+        out->background_bottom_uq16[r] = (uint32_t)fixed(s->background_bottom[r], 16);
     }
+    out->background_gradient = s->gradient;
     out->camera.focal_q24 = (uint32_t)fmin(4294967295.0, floor(ldexp(camera->focal, 24) + 0.5));
     out->camera.near_q16 = (int32_t)fixed(camera->near, 16 + world_exp);
     out->camera.far_q16 = isinf(camera->far) ? INT32_MAX : (int32_t)fixed(camera->far, 16 + world_exp);

@@ -97,6 +97,8 @@ static void needs_of_object(need_list *list, const scene_object *o)
     if (o->texture_idx != SCENE_NONE) need(list, "textures", 1, "the texture of object '%s'", o->name);
     if (o->specular[0] > 0 || o->specular[1] > 0 || o->specular[2] > 0)
         need(list, "specular", 1, "specular of object '%s'", o->name);
+    if (o->emissive[0] > 0 || o->emissive[1] > 0 || o->emissive[2] > 0)
+        need(list, "emissive", 1, "the emissive colour of object '%s'", o->name);
     if (o->baked) need(list, "baked_light", 1, "baked light of object '%s'", o->name);
     if (o->caster == SCENE_CASTER_CLIP || o->caster == SCENE_CASTER_DITHER)
         need(list, "caster_alpha", 1, "the shadow of object '%s', cut by alpha,", o->name);
@@ -108,6 +110,7 @@ static void needs_of_object(need_list *list, const scene_object *o)
 int settings_needs(const scene *s, bool shadows, settings_need *needs)
 {
     need_list list = {needs, 0};
+    if (s->gradient) need(&list, "tile_drawing", 1, "the background's gradient");
     if (shadows) needs_of_shadows(&list, s);
     for (size_t i = 0; i < s->n_lights; i++) needs_of_light(&list, s, &s->lights[i], shadows);
     for (size_t i = 0; i < s->n_objects; i++) needs_of_object(&list, &s->objects[i]);

@@ -67,6 +67,10 @@ static const scene_knob scene_knobs[] = {
     LIGHT_("mask_channel", WHOLE, mask_channel, -1, 3, "channel of the baked shadow mask; -1: none (M5)"),
     SCENE_("ambient", COLOUR, ambient, 0, 255, "ambient light: one number or R,G,B"),
     SCENE_("background", COLOUR, background, 0, 1, "background colour: one number or R,G,B"),
+    SCENE_(
+        "background_bottom", COLOUR, background_bottom, 0, 1,
+        "colour at the picture's lower edge, background being that at the upper one; switches the gradient on (R11)"),
+    SCENE_("background_gradient", SWITCH, gradient, 0, 1, "between the two"),
     {"filter", OF_SHADOW, WORD, offsetof(scene_shadow, filter), 0, 0, settings_filter_names,
      "shadow filter of both atlases (F1-F4)"},
     {"other_filter", OF_SHADOW, WORD, offsetof(scene_shadow, other_filter), 0, 0, settings_filter_names,
@@ -294,6 +298,7 @@ int settings_apply_scene(scene *s, const char *key, size_t light, const char *va
         return settings_fail(error, error_bytes, key, value, expected);
     }
     store(s, k, light, &v);
+    if (strcmp(key, "background_bottom") == 0) s->gradient = true;
     if (strcmp(key, "filter") == 0) s->shadow.other_filter = s->shadow.filter;
     return 1;
 }

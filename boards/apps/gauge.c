@@ -1,0 +1,74 @@
+/* A gauge drawn over a compiled scene, before its tiles are flushed (gn_scene.draw_over): make emulate BOARD=...
+ * APP=gauge SCENE=FILE ARGS=OUT writes the first frame to a file, RGB565 row after row (boards/tools/rgb565_png). */
+#include "scene.h"
+
+#include "board.h"
+
+enum { RADIUS = SCENE_HEIGHT / 5, MARGIN = SCENE_HEIGHT / 20, TICKS = 9 };
+#define WHITE 0xFFFFU
+#define RED   0xF965U
+
+static gn_renderer renderer;
+static scene_state state;
+
+/* The dial's centre in half pixels, and its hand's turn: 0 is upwards, clockwise. */
+typedef struct {
+    int32_t x, y;
+    uint16_t hand_turn;
+} gauge;
+
+/* Pixel (x, y) from the centre lies along a ray: within half its width, and between two radii, in half pixels. */
+static int on_ray(int32_t x, int32_t y, uint16_t turn, int32_t from, int32_t to, int32_t width)
+{
+    int32_t sine = gn_sin_q30(turn) >> 15, cosine = gn_cos_q30(turn) >> 15;
+    int32_t along = (x * sine - y * cosine) >> 15, across = (x * cosine + y * sine) >> 15;
+    return along >= from && along <= to && across >= -width && across <= width;
+}
+
+static uint16_t gauge_pixel(const gauge *g, int32_t x, int32_t y, uint16_t below)
+{
+    const int32_t r = 2 * RADIUS, square = x * x + y * y;
+    if (square > r * r) return below;
+    if (square > (r - 5) * (r - 5)) return WHITE;
+    if (on_ray(x, y, g->hand_turn, -r / 6, r - 14, 2)) return RED;
+    for (int32_t i = 0; i < TICKS && square > (r - 16) * (r - 16); i++)
+        if (on_ray(x, y, (uint16_t)(GN_TURN(240) + i * GN_TURN(30)), r - 16, r, 2)) return WHITE;
+    return (uint16_t)(below >> 1 & 0x7BEFU); /* half of what is there */
+}
+
+/* Draws the part of the gauge that the tile shows. */
+static void draw_gauge(void *user, int x, int y, int w, int h, void *pixels)
+{
+    const gauge *g = user;
+    uint16_t *row = pixels;
+    for (int j = y; j < y + h; j++, row += w) {
+        if (2 * j + 1 < g->y - 2 * RADIUS || 2 * j + 1 > g->y + 2 * RADIUS) continue;
+        for (int i = 0; i < w; i++) row[i] = gauge_pixel(g, 2 * (x + i) + 1 - g->x, 2 * j + 1 - g->y, row[i]);
+    }
+}
+
+typedef struct {
+    int file, failed;
+} panel;
+
+static void flush(void *user, int x, int y, int w, int h, const void *pixels)
+{
+    panel *p = user;
+    (void)x, (void)y;
+    p->failed |= board_file_write(p->file, pixels, 2U * (uint32_t)(w * h));
+}
+
+int app_main(void)
+{
+    static const gn_picture picture = {SCENE_WIDTH, SCENE_HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    gauge dial = {2 * (SCENE_WIDTH - MARGIN - RADIUS), 2 * (SCENE_HEIGHT - MARGIN - RADIUS), GN_TURN(35)};
+    panel p = {.file = board_file_create(board_args())};
+    gn_scene scene = *scene_frame(&state, 0);
+    scene.draw_over = draw_gauge;
+    scene.draw_user = &dial;
+    gn_status status = gn_init(&renderer, &picture);
+    if (!status) status = gn_render(&renderer, &scene, flush, &p);
+    if (status) board_print(gn_status_text(status));
+    board_print_memory();
+    return status != GN_OK || p.file < 0 || p.failed || board_file_close(p.file);
+}
