@@ -65,6 +65,9 @@ test: deps ## run every test
 soak: ## the longer campaigns, minutes to hours: [SEED=n] [SCENES=n] [CAMPAIGNS="random census"]
 	@sh tests/soak.sh
 
+mutate: ## mutants of lib/ against the tests, a score and the survivors: [N=150] [SEED=n] [MINUTES=m] [FILES="lib/scene/gn_scene.c"]
+	@SEED="$(SEED)" N="$(N)" MINUTES="$(MINUTES)" FILES="$(FILES)" sh tests/mutation/mutate.sh
+
 coverage: ## print the lines and branches of lib/ that the C tests run, in some minutes
 	@sh tests/coverage.sh
 
@@ -213,5 +216,5 @@ endif
 
 -include $(shell find $(wildcard $(BUILD)/obj $(BUILD)/wasm) /dev/null -name "*.d")
 
-.PHONY: all help run playground test-playground deps test soak bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
+.PHONY: all help run playground test-playground deps test soak mutate bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
 .SECONDARY:

@@ -464,12 +464,8 @@ static inline gn_status gn_init(gn_renderer *r, const gn_picture *picture)
     return gn_init_as(r, picture, sizeof(gn_renderer), GN_CONFIG_SIGNATURE);
 }
 
-/* One frame: begin, all shadow tiles, prepare, all screen tiles. Nothing is flushed if it fails, but for a callback
- * that calls its own renderer: what begins or draws is refused with GN_ERR_REENTERED, and the frame goes on; after
- * gn_init in the callback the frame ends with that error. In steps (below) the caller keeps the order: a screen tile
- * fails so if its callback has left the renderer in another stage; a second tile with the same scratch, or a whole
- * frame, in the callback are not seen. Other renderers may be called. A callback must return; if it did not, call
- * gn_init. */
+/* One frame: begin, all shadow tiles, prepare, all screen tiles. Nothing is flushed if it fails. Calls of the renderer
+ * in its flush callback are refused; gn_init there ends the frame with GN_ERR_REENTERED. */
 gn_status gn_render(gn_renderer *r, const gn_scene *scene, gn_flush_fn flush, void *user);
 
 /* The same in steps, for time slicing and several cores. The scene must stay unchanged until the last screen tile. */

@@ -3,6 +3,7 @@
 # goes to build/soak.log: date, campaign, seed, scenes, result. usage: [SEED=n] [SCENES=n] [MODELS="a.obj b.glb"] [CAMPAIGNS="random census"] soak.sh
 #
 # random    10^6 random scenes: nothing undefined, nothing changed that was kept (tests/property/test_random.c), some minutes
+# shipped   10^5 random scenes of each configuration that ships, and with poisoned gaps in the state (tests/property/test_shipped.sh), half an hour
 # extremes  20000 random scenes against the reference (tests/oracle/test_extremes_many.c), about an hour
 # census    planes at 100 times as many angles (tests/oracle/test_census.c)
 # culling   casters left out at many more places (tests/property/test_culling.c)
@@ -13,7 +14,7 @@
 # suite     make test with THOROUGH=1: also the combinations whose parts it tests each, half an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random jpeg math culling census accuracy rows seams suite ${MODELS:+models }extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped jpeg math culling census accuracy rows seams suite ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
@@ -35,6 +36,13 @@ campaign() {
     start=$(date +%s)
     SOAK=1 SEED=$SEED SCENES=$SCENES "$program" $option >$build/$1.out
     record $? "$1"
+}
+
+shipped() {
+    echo "shipped: seed $SEED"
+    start=$(date +%s)
+    SCENES=${asked:-100000} SOAK=1 SEED=$SEED sh tests/property/test_shipped.sh >$build/shipped.out
+    SCENES=${asked:-100000} record $? shipped
 }
 
 suite() {
@@ -63,6 +71,7 @@ for name in $CAMPAIGNS; do
     random) campaign random 1000000 ;;
     jpeg) campaign jpeg 5000000 ;;
     extremes) campaign extremes 20000 ;;
+    shipped) shipped ;;
     suite) suite ;;
     census | culling | math | models | accuracy | rows | seams) campaign $name 0 ;;
     *) echo "no such campaign: $name" && failed=$((failed + 1)) ;;

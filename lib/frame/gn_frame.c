@@ -39,7 +39,11 @@
 #include "shade/gn_pixel.h"
 #include "visible/gn_screen_rect.h"
 
-/* Drawing: gn_render has the frame, and its flush callback must leave it alone. */
+/* Drawing: gn_render has the frame, and its flush callback must leave the renderer alone (other renderers may be
+ * called). What begins or draws is refused, and the frame goes on; gn_init clears whatever is there, and so the frame
+ * ends with the error. In steps the caller keeps the order: a screen tile sees only that its callback has left another
+ * stage; a whole frame, or a second tile with the same scratch, is not seen. After a callback that does not return:
+ * gn_init. */
 enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED, GN_STAGE_DRAWING };
 
 static gn_status wrong_stage(const gn_frame *frame)

@@ -96,6 +96,7 @@ GN_HOT int gn_corner_begin(gn_lattice *l, const gn_frame *frame, const gn_surfac
 {
     if (!find_plane(&l->plane, frame, s, rect)) return 0;
     l->cascade = -1;
+    l->offset_view = NULL;
 #if GN_SHADOWS
     gn_corner_begin_cascade(l, frame, s);
 #endif

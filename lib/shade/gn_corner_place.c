@@ -41,10 +41,12 @@ GN_HOT static void coords_directional(const gn_frame *frame, const gn_surface *s
     for (int i = 0; i < 3; i++) {
         const gn_ray_plane *r = &view->fit.ortho.ray[i];
         int32_t a = (int32_t)((uint32_t)r->a0 + (uint32_t)r->ax * (uint32_t)px + (uint32_t)r->ay * (uint32_t)py);
-        int32_t v = gn_mul_high(z, a) >> down, more;
-        if (flat_q16) more = gn_sat32((int64_t)v + flat_q16[i]);
-        else more = v + 4 * gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16);
-        coord_q16[i] = (int32_t)((uint32_t)more + (uint32_t)r->d_q16);
+        int32_t at = (int32_t)((uint32_t)(gn_mul_high(z, a) >> down) + (uint32_t)r->d_q16);
+        if (flat_q16) coord_q16[i] = gn_sat32((int64_t)at + flat_q16[i]); /* automatic bias may say: lit */
+        else
+            coord_q16[i] =
+                (int32_t)((uint32_t)at +
+                          4 * (uint32_t)gn_mul_high((int32_t)(gn_dot64(n, view->axis_q30[i]) >> 30), view->offset_q16));
     }
 }
 

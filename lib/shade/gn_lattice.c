@@ -216,7 +216,6 @@ GN_HOT void gn_lattice_shade(gn_shading *s)
     l->x_end = box.x1;
     l->y_end = box.y1;
     l->has_face = 0;
-    l->offset_view = NULL;
     forget_windows(l);
     for (l->y = box.y0; l->y < box.y1; l->y += l->n_rows) {
         for (l->x = box.x0; l->x < box.x1; l->x = l->part_end) {

@@ -13,8 +13,9 @@ enum { RANDOM_VERTICES = 9, RANDOM_TRIANGLES = 14, RANDOM_OBJECTS = 4, RANDOM_ME
 enum { RANDOM_TEXELS_LOG2 = 12, RANDOM_LIMIT_Q16 = 8192 << 16 };
 
 typedef struct {
-    int32_t pos[RANDOM_VERTICES * 3];
-    int16_t nrm[RANDOM_VERTICES * 3], uv[RANDOM_VERTICES * 2];
+    gn_position pos[RANDOM_VERTICES * 3];
+    gn_normal nrm[RANDOM_VERTICES * 3];
+    int16_t uv[RANDOM_VERTICES * 2];
     uint16_t rgb[RANDOM_VERTICES * 3], mask_uv[RANDOM_VERTICES * 2], idx[RANDOM_TRIANGLES * 3],
         baked[RANDOM_VERTICES * 3];
     uint8_t mask[RANDOM_VERTICES * 4];
@@ -70,6 +71,60 @@ static void spoil_words(void *object, size_t first_byte, size_t end_byte)
     } while (one_in(2));
 }
 
+/* What is not built is refused: seldom asked for, or nothing would be drawn. */
+static int absent(int built)
+{
+    return !built && !one_in(60);
+}
+
+static void built_object(gn_object *o)
+{
+    if (absent(GN_VISIBLE_ALPHA)) o->visible_alpha = GN_ALPHA_OPAQUE;
+    if (absent(GN_CASTER_ALPHA)) o->caster_alpha = GN_ALPHA_OPAQUE;
+    if (absent(GN_TEXTURES)) o->texture = NULL;
+    if (absent(GN_MASKS)) o->mask_image = NULL, o->mask_u8 = NULL;
+    if (absent(GN_BAKED_LIGHT)) o->baked_uq12 = NULL;
+    if (absent(GN_SPECULAR)) memset(o->specular_uq16, 0, sizeof o->specular_uq16);
+}
+
+static void built_light(gn_light *l)
+{
+    if (absent(GN_PUNCTUAL_LIGHTS)) l->kind = GN_LIGHT_DIRECTIONAL;
+    if (absent(GN_FILTER_MAX >= 3)) l->softness = GN_SOFTNESS_DEFAULT;
+    if (absent(GN_RECEIVER_BIAS)) memset(l->bias_receiver_q16, 0, sizeof l->bias_receiver_q16);
+    if (absent(GN_CASTER_BIAS)) l->bias_caster_q16 = 0;
+    if (absent(GN_RECEIVER_PLANE)) l->receiver_plane = 0;
+    if (absent(GN_AUTO_BIAS)) l->auto_bias = GN_AUTO_BIAS_OFF;
+    if (absent(!GN_COMPACT)) l->near_offset_q16 = l->colour_exp = 0, l->mode = GN_LIGHT_REALTIME;
+    if (absent(!GN_COMPACT)) l->auto_bias = GN_AUTO_BIAS_DEFAULT;
+}
+
+static void built_camera(gn_camera *camera)
+{
+    if (!absent(!GN_COMPACT)) return;
+    for (int k = 0; k < 3; k++) camera->to_world.t_q16[k] %= 40 << 16;
+    camera->focal_q24 = (1U << 24) + rnd() % (1U << 25);
+    camera->near_q16 = 1 << 12 << rnd() % 5;
+}
+
+static void built_shadows(gn_shadow_settings *s, int32_t near_q16)
+{
+    if (absent(!GN_COMPACT)) {
+        s->max_distance_q16 = (near_q16 & 0xFFFFF) * (2 + (int32_t)(rnd() % 100));
+        s->distance_mode = GN_DISTANCE_DEPTH;
+        s->cascade_fade_uq16 = (uint32_t)pick(66, 32768);
+    }
+    if (absent(GN_DISK_FILTER && GN_FILTER_MAX >= 4))
+        s->filter = s->other_filter = (gn_filter)(rnd() % (GN_FILTER_MAX + 1));
+    if (absent(GN_LINEAR_KERNELS)) s->kernel = GN_KERNEL_TENT;
+    if (absent(GN_MASKS)) s->mixing = GN_MIXING_NONE;
+    if (absent(GN_TILE_IMPORTANCE)) s->tile_sizes = GN_TILES_EQUAL;
+    if (absent(GN_MAIN_LIGHT)) s->main_light = 0;
+    if (absent(GN_INCREMENTAL)) memset(s->refresh, 0, sizeof s->refresh);
+    if (absent(GN_MANY_CASCADES)) s->n_cascades = 1;
+    if (absent(GN_BLENDED_CASCADES)) s->blend = GN_BLEND_HARD;
+}
+
 /* Texels in a block of their own, so that a sanitizer sees what is read beside them. */
 static void random_textures(random_scene *g)
 {
@@ -95,8 +150,8 @@ static void random_textures(random_scene *g)
 static void random_arrays(random_scene *g, int32_t size)
 {
     for (int i = 0; i < RANDOM_VERTICES * 3; i++) {
-        g->pos[i] = pick(-size, size);
-        g->nrm[i] = (int16_t)pick(INT16_MIN, INT16_MAX);
+        g->pos[i] = (gn_position)pick(-size, size); /* short ones wrap, and are as random */
+        g->nrm[i] = (gn_normal)pick(INT16_MIN, INT16_MAX);
         g->rgb[i] = (uint16_t)pick(0, 65535);
         g->baked[i] = (uint16_t)pick(0, 65535);
     }
@@ -107,7 +162,7 @@ static void random_arrays(random_scene *g, int32_t size)
     random_bytes(g->mask, sizeof g->mask);
     for (int i = 0; i < RANDOM_TRIANGLES * 3; i++) g->idx[i] = (uint16_t)(rnd() % RANDOM_VERTICES);
     if (one_in(100)) g->idx[rnd() % (RANDOM_TRIANGLES * 3)] = (uint16_t)rnd();
-    if (one_in(50)) g->pos[rnd() % (RANDOM_VERTICES * 3)] = (int32_t)rnd();
+    if (one_in(50)) g->pos[rnd() % (RANDOM_VERTICES * 3)] = (gn_position)rnd();
 }
 
 static void random_meshes(random_scene *g)
@@ -180,6 +235,7 @@ static void random_object(random_scene *g, gn_object *o)
     if (!one_in(8)) o->flags &= ~(uint32_t)(GN_OBJECT_HIDDEN | GN_OBJECT_UNLIT);
     if (!one_in(4)) o->flags |= GN_OBJECT_DEFAULT;
     random_material(g, o);
+    built_object(o);
     if (one_in(150)) spoil_words(o, offsetof(gn_object, to_world), offsetof(gn_object, texture));
 }
 
@@ -187,7 +243,7 @@ static void random_object(random_scene *g, gn_object *o)
 static void vertex_place(const random_scene *g, int32_t out_q16[3])
 {
     const gn_object *o = &g->object[rnd() % RANDOM_OBJECTS];
-    const int32_t *p = g->pos + 3 * (rnd() % RANDOM_VERTICES);
+    const gn_position *p = g->pos + 3 * (rnd() % RANDOM_VERTICES);
     double unit = 65536.0 / (double)((uint64_t)1 << (o->mesh->pos_frac_bits % 31)), scale = unit / 1073741824.0;
     for (int r = 0; r < 3; r++) {
         double sum = 0;
@@ -253,6 +309,7 @@ static void random_light(random_scene *g, gn_light *l)
     l->mask_channel = (int32_t)(rnd() % 5) - 1;
     random_light_place(g, l);
     random_biases(l);
+    built_light(l);
     if (one_in(300)) spoil_words(l, 0, sizeof *l);
 }
 
@@ -263,6 +320,7 @@ static void random_camera(gn_camera *camera)
     camera->focal_q24 = (uint32_t)pick(1 << 19, one_in(6) ? INT32_MAX : 1 << 25) << one_in(8);
     camera->near_q16 = pick(256, one_in(8) ? RANDOM_LIMIT_Q16 : 1 << 14);
     camera->far_q16 = one_in(50) ? (int32_t)rnd() : INT32_MAX;
+    built_camera(camera);
 }
 
 static void random_shadows(gn_shadow_settings *s, int32_t near_q16)
@@ -292,6 +350,7 @@ static void random_shadows(gn_shadow_settings *s, int32_t near_q16)
     }
     s->blend = (gn_blend)(rnd() % 3);
     s->distance_mode = (gn_distance_mode)(rnd() % 2);
+    built_shadows(s, near_q16);
 }
 
 static void random_scene_make(random_scene *g)
@@ -305,11 +364,12 @@ static void random_scene_make(random_scene *g)
     s->unit_log2 = seldom(0, -30, 30);
     s->n_objects = one_in(4) ? rnd() % (RANDOM_OBJECTS + 1) : RANDOM_OBJECTS;
     s->n_lights = one_in(10) ? rnd() % (GN_MAX_LIGHTS + 1) : 1 + rnd() % 6;
+    if (s->n_lights > GN_MAX_LIGHTS && !one_in(20)) s->n_lights = GN_MAX_LIGHTS;
     random_shadows(&s->shadow, s->camera.near_q16);
     random_textures(g);
     random_meshes(g);
     for (int i = 0; i < RANDOM_OBJECTS; i++) random_object(g, &g->object[i]);
-    for (uint32_t i = 0; i < s->n_lights; i++) random_light(g, &g->light[i]);
+    for (uint32_t i = 0; i < s->n_lights && i < GN_MAX_LIGHTS; i++) random_light(g, &g->light[i]);
     if (one_in(60)) spoil_words(s, offsetof(gn_scene, camera), sizeof *s);
     if (one_in(60)) random_bytes(&s->camera, sizeof s->camera);
     s->objects = g->object;
@@ -321,6 +381,7 @@ static void random_scene_change(random_scene *g)
 {
     gn_scene *s = &g->scene;
     int32_t *at = s->camera.to_world.t_q16;
+    gn_object *o;
     do {
         switch (rnd() % 9) {
         case 0:
@@ -333,7 +394,7 @@ static void random_scene_change(random_scene *g)
             g->object[rnd() % RANDOM_OBJECTS].flags ^= 1U << rnd() % 7;
             break;
         case 3:
-            if (s->n_lights) random_light(g, &g->light[rnd() % s->n_lights]);
+            if (s->n_lights) random_light(g, &g->light[rnd() % s->n_lights % GN_MAX_LIGHTS]);
             break;
         case 4:
             for (int k = 0; k < 3; k++) at[k] += at[k] > 0 ? -(int32_t)(rnd() >> 18) : (int32_t)(rnd() >> 18);
@@ -342,7 +403,9 @@ static void random_scene_change(random_scene *g)
             random_shadows(&s->shadow, s->camera.near_q16);
             break;
         case 6:
-            random_material(g, &g->object[rnd() % RANDOM_OBJECTS]);
+            o = &g->object[rnd() % RANDOM_OBJECTS];
+            random_material(g, o);
+            built_object(o);
             break;
         case 7:
             random_camera(&s->camera);

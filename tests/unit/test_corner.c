@@ -235,8 +235,8 @@ static approx angle_of(const gn_light *lamp, const gn_light_state *light_state, 
 }
 
 /* From where the library has the point, and its normal there. */
-static void check_irradiance(const gn_surface *s, const gn_lattice *l, const gn_surface_light *light_at,
-                             const gn_corner *c, const gn_corner_light *at)
+static void check_irradiance(const gn_surface *s, const gn_surface_light *light_at, const gn_corner *c,
+                             const gn_corner_light *at)
 {
     const gn_light *lamp = &lamps[light_at->idx];
     double from[3], n[3], d2 = 0;
@@ -244,7 +244,7 @@ static void check_irradiance(const gn_surface *s, const gn_lattice *l, const gn_
     gn_corner_from(c, light_at->state, from_q16);
     for (int i = 0; i < 3; i++) {
         from[i] = from_q16[i] * LSB16;
-        n[i] = ldexp(s->smooth ? c->normal_q30[i] : l->unit_q30[i], -30);
+        n[i] = ldexp(s->smooth ? c->normal_q30[i] : s->normal_q30[0][i], -30);
         d2 += from[i] * from[i];
     }
     const double d = sqrt(d2), length = sqrt(dot(n, n)), delta = relative_root() + ldexp(1, -30);
@@ -305,7 +305,7 @@ static double coord_of(const gn_light_view *view, const known_point *k, double z
     return (z * along + eye) / texel - view->fit.ortho.origin[i];
 }
 
-static void check_ortho(const gn_lattice *l, const gn_surface *s, const known_point *k, gn_corner *c, uint32_t slot)
+static void check_ortho(gn_lattice *l, const gn_surface *s, const known_point *k, gn_corner *c, uint32_t slot)
 {
     const gn_frame *frame = &renderer.frame;
     gn_corner_light *at = &c->light[slot];
@@ -336,7 +336,7 @@ static void check_ortho(const gn_lattice *l, const gn_surface *s, const known_po
 
 /* The receiver moves along its normal by a share of the light-plane distance; products whose lower half is dropped cut
  * up to 6 LSB off each component. */
-static void check_persp(const gn_lattice *l, const gn_surface *s, gn_corner *c, uint32_t slot)
+static void check_persp(gn_lattice *l, const gn_surface *s, gn_corner *c, uint32_t slot)
 {
     enum { OFF = 6 };
     const gn_frame *frame = &renderer.frame;
@@ -449,7 +449,7 @@ static void check_corner(gn_lattice *l, const gn_surface *s, const plane *p, con
             continue;
         }
         check_from(&k, from->state, &corner);
-        check_irradiance(s, l, from, &corner, at);
+        check_irradiance(s, from, &corner, at);
         check_persp(l, s, &corner, slot);
     }
     if (s->n_lights) check_part(l, s, r, &k, x, y);

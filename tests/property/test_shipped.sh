@@ -1,0 +1,49 @@
+#!/bin/sh
+# Random scenes (test_random.c) on configurations as they ship, constants for knobs, under the address and undefined-behaviour
+# sanitizers: presets, compact, size first, short positions and normals, atlases of unequal sizes, capacities that are often too small.
+# A good frame after a refused one is a fresh renderer's. In one build there are poisoned gaps between the arrays of the state.
+# SOAK=1: 100000 scenes of each; SEED=n others.
+cd "$(dirname "$0")/../.." || exit 1
+. tests/support/check.sh
+scenes=500
+[ -z "$SOAK" ] || scenes=100000
+: "${SCENES:=$scenes}"
+export SCENES
+
+# random NAME LIB FLAGS...: not optimised, which takes the compiler a tenth of the time
+random() {
+    name=$1 lib=$2
+    shift 2
+    if ! clang -std=c11 -w -g1 -O0 -fsanitize=address,undefined -fno-sanitize-recover=all -D_POSIX_C_SOURCE=200809L "-I$lib" -Itests/support "$@" -o "$tmp/$name" \
+        "$lib/gnomon.c" tests/property/test_random.c -lm 2>"$tmp/log"; then fail "$name does not build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"
+    elif "$tmp/$name" >"$tmp/out" 2>&1; then
+        pass
+        [ -z "$SOAK" ] || echo "$name: $(grep '^seed' "$tmp/out")"
+    else fail "$name: $(grep -m 3 -E 'failed|ERROR|error|other pixels' "$tmp/out" | tr '\n' ';')"; fi
+    rm -f "$tmp/$name"
+}
+
+random tiny lib -DGN_PRESET=GN_PRESET_TINY
+random fast lib -DGN_PRESET=GN_PRESET_FAST -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=128
+random accurate lib -DGN_PRESET=GN_PRESET_ACCURATE -DGN_ATLAS_SIZE=128 -DGN_OTHER_ATLAS_SIZE=64 -DGN_STATIC_LAYER=1
+random size-first lib -DGN_SIZE_FIRST=1 -DGN_PRESET=GN_PRESET_TINY -DGN_POSITION_BITS=16 -DGN_NORMAL_BITS=8 -DGN_OTHER_ATLAS_SIZE=32
+random capacities lib -DGN_PRESET=GN_PRESET_FAST -DGN_MAX_TRIANGLES=12 -DGN_MAX_TILE_REFS=24 -DGN_MAX_OBJECTS=3 -DGN_MAX_LIGHTS=3 -DGN_SURFACE_LIGHTS=2 \
+    -DGN_MAX_SHADOW_TILES=2 -DGN_MAX_OTHER_TILES=3 -DGN_ATLAS_SIZE=32 -DGN_OTHER_ATLAS_SIZE=32 -DGN_VERTEX_CACHE=4
+random compact lib -DGN_COMPACT=1
+random compact-short lib -DGN_COMPACT=1 -DGN_SIZE_FIRST=1 -DGN_POSITION_BITS=16
+
+# An overrun from one array of the state into the next is one into a gap.
+cp -r lib "$tmp/lib"
+awk '/^typedef struct gn_(frame|scratch) \{/ { of = $3; sub(/^gn_/, "", of) }
+    /^\} gn_/ { of = "" }
+    of != "" && /^    [a-z]/ && (/^    [^;]*\];/ || /^    (gn_work|gn_tile_pixels|gn_[a-z]*_texels) /) { printf "uint64_t gap_%d[8];\n", ++n; print of ".gap_" n >list }
+    { print }' list="$tmp/gaps" lib/frame/gn_state.h >"$tmp/lib/frame/gn_state.h"
+# of arrays that this build does not have there is no gap either
+echo '#include "gnomon.h"' >"$tmp/gaps.c"
+clang -E -P -DGN_PRESET=GN_PRESET_BALANCED "-I$tmp/lib" "$tmp/gaps.c" | grep -o '^ *uint64_t gap_[0-9]*' | sed 's/.* //' >"$tmp/built"
+gaps=$(grep -w -F -f "$tmp/built" "$tmp/gaps" | sed 's/.*/X(&)/' | tr '\n' ' ')
+[ "$(wc -l <"$tmp/built")" -ge 14 ] && pass || fail "only $(wc -l <"$tmp/built") gaps"
+random gaps "$tmp/lib" -DGN_PRESET=GN_PRESET_BALANCED "-DGAPS(X)=$gaps"
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]

@@ -1,0 +1,185 @@
+/* Bias of receivers that a light sets itself (gn_bias.c): the terms of DESIGN 1.7 in doubles, their limits, and what
+ * does not fit 32 bits; limits of automatic bias, whose promise tests/oracle/test_bias.c holds. */
+#include <math.h>
+#include <string.h>
+
+#include "base/gn_math.h"
+#include "light/gn_bias.h"
+#include "check.h"
+#include "rng.h"
+
+static gn_renderer one;
+static gn_scene scene;
+static gn_light light;
+
+static void test_reach(void)
+{
+    gn_light_view view = {.tile_texels = 64};
+    for (int i = 0; i <= 16; i++) {
+        light.bias_normal_q16 = i << 15, light.bias_receiver_q16[0] = 77, light.bias_receiver_q16[1] = 99;
+        light.bias_receiver_q16[2] = i * 1000, light.bias_receiver_q16[3] = i * i;
+        const double nu = sqrt(2) * (i << 15) + i * 1000 + i * i;
+        CHECK_NEAR(gn_bias_reach_q16(&one.frame, &view, &light), nu, 1.5 + nu * 1e-5);
+    }
+}
+
+static void random_unit(rng *r, int32_t out_q30[3])
+{
+    double v[3], length = 0;
+    for (int i = 0; i < 3; i++) v[i] = rng_range(r, -1000, 1000), length += v[i] * v[i];
+    for (int i = 0; i < 3; i++) out_q30[i] = (int32_t)(ldexp(v[i], 30) / sqrt(length + 1));
+}
+
+static double dot(const int32_t a[3], const int32_t b[3])
+{
+    return ldexp((double)a[0] * b[0] + (double)a[1] * b[1] + (double)a[2] * b[2], -60);
+}
+
+static void random_biases(rng *r, gn_light_view *view)
+{
+    for (int i = 0; i < 4; i++) light.bias_receiver_q16[i] = rng_below(r, 3) ? rng_range(r, 0, 8 << 16) : 0;
+    light.bias_normal_q16 = 1 << 16, light.auto_bias = GN_AUTO_BIAS_OFF;
+    view->filter_idx = (uint8_t)rng_below(r, 9);
+    view->offset_q16 = rng_range(r, 0, 72 << 16);
+}
+
+/* Along the normal and towards the light, texels: b_n + reach b_w sin, reach (b_x + b_y tan), tan at most 50. */
+static void terms(const gn_light_view *view, double cosine, double *along, double *towards)
+{
+    const int32_t *b = light.bias_receiver_q16;
+    const double c = fmin(fmax(cosine, 0), 1), s = sqrt(1 - c * c), reach = view->filter_idx + 1;
+    const double tangent = s < 50 * c ? s / c : 50;
+    *along = view->offset_q16 + reach * b[3] * s;
+    *towards = b[0] | b[1] | b[3] ? reach * (b[0] + b[1] * tangent) : 0;
+}
+
+static void test_directional(void)
+{
+    rng r = {3};
+    int grazing = 0;
+    for (int n = 0; n < 4000; n++) {
+        gn_light_view view = {0};
+        int32_t normal[3], out[3];
+        double along, towards;
+        random_biases(&r, &view);
+        for (int i = 0; i < 3; i++) random_unit(&r, view.axis_q30[i]);
+        random_unit(&r, one.frame.light[0].to_light_q30);
+        random_unit(&r, normal);
+        if (n % 4 == 0) /* at right angles to the light, nearly */
+            for (int i = 0; i < 3; i++) normal[i] = i ? 0 : 1 << 30, one.frame.light[0].to_light_q30[0] = n << 12;
+        const double cosine = dot(normal, one.frame.light[0].to_light_q30);
+        terms(&view, cosine, &along, &towards);
+        grazing += cosine > 0 && cosine < 0.02;
+        gn_bias_directional(&one.frame, &view, normal, out);
+        for (int i = 0; i < 3; i++) {
+            const double want = dot(normal, view.axis_q30[i]) * along - (i == 2 ? towards : 0);
+            /* a term's rounding counts reach times, and so does the tangent's, times b_y <= 8; the relative error of
+             * the tangent is 2^-28, and the cosine's unit */
+            const double rounding = 3 + 9 * (view.filter_idx + 1);
+            CHECK_NEAR(out[i], want, rounding + towards * ldexp(1, -28) * (1 + 1 / fmax(fabs(cosine), 0.019)));
+        }
+    }
+    CHECK(grazing > 100);
+}
+
+static void test_punctual(void)
+{
+    rng r = {5};
+    int saturated = 0;
+    for (int n = 0; n < 4000; n++) {
+        gn_light_view *view = &one.frame.view[0];
+        gn_light_state *state = &one.frame.light[0];
+        int32_t normal[3], out[3], from[3];
+        double along, towards, length = 0, z = 0;
+        random_biases(&r, view);
+        random_unit(&r, normal);
+        random_unit(&r, state->to_light_q30);
+        state->kind = (uint8_t)(n & 1 ? GN_LIGHT_POINT : GN_LIGHT_SPOT);
+        state->view_idx = 0, view->light_idx = 0;
+        view->fit.persp.texel_per_z = gn_bf_recip(gn_bf_from_u64(1 + rng_below(&r, 1 << (n % 9 ? 10 : 4))));
+        const double per_z = ldexp((double)gn_bf_apply(1 << 30, view->fit.persp.texel_per_z, 30), -60);
+        for (int i = 0; i < 3; i++) {
+            from[i] = rng_range(&r, -(1 << 30), 1 << 30) >> rng_below(&r, 16);
+            length += (double)from[i] * from[i];
+        }
+        double cosine = 0;
+        for (int i = 0; i < 3; i++) cosine -= ldexp(normal[i], -30) * from[i] / sqrt(length);
+        if (fabs(cosine) < 0.03) continue; /* the tangent is steep there */
+        if (state->kind == GN_LIGHT_SPOT) z = fmax(-dot(from, state->to_light_q30) * ldexp(1, 30), 0);
+        else
+            for (int i = 0; i < 3; i++) z = fmax(z, fabs((double)from[i]));
+        terms(view, cosine, &along, &towards);
+        gn_bias_punctual(&one.frame, state, normal, 1 << 16, from, out);
+        /* texels to units, at most 2^31 - 1 each, and the sum in 32 bits */
+        along = fmin(along * z * per_z / 65536, 2147483647), towards = fmin(towards * z * per_z / 65536, 2147483647);
+        for (int i = 0; i < 3; i++) {
+            const double sum = along * ldexp(normal[i], -30) - towards * from[i] / sqrt(length);
+            const double want = fmax(fmin(sum, 2147483647), -2147483648.0);
+            saturated += along > 2147483646;
+            /* a unit of the cosine is 2^-30 cos / sin of the sine; 5 of them at 0.03 are less than 2^-22; z is rounded
+             */
+            const double sine = fmax(sqrt(fmax(1 - cosine * cosine, 0)), ldexp(1, -15)), reach = view->filter_idx + 1;
+            const double unit = ldexp(light.bias_receiver_q16[1] + light.bias_receiver_q16[3], -29) / sine;
+            const double rounding = (3 + reach * (9 + unit)) * z * per_z / 65536;
+            CHECK_NEAR(out[i], want, 4 + rounding + (along + towards) * (ldexp(1, -22) + 1 / fmax(z, 1)));
+        }
+    }
+    CHECK(saturated > 50);
+}
+
+/* The position error of a directional light's receivers is at most 8 texels, whatever the distance. */
+static void test_automatic_limit(void)
+{
+    const int delta =
+        (1 << (15 - GN_K(&one.frame, shadow_subpixel_bits))) + (1 << (15 - GN_K(&one.frame, weight_bits)));
+    gn_light_view view = {.tile_texels = 64, .border_lit = 1, .filter = GN_FILTER_HARD};
+    int32_t before = 0;
+    scene.shadow.max_distance_q16 = 8192 << 16, scene.camera.focal_q24 = GN_Q24(1);
+    for (int i = 0; i < 32; i++) {
+        view.fit.ortho.inv_texel = gn_bf_from_u64((uint64_t)1 << i);
+        gn_bias_auto_view(&one.frame, &view);
+        const int32_t place = view.offset_q16 - 32768 - delta - 2;
+        CHECK(place >= 17 && place >= before && place <= 8 << 16);
+        before = place;
+    }
+    CHECK_EQ_INT(before, 8 << 16);
+}
+
+/* Along the normal nothing is taken from the depth, but where a texel of the face is deeper than twice its distance:
+ * near tau |m_u| > 2 h. Then all of it is. */
+static void test_automatic_steep(void)
+{
+    gn_light_view view = {.tile_texels = 64, .perspective = 1, .axis_q30 = {{1 << 30}, {0, 1 << 30}, {0, 0, 1 << 30}}};
+    int steep = 0, flat = 0;
+    view.fit.persp.near_q16 = 1 << 12;
+    view.fit.persp.texel_per_z = gn_bf_recip(gn_bf_from_u64(32)); /* 2 t / T */
+    view.fit.persp.per_near = gn_bf_recip(gn_bf_from_u64(1 << 12));
+    for (int axis = 0; axis < 2; axis++)
+        for (int h = 1; h < 1 << 12; h += 1 + h / 16) { /* the face's distance from the light */
+            const int32_t face[3] = {axis ? 0 : 1 << 30, axis ? 1 << 30 : 0, 0};
+            const int32_t from[3] = {axis ? 0 : -h, axis ? -h : 0, 1 << 16};
+            gn_auto_bias form = GN_AUTO_BIAS_NORMAL;
+            int32_t moved[3];
+            const int64_t less = gn_bias_auto_persp(&view, &form, face, 1 << 16, from, moved);
+            if (form != GN_AUTO_BIAS_NORMAL) continue;
+            const double change = (1 << 12) / 32.0;
+            if (fabs(change - 2 * h) > 2) CHECK(less == (change > 2 * h ? (int64_t)1 << 33 : 0));
+            steep += change > 2 * h, flat += change < 2 * h;
+        }
+    CHECK(steep > 10 && flat > 10);
+}
+
+int main(void)
+{
+    const gn_picture p = {64, 64, GN_FORMAT_RGB888, GN_VIEW_COLOUR, 0};
+    CHECK(gn_init(&one, &p) == GN_OK);
+    scene.lights = &light, scene.n_lights = 1;
+    one.frame.scene = &scene;
+    light.auto_bias = GN_AUTO_BIAS_OFF;
+    test_reach();
+    test_directional();
+    test_punctual();
+    test_automatic_limit();
+    test_automatic_steep();
+    return check_report();
+}
