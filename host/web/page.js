@@ -5,7 +5,7 @@ const $ = (id) => document.getElementById(id);
 const OWN = [['sundial', 'Sundial', 102], ['mixed', 'Mill', 24], ['desk', 'Desk', 0], ['avenue', 'Avenue', 0], ['room', 'Room', 0], ['fence', 'Fence', 0], ['cube', 'Cube', 0]];
 const DEFAULTS = {size: '320x240', output: 'rgb565'};
 const ORBIT = {yaw: 30, pitch: 25}; // the tool's own, in degrees
-const IDLE_MS = 350, PLAYING_PRICE_MS = 1500, FILE_MAX_BYTES = 256 << 20;
+const IDLE_MS = 350, PAUSE_MS = 700, PLAYING_PRICE_MS = 1500, FILE_MAX_BYTES = 256 << 20;
 const ERROR_GAIN = 8; // as in gnomon compare
 
 const state = {scene: null, yaw: 0, pitch: 0, zoom: 1, hour: -1, frame: 0, preset: '', sets: {...DEFAULTS}, board: null, mhz: 0, view: 'colour'};
@@ -115,7 +115,7 @@ function showOthers() {
 }
 
 function say(text) {
-  const plain = text.trim().split('\n').filter((line) => line && !/gnomon help/.test(line)).map((line) => line.replace(/^gnomon: /, '').replaceAll(`${state.scene.path}: `, '').replaceAll(state.scene.path, state.scene.title));
+  const plain = text.trim().split('\n').filter((line) => line && !/gnomon help/.test(line)).map((line) => line.replace(/^gnomon: /, '').replaceAll(`${state.scene.path}: `, '').replaceAll(state.scene.path, state.scene.title).replace(/\buser\d+\//g, ''));
   return plain;
 }
 
@@ -152,15 +152,20 @@ function take(answer) {
   others.fixed = picture;
   show($('picture'), picture);
   $('frame').style.setProperty('--aspect', String(info.width / info.height));
-  const now = performance.now();
-  drawnAt.push(now);
-  while (drawnAt.length > 20 || now - drawnAt[0] > 2000) drawnAt.shift();
-  if (drawnAt.length > 1) $('here').textContent = ((1000 * (drawnAt.length - 1)) / (now - drawnAt[0])).toFixed(0);
+  tellRate(performance.now());
   if (first) tellScene(say(answer.err));
   tellSpeed(info.instructions);
   tellTime();
   tellCommand();
   showOthers();
+}
+
+// Of pictures that follow each other.
+function tellRate(now) {
+  if (now - drawnAt[drawnAt.length - 1] > PAUSE_MS) drawnAt.length = 0;
+  drawnAt.push(now);
+  if (drawnAt.length > 20) drawnAt.shift();
+  if (drawnAt.length > 4) $('here').textContent = ((1000 * (drawnAt.length - 1)) / (now - drawnAt[0])).toFixed(0);
 }
 
 // ---- What the file is, and what it lacks -------------------------------------------------------------------------------
@@ -578,8 +583,10 @@ function baseName() {
 // What the tool writes, by path; null, and a message, if it refuses.
 function make(run, paths) {
   return new Promise((done) => {
-    $('taking').textContent = 'Working\u2026';
+    $('taking').textContent = info && info.frames > 1 && run[0] === 'compile' ? `Working on ${info.frames} frames\u2026` : 'Working\u2026';
+    $('stop').hidden = false;
     queue.add({run, view: viewOf(), take: paths}, (answer) => {
+      $('stop').hidden = true;
       $('taking').textContent = answer.status === 0 ? (answer.out.trim() || 'Done.').replace(/^out[^:]*: /, '') : say(answer.err).join(' ');
       done(answer.status === 0 ? new Map(answer.files) : null);
     }, true);
@@ -750,6 +757,7 @@ function listen() {
   $('take-png').addEventListener('click', takePicture);
   $('take-c').addEventListener('click', () => takeFiles(false));
   $('take-sketch').addEventListener('click', () => takeFiles(true));
+  $('stop').addEventListener('click', () => slow.restart('stopped'));
   $('find').addEventListener('click', findFit);
 }
 

@@ -180,6 +180,9 @@ async function checkDownloads() {
     await browser.until(`$('taking').textContent !== 'Working\\u2026' && queue.busy === false`, 120);
     await new Promise((done) => setTimeout(done, 300));
   }
+  await choose('Mill');
+  await browser.value(`$('take-c').click(); setTimeout(() => $('stop').click(), 300)`);
+  check(await browser.until(`$('stop').hidden && $('taking').textContent === 'stopped'`, 30), `stopped: ${await text('taking')}`);
   const saved = await browser.value('[...saved]');
   check(saved.map(([name]) => name).join(' ') === 'cube.png cube.zip cube-sketch.zip', `saved: ${saved.map(([name]) => name)}; ${await text('taking')}`);
   for (const [name, data] of saved) fs.writeFileSync(`${folder}/${name}`, Buffer.from(data, 'base64'));

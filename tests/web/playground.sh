@@ -53,11 +53,13 @@ add node tests/web/page.js build/playground.html build/web "$tmp"
     fail "the picture that was saved is not the native tool's"
 unpack() { # unpack ZIP: nothing in it is compressed
     node -e '
-        const fs = require("fs"), zip = fs.readFileSync(process.argv[1]);
+        const fs = require("fs"), {crc32} = require("./tests/web/check.js"), zip = fs.readFileSync(process.argv[1]);
         for (let at = 0; zip.readUInt32LE(at) === 0x04034b50; ) {
             const [n, name] = [zip.readUInt32LE(at + 18), zip.readUInt16LE(at + 26)], file = `${process.argv[2]}/${zip.toString("utf8", at + 30, at + 30 + name)}`;
             fs.mkdirSync(file.replace(/[^\/]*$/, ""), {recursive: true});
-            fs.writeFileSync(file, zip.subarray(at + 30 + name, at + 30 + name + n));
+            const bytes = zip.subarray(at + 30 + name, at + 30 + name + n);
+            if (parseInt(crc32(bytes), 16) !== zip.readUInt32LE(at + 14)) throw new Error(`${file}: another checksum`);
+            fs.writeFileSync(file, bytes);
             at += 30 + name + n;
         }' "$1" "$2" 2>"$tmp/log"
 }
