@@ -19,7 +19,7 @@ trap 'exit 1' HUP INT TERM
 # ---- Configurations -----------------------------------------------------------------------------------------------------------
 
 features=$(sed -n '/GN_FEATURE_KNOBS/,$s/^    X([a-z_0-9]*, \([A-Z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -e RUNTIME_KNOBS -e RAW_VIEWS)
-most() { if [ "$1" = FILTER_MAX ]; then echo 4; else echo 1; fi; }
+most() { case $1 in FILTER_MAX) echo 4 ;; TEXTURE_FORMATS) echo 1023 ;; *) echo 1 ;; esac; }
 # base FEATURE: what must be built for it to have something to do
 base() {
     case $1 in

@@ -181,6 +181,9 @@
 #ifndef GN_TEXTURES
 #define GN_TEXTURES (!GN_COMPACT)
 #endif
+#ifndef GN_TEXTURE_FORMATS
+#define GN_TEXTURE_FORMATS 1023
+#endif
 #ifndef GN_SPECULAR
 #define GN_SPECULAR (!GN_COMPACT)
 #endif

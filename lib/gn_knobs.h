@@ -92,6 +92,10 @@
     X(caster_alpha, CASTER_ALPHA, 0, 1, "casters cut by alpha: clip and dither", "flash")                              \
     X(visible_alpha, VISIBLE_ALPHA, 0, 1, "surfaces cut by alpha: clip and dither", "flash")                           \
     X(textures, TEXTURES, 0, 1, "textures: colour and alpha", "flash; a table of 512 bytes; a lookup per pixel")       \
+    X(texture_formats, TEXTURE_FORMATS, 0, 1023,                                                                       \
+      "formats of textures that are built, their sum: 1 RGBA8888, 2 RGB565, 4 RGB565 with 1 bit of alpha, 8, 16, 32 "  \
+      "palettes of 8, 4, 1 bits, 64, 128 grey of 8, 4 bits, 256, 512 alpha of 8, 4 bits",                              \
+      "flash")                                                                                                         \
     X(specular, SPECULAR, 0, 1, "specular highlights",                                                                 \
       "flash; a reciprocal root per light and sample of such objects")                                                 \
     X(emissive, EMISSIVE, 0, 1, "emissive colours: objects that glow",                                                 \

@@ -38,6 +38,7 @@
 #include "geometry/gn_xform.c"
 #if GN_TEXTURES
 #include "geometry/gn_texture.c"
+#include "geometry/gn_texture_row.c"
 #endif
 #if GN_MASKS
 #include "geometry/gn_mask.c"
@@ -123,6 +124,7 @@
 #include "shade/gn_lattice.c"
 #include "shade/gn_lattice_draw.c"
 #include "shade/gn_lattice_even.c"
+#include "shade/gn_lattice_texture.c"
 #include "shade/gn_lattice_look.c"
 #include "shade/gn_lattice_shadow.c"
 #include "shade/gn_lattice_window.c"

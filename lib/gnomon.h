@@ -66,8 +66,9 @@ extern "C" {
     X(GN_ERR_COLOUR, "colour, albedo, ambient or background out of range")                                             \
     X(GN_ERR_BACKGROUND, "background_gradient is neither 0 nor 1; or a gradient, draw_behind or draw_over, which are " \
                          "not built in")                                                                               \
-    X(GN_ERR_TEXTURE, "texture without texels or above 4096 per side, or texture coordinates are missing or have "     \
-                      "more than 15 fraction bits")                                                                    \
+    X(GN_ERR_TEXTURE, "texture without texels or palette, or above 4096 per side, or texture coordinates are missing " \
+                      "or have more than 15 fraction bits")                                                            \
+    X(GN_ERR_TEXTURE_FORMAT, "unknown format of a texture, or one that is not built in: see GN_TEXTURE_FORMATS")       \
     X(GN_ERR_MATERIAL, "alpha, cutoff, specular or emissive colour or shininess out of range, or an alpha mode, "      \
                        "caster mode or such a colour that is not built in")                                            \
     X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")              \
@@ -169,10 +170,29 @@ enum {
     GN_TEXTURE_MASK_2 = 16   /* two */
 };
 
+/* gn_texture.format; GN_TEXTURE_FORMATS says which are built. Colours are sRGB, alpha is linear. Where a texel is less
+ * than a byte, the first one is in the highest bits, and each row begins with a byte of its own. */
+typedef enum {
+    GN_TEXTURE_RGBA8888, /* 4 bytes: red, green, blue, alpha */
+    GN_TEXTURE_RGB565,   /* 2 bytes, the lower one first: red in bits 15..11, green 10..5, blue 4..0; alpha is 1 */
+    GN_TEXTURE_RGB565A1, /* the same, but bit 5, green's lowest, is the alpha: red, green and blue have 5 bits each */
+    GN_TEXTURE_PALETTE8, /* an index of the palette: 8, 4 or 1 bit */
+    GN_TEXTURE_PALETTE4,
+    GN_TEXTURE_PALETTE1,
+    GN_TEXTURE_GREY8, /* red, green and blue are equal, alpha is 1: 8 or 4 bits */
+    GN_TEXTURE_GREY4,
+    GN_TEXTURE_ALPHA8, /* white, and an alpha of 8 or 4 bits */
+    GN_TEXTURE_ALPHA4,
+    GN_TEXTURE_FORMAT_COUNT
+} gn_texture_format;
+
 typedef struct {
-    const uint8_t *rgba;             /* 4 per texel, rows from the top: sRGB colour, linear alpha */
-    uint8_t width_log2, height_log2; /* 0..12 */
+    const uint8_t *rgba;             /* texels of any format, rows from the top */
+    uint8_t width_log2, height_log2; /* 0..12; not looked at where width and height are set */
     uint8_t flags;
+    uint8_t format;         /* gn_texture_format */
+    uint16_t width, height; /* 1..4096 texels; 0: 2^width_log2, 2^height_log2 */
+    const uint8_t *palette; /* palettes: 4 bytes per entry, as in GN_TEXTURE_RGBA8888; 256, 16 or 2 entries */
 } gn_texture;
 
 /* gn_object.flags */

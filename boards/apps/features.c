@@ -12,7 +12,8 @@ static gn_light lights[2];
 static uint8_t texels[4 * 8 * 8], mask[4 * DEMO_BALL_VERTICES];
 static uint16_t baked[3 * DEMO_BALL_VERTICES];
 static int16_t uv[2 * 8];
-static const gn_texture nearest = {texels, 3, 3, 0}, bilinear = {texels, 3, 3, GN_TEXTURE_BILINEAR};
+static const gn_texture nearest = {.rgba = texels, .width_log2 = 3, .height_log2 = 3},
+                        bilinear = {.rgba = texels, .width_log2 = 3, .height_log2 = 3, .flags = GN_TEXTURE_BILINEAR};
 
 /* ---- Cases: each adds to what the one before it in the chain has ------------------------------------------------- */
 

@@ -111,6 +111,13 @@ static void print_borders(const double *table, uint32_t levels)
     printf(" %luU,", 1UL << 24); /* no colour ends it */
 }
 
+static void print_linear(const char *name, int levels)
+{
+    double v[64];
+    for (int i = 0; i <= levels; i++) v[i] = 65535.0 * linear((double)i / levels);
+    print_u16(name, v, levels + 1);
+}
+
 int main(void)
 {
     double v[577];
@@ -147,6 +154,9 @@ int main(void)
     print_tent_sums();
     printf("\n#if GN_TEXTURES");
     print_u16("gn_srgb_decode_table", v, 256);
-    printf("#endif\n");
+    printf("\n#if GN_TEXTURE_FORMATS & 6");
+    print_linear("gn_linear_31_table", 31);
+    print_linear("gn_linear_63_table", 63);
+    printf("#endif\n#endif\n");
     return 0;
 }

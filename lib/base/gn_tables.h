@@ -23,7 +23,8 @@ extern const int16_t
     gn_disk_table_q15[128]; /* x, y of 64 points of the unit disk (DESIGN 1.7), every prefix well spread */
 extern const uint16_t gn_tent_sums[32][16];      /* Q12: sums of subsets, a bit each, of the four weights of a tent of 3
                                                     texels at 1/32 texel (NUMERICS 4.13) */
-extern const uint16_t gn_srgb_decode_table[256]; /* 65535 * linear light of an 8-bit sRGB value */
+/* 65535 * linear light of an sRGB value of 8 bits; of 5 and 6 */
+extern const uint16_t gn_srgb_decode_table[256], gn_linear_31_table[32], gn_linear_63_table[64];
 
 /* Entries of tables. With GN_SIZE_FIRST they are computed: gn_curves.c; reciprocals by the core's divider, if it has
  * one. */

@@ -21,7 +21,7 @@ GN_HOT int gn_alpha_cuts(gn_alpha_cut *cut, int32_t x)
     if (GN_TEXTURES && cut->textured) {
         int32_t uv_q20[2];
         gn_alpha_coords(cut, x, uv_q20);
-        alpha = gn_mul_uq16(alpha, gn_texture_channel(cut->object->texture, uv_q20[0], uv_q20[1], GN_CHANNEL_ALPHA));
+        alpha = gn_mul_uq16(alpha, gn_texture_alpha(cut->object->texture, uv_q20[0], uv_q20[1]));
     }
     if (cut->mode == GN_ALPHA_CLIP) return alpha < cut->object->alpha_cutoff_uq16;
     return alpha < gn_noise_uq16(x, cut->y);

@@ -77,7 +77,7 @@ GN_HOT static int step_coord(gn_alpha_steps *steps, int axis, int64_t d, int32_t
 GN_HOT static void alpha_steps(gn_alpha_cut *cut, int32_t x)
 {
     const gn_texture *texture = cut->object->texture;
-    const int32_t size_log2[2] = {texture->width_log2, texture->height_log2}, at = x & -cut->px_per_step;
+    int32_t at = x & -cut->px_per_step;
     gn_alpha_steps *steps = &cut->steps;
     gn_alpha_exact from = cut->exact;
     steps->first = gn_max32(at, cut->x_begin);
@@ -94,7 +94,7 @@ GN_HOT static void alpha_steps(gn_alpha_cut *cut, int32_t x)
         int64_t d = (int64_t)cut->exact.uv_q20[i] - from.uv_q20[i];
         if (!gn_texture_clamps(texture, i)) d = (int32_t)(uint32_t)d; /* modulo whole turns */
         steps->from_q20[i] = from.uv_q20[i];
-        if (!step_coord(steps, i, d, n, bend_q30, (uint32_t)size_log2[i])) return;
+        if (!step_coord(steps, i, d, n, bend_q30, gn_texture_size_log2(texture, i))) return;
     }
     steps->hold = 1;
 }

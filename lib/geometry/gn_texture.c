@@ -1,76 +1,75 @@
-/* Textures. Positions are exact: coordinates have 20 fraction bits, texels 16. */
+/* Textures. Positions are exact: coordinates have 20 fraction bits, and so have texels. */
 #include "gn_internal.h"
 
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
+#include "geometry/gn_texel.h"
 #include "geometry/gn_texture.h"
 
-/* Texels of an axis of 2^size_log2 <= 4096 at a coordinate, modulo 2^6 turns, or clamped and within 2^5. */
-GN_HOT static inline gn_texture_taps find_taps(int32_t c_q26, int32_t size_log2, int clamped, int bilinear)
+/* Texels of an axis of `size` <= 4096 at a coordinate. */
+GN_HOT static inline gn_texture_taps find_taps(int32_t c_q20, uint32_t size, int clamped, int bilinear)
 {
-    int32_t last = (1 << size_log2) - 1, shift = 26 - size_log2, half = bilinear ? 1 << (shift - 1) : 0, first;
+    uint32_t half = bilinear ? 1U << 19 : 0, below = 0;
+    uint32_t turn = clamped ? (uint32_t)gn_max32(0, gn_min32(c_q20, (1 << 20) - 1)) : (uint32_t)c_q20 & 0xFFFFFU;
+    uint32_t at_q20 = turn * size; /* < 2^32 */
     gn_texture_taps taps;
-    if (clamped) c_q26 = gn_max32(0, gn_min32(c_q26, 1 << 26));
-    c_q26 = (int32_t)((uint32_t)c_q26 - (uint32_t)half);
-    first = c_q26 >> shift;
-    taps.weight_uq16 = (uint32_t)c_q26 << (32 - shift) >> 16;
-    taps.first = (uint32_t)(clamped ? gn_max32(0, gn_min32(first, last)) : first & last);
-    taps.second = (uint32_t)(clamped ? gn_min32(first + 1, last) : (first + 1) & last);
+    if (at_q20 < half) {
+        at_q20 += size << 20; /* modulo 2^32, and so is what comes next */
+        below = (uint32_t)clamped;
+    }
+    at_q20 -= half;
+    taps.weight_uq16 = at_q20 >> 4 & 0xFFFFU;
+    taps.first = at_q20 >> 20;
+    taps.second = taps.first + 1 < size ? taps.first + 1 : clamped ? taps.first : 0;
+    if (below) taps.first = taps.second = 0;
     return taps;
 }
 
-/* A coordinate with 20 fraction bits in the form of find_taps(). */
-GN_HOT static inline int32_t to_q26(int32_t c_q20, int clamped)
-{
-    return clamped ? gn_max32(0, gn_min32(c_q20, 1 << 20)) * 64 : (int32_t)((uint32_t)c_q20 << 6);
-}
-
 typedef struct {
-    const uint8_t *texel[4]; /* upper left, upper right, lower left, lower right; nearest: the first */
-    uint32_t right_uq16, down_uq16;
+    gn_texture_taps u, v;
     int bilinear;
 } footprint;
 
 GN_HOT static GN_SHARED void find_texels(footprint *out, const gn_texture *texture, int32_t u_q20, int32_t v_q20)
 {
     out->bilinear = (texture->flags & GN_TEXTURE_BILINEAR) != 0;
-    int clamp_u = gn_texture_clamps(texture, 0), clamp_v = gn_texture_clamps(texture, 1);
-    gn_texture_taps u = find_taps(to_q26(u_q20, clamp_u), texture->width_log2, clamp_u, out->bilinear);
-    gn_texture_taps v = find_taps(to_q26(v_q20, clamp_v), texture->height_log2, clamp_v, out->bilinear);
-    const uint8_t *upper = texture->rgba + 4 * ((size_t)v.first << texture->width_log2);
-    const uint8_t *lower = texture->rgba + 4 * ((size_t)v.second << texture->width_log2);
-    out->texel[0] = upper + 4 * u.first;
-    out->texel[1] = upper + 4 * u.second;
-    out->texel[2] = lower + 4 * u.first;
-    out->texel[3] = lower + 4 * u.second;
-    out->right_uq16 = u.weight_uq16;
-    out->down_uq16 = v.weight_uq16;
+    out->u = find_taps(u_q20, gn_texture_size(texture, 0), gn_texture_clamps(texture, 0), out->bilinear);
+    out->v = find_taps(v_q20, gn_texture_size(texture, 1), gn_texture_clamps(texture, 1), out->bilinear);
 }
 
-/* Whether all four are the same, as in areas of one colour. */
-GN_HOT static inline int is_uniform(const footprint *f, uint32_t channel)
+GN_HOT static uint32_t blend(const footprint *f, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
 {
-    const uint8_t *const *t = f->texel;
-    return !GN_SIZE_FIRST &&
-           !((t[0][channel] ^ t[1][channel]) | (t[0][channel] ^ t[2][channel]) | (t[0][channel] ^ t[3][channel]));
+    return gn_texture_mix(gn_texture_mix(a, b, f->u.weight_uq16), gn_texture_mix(c, d, f->u.weight_uq16),
+                          f->v.weight_uq16);
 }
 
-GN_HOT static uint32_t blend(const footprint *f, const uint32_t value[4])
+#if GN_CASTER_ALPHA || GN_VISIBLE_ALPHA
+/* Alpha of a texel, 65535: 1. */
+GN_HOT static inline uint32_t texel_alpha(const gn_texture *t, const uint8_t *row, uint32_t x)
 {
-    return gn_texture_mix(gn_texture_mix(value[0], value[1], f->right_uq16),
-                          gn_texture_mix(value[2], value[3], f->right_uq16), f->down_uq16);
+    if (GN_TEXEL_IS(t, GN_TEXTURE_RGBA8888)) return row[4 * x + 3] * 257U;
+    if (GN_TEXEL_IS(t, GN_TEXTURE_RGB565A1)) return row[2 * x] & 32U ? 65535U : 0;
+    if (GN_TEXEL_IS(t, GN_TEXTURE_ALPHA8)) return row[x] * 257U;
+    if (GN_TEXEL_IS(t, GN_TEXTURE_ALPHA4)) return gn_texel_index(row, x, 2) * 4369U;
+    if (GN_TEXEL_IS_PALETTE(t)) return t->palette[4 * gn_texel_index(row, x, gn_texel_bits_log2(t)) + 3] * 257U;
+    return 65535U;
 }
 
-GN_HOT uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t channel)
+GN_HOT uint32_t gn_texture_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20)
 {
     footprint f;
-    uint32_t value[4];
+    uint32_t stride = gn_texel_stride(texture);
     find_texels(&f, texture, u_q20, v_q20);
-    if (!f.bilinear || is_uniform(&f, channel)) return gn_texture_to_uq16(f.texel[0][channel] * 257U);
-    for (int i = 0; i < 4; i++) value[i] = f.texel[i][channel] * 257U;
-    return gn_texture_to_uq16(blend(&f, value));
+    const uint8_t *upper = texture->rgba + f.v.first * stride, *lower = texture->rgba + f.v.second * stride;
+    uint32_t a = texel_alpha(texture, upper, f.u.first);
+    if (!f.bilinear) return gn_texture_to_uq16(a);
+    uint32_t b = texel_alpha(texture, upper, f.u.second), c = texel_alpha(texture, lower, f.u.first),
+             d = texel_alpha(texture, lower, f.u.second);
+    if ((a ^ b) | (a ^ c) | (a ^ d)) a = blend(&f, a, b, c, d);
+    return gn_texture_to_uq16(a);
 }
+#endif
 
 GN_HOT void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_texture *texture,
                                const uint16_t idx[3])
@@ -94,62 +93,36 @@ GN_HOT int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_te
     return gn_texture_clamps(texture, which) ? gn_sat32(c_q20) : (int32_t)(uint32_t)c_q20;
 }
 
-/* Colours of the texels that a reader is at. */
-GN_HOT static GN_NOINLINE void decode(gn_texture_reader *r, const gn_texture_taps *u, const gn_texture_taps *v)
+/* Linear light of a texel: of sRGB colours of 8, 6, 5 or 4 bits. [M11] */
+GN_HOT void gn_texture_texel(const gn_texture *t, uint32_t x, uint32_t y, uint16_t rgb[3])
 {
-    const uint8_t *upper = r->texture->rgba + 4 * ((size_t)v->first << r->texture->width_log2),
-                  *lower = r->texture->rgba + 4 * ((size_t)v->second << r->texture->width_log2);
-    const uint8_t *const t[4] = {upper + 4 * u->first, upper + 4 * u->second, lower + 4 * u->first,
-                                 lower + 4 * u->second};
-    int differ = 0;
-    for (int c = 0; r->bilinear && c < 3; c++)
-        differ |= (t[0][c] ^ t[1][c]) | (t[0][c] ^ t[2][c]) | (t[0][c] ^ t[3][c]);
-    r->uniform = !differ;
-    for (int c = 0; c < 3; c++)
-        for (int i = 0; i < (differ ? 4 : 1); i++) r->linear[c][i] = (uint16_t)gn_srgb_decode_entry(t[i][c]);
-}
-
-GN_HOT void gn_texture_read_begin(gn_texture_reader *reader, const gn_texture *texture)
-{
-    reader->texture = texture;
-    reader->at = UINT32_MAX;
-    reader->bilinear = (texture->flags & GN_TEXTURE_BILINEAR) != 0;
-    reader->clamp[0] = gn_texture_clamps(texture, 0);
-    reader->clamp[1] = gn_texture_clamps(texture, 1);
-}
-
-GN_HOT int gn_texture_move(gn_texture_reader *r, int32_t u_q26, int32_t v_q26)
-{
-    gn_texture_taps u = find_taps(u_q26, r->texture->width_log2, r->clamp[0], r->bilinear);
-    gn_texture_taps v = find_taps(v_q26, r->texture->height_log2, r->clamp[1], r->bilinear);
-    uint32_t at =
-        v.first << 12 | u.first | (uint32_t)(u.second == u.first) << 24 | (uint32_t)(v.second == v.first) << 25;
-    r->weight_uq16[0] = u.weight_uq16;
-    r->weight_uq16[1] = v.weight_uq16;
-    if (at == r->at) return r->uniform;
-    r->at = at;
-    decode(r, &u, &v);
-    return 0;
+    uint32_t bits_log2 = gn_texel_bits_log2(t);
+    const uint8_t *row = t->rgba + y * gn_texel_stride(t);
+    rgb[0] = rgb[1] = rgb[2] = 65535U;
+    if (GN_TEXEL_IS(t, GN_TEXTURE_RGBA8888)) gn_texel_decode_rgba(gn_texel_word(row + 4 * x), rgb);
+    else if (GN_TEXEL_IS_565(t))
+        gn_texel_decode_565(row[2 * x] | (uint32_t)row[2 * x + 1] << 8, t->format == GN_TEXTURE_RGB565A1, rgb);
+    else if (GN_TEXEL_IS_PALETTE(t))
+        gn_texel_decode_rgba(gn_texel_word(t->palette + 4 * gn_texel_index(row, x, bits_log2)), rgb);
+    else if (GN_TEXEL_IS_GREY(t))
+        rgb[0] = rgb[1] = rgb[2] = gn_texel_decode_grey(gn_texel_index(row, x, bits_log2), bits_log2);
 }
 
 /* A colour in linear light. [M3] */
-GN_HOT void gn_texture_read(const gn_texture_reader *r, uint32_t rgb_uq16[3])
-{
-    uint32_t right_uq16 = r->weight_uq16[0];
-    for (int c = 0; c < 3; c++) {
-        const uint16_t *v = r->linear[c];
-        uint32_t value = v[0];
-        if (!r->uniform)
-            value = gn_texture_mix(gn_texture_mix(v[0], v[1], right_uq16), gn_texture_mix(v[2], v[3], right_uq16),
-                                   r->weight_uq16[1]);
-        rgb_uq16[c] = gn_texture_to_uq16(value);
-    }
-}
-
 GN_HOT void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3])
 {
-    gn_texture_reader reader;
-    gn_texture_read_begin(&reader, texture);
-    gn_texture_move(&reader, to_q26(u_q20, reader.clamp[0]), to_q26(v_q20, reader.clamp[1]));
-    gn_texture_read(&reader, rgb_uq16);
+    footprint f;
+    uint16_t texel[4][3];
+    find_texels(&f, texture, u_q20, v_q20);
+    gn_texture_texel(texture, f.u.first, f.v.first, texel[0]);
+    if (f.bilinear) {
+        gn_texture_texel(texture, f.u.second, f.v.first, texel[1]);
+        gn_texture_texel(texture, f.u.first, f.v.second, texel[2]);
+        gn_texture_texel(texture, f.u.second, f.v.second, texel[3]);
+    }
+    for (int c = 0; c < 3; c++) {
+        uint32_t v = texel[0][c];
+        if (f.bilinear) v = blend(&f, v, texel[1][c], texel[2][c], texel[3][c]);
+        rgb_uq16[c] = gn_texture_to_uq16(v);
+    }
 }

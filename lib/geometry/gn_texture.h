@@ -1,16 +1,14 @@
-/* Textures: colour in linear light, and single channels as they are stored (DESIGN 1.8). */
+/* Textures: colour in linear light, and alpha (DESIGN 1.8). */
 #ifndef GN_TEXTURE_H
 #define GN_TEXTURE_H
 
+#include "base/gn_q.h"
 #include "gnomon.h"
 
-enum { GN_CHANNEL_RED, GN_CHANNEL_GREEN, GN_CHANNEL_BLUE, GN_CHANNEL_ALPHA };
+/* Alpha, 0..65536. u and v of any value, v downwards, 20 fraction bits: 1/256 of a texel of the largest texture. */
+uint32_t gn_texture_alpha(const gn_texture *texture, int32_t u_q20, int32_t v_q20);
 
-/* One channel, not decoded: 0..65536. u and v of any value, v downwards, 20 fraction bits: 1/256 of a texel of the
- * largest texture. */
-uint32_t gn_texture_channel(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t channel);
-
-/* The same of a mask image: bilinear and clamped, whatever its flags say, and lit in a channel that it lacks. */
+/* A channel of a mask image: bilinear and clamped, whatever its flags say, and lit in a channel that it lacks. */
 uint32_t gn_texture_mask(const gn_texture *image, int32_t u_q16, int32_t v_q16, uint32_t channel);
 
 /* Whether a mask image is the same in all channels wherever u and v (0, 1) are between least and most; at most 64
@@ -23,6 +21,20 @@ GN_HOT static inline int gn_texture_clamps(const gn_texture *texture, int axis)
     return (texture->flags & (axis ? GN_TEXTURE_CLAMP_V : GN_TEXTURE_CLAMP_U)) != 0;
 }
 
+/* Texels along u (0) or v (1), 1..4096. */
+GN_HOT static inline uint32_t gn_texture_size(const gn_texture *texture, int axis)
+{
+    uint32_t size = axis ? texture->height : texture->width;
+    return size ? size : 1U << (axis ? texture->height_log2 : texture->width_log2);
+}
+
+/* Rounded up. */
+GN_HOT static inline uint32_t gn_texture_size_log2(const gn_texture *texture, int axis)
+{
+    uint32_t size = gn_texture_size(texture, axis);
+    return size > 1 ? 32U - (uint32_t)gn_clz32(size - 1) : 0;
+}
+
 void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_texture *texture,
                         const uint16_t idx[3]);
 
@@ -31,29 +43,19 @@ void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_
 int32_t gn_texture_coord(const gn_texture_triangle *triangle, const gn_texture *texture, const int32_t b_q30[2],
                          int32_t which);
 
-/* Where colours are read, one after the other: between four texels, decoded. */
-typedef struct {
-    const gn_texture *texture;
-    uint32_t at; /* the first one's column and row, and whether the others are at the same; UINT32_MAX: none yet */
-    int bilinear, clamp[2];
-    int uniform; /* the first one's colour is that of all */
-    uint32_t weight_uq16[2];
-    uint16_t linear[3][4]; /* of a channel: upper left, upper right, lower left, lower right; 65535: 1 */
-} gn_texture_reader;
-
-void gn_texture_read_begin(gn_texture_reader *reader, const gn_texture *texture);
-
-/* Coordinates with 26 fraction bits, modulo 2^6 turns; clamped: within 2^5. Returns whether the colour there is that of
- * the last place. */
-int gn_texture_move(gn_texture_reader *reader, int32_t u_q26, int32_t v_q26);
-
-/* The colour there, as gn_texture_colour() says it. */
-void gn_texture_read(const gn_texture_reader *reader, uint32_t rgb_uq16[3]);
-
 /* Red, green, blue in linear light, 0..65536 each: texels are decoded before they are filtered. */
 void gn_texture_colour(const gn_texture *texture, int32_t u_q20, int32_t v_q20, uint32_t rgb_uq16[3]);
 
-/* ---- Common to textures and masks -------------------------------------------------------------------------------- */
+/* Coordinates along a row of pixels, in texels: a quadratic from its first pixel on; |.| < 2^14. A bilinear texture's
+ * are half a texel less, and 1/512 more, for weights of 8 bits. */
+typedef struct {
+    int32_t at_q17[2], step_q17[2], step_change_q17[2];
+} gn_texture_line;
+
+/* Red, green, blue in linear light, 65535: 1, of the pixels `bits`, the lowest first; at most 16. */
+void gn_texture_row(const gn_texture *texture, const gn_texture_line *line, uint32_t bits, uint16_t (*rgb)[3]);
+
+/* ---- Common to the files of textures ----------------------------------------------------------------------------- */
 
 /* The two texels of an axis and the second one's weight of 65536; nearest: the first alone. */
 typedef struct {
@@ -72,5 +74,8 @@ GN_HOT static inline uint32_t gn_texture_to_uq16(uint32_t v)
 {
     return v + (v >> 15);
 }
+
+/* A texel's colour in linear light, 65535: 1. */
+void gn_texture_texel(const gn_texture *texture, uint32_t x, uint32_t y, uint16_t rgb[3]);
 
 #endif

@@ -99,9 +99,25 @@ static gn_status check_mesh(gn_frame *frame, const gn_mesh *mesh, uint32_t objec
     return GN_OK;
 }
 
+static int side_ok(uint32_t size, uint32_t size_log2)
+{
+    return size ? size <= 4096 : size_log2 <= 12;
+}
+
 static int texture_ok(const gn_texture *texture)
 {
-    return texture->rgba && texture->width_log2 <= 12 && texture->height_log2 <= 12;
+    return texture->rgba && side_ok(texture->width, texture->width_log2) &&
+           side_ok(texture->height, texture->height_log2);
+}
+
+static gn_status check_texture(gn_frame *frame, const gn_mesh *mesh, const gn_texture *texture, uint32_t idx)
+{
+    if (!GN_TEXTURES || !mesh->uv || mesh->uv_frac_bits > 15 || !texture_ok(texture))
+        return gn_fail(frame, GN_ERR_TEXTURE, idx);
+    if (texture->format >= GN_TEXTURE_FORMAT_COUNT || !(GN_TEXTURE_FORMATS >> texture->format & 1))
+        return gn_fail(frame, GN_ERR_TEXTURE_FORMAT, idx);
+    int indexed = texture->format >= GN_TEXTURE_PALETTE8 && texture->format <= GN_TEXTURE_PALETTE1;
+    return indexed && !texture->palette ? gn_fail(frame, GN_ERR_TEXTURE, idx) : GN_OK;
 }
 
 /* Features that are not built must not be requested. */
@@ -117,8 +133,10 @@ static gn_status check_material(gn_frame *frame, const gn_object *object, uint32
         any_above(object->specular_uq16, GN_SPECULAR ? 65536 : 0) ||
         any_above(object->emissive_uq16, GN_EMISSIVE ? GN_COLOUR_LIMIT_UQ16 : 0))
         return gn_fail(frame, GN_ERR_MATERIAL, idx);
-    if (object->texture && (!GN_TEXTURES || !mesh->uv || mesh->uv_frac_bits > 15 || !texture_ok(object->texture)))
-        return gn_fail(frame, GN_ERR_TEXTURE, idx);
+    if (object->texture) {
+        gn_status status = check_texture(frame, mesh, object->texture, idx);
+        if (status != GN_OK) return status;
+    }
     if (object->mask_image && (!GN_MASKS || !mesh->mask_uv_uq16 || !texture_ok(object->mask_image)))
         return gn_fail(frame, GN_ERR_MASK, idx);
     if ((object->mask_u8 && !GN_MASKS) || (object->baked_uq12 && !GN_BAKED_LIGHT))

@@ -177,8 +177,19 @@ GN_HOT static int32_t attribute(const gn_surface *s, const corner_point *p, int 
 #if GN_TEXTURES
 GN_HOT static void texture_at(const gn_surface *s, const corner_point *p, int32_t uv_q20[2])
 {
-    const int32_t b_q30[2] = {p->b_q28[0] * 4, p->b_q28[1] * 4};
-    for (int i = 0; i < 2; i++) uv_q20[i] = gn_texture_coord(&s->uv, s->object->texture, b_q30, i);
+    const gn_texture *texture = s->object->texture;
+    const int64_t(*uv)[2] = (const int64_t(*)[2])s->uv.uv_q16;
+    for (int i = 0; i < 2; i++) {
+        int32_t e1 = (int32_t)uv[1][i], e2 = (int32_t)uv[2][i];
+        if (e1 != uv[1][i] || e2 != uv[2][i]) {
+            const int32_t b_q30[2] = {p->b_q28[0] * 4, p->b_q28[1] * 4};
+            uv_q20[i] = gn_texture_coord(&s->uv, texture, b_q30, i);
+            continue;
+        }
+        /* 2^29 * 2^31, twice */
+        int64_t c_q20 = uv[0][i] * 16 + (((int64_t)p->b_q28[0] * e1 + (int64_t)p->b_q28[1] * e2) >> 24);
+        uv_q20[i] = gn_texture_clamps(texture, i) ? gn_sat32(c_q20) : (int32_t)(uint32_t)c_q20;
+    }
 }
 #endif
 

@@ -3,10 +3,10 @@
 
 #include "base/gn_count.h"
 #include "base/gn_q.h"
-#include "geometry/gn_texture.h"
 #include "shade/gn_exact.h"
 #include "shade/gn_lattice.h"
 #include "shade/gn_lattice_look.h"
+#include "shade/gn_lattice_texture.h"
 #include "shade/gn_levels.h"
 #include "shade/gn_pixel.h"
 #include "shade/gn_shadow.h"
@@ -21,6 +21,9 @@ typedef struct {
     int32_t x, y, size_log2;
     gn_patch base_q24[3];
     int32_t first, n; /* nodes of a row: from this pixel on */
+#if GN_TEXTURES
+    gn_texture_patch uv;
+#endif
 } drawing;
 
 /* ---- One colour -------------------------------------------------------------------------------------------------- */
@@ -295,56 +298,6 @@ GN_HOT static GN_NOINLINE int find_nodes(const drawing *d, int32_t below, int32_
     return all < 1U << 24;
 }
 
-#if GN_TEXTURES
-/* A row's coordinates along one axis: from + across t + 2 bent t (t - 1), t = 0 .. 1 from one end of the cell to the
- * other. Of that all pixels from the drawing's first on. */
-GN_HOT static void set_coords(gn_texture_line *uv, int axis, const drawing *d, uint32_t from_q20, int32_t across_q20,
-                              int32_t bent_q20)
-{
-    int32_t log2 = d->size_log2, first = d->first, half = ((bent_q20 * 128 >> (2 * log2 - 1)) + 1) >> 1;
-    int32_t step = (across_q20 * 64 >> log2) - half * ((1 << log2) - 1);
-    if (gn_texture_clamps(d->s->surface.object->texture, axis)) /* far out it is the same all over the cell */
-        from_q20 = (uint32_t)gn_max32(-(16 << 20), gn_min32((int32_t)from_q20, 16 << 20));
-    uv->at_q26[axis] = (from_q20 << 6) + (uint32_t)(first * step + half * first * (first - 1));
-    uv->step_q26[axis] = (uint32_t)(step + 2 * half * first);
-    uv->step_change_q26[axis] = (uint32_t)(2 * half);
-}
-
-/* Between a row of the cell's corners and the other. */
-GN_HOT static void coords_of_corners(const drawing *d, gn_corner *const corner[4], int32_t below, gn_texture_line *uv)
-{
-    for (int i = 0; i < 2; i++) {
-        uint32_t c[4];
-        for (int k = 0; k < 4; k++) c[k] = (uint32_t)corner[k]->uv_q20[i];
-        int32_t upper = (int32_t)(c[1] - c[0]), lower = (int32_t)(c[3] - c[2]), down = (int32_t)(c[2] - c[0]);
-        set_coords(uv, i, d, c[0] + (uint32_t)((int64_t)down * below >> d->size_log2),
-                   upper + (int32_t)((int64_t)(lower - upper) * below >> d->size_log2), 0);
-    }
-}
-
-/* As they are at the ends of the cell, and in its middle if need be. */
-GN_HOT static GN_NOINLINE void find_coords(const drawing *d, gn_corner *const corner[4], int32_t below,
-                                           gn_texture_line *uv)
-{
-    gn_shading *s = d->s;
-    int32_t size = 1 << d->size_log2, y = d->y + below, from[2], end[2], middle[2];
-    int known = s->lattice.look.texture_places != 0;
-    known = known && gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x, y, from);
-    known = known && gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x + size, y, end);
-    if (known && s->lattice.look.texture_places == 3)
-        known = gn_corner_texture(&s->lattice, s->frame, &s->surface, d->x + (size >> 1), y, middle);
-    if (!known) { /* not asked for; or rounding keeps a place between two that are sampled from being so itself */
-        coords_of_corners(d, corner, below, uv);
-        return;
-    }
-    for (int i = 0; i < 2; i++) {
-        uint32_t at = (uint32_t)from[i], across = (uint32_t)end[i] - at, bent = 0;
-        if (s->lattice.look.texture_places == 3) bent = across - 2 * ((uint32_t)middle[i] - at);
-        set_coords(uv, i, d, at, (int32_t)across, (int32_t)bent);
-    }
-}
-#endif
-
 /* ---- Cells ------------------------------------------------------------------------------------------------------- */
 
 /* The columns that have pixels. Returns 0 if there are none. */
@@ -395,7 +348,7 @@ GN_HOT static void draw_two_colours(const drawing *d)
 #endif
 
 /* Rows of pixels between two rows of nodes, which then are those below. */
-GN_HOT static GN_NOINLINE void draw_strip(drawing *d, gn_corner *const corner[4], int32_t below, int inside)
+GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, int inside)
 {
     gn_shading *s = d->s;
     gn_lattice *l = &s->lattice;
@@ -405,30 +358,31 @@ GN_HOT static GN_NOINLINE void draw_strip(drawing *d, gn_corner *const corner[4]
     line.node = (const int32_t(*)[3])node;
     line.spacing_log2 = log2;
     line.inside = inside;
-    line.texture = NULL;
-    for (int32_t i = 0; log2 && i < d->n; i++)
-        for (int c = 0; c < 3; c++) step[i][c] = (next[i][c] - node[i][c]) >> log2;
+    line.texel = NULL;
 #if GN_TEXTURES
-    if (s->surface.textured) line.texture = s->surface.object->texture;
+    uint16_t texel[16][3];
+    if (s->surface.textured) line.texel = (const uint16_t(*)[3])texel;
 #endif
 #if GN_GLOW_APART
-    for (int c = 0; line.texture && c < 3; c++) {
+    for (int c = 0; line.texel && c < 3; c++) {
         uint32_t glow = s->surface.object->emissive_uq16[c];
         line.glow_q24[c] = GN_GLOWS(&s->surface) ? (int32_t)(glow < 1U << 19 ? glow << 8 : 1U << 27) : 0;
     }
 #endif
+    for (int32_t i = 0; log2 && i < d->n; i++)
+        for (int c = 0; c < 3; c++) step[i][c] = (next[i][c] - node[i][c]) >> log2;
     for (int32_t t = 0;; t++) {
         int32_t y = d->y + below + t;
         uint32_t bits = gn_lattice_bits(l, d->x, y, d->size_log2) >> d->first;
 #if GN_TEXTURES
-        if (line.texture && bits) find_coords(d, corner, below + t, &line.uv);
+        if (s->surface.textured && bits)
+            gn_lattice_texture_row(&d->uv, s->surface.object->texture, d->size_log2, below + t, d->first, bits, texel);
 #endif
         if (bits) gn_pixel_store_line(s->frame, &s->rows, d->x + d->first, y, bits, &line);
         if (t + 1 == 1 << log2) break;
         for (int32_t i = 0; i < d->n; i++)
             for (int c = 0; c < 3; c++) node[i][c] += step[i][c];
     }
-    (void)corner;
 }
 
 /* Colours without the light of edges. */
@@ -449,9 +403,14 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
 {
     gn_lattice *l = &s->lattice;
     const gn_lattice_look *look = &l->look;
-    drawing d = {s, x, y, size_log2, {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}, 0, 0};
+    drawing d;
     int32_t size = 1 << size_log2, spacing_log2 = look->spacing_log2, known = -1;
     uint32_t packed;
+    d.s = s;
+    d.x = x;
+    d.y = y;
+    d.size_log2 = size_log2;
+    (void)corner;
     int plain = !look->n_edges && !s->surface.textured && s->frame->picture.format != GN_FORMAT_RAW32;
     if (plain && is_plain(s, look, &packed)) {
         fill(&d, packed);
@@ -459,6 +418,9 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
     }
     GN_COUNT(cells_drawn, 1);
     begin_base(&d, look);
+#if GN_TEXTURES
+    if (s->surface.textured) gn_lattice_texture_begin(s, x, y, size_log2, corner, &d.uv);
+#endif
     uint32_t any = columns(&d, y, size);
     d.first = (31 - gn_clz32(any & (0U - any))) & -(1 << spacing_log2);
     d.n = ((31 - gn_clz32(any) - d.first) >> spacing_log2) + 1 + (spacing_log2 > 0);
@@ -479,7 +441,7 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
             inside = find_nodes(&d, known, l->by.node[1]);
             both &= inside;
         }
-        draw_strip(&d, corner, below, both);
+        draw_strip(&d, below, both);
     }
     gn_levels_forget(l); /* nodes took their place */
 }

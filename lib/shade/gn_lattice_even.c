@@ -25,41 +25,42 @@ GN_HOT int gn_cell_find_bend(gn_lattice_cell *cell)
 }
 
 #if GN_TEXTURES
-/* Places of a row that its coordinates along one axis of the texture need: 0, 2 or 3; 4: more than there are. */
-GN_HOT static int32_t places_of_row(const gn_lattice_cell *cell, int axis)
+enum { BENDS_ROWS = 1, BENDS_COLUMNS = 2, BENDS_TOO_MUCH = 4 };
+
+/* Where coordinates along one axis of the texture are to be quadratics. */
+GN_HOT static int32_t bends_of(const gn_lattice_cell *cell, int axis)
 {
     gn_corner *const *c = cell->corner;
-    const gn_texture *texture = cell->s->object->texture;
     const int32_t at[4] = {c[0]->uv_q20[axis], c[1]->uv_q20[axis], c[2]->uv_q20[axis], c[3]->uv_q20[axis]};
-    const uint32_t *bend = cell->bend_q16, none[2] = {bend[0], 0};
+    uint64_t size = gn_texture_size(cell->s->object->texture, axis),
+             least = 1U << (20 - gn_cell_texture_log2(cell->frame));
+    uint64_t linear[2], sum = 0; /* what is left, of texels, Q20: NUMERICS 4.12 */
     uint32_t change[2];
-    int32_t least_log2 = 20 - (axis ? texture->height_log2 : texture->width_log2) - gn_cell_texture_log2(cell->frame);
+    int32_t bends = 0;
     gn_cell_changes(at, change);
-    if ((change[0] | change[1]) >> 23) return 4;
-    /* tolerances that are less than a step of the coordinates: so much more of them */
-    if (least_log2 < 0) {
-        change[0] <<= -least_log2 > 8 ? 8 : -least_log2;
-        change[1] <<= -least_log2 > 8 ? 8 : -least_log2;
-        least_log2 = 0;
+    if ((change[0] | change[1]) * size >> 29) return BENDS_TOO_MUCH; /* 2^9 texels */
+    for (int i = 0; i < 2; i++) linear[i] = change[i] * size * cell->bend_q16[i] >> 18;
+    if (linear[0] + linear[1] <= least) return 0;
+    for (int i = 0; i < 2; i++) {
+        uint64_t square_q16 = (uint64_t)cell->bend_q16[i] * cell->bend_q16[i] >> 16;
+        if (2 * linear[i] > least) {
+            bends |= 1 << i;
+            sum += change[i] * size * square_q16 >> 20;
+        } else sum += linear[i];
     }
-    if (gn_cell_bends_by_less(change, bend, least_log2)) return 0;
-    if (gn_cell_bends_by_less(change, none, least_log2)) return 2;
-    /* a sixteenth of the change times the square of the bend: NUMERICS 4.12 */
-    uint32_t square_q16 = (uint32_t)((uint64_t)bend[0] * bend[0] >> 16);
-    return (uint64_t)change[0] * square_q16 >> 20 <= 1U << least_log2 ? 3 : 4;
+    return sum <= least ? bends : BENDS_TOO_MUCH;
 }
 #endif
 
-/* Whether texture coordinates may be interpolated along rows. */
+/* Whether texture coordinates may be interpolated. */
 GN_HOT int gn_cell_textures_hold(const gn_lattice_cell *cell)
 {
-    cell->out->texture_places = 0;
+    cell->out->texture_bends = 0;
 #if GN_TEXTURES
     if (!cell->s->textured) return 1;
-    int32_t u = places_of_row(cell, 0), v = places_of_row(cell, 1);
-    cell->out->texture_places = gn_max32(u, v);
+    cell->out->texture_bends = bends_of(cell, 0) | bends_of(cell, 1);
 #endif
-    return cell->out->texture_places < 4;
+    return cell->out->texture_bends < 4;
 }
 
 /* Whether a mask image may be interpolated: it is the same all over the cell, or has a corner per texel. */
@@ -77,7 +78,7 @@ GN_HOT int gn_cell_masks_hold(const gn_lattice_cell *cell)
         least[i] = gn_min32(gn_min32(a, b), gn_min32(d, e));
         most[i] = gn_max32(gn_max32(a, b), gn_max32(d, e));
         uint32_t change = (uint32_t)most[i] - (uint32_t)least[i];
-        holds &= change << (i ? image->height_log2 : image->width_log2) <= 65536;
+        holds &= change * gn_texture_size(image, i) <= 65536;
     }
     return holds || gn_texture_mask_is_even(image, least, most);
 #else

@@ -4,9 +4,6 @@
 #include "base/gn_q.h"
 #include "base/gn_count.h"
 #include "base/gn_tables.h"
-#if GN_INTERPOLATES
-#include "geometry/gn_texture.h"
-#endif
 #include "shade/gn_pixel.h"
 
 #define GN_ONE_Q20 (1U << 20)
@@ -240,70 +237,71 @@ GN_HOT static inline void colour_at(const gn_pixel_line *line, int32_t i, int32_
 }
 
 #if GN_TEXTURES
-/* To the next pixel. */
-GN_HOT static inline void step_texture(gn_texture_line *uv)
+/* A texture's channel times a colour that lies in 0 .. 1: 65535 * 65535 < 2^32 */
+GN_INLINE uint32_t tinted_q24(uint32_t texel, uint32_t colour_uq16)
 {
-    for (int i = 0; i < 2; i++) {
-        uv->at_q26[i] += uv->step_q26[i];
-        uv->step_q26[i] += uv->step_change_q26[i];
+    return texel * colour_uq16 >> 8;
+}
+
+GN_INLINE uint16_t tinted_565(const uint16_t texel[3], uint32_t r_uq16, uint32_t g_uq16, uint32_t b_uq16)
+{
+    return (uint16_t)pack_565(tinted_q24(texel[0], r_uq16), tinted_q24(texel[1], g_uq16), tinted_q24(texel[2], b_uq16));
+}
+
+/* Pixels of `bits` between two nodes; colours lie in 0 .. 1. */
+GN_HOT static inline void textured_565(uint16_t *out, uint32_t bits, const uint16_t (*texel)[3],
+                                       const int32_t from_q24[3], const int32_t step_q24[3])
+{
+    uint32_t r = (uint32_t)from_q24[0], g = (uint32_t)from_q24[1], b = (uint32_t)from_q24[2];
+    if (!(step_q24[0] | step_q24[1] | step_q24[2])) {
+        for (r >>= 8, g >>= 8, b >>= 8; bits; bits >>= 1, out++, texel++)
+            if (bits & 1U) *out = tinted_565(*texel, r, g, b);
+        return;
+    }
+    for (; bits; bits >>= 1, out++, texel++) {
+        if (bits & 1U) *out = tinted_565(*texel, r >> 8, g >> 8, b >> 8);
+        r += (uint32_t)step_q24[0];
+        g += (uint32_t)step_q24[1];
+        b += (uint32_t)step_q24[2];
     }
 }
 
-/* A colour times a texture's, and what the surface emits; packed. */
-GN_HOT static inline uint32_t tint(const gn_frame *frame, const gn_texture_reader *reader, const gn_pixel_line *line,
-                                   const int32_t colour_q24[3], int levels)
+/* The same of any colours and formats. */
+GN_HOT static void textured_any(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
+                                const uint16_t (*texel)[3], const int32_t from_q24[3], const int32_t step_q24[3],
+                                const gn_pixel_line *line)
 {
-    uint32_t texel_uq16[3], q20[3];
-    int32_t q24[3];
-    gn_texture_read(reader, texel_uq16);
-    for (int c = 0; c < 3; c++) {
-        q24[c] = (int32_t)((int64_t)colour_q24[c] * (int32_t)texel_uq16[c] >> 16);
-#if GN_GLOW_APART
-        q24[c] += line->glow_q24[c]; /* |.| < 2^30 */
-#endif
-    }
     (void)line;
-    if (GN_LEVEL_TABLES && levels) return limit_and_pack_565(q24[0], q24[1], q24[2]);
-    for (int c = 0; c < 3; c++) q20[c] = (uint32_t)gn_max32(q24[c], 0) >> 4;
-    return gn_pixel_pack(frame, q20);
-}
-
-/* Pixels of `bits` between two nodes. */
-GN_HOT static void textured_segment(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
-                                    uint32_t bits, const gn_pixel_line *line, gn_texture_reader *reader,
-                                    gn_texture_line *uv, const int32_t from_q24[3], const int32_t step_q24[3])
-{
-    int levels = GN_LEVEL_TABLES && has_levels(frame), flat = !(step_q24[0] | step_q24[1] | step_q24[2]), known = 0;
-    uint16_t *out = levels ? pixel_565(rows, x, y) : NULL;
-    uint32_t packed = 0;
-    for (int32_t i = 0; bits >> i; i++, step_texture(uv)) {
+    for (int32_t i = 0; bits >> i; i++) {
+        uint32_t q20[3];
         if (!(bits >> i & 1U)) continue;
         GN_COUNT(textured, 1);
-        known &= gn_texture_move(reader, (int32_t)uv->at_q26[0], (int32_t)uv->at_q26[1]);
-        if (!known) {
-            int32_t colour[3];
-            for (int c = 0; c < 3; c++) colour[c] = from_q24[c] + i * step_q24[c];
-            packed = tint(frame, reader, line, colour, levels);
-            known = flat;
+        for (int c = 0; c < 3; c++) {
+            int32_t colour = gn_max32(from_q24[c] + i * step_q24[c], 0);
+            q20[c] = (uint32_t)((uint64_t)(uint32_t)colour * texel[i][c] >> 20);
+#if GN_GLOW_APART
+            q20[c] += (uint32_t)line->glow_q24[c] >> 4;
+#endif
         }
-        if (GN_LEVEL_TABLES && levels) out[i] = (uint16_t)packed;
-        else gn_pixel_store(frame, rows, x + i, y, packed);
+        gn_pixel_store(frame, rows, x + i, y, gn_pixel_pack(frame, q20));
     }
 }
 
 GN_HOT static GN_NOINLINE void textured_line(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y,
                                              uint32_t bits, const gn_pixel_line *line)
 {
-    gn_texture_line uv = line->uv;
-    gn_texture_reader reader;
     int32_t n = 1 << line->spacing_log2, step[3] = {0, 0, 0};
-    gn_texture_read_begin(&reader, line->texture);
-    for (const int32_t(*node)[3] = line->node; bits; bits >>= n, x += n, node++) {
+    const uint16_t(*texel)[3] = line->texel;
+    int quick = line->inside && GN_LEVEL_TABLES && has_levels(frame);
+#if GN_GLOW_APART
+    if (line->glow_q24[0] | line->glow_q24[1] | line->glow_q24[2]) quick = 0;
+#endif
+    for (const int32_t(*node)[3] = line->node; bits; bits >>= n, x += n, texel += n, node++) {
         uint32_t part = bits & ((1U << n) - 1);
-        for (int c = 0; n > 1 && part && c < 3; c++) step[c] = (node[1][c] - node[0][c]) >> line->spacing_log2;
-        int32_t i = part ? 32 - gn_clz32(part) : 0;
-        textured_segment(frame, rows, x, y, part, line, &reader, &uv, node[0], step);
-        for (; bits >> n && i < n; i++) step_texture(&uv);
+        if (!part) continue;
+        for (int c = 0; n > 1 && c < 3; c++) step[c] = (node[1][c] - node[0][c]) >> line->spacing_log2;
+        if (GN_LEVEL_TABLES && quick) textured_565(pixel_565(rows, x, y), part, texel, node[0], step);
+        else textured_any(frame, rows, x, y, part, texel, node[0], step, line);
     }
 }
 #endif
@@ -312,7 +310,7 @@ GN_HOT void gn_pixel_store_line(const gn_frame *frame, const gn_pixel_rows *rows
                                 const gn_pixel_line *line)
 {
 #if GN_TEXTURES
-    if (line->texture) {
+    if (line->texel) {
         textured_line(frame, rows, x, y, bits, line);
         return;
     }

@@ -19,20 +19,12 @@ size_t gn_pixel_bytes(const gn_frame *frame, int32_t width, int32_t height);
 /* Stores a packed pixel n times from (x, y) of the picture on, within one row. */
 void gn_pixel_fill(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, int32_t n, uint32_t packed);
 
-/* Texture coordinates of a row of pixels, a quadratic: from its first pixel's on, modulo 2^6 turns; clamped: within
- * 2^5.
- */
-typedef struct {
-    uint32_t at_q26[2], step_q26[2], step_change_q26[2];
-} gn_texture_line;
-
-/* Pixels of a row whose colours are linear between nodes, and a texture that they are multiplied by. */
+/* Pixels of a row whose colours are linear between nodes, and colours of a texture that they are multiplied by. */
 typedef struct {
     const int32_t (*node)[3]; /* Q24, |.| < 2^29, from the row's first pixel on, 2^spacing_log2 pixels apart */
     int32_t spacing_log2;
-    int inside;                /* all nodes are in 2^-18 .. 1: nothing needs a clamp */
-    const gn_texture *texture; /* NULL: none */
-    gn_texture_line uv;
+    int inside;                 /* all nodes are in 2^-18 .. 1: nothing needs a clamp */
+    const uint16_t (*texel)[3]; /* of each pixel, 65535: 1; NULL: no texture */
 #if GN_GLOW_APART
     int32_t glow_q24[3]; /* textured: what is added to the product, 0 .. 2^27 */
 #endif

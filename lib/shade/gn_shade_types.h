@@ -221,7 +221,7 @@ typedef struct {
     int32_t highlight_q24[4][3]; /* in it */
     gn_lattice_edge edge[GN_LATTICE_EDGES];
     int32_t n_edges;
-    int32_t texture_places; /* of a row: coordinates that are asked for, 2 or 3; 0: none */
+    int32_t texture_bends; /* where texture coordinates are quadratics: 1 along rows, 2 down columns */
     int32_t spacing_log2;   /* of lookups in pixels */
 } gn_lattice_look;
 

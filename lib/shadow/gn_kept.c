@@ -39,9 +39,12 @@ static uint64_t object_signature(uint64_t s, const gn_object *object)
     s = gn_signature_add(s, (uint64_t)object->alpha_uq16 << 32 | object->alpha_cutoff_uq16);
     if (!object->texture) return s;
     s = gn_signature_add(s, (uint64_t)(uintptr_t)object->texture->rgba);
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)object->texture->palette);
     s = gn_signature_add(s, (uint64_t)(uintptr_t)mesh->uv);
     s = gn_signature_add(s, (uint64_t)object->texture->width_log2 << 24 | (uint64_t)object->texture->height_log2 << 16 |
-                                (uint64_t)object->texture->flags << 8 | mesh->uv_frac_bits);
+                                (uint64_t)object->texture->flags << 8 | mesh->uv_frac_bits |
+                                (uint64_t)object->texture->width << 48 | (uint64_t)object->texture->height << 32);
+    s = gn_signature_add(s, object->texture->format);
     return s;
 }
 

@@ -67,7 +67,7 @@ static gn_light lights[LIGHTS];
 static uint8_t texels[4 * 8 * 8], mask[4 * DEMO_BALL_VERTICES];
 static uint16_t mask_uv[2 * 8], baked[3 * DEMO_BALL_VERTICES];
 static int16_t uv[2 * 8];
-static gn_texture texture = {texels, 3, 3, 0};
+static gn_texture texture = {.rgba = texels, .width_log2 = 3, .height_log2 = 3};
 
 static void make_arrays(void)
 {

@@ -37,7 +37,7 @@ static inline void full_scene(void)
 {
     demo_scene_make(&demo, 1);
     memset(&full, 0, sizeof full);
-    gn_texture texture = {full.rgba, 2, 1, 0};
+    gn_texture texture = {.rgba = full.rgba, .width_log2 = 2, .height_log2 = 1};
     gn_object *o = &demo.object[FULL_OBJECT];
     full.texture = full.mask = texture;
     full_lights();

@@ -505,6 +505,18 @@ static void texture_high(void)
 {
     full.texture.height_log2 = 255;
 }
+static void texture_wider(void)
+{
+    full.texture.width = 4097;
+}
+static void texture_format(void)
+{
+    full.texture.format = GN_TEXTURE_FORMAT_COUNT;
+}
+static void texture_no_palette(void)
+{
+    full.texture.format = GN_TEXTURE_PALETTE4;
+}
 static void texture_no_uv(void)
 {
     demo.ball.uv = NULL;
@@ -601,6 +613,9 @@ static void test_combinations(void)
         COMBINATION(texture_no_texels, GN_ERR_TEXTURE, FULL_OBJECT),
         COMBINATION(texture_wide, GN_ERR_TEXTURE, FULL_OBJECT),
         COMBINATION(texture_high, GN_ERR_TEXTURE, FULL_OBJECT),
+        COMBINATION(texture_wider, GN_ERR_TEXTURE, FULL_OBJECT),
+        COMBINATION(texture_format, GN_ERR_TEXTURE_FORMAT, FULL_OBJECT),
+        COMBINATION(texture_no_palette, GN_ERR_TEXTURE, FULL_OBJECT),
         COMBINATION(texture_no_uv, GN_ERR_TEXTURE, FULL_OBJECT),
         COMBINATION(mask_no_texels, GN_ERR_MASK, FULL_OBJECT),
         COMBINATION(mask_wide, GN_ERR_MASK, FULL_OBJECT),

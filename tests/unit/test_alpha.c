@@ -36,8 +36,9 @@ static double exponential(double lo, double hi)
 static void random_triangle(triangle *t)
 {
     memset(t, 0, sizeof *t);
-    t->texture = (gn_texture){NULL, (uint8_t)rng_below(&random_state, 11), (uint8_t)rng_below(&random_state, 11),
-                              (uint8_t)(rng_u32(&random_state) & 7U)};
+    t->texture = (gn_texture){.width_log2 = (uint8_t)rng_below(&random_state, 11),
+                              .height_log2 = (uint8_t)rng_below(&random_state, 11),
+                              .flags = (uint8_t)(rng_u32(&random_state) & 7U)};
     t->uv_frac_bits = rng_range(&random_state, 8, 15);
     for (int k = 0; k < 6; k++) t->uv[k] = (int16_t)rng_range(&random_state, -32768, 32767);
     t->focal2 = rng_range(&random_state, 200, 1200);

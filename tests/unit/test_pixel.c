@@ -225,37 +225,22 @@ static uint32_t q20_of(int64_t q24)
     return q24 < 0 ? 0 : (uint32_t)(q24 >> 4);
 }
 
-#if GN_TEXTURES
-/* A texture's colour at pixel i of a line, whose coordinates are a quadratic, mod 2^6 turns. */
-static void texel_of_line(const gn_pixel_line *line, int32_t i, uint32_t rgb_uq16[3])
-{
-    gn_texture_reader reader;
-    uint32_t at[2];
-    for (int k = 0; k < 2; k++)
-        at[k] = line->uv.at_q26[k] + (uint32_t)i * line->uv.step_q26[k] +
-                (uint32_t)(i * (i - 1) / 2) * line->uv.step_change_q26[k];
-    gn_texture_read_begin(&reader, line->texture);
-    gn_texture_move(&reader, (int32_t)at[0], (int32_t)at[1]);
-    gn_texture_read(&reader, rgb_uq16);
-}
-#endif
-
 /* Pixel i of a line: between two nodes a step is rounded down to 2^-24. */
 static uint32_t pixel_of_line(const gn_pixel_line *line, int32_t i)
 {
     const int32_t k = i >> line->spacing_log2, t = i - (k << line->spacing_log2);
+    const int quick = line->inside && frame.picture.format == GN_FORMAT_RGB565 && GN_K(&frame, srgb) && GN_LEVEL_TABLES;
     uint32_t q20[3];
     for (int c = 0; c < 3; c++) {
         const int64_t from = line->node[k][c],
                       step =
                           t ? (int64_t)i128_floor_div(line->node[k + 1][c] - from, (i128)1 << line->spacing_log2) : 0;
-        q20[c] = q20_of(from + t * step);
-#if GN_TEXTURES
-        uint32_t texel_uq16[3];
-        if (!line->texture) continue;
-        texel_of_line(line, i, texel_uq16);
-        q20[c] = q20_of((int64_t)i128_floor_div((i128)(from + t * step) * texel_uq16[c], 65536));
-#endif
+        const int64_t colour_q24 = from + t * step;
+        q20[c] = q20_of(colour_q24);
+        if (!line->texel) continue;
+        /* 16 bits of both; otherwise 24 and 16 */
+        if (quick) q20[c] = (uint32_t)i128_floor_div((i128)(colour_q24 >> 8) * line->texel[i][c], 1 << 12);
+        else q20[c] = colour_q24 < 0 ? 0 : (uint32_t)i128_floor_div((i128)colour_q24 * line->texel[i][c], 1 << 20);
     }
     return gn_pixel_pack(&frame, q20);
 }
@@ -284,22 +269,14 @@ static void check_line(const gn_pixel_line *line, uint32_t bits, tally *same, ta
     }
 }
 
-/* A line's texture, and coordinates that stay within 2^31 of Q26. */
+static uint16_t texels[LINE_PIXELS][3];
+
 static void choose_texture(gn_pixel_line *line)
 {
-#if GN_TEXTURES
-    static uint8_t rgba[4 << 7];
-    static const gn_texture texture = {.rgba = rgba, .width_log2 = 4, .height_log2 = 3, .flags = GN_TEXTURE_BILINEAR};
-    for (size_t i = 0; i < sizeof rgba; i++) rgba[i] = (uint8_t)rng_u32(&random_state);
-    line->texture = &texture;
-    for (int i = 0; i < 2; i++) {
-        line->uv.at_q26[i] = rng_u32(&random_state);
-        line->uv.step_q26[i] = (uint32_t)rng_range(&random_state, -(1 << 23), 1 << 23);
-        line->uv.step_change_q26[i] = (uint32_t)rng_range(&random_state, -(1 << 18), 1 << 18);
-    }
-#else
-    (void)line;
-#endif
+    for (int i = 0; i < LINE_PIXELS; i++)
+        for (int c = 0; c < 3; c++)
+            texels[i][c] = (uint16_t)(rng_below(&random_state, 8) ? rng_u32(&random_state) : 65535U);
+    line->texel = (const uint16_t(*)[3])texels;
 }
 
 /* Lines are what single pixels would be: random nodes, also beyond black and white, and every light from one to the
@@ -315,8 +292,8 @@ static void test_lines(void)
         SET_KNOB(&frame, srgb, k % 7 != 0);
         line.spacing_log2 = rng_range(&random_state, 0, 4);
         line.inside = k % 3 != 0;
-        line.texture = NULL;
-        if (k % 5 == 0) choose_texture(&line);
+        line.texel = NULL;
+        if (GN_TEXTURES && k % 5 == 0) choose_texture(&line);
         for (int i = 0; i <= LINE_PIXELS; i++)
             for (int c = 0; c < 3; c++)
                 node[i][c] = line.inside ? rng_range(&random_state, 64, (1 << 24) - 1)
@@ -326,7 +303,7 @@ static void test_lines(void)
     }
     SET_KNOB(&frame, srgb, 1);
     frame.picture.format = GN_FORMAT_RGB565;
-    line.texture = NULL;
+    line.texel = NULL;
     line.spacing_log2 = 4;
     for (int32_t first = -64; first < ONE_Q20 + 64; first += LINE_PIXELS) {
         line.inside = first >= 16 && first + LINE_PIXELS < ONE_Q20 - 16;

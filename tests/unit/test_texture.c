@@ -1,4 +1,4 @@
-/* Textures against double precision: addressing and single channels exactly, colour within the stated bound. */
+/* Textures against double precision, in every format: addressing and alpha exactly, colour within the stated bound. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -24,36 +24,83 @@ static int64_t addressed(int64_t i, int64_t size, int clamped)
     return i - (int64_t)i128_floor_div(i, size) * size;
 }
 
-static double texel_value(const gn_texture *t, int64_t i, int64_t j, int channel, int decoded)
+/* `n` bits of a row, the first ones the highest of a byte. */
+static unsigned bits_at(const uint8_t *row, size_t first, size_t n)
 {
-    int64_t u = addressed(i, (int64_t)1 << t->width_log2, t->flags & GN_TEXTURE_CLAMP_U);
-    int64_t v = addressed(j, (int64_t)1 << t->height_log2, t->flags & GN_TEXTURE_CLAMP_V);
-    double value = t->rgba[4 * (((size_t)v << t->width_log2) + (size_t)u) + (size_t)channel] / 255.0;
-    return decoded ? linear(value) : value;
+    unsigned v = 0;
+    for (size_t i = first; i < first + n; i++) v = 2 * v + (row[i / 8] >> (7 - i % 8) & 1U);
+    return v;
+}
+
+static size_t side(const gn_texture *t, int axis)
+{
+    if (axis ? t->height : t->width) return axis ? t->height : t->width;
+    return (size_t)1 << (axis ? t->height_log2 : t->width_log2);
+}
+
+static size_t bits_of(uint8_t format)
+{
+    static const size_t bits[GN_TEXTURE_FORMAT_COUNT] = {32, 16, 16, 8, 4, 1, 8, 4, 8, 4};
+    return bits[format];
+}
+
+/* Channel c of a texel, 0..1, as it is stored: from the words of gnomon.h, format by format. */
+static double stored_value(const gn_texture *t, size_t x, size_t y, int c)
+{
+    const size_t n = bits_of(t->format);
+    const uint8_t *row = t->rgba + y * ((side(t, 0) * n + 7) / 8);
+    const unsigned word = n == 16 ? row[2 * x] + 256U * row[2 * x + 1] : 0;
+    switch (t->format) {
+    case GN_TEXTURE_RGBA8888:
+        return row[4 * x + (size_t)c] / 255.0;
+    case GN_TEXTURE_RGB565:
+        return c == 0 ? (word / 2048) / 31.0 : c == 1 ? (word / 32 % 64) / 63.0 : c == 2 ? (word % 32) / 31.0 : 1.0;
+    case GN_TEXTURE_RGB565A1:
+        return c == 3 ? word / 32 % 2 : (c == 0 ? word / 2048 : c == 1 ? word / 64 % 32 : word % 32) / 31.0;
+    case GN_TEXTURE_PALETTE8:
+    case GN_TEXTURE_PALETTE4:
+    case GN_TEXTURE_PALETTE1:
+        return t->palette[4 * bits_at(row, x * n, n) + (unsigned)c] / 255.0;
+    case GN_TEXTURE_GREY8:
+    case GN_TEXTURE_GREY4:
+        return c == 3 ? 1.0 : bits_at(row, x * n, n) / (ldexp(1, (int)n) - 1);
+    default:
+        return c < 3 ? 1.0 : bits_at(row, x * n, n) / (ldexp(1, (int)n) - 1);
+    }
+}
+
+static double texel_value(const gn_texture *t, int64_t i, int64_t j, int channel)
+{
+    int64_t u = addressed(i, (int64_t)side(t, 0), t->flags & GN_TEXTURE_CLAMP_U);
+    int64_t v = addressed(j, (int64_t)side(t, 1), t->flags & GN_TEXTURE_CLAMP_V);
+    double value = stored_value(t, (size_t)u, (size_t)v, channel);
+    return channel < 3 ? linear(value) : value;
+}
+
+/* The texture's value at a place in texels, half a texel less if bilinear. */
+static double value_at(const gn_texture *t, int64_t i, int64_t j, double fu, double fv, int channel)
+{
+    if (!(t->flags & GN_TEXTURE_BILINEAR)) return texel_value(t, i, j, channel);
+    double upper = (1 - fu) * texel_value(t, i, j, channel) + fu * texel_value(t, i + 1, j, channel);
+    double lower = (1 - fu) * texel_value(t, i, j + 1, channel) + fu * texel_value(t, i + 1, j + 1, channel);
+    return (1 - fv) * upper + fv * lower;
 }
 
 /* 65536 times the texture's value at (u, v). */
-static double exact_value(const gn_texture *t, int32_t u_q20, int32_t v_q20, int channel, int decoded)
+static double exact_value(const gn_texture *t, int32_t u_q20, int32_t v_q20, int channel)
 {
-    double x = ldexp(u_q20, t->width_log2 - 20), y = ldexp(v_q20, t->height_log2 - 20); /* exact */
-    if (!(t->flags & GN_TEXTURE_BILINEAR))
-        return 65536 * texel_value(t, (int64_t)floor(x), (int64_t)floor(y), channel, decoded);
-    x -= 0.5;
-    y -= 0.5;
-    int64_t i = (int64_t)floor(x), j = (int64_t)floor(y);
-    double fu = x - (double)i, fv = y - (double)j;
-    double upper = (1 - fu) * texel_value(t, i, j, channel, decoded) + fu * texel_value(t, i + 1, j, channel, decoded);
-    double lower =
-        (1 - fu) * texel_value(t, i, j + 1, channel, decoded) + fu * texel_value(t, i + 1, j + 1, channel, decoded);
-    return 65536 * ((1 - fv) * upper + fv * lower);
+    double half = t->flags & GN_TEXTURE_BILINEAR ? 0.5 : 0; /* exact, and so is what follows */
+    double x = ldexp(u_q20, -20) * (double)side(t, 0) - half, y = ldexp(v_q20, -20) * (double)side(t, 1) - half;
+    return 65536 * value_at(t, (int64_t)floor(x), (int64_t)floor(y), x - floor(x), y - floor(y), channel);
 }
 
 /* ---- Random textures and coordinates ----------------------------------------------------------------------------- */
 
 /* Memory of exactly the texture's size, so that a sanitizer sees a texel outside. */
-static uint8_t *random_texels(gn_texture *t, int32_t width_log2, int32_t height_log2)
+static uint8_t *random_texels(gn_texture *t)
 {
-    size_t n = (size_t)4 << (width_log2 + height_log2);
+    static uint8_t palette[4 * 256];
+    size_t n = side(t, 1) * ((side(t, 0) * bits_of(t->format) + 7) / 8);
     uint8_t *texels = malloc(n);
     uint32_t kind = rng_below(&random_state, 3);
     if (!texels) return NULL;
@@ -61,13 +108,40 @@ static uint8_t *random_texels(gn_texture *t, int32_t width_log2, int32_t height_
         uint8_t any = (uint8_t)rng_u32(&random_state);
         texels[i] = kind == 0 ? any : kind == 1 ? (any & 1 ? 255 : 0) : (uint8_t)(i * 7);
     }
+    for (size_t i = 0; i < sizeof palette; i++) palette[i] = (uint8_t)rng_u32(&random_state);
     t->rgba = texels;
-    t->width_log2 = (uint8_t)width_log2;
-    t->height_log2 = (uint8_t)height_log2;
+    t->palette = t->format >= GN_TEXTURE_PALETTE8 && t->format <= GN_TEXTURE_PALETTE1 ? palette : NULL;
     return texels;
 }
 
-static int32_t random_coordinate(int32_t size_log2)
+/* Powers of two, said either way, and any other size. */
+static void random_size(gn_texture *t)
+{
+    static const uint16_t odd[][2] = {{1, 1}, {3, 5}, {1, 7}, {9, 1}, {100, 30}, {63, 65}, {31, 17}};
+    t->width = t->height = 0;
+    t->width_log2 = (uint8_t)rng_below(&random_state, 7);
+    t->height_log2 = (uint8_t)rng_below(&random_state, 7);
+    switch (rng_below(&random_state, 4)) {
+    case 0:
+        break;
+    case 1:
+        t->width = (uint16_t)(1 << t->width_log2);
+        t->height = (uint16_t)(1 << t->height_log2);
+        t->width_log2 = 200; /* not looked at */
+        break;
+    case 2: {
+        const uint16_t *size = odd[rng_below(&random_state, 7)];
+        t->width = size[0];
+        t->height = size[1];
+        break;
+    }
+    default:
+        t->width = (uint16_t)rng_range(&random_state, 1, 70);
+        t->height = (uint16_t)rng_range(&random_state, 1, 70);
+    }
+}
+
+static int32_t random_coordinate(size_t size)
 {
     static const int32_t special[8] = {INT32_MIN, INT32_MAX, 0, 1 << 20, -(1 << 20), (1 << 20) - 1, -1, 1 << 19};
     switch (rng_below(&random_state, 6)) {
@@ -75,10 +149,9 @@ static int32_t random_coordinate(int32_t size_log2)
         return special[rng_below(&random_state, 8)];
     case 1:
         return rng_wide_i32(&random_state, 31);
-    case 2: { /* at a border of texels or its middle, if it has one, and its neighbours */
-        int32_t half = (1 << 19) >> size_log2;
-        return rng_range(&random_state, -2, (4 << size_log2)) * half + rng_range(&random_state, -1, 1);
-    }
+    case 2: /* at a border of texels or its middle, and its neighbours */
+        return (int32_t)floor(rng_range(&random_state, -2, (int32_t)(4 * size)) * ldexp(1, 19) / (double)size) +
+               rng_range(&random_state, -1, 1);
     default:
         return rng_range(&random_state, -3 * (1 << 20), 3 * (1 << 20));
     }
@@ -93,63 +166,133 @@ typedef struct {
 
 static void try_lookup(verdict *result, const gn_texture *t)
 {
-    int32_t u = random_coordinate(t->width_log2), v = random_coordinate(t->height_log2);
+    int32_t u = random_coordinate(side(t, 0)), v = random_coordinate(side(t, 1));
     uint32_t rgb[4] = {0, 0, 0, 0xDEADBEEFU};
     int bilinear = (t->flags & GN_TEXTURE_BILINEAR) != 0;
-    double small = (t->width_log2 < 4) + (t->height_log2 < 4); /* coordinates finer than texels, Q16 */
+    double finer = 2 * bilinear; /* coordinates have 20 bits below a texel, weights 16 */
     gn_texture_colour(t, u, v, rgb);
     HOLDS(&result->colour_nearest, rgb[3] == 0xDEADBEEFU, "more than three channels written");
-    for (int c = 0; c < 4; c++) {
-        double exact = exact_value(t, u, v, c, 0), decoded = exact_value(t, u, v, c, 1);
-        double a = gn_texture_channel(t, u, v, (uint32_t)c), error = fabs(a - exact),
-               colour_error = fabs(rgb[c % 3] - decoded);
-        if (bilinear) {
-            HOLDS(&result->bilinear, error <= 1.5001 + small,
-                  "2^%d x 2^%d, flags %d, (%d, %d): channel %d is %.0f, not %.3f", (int)t->width_log2,
-                  (int)t->height_log2, (int)t->flags, (int)u, (int)v, c, a, exact);
-            WORST(&result->w, (long double)error, "flags %d", (int)t->flags);
-        } else {
-            HOLDS(&result->nearest, error <= 0.5, "2^%d x 2^%d, flags %d, (%d, %d): channel %d is %.0f, not %.3f",
-                  (int)t->width_log2, (int)t->height_log2, (int)t->flags, (int)u, (int)v, c, a, exact);
-        }
-        if (c == 3) continue;
+    double exact = exact_value(t, u, v, 3), error = fabs(gn_texture_alpha(t, u, v) - exact);
+    HOLDS(bilinear ? &result->bilinear : &result->nearest, error <= (bilinear ? 1.5001 : 0.5) + finer,
+          "format %d, %dx%d, flags %d, (%d, %d): alpha is off by %.3f from %.3f", (int)t->format, (int)side(t, 0),
+          (int)side(t, 1), (int)t->flags, (int)u, (int)v, error, exact);
+    if (bilinear) WORST(&result->w, (long double)error, "flags %d", (int)t->flags);
+    for (int c = 0; c < 3; c++) {
+        double decoded = exact_value(t, u, v, c), colour_error = fabs(rgb[c] - decoded);
         HOLDS(bilinear ? &result->colour_bilinear : &result->colour_nearest,
-              colour_error <= (bilinear ? 2.0001 + small : 1.0001),
-              "2^%d x 2^%d, flags %d, (%d, %d): colour %d is %u, not %.3f", (int)t->width_log2, (int)t->height_log2,
-              (int)t->flags, (int)u, (int)v, c, (unsigned)rgb[c], decoded);
+              colour_error <= (bilinear ? 2.0001 : 1.0001) + finer,
+              "format %d, %dx%d, flags %d, (%d, %d): colour %d is %u, not %.3f", (int)t->format, (int)side(t, 0),
+              (int)side(t, 1), (int)t->flags, (int)u, (int)v, c, (unsigned)rgb[c], decoded);
         WORST(&result->colour, (long double)colour_error, "flags %d", (int)t->flags);
     }
 }
 
+#if GN_INTERPOLATES
+/* A row of pixels: texels of the oracle, weighted with what 8 bits leave of the place. Rounded down once, and each
+ * texel to the nearest: NUMERICS 4.12. */
+static void try_row(tally *close, tally *kept, const gn_texture *t)
+{
+    gn_texture_line line;
+    uint16_t rgb[17][3];
+    const uint32_t bits = rng_u32(&random_state) & rng_u32(&random_state) & 0xFFFFU;
+    for (int i = 0; i < 2; i++) {
+        int64_t one = (int64_t)1 << 17, far = t->flags & (i ? GN_TEXTURE_CLAMP_V : GN_TEXTURE_CLAMP_U) ? 8000 : 4500;
+        line.at_q17[i] =
+            (int32_t)(rng_range(&random_state, -(int32_t)far, (int32_t)far) * one / (1 + rng_below(&random_state, 90)));
+        line.step_q17[i] = rng_range(&random_state, -(3 << 17), 3 << 17) / (int32_t)(1 + rng_below(&random_state, 40));
+        line.step_change_q17[i] = rng_range(&random_state, -(1 << 12), 1 << 12);
+    }
+    memset(rgb, 0xA5, sizeof rgb);
+    gn_texture_row(t, &line, bits, rgb);
+    for (int i = 0; i < 17; i++) {
+        int64_t at[2], cell[2];
+        double weight[2];
+        for (int k = 0; k < 2; k++) {
+            at[k] = line.at_q17[k] + (int64_t)i * line.step_q17[k] + (int64_t)i * (i - 1) / 2 * line.step_change_q17[k];
+            cell[k] = (int64_t)i128_floor_div(at[k], 1 << 17);
+            weight[k] = (double)i128_floor_div(at[k] - cell[k] * (1 << 17), 1 << 9) / 256.0;
+        }
+        for (int c = 0; c < 3; c++) {
+            double want = 65535 * value_at(t, cell[0], cell[1], weight[0], weight[1], c), off = rgb[i][c] - want;
+            if (!(bits >> i & 1U)) HOLDS(kept, rgb[i][c] == 0xA5A5U || t->format >= GN_TEXTURE_ALPHA8, "pixel %d", i);
+            else
+                HOLDS(close, off <= 0.5001 && off > -1.5001,
+                      "format %d, %dx%d, flags %d, pixel %d, (%.3f, %.3f): %d, not %.3f", (int)t->format,
+                      (int)side(t, 0), (int)side(t, 1), (int)t->flags, i, ldexp((double)at[0], -17),
+                      ldexp((double)at[1], -17), (int)rgb[i][c], want);
+        }
+    }
+}
+#endif
+
+/* Every format, of every size and wrap. [M11] */
 static void test_lookups(void)
 {
     static verdict result;
+    tally row = {0}, kept = {0};
     for (uint32_t i = 0; i < 3003; i++) {
-        gn_texture t = {NULL, 0, 0, (uint8_t)(i & 7U)};
+        gn_texture t = {.format = (uint8_t)(i % GN_TEXTURE_FORMAT_COUNT)};
         int large = i >= 3000; /* 4096 texels on one side or both */
-        uint8_t *texels = large ? random_texels(&t, i == 3000 ? 3 : 12, i == 3001 ? 2 : 12)
-                                : random_texels(&t, rng_range(&random_state, 0, 6), rng_range(&random_state, 0, 6));
+        if (!(GN_TEXTURE_FORMATS >> t.format & 1)) continue;
+        random_size(&t);
+        if (large) {
+            t.width = i == 3000 ? 8 : 4096;
+            t.height = i == 3001 ? 4 : 4095;
+        }
+        uint8_t *texels = random_texels(&t);
         if (!texels) {
             CHECK(texels != NULL);
             return;
         }
-        for (t.flags = 0; t.flags < 8; t.flags++)
+        for (t.flags = 0; t.flags < 8; t.flags++) {
             for (int k = 0; k < (large ? 20000 : 12); k++) try_lookup(&result, &t);
+#if GN_INTERPOLATES
+            for (int k = 0; k < (large ? 300 : 2); k++) try_row(&row, &kept, &t);
+#endif
+        }
         free(texels);
     }
     CHECK_TALLY(result.nearest, "nearest: the rounded value of the right texel");
-    CHECK_TALLY(result.bilinear, "bilinear, one channel");
+    CHECK_TALLY(result.bilinear, "bilinear alpha");
     CHECK_TALLY(result.colour_nearest, "nearest colour");
     CHECK_TALLY(result.colour_bilinear, "bilinear colour");
-    printf("gn_texture_channel, bilinear: %.3Lf LSB of Q16; gn_texture_colour: %.3Lf\n", result.w.error,
+#if GN_INTERPOLATES
+    CHECK_TALLY(row, "rows of pixels");
+    CHECK_TALLY(kept, "pixels of a row that are not asked for");
+#endif
+    printf("gn_texture_alpha, bilinear: %.3Lf LSB of Q16; gn_texture_colour: %.3Lf\n", result.w.error,
            result.colour.error);
+}
+
+/* Every value of every format: what is stored is what is meant, to the nearest 65536th. [M11] */
+static void test_texels(void)
+{
+    uint8_t texel[2], palette[4 * 256];
+    tally t = {0};
+    for (int i = 0; i < (int)sizeof palette; i++) palette[i] = (uint8_t)(i * 37 + i / 256);
+    for (int format = 1; format < GN_TEXTURE_FORMAT_COUNT; format++) {
+        gn_texture one = {.rgba = texel, .format = (uint8_t)format, .palette = palette};
+        if (!(GN_TEXTURE_FORMATS >> format & 1)) continue;
+        for (int word = 0; word < (bits_of(one.format) == 16 ? 65536 : 256); word++) {
+            uint32_t rgb[3];
+            texel[0] = (uint8_t)word;
+            texel[1] = (uint8_t)(word >> 8);
+            gn_texture_colour(&one, 0, 0, rgb);
+            for (int c = 0; c < 3; c++)
+                HOLDS(&t, fabs(rgb[c] - 65536 * linear(stored_value(&one, 0, 0, c))) <= 1.0001, "format %d, %x", format,
+                      (unsigned)word);
+            HOLDS(&t, gn_texture_alpha(&one, 0, 0) == (uint32_t)lround(65536 * stored_value(&one, 0, 0, 3)),
+                  "format %d, %x", format, (unsigned)word);
+        }
+    }
+    CHECK_TALLY(t, "every texel of every format");
 }
 
 /* Every value of a texel: black and white are exact, values ascend, equal texels blend to themselves. [M3] */
 static void test_values(void)
 {
     uint8_t texels[4 * 4];
-    gn_texture t = {texels, 1, 1, 0};
+    gn_texture t = {.rgba = texels, .width_log2 = 1, .height_log2 = 1};
     uint32_t before[3] = {0, 0, 0};
     tally rises = {0}, flat = {0};
     for (int value = 0; value < 256; value++) {
@@ -162,8 +305,7 @@ static void test_values(void)
             int32_t u = rng_wide_i32(&random_state, 31), v = rng_wide_i32(&random_state, 31);
             gn_texture_colour(&t, u, v, blended);
             HOLDS(&flat, blended[0] == rgb[0] && blended[1] == rgb[1] && blended[2] == rgb[2], "%d", value);
-            HOLDS(&flat, gn_texture_channel(&t, u, v, GN_CHANNEL_ALPHA) == (uint32_t)lround(value * 65536 / 255.0),
-                  "%d", value);
+            HOLDS(&flat, gn_texture_alpha(&t, u, v) == (uint32_t)lround(value * 65536 / 255.0), "%d", value);
         }
         HOLDS(&rises, value == 0 ? rgb[0] == 0 : rgb[0] > before[0], "%d", value);
         memcpy(before, rgb, sizeof before);
@@ -183,7 +325,7 @@ static void test_coordinates(void)
     for (int i = 0; i < 20000; i++) {
         int16_t uv[6];
         const uint16_t idx[3] = {0, 1, 2};
-        const gn_texture t = {NULL, 9, 9, (uint8_t)(rng_u32(&random_state) & 7U)};
+        const gn_texture t = {.width_log2 = 9, .height_log2 = 9, .flags = (uint8_t)(rng_u32(&random_state) & 7U)};
         gn_mesh mesh = {.uv = uv, .n_vertices = 3};
         gn_texture_triangle triangle;
         mesh.uv_frac_bits = (uint8_t)rng_range(&random_state, 6, 15); /* within 512 turns */
@@ -205,6 +347,7 @@ int main(void)
 {
     test_coordinates();
     test_lookups();
+    test_texels();
     test_values();
     return check_report();
 }

@@ -63,6 +63,7 @@ static subject subject_of(gn_status status)
     case GN_ERR_MESH:
     case GN_ERR_VERTEX_RANGE:
     case GN_ERR_TEXTURE:
+    case GN_ERR_TEXTURE_FORMAT:
     case GN_ERR_MATERIAL:
     case GN_ERR_MASK:
         return ABOUT_OBJECT;

@@ -1,0 +1,202 @@
+/* Colours of textures along rows of pixels: steps in texels, weights of 8 bits. */
+#include "gn_internal.h"
+
+#include "base/gn_hint.h"
+#include "base/gn_q.h"
+#include "geometry/gn_texel.h"
+#include "geometry/gn_texture.h"
+
+#if GN_INTERPOLATES
+
+/* Weights of four texels, from the upper left one on; they sum to 65536. Exact: 8 bits each way. */
+GN_HOT static inline void find_weights(uint32_t u_q17, uint32_t v_q17, uint32_t weight_uq16[4])
+{
+    uint32_t right = u_q17 >> 9 & 255U, down = v_q17 >> 9 & 255U, both = right * down;
+    weight_uq16[3] = both;
+    weight_uq16[1] = (right << 8) - both;
+    weight_uq16[2] = (down << 8) - both;
+    weight_uq16[0] = 65536U - (right << 8) - weight_uq16[2];
+}
+
+/* Rounded down, and so up to 1 too dark; 65535 * 65536 < 2^32. */
+GN_HOT static inline uint16_t weigh(const uint32_t weight_uq16[4], uint32_t a, uint32_t b, uint32_t c, uint32_t d)
+{
+    return (uint16_t)((weight_uq16[0] * a + weight_uq16[1] * b + weight_uq16[2] * c + weight_uq16[3] * d) >> 16);
+}
+
+/* ---- Any pixel --------------------------------------------------------------------------------------------------- */
+
+/* The texel of an axis at a whole coordinate, and the next. Where it repeats, the coordinate is brought back to 0. */
+GN_HOT static void find_pair(const gn_texture *t, int axis, int32_t *at_q17, uint32_t pair[2])
+{
+    int32_t size = (int32_t)gn_texture_size(t, axis), first = *at_q17 >> 17, next = first + 1;
+    if (gn_texture_clamps(t, axis)) {
+        first = gn_max32(0, gn_min32(first, size - 1));
+        next = gn_max32(0, gn_min32(next, size - 1));
+    } else {
+        int32_t turns = first / size - (first % size < 0);
+        *at_q17 -= turns * size * (1 << 17);
+        first -= turns * size;
+        next = first + 1 < size ? first + 1 : 0;
+    }
+    pair[0] = (uint32_t)first;
+    pair[1] = (uint32_t)next;
+}
+
+GN_HOT static GN_NOINLINE void any_pixel(const gn_texture *t, int32_t *u_q17, int32_t *v_q17, uint16_t rgb[3])
+{
+    uint32_t x[2], y[2], weight[4];
+    uint16_t texel[4][3];
+    find_pair(t, 0, u_q17, x);
+    find_pair(t, 1, v_q17, y);
+    gn_texture_texel(t, x[0], y[0], rgb);
+    if (!(t->flags & GN_TEXTURE_BILINEAR)) return;
+    for (int i = 0; i < 4; i++) gn_texture_texel(t, x[i & 1], y[i >> 1], texel[i]);
+    find_weights((uint32_t)*u_q17, (uint32_t)*v_q17, weight);
+    for (int c = 0; c < 3; c++) rgb[c] = weigh(weight, texel[0][c], texel[1][c], texel[2][c], texel[3][c]);
+}
+
+/* ---- Pixels whose texels lie inside ------------------------------------------------------------------------------ */
+
+#if !GN_SIZE_FIRST
+enum { TEXELS_RGBA, TEXELS_565, TEXELS_PALETTE, TEXELS_GREY };
+
+/* What a row reads. */
+typedef struct {
+    const gn_texture *texture;
+    const uint8_t *texels;
+    uint32_t stride, bits_log2, end_q17[2]; /* coordinates below it need no care */
+    const uint16_t *green;                  /* of 565: levels, and where they are */
+    uint32_t green_shift, green_mask;
+} row_source;
+
+/* A texel as it is stored: of RGBA or a palette red, green, blue, alpha from the lowest byte on. `kind` is a constant:
+ * each kind has a loop of its own, in which nothing is asked twice. */
+GN_INLINE uint32_t read_texel(const row_source *s, int kind, const uint8_t *row, uint32_t x)
+{
+    if (kind == TEXELS_RGBA) return gn_texel_word(row + 4 * x);
+    if (kind == TEXELS_565) return (uint32_t)row[2 * x] | (uint32_t)row[2 * x + 1] << 8;
+    uint32_t index = gn_texel_index(row, x, s->bits_log2);
+    if (kind == TEXELS_PALETTE) return gn_texel_word(s->texture->palette + 4 * index);
+    return s->bits_log2 == 2 ? index * 17U : index;
+}
+
+/* Red, green or blue of it in linear light. */
+GN_INLINE uint32_t red_of(int kind, uint32_t texel)
+{
+    if (GN_TEXEL_565S && kind == TEXELS_565) return gn_linear_31_table[texel >> 11];
+    return gn_srgb_decode_table[kind == TEXELS_GREY ? texel : texel & 255U];
+}
+
+GN_INLINE uint32_t green_of(const row_source *s, int kind, uint32_t texel)
+{
+    if (kind == TEXELS_565) return s->green[texel >> s->green_shift & s->green_mask];
+    return gn_srgb_decode_table[texel >> 8 & 255U];
+}
+
+GN_INLINE uint32_t blue_of(int kind, uint32_t texel)
+{
+    if (GN_TEXEL_565S && kind == TEXELS_565) return gn_linear_31_table[texel & 31U];
+    return gn_srgb_decode_table[texel >> 16 & 255U];
+}
+
+GN_INLINE void store_texel(const row_source *s, int kind, uint32_t texel, uint16_t rgb[3])
+{
+    rgb[0] = rgb[1] = rgb[2] = (uint16_t)red_of(kind, texel);
+    if (kind == TEXELS_GREY) return;
+    rgb[1] = (uint16_t)green_of(s, kind, texel);
+    rgb[2] = (uint16_t)blue_of(kind, texel);
+}
+
+/* Between four texels. */
+GN_INLINE void store_blend(const row_source *s, int kind, uint32_t u_q17, uint32_t v_q17, const uint32_t t[4],
+                           uint16_t rgb[3])
+{
+    uint32_t weight[4];
+    find_weights(u_q17, v_q17, weight);
+    rgb[0] = weigh(weight, red_of(kind, t[0]), red_of(kind, t[1]), red_of(kind, t[2]), red_of(kind, t[3]));
+    if (kind == TEXELS_GREY) {
+        rgb[1] = rgb[2] = rgb[0];
+        return;
+    }
+    rgb[1] = weigh(weight, green_of(s, kind, t[0]), green_of(s, kind, t[1]), green_of(s, kind, t[2]),
+                   green_of(s, kind, t[3]));
+    rgb[2] = weigh(weight, blue_of(kind, t[0]), blue_of(kind, t[1]), blue_of(kind, t[2]), blue_of(kind, t[3]));
+}
+
+GN_INLINE void one_pixel(const row_source *s, int kind, int bilinear, uint32_t u, uint32_t v, uint16_t rgb[3])
+{
+    const uint8_t *upper = s->texels + (v >> 17) * s->stride;
+    if (!bilinear) {
+        store_texel(s, kind, read_texel(s, kind, upper, u >> 17), rgb);
+        return;
+    }
+    const uint8_t *lower = upper + s->stride;
+    const uint32_t t[4] = {read_texel(s, kind, upper, u >> 17), read_texel(s, kind, upper, (u >> 17) + 1),
+                           read_texel(s, kind, lower, u >> 17), read_texel(s, kind, lower, (u >> 17) + 1)};
+    if (t[0] == t[1] && t[0] == t[2] && t[0] == t[3]) store_texel(s, kind, t[0], rgb);
+    else store_blend(s, kind, u, v, t, rgb);
+}
+
+GN_INLINE void pixels(const row_source *s, int kind, int bilinear, const gn_texture_line *line, uint32_t bits,
+                      uint16_t (*rgb)[3])
+{
+    int32_t u = line->at_q17[0], v = line->at_q17[1], u_step = line->step_q17[0], v_step = line->step_q17[1];
+    for (; bits; bits >>= 1, rgb++) {
+        if (bits & 1U) {
+            if ((uint32_t)u < s->end_q17[0] && (uint32_t)v < s->end_q17[1])
+                one_pixel(s, kind, bilinear, (uint32_t)u, (uint32_t)v, *rgb);
+            else any_pixel(s->texture, &u, &v, *rgb);
+        }
+        u += u_step;
+        v += v_step;
+        u_step += line->step_change_q17[0];
+        v_step += line->step_change_q17[1];
+    }
+}
+
+GN_INLINE void row_of_kind(const row_source *s, int kind, const gn_texture_line *line, uint32_t bits,
+                           uint16_t (*rgb)[3])
+{
+    if (s->texture->flags & GN_TEXTURE_BILINEAR) pixels(s, kind, 1, line, bits, rgb);
+    else pixels(s, kind, 0, line, bits, rgb);
+}
+
+/* Levels of green, and where they are in a texel. */
+GN_INLINE void begin_565(row_source *s)
+{
+    int has_alpha = s->texture->format == GN_TEXTURE_RGB565A1;
+    s->green = has_alpha ? gn_linear_31_table : gn_linear_63_table;
+    s->green_shift = has_alpha ? 6 : 5;
+    s->green_mask = has_alpha ? 31 : 63;
+}
+
+GN_HOT void gn_texture_row(const gn_texture *t, const gn_texture_line *line, uint32_t bits, uint16_t (*rgb)[3])
+{
+    uint32_t border = t->flags & GN_TEXTURE_BILINEAR ? 1 : 0;
+    row_source s = {t, t->rgba, gn_texel_stride(t), gn_texel_bits_log2(t), {0, 0}, NULL, 0, 0};
+    for (int i = 0; i < 2; i++) s.end_q17[i] = (gn_texture_size(t, i) - border) << 17;
+    if (GN_TEXEL_IS(t, GN_TEXTURE_RGBA8888)) row_of_kind(&s, TEXELS_RGBA, line, bits, rgb);
+    else if (GN_TEXEL_IS_565(t)) {
+        begin_565(&s);
+        row_of_kind(&s, TEXELS_565, line, bits, rgb);
+    } else if (GN_TEXEL_IS_PALETTE(t)) row_of_kind(&s, TEXELS_PALETTE, line, bits, rgb);
+    else if (GN_TEXEL_IS_GREY(t)) row_of_kind(&s, TEXELS_GREY, line, bits, rgb);
+    else
+        for (; bits; bits >>= 1, rgb++) (*rgb)[0] = (*rgb)[1] = (*rgb)[2] = 65535U;
+}
+#else
+GN_HOT void gn_texture_row(const gn_texture *t, const gn_texture_line *line, uint32_t bits, uint16_t (*rgb)[3])
+{
+    gn_texture_line at = *line;
+    for (; bits; bits >>= 1, rgb++) {
+        if (bits & 1U) any_pixel(t, &at.at_q17[0], &at.at_q17[1], *rgb);
+        for (int i = 0; i < 2; i++) {
+            at.at_q17[i] += at.step_q17[i];
+            at.step_q17[i] += at.step_change_q17[i];
+        }
+    }
+}
+#endif
+
+#endif
