@@ -39,8 +39,6 @@
 #include "shade/gn_pixel.h"
 #include "visible/gn_screen_rect.h"
 
-enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED };
-
 #if GN_RUNTIME_KNOBS
 #define GN_KNOB_DEFAULT_(name, MACRO, lo, hi, meaning, cost) frame->knobs.name = GN_##MACRO;
 #define GN_KNOB_IN_RANGE_(name, MACRO, lo, hi, meaning, cost)                                                          \
