@@ -88,6 +88,12 @@ boards: ## list the boards
 size: ## measure flash, RAM and worst-case stack on the targets; WRITE=1 renews baseline and docs/MEMORY.md
 	@sh tests/firmware/size.sh $(if $(WRITE),--write)
 
+dist: ## the packages of docs/PACKAGES.md: build/dist/gnomon-VERSION.tar.gz
+	@sh boards/packages/dist.sh $(BUILD)/dist
+
+test-packages: ## build what make dist packs with the tools of each ecosystem: CMake, Arduino
+	@sh boards/packages/test.sh
+
 docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages casters radiance punctual accuracy bias contact census rows seams crawl kept culling lists changes extremes extremes_light extremes_many) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
 
@@ -216,5 +222,5 @@ endif
 
 -include $(shell find $(wildcard $(BUILD)/obj $(BUILD)/wasm) /dev/null -name "*.d")
 
-.PHONY: all help run playground test-playground deps test soak mutate bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
+.PHONY: all help run playground test-playground deps test dist test-packages soak mutate bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
 .SECONDARY:

@@ -244,6 +244,12 @@
 #ifndef GN_CASTER_CLIPPING
 #define GN_CASTER_CLIPPING (!GN_COMPACT)
 #endif
+#ifndef GN_CLIPS
+#define GN_CLIPS 1
+#endif
+#ifndef GN_PICKING
+#define GN_PICKING (!GN_COMPACT)
+#endif
 #ifndef GN_RAW_VIEWS
 #define GN_RAW_VIEWS 0
 #endif

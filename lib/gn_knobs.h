@@ -129,6 +129,9 @@
       "flash")                                                                                                         \
     X(caster_clipping, CASTER_CLIPPING, 0, 1,                                                                          \
       "directional casters may extend more than 8192 texels beyond their tile; without, they may be refused", "flash") \
+    X(clips, CLIPS, 0, 1, "animation clips of gnomon asset: gn_pose",                                                  \
+      "flash, where it is called; 48 bytes per node that a clip moves")                                                \
+    X(picking, PICKING, 0, 1, "what is under a pixel: gn_pick", "flash, where it is called")                           \
     X(raw_views, RAW_VIEWS, 0, 1, "views of depth, normals, shadow and triangle identity (host tools)", "flash")       \
     X(runtime_knobs, RUNTIME_KNOBS, 0, 1, "quality knobs as data (host tools)", "everything is built")
 

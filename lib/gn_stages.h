@@ -4,6 +4,9 @@
 
 #include "gnomon.h"
 
+/* How far a frame has come: frame->stage. */
+enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED, GN_STAGE_DRAWING };
+
 /* Returns GN_OK or the first error, with frame->detail filled. Vertex positions are checked when they are transformed.
  */
 gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene);

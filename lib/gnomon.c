@@ -18,6 +18,9 @@
 /* Transforms; validation of the caller's scene. */
 #include "geometry/gn_affine.c"
 #include "scene/gn_defaults.c"
+#if GN_CLIPS
+#include "scene/gn_pose.c"
+#endif
 #include "scene/gn_scene.c"
 
 /* Screen tiles and pixels. */
@@ -136,6 +139,10 @@
 #include "shade/gn_shade.c"
 #include "shade/gn_shadow.c"
 #include "shade/gn_surface.c"
+#endif
+
+#if GN_PICKING
+#include "visible/gn_pick.c"
 #endif
 
 /* The calls of gnomon.h: a frame, stage by stage. */

@@ -370,6 +370,13 @@ gn_camera gn_camera_default(const int32_t eye_q16[3], const int32_t target_q16[3
 gn_scene gn_scene_default(const gn_camera *camera, const gn_object *objects, uint32_t n_objects, const gn_light *lights,
                           uint32_t n_lights);
 
+/* ---- Models and their animation: what gnomon asset writes ---------------------------------------------------------
+ */
+
+#if GN_CLIPS
+#include "gn_rig.h"
+#endif
+
 /* ---- Rendering --------------------------------------------------------------------------------------------------- */
 
 typedef enum {
@@ -452,27 +459,7 @@ typedef struct gn_renderer {
     gn_scratch scratch;
 } gn_renderer;
 
-/* gn_init compares this signature: a sum over all knobs, the version, and the sizes of the caller's structs. */
-#define GN_SIGN_(index, value)                                                                                         \
-    (((uint64_t)(value) + 1U) * ((0x9E3779B97F4A7C15U * (uint64_t)(index) ^ 0xD1B54A32D192ED03U) | 1U))
-#define GN_KNOB_INDEX_(name, MACRO, lo, hi, meaning, cost) gn_knob_index_##name,
-#define GN_KNOB_SIGN_(name, MACRO, lo, hi, meaning, cost)  +GN_SIGN_(gn_knob_index_##name, GN_##MACRO)
-enum {
-    gn_knob_index_none,
-    gn_knob_index_version,
-    gn_knob_index_scene,
-    gn_knob_index_object,
-    gn_knob_index_light,
-    gn_knob_index_mesh,
-    GN_QUALITY_KNOBS(GN_KNOB_INDEX_) GN_CAPACITY_KNOBS(GN_KNOB_INDEX_) GN_FEATURE_KNOBS(GN_KNOB_INDEX_)
-        gn_knob_index_compact
-};
-#define GN_CONFIG_SIGNATURE                                                                                            \
-    (GN_SIGN_(gn_knob_index_version, GN_VERSION_MAJOR * 65536 + GN_VERSION_MINOR * 256 + GN_VERSION_PATCH) +           \
-     GN_SIGN_(gn_knob_index_scene, sizeof(gn_scene)) + GN_SIGN_(gn_knob_index_object, sizeof(gn_object)) +             \
-     GN_SIGN_(gn_knob_index_light, sizeof(gn_light)) + GN_SIGN_(gn_knob_index_mesh, sizeof(gn_mesh)) +                 \
-     GN_SIGN_(gn_knob_index_compact, GN_COMPACT) GN_QUALITY_KNOBS(GN_KNOB_SIGN_) GN_CAPACITY_KNOBS(GN_KNOB_SIGN_)      \
-         GN_FEATURE_KNOBS(GN_KNOB_SIGN_))
+#include "frame/gn_config_signature.h"
 
 /* gn_init below, with the caller's configuration. */
 gn_status gn_init_as(gn_renderer *r, const gn_picture *picture, size_t renderer_bytes, uint64_t config_signature);
@@ -511,6 +498,14 @@ typedef struct {
     const void *depth;
 } gn_tile_info;
 uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info);
+
+#if GN_PICKING
+/* The object and its triangle that a pixel of the frame prepared last shows; both GN_NOTHING where there is none.
+ * Either pointer may be NULL. The scene must be as it was. It takes the time of one screen tile's visible surfaces and
+ * uses the renderer's scratch: not while another core draws with that. */
+#define GN_NOTHING UINT32_MAX
+gn_status gn_pick(gn_renderer *r, uint32_t x, uint32_t y, uint32_t *object_idx, uint32_t *triangle_idx);
+#endif
 
 /* Discards the shadow tiles kept from earlier frames: call it after changing mesh or texture data in place. */
 void gn_forget_shadows(gn_renderer *r);

@@ -11,8 +11,9 @@
 enum { BUDGET_MAX = 1000000000 };
 
 const option options[] = {
-    {"-o", BY_RENDER | BY_COMPARE | BY_COMPILE | BY_BAKE, "PATH", "a path",
-     "where the result goes: a PNG file (render), a folder (compare, compile), a .gltf or .glb file (bake)"},
+    {"-o", BY_RENDER | BY_COMPARE | BY_COMPILE | BY_ASSET | BY_BAKE, "PATH", "a path",
+     "where the result goes: a PNG file (render), a folder (compare, compile), a .gltf or .glb file (bake), "
+     "two files without their endings (asset)"},
     {"--engine", BY_RENDER, "NAME", "fixed, reference or truth",
      "fixed, the library; reference, the same in double precision; truth, a ray tracer with exact shadows (fixed)"},
     {"--with", BY_COMPARE, "NAME", "reference or truth", "what the library is compared with (reference)"},
@@ -51,6 +52,8 @@ const option options[] = {
      "capacity for more triangles and tile references than the frames took (10)"},
     {"--simplify", BY_COMPILE, "HOW", "none, safe or path",
      "leave out what changes no picture of any camera (safe), or none of the frames (path), or nothing (none) (path)"},
+    {"--open", BY_COMPILE, NULL, NULL,
+     "objects, lights and camera have names and can be written: nothing goes but what no camera could tell"},
     {"--instructions-per-pixel", BY_ADVISE, "N", "a number from 1 to 1000000000",
      "the most instructions per pixel: of the host, by the model of docs/TRADE.md, or with --target of that board; of "
      "a scene that moves their mean over the later frames, else with every shadow tile drawn (no limit)"},
@@ -195,6 +198,7 @@ static void take_switch(tool_options *o, const char *name)
     if (strcmp(name, "--all") == 0) o->all = 1;
     if (strcmp(name, "--quick") == 0) o->quick = 1;
     if (strcmp(name, "--still") == 0) o->still = 1;
+    if (strcmp(name, "--open") == 0) o->open = 1;
     if (strcmp(name, "--outside") == 0) o->outside = 1;
 }
 
@@ -240,6 +244,7 @@ int options_parse(tool_options *o, int command, int argc, char **argv)
     }
     if (!o->scene_path) return options_usage_error("a scene is missing", NULL);
     if (command == BY_BAKE && !o->out_path) return options_usage_error("-o FILE is missing", NULL);
+    if (command == BY_ASSET && !o->out_path) return options_usage_error("-o NAME is missing", NULL);
     if (command == BY_ADVISE && !o->ram) return options_usage_error("--ram BYTES is missing", NULL);
     return check_truth(o, command == BY_RENDER ? o->engine : o->with);
 }

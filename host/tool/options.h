@@ -12,7 +12,8 @@ enum {
     BY_ADVISE = 16,
     BY_COMPILE = 32,
     BY_BAKE = 64,
-    BY_ALL = 127
+    BY_ASSET = 128,
+    BY_ALL = 255
 };
 
 /* One option. value: what it must be, for messages; NULL: the option has none. */

@@ -95,7 +95,7 @@ typedef union {
 typedef struct gn_frame {
     const gn_scene *scene;
     gn_picture picture;
-    uint8_t stage;   /* gn_stage in gn_frame.c */
+    uint8_t stage;   /* gn_stage in gn_stages.h */
     uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
     uint8_t n_views;
     uint8_t n_lights; /* of the scene, which may be gone when gn_get_light_shadow is called */

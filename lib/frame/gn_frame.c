@@ -44,8 +44,6 @@
  * ends with the error. In steps the caller keeps the order: a screen tile sees only that its callback has left another
  * stage; a whole frame, or a second tile with the same scratch, is not seen. After a callback that does not return:
  * gn_init. */
-enum gn_stage { GN_STAGE_NONE, GN_STAGE_INIT, GN_STAGE_BEGUN, GN_STAGE_PREPARED, GN_STAGE_DRAWING };
-
 static gn_status wrong_stage(const gn_frame *frame)
 {
     return frame->stage == GN_STAGE_DRAWING ? GN_ERR_REENTERED : GN_ERR_ORDER;

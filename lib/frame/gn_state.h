@@ -19,7 +19,7 @@ typedef struct gn_frame {
     /* small fields come first: instructions address them by a short offset */
     const gn_scene *scene;
     gn_picture picture;
-    uint8_t stage;   /* gn_stage in gn_frame.c */
+    uint8_t stage;   /* gn_stage in gn_stages.h */
     uint8_t id_bits; /* of a visibility cell: enough for n_triangles + 2 */
     uint16_t n_views;
     uint16_t tiles_x, tiles_y;

@@ -44,7 +44,7 @@ without() { object "all-$1" -Og -fno-inline $(but all 0 "$1"); }
 # What a feature stands on: alone it has nothing to do.
 under() {
     case $1 in
-    CLIPPING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
+    CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
     LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
@@ -116,6 +116,8 @@ OTHER_FORMATS luminance_q20|fill_(grey4|mono)
 TILE_IMPORTANCE sizes_by_importance|weight_of
 OBJECT_BOXES gn_cull_sees|.*_sees
 CLIPPING project_cut|general_triangle
+CLIPS gn_pose|pose_nodes
+PICKING gn_pick
 CASTER_CLIPPING clip_side|clip_to_reach
 LIST
 

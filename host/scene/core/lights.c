@@ -25,6 +25,7 @@ void light_set_defaults(scene_light *light)
 {
     light->range = HUGE_VAL;
     light->mask_channel = -1;
+    light->node_idx = SCENE_NONE;
     light->shadow = true;
     light->strength = 1;
     light->bias_normal = 1; /* where it is not automatic */

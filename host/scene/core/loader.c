@@ -295,6 +295,7 @@ scene_object object_defaults(void)
                           .shininess_log2 = 5,
                           .texture_idx = SCENE_NONE,
                           .mask_texture_idx = SCENE_NONE,
+                          .node_idx = SCENE_NONE,
                           .caster = SCENE_CASTER_ON,
                           .receives = true};
 }

@@ -29,6 +29,22 @@ static void free_object(scene_object *object)
     free(object->baked);
 }
 
+static void free_rig(scene_rig *rig)
+{
+    if (!rig) return;
+    for (size_t i = 0; i < rig->n_channels; i++) {
+        free(rig->channels[i].curve.times);
+        free(rig->channels[i].curve.values);
+    }
+    for (size_t i = 0; rig->clips && i < rig->n_clips; i++) free(rig->clips[i].name);
+    for (size_t i = 0; i < rig->n_cameras; i++) free(rig->cameras[i].name);
+    free(rig->nodes);
+    free(rig->channels);
+    free(rig->clips);
+    free(rig->cameras);
+    free(rig);
+}
+
 void scene_free(scene *s)
 {
     for (size_t i = 0; i < s->n_meshes; i++) free_mesh(&s->meshes[i]);
@@ -45,6 +61,7 @@ void scene_free(scene *s)
     for (size_t i = 0; i < s->n_notes; i++) free(s->notes[i]);
     for (size_t i = 0; i < s->n_remarks; i++) free(s->remarks[i]);
     for (size_t i = 0; i < s->n_files; i++) free(s->files[i]);
+    free_rig(s->rig);
     free(s->meshes);
     free(s->objects);
     free(s->textures);

@@ -10,6 +10,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "curve.h"
+
 typedef struct {
     double m[3][4];
 } scene_affine; /* p' = m[.][0..2] * p + m[.][3] */
@@ -43,6 +45,7 @@ typedef enum { SCENE_CASTER_OFF, SCENE_CASTER_ON, SCENE_CASTER_CLIP, SCENE_CASTE
 typedef struct {
     char *name;
     size_t mesh_idx;
+    size_t node_idx; /* of scene_rig; SCENE_NONE: none */
     scene_affine to_world;
     scene_affine at_rest;    /* the same without animation, if the file has one */
     double albedo[3];        /* linear 0..1 */
@@ -73,6 +76,7 @@ typedef enum { SCENE_SOFT_DEFAULT, SCENE_SOFT_HARD, SCENE_SOFT_SOFT } scene_soft
 
 typedef struct {
     char *name;
+    size_t node_idx; /* of scene_rig; SCENE_NONE: none */
     scene_light_kind kind;
     double direction[3]; /* unit, direction of travel; spots: of the axis */
     double position[3];  /* spot, point */
@@ -141,6 +145,42 @@ typedef struct {
     scene_distance_mode distance_mode; /* D5 or D11, default depth */
 } scene_shadow;
 
+/* Nodes as the file has them, and the clips that move them: for tools that pose a model themselves. */
+typedef struct {
+    size_t parent; /* SCENE_NONE: a root */
+    bool in_scene;
+    bool has_matrix; /* then that, else translation, rotation (a quaternion) and scale */
+    scene_affine matrix;
+    double translation[3], rotation[4], scale[3];
+} scene_node;
+
+typedef enum { SCENE_TRANSLATION, SCENE_ROTATION, SCENE_SCALE } scene_property;
+
+typedef struct {
+    size_t clip, node;
+    scene_property what;
+    scene_curve curve;
+} scene_channel;
+
+typedef struct {
+    char *name;
+    double duration; /* seconds */
+} scene_clip;
+
+typedef struct {
+    char *name;
+    size_t node;
+    scene_camera camera;
+} scene_view;
+
+typedef struct {
+    size_t n_nodes, n_channels, n_clips, n_cameras;
+    scene_node *nodes;
+    scene_channel *channels; /* clip by clip */
+    scene_clip *clips;
+    scene_view *cameras; /* all of the file, in its order */
+} scene_rig;
+
 typedef struct {
     char *key, *value;
 } scene_setting;
@@ -162,6 +202,7 @@ typedef struct {
     bool gradient;               /* R11 */
     scene_shadow shadow;
     scene_added added; /* what the file lacked */
+    scene_rig *rig;    /* if scene_options.rig requested it, of glTF; else NULL */
     size_t n_settings; /* extras.gnomon of the glTF scene, in file order: applied like --set, before it */
     scene_setting *settings;
     size_t n_notes;
@@ -171,6 +212,7 @@ typedef struct {
     char **remarks;
     size_t n_files; /* that it was read from, the scene file first */
     char **files;
+    double extent;   /* how far from the origin anything may come, beside where it is; 0: not farther */
     double fps;      /* frames per second of its animation; 0: it has none */
     double duration; /* seconds until everything in it has come to rest */
 } scene;
@@ -183,6 +225,7 @@ typedef struct {
     scene_ground ground;
     bool smooth;       /* meshes without normals: smooth vertex normals instead of face normals */
     bool outside;      /* a file may name files outside the folder of the scene */
+    bool rig;          /* nodes and clips are kept */
     int budget;        /* how many times the usual limits of what a file may ask for (budget.c); 0: once */
     bool orbit;        /* in the place of any camera of the file: */
     double yaw, pitch; /* degrees: from the front (+Z) to the right (+X); upwards */

@@ -120,7 +120,7 @@ static bool load_json(loader *l, const char *text, size_t n_bytes, gltf_bytes gl
     const json_value *used_scene;
     bool ok = check_asset(&g) && find_arrays(&g) && spend_arrays(&g, &doc) && gltf_load_buffers(&g) &&
               find_scene(&g, &used_scene) && gltf_scene_knobs(&g, used_scene) && gltf_read_nodes(&g) &&
-              place_and_animate(&g, used_scene) && emit_nodes(&g);
+              gltf_begin_rig(&g) && place_and_animate(&g, used_scene) && emit_nodes(&g) && gltf_end_rig(&g);
     json_free(&doc);
     return ok;
 }

@@ -124,6 +124,11 @@ bool gltf_emit_light(gltf *g, size_t node_idx);
 /* gltf_animation.c: writes the frame's translation, rotation and scale into the nodes. */
 bool gltf_animate(gltf *g);
 
+/* gltf_animation.c, gltf_rig.c: scene.rig. The nodes before the animation moves them, the rest when all is there. */
+bool gltf_keep_clips(gltf *g);
+bool gltf_begin_rig(gltf *g);
+bool gltf_end_rig(gltf *g);
+
 /* gltf_knobs.c: extras.gnomon of ... */
 bool gltf_scene_knobs(gltf *g, const json_value *used_scene);
 bool gltf_light_knobs(gltf *g, const json_value *owner, scene_light *light);

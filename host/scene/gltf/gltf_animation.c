@@ -4,86 +4,20 @@
 #include "gltf.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-typedef enum { LERP_LINEAR, LERP_STEP, LERP_CUBIC } lerp_kind;
+#include "../core/curve.h"
 
 typedef struct {
-    lerp_kind kind;
+    curve_kind kind;
     gltf_array times, values;
     size_t width; /* components of the property */
 } sampler;
 
-/* Where the time falls: between keys idx and idx + 1, u of the way; span in seconds. */
-typedef struct {
-    size_t idx, next;
-    double u, span;
-} key_position;
-
-static key_position find_key(const gltf_array *times, double time)
+static scene_curve curve_of(const sampler *s)
 {
-    size_t last = times->count - 1, low = 0, high = last;
-    if (time <= times->values[0]) return (key_position){0, 0, 0, 0};
-    if (time >= times->values[last]) return (key_position){last, last, 0, 0};
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (times->values[middle] <= time) low = middle;
-        else high = middle;
-    }
-    double span = times->values[high] - times->values[low];
-    return (key_position){low, high, (time - times->values[low]) / span, span};
-}
-
-static bool normalise_quaternion(double *q)
-{
-    double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(length > 1e-30)) return false;
-    for (int i = 0; i < 4; i++) q[i] /= length;
-    return true;
-}
-
-/* Along the shorter arc; nearly equal rotations are blended linearly, where the sine would vanish. */
-static bool slerp(double *out, const double *from, const double *to, double u)
-{
-    double a[4], b[4];
-    memcpy(a, from, sizeof a);
-    memcpy(b, to, sizeof b);
-    if (!normalise_quaternion(a) || !normalise_quaternion(b)) return false;
-    double cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-    double sign = cosine < 0 ? -1 : 1, angle = acos(fmin(fabs(cosine), 1));
-    double wa = 1 - u, wb = u;
-    if (angle > 1e-6) {
-        wa = sin(angle * (1 - u)) / sin(angle);
-        wb = sin(angle * u) / sin(angle);
-    }
-    for (int i = 0; i < 4; i++) out[i] = wa * a[i] + sign * wb * b[i];
-    return normalise_quaternion(out);
-}
-
-/* Hermite spline. Each key holds in-tangent, value, out-tangent; tangents are per second. */
-static void cubic(double *out, const sampler *s, key_position at)
-{
-    double u = at.u, u2 = u * u, u3 = u2 * u;
-    const double *a = s->values.values + 3 * at.idx * s->width, *b = s->values.values + 3 * at.next * s->width;
-    for (size_t i = 0; i < s->width; i++) {
-        double value_a = a[s->width + i], out_a = a[2 * s->width + i], in_b = b[i], value_b = b[s->width + i];
-        out[i] = (2 * u3 - 3 * u2 + 1) * value_a + (u3 - 2 * u2 + u) * at.span * out_a + (3 * u2 - 2 * u3) * value_b +
-                 (u3 - u2) * at.span * in_b;
-    }
-}
-
-/* False: a rotation without length. */
-static bool evaluate(const sampler *s, double time, double *out)
-{
-    key_position at = find_key(&s->times, time);
-    const double *a = s->values.values + at.idx * s->width, *b = s->values.values + at.next * s->width;
-    if (s->kind == LERP_CUBIC) cubic(out, s, at);
-    else if (s->kind == LERP_LINEAR && s->width == 4) return slerp(out, a, b, at.u);
-    else {
-        double u = s->kind == LERP_STEP ? 0 : at.u;
-        for (size_t i = 0; i < s->width; i++) out[i] = (1 - u) * a[i] + u * b[i];
-    }
-    return s->width != 4 || normalise_quaternion(out);
+    return (scene_curve){s->kind, s->times.count, s->width, s->times.values, s->values.values};
 }
 
 static bool check_times(gltf *g, const json_value *where, const gltf_array *times)
@@ -99,7 +33,7 @@ static bool check_times(gltf *g, const json_value *where, const gltf_array *time
 static bool check_values(gltf *g, const json_value *where, const sampler *s)
 {
     const gltf_array *v = &s->values;
-    size_t n = s->times.count * (s->kind == LERP_CUBIC ? 3 : 1);
+    size_t n = s->times.count * (s->kind == CURVE_CUBIC ? 3 : 1);
     if (v->n_components != s->width) return gltf_fail(g, where, "%zu components are expected", s->width);
     if (v->component_type != GLTF_FLOAT && !(s->width == 4 && v->normalized))
         return gltf_fail(g, where, "floats are expected");
@@ -114,9 +48,9 @@ static bool read_sampler(gltf *g, const json_value *json, sampler *out)
         !gltf_get_ref(g, json, "output", g->accessors, &output) || !gltf_get_string(g, json, "interpolation", &kind))
         return false;
     if (input == GLTF_NONE || output == GLTF_NONE) return gltf_fail(g, json, "input and output are needed");
-    if (strcmp(kind, "LINEAR") == 0) out->kind = LERP_LINEAR;
-    else if (strcmp(kind, "STEP") == 0) out->kind = LERP_STEP;
-    else if (strcmp(kind, "CUBICSPLINE") == 0) out->kind = LERP_CUBIC;
+    if (strcmp(kind, "LINEAR") == 0) out->kind = CURVE_LINEAR;
+    else if (strcmp(kind, "STEP") == 0) out->kind = CURVE_STEP;
+    else if (strcmp(kind, "CUBICSPLINE") == 0) out->kind = CURVE_CUBIC;
     else return gltf_fail(g, json, "interpolation '%s' is unknown", kind);
     return gltf_read_accessor(g, input, &out->times) && check_times(g, json_get(json, "input"), &out->times) &&
            gltf_read_accessor(g, output, &out->values) && check_values(g, json_get(json, "output"), out);
@@ -181,7 +115,8 @@ static bool play_channel(gltf *g, const channel *c, const char *animation, unsig
     arena_block *mark = g->l->memory.blocks;
     bool ok = read_sampler(g, c->sampler, &s);
     if (ok) note_duration(g, &s.times);
-    if (ok && !evaluate(&s, g->l->options->frame / g->fps, c->property))
+    const scene_curve curve = curve_of(&s);
+    if (ok && !curve_at(&curve, g->l->options->frame / g->fps, c->property))
         ok = gltf_fail(g, c->sampler, "a rotation is zero");
     arena_release(&g->l->memory, mark);
     return ok;
@@ -209,6 +144,71 @@ bool gltf_animate(gltf *g)
     if (!moved) return false;
     for (size_t i = 0; g->animations && i < g->animations->n_children; i++) {
         if (!play_animation(g, g->animations->children[i], moved)) return false;
+    }
+    return true;
+}
+
+/* ---- Clips, for tools that pose a model themselves --------------------------------------------------------------- */
+
+/* Returns a copy that the scene owns. */
+static double *own_numbers(gltf *g, const double *from, size_t n)
+{
+    double *to = loader_own(g->l, n + 1, sizeof *to);
+    if (to) memcpy(to, from, n * sizeof *to);
+    return to;
+}
+
+static bool is_kept(const scene_rig *rig, size_t clip, size_t node, scene_property what)
+{
+    for (size_t i = rig->n_channels; i-- > 0 && rig->channels[i].clip == clip;)
+        if (rig->channels[i].node == node && rig->channels[i].what == what) return true;
+    return false;
+}
+
+static bool keep_channel(gltf *g, size_t clip, const channel *c)
+{
+    scene_rig *rig = g->l->s->rig;
+    const size_t node = (size_t)(c->node - g->node);
+    const scene_property what = c->bit == 1 ? SCENE_TRANSLATION : c->bit == 2 ? SCENE_ROTATION : SCENE_SCALE;
+    sampler s = {.width = c->width};
+    if (is_kept(rig, clip, node, what)) return true; /* a note says so */
+    scene_channel *grown = realloc(rig->channels, (rig->n_channels + 1) * sizeof *grown);
+    if (!grown) return loader_fail(g->l, "out of memory");
+    rig->channels = grown;
+    arena_block *mark = g->l->memory.blocks;
+    bool ok = read_sampler(g, c->sampler, &s);
+    if (ok) {
+        scene_channel *to = &rig->channels[rig->n_channels++];
+        *to = (scene_channel){clip, node, what, curve_of(&s)};
+        to->curve.times = own_numbers(g, s.times.values, s.times.count);
+        to->curve.values = own_numbers(g, s.values.values, s.values.count * s.width);
+        rig->clips[clip].duration = fmax(rig->clips[clip].duration, s.times.values[s.times.count - 1]);
+        ok = to->curve.times && to->curve.values;
+    }
+    arena_release(&g->l->memory, mark);
+    return ok;
+}
+
+bool gltf_keep_clips(gltf *g)
+{
+    scene_rig *rig = g->l->s->rig;
+    const size_t n = g->animations ? g->animations->n_children : 0;
+    rig->clips = loader_own(g->l, n + 1, sizeof *rig->clips);
+    if (!rig->clips) return false;
+    for (size_t i = 0; i < n; i++) {
+        const json_value *json = g->animations->children[i], *channels = NULL, *samplers = NULL;
+        const char *name = gltf_name(g, json, "animation");
+        if (!name || !(rig->clips[i].name = loader_own(g->l, strlen(name) + 1, 1)) ||
+            !gltf_get(g, json, "channels", JSON_ARRAY, &channels) ||
+            !gltf_get(g, json, "samplers", JSON_ARRAY, &samplers))
+            return false;
+        strcpy(rig->clips[i].name, name);
+        rig->n_clips++;
+        for (size_t k = 0; channels && k < channels->n_children; k++) {
+            channel c;
+            if (!read_channel(g, channels->children[k], samplers, &c)) return false;
+            if (c.property && !keep_channel(g, i, &c)) return false;
+        }
     }
     return true;
 }

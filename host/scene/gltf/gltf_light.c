@@ -118,5 +118,7 @@ bool gltf_emit_light(gltf *g, size_t node_idx)
     scene_light *light = loader_add_light(g->l, name);
     if (!light) return false;
     light->kind = kind;
-    return read_light(g, json, node, name, light);
+    if (!read_light(g, json, node, name, light)) return false;
+    light->node_idx = node_idx;
+    return true;
 }

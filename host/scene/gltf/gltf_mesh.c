@@ -125,6 +125,7 @@ static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *jso
     scene_object object = material.surface;
     object.to_world = node->world;
     object.at_rest = node->rest;
+    object.node_idx = (size_t)(node - g->node);
     if (!check_coordinates(g, json, &g->l->s->meshes[primitive->first_mesh[flip]], &object)) return false;
     const char *name = gltf_name(g, node->json, "node");
     object.name = name ? loader_format(g->l, "%s", name) : NULL;

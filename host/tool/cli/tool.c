@@ -45,6 +45,7 @@ int tool_load_with(const tool_options *o, const char *const *sets, int n_sets, s
                              .height = o->height,
                              .outside = o->outside,
                              .budget = o->budget,
+                             .rig = o->open,
                              .orbit = o->orbit,
                              .yaw = o->yaw,
                              .pitch = o->pitch,

@@ -37,6 +37,8 @@ typedef struct {
     int simplify;               /* compile */
     const char *board;          /* compile, info: or NULL */
     const char *target;         /* sweep, advise: a board that instructions are counted on; or NULL */
+    int open;                   /* compile: names, and everything can be written */
+    int asset;                  /* is what runs: the configuration is not the tool's */
     int flash;                  /* bytes; 0: not given */
     int outside;                /* the scene may name files outside its folder */
     int budget;                 /* times the usual limits of what a scene may ask for; 0: once */
@@ -53,6 +55,7 @@ int tool_info(const tool_options *o);
 int tool_sweep(const tool_options *o);
 int tool_advise(const tool_options *o);
 int tool_compile(const tool_options *o);
+int tool_asset(const tool_options *o);
 int tool_bake(const tool_options *o);
 
 /* How many samples truth takes, per pixel and axis. */

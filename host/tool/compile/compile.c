@@ -13,12 +13,19 @@ int compile_read_board(const tool_options *o, board *out, char *error, size_t by
     return o->board || o->ram || o->flash;
 }
 
+int compile_simplifies(const compiled *c)
+{
+    const int how = c->options->simplify;
+    return c->options->open && how == TOOL_SIMPLIFY_PATH ? TOOL_SIMPLIFY_SAFE : how;
+}
+
 int compile_all(compiled *c, const tool_options *o, char *error, size_t bytes)
 {
     compile_stage st;
     if (compile_play(c, o, error, bytes)) return -1;
     int failed = compile_stage_open(&st, c) || compile_simplify(c, &st, error, bytes);
     compile_stage_close(&st);
+    if (!failed && o->open) failed = open_begin(c, error, bytes);
     if (failed) compile_free(c);
     else compile_choose(c);
     return failed ? -1 : 0;

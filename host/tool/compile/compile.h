@@ -71,6 +71,8 @@ typedef struct {
     int max_error;              /* of 255 */
 } compile_change;
 
+typedef struct fixed_rig fixed_rig;
+
 typedef struct {
     const tool_options *options;
     int first_frame, n_frames; /* of the scene file's animation */
@@ -79,6 +81,12 @@ typedef struct {
     const char **object_name, **light_name, **mesh_name,
         **texture_name; /* beside the arrays of fixed, whose elements may go */
     size_t n_textures;  /* of fixed.textures */
+    const char *symbol; /* what is open has names in C, which begin so; NULL: nothing has */
+    gn_camera *cameras; /* beside camera_name; the first is the one of the picture */
+    const char **camera_name;
+    size_t n_cameras;
+    fixed_rig *rig; /* clips of an asset, or NULL: there are none */
+    const char **clip_name;
     settings requested; /* what was set */
     settings set;       /* the configuration that is chosen */
     compile_run run;
@@ -204,6 +212,16 @@ bool compile_find_nearest(const compiled *c, const board *b, char *out, size_t b
 /* compile.c: all of it but the files; 1: there is a board, 0: none was requested, -1. */
 int compile_all(compiled *c, const tool_options *o, char *error, size_t error_bytes);
 int compile_read_board(const tool_options *o, board *out, char *error, size_t error_bytes);
+
+/* How much may go: of what is open, nothing that a program might come to show. */
+int compile_simplifies(const compiled *c);
+
+/* compile_open.c: what is open: objects, lights and cameras by name, all of them writable. */
+int open_begin(compiled *c, char *error, size_t error_bytes); /* symbol and cameras */
+void open_write_declarations(FILE *file, const compiled *c);  /* names, state, functions */
+void open_write_functions(FILE *file, const compiled *c);
+/* "DESK_LAMP" of "desk lamp" */
+void open_write_upper(FILE *file, const char *text);
 
 /* compile_scene.c */
 void compile_write_header(FILE *file, const compiled *c);

@@ -83,7 +83,7 @@ static settings_demand with_all_tiles(const compiled *c)
 
 static settings_demand demand_of(const compiled *c)
 {
-    return c->options->simplify == TOOL_SIMPLIFY_PATH ? c->run.demand : with_all_tiles(c);
+    return compile_simplifies(c) == TOOL_SIMPLIFY_PATH ? c->run.demand : with_all_tiles(c);
 }
 
 static void choose_capacities(compiled *c)
@@ -191,9 +191,7 @@ static void use_shadows(compiled *c)
 /* Everything that a scene can use to 0; the rest makes the same picture with and without. */
 static void use_nothing(compiled *c)
 {
-#define NOTHING(name)                                                                                                  \
-    c->set.feature.name = 0;                                                                                           \
-    because(c, #name, "nothing uses it")
+#define NOTHING(name) (c->set.feature.name = 0, because(c, #name, "nothing uses it"))
     NOTHING(shadows);
     NOTHING(blended_cascades);
     NOTHING(filter_max);
@@ -216,6 +214,8 @@ static void use_nothing(compiled *c)
     NOTHING(auto_bias);
     NOTHING(vertex_normals);
     NOTHING(vertex_colours);
+    NOTHING(clips);
+    if (!c->symbol) NOTHING(picking);
     c->set.feature.raw_views = c->set.feature.runtime_knobs = 0;
     because(c, "raw_views", "for host tools");
     because(c, "runtime_knobs", "for host tools");
@@ -267,7 +267,7 @@ enum { CASTER_TEXELS_ENOUGH = COMPILE_CASTER_TEXELS_MAX / 2 };
 static void choose_casters(compiled *c)
 {
     settings *s = &c->set;
-    const bool path = c->options->simplify == TOOL_SIMPLIFY_PATH;
+    const bool path = compile_simplifies(c) == TOOL_SIMPLIFY_PATH;
     if (path && !c->run.clipped) s->feature.clipping = 0;
     because(c, "clipping",
             path ? "visible triangles that are clipped, all frames: %zu"
@@ -287,7 +287,7 @@ static void choose_casters(compiled *c)
 /* What the tool has done already. */
 static void choose_checks(compiled *c)
 {
-    const bool rgb565 = c->set.output == GN_FORMAT_RGB565, path = c->options->simplify == TOOL_SIMPLIFY_PATH;
+    const bool rgb565 = c->set.output == GN_FORMAT_RGB565, path = compile_simplifies(c) == TOOL_SIMPLIFY_PATH;
     if (path) c->set.feature.validation = 0;
     because(c, "validation",
             c->set.feature.validation ? "scenes of --simplify none and safe may be moved otherwise"

@@ -184,7 +184,7 @@ int compile_narrow(compiled *c, compile_stage *st, compile_narrowed what, bool r
 {
     vertices v = {.what = what};
     int status = COMPILE_NARROW_NOT;
-    if (!wanted_narrow(c, what)) return status;
+    if (!wanted_narrow(c, what) || c->options->asset) return status; /* of an asset, the types are the caller's */
     if (!keep(&v, &c->fixed)) {
         compile_run run = {.hash = now->hash};
         bool same = take(&v, c) && (rounded || v.exact) && !compile_run_all(&run, st, c, wanted) && run.differs < 0;

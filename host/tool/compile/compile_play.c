@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compile.h"
+#include "rig.h"
 
 #define OBJECT_(name, n)                                                                                               \
     {                                                                                                                  \
@@ -184,6 +184,7 @@ int compile_play(compiled *c, const tool_options *o, char *error, size_t error_b
     *c = (compiled){.options = o};
     if (tool_load_with(o, o->sets, o->n_sets, &c->scene, &c->set, error, error_bytes)) return -1;
     c->requested = c->set;
+    if (o->asset) c->scene.extent = rig_extent(&c->scene);
     if (choose_frames(c, error, error_bytes) ||
         quantise_scene_for(&c->fixed, &c->scene, &c->set.quality, error, error_bytes)) {
         scene_free(&c->scene);
@@ -216,6 +217,10 @@ void compile_free(compiled *c)
     free(c->light_name);
     free(c->mesh_name);
     free(c->texture_name);
+    free(c->cameras);
+    free(c->camera_name);
+    free(c->clip_name);
+    rig_free(c->rig);
     free(c->run.hash);
     quantise_free(&c->fixed);
     scene_free(&c->scene);

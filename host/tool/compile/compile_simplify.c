@@ -159,7 +159,7 @@ static void narrow(trial *b)
     static const char *const names[2][2] = {
         {"positions that 16 bits hold exactly", "positions that 16 bits hold as far as any frame shows"},
         {"normals that 8 bits hold exactly", "normals that 8 bits hold as far as any frame shows"}};
-    const bool rounded = b->c->options->simplify == TOOL_SIMPLIFY_PATH;
+    const bool rounded = compile_simplifies(b->c) == TOOL_SIMPLIFY_PATH;
     for (int what = COMPILE_POSITIONS; what <= COMPILE_NORMALS; what++) {
         measure before = trial_measure(b);
         size_t n = 0;
@@ -219,9 +219,9 @@ static int simplify(trial *b, char *error, size_t bytes)
     if (compile_run_all(&b->wanted, b->st, c, NULL)) return say_refused(b, error, bytes);
     b->now = b->wanted;
     b->now.hash = hash;
-    if (c->options->simplify != TOOL_SIMPLIFY_NONE) merge(b);
-    if (c->options->simplify == TOOL_SIMPLIFY_PATH) simplify_path(b);
-    if (c->options->simplify != TOOL_SIMPLIFY_NONE) narrow(b);
+    if (compile_simplifies(c) != TOOL_SIMPLIFY_NONE) merge(b);
+    if (compile_simplifies(c) == TOOL_SIMPLIFY_PATH) simplify_path(b);
+    if (compile_simplifies(c) != TOOL_SIMPLIFY_NONE) narrow(b);
     if (compile_run_all(&b->now, b->st, c, &b->wanted)) return say_refused(b, error, bytes);
     if (b->now.differs >= 0) return say_changed(c, b->now.differs, error, bytes);
     if (settings_suffice(&c->requested, &b->now.demand, error, bytes)) return -1;

@@ -1,8 +1,8 @@
 /* What the compiled scene takes on a 32-bit target, to the byte: as its compilers lay out the structures of gnomon.h.
  */
-#include "compile.h"
+#include "rig.h"
 
-enum { MESH_BYTES = 32, TEXTURE_BYTES = 8 };
+enum { MESH_BYTES = 32, TEXTURE_BYTES = 8, CAMERA_BYTES = 64 };
 
 static long padded(long bytes)
 {
@@ -38,8 +38,8 @@ static long mesh_bytes(const gn_mesh *m, const gn_knobs *knobs)
 long compile_flash_bytes(const compiled *c, bool short_enums)
 {
     const gn_scene *s = &c->fixed.scene;
-    long bytes = scene_bytes(short_enums) + (long)(s->n_objects ? s->n_objects : 1) * object_bytes(short_enums) +
-                 (long)(s->n_lights ? s->n_lights : 1) * light_bytes(short_enums);
+    long bytes = scene_bytes(short_enums) + (long)s->n_objects * object_bytes(short_enums) +
+                 (long)s->n_lights * light_bytes(short_enums) + CAMERA_BYTES * (long)c->n_cameras;
     for (size_t i = 0; i < c->fixed.n_meshes; i++) bytes += mesh_bytes(&c->fixed.meshes[i], &c->set.quality);
     for (size_t i = 0; i < c->n_textures; i++)
         bytes += TEXTURE_BYTES + padded((long)quantise_texel_bytes(&c->fixed.textures[i])
@@ -49,12 +49,16 @@ long compile_flash_bytes(const compiled *c, bool short_enums)
         if (o->mask_u8) bytes += 4L * o->mesh->n_vertices;
         if (o->baked_uq12) bytes += padded(6L * o->mesh->n_vertices);
     }
+    if (c->rig) bytes += rig_flash_bytes(c->rig);
     for (size_t i = 0; i < c->n_tracks; i++) bytes += 4L * c->n_frames * (long)c->tracks[i].field->n_words;
     return bytes;
 }
 
 long compile_state_bytes(const compiled *c, bool short_enums)
 {
+    if (c->symbol)
+        return scene_bytes(short_enums) + (long)c->fixed.scene.n_objects * object_bytes(short_enums) +
+               (long)c->fixed.scene.n_lights * light_bytes(short_enums) + CAMERA_BYTES * (long)c->n_cameras + 4;
     if (!c->n_tracks) return 1;
     long bytes = scene_bytes(short_enums);
     if (compile_moves(c, COMPILE_OF_OBJECT)) bytes += (long)c->fixed.scene.n_objects * object_bytes(short_enums);

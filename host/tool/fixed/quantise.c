@@ -178,21 +178,27 @@ static int quantise_light(gn_light *out, const scene_light *l, int world_exp, ch
 
 /* ---- The rest of the scene --------------------------------------------------------------------------------------- */
 
+void quantise_camera(gn_camera *out, const scene_camera *camera, int world_exp)
+{
+    out->to_world.exp = 0;
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) out->to_world.m_q30[r][c] = fixed_unit(camera->to_world.m[r][c], 30);
+        out->to_world.t_q16[r] = (int32_t)fixed(camera->to_world.m[r][3], 16 + world_exp);
+    }
+    out->focal_q24 = (uint32_t)fmin(4294967295.0, floor(ldexp(camera->focal, 24) + 0.5));
+    out->near_q16 = (int32_t)fixed(camera->near, 16 + world_exp);
+    out->far_q16 = isinf(camera->far) ? INT32_MAX : (int32_t)fixed(camera->far, 16 + world_exp);
+}
+
 static void quantise_view(gn_scene *out, const scene *s, int world_exp)
 {
-    const scene_camera *camera = &s->camera;
-    out->camera.to_world.exp = 0;
+    quantise_camera(&out->camera, &s->camera, world_exp);
     for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 3; c++) out->camera.to_world.m_q30[r][c] = fixed_unit(camera->to_world.m[r][c], 30);
-        out->camera.to_world.t_q16[r] = (int32_t)fixed(camera->to_world.m[r][3], 16 + world_exp);
         out->ambient_uq16[r] = (uint32_t)fixed(fmin(s->ambient[r], 255.99), 16);
         out->background_uq16[r] = (uint32_t)fixed(s->background[r], 16);
         out->background_bottom_uq16[r] = (uint32_t)fixed(s->background_bottom[r], 16);
     }
     out->background_gradient = s->gradient;
-    out->camera.focal_q24 = (uint32_t)fmin(4294967295.0, floor(ldexp(camera->focal, 24) + 0.5));
-    out->camera.near_q16 = (int32_t)fixed(camera->near, 16 + world_exp);
-    out->camera.far_q16 = isinf(camera->far) ? INT32_MAX : (int32_t)fixed(camera->far, 16 + world_exp);
 }
 
 static void quantise_shadow(gn_shadow_settings *out, const scene_shadow *shadow, int world_exp)

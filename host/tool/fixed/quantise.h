@@ -46,6 +46,7 @@ typedef struct {
 } quantise_reach;
 quantise_reach quantise_farthest(const scene *s);
 
+void quantise_camera(gn_camera *out, const scene_camera *camera, int world_exp);
 void quantise_free(fixed_scene *f);
 
 bool quantise_same_mesh(const gn_mesh *a, const gn_mesh *b);

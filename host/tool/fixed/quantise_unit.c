@@ -53,6 +53,7 @@ quantise_reach quantise_farthest(const scene *s)
     for (size_t i = 0; i < s->n_objects; i++)
         take_farther(&farthest, extent_of_object(s, &s->objects[i]), QUANTISE_OBJECT, i);
     for (size_t i = 0; i < s->n_lights; i++) take_farther(&farthest, extent_of_light(&s->lights[i]), QUANTISE_LIGHT, i);
+    take_farther(&farthest, s->extent, QUANTISE_OBJECT, 0);
     return farthest;
 }
 

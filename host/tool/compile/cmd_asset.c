@@ -1,0 +1,163 @@
+/* gnomon asset: a model as NAME.h and NAME.c, for programs that move it themselves. */
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "compile_emit.h"
+#include "rig.h"
+#include "../cli/remarks.h"
+
+enum { PATH_BYTES = 4096, SYMBOL_BYTES = 64 };
+
+/* ---- NAME.h ------------------------------------------------------------------------------------------------------ */
+
+static void write_check(FILE *f, const char *knob, const char *compare, int value, const char *why)
+{
+    fprintf(f, "#if GN_");
+    open_write_upper(f, knob);
+    fprintf(f, " %s %d\n#error \"compile the library and the program with -DGN_", compare, value);
+    open_write_upper(f, knob);
+    fprintf(f, "=%d: ", value);
+    for (; *why; why++) fputc(*why == '"' || *why == '\\' || *why < 32 || *why > 126 ? '.' : *why, f);
+    fprintf(f, "\"\n#endif\n");
+}
+
+/* A library that lacks what the model needs would refuse it, or has other types. */
+static void write_checks(FILE *f, const compiled *c)
+{
+    settings_need needs[SETTINGS_NEEDS_MAX];
+    const int n = settings_needs(&c->scene, settings_casts(&c->scene) && settings_shadow_lights(&c->scene), needs);
+    fprintf(f, "\n/* What the model needs of the library's configuration. */\n");
+    for (int i = 0; i < n; i++) write_check(f, needs[i].knob, "<", needs[i].value, needs[i].what);
+    if (c->rig) write_check(f, "clips", "<", 1, "clips of the model");
+    write_check(f, "max_objects", "<", (int)c->fixed.scene.n_objects, "objects of the model");
+    write_check(f, "max_lights", "<", (int)c->fixed.scene.n_lights, "lights of the model");
+    write_check(f, "position_bits", "!=", c->set.quality.position_bits, "coordinates as they were written");
+    write_check(f, "normal_bits", "!=", c->set.quality.normal_bits, "normals as they were written");
+}
+
+/* Knobs with which the picture is that of gnomon render. */
+static void write_knobs(FILE *f, const compiled *c)
+{
+    settings usual;
+    bool any = false;
+    settings_init(&usual);
+#define QUALITY_(name, MACRO, lo, hi, meaning, cost)                                                                   \
+    if (c->requested.quality.name != usual.quality.name) {                                                             \
+        fprintf(f, "%s -DGN_" #MACRO "=%" PRId32,                                                                      \
+                any ? "" : " *\n * gnomon render draws it with other knobs than the library's own:",                   \
+                c->requested.quality.name);                                                                            \
+        any = true;                                                                                                    \
+    }
+    GN_QUALITY_KNOBS(QUALITY_)
+    if (any) fprintf(f, "\n");
+    const settings_demand *d = &c->run.demand;
+    fprintf(f,
+            " *\n * From its own camera at %dx%d it takes GN_MAX_TRIANGLES %zu, GN_MAX_TILE_REFS %zu, "
+            "GN_SURFACE_LIGHTS %zu,\n * GN_MAX_SHADOW_TILES %zu, GN_MAX_OTHER_TILES %zu.\n",
+            c->options->width, c->options->height, d->triangles, d->tile_refs, d->surface_lights, d->shadow_tiles,
+            d->other_tiles);
+}
+
+static void write_header(FILE *f, const compiled *c)
+{
+    fprintf(f, "/* ");
+    compile_write_origin(f, c);
+    fprintf(f, ".\n *\n * Compile %s.c and lib/gnomon.c beside a program of your own. Flash: %ld bytes.\n", c->symbol,
+            compile_flash_bytes(c, true));
+    write_knobs(f, c);
+    fprintf(f, " */\n#ifndef GN_ASSET_");
+    open_write_upper(f, c->symbol);
+    fprintf(f, "_H\n#define GN_ASSET_");
+    open_write_upper(f, c->symbol);
+    fprintf(f, "_H\n\n#include \"gnomon.h\"\n");
+    write_checks(f, c);
+    fprintf(f, "\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n");
+    open_write_declarations(f, c);
+    fprintf(f, "#ifdef __cplusplus\n}\n#endif\n\n#endif\n");
+}
+
+static void write_source(FILE *f, const compiled *c)
+{
+    fprintf(f, "/* ");
+    compile_write_origin(f, c);
+    fprintf(f, " */\n#include \"%s.h\"\n\n#include <string.h>\n", c->symbol);
+    emit_data(f, c);
+    if (c->rig) rig_emit(f, c);
+    open_write_functions(f, c);
+}
+
+/* ---- Files ------------------------------------------------------------------------------------------------------- */
+
+static int write_file(const compiled *c, const char *ending, void (*write)(FILE *, const compiled *))
+{
+    char path[PATH_BYTES];
+    const int n = snprintf(path, sizeof path, "%s%s", c->options->out_path, ending);
+    FILE *f = n > 0 && n < PATH_BYTES ? fopen(path, "wb") : NULL;
+    if (!f) return -1;
+    write(f, c);
+    const int failed = ferror(f) != 0;
+    return fclose(f) || failed ? -1 : 0;
+}
+
+/* The last part of the path: names in C begin with it, and NAME.c includes it. */
+static int find_symbol(const char *path, char *out)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyz";
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const size_t n = strlen(name);
+    if (!n || n >= SYMBOL_BYTES || !strchr(letters, name[0]) ||
+        name[strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_")])
+        return -1;
+    memcpy(out, name, n + 1);
+    return 0;
+}
+
+static void print_clips(const compiled *c)
+{
+    for (size_t i = 0; c->rig && i < c->rig->fixed.n_clips; i++) {
+        const rig_error *e = &c->rig->error[i];
+        printf("clip ");
+        tool_json_string(c->clip_name[i]);
+        printf(": %.2f s, %u channels, %zu keys of %zu, off by at most %.2g of the extent and %.2g in rotations\n",
+               c->rig->clips[i].duration_q16 / 65536.0, c->rig->clips[i].n_channels, e->n_keys, e->n_keys_before,
+               e->moved, e->turned);
+    }
+}
+
+static void print_summary(const compiled *c)
+{
+    const gn_scene *s = &c->fixed.scene;
+    if (c->options->json) printf("{\"out\": ");
+    if (c->options->json) tool_json_string(c->options->out_path);
+    printf(c->options->json ? ", \"objects\": %" PRIu32 ", \"lights\": %" PRIu32
+                              ", \"cameras\": %zu, \"meshes\": %zu, \"textures\": %zu, \"data_bytes\": %ld}\n"
+                            : "%" PRIu32 " objects, %" PRIu32
+                              " lights, %zu cameras, %zu meshes, %zu textures: %ld bytes of flash\n",
+           s->n_objects, s->n_lights, c->n_cameras, c->fixed.n_meshes, c->n_textures, compile_flash_bytes(c, true));
+}
+
+int tool_asset(const tool_options *given)
+{
+    char error[TOOL_ERROR_BYTES] = "out of memory", symbol[SYMBOL_BYTES];
+    tool_options o = *given;
+    compiled c;
+    if (find_symbol(o.out_path, symbol)) {
+        tool_error("-o %s: the name must be one in C, of lower-case letters, digits and _, such as fox", o.out_path);
+        return TOOL_USAGE;
+    }
+    o.asset = o.open = 1;
+    o.last_frame = o.frame;
+    if (compile_all(&c, &o, error, sizeof error)) return tool_fail(o.scene_path, error);
+    c.symbol = symbol;
+    if (!o.json) remarks_on_settings(&c.scene);
+    int failed = write_file(&c, ".h", write_header) || write_file(&c, ".c", write_source);
+    if (failed) snprintf(error, sizeof error, "%s", errno ? strerror(errno) : "cannot be written");
+    else {
+        print_summary(&c);
+        if (!o.json) print_clips(&c);
+    }
+    compile_free(&c);
+    return failed ? tool_fail(o.out_path, error) : TOOL_OK;
+}

@@ -1,0 +1,118 @@
+#!/bin/sh
+# gnomon asset: what it writes builds as C99 and C++11 without a warning, draws the very bytes of gnomon render, and its clips
+# stand where the tool's frames have them. compile --open. A program that moves things by name. usage: test_asset.sh [TOOL]
+cd "$(dirname "$0")/../.." || exit 1
+tool=${1:-build/gnomon}
+. tests/support/check.sh
+
+strict="-Wall -Wextra -Werror -Ilib -I$tmp"
+size="-DWIDTH=96 -DHEIGHT=64"
+roomy="-DGN_MAX_OBJECTS=100 -DGN_MAX_TRIANGLES=20000 -DGN_MAX_TILE_REFS=60000 -DGN_MAX_SHADOW_TILES=16 -DGN_MAX_OTHER_TILES=16"
+ok() { if "$@" >"$tmp/log" 2>&1; then pass; else fail "$*: $(head -n 1 "$tmp/log")"; fi; }
+ok gcc -std=c11 -D_POSIX_C_SOURCE=200809L -O1 -w -Itests -o "$tmp/same" tests/tool/same_pictures.c host/scene/image/*.c host/base/arena.c -lm
+
+# asset NAME SCENE OPTIONS...: written, and a program of it, as C and as C++
+asset() {
+    name=$1 scene=$2
+    shift 2
+    rm -f "$tmp/$name"*
+    if ! "$tool" asset "$scene" -o "$tmp/$name" --size 96x64 "$@" >"$tmp/$name.log" 2>&1; then fail "$name: $(head -n 1 "$tmp/$name.log")"; return; fi
+    knobs=$(sed -n '/knobs than the library/s/.*own://p' "$tmp/$name.h")
+    fps=$(sed -n 's/.*"fps": *\([0-9]*\).*/\1/p' "$scene")
+    clips=$(grep -q "^void ${name}_pose" "$tmp/$name.h" && echo -DCLIPS)
+    set -- $roomy $knobs $clips $size "-DFPS=${fps:-24}" "-DHEADER=\"$name.h\"" "-DMODEL(x)=${name}_##x"
+    ok gcc -std=c99 -pedantic-errors $strict "$@" -fsyntax-only "$tmp/$name.c" tests/tool/asset_picture.c
+    ok g++ -std=c++11 -x c++ $strict "$@" -fsyntax-only "$tmp/$name.c" tests/tool/asset_picture.c
+    ok gcc -std=c99 -w -O0 -Ilib -I"$tmp" "$@" -o "$tmp/$name.run" lib/gnomon.c "$tmp/$name.c" tests/tool/asset_picture.c
+}
+# shows NAME SCENE "OPTIONS of render" FRAMES...: bytes that differ, of each frame
+shows() {
+    name=$1 scene=$2 options=$3
+    shift 3
+    pictures=
+    for frame in ${*:-0}; do
+        "$tool" render "$scene" -o "$tmp/$frame.png" --frame "$frame" --size 96x64 $options >"$tmp/log" 2>&1
+        pictures="$pictures $tmp/$frame.png"
+    done
+    "$tmp/$name.run" "$@" 2>"$tmp/log" | "$tmp/same" $pictures
+}
+same() { # same NAME SCENE OPTIONS...
+    name=$1 scene=$2
+    shift 2
+    asset "$name" "$scene" "$@"
+    differ=$(shows "$name" "$scene" "$*")
+    [ -z "$differ" ] && pass || fail "$name: $differ"
+}
+# A clip is rounded to keys of 16 bits: edges cross a few pixels' centres. 18432 bytes.
+poses() { # poses NAME SCENE MOST FRAMES...
+    name=$1 scene=$2 most=$3
+    shift 3
+    shows "$name" "$scene" "" "$@" >"$tmp/differ"
+    worst=$(sed 's/.*: \([0-9]*\) of .*/\1/; s/.*no picture.*/99999/' "$tmp/differ" | sort -n | tail -n 1)
+    [ "${worst:-0}" -le "$most" ] && pass || fail "$name: $worst bytes differ in a frame of $*"
+}
+
+# [R8] the file as it is, byte for byte
+for scene in cube sundial avenue desk mixed; do same $scene host/scenes/$scene.gltf; done
+same robot tests/data/robot.gltf
+same materials docs/scenes/materials.gltf --set preset=tiny
+same lamps docs/scenes/lamps.gltf --set lights=directional --set position_bits=16
+# [R8] clips: rotation, of a light, and of a hierarchy with splines, steps, scales, a fixed matrix, a lamp and a camera
+poses cube host/scenes/cube.gltf 300 0 1 30 60 96
+poses sundial host/scenes/sundial.gltf 300 1 77 144
+poses desk host/scenes/desk.gltf 300 7 30
+poses robot tests/data/robot.gltf 300 0 10 20 30 47 72
+
+# names: of the file, in letters of C, each once; all cameras
+for word in ROBOT_OBJECT_ROBOT_BASE ROBOT_LIGHT_TORCH ROBOT_CAMERA_ABOVE ROBOT_MESH_RED_BOX ROBOT_CLIP_WAVE ROBOT_CLIP_WALK; do
+    grep -q "^    $word, " "$tmp/robot.h" && pass || fail "robot.h has no $word"
+done
+grep -q DESK_OBJECT_MUG_2 "$tmp/desk.h" && pass || fail "the second mug has no name of its own"
+
+# what a configuration lacks is said when it is compiled
+gcc -std=c99 -w -Ilib -I"$tmp" -DGN_SPECULAR=0 -fsyntax-only "$tmp/desk.c" 2>"$tmp/log"
+grep -q "DGN_SPECULAR=1: specular of object" "$tmp/log" && pass || fail "without specular: $(head -n 1 "$tmp/log")"
+gcc -std=c99 -w -Ilib -I"$tmp" -DGN_CLIPS=0 -fsyntax-only "$tmp/robot.c" 2>"$tmp/log"
+grep -q "DGN_CLIPS=1" "$tmp/log" && pass || fail "without clips: $(head -n 1 "$tmp/log")"
+
+# mistakes
+refused() { # refused STATUS WORD ARGUMENTS...
+    status=$1 word=$2
+    shift 2
+    "$tool" "$@" >"$tmp/log" 2>&1
+    [ $? = "$status" ] && grep -q "$word" "$tmp/log" && pass || fail "$*: $(head -n 1 "$tmp/log")"
+}
+refused 2 "lower-case letters" asset host/scenes/cube.gltf -o "$tmp/9x"
+refused 2 "missing" asset host/scenes/cube.gltf
+refused 1 "No such file" asset host/scenes/cube.gltf -o "$tmp/none/cube"
+refused 2 "does not use" asset host/scenes/cube.gltf -o "$tmp/cube" --board microbit
+
+# A firmware program that moves three named objects, two lights and the camera: one source as C and as C++, at most 60 lines.
+program=tests/tool/asset_program.c
+[ "$(wc -l <$program)" -le 60 ] && pass || fail "$program has more than 60 lines"
+asset toys host/scenes/mixed.gltf
+for language in c c++; do
+    standard=$([ $language = c ] && echo c99 || echo c++11)
+    ok gcc -x $language -std=$standard $strict $roomy -O1 -c "$tmp/toys.c" -o "$tmp/toys-$language.o"
+    ok gcc -x $language -std=$standard $strict $roomy -O1 -c $program -o "$tmp/program-$language.o"
+    ok gcc -std=c99 -w $roomy -Ilib -O0 -o "$tmp/program-$language" lib/gnomon.c "$tmp/toys-$language.o" "$tmp/program-$language.o"
+    "$tmp/program-$language" >"$tmp/$language.txt" 2>&1 && pass || fail "the program in $language: $(head -n 1 "$tmp/$language.txt")"
+done
+cmp -s "$tmp/c.txt" "$tmp/c++.txt" && [ "$(sort -u "$tmp/c.txt" | wc -l)" = 8 ] && pass || fail "8 pictures: $(tr '\n' ' ' <"$tmp/c.txt")"
+if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
+    ok arm-none-eabi-gcc -mcpu=cortex-m4 -mthumb -std=c99 $strict $roomy -O1 -c "$tmp/toys.c" -o "$tmp/toys-arm.o"
+fi
+
+# compile --open: the frames of the file, and what a program moves stays moved
+mkdir -p "$tmp/open"
+ok "$tool" compile host/scenes/sundial.gltf -o "$tmp/open" --open --frames 0-3 --size 96x64
+open="-DGN_USER_CONFIG=\"gn_scene_config.h\" -I$tmp/open $strict -Itests/tool"
+ok gcc -std=c99 $open -fsyntax-only "$tmp/open/scene.c" tests/tool/open_picture.c
+ok g++ -std=c++11 -x c++ $open -fsyntax-only "$tmp/open/scene.c"
+ok gcc -std=c99 -w $open -O0 -o "$tmp/open/run" lib/gnomon.c "$tmp/open/scene.c" tests/tool/open_picture.c
+"$tool" render host/scenes/sundial.gltf -o "$tmp/2.png" --frame 2 --size 96x64 >"$tmp/log" 2>&1
+"$tmp/open/run" 2>"$tmp/log" | "$tmp/same" "$tmp/2.png" "$tmp/2.png" >"$tmp/differ"
+grep -q "bytes differ" "$tmp/differ" && [ "$(wc -l <"$tmp/differ")" = 1 ] && pass || fail "compile --open: $(cat "$tmp/differ" "$tmp/log")"
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
