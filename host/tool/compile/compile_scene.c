@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+#include "../../scene/core/texture_format.h"
 #include "compile.h"
 
 enum { PER_LINE = 12 };
@@ -101,16 +102,22 @@ static void write_textures(FILE *f, const compiled *c)
         const gn_texture *t = &c->fixed.textures[i];
         fprintf(f, "\n/* texture %zu '", i);
         compile_write_text(f, c->texture_name[i]);
-        fprintf(f, "': %dx%d */\n", 1 << t->width_log2, 1 << t->height_log2);
-        write_array(f, U8, "texture", i, "rgba", t->rgba, quantise_texel_bytes(t) << (t->width_log2 + t->height_log2),
-                    2 * PER_LINE);
+        fprintf(f, "': %zux%zu, %s */\n", quantise_texture_side(t, 0), quantise_texture_side(t, 1),
+                texture_format_names[t->format]);
+        write_array(f, U8, "texture", i, "rgba", t->rgba, quantise_texture_bytes(t), 2 * PER_LINE);
+        if (t->palette)
+            write_array(f, U8, "texture", i, "palette", t->palette, quantise_palette_bytes(t), 2 * PER_LINE);
     }
     if (!n) return;
     fprintf(f, "\nstatic const gn_texture textures[%zu] = {\n", n);
     for (size_t i = 0; i < n; i++) {
         const gn_texture *t = &c->fixed.textures[i];
-        fprintf(f, "    {.width_log2 = %u, .height_log2 = %u, .flags = %u, .rgba = texture_%zu_rgba},\n", t->width_log2,
+        fprintf(f, "    {.width_log2 = %u, .height_log2 = %u, .flags = %u, .rgba = texture_%zu_rgba", t->width_log2,
                 t->height_log2, t->flags, i);
+        if (t->width) fprintf(f, ", .width = %u, .height = %u", t->width, t->height);
+        if (t->format) fprintf(f, ", .format = %u", t->format);
+        if (t->palette) fprintf(f, ", .palette = texture_%zu_palette", i);
+        fprintf(f, "},\n");
     }
     fprintf(f, "};\n");
 }
