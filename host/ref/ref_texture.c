@@ -38,13 +38,31 @@ static footprint sample(const scene_texture *t, double u, double v)
     return t->bilinear ? bilinear(t, u, v, t->clamp_u, t->clamp_v) : nearest(t, u, v);
 }
 
-/* A channel as it is stored, 0..1. */
+/* The values that a channel has, less one: what its bits can say. Palettes have colours of 8 bits. [M11] */
+static double levels_of(scene_texture_format format, int channel)
+{
+    static const double of[][4] = {
+        [SCENE_TEXTURE_RGBA8888] = {255, 255, 255, 255}, [SCENE_TEXTURE_RGB565] = {31, 63, 31, 1},
+        [SCENE_TEXTURE_RGB565A1] = {31, 31, 31, 1},      [SCENE_TEXTURE_PALETTE8] = {255, 255, 255, 255},
+        [SCENE_TEXTURE_PALETTE4] = {255, 255, 255, 255}, [SCENE_TEXTURE_PALETTE1] = {255, 255, 255, 255},
+        [SCENE_TEXTURE_GREY8] = {255, 255, 255, 1},      [SCENE_TEXTURE_GREY4] = {15, 15, 15, 1},
+        [SCENE_TEXTURE_ALPHA8] = {1, 1, 1, 255},         [SCENE_TEXTURE_ALPHA4] = {1, 1, 1, 15}};
+    return of[format][channel];
+}
+
+/* A channel as it is stored, 0..1: the level that 8 bits are nearest to. */
+static double stored_channel(const scene_texture *t, size_t texel, int channel)
+{
+    const double levels = levels_of(t->format, channel);
+    return floor(t->rgba[4 * texel + (size_t)channel] / 255.0 * levels + 0.5) / levels;
+}
+
 static double mix_channel(const scene_texture *t, const footprint *f, int channel)
 {
     double sum = 0.0;
     for (int k = 0; k < 4; k++)
-        if (f->weight[k] > 0.0) sum += f->weight[k] * t->rgba[4 * f->texel[k] + (size_t)channel];
-    return sum / 255.0;
+        if (f->weight[k] > 0.0) sum += f->weight[k] * stored_channel(t, f->texel[k], channel);
+    return sum;
 }
 
 /* IEC 61966-2-1 */
@@ -57,7 +75,7 @@ static double mix_decoded(const scene_texture *t, const footprint *f, int channe
 {
     double sum = 0.0;
     for (int k = 0; k < 4; k++)
-        if (f->weight[k] > 0.0) sum += f->weight[k] * srgb_decode(t->rgba[4 * f->texel[k] + (size_t)channel] / 255.0);
+        if (f->weight[k] > 0.0) sum += f->weight[k] * srgb_decode(stored_channel(t, f->texel[k], channel));
     return sum;
 }
 

@@ -97,8 +97,7 @@ static unsigned last_texels; /* read for the sanitizer's sake */
 static inline int texture_is_sound(const scene_texture *t)
 {
     int w = t->width, h = t->height;
-    int ok =
-        t->name && w >= 1 && w <= 4096 && (w & (w - 1)) == 0 && h >= 1 && h <= 4096 && (h & (h - 1)) == 0 && t->rgba;
+    int ok = t->name && w >= 1 && w <= 4096 && h >= 1 && h <= 4096 && t->rgba;
     if (ok) last_texels += t->rgba[(size_t)w * (size_t)h * 4 - 1];
     return ok;
 }

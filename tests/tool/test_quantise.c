@@ -1,8 +1,13 @@
 /* What the library gets for a scene: every field of meshes, textures, objects, lights and settings. */
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "../host/ref/ref.h"
+#include "../host/scene/core/texture_format.h"
 #include "../host/tool/fixed/quantise.h"
 #include "check.h"
+#include "geometry/gn_texture.h"
 
 /* One triangle, one texture, one object, one light, reaching no farther than the camera's 100 units. */
 static double pos[9], nrm[9], uv[6], mask_uv[6], baked[9];
@@ -282,10 +287,58 @@ static void test_texture(void)
         CHECK_EQ_INT(t->flags, GN_TEXTURE_CLAMP_V | GN_TEXTURE_BILINEAR);
         quantise_free(&fixed);
     }
-    texture.width = 12;
-    refused("texture 'thing'");
     texture.width = 8192;
     refused("texture 'thing'");
+}
+
+/* Every format, 5x3: what the library finds in its texels is what the reference finds in the scene's; the largest error
+ * that is noted is that of the texels. [M11] */
+static void test_formats(void)
+{
+    static uint8_t rgba[4 * 15], before[4 * 15];
+    for (int format = 0; texture_format_names[format]; format++) {
+        begin();
+        object.texture_idx = 0;
+        texture.width = 5;
+        texture.height = 3;
+        texture.rgba = rgba;
+        for (int i = 0; i < (int)sizeof rgba; i++) before[i] = rgba[i] = (uint8_t)(i * 73 + i * i * 11 + format);
+        if (!CHECK(texture_convert(&texture, (scene_texture_format)format)) || !quantise()) continue;
+        const gn_texture *t = fixed.objects[0].texture;
+        int largest = 0;
+        CHECK_EQ_INT(t->format, format);
+        for (int i = 0; i < 15; i++) {
+            const double u = (i % 5 + 0.5) / 5, v = (i / 5 + 0.5) / 3;
+            const int32_t at[2] = {(int32_t)(u * 0x1p20), (int32_t)(v * 0x1p20)};
+            uint32_t rgb[3];
+            double want[4];
+            ref_sample_texture(want, &texture, u, v);
+            gn_texture_colour(t, at[0], at[1], rgb);
+            for (int c = 0; c < 3; c++) CHECK(fabs(rgb[c] - 65536 * want[c]) <= 1.0001);
+            CHECK(fabs(gn_texture_alpha(t, at[0], at[1]) - 65536 * want[3]) <= 0.5001);
+        }
+        for (int i = 0; i < (int)sizeof rgba; i++)
+            largest = abs(rgba[i] - before[i]) > largest ? abs(rgba[i] - before[i]) : largest;
+        CHECK(texture.error_max == largest);
+        if (format == SCENE_TEXTURE_RGB565A1) CHECK(rgba[3] == 0 || rgba[3] == 255);
+        if (format == SCENE_TEXTURE_PALETTE8) CHECK_EQ_INT(largest, 0);
+        quantise_free(&fixed);
+    }
+}
+
+/* Means in linear light: of 1 1/2 texels each; a clear texel has no colour to give. [M11] */
+static void test_shrink(void)
+{
+    uint8_t rgba[12] = {0, 0, 0, 255, 255, 255, 255, 255, 255, 255, 0, 0};
+    scene_texture t = {.name = name, .width = 3, .height = 1, .rgba = rgba};
+    CHECK(texture_shrink(&t, 4, false) && t.width == 3);
+    CHECK(texture_shrink(&t, 2, false) && t.width == 2 && t.height == 1);
+    CHECK_EQ_INT(rgba[0], 156); /* a third in linear light */
+    CHECK_EQ_INT(rgba[3], 255);
+    CHECK_EQ_INT(rgba[6], 255); /* blue: the clear one has none */
+    CHECK_EQ_INT(rgba[7], 85);
+    CHECK(texture_shrink(&t, 1, true) && t.width == 1);
+    CHECK_EQ_INT(rgba[0], 206); /* plain numbers */
 }
 
 static void test_arrays(void)
@@ -405,6 +458,8 @@ int main(void)
     test_light();
     test_texture_coordinates();
     test_texture();
+    test_formats();
+    test_shrink();
     test_arrays();
     test_material();
     test_shadow_settings();

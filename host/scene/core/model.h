@@ -28,13 +28,29 @@ typedef struct {
     uint32_t *idx;   /* 3 * n_triangles, counter-clockwise seen from outside */
 } scene_mesh;
 
-/* Both engines see these very texels: the loader makes sides powers of two. */
+/* What a texel is stored as (M11). */
+typedef enum {
+    SCENE_TEXTURE_RGBA8888,
+    SCENE_TEXTURE_RGB565,
+    SCENE_TEXTURE_RGB565A1,
+    SCENE_TEXTURE_PALETTE8,
+    SCENE_TEXTURE_PALETTE4,
+    SCENE_TEXTURE_PALETTE1,
+    SCENE_TEXTURE_GREY8,
+    SCENE_TEXTURE_GREY4,
+    SCENE_TEXTURE_ALPHA8,
+    SCENE_TEXTURE_ALPHA4
+} scene_texture_format;
+
+/* Both engines see these very texels. */
 typedef struct {
     char *name;
-    int width, height;     /* powers of two, 1..4096 */
-    uint8_t *rgba;         /* 4 per texel, rows from the top: sRGB colour, linear alpha */
-    bool clamp_u, clamp_v; /* else it repeats */
-    bool bilinear;         /* else nearest */
+    int width, height;           /* 1..4096 */
+    uint8_t *rgba;               /* 4 per texel, rows from the top: sRGB colour, linear alpha */
+    bool clamp_u, clamp_v;       /* else it repeats */
+    bool bilinear;               /* else nearest */
+    scene_texture_format format; /* texels are rounded to its values, and then to 8 bits */
+    double error_max, error_rms; /* what that changed, of 255 */
 } scene_texture;
 
 #define SCENE_NONE ((size_t)-1)

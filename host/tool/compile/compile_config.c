@@ -163,12 +163,23 @@ static void use_light(compiled *c, const gn_light *l, bool casts, const char *na
         USE(filter_max, GN_FILTER_2X2, "hard light '%s'", name);
 }
 
+/* A bit for each format. */
+static void use_format(compiled *c, const gn_texture *t, const char *name)
+{
+    const int formats = c->set.feature.texture_formats | 1 << t->format;
+    if (formats != c->set.feature.texture_formats) because(c, "texture_formats", "object '%s'", name);
+    c->set.feature.texture_formats = formats;
+}
+
 static void use_object(compiled *c, const gn_object *o, const char *name)
 {
     const uint32_t *s = o->specular_uq16;
     if (o->visible_alpha != GN_ALPHA_OPAQUE) USE(visible_alpha, 1, "object '%s'", name);
     if (o->caster_alpha != GN_ALPHA_OPAQUE) USE(caster_alpha, 1, "object '%s'", name);
-    if (o->texture) USE(textures, 1, "object '%s'", name);
+    if (o->texture) {
+        USE(textures, 1, "object '%s'", name);
+        use_format(c, o->texture, name);
+    }
     if (s[0] || s[1] || s[2]) USE(specular, 1, "object '%s'", name);
     if (o->emissive_uq16[0] || o->emissive_uq16[1] || o->emissive_uq16[2]) USE(emissive, 1, "object '%s'", name);
     if (o->mask_u8 || o->mask_image) USE(masks, 1, "object '%s'", name);
@@ -204,6 +215,7 @@ static void use_nothing(compiled *c)
     NOTHING(caster_alpha);
     NOTHING(visible_alpha);
     NOTHING(textures);
+    NOTHING(texture_formats);
     NOTHING(specular);
     NOTHING(emissive);
     NOTHING(masks);

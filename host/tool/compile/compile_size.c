@@ -42,8 +42,8 @@ long compile_flash_bytes(const compiled *c, bool short_enums)
                  (long)s->n_lights * light_bytes(short_enums) + CAMERA_BYTES * (long)c->n_cameras;
     for (size_t i = 0; i < c->fixed.n_meshes; i++) bytes += mesh_bytes(&c->fixed.meshes[i], &c->set.quality);
     for (size_t i = 0; i < c->n_textures; i++)
-        bytes += TEXTURE_BYTES + padded((long)quantise_texel_bytes(&c->fixed.textures[i])
-                                        << (c->fixed.textures[i].width_log2 + c->fixed.textures[i].height_log2));
+        bytes += TEXTURE_BYTES + padded((long)quantise_texture_bytes(&c->fixed.textures[i])) +
+                 (long)quantise_palette_bytes(&c->fixed.textures[i]);
     for (uint32_t i = 0; i < s->n_objects; i++) {
         const gn_object *o = &s->objects[i];
         if (o->mask_u8) bytes += 4L * o->mesh->n_vertices;

@@ -277,8 +277,9 @@ static void release(const void *array)
 /* Texels that are not the scene's. */
 void quantise_free_texture(gn_texture *t)
 {
-    if (quantise_texel_bytes(t) < 4) release(t->rgba);
-    t->rgba = NULL;
+    if (quantise_owns_texels(t)) release(t->rgba);
+    release(t->palette);
+    t->rgba = t->palette = NULL;
 }
 
 void quantise_free(fixed_scene *f)
@@ -319,10 +320,10 @@ bool quantise_same_mesh(const gn_mesh *a, const gn_mesh *b)
 
 static bool same_texture(const gn_texture *a, const gn_texture *b)
 {
-    const size_t texels = (size_t)1 << (a->width_log2 + a->height_log2);
-    return a->width_log2 == b->width_log2 && a->height_log2 == b->height_log2 && a->flags == b->flags &&
-           quantise_texel_bytes(a) == quantise_texel_bytes(b) &&
-           same_array(a->rgba, b->rgba, texels * quantise_texel_bytes(a));
+    return quantise_texture_side(a, 0) == quantise_texture_side(b, 0) &&
+           quantise_texture_side(a, 1) == quantise_texture_side(b, 1) && a->flags == b->flags &&
+           a->format == b->format && same_array(a->rgba, b->rgba, quantise_texture_bytes(a)) &&
+           same_array(a->palette, b->palette, quantise_palette_bytes(a));
 }
 
 bool quantise_reuse(fixed_scene *f, const fixed_scene *first)

@@ -18,8 +18,13 @@ typedef struct {
     gn_texture *textures;
 } fixed_scene;
 
-/* Bytes per texel: 4, or of a mask image 1 or 2. */
-size_t quantise_texel_bytes(const gn_texture *t);
+/* Texels along u (0) and v (1), bytes of them all and of the palette. */
+size_t quantise_texture_side(const gn_texture *t, int axis);
+size_t quantise_texture_bytes(const gn_texture *t);
+size_t quantise_palette_bytes(const gn_texture *t);
+
+/* Whether texels are not the scene's. */
+bool quantise_owns_texels(const gn_texture *t);
 void quantise_free_texture(gn_texture *t);
 
 /* Chooses the power of two that puts the scene into the upper range of Q15.16 and converts everything with rounding to

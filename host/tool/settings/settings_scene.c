@@ -1,8 +1,10 @@
 /* Settings of the scene: its shadows, its lights, its colours. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "../../scene/core/texture_format.h"
 #include "settings_parse.h"
 
 const char *const settings_filter_names[] = {"hard", "2x2", "3x3", "5x5", "7x7", "disk", NULL};
@@ -112,8 +114,8 @@ static const scene_knob *find(const char *key)
 
 bool settings_of_scene(const char *key)
 {
-    static const char *const others[] = {"cascades",  "cascade_ratios", "refresh", "lights",
-                                         "add_light", "ground",         "normals"};
+    static const char *const others[] = {"cascades", "cascade_ratios", "refresh",        "lights",      "add_light",
+                                         "ground",   "normals",        "texture_format", "texture_size"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (strcmp(key, others[i]) == 0) return true;
     return strchr(key, '@') || find(key);
@@ -287,11 +289,61 @@ static int apply_special(scene *s, const char *key, const char *value, char *err
     return status ? -1 : 1;
 }
 
+/* Whether an object shows the texture, and none has it as a mask image. */
+static bool is_shown(const scene *s, size_t texture)
+{
+    bool shown = false;
+    for (size_t i = 0; i < s->n_objects; i++) {
+        if (s->objects[i].mask_texture_idx == texture) return false;
+        shown |= s->objects[i].texture_idx == texture;
+    }
+    return shown;
+}
+
+/* What that costs is noted: the largest error of a channel and their root mean square. */
+static int apply_format(scene *s, int format, char *error, size_t bytes)
+{
+    for (size_t i = 0; i < s->n_textures; i++) {
+        scene_texture *t = &s->textures[i];
+        char note[256];
+        if (!is_shown(s, i)) continue;
+        if (!texture_convert(t, (scene_texture_format)format))
+            return settings_fail(error, bytes, "texture_format", "", "memory");
+        snprintf(note, sizeof note, "texture '%.64s' of %dx%d as %s: off by at most %.0f of 255, %.2f in the mean",
+                 t->name, t->width, t->height, texture_format_names[format], t->error_max, t->error_rms);
+        if (format && scene_add_note(s, note, error, bytes)) return -1;
+    }
+    return 1;
+}
+
+/* Settings of textures: 1: taken, 0: not one of them, -1: bad value. */
+static int apply_textures(scene *s, const char *key, const char *value, char *error, size_t bytes)
+{
+    char expected[160];
+    if (strcmp(key, "texture_format") == 0) {
+        for (int i = 0; texture_format_names[i]; i++)
+            if (strcmp(value, texture_format_names[i]) == 0) return apply_format(s, i, error, bytes);
+        settings_join(expected, sizeof expected, texture_format_names, " or ");
+        return settings_fail(error, bytes, key, value, expected);
+    }
+    if (strcmp(key, "texture_size") != 0) return 0;
+    char *end;
+    long side = strtol(value, &end, 10);
+    if (*end || side < 1 || side > 4096)
+        return settings_fail(error, bytes, key, value, "a whole number from 1 to 4096");
+    for (size_t i = 0; i < s->n_textures; i++)
+        if (is_shown(s, i) && !texture_shrink(&s->textures[i], (int)side, false))
+            return settings_fail(error, bytes, key, value, "memory");
+    return 1;
+}
+
 int settings_apply_scene(scene *s, const char *key, size_t light, const char *value, char *error, size_t error_bytes)
 {
     char expected[96];
     stored v;
     const scene_knob *k = find(key);
+    const int taken = k ? 0 : apply_textures(s, key, value, error, error_bytes);
+    if (taken) return taken;
     if (!k) return apply_special(s, key, value, error, error_bytes);
     if (read_value(k, value, &v)) {
         say_expected(k, expected, sizeof expected);
@@ -331,6 +383,11 @@ void settings_print_scene(void)
     printf("| `refresh` | one to four numbers from 1, comma-separated | cascade i is drawn anew every so many frames; "
            "the last "
            "number holds for the rest; a single picture does not show it (A5) |\n");
+    char formats[160];
+    settings_join(formats, sizeof formats, texture_format_names, ", ");
+    printf("| `texture_size` | 1…4096 | no texture that is shown has longer sides: means in linear light (M11) |\n");
+    printf("| `texture_format` | %s | what textures that are shown are stored as; after texture_size (M11) |\n",
+           formats);
     printf("\n### Settings of lights\n\nOf every light, or of one: `KEY@LIGHT`, by its number from 0 or its name.\n\n");
     printf("| setting | range | meaning |\n|---|---|---|\n");
     print_owner(true);
