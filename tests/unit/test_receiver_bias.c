@@ -38,6 +38,7 @@ static double dot(const int32_t a[3], const int32_t b[3])
 static void random_biases(rng *r, gn_light_view *view)
 {
     for (int i = 0; i < 4; i++) light.bias_receiver_q16[i] = rng_below(r, 3) ? rng_range(r, 0, 8 << 16) : 0;
+    if (rng_below(r, 4) == 0) light.bias_receiver_q16[0] = 0, light.bias_receiver_q16[1] = light.bias_receiver_q16[3];
     light.bias_normal_q16 = 1 << 16, light.auto_bias = GN_AUTO_BIAS_OFF;
     view->filter_idx = (uint8_t)rng_below(r, 9);
     view->offset_q16 = rng_range(r, 0, 72 << 16);
