@@ -234,7 +234,6 @@ static const change gltf_notes[] = {
      "emissive colour and texture of material 'paint' ignored"},
     {"\"doubleSided\":true", "\"emissiveFactor\":[2,0,0]", "emissive colour of material 'paint' outside 0..1"},
     {"[0.5,0.25,1,1]", "[0.5,0.25,2,1]", "outside 0..1"},
-    {"\"type\":\"perspective\"", "\"type\":\"orthographic\"", "orthographic cameras"},
     {"\"strength\":0.9", "\"near\":1", "near of directional light 'sol'"},
     {"\"name\":\"sun\"", "\"camera\":0", "the first camera"},
     {"\"mesh\":0", "\"mesh\":0,\"skin\":0", "skin of mesh 'quad'"},

@@ -248,6 +248,7 @@ static void write_scene_struct(FILE *f, const compiled *c)
             ", .lights = lights, .n_lights = %" PRIu32 ",\n    .camera = {",
             s->n_objects, s->n_lights);
     write_affine(f, &s->camera.to_world);
+    if (s->camera.half_height_q16) fprintf(f, ", .half_height_q16 = %" PRId32, s->camera.half_height_q16);
     fprintf(f,
             ",\n               .focal_q24 = %" PRIu32 "U, .near_q16 = %" PRId32 ", .far_q16 = %" PRId32
             "},\n    .unit_log2 = %" PRId32,

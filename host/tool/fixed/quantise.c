@@ -191,6 +191,7 @@ static void quantise_view(gn_scene *out, const scene *s, int world_exp)
     }
     out->background_gradient = s->gradient;
     out->camera.focal_q24 = (uint32_t)fmin(4294967295.0, floor(ldexp(camera->focal, 24) + 0.5));
+    out->camera.half_height_q16 = (int32_t)fixed(camera->half_height, 16 + world_exp);
     out->camera.near_q16 = (int32_t)fixed(camera->near, 16 + world_exp);
     out->camera.far_q16 = isinf(camera->far) ? INT32_MAX : (int32_t)fixed(camera->far, 16 + world_exp);
 }
