@@ -29,11 +29,17 @@ GN_HOT static GN_NOINLINE void intersect_flat(const gn_frame *frame, const gn_su
                                               hit *h)
 {
     gn_ray_recip r;
-    h->b_q30[0] = h->b_q30[1] = GN_ONE_Q30 / 3;
-    if (gn_plane_recip(&r, &s->screen, px, py, frame->cam.focal2_px_q16, 2))
-        gn_bary_at(h->b_q30, &s->bary, &r, px, py, frame->cam.focal2_px_q16);
-    int64_t z_q30 = (int64_t)h->b_q30[0] * s->depth_q16[1] + (int64_t)h->b_q30[1] * s->depth_q16[2]; /* 2^62 */
-    h->z_q16 = (int32_t)gn_clamp64(s->depth_q16[0] + gn_shr64(z_q30, 30), s->z_min_q16, s->z_max_q16);
+    int32_t b_q30[2];
+    uint32_t focal2 = frame->cam.focal2_px_q16;
+    h->b_q30[0] = h->b_q30[1] = b_q30[0] = b_q30[1] = GN_ONE_Q30 / 3;
+    if (gn_plane_recip(&r, &s->screen, px, py, focal2, 2)) {
+        gn_bary_at(h->b_q30, &s->bary, &r, px, py, focal2);
+        /* depth is that of the plane beyond the edges, too: else the point would lie off it */
+        if (!gn_bary_beyond(b_q30, &s->bary, &r, px, py, focal2)) b_q30[0] = h->b_q30[0], b_q30[1] = h->b_q30[1];
+    }
+    int64_t z = s->depth_q16[0]; /* |b| < 2^31, |depth| < 2^31 */
+    for (int i = 0; i < 2; i++) z += gn_shr64((int64_t)b_q30[i] * s->depth_q16[i + 1], 30);
+    h->z_q16 = (int32_t)gn_clamp64(z, s->z_min_q16, s->z_max_q16);
 }
 #endif
 
