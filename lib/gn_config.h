@@ -238,6 +238,9 @@
 #ifndef GN_OBJECT_BOXES
 #define GN_OBJECT_BOXES (!GN_COMPACT)
 #endif
+#ifndef GN_ORTHOGRAPHIC
+#define GN_ORTHOGRAPHIC (!GN_COMPACT)
+#endif
 #ifndef GN_CLIPPING
 #define GN_CLIPPING (!GN_COMPACT)
 #endif

@@ -52,7 +52,8 @@ extern "C" {
     X(GN_ERR_KNOB, "a run-time knob is out of its range")                                                              \
     X(GN_ERR_ORDER, "call out of order: begin, shadow tiles, prepare, screen tiles")                                   \
     X(GN_ERR_INDEX, "no such tile or light")                                                                           \
-    X(GN_ERR_CAMERA_FOCAL, "camera focal length outside 1/32 .. 255.99")                                               \
+    X(GN_ERR_CAMERA_FOCAL,                                                                                             \
+      "camera focal length outside 1/32 .. 255.99, or half_height outside 1/256 .. 8192 units or not built in")        \
     X(GN_ERR_CAMERA_DEPTH, "camera near plane outside 1/256 .. 8192 units, or far not beyond near")                    \
     X(GN_ERR_CAMERA_TRANSFORM, "camera transform is not a rotation with a position inside +-8192")                     \
     X(GN_ERR_OBJECT_TRANSFORM,                                                                                         \
@@ -265,10 +266,12 @@ typedef struct {
 } gn_light;
 
 typedef struct {
-    gn_affine to_world; /* a rotation (exp 0) and a position; looks along its local -Z */
-    uint32_t focal_q24; /* 1 / tan(vertical fov / 2), 1/32 .. 255.99 */
-    int32_t near_q16;   /* surfaces nearer than this are clipped */
-    int32_t far_q16;    /* only limits the shadow distance */
+    gn_affine to_world;      /* a rotation (exp 0) and a position; looks along its local -Z */
+    uint32_t focal_q24;      /* 1 / tan(vertical fov / 2), 1/32 .. 255.99; not used by an orthographic camera */
+    int32_t half_height_q16; /* orthographic: half of what the picture shows from top to bottom, 1/256 .. 8192 units;
+                                0: perspective. Every pixel is shaded for itself, whatever GN_PERSP_STEP */
+    int32_t near_q16;        /* surfaces nearer than this are clipped */
+    int32_t far_q16;         /* only limits the shadow distance */
 } gn_camera;
 
 typedef enum { GN_FILTER_HARD, GN_FILTER_2X2, GN_FILTER_3X3, GN_FILTER_5X5, GN_FILTER_7X7, GN_FILTER_DISK } gn_filter;

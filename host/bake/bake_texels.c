@@ -213,7 +213,8 @@ static double seen_size2(const baker *b, vec3 at)
 {
     const ref_camera *camera = &b->frame.camera;
     const vec3 d = vec3_sub(at, camera->position);
-    const double z = vec3_dot(d, camera->forward), distance = fmax(sqrt(vec3_dot(d, d)), camera->near);
+    const double z = camera->parallel ? 1 : vec3_dot(d, camera->forward),
+                 distance = camera->parallel ? 1 : fmax(sqrt(vec3_dot(d, d)), camera->near);
     const double x = fabs(vec3_dot(d, camera->right)) * camera->focal_px,
                  y = fabs(vec3_dot(d, camera->up)) * camera->focal_px;
     const bool seen = z > camera->near && x <= z * camera->half_width_px && y <= z * camera->half_height_px;

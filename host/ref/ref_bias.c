@@ -69,6 +69,12 @@ static double place_error(const ref_frame *frame, double view_depth)
 {
     const ref_camera *camera = &frame->camera;
     const double x = camera->half_width_px / camera->focal_px, y = camera->half_height_px / camera->focal_px;
+    if (camera->parallel) { /* the picture's half-diagonal over half its height is what x and y are in perspective */
+        const double half_height = camera->half_height_px / camera->focal_px;
+        return (view_depth + half_height) * sqrt(1.0 + (x * x + y * y) / (half_height * half_height)) *
+                   (depth_error(frame->options) + ray_error(frame->options)) +
+               PLACE_UNITS * frame->options->unit;
+    }
     return view_depth * sqrt(1.0 + x * x + y * y) * (depth_error(frame->options) + ray_error(frame->options)) +
            PLACE_UNITS * frame->options->unit;
 }
@@ -148,8 +154,8 @@ static vec3 curved_normal(const ref_surface *at, vec3 face)
 vec3 ref_auto_bias(const ref_frame *frame, const ref_light_view *view, scene_auto_bias form, const ref_surface *at,
                    vec3 in_light, double *less)
 {
-    const vec3 face =
-        vec3_dot(at->face, vec3_sub(frame->camera.position, at->world)) < 0.0 ? vec3_scale(at->face, -1.0) : at->face;
+    const vec3 ray = frame->camera.parallel ? frame->camera.forward : vec3_sub(at->world, frame->camera.position);
+    const vec3 face = vec3_dot(at->face, ray) > 0.0 ? vec3_scale(at->face, -1.0) : at->face;
     const vec3 f = at->curved ? curved_normal(at, face) : face;
     const vec3 n = {vec3_dot(f, vec3_load(view->axis[0])), vec3_dot(f, vec3_load(view->axis[1])),
                     vec3_dot(f, vec3_load(view->axis[2]))};

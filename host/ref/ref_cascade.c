@@ -35,7 +35,14 @@ static ref_sphere fit_sphere(const scene *s, int cascade, int width, int height)
     const double m = cascade == REF_SINGLE_TILE ? s->shadow.max_distance : cascade_end(&s->shadow, cascade);
     const double n = cascade > 0 ? fmax(s->camera.near, cascade_end(&s->shadow, cascade - 1)) : s->camera.near;
     if (!(m > n)) return (ref_sphere){.empty = true};
+    const ref_camera camera = ref_make_camera(&s->camera, width, height);
     const double q = fmax(1.0 - s->shadow.cascade_fade, 1.0 / 8.0);
+    if (camera.parallel) { /* a box */
+        const double x = camera.half_width_px / camera.focal_px, y = camera.half_height_px / camera.focal_px;
+        const double z = (m - n) / 2.0;
+        return (ref_sphere){.centre = vec3_add(camera.position, vec3_scale(camera.forward, (m + n) / 2.0)),
+                            .radius = sqrt(x * x + y * y + z * z) / q};
+    }
     const double k = sqrt((double)width * width + (double)height * height) / (height * s->camera.focal);
     const double a = 1.0 - q * q;
     const double b = n - q * q * m;
@@ -48,7 +55,6 @@ static ref_sphere fit_sphere(const scene *s, int cascade, int width, int height)
     const double far_corner = (m - c) * (m - c) + k * k * m * m;
     const double near_corner = ((c - n) * (c - n) + k * k * n * n) / (q * q);
 
-    const ref_camera camera = ref_make_camera(&s->camera, width, height);
     return (ref_sphere){.centre = vec3_add(camera.position, vec3_scale(camera.forward, c)),
                         .radius = sqrt(fmax(far_corner, near_corner))};
 }

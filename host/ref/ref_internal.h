@@ -13,7 +13,8 @@
 typedef struct {
     vec3 position, right, up, forward;
     double half_width_px, half_height_px; /* W/2, H/2 */
-    double focal_px;                      /* F */
+    double focal_px;                      /* F; parallel: pixels per unit of length */
+    bool parallel;                        /* orthographic: Z does not matter for where a point is seen [R10] */
     double near;
 } ref_camera;
 

@@ -4,7 +4,9 @@
 /* Blinn and Phong: the fraction of a light that is mirrored towards the camera, for n . L > 0. [M3] */
 static double highlight(const ref_frame *frame, const ref_surface *at, vec3 to_light)
 {
-    const vec3 to_camera = vec3_unit(vec3_sub(frame->camera.position, at->world));
+    const ref_camera *camera = &frame->camera;
+    const vec3 to_camera =
+        camera->parallel ? vec3_scale(camera->forward, -1.0) : vec3_unit(vec3_sub(camera->position, at->world));
     const double ndoth = vec3_dot(at->normal, vec3_unit(vec3_add(to_light, to_camera)));
     return pow(fmax(0.0, ndoth), ldexp(1.0, at->triangle.object->shininess_log2));
 }

@@ -9,7 +9,8 @@
 #include "ref_internal.h"
 
 typedef struct {
-    vec3 p[3];      /* view space */
+    vec3 p[3]; /* view space; parallel rays: with 1 for Z, which makes (X, Y, Z) the same homogeneous coordinates */
+    double depth[3];
     vec2 growth[3]; /* of the edge function opposite to p[k], to the right and downwards, over F */
     int64_t id;
     ref_triangle source;
@@ -27,8 +28,9 @@ ref_box ref_clip_box(vec2 low, vec2 high, int width, int height)
 
 static void grow_box(vec2 *low, vec2 *high, const ref_camera *camera, vec3 p)
 {
-    const double x = camera->half_width_px + camera->focal_px * p.x / p.z;
-    const double y = camera->half_height_px - camera->focal_px * p.y / p.z;
+    const double scale = camera->parallel ? camera->focal_px : camera->focal_px / p.z;
+    const double x = camera->half_width_px + scale * p.x;
+    const double y = camera->half_height_px - scale * p.y;
     *low = (vec2){fmin(low->x, x), fmin(low->y, y)};
     *high = (vec2){fmax(high->x, x), fmax(high->y, y)};
 }
@@ -79,7 +81,7 @@ static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i
     ref_hit hit = {.behind = facing < 0};
     for (int k = 0; k < 3; k++) hit.bary[k] = weight[k] / sum;
     const double depth =
-        hit.bary[0] * triangle->p[0].z + hit.bary[1] * triangle->p[1].z + hit.bary[2] * triangle->p[2].z;
+        hit.bary[0] * triangle->depth[0] + hit.bary[1] * triangle->depth[1] + hit.bary[2] * triangle->depth[2];
     const size_t pixel = (size_t)j * (size_t)frame->picture->width + (size_t)i;
     if (!(depth >= camera->near) || !(depth < frame->picture->depth[pixel])) return;
     if (object->visible_alpha != SCENE_ALPHA_OPAQUE &&
@@ -95,12 +97,16 @@ static void draw_on_pixel(ref_frame *frame, const view_triangle *triangle, int i
  * else. */
 static void draw_triangle(ref_frame *frame, view_triangle *triangle)
 {
+    const ref_box box = triangle_box(triangle->p, &frame->camera, frame->picture->width, frame->picture->height);
+    for (int k = 0; k < 3; k++) {
+        triangle->depth[k] = triangle->p[k].z;
+        if (frame->camera.parallel) triangle->p[k].z = 1.0;
+    }
     for (int k = 0; k < 3; k++) {
         const vec3 a = triangle->p[(k + 1) % 3], b = triangle->p[(k + 2) % 3];
         triangle->growth[k].x = cross2((vec2){a.y, a.z}, (vec2){b.y, b.z});
         triangle->growth[k].y = -cross2((vec2){a.z, a.x}, (vec2){b.z, b.x});
     }
-    const ref_box box = triangle_box(triangle->p, &frame->camera, frame->picture->width, frame->picture->height);
     for (int j = box.y0; j <= box.y1; j++)
         for (int i = box.x0; i <= box.x1; i++) draw_on_pixel(frame, triangle, i, j);
 }

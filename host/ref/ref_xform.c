@@ -24,7 +24,8 @@ ref_camera ref_make_camera(const scene_camera *camera, int width, int height)
         .forward = vec3_scale(column(&camera->to_world, 2), -1.0),
         .half_width_px = width / 2.0,
         .half_height_px = height / 2.0,
-        .focal_px = camera->focal * (height / 2.0),
+        .focal_px = height / 2.0 * (camera->half_height > 0.0 ? 1.0 / camera->half_height : camera->focal),
+        .parallel = camera->half_height > 0.0,
         .near = camera->near,
     };
 }

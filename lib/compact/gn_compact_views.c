@@ -64,6 +64,7 @@ static gn_status lens(gn_frame *frame)
     gn_compact_view *cam = &frame->cam;
     uint32_t focal2_q16 = (uint32_t)(((uint64_t)camera->focal_q24 * frame->picture.height + 128U) >> 8);
     int32_t clz;
+    if (camera->half_height_q16) return GN_ERR_CAMERA_FOCAL; /* orthographic */
     if (!gn_compact_affine_ok(&camera->to_world) || camera->to_world.exp) return GN_ERR_CAMERA_TRANSFORM;
     if (camera->focal_q24 >> 29 || focal2_q16 < 1U << 16)
         return GN_ERR_CAMERA_FOCAL; /* 1 <= 2F, and at most 2800 pixels */

@@ -30,6 +30,9 @@ typedef struct {
     int32_t axis_q30[3][3]; /* right, up, forward in the world */
     int32_t eye_q16[3];
     int32_t near_q16;
+#if GN_ORTHOGRAPHIC
+    int32_t flat_q16; /* orthographic: all points are projected as if they were at this depth; 0: perspective */
+#endif
     uint32_t focal2_px_q16;     /* 2F, twice the focal length in pixels: rays are (2x + 1 - W, H - 1 - 2y, 2F) */
     gn_bfloat near_over_focal2; /* near / 2F */
     gn_bfloat inv_focal2;       /* 1 / 2F, 2F in Q16 */
@@ -38,7 +41,15 @@ typedef struct {
     int32_t tan_q16[2];         /* the same for the picture's border: (W/2) / F, (H/2) / F, rounded up */
 } gn_cam;
 
-/* A point at view depth z on the ray through a pixel, along some axis: z * (a0 + ax * px + ay * py) + d. */
+/* The depth that an orthographic camera projects every point at; 0: perspective. */
+#if GN_ORTHOGRAPHIC
+#define GN_FLAT_Q16(frame) ((frame)->cam.flat_q16)
+#else
+#define GN_FLAT_Q16(frame) ((void)(frame), 0)
+#endif
+
+/* A point at view depth z on the ray through a pixel, along some axis: z * (a0 + ax * px + ay * py) + d; orthographic,
+ * with the camera's flat depth: z * a0 + flat * (ax * px + ay * py) + d. */
 typedef struct {
     int32_t a0, ax, ay;
     int64_t d_q16;

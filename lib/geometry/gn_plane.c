@@ -92,7 +92,7 @@ GN_HOT void gn_bary_at(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip
     if (b_q30[1] > one - b_q30[0]) b_q30[1] = one - b_q30[0];
 }
 
-#if GN_INTERPOLATES
+#if GN_INTERPOLATES || GN_ORTHOGRAPHIC
 GN_HOT int gn_bary_beyond(int32_t b_q30[2], const gn_bary *bary, const gn_ray_recip *recip, int32_t px, int32_t py,
                           uint32_t focal2_px_q16)
 {

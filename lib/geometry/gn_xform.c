@@ -38,8 +38,14 @@ void gn_cam_setup(gn_frame *frame)
         cam->eye_q16[i] = camera->to_world.t_q16[i];
     }
     cam->near_q16 = camera->near_q16;
+    uint32_t focal_q24 = camera->focal_q24;
+#if GN_ORTHOGRAPHIC /* as a perspective camera sees what is half its picture's height away, with focal length 1 [R10]  \
+                     */
+    cam->flat_q16 = camera->half_height_q16;
+    if (cam->flat_q16) focal_q24 = 1U << 24;
+#endif
     /* 2F = focal * H: Q8.24 * up to 2048 < 2^43, Q16 needs it >> 8, saturated by validation of focal * H < 2^15 */
-    cam->focal2_px_q16 = (uint32_t)(((uint64_t)camera->focal_q24 * frame->picture.height + 128U) >> 8);
+    cam->focal2_px_q16 = (uint32_t)(((uint64_t)focal_q24 * frame->picture.height + 128U) >> 8);
     gn_bfloat near = gn_bf_from_u64((uint64_t)(uint32_t)cam->near_q16);
     gn_bfloat inverse = gn_bf_recip(gn_bf_from_u64(cam->focal2_px_q16)), ratio = gn_bf_mul(near, inverse);
     cam->inv_focal2 = inverse;

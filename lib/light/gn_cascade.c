@@ -10,6 +10,7 @@ int64_t gn_cascade_tan2_q24(const gn_frame *frame)
 {
     const uint64_t limit = (uint64_t)1 << 38;
     uint32_t w = frame->picture.width, h = frame->picture.height, focal = frame->scene->camera.focal_q24;
+    if (GN_FLAT_Q16(frame)) focal = 1U << 24;
     uint64_t k2 = gn_udiv64(((uint64_t)(w * w + h * h) << 24) + h * h / 2, h * h); /* 2^23 * 2^24 */
     for (int i = 0; i < 2; i++) {
         if (k2 > limit) k2 = limit;
@@ -17,6 +18,24 @@ int64_t gn_cascade_tan2_q24(const gn_frame *frame)
     }
     return (int64_t)(k2 < limit ? k2 : limit);
 }
+
+#if GN_ORTHOGRAPHIC
+/* Of a box: around its centre, with its corners at the radius where cascades begin to fade. [R10] */
+static void flat_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t q2, int64_t *centre_q24,
+                        int64_t *radius_q24)
+{
+    const int64_t one = (int64_t)1 << 24;
+    int64_t n = (int64_t)gn_udiv64((uint64_t)(uint32_t)near_q16 << 24, (uint32_t)far_q16), half = (one - n) / 2;
+    uint64_t u_q20 = gn_udiv64((uint64_t)(uint32_t)frame->cam.flat_q16 << 20, (uint32_t)far_q16); /* 2^49 */
+    if (u_q20 >> 30) u_q20 = 1U << 30;                                                            /* 2^10 */
+    int64_t u2_q24 = (int64_t)(u_q20 * u_q20 >> 16);
+    int64_t across2 = gn_bf_apply(u2_q24, gn_bf_from_u64((uint64_t)gn_cascade_tan2_q24(frame)), -24);
+    int64_t corner2 = gn_shr64(half * half, 24) + gn_clamp64(across2, 0, (int64_t)1 << 38);
+    int64_t r2 = (int64_t)gn_udiv64((uint64_t)corner2 << 24, (uint64_t)q2); /* 2^62 */
+    *centre_q24 = (one + n) / 2;
+    *radius_q24 = r2 < (int64_t)1 << 38 ? gn_isqrt64((uint64_t)r2 << 24) : (int64_t)gn_isqrt64((uint64_t)r2) << 12;
+}
+#endif
 
 /* One sphere per cascade: DESIGN 1.4 derives it. [D3] */
 void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t *centre_q24,
@@ -27,6 +46,12 @@ void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16,
     int64_t q = 65536 - (int64_t)frame->scene->shadow.cascade_fade_uq16;
     if (q < 8192) q = 8192; /* 1/8: see DESIGN 1.4 */
     int64_t q2 = (q * q) >> 8;
+#if GN_ORTHOGRAPHIC
+    if (frame->cam.flat_q16) {
+        flat_sphere(frame, near_q16, far_q16, q2, centre_q24, radius_q24);
+        return;
+    }
+#endif
     int64_t n = (int64_t)gn_udiv64((uint64_t)(uint32_t)near_q16 << 24, (uint32_t)far_q16); /* < 1 */
     int64_t n2 = gn_shr64(n * n, 24);
     int64_t a = one - q2, b = n - q2;

@@ -157,6 +157,7 @@ GN_HOT static int beyond_edge(const gn_frame *frame, int32_t edge, int32_t acros
                               uint64_t radius_q16)
 {
     uint64_t focal2 = (frame->cam.focal2_px_q16 >> 16) + 1; /* 2F, rounded up: the norm must not be too short */
+    if (GN_FLAT_Q16(frame)) depth_q16 = GN_FLAT_Q16(frame); /* the norm is too long for such a plane */
     int64_t out =
         gn_shr64((int64_t)across_q16 * (int64_t)frame->cam.focal2_px_q16, 16) - (int64_t)edge * depth_q16; /* 2^47 */
     uint64_t norm = (uint64_t)gn_isqrt64(focal2 * focal2 + (uint64_t)((int64_t)edge * edge)) + 1;

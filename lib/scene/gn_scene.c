@@ -84,8 +84,11 @@ static gn_status check_camera(gn_frame *frame, const gn_camera *camera)
 {
     if (!is_rotation(&camera->to_world) || !position_ok(&camera->to_world))
         return gn_fail(frame, GN_ERR_CAMERA_TRANSFORM, 0);
-    /* the focal length in pixels must also fit: focal * height / 2 < 2^15 */
-    if (camera->focal_q24 < 1U << 19 || (uint64_t)camera->focal_q24 * frame->picture.height >= (uint64_t)1 << 40)
+    if (camera->half_height_q16) {
+        if (!GN_ORTHOGRAPHIC || camera->half_height_q16 < 1 << 8 || camera->half_height_q16 > GN_POSITION_LIMIT_Q16)
+            return gn_fail(frame, GN_ERR_CAMERA_FOCAL, 0);
+    } /* the focal length in pixels must also fit: focal * height / 2 < 2^15 */
+    else if (camera->focal_q24 < 1U << 19 || (uint64_t)camera->focal_q24 * frame->picture.height >= (uint64_t)1 << 40)
         return gn_fail(frame, GN_ERR_CAMERA_FOCAL, 0);
     if (camera->near_q16 < 1 << 8 || camera->near_q16 > GN_POSITION_LIMIT_Q16 || camera->far_q16 <= camera->near_q16)
         return gn_fail(frame, GN_ERR_CAMERA_DEPTH, 0);

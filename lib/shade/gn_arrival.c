@@ -58,7 +58,7 @@ GN_HOT static int place_in(const gn_frame *frame, const gn_surface *surface, int
                            gn_auto_bias form, const int32_t from_q16[3], const int32_t offset_q16[3], gn_arrival *out)
 {
     int32_t moved[3];
-    int64_t at[3], less_q32 = move_point(surface, z_q16, view, &form, from_q16, offset_q16, moved);
+    int64_t at[3], less_q32 = move_point(surface, z_q16 + GN_FLAT_Q16(frame), view, &form, from_q16, offset_q16, moved);
     for (int i = 0; i < 3; i++) at[i] = gn_dot_q30(moved, view->axis_q30[i]); /* sqrt(3) * 2^61 */
     if (at[2] <= view->fit.persp.near_q16) return 0;
     uint32_t z = at[2] > UINT32_MAX ? UINT32_MAX : (uint32_t)at[2];

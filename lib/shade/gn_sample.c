@@ -22,11 +22,38 @@ GN_HOT static uint64_t depth_at(const gn_surface *s, const gn_ray_recip *r)
     return shift > 63 ? 0 : shift < 33 ? (uint64_t)INT32_MAX : ((p >> (shift - 1)) + 1) >> 1;
 }
 
+#if GN_ORTHOGRAPHIC
+/* The same for parallel rays: the divisor is constant, and depth is interpolated like any attribute. Two Newton steps:
+ * its error would tilt the whole triangle. [R10] */
+GN_HOT static GN_NOINLINE void intersect_flat(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py,
+                                              hit *h)
+{
+    gn_ray_recip r;
+    int32_t b_q30[2];
+    uint32_t focal2 = frame->cam.focal2_px_q16;
+    h->b_q30[0] = h->b_q30[1] = b_q30[0] = b_q30[1] = GN_ONE_Q30 / 3;
+    if (gn_plane_recip(&r, &s->screen, px, py, focal2, 2)) {
+        gn_bary_at(h->b_q30, &s->bary, &r, px, py, focal2);
+        /* depth is that of the plane beyond the edges, too: else the point would lie off it */
+        if (!gn_bary_beyond(b_q30, &s->bary, &r, px, py, focal2)) b_q30[0] = h->b_q30[0], b_q30[1] = h->b_q30[1];
+    }
+    int64_t z = s->depth_q16[0]; /* |b| < 2^31, |depth| < 2^31 */
+    for (int i = 0; i < 2; i++) z += gn_shr64((int64_t)b_q30[i] * s->depth_q16[i + 1], 30);
+    h->z_q16 = (int32_t)gn_clamp64(z, s->z_min_q16, s->z_max_q16);
+}
+#endif
+
 /* The intersection of the ray through a pixel centre with the plane. Values are clamped to the triangle: a snapped edge
  * may cover a centre just outside the unsnapped triangle. */
 GN_HOT static void intersect(const gn_frame *frame, const gn_surface *s, int32_t px, int32_t py, hit *h)
 {
     gn_ray_recip r;
+#if GN_ORTHOGRAPHIC
+    if (frame->cam.flat_q16) {
+        intersect_flat(frame, s, px, py, h);
+        return;
+    }
+#endif
     if (!gn_plane_recip(&r, &s->plane, px, py, frame->cam.focal2_px_q16, GN_K(frame, newton_steps))) {
         h->z_q16 = s->z_min_q16; /* edge on: any point of the triangle will do */
         h->b_q30[0] = h->b_q30[1] = GN_ONE_Q30 / 3;
@@ -53,9 +80,14 @@ GN_HOT static void normal_at(const gn_surface *s, const hit *h, int32_t n_q30[3]
 
 #if GN_SHADOWS || GN_PUNCTUAL_LIGHTS
 /* A point at depth z on a pixel's ray, along three axes. |z| * |a| < 2^31 * 2^31 by the choice of the shift */
-GN_HOT static void point_on_ray(const gn_ray_plane ray[3], int32_t ray_shift, int32_t px, int32_t py, int32_t z_q16,
-                                int64_t out_q16[3])
+GN_HOT static void point_on_ray(const gn_frame *frame, const gn_ray_plane ray[3], int32_t ray_shift, int32_t px,
+                                int32_t py, int32_t z_q16, int64_t out_q16[3])
 {
+    for (int i = 0; GN_FLAT_Q16(frame) && i < 3; i++) { /* 2^61 and 2^60 */
+        int64_t across = ((int64_t)ray[i].ax * px + (int64_t)ray[i].ay * py) * GN_FLAT_Q16(frame);
+        out_q16[i] = gn_shr64((int64_t)z_q16 * ray[i].a0 + across, ray_shift) + ray[i].d_q16;
+    }
+    if (GN_FLAT_Q16(frame)) return;
     for (int i = 0; i < 3; i++) {
         int64_t a = ray[i].a0 + (int64_t)ray[i].ax * px + (int64_t)ray[i].ay * py; /* < 2^31 */
         out_q16[i] = gn_shr64(z_q16 * a, ray_shift) + ray[i].d_q16;
@@ -76,11 +108,11 @@ GN_HOT const int32_t *gn_sample_lifted(const gn_surface *s, const gn_light_state
 
 #if GN_SHADOWS
 /* Tile coordinates of the point at depth z on a pixel's ray. */
-GN_HOT static void light_coords(const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16,
+GN_HOT static void light_coords(const gn_frame *frame, const gn_light_view *view, int32_t px, int32_t py, int32_t z_q16,
                                 const int32_t offset_q16[3], int32_t *out)
 {
     int64_t at[3];
-    point_on_ray(view->fit.ortho.ray, view->fit.ortho.ray_shift, px, py, z_q16, at);
+    point_on_ray(frame, view->fit.ortho.ray, view->fit.ortho.ray_shift, px, py, z_q16, at);
     for (int i = 0; i < 3; i++) out[i] = gn_sat32(at[i] + offset_q16[i]);
 }
 
@@ -96,8 +128,9 @@ GN_HOT static void select_cascade(const gn_frame *frame, int32_t px, int32_t py,
 {
     gn_bfloat per_px = frame->cam.inv_focal2;
     const int64_t most = 1 << 30; /* of a point of the triangle: pixels of a plane seen edge on may lie outside it */
-    int64_t z = sample->value[GN_VALUE_Z], x = gn_clamp64(gn_bf_apply(z * px, per_px, 16), -most, most),
-            y = gn_clamp64(gn_bf_apply(z * py, per_px, 16), -most, most);
+    int64_t z = sample->value[GN_VALUE_Z], at = GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : z,
+            x = gn_clamp64(gn_bf_apply(at * px, per_px, 16), -most, most),
+            y = gn_clamp64(gn_bf_apply(at * py, per_px, 16), -most, most);
     uint64_t across = (uint64_t)(x * x) + (uint64_t)(y * y);
     sample->cascade = GN_CASCADE_NONE;
     sample->value[GN_VALUE_FADE] = 0;
@@ -149,7 +182,7 @@ GN_HOT void gn_sample_in_view(const gn_frame *frame, const gn_surface *s, uint32
                               int32_t x, int32_t y, int32_t z_q16, const int32_t n_q30[3], int32_t coord_q16[3])
 {
     int32_t moved[3], px = 2 * x + 1 - frame->picture.width, py = frame->picture.height - 1 - 2 * y;
-    light_coords(view, px, py, z_q16, own_offset(frame, s, slot, view, n_q30, moved), coord_q16);
+    light_coords(frame, view, px, py, z_q16, own_offset(frame, s, slot, view, n_q30, moved), coord_q16);
 }
 
 /* Light-space coordinates of the point in a directional light's view; with cascades also in the next one. */
@@ -164,14 +197,14 @@ GN_HOT static void directional_coords(const gn_frame *frame, const gn_surface *s
     if (cascaded) view += sample->cascade;
     int32_t moved[3];
     const int32_t *offset = own_offset(frame, s, slot, view, n_q30, moved);
-    light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out);
+    light_coords(frame, view, px, py, sample->value[GN_VALUE_Z], offset, out);
     if (!GN_BLENDED_CASCADES || !cascaded || frame->scene->shadow.blend == GN_BLEND_HARD ||
         sample->cascade == GN_LAST_CASCADE(frame))
         return;
     view += frame->cascade[sample->cascade].next - sample->cascade;
     int same = view->filter != GN_FILTER_DISK && !(GN_AUTO_BIAS && light->auto_bias);
     if (!same) offset = own_offset(frame, s, slot, view, n_q30, moved);
-    light_coords(view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
+    light_coords(frame, view, px, py, sample->value[GN_VALUE_Z], offset, out + 3);
 }
 #else
 GN_HOT static int asks_for_cascades(const gn_frame *frame)
@@ -199,14 +232,15 @@ GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, u
 {
     const gn_light_state *light = s->light[slot].state;
     int64_t at[3];
-    point_on_ray(light->from_light, light->ray_shift, px, py, sample->value[GN_VALUE_Z], at);
+    point_on_ray(frame, light->from_light, light->ray_shift, px, py, sample->value[GN_VALUE_Z], at);
     for (int i = 0; i < 3; i++) out[GN_LIGHT_POINT_AT + i] = (int32_t)gn_clamp64(at[i], -INT32_MAX, INT32_MAX);
     out[GN_LIGHT_FACING] = gn_sat32(-gn_dot_q30(unit_q30, out + GN_LIGHT_POINT_AT));
     int own = GN_AUTO_BIAS && !GN_CURVED(s) && light->auto_bias; /* per pixel */
     int32_t lifted[3];
     if (GN_SHADOWS && light->view_idx >= 0 && s->shadowed && !own)
-        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n_q30, lifted), sample->value[GN_VALUE_Z],
-                         out + GN_LIGHT_POINT_AT, out + GN_LIGHT_OFFSET);
+        gn_bias_punctual(frame, light, gn_sample_lifted(s, light, n_q30, lifted),
+                         sample->value[GN_VALUE_Z] + GN_FLAT_Q16(frame), out + GN_LIGHT_POINT_AT,
+                         out + GN_LIGHT_OFFSET);
 }
 #else
 GN_HOT static void punctual_values(const gn_frame *frame, const gn_surface *s, uint32_t slot, int32_t px, int32_t py,
@@ -224,7 +258,8 @@ GN_HOT static void specular_values(const gn_frame *frame, int32_t px, int32_t py
 {
     const gn_cam *cam = &frame->cam;
     int64_t towards[3];
-    for (int i = 0; i < 3; i++) { /* 2^12 * 2^16 * 2^30, 2^32 * 2^30: halved */
+    if (GN_FLAT_Q16(frame)) px = py = 0; /* rays are parallel */
+    for (int i = 0; i < 3; i++) {        /* 2^12 * 2^16 * 2^30, 2^32 * 2^30: halved */
         towards[i] = -((int64_t)cam->axis_q30[0][i] * px + (int64_t)cam->axis_q30[1][i] * py) * 32768 -
                      (int64_t)cam->axis_q30[2][i] * (int64_t)(cam->focal2_px_q16 >> 1);
         sample->normal_q30[i] = unit_q30[i];

@@ -45,6 +45,10 @@ typedef struct {
     uint32_t base_q20[3]; /* albedo times ambient, its own light: with the lights' radiance_uq16, weighted, it sums up
                              to radiance */
     gn_plane plane;
+#if GN_ORTHOGRAPHIC
+    gn_plane screen;      /* orthographic: the triangle at the camera's flat depth */
+    int32_t depth_q16[3]; /* and its view depth: vertex 0, then differences of vertices 1 and 2 to it */
+#endif
     gn_bfloat depth_scale; /* det * 2F: Z = depth_scale / (n . ray) */
     int32_t z_min_q16, z_max_q16;
     gn_bary bary;

@@ -403,6 +403,26 @@ GN_HOT static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *f
     gn_setup_vertex(out_q16, scratch->vertex, &to_view, object->mesh, tri->object_idx, vertex_idx);
 }
 
+#if GN_ORTHOGRAPHIC
+/* Barycentrics are linear on the screen, and so is depth. The face turns its back where n does, wherever the eye. [R10]
+ */
+GN_HOT static void flat_plane(const gn_frame *frame, gn_surface *s, int32_t v[3][3])
+{
+    int32_t flat[3][3];
+    gn_plane *plane = &s->plane;
+    for (int i = 0; i < 3; i++) {
+        flat[i][0] = v[i][0], flat[i][1] = v[i][1], flat[i][2] = frame->cam.flat_q16;
+        s->depth_q16[i] = i ? v[i][2] - v[0][2] : v[0][2];
+    }
+    gn_plane_setup(&s->screen, flat[0], flat[1], flat[2]);
+    for (int i = 0; s->screen.back != plane->back && i < 3; i++) plane->n[i] = -plane->n[i];
+    plane->back = s->screen.back;
+    plane->det = s->screen.det;
+    gn_bary_setup(&s->bary, &s->screen, flat[0], flat[1], flat[2]);
+    s->has_bary = 1;
+}
+#endif
+
 GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
                              const gn_tri *tri)
 {
@@ -423,9 +443,13 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surf
     gn_plane_setup(&s->plane, v[0], v[1], v[2]);
     s->z_min_q16 = gn_max32(gn_min32(v[0][2], gn_min32(v[1][2], v[2][2])), frame->cam.near_q16);
     s->z_max_q16 = gn_max32(v[0][2], gn_max32(v[1][2], v[2][2]));
-    if (s->plane.det > 0)
+#if GN_ORTHOGRAPHIC
+    if (frame->cam.flat_q16) flat_plane(frame, s, v);
+    else
+#endif
+        if (s->plane.det > 0)
         s->depth_scale = gn_bf_mul(gn_bf_from_u64((uint64_t)s->plane.det), gn_bf_from_u64(frame->cam.focal2_px_q16));
     attributes(frame, cache, s, idx);
-    if (GN_HAS_BARY(s)) gn_bary_setup(&s->bary, &s->plane, v[0], v[1], v[2]);
+    if (GN_HAS_BARY(s) && !GN_FLAT_Q16(frame)) gn_bary_setup(&s->bary, &s->plane, v[0], v[1], v[2]);
     begin_lighting(frame, cache, s, v);
 }

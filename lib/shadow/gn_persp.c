@@ -162,15 +162,15 @@ GN_HOT int32_t gn_persp_triangle(const gn_frame *frame, const gn_light_view *vie
     polygon->n = 3;
     uint32_t all = ~0U, any = 0;
     for (int i = 0; i < 3; i++) {
-        all &= gn_outcode(corner[i], fit->near_q16, fit->side_q16);
-        any |= gn_outcode(corner[i], fit->near_q16, fit->guard_q16);
+        all &= gn_outcode(corner[i], fit->near_q16, fit->side_q16, 0);
+        any |= gn_outcode(corner[i], fit->near_q16, fit->guard_q16, 0);
     }
     gn_caster caster;
     gn_plane plane;
     if (all || !persp_caster(&caster, &plane, view, corner, casting->job.two_sided)) return -1;
     if (GN_CASTER_ALPHA && GN_TEXTURES && alpha && alpha->textured)
         gn_alpha_plane(alpha, frame, corner, fit->focal2_q16, view->tile_texels, 2);
-    if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->near_q16, fit->guard_q16);
+    if (any) gn_clip(polygon, &casting->with.clipping.uncut, GN_OUT_ALL, fit->near_q16, fit->guard_q16, 0);
     int32_t *x = casting->with.clipping.x, *y = casting->with.clipping.y;
     for (int i = 0; i < polygon->n; i++) project_corner(frame, view, polygon->v_q16[i], &x[i], &y[i]);
     int32_t n_texels = 0;

@@ -91,8 +91,10 @@ static inline int32_t scaled(int32_t v, int32_t scale)
 /* X * 2F / Z and near / Z; Z in [2^8, 2^30). The first is rounded down. */
 GN_INLINE void project(const setup_job *job, const int32_t v_q16[3], gn_projected *at)
 {
-    int32_t clz = gn_clz32((uint32_t)v_q16[2]), up = job->focal_up + clz; /* clz 2..23 */
-    uint32_t recip = gn_recip_norm2((uint32_t)v_q16[2] << clz);
+    int32_t flat = GN_FLAT_Q16(job->screen.frame);
+    uint32_t depth = (uint32_t)(flat ? flat : v_q16[2]);
+    int32_t clz = gn_clz32(depth), up = job->focal_up + clz; /* clz 2..23 */
+    uint32_t recip = gn_recip_norm2(depth << clz);
     /* 2F / Z with 31 bits: 2^63 / (Z 2^clz) * (2F 2^focal_clz) / 2^33, in [2^29, 2^31); results are below 2^27, so that
      * |v| * 2^up < 2^30 */
     int32_t scale = (int32_t)(((uint64_t)recip * job->focal_norm) >> 33), x = v_q16[0], y = v_q16[1];
@@ -105,7 +107,9 @@ GN_INLINE void project(const setup_job *job, const int32_t v_q16[3], gn_projecte
     }
     at->x_q16 = scaled(x, scale);
     at->y_q16 = -scaled(y, scale);
-    at->iz_q32 = inverse_depth(job, recip, clz);
+    if (flat)
+        at->iz_q32 = ((uint32_t)GN_VIEW_LIMIT_Q16 - (uint32_t)v_q16[2]) << 2; /* linear, too: 1 - Z / 2^14 units */
+    else at->iz_q32 = inverse_depth(job, recip, clz);
 }
 
 /* A cut vertex may miss the guard band by a rounding of view space, which a long focal length magnifies. */
@@ -121,9 +125,9 @@ static GN_NOINLINE void project_cut(const setup_job *job, const int32_t v_q16[3]
 static GN_NOINLINE int fill_corner_small(const setup_job *job, setup_corner *c, uint32_t vertex_idx)
 {
     const gn_cam *cam = &job->screen.frame->cam;
-    const int32_t *v = c->vertex.v_q16;
+    const int32_t *v = c->vertex.v_q16, flat = GN_FLAT_Q16(job->screen.frame);
     if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object->mesh, vertex_idx)) return 0;
-    c->out = gn_outcode(v, cam->near_q16, cam->tan_q16) | gn_outcode(v, cam->near_q16, cam->guard_q16) << 8;
+    c->out = gn_outcode(v, cam->near_q16, cam->tan_q16, flat) | gn_outcode(v, cam->near_q16, cam->guard_q16, flat) << 8;
     if (!(c->out >> 8)) project_cut(job, v, &c->at); /* nothing is clamped; one projecting function is enough */
     return 1;
 }
@@ -144,12 +148,12 @@ static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
 static GN_NOINLINE int fill_far_corner(const setup_job *job, setup_corner *c)
 {
     const gn_cam *cam = &job->screen.frame->cam;
-    const int32_t *v = c->vertex.v_q16;
+    const int32_t *v = c->vertex.v_q16, flat = GN_FLAT_Q16(job->screen.frame);
     for (int k = 0; k < 3; k++)
         if (v[k] <= -GN_VIEW_LIMIT_Q16 || v[k] >= GN_VIEW_LIMIT_Q16) return 0;
-    c->out = gn_outcode(v, cam->near_q16, cam->tan_q16);
+    c->out = gn_outcode(v, cam->near_q16, cam->tan_q16, flat);
     if (v[2] < cam->near_q16) c->out |= GN_OUT_NEAR << 8;
-    else if (c->out) c->out |= gn_outcode(v, cam->near_q16, cam->guard_q16) << 8;
+    else if (c->out) c->out |= gn_outcode(v, cam->near_q16, cam->guard_q16, flat) << 8;
     if (!(c->out >> 8)) project(job, v, &c->at);
     return 1;
 }
@@ -165,6 +169,7 @@ GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t v
     }
     for (int k = 0; k < 3; k++) c->vertex.v_q16[k] = v[k];
     uint32_t z = (uint32_t)v[2] >> job->near_guard;
+    if (GN_FLAT_Q16(job->screen.frame)) return fill_far_corner(job, c);
     if ((uint32_t)v[2] - (uint32_t)job->near_q16 >= job->z_range || (uint32_t)v[0] + z > 2 * z ||
         (uint32_t)v[1] + z > 2 * z)
         return fill_far_corner(job, c);
@@ -186,7 +191,7 @@ static GN_NOINLINE void clip_triangle(const setup_job *job, const setup_corner *
     polygon->n = 3;
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) polygon->v_q16[i][k] = c[i]->vertex.v_q16[k];
-    gn_clip(polygon, &job->clipping->uncut, GN_OUT_ALL, frame->cam.near_q16, frame->cam.guard_q16);
+    gn_clip(polygon, &job->clipping->uncut, GN_OUT_ALL, frame->cam.near_q16, frame->cam.guard_q16, GN_FLAT_Q16(frame));
     frame->stats.n_clipped++;
     gn_projected at[3];
     for (int i = 0; i < polygon->n; i++) { /* a fan */

@@ -44,7 +44,7 @@ without() { object "all-$1" -Og -fno-inline $(but all 0 "$1"); }
 # What a feature stands on: alone it has nothing to do.
 under() {
     case $1 in
-    CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
+    CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
     LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
@@ -102,6 +102,7 @@ VISIBLE_ALPHA cut_begin|cut_row
 TILE_LIGHTS gn_punctual_in_tile
 TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
 SPECULAR highlight_q30
+ORTHOGRAPHIC flat_plane|flat_sphere|intersect_flat
 EMISSIVE emitted_light
 MASKS gn_texture_mask
 CASTER_BIAS corner_normals

@@ -199,6 +199,7 @@ static void make_scene(int variant, int moved)
 {
     demo_scene_make(&demo, (uint32_t)variant % 3);
     if (moved) demo.object[1].to_world.t_q16[0] -= GN_Q16(0.3);
+    if (use.orthographic && variant > 3) demo.scene.camera.half_height_q16 = GN_Q16(2.5);
     use_lights(variant);
     use_materials(variant);
     use_shadow_settings(variant);
@@ -291,6 +292,10 @@ static void ask_texture(void)
 static void ask_specular(void)
 {
     demo.object[2].specular_uq16[1] = 1;
+}
+static void ask_orthographic(void)
+{
+    demo.scene.camera.half_height_q16 = GN_Q16(2);
 }
 static void ask_emissive(void)
 {
@@ -386,6 +391,7 @@ static const struct {
     {"visible alpha", GN_VISIBLE_ALPHA, GN_ERR_MATERIAL, ask_visible_alpha},
     {"texture", GN_TEXTURES, GN_ERR_TEXTURE, ask_texture},
     {"specular", GN_SPECULAR, GN_ERR_MATERIAL, ask_specular},
+    {"orthographic", GN_ORTHOGRAPHIC, GN_ERR_CAMERA_FOCAL, ask_orthographic},
     {"emissive", GN_EMISSIVE, GN_ERR_MATERIAL, ask_emissive},
     {"mask", GN_MASKS, GN_ERR_MASK, ask_mask},
     {"mask image", GN_MASKS, GN_ERR_MASK, ask_mask_image},

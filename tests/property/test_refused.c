@@ -173,6 +173,18 @@ static void background(gn_scene *s)
 {
     s->background_uq16[0] = 65537;
 }
+static void half_height_small(gn_scene *s)
+{
+    s->camera.half_height_q16 = 255;
+}
+static void half_height_negative(gn_scene *s)
+{
+    s->camera.half_height_q16 = -65536;
+}
+static void half_height_large(gn_scene *s)
+{
+    s->camera.half_height_q16 = GN_Q16(8192) + 1;
+}
 static void background_bottom(gn_scene *s)
 {
     s->background_bottom_uq16[2] = 65537;
@@ -321,6 +333,9 @@ static const struct {
     REFUSED(emissive, GN_ERR_MATERIAL, 1, 0, 0),
     REFUSED(ambient, GN_ERR_COLOUR, 0, 0, 0),
     REFUSED(background, GN_ERR_COLOUR, 0, 0, 0),
+    REFUSED(half_height_small, GN_ERR_CAMERA_FOCAL, 0, 0, 0),
+    REFUSED(half_height_negative, GN_ERR_CAMERA_FOCAL, 0, 0, 0),
+    REFUSED(half_height_large, GN_ERR_CAMERA_FOCAL, 0, 0, 0),
     REFUSED(background_bottom, GN_ERR_COLOUR, 0, 0, 0),
     REFUSED(background_gradient, GN_ERR_BACKGROUND, 0, 0, 0),
     REFUSED(light_colour, GN_ERR_COLOUR, 0, 0, 0),

@@ -76,7 +76,7 @@ static void tight_triangle(gn_polygon *p, const frustum *f)
 static uint32_t outcodes(const gn_polygon *p, const frustum *f)
 {
     uint32_t planes = 0;
-    for (int i = 0; i < p->n; i++) planes |= gn_outcode(p->v_q16[i], f->near, f->side);
+    for (int i = 0; i < p->n; i++) planes |= gn_outcode(p->v_q16[i], f->near, f->side, 0);
     return planes;
 }
 
@@ -92,7 +92,7 @@ static void test_outcode(void)
         random_point(v, 1 + i % 30, &f);
         for (uint32_t plane = GN_OUT_NEAR; plane <= GN_OUT_TOP; plane <<= 1)
             if (plane_distance(v, plane, &f) < 0) expected |= plane;
-        HOLDS(&t, gn_outcode(v, f.near, f.side) == expected, "(%d, %d, %d)", (int)v[0], (int)v[1], (int)v[2]);
+        HOLDS(&t, gn_outcode(v, f.near, f.side, 0) == expected, "(%d, %d, %d)", (int)v[0], (int)v[1], (int)v[2]);
     }
     CHECK_TALLY(t, "gn_outcode");
 }
@@ -113,7 +113,7 @@ static int step_ok(gn_polygon *p, uint32_t plane, const frustum *f)
     gn_polygon before = *p;
     for (int i = 0; i < n; i++) inside[i] = plane_distance(before.v_q16[i], plane, f) >= 0;
     for (int i = 0; i < n; i++) n_expected += inside[i] + (inside[i] != inside[(i + 1) % n]);
-    gn_clip(p, &uncut, plane, f->near, f->side);
+    gn_clip(p, &uncut, plane, f->near, f->side, 0);
     if (n_expected < 3) return p->n == 0;
     if (p->n != n_expected || p->n > GN_CLIP_VERTICES_MAX) return 0;
     for (int i = 0, out = 0; i < n; i++) {
@@ -192,7 +192,7 @@ static void test_triangles(void)
             memcpy(triangle.v_q16[2], triangle.v_q16[rng_below(&random_state, 2)], sizeof triangle.v_q16[2]);
         uint32_t planes = outcodes(&triangle, &f);
         p = q = triangle;
-        gn_clip(&p, &uncut, planes, f.near, f.side);
+        gn_clip(&p, &uncut, planes, f.near, f.side, 0);
         int ok = 1;
         for (uint32_t plane = GN_OUT_NEAR; plane <= GN_OUT_TOP && q.n; plane <<= 1)
             if (planes & plane) ok = ok && step_ok(&q, plane, &f);
@@ -228,7 +228,7 @@ static gn_polygon clipped(const int32_t a[3], const int32_t b[3], const int32_t 
     gn_polygon p = {.n = 3};
     const int32_t *const v[3] = {a, b, c};
     for (uint32_t i = 0; i < 3; i++) memcpy(p.v_q16[i], v[(i + first) % 3], sizeof p.v_q16[i]);
-    gn_clip(&p, &uncut, ALL_PLANES, f->near, f->side);
+    gn_clip(&p, &uncut, ALL_PLANES, f->near, f->side, 0);
     return p;
 }
 

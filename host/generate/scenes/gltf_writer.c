@@ -242,10 +242,17 @@ void gltf_add_camera(gltf_document *d, const gltf_camera *c)
                           c->target.z + flat * cos(yaw)};
     gltf_rotation q = gltf_multiply(gltf_turn(y_axis, c->yaw_deg), gltf_turn(x_axis, c->pitch_deg));
     size_t idx = next_item(d, &d->cameras);
-    add_text(d, &d->cameras,
-             "{\"type\": \"perspective\", \"perspective\": {\"yfov\": %.6g, \"aspectRatio\": 1.33333, \"znear\": %g, "
-             "\"zfar\": %g}}",
-             c->fov_deg * MESH_PI / 180, c->near_distance, c->far_distance);
+    if (c->half_height > 0)
+        add_text(d, &d->cameras,
+                 "{\"type\": \"orthographic\", \"orthographic\": {\"xmag\": %.6g, \"ymag\": %.6g, \"znear\": %g, "
+                 "\"zfar\": %g}}",
+                 c->half_height * 4 / 3, c->half_height, c->near_distance, c->far_distance);
+    else
+        add_text(
+            d, &d->cameras,
+            "{\"type\": \"perspective\", \"perspective\": {\"yfov\": %.6g, \"aspectRatio\": 1.33333, \"znear\": %g, "
+            "\"zfar\": %g}}",
+            c->fov_deg * MESH_PI / 180, c->near_distance, c->far_distance);
     gltf_add_node(d, "camera",
                   "\"camera\": %zu, \"translation\": [%.6g, %.6g, %.6g], \"rotation\": [%.6g, %.6g, %.6g, %.6g]", idx,
                   p.x, p.y, p.z, q.x, q.y, q.z, q.w);

@@ -74,6 +74,7 @@ typedef struct {
 
 typedef struct {
     double fov_deg, near_distance, far_distance; /* vertical field of view */
+    double half_height;                          /* orthographic: of the picture; 0: perspective */
     mesh_point target;
     double distance;  /* from the target */
     double yaw_deg;   /* 0 looks along -Z, 90 along -X */

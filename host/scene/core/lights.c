@@ -70,7 +70,7 @@ static bool is_seen_caster(const scene *s, const scene_object *object, const dou
         affine_column(axis, camera, k);
         local[k] = vec_dot(out, axis);
     }
-    double depth = -local[2], half = depth / s->camera.focal;
+    double depth = -local[2], half = s->camera.half_height > 0 ? s->camera.half_height : depth / s->camera.focal;
     return is_caster(s, object, point) && depth <= s->shadow.max_distance && fabs(local[0]) <= 1.5 * half &&
            fabs(local[1]) <= half;
 }

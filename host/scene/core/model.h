@@ -119,6 +119,7 @@ typedef struct {
 typedef struct {
     scene_affine to_world; /* orthonormal rotation + position; looks along its local -Z */
     double focal;          /* 1 / tan(vertical field of view / 2) */
+    double half_height;    /* orthographic (R10): half of what the picture shows from top to bottom; 0: perspective */
     double near;           /* > 0 */
     double far;            /* > near; INFINITY where the file gives none */
 } scene_camera;

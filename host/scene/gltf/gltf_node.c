@@ -202,25 +202,50 @@ static bool read_perspective(gltf *g, const json_value *perspective, scene_camer
     return true;
 }
 
+/* The picture's own shape decides how much is seen to the sides; a near plane of 0, which the library does not have, is
+ * moved where nobody sees it. [R10] */
+static bool read_orthographic(gltf *g, const json_value *orthographic, scene_camera *out)
+{
+    double height = 0, near_distance = 0, far_distance = 0;
+    if (!gltf_get_number(g, orthographic, "ymag", &height) ||
+        !gltf_get_number(g, orthographic, "znear", &near_distance) ||
+        !gltf_get_number(g, orthographic, "zfar", &far_distance))
+        return false;
+    if (!(height > 0 && height <= LOADER_MAX_COORDINATE))
+        return gltf_fail(g, orthographic, "ymag %g is not positive, or too large", height);
+    if (!(near_distance >= 0)) return gltf_fail(g, orthographic, "znear %g is negative", near_distance);
+    if (!(far_distance > near_distance))
+        return gltf_fail(g, orthographic, "zfar %g is not beyond znear %g", far_distance, near_distance);
+    out->focal = 1;
+    out->half_height = height;
+    out->near = fmax(near_distance, far_distance * 1e-4);
+    out->far = far_distance;
+    return true;
+}
+
+static bool read_lens(gltf *g, const json_value *camera, bool is_orthographic, scene_camera *out)
+{
+    const json_value *lens = NULL;
+    const char *key = is_orthographic ? "orthographic" : "perspective";
+    if (!gltf_get(g, camera, key, JSON_OBJECT, &lens)) return false;
+    if (!lens) return gltf_fail(g, camera, "%s is missing", key);
+    return is_orthographic ? read_orthographic(g, lens, out) : read_perspective(g, lens, out);
+}
+
 bool gltf_emit_camera(gltf *g, size_t node_idx)
 {
     size_t idx = GLTF_NONE;
-    const json_value *perspective = NULL;
     const gltf_node *node = &g->node[node_idx];
     if (!gltf_get_ref(g, node->json, "camera", g->cameras, &idx)) return false;
     if (idx == GLTF_NONE) return true;
     const json_value *camera = g->cameras->children[idx];
     const char *name = gltf_name(g, camera, "camera"), *type = "";
-    if (!name || !gltf_get_string(g, camera, "type", &type) ||
-        !gltf_get(g, camera, "perspective", JSON_OBJECT, &perspective))
-        return false;
-    if (strcmp(type, "orthographic") == 0)
-        return loader_note(g->l, "camera '%s' ignored: orthographic cameras are not supported", name);
-    if (strcmp(type, "perspective") != 0) return gltf_fail(g, camera, "type '%s' is unknown", type);
-    if (!perspective) return gltf_fail(g, camera, "perspective is missing");
+    if (!name || !gltf_get_string(g, camera, "type", &type)) return false;
+    const bool is_orthographic = strcmp(type, "orthographic") == 0;
+    if (!is_orthographic && strcmp(type, "perspective") != 0) return gltf_fail(g, camera, "type '%s' is unknown", type);
     g->l->file_has_camera = true;
     if (g->l->options->orbit) return loader_note(g->l, "camera '%s' ignored: --orbit takes its place", name);
     if (g->l->has_camera) return loader_note(g->l, "camera '%s' ignored: the first camera is used", name);
     g->l->has_camera = true;
-    return camera_axes(g, node, &g->l->s->camera.to_world) && read_perspective(g, perspective, &g->l->s->camera);
+    return camera_axes(g, node, &g->l->s->camera.to_world) && read_lens(g, camera, is_orthographic, &g->l->s->camera);
 }

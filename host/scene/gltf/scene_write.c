@@ -381,8 +381,13 @@ static void put_head(writer *w, write_buffer *out, const char *comment, const sc
     for (size_t i = 0; i < w->n_nodes; i++) write_format(out, "%s%zu", i ? ", " : "", i);
     write_text(out, "],\n    \"extras\": {\"gnomon\": {");
     put_settings(out, w->s, settings, n);
-    write_text(out, "}}}],\n  \"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": ");
-    put_number(out, 2 * atan(1 / w->s->camera.focal));
+    const scene_camera *camera = &w->s->camera;
+    const bool flat = camera->half_height > 0;
+    write_format(out,
+                 "}}}],\n  \"cameras\": [{\"type\": \"%s\", \"%s\": {\"%s\": ", flat ? "orthographic" : "perspective",
+                 flat ? "orthographic" : "perspective", flat ? "ymag" : "yfov");
+    put_number(out, flat ? camera->half_height : 2 * atan(1 / camera->focal));
+    if (flat) put_member(out, "xmag", camera->half_height);
     put_member(out, "znear", w->s->camera.near);
     if (!isinf(w->s->camera.far)) put_member(out, "zfar", w->s->camera.far);
     write_text(out, "}}],\n");

@@ -99,6 +99,15 @@ static void cut(polygon *p, const double *a, double b)
 
 static void cut_to_view(polygon *p, const scene_camera *camera, double aspect)
 {
+    const double half_height = camera->half_height;
+    if (half_height > 0) {
+        cut(p, (const double[3]){0, 0, 1}, camera->near);
+        cut(p, (const double[3]){1, 0, 0}, -aspect * half_height);
+        cut(p, (const double[3]){-1, 0, 0}, -aspect * half_height);
+        cut(p, (const double[3]){0, 1, 0}, -half_height);
+        cut(p, (const double[3]){0, -1, 0}, -half_height);
+        return;
+    }
     const double side = aspect / camera->focal, half = 1 / camera->focal;
     cut(p, (const double[3]){0, 0, 1}, camera->near);
     cut(p, (const double[3]){1, 0, side}, 0);
@@ -107,13 +116,13 @@ static void cut_to_view(polygon *p, const scene_camera *camera, double aspect)
     cut(p, (const double[3]){0, -1, half}, 0);
 }
 
-/* On the plane at distance 1, positive if its front is seen. */
-static double projected_area(const polygon *p)
+/* On the plane at distance 1, or on any in parallel rays; positive if its front is seen. */
+static double projected_area(const polygon *p, bool parallel)
 {
     double sum = 0;
     for (int i = 0; i < p->n; i++) {
         const double *a = p->corner[i], *b = p->corner[(i + 1) % p->n];
-        sum += (a[0] * b[1] - a[1] * b[0]) / (a[2] * b[2]);
+        sum += (a[0] * b[1] - a[1] * b[0]) / (parallel ? 1 : a[2] * b[2]);
     }
     return sum / 2;
 }
@@ -127,7 +136,7 @@ typedef struct {
 static void take_triangle(view_range *out, const scene *s, polygon *p, double aspect, bool two_sided)
 {
     cut_to_view(p, &s->camera, aspect);
-    double area = projected_area(p);
+    double area = projected_area(p, s->camera.half_height > 0);
     if (two_sided) area = fabs(area);
     if (!(area > 0)) return;
     for (int i = 0; i < p->n; i++) {
@@ -136,7 +145,7 @@ static void take_triangle(view_range *out, const scene *s, polygon *p, double as
     }
     out->area += area;
     cut(p, (const double[3]){0, 0, -1}, -s->shadow.max_distance);
-    out->near_area += fabs(projected_area(p));
+    out->near_area += fabs(projected_area(p, s->camera.half_height > 0));
 }
 
 static void to_view(double *out, const scene *s, const scene_object *o, size_t vertex)

@@ -218,6 +218,7 @@ static void use_nothing(compiled *c)
     NOTHING(texture_formats);
     NOTHING(specular);
     NOTHING(emissive);
+    NOTHING(orthographic);
     NOTHING(masks);
     NOTHING(baked_light);
     NOTHING(receiver_bias);
@@ -246,6 +247,7 @@ static void choose_features(compiled *c)
         if (f->meshes[i].nrm_q15) USE(vertex_normals, 1, "mesh '%s'", c->mesh_name[i]);
         if (f->meshes[i].rgb_uq16) USE(vertex_colours, 1, "mesh '%s'", c->mesh_name[i]);
     }
+    if (f->scene.camera.half_height_q16) USE(orthographic, 1, "%s", "the camera");
     if (c->set.feature.shadows) use_shadows(c);
 }
 

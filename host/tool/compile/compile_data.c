@@ -186,7 +186,8 @@ static void write_lights(FILE *f, const compiled *c)
 
 static const emit_field camera_fields[] = {
     EMIT_FIELD(gn_camera, FIELD_AFFINE, to_world), EMIT_FIELD(gn_camera, FIELD_U32, focal_q24),
-    EMIT_FIELD(gn_camera, FIELD_I32, near_q16), EMIT_FIELD(gn_camera, FIELD_I32, far_q16)};
+    EMIT_FIELD(gn_camera, FIELD_I32, half_height_q16), EMIT_FIELD(gn_camera, FIELD_I32, near_q16),
+    EMIT_FIELD(gn_camera, FIELD_I32, far_q16)};
 
 static const emit_field shadow_fields[] = {EMIT_FIELD(gn_shadow_settings, FIELD_I32, max_distance_q16),
                                            EMIT_FIELD(gn_shadow_settings, FIELD_U32, distance_fade_uq16),

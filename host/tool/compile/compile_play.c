@@ -32,6 +32,7 @@ static const compile_field fields[] = {
     SCENE_(camera.to_world.m_q30, 9),
     SCENE_(camera.to_world.t_q16, 3),
     SCENE_(camera.focal_q24, 1),
+    SCENE_(camera.half_height_q16, 1),
     SCENE_(camera.near_q16, 1),
     SCENE_(camera.far_q16, 1),
     SCENE_(unit_log2, 1),

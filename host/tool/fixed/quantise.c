@@ -186,6 +186,7 @@ void quantise_camera(gn_camera *out, const scene_camera *camera, int world_exp)
         out->to_world.t_q16[r] = (int32_t)fixed(camera->to_world.m[r][3], 16 + world_exp);
     }
     out->focal_q24 = (uint32_t)fmin(4294967295.0, floor(ldexp(camera->focal, 24) + 0.5));
+    out->half_height_q16 = (int32_t)fixed(camera->half_height, 16 + world_exp);
     out->near_q16 = (int32_t)fixed(camera->near, 16 + world_exp);
     out->far_q16 = isinf(camera->far) ? INT32_MAX : (int32_t)fixed(camera->far, 16 + world_exp);
 }

@@ -34,7 +34,7 @@ static double extent_of_light(const scene_light *l)
 
 static double extent_of_camera(const scene_camera *camera)
 {
-    double extent = 0;
+    double extent = camera->half_height;
     for (int r = 0; r < 3; r++) extent = fmax(extent, fabs(camera->to_world.m[r][3]));
     return extent;
 }

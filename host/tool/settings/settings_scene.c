@@ -73,6 +73,8 @@ static const scene_knob scene_knobs[] = {
         "background_bottom", COLOUR, background_bottom, 0, 1,
         "colour at the picture's lower edge, background being that at the upper one; switches the gradient on (R11)"),
     SCENE_("background_gradient", SWITCH, gradient, 0, 1, "between the two"),
+    SCENE_("half_height", NUMBER, camera.half_height, 0, 8192,
+           "half of what an orthographic camera shows from top to bottom; 0: perspective (R10)"),
     {"filter", OF_SHADOW, WORD, offsetof(scene_shadow, filter), 0, 0, settings_filter_names,
      "shadow filter of both atlases (F1-F4)"},
     {"other_filter", OF_SHADOW, WORD, offsetof(scene_shadow, other_filter), 0, 0, settings_filter_names,
