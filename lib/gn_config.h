@@ -226,6 +226,9 @@
 #ifndef GN_TILE_IMPORTANCE
 #define GN_TILE_IMPORTANCE (!GN_COMPACT)
 #endif
+#ifndef GN_TIGHT_FIT
+#define GN_TIGHT_FIT (!GN_COMPACT && GN_SHADOWS)
+#endif
 #ifndef GN_OBJECT_BOXES
 #define GN_OBJECT_BOXES (!GN_COMPACT)
 #endif
@@ -253,7 +256,7 @@
 #endif
 
 /* Whether the boxes of objects are needed. */
-#define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING)))
+#define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING || GN_TIGHT_FIT)))
 
 /* Whether shading interpolates between exact points (gn_lattice.h). Not built where every pixel must be exact. */
 #define GN_INTERPOLATES (!GN_COMPACT && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))

@@ -13,6 +13,9 @@ typedef struct {
     uint8_t weight; /* importance 1..64, w in gn_tiles.c */
 } gn_tile_plan;
 
+/* Whether the sides of tiles are in frame->seen. */
+#define GN_BY_WORTH(frame) (GN_TIGHT_FIT && (frame)->scene->shadow.tile_sizes == GN_TILES_WORTH)
+
 /* One plan per light; sets frame->light[].shadow_state. Needs boxes and light states. */
 gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS]);
 

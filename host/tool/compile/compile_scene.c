@@ -227,9 +227,9 @@ static void write_shadow(FILE *f, const gn_shadow_settings *s)
             ".penumbra_uq16 = %" PRIu32 ", .disk_samples = %" PRIu32 ",\n",
             (int)s->filter, (int)s->other_filter, (int)s->kernel, s->penumbra_uq16, s->disk_samples);
     fprintf(f,
-            "               .mixing = (gn_mixing)%d, .tile_sizes = (gn_tile_sizes)%d, .main_light = %" PRIu32
-            ", .caster_culling = %" PRIu32 ", .object_lights = %" PRIu32,
-            (int)s->mixing, (int)s->tile_sizes, s->main_light, s->caster_culling, s->object_lights);
+            "               .mixing = (gn_mixing)%d, .tile_sizes = (gn_tile_sizes)%d, .fit = (gn_fit)%d, .main_light = "
+            "%" PRIu32 ", .caster_culling = %" PRIu32 ", .object_lights = %" PRIu32,
+            (int)s->mixing, (int)s->tile_sizes, (int)s->fit, s->main_light, s->caster_culling, s->object_lights);
     write_unsigned(f, "refresh", s->refresh, 4);
     fprintf(f, ",\n               .n_cascades = %" PRIu32, s->n_cascades);
     if (s->cascades_unused) fprintf(f, ", .cascades_unused = 0x%" PRIx32, s->cascades_unused);
