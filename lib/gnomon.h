@@ -9,7 +9,7 @@
  * - every call returns a status; gn_status_text() says it in words, gn_detail names what and where
  *
  * A frame: describe a gn_scene, call gn_render() with a flush callback. Nothing is allocated, nothing is global: all
- * state is in gn_renderer (one static object, about 107 KB as configured by default, of which 34 KB serve the atlas of
+ * state is in gn_renderer (one static object, about 108 KB as configured by default, of which 34 KB serve the atlas of
  * spot and point lights: 72 KB with GN_PUNCTUAL_LIGHTS 0 and GN_MAIN_LIGHT 0), so several can run in one program.
  */
 #ifndef GNOMON_H
@@ -475,7 +475,7 @@ gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, ui
 /* The shadow tile of a light's cascade or face: texels (0: none, or nothing visible needs it), depths row by row, all
  * ones = empty. */
 typedef struct {
-    uint32_t texels; /* per row */
+    uint32_t texels;     /* per row */
     uint32_t depth_bits; /* 8, 16 or 32: uint8_t, uint16_t or uint32_t per texel */
     const void *depth;
     uint32_t rows;

@@ -267,8 +267,9 @@ static gn_status fit_light(gn_frame *frame, const gn_light *light)
     return GN_OK;
 }
 
-gn_status gn_views_setup(gn_frame *frame)
+gn_status gn_views_setup(gn_frame *frame, gn_scratch *scratch)
 {
+    (void)scratch;
     const gn_scene *scene = frame->scene;
     const gn_light *light = scene->lights;
     gn_status status = lens(frame);

@@ -113,7 +113,7 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
     frame->n_lights = (uint8_t)scene->n_lights;
 #endif
     gn_cam_setup(frame);
-    status = gn_views_setup(frame);
+    status = gn_views_setup(frame, &r->scratch);
     if (status) return status;
     frame->stage = GN_STAGE_BEGUN;
     return GN_OK;

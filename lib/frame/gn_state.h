@@ -89,6 +89,9 @@ typedef union {
 #endif
 #if GN_SHADOWS
     gn_casting casting;
+#if GN_TIGHT_FIT
+    gn_seen_job seen;
+#endif
 #endif
 } gn_work;
 

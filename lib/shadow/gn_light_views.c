@@ -231,12 +231,12 @@ static void add_views(gn_frame *frame, const gn_tile_plan *plan)
     }
 }
 
-gn_status gn_light_views_setup(gn_frame *frame)
+gn_status gn_light_views_setup(gn_frame *frame, gn_seen_job *job)
 {
     gn_tile_plan plan[GN_MAX_LIGHTS];
     frame->has_cascades = 0;
     gn_cascade_setup(frame);
-    gn_status status = gn_tiles_plan(frame, plan);
+    gn_status status = gn_tiles_plan(frame, job, plan);
     if (status) return status;
     if (GN_INCREMENTAL) gn_kept_check_layout(frame, plan);
     add_views(frame, plan);

@@ -11,29 +11,11 @@
 
 /* ---- Planes in view space, and polygons that they cut ------------------------------------------------------------ */
 
-#define CORNERS_MAX 16 /* a face of a box against ten planes, of which two cannot both cut */
-#define SIDES       6  /* of the frustum's part: near, far, left, right, bottom, top */
-#define BOX_LIMIT   ((1 << 30) - 1)
+#define BOX_LIMIT ((1 << 30) - 1)
 
-typedef struct {
-    int32_t p[CORNERS_MAX][3];
-    int32_t n;
-} polygon;
-
-/* Positive inside: n . p - d. |n| <= 2^31 in one component, 2^28 in several */
-typedef struct {
-    int32_t n[3];
-    int64_t d;
-} plane;
-
-/* One object's box, and the part of the frustum that it is clipped by. */
-typedef struct {
-    const gn_frame *frame;
-    plane side[SIDES];
-    int32_t corner[8][3]; /* of the box, in view space */
-    uint32_t crossed;     /* sides that cut the box */
-    polygon now, before;
-} clip_job;
+typedef gn_seen_polygon polygon;
+typedef gn_seen_plane plane;
+typedef gn_seen_job clip_job;
 
 static int64_t plane_distance(const plane *a, const int32_t p[3])
 {
@@ -47,11 +29,11 @@ static void clip(polygon *now, polygon *before, const plane *by)
     for (int32_t i = 0; i < before->n; i++) {
         const int32_t *a = before->p[i], *b = before->p[i + 1 < before->n ? i + 1 : 0];
         int64_t da = plane_distance(by, a), db = plane_distance(by, b);
-        if (da >= 0 && now->n < CORNERS_MAX) {
+        if (da >= 0 && now->n < GN_SEEN_CORNERS) {
             for (int k = 0; k < 3; k++) now->p[now->n][k] = a[k];
             now->n++;
         }
-        if ((da >= 0) == (db >= 0) || now->n == CORNERS_MAX) continue;
+        if ((da >= 0) == (db >= 0) || now->n == GN_SEEN_CORNERS) continue;
         gn_bfloat per = gn_bf_recip(gn_bf_from_u64(gn_abs64(da) + gn_abs64(db)));
         int64_t t_q31 = gn_bf_apply((int64_t)gn_abs64(da), per, 31);
         for (int k = 0; k < 3; k++) /* differences below 2^31 */
@@ -97,7 +79,7 @@ static int begin_object(clip_job *job, const gn_object_state *object)
             }
             job->corner[i][j] = (int32_t)gn_clamp64(sum, -BOX_LIMIT, BOX_LIMIT);
         }
-        for (uint32_t s = 0; s < SIDES; s++)
+        for (uint32_t s = 0; s < GN_SEEN_SIDES; s++)
             if (plane_distance(&job->side[s], job->corner[i]) < 0) out |= 1U << s;
         job->crossed |= out;
         all &= out;
@@ -113,7 +95,7 @@ static void begin_face(clip_job *job, uint32_t f)
     job->now.n = 4;
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 3; k++) job->now.p[i][k] = job->corner[idx[i]][k];
-    for (uint32_t s = 0; s < SIDES && job->now.n; s++)
+    for (uint32_t s = 0; s < GN_SEEN_SIDES && job->now.n; s++)
         if (job->crossed >> s & 1U) clip(&job->now, &job->before, &job->side[s]);
 }
 
@@ -369,13 +351,12 @@ static void see_view(clip_job *job, gn_view_seen *seen, uint32_t light_idx, cons
     if (gn_seen_any(seen)) directional_worth(frame, seen, first_q16, last_q16);
 }
 
-void gn_seen_find(gn_frame *frame, const gn_tile_plan *plan)
+void gn_seen_find(gn_frame *frame, gn_seen_job *job, const gn_tile_plan *plan)
 {
-    clip_job job;
     uint32_t view_idx = 0;
-    job.frame = frame;
+    job->frame = frame;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
-        for (uint32_t i = 0; i < plan[l].n_tiles; i++) see_view(&job, &frame->seen[view_idx++], l, &plan[l], i);
+        for (uint32_t i = 0; i < plan[l].n_tiles; i++) see_view(job, &frame->seen[view_idx++], l, &plan[l], i);
 }
 
 int32_t gn_seen_level(const gn_view_seen *seen, uint32_t in_other)

@@ -9,7 +9,7 @@
 #if GN_TIGHT_FIT
 
 /* Fills frame->seen, for the views of all lights with tiles, in their order. */
-void gn_seen_find(gn_frame *frame, const gn_tile_plan *plan);
+void gn_seen_find(gn_frame *frame, gn_seen_job *job, const gn_tile_plan *plan);
 
 /* Whether anything was seen that the view is looked up for. */
 GN_HOT static inline int gn_seen_any(const gn_view_seen *seen)

@@ -24,6 +24,31 @@ typedef struct {
                                      whether anything is seen */
     uint16_t side;                /* of its tile, by worth; 0: none */
 } gn_view_seen;
+
+#define GN_SEEN_CORNERS 16 /* a face of a box against ten planes, of which two cannot both cut */
+#define GN_SEEN_SIDES   6  /* of a part of the frustum: near, far, left, right, bottom, top */
+
+typedef struct {
+    int32_t p[GN_SEEN_CORNERS][3];
+    int32_t n;
+} gn_seen_polygon;
+
+/* Positive inside: n . p - d. |n| <= 2^31 in one component, 2^28 in several */
+typedef struct {
+    int32_t n[3];
+    int64_t d;
+} gn_seen_plane;
+
+/* One object's box, in view space, and the part of the frustum that it is clipped by. */
+typedef struct {
+    const struct gn_frame *frame;
+    gn_seen_plane side[GN_SEEN_SIDES];
+    int32_t corner[8][3];
+    uint32_t crossed; /* sides that cut the box */
+    gn_seen_polygon now, before;
+} gn_seen_job;
+#else
+typedef struct gn_seen_job gn_seen_job; /* nobody has one */
 #endif
 
 #define GN_VIEWS_MAX (GN_MAX_SHADOW_TILES + (GN_OTHER_ATLAS ? GN_MAX_OTHER_TILES : 0))
@@ -84,7 +109,6 @@ typedef struct {
     uint16_t tile_texels; /* per row: T, but of a tight fit */
 #if GN_TIGHT_FIT
     uint16_t tile_rows; /* see GN_TILE_ROWS */
-    uint8_t unseen;     /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
 #endif
     uint16_t light_idx;
     uint8_t tile_log2;   /* T = 2^tile_log2, or the next power of two */
@@ -98,7 +122,10 @@ typedef struct {
     uint8_t in_other;   /* its tile lies in the local-light atlas */
     uint8_t empty;      /* its cascade has no slice: never drawn, never selected */
     uint8_t tile_done;
-    uint8_t stale;          /* by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
+    uint8_t stale; /* by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
+#if GN_TIGHT_FIT
+    uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
+#endif
     gn_depth_block *block;  /* (T / 8) * (T / 8) */
     int32_t axis_q30[3][3]; /* u, v, w in the world */
     union {

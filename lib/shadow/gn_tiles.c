@@ -271,13 +271,15 @@ static void keep_sides(gn_frame *frame, const gn_tile_plan *plan)
 }
 #endif
 
-gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS])
+gn_status gn_tiles_plan(gn_frame *frame, gn_seen_job *job, gn_tile_plan plan[GN_MAX_LIGHTS])
 {
     request_tiles(frame, plan);
     uint32_t n_tiles = serve(frame, plan, 0, GN_MAX_SHADOW_TILES),
              n_other = GN_OTHER_ATLAS ? serve(frame, plan, 1, GN_MAX_OTHER_TILES) : 0;
 #if GN_TIGHT_FIT
-    if (GN_BY_WORTH(frame) || frame->scene->shadow.fit == GN_FIT_TIGHT) gn_seen_find(frame, plan);
+    if (GN_BY_WORTH(frame) || frame->scene->shadow.fit == GN_FIT_TIGHT) gn_seen_find(frame, job, plan);
+#else
+    (void)job;
 #endif
     gn_status status = plan_atlas(frame, plan, 0, n_tiles, GN_K(frame, atlas_size));
     if (GN_OTHER_ATLAS && !status) status = plan_atlas(frame, plan, 1, n_other, GN_K(frame, other_atlas_size));

@@ -16,7 +16,8 @@ typedef struct {
 /* Whether the sides of tiles are in frame->seen. */
 #define GN_BY_WORTH(frame) (GN_TIGHT_FIT && (frame)->scene->shadow.tile_sizes == GN_TILES_WORTH)
 
-/* One plan per light; sets frame->light[].shadow_state. Needs boxes and light states. */
-gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS]);
+/* The job is memory for polygons. One plan per light; sets frame->light[].shadow_state. Needs boxes and light states.
+ */
+gn_status gn_tiles_plan(gn_frame *frame, gn_seen_job *job, gn_tile_plan plan[GN_MAX_LIGHTS]);
 
 #endif
