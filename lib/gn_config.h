@@ -235,6 +235,9 @@
 #ifndef GN_TILE_IMPORTANCE
 #define GN_TILE_IMPORTANCE (!GN_COMPACT)
 #endif
+#ifndef GN_TIGHT_FIT
+#define GN_TIGHT_FIT (!GN_COMPACT && GN_SHADOWS)
+#endif
 #ifndef GN_OBJECT_BOXES
 #define GN_OBJECT_BOXES (!GN_COMPACT)
 #endif
@@ -271,7 +274,7 @@
 #endif
 
 /* Whether the boxes of objects are needed. */
-#define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING)))
+#define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING || GN_TIGHT_FIT)))
 
 /* Whether light that a surface emits may have to be added after colours of vertices or a texture. */
 #define GN_GLOW_APART (GN_EMISSIVE && (GN_TEXTURES || GN_VERTEX_COLOURS))

@@ -121,6 +121,9 @@
     X(other_formats, OTHER_FORMATS, 0, 1, "pixel formats other than RGB565: RGB888, grey, one bit", "flash")           \
     X(many_cascades, MANY_CASCADES, 0, 1, "more than one cascade per light", "flash")                                  \
     X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance", "flash")                                     \
+    X(tight_fit, TIGHT_FIT, 0, 1,                                                                                      \
+      "shadow tiles that cover what is visible, and are as large as that is worth on the screen",                      \
+      "flash; 48 bytes per tile, 24 per object")                                                                                      \
     X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box lies outside a shadow tile are skipped",                    \
       "flash, 24 bytes per object; the same picture with and without")                                                 \
     X(orthographic, ORTHOGRAPHIC, 0, 1, "orthographic cameras",                                                        \

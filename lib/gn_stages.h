@@ -14,8 +14,9 @@ gn_status gn_scene_validate(gn_frame *frame, const gn_scene *scene);
 /* Fills frame->cam from the scene's camera and the picture; the camera has been validated. */
 void gn_cam_setup(gn_frame *frame);
 
-/* Fills frame->light, frame->object and frame->view. The scene has been validated and the camera set up. */
-gn_status gn_views_setup(gn_frame *frame);
+/* Fills frame->light, frame->object and frame->view. The scene has been validated and the camera set up. The scratch is
+ * used for polygons. */
+gn_status gn_views_setup(gn_frame *frame, gn_scratch *scratch);
 
 #if GN_SHADOWS
 /* Brings one view's tile up to date: draws it, unless its content is still valid. The memory is scratch, for a vertex

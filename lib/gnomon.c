@@ -82,6 +82,9 @@
 #if GN_PUNCTUAL_LIGHTS
 #include "shadow/gn_persp.c"
 #endif
+#if GN_TIGHT_FIT
+#include "shadow/gn_seen.c"
+#endif
 #if GN_OBJECT_BOXES
 #include "shadow/gn_cull_boxes.c"
 #endif

@@ -9,7 +9,7 @@
  * - every call returns a status; gn_status_text() says it in words, gn_detail names what and where
  *
  * A frame: describe a gn_scene, call gn_render() with a flush callback. Nothing is allocated, nothing is global: all
- * state is in gn_renderer (one static object, about 107 KB as configured by default, of which 34 KB serve the atlas of
+ * state is in gn_renderer (one static object, about 108 KB as configured by default, of which 34 KB serve the atlas of
  * spot and point lights: 72 KB with GN_PUNCTUAL_LIGHTS 0 and GN_MAIN_LIGHT 0), so several can run in one program.
  */
 #ifndef GNOMON_H
@@ -278,7 +278,9 @@ typedef enum { GN_FILTER_HARD, GN_FILTER_2X2, GN_FILTER_3X3, GN_FILTER_5X5, GN_F
 typedef enum { GN_KERNEL_TENT, GN_KERNEL_LINEAR } gn_kernel;
 /* Of baked and realtime shadows. */
 typedef enum { GN_MIXING_NONE, GN_MIXING_ALWAYS, GN_MIXING_DISTANCE } gn_mixing;
-typedef enum { GN_TILES_EQUAL, GN_TILES_IMPORTANCE } gn_tile_sizes;
+typedef enum { GN_TILES_EQUAL, GN_TILES_IMPORTANCE, GN_TILES_WORTH } gn_tile_sizes;
+/* What a directional light's tile covers: the sphere around its cascade, or the receivers that are visible in it. */
+typedef enum { GN_FIT_STABLE, GN_FIT_TIGHT } gn_fit;
 
 /* Between cascades. */
 typedef enum { GN_BLEND_HARD, GN_BLEND_SOFT, GN_BLEND_DITHER } gn_blend;
@@ -297,7 +299,8 @@ typedef struct {
     uint32_t penumbra_uq16; /* disk radius: directional in 0.02 units, spot and point in 0.004 tiles; 0 .. 64.0 */
     uint32_t disk_samples;  /* disk filter: 1..64 */
     gn_mixing mixing;
-    gn_tile_sizes tile_sizes;
+    gn_tile_sizes tile_sizes; /* worth: by pixels that are looked up; needs tight_fit */
+    gn_fit fit;               /* tight needs tight_fit */
     uint32_t main_light;      /* 1: only the brightest directional light has cascades; others take one tile of the
                                  local-light atlas */
     uint32_t caster_culling;  /* 1: the same pixels, fewer casters */
@@ -490,15 +493,18 @@ gn_status gn_screen_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t ti
 const gn_stats *gn_get_stats(const gn_renderer *r);
 const gn_detail *gn_get_detail(const gn_renderer *r);
 
-/* Whether a light got a shadow map in the frame that was begun last. NO_ROOM: requested, but the atlas is full. */
+/* Whether a light got a shadow map in the frame that was begun last. NO_ROOM: requested, but the atlas is full.
+ * tile_texels: the longest side of its tiles; gn_get_shadow_tile tells each. */
 typedef enum { GN_SHADOW_NOT_WANTED, GN_SHADOW_REALTIME, GN_SHADOW_NO_ROOM } gn_shadow_state;
 gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, uint32_t *n_tiles, uint32_t *tile_texels);
 
-/* The shadow tile of a light's cascade or face: texels per side (0: none), depths row by row, all ones = empty. */
+/* The shadow tile of a light's cascade or face: texels (0: none, or nothing visible needs it), depths row by row, all
+ * ones = empty. */
 typedef struct {
-    uint32_t texels;
+    uint32_t texels;     /* per row */
     uint32_t depth_bits; /* 8, 16 or 32: uint8_t, uint16_t or uint32_t per texel */
     const void *depth;
+    uint32_t rows;
 } gn_tile_info;
 uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t view_idx, gn_tile_info *info);
 

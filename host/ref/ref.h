@@ -32,22 +32,23 @@ typedef struct {
 typedef struct {
     bool active; /* it has a shadow tile, and its cascade is not empty */
     bool perspective;
-    bool clear_border;                      /* texels outside the tile are lit, instead of repeating the border */
-    bool clamped;                           /* point lights: no half-width is enough, t is 2 */
-    int tile_texels;                        /* T */
+    bool clear_border; /* texels outside the tile are lit, instead of repeating the border */
+    bool clamped;      /* point lights: no half-width is enough, t is 2 */
+    int tile_texels;   /* per row: T, but of a tight fit */
+    int tile_rows;
+    bool unseen;                            /* no visible receiver looks into it: it has no tile */
     double texel;                           /* world units per texel; perspective: at distance 1 */
     double axis[3][3];                      /* u, v, w */
     double origin[3];                       /* directional: o_u, o_v, o_w, texels */
     double position[3];                     /* perspective: the light's */
     double t;                               /* perspective: half-width at distance 1 */
     double near;                            /* perspective: nothing nearer casts */
-    double depth_range;                     /* directional: T * 2^J texels; perspective: 1 */
+    double depth_range;                     /* directional: 2^R texels; perspective: 1 */
     double sphere_centre[3], sphere_radius; /* directional: the cascade's, whatever the light */
     scene_filter filter;                    /* after the light's own choice */
     int filter_index;                       /* k_f */
     double disk_radius;                     /* R, texels */
-    double *
-        depth; /* T*T depths with bias, row-major [v][u]: directional D in texels, perspective s; empty = depth_range */
+    double *depth; /* depths with bias, row-major [v][u]: directional D in texels, perspective s; empty = depth_range */
 } ref_light_view;
 
 typedef enum { REF_NO_ATLAS, REF_DIRECTIONAL_ATLAS, REF_OTHER_ATLAS } ref_atlas;
@@ -56,7 +57,8 @@ typedef enum { REF_NO_ATLAS, REF_DIRECTIONAL_ATLAS, REF_OTHER_ATLAS } ref_atlas;
 typedef struct {
     ref_atlas atlas;
     int n_tiles;
-    int tile_texels;
+    int tile_texels;         /* T, of all; not by worth */
+    int side[REF_MAX_VIEWS]; /* T of each: the square, or that of the texels of a tight fit; 0: unseen */
 } ref_grant;
 
 typedef struct {

@@ -94,7 +94,7 @@ static ref_box caster_box(const ref_light_view *view, const vec3 p[3])
         crossing.z = near;
         grow_box(&low, &high, crossing);
     }
-    return ref_clip_box(low, high, view->tile_texels, view->tile_texels);
+    return ref_clip_box(low, high, view->tile_texels, view->tile_rows);
 }
 
 static void cast_triangle(const ref_frame *frame, ref_light_view *view, caster_triangle *t)
@@ -157,7 +157,7 @@ static void cast_object(ref_light_view *view, const ref_frame *frame, size_t obj
 
 static bool render_tile(ref_light_view *view, const ref_frame *frame, const scene_light *light)
 {
-    const size_t n_texels = (size_t)view->tile_texels * (size_t)view->tile_texels;
+    const size_t n_texels = (size_t)view->tile_texels * (size_t)view->tile_rows;
     view->depth = malloc(n_texels * sizeof *view->depth);
     if (!view->depth) return false;
     for (size_t i = 0; i < n_texels; i++) view->depth[i] = view->depth_range;

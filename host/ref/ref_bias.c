@@ -37,7 +37,9 @@ static double step_error(const ref_options *o, const ref_light_view *view)
     const int bits = view_bits(o, view);
     if (bits <= 0) return 0.0;
     const double receiver = bits < 32 ? half_cell(bits + o->shadow_depth_frac) : 0.0;
-    return half_cell(bits) + receiver + ldexp(view->tile_texels + 2.0, -32) + ldexp(1.0, -29);
+    return half_cell(bits) + receiver +
+           ldexp((view->tile_rows > view->tile_texels ? view->tile_rows : view->tile_texels) + 2.0, -32) +
+           ldexp(1.0, -29);
 }
 
 /* Relative: of view depths, and of the quotients x/z, y/z, n/z of perspective views. */

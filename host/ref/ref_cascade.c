@@ -17,6 +17,11 @@ static double cascade_end(const scene_shadow *shadow, int cascade)
     return shadow->max_distance * (cascade < shadow->n_cascades - 1 ? shadow->cascade_ratio[cascade] : 1.0);
 }
 
+double ref_slice_end(const ref_frame *frame, int cascade)
+{
+    return cascade_end(&frame->s->shadow, cascade);
+}
+
 bool ref_ratios_ascend(const scene_shadow *shadow)
 {
     double previous = 0.0;
@@ -93,26 +98,138 @@ static void fit_grid(ref_light_view *view, double near_offset, bool unsnapped)
         view->origin[i] = (unsnapped ? at : floor(at + 0.5)) - half;
     }
     view->origin[2] -= pull;
-    view->depth_range = view->tile_texels;
-    while (view->depth_range < view->tile_texels + pull) view->depth_range *= 2.0;
+    double cube = 8.0; /* T, or the next power of two */
+    while (cube < view->tile_texels) cube *= 2.0;
+    view->depth_range = cube;
+    while (view->depth_range < cube + pull) view->depth_range *= 2.0;
+}
+
+/* ---- tight fits [D12] ---- */
+
+#define RANGE_MIN 64.0
+#define RANGE_MAX 65536.0
+#define BACK      4.0 /* texels of the range before and behind what is seen */
+
+typedef struct {
+    double lo[3], hi[3]; /* from the camera, along the light's axes */
+    double margin;       /* texels around it */
+    int side;            /* of the square whose texels there are */
+} tight_box;
+
+static tight_box make_box(const ref_light_view *view, const ref_seen *seen, vec3 camera, int side)
+{
+    tight_box box = {.side = side};
+    for (int k = 0; k < 3; k++) {
+        const double r = view->sphere_radius;
+        const double centre = vec3_dot(vec3_sub(vec3_load(view->sphere_centre), camera), vec3_load(view->axis[k]));
+        const double lo = clamp(seen->lo[k], centre - r, centre + r), hi = clamp(seen->hi[k], centre - r, centre + r);
+        const double lacks = k < 2 ? fmax(0.0, r / 4.0 - (hi - lo)) : 0.0;
+        box.lo[k] = lo - lacks / 2.0;
+        box.hi[k] = hi + lacks / 2.0;
+    }
+    return box;
+}
+
+/* (k_f + 1)(1 + nu), nu of a tile of so many texels. */
+static double lateral_texels(ref_light_view *view, const scene_light *light, const ref_options *options, double texels)
+{
+    view->tile_texels = (int)texels;
+    return (view->filter_index + 1) * (1.0 + ref_lateral_margin(options, view, light));
+}
+
+/* The ladder of texel sizes. */
+static double ladder(int rung)
+{
+    static const double mantissa[8] = {128, 140, 152, 166, 181, 197, 215, 235};
+    const int octave = (int)floor(rung / 8.0);
+    return ldexp(mantissa[rung - 8 * octave], octave);
+}
+
+static double pull_of(const ref_light_view *view, const scene_light *light)
+{
+    return clamp(ceil(light->near_offset / view->texel), 0.0, ldexp(1.0, 20));
+}
+
+/* Sizes with view->texel; whether they fit. */
+static bool sizes_fit(ref_light_view *view, tight_box *box, const scene_light *light, const ref_options *options)
+{
+    const double before = lateral_texels(view, light, options, box->side) + BACK;
+    const double deep = (box->hi[2] - box->lo[2]) / view->texel + 2.0 * before + pull_of(view, light) - 1.0 / 64.0;
+    double size[2];
+    view->depth_range = RANGE_MIN;
+    while (view->depth_range <= RANGE_MAX && view->depth_range * 63.0 / 64.0 < deep) view->depth_range *= 2.0;
+    if (view->depth_range > RANGE_MAX) return false;
+    box->margin = lateral_texels(view, light, options, fmax(box->side, view->depth_range / 2.0));
+    for (int k = 0; k < 2; k++)
+        size[k] = 8.0 * ceil(((box->hi[k] - box->lo[k]) / view->texel + 2.0 * box->margin + 2.0 - 1.0 / 64.0) / 8.0);
+    if (size[0] > 1024.0 || size[1] > 1024.0 || size[0] * size[1] > (double)box->side * box->side) return false;
+    view->tile_texels = (int)size[0];
+    view->tile_rows = (int)size[1];
+    return true;
+}
+
+static int disk_index(const ref_light_view *view, double width)
+{
+    return ref_filter_index(view->filter, width / view->texel);
+}
+
+static void place_box(ref_light_view *view, const tight_box *box, const scene_light *light, vec3 camera,
+                      const ref_options *options)
+{
+    double at[3];
+    for (int k = 0; k < 3; k++) at[k] = vec3_dot(camera, vec3_load(view->axis[k]));
+    for (int k = 0; k < 2; k++) view->origin[k] = floor((at[k] + box->lo[k]) / view->texel - box->margin - 0.25);
+    ref_light_view square = *view;
+    const double far = (at[2] + box->hi[2]) / view->texel + lateral_texels(&square, light, options, box->side) + BACK;
+    const double step = view->depth_range / 64.0;
+    view->origin[2] = ceil(far / step) * step - view->depth_range;
+}
+
+/* What is seen, in a rectangle of at most side^2 texels. False: nothing is, or the square is too small. */
+static bool fit_tight(ref_light_view *view, const ref_seen *seen, const scene_light *light, const scene_shadow *shadow,
+                      vec3 camera, const ref_options *options)
+{
+    if (!seen->any) return false;
+    const int side = view->tile_texels;
+    const double width = 0.02 * shadow->penumbra;
+    tight_box box = make_box(view, seen, camera, side);
+    view->filter_index = ref_filter_index(view->filter, 0.0);
+    const double least = 2.0 * lateral_texels(view, light, options, side) + 2.0;
+    if (least + 8.0 > side) return false;
+    /* what is seen, alone, takes at least this texel */
+    const double smallest = sqrt((box.hi[0] - box.lo[0]) * (box.hi[1] - box.lo[1])) / side;
+    int rung = (int)floor(8.0 * log2(smallest / 128.0)) - 2;
+    do {
+        view->texel = ladder(rung++);
+        view->filter_index = disk_index(view, width);
+    } while (!sizes_fit(view, &box, light, options));
+    view->disk_radius = fmin(width / view->texel, view->filter_index);
+    place_box(view, &box, light, camera, options);
+    return true;
 }
 
 /* Leaves view->depth alone: the atlas stage owns it. */
 static int fit_directional(ref_light_view *view, const scene *s, const scene_light *light, int cascade,
-                           const ref_options *options, int tile_texels)
+                           const ref_options *options, int tile_texels, const ref_seen *seen)
 {
     const ref_sphere sphere = fit_sphere(s, cascade, options->width, options->height);
     view->active = view->perspective = false;
     if (sphere.empty) return 0;
-    view->tile_texels = tile_texels;
+    view->tile_texels = view->tile_rows = tile_texels;
     view->clear_border = cascade == REF_SINGLE_TILE;
     view->filter =
         ref_light_filter(&s->shadow, light, cascade == REF_SINGLE_TILE ? REF_OTHER_ATLAS : REF_DIRECTIONAL_ATLAS);
     vec3_store(view->sphere_centre, sphere.centre);
     view->sphere_radius = sphere.radius;
+    ref_fit_axes(view, vec3_load(light->direction));
+    if (seen && fit_tight(view, seen, light, &s->shadow,
+                          ref_make_camera(&s->camera, options->width, options->height).position, options)) {
+        view->active = true;
+        return 0;
+    }
+    view->tile_texels = view->tile_rows = tile_texels;
     fit_filter(view, &s->shadow, light, options);
     if (!isfinite(view->texel) || !(view->texel > 0.0) || !isfinite(light->near_offset)) return -1;
-    ref_fit_axes(view, vec3_load(light->direction));
     fit_grid(view, light->near_offset, options->unsnapped);
     view->active = true;
     return 0;
@@ -122,7 +239,7 @@ int ref_fit_light(ref_light_view *view, const scene *s, const scene_light *light
                   int tile_texels)
 {
     const ref_options options = {.width = width, .height = height};
-    return fit_directional(view, s, light, cascade, &options, tile_texels);
+    return fit_directional(view, s, light, cascade, &options, tile_texels, NULL);
 }
 
 static int fit_view(ref_frame *frame, size_t l, int i)
@@ -130,17 +247,25 @@ static int fit_view(ref_frame *frame, size_t l, int i)
     const scene_light *light = &frame->s->lights[l];
     const ref_grant *grant = &frame->picture->grant[l];
     ref_light_view *view = &frame->picture->view[l][i];
+    view->unseen = grant->side[i] == 0;
+    if (view->unseen) return 0;
     if (light->kind != SCENE_LIGHT_DIRECTIONAL)
-        return ref_fit_face(view, frame->s, light, i, frame->options, grant->tile_texels);
+        return ref_fit_face(view, frame->s, light, i, frame->options, grant->side[i]);
     const int cascade = grant->atlas == REF_OTHER_ATLAS ? REF_SINGLE_TILE : i;
-    return fit_directional(view, frame->s, light, cascade, frame->options, grant->tile_texels);
+    const ref_seen *seen = frame->s->shadow.fit == SCENE_FIT_TIGHT ? &frame->seen[l][i] : NULL;
+    return fit_directional(view, frame->s, light, cascade, frame->options, grant->side[i], seen);
+}
+
+void ref_find_spheres(ref_frame *frame)
+{
+    for (int c = 0; c < frame->s->shadow.n_cascades; c++)
+        frame->sphere[c] = fit_sphere(frame->s, c, frame->picture->width, frame->picture->height);
+    frame->whole = fit_sphere(frame->s, REF_SINGLE_TILE, frame->picture->width, frame->picture->height);
 }
 
 const char *ref_fit_lights(ref_frame *frame)
 {
     const scene *s = frame->s;
-    for (int c = 0; c < s->shadow.n_cascades; c++)
-        frame->sphere[c] = fit_sphere(s, c, frame->picture->width, frame->picture->height);
     for (size_t l = 0; l < s->n_lights; l++)
         for (int i = 0; i < frame->picture->grant[l].n_tiles; i++)
             if (fit_view(frame, l, i))

@@ -61,8 +61,8 @@ static double axis_weight(const ref_lookup *how, double x, int i)
  * texel that is read. Beyond the far end an empty texel still lets it be lit. */
 static double compare(const ref_light_view *view, const ref_lookup *how, vec3 p, int i, int j)
 {
-    const int last = view->tile_texels - 1;
-    const int u = i < 0 ? 0 : i > last ? last : i, v = j < 0 ? 0 : j > last ? last : j;
+    const int last = view->tile_texels - 1, last_row = view->tile_rows - 1;
+    const int u = i < 0 ? 0 : i > last ? last : i, v = j < 0 ? 0 : j > last_row ? last_row : j;
     if (view->clear_border && (u != i || v != j)) return 1.0;
     const double d = p.z + how->gradient[0] * (u + 0.5 - p.x) + how->gradient[1] * (v + 0.5 - p.y);
     return fmin(d, view->depth_range) <= view->depth[(size_t)v * (size_t)view->tile_texels + (size_t)u] ? 1.0 : 0.0;
@@ -136,8 +136,8 @@ static double disk(const ref_light_view *view, const ref_lookup *how, vec3 p)
  * only keeps the int in range. */
 double ref_filtered(const ref_light_view *view, const ref_lookup *how, double u, double v, double d)
 {
-    const double margin = 32.0, last = view->tile_texels + margin;
-    const double x = clamp(u, -margin, last), y = clamp(v, -margin, last);
+    const double margin = 32.0;
+    const double x = clamp(u, -margin, view->tile_texels + margin), y = clamp(v, -margin, view->tile_rows + margin);
     const vec3 p = {x, y, d + how->gradient[0] * (x - u) + how->gradient[1] * (y - v)};
     return how->filter == SCENE_FILTER_DISK ? disk(view, how, p) : separable(view, how, p);
 }

@@ -40,6 +40,13 @@ typedef struct {
     double radius;
 } ref_sphere;
 
+/* What the camera sees that a view is looked up for (DESIGN 1.4, 1.6). */
+typedef struct {
+    bool any;
+    double worth;        /* pixels */
+    double lo[3], hi[3]; /* directional: from the camera, along the light's axes */
+} ref_seen;
+
 struct ref_surface;
 
 /* Another way to rt of DESIGN 1.9 than shadow maps: at a surface point, of a light that requests tiles. */
@@ -61,6 +68,8 @@ typedef struct {
     size_t main_light;       /* SCENE_NONE: every directional light has cascades */
     bool cascades_in_use;    /* some light has tiles in the directional atlas */
     ref_sphere sphere[REF_MAX_CASCADES];
+    ref_sphere whole; /* of the slice that single tiles take */
+    ref_seen seen[REF_MAX_LIGHTS][REF_MAX_VIEWS];
     ref_hit *hits;              /* one per pixel; meaningful where picture->triangle >= 0 */
     ref_visibility *visibility; /* NULL: the shadow maps */
     const void *visibility_user;
@@ -146,13 +155,18 @@ double ref_box_distance2(const ref_instance *instance, vec3 p);
 bool ref_reaches(const scene_light *light, const ref_instance *instance);
 void ref_list_lights(ref_frame *frame);
 
+/* ref_seen.c */
+void ref_find_seen(ref_frame *frame); /* of the lights that have tiles; needs the spheres */
+
 /* ref_tiles.c */
 bool ref_asks_for_tiles(const ref_frame *frame, size_t l);
 const char *ref_assign_tiles(ref_frame *frame);
 
 /* ref_cascade.c */
 bool ref_ratios_ascend(const scene_shadow *shadow);
-const char *ref_fit_lights(ref_frame *frame); /* and the spheres */
+void ref_find_spheres(ref_frame *frame);
+double ref_slice_end(const ref_frame *frame, int cascade); /* m of DESIGN 1.4 */
+const char *ref_fit_lights(ref_frame *frame);
 ref_selection ref_select_cascade(const ref_frame *frame, vec3 world);
 
 /* ref_atlas.c */

@@ -46,7 +46,9 @@ static void set_plane(ref_lookup *how, const ref_light_view *view, const ref_sur
     const vec3 normal = {vec3_dot(f, vec3_load(view->axis[0])), vec3_dot(f, vec3_load(view->axis[1])),
                          vec3_dot(f, vec3_load(view->axis[2]))};
     const vec2 gradient = ref_depth_gradient(view, normal, in_light);
-    const double limit = PLANE_LIMIT / view->tile_texels * view->depth_range;
+    double side = 8.0; /* T, or the power of two that both sides fit in */
+    while (side < view->tile_texels || side < view->tile_rows) side *= 2.0;
+    const double limit = PLANE_LIMIT / side * view->depth_range;
     how->gradient[0] = clamp(gradient.x, -limit, limit);
     how->gradient[1] = clamp(gradient.y, -limit, limit);
 }
@@ -56,6 +58,7 @@ static double attenuation_in(const ref_frame *frame, const ref_surface *at, size
     const ref_light_view *view = &frame->picture->view[l][i];
     const scene_light *light = &frame->s->lights[l];
     const scene_shadow *shadow = &frame->s->shadow;
+    if (view->unseen) return 1.0;
     ref_lookup how = {.filter = view->filter,
                       .kernel = shadow->kernel,
                       .disk_samples = shadow->disk_samples > 0 ? shadow->disk_samples : DEFAULT_SAMPLES,
@@ -69,9 +72,9 @@ static double attenuation_in(const ref_frame *frame, const ref_surface *at, size
     if (view->perspective && !(moved.z > view->near)) return 1.0;
     if (light->receiver_plane) set_plane(&how, view, at, unmoved);
     vec3 p = ref_project(view, moved);
-    const double end = view->tile_texels;
+    const double end = view->tile_texels, end_row = view->tile_rows;
     if (view->perspective && light->auto_bias == SCENE_AUTO_BIAS_NORMAL && !at->curved &&
-        (p.x < 0.0 || p.y < 0.0 || p.x > end || p.y > end)) {
+        (p.x < 0.0 || p.y < 0.0 || p.x > end || p.y > end_row)) {
         const vec3 along = vec3_add(unmoved, ref_auto_bias(frame, view, SCENE_AUTO_BIAS_DEPTH, at, unmoved, &less));
         if (!(along.z > view->near)) return 1.0;
         p = ref_project(view, along);
@@ -108,7 +111,8 @@ static bool is_served(const ref_frame *frame, size_t l)
 {
     if (frame->visibility) return ref_asks_for_tiles(frame, l);
     const ref_grant *grant = &frame->picture->grant[l];
-    return grant->n_tiles > 0 && (grant->atlas == REF_DIRECTIONAL_ATLAS || frame->picture->view[l][0].active);
+    return grant->n_tiles > 0 && (grant->atlas == REF_DIRECTIONAL_ATLAS || frame->picture->view[l][0].active ||
+                                  frame->picture->view[l][0].unseen);
 }
 
 /* The realtime shadow, the baked mask, or both. [M6] [M4] */

@@ -95,6 +95,70 @@ static int weight(const ref_frame *frame, const scene_light *light)
     return (int)ceil(WEIGHT_STEPS * fmin(1.0, light->range / sqrt(vec3_dot(d, d))));
 }
 
+/* ---- by worth ---- */
+
+/* Quarter octaves of a side: of the root of the pixels that a tile is worth in the directional
+ * atlas, of their fourth root in the other. */
+static int worth_level(const ref_seen *seen, ref_atlas which)
+{
+    const double octaves = seen->worth >= 0x1p-16 ? log2(seen->worth) + 16.0 : 0.0;
+    return (int)floor(which == REF_DIRECTIONAL_ATLAS ? 2.0 * octaves : octaves);
+}
+
+/* T of a view that is `below` quarter octaves under the largest, at a scale in 16ths of octaves. */
+static int worth_side(int scale, int below, int most)
+{
+    const double side = exp2((scale - 4 * (below < 12 ? below : 12)) / 16.0);
+    const int whole = 8 * (int)floor(side / 8.0 + 1e-6);
+    return whole < LEAST_TILE ? LEAST_TILE : whole > most ? most : whole;
+}
+
+/* Texels of all tiles. What nobody sees shares one of 8 x 8. */
+static int64_t try_scale(ref_frame *frame, const budget *b, int highest, int scale)
+{
+    int64_t sum = 0, empty = 0;
+    for (size_t l = 0; l < frame->s->n_lights; l++) {
+        ref_grant *g = &frame->picture->grant[l];
+        for (int i = 0; g->atlas == b->which && i < g->n_tiles; i++) {
+            const ref_seen *seen = &frame->seen[l][i];
+            g->side[i] = seen->any ? worth_side(scale, highest - worth_level(seen, b->which), b->size) : 0;
+            sum += (int64_t)g->side[i] * g->side[i];
+            if (!seen->any) empty = LEAST_TILE * LEAST_TILE;
+        }
+    }
+    return sum + empty;
+}
+
+static int log2_of(int size)
+{
+    int n = 0;
+    while (1 << n < size) n++;
+    return n;
+}
+
+/* [A7] */
+static bool size_by_worth(ref_frame *frame, const budget *b)
+{
+    const int64_t space = (int64_t)b->size * b->size;
+    int highest = 0, scale = 16 * log2_of(b->size);
+    for (size_t l = 0; l < frame->s->n_lights; l++)
+        for (int i = 0; frame->picture->grant[l].atlas == b->which && i < frame->picture->grant[l].n_tiles; i++)
+            if (frame->seen[l][i].any && worth_level(&frame->seen[l][i], b->which) > highest)
+                highest = worth_level(&frame->seen[l][i], b->which);
+    int64_t taken = try_scale(frame, b, highest, scale);
+    while (taken > space && scale > 48) taken = try_scale(frame, b, highest, --scale);
+    for (size_t l = 0; l < frame->s->n_lights; l++) {
+        ref_grant *g = &frame->picture->grant[l];
+        for (int i = 0; g->atlas == b->which && i < g->n_tiles; i++) {
+            const int64_t more = (int64_t)(g->side[i] + 8) * (g->side[i] + 8) - (int64_t)g->side[i] * g->side[i];
+            if (g->side[i] == 0 || g->side[i] == b->size || taken + more > space) continue;
+            g->side[i] += 8;
+            taken += more;
+        }
+    }
+    return taken <= space;
+}
+
 static int64_t area(const ref_grant *grant)
 {
     return (int64_t)grant->n_tiles * grant->tile_texels * grant->tile_texels;
@@ -159,7 +223,11 @@ static bool sizes_fit(ref_frame *frame, const budget *b)
     for (size_t l = 0; l < frame->s->n_lights; l++)
         if (frame->picture->grant[l].atlas == b->which && frame->picture->grant[l].tile_texels < LEAST_TILE)
             return false;
-    return area_taken(frame, b) <= (int64_t)b->size * b->size;
+    if (area_taken(frame, b) > (int64_t)b->size * b->size) return false;
+    if (frame->s->shadow.tiles == SCENE_TILES_WORTH) return size_by_worth(frame, b);
+    for (size_t l = 0; l < frame->s->n_lights; l++)
+        for (int i = 0; i < REF_MAX_VIEWS; i++) frame->picture->grant[l].side[i] = frame->picture->grant[l].tile_texels;
+    return true;
 }
 
 static int capacity(int option)
@@ -179,6 +247,8 @@ const char *ref_assign_tiles(ref_frame *frame)
     for (size_t l = 0; l < frame->s->n_lights; l++)
         if (ref_asks_for_tiles(frame, l)) serve(frame, l, has_cascades(frame, l) ? &directional : &other);
     frame->cascades_in_use = directional.n_tiles > 0;
+    ref_find_spheres(frame);
+    if (frame->s->shadow.fit == SCENE_FIT_TIGHT || frame->s->shadow.tiles == SCENE_TILES_WORTH) ref_find_seen(frame);
     return sizes_fit(frame, &directional) && sizes_fit(frame, &other) ? NULL
                                                                       : "shadow tiles of less than 8 texels a side";
 }

@@ -44,6 +44,10 @@ typedef struct {
     int32_t clz;
 } gn_compact_share;
 
+/* As of other arithmetic's views, whose tiles need not be squares. */
+#define GN_TILE_ROWS(view) ((view)->tile_texels)
+#define GN_UNSEEN(view)    ((void)(view), 0)
+
 typedef struct {
     gn_compact_view project;
     gn_texels depth;

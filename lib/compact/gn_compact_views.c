@@ -273,8 +273,9 @@ static gn_status compact_check_background(const gn_scene *scene)
     return scene->background_gradient || scene->draw_behind || scene->draw_over ? GN_ERR_BACKGROUND : GN_OK;
 }
 
-gn_status gn_views_setup(gn_frame *frame)
+gn_status gn_views_setup(gn_frame *frame, gn_scratch *scratch)
 {
+    (void)scratch;
     const gn_scene *scene = frame->scene;
     const gn_light *light = scene->lights;
     gn_status status = lens(frame);

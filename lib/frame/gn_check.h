@@ -43,7 +43,7 @@ GN_STATIC_ASSERT(compact_has_no_lights_but_directional_ones,
 GN_STATIC_ASSERT(compact_has_the_hard_filter,
                  GN_COMPACT_IS_(!GN_FILTER_MAX && !GN_DISK_FILTER && !GN_LINEAR_KERNELS && !GN_DEPTH_BLOCKS));
 GN_STATIC_ASSERT(compact_has_one_cascade, GN_COMPACT_IS_(!GN_MANY_CASCADES && !GN_BLENDED_CASCADES &&
-                                                         !GN_CASTER_CULLING && !GN_TILE_IMPORTANCE));
+                                                         !GN_CASTER_CULLING && !GN_TILE_IMPORTANCE && !GN_TIGHT_FIT));
 GN_STATIC_ASSERT(compact_has_flat_colours,
                  GN_COMPACT_IS_(!GN_TEXTURES && !GN_SPECULAR && !GN_EMISSIVE && !GN_VERTEX_NORMALS &&
                                 !GN_VERTEX_COLOURS && !GN_VISIBLE_ALPHA && !GN_CASTER_ALPHA));

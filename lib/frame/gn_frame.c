@@ -121,7 +121,7 @@ gn_status gn_begin(gn_renderer *r, const gn_scene *scene)
     frame->n_lights = (uint8_t)scene->n_lights;
 #endif
     gn_cam_setup(frame);
-    status = gn_views_setup(frame);
+    status = gn_views_setup(frame, &r->scratch);
     if (status) return status;
     frame->stage = GN_STAGE_BEGUN;
     return GN_OK;
@@ -325,7 +325,12 @@ gn_shadow_state gn_get_light_shadow(const gn_renderer *r, uint32_t light_idx, ui
     if (!r || r->frame.stage < GN_STAGE_BEGUN || light_idx >= r->frame.n_lights) return GN_SHADOW_NOT_WANTED;
     const gn_light_state *light = &r->frame.light[light_idx];
     if (n_tiles) *n_tiles = light->n_views;
-    if (tile_texels && light->n_views) *tile_texels = r->frame.view[light->view_idx].tile_texels;
+    for (uint32_t i = 0; tile_texels && i < light->n_views; i++) {
+        const gn_light_view *view = &r->frame.view[(uint32_t)light->view_idx + i];
+        if (GN_UNSEEN(view)) continue;
+        if (view->tile_texels > *tile_texels) *tile_texels = view->tile_texels;
+        if (GN_TILE_ROWS(view) > *tile_texels) *tile_texels = GN_TILE_ROWS(view);
+    }
     return (gn_shadow_state)light->shadow_state;
 #else
     (void)r, (void)light_idx;
@@ -341,8 +346,9 @@ uint32_t gn_get_shadow_tile(const gn_renderer *r, uint32_t light_idx, uint32_t v
     const gn_light_state *light = &r->frame.light[light_idx];
     if (view_idx >= light->n_views) return 0;
     const gn_light_view *view = &r->frame.view[(uint32_t)light->view_idx + view_idx];
-    if (view->empty) return 0;
+    if (view->empty || GN_UNSEEN(view)) return 0;
     info->texels = view->tile_texels;
+    info->rows = GN_TILE_ROWS(view);
     info->depth_bits = (uint32_t)GN_VIEW_BITS(view);
     info->depth = info->depth_bits == 8    ? (const void *)view->depth.d8
                   : info->depth_bits == 16 ? (const void *)view->depth.d16

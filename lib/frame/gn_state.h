@@ -43,6 +43,9 @@ typedef struct gn_frame {
     gn_light_state light[GN_MAX_LIGHTS];
 #if GN_SHADOWS
     gn_light_view view[GN_VIEWS_MAX]; /* light by light, cascade by cascade or face by face */
+#if GN_TIGHT_FIT
+    gn_view_seen seen[GN_VIEWS_MAX];
+#endif
 #endif
 #if GN_BOXES
     gn_object_state object[GN_MAX_OBJECTS];
@@ -86,6 +89,9 @@ typedef union {
 #endif
 #if GN_SHADOWS
     gn_casting casting;
+#if GN_TIGHT_FIT
+    gn_seen_job seen;
+#endif
 #endif
 } gn_work;
 

@@ -51,7 +51,8 @@ GN_HOT static int64_t depth_step_q32(const gn_frame *frame, const gn_light_view 
     const int64_t half = (int64_t)1 << 31;
     int32_t bits = GN_VIEW_BITS(view);
     (void)frame;
-    return (half >> bits) + (bits == 32 ? 0 : half >> (bits + GN_K(frame, shadow_depth_frac))) + view->tile_texels + 11;
+    return (half >> bits) + (bits == 32 ? 0 : half >> (bits + GN_K(frame, shadow_depth_frac))) + GN_TILE_SIDE(view) +
+           11;
 }
 
 /* sqrt(1 + k^2) times the relative error of view depths, and of a pixel's ray, whose three coefficients are rounded in

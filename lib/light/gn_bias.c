@@ -64,8 +64,15 @@ GN_HOT void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light,
     const gn_light *scene_light = &frame->scene->lights[view->light_idx];
     int64_t z = 0; /* the light-plane distance */
     if (light->kind == GN_LIGHT_SPOT) z = -gn_dot_q30(from_q16, light->to_light_q30);
-    else
-        for (int i = 0; i < 3; i++) z = (int64_t)gn_abs32(from_q16[i]) > z ? (int64_t)gn_abs32(from_q16[i]) : z;
+    else {
+        int face = 0;
+        for (int i = 0; i < 3; i++) {
+            if ((int64_t)gn_abs32(from_q16[i]) < z) continue;
+            z = (int64_t)gn_abs32(from_q16[i]);
+            face = 2 * i + (from_q16[i] < 0);
+        }
+        if (GN_TIGHT_FIT) view += face; /* their texels differ */
+    }
     z = gn_clamp64(z, 0, INT32_MAX);
     int32_t to_light[3] = {0, 0, 0}, n_dot_l = 0;
     if (GN_RECEIVER_BIAS) {

@@ -8,7 +8,7 @@
 #define GN_SQRT2_Q16      92682
 
 /* nu of DESIGN 1.4: how far a light's receiver bias can move a point across the light's axis, in texels per (k + 1),
- * Q16. Uses only the view's tile size and depth bits. */
+ * Q16. Uses only the view's texels per row and depth bits. */
 int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light);
 
 /* A directional light's receiver offset, for the interpolated normal, not normalised: in texels along the view's axes,

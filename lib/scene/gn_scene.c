@@ -250,6 +250,12 @@ static int refresh_ok(const uint32_t refresh[4])
     return GN_INCREMENTAL || (refresh[0] < 2 && refresh[1] < 2 && refresh[2] < 2 && refresh[3] < 2);
 }
 
+static int tile_sizes_ok(gn_tile_sizes sizes)
+{
+    return sizes == GN_TILES_EQUAL || (GN_TILE_IMPORTANCE && sizes == GN_TILES_IMPORTANCE) ||
+           (GN_TIGHT_FIT && sizes == GN_TILES_WORTH);
+}
+
 static gn_status check_filters(gn_frame *frame, const gn_shadow_settings *shadow)
 {
     int disk = shadow->filter == GN_FILTER_DISK || shadow->other_filter == GN_FILTER_DISK;
@@ -258,7 +264,7 @@ static gn_status check_filters(gn_frame *frame, const gn_shadow_settings *shadow
         shadow->penumbra_uq16 > 64 << 16 || (disk && (shadow->disk_samples < 1 || shadow->disk_samples > 64)))
         return gn_fail(frame, GN_ERR_SHADOW_FILTER, 0);
     if ((uint32_t)shadow->mixing > (GN_MASKS ? GN_MIXING_DISTANCE : GN_MIXING_NONE) ||
-        (uint32_t)shadow->tile_sizes > (GN_TILE_IMPORTANCE ? GN_TILES_IMPORTANCE : GN_TILES_EQUAL) ||
+        !tile_sizes_ok(shadow->tile_sizes) || (uint32_t)shadow->fit > (GN_TIGHT_FIT ? GN_FIT_TIGHT : GN_FIT_STABLE) ||
         shadow->main_light > (GN_MAIN_LIGHT ? 1U : 0U) || !refresh_ok(shadow->refresh))
         return gn_fail(frame, GN_ERR_SHADOW_MODE, 0);
     return GN_OK;

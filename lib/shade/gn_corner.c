@@ -71,12 +71,6 @@ GN_HOT static void begin_light(gn_lattice *l, const gn_frame *frame, const gn_su
         view += GN_LAST_CASCADE(frame); /* the first may be empty */
     const int32_t *b = frame->scene->lights[s->light[slot].idx].bias_receiver_q16;
     out->lifts = !light->auto_bias && view->filter != GN_FILTER_DISK && (!GN_RECEIVER_BIAS || !(b[0] | b[1] | b[3]));
-#if GN_PUNCTUAL_LIGHTS
-    if (light->kind == GN_LIGHT_DIRECTIONAL) return;
-    int64_t lift = gn_bf_apply(view->offset_q16, view->fit.persp.texel_per_z, 15);
-    out->lift_q31 = (int32_t)gn_clamp64(lift, 0, INT32_MAX);
-    if (lift > INT32_MAX) out->lifts = 0; /* as far as the light, or farther */
-#endif
 #endif
     (void)frame;
 }

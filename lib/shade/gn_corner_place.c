@@ -116,13 +116,13 @@ GN_HOT static GN_NOINLINE int place_punctual(const gn_frame *frame, const gn_sur
     const int32_t *n = normal_of(s, c);
     int32_t from[3], moved[3], p[3], reach = 0;
     gn_corner_from(c, light, from);
-    if (!how->lifts || view->fit.persp.focal2_q16 >> 30 ||
+    if (!how->lifts || view->fit.persp.lift_q31 == INT32_MAX || view->fit.persp.focal2_q16 >> 30 ||
         (gn_abs32(from[0]) | gn_abs32(from[1]) | gn_abs32(from[2])) >> 29)
         return 0;
     if (light->kind == GN_LIGHT_SPOT) reach = -(int32_t)gn_dot_q30(from, light->to_light_q30);
     else
         for (int i = 0; i < 3; i++) reach = gn_max32(reach, (int32_t)gn_abs32(from[i]));
-    int32_t lift = 2 * gn_mul_high(gn_max32(reach, 0), how->lift_q31);
+    int32_t lift = 2 * gn_mul_high(gn_max32(reach, 0), view->fit.persp.lift_q31);
     for (int i = 0; i < 3; i++) moved[i] = from[i] + 4 * gn_mul_high(lift, n[i]);
     for (int i = 0; i < 3; i++) p[i] = (int32_t)(gn_dot64(moved, view->axis_q30[i]) >> 30);
     int32_t z = p[2], near_q16 = view->fit.persp.near_q16;

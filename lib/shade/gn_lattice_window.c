@@ -38,7 +38,7 @@ GN_HOT static int64_t own_distance_q30(const gn_lattice *l, const gn_frame *fram
         int32_t from[3];
         gn_corner_from(at, light, from);
         uint64_t h = gn_abs64(gn_dot_q30(l->face_q30, from)) | 1U;
-        int64_t k_q30 = l->light[slot].lift_q31 >> 1, along_q30 = gn_dot_q30(s->normal_q30[0], view->axis_q30[2]);
+        int64_t k_q30 = view->fit.persp.lift_q31 >> 1, along_q30 = gn_dot_q30(s->normal_q30[0], view->axis_q30[2]);
         uint32_t whole = (uint32_t)gn_max32(1, (int32_t)((1 << 30) + (k_q30 * along_q30 >> 30)));
         uint64_t less_q30 = share_q30((uint64_t)k_q30, whole);
         return own + (int64_t)(less_q30 * share_q30((uint32_t)view->fit.persp.near_q16, h) >> 30);

@@ -268,7 +268,6 @@ typedef struct {
 typedef struct {
     uint8_t realtime; /* its shadow map counts, */
     uint8_t lifts;    /* the receiver's offset is along the normal, in proportion to the light-plane distance */
-    int32_t lift_q31; /* that share, spots and points only */
     uint32_t lit_uq16, dark_uq16; /* what is left of it without a mask, where shadows do not fade */
 } gn_lattice_light;
 

@@ -256,7 +256,7 @@ static gn_status draw_layer(gn_frame *frame, gn_casting *casting, const gn_light
 static void clear(const gn_light_view *view)
 {
     int32_t bits = GN_VIEW_BITS(view);
-    size_t n_bytes = (size_t)view->tile_texels * view->tile_texels * (size_t)(bits / 8);
+    size_t n_bytes = (size_t)view->tile_texels * GN_TILE_ROWS(view) * (size_t)(bits / 8);
     memset(bits == 8    ? (void *)view->depth.d8
            : bits == 16 ? (void *)view->depth.d16
                         : (void *)view->depth.d32,
@@ -283,7 +283,7 @@ static gn_status draw_static_layer(gn_frame *frame, gn_casting *casting, gn_ligh
 static gn_status draw_view(gn_frame *frame, gn_casting *casting, gn_light_view *view, uint32_t view_idx)
 {
     frame->stats.n_tiles_drawn++;
-    GN_COUNT(tile_texels, view->tile_texels * view->tile_texels);
+    GN_COUNT(tile_texels, view->tile_texels * GN_TILE_ROWS(view));
     if (GN_STATIC_LAYER) {
         gn_texels below = gn_static_layer_texels(frame, view);
         gn_status status = draw_static_layer(frame, casting, view, below, view_idx);
@@ -308,6 +308,11 @@ gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t vi
     gn_light_view *view = &frame->view[view_idx];
     if (SMALL_CASTERS) use_cache(&casting->job, memory, n_words);
     if (view->empty || view->stale) return GN_OK;
+    if (GN_UNSEEN(view)) { /* the first of those that share it would do */
+        clear(view);
+        if (GN_DEPTH_BLOCKS) gn_blocks_clear(view);
+        return GN_OK;
+    }
     uint64_t signature = GN_INCREMENTAL ? gn_kept_signature(frame, view, GN_LAYER_ALL) : 0;
     if (GN_INCREMENTAL && gn_kept_is_same(frame, view_idx, GN_LAYER_ALL, signature)) return GN_OK;
     gn_status status = draw_view(frame, casting, view, view_idx);

@@ -51,8 +51,8 @@ GN_HOT static gn_depth_block bounds_of(const gn_light_view *view, size_t first)
 GN_HOT static void set_all(const gn_light_view *view, uint16_t lo, uint16_t hi)
 {
     const gn_depth_block block = {lo, hi};
-    uint32_t n = view->tile_texels >> 3;
-    for (uint32_t i = 0; i < n * n; i++) view->block[i] = block;
+    uint32_t n = (uint32_t)(view->tile_texels >> 3) * (uint32_t)(GN_TILE_ROWS(view) >> 3);
+    for (uint32_t i = 0; i < n; i++) view->block[i] = block;
 }
 
 GN_HOT void gn_blocks_clear(const gn_light_view *view)
@@ -69,24 +69,24 @@ GN_HOT void gn_blocks_build(gn_light_view *view)
 
 GN_HOT void gn_blocks_build_touched(gn_light_view *view)
 {
-    uint32_t n = view->tile_texels >> 3;
+    uint32_t n = view->tile_texels >> 3, n_rows = (uint32_t)GN_TILE_ROWS(view) >> 3;
     gn_depth_block *block = view->block;
-    for (uint32_t v = 0; v < n; v++)
+    for (uint32_t v = 0; v < n_rows; v++)
         for (uint32_t u = 0; u < n; u++, block++)
             if (!block->hi) *block = bounds_of(view, 8 * ((size_t)v * view->tile_texels + u));
     /* widens in place, along rows and then along columns: each block reads its neighbour before that is widened */
     block = view->block;
-    for (uint32_t v = 0; v < n; v++, block++)
+    for (uint32_t v = 0; v < n_rows; v++, block++)
         for (uint32_t u = 1; u < n; u++, block++) widen_block(block, block + 1);
     block = view->block;
-    for (uint32_t i = n; i < n * n; i++, block++) widen_block(block, block + n);
+    for (uint32_t i = n; i < n * n_rows; i++, block++) widen_block(block, block + n);
 }
 
 GN_HOT const gn_depth_block *gn_blocks_at(const gn_light_view *view, int32_t u, int32_t v)
 {
-    int32_t last = view->tile_texels - 1;
+    int32_t last = view->tile_texels - 1, last_row = GN_TILE_ROWS(view) - 1;
     u = u < 0 ? 0 : u > last ? last : u;
-    v = v < 0 ? 0 : v > last ? last : v;
+    v = v < 0 ? 0 : v > last_row ? last_row : v;
     return gn_blocks_inside(view, u, v);
 }
 

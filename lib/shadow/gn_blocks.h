@@ -30,14 +30,14 @@ void gn_blocks_build_touched(gn_light_view *view);
 /* Marks the blocks of n > 0 texels from (u, v) on, by impossible bounds. */
 GN_HOT static inline void gn_blocks_touch(const gn_light_view *view, int32_t u, int32_t v, int32_t n)
 {
-    gn_depth_block *row = view->block + ((v >> 3) << (view->tile_log2 - 3));
+    gn_depth_block *row = view->block + (v >> 3) * (view->tile_texels >> 3);
     for (int32_t b = u >> 3; b <= (u + n - 1) >> 3; b++) row[b].hi = 0;
 }
 
 /* Bounds over the texels u .. u + 8, v .. v + 8. */
 GN_HOT static inline const gn_depth_block *gn_blocks_inside(const gn_light_view *view, int32_t u, int32_t v)
 {
-    return &view->block[((v >> 3) << (view->tile_log2 - 3)) + (u >> 3)];
+    return &view->block[(v >> 3) * (view->tile_texels >> 3) + (u >> 3)];
 }
 
 /* The same where texels outside the tile repeat its border. */
@@ -62,7 +62,7 @@ GN_HOT static inline int gn_blocks_decide(const gn_light_view *view, int32_t u, 
     if (most <= (uint32_t)bounds.lo << 16) return 1;
     *attenuation = 0;
     if (least <= gn_block_highest(&bounds, GN_VIEW_BITS(view))) return 0;
-    return !gn_border_lit(view) || (u >= 0 && v >= 0 && u + n <= view->tile_texels && v + n <= view->tile_texels);
+    return !gn_border_lit(view) || (u >= 0 && v >= 0 && u + n <= view->tile_texels && v + n <= GN_TILE_ROWS(view));
 }
 
 #endif

@@ -93,7 +93,7 @@ GN_HOT int32_t gn_caster_begin(const gn_frame *frame, const gn_light_view *view,
     if (!GN_SIZE_FIRST && gn_first_px(gn_min32(x[0], gn_min32(x[1], x[2])), bits) >=
                               gn_min32(gn_first_px(gn_max32(x[0], gn_max32(x[1], x[2])), bits), size))
         return 0;
-    int32_t n_rows = gn_walk_begin(walk, x, y, bits, 0, size);
+    int32_t n_rows = gn_walk_begin(walk, x, y, bits, 0, GN_TILE_ROWS(view));
     if (GN_SIZE_FIRST || walk->row < walk->row_end[0])
         return n_rows; /* more than one batch of rows: some texel is covered */
     for (int32_t i = 0; i < n_rows; i++)
@@ -120,7 +120,8 @@ GN_HOT int32_t gn_caster_rows(const gn_light_view *view, const gn_caster *caster
                 span16(view->depth.d16 + v * size + u, n, z + depth.add, depth.dz_du);
                 continue;
             }
-            if (GN_CASTER_ALPHA && alpha) gn_alpha_row(alpha, v, 2 * v + 1 - size, at->x_begin, at->x_end);
+            if (GN_CASTER_ALPHA && alpha)
+                gn_alpha_row(alpha, v, 2 * v + 1 - GN_TILE_ROWS(view), at->x_begin, at->x_end);
             span(view, caster, alpha, v, u, u + n);
         }
     }

@@ -22,7 +22,8 @@ static int ortho_sees(const gn_frame *frame, const gn_light_view *view, const gn
     for (int i = 0; i < 3; i++) {
         int64_t centre = gn_light_coord_q16(view, i, object->centre_q16) - (int64_t)fit->origin[i] * 65536;
         int64_t half = gn_bf_apply(extent_q16(view->axis_q30[i], object->half_q16), fit->inv_texel, 0) + margin;
-        int64_t end = (int64_t)view->tile_texels << (i == 2 ? 16 + view->depth_log2 : 16);
+        int64_t end = i == 2 ? (int64_t)1 << (16 + view->tile_log2 + view->depth_log2)
+                             : (int64_t)(i ? GN_TILE_ROWS(view) : view->tile_texels) << 16;
         if (centre - half > end || (i < 2 && centre + half < 0)) return 0; /* casters before the near plane count */
     }
     return 1;

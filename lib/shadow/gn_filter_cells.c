@@ -45,16 +45,17 @@ GN_HOT int gn_filter_decides(const gn_frame *frame, const gn_light_view *view, c
     int32_t first[2], last[2];
     reads(view, a->u_q16, b->u_q16, &first[0], &last[0]);
     reads(view, a->v_q16, b->v_q16, &first[1], &last[1]);
-    int32_t n = gn_max32(last[0] - first[0], last[1] - first[1]) + 1, end = view->tile_texels - 1, beyond = 0;
+    int32_t n = gn_max32(last[0] - first[0], last[1] - first[1]) + 1, beyond = 0;
+    const int32_t end[2] = {view->tile_texels - 1, GN_TILE_ROWS(view) - 1};
     uint32_t least = min_passing_depth(frame, view, gn_min32(a->depth_q31, b->depth_q31));
     uint32_t most = min_passing_depth(frame, view, gn_max32(a->depth_q31, b->depth_q31));
     if (n > 2 * GN_BLOCK_REACH) return 0;
     /* bounds are cheaper than one lookup each; what they decide, the texels would, too */
     if (GN_DEPTH_BLOCKS && gn_blocks_decide(view, first[0], first[1], n, least, most, attenuation)) return 1;
     for (int i = 0; i < 2; i++) { /* beyond the border texels repeat it, or are lit */
-        beyond |= first[i] < 0 || last[i] > end;
-        first[i] = gn_max32(0, gn_min32(first[i], end));
-        last[i] = gn_max32(0, gn_min32(last[i], end));
+        beyond |= first[i] < 0 || last[i] > end[i];
+        first[i] = gn_max32(0, gn_min32(first[i], end[i]));
+        last[i] = gn_max32(0, gn_min32(last[i], end[i]));
     }
     return texels_agree(view, first, last, least, most, attenuation) &&
            (*attenuation || !beyond || !gn_border_lit(view));

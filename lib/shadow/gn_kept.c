@@ -12,7 +12,8 @@ static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
                                GN_K(frame, shadow_subpixel_bits)};
     s = gn_signature_words(s, biases, 4);
     s = gn_signature_add(s, (uint64_t)view->first_texel << 8 | (uint64_t)view->in_other << 1 | view->perspective);
-    s = gn_signature_add(s, (uint64_t)view->tile_texels << 32 | (uint64_t)view->depth_log2 << 8 | view->depth_bits);
+    s = gn_signature_add(s, (uint64_t)view->tile_texels << 48 | (uint64_t)GN_TILE_ROWS(view) << 32 |
+                                (uint64_t)(uint8_t)view->depth_log2 << 8 | view->depth_bits);
     if (view->perspective) {
         const gn_persp_fit *fit = &view->fit.persp;
         s = gn_signature_words(s, fit->eye_q16, 3);
@@ -70,6 +71,11 @@ void gn_kept_check_layout(gn_frame *frame, const gn_tile_plan *plan)
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
         layout = gn_signature_add(layout, (uint64_t)plan[l].n_tiles << 32 | (uint64_t)plan[l].in_other << 16 |
                                               plan[l].tile_log2);
+#if GN_TIGHT_FIT
+    uint32_t n_views = 0;
+    for (uint32_t l = 0; GN_BY_WORTH(frame) && l < frame->scene->n_lights; l++)
+        for (uint32_t i = 0; i < plan[l].n_tiles; i++) layout = gn_signature_add(layout, frame->seen[n_views++].side);
+#endif
     if (layout == frame->layout) return;
     frame->layout = layout;
     for (uint32_t i = 0; i < GN_VIEWS_MAX; i++) frame->memory[i].signature = frame->memory[i].static_signature = 0;

@@ -27,7 +27,7 @@ GN_HOT static uint32_t dark_on_plane(const gn_lookup *l, gn_texels row, int32_t 
 GN_HOT uint32_t gn_lookup_dark(const gn_lookup *l, int32_t u, int32_t v, int32_t n)
 {
     const gn_light_view *view = l->view;
-    int32_t last = view->tile_texels - 1, in_v = v < 0 ? 0 : v > last ? last : v;
+    int32_t last = GN_TILE_ROWS(view) - 1, in_v = v < 0 ? 0 : v > last ? last : v;
     uint32_t dark = 0;
     GN_COUNT(taps_edge, 1);
     if (gn_border_lit(view) && in_v != v) return 0;

@@ -48,15 +48,15 @@ GN_HOT static inline uint32_t gn_limited_depth(const gn_light_view *view, int64_
 
 GN_HOT static inline gn_texels gn_view_texels(const gn_light_view *view, int32_t u, int32_t v)
 {
-    return gn_texels_at(view->depth, GN_VIEW_BITS(view), ((size_t)(uint32_t)v << view->tile_log2) + (uint32_t)u);
+    return gn_texels_at(view->depth, GN_VIEW_BITS(view), (size_t)(uint32_t)(v * view->tile_texels + u));
 }
 
 /* Whether n x n texels from (u, v) on lie in the tile and compare with one depth, so that taps need no checks. With
  * GN_SIZE_FIRST taps are always checked. */
 GN_HOT static inline int gn_lookup_is_plain(const gn_lookup *l, int32_t u, int32_t v, int32_t n)
 {
-    uint32_t room = (uint32_t)(l->view->tile_texels - n);
-    return !GN_SIZE_FIRST && !(GN_RECEIVER_PLANE && l->sloped) && (uint32_t)u <= room && (uint32_t)v <= room;
+    return !GN_SIZE_FIRST && !(GN_RECEIVER_PLANE && l->sloped) && (uint32_t)u <= (uint32_t)(l->view->tile_texels - n) &&
+           (uint32_t)v <= (uint32_t)(GN_TILE_ROWS(l->view) - n);
 }
 
 /* Texels of row v, n from u on, wherever they lie: bit i is set where texel i keeps the receiver dark. */

@@ -89,7 +89,8 @@ static void place_tile(const gn_frame *frame, gn_light_view *view, const gn_ligh
     int64_t pull = gn_clamp64((pull_q16 + 65535) >> 16, 0, (int64_t)view->tile_texels << 10);
     fit->origin[2] -= (int32_t)pull;
     view->depth_log2 = 0;
-    while (((int64_t)view->tile_texels << view->depth_log2) < view->tile_texels + pull) view->depth_log2++;
+    while ((int64_t)1 << (view->tile_log2 + view->depth_log2) < ((int64_t)1 << view->tile_log2) + pull)
+        view->depth_log2++;
 }
 
 void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16)
@@ -106,6 +107,156 @@ void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
         view->disk_radius_q16 =
             (int32_t)gn_clamp64(disk_radius_q16(frame, view->fit.ortho.inv_texel), 0, (int64_t)view->filter_idx << 16);
 }
+
+#if GN_TIGHT_FIT
+/* ---- Tight fits -------------------------------------------------------------------------------------------------- */
+
+#define RANGE_LOG2_MIN 6         /* a range below 64 texels would make many planes too steep for windows */
+#define RANGE_LOG2_MAX 16        /* so that a texel is a whole number of depth steps */
+#define BACK_Q16       (4 << 16) /* of the range, before and behind what is seen: coordinates' errors and biases */
+
+/* The ladder of texel sizes: m * 2^e, eight per octave, of 8 significant bits. */
+static const uint8_t ladder[8] = {128, 140, 152, 166, 181, 197, 215, 235};
+
+/* What is to be covered, from the camera, along the light's axes. */
+typedef struct {
+    int64_t lo_q16[3], hi_q16[3];
+    uint32_t side;      /* of the square whose texels there are */
+    int32_t margin_q16; /* around it, texels: the filter and the receiver's bias */
+} tight_box;
+
+/* Of what is seen, no more than the sphere, and no less than an eighth of its diameter. */
+static int begin_box(const gn_frame *frame, const gn_light_view *view, int32_t near_q16, int32_t far_q16,
+                     tight_box *box)
+{
+    const gn_view_seen *seen = &frame->seen[view - frame->view];
+    gn_bfloat radius;
+    int32_t centre_q16 = gn_cascade_fit_sphere(frame, near_q16, far_q16, &radius);
+    int64_t r_q16 = gn_clamp64(gn_bf_apply(1, radius, 16), 1, (int64_t)1 << 30);
+    if (seen->lo_q16[0] > seen->hi_q16[0]) return 0;
+    for (int k = 0; k < 3; k++) {
+        int64_t centre = gn_shr64(centre_q16 * gn_dot_q30(frame->cam.axis_q30[2], view->axis_q30[k]), 30);
+        int64_t lo = gn_clamp64(seen->lo_q16[k], centre - r_q16, centre + r_q16);
+        int64_t hi = gn_clamp64(seen->hi_q16[k], centre - r_q16, centre + r_q16);
+        int64_t lacks = k < 2 ? r_q16 / 4 - (hi - lo) : 0;
+        if (lacks < 0) lacks = 0;
+        box->lo_q16[k] = lo - lacks / 2;
+        box->hi_q16[k] = hi + lacks - lacks / 2;
+    }
+    box->side = view->tile_texels;
+    return 1;
+}
+
+static int64_t texels_q16(const gn_light_view *view, int64_t units_q16)
+{
+    return gn_bf_apply(units_q16, view->fit.ortho.inv_texel, 0);
+}
+
+static int32_t pull_texels(const gn_light_view *view, const gn_light *light)
+{
+    return (int32_t)gn_clamp64((texels_q16(view, light->near_offset_q16) + 65535) >> 16, 0, 1 << 20);
+}
+
+/* nu for a range: automatic bias moves by depth steps, too, of half of that or of the square. */
+static int32_t margin_q16(const gn_frame *frame, gn_light_view *view, const gn_light *light, uint32_t texels)
+{
+    uint16_t before = view->tile_texels;
+    view->tile_texels = (uint16_t)texels;
+    int32_t margin = (view->filter_idx + 1) * (65536 + gn_bias_reach_q16(frame, view, light));
+    view->tile_texels = before;
+    return margin;
+}
+
+/* Sizes with the view's texel; whether they fit. The range keeps a 64th of itself free, for its origin's steps. */
+static int sizes_fit(const gn_frame *frame, gn_light_view *view, const gn_light *light, tight_box *box)
+{
+    int64_t rows[2];
+    int32_t range_log2 = RANGE_LOG2_MIN, before_q16 = margin_q16(frame, view, light, box->side) + BACK_Q16;
+    int64_t deep = texels_q16(view, box->hi_q16[2] - box->lo_q16[2]) + 2 * (int64_t)before_q16 - 1024 +
+                   (int64_t)pull_texels(view, light) * 65536;
+    while (range_log2 <= RANGE_LOG2_MAX && (int64_t)63 << (10 + range_log2) < deep) range_log2++;
+    if (range_log2 > RANGE_LOG2_MAX) return 0;
+    uint32_t half = 1U << (range_log2 - 1);
+    box->margin_q16 = margin_q16(frame, view, light, box->side > half ? box->side : half);
+    for (int k = 0; k < 2; k++)
+        rows[k] = ((texels_q16(view, box->hi_q16[k] - box->lo_q16[k]) + 2 * (int64_t)box->margin_q16 + 131072 - 1024 +
+                    0x7FFFF) >>
+                   19) *
+                  8;
+    if (rows[0] > 1024 || rows[1] > 1024 || rows[0] * rows[1] > (int64_t)box->side * box->side) return 0;
+    view->tile_texels = (uint16_t)rows[0];
+    view->tile_rows = (uint16_t)rows[1];
+    view->tile_log2 = (uint8_t)(32 - gn_clz32((uint32_t)GN_TILE_SIDE(view) - 1U));
+    view->depth_log2 = (int8_t)(range_log2 - view->tile_log2);
+    return 1;
+}
+
+/* The smallest texel of the ladder that fits. What is seen alone takes sqrt(e_u e_v) / side. */
+static void find_texel(const gn_frame *frame, gn_light_view *view, const gn_light *light, tight_box *box)
+{
+    uint64_t area =
+        (uint64_t)(box->hi_q16[0] - box->lo_q16[0]) * (uint64_t)(box->hi_q16[1] - box->lo_q16[1]); /* 2^62 */
+    gn_bfloat least = gn_bf_mul(gn_bf_from_u64(gn_isqrt64(area) | 1U), gn_bf_recip(gn_bf_from_u64(box->side)));
+    int32_t rung = 0;
+    while (rung < 7 && (uint32_t)ladder[rung + 1] << 24 <= least.mant) rung++;
+    for (least.exp -= 16;; rung++) {
+        if (rung == 8) least.exp++, rung = 0;
+        least.mant = (uint32_t)ladder[rung] << 24;
+        view->fit.ortho.inv_texel = gn_bf_recip(least);
+        if (GN_DISK_FILTER && view->filter == GN_FILTER_DISK)
+            view->filter_idx = (uint8_t)gn_clamp64((disk_radius_q16(frame, view->fit.ortho.inv_texel) + 65535) >> 16, 1,
+                                                   GN_DISK_INDEX_MAX);
+        if (sizes_fit(frame, view, light, box)) return;
+    }
+}
+
+/* Whole texels, with a quarter to spare; the far end of the range in steps of its 64th. */
+static void place_box(const gn_frame *frame, gn_light_view *view, const gn_light *light, const tight_box *box)
+{
+    int32_t *origin = view->fit.ortho.origin, range_log2 = view->tile_log2 + view->depth_log2;
+    int64_t at[3];
+    for (int k = 0; k < 3; k++) at[k] = gn_light_coord_q16(view, k, frame->cam.eye_q16);
+    for (int k = 0; k < 2; k++)
+        origin[k] = (int32_t)gn_clamp64((at[k] + texels_q16(view, box->lo_q16[k]) - box->margin_q16 - 16384) >> 16,
+                                        -(1 << 30), 1 << 30);
+    int64_t end = at[2] + texels_q16(view, box->hi_q16[2]) + margin_q16(frame, view, light, box->side) + BACK_Q16;
+    end = -(-end >> (10 + range_log2)) * ((int64_t)1 << (range_log2 - 6));
+    origin[2] = (int32_t)gn_clamp64(end, -(1 << 30), 1 << 30) - (1 << range_log2);
+}
+
+/* [D12] */
+int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16)
+{
+    tight_box box;
+    if (!begin_box(frame, view, near_q16, far_q16, &box)) return 0;
+    uint8_t filter_idx = view->filter_idx;
+    if (GN_DISK_FILTER && view->filter == GN_FILTER_DISK) view->filter_idx = 1;
+    int32_t least_q16 = 2 * margin_q16(frame, view, light, box.side) + (2 << 16);
+    view->filter_idx = filter_idx;
+    if (least_q16 + (8 << 16) > (int32_t)box.side << 16) return 0;
+    find_texel(frame, view, light, &box);
+    place_box(frame, view, light, &box);
+    gn_ortho_rays(frame, view);
+    if (GN_DISK_FILTER)
+        view->disk_radius_q16 =
+            (int32_t)gn_clamp64(disk_radius_q16(frame, view->fit.ortho.inv_texel), 0, (int64_t)view->filter_idx << 16);
+    return 1;
+}
+
+int gn_ortho_covers(const gn_frame *frame, gn_light_view *view, const gn_light *light, const gn_view_seen *seen)
+{
+    int32_t range_log2 = view->tile_log2 + view->depth_log2;
+    int32_t margin = margin_q16(frame, view, light, (uint32_t)gn_max32(GN_TILE_SIDE(view), 1 << (range_log2 - 1)));
+    const int64_t size[3] = {view->tile_texels, view->tile_rows, (int64_t)1 << range_log2};
+    if (seen->lo_q16[0] > seen->hi_q16[0]) return 1;
+    for (int k = 0; k < 3; k++) {
+        int64_t from = gn_light_coord_q16(view, k, frame->cam.eye_q16) - (int64_t)view->fit.ortho.origin[k] * 65536;
+        if (from + texels_q16(view, seen->lo_q16[k]) < margin) return 0;
+        if (from + texels_q16(view, seen->hi_q16[k]) + margin > size[k] * 65536) return 0;
+    }
+    return 1;
+}
+#endif
 
 /* ---- Casters ----------------------------------------------------------------------------------------------------- */
 
@@ -256,8 +407,8 @@ static int64_t depth_at_corner(const gn_light_view *view, const gn_caster *caste
 
 static int misses_tile(const gn_light_view *view, int64_t p[3][3])
 {
-    int64_t end = (int64_t)view->tile_texels << 16;
     for (int axis = 0; axis < 2; axis++) {
+        int64_t end = (int64_t)(axis ? GN_TILE_ROWS(view) : view->tile_texels) << 16;
         if (p[0][axis] < 0 && p[1][axis] < 0 && p[2][axis] < 0) return 1;
         if (p[0][axis] > end && p[1][axis] > end && p[2][axis] > end) return 1;
     }
@@ -268,12 +419,12 @@ static int misses_tile(const gn_light_view *view, int64_t p[3][3])
 static inline void alpha_plane(const gn_frame *frame, const gn_light_view *view, gn_alpha_cut *alpha, int64_t p[3][3])
 {
     int32_t v[3][3], shift = 0;
-    int64_t centre = (int64_t)view->tile_texels << 15;
+    const int64_t centre[2] = {(int64_t)view->tile_texels << 15, (int64_t)GN_TILE_ROWS(view) << 15};
     uint64_t any = 0;
-    for (int i = 0; i < 3; i++) any |= gn_abs64(p[i][0] - centre) | gn_abs64(p[i][1] - centre);
+    for (int i = 0; i < 3; i++) any |= gn_abs64(p[i][0] - centre[0]) | gn_abs64(p[i][1] - centre[1]);
     while (any >> shift >= (uint64_t)1 << 29) shift++;
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 2; k++) v[i][k] = (int32_t)gn_scale64(p[i][k] - centre, shift);
+        for (int k = 0; k < 2; k++) v[i][k] = (int32_t)gn_scale64(p[i][k] - centre[k], shift);
         v[i][2] = (1 << 23) >> shift; /* shift <= 18 */
     }
     /* x / z = px / 2F: 2F = 256 half texels where z is 128 texels */
@@ -309,12 +460,14 @@ int32_t gn_ortho_small_triangle(const gn_frame *frame, const gn_light_view *view
                                 const int32_t *const c[3])
 {
     int two_sided = casting->job.two_sided;
-    int32_t end = view->tile_texels << 16, sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3],
-            y[3];
-    for (int axis = 0; axis < 2; axis++) /* misses the tile: a sign of all three */
+    const int32_t ends[2] = {view->tile_texels << 16, GN_TILE_ROWS(view) << 16};
+    int32_t sub = 16 - GN_K(frame, shadow_subpixel_bits), half = (1 << sub) >> 1, x[3], y[3];
+    for (int axis = 0; axis < 2; axis++) { /* misses the tile: a sign of all three */
+        int32_t end = ends[axis];
         if (((c[0][axis] & c[1][axis] & c[2][axis]) | ((end - c[0][axis]) & (end - c[1][axis]) & (end - c[2][axis]))) <
             0)
             return -1;
+    }
     int32_t e1[3], e2[3], nn[3];
     for (int i = 0; i < 3; i++) {
         e1[i] = c[1][i] - c[0][i]; /* < 2^30 */

@@ -5,7 +5,53 @@
 #include "light/gn_light_types.h"
 
 #define GN_OTHER_ATLAS (GN_PUNCTUAL_LIGHTS || GN_MAIN_LIGHT) /* whether there is one */
-#define GN_VIEWS_MAX   (GN_MAX_SHADOW_TILES + (GN_OTHER_ATLAS ? GN_MAX_OTHER_TILES : 0))
+/* Rows of a view's tile, and the longer of its sides. */
+#if GN_TIGHT_FIT
+#define GN_TILE_ROWS(view) ((view)->tile_rows)
+#define GN_TILE_SIDE(view) ((view)->tile_rows > (view)->tile_texels ? (view)->tile_rows : (view)->tile_texels)
+#define GN_UNSEEN(view)    ((view)->unseen)
+#else
+#define GN_TILE_ROWS(view) ((view)->tile_texels)
+#define GN_TILE_SIDE(view) ((view)->tile_texels)
+#define GN_UNSEEN(view)    ((void)(view), 0)
+#endif
+
+#if GN_TIGHT_FIT
+/* What the camera sees that a view is looked up for. */
+typedef struct {
+    uint64_t worth_q16;           /* pixels that its tile is worth */
+    int32_t lo_q16[3], hi_q16[3]; /* along the light's axes, from the camera; lo > hi: nothing. Spot and point lights:
+                                     whether anything is seen */
+    uint16_t side;                /* of its tile, by worth; 0: none */
+} gn_view_seen;
+
+#define GN_SEEN_CORNERS 16 /* a face of a box against ten planes, of which two cannot both cut */
+#define GN_SEEN_SIDES   6  /* of a part of the frustum: near, far, left, right, bottom, top */
+
+typedef struct {
+    int32_t p[GN_SEEN_CORNERS][3];
+    int32_t n;
+} gn_seen_polygon;
+
+/* Positive inside: n . p - d. |n| <= 2^31 in one component, 2^28 in several */
+typedef struct {
+    int32_t n[3];
+    int64_t d;
+} gn_seen_plane;
+
+/* One object's box, in view space, and the part of the frustum that it is clipped by. */
+typedef struct {
+    const struct gn_frame *frame;
+    gn_seen_plane side[GN_SEEN_SIDES];
+    int32_t corner[8][3];
+    uint32_t crossed; /* sides that cut the box */
+    gn_seen_polygon now, before;
+} gn_seen_job;
+#else
+typedef struct gn_seen_job gn_seen_job; /* nobody has one */
+#endif
+
+#define GN_VIEWS_MAX (GN_MAX_SHADOW_TILES + (GN_OTHER_ATLAS ? GN_MAX_OTHER_TILES : 0))
 
 /* Texels of a tile at the depth_bits of its atlas: it is accessed only as the type that they name. */
 typedef union {
@@ -43,6 +89,7 @@ typedef struct {
     int32_t guard_q16[2];       /* |x|, |y| <= guard * z after clipping to the guard band */
     int32_t side_q16[2];        /* the same for the tile's own border, a little wider: a caster outside it is skipped */
     int64_t ratio_max_q28;      /* x / z beyond this would overflow, times focal2 */
+    int32_t lift_q31;           /* receivers: offset along the normal per light-plane distance; INT32_MAX: 1 or more */
     int32_t constant_share_q30; /* casters: min(1, constant bias * 2t / T) */
 } gn_persp_fit;
 
@@ -59,10 +106,13 @@ typedef struct {
 #endif
     int32_t disk_radius_q16; /* texels */
     int32_t bias_constant_q16, bias_slope_q16;
-    uint16_t tile_texels; /* T */
+    uint16_t tile_texels; /* per row: T, but of a tight fit */
+#if GN_TIGHT_FIT
+    uint16_t tile_rows; /* see GN_TILE_ROWS */
+#endif
     uint16_t light_idx;
-    uint8_t tile_log2;   /* T = 2^tile_log2 */
-    uint8_t depth_log2;  /* J: an orthographic depth range is T * 2^J texels */
+    uint8_t tile_log2;   /* T = 2^tile_log2, or the next power of two */
+    int8_t depth_log2;   /* J: an orthographic depth range is 2^(tile_log2 + J) texels */
     uint8_t depth_bits;  /* 8, 16 or 32: that of the atlas; see GN_VIEW_BITS */
     uint8_t filter;      /* gn_filter, with the light's own softness */
     uint8_t filter_idx;  /* k */
@@ -72,7 +122,10 @@ typedef struct {
     uint8_t in_other;   /* its tile lies in the local-light atlas */
     uint8_t empty;      /* its cascade has no slice: never drawn, never selected */
     uint8_t tile_done;
-    uint8_t stale;          /* by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
+    uint8_t stale; /* by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
+#if GN_TIGHT_FIT
+    uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
+#endif
     gn_depth_block *block;  /* (T / 8) * (T / 8) */
     int32_t axis_q30[3][3]; /* u, v, w in the world */
     union {

@@ -16,7 +16,7 @@ gn_texels gn_static_layer_texels(gn_frame *frame, const gn_light_view *view)
 
 void gn_static_layer_copy(const gn_light_view *to, gn_texels from)
 {
-    size_t n = (size_t)to->tile_texels * to->tile_texels;
+    size_t n = (size_t)to->tile_texels * GN_TILE_ROWS(to);
     int32_t bits = GN_VIEW_BITS(to);
     if (bits == 8)
         for (size_t i = 0; i < n; i++) to->depth.d8[i] = from.d8[i];

@@ -7,6 +7,7 @@
 #include "light/gn_cascade.h"
 #include "light/gn_lights.h"
 #include "scene/gn_scene.h"
+#include "shadow/gn_seen.h"
 #include "shadow/gn_tiles.h"
 
 #define GN_ATLAS_TILES_MAX     16U
@@ -165,6 +166,64 @@ static void sizes_by_importance(const gn_frame *frame, gn_tile_plan *plan, uint3
     }
 }
 
+#if GN_TIGHT_FIT
+/* 2^(i / 16), Q15 */
+static const uint16_t sixteenth_octaves[16] = {32768, 34219, 35734, 37316, 38968, 40693, 42495, 44376,
+                                               46341, 48393, 50535, 52773, 55109, 57549, 60097, 62757};
+
+/* The views of an atlas while sides are found: the first of them that is not behind `i`, or the number of all. */
+static uint32_t next_view(const gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other, uint32_t i)
+{
+    uint32_t end = 0;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        end += plan[l].n_tiles;
+        if (i >= end) continue;
+        if (plan[l].in_other == in_other) return i;
+        i = end;
+    }
+    return GN_VIEWS_MAX;
+}
+
+/* Texels of all tiles if a view of the highest level has 2^(scale / 16) per side; sets their sides. Views that nothing
+ * is seen in share an empty tile of 8 x 8. */
+static uint32_t set_sides(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other, int32_t highest, int32_t scale,
+                          uint32_t most)
+{
+    uint32_t used = 0, empty = 0;
+    for (uint32_t i = 0; (i = next_view(frame, plan, in_other, i)) < GN_VIEWS_MAX; i++) {
+        gn_view_seen *seen = &frame->seen[i];
+        seen->side = 0;
+        if (!gn_seen_any(seen)) {
+            empty = 64;
+            continue;
+        }
+        int32_t at =
+            scale - 4 * gn_min32(highest - gn_seen_level(seen, in_other), 12); /* not below an eighth of the largest */
+        uint32_t side = at < 48 ? 8 : ((uint32_t)sixteenth_octaves[at & 15] << (at >> 4) >> 15) & ~7U;
+        seen->side = (uint16_t)(side < most ? side : most);
+        used += (uint32_t)seen->side * seen->side;
+    }
+    return used + empty;
+}
+
+/* Sides in the ratio of worth, on a ladder of quarter octaves, as large as fits; then eight texels more for those that
+ * still can. [A7] */
+static void sides_by_worth(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other, int32_t atlas_log2)
+{
+    uint32_t room = 1U << (2 * atlas_log2), most = 1U << atlas_log2, used;
+    int32_t highest = 0, scale = 16 * atlas_log2;
+    for (uint32_t i = 0; (i = next_view(frame, plan, in_other, i)) < GN_VIEWS_MAX; i++)
+        if (gn_seen_any(&frame->seen[i])) highest = gn_max32(highest, gn_seen_level(&frame->seen[i], in_other));
+    while ((used = set_sides(frame, plan, in_other, highest, scale, most)) > room && scale > 48) scale--;
+    for (uint32_t i = 0; (i = next_view(frame, plan, in_other, i)) < GN_VIEWS_MAX; i++) {
+        uint32_t side = frame->seen[i].side, more = 16 * side + 64;
+        if (!side || side == most || used + more > room) continue;
+        frame->seen[i].side = (uint16_t)(side + 8);
+        used += more;
+    }
+}
+#endif
+
 /* With the default capacities the tiles always fit the atlas. */
 static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint32_t in_other)
 {
@@ -172,29 +231,60 @@ static gn_status texels_suffice(gn_frame *frame, const gn_tile_plan *plan, uint3
     for (uint32_t l = 0; l < frame->scene->n_lights; l++)
         if (plan[l].n_tiles && plan[l].in_other == in_other)
             needed += (uint32_t)plan[l].n_drawn << (2 * plan[l].tile_log2);
+#if GN_TIGHT_FIT
+    uint32_t empty = 0;
+    if (GN_BY_WORTH(frame)) needed = 0;
+    for (uint32_t i = 0; GN_BY_WORTH(frame) && (i = next_view(frame, plan, in_other, i)) < GN_VIEWS_MAX; i++) {
+        needed += (uint32_t)frame->seen[i].side * frame->seen[i].side;
+        if (!frame->seen[i].side) empty = 64;
+    }
+    needed += empty;
+#endif
     return needed <= available ? GN_OK : gn_fail_capacity(frame, GN_ERR_ATLAS_FULL, needed, available);
 }
 
 /* Each of the two atlases has its own budget and size. [A1] */
-static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t capacity,
+static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_other, uint32_t n_tiles,
                             int32_t atlas_size)
 {
     int32_t atlas_log2 = 31 - gn_clz32((uint32_t)atlas_size);
-    uint32_t n_tiles = serve(frame, plan, in_other, capacity);
     if (n_tiles > 4U << (2 * (atlas_log2 - 4)))
         return gn_fail(frame, GN_ERR_SHADOW_TILE, 0); /* more than size^2 / 64 */
     if (GN_TILE_IMPORTANCE && frame->scene->shadow.tile_sizes == GN_TILES_IMPORTANCE)
         sizes_by_importance(frame, plan, in_other, atlas_log2);
     else equal_sizes(frame, plan, in_other, n_tiles, atlas_log2);
+#if GN_TIGHT_FIT
+    if (GN_BY_WORTH(frame)) sides_by_worth(frame, plan, in_other, atlas_log2);
+#endif
     frame->stats.n_shadow_tiles += n_tiles;
     return texels_suffice(frame, plan, in_other);
 }
 
-gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS])
+#if GN_TIGHT_FIT
+/* Of squares whose texels rectangles share. */
+static void keep_sides(gn_frame *frame, const gn_tile_plan *plan)
+{
+    uint32_t view_idx = 0;
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++)
+        for (uint32_t i = 0; i < plan[l].n_tiles; i++)
+            frame->seen[view_idx++].side = (uint16_t)(1U << plan[l].tile_log2);
+}
+#endif
+
+gn_status gn_tiles_plan(gn_frame *frame, gn_seen_job *job, gn_tile_plan plan[GN_MAX_LIGHTS])
 {
     request_tiles(frame, plan);
-    gn_status status = plan_atlas(frame, plan, 0, GN_MAX_SHADOW_TILES, GN_K(frame, atlas_size));
-    if (GN_OTHER_ATLAS && !status)
-        status = plan_atlas(frame, plan, 1, GN_MAX_OTHER_TILES, GN_K(frame, other_atlas_size));
+    uint32_t n_tiles = serve(frame, plan, 0, GN_MAX_SHADOW_TILES),
+             n_other = GN_OTHER_ATLAS ? serve(frame, plan, 1, GN_MAX_OTHER_TILES) : 0;
+#if GN_TIGHT_FIT
+    if (GN_BY_WORTH(frame) || frame->scene->shadow.fit == GN_FIT_TIGHT) gn_seen_find(frame, job, plan);
+#else
+    (void)job;
+#endif
+    gn_status status = plan_atlas(frame, plan, 0, n_tiles, GN_K(frame, atlas_size));
+    if (GN_OTHER_ATLAS && !status) status = plan_atlas(frame, plan, 1, n_other, GN_K(frame, other_atlas_size));
+#if GN_TIGHT_FIT
+    if (!GN_BY_WORTH(frame)) keep_sides(frame, plan);
+#endif
     return status;
 }

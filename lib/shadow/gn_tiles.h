@@ -13,7 +13,11 @@ typedef struct {
     uint8_t weight; /* importance 1..64, w in gn_tiles.c */
 } gn_tile_plan;
 
-/* One plan per light; sets frame->light[].shadow_state. Needs boxes and light states. */
-gn_status gn_tiles_plan(gn_frame *frame, gn_tile_plan plan[GN_MAX_LIGHTS]);
+/* Whether the sides of tiles are in frame->seen. */
+#define GN_BY_WORTH(frame) (GN_TIGHT_FIT && (frame)->scene->shadow.tile_sizes == GN_TILES_WORTH)
+
+/* The job is memory for polygons. One plan per light; sets frame->light[].shadow_state. Needs boxes and light states.
+ */
+gn_status gn_tiles_plan(gn_frame *frame, gn_seen_job *job, gn_tile_plan plan[GN_MAX_LIGHTS]);
 
 #endif

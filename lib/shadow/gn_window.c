@@ -127,16 +127,16 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
                              int32_t h)
 {
     const gn_light_view *view = window->view;
-    const int32_t *slope = window->slope_q30, last = view->tile_texels - 1;
+    const int32_t *slope = window->slope_q30, last = view->tile_texels - 1, last_row = GN_TILE_ROWS(view) - 1;
     int64_t du = u0 * 65536 + 32768 - place->u_q16, dv = v0 * 65536 + 32768 - place->v_q16;
     int64_t first = place->depth_q30 + ((du * slope[0] + dv * slope[1]) >> 16);
     int64_t front = window->front_q30, behind = window->behind_q30;
     window->w = 0;
     if (!in_range(window, first, w, h)) return 0;
-    if (u0 + w <= 0 || v0 + h <= 0 || u0 > last || v0 > last) return 0;
+    if (u0 + w <= 0 || v0 + h <= 0 || u0 > last || v0 > last_row) return 0;
     /* texels beyond the border repeat it, with its depth: so do their bits */
     int32_t ua = gn_max32(u0, 0), n = gn_min32(u0 + w - 1, last) - ua + 1, left = ua - u0, right = w - n - left;
-    int32_t va = gn_max32(v0, 0), vb = gn_min32(v0 + h - 1, last);
+    int32_t va = gn_max32(v0, 0), vb = gn_min32(v0 + h - 1, last_row);
     int32_t depth = (int32_t)(first + behind) + slope[0] * left + slope[1] * (va - v0);
     int lit = gn_border_lit(view);
     uint32_t any = 0, all = UINT32_MAX, doubts = 0;
@@ -161,7 +161,7 @@ GN_HOT int gn_window_compare(gn_window *window, const gn_window_place *place, in
     window->v0 = v0;
     window->w = w;
     window->h = h;
-    window->plain = GN_VIEW_BITS(view) == 16 && u0 >= 0 && v0 >= 0 && u0 + w <= last + 1 && v0 + h <= last + 1;
+    window->plain = GN_VIEW_BITS(view) == 16 && u0 >= 0 && v0 >= 0 && u0 + w <= last + 1 && v0 + h <= last_row + 1;
     window->any = any;
     window->all = all | (w < 32 ? UINT32_MAX << w : 0);
     window->doubts = doubts;
@@ -204,7 +204,8 @@ GN_HOT static uint32_t least_depth(const gn_frame *frame, const gn_light_view *v
 GN_HOT static uint32_t compare_doubts(const gn_window *window, int32_t j, uint32_t doubt, uint32_t least)
 {
     const gn_light_view *view = window->view;
-    int32_t last = view->tile_texels - 1, v = gn_max32(0, gn_min32(window->v0 + j, last)), bits = GN_VIEW_BITS(view);
+    int32_t last = view->tile_texels - 1, v = gn_max32(0, gn_min32(window->v0 + j, GN_TILE_ROWS(view) - 1)),
+            bits = GN_VIEW_BITS(view);
     gn_texels row = gn_view_texels(view, 0, v);
     uint32_t dark = 0;
     while (doubt) {

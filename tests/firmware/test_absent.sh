@@ -115,6 +115,7 @@ VALIDATION gn_scene_validate|check_.*light
 TILE_DRAWING gradient_row|draw_behind
 OTHER_FORMATS luminance_q20|fill_(grey4|mono)
 TILE_IMPORTANCE sizes_by_importance|weight_of
+TIGHT_FIT gn_seen_.*|gn_ortho_(fit_tight|covers)|sides_by_worth|sixteenth_octaves|place_by_worth
 OBJECT_BOXES gn_cull_sees|.*_sees
 CLIPPING project_cut|general_triangle
 CLIPS gn_pose|pose_nodes

@@ -336,7 +336,8 @@ static void random_shadows(gn_shadow_settings *s, int32_t near_q16)
     if (s->filter != GN_FILTER_DISK && s->other_filter != GN_FILTER_DISK && one_in(2))
         s->disk_samples = one_in(2) ? 0 : rnd();
     s->mixing = (gn_mixing)(rnd() % 3);
-    s->tile_sizes = (gn_tile_sizes)(rnd() % 2);
+    s->tile_sizes = (gn_tile_sizes)(rnd() % 3);
+    s->fit = (gn_fit)(rnd() % 2);
     s->main_light = rnd() % 2;
     s->caster_culling = rnd() % 2;
     s->object_lights = rnd() % 9;

@@ -43,7 +43,7 @@ static int same_texels(const gn_scene *scene)
         gn_shadow_state a = gn_get_light_shadow(&kept, l, &n_a, NULL), b = gn_get_light_shadow(&fresh, l, &n_b, NULL);
         if (a != b || n_a != n_b) return 0;
         for (uint32_t i = 0; i < n_a; i++) {
-            gn_tile_info ta = {0, 0, NULL}, tb = {0, 0, NULL};
+            gn_tile_info ta = {0}, tb = {0};
             if (gn_get_shadow_tile(&kept, l, i, &ta) != gn_get_shadow_tile(&fresh, l, i, &tb)) return 0;
             if (!ta.texels) continue;
             if (ta.depth_bits != tb.depth_bits || memcmp(ta.depth, tb.depth, ls_tile_bytes(&ta))) return 0;
@@ -398,7 +398,8 @@ static void mutate_settings(rng *r)
         shadow->n_cascades = rng_below(r, 5);
         break;
     case 3:
-        shadow->tile_sizes = (gn_tile_sizes)rng_below(r, 2);
+        shadow->tile_sizes = (gn_tile_sizes)rng_below(r, 3);
+        shadow->fit = (gn_fit)rng_below(r, 2);
         break;
     case 4:
         shadow->filter = (gn_filter)rng_below(r, 6);

@@ -463,7 +463,8 @@ static const bounded bounds[] = {
     UNSIGNED(demo.scene.shadow.object_lights, 0, 8, GN_ERR_SHADOW_MODE, 0),
     SIGNED(demo.scene.unit_log2, -30, 30, GN_ERR_CAMERA_DEPTH, 0),
     SIGNED(demo.scene.shadow.mixing, 0, 2, GN_ERR_SHADOW_MODE, 0),
-    SIGNED(demo.scene.shadow.tile_sizes, 0, 1, GN_ERR_SHADOW_MODE, 0),
+    SIGNED(demo.scene.shadow.tile_sizes, 0, 2, GN_ERR_SHADOW_MODE, 0),
+    SIGNED(demo.scene.shadow.fit, 0, 1, GN_ERR_SHADOW_MODE, 0),
     UNSIGNED(demo.scene.shadow.main_light, 0, 1, GN_ERR_SHADOW_MODE, 0),
     SIGNED(demo.scene.shadow.filter, 0, GN_FILTER_DISK, GN_ERR_SHADOW_FILTER, 0),
     SIGNED(demo.scene.shadow.other_filter, 0, GN_FILTER_DISK, GN_ERR_SHADOW_FILTER, 0),
@@ -799,7 +800,7 @@ static void test_other_configuration(void)
 static void test_nulls(void)
 {
     gn_picture p = picture_of(8, 8, GN_FORMAT_RGB565);
-    gn_tile_info depth = {0, 0, NULL};
+    gn_tile_info depth = {0};
     canvas c;
     canvas_begin(&c, 8, 8, GN_FORMAT_RGB565);
     demo_scene_make(&demo, 0);

@@ -319,7 +319,8 @@ static void test_attenuation_step(void)
 {
     double depth[64];
     for (int i = 0; i < 64; i++) depth[i] = i % 8 < 4 ? 1 : 8;
-    const ref_light_view view = {.active = true, .tile_texels = 8, .texel = 1, .depth_range = 8, .depth = depth};
+    const ref_light_view view = {
+        .active = true, .tile_texels = 8, .tile_rows = 8, .texel = 1, .depth_range = 8, .depth = depth};
     const scene_filter filters[5] = {SCENE_FILTER_HARD, SCENE_FILTER_2X2, SCENE_FILTER_3X3, SCENE_FILTER_5X5,
                                      SCENE_FILTER_7X7};
     for (int k = 0; k < 5; k++)
@@ -352,7 +353,8 @@ static void test_attenuation_border(void)
             const int at[4] = {i % 8, 7 - i % 8, i / 8, 7 - i / 8};
             depth[i] = at[side] == 0 ? 1 : 8;
         }
-        const ref_light_view view = {.active = true, .tile_texels = 8, .texel = 1, .depth_range = 8, .depth = depth};
+        const ref_light_view view = {
+            .active = true, .tile_texels = 8, .tile_rows = 8, .texel = 1, .depth_range = 8, .depth = depth};
         const double u[4] = {-4, 12, 4, 4}, v[4] = {4, 4, -4, 12};
         for (int k = 0; k < 5; k++) {
             CHECK_NEAR(ref_attenuation(&view, filters[k], u[side], v[side], 2), 0, 1e-13);
@@ -367,7 +369,8 @@ static void test_attenuation_bilinear(void)
 {
     double depth[64];
     for (int i = 0; i < 64; i++) depth[i] = i == 3 * 8 + 5 ? 1 : 8; /* v 3, u 5 */
-    const ref_light_view view = {.active = true, .tile_texels = 8, .texel = 1, .depth_range = 8, .depth = depth};
+    const ref_light_view view = {
+        .active = true, .tile_texels = 8, .tile_rows = 8, .texel = 1, .depth_range = 8, .depth = depth};
     for (int step = 0; step < 1000; step++) {
         const double u = 8 * random_unit(), v = 8 * random_unit();
         const double weight = fmax(0, 1 - fabs(u - 5.5)) * fmax(0, 1 - fabs(v - 3.5));

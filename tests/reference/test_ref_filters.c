@@ -45,7 +45,7 @@ static void test_kernel_choice(void)
 {
     double depth[64];
     for (int i = 0; i < 64; i++) depth[i] = i % 8 < 4 ? 1 : 8;
-    const ref_light_view view = {.tile_texels = 8, .texel = 1, .depth_range = 8, .depth = depth};
+    const ref_light_view view = {.tile_texels = 8, .tile_rows = 8, .texel = 1, .depth_range = 8, .depth = depth};
     for (int k = 0; k < 5; k++) {
         const ref_lookup how = {.filter = (scene_filter)k, .kernel = SCENE_KERNEL_LINEAR};
         const double got = ref_filtered(&view, &how, 4.2, 3, 2);
@@ -121,7 +121,7 @@ static void test_disk_step(void)
     for (int c = 0; c < 6; c++)
         for (int step = -10; step <= 10; step++) {
             const ref_light_view view = {
-                .tile_texels = 16, .depth_range = 16, .depth = depth[c / 3], .disk_radius = radii[c]};
+                .tile_texels = 16, .tile_rows = 16, .depth_range = 16, .depth = depth[c / 3], .disk_radius = radii[c]};
             const double h = step / 9.0, inside = fabs(h) >= 1 ? 0 : (acos(h) - h * sqrt(1 - h * h)) / PI;
             const double open =
                 h <= -1 ? 1 : inside; /* the edge is h radii away, on the open side's near side for h < 0 */
@@ -143,7 +143,8 @@ static void test_disk_corner(void)
 {
     double depth[256], mean = 0;
     for (int i = 0; i < 256; i++) depth[i] = i % 16 < 8 && i / 16 < 8 ? 1 : 16;
-    const ref_light_view view = {.tile_texels = 16, .depth_range = 16, .depth = depth, .disk_radius = 4};
+    const ref_light_view view = {
+        .tile_texels = 16, .tile_rows = 16, .depth_range = 16, .depth = depth, .disk_radius = 4};
     for (int k = 0; k < 400; k++) {
         const ref_lookup how = {.filter = SCENE_FILTER_DISK, .disk_samples = 64, .x = k % 20, .y = k / 20};
         mean += ref_filtered(&view, &how, 8, 8, 2) / 400;

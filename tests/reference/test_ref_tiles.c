@@ -294,8 +294,13 @@ static void test_clear_border(void)
 {
     double depth[64];
     for (int i = 0; i < 64; i++) depth[i] = 1;
-    const ref_light_view view = {
-        .tile_texels = 8, .texel = 1, .depth_range = 8, .depth = depth, .clear_border = true, .disk_radius = 2};
+    const ref_light_view view = {.tile_texels = 8,
+                                 .tile_rows = 8,
+                                 .texel = 1,
+                                 .depth_range = 8,
+                                 .depth = depth,
+                                 .clear_border = true,
+                                 .disk_radius = 2};
     ref_lookup how = {.filter = SCENE_FILTER_HARD, .disk_samples = 64};
     CHECK_NEAR(ref_filtered(&view, &how, 0.01, 7.99, 2), 0, 0);
     CHECK_NEAR(ref_filtered(&view, &how, -0.01, 4, 2), 1, 0);

@@ -180,7 +180,7 @@ static inline gn_status ls_screen(gn_renderer *renderer, void *pixels, size_t pi
 
 static inline size_t ls_tile_bytes(const gn_tile_info *tile)
 {
-    return (size_t)tile->texels * tile->texels * tile->depth_bits / 8;
+    return (size_t)tile->texels * tile->rows * tile->depth_bits / 8;
 }
 
 #endif

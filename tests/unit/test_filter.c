@@ -335,7 +335,7 @@ static void random_shape(int32_t most_log2)
 {
     static const uint8_t depth_bits[3] = BUILT_DEPTH_BITS;
     view.tile_log2 = (uint8_t)rng_range(&random_state, 3, most_log2);
-    view.tile_texels = (uint16_t)(1U << view.tile_log2);
+    view.tile_texels = view.tile_rows = (uint16_t)(1U << view.tile_log2);
     view.depth_bits = depth_bits[rng_below(&random_state, 3)];
 }
 
@@ -545,7 +545,7 @@ static void test_lit_and_shadowed(void)
     frame.scene = &scene;
     scene.shadow.disk_samples = 11;
     view.tile_log2 = 4;
-    view.tile_texels = 16;
+    view.tile_texels = view.tile_rows = 16;
     view.disk_radius_q16 = 3 * 65536;
     view.border_lit = 0;
     for (uint32_t filter = 0; filter < 6; filter++)
@@ -664,7 +664,7 @@ static void test_disk_accuracy(void)
     view.filter = GN_FILTER_DISK;
     view.depth_bits = 8;
     view.tile_log2 = 6;
-    view.tile_texels = 64;
+    view.tile_texels = view.tile_rows = 64;
     view.border_lit = 0;
     view.depth.d8 = texels;
     for (int32_t i = 0; i < CASES; i++) {

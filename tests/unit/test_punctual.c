@@ -408,7 +408,7 @@ static size_t texels_of(const gn_renderer *r, uint32_t light_idx, uint8_t *out)
     uint32_t n_tiles;
     gn_get_light_shadow(r, light_idx, &n_tiles, NULL);
     for (uint32_t i = 0; i < n_tiles; i++) {
-        gn_tile_info tile = {0, 0, NULL};
+        gn_tile_info tile = {0};
         if (!gn_get_shadow_tile(r, light_idx, i, &tile)) continue;
         memcpy(out + n, tile.depth, ls_tile_bytes(&tile));
         n += ls_tile_bytes(&tile);
@@ -790,7 +790,7 @@ static void check_plate(rng *r, int depth_bits, double bias, int *n_texels)
 {
     plate q;
     double side;
-    gn_tile_info tile = {0, 0, NULL};
+    gn_tile_info tile = {0};
     ls.scene.n_lights = 0;
     gn_light *light = ls_add_random_light(&ls, r, GN_LIGHT_SPOT);
     light->outer_turn = (uint16_t)rng_range(r, GN_TURN(20), GN_TURN(80));

@@ -118,7 +118,7 @@ static void random_view(void)
     view.filter = (uint8_t)rng_below(&random_state, GN_FILTER_MAX + 1);
     view.filter_idx = (uint8_t)(view.filter ? view.filter - 1 : 0);
     view.tile_log2 = SIZE_LOG2;
-    view.tile_texels = SIZE;
+    view.tile_texels = view.tile_rows = SIZE;
     view.border_lit = (uint8_t)(GN_MAIN_LIGHT && rng_below(&random_state, 2));
     if (view.depth_bits == 8) view.depth.d8 = (uint8_t *)texels;
     else if (view.depth_bits == 16) view.depth.d16 = (uint16_t *)texels;

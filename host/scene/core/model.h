@@ -132,9 +132,10 @@ typedef enum {
     SCENE_FILTER_7X7,
     SCENE_FILTER_DISK
 } scene_filter;
-typedef enum { SCENE_KERNEL_TENT, SCENE_KERNEL_LINEAR } scene_kernel;               /* F3, F6 */
-typedef enum { SCENE_MIX_NONE, SCENE_MIX_ALWAYS, SCENE_MIX_DISTANCE } scene_mixing; /* M6 */
-typedef enum { SCENE_TILES_EQUAL, SCENE_TILES_IMPORTANCE } scene_tiles;             /* A2 */
+typedef enum { SCENE_KERNEL_TENT, SCENE_KERNEL_LINEAR } scene_kernel;                      /* F3, F6 */
+typedef enum { SCENE_MIX_NONE, SCENE_MIX_ALWAYS, SCENE_MIX_DISTANCE } scene_mixing;        /* M6 */
+typedef enum { SCENE_TILES_EQUAL, SCENE_TILES_IMPORTANCE, SCENE_TILES_WORTH } scene_tiles; /* A2, A7 */
+typedef enum { SCENE_FIT_STABLE, SCENE_FIT_TIGHT } scene_fit;                              /* D2, D12 */
 
 typedef enum { SCENE_BLEND_HARD, SCENE_BLEND_SOFT, SCENE_BLEND_DITHER } scene_blend;
 typedef enum { SCENE_DISTANCE_DEPTH, SCENE_DISTANCE_RADIUS } scene_distance_mode;
@@ -152,6 +153,7 @@ typedef struct {
     bool main_light;     /* D10 */
     bool caster_culling; /* D8; changes no pixel */
     scene_tiles tiles;
+    scene_fit fit;
     int refresh[4]; /* A5: cascade i is drawn anew every refresh[i]th frame; default 1. Changes single pictures not at
                        all */
     int object_lights;       /* P9: 0 (no limit) .. 8, default 8 */

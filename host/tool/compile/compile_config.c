@@ -196,6 +196,8 @@ static void use_shadows(compiled *c)
     if (s->main_light) USE(main_light, 1, "%s", "the setting main_light");
     if (s->n_cascades > 1) USE(many_cascades, 1, "%s", "the setting cascades");
     if (s->tile_sizes == GN_TILES_IMPORTANCE) USE(tile_importance, 1, "%s", "the setting tiles");
+    if (s->tile_sizes == GN_TILES_WORTH) USE(tight_fit, 1, "%s", "the setting tiles");
+    if (s->fit == GN_FIT_TIGHT) USE(tight_fit, 1, "%s", "the setting fit");
     if (s->mixing != GN_MIXING_NONE) USE(masks, 1, "%s", "the setting mixing");
 }
 
@@ -212,6 +214,7 @@ static void use_nothing(compiled *c)
     NOTHING(main_light);
     NOTHING(many_cascades);
     NOTHING(tile_importance);
+    NOTHING(tight_fit);
     NOTHING(caster_alpha);
     NOTHING(visible_alpha);
     NOTHING(textures);

@@ -199,6 +199,7 @@ static const emit_field shadow_fields[] = {EMIT_FIELD(gn_shadow_settings, FIELD_
                                            EMIT_FIELD(gn_shadow_settings, FIELD_U32, disk_samples),
                                            EMIT_ENUM(gn_shadow_settings, mixing, gn_mixing),
                                            EMIT_ENUM(gn_shadow_settings, tile_sizes, gn_tile_sizes),
+                                           EMIT_ENUM(gn_shadow_settings, fit, gn_fit),
                                            EMIT_FIELD(gn_shadow_settings, FIELD_U32, main_light),
                                            EMIT_FIELD(gn_shadow_settings, FIELD_U32, caster_culling),
                                            EMIT_FIELD(gn_shadow_settings, FIELD_U32, object_lights),

@@ -44,6 +44,7 @@ static long of_shadows(const settings *s, flash_core core)
     if (s->feature.incremental) bytes += incremental_bytes[core];
     if (s->feature.many_cascades) bytes += many_cascades_bytes[core];
     if (s->feature.tile_importance) bytes += tile_importance_bytes[core];
+    if (s->feature.tight_fit) bytes += tight_fit_bytes[core];
     if (s->feature.object_boxes) bytes += object_boxes_bytes[core];
     if (s->feature.caster_clipping) bytes += caster_clipping_bytes[core];
     if (s->feature.static_layer) bytes += static_layer_bytes[core];

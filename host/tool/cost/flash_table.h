@@ -32,6 +32,7 @@ FLASH(validation, 1444, 1268)              /* with */
 FLASH(other_formats, 668, 624)             /* with */
 FLASH(many_cascades, 668, 524)             /* with */
 FLASH(tile_importance, 340, 400)           /* with */
+FLASH(tight_fit, 5340, 4972)               /* with */
 FLASH(object_boxes, 868, 812)              /* with */
 FLASH(clipping, 736, 740)                  /* with */
 FLASH(caster_clipping, 476, 428)           /* with */

@@ -23,8 +23,9 @@ typedef struct {
     double *ndotl[ENGINE_LIGHTS_MAX];    /* reference and truth only, NULL from the library */
     int8_t *cascade;                     /* of the surface point; -1: none, or no surface */
     int n_tiles[ENGINE_LIGHTS_MAX];      /* of each light: cascades, 1, or six faces; 0: it has none, as all in truth */
-    int atlas_texels[ENGINE_LIGHTS_MAX]; /* per side of each of its tiles */
-    bool perspective[ENGINE_LIGHTS_MAX]; /* spot and point lights: depth is 1 - near / distance */
+    int atlas_texels[ENGINE_LIGHTS_MAX]; /* the longest side of its tiles */
+    int tile_size[ENGINE_LIGHTS_MAX][ENGINE_TILES_MAX][2]; /* texels per row, and rows */
+    bool perspective[ENGINE_LIGHTS_MAX];                   /* spot and point lights: depth is 1 - near / distance */
     double *atlas[ENGINE_LIGHTS_MAX]
                  [ENGINE_TILES_MAX]; /* light depth 0..1 of each tile, 1 = empty; NULL: no tile, or an empty slice */
     /* of the library only */

@@ -168,11 +168,13 @@ static double depth_of(const gn_tile_info *tile, size_t i)
 static int copy_tile(const job *j, engine_picture *out, size_t light, size_t idx)
 {
     gn_tile_info info;
-    size_t t = gn_get_shadow_tile(j->renderer, (uint32_t)light, (uint32_t)idx, &info);
-    if (!t) return 0;
-    double *tile = malloc(t * t * sizeof *tile);
+    if (!gn_get_shadow_tile(j->renderer, (uint32_t)light, (uint32_t)idx, &info)) return 0;
+    const size_t n = (size_t)info.texels * info.rows;
+    double *tile = malloc(n * sizeof *tile);
     out->atlas[light][idx] = tile;
-    for (size_t i = 0; tile && i < t * t; i++) tile[i] = depth_of(&info, i);
+    out->tile_size[light][idx][0] = (int)info.texels;
+    out->tile_size[light][idx][1] = (int)info.rows;
+    for (size_t i = 0; tile && i < n; i++) tile[i] = depth_of(&info, i);
     return tile ? 0 : -1;
 }
 
@@ -210,6 +212,20 @@ static size_t surface_lights(const gn_frame *frame)
     return directional + listed;
 }
 
+/* Texels up to the end of each atlas's last tile. Views that nothing is seen in have an empty one; unused cascades
+ * none. */
+static void demand_texels(const gn_frame *frame, settings_demand *out)
+{
+    for (uint32_t i = 0; i < frame->n_views; i++) {
+        const gn_light_view *view = &frame->view[i];
+        const bool unused = !view->in_other && frame->n_cascades > 1 &&
+                            (frame->scene->shadow.cascades_unused >> view->cascade_idx & 1) != 0;
+        const size_t side = view->unseen ? 8 : frame->seen[i].side, end = view->first_texel + side * side;
+        size_t *texels = view->in_other ? &out->other_atlas_texels : &out->atlas_texels;
+        if (!unused && end > *texels) *texels = end;
+    }
+}
+
 void engine_demand(const gn_renderer *renderer, settings_demand *out)
 {
     const gn_frame *frame = &renderer->frame;
@@ -220,14 +236,12 @@ void engine_demand(const gn_renderer *renderer, settings_demand *out)
     out->triangles = frame->stats.n_triangles;
     out->tile_refs = frame->stats.n_tile_refs;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
-        uint32_t n = 0, side = 0, n_unused = 0;
-        if (gn_get_light_shadow(renderer, l, &n, &side) != GN_SHADOW_REALTIME) continue;
+        uint32_t n = 0;
+        if (gn_get_light_shadow(renderer, l, &n, NULL) != GN_SHADOW_REALTIME) continue;
         const bool in_other = frame->view[frame->light[l].view_idx].in_other;
-        for (uint32_t i = 0; !in_other && i < n && n > 1; i++)
-            n_unused += frame->scene->shadow.cascades_unused >> i & 1;
         *(in_other ? &out->other_tiles : &out->shadow_tiles) += n;
-        *(in_other ? &out->other_atlas_texels : &out->atlas_texels) += (size_t)(n - n_unused) * side * side;
     }
+    demand_texels(frame, out);
 }
 
 static int allocate(engine_picture *out, const scene *s, int width, int height)

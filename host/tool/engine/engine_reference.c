@@ -16,7 +16,7 @@ static unsigned level(double v, double levels)
 static double *take_tile(ref_light_view *view)
 {
     double *depth = view->depth;
-    size_t n = (size_t)view->tile_texels * (size_t)view->tile_texels;
+    size_t n = (size_t)view->tile_texels * (size_t)view->tile_rows;
     for (size_t i = 0; i < n; i++) depth[i] /= view->depth_range;
     view->depth = NULL;
     return depth;
@@ -38,9 +38,18 @@ static void take(engine_picture *out, ref_picture *ref, const scene *s)
         ref->shadow[l] = ref->ndotl[l] = NULL;
         out->perspective[l] = s->lights[l].kind != SCENE_LIGHT_DIRECTIONAL;
         out->n_tiles[l] = ref->grant[l].n_tiles;
-        out->atlas_texels[l] = out->n_tiles[l] ? ref->grant[l].tile_texels : 0;
+        out->atlas_texels[l] = 0;
+        for (int i = 0; i < out->n_tiles[l]; i++) {
+            const ref_light_view *view = &ref->view[l][i];
+            if (view->active && view->tile_texels > out->atlas_texels[l]) out->atlas_texels[l] = view->tile_texels;
+            if (view->active && view->tile_rows > out->atlas_texels[l]) out->atlas_texels[l] = view->tile_rows;
+        }
         for (int i = 0; i < out->n_tiles[l]; i++)
-            if (ref->view[l][i].active) out->atlas[l][i] = take_tile(&ref->view[l][i]);
+            if (ref->view[l][i].active) {
+                out->tile_size[l][i][0] = ref->view[l][i].tile_texels;
+                out->tile_size[l][i][1] = ref->view[l][i].tile_rows;
+                out->atlas[l][i] = take_tile(&ref->view[l][i]);
+            }
     }
 }
 

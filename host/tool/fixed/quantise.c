@@ -20,6 +20,7 @@ _Static_assert((int)GN_FILTER_DISK == (int)SCENE_FILTER_DISK && (int)GN_FILTER_7
                    (int)GN_MIXING_ALWAYS == (int)SCENE_MIX_ALWAYS &&
                    (int)GN_MIXING_DISTANCE == (int)SCENE_MIX_DISTANCE &&
                    (int)GN_TILES_IMPORTANCE == (int)SCENE_TILES_IMPORTANCE &&
+                   (int)GN_TILES_WORTH == (int)SCENE_TILES_WORTH && (int)GN_FIT_TIGHT == (int)SCENE_FIT_TIGHT &&
                    (int)GN_LIGHT_SPOT == (int)SCENE_LIGHT_SPOT && (int)GN_LIGHT_POINT == (int)SCENE_LIGHT_POINT &&
                    (int)GN_LIGHT_MIXED == (int)SCENE_MIXED && (int)GN_LIGHT_BAKED == (int)SCENE_BAKED &&
                    (int)GN_SOFTNESS_HARD == (int)SCENE_SOFT_HARD && (int)GN_SOFTNESS_SOFT == (int)SCENE_SOFT_SOFT &&
@@ -214,6 +215,7 @@ static void quantise_shadow(gn_shadow_settings *out, const scene_shadow *shadow,
     out->disk_samples = (uint32_t)shadow->disk_samples;
     out->mixing = (gn_mixing)shadow->mixing;
     out->tile_sizes = (gn_tile_sizes)shadow->tiles;
+    out->fit = (gn_fit)shadow->fit;
     out->main_light = shadow->main_light;
     out->caster_culling = shadow->caster_culling;
     out->object_lights = (uint32_t)shadow->object_lights;

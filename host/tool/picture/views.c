@@ -59,14 +59,14 @@ static void colour_of_cascade(uint8_t *out, int cascade)
  * stored. */
 static void depth_span(const engine_picture *p, size_t light, double *lo, double *hi)
 {
-    size_t t = (size_t)p->atlas_texels[light];
     *lo = 0;
     *hi = 1;
     if (!p->perspective[light]) return;
     double nearest = 1, farthest = 0;
     for (int i = 0; i < p->n_tiles[light]; i++) {
         const double *tile = p->atlas[light][i];
-        for (size_t k = 0; tile && k < t * t; k++) {
+        const size_t n = (size_t)p->tile_size[light][i][0] * (size_t)p->tile_size[light][i][1];
+        for (size_t k = 0; tile && k < n; k++) {
             if (tile[k] >= 1) continue;
             nearest = fmin(nearest, tile[k]);
             farthest = fmax(farthest, tile[k]);
@@ -77,7 +77,8 @@ static void depth_span(const engine_picture *p, size_t light, double *lo, double
     *hi = farthest + 0.1 * (farthest - nearest); /* what is empty stays apart */
 }
 
-/* The light's tiles side by side: cascades, of which those of empty slices stay blank, or the six faces of a cube. */
+/* The light's tiles side by side: cascades, of which those of empty slices, and that nothing visible needs, stay blank,
+ * or the six faces of a cube. */
 static uint8_t *draw_atlas(const engine_picture *p, size_t light, int *w, int *h, char *error, size_t error_bytes)
 {
     size_t t = (size_t)p->atlas_texels[light], width = t * (size_t)p->n_tiles[light], n = t * width;
@@ -91,9 +92,11 @@ static uint8_t *draw_atlas(const engine_picture *p, size_t light, int *w, int *h
     *w = (int)width;
     *h = (int)t;
     for (size_t i = 0; out && i < n; i++) {
-        size_t x = i % width, row = i / width * t;
-        const double *tile = p->atlas[light][x / t];
-        if (tile) grey(out + 3 * i, (tile[row + x % t] - lo) / (hi - lo));
+        const size_t x = i % width % t, row = i / width, idx = i % width / t;
+        const int *size = p->tile_size[light][idx];
+        const double *tile = p->atlas[light][idx];
+        if (tile && x < (size_t)size[0] && row < (size_t)size[1])
+            grey(out + 3 * i, (tile[row * (size_t)size[0] + x] - lo) / (hi - lo));
         else nothing(out + 3 * i);
     }
     return out;

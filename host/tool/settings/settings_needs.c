@@ -62,6 +62,8 @@ static void needs_of_shadows(need_list *list, const scene *s)
     if (s->shadow.main_light) need(list, "main_light", 1, "main_light 1");
     if (s->shadow.n_cascades > 1) need(list, "many_cascades", 1, "cascades %d", s->shadow.n_cascades);
     if (s->shadow.tiles == SCENE_TILES_IMPORTANCE) need(list, "tile_importance", 1, "tiles importance");
+    if (s->shadow.tiles == SCENE_TILES_WORTH) need(list, "tight_fit", 1, "tiles worth");
+    else if (s->shadow.fit == SCENE_FIT_TIGHT) need(list, "tight_fit", 1, "fit tight");
     if (s->shadow.mixing != SCENE_MIX_NONE) need(list, "masks", 1, "mixing");
 }
 

@@ -35,8 +35,10 @@ static void put_views(layout *l, const settings *s)
 {
     int other = s->feature.punctual_lights || s->feature.main_light;
     long views = s->capacity.max_shadow_tiles + (other ? s->capacity.max_other_tiles : 0);
-    long view = 180 + (s->feature.depth_blocks ? 4 : 0) + (s->feature.auto_bias ? 8 : 0);
+    long view =
+        180 + (s->feature.depth_blocks ? 4 : 0) + (s->feature.auto_bias ? 8 : 0) + (s->feature.tight_fit ? 8 : 0);
     put(l, views, (view + 7) / 8 * 8, 8);
+    if (s->feature.tight_fit) put(l, views, 40, 8); /* seen */
 }
 
 /* gn_frame from its memory of tiles on */
@@ -93,7 +95,7 @@ static long lattice_bytes(const settings *s)
 {
     layout all = {0, 4};
     put(&all, 1, 244, 4);                         /* span to plane */
-    put(&all, s->capacity.surface_lights, 16, 4); /* light */
+    put(&all, s->capacity.surface_lights, 12, 4); /* light */
     put(&all, 1, 196, 4);                         /* unit_q30 to bits */
     put(&all, 12 + 1, corner_bytes(s), 4);        /* corners, corner */
     put(&all, 1, 144, 4);                         /* corner_key to split */
@@ -131,7 +133,9 @@ static void put_work(layout *out, const settings *s)
     put(&all, 1, 28 + 4 * values + incident + (s->feature.specular ? 24 : 0), 4); /* sample */
     if (s->quality.persp_step > 1) put(&all, 1, lattice_bytes(s), 8);
     pad(&all, all.align);
-    const long casting = casting_bytes(s), clipping = 264, largest = casting > clipping ? casting : clipping;
+    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.shadows && s->feature.tight_fit ? 648 : 0;
+    long largest = casting > clipping ? casting : clipping;
+    if (seen > largest) largest = seen;
     put(out, 1, all.size > largest ? all.size : largest, 8);
 }
 
@@ -159,7 +163,8 @@ settings_ram_parts settings_ram(const settings *s)
     }
     r.lights = put(&frame, s->capacity.max_lights, punctual ? 176 : 36, punctual ? 8 : 4);
     if (s->feature.shadows) put_views(&frame, s);
-    int boxes = punctual || (s->feature.shadows && (s->feature.object_boxes || s->feature.caster_culling));
+    int boxes = punctual ||
+                (s->feature.shadows && (s->feature.object_boxes || s->feature.caster_culling || s->feature.tight_fit));
     r.objects = boxes ? put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4) : 0;
     r.triangles = put(&frame, s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);

@@ -1,0 +1,223 @@
+/* [D12] [A7] Tight fits and tiles by worth lose nothing: random scenes, seen by cameras that roll.
+ *
+ * - Both engines choose the same views, texels, sizes and origins.
+ * - Every visible receiver is looked up in a tile that covers it, filter and bias included.
+ * - With the same atlas, shadows are nearer to those of a map with 16 times the texels than stable fits are. */
+#include "../host/tool/engine/engine.h"
+#include "../host/tool/fixed/quantise.h"
+#include "ref_fixture.h"
+
+enum { WIDTH = 48, HEIGHT = 36, N_SCENES = SLOW_LIBRARY ? 40 : 160, N_BOXES = 7 };
+
+static int random_int(int n)
+{
+    return (int)(random_unit() * n) % n;
+}
+
+static bool one_in(int n)
+{
+    return random_int(n) == 0;
+}
+
+static void add_parts(fixture *f)
+{
+    add_floor(f, random_between(6, 40), 0);
+    for (int i = 0; i < N_BOXES; i++) {
+        const double x = random_between(-6, 6), z = random_between(-9, 5), half = random_between(0.1, 1.2);
+        const double y = one_in(3) ? random_between(0, 3) : 0, high = random_between(0.2, 4);
+        const double lo[3] = {x - half, y, z - half}, hi[3] = {x + half, y + high, z + random_between(0.1, 1.5)};
+        add_box(f, lo, hi);
+        f->objects[f->s.n_objects - 1].receives = !one_in(6);
+        f->objects[f->s.n_objects - 1].hidden = one_in(9);
+    }
+}
+
+static void add_lights(fixture *f)
+{
+    scene_light *light = add_light(f, random_between(-1, 1), random_between(-2, -0.2), random_between(-1, 1));
+    if (one_in(2)) light = add_point(f, random_between(-3, 3), random_between(1, 4), random_between(-6, 2));
+    if (one_in(2)) {
+        const double from[3] = {random_between(-5, 5), random_between(3, 6), random_between(-6, 4)};
+        const double at[3] = {random_between(-5, 5), 0, random_between(-8, 2)};
+        light = add_spot(f, from, at, random_between(20, 120));
+    }
+    for (size_t l = 0; l < f->s.n_lights; l++) {
+        light = &f->lights[l];
+        light->bias_normal = 1;
+        if (light->kind != SCENE_LIGHT_DIRECTIONAL) light->range = random_between(6, 20);
+    }
+}
+
+static void add_camera(fixture *f)
+{
+    const double from[3] = {random_between(-6, 6), random_between(0.3, 5), random_between(0, 9)};
+    const double at[3] = {random_between(-3, 3), random_between(0, 2), random_between(-8, -2)};
+    const double roll = one_in(3) ? 0 : random_between(0, 2 * PI), up[3] = {sin(roll), cos(roll), 0.1};
+    look(f, from, at, up);
+    f->s.camera.focal = random_between(0.7, 4);
+    f->s.camera.near = 0.1;
+}
+
+static void build(fixture *f)
+{
+    scene_shadow *s = &f->s.shadow;
+    begin(f);
+    add_parts(f);
+    add_lights(f);
+    add_camera(f);
+    s->n_cascades = 1 + random_int(4);
+    scene_default_ratios(s);
+    s->max_distance = random_between(6, 40);
+    s->cascade_fade = one_in(4) ? 0.5 : 0.1;
+    s->blend = (scene_blend)random_int(3);
+    s->filter = s->other_filter = (scene_filter)random_int(4);
+    s->main_light = one_in(4);
+    s->fit = SCENE_FIT_TIGHT;
+    s->tiles = one_in(3) ? SCENE_TILES_EQUAL : SCENE_TILES_WORTH;
+}
+
+/* ---- Coverage ---------------------------------------------------------------------------------------------------- */
+
+static long n_looked_up, n_views, n_other_choice, n_unseen;
+
+static bool in_directional(const ref_light_view *v, const double point[3])
+{
+    const double margin = (v->filter_index + 1) * (1 + sqrt(2.0));
+    const double end[3] = {v->tile_texels - margin, v->tile_rows - margin, v->depth_range};
+    for (int k = 0; k < 3; k++) {
+        const double at = dot(point, v->axis[k]) / v->texel - v->origin[k];
+        if (at < (k < 2 ? margin : 0) || at > end[k]) return false;
+    }
+    return true;
+}
+
+static bool covered_by(const ref_light_view *v, const double point[3])
+{
+    n_looked_up++;
+    return v->active && !v->unseen && (v->perspective || in_directional(v, point));
+}
+
+/* The next cascade, where the point blends with it. */
+static int next_cascade(const fixture *f, const ref_picture *p, size_t l, int c, const double point[3])
+{
+    const ref_light_view *v = &p->view[l][c];
+    double d[3];
+    for (int k = 0; k < 3; k++) d[k] = point[k] - v->sphere_centre[k];
+    if (f->s.shadow.blend == SCENE_BLEND_HARD || !v->active) return -1;
+    if (ref_fade_factor(dot(d, d) / (v->sphere_radius * v->sphere_radius), f->s.shadow.cascade_fade) >= 1) return -1;
+    return c + 1 < p->grant[l].n_tiles ? c + 1 : -1;
+}
+
+static bool covered(const fixture *f, const ref_picture *p, size_t l, int i, int j)
+{
+    const size_t pixel = (size_t)(j * WIDTH + i);
+    const ref_light_view *v = p->view[l];
+    double point[3], from[3];
+    if (p->ndotl[l][pixel] <= 0 || p->depth[pixel] >= f->s.shadow.max_distance) return true;
+    if (!f->s.objects[p->triangle[pixel] >> 32].receives) return true;
+    world_at(point, f, p, i, j);
+    if (p->grant[l].atlas == REF_DIRECTIONAL_ATLAS) {
+        const int c = p->cascade[pixel], next = c < 0 ? -1 : next_cascade(f, p, l, c, point);
+        return c < 0 || (covered_by(&v[c], point) && (next < 0 || covered_by(&v[next], point)));
+    }
+    for (int k = 0; k < 3; k++) from[k] = point[k] - f->s.lights[l].position[k];
+    return covered_by(&v[f->s.lights[l].kind == SCENE_LIGHT_POINT ? ref_point_face(from) : 0], point);
+}
+
+static void check_coverage(const fixture *f, const ref_picture *p)
+{
+    long lost = 0;
+    for (size_t l = 0; l < p->n_lights; l++)
+        for (int j = 0; p->grant[l].n_tiles && j < HEIGHT; j++)
+            for (int i = 0; i < WIDTH; i++) lost += p->triangle[j * WIDTH + i] >= 0 && !covered(f, p, l, i, j);
+    CHECK_EQ_INT(lost, 0);
+}
+
+/* ---- Both engines ------------------------------------------------------------------------------------------------ */
+
+static bool same_directional(const gn_light_view *a, const ref_light_view *b, int world_exp)
+{
+    const double texel = ldexp(1.0, -a->fit.ortho.inv_texel.exp - 16 + 16) / a->fit.ortho.inv_texel.mant;
+    if (fabs(ldexp(texel, -world_exp) / b->texel - 1) > 1e-6) return false;
+    for (int k = 0; k < 3; k++)
+        if (fabs(a->fit.ortho.origin[k] - b->origin[k]) > 0) return false;
+    return fabs(ldexp(1, a->tile_log2 + a->depth_log2) - b->depth_range) < 0.5;
+}
+
+static bool same_view(const gn_light_view *a, const ref_light_view *b, int world_exp)
+{
+    if (a->unseen || b->unseen) return a->unseen == b->unseen;
+    if (a->empty || !b->active) return a->empty && !b->active;
+    if (a->tile_texels != b->tile_texels || GN_TILE_ROWS(a) != b->tile_rows) return false;
+    return a->perspective || same_directional(a, b, world_exp);
+}
+
+static void check_choices(const fixture *f, const settings *set, const ref_picture *p)
+{
+    static gn_renderer renderer;
+    fixed_scene fixed;
+    char error[200];
+    const gn_picture picture = {WIDTH, HEIGHT, GN_FORMAT_RGB565, GN_VIEW_COLOUR, 0};
+    if (!CHECK_EQ_INT(quantise_scene(&fixed, &f->s, error, sizeof error), 0)) return;
+    CHECK_EQ_INT(gn_init(&renderer, &picture), GN_OK);
+    renderer.frame.knobs = set->quality;
+    CHECK_EQ_INT(gn_begin(&renderer, &fixed.scene), GN_OK);
+    for (size_t l = 0; l < p->n_lights; l++) {
+        const gn_light_state *light = &renderer.frame.light[l];
+        CHECK_EQ_INT(light->n_views, p->grant[l].n_tiles);
+        for (int i = 0; i < light->n_views; i++) {
+            const gn_light_view *view = &renderer.frame.view[light->view_idx + i];
+            n_views++;
+            n_unseen += view->unseen;
+            n_other_choice += !same_view(view, &p->view[l][i], fixed.world_exp);
+        }
+    }
+    quantise_free(&fixed);
+}
+
+/* ---- Shadows ----------------------------------------------------------------------------------------------------- */
+
+static long n_off[2]; /* tight, stable */
+
+static void count_off(const ref_picture *p, const ref_picture *fine, long *off)
+{
+    for (size_t l = 0; l < p->n_lights; l++)
+        for (int i = 0; p->grant[l].n_tiles && i < WIDTH * HEIGHT; i++)
+            if (p->triangle[i] >= 0 && p->ndotl[l][i] > 0) *off += fabs(p->shadow[l][i] - fine->shadow[l][i]) > 0.5;
+}
+
+static void check_scene(fixture *f)
+{
+    settings set;
+    settings_init(&set);
+    settings_preset(&set, SETTINGS_BALANCED);
+    ref_options options = engine_ref_options(&f->s, &set, WIDTH, HEIGHT), finer = options;
+    finer.atlas_size = finer.other_atlas_size = 512;
+    ref_picture tight = render_with(f, &options);
+    check_coverage(f, &tight);
+    check_choices(f, &set, &tight);
+    f->s.shadow.fit = SCENE_FIT_STABLE;
+    f->s.shadow.tiles = SCENE_TILES_EQUAL;
+    ref_picture stable = render_with(f, &options), fine = render_with(f, &finer);
+    count_off(&tight, &fine, &n_off[0]);
+    count_off(&stable, &fine, &n_off[1]);
+    ref_free(&tight);
+    ref_free(&stable);
+    ref_free(&fine);
+}
+
+int main(void)
+{
+    static fixture f;
+    for (int i = 0; i < N_SCENES; i++) {
+        build(&f);
+        check_scene(&f);
+        end(&f);
+    }
+    printf("%ld views, %ld of them unseen, %ld otherwise chosen; %ld lookups; off: tight %ld, stable %ld\n", n_views,
+           n_unseen, n_other_choice, n_looked_up, n_off[0], n_off[1]);
+    CHECK(n_unseen > n_views / 50 && n_looked_up > 1000L * N_SCENES);
+    CHECK(200 * n_other_choice <= n_views);
+    CHECK(4 * n_off[0] < 3 * n_off[1]);
+    return check_report();
+}
