@@ -59,15 +59,15 @@ GN_HOT static GN_NOINLINE void any_pixel(const gn_texture *t, int32_t *u_q17, in
 /* ---- Pixels whose texels lie inside ------------------------------------------------------------------------------ */
 
 #if !GN_SIZE_FIRST
-enum { TEXELS_RGBA, TEXELS_565, TEXELS_PALETTE, TEXELS_GREY };
+enum { TEXELS_RGBA, TEXELS_565, TEXELS_565A1, TEXELS_PALETTE, TEXELS_GREY };
+
+#define IS_565(kind) (GN_TEXEL_565S && ((kind) == TEXELS_565 || (kind) == TEXELS_565A1))
 
 /* What a row reads. */
 typedef struct {
     const gn_texture *texture;
     const uint8_t *texels;
     uint32_t stride, bits_log2, end_q17[2]; /* coordinates below it need no care */
-    const uint16_t *green;                  /* of 565: levels, and where they are */
-    uint32_t green_shift, green_mask;
 } row_source;
 
 /* A texel as it is stored: of RGBA or a palette red, green, blue, alpha from the lowest byte on. `kind` is a constant:
@@ -75,42 +75,55 @@ typedef struct {
 GN_INLINE uint32_t read_texel(const row_source *s, int kind, const uint8_t *row, uint32_t x)
 {
     if (kind == TEXELS_RGBA) return gn_texel_word(row + 4 * x);
-    if (kind == TEXELS_565) return (uint32_t)row[2 * x] | (uint32_t)row[2 * x + 1] << 8;
+    if (IS_565(kind)) return (uint32_t)row[2 * x] | (uint32_t)row[2 * x + 1] << 8;
     uint32_t index = gn_texel_index(row, x, s->bits_log2);
     if (kind == TEXELS_PALETTE) return gn_texel_word(s->texture->palette + 4 * index);
     return s->bits_log2 == 2 ? index * 17U : index;
 }
 
+/* A texel and the next. Where memory may be read at any address the compiler makes one load of four bytes. */
+GN_INLINE void read_pair(const row_source *s, int kind, const uint8_t *row, uint32_t x, uint32_t out[2])
+{
+    if (IS_565(kind)) {
+        uint32_t both = gn_texel_word(row + 2 * x);
+        out[0] = both & 0xFFFFU;
+        out[1] = both >> 16;
+        return;
+    }
+    out[0] = read_texel(s, kind, row, x);
+    out[1] = read_texel(s, kind, row, x + 1);
+}
+
 /* Red, green or blue of it in linear light. */
 GN_INLINE uint32_t red_of(int kind, uint32_t texel)
 {
-    if (GN_TEXEL_565S && kind == TEXELS_565) return gn_linear_31_table[texel >> 11];
+    if (IS_565(kind)) return gn_linear_31_table[texel >> 11];
     return gn_srgb_decode_table[kind == TEXELS_GREY ? texel : texel & 255U];
 }
 
-GN_INLINE uint32_t green_of(const row_source *s, int kind, uint32_t texel)
+GN_INLINE uint32_t green_of(int kind, uint32_t texel)
 {
-    if (kind == TEXELS_565) return s->green[texel >> s->green_shift & s->green_mask];
+    if (IS_565(kind) && kind == TEXELS_565) return gn_linear_63_table[texel >> 5 & 63U];
+    if (IS_565(kind)) return gn_linear_31_table[texel >> 6 & 31U];
     return gn_srgb_decode_table[texel >> 8 & 255U];
 }
 
 GN_INLINE uint32_t blue_of(int kind, uint32_t texel)
 {
-    if (GN_TEXEL_565S && kind == TEXELS_565) return gn_linear_31_table[texel & 31U];
+    if (IS_565(kind)) return gn_linear_31_table[texel & 31U];
     return gn_srgb_decode_table[texel >> 16 & 255U];
 }
 
-GN_INLINE void store_texel(const row_source *s, int kind, uint32_t texel, uint16_t rgb[3])
+GN_INLINE void store_texel(int kind, uint32_t texel, uint16_t rgb[3])
 {
     rgb[0] = rgb[1] = rgb[2] = (uint16_t)red_of(kind, texel);
     if (kind == TEXELS_GREY) return;
-    rgb[1] = (uint16_t)green_of(s, kind, texel);
+    rgb[1] = (uint16_t)green_of(kind, texel);
     rgb[2] = (uint16_t)blue_of(kind, texel);
 }
 
 /* Between four texels. */
-GN_INLINE void store_blend(const row_source *s, int kind, uint32_t u_q17, uint32_t v_q17, const uint32_t t[4],
-                           uint16_t rgb[3])
+GN_INLINE void store_blend(int kind, uint32_t u_q17, uint32_t v_q17, const uint32_t t[4], uint16_t rgb[3])
 {
     uint32_t weight[4];
     find_weights(u_q17, v_q17, weight);
@@ -119,8 +132,7 @@ GN_INLINE void store_blend(const row_source *s, int kind, uint32_t u_q17, uint32
         rgb[1] = rgb[2] = rgb[0];
         return;
     }
-    rgb[1] = weigh(weight, green_of(s, kind, t[0]), green_of(s, kind, t[1]), green_of(s, kind, t[2]),
-                   green_of(s, kind, t[3]));
+    rgb[1] = weigh(weight, green_of(kind, t[0]), green_of(kind, t[1]), green_of(kind, t[2]), green_of(kind, t[3]));
     rgb[2] = weigh(weight, blue_of(kind, t[0]), blue_of(kind, t[1]), blue_of(kind, t[2]), blue_of(kind, t[3]));
 }
 
@@ -128,14 +140,15 @@ GN_INLINE void one_pixel(const row_source *s, int kind, int bilinear, uint32_t u
 {
     const uint8_t *upper = s->texels + (v >> 17) * s->stride;
     if (!bilinear) {
-        store_texel(s, kind, read_texel(s, kind, upper, u >> 17), rgb);
+        store_texel(kind, read_texel(s, kind, upper, u >> 17), rgb);
         return;
     }
     const uint8_t *lower = upper + s->stride;
-    const uint32_t t[4] = {read_texel(s, kind, upper, u >> 17), read_texel(s, kind, upper, (u >> 17) + 1),
-                           read_texel(s, kind, lower, u >> 17), read_texel(s, kind, lower, (u >> 17) + 1)};
-    if (t[0] == t[1] && t[0] == t[2] && t[0] == t[3]) store_texel(s, kind, t[0], rgb);
-    else store_blend(s, kind, u, v, t, rgb);
+    uint32_t t[4], x = u >> 17;
+    read_pair(s, kind, upper, x, t);
+    read_pair(s, kind, lower, x, t + 2);
+    if (t[0] == t[1] && t[0] == t[2] && t[0] == t[3]) store_texel(kind, t[0], rgb);
+    else store_blend(kind, u, v, t, rgb);
 }
 
 GN_INLINE void pixels(const row_source *s, int kind, int bilinear, const gn_texture_line *line, uint32_t bits,
@@ -162,25 +175,15 @@ GN_INLINE void row_of_kind(const row_source *s, int kind, const gn_texture_line 
     else pixels(s, kind, 0, line, bits, rgb);
 }
 
-/* Levels of green, and where they are in a texel. */
-GN_INLINE void begin_565(row_source *s)
-{
-    int has_alpha = s->texture->format == GN_TEXTURE_RGB565A1;
-    s->green = has_alpha ? gn_linear_31_table : gn_linear_63_table;
-    s->green_shift = has_alpha ? 6 : 5;
-    s->green_mask = has_alpha ? 31 : 63;
-}
-
 GN_HOT void gn_texture_row(const gn_texture *t, const gn_texture_line *line, uint32_t bits, uint16_t (*rgb)[3])
 {
     uint32_t border = t->flags & GN_TEXTURE_BILINEAR ? 1 : 0;
-    row_source s = {t, t->rgba, gn_texel_stride(t), gn_texel_bits_log2(t), {0, 0}, NULL, 0, 0};
+    row_source s = {t, t->rgba, gn_texel_stride(t), gn_texel_bits_log2(t), {0, 0}};
     for (int i = 0; i < 2; i++) s.end_q17[i] = (gn_texture_size(t, i) - border) << 17;
     if (GN_TEXEL_IS(t, GN_TEXTURE_RGBA8888)) row_of_kind(&s, TEXELS_RGBA, line, bits, rgb);
-    else if (GN_TEXEL_IS_565(t)) {
-        begin_565(&s);
-        row_of_kind(&s, TEXELS_565, line, bits, rgb);
-    } else if (GN_TEXEL_IS_PALETTE(t)) row_of_kind(&s, TEXELS_PALETTE, line, bits, rgb);
+    else if (GN_TEXEL_IS(t, GN_TEXTURE_RGB565)) row_of_kind(&s, TEXELS_565, line, bits, rgb);
+    else if (GN_TEXEL_IS(t, GN_TEXTURE_RGB565A1)) row_of_kind(&s, TEXELS_565A1, line, bits, rgb);
+    else if (GN_TEXEL_IS_PALETTE(t)) row_of_kind(&s, TEXELS_PALETTE, line, bits, rgb);
     else if (GN_TEXEL_IS_GREY(t)) row_of_kind(&s, TEXELS_GREY, line, bits, rgb);
     else
         for (; bits; bits >>= 1, rgb++) (*rgb)[0] = (*rgb)[1] = (*rgb)[2] = 65535U;
