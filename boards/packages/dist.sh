@@ -8,7 +8,7 @@ rm -rf "${out:?}/$name" "$out/$name.tar.gz"
 mkdir -p "$out/$name" || exit 1
 
 keywords() { # functions KEYWORD2, types KEYWORD1, constants LITERAL1: a tab between
-    cat lib/gnomon.h lib/gn_rig.h | awk '
+    cat lib/gnomon.h lib/gn_scene_types.h lib/gn_rig.h | awk '
         { sub(/\/\*.*/, "") }
         /^} gn_[a-z_]*;/ { gsub(/[};]/, ""); print $1 "\tKEYWORD1" }
         match($0, /^[a-z].*[ *]gn_[a-z_0-9]+\(/) { sub(/\(.*/, ""); sub(/.*[ *]/, ""); print $0 "\tKEYWORD2" }
