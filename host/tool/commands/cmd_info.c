@@ -148,13 +148,35 @@ static void print_json(const report *r)
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
+/* Whether the light's tiles are not all squares of one size. */
+static bool differ(const engine_picture *p, size_t light)
+{
+    for (int i = 0; i < p->n_tiles[light]; i++)
+        for (int k = 0; k < 2; k++)
+            if (p->tile_size[light][i][k] != p->atlas_texels[light]) return true;
+    return false;
+}
+
+/* By worth, or fitted: columns x rows of each. */
+static void text_tiles(const engine_picture *p, size_t light)
+{
+    printf("shadow tiles of ");
+    for (int i = 0; i < p->n_tiles[light]; i++) {
+        const int *size = p->tile_size[light][i];
+        if (size[0]) printf("%s%dx%d", i ? ", " : "", size[0], size[1]);
+        else printf("%snone (nothing visible needs it)", i ? ", " : "");
+    }
+    printf("\n");
+}
+
 static void text_light(const report *r, size_t i)
 {
     const scene_light *l = &r->scene->lights[i];
     int n = r->picture->n_tiles[i], t = r->picture->atlas_texels[i];
     printf("    %zu '%s': %s, ", i, l->name, kind_names[l->kind]);
     if (l->mode != SCENE_REALTIME) printf("%s, ", mode_names[l->mode]);
-    if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME)
+    if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME && differ(r->picture, i)) text_tiles(r->picture, i);
+    else if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME)
         printf("%d shadow tile%s of %dx%d\n", n, n == 1 ? "" : "s", t, t);
     else if (r->picture->shadow_state[i] == GN_SHADOW_NO_ROOM) printf("no room for its shadow\n");
     else printf("no shadow\n");

@@ -165,15 +165,16 @@ static double depth_of(const gn_tile_info *tile, size_t i)
     return ((const uint32_t *)tile->depth)[i] / 4294967295.0;
 }
 
-static int copy_tile(const job *j, engine_picture *out, size_t light, size_t idx)
+static int copy_tile(const job *j, engine_picture *out, size_t light, size_t idx, int what)
 {
     gn_tile_info info;
     if (!gn_get_shadow_tile(j->renderer, (uint32_t)light, (uint32_t)idx, &info)) return 0;
     const size_t n = (size_t)info.texels * info.rows;
-    double *tile = malloc(n * sizeof *tile);
-    out->atlas[light][idx] = tile;
     out->tile_size[light][idx][0] = (int)info.texels;
     out->tile_size[light][idx][1] = (int)info.rows;
+    if (what != ENGINE_ALL) return 0;
+    double *tile = malloc(n * sizeof *tile);
+    out->atlas[light][idx] = tile;
     for (size_t i = 0; tile && i < n; i++) tile[i] = depth_of(&info, i);
     return tile ? 0 : -1;
 }
@@ -187,8 +188,8 @@ static int copy_atlas(const job *j, engine_picture *out, int what)
         out->n_tiles[l] = (int)n_tiles;
         out->atlas_texels[l] = (int)texels;
         out->perspective[l] = j->scene->lights[l].kind != SCENE_LIGHT_DIRECTIONAL;
-        for (size_t i = 0; what == ENGINE_ALL && i < n_tiles; i++)
-            if (copy_tile(j, out, l, i)) {
+        for (size_t i = 0; i < n_tiles; i++)
+            if (copy_tile(j, out, l, i, what)) {
                 snprintf(j->error, j->error_bytes, "out of memory");
                 return -1;
             }
