@@ -40,3 +40,5 @@
 #define GN_VERTEX_NORMALS   0
 #define GN_VERTEX_COLOURS   0
 #define GN_TILE_DRAWING     0
+#define GN_EMISSIVE         0
+#define GN_ORTHOGRAPHIC     0
