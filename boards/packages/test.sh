@@ -84,7 +84,7 @@ grep -q -E '^category=(Display|Communication|Signal Input/Output|Sensors|Device 
     fail "library.properties: no such category"
 awk -F '\t' 'NF != 2 || $1 !~ /^[A-Za-z_0-9]+$/ || $2 !~ /^(KEYWORD[123]|LITERAL1)$/ { exit 1 }' "$package/arduino/Gnomon/keywords.txt" && pass || fail "keywords.txt"
 for word in gn_render gn_scene GN_FORMAT_RGB565 gn_pick; do
-    grep -q "^$word	" "$package/arduino/Gnomon/keywords.txt" && pass || fail "keywords.txt has no $word"
+    awk -v word="$word" '$1 == word { found = 1 } END { exit !found }' "$package/arduino/Gnomon/keywords.txt" && pass || fail "keywords.txt has no $word"
 done
 json=$package/arduino/Gnomon/library.json
 for key in name version description keywords authors license headers frameworks platforms; do

@@ -11,9 +11,9 @@ static unsigned char screen[HEIGHT][WIDTH];
 static const int32_t ground_pos[] = {GN_Q16(-4), 0, GN_Q16(-4), GN_Q16(-4), 0, GN_Q16(4),
                                      GN_Q16(4),  0, GN_Q16(4),  GN_Q16(4),  0, GN_Q16(-4)};
 static const uint16_t ground_idx[] = {0, 1, 2, 0, 2, 3};
-static const int32_t body_pos[] = {GN_Q16(-1), GN_Q16(0.5), GN_Q16(-1),  GN_Q16(-1), GN_Q16(0.5),
-                                   GN_Q16(1),  GN_Q16(1),   GN_Q16(0.5), GN_Q16(1),  GN_Q16(1),
-                                   GN_Q16(0.5), GN_Q16(-1), 0,           GN_Q16(2.5), 0};
+static const int32_t body_pos[] = {GN_Q16(-1),  GN_Q16(0.5), GN_Q16(-1),  GN_Q16(-1),  GN_Q16(0.5),
+                                   GN_Q16(1),   GN_Q16(1),   GN_Q16(0.5), GN_Q16(1),   GN_Q16(1),
+                                   GN_Q16(0.5), GN_Q16(-1),  0,           GN_Q16(2.5), 0};
 static const uint16_t body_idx[] = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 0, 2, 1, 0, 3, 2};
 static const gn_mesh ground = GN_MESH(ground_pos, ground_idx), body = GN_MESH(body_pos, body_idx);
 
