@@ -346,12 +346,6 @@ GN_HOT static void drop_windows(part_look *look)
     for (int i = 0; look->mixed && i < 4; i++)
         if (look->view[i].window && look->view[i].window->view != look->view[i].view) look->view[i].window = NULL;
 }
-#else
-GN_HOT static void drop_windows(part_look *look)
-{
-    (void)look;
-}
-#endif
 
 /* Whether the rows' windows are there. */
 GN_HOT static int has_windows(const gn_lattice *l, const part_look *look)
@@ -361,6 +355,18 @@ GN_HOT static int has_windows(const gn_lattice *l, const part_look *look)
     for (int i = 0; i < 4; i++) any |= look->view[i].window != NULL;
     return any;
 }
+#else
+GN_HOT static void drop_windows(part_look *look)
+{
+    (void)look;
+}
+
+GN_HOT static int has_windows(const gn_lattice *l, const part_look *look)
+{
+    (void)l, (void)look;
+    return 0;
+}
+#endif
 
 /* The part's rows, up to part_end, which windows may move. Returns 0 if they are not of one or two colours. */
 GN_HOT static int shade_rows(gn_shading *s, int any)

@@ -13,16 +13,14 @@
 
 #define BOX_LIMIT ((1 << 30) - 1)
 
-typedef gn_seen_polygon polygon;
-typedef gn_seen_plane plane;
 typedef gn_seen_job clip_job;
 
-static int64_t plane_distance(const plane *a, const int32_t p[3])
+static int64_t plane_distance(const gn_seen_plane *a, const int32_t p[3])
 {
     return gn_dot64(a->n, p) - a->d; /* 2^61 */
 }
 
-static void clip(polygon *now, polygon *before, const plane *by)
+static void clip(gn_seen_polygon *now, gn_seen_polygon *before, const gn_seen_plane *by)
 {
     *before = *now;
     now->n = 0;
@@ -42,7 +40,7 @@ static void clip(polygon *now, polygon *before, const plane *by)
     }
 }
 
-static void set_plane(plane *out, int32_t x, int32_t y, int32_t z, int64_t d)
+static void set_plane(gn_seen_plane *out, int32_t x, int32_t y, int32_t z, int64_t d)
 {
     out->n[0] = x, out->n[1] = y, out->n[2] = z;
     out->d = d;
@@ -163,7 +161,7 @@ static void cascade_depths(const gn_frame *frame, uint32_t idx, int32_t *first_q
     }
 }
 
-static void widen(gn_view_seen *seen, int32_t axis_q30[3][3], const polygon *points)
+static void widen(gn_view_seen *seen, int32_t axis_q30[3][3], const gn_seen_polygon *points)
 {
     for (int32_t i = 0; i < points->n; i++)
         for (int k = 0; k < 3; k++) {
@@ -228,7 +226,7 @@ static void axes_in_view(const gn_frame *frame, const gn_light *light, int32_t o
 
 #if GN_PUNCTUAL_LIGHTS
 /* The four sides of a spot's cone or of the part of space whose points a face of a cube is chosen for. */
-static void pyramid(const gn_frame *frame, uint32_t light_idx, uint32_t face, plane out[4])
+static void pyramid(const gn_frame *frame, uint32_t light_idx, uint32_t face, gn_seen_plane out[4])
 {
     const gn_light *light = &frame->scene->lights[light_idx];
     const gn_light_state *state = &frame->light[light_idx];
@@ -252,7 +250,7 @@ static void pyramid(const gn_frame *frame, uint32_t light_idx, uint32_t face, pl
 }
 
 /* The polygon on the screen, px^2, Q16. */
-static uint64_t area_q16(const gn_frame *frame, const polygon *shape)
+static uint64_t area_q16(const gn_frame *frame, const gn_seen_polygon *shape)
 {
     int64_t sum = 0;
     int32_t first[2] = {0, 0}, before[2] = {0, 0};
@@ -271,7 +269,7 @@ static uint64_t area_q16(const gn_frame *frame, const polygon *shape)
 }
 
 /* Sides of the pyramid that some point is inside of, a bit each; *all: those that all points are inside of. */
-static uint32_t inside_of(const plane side[4], const polygon *points, uint32_t *all)
+static uint32_t inside_of(const gn_seen_plane side[4], const gn_seen_polygon *points, uint32_t *all)
 {
     uint32_t any = 0;
     *all = 15;
@@ -286,7 +284,7 @@ static uint32_t inside_of(const plane side[4], const polygon *points, uint32_t *
 }
 
 /* A face of the box, or what of it the pyramid holds. */
-static uint32_t see_face(clip_job *job, gn_view_seen *seen, const plane side[4])
+static uint32_t see_face(clip_job *job, gn_view_seen *seen, const gn_seen_plane side[4])
 {
     uint32_t all, any = inside_of(side, &job->now, &all);
     if (any != 15) return any;
@@ -299,7 +297,7 @@ static uint32_t see_face(clip_job *job, gn_view_seen *seen, const plane side[4])
 static void see_punctual(clip_job *job, gn_view_seen *seen, uint32_t light_idx, uint32_t face)
 {
     const gn_frame *frame = job->frame;
-    plane side[4];
+    gn_seen_plane side[4];
     pyramid(frame, light_idx, face, side);
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
         const gn_object_state *object = &frame->object[o];

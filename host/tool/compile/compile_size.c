@@ -2,7 +2,7 @@
  */
 #include "rig.h"
 
-enum { MESH_BYTES = 32, TEXTURE_BYTES = 8, CAMERA_BYTES = 64 };
+enum { MESH_BYTES = 32, TEXTURE_BYTES = 16, CAMERA_BYTES = 68 };
 
 static long padded(long bytes)
 {
@@ -12,7 +12,7 @@ static long padded(long bytes)
 /* Enumerations take 4 bytes each, or, as Arm's compilers have them by default, one. */
 static long object_bytes(bool short_enums)
 {
-    return short_enums ? 116 : 120;
+    return short_enums ? 128 : 132;
 }
 
 static long light_bytes(bool short_enums)
@@ -22,7 +22,7 @@ static long light_bytes(bool short_enums)
 
 static long scene_bytes(bool short_enums)
 {
-    return short_enums ? 188 : 204;
+    return short_enums ? 220 : 240;
 }
 
 static long mesh_bytes(const gn_mesh *m, const gn_knobs *knobs)
