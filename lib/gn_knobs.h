@@ -123,11 +123,11 @@
     X(tile_importance, TILE_IMPORTANCE, 0, 1, "tile sizes by importance", "flash")                                     \
     X(tight_fit, TIGHT_FIT, 0, 1,                                                                                      \
       "shadow tiles that cover what is visible, and are as large as that is worth on the screen",                      \
-      "flash; 48 bytes per tile, 24 per object")                                                                                      \
+      "flash; 48 bytes per tile, 24 per object")                                                                       \
     X(object_boxes, OBJECT_BOXES, 0, 1, "casters whose box lies outside a shadow tile are skipped",                    \
       "flash, 24 bytes per object; the same picture with and without")                                                 \
     X(orthographic, ORTHOGRAPHIC, 0, 1, "orthographic cameras",                                                        \
-      "flash; 52 bytes of RAM; what such a camera sees is shaded pixel by pixel")                                      \
+      "flash; 48 bytes of RAM; what such a camera sees is shaded pixel by pixel")                                      \
     X(clipping, CLIPPING, 0, 1,                                                                                        \
       "visible triangles may cross the near plane, or extend far beyond the picture; without, the frame is "           \
       "refused",                                                                                                       \

@@ -399,12 +399,35 @@ GN_HOT static void begin_base(drawing *d, const gn_lattice_look *look)
     }
 }
 
+/* Rows of nodes, and the pixels between them. */
+GN_HOT static void draw_nodes(const drawing *d)
+{
+    gn_lattice *l = &d->s->lattice;
+    int32_t spacing_log2 = l->look.spacing_log2, known = -1;
+    int inside = 0;
+    for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << spacing_log2) {
+        if (!columns(d, d->y + below, 1 << spacing_log2)) continue;
+        if (known != below) inside = find_nodes(d, below, l->by.node[0]);
+        else
+            for (int32_t i = 0; i < d->n; i++)
+                for (int c = 0; c < 3; c++) l->by.node[0][i][c] = l->by.node[1][i][c];
+        int both = inside;
+        if (spacing_log2) {
+            known = below + (1 << spacing_log2);
+            inside = find_nodes(d, known, l->by.node[1]);
+            both &= inside;
+        }
+        draw_strip(d, below, both);
+    }
+    gn_levels_forget(l); /* nodes took their place */
+}
+
 GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4])
 {
     gn_lattice *l = &s->lattice;
     const gn_lattice_look *look = &l->look;
     drawing d;
-    int32_t size = 1 << size_log2, spacing_log2 = look->spacing_log2, known = -1;
+    int32_t size = 1 << size_log2, spacing_log2 = look->spacing_log2;
     uint32_t packed;
     d.s = s;
     d.x = x;
@@ -428,22 +451,7 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
         draw_two_colours(&d);
         return;
     }
-    int inside = 0;
-    for (int32_t below = 0; below < size; below += 1 << spacing_log2) {
-        if (!columns(&d, y + below, 1 << spacing_log2)) continue;
-        if (known != below) inside = find_nodes(&d, below, l->by.node[0]);
-        else
-            for (int32_t i = 0; i < d.n; i++)
-                for (int c = 0; c < 3; c++) l->by.node[0][i][c] = l->by.node[1][i][c];
-        int both = inside;
-        if (spacing_log2) {
-            known = below + (1 << spacing_log2);
-            inside = find_nodes(&d, known, l->by.node[1]);
-            both &= inside;
-        }
-        draw_strip(&d, below, both);
-    }
-    gn_levels_forget(l); /* nodes took their place */
+    draw_nodes(&d);
 }
 
 #endif

@@ -226,7 +226,7 @@ typedef struct {
     gn_lattice_edge edge[GN_LATTICE_EDGES];
     int32_t n_edges;
     int32_t texture_bends; /* where texture coordinates are quadratics: 1 along rows, 2 down columns */
-    int32_t spacing_log2;   /* of lookups in pixels */
+    int32_t spacing_log2;  /* of lookups in pixels */
 } gn_lattice_look;
 
 /* A window that is to be made before the cell can be looked at. */

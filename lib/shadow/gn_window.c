@@ -229,24 +229,54 @@ typedef struct {
     uint32_t settled[2][SETTLED_ROWS]; /* dark, doubt */
 } window_rows;
 
-/* Compares the texels in doubt with the least and the greatest depth of receivers: what both agree on is settled. */
+/* A row's texels of 16 bits, from s on, against two levels of depth: bit i of dark[k] for texel s + i. */
+GN_HOT static inline void compare_levels(const gn_window *window, int32_t s, int32_t j, int32_t n,
+                                         const uint32_t level[2], uint32_t dark[2])
+{
+    const uint16_t *first = gn_view_texels(window->view, window->u0 + s, window->v0 + j).d16;
+    uint32_t far = 0, near = 0;
+    for (const uint16_t *texel = first + n; texel != first;) {
+        uint32_t depth = *--texel;
+        far = gn_borrow(far, depth, level[0]);
+        near = gn_borrow(near, depth, level[1]);
+    }
+    dark[0] = far;
+    dark[1] = near;
+}
+
+/* Columns that lookups of texels in doubt read, too. */
+GN_HOT static uint32_t columns_of(uint32_t doubts, int32_t reach, uint32_t mask)
+{
+    uint32_t all = doubts;
+    for (int32_t i = 1; i <= reach; i++) all |= doubts << i | doubts >> i;
+    return all & mask;
+}
+
+/* Compares the texels in doubt, and those that are looked up with them, with the least and the greatest depth of
+ * receivers: what both agree on is settled. */
 GN_HOT static GN_NOINLINE int settle(const gn_frame *frame, window_rows *rows, int32_t h, uint32_t mask,
                                      const int32_t depth_q30[2])
 {
     const gn_window *window = rows->window;
     uint32_t near = least_depth(frame, window->view, gn_min32(depth_q30[0], depth_q30[1])),
              far = least_depth(frame, window->view, gn_max32(depth_q30[0], depth_q30[1]));
+    uint32_t level[2] = {(far + 0xFFFFU) >> 16, (near + 0xFFFFU) >> 16};
+    uint32_t asked = columns_of(rows->doubts, 2 * window->view->filter_idx + 1, mask);
+    int32_t s = 31 - gn_clz32(asked & (0U - asked)), n = 32 - gn_clz32(asked) - s;
+    uint32_t range = (UINT32_MAX >> (32 - n)) << s;
     for (int32_t j = 0; j < h; j++) {
-        uint32_t doubt = rows->doubt[j] & mask, dark = rows->dark[j] & ~doubt;
-        if (doubt) {
-            uint32_t maybe = compare_doubts(window, rows->v0 + j, doubt, far);
-            doubt = maybe;
-            if (maybe && near != far) doubt ^= compare_doubts(window, rows->v0 + j, maybe, near);
-            else doubt = 0;
-            dark |= maybe;
+        uint32_t dark[2] = {0, 0}, doubt = rows->doubt[j] & mask, known = rows->dark[j] & ~doubt;
+        if (window->plain) {
+            compare_levels(window, s, rows->v0 + j, n, level, dark);
+            dark[0] <<= s;
+            dark[1] <<= s;
+            known &= ~range;
+        } else if (doubt) {
+            dark[0] = compare_doubts(window, rows->v0 + j, doubt, far);
+            if (dark[0]) dark[1] = near == far ? dark[0] : compare_doubts(window, rows->v0 + j, dark[0], near);
         }
-        rows->settled[0][j] = dark;
-        rows->settled[1][j] = doubt;
+        rows->settled[0][j] = known | dark[0];
+        rows->settled[1][j] = dark[0] ^ dark[1];
     }
     rows->dark = rows->settled[0];
     rows->doubt = rows->settled[1];
@@ -270,6 +300,9 @@ GN_HOT static uint32_t dark_texels(const gn_frame *frame, const window_rows *row
     }
     if (!doubts) return any | all << 16;
     uint32_t least = least_depth(frame, window->view, depth_q30);
+    if (window->plain && n > 2)
+        return gn_kernel_dark_texels16(gn_view_texels(window->view, window->u0 + s, window->v0 + j).d16,
+                                       (size_t)window->view->tile_texels, least, n, dark);
     any = 0;
     all = mask;
     for (int32_t i = 0; i < n; i++) {

@@ -13,13 +13,13 @@ features=docs/FEATURES.md gallery=docs/GALLERY.md
 # identifiers PREFIX N
 identifiers() { awk -v p="$1" -v n="$2" 'BEGIN { for (i = 1; i <= n; i++) print p i }'; }
 {
-    identifiers D 11
+    identifiers D 12
     identifiers P 10
-    identifiers A 6
+    identifiers A 7
     identifiers F 6
     identifiers B 6
-    identifiers M 9
-    identifiers R 9
+    identifiers M 11
+    identifiers R 11
 } >"$tmp/rows"
 
 # ---- The page and the tags -------------------------------------------------------------------------------------------

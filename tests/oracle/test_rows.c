@@ -166,7 +166,7 @@ typedef struct {
     double allowed;
 } exception;
 static const exception beyond[] = {
-    {"M3", "yard", ".texture=nearest", 1.1}, /* texels that a coordinate is within 2^-9 of */
+    {"M3", "yard", ".texture=nearest", 1.2}, /* texels that a coordinate is within 2^-9 of, or a step of Q17 */
     {"P6", "room", "other_atlas_size=64 bias_normal=3", 1.15},
     {"P6", "room", "other_atlas_size=64", 4.6}, /* 7x7 in tiles of 16 texels: all is penumbra, linear between lookups */
     {"P5", "room", "near=0.6", 2.1},
