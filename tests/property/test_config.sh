@@ -19,28 +19,35 @@ flags() {
         all) for feature in $features; do echo "-DGN_$feature=$(most "$feature")"; done ;;
         tiny | fast | balanced | accurate) echo "-DGN_PRESET=GN_PRESET_$(echo "$word" | tr a-z A-Z)" ;;
         -*) echo "$word" ;;
+        TEXTURES=1) echo "-DGN_$word" && echo "-DGN_TEXTURE_FORMATS=$(most TEXTURE_FORMATS)" ;; # nothing to read otherwise
         *) echo "-DGN_$word" ;;
         esac
     done | awk -F= '!($1 in at) { at[$1] = ++n } { flag[at[$1]] = $0 } END { for (i = 1; i <= n; i++) print flag[i] }'
 }
-most() { if [ "$1" = FILTER_MAX ]; then echo 4; else echo 1; fi; }
+most() {
+    case $1 in
+    FILTER_MAX) echo 4 ;;
+    TEXTURE_FORMATS) echo 1023 ;;
+    *) echo 1 ;;
+    esac
+}
 none=$(flags none) all=$(flags all)
 
 # ---- What must build, and draw the same ------------------------------------------------------------------------------------
 
 more() { [ -z "$THOROUGH" ] || echo "$@"; } # of parts that other configurations have, each
 
-# Seven configurations under shadows that together have of any two features one, the other, both; "none" has neither. Each feature is in
-# four of them, no two in the same four: 35 features at most.
+# Eight configurations under shadows that together have of any two features one, the other, both; "none" has neither. Each feature is in
+# five of them, no two in the same five: 56 features at most.
 others=$(echo "$features" | grep -v -x SHADOWS)
 pairs() {
     for feature in $others; do echo "$feature=$(most "$feature")"; done | awk '{ feature[NR] = $1 }
         END {
-            for (a = 1; a < 8; a++) for (b = 1; b < a; b++) for (c = 1; c < b; c++) {
+            for (a = 1; a < 9; a++) for (b = 1; b < a; b++) for (c = 1; c < b; c++) {
                 k++
-                for (i = 1; i < 8; i++) if (i != a && i != b && i != c) of[i] = of[i] " " feature[k]
+                for (i = 1; i < 9; i++) if (i != a && i != b && i != c) of[i] = of[i] " " feature[k]
             }
-            for (i = 1; i < 8; i++) { gsub(/ +/, " ", of[i]); print "none SHADOWS=1" of[i] }
+            for (i = 1; i < 9; i++) { gsub(/ +/, " ", of[i]); print "none SHADOWS=1" of[i] }
         }'
 }
 {
@@ -102,7 +109,7 @@ pairs() {
     more "RUNTIME_KNOBS=1 FILTER_MAX=0"
     echo "SUBPIXEL_BITS=8 MAX_TILE_REFS=65535"
     echo "MAX_TILE_REFS=65536 VERTEX_CACHE=4 MAX_LIGHTS=4 SURFACE_LIGHTS=4 MAX_OBJECTS=3"
-    echo "MAX_WIDTH=56 MAX_HEIGHT=44 TILE_WIDTH=8 TILE_HEIGHT=1"
+    echo "MAX_WIDTH=56 MAX_HEIGHT=44 TILE_WIDTH=8 TILE_HEIGHT=1 MAX_TILE_REFS=2000"
 } >"$tmp/wanted"
 
 # draws N COMPILER CHECKER FLAGS...: built by the one without a warning, and looked through by the other; the same lines as the host
@@ -154,7 +161,7 @@ if gcc $strict -O1 $host_knobs -Itests/support -o "$tmp/host_picture" lib/gnomon
     grep -hv '^ok$' "$tmp"/drawn?
 else fail "the host build: $(grep -m 1 -E 'error|undefined' "$tmp/log")"; fi
 
-[ "$(echo "$others" | wc -l)" -le 35 ] && pass || fail "more than 35 features: pairs() leaves some out"
+[ "$(echo "$others" | wc -l)" -le 56 ] && pass || fail "more than 56 features: pairs() leaves some out"
 
 # file by file, as users build it: what each needs, it includes itself
 for flags in "" "$none" "$all" "$(flags MAX_WIDTH=1 MAX_HEIGHT=1 MAX_TRIANGLES=1 MAX_TILE_REFS=1 TILE_WIDTH=8 TILE_HEIGHT=1 ATLAS_SIZE=16 OTHER_ATLAS_SIZE=16 \
