@@ -48,7 +48,7 @@ void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_sur
 
 #if GN_TEXTURES
 /* Texture coordinates at a pixel. Returns 0 where the plane cannot be sampled. */
-int gn_corner_texture(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
+int gn_corner_texture(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
                       int32_t uv_q20[2]);
 #endif
 

@@ -256,9 +256,9 @@ GN_HOT static GN_NOINLINE void find_attenuations(const drawing *d, const gn_latt
 
 GN_HOT static void add_edge_light(const drawing *d, const gn_lattice_edge *edge, int32_t below, int32_t (*node)[3])
 {
-    const uint32_t *attenuation = d->s->lattice.attenuation[0];
+    const uint32_t *attenuation = d->s->lattice.row.attenuation[0];
     int32_t log2 = d->s->lattice.look.spacing_log2, at[3], step[3];
-    find_attenuations(d, edge, below, d->s->lattice.attenuation[0]);
+    find_attenuations(d, edge, below, d->s->lattice.row.attenuation[0]);
     for (int c = 0; c < 3; c++) {
         const gn_patch *more = &edge->more_q24[c];
         at[c] = gn_patch_at(more, d->first, below);
@@ -322,12 +322,12 @@ GN_HOT static GN_NOINLINE void draw_two_colours(const drawing *d)
     gn_levels_use(l, dark, more);
     for (int32_t below = 0; below < 1 << d->size_log2; below += 1 << log2) {
         if (!columns(d, d->y + below, 1 << log2)) continue;
-        if (known != below) find_attenuations(d, edge, below, l->attenuation[now]);
-        if (log2) find_attenuations(d, edge, below + (1 << log2), l->attenuation[!now]);
+        if (known != below) find_attenuations(d, edge, below, l->row.attenuation[now]);
+        if (log2) find_attenuations(d, edge, below + (1 << log2), l->row.attenuation[!now]);
         for (int32_t t = 0; t < 1 << log2; t++) {
             int32_t y = d->y + below + t;
             uint32_t bits = gn_lattice_bits(l, d->x, y, d->size_log2) >> d->first;
-            if (bits) store_levels(d, y, bits, l->attenuation[now], l->attenuation[log2 ? !now : now], t, log2);
+            if (bits) store_levels(d, y, bits, l->row.attenuation[now], l->row.attenuation[log2 ? !now : now], t, log2);
         }
         if (!log2) continue;
         known = below + (1 << log2);
@@ -360,7 +360,7 @@ GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, int i
     line.inside = inside;
     line.texel = NULL;
 #if GN_TEXTURES
-    uint16_t texel[16][3];
+    uint16_t(*texel)[3] = l->row.texel;
     if (s->surface.textured) line.texel = (const uint16_t(*)[3])texel;
 #endif
 #if GN_GLOW_APART

@@ -337,7 +337,12 @@ typedef struct gn_lattice {
             gn_levels levels; /* from one drawing to the next */
         } look;               /* before it is drawn, or where it has two colours */
     } by;
-    uint32_t attenuation[2][GN_LATTICE_NODES];
+    union {
+        uint32_t attenuation[2][GN_LATTICE_NODES]; /* of two rows of nodes, until their colours are known */
+#if GN_TEXTURES
+        uint16_t texel[16][3]; /* of a row of pixels, then */
+#endif
+    } row;
 } gn_lattice;
 #endif
 

@@ -96,7 +96,7 @@ static long lattice_bytes(const settings *s)
     layout all = {0, 4};
     put(&all, 1, 244, 4);                         /* span to plane */
     put(&all, s->capacity.surface_lights, 12, 4); /* light */
-    put(&all, 1, 196, 4);                         /* unit_q30 to bits */
+    put(&all, 1, 200, 4);                         /* face_q30 to bits */
     put(&all, 12 + 1, corner_bytes(s), 4);        /* corners, corner */
     put(&all, 1, 144, 4);                         /* corner_key to split */
     if (s->feature.shadows) put(&all, 2, 344, 4); /* window */
