@@ -28,7 +28,7 @@ static int64_t addressed(int64_t i, int64_t size, int clamped)
 static unsigned bits_at(const uint8_t *row, size_t first, size_t n)
 {
     unsigned v = 0;
-    for (size_t i = first; i < first + n; i++) v = 2 * v + (row[i / 8] >> (7 - i % 8) & 1U);
+    for (size_t i = first; i < first + n; i++) v = 2 * v + ((uint32_t)row[i / 8] >> (7 - i % 8) & 1U);
     return v;
 }
 
