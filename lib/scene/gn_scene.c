@@ -142,6 +142,8 @@ static gn_status check_material(gn_frame *frame, const gn_object *object, uint32
     }
     if (object->mask_image && (!GN_MASKS || !mesh->mask_uv_uq16 || !texture_ok(object->mask_image)))
         return gn_fail(frame, GN_ERR_MASK, idx);
+    if (object->mask_image && object->mask_image->format != GN_TEXTURE_RGBA8888)
+        return gn_fail(frame, GN_ERR_TEXTURE_FORMAT, idx);
     if ((object->mask_u8 && !GN_MASKS) || (object->baked_uq12 && !GN_BAKED_LIGHT))
         return gn_fail(frame, GN_ERR_MASK, idx);
     return GN_OK;

@@ -9,7 +9,8 @@
 #include "gnomon.h"
 #include "knobs.h"
 
-enum { RANDOM_VERTICES = 9, RANDOM_TRIANGLES = 14, RANDOM_OBJECTS = 4, RANDOM_MESHES = 2, RANDOM_TEXTURES = 3 };
+enum { RANDOM_VERTICES = 9, RANDOM_TRIANGLES = 14, RANDOM_OBJECTS = 4, RANDOM_MESHES = 2 };
+enum { RANDOM_TEXTURES = 4, RANDOM_MASK_TEXTURES = 2 }; /* mask images are the first ones */
 enum { RANDOM_TEXELS_LOG2 = 12, RANDOM_LIMIT_Q16 = 8192 << 16 };
 
 typedef struct {
@@ -19,7 +20,7 @@ typedef struct {
     uint16_t rgb[RANDOM_VERTICES * 3], mask_uv[RANDOM_VERTICES * 2], idx[RANDOM_TRIANGLES * 3],
         baked[RANDOM_VERTICES * 3];
     uint8_t mask[RANDOM_VERTICES * 4];
-    uint8_t *rgba[RANDOM_TEXTURES];
+    uint8_t *texels[RANDOM_TEXTURES], *palette[RANDOM_TEXTURES];
     gn_texture texture[RANDOM_TEXTURES];
     gn_mesh mesh[RANDOM_MESHES];
     gn_object object[RANDOM_OBJECTS];
@@ -85,6 +86,7 @@ static void built_object(gn_object *o)
     if (absent(GN_MASKS)) o->mask_image = NULL, o->mask_u8 = NULL;
     if (absent(GN_BAKED_LIGHT)) o->baked_uq12 = NULL;
     if (absent(GN_SPECULAR)) memset(o->specular_uq16, 0, sizeof o->specular_uq16);
+    if (absent(GN_EMISSIVE)) memset(o->emissive_uq16, 0, sizeof o->emissive_uq16);
 }
 
 static void built_light(gn_light *l)
@@ -101,6 +103,7 @@ static void built_light(gn_light *l)
 
 static void built_camera(gn_camera *camera)
 {
+    if (absent(GN_ORTHOGRAPHIC)) camera->half_height_q16 = 0;
     if (!absent(!GN_COMPACT)) return;
     for (int k = 0; k < 3; k++) camera->to_world.t_q16[k] %= 40 << 16;
     camera->focal_q24 = (1U << 24) + rnd() % (1U << 25);
@@ -125,25 +128,53 @@ static void built_shadows(gn_shadow_settings *s, int32_t near_q16)
     if (absent(GN_BLENDED_CASCADES)) s->blend = GN_BLEND_HARD;
 }
 
-/* Texels in a block of their own, so that a sanitizer sees what is read beside them. */
+static uint8_t *random_block(size_t n)
+{
+    uint8_t *block = malloc(n);
+    if (!block) abort();
+    random_bytes(block, n);
+    return block;
+}
+
+/* Sides by their logarithms, or any. */
+static void random_sides(gn_texture *t)
+{
+    t->width_log2 = (uint8_t)pick(0, one_in(20) ? RANDOM_TEXELS_LOG2 : 4);
+    t->height_log2 = (uint8_t)pick(0, one_in(20) ? RANDOM_TEXELS_LOG2 - t->width_log2 : 12 - t->width_log2 < 4 ? 0 : 4);
+    t->width = t->height = 0;
+    if (one_in(3)) t->width = (uint16_t)pick(1, 1 << t->width_log2), t->width_log2 = (uint8_t)rnd();
+    if (one_in(3)) t->height = (uint16_t)pick(1, 1 << t->height_log2), t->height_log2 = (uint8_t)rnd();
+}
+
+/* Texels and palettes in blocks of their own, so that a sanitizer sees what is read beside them. */
+static void random_texels(random_scene *g, int i)
+{
+    static const uint8_t bits[GN_TEXTURE_FORMAT_COUNT] = {32, 16, 16, 8, 4, 1, 8, 4, 8, 4};
+    gn_texture *t = &g->texture[i];
+    const size_t width = t->width ? t->width : (size_t)1 << t->width_log2;
+    const size_t height = t->height ? t->height : (size_t)1 << t->height_log2;
+    free(g->texels[i]), free(g->palette[i]);
+    g->texels[i] = random_block((width * bits[t->format] + 7) / 8 * height), g->palette[i] = NULL;
+    if (t->format >= GN_TEXTURE_PALETTE8 && t->format <= GN_TEXTURE_PALETTE1)
+        g->palette[i] = random_block((size_t)4 << bits[t->format]);
+    t->rgba = g->texels[i], t->palette = g->palette[i];
+}
+
 static void random_textures(random_scene *g)
 {
     for (int i = 0; i < RANDOM_TEXTURES; i++) {
         gn_texture *t = &g->texture[i];
-        t->width_log2 = (uint8_t)pick(0, one_in(20) ? RANDOM_TEXELS_LOG2 : 4);
-        t->height_log2 = (uint8_t)pick(0, one_in(20)               ? RANDOM_TEXELS_LOG2 - t->width_log2
-                                          : 12 - t->width_log2 < 4 ? 0
-                                                                   : 4);
+        random_sides(t);
         t->flags = (uint8_t)rnd();
-        size_t n = (size_t)4 << (t->width_log2 + t->height_log2);
-        free(g->rgba[i]);
-        g->rgba[i] = malloc(n);
-        if (!g->rgba[i]) abort();
-        random_bytes(g->rgba[i], n);
-        t->rgba = g->rgba[i];
+        do t->format = (uint8_t)(one_in(2) ? GN_TEXTURE_RGBA8888 : rnd() % GN_TEXTURE_FORMAT_COUNT);
+        while (absent(GN_TEXTURE_FORMATS >> t->format & 1));
+        if (i < RANDOM_MASK_TEXTURES && !one_in(50)) t->format = GN_TEXTURE_RGBA8888;
+        random_texels(g, i);
         if (one_in(200)) t->rgba = NULL;
-        if (one_in(200)) t->width_log2 = (uint8_t)pick(13, 255);
-        if (one_in(200)) t->height_log2 = (uint8_t)pick(13, 255);
+        if (one_in(200)) t->palette = NULL;
+        if (one_in(200)) t->format = (uint8_t)pick(GN_TEXTURE_FORMAT_COUNT, 255);
+        if (one_in(200)) t->width = 0, t->width_log2 = (uint8_t)pick(13, 255);
+        if (one_in(200)) t->height = (uint16_t)pick(4097, 65535);
     }
 }
 
@@ -210,6 +241,7 @@ static void random_material(random_scene *g, gn_object *o)
     for (int k = 0; k < 3; k++) {
         o->albedo_uq16[k] = (uint32_t)pick(0, 65536);
         o->specular_uq16[k] = (uint32_t)seldom(0, 0, 65536);
+        o->emissive_uq16[k] = (uint32_t)seldom(0, 0, one_in(4) ? 0xFFFFFF : 1 << 16);
     }
     o->visible_alpha = one_in(3) ? (gn_alpha)(rnd() % 3) : GN_ALPHA_OPAQUE;
     o->caster_alpha = one_in(3) ? (gn_alpha)(rnd() % 3) : GN_ALPHA_OPAQUE;
@@ -217,7 +249,7 @@ static void random_material(random_scene *g, gn_object *o)
     o->alpha_cutoff_uq16 = (uint32_t)pick(0, 65536);
     o->shininess_log2 = (uint8_t)pick(0, 7);
     o->texture = one_in(3) ? &g->texture[rnd() % RANDOM_TEXTURES] : NULL;
-    o->mask_image = one_in(6) ? &g->texture[rnd() % RANDOM_TEXTURES] : NULL;
+    o->mask_image = one_in(6) ? &g->texture[rnd() % RANDOM_MASK_TEXTURES] : NULL;
     o->mask_u8 = one_in(3) ? g->mask : NULL;
     o->baked_uq12 = one_in(4) ? g->baked : NULL;
 }
@@ -318,6 +350,7 @@ static void random_camera(gn_camera *camera)
     random_rotation(&camera->to_world);
     for (int k = 0; k < 3; k++) camera->to_world.t_q16[k] = pick(-RANDOM_LIMIT_Q16, RANDOM_LIMIT_Q16);
     camera->focal_q24 = (uint32_t)pick(1 << 19, one_in(6) ? INT32_MAX : 1 << 25) << one_in(8);
+    camera->half_height_q16 = one_in(5) ? pick(256, one_in(4) ? RANDOM_LIMIT_Q16 : 10 << 16) : 0;
     camera->near_q16 = pick(256, one_in(8) ? RANDOM_LIMIT_Q16 : 1 << 14);
     camera->far_q16 = one_in(50) ? (int32_t)rnd() : INT32_MAX;
     built_camera(camera);
@@ -354,6 +387,11 @@ static void random_shadows(gn_shadow_settings *s, int32_t near_q16)
     built_shadows(s, near_q16);
 }
 
+static void draw_nothing(void *user, int x, int y, int w, int h, void *pixels)
+{
+    (void)user, (void)x, (void)y, (void)w, (void)h, (void)pixels;
+}
+
 static void random_scene_make(random_scene *g)
 {
     gn_scene *s = &g->scene;
@@ -361,7 +399,9 @@ static void random_scene_make(random_scene *g)
     for (int k = 0; k < 3; k++) {
         s->ambient_uq16[k] = (uint32_t)pick(0, 0xFFFFFF);
         s->background_uq16[k] = (uint32_t)pick(0, 65536);
+        s->background_bottom_uq16[k] = (uint32_t)pick(0, 65536);
     }
+    s->background_gradient = !absent(GN_TILE_DRAWING) && one_in(4);
     s->unit_log2 = seldom(0, -30, 30);
     s->n_objects = one_in(4) ? rnd() % (RANDOM_OBJECTS + 1) : RANDOM_OBJECTS;
     s->n_lights = one_in(10) ? rnd() % (GN_MAX_LIGHTS + 1) : 1 + rnd() % 6;
@@ -375,6 +415,8 @@ static void random_scene_make(random_scene *g)
     if (one_in(60)) random_bytes(&s->camera, sizeof s->camera);
     s->objects = g->object;
     s->lights = g->light;
+    s->draw_behind = !absent(GN_TILE_DRAWING) && one_in(8) ? draw_nothing : NULL;
+    s->draw_over = !absent(GN_TILE_DRAWING) && one_in(8) ? draw_nothing : NULL;
 }
 
 /* The next frame: a few things are different. Arrays stay as they are. */
@@ -447,7 +489,7 @@ static void random_knobs(gn_frame *k)
 
 static void random_scene_end(random_scene *g)
 {
-    for (int i = 0; i < RANDOM_TEXTURES; i++) free(g->rgba[i]);
+    for (int i = 0; i < RANDOM_TEXTURES; i++) free(g->texels[i]), free(g->palette[i]);
 }
 
 #endif

@@ -549,6 +549,10 @@ static void mask_high(void)
 {
     full.mask.height_log2 = 13;
 }
+static void mask_format(void)
+{
+    full.mask.format = GN_TEXTURE_RGB565;
+}
 static void mask_no_uv(void)
 {
     demo.ball.mask_uv_uq16 = NULL;
@@ -636,6 +640,7 @@ static void test_combinations(void)
         COMBINATION(mask_no_texels, GN_ERR_MASK, FULL_OBJECT),
         COMBINATION(mask_wide, GN_ERR_MASK, FULL_OBJECT),
         COMBINATION(mask_high, GN_ERR_MASK, FULL_OBJECT),
+        COMBINATION(mask_format, GN_ERR_TEXTURE_FORMAT, FULL_OBJECT),
         COMBINATION(mask_no_uv, GN_ERR_MASK, FULL_OBJECT),
         COMBINATION(spot_no_direction, GN_ERR_LIGHT_DIRECTION, FULL_SPOT),
         COMBINATION(spot_below_1_degree, GN_ERR_LIGHT_ANGLE, FULL_SPOT),

@@ -98,6 +98,7 @@ static void test_punctual(void)
         state->kind = (uint8_t)(n & 1 ? GN_LIGHT_POINT : GN_LIGHT_SPOT);
         state->view_idx = 0, view->light_idx = 0;
         view->fit.persp.texel_per_z = gn_bf_recip(gn_bf_from_u64(1 + rng_below(&r, 1 << (n % 9 ? 10 : 4))));
+        for (int face = 1; face < 6; face++) one.frame.view[face] = *view; /* a face's texels may be its own */
         const double per_z = ldexp((double)gn_bf_apply(1 << 30, view->fit.persp.texel_per_z, 30), -60);
         for (int i = 0; i < 3; i++) {
             from[i] = rng_range(&r, -(1 << 30), 1 << 30) >> rng_below(&r, 16);
