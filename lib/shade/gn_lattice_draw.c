@@ -209,16 +209,6 @@ GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, in
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* Whether node i of a row lies in the face of a cube that the view looks through. */
-GN_HOT static int is_in_face(const gn_light_view *view, const gn_receiver_step *row, const gn_receiver_step *step,
-                             int32_t i)
-{
-    int32_t middle = view->tile_texels << 15;
-    uint32_t half = view->fit.persp.focal2_q16 >> 1;
-    return gn_abs32(row->u_q16 + i * step->u_q16 - middle) <= half &&
-           gn_abs32(row->v_q16 + i * step->v_q16 - middle) <= half;
-}
-
 /* Attenuations along a row of nodes that two faces see. */
 GN_HOT static GN_NOINLINE void look_up_faces(const drawing *d, const gn_lattice_edge *edge, int32_t below,
                                              uint32_t *out)
@@ -228,9 +218,12 @@ GN_HOT static GN_NOINLINE void look_up_faces(const drawing *d, const gn_lattice_
         find_row(d, edge + k, below, &at[k], &step[k]);
         scale_step(&step[k], d->s->lattice.look.spacing_log2);
     }
+    const gn_patch *border = &edge[1].more_q24[0];
+    const int32_t first = gn_patch_at(border, d->first, below),
+                  across = (border->dx + below * border->dxy) * (1 << d->s->lattice.look.spacing_log2);
     for (int32_t from = 0, end; from < d->n; from = end) {
-        int inside = is_in_face(edge->view, &at[0], &step[0], from), k = !inside;
-        for (end = from + 1; end < d->n && is_in_face(edge->view, &at[0], &step[0], end) == inside;) end++;
+        int k = first + from * across < 0;
+        for (end = from + 1; end < d->n && (first + end * across < 0) == k;) end++;
         look_up_row(d, edge + k, below, &at[k], &step[k], from, end, out);
     }
 }

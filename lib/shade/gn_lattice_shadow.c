@@ -238,6 +238,11 @@ GN_HOT static void blend_shares(const gn_lattice_cell *cell, uint32_t slot, uint
 }
 
 #if GN_PUNCTUAL_LIGHTS
+GN_HOT static uint32_t share_of_depth_q30(int32_t nearest_q16, int32_t z_q16)
+{
+    return z_q16 <= nearest_q16 ? 1U << 30 : gn_quotient_q30((uint32_t)nearest_q16, (uint32_t)z_q16);
+}
+
 /* Of a cell with corners in two faces of a cube: those that points in between may lie in, too. None do if the third
  * axis is shorter than that of one of both at all corners. */
 GN_HOT static GN_NOINLINE uint32_t hidden_faces(const gn_lattice_cell *cell, uint32_t slot, uint32_t views)
@@ -257,13 +262,35 @@ GN_HOT static GN_NOINLINE uint32_t hidden_faces(const gn_lattice_cell *cell, uin
     return shorter ? 0 : found;
 }
 
+/* How far inside the first of two faces the points between the corners lie, if positive: |from| along its axis less
+ * that along the other's. As a share of the depth that is linear on the screen. [P5] */
+GN_HOT static GN_NOINLINE void find_border(const gn_lattice_cell *cell, uint32_t slot, uint32_t views, gn_patch *out)
+{
+    int32_t one = first_bit(views), other = first_bit(views & (views - 1)), inside[4], nearest = INT32_MAX;
+    int64_t exact[4];
+    uint64_t all = 1;
+    for (int i = 0; i < 4; i++) nearest = gn_min32(nearest, cell->corner[i]->z_q16);
+    for (int i = 0; i < 4; i++) {
+        int32_t from[3];
+        gn_corner_from(cell->corner[i], cell->s->light[slot].state, from);
+        int64_t ahead = one & 1 ? -(int64_t)from[one >> 1] : from[one >> 1];
+        ahead -= other & 1 ? -(int64_t)from[other >> 1] : from[other >> 1];
+        exact[i] = ahead * share_of_depth_q30(nearest, cell->corner[i]->z_q16); /* 2^32 * 2^30 */
+        all |= gn_abs64(exact[i]);
+    }
+    int32_t down = 36 - gn_clz64(all); /* to less than 2^28 */
+    for (int i = 0; i < 4; i++) inside[i] = (int32_t)(down > 0 ? exact[i] >> down : exact[i]);
+    make_patch(out, inside, cell->size_log2);
+}
+
 /* Adds an edge in the shadow of a point light, two faces of which see the cell. Returns 0 if there is no room, or it is
  * to be split. */
 GN_HOT static GN_NOINLINE int add_faces(const gn_lattice_cell *cell, uint32_t slot, const gn_contribution *light,
                                         uint32_t views, const int32_t from_q16[3], places *p)
 {
     gn_lattice_look *out = cell->out;
-    int32_t n_edges = out->n_edges;
+    const int32_t n_edges = out->n_edges;
+    const uint32_t both = views;
     if (n_edges + 2 > GN_LATTICE_EDGES || views & (views - 1) & ((views & (views - 1)) - 1)) return 0;
     for (; views; views &= views - 1) {
         uint32_t face = (uint32_t)first_bit(views);
@@ -273,9 +300,14 @@ GN_HOT static GN_NOINLINE int add_faces(const gn_lattice_cell *cell, uint32_t sl
         if (verdict(cell, slot, face, p, slope) == GN_CELL_SPLIT || places_hold(cell, p) != HOLD) break;
         add_edge(cell, slot, p, slope, light, light->more_uq16);
     }
-    if (views) out->n_edges = n_edges;
-    else out->edge[n_edges].bent |= GN_PLACES_OF_TWO;
-    return !views;
+    if (views) {
+        out->n_edges = n_edges;
+        return 0;
+    }
+    out->edge[n_edges].bent |= GN_PLACES_OF_TWO;
+    out->spacing_log2 = 0;
+    find_border(cell, slot, both, &out->edge[n_edges + 1].more_q24[0]);
+    return 1;
 }
 #endif
 

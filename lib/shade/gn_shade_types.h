@@ -213,7 +213,8 @@ typedef struct {
     uint8_t slot, view_idx;
     uint8_t bent; /* rows are placed each for itself */
     gn_patch u_q16, v_q16, depth_q30;
-    gn_patch more_q24[3]; /* what it adds where it is not in shadow */
+    gn_patch more_q24[3]; /* what it adds where it is not in shadow; of the second of two faces, which adds the same,
+                             the first one tells the border between them */
     int32_t slope_q28[2];
 } gn_lattice_edge;
 
