@@ -62,8 +62,11 @@ echo '| --- | --- | --- | --- | --- | --- |'
 for file; do
     ease=-
     if command -v style >/dev/null 2>&1; then
-        ease=$(awk -F '\t' -v f="$file" '$1 == f { print $4 (($4 ~ /[.!?]$/) ? "" : ".") }' "${TMPDIR:-/tmp}/sentences.$$" |
-            style 2>/dev/null | sed -n 's/.*Flesch Index: \([-0-9.]*\).*/\1/p' | cut -d / -f 1)
+        ease=$(awk -F '\t' -v f="$file" '$1 == f {
+                n = split($4, w, " ")
+                for (i = 1; i <= n; i++) if (w[i] ~ /^[(]?[A-Za-z]['"'"'A-Za-z-]*[).,;:!?]*$/) printf "%s ", w[i]
+                print "."
+            }' "${TMPDIR:-/tmp}/sentences.$$" | style 2>/dev/null | sed -n 's/.*Flesch Index: \([-0-9.]*\).*/\1/p' | cut -d / -f 1)
     fi
     awk -F '\t' -v f="$file" -v all="$(by_hand "$file" | wc -w)" -v ease="${ease:--}" '$1 == f { n++; words += $3; if ($3 > most) most = $3 }
         END { printf "| %s | %d | %d | %d | %d | %s |\n", f, all, words, n, most, ease }' "${TMPDIR:-/tmp}/sentences.$$"

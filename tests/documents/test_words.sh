@@ -66,6 +66,10 @@ for file in docs/*.md; do
 done >"$tmp/found"
 none "documents that nothing leads to" "$tmp/found"
 
+# files that are named without a link
+cat $documents | grep -o '`\(lib\|host\|tests\|boards\|port\|docs\)/[a-zA-Z0-9_/.-]*`' | tr -d '`' | sort -u | grep -v -e NAME -e /mine | while read -r path; do [ -e "$path" ] || echo "$path"; done >"$tmp/found"
+none "files of documents that are not there" "$tmp/found"
+
 # ---- Names -----------------------------------------------------------------------------------------------------------------
 
 "$tool" help | sed -n 's/^  \([a-z]*\) .*/\1/p' | sort -u >"$tmp/commands"

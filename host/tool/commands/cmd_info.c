@@ -169,6 +169,26 @@ static void text_tiles(const engine_picture *p, size_t light)
     printf("\n");
 }
 
+/* A bias that was set is the first suspect of a shadow that does not touch its caster. */
+static void text_bias(const scene_light *l, size_t i)
+{
+    const double *b = l->bias_receiver;
+    const bool by_hand = l->auto_bias == SCENE_AUTO_BIAS_OFF;
+    if (l->auto_bias == SCENE_AUTO_BIAS_NORMAL && l->bias_constant <= 0 && l->bias_slope <= 0 && l->bias_caster <= 0)
+        return;
+    printf("      bias: %s", by_hand ? "set by hand" : l->auto_bias == SCENE_AUTO_BIAS_DEPTH ? "depth" : "normal");
+    if (by_hand) printf(", bias_normal %g", l->bias_normal);
+    if (by_hand && (b[0] > 0 || b[1] > 0 || b[2] > 0 || b[3] > 0))
+        printf(", bias_receiver %g,%g,%g,%g", b[0], b[1], b[2], b[3]);
+    if (l->bias_constant > 0) printf(", bias_constant %g", l->bias_constant);
+    if (l->bias_slope > 0) printf(", bias_slope %g", l->bias_slope);
+    if (l->bias_caster > 0) printf(", bias_caster %g", l->bias_caster);
+    if (!by_hand && l->bias_constant + l->bias_slope + l->bias_caster > 0) printf(", which it does not need");
+    if (l->auto_bias != SCENE_AUTO_BIAS_NORMAL)
+        printf("; automatic again with --set auto_bias@%zu=normal as the last", i);
+    printf("\n");
+}
+
 static void text_light(const report *r, size_t i)
 {
     const scene_light *l = &r->scene->lights[i];
@@ -180,6 +200,7 @@ static void text_light(const report *r, size_t i)
         printf("%d shadow tile%s of %dx%d\n", n, n == 1 ? "" : "s", t, t);
     else if (r->picture->shadow_state[i] == GN_SHADOW_NO_ROOM) printf("no room for its shadow\n");
     else printf("no shadow\n");
+    if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME) text_bias(l, i);
 }
 
 /* "what: N of this, N of that", of what there is; nothing if there is none */
