@@ -2,6 +2,7 @@
 #include "png.h"
 
 #include <stdbool.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -115,7 +116,8 @@ int png_write_rgb8(const char *path, int w, int h, const uint8_t *rgb, char *err
     size_t n = 0;
     uint8_t *bytes = pack(w, h, 3, rgb, &n);
     bool ok = bytes && write_file(path, bytes, n);
-    if (!ok) snprintf(error, error_bytes, bytes ? "%s: cannot be written" : "%s: out of memory", path);
+    if (!bytes) snprintf(error, error_bytes, "%s: out of memory", path);
+    else if (!ok) snprintf(error, error_bytes, "%s: cannot be written: %s", path, strerror(errno));
     free(bytes);
     return ok ? 0 : -1;
 }

@@ -116,6 +116,17 @@ static const char *as_word(const char *key, const char *value)
     return strcmp(key, "auto_bias") == 0 && strcmp(value, "0") == 0 ? "off" : value;
 }
 
+static int unknown(const char *key, char *error, size_t error_bytes)
+{
+    char question[80];
+    nearest n = nearest_to(key);
+    settings_near_knobs(&n);
+    settings_near_scene(&n);
+    snprintf(error, error_bytes, "unknown setting '%s'%s ('gnomon knobs' lists them)", key,
+             nearest_question(&n, question, sizeof question));
+    return -1;
+}
+
 int settings_apply(settings *out, scene *s, const char *key, const char *value, char *error, size_t error_bytes)
 {
     scene_options ignored;
@@ -132,8 +143,7 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
         return -1;
     if (is_knob) return settings_apply_knob(out, key, as_knob(value), error, error_bytes);
     if (taken) return 0;
-    snprintf(error, error_bytes, "unknown setting '%s' ('gnomon knobs' lists them)", key);
-    return -1;
+    return unknown(key, error, error_bytes);
 }
 
 int settings_apply_all(settings *out, scene *s, const char *const *sets, int n, char *error, size_t error_bytes)

@@ -56,6 +56,12 @@ static const knob *find_knob(const char *name)
     return NULL;
 }
 
+void settings_near_knobs(nearest *n)
+{
+    for (size_t g = 0; g < N_GROUPS; g++)
+        for (size_t i = 0; i < groups[g].n; i++) nearest_try(n, groups[g].knobs[i].name);
+}
+
 bool settings_is_knob(const char *name)
 {
     return find_knob(name) != NULL;

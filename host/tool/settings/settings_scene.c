@@ -118,6 +118,11 @@ static const scene_knob *find(const char *key)
     return NULL;
 }
 
+void settings_near_scene(nearest *n)
+{
+    for (size_t i = 0; i < N_SCENE_KNOBS; i++) nearest_try(n, scene_knobs[i].name);
+}
+
 bool settings_of_scene(const char *key)
 {
     static const char *const others[] = {"cascades", "cascade_ratios", "refresh",        "lights",      "add_light",
