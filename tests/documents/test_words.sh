@@ -70,6 +70,17 @@ none "documents that nothing leads to" "$tmp/found"
 cat $documents | grep -o '`\(lib\|host\|tests\|boards\|port\|docs\)/[a-zA-Z0-9_/.-]*`' | tr -d '`' | sort -u | grep -v -e NAME -e /mine | while read -r path; do [ -e "$path" ] || echo "$path"; done >"$tmp/found"
 none "files of documents that are not there" "$tmp/found"
 
+# files of lib/, by their stem
+grep -o '`\(base\|geometry\|scene\|light\|shadow\|visible\|shade\|compact\|frame\)/gn_[a-z_]*`' docs/DESIGN.md | tr -d '`' | sort -u >"$tmp/stems"
+[ "$(wc -l <"$tmp/stems")" -gt 40 ] && pass || fail "docs/DESIGN.md names $(wc -l <"$tmp/stems") files of lib/"
+while read -r stem; do ls lib/"$stem".[ch] >/dev/null 2>&1 || echo "$stem"; done <"$tmp/stems" >"$tmp/found"
+none "files of docs/DESIGN.md that are not in lib/" "$tmp/found"
+sh docs/frame.sh "$tmp/frame.svg" && cmp -s "$tmp/frame.svg" docs/pictures/frame.svg && pass || fail "docs/pictures/frame.svg is not what docs/frame.sh draws"
+grep -o '[^a-z_]gn_[a-z_]*' docs/pictures/frame.svg | cut -c 2- | sort -u | while read -r name; do
+    grep -q -w "$name" lib/gnomon.h lib/gn_stages.h || echo "$name"
+done >"$tmp/found"
+none "functions of the figure that the library does not have" "$tmp/found"
+
 # ---- Names -----------------------------------------------------------------------------------------------------------------
 
 "$tool" help | sed -n 's/^  \([a-z]*\) .*/\1/p' | sort -u >"$tmp/commands"
