@@ -25,8 +25,8 @@ const option options[] = {
      "colour, shadow, depth, normal, atlas or cascade (colour)"},
     {"--light", BY_RENDER | BY_COMPARE, "K", "a light from 0 to 63", "the light of --view shadow and atlas (0)"},
     {"--frame", BY_ALL & ~BY_COMPILE, "N", "a frame from 0 to 100000000", "animation frame (0)"},
-    {"--frames", BY_COMPILE | BY_INFO, "FIRST-LAST", "FIRST-LAST, frames from 0 to 100000000",
-     "these frames (compile: all of the animation; info: frame 0 alone)"},
+    {"--frames", BY_RENDER | BY_COMPILE | BY_INFO, "FIRST-LAST", "FIRST-LAST, frames from 0 to 100000000",
+     "these frames (compile: all of the animation; info: frame 0 alone); render: as an animated PNG"},
     {"--set", BY_ALL, "KEY=VALUE", "KEY=VALUE, at most 64 times",
      "any knob or setting, in order: 'gnomon knobs' lists them; preset=tiny|fast|balanced|accurate sets many; "
      "KEY@LIGHT=VALUE for one light, by its number or name"},

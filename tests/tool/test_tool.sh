@@ -737,6 +737,16 @@ for blend in hard soft dither; do good info "$cube" --size 16x12 --set cascades=
 for mode in depth radius; do good info "$cube" --size 16x12 --set distance_mode=$mode; done
 for filter in hard 2x2 3x3 5x5 7x7; do good info "$cube" --size 16x12 --set filter=$filter; done
 
+# ---- Animations ------------------------------------------------------------------------------------------------------------
+
+good render "$cube" --size 40x30 --frames 0-3 -o "$tmp/moving.png"
+good render "$cube" --size 40x30 --frame 0 -o "$tmp/still.png"
+[ "$(grep -a -o fcTL "$tmp/moving.png" | wc -l)" = 4 ] && grep -q -a acTL "$tmp/moving.png" && pass || fail "an animation of four frames has $(grep -a -o fcTL "$tmp/moving.png" | wc -l)"
+grep -q -a acTL "$tmp/still.png" && fail "one frame is an animation" || pass
+good render "$cube" --size 40x30 --frames 2-2 -o "$tmp/one.png"
+bad 1 "cannot be written\|No such file" render "$cube" --size 8x8 --frames 0-1 -o "$tmp/no/x.png"
+bad 2 "bad value" render "$cube" --frames 3-1 -o "$tmp/x.png"
+
 # ---- Help and version --------------------------------------------------------------------------------------------------------
 
 for command in render compare info sweep advise compile asset bake knobs; do
