@@ -41,6 +41,7 @@ replace BIAS.md contact "$work/contact"
 mkdir -p "$out/pictures"
 "$build/test_census" --plots "$out/pictures"
 sh docs/frame.sh "$out/pictures/frame.svg"
+sh docs/window.sh "$out/pictures/window.svg"
 "$tool" render host/scenes/sundial.gltf -o "$out/pictures/day.png" --size 240x180 --set output=rgb565 --frames 30-89 >/dev/null # 08:30 to 13:25
 sh docs/gallery.sh "$tool" "$out"
 sh docs/features.sh "$out"

@@ -75,7 +75,9 @@ grep -o '`\(base\|geometry\|scene\|light\|shadow\|visible\|shade\|compact\|frame
 [ "$(wc -l <"$tmp/stems")" -gt 40 ] && pass || fail "docs/DESIGN.md names $(wc -l <"$tmp/stems") files of lib/"
 while read -r stem; do ls lib/"$stem".[ch] >/dev/null 2>&1 || echo "$stem"; done <"$tmp/stems" >"$tmp/found"
 none "files of docs/DESIGN.md that are not in lib/" "$tmp/found"
-sh docs/frame.sh "$tmp/frame.svg" && cmp -s "$tmp/frame.svg" docs/pictures/frame.svg && pass || fail "docs/pictures/frame.svg is not what docs/frame.sh draws"
+for figure in frame window; do
+    sh docs/$figure.sh "$tmp/$figure.svg" && cmp -s "$tmp/$figure.svg" docs/pictures/$figure.svg && pass || fail "docs/pictures/$figure.svg is not what docs/$figure.sh draws"
+done
 grep -o '[^a-z_]gn_[a-z_]*' docs/pictures/frame.svg | cut -c 2- | sort -u | while read -r name; do
     grep -q -w "$name" lib/gnomon.h lib/gn_stages.h || echo "$name"
 done >"$tmp/found"
