@@ -4,7 +4,7 @@
 cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
 . tests/support/check.sh
-documents="README.md docs/*.md boards/README.md host/README.md lib/README.md port/README.md"
+documents="README.md docs/*.md docs/data/*.md boards/README.md host/README.md lib/README.md port/README.md"
 none() { # none WHAT FILE: the file must be empty
     if [ -s "$2" ]; then fail "$1: $(head -n 5 "$2" | tr '\n' ';')"; else pass; fi
 }
@@ -61,7 +61,7 @@ done >"$tmp/found"
 none "dead links" "$tmp/found"
 [ "$(wc -l <"$tmp/n_links")" -gt 200 ] && pass || fail "$(wc -l <"$tmp/n_links") links are found"
 # nothing lies in docs/ that README.md or a document does not lead to
-for file in docs/*.md; do
+for file in docs/*.md docs/data/*.md; do
     cat $documents | grep -q -F "(${file#docs/}" || grep -q -F "($file" README.md || echo "$file"
 done >"$tmp/found"
 none "documents that nothing leads to" "$tmp/found"
