@@ -312,7 +312,7 @@ static void test_formats(void)
             const int32_t at[2] = {(int32_t)(u * 0x1p20), (int32_t)(v * 0x1p20)};
             uint32_t rgb[3];
             double want[4];
-            ref_sample_texture(want, &texture, u, v);
+            ref_sample_texture(want, &texture, 0, u, v);
             gn_texture_colour(t, at[0], at[1], rgb);
             for (int c = 0; c < 3; c++) CHECK(fabs(rgb[c] - 65536 * want[c]) <= 1.0001);
             CHECK(fabs(gn_texture_alpha(t, at[0], at[1]) - 65536 * want[3]) <= 0.5001);
