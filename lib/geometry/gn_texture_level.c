@@ -5,13 +5,6 @@
 #include "geometry/gn_texel.h"
 #include "geometry/gn_texture.h"
 
-/* Levels beyond the first: down to one texel. */
-GN_HOT static uint32_t smaller_levels(const gn_texture *t)
-{
-    uint32_t width = gn_texture_size(t, 0), height = gn_texture_size(t, 1);
-    return 31U - (uint32_t)gn_clz32(width > height ? width : height);
-}
-
 /* Twice the triangle's area in turns, Q30. Differences are below 2^32 and, of at most 15 fraction bits, even: 2 * 2^62
  */
 GN_HOT static uint64_t texture_area_q30(const gn_texture_triangle *t)
@@ -51,9 +44,8 @@ GN_HOT uint64_t gn_texture_level_depth2(const gn_texture_triangle *triangle, con
 
 GN_HOT uint32_t gn_texture_level_at(const gn_texture *texture, uint64_t depth2_q32, int32_t z_q16)
 {
-    uint64_t z2_q32 = (uint64_t)z_q16 * (uint64_t)z_q16;
-    uint32_t level = 0, last = smaller_levels(texture);
-    while (level < last && z2_q32 >> level >= depth2_q32) level++;
+    uint32_t level = 0;
+    while (gn_texture_level_ends(texture, depth2_q32, level, z_q16)) level++;
     return level;
 }
 

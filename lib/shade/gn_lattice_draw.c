@@ -353,12 +353,23 @@ GN_HOT static void draw_two_colours(const drawing *d)
 }
 #endif
 
+/* 1: two levels of the texture meet in the cell. */
+GN_HOT static inline uint32_t levels_end(const drawing *d)
+{
+#if GN_MIPMAPS
+    return d->s->surface.textured ? d->s->lattice.look.level_ends : 0;
+#else
+    (void)d;
+    return 0;
+#endif
+}
+
 /* Pixels of a row that are drawn from the level at hand. */
 GN_HOT static uint32_t level_bits(const drawing *d, int32_t below)
 {
 #if GN_MIPMAPS
     uint32_t finer = 0, n = 1U << d->size_log2;
-    if (!d->s->surface.textured || !d->s->lattice.look.level_ends) return ~0U;
+    if (!levels_end(d)) return ~0U;
     const gn_patch *p = &d->nearness_q30;
     int32_t at = gn_patch_at(p, 0, below), step = p->dx + below * p->dxy;
     for (uint32_t i = 0; i < n; i++, at += step) finer |= (uint32_t)(at > d->end_q30) << i;
@@ -461,31 +472,27 @@ GN_HOT static void find_level_end(drawing *d, gn_corner *const corner[4])
 }
 #endif
 
-#if GN_TEXTURES
-/* Once per level that the cell shows. */
-GN_HOT static void draw_textured(drawing *d, gn_corner *const corner[4])
+/* The texture, or the cell's first level of it, or the next. */
+GN_HOT static void begin_texture(drawing *d, uint32_t next, gn_corner *const corner[4])
 {
-    gn_shading *s = d->s;
-    d->texture = s->surface.object->texture;
+#if GN_TEXTURES
+    gn_surface *surface = &d->s->surface;
+    if (!surface->textured) return;
+    d->texture = surface->object->texture;
 #if GN_MIPMAPS
-    gn_texture level;
-    const gn_lattice_look *look = &s->lattice.look;
     if (gn_texture_has_levels(d->texture)) {
-        if (look->level_ends) find_level_end(d, corner);
-        d->texture = &level;
-        for (uint32_t i = 0; i <= look->level_ends; i++) {
-            gn_texture_use_level(&level, s->surface.object->texture, look->level + i);
-            gn_lattice_texture_begin(s, &level, d->x, d->y, d->size_log2, corner, &d->uv);
-            d->other = 0U - i;
-            draw_nodes(d);
-        }
-        return;
+        uint32_t level = d->s->lattice.look.level + next;
+        if (d->s->lattice.look.level_ends && !next) find_level_end(d, corner);
+        if (surface->level_idx != level) gn_texture_use_level(&surface->level, d->texture, level);
+        surface->level_idx = level;
+        d->texture = &surface->level;
+        d->other = 0U - next;
     }
 #endif
-    gn_lattice_texture_begin(s, d->texture, d->x, d->y, d->size_log2, corner, &d->uv);
-    draw_nodes(d);
-}
+    gn_lattice_texture_begin(d->s, d->texture, d->x, d->y, d->size_log2, corner, &d->uv);
 #endif
+    (void)d, (void)next, (void)corner;
+}
 
 GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4])
 {
@@ -498,7 +505,6 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
     d.x = x;
     d.y = y;
     d.size_log2 = size_log2;
-    (void)corner;
     int plain = !look->n_edges && !s->surface.textured && s->frame->picture.format != GN_FORMAT_RAW32;
     if (plain && is_plain(s, look, &packed)) {
         fill(&d, packed);
@@ -513,13 +519,10 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
         draw_two_colours(&d);
         return;
     }
-#if GN_TEXTURES
-    if (s->surface.textured) {
-        draw_textured(&d, corner);
-        return;
+    for (uint32_t i = 0; i <= levels_end(&d); i++) {
+        begin_texture(&d, i, corner);
+        draw_nodes(&d);
     }
-#endif
-    draw_nodes(&d);
 }
 
 #endif

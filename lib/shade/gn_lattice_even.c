@@ -39,7 +39,8 @@ GN_HOT static void find_level(const gn_lattice_cell *cell)
     int32_t nearest = gn_min32(gn_min32(c[0]->z_q16, c[1]->z_q16), gn_min32(c[2]->z_q16, c[3]->z_q16)),
             farthest = gn_max32(gn_max32(c[0]->z_q16, c[1]->z_q16), gn_max32(c[2]->z_q16, c[3]->z_q16));
     cell->out->level = (uint8_t)gn_texture_level_at(texture, cell->s->level_depth2_q32, nearest);
-    cell->out->level_ends = gn_texture_level_at(texture, cell->s->level_depth2_q32, farthest) > cell->out->level;
+    cell->out->level_ends =
+        (uint8_t)gn_texture_level_ends(texture, cell->s->level_depth2_q32, cell->out->level, farthest);
 #else
     (void)cell;
 #endif

@@ -60,6 +60,8 @@ typedef struct {
 #endif
 #if GN_MIPMAPS
     uint64_t level_depth2_q32; /* gn_texture_level_depth2(), of textures that have levels */
+    gn_texture level;          /* the one that was used last */
+    uint32_t level_idx;
 #endif
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     int32_t face_q30[3]; /* normal of the face in the world; only if some light of the list needs it */

@@ -158,6 +158,8 @@ GN_HOT static void texture_levels(const gn_frame *frame, gn_surface *s)
 #else
     const gn_plane *screen = &s->plane;
 #endif
+    s->level = *s->object->texture;
+    s->level_idx = 0;
     s->level_depth2_q32 =
         gn_texture_level_depth2(&s->uv, s->object->texture, &s->plane, screen, frame->cam.focal2_px_q16);
 #else
