@@ -2,7 +2,7 @@
 #include "gn_internal.h"
 
 #include "base/gn_math.h"
-#include "geometry/gn_texel.h"
+#include "geometry/gn_texel_formats.h"
 #include "geometry/gn_texture.h"
 
 /* Twice the triangle's area in turns, Q30. Differences are below 2^32 and, of at most 15 fraction bits, even: 2 * 2^62
