@@ -184,6 +184,9 @@
 #ifndef GN_TEXTURE_FORMATS
 #define GN_TEXTURE_FORMATS 1023
 #endif
+#ifndef GN_TEXTURE_LEVELS
+#define GN_TEXTURE_LEVELS GN_TEXTURES
+#endif
 #ifndef GN_SPECULAR
 #define GN_SPECULAR (!GN_COMPACT)
 #endif
@@ -275,6 +278,9 @@
 
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING || GN_TIGHT_FIT)))
+
+/* Whether textures may have half-size levels. */
+#define GN_MIPMAPS (GN_TEXTURES && GN_TEXTURE_LEVELS)
 
 /* Whether light that a surface emits may have to be added after colours of vertices or a texture. */
 #define GN_GLOW_APART (GN_EMISSIVE && (GN_TEXTURES || GN_VERTEX_COLOURS))

@@ -96,6 +96,9 @@
       "formats of textures that are built, their sum: 1 RGBA8888, 2 RGB565, 4 RGB565 with 1 bit of alpha, 8, 16, 32 "  \
       "palettes of 8, 4, 1 bits, 64, 128 grey of 8, 4 bits, 256, 512 alpha of 8, 4 bits",                              \
       "flash")                                                                                                         \
+    X(texture_levels, TEXTURE_LEVELS, 0, 1,                                                                            \
+      "half-size levels of textures (mip chains), chosen per cell by depth: far textures do not glitter",              \
+      "flash; a third more flash per texture that has them; a root per triangle")                                      \
     X(specular, SPECULAR, 0, 1, "specular highlights",                                                                 \
       "flash; a reciprocal root per light and sample of such objects")                                                 \
     X(emissive, EMISSIVE, 0, 1, "emissive colours: objects that glow",                                                 \

@@ -34,7 +34,11 @@ enum {
     GN_TEXTURE_CLAMP_V = 2,
     GN_TEXTURE_BILINEAR = 4, /* else nearest */
     GN_TEXTURE_MASK_1 = 8,   /* mask images only: one byte per texel, channel 0; the others are lit */
-    GN_TEXTURE_MASK_2 = 16   /* two */
+    GN_TEXTURE_MASK_2 = 16,  /* two */
+    /* Behind the texels come those of half the size, a quarter and so on, down to one texel: sides are halved and
+     * rounded down, and at least 1. Colours are read from the level whose texels are nearest to a pixel's size; alpha
+     * always from the first. Not of mask images. */
+    GN_TEXTURE_MIPMAPPED = 32
 };
 
 /* gn_texture.format; GN_TEXTURE_FORMATS says which are built. Colours are sRGB, alpha is linear. Where a texel is less
@@ -54,7 +58,7 @@ typedef enum {
 } gn_texture_format;
 
 typedef struct {
-    const uint8_t *rgba;             /* texels of any format, rows from the top */
+    const uint8_t *rgba;             /* texels of any format, rows from the top; smaller levels */
     uint8_t width_log2, height_log2; /* 0..12; not looked at where width and height are set */
     uint8_t flags;
     uint8_t format;         /* gn_texture_format */

@@ -43,6 +43,9 @@
 #include "geometry/gn_texture.c"
 #include "geometry/gn_texture_row.c"
 #endif
+#if GN_MIPMAPS
+#include "geometry/gn_texture_level.c"
+#endif
 #if GN_MASKS
 #include "geometry/gn_mask.c"
 #endif

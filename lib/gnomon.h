@@ -70,8 +70,8 @@ extern "C" {
     X(GN_ERR_TEXTURE, "texture without texels or palette, or above 4096 per side, or texture coordinates are missing " \
                       "or have more than 15 fraction bits")                                                            \
     X(GN_ERR_TEXTURE_FORMAT,                                                                                           \
-      "unknown format of a texture, or one not built in (GN_TEXTURE_FORMATS), or a mask image that is not "            \
-      "RGBA8888")                                                                                                      \
+      "unknown format of a texture, or one not built in (GN_TEXTURE_FORMATS), or smaller levels that are not "         \
+      "(GN_TEXTURE_LEVELS), or a mask image that is not RGBA8888")                                                     \
     X(GN_ERR_MATERIAL, "alpha, cutoff, specular or emissive colour or shininess out of range, or an alpha mode, "      \
                        "caster mode or such a colour that is not built in")                                            \
     X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")              \

@@ -119,6 +119,7 @@ static gn_status check_texture(gn_frame *frame, const gn_mesh *mesh, const gn_te
         return gn_fail(frame, GN_ERR_TEXTURE, idx);
     if (texture->format >= GN_TEXTURE_FORMAT_COUNT || !(GN_TEXTURE_FORMATS >> texture->format & 1))
         return gn_fail(frame, GN_ERR_TEXTURE_FORMAT, idx);
+    if (!GN_MIPMAPS && texture->flags & GN_TEXTURE_MIPMAPPED) return gn_fail(frame, GN_ERR_TEXTURE_FORMAT, idx);
     int indexed = texture->format >= GN_TEXTURE_PALETTE8 && texture->format <= GN_TEXTURE_PALETTE1;
     return indexed && !texture->palette ? gn_fail(frame, GN_ERR_TEXTURE, idx) : GN_OK;
 }

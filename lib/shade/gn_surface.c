@@ -148,6 +148,25 @@ GN_HOT static void texture_coords(gn_surface *s, const uint16_t *idx)
 #endif
 }
 
+/* Where levels of the texture begin. */
+GN_HOT static void texture_levels(const gn_frame *frame, gn_surface *s)
+{
+#if GN_MIPMAPS
+    if (!s->textured || !gn_texture_has_levels(s->object->texture)) return;
+#if GN_ORTHOGRAPHIC
+    const gn_plane *screen = frame->cam.flat_q16 ? &s->screen : &s->plane;
+#else
+    const gn_plane *screen = &s->plane;
+#endif
+    s->level = *s->object->texture;
+    s->level_idx = 0;
+    s->level_depth2_q32 =
+        gn_texture_level_depth2(&s->uv, s->object->texture, &s->plane, screen, frame->cam.focal2_px_q16);
+#else
+    (void)frame, (void)s;
+#endif
+}
+
 /* Shadow masks at the corners: coordinates of an image, or four channels. [M5] */
 GN_HOT static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
 {
@@ -179,6 +198,7 @@ GN_HOT static void baked_light(gn_surface *s, const uint16_t *idx)
 GN_HOT static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
 {
     texture_coords(s, idx);
+    texture_levels(frame, s);
     normals(frame, cache, s, idx);
     masks(frame, s, idx);
     baked_light(s, idx);

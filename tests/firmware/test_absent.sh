@@ -46,6 +46,7 @@ under() {
     case $1 in
     CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
+    TEXTURE_LEVELS) echo TEXTURES ;;
     LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
     esac
@@ -100,6 +101,7 @@ CASTER_CULLING gn_cull_shown_nearer
 CASTER_ALPHA alpha_plane
 VISIBLE_ALPHA cut_begin|cut_row
 TILE_LIGHTS gn_punctual_in_tile
+TEXTURE_LEVELS gn_texture_(level_at|level_depth2|use_level)
 TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
 SPECULAR highlight_q30
 ORTHOGRAPHIC flat_plane|flat_sphere|intersect_flat

@@ -4,12 +4,14 @@
 #define GNOMON_TESTS_ROW_SCENES_H
 
 #include "ref_fixture.h"
+#include "../host/scene/core/texture_format.h"
 #include "../host/tool/settings/settings.h"
 
 /* The object that tweaks of objects are about, and its mesh; the first object of every scene is its ground. */
 enum { GROUND, SUBJECT };
 
-static uint8_t checker_rgba[4 * 16 * 16], picket_rgba[4 * 32 * 32], mask_rgba[4 * 16 * 16];
+static uint8_t checker_rgba[4 * 16 * 16], mipmap_rgba[4 * (256 + 64 + 16 + 4 + 1)], picket_rgba[4 * 32 * 32],
+    mask_rgba[4 * 16 * 16];
 
 static inline void fill_textures(void)
 {
@@ -342,6 +344,20 @@ static inline bool add_pattern(fixture *f, const char *value)
     return true;
 }
 
+/* Smaller levels of the first texture, the checker. */
+static inline void add_levels(fixture *f)
+{
+    scene_texture *t = &f->textures[0];
+    uint8_t *first = malloc(sizeof checker_rgba);
+    if (!first) abort();
+    memcpy(first, t->rgba, sizeof checker_rgba);
+    t->rgba = first;
+    if (!texture_set_levels(t, true)) abort();
+    memcpy(mipmap_rgba, t->rgba, sizeof mipmap_rgba);
+    free(t->rgba);
+    t->rgba = mipmap_rgba;
+}
+
 static inline void flip_subject(fixture *f)
 {
     uint32_t *idx = f->meshes[SUBJECT].idx;
@@ -377,6 +393,7 @@ static inline bool tweak_objects(fixture *f, const char *key, const char *value)
     else if (strcmp(key, "baked") == 0) add_baked(f);
     else if (strcmp(key, "colours") == 0) add_colours(f);
     else if (strcmp(key, "texture") == 0) add_pattern(f, value);
+    else if (strcmp(key, "levels") == 0) add_levels(f);
     else if (strcmp(key, "wrap") == 0)
         f->textures[0].clamp_u = value[0] == 'c', f->textures[0].clamp_v = value[1] == 'c';
     else if (strcmp(key, "specular") == 0) {

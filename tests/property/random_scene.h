@@ -151,10 +151,15 @@ static void random_texels(random_scene *g, int i)
 {
     static const uint8_t bits[GN_TEXTURE_FORMAT_COUNT] = {32, 16, 16, 8, 4, 1, 8, 4, 8, 4};
     gn_texture *t = &g->texture[i];
-    const size_t width = t->width ? t->width : (size_t)1 << t->width_log2;
-    const size_t height = t->height ? t->height : (size_t)1 << t->height_log2;
+    size_t width = t->width ? t->width : (size_t)1 << t->width_log2;
+    size_t height = t->height ? t->height : (size_t)1 << t->height_log2;
+    size_t n = (width * bits[t->format] + 7) / 8 * height;
+    while (t->flags & GN_TEXTURE_MIPMAPPED && (width > 1 || height > 1)) {
+        width = width > 1 ? width / 2 : 1, height = height > 1 ? height / 2 : 1;
+        n += (width * bits[t->format] + 7) / 8 * height;
+    }
     free(g->texels[i]), free(g->palette[i]);
-    g->texels[i] = random_block((width * bits[t->format] + 7) / 8 * height), g->palette[i] = NULL;
+    g->texels[i] = random_block(n), g->palette[i] = NULL;
     if (t->format >= GN_TEXTURE_PALETTE8 && t->format <= GN_TEXTURE_PALETTE1)
         g->palette[i] = random_block((size_t)4 << bits[t->format]);
     t->rgba = g->texels[i], t->palette = g->palette[i];
@@ -166,6 +171,7 @@ static void random_textures(random_scene *g)
         gn_texture *t = &g->texture[i];
         random_sides(t);
         t->flags = (uint8_t)rnd();
+        if (absent(GN_TEXTURE_LEVELS)) t->flags &= (uint8_t)~GN_TEXTURE_MIPMAPPED;
         do t->format = (uint8_t)(one_in(2) ? GN_TEXTURE_RGBA8888 : rnd() % GN_TEXTURE_FORMAT_COUNT);
         while (absent(GN_TEXTURE_FORMATS >> t->format & 1));
         if (i < RANDOM_MASK_TEXTURES && !one_in(50)) t->format = GN_TEXTURE_RGBA8888;

@@ -259,6 +259,23 @@ static size_t count_textures(const char *textures, const char *images)
     return n;
 }
 
+/* A sampler that minifies by a mipmap asks for smaller levels; others of the same image do not, and have a texture of
+ * their own. [M11] */
+static void test_levels(void)
+{
+    static const int filters[] = {9728, 9729, 9984, 9985, 9986, 9987};
+    for (int i = 0; i < 6; i++) {
+        char text[200];
+        snprintf(text, sizeof text, "\"minFilter\":%d,\"magFilter\":9728},", filters[i]);
+        make_png(2, 2, checks);
+        if (!CHECK_EQ_INT(load_text(TMP ".gltf", replaced(textured(), "\"magFilter\":9728},", text)), 0)) continue;
+        CHECK_EQ_INT(s.n_textures, 2);
+        CHECK(!s.textures[0].mipmapped);
+        CHECK_EQ_INT(s.textures[1].mipmapped, filters[i] >= 9984);
+        scene_free(&s);
+    }
+}
+
 /* One for textures that come to the same. */
 static void test_shared_textures(void)
 {
@@ -613,6 +630,7 @@ int main(void)
     test_jpeg_texture();
     test_texture_changes();
     test_shared_textures();
+    test_levels();
     test_sizes();
     test_emissive();
     test_surface_knobs();

@@ -112,7 +112,7 @@ void loader_free_mesh_light(loader *l);
 /* texture.c */
 enum { TEXTURE_MAX_PICTURE = 8192 };
 typedef struct {
-    bool clamp_u, clamp_v, bilinear;
+    bool clamp_u, clamp_v, bilinear, mipmapped;
     bool is_data; /* a mask image: plain numbers, not sRGB */
 } texture_use;
 /* To be asked before a picture is decoded: false, with the error, if it is too much. name: for that. */

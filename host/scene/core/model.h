@@ -46,9 +46,10 @@ typedef enum {
 typedef struct {
     char *name;
     int width, height;           /* 1..4096 */
-    uint8_t *rgba;               /* 4 per texel, rows from the top: sRGB colour, linear alpha */
+    uint8_t *rgba;               /* 4 per texel, rows from the top: sRGB colour, linear alpha; smaller levels */
     bool clamp_u, clamp_v;       /* else it repeats */
     bool bilinear;               /* else nearest */
+    bool mipmapped;              /* levels of half the size, rounded down, follow, down to one texel */
     scene_texture_format format; /* texels are rounded to its values, and then to 8 bits */
     double error_max, error_rms; /* what that changed, of 255 */
 } scene_texture;

@@ -179,6 +179,7 @@ static void use_object(compiled *c, const gn_object *o, const char *name)
     if (o->texture) {
         USE(textures, 1, "object '%s'", name);
         use_format(c, o->texture, name);
+        if (o->texture->flags & GN_TEXTURE_MIPMAPPED) USE(texture_levels, 1, "the texture of object '%s'", name);
     }
     if (s[0] || s[1] || s[2]) USE(specular, 1, "object '%s'", name);
     if (o->emissive_uq16[0] || o->emissive_uq16[1] || o->emissive_uq16[2]) USE(emissive, 1, "object '%s'", name);
@@ -219,6 +220,7 @@ static void use_nothing(compiled *c)
     NOTHING(visible_alpha);
     NOTHING(textures);
     NOTHING(texture_formats);
+    NOTHING(texture_levels);
     NOTHING(specular);
     NOTHING(emissive);
     NOTHING(orthographic);

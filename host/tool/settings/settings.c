@@ -135,8 +135,8 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     if ((taken = apply_own(out, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
     const char *at = strchr(key, '@');
     if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
-    /* main_light, caster_culling, receiver_plane and auto_bias are built and used, or neither: knobs and settings of
-     * the scene at once */
+    /* main_light, caster_culling, receiver_plane, auto_bias and texture_levels are built and used, or neither: knobs
+     * and settings of the scene at once */
     const bool is_knob = settings_is_knob(key);
     const char *word = as_word(key, value);
     if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, word, error, error_bytes)) < 0)

@@ -90,6 +90,11 @@ static long corner_bytes(const settings *s)
     return all.size;
 }
 
+static int has_levels(const settings *s)
+{
+    return s->feature.textures && s->feature.texture_levels;
+}
+
 /* gn_lattice of lib/shade/gn_shade_types.h */
 static long lattice_bytes(const settings *s)
 {
@@ -101,6 +106,7 @@ static long lattice_bytes(const settings *s)
     put(&all, 1, 144, 4);                         /* corner_key to split */
     if (s->feature.shadows) put(&all, 2, 344, 4); /* window */
     put(&all, 1, 572, 4);                         /* look */
+    if (has_levels(s)) put(&all, 1, 4, 4);        /* of that: level and level_ends */
     put(&all, 1, 616, 8);                         /* by */
     put(&all, 1, 136, 4);                         /* attenuation */
     pad(&all, 8);
@@ -120,6 +126,7 @@ static void put_work(layout *out, const settings *s)
     if (s->feature.masks) put(&surface, 12, 4, 4);
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
     if (s->feature.textures) put(&surface, 6, 8, 8);
+    if (has_levels(s)) put(&surface, 1, 28, 8);
     if (s->feature.receiver_plane || s->feature.auto_bias) put(&surface, 3, 4, 4);
     if (s->feature.auto_bias) put(&surface, 3, 4, 4); /* lift_q30 */
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
