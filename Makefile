@@ -171,7 +171,7 @@ constant-programs: $(CONSTANT)
 alone-programs: $(ALONE)
 
 $(BUILD)/test_scenes: $(SCENE_OBJ)
-$(BUILD)/test_panels: $(PANEL_OBJ)
+$(BUILD)/test_panels $(BUILD)/test_panel_fuzz: $(PANEL_OBJ)
 
 # What a board streamed, as a picture.
 $(BUILD)/rgb565_png: $(BUILD)/obj/boards/tools/rgb565_png.o $(SCENE_PNG)

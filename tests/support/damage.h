@@ -43,11 +43,12 @@ static inline size_t damage_bytes(rng *r, uint8_t *bytes, size_t n, const uint8_
         return damage_splice(r, bytes, n, bytes, n);
     case 2:
         return damage_splice(r, bytes, n, other, n_other);
-    case 3:
-        bytes[rng_below(r, (uint32_t)n)] ^= (uint8_t)(1U << rng_below(r, 8));
+    case 3: /* a neighbour */
+        bytes[rng_below(r, (uint32_t)n)] += (uint8_t)(rng_below(r, 2) ? 1 : 255);
         return n;
     case 4:
-        bytes[rng_below(r, (uint32_t)n)] = telling[rng_below(r, sizeof telling)];
+        if (rng_below(r, 2)) bytes[rng_below(r, (uint32_t)n)] ^= (uint8_t)(1U << rng_below(r, 8));
+        else bytes[rng_below(r, (uint32_t)n)] = telling[rng_below(r, sizeof telling)];
         return n;
     default:
         bytes[rng_below(r, (uint32_t)(rng_below(r, 2) || n < 200 ? n : 200))] = (uint8_t)rng_u32(r);
@@ -80,7 +81,8 @@ static inline size_t damage_replace(uint8_t *bytes, size_t n, size_t from, size_
     return n - old + n_put;
 }
 
-/* A number at the end of a range; a word of this or the other file in the place of one; or damage as to any bytes. */
+/* The neighbour of a number, or one at the end of a range; a word of this or the other file in the place of one; or
+ * damage as to any bytes. */
 static inline size_t damage_text(rng *r, uint8_t *bytes, size_t n, const uint8_t *other, size_t n_other)
 {
     static const char *const numbers[] = {"0",     "1",      "-1",          "2",          "3",          "255",  "256",
@@ -92,6 +94,11 @@ static inline size_t damage_text(rng *r, uint8_t *bytes, size_t n, const uint8_t
     length = damage_word(r, bytes, n, &from);
     if (length == 0) return n;
     if (isdigit(bytes[from]) || bytes[from] == '-' ? rng_below(r, 4) : rng_below(r, 16) == 0) {
+        const uint8_t last = bytes[from + length - 1];
+        if (last > '0' && last < '9' && rng_below(r, 4) == 0) {
+            bytes[from + length - 1] = (uint8_t)(rng_below(r, 2) ? last + 1 : last - 1);
+            return n;
+        }
         const char *number = numbers[rng_below(r, sizeof numbers / sizeof *numbers)];
         return damage_replace(bytes, n, from, length, (const uint8_t *)number, strlen(number));
     }
