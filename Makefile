@@ -68,6 +68,9 @@ soak: ## the longer campaigns, minutes to hours: [SEED=n] [SCENES=n] [CAMPAIGNS=
 mutate: ## mutants of lib/ against the tests, a score and the survivors: [N=150] [SEED=n] [MINUTES=m] [FILES="lib/scene/gn_scene.c"]
 	@SEED="$(SEED)" N="$(N)" MINUTES="$(MINUTES)" FILES="$(FILES)" sh tests/mutation/mutate.sh
 
+prove: ## prove that primitives of lib/ can do nothing undefined, for all operands; needs Frama-C, which deps does not install
+	@sh tests/prove/prove.sh
+
 coverage: ## print the lines and branches of lib/ that the C tests run, in some minutes
 	@sh tests/coverage.sh
 
@@ -171,7 +174,7 @@ constant-programs: $(CONSTANT)
 alone-programs: $(ALONE)
 
 $(BUILD)/test_scenes: $(SCENE_OBJ)
-$(BUILD)/test_panels: $(PANEL_OBJ)
+$(BUILD)/test_panels $(BUILD)/test_panel_fuzz: $(PANEL_OBJ)
 
 # What a board streamed, as a picture.
 $(BUILD)/rgb565_png: $(BUILD)/obj/boards/tools/rgb565_png.o $(SCENE_PNG)
@@ -222,5 +225,5 @@ endif
 
 -include $(shell find $(wildcard $(BUILD)/obj $(BUILD)/wasm) /dev/null -name "*.d")
 
-.PHONY: all help run playground test-playground deps test dist test-packages soak mutate bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
+.PHONY: all help run playground test-playground deps test dist test-packages soak mutate prove bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
 .SECONDARY:

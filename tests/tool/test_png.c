@@ -408,48 +408,29 @@ static void test_foreign_file(void)
     CHECK(png_read_rgb8("tests/data", &w, &h, error, sizeof error) == NULL);
 }
 
-/* Chunk checksums catch nearly every flipped byte: mended afterwards, so that the damage gets through to what lies
- * behind. */
-static void mend_checksums(uint8_t *bytes, size_t n_bytes)
+/* None of its beginnings is a file. */
+static void cut(const uint8_t *valid, size_t n)
 {
-    for (size_t at = 8; n_bytes - at >= 12;) {
-        size_t n = (size_t)bytes[at] << 24 | (size_t)bytes[at + 1] << 16 | (size_t)bytes[at + 2] << 8 | bytes[at + 3];
-        if (n > n_bytes - at - 12) return;
-        put_word(bytes + at + 8 + n, zlib_crc32(0, bytes + at + 4, n + 4));
-        at += n + 12;
-    }
-}
-
-static void fuzz(const uint8_t *valid, size_t n)
-{
-    static uint8_t bytes[1 << 16];
     int w, h;
-    for (size_t cut = 0; cut < n; cut++) {
-        write_bytes(valid, cut);
+    for (size_t left = 0; left < n; left++) {
+        write_bytes(valid, left);
         CHECK(png_read_rgb8(tmp_path, &w, &h, error, sizeof error) == NULL);
     }
-    for (int i = 0; i < 10000; i++) {
-        memcpy(bytes, valid, n);
-        for (uint32_t k = random_u32() % 3; k < 3; k++) bytes[random_u32() % n] = (uint8_t)(random_u32() >> 24);
-        if (i % 8 != 0) mend_checksums(bytes, n);
-        write_bytes(bytes, n);
-        free(png_read_rgb8(tmp_path, &w, &h, error, sizeof error));
-    }
 }
 
-static void test_damage(void)
+static void test_cuts(void)
 {
     static uint8_t valid[1 << 16];
     size_t n;
     round_trip(12, 9, 3);
     const uint8_t *bytes = read_bytes(&n);
     memcpy(valid, bytes, n);
-    fuzz(valid, n);
+    cut(valid, n);
     FILE *file = fopen("tests/data/dynamic.png", "rb");
     if (!CHECK(file != NULL)) return;
     n = fread(valid, 1, sizeof valid, file);
     fclose(file);
-    fuzz(valid, n);
+    cut(valid, n);
     start_file(5, 3, 2, 3, 1);
     put_chunk("PLTE", "123456789abc", 12);
     put_chunk("tRNS", "12", 2);
@@ -461,7 +442,7 @@ static void test_damage(void)
     uint8_t *rgb = read_made();
     CHECK(rgb != NULL);
     free(rgb);
-    fuzz(valid, n);
+    cut(valid, n);
 }
 
 int main(void)
@@ -479,6 +460,6 @@ int main(void)
     test_chunk_errors();
     test_inflate();
     test_foreign_file();
-    test_damage();
+    test_cuts();
     return check_report();
 }
