@@ -65,6 +65,7 @@ static int knobs_ok(const gn_frame *frame)
     ok = ok && (k->atlas_size & (k->atlas_size - 1)) == 0 && k->tile_width % 8 == 0;
     ok = ok && (k->other_atlas_size & (k->other_atlas_size - 1)) == 0 && k->other_atlas_size <= GN_OTHER_ATLAS_SIZE;
     ok = ok && (k->depth_bits & (k->depth_bits - 1)) == 0 && (k->other_depth_bits & (k->other_depth_bits - 1)) == 0;
+    ok = ok && (!k->triangle_groups || frame->picture.height <= 256 * k->tile_height);
     return ok && k->tile_width * k->tile_height <= GN_TILE_PIXELS_MAX;
 }
 #endif
@@ -159,9 +160,10 @@ gn_status gn_prepare(gn_renderer *r)
 #endif
     gn_status status = gn_setup_triangles(frame, &r->scratch);
     if (status) return status;
-    /* cells hold triangle + 1; the remaining bits are depth */
-    frame->id_bits =
-        (uint8_t)(32 - gn_clz32(frame->stats.n_triangles + 1)); /* and one identity that no triangle has, for gn_runs */
+    /* cells hold triangle + 1, and one identity that no triangle has, for gn_runs; the remaining bits are depth */
+    uint32_t n_identities = frame->stats.n_triangles + 1;
+    if (GN_K(frame, triangle_groups) && n_identities > 65535) n_identities = 65535; /* screen tiles have no more */
+    frame->id_bits = (uint8_t)(32 - gn_clz32(n_identities));
     status = gn_bin_triangles(frame, &r->scratch);
     if (status) return status;
     frame->stage = GN_STAGE_PREPARED;
