@@ -31,8 +31,9 @@ GN_STATIC_ASSERT(tile_width_not_multiple_of_8, GN_TILE_WIDTH % 8 == 0);
 GN_STATIC_ASSERT(tile_has_more_than_65536_pixels,
                  (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) <= 65536); /* gn_runs.h links cells by 16 bits */
 
-GN_STATIC_ASSERT(triangle_groups_have_up_to_256_rows_of_tiles, /* gn_tri_group has bytes */
-                 !(GN_TRIANGLE_GROUPS) || (GN_MAX_HEIGHT) <= 256 * (GN_TILE_HEIGHT));
+GN_STATIC_ASSERT(triangle_groups_have_up_to_128_columns_and_rows_of_tiles, /* gn_tri_group has 7 bits */
+                 !(GN_TRIANGLE_GROUPS) ||
+                     ((GN_MAX_WIDTH) <= 128 * (GN_TILE_WIDTH) && (GN_MAX_HEIGHT) <= 128 * (GN_TILE_HEIGHT)));
 GN_STATIC_ASSERT(triangle_groups_have_tiles_from_16_pixels, /* gn_setup.c has a vertex in them */
                  !(GN_TRIANGLE_GROUPS) || (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 16);
 

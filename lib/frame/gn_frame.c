@@ -65,7 +65,8 @@ static int knobs_ok(const gn_frame *frame)
     ok = ok && (k->atlas_size & (k->atlas_size - 1)) == 0 && k->tile_width % 8 == 0;
     ok = ok && (k->other_atlas_size & (k->other_atlas_size - 1)) == 0 && k->other_atlas_size <= GN_OTHER_ATLAS_SIZE;
     ok = ok && (k->depth_bits & (k->depth_bits - 1)) == 0 && (k->other_depth_bits & (k->other_depth_bits - 1)) == 0;
-    ok = ok && (!k->triangle_groups || frame->picture.height <= 256 * k->tile_height);
+    ok = ok && (!k->triangle_groups ||
+                (frame->picture.width <= 128 * k->tile_width && frame->picture.height <= 128 * k->tile_height));
     return ok && k->tile_width * k->tile_height <= GN_TILE_PIXELS_MAX;
 }
 #endif

@@ -104,6 +104,18 @@ typedef union {
 #endif
 } gn_work;
 
+#if GN_GROUPS
+/* What of it drawing a triangle takes; the rest is free while screen tiles set up triangles. */
+typedef union {
+    gn_clipping clipping;
+#if GN_VISIBLE_ALPHA
+    gn_alpha_cut cut;
+#endif
+} gn_work_drawn;
+#define GN_WORK_DRAWN_BYTES ((sizeof(gn_work_drawn) + 7) / 8 * 8)
+#define GN_WORK_FREE_BYTES  (sizeof(gn_work) - GN_WORK_DRAWN_BYTES)
+#endif
+
 /* The cells of a screen tile. */
 #define GN_CELLS(scratch) ((scratch)->cell + 1)
 

@@ -6,6 +6,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_walk.h"
+#include "visible/gn_group.h"
 #include "visible/gn_screen_triangle.h"
 #include "visible/gn_setup.h"
 
@@ -192,18 +193,14 @@ static inline gn_tri *count_record(const gn_screen_job *job, const gn_rect *px)
 static void count_group(const gn_screen_job *job, const gn_rect *px)
 {
     const gn_frame *frame = job->frame;
-    gn_tri_group *group = job->group;
     const uint32_t w = (uint32_t)GN_K(frame, tile_width), h = (uint32_t)GN_K(frame, tile_height);
-    const uint32_t x[2] = {(uint32_t)px->x0 / w, (uint32_t)(px->x1 - 1) / w},
-                   y[2] = {(uint32_t)px->y0 / h, (uint32_t)(px->y1 - 1) / h}; /* nothing is negative */
+    const uint32_t x0 = (uint32_t)px->x0 / w, x1 = (uint32_t)(px->x1 - 1) / w, y0 = (uint32_t)px->y0 / h,
+                   y1 = (uint32_t)(px->y1 - 1) / h; /* nothing is negative */
     job->stats->n_triangles++;
-    if (x[0] < group->x[0]) group->x[0] = (uint8_t)x[0];
-    if (x[1] > group->x[1]) group->x[1] = (uint8_t)x[1];
-    if (y[0] < group->y[0]) group->y[0] = (uint8_t)y[0];
-    if (y[1] > group->y[1]) group->y[1] = (uint8_t)y[1];
-    for (uint32_t row = y[0]; row <= y[1]; row++)
-        for (uint32_t column = x[0]; column <= x[1]; column++) {
-            gn_ref_offset *n = &job->tile_first[row * frame->tiles_x + column];
+    *job->group = gn_group_union(*job->group, gn_group_of(x0, x1, y0, y1));
+    for (uint32_t y = y0; y <= y1; y++)
+        for (uint32_t x = x0; x <= x1; x++) {
+            gn_ref_offset *n = &job->tile_first[y * frame->tiles_x + x];
             if (*n != (gn_ref_offset)-1) ++*n; /* more than fit an identity in any case */
         }
 }

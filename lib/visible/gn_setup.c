@@ -11,6 +11,7 @@
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
+#include "visible/gn_group.h"
 #include "visible/gn_screen_rect.h"
 #include "visible/gn_screen_triangle.h"
 #include "visible/gn_setup.h"
@@ -63,8 +64,10 @@ typedef struct {
     uint32_t near_norm;  /* near, normalised */
     int32_t near_down;   /* its leading zeros, less one */
     int32_t near_q16;
-    uint32_t z_range;     /* from near to 2^30 */
-    uint32_t half_q16[2]; /* the picture's, pixels */
+    uint32_t z_range;   /* from near to 2^30 */
+    int32_t low_q16[2]; /* left and top of the picture, or of a screen tile in it, from the picture's centre, pixels */
+    uint32_t size_q16[2]; /* its width and height */
+    uint32_t near_planes; /* for corners nearer than near: outside of the picture is not outside of a tile there */
     int32_t near_guard;   /* inside |x|, |y| <= Z * 2^-near_guard is inside the guard band */
     gn_xform xform;
     gn_xform_fast fast;
@@ -133,16 +136,10 @@ static GN_NOINLINE int fill_corner_small(const setup_job *job, setup_corner *c, 
     return 1;
 }
 
-/* Beyond +-half */
-static inline int is_beyond(int32_t v, uint32_t half)
+/* Bit `before` if a coordinate that is not within the size from `low` is below it, `after` if it is above. */
+static inline uint32_t side_bit(int32_t v, int32_t low, uint32_t size, uint32_t before, uint32_t after)
 {
-    return (uint32_t)v + half > 2 * half;
-}
-
-/* Bit `low` if v is below -half, the next if it is above half. */
-static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
-{
-    return !is_beyond(v, half) ? 0 : v < 0 ? low : low << 1;
+    return (uint32_t)(v - low) <= size ? 0 : v < low ? before : after;
 }
 
 /* Returns 0 for a corner nearer than near, outside or near the border of the guard band, or out of range. */
@@ -153,7 +150,7 @@ static GN_NOINLINE int fill_far_corner(const setup_job *job, setup_corner *c)
     for (int k = 0; k < 3; k++)
         if (v[k] <= -GN_VIEW_LIMIT_Q16 || v[k] >= GN_VIEW_LIMIT_Q16) return 0;
     c->out = gn_outcode(v, cam->near_q16, cam->tan_q16, flat);
-    if (v[2] < cam->near_q16) c->out |= GN_OUT_NEAR << 8;
+    if (v[2] < cam->near_q16) c->out = (c->out & job->near_planes) | GN_OUT_NEAR << 8;
     else if (c->out) c->out |= gn_outcode(v, cam->near_q16, cam->guard_q16, flat) << 8;
     if (!(c->out >> 8)) project(job, v, &c->at);
     return 1;
@@ -175,10 +172,11 @@ GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t v
         (uint32_t)v[1] + z > 2 * z)
         return fill_far_corner(job, c);
     project(job, v, &c->at);
-    uint32_t half_x = job->half_q16[0], half_y = job->half_q16[1];
     c->out = 0;
-    if (GN_SELDOM(is_beyond(c->at.x_q16, half_x) || is_beyond(c->at.y_q16, half_y)))
-        c->out = side_bits(c->at.x_q16, half_x, GN_OUT_LEFT) | side_bits(-c->at.y_q16, half_y, GN_OUT_BOTTOM);
+    if (GN_SELDOM((uint32_t)(c->at.x_q16 - job->low_q16[0]) > job->size_q16[0] ||
+                  (uint32_t)(c->at.y_q16 - job->low_q16[1]) > job->size_q16[1]))
+        c->out = side_bit(c->at.x_q16, job->low_q16[0], job->size_q16[0], GN_OUT_LEFT, GN_OUT_RIGHT) |
+                 side_bit(c->at.y_q16, job->low_q16[1], job->size_q16[1], GN_OUT_TOP, GN_OUT_BOTTOM);
     return 1;
 }
 
@@ -260,6 +258,17 @@ static gn_status setup_span(setup_job *job, uint32_t t, uint32_t end)
     return GN_OK;
 }
 
+/* Vertices are sorted into those inside and outside of this rectangle of the picture. */
+static void setup_window(setup_job *job, const gn_rect *px)
+{
+    const gn_picture *picture = &job->screen.frame->picture;
+    job->near_planes = job->screen.stats ? GN_OUT_ALL : GN_OUT_NEAR;
+    job->low_q16[0] = (2 * px->x0 - picture->width) * (1 << 15);
+    job->low_q16[1] = (2 * px->y0 - picture->height) * (1 << 15);
+    job->size_q16[0] = (uint32_t)(px->x1 - px->x0) << 16;
+    job->size_q16[1] = (uint32_t)(px->y1 - px->y0) << 16;
+}
+
 /* Constants of a frame, and an empty cache of vertices in the memory. */
 static void setup_begin(setup_job *job, const gn_frame *frame, gn_scratch *scratch, void *memory, size_t bytes)
 {
@@ -276,8 +285,6 @@ static void setup_begin(setup_job *job, const gn_frame *frame, gn_scratch *scrat
         int32_t guard = gn_min32(frame->cam.guard_q16[0], frame->cam.guard_q16[1]);
         job->near_q16 = frame->cam.near_q16;
         job->z_range = (uint32_t)GN_VIEW_LIMIT_Q16 - (uint32_t)job->near_q16;
-        job->half_q16[0] = (uint32_t)frame->picture.width << 15;
-        job->half_q16[1] = (uint32_t)frame->picture.height << 15;
         for (job->near_guard = 0; guard < 65536 >> job->near_guard;) job->near_guard++;
     }
     for (uint32_t i = 0; i <= job->cache_mask; i++) gn_vertex_drop(&job->cache[i].vertex);
@@ -290,7 +297,6 @@ static void setup_begin(setup_job *job, const gn_frame *frame, gn_scratch *scrat
 static void setup_begin_groups(gn_frame *frame)
 {
     const uint32_t n_groups = (uint32_t)GN_K(frame, triangle_groups);
-    const gn_tri_group empty = {{UINT8_MAX, 0}, {UINT8_MAX, 0}};
     uint32_t n = 0;
     for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
         const gn_object *object = &frame->scene->objects[i];
@@ -299,7 +305,7 @@ static void setup_begin_groups(gn_frame *frame)
     frame->n_grouped = n;
     frame->group_shift = 0;
     while (n && (n - 1) >> frame->group_shift >= n_groups) frame->group_shift++;
-    for (uint32_t i = 0; i < n_groups; i++) frame->group[i] = empty;
+    for (uint32_t i = 0; i < n_groups; i++) frame->group[i] = GN_GROUP_EMPTY;
 }
 
 /* Counts an object's triangles, the first of which is `first` of all. */
@@ -317,21 +323,18 @@ static gn_status setup_count_groups(setup_job *job, gn_tri_group *groups, uint32
     return GN_OK;
 }
 
-/* Draws those whose groups meet a screen tile. The frame's setup has found no error. */
-static void setup_draw_groups(setup_job *job, uint32_t column, uint32_t row, uint32_t first)
+/* Draws those whose groups meet a screen tile, the last first. The frame's setup has found no error. */
+static void setup_draw_groups(setup_job *job, gn_tri_group tile, uint32_t first)
 {
     const gn_frame *frame = job->screen.frame;
-    const uint32_t shift = frame->group_shift;
+    const uint32_t shift = frame->group_shift, n = job->screen.object->mesh->n_triangles, lowest = first >> shift;
     int begun = 0;
-    for (uint32_t t = job->screen.object->mesh->n_triangles; t > 0;) {
-        const uint32_t last = first + t - 1, back = (last & ((1U << shift) - 1)) + 1, end = back < t ? t - back : 0;
-        const gn_tri_group *group = &frame->group[last >> shift];
-        if (group->x[0] <= column && column <= group->x[1] && group->y[0] <= row && row <= group->y[1]) {
-            if (!begun) setup_begin_object(job);
-            begun = 1;
-            setup_span(job, t, end);
-        }
-        t = end;
+    for (uint32_t i = ((first + n - 1) >> shift) + 1; i-- > lowest;) {
+        if (!gn_group_meets(frame->group[i], tile)) continue;
+        const uint32_t begin = i << shift, end = begin + ((1U << shift) - 1); /* the last: below 2^32 */
+        if (!begun) setup_begin_object(job);
+        begun = 1;
+        setup_span(job, end - first < n ? end - first + 1 : n, begin > first ? begin - first : 0);
     }
 }
 
@@ -340,16 +343,20 @@ void gn_setup_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx
     setup_job job;
     gn_screen_tile_job tile = {target, gn_screen_rect(frame, tile_idx), scratch->drawn, 0, frame->tile_first[tile_idx]};
     uint32_t first = frame->n_grouped;
+    const uint32_t column = tile_idx % frame->tiles_x, row = tile_idx / frame->tiles_x;
     if (!tile.n_counted) return;
-    setup_begin(&job, frame, scratch, &scratch->pixel, sizeof scratch->pixel);
+    if (sizeof scratch->pixel > GN_WORK_FREE_BYTES)
+        setup_begin(&job, frame, scratch, &scratch->pixel, sizeof scratch->pixel);
+    else setup_begin(&job, frame, scratch, (char *)&scratch->work + GN_WORK_DRAWN_BYTES, GN_WORK_FREE_BYTES);
     job.screen.stats = NULL;
+    setup_window(&job, &tile.rect);
     job.screen.tile = &tile;
     for (uint32_t i = frame->scene->n_objects; i-- > 0;) {
         job.screen.object_idx = i;
         job.screen.object = &frame->scene->objects[i];
         if (job.screen.object->flags & GN_OBJECT_HIDDEN) continue;
         first -= job.screen.object->mesh->n_triangles;
-        setup_draw_groups(&job, tile_idx % frame->tiles_x, tile_idx / frame->tiles_x, first);
+        setup_draw_groups(&job, gn_group_of(column, column, row, row), first);
     }
 }
 #endif
@@ -369,9 +376,11 @@ static gn_status setup_object(setup_job *job, gn_frame *frame, uint32_t first)
 gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
 {
     setup_job job;
+    const gn_rect picture = {0, 0, frame->picture.width, frame->picture.height};
     setup_begin(&job, frame, scratch, scratch->cell, sizeof scratch->cell);
     uint32_t first = 0;
     job.screen.stats = &frame->stats;
+    setup_window(&job, &picture);
     job.screen.tile_first = frame->tile_first;
 #if GN_RECORDS
     job.screen.tri = frame->tri;

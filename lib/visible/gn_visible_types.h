@@ -45,12 +45,11 @@ typedef struct {
     gn_tri_source source;
 } gn_tri;
 
-/* The screen tiles that visible triangles of a group may have pixels in: columns and rows, first and last; first above
- * last if there are none. */
-typedef struct {
-    uint8_t x[2], y[2];
-} gn_tri_group;
-#define GN_GROUPS_MAX (GN_RUNTIME_KNOBS ? 4096 : GN_TRIANGLE_GROUPS)
+/* The screen tiles that visible triangles of a group may have pixels in, four numbers of 7 bits in bytes: first column,
+ * 127 - last column, first row, 127 - last row. */
+typedef uint32_t gn_tri_group;
+#define GN_GROUP_EMPTY 0x7F7F7F7FU
+#define GN_GROUPS_MAX  (GN_RUNTIME_KNOBS ? 4096 : GN_TRIANGLE_GROUPS)
 
 static inline int gn_tri_is_bounded(const gn_tri *tri)
 {
