@@ -14,10 +14,11 @@
  *
  * gn_prepare
  * - gn_setup_triangles: visible triangles: transform, cull, clip (geometry/gn_clip), project, depth plane (gn_plane)
- * - gn_bin_triangles: triangles to screen tiles (visible/gn_bin)
+ * - gn_bin_triangles: triangles to screen tiles (visible/gn_bin); not with triangle_groups
  *
  * gn_screen_tile
- * - gn_raster_tile: depth and triangle per pixel, by exact edge walks (geometry/gn_walk)
+ * - gn_raster_tile: depth and triangle per pixel, by exact edge walks (geometry/gn_walk); with triangle_groups the
+ *   tile's triangles are set up again for it (visible/gn_setup)
  * - gn_shade_tile: the visible runs (visible/gn_runs) of a triangle at a time (shade/gn_surface), part by part: of one
  *   or two colours (gn_part), or by cells (gn_lattice: gn_corner, gn_lattice_look, gn_lattice_draw), with texel windows
  *   (gn_lattice_window, shadow/gn_window); or pixel by pixel (gn_exact, gn_sample): light (gn_light, gn_arrival,

@@ -3,6 +3,7 @@
 
 #include "gn_stages.h"
 #include "base/gn_count.h"
+#include "base/gn_hint.h"
 #include "base/gn_q.h"
 #include "scene/gn_scene.h"
 #include "visible/gn_setup.h"
@@ -55,8 +56,9 @@ static gn_status check_tiles(gn_frame *frame, uint32_t n_tiles)
 }
 #endif
 
-/* The triangles of every screen tile, in the order of the scene. [R1] */
-gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch)
+/* The triangles of every screen tile, in the order of the scene. A function of its own: a stage that is counted. [R1]
+ */
+GN_NOINLINE gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratch)
 {
     uint32_t n_tiles = (uint32_t)frame->tiles_x * frame->tiles_y;
     uint64_t n_refs = 0;
