@@ -33,9 +33,9 @@ HOST_SRC := $(filter-out host/tool/main.c host/generate/% host/report/% host/web
 SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/generate/scenes/*.c))
 TEST_SRC := $(wildcard tests/*/test_*.c)
 TESTS := $(basename $(notdir $(TEST_SRC)))
-# Those of unit/ and property/ need no more than the library, but for three.
+# Those of unit/ and property/ need no more than the library, but for four.
 ALONE := $(patsubst tests/%.c,$(BUILD)/%,$(subst unit/,,$(subst property/,,$(wildcard tests/unit/test_*.c tests/property/test_*.c))))
-ALONE := $(filter-out %/test_culling %/test_golden %/test_stages,$(ALONE))
+ALONE := $(filter-out %/test_culling %/test_golden %/test_groups %/test_stages,$(ALONE))
 # And those that are built with constants for knobs, too. The others choose their knobs: casters
 # corner and radiance sweep what may be lost over all presets, arrival has the finest, refused what a knob refuses, runs and tiles
 # have sizes of their own.

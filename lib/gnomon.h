@@ -213,6 +213,9 @@ typedef struct {
     uint32_t n_tiles_drawn;         /* shadow tiles that were drawn, not kept */
     uint32_t n_texels_drawn;        /* of those tiles */
     uint32_t n_casters_culled;      /* objects not drawn into a cascade */
+#if GN_GROUPS
+    uint32_t n_tile_triangles; /* with triangle_groups: of the screen tile that has most */
+#endif
 } gn_stats;
 
 #if GN_RUNTIME_KNOBS

@@ -362,7 +362,7 @@ typedef struct {
     gn_pixel_rows rows;
     gn_surface_cache cache;
     gn_surface surface;
-    const gn_tri *tri;
+    const gn_tri_source *tri;
     uint32_t last_q20[3]; /* the last radiance and its pixel: neighbours are often equal */
     uint32_t last_pixel;
     uint32_t radiance_q20[3];

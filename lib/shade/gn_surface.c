@@ -415,7 +415,7 @@ GN_HOT static void use_object(const gn_frame *frame, gn_surface_cache *cache, co
 
 /* A vertex whose transform or position is too large for the fast path. */
 GN_HOT static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch,
-                                           const gn_tri *tri, uint32_t vertex_idx)
+                                           const gn_tri_source *tri, uint32_t vertex_idx)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     gn_xform to_view;
@@ -444,7 +444,7 @@ GN_HOT static void flat_plane(const gn_frame *frame, gn_surface *s, int32_t v[3]
 #endif
 
 GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
-                             const gn_tri *tri)
+                             const gn_tri_source *tri)
 {
     GN_COUNT(surfaces, 1);
     s->object = &frame->scene->objects[tri->object_idx];

@@ -125,6 +125,12 @@ PICKING gn_pick
 CASTER_CLIPPING clip_side|clip_to_reach
 LIST
 
+# Neither way of keeping triangles knows the other's functions.
+if symbols NOTHING | grep -q -x -E 'gn_setup_tile|gn_raster_triangle|setup_.*groups|count_group|check_tiles'; then fail "groups of triangles without triangle_groups"; else pass; fi
+object all-GROUPS -Og -fno-inline $(but all 0 NOTHING) -DGN_TRIANGLE_GROUPS=64
+if symbols GROUPS | grep -q -x -E 'raster_records|sort_triangles|bin_by_bounds|count_record|count_(few_)?tiles'; then fail "records of triangles with triangle_groups"; else pass; fi
+symbols GROUPS | grep -q -x gn_setup_tile && pass || fail "triangle_groups: there is no symbol gn_setup_tile at all"
+
 # ---- Divisions -------------------------------------------------------------------------------------------------------------
 
 # The library has its own 64-bit division (that no pixel reaches it is tests/firmware/test_size.sh's to say) and calls no other.

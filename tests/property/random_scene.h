@@ -486,6 +486,7 @@ static void random_knobs(gn_frame *k)
     SET_KNOB(k, vertex_light, one_in(4));
     SET_KNOB(k, position_bits, 32); /* may have been spoiled */
     SET_KNOB(k, normal_bits, 16);
+    SET_KNOB(k, triangle_groups, one_in(2) ? 0 : 1 + (int32_t)(rnd() % 16));
     if (one_in(200)) {
 #if GN_RUNTIME_KNOBS
         spoil_words(&k->knobs, 0, sizeof k->knobs);

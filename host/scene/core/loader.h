@@ -144,6 +144,10 @@ bool mesh_splitter_init(mesh_splitter *splitter, loader *l, const scene_mesh *in
 bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip,
                 size_t *first, size_t *n_meshes);
 
+/* mesh_order.c: the same triangles; those of a large mesh in an order in which neighbours are near each other. NULL:
+ * failed. */
+const uint32_t *mesh_order(loader *l, const scene_mesh *input, const uint32_t *idx, size_t n_triangles);
+
 /* lights.c */
 #define LIGHT_MIN_RANGE 0.01
 /* Everything that has a default but the kind and the name; range unlimited, near 0: to be found by lights_set_near. */

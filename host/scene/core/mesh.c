@@ -208,6 +208,7 @@ bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, 
 {
     loader *l = splitter->l;
     *first = l->s->n_meshes;
+    if (!(idx = mesh_order(l, splitter->input, idx, n_triangles))) return false;
     for (size_t at = 0; at < n_triangles;) {
         size_t n_vertices, taken = take_triangles(splitter, idx + 3 * at, n_triangles - at, &n_vertices);
         if (!add_taken(splitter, name, idx + 3 * at, taken, n_vertices, flip)) return false;

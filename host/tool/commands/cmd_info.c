@@ -60,20 +60,38 @@ static size_t scaled_texels(size_t texels, int side, int measured_side)
     return texels / (size_t)measured_side * (size_t)side / (size_t)measured_side * (size_t)side;
 }
 
+/* With triangle_groups, which presets leave alone here: the triangles of the preset's screen tiles. */
+static int keep_groups(const settings *set, settings *needed, const scene *s, settings_demand *demand, char *error,
+                       size_t bytes)
+{
+    engine_picture p;
+    settings unlimited = *needed;
+    needed->quality.triangle_groups = unlimited.quality.triangle_groups = set->quality.triangle_groups;
+    if (!set->quality.triangle_groups) return 0;
+    unlimited.capacity.max_triangles = 0;
+    if (engine_fixed(&p, s, &unlimited, demand->width, demand->height, ENGINE_COLOUR_ONLY, error, bytes)) return -1;
+    demand->triangles = p.demand.triangles;
+    engine_free(&p);
+    return 0;
+}
+
 /* RAM per preset with features and capacities for just this scene at this picture size, where they were not set. */
-static void preset_ram(const settings *set, const settings_demand *demand, const scene *s, settings_ram_parts *ram)
+static int preset_ram(const settings *set, const settings_demand *demand, const scene *s, settings_ram_parts *ram,
+                      char *error, size_t bytes)
 {
     for (int i = 0; i < SETTINGS_PRESETS; i++) {
         settings needed = *set;
         settings_preset(&needed, i);
         settings_trim(&needed, s);
         settings_demand scaled = *demand;
+        if (keep_groups(set, &needed, s, &scaled, error, bytes)) return -1;
         scaled.atlas_texels = scaled_texels(demand->atlas_texels, needed.quality.atlas_size, set->quality.atlas_size);
         scaled.other_atlas_texels =
             scaled_texels(demand->other_atlas_texels, needed.quality.other_atlas_size, set->quality.other_atlas_size);
         settings_fit(&needed, &scaled);
         ram[i] = settings_ram(&needed);
     }
+    return 0;
 }
 
 /* ---- JSON -------------------------------------------------------------------------------------------------------- */
@@ -292,8 +310,8 @@ int tool_info(const tool_options *o)
     if (!failed) {
         report r = {.options = o, .scene = &s, .n_ignored = n_ignored, .picture = &p};
         count(&s, &r.counts);
-        preset_ram(&set, &p.demand, &s, r.ram);
-        failed = info_memory_find(&r.memory, o, error, sizeof error);
+        failed = preset_ram(&set, &p.demand, &s, r.ram, error, sizeof error) ||
+                 info_memory_find(&r.memory, o, error, sizeof error);
         if (!failed && o->json) print_json(&r);
         else if (!failed) print_text(&r);
         engine_free(&p);

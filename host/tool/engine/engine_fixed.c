@@ -234,8 +234,9 @@ void engine_demand(const gn_renderer *renderer, settings_demand *out)
     out->objects = frame->scene->n_objects;
     out->lights = frame->scene->n_lights;
     out->surface_lights = surface_lights(frame);
-    out->triangles = frame->stats.n_triangles;
-    out->tile_refs = frame->stats.n_tile_refs;
+    const bool groups = frame->knobs.triangle_groups > 0;
+    out->triangles = groups ? frame->stats.n_tile_triangles : frame->stats.n_triangles;
+    out->tile_refs = groups ? 0 : frame->stats.n_tile_refs;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         uint32_t n = 0;
         if (gn_get_light_shadow(renderer, l, &n, NULL) != GN_SHADOW_REALTIME) continue;

@@ -163,7 +163,8 @@ settings_ram_parts settings_ram(const settings *s)
     long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
     int punctual = s->feature.punctual_lights;
-    put(&frame, 1, s->feature.orthographic ? 248 : 240, 8); /* scene to detail */
+    const long groups = s->quality.triangle_groups;
+    put(&frame, 1, (s->feature.orthographic ? 248 : 240) + (groups ? 4 : 0), 8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
         put(&frame, 4, 40, 8); /* cascade */
@@ -173,9 +174,13 @@ settings_ram_parts settings_ram(const settings *s)
     int boxes = punctual ||
                 (s->feature.shadows && (s->feature.object_boxes || s->feature.caster_culling || s->feature.tight_fit));
     r.objects = boxes ? put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4) : 0;
-    r.triangles = put(&frame, s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
+    if (!groups) r.triangles = put(&frame, s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
-    r.tile_refs = put(&frame, s->capacity.max_tile_refs, 2, 2);
+    if (!groups) r.tile_refs = put(&frame, s->capacity.max_tile_refs, 2, 2);
+    else {
+        r.triangles = put(&frame, groups, 4, 1);
+        put(&frame, 1, 5, 4); /* n_grouped, group_shift */
+    }
     if (s->feature.shadows) put_shadows(&frame, s, &r);
     pad(&frame, frame.align);
     all = frame;
@@ -183,6 +188,7 @@ settings_ram_parts settings_ram(const settings *s)
     r.pixels = put(&all, tile_w * tile_h, s->feature.raw_views ? 4 : 3, 4);
     put(&all, s->capacity.vertex_cache, 16, 4);
     put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
+    if (groups) r.triangles += put(&all, 1 + s->capacity.max_triangles, 4, 2);       /* drawn */
     put_work(&all, s);
     pad(&all, all.align);
     r.total = all.size;
