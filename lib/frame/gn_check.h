@@ -51,6 +51,7 @@ GN_STATIC_ASSERT(compact_has_no_such_bias, GN_COMPACT_IS_(!GN_RECEIVER_BIAS && !
 GN_STATIC_ASSERT(compact_keeps_nothing, GN_COMPACT_IS_(!GN_INCREMENTAL && !GN_STATIC_LAYER && !GN_OBJECT_BOXES));
 GN_STATIC_ASSERT(compact_has_one_background_colour, GN_COMPACT_IS_(!GN_TILE_DRAWING));
 GN_STATIC_ASSERT(compact_has_perspective_cameras, GN_COMPACT_IS_(!GN_ORTHOGRAPHIC));
+GN_STATIC_ASSERT(compact_has_no_skins, GN_COMPACT_IS_(!GN_VERTEX_JOINTS));
 GN_STATIC_ASSERT(compact_has_rgb565, GN_COMPACT_IS_(!GN_OTHER_FORMATS && !GN_RAW_VIEWS && !GN_RUNTIME_KNOBS));
 GN_STATIC_ASSERT(compact_has_no_picking, GN_COMPACT_IS_(!GN_PICKING));
 
