@@ -192,6 +192,7 @@ void compile_drop_objects(compiled *c, const bool *gone)
 {
     uint32_t n = 0;
     renumber_tracks(c, COMPILE_OF_OBJECT, gone);
+    renumber_tracks(c, COMPILE_OF_SKIN, gone);
     for (uint32_t i = 0; i < c->fixed.scene.n_objects; i++) {
         if (gone[i]) {
             free(own(c->fixed.objects[i].baked_uq12));

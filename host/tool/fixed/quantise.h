@@ -53,6 +53,8 @@ typedef struct {
 } quantise_reach;
 quantise_reach quantise_farthest(const scene *s);
 
+/* A transform, its matrix times 2^shift. 0, or -1: its scale is too large. */
+int quantise_affine(gn_affine *out, const scene_affine *a, int shift, int world_exp);
 void quantise_camera(gn_camera *out, const scene_camera *camera, int world_exp);
 void quantise_free(fixed_scene *f);
 

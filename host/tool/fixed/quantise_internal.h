@@ -52,9 +52,6 @@ uint16_t *quantise_words(const double *v, size_t n, double one);
 int quantise_skin(gn_skin *out, const scene_mesh *mesh, const scene_object *o, int shift, int world_exp, char *error,
                   size_t error_bytes);
 
-/* A transform, its matrix times 2^shift. 0, or -1: its scale is too large. */
-int quantise_affine(gn_affine *out, const scene_affine *a, int shift, int world_exp);
-
 /* quantise_texture.c. Packing drops the channels of a mask image behind the last that a light uses: 0, or -1: out of
  * memory. */
 int quantise_texture(gn_texture *out, const scene_texture *t, char *error, size_t error_bytes);
