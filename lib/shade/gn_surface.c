@@ -94,7 +94,7 @@ GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache,
     int32_t n[3][3];
     for (int k = 0; k < 3; k++) {
         const gn_normal *nrm_q15 = mesh->nrm_q15 + 3 * (size_t)idx[k];
-        if (GN_SKIN(s->object)) gn_skin_normal(n[k], s->object, cache->normal_matrix, idx[k]);
+        if (GN_VERTEX_JOINTS && GN_SKIN(s->object)) gn_skin_normal(n[k], s->object, cache->normal_matrix, idx[k]);
         else if (GN_SIZE_FIRST) gn_xform_normal(n[k], cache->normal_matrix, nrm_q15);
         else gn_surface_normal(n[k], cache->normal_matrix, nrm_q15);
         if (s->plane.back)

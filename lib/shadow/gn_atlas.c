@@ -29,7 +29,7 @@ typedef gn_caster_job caster_job;
 static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3], int32_t out_q30[3][3])
 {
     const gn_mesh *mesh = job->object->mesh;
-    if (GN_VERTEX_NORMALS && mesh->nrm_q15 && GN_SKIN(job->object)) {
+    if (GN_VERTEX_JOINTS && GN_VERTEX_NORMALS && mesh->nrm_q15 && GN_SKIN(job->object)) {
         for (int i = 0; i < 3; i++) gn_skin_normal(out_q30[i], job->object, job->by.normal_matrix, idx[i]);
         return;
     }
