@@ -227,6 +227,9 @@
 #ifndef GN_VERTEX_COLOURS
 #define GN_VERTEX_COLOURS (!GN_COMPACT)
 #endif
+#ifndef GN_VERTEX_JOINTS
+#define GN_VERTEX_JOINTS (GN_COMPACT ? 0 : 4)
+#endif
 #ifndef GN_TILE_DRAWING
 #define GN_TILE_DRAWING (!GN_COMPACT)
 #endif

@@ -28,6 +28,16 @@ typedef struct {
     uint8_t uv_frac_bits;  /* 0..15 */
 } gn_mesh;
 
+/* What moves an object's vertices before its to_world: each to the mean of where its joints take it, by its weights. */
+typedef struct {
+    const gn_affine *joint;   /* n_joints: from the mesh's space, as stored, to the object's, as posed now. Each takes
+                                 its vertices to within +-16384 units; it may flatten */
+    const uint8_t *joint_idx; /* per_vertex for each of the mesh's vertices */
+    const uint8_t *weight_u8; /* the same; 255 is 1, and those of a vertex are 255 in all */
+    uint16_t n_joints;
+    uint8_t per_vertex; /* 1 .. GN_VERTEX_JOINTS */
+} gn_skin;
+
 /* gn_texture.flags */
 enum {
     GN_TEXTURE_CLAMP_U = 1, /* else it repeats */
@@ -96,6 +106,7 @@ typedef struct {
     const gn_texture *mask_image; /* shadow masks at the mesh's mask_uv_uq16, bilinear and clamped, or NULL */
     const uint8_t *mask_u8;       /* shadow masks, 4 per vertex of the mesh, or NULL */
     const uint16_t *baked_uq12;   /* 3 per vertex of the mesh, irradiance of the baked lights, 4.12, or NULL */
+    const gn_skin *skin;          /* or NULL */
 } gn_object;
 
 typedef enum { GN_LIGHT_DIRECTIONAL, GN_LIGHT_SPOT, GN_LIGHT_POINT } gn_light_kind;

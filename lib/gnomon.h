@@ -75,6 +75,9 @@ extern "C" {
     X(GN_ERR_MATERIAL, "alpha, cutoff, specular or emissive colour or shininess out of range, or an alpha mode, "      \
                        "caster mode or such a colour that is not built in")                                            \
     X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")              \
+    X(GN_ERR_SKIN, "skin: a null array, a joint transform out of range, or too many joints per vertex")                \
+    X(GN_ERR_SKIN_JOINT, "skin: joint index out of range")                                                             \
+    X(GN_ERR_SKIN_WEIGHTS, "skin: weights of a vertex are not 255 in all")                                             \
     X(GN_ERR_TOO_MANY_OBJECTS, "more objects than GN_MAX_OBJECTS")                                                     \
     X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                        \
     X(GN_ERR_LIGHT_KIND, "unknown kind, mode or softness of light, or one that is not built in")                       \

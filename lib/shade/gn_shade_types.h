@@ -89,7 +89,7 @@ typedef struct {
 typedef struct {
     const gn_object *object;
     union {
-        gn_xform to_view; /* with GN_SIZE_FIRST */
+        gn_xform to_view; /* with GN_SIZE_FIRST, and of skinned objects */
         gn_xform_fast fast;
     } by; /* of the current object */
     int32_t normal_matrix[3][3];

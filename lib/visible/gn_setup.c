@@ -7,6 +7,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_clip.h"
+#include "geometry/gn_skin.h"
 #include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
@@ -17,11 +18,13 @@
 #include "visible/gn_setup.h"
 
 /* View position of a vertex, without a cache. */
-static int view_position(int32_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
+static int view_position(int32_t out_q16[3], const gn_xform *xform, const gn_object *object, uint32_t vertex_idx)
 {
+    int32_t p[3];
     int64_t v[3];
-    if (!gn_scene_position_ok(mesh, vertex_idx)) return 0;
-    gn_xform_vertex(v, xform, mesh, vertex_idx);
+    gn_position_of(p, object, vertex_idx);
+    if (!gn_position_ok(p)) return 0;
+    gn_xform_point(v, xform, p);
     for (int i = 0; i < 3; i++) {
         if (v[i] <= -GN_VIEW_LIMIT_Q16 || v[i] >= GN_VIEW_LIMIT_Q16) return 0;
         out_q16[i] = (int32_t)v[i];
@@ -29,7 +32,7 @@ static int view_position(int32_t out_q16[3], const gn_xform *xform, const gn_mes
     return 1;
 }
 
-int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
+int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *xform, const gn_object *object,
                     uint32_t object_idx, uint32_t vertex_idx)
 {
     gn_vertex_entry *entry = &cache[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
@@ -37,7 +40,7 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *
     uint32_t tag = gn_vertex_tag(object_idx, vertex_idx);
     if (!gn_vertex_hit(entry, tag)) {
         gn_vertex_drop(entry);
-        if (!view_position(entry->v_q16, xform, mesh, vertex_idx)) return 0;
+        if (!view_position(entry->v_q16, xform, object, vertex_idx)) return 0;
         gn_vertex_claim(entry, tag);
     }
     for (int i = 0; i < 3; i++) out_q16[i] = entry->v_q16[i];
@@ -130,7 +133,7 @@ static GN_NOINLINE int fill_corner_small(const setup_job *job, setup_corner *c, 
 {
     const gn_cam *cam = &job->screen.frame->cam;
     const int32_t *v = c->vertex.v_q16, flat = GN_FLAT_Q16(job->screen.frame);
-    if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object->mesh, vertex_idx)) return 0;
+    if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object, vertex_idx)) return 0;
     c->out = gn_outcode(v, cam->near_q16, cam->tan_q16, flat) | gn_outcode(v, cam->near_q16, cam->guard_q16, flat) << 8;
     if (!(c->out >> 8)) project_cut(job, v, &c->at); /* nothing is clamped; one projecting function is enough */
     return 1;
@@ -162,7 +165,7 @@ GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t v
     const gn_mesh *mesh = job->screen.object->mesh;
     int32_t v[3];
     if (!gn_xform_fast_wide(v, &job->fast, mesh->pos + 3 * (size_t)vertex_idx)) {
-        if (!view_position(c->vertex.v_q16, &job->xform, mesh, vertex_idx)) return 0;
+        if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object, vertex_idx)) return 0;
         for (int k = 0; k < 3; k++) v[k] = c->vertex.v_q16[k];
     }
     for (int k = 0; k < 3; k++) c->vertex.v_q16[k] = v[k];
@@ -237,6 +240,7 @@ static void setup_begin_object(setup_job *job)
     const gn_cam *cam = &job->screen.frame->cam;
     gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->screen.object);
     if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
+    if (!GN_SIZE_FIRST && GN_SKIN(job->screen.object)) job->fast.reach = 0; /* its positions are not the mesh's */
     gn_screen_object(&job->screen);
 }
 

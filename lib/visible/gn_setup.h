@@ -14,7 +14,7 @@ enum { GN_PLACE_ONE, GN_PLACE_NEXT, GN_PLACE_BELOW, GN_PLACE_MANY };
 
 /* View position of an object's vertex through the cache. Returns 0 if it is beyond +-16384 units, or
  * its position beyond +-2^30. */
-int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
+int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *xform, const gn_object *object,
                     uint32_t object_idx, uint32_t vertex_idx);
 
 #if GN_GROUPS

@@ -386,6 +386,35 @@ static inline bool tweak_subject(fixture *f, const char *key, const char *value)
     return true;
 }
 
+/* The subject bends to the side and twists: four joints along its height, each with some hold of every vertex. */
+static inline void add_skin(fixture *f, double angle)
+{
+    scene_object *o = &f->objects[SUBJECT];
+    scene_mesh *mesh = &f->meshes[SUBJECT];
+    double low = mesh->pos[1], high = mesh->pos[1];
+    for (size_t i = 0; i < mesh->n_vertices; i++)
+        low = fmin(low, mesh->pos[3 * i + 1]), high = fmax(high, mesh->pos[3 * i + 1]);
+    mesh->joint = calloc(mesh->n_vertices, 4), mesh->weight = calloc(mesh->n_vertices, 4);
+    o->joints = calloc(4, sizeof *o->joints);
+    if (!mesh->joint || !mesh->weight || !o->joints) abort();
+    o->n_joints = 4;
+    for (int k = 0; k < 4; k++) {
+        const double a = angle * k / 3, c = cos(a), s = sin(a), size = 1 - 0.1 * k;
+        const scene_affine turn = {{{c * size, -s, 0, 0.2 * k * angle}, {s * size, c, 0, 0}, {0, 0.3 * s, 1, 0}}};
+        o->joints[k].now = turn;
+    }
+    for (size_t i = 0; i < mesh->n_vertices; i++) {
+        const double at = 3 * (mesh->pos[3 * i + 1] - low) / (high - low + 1e-9);
+        int left = 255;
+        for (int k = 0; k < 4; k++) {
+            const int w = k == 3 ? left : (int)fmin(left, 255 * fmax(0, 0.7 - 0.4 * fabs(at - k)));
+            mesh->joint[4 * i + (size_t)k] = (uint8_t)k;
+            mesh->weight[4 * i + (size_t)k] = (uint8_t)w;
+            left -= w;
+        }
+    }
+}
+
 /* Of every object. */
 static inline bool tweak_objects(fixture *f, const char *key, const char *value)
 {
@@ -401,6 +430,8 @@ static inline bool tweak_objects(fixture *f, const char *key, const char *value)
             for (int k = 0; k < 3; k++) f->objects[o].specular[k] = 0.6;
             f->objects[o].shininess_log2 = atoi(value);
         }
+    } else if (strcmp(key, "skin") == 0) {
+        add_skin(f, atof(value));
     } else if (strcmp(key, "emissive") == 0) {
         for (size_t o = 0; o < f->s.n_objects; o++)
             for (int k = 0; k < 3; k++) f->objects[o].emissive[k] = atof(value) * (double)((o + (size_t)k) % 3) / 2;

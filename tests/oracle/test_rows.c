@@ -550,6 +550,10 @@ static const row rows[] = {
     {"R10", "lane", "cascades=4 cascade_blend=soft", "half_height=4", "", 0.75},
     {"R10", "lane", "cascades=2 distance_mode=radius max_distance=15", "half_height=5", "", 0.5},
     {"R10", "yard", ".camera=-1.6,0.5,0.9,0.5,0.5,-4", "half_height=1", "", 0.5}, /* clipped */
+    {"R12", "yard", "", ".skin=0.6", "", 0.25},
+    {"R12", "yard", ".light=all .texture=bilinear .colours=1 .specular=4", ".skin=0.9", "", 0.5},
+    {"R12", "yard", ".light=suns filter=2x2 .normals=0", ".skin=-0.7", "", 0.5},
+    {"R12", "yard", ".light=point bias_caster=1", ".skin=0.8", "", 0.5},
     {"R11", "yard", "background=0.2,0.4,0.8 .camera=1.2,0.9,7.5,0,1.4,-1.5", "background_bottom=0.9,0.6,0.3", "", 0.1},
     {"R4", "yard", ".light=all .texture=bilinear .colours=1", "persp_step=16", NULL, 0.75},
     {"R4", "yard", ".light=all .texture=bilinear .colours=1", "persp_step=4", NULL, 0.5},

@@ -26,7 +26,7 @@ flags() {
 }
 most() {
     case $1 in
-    FILTER_MAX) echo 4 ;;
+    FILTER_MAX | VERTEX_JOINTS) echo 4 ;;
     TEXTURE_FORMATS) echo 1023 ;;
     *) echo 1 ;;
     esac

@@ -90,11 +90,14 @@ static inline void end(fixture *f)
         free(f->meshes[i].rgb);
         free(f->meshes[i].uv);
         free(f->meshes[i].mask_uv);
+        free(f->meshes[i].joint);
+        free(f->meshes[i].weight);
         free(f->meshes[i].idx);
     }
     for (size_t i = 0; i < f->s.n_objects; i++) {
         free(f->objects[i].mask);
         free(f->objects[i].baked);
+        free(f->objects[i].joints);
     }
 }
 

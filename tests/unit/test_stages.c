@@ -52,7 +52,7 @@ static void check_view(const gn_frame *frame, int32_t view[][3])
         double world[3], reach = 0;
         int64_t got[3];
         world_vertex(i, world);
-        gn_xform_vertex(got, &xform, &mesh, (uint32_t)i);
+        gn_xform_point(got, &xform, mesh.pos + 3 * i);
         for (int k = 0; k < 3; k++) {
             reach += fabs(ldexp(pos[3 * i + k], object.to_world.exp - 24));
             world[k] -= frame->cam.eye_q16[k] * LSB16;

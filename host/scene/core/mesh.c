@@ -181,6 +181,8 @@ static bool gather_all(mesh_splitter *sp, size_t n_vertices, scene_mesh *mesh, m
     mesh->rgb = gather(sp, sp->input->rgb, 3 * sizeof *mesh->rgb, n_vertices, &ok);
     mesh->uv = gather(sp, sp->input->uv, 2 * sizeof *mesh->uv, n_vertices, &ok);
     mesh->mask_uv = gather(sp, sp->input->mask_uv, 2 * sizeof *mesh->mask_uv, n_vertices, &ok);
+    mesh->joint = gather(sp, sp->input->joint, 4, n_vertices, &ok);
+    mesh->weight = gather(sp, sp->input->weight, 4, n_vertices, &ok);
     light->mask = gather(sp, sp->light.mask, 4, n_vertices, &ok);
     light->baked = gather(sp, sp->light.baked, 3 * sizeof *light->baked, n_vertices, &ok);
     return ok;

@@ -185,6 +185,7 @@ static void use_object(compiled *c, const gn_object *o, const char *name)
     if (o->emissive_uq16[0] || o->emissive_uq16[1] || o->emissive_uq16[2]) USE(emissive, 1, "object '%s'", name);
     if (o->mask_u8 || o->mask_image) USE(masks, 1, "object '%s'", name);
     if (o->baked_uq12) USE(baked_light, 1, "object '%s'", name);
+    if (o->skin) USE(vertex_joints, o->skin->per_vertex, "object '%s'", name);
 }
 
 static void use_shadows(compiled *c)
@@ -230,6 +231,7 @@ static void use_nothing(compiled *c)
     NOTHING(caster_bias);
     NOTHING(receiver_plane);
     NOTHING(auto_bias);
+    NOTHING(vertex_joints);
     NOTHING(vertex_normals);
     NOTHING(vertex_colours);
     NOTHING(clips);

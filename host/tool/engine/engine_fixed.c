@@ -66,6 +66,9 @@ static subject subject_of(gn_status status)
     case GN_ERR_TEXTURE_FORMAT:
     case GN_ERR_MATERIAL:
     case GN_ERR_MASK:
+    case GN_ERR_SKIN:
+    case GN_ERR_SKIN_JOINT:
+    case GN_ERR_SKIN_WEIGHTS:
         return ABOUT_OBJECT;
     case GN_ERR_LIGHT_KIND:
     case GN_ERR_LIGHT_DIRECTION:

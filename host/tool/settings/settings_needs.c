@@ -93,9 +93,23 @@ static void needs_of_light(need_list *list, const scene *s, const scene_light *l
     needs_of_softness(list, s, l);
 }
 
+/* The most joints with a weight that a vertex has. */
+static int joints_of(const scene_mesh *mesh)
+{
+    int most = 1;
+    for (size_t i = 0; i < mesh->n_vertices; i++) {
+        int n = 0;
+        for (size_t k = 4 * i; k < 4 * i + 4; k++) n += mesh->weight[k] > 0;
+        if (n > most) most = n;
+    }
+    return most;
+}
+
 static void needs_of_object(need_list *list, const scene *s, const scene_object *o)
 {
     const bool textured = o->texture_idx < s->n_textures;
+    if (o->n_joints)
+        need(list, "vertex_joints", joints_of(&s->meshes[o->mesh_idx]), "the skin of object '%s'", o->name);
     if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "visible_alpha", 1, "alpha of object '%s'", o->name);
     if (o->texture_idx != SCENE_NONE) need(list, "textures", 1, "the texture of object '%s'", o->name);
     if (textured && s->textures[o->texture_idx].mipmapped)
