@@ -33,9 +33,9 @@ HOST_SRC := $(filter-out host/tool/main.c host/generate/% host/report/% host/web
 SCENE_SRC := $(filter-out %/make_scenes.c, $(wildcard host/generate/scenes/*.c))
 TEST_SRC := $(wildcard tests/*/test_*.c)
 TESTS := $(basename $(notdir $(TEST_SRC)))
-# Those of unit/ and property/ need no more than the library, but for three.
+# Those of unit/ and property/ need no more than the library, but for four.
 ALONE := $(patsubst tests/%.c,$(BUILD)/%,$(subst unit/,,$(subst property/,,$(wildcard tests/unit/test_*.c tests/property/test_*.c))))
-ALONE := $(filter-out %/test_culling %/test_golden %/test_stages,$(ALONE))
+ALONE := $(filter-out %/test_culling %/test_golden %/test_groups %/test_stages,$(ALONE))
 # And those that are built with constants for knobs, too. The others choose their knobs: casters
 # corner and radiance sweep what may be lost over all presets, arrival has the finest, refused what a knob refuses, runs and tiles
 # have sizes of their own.
@@ -67,6 +67,9 @@ soak: ## the longer campaigns, minutes to hours: [SEED=n] [SCENES=n] [CAMPAIGNS=
 
 mutate: ## mutants of lib/ against the tests, a score and the survivors: [N=150] [SEED=n] [MINUTES=m] [FILES="lib/scene/gn_scene.c"]
 	@SEED="$(SEED)" N="$(N)" MINUTES="$(MINUTES)" FILES="$(FILES)" sh tests/mutation/mutate.sh
+
+prove: ## prove that primitives of lib/ can do nothing undefined, for all operands; needs Frama-C, which deps does not install
+	@sh tests/prove/prove.sh
 
 coverage: ## print the lines and branches of lib/ that the C tests run, in some minutes
 	@sh tests/coverage.sh
@@ -171,7 +174,7 @@ constant-programs: $(CONSTANT)
 alone-programs: $(ALONE)
 
 $(BUILD)/test_scenes: $(SCENE_OBJ)
-$(BUILD)/test_panels: $(PANEL_OBJ)
+$(BUILD)/test_panels $(BUILD)/test_panel_fuzz: $(PANEL_OBJ)
 
 # What a board streamed, as a picture.
 $(BUILD)/rgb565_png: $(BUILD)/obj/boards/tools/rgb565_png.o $(SCENE_PNG)
@@ -222,5 +225,5 @@ endif
 
 -include $(shell find $(wildcard $(BUILD)/obj $(BUILD)/wasm) /dev/null -name "*.d")
 
-.PHONY: all help run playground test-playground deps test dist test-packages soak mutate bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
+.PHONY: all help run playground test-playground deps test dist test-packages soak mutate prove bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
 .SECONDARY:

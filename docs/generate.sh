@@ -15,14 +15,14 @@ replace() { # replace DOCUMENT NAME FILE
     cp "$work/next" "$out/$1"
 }
 
-[ "$out" = docs ] || cp docs/*.md "$out/"
+[ "$out" = docs ] || { mkdir -p "$out/data" && cp docs/*.md "$out/" && cp docs/data/*.md "$out/data/"; }
 "$tool" knobs >"$work/knobs"
 replace CONFIG.md knobs "$work/knobs"
 "$build/test_stages" --table >"$work/stages"
-replace NUMERICS.md stages "$work/stages"
+replace data/BOUNDS.md stages "$work/stages"
 for name in casters radiance punctual; do
     "$build/test_$name" --table >"$work/$name"
-    replace NUMERICS.md $name "$work/$name"
+    replace data/BOUNDS.md $name "$work/$name"
 done
 "$build/test_accuracy" --table >"$work/accuracy"
 replace ACCURACY.md accuracy "$work/accuracy"
@@ -33,13 +33,16 @@ fi
 sh tests/oracle/test_compact.sh --table >"$work/compact"
 replace ACCURACY.md compact "$work/compact"
 "$build/test_bias" --table >"$work/bias"
-replace BIAS.md bias "$work/bias"
+replace data/BIAS.md bias "$work/bias"
 "$build/test_census" --table >"$work/census"
-replace BIAS.md census "$work/census"
+replace data/BIAS.md census "$work/census"
 "$build/test_contact" --table >"$work/contact"
-replace BIAS.md contact "$work/contact"
+replace data/BIAS.md contact "$work/contact"
 mkdir -p "$out/pictures"
 "$build/test_census" --plots "$out/pictures"
+sh docs/frame.sh "$out/pictures/frame.svg"
+sh docs/window.sh "$out/pictures/window.svg"
+"$tool" render host/scenes/sundial.gltf -o "$out/pictures/day.png" --size 240x180 --set output=rgb565 --frames 30-89 >/dev/null # 08:30 to 13:25
 sh docs/gallery.sh "$tool" "$out"
 sh docs/features.sh "$out"
 sh docs/testing.sh "$out"

@@ -18,9 +18,20 @@ count() { find tests/"$1" -maxdepth 1 -name "test_*.$2" | wc -l; }
     echo "|---|---|"
     sed -n '/^$/q; s/^# \([a-z]*\(, [a-z]*\)*\)   *\(.*\)/| \1 | \3 |/p' tests/soak.sh
 } >"$work/campaigns"
+# /* FUNCTIONS: OPERANDS */ above void prove_NAME(void)
+{
+    echo "| harness | functions, and for which operands |"
+    echo "|---|---|"
+    cat tests/prove/prove_*.c | awk '
+        /^\/\* [a-z]/ { said = "" }
+        /^\/\* [a-z]/, /\*\/$/ { line = $0; gsub(/^ *\/?\* ?| *\*\/$/, "", line); said = said (said == "" ? "" : " ") line }
+        /^void prove_/ { name = $2; sub(/\(.*/, "", name); sub(/prove_/, "", name); gsub(/\|/, "\\|", said); print "| " name " | " said " |"; n++
+            sub(/:.*/, "", said); functions += split(said, one, ", ") }
+        END { print "\n" functions " functions in " n " harnesses." }'
+} >"$work/proofs"
 { echo '```'; cat tests/mutation/result.txt; echo '```'; } >"$work/mutants"
 
-for name in folders campaigns mutants; do
+for name in folders campaigns proofs mutants; do
     awk -v name="$name" -v file="$work/$name" '
         $0 == "<!-- generated: " name " -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
         $0 == "<!-- end -->" { skip = 0 }

@@ -49,6 +49,7 @@
 #define GN_PRESETS_VERTEX_LIGHT         0, 1, 0, 0
 #define GN_PRESETS_POSITION_BITS        32, 32, 32, 32
 #define GN_PRESETS_NORMAL_BITS          16, 16, 16, 16
+#define GN_PRESETS_TRIANGLE_GROUPS      0, 0, 0, 0
 
 #ifndef GN_SUBPIXEL_BITS
 #define GN_SUBPIXEL_BITS GN_PICK(GN_PRESETS_SUBPIXEL_BITS)
@@ -101,6 +102,9 @@
 #endif
 #ifndef GN_NORMAL_BITS
 #define GN_NORMAL_BITS GN_PICK(GN_PRESETS_NORMAL_BITS)
+#endif
+#ifndef GN_TRIANGLE_GROUPS
+#define GN_TRIANGLE_GROUPS GN_PICK(GN_PRESETS_TRIANGLE_GROUPS)
 #endif
 
 /* Capacities. */
@@ -184,6 +188,9 @@
 #ifndef GN_TEXTURE_FORMATS
 #define GN_TEXTURE_FORMATS 1023
 #endif
+#ifndef GN_TEXTURE_LEVELS
+#define GN_TEXTURE_LEVELS GN_TEXTURES
+#endif
 #ifndef GN_SPECULAR
 #define GN_SPECULAR (!GN_COMPACT)
 #endif
@@ -219,6 +226,9 @@
 #endif
 #ifndef GN_VERTEX_COLOURS
 #define GN_VERTEX_COLOURS (!GN_COMPACT)
+#endif
+#ifndef GN_VERTEX_JOINTS
+#define GN_VERTEX_JOINTS (GN_COMPACT ? 0 : 4)
 #endif
 #ifndef GN_TILE_DRAWING
 #define GN_TILE_DRAWING (!GN_COMPACT)
@@ -276,8 +286,16 @@
 /* Whether the boxes of objects are needed. */
 #define GN_BOXES (GN_PUNCTUAL_LIGHTS || (GN_SHADOWS && (GN_OBJECT_BOXES || GN_CASTER_CULLING || GN_TIGHT_FIT)))
 
+/* Whether textures may have half-size levels. */
+#define GN_MIPMAPS (GN_TEXTURES && GN_TEXTURE_LEVELS)
+
 /* Whether light that a surface emits may have to be added after colours of vertices or a texture. */
 #define GN_GLOW_APART (GN_EMISSIVE && (GN_TEXTURES || GN_VERTEX_COLOURS))
+
+/* Whether records of the frame's visible triangles are kept, and whether screen tiles set up triangles again (the host
+ * can do both). */
+#define GN_RECORDS (GN_RUNTIME_KNOBS || !GN_TRIANGLE_GROUPS)
+#define GN_GROUPS  (GN_RUNTIME_KNOBS || GN_TRIANGLE_GROUPS)
 
 /* Whether shading interpolates between exact points (gn_lattice.h). Not built where every pixel must be exact. */
 #define GN_INTERPOLATES (!GN_COMPACT && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))

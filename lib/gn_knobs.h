@@ -39,14 +39,20 @@
       "saves a root per sample; 12 bytes per light of a surface")                                                      \
     X(position_bits, POSITION_BITS, 16, 32, "bits of a mesh's coordinates (16 or 32)",                                 \
       "flash: 6 or 12 bytes per vertex")                                                                               \
-    X(normal_bits, NORMAL_BITS, 8, 16, "bits of a mesh's normals (8 or 16)", "flash: 3 or 6 bytes per vertex")
+    X(normal_bits, NORMAL_BITS, 8, 16, "bits of a mesh's normals (8 or 16)", "flash: 3 or 6 bytes per vertex")         \
+    X(triangle_groups, TRIANGLE_GROUPS, 0, 4096,                                                                       \
+      "groups of neighbouring triangles in their meshes, in place of records of triangles: each screen tile sets up "  \
+      "again the groups that it meets; 0: records; the same picture",                                                  \
+      "4 bytes each in place of 32 bytes per triangle, and of tile references; instructions")
 
 #define GN_CAPACITY_KNOBS(X)                                                                                           \
     X(max_width, MAX_WIDTH, 1, 2048, "largest picture width in pixels", "2 bytes per screen tile")                     \
     X(max_height, MAX_HEIGHT, 1, 2048, "largest picture height in pixels", "2 bytes per screen tile")                  \
-    X(max_triangles, MAX_TRIANGLES, 1, 65534, "visible triangles per frame, after culling and clipping",               \
-      "32 bytes each, 44 with wider screen coordinates")                                                               \
-    X(max_tile_refs, MAX_TILE_REFS, 1, 1000000, "references from screen tiles to triangles", "2 bytes each")           \
+    X(max_triangles, MAX_TRIANGLES, 1, 65534,                                                                          \
+      "visible triangles per frame, after culling and clipping; with triangle_groups per screen tile",                 \
+      "32 bytes each, 44 with wider screen coordinates; with triangle_groups 4")                                       \
+    X(max_tile_refs, MAX_TILE_REFS, 1, 1000000,                                                                        \
+      "references from screen tiles to triangles; unused with triangle_groups", "2 bytes each")                        \
     X(max_lights, MAX_LIGHTS, 1, 64, "lights in a scene", "176 bytes each, 36 without spot and point lights")          \
     X(surface_lights, SURFACE_LIGHTS, 1, 64, "lights that can affect one surface",                                     \
       "620 bytes each, 84 with persp_step 1")                                                                          \
@@ -96,6 +102,9 @@
       "formats of textures that are built, their sum: 1 RGBA8888, 2 RGB565, 4 RGB565 with 1 bit of alpha, 8, 16, 32 "  \
       "palettes of 8, 4, 1 bits, 64, 128 grey of 8, 4 bits, 256, 512 alpha of 8, 4 bits",                              \
       "flash")                                                                                                         \
+    X(texture_levels, TEXTURE_LEVELS, 0, 1,                                                                            \
+      "half-size levels of textures (mip chains), chosen per cell by depth: far textures do not glitter",              \
+      "flash; a third more flash per texture that has them; a root per triangle")                                      \
     X(specular, SPECULAR, 0, 1, "specular highlights",                                                                 \
       "flash; a reciprocal root per light and sample of such objects")                                                 \
     X(emissive, EMISSIVE, 0, 1, "emissive colours: objects that glow",                                                 \
@@ -114,6 +123,8 @@
       "the atlases' RAM twice")                                                                                        \
     X(vertex_normals, VERTEX_NORMALS, 0, 1, "interpolated vertex normals", "flash; a reciprocal root per sample")      \
     X(vertex_colours, VERTEX_COLOURS, 0, 1, "interpolated vertex colours", "flash; three multiplications per sample")  \
+    X(vertex_joints, VERTEX_JOINTS, 0, 4, "skins: the most joints that move a vertex; 0: no skins",                    \
+      "flash; vertices of skinned objects are blended once for their box, and each time they are transformed")         \
     X(tile_drawing, TILE_DRAWING, 0, 1, "a background gradient; the caller's drawing behind and over a screen tile",   \
       "flash")                                                                                                         \
     X(validation, VALIDATION, 0, 1,                                                                                    \

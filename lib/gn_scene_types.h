@@ -28,13 +28,27 @@ typedef struct {
     uint8_t uv_frac_bits;  /* 0..15 */
 } gn_mesh;
 
+/* What moves an object's vertices before its to_world: each to the mean of where its joints take it, by its weights. */
+typedef struct {
+    const gn_affine *joint;   /* n_joints: from the mesh's space, as stored, to the object's, as posed now. Each takes
+                                 its vertices to within +-16384 units; it may flatten */
+    const uint8_t *joint_idx; /* per_vertex for each of the mesh's vertices */
+    const uint8_t *weight_u8; /* the same; 255 is 1, and those of a vertex are 255 in all */
+    uint16_t n_joints;
+    uint8_t per_vertex; /* 1 .. GN_VERTEX_JOINTS */
+} gn_skin;
+
 /* gn_texture.flags */
 enum {
     GN_TEXTURE_CLAMP_U = 1, /* else it repeats */
     GN_TEXTURE_CLAMP_V = 2,
     GN_TEXTURE_BILINEAR = 4, /* else nearest */
     GN_TEXTURE_MASK_1 = 8,   /* mask images only: one byte per texel, channel 0; the others are lit */
-    GN_TEXTURE_MASK_2 = 16   /* two */
+    GN_TEXTURE_MASK_2 = 16,  /* two */
+    /* Behind the texels come those of half the size, a quarter and so on, down to one texel: sides are halved and
+     * rounded down, and at least 1. Colours are read from the level whose texels are nearest to a pixel's size; alpha
+     * always from the first. Not of mask images. */
+    GN_TEXTURE_MIPMAPPED = 32
 };
 
 /* gn_texture.format; GN_TEXTURE_FORMATS says which are built. Colours are sRGB, alpha is linear. Where a texel is less
@@ -54,7 +68,7 @@ typedef enum {
 } gn_texture_format;
 
 typedef struct {
-    const uint8_t *rgba;             /* texels of any format, rows from the top */
+    const uint8_t *rgba;             /* texels of any format, rows from the top; smaller levels */
     uint8_t width_log2, height_log2; /* 0..12; not looked at where width and height are set */
     uint8_t flags;
     uint8_t format;         /* gn_texture_format */
@@ -92,6 +106,7 @@ typedef struct {
     const gn_texture *mask_image; /* shadow masks at the mesh's mask_uv_uq16, bilinear and clamped, or NULL */
     const uint8_t *mask_u8;       /* shadow masks, 4 per vertex of the mesh, or NULL */
     const uint16_t *baked_uq12;   /* 3 per vertex of the mesh, irradiance of the baked lights, 4.12, or NULL */
+    const gn_skin *skin;          /* or NULL */
 } gn_object;
 
 typedef enum { GN_LIGHT_DIRECTIONAL, GN_LIGHT_SPOT, GN_LIGHT_POINT } gn_light_kind;

@@ -22,6 +22,9 @@
 #include "scene/gn_pose.c"
 #endif
 #include "scene/gn_scene.c"
+#if GN_VERTEX_JOINTS
+#include "scene/gn_scene_skin.c"
+#endif
 
 /* Screen tiles and pixels. */
 #include "shade/gn_pixel.c"
@@ -39,9 +42,15 @@
 #include "geometry/gn_plane.c"
 #include "geometry/gn_walk.c"
 #include "geometry/gn_xform.c"
+#if GN_VERTEX_JOINTS
+#include "geometry/gn_skin.c"
+#endif
 #if GN_TEXTURES
 #include "geometry/gn_texture.c"
 #include "geometry/gn_texture_row.c"
+#endif
+#if GN_MIPMAPS
+#include "geometry/gn_texture_level.c"
 #endif
 #if GN_MASKS
 #include "geometry/gn_mask.c"

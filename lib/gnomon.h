@@ -70,11 +70,14 @@ extern "C" {
     X(GN_ERR_TEXTURE, "texture without texels or palette, or above 4096 per side, or texture coordinates are missing " \
                       "or have more than 15 fraction bits")                                                            \
     X(GN_ERR_TEXTURE_FORMAT,                                                                                           \
-      "unknown format of a texture, or one not built in (GN_TEXTURE_FORMATS), or a mask image that is not "            \
-      "RGBA8888")                                                                                                      \
+      "unknown format of a texture, or one not built in (GN_TEXTURE_FORMATS), or smaller levels that are not "         \
+      "(GN_TEXTURE_LEVELS), or a mask image that is not RGBA8888")                                                     \
     X(GN_ERR_MATERIAL, "alpha, cutoff, specular or emissive colour or shininess out of range, or an alpha mode, "      \
                        "caster mode or such a colour that is not built in")                                            \
     X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")              \
+    X(GN_ERR_SKIN, "skin: a null array, a joint transform out of range, or too many joints per vertex")                \
+    X(GN_ERR_SKIN_JOINT, "skin: joint index out of range")                                                             \
+    X(GN_ERR_SKIN_WEIGHTS, "skin: weights of a vertex are not 255 in all")                                             \
     X(GN_ERR_TOO_MANY_OBJECTS, "more objects than GN_MAX_OBJECTS")                                                     \
     X(GN_ERR_TOO_MANY_LIGHTS, "more lights than GN_MAX_LIGHTS")                                                        \
     X(GN_ERR_LIGHT_KIND, "unknown kind, mode or softness of light, or one that is not built in")                       \
@@ -213,6 +216,9 @@ typedef struct {
     uint32_t n_tiles_drawn;         /* shadow tiles that were drawn, not kept */
     uint32_t n_texels_drawn;        /* of those tiles */
     uint32_t n_casters_culled;      /* objects not drawn into a cascade */
+#if GN_GROUPS
+    uint32_t n_tile_triangles; /* with triangle_groups: of the screen tile that has most */
+#endif
 } gn_stats;
 
 #if GN_RUNTIME_KNOBS

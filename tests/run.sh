@@ -9,6 +9,7 @@
 #   tool/       the command line, scene files, baking, compiled scenes
 #   firmware/   boards, ports, displays, and what they take of flash, RAM and stack
 #   documents/  rules of the source, and documents that say what is so
+#   prove/      what Frama-C proves of lib/: make prove, not here: it is no tool of the tests
 #   bench/      instructions against baselines
 #   web/        the playground in node and in a browser: make test-playground, not here: it takes minutes and a browser
 #

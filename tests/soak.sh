@@ -7,14 +7,15 @@
 # extremes  20000 random scenes against the reference (tests/oracle/test_extremes_many.c), about an hour
 # census    planes at 100 times as many angles (tests/oracle/test_census.c)
 # culling   casters left out at many more places (tests/property/test_culling.c)
+# panels    10^6 damaged programs of calls to panel drivers, on failing buses (tests/firmware/test_panel_fuzz.c), an hour
 # math      every operand of the reciprocal and of the root (tests/unit/test_math.c)
-# jpeg      5 * 10^6 damaged JPEG files (tests/tool/test_jpeg_fuzz.c), some minutes
+# files     10^6 damaged files of each of six kinds, scenes and pictures (tests/tool/test_fuzz.c), an hour; KINDS="png glb": of these
 # models    the accuracy of meshes that MODELS names (tests/oracle/test_accuracy.c), a minute each
 # accuracy, rows, seams    hundreds of pictures against floors, which make test draws without sanitizers: a quarter of an hour
 # suite     make test with THOROUGH=1: also the combinations whose parts it tests each, half an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped jpeg math culling census accuracy rows seams suite ${MODELS:+models }extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped files panels math culling census accuracy rows seams suite ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
@@ -23,7 +24,8 @@ campaign() {
     program=$build/test_$1 option=
     case $1 in
     extremes) program=$build/test_extremes_many option=--random ;;
-    jpeg) program=$build/test_jpeg_fuzz ;;
+    files) program=$build/test_fuzz ;;
+    panels) program=$build/test_panel_fuzz ;;
     models) program=$build/test_accuracy option=--models ;;
     esac
     SCENES=${asked:-$2}
@@ -69,7 +71,7 @@ mkdir -p $build
 for name in $CAMPAIGNS; do
     case $name in
     random) campaign random 1000000 ;;
-    jpeg) campaign jpeg 5000000 ;;
+    files | panels) campaign $name 1000000 ;;
     extremes) campaign extremes 20000 ;;
     shipped) shipped ;;
     suite) suite ;;

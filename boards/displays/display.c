@@ -111,11 +111,10 @@ void display_flush(void *user, int x, int y, int w, int h, const void *pixels)
     rectangle r;
     r.x = x, r.y = y, r.w = w, r.h = h;
     if (d->status) return;
-    panel_pixels format = panel_pixel_format(d->panel);
-    if (!inside(d->panel, &r)) d->status = PANEL_ERR_WINDOW;
+    if (!inside(d->panel, &r)) d->status = PANEL_ERR_WINDOW; /* a panel that was not initialised has no inside */
     else if (!d->buffer[0]) d->status = send_at_once(d, &r, in);
-    else if (d->shadow && several_per_byte(format)) {
-        display_put(d->shadow, d->panel->width, format, x, y, w, h, in);
+    else if (d->shadow && several_per_byte(panel_pixel_format(d->panel))) {
+        display_put(d->shadow, d->panel->width, panel_pixel_format(d->panel), x, y, w, h, in);
         r = widened(d, r);
         d->status = send(d, &r, fill_from_shadow, d->shadow);
     } else d->status = send(d, &r, fill_from_tile, in);

@@ -136,7 +136,6 @@ static panel_status place(panel *p)
 
 static panel_status reset(panel *p)
 {
-    if (p->bus.abandon) p->bus.abandon(p->bus.user);
     if (!p->bus.reset) return p->driver->soft_reset(p);
     p->bus.reset(p->bus.user, 1);
     p->bus.delay_us(p->bus.user, RESET_PULSE_US);
@@ -150,6 +149,7 @@ panel_status panel_init(panel *p, const panel_driver *driver, const panel_config
     if (!p || !driver || !config || !bus) return PANEL_ERR_NULL;
     if (!bus->write || !bus->wait || !bus->delay_us) return PANEL_ERR_NULL;
     if (bus->max_polls == 0) return PANEL_ERR_CONFIG;
+    if (bus->abandon) bus->abandon(bus->user); /* first: what is under way may be a command, sent from *p */
     panel fresh = {.driver = driver, .bus = *bus, .config = *config};
     *p = fresh;
     panel_status status = place(p);

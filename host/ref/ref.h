@@ -114,7 +114,7 @@ void ref_disk_sample(double out[2], int i, int x, int y);            /* sample i
 
 /* shadow_l of DESIGN 1.9 for strength > 0 and a light with a tile: rt attenuation, m mask. */
 double ref_mix(scene_mixing mixing, double strength, double g, double m, double rt);
-void ref_sample_texture(double rgba[4], const scene_texture *texture, double u, double v); /* linear light */
+void ref_sample_texture(double rgba[4], const scene_texture *texture, int level, double u, double v); /* linear light */
 double ref_fade_factor(double t, double cascade_fade); /* F_i of DESIGN 1.4 from t_i */
 double ref_dither_noise(int x, int y);                 /* of DESIGN 1.4, at the centre of pixel (x, y): 0..1 */
 double ref_srgb_encode(double linear);

@@ -2,7 +2,7 @@
  * the part of the frustum that the view is looked up for. */
 #include "ref_internal.h"
 
-#define MAX_CORNERS 20 /* a quadrilateral against ten planes */
+#define MAX_CORNERS 12 /* a quadrilateral against six planes */
 #define PI          3.14159265358979323846
 
 /* dot(n, p) >= d inside; view space: X, Y, Z. */
@@ -42,12 +42,16 @@ static convex cut(const convex *in, const half_space *by)
 static frustum frustum_part(const ref_camera *camera, double first, double last)
 {
     const double x = camera->half_width_px / camera->focal_px, y = camera->half_height_px / camera->focal_px;
-    frustum f = {
-        .side = {
-            {{0, 0, 1}, first}, {{0, 0, -1}, -last}, {{1, 0, x}, 0}, {{-1, 0, x}, 0}, {{0, 1, y}, 0}, {{0, -1, y}, 0}}};
+    const double per_z = camera->parallel ? 0.0 : 1.0, fixed = 1.0 - per_z; /* half widths are x times one of them */
+    frustum f = {.side = {{{0, 0, 1}, first},
+                          {{0, 0, -1}, -last},
+                          {{1, 0, x * per_z}, -x * fixed},
+                          {{-1, 0, x * per_z}, -x * fixed},
+                          {{0, 1, y * per_z}, -y * fixed},
+                          {{0, -1, y * per_z}, -y * fixed}}};
     for (int i = 0; i < 8; i++) {
-        const double z = i & 4 ? last : first;
-        f.corner[i] = (vec3){i & 1 ? x * z : -x * z, i & 2 ? y * z : -y * z, z};
+        const double z = i & 4 ? last : first, wide = per_z * z + fixed;
+        f.corner[i] = (vec3){i & 1 ? x * wide : -x * wide, i & 2 ? y * wide : -y * wide, z};
     }
     return f;
 }
@@ -102,17 +106,45 @@ static bool is_seen(const scene_object *object)
 
 /* ---- directional ---- */
 
-static void widen(ref_seen *seen, const ref_camera *camera, const ref_light_view *axes, const convex *points)
+/* Bounds of points along the camera's axes, then along the light's; from the camera. */
+typedef struct {
+    bool any;
+    double lo[6], hi[6];
+} bounds;
+
+static void widen(bounds *b, const ref_camera *camera, const ref_light_view *axes, const convex *points)
 {
     for (int i = 0; i < points->n; i++) {
-        const vec3 p = turned(camera, points->p[i]);
-        for (int k = 0; k < 3; k++) {
-            const double at = vec3_dot(p, vec3_load(axes->axis[k]));
-            if (!seen->any || at < seen->lo[k]) seen->lo[k] = at;
-            if (!seen->any || at > seen->hi[k]) seen->hi[k] = at;
+        const vec3 p = points->p[i], world = turned(camera, p);
+        double at[6] = {p.x, p.y, p.z};
+        for (int k = 0; k < 3; k++) at[3 + k] = vec3_dot(world, vec3_load(axes->axis[k]));
+        for (int k = 0; k < 6; k++) {
+            if (!b->any || at[k] < b->lo[k]) b->lo[k] = at[k];
+            if (!b->any || at[k] > b->hi[k]) b->hi[k] = at[k];
         }
-        seen->any = true;
+        b->any = true;
     }
+}
+
+/* Of what the frustum's part holds of an object's box. */
+static bounds bounds_of(const ref_frame *frame, const ref_instance *instance, const frustum *f,
+                        const ref_light_view *axes)
+{
+    bounds b = {.any = false};
+    for (int face = 0; face < 6; face++) {
+        const convex c = box_face(frame, instance, f, face);
+        widen(&b, &frame->camera, axes, &c);
+    }
+    const convex c = corners_inside(frame, instance, f);
+    widen(&b, &frame->camera, axes, &c);
+    return b;
+}
+
+/* Pixels that x by y would show at depth z, face on. */
+static double pixels(const ref_camera *camera, double x, double y, double z)
+{
+    const double per_unit = camera->parallel ? camera->focal_px : camera->focal_px / z;
+    return x * per_unit * y * per_unit;
 }
 
 static void see_directional(const ref_frame *frame, ref_seen *seen, const scene_light *light, double first, double last)
@@ -122,15 +154,16 @@ static void see_directional(const ref_frame *frame, ref_seen *seen, const scene_
     ref_fit_axes(&axes, vec3_load(light->direction));
     for (size_t o = 0; o < frame->s->n_objects; o++) {
         if (!is_seen(&frame->s->objects[o])) continue;
-        for (int face = 0; face < 6; face++) {
-            const convex c = box_face(frame, &frame->instances[o], &f, face);
-            widen(seen, &frame->camera, &axes, &c);
+        const bounds b = bounds_of(frame, &frame->instances[o], &f, &axes);
+        for (int k = 0; b.any && k < 3; k++) {
+            if (!seen->any || b.lo[3 + k] < seen->lo[k]) seen->lo[k] = b.lo[3 + k];
+            if (!seen->any || b.hi[3 + k] > seen->hi[k]) seen->hi[k] = b.hi[3 + k];
         }
-        const convex c = corners_inside(frame, &frame->instances[o], &f);
-        widen(seen, &frame->camera, &axes, &c);
+        seen->any = seen->any || b.any;
     }
-    const double per_unit = frame->camera.focal_px / ((first + last) / 2.0);
-    if (seen->any) seen->worth = (seen->hi[0] - seen->lo[0]) * per_unit * (seen->hi[1] - seen->lo[1]) * per_unit;
+    if (seen->any)
+        seen->worth =
+            pixels(&frame->camera, seen->hi[0] - seen->lo[0], seen->hi[1] - seen->lo[1], (first + last) / 2.0);
 }
 
 /* From which depth on points of a cascade blend with the next: where the frustum's edges leave the inner sphere. */
@@ -144,6 +177,10 @@ static double blend_begins(const ref_frame *frame, int cascade)
         (camera->focal_px * camera->focal_px);
     const double c = vec3_dot(vec3_sub(frame->sphere[cascade].centre, camera->position), camera->forward);
     const double inner = (1.0 - fade) * frame->sphere[cascade].radius;
+    if (camera->parallel) {
+        const double left = inner * inner - k2; /* half widths over the focal length are those of the picture */
+        return left > 0.0 ? c + sqrt(left) : 0.0;
+    }
     const double under = c * c - (1.0 + k2) * (c * c - inner * inner);
     return under > 0.0 ? (c + sqrt(under)) / (1.0 + k2) : 0.0;
 }
@@ -167,68 +204,73 @@ static void see_cascade(const ref_frame *frame, ref_seen *seen, const scene_ligh
 
 /* ---- spot, point ---- */
 
-/* The four sides of a spot's cone, or of where points choose a cube's face. */
-static void pyramid(const ref_frame *frame, const scene_light *light, int face, half_space side[4])
+/* An axis of what is seen of an object: from the light, along an axis of its view. */
+typedef struct {
+    double lo, hi;
+} span;
+
+static double length(span s)
 {
-    ref_light_view axes;
-    double w[3] = {0, 0, 0}, t = 1.0;
-    if (light->kind == SCENE_LIGHT_SPOT) {
-        vec3_store(w, vec3_load(light->direction));
-        t = tan(PI * light->outer);
-    } else w[face / 2] = face % 2 ? -1.0 : 1.0;
-    ref_fit_axes(&axes, vec3_load(w));
-    const vec3 at = view_of(&frame->camera, vec3_load(light->position));
-    for (int s = 0; s < 4; s++) {
-        const vec3 across = vec3_scale(vec3_load(axes.axis[s / 2]), s % 2 ? 1.0 : -1.0);
-        const vec3 n = vec3_add(vec3_scale(vec3_load(axes.axis[2]), t), across);
-        side[s].n =
-            (vec3){vec3_dot(n, frame->camera.right), vec3_dot(n, frame->camera.up), vec3_dot(n, frame->camera.forward)};
-        side[s].d = vec3_dot(side[s].n, at);
-    }
+    return s.hi > s.lo ? s.hi - s.lo : 0.0;
 }
 
-static double screen_area(const ref_camera *camera, const convex *c)
+static span common(span a, double lo, double hi)
 {
-    double sum = 0.0;
-    for (int i = 0; i < c->n; i++) {
-        const vec3 a = c->p[i], b = c->p[(i + 1) % c->n];
-        sum += cross2((vec2){a.x / a.z, a.y / a.z}, (vec2){b.x / b.z, b.y / b.z});
-    }
-    return fabs(sum) / 2.0 * camera->focal_px * camera->focal_px;
+    return (span){fmax(a.lo, lo), fmin(a.hi, hi)};
 }
 
-static void mark_inside(bool inside[4], const half_space side[4], const convex *points)
+/* Of a span, which part is left. */
+static double ratio(span of, span left)
 {
-    for (int i = 0; i < points->n; i++)
-        for (int s = 0; s < 4; s++) inside[s] = inside[s] || depth_inside(&side[s], points->p[i]) >= 0.0;
+    return length(of) > 0.0 ? length(left) / length(of) : 1.0;
 }
 
-/* What is seen of an object counts unless it lies beyond one side as a whole. */
-static void see_object(const ref_frame *frame, ref_seen *seen, const ref_instance *instance, const frustum *f,
-                       const half_space side[4])
+/* A span's distance from 0. */
+static double off_axis(span s)
 {
-    bool inside[4] = {false, false, false, false};
-    for (int face = 0; face < 6; face++) {
-        convex c = box_face(frame, instance, f, face);
-        mark_inside(inside, side, &c);
-        for (int s = 0; s < 4; s++) c = cut(&c, &side[s]);
-        if (c.n >= 3) seen->worth += screen_area(&frame->camera, &c);
-    }
-    const convex c = corners_inside(frame, instance, f);
-    mark_inside(inside, side, &c);
-    if (inside[0] && inside[1] && inside[2] && inside[3]) seen->any = true;
+    return fmax(0.0, fmax(s.lo, -s.hi));
+}
+
+/* What of a box may lie in the pyramid |x|, |y| <= t z, of which it fills so many pixels. */
+static void see_in_pyramid(ref_seen *seen, const span at[3], double t, double filled)
+{
+    const double z = at[2].hi, off = fmax(off_axis(at[0]), off_axis(at[1]));
+    if (!(z > 0.0) || off > t * z) return;
+    const double deep = ratio(at[2], common(at[2], fmax(0.0, off / t), z));
+    seen->any = true;
+    seen->worth +=
+        filled * deep * ratio(at[0], common(at[0], -t * z, t * z)) * ratio(at[1], common(at[1], -t * z, t * z));
+}
+
+/* A spot's own axes, or those of a face of the cube, and half the width of what it shows at distance 1. */
+static double pyramid(ref_light_view *axes, const scene_light *light, int face)
+{
+    double w[3] = {0, 0, 0};
+    w[face / 2] = face % 2 ? -1.0 : 1.0;
+    ref_fit_axes(axes, light->kind == SCENE_LIGHT_SPOT ? vec3_load(light->direction) : vec3_load(w));
+    return light->kind == SCENE_LIGHT_SPOT ? tan(PI * light->outer) : 1.0;
 }
 
 static void see_punctual(const ref_frame *frame, ref_seen *seen, const scene_light *light, int face)
 {
-    const double first = frame->camera.near, last = frame->s->shadow.max_distance;
+    const ref_camera *camera = &frame->camera;
+    const double first = camera->near, last = frame->s->shadow.max_distance;
     if (!(first < last)) return;
-    const frustum f = frustum_part(&frame->camera, first, last);
-    half_space side[4];
-    pyramid(frame, light, face, side);
-    for (size_t o = 0; o < frame->s->n_objects; o++)
-        if (is_seen(&frame->s->objects[o]) && ref_reaches(light, &frame->instances[o]))
-            see_object(frame, seen, &frame->instances[o], &f, side);
+    const frustum f = frustum_part(camera, first, last);
+    ref_light_view axes;
+    const double t = pyramid(&axes, light, face);
+    const vec3 from = vec3_sub(vec3_load(light->position), camera->position);
+    for (size_t o = 0; o < frame->s->n_objects; o++) {
+        if (!is_seen(&frame->s->objects[o]) || !ref_reaches(light, &frame->instances[o])) continue;
+        const bounds b = bounds_of(frame, &frame->instances[o], &f, &axes);
+        if (!b.any) continue;
+        span at[3];
+        for (int k = 0; k < 3; k++) {
+            const double origin = vec3_dot(from, vec3_load(axes.axis[k]));
+            at[k] = (span){b.lo[3 + k] - origin, b.hi[3 + k] - origin};
+        }
+        see_in_pyramid(seen, at, t, pixels(camera, b.hi[0] - b.lo[0], b.hi[1] - b.lo[1], (b.lo[2] + b.hi[2]) / 2.0));
+    }
 }
 
 /* [D12] [A7] */

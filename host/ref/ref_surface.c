@@ -21,9 +21,9 @@ static vec3 interpolated_normal(const ref_triangle *t, const ref_hit *hit, vec3 
     return hit->behind ? vec3_scale(n, -1.0) : n;
 }
 
-static vec3 surface_albedo(const scene *s, const ref_triangle *t, const double bary[3])
+static vec3 surface_albedo(const ref_frame *frame, const ref_triangle *t, const double bary[3], double view_depth)
 {
-    const vec3 albedo = vec3_mul(vec3_load(t->object->albedo), ref_texture_colour(s, t, bary));
+    const vec3 albedo = vec3_mul(vec3_load(t->object->albedo), ref_texture_colour(frame, t, bary, view_depth));
     if (!t->mesh->rgb) return albedo;
     return vec3_mul(albedo, ref_mix_vertices(t->mesh->rgb, t->idx, bary));
 }
@@ -53,7 +53,7 @@ ref_surface ref_surface_at(const ref_frame *frame, size_t pixel)
         .curved = is_curved(&t),
         .normal = vec3_unit(n),
         .behind = hit->behind,
-        .albedo = surface_albedo(frame->s, &t, hit->bary),
+        .albedo = surface_albedo(frame, &t, hit->bary, frame->picture->depth[pixel]),
         .view_depth = frame->picture->depth[pixel],
         .selected = ref_select_cascade(frame, world),
         .x = x,

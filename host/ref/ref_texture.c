@@ -1,11 +1,29 @@
 /* Textures, masks and alpha (DESIGN 1.8, 1.9). */
 #include "ref_internal.h"
 
+/* One level of a texture. */
+typedef struct {
+    int width, height;
+    size_t first; /* texel */
+} level;
+
 /* The texels that a sample mixes; nearest has one. */
 typedef struct {
     size_t texel[4];
     double weight[4];
 } footprint;
+
+/* Behind each level lies the one of half its size, rounded down. [M11] */
+static level level_of(const scene_texture *t, int idx)
+{
+    level l = {t->width, t->height, 0};
+    for (int i = 0; i < idx; i++) {
+        l.first += (size_t)l.width * (size_t)l.height;
+        l.width = l.width > 1 ? l.width / 2 : 1;
+        l.height = l.height > 1 ? l.height / 2 : 1;
+    }
+    return l;
+}
 
 static int wrap(double i, int size, bool clamped)
 {
@@ -13,29 +31,29 @@ static int wrap(double i, int size, bool clamped)
     return (int)(i - size * floor(i / size));
 }
 
-static footprint nearest(const scene_texture *t, double u, double v)
+static footprint nearest(const scene_texture *t, level l, double u, double v)
 {
-    const int i = wrap(floor(u * t->width), t->width, t->clamp_u),
-              j = wrap(floor(v * t->height), t->height, t->clamp_v);
-    return (footprint){.texel = {(size_t)j * (size_t)t->width + (size_t)i}, .weight = {1.0}};
+    const int i = wrap(floor(u * l.width), l.width, t->clamp_u), j = wrap(floor(v * l.height), l.height, t->clamp_v);
+    return (footprint){.texel = {l.first + (size_t)j * (size_t)l.width + (size_t)i}, .weight = {1.0}};
 }
 
-static footprint bilinear(const scene_texture *t, double u, double v, bool clamp_u, bool clamp_v)
+static footprint bilinear(level l, double u, double v, bool clamp_u, bool clamp_v)
 {
-    const double x = u * t->width - 0.5, y = v * t->height - 0.5;
+    const double x = u * l.width - 0.5, y = v * l.height - 0.5;
     footprint f;
     for (int k = 0; k < 4; k++) {
         const int right = k & 1, down = k >> 1;
-        const int i = wrap(floor(x) + right, t->width, clamp_u), j = wrap(floor(y) + down, t->height, clamp_v);
-        f.texel[k] = (size_t)j * (size_t)t->width + (size_t)i;
+        const int i = wrap(floor(x) + right, l.width, clamp_u), j = wrap(floor(y) + down, l.height, clamp_v);
+        f.texel[k] = l.first + (size_t)j * (size_t)l.width + (size_t)i;
         f.weight[k] = (right ? frac(x) : 1.0 - frac(x)) * (down ? frac(y) : 1.0 - frac(y));
     }
     return f;
 }
 
-static footprint sample(const scene_texture *t, double u, double v)
+static footprint sample(const scene_texture *t, int level_idx, double u, double v)
 {
-    return t->bilinear ? bilinear(t, u, v, t->clamp_u, t->clamp_v) : nearest(t, u, v);
+    const level l = level_of(t, level_idx);
+    return t->bilinear ? bilinear(l, u, v, t->clamp_u, t->clamp_v) : nearest(t, l, u, v);
 }
 
 /* The values that a channel has, less one: what its bits can say. Palettes have colours of 8 bits. [M11] */
@@ -79,9 +97,9 @@ static double mix_decoded(const scene_texture *t, const footprint *f, int channe
     return sum;
 }
 
-void ref_sample_texture(double rgba[4], const scene_texture *texture, double u, double v)
+void ref_sample_texture(double rgba[4], const scene_texture *texture, int level_idx, double u, double v)
 {
-    const footprint f = sample(texture, u, v);
+    const footprint f = sample(texture, level_idx, u, v);
     for (int c = 0; c < 3; c++) rgba[c] = mix_decoded(texture, &f, c);
     rgba[3] = mix_channel(texture, &f, 3);
 }
@@ -107,18 +125,44 @@ double ref_alpha(const scene *s, const ref_triangle *triangle, const double bary
     const scene_texture *texture = texture_of(s, triangle);
     if (!texture) return triangle->object->alpha;
     const vec2 uv = mix_uv(triangle->mesh->uv, triangle->idx, bary);
-    const footprint f = sample(texture, uv.x, uv.y);
+    const footprint f = sample(texture, 0, uv.x, uv.y);
     return triangle->object->alpha * mix_channel(texture, &f, 3);
 }
 
-/* In linear light. [M3] */
-vec3 ref_texture_colour(const scene *s, const ref_triangle *triangle, const double bary[3])
+/* S of DESIGN 1.8: texels per unit of length, the root of the ratio of areas. */
+static double texel_density(const scene_texture *texture, const ref_triangle *t)
 {
-    const scene_texture *texture = texture_of(s, triangle);
+    const double *uv = t->mesh->uv, *a = uv + 2 * (size_t)t->idx[0], *b = uv + 2 * (size_t)t->idx[1],
+                 *c = uv + 2 * (size_t)t->idx[2];
+    const vec3 *world = t->instance->world;
+    const vec3 area =
+        vec3_cross(vec3_sub(world[t->idx[1]], world[t->idx[0]]), vec3_sub(world[t->idx[2]], world[t->idx[0]]));
+    const double turns = fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    return sqrt(turns * texture->width * texture->height / sqrt(vec3_dot(area, area)));
+}
+
+/* The level whose texels are nearest to a pixel's size on the surface, its longer way. [M11] */
+static int level_at(const ref_frame *frame, const ref_triangle *t, const scene_texture *texture, double view_depth)
+{
+    if (!texture->mipmapped) return 0;
+    const ref_camera *camera = &frame->camera;
+    const vec3 face = ref_face_normal(t);
+    const double density = texel_density(texture, t) / camera->focal_px;
+    const double distance = fabs(vec3_dot(face, vec3_sub(t->instance->world[t->idx[0]], camera->position)));
+    const double texels_per_px = camera->parallel ? density / fabs(vec3_dot(face, camera->forward))
+                                                  : density * view_depth * view_depth / distance;
+    const double last = floor(log2(fmax(texture->width, texture->height)));
+    return texels_per_px > 0.0 ? (int)clamp(floor(log2(texels_per_px) + 0.5), 0.0, last) : 0;
+}
+
+/* In linear light. [M3] */
+vec3 ref_texture_colour(const ref_frame *frame, const ref_triangle *triangle, const double bary[3], double view_depth)
+{
+    const scene_texture *texture = texture_of(frame->s, triangle);
     if (!texture) return (vec3){1.0, 1.0, 1.0};
     const vec2 uv = mix_uv(triangle->mesh->uv, triangle->idx, bary);
     double rgba[4];
-    ref_sample_texture(rgba, texture, uv.x, uv.y);
+    ref_sample_texture(rgba, texture, level_at(frame, triangle, texture, view_depth), uv.x, uv.y);
     return vec3_load(rgba);
 }
 
@@ -150,7 +194,7 @@ double ref_mask(const scene *s, const ref_triangle *triangle, const double bary[
     if (object->mask_texture_idx < s->n_textures && triangle->mesh->mask_uv) {
         const scene_texture *image = &s->textures[object->mask_texture_idx];
         const vec2 uv = mix_uv(triangle->mesh->mask_uv, triangle->idx, bary);
-        const footprint f = bilinear(image, uv.x, uv.y, true, true);
+        const footprint f = bilinear(level_of(image, 0), uv.x, uv.y, true, true);
         return mix_channel(image, &f, channel);
     }
     if (!object->mask) return 1.0;

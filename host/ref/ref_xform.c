@@ -47,6 +47,23 @@ static vec3 transform_normal(const scene_affine *a, vec3 n)
     return vec3_unit(vec3_mix(f, k0, k1, k2));
 }
 
+/* The weighted mean of the transforms of a vertex's joints, then the object's: what a skinned vertex is transformed by
+ * (DESIGN 1.2). [R12] */
+static scene_affine skinned(const scene_object *object, const scene_mesh *mesh, size_t vertex_idx)
+{
+    scene_affine mean = {{{0.0}}}, out;
+    for (size_t i = 4 * vertex_idx; i < 4 * vertex_idx + 4; i++)
+        for (int k = 0; k < 12; k++)
+            mean.m[k / 4][k % 4] += mesh->weight[i] / 255.0 * object->joints[mesh->joint[i]].now.m[k / 4][k % 4];
+    for (int c = 0; c < 4; c++) {
+        for (int r = 0; r < 3; r++) {
+            const double *m = object->to_world.m[r];
+            out.m[r][c] = m[0] * mean.m[0][c] + m[1] * mean.m[1][c] + m[2] * mean.m[2][c] + (c == 3 ? m[3] : 0.0);
+        }
+    }
+    return out;
+}
+
 /* An instance's vertices in the world. [R8] */
 static bool transform_object(ref_instance *out, const scene_object *object, const scene_mesh *mesh,
                              const ref_camera *camera)
@@ -57,9 +74,10 @@ static bool transform_object(ref_instance *out, const scene_object *object, cons
     out->normal = mesh->nrm ? calloc(n + 1, sizeof *out->normal) : NULL;
     if (!out->world || !out->view || (mesh->nrm && !out->normal)) return false;
     for (size_t i = 0; i < n; i++) {
-        out->world[i] = transform_point(&object->to_world, vec3_load(mesh->pos + 3 * i));
+        const scene_affine by = object->n_joints ? skinned(object, mesh, i) : object->to_world;
+        out->world[i] = transform_point(&by, vec3_load(mesh->pos + 3 * i));
         out->view[i] = to_view(camera, out->world[i]);
-        if (mesh->nrm) out->normal[i] = transform_normal(&object->to_world, vec3_load(mesh->nrm + 3 * i));
+        if (mesh->nrm) out->normal[i] = transform_normal(&by, vec3_load(mesh->nrm + 3 * i));
     }
     return true;
 }
@@ -68,9 +86,13 @@ static bool transform_object(ref_instance *out, const scene_object *object, cons
 static void fit_world_box(ref_instance *out, const scene_object *object, const scene_mesh *mesh)
 {
     double low[3] = {0.0, 0.0, 0.0}, high[3] = {0.0, 0.0, 0.0}, half[3];
-    for (size_t i = 0; i < 3 * mesh->n_vertices; i++) {
-        low[i % 3] = i < 3 ? mesh->pos[i] : fmin(low[i % 3], mesh->pos[i]);
-        high[i % 3] = i < 3 ? mesh->pos[i] : fmax(high[i % 3], mesh->pos[i]);
+    for (size_t i = 0; i < mesh->n_vertices; i++) {
+        double p[3];
+        scene_posed(p, mesh, object, i);
+        for (int k = 0; k < 3; k++) {
+            low[k] = i == 0 ? p[k] : fmin(low[k], p[k]);
+            high[k] = i == 0 ? p[k] : fmax(high[k], p[k]);
+        }
     }
     const vec3 centre = vec3_scale(vec3_add(vec3_load(low), vec3_load(high)), 0.5);
     const vec3 extent = vec3_scale(vec3_sub(vec3_load(high), vec3_load(low)), 0.5);

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../base/nearest.h"
 #include "options.h"
 #include "usage.h"
 
@@ -17,24 +18,35 @@ static const command commands[] = {
     {"asset", BY_ASSET, tool_asset},    {"bake", BY_BAKE, tool_bake},
 };
 
+static int unknown_command(const char *name)
+{
+    char question[80], text[160];
+    nearest n = nearest_to(name);
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) nearest_try(&n, commands[i].name);
+    nearest_try(&n, "knobs");
+    nearest_try(&n, "help");
+    snprintf(text, sizeof text, "unknown command %.60s%s", name, nearest_question(&n, question, sizeof question));
+    return options_usage_error(NULL, text, NULL);
+}
+
 static int help(int argc, char **argv)
 {
-    if (argc > 3) return options_usage_error("help is about one command, not also", argv[3]);
+    if (argc > 3) return options_usage_error(NULL, "help is about one command, not also", argv[3]);
     if (argc < 3) usage_print();
-    else if (!usage_print_command(argv[2])) return options_usage_error("unknown command", argv[2]);
+    else if (!usage_print_command(argv[2])) return unknown_command(argv[2]);
     return TOOL_OK;
 }
 
 static int knobs(int argc, char **argv)
 {
-    if (argc > 2) return options_usage_error("knobs is alone, without", argv[2]);
+    if (argc > 2) return options_usage_error("knobs", "knobs is alone, without", argv[2]);
     settings_print_table();
     return TOOL_OK;
 }
 
 static int version(int argc, char **argv)
 {
-    if (argc > 2) return options_usage_error("--version is alone, without", argv[2]);
+    if (argc > 2) return options_usage_error(NULL, "--version is alone, without", argv[2]);
     printf("gnomon " GN_VERSION_STRING "\n");
     return TOOL_OK;
 }
@@ -57,7 +69,8 @@ static int run(int argc, char **argv)
                       .margin = 10,
                       .simplify = TOOL_SIMPLIFY_PATH,
                       .texels = TOOL_TEXELS_AUTO};
-    if (argc < 2) return options_usage_error("a command is missing", NULL);
+    if (argc < 2)
+        return options_usage_error(NULL, "a command is missing, such as: gnomon render SCENE -o OUT.png", NULL);
     const char *name = argv[1];
     if (asks_for_help(argc, argv) && usage_print_command(name)) return TOOL_OK;
     if (strcmp(name, "help") == 0 || strcmp(name, "--help") == 0) return help(argc, argv);
@@ -68,7 +81,7 @@ static int run(int argc, char **argv)
         int status = options_parse(&o, commands[i].bit, argc, argv);
         return status ? status : commands[i].run(&o);
     }
-    return options_usage_error("unknown command", name);
+    return unknown_command(name);
 }
 
 int main(int argc, char **argv)

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/nearest.h"
 #include "../truth/truth.h"
 
 enum { BUDGET_MAX = 1000000000 };
@@ -24,8 +25,8 @@ const option options[] = {
      "colour, shadow, depth, normal, atlas or cascade (colour)"},
     {"--light", BY_RENDER | BY_COMPARE, "K", "a light from 0 to 63", "the light of --view shadow and atlas (0)"},
     {"--frame", BY_ALL & ~BY_COMPILE, "N", "a frame from 0 to 100000000", "animation frame (0)"},
-    {"--frames", BY_COMPILE | BY_INFO, "FIRST-LAST", "FIRST-LAST, frames from 0 to 100000000",
-     "these frames (compile: all of the animation; info: frame 0 alone)"},
+    {"--frames", BY_RENDER | BY_COMPILE | BY_INFO, "FIRST-LAST", "FIRST-LAST, frames from 0 to 100000000",
+     "these frames (compile: all of the animation; info: frame 0 alone); render: as an animated PNG"},
     {"--set", BY_ALL, "KEY=VALUE", "KEY=VALUE, at most 64 times",
      "any knob or setting, in order: 'gnomon knobs' lists them; preset=tiny|fast|balanced|accurate sets many; "
      "KEY@LIGHT=VALUE for one light, by its number or name"},
@@ -70,16 +71,25 @@ const size_t n_options = sizeof options / sizeof *options;
 _Static_assert(GN_MAX_WIDTH == 2048 && GN_MAX_HEIGHT == 2048 && GN_MAX_LIGHTS == 64 && TOOL_SETS_MAX == 64,
                "as said above");
 
-static int say_where_help_is(void)
+static int say_where_help_is(const char *command)
 {
-    fprintf(stderr, "'gnomon help' says how it is used\n");
+    fprintf(stderr, "'gnomon help%s%s' says how it is used\n", command ? " " : "", command ? command : "");
     return TOOL_USAGE;
 }
 
-int options_usage_error(const char *message, const char *what)
+int options_usage_error(const char *command, const char *message, const char *what)
 {
     tool_error("%s%s%s", message, what ? " " : "", what ? what : "");
-    return say_where_help_is();
+    return say_where_help_is(command);
+}
+
+static int unknown_option(const char *command, const char *name)
+{
+    char question[80];
+    nearest n = nearest_to(name);
+    for (size_t i = 0; i < n_options; i++) nearest_try(&n, options[i].name);
+    tool_error("unknown option %s%s", name, nearest_question(&n, question, sizeof question));
+    return say_where_help_is(command);
 }
 
 static int parse_int(const char *text, int lo, int hi, int *out)
@@ -214,37 +224,37 @@ static int check_truth(const tool_options *o, const char *engine)
 {
     const int truth = strcmp(engine, "truth") == 0;
     if (truth && (o->view == VIEW_ATLAS || o->view == VIEW_CASCADE))
-        return options_usage_error("truth has no shadow maps, and no such --view", NULL);
-    return o->samples && !truth ? options_usage_error("--samples is for truth, not for", engine) : TOOL_OK;
+        return options_usage_error(NULL, "truth has no shadow maps, and no such --view", NULL);
+    return o->samples && !truth ? options_usage_error(NULL, "--samples is for truth, not for", engine) : TOOL_OK;
 }
 
 int options_parse(tool_options *o, int command, int argc, char **argv)
 {
     for (int i = 2; i < argc; i++) {
         const option *found = find_option(argv[i]);
-        if (!found && argv[i][0] == '-') return options_usage_error("unknown option", argv[i]);
+        if (!found && argv[i][0] == '-') return unknown_option(argv[1], argv[i]);
         if (!found) {
-            if (o->scene_path) return options_usage_error("one scene at a time, not also", argv[i]);
+            if (o->scene_path) return options_usage_error(argv[1], "one scene at a time, not also", argv[i]);
             o->scene_path = argv[i];
             continue;
         }
         if (!(found->commands & command)) {
             tool_error("%s does not use %s", argv[1], argv[i]);
-            return say_where_help_is();
+            return say_where_help_is(argv[1]);
         }
         if (!found->value) {
             take_switch(o, found->name);
             continue;
         }
-        if (++i >= argc) return options_usage_error("a value is missing after", found->name);
+        if (++i >= argc) return options_usage_error(argv[1], "a value is missing after", found->name);
         if (take_value(o, found->name, argv[i])) {
             tool_error("%s: bad value '%s', not %s", found->name, argv[i], found->value);
-            return say_where_help_is();
+            return say_where_help_is(argv[1]);
         }
     }
-    if (!o->scene_path) return options_usage_error("a scene is missing", NULL);
-    if (command == BY_BAKE && !o->out_path) return options_usage_error("-o FILE is missing", NULL);
-    if (command == BY_ASSET && !o->out_path) return options_usage_error("-o NAME is missing", NULL);
-    if (command == BY_ADVISE && !o->ram) return options_usage_error("--ram BYTES is missing", NULL);
+    if (!o->scene_path) return options_usage_error(argv[1], "a scene is missing: a .gltf, .glb or .obj file", NULL);
+    if (command == BY_BAKE && !o->out_path) return options_usage_error(argv[1], "-o FILE is missing", NULL);
+    if (command == BY_ASSET && !o->out_path) return options_usage_error(argv[1], "-o NAME is missing", NULL);
+    if (command == BY_ADVISE && !o->ram) return options_usage_error(argv[1], "--ram BYTES is missing", NULL);
     return check_truth(o, command == BY_RENDER ? o->engine : o->with);
 }

@@ -26,8 +26,9 @@ typedef struct {
 extern const option options[];
 extern const size_t n_options;
 
-/* Prints what is wrong with the command line, and where help is; returns TOOL_USAGE. what: appended, or NULL. */
-int options_usage_error(const char *message, const char *what);
+/* Prints what is wrong with the command line, and where help is; returns TOOL_USAGE. command: whose help; NULL: of all.
+ * what: appended, or NULL. */
+int options_usage_error(const char *command, const char *message, const char *what);
 
 /* Reads argv from 2 on, for the command argv[1] with that bit. TOOL_OK or TOOL_USAGE. */
 int options_parse(tool_options *o, int command, int argc, char **argv);

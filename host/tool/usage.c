@@ -15,7 +15,9 @@ typedef struct {
 } command_help;
 
 static const command_help commands[] = {
-    {"render", BY_RENDER, "SCENE -o OUT.png", "one picture", NULL,
+    {"render", BY_RENDER, "SCENE -o OUT.png", "one picture",
+     "Draws what firmware with the same settings draws, bit for bit. What the file lacks (camera, light, ground) is "
+     "added, and named.",
      "gnomon render host/scenes/sundial.gltf -o sundial.png --frame 48 --set preset=accurate"},
     {"compare", BY_COMPARE, "SCENE [-o DIR]", "the library against the double-precision reference, or the ray tracer",
      "DIR gets fixed.png, reference.png, error.png, and beside.png, the three side by side. --with truth adds the ray "
@@ -23,23 +25,32 @@ static const command_help commands[] = {
      "cost (reference against truth), and both, with an error picture for each. Near planes, max_distance and "
      "one-sided casters are part of the scene, in truth too.",
      "gnomon compare host/scenes/desk.gltf --with truth -o desk"},
-    {"info", BY_INFO, "SCENE", "what the scene needs, and what in the file was ignored", NULL,
+    {"info", BY_INFO, "SCENE", "what the scene needs, and what in the file was ignored",
+     "Which light has which shadow tiles, and with which bias; how much RAM the presets take; whether it fits a board, "
+     "and if not, the nearest settings that do.",
      "gnomon info host/scenes/room.gltf --board mps2-an385"},
     {"sweep", BY_SWEEP, "SCENE", "many configurations: RAM, instructions, error, and the front that nothing beats",
-     "A scene that moves is measured over frame N and the eight after it, with the shadow tiles that are kept.",
+     "Shows what each setting buys. A scene that moves is measured over frame N and the eight after it, with the "
+     "shadow tiles that are kept.",
      "gnomon sweep host/scenes/avenue.gltf --quick --svg avenue.svg"},
     {"advise", BY_ADVISE, "SCENE --ram BYTES", "the most accurate configuration within a budget, as --set arguments",
-     NULL, "gnomon advise host/scenes/avenue.gltf --ram 48000"},
+     "What it prints can be appended to render, compare and compile. RAM is that of the renderer: leave some KB for "
+     "the stack and the program.",
+     "gnomon advise host/scenes/avenue.gltf --ram 48000"},
     {"compile", BY_COMPILE, "SCENE -o DIR", "C for flash: scene.c, scene.h, and the library's configuration",
-     "DIR gets scene.c and scene.h, and gn_scene_config.h, the library with just what the scene needs.",
+     "DIR gets scene.c and scene.h, and gn_scene_config.h, the library with just what the scene needs. The animation "
+     "is played once: what no frame needs is left out.",
      "gnomon compile host/scenes/sundial.gltf -o firmware --board mps2-an385"},
     {"asset", BY_ASSET, "MODEL -o NAME", "C for programs that move the model themselves: NAME.h and NAME.c",
-     "Meshes and textures are const data for flash; objects, lights and cameras have names and can be written.",
+     "Meshes and textures are const data for flash; objects, lights and cameras have names and can be written. For "
+     "scenes that play a fixed animation use compile.",
      "gnomon asset host/scenes/desk.gltf -o desk"},
     {"bake", BY_BAKE, "SCENE -o OUT.gltf", "the shadows of what stands still as masks, by the ray tracer",
-     "Prints what the masks cost and how true they are.",
+     "Firmware then draws no shadow maps for them. Prints what the masks cost and how true they are.",
      "gnomon bake host/scenes/room.gltf -o baked.gltf --texels 256"},
-    {"knobs", 0, "", "every knob and setting, as docs/CONFIG.md lists them", NULL, "gnomon knobs"},
+    {"knobs", 0, "", "every knob and setting, as docs/CONFIG.md lists them",
+     "Name, range, value in each preset, meaning and cost: what --set, scene files and the configuration header take.",
+     "gnomon knobs"},
     {"help", 0, "[COMMAND]", "this text, or a command's own", NULL, "gnomon help render"},
 };
 enum { N_COMMANDS = sizeof commands / sizeof *commands, LINE_WIDTH = 100, COMMAND_COLUMN = 28, OPTION_COLUMN = 30 };

@@ -47,7 +47,8 @@ double truth_vertex_error(const ref_triangle *triangle)
 {
     double worst = 0.0;
     for (int k = 0; k < 3; k++) {
-        const double *p = triangle->mesh->pos + 3 * (size_t)triangle->idx[k];
+        double p[3];
+        scene_posed(p, triangle->mesh, triangle->object, triangle->idx[k]);
         double magnitude[3];
         for (int r = 0; r < 3; r++) {
             const double *m = triangle->object->to_world.m[r];

@@ -51,7 +51,8 @@
     X(lights, "light that arrives at a pixel")                                                                         \
     X(lights_punctual, "spot or point light that faces a pixel")                                                       \
     X(highlights, "specular highlight of a light at a pixel")                                                          \
-    X(textured, "pixel whose colour is a texture's")                                                                   \
+    X(textured, "pixel for itself whose colour is a texture's")                                                        \
+    X(textured_rows, "pixel of a row of a cell whose colour is a texture's")                                           \
     X(masked, "look-up in a mask image")                                                                               \
     X(packed, "colour encoded")                                                                                        \
     X(lookups, "shadow lookup in an orthographic view")                                                                \

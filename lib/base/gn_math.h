@@ -67,7 +67,7 @@ GN_INLINE uint32_t gn_recip_norm2(uint32_t m)
     return GN_SIZE_FIRST ? gn_recip_norm(m, 2) : gn_recip_norm2_inline(m);
 }
 
-/* (b - a) / n, rounded towards zero, 0 < n <= 16. */
+/* (b - a) / n, rounded towards zero, 0 < n <= 16; |b - a| < 2^31 where n is 1. */
 int32_t gn_step_of(int32_t a, int32_t b, int32_t n);
 
 /* num / den to 2^-17 of it, Q30; num <= den */

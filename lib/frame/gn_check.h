@@ -31,6 +31,12 @@ GN_STATIC_ASSERT(tile_width_not_multiple_of_8, GN_TILE_WIDTH % 8 == 0);
 GN_STATIC_ASSERT(tile_has_more_than_65536_pixels,
                  (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) <= 65536); /* gn_runs.h links cells by 16 bits */
 
+GN_STATIC_ASSERT(triangle_groups_have_up_to_128_columns_and_rows_of_tiles, /* gn_tri_group has 7 bits */
+                 !(GN_TRIANGLE_GROUPS) ||
+                     ((GN_MAX_WIDTH) <= 128 * (GN_TILE_WIDTH) && (GN_MAX_HEIGHT) <= 128 * (GN_TILE_HEIGHT)));
+GN_STATIC_ASSERT(triangle_groups_have_tiles_from_16_pixels, /* gn_setup.c has a vertex in them */
+                 !(GN_TRIANGLE_GROUPS) || (GN_TILE_WIDTH) * (GN_TILE_HEIGHT) >= 16);
+
 /* Compact arithmetic: its features are shadows, optionally automatic bias and validation. Clipping is always built. */
 #define GN_COMPACT_IS_(condition) (!GN_COMPACT || (condition))
 GN_STATIC_ASSERT(compact_has_pictures_up_to_256, GN_COMPACT_IS_(GN_MAX_WIDTH <= 256 && GN_MAX_HEIGHT <= 256));
@@ -51,7 +57,9 @@ GN_STATIC_ASSERT(compact_has_no_such_bias, GN_COMPACT_IS_(!GN_RECEIVER_BIAS && !
 GN_STATIC_ASSERT(compact_keeps_nothing, GN_COMPACT_IS_(!GN_INCREMENTAL && !GN_STATIC_LAYER && !GN_OBJECT_BOXES));
 GN_STATIC_ASSERT(compact_has_one_background_colour, GN_COMPACT_IS_(!GN_TILE_DRAWING));
 GN_STATIC_ASSERT(compact_has_perspective_cameras, GN_COMPACT_IS_(!GN_ORTHOGRAPHIC));
+GN_STATIC_ASSERT(compact_has_no_skins, GN_COMPACT_IS_(!GN_VERTEX_JOINTS));
 GN_STATIC_ASSERT(compact_has_rgb565, GN_COMPACT_IS_(!GN_OTHER_FORMATS && !GN_RAW_VIEWS && !GN_RUNTIME_KNOBS));
+GN_STATIC_ASSERT(compact_has_records, GN_COMPACT_IS_(!GN_TRIANGLE_GROUPS));
 GN_STATIC_ASSERT(compact_has_no_picking, GN_COMPACT_IS_(!GN_PICKING));
 
 #endif

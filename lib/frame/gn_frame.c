@@ -14,10 +14,11 @@
  *
  * gn_prepare
  * - gn_setup_triangles: visible triangles: transform, cull, clip (geometry/gn_clip), project, depth plane (gn_plane)
- * - gn_bin_triangles: triangles to screen tiles (visible/gn_bin)
+ * - gn_bin_triangles: triangles to screen tiles (visible/gn_bin); not with triangle_groups
  *
  * gn_screen_tile
- * - gn_raster_tile: depth and triangle per pixel, by exact edge walks (geometry/gn_walk)
+ * - gn_raster_tile: depth and triangle per pixel, by exact edge walks (geometry/gn_walk); with triangle_groups the
+ *   tile's triangles are set up again for it (visible/gn_setup)
  * - gn_shade_tile: the visible runs (visible/gn_runs) of a triangle at a time (shade/gn_surface), part by part: of one
  *   or two colours (gn_part), or by cells (gn_lattice: gn_corner, gn_lattice_look, gn_lattice_draw), with texel windows
  *   (gn_lattice_window, shadow/gn_window); or pixel by pixel (gn_exact, gn_sample): light (gn_light, gn_arrival,
@@ -65,6 +66,8 @@ static int knobs_ok(const gn_frame *frame)
     ok = ok && (k->atlas_size & (k->atlas_size - 1)) == 0 && k->tile_width % 8 == 0;
     ok = ok && (k->other_atlas_size & (k->other_atlas_size - 1)) == 0 && k->other_atlas_size <= GN_OTHER_ATLAS_SIZE;
     ok = ok && (k->depth_bits & (k->depth_bits - 1)) == 0 && (k->other_depth_bits & (k->other_depth_bits - 1)) == 0;
+    ok = ok && (!k->triangle_groups ||
+                (frame->picture.width <= 128 * k->tile_width && frame->picture.height <= 128 * k->tile_height));
     return ok && k->tile_width * k->tile_height <= GN_TILE_PIXELS_MAX;
 }
 #endif
@@ -159,9 +162,10 @@ gn_status gn_prepare(gn_renderer *r)
 #endif
     gn_status status = gn_setup_triangles(frame, &r->scratch);
     if (status) return status;
-    /* cells hold triangle + 1; the remaining bits are depth */
-    frame->id_bits =
-        (uint8_t)(32 - gn_clz32(frame->stats.n_triangles + 1)); /* and one identity that no triangle has, for gn_runs */
+    /* cells hold triangle + 1, and one identity that no triangle has, for gn_runs; the remaining bits are depth */
+    uint32_t n_identities = frame->stats.n_triangles + 1;
+    if (GN_K(frame, triangle_groups) && n_identities > 65535) n_identities = 65535; /* screen tiles have no more */
+    frame->id_bits = (uint8_t)(32 - gn_clz32(n_identities));
     status = gn_bin_triangles(frame, &r->scratch);
     if (status) return status;
     frame->stage = GN_STAGE_PREPARED;

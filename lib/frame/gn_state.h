@@ -50,9 +50,18 @@ typedef struct gn_frame {
 #if GN_BOXES
     gn_object_state object[GN_MAX_OBJECTS];
 #endif
+#if GN_RECORDS
     gn_tri tri[GN_MAX_TRIANGLES];
-    gn_ref_offset tile_first[GN_TILES_MAX + 1];
+#endif
+    gn_ref_offset tile_first[GN_TILES_MAX + 1]; /* of groups: a tile's number of triangles */
+#if GN_RECORDS
     uint16_t tile_ref[GN_MAX_TILE_REFS];
+#endif
+#if GN_GROUPS
+    gn_tri_group group[GN_GROUPS_MAX];
+    uint32_t n_grouped;  /* triangles of all objects that are not hidden, in their order */
+    uint8_t group_shift; /* triangle t of them is in group t >> group_shift */
+#endif
 #if GN_SHADOWS
 #if GN_INCREMENTAL
     gn_tile_memory memory[GN_VIEWS_MAX];
@@ -95,6 +104,18 @@ typedef union {
 #endif
 } gn_work;
 
+#if GN_GROUPS
+/* What of it drawing a triangle takes; the rest is free while screen tiles set up triangles. */
+typedef union {
+    gn_clipping clipping;
+#if GN_VISIBLE_ALPHA
+    gn_alpha_cut cut;
+#endif
+} gn_work_drawn;
+#define GN_WORK_DRAWN_BYTES ((sizeof(gn_work_drawn) + 7) / 8 * 8)
+#define GN_WORK_FREE_BYTES  (sizeof(gn_work) - GN_WORK_DRAWN_BYTES)
+#endif
+
 /* The cells of a screen tile. */
 #define GN_CELLS(scratch) ((scratch)->cell + 1)
 
@@ -103,7 +124,10 @@ typedef struct gn_scratch {
                                               in the high bits, the triangle in the low id_bits; 0: none */
     gn_tile_pixels pixel;                  /* finished pixels in the picture's format */
     gn_vertex_entry vertex[GN_VERTEX_CACHE];
-    gn_run_idx run_list[GN_RUN_LISTS]; /* first runs, by the low bits of their triangles; see gn_runs.h */
+    gn_run_idx run_list[GN_RUN_LISTS];         /* first runs, by the low bits of their triangles; see gn_runs.h */
+#if GN_GROUPS
+    gn_tri_source drawn[1 + GN_MAX_TRIANGLES]; /* the tile's triangles by their identities: none is 0 */
+#endif
     gn_work work;
 } gn_scratch;
 

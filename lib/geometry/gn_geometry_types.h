@@ -21,7 +21,7 @@ typedef struct {
         int32_t m[3];
         int32_t t_q16; /* the translation above that, 0 below */
     } row[3];
-    uint32_t reach;   /* of positions, a power of two; 0: the transform or its translation is too large, gn_xform_vertex
+    uint32_t reach;   /* of positions, a power of two; 0: the transform or its translation is too large, gn_xform_point
                          does it */
     uint8_t up, down; /* 32 bits of shift are the upper word: what they are less, and more */
 } gn_xform_fast;

@@ -4,7 +4,7 @@
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
 #include "base/gn_tables.h"
-#include "geometry/gn_texel.h"
+#include "geometry/gn_texel_formats.h"
 #include "geometry/gn_texture.h"
 
 /* Texels of an axis of `size` <= 4096 at a coordinate. */

@@ -35,6 +35,40 @@ GN_HOT static inline uint32_t gn_texture_size_log2(const gn_texture *texture, in
     return size > 1 ? 32U - (uint32_t)gn_clz32(size - 1) : 0;
 }
 
+#if GN_MIPMAPS
+/* The view depth from which on the first smaller level is read, squared: each further one begins at twice that.
+ * UINT64_MAX: none is. `area` is that of the plane that `screen` projects: the same, but of an orthographic camera.
+ * DESIGN 1.8. [M11] */
+uint64_t gn_texture_level_depth2(const gn_texture_triangle *triangle, const gn_texture *texture, const gn_plane *area,
+                                 const gn_plane *screen, uint32_t focal2_px_q16);
+
+GN_HOT static inline int gn_texture_has_levels(const gn_texture *texture)
+{
+    return (texture->flags & GN_TEXTURE_MIPMAPPED) != 0;
+}
+
+/* Texels of a level along an axis. */
+GN_HOT static inline uint32_t gn_texture_level_size(const gn_texture *texture, int axis, uint32_t level)
+{
+    uint32_t size = gn_texture_size(texture, axis) >> level;
+    return size ? size : 1;
+}
+
+/* Whether a view depth that is beyond the beginning of a level is beyond its end: so depth2 << level is below 2^63. */
+GN_HOT static inline int gn_texture_level_ends(const gn_texture *texture, uint64_t depth2_q32, uint32_t level,
+                                               int32_t z_q16)
+{
+    uint32_t sides = (gn_texture_size(texture, 0) | gn_texture_size(texture, 1)) >> level;
+    return (uint64_t)z_q16 * (uint64_t)z_q16 >= depth2_q32 << level && sides > 1;
+}
+
+/* The level at a view depth. */
+uint32_t gn_texture_level_at(const gn_texture *texture, uint64_t depth2_q32, int32_t z_q16);
+
+/* A level as a texture of its own. */
+void gn_texture_use_level(gn_texture *out, const gn_texture *texture, uint32_t level);
+#endif
+
 void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_texture *texture,
                         const uint16_t idx[3]);
 

@@ -3,7 +3,7 @@
 
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
-#include "geometry/gn_texel.h"
+#include "geometry/gn_texel_formats.h"
 #include "geometry/gn_texture.h"
 
 #if GN_INTERPOLATES

@@ -4,6 +4,7 @@
 #include "gn_stages.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_skin.h"
 #include "geometry/gn_xform.h"
 
 /* Largest distance of a clipped vertex from the picture's centre, in pixels. Up to 7 subpixel bits it must fit 16 bits
@@ -75,14 +76,13 @@ void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t
         for (int c = 0; c < 3; c++) t += ((int64_t)a->t_q16[c] - origin_q16[c]) * axis_q30[r][c];
         out->t_q16[r] = gn_shr64(t, 30);
     }
-    /* m has 30 - exp fraction bits, positions pos_frac_bits; the result 16. 0 <= shift <= 44 by validation. */
-    out->shift = 30 - a->exp + object->mesh->pos_frac_bits - 16;
+    /* m has 30 - exp fraction bits, positions pos_frac_bits, or 16 behind a skin; the result 16. 0 <= shift <= 44 by
+     * validation. */
+    out->shift = 30 - a->exp + (GN_SKIN(object) ? 16 : object->mesh->pos_frac_bits) - 16;
 }
 
-void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
+void gn_xform_point(int64_t out_q16[3], const gn_xform *xform, const int32_t p[3])
 {
-    const gn_position *at = mesh->pos + 3 * (size_t)vertex_idx;
-    const int32_t p[3] = {at[0], at[1], at[2]};
     for (int r = 0; r < 3; r++) {
         /* |row| <= sqrt(3) * 2^30, |p| <= sqrt(3) * 2^30: below 3 * 2^60 */
         out_q16[r] = gn_shr64(gn_dot64(xform->m[r], p), xform->shift) + xform->t_q16[r];
@@ -116,11 +116,10 @@ int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn
     return gn_xform_fast_inline(out_q16, fast, position);
 }
 
-void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object)
+void gn_xform_normal_matrix(int32_t out[3][3], const int32_t m[3][3])
 {
     /* The cofactors are the inverse transpose times the determinant: only their direction and the determinant's sign
      * matter. */
-    const int32_t(*m)[3] = object->to_world.m_q30;
     int64_t cofactor[3][3];
     uint64_t any = 1;
     for (int r = 0; r < 3; r++) {

@@ -10,13 +10,14 @@
 void gn_xform_compose(gn_xform *out, const int32_t axis_q30[3][3], const int32_t origin_q16[3],
                       const gn_object *object);
 
-/* out_q16 = xform of a mesh vertex, |out| exact to 1 LSB plus the composition's 3 * |p| * 2^-30. Not range checked. */
-void gn_xform_vertex(int64_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx);
+/* out_q16 = xform of a point of the object's (gn_position_of), |out| exact to 1 LSB plus the composition's
+ * 3 * |p| * 2^-30. Not range checked. */
+void gn_xform_point(int64_t out_q16[3], const gn_xform *xform, const int32_t p[3]);
 
 /* Adds up the constant terms, for many vertices. */
 void gn_xform_fast_begin(gn_xform_fast *fast, const gn_xform *xform);
 
-/* The same result as gn_xform_vertex. Returns 0, without a result, if it may be 2^29 or more, or the position 2^30. */
+/* The same result as gn_xform_point. Returns 0, without a result, if it may be 2^29 or more, or the position 2^30. */
 int gn_xform_fast_vertex(int32_t out_q16[3], const gn_xform_fast *fast, const gn_position position[3]);
 
 /* Row r times p, with the constant terms */
@@ -57,9 +58,9 @@ GN_INLINE int gn_xform_fast_inline(int32_t out_q16[3], const gn_xform_fast *fast
                2 * limit;
 }
 
-/* The inverse transpose of the object's rotation and scale, up to a positive factor: largest entry near 1.0 in Q1.30.
+/* The inverse transpose of a rotation and scale, |m| <= 2^30, up to a positive factor: largest entry near 1.0 in Q1.30.
  */
-void gn_xform_normal_matrix(int32_t out[3][3], const gn_object *object);
+void gn_xform_normal_matrix(int32_t out[3][3], const int32_t m[3][3]);
 
 /* A vertex's unit world normal, Q1.30, within 3 LSB + the matrix's error; zero where the mesh's normal is zero. */
 void gn_xform_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3]);

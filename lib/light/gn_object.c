@@ -3,18 +3,20 @@
 
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_skin.h"
 #include "geometry/gn_xform.h"
 #include "light/gn_object.h"
 #include "scene/gn_scene.h"
 
-/* Twice the centre and the half extents of the mesh's coordinates; 0: a position is out of range. */
-static int mesh_box(const gn_mesh *mesh, int32_t centre[3], int32_t half[3])
+/* The centre and the half extents of the vertices' coordinates, posed by the skin; 0: a position is out of range. */
+static int mesh_box(const gn_object *object, int32_t centre[3], int32_t half[3])
 {
-    int32_t lo[3], hi[3];
-    for (int k = 0; k < 3; k++) lo[k] = hi[k] = mesh->pos[k];
-    for (uint32_t i = 0; i < mesh->n_vertices; i++) {
-        const gn_position *p = mesh->pos + 3 * (size_t)i;
-        if (!gn_scene_position_ok(mesh, i)) return 0;
+    int32_t p[3], lo[3], hi[3];
+    gn_position_of(lo, object, 0);
+    for (int k = 0; k < 3; k++) hi[k] = lo[k];
+    for (uint32_t i = 0; i < object->mesh->n_vertices; i++) {
+        gn_position_of(p, object, i);
+        if (!gn_position_ok(p)) return 0;
         for (int k = 0; k < 3; k++) {
             lo[k] = gn_min32(lo[k], p[k]);
             hi[k] = gn_max32(hi[k], p[k]);
@@ -35,7 +37,7 @@ gn_status gn_object_boxes(gn_frame *frame)
         gn_object_state *state = &frame->object[i];
         int32_t centre[3], half[3];
         gn_xform xform;
-        if (!mesh_box(object->mesh, centre, half)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, i);
+        if (!mesh_box(object, centre, half)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, i);
         uint64_t farthest = 0;
         gn_xform_compose(&xform, world, origin, object);
         for (int r = 0; r < 3; r++) {

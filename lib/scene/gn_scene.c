@@ -4,6 +4,7 @@
 #include "gn_stages.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_skin.h"
 #include "scene/gn_scene.h"
 
 #define GN_POSITION_LIMIT_Q16 (8192 << 16)
@@ -11,12 +12,6 @@
 #define GN_FADE_MIN_UQ16      66U       /* 0.001 */
 #define GN_SPOT_TURN_MIN      182U      /* 1 degree */
 #define GN_SPOT_TURN_MAX      32587U    /* 179 degrees, rounded to nearest */
-
-int gn_scene_position_ok(const gn_mesh *mesh, uint32_t vertex_idx)
-{
-    const gn_position *p = mesh->pos + 3 * (size_t)vertex_idx;
-    return gn_abs32(p[0]) <= 1U << 30 && gn_abs32(p[1]) <= 1U << 30 && gn_abs32(p[2]) <= 1U << 30;
-}
 
 gn_status gn_fail(gn_frame *frame, gn_status status, uint32_t index)
 {
@@ -119,6 +114,7 @@ static gn_status check_texture(gn_frame *frame, const gn_mesh *mesh, const gn_te
         return gn_fail(frame, GN_ERR_TEXTURE, idx);
     if (texture->format >= GN_TEXTURE_FORMAT_COUNT || !(GN_TEXTURE_FORMATS >> texture->format & 1))
         return gn_fail(frame, GN_ERR_TEXTURE_FORMAT, idx);
+    if (!GN_MIPMAPS && texture->flags & GN_TEXTURE_MIPMAPPED) return gn_fail(frame, GN_ERR_TEXTURE_FORMAT, idx);
     int indexed = texture->format >= GN_TEXTURE_PALETTE8 && texture->format <= GN_TEXTURE_PALETTE1;
     return indexed && !texture->palette ? gn_fail(frame, GN_ERR_TEXTURE, idx) : GN_OK;
 }
@@ -154,10 +150,17 @@ static gn_status check_object(gn_frame *frame, const gn_object *object, uint32_t
     if (!object->mesh) return gn_fail(frame, GN_ERR_NULL, idx);
     if (!object_transform_ok(&object->to_world)) return gn_fail(frame, GN_ERR_OBJECT_TRANSFORM, idx);
     gn_status status = check_mesh(frame, object->mesh, idx);
+#if GN_VERTEX_JOINTS
+    if (!status && object->skin) status = gn_scene_skin_check(frame, object, idx);
+#endif
+    if (!GN_VERTEX_JOINTS && !status && object->skin) status = gn_fail(frame, GN_ERR_SKIN, idx);
     if (status) return status;
 #if !GN_BOXES /* else gn_object checks them */
-    for (uint32_t i = 0; i < object->mesh->n_vertices; i++)
-        if (!gn_scene_position_ok(object->mesh, i)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, idx);
+    for (uint32_t i = 0; i < object->mesh->n_vertices; i++) {
+        int32_t p[3];
+        gn_position_of(p, object, i);
+        if (!gn_position_ok(p)) return gn_fail(frame, GN_ERR_VERTEX_RANGE, idx);
+    }
 #endif
     return check_material(frame, object, idx);
 }

@@ -27,13 +27,40 @@ GN_HOT int gn_cell_find_bend(gn_lattice_cell *cell)
 #if GN_TEXTURES
 enum { BENDS_ROWS = 1, BENDS_COLUMNS = 2, BENDS_TOO_MUCH = 4 };
 
+/* The finer of the cell's levels, and whether the next one begins in it: over a quarter more depth in each direction
+ * there is no third. */
+GN_HOT static void find_level(const gn_lattice_cell *cell)
+{
+#if GN_MIPMAPS
+    gn_corner *const *c = cell->corner;
+    const gn_texture *texture = cell->s->object->texture;
+    cell->out->level = cell->out->level_ends = 0;
+    if (!gn_texture_has_levels(texture)) return;
+    int32_t nearest = gn_min32(gn_min32(c[0]->z_q16, c[1]->z_q16), gn_min32(c[2]->z_q16, c[3]->z_q16)),
+            farthest = gn_max32(gn_max32(c[0]->z_q16, c[1]->z_q16), gn_max32(c[2]->z_q16, c[3]->z_q16));
+    cell->out->level = (uint8_t)gn_texture_level_at(texture, cell->s->level_depth2_q32, nearest);
+    cell->out->level_ends =
+        (uint8_t)gn_texture_level_ends(texture, cell->s->level_depth2_q32, cell->out->level, farthest);
+#else
+    (void)cell;
+#endif
+}
+
+GN_HOT static uint32_t level_size(const gn_lattice_cell *cell, int axis)
+{
+#if GN_MIPMAPS
+    return gn_texture_level_size(cell->s->object->texture, axis, cell->out->level);
+#else
+    return gn_texture_size(cell->s->object->texture, axis);
+#endif
+}
+
 /* Where coordinates along one axis of the texture are to be quadratics. */
 GN_HOT static int32_t bends_of(const gn_lattice_cell *cell, int axis)
 {
     gn_corner *const *c = cell->corner;
     const int32_t at[4] = {c[0]->uv_q20[axis], c[1]->uv_q20[axis], c[2]->uv_q20[axis], c[3]->uv_q20[axis]};
-    uint64_t size = gn_texture_size(cell->s->object->texture, axis),
-             least = 1U << (20 - gn_cell_texture_log2(cell->frame));
+    uint64_t size = level_size(cell, axis), least = 1U << (20 - gn_cell_texture_log2(cell->frame));
     uint64_t linear[2], sum = 0; /* what is left, of texels, Q20: NUMERICS 4.12 */
     uint32_t change[2];
     int32_t bends = 0;
@@ -58,6 +85,7 @@ GN_HOT int gn_cell_textures_hold(const gn_lattice_cell *cell)
     cell->out->texture_bends = 0;
 #if GN_TEXTURES
     if (!cell->s->textured) return 1;
+    find_level(cell);
     cell->out->texture_bends = bends_of(cell, 0) | bends_of(cell, 1);
 #endif
     return cell->out->texture_bends < 4;

@@ -52,10 +52,9 @@ GN_HOT static GN_NOINLINE int find_texture_places(gn_shading *s, int32_t x, int3
     return 1;
 }
 
-GN_HOT void gn_lattice_texture_begin(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4],
-                                     gn_texture_patch *out)
+GN_HOT void gn_lattice_texture_begin(gn_shading *s, const gn_texture *texture, int32_t x, int32_t y, int32_t size_log2,
+                                     gn_corner *const corner[4], gn_texture_patch *out)
 {
-    const gn_texture *texture = s->surface.object->texture;
     int32_t uv_q20[3][3][2], bends = s->lattice.look.texture_bends;
     if (!find_texture_places(s, x, y, 1 << size_log2, corner, bends, uv_q20)) {
         bends = 0; /* rounding keeps a place between two that are sampled from being so itself */

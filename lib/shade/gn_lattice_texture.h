@@ -18,9 +18,9 @@ typedef struct {
     int32_t bends_rows;
 } gn_texture_patch;
 
-/* Of the cell at hand, 2^size_log2 pixels from (x, y) on, with these corners. */
-void gn_lattice_texture_begin(gn_shading *shading, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4],
-                              gn_texture_patch *out);
+/* Of the cell at hand, 2^size_log2 pixels from (x, y) on, with these corners; `texture`: the surface's, or a level. */
+void gn_lattice_texture_begin(gn_shading *shading, const gn_texture *texture, int32_t x, int32_t y, int32_t size_log2,
+                              gn_corner *const corner[4], gn_texture_patch *out);
 
 /* Colours of the texture in a row, `below` pixels under the cell's first row: of the pixels `bits`, the lowest of which
  * is the cell's pixel `first`; others are not set, or to anything. */

@@ -82,16 +82,27 @@ GN_HOT static void add(uint64_t sum_q20[3], const uint32_t colour_uq16[3], uint3
 }
 
 /* Vertex colour and texture. [M3] */
-GN_HOT static GN_NOINLINE void modulate(const gn_surface *surface, const gn_sample *sample, uint64_t sum[3])
+GN_HOT static GN_NOINLINE void modulate(const gn_frame *frame, const gn_surface *surface, const gn_sample *sample,
+                                        uint64_t sum[3])
 {
     if (GN_COLOURED(surface))
         for (int c = 0; c < 3; c++)
             sum[c] = (sum[c] * (uint32_t)gn_max32(sample->value[GN_VALUE_RGB + c], 0) + 0x8000U) >> 16;
-    uint32_t texture[3];
+    uint32_t colour[3];
+    const gn_texture *texture = surface->object->texture;
+    (void)frame;
     if (!GN_TEXTURES || !surface->textured) return;
     GN_COUNT(textured, 1);
-    gn_texture_colour(surface->object->texture, sample->value[GN_VALUE_UV], sample->value[GN_VALUE_UV + 1], texture);
-    for (int c = 0; c < 3; c++) sum[c] = (sum[c] * texture[c] + 0x8000U) >> 16;
+#if GN_MIPMAPS
+    gn_texture level;
+    if (gn_texture_has_levels(texture)) {
+        int32_t z_q16 = GN_FLAT_Q16(frame) ? GN_FLAT_Q16(frame) : sample->value[GN_VALUE_Z];
+        gn_texture_use_level(&level, texture, gn_texture_level_at(texture, surface->level_depth2_q32, z_q16));
+        texture = &level;
+    }
+#endif
+    gn_texture_colour(texture, sample->value[GN_VALUE_UV], sample->value[GN_VALUE_UV + 1], colour);
+    for (int c = 0; c < 3; c++) sum[c] = (sum[c] * colour[c] + 0x8000U) >> 16;
 }
 
 /* Baked light and all lights; a shadow is looked up only where light arrives. [P10] [M9] */
@@ -124,7 +135,7 @@ GN_HOT void gn_light_radiance(const gn_frame *frame, const gn_surface *surface, 
             add(highlights, colour, gn_mul_uq16(gn_light_highlight(frame, surface, sample, i, lobe), shadow));
         }
     }
-    modulate(surface, sample, sum);
+    modulate(frame, surface, sample, sum);
     for (int c = 0; c < 3; c++) {
         if (GN_SPECULAR) sum[c] += highlights[c];
         if (GN_GLOWS(surface)) sum[c] += surface->object->emissive_uq16[c] << 4;

@@ -271,16 +271,16 @@ GN_HOT static void textured_any(const gn_frame *frame, const gn_pixel_rows *rows
                                 const uint16_t (*texel)[3], const int32_t from_q24[3], const int32_t step_q24[3],
                                 const gn_pixel_line *line)
 {
-    (void)line;
     for (int32_t i = 0; bits >> i; i++) {
         uint32_t q20[3];
         if (!(bits >> i & 1U)) continue;
-        GN_COUNT(textured, 1);
         for (int c = 0; c < 3; c++) {
             int32_t colour = gn_max32(from_q24[c] + i * step_q24[c], 0);
             q20[c] = (uint32_t)((uint64_t)(uint32_t)colour * texel[i][c] >> 20);
 #if GN_GLOW_APART
             q20[c] += (uint32_t)line->glow_q24[c] >> 4;
+#else
+            (void)line;
 #endif
         }
         gn_pixel_store(frame, rows, x + i, y, gn_pixel_pack(frame, q20));
@@ -293,6 +293,7 @@ GN_HOT static GN_NOINLINE void textured_line(const gn_frame *frame, const gn_pix
     int32_t n = 1 << line->spacing_log2, step[3] = {0, 0, 0};
     const uint16_t(*texel)[3] = line->texel;
     int quick = line->inside && GN_LEVEL_TABLES && has_levels(frame);
+    for (uint32_t rest = bits; GN_COUNTERS && rest; rest &= rest - 1) GN_COUNT(textured_rows, 1);
 #if GN_GLOW_APART
     if (line->glow_q24[0] | line->glow_q24[1] | line->glow_q24[2]) quick = 0;
 #endif

@@ -92,16 +92,16 @@ GN_HOT static void shade_spans(gn_shading *s, gn_run_taker *taker, uint32_t firs
 }
 #endif
 
-GN_HOT static void shade_triangle(gn_shading *s, uint32_t tri_idx)
+GN_HOT static void shade_triangle(gn_shading *s, const char *sources, uint32_t id)
 {
     const gn_frame *frame = s->frame;
     uint32_t stride = (uint32_t)GN_K(frame, tile_width), first, packed = 0;
     int32_t n_px;
     int constant;
     gn_run_taker taker;
-    gn_runs_begin(&taker, s->scratch, gn_cell_id(frame, tri_idx));
+    gn_runs_begin(&taker, s->scratch, id);
     if (!gn_runs_take(&taker, stride, &first, &n_px)) return;
-    s->tri = &frame->tri[tri_idx];
+    s->tri = gn_cell_source(frame, sources, id);
     gn_surface_begin(frame, s->scratch, &s->cache, &s->surface, s->tri);
     constant = gn_surface_is_constant(&s->surface) && frame->picture.format != GN_FORMAT_RAW32;
     if (constant) packed = constant_pixel(s);
@@ -117,6 +117,22 @@ GN_HOT static void shade_triangle(gn_shading *s, uint32_t tri_idx)
             gn_pixel_fill(frame, &s->rows, x, y, n_px, packed);
         } else shade_run_exactly(s, x, y, n_px);
     } while (gn_runs_take(&taker, stride, &first, &n_px));
+}
+
+/* Those of the tile, in the order of the scene. */
+GN_HOT static void shade_triangles(gn_shading *s, uint32_t tile_idx)
+{
+    const gn_frame *frame = s->frame;
+    const char *sources = gn_cell_sources(frame, s->scratch);
+    uint32_t first = frame->tile_first[tile_idx];
+#if GN_GROUPS
+    for (uint32_t id = GN_K(frame, triangle_groups) ? first : 0; id > 0; id--) shade_triangle(s, sources, id);
+    if (GN_K(frame, triangle_groups)) return;
+#endif
+#if GN_RECORDS
+    for (; first < frame->tile_first[tile_idx + 1]; first++)
+        shade_triangle(s, sources, gn_cell_id(frame, frame->tile_ref[first]));
+#endif
 }
 
 /* ---- Runs -------------------------------------------------------------------------------------------------------- */
@@ -151,6 +167,7 @@ GN_HOT static const object_look *look_at(gn_shading *s, object_look looks[LOOKS]
 /* The state of sorting a tile's runs. */
 typedef struct {
     gn_shading *s;
+    const char *sources; /* gn_cell_sources */
     uint32_t n_linked;
     uint32_t plain_idx, packed; /* the plain object met last, of 16 bits per pixel */
     uint32_t lit_idx;           /* the object met last that is not plain */
@@ -163,7 +180,8 @@ GN_HOT static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uin
     gn_shading *s = sorter->s;
     uint32_t at = (uint32_t)(first - GN_CELLS(s->scratch));
     if (!GN_SIZE_FIRST) {
-        const object_look *look = look_at(s, sorter->looks, gn_cell_tri(s->frame, id)->object_idx);
+        const uint32_t object_idx = gn_cell_source(s->frame, sorter->sources, id)->object_idx;
+        const object_look *look = look_at(s, sorter->looks, object_idx);
         if (look->plain != NOT_PLAIN) {
             int32_t stride = GN_K(s->frame, tile_width), x = (int32_t)at % stride, y = (int32_t)at / stride;
             GN_COUNT(runs, 1);
@@ -175,7 +193,7 @@ GN_HOT static GN_NOINLINE void sort_run(run_sorter *sorter, uint32_t *first, uin
             sorter->packed = look->packed;
             return;
         }
-        sorter->lit_idx = gn_cell_tri(s->frame, id)->object_idx;
+        sorter->lit_idx = object_idx;
     }
     gn_runs_link(s->scratch, id, at, n_px);
     sorter->n_linked++;
@@ -197,6 +215,7 @@ GN_HOT static inline void fill_short_run(uint16_t *out, uint32_t *first, uint32_
 GN_HOT static void sorter_begin(run_sorter *sorter, gn_shading *s)
 {
     sorter->s = s;
+    sorter->sources = gn_cell_sources(s->frame, s->scratch);
     sorter->n_linked = 0;
     sorter->plain_idx = sorter->lit_idx = UINT32_MAX;
     for (uint32_t i = 0; !GN_SIZE_FIRST && i < LOOKS; i++) sorter->looks[i].object_idx = UINT32_MAX;
@@ -206,7 +225,7 @@ GN_HOT static void sorter_begin(run_sorter *sorter, gn_shading *s)
 GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
 {
     const gn_frame *frame = s->frame;
-    const gn_tri *end = gn_cell_tri(frame, 0);
+    const char *sources = gn_cell_sources(frame, s->scratch);
     run_sorter sorter;
     uint32_t id_mask = (1U << frame->id_bits) - 1, width = (uint32_t)s->rows.width, plain_idx = UINT32_MAX,
              lit_idx = UINT32_MAX, packed = 0;
@@ -222,11 +241,11 @@ GN_HOT static GN_NOINLINE uint32_t sort_runs(gn_shading *s, int32_t n_rows)
         while ((last = gn_runs_last(last)) >= row) {
             uint32_t id = *last & id_mask, *first = gn_runs_first(last, id_mask), n_px = (uint32_t)(last - first) + 1;
             last = first;
-            if (!GN_SIZE_FIRST && n_px < 8 && (end - id)->object_idx == plain_idx) {
+            if (!GN_SIZE_FIRST && n_px < 8 && gn_cell_source(frame, sources, id)->object_idx == plain_idx) {
                 fill_short_run(pixel + (first - row), first, n_px, packed);
                 continue;
             }
-            if (!GN_SIZE_FIRST && (end - id)->object_idx == lit_idx) {
+            if (!GN_SIZE_FIRST && gn_cell_source(frame, sources, id)->object_idx == lit_idx) {
                 gn_runs_link(s->scratch, id, (uint32_t)(first - cells), n_px);
                 n_linked++;
                 continue;
@@ -310,6 +329,5 @@ GN_HOT void gn_shade_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t t
 #endif
     s->cache.lights = GN_PUNCTUAL_LIGHTS && GN_TILE_LIGHTS ? gn_punctual_in_tile(frame, &s->rect) : UINT64_MAX;
     for (uint32_t i = 0; i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
-    for (uint32_t i = frame->tile_first[tile_idx]; i < frame->tile_first[tile_idx + 1]; i++)
-        shade_triangle(s, frame->tile_ref[i]);
+    shade_triangles(s, tile_idx);
 }

@@ -58,6 +58,11 @@ typedef struct {
 #if GN_TEXTURES
     gn_texture_triangle uv;
 #endif
+#if GN_MIPMAPS
+    uint64_t level_depth2_q32; /* gn_texture_level_depth2(), of textures that have levels */
+    gn_texture level;          /* the one that was used last */
+    uint32_t level_idx;
+#endif
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     int32_t face_q30[3]; /* normal of the face in the world; only if some light of the list needs it */
 #endif
@@ -84,7 +89,7 @@ typedef struct {
 typedef struct {
     const gn_object *object;
     union {
-        gn_xform to_view; /* with GN_SIZE_FIRST */
+        gn_xform to_view; /* with GN_SIZE_FIRST, and of skinned objects */
         gn_xform_fast fast;
     } by; /* of the current object */
     int32_t normal_matrix[3][3];
@@ -227,7 +232,10 @@ typedef struct {
     gn_lattice_edge edge[GN_LATTICE_EDGES];
     int32_t n_edges;
     int32_t texture_bends; /* where texture coordinates are quadratics: 1 along rows, 2 down columns */
-    int32_t spacing_log2;  /* of lookups in pixels */
+#if GN_MIPMAPS
+    uint8_t level, level_ends; /* of the texture where the cell is nearest; 1: the next one begins in the cell */
+#endif
+    int32_t spacing_log2; /* of lookups in pixels */
 } gn_lattice_look;
 
 /* A window that is to be made before the cell can be looked at. */
@@ -355,7 +363,7 @@ typedef struct {
     gn_pixel_rows rows;
     gn_surface_cache cache;
     gn_surface surface;
-    const gn_tri *tri;
+    const gn_tri_source *tri;
     uint32_t last_q20[3]; /* the last radiance and its pixel: neighbours are often equal */
     uint32_t last_pixel;
     uint32_t radiance_q20[3];

@@ -4,6 +4,7 @@
 #include "base/gn_count.h"
 #include "base/gn_hint.h"
 #include "base/gn_q.h"
+#include "geometry/gn_skin.h"
 #include "geometry/gn_texture.h"
 #include "geometry/gn_xform.h"
 #include "light/gn_bias.h"
@@ -93,7 +94,8 @@ GN_HOT static void normals(const gn_frame *frame, const gn_surface_cache *cache,
     int32_t n[3][3];
     for (int k = 0; k < 3; k++) {
         const gn_normal *nrm_q15 = mesh->nrm_q15 + 3 * (size_t)idx[k];
-        if (GN_SIZE_FIRST) gn_xform_normal(n[k], cache->normal_matrix, nrm_q15);
+        if (GN_VERTEX_JOINTS && GN_SKIN(s->object)) gn_skin_normal(n[k], s->object, cache->normal_matrix, idx[k]);
+        else if (GN_SIZE_FIRST) gn_xform_normal(n[k], cache->normal_matrix, nrm_q15);
         else gn_surface_normal(n[k], cache->normal_matrix, nrm_q15);
         if (s->plane.back)
             for (int i = 0; i < 3; i++) n[k][i] = -n[k][i];
@@ -148,6 +150,25 @@ GN_HOT static void texture_coords(gn_surface *s, const uint16_t *idx)
 #endif
 }
 
+/* Where levels of the texture begin. */
+GN_HOT static void texture_levels(const gn_frame *frame, gn_surface *s)
+{
+#if GN_MIPMAPS
+    if (!s->textured || !gn_texture_has_levels(s->object->texture)) return;
+#if GN_ORTHOGRAPHIC
+    const gn_plane *screen = frame->cam.flat_q16 ? &s->screen : &s->plane;
+#else
+    const gn_plane *screen = &s->plane;
+#endif
+    s->level = *s->object->texture;
+    s->level_idx = 0;
+    s->level_depth2_q32 =
+        gn_texture_level_depth2(&s->uv, s->object->texture, &s->plane, screen, frame->cam.focal2_px_q16);
+#else
+    (void)frame, (void)s;
+#endif
+}
+
 /* Shadow masks at the corners: coordinates of an image, or four channels. [M5] */
 GN_HOT static void masks(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
 {
@@ -179,6 +200,7 @@ GN_HOT static void baked_light(gn_surface *s, const uint16_t *idx)
 GN_HOT static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
 {
     texture_coords(s, idx);
+    texture_levels(frame, s);
     normals(frame, cache, s, idx);
     masks(frame, s, idx);
     baked_light(s, idx);
@@ -388,19 +410,20 @@ GN_HOT static void use_object(const gn_frame *frame, gn_surface_cache *cache, co
     cache->object = object;
     gn_xform to_view;
     gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
-    if (GN_SIZE_FIRST) cache->by.to_view = to_view;
+    if (GN_SIZE_FIRST || GN_SKIN(object)) cache->by.to_view = to_view;
     else gn_xform_fast_begin(&cache->by.fast, &to_view);
-    if (GN_VERTEX_NORMALS && object->mesh->nrm_q15) gn_xform_normal_matrix(cache->normal_matrix, object);
+    if (GN_VERTEX_NORMALS && object->mesh->nrm_q15)
+        gn_xform_normal_matrix(cache->normal_matrix, object->to_world.m_q30);
 }
 
 /* A vertex whose transform or position is too large for the fast path. */
 GN_HOT static GN_NOINLINE void slow_vertex(int32_t out_q16[3], const gn_frame *frame, gn_scratch *scratch,
-                                           const gn_tri *tri, uint32_t vertex_idx)
+                                           const gn_tri_source *tri, uint32_t vertex_idx)
 {
     const gn_object *object = &frame->scene->objects[tri->object_idx];
     gn_xform to_view;
     gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
-    gn_setup_vertex(out_q16, scratch->vertex, &to_view, object->mesh, tri->object_idx, vertex_idx);
+    gn_setup_vertex(out_q16, scratch->vertex, &to_view, object, tri->object_idx, vertex_idx);
 }
 
 #if GN_ORTHOGRAPHIC
@@ -424,7 +447,7 @@ GN_HOT static void flat_plane(const gn_frame *frame, gn_surface *s, int32_t v[3]
 #endif
 
 GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *s,
-                             const gn_tri *tri)
+                             const gn_tri_source *tri)
 {
     GN_COUNT(surfaces, 1);
     s->object = &frame->scene->objects[tri->object_idx];
@@ -436,7 +459,8 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surf
     s->first_value = GN_VALUE_Z;
     vertex_colours(s, idx);
     for (int i = 0; i < 3; i++) {
-        if (GN_SIZE_FIRST) gn_setup_vertex(v[i], scratch->vertex, &cache->by.to_view, mesh, tri->object_idx, idx[i]);
+        if (GN_SIZE_FIRST || GN_SKIN(s->object))
+            gn_setup_vertex(v[i], scratch->vertex, &cache->by.to_view, s->object, tri->object_idx, idx[i]);
         else if (!gn_xform_fast_vertex(v[i], &cache->by.fast, mesh->pos + 3 * (size_t)idx[i]))
             slow_vertex(v[i], frame, scratch, tri, idx[i]);
     }

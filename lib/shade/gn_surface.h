@@ -9,7 +9,7 @@
 #include "gnomon.h"
 
 void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cache *cache, gn_surface *surface,
-                      const gn_tri *tri);
+                      const gn_tri_source *tri);
 
 /* The face's normal in the world, towards the viewer. */
 void gn_surface_face(const gn_frame *frame, const gn_surface *surface, int32_t out_q30[3]);

@@ -8,6 +8,7 @@
 #include "base/gn_hint.h"
 #include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "geometry/gn_skin.h"
 #include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
@@ -28,6 +29,10 @@ typedef gn_caster_job caster_job;
 static void corner_normals(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3], int32_t out_q30[3][3])
 {
     const gn_mesh *mesh = job->object->mesh;
+    if (GN_VERTEX_JOINTS && GN_VERTEX_NORMALS && mesh->nrm_q15 && GN_SKIN(job->object)) {
+        for (int i = 0; i < 3; i++) gn_skin_normal(out_q30[i], job->object, job->by.normal_matrix, idx[i]);
+        return;
+    }
     if (GN_VERTEX_NORMALS && mesh->nrm_q15) {
         for (int i = 0; i < 3; i++)
             gn_xform_normal(out_q30[i], job->by.normal_matrix, mesh->nrm_q15 + 3 * (size_t)idx[i]);
@@ -71,6 +76,15 @@ static GN_NOINLINE void shrink(const caster_job *job, const uint16_t idx[3], int
     }
 }
 
+/* A vertex in the view's coordinates. */
+static void light_position(int64_t out[3], const caster_job *job, uint32_t vertex_idx)
+{
+    int32_t p[3];
+    gn_position_of(p, job->object, vertex_idx);
+    if (GN_PUNCTUAL_LIGHTS && job->view->perspective) gn_xform_point(out, &job->to_light, p);
+    else gn_ortho_point(out, &job->to_light, p);
+}
+
 /* Corners as the view sees them: in texels for orthographic views, in world units from the light for perspective ones.
  */
 static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t corner[3][3])
@@ -78,8 +92,7 @@ static gn_status transform(const caster_job *job, const uint16_t idx[3], int64_t
     const gn_mesh *mesh = job->object->mesh;
     for (int i = 0; i < 3; i++) {
         if (idx[i] >= mesh->n_vertices) return gn_fail(job->frame, GN_ERR_MESH_INDEX, job->object_idx);
-        if (!job->view->perspective) gn_ortho_vertex(corner[i], &job->to_light, mesh, idx[i]);
-        else gn_xform_vertex(corner[i], &job->to_light, mesh, idx[i]);
+        light_position(corner[i], job, idx[i]);
     }
     if (GN_CASTER_BIAS && job->shrink_q16) shrink(job, idx, corner);
     return GN_OK;
@@ -107,10 +120,10 @@ static inline int32_t draw_perspective(gn_casting *casting, gn_alpha_cut *alpha,
 /* A corner in the view's coordinates. Returns 0 if it may be beyond 2^29. */
 static inline int caster_corner(int32_t out[3], const caster_job *job, uint32_t vertex_idx)
 {
-    if (GN_LARGE_CASTERS)
+    if (GN_LARGE_CASTERS && !GN_SKIN(job->object))
         return gn_xform_fast_vertex(out, &job->by.fast, job->object->mesh->pos + 3 * (size_t)vertex_idx);
     int64_t v[3];
-    gn_ortho_vertex(v, &job->to_light, job->object->mesh, vertex_idx);
+    light_position(v, job, vertex_idx);
     for (int i = 0; i < 3; i++) {
         if (gn_abs64(v[i]) >> 29) return 0;
         out[i] = (int32_t)v[i];
@@ -231,7 +244,8 @@ static GN_NOINLINE gn_status draw_object(gn_frame *frame, gn_casting *casting, c
     else gn_ortho_compose(&job->to_light, view, job->object);
     job->shrink_q16 = GN_CASTER_BIAS ? frame->scene->lights[view->light_idx].bias_caster_q16 : 0;
     if (GN_CASTER_BIAS && job->shrink_q16) {
-        if (GN_VERTEX_NORMALS && job->object->mesh->nrm_q15) gn_xform_normal_matrix(job->by.normal_matrix, job->object);
+        if (GN_VERTEX_NORMALS && job->object->mesh->nrm_q15)
+            gn_xform_normal_matrix(job->by.normal_matrix, job->object->to_world.m_q30);
     } else if (GN_LARGE_CASTERS && SMALL_CASTERS) gn_xform_fast_begin(&job->by.fast, &job->to_light);
     const gn_mesh *mesh = job->object->mesh;
     for (uint32_t t = 0; t < mesh->n_triangles; t++) {

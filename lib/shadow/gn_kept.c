@@ -24,6 +24,23 @@ static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
     return gn_signature_add(s, (uint64_t)fit->inv_texel.mant << 32 | (uint32_t)fit->inv_texel.exp);
 }
 
+#if GN_VERTEX_JOINTS
+/* Where the joints are now: a skinned object has moved when one has. */
+static uint64_t skin_signature(uint64_t s, const gn_skin *skin)
+{
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)skin->joint_idx);
+    s = gn_signature_add(s, (uint64_t)(uintptr_t)skin->weight_u8);
+    s = gn_signature_add(s, (uint64_t)skin->n_joints << 8 | skin->per_vertex);
+    for (uint32_t i = 0; i < skin->n_joints; i++) {
+        const gn_affine *joint = &skin->joint[i];
+        s = gn_signature_words(s, &joint->m_q30[0][0], 9);
+        s = gn_signature_words(s, joint->t_q16, 3);
+        s = gn_signature_add(s, (uint32_t)joint->exp);
+    }
+    return s;
+}
+#endif
+
 static uint64_t object_signature(uint64_t s, const gn_object *object)
 {
     const gn_mesh *mesh = object->mesh;
@@ -36,6 +53,9 @@ static uint64_t object_signature(uint64_t s, const gn_object *object)
     s = gn_signature_words(s, object->to_world.t_q16, 3);
     s = gn_signature_add(s, (uint64_t)(uint32_t)object->to_world.exp << 32 |
                                 (object->flags & ~(uint32_t)GN_OBJECT_HIDDEN));
+#if GN_VERTEX_JOINTS
+    if (object->skin) s = skin_signature(s, object->skin);
+#endif
     if (!GN_CASTER_ALPHA || object->caster_alpha == GN_ALPHA_OPAQUE) return s;
     s = gn_signature_add(s, (uint64_t)object->alpha_uq16 << 32 | object->alpha_cutoff_uq16);
     if (!object->texture) return s;

@@ -277,10 +277,8 @@ void gn_ortho_compose(gn_xform *out, const gn_light_view *view, const gn_object 
     out->shift -= view->fit.ortho.inv_texel.exp + 32;
 }
 
-void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
+void gn_ortho_point(int64_t out[3], const gn_xform *xform, const int32_t p[3])
 {
-    const gn_position *at = mesh->pos + 3 * (size_t)vertex_idx;
-    const int32_t p[3] = {at[0], at[1], at[2]};
     for (int r = 0; r < 3; r++) {
         /* both terms below 2^60 */
         const int64_t limit = (int64_t)1 << 60;

@@ -26,7 +26,7 @@ int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_
 
 /* Object space to tile coordinates U, V, D in texels, Q16, |.| <= 2^46. */
 void gn_ortho_compose(gn_xform *out, const gn_light_view *view, const gn_object *object);
-void gn_ortho_vertex(int64_t out[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx);
+void gn_ortho_point(int64_t out[3], const gn_xform *xform, const int32_t p[3]);
 
 /* Draws a triangle into the view's tile. Returns the number of texels it covers, -1 if it is culled. */
 int32_t gn_ortho_triangle(const gn_frame *frame, const gn_light_view *view, gn_casting *casting, gn_alpha_cut *alpha);

@@ -1,4 +1,7 @@
-/* Receivers that the camera sees, per view: their boxes, clipped by the frustum and the view's depths. [D12] [A7] */
+/* Receivers that the camera sees, per view: their boxes, cut by the frustum and the view's depths. [D12] [A7]
+ *
+ * The corners of what a box and a part of the frustum have in common lie on edges of the one inside of the other, so
+ * both are eight corners and twelve edges, and each cuts the other's. */
 #include "gn_internal.h"
 
 #include "base/gn_math.h"
@@ -9,119 +12,176 @@
 #include "shadow/gn_persp.h"
 #include "shadow/gn_seen.h"
 
-/* ---- Planes in view space, and polygons that they cut ------------------------------------------------------------ */
+/* ---- Boxes and parts of the frustum, from the camera --------------------------------------------------------------
+ */
 
-#define BOX_LIMIT ((1 << 30) - 1)
+#define COORD_LIMIT ((1 << 30) - 1) /* differences fit 32 bits */
 
-typedef gn_seen_job clip_job;
-
-static int64_t plane_distance(const gn_seen_plane *a, const int32_t p[3])
+static int32_t limited(int64_t v)
 {
-    return gn_dot64(a->n, p) - a->d; /* 2^61 */
+    return (int32_t)gn_clamp64(v, -COORD_LIMIT, COORD_LIMIT);
 }
 
-static void clip(gn_seen_polygon *now, gn_seen_polygon *before, const gn_seen_plane *by)
+/* Half the frustum's width or height at view depth z, 2^(31 + 23). */
+static int64_t half_width_q32(const gn_frame *frame, uint32_t k, int32_t z_q16)
 {
-    *before = *now;
-    now->n = 0;
-    for (int32_t i = 0; i < before->n; i++) {
-        const int32_t *a = before->p[i], *b = before->p[i + 1 < before->n ? i + 1 : 0];
-        int64_t da = plane_distance(by, a), db = plane_distance(by, b);
-        if (da >= 0 && now->n < GN_SEEN_CORNERS) {
-            for (int k = 0; k < 3; k++) now->p[now->n][k] = a[k];
-            now->n++;
-        }
-        if ((da >= 0) == (db >= 0) || now->n == GN_SEEN_CORNERS) continue;
-        gn_bfloat per = gn_bf_recip(gn_bf_from_u64(gn_abs64(da) + gn_abs64(db)));
-        int64_t t_q31 = gn_bf_apply((int64_t)gn_abs64(da), per, 31);
-        for (int k = 0; k < 3; k++) /* differences below 2^31 */
-            now->p[now->n][k] = (int32_t)(a[k] + gn_shr64(((int64_t)b[k] - a[k]) * t_q31, 31));
-        now->n++;
-    }
+    int32_t flat_q16 = GN_FLAT_Q16(frame);
+    return (int64_t)(flat_q16 ? flat_q16 : z_q16) * frame->cam.tan_q16[k];
 }
 
-static void set_plane(gn_seen_plane *out, int32_t x, int32_t y, int32_t z, int64_t d)
-{
-    out->n[0] = x, out->n[1] = y, out->n[2] = z;
-    out->d = d;
-}
-
-/* View depths first .. last of the frustum. */
-static void set_part(clip_job *job, int32_t first_q16, int32_t last_q16)
+/* View depths first .. last of the frustum: its corners. Bits 0, 1, 2: right, top, far. */
+static void begin_frustum(gn_seen_job *job, int32_t first_q16, int32_t last_q16)
 {
     const gn_cam *cam = &job->frame->cam;
-    set_plane(&job->side[0], 0, 0, 65536, (int64_t)first_q16 * 65536);
-    set_plane(&job->side[1], 0, 0, -65536, -(int64_t)last_q16 * 65536);
-    set_plane(&job->side[2], 65536, 0, cam->tan_q16[0], 0);
-    set_plane(&job->side[3], -65536, 0, cam->tan_q16[0], 0);
-    set_plane(&job->side[4], 0, 65536, cam->tan_q16[1], 0);
-    set_plane(&job->side[5], 0, -65536, cam->tan_q16[1], 0);
-}
-
-/* The box in view space. Returns 0 if it lies outside of one side. */
-static int begin_object(clip_job *job, const gn_object_state *object)
-{
-    const gn_cam *cam = &job->frame->cam;
-    uint32_t all = ~0U;
-    int32_t from[3];
-    for (int k = 0; k < 3; k++) from[k] = gn_sat32((int64_t)object->centre_q16[k] - cam->eye_q16[k]);
-    job->crossed = 0;
-    for (int i = 0; i < 8; i++) {
-        uint32_t out = 0;
-        for (int j = 0; j < 3; j++) {
-            const int32_t *axis = cam->axis_q30[j];
-            int64_t sum = gn_dot_q30(axis, from);
-            for (int k = 0; k < 3; k++) {
-                int64_t along = gn_shr64((int64_t)axis[k] * object->half_q16[k], 30);
-                sum += i >> k & 1 ? along : -along;
-            }
-            job->corner[i][j] = (int32_t)gn_clamp64(sum, -BOX_LIMIT, BOX_LIMIT);
+    job->depth_q16[0] = first_q16;
+    job->depth_q16[1] = last_q16;
+    for (uint32_t i = 0; i < 8; i++) {
+        int32_t *at = job->part[i], p[3];
+        at[2] = limited(job->depth_q16[i >> 2]);
+        for (uint32_t k = 0; k < 2; k++) {
+            int32_t wide = limited(gn_shr64(half_width_q32(job->frame, k, at[2]), 16));
+            at[k] = i >> k & 1 ? wide : -wide;
         }
-        for (uint32_t s = 0; s < GN_SEEN_SIDES; s++)
-            if (plane_distance(&job->side[s], job->corner[i]) < 0) out |= 1U << s;
-        job->crossed |= out;
-        all &= out;
-    }
-    return all == 0;
-}
-
-/* Face f of the box: axis f / 2, at its lower or upper end, clipped by the sides that cut the box. */
-static void begin_face(clip_job *job, uint32_t f)
-{
-    uint32_t a = f >> 1, b = a == 2 ? 0 : a + 1, c = b == 2 ? 0 : b + 1, end = (f & 1U) << a;
-    const uint32_t idx[4] = {end, end | 1U << b, end | 1U << b | 1U << c, end | 1U << c};
-    job->now.n = 4;
-    for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 3; k++) job->now.p[i][k] = job->corner[idx[i]][k];
-    for (uint32_t s = 0; s < GN_SEEN_SIDES && job->now.n; s++)
-        if (job->crossed >> s & 1U) clip(&job->now, &job->before, &job->side[s]);
-}
-
-/* Those of the eight corners of the frustum's part that lie in the box, as a polygon of points. */
-static void frustum_corners(clip_job *job, const gn_object_state *object)
-{
-    const gn_cam *cam = &job->frame->cam;
-    job->now.n = 0;
-    for (int i = 0; i < 8; i++) {
-        int32_t z = (int32_t)(gn_shr64(i & 4 ? -job->side[1].d : job->side[0].d, 16)), *p = job->now.p[job->now.n];
-        int inside = 1;
-        for (int k = 0; k < 2; k++) {
-            int64_t wide = gn_clamp64(gn_shr64((int64_t)z * cam->tan_q16[k], 16), 0, BOX_LIMIT);
-            p[k] = (int32_t)(i >> k & 1 ? wide : -wide);
-        }
-        p[2] = z;
         for (int k = 0; k < 3; k++) {
-            int64_t at = cam->eye_q16[k] - (int64_t)object->centre_q16[k];
-            for (int j = 0; j < 3; j++) at += gn_shr64((int64_t)p[j] * cam->axis_q30[j][k], 30);
-            if ((int64_t)gn_abs64(at) > object->half_q16[k]) inside = 0;
+            int64_t sum = 0;
+            for (int j = 0; j < 3; j++) sum += gn_shr64((int64_t)at[j] * cam->axis_q30[j][k], 30);
+            job->part_world[i][k] = p[k] = limited(sum);
         }
-        job->now.n += inside;
+        for (int k = 0; k < 3; k++) at[3 + k] = limited(gn_dot_q30(job->axis_q30[k], p));
     }
 }
 
-static int is_seen(const gn_object *object)
+/* Along an axis: the middle of the box, per axis of the world half of it, and its bounds. */
+static void project_box(gn_seen_job *job, const int32_t axis_q30[3], uint32_t to)
 {
-    return (object->flags & GN_OBJECT_RECEIVES) && !(object->flags & (GN_OBJECT_HIDDEN | GN_OBJECT_UNLIT));
+    int32_t *half = job->half[to];
+    int64_t middle = gn_dot_q30(axis_q30, job->from), wide = 0;
+    for (int j = 0; j < 3; j++) {
+        half[j] = limited(gn_shr64((int64_t)axis_q30[j] * job->object->half_q16[j], 30));
+        wide += (int64_t)gn_abs32(half[j]);
+    }
+    job->middle[to] = limited(middle);
+    job->lo[to] = limited(middle - wide);
+    job->hi[to] = limited(middle + wide);
+}
+
+/* How far a corner of the box is inside of a side of the part: near, far, left, right, bottom, top. 2^55 */
+static int64_t inside_part(const gn_seen_job *job, uint32_t corner, uint32_t side)
+{
+    const int32_t *at = job->box[corner];
+    if (side < 2) return side ? (int64_t)job->depth_q16[1] - at[2] : (int64_t)at[2] - job->depth_q16[0];
+    int64_t along = (int64_t)at[(side >> 1) - 1] * 65536;
+    return half_width_q32(job->frame, (side >> 1) - 1, at[2]) + (side & 1 ? -along : along);
+}
+
+/* The same of a corner of the part and the box's sides. */
+static int64_t inside_box(const gn_seen_job *job, uint32_t corner, uint32_t side)
+{
+    int64_t along = (int64_t)job->part_world[corner][side >> 1] - job->from[side >> 1];
+    return job->object->half_q16[side >> 1] + (side & 1 ? -along : along);
+}
+
+/* ---- What both have in common ------------------------------------------------------------------------------------ */
+
+static void widen(gn_seen_job *job, const int32_t at[6])
+{
+    for (int k = 0; k < 6; k++) {
+        job->lo[k] = gn_min32(job->lo[k], at[k]);
+        job->hi[k] = gn_max32(job->hi[k], at[k]);
+    }
+}
+
+typedef int64_t inside_fn(const gn_seen_job *job, uint32_t corner, uint32_t side);
+
+/* The edge from corner a to corner b; `crossed`: the sides that one of them is outside of. */
+static void cut_edge(gn_seen_job *job, inside_fn *inside, const int32_t (*corner)[6], const uint32_t ab[2],
+                     uint32_t crossed)
+{
+    int64_t t_q31[2] = {0, (int64_t)1 << 31};
+    for (uint32_t s = 0; s < 6; s++) {
+        if (!(crossed >> s & 1U)) continue;
+        int64_t da = inside(job, ab[0], s), db = inside(job, ab[1], s);
+        gn_bfloat per = gn_bf_recip(gn_bf_from_u64(gn_abs64(da) + gn_abs64(db)));
+        int64_t at_q31 = gn_bf_apply((int64_t)gn_abs64(da), per, 31);
+        if (da < 0 && at_q31 > t_q31[0]) t_q31[0] = at_q31;
+        if (da >= 0 && at_q31 < t_q31[1]) t_q31[1] = at_q31;
+    }
+    if (t_q31[0] > t_q31[1]) return;
+    for (int e = 0; e < 2; e++) {
+        int32_t at[6];
+        for (int k = 0; k < 6; k++) {
+            int64_t way = (int64_t)corner[ab[1]][k] - corner[ab[0]][k]; /* 2^31 */
+            at[k] = corner[ab[0]][k] + (int32_t)gn_shr64(way * t_q31[e], 31);
+        }
+        widen(job, at);
+    }
+}
+
+/* `sides`: those that corners may be outside of. */
+static void cut_edges(gn_seen_job *job, inside_fn *inside, const int32_t (*corner)[6], uint32_t sides)
+{
+    uint32_t out[8];
+    for (uint32_t i = 0; i < 8; i++) {
+        out[i] = 0;
+        for (uint32_t s = 0; s < 6; s++)
+            if ((sides >> s & 1U) && inside(job, i, s) < 0) out[i] |= 1U << s;
+    }
+    for (uint32_t i = 0; i < 8; i++)
+        for (uint32_t bit = 1; bit < 8; bit <<= 1) {
+            const uint32_t ab[2] = {i, i | bit};
+            if (!(i & bit) && !(out[i] & out[i | bit])) cut_edge(job, inside, corner, ab, out[i] | out[i | bit]);
+        }
+}
+
+/* Sides of the part that may cut the box, by its bounds along the camera's axes. Returns 0 if it is outside of one. */
+static int against_part(gn_seen_job *job, uint32_t *sides)
+{
+    project_box(job, job->frame->cam.axis_q30[2], 2);
+    if (job->hi[2] < job->depth_q16[0] || job->lo[2] > job->depth_q16[1]) return 0;
+    *sides = (job->lo[2] < job->depth_q16[0] ? 1U : 0U) | (job->hi[2] > job->depth_q16[1] ? 2U : 0U);
+    for (uint32_t k = 0; k < 2; k++) {
+        project_box(job, job->frame->cam.axis_q30[k], k);
+        int64_t lo = -(int64_t)job->lo[k] * 65536, hi = (int64_t)job->hi[k] * 65536;
+        int64_t least = half_width_q32(job->frame, k, job->lo[2]), most = half_width_q32(job->frame, k, job->hi[2]);
+        if (-lo > most || -hi > most) return 0;
+        *sides |= (lo > least ? 4U : 0U) << 2 * k | (hi > least ? 8U : 0U) << 2 * k;
+    }
+    return 1;
+}
+
+/* Of what is not certain: the bounds, from the corners of box and part. */
+static void find_bounds(gn_seen_job *job, uint32_t sides)
+{
+    for (uint32_t i = 0; i < 8; i++)
+        for (uint32_t k = 0; k < 6; k++) {
+            int64_t sum = job->middle[k];
+            for (int j = 0; j < 3; j++) sum += i >> j & 1 ? job->half[k][j] : -(int64_t)job->half[k][j];
+            job->box[i][k] = limited(sum);
+        }
+    for (int k = 0; k < 6; k++) job->lo[k] = INT32_MAX, job->hi[k] = INT32_MIN;
+    cut_edges(job, inside_part, (const int32_t(*)[6])job->box, sides);
+    cut_edges(job, inside_box, (const int32_t(*)[6])job->part, 63);
+}
+
+/* Bounds of what is seen of an object, along the axes of camera and light, that are not within `known` of the light's
+ * already. Returns 0 if nothing is. */
+static int see_object(gn_seen_job *job, uint32_t object_idx, const gn_view_seen *known)
+{
+    const gn_frame *frame = job->frame;
+    const gn_object *object = &frame->scene->objects[object_idx];
+    if (!(object->flags & GN_OBJECT_RECEIVES) || (object->flags & (GN_OBJECT_HIDDEN | GN_OBJECT_UNLIT))) return 0;
+    job->object = &frame->object[object_idx];
+    for (int k = 0; k < 3; k++) job->from[k] = gn_sat32((int64_t)job->object->centre_q16[k] - frame->cam.eye_q16[k]);
+    uint32_t sides;
+    if (!against_part(job, &sides)) return 0;
+    int new = !known;
+    for (uint32_t k = 0; k < 3; k++) {
+        project_box(job, job->axis_q30[k], 3 + k);
+        if (known) new |= job->lo[3 + k] < known->lo_q16[k] || job->hi[3 + k] > known->hi_q16[k];
+    }
+    if (!new || !sides) return new;
+    find_bounds(job, sides);
+    return job->lo[0] <= job->hi[0];
 }
 
 /* ---- Directional views ------------------------------------------------------------------------------------------- */
@@ -131,11 +191,15 @@ static int32_t blend_begins_q16(const gn_frame *frame, const gn_cascade_state *c
 {
     uint64_t k2_q24 = (uint64_t)frame->tan2_q24, fade_uq16 = frame->scene->shadow.cascade_fade_uq16;
     if (fade_uq16 > 57344) return 0; /* 7/8: the slice's nearest points may be outside, too */
-    /* (1 + k^2) d^2 - 2 c d + c^2 - ((1 - fade) r)^2 = 0; all below 2^30 */
-    int64_t c = cascade->centre_q16,
+    int64_t c = cascade->centre_q16, flat = GN_FLAT_Q16(frame), limit = (int64_t)1 << 62,
             inner = (int64_t)((uint64_t)gn_isqrt64(cascade->radius2_q32) * (65536 - fade_uq16) >> 16);
-    int64_t rest = c * c - inner * inner, limit = (int64_t)1 << 62;
-    int64_t under = c * c - rest - gn_clamp64(gn_bf_apply(rest, gn_bf_from_u64(k2_q24 | 1U), -24), -limit, limit);
+    gn_bfloat k2 = gn_bf_from_u64(k2_q24 | 1U);
+    if (flat) { /* (d - c)^2 = ((1 - fade) r)^2 - k^2 flat^2 */
+        int64_t under = inner * inner - gn_clamp64(gn_bf_apply(flat * flat, k2, -24), 0, limit);
+        return under > 0 ? (int32_t)gn_clamp64(c + gn_isqrt64((uint64_t)under), 0, INT32_MAX) : 0;
+    }
+    /* (1 + k^2) d^2 - 2 c d + c^2 - ((1 - fade) r)^2 = 0; all below 2^30 */
+    int64_t rest = c * c - inner * inner, under = c * c - rest - gn_clamp64(gn_bf_apply(rest, k2, -24), -limit, limit);
     if (under <= 0) return 0;
     gn_bfloat per = gn_bf_recip(gn_bf_from_u64(((uint64_t)1 << 24) + k2_q24));
     return (int32_t)gn_clamp64(gn_bf_apply(c + gn_isqrt64((uint64_t)under), per, 24), 0, INT32_MAX);
@@ -145,178 +209,125 @@ static int32_t blend_begins_q16(const gn_frame *frame, const gn_cascade_state *c
 static void cascade_depths(const gn_frame *frame, uint32_t idx, int32_t *first_q16, int32_t *last_q16)
 {
     const gn_cascade_state *cascade = &frame->cascade[idx];
-    int32_t end_q16;
-    int64_t most = frame->scene->shadow.max_distance_q16;
     int64_t last = (int64_t)cascade->centre_q16 + (int64_t)gn_isqrt64(cascade->radius2_q32) + 1;
-    *first_q16 = frame->scene->camera.near_q16;
-    *last_q16 = (int32_t)(last < most ? last : most);
+    *last_q16 = (int32_t)gn_clamp64(last, 0, *last_q16);
     for (uint32_t i = idx; i-- > 0;) {
+        int32_t begin_q16, end_q16;
         if (!frame->cascade[i].radius2_q32) continue;
-        if (frame->scene->shadow.blend == GN_BLEND_HARD) {
-            int32_t begin_q16;
-            gn_cascade_slice(frame, i, &begin_q16, &end_q16);
-        } else end_q16 = blend_begins_q16(frame, &frame->cascade[i]);
+        if (frame->scene->shadow.blend == GN_BLEND_HARD) gn_cascade_slice(frame, i, &begin_q16, &end_q16);
+        else end_q16 = blend_begins_q16(frame, &frame->cascade[i]);
         *first_q16 = gn_max32(*first_q16, end_q16 - (end_q16 >> 6)); /* less, for the last pixels of a slice */
         return;
     }
 }
 
-static void widen(gn_view_seen *seen, int32_t axis_q30[3][3], const gn_seen_polygon *points)
+/* Pixels that so much across and up would show, face on: e_x e_y (F / z)^2, Q16. 2^48, and up to 2^16 objects. */
+static uint64_t pixels_q16(const gn_frame *frame, int64_t x_q16, int64_t y_q16, int64_t twice_z_q16)
 {
-    for (int32_t i = 0; i < points->n; i++)
-        for (int k = 0; k < 3; k++) {
-            int32_t at = gn_sat32(gn_dot_q30(axis_q30[k], points->p[i]));
-            seen->lo_q16[k] = gn_min32(seen->lo_q16[k], at);
-            seen->hi_q16[k] = gn_max32(seen->hi_q16[k], at);
-        }
-}
-
-/* Of a box that no side cuts: its corners. */
-static void widen_by_box(clip_job *job, gn_view_seen *seen, int32_t axis_q30[3][3])
-{
-    for (int i = 0; i < 8; i++)
-        for (int k = 0; k < 3; k++) job->now.p[i][k] = job->corner[i][k];
-    job->now.n = 8;
-    widen(seen, axis_q30, &job->now);
-}
-
-/* Pixels that the box would show, face on: texels that it is worth. e_u e_v (F / z)^2, Q8, z the middle depth. */
-static void directional_worth(const gn_frame *frame, gn_view_seen *seen, int32_t first_q16, int32_t last_q16)
-{
-    gn_bfloat per_z = gn_bf_recip(gn_bf_from_u64((uint64_t)(((int64_t)first_q16 + last_q16) >> 1) | 1U));
+    int64_t flat_q16 = GN_FLAT_Q16(frame), most = 1 << 24;
+    gn_bfloat per_z = gn_bf_recip(gn_bf_from_u64((uint64_t)(flat_q16 ? flat_q16 : twice_z_q16 >> 1) | 1U));
     per_z = gn_bf_mul(per_z, gn_bf_from_u64(frame->cam.focal2_px_q16)); /* 2F in Q16 over z in Q16 */
-    uint64_t size[2];
-    for (int k = 0; k < 2; k++)
-        size[k] = (uint64_t)gn_clamp64(gn_bf_apply((int64_t)seen->hi_q16[k] - seen->lo_q16[k], per_z, -17 + 8), 1,
-                                       (int64_t)1 << 31);
-    seen->worth_q16 = size[0] * size[1];
+    return (uint64_t)gn_clamp64(gn_bf_apply(x_q16, per_z, -17 + 8), 1, most) *
+           (uint64_t)gn_clamp64(gn_bf_apply(y_q16, per_z, -17 + 8), 1, most);
 }
 
-static void see_directional(clip_job *job, gn_view_seen *seen, int32_t axis_q30[3][3])
+static void see_directional(gn_seen_job *job, gn_view_seen *seen)
 {
     const gn_frame *frame = job->frame;
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
-        const gn_object_state *object = &frame->object[o];
-        if (!is_seen(&frame->scene->objects[o]) || !begin_object(job, object)) continue;
-        if (!job->crossed) {
-            widen_by_box(job, seen, axis_q30);
-            continue;
+        if (!see_object(job, o, seen)) continue;
+        for (int k = 0; k < 3; k++) {
+            seen->lo_q16[k] = gn_min32(seen->lo_q16[k], job->lo[3 + k]);
+            seen->hi_q16[k] = gn_max32(seen->hi_q16[k], job->hi[3 + k]);
         }
-        for (uint32_t f = 0; f < 6; f++) {
-            begin_face(job, f);
-            widen(seen, axis_q30, &job->now);
-        }
-        frustum_corners(job, object);
-        widen(seen, axis_q30, &job->now);
     }
-}
-
-/* The light's axes in view space. */
-static void axes_in_view(const gn_frame *frame, const gn_light *light, int32_t out_q30[3][3])
-{
-    int64_t direction[3] = {light->direction[0], light->direction[1], light->direction[2]};
-    int32_t w[3], axis[3][3];
-    gn_normalise_q30(w, direction);
-    gn_light_view_axes(axis, w);
-    for (int k = 0; k < 3; k++)
-        for (int j = 0; j < 3; j++) out_q30[k][j] = (int32_t)gn_dot_q30(frame->cam.axis_q30[j], axis[k]);
+    if (!gn_seen_any(seen)) return;
+    seen->worth_q16 =
+        pixels_q16(frame, (int64_t)seen->hi_q16[0] - seen->lo_q16[0], (int64_t)seen->hi_q16[1] - seen->lo_q16[1],
+                   (int64_t)job->depth_q16[0] + job->depth_q16[1]);
 }
 
 /* ---- Views of spot and point lights ------------------------------------------------------------------------------ */
 
 #if GN_PUNCTUAL_LIGHTS
-/* The four sides of a spot's cone or of the part of space whose points a face of a cube is chosen for. */
-static void pyramid(const gn_frame *frame, uint32_t light_idx, uint32_t face, gn_seen_plane out[4])
+/* Bounds of an object from the light, along the axes of a face or of a spot: z is into it. |.| < 2^32 */
+typedef struct {
+    int64_t lo[3], hi[3];
+} face_box;
+
+static void face_bounds(const gn_seen_job *job, uint32_t face, face_box *box)
 {
-    const gn_light *light = &frame->scene->lights[light_idx];
-    const gn_light_state *state = &frame->light[light_idx];
-    int32_t w[3], axis[3][3];
-    int64_t deep = (int64_t)1 << 30, wide = deep; /* wide: |x| <= deep / wide z */
-    if (light->kind == GN_LIGHT_SPOT) {           /* tan(a / 2) = sin a / (1 + cos a) */
-        deep = gn_sin_q30(light->outer_turn);
-        wide = ((int64_t)1 << 30) + gn_cos_q30(light->outer_turn);
-        for (int k = 0; k < 3; k++) w[k] = -state->to_light_q30[k];
-    } else gn_persp_face_axis(w, (int32_t)face);
-    gn_light_view_axes(axis, w);
-    for (int s = 0; s < 4; s++) {
-        int32_t normal[3];            /* world */
-        for (int k = 0; k < 3; k++) { /* 2^61 + 2^60 to 2^28 */
-            int64_t across = wide * axis[s >> 1][k];
-            normal[k] = (int32_t)gn_shr64(deep * w[k] + (s & 1 ? across : -across), 34);
-        }
-        for (int j = 0; j < 3; j++) out[s].n[j] = (int32_t)gn_dot_q30(frame->cam.axis_q30[j], normal);
-        out[s].d = gn_dot64(out[s].n, state->eye_q16);
+    uint32_t z = face >> 1;
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t axis = z + 1 + k < 3 ? z + 1 + k : z + k - 2;
+        int64_t lo = (int64_t)job->lo[3 + axis] - job->light_q16[axis],
+                hi = (int64_t)job->hi[3 + axis] - job->light_q16[axis];
+        int turned = k == 2 && (face & 1);
+        box->lo[k] = turned ? -hi : lo;
+        box->hi[k] = turned ? -lo : hi;
     }
 }
 
-/* The polygon on the screen, px^2, Q16. */
-static uint64_t area_q16(const gn_frame *frame, const gn_seen_polygon *shape)
+/* Of `pixels`, what of a box lies between the bounds lo and hi of one of its axes. */
+static uint64_t ratio_of(uint64_t pixels_q16, int64_t whole, int64_t lo, int64_t hi)
 {
-    int64_t sum = 0;
-    int32_t first[2] = {0, 0}, before[2] = {0, 0};
-    for (int32_t i = 0; i <= shape->n; i++) {
-        int32_t at[2];
-        const int32_t *p = shape->p[i < shape->n ? i : 0];
-        gn_bfloat scale = gn_bf_recip(gn_bf_from_u64((uint64_t)(uint32_t)gn_max32(p[2], 1)));
-        scale = gn_bf_mul(scale, gn_bf_from_u64(frame->cam.focal2_px_q16));
-        for (int k = 0; k < 2; k++) at[k] = (int32_t)gn_clamp64(gn_bf_apply(p[k], scale, -17 + 8), -(1 << 20), 1 << 20);
-        if (i == 0) first[0] = at[0], first[1] = at[1];
-        sum +=
-            (int64_t)(before[0] - first[0]) * (at[1] - first[1]) - (int64_t)(before[1] - first[1]) * (at[0] - first[0]);
-        before[0] = at[0], before[1] = at[1];
+    int64_t part = hi > lo ? hi - lo : 1;
+    if (part >= whole) return pixels_q16;
+    gn_bfloat ratio = gn_bf_recip(gn_bf_from_u64((uint64_t)whole));
+    ratio = gn_bf_mul(ratio, gn_bf_from_u64((uint64_t)part));
+    return (uint64_t)gn_bf_apply((int64_t)pixels_q16, ratio, 0);
+}
+
+/* What of the box is in the pyramid |x|, |y| <= t z, by bounds along the axes. */
+static void see_face(const gn_seen_job *job, const face_box *box, uint64_t pixels_q16, gn_view_seen *seen)
+{
+    int64_t first = box->lo[2] > 0 ? box->lo[2] : 0, limit = gn_bf_apply(box->hi[2], job->tangent, 0), off = 0;
+    if (box->hi[2] <= 0) return;
+    for (int k = 0; k < 2; k++) {
+        if (box->lo[k] > off) off = box->lo[k];
+        if (-box->hi[k] > off) off = -box->hi[k];
     }
-    return gn_abs64(sum) >> 1;
+    if (off > limit) return;
+    off = gn_bf_apply(off, gn_bf_recip(job->tangent), 0);
+    if (off > first) first = off;
+    pixels_q16 = ratio_of(pixels_q16, box->hi[2] - box->lo[2], first, box->hi[2]);
+    for (int k = 0; k < 2; k++)
+        pixels_q16 = ratio_of(pixels_q16, box->hi[k] - box->lo[k], box->lo[k] > -limit ? box->lo[k] : -limit,
+                              box->hi[k] < limit ? box->hi[k] : limit);
+    seen->worth_q16 += pixels_q16;
+    seen->lo_q16[0] = seen->hi_q16[0] = 0;
 }
 
-/* Sides of the pyramid that some point is inside of, a bit each; *all: those that all points are inside of. */
-static uint32_t inside_of(const gn_seen_plane side[4], const gn_seen_polygon *points, uint32_t *all)
-{
-    uint32_t any = 0;
-    *all = 15;
-    for (int32_t i = 0; i < points->n; i++) {
-        uint32_t in = 0;
-        for (uint32_t s = 0; s < 4; s++)
-            if (plane_distance(&side[s], points->p[i]) >= 0) in |= 1U << s;
-        any |= in;
-        *all &= in;
-    }
-    return any;
-}
-
-/* A face of the box, or what of it the pyramid holds. */
-static uint32_t see_face(clip_job *job, gn_view_seen *seen, const gn_seen_plane side[4])
-{
-    uint32_t all, any = inside_of(side, &job->now, &all);
-    if (any != 15) return any;
-    for (uint32_t s = 0; s < 4 && job->now.n; s++)
-        if (!(all >> s & 1U)) clip(&job->now, &job->before, &side[s]);
-    if (job->now.n >= 3) seen->worth_q16 += area_q16(job->frame, &job->now);
-    return any;
-}
-
-static void see_punctual(clip_job *job, gn_view_seen *seen, uint32_t light_idx, uint32_t face)
+static void see_punctual(gn_seen_job *job, gn_view_seen *seen, uint32_t light_idx, uint32_t n_views)
 {
     const gn_frame *frame = job->frame;
-    gn_seen_plane side[4];
-    pyramid(frame, light_idx, face, side);
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
-        const gn_object_state *object = &frame->object[o];
-        if (!is_seen(&frame->scene->objects[o]) || !gn_light_reaches(frame, light_idx, o)) continue;
-        if (!begin_object(job, object)) continue;
-        uint32_t all, any;
-        for (int i = 0; i < 8; i++)
-            for (int k = 0; k < 3; k++) job->now.p[i][k] = job->corner[i][k];
-        job->now.n = 8;
-        if (inside_of(side, &job->now, &all) != 15) continue;
-        any = 0;
-        for (uint32_t f = 0; f < 6; f++) {
-            begin_face(job, f);
-            any |= see_face(job, seen, side);
+        if (!gn_light_reaches(frame, light_idx, o) || !see_object(job, o, NULL)) continue;
+        uint64_t pixels = pixels_q16(frame, (int64_t)job->hi[0] - job->lo[0], (int64_t)job->hi[1] - job->lo[1],
+                                     (int64_t)job->lo[2] + job->hi[2]);
+        for (uint32_t f = 0; f < n_views; f++) {
+            face_box box;
+            face_bounds(job, n_views > 1 ? f : 4, &box);
+            see_face(job, &box, pixels, &seen[f]);
         }
-        frustum_corners(job, object);
-        any |= inside_of(side, &job->now, &all);
-        if (any == 15) seen->lo_q16[0] = seen->hi_q16[0] = 0;
     }
+}
+
+/* Axes of a spot, or of the world, and half the view's width at distance 1. */
+static void begin_punctual(gn_seen_job *job, uint32_t light_idx)
+{
+    const gn_light *light = &job->frame->scene->lights[light_idx];
+    int32_t w[3] = {0, 0, 1 << 30};
+    int64_t deep = (int64_t)1 << 30, wide = deep;
+    if (light->kind == GN_LIGHT_SPOT) { /* tan(a / 2) = sin a / (1 + cos a) */
+        wide = gn_sin_q30(light->outer_turn);
+        deep += gn_cos_q30(light->outer_turn);
+        for (int k = 0; k < 3; k++) w[k] = -job->frame->light[light_idx].to_light_q30[k];
+    }
+    gn_light_view_axes(job->axis_q30, w);
+    job->tangent = gn_bf_mul(gn_bf_from_u64((uint64_t)wide), gn_bf_recip(gn_bf_from_u64((uint64_t)deep)));
+    for (int k = 0; k < 3; k++) job->from[k] = gn_sat32((int64_t)light->position_q16[k] - job->frame->cam.eye_q16[k]);
+    for (int k = 0; k < 3; k++) job->light_q16[k] = limited(gn_dot_q30(job->axis_q30[k], job->from));
 }
 #endif
 
@@ -328,33 +339,42 @@ static void forget(gn_view_seen *seen)
     seen->worth_q16 = 0;
 }
 
-static void see_view(clip_job *job, gn_view_seen *seen, uint32_t light_idx, const gn_tile_plan *plan, uint32_t view_idx)
+static void see_light(gn_seen_job *job, gn_view_seen *seen, uint32_t light_idx, const gn_tile_plan *plan)
 {
     const gn_frame *frame = job->frame;
     const gn_light *light = &frame->scene->lights[light_idx];
-    int32_t first_q16 = frame->scene->camera.near_q16, last_q16 = frame->scene->shadow.max_distance_q16, axis[3][3];
-    forget(seen);
-    if (plan->cascaded && !frame->cascade[view_idx].radius2_q32) return;
-    if (plan->cascaded) cascade_depths(frame, view_idx, &first_q16, &last_q16);
-    if (first_q16 >= last_q16) return;
-    set_part(job, first_q16, last_q16);
 #if GN_PUNCTUAL_LIGHTS
     if (light->kind != GN_LIGHT_DIRECTIONAL) {
-        see_punctual(job, seen, light_idx, view_idx);
+        if (!GN_BY_WORTH(frame) || frame->scene->camera.near_q16 >= frame->scene->shadow.max_distance_q16) return;
+        begin_punctual(job, light_idx);
+        begin_frustum(job, frame->scene->camera.near_q16, frame->scene->shadow.max_distance_q16);
+        see_punctual(job, seen, light_idx, plan->n_tiles);
         return;
     }
 #endif
-    axes_in_view(frame, light, axis);
-    see_directional(job, seen, axis);
-    if (gn_seen_any(seen)) directional_worth(frame, seen, first_q16, last_q16);
+    int64_t direction[3] = {light->direction[0], light->direction[1], light->direction[2]};
+    int32_t w[3];
+    gn_normalise_q30(w, direction);
+    gn_light_view_axes(job->axis_q30, w);
+    for (uint32_t i = 0; i < plan->n_tiles; i++) {
+        int32_t first_q16 = frame->scene->camera.near_q16, last_q16 = frame->scene->shadow.max_distance_q16;
+        if (plan->cascaded && !frame->cascade[i].radius2_q32) continue;
+        if (plan->cascaded) cascade_depths(frame, i, &first_q16, &last_q16);
+        if (first_q16 >= last_q16) continue;
+        begin_frustum(job, first_q16, last_q16);
+        see_directional(job, &seen[i]);
+    }
 }
 
 void gn_seen_find(gn_frame *frame, gn_seen_job *job, const gn_tile_plan *plan)
 {
     uint32_t view_idx = 0;
     job->frame = frame;
-    for (uint32_t l = 0; l < frame->scene->n_lights; l++)
-        for (uint32_t i = 0; i < plan[l].n_tiles; i++) see_view(job, &frame->seen[view_idx++], l, &plan[l], i);
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        for (uint32_t i = 0; i < plan[l].n_tiles; i++) forget(&frame->seen[view_idx + i]);
+        if (plan[l].n_tiles) see_light(job, &frame->seen[view_idx], l, &plan[l]);
+        view_idx += plan[l].n_tiles;
+    }
 }
 
 int32_t gn_seen_level(const gn_view_seen *seen, uint32_t in_other)

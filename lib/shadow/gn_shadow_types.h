@@ -25,27 +25,23 @@ typedef struct {
     uint16_t side;                /* of its tile, by worth; 0: none */
 } gn_view_seen;
 
-#define GN_SEEN_CORNERS 16 /* a face of a box against ten planes, of which two cannot both cut */
-#define GN_SEEN_SIDES   6  /* of a part of the frustum: near, far, left, right, bottom, top */
-
-typedef struct {
-    int32_t p[GN_SEEN_CORNERS][3];
-    int32_t n;
-} gn_seen_polygon;
-
-/* Positive inside: n . p - d. |n| <= 2^31 in one component, 2^28 in several */
-typedef struct {
-    int32_t n[3];
-    int64_t d;
-} gn_seen_plane;
-
-/* One object's box, in view space, and the part of the frustum that it is clipped by. */
+/* A part of the frustum, and one object's box, from the camera. Six coordinates: along the camera's axes, then along
+ * the light's. */
 typedef struct {
     const struct gn_frame *frame;
-    gn_seen_plane side[GN_SEEN_SIDES];
-    int32_t corner[8][3];
-    uint32_t crossed; /* sides that cut the box */
-    gn_seen_polygon now, before;
+    const gn_object_state *object;
+    int32_t axis_q30[3][3];        /* of the light */
+    int32_t depth_q16[2];          /* of the part */
+    int32_t part[8][6];            /* its corners */
+    int32_t part_world[8][3];      /* along the world's axes */
+    int32_t from[3];               /* middle of the box, along the world's axes */
+    int32_t middle[6], half[6][3]; /* the same; per axis of the world, half of the box */
+    int32_t lo[6], hi[6];          /* bounds of the box, then of what is seen of it */
+    int32_t box[8][6];
+#if GN_PUNCTUAL_LIGHTS
+    int32_t light_q16[3]; /* its position, along its axes */
+    gn_bfloat tangent;    /* of half its view */
+#endif
 } gn_seen_job;
 #else
 typedef struct gn_seen_job gn_seen_job; /* nobody has one */

@@ -1,10 +1,15 @@
-/* Cells of a screen tile: near / Z in the high bits, the identity of a triangle in the low id_bits. */
+/* Cells of a screen tile: near / Z in the high bits, the identity of a triangle in the low id_bits. Identities are 1 ..
+ * n, larger for earlier triangles, so that these win at equal depth: n are the frame's triangles, or with groups the
+ * tile's. */
 #ifndef GN_CELL_H
 #define GN_CELL_H
 
+#include <stddef.h>
+
 #include "gnomon.h"
 
-/* A triangle's identity in a cell: 1 .. n_triangles, larger for earlier triangles, so that they win at equal depth. */
+#if GN_RECORDS
+/* The identity of the frame's triangle. */
 GN_HOT static inline uint32_t gn_cell_id(const gn_frame *frame, uint32_t tri_idx)
 {
     return frame->stats.n_triangles - tri_idx;
@@ -15,5 +20,26 @@ GN_HOT static inline const gn_tri *gn_cell_tri(const gn_frame *frame, uint32_t i
 {
     return &frame->tri[frame->stats.n_triangles - id];
 }
+#endif
+
+#if !GN_COMPACT
+/* Where identity 0 would have its source: those of others lie at equal distances. */
+GN_HOT static inline const char *gn_cell_sources(const gn_frame *frame, const gn_scratch *scratch)
+{
+    (void)scratch;
+#if GN_GROUPS
+    if (GN_K(frame, triangle_groups)) return (const char *)scratch->drawn;
+#endif
+#if GN_RECORDS
+    return (const char *)gn_cell_tri(frame, 0) + offsetof(gn_tri, source);
+#endif
+}
+
+GN_HOT static inline const gn_tri_source *gn_cell_source(const gn_frame *frame, const char *sources, uint32_t id)
+{
+    const int32_t bytes = GN_K(frame, triangle_groups) ? (int32_t)sizeof(gn_tri_source) : -(int32_t)sizeof(gn_tri);
+    return (const gn_tri_source *)(const void *)(sources + (int32_t)id * bytes);
+}
+#endif
 
 #endif

@@ -21,7 +21,8 @@ gn_status gn_pick(gn_renderer *r, uint32_t x, uint32_t y, uint32_t *object_idx, 
     const int32_t at = ((int32_t)y - rect.y0) * GN_K(frame, tile_width) + (int32_t)x - rect.x0;
     const uint32_t id = GN_CELLS(&r->scratch)[at] & ((1U << frame->id_bits) - 1);
     if (!id) return GN_OK;
-    if (object_idx) *object_idx = gn_cell_tri(frame, id)->object_idx;
-    if (triangle_idx) *triangle_idx = gn_cell_tri(frame, id)->triangle_idx;
+    const gn_tri_source *source = gn_cell_source(frame, gn_cell_sources(frame, &r->scratch), id);
+    if (object_idx) *object_idx = source->object_idx;
+    if (triangle_idx) *triangle_idx = source->triangle_idx;
     return GN_OK;
 }

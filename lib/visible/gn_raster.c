@@ -12,6 +12,7 @@
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
 #include "visible/gn_cell.h"
+#include "visible/gn_raster.h"
 #include "visible/gn_screen_rect.h"
 #include "visible/gn_setup.h"
 
@@ -179,7 +180,7 @@ GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, 
     gn_xform to_view;
     int32_t v[3][3];
     gn_xform_compose(&to_view, frame->cam.axis_q30, frame->cam.eye_q16, object);
-    for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &to_view, object->mesh, object_idx, idx[i]);
+    for (int i = 0; i < 3; i++) gn_setup_vertex(v[i], scratch->vertex, &to_view, object, object_idx, idx[i]);
     for (int i = 0; GN_FLAT_Q16(frame) && i < 3; i++) v[i][2] = GN_FLAT_Q16(frame);
     gn_alpha_plane(cut, frame, v, frame->cam.focal2_px_q16, frame->picture.width, GN_K(frame, newton_steps));
 }
@@ -187,15 +188,15 @@ GN_HOT static inline void cut_plane(const gn_frame *frame, gn_scratch *scratch, 
 /* Pixels that alpha cuts have no surface. [M8] */
 GN_HOT static inline void cut_begin(const gn_frame *frame, gn_scratch *scratch, gn_alpha_cut *cut, const gn_tri *tri)
 {
-    const gn_object *object = &frame->scene->objects[tri->object_idx];
+    const gn_object *object = &frame->scene->objects[tri->source.object_idx];
     GN_ELEMENT(object);
-    const uint16_t *idx = object->mesh->idx + 3 * (size_t)tri->triangle_idx;
+    const uint16_t *idx = object->mesh->idx + 3 * (size_t)tri->source.triangle_idx;
     gn_alpha_begin(cut, object, object->visible_alpha, idx);
-    if (GN_TEXTURES && cut->textured) cut_plane(frame, scratch, cut, object, tri->object_idx, idx);
+    if (GN_TEXTURES && cut->textured) cut_plane(frame, scratch, cut, object, tri->source.object_idx, idx);
 }
 
 /* A screen tile. */
-typedef struct {
+typedef struct gn_raster_target {
     const gn_frame *frame;
     gn_scratch *scratch;
     gn_rect rect;
@@ -368,12 +369,35 @@ GN_HOT static inline void raster_one(const raster_tile *tile, const gn_tri *tri,
         else raster_small(tile, tri, id);
         return;
     }
-    if (GN_VISIBLE_ALPHA && tile->frame->scene->objects[tri->object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
+    if (GN_VISIBLE_ALPHA && tile->frame->scene->objects[tri->source.object_idx].visible_alpha != GN_ALPHA_OPAQUE) {
         raster_cut_triangle(tile, tri, id);
         return;
     }
     raster_triangle(tile, tri, id, NULL);
 }
+
+#if GN_GROUPS
+GN_HOT void gn_raster_triangle(const gn_raster_target *target, const gn_tri *tri, uint32_t id)
+{
+    raster_one(target, tri, id);
+}
+#endif
+
+#if GN_RECORDS
+GN_HOT static inline void raster_records(const raster_tile *tile, uint32_t tile_idx)
+{
+    const gn_frame *frame = tile->frame;
+    const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]],
+                   *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
+    const gn_tri *first = frame->tri;
+    uint32_t n_triangles = frame->stats.n_triangles;
+    GN_KEEP(first);       /* computed once */
+    while (ref != none) { /* backwards: identities ascend */
+        uint32_t tri_idx = *--ref;
+        raster_one(tile, first + tri_idx, n_triangles - tri_idx); /* gn_cell_id */
+    }
+}
+#endif
 
 /* The nearest surface of every pixel, before anything is shaded. [R2] */
 GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
@@ -397,13 +421,13 @@ GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t 
     GN_COUNT(pixels, tile.width * tile.height);
     memset(GN_CELLS(scratch), 0, sizeof *scratch->cell * (uint32_t)(GN_K(frame, tile_width) * tile.height));
     for (uint32_t i = 0; GN_VISIBLE_ALPHA && i < GN_VERTEX_CACHE; i++) gn_vertex_drop(&scratch->vertex[i]);
-    const uint16_t *none = &frame->tile_ref[frame->tile_first[tile_idx]],
-                   *ref = &frame->tile_ref[frame->tile_first[tile_idx + 1]];
-    const gn_tri *first = frame->tri;
-    uint32_t n_triangles = frame->stats.n_triangles;
-    GN_KEEP(first);       /* computed once */
-    while (ref != none) { /* backwards: identities ascend */
-        uint32_t tri_idx = *--ref;
-        raster_one(&tile, first + tri_idx, n_triangles - tri_idx); /* gn_cell_id */
+#if GN_GROUPS
+    if (GN_K(frame, triangle_groups)) {
+        gn_setup_tile(frame, scratch, tile_idx, &tile);
+        return;
     }
+#endif
+#if GN_RECORDS
+    raster_records(&tile, tile_idx);
+#endif
 }

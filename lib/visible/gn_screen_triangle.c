@@ -6,6 +6,7 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_walk.h"
+#include "visible/gn_group.h"
 #include "visible/gn_screen_triangle.h"
 #include "visible/gn_setup.h"
 
@@ -139,6 +140,7 @@ static inline int quick_depth(gn_tri *tri, const gn_projected *c0, const gn_proj
 
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
+#if GN_RECORDS
 /* Counts a triangle in the screen tiles that it may have pixels in, if these are few, and notes them for gn_bin.c.
  * Returns 0 if they are many. */
 static inline int count_few_tiles(const gn_screen_job *job, const gn_rect *px, uint32_t tri_idx)
@@ -161,10 +163,10 @@ static inline int count_few_tiles(const gn_screen_job *job, const gn_rect *px, u
 }
 
 /* The same for any number of tiles. */
-static inline void count_tiles(gn_frame *frame, const gn_rect *px)
+static inline void count_tiles(const gn_screen_job *job, const gn_rect *px)
 {
-    gn_tile_walk tiles = gn_setup_tiles(frame, px); /* of some tiles */
-    gn_ref_offset *at = frame->tile_first + tiles.first;
+    gn_tile_walk tiles = gn_setup_tiles(job->frame, px); /* of some tiles */
+    gn_ref_offset *at = job->tile_first + tiles.first;
     GN_ELEMENT(at);
     do {
         int32_t n = tiles.width;
@@ -174,16 +176,70 @@ static inline void count_tiles(gn_frame *frame, const gn_rect *px)
     } while (--tiles.height);
 }
 
+/* A record of the frame; NULL if there are no more. */
+static inline gn_tri *count_record(const gn_screen_job *job, const gn_rect *px)
+{
+    uint32_t n = job->stats->n_triangles++; /* counting continues, so that gn_detail can tell the needed capacity */
+    if (n >= GN_MAX_TRIANGLES) return NULL;
+    if (GN_SIZE_FIRST || !count_few_tiles(job, px, n)) count_tiles(job, px);
+    gn_tri *tri = &job->tri[n];
+    GN_KEEP(tri);
+    return tri;
+}
+#endif
+
+#if GN_GROUPS
+/* Counts a triangle in the screen tiles that it may have pixels in, by which its group grows. */
+static void count_group(const gn_screen_job *job, const gn_rect *px)
+{
+    const gn_frame *frame = job->frame;
+    const uint32_t w = (uint32_t)GN_K(frame, tile_width), h = (uint32_t)GN_K(frame, tile_height);
+    const uint32_t x0 = (uint32_t)px->x0 / w, x1 = (uint32_t)(px->x1 - 1) / w, y0 = (uint32_t)px->y0 / h,
+                   y1 = (uint32_t)(px->y1 - 1) / h; /* nothing is negative */
+    job->stats->n_triangles++;
+    *job->group = gn_group_union(*job->group, gn_group_of(x0, x1, y0, y1));
+    for (uint32_t y = y0; y <= y1; y++)
+        for (uint32_t x = x0; x <= x1; x++) {
+            gn_ref_offset *n = &job->tile_first[y * frame->tiles_x + x];
+            if (*n != (gn_ref_offset)-1) ++*n; /* more than fit an identity in any case */
+        }
+}
+#endif
+
 static inline grid_corner on_grid(const gn_projected *at, int32_t bits)
 {
     const grid_corner snapped = {at, snap(at->x_q16, bits), snap(at->y_q16, bits)};
     return snapped;
 }
 
+/* Everything of a triangle that begins with its top; px: width and height on the subpixel grid. */
+static inline void fill_triangle(const gn_screen_job *job, gn_tri *tri, const grid_corner *a, const grid_corner *b,
+                                 const grid_corner *c, int32_t width, int32_t height, uint32_t triangle_idx)
+{
+    const gn_frame *frame = job->frame;
+    int32_t bits = GN_K(frame, subpixel_bits);
+    GN_COUNT(visible, 1);
+    tri->x[0] = (gn_coord)a->x, tri->x[2] = (gn_coord)c->x, tri->y[1] = (gn_coord)b->y;
+    if (!GN_SIZE_FIRST) GN_KEEP(tri); /* copied as half-words: combining them to words takes longer */
+    tri->x[1] = (gn_coord)b->x, tri->y[0] = (gn_coord)a->y, tri->y[2] = (gn_coord)c->y;
+    tri->source.object_idx = (uint16_t)job->object_idx;
+    tri->source.triangle_idx = (uint16_t)triangle_idx;
+    /* from the top to the centre of the pixel that contains it */
+    int32_t one = 1 << bits, x = a->x + ((frame->picture.width << bits) >> 1),
+            y = a->y + ((frame->picture.height << bits) >> 1);
+    int32_t to_x_q16 = ((a->x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a->at->x_q16;
+    int32_t to_y_q16 = ((a->y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a->at->y_q16;
+    int32_t walk = GN_TRI_NARROW;
+    if (GN_SIZE_FIRST || width >= job->narrow || height >= job->narrow)
+        walk = gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height), GN_TRI_EXACT);
+    if (!GN_SIZE_FIRST && quick_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits)) return;
+    general_depth(tri, a->at, b->at, c->at, to_x_q16, to_y_q16, walk, bits);
+}
+
 GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected *p0, const gn_projected *p1,
                                     const gn_projected *p2, uint32_t triangle_idx)
 {
-    gn_frame *frame = job->frame;
+    const gn_frame *frame = job->frame;
     GN_ELEMENT(frame);
     int32_t bits = GN_K(frame, subpixel_bits);
     grid_corner a = on_grid(p0, bits), b = on_grid(p1, bits), c = on_grid(p2, bits), swap;
@@ -198,27 +254,28 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
             bottom = gn_max32(b.y, c.y);
     const gn_rect bounds = gn_setup_bounds_of(frame, left, right, a.y, bottom, job->add_px[0], job->add_px[1]);
     if (bounds.x0 >= bounds.x1 || bounds.y0 >= bounds.y1) return;
-    uint32_t n = frame->stats.n_triangles++; /* counting continues, so that gn_detail can tell the needed capacity */
-    if (n >= GN_MAX_TRIANGLES) return;
-    if (GN_SIZE_FIRST || !count_few_tiles(job, &bounds, n)) count_tiles(frame, &bounds);
-    GN_COUNT(visible, 1);
-    gn_tri *tri = &frame->tri[n];
-    GN_KEEP(tri);
-    tri->x[0] = (gn_coord)a.x, tri->x[2] = (gn_coord)c.x, tri->y[1] = (gn_coord)b.y;
-    if (!GN_SIZE_FIRST) GN_KEEP(tri); /* copied as half-words: combining them to words takes longer */
-    tri->x[1] = (gn_coord)b.x, tri->y[0] = (gn_coord)a.y, tri->y[2] = (gn_coord)c.y;
-    tri->object_idx = (uint16_t)job->object_idx;
-    tri->triangle_idx = (uint16_t)triangle_idx;
-    /* from the top to the centre of the pixel that contains it */
-    int32_t one = 1 << bits, x = a.x + ((frame->picture.width << bits) >> 1),
-            y = a.y + ((frame->picture.height << bits) >> 1);
-    int32_t to_x_q16 = ((a.x - (x & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->x_q16;
-    int32_t to_y_q16 = ((a.y - (y & (one - 1))) * 2 + one) * (1 << (15 - bits)) - a.at->y_q16;
-    int32_t width = right - left, height = bottom - a.y, walk = GN_TRI_NARROW;
-    if (GN_SIZE_FIRST || width >= job->narrow || height >= job->narrow)
-        walk = gn_max32(job->fixed_mask & gn_walk_lasts((uint32_t)width | (uint32_t)height), GN_TRI_EXACT);
-    if (!GN_SIZE_FIRST && quick_depth(tri, a.at, b.at, c.at, to_x_q16, to_y_q16, walk, bits)) return;
-    general_depth(tri, a.at, b.at, c.at, to_x_q16, to_y_q16, walk, bits);
+#if GN_GROUPS
+    if (GN_K(frame, triangle_groups)) {
+        gn_screen_tile_job *tile = job->tile;
+        if (!tile) {
+            count_group(job, &bounds);
+            return;
+        }
+        if (bounds.x0 >= tile->rect.x1 || bounds.x1 <= tile->rect.x0 || bounds.y0 >= tile->rect.y1 ||
+            bounds.y1 <= tile->rect.y0 || tile->n_drawn == tile->n_counted)
+            return;
+        gn_tri drawn;
+        fill_triangle(job, &drawn, &a, &b, &c, right - left, bottom - a.y, triangle_idx);
+        tile->drawn[++tile->n_drawn] = drawn.source;
+        GN_COUNT(tile_refs, 1);
+        gn_raster_triangle(tile->target, &drawn, tile->n_drawn);
+        return;
+    }
+#endif
+#if GN_RECORDS
+    gn_tri *tri = count_record(job, &bounds);
+    if (tri) fill_triangle(job, tri, &a, &b, &c, right - left, bottom - a.y, triangle_idx);
+#endif
 }
 
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3])
@@ -233,11 +290,10 @@ void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], in
 
 /* ---- Jobs -------------------------------------------------------------------------------------------------------- */
 
-void gn_screen_begin(gn_screen_job *job, gn_frame *frame)
+void gn_screen_begin(gn_screen_job *job, const gn_frame *frame)
 {
     int32_t bits = GN_K(frame, subpixel_bits);
     job->frame = frame;
-    job->tile_first = frame->tile_first;
     job->add_px[0] = gn_setup_add(frame->picture.width, bits);
     job->add_px[1] = gn_setup_add(frame->picture.height, bits);
 }

@@ -3,6 +3,7 @@
 #define GN_SCREEN_TRIANGLE_H
 
 #include "gnomon.h"
+#include "visible/gn_raster.h"
 
 /* A vertex on the screen, in the guard band. */
 typedef struct {
@@ -10,20 +11,38 @@ typedef struct {
     uint32_t iz_q32;      /* near / Z */
 } gn_projected;
 
+#if GN_GROUPS
+/* A screen tile whose triangles are drawn as they are set up. */
+typedef struct {
+    const gn_raster_target *target;
+    gn_rect rect;
+    gn_tri_source *drawn; /* by identity */
+    uint32_t n_drawn, n_counted;
+} gn_screen_tile_job;
+#endif
+
 /* Constants of one object's triangles. */
 typedef struct {
-    gn_frame *frame;
+    const gn_frame *frame;
     const gn_object *object;
     uint32_t object_idx;
-    uint16_t *place; /* see gn_setup.h */
+    gn_stats *stats; /* this and the next are written in a frame's setup only */
     gn_ref_offset *tile_first;
+#if GN_RECORDS
+    gn_tri *tri;
+    uint16_t *place; /* see gn_setup.h */
+#endif
+#if GN_GROUPS
+    gn_tri_group *group;      /* of the next triangle; it grows by it */
+    gn_screen_tile_job *tile; /* NULL in a frame's setup: triangles are counted */
+#endif
     int32_t add_px[2];  /* see gn_setup_bounds_of */
     int32_t fixed_mask; /* 0 if alpha cuts the object: the fast path for small triangles in gn_raster.c is not used */
     int32_t narrow;     /* gn_walk_narrow, 0 there too */
 } gn_screen_job;
 
-/* Sets the frame's constants, and one object's, except its position and index. */
-void gn_screen_begin(gn_screen_job *job, gn_frame *frame);
+/* Sets the frame's constants, and one object's, except its position and index, and what is written. */
+void gn_screen_begin(gn_screen_job *job, const gn_frame *frame);
 void gn_screen_object(gn_screen_job *job);
 
 /* A triangle in the guard band, counter-clockwise in the world if it faces the camera: nothing if it faces away or

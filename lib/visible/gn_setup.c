@@ -7,19 +7,24 @@
 #include "base/gn_math.h"
 #include "base/gn_q.h"
 #include "geometry/gn_clip.h"
+#include "geometry/gn_skin.h"
 #include "geometry/gn_vertex_cache.h"
 #include "geometry/gn_walk.h"
 #include "geometry/gn_xform.h"
 #include "scene/gn_scene.h"
+#include "visible/gn_group.h"
+#include "visible/gn_screen_rect.h"
 #include "visible/gn_screen_triangle.h"
 #include "visible/gn_setup.h"
 
 /* View position of a vertex, without a cache. */
-static int view_position(int32_t out_q16[3], const gn_xform *xform, const gn_mesh *mesh, uint32_t vertex_idx)
+static int view_position(int32_t out_q16[3], const gn_xform *xform, const gn_object *object, uint32_t vertex_idx)
 {
+    int32_t p[3];
     int64_t v[3];
-    if (!gn_scene_position_ok(mesh, vertex_idx)) return 0;
-    gn_xform_vertex(v, xform, mesh, vertex_idx);
+    gn_position_of(p, object, vertex_idx);
+    if (!gn_position_ok(p)) return 0;
+    gn_xform_point(v, xform, p);
     for (int i = 0; i < 3; i++) {
         if (v[i] <= -GN_VIEW_LIMIT_Q16 || v[i] >= GN_VIEW_LIMIT_Q16) return 0;
         out_q16[i] = (int32_t)v[i];
@@ -27,7 +32,7 @@ static int view_position(int32_t out_q16[3], const gn_xform *xform, const gn_mes
     return 1;
 }
 
-int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
+int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *xform, const gn_object *object,
                     uint32_t object_idx, uint32_t vertex_idx)
 {
     gn_vertex_entry *entry = &cache[gn_vertex_slot(vertex_idx, GN_VERTEX_CACHE - 1)];
@@ -35,7 +40,7 @@ int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *
     uint32_t tag = gn_vertex_tag(object_idx, vertex_idx);
     if (!gn_vertex_hit(entry, tag)) {
         gn_vertex_drop(entry);
-        if (!view_position(entry->v_q16, xform, mesh, vertex_idx)) return 0;
+        if (!view_position(entry->v_q16, xform, object, vertex_idx)) return 0;
         gn_vertex_claim(entry, tag);
     }
     for (int i = 0; i < 3; i++) out_q16[i] = entry->v_q16[i];
@@ -62,8 +67,10 @@ typedef struct {
     uint32_t near_norm;  /* near, normalised */
     int32_t near_down;   /* its leading zeros, less one */
     int32_t near_q16;
-    uint32_t z_range;     /* from near to 2^30 */
-    uint32_t half_q16[2]; /* the picture's, pixels */
+    uint32_t z_range;   /* from near to 2^30 */
+    int32_t low_q16[2]; /* left and top of the picture, or of a screen tile in it, from the picture's centre, pixels */
+    uint32_t size_q16[2]; /* its width and height */
+    uint32_t near_planes; /* for corners nearer than near: outside of the picture is not outside of a tile there */
     int32_t near_guard;   /* inside |x|, |y| <= Z * 2^-near_guard is inside the guard band */
     gn_xform xform;
     gn_xform_fast fast;
@@ -126,22 +133,16 @@ static GN_NOINLINE int fill_corner_small(const setup_job *job, setup_corner *c, 
 {
     const gn_cam *cam = &job->screen.frame->cam;
     const int32_t *v = c->vertex.v_q16, flat = GN_FLAT_Q16(job->screen.frame);
-    if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object->mesh, vertex_idx)) return 0;
+    if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object, vertex_idx)) return 0;
     c->out = gn_outcode(v, cam->near_q16, cam->tan_q16, flat) | gn_outcode(v, cam->near_q16, cam->guard_q16, flat) << 8;
     if (!(c->out >> 8)) project_cut(job, v, &c->at); /* nothing is clamped; one projecting function is enough */
     return 1;
 }
 
-/* Beyond +-half */
-static inline int is_beyond(int32_t v, uint32_t half)
+/* Bit `before` if a coordinate that is not within the size from `low` is below it, `after` if it is above. */
+static inline uint32_t side_bit(int32_t v, int32_t low, uint32_t size, uint32_t before, uint32_t after)
 {
-    return (uint32_t)v + half > 2 * half;
-}
-
-/* Bit `low` if v is below -half, the next if it is above half. */
-static inline uint32_t side_bits(int32_t v, uint32_t half, uint32_t low)
-{
-    return !is_beyond(v, half) ? 0 : v < 0 ? low : low << 1;
+    return (uint32_t)(v - low) <= size ? 0 : v < low ? before : after;
 }
 
 /* Returns 0 for a corner nearer than near, outside or near the border of the guard band, or out of range. */
@@ -152,7 +153,7 @@ static GN_NOINLINE int fill_far_corner(const setup_job *job, setup_corner *c)
     for (int k = 0; k < 3; k++)
         if (v[k] <= -GN_VIEW_LIMIT_Q16 || v[k] >= GN_VIEW_LIMIT_Q16) return 0;
     c->out = gn_outcode(v, cam->near_q16, cam->tan_q16, flat);
-    if (v[2] < cam->near_q16) c->out |= GN_OUT_NEAR << 8;
+    if (v[2] < cam->near_q16) c->out = (c->out & job->near_planes) | GN_OUT_NEAR << 8;
     else if (c->out) c->out |= gn_outcode(v, cam->near_q16, cam->guard_q16, flat) << 8;
     if (!(c->out >> 8)) project(job, v, &c->at);
     return 1;
@@ -164,7 +165,7 @@ GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t v
     const gn_mesh *mesh = job->screen.object->mesh;
     int32_t v[3];
     if (!gn_xform_fast_wide(v, &job->fast, mesh->pos + 3 * (size_t)vertex_idx)) {
-        if (!view_position(c->vertex.v_q16, &job->xform, mesh, vertex_idx)) return 0;
+        if (!view_position(c->vertex.v_q16, &job->xform, job->screen.object, vertex_idx)) return 0;
         for (int k = 0; k < 3; k++) v[k] = c->vertex.v_q16[k];
     }
     for (int k = 0; k < 3; k++) c->vertex.v_q16[k] = v[k];
@@ -174,10 +175,11 @@ GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t v
         (uint32_t)v[1] + z > 2 * z)
         return fill_far_corner(job, c);
     project(job, v, &c->at);
-    uint32_t half_x = job->half_q16[0], half_y = job->half_q16[1];
     c->out = 0;
-    if (GN_SELDOM(is_beyond(c->at.x_q16, half_x) || is_beyond(c->at.y_q16, half_y)))
-        c->out = side_bits(c->at.x_q16, half_x, GN_OUT_LEFT) | side_bits(-c->at.y_q16, half_y, GN_OUT_BOTTOM);
+    if (GN_SELDOM((uint32_t)(c->at.x_q16 - job->low_q16[0]) > job->size_q16[0] ||
+                  (uint32_t)(c->at.y_q16 - job->low_q16[1]) > job->size_q16[1]))
+        c->out = side_bit(c->at.x_q16, job->low_q16[0], job->size_q16[0], GN_OUT_LEFT, GN_OUT_RIGHT) |
+                 side_bit(c->at.y_q16, job->low_q16[1], job->size_q16[1], GN_OUT_TOP, GN_OUT_BOTTOM);
     return 1;
 }
 
@@ -186,20 +188,18 @@ GN_INLINE int fill_corner_fast(const setup_job *job, setup_corner *c, uint32_t v
 /* A triangle that leaves the guard band, or comes nearer than near. [R3] */
 static GN_NOINLINE void clip_triangle(const setup_job *job, const setup_corner *const c[3], uint32_t triangle_idx)
 {
-    gn_frame *frame = job->screen.frame;
+    const gn_frame *frame = job->screen.frame;
     gn_polygon *polygon = &job->clipping->polygon;
+    gn_projected at[GN_CLIP_VERTICES_MAX];
     polygon->n = 3;
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) polygon->v_q16[i][k] = c[i]->vertex.v_q16[k];
     gn_clip(polygon, &job->clipping->uncut, GN_OUT_ALL, frame->cam.near_q16, frame->cam.guard_q16, GN_FLAT_Q16(frame));
-    frame->stats.n_clipped++;
-    gn_projected at[3];
-    for (int i = 0; i < polygon->n; i++) { /* a fan */
-        project_cut(job, polygon->v_q16[i], &at[gn_min32(i, 2)]);
-        if (i < 2) continue;
-        gn_screen_triangle(&job->screen, &at[0], &at[1], &at[2], triangle_idx);
-        at[1] = at[2];
-    }
+    if (job->screen.stats) job->screen.stats->n_clipped++;
+    const int n = polygon->n; /* drawing a triangle may take the polygon's memory */
+    for (int i = 0; i < n; i++) project_cut(job, polygon->v_q16[i], &at[i]);
+    for (int i = 2; i < n; i++) /* a fan */
+        gn_screen_triangle(&job->screen, &at[0], &at[i - 1], &at[i], triangle_idx);
 }
 
 static gn_status setup_triangle(const setup_job *job, const setup_corner *const c[3], uint32_t triangle_idx)
@@ -207,7 +207,7 @@ static gn_status setup_triangle(const setup_job *job, const setup_corner *const 
     GN_COUNT(triangles, 1);
     if (c[0]->out & c[1]->out & c[2]->out & GN_OUT_ALL) return GN_OK;
     int outside = (c[0]->out | c[1]->out | c[2]->out) >> 8 != 0;
-    if (outside && !GN_CLIPPING) return gn_fail(job->screen.frame, GN_ERR_VERTEX_RANGE, job->screen.object_idx);
+    if (outside && !GN_CLIPPING) return GN_ERR_VERTEX_RANGE;
     if (outside) clip_triangle(job, c, triangle_idx);
     else gn_screen_triangle(&job->screen, &c[0]->at, &c[1]->at, &c[2]->at, triangle_idx);
     return GN_OK;
@@ -222,69 +222,190 @@ static inline gn_status fetch_corners(const setup_job *job, const uint16_t *idx,
     uint32_t n_vertices = job->screen.object->mesh->n_vertices, first_tag = gn_vertex_tag(job->screen.object_idx, 0);
     for (const setup_corner **at = c + 2; at != c + 5; at++) {
         uint32_t vertex_idx = *idx++, tag = first_tag + vertex_idx;
-        if (vertex_idx >= n_vertices) return gn_fail(job->screen.frame, GN_ERR_MESH_INDEX, job->screen.object_idx);
+        if (vertex_idx >= n_vertices) return GN_ERR_MESH_INDEX;
         setup_corner *entry = &job->cache[gn_vertex_slot(vertex_idx, job->cache_mask)];
         if (!gn_vertex_hit(&entry->vertex, tag)) {
             entry = (setup_corner *)gn_vertex_claim_corner(&entry->vertex, tag, &at[-1]->vertex, &at[-2]->vertex,
                                                            &spare[at - c - 2].vertex);
             if (!(GN_SIZE_FIRST ? fill_corner_small(job, entry, vertex_idx) : fill_corner_fast(job, entry, vertex_idx)))
-                return gn_fail(job->screen.frame, GN_ERR_VERTEX_RANGE, job->screen.object_idx);
+                return GN_ERR_VERTEX_RANGE;
         }
         *at = entry;
     }
     return GN_OK;
 }
 
-static gn_status setup_object(setup_job *job)
+static void setup_begin_object(setup_job *job)
 {
     const gn_cam *cam = &job->screen.frame->cam;
+    gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->screen.object);
+    if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
+    if (!GN_SIZE_FIRST && GN_SKIN(job->screen.object)) job->fast.reach = 0; /* its positions are not the mesh's */
+    gn_screen_object(&job->screen);
+}
+
+/* Triangles of an object, from `t` up to `end`, or down from `t - 1` to `end`. */
+static gn_status setup_span(setup_job *job, uint32_t t, uint32_t end)
+{
     const gn_mesh *mesh = job->screen.object->mesh;
+    const int down = end < t;
     setup_corner spare[3];
     const setup_corner *c[5];
     c[0] = c[1] = spare; /* no cache entry: no corner before the first */
-    gn_xform_compose(&job->xform, cam->axis_q30, cam->eye_q16, job->screen.object);
-    if (!GN_SIZE_FIRST) gn_xform_fast_begin(&job->fast, &job->xform);
-    gn_screen_object(&job->screen);
-    for (uint32_t t = 0; t < mesh->n_triangles; t++) {
+    while (t != end) {
+        if (down) t--;
         gn_status status = fetch_corners(job, mesh->idx + 3 * (size_t)t, spare, c);
         if (!status) status = setup_triangle(job, c + 2, t);
         if (status) return status;
+        if (!down) t++;
     }
     return GN_OK;
+}
+
+/* Vertices are sorted into those inside and outside of this rectangle of the picture. */
+static void setup_window(setup_job *job, const gn_rect *px)
+{
+    const gn_picture *picture = &job->screen.frame->picture;
+    job->near_planes = job->screen.stats ? GN_OUT_ALL : GN_OUT_NEAR;
+    job->low_q16[0] = (2 * px->x0 - picture->width) * (1 << 15);
+    job->low_q16[1] = (2 * px->y0 - picture->height) * (1 << 15);
+    job->size_q16[0] = (uint32_t)(px->x1 - px->x0) << 16;
+    job->size_q16[1] = (uint32_t)(px->y1 - px->y0) << 16;
+}
+
+/* Constants of a frame, and an empty cache of vertices in the memory. */
+static void setup_begin(setup_job *job, const gn_frame *frame, gn_scratch *scratch, void *memory, size_t bytes)
+{
+    int32_t clz = gn_clz32(frame->cam.focal2_px_q16);
+    gn_screen_begin(&job->screen, frame);
+    job->clipping = &scratch->work.clipping;
+    job->cache = memory;
+    job->cache_mask = gn_vertex_mask(bytes, sizeof(setup_corner));
+    job->focal_norm = frame->cam.focal2_px_q16 << clz;
+    job->focal_up = 1 - clz;
+    job->near_down = gn_clz32((uint32_t)frame->cam.near_q16) - 1;
+    job->near_norm = (uint32_t)frame->cam.near_q16 << (job->near_down + 1);
+    if (!GN_SIZE_FIRST) { /* for fill_corner_fast */
+        int32_t guard = gn_min32(frame->cam.guard_q16[0], frame->cam.guard_q16[1]);
+        job->near_q16 = frame->cam.near_q16;
+        job->z_range = (uint32_t)GN_VIEW_LIMIT_Q16 - (uint32_t)job->near_q16;
+        for (job->near_guard = 0; guard < 65536 >> job->near_guard;) job->near_guard++;
+    }
+    for (uint32_t i = 0; i <= job->cache_mask; i++) gn_vertex_drop(&job->cache[i].vertex);
+}
+
+/* ---- Groups ------------------------------------------------------------------------------------------------------ */
+
+#if GN_GROUPS
+/* As few triangles to a group as there are groups for. */
+static void setup_begin_groups(gn_frame *frame)
+{
+    const uint32_t n_groups = (uint32_t)GN_K(frame, triangle_groups);
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
+        const gn_object *object = &frame->scene->objects[i];
+        if (!(object->flags & GN_OBJECT_HIDDEN)) n += object->mesh->n_triangles;
+    }
+    frame->n_grouped = n;
+    frame->group_shift = 0;
+    while (n && (n - 1) >> frame->group_shift >= n_groups) frame->group_shift++;
+    for (uint32_t i = 0; i < n_groups; i++) frame->group[i] = GN_GROUP_EMPTY;
+}
+
+/* Counts an object's triangles, the first of which is `first` of all. */
+static gn_status setup_count_groups(setup_job *job, gn_tri_group *groups, uint32_t first)
+{
+    const uint32_t shift = job->screen.frame->group_shift, n = job->screen.object->mesh->n_triangles;
+    setup_begin_object(job);
+    for (uint32_t t = 0; t < n;) {
+        const uint32_t left = (1U << shift) - ((first + t) & ((1U << shift) - 1)), end = left < n - t ? t + left : n;
+        job->screen.group = &groups[(first + t) >> shift];
+        gn_status status = setup_span(job, t, end);
+        if (status) return status;
+        t = end;
+    }
+    return GN_OK;
+}
+
+/* Draws those whose groups meet a screen tile, the last first. The frame's setup has found no error. */
+static void setup_draw_groups(setup_job *job, gn_tri_group tile, uint32_t first)
+{
+    const gn_frame *frame = job->screen.frame;
+    const uint32_t shift = frame->group_shift, n = job->screen.object->mesh->n_triangles, lowest = first >> shift;
+    int begun = 0;
+    for (uint32_t i = ((first + n - 1) >> shift) + 1; i-- > lowest;) {
+        if (!gn_group_meets(frame->group[i], tile)) continue;
+        const uint32_t begin = i << shift, end = begin + ((1U << shift) - 1); /* the last: below 2^32 */
+        if (!begun) setup_begin_object(job);
+        begun = 1;
+        setup_span(job, end - first < n ? end - first + 1 : n, begin > first ? begin - first : 0);
+    }
+}
+
+void gn_setup_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, const gn_raster_target *target)
+{
+    setup_job job;
+    gn_screen_tile_job tile = {target, gn_screen_rect(frame, tile_idx), scratch->drawn, 0, frame->tile_first[tile_idx]};
+    uint32_t first = frame->n_grouped;
+    const uint32_t column = tile_idx % frame->tiles_x, row = tile_idx / frame->tiles_x;
+    if (!tile.n_counted) return;
+    if (sizeof scratch->pixel > GN_WORK_FREE_BYTES)
+        setup_begin(&job, frame, scratch, &scratch->pixel, sizeof scratch->pixel);
+    else setup_begin(&job, frame, scratch, (char *)&scratch->work + GN_WORK_DRAWN_BYTES, GN_WORK_FREE_BYTES);
+    job.screen.stats = NULL;
+    setup_window(&job, &tile.rect);
+    job.screen.tile = &tile;
+    for (uint32_t i = frame->scene->n_objects; i-- > 0;) {
+        job.screen.object_idx = i;
+        job.screen.object = &frame->scene->objects[i];
+        if (job.screen.object->flags & GN_OBJECT_HIDDEN) continue;
+        first -= job.screen.object->mesh->n_triangles;
+        setup_draw_groups(&job, gn_group_of(column, column, row, row), first);
+    }
+}
+#endif
+
+/* ---- The frame --------------------------------------------------------------------------------------------------- */
+
+static gn_status setup_object(setup_job *job, gn_frame *frame, uint32_t first)
+{
+#if GN_GROUPS
+    if (GN_K(frame, triangle_groups)) return setup_count_groups(job, frame->group, first);
+#endif
+    (void)frame, (void)first;
+    setup_begin_object(job);
+    return setup_span(job, 0, job->screen.object->mesh->n_triangles);
 }
 
 gn_status gn_setup_triangles(gn_frame *frame, gn_scratch *scratch)
 {
     setup_job job;
-    int32_t clz = gn_clz32(frame->cam.focal2_px_q16);
-    gn_screen_begin(&job.screen, frame);
+    const gn_rect picture = {0, 0, frame->picture.width, frame->picture.height};
+    setup_begin(&job, frame, scratch, scratch->cell, sizeof scratch->cell);
+    uint32_t first = 0;
+    job.screen.stats = &frame->stats;
+    setup_window(&job, &picture);
+    job.screen.tile_first = frame->tile_first;
+#if GN_RECORDS
+    job.screen.tri = frame->tri;
     job.screen.place = scratch->pixel.rgb565;
-    job.clipping = &scratch->work.clipping;
-    job.cache = (setup_corner *)(void *)scratch->cell;
-    job.cache_mask = gn_vertex_mask(sizeof scratch->cell, sizeof(setup_corner));
-    job.focal_norm = frame->cam.focal2_px_q16 << clz;
-    job.focal_up = 1 - clz;
-    job.near_down = gn_clz32((uint32_t)frame->cam.near_q16) - 1;
-    job.near_norm = (uint32_t)frame->cam.near_q16 << (job.near_down + 1);
-    if (!GN_SIZE_FIRST) { /* for fill_corner_fast */
-        int32_t guard = gn_min32(frame->cam.guard_q16[0], frame->cam.guard_q16[1]);
-        job.near_q16 = frame->cam.near_q16;
-        job.z_range = (uint32_t)GN_VIEW_LIMIT_Q16 - (uint32_t)job.near_q16;
-        job.half_q16[0] = (uint32_t)frame->picture.width << 15;
-        job.half_q16[1] = (uint32_t)frame->picture.height << 15;
-        for (job.near_guard = 0; guard < 65536 >> job.near_guard;) job.near_guard++;
-    }
+#endif
+#if GN_GROUPS
+    job.screen.tile = NULL;
+    if (GN_K(frame, triangle_groups)) setup_begin_groups(frame);
+#endif
     frame->stats.n_triangles = 0;
     frame->stats.n_clipped = 0;
     for (uint32_t i = 0; i <= (uint32_t)frame->tiles_x * frame->tiles_y; i++) frame->tile_first[i] = 0;
-    for (uint32_t i = 0; i <= job.cache_mask; i++) gn_vertex_drop(&job.cache[i].vertex);
     for (uint32_t i = 0; i < frame->scene->n_objects; i++) {
         job.screen.object_idx = i;
         job.screen.object = &frame->scene->objects[i];
-        gn_status status = job.screen.object->flags & GN_OBJECT_HIDDEN ? GN_OK : setup_object(&job);
-        if (status) return status;
+        if (job.screen.object->flags & GN_OBJECT_HIDDEN) continue;
+        gn_status status = setup_object(&job, frame, first);
+        if (status) return gn_fail(frame, status, i);
+        first += job.screen.object->mesh->n_triangles;
     }
-    if (frame->stats.n_triangles > GN_MAX_TRIANGLES)
+    if (!GN_K(frame, triangle_groups) && frame->stats.n_triangles > GN_MAX_TRIANGLES)
         return gn_fail_capacity(frame, GN_ERR_TRIANGLES_FULL, frame->stats.n_triangles, GN_MAX_TRIANGLES);
     return GN_OK;
 }

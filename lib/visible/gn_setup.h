@@ -5,16 +5,22 @@
 #include "base/gn_q.h"
 #include "geometry/gn_walk.h"
 #include "gnomon.h"
+#include "visible/gn_raster.h"
 
-/* Pixel memory is free during setup; it stores, for the first triangles, (first tile << 2) | GN_PLACE_*: that tile
+/* Records: pixel memory is free during setup; it stores, for the first triangles, (first tile << 2) | GN_PLACE_*: that tile
  * alone, the next one too, the one below too, or others too. Not with GN_SIZE_FIRST. */
 #define GN_PLACES GN_TILE_PIXELS_MAX
 enum { GN_PLACE_ONE, GN_PLACE_NEXT, GN_PLACE_BELOW, GN_PLACE_MANY };
 
 /* View position of an object's vertex through the cache. Returns 0 if it is beyond +-16384 units, or
  * its position beyond +-2^30. */
-int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *xform, const gn_mesh *mesh,
+int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *xform, const gn_object *object,
                     uint32_t object_idx, uint32_t vertex_idx);
+
+#if GN_GROUPS
+/* Sets up and draws the triangles of a screen tile, the scene's last first. Pixel memory holds a vertex cache. */
+void gn_setup_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, const gn_raster_target *target);
+#endif
 
 /* Screen coordinates of the corners from the picture's top left corner, subpixel_bits fraction bits. */
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3]);

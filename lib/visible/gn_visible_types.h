@@ -28,6 +28,12 @@ typedef union {
     } unbounded;
 } gn_tri_depth;
 
+/* What a visible triangle is, or is a part of. */
+typedef struct {
+    uint16_t object_idx;
+    uint16_t triangle_idx;
+} gn_tri_source;
+
 /* A visible triangle on the screen, ready to be walked. Coordinates are from the picture's centre (y down), with
  * subpixel_bits fraction bits: up to 7 of them fit 16 bits in most pictures, by the width of the guard band. */
 typedef struct {
@@ -36,9 +42,14 @@ typedef struct {
     uint32_t iz_ref;      /* near / Z at the centre of the pixel that contains vertex 0, Q0.32, modulo 2^32 */
     int32_t iz_dx, iz_dy; /* per pixel, modulo 2^32 */
     gn_tri_depth iz;
-    uint16_t object_idx;
-    uint16_t triangle_idx;
+    gn_tri_source source;
 } gn_tri;
+
+/* The screen tiles that visible triangles of a group may have pixels in, four numbers of 7 bits in bytes: first column,
+ * 127 - last column, first row, 127 - last row. */
+typedef uint32_t gn_tri_group;
+#define GN_GROUP_EMPTY 0x7F7F7F7FU
+#define GN_GROUPS_MAX  (GN_RUNTIME_KNOBS ? 4096 : GN_TRIANGLE_GROUPS)
 
 static inline int gn_tri_is_bounded(const gn_tri *tri)
 {

@@ -231,7 +231,7 @@ static void count_pixels(const bench_set *set, counts *out)
     for (uint32_t t = 0; t < set->n; t++) {
         outline o;
         for (int i = 0; i < 3; i++) {
-            const int32_t *v = set->triangles[frame->tri[t].triangle_idx].v[i];
+            const int32_t *v = set->triangles[frame->tri[t].source.triangle_idx].v[i];
             o.x[i] = BENCH_WIDTH / 2 + BENCH_FOCAL_PX * (double)v[0] / v[2];
             o.y[i] = BENCH_HEIGHT / 2 - BENCH_FOCAL_PX * (double)v[1] / v[2];
         }

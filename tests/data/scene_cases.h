@@ -227,6 +227,7 @@ static const change gltf_errors[] = {
     {"\"channels\":[", "\"channels\":[0,", "/animations/0/channels/0: an object"},
     {"\"translation\":[10,0,0],\"scale\":[2,2,2]", "\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]",
      "cannot be animated"},
+    {"\"mesh\":0", "\"mesh\":0,\"skin\":0", "there are only 0 of these"},
 };
 
 /* What is accepted, with a note. */
@@ -243,7 +244,6 @@ static const change gltf_notes[] = {
     {"[0.5,0.25,1,1]", "[0.5,0.25,2,1]", "outside 0..1"},
     {"\"strength\":0.9", "\"near\":1", "near of directional light 'sol'"},
     {"\"name\":\"sun\"", "\"camera\":0", "the first camera"},
-    {"\"mesh\":0", "\"mesh\":0,\"skin\":0", "skin of mesh 'quad'"},
     {"\"path\":\"scale\"", "\"path\":\"weights\"", "morph weights"},
     {"\"path\":\"scale\"", "\"path\":\"translation\"", "moves the same property"},
     {"\"name\":\"paint\"", "\"name\":\"a\\nb\",\"normalTexture\":{}", "material 'a?b'"},

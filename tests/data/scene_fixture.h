@@ -8,7 +8,6 @@
 
 #include "../../host/scene/scene.h"
 #include "check.h"
-#include "rng.h"
 #include "scene_cases.h"
 
 #ifndef TMP
@@ -17,12 +16,6 @@
 static const scene_options plain = {.frame = 0, .width = 320, .height = 240};
 static char error[400];
 static scene s;
-
-static rng random_state = {1};
-static inline uint32_t random_u32(void)
-{
-    return rng_u32(&random_state);
-}
 
 static inline void write_file(const char *path, const void *bytes, size_t n)
 {
@@ -157,30 +150,6 @@ static inline size_t put_base64(char *out, const uint8_t *bytes, size_t n)
     }
     out[n_out] = '\0';
     return n_out;
-}
-
-/* Bytes that matter to the grammars come up more often than chance would have them. */
-static inline uint8_t random_byte(void)
-{
-    static const char telling[] = "0123456789-+.eE{}[],:\"\\/ \nfvn#";
-    uint32_t r = random_u32();
-    return r & 1 ? (uint8_t)telling[(r >> 8) % (sizeof telling - 1)] : (uint8_t)(r >> 8);
-}
-
-static inline void fuzz(const char *path, const void *valid, size_t n, int n_rounds)
-{
-    static uint8_t bytes[16384];
-    for (int i = 0; i < n_rounds; i++) {
-        memcpy(bytes, valid, n);
-        for (uint32_t k = random_u32() % 4; k < 4; k++) bytes[random_u32() % n] = random_byte();
-        write_file(path, bytes, n);
-        const scene_options options = {
-            .frame = (int)(random_u32() % 9), .width = 64, .height = 48, .ground = i & 1, .smooth = (i & 2) != 0};
-        if (load(path, &options) == 0) {
-            check_invariants();
-            scene_free(&s);
-        } else CHECK(is_empty() && error[0]);
-    }
 }
 
 /* A quad in the xy plane with everything on it. Sizes and offsets of the buffer's parts stand in base_json. */

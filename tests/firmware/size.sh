@@ -45,6 +45,7 @@ flags_of() {
         for feature in $features; do
             case $feature in
             DEPTH_BLOCKS | OBJECT_BOXES) echo "-DGN_$feature=0" ;;
+            VERTEX_JOINTS) echo "-DGN_$feature=4" ;;
             *) [ "$feature" = FILTER_MAX ] || echo "-DGN_$feature=1" ;;
             esac
         done

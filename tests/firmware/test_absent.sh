@@ -11,7 +11,7 @@ if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
     cc="arm-none-eabi-gcc -mcpu=cortex-m3 -mthumb" prefix=arm-none-eabi-
     printf '#include <stddef.h>\nvoid *memset(void *, int, size_t);\nvoid *memcpy(void *, const void *, size_t);\n' >"$tmp/string.h"
 fi
-most() { if [ "$1" = FILTER_MAX ]; then echo 4; else echo 1; fi; }
+most() { case $1 in FILTER_MAX | VERTEX_JOINTS) echo 4 ;; *) echo 1 ;; esac; }
 # but WORD VALUE FEATURE...: all features off (none) or on (all), but these VALUE
 but() {
     base=$1 value=$2
@@ -46,6 +46,7 @@ under() {
     case $1 in
     CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
+    TEXTURE_LEVELS) echo TEXTURES ;;
     LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
     esac
@@ -100,8 +101,10 @@ CASTER_CULLING gn_cull_shown_nearer
 CASTER_ALPHA alpha_plane
 VISIBLE_ALPHA cut_begin|cut_row
 TILE_LIGHTS gn_punctual_in_tile
+TEXTURE_LEVELS gn_texture_(level_at|level_depth2|use_level)
 TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
 SPECULAR highlight_q30
+VERTEX_JOINTS gn_skin_.*|mean_matrix|skin_signature|gn_scene_skin_check
 ORTHOGRAPHIC flat_plane|flat_sphere|intersect_flat
 EMISSIVE emitted_light
 MASKS gn_texture_mask
@@ -122,6 +125,12 @@ CLIPS gn_pose|pose_nodes
 PICKING gn_pick
 CASTER_CLIPPING clip_side|clip_to_reach
 LIST
+
+# Neither way of keeping triangles knows the other's functions.
+if symbols NOTHING | grep -q -x -E 'gn_setup_tile|gn_raster_triangle|setup_.*groups|count_group|check_tiles'; then fail "groups of triangles without triangle_groups"; else pass; fi
+object all-GROUPS -Og -fno-inline $(but all 0 NOTHING) -DGN_TRIANGLE_GROUPS=64
+if symbols GROUPS | grep -q -x -E 'raster_records|sort_triangles|bin_by_bounds|count_record|count_(few_)?tiles'; then fail "records of triangles with triangle_groups"; else pass; fi
+symbols GROUPS | grep -q -x gn_setup_tile && pass || fail "triangle_groups: there is no symbol gn_setup_tile at all"
 
 # ---- Divisions -------------------------------------------------------------------------------------------------------------
 

@@ -4,12 +4,14 @@
 #define GNOMON_TESTS_ROW_SCENES_H
 
 #include "ref_fixture.h"
+#include "../host/scene/core/texture_format.h"
 #include "../host/tool/settings/settings.h"
 
 /* The object that tweaks of objects are about, and its mesh; the first object of every scene is its ground. */
 enum { GROUND, SUBJECT };
 
-static uint8_t checker_rgba[4 * 16 * 16], picket_rgba[4 * 32 * 32], mask_rgba[4 * 16 * 16];
+static uint8_t checker_rgba[4 * 16 * 16], mipmap_rgba[4 * (256 + 64 + 16 + 4 + 1)], picket_rgba[4 * 32 * 32],
+    mask_rgba[4 * 16 * 16];
 
 static inline void fill_textures(void)
 {
@@ -342,6 +344,20 @@ static inline bool add_pattern(fixture *f, const char *value)
     return true;
 }
 
+/* Smaller levels of the first texture, the checker. */
+static inline void add_levels(fixture *f)
+{
+    scene_texture *t = &f->textures[0];
+    uint8_t *first = malloc(sizeof checker_rgba);
+    if (!first) abort();
+    memcpy(first, t->rgba, sizeof checker_rgba);
+    t->rgba = first;
+    if (!texture_set_levels(t, true)) abort();
+    memcpy(mipmap_rgba, t->rgba, sizeof mipmap_rgba);
+    free(t->rgba);
+    t->rgba = mipmap_rgba;
+}
+
 static inline void flip_subject(fixture *f)
 {
     uint32_t *idx = f->meshes[SUBJECT].idx;
@@ -370,6 +386,35 @@ static inline bool tweak_subject(fixture *f, const char *key, const char *value)
     return true;
 }
 
+/* The subject bends to the side and twists: four joints along its height, each with some hold of every vertex. */
+static inline void add_skin(fixture *f, double angle)
+{
+    scene_object *o = &f->objects[SUBJECT];
+    scene_mesh *mesh = &f->meshes[SUBJECT];
+    double low = mesh->pos[1], high = mesh->pos[1];
+    for (size_t i = 0; i < mesh->n_vertices; i++)
+        low = fmin(low, mesh->pos[3 * i + 1]), high = fmax(high, mesh->pos[3 * i + 1]);
+    mesh->joint = calloc(mesh->n_vertices, 4), mesh->weight = calloc(mesh->n_vertices, 4);
+    o->joints = calloc(4, sizeof *o->joints);
+    if (!mesh->joint || !mesh->weight || !o->joints) abort();
+    o->n_joints = 4;
+    for (int k = 0; k < 4; k++) {
+        const double a = angle * k / 3, c = cos(a), s = sin(a), size = 1 - 0.1 * k;
+        const scene_affine turn = {{{c * size, -s, 0, 0.2 * k * angle}, {s * size, c, 0, 0}, {0, 0.3 * s, 1, 0}}};
+        o->joints[k].now = turn;
+    }
+    for (size_t i = 0; i < mesh->n_vertices; i++) {
+        const double at = 3 * (mesh->pos[3 * i + 1] - low) / (high - low + 1e-9);
+        int left = 255;
+        for (int k = 0; k < 4; k++) {
+            const int w = k == 3 ? left : (int)fmin(left, 255 * fmax(0, 0.7 - 0.4 * fabs(at - k)));
+            mesh->joint[4 * i + (size_t)k] = (uint8_t)k;
+            mesh->weight[4 * i + (size_t)k] = (uint8_t)w;
+            left -= w;
+        }
+    }
+}
+
 /* Of every object. */
 static inline bool tweak_objects(fixture *f, const char *key, const char *value)
 {
@@ -377,6 +422,7 @@ static inline bool tweak_objects(fixture *f, const char *key, const char *value)
     else if (strcmp(key, "baked") == 0) add_baked(f);
     else if (strcmp(key, "colours") == 0) add_colours(f);
     else if (strcmp(key, "texture") == 0) add_pattern(f, value);
+    else if (strcmp(key, "levels") == 0) add_levels(f);
     else if (strcmp(key, "wrap") == 0)
         f->textures[0].clamp_u = value[0] == 'c', f->textures[0].clamp_v = value[1] == 'c';
     else if (strcmp(key, "specular") == 0) {
@@ -384,6 +430,8 @@ static inline bool tweak_objects(fixture *f, const char *key, const char *value)
             for (int k = 0; k < 3; k++) f->objects[o].specular[k] = 0.6;
             f->objects[o].shininess_log2 = atoi(value);
         }
+    } else if (strcmp(key, "skin") == 0) {
+        add_skin(f, atof(value));
     } else if (strcmp(key, "emissive") == 0) {
         for (size_t o = 0; o < f->s.n_objects; o++)
             for (int k = 0; k < 3; k++) f->objects[o].emissive[k] = atof(value) * (double)((o + (size_t)k) % 3) / 2;

@@ -1,5 +1,5 @@
 /* Acne and detachment of every bias (B1-B5): a lit plane, caster and receiver at once, swept over all angles to the
- * light, and a wall that stands on it. "--table" prints docs/BIAS.md's table.
+ * light, and a wall that stands on it. "--table" prints docs/data/BIAS.md's table.
  *
  * WHEN A PLANE IS FREE OF ACNE. Let N be the plane's normal, n_u n_v n_w its components along the light's axes, g = the
  * slope of the plane's depth per texel, the receiver moved by `lift` off the plane (the normal part of all that moves

@@ -1,7 +1,7 @@
 /* The census of the automatic bias (B6): lit planes, casters and receivers at once, at every angle and distance to
  * every kind of light, through every filter, at every depth and preset. No point of them may be shadowed, not by one
  * tap. And what it costs: how far shadows are detached, beside the other biases, at every angle. "--table" prints
- * docs/BIAS.md's tables, "--plots DIR" draws the pictures beside them.
+ * docs/data/BIAS.md's tables, "--plots DIR" draws the pictures beside them.
  */
 #include "../host/tool/plot/plot.h"
 #include "bias_scene.h"

@@ -1,7 +1,7 @@
 /* Detachment at the contact, beside acne: the gap behind the foot of a wall, under the automatic bias (B6) and under
  * the defaults of B1 and B2 (constant and slope 0, normal 1), at every angle and for every kind of light. How wide a
  * gap is depends on where the wall stands in the light's grid, by a tenth of a texel or so either way: what is compared
- * are means over many places. "--table" prints docs/BIAS.md's table. */
+ * are means over many places. "--table" prints docs/data/BIAS.md's table. */
 #include "bias_scene.h"
 
 static const bias beside[] = {

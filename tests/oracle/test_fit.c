@@ -1,4 +1,4 @@
-/* [D12] [A7] Tight fits and tiles by worth lose nothing: random scenes, seen by cameras that roll.
+/* [D12] [A7] Tight fits and tiles by worth lose nothing: random scenes, seen by cameras that roll, some of them orthographic.
  *
  * - Both engines choose the same views, texels, sizes and origins.
  * - Every visible receiver is looked up in a tile that covers it, filter and bias included.
@@ -55,6 +55,7 @@ static void add_camera(fixture *f)
     const double roll = one_in(3) ? 0 : random_between(0, 2 * PI), up[3] = {sin(roll), cos(roll), 0.1};
     look(f, from, at, up);
     f->s.camera.focal = random_between(0.7, 4);
+    f->s.camera.half_height = one_in(4) ? random_between(1, 8) : 0;
     f->s.camera.near = 0.1;
 }
 

@@ -167,6 +167,7 @@ typedef struct {
 } exception;
 static const exception beyond[] = {
     {"M3", "yard", ".texture=nearest", 1.2}, /* texels that a coordinate is within 2^-9 of, or a step of Q17 */
+    {"M11", "yard", ".texture=nearest", 1.05}, /* the same */
     {"P6", "room", "other_atlas_size=64 bias_normal=3", 1.15},
     {"P6", "room", "other_atlas_size=64", 4.6}, /* 7x7 in tiles of 16 texels: all is penumbra, linear between lookups */
     {"P5", "room", "near=0.6", 2.1},
@@ -536,6 +537,11 @@ static const row rows[] = {
     {"M10", "yard", ".colours=1 .specular=4", ".emissive=0.3", "", 0.25},
     {"M10", "yard", ".texture=bilinear .colours=1", ".emissive=0.3", "", 0.25},
     {"R10", "yard", "", "half_height=3", "", 0.25},
+    {"M11", "yard", ".texture=bilinear", ".levels=1", "", 0.25},
+    {"M11", "yard", ".texture=nearest", ".levels=1", "", 0.5},
+    {"M11", "yard", ".texture=bilinear .camera=0.3,1.2,6,0.1,0.9,-3 .wrap=cr", ".levels=1", "", 0.25},
+    {"M11", "yard", ".texture=bilinear .light=all .camera=0.3,1.2,6,0.1,0.9,-3 persp_step=16", ".levels=1", "", 0.25},
+    {"M11", "yard", ".texture=bilinear half_height=9", ".levels=1", "", 0.25},
     {"R10", "yard", ".light=all .texture=bilinear .colours=1 .specular=4", "half_height=2.5", "", 0.5},
     {"R10", "yard", ".light=suns filter=5x5 .normals=0 .camera=5,5,5,0,0.5,-1.5 auto_bias=normal", "half_height=3", "",
      0.5},
@@ -544,6 +550,10 @@ static const row rows[] = {
     {"R10", "lane", "cascades=4 cascade_blend=soft", "half_height=4", "", 0.75},
     {"R10", "lane", "cascades=2 distance_mode=radius max_distance=15", "half_height=5", "", 0.5},
     {"R10", "yard", ".camera=-1.6,0.5,0.9,0.5,0.5,-4", "half_height=1", "", 0.5}, /* clipped */
+    {"R12", "yard", "", ".skin=0.6", "", 0.25},
+    {"R12", "yard", ".light=all .texture=bilinear .colours=1 .specular=4", ".skin=0.9", "", 0.5},
+    {"R12", "yard", ".light=suns filter=2x2 .normals=0", ".skin=-0.7", "", 0.5},
+    {"R12", "yard", ".light=point bias_caster=1", ".skin=0.8", "", 0.5},
     {"R11", "yard", "background=0.2,0.4,0.8 .camera=1.2,0.9,7.5,0,1.4,-1.5", "background_bottom=0.9,0.6,0.3", "", 0.1},
     {"R4", "yard", ".light=all .texture=bilinear .colours=1", "persp_step=16", NULL, 0.75},
     {"R4", "yard", ".light=all .texture=bilinear .colours=1", "persp_step=4", NULL, 0.5},

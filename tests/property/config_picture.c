@@ -64,7 +64,7 @@ static void use_flag(const char *flag)
 static gn_renderer renderer;
 static demo_scene demo;
 static gn_light lights[LIGHTS];
-static uint8_t texels[4 * 8 * 8], mask[4 * DEMO_BALL_VERTICES];
+static uint8_t texels[4 * (64 + 16 + 4 + 1)], mask[4 * DEMO_BALL_VERTICES];
 static uint16_t mask_uv[2 * 8], baked[3 * DEMO_BALL_VERTICES];
 static int16_t uv[2 * 8];
 static gn_texture texture = {.rgba = texels, .width_log2 = 3, .height_log2 = 3};
@@ -123,6 +123,7 @@ static void use_materials(int variant)
     demo.ground.uv_frac_bits = demo.box.uv_frac_bits = 10;
     demo.ground.mask_uv_uq16 = demo.box.mask_uv_uq16 = mask_uv;
     texture.flags = (uint8_t)(variant % 3 == 2 ? GN_TEXTURE_BILINEAR : variant % 3);
+    if (use.texture_levels) texture.flags |= GN_TEXTURE_MIPMAPPED;
     gn_alpha cut = variant % 2 ? GN_ALPHA_CLIP : GN_ALPHA_DITHER;
     for (int i = 0; i < DEMO_OBJECTS; i++) {
         demo.object[i].alpha_uq16 = 50000;
@@ -289,6 +290,11 @@ static void ask_texture(void)
 {
     demo.object[2].texture = &texture;
 }
+static void ask_levels(void)
+{
+    texture.flags |= GN_TEXTURE_MIPMAPPED;
+    demo.object[2].texture = &texture;
+}
 static void ask_specular(void)
 {
     demo.object[2].specular_uq16[1] = 1;
@@ -390,6 +396,7 @@ static const struct {
     {"caster alpha", GN_CASTER_ALPHA, GN_ERR_MATERIAL, ask_caster_alpha},
     {"visible alpha", GN_VISIBLE_ALPHA, GN_ERR_MATERIAL, ask_visible_alpha},
     {"texture", GN_TEXTURES, GN_ERR_TEXTURE, ask_texture},
+    {"texture levels", GN_MIPMAPS, GN_TEXTURES ? GN_ERR_TEXTURE_FORMAT : GN_ERR_TEXTURE, ask_levels},
     {"specular", GN_SPECULAR, GN_ERR_MATERIAL, ask_specular},
     {"orthographic", GN_ORTHOGRAPHIC, GN_ERR_CAMERA_FOCAL, ask_orthographic},
     {"emissive", GN_EMISSIVE, GN_ERR_MATERIAL, ask_emissive},

@@ -9,7 +9,7 @@
 #include "gnomon.h"
 #include "knobs.h"
 
-enum { RANDOM_VERTICES = 9, RANDOM_TRIANGLES = 14, RANDOM_OBJECTS = 4, RANDOM_MESHES = 2 };
+enum { RANDOM_VERTICES = 9, RANDOM_TRIANGLES = 14, RANDOM_OBJECTS = 4, RANDOM_MESHES = 2, RANDOM_JOINTS = 5 };
 enum { RANDOM_TEXTURES = 4, RANDOM_MASK_TEXTURES = 2 }; /* mask images are the first ones */
 enum { RANDOM_TEXELS_LOG2 = 12, RANDOM_LIMIT_Q16 = 8192 << 16 };
 
@@ -23,6 +23,9 @@ typedef struct {
     uint8_t *texels[RANDOM_TEXTURES], *palette[RANDOM_TEXTURES];
     gn_texture texture[RANDOM_TEXTURES];
     gn_mesh mesh[RANDOM_MESHES];
+    gn_affine joint[RANDOM_JOINTS];
+    uint8_t joint_idx[RANDOM_VERTICES * 4], weight[RANDOM_VERTICES * 4];
+    gn_skin skin;
     gn_object object[RANDOM_OBJECTS];
     gn_light light[GN_MAX_LIGHTS];
     gn_scene scene;
@@ -86,6 +89,7 @@ static void built_object(gn_object *o)
     if (absent(GN_MASKS)) o->mask_image = NULL, o->mask_u8 = NULL;
     if (absent(GN_BAKED_LIGHT)) o->baked_uq12 = NULL;
     if (absent(GN_SPECULAR)) memset(o->specular_uq16, 0, sizeof o->specular_uq16);
+    if (absent(GN_VERTEX_JOINTS)) o->skin = NULL;
     if (absent(GN_EMISSIVE)) memset(o->emissive_uq16, 0, sizeof o->emissive_uq16);
 }
 
@@ -151,10 +155,15 @@ static void random_texels(random_scene *g, int i)
 {
     static const uint8_t bits[GN_TEXTURE_FORMAT_COUNT] = {32, 16, 16, 8, 4, 1, 8, 4, 8, 4};
     gn_texture *t = &g->texture[i];
-    const size_t width = t->width ? t->width : (size_t)1 << t->width_log2;
-    const size_t height = t->height ? t->height : (size_t)1 << t->height_log2;
+    size_t width = t->width ? t->width : (size_t)1 << t->width_log2;
+    size_t height = t->height ? t->height : (size_t)1 << t->height_log2;
+    size_t n = (width * bits[t->format] + 7) / 8 * height;
+    while (t->flags & GN_TEXTURE_MIPMAPPED && (width > 1 || height > 1)) {
+        width = width > 1 ? width / 2 : 1, height = height > 1 ? height / 2 : 1;
+        n += (width * bits[t->format] + 7) / 8 * height;
+    }
     free(g->texels[i]), free(g->palette[i]);
-    g->texels[i] = random_block((width * bits[t->format] + 7) / 8 * height), g->palette[i] = NULL;
+    g->texels[i] = random_block(n), g->palette[i] = NULL;
     if (t->format >= GN_TEXTURE_PALETTE8 && t->format <= GN_TEXTURE_PALETTE1)
         g->palette[i] = random_block((size_t)4 << bits[t->format]);
     t->rgba = g->texels[i], t->palette = g->palette[i];
@@ -166,6 +175,7 @@ static void random_textures(random_scene *g)
         gn_texture *t = &g->texture[i];
         random_sides(t);
         t->flags = (uint8_t)rnd();
+        if (absent(GN_TEXTURE_LEVELS)) t->flags &= (uint8_t)~GN_TEXTURE_MIPMAPPED;
         do t->format = (uint8_t)(one_in(2) ? GN_TEXTURE_RGBA8888 : rnd() % GN_TEXTURE_FORMAT_COUNT);
         while (absent(GN_TEXTURE_FORMATS >> t->format & 1));
         if (i < RANDOM_MASK_TEXTURES && !one_in(50)) t->format = GN_TEXTURE_RGBA8888;
@@ -224,6 +234,45 @@ static void random_rotation(gn_affine *out)
     gn_affine_rotation(out, yaw, pitch, roll);
 }
 
+/* Joints of every size, and of none: near rotations mostly. */
+static void random_joints(random_scene *g)
+{
+    for (int i = 0; i < RANDOM_JOINTS; i++) {
+        gn_affine *a = &g->joint[i];
+        random_rotation(a);
+        if (one_in(4)) gn_affine_scale(a, pick(1, one_in(4) ? (8192 << 16) - 1 : 2 << 16));
+        if (one_in(8))
+            for (int k = 0; k < 9; k++) a->m_q30[k / 3][k % 3] = pick(-(1 << 30), 1 << 30);
+        if (one_in(12)) memset(a->m_q30, 0, sizeof a->m_q30);
+        for (int k = 0; k < 3; k++) a->t_q16[k] = seldom(0, -(1 << 30), 1 << 30) >> (one_in(4) ? 0 : 14);
+        if (one_in(300)) spoil_words(a, 0, sizeof *a);
+    }
+}
+
+/* Of each vertex 255 in all, mostly. */
+static void random_skin(random_scene *g)
+{
+    const uint32_t n = 1U + rnd() % (GN_VERTEX_JOINTS ? GN_VERTEX_JOINTS : 4U);
+    random_joints(g);
+    for (uint32_t i = 0; i < RANDOM_VERTICES * n; i += n) {
+        uint32_t left = 255;
+        for (uint32_t k = i; k < i + n; k++) {
+            g->joint_idx[k] = (uint8_t)(rnd() % RANDOM_JOINTS);
+            g->weight[k] = (uint8_t)(k + 1 == i + n ? left : one_in(3) ? 0 : rnd() % (left + 1));
+            left -= g->weight[k];
+        }
+    }
+    if (one_in(100)) g->joint_idx[rnd() % (RANDOM_VERTICES * n)] = (uint8_t)rnd();
+    if (one_in(100)) g->weight[rnd() % (RANDOM_VERTICES * n)] = (uint8_t)rnd();
+    const gn_skin skin = {g->joint, g->joint_idx, g->weight, RANDOM_JOINTS, (uint8_t)n};
+    g->skin = skin;
+    if (one_in(100)) g->skin.per_vertex = (uint8_t)(one_in(2) ? 0 : 5 + rnd() % 200);
+    if (one_in(100)) g->skin.n_joints = (uint16_t)(rnd() % RANDOM_JOINTS);
+    if (one_in(300)) g->skin.joint = NULL;
+    if (one_in(300)) g->skin.joint_idx = NULL;
+    if (one_in(300)) g->skin.weight_u8 = NULL;
+}
+
 /* A place before the camera, or anywhere. */
 static void random_place(int32_t out_q16[3], const gn_affine *camera)
 {
@@ -263,6 +312,7 @@ static void random_object(random_scene *g, gn_object *o)
     if (one_in(8)) o->to_world.exp = pick(0, 14);
     random_place(o->to_world.t_q16, &g->scene.camera.to_world);
     o->mesh = &g->mesh[rnd() % RANDOM_MESHES];
+    o->skin = one_in(3) ? &g->skin : NULL;
     o->flags = rnd();
     if (!one_in(8)) o->flags &= ~(uint32_t)(GN_OBJECT_HIDDEN | GN_OBJECT_UNLIT);
     if (!one_in(4)) o->flags |= GN_OBJECT_DEFAULT;
@@ -409,6 +459,7 @@ static void random_scene_make(random_scene *g)
     random_shadows(&s->shadow, s->camera.near_q16);
     random_textures(g);
     random_meshes(g);
+    random_skin(g);
     for (int i = 0; i < RANDOM_OBJECTS; i++) random_object(g, &g->object[i]);
     for (uint32_t i = 0; i < s->n_lights && i < GN_MAX_LIGHTS; i++) random_light(g, &g->light[i]);
     if (one_in(60)) spoil_words(s, offsetof(gn_scene, camera), sizeof *s);
@@ -426,7 +477,7 @@ static void random_scene_change(random_scene *g)
     int32_t *at = s->camera.to_world.t_q16;
     gn_object *o;
     do {
-        switch (rnd() % 9) {
+        switch (rnd() % 10) {
         case 0:
             random_object(g, &g->object[rnd() % RANDOM_OBJECTS]);
             break;
@@ -449,6 +500,9 @@ static void random_scene_change(random_scene *g)
             o = &g->object[rnd() % RANDOM_OBJECTS];
             random_material(g, o);
             built_object(o);
+            break;
+        case 8:
+            random_joints(g);
             break;
         case 7:
             random_camera(&s->camera);
@@ -480,6 +534,7 @@ static void random_knobs(gn_frame *k)
     SET_KNOB(k, vertex_light, one_in(4));
     SET_KNOB(k, position_bits, 32); /* may have been spoiled */
     SET_KNOB(k, normal_bits, 16);
+    SET_KNOB(k, triangle_groups, one_in(2) ? 0 : 1 + (int32_t)(rnd() % 16));
     if (one_in(200)) {
 #if GN_RUNTIME_KNOBS
         spoil_words(&k->knobs, 0, sizeof k->knobs);

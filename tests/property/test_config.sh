@@ -26,7 +26,7 @@ flags() {
 }
 most() {
     case $1 in
-    FILTER_MAX) echo 4 ;;
+    FILTER_MAX | VERTEX_JOINTS) echo 4 ;;
     TEXTURE_FORMATS) echo 1023 ;;
     *) echo 1 ;;
     esac
@@ -92,6 +92,10 @@ pairs() {
     more "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=8"
     echo "PUNCTUAL_LIGHTS=0 MAIN_LIGHT=0 DEPTH_BITS=32 STATIC_LAYER=1"
     echo "OTHER_ATLAS_SIZE=32 ATLAS_SIZE=64 TILE_WIDTH=32 TILE_HEIGHT=5"
+    echo "TRIANGLE_GROUPS=64 MAX_TRIANGLES=400 MAX_TILE_REFS=1"
+    echo "none TRIANGLE_GROUPS=3 TILE_WIDTH=24 SIZE_FIRST=1"
+    more "tiny all TRIANGLE_GROUPS=4096"
+    more "-m32 accurate TRIANGLE_GROUPS=17"
     for preset in tiny fast accurate; do # balanced is the default
         echo "$preset"
         more "$preset none"
@@ -201,6 +205,8 @@ refused depth_bits -DGN_DEPTH_BITS=24
 refused other_depth_bits -DGN_OTHER_DEPTH_BITS=12
 refused vertex_cache -DGN_VERTEX_CACHE=33
 refused tile_width -DGN_TILE_WIDTH=68
+refused triangle_groups_have_tiles "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_WIDTH=8 -DGN_TILE_HEIGHT=1 -DGN_MAX_HEIGHT=100"
+refused triangle_groups_have_up_to_128 "-DGN_TRIANGLE_GROUPS=1 -DGN_TILE_HEIGHT=1"
 
 # ---- The user's own header; C++ --------------------------------------------------------------------------------------------
 
@@ -379,6 +385,7 @@ full() {
 
 plain=$(small)
 full GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES 3
+full GN_ERR_TRIANGLES_FULL GN_MAX_TRIANGLES 1 TRIANGLE_GROUPS=8
 full GN_ERR_TILE_REFS_FULL GN_MAX_TILE_REFS 3
 full GN_ERR_TOO_MANY_OBJECTS GN_MAX_OBJECTS 1
 full GN_ERR_TOO_MANY_LIGHTS GN_MAX_LIGHTS 1 PUNCTUAL_LIGHTS=0

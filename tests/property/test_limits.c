@@ -26,6 +26,11 @@ static void limit_near_high(gn_scene *s)
 {
     s->camera.near_q16 = GN_Q16(8191), s->camera.far_q16 = INT32_MAX, s->shadow.max_distance_q16 = GN_Q16(8192);
 }
+static void flat_far_and_small(gn_scene *s)
+{
+    limit_near_high(s);
+    if (GN_ORTHOGRAPHIC) s->camera.half_height_q16 = 256, s->camera.focal_q24 = 0;
+}
 static void near_through_ball(gn_scene *s)
 {
     s->camera.near_q16 = GN_Q16(6.3);
@@ -254,49 +259,28 @@ static const struct {
     {                                                                                                                  \
         set, #set                                                                                                      \
     }
-    EXTREME(limit_focal_low),
-    EXTREME(limit_focal_high),
-    EXTREME(limit_near_low),
-    EXTREME(limit_near_high),
-    EXTREME(near_through_ball),
-    EXTREME(near_through_all),
-    EXTREME(shadow_next_to_near),
-    EXTREME(shadow_all_the_way),
-    EXTREME(fades_small),
-    EXTREME(fades_full),
-    EXTREME(camera_in_ball),
-    EXTREME(camera_in_box),
-    EXTREME(camera_on_ground),
-    EXTREME(camera_up),
-    EXTREME(camera_down),
-    EXTREME(camera_nowhere),
-    EXTREME(everything_far_out),
-    EXTREME(opposite_corners),
-    EXTREME(exp_14),
-    EXTREME(scale_tiny),
-    EXTREME(scale_huge),
-    EXTREME(scale_one_axis),
-    EXTREME(scale_mirrored),
-    EXTREME(matrix_full),
-    EXTREME(light_up),
-    EXTREME(light_down),
-    EXTREME(light_along_ground),
-    EXTREME(light_diagonal),
-    EXTREME(light_grazing),
-    EXTREME(light_bright),
-    EXTREME(light_black),
-    EXTREME(biases_full),
-    EXTREME(offset_full_tiny_tile),
-    EXTREME(all_lights),
-    EXTREME(triangles_degenerate),
-    EXTREME(vertices_equal),
-    EXTREME(normals_zero),
-    EXTREME(normals_opposite),
-    EXTREME(positions_at_limit),
-    EXTREME(nothing_at_all),
-    EXTREME(two_sided),
-    EXTREME(all_flags),
-    EXTREME(huge_triangles),
+    EXTREME(limit_focal_low),    EXTREME(limit_focal_high),
+    EXTREME(limit_near_low),     EXTREME(limit_near_high),
+    EXTREME(flat_far_and_small), EXTREME(near_through_ball),
+    EXTREME(near_through_all),   EXTREME(shadow_next_to_near),
+    EXTREME(shadow_all_the_way), EXTREME(fades_small),
+    EXTREME(fades_full),         EXTREME(camera_in_ball),
+    EXTREME(camera_in_box),      EXTREME(camera_on_ground),
+    EXTREME(camera_up),          EXTREME(camera_down),
+    EXTREME(camera_nowhere),     EXTREME(everything_far_out),
+    EXTREME(opposite_corners),   EXTREME(exp_14),
+    EXTREME(scale_tiny),         EXTREME(scale_huge),
+    EXTREME(scale_one_axis),     EXTREME(scale_mirrored),
+    EXTREME(matrix_full),        EXTREME(light_up),
+    EXTREME(light_down),         EXTREME(light_along_ground),
+    EXTREME(light_diagonal),     EXTREME(light_grazing),
+    EXTREME(light_bright),       EXTREME(light_black),
+    EXTREME(biases_full),        EXTREME(offset_full_tiny_tile),
+    EXTREME(all_lights),         EXTREME(triangles_degenerate),
+    EXTREME(vertices_equal),     EXTREME(normals_zero),
+    EXTREME(normals_opposite),   EXTREME(positions_at_limit),
+    EXTREME(nothing_at_all),     EXTREME(two_sided),
+    EXTREME(all_flags),          EXTREME(huge_triangles),
 };
 
 static void set_preset_knobs(gn_frame *frame, int preset)

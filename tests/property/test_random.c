@@ -52,31 +52,34 @@ static void next_picture(campaign *r, uint32_t kind)
 }
 
 /* The same frame by the other renderer, which has kept nothing. Whether it has the same pixels. */
-static int same_afresh(campaign *r, int32_t tile_size, int culling)
+static int same_afresh(campaign *r, int32_t tile_size, int culling, int32_t groups)
 {
     gn_scene other = r->scene.scene;
     other.shadow.caster_culling = (uint32_t)culling;
     gn_forget_shadows(&two);
     COPY_KNOBS(&two.frame, &one.frame);
+    SET_KNOB(&two.frame, triangle_groups, groups);
     if (tile_size) SET_KNOB(&two.frame, tile_width, tile_size), SET_KNOB(&two.frame, tile_height, tile_size);
     return gn_render(&two, &other, flush, &r->fresh) == GN_OK &&
            !memcmp(r->kept.pixels, r->fresh.pixels, r->kept.n_bytes);
 }
 
-/* What must not change a pixel: forgetting what was kept, culling casters, other screen tiles where each pixel has its
- * divide. */
+/* What must not change a pixel: forgetting what was kept, culling casters, groups of triangles or their records, other
+ * screen tiles where each pixel has its divide. */
 static void compare_with_fresh(campaign *r, long frame)
 {
     const gn_shadow_settings *s = &r->scene.scene.shadow;
     int culling = !s->caster_culling;
+    const int32_t groups = GN_K(&one.frame, triangle_groups), other = groups ? 0 : 1 + (int32_t)(rnd() % 16);
     int32_t tile_size = GN_K(&one.frame, persp_step) == 1 ? 8 + 8 * (int32_t)(rnd() % 6) : 0;
     for (int i = 0; i < 4; i++)
         if (s->refresh[i] > 1) return; /* tiles are older than the frame */
     r->compared++;
-    if (same_afresh(r, tile_size, culling)) return;
+    if (same_afresh(r, tile_size, culling, other)) return;
     if (r->wrong++ < 10)
-        printf("scene %ld: other pixels by what was kept: %d, by culling: %d, by screen tiles: %d\n", frame,
-               !same_afresh(r, 0, !culling), !same_afresh(r, 0, culling), !same_afresh(r, tile_size, !culling));
+        printf("scene %ld: other pixels by what was kept: %d, by culling: %d, by screen tiles: %d, by groups: %d\n",
+               frame, !same_afresh(r, 0, !culling, groups), !same_afresh(r, 0, culling, groups),
+               !same_afresh(r, tile_size, !culling, groups), !same_afresh(r, 0, !culling, other));
 }
 
 /* Every texel that is said to be there can be read. */

@@ -165,6 +165,59 @@ static void emissive(gn_scene *s)
 {
     (void)s, demo.object[1].emissive_uq16[2] = 1 << 24;
 }
+
+/* The ball's skin: one joint, or what is wrong with it. */
+static gn_affine skin_joint[2];
+static uint8_t skin_idx[DEMO_BALL_VERTICES * 4], skin_weight[DEMO_BALL_VERTICES * 4];
+static gn_skin skin;
+
+static void skinned(uint8_t per_vertex)
+{
+    gn_affine_identity(&skin_joint[0]);
+    gn_affine_identity(&skin_joint[1]);
+    memset(skin_idx, 0, sizeof skin_idx);
+    memset(skin_weight, 0, sizeof skin_weight);
+    for (int i = 0; i < DEMO_BALL_VERTICES; i++) skin_weight[i * per_vertex] = 255;
+    const gn_skin whole = {skin_joint, skin_idx, skin_weight, 2, per_vertex};
+    skin = whole;
+    demo.object[1].skin = &skin;
+}
+static void skin_no_joints(gn_scene *s)
+{
+    (void)s, skinned(1), skin.n_joints = 0;
+}
+static void skin_no_weights(gn_scene *s)
+{
+    (void)s, skinned(1), skin.weight_u8 = NULL;
+}
+static void skin_per_vertex_5(gn_scene *s)
+{
+    (void)s, skinned(1), skin.per_vertex = 5;
+}
+static void skin_joint_large(gn_scene *s)
+{
+    (void)s, skinned(1), skin_joint[1].m_q30[2][0] = (1 << 30) + 1;
+}
+static void skin_joint_far(gn_scene *s)
+{
+    (void)s, skinned(1), skin_joint[1].t_q16[2] = -(1 << 30) - 1;
+}
+static void skin_joint_exp(gn_scene *s)
+{
+    (void)s, skinned(1), skin_joint[1].exp = 15;
+}
+static void skin_index(gn_scene *s)
+{
+    (void)s, skinned(2), skin_idx[2 * DEMO_BALL_VERTICES - 1] = 2; /* though its weight is 0 */
+}
+static void skin_weights(gn_scene *s)
+{
+    (void)s, skinned(2), skin_weight[7] = 1;
+}
+static void skin_moves_out(gn_scene *s)
+{
+    (void)s, skinned(1), skin_joint[0].t_q16[1] = 1 << 30;
+}
 static void ambient(gn_scene *s)
 {
     s->ambient_uq16[1] = 1 << 24;
@@ -331,6 +384,15 @@ static const struct {
     REFUSED(vertex_over_2_30_no_shadow, GN_ERR_VERTEX_RANGE, 1, 0, 0),
     REFUSED(albedo, GN_ERR_COLOUR, 1, 0, 0),
     REFUSED(emissive, GN_ERR_MATERIAL, 1, 0, 0),
+    REFUSED(skin_no_joints, GN_ERR_SKIN, 1, 0, 0),
+    REFUSED(skin_no_weights, GN_ERR_SKIN, 1, 0, 0),
+    REFUSED(skin_per_vertex_5, GN_ERR_SKIN, 1, 0, 0),
+    REFUSED(skin_joint_large, GN_ERR_SKIN, 1, 0, 0),
+    REFUSED(skin_joint_far, GN_ERR_SKIN, 1, 0, 0),
+    REFUSED(skin_joint_exp, GN_ERR_SKIN, 1, 0, 0),
+    REFUSED(skin_index, GN_ERR_SKIN_JOINT, 1, 0, 0),
+    REFUSED(skin_weights, GN_ERR_SKIN_WEIGHTS, 1, 0, 0),
+    REFUSED(skin_moves_out, GN_ERR_VERTEX_RANGE, 1, 0, 0),
     REFUSED(ambient, GN_ERR_COLOUR, 0, 0, 0),
     REFUSED(background, GN_ERR_COLOUR, 0, 0, 0),
     REFUSED(half_height_small, GN_ERR_CAMERA_FOCAL, 0, 0, 0),

@@ -43,7 +43,7 @@ static void test_nearest(void)
             const double u = random_between(-2, 3), v = random_between(-2, 3);
             const uint8_t *expected = texel(&t, (int)floor(8 * u), (int)floor(4 * v));
             double got[4];
-            ref_sample_texture(got, &t, u, v);
+            ref_sample_texture(got, &t, 0, u, v);
             for (int k = 0; k < 3; k++) CHECK_NEAR(got[k], decoded(expected[k]), 1e-14);
             CHECK_NEAR(got[3], expected[3] / 255.0, 1e-14);
         }
@@ -61,7 +61,7 @@ static void test_bilinear(void)
             const int i = (int)random_between(-9, 9), j = (int)random_between(-17, 17);
             const double fx = n % 3 ? random_unit() : 0, fy = n % 5 ? random_unit() : 0;
             double got[4];
-            ref_sample_texture(got, &t, (i + 0.5 + fx) / 4, (j + 0.5 + fy) / 8);
+            ref_sample_texture(got, &t, 0, (i + 0.5 + fx) / 4, (j + 0.5 + fy) / 8);
             for (int k = 0; k < 4; k++) {
                 double expected = 0;
                 for (int tap = 0; tap < 4; tap++) {

@@ -90,11 +90,14 @@ static inline void end(fixture *f)
         free(f->meshes[i].rgb);
         free(f->meshes[i].uv);
         free(f->meshes[i].mask_uv);
+        free(f->meshes[i].joint);
+        free(f->meshes[i].weight);
         free(f->meshes[i].idx);
     }
     for (size_t i = 0; i < f->s.n_objects; i++) {
         free(f->objects[i].mask);
         free(f->objects[i].baked);
+        free(f->objects[i].joints);
     }
 }
 
@@ -209,8 +212,9 @@ static inline ref_picture render(const fixture *f, int width, int height, int at
 /* The world point that a pixel shows, from its depth. */
 static inline void world_at(double out[3], const fixture *f, const ref_picture *p, int i, int j)
 {
-    const double focal_px = f->s.camera.focal * p->height / 2.0, z = p->depth[j * p->width + i];
-    const double x = (i + 0.5 - p->width / 2.0) * z / focal_px, y = (p->height / 2.0 - j - 0.5) * z / focal_px;
+    const double z = p->depth[j * p->width + i], flat = f->s.camera.half_height;
+    const double per_px = (flat > 0 ? flat : z / f->s.camera.focal) / (p->height / 2.0);
+    const double x = (i + 0.5 - p->width / 2.0) * per_px, y = (p->height / 2.0 - j - 0.5) * per_px;
     for (int k = 0; k < 3; k++) {
         const double *row = f->s.camera.to_world.m[k];
         out[k] = row[0] * x + row[1] * y - row[2] * z + row[3];

@@ -57,11 +57,14 @@ for scene in cube sundial avenue desk mixed; do same $scene host/scenes/$scene.g
 same robot tests/data/robot.gltf
 same materials docs/scenes/materials.gltf --set preset=tiny
 same lamps docs/scenes/lamps.gltf --set lights=directional --set position_bits=16
+# [R12] skins: joints as they are in the file, and by a clip
+same snake docs/scenes/snake.gltf
 # [R8] clips: rotation, of a light, and of a hierarchy with splines, steps, scales, a fixed matrix, a lamp and a camera
 poses cube host/scenes/cube.gltf 300 0 1 30 60 96
 poses sundial host/scenes/sundial.gltf 300 1 77 144
 poses desk host/scenes/desk.gltf 300 7 30
 poses robot tests/data/robot.gltf 300 0 10 20 30 47 72
+poses snake docs/scenes/snake.gltf 300 0 11 30 66 96
 
 # names: of the file, in letters of C, each once; all cameras
 for word in ROBOT_OBJECT_ROBOT_BASE ROBOT_LIGHT_TORCH ROBOT_CAMERA_ABOVE ROBOT_MESH_RED_BOX ROBOT_CLIP_WAVE ROBOT_CLIP_WALK; do

@@ -156,7 +156,7 @@ pictures short 1 short.jpg # so few bytes cannot be so large a picture
 drawn "texture 'short.jpg': the file ends early: it is drawn without" "$tmp/short.gltf"
 pictures one 1 damaged.jpg
 drawn "texture 'damaged.jpg': a marker is missing: it is drawn without" "$tmp/one.gltf"
-cp tests/data/jpeg/420-progressive.jpg "$tmp/whole.jpg"
+cp tests/data/corpus/jpeg/420-progressive.jpg "$tmp/whole.jpg"
 pictures whole 1 whole.jpg
 drawn '' "$tmp/whole.gltf"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nmtllib p.mtl\nusemtl a\nf 1/1 2/1 3/1\n' >"$tmp/p.obj"

@@ -55,6 +55,7 @@ same desk host/scenes/desk.gltf "0 2 3" "--frames 0-3" --size 96x64
 same room host/scenes/room.gltf 0 "" --size 160x120
 same fence host/scenes/fence.gltf 0 "--set output=grey4" --size 160x120
 same cube host/scenes/cube.gltf "9 0 48" "" --size 96x64
+same snake docs/scenes/snake.gltf "1 5 0" "--frames 0-5" --size 96x64 # [R12]
 same mixed host/scenes/mixed.gltf "1 0" "--frames 0-1" --size 96x64 --set preset=tiny
 
 # vertices in half the bytes: the tool quantises alike

@@ -1,9 +1,9 @@
 /* JPEG: the transform is that of the standard, files of other writers read as libjpeg reads them, files made here as
  * they were made, what cannot be read is refused. Run from the project's folder.
  *
- * tests/data/jpeg: our own scenes, 17 x 13 or 32 x 24, by cjpeg of libjpeg-turbo 2.1 (-optimize, -quality 80; grey: 4,
- * which takes a table of 16 bits; ycck: by ImageMagick 6.9), and by its jpegtran those with a word behind the dash;
- * cmyk is ycck with another transform in Adobe's marker. The PNG files are what its djpeg -dct int makes of them,
+ * tests/data/corpus/jpeg: our own scenes, 17 x 13 or 32 x 24, by cjpeg of libjpeg-turbo 2.1 (-optimize, -quality 80;
+ * grey: 4, which takes a table of 16 bits; ycck: by ImageMagick 6.9), and by its jpegtran those with a word behind the
+ * dash; cmyk is ycck with another transform in Adobe's marker. The PNG files are what its djpeg -dct int makes of them,
  * those of four components ImageMagick. */
 #include <math.h>
 #include <stdbool.h>
@@ -113,7 +113,7 @@ static uint8_t file_bytes[1 << 16];
 static size_t read_jpeg(const char *name)
 {
     char path[100];
-    snprintf(path, sizeof path, "tests/data/jpeg/%s.jpg", name);
+    snprintf(path, sizeof path, "tests/data/corpus/jpeg/%s.jpg", name);
     FILE *file = fopen(path, "rb");
     if (!CHECK(file != NULL)) exit(check_report());
     size_t n = fread(file_bytes, 1, sizeof file_bytes, file);
@@ -144,7 +144,7 @@ static uint8_t *read_expected(const char *name, const rgba8_picture *p)
 {
     char path[100];
     int w, h;
-    snprintf(path, sizeof path, "tests/data/jpeg/%s.png", name);
+    snprintf(path, sizeof path, "tests/data/corpus/jpeg/%s.png", name);
     uint8_t *rgb = png_read_rgb8(path, &w, &h, error, sizeof error);
     if (!CHECK(rgb && w == p->w && h == p->h)) exit(check_report());
     return rgb;

@@ -312,7 +312,7 @@ static void test_formats(void)
             const int32_t at[2] = {(int32_t)(u * 0x1p20), (int32_t)(v * 0x1p20)};
             uint32_t rgb[3];
             double want[4];
-            ref_sample_texture(want, &texture, u, v);
+            ref_sample_texture(want, &texture, 0, u, v);
             gn_texture_colour(t, at[0], at[1], rgb);
             for (int c = 0; c < 3; c++) CHECK(fabs(rgb[c] - 65536 * want[c]) <= 1.0001);
             CHECK(fabs(gn_texture_alpha(t, at[0], at[1]) - 65536 * want[3]) <= 0.5001);
@@ -324,6 +324,51 @@ static void test_formats(void)
         if (format == SCENE_TEXTURE_PALETTE8) CHECK_EQ_INT(largest, 0);
         quantise_free(&fixed);
     }
+}
+
+/* Of 5x3: 2x1 and 1x1 behind it, in every format what the reference reads there. Means are of the first level, in
+ * linear light, colours weighed by alpha. [M11] */
+static void test_levels(void)
+{
+    const int sides[3][2] = {{5, 3}, {2, 1}, {1, 1}};
+    for (int format = 0; texture_format_names[format]; format++) {
+        begin();
+        object.texture_idx = 0;
+        texture.width = 5;
+        texture.height = 3;
+        texture.rgba = malloc(4 * 15);
+        if (!CHECK(texture.rgba != NULL)) return;
+        for (int i = 0; i < 4 * 15; i++) texture.rgba[i] = (uint8_t)(i * 73 + i * i * 11 + format);
+        CHECK(texture_set_levels(&texture, true));
+        CHECK_EQ_INT(texture_level_texels(&texture, texture_level_count(&texture)), 18);
+        if (CHECK(texture_convert(&texture, (scene_texture_format)format)) && quantise()) {
+            const gn_texture *t = fixed.objects[0].texture;
+            CHECK(t->flags & GN_TEXTURE_MIPMAPPED);
+            for (int k = 0; k < 3; k++)
+                for (int i = 0; i < sides[k][0] * sides[k][1]; i++) {
+                    const double u = (i % sides[k][0] + 0.5) / sides[k][0], v = (i / sides[k][0] + 0.5) / sides[k][1];
+                    gn_texture level;
+                    uint32_t rgb[3];
+                    double want[4];
+                    gn_texture_use_level(&level, t, (uint32_t)k);
+                    ref_sample_texture(want, &texture, k, u, v);
+                    gn_texture_colour(&level, (int32_t)(u * 0x1p20), (int32_t)(v * 0x1p20), rgb);
+                    for (int c = 0; c < 3; c++) CHECK(fabs(rgb[c] - 65536 * want[c]) <= 1.0001);
+                }
+            quantise_free(&fixed);
+        }
+        CHECK(texture_set_levels(&texture, false));
+        CHECK_EQ_INT(texture_level_count(&texture), 1);
+        free(texture.rgba);
+    }
+    uint8_t *two = malloc(4 * 2);
+    if (!CHECK(two != NULL)) return;
+    memcpy(two, (uint8_t[]){255, 255, 255, 255, 0, 0, 0, 85}, 8);
+    scene_texture t = {.name = name, .width = 2, .height = 1, .rgba = two};
+    CHECK(texture_set_levels(&t, true));
+    CHECK_EQ_INT(t.rgba[8], 225); /* 3/4 in linear light */
+    CHECK_EQ_INT(t.rgba[11], 170);
+    free(t.rgba);
 }
 
 /* Means in linear light: of 1 1/2 texels each; a clear texel has no colour to give. [M11] */
@@ -459,6 +504,7 @@ int main(void)
     test_texture_coordinates();
     test_texture();
     test_formats();
+    test_levels();
     test_shrink();
     test_arrays();
     test_material();

@@ -618,13 +618,18 @@ int main(void)
     static const struct {
         const char *path;
         int (*write)(FILE *);
-    } gallery[] = {
-        {"docs/scenes/edge.gltf", gallery_edge_write},           {"docs/scenes/slopes.gltf", gallery_slopes_write},
-        {"docs/scenes/cones.gltf", gallery_cones_write},         {"docs/scenes/lamps.gltf", gallery_lamps_write},
-        {"docs/scenes/materials.gltf", gallery_materials_write}, {"docs/scenes/near.gltf", gallery_near_write},
-        {"docs/scenes/baked.gltf", gallery_baked_write},         {"docs/scenes/suns.gltf", gallery_suns_write},
-        {"docs/scenes/sheets.gltf", gallery_sheets_write},       {"docs/scenes/glow.gltf", gallery_glow_write},
-        {"docs/scenes/isometric.gltf", gallery_isometric_write}};
+    } gallery[] = {{"docs/scenes/edge.gltf", gallery_edge_write},
+                   {"docs/scenes/slopes.gltf", gallery_slopes_write},
+                   {"docs/scenes/cones.gltf", gallery_cones_write},
+                   {"docs/scenes/lamps.gltf", gallery_lamps_write},
+                   {"docs/scenes/materials.gltf", gallery_materials_write},
+                   {"docs/scenes/near.gltf", gallery_near_write},
+                   {"docs/scenes/baked.gltf", gallery_baked_write},
+                   {"docs/scenes/suns.gltf", gallery_suns_write},
+                   {"docs/scenes/sheets.gltf", gallery_sheets_write},
+                   {"docs/scenes/glow.gltf", gallery_glow_write},
+                   {"docs/scenes/snake.gltf", gallery_snake_write},
+                   {"docs/scenes/isometric.gltf", gallery_isometric_write}};
     for (size_t i = 0; i < sizeof gallery / sizeof *gallery; i++)
         test_committed_bytes(gallery[i].path, gallery[i].write);
     test_cube();

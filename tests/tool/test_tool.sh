@@ -32,7 +32,7 @@ bad() {
     shift 2
     run "$@"
     status=$?
-    lines=$(grep -v -c "^'gnomon help'" "$tmp/err")
+    lines=$(grep -v -c "^'gnomon help[a-z ]*' says" "$tmp/err")
     if [ $status != "$expected" ]; then fail "'$*' exits with $status, not $expected: $(head -n 1 "$tmp/err")"
     elif [ "$lines" != 1 ]; then fail "'$*' complains in $lines lines: $(head -n 2 "$tmp/err" | tr '\n' ';')"
     elif ! head -n 1 "$tmp/err" | grep -q '^gnomon: '; then fail "'$*' does not say who complains: $(head -n 1 "$tmp/err")"
@@ -737,9 +737,19 @@ for blend in hard soft dither; do good info "$cube" --size 16x12 --set cascades=
 for mode in depth radius; do good info "$cube" --size 16x12 --set distance_mode=$mode; done
 for filter in hard 2x2 3x3 5x5 7x7; do good info "$cube" --size 16x12 --set filter=$filter; done
 
+# ---- Animations ------------------------------------------------------------------------------------------------------------
+
+good render "$cube" --size 40x30 --frames 0-3 -o "$tmp/moving.png"
+good render "$cube" --size 40x30 --frame 0 -o "$tmp/still.png"
+[ "$(grep -a -o fcTL "$tmp/moving.png" | wc -l)" = 4 ] && grep -q -a acTL "$tmp/moving.png" && pass || fail "an animation of four frames has $(grep -a -o fcTL "$tmp/moving.png" | wc -l)"
+grep -q -a acTL "$tmp/still.png" && fail "one frame is an animation" || pass
+good render "$cube" --size 40x30 --frames 2-2 -o "$tmp/one.png"
+bad 1 "cannot be written\|No such file" render "$cube" --size 8x8 --frames 0-1 -o "$tmp/no/x.png"
+bad 2 "bad value" render "$cube" --frames 3-1 -o "$tmp/x.png"
+
 # ---- Help and version --------------------------------------------------------------------------------------------------------
 
-for command in render compare info sweep advise compile bake knobs; do
+for command in render compare info sweep advise compile asset bake knobs; do
     good $command --help
     cp "$tmp/out" "$tmp/help"
     head -n 1 "$tmp/help" | grep -q "^usage: gnomon $command" && pass || fail "$command --help does not begin with its usage: $(head -n 1 "$tmp/help")"
@@ -758,10 +768,27 @@ good help
 cp "$tmp/out" "$tmp/help"
 good --help
 cmp -s "$tmp/out" "$tmp/help" && pass || fail "gnomon --help is not gnomon help"
-for command in render compare info sweep advise compile bake knobs help; do
+for command in render compare info sweep advise compile asset bake knobs help; do
     grep -q "^  $command\>" "$tmp/help" && pass || fail "help does not list $command"
 done
 bad 2 nothing help nothing
+bad 2 "unknown command rendr: is 'render' meant?" rendr "$cube"
+bad 2 "unknown option --frmes: is '--frames' meant?" compile "$cube" --frmes 1-2
+bad 2 "unknown command zzzzzz$" zzzzzz
+bad 1 "unknown setting 'filtr': is 'filter' meant? ('gnomon knobs' lists them)" info "$cube" --set filtr=2x2
+bad 1 "unknown setting 'max_triangle': is 'max_triangles' meant?" info "$cube" --set max_triangle=3
+bad 1 "unknown setting 'qqqqqq' (" info "$cube" --set qqqqqq=3
+run compile "$cube" --bogus
+grep -q "^'gnomon help compile' says how it is used" "$tmp/err" && pass || fail "a mistake after compile does not lead to its help"
+for command in render compare info sweep advise compile asset bake; do
+    good help $command
+    [ "$(sed -n '3,/^options:/p' "$tmp/out" | wc -w)" -ge 15 ] && pass || fail "help $command does not say what it is for"
+    example=$(sed -n "s/^  gnomon $command \(.*\)/\1/p" "$tmp/out")
+    [ -f "${example%% *}" ] && pass || fail "help $command: there is no ${example%% *}"
+    for word in $example; do
+        case $word in --*) grep -q -e "^  $word\>" "$tmp/out" && pass || fail "help $command: its example has $word" ;; esac
+    done
+done
 bad 2 also help render bake
 bad 2 nothing nothing --help
 bad 2 alone --version now

@@ -151,7 +151,7 @@ static inline void view_corners(const gn_frame *frame, int32_t view[][3])
     gn_xform_compose(&xform, frame->cam.axis_q30, frame->cam.eye_q16, &object);
     for (int i = 0; i < 3 * N_TRIANGLES; i++) {
         int64_t got[3];
-        gn_xform_vertex(got, &xform, &mesh, (uint32_t)i);
+        gn_xform_point(got, &xform, mesh.pos + 3 * i);
         for (int k = 0; k < 3; k++) view[i][k] = (int32_t)got[k];
     }
 }

@@ -252,7 +252,7 @@ static void see_sun(caster *q, const gn_light_view *view, double shrunk)
     for (int i = 0; i < 3; i++) {
         int64_t got[3];
         q->corner[i] = 0;
-        gn_ortho_vertex(got, &xform, &mesh, (uint32_t)i);
+        gn_ortho_point(got, &xform, mesh.pos + 3 * i);
         exact_vertex(view, i, nowhere, q->p[i]);
         for (int a = 0; a < 3; a++) {
             real origin = 0;

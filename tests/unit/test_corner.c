@@ -471,7 +471,7 @@ static void check_scene(const gn_knobs *knobs)
     for (uint32_t t = 0; t < renderer.frame.stats.n_triangles; t++) {
         const gn_tri *tri = &renderer.frame.tri[t];
         plane p;
-        plane_of(&p, view, tri->triangle_idx);
+        plane_of(&p, view, tri->source.triangle_idx);
         gn_surface_begin(&renderer.frame, scratch, &cache, &surface, tri);
         const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
         const int has_plane = gn_corner_begin(&lattice, &renderer.frame, &surface, &r);

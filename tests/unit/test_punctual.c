@@ -31,7 +31,7 @@ typedef struct {
     double error, share;
 } worst;
 
-static int table; /* "--table": those of docs/NUMERICS.md */
+static int table; /* "--table": those of docs/data/BOUNDS.md */
 
 /* An error as a share of its bound. */
 static double ratio_of(double error, double bound, worst *largest)

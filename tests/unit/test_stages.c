@@ -52,7 +52,7 @@ static void check_view(const gn_frame *frame, int32_t view[][3])
         double world[3], reach = 0;
         int64_t got[3];
         world_vertex(i, world);
-        gn_xform_vertex(got, &xform, &mesh, (uint32_t)i);
+        gn_xform_point(got, &xform, mesh.pos + 3 * i);
         for (int k = 0; k < 3; k++) {
             reach += fabs(ldexp(pos[3 * i + k], object.to_world.exp - 24));
             world[k] -= frame->cam.eye_q16[k] * LSB16;
@@ -76,7 +76,7 @@ static void check_screen(const gn_frame *frame, int32_t view[][3])
         for (int i = 0; i < 3; i++) {
             double best = 1e9; /* two-sided triangles are stored turned round: the nearest of the three */
             for (int k = 0; k < 3; k++) {
-                const int32_t *v = view[3 * tri->triangle_idx + k];
+                const int32_t *v = view[3 * tri->source.triangle_idx + k];
                 double x = focal2 / 2 * v[0] / v[2], y = -focal2 / 2 * v[1] / v[2];
                 best = fmin(best, fmax(fabs(tri->x[i] * unit - x), fabs(tri->y[i] * unit - y)));
             }
@@ -95,7 +95,7 @@ static void check_edges(const gn_frame *frame, int32_t view[][3])
         gn_walk walk;
         outline o = {.n = 3};
         for (int i = 0; i < 3; i++) {
-            const int32_t *v = view[3 * frame->tri[t].triangle_idx + i];
+            const int32_t *v = view[3 * frame->tri[t].source.triangle_idx + i];
             o.p[i][0] = WIDTH / 2 + focal * v[0] / v[2];
             o.p[i][1] = HEIGHT / 2 - focal * v[1] / v[2];
         }
@@ -222,7 +222,7 @@ static void check_samples(const gn_frame *frame, int32_t view[][3])
         const gn_tri *tri = &frame->tri[t];
         plane p;
         gn_surface surface;
-        plane_of(&p, view, tri->triangle_idx);
+        plane_of(&p, view, tri->source.triangle_idx);
         gn_surface_begin(frame, scratch, &cache, &surface, tri);
         gn_rect r = gn_setup_bounds(frame, tri);
         for (int y = r.y0; y < r.y1; y += 3) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "exact.h"
+#include "geometry/gn_plane.h"
 #include "geometry/gn_texture.h"
 #include "gnomon.h"
 #include "rng.h"
@@ -343,8 +344,99 @@ static void test_coordinates(void)
     CHECK_TALLY(close, "gn_texture_coord");
 }
 
+#if GN_MIPMAPS
+/* Every level of every format and size lies behind the one before, and the last is one texel. [M11] */
+static void test_level_places(void)
+{
+    static const uint8_t nowhere[1 << 26];
+    tally t = {0};
+    for (int i = 0; i < 4000; i++) {
+        gn_texture chain = {.rgba = nowhere, .format = (uint8_t)(i % GN_TEXTURE_FORMAT_COUNT)}, level;
+        if (!(GN_TEXTURE_FORMATS >> chain.format & 1)) continue;
+        random_size(&chain);
+        if (i % 100 < 10) chain.width = (uint16_t)rng_range(&random_state, 1, 4096);
+        chain.flags = (uint8_t)(rng_u32(&random_state) & 7U) | GN_TEXTURE_MIPMAPPED;
+        size_t w = side(&chain, 0), h = side(&chain, 1), at = 0;
+        const uint64_t never = UINT64_MAX, always = 0;
+        HOLDS(&t, gn_texture_level_at(&chain, never, INT32_MAX) == 0, "%dx%d", (int)w, (int)h);
+        for (uint32_t k = 0;; k++) {
+            gn_texture_use_level(&level, &chain, k);
+            HOLDS(&t, level.rgba == nowhere + at && side(&level, 0) == w && side(&level, 1) == h,
+                  "format %d, %dx%d, level %d", (int)chain.format, (int)side(&chain, 0), (int)side(&chain, 1), (int)k);
+            HOLDS(&t, level.format == chain.format && level.palette == chain.palette, "level %d", (int)k);
+            if (w == 1 && h == 1) {
+                HOLDS(&t, gn_texture_level_at(&chain, always, 1) == k, "%dx%d: the last level is %d",
+                      (int)side(&chain, 0), (int)side(&chain, 1), (int)k);
+                break;
+            }
+            at += h * ((w * bits_of(chain.format) + 7) / 8);
+            w = w > 1 ? w / 2 : 1;
+            h = h > 1 ? h / 2 : 1;
+        }
+    }
+    CHECK_TALLY(t, "places of levels");
+}
+
+/* The depth squared at which the first smaller level begins, against the formula of DESIGN 1.8 in long double, from the
+ * plane as it is stored: NUMERICS 4.9; and every level's depth to a unit of Q16. */
+static void test_level_depths(void)
+{
+    tally close = {0}, begins = {0};
+    worst w = {0};
+    for (int i = 0; i < 20000; i++) {
+        int16_t uv[6];
+        int32_t v[3][3];
+        const uint16_t idx[3] = {0, 1, 2};
+        gn_texture t = {.flags = GN_TEXTURE_MIPMAPPED};
+        gn_mesh mesh = {.uv = uv, .n_vertices = 3, .uv_frac_bits = (uint8_t)rng_range(&random_state, 0, 15)};
+        gn_texture_triangle triangle;
+        gn_plane plane;
+        random_size(&t);
+        for (int k = 0; k < 6; k++) uv[k] = (int16_t)rng_range(&random_state, -32768, 32767);
+        const int bits = rng_range(&random_state, 8, 29);
+        for (int k = 0; k < 9; k++) v[k / 3][k % 3] = rng_wide_i32(&random_state, (uint32_t)bits);
+        const uint32_t focal2_px_q16 = (uint32_t)rng_range(&random_state, 1 << 18, INT32_MAX);
+        gn_texture_corners(&triangle, &mesh, &t, idx);
+        gn_plane_setup(&plane, v[0], v[1], v[2]);
+        const uint64_t got = gn_texture_level_depth2(&triangle, &t, &plane, &plane, focal2_px_q16);
+        long double e[2][2], n = 0;
+        for (int k = 0; k < 4; k++) e[k / 2][k % 2] = ldexpl((long double)uv[2 + k] - uv[k % 2], -mesh.uv_frac_bits);
+        for (int k = 0; k < 3; k++) n += (long double)plane.n[k] * plane.n[k];
+        const long double texels = fabsl(e[0][0] * e[1][1] - e[0][1] * e[1][0]) * side(&t, 0) * side(&t, 1),
+                          normal = ldexpl(sqrtl(n), plane.n_exp), focal = ldexpl(focal2_px_q16, -17),
+                          distance = (long double)plane.det / sqrtl(n);
+        if (!(texels > 0) || plane.det <= 0) {
+            HOLDS(&close, got == UINT64_MAX, "no area");
+            continue;
+        }
+        const long double want = sqrtl(2.0L) * focal * distance / sqrtl(texels / normal);
+        if (want >= 0x1p63L) {
+            HOLDS(&close, got >= 0x7FFFFFFFFFFFFFFFU, "beyond every depth");
+            continue;
+        }
+        const long double off = fabsl(got - want);
+        HOLDS(&close, off <= want * (1.25L * 0x1p-27L) + 1, "%.17Lg, not %.17Lg", (long double)got, want);
+        if (want > 0x1p40L) WORST(&w, off / want * 0x1p27L, "%.17Lg", want);
+        for (uint32_t k = 1; k < 12; k++) {
+            const long double z = sqrtl((long double)got * exp2l(k - 1.0L));
+            if (z >= 0x1p31L - 2 || (size_t)1 << k > (side(&t, 0) > side(&t, 1) ? side(&t, 0) : side(&t, 1))) break;
+            const int32_t from = (int32_t)ceill(z);
+            HOLDS(&begins, gn_texture_level_at(&t, got, from + 1) >= k, "level %d", (int)k);
+            HOLDS(&begins, from < 2 || gn_texture_level_at(&t, got, from - 2) < k, "level %d", (int)k);
+        }
+    }
+    CHECK_TALLY(close, "where the first smaller level begins");
+    CHECK_TALLY(begins, "where each level begins");
+    printf("gn_texture_level_depth2: %.3Lf of 2^-27\n", w.error);
+}
+#endif
+
 int main(void)
 {
+#if GN_MIPMAPS
+    test_level_places();
+    test_level_depths();
+#endif
     test_coordinates();
     test_lookups();
     test_texels();

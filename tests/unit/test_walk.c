@@ -400,7 +400,7 @@ static void check_owners(tally *t, uint32_t scene_idx)
     const gn_frame *frame = &renderer.frame;
     static uint32_t first[N_TRIANGLES + 1];
     for (uint32_t k = 0, triangle = 0; triangle <= N_TRIANGLES; triangle++) {
-        while (k < frame->stats.n_triangles && frame->tri[k].triangle_idx < triangle) k++;
+        while (k < frame->stats.n_triangles && frame->tri[k].source.triangle_idx < triangle) k++;
         first[triangle] = k;
     }
     for (int py = 0; py < HEIGHT; py++)

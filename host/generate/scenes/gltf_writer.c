@@ -178,13 +178,24 @@ static size_t add_attribute(gltf_document *d, const mesh_builder *m, size_t offs
                         high);
 }
 
-static size_t add_masks(gltf_document *d, const mesh_builder *m)
+/* Four per vertex, 255 as 1. */
+static size_t add_bytes(gltf_document *d, const uint8_t (*v)[4], size_t n)
 {
     size_t start = d->n_bytes;
-    for (size_t i = 0; i < m->n_vertices; i++) {
-        for (size_t k = 0; k < 4; k++) put_bytes(d, m->mask[i][k], 1);
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < 4; k++) put_bytes(d, v[i][k], 1);
     }
-    return add_accessor(d, add_view(d, start, ARRAY_BUFFER), UBYTE_COMPONENT, m->n_vertices, "VEC4", NULL, NULL);
+    return add_accessor(d, add_view(d, start, ARRAY_BUFFER), UBYTE_COMPONENT, n, "VEC4", NULL, NULL);
+}
+
+/* As they are: indices. */
+static size_t add_shorts(gltf_document *d, const uint8_t (*v)[4], size_t n)
+{
+    size_t start = d->n_bytes;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < 4; k++) put_bytes(d, v[i][k], 2);
+    }
+    return add_accessor(d, add_view(d, start, ARRAY_BUFFER), USHORT_COMPONENT, n, "VEC4", NULL, NULL);
 }
 
 static size_t add_baked(gltf_document *d, const mesh_builder *m)
@@ -216,8 +227,12 @@ static void add_surface(gltf_document *d, const gltf_surface *s)
         add_text(d, list, ", \"COLOR_0\": %zu", add_attribute(d, m, offsetof(mesh_vertex, rgb), 3, false));
     if (m->attributes & MESH_UVS)
         add_text(d, list, ", \"TEXCOORD_0\": %zu", add_attribute(d, m, offsetof(mesh_vertex, uv), 2, false));
-    if (m->attributes & MESH_MASKS) add_text(d, list, ", \"_GNOMON_MASK\": %zu", add_masks(d, m));
+    if (m->attributes & MESH_MASKS) add_text(d, list, ", \"_GNOMON_MASK\": %zu", add_bytes(d, m->mask, m->n_vertices));
     if (m->attributes & MESH_BAKED) add_text(d, list, ", \"_GNOMON_BAKED\": %zu", add_baked(d, m));
+    if (m->attributes & MESH_JOINTS) {
+        add_text(d, list, ", \"JOINTS_0\": %zu", add_shorts(d, m->joint, m->n_vertices));
+        add_text(d, list, ", \"WEIGHTS_0\": %zu", add_bytes(d, m->weight, m->n_vertices));
+    }
     add_text(d, list, "}, \"indices\": %zu, \"material\": %zu}", add_indices(d, m), s->material_idx);
 }
 
@@ -314,24 +329,54 @@ void gltf_mark_child(gltf_document *d, size_t node_idx)
 void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx, double seconds,
                             const gltf_rotation *keys, size_t n)
 {
-    size_t start = d->n_bytes;
-    float first = 0, last = (float)((double)(n - 1) * seconds);
-    for (size_t i = 0; i < n; i++) put_float(d, (float)((double)i * seconds));
-    size_t times = add_accessor(d, add_view(d, start, 0), FLOAT_COMPONENT, n, "SCALAR", &first, &last);
-    start = d->n_bytes;
+    gltf_add_clip(d, name, &node_idx, 1, seconds, keys, n);
+}
+
+static size_t add_rotations(gltf_document *d, const gltf_rotation *keys, size_t n)
+{
+    const size_t start = d->n_bytes;
     for (size_t i = 0; i < n; i++) {
         put_float(d, (float)mesh_on_grid(keys[i].x));
         put_float(d, (float)mesh_on_grid(keys[i].y));
         put_float(d, (float)mesh_on_grid(keys[i].z));
         put_float(d, (float)mesh_on_grid(keys[i].w));
     }
-    size_t values = add_accessor(d, add_view(d, start, 0), FLOAT_COMPONENT, n, "VEC4", NULL, NULL);
-    next_item(d, &d->animations);
-    add_text(
-        d, &d->animations,
-        "{\"name\": \"%s\",\n      \"channels\": [{\"sampler\": 0, \"target\": {\"node\": %zu, \"path\": "
-        "\"rotation\"}}],\n      \"samplers\": [{\"input\": %zu, \"output\": %zu, \"interpolation\": \"LINEAR\"}]}",
-        name, node_idx, times, values);
+    return add_accessor(d, add_view(d, start, 0), FLOAT_COMPONENT, n, "VEC4", NULL, NULL);
+}
+
+void gltf_add_clip(gltf_document *d, const char *name, const size_t *node_idx, size_t n_nodes, double seconds,
+                   const gltf_rotation *keys, size_t n_keys)
+{
+    const size_t start = d->n_bytes;
+    const float first = 0, last = (float)((double)(n_keys - 1) * seconds);
+    gltf_list *list = &d->animations;
+    for (size_t i = 0; i < n_keys; i++) put_float(d, (float)((double)i * seconds));
+    const size_t times = add_accessor(d, add_view(d, start, 0), FLOAT_COMPONENT, n_keys, "SCALAR", &first, &last);
+    next_item(d, list);
+    add_text(d, list, "{\"name\": \"%s\",\n      \"channels\": [", name);
+    for (size_t i = 0; i < n_nodes; i++)
+        add_text(d, list, "%s{\"sampler\": %zu, \"target\": {\"node\": %zu, \"path\": \"rotation\"}}",
+                 i ? ",\n        " : "", i, node_idx[i]);
+    add_text(d, list, "],\n      \"samplers\": [");
+    for (size_t i = 0; i < n_nodes; i++)
+        add_text(d, list, "%s{\"input\": %zu, \"output\": %zu, \"interpolation\": \"LINEAR\"}", i ? ",\n        " : "",
+                 times, add_rotations(d, keys + i * n_keys, n_keys));
+    add_text(d, list, "]}");
+}
+
+size_t gltf_add_skin(gltf_document *d, const char *name, const size_t *node_idx, const mesh_point *at, size_t n)
+{
+    const size_t start = d->n_bytes;
+    for (size_t i = 0; i < n; i++) {
+        const double back[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -at[i].x, -at[i].y, -at[i].z, 1};
+        for (int k = 0; k < 16; k++) put_float(d, (float)mesh_on_grid(back[k]));
+    }
+    const size_t binds = add_accessor(d, add_view(d, start, 0), FLOAT_COMPONENT, n, "MAT4", NULL, NULL);
+    const size_t idx = next_item(d, &d->skins);
+    add_text(d, &d->skins, "{\"name\": \"%s\", \"inverseBindMatrices\": %zu, \"joints\": [", name, binds);
+    for (size_t i = 0; i < n; i++) add_text(d, &d->skins, "%s%zu", i ? ", " : "", node_idx[i]);
+    add_text(d, &d->skins, "]}");
+    return idx;
 }
 
 static void write_list(FILE *file, const char *key, const gltf_list *list)
@@ -370,6 +415,7 @@ int gltf_write(const gltf_document *d, const gltf_scene_text *scene, FILE *file)
             scene->comment);
     write_scene(file, d, scene->settings);
     write_list(file, "nodes", &d->nodes);
+    write_list(file, "skins", &d->skins);
     write_list(file, "cameras", &d->cameras);
     fprintf(file, "  \"extensions\": {\"KHR_lights_punctual\": {\"lights\": [%s\n  ]}},\n", d->lights.chars);
     write_list(file, "animations", &d->animations);

@@ -26,7 +26,8 @@ typedef struct {
 typedef struct {
     bool overflow;
     bool is_root[GLTF_MAX_NODES];
-    gltf_list materials, images, samplers, textures, meshes, nodes, cameras, lights, animations, views, accessors;
+    gltf_list materials, images, samplers, textures, meshes, nodes, skins, cameras, lights, animations, views,
+        accessors;
     size_t n_bytes;
     uint8_t bytes[GLTF_BUFFER_BYTES];
 } gltf_document;
@@ -115,6 +116,13 @@ void gltf_mark_child(gltf_document *d, size_t node_idx);
 /* Rotates a node: a key every so many seconds from time 0, LINEAR. */
 void gltf_add_rotation_keys(gltf_document *d, const char *name, size_t node_idx, double seconds,
                             const gltf_rotation *keys, size_t n);
+
+/* The same of several nodes in one animation: n_keys of the first node, then those of the next. */
+void gltf_add_clip(gltf_document *d, const char *name, const size_t *node_idx, size_t n_nodes, double seconds,
+                   const gltf_rotation *keys, size_t n_keys);
+
+/* Joints that are at these places, not turned, where the mesh is as it was made. */
+size_t gltf_add_skin(gltf_document *d, const char *name, const size_t *node_idx, const mesh_point *at, size_t n);
 
 /* 0, or -1: the document overflowed or the file could not be written. */
 int gltf_write(const gltf_document *d, const gltf_scene_text *scene, FILE *file);

@@ -38,5 +38,6 @@ int main(int argc, char **argv)
     failed |= make(argv[2], "sheets.gltf", gallery_sheets_write);
     failed |= make(argv[2], "glow.gltf", gallery_glow_write);
     failed |= make(argv[2], "isometric.gltf", gallery_isometric_write);
+    failed |= make(argv[2], "snake.gltf", gallery_snake_write);
     return failed ? 1 : 0;
 }

@@ -37,7 +37,8 @@ typedef enum {
     MESH_COLOURS = 2,
     MESH_UVS = 4,
     MESH_MASKS = 8,
-    MESH_BAKED = 16
+    MESH_BAKED = 16,
+    MESH_JOINTS = 32
 } mesh_attributes;
 
 typedef struct {
@@ -53,6 +54,7 @@ typedef struct {
     mesh_vertex vertex[MESH_MAX_VERTICES];
     uint8_t mask[MESH_MAX_VERTICES][4]; /* with MESH_MASKS: filled by mask_bake when the mesh is done */
     float baked[MESH_MAX_VERTICES][3];  /* with MESH_BAKED, likewise */
+    uint8_t joint[MESH_MAX_VERTICES][4], weight[MESH_MAX_VERTICES][4]; /* with MESH_JOINTS; of a vertex 255 in all */
     uint16_t idx[MESH_MAX_CORNERS];
 } mesh_builder;
 

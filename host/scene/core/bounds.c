@@ -27,7 +27,7 @@ static void each_vertex(bounds *b, const scene *s, bounds_filter counts, void (*
         const scene_mesh *mesh = &s->meshes[object->mesh_idx];
         for (size_t v = 0; v < mesh->n_vertices; v++) {
             double p[3];
-            affine_point(p, &object->to_world, mesh->pos + 3 * v);
+            scene_vertex(p, s, object, v);
             if (!counts || counts(s, object, p)) grow(b, p);
         }
     }

@@ -25,7 +25,7 @@ static bool check_object(loader *l, const scene_object *object)
     const scene_mesh *mesh = &l->s->meshes[object->mesh_idx];
     for (size_t i = 0; i < mesh->n_vertices; i++) {
         double p[3];
-        affine_point(p, &object->to_world, mesh->pos + 3 * i);
+        scene_vertex(p, l->s, object, i);
         for (int k = 0; k < 3; k++) {
             if (fabs(p[k]) <= LOADER_MAX_COORDINATE) continue;
             return loader_fail(l, "%s: object '%s', vertex %zu: world coordinate %g is out of range", l->path,
@@ -71,8 +71,7 @@ static floor_parts find_floor(const scene *s, const bounds *b)
         const scene_mesh *mesh = &s->meshes[object->mesh_idx];
         for (size_t t = 0; t < mesh->n_triangles; t++) {
             double p[3][3];
-            for (int k = 0; k < 3; k++)
-                affine_point(p[k], &object->to_world, mesh->pos + 3 * (size_t)mesh->idx[3 * t + (size_t)k]);
+            for (int k = 0; k < 3; k++) scene_vertex(p[k], s, object, mesh->idx[3 * t + (size_t)k]);
             add_floor_triangle(&parts, object, p, b);
         }
     }
@@ -95,6 +94,12 @@ static void swap_pose(scene *s)
         scene_affine now = s->objects[i].to_world;
         s->objects[i].to_world = s->objects[i].at_rest;
         s->objects[i].at_rest = now;
+        for (size_t k = 0; k < s->objects[i].n_joints; k++) {
+            scene_joint *joint = &s->objects[i].joints[k];
+            now = joint->now;
+            joint->now = joint->rest;
+            joint->rest = now;
+        }
     }
 }
 
@@ -145,7 +150,7 @@ static double fit_distance(const scene *s, const bounds *b, const scene_affine *
         const scene_mesh *mesh = &s->meshes[s->objects[i].mesh_idx];
         for (size_t v = 0; v < mesh->n_vertices; v++) {
             double p[3], axis[3], local[3];
-            affine_point(p, &s->objects[i].to_world, mesh->pos + 3 * v);
+            scene_vertex(p, s, &s->objects[i], v);
             vec_sub(p, p, b->centre);
             for (int k = 0; k < 3; k++) {
                 affine_column(axis, camera, k);
@@ -213,7 +218,7 @@ static double find_shadow_distance(const loader *l, const bounds *b, double grou
         const scene_mesh *mesh = &s->meshes[s->objects[i].mesh_idx];
         for (size_t v = 0; v < mesh->n_vertices; v++) {
             double p[3];
-            affine_point(p, &s->objects[i].to_world, mesh->pos + 3 * v);
+            scene_vertex(p, s, &s->objects[i], v);
             double fall = l->wants_ground && light[1] < 0 ? (ground - p[1]) / light[1] : 0;
             vec_sub(p, p, b->centre);
             double depth = -vec_dot(p, back);

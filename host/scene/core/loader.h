@@ -112,7 +112,7 @@ void loader_free_mesh_light(loader *l);
 /* texture.c */
 enum { TEXTURE_MAX_PICTURE = 8192 };
 typedef struct {
-    bool clamp_u, clamp_v, bilinear;
+    bool clamp_u, clamp_v, bilinear, mipmapped;
     bool is_data; /* a mask image: plain numbers, not sRGB */
 } texture_use;
 /* To be asked before a picture is decoded: false, with the error, if it is too much. name: for that. */
@@ -143,6 +143,10 @@ bool mesh_splitter_init(mesh_splitter *splitter, loader *l, const scene_mesh *in
  * With flip their winding is reversed: for instances whose transform mirrors (see gltf_mesh.c). */
 bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, size_t n_triangles, bool flip,
                 size_t *first, size_t *n_meshes);
+
+/* mesh_order.c: the same triangles; those of a large mesh in an order in which neighbours are near each other. NULL:
+ * failed. */
+const uint32_t *mesh_order(loader *l, const scene_mesh *input, const uint32_t *idx, size_t n_triangles);
 
 /* lights.c */
 #define LIGHT_MIN_RANGE 0.01

@@ -181,6 +181,8 @@ static bool gather_all(mesh_splitter *sp, size_t n_vertices, scene_mesh *mesh, m
     mesh->rgb = gather(sp, sp->input->rgb, 3 * sizeof *mesh->rgb, n_vertices, &ok);
     mesh->uv = gather(sp, sp->input->uv, 2 * sizeof *mesh->uv, n_vertices, &ok);
     mesh->mask_uv = gather(sp, sp->input->mask_uv, 2 * sizeof *mesh->mask_uv, n_vertices, &ok);
+    mesh->joint = gather(sp, sp->input->joint, 4, n_vertices, &ok);
+    mesh->weight = gather(sp, sp->input->weight, 4, n_vertices, &ok);
     light->mask = gather(sp, sp->light.mask, 4, n_vertices, &ok);
     light->baked = gather(sp, sp->light.baked, 3 * sizeof *light->baked, n_vertices, &ok);
     return ok;
@@ -208,6 +210,7 @@ bool mesh_split(mesh_splitter *splitter, const char *name, const uint32_t *idx, 
 {
     loader *l = splitter->l;
     *first = l->s->n_meshes;
+    if (!(idx = mesh_order(l, splitter->input, idx, n_triangles))) return false;
     for (size_t at = 0; at < n_triangles;) {
         size_t n_vertices, taken = take_triangles(splitter, idx + 3 * at, n_triangles - at, &n_vertices);
         if (!add_taken(splitter, name, idx + 3 * at, taken, n_vertices, flip)) return false;

@@ -19,6 +19,8 @@ static void free_mesh(scene_mesh *mesh)
     free(mesh->rgb);
     free(mesh->uv);
     free(mesh->mask_uv);
+    free(mesh->joint);
+    free(mesh->weight);
     free(mesh->idx);
 }
 
@@ -27,6 +29,7 @@ static void free_object(scene_object *object)
     free(object->name);
     free(object->mask);
     free(object->baked);
+    free(object->joints);
 }
 
 static void free_rig(scene_rig *rig)

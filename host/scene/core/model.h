@@ -25,8 +25,18 @@ typedef struct {
     double *rgb;     /* 3 * n_vertices, linear 0..1, or NULL: white */
     double *uv;      /* 2 * n_vertices, texture coordinates, v downwards, or NULL */
     double *mask_uv; /* 2 * n_vertices, of the mask image, 0..1, or NULL */
+    uint8_t *joint;  /* 4 * n_vertices, of a skinned object's joints, or NULL: the mesh moves as one */
+    uint8_t *weight; /* 4 * n_vertices, 255 in all for each vertex: both engines see these, or NULL */
     uint32_t *idx;   /* 3 * n_triangles, counter-clockwise seen from outside */
 } scene_mesh;
+
+/* What moves a skinned object's vertices (R12). */
+typedef struct {
+    scene_affine now;  /* from the mesh's space to the object's, in the scene's pose */
+    scene_affine rest; /* the same without animation */
+    scene_affine bind; /* from the mesh's space to the joint's: the same in every pose */
+    size_t node_idx;   /* of scene_rig */
+} scene_joint;
 
 /* What a texel is stored as (M11). */
 typedef enum {
@@ -46,9 +56,10 @@ typedef enum {
 typedef struct {
     char *name;
     int width, height;           /* 1..4096 */
-    uint8_t *rgba;               /* 4 per texel, rows from the top: sRGB colour, linear alpha */
+    uint8_t *rgba;               /* 4 per texel, rows from the top: sRGB colour, linear alpha; smaller levels */
     bool clamp_u, clamp_v;       /* else it repeats */
     bool bilinear;               /* else nearest */
+    bool mipmapped;              /* levels of half the size, rounded down, follow, down to one texel */
     scene_texture_format format; /* texels are rounded to its values, and then to 8 bits */
     double error_max, error_rms; /* what that changed, of 255 */
 } scene_texture;
@@ -75,6 +86,8 @@ typedef struct {
                                 image */
     uint8_t *mask;           /* 4 per vertex of the mesh (M5), or NULL */
     double *baked;           /* 3 per vertex of the mesh, irradiance (M9), or NULL */
+    size_t n_joints;         /* 0: not skinned, whatever its mesh has */
+    scene_joint *joints;
     scene_alpha visible_alpha;
     scene_caster caster;
     bool unlit;
@@ -262,6 +275,11 @@ void scene_free(scene *s);
 /* One more line, cleaned as utf8.h does; not if it is there already. Returns 0; -1 with one line in error if memory
  * runs out. */
 int scene_add_note(scene *s, const char *text, char *error, size_t error_bytes);
+
+/* A vertex in the world, as the object's joints have it. */
+void scene_vertex(double *out, const scene *s, const scene_object *object, size_t vertex_idx);
+/* The same in the object's space: the weighted mean of where its joints take it. */
+void scene_posed(double *out, const scene_mesh *mesh, const scene_object *object, size_t vertex_idx);
 
 /* Appends a light of this kind, placed so that it lights the scene as the camera sees it and throws a shadow into the
  * picture: what

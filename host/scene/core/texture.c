@@ -35,6 +35,17 @@ bool texture_may_decode(loader *l, const char *name, const uint8_t *bytes, size_
     return fits || budget_fail_memory(l, n + n_work);
 }
 
+/* A third more, which is paid for, too. */
+static bool add_levels(loader *l, scene_texture *texture)
+{
+    texture->mipmapped = true;
+    const size_t n = 4 * texture_level_texels(texture, texture_level_count(texture)),
+                 more = n - 4 * texture_level_texels(texture, 1);
+    const char *over = budget_spend(l, BUDGET_TEXTURE_BYTES, more);
+    if (over) return loader_fail(l, "%s: levels of texture '%.200s': %s", l->path, texture->name, over);
+    return (arena_reserve(&l->memory, more) && texture_set_levels(texture, true)) || budget_fail_memory(l, n);
+}
+
 bool texture_add(loader *l, const char *name, rgba8_picture *picture, const texture_use *use, size_t *out)
 {
     scene_texture *texture = loader_add_texture(l, name);
@@ -44,7 +55,7 @@ bool texture_add(loader *l, const char *name, rgba8_picture *picture, const text
         texture->clamp_u = use->clamp_u;
         texture->clamp_v = use->clamp_v;
         texture->bilinear = use->bilinear;
-        ok = fit_sides(l, picture, use, texture);
+        ok = fit_sides(l, picture, use, texture) && (!use->mipmapped || add_levels(l, texture));
     }
     if (ok && picture->depth > 8) ok = loader_note(l, "texture '%s' is rounded from 16 bits to 8", name);
     free(picture->rgba);

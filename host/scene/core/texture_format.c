@@ -29,9 +29,28 @@ int texture_format_bits(scene_texture_format format)
     return bits[format];
 }
 
+static int side_of(int texels, int level)
+{
+    return texels >> level > 0 ? texels >> level : 1;
+}
+
+size_t texture_level_texels(const scene_texture *t, int n)
+{
+    size_t sum = 0;
+    for (int i = 0; i < n; i++) sum += (size_t)side_of(t->width, i) * (size_t)side_of(t->height, i);
+    return sum;
+}
+
+int texture_level_count(const scene_texture *t)
+{
+    int n = 1;
+    while (t->mipmapped && (t->width >> n || t->height >> n)) n++;
+    return n;
+}
+
 static size_t count(const scene_texture *t)
 {
-    return (size_t)t->width * (size_t)t->height;
+    return texture_level_texels(t, texture_level_count(t));
 }
 
 /* The 8 bits nearest to the nearest of so many levels. */
@@ -225,6 +244,29 @@ static void mean_of(const scene_texture *t, const double x[2], const double y[2]
     out[3] = (uint8_t)floor(alpha / area + 0.5);
 }
 
+/* The first level in w by h texels. */
+static void scale(const scene_texture *t, int w, int h, bool is_data, uint8_t *out)
+{
+    for (int y = 0; y < h; y++)
+        for (int x = 0; x < w; x++) {
+            const double columns[2] = {(double)x * t->width / w, (double)(x + 1) * t->width / w},
+                         rows[2] = {(double)y * t->height / h, (double)(y + 1) * t->height / h};
+            mean_of(t, columns, rows, is_data, out + 4 * ((size_t)y * (size_t)w + (size_t)x));
+        }
+}
+
+bool texture_set_levels(scene_texture *t, bool mipmapped)
+{
+    t->mipmapped = mipmapped;
+    if (!mipmapped) return true;
+    uint8_t *all = realloc(t->rgba, 4 * count(t));
+    if (!all) return false;
+    t->rgba = all;
+    for (int i = 1; i < texture_level_count(t); i++)
+        scale(t, side_of(t->width, i), side_of(t->height, i), false, all + 4 * texture_level_texels(t, i));
+    return true;
+}
+
 bool texture_shrink(scene_texture *t, int side, bool is_data)
 {
     int longest = t->width > t->height ? t->width : t->height;
@@ -234,15 +276,10 @@ bool texture_shrink(scene_texture *t, int side, bool is_data)
     h = h < 1 ? 1 : h;
     uint8_t *small = malloc((size_t)w * (size_t)h * 4);
     if (!small) return false;
-    for (int y = 0; y < h; y++)
-        for (int x = 0; x < w; x++) {
-            const double columns[2] = {(double)x * t->width / w, (double)(x + 1) * t->width / w},
-                         rows[2] = {(double)y * t->height / h, (double)(y + 1) * t->height / h};
-            mean_of(t, columns, rows, is_data, small + 4 * ((size_t)y * (size_t)w + (size_t)x));
-        }
+    scale(t, w, h, is_data, small);
     memcpy(t->rgba, small, (size_t)w * (size_t)h * 4);
     t->width = w;
     t->height = h;
     free(small);
-    return true;
+    return texture_set_levels(t, t->mipmapped);
 }

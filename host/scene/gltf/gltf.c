@@ -64,8 +64,9 @@ static bool find_arrays(gltf *g)
            get_objects(g, r, "cameras", &g->cameras) && get_objects(g, r, "images", &g->images) &&
            get_objects(g, r, "materials", &g->materials) && get_objects(g, r, "meshes", &g->meshes) &&
            get_objects(g, r, "nodes", &g->nodes) && get_objects(g, r, "samplers", &g->samplers) &&
-           get_objects(g, r, "scenes", &g->scenes) && get_objects(g, r, "textures", &g->textures) &&
-           gltf_get_extension(g, r, "KHR_lights_punctual", &punctual) && get_objects(g, punctual, "lights", &g->lights);
+           get_objects(g, r, "scenes", &g->scenes) && get_objects(g, r, "skins", &g->skins) &&
+           get_objects(g, r, "textures", &g->textures) && gltf_get_extension(g, r, "KHR_lights_punctual", &punctual) &&
+           get_objects(g, punctual, "lights", &g->lights);
 }
 
 /* Before anything is made of them. */

@@ -52,7 +52,7 @@ typedef struct {
     gltf_bytes glb; /* BIN chunk of a .glb */
     /* Top-level arrays of objects, NULL where absent. */
     const json_value *accessors, *animations, *buffers, *buffer_views, *cameras, *images, *lights, *materials, *meshes,
-        *nodes, *samplers, *scenes, *textures;
+        *nodes, *samplers, *scenes, *skins, *textures;
     gltf_bytes *buffer;
     gltf_node *node;
     gltf_primitive **primitive; /* [mesh][primitive], rows made on first use */
@@ -108,6 +108,17 @@ bool gltf_load_texture(gltf *g, size_t texture_idx, bool is_data, size_t *out);
 
 /* gltf_mesh.c */
 bool gltf_emit_mesh(gltf *g, size_t node_idx);
+
+/* gltf_skin.c: the skin of a node, in temporary memory; n 0: it has none, or one that is ignored, with a note. moves:
+ * an animation moves one of its joints. */
+typedef struct {
+    scene_joint *joints;
+    size_t n;
+    bool moves;
+} gltf_skin;
+bool gltf_read_skin(gltf *g, size_t node_idx, gltf_skin *out);
+/* Gives the objects from the first on their joints. */
+bool gltf_add_joints(gltf *g, const json_value *where, const gltf_skin *skin, size_t first_object);
 
 /* gltf_material.c: the material of a primitive; whether it is taken for moving unless it says so itself. */
 bool gltf_read_material(gltf *g, const json_value *primitive, bool moves, gltf_material *out);

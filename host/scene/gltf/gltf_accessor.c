@@ -167,7 +167,9 @@ static bool read_type(gltf *g, const json_value *accessor, gltf_array *out)
     for (size_t i = 0; i < 4; i++) {
         if (strcmp(type, names[i]) == 0) out->n_components = i + 1;
     }
-    return out->n_components > 0 || gltf_fail(g, accessor, "type '%s' is not SCALAR, VEC2, VEC3 or VEC4", type);
+    if (strcmp(type, "MAT4") == 0 && out->component_type == GLTF_FLOAT) out->n_components = 16;
+    return out->n_components > 0 ||
+           gltf_fail(g, accessor, "type '%s' is not SCALAR, VEC2, VEC3, VEC4, or MAT4 of floats", type);
 }
 
 bool gltf_read_accessor(gltf *g, size_t accessor_idx, gltf_array *out)

@@ -106,10 +106,60 @@ static bool read_baked(gltf *g, const json_value *attributes, const scene_mesh *
     return out->mask != NULL;
 }
 
+/* Weights as 255ths, 255 in all: rounded down, and what that leaves goes to the largest remainders. All 0: the first
+ * joint's. */
+static void share_weights(uint8_t *out, const double *weight)
+{
+    double sum = 0, rest[4];
+    int left = 255;
+    for (int i = 0; i < 4; i++) sum += fmax(weight[i], 0);
+    for (int i = 0; i < 4; i++) {
+        const double exact = sum > 0 ? 255 * fmax(weight[i], 0) / sum : i == 0 ? 255 : 0;
+        out[i] = (uint8_t)exact;
+        rest[i] = exact - out[i];
+        left -= out[i];
+    }
+    for (; left > 0; left--) {
+        int most = 0;
+        for (int i = 1; i < 4; i++)
+            if (rest[i] > rest[most]) most = i;
+        out[most]++;
+        rest[most] = 0;
+    }
+}
+
+/* [R12] */
+static bool read_joints(gltf *g, const json_value *attributes, scene_mesh *out)
+{
+    gltf_array joints;
+    double *weights;
+    const size_t n = out->n_vertices;
+    const json_value *where = json_get(attributes, "JOINTS_0");
+    if (!read_attribute(g, attributes, "JOINTS_0", n, &joints) ||
+        !read_real(g, attributes, "WEIGHTS_0", 4, n, &weights))
+        return false;
+    if (!joints.values || !weights) return true;
+    if (joints.n_components != 4 || (joints.component_type != GLTF_UBYTE && joints.component_type != GLTF_USHORT))
+        return gltf_fail(g, where, "VEC4 of unsigned byte or short is expected");
+    if (json_get(attributes, "JOINTS_1") &&
+        !loader_remark(g->l, "joints beyond four per vertex of '%s' ignored: the first four move it", out->name))
+        return false;
+    out->joint = loader_alloc(g->l, n, 4);
+    out->weight = loader_alloc(g->l, n, 4);
+    if (!out->joint || !out->weight) return false;
+    for (size_t i = 0; i < n; i++) share_weights(out->weight + 4 * i, weights + 4 * i);
+    for (size_t i = 0; i < 4 * n; i++) {
+        if (out->weight[i] > 0 && joints.values[i] > 255)
+            return gltf_fail(g, where, "vertex %zu: joint %.0f is beyond 255", i / 4, joints.values[i]);
+        out->joint[i] = (uint8_t)(out->weight[i] > 0 ? joints.values[i] : 0);
+    }
+    return true;
+}
+
 bool gltf_read_attributes(gltf *g, const json_value *attributes, const gltf_wants *wants, scene_mesh *out,
                           mesh_light *light)
 {
     return read_position(g, attributes, out) && read_real(g, attributes, "NORMAL", 3, out->n_vertices, &out->nrm) &&
            read_colour(g, attributes, out) && read_texture_coordinates(g, attributes, wants, out) &&
-           read_baked(g, attributes, out, light);
+           read_joints(g, attributes, out) && read_baked(g, attributes, out, light);
 }

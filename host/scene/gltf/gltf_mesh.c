@@ -113,23 +113,32 @@ static bool check_coordinates(gltf *g, const json_value *json, const scene_mesh 
     return loader_note(g->l, "base colour texture of mesh '%s' ignored: it has no texture coordinates", mesh->name);
 }
 
-static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *json, const char *mesh_name,
-                           gltf_primitive *primitive)
+/* Where the object is; a skinned one is where its joints take it, and its node does not count. */
+static void place(scene_object *object, const gltf *g, const gltf_node *node, const gltf_skin *skin)
 {
-    bool flip = affine_mirrors(&node->world);
+    object->to_world = skin->n ? affine_identity() : node->world;
+    object->at_rest = skin->n ? affine_identity() : node->rest;
+    object->node_idx = skin->n ? SCENE_NONE : (size_t)(node - g->node);
+}
+
+static bool emit_primitive(gltf *g, const gltf_node *node, const json_value *json, const char *mesh_name,
+                           const gltf_skin *skin, gltf_primitive *primitive)
+{
+    bool flip = affine_mirrors(skin->n ? &skin->joints[0].now : &node->world);
     gltf_material material;
-    if (!gltf_read_material(g, json, node->moves, &material) || !gltf_material_knobs(g, node->json, &material))
+    if (!gltf_read_material(g, json, node->moves || skin->moves, &material) ||
+        !gltf_material_knobs(g, node->json, &material))
         return false;
     if (!load_primitive(g, json, mesh_name, material.uv_set, flip, primitive)) return false;
     if (primitive->n_meshes[flip] == 0) return true; /* skipped, with a note */
     scene_object object = material.surface;
-    object.to_world = node->world;
-    object.at_rest = node->rest;
-    object.node_idx = (size_t)(node - g->node);
+    place(&object, g, node, skin);
     if (!check_coordinates(g, json, &g->l->s->meshes[primitive->first_mesh[flip]], &object)) return false;
     const char *name = gltf_name(g, node->json, "node");
     object.name = name ? loader_format(g->l, "%s", name) : NULL;
-    return object.name && loader_add_objects(g->l, &object, primitive->first_mesh[flip], primitive->n_meshes[flip]);
+    const size_t first = g->l->s->n_objects;
+    return object.name && loader_add_objects(g->l, &object, primitive->first_mesh[flip], primitive->n_meshes[flip]) &&
+           gltf_add_joints(g, json, skin, first);
 }
 
 static bool mesh_primitives(gltf *g, size_t mesh_idx, const json_value **out)
@@ -142,8 +151,18 @@ static bool mesh_primitives(gltf *g, size_t mesh_idx, const json_value **out)
     return g->primitive[mesh_idx] != NULL;
 }
 
+/* Whether the skin moves the primitive. */
+static bool is_skinned(gltf *g, const json_value *json, const gltf_skin *skin, const char *name, bool *out)
+{
+    const json_value *attributes = json_get(json, "attributes");
+    *out = attributes && json_get(attributes, "JOINTS_0") && json_get(attributes, "WEIGHTS_0");
+    return *out || skin->n == 0 ||
+           loader_remark(g->l, "mesh '%s' has a skin, but no JOINTS_0 or no WEIGHTS_0: it stays at rest", name);
+}
+
 bool gltf_emit_mesh(gltf *g, size_t node_idx)
 {
+    static const gltf_skin none;
     const gltf_node *node = &g->node[node_idx];
     const json_value *primitives = NULL;
     size_t mesh_idx = GLTF_NONE;
@@ -151,13 +170,14 @@ bool gltf_emit_mesh(gltf *g, size_t node_idx)
     if (mesh_idx == GLTF_NONE) return true;
     const char *name = gltf_name(g, g->meshes->children[mesh_idx], "mesh");
     if (!name || !mesh_primitives(g, mesh_idx, &primitives)) return false;
-    if (json_get(node->json, "skin") &&
-        !loader_note(g->l, "skin of mesh '%s' ignored: it is shown in its rest pose", name))
-        return false;
+    gltf_skin skin;
+    if (!gltf_read_skin(g, node_idx, &skin)) return false;
     for (size_t i = 0; i < primitives->n_children; i++) {
         const json_value *json = primitives->children[i];
         if (json->type != JSON_OBJECT) return gltf_fail(g, json, "an object is expected");
-        if (!emit_primitive(g, node, json, name, &g->primitive[mesh_idx][i])) return false;
+        bool skinned;
+        if (!is_skinned(g, json, &skin, name, &skinned)) return false;
+        if (!emit_primitive(g, node, json, name, skinned ? &skin : &none, &g->primitive[mesh_idx][i])) return false;
     }
     return true;
 }

@@ -3,7 +3,15 @@
 
 #include <string.h>
 
-enum { FILTER_NEAREST = 9728, WRAP_CLAMP = 33071, WRAP_MIRROR = 33648, WRAP_REPEAT = 10497 };
+/* Filters from FILTER_MIPMAP on have smaller levels: here the nearest one. */
+enum {
+    FILTER_NEAREST = 9728,
+    FILTER_MIPMAP = 9984,
+    FILTER_LAST = 9987,
+    WRAP_CLAMP = 33071,
+    WRAP_MIRROR = 33648,
+    WRAP_REPEAT = 10497
+};
 
 static bool read_wrap(gltf *g, const json_value *sampler, const char *key, const char *name, bool *clamp)
 {
@@ -18,13 +26,14 @@ static bool read_wrap(gltf *g, const json_value *sampler, const char *key, const
 
 static bool read_sampler(gltf *g, const json_value *texture, const char *name, texture_use *out)
 {
-    size_t idx = GLTF_NONE, filter = 0;
+    size_t idx = GLTF_NONE, filter = 0, smaller = 0;
     if (!gltf_get_ref(g, texture, "sampler", g->samplers, &idx)) return false;
     const json_value *sampler = json_at(g->samplers, idx);
     if (!read_wrap(g, sampler, "wrapS", name, &out->clamp_u) || !read_wrap(g, sampler, "wrapT", name, &out->clamp_v) ||
-        !gltf_get_size(g, sampler, "magFilter", &filter))
+        !gltf_get_size(g, sampler, "magFilter", &filter) || !gltf_get_size(g, sampler, "minFilter", &smaller))
         return false;
     out->bilinear = filter != FILTER_NEAREST;
+    out->mipmapped = smaller >= FILTER_MIPMAP && smaller <= FILTER_LAST;
     return true;
 }
 
@@ -69,7 +78,7 @@ static bool load_image(gltf *g, const json_value *image, const char *name, const
 static bool same_use(const texture_use *a, const texture_use *b)
 {
     return a->clamp_u == b->clamp_u && a->clamp_v == b->clamp_v && a->bilinear == b->bilinear &&
-           a->is_data == b->is_data;
+           a->mipmapped == b->mipmapped && a->is_data == b->is_data;
 }
 
 /* What another glTF texture made of the same image, if it did the same. */

@@ -217,7 +217,7 @@ static void add_objects(writer *w)
 
 static bool add_texture(writer *w, const scene_texture *t, size_t idx)
 {
-    enum { NEAREST = 9728, LINEAR = 9729, CLAMP_TO_EDGE = 33071, REPEAT = 10497 };
+    enum { NEAREST = 9728, LINEAR = 9729, OF_LEVELS = 9984 - NEAREST, CLAMP_TO_EDGE = 33071, REPEAT = 10497 };
     size_t n = 0;
     const size_t start = w->bytes.n;
     uint8_t *png = png_pack_rgba8(t->width, t->height, t->rgba, &n);
@@ -229,8 +229,11 @@ static bool add_texture(writer *w, const scene_texture *t, size_t idx)
     put_string(&w->images, t->name);
     write_format(&w->images, ", \"mimeType\": \"image/png\", \"bufferView\": %zu}", add_view(w, start, 0));
     begin_item(&w->samplers, idx);
-    write_format(&w->samplers, "\"magFilter\": %d, \"wrapS\": %d, \"wrapT\": %d}", t->bilinear ? LINEAR : NEAREST,
-                 t->clamp_u ? CLAMP_TO_EDGE : REPEAT, t->clamp_v ? CLAMP_TO_EDGE : REPEAT);
+    const int filter = t->bilinear ? LINEAR : NEAREST;
+    write_format(&w->samplers, "\"magFilter\": %d, ", filter);
+    if (t->mipmapped) write_format(&w->samplers, "\"minFilter\": %d, ", filter + OF_LEVELS);
+    write_format(&w->samplers, "\"wrapS\": %d, \"wrapT\": %d}", t->clamp_u ? CLAMP_TO_EDGE : REPEAT,
+                 t->clamp_v ? CLAMP_TO_EDGE : REPEAT);
     begin_item(&w->textures, idx);
     write_format(&w->textures, "\"sampler\": %zu, \"source\": %zu}", idx, idx);
     return true;

@@ -1,6 +1,7 @@
 /* Writing PNG: filters, one IDAT chunk. */
 #include "png.h"
 
+#include <errno.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -115,7 +116,110 @@ int png_write_rgb8(const char *path, int w, int h, const uint8_t *rgb, char *err
     size_t n = 0;
     uint8_t *bytes = pack(w, h, 3, rgb, &n);
     bool ok = bytes && write_file(path, bytes, n);
-    if (!ok) snprintf(error, error_bytes, bytes ? "%s: cannot be written" : "%s: out of memory", path);
+    if (!bytes) snprintf(error, error_bytes, "%s: out of memory", path);
+    else if (!ok) snprintf(error, error_bytes, "%s: cannot be written: %s", path, strerror(errno));
     free(bytes);
     return ok ? 0 : -1;
+}
+
+/* ---- Animations -------------------------------------------------------------------------------------------------- */
+
+/* A chunk; those of an animation begin with their number. */
+static void write_chunk(png_animation *a, const char *type, bool numbered, const uint8_t *bytes, size_t n_bytes)
+{
+    const size_t n_number = numbered ? 4 : 0;
+    uint8_t *data = malloc(n_number + n_bytes + 1), *chunk = malloc(n_number + n_bytes + 12);
+    if (data && chunk) {
+        if (numbered) put_word(data, a->n_chunks++);
+        if (n_bytes > 0) memcpy(data + n_number, bytes, n_bytes);
+        const size_t n = (size_t)(put_chunk(chunk, type, data, n_number + n_bytes) - chunk);
+        a->failed |= fwrite(chunk, 1, n, a->file) != n;
+    } else {
+        a->failed = true;
+    }
+    free(data);
+    free(chunk);
+}
+
+typedef struct {
+    int left, top, right, bottom; /* right and bottom: one beyond */
+} rectangle;
+
+/* What differs from the frame that is shown; at least a pixel, for a frame has some. */
+static rectangle changed(const png_animation *a, const uint8_t *rgb)
+{
+    rectangle r = {a->w, a->h, 0, 0};
+    for (int y = 0; y < a->h; y++) {
+        for (int x = 0; x < a->w; x++) {
+            const size_t at = 3 * ((size_t)y * (size_t)a->w + (size_t)x);
+            if (memcmp(rgb + at, a->shown_rgb + at, 3) == 0) continue;
+            if (x < r.left) r.left = x;
+            if (x >= r.right) r.right = x + 1;
+            if (y < r.top) r.top = y;
+            r.bottom = y + 1;
+        }
+    }
+    return r.right > 0 ? r : (rectangle){0, 0, 1, 1};
+}
+
+int png_animation_begin(png_animation *a, const char *path, int w, int h, uint32_t n_frames, unsigned delay_us)
+{
+    uint8_t header[13] = {[8] = 8, [9] = 2}, count[8] = {0}; /* 8 bits per channel, RGB; 0: for ever */
+    *a = (png_animation){.w = w, .h = h, .delay_us = delay_us};
+    if (w <= 0 || h <= 0 || w > MAX_SIDE || h > MAX_SIDE) return -1;
+    a->file = fopen(path, "wb");
+    if (!a->file) return -1;
+    put_word(header, (uint32_t)w);
+    put_word(header + 4, (uint32_t)h);
+    put_word(count, n_frames);
+    a->failed = fwrite("\x89PNG\r\n\x1A\n", 1, 8, a->file) != 8;
+    write_chunk(a, "IHDR", false, header, sizeof header);
+    write_chunk(a, "acTL", false, count, sizeof count);
+    return a->failed ? -1 : 0;
+}
+
+/* The rectangle's pixels, filtered and compressed, to free(). NULL: out of memory. */
+static uint8_t *pack_part(const uint8_t *rgb, int w, rectangle r, size_t *n_packed)
+{
+    const size_t row_bytes = 3 * (size_t)(r.right - r.left), h = (size_t)(r.bottom - r.top), stride = 3 * (size_t)w;
+    uint8_t *part = malloc(row_bytes * h);
+    for (size_t y = 0; part && y < h; y++)
+        memcpy(part + y * row_bytes, rgb + (y + (size_t)r.top) * stride + 3 * (size_t)r.left, row_bytes);
+    uint8_t *filtered = part ? filter_picture(part, row_bytes, 3, h) : NULL;
+    uint8_t *packed = filtered ? zlib_compress(filtered, h * (row_bytes + 1), n_packed) : NULL;
+    free(part);
+    free(filtered);
+    return packed;
+}
+
+int png_animation_add(png_animation *a, const uint8_t *rgb)
+{
+    const bool first = !a->shown_rgb;
+    const rectangle r = first ? (rectangle){0, 0, a->w, a->h} : changed(a, rgb);
+    const size_t n_bytes = 3 * (size_t)a->w * (size_t)a->h;
+    uint8_t control[22] = {0};
+    size_t n_packed = 0;
+    put_word(control, (uint32_t)(r.right - r.left));
+    put_word(control + 4, (uint32_t)(r.bottom - r.top));
+    put_word(control + 8, (uint32_t)r.left);
+    put_word(control + 12, (uint32_t)r.top);
+    put_word(control + 16, a->delay_us / 1000 << 16 | 1000); /* milliseconds; disposal and blending: none */
+    uint8_t *packed = pack_part(rgb, a->w, r, &n_packed);
+    if (first) a->shown_rgb = malloc(n_bytes);
+    a->failed |= !packed || !a->shown_rgb;
+    if (!a->failed) {
+        write_chunk(a, "fcTL", true, control, sizeof control);
+        write_chunk(a, first ? "IDAT" : "fdAT", !first, packed, n_packed);
+        memcpy(a->shown_rgb, rgb, n_bytes);
+    }
+    free(packed);
+    return a->failed ? -1 : 0;
+}
+
+int png_animation_end(png_animation *a)
+{
+    if (a->file && !a->failed) write_chunk(a, "IEND", false, NULL, 0);
+    if (a->file && fclose(a->file)) a->failed = true;
+    free(a->shown_rgb);
+    return a->failed || !a->file ? -1 : 0;
 }

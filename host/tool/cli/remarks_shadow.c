@@ -42,7 +42,7 @@ static double farthest_caster(const scene *s, const scene_light *l)
         if (o->caster == SCENE_CASTER_OFF) continue;
         for (size_t v = 0; v < mesh->n_vertices; v++) {
             double p[3];
-            affine_point(p, &o->to_world, mesh->pos + 3 * v);
+            scene_vertex(p, s, o, v);
             farthest = fmax(farthest, plane_distance(l, p));
         }
     }
@@ -151,7 +151,7 @@ static void take_triangle(view_range *out, const scene *s, polygon *p, double as
 static void to_view(double *out, const scene *s, const scene_object *o, size_t vertex)
 {
     double p[3], eye[3], axis[3];
-    affine_point(p, &o->to_world, s->meshes[o->mesh_idx].pos + 3 * vertex);
+    scene_vertex(p, s, o, vertex);
     affine_column(eye, &s->camera.to_world, 3);
     vec_sub(p, p, eye);
     for (int k = 0; k < 3; k++) {

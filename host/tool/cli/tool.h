@@ -31,18 +31,19 @@ typedef struct {
     int texels, still;          /* bake: side of the mask image, 0: per vertex, TOOL_TEXELS_AUTO */
     int ram;                    /* advise, compile, info: bytes; 0: not given */
     int instructions_per_pixel; /* 0: no limit */
-    int last_frame;             /* compile: of --frames, whose first is frame; -1: to the end of the animation */
-    int margin;                 /* compile: per cent */
-    const char *optimise;       /* compile: -Os, -O2: how the library is built; NULL: as the board says */
-    int simplify;               /* compile */
-    const char *board;          /* compile, info: or NULL */
-    const char *target;         /* sweep, advise: a board that instructions are counted on; or NULL */
-    int open;                   /* compile: names, and everything can be written */
-    int asset;                  /* is what runs: the configuration is not the tool's */
-    int flash;                  /* bytes; 0: not given */
-    int outside;                /* the scene may name files outside its folder */
-    int budget;                 /* times the usual limits of what a scene may ask for; 0: once */
-    int orbit;                  /* --orbit is given: */
+    int last_frame; /* of --frames, whose first is frame; -1: compile: to the end of the animation, others: that frame
+                     */
+    int margin;     /* compile: per cent */
+    const char *optimise; /* compile: -Os, -O2: how the library is built; NULL: as the board says */
+    int simplify;         /* compile */
+    const char *board;    /* compile, info: or NULL */
+    const char *target;   /* sweep, advise: a board that instructions are counted on; or NULL */
+    int open;             /* compile: names, and everything can be written */
+    int asset;            /* is what runs: the configuration is not the tool's */
+    int flash;            /* bytes; 0: not given */
+    int outside;          /* the scene may name files outside its folder */
+    int budget;           /* times the usual limits of what a scene may ask for; 0: once */
+    int orbit;            /* --orbit is given: */
     double yaw, pitch, zoom;
 } tool_options;
 

@@ -122,7 +122,7 @@ static double beyond_all(const scene *s)
         const scene_mesh *mesh = &s->meshes[s->objects[i].mesh_idx];
         for (size_t v = 0; v < mesh->n_vertices; v++) {
             double p[3], d[3];
-            affine_point(p, &s->objects[i].to_world, mesh->pos + 3 * v);
+            scene_vertex(p, s, &s->objects[i], v);
             for (int k = 0; k < 3; k++) d[k] = p[k] - s->camera.to_world.m[k][3];
             farthest = fmax(farthest, sqrt(vec_dot(d, d)));
         }

@@ -60,20 +60,38 @@ static size_t scaled_texels(size_t texels, int side, int measured_side)
     return texels / (size_t)measured_side * (size_t)side / (size_t)measured_side * (size_t)side;
 }
 
+/* With triangle_groups, which presets leave alone here: the triangles of the preset's screen tiles. */
+static int keep_groups(const settings *set, settings *needed, const scene *s, settings_demand *demand, char *error,
+                       size_t bytes)
+{
+    engine_picture p;
+    settings unlimited = *needed;
+    needed->quality.triangle_groups = unlimited.quality.triangle_groups = set->quality.triangle_groups;
+    if (!set->quality.triangle_groups) return 0;
+    unlimited.capacity.max_triangles = 0;
+    if (engine_fixed(&p, s, &unlimited, demand->width, demand->height, ENGINE_COLOUR_ONLY, error, bytes)) return -1;
+    demand->triangles = p.demand.triangles;
+    engine_free(&p);
+    return 0;
+}
+
 /* RAM per preset with features and capacities for just this scene at this picture size, where they were not set. */
-static void preset_ram(const settings *set, const settings_demand *demand, const scene *s, settings_ram_parts *ram)
+static int preset_ram(const settings *set, const settings_demand *demand, const scene *s, settings_ram_parts *ram,
+                      char *error, size_t bytes)
 {
     for (int i = 0; i < SETTINGS_PRESETS; i++) {
         settings needed = *set;
         settings_preset(&needed, i);
         settings_trim(&needed, s);
         settings_demand scaled = *demand;
+        if (keep_groups(set, &needed, s, &scaled, error, bytes)) return -1;
         scaled.atlas_texels = scaled_texels(demand->atlas_texels, needed.quality.atlas_size, set->quality.atlas_size);
         scaled.other_atlas_texels =
             scaled_texels(demand->other_atlas_texels, needed.quality.other_atlas_size, set->quality.other_atlas_size);
         settings_fit(&needed, &scaled);
         ram[i] = settings_ram(&needed);
     }
+    return 0;
 }
 
 /* ---- JSON -------------------------------------------------------------------------------------------------------- */
@@ -169,6 +187,26 @@ static void text_tiles(const engine_picture *p, size_t light)
     printf("\n");
 }
 
+/* A bias that was set is the first suspect of a shadow that does not touch its caster. */
+static void text_bias(const scene_light *l, size_t i)
+{
+    const double *b = l->bias_receiver;
+    const bool by_hand = l->auto_bias == SCENE_AUTO_BIAS_OFF;
+    if (l->auto_bias == SCENE_AUTO_BIAS_NORMAL && l->bias_constant <= 0 && l->bias_slope <= 0 && l->bias_caster <= 0)
+        return;
+    printf("      bias: %s", by_hand ? "set by hand" : l->auto_bias == SCENE_AUTO_BIAS_DEPTH ? "depth" : "normal");
+    if (by_hand) printf(", bias_normal %g", l->bias_normal);
+    if (by_hand && (b[0] > 0 || b[1] > 0 || b[2] > 0 || b[3] > 0))
+        printf(", bias_receiver %g,%g,%g,%g", b[0], b[1], b[2], b[3]);
+    if (l->bias_constant > 0) printf(", bias_constant %g", l->bias_constant);
+    if (l->bias_slope > 0) printf(", bias_slope %g", l->bias_slope);
+    if (l->bias_caster > 0) printf(", bias_caster %g", l->bias_caster);
+    if (!by_hand && l->bias_constant + l->bias_slope + l->bias_caster > 0) printf(", which it does not need");
+    if (l->auto_bias != SCENE_AUTO_BIAS_NORMAL)
+        printf("; automatic again with --set auto_bias@%zu=normal as the last", i);
+    printf("\n");
+}
+
 static void text_light(const report *r, size_t i)
 {
     const scene_light *l = &r->scene->lights[i];
@@ -180,6 +218,7 @@ static void text_light(const report *r, size_t i)
         printf("%d shadow tile%s of %dx%d\n", n, n == 1 ? "" : "s", t, t);
     else if (r->picture->shadow_state[i] == GN_SHADOW_NO_ROOM) printf("no room for its shadow\n");
     else printf("no shadow\n");
+    if (r->picture->shadow_state[i] == GN_SHADOW_REALTIME) text_bias(l, i);
 }
 
 /* "what: N of this, N of that", of what there is; nothing if there is none */
@@ -271,8 +310,8 @@ int tool_info(const tool_options *o)
     if (!failed) {
         report r = {.options = o, .scene = &s, .n_ignored = n_ignored, .picture = &p};
         count(&s, &r.counts);
-        preset_ram(&set, &p.demand, &s, r.ram);
-        failed = info_memory_find(&r.memory, o, error, sizeof error);
+        failed = preset_ram(&set, &p.demand, &s, r.ram, error, sizeof error) ||
+                 info_memory_find(&r.memory, o, error, sizeof error);
         if (!failed && o->json) print_json(&r);
         else if (!failed) print_text(&r);
         engine_free(&p);

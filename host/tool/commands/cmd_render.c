@@ -1,4 +1,5 @@
 /* gnomon render: one picture. */
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,40 +51,74 @@ static void say_done(const tool_options *o, int w, int h, const char *what)
     printf("%s: %dx%d, %s\n", o->out_path, w, h, what);
 }
 
-int tool_render(const tool_options *o)
+/* The frame of the options, as it is seen: to free(). NULL: with one line on stderr. what: about the scene. */
+static uint8_t *draw_frame(const tool_options *o, bool remarks, int *w, int *h, char *what, size_t what_bytes)
 {
     char error[TOOL_ERROR_BYTES] = "out of memory";
     scene s;
     settings set;
+    engine_picture p;
+    if (tool_load(o, &s, &set)) return NULL;
+    int failed =
+        draw(&p, o, &s, &set, error, sizeof error) || remarks_on_shadows(&s, o->width, o->height, error, sizeof error);
+    if (!failed && remarks) say_remarks(o, &s, &p);
+    describe(&s, what, what_bytes);
+    scene_free(&s);
+    uint8_t *rgb = NULL;
+    if (!failed) {
+        rgb = view_draw(&p, (view_kind)o->view, o->light, w, h, error, sizeof error);
+        engine_free(&p);
+    }
+    if (!rgb) tool_fail(o->scene_path, error);
+    return rgb;
+}
+
+/* --frames: each drawn for itself, by a renderer that has kept nothing. */
+static int render_frames(const tool_options *o)
+{
+    enum { FRAME_US = 1000000 / 24 };
+    const int n = o->last_frame - o->frame + 1;
+    char what[200];
+    int w = 0, h = 0, status = TOOL_OK;
+    tool_options now = *o;
+    png_animation animation = {0};
+    for (; now.frame <= o->last_frame && !status; now.frame++) {
+        uint8_t *rgb = draw_frame(&now, now.frame == o->frame && !o->json, &w, &h, what, sizeof what);
+        status =
+            !rgb ? TOOL_FAILED
+            : (now.frame == o->frame && png_animation_begin(&animation, o->out_path, w, h, (uint32_t)n, FRAME_US)) ||
+                    png_animation_add(&animation, rgb)
+                ? tool_fail(o->out_path, errno ? strerror(errno) : "cannot be written")
+                : TOOL_OK;
+        free(rgb);
+    }
+    if (animation.file && png_animation_end(&animation) && !status)
+        status = tool_fail(o->out_path, "cannot be written");
+    if (!status && !o->json) say_done(o, w, h, what);
+    return status;
+}
+
+int tool_render(const tool_options *o)
+{
+    char error[TOOL_ERROR_BYTES] = "out of memory", what[200];
+    int w = o->width, h = o->height, status;
     if (!o->out_path) {
         tool_error("render: -o OUT.png is missing");
         return TOOL_USAGE;
     }
-    if (tool_load(o, &s, &set)) return TOOL_FAILED;
-    engine_picture p;
-    int failed =
-        draw(&p, o, &s, &set, error, sizeof error) || remarks_on_shadows(&s, o->width, o->height, error, sizeof error);
-    if (!failed && !o->json) say_remarks(o, &s, &p);
-    char what[200];
-    describe(&s, what, sizeof what);
-    scene_free(&s);
-    if (failed) return tool_fail(o->scene_path, error);
-    int w, h;
-    uint8_t *rgb = view_draw(&p, (view_kind)o->view, o->light, &w, &h, error, sizeof error);
-    engine_free(&p);
-    const char *about = o->scene_path;
-    failed = !rgb;
-    if (!failed) {
-        failed = png_write_rgb8(o->out_path, w, h, rgb, error, sizeof error);
-        about = o->out_path;
+    if (o->last_frame >= 0) {
+        status = render_frames(o);
+    } else {
+        uint8_t *rgb = draw_frame(o, !o->json, &w, &h, what, sizeof what);
+        status = !rgb ? TOOL_FAILED : TOOL_OK;
+        if (rgb && png_write_rgb8(o->out_path, w, h, rgb, error, sizeof error)) status = tool_fail(o->out_path, error);
+        free(rgb);
+        if (!status && !o->json) say_done(o, w, h, what);
     }
-    free(rgb);
-    if (failed) return tool_fail(about, error);
-    if (!o->json) say_done(o, w, h, what);
-    if (o->json) {
+    if (!status && o->json) {
         printf("{\"out\": ");
         tool_json_string(o->out_path);
         printf(", \"width\": %d, \"height\": %d}\n", w, h);
     }
-    return TOOL_OK;
+    return status;
 }

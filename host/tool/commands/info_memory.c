@@ -5,17 +5,19 @@
 #include <stdio.h>
 #include <string.h>
 
-/* As if the preset were set last. */
-static void try_preset(info_memory *out, const tool_options *o, int preset)
+/* As if the preset were set last, but for triangle_groups. */
+static void try_preset(info_memory *out, const tool_options *o, int preset, int triangle_groups)
 {
     static const board m0 = {.core = FLASH_CORTEX_M0, .short_enums = true},
                        m4 = {.core = FLASH_CORTEX_M4, .short_enums = true};
-    char set[32], error[TOOL_ERROR_BYTES] = "out of memory";
+    char set[32], groups[32], error[TOOL_ERROR_BYTES] = "out of memory";
     tool_options with = *o;
     compiled c;
-    if (with.n_sets == TOOL_SETS_MAX) with.n_sets--;
+    if (with.n_sets > TOOL_SETS_MAX - 2) with.n_sets = TOOL_SETS_MAX - 2;
     snprintf(set, sizeof set, "preset=%s", settings_preset_name[preset]);
+    snprintf(groups, sizeof groups, "triangle_groups=%d", triangle_groups);
     with.sets[with.n_sets++] = set;
+    with.sets[with.n_sets++] = groups;
     with.simplify = TOOL_SIMPLIFY_SAFE;
     if (compile_all(&c, &with, error, sizeof error)) {
         snprintf(out->refused[preset], sizeof out->refused[preset], "%.150s", error);
@@ -47,11 +49,12 @@ static int judge(info_memory *out, const tool_options *o, const board *b, char *
     return 0;
 }
 
-static int count_frames(info_memory *out, const tool_options *o, char *error, size_t bytes)
+static int count_frames(info_memory *out, const tool_options *o, int *triangle_groups, char *error, size_t bytes)
 {
     scene s;
     settings set;
     if (tool_load_with(o, o->sets, o->n_sets, &s, &set, error, bytes)) return -1;
+    *triangle_groups = set.quality.triangle_groups;
     out->frames = 1 + (int)fmin(ceil(s.duration * s.fps - 1e-6), 1e8);
     scene_free(&s);
     return 0;
@@ -63,8 +66,9 @@ int info_memory_find(info_memory *out, const tool_options *o, char *error, size_
     board b;
     memset(out, 0, sizeof *out);
     if (frames.last_frame < 0) frames.last_frame = frames.frame;
-    if (count_frames(out, o, error, error_bytes)) return -1;
-    for (int i = 0; i < SETTINGS_PRESETS; i++) try_preset(out, &frames, i);
+    int triangle_groups;
+    if (count_frames(out, o, &triangle_groups, error, error_bytes)) return -1;
+    for (int i = 0; i < SETTINGS_PRESETS; i++) try_preset(out, &frames, i, triangle_groups);
     int requested = compile_read_board(o, &b, error, error_bytes);
     if (requested <= 0) return requested;
     if (!b.name[0]) snprintf(b.name, sizeof b.name, "that");

@@ -13,7 +13,7 @@
 
 enum { COMPILE_FRAMES_MAX = 20000 };
 
-typedef enum { COMPILE_OF_SCENE, COMPILE_OF_OBJECT, COMPILE_OF_LIGHT } compile_owner;
+typedef enum { COMPILE_OF_SCENE, COMPILE_OF_OBJECT, COMPILE_OF_LIGHT, COMPILE_OF_SKIN } compile_owner;
 
 /* Something that may change from frame to frame: whole 32-bit words of gn_scene, gn_object or gn_light. */
 typedef struct {
@@ -22,9 +22,11 @@ typedef struct {
     size_t offset, n_words;
 } compile_field;
 
+/* Of a skin: all of its joints, each a gn_affine. */
 typedef struct {
     const compile_field *field;
-    size_t idx;     /* of the object or light */
+    size_t idx;     /* of the object or light; of a skin's object */
+    size_t n_words; /* of the field, or of all joints */
     int32_t *words; /* n_words for each frame */
 } compile_track;
 
@@ -103,7 +105,8 @@ typedef struct {
 /* compile_play.c: loads every frame. 0, or -1 with one line in error. */
 int compile_play(compiled *c, const tool_options *o, char *error, size_t error_bytes);
 void compile_free(compiled *c);
-bool compile_moves(const compiled *c, compile_owner of); /* there are tracks */
+bool compile_moves(const compiled *c, compile_owner of);         /* there are tracks */
+size_t compile_count_skins(const compiled *c, size_t n_objects); /* of the first objects */
 
 /* compile_progress.c: what is being done, on a terminal and after a second; n_all 0: not counted. */
 typedef struct {
@@ -120,6 +123,7 @@ typedef struct {
     gn_renderer *renderer;
     gn_scene scene;
     gn_object *objects;
+    gn_skin *skins; /* beside the objects */
     gn_light *lights;
     bool begun;
     count_all counts; /* of one format */
@@ -224,6 +228,7 @@ void open_write_functions(FILE *file, const compiled *c);
 void open_write_upper(FILE *file, const char *text);
 
 /* compile_scene.c */
+void compile_write_skin_use(FILE *file, const compiled *c); /* objects of now point to its skins */
 void compile_write_header(FILE *file, const compiled *c);
 void compile_write_scene(FILE *file, const compiled *c);
 void compile_write_origin(FILE *file, const compiled *c);

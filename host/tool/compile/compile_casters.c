@@ -1,5 +1,6 @@
 /* What shadow tiles have to do with casters in the frame that was drawn last: which features of theirs it could have
  * been without. */
+#include "geometry/gn_skin.h"
 #include "shadow/gn_cull.h"
 #include "shadow/gn_ortho.h"
 #include "compile.h"
@@ -14,7 +15,9 @@ static int64_t extent_of(const gn_light_view *view, const gn_object *object)
     gn_ortho_compose(&to_tile, view, object);
     for (uint32_t i = 0; i < mesh->n_vertices; i++) {
         int64_t at[3];
-        gn_ortho_vertex(at, &to_tile, mesh, i);
+        int32_t p[3];
+        gn_position_of(p, object, i);
+        gn_ortho_point(at, &to_tile, p);
         for (int k = 0; k < 3; k++) {
             int64_t far = at[k] < 0 ? -at[k] : at[k];
             if (far > extent) extent = far;

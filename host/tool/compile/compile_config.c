@@ -179,11 +179,13 @@ static void use_object(compiled *c, const gn_object *o, const char *name)
     if (o->texture) {
         USE(textures, 1, "object '%s'", name);
         use_format(c, o->texture, name);
+        if (o->texture->flags & GN_TEXTURE_MIPMAPPED) USE(texture_levels, 1, "the texture of object '%s'", name);
     }
     if (s[0] || s[1] || s[2]) USE(specular, 1, "object '%s'", name);
     if (o->emissive_uq16[0] || o->emissive_uq16[1] || o->emissive_uq16[2]) USE(emissive, 1, "object '%s'", name);
     if (o->mask_u8 || o->mask_image) USE(masks, 1, "object '%s'", name);
     if (o->baked_uq12) USE(baked_light, 1, "object '%s'", name);
+    if (o->skin) USE(vertex_joints, o->skin->per_vertex, "object '%s'", name);
 }
 
 static void use_shadows(compiled *c)
@@ -219,6 +221,7 @@ static void use_nothing(compiled *c)
     NOTHING(visible_alpha);
     NOTHING(textures);
     NOTHING(texture_formats);
+    NOTHING(texture_levels);
     NOTHING(specular);
     NOTHING(emissive);
     NOTHING(orthographic);
@@ -228,6 +231,7 @@ static void use_nothing(compiled *c)
     NOTHING(caster_bias);
     NOTHING(receiver_plane);
     NOTHING(auto_bias);
+    NOTHING(vertex_joints);
     NOTHING(vertex_normals);
     NOTHING(vertex_colours);
     NOTHING(clips);

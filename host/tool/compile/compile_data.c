@@ -111,14 +111,84 @@ static const emit_field object_fields[] = {
     EMIT_VECTOR(gn_object, FIELD_U32, specular_uq16, 3), EMIT_FIELD(gn_object, FIELD_U8, shininess_log2),
     EMIT_VECTOR(gn_object, FIELD_U32, emissive_uq16, 3), EMIT_FIELD(gn_object, FIELD_POINTER, texture),
     EMIT_FIELD(gn_object, FIELD_POINTER, mask_image),    EMIT_FIELD(gn_object, FIELD_POINTER, mask_u8),
-    EMIT_FIELD(gn_object, FIELD_POINTER, baked_uq12)};
+    EMIT_FIELD(gn_object, FIELD_POINTER, baked_uq12),    EMIT_FIELD(gn_object, FIELD_POINTER, skin)};
+
+static const emit_field skin_fields[] = {
+    EMIT_FIELD(gn_skin, FIELD_POINTER, joint), EMIT_FIELD(gn_skin, FIELD_POINTER, joint_idx),
+    EMIT_FIELD(gn_skin, FIELD_POINTER, weight_u8), EMIT_FIELD(gn_skin, FIELD_U16, n_joints),
+    EMIT_FIELD(gn_skin, FIELD_U8, per_vertex)};
 
 static void write_object_pointer(FILE *f, const compiled *c, const emit_field *field, const void *at, size_t idx)
 {
     if (at && strcmp(field->name, "mesh") == 0) write_element(f, c, "meshes", (const gn_mesh *)at - c->fixed.meshes);
     else if (at && (strcmp(field->name, "texture") == 0 || strcmp(field->name, "mask_image") == 0))
         write_element(f, c, "textures", (const gn_texture *)at - c->fixed.textures);
+    else if (at && strcmp(field->name, "skin") == 0) fprintf(f, "&skins[%zu]", compile_count_skins(c, idx));
     else write_array_name(f, "object", idx, field->name, at);
+}
+
+/* Joints that move: a pose per frame. */
+static const compile_track *track_of(const compiled *c, size_t object_idx)
+{
+    for (size_t i = 0; i < c->n_tracks; i++)
+        if (c->tracks[i].field->of == COMPILE_OF_SKIN && c->tracks[i].idx == object_idx) return &c->tracks[i];
+    return NULL;
+}
+
+static void write_skin_pointer(FILE *f, const compiled *c, const emit_field *field, const void *at, size_t idx)
+{
+    const compile_track *t = strcmp(field->name, "joint") == 0 ? track_of(c, idx) : NULL;
+    if (t) fprintf(f, "track_%td[0]", t - c->tracks);
+    else write_array_name(f, "object", idx, field->name, at);
+}
+
+static void write_pose(FILE *f, const gn_affine *joint, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        fprintf(f, "    ");
+        emit_affine(f, &joint[i]);
+        fprintf(f, "%s\n", i + 1 < n ? "," : "");
+    }
+}
+
+static void write_joints(FILE *f, const compiled *c, size_t object_idx)
+{
+    const gn_skin *skin = c->fixed.objects[object_idx].skin;
+    const compile_track *t = track_of(c, object_idx);
+    if (!t) {
+        fprintf(f, "static const gn_affine object_%zu_joint[%u] = {\n", object_idx, skin->n_joints);
+        write_pose(f, skin->joint, skin->n_joints);
+        fprintf(f, "};\n");
+        return;
+    }
+    fprintf(f, "static const gn_affine track_%td[SCENE_FRAMES][%u] = {\n", t - c->tracks, skin->n_joints);
+    for (int frame = 0; frame < c->n_frames; frame++) {
+        fprintf(f, "    {\n");
+        write_pose(f, (const gn_affine *)(const void *)(t->words + (size_t)frame * t->n_words), skin->n_joints);
+        fprintf(f, "    }%s\n", frame + 1 < c->n_frames ? "," : "");
+    }
+    fprintf(f, "};\n");
+}
+
+static void write_skins(FILE *f, const compiled *c)
+{
+    const size_t n = compile_count_skins(c, c->fixed.scene.n_objects);
+    for (size_t i = 0; i < c->fixed.scene.n_objects; i++) {
+        const gn_skin *skin = c->fixed.objects[i].skin;
+        if (!skin) continue;
+        const size_t n_bytes = (size_t)skin->per_vertex * c->fixed.objects[i].mesh->n_vertices;
+        emit_array(f, EMIT_U8, "object", i, "joint_idx", skin->joint_idx, n_bytes, 2 * EMIT_PER_LINE);
+        emit_array(f, EMIT_U8, "object", i, "weight_u8", skin->weight_u8, n_bytes, 2 * EMIT_PER_LINE);
+        write_joints(f, c, i);
+    }
+    if (!n) return;
+    fprintf(f, "\nstatic const gn_skin skins[%zu] = {\n", n);
+    for (size_t i = 0; i < c->fixed.scene.n_objects; i++) {
+        if (!c->fixed.objects[i].skin) continue;
+        emit_struct(f, c, skin_fields, EMIT_COUNT(skin_fields), c->fixed.objects[i].skin, i, write_skin_pointer);
+        fprintf(f, ",\n");
+    }
+    fprintf(f, "};\n");
 }
 
 static void write_name(FILE *f, const char *name)
@@ -137,6 +207,7 @@ static void write_objects(FILE *f, const compiled *c)
         emit_array(f, EMIT_U8, "object", i, "mask_u8", o->mask_u8, 4 * n_vertices, 2 * EMIT_PER_LINE);
         emit_array(f, EMIT_U16, "object", i, "baked_uq12", o->baked_uq12, 3 * n_vertices, EMIT_PER_LINE);
     }
+    write_skins(f, c);
     if (!n) return;
     fprintf(f, "\nstatic const gn_object objects[%zu] = {\n", n);
     for (size_t i = 0; i < n; i++) {

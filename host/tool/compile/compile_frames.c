@@ -9,8 +9,9 @@ int compile_stage_open(compile_stage *st, const compiled *c)
 {
     *st = (compile_stage){.renderer = malloc(sizeof *st->renderer),
                           .objects = malloc((c->fixed.scene.n_objects + 1) * sizeof *st->objects),
+                          .skins = malloc((c->fixed.scene.n_objects + 1) * sizeof *st->skins),
                           .lights = malloc((c->fixed.scene.n_lights + 1) * sizeof *st->lights)};
-    if (st->renderer && st->objects && st->lights) return 0;
+    if (st->renderer && st->objects && st->skins && st->lights) return 0;
     compile_stage_close(st);
     return -1;
 }
@@ -20,6 +21,7 @@ void compile_stage_close(compile_stage *st)
     compile_tick_end(&st->progress);
     free(st->renderer);
     free(st->objects);
+    free(st->skins);
     free(st->lights);
     *st = (compile_stage){0};
 }
@@ -34,10 +36,17 @@ const gn_scene *compile_frame(compile_stage *st, const compiled *c, int i)
     st->scene.lights = st->lights;
     for (size_t k = 0; k < c->n_tracks; k++) {
         const compile_track *t = &c->tracks[k];
+        if (t->field->of == COMPILE_OF_SKIN) {
+            gn_skin *skin = &st->skins[t->idx];
+            *skin = *st->objects[t->idx].skin;
+            skin->joint = (const gn_affine *)(const void *)(t->words + (size_t)i * t->n_words);
+            st->objects[t->idx].skin = skin;
+            continue;
+        }
         char *owner = t->field->of == COMPILE_OF_OBJECT  ? (char *)&st->objects[t->idx]
                       : t->field->of == COMPILE_OF_LIGHT ? (char *)&st->lights[t->idx]
                                                          : (char *)&st->scene;
-        memcpy(owner + t->field->offset, t->words + (size_t)i * t->field->n_words, 4 * t->field->n_words);
+        memcpy(owner + t->field->offset, t->words + (size_t)i * t->n_words, 4 * t->n_words);
     }
     return &st->scene;
 }

@@ -28,7 +28,7 @@ static void add(attribute *all, size_t *n, const void *array, size_t bytes)
 static attribute *attributes_of(const compiled *c, const gn_mesh *mesh, size_t *n)
 {
     const gn_scene *s = &c->fixed.scene;
-    attribute *all = malloc((5 + 2 * (size_t)s->n_objects) * sizeof *all);
+    attribute *all = malloc((5 + 4 * (size_t)s->n_objects) * sizeof *all);
     *n = 0;
     if (!all) return NULL;
     add(all, n, mesh->pos, 3 * sizeof *mesh->pos);
@@ -40,6 +40,9 @@ static attribute *attributes_of(const compiled *c, const gn_mesh *mesh, size_t *
         if (s->objects[i].mesh != mesh) continue;
         add(all, n, s->objects[i].mask_u8, 4);
         add(all, n, s->objects[i].baked_uq12, 6);
+        if (!s->objects[i].skin) continue;
+        add(all, n, s->objects[i].skin->joint_idx, s->objects[i].skin->per_vertex);
+        add(all, n, s->objects[i].skin->weight_u8, s->objects[i].skin->per_vertex);
     }
     return all;
 }
@@ -189,9 +192,11 @@ void compile_drop_objects(compiled *c, const bool *gone)
 {
     uint32_t n = 0;
     renumber_tracks(c, COMPILE_OF_OBJECT, gone);
+    renumber_tracks(c, COMPILE_OF_SKIN, gone);
     for (uint32_t i = 0; i < c->fixed.scene.n_objects; i++) {
         if (gone[i]) {
             free(own(c->fixed.objects[i].baked_uq12));
+            if (c->fixed.objects[i].skin) quantise_free_skin(own(c->fixed.objects[i].skin));
             continue;
         }
         c->object_name[n] = c->object_name[i];

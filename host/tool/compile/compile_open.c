@@ -136,6 +136,8 @@ static void write_state(FILE *f, const compiled *c)
             "    gn_object objects[%zu];\n    gn_light lights[%zu];\n    gn_camera cameras[%zu];\n"
             "    uint32_t camera; /* which of them is looked through */\n",
             c->symbol, at_least_one(c->fixed.scene.n_objects), at_least_one(c->fixed.scene.n_lights), c->n_cameras);
+    const size_t n_skins = compile_count_skins(c, c->fixed.scene.n_objects);
+    if (n_skins) fprintf(f, "    gn_skin skins[%zu]; /* their joints may be the program's own */\n", n_skins);
     if (c->rig) fprintf(f, "    gn_affine nodes[%u]; /* of %s_pose */\n", c->rig->fixed.n_nodes, c->symbol);
     fprintf(f, "} %s_state;\n\n", c->symbol);
 }
@@ -170,17 +172,22 @@ void open_write_functions(FILE *f, const compiled *c)
     fprintf(f, "\nvoid %s_init(%s_state *now)\n{\n    memset(now, 0, sizeof *now);\n    now->scene = still;\n", name,
             name);
     if (s->n_objects) fprintf(f, "    memcpy(now->objects, objects, sizeof objects);\n");
+    if (compile_count_skins(c, s->n_objects)) fprintf(f, "    memcpy(now->skins, skins, sizeof skins);\n");
     if (s->n_lights) fprintf(f, "    memcpy(now->lights, lights, sizeof lights);\n");
     fprintf(f, "    memcpy(now->cameras, cameras, sizeof cameras);\n}\n");
+    fprintf(f, "\nconst gn_scene *%s_now(%s_state *now)\n{\n", name, name);
+    compile_write_skin_use(f, c);
     fprintf(f,
-            "\nconst gn_scene *%s_now(%s_state *now)\n{\n    now->scene.objects = now->objects;\n"
+            "    now->scene.objects = now->objects;\n"
             "    now->scene.lights = now->lights;\n"
             "    now->scene.camera = now->cameras[now->camera < %zu ? now->camera : 0];\n"
             "    return &now->scene;\n}\n",
-            name, name, c->n_cameras);
+            c->n_cameras);
     if (!c->rig) return;
     fprintf(f,
             "\nvoid %s_pose(%s_state *now, uint32_t clip, uint32_t time_q16)\n{\n"
-            "    gn_pose(&%s_rig, clip, time_q16, now->nodes, now->objects, now->lights, now->cameras);\n}\n",
+            "    gn_pose(&%s_rig, clip, time_q16, now->nodes, now->objects, now->lights, now->cameras);\n",
             name, name, name);
+    rig_write_skins(f, c);
+    fprintf(f, "}\n");
 }

@@ -20,6 +20,7 @@
 
 /* All that the loaders and the choice of the unit of length can make differ from frame to frame. */
 static const compile_field fields[] = {
+    {COMPILE_OF_SKIN, "joint", 0, sizeof(gn_affine) / 4}, /* for each of them */
     OBJECT_(to_world.m_q30, 9),
     OBJECT_(to_world.t_q16, 3),
     OBJECT_(to_world.exp, 1),
@@ -42,14 +43,17 @@ enum { N_FIELDS = sizeof fields / sizeof *fields };
 
 static const void *owner_of(const fixed_scene *f, compile_owner of, size_t idx)
 {
-    return of == COMPILE_OF_OBJECT  ? (const void *)&f->objects[idx]
-           : of == COMPILE_OF_LIGHT ? (const void *)&f->lights[idx]
-                                    : (const void *)&f->scene;
+    return of == COMPILE_OF_SKIN     ? (const void *)f->objects[idx].skin->joint
+           : of == COMPILE_OF_OBJECT ? (const void *)&f->objects[idx]
+           : of == COMPILE_OF_LIGHT  ? (const void *)&f->lights[idx]
+                                     : (const void *)&f->scene;
 }
 
 static size_t count_of(const fixed_scene *f, compile_owner of)
 {
-    return of == COMPILE_OF_OBJECT ? f->scene.n_objects : of == COMPILE_OF_LIGHT ? f->scene.n_lights : 1;
+    return of == COMPILE_OF_OBJECT || of == COMPILE_OF_SKIN ? f->scene.n_objects
+           : of == COMPILE_OF_LIGHT                         ? f->scene.n_lights
+                                                            : 1;
 }
 
 /* ---- What may not change ----------------------------------------------------------------------------------------- */
@@ -66,6 +70,8 @@ static int check_same(const compiled *c, const fixed_scene *f, int frame, char *
         if (!quantise_same_mesh(&f->meshes[i], &base->meshes[i])) what = "meshes";
     for (size_t i = 0; !what && i < f->scene.n_objects; i++)
         if (f->objects[i].mesh - f->meshes != base->objects[i].mesh - base->meshes) what = "meshes";
+    for (size_t i = 0; !what && i < f->scene.n_objects; i++)
+        if (!f->objects[i].skin != !base->objects[i].skin) what = "skins";
     if (!what) return 0;
     snprintf(error, bytes,
              "frame %d has other %s than frame %d (a transform that mirrors, or a ground that follows): leave one out "
@@ -83,6 +89,11 @@ static compile_track *find_track(compiled *c, const compile_field *field, size_t
     return NULL;
 }
 
+static size_t words_of(const compiled *c, const compile_field *field, size_t idx)
+{
+    return field->of == COMPILE_OF_SKIN ? field->n_words * c->fixed.objects[idx].skin->n_joints : field->n_words;
+}
+
 /* A track that stood still up to this frame; NULL: out of memory. */
 static compile_track *add_track(compiled *c, const compile_field *field, size_t idx, int frames_before,
                                 const void *first)
@@ -91,10 +102,11 @@ static compile_track *add_track(compiled *c, const compile_field *field, size_t 
     if (!grown) return NULL;
     c->tracks = grown;
     compile_track *t = &c->tracks[c->n_tracks];
-    *t = (compile_track){field, idx, malloc((size_t)c->n_frames * field->n_words * sizeof *t->words)};
+    const size_t n_words = words_of(c, field, idx);
+    *t = (compile_track){field, idx, n_words, malloc((size_t)c->n_frames * n_words * sizeof *t->words)};
     if (!t->words) return NULL;
     c->n_tracks++;
-    for (int i = 0; i < frames_before; i++) memcpy(t->words + (size_t)i * field->n_words, first, 4 * field->n_words);
+    for (int i = 0; i < frames_before; i++) memcpy(t->words + (size_t)i * n_words, first, 4 * n_words);
     return t;
 }
 
@@ -103,10 +115,11 @@ static int track_field(compiled *c, const fixed_scene *f, int i, const compile_f
     const char *first = (const char *)owner_of(&c->fixed, field->of, idx) + field->offset;
     const char *now = (const char *)owner_of(f, field->of, idx) + field->offset;
     compile_track *t = find_track(c, field, idx);
-    if (!t && memcmp(first, now, 4 * field->n_words) != 0) t = add_track(c, field, idx, i, first);
+    const size_t n_words = words_of(c, field, idx);
+    if (!t && memcmp(first, now, 4 * n_words) != 0) t = add_track(c, field, idx, i, first);
     else if (!t) return 0;
     if (!t) return -1;
-    memcpy(t->words + (size_t)i * field->n_words, now, 4 * field->n_words);
+    memcpy(t->words + (size_t)i * n_words, now, 4 * n_words);
     return 0;
 }
 
@@ -114,7 +127,8 @@ static int track_frame(compiled *c, const fixed_scene *f, int i)
 {
     for (size_t k = 0; k < N_FIELDS; k++)
         for (size_t idx = 0; idx < count_of(f, fields[k].of); idx++)
-            if (track_field(c, f, i, &fields[k], idx)) return -1;
+            if ((fields[k].of != COMPILE_OF_SKIN || f->objects[idx].skin) && track_field(c, f, i, &fields[k], idx))
+                return -1;
     return 0;
 }
 
@@ -201,6 +215,13 @@ int compile_play(compiled *c, const tool_options *o, char *error, size_t error_b
     compile_tick_end(&progress);
     if (failed) compile_free(c);
     return failed;
+}
+
+size_t compile_count_skins(const compiled *c, size_t n_objects)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < n_objects; i++) n += c->fixed.objects[i].skin != NULL;
+    return n;
 }
 
 bool compile_moves(const compiled *c, compile_owner of)

@@ -15,16 +15,17 @@ static void write_tracks(FILE *f, const compiled *c)
 {
     for (size_t i = 0; i < c->n_tracks; i++) {
         const compile_track *t = &c->tracks[i];
+        if (t->field->of == COMPILE_OF_SKIN) continue;
         const char *name = t->field->of == COMPILE_OF_OBJECT  ? c->object_name[t->idx]
                            : t->field->of == COMPILE_OF_LIGHT ? c->light_name[t->idx]
                                                               : "the scene";
         fprintf(f, "\n/* %s of ", t->field->name);
         compile_write_text(f, name);
-        fprintf(f, ", frame by frame */\nstatic const int32_t track_%zu[SCENE_FRAMES][%zu] = {", i, t->field->n_words);
+        fprintf(f, ", frame by frame */\nstatic const int32_t track_%zu[SCENE_FRAMES][%zu] = {", i, t->n_words);
         for (int frame = 0; frame < c->n_frames; frame++) {
-            const int32_t *words = t->words + (size_t)frame * t->field->n_words;
+            const int32_t *words = t->words + (size_t)frame * t->n_words;
             fprintf(f, "\n    {");
-            for (size_t k = 0; k < t->field->n_words; k++) fprintf(f, "%s%" PRId32, k ? ", " : "", words[k]);
+            for (size_t k = 0; k < t->n_words; k++) fprintf(f, "%s%" PRId32, k ? ", " : "", words[k]);
             fprintf(f, "},");
         }
         fprintf(f, "\n};\n");
@@ -35,6 +36,10 @@ static void write_track_use(FILE *f, const compiled *c, const compile_track *t, 
 {
     const char *name = t->field->name;
     const bool camera = c->symbol && strncmp(name, "camera.", 7) == 0;
+    if (t->field->of == COMPILE_OF_SKIN) {
+        fprintf(f, "    now->skins[%zu].joint = track_%zu[frame];\n", compile_count_skins(c, t->idx), i);
+        return;
+    }
     fprintf(f, "    memcpy(&now->");
     if (t->field->of == COMPILE_OF_OBJECT) fprintf(f, "objects[%zu]", t->idx);
     else if (t->field->of == COMPILE_OF_LIGHT) fprintf(f, "lights[%zu]", t->idx);
@@ -53,6 +58,19 @@ static void write_open_frame_function(FILE *f, const compiled *c)
     fprintf(f, "    return scene_now(now);\n}\n");
 }
 
+void compile_write_skin_use(FILE *f, const compiled *c)
+{
+    for (size_t i = 0; i < c->fixed.scene.n_objects; i++)
+        if (c->fixed.objects[i].skin)
+            fprintf(f, "    now->objects[%zu].skin = &now->skins[%zu];\n", i, compile_count_skins(c, i));
+}
+
+/* Skins are of objects: those name the ones that move. */
+static bool moves_objects(const compiled *c)
+{
+    return compile_moves(c, COMPILE_OF_OBJECT) || compile_moves(c, COMPILE_OF_SKIN);
+}
+
 static void write_frame_function(FILE *f, const compiled *c)
 {
     fprintf(f, "\nconst gn_scene *scene_frame(scene_state *now, uint32_t frame)\n{\n");
@@ -63,8 +81,12 @@ static void write_frame_function(FILE *f, const compiled *c)
     fprintf(
         f,
         "    if (frame >= SCENE_FRAMES) frame = SCENE_FRAMES - 1;\n    memcpy(&now->scene, &still, sizeof still);\n");
-    if (compile_moves(c, COMPILE_OF_OBJECT))
+    if (moves_objects(c))
         fprintf(f, "    memcpy(now->objects, objects, sizeof objects);\n    now->scene.objects = now->objects;\n");
+    if (compile_moves(c, COMPILE_OF_SKIN)) {
+        fprintf(f, "    memcpy(now->skins, skins, sizeof skins);\n");
+        compile_write_skin_use(f, c);
+    }
     if (compile_moves(c, COMPILE_OF_LIGHT))
         fprintf(f, "    memcpy(now->lights, lights, sizeof lights);\n    now->scene.lights = now->lights;\n");
     for (size_t i = 0; i < c->n_tracks; i++) write_track_use(f, c, &c->tracks[i], i);
@@ -102,8 +124,9 @@ static void write_state(FILE *f, const compiled *c)
     fprintf(f, "/* What moves: RAM. */\ntypedef struct {\n");
     if (c->n_tracks) fprintf(f, "    gn_scene scene;\n");
     else fprintf(f, "    uint8_t nothing;\n");
-    if (compile_moves(c, COMPILE_OF_OBJECT))
-        fprintf(f, "    gn_object objects[%" PRIu32 "];\n", c->fixed.scene.n_objects);
+    if (moves_objects(c)) fprintf(f, "    gn_object objects[%" PRIu32 "];\n", c->fixed.scene.n_objects);
+    if (compile_moves(c, COMPILE_OF_SKIN))
+        fprintf(f, "    gn_skin skins[%zu];\n", compile_count_skins(c, c->fixed.scene.n_objects));
     if (compile_moves(c, COMPILE_OF_LIGHT)) fprintf(f, "    gn_light lights[%" PRIu32 "];\n", c->fixed.scene.n_lights);
     fprintf(f, "} scene_state;\n\n");
 }

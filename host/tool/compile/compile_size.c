@@ -2,7 +2,7 @@
  */
 #include "rig.h"
 
-enum { MESH_BYTES = 32, TEXTURE_BYTES = 16, CAMERA_BYTES = 68 };
+enum { MESH_BYTES = 32, TEXTURE_BYTES = 16, CAMERA_BYTES = 68, SKIN_BYTES = 16, JOINT_BYTES = 52 };
 
 static long padded(long bytes)
 {
@@ -12,7 +12,7 @@ static long padded(long bytes)
 /* Enumerations take 4 bytes each, or, as Arm's compilers have them by default, one. */
 static long object_bytes(bool short_enums)
 {
-    return short_enums ? 128 : 132;
+    return short_enums ? 132 : 136;
 }
 
 static long light_bytes(bool short_enums)
@@ -35,6 +35,16 @@ static long mesh_bytes(const gn_mesh *m, const gn_knobs *knobs)
     return bytes + MESH_BYTES;
 }
 
+/* Of an object; joints that a track has are in its frames. */
+static long skin_bytes(const compiled *c, uint32_t object_idx)
+{
+    const gn_object *o = &c->fixed.objects[object_idx];
+    long bytes = SKIN_BYTES + 2 * padded((long)o->skin->per_vertex * o->mesh->n_vertices);
+    for (size_t i = 0; i < c->n_tracks; i++)
+        if (c->tracks[i].field->of == COMPILE_OF_SKIN && c->tracks[i].idx == object_idx) return bytes;
+    return bytes + JOINT_BYTES * (long)o->skin->n_joints;
+}
+
 long compile_flash_bytes(const compiled *c, bool short_enums)
 {
     const gn_scene *s = &c->fixed.scene;
@@ -48,20 +58,24 @@ long compile_flash_bytes(const compiled *c, bool short_enums)
         const gn_object *o = &s->objects[i];
         if (o->mask_u8) bytes += 4L * o->mesh->n_vertices;
         if (o->baked_uq12) bytes += padded(6L * o->mesh->n_vertices);
+        if (o->skin) bytes += skin_bytes(c, i);
     }
     if (c->rig) bytes += rig_flash_bytes(c->rig);
-    for (size_t i = 0; i < c->n_tracks; i++) bytes += 4L * c->n_frames * (long)c->tracks[i].field->n_words;
+    for (size_t i = 0; i < c->n_tracks; i++) bytes += 4L * c->n_frames * (long)c->tracks[i].n_words;
     return bytes;
 }
 
 long compile_state_bytes(const compiled *c, bool short_enums)
 {
+    const long skins = SKIN_BYTES * (long)compile_count_skins(c, c->fixed.scene.n_objects);
     if (c->symbol)
-        return scene_bytes(short_enums) + (long)c->fixed.scene.n_objects * object_bytes(short_enums) +
+        return skins + scene_bytes(short_enums) + (long)c->fixed.scene.n_objects * object_bytes(short_enums) +
                (long)c->fixed.scene.n_lights * light_bytes(short_enums) + CAMERA_BYTES * (long)c->n_cameras + 4;
     if (!c->n_tracks) return 1;
     long bytes = scene_bytes(short_enums);
-    if (compile_moves(c, COMPILE_OF_OBJECT)) bytes += (long)c->fixed.scene.n_objects * object_bytes(short_enums);
+    if (compile_moves(c, COMPILE_OF_SKIN)) bytes += skins;
+    if (compile_moves(c, COMPILE_OF_OBJECT) || compile_moves(c, COMPILE_OF_SKIN))
+        bytes += (long)c->fixed.scene.n_objects * object_bytes(short_enums);
     if (compile_moves(c, COMPILE_OF_LIGHT)) bytes += (long)c->fixed.scene.n_lights * light_bytes(short_enums);
     return bytes;
 }

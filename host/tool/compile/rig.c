@@ -86,9 +86,29 @@ int rig_place(const scene *s, size_t clip, double time, scene_affine *nodes)
     return failed ? -1 : 0;
 }
 
+/* The object with its joints as nodes have them. */
+static double extent_of_skin(const scene *s, const scene_object *o, const scene_affine *nodes)
+{
+    double extent = 0;
+    scene_object posed = *o;
+    posed.joints = malloc(o->n_joints * sizeof *posed.joints);
+    if (!posed.joints) return 0;
+    for (size_t i = 0; i < o->n_joints; i++)
+        posed.joints[i].now = affine_multiply(&nodes[o->joints[i].node_idx], &o->joints[i].bind);
+    for (size_t v = 0; v < s->meshes[o->mesh_idx].n_vertices; v++) {
+        double at[3];
+        scene_vertex(at, s, &posed, v);
+        for (int k = 0; k < 3; k++) extent = fmax(extent, fabs(at[k]));
+    }
+    free(posed.joints);
+    return extent;
+}
+
 static double extent_of(const scene *s, const scene_affine *nodes)
 {
     double extent = 0;
+    for (size_t i = 0; i < s->n_objects; i++)
+        if (s->objects[i].n_joints) extent = fmax(extent, extent_of_skin(s, &s->objects[i], nodes));
     for (size_t i = 0; i < s->n_objects; i++) {
         const scene_object *o = &s->objects[i];
         const scene_mesh *mesh = &s->meshes[o->mesh_idx];
@@ -137,6 +157,14 @@ static bool stands_on(const scene *s, size_t node)
     return false;
 }
 
+static bool is_joint(const scene *s, size_t node)
+{
+    for (size_t i = 0; i < s->n_objects; i++)
+        for (size_t k = 0; k < s->objects[i].n_joints; k++)
+            if (s->objects[i].joints[k].node_idx == node) return true;
+    return false;
+}
+
 static void mark_nodes(const scene *s, const ranked *order, mark *marks)
 {
     const scene_rig *rig = s->rig;
@@ -144,7 +172,7 @@ static void mark_nodes(const scene *s, const ranked *order, mark *marks)
     for (size_t i = 0; i < rig->n_nodes; i++) {
         const size_t at = order[i].node, parent = rig->nodes[at].parent;
         marks[at].driven = marks[at].animated || (parent != SCENE_NONE && marks[parent].driven);
-        marks[at].needed = marks[at].driven && rig->nodes[at].in_scene && stands_on(s, at);
+        marks[at].needed = marks[at].driven && ((rig->nodes[at].in_scene && stands_on(s, at)) || is_joint(s, at));
     }
     for (size_t i = rig->n_nodes; i-- > 0;) {
         const size_t at = order[i].node, parent = rig->nodes[at].parent;
@@ -152,10 +180,12 @@ static void mark_nodes(const scene *s, const ranked *order, mark *marks)
     }
 }
 
-/* The smallest e with v <= 2^e. */
+/* The smallest e with v <= 2^e. Files hold scales of 1 as a float's rounding above it: a chain of joints would lose a
+ * bit at each, and gn_pose takes such entries. */
 static int exponent_above(double v)
 {
     int e;
+    v *= 1 - 0x1p-18;
     if (!(v > 0)) return 0;
     return frexp(v, &e) == 0.5 ? e - 1 : e;
 }
@@ -283,21 +313,59 @@ static int add_nodes(fixed_rig *r, const ranked *order, mark *marks, const scene
     return 0;
 }
 
-/* ---- What stands on them ----------------------------------------------------------------------------------------- */
+/* ---- Joints ------------------------------------------------------------------------------------------------------ */
 
-/* The power of two between the scene's transform of an object and the library's. */
-static int object_shift(const scene_object *o, const gn_object *fixed)
+int rig_shift(const scene_affine *a, const gn_affine *fixed)
 {
     double largest = 0, stored = 0;
     for (int r = 0; r < 3; r++) {
         for (int k = 0; k < 3; k++) {
-            if (fabs(o->to_world.m[r][k]) <= largest) continue;
-            largest = fabs(o->to_world.m[r][k]);
-            stored = ldexp(fabs((double)fixed->to_world.m_q30[r][k]), fixed->to_world.exp - 30);
+            if (fabs(a->m[r][k]) <= largest) continue;
+            largest = fabs(a->m[r][k]);
+            stored = ldexp(fabs((double)fixed->m_q30[r][k]), fixed->exp - 30);
         }
     }
-    return (int)lround(log2(stored / largest));
+    return largest > 0 ? (int)lround(log2(stored / largest)) : 0;
 }
+
+/* A joint's matrix is where its node has been taken, behind the matrix that it was bound by: a fixed node below it. */
+static int add_joint(fixed_rig *r, const mark *marks, const scene_affine *at_rest, const scene_joint *joint, int shift)
+{
+    const mark *above = &marks[joint->node_idx];
+    const size_t n = r->fixed.n_nodes++;
+    const int exp = above->driven ? r->frame_exp[above->idx] : 0;
+    const scene_affine still = affine_multiply(&at_rest[joint->node_idx], &joint->bind);
+    r->order[n] = SCENE_NONE;
+    r->nodes[n].parent = above->driven ? (int16_t)above->idx : -1;
+    r->nodes[n].fixed = &r->locals[r->n_fixed];
+    return quantise_affine(&r->locals[r->n_fixed++], above->driven ? &joint->bind : &still, shift + exp,
+                           r->world_exp + exp);
+}
+
+/* One after the other, so that they are an array behind gn_pose. */
+static int add_joints(fixed_rig *r, const mark *marks, const scene_affine *at_rest, const fixed_scene *f, char *error,
+                      size_t bytes)
+{
+    for (size_t i = 0; i < r->s->n_objects; i++) {
+        const scene_object *o = &r->s->objects[i];
+        bool driven = false;
+        r->first_joint[i] = SCENE_NONE;
+        for (size_t k = 0; k < o->n_joints; k++) driven |= marks[o->joints[k].node_idx].driven;
+        if (!driven) continue;
+        r->first_joint[i] = r->fixed.n_nodes;
+        r->n_skins++;
+        for (size_t k = 0; k < o->n_joints; k++) {
+            if (!add_joint(r, marks, at_rest, &o->joints[k],
+                           rig_shift(&o->joints[0].now, &f->objects[i].skin->joint[0])))
+                continue;
+            snprintf(error, bytes, "object '%s': scale of joint %zu too large", o->name, k);
+            return -1;
+        }
+    }
+    return 0;
+}
+
+/* ---- What stands on them ----------------------------------------------------------------------------------------- */
 
 static void add_link(fixed_rig *r, const mark *marks, size_t node, int kind, size_t idx, int exp)
 {
@@ -312,7 +380,7 @@ static void add_links(fixed_rig *r, const mark *marks, const fixed_scene *f)
         const size_t node = s->objects[i].node_idx;
         if (node == SCENE_NONE || !marks[node].needed) continue;
         add_link(r, marks, node, GN_RIG_OBJECT, i,
-                 r->frame_exp[marks[node].idx] + object_shift(&s->objects[i], &f->objects[i]));
+                 r->frame_exp[marks[node].idx] + rig_shift(&s->objects[i].to_world, &f->objects[i].to_world));
     }
     for (size_t i = 0; i < s->n_lights; i++) add_link(r, marks, s->lights[i].node_idx, GN_RIG_LIGHT, i, 0);
     for (size_t i = 0; i < s->rig->n_cameras; i++) add_link(r, marks, s->rig->cameras[i].node, GN_RIG_CAMERA, i, 0);
@@ -322,7 +390,9 @@ static void add_links(fixed_rig *r, const mark *marks, const fixed_scene *f)
 
 static int allocate(fixed_rig *r, size_t n_links)
 {
-    const size_t n = 2 * r->s->rig->n_nodes + 1; /* with what is above them */
+    size_t n = 2 * r->s->rig->n_nodes + 1; /* with what is above them */
+    for (size_t i = 0; i < r->s->n_objects; i++) n += r->s->objects[i].n_joints;
+    r->first_joint = calloc(r->s->n_objects + 1, sizeof *r->first_joint);
     r->order = calloc(n, sizeof *r->order);
     r->frame_exp = calloc(n, sizeof *r->frame_exp);
     r->nodes = calloc(n, sizeof *r->nodes);
@@ -334,7 +404,15 @@ static int allocate(fixed_rig *r, size_t n_links)
     r->fixed.nodes = r->nodes;
     r->fixed.links = r->links;
     r->fixed.clips = r->clips;
-    return r->order && r->frame_exp && r->nodes && r->locals && r->rest && r->links && r->clips && r->error ? 0 : -1;
+    return r->first_joint && r->order && r->frame_exp && r->nodes && r->locals && r->rest && r->links && r->clips &&
+                   r->error
+               ? 0
+               : -1;
+}
+
+static bool moves_anything(const fixed_rig *r)
+{
+    return r->fixed.n_links || r->n_skins;
 }
 
 static int build(fixed_rig *r, const fixed_scene *f, char *error, size_t bytes)
@@ -349,12 +427,13 @@ static int build(fixed_rig *r, const fixed_scene *f, char *error, size_t bytes)
         mark_nodes(r->s, order, marks);
         failed = rig_place(r->s, SCENE_NONE, 0, at_rest) || add_nodes(r, order, marks, at_rest);
         if (failed) snprintf(error, bytes, "out of memory");
-        else add_links(r, marks, f);
+        else failed = add_joints(r, marks, at_rest, f, error, bytes);
+        if (!failed) add_links(r, marks, f);
     }
     free(order);
     free(marks);
     free(at_rest);
-    for (size_t i = 0; !failed && r->fixed.n_links && i < from->n_clips; i++) {
+    for (size_t i = 0; !failed && moves_anything(r) && i < from->n_clips; i++) {
         failed = rig_keys(r, i, error, bytes);
         r->fixed.n_clips++;
     }
@@ -365,8 +444,10 @@ int rig_begin(fixed_rig **out, const scene *s, const fixed_scene *f, char *error
 {
     *out = NULL;
     if (!s->rig || !s->rig->n_channels) return 0;
-    if (s->rig->n_nodes > 16000) {
-        snprintf(error, bytes, "%zu nodes are more than 16000", s->rig->n_nodes);
+    size_t n_nodes = s->rig->n_nodes;
+    for (size_t i = 0; i < s->n_objects; i++) n_nodes += s->objects[i].n_joints;
+    if (n_nodes > 16000) {
+        snprintf(error, bytes, "%zu nodes and joints of objects are more than 16000", n_nodes);
         return -1;
     }
     fixed_rig *r = calloc(1, sizeof *r);
@@ -376,8 +457,8 @@ int rig_begin(fixed_rig **out, const scene *s, const fixed_scene *f, char *error
     }
     r->s = s;
     r->world_exp = f->world_exp;
-    const int failed = build(r, f, error, bytes) || (r->fixed.n_links && rig_measure(r, f, error, bytes));
-    if (!failed && r->fixed.n_links) *out = r;
+    const int failed = build(r, f, error, bytes) || (moves_anything(r) && rig_measure(r, f, error, bytes));
+    if (!failed && moves_anything(r)) *out = r;
     else rig_free(r);
     return failed ? -1 : 0;
 }
@@ -399,6 +480,7 @@ void rig_free(fixed_rig *r)
         free((void *)(uintptr_t)r->clips[i].channels);
     }
     free_channels(r->rest, r->n_rest);
+    free(r->first_joint);
     free(r->order);
     free(r->frame_exp);
     free(r->nodes);

@@ -25,7 +25,9 @@ struct fixed_rig {
     gn_affine *locals; /* of nodes that no clip moves */
     gn_rig_channel *rest;
     size_t n_rest;
-    rig_error *error; /* of each clip */
+    rig_error *error;    /* of each clip */
+    size_t n_skins;      /* that clips move */
+    size_t *first_joint; /* of each object: node of its skin's first joint; SCENE_NONE: no clip moves one */
 };
 
 /* NULL where nothing is moved by a clip; -1 with one line in error. */
@@ -47,7 +49,11 @@ void rig_quaternion(const double *q, int16_t out[4]);
 /* rig_check.c */
 int rig_measure(fixed_rig *r, const fixed_scene *f, char *error, size_t error_bytes);
 
+/* rig.c: the power of two between a transform of the scene and the library's. */
+int rig_shift(const scene_affine *a, const gn_affine *fixed);
+
 /* rig_emit.c */
+void rig_write_skins(FILE *file, const compiled *c); /* skins of now have the joints of its nodes */
 long rig_flash_bytes(const fixed_rig *r);
 void rig_emit(FILE *file, const compiled *c);
 

@@ -56,7 +56,9 @@ static void write_nodes(FILE *f, const fixed_rig *r)
         else fprintf(f, "    {F(fixed) 0, F(rest) &rest_0[%td], ", n->rest - r->rest);
         fprintf(f, "F(parent) %d},\n", n->parent);
     }
-    fprintf(f, "};\nstatic const gn_rig_link rig_links[%u] = {\n", r->fixed.n_links);
+    fprintf(f, "};\n");
+    if (!r->fixed.n_links) return;
+    fprintf(f, "static const gn_rig_link rig_links[%u] = {\n", r->fixed.n_links);
     for (size_t i = 0; i < r->fixed.n_links; i++) {
         const gn_rig_link *l = &r->links[i];
         fprintf(f, "    {F(node) %u, F(idx) %u, F(kind) %u, F(exp) %d},\n", l->node, l->idx, l->kind, l->exp);
@@ -86,6 +88,14 @@ long rig_flash_bytes(const fixed_rig *r)
     return bytes;
 }
 
+void rig_write_skins(FILE *f, const compiled *c)
+{
+    for (size_t i = 0; i < c->fixed.scene.n_objects; i++)
+        if (c->rig->first_joint[i] != SCENE_NONE)
+            fprintf(f, "    now->skins[%zu].joint = now->nodes + %zu;\n", compile_count_skins(c, i),
+                    c->rig->first_joint[i]);
+}
+
 void rig_emit(FILE *f, const compiled *c)
 {
     const fixed_rig *r = c->rig;
@@ -110,7 +120,7 @@ void rig_emit(FILE *f, const compiled *c)
         n += clip->n_channels + 1U;
     }
     fprintf(f,
-            "};\n\nconst gn_rig %s_rig = {F(nodes) rig_nodes, F(links) rig_links, F(clips) rig_clips,\n"
+            "};\n\nconst gn_rig %s_rig = {F(nodes) rig_nodes, F(links) %s, F(clips) rig_clips,\n"
             "    F(n_nodes) %u, F(n_links) %u, F(n_clips) %u};\n",
-            c->symbol, r->fixed.n_nodes, r->fixed.n_links, r->fixed.n_clips);
+            c->symbol, r->fixed.n_links ? "rig_links" : "0", r->fixed.n_nodes, r->fixed.n_links, r->fixed.n_clips);
 }

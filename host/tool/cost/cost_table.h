@@ -54,7 +54,8 @@ COST(edge_lookups, 27.73) /* lookup in a cell with the edge of a shadow */
 COST(lights, 0) /* light that arrives at a pixel */
 COST(lights_punctual, 0) /* spot or point light that faces a pixel */
 COST(highlights, 15.05) /* specular highlight of a light at a pixel */
-COST(textured, 610.2) /* pixel whose colour is a texture's */
+COST(textured, 610.2) /* pixel for itself whose colour is a texture's */
+COST(textured_rows, 142) /* pixel of a row of a cell whose colour is a texture's */
 COST(masked, 0) /* look-up in a mask image */
 COST(packed, 0) /* colour encoded */
 COST(lookups, 742.5) /* shadow lookup in an orthographic view */

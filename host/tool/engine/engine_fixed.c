@@ -66,6 +66,9 @@ static subject subject_of(gn_status status)
     case GN_ERR_TEXTURE_FORMAT:
     case GN_ERR_MATERIAL:
     case GN_ERR_MASK:
+    case GN_ERR_SKIN:
+    case GN_ERR_SKIN_JOINT:
+    case GN_ERR_SKIN_WEIGHTS:
         return ABOUT_OBJECT;
     case GN_ERR_LIGHT_KIND:
     case GN_ERR_LIGHT_DIRECTION:
@@ -234,8 +237,9 @@ void engine_demand(const gn_renderer *renderer, settings_demand *out)
     out->objects = frame->scene->n_objects;
     out->lights = frame->scene->n_lights;
     out->surface_lights = surface_lights(frame);
-    out->triangles = frame->stats.n_triangles;
-    out->tile_refs = frame->stats.n_tile_refs;
+    const bool groups = frame->knobs.triangle_groups > 0;
+    out->triangles = groups ? frame->stats.n_tile_triangles : frame->stats.n_triangles;
+    out->tile_refs = groups ? 0 : frame->stats.n_tile_refs;
     for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
         uint32_t n = 0;
         if (gn_get_light_shadow(renderer, l, &n, NULL) != GN_SHADOW_REALTIME) continue;

@@ -52,31 +52,41 @@ static int is_flat(const scene_affine *a, int exp)
     return !gn_det_sign(m);
 }
 
-/* Matrix entries become a Q1.30 mantissa under one exponent. A mesh's fraction bits beyond 0..30 move into that
- * exponent. */
-static int quantise_transform(gn_affine *out, const scene_object *o, int mesh_bits, int stored_bits, int world_exp,
-                              char *error, size_t error_bytes)
+static int exponent_of(const scene_affine *a)
 {
     double largest = 0;
     int e;
     for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++) largest = fmax(largest, fabs(o->to_world.m[r][c]));
+        for (int c = 0; c < 3; c++) largest = fmax(largest, fabs(a->m[r][c]));
     frexp(largest, &e);
-    if (is_flat(&o->to_world, e)) {
+    return e;
+}
+
+/* Matrix entries become a Q1.30 mantissa under one exponent. */
+int quantise_affine(gn_affine *out, const scene_affine *a, int shift, int world_exp)
+{
+    const int e = exponent_of(a), exp = e + shift < 0 ? 0 : e + shift;
+    if (exp > 14) return -1;
+    out->exp = exp;
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++) out->m_q30[r][c] = fixed_unit(a->m[r][c], 30 + shift - exp);
+        out->t_q16[r] = (int32_t)fixed(a->m[r][3], 16 + world_exp);
+    }
+    return 0;
+}
+
+/* shift: of what the object's transform is applied to. */
+static int quantise_transform(gn_affine *out, const scene_object *o, int shift, int world_exp, char *error,
+                              size_t error_bytes)
+{
+    if (is_flat(&o->to_world, exponent_of(&o->to_world))) {
         snprintf(error, error_bytes, "object '%s': a scale of zero or almost zero along an axis cannot be drawn",
                  o->name);
         return -1;
     }
-    int shift = world_exp + stored_bits - mesh_bits; /* object space as stored = true * 2^(mesh_bits - stored_bits) */
-    int exp = e + shift < 0 ? 0 : e + shift;
-    if (exp > 14) {
+    if (quantise_affine(out, &o->to_world, shift, world_exp)) {
         snprintf(error, error_bytes, "object '%s': scale too large", o->name);
         return -1;
-    }
-    out->exp = exp;
-    for (int r = 0; r < 3; r++) {
-        for (int c = 0; c < 3; c++) out->m_q30[r][c] = fixed_unit(o->to_world.m[r][c], 30 + shift - exp);
-        out->t_q16[r] = (int32_t)fixed(o->to_world.m[r][3], 16 + world_exp);
     }
     return 0;
 }
@@ -113,8 +123,12 @@ static int quantise_object(fixed_scene *f, size_t i, const scene *s, const mesh_
     out->mask_u8 = o->mask;
     if (o->baked) out->baked_uq12 = quantise_words(o->baked, 3 * s->meshes[o->mesh_idx].n_vertices, 4096);
     if (o->baked && !out->baked_uq12) return quantise_no_memory(error, error_bytes);
-    return quantise_transform(&out->to_world, o, plan[o->mesh_idx].pos_bits, out->mesh->pos_frac_bits, f->world_exp,
-                              error, error_bytes);
+    /* space as stored = true * 2^(pos_bits - pos_frac_bits): a mesh's fraction bits beyond 0..30 are the exponent's */
+    const int shift = f->world_exp + out->mesh->pos_frac_bits - plan[o->mesh_idx].pos_bits;
+    if (o->n_joints) out->skin = &f->skins[i];
+    if (o->n_joints && quantise_skin(&f->skins[i], &s->meshes[o->mesh_idx], o, shift, f->world_exp, error, error_bytes))
+        return -1;
+    return quantise_transform(&out->to_world, o, o->n_joints ? 0 : shift, f->world_exp, error, error_bytes);
 }
 
 /* ---- Lights ------------------------------------------------------------------------------------------------------ */
@@ -230,6 +244,7 @@ static int allocate(fixed_scene *f, const scene *s)
 {
     f->meshes = calloc(s->n_meshes + 1, sizeof *f->meshes);
     f->objects = calloc(s->n_objects + 1, sizeof *f->objects);
+    f->skins = calloc(s->n_objects + 1, sizeof *f->skins);
     f->lights = calloc(s->n_lights + 1, sizeof *f->lights);
     f->textures = calloc(s->n_textures + 1, sizeof *f->textures);
     f->n_meshes = s->n_meshes;
@@ -238,7 +253,7 @@ static int allocate(fixed_scene *f, const scene *s)
     f->scene.lights = f->lights;
     f->scene.n_objects = (uint32_t)s->n_objects;
     f->scene.n_lights = (uint32_t)s->n_lights;
-    return f->meshes && f->objects && f->lights && f->textures ? 0 : -1;
+    return f->meshes && f->objects && f->skins && f->lights && f->textures ? 0 : -1;
 }
 
 int quantise_scene(fixed_scene *out, const scene *s, char *error, size_t error_bytes)
@@ -295,10 +310,14 @@ void quantise_free(fixed_scene *f)
         release(f->meshes[i].mask_uv_uq16);
         release(f->meshes[i].idx);
     }
-    for (size_t i = 0; f->objects && i < f->scene.n_objects; i++) release(f->objects[i].baked_uq12);
+    for (size_t i = 0; f->objects && i < f->scene.n_objects; i++) {
+        release(f->objects[i].baked_uq12);
+        if (f->objects[i].skin) quantise_free_skin(&f->skins[f->objects[i].skin - f->skins]);
+    }
     for (size_t i = 0; f->textures && i < f->n_textures; i++) quantise_free_texture(&f->textures[i]);
     free(f->meshes);
     free(f->objects);
+    free(f->skins);
     free(f->lights);
     free(f->textures);
     memset(f, 0, sizeof *f);

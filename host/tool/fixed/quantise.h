@@ -13,6 +13,7 @@ typedef struct {
     size_t n_meshes;
     gn_mesh *meshes;
     gn_object *objects;
+    gn_skin *skins; /* beside the objects; those of objects without joints are not used */
     gn_light *lights;
     size_t n_textures;
     gn_texture *textures;
@@ -26,6 +27,7 @@ size_t quantise_palette_bytes(const gn_texture *t);
 /* Whether texels are not the scene's. */
 bool quantise_owns_texels(const gn_texture *t);
 void quantise_free_texture(gn_texture *t);
+void quantise_free_skin(gn_skin *skin);
 
 /* Chooses the power of two that puts the scene into the upper range of Q15.16 and converts everything with rounding to
  * nearest. 0, or -1 with one line in error that names what does not fit. */
@@ -51,6 +53,8 @@ typedef struct {
 } quantise_reach;
 quantise_reach quantise_farthest(const scene *s);
 
+/* A transform, its matrix times 2^shift. 0, or -1: its scale is too large. */
+int quantise_affine(gn_affine *out, const scene_affine *a, int shift, int world_exp);
 void quantise_camera(gn_camera *out, const scene_camera *camera, int world_exp);
 void quantise_free(fixed_scene *f);
 

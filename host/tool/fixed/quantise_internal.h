@@ -48,6 +48,10 @@ int quantise_mesh(gn_mesh *out, const scene_mesh *mesh, mesh_plan *plan, char *e
 /* n numbers, 1 as `one`, kept within 0..65535, to free(). NULL: out of memory. */
 uint16_t *quantise_words(const double *v, size_t n, double one);
 
+/* quantise_skin.c. Arrays of the object's skin. 0, or -1 with one line in error. */
+int quantise_skin(gn_skin *out, const scene_mesh *mesh, const scene_object *o, int shift, int world_exp, char *error,
+                  size_t error_bytes);
+
 /* quantise_texture.c. Packing drops the channels of a mask image behind the last that a light uses: 0, or -1: out of
  * memory. */
 int quantise_texture(gn_texture *out, const scene_texture *t, char *error, size_t error_bytes);

@@ -26,12 +26,23 @@ size_t quantise_texture_side(const gn_texture *t, int axis)
     return side ? side : (size_t)1 << (axis ? t->height_log2 : t->width_log2);
 }
 
+static size_t halved(size_t side)
+{
+    return side > 1 ? side / 2 : 1;
+}
+
+/* Of all levels. */
 size_t quantise_texture_bytes(const gn_texture *t)
 {
     size_t bits = (size_t)texture_format_bits((scene_texture_format)t->format);
     if (t->flags & GN_TEXTURE_MASK_1) bits = 8;
     if (t->flags & GN_TEXTURE_MASK_2) bits = 16;
-    return quantise_texture_side(t, 1) * ((quantise_texture_side(t, 0) * bits + 7) / 8);
+    size_t sum = 0, w = quantise_texture_side(t, 0), h = quantise_texture_side(t, 1);
+    for (bool more = true; more; w = halved(w), h = halved(h)) {
+        sum += h * ((w * bits + 7) / 8);
+        more = t->flags & GN_TEXTURE_MIPMAPPED && (w > 1 || h > 1);
+    }
+    return sum;
 }
 
 size_t quantise_palette_bytes(const gn_texture *t)
@@ -63,13 +74,13 @@ static unsigned entry_of(uint8_t *palette, size_t *n, const uint8_t *p)
     return (unsigned)(*n)++;
 }
 
-static void pack(uint8_t *out, uint8_t *palette, const scene_texture *t)
+static void pack_level(uint8_t *out, uint8_t *palette, size_t *n, const scene_texture *t, const uint8_t *rgba, size_t w,
+                       size_t h)
 {
-    const size_t bits = (size_t)texture_format_bits(t->format), w = (size_t)t->width, stride = (w * bits + 7) / 8;
-    size_t n = 0;
-    for (size_t y = 0; y < (size_t)t->height; y++)
+    const size_t bits = (size_t)texture_format_bits(t->format), stride = (w * bits + 7) / 8;
+    for (size_t y = 0; y < h; y++)
         for (size_t x = 0; x < w; x++) {
-            const uint8_t *p = t->rgba + 4 * (y * w + x);
+            const uint8_t *p = rgba + 4 * (y * w + x);
             uint8_t *row = out + y * stride;
             if (bits == 16) {
                 row[2 * x] = (uint8_t)word_of(t, p);
@@ -77,9 +88,21 @@ static void pack(uint8_t *out, uint8_t *palette, const scene_texture *t)
                 continue;
             }
             const bool alpha = t->format >= SCENE_TEXTURE_ALPHA8;
-            const unsigned v = palette ? entry_of(palette, &n, p) : level(t, p, alpha ? 3 : 0);
+            const unsigned v = palette ? entry_of(palette, n, p) : level(t, p, alpha ? 3 : 0);
             row[x * bits / 8] = (uint8_t)(row[x * bits / 8] | v << (8 - bits - x * bits % 8));
         }
+}
+
+static void pack(uint8_t *out, uint8_t *palette, const scene_texture *t)
+{
+    const size_t bits = (size_t)texture_format_bits(t->format);
+    const uint8_t *rgba = t->rgba;
+    size_t n = 0, w = (size_t)t->width, h = (size_t)t->height;
+    for (int i = 0; i < texture_level_count(t); i++, w = halved(w), h = halved(h)) {
+        pack_level(out, palette, &n, t, rgba, w, h);
+        out += h * ((w * bits + 7) / 8);
+        rgba += 4 * w * h;
+    }
 }
 
 int quantise_texture(gn_texture *out, const scene_texture *t, char *error, size_t error_bytes)
@@ -99,7 +122,7 @@ int quantise_texture(gn_texture *out, const scene_texture *t, char *error, size_
         out->height = (uint16_t)t->height;
     }
     out->flags = (uint8_t)((t->clamp_u ? GN_TEXTURE_CLAMP_U : 0) | (t->clamp_v ? GN_TEXTURE_CLAMP_V : 0) |
-                           (t->bilinear ? GN_TEXTURE_BILINEAR : 0));
+                           (t->bilinear ? GN_TEXTURE_BILINEAR : 0) | (t->mipmapped ? GN_TEXTURE_MIPMAPPED : 0));
     out->format = (uint8_t)t->format;
     if (t->format == SCENE_TEXTURE_RGBA8888) return 0;
     const bool indexed = t->format >= SCENE_TEXTURE_PALETTE8 && t->format <= SCENE_TEXTURE_PALETTE1;

@@ -13,11 +13,9 @@ static double extent_of_object(const scene *s, const scene_object *o)
     const scene_mesh *mesh = &s->meshes[o->mesh_idx];
     double extent = 0;
     for (size_t i = 0; i < mesh->n_vertices; i++) {
-        const double *p = mesh->pos + 3 * i;
-        for (int r = 0; r < 3; r++) {
-            const double *m = o->to_world.m[r];
-            extent = fmax(extent, fabs(m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3]));
-        }
+        double p[3];
+        scene_vertex(p, s, o, i);
+        for (int r = 0; r < 3; r++) extent = fmax(extent, fabs(p[r]));
     }
     for (int r = 0; r < 3; r++) extent = fmax(extent, fabs(o->to_world.m[r][3]));
     return extent;

@@ -116,6 +116,17 @@ static const char *as_word(const char *key, const char *value)
     return strcmp(key, "auto_bias") == 0 && strcmp(value, "0") == 0 ? "off" : value;
 }
 
+static int unknown(const char *key, char *error, size_t error_bytes)
+{
+    char question[80];
+    nearest n = nearest_to(key);
+    settings_near_knobs(&n);
+    settings_near_scene(&n);
+    snprintf(error, error_bytes, "unknown setting '%s'%s ('gnomon knobs' lists them)", key,
+             nearest_question(&n, question, sizeof question));
+    return -1;
+}
+
 int settings_apply(settings *out, scene *s, const char *key, const char *value, char *error, size_t error_bytes)
 {
     scene_options ignored;
@@ -124,16 +135,15 @@ int settings_apply(settings *out, scene *s, const char *key, const char *value, 
     if ((taken = apply_own(out, key, value, error, error_bytes))) return taken < 0 ? -1 : 0;
     const char *at = strchr(key, '@');
     if (at) return apply_to_light(out, s, key, at, value, error, error_bytes);
-    /* main_light, caster_culling, receiver_plane and auto_bias are built and used, or neither: knobs and settings of
-     * the scene at once */
+    /* main_light, caster_culling, receiver_plane, auto_bias and texture_levels are built and used, or neither: knobs
+     * and settings of the scene at once */
     const bool is_knob = settings_is_knob(key);
     const char *word = as_word(key, value);
     if (!of_knob_alone(key, value) && (taken = settings_apply_scene(s, key, SCENE_NONE, word, error, error_bytes)) < 0)
         return -1;
     if (is_knob) return settings_apply_knob(out, key, as_knob(value), error, error_bytes);
     if (taken) return 0;
-    snprintf(error, error_bytes, "unknown setting '%s' ('gnomon knobs' lists them)", key);
-    return -1;
+    return unknown(key, error, error_bytes);
 }
 
 int settings_apply_all(settings *out, scene *s, const char *const *sets, int n, char *error, size_t error_bytes)

@@ -56,6 +56,12 @@ static const knob *find_knob(const char *name)
     return NULL;
 }
 
+void settings_near_knobs(nearest *n)
+{
+    for (size_t g = 0; g < N_GROUPS; g++)
+        for (size_t i = 0; i < groups[g].n; i++) nearest_try(n, groups[g].knobs[i].name);
+}
+
 bool settings_is_knob(const char *name)
 {
     return find_knob(name) != NULL;
@@ -118,7 +124,8 @@ int settings_suffice(const settings *s, const settings_demand *demand, char *err
         int available;
         size_t needed;
     } all[] = {
-        {"max_triangles", "visible triangles", s->capacity.max_triangles, demand->triangles},
+        {"max_triangles", s->quality.triangle_groups ? "visible triangles of a screen tile" : "visible triangles",
+         s->capacity.max_triangles, demand->triangles},
         {"max_tile_refs", "tile references", s->capacity.max_tile_refs, demand->tile_refs},
         {"max_lights", "lights", s->capacity.max_lights, demand->lights},
         {"surface_lights", "lights that reach one surface", s->capacity.surface_lights, demand->surface_lights},

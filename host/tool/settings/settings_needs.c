@@ -93,10 +93,27 @@ static void needs_of_light(need_list *list, const scene *s, const scene_light *l
     needs_of_softness(list, s, l);
 }
 
-static void needs_of_object(need_list *list, const scene_object *o)
+/* The most joints with a weight that a vertex has. */
+static int joints_of(const scene_mesh *mesh)
 {
+    int most = 1;
+    for (size_t i = 0; i < mesh->n_vertices; i++) {
+        int n = 0;
+        for (size_t k = 4 * i; k < 4 * i + 4; k++) n += mesh->weight[k] > 0;
+        if (n > most) most = n;
+    }
+    return most;
+}
+
+static void needs_of_object(need_list *list, const scene *s, const scene_object *o)
+{
+    const bool textured = o->texture_idx < s->n_textures;
+    if (o->n_joints)
+        need(list, "vertex_joints", joints_of(&s->meshes[o->mesh_idx]), "the skin of object '%s'", o->name);
     if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "visible_alpha", 1, "alpha of object '%s'", o->name);
     if (o->texture_idx != SCENE_NONE) need(list, "textures", 1, "the texture of object '%s'", o->name);
+    if (textured && s->textures[o->texture_idx].mipmapped)
+        need(list, "texture_levels", 1, "the texture of object '%s', whose sampler has a mipmap,", o->name);
     if (o->specular[0] > 0 || o->specular[1] > 0 || o->specular[2] > 0)
         need(list, "specular", 1, "specular of object '%s'", o->name);
     if (o->emissive[0] > 0 || o->emissive[1] > 0 || o->emissive[2] > 0)
@@ -116,7 +133,7 @@ int settings_needs(const scene *s, bool shadows, settings_need *needs)
     if (s->gradient) need(&list, "tile_drawing", 1, "the background's gradient");
     if (shadows) needs_of_shadows(&list, s);
     for (size_t i = 0; i < s->n_lights; i++) needs_of_light(&list, s, &s->lights[i], shadows);
-    for (size_t i = 0; i < s->n_objects; i++) needs_of_object(&list, &s->objects[i]);
+    for (size_t i = 0; i < s->n_objects; i++) needs_of_object(&list, s, &s->objects[i]);
     return list.n;
 }
 

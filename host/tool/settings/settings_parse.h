@@ -2,6 +2,7 @@
 #ifndef GNOMON_SETTINGS_PARSE_H
 #define GNOMON_SETTINGS_PARSE_H
 
+#include "../../base/nearest.h"
 #include "settings.h"
 
 /* settings_value.c */
@@ -27,6 +28,7 @@ void settings_join(char *out, size_t bytes, const char *const *words, const char
 bool settings_is_knob(const char *name);
 int settings_apply_knob(settings *out, const char *name, const char *value, char *error, size_t error_bytes);
 void settings_print_knobs(void); /* their tables */
+void settings_near_knobs(nearest *n);
 
 /* settings_scene.c */
 
@@ -34,6 +36,7 @@ void settings_print_knobs(void); /* their tables */
  * not one of them, or of single lights; -1 with one line in error. */
 int settings_apply_scene(scene *s, const char *key, size_t light, const char *value, char *error, size_t error_bytes);
 bool settings_of_lights(const char *key);
+void settings_near_scene(nearest *n);
 
 /* Rows of the table of scene settings. */
 void settings_print_scene(void);

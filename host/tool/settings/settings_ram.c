@@ -90,6 +90,11 @@ static long corner_bytes(const settings *s)
     return all.size;
 }
 
+static int has_levels(const settings *s)
+{
+    return s->feature.textures && s->feature.texture_levels;
+}
+
 /* gn_lattice of lib/shade/gn_shade_types.h */
 static long lattice_bytes(const settings *s)
 {
@@ -101,6 +106,7 @@ static long lattice_bytes(const settings *s)
     put(&all, 1, 144, 4);                         /* corner_key to split */
     if (s->feature.shadows) put(&all, 2, 344, 4); /* window */
     put(&all, 1, 572, 4);                         /* look */
+    if (has_levels(s)) put(&all, 1, 4, 4);        /* of that: level and level_ends */
     put(&all, 1, 616, 8);                         /* by */
     put(&all, 1, 136, 4);                         /* attenuation */
     pad(&all, 8);
@@ -120,6 +126,7 @@ static void put_work(layout *out, const settings *s)
     if (s->feature.masks) put(&surface, 12, 4, 4);
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
     if (s->feature.textures) put(&surface, 6, 8, 8);
+    if (has_levels(s)) put(&surface, 1, 28, 8);
     if (s->feature.receiver_plane || s->feature.auto_bias) put(&surface, 3, 4, 4);
     if (s->feature.auto_bias) put(&surface, 3, 4, 4); /* lift_q30 */
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);
@@ -133,9 +140,9 @@ static void put_work(layout *out, const settings *s)
     put(&all, 1, 28 + 4 * values + incident + (s->feature.specular ? 24 : 0), 4); /* sample */
     if (s->quality.persp_step > 1) put(&all, 1, lattice_bytes(s), 8);
     pad(&all, all.align);
-    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.shadows && s->feature.tight_fit ? 648 : 0;
+    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 708 : 688;
     long largest = casting > clipping ? casting : clipping;
-    if (seen > largest) largest = seen;
+    if (s->feature.shadows && s->feature.tight_fit && seen > largest) largest = seen;
     put(out, 1, all.size > largest ? all.size : largest, 8);
 }
 
@@ -156,7 +163,8 @@ settings_ram_parts settings_ram(const settings *s)
     long tiles = ((s->capacity.max_width + tile_w - 1) / tile_w) * ((s->capacity.max_height + tile_h - 1) / tile_h);
     long offset = s->capacity.max_tile_refs > 65535 ? 4 : 2;
     int punctual = s->feature.punctual_lights;
-    put(&frame, 1, s->feature.orthographic ? 248 : 240, 8); /* scene to detail */
+    const long groups = s->quality.triangle_groups;
+    put(&frame, 1, (s->feature.orthographic ? 248 : 240) + (groups ? 4 : 0), 8); /* scene to detail */
     if (s->feature.shadows) {
         put(&frame, 1, 8, 4);  /* n_cascades to frame_count */
         put(&frame, 4, 40, 8); /* cascade */
@@ -166,9 +174,13 @@ settings_ram_parts settings_ram(const settings *s)
     int boxes = punctual ||
                 (s->feature.shadows && (s->feature.object_boxes || s->feature.caster_culling || s->feature.tight_fit));
     r.objects = boxes ? put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4) : 0;
-    r.triangles = put(&frame, s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
+    if (!groups) r.triangles = put(&frame, s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
-    r.tile_refs = put(&frame, s->capacity.max_tile_refs, 2, 2);
+    if (!groups) r.tile_refs = put(&frame, s->capacity.max_tile_refs, 2, 2);
+    else {
+        r.triangles = put(&frame, groups, 4, 1);
+        put(&frame, 1, 5, 4); /* n_grouped, group_shift */
+    }
     if (s->feature.shadows) put_shadows(&frame, s, &r);
     pad(&frame, frame.align);
     all = frame;
@@ -176,6 +188,7 @@ settings_ram_parts settings_ram(const settings *s)
     r.pixels = put(&all, tile_w * tile_h, s->feature.raw_views ? 4 : 3, 4);
     put(&all, s->capacity.vertex_cache, 16, 4);
     put(&all, 64, tile_w * tile_h > 65535 ? 4 : 2, tile_w * tile_h > 65535 ? 4 : 2); /* run_list */
+    if (groups) r.triangles += put(&all, 1 + s->capacity.max_triangles, 4, 2);       /* drawn */
     put_work(&all, s);
     pad(&all, all.align);
     r.total = all.size;

@@ -118,10 +118,16 @@ static const scene_knob *find(const char *key)
     return NULL;
 }
 
+void settings_near_scene(nearest *n)
+{
+    for (size_t i = 0; i < N_SCENE_KNOBS; i++) nearest_try(n, scene_knobs[i].name);
+}
+
 bool settings_of_scene(const char *key)
 {
-    static const char *const others[] = {"cascades", "cascade_ratios", "refresh",        "lights",      "add_light",
-                                         "ground",   "normals",        "texture_format", "texture_size"};
+    static const char *const others[] = {"cascades",     "cascade_ratios", "refresh", "lights",
+                                         "add_light",    "ground",         "normals", "texture_format",
+                                         "texture_size", "texture_levels"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (strcmp(key, others[i]) == 0) return true;
     return strchr(key, '@') || find(key);
@@ -322,6 +328,16 @@ static int apply_format(scene *s, int format, char *error, size_t bytes)
     return 1;
 }
 
+static int apply_levels(scene *s, const char *value, char *error, size_t bytes)
+{
+    const bool wanted = strcmp(value, "1") == 0;
+    if (!wanted && strcmp(value, "0") != 0) return settings_fail(error, bytes, "texture_levels", value, "0 or 1");
+    for (size_t i = 0; i < s->n_textures; i++)
+        if (is_shown(s, i) && !texture_set_levels(&s->textures[i], wanted))
+            return settings_fail(error, bytes, "texture_levels", value, "memory");
+    return 1;
+}
+
 /* Settings of textures: 1: taken, 0: not one of them, -1: bad value. */
 static int apply_textures(scene *s, const char *key, const char *value, char *error, size_t bytes)
 {
@@ -332,6 +348,7 @@ static int apply_textures(scene *s, const char *key, const char *value, char *er
         settings_join(expected, sizeof expected, texture_format_names, " or ");
         return settings_fail(error, bytes, key, value, expected);
     }
+    if (strcmp(key, "texture_levels") == 0) return apply_levels(s, value, error, bytes);
     if (strcmp(key, "texture_size") != 0) return 0;
     char *end;
     long side = strtol(value, &end, 10);
@@ -392,6 +409,9 @@ void settings_print_scene(void)
     char formats[160];
     settings_join(formats, sizeof formats, texture_format_names, ", ");
     printf("| `texture_size` | 1…4096 | no texture that is shown has longer sides: means in linear light (M11) |\n");
+    printf(
+        "| `texture_levels` | 0, 1 | half-size levels of all textures that are shown; else of those whose sampler in "
+        "the file asks for a mipmap; before texture_format (M11) |\n");
     printf("| `texture_format` | %s | what textures that are shown are stored as; after texture_size (M11) |\n",
            formats);
     printf("\n### Settings of lights\n\nOf every light, or of one: `KEY@LIGHT`, by its number from 0 or its name.\n\n");

@@ -21,6 +21,7 @@ typedef enum {
     SWEEP_TILE_HEIGHT,
     SWEEP_REFRESH,
     SWEEP_STATIC_LAYER,
+    SWEEP_TRIANGLE_GROUPS,
     SWEEP_KNOBS
 } sweep_knob;
 

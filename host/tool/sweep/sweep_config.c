@@ -25,6 +25,7 @@ static const struct {
                        "incremental",
                        {"8", "4", "1,8", "1,4", "1,2,4,8", "2", "1,2", "1,1,1,8", "1,1,1,4", "1,1,1,2", "1"}},
     [SWEEP_STATIC_LAYER] = {"static_layer", "incremental", {"0", "1"}},
+    [SWEEP_TRIANGLE_GROUPS] = {"triangle_groups", NULL, {"16", "64", "256", "1024", "0"}},
 };
 
 int sweep_n_levels(sweep_knob k)
@@ -136,4 +137,5 @@ void sweep_find_levels(sweep_row *row)
     level[SWEEP_TILE_HEIGHT] = sweep_level_of_int(SWEEP_TILE_HEIGHT, q->tile_height);
     level[SWEEP_REFRESH] = level_of_schedule(&row->shadow);
     level[SWEEP_STATIC_LAYER] = sweep_level_of_int(SWEEP_STATIC_LAYER, row->static_layer);
+    level[SWEEP_TRIANGLE_GROUPS] = sweep_level_of_int(SWEEP_TRIANGLE_GROUPS, q->triangle_groups);
 }

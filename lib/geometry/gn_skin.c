@@ -1,0 +1,77 @@
+/* Skins: vertices where up to four joints take them. [R12] */
+#include "gn_internal.h"
+
+#include "base/gn_q.h"
+#include "geometry/gn_skin.h"
+#include "geometry/gn_xform.h"
+
+#define GN_WEIGHT_ONE 255
+
+/* What moves one vertex. */
+typedef struct {
+    const gn_affine *joint;
+    const uint8_t *idx, *weight_u8;
+    uint32_t n;
+} vertex_joints;
+
+static vertex_joints joints_of(const gn_skin *skin, uint32_t vertex_idx)
+{
+    const uint32_t n = GN_VERTEX_JOINTS > 1 ? skin->per_vertex : 1;
+    const vertex_joints of = {skin->joint, skin->joint_idx + (size_t)n * vertex_idx,
+                              skin->weight_u8 + (size_t)n * vertex_idx, n};
+    return of;
+}
+
+/* Where one joint takes coordinate r: the matrix has 30 - exp fraction bits, positions pos_frac_bits, results 16. */
+static inline int64_t joint_coordinate(const gn_affine *joint, int r, const int32_t p[3], int32_t pos_frac_bits)
+{
+    /* |row| <= sqrt(3) * 2^30, |p| <= sqrt(3) * 2^30: below 3 * 2^60; shifts of 0 .. 44 by validation */
+    return gn_shr64(gn_dot64(joint->m_q30[r], p), 30 - joint->exp + pos_frac_bits - 16) + joint->t_q16[r];
+}
+
+void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vertex_idx)
+{
+    const gn_mesh *mesh = object->mesh;
+    const vertex_joints of = joints_of(object->skin, vertex_idx);
+    const gn_position *at = mesh->pos + 3 * (size_t)vertex_idx;
+    const int32_t p[3] = {at[0], at[1], at[2]};
+    const int64_t limit = (int64_t)1 << 30;
+    int64_t sum[3] = {0, 0, 0}; /* 255 * 2^30 */
+    for (uint32_t i = 0; i < of.n; i++) {
+        const int32_t weight = of.weight_u8[i];
+        for (int r = 0; weight && r < 3; r++) {
+            const int64_t v = joint_coordinate(&of.joint[of.idx[i]], r, p, mesh->pos_frac_bits);
+            sum[r] += v < -limit || v > limit ? (int64_t)1 << 40 : weight * v; /* four of those are below 2^43 */
+        }
+    }
+    /* v / 255 = v * (2^24 + 2^16 + 2^8 + 1) / 2^32, too small by the 2^32nd part: a quarter of a unit. */
+    for (int r = 0; r < 3; r++)
+        out_q16[r] = sum[r] > GN_WEIGHT_ONE * limit ? INT32_MAX : (int32_t)gn_shr64_inline(sum[r] * 0x1010101, 32);
+}
+
+/* The weighted mean of the joints' matrices, up to a positive factor: largest entry in 2^29 .. 2^30. */
+static void mean_matrix(int32_t out[3][3], const vertex_joints *of)
+{
+    int64_t sum[3][3] = {{0}};
+    uint64_t any = 1;
+    for (uint32_t i = 0; i < of->n; i++) {
+        const gn_affine *joint = &of->joint[of->idx[i]];
+        for (int k = 0; k < 9; k++) /* 255 * 2^30 * 2^14 in all */
+            sum[k / 3][k % 3] += gn_shl64((int64_t)joint->m_q30[k / 3][k % 3] * of->weight_u8[i], joint->exp);
+    }
+    for (int k = 0; k < 9; k++) any |= gn_abs64(sum[k / 3][k % 3]);
+    for (int k = 0; k < 9; k++)
+        out[k / 3][k % 3] = (int32_t)gn_clamp64(gn_scale64(sum[k / 3][k % 3], 34 - gn_clz64(any)), -(1 << 30), 1 << 30);
+}
+
+void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t matrix[3][3], uint32_t vertex_idx)
+{
+    const vertex_joints of = joints_of(object->skin, vertex_idx);
+    int32_t mean[3][3], inverse[3][3], posed[3];
+    int64_t n[3]; /* 3 * 2^60 */
+    mean_matrix(mean, &of);
+    gn_xform_normal_matrix(inverse, (const int32_t(*)[3])mean);
+    gn_xform_normal(posed, (const int32_t(*)[3])inverse, object->mesh->nrm_q15 + 3 * (size_t)vertex_idx);
+    for (int r = 0; r < 3; r++) n[r] = gn_dot64(matrix[r], posed);
+    if (!gn_normalise_q30(out_q30, n)) out_q30[0] = out_q30[1] = out_q30[2] = 0;
+}

@@ -1,0 +1,44 @@
+/* Positions and normals of an object's vertices, posed by its skin. [R12] */
+#ifndef GN_SKIN_H
+#define GN_SKIN_H
+
+#include "base/gn_hint.h"
+#include "base/gn_math.h"
+#include "gnomon.h"
+
+/* The object's skin; NULL: it has none. */
+#if GN_VERTEX_JOINTS
+#define GN_SKIN(object) ((object)->skin)
+#else
+#define GN_SKIN(object) ((void)(object), (const gn_skin *)NULL)
+#endif
+
+/* A vertex where its joints take it, in the object's space with 16 fraction bits: within 1.25 units of the weighted
+ * mean. A coordinate that a joint takes beyond 2^30 is INT32_MAX. */
+void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vertex_idx);
+
+/* A vertex's unit world normal, Q1.30: by the inverse transposes of its joints' weighted mean and of the object's
+ * transform, which is `matrix`, of gn_xform_normal_matrix(). Zero where the mesh's is, or the mean flattens to a line.
+ */
+void gn_skin_normal(int32_t out_q30[3], const gn_object *object, const int32_t matrix[3][3], uint32_t vertex_idx);
+
+/* A vertex as the transforms take it: as it is stored, or with 16 fraction bits behind a skin. */
+GN_INLINE void gn_position_of(int32_t out[3], const gn_object *object, uint32_t vertex_idx)
+{
+    const gn_position *at = object->mesh->pos + 3 * (size_t)vertex_idx;
+#if GN_VERTEX_JOINTS
+    if (object->skin) {
+        gn_skin_position(out, object, vertex_idx);
+        return;
+    }
+#endif
+    for (int i = 0; i < 3; i++) out[i] = at[i];
+}
+
+/* Within +-2^30 */
+GN_INLINE int gn_position_ok(const int32_t p[3])
+{
+    return gn_abs32(p[0]) <= 1U << 30 && gn_abs32(p[1]) <= 1U << 30 && gn_abs32(p[2]) <= 1U << 30;
+}
+
+#endif
