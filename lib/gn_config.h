@@ -193,6 +193,9 @@
 #ifndef GN_EMISSIVE
 #define GN_EMISSIVE (!GN_COMPACT)
 #endif
+#ifndef GN_EMISSIVE_TEXTURES
+#define GN_EMISSIVE_TEXTURES (GN_EMISSIVE && GN_TEXTURES)
+#endif
 #ifndef GN_MASKS
 #define GN_MASKS (!GN_COMPACT)
 #endif
@@ -284,6 +287,9 @@
 
 /* Whether light that a surface emits may have to be added after colours of vertices or a texture. */
 #define GN_GLOW_APART (GN_EMISSIVE && (GN_TEXTURES || GN_VERTEX_COLOURS))
+
+/* Whether textures may say where it is emitted. */
+#define GN_GLOW_TEXTURES (GN_EMISSIVE && GN_TEXTURES && GN_EMISSIVE_TEXTURES)
 
 /* Whether shading interpolates between exact points (gn_lattice.h). Not built where every pixel must be exact. */
 #define GN_INTERPOLATES (!GN_COMPACT && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))

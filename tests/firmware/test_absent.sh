@@ -47,6 +47,7 @@ under() {
     CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
     TEXTURE_LEVELS) echo TEXTURES ;;
+    EMISSIVE_TEXTURES) echo TEXTURES EMISSIVE ;;
     LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
     esac
@@ -106,6 +107,7 @@ TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
 SPECULAR highlight_q30
 ORTHOGRAPHIC flat_plane|flat_sphere|intersect_flat
 EMISSIVE emitted_light
+EMISSIVE_TEXTURES begin_glow
 MASKS gn_texture_mask
 CASTER_BIAS corner_normals
 RECEIVER_PLANE start_plane|dark_on_plane
