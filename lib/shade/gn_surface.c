@@ -391,7 +391,7 @@ GN_HOT static void emitted_light(const gn_frame *frame, gn_surface *s)
 #if GN_GLOW_APART
     s->glows = 0;
 #endif
-    if (!emits(frame, s->object)) return;
+    if (!GN_EMISSIVE || !emits(frame, s->object)) return;
 #if GN_GLOW_APART
     s->glows = (GN_TEXTURES && s->textured) || GN_COLOURED(s);
     if (s->glows) return;
