@@ -197,6 +197,9 @@
 #ifndef GN_EMISSIVE
 #define GN_EMISSIVE (!GN_COMPACT)
 #endif
+#ifndef GN_EMISSIVE_TEXTURES
+#define GN_EMISSIVE_TEXTURES (GN_EMISSIVE && GN_TEXTURES)
+#endif
 #ifndef GN_MASKS
 #define GN_MASKS (!GN_COMPACT)
 #endif
@@ -296,6 +299,9 @@
  * can do both). */
 #define GN_RECORDS (GN_RUNTIME_KNOBS || !GN_TRIANGLE_GROUPS)
 #define GN_GROUPS  (GN_RUNTIME_KNOBS || GN_TRIANGLE_GROUPS)
+
+/* Whether textures may say where it is emitted. */
+#define GN_GLOW_TEXTURES (GN_EMISSIVE && GN_TEXTURES && GN_EMISSIVE_TEXTURES)
 
 /* Whether shading interpolates between exact points (gn_lattice.h). Not built where every pixel must be exact. */
 #define GN_INTERPOLATES (!GN_COMPACT && (GN_RUNTIME_KNOBS || GN_PERSP_STEP > 1))

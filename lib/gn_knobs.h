@@ -109,6 +109,8 @@
       "flash; a reciprocal root per light and sample of such objects")                                                 \
     X(emissive, EMISSIVE, 0, 1, "emissive colours: objects that glow",                                                 \
       "flash; three additions per triangle, or per pixel where it has a texture")                                      \
+    X(emissive_textures, EMISSIVE_TEXTURES, 0, 1, "textures of emissive colours",                                      \
+      "flash; a second lookup per pixel of such objects")                                                              \
     X(masks, MASKS, 0, 1, "baked shadow masks and their mixing", "flash")                                              \
     X(baked_light, BAKED_LIGHT, 0, 1, "baked irradiance per vertex", "flash; three values per sample")                 \
     X(receiver_bias, RECEIVER_BIAS, 0, 1, "the four-term receiver bias", "flash")                                      \

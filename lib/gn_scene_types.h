@@ -98,11 +98,13 @@ typedef struct {
     gn_alpha visible_alpha; /* clip: no surface where alpha is below the cutoff; dither: where it is below the noise */
     gn_alpha caster_alpha;  /* the same for its shadow */
     uint32_t alpha_uq16;    /* 0..65536, times the texture's; matters where an alpha mode does */
-    uint32_t alpha_cutoff_uq16;   /* 0..65536 */
-    uint32_t specular_uq16[3];    /* linear, 0..65536; 0: none */
-    uint8_t shininess_log2;       /* exponent 2^0 .. 2^7 */
-    uint32_t emissive_uq16[3];    /* linear, 0..255.99: light of its own, over what it reflects; not if unlit */
-    const gn_texture *texture;    /* or NULL */
+    uint32_t alpha_cutoff_uq16; /* 0..65536 */
+    uint32_t specular_uq16[3];  /* linear, 0..65536; 0: none */
+    uint8_t shininess_log2;     /* exponent 2^0 .. 2^7 */
+    uint32_t emissive_uq16[3];  /* linear, 0..255.99: light of its own, over what it reflects; not if unlit */
+    const gn_texture *texture;  /* or NULL */
+    const gn_texture
+        *emissive_texture;        /* its colour times emissive_uq16, or NULL; clamps as `texture`, if there is one */
     const gn_texture *mask_image; /* shadow masks at the mesh's mask_uv_uq16, bilinear and clamped, or NULL */
     const uint8_t *mask_u8;       /* shadow masks, 4 per vertex of the mesh, or NULL */
     const uint16_t *baked_uq12;   /* 3 per vertex of the mesh, irradiance of the baked lights, 4.12, or NULL */

@@ -68,12 +68,12 @@ extern "C" {
     X(GN_ERR_BACKGROUND, "background_gradient is neither 0 nor 1; or a gradient, draw_behind or draw_over, which are " \
                          "not built in")                                                                               \
     X(GN_ERR_TEXTURE, "texture without texels or palette, or above 4096 per side, or texture coordinates are missing " \
-                      "or have more than 15 fraction bits")                                                            \
+                      "or have more than 15 fraction bits, or an emissive texture that clamps otherwise")              \
     X(GN_ERR_TEXTURE_FORMAT,                                                                                           \
       "unknown format of a texture, or one not built in (GN_TEXTURE_FORMATS), or smaller levels that are not "         \
       "(GN_TEXTURE_LEVELS), or a mask image that is not RGBA8888")                                                     \
     X(GN_ERR_MATERIAL, "alpha, cutoff, specular or emissive colour or shininess out of range, or an alpha mode, "      \
-                       "caster mode or such a colour that is not built in")                                            \
+                       "caster mode or such a colour or emissive texture that is not built in")                        \
     X(GN_ERR_MASK, "mask image without coordinates, or masks or baked light where they are not built in")              \
     X(GN_ERR_SKIN, "skin: a null array, a joint transform out of range, or too many joints per vertex")                \
     X(GN_ERR_SKIN_JOINT, "skin: joint index out of range")                                                             \

@@ -125,6 +125,7 @@ vec3 ref_face_normal(const ref_triangle *triangle); /* unit, world */
 /* ref_texture.c */
 double ref_alpha(const scene *s, const ref_triangle *triangle, const double bary[3]);
 vec3 ref_texture_colour(const ref_frame *frame, const ref_triangle *triangle, const double bary[3], double view_depth);
+vec3 ref_emitted(const ref_frame *frame, const ref_triangle *triangle, const double bary[3], double view_depth);
 bool ref_alpha_cuts(scene_alpha mode, double alpha, double cutoff, int x,
                     int y); /* x, y: of the pixel, or of the texel in its tile */
 double ref_mask(const scene *s, const ref_triangle *triangle, const double bary[3], int channel); /* m of DESIGN 1.9 */

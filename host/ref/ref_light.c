@@ -69,7 +69,7 @@ static vec3 light_surface(ref_frame *frame, const ref_surface *at, size_t pixel)
     if (t->object->baked) irradiance = vec3_add(irradiance, ref_mix_vertices(t->object->baked, t->idx, at->bary));
     vec3 radiance = vec3_mul(at->albedo, irradiance);
     for (size_t l = 0; l < frame->s->n_lights; l++) radiance = vec3_add(radiance, add_light(frame, at, l, pixel));
-    radiance = vec3_add(radiance, vec3_load(t->object->emissive));
+    radiance = vec3_add(radiance, ref_emitted(frame, t, at->bary, at->view_depth));
     return t->object->unlit ? at->albedo : radiance;
 }
 

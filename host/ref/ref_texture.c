@@ -155,15 +155,28 @@ static int level_at(const ref_frame *frame, const ref_triangle *t, const scene_t
     return texels_per_px > 0.0 ? (int)clamp(floor(log2(texels_per_px) + 0.5), 0.0, last) : 0;
 }
 
-/* In linear light. [M3] */
-vec3 ref_texture_colour(const ref_frame *frame, const ref_triangle *triangle, const double bary[3], double view_depth)
+static vec3 colour_of(const ref_frame *frame, const ref_triangle *triangle, size_t texture_idx, const double bary[3],
+                      double view_depth)
 {
-    const scene_texture *texture = texture_of(frame->s, triangle);
-    if (!texture) return (vec3){1.0, 1.0, 1.0};
+    if (texture_idx >= frame->s->n_textures || !triangle->mesh->uv) return (vec3){1.0, 1.0, 1.0};
+    const scene_texture *texture = &frame->s->textures[texture_idx];
     const vec2 uv = mix_uv(triangle->mesh->uv, triangle->idx, bary);
     double rgba[4];
     ref_sample_texture(rgba, texture, level_at(frame, triangle, texture, view_depth), uv.x, uv.y);
     return vec3_load(rgba);
+}
+
+/* In linear light. [M3] */
+vec3 ref_texture_colour(const ref_frame *frame, const ref_triangle *triangle, const double bary[3], double view_depth)
+{
+    return colour_of(frame, triangle, triangle->object->texture_idx, bary, view_depth);
+}
+
+/* [M10] */
+vec3 ref_emitted(const ref_frame *frame, const ref_triangle *triangle, const double bary[3], double view_depth)
+{
+    const vec3 texture = colour_of(frame, triangle, triangle->object->emissive_texture_idx, bary, view_depth);
+    return vec3_mul(vec3_load(triangle->object->emissive), texture);
 }
 
 /* Interleaved gradient noise. [D7] */

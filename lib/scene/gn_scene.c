@@ -119,6 +119,16 @@ static gn_status check_texture(gn_frame *frame, const gn_mesh *mesh, const gn_te
     return indexed && !texture->palette ? gn_fail(frame, GN_ERR_TEXTURE, idx) : GN_OK;
 }
 
+/* Both textures are read at one place. */
+static gn_status check_emissive_texture(gn_frame *frame, const gn_object *object, uint32_t idx)
+{
+    enum { CLAMPS = GN_TEXTURE_CLAMP_U | GN_TEXTURE_CLAMP_V };
+    const gn_texture *glow = object->emissive_texture;
+    if (!GN_GLOW_TEXTURES) return gn_fail(frame, GN_ERR_MATERIAL, idx);
+    if (object->texture && (object->texture->flags ^ glow->flags) & CLAMPS) return gn_fail(frame, GN_ERR_TEXTURE, idx);
+    return check_texture(frame, object->mesh, glow, idx);
+}
+
 /* Features that are not built must not be requested. */
 static gn_status check_material(gn_frame *frame, const gn_object *object, uint32_t idx)
 {
@@ -134,6 +144,10 @@ static gn_status check_material(gn_frame *frame, const gn_object *object, uint32
         return gn_fail(frame, GN_ERR_MATERIAL, idx);
     if (object->texture) {
         gn_status status = check_texture(frame, mesh, object->texture, idx);
+        if (status != GN_OK) return status;
+    }
+    if (object->emissive_texture) {
+        gn_status status = check_emissive_texture(frame, object, idx);
         if (status != GN_OK) return status;
     }
     if (object->mask_image && (!GN_MASKS || !mesh->mask_uv_uq16 || !texture_ok(object->mask_image)))

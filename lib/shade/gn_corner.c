@@ -171,7 +171,7 @@ GN_HOT static int32_t attribute(const gn_surface *s, const corner_point *p, int 
 #if GN_TEXTURES
 GN_HOT static void texture_at(const gn_surface *s, const corner_point *p, int32_t uv_q20[2])
 {
-    const gn_texture *texture = s->object->texture;
+    const gn_texture *texture = GN_SURFACE_TEXTURE(s);
     const int64_t(*uv)[2] = (const int64_t(*)[2])s->uv.uv_q16;
     for (int i = 0; i < 2; i++) {
         int32_t e1 = (int32_t)uv[1][i], e2 = (int32_t)uv[2][i];

@@ -22,8 +22,15 @@ typedef struct {
     gn_patch base_q24[3];
     int32_t first, n; /* nodes of a row: from this pixel on */
 #if GN_TEXTURES
-    const gn_texture *texture; /* or a level of it */
+    const gn_texture *texture; /* or a level of it; NULL: none */
     gn_texture_patch uv;
+#endif
+#if GN_GLOW_TEXTURES
+    const gn_texture *glow;
+    gn_texture_patch glow_uv;
+#if GN_MIPMAPS
+    gn_texture glow_level;
+#endif
 #endif
 #if GN_MIPMAPS
     gn_patch nearness_q30; /* where levels meet in the cell: the least depth over the pixel's */
@@ -388,6 +395,10 @@ GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, int i
 #if GN_TEXTURES
     uint16_t(*texel)[3] = l->row.texel;
     if (s->surface.textured) line.texel = (const uint16_t(*)[3])texel;
+    for (int i = 0; line.texel && !d->texture && i < 16; i++) texel[i][0] = texel[i][1] = texel[i][2] = 65535U;
+#endif
+#if GN_GLOW_TEXTURES
+    line.glow = d->glow ? (const uint16_t(*)[3])l->glow : NULL;
 #endif
 #if GN_GLOW_APART
     for (int c = 0; line.texel && c < 3; c++) {
@@ -401,8 +412,12 @@ GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, int i
         int32_t y = d->y + below + t;
         uint32_t bits = (gn_lattice_bits(l, d->x, y, d->size_log2) & level_bits(d, below + t)) >> d->first;
 #if GN_TEXTURES
-        if (s->surface.textured && bits)
+        if (d->texture && bits)
             gn_lattice_texture_row(&d->uv, d->texture, d->size_log2, below + t, d->first, bits, texel);
+#endif
+#if GN_GLOW_TEXTURES
+        if (d->glow && bits)
+            gn_lattice_texture_row(&d->glow_uv, d->glow, d->size_log2, below + t, d->first, bits, l->glow);
 #endif
         if (bits) gn_pixel_store_line(s->frame, &s->rows, d->x + d->first, y, bits, &line);
         if (t + 1 == 1 << log2) break;
@@ -465,13 +480,32 @@ GN_HOT static void find_level_end(drawing *d, gn_corner *const corner[4])
 }
 #endif
 
-/* The texture, or the cell's first level of it, or the next. */
-GN_HOT static void begin_texture(drawing *d, uint32_t next, gn_corner *const corner[4])
+#if GN_GLOW_TEXTURES
+/* The texture of emitted light, or the cell's level of it. */
+GN_HOT static void begin_glow(drawing *d, gn_corner *const corner[4])
+{
+    d->glow = d->s->surface.glow;
+    if (!d->glow) return;
+#if GN_MIPMAPS
+    if (gn_texture_has_levels(d->glow)) {
+        gn_texture_use_level(&d->glow_level, d->glow, d->s->lattice.look.glow_level);
+        d->glow = &d->glow_level;
+    }
+#endif
+    gn_lattice_texture_begin(d->s, d->glow, d->x, d->y, d->size_log2, corner, &d->glow_uv);
+}
+#endif
+
+/* The textures: that of colours, or the cell's first level of it, or the next. */
+GN_HOT static void begin_textures(drawing *d, uint32_t next, gn_corner *const corner[4])
 {
 #if GN_TEXTURES
     gn_surface *surface = &d->s->surface;
-    if (!surface->textured) return;
-    d->texture = surface->object->texture;
+    d->texture = surface->textured ? surface->object->texture : NULL;
+#if GN_GLOW_TEXTURES
+    if (!next) begin_glow(d, corner);
+#endif
+    if (!d->texture) return;
 #if GN_MIPMAPS
     if (gn_texture_has_levels(d->texture)) {
         uint32_t level = d->s->lattice.look.level + next;
@@ -513,7 +547,7 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
         return;
     }
     for (uint32_t i = 0; i <= levels_end(&d); i++) {
-        begin_texture(&d, i, corner);
+        begin_textures(&d, i, corner);
         draw_nodes(&d);
     }
 }

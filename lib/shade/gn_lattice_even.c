@@ -27,32 +27,65 @@ GN_HOT int gn_cell_find_bend(gn_lattice_cell *cell)
 #if GN_TEXTURES
 enum { BENDS_ROWS = 1, BENDS_COLUMNS = 2, BENDS_TOO_MUCH = 4 };
 
-/* The finer of the cell's levels, and whether the next one begins in it: over a quarter more depth in each direction
- * there is no third. */
-GN_HOT static void find_level(const gn_lattice_cell *cell)
-{
 #if GN_MIPMAPS
+/* A texture's level where the cell is nearest. *ends: whether the next one begins in it: over a quarter more depth in
+ * each direction there is no third. */
+GN_HOT static uint8_t find_level(const gn_lattice_cell *cell, const gn_texture *texture, uint64_t depth2_q32,
+                                 uint8_t *ends)
+{
     gn_corner *const *c = cell->corner;
-    const gn_texture *texture = cell->s->object->texture;
-    cell->out->level = cell->out->level_ends = 0;
-    if (!gn_texture_has_levels(texture)) return;
+    *ends = 0;
+    if (!texture || !gn_texture_has_levels(texture)) return 0;
     int32_t nearest = gn_min32(gn_min32(c[0]->z_q16, c[1]->z_q16), gn_min32(c[2]->z_q16, c[3]->z_q16)),
             farthest = gn_max32(gn_max32(c[0]->z_q16, c[1]->z_q16), gn_max32(c[2]->z_q16, c[3]->z_q16));
-    cell->out->level = (uint8_t)gn_texture_level_at(texture, cell->s->level_depth2_q32, nearest);
-    cell->out->level_ends =
-        (uint8_t)gn_texture_level_ends(texture, cell->s->level_depth2_q32, cell->out->level, farthest);
+    uint32_t level = gn_texture_level_at(texture, depth2_q32, nearest);
+    *ends = (uint8_t)gn_texture_level_ends(texture, depth2_q32, level, farthest);
+    return (uint8_t)level;
+}
+
+GN_HOT static uint32_t size_in_level(const gn_texture *texture, int axis, uint32_t level)
+{
+    return texture ? gn_texture_level_size(texture, axis, level) : 0;
+}
+#else
+GN_HOT static uint32_t size_in_level(const gn_texture *texture, int axis, uint32_t level)
+{
+    (void)level;
+    return texture ? gn_texture_size(texture, axis) : 0;
+}
+#endif
+
+/* Returns 0 where levels of emitted light meet: such a cell is split. */
+GN_HOT static int find_levels(const gn_lattice_cell *cell)
+{
+#if GN_MIPMAPS
+    gn_lattice_look *look = cell->out;
+    const gn_surface *s = cell->s;
+    look->level = find_level(cell, s->object->texture, s->level_depth2_q32, &look->level_ends);
+#if GN_GLOW_TEXTURES
+    uint8_t ends;
+    look->glow_level = find_level(cell, s->glow, s->glow_depth2_q32, &ends);
+    return !ends;
+#endif
 #else
     (void)cell;
 #endif
+    return 1;
 }
 
+/* Of the larger texture. */
 GN_HOT static uint32_t level_size(const gn_lattice_cell *cell, int axis)
 {
+    uint32_t level = 0, glow_level = 0;
 #if GN_MIPMAPS
-    return gn_texture_level_size(cell->s->object->texture, axis, cell->out->level);
-#else
-    return gn_texture_size(cell->s->object->texture, axis);
+    level = cell->out->level;
+#if GN_GLOW_TEXTURES
+    glow_level = cell->out->glow_level;
 #endif
+#endif
+    uint32_t size = size_in_level(cell->s->object->texture, axis, level),
+             glow = size_in_level(GN_GLOW_TEXTURE(cell->s), axis, glow_level);
+    return size > glow ? size : glow;
 }
 
 /* Where coordinates along one axis of the texture are to be quadratics. */
@@ -85,7 +118,7 @@ GN_HOT int gn_cell_textures_hold(const gn_lattice_cell *cell)
     cell->out->texture_bends = 0;
 #if GN_TEXTURES
     if (!cell->s->textured) return 1;
-    find_level(cell);
+    if (!find_levels(cell)) return 0;
     cell->out->texture_bends = bends_of(cell, 0) | bends_of(cell, 1);
 #endif
     return cell->out->texture_bends < 4;

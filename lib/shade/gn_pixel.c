@@ -266,6 +266,20 @@ GN_HOT static inline void textured_565(uint16_t *out, uint32_t bits, const uint1
     }
 }
 
+#if GN_GLOW_APART
+/* Light that the surface emits, at the pixel of a texel: 2^27 * 2^16 */
+GN_HOT static uint32_t glow_q20(const gn_pixel_line *line, const uint16_t (*texel)[3], int c)
+{
+    uint32_t glow_q24 = (uint32_t)line->glow_q24[c];
+#if GN_GLOW_TEXTURES
+    if (line->glow) return (uint32_t)((uint64_t)glow_q24 * line->glow[texel - line->texel][c] >> 20);
+#else
+    (void)texel;
+#endif
+    return glow_q24 >> 4;
+}
+#endif
+
 /* The same of any colours and formats. */
 GN_HOT static void textured_any(const gn_frame *frame, const gn_pixel_rows *rows, int32_t x, int32_t y, uint32_t bits,
                                 const uint16_t (*texel)[3], const int32_t from_q24[3], const int32_t step_q24[3],
@@ -278,7 +292,7 @@ GN_HOT static void textured_any(const gn_frame *frame, const gn_pixel_rows *rows
             int32_t colour = gn_max32(from_q24[c] + i * step_q24[c], 0);
             q20[c] = (uint32_t)((uint64_t)(uint32_t)colour * texel[i][c] >> 20);
 #if GN_GLOW_APART
-            q20[c] += (uint32_t)line->glow_q24[c] >> 4;
+            q20[c] += glow_q20(line, texel + i, c);
 #else
             (void)line;
 #endif

@@ -26,6 +26,9 @@ typedef struct {
     int inside;                 /* all nodes are in 2^-18 .. 1: nothing needs a clamp */
     const uint16_t (*texel)[3]; /* of each pixel, 65535: 1; NULL: no texture */
 #if GN_GLOW_APART
+#if GN_GLOW_TEXTURES
+    const uint16_t (*glow)[3]; /* what that is multiplied by, pixel by pixel, or NULL */
+#endif
     int32_t glow_q24[3]; /* textured: what is added to the product, 0 .. 2^27 */
 #endif
 } gn_pixel_line;

@@ -316,7 +316,7 @@ GN_HOT static void extra_values(const gn_surface *s, const hit *h, int32_t *valu
 {
 #if GN_TEXTURES
     for (int i = 0; s->textured && i < 2; i++)
-        value[GN_VALUE_UV + i] = gn_texture_coord(&s->uv, s->object->texture, h->b_q30, i);
+        value[GN_VALUE_UV + i] = gn_texture_coord(&s->uv, GN_SURFACE_TEXTURE(s), h->b_q30, i);
     for (int i = 0; !s->textured && i < 2; i++) value[GN_VALUE_UV + i] = 0;
 #endif
     for (int i = 0; GN_MASKS && i < 4; i++)

@@ -63,6 +63,12 @@ typedef struct {
     gn_texture level;          /* the one that was used last */
     uint32_t level_idx;
 #endif
+#if GN_GLOW_TEXTURES
+    const gn_texture *glow; /* of light that it emits, or NULL */
+#if GN_MIPMAPS
+    uint64_t glow_depth2_q32; /* the same of it */
+#endif
+#endif
 #if GN_RECEIVER_PLANE || GN_AUTO_BIAS
     int32_t face_q30[3]; /* normal of the face in the world; only if some light of the list needs it */
 #endif
@@ -81,6 +87,21 @@ typedef struct {
 #define GN_GLOWS(s) ((s)->glows)
 #else
 #define GN_GLOWS(s) ((void)(s), 0)
+#endif
+/* The texture that tells where the light is emitted; that whose coordinates the surface has, which both share. */
+#if GN_GLOW_TEXTURES
+#define GN_GLOW_TEXTURE(s)    ((s)->glow)
+#define GN_SURFACE_TEXTURE(s) ((s)->object->texture ? (s)->object->texture : (s)->glow)
+#else
+#define GN_GLOW_TEXTURE(s)    ((void)(s), (const gn_texture *)NULL)
+#define GN_SURFACE_TEXTURE(s) ((s)->object->texture)
+#endif
+#if GN_MIPMAPS
+#define GN_LEVEL_DEPTH2(s) ((s)->level_depth2_q32)
+#define GN_GLOW_DEPTH2(s)  ((s)->glow_depth2_q32)
+#else
+#define GN_LEVEL_DEPTH2(s) UINT64_MAX
+#define GN_GLOW_DEPTH2(s)  UINT64_MAX
 #endif
 #define GN_HAS_BARY(s)                                                                                                 \
     ((GN_VERTEX_NORMALS || GN_VERTEX_COLOURS || GN_TEXTURES || GN_MASKS || GN_BAKED_LIGHT) && (s)->has_bary)
@@ -234,6 +255,9 @@ typedef struct {
     int32_t texture_bends; /* where texture coordinates are quadratics: 1 along rows, 2 down columns */
 #if GN_MIPMAPS
     uint8_t level, level_ends; /* of the texture where the cell is nearest; 1: the next one begins in the cell */
+#if GN_GLOW_TEXTURES
+    uint8_t glow_level; /* of the texture of emitted light */
+#endif
 #endif
     int32_t spacing_log2; /* of lookups in pixels */
 } gn_lattice_look;
@@ -352,6 +376,9 @@ typedef struct gn_lattice {
         uint16_t texel[16][3]; /* of a row of pixels, then */
 #endif
     } row;
+#if GN_GLOW_TEXTURES
+    uint16_t glow[16][3]; /* the same of the texture of emitted light */
+#endif
 } gn_lattice;
 #endif
 

@@ -140,30 +140,53 @@ GN_HOT static void vertex_colours(gn_surface *s, const uint16_t *idx)
         s->albedo_uq16[i] = gn_mul_uq16(s->albedo_uq16[i], (uint32_t)s->attribute_q16[0][GN_ATTRIBUTE_RGB + i]);
 }
 
-GN_HOT static void texture_coords(gn_surface *s, const uint16_t *idx)
+/* Whether the object has light of its own. */
+GN_HOT static int emits(const gn_frame *frame, const gn_object *object)
 {
-    s->textured = GN_TEXTURES && s->object->texture != NULL;
+    const uint32_t *emissive = object->emissive_uq16;
+    if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) return 0;
+    (void)frame;
+    return GN_EMISSIVE && !(object->flags & GN_OBJECT_UNLIT) && (emissive[0] | emissive[1] | emissive[2]);
+}
+
+GN_HOT static void texture_coords(const gn_frame *frame, gn_surface *s, const uint16_t *idx)
+{
+#if GN_GLOW_TEXTURES
+    s->glow = emits(frame, s->object) ? s->object->emissive_texture : NULL;
+#endif
+    s->textured = GN_TEXTURES && GN_SURFACE_TEXTURE(s) != NULL;
 #if GN_TEXTURES
-    if (s->textured) gn_texture_corners(&s->uv, s->object->mesh, s->object->texture, idx);
+    if (s->textured) gn_texture_corners(&s->uv, s->object->mesh, GN_SURFACE_TEXTURE(s), idx);
 #else
     (void)idx;
 #endif
+    (void)frame;
 }
 
-/* Where levels of the texture begin. */
-GN_HOT static void texture_levels(const gn_frame *frame, gn_surface *s)
-{
 #if GN_MIPMAPS
-    if (!s->textured || !gn_texture_has_levels(s->object->texture)) return;
+GN_HOT static uint64_t level_depth2(const gn_frame *frame, const gn_surface *s, const gn_texture *texture)
+{
 #if GN_ORTHOGRAPHIC
     const gn_plane *screen = frame->cam.flat_q16 ? &s->screen : &s->plane;
 #else
     const gn_plane *screen = &s->plane;
 #endif
-    s->level = *s->object->texture;
+    return gn_texture_level_depth2(&s->uv, texture, &s->plane, screen, frame->cam.focal2_px_q16);
+}
+#endif
+
+/* Where levels of the textures begin. */
+GN_HOT static void texture_levels(const gn_frame *frame, gn_surface *s)
+{
+#if GN_MIPMAPS
+    const gn_texture *texture = s->object->texture;
+#if GN_GLOW_TEXTURES
+    if (s->glow && gn_texture_has_levels(s->glow)) s->glow_depth2_q32 = level_depth2(frame, s, s->glow);
+#endif
+    if (!texture || !gn_texture_has_levels(texture)) return;
+    s->level = *texture;
     s->level_idx = 0;
-    s->level_depth2_q32 =
-        gn_texture_level_depth2(&s->uv, s->object->texture, &s->plane, screen, frame->cam.focal2_px_q16);
+    s->level_depth2_q32 = level_depth2(frame, s, texture);
 #else
     (void)frame, (void)s;
 #endif
@@ -199,7 +222,7 @@ GN_HOT static void baked_light(gn_surface *s, const uint16_t *idx)
 
 GN_HOT static void attributes(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, const uint16_t *idx)
 {
-    texture_coords(s, idx);
+    texture_coords(frame, s, idx);
     texture_levels(frame, s);
     normals(frame, cache, s, idx);
     masks(frame, s, idx);
@@ -370,8 +393,7 @@ GN_HOT static void emitted_light(const gn_frame *frame, gn_surface *s)
 #if GN_GLOW_APART
     s->glows = 0;
 #endif
-    if (!GN_EMISSIVE || s->object->flags & GN_OBJECT_UNLIT || !(emissive[0] | emissive[1] | emissive[2])) return;
-    if (GN_RAW_VIEWS && frame->picture.format == GN_FORMAT_RAW32) return;
+    if (!GN_EMISSIVE || !emits(frame, s->object)) return;
 #if GN_GLOW_APART
     s->glows = (GN_TEXTURES && s->textured) || GN_COLOURED(s);
     if (s->glows) return;
@@ -455,6 +477,9 @@ GN_HOT void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surf
     const gn_mesh *mesh = s->object->mesh;
     const uint16_t *idx = mesh->idx + 3 * (size_t)tri->triangle_idx;
     int32_t v[3][3];
+#if GN_GLOW_TEXTURES
+    s->glow = NULL;
+#endif
     s->smooth = s->curved = s->bent = s->has_bary = s->textured = s->masked = s->baked = s->specular = 0;
     s->first_value = GN_VALUE_Z;
     vertex_colours(s, idx);

@@ -238,8 +238,6 @@ static const change gltf_notes[] = {
      "metallic-roughness texture of material 'paint' ignored: only base colour"},
     {"\"doubleSided\":true", "\"alphaMode\":\"MASK\",\"alphaCutoff\":1.5",
      "alpha cutoff of material 'paint' outside 0..1"},
-    {"\"doubleSided\":true", "\"emissiveFactor\":[1,0,0],\"emissiveTexture\":{\"index\":0}",
-     "emissive colour and texture of material 'paint' ignored"},
     {"\"doubleSided\":true", "\"emissiveFactor\":[2,0,0]", "emissive colour of material 'paint' outside 0..1"},
     {"[0.5,0.25,1,1]", "[0.5,0.25,2,1]", "outside 0..1"},
     {"\"strength\":0.9", "\"near\":1", "near of directional light 'sol'"},

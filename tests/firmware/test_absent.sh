@@ -11,7 +11,13 @@ if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
     cc="arm-none-eabi-gcc -mcpu=cortex-m3 -mthumb" prefix=arm-none-eabi-
     printf '#include <stddef.h>\nvoid *memset(void *, int, size_t);\nvoid *memcpy(void *, const void *, size_t);\n' >"$tmp/string.h"
 fi
-most() { case $1 in FILTER_MAX | VERTEX_JOINTS) echo 4 ;; *) echo 1 ;; esac; }
+most() {
+    case $1 in
+    FILTER_MAX | VERTEX_JOINTS) echo 4 ;;
+    TEXTURE_FORMATS) echo 1023 ;;
+    *) echo 1 ;;
+    esac
+}
 # but WORD VALUE FEATURE...: all features off (none) or on (all), but these VALUE
 but() {
     base=$1 value=$2
@@ -47,6 +53,7 @@ under() {
     CLIPPING | CLIPS | PICKING | SHADOWS | PUNCTUAL_LIGHTS | *VISIBLE* | TEXTURES | SPECULAR | EMISSIVE | ORTHOGRAPHIC | MASKS | BAKED* | VERTEX* | RAW* | VALID* | *FORMATS | TILE_DRAWING) ;;
     TILE_LIGHTS) echo PUNCTUAL_LIGHTS ;;
     TEXTURE_LEVELS) echo TEXTURES ;;
+    EMISSIVE_TEXTURES) echo TEXTURES EMISSIVE ;;
     LINEAR_KERNELS | DEPTH_BLOCKS) echo SHADOWS FILTER_MAX ;;
     *) echo SHADOWS ;;
     esac
@@ -101,12 +108,14 @@ CASTER_CULLING gn_cull_shown_nearer
 CASTER_ALPHA alpha_plane
 VISIBLE_ALPHA cut_begin|cut_row
 TILE_LIGHTS gn_punctual_in_tile
+TEXTURE_FORMATS gn_linear_(31|63)_table|gn_texel_decode_.*
 TEXTURE_LEVELS gn_texture_(level_at|level_depth2|use_level)
 TEXTURES gn_texture_colour|gn_alpha_coords|gn_srgb_decode_table
 SPECULAR highlight_q30
 VERTEX_JOINTS gn_skin_.*|mean_matrix|skin_signature|gn_scene_skin_check
 ORTHOGRAPHIC flat_plane|flat_sphere|intersect_flat
 EMISSIVE emitted_light
+EMISSIVE_TEXTURES begin_glow
 MASKS gn_texture_mask
 CASTER_BIAS corner_normals
 RECEIVER_PLANE start_plane|dark_on_plane

@@ -358,6 +358,16 @@ static inline void add_levels(fixture *f)
     t->rgba = mipmap_rgba;
 }
 
+/* All that has coordinates emits the checker, "levels": of which it has smaller ones; without one it has no texture. */
+static inline void add_glow(fixture *f, const char *value)
+{
+    const bool levels = strcmp(value, "levels") == 0;
+    if (f->s.n_textures == 0) add_texture(f, checker_rgba, 16, strcmp(value, "nearest") != 0);
+    if (levels) add_levels(f);
+    for (size_t o = 0; o < f->s.n_objects; o++)
+        if (f->meshes[f->objects[o].mesh_idx].uv) f->objects[o].emissive_texture_idx = 0;
+}
+
 static inline void flip_subject(fixture *f)
 {
     uint32_t *idx = f->meshes[SUBJECT].idx;
@@ -423,6 +433,7 @@ static inline bool tweak_objects(fixture *f, const char *key, const char *value)
     else if (strcmp(key, "colours") == 0) add_colours(f);
     else if (strcmp(key, "texture") == 0) add_pattern(f, value);
     else if (strcmp(key, "levels") == 0) add_levels(f);
+    else if (strcmp(key, "glow") == 0) add_glow(f, value);
     else if (strcmp(key, "wrap") == 0)
         f->textures[0].clamp_u = value[0] == 'c', f->textures[0].clamp_v = value[1] == 'c';
     else if (strcmp(key, "specular") == 0) {

@@ -166,7 +166,7 @@ typedef struct {
     double allowed;
 } exception;
 static const exception beyond[] = {
-    {"M3", "yard", ".texture=nearest", 1.2}, /* texels that a coordinate is within 2^-9 of, or a step of Q17 */
+    {"M3", "yard", ".texture=nearest", 1.2},   /* texels that a coordinate is within 2^-9 of, or a step of Q17 */
     {"M11", "yard", ".texture=nearest", 1.05}, /* the same */
     {"P6", "room", "other_atlas_size=64 bias_normal=3", 1.15},
     {"P6", "room", "other_atlas_size=64", 4.6}, /* 7x7 in tiles of 16 texels: all is penumbra, linear between lookups */
@@ -537,6 +537,11 @@ static const row rows[] = {
     {"M10", "yard", ".colours=1 .specular=4", ".emissive=0.3", "", 0.25},
     {"M10", "yard", ".texture=bilinear .colours=1", ".emissive=0.3", "", 0.25},
     {"R10", "yard", "", "half_height=3", "", 0.25},
+    {"M10", "yard", ".emissive=0.5", ".glow=bilinear", "", 0.5},
+    {"M10", "yard", ".emissive=0.5 .light=all .normals=0", ".glow=levels", "", 0.5},
+    {"M10", "yard", ".emissive=0.5 .texture=pickets .visible=1", ".glow=bilinear", "", 0.5},
+    {"M10", "yard", ".emissive=0.5 .texture=bilinear .colours=1 .camera=0.3,1.2,6,0.1,0.9,-3", ".glow=levels", "", 0.5},
+    {"M10", "yard", ".emissive=0.5 half_height=9", ".glow=levels", "", 0.5},
     {"M11", "yard", ".texture=bilinear", ".levels=1", "", 0.25},
     {"M11", "yard", ".texture=nearest", ".levels=1", "", 0.5},
     {"M11", "yard", ".texture=bilinear .camera=0.3,1.2,6,0.1,0.9,-3 .wrap=cr", ".levels=1", "", 0.25},

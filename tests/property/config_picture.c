@@ -130,6 +130,7 @@ static void use_materials(int variant)
         demo.object[i].alpha_cutoff_uq16 = 30000;
     }
     if (use.textures) box->texture = ground->texture = &texture;
+    if (use.textures && use.emissive && use.emissive_textures) ground->emissive_texture = &texture;
     if (use.visible_alpha) box->visible_alpha = ball->visible_alpha = cut;
     if (use.caster_alpha) box->caster_alpha = ball->caster_alpha = cut;
     for (int k = 0; use.specular && k < 3; k++) ball->specular_uq16[k] = 30000;
@@ -307,6 +308,10 @@ static void ask_emissive(void)
 {
     demo.object[0].emissive_uq16[2] = 1;
 }
+static void ask_emissive_texture(void)
+{
+    demo.object[2].emissive_texture = &texture;
+}
 static void ask_mask(void)
 {
     demo.object[1].mask_u8 = mask;
@@ -400,6 +405,7 @@ static const struct {
     {"specular", GN_SPECULAR, GN_ERR_MATERIAL, ask_specular},
     {"orthographic", GN_ORTHOGRAPHIC, GN_ERR_CAMERA_FOCAL, ask_orthographic},
     {"emissive", GN_EMISSIVE, GN_ERR_MATERIAL, ask_emissive},
+    {"emissive texture", GN_GLOW_TEXTURES, GN_ERR_MATERIAL, ask_emissive_texture},
     {"mask", GN_MASKS, GN_ERR_MASK, ask_mask},
     {"mask image", GN_MASKS, GN_ERR_MASK, ask_mask_image},
     {"mixing", GN_MASKS || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_mixing},

@@ -90,6 +90,7 @@ static void built_object(gn_object *o)
     if (absent(GN_BAKED_LIGHT)) o->baked_uq12 = NULL;
     if (absent(GN_SPECULAR)) memset(o->specular_uq16, 0, sizeof o->specular_uq16);
     if (absent(GN_VERTEX_JOINTS)) o->skin = NULL;
+    if (absent(GN_EMISSIVE_TEXTURES)) o->emissive_texture = NULL;
     if (absent(GN_EMISSIVE)) memset(o->emissive_uq16, 0, sizeof o->emissive_uq16);
 }
 
@@ -298,6 +299,8 @@ static void random_material(random_scene *g, gn_object *o)
     o->alpha_cutoff_uq16 = (uint32_t)pick(0, 65536);
     o->shininess_log2 = (uint8_t)pick(0, 7);
     o->texture = one_in(3) ? &g->texture[rnd() % RANDOM_TEXTURES] : NULL;
+    o->emissive_texture = one_in(4) ? &g->texture[rnd() % RANDOM_TEXTURES] : NULL;
+    if (o->texture && o->emissive_texture && !one_in(20)) o->emissive_texture = o->texture;
     o->mask_image = one_in(6) ? &g->texture[rnd() % RANDOM_MASK_TEXTURES] : NULL;
     o->mask_u8 = one_in(3) ? g->mask : NULL;
     o->baked_uq12 = one_in(4) ? g->baked : NULL;

@@ -595,6 +595,26 @@ static void texture_no_palette(void)
 {
     full.texture.format = GN_TEXTURE_PALETTE4;
 }
+static void emissive_texture_no_texels(void)
+{
+    full.mask.rgba = NULL, demo.object[FULL_OBJECT].mask_image = NULL;
+    demo.object[FULL_OBJECT].emissive_texture = &full.mask;
+}
+static void emissive_texture_clamps(void)
+{
+    full.mask.flags = GN_TEXTURE_CLAMP_V;
+    demo.object[FULL_OBJECT].emissive_texture = &full.mask;
+}
+static void fine_emissive_texture(void)
+{
+    full.mask.flags = GN_TEXTURE_BILINEAR;
+    demo.object[FULL_OBJECT].emissive_texture = &full.mask;
+}
+static void fine_emissive_texture_alone(void)
+{
+    emissive_texture_clamps();
+    demo.object[FULL_OBJECT].texture = NULL;
+}
 static void texture_no_uv(void)
 {
     demo.ball.uv = NULL;
@@ -699,6 +719,10 @@ static void test_combinations(void)
         COMBINATION(texture_format, GN_ERR_TEXTURE_FORMAT, FULL_OBJECT),
         COMBINATION(texture_no_palette, GN_ERR_TEXTURE, FULL_OBJECT),
         COMBINATION(texture_no_uv, GN_ERR_TEXTURE, FULL_OBJECT),
+        COMBINATION(emissive_texture_no_texels, GN_ERR_TEXTURE, FULL_OBJECT),
+        COMBINATION(emissive_texture_clamps, GN_ERR_TEXTURE, FULL_OBJECT),
+        COMBINATION(fine_emissive_texture, GN_OK, 0),
+        COMBINATION(fine_emissive_texture_alone, GN_OK, 0),
         COMBINATION(mask_no_texels, GN_ERR_MASK, FULL_OBJECT),
         COMBINATION(mask_wide, GN_ERR_MASK, FULL_OBJECT),
         COMBINATION(mask_high, GN_ERR_MASK, FULL_OBJECT),

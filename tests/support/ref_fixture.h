@@ -126,6 +126,7 @@ static inline scene_mesh *add_mesh(fixture *f, size_t n_vertices, const double *
                                                   .alpha = 1,
                                                   .alpha_cutoff = 0.5,
                                                   .texture_idx = SCENE_NONE,
+                                                  .emissive_texture_idx = SCENE_NONE,
                                                   .mask_texture_idx = SCENE_NONE,
                                                   .caster = SCENE_CASTER_ON,
                                                   .receives = true};

@@ -24,7 +24,12 @@ static char error[200];
 
 static void make_object(void)
 {
-    object = (scene_object){.name = name, .alpha = 1, .alpha_cutoff = 0.5, .receives = true, .caster = SCENE_CASTER_ON};
+    object = (scene_object){.name = name,
+                            .emissive_texture_idx = SCENE_NONE,
+                            .alpha = 1,
+                            .alpha_cutoff = 0.5,
+                            .receives = true,
+                            .caster = SCENE_CASTER_ON};
     object.texture_idx = object.mask_texture_idx = SCENE_NONE;
     for (int i = 0; i < 3; i++) object.to_world.m[i][i] = object.albedo[i] = 1;
 }

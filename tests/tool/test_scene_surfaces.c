@@ -183,6 +183,11 @@ static void test_texture_changes(void)
         {"\"texCoord\":1", "\"texCoord\":2", "base colour texture of material 'glass' ignored: it takes TEXCOORD_2"},
         {"\"texCoord\":1", "\"texCoord\":0,\"extensions\":{\"KHR_texture_transform\":{}}",
          "texture transform of material 'glass'"},
+        {"\"name\":\"paint\"", "\"name\":\"paint\",\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":1}",
+         "emissive texture of material 'paint' ignored: it wraps otherwise"},
+        {"\"name\":\"paint\"",
+         "\"name\":\"paint\",\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0,\"texCoord\":1}",
+         "emissive texture of material 'paint' ignored: it takes TEXCOORD_1"},
         {"\"TEXCOORD_0\":2", "\"x\":2", "base colour texture of mesh 'mesh 0' ignored: it has no texture coordinates"},
         {"\"baseColorFactor\":[1,1,1,0.25]", "\"baseColorFactor\":[1,1,1,2]",
          "base colour of material 'glass' outside 0..1"},
@@ -318,23 +323,32 @@ static void test_sizes(void)
     CHECK(refused(load_text(TMP ".gltf", textured()), "texture 'checks' of 8193x1: sides are at most 8192"));
 }
 
-/* Factor times strength, or extras; none of a texture's. [M10] */
+/* Factor times strength, or extras; and a texture, which is ignored with its colour where the base colour's coordinates
+ * or wrap are others. [M10] */
 static void test_emissive(void)
 {
     static const struct {
         const char *material;
         double expected[3];
+        bool textured;
     } cases[] = {
-        {"\"name\":\"paint\"", {0, 0, 0}},
-        {"\"name\":\"paint\",\"emissiveFactor\":[0.5,0.25,1]", {0.5, 0.25, 1}},
+        {"\"name\":\"paint\"", {0, 0, 0}, false},
+        {"\"name\":\"paint\",\"emissiveFactor\":[0.5,0.25,1]", {0.5, 0.25, 1}, false},
         {"\"name\":\"paint\",\"emissiveFactor\":[0.5,0.25,1],\"extensions\":{\"KHR_materials_emissive_strength\":{"
          "\"emissiveStrength\":8}}",
-         {4, 2, 8}},
+         {4, 2, 8},
+         false},
         {"\"name\":\"paint\",\"emissiveFactor\":[0.5,0,1],\"extensions\":{\"KHR_materials_emissive_strength\":{"
          "\"emissiveStrength\":1000}}",
-         {255, 0, 255}},
-        {"\"name\":\"paint\",\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0}", {0, 0, 0}},
-        {"\"name\":\"paint\",\"emissiveFactor\":[1,1,1],\"extras\":{\"gnomon\":{\"emissive\":3}}", {3, 3, 3}}};
+         {255, 0, 255},
+         false},
+        {"\"name\":\"paint\",\"emissiveFactor\":[1,0.5,1],\"emissiveTexture\":{\"index\":0}", {1, 0.5, 1}, true},
+        {"\"name\":\"paint\",\"emissiveTexture\":{\"index\":0}", {0, 0, 0}, false},
+        {"\"name\":\"paint\",\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":1}", {0, 0, 0}, false},
+        {"\"name\":\"paint\",\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0,\"texCoord\":1}",
+         {0, 0, 0},
+         false},
+        {"\"name\":\"paint\",\"emissiveFactor\":[1,1,1],\"extras\":{\"gnomon\":{\"emissive\":3}}", {3, 3, 3}, false}};
     make_png(2, 2, checks);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *text = replaced(textured(), "\"name\":\"paint\"", cases[i].material);
@@ -343,6 +357,8 @@ static void test_emissive(void)
             continue;
         }
         for (int k = 0; k < 3; k++) CHECK_NEAR(s.objects[0].emissive[k], cases[i].expected[k], 0);
+        CHECK_EQ_INT(s.objects[0].emissive_texture_idx == 0, cases[i].textured);
+        CHECK(s.objects[1].emissive_texture_idx == SCENE_NONE);
         scene_free(&s);
     }
 }

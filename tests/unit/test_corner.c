@@ -2,6 +2,8 @@
  * inputs: random triangles and a directional, a spot and a point light. Bounds: NUMERICS 4.12, term by term below.
  * "--table": the largest error seen, per stage. */
 #include "../lib/shade/gn_corner.h"
+#include "../lib/shade/gn_lattice_cell.h"
+#include "../lib/shade/gn_lattice_texture.h"
 #include "../lib/shade/gn_shadow.h"
 #include "../lib/visible/gn_setup.h"
 
@@ -18,6 +20,7 @@ enum {
     STAGE_ORTHO_UV,
     STAGE_PERSP,
     STAGE_PERSP_DEPTH,
+    STAGE_QUADRATIC,
     STAGE_COUNT
 };
 static const char *const stage_name[STAGE_COUNT] = {
@@ -33,6 +36,7 @@ static const char *const stage_name[STAGE_COUNT] = {
     "corners: place in a directional view, of a part, LSB of Q16 texels",
     "corners: place in a spot's or point light's view, LSB of Q16 texels",
     "corners: depth in a spot's or point light's view, LSB of Q30",
+    "cells: texture coordinates between corners, LSB of Q17 texels",
 };
 
 #include "exact.h"
@@ -43,8 +47,8 @@ static const char *const stage_name[STAGE_COUNT] = {
 static gn_light lamps[3];
 static uint16_t rgb[9 * N_TRIANGLES];
 static int16_t uv[6 * N_TRIANGLES];
-static const uint8_t white[4] = {255, 255, 255, 255};
-static const gn_texture texture = {.rgba = white};
+static const uint8_t texels[4 << 15];
+static const gn_texture texture = {.rgba = texels, .width_log2 = 9, .height = 48};
 
 static int one_in(int n)
 {
@@ -98,7 +102,7 @@ static void corner_scene(void)
     mesh.rgb_uq16 = one_in(2) ? rgb : NULL;
     mesh.nrm_q15 = one_in(3) ? NULL : nrm;
     mesh.uv = one_in(2) ? uv : NULL;
-    mesh.uv_frac_bits = 8;
+    mesh.uv_frac_bits = one_in(2) ? 8 : 14;
     object.texture = mesh.uv ? &texture : NULL;
     fixed.lights = lamps;
     fixed.n_lights = 3;
@@ -166,6 +170,77 @@ static void check_attributes(const gn_surface *s, const known_point *k, const gn
                                      (double)s->uv.uv_q16[2][i] * LSB16, &off);
         record(STAGE_UV, fabs(ldexp(c->uv_q20[i], -20) - want), off + ldexp(2, -20), ldexp(1, -20));
     }
+}
+
+/* ---- Texture coordinates in a cell ------------------------------------------------------------------------------- */
+
+/* A column's place at the share t of the cell's height, texels from the cell's origin on. */
+static double down_column(const gn_texture_column *c, double t)
+{
+    return ldexp(c->from_q17 + c->down_q17 * t + 2 * c->bent_q17 * t * (t - 1), -17);
+}
+
+/* NUMERICS 4.12: the quadratics, as they are stored, are within the tolerance of the plane's coordinates; and what the
+ * corners, or exact places, are off by, of which a quadratic through three takes 5/4 each way; and the rounding of
+ * origins, columns and differences to 2^-17. */
+static void check_patch(const gn_surface *s, const plane *p, const gn_lattice *l, const gn_texture_patch *patch, int x,
+                        int y, int size)
+{
+    static const double sides[2] = {512, 48};
+    for (int j = 0; j < size; j += 3)
+        for (int i = 0; i < size; i += 3)
+            for (int axis = 0; axis < 2; axis++) {
+                const double t = (double)i / size, down = (double)j / size;
+                const gn_texture_column *c = patch->column[axis];
+                const double left = down_column(&c[0], down), across = down_column(&c[2], down) - left;
+                const double bent = patch->bends_rows ? across - 2 * (down_column(&c[1], down) - left) : 0;
+                double off, at = 0, corner_off = 0;
+                known_point k;
+                for (int q = 0; q < 5; q++) { /* the corners, then the pixel */
+                    find_known(&k, l, p, x + (q == 4 ? i : (q & 1) * size), y + (q == 4 ? j : (q >> 1) * size));
+                    at = value_at(&k, (double)s->uv.uv_q16[0][axis] * LSB16, (double)s->uv.uv_q16[1][axis] * LSB16,
+                                  (double)s->uv.uv_q16[2][axis] * LSB16, &off);
+                    corner_off = fmax(corner_off, off + ldexp(2, -20));
+                }
+                double error = left + across * t + 2 * bent * t * (t - 1) - at * sides[axis];
+                error -= sides[axis] * floor(error / sides[axis] + 0.5); /* whole turns */
+                const double bound = ldexp(1, -gn_cell_texture_log2(&renderer.frame)) +
+                                     1.5625 * corner_off * sides[axis] + ldexp(6, -17);
+                record(STAGE_QUADRATIC, fabs(error), bound, ldexp(1, -17));
+            }
+}
+
+static long n_bent_rows, n_bent_columns, n_straight;
+
+static void check_cell(const gn_lattice *from, const gn_surface *s, const plane *p, int x, int y, int size_log2)
+{
+    static gn_shading shading;
+    static gn_sample sample;
+    static gn_corner corner[4];
+    gn_corner *corners[4];
+    gn_texture_patch patch;
+    shading.frame = &renderer.frame;
+    shading.surface = *s;
+    shading.lattice = *from;
+    gn_lattice *l = &shading.lattice;
+    for (int i = 0; i < 4; i++) {
+        corners[i] = &corner[i];
+        gn_corner_find(l, shading.frame, s, x + ((i & 1) << size_log2), y + ((i >> 1) << size_log2), &sample,
+                       corners[i]);
+        if (corner[i].state != GN_CORNER_KNOWN) return;
+    }
+    gn_lattice_cell cell = {.lattice = l,
+                            .frame = shading.frame,
+                            .s = &shading.surface,
+                            .corner = corners,
+                            .size_log2 = size_log2,
+                            .out = &l->look};
+    if (!gn_cell_find_bend(&cell) || !gn_cell_textures_hold(&cell)) return;
+    n_bent_rows += l->look.texture_bends & 1;
+    n_bent_columns += l->look.texture_bends >> 1 & 1;
+    n_straight += !l->look.texture_bends;
+    gn_lattice_texture_begin(&shading, &texture, x, y, size_log2, corners, &patch);
+    check_patch(s, p, l, &patch, x, y, 1 << size_log2);
 }
 
 /* ---- Light ------------------------------------------------------------------------------------------------------- */
@@ -479,6 +554,9 @@ static void check_scene(const gn_knobs *knobs)
         n_no_plane += !has_plane;
         for (int y = r.y0 - 6; has_plane && y < r.y1 + 14; y += 5)
             for (int x = r.x0 - 6; x < r.x1 + 14; x += 7) check_corner(&lattice, &surface, &p, &r, x, y);
+        for (int i = 0; has_plane && surface.textured && i < 6; i++)
+            check_cell(&lattice, &surface, &p, (int)uniform(r.x0 - 6, r.x1 + 2), (int)uniform(r.y0 - 6, r.y1 + 2),
+                       1 + i % 4);
     }
 }
 
@@ -494,6 +572,9 @@ int main(int argc, char **argv)
     printf("%ld corners are known, %ld of them outside of their triangles, %ld not; %ld of %ld surfaces have no plane; "
            "cascades: %ld certain, %ld not\n",
            n_known, n_wide, n_unseen, n_no_plane, n_planes + n_no_plane, n_certain, n_uncertain);
+    printf("cells: coordinates of %ld bend along rows, of %ld down columns, of %ld not\n", n_bent_rows, n_bent_columns,
+           n_straight);
+    CHECK(n_bent_rows > 300 && n_bent_columns > 300 && n_straight > 100);
     CHECK(n_planes > 2 * n_no_plane);
     CHECK(n_certain > 1000 && n_uncertain > 100);
     return table ? (check_n_failed ? 1 : 0) : check_report();

@@ -74,6 +74,9 @@ size_t gltf_add_surface_material(gltf_document *d, const gltf_material_text *m)
     add_text(d, list, "\"metallicFactor\": 0}");
     if (m->alpha_mode != GLTF_OPAQUE) add_text(d, list, ", \"alphaMode\": \"%s\"", mode[m->alpha_mode]);
     if (m->double_sided) add_text(d, list, ", \"doubleSided\": true");
+    if (m->emits)
+        add_text(d, list, ", \"emissiveFactor\": [1, 1, 1], \"emissiveTexture\": {\"index\": %zu}",
+                 m->emissive_texture_idx);
     add_knobs(d, list, m->knobs);
     add_text(d, list, "}");
     return idx;

@@ -46,6 +46,8 @@ typedef struct {
     double alpha;     /* GLTF_BLEND: of the base colour factor, else 1 is written */
     bool has_texture; /* then texture_idx is the base colour's */
     size_t texture_idx;
+    bool emits; /* then it has a texture of emissive colour, too; of the factor 1 that `knobs` may replace */
+    size_t emissive_texture_idx;
     bool double_sided;
     const char *knobs; /* members of extras.gnomon, as JSON, or NULL */
 } gltf_material_text;

@@ -294,6 +294,7 @@ scene_object object_defaults(void)
                           .alpha_cutoff = 0.5,
                           .shininess_log2 = 5,
                           .texture_idx = SCENE_NONE,
+                          .emissive_texture_idx = SCENE_NONE,
                           .mask_texture_idx = SCENE_NONE,
                           .node_idx = SCENE_NONE,
                           .caster = SCENE_CASTER_ON,

@@ -74,14 +74,15 @@ typedef struct {
     size_t mesh_idx;
     size_t node_idx; /* of scene_rig; SCENE_NONE: none */
     scene_affine to_world;
-    scene_affine at_rest;    /* the same without animation, if the file has one */
-    double albedo[3];        /* linear 0..1 */
-    double alpha;            /* 0..1, times the texture's; default 1 */
-    double alpha_cutoff;     /* 0..1, default 0.5 */
-    double specular[3];      /* linear 0..1, default 0 */
-    int shininess_log2;      /* 0..7, default 5 */
-    double emissive[3];      /* linear 0..255, default 0 (M10) */
-    size_t texture_idx;      /* SCENE_NONE: no texture */
+    scene_affine at_rest;        /* the same without animation, if the file has one */
+    double albedo[3];            /* linear 0..1 */
+    double alpha;                /* 0..1, times the texture's; default 1 */
+    double alpha_cutoff;         /* 0..1, default 0.5 */
+    double specular[3];          /* linear 0..1, default 0 */
+    int shininess_log2;          /* 0..7, default 5 */
+    double emissive[3];          /* linear 0..255, default 0 (M10) */
+    size_t texture_idx;          /* SCENE_NONE: no texture */
+    size_t emissive_texture_idx; /* its colour times emissive, SCENE_NONE: none; wraps as the other, if there is one */
     size_t mask_texture_idx; /* of a mask image (M5), red..alpha = channels 0..3, looked up at mask_uv; SCENE_NONE: no
                                 image */
     uint8_t *mask;           /* 4 per vertex of the mesh (M5), or NULL */

@@ -8,15 +8,19 @@
 static bool note_texture(gltf *g, const json_value *owner, const char *key, const char *what, const char *material)
 {
     if (!json_get(owner, key)) return true;
-    return loader_note(g->l, "%s texture of material '%s' ignored: only base colour textures are supported", what,
-                       material);
+    return loader_note(g->l,
+                       "%s texture of material '%s' ignored: only base colour and emissive textures are supported",
+                       what, material);
 }
 
-static bool read_texture(gltf *g, const json_value *pbr, const char *name, gltf_material *out)
+/* A texture of a material, `what`. *out SCENE_NONE: none, or ignored with a note. Textures of a surface share a set of
+ * coordinates. */
+static bool read_texture(gltf *g, const json_value *info, const char *what, const char *name, size_t *uv_set,
+                         size_t *out)
 {
-    const json_value *info = NULL, *transform;
+    const json_value *transform;
     size_t idx = GLTF_NONE, set = 0;
-    if (!gltf_get(g, pbr, "baseColorTexture", JSON_OBJECT, &info)) return false;
+    *out = SCENE_NONE;
     if (!info) return true;
     if (!gltf_get_ref(g, info, "index", g->textures, &idx) || !gltf_get_size(g, info, "texCoord", &set) ||
         !gltf_get_extension(g, info, "KHR_texture_transform", &transform))
@@ -24,10 +28,10 @@ static bool read_texture(gltf *g, const json_value *pbr, const char *name, gltf_
     if (idx == GLTF_NONE) return gltf_fail(g, info, "index is missing");
     if (transform && !loader_note(g->l, "texture transform of material '%s' ignored: it is not supported", name))
         return false;
-    if (set > 1)
-        return loader_note(g->l, "base colour texture of material '%s' ignored: it takes TEXCOORD_%zu", name, set);
-    if (!gltf_load_texture(g, idx, false, &out->surface.texture_idx)) return false;
-    if (out->surface.texture_idx != SCENE_NONE) out->uv_set = set;
+    if (set > 1 || (*uv_set != GLTF_NONE && *uv_set != set))
+        return loader_note(g->l, "%s texture of material '%s' ignored: it takes TEXCOORD_%zu", what, name, set);
+    if (!gltf_load_texture(g, idx, false, out)) return false;
+    if (*out != SCENE_NONE) *uv_set = set;
     return true;
 }
 
@@ -42,7 +46,9 @@ static bool read_colour(gltf *g, const json_value *json, const char *name, gltf_
         return false;
     memcpy(out->surface.albedo, factor, sizeof out->surface.albedo);
     out->surface.alpha = factor[3];
-    return read_texture(g, pbr, name, out) &&
+    const json_value *info = NULL;
+    return gltf_get(g, pbr, "baseColorTexture", JSON_OBJECT, &info) &&
+           read_texture(g, info, "base colour", name, &out->uv_set, &out->surface.texture_idx) &&
            note_texture(g, pbr, "metallicRoughnessTexture", "metallic-roughness", name) &&
            note_texture(g, json, "normalTexture", "normal", name) &&
            note_texture(g, json, "occlusionTexture", "occlusion", name);
@@ -73,11 +79,23 @@ static bool read_alpha(gltf *g, const json_value *json, const char *name, gltf_m
     return gltf_fail(g, json, "alphaMode '%s' is unknown", mode);
 }
 
-/* A texture is the most of what glows: without it, the factor alone would light up everything. [M10] */
+/* Both textures of a surface repeat, or are clamped. */
+static bool wraps_alike(gltf *g, const scene_object *o, const char *name, size_t *texture_idx)
+{
+    if (o->texture_idx == SCENE_NONE || *texture_idx == SCENE_NONE) return true;
+    const scene_texture *a = &g->l->s->textures[o->texture_idx], *b = &g->l->s->textures[*texture_idx];
+    if (a->clamp_u == b->clamp_u && a->clamp_v == b->clamp_v) return true;
+    *texture_idx = SCENE_NONE;
+    return loader_note(g->l, "emissive texture of material '%s' ignored: it wraps otherwise than the base colour's",
+                       name);
+}
+
+/* A texture is the most of what glows: where it is ignored, the factor alone would light up everything. [M10] */
 static bool read_emissive(gltf *g, const json_value *json, const char *name, gltf_material *out)
 {
-    const json_value *extension = NULL;
+    const json_value *extension = NULL, *info = NULL;
     double *emissive = out->surface.emissive, strength = 1;
+    size_t *texture = &out->surface.emissive_texture_idx;
     if (!gltf_get_numbers(g, json, "emissiveFactor", emissive, 3) ||
         !gltf_get_extension(g, json, "KHR_materials_emissive_strength", &extension) ||
         !gltf_get_number(g, extension, "emissiveStrength", &strength))
@@ -86,15 +104,13 @@ static bool read_emissive(gltf *g, const json_value *json, const char *name, glt
         !loader_note(g->l, "emissive colour of material '%s' outside 0..1 is clamped", name))
         return false;
     if (!(strength >= 0)) return gltf_fail(g, extension, "emissiveStrength %g is below 0", strength);
-    const bool glows = emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0;
-    const bool textured = json_get(json, "emissiveTexture") != NULL;
-    if (textured && glows &&
-        !loader_note(g->l,
-                     "emissive colour and texture of material '%s' ignored: emissive "
-                     "textures are not supported",
-                     name))
+    for (int i = 0; i < 3; i++) emissive[i] = fmin(emissive[i] * strength, 255);
+    if (!gltf_get(g, json, "emissiveTexture", JSON_OBJECT, &info)) return false;
+    if (!info || !(emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0)) return true;
+    if (!read_texture(g, info, "emissive", name, &out->uv_set, texture) ||
+        !wraps_alike(g, &out->surface, name, texture))
         return false;
-    for (int i = 0; i < 3; i++) emissive[i] = textured ? 0 : fmin(emissive[i] * strength, 255);
+    for (int i = 0; *texture == SCENE_NONE && i < 3; i++) emissive[i] = 0;
     return true;
 }
 

@@ -108,9 +108,14 @@ static bool check_coordinates(gltf *g, const json_value *json, const scene_mesh 
     if (object->mask_texture_idx != SCENE_NONE && !mesh->mask_uv) {
         return gltf_fail(g, json, "a mask_texture is looked up at TEXCOORD_1, which is missing");
     }
-    if (object->texture_idx == SCENE_NONE || mesh->uv) return true;
-    object->texture_idx = SCENE_NONE;
-    return loader_note(g->l, "base colour texture of mesh '%s' ignored: it has no texture coordinates", mesh->name);
+    const bool coloured = object->texture_idx != SCENE_NONE, glows = object->emissive_texture_idx != SCENE_NONE;
+    if (mesh->uv) return true;
+    object->texture_idx = object->emissive_texture_idx = SCENE_NONE;
+    for (int i = 0; glows && i < 3; i++) object->emissive[i] = 0;
+    return (!coloured ||
+            loader_note(g->l, "base colour texture of mesh '%s' ignored: it has no texture coordinates", mesh->name)) &&
+           (!glows ||
+            loader_note(g->l, "emissive texture of mesh '%s' ignored: it has no texture coordinates", mesh->name));
 }
 
 /* Where the object is; a skinned one is where its joints take it, and its node does not count. */

@@ -174,8 +174,12 @@ static void add_material(writer *w, const scene_object *o, size_t idx)
     write_text(b, ", \"pbrMetallicRoughness\": {");
     put_numbers(b, "baseColorFactor", factor, 4);
     if (o->texture_idx != SCENE_NONE) write_format(b, ", \"baseColorTexture\": {\"index\": %zu}", o->texture_idx);
-    write_format(b, ", \"metallicFactor\": 0}, \"alphaMode\": \"%s\"%s, \"extras\": {\"gnomon\": {",
-                 modes[o->visible_alpha], o->two_sided ? ", \"doubleSided\": true" : "");
+    write_text(b, ", \"metallicFactor\": 0}, ");
+    if (o->emissive_texture_idx != SCENE_NONE)
+        write_format(b, "\"emissiveFactor\": [1, 1, 1], \"emissiveTexture\": {\"index\": %zu}, ",
+                     o->emissive_texture_idx);
+    write_format(b, "\"alphaMode\": \"%s\"%s, \"extras\": {\"gnomon\": {", modes[o->visible_alpha],
+                 o->two_sided ? ", \"doubleSided\": true" : "");
     write_format(
         b,
         "\"caster\": \"%s\", \"casts_two_sided\": %d, \"hidden\": %d, \"moving\": %d, \"receives\": %d, \"unlit\": %d",

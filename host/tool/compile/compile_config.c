@@ -171,16 +171,22 @@ static void use_format(compiled *c, const gn_texture *t, const char *name)
     c->set.feature.texture_formats = formats;
 }
 
+static void use_texture(compiled *c, const gn_texture *t, const char *name)
+{
+    if (!t) return;
+    USE(textures, 1, "object '%s'", name);
+    use_format(c, t, name);
+    if (t->flags & GN_TEXTURE_MIPMAPPED) USE(texture_levels, 1, "the texture of object '%s'", name);
+}
+
 static void use_object(compiled *c, const gn_object *o, const char *name)
 {
     const uint32_t *s = o->specular_uq16;
     if (o->visible_alpha != GN_ALPHA_OPAQUE) USE(visible_alpha, 1, "object '%s'", name);
     if (o->caster_alpha != GN_ALPHA_OPAQUE) USE(caster_alpha, 1, "object '%s'", name);
-    if (o->texture) {
-        USE(textures, 1, "object '%s'", name);
-        use_format(c, o->texture, name);
-        if (o->texture->flags & GN_TEXTURE_MIPMAPPED) USE(texture_levels, 1, "the texture of object '%s'", name);
-    }
+    use_texture(c, o->texture, name);
+    use_texture(c, o->emissive_texture, name);
+    if (o->emissive_texture) USE(emissive_textures, 1, "object '%s'", name);
     if (s[0] || s[1] || s[2]) USE(specular, 1, "object '%s'", name);
     if (o->emissive_uq16[0] || o->emissive_uq16[1] || o->emissive_uq16[2]) USE(emissive, 1, "object '%s'", name);
     if (o->mask_u8 || o->mask_image) USE(masks, 1, "object '%s'", name);
@@ -224,6 +230,7 @@ static void use_nothing(compiled *c)
     NOTHING(texture_levels);
     NOTHING(specular);
     NOTHING(emissive);
+    NOTHING(emissive_textures);
     NOTHING(orthographic);
     NOTHING(masks);
     NOTHING(baked_light);

@@ -103,15 +103,23 @@ static void write_textures(FILE *f, const compiled *c)
 
 /* ---- Objects and lights ------------------------------------------------------------------------------------------ */
 
-static const emit_field object_fields[] = {
-    EMIT_FIELD(gn_object, FIELD_POINTER, mesh),          EMIT_FIELD(gn_object, FIELD_AFFINE, to_world),
-    EMIT_VECTOR(gn_object, FIELD_U32, albedo_uq16, 3),   EMIT_FIELD(gn_object, FIELD_U32, flags),
-    EMIT_ENUM(gn_object, visible_alpha, gn_alpha),       EMIT_ENUM(gn_object, caster_alpha, gn_alpha),
-    EMIT_FIELD(gn_object, FIELD_U32, alpha_uq16),        EMIT_FIELD(gn_object, FIELD_U32, alpha_cutoff_uq16),
-    EMIT_VECTOR(gn_object, FIELD_U32, specular_uq16, 3), EMIT_FIELD(gn_object, FIELD_U8, shininess_log2),
-    EMIT_VECTOR(gn_object, FIELD_U32, emissive_uq16, 3), EMIT_FIELD(gn_object, FIELD_POINTER, texture),
-    EMIT_FIELD(gn_object, FIELD_POINTER, mask_image),    EMIT_FIELD(gn_object, FIELD_POINTER, mask_u8),
-    EMIT_FIELD(gn_object, FIELD_POINTER, baked_uq12),    EMIT_FIELD(gn_object, FIELD_POINTER, skin)};
+static const emit_field object_fields[] = {EMIT_FIELD(gn_object, FIELD_POINTER, mesh),
+                                           EMIT_FIELD(gn_object, FIELD_AFFINE, to_world),
+                                           EMIT_VECTOR(gn_object, FIELD_U32, albedo_uq16, 3),
+                                           EMIT_FIELD(gn_object, FIELD_U32, flags),
+                                           EMIT_ENUM(gn_object, visible_alpha, gn_alpha),
+                                           EMIT_ENUM(gn_object, caster_alpha, gn_alpha),
+                                           EMIT_FIELD(gn_object, FIELD_U32, alpha_uq16),
+                                           EMIT_FIELD(gn_object, FIELD_U32, alpha_cutoff_uq16),
+                                           EMIT_VECTOR(gn_object, FIELD_U32, specular_uq16, 3),
+                                           EMIT_FIELD(gn_object, FIELD_U8, shininess_log2),
+                                           EMIT_VECTOR(gn_object, FIELD_U32, emissive_uq16, 3),
+                                           EMIT_FIELD(gn_object, FIELD_POINTER, texture),
+                                           EMIT_FIELD(gn_object, FIELD_POINTER, emissive_texture),
+                                           EMIT_FIELD(gn_object, FIELD_POINTER, mask_image),
+                                           EMIT_FIELD(gn_object, FIELD_POINTER, mask_u8),
+                                           EMIT_FIELD(gn_object, FIELD_POINTER, baked_uq12),
+                                           EMIT_FIELD(gn_object, FIELD_POINTER, skin)};
 
 static const emit_field skin_fields[] = {
     EMIT_FIELD(gn_skin, FIELD_POINTER, joint), EMIT_FIELD(gn_skin, FIELD_POINTER, joint_idx),
@@ -121,7 +129,8 @@ static const emit_field skin_fields[] = {
 static void write_object_pointer(FILE *f, const compiled *c, const emit_field *field, const void *at, size_t idx)
 {
     if (at && strcmp(field->name, "mesh") == 0) write_element(f, c, "meshes", (const gn_mesh *)at - c->fixed.meshes);
-    else if (at && (strcmp(field->name, "texture") == 0 || strcmp(field->name, "mask_image") == 0))
+    else if (at && (strcmp(field->name, "texture") == 0 || strcmp(field->name, "emissive_texture") == 0 ||
+                    strcmp(field->name, "mask_image") == 0))
         write_element(f, c, "textures", (const gn_texture *)at - c->fixed.textures);
     else if (at && strcmp(field->name, "skin") == 0) fprintf(f, "&skins[%zu]", compile_count_skins(c, idx));
     else write_array_name(f, "object", idx, field->name, at);

@@ -259,8 +259,9 @@ static void drop_textures(compiled *c)
         bool used = false;
         for (uint32_t k = 0; k < c->fixed.scene.n_objects; k++) {
             gn_object *o = &c->fixed.objects[k];
-            used |= o->texture == texture || o->mask_image == texture;
+            used |= o->texture == texture || o->emissive_texture == texture || o->mask_image == texture;
             if (o->texture == texture) o->texture = to;
+            if (o->emissive_texture == texture) o->emissive_texture = to;
             if (o->mask_image == texture) o->mask_image = to;
         }
         if (!used) {
@@ -282,7 +283,7 @@ static void drop_coordinates(compiled *c)
         for (uint32_t k = 0; k < c->fixed.scene.n_objects; k++) {
             const gn_object *o = &c->fixed.objects[k];
             if (o->mesh != mesh) continue;
-            textured |= o->texture != NULL;
+            textured |= o->texture != NULL || o->emissive_texture != NULL;
             masked |= o->mask_image != NULL;
         }
         if (!textured) {

@@ -119,6 +119,7 @@ static int quantise_object(fixed_scene *f, size_t i, const scene *s, const mesh_
     out->mesh = &f->meshes[o->mesh_idx];
     quantise_material(out, o);
     out->texture = o->texture_idx < s->n_textures ? &f->textures[o->texture_idx] : NULL;
+    out->emissive_texture = o->emissive_texture_idx < s->n_textures ? &f->textures[o->emissive_texture_idx] : NULL;
     out->mask_image = o->mask_texture_idx < s->n_textures ? &f->textures[o->mask_texture_idx] : NULL;
     out->mask_u8 = o->mask;
     if (o->baked) out->baked_uq12 = quantise_words(o->baked, 3 * s->meshes[o->mesh_idx].n_vertices, 4096);
@@ -359,6 +360,7 @@ bool quantise_reuse(fixed_scene *f, const fixed_scene *first)
         gn_object *o = &f->objects[i];
         o->mesh = first->meshes + (o->mesh - f->meshes);
         if (o->texture) o->texture = first->textures + (o->texture - f->textures);
+        if (o->emissive_texture) o->emissive_texture = first->textures + (o->emissive_texture - f->textures);
         if (o->mask_image) o->mask_image = first->textures + (o->mask_image - f->textures);
     }
     return true;

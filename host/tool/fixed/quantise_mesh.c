@@ -25,9 +25,12 @@ mesh_plan *quantise_plan_meshes(const scene *s, const gn_knobs *knobs)
     }
     for (size_t i = 0; plan && i < s->n_objects; i++) {
         const scene_object *o = &s->objects[i];
-        if (o->texture_idx >= s->n_textures) continue;
-        plan[o->mesh_idx].clamped[0] |= s->textures[o->texture_idx].clamp_u;
-        plan[o->mesh_idx].clamped[1] |= s->textures[o->texture_idx].clamp_v;
+        const size_t shown[] = {o->texture_idx, o->emissive_texture_idx};
+        for (int k = 0; k < 2; k++) {
+            if (shown[k] >= s->n_textures) continue;
+            plan[o->mesh_idx].clamped[0] |= s->textures[shown[k]].clamp_u;
+            plan[o->mesh_idx].clamped[1] |= s->textures[shown[k]].clamp_v;
+        }
     }
     return plan;
 }

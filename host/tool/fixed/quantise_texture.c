@@ -144,7 +144,7 @@ static bool is_mask_image(const scene *s, size_t texture)
 {
     bool mask = false;
     for (size_t i = 0; i < s->n_objects; i++) {
-        if (s->objects[i].texture_idx == texture) return false;
+        if (s->objects[i].texture_idx == texture || s->objects[i].emissive_texture_idx == texture) return false;
         mask = mask || s->objects[i].mask_texture_idx == texture;
     }
     return mask;

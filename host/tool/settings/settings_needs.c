@@ -107,13 +107,18 @@ static int joints_of(const scene_mesh *mesh)
 
 static void needs_of_object(need_list *list, const scene *s, const scene_object *o)
 {
-    const bool textured = o->texture_idx < s->n_textures;
+    const size_t shown[] = {o->texture_idx, o->emissive_texture_idx};
     if (o->n_joints)
         need(list, "vertex_joints", joints_of(&s->meshes[o->mesh_idx]), "the skin of object '%s'", o->name);
     if (o->visible_alpha != SCENE_ALPHA_OPAQUE) need(list, "visible_alpha", 1, "alpha of object '%s'", o->name);
-    if (o->texture_idx != SCENE_NONE) need(list, "textures", 1, "the texture of object '%s'", o->name);
-    if (textured && s->textures[o->texture_idx].mipmapped)
-        need(list, "texture_levels", 1, "the texture of object '%s', whose sampler has a mipmap,", o->name);
+    for (int i = 0; i < 2; i++) {
+        if (shown[i] >= s->n_textures) continue;
+        need(list, "textures", 1, "the texture of object '%s'", o->name);
+        if (s->textures[shown[i]].mipmapped)
+            need(list, "texture_levels", 1, "the texture of object '%s', whose sampler has a mipmap,", o->name);
+    }
+    if (o->emissive_texture_idx < s->n_textures)
+        need(list, "emissive_textures", 1, "the emissive texture of object '%s'", o->name);
     if (o->specular[0] > 0 || o->specular[1] > 0 || o->specular[2] > 0)
         need(list, "specular", 1, "specular of object '%s'", o->name);
     if (o->emissive[0] > 0 || o->emissive[1] > 0 || o->emissive[2] > 0)

@@ -90,6 +90,11 @@ static long corner_bytes(const settings *s)
     return all.size;
 }
 
+static int has_glow(const settings *s)
+{
+    return s->feature.textures && s->feature.emissive && s->feature.emissive_textures;
+}
+
 static int has_levels(const settings *s)
 {
     return s->feature.textures && s->feature.texture_levels;
@@ -109,6 +114,7 @@ static long lattice_bytes(const settings *s)
     if (has_levels(s)) put(&all, 1, 4, 4);        /* of that: level and level_ends */
     put(&all, 1, 616, 8);                         /* by */
     put(&all, 1, 136, 4);                         /* attenuation */
+    if (has_glow(s)) put(&all, 16, 6, 4);         /* glow */
     pad(&all, 8);
     return all.size;
 }
@@ -127,6 +133,8 @@ static void put_work(layout *out, const settings *s)
     if (s->feature.baked_light) put(&surface, 9, 4, 4);
     if (s->feature.textures) put(&surface, 6, 8, 8);
     if (has_levels(s)) put(&surface, 1, 28, 8);
+    if (has_glow(s)) put(&surface, 1, 4, 4);
+    if (has_levels(s) && has_glow(s)) put(&surface, 1, 8, 8); /* glow_depth2_q32 */
     if (s->feature.receiver_plane || s->feature.auto_bias) put(&surface, 3, 4, 4);
     if (s->feature.auto_bias) put(&surface, 3, 4, 4); /* lift_q30 */
     put(&surface, s->capacity.surface_lights, s->quality.vertex_light ? 44 : 36, 4);

@@ -307,7 +307,7 @@ static bool is_shown(const scene *s, size_t texture)
     bool shown = false;
     for (size_t i = 0; i < s->n_objects; i++) {
         if (s->objects[i].mask_texture_idx == texture) return false;
-        shown |= s->objects[i].texture_idx == texture;
+        shown |= s->objects[i].texture_idx == texture || s->objects[i].emissive_texture_idx == texture;
     }
     return shown;
 }
