@@ -228,6 +228,7 @@
 #define gn_screen_triangle GN_PREFIXED_(GN_PREFIX, gn_screen_triangle)
 #define gn_seen_find GN_PREFIXED_(GN_PREFIX, gn_seen_find)
 #define gn_seen_level GN_PREFIXED_(GN_PREFIX, gn_seen_level)
+#define gn_seen_turned GN_PREFIXED_(GN_PREFIX, gn_seen_turned)
 #define gn_setup_corners GN_PREFIXED_(GN_PREFIX, gn_setup_corners)
 #define gn_setup_tile GN_PREFIXED_(GN_PREFIX, gn_setup_tile)
 #define gn_setup_triangles GN_PREFIXED_(GN_PREFIX, gn_setup_triangles)

@@ -192,10 +192,11 @@ static bool fit_tight(ref_light_view *view, const ref_seen *seen, const scene_li
     if (!seen->any) return false;
     const int side = view->tile_texels;
     const double width = 0.02 * shadow->penumbra;
-    tight_box box = make_box(view, seen, camera, side);
     view->filter_index = ref_filter_index(view->filter, 0.0);
     const double least = 2.0 * lateral_texels(view, light, options, side) + 2.0;
     if (least + 8.0 > side) return false;
+    ref_turn_axes(view, seen->turn);
+    tight_box box = make_box(view, seen, camera, side);
     /* what is seen, alone, takes at least this texel */
     const double smallest = sqrt((box.hi[0] - box.lo[0]) * (box.hi[1] - box.lo[1])) / side;
     int rung = (int)floor(8.0 * log2(smallest / 128.0)) - 2;

@@ -44,7 +44,8 @@ typedef struct {
 typedef struct {
     bool any;
     double worth;        /* pixels */
-    double lo[3], hi[3]; /* directional: from the camera, along the light's axes */
+    double lo[3], hi[3]; /* directional: from the camera, along the view's axes */
+    int turn;            /* of which u and v are turned about the light */
 } ref_seen;
 
 struct ref_surface;
@@ -157,6 +158,7 @@ bool ref_reaches(const scene_light *light, const ref_instance *instance);
 void ref_list_lights(ref_frame *frame);
 
 /* ref_seen.c */
+void ref_turn_axes(ref_light_view *view, int turn);
 void ref_find_seen(ref_frame *frame); /* of the lights that have tiles; needs the spheres */
 
 /* ref_tiles.c */

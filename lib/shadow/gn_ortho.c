@@ -10,6 +10,7 @@
 #include "light/gn_bias.h"
 #include "light/gn_cascade.h"
 #include "shadow/gn_ortho.h"
+#include "shadow/gn_seen.h"
 
 int64_t gn_light_coord_q16(const gn_light_view *view, int axis_idx, const int32_t p_q16[3])
 {
@@ -126,14 +127,13 @@ typedef struct {
 } tight_box;
 
 /* Of what is seen, no more than the sphere, and no less than an eighth of its diameter. */
-static int begin_box(const gn_frame *frame, const gn_light_view *view, int32_t near_q16, int32_t far_q16,
-                     tight_box *box)
+static void begin_box(const gn_frame *frame, const gn_light_view *view, int32_t near_q16, int32_t far_q16,
+                      tight_box *box)
 {
     const gn_view_seen *seen = &frame->seen[view - frame->view];
     gn_bfloat radius;
     int32_t centre_q16 = gn_cascade_fit_sphere(frame, near_q16, far_q16, &radius);
     int64_t r_q16 = gn_clamp64(gn_bf_apply(1, radius, 16), 1, (int64_t)1 << 30);
-    if (seen->lo_q16[0] > seen->hi_q16[0]) return 0;
     for (int k = 0; k < 3; k++) {
         int64_t centre = gn_shr64(centre_q16 * gn_dot_q30(frame->cam.axis_q30[2], view->axis_q30[k]), 30);
         int64_t lo = gn_clamp64(seen->lo_q16[k], centre - r_q16, centre + r_q16);
@@ -144,7 +144,15 @@ static int begin_box(const gn_frame *frame, const gn_light_view *view, int32_t n
         box->hi_q16[k] = hi + lacks - lacks / 2;
     }
     box->side = view->tile_texels;
-    return 1;
+}
+
+static void turn_axes(gn_light_view *view, uint32_t turn)
+{
+    view->turn = (uint8_t)turn;
+    for (int k = 0; k < 3; k++) {
+        int32_t u = view->axis_q30[0][k], v = view->axis_q30[1][k];
+        for (uint32_t second = 0; second < 2; second++) view->axis_q30[second][k] = gn_seen_turned(turn, second, u, v);
+    }
 }
 
 static int64_t texels_q16(const gn_light_view *view, int64_t units_q16)
@@ -227,13 +235,15 @@ static void place_box(const gn_frame *frame, gn_light_view *view, const gn_light
 /* [D12] */
 int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16)
 {
+    const gn_view_seen *seen = &frame->seen[view - frame->view];
     tight_box box;
-    if (!begin_box(frame, view, near_q16, far_q16, &box)) return 0;
     uint8_t filter_idx = view->filter_idx;
     if (GN_DISK_FILTER && view->filter == GN_FILTER_DISK) view->filter_idx = 1;
-    int32_t least_q16 = 2 * margin_q16(frame, view, light, box.side) + (2 << 16);
+    int32_t least_q16 = 2 * margin_q16(frame, view, light, view->tile_texels) + (2 << 16);
     view->filter_idx = filter_idx;
-    if (least_q16 + (8 << 16) > (int32_t)box.side << 16) return 0;
+    if (!gn_seen_any(seen) || least_q16 + (8 << 16) > (int32_t)view->tile_texels << 16) return 0;
+    turn_axes(view, seen->turn);
+    begin_box(frame, view, near_q16, far_q16, &box);
     find_texel(frame, view, light, &box);
     place_box(frame, view, light, &box);
     gn_ortho_rays(frame, view);
@@ -248,7 +258,8 @@ int gn_ortho_covers(const gn_frame *frame, gn_light_view *view, const gn_light *
     int32_t range_log2 = view->tile_log2 + view->depth_log2;
     int32_t margin = margin_q16(frame, view, light, (uint32_t)gn_max32(GN_TILE_SIDE(view), 1 << (range_log2 - 1)));
     const int64_t size[3] = {view->tile_texels, view->tile_rows, (int64_t)1 << range_log2};
-    if (seen->lo_q16[0] > seen->hi_q16[0]) return 1;
+    if (!gn_seen_any(seen)) return 1;
+    if (seen->turn != view->turn) return 0;
     for (int k = 0; k < 3; k++) {
         int64_t from = gn_light_coord_q16(view, k, frame->cam.eye_q16) - (int64_t)view->fit.ortho.origin[k] * 65536;
         if (from + texels_q16(view, seen->lo_q16[k]) < margin) return 0;

@@ -83,32 +83,92 @@ static int64_t inside_box(const gn_seen_job *job, uint32_t corner, uint32_t side
 
 /* ---- What both have in common ------------------------------------------------------------------------------------ */
 
+/* cos(k / 32 turn) */
+static const int32_t turn_cosine_q30[GN_TURNS + 1] = {1073741824, 1053110176, 992008094, 892783698, 759250125,
+                                                      596538996,  410903207,  209476638, 0};
+
+int32_t gn_seen_turned(uint32_t turn, uint32_t second, int32_t u, int32_t v)
+{
+    int64_t c = turn_cosine_q30[turn], s = turn_cosine_q30[GN_TURNS - turn];
+    return (int32_t)gn_shr64(second ? c * v - s * u : c * u + s * v, 30); /* |u|, |v| <= 2^30 */
+}
+
+/* A point's coordinates in all directions. Turn k and turn 8 - k have the same products. */
+static void all_directions(const int32_t at[3], int32_t out[GN_SEEN_DIRECTIONS])
+{
+    out[0] = at[0];
+    out[1] = at[1];
+    out[GN_SEEN_DIRECTIONS - 1] = at[2];
+    for (uint32_t k = 1; k <= GN_TURNS / 2; k++) {
+        int32_t *near = out + 2 * k, *far = out + 2 * (GN_TURNS - k);
+        int64_t c = turn_cosine_q30[k], s = turn_cosine_q30[GN_TURNS - k];
+        int64_t cu = c * at[0], cv = c * at[1], su = s * at[0], sv = s * at[1];
+        near[0] = (int32_t)gn_shr64(cu + sv, 30);
+        near[1] = (int32_t)gn_shr64(cv - su, 30);
+        far[0] = (int32_t)gn_shr64(su + cv, 30);
+        far[1] = (int32_t)gn_shr64(sv - cu, 30);
+    }
+}
+
+static void widen_range(int32_t *lo, int32_t *hi, const int32_t *at, int n)
+{
+    for (int k = 0; k < n; k++) {
+        lo[k] = gn_min32(lo[k], at[k]);
+        hi[k] = gn_max32(hi[k], at[k]);
+    }
+}
+
 static void widen(gn_seen_job *job, const int32_t at[6])
 {
-    for (int k = 0; k < 6; k++) {
-        job->lo[k] = gn_min32(job->lo[k], at[k]);
-        job->hi[k] = gn_max32(job->hi[k], at[k]);
+    int32_t along[GN_SEEN_DIRECTIONS];
+    if (!job->directional) {
+        widen_range(job->lo, job->hi, at, 6);
+        return;
     }
+    all_directions(at + 3, along);
+    widen_range(job->along_lo, job->along_hi, along, GN_SEEN_DIRECTIONS);
+}
+
+/* What the whole box adds to the bounds of a directional view, which then has it if `whole`. Returns 0 if nothing. */
+static int box_adds(gn_seen_job *job, int whole)
+{
+    int32_t lo[GN_SEEN_DIRECTIONS], hi[GN_SEEN_DIRECTIONS], half[GN_SEEN_DIRECTIONS];
+    int adds = 0;
+    all_directions(job->middle + 3, lo);
+    all_directions(job->middle + 3, hi);
+    for (int j = 0; j < 3; j++) {
+        const int32_t at[3] = {job->half[3][j], job->half[4][j], job->half[5][j]};
+        all_directions(at, half);
+        for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) {
+            lo[d] = limited((int64_t)lo[d] - gn_abs32(half[d]));
+            hi[d] = limited((int64_t)hi[d] + gn_abs32(half[d]));
+        }
+    }
+    for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) adds |= lo[d] < job->along_lo[d] || hi[d] > job->along_hi[d];
+    if (!whole) return adds;
+    widen_range(job->along_lo, job->along_hi, lo, GN_SEEN_DIRECTIONS);
+    widen_range(job->along_lo, job->along_hi, hi, GN_SEEN_DIRECTIONS);
+    return adds;
 }
 
 typedef int64_t inside_fn(const gn_seen_job *job, uint32_t corner, uint32_t side);
 
-/* The edge from corner a to corner b; `crossed`: the sides that one of them is outside of. */
+/* The edge from corner a to corner b: its ends on the sides that a and b are outside of. */
 static void cut_edge(gn_seen_job *job, inside_fn *inside, const int32_t (*corner)[6], const uint32_t ab[2],
-                     uint32_t crossed)
+                     const uint32_t out[2])
 {
     int64_t t_q31[2] = {0, (int64_t)1 << 31};
     for (uint32_t s = 0; s < 6; s++) {
-        if (!(crossed >> s & 1U)) continue;
+        if (!((out[0] | out[1]) >> s & 1U)) continue;
         int64_t da = inside(job, ab[0], s), db = inside(job, ab[1], s);
         gn_bfloat per = gn_bf_recip(gn_bf_from_u64(gn_abs64(da) + gn_abs64(db)));
         int64_t at_q31 = gn_bf_apply((int64_t)gn_abs64(da), per, 31);
         if (da < 0 && at_q31 > t_q31[0]) t_q31[0] = at_q31;
         if (da >= 0 && at_q31 < t_q31[1]) t_q31[1] = at_q31;
     }
-    if (t_q31[0] > t_q31[1]) return;
-    for (int e = 0; e < 2; e++) {
+    for (int e = 0; e < 2 && t_q31[0] <= t_q31[1]; e++) {
         int32_t at[6];
+        if (!out[e]) continue;
         for (int k = 0; k < 6; k++) {
             int64_t way = (int64_t)corner[ab[1]][k] - corner[ab[0]][k]; /* 2^31 */
             at[k] = corner[ab[0]][k] + (int32_t)gn_shr64(way * t_q31[e], 31);
@@ -117,7 +177,7 @@ static void cut_edge(gn_seen_job *job, inside_fn *inside, const int32_t (*corner
     }
 }
 
-/* `sides`: those that corners may be outside of. */
+/* Corners that are inside, and ends of edges. `sides`: those that corners may be outside of. */
 static void cut_edges(gn_seen_job *job, inside_fn *inside, const int32_t (*corner)[6], uint32_t sides)
 {
     uint32_t out[8];
@@ -125,11 +185,12 @@ static void cut_edges(gn_seen_job *job, inside_fn *inside, const int32_t (*corne
         out[i] = 0;
         for (uint32_t s = 0; s < 6; s++)
             if ((sides >> s & 1U) && inside(job, i, s) < 0) out[i] |= 1U << s;
+        if (!out[i]) widen(job, corner[i]);
     }
     for (uint32_t i = 0; i < 8; i++)
         for (uint32_t bit = 1; bit < 8; bit <<= 1) {
-            const uint32_t ab[2] = {i, i | bit};
-            if (!(i & bit) && !(out[i] & out[i | bit])) cut_edge(job, inside, corner, ab, out[i] | out[i | bit]);
+            const uint32_t ab[2] = {i, i | bit}, end[2] = {out[i], out[i | bit]};
+            if (!(i & bit) && (end[0] | end[1]) && !(end[0] & end[1])) cut_edge(job, inside, corner, ab, end);
         }
 }
 
@@ -163,9 +224,9 @@ static void find_bounds(gn_seen_job *job, uint32_t sides)
     cut_edges(job, inside_box, (const int32_t(*)[6])job->part, 63);
 }
 
-/* Bounds of what is seen of an object, along the axes of camera and light, that are not within `known` of the light's
- * already. Returns 0 if nothing is. */
-static int see_object(gn_seen_job *job, uint32_t object_idx, const gn_view_seen *known)
+/* Bounds of what is seen of an object: along the axes of camera and light; of a directional light's they are added to
+ * those of its view. Returns 0 if nothing is. */
+static int see_object(gn_seen_job *job, uint32_t object_idx)
 {
     const gn_frame *frame = job->frame;
     const gn_object *object = &frame->scene->objects[object_idx];
@@ -174,13 +235,9 @@ static int see_object(gn_seen_job *job, uint32_t object_idx, const gn_view_seen 
     for (int k = 0; k < 3; k++) job->from[k] = gn_sat32((int64_t)job->object->centre_q16[k] - frame->cam.eye_q16[k]);
     uint32_t sides;
     if (!against_part(job, &sides)) return 0;
-    int new = !known;
-    for (uint32_t k = 0; k < 3; k++) {
-        project_box(job, job->axis_q30[k], 3 + k);
-        if (known) new |= job->lo[3 + k] < known->lo_q16[k] || job->hi[3 + k] > known->hi_q16[k];
-    }
-    if (!new || !sides) return new;
-    find_bounds(job, sides);
+    for (uint32_t k = 0; k < 3; k++) project_box(job, job->axis_q30[k], 3 + k);
+    if (job->directional && (!box_adds(job, !sides) || !sides)) return 1;
+    if (sides) find_bounds(job, sides);
     return job->lo[0] <= job->hi[0];
 }
 
@@ -231,17 +288,33 @@ static uint64_t pixels_q16(const gn_frame *frame, int64_t x_q16, int64_t y_q16, 
            (uint64_t)gn_clamp64(gn_bf_apply(y_q16, per_z, -17 + 8), 1, most);
 }
 
+/* The turn with the smallest rectangle, of those within a 64th of it the first. None if that saves less than a quarter:
+ * windows of texels are smallest where u is level. */
+static void pick_turn(const gn_seen_job *job, gn_view_seen *seen)
+{
+    const int32_t *lo = job->along_lo, *hi = job->along_hi;
+    uint64_t limit = UINT64_MAX;
+    for (uint32_t turn = 0; turn < GN_TURNS; turn++) {
+        uint32_t u = 2 * turn, v = u + 1;
+        uint64_t area = (uint64_t)((int64_t)hi[u] - lo[u]) * (uint64_t)((int64_t)hi[v] - lo[v]); /* 2^62 */
+        if (area >= limit) continue;
+        limit = area - (area >> (turn ? 6 : 2));
+        seen->turn = (uint8_t)turn;
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t d = k < 2 ? u + k : GN_SEEN_DIRECTIONS - 1;
+            seen->lo_q16[k] = lo[d];
+            seen->hi_q16[k] = hi[d];
+        }
+    }
+}
+
 static void see_directional(gn_seen_job *job, gn_view_seen *seen)
 {
     const gn_frame *frame = job->frame;
-    for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
-        if (!see_object(job, o, seen)) continue;
-        for (int k = 0; k < 3; k++) {
-            seen->lo_q16[k] = gn_min32(seen->lo_q16[k], job->lo[3 + k]);
-            seen->hi_q16[k] = gn_max32(seen->hi_q16[k], job->hi[3 + k]);
-        }
-    }
-    if (!gn_seen_any(seen)) return;
+    for (int d = 0; d < GN_SEEN_DIRECTIONS; d++) job->along_lo[d] = INT32_MAX, job->along_hi[d] = INT32_MIN;
+    for (uint32_t o = 0; o < frame->scene->n_objects; o++) see_object(job, o);
+    if (job->along_lo[0] > job->along_hi[0]) return;
+    pick_turn(job, seen);
     seen->worth_q16 =
         pixels_q16(frame, (int64_t)seen->hi_q16[0] - seen->lo_q16[0], (int64_t)seen->hi_q16[1] - seen->lo_q16[1],
                    (int64_t)job->depth_q16[0] + job->depth_q16[1]);
@@ -302,7 +375,7 @@ static void see_punctual(gn_seen_job *job, gn_view_seen *seen, uint32_t light_id
 {
     const gn_frame *frame = job->frame;
     for (uint32_t o = 0; o < frame->scene->n_objects; o++) {
-        if (!gn_light_reaches(frame, light_idx, o) || !see_object(job, o, NULL)) continue;
+        if (!gn_light_reaches(frame, light_idx, o) || !see_object(job, o)) continue;
         uint64_t pixels = pixels_q16(frame, (int64_t)job->hi[0] - job->lo[0], (int64_t)job->hi[1] - job->lo[1],
                                      (int64_t)job->lo[2] + job->hi[2]);
         for (uint32_t f = 0; f < n_views; f++) {
@@ -343,6 +416,7 @@ static void see_light(gn_seen_job *job, gn_view_seen *seen, uint32_t light_idx, 
 {
     const gn_frame *frame = job->frame;
     const gn_light *light = &frame->scene->lights[light_idx];
+    job->directional = light->kind == GN_LIGHT_DIRECTIONAL;
 #if GN_PUNCTUAL_LIGHTS
     if (light->kind != GN_LIGHT_DIRECTIONAL) {
         if (!GN_BY_WORTH(frame) || frame->scene->camera.near_q16 >= frame->scene->shadow.max_distance_q16) return;

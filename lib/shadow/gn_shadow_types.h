@@ -20,10 +20,15 @@
 /* What the camera sees that a view is looked up for. */
 typedef struct {
     uint64_t worth_q16;           /* pixels that its tile is worth */
-    int32_t lo_q16[3], hi_q16[3]; /* along the light's axes, from the camera; lo > hi: nothing. Spot and point lights:
+    int32_t lo_q16[3], hi_q16[3]; /* along the view's axes, from the camera; lo > hi: nothing. Spot and point lights:
                                      whether anything is seen */
     uint16_t side;                /* of its tile, by worth; 0: none */
+    uint8_t turn;                 /* of a directional view's axes about the light */
 } gn_view_seen;
+
+/* A directional view's axes u and v may be turned by a multiple of 1 / 32: in GN_TURNS ways. */
+#define GN_TURNS           8
+#define GN_SEEN_DIRECTIONS (2 * GN_TURNS + 1)
 
 /* A part of the frustum, and one object's box, from the camera. Six coordinates: along the camera's axes, then along
  * the light's. */
@@ -38,6 +43,8 @@ typedef struct {
     int32_t middle[6], half[6][3]; /* the same; per axis of the world, half of the box */
     int32_t lo[6], hi[6];          /* bounds of the box, then of what is seen of it */
     int32_t box[8][6];
+    int directional;
+    int32_t along_lo[GN_SEEN_DIRECTIONS], along_hi[GN_SEEN_DIRECTIONS]; /* u and v of each turn, and w */
 #if GN_PUNCTUAL_LIGHTS
     int32_t light_q16[3]; /* its position, along its axes */
     gn_bfloat tangent;    /* of half its view */
@@ -120,6 +127,7 @@ typedef struct {
     uint8_t tile_done;
     uint8_t stale; /* by its schedule it keeps the tile of an earlier frame, and the fit that goes with it */
 #if GN_TIGHT_FIT
+    uint8_t turn;   /* of a tight fit: see gn_view_seen */
     uint8_t unseen; /* no visible receiver looks into it: an empty tile of 8 x 8 texels that all such views share */
 #endif
     gn_depth_block *block;  /* (T / 8) * (T / 8) */

@@ -1,4 +1,5 @@
-/* [D12] [A7] Tight fits and tiles by worth lose nothing: random scenes, seen by cameras that roll, some of them orthographic.
+/* [D12] [A7] Tight fits and tiles by worth lose nothing: random scenes, seen by cameras that roll, some of them
+ * orthographic.
  *
  * - Both engines choose the same views, texels, sizes and origins.
  * - Every visible receiver is looked up in a tile that covers it, filter and bias included.
@@ -79,7 +80,7 @@ static void build(fixture *f)
 
 /* ---- Coverage ---------------------------------------------------------------------------------------------------- */
 
-static long n_looked_up, n_views, n_other_choice, n_unseen;
+static long n_looked_up, n_views, n_other_choice, n_unseen, n_turned;
 
 static bool in_directional(const ref_light_view *v, const double point[3])
 {
@@ -170,6 +171,7 @@ static void check_choices(const fixture *f, const settings *set, const ref_pictu
             const gn_light_view *view = &renderer.frame.view[light->view_idx + i];
             n_views++;
             n_unseen += view->unseen;
+            n_turned += view->turn > 0;
             n_other_choice += !same_view(view, &p->view[l][i], fixed.world_exp);
         }
     }
@@ -215,9 +217,9 @@ int main(void)
         check_scene(&f);
         end(&f);
     }
-    printf("%ld views, %ld of them unseen, %ld otherwise chosen; %ld lookups; off: tight %ld, stable %ld\n", n_views,
-           n_unseen, n_other_choice, n_looked_up, n_off[0], n_off[1]);
-    CHECK(n_unseen > n_views / 50 && n_looked_up > 1000L * N_SCENES);
+    printf("%ld views, %ld of them unseen, %ld turned, %ld otherwise chosen; %ld lookups; off: tight %ld, stable %ld\n",
+           n_views, n_unseen, n_turned, n_other_choice, n_looked_up, n_off[0], n_off[1]);
+    CHECK(n_unseen > n_views / 50 && n_turned > n_views / 50 && n_looked_up > 1000L * N_SCENES);
     CHECK(200 * n_other_choice <= n_views);
     CHECK(4 * n_off[0] < 3 * n_off[1]);
     return check_report();

@@ -611,6 +611,10 @@ light 'lights without room' '"other_tiles": 13.*"lights_without_room": 1'
 good info "$cube" --size 16x12 --set lights=spot,point,point,point --set other_atlas_size=64
 grep -q "3 'point': point, no room for its shadow" "$tmp/out" && grep -q "0 'spot': spot, 1 shadow tile of 16x16" "$tmp/out" && pass || fail "info does not say which light got a tile"
 grep -q 'needs:.* punctual_lights' "$tmp/out" && pass || fail "info does not name punctual_lights"
+good info host/scenes/fence.gltf --set preset=balanced --set fit=tight --set tiles=worth
+grep -q "'sun': directional, shadow tiles of [0-9]*x[0-9]* (worth [0-9]* pixels; turned by [1-7]/32 about the light)" "$tmp/out" && pass || fail "info does not say why a tile is as large and turned"
+good info host/scenes/fence.gltf --set preset=balanced --set fit=tight --json
+light 'a fitted tile' '"tile_list": \[{"texels": [0-9]*, "rows": [0-9]*, "worth_px": [0-9]*, "turn": [1-7]}'
 good info "$cube" --size 16x12
 grep -q 'needs:.* punctual_lights' "$tmp/out" && fail "info names punctual_lights without a need" || pass
 

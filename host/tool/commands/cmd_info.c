@@ -96,6 +96,25 @@ static int preset_ram(const settings *set, const settings_demand *demand, const 
 
 /* ---- JSON -------------------------------------------------------------------------------------------------------- */
 
+/* Whether the light's tiles are not all squares of one size. */
+static bool differ(const engine_picture *p, size_t light)
+{
+    for (int i = 0; i < p->n_tiles[light]; i++)
+        for (int k = 0; k < 2; k++)
+            if (p->tile_size[light][i][k] != p->atlas_texels[light]) return true;
+    return false;
+}
+
+/* By worth, or fitted: each, and why. */
+static void json_tiles(const engine_picture *p, size_t light)
+{
+    printf(", \"tile_list\": [");
+    for (int i = 0; i < p->n_tiles[light]; i++)
+        printf("%s{\"texels\": %d, \"rows\": %d, \"worth_px\": %.0f, \"turn\": %d}", i ? ", " : "",
+               p->tile_size[light][i][0], p->tile_size[light][i][1], p->tile_pixels[light][i], p->tile_turn[light][i]);
+    printf("]");
+}
+
 static void json_lights(const report *r)
 {
     printf(", \"light_list\": [");
@@ -103,9 +122,11 @@ static void json_lights(const report *r)
         const scene_light *l = &r->scene->lights[i];
         printf("%s{\"name\": ", i ? ", " : "");
         tool_json_string(l->name);
-        printf(", \"kind\": \"%s\", \"mode\": \"%s\", \"shadow\": \"%s\", \"tiles\": %d, \"tile_texels\": %d}",
+        printf(", \"kind\": \"%s\", \"mode\": \"%s\", \"shadow\": \"%s\", \"tiles\": %d, \"tile_texels\": %d",
                kind_names[l->kind], mode_names[l->mode], shadow_names[r->picture->shadow_state[i]],
                r->picture->n_tiles[i], r->picture->atlas_texels[i]);
+        if (differ(r->picture, i)) json_tiles(r->picture, i);
+        printf("}");
     }
     printf("]");
 }
@@ -166,23 +187,21 @@ static void print_json(const report *r)
 
 /* ---- Text -------------------------------------------------------------------------------------------------------- */
 
-/* Whether the light's tiles are not all squares of one size. */
-static bool differ(const engine_picture *p, size_t light)
-{
-    for (int i = 0; i < p->n_tiles[light]; i++)
-        for (int k = 0; k < 2; k++)
-            if (p->tile_size[light][i][k] != p->atlas_texels[light]) return true;
-    return false;
-}
-
-/* By worth, or fitted: columns x rows of each. */
+/* By worth, or fitted: columns x rows of each, and why. */
 static void text_tiles(const engine_picture *p, size_t light)
 {
     printf("shadow tiles of ");
     for (int i = 0; i < p->n_tiles[light]; i++) {
-        const int *size = p->tile_size[light][i];
-        if (size[0]) printf("%s%dx%d", i ? ", " : "", size[0], size[1]);
-        else printf("%snone (nothing visible needs it)", i ? ", " : "");
+        const int *size = p->tile_size[light][i], turn = p->tile_turn[light][i];
+        if (i) printf(", ");
+        if (!size[0]) {
+            printf("none (nothing visible needs it)");
+            continue;
+        }
+        printf("%dx%d", size[0], size[1]);
+        if (p->tile_pixels[light][i] > 0) printf(" (worth %.0f pixels", p->tile_pixels[light][i]);
+        if (turn) printf("; turned by %d/32 about the light", turn);
+        if (p->tile_pixels[light][i] > 0) printf(")");
     }
     printf("\n");
 }

@@ -175,6 +175,12 @@ static int copy_tile(const job *j, engine_picture *out, size_t light, size_t idx
     const size_t n = (size_t)info.texels * info.rows;
     out->tile_size[light][idx][0] = (int)info.texels;
     out->tile_size[light][idx][1] = (int)info.rows;
+    const gn_frame *frame = &j->renderer->frame;
+    const size_t view = (size_t)frame->light[light].view_idx + idx;
+    const gn_shadow_settings *shadow = &frame->scene->shadow;
+    if (shadow->fit == GN_FIT_TIGHT || shadow->tile_sizes == GN_TILES_WORTH)
+        out->tile_pixels[light][idx] = (double)frame->seen[view].worth_q16 / 65536.0;
+    out->tile_turn[light][idx] = frame->view[view].turn;
     if (what != ENGINE_ALL) return 0;
     double *tile = malloc(n * sizeof *tile);
     out->atlas[light][idx] = tile;

@@ -148,7 +148,7 @@ static void put_work(layout *out, const settings *s)
     put(&all, 1, 28 + 4 * values + incident + (s->feature.specular ? 24 : 0), 4); /* sample */
     if (s->quality.persp_step > 1) put(&all, 1, lattice_bytes(s), 8);
     pad(&all, all.align);
-    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 708 : 688;
+    const long casting = casting_bytes(s), clipping = 264, seen = s->feature.punctual_lights ? 848 : 828;
     long largest = casting > clipping ? casting : clipping;
     if (s->feature.shadows && s->feature.tight_fit && seen > largest) largest = seen;
     put(out, 1, all.size > largest ? all.size : largest, 8);
