@@ -7,8 +7,8 @@
 #include "gnomon.h"
 #include "visible/gn_raster.h"
 
-/* Records: pixel memory is free during setup; it stores, for the first triangles, (first tile << 2) | GN_PLACE_*: that tile
- * alone, the next one too, the one below too, or others too. Not with GN_SIZE_FIRST. */
+/* Records: pixel memory is free during setup; it stores, for the first triangles, (first tile << 2) | GN_PLACE_*: that
+ * tile alone, the next one too, the one below too, or others too. Not with GN_SIZE_FIRST. */
 #define GN_PLACES GN_TILE_PIXELS_MAX
 enum { GN_PLACE_ONE, GN_PLACE_NEXT, GN_PLACE_BELOW, GN_PLACE_MANY };
 

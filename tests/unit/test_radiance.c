@@ -331,7 +331,7 @@ static void check_radiance(const gn_knobs *knobs)
             const gn_tri *tri = &renderer.frame.tri[t];
             plane p;
             plane_of(&p, view, tri->source.triangle_idx);
-            gn_surface_begin(&renderer.frame, scratch, &cache, &surface, tri);
+            gn_surface_begin(&renderer.frame, scratch, &cache, &surface, &tri->source);
             const gn_rect r = gn_setup_bounds(&renderer.frame, tri);
             check_samples(&surface, &p, &r);
         }
