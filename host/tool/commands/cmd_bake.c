@@ -141,6 +141,17 @@ static int draw_truth(job *j, scene *s, const settings *set, char *error, size_t
     return failed;
 }
 
+/* What a file is written of: it has no joints. */
+static int refuse_skins(const scene *s, char *error, size_t bytes)
+{
+    for (size_t i = 0; i < s->n_objects; i++) {
+        if (!s->objects[i].n_joints) continue;
+        snprintf(error, bytes, "object '%s' has a skin, which a baked file cannot keep", s->objects[i].name);
+        return -1;
+    }
+    return 0;
+}
+
 /* The scene as it was: the truth, and its picture. */
 static int look(job *j, char *error, size_t bytes)
 {
@@ -152,6 +163,7 @@ static int look(job *j, char *error, size_t bytes)
         snprintf(error, bytes, "nothing in it casts a shadow, so there is nothing to bake");
         failed = -1;
     }
+    if (!failed) failed = refuse_skins(&s, error, bytes);
     if (!failed) failed = draw_truth(j, &s, &set, error, bytes) || draw(&j->before, &s, &set, j->o, error, bytes);
     scene_free(&s);
     return failed ? tool_fail(j->o->scene_path, error) : TOOL_OK;

@@ -313,7 +313,9 @@ void quantise_free(fixed_scene *f)
     }
     for (size_t i = 0; f->objects && i < f->scene.n_objects; i++) {
         release(f->objects[i].baked_uq12);
-        if (f->objects[i].skin) quantise_free_skin(&f->skins[f->objects[i].skin - f->skins]);
+        gn_skin *skin = f->objects[i].skin ? &f->skins[f->objects[i].skin - f->skins] : NULL;
+        if (skin && f->shares_skins) skin->joint_idx = skin->weight_u8 = NULL;
+        if (skin) quantise_free_skin(skin);
     }
     for (size_t i = 0; f->textures && i < f->n_textures; i++) quantise_free_texture(&f->textures[i]);
     free(f->meshes);
@@ -341,6 +343,24 @@ bool quantise_same_mesh(const gn_mesh *a, const gn_mesh *b)
            same_array(a->idx, b->idx, 6 * (size_t)a->n_triangles);
 }
 
+/* Vertices of both skins: joints may be elsewhere. */
+static bool same_skin(const gn_object *a, const gn_object *b)
+{
+    if (!a->skin || !b->skin) return !a->skin && !b->skin;
+    const size_t n = (size_t)a->skin->per_vertex * a->mesh->n_vertices;
+    return a->skin->per_vertex == b->skin->per_vertex && same_array(a->skin->joint_idx, b->skin->joint_idx, n) &&
+           same_array(a->skin->weight_u8, b->skin->weight_u8, n);
+}
+
+/* The first's arrays in place of its own, which are freed. */
+static void share_skin(gn_skin *skin, const gn_skin *first)
+{
+    release(skin->joint_idx);
+    release(skin->weight_u8);
+    skin->joint_idx = first->joint_idx;
+    skin->weight_u8 = first->weight_u8;
+}
+
 static bool same_texture(const gn_texture *a, const gn_texture *b)
 {
     return quantise_texture_side(a, 0) == quantise_texture_side(b, 0) &&
@@ -356,8 +376,13 @@ bool quantise_reuse(fixed_scene *f, const fixed_scene *first)
         if (!quantise_same_mesh(&f->meshes[i], &first->meshes[i])) return false;
     for (size_t i = 0; i < f->n_textures; i++)
         if (!same_texture(&f->textures[i], &first->textures[i])) return false;
+    if (f->scene.n_objects != first->scene.n_objects) return false;
+    for (size_t i = 0; i < f->scene.n_objects; i++)
+        if (!same_skin(&f->objects[i], &first->objects[i])) return false;
+    f->shares_skins = true;
     for (size_t i = 0; i < f->scene.n_objects; i++) {
         gn_object *o = &f->objects[i];
+        if (o->skin) share_skin(&f->skins[i], first->objects[i].skin);
         o->mesh = first->meshes + (o->mesh - f->meshes);
         if (o->texture) o->texture = first->textures + (o->texture - f->textures);
         if (o->emissive_texture) o->emissive_texture = first->textures + (o->emissive_texture - f->textures);

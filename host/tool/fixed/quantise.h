@@ -13,7 +13,8 @@ typedef struct {
     size_t n_meshes;
     gn_mesh *meshes;
     gn_object *objects;
-    gn_skin *skins; /* beside the objects; those of objects without joints are not used */
+    gn_skin *skins;    /* beside the objects; those of objects without joints are not used */
+    bool shares_skins; /* their vertices' joints and weights are another's: quantise_reuse */
     gn_light *lights;
     size_t n_textures;
     gn_texture *textures;
