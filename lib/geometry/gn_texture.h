@@ -35,7 +35,6 @@ GN_HOT static inline uint32_t gn_texture_size_log2(const gn_texture *texture, in
     return size > 1 ? 32U - (uint32_t)gn_clz32(size - 1) : 0;
 }
 
-#if GN_MIPMAPS
 /* The view depth from which on the first smaller level is read, squared: each further one begins at twice that.
  * UINT64_MAX: none is. `area` is that of the plane that `screen` projects: the same, but of an orthographic camera.
  * DESIGN 1.8. [M11] */
@@ -67,7 +66,6 @@ uint32_t gn_texture_level_at(const gn_texture *texture, uint64_t depth2_q32, int
 
 /* A level as a texture of its own. */
 void gn_texture_use_level(gn_texture *out, const gn_texture *texture, uint32_t level);
-#endif
 
 void gn_texture_corners(gn_texture_triangle *out, const gn_mesh *mesh, const gn_texture *texture,
                         const uint16_t idx[3]);

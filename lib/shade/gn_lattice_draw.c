@@ -22,20 +22,7 @@ typedef struct {
     gn_patch base_q24[3];
     int32_t first, n; /* nodes of a row: from this pixel on */
 #if GN_TEXTURES
-    const gn_texture *texture; /* or a level of it; NULL: none */
-    gn_texture_patch uv;
-#endif
-#if GN_GLOW_TEXTURES
-    const gn_texture *glow;
-    gn_texture_patch glow_uv;
-#if GN_MIPMAPS
-    gn_texture glow_level;
-#endif
-#endif
-#if GN_MIPMAPS
-    gn_patch nearness_q30; /* where levels meet in the cell: the least depth over the pixel's */
-    int32_t end_q30;       /* the finer one's pixels are above it, and the others not; */
-    uint32_t other;        /* which are drawn now: all ones, or 0: all pixels are of one level and above it */
+    gn_cell_textures textures;
 #endif
 } drawing;
 
@@ -353,33 +340,6 @@ GN_HOT static void draw_two_colours(const drawing *d)
 }
 #endif
 
-/* 1: two levels of the texture meet in the cell. */
-GN_HOT static inline uint32_t levels_end(const drawing *d)
-{
-#if GN_MIPMAPS
-    return d->s->surface.textured ? d->s->lattice.look.level_ends : 0;
-#else
-    (void)d;
-    return 0;
-#endif
-}
-
-/* Pixels of a row that are drawn from the level at hand. */
-GN_HOT static uint32_t level_bits(const drawing *d, int32_t below)
-{
-#if GN_MIPMAPS
-    uint32_t finer = 0, n = 1U << d->size_log2;
-    if (!levels_end(d)) return ~0U;
-    const gn_patch *p = &d->nearness_q30;
-    int32_t at = gn_patch_at(p, 0, below), step = p->dx + below * p->dxy;
-    for (uint32_t i = 0; i < n; i++, at += step) finer |= (uint32_t)(at > d->end_q30) << i;
-    return finer ^ d->other;
-#else
-    (void)d, (void)below;
-    return ~0U;
-#endif
-}
-
 /* Rows of pixels between two rows of nodes, which then are those below. */
 GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, int inside)
 {
@@ -393,12 +353,7 @@ GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, int i
     line.inside = inside;
     line.texel = NULL;
 #if GN_TEXTURES
-    uint16_t(*texel)[3] = l->row.texel;
-    if (s->surface.textured) line.texel = (const uint16_t(*)[3])texel;
-    for (int i = 0; line.texel && !d->texture && i < 16; i++) texel[i][0] = texel[i][1] = texel[i][2] = 65535U;
-#endif
-#if GN_GLOW_TEXTURES
-    line.glow = d->glow ? (const uint16_t(*)[3])l->glow : NULL;
+    if (s->surface.textured) gn_lattice_textures_line(l, &d->textures, &line);
 #endif
 #if GN_GLOW_APART
     for (int c = 0; line.texel && c < 3; c++) {
@@ -410,15 +365,12 @@ GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, int i
         for (int c = 0; c < 3; c++) step[i][c] = (next[i][c] - node[i][c]) >> log2;
     for (int32_t t = 0;; t++) {
         int32_t y = d->y + below + t;
-        uint32_t bits = (gn_lattice_bits(l, d->x, y, d->size_log2) & level_bits(d, below + t)) >> d->first;
+        uint32_t bits = gn_lattice_bits(l, d->x, y, d->size_log2);
 #if GN_TEXTURES
-        if (d->texture && bits)
-            gn_lattice_texture_row(&d->uv, d->texture, d->size_log2, below + t, d->first, bits, texel);
+        if (s->surface.textured)
+            bits = gn_lattice_textures_row(l, &d->textures, d->size_log2, below + t, d->first, bits);
 #endif
-#if GN_GLOW_TEXTURES
-        if (d->glow && bits)
-            gn_lattice_texture_row(&d->glow_uv, d->glow, d->size_log2, below + t, d->first, bits, l->glow);
-#endif
+        bits >>= d->first;
         if (bits) gn_pixel_store_line(s->frame, &s->rows, d->x + d->first, y, bits, &line);
         if (t + 1 == 1 << log2) break;
         for (int32_t i = 0; i < d->n; i++)
@@ -463,64 +415,6 @@ GN_HOT static void draw_nodes(const drawing *d)
     gn_levels_forget(l); /* nodes took their place */
 }
 
-#if GN_MIPMAPS
-/* Where the next level begins: nearness is linear on the screen. */
-GN_HOT static void find_level_end(drawing *d, gn_corner *const corner[4])
-{
-    const int32_t z[4] = {corner[0]->z_q16, corner[1]->z_q16, corner[2]->z_q16, corner[3]->z_q16};
-    uint32_t least = (uint32_t)gn_min32(gn_min32(z[0], z[1]), gn_min32(z[2], z[3])),
-             end = gn_isqrt64(d->s->surface.level_depth2_q32 << d->s->lattice.look.level);
-    int32_t at[4];
-    for (int i = 0; i < 4; i++) at[i] = (int32_t)gn_quotient_q30(least, (uint32_t)z[i]);
-    d->nearness_q30.at = at[0];
-    d->nearness_q30.dx = (at[1] - at[0]) >> d->size_log2;
-    d->nearness_q30.dy = (at[2] - at[0]) >> d->size_log2;
-    d->nearness_q30.dxy = (((at[3] - at[2]) >> d->size_log2) - d->nearness_q30.dx) >> d->size_log2;
-    d->end_q30 = least < end ? (int32_t)gn_quotient_q30(least, end) : 1 << 30;
-}
-#endif
-
-#if GN_GLOW_TEXTURES
-/* The texture of emitted light, or the cell's level of it. */
-GN_HOT static void begin_glow(drawing *d, gn_corner *const corner[4])
-{
-    d->glow = d->s->surface.glow;
-    if (!d->glow) return;
-#if GN_MIPMAPS
-    if (gn_texture_has_levels(d->glow)) {
-        gn_texture_use_level(&d->glow_level, d->glow, d->s->lattice.look.glow_level);
-        d->glow = &d->glow_level;
-    }
-#endif
-    gn_lattice_texture_begin(d->s, d->glow, d->x, d->y, d->size_log2, corner, &d->glow_uv);
-}
-#endif
-
-/* The textures: that of colours, or the cell's first level of it, or the next. */
-GN_HOT static void begin_textures(drawing *d, uint32_t next, gn_corner *const corner[4])
-{
-#if GN_TEXTURES
-    gn_surface *surface = &d->s->surface;
-    d->texture = surface->textured ? surface->object->texture : NULL;
-#if GN_GLOW_TEXTURES
-    if (!next) begin_glow(d, corner);
-#endif
-    if (!d->texture) return;
-#if GN_MIPMAPS
-    if (gn_texture_has_levels(d->texture)) {
-        uint32_t level = d->s->lattice.look.level + next;
-        if (d->s->lattice.look.level_ends && !next) find_level_end(d, corner);
-        if (surface->level_idx != level) gn_texture_use_level(&surface->level, d->texture, level);
-        surface->level_idx = level;
-        d->texture = &surface->level;
-        d->other = 0U - next;
-    }
-#endif
-    gn_lattice_texture_begin(d->s, d->texture, d->x, d->y, d->size_log2, corner, &d->uv);
-#endif
-    (void)d, (void)next, (void)corner;
-}
-
 GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4])
 {
     gn_lattice *l = &s->lattice;
@@ -546,10 +440,15 @@ GN_HOT void gn_lattice_draw(gn_shading *s, int32_t x, int32_t y, int32_t size_lo
         draw_two_colours(&d);
         return;
     }
-    for (uint32_t i = 0; i <= levels_end(&d); i++) {
-        begin_textures(&d, i, corner);
-        draw_nodes(&d);
+#if GN_TEXTURES
+    if (s->surface.textured) {
+        for (int32_t next = 0; gn_lattice_textures_begin(s, x, y, size_log2, corner, next, &d.textures); next++)
+            draw_nodes(&d);
+        return;
     }
+#endif
+    (void)corner;
+    draw_nodes(&d);
 }
 
 #endif

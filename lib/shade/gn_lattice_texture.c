@@ -1,7 +1,9 @@
 /* Texture coordinates of a cell. */
 #include "gn_internal.h"
 
+#include "base/gn_math.h"
 #include "base/gn_q.h"
+#include "shade/gn_lattice_look.h"
 #include "shade/gn_lattice_texture.h"
 
 #if GN_INTERPOLATES && GN_TEXTURES
@@ -78,8 +80,10 @@ GN_HOT static inline int32_t column_at(const gn_texture_column *c, int32_t t, in
     return v;
 }
 
-GN_HOT void gn_lattice_texture_row(const gn_texture_patch *patch, const gn_texture *texture, int32_t size_log2,
-                                   int32_t below, int32_t first, uint32_t bits, uint16_t (*rgb)[3])
+/* Colours of the texture in a row, `below` pixels under the cell's first row: of the pixels `bits`, the lowest of which
+ * is the cell's pixel `first`; others are not set, or to anything. */
+GN_HOT static GN_NOINLINE void texture_row(const gn_texture_patch *patch, const gn_texture *texture, int32_t size_log2,
+                                           int32_t below, int32_t first, uint32_t bits, uint16_t (*rgb)[3])
 {
     gn_texture_line line;
     int32_t lowest = 31 - gn_clz32(bits & (0U - bits)), k = first + lowest,
@@ -97,6 +101,106 @@ GN_HOT void gn_lattice_texture_row(const gn_texture_patch *patch, const gn_textu
         line.step_change_q17[i] = 2 * half;
     }
     gn_texture_row(texture, &line, bits >> lowest, rgb + lowest);
+}
+
+#if GN_MIPMAPS
+/* Where the next level begins: nearness is linear on the screen. */
+GN_HOT static void find_level_end(const gn_shading *s, int32_t size_log2, gn_corner *const corner[4],
+                                  gn_cell_textures *out)
+{
+    const int32_t z[4] = {corner[0]->z_q16, corner[1]->z_q16, corner[2]->z_q16, corner[3]->z_q16};
+    uint32_t least = (uint32_t)gn_min32(gn_min32(z[0], z[1]), gn_min32(z[2], z[3])),
+             end = gn_isqrt64(s->surface.level_depth2_q32 << s->lattice.look.level);
+    int32_t at[4];
+    for (int i = 0; i < 4; i++) at[i] = (int32_t)gn_quotient_q30(least, (uint32_t)z[i]);
+    out->nearness_q30.at = at[0];
+    out->nearness_q30.dx = (at[1] - at[0]) >> size_log2;
+    out->nearness_q30.dy = (at[2] - at[0]) >> size_log2;
+    out->nearness_q30.dxy = (((at[3] - at[2]) >> size_log2) - out->nearness_q30.dx) >> size_log2;
+    out->end_q30 = least < end ? (int32_t)gn_quotient_q30(least, end) : 1 << 30;
+}
+
+/* The cell's first level of the texture, or the next. */
+GN_HOT static void begin_level(gn_shading *s, uint32_t pass, gn_cell_textures *out)
+{
+    gn_surface *surface = &s->surface;
+    uint32_t level = s->lattice.look.level + pass;
+    if (surface->level_idx != level) gn_texture_use_level(&surface->level, surface->object->texture, level);
+    surface->level_idx = level;
+    out->texture = &surface->level;
+    out->other = 0U - pass;
+}
+
+/* Pixels of a row that are drawn from the level at hand. */
+GN_HOT static uint32_t level_bits(const gn_cell_textures *t, int32_t size_log2, int32_t below)
+{
+    uint32_t finer = 0, n = 1U << size_log2;
+    int32_t at = gn_patch_at(&t->nearness_q30, 0, below), step = t->nearness_q30.dx + below * t->nearness_q30.dxy;
+    for (uint32_t i = 0; i < n; i++, at += step) finer |= (uint32_t)(at > t->end_q30) << i;
+    return finer ^ t->other;
+}
+#endif
+
+#if GN_GLOW_TEXTURES
+/* The texture of emitted light, or the cell's level of it. */
+GN_HOT static void begin_glow(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4],
+                              gn_cell_textures *out)
+{
+    out->glow = s->surface.glow;
+    if (!out->glow) return;
+#if GN_MIPMAPS
+    if (gn_texture_has_levels(out->glow)) {
+        gn_texture_use_level(&out->glow_level, out->glow, s->lattice.look.glow_level);
+        out->glow = &out->glow_level;
+    }
+#endif
+    gn_lattice_texture_begin(s, out->glow, x, y, size_log2, corner, &out->glow_uv);
+}
+#endif
+
+GN_HOT int gn_lattice_textures_begin(gn_shading *s, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4],
+                                     int32_t pass, gn_cell_textures *out)
+{
+    uint32_t last = 0;
+#if GN_MIPMAPS
+    last = out->level_ends = s->lattice.look.level_ends;
+#endif
+    if ((uint32_t)pass > last) return 0;
+    out->texture = s->surface.object->texture;
+#if GN_GLOW_TEXTURES
+    if (!pass) begin_glow(s, x, y, size_log2, corner, out);
+#endif
+    if (!out->texture) return 1;
+#if GN_MIPMAPS
+    if (last && !pass) find_level_end(s, size_log2, corner, out);
+    if (gn_texture_has_levels(out->texture)) begin_level(s, (uint32_t)pass, out);
+#endif
+    gn_lattice_texture_begin(s, out->texture, x, y, size_log2, corner, &out->uv);
+    return 1;
+}
+
+GN_HOT void gn_lattice_textures_line(gn_lattice *l, const gn_cell_textures *t, gn_pixel_line *line)
+{
+    uint16_t(*texel)[3] = l->row.texel;
+    line->texel = (const uint16_t(*)[3])texel;
+    for (int i = 0; !t->texture && i < 16; i++) texel[i][0] = texel[i][1] = texel[i][2] = 65535U;
+#if GN_GLOW_TEXTURES
+    line->glow = t->glow ? (const uint16_t(*)[3])l->glow : NULL;
+#endif
+}
+
+GN_HOT uint32_t gn_lattice_textures_row(gn_lattice *l, const gn_cell_textures *t, int32_t size_log2, int32_t below,
+                                        int32_t first, uint32_t bits)
+{
+#if GN_MIPMAPS
+    if (t->level_ends) bits &= level_bits(t, size_log2, below);
+#endif
+    uint32_t shown = bits >> first;
+    if (shown && t->texture) texture_row(&t->uv, t->texture, size_log2, below, first, shown, l->row.texel);
+#if GN_GLOW_TEXTURES
+    if (shown && t->glow) texture_row(&t->glow_uv, t->glow, size_log2, below, first, shown, l->glow);
+#endif
+    return bits;
 }
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "geometry/gn_texture.h"
 #include "shade/gn_corner.h"
+#include "shade/gn_pixel.h"
 
 #if GN_INTERPOLATES && GN_TEXTURES
 
@@ -18,14 +19,38 @@ typedef struct {
     int32_t bends_rows;
 } gn_texture_patch;
 
+/* The textures of a cell. */
+typedef struct {
+    const gn_texture *texture; /* of its colours, or a level of that; NULL: none */
+    gn_texture_patch uv;
+#if GN_GLOW_TEXTURES
+    const gn_texture *glow; /* of light that it emits, or a level of that; NULL: none */
+    gn_texture_patch glow_uv;
+    gn_texture glow_level;
+#endif
+#if GN_MIPMAPS
+    uint32_t level_ends;   /* 1: two levels of the texture meet in the cell, */
+    gn_patch nearness_q30; /* by the least depth over the pixel's: */
+    int32_t end_q30;       /* the finer one's pixels are above it, and the others not; */
+    uint32_t other;        /* which are drawn now: all ones, or 0 */
+#endif
+} gn_cell_textures;
+
 /* Of the cell at hand, 2^size_log2 pixels from (x, y) on, with these corners; `texture`: the surface's, or a level. */
 void gn_lattice_texture_begin(gn_shading *shading, const gn_texture *texture, int32_t x, int32_t y, int32_t size_log2,
                               gn_corner *const corner[4], gn_texture_patch *out);
 
-/* Colours of the texture in a row, `below` pixels under the cell's first row: of the pixels `bits`, the lowest of which
- * is the cell's pixel `first`; others are not set, or to anything. */
-void gn_lattice_texture_row(const gn_texture_patch *patch, const gn_texture *texture, int32_t size_log2, int32_t below,
-                            int32_t first, uint32_t bits, uint16_t (*rgb)[3]);
+/* The same of all textures, pass by pass from 0 on: one per level that the cell shows. Returns 0 beyond the last. */
+int gn_lattice_textures_begin(gn_shading *shading, int32_t x, int32_t y, int32_t size_log2, gn_corner *const corner[4],
+                              int32_t pass, gn_cell_textures *out);
+
+/* Where the line finds colours of the textures. */
+void gn_lattice_textures_line(gn_lattice *lattice, const gn_cell_textures *textures, gn_pixel_line *line);
+
+/* Colours of the textures in a row, `below` pixels under the cell's first row: of the pixels `bits` of the cell, from
+ * its pixel `first` on. Returns those that are of the pass. */
+uint32_t gn_lattice_textures_row(gn_lattice *lattice, const gn_cell_textures *textures, int32_t size_log2,
+                                 int32_t below, int32_t first, uint32_t bits);
 
 #endif
 
