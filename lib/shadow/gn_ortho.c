@@ -146,15 +146,6 @@ static void begin_box(const gn_frame *frame, const gn_light_view *view, int32_t 
     box->side = view->tile_texels;
 }
 
-static void turn_axes(gn_light_view *view, uint32_t turn)
-{
-    view->turn = (uint8_t)turn;
-    for (int k = 0; k < 3; k++) {
-        int32_t u = view->axis_q30[0][k], v = view->axis_q30[1][k];
-        for (uint32_t second = 0; second < 2; second++) view->axis_q30[second][k] = gn_seen_turned(turn, second, u, v);
-    }
-}
-
 static int64_t texels_q16(const gn_light_view *view, int64_t units_q16)
 {
     return gn_bf_apply(units_q16, view->fit.ortho.inv_texel, 0);
@@ -242,7 +233,7 @@ int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *lig
     int32_t least_q16 = 2 * margin_q16(frame, view, light, view->tile_texels) + (2 << 16);
     view->filter_idx = filter_idx;
     if (!gn_seen_any(seen) || least_q16 + (8 << 16) > (int32_t)view->tile_texels << 16) return 0;
-    turn_axes(view, seen->turn);
+    gn_seen_turn_axes(view, seen->turn);
     begin_box(frame, view, near_q16, far_q16, &box);
     find_texel(frame, view, light, &box);
     place_box(frame, view, light, &box);

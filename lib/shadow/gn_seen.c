@@ -87,10 +87,15 @@ static int64_t inside_box(const gn_seen_job *job, uint32_t corner, uint32_t side
 static const int32_t turn_cosine_q30[GN_TURNS + 1] = {1073741824, 1053110176, 992008094, 892783698, 759250125,
                                                       596538996,  410903207,  209476638, 0};
 
-int32_t gn_seen_turned(uint32_t turn, uint32_t second, int32_t u, int32_t v)
+void gn_seen_turn_axes(gn_light_view *view, uint32_t turn)
 {
     int64_t c = turn_cosine_q30[turn], s = turn_cosine_q30[GN_TURNS - turn];
-    return (int32_t)gn_shr64(second ? c * v - s * u : c * u + s * v, 30); /* |u|, |v| <= 2^30 */
+    view->turn = (uint8_t)turn;
+    for (int k = 0; k < 3; k++) {
+        int32_t u = view->axis_q30[0][k], v = view->axis_q30[1][k]; /* |.| <= 2^30 */
+        view->axis_q30[0][k] = (int32_t)gn_shr64(c * u + s * v, 30);
+        view->axis_q30[1][k] = (int32_t)gn_shr64(c * v - s * u, 30);
+    }
 }
 
 /* A point's coordinates in all directions. Turn k and turn 8 - k have the same products. */

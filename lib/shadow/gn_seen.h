@@ -11,8 +11,8 @@
 /* Fills frame->seen, for the views of all lights with tiles, in their order. */
 void gn_seen_find(gn_frame *frame, gn_seen_job *job, const gn_tile_plan *plan);
 
-/* Of axes u and v, turned: u c + v s and v c - u s. */
-int32_t gn_seen_turned(uint32_t turn, uint32_t second, int32_t u, int32_t v);
+/* Axes u and v of a view become u c + v s and v c - u s. */
+void gn_seen_turn_axes(gn_light_view *view, uint32_t turn);
 
 /* Whether anything was seen that the view is looked up for. */
 GN_HOT static inline int gn_seen_any(const gn_view_seen *seen)
