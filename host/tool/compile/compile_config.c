@@ -92,7 +92,8 @@ static void choose_capacities(compiled *c)
     settings *s = &c->set;
     fit(c, "max_width", &s->capacity.max_width, (size_t)d->width, 2048, "pixels: the picture", 0, false);
     fit(c, "max_height", &s->capacity.max_height, (size_t)d->height, 2048, "pixels: the picture", 0, false);
-    fit(c, "max_triangles", &s->capacity.max_triangles, d->triangles, 65534, "visible triangles",
+    fit(c, "max_triangles", &s->capacity.max_triangles, d->triangles, 65534,
+        s->quality.triangle_groups ? "visible triangles of a screen tile" : "visible triangles",
         c->first_frame + c->run.peak_triangles, true);
     fit(c, "max_tile_refs", &s->capacity.max_tile_refs, d->tile_refs, 1000000, "references",
         c->first_frame + c->run.peak_tile_refs, true);
