@@ -142,6 +142,7 @@ int32_t gn_cascade_fit_sphere(const gn_frame *frame, int32_t near_q16, int32_t f
 {
     int64_t centre_q24, radius_q24;
     gn_cascade_sphere(frame, near_q16, far_q16, &centre_q24, &radius_q24);
+    if (!radius_q24) radius_q24 = 1; /* a slice that is next to nothing at a long focal length */
     *radius = gn_bf_mul(gn_bf_from_u64((uint64_t)radius_q24), gn_bf_from_u64((uint64_t)(uint32_t)far_q16));
     radius->exp -= 24 + 16;
     return (int32_t)gn_shr64(centre_q24 * far_q16, 24);

@@ -304,6 +304,14 @@ static void ask_orthographic(void)
 {
     demo.scene.camera.half_height_q16 = GN_Q16(2);
 }
+static void ask_skin(void)
+{
+    static const gn_affine joint[1] = {{{{1 << 30, 0, 0}, {0, 1 << 30, 0}, {0, 0, 1 << 30}}, {0, 0, 0}, 0}};
+    static uint8_t joint_idx[DEMO_BALL_VERTICES], weight_u8[DEMO_BALL_VERTICES];
+    static gn_skin skin = {joint, joint_idx, weight_u8, 1, 1};
+    memset(weight_u8, 255, sizeof weight_u8);
+    demo.object[1].skin = &skin;
+}
 static void ask_emissive(void)
 {
     demo.object[0].emissive_uq16[2] = 1;
@@ -406,6 +414,7 @@ static const struct {
     {"orthographic", GN_ORTHOGRAPHIC, GN_ERR_CAMERA_FOCAL, ask_orthographic},
     {"emissive", GN_EMISSIVE, GN_ERR_MATERIAL, ask_emissive},
     {"emissive texture", GN_GLOW_TEXTURES, GN_ERR_MATERIAL, ask_emissive_texture},
+    {"skin", GN_VERTEX_JOINTS > 0, GN_ERR_SKIN, ask_skin},
     {"mask", GN_MASKS, GN_ERR_MASK, ask_mask},
     {"mask image", GN_MASKS, GN_ERR_MASK, ask_mask_image},
     {"mixing", GN_MASKS || !GN_SHADOWS, GN_ERR_SHADOW_MODE, ask_mixing},

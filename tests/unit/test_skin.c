@@ -63,7 +63,7 @@ static i128 exact_sum(int r)
         const gn_affine *a = &joint[joint_idx[i]];
         i128 v = 0;
         for (int k = 0; k < 3; k++) v += (i128)a->m_q30[r][k] * pos[k];
-        v = v * ((i128)1 << (44 - (30 - a->exp + mesh.pos_frac_bits - 16))) + ((i128)a->t_q16[r] << 44);
+        v = v * ((i128)1 << (44 - (30 - a->exp + mesh.pos_frac_bits - 16))) + (i128)a->t_q16[r] * ((i128)1 << 44);
         sum += weight_u8[i] * v;
     }
     return sum;
