@@ -39,8 +39,8 @@ big_endian() {
     done
 }
 
-# node runs a program by WASI; what starts processes is left out, as for the playground. The last line decides. node may
-# crash while it ends
+# node runs a program by WASI; what starts processes is left out, as for the playground. The last line decides: some
+# versions of node crash while they end.
 cat >"$tmp/run.mjs" <<'JS'
 import { WASI } from 'node:wasi';
 import { readFileSync } from 'node:fs';

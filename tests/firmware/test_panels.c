@@ -103,7 +103,7 @@ static void collect(void *user, int x, int y, int w, int h, const void *pixels)
             default: { /* a word in the order of the host's bytes */
                 uint16_t word;
                 memcpy(&word, p + 2 * (j * w + i), 2);
-                v = r->s->format == GN_FORMAT_RGB565_SWAPPED ? (word >> 8 | word << 8) & 0xFFFFU : word;
+                v = r->s->format == GN_FORMAT_RGB565_SWAPPED ? (unsigned)(word >> 8) | (word & 255U) << 8 : word;
                 break;
             }
             }
