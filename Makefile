@@ -71,6 +71,9 @@ mutate: ## mutants of lib/ against the tests, a score and the survivors: [N=150]
 prove: ## prove that primitives of lib/ can do nothing undefined, for all operands; needs Frama-C, which deps does not install
 	@sh tests/prove/prove.sh
 
+machines: ## the golden frames and the panel tests on big-endian hosts and as WebAssembly, where the compilers are installed
+	@sh tests/firmware/machines.sh
+
 coverage: ## print the lines and branches of lib/ that the C tests run, in some minutes
 	@sh tests/coverage.sh
 
@@ -225,5 +228,5 @@ endif
 
 -include $(shell find $(wildcard $(BUILD)/obj $(BUILD)/wasm) /dev/null -name "*.d")
 
-.PHONY: all help run playground test-playground deps test dist test-packages soak mutate prove bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
+.PHONY: all help run playground test-playground deps test dist test-packages soak mutate prove machines bench size matrix firmware emulate screen boards docs report prefix tables scenes coverage clean test-programs constant-programs alone-programs
 .SECONDARY:

@@ -31,7 +31,9 @@ count() { find tests/"$1" -maxdepth 1 -name "test_*.$2" | wc -l; }
 } >"$work/proofs"
 { echo '```'; cat tests/mutation/result.txt; echo '```'; } >"$work/mutants"
 
-for name in folders campaigns proofs mutants; do
+{ echo '```'; cat tests/soak.txt; echo '```'; } >"$work/log"
+
+for name in folders campaigns log proofs mutants; do
     awk -v name="$name" -v file="$work/$name" '
         $0 == "<!-- generated: " name " -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
         $0 == "<!-- end -->" { skip = 0 }

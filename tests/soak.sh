@@ -1,6 +1,6 @@
 #!/bin/sh
 # The campaigns, each in a build of its own under the address and undefined-behaviour sanitizers, with progress on a terminal. What was run
-# goes to build/soak.log: date, campaign, seed, scenes, result. usage: [SEED=n] [SCENES=n] [MODELS="a.obj b.glb"] [CAMPAIGNS="random census"] soak.sh
+# goes to build/soak.log: date, commit, campaign, seed, scenes, result. usage: [SEED=n] [SCENES=n] [MODELS="a.obj b.glb"] [CAMPAIGNS="random census"] soak.sh
 #
 # random    10^6 random scenes: nothing undefined, nothing changed that was kept (tests/property/test_random.c), some minutes
 # shipped   10^5 random scenes of each configuration that ships, and with poisoned gaps in the state (tests/property/test_shipped.sh), half an hour
@@ -11,11 +11,12 @@
 # math      every operand of the reciprocal and of the root (tests/unit/test_math.c)
 # files     10^6 damaged files of each of six kinds, scenes and pictures (tests/tool/test_fuzz.c), an hour; KINDS="png glb": of these
 # models    the accuracy of meshes that MODELS names (tests/oracle/test_accuracy.c), a minute each
+# machines  the golden frames and the panel tests on big-endian hosts and as WebAssembly (tests/firmware/machines.sh), ten minutes
 # accuracy, rows, seams    hundreds of pictures against floors, which make test draws without sanitizers: a quarter of an hour
 # suite     make test with THOROUGH=1: also the combinations whose parts it tests each, half an hour
 cd "$(dirname "$0")/.." || exit 1
 build=build/soak
-: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped files panels math culling census accuracy rows seams suite ${MODELS:+models }extremes}"
+: "${SEED:=$(date +%Y%m%d)}" "${CAMPAIGNS:=random shipped files panels math culling census accuracy rows seams machines suite ${MODELS:+models }extremes}"
 asked=$SCENES
 passed=0 failed=0
 
@@ -47,6 +48,13 @@ shipped() {
     SCENES=${asked:-100000} record $? shipped
 }
 
+machines() {
+    echo machines
+    start=$(date +%s)
+    sh tests/firmware/machines.sh >$build/machines.out
+    SCENES=0 record $? machines
+}
+
 suite() {
     echo suite
     start=$(date +%s)
@@ -64,7 +72,7 @@ record() { # record STATUS NAME: what its last line counts
     [ "$status" = 0 ] || [ "$f" -gt 0 ] || f=1
     passed=$((passed + p)) failed=$((failed + f))
     grep -E '^seed|failed:|[1-9][0-9]* failed .*s$' $build/$1.out | head -n 20
-    echo "$(date -u +%Y-%m-%d) $1 seed $SEED scenes $SCENES: $p passed, $f failed in $(($(date +%s) - start)) s" | tee -a build/soak.log
+    echo "$(date -u +%Y-%m-%d) $(git rev-parse --short HEAD 2>/dev/null) $1 seed $SEED scenes $SCENES: $p passed, $f failed in $(($(date +%s) - start)) s" | tee -a build/soak.log
 }
 
 mkdir -p $build
@@ -75,6 +83,7 @@ for name in $CAMPAIGNS; do
     extremes) campaign extremes 20000 ;;
     shipped) shipped ;;
     suite) suite ;;
+    machines) machines ;;
     census | culling | math | models | accuracy | rows | seams) campaign $name 0 ;;
     *) echo "no such campaign: $name" && failed=$((failed + 1)) ;;
     esac

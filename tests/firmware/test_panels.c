@@ -100,12 +100,12 @@ static void collect(void *user, int x, int y, int w, int h, const void *pixels)
             case GN_FORMAT_GREY4:
                 v = (unsigned)p[j * ((w + 1) / 2) + i / 2] >> (i % 2 ? 0 : 4) & 15U;
                 break;
-            case GN_FORMAT_RGB565_SWAPPED:
-                v = (unsigned)p[2 * (j * w + i)] << 8 | p[2 * (j * w + i) + 1];
+            default: { /* a word in the order of the host's bytes */
+                uint16_t word;
+                memcpy(&word, p + 2 * (j * w + i), 2);
+                v = r->s->format == GN_FORMAT_RGB565_SWAPPED ? (unsigned)(word >> 8) | (word & 255U) << 8 : word;
                 break;
-            default:
-                v = (unsigned)p[2 * (j * w + i) + 1] << 8 | p[2 * (j * w + i)];
-                break;
+            }
             }
             r->picture[(y + j) * r->panel.width + x + i] = (uint16_t)v;
         }
@@ -133,7 +133,10 @@ static void test_without_buffers(const specimen *s)
 {
     rig *r = rig_make(s, 1);
     r->display.buffer[0] = r->display.buffer[1] = NULL;
-    int native = s->format == GN_FORMAT_RGB565_SWAPPED || s->format == GN_FORMAT_GREY4;
+    const uint16_t one = 1;
+    uint8_t first;
+    memcpy(&first, &one, 1); /* high bytes first in memory: as the panel takes them */
+    int native = s->format == (first ? GN_FORMAT_RGB565_SWAPPED : GN_FORMAT_RGB565) || s->format == GN_FORMAT_GREY4;
     CHECK_EQ_INT(rig_init(r, 0), native ? PANEL_OK : PANEL_ERR_BUFFER);
     if (!native) return;
     CHECK_EQ_INT(draw(r, 64, 16), PANEL_OK);

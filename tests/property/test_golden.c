@@ -33,6 +33,15 @@ static uint32_t crc32_of(const void *data, size_t n)
     return ~crc;
 }
 
+/* Words become bytes, the low one first, on any host. */
+static void low_byte_first(uint16_t *words, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        const uint8_t bytes[2] = {(uint8_t)words[i], (uint8_t)(words[i] >> 8)};
+        memcpy(&words[i], bytes, 2);
+    }
+}
+
 /* The line of golden.txt for one frame and preset. */
 static int line_of(char *line, size_t bytes, const char *scene_name, int frame, const char *const sets[4], int preset)
 {
@@ -56,6 +65,7 @@ static int line_of(char *line, size_t bytes, const char *scene_name, int frame, 
         printf("%s: %s\n", path, error);
         return -1;
     }
+    low_byte_first(p.rgb565, 320 * 240);
     snprintf(line, bytes, "%s frame %d %s: RGB565 %08x RGB888 %08x", scene_name, frame, settings_preset_name[preset],
              crc32_of(p.rgb565, 2 * 320 * 240), crc32_of(p.rgb8, 3 * 320 * 240));
     for (int i = 0; i < n_sets; i++) snprintf(line + strlen(line), bytes - strlen(line), " %s", sets[i]);

@@ -171,6 +171,60 @@ static void test_automatic_steep(void)
     CHECK(steep > 10 && flat > 10);
 }
 
+/* A face and a point before it, of a view whose axes are the world's. */
+typedef struct {
+    int32_t face_q30[3], from_q16[3];
+    double across, along, h; /* |m_u| + |m_v|, m_w; the face's distance from the light */
+} lit_face;
+
+static void random_face(rng *r, lit_face *f)
+{
+    double m[3], length = 0;
+    f->h = 0;
+    for (int i = 0; i < 3; i++) m[i] = rng_range(r, -1000, 1000) + 0.5, length += m[i] * m[i];
+    for (int i = 0; i < 3; i++) {
+        f->face_q30[i] = (int32_t)lrint(ldexp(m[i] / sqrt(length), 30));
+        f->from_q16[i] = i < 2 ? rng_range(r, -(1 << 20), 1 << 20) : rng_range(r, 1 << 14, 1 << 20);
+        f->h += ldexp((double)f->face_q30[i] * f->from_q16[i], -30);
+    }
+    f->h = fabs(f->h);
+    f->across = ldexp(fabs((double)f->face_q30[0]) + fabs((double)f->face_q30[1]), -30);
+    f->along = ldexp(f->face_q30[2], -30);
+}
+
+/* Along the normal z A / (1 - A max(0, m_w)), A = radius tau (|m_u| + |m_v|) + D_s h / n; by depth D_s + radius n tau
+ * (|m_u| + |m_v|) / h. */
+static void test_automatic_sizes(void)
+{
+    enum { NEAR = 1 << 13, STEP = 1 << 16 };
+    gn_light_view view = {.tile_texels = 64, .perspective = 1, .axis_q30 = {{1 << 30}, {0, 1 << 30}, {0, 0, 1 << 30}}};
+    rng r = {9};
+    int n_normal = 0, n_depth = 0;
+    view.fit.persp.near_q16 = NEAR, view.auto_step = STEP;
+    view.fit.persp.texel_per_z = gn_bf_recip(gn_bf_from_u64(200));
+    view.fit.persp.per_near = gn_bf_recip(gn_bf_from_u64(NEAR));
+    for (int i = 0; i < 2000; i++) {
+        lit_face f;
+        int32_t moved[3];
+        gn_auto_bias form = i % 2 ? GN_AUTO_BIAS_NORMAL : GN_AUTO_BIAS_DEPTH;
+        random_face(&r, &f);
+        view.offset_q16 = rng_range(&r, 1 << 15, 5 << 16);
+        const double place = (double)gn_bias_auto_place_q16(&view, f.from_q16[2]), radius = view.offset_q16 / 65536.0;
+        const double a = radius / 200 * f.across + ldexp(STEP, -32) * f.h / NEAR;
+        const double lift = f.from_q16[2] * a / (1 - a * fmax(0, f.along));
+        const int64_t less = gn_bias_auto_persp(&view, &form, f.face_q30, f.from_q16[2], f.from_q16, moved);
+        const int by_depth = form == GN_AUTO_BIAS_DEPTH;
+        n_normal += !by_depth, n_depth += by_depth;
+        for (int k = 0; k < 3; k++)
+            CHECK_NEAR(moved[k] - f.from_q16[k], (place + (by_depth ? 0 : lift)) * ldexp(f.face_q30[k], -30),
+                       3 + ldexp(lift, -20));
+        if (!by_depth || f.h < 100) continue;
+        const double slope = radius * NEAR / 200 * f.across / f.h, want = STEP + ldexp(fmin(slope, 2), 32);
+        CHECK_NEAR((double)less, want, 2 + want * 2 / f.h);
+    }
+    CHECK(n_normal > 500 && n_depth > 500);
+}
+
 int main(void)
 {
     const gn_picture p = {64, 64, GN_FORMAT_RGB888, GN_VIEW_COLOUR, 0};
@@ -183,5 +237,6 @@ int main(void)
     test_punctual();
     test_automatic_limit();
     test_automatic_steep();
+    test_automatic_sizes();
     return check_report();
 }
