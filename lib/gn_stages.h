@@ -18,12 +18,10 @@ void gn_cam_setup(gn_frame *frame);
  * used for polygons. */
 gn_status gn_views_setup(gn_frame *frame, gn_scratch *scratch);
 
-#if GN_SHADOWS
 /* Brings one view's tile up to date: draws it, unless its content is still valid. The memory is scratch, for a vertex
  * cache: at least 4 words. */
 gn_status gn_atlas_render_tile(gn_frame *frame, gn_casting *casting, uint32_t view_idx, uint32_t *memory,
                                uint32_t n_words);
-#endif
 
 /* Fills frame->tri from the scene, or frame->group, and counts the triangles of each screen tile. The scratch is used
  * for a vertex cache, and for results that gn_bin_triangles uses again. */

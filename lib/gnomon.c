@@ -151,6 +151,7 @@
 #include "shade/gn_shade.c"
 #include "shade/gn_shadow.c"
 #include "shade/gn_surface.c"
+#include "shade/gn_surface_lights.c"
 #endif
 
 #if GN_PICKING

@@ -50,13 +50,9 @@ typedef struct gn_frame {
 #if GN_BOXES
     gn_object_state object[GN_MAX_OBJECTS];
 #endif
-#if GN_RECORDS
-    gn_tri tri[GN_MAX_TRIANGLES];
-#endif
+    gn_tri tri[GN_RECORDS ? GN_MAX_TRIANGLES : 1];
     gn_ref_offset tile_first[GN_TILES_MAX + 1]; /* of groups: a tile's number of triangles */
-#if GN_RECORDS
-    uint16_t tile_ref[GN_MAX_TILE_REFS];
-#endif
+    uint16_t tile_ref[GN_RECORDS ? GN_MAX_TILE_REFS : 1];
 #if GN_GROUPS
     gn_tri_group group[GN_GROUPS_MAX];
     uint32_t n_grouped;  /* triangles of all objects that are not hidden, in their order */

@@ -77,17 +77,13 @@ GN_HOT static int place_in(const gn_frame *frame, const gn_surface *surface, int
 GN_HOT int gn_arrival_place(const gn_frame *frame, const gn_surface *surface, const gn_light_view *view, int32_t z_q16,
                             const int32_t from_q16[3], const int32_t offset_q16[3], gn_arrival *out)
 {
-    gn_auto_bias form = GN_AUTO_BIAS_DEFAULT; /* none */
-#if GN_AUTO_BIAS
-    form = (gn_auto_bias)frame->light[view->light_idx].auto_bias;
-#endif
+    const gn_auto_bias form =
+        GN_AUTO_BIAS ? (gn_auto_bias)frame->light[view->light_idx].auto_bias : GN_AUTO_BIAS_DEFAULT; /* none */
     int seen = place_in(frame, surface, z_q16, view, form, from_q16, offset_q16, out);
-#if GN_AUTO_BIAS
-    uint32_t end = (uint32_t)view->tile_texels << 16;
-    if (seen && form == GN_AUTO_BIAS_NORMAL && !GN_CURVED(surface) &&
+    const uint32_t end = (uint32_t)view->tile_texels << 16;
+    if (GN_AUTO_BIAS && seen && form == GN_AUTO_BIAS_NORMAL && !GN_CURVED(surface) &&
         ((uint32_t)out->u_q16 > end || (uint32_t)out->v_q16 > end))
         seen = 2 * place_in(frame, surface, z_q16, view, GN_AUTO_BIAS_DEPTH, from_q16, offset_q16, out);
-#endif
     return seen;
 }
 

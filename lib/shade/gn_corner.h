@@ -15,7 +15,6 @@ int gn_corner_begin(gn_lattice *lattice, const gn_frame *frame, const gn_surface
 void gn_corner_find(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
                     gn_sample *sample, gn_corner *corner);
 
-#if GN_SHADOWS
 /* View depth of the plane at a pixel, up to its largest on the triangle. */
 int32_t gn_corner_depth(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x,
                         int32_t y);
@@ -38,19 +37,14 @@ int gn_corner_locate(const gn_lattice *lattice, const gn_frame *frame, const gn_
  * view's near plane. */
 int gn_corner_place(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, gn_corner *corner,
                     uint32_t slot, uint32_t view);
-#endif
 
-#if GN_SHADOWS
 /* Tile coordinates of a pixel in a directional view, Q16 texels. */
 void gn_corner_uv(const gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface,
                   const gn_light_view *view, int32_t x, int32_t y, const int32_t offset_q16[3], int32_t uv_q16[2]);
-#endif
 
-#if GN_TEXTURES
 /* Texture coordinates at a pixel. Returns 0 where the plane cannot be sampled. */
 int gn_corner_texture(gn_lattice *lattice, const gn_frame *frame, const gn_surface *surface, int32_t x, int32_t y,
                       int32_t uv_q20[2]);
-#endif
 
 #if GN_PUNCTUAL_LIGHTS
 /* From a spot or point light to the corner; gn_corner_begin() saw that the light is in reach of 32 bits. */

@@ -100,11 +100,9 @@ GN_HOT static void store_levels(const drawing *d, int32_t y, uint32_t bits, cons
         }
     }
 }
-#endif
 
 /* ---- Rows of nodes ----------------------------------------------------------------------------------------------- */
 
-#if GN_SHADOWS
 /* One exact lookup, at a depth that is limited to the view's range. */
 GN_HOT static uint32_t lookup(const drawing *d, const gn_light_view *view, const int32_t slope_q28[2],
                               const gn_receiver_step *at, int32_t x, int32_t y)

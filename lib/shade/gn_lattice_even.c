@@ -79,9 +79,7 @@ GN_HOT static uint32_t level_size(const gn_lattice_cell *cell, int axis)
     uint32_t level = 0, glow_level = 0;
 #if GN_MIPMAPS
     level = cell->out->level;
-#if GN_GLOW_TEXTURES
     glow_level = cell->out->glow_level;
-#endif
 #endif
     uint32_t size = size_in_level(cell->s->object->texture, axis, level),
              glow = size_in_level(GN_GLOW_TEXTURE(cell->s), axis, glow_level);
@@ -258,9 +256,7 @@ GN_HOT GN_NOINLINE int gn_cell_stays_dark(const gn_lattice_cell *cell, uint32_t 
     }
     return 1;
 }
-#endif
 
-#if GN_PUNCTUAL_LIGHTS
 /* How far interpolation is off in the rim of a cone, whose factor is the square of a share. `lo`, `hi`: how the light
  * arrives at the corners, but for GN_CORNER_DARK. */
 GN_HOT static GN_NOINLINE uint32_t rim_error_q24(const gn_light_state *light, int32_t lo, int32_t hi, uint32_t most_q24,

@@ -5,15 +5,11 @@
 
 #include "shade/gn_lattice.h"
 
-#if GN_INTERPOLATES
-
 /* Once per surface, after gn_corner_begin. */
 void gn_part_begin(gn_shading *s);
 
 /* Shades the pixels of the spans in the part, which ends at part_end or before. Returns 0 if it is not of that kind: it
  * is to be shaded by cells. */
 int gn_part_shade(gn_shading *s);
-
-#endif
 
 #endif

@@ -125,14 +125,10 @@ GN_HOT static void shade_triangles(gn_shading *s, uint32_t tile_idx)
     const gn_frame *frame = s->frame;
     const char *sources = gn_cell_sources(frame, s->scratch);
     uint32_t first = frame->tile_first[tile_idx];
-#if GN_GROUPS
     for (uint32_t id = GN_K(frame, triangle_groups) ? first : 0; id > 0; id--) shade_triangle(s, sources, id);
     if (GN_K(frame, triangle_groups)) return;
-#endif
-#if GN_RECORDS
     for (; first < frame->tile_first[tile_idx + 1]; first++)
         shade_triangle(s, sources, gn_cell_id(frame, frame->tile_ref[first]));
-#endif
 }
 
 /* ---- Runs -------------------------------------------------------------------------------------------------------- */

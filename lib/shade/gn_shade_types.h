@@ -255,9 +255,7 @@ typedef struct {
     int32_t texture_bends; /* where texture coordinates are quadratics: 1 along rows, 2 down columns */
 #if GN_MIPMAPS
     uint8_t level, level_ends; /* of the texture where the cell is nearest; 1: the next one begins in the cell */
-#if GN_GLOW_TEXTURES
-    uint8_t glow_level; /* of the texture of emitted light */
-#endif
+    uint8_t glow_level;        /* of the texture of emitted light */
 #endif
     int32_t spacing_log2; /* of lookups in pixels */
 } gn_lattice_look;

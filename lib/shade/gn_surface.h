@@ -14,6 +14,12 @@ void gn_surface_begin(const gn_frame *frame, gn_scratch *scratch, gn_surface_cac
 /* The face's normal in the world, towards the viewer. */
 void gn_surface_face(const gn_frame *frame, const gn_surface *surface, int32_t out_q30[3]);
 
+/* Lists the lights that can affect a surface whose vertices are v, in view space: directional ones first. */
+void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *surface, int32_t v[3][3]);
+
+/* Which of their shadows its object receives, if any. [M2] */
+void gn_surface_shadows(const gn_frame *frame, gn_surface *surface);
+
 /* gn_xform_normal(), inlined where time counts. */
 void gn_surface_normal(int32_t out_q30[3], const int32_t matrix[3][3], const gn_normal nrm_q15[3]);
 

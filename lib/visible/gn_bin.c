@@ -8,7 +8,6 @@
 #include "scene/gn_scene.h"
 #include "visible/gn_setup.h"
 
-#if GN_RECORDS
 /* Puts a triangle into the bins of the screen tiles within its bounds. */
 static inline void bin_by_bounds(gn_frame *frame, uint32_t tri_idx)
 {
@@ -42,19 +41,18 @@ static void sort_triangles(gn_frame *frame, const gn_scratch *scratch, uint32_t 
         frame->tile_ref[--*at] = (uint16_t)t;
     }
 }
-#endif
 
-#if GN_GROUPS
-/* Whether the identities of every screen tile have room. */
+/* Whether the identities of every screen tile have room, with groups. */
 static gn_status check_tiles(gn_frame *frame, uint32_t n_tiles)
 {
     uint32_t most = 0;
     for (uint32_t i = 0; i < n_tiles; i++)
         if (frame->tile_first[i] > most) most = frame->tile_first[i];
+#if GN_GROUPS
     frame->stats.n_tile_triangles = most;
+#endif
     return most > GN_MAX_TRIANGLES ? gn_fail_capacity(frame, GN_ERR_TRIANGLES_FULL, most, GN_MAX_TRIANGLES) : GN_OK;
 }
-#endif
 
 /* The triangles of every screen tile, in the order of the scene. A function of its own: a stage that is counted. [R1]
  */
@@ -64,15 +62,10 @@ GN_NOINLINE gn_status gn_bin_triangles(gn_frame *frame, const gn_scratch *scratc
     uint64_t n_refs = 0;
     for (uint32_t i = 0; i < n_tiles; i++) n_refs += frame->tile_first[i];
     frame->stats.n_tile_refs = n_refs > UINT32_MAX ? UINT32_MAX : (uint32_t)n_refs;
-    (void)scratch;
-#if GN_GROUPS
     if (GN_K(frame, triangle_groups)) return check_tiles(frame, n_tiles);
-#endif
-#if GN_RECORDS
     if (n_refs > GN_MAX_TILE_REFS)
         return gn_fail_capacity(frame, GN_ERR_TILE_REFS_FULL, frame->stats.n_tile_refs, GN_MAX_TILE_REFS);
     GN_COUNT(tile_refs, n_refs);
     sort_triangles(frame, scratch, n_tiles);
-#endif
     return GN_OK;
 }

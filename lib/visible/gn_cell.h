@@ -8,7 +8,6 @@
 
 #include "gnomon.h"
 
-#if GN_RECORDS
 /* The identity of the frame's triangle. */
 GN_HOT static inline uint32_t gn_cell_id(const gn_frame *frame, uint32_t tri_idx)
 {
@@ -20,7 +19,6 @@ GN_HOT static inline const gn_tri *gn_cell_tri(const gn_frame *frame, uint32_t i
 {
     return &frame->tri[frame->stats.n_triangles - id];
 }
-#endif
 
 #if !GN_COMPACT
 /* Where identity 0 would have its source: those of others lie at equal distances. */
@@ -30,9 +28,7 @@ GN_HOT static inline const char *gn_cell_sources(const gn_frame *frame, const gn
 #if GN_GROUPS
     if (GN_K(frame, triangle_groups)) return (const char *)scratch->drawn;
 #endif
-#if GN_RECORDS
     return (const char *)gn_cell_tri(frame, 0) + offsetof(gn_tri, source);
-#endif
 }
 
 GN_HOT static inline const gn_tri_source *gn_cell_source(const gn_frame *frame, const char *sources, uint32_t id)

@@ -383,7 +383,6 @@ GN_HOT void gn_raster_triangle(const gn_raster_target *target, const gn_tri *tri
 }
 #endif
 
-#if GN_RECORDS
 GN_HOT static inline void raster_records(const raster_tile *tile, uint32_t tile_idx)
 {
     const gn_frame *frame = tile->frame;
@@ -397,7 +396,6 @@ GN_HOT static inline void raster_records(const raster_tile *tile, uint32_t tile_
         raster_one(tile, first + tri_idx, n_triangles - tri_idx); /* gn_cell_id */
     }
 }
-#endif
 
 /* The nearest surface of every pixel, before anything is shaded. [R2] */
 GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx)
@@ -427,7 +425,5 @@ GN_HOT void gn_raster_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t 
         return;
     }
 #endif
-#if GN_RECORDS
     raster_records(&tile, tile_idx);
-#endif
 }

@@ -140,7 +140,6 @@ static inline int quick_depth(gn_tri *tri, const gn_projected *c0, const gn_proj
 
 /* ---- Triangles --------------------------------------------------------------------------------------------------- */
 
-#if GN_RECORDS
 /* Counts a triangle in the screen tiles that it may have pixels in, if these are few, and notes them for gn_bin.c.
  * Returns 0 if they are many. */
 static inline int count_few_tiles(const gn_screen_job *job, const gn_rect *px, uint32_t tri_idx)
@@ -186,7 +185,6 @@ static inline gn_tri *count_record(const gn_screen_job *job, const gn_rect *px)
     GN_KEEP(tri);
     return tri;
 }
-#endif
 
 #if GN_GROUPS
 /* Counts a triangle in the screen tiles that it may have pixels in, by which its group grows. */
@@ -272,10 +270,8 @@ GN_NOINLINE void gn_screen_triangle(const gn_screen_job *job, const gn_projected
         return;
     }
 #endif
-#if GN_RECORDS
     gn_tri *tri = count_record(job, &bounds);
     if (tri) fill_triangle(job, tri, &a, &b, &c, right - left, bottom - a.y, triangle_idx);
-#endif
 }
 
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3])

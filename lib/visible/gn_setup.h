@@ -17,10 +17,8 @@ enum { GN_PLACE_ONE, GN_PLACE_NEXT, GN_PLACE_BELOW, GN_PLACE_MANY };
 int gn_setup_vertex(int32_t out_q16[3], gn_vertex_entry *cache, const gn_xform *xform, const gn_object *object,
                     uint32_t object_idx, uint32_t vertex_idx);
 
-#if GN_GROUPS
 /* Sets up and draws the triangles of a screen tile, the scene's last first. Pixel memory holds a vertex cache. */
 void gn_setup_tile(const gn_frame *frame, gn_scratch *scratch, uint32_t tile_idx, const gn_raster_target *target);
-#endif
 
 /* Screen coordinates of the corners from the picture's top left corner, subpixel_bits fraction bits. */
 void gn_setup_corners(const gn_frame *frame, const gn_tri *tri, int32_t x[3], int32_t y[3]);

@@ -182,11 +182,11 @@ settings_ram_parts settings_ram(const settings *s)
     int boxes = punctual ||
                 (s->feature.shadows && (s->feature.object_boxes || s->feature.caster_culling || s->feature.tight_fit));
     r.objects = boxes ? put(&frame, s->capacity.max_objects, punctual ? 36 : 24, 4) : 0;
-    if (!groups) r.triangles = put(&frame, s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
+    r.triangles = put(&frame, groups ? 1 : s->capacity.max_triangles, wide_coordinates(s) ? 44 : 32, 4);
     r.tiles = put(&frame, tiles + 1, offset, offset);
-    if (!groups) r.tile_refs = put(&frame, s->capacity.max_tile_refs, 2, 2);
-    else {
-        r.triangles = put(&frame, groups, 4, 1);
+    r.tile_refs = put(&frame, groups ? 1 : s->capacity.max_tile_refs, 2, 2);
+    if (groups) {
+        r.triangles += put(&frame, groups, 4, 1);
         put(&frame, 1, 5, 4); /* n_grouped, group_shift */
     }
     if (s->feature.shadows) put_shadows(&frame, s, &r);

@@ -1,0 +1,163 @@
+/* Lights that can affect a surface, and the bias of their shadows. */
+#include "gn_internal.h"
+
+#include "base/gn_q.h"
+#include "light/gn_bias.h"
+#include "shade/gn_surface.h"
+
+GN_HOT static void list_light(const gn_frame *frame, gn_surface *s, uint32_t light_idx)
+{
+    s->light[s->n_lights].state = &frame->light[light_idx];
+    s->light[s->n_lights++].idx = light_idx;
+}
+
+#if GN_PUNCTUAL_LIGHTS
+/* Whether a light can affect the triangle: not from behind a flat one, and not from beyond the light's range. */
+GN_HOT static int reaches(const gn_surface *s, const gn_light_state *light, int32_t v[3][3])
+{
+    if (!GN_SMOOTH(s)) {
+        int64_t side = 0; /* n points away from the viewer: negative is in front */
+        for (int k = 0; k < 3; k++) side += (int64_t)s->plane.n[k] * (((int64_t)light->eye_q16[k] - v[0][k]) >> 2);
+        if (side >= 0 && s->plane.det > 0) return 0;
+    }
+    if (light->range2_q32 == UINT64_MAX) return 1;
+    uint64_t d2 = 0;
+    for (int k = 0; k < 3; k++) {
+        int64_t lo = gn_min32(v[0][k], gn_min32(v[1][k], v[2][k])), hi = gn_max32(v[0][k], gn_max32(v[1][k], v[2][k]));
+        int64_t d = light->eye_q16[k] < lo   ? lo - light->eye_q16[k]
+                    : light->eye_q16[k] > hi ? light->eye_q16[k] - hi
+                                             : 0;
+        d = d > 8 ? d - 8 : 0; /* roundings of view space */
+        if (d > (int64_t)1 << 31) return 0;
+        d2 += (uint64_t)(d * d); /* 3 * 2^62 */
+    }
+    return d2 < light->range2_q32;
+}
+
+GN_HOT static void add_punctual(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3],
+                                uint32_t light_idx)
+{
+    if (GN_TILE_LIGHTS && !(cache->lights >> light_idx & 1U)) return;
+    if (s->n_lights == GN_SURFACE_LIGHTS || !reaches(s, &frame->light[light_idx], v)) return;
+    list_light(frame, s, light_idx);
+    s->n_punctual++;
+}
+
+/* The object's light list, or all lights if it has none. [P9] */
+GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+{
+    const gn_object_state *object = &frame->object[s->object - frame->scene->objects];
+    if (object->n_lights != GN_OBJECT_LIGHTS_ALL) {
+        for (uint32_t i = 0; i < object->n_lights; i++) add_punctual(frame, cache, s, v, object->light[i]);
+        return;
+    }
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++)
+        if (frame->light[l].kind != GN_LIGHT_DIRECTIONAL && !frame->light[l].off) add_punctual(frame, cache, s, v, l);
+}
+#else
+GN_HOT static void punctual_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+{
+    (void)frame, (void)cache, (void)s, (void)v;
+}
+#endif
+
+/* A face whose normal is perpendicular to the light except for its last bits gets no light: walls parallel to the light
+ * are common, and a highlight is not small there. */
+#define GN_GRAZING_Q24 8
+
+/* n . L at the vertices, clamped at 0. Returns 0 if it is above 0 nowhere. */
+GN_HOT static int vertex_cosines(const gn_surface *s, const gn_light_state *light, int32_t out_q24[3])
+{
+    int32_t any = 0, at[3];
+    for (int k = 0; k < 3; k++) {
+        int64_t dot = gn_dot64(s->normal_q30[0], light->to_light_q30);
+        if (k > 0) dot += gn_dot64(s->normal_q30[k], light->to_light_q30);
+        at[k] = (int32_t)gn_clamp64(gn_shr64(dot, 36), 0, 1 << 24);
+        any |= at[k];
+    }
+    out_q24[0] = at[0];
+    out_q24[1] = at[1] - at[0];
+    out_q24[2] = at[2] - at[0];
+    return any;
+}
+
+GN_HOT static void directional_lights(const gn_frame *frame, gn_surface *s)
+{
+    for (uint32_t l = 0; l < frame->scene->n_lights; l++) {
+        const gn_light_state *light = &frame->light[l];
+        GN_ELEMENT(light);
+        if (light->kind != GN_LIGHT_DIRECTIONAL || light->off) continue;
+        if (!GN_SMOOTH(s)) {
+            int32_t cosine = (int32_t)gn_shr64(gn_dot64(s->normal_q30[0], light->to_light_q30), 36);
+            if (cosine <= GN_GRAZING_Q24) continue;
+            s->light[s->n_lights].cosine_q24[0] = cosine;
+        } else if (GN_K(frame, vertex_light) && !vertex_cosines(s, light, s->light[s->n_lights].cosine_q24)) continue;
+        list_light(frame, s, l);
+    }
+}
+
+GN_HOT void gn_surface_list_lights(const gn_frame *frame, const gn_surface_cache *cache, gn_surface *s, int32_t v[3][3])
+{
+    directional_lights(frame, s);
+    punctual_lights(frame, cache, s, v);
+}
+
+/* ---- Shadows ----------------------------------------------------------------------------------------------------- */
+
+#if GN_SHADOWS
+#if GN_AUTO_BIAS
+#define GN_LEAST_ALONG_Q28 (7 << 25)
+
+/* Curved surfaces: with this the interpolated normal has a part of 1 or more along the face's everywhere. If a corner's
+ * normal is too far from the face's, only the face's is used. [B6] */
+GN_HOT static void lift_normal(gn_surface *s)
+{
+    int32_t least = -4; /* Q28; roundings */
+    for (int k = 2; k >= 0; k--) {
+        int32_t along = (int32_t)(gn_dot64(s->normal_q30[k], s->face_q30) >> 32);
+        if (k == 0) least += along;
+        else if (along < least) least = along;
+    }
+    if (least < GN_LEAST_ALONG_Q28) s->bent = 1, least = 0;
+    for (int i = 0; i < 3; i++) s->lift_q30[i] = (int32_t)(((1 << 30) - 4 * (int64_t)least) * s->face_q30[i] >> 32) * 4;
+}
+#endif
+
+/* A light's bias over the surface, once per surface: the face's normal, a directional light's offset. */
+GN_HOT static void bias(const gn_frame *frame, gn_surface *s, uint32_t slot)
+{
+    const gn_light_state *light = s->light[slot].state;
+    const gn_light_view *view = &frame->view[light->view_idx];
+    if (light->kind == GN_LIGHT_DIRECTIONAL && !view->border_lit)
+        view += GN_LAST_CASCADE(frame); /* the first may be empty */
+#if GN_RECEIVER_PLANE || GN_AUTO_BIAS
+    const gn_light *scene_light = &frame->scene->lights[s->light[slot].idx];
+    if (scene_light->receiver_plane || light->auto_bias) gn_surface_face(frame, s, s->face_q30);
+#endif
+#if GN_AUTO_BIAS
+    if (light->auto_bias) {
+        if (GN_CURVED(s)) lift_normal(s);
+        else if (light->kind == GN_LIGHT_DIRECTIONAL)
+            gn_bias_auto_face(view, (gn_auto_bias)light->auto_bias, s->face_q30, s->light[slot].flat_offset_q16);
+        return;
+    }
+#endif
+    if (!GN_SMOOTH(s) && light->kind == GN_LIGHT_DIRECTIONAL)
+        gn_bias_directional(frame, view, s->normal_q30[0], s->light[slot].flat_offset_q16);
+}
+
+GN_HOT void gn_surface_shadows(const gn_frame *frame, gn_surface *s)
+{
+    if (!(s->object->flags & GN_OBJECT_RECEIVES) || s->object->flags & GN_OBJECT_UNLIT) return;
+    for (uint32_t i = 0; i < s->n_lights; i++) {
+        if (s->light[i].state->view_idx < 0) continue;
+        s->shadowed = 1;
+        bias(frame, s, i);
+    }
+}
+#else
+GN_HOT void gn_surface_shadows(const gn_frame *frame, gn_surface *s)
+{
+    (void)frame, (void)s;
+}
+#endif
