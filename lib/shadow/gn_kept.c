@@ -2,6 +2,7 @@
 #include "gn_internal.h"
 
 #include "base/gn_signature.h"
+#include "geometry/gn_skin.h"
 #include "shadow/gn_kept.h"
 
 static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
@@ -24,7 +25,6 @@ static uint64_t view_signature(const gn_frame *frame, const gn_light_view *view)
     return gn_signature_add(s, (uint64_t)fit->inv_texel.mant << 32 | (uint32_t)fit->inv_texel.exp);
 }
 
-#if GN_VERTEX_JOINTS
 /* Where the joints are now: a skinned object has moved when one has. */
 static uint64_t skin_signature(uint64_t s, const gn_skin *skin)
 {
@@ -39,7 +39,6 @@ static uint64_t skin_signature(uint64_t s, const gn_skin *skin)
     }
     return s;
 }
-#endif
 
 static uint64_t object_signature(uint64_t s, const gn_object *object)
 {
@@ -53,9 +52,7 @@ static uint64_t object_signature(uint64_t s, const gn_object *object)
     s = gn_signature_words(s, object->to_world.t_q16, 3);
     s = gn_signature_add(s, (uint64_t)(uint32_t)object->to_world.exp << 32 |
                                 (object->flags & ~(uint32_t)GN_OBJECT_HIDDEN));
-#if GN_VERTEX_JOINTS
-    if (object->skin) s = skin_signature(s, object->skin);
-#endif
+    if (GN_SKIN(object)) s = skin_signature(s, GN_SKIN(object));
     if (!GN_CASTER_ALPHA || object->caster_alpha == GN_ALPHA_OPAQUE) return s;
     s = gn_signature_add(s, (uint64_t)object->alpha_uq16 << 32 | object->alpha_cutoff_uq16);
     if (!object->texture) return s;

@@ -8,12 +8,14 @@
 /* Fits a view, whose light, axes, tile and filter are known, to the sphere of the slice near .. far. */
 void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16);
 
+#if GN_TIGHT_FIT
 /* Fits it to what is seen, in a rectangle of at most as many texels as its square has. Returns 0 if nothing is seen, or
  * the square is too small for the filter. */
 int gn_ortho_fit_tight(gn_frame *frame, gn_light_view *view, const gn_light *light, int32_t near_q16, int32_t far_q16);
 
 /* Whether the view's tile, of an earlier frame, covers what is seen. */
 int gn_ortho_covers(const gn_frame *frame, gn_light_view *view, const gn_light *light, const gn_view_seen *seen);
+#endif
 
 /* Updates only the planes that give light coordinates along this frame's rays; the rest of the fit stays. */
 void gn_ortho_rays(const gn_frame *frame, gn_light_view *view);
