@@ -156,16 +156,21 @@ static int box_adds(gn_seen_job *job, int whole)
     return adds;
 }
 
-typedef int64_t inside_fn(const gn_seen_job *job, uint32_t corner, uint32_t side);
+enum { CORNERS_OF_BOX, CORNERS_OF_PART };
+
+/* How far a corner of the one is inside of a side of the other. */
+static int64_t inside(const gn_seen_job *job, int of, uint32_t corner, uint32_t side)
+{
+    return of == CORNERS_OF_BOX ? inside_part(job, corner, side) : inside_box(job, corner, side);
+}
 
 /* The edge from corner a to corner b: its ends on the sides that a and b are outside of. */
-static void cut_edge(gn_seen_job *job, inside_fn *inside, const int32_t (*corner)[6], const uint32_t ab[2],
-                     const uint32_t out[2])
+static void cut_edge(gn_seen_job *job, int of, const int32_t (*corner)[6], const uint32_t ab[2], const uint32_t out[2])
 {
     int64_t t_q31[2] = {0, (int64_t)1 << 31};
     for (uint32_t s = 0; s < 6; s++) {
         if (!((out[0] | out[1]) >> s & 1U)) continue;
-        int64_t da = inside(job, ab[0], s), db = inside(job, ab[1], s);
+        int64_t da = inside(job, of, ab[0], s), db = inside(job, of, ab[1], s);
         gn_bfloat per = gn_bf_recip(gn_bf_from_u64(gn_abs64(da) + gn_abs64(db)));
         int64_t at_q31 = gn_bf_apply((int64_t)gn_abs64(da), per, 31);
         if (da < 0 && at_q31 > t_q31[0]) t_q31[0] = at_q31;
@@ -183,19 +188,19 @@ static void cut_edge(gn_seen_job *job, inside_fn *inside, const int32_t (*corner
 }
 
 /* Corners that are inside, and ends of edges. `sides`: those that corners may be outside of. */
-static void cut_edges(gn_seen_job *job, inside_fn *inside, const int32_t (*corner)[6], uint32_t sides)
+static void cut_edges(gn_seen_job *job, int of, const int32_t (*corner)[6], uint32_t sides)
 {
     uint32_t out[8];
     for (uint32_t i = 0; i < 8; i++) {
         out[i] = 0;
         for (uint32_t s = 0; s < 6; s++)
-            if ((sides >> s & 1U) && inside(job, i, s) < 0) out[i] |= 1U << s;
+            if ((sides >> s & 1U) && inside(job, of, i, s) < 0) out[i] |= 1U << s;
         if (!out[i]) widen(job, corner[i]);
     }
     for (uint32_t i = 0; i < 8; i++)
         for (uint32_t bit = 1; bit < 8; bit <<= 1) {
             const uint32_t ab[2] = {i, i | bit}, end[2] = {out[i], out[i | bit]};
-            if (!(i & bit) && (end[0] | end[1]) && !(end[0] & end[1])) cut_edge(job, inside, corner, ab, end);
+            if (!(i & bit) && (end[0] | end[1]) && !(end[0] & end[1])) cut_edge(job, of, corner, ab, end);
         }
 }
 
@@ -225,8 +230,8 @@ static void find_bounds(gn_seen_job *job, uint32_t sides)
             job->box[i][k] = limited(sum);
         }
     for (int k = 0; k < 6; k++) job->lo[k] = INT32_MAX, job->hi[k] = INT32_MIN;
-    cut_edges(job, inside_part, (const int32_t(*)[6])job->box, sides);
-    cut_edges(job, inside_box, (const int32_t(*)[6])job->part, 63);
+    cut_edges(job, CORNERS_OF_BOX, (const int32_t(*)[6])job->box, sides);
+    cut_edges(job, CORNERS_OF_PART, (const int32_t(*)[6])job->part, 63);
 }
 
 /* Bounds of what is seen of an object: along the axes of camera and light; of a directional light's they are added to
