@@ -12,7 +12,7 @@ static long padded(long bytes)
 /* Enumerations take 4 bytes each, or, as Arm's compilers have them by default, one. */
 static long object_bytes(bool short_enums)
 {
-    return short_enums ? 132 : 136;
+    return short_enums ? 136 : 140;
 }
 
 static long light_bytes(bool short_enums)
