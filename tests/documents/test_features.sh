@@ -19,7 +19,7 @@ identifiers() { awk -v p="$1" -v n="$2" 'BEGIN { for (i = 1; i <= n; i++) print 
     identifiers F 6
     identifiers B 6
     identifiers M 11
-    identifiers R 11
+    identifiers R 12
 } >"$tmp/rows"
 
 # ---- The page and the tags -------------------------------------------------------------------------------------------
@@ -103,7 +103,7 @@ sort "$tmp/rows" | comm -13 - "$tmp/have" >"$tmp/found"
 for picture in docs/pictures/gallery/*; do
     grep -q -F "(pictures/gallery/${picture##*/})" $gallery && pass || fail "$picture is in no section of $gallery"
 done
-[ "$(du -sk docs/pictures/gallery | cut -f 1)" -lt 4096 ] && pass || fail "docs/pictures/gallery is larger than 4 MB"
+[ "$(du -s --apparent-size -k docs/pictures/gallery | cut -f 1)" -lt 4096 ] && pass || fail "docs/pictures/gallery is larger than 4 MB"
 
 # ---- The gallery drawn again -----------------------------------------------------------------------------------------
 
