@@ -30,8 +30,7 @@ static void flat_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16
     if (u_q20 >> 30) u_q20 = 1U << 30;                                                            /* 2^10 */
     int64_t u2_q24 = (int64_t)(u_q20 * u_q20 >> 16);
     int64_t across2 = gn_bf_apply(u2_q24, gn_bf_from_u64((uint64_t)gn_cascade_tan2_q24(frame)), -24);
-    /* at least 1: a box below 2^-12 of its distance gets a sphere of that radius, not of none */
-    int64_t corner2 = gn_shr64(half * half, 24) + gn_clamp64(across2, 1, (int64_t)1 << 38);
+    int64_t corner2 = gn_shr64(half * half, 24) + gn_clamp64(across2, 0, (int64_t)1 << 38);
     int64_t r2 = (int64_t)gn_udiv64((uint64_t)corner2 << 24, (uint64_t)q2); /* 2^62 */
     *centre_q24 = (one + n) / 2;
     *radius_q24 = r2 < (int64_t)1 << 38 ? gn_isqrt64((uint64_t)r2 << 24) : (int64_t)gn_isqrt64((uint64_t)r2) << 12;
@@ -142,7 +141,7 @@ int32_t gn_cascade_fit_sphere(const gn_frame *frame, int32_t near_q16, int32_t f
 {
     int64_t centre_q24, radius_q24;
     gn_cascade_sphere(frame, near_q16, far_q16, &centre_q24, &radius_q24);
-    if (!radius_q24) radius_q24 = 1; /* a slice that is next to nothing at a long focal length */
+    if (!radius_q24) radius_q24 = 1; /* a slice, or a parallel view, that is next to nothing beside its distance */
     *radius = gn_bf_mul(gn_bf_from_u64((uint64_t)radius_q24), gn_bf_from_u64((uint64_t)(uint32_t)far_q16));
     radius->exp -= 24 + 16;
     return (int32_t)gn_shr64(centre_q24 * far_q16, 24);

@@ -207,19 +207,15 @@ GN_HOT static void look_up_row(const drawing *d, const gn_lattice_edge *edge, in
 }
 
 #if GN_PUNCTUAL_LIGHTS
-/* Attenuations along a row of nodes that two faces see. */
+/* Attenuations along a row of pixels that two faces see. */
 GN_HOT static GN_NOINLINE void look_up_faces(const drawing *d, const gn_lattice_edge *edge, int32_t below,
                                              uint32_t *out)
 {
     gn_receiver_step at[2], step[2];
-    for (int k = 0; k < 2; k++) {
-        find_row(d, edge + k, below, &at[k], &step[k]);
-        scale_step(&step[k], d->s->lattice.look.spacing_log2);
-    }
+    for (int k = 0; k < 2; k++) find_row(d, edge + k, below, &at[k], &step[k]);
     const gn_patch *border = &edge[1].more_q24[0];
-    const int32_t first = gn_patch_at(border, d->first, below),
-                  across = (border->dx + below * border->dxy) * (1 << d->s->lattice.look.spacing_log2);
-    for (int32_t from = 0, end; from < d->n; from = end) {
+    const int32_t first = gn_patch_at(border, d->first, below), across = border->dx + below * border->dxy;
+    for (int32_t from = 0, end; from < d->n; from = end) { /* |first + i across| < 2^29: a corner's is below 2^28 */
         int k = first + from * across < 0;
         for (end = from + 1; end < d->n && (first + end * across < 0) == k;) end++;
         look_up_row(d, edge + k, below, &at[k], &step[k], from, end, out);
@@ -379,14 +375,10 @@ GN_HOT static GN_NOINLINE void draw_strip(const drawing *d, int32_t below, int i
 /* Colours without the light of edges. */
 GN_HOT static void begin_base(drawing *d, const gn_lattice_look *look)
 {
-    int32_t log2 = d->size_log2;
     for (int c = 0; c < 3; c++) {
-        gn_patch *p = &d->base_q24[c];
-        int32_t across = (look->colour_q24[1][c] - look->colour_q24[0][c]) >> log2;
-        p->at = look->colour_q24[0][c];
-        p->dx = across;
-        p->dy = (look->colour_q24[2][c] - look->colour_q24[0][c]) >> log2;
-        p->dxy = (((look->colour_q24[3][c] - look->colour_q24[2][c]) >> log2) - across) >> log2;
+        int32_t at[4];
+        for (int i = 0; i < 4; i++) at[i] = look->colour_q24[i][c];
+        gn_patch_make(&d->base_q24[c], at, d->size_log2);
     }
 }
 

@@ -149,15 +149,6 @@ GN_HOT static int places_hold(const gn_lattice_cell *cell, places *p)
                                                                                                             : BEND;
 }
 
-GN_HOT static void make_patch(gn_patch *p, const int32_t at[4], int32_t log2)
-{
-    int32_t across = (at[1] - at[0]) >> log2;
-    p->at = at[0];
-    p->dx = across;
-    p->dy = (at[2] - at[0]) >> log2;
-    p->dxy = (((at[3] - at[2]) >> log2) - across) >> log2;
-}
-
 /* Pixels between lookups. */
 GN_HOT static int32_t lookup_spacing(const gn_lattice_cell *cell, const places *p)
 {
@@ -185,9 +176,9 @@ GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, const pla
     edge->slope_q28[0] = slope_q28[0];
     edge->slope_q28[1] = slope_q28[1];
     if (p->bent != GN_PLACES_LONE) {
-        make_patch(&edge->u_q16, p->u, cell->size_log2);
-        make_patch(&edge->v_q16, p->v, cell->size_log2);
-        make_patch(&edge->depth_q30, p->depth, cell->size_log2);
+        gn_patch_make(&edge->u_q16, p->u, cell->size_log2);
+        gn_patch_make(&edge->v_q16, p->v, cell->size_log2);
+        gn_patch_make(&edge->depth_q30, p->depth, cell->size_log2);
     }
     for (int j = 0; j < 3; j++) {
         int32_t at[4];
@@ -201,7 +192,7 @@ GN_HOT static int add_edge(const gn_lattice_cell *cell, uint32_t slot, const pla
             if (GN_SPECULAR && cell->s->specular)
                 at[i] += gn_corner_times(light->shine_uq16[j], gn_cell_share(light->highlight_q24[i], share_uq16[i]));
         }
-        make_patch(&edge->more_q24[j], at, cell->size_log2);
+        gn_patch_make(&edge->more_q24[j], at, cell->size_log2);
     }
     out->spacing_log2 = p->bent == GN_PLACES_LONE ? 0 : gn_min32(out->spacing_log2, lookup_spacing(cell, p));
     return 1;
@@ -238,11 +229,6 @@ GN_HOT static void blend_shares(const gn_lattice_cell *cell, uint32_t slot, uint
 }
 
 #if GN_PUNCTUAL_LIGHTS
-GN_HOT static uint32_t share_of_depth_q30(int32_t nearest_q16, int32_t z_q16)
-{
-    return z_q16 <= nearest_q16 ? 1U << 30 : gn_quotient_q30((uint32_t)nearest_q16, (uint32_t)z_q16);
-}
-
 /* Of a cell with corners in two faces of a cube: those that points in between may lie in, too. None do if the third
  * axis is shorter than that of one of both at all corners. */
 GN_HOT static GN_NOINLINE uint32_t hidden_faces(const gn_lattice_cell *cell, uint32_t slot, uint32_t views)
@@ -275,12 +261,12 @@ GN_HOT static GN_NOINLINE void find_border(const gn_lattice_cell *cell, uint32_t
         gn_corner_from(cell->corner[i], cell->s->light[slot].state, from);
         int64_t ahead = one & 1 ? -(int64_t)from[one >> 1] : from[one >> 1];
         ahead -= other & 1 ? -(int64_t)from[other >> 1] : from[other >> 1];
-        exact[i] = ahead * share_of_depth_q30(nearest, cell->corner[i]->z_q16); /* 2^32 * 2^30 */
+        exact[i] = ahead * gn_quotient_q30((uint32_t)nearest, (uint32_t)cell->corner[i]->z_q16); /* 2^32 * 1.01 2^30 */
         all |= gn_abs64(exact[i]);
     }
     int32_t down = 36 - gn_clz64(all); /* to less than 2^28 */
     for (int i = 0; i < 4; i++) inside[i] = (int32_t)(down > 0 ? exact[i] >> down : exact[i]);
-    make_patch(out, inside, cell->size_log2);
+    gn_patch_make(out, inside, cell->size_log2);
 }
 
 /* Adds an edge in the shadow of a point light, two faces of which see the cell. Returns 0 if there is no room, or it is

@@ -113,10 +113,7 @@ GN_HOT static void find_level_end(const gn_shading *s, int32_t size_log2, gn_cor
              end = gn_isqrt64(s->surface.level_depth2_q32 << s->lattice.look.level);
     int32_t at[4];
     for (int i = 0; i < 4; i++) at[i] = (int32_t)gn_quotient_q30(least, (uint32_t)z[i]);
-    out->nearness_q30.at = at[0];
-    out->nearness_q30.dx = (at[1] - at[0]) >> size_log2;
-    out->nearness_q30.dy = (at[2] - at[0]) >> size_log2;
-    out->nearness_q30.dxy = (((at[3] - at[2]) >> size_log2) - out->nearness_q30.dx) >> size_log2;
+    gn_patch_make(&out->nearness_q30, at, size_log2);
     out->end_q30 = least < end ? (int32_t)gn_quotient_q30(least, end) : 1 << 30;
 }
 

@@ -98,7 +98,8 @@ void gn_seen_turn_axes(gn_light_view *view, uint32_t turn)
     }
 }
 
-/* A point's coordinates in all directions. Turn k and turn 8 - k have the same products. */
+/* A point's coordinates, below 2^30, in all directions: sums of 2^60.5. Turn k and turn 8 - k have the same products.
+ */
 static void all_directions(const int32_t at[3], int32_t out[GN_SEEN_DIRECTIONS])
 {
     out[0] = at[0];
