@@ -91,19 +91,19 @@ boards: ## list the boards
 	@for file in boards/*/board.mk; do printf "  %-20s%s\n" "$$(basename $$(dirname $$file))" "$$(sed -n "1s/^# //p" $$file)"; done
 	@$(if $(filter firmware emulate screen,$(MAKECMDGOALS)),echo "Which of them? BOARD=..." >&2; exit 1)
 
-size: ## measure flash, RAM and worst-case stack on the targets; WRITE=1 renews baseline and docs/MEMORY.md
+size: ## measure flash, RAM and worst-case stack on the targets; WRITE=1 renews baseline and documents
 	@sh tests/firmware/size.sh $(if $(WRITE),--write)
 
-dist: ## the packages of docs/PACKAGES.md: build/dist/gnomon-VERSION.tar.gz
+dist: ## the packages that docs/FIRMWARE.md lists: build/dist/gnomon-VERSION.tar.gz
 	@sh boards/packages/dist.sh $(BUILD)/dist
 
 test-packages: ## build what make dist packs with the tools of each ecosystem: CMake, Arduino
 	@sh boards/packages/test.sh
 
-docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages casters radiance punctual accuracy bias contact census rows seams crawl kept culling lists changes extremes extremes_light extremes_many) ## regenerate the generated parts of docs/
+docs: $(BUILD)/gnomon $(addprefix $(BUILD)/test_,stages casters radiance punctual accuracy bias contact census rows seams crawl flicker kept culling lists changes extremes extremes_light extremes_many) ## regenerate the generated parts of docs/
 	@sh docs/generate.sh $(BUILD)/gnomon
 
-matrix: $(BUILD)/gnomon ## measure what each feature costs on two cores, in some minutes: docs/MATRIX.md
+matrix: $(BUILD)/gnomon ## measure what each feature costs on two cores, in some minutes: docs/data/MATRIX.md
 	@sh docs/matrix.sh $(BUILD)/gnomon
 
 report: $(BUILD)/gnomon $(BUILD)/make_report ## one page of pictures, metrics and plots: build/report/index.html

@@ -1,11 +1,11 @@
 #!/bin/sh
-# Makes the generated part of docs/BAKE.md and its pictures. usage: bake.sh TOOL [OUT_DIR]
+# Makes the generated part of docs/data/BAKE.md and its pictures. usage: bake.sh TOOL [OUT_DIR]
 set -e
 tool=$1 out=${2:-docs}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$out/pictures"
-[ "$out" = docs ] || cp docs/BAKE.md "$out/"
+mkdir -p "$out/pictures" "$out/data"
+[ "$out" = docs ] || cp docs/data/BAKE.md "$out/data/"
 
 # field NAME, of maps or masks: NAME@OBJECT; of $work/json
 field() {
@@ -39,8 +39,8 @@ row() { # row SCENE LABEL, of maps or masks: OBJECT
 awk -v file="$work/table" '
     $0 == "<!-- generated: bake -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
     $0 == "<!-- end -->" { skip = 0 }
-    !skip { print }' "$out/BAKE.md" >"$work/next"
-cp "$work/next" "$out/BAKE.md"
+    !skip { print }' "$out/data/BAKE.md" >"$work/next"
+cp "$work/next" "$out/data/BAKE.md"
 
 "$tool" render host/scenes/room.gltf -o "$out/pictures/bake-maps.png"
 "$tool" render "$work/room.gltf" -o "$out/pictures/bake-masks.png"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Regenerates the generated parts of docs/BOARDS.md and docs/pictures/pocket.png. usage: boards.sh [OUT_DIR], or --boards: prints the table of the boards
+# Regenerates the generated parts of docs/FIRMWARE.md (boards), docs/data/GOLDEN.md (golden, pocket) and docs/pictures/pocket.png. usage: boards.sh [OUT_DIR], or --boards: prints the table of the boards
 cd "$(dirname "$0")/.." || exit 1
 
 setting() { sed -n "s/^$2 := *//p" "boards/$1/board.mk"; }
@@ -32,13 +32,13 @@ pocket() { # pocket PICTURE.png
     cat "$work/hours"
 }
 
-replace() { # replace NAME: by the lines of standard input
+replace() { # replace DOCUMENT NAME: by the lines of standard input
     cat >"$work/lines"
-    awk -v name="$1" -v file="$work/lines" '
+    awk -v name="$2" -v file="$work/lines" '
         $0 == "<!-- generated: " name " -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
         $0 == "<!-- end -->" { skip = 0 }
-        !skip { print }' "$out/BOARDS.md" >"$work/next"
-    cp "$work/next" "$out/BOARDS.md"
+        !skip { print }' "$out/$1" >"$work/next"
+    cp "$work/next" "$out/$1"
 }
 
 if [ "${1:-}" = --boards ]; then table_of_boards; exit; fi # for a test to compare
@@ -46,6 +46,6 @@ out=${1:-docs}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$out/pictures"
-table_of_boards | replace boards
-table_of_golden_frames | replace golden
-pocket "$out/pictures/pocket.png" | replace pocket
+table_of_boards | replace FIRMWARE.md boards
+table_of_golden_frames | replace data/GOLDEN.md golden
+pocket "$out/pictures/pocket.png" | replace data/GOLDEN.md pocket

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes what is generated of DISPLAYS.md: the emulators' screens as pictures, and a table of bytes: flash at -Os on a Cortex-M3, RAM of the
+# Makes what is generated of docs/FIRMWARE.md about displays: the emulators' screens as pictures, and a table of bytes: flash at -Os on a Cortex-M3, RAM of the
 # objects that the caller supplies. usage: displays.sh OUT_DIR TABLE
 set -e
 cd "$(dirname "$0")/.."

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes docs/FEATURES.md from docs/features.txt and from the tags in the code. usage: features.sh [OUT_DIR] | --tags
+# Makes docs/data/FEATURES.md from docs/features.txt and from the tags in the code. usage: features.sh [OUT_DIR] | --tags
 # "--tags" prints the tags instead: row, file and, in tests, function ("-": the file as a whole).
 #
 # A tag is a row in brackets, as [D7], in a comment: in lib/ and host/ref/ where the row is implemented, in tests/ above
@@ -73,13 +73,12 @@ tags | LC_ALL=C sort -u >"$work/tags"
 
 Every row of the feature list: where the library has it, where the double-precision reference has it on its own, what
 sets it, the test that compares the two and fails when they part, and its pictures. Names of settings are those of
-[CONFIG.md](CONFIG.md); after "file" they are keys of a glTF file or of its `extras.gnomon`. The formulas are in
-[DESIGN.md](DESIGN.md), section 1.
+[CONFIGURATION.md](../CONFIGURATION.md); after "file" they are keys of a glTF file or of its `extras.gnomon`. The formulas are in [MODEL.md](../MODEL.md).
 
 `tests/oracle/test_rows.c` runs a table of scenes per row: library and reference, with the row and without it. The
 other tests name the function. `docs/features.sh` makes this page from `docs/features.txt` and from tags in the code:
 `[D7]` in a comment marks what implements or tests row D7. `tests/documents/test_features.sh` checks that every row
-has its tags, and draws every picture of the [gallery](GALLERY.md) again.
+has its tags, and draws every picture of the [gallery](../GALLERY.md) again.
 
 | row | what | library (`lib/`) | reference (`host/ref/`) | settings | tests (`tests/`) | pictures |
 |---|---|---|---|---|---|---|
@@ -100,8 +99,9 @@ TEXT
         }
         $1 ~ /^[A-Z][0-9]+$/ {
             if ($4 != "") reference[$1] = join(reference[$1], "; ", $4)
-            printf "| %s | %s | %s | %s | %s | %s | [%s](GALLERY.md#%s) |\n", $1, $2, library[$1],
+            printf "| %s | %s | %s | %s | %s | %s | [%s](../GALLERY.md#%s) |\n", $1, $2, library[$1],
                 reference[$1], $3, test[$1], $1, tolower($1)
         }' "$work/tags" docs/features.txt
 } >"$work/FEATURES.md"
-cp "$work/FEATURES.md" "$out/FEATURES.md"
+mkdir -p "$out/data"
+cp "$work/FEATURES.md" "$out/data/FEATURES.md"

@@ -56,10 +56,25 @@ numbers() {
 cat >"$work/GALLERY.md" <<'TEXT'
 # Gallery
 
-Every row of the feature list as a picture: by the library, by the double-precision reference, and their difference eight times as strong; side by side, or one below the other
-where they are wide. The numbers are of the whole comparison: pixels that are identical as RGB565, PSNR of the 8-bit colours, and the share of surface points where a light's attenuation
-differs by more than 1/16. [FEATURES.md](FEATURES.md) names the code and the test of each row. `make docs` makes this page and its pictures anew from `docs/gallery.txt`.
+What Gnomon can do, feature by feature. Each picture is drawn by the library, by the double-precision reference, and as their difference, eight times as strong. The numbers below it: pixels that are identical as RGB565, PSNR of the 8-bit colours, and how many surface points have a light's attenuation off by more than 1/16.
+
+[data/FEATURES.md](data/FEATURES.md) names settings, code and test of each feature, [data/MATRIX.md](data/MATRIX.md) what it costs. `make docs` makes this page and its pictures from `docs/gallery.txt`.
+
+| group | features |
+| --- | --- |
 TEXT
+awk '
+    BEGIN {
+        split("D P A F B M R", order, " ")
+        split("directional lights;spot and point lights;shadow atlases;filters;bias;materials, baked shadows, textures;rendering", title, ";")
+    }
+    /^## [A-Z][0-9]+ / {
+        name = $0
+        sub(/^## [A-Z0-9]+ /, "", name)
+        group = substr($2, 1, 1)
+        list[group] = list[group] (list[group] == "" ? "" : " · ") "[" name "](#" tolower($2) ")"
+    }
+    END { for (i = 1; i <= 7; i++) print "| " title[i] " | " list[order[i]] " |" }' docs/gallery.txt >>"$work/GALLERY.md"
 row='' n=0 extra='' wanted=''
 while IFS= read -r line; do
     text=${line#? }

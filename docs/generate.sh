@@ -1,6 +1,6 @@
 #!/bin/sh
 # Regenerates the parts of docs/ between "<!-- generated: NAME -->" and "<!-- end -->". usage: generate.sh TOOL [OUT_DIR]
-# The gallery is made as a whole, by gallery.sh; BAKE.md by bake.sh; TRADE.md by trade.sh, which takes minutes and so is left out with OUT_DIR. With OUT_DIR the documents are written there instead of in place: the test compares the two.
+# The gallery is made as a whole, by gallery.sh; data/BAKE.md by bake.sh; data/TRADE.md by trade.sh, which takes minutes and so is left out with OUT_DIR. With OUT_DIR the documents are written there instead of in place: the test compares the two.
 set -e
 tool=$1 out=${2:-docs}
 build=$(dirname "$tool")
@@ -17,7 +17,7 @@ replace() { # replace DOCUMENT NAME FILE
 
 [ "$out" = docs ] || { mkdir -p "$out/data" && cp docs/*.md "$out/" && cp docs/data/*.md "$out/data/"; }
 "$tool" knobs >"$work/knobs"
-replace CONFIG.md knobs "$work/knobs"
+replace CONFIGURATION.md knobs "$work/knobs"
 "$build/test_stages" --table >"$work/stages"
 replace data/BOUNDS.md stages "$work/stages"
 for name in casters radiance punctual; do
@@ -28,7 +28,7 @@ done
 replace ACCURACY.md accuracy "$work/accuracy"
 if [ -n "$MODELS" ]; then # meshes that are not the project's
     "$build/test_accuracy" --models --table >"$work/models"
-    replace ACCURACY.md models "$work/models"
+    replace data/ACCURACY.md models "$work/models"
 fi
 sh tests/oracle/test_compact.sh --table >"$work/compact"
 replace ACCURACY.md compact "$work/compact"
@@ -42,6 +42,8 @@ mkdir -p "$out/pictures"
 "$build/test_census" --plots "$out/pictures"
 sh docs/frame.sh "$out/pictures/frame.svg"
 sh docs/window.sh "$out/pictures/window.svg"
+sh docs/cascades.sh "$out/pictures/cascades.svg"
+sh docs/edges.sh "$tool" "$out"
 "$tool" render host/scenes/sundial.gltf -o "$out/pictures/day.png" --size 240x180 --set output=rgb565 --frames 30-89 >/dev/null # 08:30 to 13:25
 sh docs/gallery.sh "$tool" "$out"
 sh docs/features.sh "$out"
@@ -49,16 +51,21 @@ sh docs/testing.sh "$out"
 sh docs/boards.sh "$out"
 sh docs/bake.sh "$tool" "$out"
 for part in extremes extremes_light extremes_many; do "$build/test_$part" --table; done >"$work/extremes"
-replace EXTREMES.md extremes "$work/extremes"
-for name in rows seams crawl; do
+replace data/EXTREMES.md extremes "$work/extremes"
+for name in rows seams crawl flicker; do
     "$build/test_$name" --table >"$work/$name"
-    replace ACCURACY.md $name "$work/$name"
+    replace data/ACCURACY.md $name "$work/$name"
 done
 for name in kept culling lists changes; do "$build/test_$name"; done | sed -n 's/^[a-z].* \(per frame\|left out\|listed\|differ\).*/- &/p' >"$work/kept"
-replace ACCURACY.md kept "$work/kept"
+replace data/ACCURACY.md kept "$work/kept"
 sh docs/displays.sh "$out" "$work/displays"
-replace DISPLAYS.md displays "$work/displays"
+replace FIRMWARE.md displays "$work/displays"
 if [ "$out" = docs ]; then
     sh docs/trade.sh "$tool"
     sh docs/porting.sh
+    # from the committed baselines: make bench, size and matrix measure them
+    sh tests/bench/bench.sh --document
+    sh tests/bench/bench_target.sh --document
+    sh tests/firmware/size.sh --document
+    sh docs/matrix.sh --document
 fi

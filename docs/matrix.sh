@@ -1,14 +1,14 @@
 #!/bin/sh
-# Writes docs/MATRIX.md: what each feature costs in flash, RAM, stack and instructions, on a Cortex-M0 and a Cortex-M4; and images of the own scenes,
+# Writes docs/data/MATRIX.md: what each feature costs in flash, RAM, stack and instructions, on a Cortex-M0 and a Cortex-M4; and images of the own scenes,
 # made for them, beside the full library on the same scene. Takes minutes.
-#   sh docs/matrix.sh TOOL            measures, and writes docs/matrix.txt and docs/MATRIX.md
-#   sh docs/matrix.sh --tables        prints the tables of what docs/matrix.txt has; --document writes them into docs/MATRIX.md
+#   sh docs/matrix.sh TOOL            measures, and writes docs/matrix.txt and docs/data/MATRIX.md
+#   sh docs/matrix.sh --tables        prints the tables of what docs/matrix.txt has; --document writes them into docs/data/MATRIX.md
 #   sh docs/matrix.sh --scene TOOL SCENE CORE    measures the images of one scene
 #   sh docs/matrix.sh --list          the configurations: NAME FLAGS..., features alone and all
 set -eu
 cd "$(dirname "$0")/.."
 FIGURES=docs/matrix.txt
-DOC=docs/MATRIX.md
+DOC=docs/data/MATRIX.md
 CORES="Cortex-M0 Cortex-M4"
 SCENES="sundial avenue desk room fence mixed near sundial@accurate"
 mkdir -p build/tmp

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Regenerates the table of docs/PORTING.md, by running all golden frames with and without the ports. usage: porting.sh [OUT_DIR]
+# Regenerates the table of docs/FIRMWARE.md, by running all golden frames with and without the ports. usage: porting.sh [OUT_DIR]
 cd "$(dirname "$0")/.." || exit 1
 out=${1:-docs}
 work=$(mktemp -d)
@@ -23,5 +23,5 @@ count() { # count BOARD PORTS
 awk -v file="$work/table" '
     $0 == "<!-- generated: ports -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
     $0 == "<!-- end -->" { skip = 0 }
-    !skip { print }' "$out/PORTING.md" >"$work/next"
-cp "$work/next" "$out/PORTING.md"
+    !skip { print }' "$out/FIRMWARE.md" >"$work/next"
+cp "$work/next" "$out/FIRMWARE.md"

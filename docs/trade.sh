@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the generated parts of docs/TRADE.md and docs/pictures/trade-*.svg, and docs/trade.txt, what is counted on a Cortex-M3: five minutes on
+# Makes the generated parts of docs/data/TRADE.md and docs/pictures/trade-*.svg, and docs/trade.txt, what is counted on a Cortex-M3: five minutes on
 # two cores. usage: trade.sh TOOL [OUT_DIR [SCENE...]]
 # With OUT_DIR they are written there instead of in place, with SCENE only of these, and nothing is counted: figures are those of
 # docs/trade.txt. The test compares one scene.
@@ -12,8 +12,8 @@ scenes=${*:-sundial avenue desk room fence mixed}
 mkdir -p build/tmp
 work=$(mktemp -d build/tmp/trade.XXXXXX)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$out/pictures"
-[ "$out" = docs ] || cp docs/TRADE.md "$out/"
+mkdir -p "$out/pictures" "$out/data"
+[ "$out" = docs ] || cp docs/data/TRADE.md "$out/data/"
 
 # counted SCENE CSV: lines "SCENE|CONFIGURATION|FIRST|LATER" of what was counted
 counted() {
@@ -61,8 +61,8 @@ replace() { # replace NAME FILE
     awk -v name="$1" -v file="$2" '
         $0 == "<!-- generated: " name " -->" { print; while ((getline line < file) > 0) print line; skip = 1; next }
         $0 == "<!-- end -->" { skip = 0 }
-        !skip { print }' "$out/TRADE.md" >"$work/next"
-    cp "$work/next" "$out/TRADE.md"
+        !skip { print }' "$out/data/TRADE.md" >"$work/next"
+    cp "$work/next" "$out/data/TRADE.md"
 }
 
 # two scenes at a time
@@ -78,7 +78,7 @@ fi
 for scene in $scenes; do
     {
         echo
-        echo "![$scene: RAM and cost against error](pictures/trade-$scene.svg)"
+        echo "![$scene: RAM and cost against error](../pictures/trade-$scene.svg)"
         echo
         front "$scene" "$work/$scene.csv"
         schedules "$work/$scene.txt"

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.." || exit 1
 mode=table
 [ "$1" = --sentences ] && mode=sentences && shift
 [ $# -gt 0 ] || set -- README.md docs/*.md docs/data/*.md boards/README.md host/README.md lib/README.md port/README.md
-whole="docs/GALLERY.md docs/FEATURES.md" # made by scripts: their sentences count, their words do not
+whole="docs/GALLERY.md docs/data/FEATURES.md" # made by scripts: their sentences count, their words do not
 
 # What is written by hand: no part between the markers of a generator. Line numbers stay.
 by_hand() {

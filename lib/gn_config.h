@@ -1,7 +1,7 @@
 /* Every knob's default. Override any of them with -D, or in one file of your own: -DGN_USER_CONFIG='"my_config.h"'.
  *
  * GN_PRESET picks the defaults of the quality knobs together. gn_check.h checks ranges at compile time. gn_knobs.h
- * lists every knob's meaning, range and cost; docs/CONFIG.md is generated from it.
+ * lists every knob's meaning, range and cost; docs/CONFIGURATION.md is generated from it.
  */
 #ifndef GN_CONFIG_H
 #define GN_CONFIG_H

@@ -1,4 +1,4 @@
-/* The one list of knobs. The compile-time checks (gn_check.h), the host tool's --set and docs/CONFIG.md are made from
+/* The one list of knobs. The compile-time checks (gn_check.h), the host tool's --set and docs/CONFIGURATION.md are made from
  * it.
  *
  * Quality knobs change pixels. On a target they are constants, so that the compiler drops the unused code. With

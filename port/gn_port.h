@@ -1,5 +1,5 @@
 /* The port contract: what a port to a core may provide. Everything has a portable default, so that a port starts empty
- * and grows where it pays. docs/PORTING.md tells how to write and test one; port/template compiles.
+ * and grows where it pays. docs/FIRMWARE.md tells how to write and test one; port/template compiles.
  *
  * A port is a folder port/NAME with gn_port_NAME.h, which includes this header, and .c files. The library is compiled
  * with -DGN_PORT='"gn_port_NAME.h"' -Iport -Iport/NAME, and the folder's .c files are linked.

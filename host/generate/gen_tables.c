@@ -37,7 +37,7 @@ static uint32_t second_sobol(uint32_t index)
     return v;
 }
 
-/* x and y of the samples of the disk filter (DESIGN 1.7) */
+/* x and y of the samples of the disk filter (MODEL 7) */
 static void print_disk_table(void)
 {
     printf("\n#if GN_SHADOWS && GN_DISK_FILTER\nconst int16_t gn_disk_table_q15[128] = {");

@@ -1,4 +1,4 @@
-/* The reference engine: the whole pipeline of docs/DESIGN.md section 1 in double precision, written from the formulas.
+/* The reference engine: the whole pipeline of docs/MODEL.md in double precision, written from the formulas.
  *
  * It is the oracle of the accuracy tests. It includes nothing from lib/ and shares no arithmetic with it: no snapping,
  * no quantisation, no stepping. The only inputs are the scene and the picture's size, and, for the automatic bias
@@ -68,7 +68,7 @@ typedef struct {
     double *normal;    /* 3 per pixel, unit */
     int64_t *triangle; /* object << 32 | triangle, -1 where there is no surface */
     size_t n_lights;
-    double *shadow[REF_MAX_LIGHTS]; /* DESIGN 1.10, per pixel; 0 where there is no surface */
+    double *shadow[REF_MAX_LIGHTS]; /* MODEL 10, per pixel; 0 where there is no surface */
     double *ndotl[REF_MAX_LIGHTS];  /* n . L, unclamped; -1 where a_l = 0 or next to it, and where the light is baked or
                                        not in the object's list */
     ref_grant grant[REF_MAX_LIGHTS];
@@ -90,13 +90,13 @@ int ref_fit_light(ref_light_view *view, const scene *s, const scene_light *light
                   int tile_texels);
 int ref_fit_punctual(ref_light_view *view, const scene *s, const scene_light *light, int face, int tile_texels);
 int ref_point_face(const double from_light[3]);
-/* Half-width t of a cube's face: k_f, nu and T of DESIGN 1.5. */
+/* Half-width t of a cube's face: k_f, nu and T of MODEL 5. */
 double ref_face_half_width(int filter_index, double nu, int tile_texels, bool *clamped);
 
-/* a_l of DESIGN 1.8 at a point; 1 for directional lights. */
+/* a_l of MODEL 8 at a point; 1 for directional lights. */
 double ref_light_attenuation(const scene_light *light, const double point[3]);
 
-/* How a map is looked up (DESIGN 1.7). */
+/* How a map is looked up (MODEL 7). */
 typedef struct {
     scene_filter filter;
     scene_kernel kernel;
@@ -112,11 +112,11 @@ double ref_tent_weight(int filter_size, double centre, int texel);   /* filter_s
 double ref_linear_weight(int filter_size, double centre, int texel); /* the same for the linear kernel */
 void ref_disk_sample(double out[2], int i, int x, int y);            /* sample i at pixel (x, y), in the unit disk */
 
-/* shadow_l of DESIGN 1.9 for strength > 0 and a light with a tile: rt attenuation, m mask. */
+/* shadow_l of MODEL 9 for strength > 0 and a light with a tile: rt attenuation, m mask. */
 double ref_mix(scene_mixing mixing, double strength, double g, double m, double rt);
 void ref_sample_texture(double rgba[4], const scene_texture *texture, int level, double u, double v); /* linear light */
-double ref_fade_factor(double t, double cascade_fade); /* F_i of DESIGN 1.4 from t_i */
-double ref_dither_noise(int x, int y);                 /* of DESIGN 1.4, at the centre of pixel (x, y): 0..1 */
+double ref_fade_factor(double t, double cascade_fade); /* F_i of MODEL 4 from t_i */
+double ref_dither_noise(int x, int y);                 /* of MODEL 4, at the centre of pixel (x, y): 0..1 */
 double ref_srgb_encode(double linear);
 
 #endif

@@ -1,4 +1,4 @@
-/* Shadow maps: the smallest biased depth at each texel centre (DESIGN 1.6).
+/* Shadow maps: the smallest biased depth at each texel centre (MODEL 6).
  *
  * Both kinds of view are drawn in homogeneous map coordinates (U w, V w, w), w = 1 in directional views and the
  * light-plane distance in perspective ones. As in ref_raster.c nothing is divided by w: a triangle that passes through

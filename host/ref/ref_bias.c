@@ -1,4 +1,4 @@
-/* Receiver bias: the offset of every kind (DESIGN 1.4, 1.5), and the automatic one (DESIGN 1.7). */
+/* Receiver bias: the offset of every kind (MODEL 4, 5), and the automatic one (MODEL 7). */
 #include "ref_internal.h"
 
 #define COORDINATE_LSB 0x1p-16 /* of texels */

@@ -1,5 +1,5 @@
 /* Directional views: the cascades' spheres in the camera's frustum, how the views fit around them, which cascade a
- * point is looked up in (DESIGN 1.4). */
+ * point is looked up in (MODEL 4). */
 #include "ref_internal.h"
 
 /* The smallest m * 2^e >= x with 128 <= m <= 255, for x > 0. frexp gives x = f * 2^e with f in [1/2, 1); m = 256 is the
@@ -11,7 +11,7 @@ static double ceil8(double x)
     return ldexp(ceil(f * 256.0), e - 8);
 }
 
-/* m_i of DESIGN 1.4 [D3] */
+/* m_i of MODEL 4 [D3] */
 static double cascade_end(const scene_shadow *shadow, int cascade)
 {
     return shadow->max_distance * (cascade < shadow->n_cascades - 1 ? shadow->cascade_ratio[cascade] : 1.0);
@@ -33,7 +33,7 @@ bool ref_ratios_ascend(const scene_shadow *shadow)
     return true;
 }
 
-/* The sphere of the slice of the frustum from depth n to m: centre depth c and radius r of DESIGN 1.4. A single tile
+/* The sphere of the slice of the frustum from depth n to m: centre depth c and radius r of MODEL 4. A single tile
  * takes them all. [D3] */
 static ref_sphere fit_sphere(const scene *s, int cascade, int width, int height)
 {

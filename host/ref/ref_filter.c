@@ -1,4 +1,4 @@
-/* Attenuation: the shadow compare and its filters (DESIGN 1.7). */
+/* Attenuation: the shadow compare and its filters (MODEL 7). */
 #include "ref_internal.h"
 
 #define PI       3.14159265358979323846

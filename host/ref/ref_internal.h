@@ -9,7 +9,7 @@
 #include "ref.h"
 #include "ref_math.h"
 
-/* DESIGN 1.1 */
+/* MODEL 1 */
 typedef struct {
     vec3 position, right, up, forward;
     double half_width_px, half_height_px; /* W/2, H/2 */
@@ -21,9 +21,9 @@ typedef struct {
 /* One object's vertices after its transform. */
 typedef struct {
     vec3 *world;
-    vec3 *view;               /* X, Y, Z of DESIGN 1.1; Z is the view depth */
+    vec3 *view;               /* X, Y, Z of MODEL 1; Z is the view depth */
     vec3 *normal;             /* unit world normals; NULL: face normals */
-    vec3 box_centre;          /* the world box of DESIGN 1.6 */
+    vec3 box_centre;          /* the world box of MODEL 6 */
     vec3 box_half;            /* its half extents */
     bool lit[REF_MAX_LIGHTS]; /* the object's light list */
 } ref_instance;
@@ -40,7 +40,7 @@ typedef struct {
     double radius;
 } ref_sphere;
 
-/* What the camera sees that a view is looked up for (DESIGN 1.4, 1.6). */
+/* What the camera sees that a view is looked up for (MODEL 4, 6). */
 typedef struct {
     bool any;
     double worth;        /* pixels */
@@ -50,7 +50,7 @@ typedef struct {
 
 struct ref_surface;
 
-/* Another way to rt of DESIGN 1.9 than shadow maps: at a surface point, of a light that requests tiles. */
+/* Another way to rt of MODEL 9 than shadow maps: at a surface point, of a light that requests tiles. */
 typedef double ref_visibility(const void *user, const struct ref_surface *at, size_t l);
 
 /* Which cascade a surface point is looked up in, and how far it is from leaving it. */
@@ -89,7 +89,7 @@ typedef struct {
     const uint32_t *idx; /* of its three vertices */
 } ref_triangle;
 
-/* What a pixel shows (DESIGN 1.2). */
+/* What a pixel shows (MODEL 2). */
 typedef struct ref_surface {
     ref_triangle triangle;
     const double *bary;
@@ -129,7 +129,7 @@ vec3 ref_texture_colour(const ref_frame *frame, const ref_triangle *triangle, co
 vec3 ref_emitted(const ref_frame *frame, const ref_triangle *triangle, const double bary[3], double view_depth);
 bool ref_alpha_cuts(scene_alpha mode, double alpha, double cutoff, int x,
                     int y); /* x, y: of the pixel, or of the texel in its tile */
-double ref_mask(const scene *s, const ref_triangle *triangle, const double bary[3], int channel); /* m of DESIGN 1.9 */
+double ref_mask(const scene *s, const ref_triangle *triangle, const double bary[3], int channel); /* m of MODEL 9 */
 
 /* ref_view.c */
 scene_filter ref_light_filter(const scene_shadow *shadow, const scene_light *light, ref_atlas atlas);
@@ -168,7 +168,7 @@ const char *ref_assign_tiles(ref_frame *frame);
 /* ref_cascade.c */
 bool ref_ratios_ascend(const scene_shadow *shadow);
 void ref_find_spheres(ref_frame *frame);
-double ref_slice_end(const ref_frame *frame, int cascade); /* m of DESIGN 1.4 */
+double ref_slice_end(const ref_frame *frame, int cascade); /* m of MODEL 4 */
 const char *ref_fit_lights(ref_frame *frame);
 ref_selection ref_select_cascade(const ref_frame *frame, vec3 world);
 

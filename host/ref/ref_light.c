@@ -1,4 +1,4 @@
-/* The light that each pixel's surface sends to the camera (DESIGN 1.3). */
+/* The light that each pixel's surface sends to the camera (MODEL 3). */
 #include "ref_internal.h"
 
 /* Blinn and Phong: the fraction of a light that is mirrored towards the camera, for n . L > 0. [M3] */
@@ -12,7 +12,7 @@ static double highlight(const ref_frame *frame, const ref_surface *at, vec3 to_l
 }
 
 /* At the rim of a cone or a range the library's light ends a rounding earlier or later: what is darker than this
- * fraction of the light is not shown (DESIGN 1.10). */
+ * fraction of the light is not shown (MODEL 10). */
 #define RIM 0x1p-20
 
 static bool at_rim(const scene_light *light, const ref_surface *at, double attenuation)

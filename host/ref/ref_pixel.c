@@ -1,4 +1,4 @@
-/* Linear radiance to what is shown (DESIGN 1.3). Rounding to the levels of an output is left to the caller. */
+/* Linear radiance to what is shown (MODEL 3). Rounding to the levels of an output is left to the caller. */
 #include "ref_internal.h"
 
 /* IEC 61966-2-1 [M7] */

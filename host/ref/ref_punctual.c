@@ -1,5 +1,5 @@
 /* Spot and point lights: attenuation, which objects they reach, light lists, and their perspective views
- * (DESIGN 1.5, 1.8). */
+ * (MODEL 5, 8). */
 #include "ref_internal.h"
 
 #define LEAST_DISTANCE2 1e-4 /* keeps the light's own position finite */

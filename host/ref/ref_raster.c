@@ -1,4 +1,4 @@
-/* The visible surface at each pixel (DESIGN 1.1, 1.2), by homogeneous edge functions in view space.
+/* The visible surface at each pixel (MODEL 1, 2), by homogeneous edge functions in view space.
  *
  * The ray through a pixel centre is (s, t, F) with s = sx - W/2, t = H/2 - sy. Relative to the ray, a vertex (X, Y, Z)
  * lies at q = (F X - s Z, F Y - t Z), and q_a x q_b is, up to a positive factor, the determinant of ray, a, b: the edge

@@ -1,4 +1,4 @@
-/* What the camera sees of the receivers, for each view of a light (DESIGN 1.4, 1.6): the boxes of objects, clipped by
+/* What the camera sees of the receivers, for each view of a light (MODEL 4, 6): the boxes of objects, clipped by
  * the part of the frustum that the view is looked up for. */
 #include "ref_internal.h"
 

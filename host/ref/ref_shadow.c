@@ -1,11 +1,11 @@
-/* A light's shadow on a surface point: distance strength, receiver bias, blending, mixing (DESIGN 1.4, 1.7, 1.9). */
+/* A light's shadow on a surface point: distance strength, receiver bias, blending, mixing (MODEL 4, 7, 9). */
 #include "ref_internal.h"
 
 #define DEFAULT_SAMPLES 16
 #define STEEPEST        50.0 /* tan theta */
 #define PLANE_LIMIT     16.0 /* the receiver's gradient in depth ranges per tile */
 
-/* g of DESIGN 1.4 [D5] [D6] [D11]. Without cascades in use there is no sphere to leave. */
+/* g of MODEL 4 [D5] [D6] [D11]. Without cascades in use there is no sphere to leave. */
 static double distance_strength(const ref_frame *frame, const ref_surface *at)
 {
     const scene_shadow *shadow = &frame->s->shadow;
@@ -94,7 +94,7 @@ static double blended_attenuation(const ref_frame *frame, const ref_surface *at,
     return lerp(attenuation_in(frame, at, l, selected->next, to_light), here, selected->fade);
 }
 
-/* rt of DESIGN 1.9, from the maps. Only called where g > 0: a light with cascades then has one selected. */
+/* rt of MODEL 9, from the maps. Only called where g > 0: a light with cascades then has one selected. */
 static double mapped_attenuation(const ref_frame *frame, const ref_surface *at, size_t l, vec3 to_light)
 {
     const scene_light *light = &frame->s->lights[l];

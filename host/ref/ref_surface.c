@@ -1,4 +1,4 @@
-/* Surface attributes at the hit points (DESIGN 1.2, 1.8). */
+/* Surface attributes at the hit points (MODEL 2, 8). */
 #include "ref_internal.h"
 
 /* Whether the normals of its corners differ by 2^-10 or more along an axis: less is a flat triangle's. */

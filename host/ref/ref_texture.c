@@ -1,4 +1,4 @@
-/* Textures, masks and alpha (DESIGN 1.8, 1.9). */
+/* Textures, masks and alpha (MODEL 8, 9). */
 #include "ref_internal.h"
 
 /* One level of a texture. */
@@ -129,7 +129,7 @@ double ref_alpha(const scene *s, const ref_triangle *triangle, const double bary
     return triangle->object->alpha * mix_channel(texture, &f, 3);
 }
 
-/* S of DESIGN 1.8: texels per unit of length, the root of the ratio of areas. */
+/* S of MODEL 8: texels per unit of length, the root of the ratio of areas. */
 static double texel_density(const scene_texture *texture, const ref_triangle *t)
 {
     const double *uv = t->mesh->uv, *a = uv + 2 * (size_t)t->idx[0], *b = uv + 2 * (size_t)t->idx[1],

@@ -1,4 +1,4 @@
-/* Which light gets tiles, of which atlas, and how large (DESIGN 1.6). */
+/* Which light gets tiles, of which atlas, and how large (MODEL 6). */
 #include "ref_internal.h"
 
 #define MAX_TILES          16

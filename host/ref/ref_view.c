@@ -1,5 +1,5 @@
 /* What all light views share: filters and their margins, axes, and the way from the world into the map
- * (DESIGN 1.4, 1.5, 1.7). */
+ * (MODEL 4, 5, 7). */
 #include "ref_internal.h"
 
 #define WIDEST_DISK 8 /* texels */

@@ -1,4 +1,4 @@
-/* Object space to world to view (DESIGN 1.1), normals by the inverse transpose (DESIGN 1.2). */
+/* Object space to world to view (MODEL 1), normals by the inverse transpose (MODEL 2). */
 #include "ref_internal.h"
 
 #include <stdlib.h>
@@ -48,7 +48,7 @@ static vec3 transform_normal(const scene_affine *a, vec3 n)
 }
 
 /* The weighted mean of the transforms of a vertex's joints, then the object's: what a skinned vertex is transformed by
- * (DESIGN 1.2). [R12] */
+ * (MODEL 2). [R12] */
 static scene_affine skinned(const scene_object *object, const scene_mesh *mesh, size_t vertex_idx)
 {
     scene_affine mean = {{{0.0}}}, out;
@@ -82,7 +82,7 @@ static bool transform_object(ref_instance *out, const scene_object *object, cons
     return true;
 }
 
-/* DESIGN 1.6: the box of the transformed box, which holds the transformed vertices. */
+/* MODEL 6: the box of the transformed box, which holds the transformed vertices. */
 static void fit_world_box(ref_instance *out, const scene_object *object, const scene_mesh *mesh)
 {
     double low[3] = {0.0, 0.0, 0.0}, high[3] = {0.0, 0.0, 0.0}, half[3];

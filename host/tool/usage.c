@@ -48,7 +48,7 @@ static const command_help commands[] = {
     {"bake", BY_BAKE, "SCENE -o OUT.gltf", "the shadows of what stands still as masks, by the ray tracer",
      "Firmware then draws no shadow maps for them. Prints what the masks cost and how true they are.",
      "gnomon bake host/scenes/room.gltf -o baked.gltf --texels 256"},
-    {"knobs", 0, "", "every knob and setting, as docs/CONFIG.md lists them",
+    {"knobs", 0, "", "every knob and setting, as docs/CONFIGURATION.md lists them",
      "Name, range, value in each preset, meaning and cost: what --set, scene files and the configuration header take.",
      "gnomon knobs"},
     {"help", 0, "[COMMAND]", "this text, or a command's own", NULL, "gnomon help render"},

@@ -1,4 +1,4 @@
-/* What a light's casters leave of it at a point (DESIGN 1.6, without the maps). */
+/* What a light's casters leave of it at a point (MODEL 6, without the maps). */
 #include "truth.h"
 
 typedef struct {
@@ -39,7 +39,7 @@ static bool meet_caster(void *user, const truth_caster *c)
     return way->transmittance > 0.0;
 }
 
-/* Along the axis of a spot, or of the face of the cube that the point lies in (DESIGN 1.5). */
+/* Along the axis of a spot, or of the face of the cube that the point lies in (MODEL 5). */
 static double light_plane_distance(const scene_light *light, vec3 point)
 {
     const vec3 from_light = vec3_sub(point, vec3_load(light->position));

@@ -1,4 +1,4 @@
-/* The truth engine: DESIGN section 1 with exact visibility instead of shadow maps. Camera, surfaces, shading,
+/* The truth engine: MODEL with exact visibility instead of shadow maps. Camera, surfaces, shading,
  * attenuation, fades and masks are the reference's own (host/ref); what a light's shadow is, is traced: no texels, no
  * filter, no bias, no budget of tiles.
  */
@@ -13,7 +13,7 @@
 /* Renders the scene with samples x samples rays per pixel. One is through the pixel's centre: the very point that the
  * reference shades. With more, colours are means in linear light, shadows means over the samples that show the surface
  * of the pixel's centre and face the light; everything else is the centre's. The atlas options decide nothing but which
- * configurations are errors, and whether cascades end shadows (DESIGN 1.4). Returns 0; -1 with one line in error. Free
+ * configurations are errors, and whether cascades end shadows (MODEL 4). Returns 0; -1 with one line in error. Free
  * it with ref_free; it has no views. */
 int truth_render(ref_picture *out, const scene *s, const ref_options *options, int samples, char *error,
                  size_t error_bytes);

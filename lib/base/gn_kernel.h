@@ -2,7 +2,7 @@
  *
  * The library is portable without a port. With -DGN_PORT='"gn_port_NAME.h"' that header is included (gn_hint.h); for
  * each kernel that the port has, it defines gn_kernel_X as the function that replaces gn_portable_X, under the same
- * preconditions: port/gn_port.h is the contract, docs/PORTING.md explains it.
+ * preconditions: port/gn_port.h is the contract, docs/FIRMWARE.md explains it.
  */
 #ifndef GN_KERNEL_H
 #define GN_KERNEL_H

@@ -1,4 +1,4 @@
-/* Compact arithmetic: the camera, and where the light's tile lies in the world (DESIGN 1.4). */
+/* Compact arithmetic: the camera, and where the light's tile lies in the world (MODEL 4). */
 #include "gn_internal.h"
 
 #include "gn_stages.h"
@@ -119,7 +119,7 @@ static gn_status compact_check_shadow(const gn_frame *frame, const gn_shadow_set
     return shadow->n_cascades > 1 ? GN_ERR_SHADOW_CASCADES : GN_OK;
 }
 
-/* Centre and radius of the slice's sphere as fractions of the max distance (DESIGN 1.4), Q28. Returns 0 if near is
+/* Centre and radius of the slice's sphere as fractions of the max distance (MODEL 4), Q28. Returns 0 if near is
  * beyond q^2 of it. */
 static int fit_sphere(const gn_frame *frame, int32_t *centre, int32_t *radius)
 {
@@ -190,7 +190,7 @@ static int compact_place_tile(const gn_frame *frame, gn_compact_view *view, uint
     return 1;
 }
 
-/* DESIGN 1.4: u, v, w from the direction of travel. */
+/* MODEL 4: u, v, w from the direction of travel. */
 static int compact_view_axes(gn_compact_view *view, const int32_t direction[3])
 {
     int32_t(*axis)[3] = view->axis_q30, hint[3] = {0, 1, 0};
@@ -210,7 +210,7 @@ static int compose_to_light(gn_frame *frame)
 }
 
 /* How far a receiver moves along its face's normal: by its own offset [B2], or automatically [B6] (NUMERICS 4.15). nu
- * of DESIGN 1.7, for which the tile must have a margin. */
+ * of MODEL 7, for which the tile must have a margin. */
 static int32_t receiver_reach(gn_frame *frame, const gn_light *light)
 {
     frame->offset_q16 = (int32_t)gn_compact_mul((uint32_t)light->bias_normal_q16, 0xB504F334U, 0)

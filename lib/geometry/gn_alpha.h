@@ -1,4 +1,4 @@
-/* Triangles that alpha cuts: clip and dither (DESIGN 1.6, 1.8), as the camera or a light sees them, along the
+/* Triangles that alpha cuts: clip and dither (MODEL 6, 8), as the camera or a light sees them, along the
  * rows that are walked. */
 #ifndef GN_ALPHA_H
 #define GN_ALPHA_H

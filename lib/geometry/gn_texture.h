@@ -1,4 +1,4 @@
-/* Textures: colour in linear light, and alpha (DESIGN 1.8). */
+/* Textures: colour in linear light, and alpha (MODEL 8). */
 #ifndef GN_TEXTURE_H
 #define GN_TEXTURE_H
 
@@ -37,7 +37,7 @@ GN_HOT static inline uint32_t gn_texture_size_log2(const gn_texture *texture, in
 
 /* The view depth from which on the first smaller level is read, squared: each further one begins at twice that.
  * UINT64_MAX: none is. `area` is that of the plane that `screen` projects: the same, but of an orthographic camera.
- * DESIGN 1.8. [M11] */
+ * MODEL 8. [M11] */
 uint64_t gn_texture_level_depth2(const gn_texture_triangle *triangle, const gn_texture *texture, const gn_plane *area,
                                  const gn_plane *screen, uint32_t focal2_px_q16);
 

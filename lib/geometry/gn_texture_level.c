@@ -1,4 +1,4 @@
-/* Half-size levels of textures: which one a view depth reads (DESIGN 1.8). */
+/* Half-size levels of textures: which one a view depth reads (MODEL 8). */
 #include "gn_internal.h"
 
 #include "base/gn_math.h"

@@ -73,7 +73,7 @@ GN_HOT static int32_t place_error_q16(const gn_frame *frame, const gn_light_view
         int64_t end_q16 = (int64_t)cascade->centre_q16 + (int64_t)gn_isqrt64(cascade->radius2_q32);
         farthest_q16 = end_q16 < farthest_q16 ? end_q16 : farthest_q16;
     }
-    farthest_q16 += GN_FLAT_Q16(frame); /* DESIGN 1.7 */
+    farthest_q16 += GN_FLAT_Q16(frame); /* MODEL 7 */
     int64_t error_q32 =
         gn_shr64(farthest_q16 * ray_error_q40(frame), 24) + ((int64_t)GN_AUTO_UNITS << 16); /* 2^30 * 2^31 */
     int64_t texels_q16 =

@@ -1,4 +1,4 @@
-/* Receiver bias (DESIGN 1.7). */
+/* Receiver bias (MODEL 7). */
 #ifndef GN_BIAS_H
 #define GN_BIAS_H
 
@@ -7,7 +7,7 @@
 #define GN_DISK_INDEX_MAX 8 /* largest filter index of the disk */
 #define GN_SQRT2_Q16      92682
 
-/* nu of DESIGN 1.4: how far a light's receiver bias can move a point across the light's axis, in texels per (k + 1),
+/* nu of MODEL 4: how far a light's receiver bias can move a point across the light's axis, in texels per (k + 1),
  * Q16. Uses only the view's texels per row and depth bits. */
 int32_t gn_bias_reach_q16(const gn_frame *frame, const gn_light_view *view, const gn_light *light);
 
@@ -20,7 +20,7 @@ void gn_bias_directional(const gn_frame *frame, const gn_light_view *view, const
 void gn_bias_punctual(const gn_frame *frame, const gn_light_state *light, const int32_t n_q30[3], int32_t depth_q16,
                       const int32_t from_q16[3], int32_t out_q16[3]);
 
-/* ---- Automatic bias (DESIGN 1.7): gn_auto_bias.c ---------------------------------------------------------------- */
+/* ---- Automatic bias (MODEL 7): gn_auto_bias.c ---------------------------------------------------------------- */
 
 /* Once per view, after its fit and filter. */
 void gn_bias_auto_view(const gn_frame *frame, gn_light_view *view);

@@ -37,14 +37,14 @@ static void flat_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16
 }
 #endif
 
-/* One sphere per cascade: DESIGN 1.4 derives it. [D3] */
+/* One sphere per cascade: MODEL 4 derives it. [D3] */
 void gn_cascade_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t *centre_q24,
                        int64_t *radius_q24)
 {
     const int64_t one = (int64_t)1 << 24;
     int64_t k2 = gn_cascade_tan2_q24(frame);
     int64_t q = 65536 - (int64_t)frame->scene->shadow.cascade_fade_uq16;
-    if (q < 8192) q = 8192; /* 1/8: see DESIGN 1.4 */
+    if (q < 8192) q = 8192; /* 1/8: see MODEL 4 */
     int64_t q2 = (q * q) >> 8;
 #if GN_ORTHOGRAPHIC
     if (frame->cam.flat_q16) {

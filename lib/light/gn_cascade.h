@@ -1,4 +1,4 @@
-/* Cascades: slices of the frustum, their bounding spheres, and how shadows end with distance (DESIGN 1.4). */
+/* Cascades: slices of the frustum, their bounding spheres, and how shadows end with distance (MODEL 4). */
 #ifndef GN_CASCADE_H
 #define GN_CASCADE_H
 

@@ -1,4 +1,4 @@
-/* Spot and point lights: attenuation with distance and angle (DESIGN 1.8). */
+/* Spot and point lights: attenuation with distance and angle (MODEL 8). */
 #ifndef GN_PUNCTUAL_H
 #define GN_PUNCTUAL_H
 

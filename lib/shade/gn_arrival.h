@@ -1,5 +1,5 @@
 /* What arrives at a surface point from spot and point lights, and where their shadow maps see it (P2-P6, B6,
- * DESIGN 1.6, 1.8). */
+ * MODEL 6, 8). */
 #ifndef GN_ARRIVAL_H
 #define GN_ARRIVAL_H
 

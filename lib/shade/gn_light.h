@@ -1,4 +1,4 @@
-/* Lighting of one surface point (DESIGN 1.3). */
+/* Lighting of one surface point (MODEL 3). */
 #ifndef GN_LIGHT_H
 #define GN_LIGHT_H
 

@@ -1,4 +1,4 @@
-/* Rasterises caster triangles into a shadow tile, whatever its projection (DESIGN 1.6). */
+/* Rasterises caster triangles into a shadow tile, whatever its projection (MODEL 6). */
 #ifndef GN_CASTER_H
 #define GN_CASTER_H
 

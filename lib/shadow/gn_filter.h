@@ -1,4 +1,4 @@
-/* Percentage-closer filtering (DESIGN 1.7). */
+/* Percentage-closer filtering (MODEL 7). */
 #ifndef GN_FILTER_H
 #define GN_FILTER_H
 

@@ -4,7 +4,7 @@
 
 #include "gnomon.h"
 
-/* DESIGN 1.4: u, v, w from the direction of travel. */
+/* MODEL 4: u, v, w from the direction of travel. */
 void gn_light_view_axes(int32_t axis_q30[3][3], const int32_t w_q30[3]);
 
 /* Fills frame->view, and the shadow fields of frame->light. gn_lights_setup has been called. */

@@ -1,4 +1,4 @@
-/* Orthographic light views: how a tile lies in the world, and casters as it sees them (DESIGN 1.4, 1.6). */
+/* Orthographic light views: how a tile lies in the world, and casters as it sees them (MODEL 4, 6). */
 #ifndef GN_ORTHO_H
 #define GN_ORTHO_H
 

@@ -1,4 +1,4 @@
-/* Perspective light views of spot and point lights, and casters as they see them (DESIGN 1.5, 1.6). */
+/* Perspective light views of spot and point lights, and casters as they see them (MODEL 5, 6). */
 #ifndef GN_PERSP_H
 #define GN_PERSP_H
 

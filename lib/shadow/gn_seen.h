@@ -1,5 +1,5 @@
-/* What the camera sees of the receivers, for each view of a light: tight fits and tiles by worth need it (DESIGN 1.4,
- * 1.6). */
+/* What the camera sees of the receivers, for each view of a light: tight fits and tiles by worth need it (MODEL 4,
+ * 6). */
 #ifndef GN_SEEN_H
 #define GN_SEEN_H
 

@@ -1,4 +1,4 @@
-/* Which light gets how many shadow tiles, of which size, in which atlas (DESIGN 1.6). */
+/* Which light gets how many shadow tiles, of which size, in which atlas (MODEL 6). */
 #ifndef GN_TILES_H
 #define GN_TILES_H
 

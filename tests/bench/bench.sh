@@ -2,7 +2,8 @@
 # Counts the instructions of the workload (tests/bench/bench_workload.c) with callgrind and holds them against
 # tests/bench/bench_baseline.txt.
 #   sh tests/bench/bench.sh           fails if a total is more than 2 % above the baseline
-#   sh tests/bench/bench.sh --write   makes the new figures the baseline, and writes them into docs/SPEED.md
+#   sh tests/bench/bench.sh --document writes the baseline's figures into docs/data/SPEED.md; --check: whether they are there
+#   sh tests/bench/bench.sh --write   makes the new figures the baseline, and writes them into docs/data/SPEED.md
 # Environment: CC, BUILD.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -10,14 +11,13 @@ cd "$(dirname "$0")/../.."
 CC=${CC:-gcc}
 DIR=${BUILD:-build}/bench
 BASELINE=tests/bench/bench_baseline.txt
-DOC=docs/SPEED.md
+DOC=docs/data/SPEED.md
 CASES="flat gouraud flat-shadow gouraud-shadow"
 CFLAGS="-std=c11 -D_POSIX_C_SOURCE=200809L -O2 -gdwarf-4 -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow \
   -Wundef -Werror -Ilib -Itests"
 ROOM="-DGN_MAX_TRIANGLES=1000 -DGN_MAX_TILE_REFS=8000"
 SOURCES="tests/bench/bench_workload.c tests/bench/bench_gen.c host/scene/image/zlib_tables.c"
 
-command -v valgrind >/dev/null || { echo "bench: valgrind is not installed" >&2; exit 1; }
 mkdir -p "$DIR"
 
 # run CASE SET, then instructions: all of the drawing, its stages, the shadow tiles; and the number of shadow lookups
@@ -51,7 +51,7 @@ measure() {
     count_run flat-shadow empty
 }
 
-# The generated part of docs/SPEED.md, from a file of measurements.
+# The generated part of docs/data/SPEED.md, from a file of measurements.
 tables() {
     awk '
         $1 == "run" { for (i = 4; i <= 9; i++) run[$2, $3, i] = $i }
@@ -142,6 +142,11 @@ END_MARK='<!-- end: generated -->'
 
 . tests/bench/bench_part.sh
 
+case ${1:-} in
+--document) rewrite_document; exit ;;
+--check) finish 0 ;;
+esac
+command -v valgrind >/dev/null || { echo "bench: valgrind is not installed" >&2; exit 1; }
 measure >"$DIR/measured.txt"
 
 if [ "${1:-}" = --write ]; then
@@ -164,11 +169,14 @@ awk '
         change = then ? 100 * (now - then) / then : 100
         printf "%-28s %12d %12d %+7.2f %%", what, then, now, change
         print (change > 2 ? "  WORSE" : change < -2 ? "  better: --write" : "")
-        worse += change > 2
+        worse += change > 2; stale += change < -10
     }
     { compare($2 " " $3, $4, drawing[$2, $3]) }
     $2 ~ /shadow/ { compare("shadow tile, " $2 " " $3, $8, shadow[$2, $3]) }
-    END { exit (worse > 0 || compared < 14) }' "$BASELINE" "$DIR/measured.txt" || status=1
+    END {
+        if (stale) print "bench: " stale " figures are more than 10 % below the baseline, which is out of date: --write"
+        exit (worse > 0 || stale > 0 || compared < 14)
+    }' "$BASELINE" "$DIR/measured.txt" || status=1
 [ $status = 0 ] || echo "bench: FAILED: worse than $BASELINE by more than 2 % (sh tests/bench/bench.sh --write accepts it)"
 
 finish $status

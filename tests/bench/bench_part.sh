@@ -1,4 +1,4 @@
-# For the two benchmarks: their parts of docs/SPEED.md. Sourced; they define tables, BASELINE, DIR, DOC, BEGIN_MARK and END_MARK.
+# For the two benchmarks: their parts of docs/data/SPEED.md. Sourced; they define tables, BASELINE, DIR, DOC, BEGIN_MARK and END_MARK.
 
 # The document with its generated part made from the baseline.
 document() {
@@ -11,15 +11,16 @@ document() {
 }
 
 rewrite_document() {
-    document >"$DIR/SPEED.md"
-    cp "$DIR/SPEED.md" "$DOC"
+    document >"$DIR/speed.md"
+    cp "$DIR/speed.md" "$DOC"
+    sh docs/cost.sh
 }
 
 # finish STATUS: of the comparison; and the document must be what the baseline makes it
 finish() {
     status=$1
-    document >"$DIR/SPEED.md"
-    cmp -s "$DIR/SPEED.md" "$DOC" || { echo "bench: FAILED: $DOC is not what $BASELINE makes it"; status=1; }
+    document >"$DIR/speed.md"
+    cmp -s "$DIR/speed.md" "$DOC" || { echo "bench: FAILED: $DOC is not what $BASELINE makes it"; status=1; }
     [ "$status" = 0 ] && echo "bench: ok"
     exit "$status"
 }

@@ -2,8 +2,8 @@
 # Counts the instructions of firmware in the emulator, stage by stage, and holds them against tests/bench/bench_target_baseline.txt.
 #   sh tests/bench/bench_target.sh            fails if a total is more than 2 % above the baseline
 #   sh tests/bench/bench_target.sh --quick    the workload on the Cortex-M3 alone
-#   sh tests/bench/bench_target.sh --document writes the baseline's figures into docs/SPEED.md
-#   sh tests/bench/bench_target.sh --write    makes the new figures the baseline, and writes them into docs/SPEED.md
+#   sh tests/bench/bench_target.sh --document writes the baseline's figures into docs/data/SPEED.md; --check: whether they are there
+#   sh tests/bench/bench_target.sh --write    makes the new figures the baseline, and writes them into docs/data/SPEED.md
 # Environment: BUILD, GNOMON.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -11,7 +11,7 @@ cd "$(dirname "$0")/../.."
 BUILD=${BUILD:-build}
 DIR=$BUILD/bench
 BASELINE=tests/bench/bench_target_baseline.txt
-DOC=docs/SPEED.md
+DOC=docs/data/SPEED.md
 CASES="flat gouraud flat-shadow gouraud-shadow"
 SCENES="sundial avenue desk room fence mixed"
 STAGES=$(sh boards/tools/count.sh --stages)
@@ -27,7 +27,6 @@ mkdir -p "$DIR"
 
 board_of() { echo "$CORES" | sed -n "s/^$1 \\([^ ]*\\).*/\\1/p"; }
 flags_of() { echo "$CORES" | sed -n "s/^$1 [^ ]* *//p"; }
-for core in M3 RV32; do sh boards/tools/count.sh --ready "$(board_of $core)"; done
 
 # one "run CORE NAME" IMAGE CORE ARGS VARIABLE...: a line with the instructions of every stage, in the order of STAGES, then the
 # counts that the app prints
@@ -133,10 +132,11 @@ END_MARK='<!-- end: target -->'
 
 . tests/bench/bench_part.sh
 
-if [ "${1:-}" = --document ]; then
-    rewrite_document
-    exit 0
-fi
+case ${1:-} in
+--document) rewrite_document; exit ;;
+--check) finish 0 ;;
+esac
+for core in M3 RV32; do sh boards/tools/count.sh --ready "$(board_of $core)"; done
 make -s BOARD=mps2-an385 APP=bench BUILD="$BUILD" "$BUILD/firmware/bench/bench_meshes.h" >/dev/null # makes the workload
 if [ "${1:-}" = --write ]; then
     measure all >"$DIR/target.txt"
@@ -161,10 +161,11 @@ awk '
         now = total()
         change = then[key] ? 100 * (now - then[key]) / then[key] : 100
         if (change > 2 || change < -2) printf "%-36s %12d %12d %+7.2f %%%s\n", key, then[key], now, change, change > 2 ? "  WORSE" : "  better: --write"
-        worse += change > 2
+        worse += change > 2; stale += change < -10
     }
     END {
         printf "bench: %d runs on targets, %d worse than the baseline by more than 2 %%\n", compared, worse
-        exit worse > 0 || compared < 9
+        if (stale) print "bench: " stale " figures are more than 10 % below the baseline, which is out of date: --write"
+        exit worse > 0 || stale > 0 || compared < 9
     }' "$BASELINE" "$DIR/target.txt" || status=1
 finish $status

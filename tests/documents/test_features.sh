@@ -1,11 +1,11 @@
 #!/bin/sh
-# docs/FEATURES.md is what docs/features.sh makes of the tags in the code; every row has code, reference, settings, a
+# docs/data/FEATURES.md is what docs/features.sh makes of the tags in the code; every row has code, reference, settings, a
 # test and pictures (docs/GALLERY.md); every picture is drawn again by both engines, which must agree.
 # usage: test_features.sh [TOOL]
 cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
 . tests/support/check.sh
-features=docs/FEATURES.md gallery=docs/GALLERY.md
+features=docs/data/FEATURES.md gallery=docs/GALLERY.md
 
 "$tool" knobs | sed -n 's/^| `\([a-z_0-9]*\)`.*/\1/p' >"$tmp/knobs"
 [ "$(wc -l <"$tmp/knobs")" -gt 60 ] && pass || fail "gnomon knobs lists $(wc -l <"$tmp/knobs") names"
@@ -25,9 +25,9 @@ identifiers() { awk -v p="$1" -v n="$2" 'BEGIN { for (i = 1; i <= n; i++) print 
 # ---- The page and the tags -------------------------------------------------------------------------------------------
 
 mkdir -p "$tmp/page"
-if sh docs/features.sh "$tmp/page" >"$tmp/log" 2>&1 && cmp -s "$tmp/page/FEATURES.md" $features; then pass
+if sh docs/features.sh "$tmp/page" >"$tmp/log" 2>&1 && cmp -s "$tmp/page/data/FEATURES.md" $features; then pass
 else
-    diff $features "$tmp/page/FEATURES.md" >"$tmp/diff" 2>&1
+    diff $features "$tmp/page/data/FEATURES.md" >"$tmp/diff" 2>&1
     fail "$features is not what docs/features.sh makes, run it: $(sed -n 2p "$tmp/diff")"
 fi
 sh docs/features.sh --tags >"$tmp/tags"
@@ -87,7 +87,7 @@ while read -r row; do
     has_tag "$row" tests && pass || fail "no comment in tests/ has the tag [$row]"
     settings "$row" "$(cell 3)"
     anchor=$(echo "$row" | tr A-Z a-z)
-    grep -q "^| $row |.*(GALLERY.md#$anchor) |\$" $features && pass || fail "$row has no link to its pictures"
+    grep -q "^| $row |.*(../GALLERY.md#$anchor) |\$" $features && pass || fail "$row has no link to its pictures"
     grep -q -F "<a id=\"$anchor\"></a>" $gallery && pass || fail "$gallery has no place $anchor"
     section "$row" | sed -n 's/^!\[.*\](\(.*\))$/docs\/\1/p' >"$tmp/pictures"
     [ -s "$tmp/pictures" ] && pass || fail "$row has no picture"

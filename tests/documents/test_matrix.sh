@@ -1,19 +1,19 @@
 #!/bin/sh
-# docs/MATRIX.md is what its figures make it and has every feature; an image made for one scene leaves out what it should. usage: test_matrix.sh [TOOL]
+# docs/data/MATRIX.md is what its figures make it and has every feature; an image made for one scene leaves out what it should. usage: test_matrix.sh [TOOL]
 cd "$(dirname "$0")/../.." || exit 1
 tool=${1:-build/gnomon}
 . tests/support/check.sh
 
 sh docs/matrix.sh --tables >"$tmp/tables" 2>"$tmp/err" || fail "docs/matrix.sh: $(head -n 1 "$tmp/err")"
-awk '$0 == "<!-- end -->" { on = 0 } on { print } $0 == "<!-- generated: matrix -->" { on = 1 }' docs/MATRIX.md | cmp -s - "$tmp/tables" && pass ||
-    fail "docs/MATRIX.md is not what docs/matrix.txt makes it: sh docs/matrix.sh --document"
+awk '$0 == "<!-- end -->" { on = 0 } on { print } $0 == "<!-- generated: matrix -->" { on = 1 }' docs/data/MATRIX.md | cmp -s - "$tmp/tables" && pass ||
+    fail "docs/data/MATRIX.md is not what docs/matrix.txt makes it: sh docs/matrix.sh --document"
 sh docs/matrix.sh --list >"$tmp/list"
 for name in none all $(sed -n 's/^all-\(.*\) -D.*/\1/p' "$tmp/list" | cut -d ' ' -f 1); do
     case $name in none | all) wanted="^$name " ;; *) wanted="+$name " ;; esac
     grep -q -e "$wanted" "$tmp/list" && pass || fail "$name is not in the list of configurations"
 done
 for feature in $(sed -n '/GN_FEATURE_KNOBS/,$s/^    X(\([a-z_0-9]*\), .*/\1/p' lib/gn_knobs.h | grep -v -x -e runtime_knobs -e raw_views); do
-    grep -q "^| \`$feature\` | " "$tmp/tables" && pass || fail "docs/MATRIX.md has no row of $feature: make matrix"
+    grep -q "^| \`$feature\` | " "$tmp/tables" && pass || fail "docs/data/MATRIX.md has no row of $feature: make matrix"
 done
 
 # One directional light, where it is hardest (Cortex-M0, preset balanced): against the library that draws every scene at any setting, and against every feature at this scene's settings

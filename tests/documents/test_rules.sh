@@ -247,22 +247,22 @@ for target in $(sed -n 's/^\.PHONY: *//p' Makefile); do
 done
 
 if [ ! -x build/gnomon ]; then fail "there is no build/gnomon"
-elif ! grep -q 'generated' docs/CONFIG.md 2>/dev/null; then fail "docs/CONFIG.md has no generated section"
+elif ! grep -q 'generated' docs/CONFIGURATION.md 2>/dev/null; then fail "docs/CONFIGURATION.md has no generated section"
 else
     build/gnomon knobs | sed '/./,$!d' >"$tmp/knobs"
     # the generated section: what stands between the two marker comments
-    awk '/<!-- *generated/ { inside = 1; next } /<!-- *(end|\/generated)/ { inside = 0 } inside' docs/CONFIG.md | sed '/./,$!d' >"$tmp/section"
+    awk '/<!-- *generated/ { inside = 1; next } /<!-- *(end|\/generated)/ { inside = 0 } inside' docs/CONFIGURATION.md | sed '/./,$!d' >"$tmp/section"
     # blank lines at the ends do not count
     if [ "$(cat "$tmp/knobs")" = "$(cat "$tmp/section")" ] && [ -s "$tmp/knobs" ]; then pass
-    else fail "docs/CONFIG.md is not what 'gnomon knobs' prints: make docs ($(diff "$tmp/knobs" "$tmp/section" | sed -n 2p))"; fi
+    else fail "docs/CONFIGURATION.md is not what 'gnomon knobs' prints: make docs ($(diff "$tmp/knobs" "$tmp/section" | sed -n 2p))"; fi
 fi
 
 if [ ! -x build/test_extremes_many ]; then fail "there is no build/test_extremes_many"
 else
     for part in extremes extremes_light extremes_many; do build/test_$part --table; done | sed '/./,$!d' >"$tmp/extremes"
-    awk '/<!-- generated: extremes/ { inside = 1; next } /<!-- end/ { inside = 0 } inside' docs/EXTREMES.md | sed '/./,$!d' >"$tmp/section"
+    awk '/<!-- generated: extremes/ { inside = 1; next } /<!-- end/ { inside = 0 } inside' docs/data/EXTREMES.md | sed '/./,$!d' >"$tmp/section"
     if cmp -s "$tmp/extremes" "$tmp/section" && [ -s "$tmp/section" ]; then pass
-    else fail "docs/EXTREMES.md is not what the --table of test_extremes, test_extremes_light and test_extremes_many prints: make docs ($(diff "$tmp/extremes" "$tmp/section" | sed -n 2p))"; fi
+    else fail "docs/data/EXTREMES.md is not what the --table of test_extremes, test_extremes_light and test_extremes_many prints: make docs ($(diff "$tmp/extremes" "$tmp/section" | sed -n 2p))"; fi
 fi
 
 echo "$passed passed, $failed failed"

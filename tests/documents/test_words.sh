@@ -71,11 +71,11 @@ cat $documents | grep -o '`\(lib\|host\|tests\|boards\|port\|docs\)/[a-zA-Z0-9_/
 none "files of documents that are not there" "$tmp/found"
 
 # files of lib/, by their stem
-grep -o '`\(base\|geometry\|scene\|light\|shadow\|visible\|shade\|compact\|frame\)/gn_[a-z_]*`' docs/DESIGN.md | tr -d '`' | sort -u >"$tmp/stems"
-[ "$(wc -l <"$tmp/stems")" -gt 40 ] && pass || fail "docs/DESIGN.md names $(wc -l <"$tmp/stems") files of lib/"
+grep -o '`\(base\|geometry\|scene\|light\|shadow\|visible\|shade\|compact\|frame\)/gn_[a-z_]*`' docs/ARCHITECTURE.md | tr -d '`' | sort -u >"$tmp/stems"
+[ "$(wc -l <"$tmp/stems")" -gt 40 ] && pass || fail "docs/ARCHITECTURE.md names $(wc -l <"$tmp/stems") files of lib/"
 while read -r stem; do ls lib/"$stem".[ch] >/dev/null 2>&1 || echo "$stem"; done <"$tmp/stems" >"$tmp/found"
-none "files of docs/DESIGN.md that are not in lib/" "$tmp/found"
-for figure in frame window; do
+none "files of docs/ARCHITECTURE.md that are not in lib/" "$tmp/found"
+for figure in frame window cascades; do
     sh docs/$figure.sh "$tmp/$figure.svg" && cmp -s "$tmp/$figure.svg" docs/pictures/$figure.svg && pass || fail "docs/pictures/$figure.svg is not what docs/$figure.sh draws"
 done
 grep -o '[^a-z_]gn_[a-z_]*' docs/pictures/frame.svg | cut -c 2- | sort -u | while read -r name; do

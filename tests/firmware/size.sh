@@ -3,17 +3,17 @@
 #   sh tests/firmware/size.sh                     measures all of it; prints it as tables
 #   sh tests/firmware/size.sh --figures [some]    one figure per line: flash|whole|ram|stack|fault CORE CONFIGURATION NAME VALUE; some: what the test needs
 #   sh tests/firmware/size.sh --tables FILE       tables, in Markdown, of figures measured before
-#   sh tests/firmware/size.sh --write             makes the figures tests/firmware/size_baseline.txt, and writes docs/MEMORY.md
+#   sh tests/firmware/size.sh --write             makes the figures tests/firmware/size_baseline.txt, and writes docs/data/SIZES.md, COST and README
 #   sh tests/firmware/size.sh --files CORE CONFIGURATION        flash by file of lib/
 #   sh tests/firmware/size.sh --list FILE CORE...    figures of configurations of a file: lines NAME FLAGS...
 #   sh tests/firmware/size.sh --flags CONFIGURATION   its compiler flags
-#   sh tests/firmware/size.sh --document          writes docs/MEMORY.md alone
+#   sh tests/firmware/size.sh --document          writes the documents alone
 #   sh tests/firmware/size.sh --functions CORE CONFIGURATION    the largest functions and tables of an image
 # Cores are those of boards/*/board.mk. Everything is compiled as boards/boards.mk does it, -Os.
 set -eu
 cd "$(dirname "$0")/../.."
 BASELINE=tests/firmware/size_baseline.txt
-DOC=docs/MEMORY.md
+DOC=docs/data/SIZES.md
 mkdir -p build/tmp
 work=$(mktemp -d build/tmp/size.XXXXXX)
 trap 'rm -rf "$work"' EXIT
@@ -258,6 +258,7 @@ document() { # from the baseline, and the files as they are
         mv "$work/next" "$work/doc"
     done
     cp "$work/doc" "$DOC"
+    sh docs/cost.sh
 }
 
 case ${1:-} in

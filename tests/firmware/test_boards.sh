@@ -1,5 +1,5 @@
 #!/bin/sh
-# The same bits on every host build and on six cores in the emulator, as docs/BOARDS.md lists them; 16 KB of RAM; guards that report;
+# The same bits on every host build and on six cores in the emulator, as docs/data/GOLDEN.md lists them; 16 KB of RAM; guards that report;
 # boards that QEMU does not run are built.
 # THOROUGH=1: a scene with constants on every core, more optimisations on the host and without a warning.
 cd "$(dirname "$0")/../.." || exit 1
@@ -95,7 +95,7 @@ pocket() {
     if [ "$(wc -l <"$tmp/hours.host")" = 3 ] && cmp -s "$tmp/hours.host" "$tmp/hours.microbit"; then echo ok
     else echo "pocket: $(grep -v '^  ' "$tmp/pocket.microbit" | tr '\n' ';')"; fi
     sed 's/hour \([0-9]\) crc \(.*\)/| \1 | `\2` |/' "$tmp/hours.microbit" >"$tmp/hours.rows"
-    [ "$(grep -c -x -F -f "$tmp/hours.rows" docs/BOARDS.md)" = 3 ] && echo ok || echo "docs/BOARDS.md has other CRCs of the pocket sundial"
+    [ "$(grep -c -x -F -f "$tmp/hours.rows" docs/data/GOLDEN.md)" = 3 ] && echo ok || echo "docs/data/GOLDEN.md has other CRCs of the pocket sundial"
     if build/rgb565_png 128 128 "$tmp/pocket.png" <"$tmp/strips.microbit" && cmp -s "$tmp/pocket.png" docs/pictures/pocket.png; then echo ok
     else echo "pocket: the streamed picture is not docs/pictures/pocket.png"; fi
     bytes=$(sed -n 's/^RAM \([0-9]*\) bytes.*/\1/p' "$tmp/pocket.microbit")
@@ -193,11 +193,11 @@ if [ "${1:-}" = job ]; then
 fi
 
 # Lines "CRC SCENE frame N PRESET PICTURE" from the document's table
-sed -n 's/^| \([a-z]*\) | \([0-9]*\) | \([a-z]*\) | \(.*\) | `\([0-9a-f]*\)` |$/\5 \1 frame \2 \3 \4/p' docs/BOARDS.md >"$tmp/golden"
-[ "$(wc -l <"$tmp/golden")" -gt 40 ] && pass || fail "docs/BOARDS.md has no table of golden frames"
+sed -n 's/^| \([a-z]*\) | \([0-9]*\) | \([a-z]*\) | \(.*\) | `\([0-9a-f]*\)` |$/\5 \1 frame \2 \3 \4/p' docs/data/GOLDEN.md >"$tmp/golden"
+[ "$(wc -l <"$tmp/golden")" -gt 40 ] && pass || fail "docs/data/GOLDEN.md has no table of golden frames"
 
-sh docs/boards.sh --boards | grep -v -x -F -f docs/BOARDS.md >"$tmp/rows"
-[ -s "$tmp/rows" ] && fail "docs/BOARDS.md has other boards: $(head -n 1 "$tmp/rows")" || pass
+sh docs/boards.sh --boards | grep -v -x -F -f docs/FIRMWARE.md >"$tmp/rows"
+[ -s "$tmp/rows" ] && fail "docs/FIRMWARE.md has other boards: $(head -n 1 "$tmp/rows")" || pass
 
 scenes_ok=1
 for scene in sundial avenue desk room fence mixed; do firmware BOARD=host APP=golden "build/firmware/scenes/$scene/scene.c" >"$tmp/log" 2>&1 || scenes_ok=0; done

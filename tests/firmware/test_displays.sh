@@ -34,11 +34,11 @@ display() {
         build/firmware/host/predict-"$1".elf "$hour" "$tmp/host.ppm" || fail "no prediction for $1 at $hour"
         same "$tmp/$1-$hour.ppm" "$tmp/host.ppm" "$1 at $hour: the screen is not what the host predicts"
         cmp -s "$tmp/$1-$hour.png" "docs/pictures/display-$1-$(echo "$hour" | tr -d :).png" && pass ||
-            fail "docs/DISPLAYS.md does not show $1 at $hour as it is: make docs"
+            fail "docs/FIRMWARE.md does not show $1 at $hour as it is: make docs"
         cat "$tmp/$1-$hour.ppm" | cksum >>"$tmp/$1.sums"
     done
     row=$(sed -n "s/^RAM \([0-9]*\) bytes, with a stack of \([0-9]*\),.*/| the clock on $1, all in all | | \1, of which \2 for the stack/p" "$tmp/log")
-    [ -n "$row" ] && grep -q -F -e "$row" docs/DISPLAYS.md && pass || fail "docs/DISPLAYS.md has not: $row: make docs"
+    [ -n "$row" ] && grep -q -F -e "$row" docs/FIRMWARE.md && pass || fail "docs/FIRMWARE.md has not: $row: make docs"
     [ "$(sort -u "$tmp/$1.sums" | wc -l)" = 4 ] && pass || fail "$1 shows the same at different hours"
     if build/ppm compare "$tmp/$1-10:00.ppm" "$tmp/host.ppm" >/dev/null 2>&1; then fail "ppm compare sees no difference"; else pass; fi
 }

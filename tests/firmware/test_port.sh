@@ -59,14 +59,14 @@ sections "-DGN_PORT_HOT_SECTION=\"$section\"" && [ "$(grep -c "^$section\.[0-9]*
 [ "$(grep "^$section\." "$tmp/sections" | sort | uniq -d | wc -l)" = 0 ] && pass || fail "two hot functions in one section"
 sections && ! grep -q gnomon "$tmp/sections" && pass || fail "hot functions are placed, though no port says where"
 
-# The recipe of docs/PORTING.md, line by line, in a copy of the tree.
+# The recipe of docs/FIRMWARE.md, line by line, in a copy of the tree.
 mkdir "$tmp/tree"
 cp -r Makefile lib port boards host tests "$tmp/tree/"
-sed -n '/^## Write a port/,$s/^       \(cp\|mv\|sed\) /\1 /p' docs/PORTING.md | sed 's/NAME/mine/g; s/GN_PORT_mine/GN_PORT_MINE/' >"$tmp/recipe"
-[ "$(wc -l <"$tmp/recipe")" = 4 ] && pass || fail "docs/PORTING.md has a recipe of $(wc -l <"$tmp/recipe") lines"
+sed -n '/^##* Write a port/,$s/^       \(cp\|mv\|sed\) /\1 /p' docs/FIRMWARE.md | sed 's/NAME/mine/g; s/GN_PORT_mine/GN_PORT_MINE/' >"$tmp/recipe"
+[ "$(wc -l <"$tmp/recipe")" = 4 ] && pass || fail "docs/FIRMWARE.md has a recipe of $(wc -l <"$tmp/recipe") lines"
 if (cd "$tmp/tree" && sh -e ../recipe) && make -s -C "$tmp/tree" --no-print-directory emulate BOARD=host APP=port BOARD_PORT=mine >"$tmp/mine" 2>&1 &&
     [ "$(found mine)" = 0 ]; then pass
-else fail "the recipe of docs/PORTING.md: $(grep -v '^  ' "$tmp/mine" | head -n 2 | tr '\n' ';')"; fi
+else fail "the recipe of docs/FIRMWARE.md: $(grep -v '^  ' "$tmp/mine" | head -n 2 | tr '\n' ';')"; fi
 
 wrong template host template gn_port_template.c 's/return any | all << 16;/return any | (all ^ (n == 6 \&\& dark[5] == 63)) << 16;/'
 wrong template-edge host template gn_port_template.c 's/< (least + 0xFFFFU) >> 16/< least >> 16/'

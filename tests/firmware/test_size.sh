@@ -95,8 +95,8 @@ awk '
 if [ -s "$tmp/grown" ]; then while read -r line; do fail "$line"; done <"$tmp/grown"; else pass; fi
 
 sh tests/firmware/size.sh --tables tests/firmware/size_baseline.txt >"$tmp/tables"
-awk '$0 == "<!-- end -->" { on = 0 } on { print } $0 == "<!-- generated: sizes -->" { on = 1 }' docs/MEMORY.md | cmp -s - "$tmp/tables" && pass ||
-    fail "docs/MEMORY.md is not what tests/firmware/size_baseline.txt makes it"
+awk '$0 == "<!-- end -->" { on = 0 } on { print } $0 == "<!-- generated: sizes -->" { on = 1 }' docs/data/SIZES.md | cmp -s - "$tmp/tables" && pass ||
+    fail "docs/data/SIZES.md is not what tests/firmware/size_baseline.txt makes it"
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

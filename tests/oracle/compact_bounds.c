@@ -159,7 +159,7 @@ static void planes(void)
 
 /* ---- The light's tile -------------------------------------------------------------------------------------------- */
 
-/* Texel, place and sphere by the formulas of DESIGN 1.4, in Q16 units of length. */
+/* Texel, place and sphere by the formulas of MODEL 4, in Q16 units of length. */
 static void tiles(void)
 {
     double texel = 0, middle = 0, radius = 0;

@@ -1,5 +1,5 @@
 /* What test_extremes.c and its like are written in: scenes of row_scenes.h, drawn by both engines or by the library
- * alone, measured, and put down as a line of docs/EXTREMES.md. */
+ * alone, measured, and put down as a line of docs/data/EXTREMES.md. */
 #ifndef GNOMON_TESTS_EXTREME_CASES_H
 #define GNOMON_TESTS_EXTREME_CASES_H
 

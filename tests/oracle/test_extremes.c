@@ -1,6 +1,6 @@
 /* Section 10 of the specification, line by line: numerical extremes, each with an expectation that follows from the
- * contract (docs/DESIGN.md section 1, docs/NUMERICS.md). Lines 1 to 3, of geometry, are here; the others in
- * test_extremes_light.c and test_extremes_many.c. "--table" prints their part of docs/EXTREMES.md.
+ * contract (docs/MODEL.md, docs/NUMERICS.md). Lines 1 to 3, of geometry, are here; the others in
+ * test_extremes_light.c and test_extremes_many.c. "--table" prints their part of docs/data/EXTREMES.md.
  *
  * What other tests measure already is not repeated: bias and acne are test_bias.c's, crawling edges test_crawl.c's,
  * every refusal and every limit of a field test_refused.c's. */

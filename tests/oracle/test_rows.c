@@ -1,4 +1,4 @@
-/* Every feature row (docs/DESIGN.md section 1) through the whole pipeline: the library against the reference, on a
+/* Every feature row (docs/MODEL.md) through the whole pipeline: the library against the reference, on a
  * scene in which the row matters. "--list" prints what each line measures.
  *
  * A line says what it compares and what the picture is without it. That the row matters is tested too: the reference
@@ -638,7 +638,7 @@ static void test_statistics(void)
     }
 }
 
-/* ---- The tables of docs/ACCURACY.md ------------------------------------------------------------------------------ */
+/* ---- The tables of docs/data/ACCURACY.md ------------------------------------------------------------------------------ */
 
 typedef struct {
     double rms, mismatch; /* of the first light's attenuation, where it is lit; off by more than 1/16 */

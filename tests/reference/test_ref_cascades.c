@@ -322,7 +322,7 @@ static void test_samples_stay(void)
         light->near_offset = random_unit() < 0.5 ? 0 : random_log(0.01, 100);
         const double reach = (k_f[filter] + 1) * (1 + sqrt(2.0) * light->bias_normal);
         if (tile_texels - 2 * reach - 1 < tile_texels / 4.0)
-            continue; /* DESIGN 1.4: the least share that the sphere gets */
+            continue; /* MODEL 4: the least share that the sphere gets */
         ref_light_view view[REF_MAX_CASCADES];
         memset(view, 0, sizeof view);
         fit_cascades(view, &f, light, width, height, tile_texels);
@@ -382,7 +382,7 @@ static double t_at(const fixture *f, const ref_picture *p, int i, int j, int cas
     return dot(at, at) / (view->sphere_radius * view->sphere_radius);
 }
 
-/* DESIGN 1.4, stated once more. */
+/* MODEL 4, stated once more. */
 static double fade_at(const fixture *f, const ref_picture *p, int i, int j, int cascade)
 {
     const double c = f->s.shadow.cascade_fade;

@@ -1,4 +1,4 @@
-/* The reference engine's filters and biases against closed forms (DESIGN 1.6, 1.7; rows F3 to F6, B1 to B5, D2 without
+/* The reference engine's filters and biases against closed forms (MODEL 6, 7; rows F3 to F6, B1 to B5, D2 without
  * its stability). */
 #include "ref_fixture.h"
 

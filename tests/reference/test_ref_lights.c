@@ -1,5 +1,5 @@
 /* The reference engine's lights against closed forms: attenuation, cube faces and their width, perspective maps, light
- * lists (DESIGN 1.4 to 1.8; rows P). Who gets which tiles: test_ref_tiles.c. */
+ * lists (MODEL 4 to 8; rows P). Who gets which tiles: test_ref_tiles.c. */
 #include "ref_fixture.h"
 
 static const double straight_up[3] = {0, 1, 0};
@@ -534,7 +534,7 @@ static void test_light_lists(void)
                 if (p.triangle[k] < 0) continue;
                 double w[3];
                 world_at(w, &f, &p, k % 9, k / 9);
-                /* at the rim of its range a light is not shown (DESIGN 1.10) */
+                /* at the rim of its range a light is not shown (MODEL 10) */
                 const double *lamp = f.lights[l].position, d[3] = {lamp[0] - w[0], lamp[1] - w[1], lamp[2] - w[2]};
                 const double window =
                     ref_light_attenuation(&f.lights[l], w) * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);

@@ -1,5 +1,5 @@
 /* The reference engine's materials and mixing against closed forms: textures, alpha of surfaces and casters, specular,
- * baked light, masks (DESIGN 1.3, 1.6, 1.8, 1.9; rows M1 to M9, P7). */
+ * baked light, masks (MODEL 3, 6, 8, 9; rows M1 to M9, P7). */
 #include "ref_fixture.h"
 
 static const double facing[12] = {-9, -9, -4, 9, -9, -4, 9, 9, -4, -9, 9, -4};
@@ -374,7 +374,7 @@ static void test_baked(void)
 
 /* ---- masks and mixing ---- */
 
-/* DESIGN 1.9's table, at values whose products are known. */
+/* MODEL 9's table, at values whose products are known. */
 static void test_mix_table(void)
 {
     static const struct {
@@ -430,7 +430,7 @@ static void begin_masked(fixture *f, int channel, bool image)
     light->strength = 0.75;
 }
 
-/* DESIGN 1.9 pixel by pixel, with what switches parts of it off. */
+/* MODEL 9 pixel by pixel, with what switches parts of it off. */
 static void check_mixing(scene_mixing mixing, int channel, bool image, int variant)
 {
     fixture f;

@@ -6,7 +6,7 @@
 
 /* ---- shadow maps ---- */
 
-/* A point from light coordinates; its inverse is DESIGN 1.4. */
+/* A point from light coordinates; its inverse is MODEL 4. */
 static void from_light(double out[3], const ref_light_view *view, double u, double v, double d)
 {
     const double t[3] = {u + view->origin[0], v + view->origin[1], d + view->origin[2]};

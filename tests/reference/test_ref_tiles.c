@@ -1,5 +1,5 @@
 /* The reference engine's shadow tiles against closed forms: who gets which, how large, which light is the main one
- * (DESIGN 1.6; rows A1 to A3, D10). */
+ * (MODEL 6; rows A1 to A3, D10). */
 #include "ref_fixture.h"
 
 /* A floor that casts and receives. */

@@ -177,7 +177,7 @@ static void test_light_knobs(void)
 /* --- added lights ----------------------------------------------------------------------------------------------------
  */
 
-/* DESIGN 1.8: what arrives at a point. */
+/* MODEL 8: what arrives at a point. */
 static double arrives(const scene_light *l, const double *p)
 {
     double v[3], d2 = 0, along = 0;

@@ -254,17 +254,17 @@ if command -v script >/dev/null; then # a terminal sees progress
     grep -q '3 of [0-9]* configurations' "$tmp/typescript" && pass || fail "no progress on a terminal"
 fi
 
-# ---- docs/TRADE.md -------------------------------------------------------------------------------------------------------------
+# ---- docs/data/TRADE.md -------------------------------------------------------------------------------------------------------------
 
 # one scene made anew; all of them take minutes: sh docs/trade.sh build/gnomon
 mkdir "$tmp/docs"
 sh docs/trade.sh "$tool" "$tmp/docs" avenue >/dev/null 2>"$tmp/err" && pass || fail "docs/trade.sh: $(head -n 1 "$tmp/err")"
-cmp -s docs/TRADE.md "$tmp/docs/TRADE.md" && pass || fail "docs/TRADE.md is out of date: make docs ($(diff docs/TRADE.md "$tmp/docs/TRADE.md" | sed -n 2p))"
+cmp -s docs/data/TRADE.md "$tmp/docs/data/TRADE.md" && pass || fail "docs/data/TRADE.md is out of date: make docs ($(diff docs/data/TRADE.md "$tmp/docs/data/TRADE.md" | sed -n 2p))"
 new=$tmp/docs/pictures/trade-avenue.svg # without what was counted
 grep '<circle' docs/pictures/trade-avenue.svg | head -n "$(grep -c '<circle' "$new")" >"$tmp/points"
 [ -s "$tmp/points" ] && grep '<circle' "$new" | cmp -s - "$tmp/points" && pass || fail "docs/pictures/trade-avenue.svg is out of date: make docs"
 for name in sundial avenue desk room fence mixed; do
-    [ -s docs/pictures/trade-$name.svg ] && grep -q "pictures/trade-$name.svg" docs/TRADE.md && pass || fail "docs/TRADE.md has no picture of $name"
+    [ -s docs/pictures/trade-$name.svg ] && grep -q "../pictures/trade-$name.svg" docs/data/TRADE.md && pass || fail "docs/data/TRADE.md has no picture of $name"
 done
 
 echo "$passed passed, $failed failed"

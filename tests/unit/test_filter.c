@@ -92,7 +92,7 @@ static void test_tent_sums(void)
 }
 #endif
 
-/* As DESIGN 1.7 writes them: constant and slope of each weight. */
+/* As MODEL 7 writes them: constant and slope of each weight. */
 static const struct {
     int32_t whole;
     int32_t w[GN_TENT_TAPS_MAX][2];

@@ -51,7 +51,7 @@ typedef struct {
     int reaches, unsure; /* unsure: on the very border of the range */
 } candidate;
 
-/* World box by corners of the mesh's box, as DESIGN 1.6 has it. */
+/* World box by corners of the mesh's box, as MODEL 6 has it. */
 static void world_box(const gn_object *o, double centre[3], double half[3])
 {
     double lo[3], hi[3];

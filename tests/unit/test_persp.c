@@ -9,7 +9,7 @@
 static gn_renderer one;
 static gn_scene scene;
 
-/* DESIGN 1.5: t with (1 - A) P t^2 - (1 - P - A) t + 1 = 0, the smaller root; A = 2 (k + 1) / T, P = nu A / sqrt(2). 2
+/* MODEL 5: t with (1 - A) P t^2 - (1 - P - A) t + 1 = 0, the smaller root; A = 2 (k + 1) / T, P = nu A / sqrt(2). 2
  * if there is none up to 2. */
 static double face(int k, double nu, int texels, int *clamped)
 {

@@ -89,7 +89,7 @@ static void test_faces(void)
     CHECK_EQ_INT(gn_persp_face(extreme), 5);
 }
 
-/* ---- Attenuation against DESIGN 1.8 ---------------------------------------------------------------------------- */
+/* ---- Attenuation against MODEL 8 ---------------------------------------------------------------------------- */
 
 /* A value and how far the library's may be from it. */
 typedef struct {
@@ -563,7 +563,7 @@ static void along_axes(const gn_light_view *view, const double world[3], double 
     }
 }
 
-/* T / t of DESIGN 1.5, and how far the view's is off, relatively. */
+/* T / t of MODEL 5, and how far the view's is off, relatively. */
 static approx focal_of(const gn_light *light, const gn_light_view *view)
 {
     approx focal = {view->fit.persp.focal2_q16 / 65536.0, 0};

@@ -1,4 +1,4 @@
-/* Bias of receivers that a light sets itself (gn_bias.c): the terms of DESIGN 1.7 in doubles, their limits, and what
+/* Bias of receivers that a light sets itself (gn_bias.c): the terms of MODEL 7 in doubles, their limits, and what
  * does not fit 32 bits; limits of automatic bias, whose promise tests/oracle/test_bias.c holds. */
 #include <math.h>
 #include <string.h>

@@ -244,7 +244,7 @@ static void check_samples(const gn_frame *frame, int32_t view[][3])
     }
 }
 
-/* The light's view against the reference's fit (DESIGN 1.4): the same texel to the last bit, the same axes, and the
+/* The light's view against the reference's fit (MODEL 4): the same texel to the last bit, the same axes, and the
  * same grid, of which the two may take windows that differ by a texel where the sphere's centre lies next to a rounding
  * threshold. */
 static long fits, shifted_fits;

@@ -377,7 +377,7 @@ static void test_level_places(void)
     CHECK_TALLY(t, "places of levels");
 }
 
-/* The depth squared at which the first smaller level begins, against the formula of DESIGN 1.8 in long double, from the
+/* The depth squared at which the first smaller level begins, against the formula of MODEL 8 in long double, from the
  * plane as it is stored: NUMERICS 4.9; and every level's depth to a unit of Q16. */
 static void test_level_depths(void)
 {

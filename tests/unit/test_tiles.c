@@ -1,4 +1,4 @@
-/* Shadow tiles (D1, D10, A1-A3, P5, P8): who gets which, by a plan made again here from DESIGN 1.6; where they lie;
+/* Shadow tiles (D1, D10, A1-A3, P5, P8): who gets which, by a plan made again here from MODEL 6; where they lie;
  * that no light ever reads another's. */
 #include <stdlib.h>
 #include <string.h>
@@ -305,7 +305,7 @@ static void random_plan(plan *p, rng *r)
     for (int k = 0; k < 3; k++) p->eye[k] = 2 * rng_range(r, -40, 40);
 }
 
-/* Any lights and any budget: the plan is that of DESIGN 1.6. [A2] [A3] */
+/* Any lights and any budget: the plan is that of MODEL 6. [A2] [A3] */
 static void test_random_plans(void)
 {
     static plan p;

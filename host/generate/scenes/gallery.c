@@ -346,7 +346,7 @@ static bool reaches_lamp(mesh_point p)
     return first >= last;
 }
 
-/* DESIGN 1.8 at intensity 1.2 (after pi) and range 4, by the vertex: a floor's normal is +Y. */
+/* MODEL 8 at intensity 1.2 (after pi) and range 4, by the vertex: a floor's normal is +Y. */
 static void bake_floor(mesh_builder *m)
 {
     static const double rgb[3] = {1.3, 0.75, 0.35};

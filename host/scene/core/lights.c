@@ -111,7 +111,7 @@ static void place_lamp(scene_light *light, const bounds *subject, const double *
     for (int i = 0; i < 3; i++) light->position[i] = subject->centre[i] + distance * towards[i];
     light->range = fmax(range_distances * distance, LIGHT_MIN_RANGE);
     double ratio = distance * distance / (light->range * light->range), window = 1 - ratio * ratio;
-    set_white(light, lamp_light * fmax(distance * distance, 1e-4) / (window * window)); /* DESIGN 1.8, on the axis */
+    set_white(light, lamp_light * fmax(distance * distance, 1e-4) / (window * window)); /* MODEL 8, on the axis */
     light->near = near_ratio * light->range;
     if (!spot) return;
     double covers = asin(1 / radii);

@@ -1,6 +1,6 @@
 /* The scene as the host tools see it: double precision, every array owned by the scene.
  *
- * Conventions as in docs/DESIGN.md section 1: right-handed, +Y up, row-major 3x4 transforms, colours in linear light.
+ * Conventions as in docs/MODEL.md: right-handed, +Y up, row-major 3x4 transforms, colours in linear light.
  * Loaders fill it; the fixed-point path quantises it (host/tool); the reference engine reads it as it is.
  */
 #ifndef GNOMON_HOST_MODEL_H
@@ -111,9 +111,9 @@ typedef struct {
     double direction[3]; /* unit, direction of travel; spots: of the axis */
     double position[3];  /* spot, point */
     double range;        /* spot, point: >= 0.01; INFINITY: unlimited */
-    double inner, outer; /* spot: angles edge to edge in turns, multiples of 1/65536 (DESIGN 1.8) */
+    double inner, outer; /* spot: angles edge to edge in turns, multiples of 1/65536 (MODEL 8) */
     bool cone_limited;   /* the file's is outside 1 .. 179 degrees */
-    double colour[3];    /* linear, colour x intensity, pi folded in (DESIGN 1.3); spot, point: at distance 1 */
+    double colour[3];    /* linear, colour x intensity, pi folded in (MODEL 3); spot, point: at distance 1 */
     scene_light_mode mode;
     int mask_channel; /* 0..3, -1: none */
     scene_softness softness;
@@ -265,7 +265,7 @@ typedef struct {
     double zoom;       /* > 0; 1: all is in the picture */
 } scene_options;
 
-/* v as a multiple of 1/65536: fades and cascade ratios are such (DESIGN 1.4). */
+/* v as a multiple of 1/65536: fades and cascade ratios are such (MODEL 4). */
 double scene_share(double v);
 
 /* The ratios that go with n_cascades: 0.1, 0.25, 0.5 for 4; 0.1, 0.25 for 3; 0.25 for 2. */

@@ -93,7 +93,7 @@ typedef struct {
 } settings_ram_parts;
 settings_ram_parts settings_ram(const settings *s);
 
-/* Prints the tables of docs/CONFIG.md. */
+/* Prints the tables of docs/CONFIGURATION.md. */
 void settings_print_table(void);
 
 #endif
