@@ -73,4 +73,5 @@ for file; do
     awk -F '\t' -v f="$file" -v all="$(by_hand "$file" | tr ' ' '\n' | grep -c '[[:alnum:]]')" -v ease="${ease:--}" '$1 == f { n++; words += $3; if ($3 > most) most = $3 }
         END { printf "| %s | %d | %d | %d | %d | %s |\n", f, all, words, n, most, ease }' "${TMPDIR:-/tmp}/sentences.$$"
 done | awk -F ' *[|] *' '{ print; all += $3; words += $4; n += $5; if ($6 > most) most = $6 }
-    END { printf "| all | %d | %d | %d | %d | |\n", all, words, n, most }'
+    $2 ~ /^(README|docs)/ { documents += $3 }
+    END { printf "| README and docs/ | %d | | | | |\n| all | %d | %d | %d | %d | |\n", documents, all, words, n, most }'

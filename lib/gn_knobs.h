@@ -1,5 +1,5 @@
-/* The one list of knobs. The compile-time checks (gn_check.h), the host tool's --set and docs/CONFIGURATION.md are made from
- * it.
+/* The one list of knobs. The compile-time checks (gn_check.h), the host tool's --set and docs/CONFIGURATION.md are made
+ * from it.
  *
  * Quality knobs change pixels. On a target they are constants, so that the compiler drops the unused code. With
  * GN_RUNTIME_KNOBS (the host tool) the same expressions read them from the renderer. A test checks that both give the

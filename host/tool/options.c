@@ -56,8 +56,8 @@ const option options[] = {
     {"--open", BY_COMPILE, NULL, NULL,
      "objects, lights and camera have names and can be written: nothing goes but what no camera could tell"},
     {"--instructions-per-pixel", BY_ADVISE, "N", "a number from 1 to 1000000000",
-     "the most instructions per pixel: of the host, by the model of docs/data/TRADE.md, or with --target of that board; of "
-     "a scene that moves their mean over the later frames, else with every shadow tile drawn (no limit)"},
+     "the most instructions per pixel: of the host, by the model of docs/data/TRADE.md, or with --target of that "
+     "board; of a scene that moves their mean over the later frames, else with every shadow tile drawn (no limit)"},
     {"--target", BY_SWEEP | BY_ADVISE, "NAME", "a folder of boards/",
      "count instructions as firmware for boards/NAME in its emulator: of what sweep prints, of what advise considers; "
      "seconds for each configuration"},

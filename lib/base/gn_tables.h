@@ -20,7 +20,7 @@ extern const uint16_t
 extern const uint8_t gn_level_63_table[1024], gn_level_31_table[512];
 extern const uint32_t gn_level_end_q24[96];
 extern const int16_t
-    gn_disk_table_q15[128]; /* x, y of 64 points of the unit disk (MODEL 7), every prefix well spread */
+    gn_disk_table_q15[128];                 /* x, y of 64 points of the unit disk (MODEL 7), every prefix well spread */
 extern const uint16_t gn_tent_sums[32][16]; /* Q12: sums of subsets, a bit each, of the four weights of a tent of 3
                                                texels at 1/32 texel (NUMERICS 4.13) */
 /* 65535 * linear light of an sRGB value of 8 bits; of 5 and 6 */

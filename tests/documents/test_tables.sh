@@ -65,7 +65,7 @@ none "sections that are named and are not there" "$tmp/found"
 
 # ---- How long they are -----------------------------------------------------------------------------------------------------
 
-words=$(sh docs/words.sh | sed -n 's/^| all | \([0-9]*\) .*/\1/p')
+words=$(sh docs/words.sh | sed -n 's/^| README and docs\/ | \([0-9]*\) .*/\1/p')
 [ "${words:-99999}" -le 25000 ] && pass || fail "the documents have $words words that are written by hand, more than 25000"
 
 echo "$passed passed, $failed failed"

@@ -154,7 +154,7 @@ static void test_camera_steps(void)
         end(&st.f);
     }
     finish(&w,
-           "a sun with three cascades, the camera moved in steps of about 1/10 texel (flips: data/ACCURACY.md, 0 per frame)",
+           "a sun with three cascades, the camera moved in steps of about 1/10 texel (flips: ACCURACY.md, 0 per frame)",
            1);
 }
 

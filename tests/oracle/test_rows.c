@@ -638,7 +638,7 @@ static void test_statistics(void)
     }
 }
 
-/* ---- The tables of docs/data/ACCURACY.md ------------------------------------------------------------------------------ */
+/* ---- The tables of docs/data/ACCURACY.md ------------------------------------------------------------------------- */
 
 typedef struct {
     double rms, mismatch; /* of the first light's attenuation, where it is lit; off by more than 1/16 */

@@ -99,8 +99,7 @@ static bool load_texture(gltf *g, const json_value *json, bool is_data, gltf_tex
     const char *name = image ? gltf_name(g, image, "image") : gltf_name(g, json, "texture");
     if (!name || !read_sampler(g, json, name, &wanted.use)) return false;
     if (is_data)
-        wanted.use =
-            (texture_use){.clamp_u = true, .clamp_v = true, .bilinear = true, .is_data = true}; /* MODEL 9 */
+        wanted.use = (texture_use){.clamp_u = true, .clamp_v = true, .bilinear = true, .is_data = true}; /* MODEL 9 */
     const gltf_texture *loaded = find_loaded(g, &wanted);
     if (loaded) wanted.scene_idx = loaded->scene_idx;
     else if (!image && !loader_note(g->l, "texture '%s' ignored: it has no image of the core format", name))

@@ -165,7 +165,7 @@ int settings_apply_all(settings *out, scene *s, const char *const *sets, int n, 
     return 0;
 }
 
-/* ---- The tables of docs/CONFIGURATION.md -------------------------------------------------------------------------------- */
+/* ---- The tables of docs/CONFIGURATION.md ------------------------------------------------------------------------- */
 
 void settings_print_table(void)
 {

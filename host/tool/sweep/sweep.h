@@ -100,7 +100,8 @@ int sweep_play(const sweep *w, sweep_row *row, const char *const *sets, int n_se
                size_t bytes);
 void sweep_play_end(sweep *w);
 
-/* Measures the documented set of configurations (docs/data/TRADE.md); quick: a few of them. Prints the error and returns -1.
+/* Measures the documented set of configurations (docs/data/TRADE.md); quick: a few of them. Prints the error and
+ * returns -1.
  */
 int sweep_run(sweep *w, bool quick);
 
