@@ -47,6 +47,12 @@ build "the tools" build/capture build/ppm
 display lm3s6965evb 'ssd0323: error'
 display rv32-virt 'invalid'
 
+# Any scene on a board's display: what the tool draws of it.
+settings=$(sed -n 's/^SCREEN_SETTINGS := //p' boards/rv32-virt/board.mk)
+if make -s screen BOARD=rv32-virt APP=show SCENE=host/scenes/cube.gltf ARGS=1 FW_OPT=-O1 SCREEN_OUT="$tmp/show.ppm" >"$tmp/log" 2>&1 &&
+    build/gnomon render host/scenes/cube.gltf -o "$tmp/tool.png" --size 320x240 --set output=rgb565 $settings >"$tmp/log" 2>&1 && cmp -s "$tmp/show.png" "$tmp/tool.png"; then pass
+else fail "APP=show does not show the cube as the tool draws it: $(tail -n 1 "$tmp/log")"; fi
+
 # The drivers are integer code without state: nothing of theirs is writable, and of others they need memcpy and integer helpers alone.
 objects=build/firmware/lm3s6965evb/clock.obj/boards/displays
 arm-none-eabi-nm -A --defined-only "$objects"/*.o | awk '$(NF - 1) ~ /^[dDbBcCsS]$/' >"$tmp/found"
