@@ -61,6 +61,7 @@ replace data/ACCURACY.md kept "$work/kept"
 sh docs/displays.sh "$out" "$work/displays"
 replace FIRMWARE.md displays "$work/displays"
 if [ "$out" = docs ]; then
+    sh docs/words.sh >"$work/words" && replace data/WORDS.md words "$work/words"
     sh docs/trade.sh "$tool"
     sh docs/porting.sh
     # from the committed baselines: make bench, size and matrix measure them
