@@ -1,5 +1,5 @@
 #!/bin/sh
-# What it takes to read the documents: per document the words outside generated parts, of these the words in sentences, the
+# What it takes to read the documents: per document the words outside generated parts and program text, of these the words in sentences, the
 # longest sentence, and the Flesch reading ease where `style` (package diction) is installed; larger is easier, 60 is plain.
 # Tables, program text, formulas and headings are no sentences.
 # usage: words.sh [FILE...]             one row per document
@@ -70,7 +70,7 @@ for file; do
             }' "${TMPDIR:-/tmp}/sentences.$$" | style 2>/dev/null | sed -n 's/.*Flesch Index: \([-0-9.]*\).*/\1/p' | cut -d / -f 1)
     fi
     case " $whole " in *" $file "*) continue ;; esac
-    awk -F '\t' -v f="$file" -v all="$(by_hand "$file" | tr ' ' '\n' | grep -c '[[:alnum:]]')" -v ease="${ease:--}" '$1 == f { n++; words += $3; if ($3 > most) most = $3 }
+    awk -F '\t' -v f="$file" -v all="$(by_hand "$file" | awk '/^ *```/ { fence = !fence; next } !fence' | tr ' ' '\n' | grep -c '[[:alnum:]]')" -v ease="${ease:--}" '$1 == f { n++; words += $3; if ($3 > most) most = $3 }
         END { printf "| %s | %d | %d | %d | %d | %s |\n", f, all, words, n, most, ease }' "${TMPDIR:-/tmp}/sentences.$$"
 done | awk -F ' *[|] *' '{ print; all += $3; words += $4; n += $5; if ($6 > most) most = $6 }
     $2 ~ /^(README|docs)/ { documents += $3 }
