@@ -12,8 +12,8 @@ function kind(depth, at) { return depth < at - margin ? "dark" : depth > at + ma
 BEGIN {
     margin = 22
     fill["dark"] = "#5b6b80"; fill["lit"] = "#ffe9a8"; fill["doubt"] = "#f0a35e"
-    print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1000 400\" font-family=\"sans-serif\" font-size=\"13\">"
-    rect(0, 0, 1000, 400, "fill=\"#ffffff\"")
+    print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1010 400\" font-family=\"sans-serif\" font-size=\"13\">"
+    rect(0, 0, 1010, 400, "fill=\"#ffffff\"")
     text(40, 28, "A row of texels from the side", "font-size=\"15\" font-weight=\"bold\"")
     text(40, 48, "light from above; each texel holds the smallest depth that it saw")
     line(30, 70, 30, 330, "stroke=\"#555\"")
