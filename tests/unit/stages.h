@@ -29,7 +29,7 @@ static inline gn_knobs preset_knobs(int preset)
 static struct {
     double error, share;
     long n;
-} seen[STAGE_COUNT]; /* largest error in LSB, largest share of its bound */
+} seen[STAGE_COUNT]; /* largest error in LSB, largest part of its bound */
 static long violations[STAGE_COUNT];
 
 static inline void record(int stage, double error, double bound, double lsb)
@@ -243,7 +243,7 @@ static inline void ignore(void *user, int x, int y, int w, int h, const void *pi
 static inline void report_stages(int table, const char *what)
 {
     if (table)
-        printf("\n**%s**\n\n| stage | cases | largest error | largest share of its bound |\n|---|---|---|---|\n", what);
+        printf("\n**%s**\n\n| stage | cases | largest error | largest part of its bound |\n|---|---|---|---|\n", what);
     for (int s = 0; s < STAGE_COUNT; s++) {
         if (table) printf("| %s | %ld | %.3g | %.2f |\n", stage_name[s], seen[s].n, seen[s].error, seen[s].share);
         CHECK(seen[s].n > 100);

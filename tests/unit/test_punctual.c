@@ -26,14 +26,14 @@ static uint8_t kept_pixels[W * H * BYTES], fresh_pixels[W * H * BYTES];
 
 static const double turn = 6.283185307179586 / 65536, q30 = 1.0 / (1 << 30), q32 = 1.0 / 4294967296.0;
 
-/* The largest error of a quantity, and the largest share of its bound. */
+/* The largest error of a quantity, and the largest part of its bound. */
 typedef struct {
     double error, share;
 } worst;
 
 static int table; /* "--table": those of docs/data/BOUNDS.md */
 
-/* An error as a share of its bound. */
+/* An error as a part of its bound. */
 static double ratio_of(double error, double bound, worst *largest)
 {
     double share = error / bound;
@@ -973,7 +973,7 @@ static void test_mask_corners(void)
 int main(int argc, char **argv)
 {
     table = argc > 1 && strcmp(argv[1], "--table") == 0;
-    if (table) printf("| quantity | Newton steps | largest error | largest share of its bound |\n|---|---|---|---|\n");
+    if (table) printf("| quantity | Newton steps | largest error | largest part of its bound |\n|---|---|---|---|\n");
     test_faces();
     test_attenuation();
     test_not_looked_up();

@@ -26,9 +26,9 @@ enum {
     STAGE_COUNT = STAGE_LESS + 2
 };
 static const char *const stage_name[STAGE_COUNT] = {
-    "filter, 2x2: share of lit, LSB of Q16",
-    "filter, tents of 3x3 to 7x7: share of lit, LSB of Q16",
-    "filter, linear kernels: share of lit, LSB of Q16",
+    "filter, 2x2: lit part, LSB of Q16",
+    "filter, tents of 3x3 to 7x7: lit part, LSB of Q16",
+    "filter, linear kernels: lit part, LSB of Q16",
     "attenuation: distance strength, LSB of Q16",
     "attenuation: strength and distance, LSB of Q16",
     "attenuation: with a mask, always, LSB of Q16",
