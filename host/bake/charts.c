@@ -103,6 +103,7 @@ static vec3 corner_of(const maker *m, size_t triangle, size_t k)
     return m->world[m->idx[3 * triangle + k]];
 }
 
+/* The plane that a chart beginning with this triangle is flattened onto: x along the triangle's longest side. */
 static plane plane_of(const maker *m, size_t triangle)
 {
     vec3 n = m->normal[triangle];
@@ -120,6 +121,7 @@ static plane plane_of(const maker *m, size_t triangle)
     return (plane){corner_of(m, triangle, 0), x, vec3_cross(n, x), n};
 }
 
+/* The triangle's corners in the chart's plane. */
 static void project(const maker *m, const plane *p, size_t triangle)
 {
     for (size_t k = 0; k < 3; k++) {

@@ -257,6 +257,7 @@ static int fit_view(ref_frame *frame, size_t l, int i)
     return fit_directional(view, frame->s, light, cascade, frame->options, grant->side[i], seen);
 }
 
+/* The bounding spheres of all cascades, and of a single tile, which covers the whole shadow distance (MODEL 4). */
 void ref_find_spheres(ref_frame *frame)
 {
     for (int c = 0; c < frame->s->shadow.n_cascades; c++)

@@ -41,7 +41,7 @@ void gn_skin_position(int32_t out_q16[3], const gn_object *object, uint32_t vert
         const int32_t weight = of.weight_u8[i];
         for (int r = 0; weight && r < 3; r++) {
             const int64_t v = joint_coordinate(&of.joint[of.idx[i]], r, p, mesh->pos_frac_bits);
-            sum[r] += v < -limit || v > limit ? (int64_t)1 << 40 : weight * v; /* four of those are below 2^43 */
+            sum[r] += v < -limit || v > limit ? (int64_t)1 << 40 : weight * v; /* refused below; four are under 2^43 */
         }
     }
     /* v / 255 = v * (2^24 + 2^16 + 2^8 + 1) / 2^32, too small by the 2^32nd part: a quarter of a unit. */

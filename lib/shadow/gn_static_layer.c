@@ -1,4 +1,5 @@
-/* The static layer. */
+/* The static layer: depths of casters that stand still, kept from frame to frame. A tile with moving casters begins
+ * as a copy of it, so that only these are drawn anew. */
 #include "gn_internal.h"
 
 #include "shadow/gn_static_layer.h"
