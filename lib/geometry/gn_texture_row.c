@@ -63,7 +63,7 @@ enum { TEXELS_RGBA, TEXELS_565, TEXELS_565A1, TEXELS_PALETTE, TEXELS_GREY };
 
 #define IS_565(kind) (GN_TEXEL_565S && ((kind) == TEXELS_565 || (kind) == TEXELS_565A1))
 
-/* What a row reads. */
+/* The texture that a row of pixels reads. */
 typedef struct {
     const gn_texture *texture;
     const uint8_t *texels;

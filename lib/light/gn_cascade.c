@@ -20,7 +20,8 @@ int64_t gn_cascade_tan2_q24(const gn_frame *frame)
 }
 
 #if GN_ORTHOGRAPHIC
-/* Of a box: around its centre, with its corners at the radius where cascades begin to fade. [R10] */
+/* The sphere of an orthographic camera's slice, which is a box: around its centre, with its corners at the radius where
+ * cascades begin to fade. [R10] */
 static void flat_sphere(const gn_frame *frame, int32_t near_q16, int32_t far_q16, int64_t q2, int64_t *centre_q24,
                         int64_t *radius_q24)
 {

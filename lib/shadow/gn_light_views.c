@@ -139,7 +139,7 @@ static void set_size(const gn_frame *frame, gn_light_view *view, const gn_tile_p
     view->tile_texels = (uint16_t)(1U << plan->tile_log2);
 }
 
-/* What its atlas keeps for a view. */
+/* Texels that the view's atlas reserves for it. */
 static uint32_t texels_of_view(const gn_frame *frame, const gn_tile_plan *plan, const gn_light_view *view)
 {
 #if GN_TIGHT_FIT

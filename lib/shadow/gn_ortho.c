@@ -119,14 +119,14 @@ void gn_ortho_fit_view(gn_frame *frame, gn_light_view *view, const gn_light *lig
 /* The ladder of texel sizes: m * 2^e, eight per octave, of 8 significant bits. */
 static const uint8_t ladder[8] = {128, 140, 152, 166, 181, 197, 215, 235};
 
-/* What is to be covered, from the camera, along the light's axes. */
+/* The box that a tight fit covers, from the camera, along the light's axes. */
 typedef struct {
     int64_t lo_q16[3], hi_q16[3];
     uint32_t side;      /* of the square whose texels there are */
     int32_t margin_q16; /* around it, texels: the filter and the receiver's bias */
 } tight_box;
 
-/* Of what is seen, no more than the sphere, and no less than an eighth of its diameter. */
+/* Bounds of what is seen, clamped to the sphere, and at least an eighth of its diameter wide. */
 static void begin_box(const gn_frame *frame, const gn_light_view *view, int32_t near_q16, int32_t far_q16,
                       tight_box *box)
 {
@@ -375,7 +375,7 @@ static GN_NOINLINE int ortho_caster(gn_caster *out, const gn_light_view *view, c
     return out->lo < far;
 }
 
-/* Of corners anywhere. */
+/* Begins a caster with corners anywhere, by 64-bit differences. */
 static GN_NOINLINE int wide_caster_begin(gn_caster *out, const gn_light_view *view, int64_t p[3][3], int two_sided)
 {
     int64_t e1[3], e2[3], n[3], lo = p[0][2], hi = lo;

@@ -127,8 +127,8 @@ GN_HOT static inline uint32_t gn_linear_attenuation(const uint8_t *dark, int32_t
                                          : 1588375U); /* round(2^32 / whole) */
 }
 
-/* Of texels that are dark, of which some are lit: by the kernel of index k that the scene chooses. cu, cv: the
- * receiver, half a texel down and right, Q16, of which the fraction counts. */
+/* Attenuation of a lookup with both dark and lit texels, a byte of `dark` per row, by the scene's kernel of index k.
+ * cu, cv: the receiver, half a texel down and right, Q16, of which the fraction counts. */
 GN_HOT static GN_SHARED uint32_t gn_tent_of_dark(const gn_frame *frame, const uint8_t *dark, int32_t k, int32_t cu,
                                                  int32_t cv, int32_t bits)
 {

@@ -261,7 +261,7 @@ static gn_status plan_atlas(gn_frame *frame, gn_tile_plan *plan, uint32_t in_oth
 }
 
 #if GN_TIGHT_FIT
-/* Of squares whose texels rectangles share. */
+/* Remembers the side of the square of each view: a rectangle of a tight fit takes the texels of that square. */
 static void keep_sides(gn_frame *frame, const gn_tile_plan *plan)
 {
     uint32_t view_idx = 0;
