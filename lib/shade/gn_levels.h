@@ -7,10 +7,10 @@
 
 #if GN_INTERPOLATES
 
-/* From now on between a colour in shadow and what the light adds to it. */
+/* Sets the two ends: the colour in shadow, and what the light adds to it. */
 void gn_levels_use(gn_lattice *lattice, const int32_t dark_q24[3], const int32_t more_q24[3]);
 
-/* What is kept of them is overwritten. */
+/* Forgets the encoded levels: their memory is used for something else. */
 GN_HOT static inline void gn_levels_forget(gn_lattice *lattice)
 {
     gn_levels *l = &lattice->by.look.levels;

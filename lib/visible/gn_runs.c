@@ -1,4 +1,5 @@
-/* Runs of visible pixels. */
+/* Runs of visible pixels: neighbours in a row of a screen tile that show the same triangle. The runs of one triangle
+ * are linked through their first cells. */
 #include "gn_internal.h"
 
 #include "visible/gn_runs.h"
