@@ -1,6 +1,7 @@
 /* A frame buffer in memory behind the same interface: its "commands" are windows, which framebuffer.c understands. */
 #include "panel_driver.h"
 
+/* Memory needs no set-up, and is never asleep. */
 static panel_status nothing(panel *p)
 {
     (void)p;
@@ -12,6 +13,7 @@ static int fits(const panel_config *c)
     return c->turn == 0 && c->flags == 0;
 }
 
+/* x, y, w, h as two bytes each, the lower first. */
 static panel_status window(panel *p, uint32_t x, uint32_t y, uint32_t w, uint32_t h)
 {
     uint32_t value[4];

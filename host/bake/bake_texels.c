@@ -337,6 +337,7 @@ static bool has_edge(const chart *c, const float *masks, const bool *mixed, int 
     return false;
 }
 
+/* Traces MANY x MANY points of each texel near a shadow's edge: the fit needs to know where in the texel it runs. */
 static void sample_edges(walk *w, const bool *mixed, bake_fit *fit)
 {
     for (int i = 0; i < fit->w * fit->h; i++) {
@@ -355,6 +356,8 @@ static size_t count_edges(const chart *c, const float *masks, const bool *mixed)
     return n;
 }
 
+/* Traces a chart at few points per texel, at many where these differ, and fits its texels to them. Returns -1 without
+ * memory. */
 static int bake_chart(walk *w)
 {
     const size_t n = (size_t)w->c->w * (size_t)w->c->h;

@@ -1,3 +1,4 @@
+/* The oracle: every kernel in the plainest C, for the tests of ports. */
 #include "gn_port_portable.h"
 
 uint32_t gn_oracle_dark_texels16(const uint16_t *texel, size_t pitch, uint32_t least, int32_t n, uint8_t *dark)
